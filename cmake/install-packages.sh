@@ -1,0 +1,35 @@
+#!/bin/sh
+# Installs what PSTRIPACK is built, tested and compared with, on Debian 12. Does nothing, and asks for no
+# rights, where all of it is there already. Called by quickstart.sh and test.sh.
+set -eu
+
+packages="
+  g++ gfortran cmake ninja-build pkg-config
+  libboost-dev
+  libcli11-dev nlohmann-json3-dev libfmt-dev
+  libgtest-dev libcgal-dev libgmp-dev libmpfr-dev
+  libncarg-dev"
+
+missing=""
+for package in $packages; do
+  status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)
+  [ "$status" = installed ] || missing="$missing $package"
+done
+[ -n "$missing" ] || exit 0
+
+if ! command -v apt-get >/dev/null; then
+  echo "install-packages: this is not Debian; please install by hand:$missing" >&2
+  exit 1
+fi
+sudo=""
+if [ "$(id -u)" -ne 0 ]; then
+  if ! command -v sudo >/dev/null; then
+    echo "install-packages: run this once as root:  apt-get install$missing" >&2
+    exit 1
+  fi
+  sudo=sudo
+fi
+echo "Installing:$missing" >&2
+$sudo apt-get update -q
+# shellcheck disable=SC2086  # a list of words on purpose
+$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends $missing

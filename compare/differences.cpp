@@ -1,0 +1,287 @@
+#include "differences.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <numeric>
+#include <optional>
+#include <unordered_map>
+
+#include "exact.h"
+
+namespace comparison {
+namespace {
+
+using pstripack::index_t;
+using pstripack::Triangle;
+using pstripack::Triangles;
+
+// Directed arcs u->v of a set of triangles, each with the triangle on its left.
+class Arcs {
+ public:
+  struct Side {
+    index_t triangle, opposite;
+  };
+
+  explicit Arcs(const Triangles& triangles) {
+    side_.reserve(3 * triangles.size());
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      for (int i = 0; i < 3; ++i)
+        side_.emplace(key(triangles[t][i], triangles[t][(i + 1) % 3]),
+                      Side{static_cast<index_t>(t), triangles[t][(i + 2) % 3]});
+  }
+
+  const Side* left_of(index_t u, index_t v) const {
+    const auto found = side_.find(key(u, v));
+    return found == side_.end() ? nullptr : &found->second;
+  }
+  bool has(index_t u, index_t v) const { return left_of(u, v) || left_of(v, u); }
+
+ private:
+  static std::uint64_t key(index_t u, index_t v) {
+    return static_cast<std::uint64_t>(static_cast<std::uint32_t>(u)) << 32 | static_cast<std::uint32_t>(v);
+  }
+  std::unordered_map<std::uint64_t, Side> side_;
+};
+
+class UnionFind {
+ public:
+  explicit UnionFind(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
+  std::size_t find(std::size_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void unite(std::size_t i, std::size_t j) { parent_[find(i)] = find(j); }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+// Calls f(u, v, triangle) for the three directed arcs of every triangle.
+template <class F>
+void for_each_side(const Triangles& triangles, F f) {
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (int i = 0; i < 3; ++i) f(triangles[t][i], triangles[t][(i + 1) % 3], t);
+}
+
+constexpr int kUndecided = -1;
+
+class Classifier {
+ public:
+  Classifier(const std::vector<Point>& points, const Mesh& original, const Mesh& ours, double epsilon,
+             std::size_t show)
+      : points_(points), original_(original), ours_(ours), epsilon_(epsilon), show_(show) {}
+
+  Differences run() {
+    std::set_difference(original_.triangles.begin(), original_.triangles.end(), ours_.triangles.begin(),
+                        ours_.triangles.end(), std::back_inserter(theirs_only_));
+    std::set_difference(ours_.triangles.begin(), ours_.triangles.end(), original_.triangles.begin(),
+                        original_.triangles.end(), std::back_inserter(ours_only_));
+    result_.original_triangles = theirs_only_.size();
+    result_.our_triangles = ours_only_.size();
+    if (result_.none()) return std::move(result_);
+
+    using pstripack::Defect;
+    const Defect defect = original_.verdict.defect;
+    if (!ours_.verdict) {
+      blame_all(Cause::ours_wrong, "our mesh: " + ours_.verdict.message);
+    } else if (defect == Defect::malformed || defect == Defect::not_manifold) {
+      blame_all(Cause::original_wrong, "the lists of the original: " + original_.verdict.message);
+    } else {
+      const Arcs theirs(theirs_only_), own(ours_only_);
+      find_places(theirs, own);
+      judge_triangles();
+      judge_arcs_of_the_original(theirs, own);
+      judge_the_rest(theirs, own);
+    }
+    std::stable_sort(result_.decisions.begin(), result_.decisions.end(),
+                     [](const Decision& a, const Decision& b) { return a.cause > b.cause; });
+    return std::move(result_);
+  }
+
+ private:
+  // For a result that is no mesh at all.
+  void blame_all(Cause cause, const std::string& text) {
+    result_.count[static_cast<std::size_t>(cause)].places = 1;
+    result_.decisions.push_back({cause, {}, text, "", ""});
+  }
+
+  // Two differing triangles belong to one place if they share an arc that only one mesh has, or lie,
+  // one in each mesh, on the same side of an arc of both.
+  void find_places(const Arcs& theirs, const Arcs& own) {
+    const std::size_t offset = theirs_only_.size();
+    UnionFind set(offset + ours_only_.size());
+    for_each_side(theirs_only_, [&](index_t u, index_t v, std::size_t t) {
+      if (const auto* same = own.left_of(u, v)) set.unite(t, offset + same->triangle);
+      if (const auto* other = theirs.left_of(v, u); other && !own.has(u, v)) set.unite(t, other->triangle);
+    });
+    for_each_side(ours_only_, [&](index_t u, index_t v, std::size_t t) {
+      if (const auto* other = own.left_of(v, u); other && !theirs.has(u, v))
+        set.unite(offset + t, offset + other->triangle);
+    });
+    place_.resize(offset + ours_only_.size());
+    for (std::size_t t = 0; t < place_.size(); ++t) place_[t] = set.find(t);
+    cause_of_place_.assign(place_.size(), kUndecided);
+  }
+
+  std::size_t place_of_theirs(std::size_t t) const { return place_[t]; }
+  std::size_t place_of_ours(std::size_t t) const { return place_[theirs_only_.size() + t]; }
+
+  void blame(std::size_t place, Decision decision) {
+    cause_of_place_[place] = std::max(cause_of_place_[place], static_cast<int>(decision.cause));
+    const std::size_t already = std::count_if(result_.decisions.begin(), result_.decisions.end(),
+                                              [&](const Decision& d) { return d.cause == decision.cause; });
+    if (already < show_) result_.decisions.push_back(std::move(decision));
+  }
+
+  // A triangle of the original must be counterclockwise. One of ours that the original lacks at its
+  // boundary was left out by its LEFT.
+  void judge_triangles() {
+    for (std::size_t t = 0; t < theirs_only_.size(); ++t) {
+      const auto [a, b, c] = theirs_only_[t];
+      const Determinant det = left_test(points_[a], points_[b], points_[c]);
+      if (det.sign() > 0) continue;
+      blame(place_of_theirs(t),
+            {Cause::original_wrong,
+             {a, b, c},
+             fmt::format("triangle {} {} {} of the original is {}: exact det(a,b,c) = {}", a + 1, b + 1,
+                         c + 1, det.sign() < 0 ? "inverted" : "flat", det.value()),
+             det.value(),
+             det.bound(epsilon_)});
+    }
+    std::vector<bool> has_triangle_of_original(place_.size());
+    for (std::size_t t = 0; t < theirs_only_.size(); ++t) has_triangle_of_original[place_of_theirs(t)] = true;
+    for (std::size_t t = 0; t < ours_only_.size(); ++t) {
+      if (has_triangle_of_original[place_of_ours(t)]) continue;
+      const auto [a, b, c] = ours_only_[t];
+      const Determinant det = left_test(points_[a], points_[b], points_[c]);
+      const bool small = det.within_rounding(epsilon_);
+      blame(place_of_ours(t),
+            {small ? Cause::rounding : Cause::original_wrong,
+             {a, b, c},
+             fmt::format("the original lacks triangle {} {} {} at its boundary: exact det(a,b,c) = {}, "
+                         "rounding of its LEFT {}",
+                         a + 1, b + 1, c + 1, det.value(), det.bound(epsilon_)),
+             det.value(),
+             det.bound(epsilon_)});
+    }
+  }
+
+  // An arc that only the original has: the opposite node on one side is in the cap of the other side,
+  // on its rim, or outside.
+  void judge_arcs_of_the_original(const Arcs& theirs, const Arcs& own) {
+    for_each_side(theirs_only_, [&](index_t u, index_t v, std::size_t t) {
+      const auto* left = theirs.left_of(u, v);
+      const auto* right = theirs.left_of(v, u);
+      if (!right || u > v || own.has(u, v)) return;
+      if (const auto cause = judge(place_of_theirs(t), u, v, left->opposite, right->opposite))
+        ++result_.count[static_cast<std::size_t>(*cause)].original_arcs;
+      else
+        undecided_arcs_.push_back(t);
+    });
+  }
+
+  // The cause of one arc u-v of the original with opposite nodes l and r; none where it is locally Delaunay
+  // and so only a consequence of another arc nearby.
+  std::optional<Cause> judge(std::size_t place, index_t u, index_t v, index_t l, index_t r) {
+    const Point &pu = points_[u], &pv = points_[v], &pl = points_[l], &pr = points_[r];
+    const Determinant det = swap_test(pu, pv, pl, pr);
+    const bool by_directions = ours_.verdict.lengths == pstripack::Lengths::directions;
+    const int decisive = by_directions ? pstripack::orientation_of_directions(pu, pv, pl, pr) : det.sign();
+    if (decisive < 0) return std::nullopt;
+    std::string text =
+        fmt::format("arc {} - {} of the original, opposite nodes {} and {}: exact determinant {}", u + 1,
+                    v + 1, l + 1, r + 1, det.value());
+    Cause cause;
+    if (decisive == 0) {
+      cause = Cause::exact_tie;
+    } else if (by_directions && det.sign() <= 0) {
+      cause = Cause::directions;
+      text += "; locally Delaunay as given, not on the directions";
+    } else if (det.within_rounding(epsilon_)) {
+      cause = Cause::rounding;
+      text += "; rounding of its test " + det.bound(epsilon_);
+    } else {
+      cause = Cause::original_wrong;
+      text += "; not locally Delaunay, the rounding of its test is only " + det.bound(epsilon_);
+    }
+    blame(place, {cause, {u, v, l, r}, text, det.value(), det.bound(epsilon_)});
+    return cause;
+  }
+
+  // What has no cause of its own has that of its place. A place without any: our mesh passes every exact
+  // check, so the original's must fail one there, or else the contradiction counts against us.
+  void judge_the_rest(const Arcs& theirs, const Arcs& own) {
+    for (std::size_t t = 0; t < place_.size(); ++t) {
+      const std::size_t place = place_[t];
+      if (cause_of_place_[place] != kUndecided) continue;
+      const bool of_original = t < theirs_only_.size();
+      const auto [a, b, c] = of_original ? theirs_only_[t] : ours_only_[t - theirs_only_.size()];
+      const std::string where = fmt::format("triangle {} {} {} is only in {}", a + 1, b + 1, c + 1,
+                                            of_original ? "the original" : "ours");
+      if (original_.verdict)
+        blame(place, {Cause::ours_wrong,
+                      {a, b, c},
+                      where + ", and no exact check decides against the original",
+                      "",
+                      ""});
+      else
+        blame(place,
+              {Cause::original_wrong, {a, b, c}, where + "; original: " + original_.verdict.message, "", ""});
+    }
+    for (std::size_t t = 0; t < place_.size(); ++t)
+      if (place_[t] == t) ++count_of_place(t).places;
+    for (const std::size_t t : undecided_arcs_) ++count_of_place(place_of_theirs(t)).original_arcs;
+    for_each_side(ours_only_, [&](index_t u, index_t v, std::size_t t) {
+      if (u < v && own.left_of(v, u) && !theirs.has(u, v)) ++count_of_place(place_of_ours(t)).our_arcs;
+    });
+  }
+
+  Count& count_of_place(std::size_t t) {
+    return result_.count[static_cast<std::size_t>(cause_of_place_[place_[t]])];
+  }
+
+  const std::vector<Point>& points_;
+  const Mesh& original_;
+  const Mesh& ours_;
+  double epsilon_;
+  std::size_t show_;
+  Triangles theirs_only_, ours_only_;
+  std::vector<std::size_t> place_;   // of theirs_only_, then of ours_only_: a representative
+  std::vector<int> cause_of_place_;  // at the representative: the strongest cause, or kUndecided
+  std::vector<std::size_t> undecided_arcs_;
+  Differences result_;
+};
+
+}  // namespace
+
+const char* name(Cause cause) {
+  static const char* const names[kCauses] = {"exact tie", "within its rounding", "directions (lengths)",
+                                             "the original is wrong", "WE ARE WRONG"};
+  return names[static_cast<std::size_t>(cause)];
+}
+
+const char* identifier(Cause cause) {
+  static const char* const names[kCauses] = {"exact_tie", "rounding", "directions", "original_wrong",
+                                             "ours_wrong"};
+  return names[static_cast<std::size_t>(cause)];
+}
+
+Differences differences(const std::vector<Point>& points, const Mesh& original, const Mesh& ours,
+                        double epsilon, std::size_t show) {
+  return Classifier(points, original, ours, epsilon, show).run();
+}
+
+std::vector<index_t> boundary_nodes(const Triangles& triangles) {
+  const Arcs arcs(triangles);
+  std::vector<index_t> nodes;
+  for_each_side(triangles, [&](index_t u, index_t v, std::size_t) {
+    if (!arcs.left_of(v, u)) nodes.push_back(u);
+  });
+  std::sort(nodes.begin(), nodes.end());
+  return nodes;
+}
+
+}  // namespace comparison

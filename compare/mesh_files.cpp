@@ -1,0 +1,70 @@
+#include "mesh_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+#include "point_sets.h"
+
+namespace comparison {
+namespace {
+
+pstripack::Triangles read_triangles(const std::string& file, std::size_t nodes) {
+  std::ifstream in(file);
+  if (!in) throw std::runtime_error("cannot read " + file);
+  pstripack::Triangles triangles;
+  std::string line;
+  for (std::size_t number = 1; std::getline(in, line); ++number) {
+    std::istringstream fields(line);
+    pstripack::Triangle triangle;
+    std::string rest;
+    if (!(fields >> triangle[0] >> triangle[1] >> triangle[2]) || fields >> rest)
+      throw std::runtime_error(fmt::format("{}, line {}: expected three node numbers", file, number));
+    for (pstripack::index_t& node : triangle) {
+      if (node < 1 || static_cast<std::size_t>(node) > nodes)
+        throw std::runtime_error(fmt::format("{}, line {}: there is no node {}", file, number, node));
+      --node;
+    }
+    triangles.push_back(triangle);
+  }
+  return triangles;
+}
+
+}  // namespace
+
+MeshFiles read_mesh(const std::string& prefix) {
+  MeshFiles mesh;
+  mesh.points = point_sets::read(prefix + "_points.txt");
+  mesh.triangles = read_triangles(prefix + "_triangles.txt", mesh.points.size());
+  pstripack::make_canonical(mesh.triangles);
+  return mesh;
+}
+
+MeshComparison compare_meshes(const MeshFiles& a, const MeshFiles& b) {
+  MeshComparison result;
+  if (a.points.size() != b.points.size()) {
+    result.largest_distance = std::numeric_limits<double>::infinity();
+  } else {
+    for (std::size_t i = 0; i < a.points.size(); ++i) {
+      const pstripack::Point &p = a.points[i], &q = b.points[i];
+      result.largest_distance =
+          std::max(result.largest_distance, std::hypot(p.x - q.x, p.y - q.y, p.z - q.z));
+    }
+  }
+  const auto count_only_in = [](const pstripack::Triangles& s, const pstripack::Triangles& t) {
+    pstripack::Triangles rest;
+    std::set_difference(s.begin(), s.end(), t.begin(), t.end(), std::back_inserter(rest));
+    return rest.size();
+  };
+  result.only_in_a = count_only_in(a.triangles, b.triangles);
+  result.only_in_b = count_only_in(b.triangles, a.triangles);
+  return result;
+}
+
+}  // namespace comparison

@@ -1,0 +1,27 @@
+#pragma once
+// Points and triangles as scvt_legacy writes them, and the comparison of two such meshes.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "mesh/triangulation.h"
+
+namespace comparison {
+
+struct MeshFiles {
+  std::vector<pstripack::Point> points;
+  pstripack::Triangles triangles;  ///< canonical
+};
+
+/// Reads PREFIX_points.txt (x y z a line) and PREFIX_triangles.txt (three node numbers a line, from 1).
+/// Throws std::runtime_error with one line that says what is wrong where.
+MeshFiles read_mesh(const std::string& prefix);
+
+struct MeshComparison {
+  double largest_distance = 0;  ///< between points of equal number; infinite if their counts differ
+  std::size_t only_in_a = 0, only_in_b = 0;
+};
+MeshComparison compare_meshes(const MeshFiles& a, const MeshFiles& b);
+
+}  // namespace comparison

@@ -1,0 +1,149 @@
+#include "our_checks.h"
+
+#include <fmt/format.h>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "capi/pstripack.h"
+#include "exact.h"
+#include "stripack/adjacency_lists.h"
+
+namespace comparison {
+namespace {
+
+using pstripack::ListsView;
+using pstripack::Point;
+
+bool finite(const Point& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+// Code -5 is right for these: not finite, zero, or so short or long that no exact product fits a double.
+bool bad_vector(const Point& p) {
+  const double largest = std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+  return !finite(p) || !(largest > 1e-150) || largest > 1e150;
+}
+
+}  // namespace
+
+OurRun run_ours(const std::vector<Point>& points, int threads, int repeats) {
+  using Clock = std::chrono::steady_clock;
+#ifdef _OPENMP
+  omp_set_num_threads(threads);
+#endif
+  const std::size_t n = points.size();
+  std::vector<double> x(n), y(n), z(n);
+  for (std::size_t i = 0; i < n; ++i) x[i] = points[i].x, y[i] = points[i].y, z[i] = points[i].z;
+
+  OurRun run;
+  run.threads = threads;
+  Lists& lists = run.lists;
+  std::vector<double> seconds;
+  for (int repeat = 0; repeat < repeats; ++repeat) {
+    lists.list.assign(6 * n - 12, kUntouched);
+    lists.lptr.assign(6 * n - 12, kUntouched);
+    lists.lend.assign(n, kUntouched);
+    lists.lnew = kUntouched;
+    const auto start = Clock::now();
+    run.ier = pstripack_trmesh(static_cast<std::int32_t>(n), x.data(), y.data(), z.data(), lists.list.data(),
+                               lists.lptr.data(), lists.lend.data(), &lists.lnew);
+    seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+  }
+  std::nth_element(seconds.begin(), seconds.begin() + seconds.size() / 2, seconds.end());
+  run.seconds = seconds[seconds.size() / 2];
+  return run;
+}
+
+bool same_bytes(const OurRun& a, const OurRun& b) {
+  return a.ier == b.ier && a.lists.lnew == b.lists.lnew && a.lists.list == b.lists.list &&
+         a.lists.lptr == b.lists.lptr && a.lists.lend == b.lists.lend;
+}
+
+std::size_t nodes_before_duplicate(const std::vector<Point>& points, int ier) {
+  if (ier < 1 || static_cast<std::size_t>(ier) >= points.size()) return 0;
+  const Point& first = points[ier - 1];
+  if (!finite(first)) return 0;
+  for (std::size_t m = ier; m < points.size(); ++m)
+    if (finite(points[m]) && pstripack::same_direction(first, points[m])) return m;
+  return 0;
+}
+
+Checked check(const std::vector<Point>& points, int ier, const std::vector<std::int32_t>& list,
+              const std::vector<std::int32_t>& lptr, const std::vector<std::int32_t>& lend,
+              std::int32_t lnew) {
+  Checked result;
+  result.nodes = ier == 0 ? points.size() : nodes_before_duplicate(points, ier);
+  if (result.nodes < 3) {
+    result.nodes = 0;
+    return result;
+  }
+  const ListsView<std::int32_t> view{result.nodes, list.data(), lptr.data(), lend.data(), lnew};
+  result.verdict = pstripack::check_lists(view);
+  if (!result.verdict) return result;
+  result.triangles = pstripack::triangles_of(view);
+  pstripack::make_canonical(result.triangles);
+  result.verdict =
+      pstripack::is_valid(points.data(), result.nodes, result.triangles.data(), result.triangles.size());
+  return result;
+}
+
+std::vector<std::string> broken_promises(const std::vector<Point>& points, const OurRun& run,
+                                         const Checked& checked) {
+  std::vector<std::string> broken;
+  const Lists& lists = run.lists;
+  const bool three_good = finite(points[0]) && finite(points[1]) && finite(points[2]);
+  const bool collinear = three_good && left_test(points[0], points[1], points[2]).sign() == 0;
+
+  switch (run.ier) {
+    case PSTRIPACK_COLLINEAR:
+      if (!collinear)
+        broken.push_back("IER = -2, but nodes 1, 2, 3 are not on one great circle (exact sign)");
+      break;
+    case PSTRIPACK_BAD_COORDINATE:
+      if (std::none_of(points.begin(), points.end(), bad_vector))
+        broken.push_back("IER = -5, but every node is a finite vector of sound length");
+      break;
+    default:
+      if (run.ier < 0) {
+        broken.push_back(fmt::format("IER = {}: {}", run.ier, pstripack_strerror(run.ier)));
+      } else {
+        if (collinear)
+          broken.push_back("nodes 1, 2, 3 are on one great circle (exact sign), but IER is not -2");
+        if (!std::all_of(points.begin(), points.begin() + checked.nodes, finite))
+          broken.push_back("a coordinate is not finite, but IER is not -5");
+        if (checked.nodes == 0)
+          broken.push_back(
+              fmt::format("IER = {0}, but no later node has the direction of node {0}", run.ier));
+      }
+  }
+
+  if (run.ier < 0) {
+    const auto touched = [](std::int32_t entry) { return entry != kUntouched; };
+    if (std::any_of(lists.list.begin(), lists.list.end(), touched) ||
+        std::any_of(lists.lptr.begin(), lists.lptr.end(), touched) ||
+        std::any_of(lists.lend.begin(), lists.lend.end(), touched) || touched(lists.lnew))
+      broken.push_back(fmt::format("IER = {}, but an output array was written", run.ier));
+    return broken;
+  }
+  if (checked.nodes == 0) return broken;
+
+  if (!checked.verdict) {
+    broken.push_back("our mesh is wrong: " + checked.verdict.message);
+    return broken;
+  }
+  const ListsView<std::int32_t> view{checked.nodes, lists.list.data(), lists.lptr.data(), lists.lend.data(),
+                                     lists.lnew};
+  if (!pstripack::lists_are_canonical(view)) broken.push_back("our lists are not canonical");
+  const auto untouched = [](std::int32_t entry) { return entry == kUntouched; };
+  const std::size_t used = static_cast<std::size_t>(lists.lnew) - 1;
+  if (!std::all_of(lists.list.begin() + used, lists.list.end(), untouched) ||
+      !std::all_of(lists.lptr.begin() + used, lists.lptr.end(), untouched) ||
+      !std::all_of(lists.lend.begin() + checked.nodes, lists.lend.end(), untouched))
+    broken.push_back("a slot outside 1..LNEW-1, or an entry of LEND beyond the last node, was written");
+  return broken;
+}
+
+}  // namespace comparison

@@ -1,0 +1,51 @@
+#pragma once
+// Runs of pstripack_trmesh, and the exact checks that they must pass whatever the original says.
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "mesh/triangulation.h"
+#include "mesh/validate.h"
+
+namespace comparison {
+
+/// What one call wrote; slots that it did not write hold kUntouched.
+struct Lists {
+  std::vector<std::int32_t> list, lptr, lend;
+  std::int32_t lnew = 0;
+};
+constexpr std::int32_t kUntouched = -987654321;
+
+struct OurRun {
+  int threads = 1;
+  int ier = 0;
+  double seconds = 0;  ///< median of the repeats
+  Lists lists;
+};
+
+/// Calls pstripack_trmesh on so many threads.
+OurRun run_ours(const std::vector<pstripack::Point>& points, int threads, int repeats);
+
+bool same_bytes(const OurRun& a, const OurRun& b);
+
+/// A mesh read from lists that some TRMESH returned with `ier`.
+struct Checked {
+  std::size_t nodes = 0;       ///< that the lists hold: n, or M-1 where node M is a duplicate; 0: no lists
+  pstripack::Verdict verdict;  ///< of these nodes
+  pstripack::Triangles triangles;  ///< canonical; empty if the lists are broken
+};
+Checked check(const std::vector<pstripack::Point>& points, int ier, const std::vector<std::int32_t>& list,
+              const std::vector<std::int32_t>& lptr, const std::vector<std::int32_t>& lend,
+              std::int32_t lnew);
+
+/// The nodes that a result with code L > 0 covers: M-1, where M > L is the first node that coincides
+/// with node L; 0 if there is none.
+std::size_t nodes_before_duplicate(const std::vector<pstripack::Point>& points, int ier);
+
+/// Promises of interface.md, section 4, that our result breaks; one line each, empty if none.
+std::vector<std::string> broken_promises(const std::vector<pstripack::Point>& points, const OurRun& run,
+                                         const Checked& checked);
+
+}  // namespace comparison

@@ -1,0 +1,41 @@
+# libstripack_original.so from libngmath.a: the objects of the shared routines, every name without its CS.
+# TRANS and SCOORD are single precision there; the double ones are CSTRANSD and CSSCOORDD.
+# CSCRLIST has an argument list of its own: crlist_ comes from ngmath_crlist.c.
+
+set(routines addnod areas bdyadd bnodes circum covsph delarc delnb delnod edge getnp insert inside intadd
+             intrsc jrand left lstptr nbcnt nearnd optim store swap swptst trfind trlist trlprt trmesh trprnt)
+
+set(objects cscrlist.o cstransd.o csscoordd.o)
+set(renamed "cscrlist_ ngmath_crlist_\ncstransd_ trans_\ncsscoordd_ scoord_\n")
+set(exported "trans_; scoord_; crlist_; ngmath_cscrlist_;")
+foreach(routine IN LISTS routines)
+  list(APPEND objects cs${routine}.o)
+  string(APPEND renamed "cs${routine}_ ${routine}_\n")
+  string(APPEND exported " ${routine}_;")
+endforeach()
+
+set(dir ${CMAKE_CURRENT_BINARY_DIR}/ngmath)
+file(WRITE ${dir}/renamed.txt "${renamed}")
+file(WRITE ${dir}/exported.map "{ global: ${exported} local: *; };\n")
+
+add_custom_command(
+  OUTPUT ${dir}/original.o
+  COMMAND ${CMAKE_AR} x ${STRIPACK_NGMATH} ${objects}
+  # CSCRLIST as it is, for the benchmark; and the copy behind crlist_, with another SCOORD (ngmath_crlist.c).
+  COMMAND ${CMAKE_OBJCOPY} --redefine-sym cscrlist_=ngmath_cscrlist_ cscrlist.o cscrlist_as_shipped.o
+  COMMAND ${CMAKE_OBJCOPY} --redefine-sym csscoordd_=ngmath_keep_centre_ cscrlist.o
+  COMMAND ${CMAKE_LINKER} -r -o original.o ${objects} cscrlist_as_shipped.o
+  COMMAND ${CMAKE_OBJCOPY} --redefine-syms=renamed.txt original.o
+  WORKING_DIRECTORY ${dir}
+  DEPENDS ${STRIPACK_NGMATH} ${dir}/renamed.txt
+  COMMENT "Renaming the routines of ${STRIPACK_NGMATH}"
+  VERBATIM)
+
+add_library(stripack_original SHARED ngmath_crlist.c ${dir}/original.o)
+set_source_files_properties(${dir}/original.o PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)
+# Symbolic: a routine of the original calls the original, whatever else the program defines.
+target_link_options(stripack_original PRIVATE
+  -Wl,-Bsymbolic -Wl,--version-script=${dir}/exported.map -Wl,--no-undefined)
+set_target_properties(stripack_original PROPERTIES LINKER_LANGUAGE Fortran
+                      LINK_DEPENDS ${dir}/exported.map)
+target_link_libraries(stripack_original PRIVATE pstripack_flags m)

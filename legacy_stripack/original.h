@@ -1,0 +1,66 @@
+#pragma once
+// Runs the original STRIPACK and always comes back: every call is a child process with a time limit.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "child_process.h"
+#include "library.h"
+
+namespace legacy_stripack {
+
+/// Where the build found an original; empty if it found none.
+struct Location {
+  std::string name;  ///< for people
+  std::string file;
+  Abi abi;
+};
+std::optional<Location> configured_original();
+
+/// What one call of TRMESH gave. The other members mean something only if it returned.
+struct Triangulation {
+  Outcome outcome = Outcome::returned;
+  int signal = 0;
+  int ier = 0;
+  int lnew = 0;                       ///< 0: not known (8-argument ABI, coincident nodes)
+  std::vector<int> list, lptr, lend;  ///< 6n-12, 6n-12, n entries; 0 where nothing was written
+  double seconds = 0;                 ///< median of the calls, around TRMESH alone
+};
+
+class Original {
+ public:
+  Original(const std::string& file, Abi abi) : library_(file, abi) {}
+  explicit Original(const Location& where) : Original(where.file, where.abi) {}
+
+  /// Nodes are any type with members x, y, z. Calls TRMESH `calls` times, fewer once they have taken 10 s;
+  /// the lists are those of the first call. The time limit (seconds) is for all calls together: one that
+  /// hangs after the first has returned changes nothing.
+  template <class Node>
+  Triangulation triangulate(const std::vector<Node>& nodes, double time_limit, int calls = 1) const {
+    std::vector<double> x, y, z;
+    for (const Node& p : nodes) {
+      x.push_back(p.x);
+      y.push_back(p.y);
+      z.push_back(p.z);
+    }
+    return triangulate(x, y, z, time_limit, calls);
+  }
+  Triangulation triangulate(const std::vector<double>& x, const std::vector<double>& y,
+                            const std::vector<double>& z, double time_limit, int calls = 1) const;
+
+  /// The distance from 1 to the next number in the original's arithmetic.
+  double epsilon() const { return library_.abi() == Abi::r4 ? 0x1p-23 : 0x1p-52; }
+
+  /// The routines themselves, for use inside run_in_child.
+  const Library& library() const { return library_; }
+
+ private:
+  Library library_;
+};
+
+/// "returned", "did not return within 10 s", "crashed (signal 11, Segmentation fault)", "stopped the
+/// program".
+std::string describe(const Triangulation& result, double time_limit);
+
+}  // namespace legacy_stripack

@@ -1,0 +1,110 @@
+// The thin boundary: default floating-point environment in, no exception out.
+
+#include "capi/pstripack.h"
+
+#include <cstdio>
+#include <cstring>
+#include <vector>
+
+#include "capi/version.h"
+#include "geometry/floating_point.h"
+#include "stripack/adjacency_lists.h"
+#include "stripack/trmesh.h"
+
+namespace {
+
+using namespace pstripack;
+
+template <class Real>
+std::int32_t trmesh_call(std::int32_t n, const Real* x, const Real* y, const Real* z, std::int32_t* list,
+                         std::int32_t* lptr, std::int32_t* lend, std::int32_t* lnew) noexcept {
+  const DefaultFloatingPoint environment;
+  TrmeshResult result{PSTRIPACK_OUT_OF_MEMORY};
+  try {
+    result = trmesh(n, x, y, z, list, lptr, lend, lnew);
+  } catch (...) {
+    // Only std::bad_alloc can come here, before anything was written.
+  }
+  // STRIPACK's own codes are silent; a code that no caller knows yet says so once.
+  if (result.ier == PSTRIPACK_BAD_COORDINATE) {
+    const auto i = result.node - 1;
+    std::fprintf(stderr, "pstripack: trmesh: node %lld of %d is (%g, %g, %g): %s (IER = -5)\n",
+                 static_cast<long long>(result.node), static_cast<int>(n), static_cast<double>(x[i]),
+                 static_cast<double>(y[i]), static_cast<double>(z[i]), pstripack_strerror(result.ier));
+  } else if (result.ier < PSTRIPACK_COLLINEAR) {
+    std::fprintf(stderr, "pstripack: trmesh: %d nodes: %s (IER = %d)\n", static_cast<int>(n),
+                 pstripack_strerror(result.ier), static_cast<int>(result.ier));
+  }
+  return result.ier;
+}
+
+}  // namespace
+
+extern "C" {
+
+const char* pstripack_version(void) { return PSTRIPACK_VERSION; }
+
+const char* pstripack_strerror(int ier) {
+  if (ier > 0) return "this node coincides with a later one";
+  switch (ier) {
+    case PSTRIPACK_OK:
+      return "success";
+    case PSTRIPACK_TOO_FEW_NODES:
+      return "fewer than three nodes";
+    case PSTRIPACK_COLLINEAR:
+      return "the first three nodes lie on one great circle";
+    case PSTRIPACK_TOO_MANY_NODES:
+      return "too many nodes: 6N-11 does not fit the integer kind";
+    case PSTRIPACK_BAD_COORDINATE:
+      return "a coordinate is not finite, or all are zero";
+    case PSTRIPACK_OUT_OF_MEMORY:
+      return "out of memory";
+  }
+  return "unknown code";
+}
+
+int32_t pstripack_trmesh(int32_t n, const double* x, const double* y, const double* z, int32_t* list,
+                         int32_t* lptr, int32_t* lend, int32_t* lnew) {
+  return trmesh_call(n, x, y, z, list, lptr, lend, lnew);
+}
+
+int32_t pstripack_trmesh_r4(int32_t n, const float* x, const float* y, const float* z, int32_t* list,
+                            int32_t* lptr, int32_t* lend, int32_t* lnew) {
+  return trmesh_call(n, x, y, z, list, lptr, lend, lnew);
+}
+
+int32_t pstripack_validate(int32_t n, const double* x, const double* y, const double* z, const int32_t* list,
+                           const int32_t* lptr, const int32_t* lend, int32_t lnew, char* message,
+                           int32_t length) {
+  const DefaultFloatingPoint environment;
+  const auto say = [&](const char* text) {
+    if (message != nullptr && length > 0)
+      std::snprintf(message, static_cast<std::size_t>(length), "%s", text);
+  };
+  try {
+    if (n < 3) {
+      say(pstripack_strerror(PSTRIPACK_TOO_FEW_NODES));
+      return PSTRIPACK_TOO_FEW_NODES;
+    }
+    std::vector<Point> p(static_cast<std::size_t>(n));
+    for (std::size_t i = 0; i < p.size(); ++i) p[i] = {x[i], y[i], z[i]};
+    const ListsView<std::int32_t> lists{p.size(), list, lptr, lend, lnew};
+    const Verdict verdict = is_valid(p.data(), lists);
+    say(verdict.message.c_str());
+    return static_cast<std::int32_t>(verdict.defect);
+  } catch (...) {
+    say(pstripack_strerror(PSTRIPACK_OUT_OF_MEMORY));
+    return PSTRIPACK_OUT_OF_MEMORY;
+  }
+}
+
+uint64_t pstripack_fingerprint(int32_t n, const int32_t* list, const int32_t* lptr, const int32_t* lend) {
+  try {
+    const ListsView<std::int32_t> lists{static_cast<std::size_t>(n < 0 ? 0 : n), list, lptr, lend, 0};
+    return check_lists(lists) ? fingerprint(triangles_of(lists)) : 0;
+  } catch (...) {
+    return 0;
+  }
+}
+
+}  // extern "C"

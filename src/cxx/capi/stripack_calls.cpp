@@ -1,0 +1,147 @@
+#include "capi/stripack_calls.h"
+
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "stripack/list_queries.h"
+#include "stripack/search.h"
+#include "stripack/sphere.h"
+#include "stripack/triangle_list.h"
+#include "stripack/voronoi.h"
+
+namespace {
+
+using namespace pstripack;
+
+constexpr int out_of_memory = -6;
+
+template <class Int>
+ListsView<Int> view(Int n, const Int* list, const Int* lptr, const Int* lend) {
+  return {static_cast<std::size_t>(n), list, lptr, lend, 0};
+}
+
+template <class Real>
+Vector<Real> vector(const Real* v) {
+  return {v[0], v[1], v[2]};
+}
+
+/// The one catch-all: runs call() and returns its code, or -6 for an exception: nothing below throws
+/// but the allocator. Codes that STRIPACK does not have say why on stderr.
+template <class Call>
+int code_of(const char* routine, long long n, const Call& call) {
+  int code;
+  const char* why = "LIST, LPTR, LEND are not the lists of a triangulation";
+  try {
+    code = static_cast<int>(call());
+  } catch (const std::exception& error) {
+    code = out_of_memory;
+    why = error.what();
+  } catch (...) {
+    code = out_of_memory;
+    why = "unknown exception";
+  }
+  if (code < 0) std::fprintf(stderr, "pstripack: %s: IER = %d, N = %lld: %s\n", routine, code, n, why);
+  return code;
+}
+
+template <class Int>
+Int triangles(const char* routine, Int n, const Int* list, const Int* lptr, const Int* lend, int rows,
+              Int* nt, Int* ltri) {
+  *nt = 0;
+  return code_of(routine, n, [&] { return triangle_list(view(n, list, lptr, lend), rows, *nt, ltri); });
+}
+
+}  // namespace
+
+extern "C" {
+
+#define LIST_CALLS(Int, suffix)                                                                        \
+  Int pstripack_lstptr_##suffix(Int lpl, Int nb, const Int* list, const Int* lptr) noexcept {          \
+    return lstptr(lpl, nb, list, lptr);                                                                \
+  }                                                                                                    \
+  Int pstripack_nbcnt_##suffix(Int lpl, const Int* lptr) noexcept { return nbcnt(lpl, lptr); }         \
+  void pstripack_bnodes_##suffix(Int n, const Int* list, const Int* lptr, const Int* lend, Int* nodes, \
+                                 Int* nb, Int* na, Int* nt) noexcept {                                 \
+    const BoundaryCounts<Int> counts = boundary_nodes(view(n, list, lptr, lend), nodes);               \
+    *nb = counts.boundary_nodes;                                                                       \
+    *na = counts.arcs;                                                                                 \
+    *nt = counts.triangles;                                                                            \
+  }                                                                                                    \
+  void pstripack_trlist_##suffix(Int n, const Int* list, const Int* lptr, const Int* lend, Int nrow,   \
+                                 Int* nt, Int* ltri, Int* ier) noexcept {                              \
+    const int rows = nrow == 6 || nrow == 9 ? static_cast<int>(nrow) : 0;                              \
+    *ier = triangles("TRLIST", n, list, lptr, lend, rows, nt, ltri);                                   \
+  }                                                                                                    \
+  void pstripack_trlist2_##suffix(Int n, const Int* list, const Int* lptr, const Int* lend, Int* nt,   \
+                                  Int* ltri, Int* ier) noexcept {                                      \
+    *ier = triangles("TRLIST2", n, list, lptr, lend, 3, nt, ltri);                                     \
+  }
+
+#define SPHERE_CALLS(Real, Int, suffix)                                                                    \
+  void pstripack_trans_##suffix(Int n, const Real* rlat, const Real* rlon, Real* x, Real* y,               \
+                                Real* z) noexcept {                                                        \
+    trans(n, rlat, rlon, x, y, z);                                                                         \
+  }                                                                                                        \
+  void pstripack_scoord_##suffix(Real px, Real py, Real pz, Real* plat, Real* plon, Real* pnrm) noexcept { \
+    const SphericalCoordinates<Real> p = scoord<Real>({px, py, pz});                                       \
+    *plat = p.latitude;                                                                                    \
+    *plon = p.longitude;                                                                                   \
+    *pnrm = p.norm;                                                                                        \
+  }                                                                                                        \
+  Int pstripack_left_##suffix(Real x1, Real y1, Real z1, Real x2, Real y2, Real z2, Real x0, Real y0,      \
+                              Real z0) noexcept {                                                          \
+    return closed_left<Real>({x1, y1, z1}, {x2, y2, z2}, {x0, y0, z0}) ? 1 : 0;                            \
+  }                                                                                                        \
+  Real pstripack_areas_##suffix(const Real* v1, const Real* v2, const Real* v3) noexcept {                 \
+    return areas(vector(v1), vector(v2), vector(v3));                                                      \
+  }                                                                                                        \
+  void pstripack_circum_##suffix(const Real* v1, const Real* v2, const Real* v3, Real* c,                  \
+                                 Int* ier) noexcept {                                                      \
+    Vector<Real> centre;                                                                                   \
+    *ier = circumcentre(vector(v1), vector(v2), vector(v3), centre) ? 0 : 1;                               \
+    if (*ier != 0) return;                                                                                 \
+    c[0] = centre.x;                                                                                       \
+    c[1] = centre.y;                                                                                       \
+    c[2] = centre.z;                                                                                       \
+  }
+
+#define MESH_CALLS(Real, Int, suffix)                                                                        \
+  void pstripack_crlist_##suffix(Int n, Int ncol, const Real* x, const Real* y, const Real* z,               \
+                                 const Int* list, const Int* lend, Int* lptr, Int* lnew, Int* ltri,          \
+                                 Int* listc, Int* nb, Real* xc, Real* yc, Real* zc, Real* rc,                \
+                                 Int* ier) noexcept {                                                        \
+    const VoronoiArrays<Real, Int> out{ncol, lptr, lnew, ltri, listc, nb, xc, yc, zc, rc};                   \
+    *ier = code_of("CRLIST", n, [&] {                                                                        \
+      return voronoi(view(n, list, lptr, lend), Nodes<Real>{x, y, z}, out);                                  \
+    });                                                                                                      \
+  }                                                                                                          \
+  void pstripack_trfind_##suffix(Int nst, const Real* p, Int n, const Real* x, const Real* y, const Real* z, \
+                                 const Int* list, const Int* lptr, const Int* lend, Real* b1, Real* b2,      \
+                                 Real* b3, Int* i1, Int* i2, Int* i3) noexcept {                             \
+    Location<Int> found{0, 0, 0};                                                                            \
+    code_of("TRFIND", n, [&] {                                                                               \
+      found = trfind(nst, vector(p), view(n, list, lptr, lend), Nodes<Real>{x, y, z}, *b1, *b2, *b3);        \
+      return 0;                                                                                              \
+    });                                                                                                      \
+    *i1 = found.i1;                                                                                          \
+    *i2 = found.i2;                                                                                          \
+    *i3 = found.i3;                                                                                          \
+  }                                                                                                          \
+  Int pstripack_nearnd_##suffix(const Real* p, Int ist, Int n, const Real* x, const Real* y, const Real* z,  \
+                                const Int* list, const Int* lptr, const Int* lend, Real* al) noexcept {      \
+    Int nearest = 0;                                                                                         \
+    code_of("NEARND", n, [&] {                                                                               \
+      nearest = nearnd(vector(p), ist, view(n, list, lptr, lend), Nodes<Real>{x, y, z}, *al);                \
+      return 0;                                                                                              \
+    });                                                                                                      \
+    return nearest;                                                                                          \
+  }
+
+LIST_CALLS(int32_t, i4)
+SPHERE_CALLS(float, int32_t, r4)
+SPHERE_CALLS(double, int32_t, r8)
+MESH_CALLS(float, int32_t, r4)
+MESH_CALLS(double, int32_t, r8)
+
+}  // extern "C"

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <sys/mman.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <new>
+#include <type_traits>
+#include <utility>
+
+namespace pstripack {
+
+/// An array that is not initialised, from the heap, in huge pages where the system has them: the arrays
+/// of the kernel are large, written once and visited at random. Throws std::bad_alloc.
+template <class T>
+class Buffer {
+  static_assert(std::is_trivially_copyable_v<T>);
+
+ public:
+  Buffer() = default;
+  explicit Buffer(std::size_t n) : size_(n) {
+    if (n > static_cast<std::size_t>(PTRDIFF_MAX) / sizeof(T)) throw std::bad_alloc();
+    const std::size_t bytes = n * sizeof(T);
+    if (bytes < 2 * kHugePage) {
+      data_ = static_cast<T*>(std::malloc(bytes + 1));
+    } else {
+      data_ = static_cast<T*>(std::aligned_alloc(kHugePage, (bytes / kHugePage + 1) * kHugePage));
+#ifdef MADV_HUGEPAGE
+      if (data_ != nullptr) madvise(data_, bytes, MADV_HUGEPAGE);  // a wish: its failure changes nothing
+#endif
+    }
+    if (data_ == nullptr) throw std::bad_alloc();
+  }
+  Buffer(Buffer&& other) noexcept { swap(other); }
+  Buffer& operator=(Buffer&& other) noexcept {
+    Buffer(std::move(other)).swap(*this);
+    return *this;
+  }
+  ~Buffer() { std::free(data_); }
+
+  void swap(Buffer& other) noexcept {
+    std::swap(data_, other.data_);
+    std::swap(size_, other.size_);
+  }
+  std::size_t size() const { return size_; }
+  T* data() { return data_; }
+  const T* data() const { return data_; }
+  T& operator[](std::size_t i) { return data_[i]; }
+  const T& operator[](std::size_t i) const { return data_[i]; }
+  T* begin() { return data_; }
+  T* end() { return data_ + size_; }
+  const T* begin() const { return data_; }
+  const T* end() const { return data_ + size_; }
+
+ private:
+  static constexpr std::size_t kHugePage = std::size_t{1} << 21;
+  T* data_ = nullptr;
+  std::size_t size_ = 0;
+};
+
+}  // namespace pstripack

@@ -1,0 +1,184 @@
+#pragma once
+// The exact stage: signs of determinants of doubles through integers, header-only, internal to the layer.
+//
+// A finite double is m * 2^e with a 53-bit integer m. Vectors are brought to one exponent (each vector
+// to its own where only its direction counts) and the determinant is evaluated in integers. Three sizes:
+//   grid      coordinates that are multiples of 2^-61: a few machine words. Nearly all nodes on the unit
+//             sphere are of this kind, and meshes with many ties (lattices, icosahedra) live here;
+//   512 bits  on the stack, for exponents that are not too far apart;
+//   any size  on the heap. The last two are one text.
+
+#include <algorithm>
+#include <array>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cmath>
+#include <cstdint>
+
+#include "geometry/point.h"
+
+namespace pstripack::exact {
+
+namespace mp = boost::multiprecision;
+using Integer512 =
+    mp::number<mp::cpp_int_backend<512, 512, mp::signed_magnitude, mp::unchecked, void>, mp::et_off>;
+using Integer = mp::number<mp::cpp_int_backend<>, mp::et_off>;
+
+/// Bits of a coordinate up to which det3 of differences (3*(bits+1)+3 bits) fits Integer512.
+constexpr int kSmallBits = 168;
+
+template <class Int>
+int sign(const Int& v) {
+  return v.sign();
+}
+
+/// The exponents that the components of a vector span, as values m * 2^e with 53-bit m.
+struct Span {
+  int low = 1 << 20, high = -(1 << 20);
+  int bits() const { return high < low ? 1 : high - low + 53; }
+  void join(double v) {
+    if (v == 0) return;
+    int e;
+    std::frexp(v, &e);
+    low = std::min(low, e - 53);
+    high = std::max(high, e - 53);
+  }
+  void join(const Point& p) {
+    join(p.x);
+    join(p.y);
+    join(p.z);
+  }
+};
+
+inline Span span_of(const Point& p) {
+  Span s;
+  s.join(p);
+  return s;
+}
+
+/// v * 2^-low, an integer if low <= exponent of v.
+template <class Int>
+Int scaled(double v, int low) {
+  if (v == 0) return Int(0);
+  int e;
+  const auto m = static_cast<std::int64_t>(std::ldexp(std::frexp(v, &e), 53));
+  return Int(m) << (e - 53 - low);
+}
+
+template <class Int>
+struct Vector {
+  Int x, y, z;
+};
+
+template <class Int>
+Vector<Int> scaled(const Point& p, int low) {
+  return {scaled<Int>(p.x, low), scaled<Int>(p.y, low), scaled<Int>(p.z, low)};
+}
+
+template <class Int>
+Vector<Int> operator-(const Vector<Int>& a, const Vector<Int>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+template <class Int>
+Vector<Int> cross(const Vector<Int>& a, const Vector<Int>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+template <class Int>
+Int dot(const Vector<Int>& a, const Vector<Int>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+template <class Int>
+Int det(const Vector<Int>& a, const Vector<Int>& b, const Vector<Int>& c) {
+  return dot(cross(a, b), c);
+}
+
+// ---- the grid of multiples of 2^-61 --------------------------------------------------------------
+
+struct Grid {
+  std::int64_t x, y, z;
+};
+
+/// g = p * 2^61 if that is a vector of integers below 2^61 (1 + 2^-10) in magnitude.
+inline bool on_grid(const Point& p, Grid& g) {
+  const auto component = [](double v, std::int64_t& out) {
+    const double scaled = v * 0x1p61;
+    if (!(std::fabs(scaled) <= 0x1.004p61)) return false;
+    out = static_cast<std::int64_t>(scaled);
+    return static_cast<double>(out) == scaled;
+  };
+  return component(p.x, g.x) && component(p.y, g.y) && component(p.z, g.z);
+}
+
+inline Grid operator-(const Grid& a, const Grid& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+
+/// sign of det(e,f,g), components below 2^62 (1 + 2^-10). A 2x2 minor is below 2^126 and is split into a high
+/// word below 2^62 and a low word below 2^64; the products with g are summed in base 2^64, high part below
+/// 3 * 2^125, so nothing overflows.
+inline int sign_of_det(const Grid& e, const Grid& f, const Grid& g) {
+  using Wide = __int128;
+  Wide high = 0;
+  unsigned __int128 low = 0;
+  const auto add = [&](std::int64_t a, std::int64_t b, std::int64_t c, std::int64_t d, std::int64_t factor) {
+    const Wide minor = Wide{a} * b - Wide{c} * d;
+    const Wide product = static_cast<Wide>(static_cast<std::uint64_t>(minor)) * factor;
+    high += (minor >> 64) * factor + (product >> 64);
+    low += static_cast<std::uint64_t>(product);
+  };
+  add(e.y, f.z, e.z, f.y, g.x);
+  add(e.z, f.x, e.x, f.z, g.y);
+  add(e.x, f.y, e.y, f.x, g.z);
+  high += static_cast<Wide>(low >> 64);
+  if (high != 0) return high < 0 ? -1 : 1;
+  return static_cast<std::uint64_t>(low) != 0;
+}
+
+// ---- any exponents ---------------------------------------------------------------------------------
+
+template <class Int>
+int left(const Point& a, const Point& b, const Point& c) {
+  return sign(
+      det(scaled<Int>(a, span_of(a).low), scaled<Int>(b, span_of(b).low), scaled<Int>(c, span_of(c).low)));
+}
+
+template <class Int>
+int orientation(const Point& a, const Point& b, const Point& c, const Point& d, int low) {
+  const auto base = scaled<Int>(a, low);
+  return sign(det(scaled<Int>(b, low) - base, scaled<Int>(c, low) - base, scaled<Int>(d, low) - base));
+}
+
+// Signs of sums of square roots, by squaring until none is left. All radicands are non-negative.
+
+/// sign of A sqrt(a) + B sqrt(b)
+inline int sign_of_sum(const Integer& A, const Integer& a, const Integer& B, const Integer& b) {
+  const int s = a == 0 ? 0 : sign(A), t = b == 0 ? 0 : sign(B);
+  if (s == 0 || s == t) return t;
+  if (t == 0) return s;
+  return s * sign(Integer(A * A * a - B * B * b));
+}
+
+/// sign of E + F sqrt(f) + G sqrt(g)
+inline int sign_of_sum(const Integer& E, const Integer& F, const Integer& f, const Integer& G,
+                       const Integer& g) {
+  const int s = sign(E), t = sign_of_sum(F, f, G, g);
+  if (s == 0 || s == t) return t;
+  if (t == 0) return s;
+  // opposite signs: compare E^2 with (F sqrt f + G sqrt g)^2
+  const Integer rest = E * E - F * F * f - G * G * g;
+  return s * sign_of_sum(rest, Integer(1), Integer(-2 * F * G), Integer(f * g));
+}
+
+/// sign of A sqrt(a) + B sqrt(b) + C sqrt(c) + D sqrt(d)
+inline int sign_of_sum(const std::array<Integer, 4>& factor, const std::array<Integer, 4>& root) {
+  const auto& [A, B, C, D] = factor;
+  const auto& [a, b, c, d] = root;
+  const int s = sign_of_sum(A, a, B, b), t = sign_of_sum(C, c, D, d);
+  if (s == 0 || s == t) return t;
+  if (t == 0) return s;
+  // opposite signs: compare the squares of the two halves
+  return s * sign_of_sum(Integer(A * A * a + B * B * b - C * C * c - D * D * d), Integer(2 * A * B),
+                         Integer(a * b), Integer(-2 * C * D), Integer(c * d));
+}
+
+}  // namespace pstripack::exact

@@ -1,0 +1,205 @@
+#include "geometry/insertion_order.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "geometry/parallel_for.h"
+
+namespace pstripack {
+namespace {
+
+// ---- the curve ---------------------------------------------------------------------------------
+// Hilbert's curve on a square, five levels at a time: steps[state][i<<5|j] holds the position of cell
+// (i,j) of 32 x 32 along the curve and the state in that cell. A state says whether the axes are swapped
+// (bit 0) and whether the curve runs backwards (bit 1).
+
+constexpr int kLevels = 5;  // of a block
+constexpr std::uint32_t kSide = 1 << kLevels;
+
+struct Step {
+  std::uint16_t position, state;
+};
+
+constexpr std::uint16_t kSwap = 1, kInvert = 2;
+
+constexpr std::array<std::array<Step, kSide * kSide>, 4> make_steps() {
+  // Position along the curve of the quadrant (i,j), for each state, and what the state changes by there.
+  constexpr std::uint16_t position_of[4][4] = {{0, 1, 3, 2}, {0, 3, 1, 2}, {2, 3, 1, 0}, {2, 1, 3, 0}};
+  constexpr std::uint16_t change[4] = {kSwap, 0, 0, kInvert | kSwap};
+  std::array<std::array<Step, kSide * kSide>, 4> steps{};
+  for (std::uint16_t start = 0; start < 4; ++start)
+    for (std::uint32_t cell = 0; cell < kSide * kSide; ++cell) {
+      std::uint16_t state = start, position = 0;
+      for (int level = kLevels - 1; level >= 0; --level) {
+        const std::uint32_t i = (cell >> (kLevels + level)) & 1, j = (cell >> level) & 1;
+        const std::uint16_t quadrant = position_of[state][i << 1 | j];
+        position = static_cast<std::uint16_t>(position << 2 | quadrant);
+        state = static_cast<std::uint16_t>(state ^ change[quadrant]);
+      }
+      steps[start][cell] = {position, state};
+    }
+  return steps;
+}
+
+constexpr auto steps = make_steps();
+
+/// Position of the cell (i,j) of kSide^blocks x kSide^blocks along the curve: 2 kLevels bits a block.
+std::uint64_t along_curve(std::uint32_t i, std::uint32_t j, int blocks, std::uint16_t state) {
+  std::uint64_t key = 0;
+  for (int b = kLevels * (blocks - 1); b >= 0; b -= kLevels) {
+    const Step s = steps[state][((i >> b) & (kSide - 1)) << kLevels | ((j >> b) & (kSide - 1))];
+    key = key << (2 * kLevels) | s.position;
+    state = s.state;
+  }
+  return key;
+}
+
+/// Where the ray through a node meets the cube: face 0..5, and (s,t) in [-1,1] there. Consecutive faces
+/// join so that the curves on them make one curve.
+struct OnCube {
+  double s, t;
+  int face;
+};
+
+OnCube on_cube(const Point& p) {
+  // +x: (y,z)  +y: (-x,z)  +z: (-x,-y)  -x: (z,y)  -y: (z,-x)  -z: (-y,-x), all divided by |largest|
+  // component; from tables, because a branch on random faces is mispredicted nearly always.
+  static constexpr struct {
+    std::int8_t s_axis, t_axis;
+    double s_sign, t_sign;
+  } face[6] = {{1, 2, 1, 1}, {0, 2, -1, 1}, {0, 1, -1, -1}, {2, 1, -1, -1}, {2, 0, -1, 1}, {1, 0, 1, 1}};
+  const double v[3] = {p.x, p.y, p.z};
+  const double a = std::fabs(p.x), b = std::fabs(p.y), c = std::fabs(p.z);
+  const int largest = (b > a) | (c > (b > a ? b : a)) << 1;  // 0 x, 1 y, 2 or 3 z
+  const int axis = largest > 2 ? 2 : largest;
+  const int f = axis + 3 * std::signbit(v[axis]);
+  const double inverse = 1 / std::fabs(v[axis]);
+  if (!(inverse < 1e300))  // a denormal length
+    return {v[face[f].s_axis] / std::fabs(v[axis]) * face[f].s_sign,
+            v[face[f].t_axis] / std::fabs(v[axis]) * face[f].t_sign, f};
+  return {v[face[f].s_axis] * inverse * face[f].s_sign, v[face[f].t_axis] * inverse * face[f].t_sign, f};
+}
+
+std::uint32_t cell(double fraction, std::uint32_t cells) {
+  const double scaled = fraction * cells;
+  return scaled <= 0 ? 0 : scaled >= cells ? cells - 1 : static_cast<std::uint32_t>(scaled);
+}
+
+// ---- sorting -----------------------------------------------------------------------------------
+// A key and the number of its node share 64 bits.
+
+using Entry = std::uint64_t;
+constexpr int kNodeBits = 29, kKeyBits = 64 - kNodeBits;  // 3 for the face, 2 x 15 for the cell
+
+std::uint64_t key_of(Entry e) { return e >> kNodeBits; }
+std::uint32_t node_of(Entry e) { return static_cast<std::uint32_t>(e & ((Entry{1} << kNodeBits) - 1)); }
+
+/// Stable radix sort of n entries by their keys of key_bits bits, least significant digit first, back and
+/// forth between `entries` and `other`. Returns the one that holds the result.
+Entry* radix_sort(Entry* entries, Entry* other, std::size_t n, int key_bits) {
+  const int passes = (key_bits + 11) / 12, digit_bits = (key_bits + passes - 1) / passes;
+  const std::size_t digits = std::size_t{1} << digit_bits;
+  const int threads = threads_for(n);
+  std::vector<std::size_t> next(digits * threads);  // [thread][digit]: where the thread puts its next one
+  for (int pass = 0; pass < passes; ++pass) {
+    const int shift = kNodeBits + pass * digit_bits;
+    const auto digit = [&](Entry e) { return (e >> shift) & (digits - 1); };
+    const Entry* const from = entries;
+    Entry* const to = other;
+    std::fill(next.begin(), next.end(), 0);
+    parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int t) {
+      std::size_t* count = next.data() + digits * t;
+      for (std::size_t i = first; i < last; ++i) ++count[digit(from[i])];
+    });
+    std::size_t sum = 0;
+    for (std::size_t d = 0; d < digits; ++d)
+      for (int t = 0; t < threads; ++t) sum += std::exchange(next[digits * t + d], sum);
+    parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int t) {
+      std::size_t* place = next.data() + digits * t;
+      for (std::size_t i = first; i < last; ++i) to[place[digit(from[i])]++] = from[i];
+    });
+    std::swap(entries, other);
+  }
+  return entries;
+}
+
+Entry* sort(Entry* entries, Entry* other, std::size_t n, int key_bits) {
+  if (n >= 1000) return radix_sort(entries, other, n, key_bits);
+  std::sort(entries, entries + n);
+  return entries;
+}
+
+// ---- cells with many nodes ---------------------------------------------------------------------
+
+constexpr std::size_t kCrowd = 16;
+
+/// Orders the nodes of one cell, entries [first,last), along a curve through their bounding box.
+void refine(const Point* points, Entry* first, Entry* last, int depth) {
+  const std::size_t n = static_cast<std::size_t>(last - first);
+  double s0 = 2, s1 = -2, t0 = 2, t1 = -2;
+  for (const Entry* e = first; e != last; ++e) {
+    const OnCube q = on_cube(points[node_of(*e)]);
+    s0 = std::min(s0, q.s), s1 = std::max(s1, q.s), t0 = std::min(t0, q.t), t1 = std::max(t1, q.t);
+  }
+  const double side = std::max(s1 - s0, t1 - t0);
+  if (!(side > 0)) return;  // all in one direction, as far as doubles tell
+  Buffer<Entry> entries(2 * n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::uint32_t node = node_of(first[k]);
+    const OnCube q = on_cube(points[node]);
+    entries[k] = along_curve(cell((q.s - s0) / side, kSide * kSide * kSide),
+                             cell((q.t - t0) / side, kSide * kSide * kSide), 3, 0)
+                     << kNodeBits |
+                 node;
+  }
+  const Entry* const sorted = sort(entries.data(), entries.data() + n, n, 6 * kLevels);
+  std::copy(sorted, sorted + n, first);
+  if (depth == 0) return;
+  for (std::size_t i = 0, j; i < n; i = j) {
+    for (j = i + 1; j < n && key_of(first[j]) == key_of(first[i]);) ++j;
+    if (j - i > kCrowd) refine(points, first + i, first + j, depth - 1);
+  }
+}
+
+}  // namespace
+
+std::uint32_t* insertion_order(const Point* points, std::size_t n, Workspace& workspace) {
+  auto* const order = workspace.keep<std::uint32_t>(n);
+  constexpr std::size_t kFew = 24;  // any walk is short
+  if (n <= kFew) {
+    std::iota(order, order + n, 0);
+    return order;
+  }
+  // As many cells as it takes to hold few nodes each, where they are spread evenly: keys of 20, 23 or 33
+  // bits (the last bits of the first kind are left out), sorted in two, two and three passes.
+  const int blocks = n < 20000000 ? 2 : 3;
+  const int dropped = n < 50000 ? 3 : 0;
+  const std::uint32_t cells = blocks == 2 ? kSide * kSide : kSide * kSide * kSide;
+  Entry* entries = workspace.take<Entry>(n);
+  Entry* const other = workspace.take<Entry>(n);
+  const int threads = threads_for(n);
+  parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int) {
+    for (std::size_t i = first; i < last; ++i) {
+      const OnCube q = on_cube(points[i]);
+      const std::uint64_t along = along_curve(cell(0.5 * (q.s + 1), cells), cell(0.5 * (q.t + 1), cells),
+                                              blocks, static_cast<std::uint16_t>(q.face & kSwap));
+      entries[i] =
+          (static_cast<std::uint64_t>(q.face) << (2 * kLevels * blocks) | along) >> dropped << kNodeBits | i;
+    }
+  });
+  entries = sort(entries, other, n, 2 * kLevels * blocks + 3 - dropped);
+  for (std::size_t i = 0, j; i < n; i = j) {
+    for (j = i + 1; j < n && key_of(entries[j]) == key_of(entries[i]);) ++j;
+    // Each level divides a cell's side by 2^15 or ends at doubles that do not differ.
+    if (j - i > kCrowd) refine(points, entries + i, entries + j, 6);
+  }
+  parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int) {
+    for (std::size_t i = first; i < last; ++i) order[i] = node_of(entries[i]);
+  });
+  return order;
+}
+
+}  // namespace pstripack

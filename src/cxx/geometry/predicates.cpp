@@ -1,0 +1,264 @@
+#include "geometry/predicates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "geometry/exact.h"
+#include "geometry/parallel_for.h"
+
+// Error bounds below: u = 2^-53 is the unit roundoff, E(v) the error of a computed v. "Permanent" is the
+// expression of a determinant with every term replaced by its absolute value; it is computed alongside.
+
+namespace pstripack {
+namespace {
+
+constexpr double u = 0x1p-53;
+// Underflow adds at most a few 2^-1074 times factors below kLargest^2 to a determinant.
+constexpr double kUnderflow = 1e-250;
+constexpr double kLargest = 1e30;
+
+thread_local PredicateCounts counts;
+
+Point cross(const Point& a, const Point& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+Point minus(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+
+double largest(const Point& a) { return std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)}); }
+
+/// det(e,f,g) and its permanent.
+struct Determinant {
+  double value, permanent;
+};
+
+Determinant determinant(const Point& e, const Point& f, const Point& g) {
+  const double yz = e.y * f.z, zy = e.z * f.y, zx = e.z * f.x, xz = e.x * f.z, xy = e.x * f.y, yx = e.y * f.x;
+  return {(yz - zy) * g.x + (zx - xz) * g.y + (xy - yx) * g.z,
+          (std::fabs(yz) + std::fabs(zy)) * std::fabs(g.x) +
+              (std::fabs(zx) + std::fabs(xz)) * std::fabs(g.y) +
+              (std::fabs(xy) + std::fabs(yx)) * std::fabs(g.z)};
+}
+
+/// The sign of d.value if it is certain with this bound, else 0. False for NaN and infinities.
+int certain_sign(const Determinant& d, double bound) {
+  if (d.value > bound) return 1;
+  if (d.value < -bound) return -1;
+  return 0;
+}
+
+// Filter for vectors that are exact or known to one rounding a component.
+// e, f, g: differences with one rounding each. A product of three carries 3 roundings of the differences,
+// 2 of the products, 1 of the subtraction, at most 2 of the sums: 8 u permanent to first order. Shewchuk
+// (1997, orient3d, stage A) shows 7u + 56u^2 for the same evaluation; 9u covers the higher orders and the
+// rounding of the permanent itself.
+constexpr double kFactor = 9 * u;
+
+int filter_orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const auto v = determinant(minus(b, a), minus(c, a), minus(d, a));
+  return certain_sign(v, kFactor * v.permanent + kUnderflow);
+}
+
+/// det(a,b,c) = det(b-a, c-a, a): small where the nodes are close, so the bound is small as well.
+int filter_left(const Point& a, const Point& b, const Point& c) {
+  const auto v = determinant(minus(b, a), minus(c, a), a);
+  return certain_sign(v, kFactor * v.permanent + kUnderflow);
+}
+
+bool moderate(const Point& a) { return largest(a) < kLargest; }
+
+int exact_left(const Point& a, const Point& b, const Point& c) {
+  using namespace exact;
+  if (Grid p, q, r; on_grid(a, p) && on_grid(b, q) && on_grid(c, r)) return sign_of_det(p, q, r);
+  const int bits = std::max({span_of(a).bits(), span_of(b).bits(), span_of(c).bits()});
+  return bits <= kSmallBits ? exact::left<Integer512>(a, b, c) : exact::left<Integer>(a, b, c);
+}
+
+int exact_orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
+  using namespace exact;
+  if (Grid p, q, r, s; on_grid(a, p) && on_grid(b, q) && on_grid(c, r) && on_grid(d, s))
+    return sign_of_det(q - p, r - p, s - p);
+  Span span = span_of(a);
+  span.join(b);
+  span.join(c);
+  span.join(d);
+  return span.bits() <= kSmallBits ? exact::orientation<Integer512>(a, b, c, d, span.low)
+                                   : exact::orientation<Integer>(a, b, c, d, span.low);
+}
+
+/// The volume of the directions times |a||b||c||d|:  |a| [bcd] - |b| [acd] + |c| [abd] - |d| [abc].
+int exact_orientation_of_directions(const Point& a, const Point& b, const Point& c, const Point& d) {
+  using namespace exact;
+  const auto A = scaled<Integer>(a, span_of(a).low), B = scaled<Integer>(b, span_of(b).low),
+             C = scaled<Integer>(c, span_of(c).low), D = scaled<Integer>(d, span_of(d).low);
+  return sign_of_sum({det(B, C, D), -det(A, C, D), det(A, B, D), -det(A, B, C)},
+                     {dot(A, A), dot(B, B), dot(C, C), dot(D, D)});
+}
+
+bool lower_rank(const Point& a, const Point& b) {
+  if (a.x != b.x) return a.x < b.x;
+  if (a.y != b.y) return a.y < b.y;
+  return a.z < b.z;
+}
+
+/// The tie rule of predicates.h for four nodes whose volume is zero. No two may coincide.
+bool symbolic_above(const Point& a, const Point& b, const Point& c, const Point& d) {
+  ++counts.symbolic;
+  struct Term {
+    const Point *node, *p, *q, *r;  // pushing `node` outwards gives the sign of sign * [pqr]
+    int sign;
+  };
+  Term terms[4] = {{&d, &a, &b, &c, 1}, {&c, &a, &b, &d, -1}, {&b, &a, &c, &d, 1}, {&a, &b, &c, &d, -1}};
+  std::sort(terms, terms + 4, [](const Term& s, const Term& t) { return lower_rank(*t.node, *s.node); });
+  for (const Term& t : terms)
+    if (const int bracket = left(*t.p, *t.q, *t.r)) return t.sign * bracket > 0;
+  return false;  // all four on one great circle
+}
+
+// Double-double arithmetic, just enough for p/|p|. Dekker's product: no FMA is assumed.
+struct Pair {
+  double high, low;
+};
+
+Pair sum_of_ordered(double a, double b) {  // |a| >= |b|
+  const double s = a + b;
+  return {s, b - (s - a)};
+}
+
+Pair sum(double a, double b) {
+  const double s = a + b, t = s - a;
+  return {s, (a - (s - t)) + (b - t)};
+}
+
+Pair product(double a, double b) {
+  const auto split = [](double v) {
+    const double c = 134217729.0 * v, high = c - (c - v);
+    return Pair{high, v - high};
+  };
+  const Pair s = split(a), t = split(b);
+  const double p = a * b;
+  return {p, ((s.high * t.high - p) + s.high * t.low + s.low * t.high) + s.low * t.low};
+}
+
+}  // namespace
+
+int left(const Point& a, const Point& b, const Point& c) {
+  if (moderate(a) && moderate(b) && moderate(c))
+    if (const int s = filter_left(a, b, c)) return s;
+  ++counts.exact;
+  return exact_left(a, b, c);
+}
+
+int orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
+  if (moderate(a) && moderate(b) && moderate(c) && moderate(d))
+    if (const int s = filter_orientation(a, b, c, d)) return s;
+  ++counts.exact;
+  return exact_orientation(a, b, c, d);
+}
+
+int orientation_of_directions(const Point& a, const Point& b, const Point& c, const Point& d) {
+  ++counts.exact;
+  return exact_orientation_of_directions(a, b, c, d);
+}
+
+bool same_direction(const Point& a, const Point& b) {
+  if ((a.x < 0) != (b.x < 0) || (a.y < 0) != (b.y < 0) || (a.z < 0) != (b.z < 0)) return false;
+  if ((a.x == 0) != (b.x == 0) || (a.y == 0) != (b.y == 0) || (a.z == 0) != (b.z == 0)) return false;
+  if (a == b) return true;
+  if (moderate(a) && moderate(b)) {  // a x b clearly not zero: no need for exact arithmetic
+    const Point n = cross(a, b);
+    const double scale = largest(a) * largest(b);
+    if (largest(n) > 4 * u * scale + kUnderflow) return false;
+  }
+  using namespace exact;
+  const auto n = exact::cross(scaled<Integer>(a, span_of(a).low), scaled<Integer>(b, span_of(b).low));
+  return n.x == 0 && n.y == 0 && n.z == 0;  // equal signs: not opposite
+}
+
+PredicateCounts take_predicate_counts() { return std::exchange(counts, {}); }
+
+int Coordinates::left(index_t a, index_t b, index_t c) const { return pstripack::left(p_[a], p_[b], p_[c]); }
+
+bool Coordinates::above(index_t ia, index_t ib, index_t ic, index_t id) const {
+  ++counts.above;
+  const Point &a = p_[ia], &b = p_[ib], &c = p_[ic], &d = p_[id];
+  if (const int s = filter_orientation(a, b, c, d)) return s > 0;
+  ++counts.exact;
+  if (const int s = exact_orientation(a, b, c, d)) return s > 0;
+  if (d == a || d == b || d == c || a == b || b == c || c == a) return false;
+  return symbolic_above(a, b, c, d);
+}
+
+Directions::Directions(const Point* points, std::size_t n) : p_(points), n_(n), unit_(new Unit[n]) {
+  parallel_pieces(n, threads_for(n), [&](std::size_t first, std::size_t last, int) {
+    for (std::size_t i = first; i < last; ++i) unit_[i] = unit(p_[i]);
+  });
+}
+
+Directions::Unit Directions::unit(const Point& p) {
+  // Scale to [1/2,1) by a power of two: exact, up to components below 2^-1074 of the largest.
+  int e;
+  std::frexp(largest(p), &e);
+  const double c[3] = {std::ldexp(p.x, -e), std::ldexp(p.y, -e), std::ldexp(p.z, -e)};
+  // s = |p|^2 to 2^-103 of itself
+  Pair s = product(c[0], c[0]);
+  for (int k = 1; k < 3; ++k) {
+    const Pair q = product(c[k], c[k]);
+    const Pair t = sum(s.high, q.high);
+    s = sum_of_ordered(t.high, t.low + (s.low + q.low));
+  }
+  // One Newton step for r = 1/sqrt(s): r0 has a relative error below 3u, so 1 - s r0^2 is below 2^-50
+  // and the step leaves 3/8 of its square, below 2^-101. All roundings of the residual are below 2^-103.
+  const double r0 = 1 / std::sqrt(s.high);
+  const Pair rr = product(r0, r0);
+  const Pair one = product(s.high, rr.high);
+  const double residual = ((1 - one.high) - one.low) - (s.high * rr.low + s.low * rr.high);
+  const double r1 = r0 * residual * 0.5;
+  double high[3], low[3];
+  for (int k = 0; k < 3; ++k) {
+    const Pair q = product(c[k], r0);
+    const Pair v = sum_of_ordered(q.high, q.low + c[k] * r1);
+    high[k] = v.high;
+    low[k] = v.low;
+  }
+  return {{high[0], high[1], high[2]}, {low[0], low[1], low[2]}};
+}
+
+Directions::~Directions() { delete[] unit_; }
+
+// Filters on directions. A component of `difference` is known to 3u of itself and tau = 2^-96: the high
+// parts subtract with error u (exactly where they are close), the low parts add u, the sum u, and two
+// directions 2^-98 each. A product of three differences then carries 3*3u + 5u = 14u of the permanent, and
+// the tau terms are at most 6 products * 3 factors * tau * m^2, m the largest component: 2^-91 m^2 with
+// room. 16u covers higher orders.
+namespace {
+constexpr double kDirectionFactor = 16 * u;
+constexpr double kDirectionAbsolute = 0x1p-91;
+}  // namespace
+
+int Directions::left(index_t a, index_t b, index_t c) const {
+  const Point e = difference(b, a), f = difference(c, a);
+  const auto v = determinant(e, f, position(a));
+  const double m = std::max(largest(e), largest(f));
+  if (const int s = certain_sign(v, kDirectionFactor * v.permanent + kDirectionAbsolute * m)) return s;
+  return pstripack::left(p_[a], p_[b], p_[c]);
+}
+
+bool Directions::above(index_t ia, index_t ib, index_t ic, index_t id) const {
+  ++counts.above;
+  const Point e = difference(ib, ia), f = difference(ic, ia), g = difference(id, ia);
+  const auto v = determinant(e, f, g);
+  const double m = std::max({largest(e), largest(f), largest(g)});
+  if (const int s = certain_sign(v, kDirectionFactor * v.permanent + kDirectionAbsolute * m * m))
+    return s > 0;
+  ++counts.exact;
+  const Point &a = p_[ia], &b = p_[ib], &c = p_[ic], &d = p_[id];
+  if (const int s = exact_orientation_of_directions(a, b, c, d)) return s > 0;
+  if (same_direction(a, b) || same_direction(b, c) || same_direction(c, a) || same_direction(a, d) ||
+      same_direction(b, d) || same_direction(c, d))
+    return false;
+  return symbolic_above(a, b, c, d);
+}
+
+}  // namespace pstripack

@@ -1,0 +1,127 @@
+#pragma once
+// The predicates of the triangulation, exact for every finite double.
+//
+//   left(a,b,c)     the sign of det(a,b,c): c lies left of (+1), on (0) or right of (-1) the great
+//                   circle directed from a to b, seen from outside the sphere.
+//   above(a,b,c,d)  d lies strictly above the plane of the counterclockwise triangle a,b,c, that is,
+//                   strictly inside its circumscribed cap.
+//
+// Identities (tested in tests/cxx/predicates_test.cpp), for pairwise different directions:
+//   (1) left(a,b,c) == left(b,c,a) == -left(b,a,c)
+//   (2) above(a,b,c,d) == above(b,c,a,d)
+//   (3) above(a,b,c,d) != above(b,a,c,d), except where all four lie on one great circle: both false
+//   (4) the sign behind `above` is antisymmetric under every permutation of its four arguments
+//   (5) none depends on the numbering of the nodes, on the rounding mode, on FMA or on threads
+//
+// Two sets of predicates share this interface; the kernel takes the set as a parameter:
+//   Coordinates  the vectors exactly as given;
+//   Directions   the vectors p/|p|, exactly (square roots included).
+//
+// Each decision passes three stages: filter (floating point with a proven bound), exact (integers),
+// symbolic (the tie rule). The tie rule: a zero of `above` is decided as if every node were pushed
+// outwards along its own direction by an amount that grows with its rank in the lexicographic order
+// of the given (x,y,z), each infinitely more than all lower ranks together. With t = 1/length the
+// volume is linear in each t,
+//     volume ~  t_a [bcd] - t_b [acd] + t_c [abd] - t_d [abc],      [pqr] = det(p,q,r),
+// and pushing outwards lowers t; so the highest-ranked node whose bracket is not zero decides:
+//     d: +[abc]    c: -[abd]    b: +[acd]    a: -[bcd].
+// A radial push changes no LEFT. Four nodes on one great circle have four zero brackets: they stay a
+// zero for every rank and count as "not above".
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "geometry/point.h"
+
+namespace pstripack {
+
+using index_t = std::int32_t;
+
+/// The exact sign of det(a,b,c): +1, 0, -1. The same for the vectors and for their directions.
+int left(const Point& a, const Point& b, const Point& c);
+
+/// The exact sign of det(b-a, c-a, d-a), without tie rule: +1 where d is above the plane of a,b,c.
+int orientation(const Point& a, const Point& b, const Point& c, const Point& d);
+
+/// The same for the directions a/|a|, b/|b|, c/|c|, d/|d|.
+int orientation_of_directions(const Point& a, const Point& b, const Point& c, const Point& d);
+
+/// True if a and b point in exactly the same direction.
+bool same_direction(const Point& a, const Point& b);
+
+/// Which of the two sets decides.
+enum class Lengths {
+  automatic,  ///< as given; directions where a length differs from 1 by more than 1e-6, or where the
+              ///< lengths as given would hide a node inside the hull of the others
+  as_given,
+  directions
+};
+
+/// True if |p| is within 1e-6 of 1: Coordinates may be used. False if p is not finite.
+inline bool length_is_one(const Point& p) { return std::fabs(p.x * p.x + p.y * p.y + p.z * p.z - 1) <= 2e-6; }
+
+/// The stage that decided a call; for tests and for measuring how often the filter gives up.
+struct PredicateCounts {
+  std::uint64_t above = 0;     ///< calls that reached the predicates at all
+  std::uint64_t exact = 0;     ///< determinants, of `left` as well, that floating point could not decide
+  std::uint64_t symbolic = 0;  ///< of these, zeros of `above` that the tie rule decided
+};
+
+/// Predicates on the nodes p[0..n-1] as given. Lengths must be within 1e-6 of 1.
+/// Holds a pointer only: the points must outlive it.
+class Coordinates {
+ public:
+  Coordinates(const Point* points, std::size_t n) : p_(points), n_(n) {}
+
+  std::size_t size() const { return n_; }
+  const Point& position(index_t i) const { return p_[i]; }
+  /// p[i] - p[j], every component to one rounding.
+  Point difference(index_t i, index_t j) const {
+    return {p_[i].x - p_[j].x, p_[i].y - p_[j].y, p_[i].z - p_[j].z};
+  }
+  int left(index_t a, index_t b, index_t c) const;
+  bool above(index_t a, index_t b, index_t c, index_t d) const;
+  bool coincide(index_t a, index_t b) const { return p_[a] == p_[b]; }
+
+ private:
+  const Point* p_;
+  std::size_t n_;
+};
+
+/// Predicates on the directions p[i]/|p[i]| of any finite non-zero vectors.
+/// Keeps 48 bytes a node beside the points, which must outlive it.
+class Directions {
+ public:
+  Directions(const Point* points, std::size_t n);
+  ~Directions();
+  Directions(const Directions&) = delete;
+  Directions& operator=(const Directions&) = delete;
+
+  std::size_t size() const { return n_; }
+  const Point& position(index_t i) const { return unit_[i].high; }
+  /// p[i]/|p[i]| - p[j]/|p[j]|, every component to 3 roundings and 2^-97.
+  Point difference(index_t i, index_t j) const {
+    const Unit &a = unit_[i], &b = unit_[j];
+    return {(a.high.x - b.high.x) + (a.low.x - b.low.x), (a.high.y - b.high.y) + (a.low.y - b.low.y),
+            (a.high.z - b.high.z) + (a.low.z - b.low.z)};
+  }
+  int left(index_t a, index_t b, index_t c) const;
+  bool above(index_t a, index_t b, index_t c, index_t d) const;
+  bool coincide(index_t a, index_t b) const { return same_direction(p_[a], p_[b]); }
+
+ private:
+  struct Unit {
+    Point high, low;
+  };
+  /// high + low = p/|p|, every component to 2^-98.
+  static Unit unit(const Point& p);
+  const Point* p_;
+  std::size_t n_;
+  Unit* unit_;
+};
+
+/// Counts since the last call in this thread; for tests and measurements.
+PredicateCounts take_predicate_counts();
+
+}  // namespace pstripack

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <stdexcept>
+#include <utility>
+
+#include "geometry/buffer.h"
+
+namespace pstripack {
+
+/// A block of memory of at least `bytes`: the one that the last call of this process gave back, if it is
+/// large enough and not much too large, else a new one. Throws std::bad_alloc.
+Buffer<unsigned char> borrow_block(std::size_t bytes);
+
+/// Gives a block back. One is kept for the next call, and offered to the system, which takes its pages when
+/// it needs them; small ones and very large ones are freed.
+void give_back_block(Buffer<unsigned char> block) noexcept;
+
+/// One block of memory for a call, because fresh pages cost a tenth of a triangulation and one block is
+/// what can be handed out again at the next call. Arrays that stay are laid from the front, those
+/// of a phase from the back; the next phase begins by giving the latter up.
+///
+///     | order | sorted nodes | faces ->            <- planes |
+///     | kept                                   of this phase |
+class Workspace {
+ public:
+  explicit Workspace(std::size_t bytes) : block_(borrow_block(bytes + kSlack)), back_(block_.size()) {}
+  ~Workspace() { give_back_block(std::move(block_)); }
+  Workspace(const Workspace&) = delete;
+  Workspace& operator=(const Workspace&) = delete;
+
+  /// An uninitialised array of n items that stays until clear().
+  template <class T>
+  T* keep(std::size_t n) {
+    T* const array = reinterpret_cast<T*>(block_.data() + front_);
+    front_ += rounded_up(n * sizeof(T));
+    check();
+    return array;
+  }
+
+  /// An uninitialised array of n items for this phase: valid until next_phase().
+  template <class T>
+  T* take(std::size_t n) {
+    const std::size_t bytes = rounded_up(n * sizeof(T));
+    back_ = bytes < back_ ? (back_ - bytes) / kAlignment * kAlignment : 0;
+    check();
+    return reinterpret_cast<T*>(block_.data() + back_);
+  }
+
+  void next_phase() { back_ = block_.size(); }
+  void clear() { front_ = 0, back_ = block_.size(); }
+
+ private:
+  static constexpr std::size_t kAlignment = 16, kSlack = 2048;  // the slack covers rounding and small extras
+  static std::size_t rounded_up(std::size_t bytes) {
+    return (bytes + kAlignment - 1) / kAlignment * kAlignment;
+  }
+  void check() const {
+    if (front_ > back_ || back_ == 0) throw std::length_error("pstripack: a workspace is too small");
+  }
+
+  Buffer<unsigned char> block_;
+  std::size_t front_ = 0, back_;
+};
+
+}  // namespace pstripack

@@ -1,0 +1,442 @@
+// The incremental hull, in order:
+//   1  sort the nodes along a curve over the sphere          (speed only)
+//   2  start from one triangle, seen from both sides
+//   3  insert node by node: find a face that it sees, collect all that it sees, put a fan in their place
+//   4  decide which faces are part of the triangulation
+//
+// One predicate decides everything: `above`, whether a node sees a face. It is exact and consistent (the
+// tie rule is a real perturbation of the nodes), so what a node sees of the hull is always a disc bounded
+// by one simple polygon, and the result is the hull of the perturbed nodes whatever the order was.
+//
+// References: Clarkson & Shor (1989), incremental hulls; Edelsbrunner & Muecke (1990), simulation of
+// simplicity; Amenta, Choi & Rote (2003), insertion in rounds along a curve.
+
+#include "mesh/delaunay.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+
+#include "geometry/insertion_order.h"
+#include "geometry/parallel_for.h"
+
+namespace pstripack {
+namespace {
+
+// ---- the plane of a face: the filter in front of `above` -----------------------------------------
+//
+// For a face a,b,c let e = b-a, f = c-a, n = e x f, w = n.a. Node d sees it if n.d - w > 0. Errors, with
+// u = 2^-53 and M = (|e|^2 + |f|^2)/2 >= |e||f|:
+//   components of e, f       3u of themselves and 2^-96 (Directions; one u for Coordinates)
+//   n = e x f                |E(n)| <= sqrt(2) (2*3u + 2u) |e||f| < 12u M, and 2^-96 (|e|+|f|) < u M as
+//                            long as M >= 2^-80
+//   n.d, n.a                 3u |n| each for the sums (|d| < 1 + 2^-19); E(n).(d-a) < 2.1 (12u + u) M;
+//                            positions of directions are rounded: 2u |n|
+// Together less than 40u M, and less than 40u M for w alone. The plane is scaled by the power of two
+// 2^k with 2^-k in [64u M, 128u M]: then |n.d - w| > 1 is a certain sign, and so is |w| > 1 for
+// det(a,b,c) = n.a.
+struct Plane {
+  double x, y, z, w;
+};
+
+Point minus(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+double dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Point cross(const Point& a, const Point& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+double above_plane(const Plane& f, const Point& p) { return (f.x * p.x + f.y * p.y) + (f.z * p.z - f.w); }
+
+/// A node seen from another: the difference of their positions and its square.
+struct Spoke {
+  Point d;
+  double square;
+};
+
+template <class Predicates>
+[[gnu::always_inline]] inline Spoke make_spoke(const Predicates& predicates, std::uint32_t to,
+                                               std::uint32_t from) {
+  const Point d = predicates.difference(static_cast<index_t>(to), static_cast<index_t>(from));
+  return {d, dot(d, d)};
+}
+
+/// The plane of the face a,b,c from the position of a and the spokes a->b and a->c.
+[[gnu::always_inline]] inline Plane make_plane(const Point& a, const Spoke& b, const Spoke& c) {
+  const Point &e = b.d, &f = c.d;
+  const Point n = cross(e, f);
+  const double m = 0.5 * (b.square + c.square);
+  if (!(m >= 0x1p-80)) return {0, 0, 0, 0};  // no sign is certain: the predicates decide
+  // 2^46 / 2^q, q the exponent of m, by arithmetic on the bits of m: 64u m = 2^-47 m is in [2^(q-47),
+  // 2^(q-46)).
+  std::uint64_t bits;
+  std::memcpy(&bits, &m, sizeof bits);
+  bits = (std::uint64_t{1023 + 46 + 1023} << 52) - (bits & 0x7ff0000000000000u);
+  double scale;
+  std::memcpy(&scale, &bits, sizeof scale);
+  return {n.x * scale, n.y * scale, n.z * scale, dot(n, a) * scale};
+}
+
+// ---- the hull under construction ------------------------------------------------------------------
+
+/// A node inside the hull of the others, so that it would be missing from the triangulation.
+struct HiddenNode {};
+
+template <class Predicates>
+class Builder {
+ public:
+  Builder(const Predicates& predicates, Face* faces, Plane* planes)
+      : predicates_(predicates),
+        n_(predicates.size()),
+        faces_(faces),
+        words_(faces->vertex),
+        planes_(planes) {}
+
+  void build() {
+    start();
+    // Two rounds: every 16th node along the curve, then the rest. The first round makes the triangles
+    // small everywhere, so that the second replaces fewer of them: 4.3 instead of 5.8 a node.
+    constexpr std::uint32_t kStride = 16;
+    const auto n = static_cast<std::uint32_t>(n_);
+    for (std::uint32_t v = 0; v < n; v += kStride) insert_unless_started(v);
+    for (std::uint32_t v = 0; v < n; ++v)
+      if (v % kStride != 0) insert_unless_started(v);
+  }
+
+  std::size_t face_count() const { return count_; }
+  const std::vector<std::pair<std::uint32_t, std::uint32_t>>& coincident() const { return coincident_; }
+
+  /// True if the centre is certainly inside the first tetrahedron, hence inside the hull.
+  bool surrounds_centre() const { return surrounds_centre_; }
+
+  /// det > 0: the face is part of the triangulation.
+  bool front(std::uint32_t t) const {
+    const double w = planes_[t].w;
+    if (w > 1) return true;
+    if (w < -1) return false;
+    const Face& f = faces_[t];
+    return predicates_.left(f.vertex[0], f.vertex[1], f.vertex[2]) > 0;
+  }
+
+ private:
+  // -- 2: the first nodes
+
+  /// The hull of three nodes: one triangle, seen from both sides. A fourth node near the other end of the
+  /// sphere follows at once, so that the hull surrounds the centre early if it ever does.
+  void start() {
+    std::uint32_t corner[4];
+    choose_corners(corner);
+    const auto [a, b, c, d] = corner;
+    // front face 0: a,b,c   back face 1: b,a,c   edges opposite c, then a against b
+    faces_[0] = {{a, b, c, c}, {4 * 1 + 1, 4 * 1 + 0, 4 * 1 + 2, 0}};
+    faces_[1] = {{b, a, c, c}, {4 * 0 + 1, 4 * 0 + 0, 4 * 0 + 2, 0}};
+    const Spoke ab = make_spoke(predicates_, b, a), ac = make_spoke(predicates_, c, a);
+    planes_[0] = make_plane(predicates_.position(a), ab, ac);
+    planes_[1] = make_plane(predicates_.position(a), ac, ab);
+    count_ = 2;
+    last_ = 0;
+    std::copy(corner, corner + 3, started_);
+    started_[3] = c;
+    if (n_ == 3) return;
+    insert(d);
+    started_[3] = d;
+    surrounds_centre_ = count_ == 4;
+    for (std::uint32_t t = 0; t < count_; ++t) surrounds_centre_ = surrounds_centre_ && planes_[t].w > 1;
+  }
+
+  /// Four nodes, the first three counterclockwise and not on one great circle: those of a sample that lie
+  /// farthest towards the corners of a regular tetrahedron if that works, else any.
+  void choose_corners(std::uint32_t (&corner)[4]) const {
+    static constexpr double towards[4][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+    const std::size_t stride = n_ / 256 + 1;
+    double best[4] = {-4, -4, -4, -4};
+    std::fill(corner, corner + 4, 0);
+    for (std::size_t v = 0; v < n_; v += stride)
+      for (int k = 0; k < 4; ++k) {
+        const Point& p = predicates_.position(static_cast<index_t>(v));
+        const double d = p.x * towards[k][0] + p.y * towards[k][1] + p.z * towards[k][2];
+        if (d > best[k]) best[k] = d, corner[k] = static_cast<std::uint32_t>(v);
+      }
+    if (!turn_counterclockwise(corner)) choose_any_corners(corner);
+    if (n_ > 3 && (corner[3] == corner[0] || corner[3] == corner[1] || corner[3] == corner[2]))
+      for (corner[3] = 0; corner[3] == corner[0] || corner[3] == corner[1] || corner[3] == corner[2];)
+        ++corner[3];
+  }
+
+  bool turn_counterclockwise(std::uint32_t (&corner)[4]) const {
+    if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0]) return false;
+    const int turn = predicates_.left(corner[0], corner[1], corner[2]);
+    if (turn < 0) std::swap(corner[0], corner[1]);
+    return turn != 0;
+  }
+
+  void choose_any_corners(std::uint32_t (&corner)[4]) const {
+    // The first node that is not on the line of node 0, the first that is not on their great circle. All
+    // nodes are on that line or circle otherwise.
+    const auto n = static_cast<std::uint32_t>(n_);
+    corner[0] = 0;
+    for (corner[1] = 1; corner[1] < n; ++corner[1])
+      for (corner[2] = corner[1] + 1; corner[2] < n; ++corner[2]) {
+        if (turn_counterclockwise(corner)) return;
+        if (corner[2] - corner[1] > 8 && on_one_line(corner[0], corner[1])) break;
+      }
+    throw std::domain_error("all nodes lie on one great circle");
+  }
+
+  /// True if a and b point in the same or in opposite directions, as far as a sample of nodes tells.
+  bool on_one_line(std::uint32_t a, std::uint32_t b) const {
+    const Point &p = predicates_.position(a), &q = predicates_.position(b);
+    return p.x * q.y == p.y * q.x && p.y * q.z == p.z * q.y && p.z * q.x == p.x * q.z;
+  }
+
+  void insert_unless_started(std::uint32_t v) {
+    if (v != started_[0] && v != started_[1] && v != started_[2] && v != started_[3]) insert(v);
+  }
+
+  // -- 3: one node
+
+  bool sees(const Point& p, std::uint32_t v, std::uint32_t t) const {
+    const double s = above_plane(planes_[t], p);
+    if (s > 1) return true;
+    if (s < -1) return false;
+    const Face& f = faces_[t];
+    return predicates_.above(f.vertex[0], f.vertex[1], f.vertex[2], v);
+  }
+
+  void insert(std::uint32_t v) {
+    const Point& p = predicates_.position(v);
+    std::uint32_t seen = walk(p);
+    if (seen == kNone) seen = walk_exactly(p, v);
+    if (seen == kNone) return;  // coincides with a node that is in
+    replace_seen_by_fan(v, seen);
+  }
+
+  /// Walks from the last face towards p by floating-point tests, until a face is certainly seen; kNone
+  /// where that is not so simple. Only front faces, where the tests mean something, are walked on; `last_`
+  /// is the one reached.
+  ///
+  ///         c           The walk came in across the edge w-u. It leaves across u-c if p is right of u->c,
+  ///        / \          or across c-w if p is right of c->w. With X = (c-p) x p these are the signs of
+  ///       /   \    p    (u-p).X and -(w-p).X. Which way is a coin's toss that no processor predicts: so
+  ///      u --- w        it is computed, not branched on.
+  std::uint32_t walk(const Point& p) {
+    constexpr int kSteps = 1000;  // rounding can send the walk in circles
+    std::uint32_t t = last_;
+    if (above_plane(planes_[t], p) > 1) return t;
+    const Face& first = faces_[t];
+    Point corner[3];  // relative to p
+    for (int k = 0; k < 3; ++k) corner[k] = minus(predicates_.position(first.vertex[k]), p);
+    // The first way out: any edge with p on its right.
+    std::uint32_t out = 0;
+    while (out < 3 && !(dot(corner[next_edge(out)], cross(corner[previous_edge(out)], p)) < 0)) ++out;
+    if (out == 3) return kNone;
+    Point* u = &corner[next_edge(out)];
+    Point* w = &corner[previous_edge(out)];
+    Point* c = &corner[out];
+    std::uint32_t code = first.neighbour[out];
+    for (int step = 0; step < kSteps; ++step) {
+      t = face_of(code);
+      const Plane& plane = planes_[t];
+      if (above_plane(plane, p) > 1) return t;
+      if (!(plane.w > 1)) return kNone;
+      last_ = t;
+      const Face& f = faces_[t];
+      const std::uint32_t in = edge_of(code);
+      *c = minus(predicates_.position(f.vertex[in]), p);
+      const Point x = cross(*c, p);
+      if (dot(*u, x) < 0) {
+        code = f.neighbour[next_edge(in)];
+        std::swap(w, c);
+      } else if (dot(*w, x) > 0) {
+        code = f.neighbour[previous_edge(in)];
+        std::swap(u, c);
+      } else {
+        return kNone;
+      }
+    }
+    return kNone;
+  }
+
+  /// The same walk by exact signs. It ends: seen from the centre, the front faces are a regular
+  /// triangulation of the directions, and in those a walk towards a point never returns to a triangle
+  /// (Edelsbrunner 1990, acyclicity).
+  ///   - A face that p sees: done.
+  ///   - The silhouette: p is strictly right of an edge u->v between a front face F and a face B that is
+  ///     not one. The plane through the centre, u and v is above F on its far side and above B on its
+  ///     near side, so what neither F nor B has below it lies left of that plane: p sees F or B.
+  ///   - A front face below which p lies, its direction inside: p is one of its corners, or hidden.
+  std::uint32_t walk_exactly(const Point& p, std::uint32_t v) {
+    std::uint32_t t = last_;
+    for (;;) {
+      if (sees(p, v, t)) return t;
+      const Face& f = faces_[t];
+      std::uint32_t out = 0;
+      while (out < 3 && predicates_.left(f.vertex[next_edge(out)], f.vertex[previous_edge(out)], v) >= 0)
+        ++out;
+      if (out == 3) {
+        for (const std::uint32_t corner : {f.vertex[0], f.vertex[1], f.vertex[2]})
+          if (predicates_.coincide(corner, v)) {
+            coincident_.emplace_back(corner, v);
+            return kNone;
+          }
+        throw HiddenNode{};
+      }
+      t = face_of(f.neighbour[out]);
+      if (!front(t)) return t;
+      last_ = t;
+    }
+  }
+
+  /// Replaces all faces that node v at p sees, `seen` among them, by a fan of faces around v.
+  ///
+  /// Depth first over the faces seen. The region they make is a disc, and its dual graph is a tree unless a
+  /// node lies inside it; so the search meets the border of the disc counterclockwise, and each edge u-w of
+  /// the border becomes a face (u,w,v) at once:
+  ///
+  ///              outside
+  ///        u ------------- w          neighbour[2]: outside, across u-w
+  ///          \    t      / \  next     neighbour[0]: the next face, across w-v
+  ///  previous  \      /              neighbour[1]: the previous face, across v-u
+  ///              \  /
+  ///               v
+  ///
+  /// A tree of m faces has m + 2 edges around it: new faces take two new places, then those of the faces
+  /// already visited. A node inside the disc would be lost to the triangulation. The search then goes round
+  /// it: until it comes upon a face of the fan, or has met more faces than there are.
+  void replace_seen_by_fan(std::uint32_t v, std::uint32_t seen) {
+    const Point p = predicates_.position(v);
+    std::size_t visited = 2, used = 0, top = 3, limit = visit_limit();
+    place_[0] = static_cast<std::uint32_t>(count_);
+    place_[1] = static_cast<std::uint32_t>(count_ + 1);
+    place_[visited++] = seen;
+    for (int k = 0; k < 3; ++k) stack_[k] = faces_[seen].neighbour[2 - k];
+    const std::uint32_t first = place_[0];
+    std::uint32_t previous = first;
+    std::uint32_t u = faces_[seen].vertex[1];  // where edge 0 of `seen` starts
+    Spoke to_u = make_spoke(predicates_, u, v);
+    while (top > 0) {
+      const std::uint32_t code = stack_[--top], after = next_code(code);
+      if (sees(p, v, face_of(code))) {
+        stack_[top++] = neighbour(previous_code(code));
+        stack_[top++] = neighbour(after);
+        place_[visited++] = face_of(code);
+        if (visited >= limit) {
+          if (visited >= count_ + 2) throw HiddenNode{};
+          grow(place_), grow(stack_);
+          limit = visit_limit();
+        }
+      } else {
+        if (vertex(code | 3) == v) throw HiddenNode{};
+        const std::uint32_t t = place_[used++], w = vertex(after);
+        neighbour(code) = 4 * t + 2;
+        neighbour(4 * previous) = 4 * t + 1;
+        faces_[t] = {{u, w, v, v}, {0, 4 * previous, code, 0}};
+        const Spoke to_w = make_spoke(predicates_, w, v);
+        planes_[t] = make_plane(p, to_u, to_w);
+        previous = t;
+        u = w;
+        to_u = to_w;
+      }
+    }
+    neighbour(4 * previous) = 4 * first + 1;
+    neighbour(4 * first + 1) = 4 * previous;
+    count_ += 2;
+    const auto end = place_.begin() + used;
+    const auto shown = std::find_if(place_.begin(), end, [&](std::uint32_t t) { return front(t); });
+    if (shown == end) throw HiddenNode{};
+    last_ = *shown;
+  }
+
+  /// The most visits that the arrays have room for, and that a hull of count_ faces allows.
+  std::size_t visit_limit() const { return std::min(count_ + 2, place_.size() - 4); }
+
+  // A code addresses the word of its edge, and of the vertex opposite, in the array of faces.
+  static std::size_t word(std::uint32_t code) { return std::size_t{code} + (code & ~std::uint32_t{3}); }
+  std::uint32_t& vertex(std::uint32_t code) { return words_[word(code)]; }
+  std::uint32_t& neighbour(std::uint32_t code) { return words_[word(code) + 4]; }
+
+  static void grow(Buffer<std::uint32_t>& buffer) {
+    Buffer<std::uint32_t> larger(2 * buffer.size());
+    std::copy(buffer.begin(), buffer.end(), larger.begin());
+    buffer.swap(larger);
+  }
+
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+  const Predicates& predicates_;
+  const std::size_t n_;
+  Face* const faces_;
+  std::uint32_t* const words_;  ///< the same, as words
+  Plane* const planes_;
+  std::size_t count_ = 0;
+  std::uint32_t last_ = 0;  ///< a front face near the last node: where the next search starts
+  std::uint32_t started_[4];
+  bool surrounds_centre_ = false;
+  static constexpr std::size_t kRoom = 128;
+  Buffer<std::uint32_t> stack_{kRoom}, place_{kRoom};
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> coincident_;
+};
+
+template <class Predicates>
+Hull build(const Point* sorted, std::size_t n, const std::uint32_t* order, Lengths lengths, Face* faces,
+           Plane* planes) {
+  const Predicates predicates(sorted, n);
+  Builder<Predicates> builder(predicates, faces, planes);
+  builder.build();
+
+  // -- 4: what is part of the triangulation
+  Hull hull;
+  hull.lengths = lengths;
+  hull.node_count = n;
+  hull.order = order;
+  hull.faces = faces;
+  hull.face_count = builder.face_count();
+  hull.surrounds_centre = builder.surrounds_centre();
+  if (!hull.surrounds_centre) {
+    std::vector<bool> shown(n, false);
+    hull.back.assign(hull.face_count, false);
+    hull.surrounds_centre = true;
+    for (std::uint32_t t = 0; t < hull.face_count; ++t)
+      if (builder.front(t))
+        for (int i = 0; i < 3; ++i) shown[faces[t].vertex[i]] = true;
+      else
+        hull.back[t] = true, hull.surrounds_centre = false;
+    for (const auto& pair : builder.coincident()) shown[pair.second] = true;
+    if (std::find(shown.begin(), shown.end(), false) != shown.end()) throw HiddenNode{};
+  }
+  for (const auto& [in, out] : builder.coincident())
+    hull.coincident.emplace_back(static_cast<index_t>(order[in]), static_cast<index_t>(order[out]));
+  return hull;
+}
+
+}  // namespace
+
+Hull delaunay(const Point* p, std::size_t n, Workspace& workspace) {
+  const std::uint32_t* const order = insertion_order(p, n, workspace);
+  Point* const sorted = workspace.keep<Point>(n);
+  std::atomic<bool> unit{true};
+  parallel_pieces(n, threads_for(n), [&](std::size_t first, std::size_t last, int) {
+    constexpr std::size_t kAhead = 16;
+    bool all = true;
+    for (std::size_t v = first; v < last; ++v) {
+      if (v + kAhead < last) __builtin_prefetch(p + order[v + kAhead]);
+      sorted[v] = p[order[v]];
+      all = all & length_is_one(sorted[v]);
+    }
+    if (!all) unit = false;
+  });
+  workspace.next_phase();
+  Face* const faces = workspace.keep<Face>(2 * n);
+  Plane* const planes = workspace.take<Plane>(2 * n);
+  if (unit) {
+    try {
+      return build<Coordinates>(sorted, n, order, Lengths::as_given, faces, planes);
+    } catch (const HiddenNode&) {
+      // The lengths as given hide a node: only directions show all.
+    }
+  }
+  return build<Directions>(sorted, n, order, Lengths::directions, faces, planes);
+}
+
+}  // namespace pstripack

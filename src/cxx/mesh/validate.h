@@ -1,0 +1,45 @@
+#pragma once
+// The validator: shares the exact predicates with the algorithm, and nothing else.
+
+#include <cstddef>
+#include <string>
+
+#include "mesh/triangulation.h"
+
+namespace pstripack {
+
+enum class Defect {
+  none,
+  malformed,         ///< index out of range, a corner twice in a triangle, broken lists
+  not_manifold,      ///< an arc with more than two triangles or twice in one direction, a broken star
+  missing_node,      ///< a node in no triangle
+  coincident_nodes,  ///< two corners of one triangle in one place
+  orientation,       ///< a triangle that is not strictly counterclockwise
+  not_delaunay,      ///< an arc whose opposite node lies in the cap (ties by the rule)
+  not_covered_once,  ///< the star of a node winds not exactly once, wrong Euler number, not connected
+  not_convex         ///< a boundary node where the covered region is not convex
+};
+
+/// What is_valid found. `node` holds up to four node indices (from 0, else -1) that show the defect.
+struct Verdict {
+  Defect defect = Defect::none;
+  std::array<index_t, 4> node{-1, -1, -1, -1};
+  std::string message;                  ///< one line for people, node numbers from 1; empty if valid
+  Lengths lengths = Lengths::as_given;  ///< the predicates that were used
+  explicit operator bool() const { return defect == Defect::none; }
+};
+
+/// True if `triangles` is the Delaunay triangulation of the nodes p[0..n-1]:
+///  - every node is a corner, every arc has one or two triangles, every star is one cycle or one fan;
+///  - every triangle is strictly counterclockwise (exact sign);
+///  - every interior arc is locally Delaunay (exact sign, ties by the symbolic rule);
+///  - the sphere, or the convex hull of the nodes in a hemisphere, is covered exactly once: every
+///    star winds once, the boundary is locally convex (exact signs), the surface is connected and its
+///    Euler number is that of a sphere or a disc. That these local tests suffice: docs/design.md.
+/// Any number of triangles and any indices may be passed: nothing is assumed. O(n log n).
+Verdict is_valid(const Point* p, std::size_t n, const Triangle* triangles, std::size_t count,
+                 Lengths lengths = Lengths::automatic);
+
+const char* name(Defect defect);
+
+}  // namespace pstripack

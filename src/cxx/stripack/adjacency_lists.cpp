@@ -1,0 +1,323 @@
+#include "stripack/adjacency_lists.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "geometry/parallel_for.h"
+
+namespace pstripack {
+namespace {
+
+/// Where the ring of a node stands in the buffer of its thread.
+struct Ring {
+  std::uint32_t begin, count;
+};
+
+/// Up to so many neighbours a ring is copied as one block, without a loop whose length no processor can
+/// guess. What is copied too much is overwritten by the next ring. Six neighbours are the mean.
+constexpr std::size_t kBlock = 8;
+
+template <class Int>
+void copy_block(const Int* from, Int* to) {
+  std::memcpy(to, from, kBlock * sizeof(Int));
+}
+
+/// LPTR from `slot` (counted from 0) on: every slot points to the next.
+template <class Int>
+inline void number_on(Int* lptr, std::size_t count, std::size_t slot) {
+  for (std::size_t j = 0; j < count; ++j) lptr[j] = static_cast<Int>(slot + j) + 2;
+}
+
+/// Clockwise round the corner 4*t + i of a front face to the first face after the gap, if there is one.
+std::uint32_t first_corner(const Hull& hull, std::uint32_t corner) {
+  const std::uint32_t start = face_of(corner);
+  do {
+    const std::uint32_t beyond = hull.faces[face_of(corner)].neighbour[previous_edge(edge_of(corner))];
+    if (!hull.front(face_of(beyond))) return corner;
+    corner = 4 * face_of(beyond) + previous_edge(edge_of(beyond));
+  } while (face_of(corner) != start);
+  return corner;
+}
+
+/// Appends the ring of one hull node as it will stand in LIST; returns the new end. `corner` is 4*t + i: the
+/// node is vertex[i] of the front face t. Writes up to 2*kBlock entries beyond the end.
+///
+///            f.vertex[previous]           The face t = (v, next, previous). Its neighbour across the edge
+///             /      |                    v - previous, which lies opposite `next`, follows
+///      beyond       |  t                  counterclockwise.
+///             \      |
+///              v ------ f.vertex[next]
+template <class Int>
+Int* append_ring(const Hull& hull, std::uint32_t corner, Int* const begin) {
+  if (!hull.surrounds_centre) corner = first_corner(hull, corner);
+  Int* out = begin;
+  Int smallest = std::numeric_limits<Int>::max();
+  std::size_t smallest_at = 0;
+  const std::uint32_t first = face_of(corner);
+  do {
+    const Face& f = hull.faces[face_of(corner)];
+    const std::uint32_t next = next_edge(edge_of(corner));
+    const Int neighbour = static_cast<Int>(hull.order[f.vertex[next]]) + 1;
+    const bool smaller = neighbour < smallest;
+    smallest = smaller ? neighbour : smallest;
+    smallest_at = smaller ? static_cast<std::size_t>(out - begin) : smallest_at;
+    *out++ = neighbour;
+    const std::uint32_t beyond = f.neighbour[next];
+    if (!hull.front(face_of(beyond))) {  // the boundary: its last node closes the list
+      *out++ = -(static_cast<Int>(hull.order[f.vertex[previous_edge(edge_of(corner))]]) + 1);
+      return out;
+    }
+    corner = 4 * face_of(beyond) + next_edge(edge_of(beyond));
+  } while (face_of(corner) != first);
+  const auto count = static_cast<std::size_t>(out - begin);
+  if (count > kBlock) {
+    std::rotate(begin, begin + smallest_at, out);
+    return out;
+  }
+  // Twice in a row, then the part that starts with the smallest.
+  Int twice[2 * kBlock];
+  copy_block(begin, twice);
+  copy_block(begin, twice + count);
+  copy_block(twice + smallest_at, begin);
+  return out;
+}
+
+}  // namespace
+
+template <class Int>
+Int write_lists(const Hull& hull, Int* list, Int* lptr, Int* lend, Workspace& workspace) {
+  const std::size_t n = hull.node_count;
+  const int threads = threads_for(n);
+  const std::size_t pieces = static_cast<std::size_t>(threads);
+  workspace.next_phase();
+  auto* const corner = workspace.take<std::uint32_t>(n);
+  auto* const ring_of = workspace.take<Ring>(n);
+  auto* const rings = workspace.take<Int>(6 * n + pieces * 2 * kBlock);
+  std::vector<std::size_t> sums(pieces * pieces), begin_of(pieces + 1);
+
+  // One front face for each node, and the number of neighbours of the nodes of each piece, which is where
+  // its rings begin. Two threads may store different faces of one node: either will do.
+  const std::size_t piece_size = n / pieces + 1;
+  parallel_pieces(hull.face_count, threads, [&](std::size_t first, std::size_t last, int thread) {
+    std::size_t* const sum = sums.data() + pieces * static_cast<std::size_t>(thread);
+    for (std::size_t t = first; t < last; ++t) {
+      if (!hull.front(t)) continue;
+      const Face& f = hull.faces[t];
+      for (std::uint32_t i = 0; i < 3; ++i) {
+        const std::uint32_t v = f.vertex[i];
+        __atomic_store_n(&corner[v], static_cast<std::uint32_t>(4 * t + i), __ATOMIC_RELAXED);
+        if (threads == 1) continue;
+        ++sum[v / piece_size];
+        if (!hull.front(face_of(f.neighbour[previous_edge(i)]))) ++sum[v / piece_size];
+      }
+    }
+  });
+  for (std::size_t p = 0; p < pieces; ++p) {
+    begin_of[p + 1] = begin_of[p] + 2 * kBlock;
+    for (std::size_t t = 0; t < pieces; ++t) begin_of[p + 1] += sums[pieces * t + p];
+  }
+
+  // In the order of the hull, where the faces of a star are close together in memory: all rings.
+  constexpr std::size_t kAhead = 16;
+  parallel_pieces(pieces, threads, [&](std::size_t piece, std::size_t, int) {
+    Int* out = rings + begin_of[piece];
+    const std::size_t last = std::min(n, piece_size * (piece + 1));
+    for (std::size_t v = piece_size * piece; v < last; ++v) {
+      if (v + 2 * kAhead < last) {
+        __builtin_prefetch(&ring_of[hull.order[v + 2 * kAhead]], 1);
+        __builtin_prefetch(&hull.faces[face_of(corner[v + 2 * kAhead])]);
+        const Face& soon = hull.faces[face_of(corner[v + kAhead])];
+        for (int i = 0; i < 3; ++i) __builtin_prefetch(&hull.faces[face_of(soon.neighbour[i])]);
+      }
+      Int* const begin = out;
+      out = append_ring(hull, corner[v], begin);
+      ring_of[hull.order[v]] = {static_cast<std::uint32_t>(begin - rings),
+                                static_cast<std::uint32_t>(out - begin)};
+    }
+  });
+
+  // In the order of the caller's nodes, where the lists are written from front to back: copy them.
+  std::fill(begin_of.begin(), begin_of.end(), 0);
+  parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int piece) {
+    std::size_t sum = 0;
+    for (std::size_t k = first; k < last; ++k) sum += ring_of[k].count;
+    begin_of[static_cast<std::size_t>(piece) + 1] = sum;
+  });
+  for (std::size_t p = 0; p < pieces; ++p) begin_of[p + 1] += begin_of[p];
+  parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int piece) {
+    std::size_t slot = begin_of[static_cast<std::size_t>(piece)];
+    const std::size_t end = begin_of[static_cast<std::size_t>(piece) + 1];
+    for (std::size_t k = first; k < last; ++k) {
+      if (k + kAhead < last) __builtin_prefetch(rings + ring_of[k + kAhead].begin);
+      const Ring ring = ring_of[k];
+      const Int* const from = rings + ring.begin;
+      if (ring.count <= kBlock && slot + kBlock <= end) {
+        copy_block(from, list + slot);
+        number_on(lptr + slot, kBlock, slot);
+      } else {
+        std::copy(from, from + ring.count, list + slot);
+        number_on(lptr + slot, ring.count, slot);
+      }
+      lptr[slot + ring.count - 1] = static_cast<Int>(slot) + 1;
+      slot += ring.count;
+      lend[k] = static_cast<Int>(slot);
+    }
+  });
+  return static_cast<Int>(begin_of[pieces]) + 1;
+}
+
+namespace {
+
+Verdict malformed(const std::string& what, std::size_t node) {
+  Verdict v;
+  v.defect = Defect::malformed;
+  v.node[0] = static_cast<index_t>(node);
+  v.message = "node " + std::to_string(node + 1) + ": " + what;
+  return v;
+}
+
+template <class Int>
+std::size_t absolute(Int v) {
+  return static_cast<std::size_t>(v < 0 ? -v : v);
+}
+
+/// Calls visit(b, c) for each neighbour b of node k (from 0), in order, and the one after it, c; both
+/// indices from 0. The last neighbour of a boundary node is followed by none.
+template <class Int, class Visit>
+void for_each_triangle_at(const ListsView<Int>& lists, std::size_t k, const Visit& visit) {
+  const Int last = lists.lend[k];
+  Int slot = last;
+  do {
+    const Int next = lists.lptr[slot - 1];
+    if (lists.list[slot - 1] > 0)
+      visit(absolute(lists.list[slot - 1]) - 1, absolute(lists.list[next - 1]) - 1);
+    slot = next;
+  } while (slot != last);
+}
+
+}  // namespace
+
+template <class Int>
+Verdict check_lists(const ListsView<Int>& lists) {
+  const std::size_t n = lists.n;
+  if (n < 3) return malformed("fewer than three nodes", 0);
+  const std::size_t most = 6 * n - 12;
+  if (lists.lnew != 0 && (lists.lnew < 1 || static_cast<std::size_t>(lists.lnew) > most + 1))
+    return malformed("LNEW is out of range", 0);
+  const std::size_t slots = lists.lnew != 0 ? static_cast<std::size_t>(lists.lnew) - 1 : most;
+  const auto in_range = [](Int v, std::size_t last) { return v >= 1 && static_cast<std::size_t>(v) <= last; };
+
+  // Every slot once, every neighbour in range. pair_of: for each node its neighbours b with the one after b.
+  struct Pair {
+    std::size_t b, c;
+  };
+  std::vector<bool> visited(slots + 1, false);
+  std::vector<std::size_t> begin(n + 1, 0);
+  std::vector<Pair> pairs;
+  pairs.reserve(slots);
+  for (std::size_t k = 0; k < n; ++k) {
+    const Int last = lists.lend[k];
+    if (!in_range(last, slots)) return malformed("LEND is out of range", k);
+    Int slot = last;
+    do {
+      const Int next = lists.lptr[slot - 1];
+      if (!in_range(next, slots)) return malformed("LPTR is out of range", k);
+      if (visited[static_cast<std::size_t>(next)])
+        return malformed("a slot is in two lists, or a list is not closed", k);
+      visited[static_cast<std::size_t>(next)] = true;
+      const Int b = lists.list[slot - 1], c = lists.list[next - 1];
+      if (c < 0 && next != last) return malformed("a negative neighbour that is not the last", k);
+      if (c < -std::numeric_limits<Int>::max() || !in_range(c < 0 ? -c : c, n) || absolute(c) == k + 1)
+        return malformed("a neighbour is out of range", k);
+      // b is checked when it is reached as a successor: the last one, where this starts, in the end.
+      pairs.push_back({b > 0 ? static_cast<std::size_t>(b) - 1 : n, absolute(c) - 1});
+      slot = next;
+    } while (slot != last);
+    begin[k + 1] = pairs.size();
+    if (begin[k + 1] - begin[k] < 2) return malformed("fewer than two neighbours", k);
+  }
+  // Slots 1..LNEW-1 and no others; where LNEW is not known, without holes.
+  const std::size_t used = pairs.size();
+  if (lists.lnew != 0 && used != slots)
+    return malformed("LNEW does not match the number of neighbours", n - 1);
+  for (std::size_t s = 1; s <= used; ++s)
+    if (!visited[s]) return malformed("slots in use are not 1..LNEW-1", n - 1);
+
+  for (std::size_t k = 0; k < n; ++k)
+    std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(begin[k]),
+              pairs.begin() + static_cast<std::ptrdiff_t>(begin[k + 1]),
+              [](const Pair& s, const Pair& t) { return s.b < t.b; });
+  for (std::size_t k = 0; k < n; ++k)
+    for (std::size_t i = begin[k]; i < begin[k + 1]; ++i) {
+      const auto [b, c] = pairs[i];
+      if (i > begin[k] && pairs[i - 1].b == b && b != n) return malformed("a neighbour twice", k);
+      if (b == n) continue;  // after the last neighbour of a boundary node: the gap
+      // c follows b in k's list, so k must follow c in b's list.
+      const auto last = pairs.begin() + static_cast<std::ptrdiff_t>(begin[b + 1]);
+      const auto p = std::lower_bound(pairs.begin() + static_cast<std::ptrdiff_t>(begin[b]), last, c,
+                                      [](const Pair& s, std::size_t value) { return s.b < value; });
+      if (p == last || p->b != c || p->c != k)
+        return malformed("neighbours " + std::to_string(b + 1) + ", " + std::to_string(c + 1) +
+                             " make no triangle in the list of the first",
+                         k);
+    }
+  // The last neighbour of a boundary node follows it on the boundary the other way round.
+  for (std::size_t k = 0; k < n; ++k)
+    if (lists.list[lists.lend[k] - 1] < 0) {
+      const std::size_t previous = absolute(lists.list[lists.lend[k] - 1]) - 1;
+      const Int last = lists.lend[previous];
+      if (lists.list[last - 1] > 0 || absolute(lists.list[lists.lptr[last - 1] - 1]) != k + 1)
+        return malformed("the boundary is broken", k);
+    }
+  return {};
+}
+
+template <class Int>
+bool lists_are_canonical(const ListsView<Int>& lists) {
+  Int slot = 1;
+  for (std::size_t k = 0; k < lists.n; ++k) {
+    const Int first = slot, last = lists.lend[k];
+    if (last < first) return false;
+    for (; slot < last; ++slot)
+      if (lists.lptr[slot - 1] != slot + 1) return false;
+    if (lists.lptr[last - 1] != first) return false;
+    if (lists.list[last - 1] > 0 &&
+        *std::min_element(lists.list + first - 1, lists.list + last) != lists.list[first - 1])
+      return false;
+    ++slot;
+  }
+  return lists.lnew == 0 || lists.lnew == slot;
+}
+
+template <class Int>
+Triangles triangles_of(const ListsView<Int>& lists) {
+  Triangles triangles;
+  triangles.reserve(2 * lists.n);
+  for (std::size_t k = 0; k < lists.n; ++k)
+    for_each_triangle_at(lists, k, [&](std::size_t b, std::size_t c) {
+      if (k < b && k < c)
+        triangles.push_back({static_cast<index_t>(k), static_cast<index_t>(b), static_cast<index_t>(c)});
+    });
+  return triangles;
+}
+
+template <class Int>
+Verdict is_valid(const Point* p, const ListsView<Int>& lists, Lengths lengths) {
+  if (Verdict v = check_lists(lists); !v) return v;
+  const Triangles triangles = triangles_of(lists);
+  return is_valid(p, lists.n, triangles.data(), triangles.size(), lengths);
+}
+
+#define PSTRIPACK_INSTANTIATE(Int)                                     \
+  template Int write_lists(const Hull&, Int*, Int*, Int*, Workspace&); \
+  template Verdict check_lists(const ListsView<Int>&);                 \
+  template bool lists_are_canonical(const ListsView<Int>&);            \
+  template Triangles triangles_of(const ListsView<Int>&);              \
+  template Verdict is_valid(const Point*, const ListsView<Int>&, Lengths);
+PSTRIPACK_INSTANTIATE(std::int32_t)
+#undef PSTRIPACK_INSTANTIATE
+
+}  // namespace pstripack

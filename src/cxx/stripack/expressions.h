@@ -1,0 +1,59 @@
+#pragma once
+// The expressions that decide STRIPACK's results. Their order of evaluation, one rounding an operation
+// in the working kind, is part of the behaviour: compile with -ffp-contract=off and change nothing.
+
+#include <cmath>
+#include <cstddef>
+
+namespace pstripack {
+
+template <class Real>
+struct Vector {
+  Real x, y, z;
+};
+
+/// Coordinates in the caller's three arrays; nodes count from 1.
+template <class Real>
+struct Nodes {
+  const Real* x;
+  const Real* y;
+  const Real* z;
+
+  template <class Int>
+  Vector<Real> operator[](Int node) const {
+    const auto i = static_cast<std::size_t>(node - 1);
+    return {x[i], y[i], z[i]};
+  }
+};
+
+template <class Real>
+Real dot(const Vector<Real>& a, const Vector<Real>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+/// <c, a x b> as rounded: > 0 where c is left of the great circle directed from a to b.
+/// side(b,a,c) == -side(a,b,c) exactly; side(b,c,a) differs from side(a,b,c) by rounding.
+template <class Real>
+Real side(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c) {
+  return c.x * (a.y * b.z - b.y * a.z) - c.y * (a.x * b.z - b.x * a.z) + c.z * (a.x * b.y - b.x * a.y);
+}
+
+/// The determinant behind SWPTST as rounded: > 0 where d is above the plane of the counterclockwise
+/// triangle a, b, c.
+template <class Real>
+Real height(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c, const Vector<Real>& d) {
+  const Vector<Real> p{a.x - d.x, a.y - d.y, a.z - d.z};
+  const Vector<Real> q{b.x - d.x, b.y - d.y, b.z - d.z};
+  const Vector<Real> r{c.x - d.x, c.y - d.y, c.z - d.z};
+  return r.x * (q.y * p.z - p.y * q.z) - r.y * (q.x * p.z - p.x * q.z) + r.z * (q.x * p.y - p.x * q.y);
+}
+
+/// arccos with its argument clamped to [-1,1]; a NaN stays one.
+template <class Real>
+Real clamped_acos(Real cosine) {
+  if (cosine < Real(-1)) cosine = Real(-1);
+  if (cosine > Real(1)) cosine = Real(1);
+  return std::acos(cosine);
+}
+
+}  // namespace pstripack

@@ -1,0 +1,59 @@
+#pragma once
+// LSTPTR, NBCNT and the other questions that one asks LIST, LPTR, LEND. Slots and nodes count from 1.
+
+#include <cstddef>
+
+#include "stripack/adjacency_lists.h"
+
+namespace pstripack {
+
+/// LSTPTR: the slot of neighbour `wanted` in the list whose last slot is `last`; `last` itself if the
+/// wanted one is the last neighbour, or none.
+template <class Int>
+Int lstptr(Int last, Int wanted, const Int* list, const Int* lptr) {
+  Int slot = lptr[last - 1];
+  while (slot != last && list[slot - 1] != wanted) slot = lptr[slot - 1];
+  return slot;
+}
+
+/// NBCNT: the number of neighbours in the list that `last` belongs to.
+template <class Int>
+Int nbcnt(Int last, const Int* lptr) {
+  Int count = 1;
+  for (Int slot = lptr[last - 1]; slot != last; slot = lptr[slot - 1]) ++count;
+  return count;
+}
+
+/// The lists of a triangulation by their own numbers.
+template <class Int>
+class ListReader {
+ public:
+  explicit ListReader(const ListsView<Int>& lists) : lists_(lists) {}
+
+  const ListsView<Int>& view() const { return lists_; }
+  Int size() const { return static_cast<Int>(lists_.n); }
+  /// The neighbour in a slot; negative if it is the last one of a boundary node.
+  Int entry(Int slot) const { return lists_.list[slot - 1]; }
+  Int neighbour(Int slot) const { return entry(slot) < 0 ? -entry(slot) : entry(slot); }
+  Int next(Int slot) const { return lists_.lptr[slot - 1]; }
+  Int last_slot(Int node) const { return lists_.lend[node - 1]; }
+  Int first_slot(Int node) const { return next(last_slot(node)); }
+  Int first_neighbour(Int node) const { return neighbour(first_slot(node)); }
+  Int last_neighbour(Int node) const { return neighbour(last_slot(node)); }
+  bool on_boundary(Int node) const { return entry(last_slot(node)) < 0; }
+  Int slot_of(Int node, Int wanted) const {
+    return lstptr(last_slot(node), wanted, lists_.list, lists_.lptr);
+  }
+
+  /// The boundary node of smallest number, 0 if the triangles cover the sphere.
+  Int first_boundary_node() const {
+    for (Int node = 1; node <= size(); ++node)
+      if (on_boundary(node)) return node;
+    return 0;
+  }
+
+ private:
+  ListsView<Int> lists_;
+};
+
+}  // namespace pstripack

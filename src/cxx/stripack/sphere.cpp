@@ -1,0 +1,64 @@
+#include "stripack/sphere.h"
+
+#include <cmath>
+#include <initializer_list>
+
+namespace pstripack {
+namespace {
+
+Vector<double> cross(const Vector<double>& a, const Vector<double>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+template <class Real>
+Vector<double> widen(const Vector<Real>& a) {
+  return {static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(a.z)};
+}
+
+}  // namespace
+
+template <class Real>
+void trans(std::ptrdiff_t n, const Real* rlat, const Real* rlon, Real* x, Real* y, Real* z) {
+  for (std::ptrdiff_t i = 0; i < n; ++i) {
+    const Real latitude = rlat[i], longitude = rlon[i];  // both read before x, y may overwrite them
+    const Real cosine = std::cos(latitude);
+    x[i] = cosine * std::cos(longitude);
+    y[i] = cosine * std::sin(longitude);
+    z[i] = std::sin(latitude);
+  }
+}
+
+template <class Real>
+SphericalCoordinates<Real> scoord(const Vector<Real>& p) {
+  SphericalCoordinates<Real> result{};
+  result.norm = std::sqrt(dot(p, p));
+  if (p.x != 0 || p.y != 0) result.longitude = std::atan2(p.y, p.x);
+  if (result.norm != 0) result.latitude = std::asin(p.z / result.norm);
+  return result;
+}
+
+template <class Real>
+Real areas(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c) {
+  // Normals of the three sides; the angle at a corner lies between the normals of the sides there.
+  Vector<double> ab = cross(widen(a), widen(b));
+  Vector<double> bc = cross(widen(b), widen(c));
+  Vector<double> ca = cross(widen(c), widen(a));
+  for (Vector<double>* normal : {&ab, &bc, &ca}) {
+    const double square = dot(*normal, *normal);
+    if (square == 0) return 0;
+    const double length = std::sqrt(square);
+    *normal = {normal->x / length, normal->y / length, normal->z / length};
+  }
+  const double angles = clamped_acos(-dot(ab, ca)) + clamped_acos(-dot(bc, ab)) + clamped_acos(-dot(ca, bc));
+  const double area = angles - std::acos(-1.0);
+  return area < 0 ? Real(0) : static_cast<Real>(area);
+}
+
+template void trans(std::ptrdiff_t, const float*, const float*, float*, float*, float*);
+template void trans(std::ptrdiff_t, const double*, const double*, double*, double*, double*);
+template SphericalCoordinates<float> scoord(const Vector<float>&);
+template SphericalCoordinates<double> scoord(const Vector<double>&);
+template float areas(const Vector<float>&, const Vector<float>&, const Vector<float>&);
+template double areas(const Vector<double>&, const Vector<double>&, const Vector<double>&);
+
+}  // namespace pstripack

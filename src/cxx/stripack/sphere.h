@@ -1,0 +1,36 @@
+#pragma once
+// TRANS, SCOORD, LEFT, AREAS: conversions and measures on the unit sphere, for Real = float, double.
+
+#include <cstddef>
+
+#include "stripack/expressions.h"
+
+namespace pstripack {
+
+/// TRANS: Cartesian coordinates of n points given by latitude and longitude in radians.
+/// x and y may be the arrays rlat and rlon, in either order.
+template <class Real>
+void trans(std::ptrdiff_t n, const Real* rlat, const Real* rlon, Real* x, Real* y, Real* z);
+
+template <class Real>
+struct SphericalCoordinates {
+  Real latitude, longitude, norm;  ///< radians, radians (-pi..pi), length of the vector
+};
+
+/// SCOORD. The zero vector has latitude and longitude 0.
+template <class Real>
+SphericalCoordinates<Real> scoord(const Vector<Real>& p);
+
+/// LEFT: p lies in the closed half-sphere left of the great circle from a to b, as rounded; false for
+/// NaN. The exact sign is `left` of geometry/predicates.h.
+template <class Real>
+bool closed_left(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& p) {
+  return side(a, b, p) >= Real(0);
+}
+
+/// AREAS: area of the spherical triangle whose corners lie in the directions of a, b, c, in
+/// steradians, 0..2 pi, for either orientation. Inner arithmetic in double; 0 for null triangles.
+template <class Real>
+Real areas(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c);
+
+}  // namespace pstripack

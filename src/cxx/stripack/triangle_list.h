@@ -1,0 +1,37 @@
+#pragma once
+// TRLIST, TRLIST2, BNODES: triangles and boundary of a triangulation. For Int = int32_t.
+
+#include "stripack/adjacency_lists.h"
+
+namespace pstripack {
+
+/// IER of TRLIST, TRLIST2. The number of triangles is 0 unless it is `done`.
+enum class TriangleListStatus {
+  done = 0,
+  bad_argument = 1,  ///< n < 3, or NROW neither 6 nor 9; LTRI untouched
+  broken_lists =
+      2  ///< a neighbour does not list the node, or the lists are not closed; columns may be written
+};
+
+/// TRLIST: column t (t = 1..nt) of LTRI(rows, nt), column by column:
+///   rows 1-3  the corners, counterclockwise, smallest first;
+///   rows 4-6  the triangle opposite the corner in row 1-3, 0 = none;
+///   rows 7-9  (rows = 9) the arc opposite the corner, arcs numbered from 1.
+/// Triangles are numbered by their smallest corner, then in the order of its list; an arc is numbered
+/// when its second triangle is. `rows` = 3 is TRLIST2. O(n), with OpenMP threads for large n; the same
+/// bytes for any number of them. Throws std::bad_alloc before anything is written.
+template <class Int>
+TriangleListStatus triangle_list(const ListsView<Int>& lists, int rows, Int& nt, Int* ltri);
+
+/// The counts that BNODES reports.
+template <class Int>
+struct BoundaryCounts {
+  Int boundary_nodes, arcs, triangles;
+};
+
+/// BNODES: the boundary nodes, counterclockwise, from the one of smallest number. `nodes` is untouched
+/// if the triangles cover the sphere. Writes n nodes at most.
+template <class Int>
+BoundaryCounts<Int> boundary_nodes(const ListsView<Int>& lists, Int* nodes);
+
+}  // namespace pstripack

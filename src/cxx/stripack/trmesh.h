@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+
+namespace pstripack {
+
+/// TRMESH's answer. `node` and `other` are the nodes (from 1) a code is about, 0 where it is about none.
+struct TrmeshResult {
+  std::int32_t ier;
+  std::int64_t node = 0, other = 0;
+};
+
+/// STRIPACK's TRMESH (stripack-interface 3.6) with the promises of the interface contract, section 4:
+/// canonical lists, exact decisions, IER 0, -1, -2, L > 0, -4, -5. On a negative code nothing is written.
+/// x, y, z: n components each; list, lptr: at least 6n-12 entries; lend: n. Throws std::bad_alloc, having
+/// written nothing. Real is float or double, Int std::int32_t.
+template <class Real, class Int>
+TrmeshResult trmesh(Int n, const Real* x, const Real* y, const Real* z, Int* list, Int* lptr, Int* lend,
+                    Int* lnew);
+
+}  // namespace pstripack

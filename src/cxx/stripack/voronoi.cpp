@@ -1,0 +1,352 @@
+#include "stripack/voronoi.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <initializer_list>
+#include <vector>
+
+#include "geometry/buffer.h"
+#include "geometry/parallel_for.h"
+#include "geometry/predicates.h"
+#include "stripack/list_queries.h"
+#include "stripack/rings.h"
+
+namespace pstripack {
+
+template <class Real>
+bool circumcentre(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c, Vector<Real>& centre) {
+  const Vector<Real> e{b.x - a.x, b.y - a.y, b.z - a.z};
+  const Vector<Real> f{c.x - a.x, c.y - a.y, c.z - a.z};
+  const Vector<Real> normal{e.y * f.z - e.z * f.y, e.z * f.x - e.x * f.z, e.x * f.y - e.y * f.x};
+  const Real square = dot(normal, normal);
+  if (square == 0) return false;
+  const Real length = std::sqrt(square);
+  centre = {normal.x / length, normal.y / length, normal.z / length};
+  return true;
+}
+
+namespace {
+
+/// The columns that repeated passes over all columns 1..n would have to look at, in the order in which they
+/// would come to them: a pass skips a column that cannot have changed its mind. Its cost is that of the
+/// swaps, not of the passes, of which a smooth boundary of n nodes needs about n/4.
+template <class Int>
+class Agenda {
+ public:
+  explicit Agenda(std::size_t n) : due_(n + 1, 0) {
+    this_pass_.reserve(n);
+    next_pass_.reserve(n);
+  }
+
+  void add_all() {
+    for (Int g = static_cast<Int>(due_.size()) - 1; g >= 1; --g) add(g);
+  }
+  void add(Int column) {
+    if (due_[static_cast<std::size_t>(column)]) return;
+    due_[static_cast<std::size_t>(column)] = 1;
+    if (column > now_) {
+      this_pass_.push_back(column);
+      std::push_heap(this_pass_.begin(), this_pass_.end(), std::greater<Int>());
+    } else {
+      next_pass_.push_back(column);
+    }
+  }
+  /// The next column to look at; 0 if there is none.
+  Int take() {
+    if (this_pass_.empty()) {
+      this_pass_.swap(next_pass_);
+      std::make_heap(this_pass_.begin(), this_pass_.end(), std::greater<Int>());
+      if (this_pass_.empty()) return now_ = 0;
+    }
+    std::pop_heap(this_pass_.begin(), this_pass_.end(), std::greater<Int>());
+    now_ = this_pass_.back();
+    this_pass_.pop_back();
+    due_[static_cast<std::size_t>(now_)] = 0;
+    return now_;
+  }
+
+ private:
+  std::vector<char> due_;
+  std::vector<Int> this_pass_, next_pass_;  // a heap, smallest first; in any order
+  Int now_ = 0;
+};
+
+/// The triangles of boundary nodes that cover the far side: LTRI's columns, kept in the caller's array.
+/// Column g: corners in rows 1-3, clockwise (counterclockwise seen from the far side); in row 3+i the
+/// column opposite corner i, or 0. Rows and columns count from 1.
+template <class Real, class Int>
+class FarSide {
+ public:
+  FarSide(const ListReader<Int>& lists, const Nodes<Real>& nodes, Int ncol, Int* ltri)
+      : lists_(lists), nodes_(nodes), ncol_(ncol), ltri_(ltri) {}
+
+  Int count() const { return count_; }
+  Int row(int i, Int g) const { return cell(i, g); }
+
+  /// A fan of nb - 2 triangles at the first neighbour of boundary node `start`. Columns beyond ncol are
+  /// not written.
+  void make_fan(Int start, Int nb) {
+    count_ = nb - 2;
+    const Int apex = lists_.first_neighbour(start);
+    Int u = start;
+    for (Int g = 1; g <= std::min(count_, ncol_); ++g) {
+      const Int v = lists_.last_neighbour(u);
+      const Int column[6] = {u, v, apex, g < count_ ? g + 1 : 0, g - 1, 0};
+      std::copy(column, column + 6, &cell(1, g));
+      u = v;
+    }
+  }
+
+  /// Swaps diagonals until every arc passes the Delaunay test seen from the far side, in the order of
+  /// repeated passes over all columns.
+  ///
+  /// Rounded tests of nearly cocircular nodes may go round in circles. A swap that is right by the exact
+  /// sign puts a tetrahedron of positive volume under the surface, so every circle contains a wrong one.
+  /// After 16 wrong swaps a column (where the rounded test does settle, at most 1.4 were seen) the exact
+  /// test takes over, which always ends.
+  void make_delaunay(Agenda<Int>& agenda) {
+    std::int64_t wrong_swaps_left = 16 * std::int64_t{count_} + 100;
+    const auto rounded = [&](Int a, Int b, Int c, Int d) {
+      if (!(height(nodes_[a], nodes_[b], nodes_[c], nodes_[d]) > Real(0))) return false;
+      if (!exactly_above(a, b, c, d)) --wrong_swaps_left;
+      return true;
+    };
+    const auto exact = [this](Int a, Int b, Int c, Int d) { return exactly_above(a, b, c, d); };
+    if (swap(agenda, rounded, [&] { return wrong_swaps_left < 0; })) return;
+    swap(agenda, exact, [] { return false; });
+  }
+
+  /// The place of the first zero in rows 4-6: a side that is an arc of the boundary.
+  void find_open_side(Int& g, int& i) const {
+    for (g = 1;; ++g)
+      for (i = 1; i <= 3; ++i)
+        if (cell(3 + i, g) == 0) return;
+  }
+
+  /// The row of corner u in column g: 1, 2, else 3.
+  int row_of(Int u, Int g) const { return cell(1, g) == u ? 1 : cell(2, g) == u ? 2 : 3; }
+
+  static int after(int row) { return row % 3 + 1; }
+
+ private:
+  Int& cell(int i, Int g) const {
+    return ltri_[6 * static_cast<std::size_t>(g - 1) + static_cast<std::size_t>(i - 1)];
+  }
+
+  Point point(Int node) const {
+    const Vector<Real> p = nodes_[node];
+    return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
+  }
+
+  int side_to(Int neighbour, Int g) const {
+    return cell(4, g) == neighbour ? 1 : cell(5, g) == neighbour ? 2 : 3;
+  }
+
+  bool exactly_above(Int a, Int b, Int c, Int d) const {
+    return std::isfinite(height(nodes_[a], nodes_[b], nodes_[c], nodes_[d])) &&
+           orientation(point(a), point(b), point(c), point(d)) > 0;
+  }
+
+  /// Swaps until `test` is content; false if `stop` says so before.
+  template <class Test, class Stop>
+  bool swap(Agenda<Int>& agenda, const Test& test, const Stop& stop) {
+    agenda.add_all();
+    for (Int g; (g = agenda.take()) != 0;)
+      for (int i = 1; i <= 3; ++i) {
+        const Int h = cell(3 + i, g);
+        if (h <= g) continue;
+        //        c               c
+        //       /g\             /|\        .
+        //      a---b    ->     a | b       the arc a-b of columns g and h
+        //       \h/             \|/        becomes the arc c-d
+        //        d               d
+        const int i1 = after(i), i2 = after(i1);
+        const int j = side_to(g, h), j1 = after(j), j2 = after(j1);
+        const Int a = cell(i1, g), b = cell(i2, g), c = cell(i, g), d = cell(j, h);
+        if (!test(a, b, c, d)) continue;
+        if (stop()) return false;
+        const Int beyond_bc = cell(3 + i1, g), beyond_ca = cell(3 + i2, g);
+        const Int beyond_ad = cell(3 + j1, h), beyond_db = cell(3 + j2, h);
+        const Int new_g[6] = {d, c, a, beyond_ca, beyond_ad, h};
+        const Int new_h[6] = {c, d, b, beyond_db, beyond_bc, g};
+        std::copy(new_g, new_g + 6, &cell(1, g));
+        std::copy(new_h, new_h + 6, &cell(1, h));
+        if (beyond_bc != 0) cell(3 + side_to(g, beyond_bc), beyond_bc) = h;
+        if (beyond_ad != 0) cell(3 + side_to(h, beyond_ad), beyond_ad) = g;
+        for (const Int column : {g, h, beyond_bc, beyond_ca, beyond_ad, beyond_db})
+          if (column != 0) agenda.add(column);
+      }
+    return true;
+  }
+
+  const ListReader<Int>& lists_;
+  const Nodes<Real>& nodes_;
+  Int ncol_;
+  Int* ltri_;
+  Int count_ = 0;
+};
+
+template <class Real, class Int>
+class Voronoi {
+ public:
+  Voronoi(const ListsView<Int>& lists, const Nodes<Real>& nodes, const VoronoiArrays<Real, Int>& out)
+      : lists_(lists), nodes_(nodes), out_(out), threads_(threads_for(lists.n)) {}
+
+  VoronoiStatus write() {
+    if (!read()) return VoronoiStatus::broken_lists;
+    *out_.nb = nb_;
+    FarSide<Real, Int> far_side(lists_, nodes_, out_.ncol, out_.ltri);
+    if (nb_ > 0) {
+      far_side.make_fan(start_, nb_);
+      if (out_.ncol < nb_ - 2) return VoronoiStatus::too_few_columns;
+      far_side.make_delaunay(agenda_);
+      for (Int g = 1; g <= nb_ - 2; ++g)
+        if (!write_centre(g, far_side.row(1, g), far_side.row(2, g), far_side.row(3, g)))
+          return VoronoiStatus::coincident_nodes;
+    }
+    std::atomic<bool> coincident{false}, broken{false};
+    parallel_pieces(low_nodes(), threads_, [&](std::size_t begin, std::size_t end, int piece) {
+      const VoronoiStatus status = write_triangles(begin, end, first_[static_cast<std::size_t>(piece)]);
+      if (status == VoronoiStatus::coincident_nodes) coincident = true;
+      if (status == VoronoiStatus::broken_lists) broken = true;
+    });
+    if (broken) return VoronoiStatus::broken_lists;
+    if (coincident) return VoronoiStatus::coincident_nodes;
+    if (nb_ > 0) enter(far_side);
+    return VoronoiStatus::done;
+  }
+
+ private:
+  static constexpr FirstPair pairs = FirstPair::last_and_first;
+
+  /// Everything that allocates; true if the lists have the counts of a triangulation, which also means
+  /// that no array can be overrun.
+  bool read() {
+    const Int n = lists_.size();
+    if (!rings_.read(lists_.view(), threads_)) return false;
+
+    start_ = lists_.first_boundary_node();
+    if (start_ != 0) {
+      Int node = start_;
+      do {
+        ++nb_;
+        node = lists_.last_neighbour(node);
+      } while (node != start_ && nb_ < n);
+      if (node != start_ || nb_ < 3) return false;
+      agenda_ = Agenda<Int>(static_cast<std::size_t>(nb_ - 2));
+    }
+    if (rings_.arcs() != (nb_ > 0 ? 6 * n - 6 - 2 * nb_ : 6 * n - 12)) return false;
+
+    first_.resize(static_cast<std::size_t>(threads_) + 1);
+    parallel_pieces(low_nodes(), threads_, [this](std::size_t begin, std::size_t end, int piece) {
+      Int count = 0;
+      rings_.template for_each_triangle<pairs>(begin, end, [&count](Int, Int, Int, Int, Int) { ++count; });
+      first_[static_cast<std::size_t>(piece) + 1] = count;
+    });
+    first_[0] = nb_ > 0 ? nb_ - 2 : 0;
+    for (std::size_t piece = 1; piece < first_.size(); ++piece) first_[piece] += first_[piece - 1];
+    return first_.back() == 2 * n - 4;
+  }
+
+  /// The nodes that can be the smallest corner of a triangle.
+  std::size_t low_nodes() const { return static_cast<std::size_t>(lists_.size()) - 2; }
+
+  /// The triangles of a piece of the nodes, t triangles before them.
+  VoronoiStatus write_triangles(std::size_t begin, std::size_t end, Int t) {
+    VoronoiStatus status = VoronoiStatus::done;
+    rings_.template for_each_triangle<pairs>(begin, end, [&](Int a, Int b, Int c, Int ab, Int ac) {
+      ++t;
+      const auto ba = rings_.back(a, ab), ca = rings_.back(a, ac);
+      if (!ba.exists() || !ca.exists()) {
+        status = VoronoiStatus::broken_lists;
+        return;
+      }
+      listc(rings_.slot(ab)) = t;
+      listc(rings_.slot(ba.previous())) = t;  // b->c
+      listc(rings_.slot(ca.arc)) = t;
+      if (!write_centre(t, a, b, c) && status == VoronoiStatus::done)
+        status = VoronoiStatus::coincident_nodes;
+    });
+    return status;
+  }
+
+  bool write_centre(Int t, Int a, Int b, Int c) {
+    const Vector<Real> corner = nodes_[a];
+    Vector<Real> centre;
+    if (!circumcentre(corner, nodes_[b], nodes_[c], centre)) return false;
+    const auto i = static_cast<std::size_t>(t - 1);
+    out_.xc[i] = centre.x;
+    out_.yc[i] = centre.y;
+    out_.zc[i] = centre.z;
+    out_.rc[i] = clamped_acos(dot(corner, centre));
+    return true;
+  }
+
+  /// Enters the far side into LISTC and LPTR. Round the boundary, counterclockwise: the columns at node
+  /// u, from the one at the arc to its last neighbour, get the slot of that neighbour and new slots after it.
+  void enter(const FarSide<Real, Int>& far_side) {
+    Int unused = rings_.arcs() + 1;
+    Int g;
+    int i;
+    far_side.find_open_side(g, i);
+    int i1 = far_side.after(i), i2 = far_side.after(i1);
+    const Int start = far_side.row(i1, g);
+    for (Int u = start;;) {
+      Int slot = lists_.last_slot(u);
+      const Int first = lptr(slot);
+      listc(slot) = g;
+      for (Int h; (h = far_side.row(3 + i2, g)) != 0; g = h) {
+        lptr(slot) = unused;
+        slot = unused++;
+        listc(slot) = h;
+        i1 = far_side.row_of(u, h);
+        i2 = far_side.after(i1);
+        i = far_side.after(i2);
+      }
+      lptr(slot) = first;
+      u = far_side.row(i, g);
+      if (u == start) break;
+      const int turned = i;
+      i = i2;
+      i2 = i1;
+      i1 = turned;
+    }
+    *out_.lnew = unused;
+  }
+
+  Int& listc(Int slot) const { return out_.listc[slot - 1]; }
+  Int& lptr(Int slot) const { return out_.lptr[slot - 1]; }
+
+  ListReader<Int> lists_;
+  Nodes<Real> nodes_;
+  VoronoiArrays<Real, Int> out_;
+  int threads_;
+  Int start_ = 0, nb_ = 0;  // the first boundary node and their number
+  Rings<Int> rings_;
+  std::vector<Int> first_;  // the number of triangles before each piece of the nodes
+  Agenda<Int> agenda_{0};
+};
+
+}  // namespace
+
+template <class Real, class Int>
+VoronoiStatus voronoi(const ListsView<Int>& lists, const Nodes<Real>& nodes,
+                      const VoronoiArrays<Real, Int>& out) {
+  if (static_cast<Int>(lists.n) < 3) {
+    *out.nb = 0;
+    return VoronoiStatus::too_few_nodes;
+  }
+  return Voronoi<Real, Int>(lists, nodes, out).write();
+}
+
+#define PSTRIPACK_VORONOI(Real)                                                                             \
+  template bool circumcentre(const Vector<Real>&, const Vector<Real>&, const Vector<Real>&, Vector<Real>&); \
+  template VoronoiStatus voronoi(const ListsView<std::int32_t>&, const Nodes<Real>&,                        \
+                                 const VoronoiArrays<Real, std::int32_t>&);
+PSTRIPACK_VORONOI(float)
+PSTRIPACK_VORONOI(double)
+
+}  // namespace pstripack

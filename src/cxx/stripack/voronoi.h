@@ -1,0 +1,45 @@
+#pragma once
+// CRLIST, CIRCUM: the Voronoi diagram of a triangulation. For Real = float, double and Int = int32_t.
+
+#include "stripack/adjacency_lists.h"
+#include "stripack/expressions.h"
+
+namespace pstripack {
+
+/// CIRCUM: the centre of the circumscribed cap of triangle a, b, c, on its counterclockwise side.
+/// False, with `centre` untouched, where two corners coincide.
+template <class Real>
+bool circumcentre(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c, Vector<Real>& centre);
+
+/// IER of CRLIST.
+enum class VoronoiStatus {
+  done = 0,
+  too_few_nodes = 1,     ///< n < 3; nb = 0, nothing else is written
+  too_few_columns = 2,   ///< NCOL < nb - 2; nb and the first NCOL columns of LTRI are written
+  coincident_nodes = 3,  ///< a triangle without circumcentre; its centre and radius are not written
+  broken_lists = -9  ///< not the lists of a triangulation (the original does not check); LPTR, LNEW unchanged
+};
+
+/// CRLIST's arrays; lengths in brackets.
+template <class Real, class Int>
+struct VoronoiArrays {
+  Int ncol;                 ///< columns in ltri
+  Int* lptr;                ///< [6n-12] changed if there is a boundary
+  Int* lnew;                ///< changed if there is a boundary
+  Int* ltri;                ///< [6*ncol] the triangles that close the sphere; untouched if nb = 0
+  Int* listc;               ///< [6n-12] the triangle left of the arc in each slot
+  Int* nb;                  ///< number of boundary nodes
+  Real *xc, *yc, *zc, *rc;  ///< [2n-4] circumcentres and radii (radians) of the triangles
+};
+
+/// CRLIST: circumcentres and radii of all triangles and, by slots of LIST, their order round each node.
+/// If the nodes lie in a hemisphere, nb-2 triangles of boundary nodes close the sphere on the far side;
+/// they come first, and the slots of their arcs are added to LPTR. O(n) beside the swaps among those,
+/// with OpenMP threads for large n; the same bytes for any number of them.
+/// Always returns: where rounded swap tests of cocircular boundary nodes would undo each other for ever,
+/// exact ones take over. Throws std::bad_alloc before anything is written.
+template <class Real, class Int>
+VoronoiStatus voronoi(const ListsView<Int>& lists, const Nodes<Real>& nodes,
+                      const VoronoiArrays<Real, Int>& out);
+
+}  // namespace pstripack

@@ -1,0 +1,274 @@
+! The symbols of libstripack*: STRIPACK's external procedures, as calls of libpstripack.
+!
+! One text for all libraries and all routines. It is compiled once for each routine of each library, so
+! that a static archive has one object a public routine; CMakeLists.txt generates the sources, which define
+!   STRIPACK_<NAME>          the routine to compile, e.g. STRIPACK_TRLIST
+! and include this file; the library's compile definitions are
+!   STRIPACK_REAL_BYTES      4 or 8
+!   STRIPACK_INTEGER_BYTES   4
+!   STRIPACK_8_ARGUMENTS     if TRMESH has the arguments N,X,Y,Z,LIST,LPTR,LEND,IER
+!
+! Rules of this text: arrays are assumed-size, so that nothing is ever copied; a routine calls nothing but
+! one function of libpstripack, never a public symbol, since programs define a SWAP, INSERT, LEFT or STORE
+! of their own; there is no STOP, no output, no saved variable; all are recursive, since threads may call
+! at once. What the routines do:
+! the headers in src/cxx/stripack and the interfaces in stripack_module.F90.
+
+#if STRIPACK_REAL_BYTES == 8
+#define REAL_KIND c_double
+#define OF_REAL "_r8"
+#define OF_TRMESH ""
+#elif STRIPACK_REAL_BYTES == 4
+#define REAL_KIND c_float
+#define OF_REAL "_r4"
+#define OF_TRMESH "_r4"
+#endif
+#if STRIPACK_INTEGER_BYTES == 4
+#define INTEGER_KIND c_int32_t
+#define LOGICAL_KIND 4
+#define OF_INTEGER "_i4"
+#endif
+
+#ifdef STRIPACK_TRMESH
+#ifdef STRIPACK_8_ARGUMENTS
+recursive subroutine trmesh(n, x, y, z, list, lptr, lend, ier)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  integer(INTEGER_KIND) :: n, list(*), lptr(*), lend(*), ier
+  real(REAL_KIND) :: x(*), y(*), z(*)
+  integer(INTEGER_KIND) :: lnew
+#else
+recursive subroutine trmesh(n, x, y, z, list, lptr, lend, lnew, near, next, dist, ier)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  integer(INTEGER_KIND) :: n, list(*), lptr(*), lend(*), lnew, near(*), next(*), ier
+  real(REAL_KIND) :: x(*), y(*), z(*), dist(*)
+#endif
+  interface
+    function c_trmesh(n, x, y, z, list, lptr, lend, lnew) bind(c, name="pstripack_trmesh"//OF_TRMESH)
+      import
+      integer(INTEGER_KIND), value :: n
+      real(REAL_KIND) :: x(*), y(*), z(*)
+      integer(INTEGER_KIND) :: list(*), lptr(*), lend(*), lnew, c_trmesh
+    end function
+  end interface
+  ier = c_trmesh(n, x, y, z, list, lptr, lend, lnew)
+end subroutine
+#endif
+
+#ifdef STRIPACK_TRANS
+recursive subroutine trans(n, rlat, rlon, x, y, z)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  integer(INTEGER_KIND) :: n
+  real(REAL_KIND) :: rlat(*), rlon(*), x(*), y(*), z(*)
+  interface
+    subroutine c_trans(n, rlat, rlon, x, y, z) bind(c, name="pstripack_trans"//OF_REAL)
+      import
+      integer(INTEGER_KIND), value :: n
+      real(REAL_KIND) :: rlat(*), rlon(*), x(*), y(*), z(*)
+    end subroutine
+  end interface
+  call c_trans(n, rlat, rlon, x, y, z)
+end subroutine
+#endif
+
+#ifdef STRIPACK_SCOORD
+recursive subroutine scoord(px, py, pz, plat, plon, pnrm)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  real(REAL_KIND) :: px, py, pz, plat, plon, pnrm
+  interface
+    subroutine c_scoord(px, py, pz, plat, plon, pnrm) bind(c, name="pstripack_scoord"//OF_REAL)
+      import
+      real(REAL_KIND), value :: px, py, pz
+      real(REAL_KIND) :: plat, plon, pnrm
+    end subroutine
+  end interface
+  call c_scoord(px, py, pz, plat, plon, pnrm)
+end subroutine
+#endif
+
+#ifdef STRIPACK_LEFT
+recursive logical(LOGICAL_KIND) function left(x1, y1, z1, x2, y2, z2, x0, y0, z0)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  real(REAL_KIND) :: x1, y1, z1, x2, y2, z2, x0, y0, z0
+  interface
+    function c_left(x1, y1, z1, x2, y2, z2, x0, y0, z0) bind(c, name="pstripack_left"//OF_REAL)
+      import
+      real(REAL_KIND), value :: x1, y1, z1, x2, y2, z2, x0, y0, z0
+      integer(INTEGER_KIND) :: c_left
+    end function
+  end interface
+  left = c_left(x1, y1, z1, x2, y2, z2, x0, y0, z0) /= 0
+end function
+#endif
+
+#ifdef STRIPACK_AREAS
+recursive real(REAL_KIND) function areas(v1, v2, v3)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  real(REAL_KIND) :: v1(3), v2(3), v3(3)
+  interface
+    function c_areas(v1, v2, v3) bind(c, name="pstripack_areas"//OF_REAL)
+      import
+      real(REAL_KIND) :: v1(*), v2(*), v3(*), c_areas
+    end function
+  end interface
+  areas = c_areas(v1, v2, v3)
+end function
+#endif
+
+#ifdef STRIPACK_CIRCUM
+recursive subroutine circum(v1, v2, v3, c, ier)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  real(REAL_KIND) :: v1(3), v2(3), v3(3), c(3)
+  integer(INTEGER_KIND) :: ier
+  interface
+    subroutine c_circum(v1, v2, v3, c, ier) bind(c, name="pstripack_circum"//OF_REAL)
+      import
+      real(REAL_KIND) :: v1(*), v2(*), v3(*), c(*)
+      integer(INTEGER_KIND) :: ier
+    end subroutine
+  end interface
+  call c_circum(v1, v2, v3, c, ier)
+end subroutine
+#endif
+
+#ifdef STRIPACK_LSTPTR
+recursive integer(INTEGER_KIND) function lstptr(lpl, nb, list, lptr)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  integer(INTEGER_KIND) :: lpl, nb, list(*), lptr(*)
+  interface
+    function c_lstptr(lpl, nb, list, lptr) bind(c, name="pstripack_lstptr"//OF_INTEGER)
+      import
+      integer(INTEGER_KIND), value :: lpl, nb
+      integer(INTEGER_KIND) :: list(*), lptr(*), c_lstptr
+    end function
+  end interface
+  lstptr = c_lstptr(lpl, nb, list, lptr)
+end function
+#endif
+
+#ifdef STRIPACK_NBCNT
+recursive integer(INTEGER_KIND) function nbcnt(lpl, lptr)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  integer(INTEGER_KIND) :: lpl, lptr(*)
+  interface
+    function c_nbcnt(lpl, lptr) bind(c, name="pstripack_nbcnt"//OF_INTEGER)
+      import
+      integer(INTEGER_KIND), value :: lpl
+      integer(INTEGER_KIND) :: lptr(*), c_nbcnt
+    end function
+  end interface
+  nbcnt = c_nbcnt(lpl, lptr)
+end function
+#endif
+
+#ifdef STRIPACK_BNODES
+recursive subroutine bnodes(n, list, lptr, lend, nodes, nb, na, nt)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  integer(INTEGER_KIND) :: n, list(*), lptr(*), lend(*), nodes(*), nb, na, nt
+  interface
+    subroutine c_bnodes(n, list, lptr, lend, nodes, nb, na, nt) bind(c, name="pstripack_bnodes"//OF_INTEGER)
+      import
+      integer(INTEGER_KIND), value :: n
+      integer(INTEGER_KIND) :: list(*), lptr(*), lend(*), nodes(*), nb, na, nt
+    end subroutine
+  end interface
+  call c_bnodes(n, list, lptr, lend, nodes, nb, na, nt)
+end subroutine
+#endif
+
+#ifdef STRIPACK_TRLIST
+recursive subroutine trlist(n, list, lptr, lend, nrow, nt, ltri, ier)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  integer(INTEGER_KIND) :: n, list(*), lptr(*), lend(*), nrow, nt, ltri(*), ier
+  interface
+    subroutine c_trlist(n, list, lptr, lend, nrow, nt, ltri, ier) bind(c, name="pstripack_trlist"//OF_INTEGER)
+      import
+      integer(INTEGER_KIND), value :: n, nrow
+      integer(INTEGER_KIND) :: list(*), lptr(*), lend(*), nt, ltri(*), ier
+    end subroutine
+  end interface
+  call c_trlist(n, list, lptr, lend, nrow, nt, ltri, ier)
+end subroutine
+#endif
+
+#ifdef STRIPACK_TRLIST2
+recursive subroutine trlist2(n, list, lptr, lend, nt, ltri, ier)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  integer(INTEGER_KIND) :: n, list(*), lptr(*), lend(*), nt, ltri(*), ier
+  interface
+    subroutine c_trlist2(n, list, lptr, lend, nt, ltri, ier) bind(c, name="pstripack_trlist2"//OF_INTEGER)
+      import
+      integer(INTEGER_KIND), value :: n
+      integer(INTEGER_KIND) :: list(*), lptr(*), lend(*), nt, ltri(*), ier
+    end subroutine
+  end interface
+  call c_trlist2(n, list, lptr, lend, nt, ltri, ier)
+end subroutine
+#endif
+
+#ifdef STRIPACK_CRLIST
+recursive subroutine crlist(n, ncol, x, y, z, list, lend, lptr, lnew, ltri, listc, nb, xc, yc, zc, rc, ier)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  integer(INTEGER_KIND) :: n, ncol, list(*), lend(*), lptr(*), lnew, ltri(*), listc(*), nb, ier
+  real(REAL_KIND) :: x(*), y(*), z(*), xc(*), yc(*), zc(*), rc(*)
+  interface
+    subroutine c_crlist(n, ncol, x, y, z, list, lend, lptr, lnew, ltri, listc, nb, xc, yc, zc, rc, ier) &
+        bind(c, name="pstripack_crlist"//OF_REAL)
+      import
+      integer(INTEGER_KIND), value :: n, ncol
+      integer(INTEGER_KIND) :: list(*), lend(*), lptr(*), lnew, ltri(*), listc(*), nb, ier
+      real(REAL_KIND) :: x(*), y(*), z(*), xc(*), yc(*), zc(*), rc(*)
+    end subroutine
+  end interface
+  call c_crlist(n, ncol, x, y, z, list, lend, lptr, lnew, ltri, listc, nb, xc, yc, zc, rc, ier)
+end subroutine
+#endif
+
+#ifdef STRIPACK_TRFIND
+recursive subroutine trfind(nst, p, n, x, y, z, list, lptr, lend, b1, b2, b3, i1, i2, i3)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  integer(INTEGER_KIND) :: nst, n, list(*), lptr(*), lend(*), i1, i2, i3
+  real(REAL_KIND) :: p(3), x(*), y(*), z(*), b1, b2, b3
+  interface
+    subroutine c_trfind(nst, p, n, x, y, z, list, lptr, lend, b1, b2, b3, i1, i2, i3) &
+        bind(c, name="pstripack_trfind"//OF_REAL)
+      import
+      integer(INTEGER_KIND), value :: nst, n
+      integer(INTEGER_KIND) :: list(*), lptr(*), lend(*), i1, i2, i3
+      real(REAL_KIND) :: p(*), x(*), y(*), z(*), b1, b2, b3
+    end subroutine
+  end interface
+  call c_trfind(nst, p, n, x, y, z, list, lptr, lend, b1, b2, b3, i1, i2, i3)
+end subroutine
+#endif
+
+#ifdef STRIPACK_NEARND
+recursive integer(INTEGER_KIND) function nearnd(p, ist, n, x, y, z, list, lptr, lend, al)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  integer(INTEGER_KIND) :: ist, n, list(*), lptr(*), lend(*)
+  real(REAL_KIND) :: p(3), x(*), y(*), z(*), al
+  interface
+    function c_nearnd(p, ist, n, x, y, z, list, lptr, lend, al) bind(c, name="pstripack_nearnd"//OF_REAL)
+      import
+      integer(INTEGER_KIND), value :: ist, n
+      integer(INTEGER_KIND) :: list(*), lptr(*), lend(*), c_nearnd
+      real(REAL_KIND) :: p(*), x(*), y(*), z(*), al
+    end function
+  end interface
+  nearnd = c_nearnd(p, ist, n, x, y, z, list, lptr, lend, al)
+end function
+#endif

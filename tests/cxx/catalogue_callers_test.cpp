@@ -1,0 +1,201 @@
+// The catalogue's section "Callers and machines", as far as it concerns the C API of one process.
+
+#include <gtest/gtest.h>
+#include <pthread.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <thread>
+
+#include "point_sets.h"
+#include "support/child.h"
+#include "support/expect.h"
+
+namespace {
+
+using point_sets::make;
+
+/// Pages of this process: all (virtual) and resident, in bytes.
+struct Usage {
+  std::size_t all = 0, resident = 0;
+};
+
+Usage usage() {
+  Usage u;
+  std::FILE* file = std::fopen("/proc/self/statm", "r");
+  if (file == nullptr || std::fscanf(file, "%zu %zu", &u.all, &u.resident) != 2) std::abort();
+  std::fclose(file);
+  const std::size_t page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  return {u.all * page, u.resident * page};
+}
+
+TEST(Calls, FromSixteenThreadsAtOnceAreRight) {
+  std::vector<Nodes> sets;
+  std::vector<Mesh> expected;
+  for (std::size_t i = 0; i < 16; ++i) {
+    const char* family[] = {"random", "ring", "cap:1e-8", "latlon"};
+    sets.push_back(make(family[i % 4], 200 + 700 * i, i));
+    expected.push_back(trmesh(sets[i]));
+    ASSERT_TRUE(is_as_promised(sets[i], expected[i]));
+  }
+  std::atomic<int> wrong{0};
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < 16; ++i)
+    threads.emplace_back([&, i] {
+      for (int repeat = 0; repeat < 20; ++repeat) wrong += trmesh(sets[i]) == expected[i] ? 0 : 1;
+    });
+  for (std::thread& t : threads) t.join();
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(Calls, FromInsideAParallelRegionAreRight) {
+  const Nodes nodes = make("random", 20000);
+  const Mesh expected = trmesh(nodes);
+  int wrong = 0;
+#pragma omp parallel for num_threads(4) reduction(+ : wrong)
+  for (int i = 0; i < 8; ++i) wrong += trmesh(nodes) == expected ? 0 : 1;
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(Calls, AHundredThousandKeepMemoryFlat) {
+  const Nodes nodes = make("random", 100), directions = make("cap:1e-8", 100);
+  const auto run = [&](int calls) {
+    for (int i = 0; i < calls; ++i) {
+      const Mesh m = trmesh(i % 50 == 0 ? directions : nodes);
+      if (m.ier != 0) std::abort();
+    }
+  };
+  run(1000);
+  const Usage before = usage();
+  run(100000);
+  const Usage after = usage();
+  EXPECT_LE(after.resident, before.resident + (1u << 19));
+  EXPECT_LE(after.all, before.all + (1u << 20));
+}
+
+TEST(Calls, ThatAreRefusedKeepMemoryFlat) {
+  Nodes collinear = make("random", 1000), coinciding = collinear, bad = collinear;
+  collinear[1] = collinear[0], coinciding[999] = coinciding[5], bad[500].x = std::nan("");
+  ::testing::internal::CaptureStderr();
+  const auto run = [&](int calls) {
+    for (int i = 0; i < calls; ++i)
+      if (trmesh(collinear).ier != -2 || trmesh(coinciding).ier != 6 || trmesh(bad).ier != -5) std::abort();
+  };
+  run(50);
+  const Usage before = usage();
+  run(1000);
+  const Usage after = usage();
+  ::testing::internal::GetCapturedStderr();
+  EXPECT_LE(after.resident, before.resident + (1u << 19));
+}
+
+TEST(Calls, FitAStackOfOneMegabyte) {
+  struct Job {
+    std::vector<Nodes> sets = {make("latlon", 200000), make("ring", 20000), make("cap:1e-8", 20000),
+                               make("strip:1e-15", 2000)};
+    int ier = -99;
+  } job;
+  pthread_attr_t attributes;
+  pthread_attr_init(&attributes);
+  ASSERT_EQ(pthread_attr_setstacksize(&attributes, 1 << 20), 0);
+  pthread_t thread;
+  ASSERT_EQ(pthread_create(
+                &thread, &attributes,
+                [](void* argument) -> void* {
+                  auto* j = static_cast<Job*>(argument);
+                  j->ier = 0;
+                  for (const Nodes& nodes : j->sets) j->ier += std::abs(trmesh(nodes).ier);
+                  return nullptr;
+                },
+                &job),
+            0);
+  pthread_join(thread, nullptr);
+  pthread_attr_destroy(&attributes);
+  EXPECT_EQ(job.ier, 0);
+}
+
+TEST(Calls, InAForkedChildAreRight) {
+  const Nodes nodes = make("random", 50000);
+  EXPECT_EQ(in_child([&] { return trmesh(nodes).ier; }), 0);  // before the parent's first call
+  const Mesh expected = trmesh(nodes);                        // has threads now
+  EXPECT_EQ(in_child([&] { return trmesh(nodes) == expected ? 0 : 1; }), 0);
+  EXPECT_TRUE(trmesh(nodes) == expected);
+}
+
+TEST(Calls, DoNotFollowAddresses) {
+  // The triple is all there is: the next call gets other points at the same address.
+  Nodes nodes = make("random", 500);
+  const Mesh first = trmesh(nodes);
+  const Mesh other = trmesh(make("random", 500, 2));
+  EXPECT_FALSE(first == other);
+  EXPECT_TRUE(trmesh(nodes) == first);
+}
+
+TEST(OutOfMemory, IsReportedAndTouchesNothing) {
+  // In a child whose address space is limited to what it has and a little more: any amount must do.
+  const Nodes nodes = make("random", 200000);
+  int refused = 0, done = 0;
+  for (std::size_t kilobytes = 64; kilobytes < (1u << 20); kilobytes = kilobytes * 5 / 4) {
+    const int code = in_child([&] {
+      const Columns c(nodes);
+      const std::size_t n = nodes.size();
+      Mesh m;
+      m.list.assign(6 * n - 12, untouched), m.lptr.assign(6 * n - 12, untouched), m.lend.assign(n, untouched);
+      m.lnew = untouched;
+      const std::size_t bytes = usage().all + kilobytes * 1024;
+      const rlimit limit{bytes, bytes};
+      if (setrlimit(RLIMIT_AS, &limit) != 0 || std::freopen("/dev/null", "w", stderr) == nullptr) return 90;
+      m.ier = pstripack_trmesh(static_cast<std::int32_t>(n), c.x.data(), c.y.data(), c.z.data(),
+                               m.list.data(), m.lptr.data(), m.lend.data(), &m.lnew);
+      if (m.ier == -6) return is_untouched(m) ? 6 : 91;
+      return m.ier == 0 && m.lnew == static_cast<std::int32_t>(6 * n - 11) ? 0 : 92;
+    });
+    EXPECT_TRUE(code == 0 || code == 6) << "code " << code << " with " << kilobytes << " kB";
+    (code == 6 ? refused : done) += 1;
+  }
+  EXPECT_GT(refused, 3);
+  EXPECT_GT(done, 1);
+}
+
+TEST(OutOfMemory, PrintsOneLine) {
+  int pipe_ends[2];
+  ASSERT_EQ(pipe(pipe_ends), 0);
+  const Nodes nodes = make("random", 200000);
+  const int code = in_child([&] {
+    dup2(pipe_ends[1], 2);
+    const Columns c(nodes);
+    const std::size_t n = nodes.size(), bytes_of_lists = (6 * n - 12) * 4;
+    std::vector<std::int32_t> list(bytes_of_lists / 4), lptr(bytes_of_lists / 4), lend(n);
+    std::int32_t lnew;
+    const rlimit limit{usage().all + (1u << 20), usage().all + (1u << 20)};
+    setrlimit(RLIMIT_AS, &limit);
+    return -pstripack_trmesh(static_cast<std::int32_t>(n), c.x.data(), c.y.data(), c.z.data(), list.data(),
+                             lptr.data(), lend.data(), &lnew);
+  });
+  close(pipe_ends[1]);
+  std::string text;
+  char buffer[4096];
+  for (ssize_t got; (got = read(pipe_ends[0], buffer, sizeof buffer)) > 0;)
+    text.append(buffer, static_cast<std::size_t>(got));
+  close(pipe_ends[0]);
+  EXPECT_EQ(code, 6);
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
+}
+
+TEST(Library, WritesNothingToStdout) {
+  ::testing::internal::CaptureStdout();
+  (void)trmesh(make("random", 1000));
+  ::testing::internal::CaptureStderr();
+  Nodes bad = make("random", 10);
+  bad[4].x = std::nan("");
+  (void)trmesh(bad);
+  (void)::testing::internal::GetCapturedStderr();
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
+}
+
+}  // namespace

@@ -1,0 +1,212 @@
+// The catalogue's section "Duplicates and near-duplicates".
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "point_sets.h"
+#include "support/expect.h"
+
+namespace {
+
+using point_sets::make;
+using pstripack::Point;
+
+/// L of the smallest M, the lists those of a call with the nodes 1..M-1, bit for bit.
+void expect_duplicate(const Nodes& nodes, int l, std::size_t m) {
+  ASSERT_EQ(expected_ier(nodes), l);
+  ::testing::internal::CaptureStderr();
+  const Mesh mesh = trmesh(nodes);
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+  ASSERT_EQ(mesh.ier, l);
+  const Nodes front(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(m - 1));
+  const Mesh alone = trmesh(front);
+  ASSERT_TRUE(is_correct(front, alone));
+  EXPECT_EQ(mesh.lnew, alone.lnew);
+  for (std::size_t i = 0; i < mesh.list.size(); ++i) {
+    const bool used = i + 1 < static_cast<std::size_t>(alone.lnew);
+    ASSERT_EQ(mesh.list[i], used ? alone.list[i] : untouched) << "slot " << i + 1;
+    ASSERT_EQ(mesh.lptr[i], used ? alone.lptr[i] : untouched) << "slot " << i + 1;
+  }
+  for (std::size_t k = 0; k + 1 < m; ++k) ASSERT_EQ(mesh.lend[k], alone.lend[k]);
+}
+
+Nodes with(Nodes nodes, std::size_t l, std::size_t m) {
+  nodes[m - 1] = nodes[l - 1];
+  return nodes;
+}
+
+TEST(Duplicate, LateIsReported) { expect_duplicate(with(make("random", 120), 50, 99), 50, 99); }
+
+TEST(Duplicate, EarlyIsReported) {
+  expect_duplicate(with(make("random", 120), 2, 5), 2, 5);
+  expect_duplicate(with(make("random", 120), 1, 4), 1, 4);
+  expect_duplicate(with(make("random", 120), 3, 4), 3, 4);
+}
+
+TEST(Duplicate, OfABoundaryNodeIsReported) {
+  const Nodes nodes = make("hemisphere", 60);
+  const Mesh m = trmesh(nodes);
+  ASSERT_EQ(m.ier, 0);
+  for (std::size_t k = 1; k <= 40; ++k)
+    if (m.list[static_cast<std::size_t>(m.lend[k - 1]) - 1] < 0)
+      expect_duplicate(with(nodes, k, 50), static_cast<int>(k), 50);
+}
+
+TEST(Duplicate, AtTheEndIsReported) {
+  for (const std::size_t n : {4, 5, 10, 1000, 30000}) {
+    expect_duplicate(with(make("random", n), 1, n), 1, n);
+    expect_duplicate(with(make("random", n), n - 1, n), static_cast<int>(n) - 1, n);
+  }
+}
+
+TEST(Duplicate, TheSmallestOfManyIsReported) {
+  Nodes nodes = make("random", 1000);
+  for (std::size_t k = 400; k < 1000; k += 3) nodes[k] = nodes[(7 * k) % 399];
+  expect_duplicate(nodes, (7 * 400) % 399 + 1, 401);
+  nodes = make("random", 1000);
+  for (std::size_t k = 500; k < 1000; ++k) nodes[k] = nodes[k - 500];  // the whole set twice
+  expect_duplicate(nodes, 1, 501);
+  nodes = make("random", 1000);
+  for (std::size_t k = 10; k < 1000; ++k) nodes[k] = nodes[9];
+  expect_duplicate(nodes, 10, 11);
+}
+
+TEST(Duplicate, MIsTheSmallestNotL) {
+  Nodes nodes = with(make("random", 100), 3, 90);
+  nodes[69] = nodes[59];  // 60 == 70 comes before 3 == 90
+  expect_duplicate(nodes, 60, 70);
+}
+
+TEST(Duplicate, AmongTheFirstThreeIsCollinear) {
+  for (const auto& [l, m] : {std::pair{1, 2}, {1, 3}, {2, 3}}) {
+    const Mesh mesh =
+        trmesh(with(make("random", 50), static_cast<std::size_t>(l), static_cast<std::size_t>(m)));
+    EXPECT_EQ(mesh.ier, -2);
+    EXPECT_TRUE(is_untouched(mesh));
+  }
+  EXPECT_EQ(trmesh(Nodes(50, Point{0.6, 0, 0.8})).ier, -2);
+}
+
+TEST(Duplicate, MinusZeroIsZero) {
+  Nodes nodes = make("random", 50);
+  nodes[10] = {1, 0.0, 0.0};
+  nodes[30] = {1, -0.0, 0.0};
+  expect_duplicate(nodes, 11, 31);
+  nodes[10] = {-0.0, 1, -0.0};
+  nodes[30] = {0.0, 1, 0.0};
+  expect_duplicate(nodes, 11, 31);
+}
+
+TEST(Duplicate, TheSameDirectionWithAnotherLengthIsReported) {
+  for (const double scale : {2.0, 0.5, 0x1p-500, 0x1p900}) {
+    Nodes nodes = make("random", 50);
+    const Point p = nodes[10];
+    nodes[30] = {scale * p.x, scale * p.y, scale * p.z};
+    expect_duplicate(nodes, 11, 31);
+  }
+  // Lengths that differ by less than 1e-6: the node would only be hidden behind the other.
+  for (const double scale : {1 + 0x1p-52, 1 - 0x1p-53, 1 + 0x1p-30}) {
+    Nodes nodes = make("random", 50);
+    nodes[10] = {0, 1, 0};
+    nodes[30] = {0, scale, 0};
+    expect_duplicate(nodes, 11, 31);
+    std::swap(nodes[10], nodes[30]);
+    expect_duplicate(nodes, 11, 31);
+  }
+}
+
+TEST(Duplicate, OppositeIsNone) {
+  Nodes nodes = make("random", 50);
+  nodes[30] = {-nodes[10].x, -nodes[10].y, -nodes[10].z};
+  EXPECT_TRUE(is_correct(nodes, trmesh(nodes)));
+}
+
+TEST(Duplicate, IsReportedTheSameWithAnyThreads) {
+  Nodes nodes = make("random", 50000);
+  nodes[40000] = nodes[20000], nodes[45000] = nodes[3], nodes[40001] = nodes[5];
+  expect_duplicate(nodes, 20001, 40001);
+}
+
+// ---- Near duplicates ----
+
+constexpr double radians = 0.017453292519943295;
+
+/// Rows and columns as naive programs make them; at the poles cos(90 degrees) = 6e-17.
+Nodes naive_grid(int rows, int columns, bool poles, bool seam_twice) {
+  Nodes nodes;
+  for (int j = poles ? 0 : 1; j <= (poles ? rows : rows - 1); ++j)
+    for (int i = 0; i < columns + (seam_twice ? 1 : 0); ++i) {
+      const double latitude = (-90 + 180.0 * j / rows) * radians, longitude = 360.0 * i / columns * radians;
+      nodes.push_back({std::cos(latitude) * std::cos(longitude), std::cos(latitude) * std::sin(longitude),
+                       std::sin(latitude)});
+    }
+  return nodes;
+}
+
+TEST(NearDuplicates, PolesRepeatedAreCorrect) {
+  Nodes nodes = naive_grid(18, 36, true, false);
+  EXPECT_NE(nodes[0], nodes[1]);
+  EXPECT_TRUE(is_as_promised(nodes, trmesh(nodes)));
+  point_sets::shuffle(nodes, 1);
+  EXPECT_TRUE(is_as_promised(nodes, trmesh(nodes)));
+}
+
+TEST(NearDuplicates, LongitudesZeroAnd360AreCorrect) {
+  for (const bool poles : {false, true}) {
+    Nodes nodes = naive_grid(18, 36, poles, true);
+    EXPECT_TRUE(is_as_promised(nodes, trmesh(nodes)));
+    point_sets::shuffle(nodes, 2);
+    EXPECT_TRUE(is_as_promised(nodes, trmesh(nodes)));
+  }
+}
+
+TEST(NearDuplicates, OneUlpApartAreCorrect) {
+  Nodes nodes = make("random", 1000);
+  for (std::size_t k = 0; k < 500; ++k) {
+    nodes[k + 500] = nodes[k];
+    double& v = k % 3 == 0 ? nodes[k + 500].x : k % 3 == 1 ? nodes[k + 500].y : nodes[k + 500].z;
+    v = std::nextafter(v, k % 2 == 0 ? 2 : -2);
+  }
+  ASSERT_EQ(expected_ier(nodes), 0);
+  EXPECT_TRUE(is_correct(nodes, trmesh(nodes)));
+}
+
+TEST(NearDuplicates, AllNeighboursWithinTwoUlpsAreCorrect) {  // 125 nodes in a cube of five ulps
+  for (const Point& centre : {Point{0.6, 0, 0.8}, make("random", 1, 9)[0]}) {
+    Nodes nodes;
+    for (int i = -2; i <= 2; ++i)
+      for (int j = -2; j <= 2; ++j)
+        for (int k = -2; k <= 2; ++k)
+          nodes.push_back({centre.x + i * 0x1p-53, centre.y + j * 0x1p-53, centre.z + k * 0x1p-53});
+    point_sets::shuffle(nodes, 3);
+    EXPECT_TRUE(is_as_promised(nodes, trmesh(nodes)));
+    for (const Point& p : make("random", 50)) nodes.push_back(p);
+    EXPECT_TRUE(is_as_promised(nodes, trmesh(nodes)));
+  }
+}
+
+class Pairs : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(Pairs, OfNeighboursAreCorrect) {
+  const Nodes nodes = make(std::string("pairs:") + GetParam(), 2000);
+  EXPECT_TRUE(is_as_promised(nodes, trmesh(nodes)));
+}
+
+TEST_P(Pairs, BehindAllOthersAreCorrect) {
+  Nodes nodes = make(std::string("pairs:") + GetParam(), 2000), first, second;
+  for (std::size_t k = 0; k < nodes.size(); ++k) (k % 2 == 0 ? first : second).push_back(nodes[k]);
+  first.insert(first.end(), second.begin(), second.end());
+  EXPECT_TRUE(is_as_promised(first, trmesh(first)));
+}
+
+INSTANTIATE_TEST_SUITE_P(At, Pairs,
+                         ::testing::Values("1e-5", "1e-7", "1e-8", "1e-9", "1e-10", "1e-11", "1e-13",
+                                           "1e-15"),
+                         [](const auto& info) {
+                           std::string name = info.param;
+                           name[name.find('-')] = 'm';
+                           return name;
+                         });
+
+}  // namespace

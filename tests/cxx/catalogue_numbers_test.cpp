@@ -1,0 +1,366 @@
+// The catalogue's section "Numbers": what is no direction, extreme sizes, and the floating-point environment.
+
+#include <fenv.h>
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#if defined(__x86_64__)
+#include <xmmintrin.h>
+#endif
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <limits>
+
+#include "point_sets.h"
+#include "support/child.h"
+#include "support/expect.h"
+
+namespace {
+
+using point_sets::make;
+using point_sets::Random;
+using pstripack::Point;
+
+constexpr double inf = std::numeric_limits<double>::infinity(),
+                 nan = std::numeric_limits<double>::quiet_NaN(),
+                 tiny = std::numeric_limits<double>::denorm_min(), huge = std::numeric_limits<double>::max();
+
+::testing::AssertionResult is_as_promised(const Nodes& nodes) {
+  return ::is_as_promised(nodes, trmesh(nodes));
+}
+
+// ---- Refused, with one line on stderr that names the node ----
+
+/// The code, outputs untouched, one line that names node k.
+void expect_refused(const Nodes& nodes, std::size_t k) {
+  ::testing::internal::CaptureStderr();
+  const Mesh m = trmesh(nodes);
+  const std::string line = ::testing::internal::GetCapturedStderr();
+  ASSERT_EQ(m.ier, -5) << "node " << k;
+  ASSERT_TRUE(is_untouched(m)) << "node " << k;
+  ASSERT_EQ(std::count(line.begin(), line.end(), '\n'), 1) << line;
+  ASSERT_EQ(line.back(), '\n');
+  ASSERT_NE((" " + line).find(" " + std::to_string(k)), std::string::npos) << line;
+}
+
+TEST(BadCoordinate, NotFiniteAnywhereIsRefused) {
+  for (const double bad : {nan, -nan, inf, -inf})
+    for (std::size_t k = 0; k < 20; ++k)
+      for (double Point::*v : {&Point::x, &Point::y, &Point::z}) {
+        Nodes nodes = make("random", 20);
+        nodes[k].*v = bad;
+        expect_refused(nodes, k + 1);
+      }
+}
+
+TEST(BadCoordinate, ZeroVectorAnywhereIsRefused) {
+  for (std::size_t k = 0; k < 20; ++k)
+    for (const double zero : {0.0, -0.0}) {
+      Nodes nodes = make("random", 20);
+      nodes[k] = {zero, 0, zero};
+      expect_refused(nodes, k + 1);
+    }
+  expect_refused(Nodes(10, Point{0, 0, 0}), 1);
+}
+
+TEST(BadCoordinate, InALargeSetIsRefused) {
+  for (const std::size_t k : {0, 1, 49999, 99999}) {
+    Nodes nodes = make("random", 100000);
+    nodes[k].y = nan;
+    expect_refused(nodes, k + 1);
+  }
+}
+
+TEST(BadCoordinate, ComesBeforeCollinearAndCoinciding) {
+  Nodes nodes = make("random", 20);
+  nodes[1] = nodes[0], nodes[9].x = nan;
+  expect_refused(nodes, 10);
+  nodes = make("random", 20);
+  nodes[8] = nodes[7], nodes[15].x = inf;
+  expect_refused(nodes, 16);
+}
+
+TEST(BadCoordinate, InSinglePrecisionIsRefused) {
+  const float bad[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+                       -std::numeric_limits<float>::infinity(), 0.0F};
+  for (const float b : bad) {
+    const float x[4] = {1, 0, 0, 0}, y[4] = {0, 1, 0, 0}, z[4] = {0, 0, 1, b};
+    std::int32_t list[12], lptr[12], lend[4], lnew = untouched;
+    std::fill(list, list + 12, untouched), std::fill(lptr, lptr + 12, untouched),
+        std::fill(lend, lend + 4, untouched);
+    ::testing::internal::CaptureStderr();
+    EXPECT_EQ(pstripack_trmesh_r4(4, x, y, z, list, lptr, lend, &lnew), -5);
+    const std::string line = ::testing::internal::GetCapturedStderr();
+    EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 1) << line;
+    for (const std::int32_t i : list) EXPECT_EQ(i, untouched);
+    for (const std::int32_t i : lptr) EXPECT_EQ(i, untouched);
+    for (const std::int32_t i : lend) EXPECT_EQ(i, untouched);
+    EXPECT_EQ(lnew, untouched);
+  }
+}
+
+TEST(TooMany, IsRefusedBeforeAnythingIsTouched) {
+  for (const std::int32_t n : {357913944, 400000000, 2147483647}) {
+    ::testing::internal::CaptureStderr();
+    EXPECT_EQ(pstripack_trmesh(n, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr), -4);
+    EXPECT_EQ(pstripack_trmesh_r4(n, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr), -4);
+    const std::string lines = ::testing::internal::GetCapturedStderr();
+    EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 2) << lines;
+  }
+}
+
+TEST(TooMany, TheLargestThatFitsIsNot) {
+  // Of 357,913,943 nodes the first page can be read, and holds zero vectors: whoever goes on to read the
+  // coordinates returns -5 there or dies behind it. -6 is right where memory is short. Not -4.
+  const std::int32_t n = 357913943;
+  const std::size_t bytes = std::size_t{8} * static_cast<std::size_t>(n), page = 4096;
+  char* memory = static_cast<char*>(mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0));
+  ASSERT_NE(memory, MAP_FAILED);
+  ASSERT_EQ(mprotect(memory, page, PROT_READ), 0);
+  const double* x = reinterpret_cast<const double*>(memory);
+  const int code =
+      in_child([&] { return -pstripack_trmesh(n, x, x, x, nullptr, nullptr, nullptr, nullptr); });
+  EXPECT_TRUE(code == 5 || code == 6 || code == -SIGSEGV) << code;
+  munmap(memory, bytes);
+}
+
+TEST(ErrorCodes, HaveALineEach) {
+  for (int code = -8; code <= 5; ++code) {
+    ASSERT_NE(pstripack_strerror(code), nullptr);
+    EXPECT_NE(std::string(pstripack_strerror(code)), "") << code;
+    EXPECT_EQ(std::string(pstripack_strerror(code)).find('\n'), std::string::npos);
+  }
+  EXPECT_STRNE(pstripack_strerror(-4), pstripack_strerror(-5));
+  EXPECT_STREQ(pstripack_version(), PSTRIPACK_VERSION_EXPECTED);
+}
+
+// ---- Sizes of vectors ----
+
+Nodes scaled(Nodes nodes, double s) {
+  for (Point& p : nodes) p = {s * p.x, s * p.y, s * p.z};
+  return nodes;
+}
+
+TEST(Lengths, RadiusIsNoMatter) {
+  for (const double radius : {2.0, 0.5, 6371229.0, 1e-3, 1e300, 1e-300, 0x1p-1022})
+    for (const char* family : {"random", "hemisphere", "cap:1e-6"}) {
+      EXPECT_TRUE(is_as_promised(scaled(make(family, 500), radius))) << radius << " " << family;
+    }
+}
+
+TEST(Lengths, APowerOfTwoChangesNoBit) {
+  for (const char* family : {"cap:1e-8", "random", "ring"}) {
+    const Mesh two = trmesh(scaled(make(family, 500), 2));
+    for (const double radius : {0.25, 0x1p40, 0x1p-900, 0x1p1000})
+      EXPECT_TRUE(trmesh(scaled(make(family, 500), radius)) == two) << family << " " << radius;
+  }
+}
+
+TEST(Lengths, NoiseIsCorrect) {
+  Random random(1);
+  for (const double noise : {1e-15, 1e-10, 0.9e-6, 1.1e-6, 1e-5, 1e-3, 0.5, 0.999})
+    for (const std::size_t n : {20, 1000, 20000}) {
+      Nodes nodes = make("random", n);
+      for (Point& p : nodes) p = scaled({p}, 1 + noise * random.uniform(-1, 1))[0];
+      EXPECT_TRUE(is_as_promised(nodes)) << noise << " " << n;
+    }
+}
+
+TEST(Lengths, OneLongNodeAmongUnitOnesIsCorrect) {
+  for (const double length : {1 + 1e-5, 2.0, 1e10, 1e-10}) {
+    Nodes nodes = make("random", 200);
+    nodes[77] = scaled({nodes[77]}, length)[0];
+    EXPECT_TRUE(is_as_promised(nodes)) << length;
+  }
+}
+
+TEST(Lengths, OfAllMagnitudesAreCorrect) {
+  Random random(2);
+  Nodes nodes = make("random", 1000);
+  for (Point& p : nodes) p = scaled({p}, std::exp2(random.uniform(-1000, 1000)))[0];
+  EXPECT_TRUE(is_as_promised(nodes));
+}
+
+TEST(Lengths, ExtremeVectorsAreCorrectOrRefused) {
+  const Nodes base = make("random", 30);
+  for (const Point& extreme : {Point{tiny, 0, 0},
+                               {0, tiny, -tiny},
+                               {3 * tiny, 2 * tiny, -5 * tiny},
+                               {huge, 0, 0},
+                               {huge, -huge, huge},
+                               {1e308, 1e-200, -1e-308},
+                               {1e-200, 1e308, 1e-308},
+                               {1e-200, -1e-200, 1e-200},
+                               {huge, tiny, 0}})
+    for (const std::size_t k : {0, 2, 3, 29}) {
+      Nodes nodes = base;
+      nodes[k] = extreme;
+      const Mesh m = trmesh(nodes);
+      if (m.ier == -5) {
+        EXPECT_TRUE(is_untouched(m));
+      } else
+        EXPECT_TRUE(is_as_promised(nodes, m))
+            << extreme.x << " " << extreme.y << " " << extreme.z << " at " << k;
+    }
+}
+
+TEST(Lengths, AllExtremeAreCorrectOrRefused) {
+  Random random(3);
+  for (int i = 0; i < 300; ++i) {
+    Nodes nodes;
+    for (int k = 0; k < 12; ++k) {
+      const auto any = [&random] {
+        const double s[] = {0, tiny, 1e-308, 1e-200, 1, 1e200, 1e308};
+        return s[random.below(7)] * random.uniform(-1.5, 1.5);
+      };
+      Point p;
+      do p = {any(), any(), any()};
+      while (p == Point{0, 0, 0});
+      nodes.push_back(p);
+    }
+    ::testing::internal::CaptureStderr();
+    const Mesh m = trmesh(nodes);
+    ::testing::internal::GetCapturedStderr();
+    if (m.ier != -5) {
+      ASSERT_TRUE(is_as_promised(nodes, m))
+          << ::testing::PrintToString(Columns(nodes).x) << ::testing::PrintToString(Columns(nodes).y)
+          << ::testing::PrintToString(Columns(nodes).z);
+    }
+  }
+}
+
+TEST(Components, DenormalOnesAreCorrect) {
+  Nodes nodes = make("random", 200);
+  for (std::size_t k = 0; k < 50; ++k) {
+    const double angle = 7.2 * static_cast<double>(k) + 0.1;
+    nodes[4 * k] = {point_sets::cos_degrees(angle), point_sets::sin_degrees(angle),
+                    static_cast<double>(k % 7) * tiny - 3 * tiny};
+  }
+  EXPECT_TRUE(is_as_promised(nodes));
+  // Rings around an axis at distances of denormal size.
+  for (int i = -3; i <= 3; ++i)
+    for (int j = -3; j <= 3; ++j) nodes.push_back({1, i * tiny, j * 1e-310});
+  ASSERT_EQ(expected_ier(nodes), 0);
+  EXPECT_TRUE(is_as_promised(nodes));
+}
+
+TEST(SinglePrecision, NodesAreCorrectAndAsInDouble) {
+  for (const std::size_t n : {4, 1000, 100000}) {
+    const Nodes nodes = make("single", n);
+    const Columns c(nodes);
+    const std::vector<float> x(c.x.begin(), c.x.end()), y(c.y.begin(), c.y.end()), z(c.z.begin(), c.z.end());
+    const Mesh expected = trmesh(nodes);
+    EXPECT_TRUE(is_as_promised(nodes, expected)) << n;
+    Mesh m;
+    m.list.assign(6 * n - 12, untouched), m.lptr.assign(6 * n - 12, untouched), m.lend.assign(n, untouched);
+    m.ier = pstripack_trmesh_r4(static_cast<std::int32_t>(n), x.data(), y.data(), z.data(), m.list.data(),
+                                m.lptr.data(), m.lend.data(), &m.lnew);
+    EXPECT_EQ(m.ier, expected.ier);
+    EXPECT_TRUE(m == expected) << n;
+  }
+}
+
+// ---- The caller's floating-point environment ----
+
+/// Sets that reach the filter, the exact stage, the tie rule, and the directions.
+std::vector<Nodes> hard_sets() {
+  Nodes denormal = make("random", 100);
+  for (int i = -3; i <= 3; ++i)
+    for (int j = -3; j <= 3; ++j) denormal.push_back({1, i * tiny, j * 1e-310});
+  return {make("random", 1000),
+          make("ring", 500),
+          make("cap:1e-8", 500),
+          make("pairs", 1000),
+          make("cubed-sphere", 600),
+          scaled(make("random", 500), 6371229),
+          denormal,
+          make("random", 50000)};
+}
+
+#if defined(__x86_64__)
+/// Control and status word of SSE, and all of the x87 environment that C knows.
+struct Environment {
+  unsigned mxcsr = _mm_getcsr();
+  int rounding = fegetround(), flags = fetestexcept(FE_ALL_EXCEPT), traps = fegetexcept();
+};
+bool operator==(const Environment& a, const Environment& b) {
+  return a.mxcsr == b.mxcsr && a.rounding == b.rounding && a.flags == b.flags && a.traps == b.traps;
+}
+
+/// Runs all hard sets inside the environment that `enter` makes; expects the bits of the default one.
+template <class Enter>
+void expect_same_bits(Enter enter) {
+  const std::vector<Nodes> sets = hard_sets();
+  std::vector<Mesh> expected;
+  for (const Nodes& nodes : sets) expected.push_back(trmesh(nodes));
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    const Columns c(sets[i]);
+    const std::size_t n = sets[i].size();
+    Mesh m;
+    m.list.assign(6 * n - 12, untouched), m.lptr.assign(6 * n - 12, untouched), m.lend.assign(n, untouched);
+    fenv_t before;
+    fegetenv(&before);
+    enter();
+    const Environment inside;
+    m.ier = pstripack_trmesh(static_cast<std::int32_t>(n), c.x.data(), c.y.data(), c.z.data(), m.list.data(),
+                             m.lptr.data(), m.lend.data(), &m.lnew);
+    const Environment after;
+    const std::int32_t validated =
+        pstripack_validate(static_cast<std::int32_t>(n), c.x.data(), c.y.data(), c.z.data(), m.list.data(),
+                           m.lptr.data(), m.lend.data(), m.lnew, nullptr, 0);
+    const Environment after_validation;
+    fesetenv(&before);
+    EXPECT_EQ(m.ier, 0) << "set " << i;
+    EXPECT_TRUE(m == expected[i]) << "set " << i;
+    EXPECT_TRUE(after == inside) << "set " << i << ": environment not restored";
+    EXPECT_EQ(validated, 0) << "set " << i;
+    EXPECT_TRUE(after_validation == inside) << "set " << i << ": environment not restored by the validator";
+  }
+}
+
+TEST(Environment, RoundingModesChangeNoBit) {
+  for (const int mode : {FE_TONEAREST, FE_DOWNWARD, FE_UPWARD, FE_TOWARDZERO})
+    expect_same_bits([mode] { fesetround(mode); });
+}
+
+TEST(Environment, FlushToZeroChangesNoBit) {
+  for (const unsigned bits : {0x8000u, 0x0040u, 0x8040u})  // flush to zero, denormals are zero, both
+    expect_same_bits([bits] { _mm_setcsr(_mm_getcsr() | bits); });
+}
+
+TEST(Environment, TrapsDoNotFire) {
+  expect_same_bits([] {
+    feclearexcept(FE_ALL_EXCEPT);
+    feenableexcept(FE_ALL_EXCEPT);
+  });
+}
+
+TEST(Environment, FlagsThatWereRaisedStayRaised) {
+  expect_same_bits([] {
+    feclearexcept(FE_ALL_EXCEPT);
+    feraiseexcept(FE_DIVBYZERO | FE_INVALID);
+  });
+}
+
+TEST(Environment, ThreadsOfTheFirstCallInheritItAndChangeNoBit) {
+  // Here the first call, which starts the threads, is made in the strange environment.
+  const Nodes nodes = make("random", 100000);
+  const Columns c(nodes);
+  Mesh m = trmesh({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+  m.list.assign(6 * nodes.size() - 12, untouched), m.lptr = m.list, m.lend.assign(nodes.size(), untouched);
+  fenv_t before;
+  fegetenv(&before);
+  fesetround(FE_UPWARD);
+  _mm_setcsr(_mm_getcsr() | 0x8040u);
+  feclearexcept(FE_ALL_EXCEPT);
+  feenableexcept(FE_ALL_EXCEPT);
+  m.ier = pstripack_trmesh(static_cast<std::int32_t>(nodes.size()), c.x.data(), c.y.data(), c.z.data(),
+                           m.list.data(), m.lptr.data(), m.lend.data(), &m.lnew);
+  fesetenv(&before);
+  EXPECT_TRUE(is_correct(nodes, m));
+  EXPECT_TRUE(trmesh(nodes) == m);
+}
+#endif
+
+}  // namespace

@@ -1,0 +1,334 @@
+// Triangulations through the C API: every family of point sets, judged by the tests' own exact judge, by the
+// library's validator, and against CGAL.
+
+#include <gtest/gtest.h>
+
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+#include <algorithm>
+#include <iterator>
+
+#include "point_sets.h"
+#include "support/expect.h"
+#include "support/guarded.h"
+#ifdef HAVE_CGAL
+#include "support/cgal_hull.h"
+#endif
+
+namespace {
+
+using point_sets::make;
+
+struct Case {
+  std::string family;
+  std::size_t n;
+};
+
+void PrintTo(const Case& c, std::ostream* out) { *out << c.family << " " << c.n; }
+
+std::string name_of(const ::testing::TestParamInfo<Case>& info) {
+  std::string name = info.param.family + "_" + std::to_string(info.param.n);
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+  return name;
+}
+
+std::vector<Case> cases(const std::vector<std::size_t>& sizes) {
+  std::vector<std::string> names = point_sets::families();
+  for (const char* more :
+       {"cap:1e-6", "cap:1e-8", "dense-cap:1e-7", "antipodal:1e-4", "variable:1e6", "strip:1e-15"})
+    names.push_back(more);
+  std::vector<Case> all;
+  for (const std::string& family : names)
+    for (const std::size_t n : sizes) all.push_back({family, n});
+  return all;
+}
+
+const std::vector<std::size_t> small = {3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 20, 50}, medium = {100, 1000},
+                               large = {10000, 100000};
+
+/// Threads for the calls in its scope; without OpenMP nothing to do.
+class Threads {
+ public:
+#ifdef _OPENMP
+  explicit Threads(int count) : before_(omp_get_max_threads()) { omp_set_num_threads(count); }
+  ~Threads() { omp_set_num_threads(before_); }
+
+ private:
+  int before_;
+#else
+  explicit Threads(int) {}
+#endif
+};
+
+// ---- Correct, for every family ----
+
+class Delaunay : public ::testing::TestWithParam<Case> {};
+
+TEST_P(Delaunay, IsCorrect) {
+  const Nodes nodes = make(GetParam().family, GetParam().n);
+  EXPECT_TRUE(is_as_promised(nodes, trmesh(nodes)));
+}
+
+INSTANTIATE_TEST_SUITE_P(Small, Delaunay, ::testing::ValuesIn(cases(small)), name_of);
+INSTANTIATE_TEST_SUITE_P(Medium, Delaunay, ::testing::ValuesIn(cases(medium)), name_of);
+INSTANTIATE_TEST_SUITE_P(Large, Delaunay, ::testing::ValuesIn(cases(large)), name_of);
+
+/// With so few nodes no algorithm is needed to know the answer: all triples are tried.
+class FewNodes : public ::testing::TestWithParam<std::size_t> {};
+
+TEST_P(FewNodes, AreTriangulatedAsByTryingAllTriples) {
+  for (const Case& c : cases({GetParam()}))
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      Nodes nodes = make(c.family, c.n, seed);
+      if (seed % 2 == 0) point_sets::shuffle(nodes, seed);
+      if (nodes.size() > 12 || expected_ier(nodes) != 0) continue;
+      const Mesh m = trmesh(nodes);
+      const auto rings = rings_of(m);
+      ASSERT_TRUE(rings) << c.family;
+      Faces expected = brute_force(nodes, lengths_call_for(nodes));
+      if (!rings_of(nodes.size(), expected)) expected = brute_force(nodes, exact::On::directions);
+      ASSERT_EQ(faces_of(*rings), expected) << c.family << " seed " << seed;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(N, FewNodes, ::testing::Range(std::size_t{3}, std::size_t{12}));
+
+// ---- Against CGAL ----
+
+#ifdef HAVE_CGAL
+
+/// Empty if the triangles are the same but for exact ties: every arc that only one of them has crosses
+/// triangles whose corners lie in one plane with it.
+std::string difference(const Nodes& nodes, const Faces& ours, const Faces& theirs) {
+  if (ours.size() != theirs.size())
+    return std::to_string(ours.size()) + " triangles, CGAL has " + std::to_string(theirs.size());
+  Faces only;
+  std::set_difference(ours.begin(), ours.end(), theirs.begin(), theirs.end(), std::back_inserter(only));
+  const auto rings = rings_of(nodes.size(), ours);
+  if (!rings) return "not a surface";
+  for (const auto& f : only) {
+    // In one plane with a neighbouring triangle: otherwise it is a face of the hull, and CGAL must have it.
+    bool tie = false;
+    for (int k = 0; k < 3; ++k) {
+      const auto& ring = rings->neighbours[f[k]];
+      const std::int32_t next = f[(k + 1) % 3];
+      const std::size_t i =
+          static_cast<std::size_t>(std::find(ring.begin(), ring.end(), next) - ring.begin());
+      if (rings->boundary[f[k]] && i == 0) continue;  // no triangle beyond
+      const std::int32_t beyond = ring[(i + ring.size() - 1) % ring.size()];
+      tie = tie || exact::orientation(exact::On::coordinates, nodes[f[0]], nodes[f[1]], nodes[f[2]],
+                                      nodes[beyond]) == 0;
+    }
+    if (!tie)
+      return "triangle " + std::to_string(f[0] + 1) + " " + std::to_string(f[1] + 1) + " " +
+             std::to_string(f[2] + 1) + " is no tie, and CGAL does not have it";
+  }
+  return "";
+}
+
+class AgainstCgal : public ::testing::TestWithParam<Case> {};
+
+TEST_P(AgainstCgal, TrianglesAreTheSameUpToExactTies) {
+  const Nodes nodes = make(GetParam().family, GetParam().n);
+  const Mesh m = trmesh(nodes);
+  if (m.ier == -2 && expected_ier(nodes) == -2) return;  // Delaunay.IsCorrect has it
+  ASSERT_EQ(m.ier, 0);
+  const auto rings = rings_of(m);
+  ASSERT_TRUE(rings);
+  const Hull hull = cgal_hull(nodes);
+  RecordProperty("hidden", static_cast<int>(hull.hidden));
+  if (hull.hidden > 0) {  // CGAL has no answer on directions
+    EXPECT_EQ(fault(nodes, *rings, exact::On::directions), "");
+  } else {
+    EXPECT_EQ(difference(nodes, faces_of(*rings), hull.faces), "");
+  }
+}
+
+/// All but those with thousands of nodes in one plane, on which CGAL's time is quadratic.
+std::vector<Case> cases_for_cgal(const std::vector<std::size_t>& sizes) {
+  std::vector<Case> all = cases(sizes);
+  all.erase(std::remove_if(all.begin(), all.end(),
+                           [](const Case& c) {
+                             return (c.family == "ring" || c.family == "hemisphere-rim") && c.n > 1000;
+                           }),
+            all.end());
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Small, AgainstCgal, ::testing::ValuesIn(cases_for_cgal({5, 12, 50})), name_of);
+INSTANTIATE_TEST_SUITE_P(Medium, AgainstCgal, ::testing::ValuesIn(cases_for_cgal(medium)), name_of);
+INSTANTIATE_TEST_SUITE_P(Large, AgainstCgal, ::testing::ValuesIn(cases_for_cgal(large)), name_of);
+
+#endif
+
+// ---- Any numbering, any number of threads ----
+
+/// The triangles with the nodes numbered as in `order`: node k there is node order[k].
+Faces renamed(const Faces& faces, const std::vector<std::int32_t>& order) {
+  Faces result = faces;
+  for (auto& f : result)
+    for (auto& k : f) k = order[k];
+  sort_faces(result);
+  return result;
+}
+
+class Numbering : public ::testing::TestWithParam<Case> {};
+
+TEST_P(Numbering, DoesNotChangeTheTriangles) {
+  Nodes nodes = make(GetParam().family, GetParam().n);
+  const std::size_t n = nodes.size();
+  for (std::uint64_t seed = 1; exact::left(nodes[0], nodes[1], nodes[2]) == 0; ++seed)
+    point_sets::shuffle(nodes, seed);
+  const Mesh m = trmesh(nodes);
+  ASSERT_EQ(m.ier, 0);
+  const auto rings = rings_of(m);
+  ASSERT_TRUE(rings);
+  const Faces faces = faces_of(*rings);
+
+  std::vector<std::vector<std::int32_t>> orders;
+  std::vector<std::int32_t> order(n);
+  for (std::size_t k = 0; k < n; ++k) order[k] = static_cast<std::int32_t>(k);
+  orders.emplace_back(order.rbegin(), order.rend());
+  for (const double pstripack::Point::*axis :
+       {&pstripack::Point::x, &pstripack::Point::y, &pstripack::Point::z}) {
+    std::sort(order.begin(), order.end(),
+              [&](std::int32_t a, std::int32_t b) { return nodes[a].*axis < nodes[b].*axis; });
+    orders.push_back(order);
+  }
+  point_sets::Random random(7);
+  for (int i = 0; i < 3; ++i) {
+    for (std::size_t k = n; k > 1; --k) std::swap(order[k - 1], order[random.below(k)]);
+    orders.push_back(order);
+  }
+  int compared = 0;
+  for (const auto& o : orders) {
+    Nodes numbered;
+    for (const std::int32_t k : o) numbered.push_back(nodes[k]);
+    const Mesh other = trmesh(numbered);
+    if (exact::left(numbered[0], numbered[1], numbered[2]) == 0) {
+      EXPECT_EQ(other.ier, -2);
+      continue;
+    }
+    ASSERT_EQ(other.ier, 0);
+    const auto other_rings = rings_of(other);
+    ASSERT_TRUE(other_rings);
+    EXPECT_EQ(renamed(faces_of(*other_rings), o), faces);
+    ++compared;
+  }
+  EXPECT_GT(compared, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Numbering, ::testing::ValuesIn(cases({12, 100, 5000})), name_of);
+
+class ThreadCount : public ::testing::TestWithParam<Case> {};
+
+TEST_P(ThreadCount, DoesNotChangeABit) {
+#ifndef _OPENMP
+  GTEST_SKIP() << "built without OpenMP";
+#endif
+  const Nodes nodes = make(GetParam().family, GetParam().n, 2);
+  const Mesh one = [&] {
+    Threads threads(1);
+    return trmesh(nodes);
+  }();
+  for (const int count : {2, 3, 7}) {
+    Threads threads(count);
+    const Mesh other = trmesh(nodes);
+    EXPECT_EQ(other.ier, one.ier);
+    EXPECT_TRUE(other == one) << count << " threads";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, ThreadCount, ::testing::ValuesIn(cases({3, 100, 10000, 100000})), name_of);
+
+TEST(Runs, AreTheSameToTheBit) {
+  const Nodes nodes = make("random", 20000);
+  const Mesh first = trmesh(nodes);
+  for (int i = 0; i < 5; ++i) EXPECT_TRUE(trmesh(nodes) == first);
+}
+
+TEST(Fingerprints, TellSetsOfTrianglesApart) {
+  const Nodes nodes = make("random", 1000), others = make("random", 1000, 2);
+  const auto print = [](const Mesh& m) {
+    return pstripack_fingerprint(static_cast<std::int32_t>(m.nodes()), m.list.data(), m.lptr.data(),
+                                 m.lend.data());
+  };
+  const Mesh m = trmesh(nodes);
+  EXPECT_NE(print(m), print(trmesh(others)));
+  Mesh rotated = m;  // interior lists started elsewhere: the same triangles
+  for (auto& last : rotated.lend) last = rotated.lptr[last - 1];
+  EXPECT_EQ(print(m), print(rotated));
+}
+
+// ---- What is read and what is written ----
+
+void check_memory(const Nodes& nodes, Edge edge) {
+  const Columns c(nodes);
+  const std::size_t n = nodes.size(), slots = 6 * n - 12;
+  Guarded<double> x(c.x, edge), y(c.y, edge), z(c.z, edge);
+  x.make_read_only(), y.make_read_only(), z.make_read_only();
+  Guarded<std::int32_t> list(std::vector<std::int32_t>(slots, untouched), edge),
+      lptr(std::vector<std::int32_t>(slots, untouched), edge),
+      lend(std::vector<std::int32_t>(n, untouched), edge), lnew(1, edge);
+  ASSERT_EQ(pstripack_trmesh(static_cast<std::int32_t>(n), x.data(), y.data(), z.data(), list.data(),
+                             lptr.data(), lend.data(), lnew.data()),
+            0);
+  for (std::size_t i = static_cast<std::size_t>(lnew[0]) - 1; i < slots; ++i) {
+    ASSERT_EQ(list[i], untouched) << "slot " << i + 1;
+    ASSERT_EQ(lptr[i], untouched) << "slot " << i + 1;
+  }
+  char message[1] = "";
+  list.make_read_only(), lptr.make_read_only(), lend.make_read_only();
+  EXPECT_EQ(pstripack_validate(static_cast<std::int32_t>(n), x.data(), y.data(), z.data(), list.data(),
+                               lptr.data(), lend.data(), lnew[0], message, 1),
+            0);
+}
+
+TEST(Memory, NothingOutsideTheArraysIsTouched) {
+  for (const Edge edge : {Edge::begin, Edge::end})
+    for (const std::size_t n : {3, 4, 5, 6, 7, 13, 100, 1001, 30000})
+      for (const char* family : {"random", "hemisphere", "ring", "cap:1e-8"}) {
+        const Nodes nodes = make(family, n);
+        if (expected_ier(nodes) == 0) check_memory(nodes, edge);
+      }
+}
+
+TEST(Memory, SlotsBehindLnewStayUntouched) {
+  for (const std::size_t n : {3, 10, 1000, 50000}) {
+    const Nodes nodes = make("hemisphere", n);
+    const Mesh m = trmesh(nodes);
+    ASSERT_EQ(m.ier, 0);
+    const std::size_t boundary = boundary_nodes(m);
+    EXPECT_EQ(static_cast<std::size_t>(m.lnew), 6 * n - 5 - 2 * boundary);
+    for (std::size_t i = static_cast<std::size_t>(m.lnew) - 1; i < m.list.size(); ++i) {
+      ASSERT_EQ(m.list[i], untouched);
+      ASSERT_EQ(m.lptr[i], untouched);
+    }
+  }
+}
+
+TEST(Memory, TheMessageOfTheValidatorStaysInItsBuffer) {
+  const Nodes nodes = make("random", 20);
+  const Columns c(nodes);
+  Mesh m = trmesh(nodes);
+  ASSERT_EQ(m.ier, 0);
+  m.list[5] = m.list[4];
+  for (std::int32_t length = 0; length < 120; ++length) {
+    std::vector<char> buffer(200, 'x');
+    EXPECT_NE(pstripack_validate(20, c.x.data(), c.y.data(), c.z.data(), m.list.data(), m.lptr.data(),
+                                 m.lend.data(), m.lnew, buffer.data(), length),
+              0);
+    for (std::size_t i = static_cast<std::size_t>(length); i < buffer.size(); ++i) ASSERT_EQ(buffer[i], 'x');
+    if (length > 0) {
+      EXPECT_NE(std::find(buffer.begin(), buffer.begin() + length, '\0'), buffer.begin() + length);
+    }
+  }
+  EXPECT_NE(pstripack_validate(20, c.x.data(), c.y.data(), c.z.data(), m.list.data(), m.lptr.data(),
+                               m.lend.data(), m.lnew, nullptr, 0),
+            0);
+}
+
+}  // namespace

@@ -1,0 +1,41 @@
+// Every point file of tests/data, in the given and in other orders. A bug that was found becomes a file
+// there: hexadecimal floats, and a comment that says what went wrong.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "point_sets.h"
+#include "support/expect.h"
+
+namespace {
+
+std::vector<std::string> files() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(TEST_DATA_DIR))
+    if (entry.path().extension() == ".txt") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+class PointFile : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(PointFile, IsAsPromisedInAnyOrder) {
+  Nodes nodes = point_sets::read(TEST_DATA_DIR "/" + GetParam() + ".txt");
+  EXPECT_TRUE(is_as_promised(nodes, trmesh(nodes)));
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    point_sets::shuffle(nodes, seed);
+    EXPECT_TRUE(is_as_promised(nodes, trmesh(nodes))) << "shuffled, seed " << seed;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, PointFile, ::testing::ValuesIn(files()), [](const auto& info) {
+  std::string name = info.param;
+  std::replace(name.begin(), name.end(), '-', 'm');
+  return name;
+});
+
+TEST(PointFiles, AreThere) { EXPECT_GE(files().size(), 5u); }
+
+}  // namespace

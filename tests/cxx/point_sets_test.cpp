@@ -1,0 +1,158 @@
+// The point sets: unit length, no node twice, the promised number, readable files.
+
+#include "point_sets.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
+
+namespace {
+
+using point_sets::make;
+
+class Family : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Family, HasUnitNodesAndNoneTwice) {
+  for (const std::size_t n : {3, 10, 1000, 20000}) {
+    const auto points = make(GetParam(), n);
+    std::vector<std::array<double, 3>> sorted;
+    const double tolerance = GetParam() == "single" ? 2e-7 : 1e-15;
+    for (const auto& p : points) {
+      ASSERT_NEAR(std::hypot(p.x, p.y, p.z), 1, tolerance);
+      sorted.push_back({p.x, p.y, p.z});
+    }
+    std::sort(sorted.begin(), sorted.end());
+    EXPECT_EQ(std::adjacent_find(sorted.begin(), sorted.end()), sorted.end()) << n;
+    if (n >= 1000) {
+      EXPECT_NEAR(static_cast<double>(points.size()) / static_cast<double>(n), 1, 0.05);
+    }
+  }
+}
+
+TEST_P(Family, IsReproducible) { EXPECT_EQ(make(GetParam(), 500, 3), make(GetParam(), 500, 3)); }
+
+INSTANTIATE_TEST_SUITE_P(Of, Family, ::testing::ValuesIn(point_sets::families()), [](const auto& info) {
+  std::string name = info.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+TEST(Families, HaveTheirNaturalCounts) {
+  EXPECT_EQ(make("icosahedral", 10242).size(), 10242u);
+  EXPECT_EQ(make("icosahedral", 11).size(), 12u);
+  EXPECT_EQ(make("healpix", 12 * 64).size(), 12u * 64);
+  EXPECT_EQ(make("cubed-sphere", 6 * 81).size(), 6u * 81);
+  EXPECT_EQ(make("reduced-gaussian", 4 * 32 * 41).size(), 4u * 32 * 41);
+  EXPECT_EQ(make("latlon", 2 * 18 * 18 + 2).size(), 2u * 18 * 18 + 2);
+  for (const char* any : {"random", "fibonacci", "ring", "variable", "clusters", "hemisphere-rim"})
+    for (std::size_t n = 0; n < 20; ++n) EXPECT_EQ(make(any, n).size(), n) << any;
+}
+
+/// Bits as printed on x86-64: a change, or another machine that differs, shows here.
+TEST(Families, AreTheSameOnEveryMachine) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const std::string& family : point_sets::families())
+    for (const auto& p : make(family, 300, 5))
+      for (const double v : {p.x, p.y, p.z}) {
+        char text[40];
+        std::snprintf(text, sizeof text, "%a", v);
+        for (const char* c = text; *c != '\0'; ++c)
+          hash = (hash ^ static_cast<unsigned char>(*c)) * 0x100000001b3;
+      }
+  EXPECT_EQ(hash, 0xf71a41fa4241d4d2u) << std::hex << hash;
+}
+
+TEST(Families, HaveTheirShapes) {
+  for (const auto& p : make("cap:1e-6", 1000))
+    EXPECT_LT(std::hypot(p.x - make("cap:1e-12", 1)[0].x, p.y - make("cap:1e-12", 1)[0].y), 1.1e-6);
+  for (const auto& p : make("hemisphere", 1000)) EXPECT_GT(p.z, 0);
+  for (const auto& p : make("hemisphere-rim", 1000)) EXPECT_GE(p.z, 0);
+  std::size_t north = 0;  // smooth density 1:1e4 along x
+  for (const auto& p : make("variable", 10000)) north += p.x > 0.9;
+  EXPECT_GT(north, 7000u);
+  const auto gaussian = make("reduced-gaussian", 4 * 2 * 11);  // 4 rows: roots of P4
+  EXPECT_NEAR(gaussian[0].z, 0.861136311594053, 1e-14);
+  EXPECT_NEAR(gaussian[20].z, 0.339981043584856, 1e-14);
+}
+
+TEST(Families, UnknownOnesAreRefusedByName) {
+  try {
+    make("no-such-family", 10);
+    FAIL() << "no exception";
+  } catch (const std::invalid_argument& e) {
+    EXPECT_NE(std::string(e.what()).find("no-such-family"), std::string::npos);
+    for (const std::string& family : point_sets::families())
+      EXPECT_NE(std::string(e.what()).find(family), std::string::npos);
+  }
+  EXPECT_THROW(make("random:2", 10), std::invalid_argument);
+  EXPECT_THROW(make("cap:", 10), std::invalid_argument);
+  EXPECT_THROW(make("cap:wide", 10), std::invalid_argument);
+  EXPECT_THROW(make("cap:-1", 10), std::invalid_argument);
+  EXPECT_THROW(make("variable:1", 10), std::invalid_argument);
+}
+
+TEST(Angles, AreExactWhereTheyCanBeAndAccurateElsewhere) {
+  EXPECT_EQ(point_sets::cos_degrees(90), 0);
+  EXPECT_EQ(point_sets::sin_degrees(180), 0);
+  EXPECT_EQ(point_sets::sin_degrees(270), -1);
+  EXPECT_EQ(point_sets::cos_degrees(-360), 1);
+  for (double a = -800; a < 800; a += 0.37) {
+    EXPECT_NEAR(point_sets::sin_degrees(a), std::sin(a * 0.017453292519943295), 2e-15) << a;
+    EXPECT_NEAR(point_sets::cos_degrees(a), std::cos(a * 0.017453292519943295), 2e-15) << a;
+    EXPECT_EQ(point_sets::sin_degrees(-a), -point_sets::sin_degrees(a));
+  }
+}
+
+// ---- Files ----
+
+std::vector<pstripack::Point> read_text(const std::string& text) {
+  const std::string file = ::testing::TempDir() + "point_sets_test_" +
+                           ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".txt";
+  std::ofstream(file) << text;
+  struct Remove {
+    const std::string& file;
+    ~Remove() { std::remove(file.c_str()); }
+  } remove{file};
+  return point_sets::read(file);
+}
+
+std::string error_of(const std::string& text) {
+  try {
+    read_text(text);
+  } catch (const std::runtime_error& e) {
+    return e.what();
+  }
+  return "no error";
+}
+
+TEST(Files, HoldLongitudesAndLatitudesOrCoordinates) {
+  const auto a = read_text("# comment\n\n 0 90\n90, 0 ! east\r\n-180 -45.5\n");
+  ASSERT_EQ(a.size(), 3u);
+  EXPECT_EQ(a[0], (pstripack::Point{0, 0, 1}));
+  EXPECT_EQ(a[1], (pstripack::Point{0, 1, 0}));
+  EXPECT_EQ(a[2], point_sets::from_degrees(-180, -45.5));
+  const auto b = read_text("1 0 0\n0x1.8p-1 -0.5D0 1.25d-1");
+  ASSERT_EQ(b.size(), 2u);
+  EXPECT_EQ(b[1], (pstripack::Point{0.75, -0.5, 0.125}));
+  EXPECT_EQ(read_text("0x1.d8p+0 2 3")[0].x, 1.84375);
+}
+
+TEST(Files, AreRefusedWithFileAndLine) {
+  EXPECT_NE(error_of("1 2 3\n\n1 x 3\n").find(".txt:3: 'x' is not a finite number"), std::string::npos);
+  EXPECT_NE(error_of("1 2 3\n1 2\n").find(".txt:2: found 2 numbers"), std::string::npos);
+  EXPECT_NE(error_of("1 2 3 4\n").find(".txt:1: expected"), std::string::npos);
+  EXPECT_NE(error_of("7\n").find(".txt:1: expected"), std::string::npos);
+  EXPECT_NE(error_of("0 0\n0 91\n").find(".txt:2: latitude"), std::string::npos);
+  EXPECT_NE(error_of("1 2 nan\n").find(".txt:1: 'nan'"), std::string::npos);
+  EXPECT_NE(error_of("1 2 1e999\n").find(".txt:1: '1e999'"), std::string::npos);
+  EXPECT_NE(error_of("# nothing\n").find("no points"), std::string::npos);
+  EXPECT_THROW(point_sets::read("/no/such/file"), std::runtime_error);
+  EXPECT_THROW(point_sets::read("/"), std::runtime_error);
+}
+
+}  // namespace

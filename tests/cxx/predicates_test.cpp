@@ -1,0 +1,572 @@
+// The predicates against tests/support/exact.h, which knows neither filters nor floating point.
+
+#include "geometry/predicates.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "point_sets.h"
+#include "support/exact.h"
+
+namespace {
+
+using point_sets::normalized;
+using point_sets::Random;
+using pstripack::Coordinates;
+using pstripack::Directions;
+using pstripack::Point;
+using Four = std::array<Point, 4>;
+
+constexpr int permutations[24][5] = {  // of 0 1 2 3, with their sign
+    {0, 1, 2, 3, 1},  {0, 1, 3, 2, -1}, {0, 2, 1, 3, -1}, {0, 2, 3, 1, 1},  {0, 3, 1, 2, 1},
+    {0, 3, 2, 1, -1}, {1, 0, 2, 3, -1}, {1, 0, 3, 2, 1},  {1, 2, 0, 3, 1},  {1, 2, 3, 0, -1},
+    {1, 3, 0, 2, -1}, {1, 3, 2, 0, 1},  {2, 0, 1, 3, 1},  {2, 0, 3, 1, -1}, {2, 1, 0, 3, -1},
+    {2, 1, 3, 0, 1},  {2, 3, 0, 1, 1},  {2, 3, 1, 0, -1}, {3, 0, 1, 2, -1}, {3, 0, 2, 1, 1},
+    {3, 1, 0, 2, 1},  {3, 1, 2, 0, -1}, {3, 2, 0, 1, -1}, {3, 2, 1, 0, 1}};
+
+Point plus(const Point& a, double s, const Point& b) { return {a.x + s * b.x, a.y + s * b.y, a.z + s * b.z}; }
+
+Point nudged(Point p, Random& random, int ulps) {
+  for (double* v : {&p.x, &p.y, &p.z})
+    for (std::size_t k = random.below(static_cast<std::size_t>(ulps) + 1); k > 0; --k)
+      *v = std::nextafter(*v, random.below(2) == 0 ? -2 : 2);
+  return p;
+}
+
+bool different(const Four& f) {
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < i; ++j)
+      if (exact::same_direction(f[i], f[j])) return false;
+  return true;
+}
+
+// ---- Four nodes of unit length, from harmless to exactly degenerate, of a size from 1 down to 1e-15 ----
+
+Four anywhere(Random& random, double size) {
+  const Point c = random.direction();
+  Four f;
+  for (Point& p : f) p = normalized(plus(c, size, random.direction()));
+  return f;
+}
+
+/// d on the circle through a, b, c, up to rounding and a few ulps.
+Four nearly_cocircular(Random& random, double size) {
+  const Point axis = random.direction(), e1 = normalized(plus(random.direction(), 0.1, axis));
+  const double along = e1.x * axis.x + e1.y * axis.y + e1.z * axis.z;
+  const Point u = normalized(plus(e1, -along, axis));
+  const Point v = {axis.y * u.z - axis.z * u.y, axis.z * u.x - axis.x * u.z, axis.x * u.y - axis.y * u.x};
+  Four f;
+  for (Point& p : f) {
+    const double angle = random.uniform(0, 360);
+    p = plus(plus(axis, size * point_sets::cos_degrees(angle), u), size * point_sets::sin_degrees(angle), v);
+    p = nudged(normalized(p), random, 2);
+  }
+  return f;
+}
+
+/// c (and every other time d) on the great circle through a and b, up to rounding and a few ulps.
+Four nearly_on_great_circle(Random& random, double size) {
+  Four f = anywhere(random, size);
+  for (int i = 2; i < 3 + static_cast<int>(random.below(2)); ++i) {
+    const double t = random.uniform(-2, 3);
+    f[i] = {f[0].x + t * (f[1].x - f[0].x), f[0].y + t * (f[1].y - f[0].y), f[0].z + t * (f[1].z - f[0].z)};
+    f[i] = nudged(normalized(f[i]), random, 2);
+  }
+  return f;
+}
+
+/// Signed permutations of one vector: planes and great circles through many of them, exactly.
+Four symmetric(Random& random, double) {
+  const Point p = random.direction();
+  const double v[3] = {p.x, p.y, random.below(4) == 0 ? p.y : p.z};
+  Four f;
+  for (Point& q : f) {
+    const std::size_t first = random.below(3), second = (first + 1 + random.below(2)) % 3;
+    const auto sign = [&random] { return random.below(2) == 0 ? 1.0 : -1.0; };
+    q = {sign() * v[first], sign() * v[second], sign() * v[3 - first - second]};
+  }
+  return f;
+}
+
+/// A lattice in the plane x = 1 or next to it: coplanar and collinear fours in plenty.
+Four lattice(Random& random, double size) {
+  const double step = std::exp2(std::floor(std::log2(size)) - 13);
+  const double next = random.below(2) == 0 ? 0 : 0x1p-52;
+  Four f;
+  for (Point& p : f) {
+    const auto cell = [&random] { return static_cast<double>(random.below(7)) - 3; };
+    p = {1 + next * static_cast<double>(random.below(2)), step * cell(), step * cell()};
+    if (size < 0.5) continue;  // another great plane, and opposite nodes
+    if (random.below(8) == 0) p = {-p.x, -p.y, -p.z};
+  }
+  return f;
+}
+
+/// Nodes that are exactly or nearly opposite each other.
+Four antipodal(Random& random, double size) {
+  Four f = anywhere(random, size);
+  f[1] = nudged({-f[0].x, -f[0].y, -f[0].z}, random, 1);
+  if (random.below(2) == 0) f[3] = nudged({-f[2].x, -f[2].y, -f[2].z}, random, 1);
+  return f;
+}
+
+struct Generator {
+  const char* name;
+  Four (*make)(Random&, double size);
+  int count;  // per size
+};
+
+void PrintTo(const Generator& g, std::ostream* out) { *out << g.name; }
+
+const Generator generators[] = {{"anywhere", anywhere, 40000},
+                                {"nearly_cocircular", nearly_cocircular, 40000},
+                                {"nearly_on_great_circle", nearly_on_great_circle, 40000},
+                                {"symmetric", symmetric, 15000},
+                                {"lattice", lattice, 25000},
+                                {"antipodal", antipodal, 15000}};
+
+/// Calls check(four) for the generator's fours of all sizes; nodes pairwise different in direction.
+template <class Check>
+void for_each_four(const Generator& g, double share, Check check) {
+  Random random(1);
+  for (int exponent = 0; exponent <= 15; ++exponent)
+    for (int i = 0; i < static_cast<int>(share * g.count); ++i) {
+      const Four f = g.make(random, std::pow(10.0, -exponent));
+      if (different(f)) check(f);
+      if (::testing::Test::HasFailure()) return;
+    }
+}
+
+std::string text(const Four& f) {
+  char line[400];
+  std::string all;
+  for (const Point& p : f) {
+    std::snprintf(line, sizeof line, "\n  %a %a %a", p.x, p.y, p.z);
+    all += line;
+  }
+  return all;
+}
+
+class Predicates : public ::testing::TestWithParam<Generator> {};
+
+TEST_P(Predicates, LeftIsTheExactSignAndAntisymmetric) {
+  int zeros = 0;
+  for_each_four(GetParam(), 1, [&](const Four& f) {
+    const int sign = exact::left(f[0], f[1], f[2]);
+    zeros += sign == 0;
+    const Coordinates on(f.data(), 4);
+    for (const auto& p : permutations) {
+      if (p[3] != 3) continue;
+      ASSERT_EQ(pstripack::left(f[p[0]], f[p[1]], f[p[2]]), p[4] * sign) << text(f);
+      ASSERT_EQ(on.left(p[0], p[1], p[2]), p[4] * sign) << text(f);
+    }
+  });
+  RecordProperty("exact_zeros", zeros);
+}
+
+TEST_P(Predicates, OrientationIsTheExactSignAndAntisymmetric) {
+  int zeros = 0;
+  for_each_four(GetParam(), 1, [&](const Four& f) {
+    const int sign = exact::orientation(exact::On::coordinates, f[0], f[1], f[2], f[3]);
+    zeros += sign == 0;
+    for (const auto& p : permutations)
+      ASSERT_EQ(pstripack::orientation(f[p[0]], f[p[1]], f[p[2]], f[p[3]]), p[4] * sign) << text(f);
+  });
+  RecordProperty("exact_zeros", zeros);
+}
+
+TEST_P(Predicates, AboveOnCoordinatesIsTheExactSignWithTheTieRule) {
+  int ties = 0;
+  for_each_four(GetParam(), 1, [&](const Four& f) {
+    const int sign = exact::above(exact::On::coordinates, f[0], f[1], f[2], f[3]);
+    ties += exact::orientation(exact::On::coordinates, f[0], f[1], f[2], f[3]) == 0;
+    const Coordinates on(f.data(), 4);
+    for (const auto& p : permutations)
+      ASSERT_EQ(on.above(p[0], p[1], p[2], p[3]), p[4] * sign > 0) << text(f);
+  });
+  RecordProperty("exact_ties", ties);
+}
+
+TEST_P(Predicates, AboveOnDirectionsIsTheExactSignWithTheTieRule) {
+  int ties = 0;
+  Random random(2);
+  for_each_four(GetParam(), 0.2, [&](Four f) {
+    // Lengths of their own: by powers of two the direction stays exactly what it is, and ties stay ties.
+    const bool any_length = random.below(2) == 0;
+    for (Point& p : f) {
+      const double s =
+          any_length ? random.uniform(0.5, 2) : std::exp2(static_cast<double>(random.below(9)) - 4);
+      p = {s * p.x, s * p.y, s * p.z};
+    }
+    if (!different(f)) return;
+    const int sign = exact::above(exact::On::directions, f[0], f[1], f[2], f[3]);
+    const int plain = exact::orientation(exact::On::directions, f[0], f[1], f[2], f[3]);
+    ties += plain == 0;
+    ASSERT_EQ(pstripack::orientation_of_directions(f[0], f[1], f[2], f[3]), plain) << text(f);
+    const Directions on(f.data(), 4);
+    for (const auto& p : permutations) {
+      ASSERT_EQ(on.above(p[0], p[1], p[2], p[3]), p[4] * sign > 0) << text(f);
+      if (p[3] == 3) {
+        ASSERT_EQ(on.left(p[0], p[1], p[2]), p[4] * exact::left(f[0], f[1], f[2])) << text(f);
+      }
+    }
+  });
+  RecordProperty("exact_ties", ties);
+}
+
+INSTANTIATE_TEST_SUITE_P(On, Predicates, ::testing::ValuesIn(generators),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+// ---- The judge itself ----
+
+TEST(Exact, RootSumsAgreeWithTwoHundredDigits) {
+  using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<200>>;
+  Random random(3);
+  int zeros = 0;
+  for (int i = 0; i < 20000; ++i) {
+    exact::Integer c[4], q[4];
+    Real sum = 0;
+    for (int k = 0; k < 4; ++k) {
+      c[k] = static_cast<int>(random.below(9)) - 4;
+      const int square = static_cast<int>(random.below(4)) + 1;
+      q[k] = square * square * static_cast<int>(random.below(4));
+      sum += Real(c[k]) * sqrt(Real(q[k]));
+    }
+    const int sign = abs(sum) < Real("1e-150") ? 0 : sum.sign();
+    zeros += sign == 0;
+    ASSERT_EQ(exact::sign_of_root_sum(c, q), sign);
+  }
+  EXPECT_GT(zeros, 100);
+}
+
+TEST(Exact, OrientationsAgreeWithRationals) {
+  Random random(4);
+  for (const Generator& g : generators)
+    for (int i = 0; i < 500; ++i) {
+      const Four f = g.make(random, std::pow(10.0, -(i % 16)));
+      exact::Rational v[4][3];
+      for (int k = 0; k < 4; ++k) v[k][0] = f[k].x, v[k][1] = f[k].y, v[k][2] = f[k].z;
+      const auto determinant = [](const exact::Rational(&a)[3], const exact::Rational(&b)[3],
+                                  const exact::Rational(&c)[3]) -> exact::Rational {
+        return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+               a[2] * (b[0] * c[1] - b[1] * c[0]);
+      };
+      ASSERT_EQ(exact::left(f[0], f[1], f[2]), determinant(v[0], v[1], v[2]).sign());
+      for (int k = 1; k < 4; ++k)
+        for (int j = 0; j < 3; ++j) v[k][j] -= v[0][j];
+      ASSERT_EQ(exact::orientation(exact::On::coordinates, f[0], f[1], f[2], f[3]),
+                determinant(v[1], v[2], v[3]).sign());
+    }
+}
+
+TEST(Exact, DirectionsAgreeWithUnitVectorsOfTwoHundredDigits) {
+  using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<200>>;
+  Random random(14);
+  int zeros = 0;
+  for (int i = 0; i < 6000; ++i) {
+    Four f = generators[i % 6].make(random, std::pow(10.0, -(i % 16)));
+    for (Point& p : f) {
+      const double s =
+          i % 2 == 0 ? random.uniform(0.1, 10) : std::exp2(static_cast<double>(random.below(9)) - 4);
+      p = {s * p.x, s * p.y, s * p.z};
+    }
+    Real v[4][3];
+    for (int k = 0; k < 4; ++k) {
+      v[k][0] = f[k].x, v[k][1] = f[k].y, v[k][2] = f[k].z;
+      const Real length = sqrt(Real(v[k][0] * v[k][0] + v[k][1] * v[k][1] + v[k][2] * v[k][2]));
+      for (Real& component : v[k]) component /= length;
+    }
+    for (int k = 1; k < 4; ++k)
+      for (int j = 0; j < 3; ++j) v[k][j] -= v[0][j];
+    const Real volume = v[1][0] * (v[2][1] * v[3][2] - v[2][2] * v[3][1]) +
+                        v[1][1] * (v[2][2] * v[3][0] - v[2][0] * v[3][2]) +
+                        v[1][2] * (v[2][0] * v[3][1] - v[2][1] * v[3][0]);
+    const int sign = exact::orientation(exact::On::directions, f[0], f[1], f[2], f[3]);
+    zeros += sign == 0;
+    ASSERT_EQ(sign, abs(volume) < Real("1e-180") ? 0 : volume.sign()) << text(f);
+  }
+  EXPECT_GT(zeros, 100);
+}
+
+// ---- The tie rule against nodes that are really pushed outwards ----
+
+/// The sign of the volume when the node of rank r among the four is pushed to 1/(1 - e) of its length,
+/// e = 2^-64 for the highest rank, and 2^-64 times smaller for each lower one.
+int pushed(exact::On on, const Four& f) {
+  exact::Rational stretch[4];
+  for (int i = 0; i < 4; ++i) {
+    int higher = 0;
+    for (int j = 0; j < 4; ++j) higher += exact::lower_rank(f[i], f[j]);
+    stretch[i] = 1 - exact::Rational(1, exact::Integer(1) << (64 * (higher + 1)));  // t = 1/length
+  }
+  const exact::Integer unit = exact::Integer(1) << 256;
+  if (on == exact::On::directions) {
+    // t_a |a| [bcd] - ..., for lattice vectors: everything is whole after the factor 2^256.
+    exact::Integer v[4][3], squared[4], c[4], q[4];
+    for (int k = 0; k < 4; ++k) {
+      v[k][0] = static_cast<int>(f[k].x), v[k][1] = static_cast<int>(f[k].y),
+      v[k][2] = static_cast<int>(f[k].z);
+      squared[k] = v[k][0] * v[k][0] + v[k][1] * v[k][1] + v[k][2] * v[k][2];
+    }
+    for (int k = 0; k < 4; ++k) {
+      const int o[3] = {k == 0 ? 1 : 0, k <= 1 ? 2 : 1, k <= 2 ? 3 : 2};
+      const auto &x = v[o[0]], &y = v[o[1]], &z = v[o[2]];
+      const exact::Integer bracket = x[0] * (y[1] * z[2] - y[2] * z[1]) + x[1] * (y[2] * z[0] - y[0] * z[2]) +
+                                     x[2] * (y[0] * z[1] - y[1] * z[0]);
+      const exact::Rational t = stretch[k] * unit;
+      c[k] = (k % 2 == 0 ? 1 : -1) * bracket * numerator(t) / denominator(t);
+      q[k] = squared[k];
+    }
+    return exact::sign_of_root_sum(c, q);
+  }
+  exact::Rational v[4][3];
+  for (int k = 0; k < 4; ++k) {
+    v[k][0] = exact::Rational(f[k].x) / stretch[k];
+    v[k][1] = exact::Rational(f[k].y) / stretch[k];
+    v[k][2] = exact::Rational(f[k].z) / stretch[k];
+  }
+  for (int k = 1; k < 4; ++k)
+    for (int j = 0; j < 3; ++j) v[k][j] -= v[0][j];
+  const exact::Rational volume = v[1][0] * (v[2][1] * v[3][2] - v[2][2] * v[3][1]) +
+                                 v[1][1] * (v[2][2] * v[3][0] - v[2][0] * v[3][2]) +
+                                 v[1][2] * (v[2][0] * v[3][1] - v[2][1] * v[3][0]);
+  return volume.sign();
+}
+
+bool on_one_great_circle(const Four& f) {
+  return exact::left(f[0], f[1], f[2]) == 0 && exact::left(f[0], f[1], f[3]) == 0 &&
+         exact::left(f[0], f[2], f[3]) == 0 && exact::left(f[1], f[2], f[3]) == 0;
+}
+
+TEST(TieRule, OnCoordinatesIsARadialPushByRank) {
+  Random random(5);
+  int ties = 0, flat = 0;
+  for (int i = 0; i < 40000; ++i) {
+    const Four f = i % 2 == 0 ? symmetric(random, 1) : lattice(random, 1);
+    if (!different(f)) continue;
+    const bool tie = exact::orientation(exact::On::coordinates, f[0], f[1], f[2], f[3]) == 0;
+    ties += tie;
+    flat += on_one_great_circle(f);
+    ASSERT_EQ(
+        Coordinates(f.data(), 4).above(0, 1, 2, 3),
+        tie ? pushed(exact::On::coordinates, f) > 0 : pstripack::orientation(f[0], f[1], f[2], f[3]) > 0)
+        << text(f);
+    if (tie && on_one_great_circle(f)) {
+      ASSERT_EQ(pushed(exact::On::coordinates, f), 0) << text(f);
+    }
+  }
+  EXPECT_GT(ties, 5000);
+  EXPECT_GT(flat, 50);
+}
+
+TEST(TieRule, OnDirectionsIsARadialPushByRank) {
+  Random random(6);
+  int ties = 0, flat = 0;
+  for (int i = 0; i < 60000; ++i) {
+    Four f;
+    for (Point& p : f) {
+      const auto cell = [&random] { return static_cast<double>(random.below(5)) - 2; };
+      do p = {cell(), cell(), cell()};
+      while (p == Point{0, 0, 0});
+    }
+    if (!different(f)) continue;
+    const int plain = exact::orientation(exact::On::directions, f[0], f[1], f[2], f[3]);
+    ties += plain == 0;
+    flat += on_one_great_circle(f);
+    const int expected = plain == 0 ? pushed(exact::On::directions, f) : plain;
+    ASSERT_EQ(Directions(f.data(), 4).above(0, 1, 2, 3), expected > 0) << text(f);
+    ASSERT_EQ(pstripack::orientation_of_directions(f[0], f[1], f[2], f[3]), plain) << text(f);
+  }
+  EXPECT_GT(ties, 500);
+  EXPECT_GT(flat, 50);
+}
+
+TEST(TieRule, DoesNotDependOnTheNumbering) {
+  Random random(7);
+  for (int i = 0; i < 20000; ++i) {
+    const Four f = symmetric(random, 1);
+    if (!different(f)) continue;
+    const bool above = Coordinates(f.data(), 4).above(0, 1, 2, 3);
+    for (const auto& p : permutations) {
+      Four g;  // node p[k] of g is node k of f
+      for (int k = 0; k < 4; ++k) g[p[k]] = f[k];
+      ASSERT_EQ(Coordinates(g.data(), 4).above(p[0], p[1], p[2], p[3]), above) << text(f);
+    }
+  }
+}
+
+TEST(TieRule, TakesMinusZeroForZero) {
+  const Four f = {{{1, 0.0, 0}, {0, 1, 0}, {-1, 0.0, 0}, {0, -1, 0}}};
+  for (int signs = 0; signs < 256; ++signs) {
+    Four g = f;
+    for (int k = 0; k < 4; ++k) {
+      for (double* v : {&g[k].x, &g[k].y})
+        if (*v == 0 && (signs >> k) % 2 != 0) *v = -0.0;
+      if ((signs >> (4 + k)) % 2 != 0) g[k].z = -0.0;
+    }
+    EXPECT_FALSE(Coordinates(g.data(), 4).above(0, 1, 2, 3));
+    EXPECT_EQ(pstripack::left(g[0], g[1], g[2]), 0);
+  }
+  const Point signed_zero{-0.0, 1, -0.0}, zero{0, 1, 0};
+  EXPECT_TRUE(pstripack::same_direction(signed_zero, zero));
+}
+
+// ---- Any finite double ----
+
+double any_double(Random& random, int low, int high) {
+  const int exponent = low + static_cast<int>(random.below(static_cast<std::size_t>(high - low)));
+  return random.below(12) == 0 ? 0 : std::ldexp(random.uniform(-1, 1), exponent);
+}
+
+/// Exponents of all sizes; every other time all small or all large; every third time made degenerate.
+Four wild(Random& random) {
+  const int ranges[4][2] = {{-1080, 1025}, {-1080, -1000}, {1000, 1025}, {-30, 30}};
+  const auto& range = ranges[random.below(4)];
+  Four f;
+  for (Point& p : f) {
+    do
+      p = {any_double(random, range[0], range[1]), any_double(random, range[0], range[1]),
+           any_double(random, range[0], range[1])};
+    while (p == Point{0, 0, 0});
+  }
+  switch (random.below(6)) {
+    case 0:
+      f[2] = {f[0].x / 2 + f[1].x / 2, f[0].y / 2 + f[1].y / 2, f[0].z / 2 + f[1].z / 2};
+      break;
+    case 1:
+      f[3] = {-f[0].x, -f[0].y, -f[0].z};
+      break;
+    case 2:
+      for (Point& p : f) p.z = f[0].z;
+      break;
+    default:
+      break;
+  }
+  return f;
+}
+
+TEST(AnyFiniteDouble, LeftAndOrientationAreExact) {
+  Random random(8);
+  for (int i = 0; i < 200000; ++i) {
+    const Four f = wild(random);
+    if (f[2] == Point{0, 0, 0} || f[3] == Point{0, 0, 0}) continue;
+    ASSERT_EQ(pstripack::left(f[0], f[1], f[2]), exact::left(f[0], f[1], f[2])) << text(f);
+    ASSERT_EQ(pstripack::orientation(f[0], f[1], f[2], f[3]),
+              exact::orientation(exact::On::coordinates, f[0], f[1], f[2], f[3]))
+        << text(f);
+  }
+}
+
+TEST(AnyFiniteDouble, DirectionsAreExact) {
+  Random random(9);
+  for (int i = 0; i < 100000; ++i) {
+    const Four f = wild(random);
+    if (f[2] == Point{0, 0, 0} || f[3] == Point{0, 0, 0} || !different(f)) continue;
+    const Directions on(f.data(), 4);
+    ASSERT_EQ(on.left(0, 1, 2), exact::left(f[0], f[1], f[2])) << text(f);
+    ASSERT_EQ(pstripack::orientation_of_directions(f[0], f[1], f[2], f[3]),
+              exact::orientation(exact::On::directions, f[0], f[1], f[2], f[3]))
+        << text(f);
+    ASSERT_EQ(on.above(0, 1, 2, 3), exact::above(exact::On::directions, f[0], f[1], f[2], f[3]) > 0)
+        << text(f);
+  }
+}
+
+TEST(AnyFiniteDouble, SameDirectionIsExact) {
+  Random random(10);
+  int same = 0;
+  for (int i = 0; i < 300000; ++i) {
+    Four f = wild(random);
+    Point &a = f[0], &b = f[1];
+    if (i % 3 == 0) b = {a.x / 8, a.y / 8, a.z / 8};  // the same, or opposite, unless it rounds
+    if (i % 3 == 1) a = {std::floor(a.x), std::floor(a.y), std::floor(a.z)}, b = {3 * a.x, 3 * a.y, 3 * a.z};
+    if (i % 5 == 0) b = {-b.x, -b.y, -b.z};
+    const auto usable = [](const Point& p) { return std::isfinite(p.x + p.y + p.z) && p != Point{0, 0, 0}; };
+    if (!usable(a) || !usable(b)) continue;
+    same += exact::same_direction(a, b);
+    ASSERT_EQ(pstripack::same_direction(a, b), exact::same_direction(a, b)) << text(f);
+    const Directions on(f.data(), 2);
+    ASSERT_EQ(on.coincide(0, 1), exact::same_direction(a, b)) << text(f);
+  }
+  EXPECT_GT(same, 10000);
+}
+
+// ---- What the kernel builds its filter on ----
+
+using Wide = boost::multiprecision::cpp_bin_float_100;
+
+TEST(Directions, PositionsAndDifferencesAreAsAccurateAsPromised) {
+  Random random(11);
+  for (int i = 0; i < 20000; ++i) {
+    const double size = std::pow(10.0, -(i % 16));
+    Four f = anywhere(random, size);
+    for (Point& p : f) {
+      const double s = std::exp(random.uniform(-20, 20));
+      p = {s * p.x, s * p.y, s * p.z};
+    }
+    const Directions on(f.data(), 4);
+    Wide unit[2][3];
+    for (int k = 0; k < 2; ++k) {
+      const Wide x = f[k].x, y = f[k].y, z = f[k].z, length = sqrt(x * x + y * y + z * z);
+      unit[k][0] = x / length, unit[k][1] = y / length, unit[k][2] = z / length;
+    }
+    const Point p = on.position(0), d = on.difference(0, 1);
+    const double position[3] = {p.x, p.y, p.z}, difference[3] = {d.x, d.y, d.z};
+    for (int j = 0; j < 3; ++j) {
+      ASSERT_LE(abs(Wide(position[j]) - unit[0][j]), Wide(0x1p-53)) << text(f);
+      const Wide true_difference = unit[0][j] - unit[1][j];
+      ASSERT_LE(abs(Wide(difference[j]) - true_difference),
+                abs(true_difference) * 3.01 * 0x1p-53 + Wide(0x1p-97))
+          << text(f);
+    }
+  }
+}
+
+// ---- How often the filter gives up: measured, and bounded where it matters ----
+
+struct Share {
+  double exact, symbolic;
+};
+
+Share shares(const std::vector<Point>& p) {
+  Random random(12);
+  const Coordinates on(p.data(), p.size());
+  pstripack::take_predicate_counts();
+  int calls = 0;
+  for (; calls < 200000; ++calls) {
+    const auto i = static_cast<pstripack::index_t>(random.below(p.size() - 3));
+    (void)on.above(i, i + 1, i + 2, i + 3);
+  }
+  const auto counts = pstripack::take_predicate_counts();
+  return {static_cast<double>(counts.exact) / calls, static_cast<double>(counts.symbolic) / calls};
+}
+
+TEST(Filter, HardlyEverGivesUpOnRandomNodes) {
+  const Share s = shares(point_sets::make("random", 10000));
+  RecordProperty("exact_share", std::to_string(s.exact));
+  EXPECT_LT(s.exact, 1e-4);
+}
+
+TEST(Filter, IsMeasuredOnAllFamilies) {
+  for (const std::string& family : point_sets::families()) {
+    const Share s = shares(point_sets::make(family, 10000));
+    RecordProperty(family,
+                   std::to_string(s.exact) + " exact, " + std::to_string(s.symbolic) + " by the tie rule");
+    std::printf("%-18s %8.5f exact %8.5f by the tie rule\n", family.c_str(), s.exact, s.symbolic);
+    EXPECT_LE(s.symbolic, s.exact);
+  }
+}
+
+TEST(Filter, CountsTheTieRuleOnTies) {
+  const auto ring = point_sets::make("ring", 1000);  // all but the last on one circle
+  EXPECT_GT(shares(ring).symbolic, 0.9);
+}
+
+}  // namespace

@@ -1,0 +1,535 @@
+// The validator against meshes that are broken in every way we know, and a million mutated lists.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "mesh/validate.h"
+#include "point_sets.h"
+#include "stripack/adjacency_lists.h"
+#include "support/guarded.h"
+#include "support/judge.h"
+
+namespace {
+
+using exact::On;
+using point_sets::from_degrees;
+using point_sets::make;
+using point_sets::Random;
+using pstripack::Defect;
+using pstripack::Lengths;
+using pstripack::Verdict;
+
+constexpr std::int32_t filler = -987654321;  // in slots that no list uses
+
+Verdict judge(const Nodes& nodes, const Faces& faces, Lengths lengths = Lengths::automatic) {
+  return pstripack::is_valid(nodes.data(), nodes.size(), faces.data(), faces.size(), lengths);
+}
+
+pstripack::ListsView<std::int32_t> view(const Lists& l) {
+  return {l.nodes(), l.list.data(), l.lptr.data(), l.lend.data(), l.lnew};
+}
+
+Verdict judge(const Nodes& nodes, const Lists& lists, Lengths lengths = Lengths::automatic) {
+  return pstripack::is_valid(nodes.data(), view(lists), lengths);
+}
+
+std::size_t index_of(const Faces& faces, std::array<std::int32_t, 3> f) {
+  Faces one{f};
+  sort_faces(one);
+  const auto found = std::find(faces.begin(), faces.end(), one[0]);
+  return static_cast<std::size_t>(found - faces.begin());
+}
+
+const Nodes octahedron = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
+
+Nodes cube() {
+  Nodes p;
+  for (const double x : {-1., 1.})
+    for (const double y : {-1., 1.})
+      for (const double z : {-1., 1.}) p.push_back(point_sets::normalized({x, y, z}));
+  return p;
+}
+
+struct Sample {
+  const char* name;
+  Nodes nodes;
+};
+
+/// Small meshes: general position, ties, boundaries.
+std::vector<Sample> samples() {
+  Nodes lat_lon = make("latlon", 18), rim = make("hemisphere-rim", 10, 3), ring = make("ring", 9);
+  return {{"triangle", {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+          {"tetrahedron", {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, point_sets::normalized({-1, -1, -1})}},
+          {"random8", make("random", 8, 1)},
+          {"random12", make("random", 12, 2)},
+          {"octahedron", octahedron},
+          {"cube", cube()},
+          {"icosahedron", make("icosahedral", 12)},
+          {"latlon", lat_lon},
+          {"hemisphere", make("hemisphere", 9, 1)},
+          {"rim", rim},
+          {"ring", ring},
+          {"cap", make("cap:1e-6", 10, 1)}};
+}
+
+TEST(Validator, AcceptsBruteForceMeshes) {
+  for (const Sample& s : samples()) {
+    const Faces faces = brute_force(s.nodes, On::coordinates);
+    EXPECT_TRUE(judge(s.nodes, faces)) << s.name;
+    const auto rings = rings_of(s.nodes.size(), faces);
+    ASSERT_TRUE(rings) << s.name;
+    EXPECT_EQ(fault(s.nodes, *rings), "") << s.name;
+    const Lists lists = canonical_lists(*rings);
+    EXPECT_TRUE(judge(s.nodes, lists)) << s.name;
+    EXPECT_TRUE(pstripack::lists_are_canonical(view(lists))) << s.name;
+    Faces triangles = pstripack::triangles_of(view(lists));
+    for (const auto& f : triangles) EXPECT_TRUE(f[0] < f[1] && f[0] < f[2]) << s.name;
+    std::sort(triangles.begin(), triangles.end());
+    EXPECT_EQ(triangles, faces) << s.name;
+  }
+}
+
+TEST(Validator, DoesNotMindTheOrderOfTriangles) {
+  const Nodes nodes = make("random", 30);
+  Faces faces = brute_force(nodes, On::coordinates);
+  Random random(1);
+  for (int i = 0; i < 20; ++i) {
+    std::swap(faces[random.below(faces.size())], faces[random.below(faces.size())]);
+    auto& f = faces[random.below(faces.size())];
+    std::rotate(f.begin(), f.begin() + 1, f.end());
+    EXPECT_TRUE(judge(nodes, faces));
+  }
+}
+
+// ---- A broken mesh of every kind ----
+
+TEST(Validator, FindsIndicesOutOfRange) {
+  const std::int32_t largest = std::numeric_limits<std::int32_t>::max();
+  for (const std::int32_t bad : {-1, 6, largest, -largest - 1}) {
+    Faces faces = brute_force(octahedron, On::coordinates);
+    faces[3][1] = bad;
+    EXPECT_EQ(judge(octahedron, faces).defect, Defect::malformed) << bad;
+  }
+}
+
+TEST(Validator, FindsACornerTwiceInATriangle) {
+  Faces faces = brute_force(octahedron, On::coordinates);
+  faces[3][1] = faces[3][0];
+  EXPECT_EQ(judge(octahedron, faces).defect, Defect::malformed);
+}
+
+TEST(Validator, FindsATriangleTwice) {
+  Faces faces = brute_force(octahedron, On::coordinates);
+  faces.push_back(faces[2]);
+  EXPECT_EQ(judge(octahedron, faces).defect, Defect::not_manifold);
+}
+
+TEST(Validator, FindsAnArcOfThreeTriangles) {
+  Nodes nodes = octahedron;
+  Faces faces = brute_force(nodes, On::coordinates);
+  nodes.push_back(point_sets::normalized({1, 1, -1}));
+  faces.push_back({0, 1, 6});
+  EXPECT_EQ(judge(nodes, faces).defect, Defect::not_manifold);
+}
+
+TEST(Validator, FindsStarsOfTwoFans) {
+  Faces faces = brute_force(octahedron, On::coordinates);  // without two opposite triangles at node 2
+  faces.erase(faces.begin() + static_cast<std::ptrdiff_t>(index_of(faces, {2, 0, 1})));
+  faces.erase(faces.begin() + static_cast<std::ptrdiff_t>(index_of(faces, {2, 3, 4})));
+  ASSERT_EQ(faces.size(), 6u);
+  EXPECT_EQ(judge(octahedron, faces).defect, Defect::not_manifold);
+}
+
+TEST(Validator, FindsMissingNodes) {
+  Nodes nodes = octahedron;
+  nodes.push_back(point_sets::normalized({1, 2, 3}));
+  const Verdict v = judge(nodes, brute_force(octahedron, On::coordinates));
+  EXPECT_EQ(v.defect, Defect::missing_node);
+  EXPECT_EQ(v.node[0], 6);
+  EXPECT_EQ(judge(octahedron, Faces{}).defect, Defect::missing_node);
+}
+
+TEST(Validator, FindsNodesInOnePlace) {
+  Nodes nodes = make("random", 12, 2);
+  const Faces faces = brute_force(nodes, On::coordinates);
+  nodes[faces[0][1]] = nodes[faces[0][0]];
+  EXPECT_EQ(judge(nodes, faces).defect, Defect::coincident_nodes);
+}
+
+TEST(Validator, FindsInvertedTriangles) {
+  const Nodes nodes = make("random", 12, 2);
+  Faces faces = brute_force(nodes, On::coordinates);
+  for (auto& f : faces) std::swap(f[0], f[1]);
+  EXPECT_EQ(judge(nodes, faces).defect, Defect::orientation);
+}
+
+TEST(Validator, FindsFlatTriangles) {
+  // Three nodes on the equator as a triangle: det is exactly 0.
+  const Nodes nodes = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, 0, 1}};
+  const Faces faces = {{0, 1, 3}, {1, 2, 3}, {0, 2, 1}};
+  EXPECT_EQ(judge(nodes, faces).defect, Defect::orientation);
+}
+
+TEST(Validator, FindsANodePulledThroughItsStar) {
+  Nodes nodes = make("random", 40, 5);
+  const Faces faces = brute_force(nodes, On::coordinates);
+  const auto rings = rings_of(nodes.size(), faces);
+  ASSERT_TRUE(rings);
+  const auto far = nodes[rings->neighbours[7][0]], back = nodes[7];
+  nodes[7] = point_sets::normalized({2 * far.x - back.x, 2 * far.y - back.y, 2 * far.z - back.z});
+  EXPECT_EQ(judge(nodes, faces).defect, Defect::orientation);
+}
+
+TEST(Validator, FindsAFlippedArc) {
+  for (const Sample& s : samples()) {
+    const Faces faces = brute_force(s.nodes, On::coordinates);
+    int flips = 0;
+    for (std::size_t i = 0; i < faces.size(); ++i)
+      for (std::size_t j = 0; j < faces.size(); ++j)
+        for (int k = 0; k < 9; ++k) {
+          // Triangles a,b,c and b,a,d become a,d,c and d,b,c.
+          const auto &f = faces[i], &g = faces[j];
+          const std::int32_t a = f[k / 3], b = f[(k / 3 + 1) % 3], c = f[(k / 3 + 2) % 3],
+                             d = g[(k % 3 + 2) % 3];
+          if (i == j || g[k % 3] != b || g[(k % 3 + 1) % 3] != a) continue;
+          Faces flipped = faces;
+          flipped[i] = {a, d, c};
+          flipped[j] = {d, b, c};
+          const Verdict v = judge(s.nodes, flipped);
+          ++flips;
+          const bool convex = exact::left(s.nodes[a], s.nodes[d], s.nodes[c]) > 0 &&
+                              exact::left(s.nodes[d], s.nodes[b], s.nodes[c]) > 0;
+          if (rings_of(s.nodes.size(), flipped) && convex) {
+            EXPECT_EQ(v.defect, Defect::not_delaunay) << s.name << " " << v.message;
+          } else
+            EXPECT_FALSE(v) << s.name;
+        }
+    EXPECT_GT(flips, s.nodes.size() == 3 ? -1 : 5) << s.name;
+  }
+}
+
+TEST(Validator, FindsHoles) {
+  const Nodes nodes = make("random", 40, 5);
+  Faces faces = brute_force(nodes, On::coordinates);
+  faces.erase(faces.begin() + 11);
+  EXPECT_EQ(judge(nodes, faces).defect, Defect::not_convex);
+}
+
+TEST(Validator, FindsADentInTheBoundary) {
+  const Nodes nodes = make("hemisphere", 30, 5);
+  const Faces faces = brute_force(nodes, On::coordinates);
+  const auto rings = rings_of(nodes.size(), faces);
+  ASSERT_TRUE(rings);
+  int dents = 0;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const auto& f = faces[i];
+    for (int k = 0; k < 3; ++k) {
+      const std::int32_t a = f[k], b = f[(k + 1) % 3], c = f[(k + 2) % 3];
+      if (rings->boundary[c] || rings->neighbours[a][0] != b || !rings->boundary[a]) continue;
+      Faces dented = faces;
+      dented.erase(dented.begin() + static_cast<std::ptrdiff_t>(i));
+      EXPECT_EQ(judge(nodes, dented).defect, Defect::not_convex);
+      ++dents;
+    }
+  }
+  EXPECT_GT(dents, 3);
+}
+
+TEST(Validator, RefusesTheBackOfAHemisphere) {
+  // All nodes in the open hemisphere, the hull closed by its back triangles: they are clockwise.
+  const Nodes nodes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, point_sets::normalized({1, 1, 1})};
+  const Faces faces = {{0, 1, 3}, {1, 2, 3}, {0, 3, 2}, {0, 2, 1}};
+  EXPECT_EQ(judge(nodes, faces).defect, Defect::orientation);
+}
+
+/// Both poles and 2k nodes near the equator, around which the fan of each pole winds twice: every triangle
+/// counterclockwise, every arc locally Delaunay, Euler number 2. Only the stars of the poles tell.
+TEST(Validator, FindsABranchedDoubleCover) {
+  for (const int k : {3, 4, 5, 8, 50}) {
+    Nodes nodes = {{0, 0, 1}, {0, 0, -1}};
+    for (int i = 0; i < 2 * k; ++i)
+      nodes.push_back(from_degrees(720.0 * i / (2 * k) + (i < k ? 0 : 120.0 / k), i < k ? 2e-3 : -1e-3));
+    Faces faces;
+    for (int i = 0; i < 2 * k; ++i) {
+      const std::int32_t a = 2 + i, b = 2 + (i + 1) % (2 * k);
+      faces.push_back({0, a, b});
+      faces.push_back({1, b, a});
+    }
+    for (const auto& f : faces) ASSERT_GT(exact::left(nodes[f[0]], nodes[f[1]], nodes[f[2]]), 0) << k;
+    const Verdict v = judge(nodes, faces);
+    EXPECT_EQ(v.defect, Defect::not_covered_once) << k << ": " << v.message;
+    const auto rings = rings_of(nodes.size(), faces);
+    ASSERT_TRUE(rings);
+    EXPECT_FALSE(judge(nodes, canonical_lists(*rings)));
+    EXPECT_EQ(fault(nodes, *rings, On::coordinates), "the star winds not once at node 1");
+  }
+}
+
+TEST(Validator, FindsTwoSpheresInOne) {
+  const Nodes one = make("random", 12, 2), two = make("random", 12, 3);
+  Nodes nodes = one;
+  nodes.insert(nodes.end(), two.begin(), two.end());
+  Faces faces = brute_force(one, On::coordinates);
+  for (auto f : brute_force(two, On::coordinates)) faces.push_back({f[0] + 12, f[1] + 12, f[2] + 12});
+  EXPECT_EQ(judge(nodes, faces).defect, Defect::not_covered_once);
+}
+
+TEST(Validator, FindsTwoCapsInOne) {
+  const Nodes one = make("hemisphere", 9, 1), two = make("hemisphere", 9, 2);
+  Nodes nodes = one;
+  for (const auto& p : two) nodes.push_back({p.x, p.y, -p.z});
+  Faces faces = brute_force(one, On::coordinates);
+  for (auto f : brute_force(two, On::coordinates)) faces.push_back({f[0] + 9, f[2] + 9, f[1] + 9});
+  EXPECT_EQ(judge(nodes, faces).defect, Defect::not_covered_once);
+}
+
+// ---- Lengths ----
+
+TEST(Validator, JudgesOtherLengthsOnDirections) {
+  Nodes nodes = make("random", 40, 5);
+  Random random(1);
+  for (auto& p : nodes) {
+    const double s = random.uniform(0.9, 1.1);
+    p = {s * p.x, s * p.y, s * p.z};
+  }
+  const Faces faces = brute_force(nodes, On::directions);
+  const Verdict v = judge(nodes, faces);
+  EXPECT_TRUE(v) << v.message;
+  EXPECT_EQ(v.lengths, Lengths::directions);
+  EXPECT_FALSE(judge(nodes, faces, Lengths::as_given));
+}
+
+TEST(Validator, AcceptsHiddenNodesOnDirections) {
+  Nodes nodes = make("random", 40, 5);
+  const auto a = nodes[3], b = nodes[4], c = nodes[5];
+  // A node exactly under the chord of the others' triangle: inside the hull by 1e-9 of its length.
+  auto p = point_sets::normalized({a.x + b.x + c.x, a.y + b.y + c.y, a.z + b.z + c.z});
+  nodes.push_back({p.x + 1e-9 * a.y, p.y - 1e-9 * a.x, p.z});
+  nodes.push_back({p.x * (1 - 1e-8), p.y * (1 - 1e-8), p.z * (1 - 1e-8)});
+  const Faces hull = brute_force(nodes, On::coordinates), faces = brute_force(nodes, On::directions);
+  EXPECT_EQ(judge(nodes, hull).defect, Defect::missing_node);
+  const Verdict v = judge(nodes, faces);
+  EXPECT_TRUE(v) << v.message;
+  EXPECT_EQ(v.lengths, Lengths::directions);
+}
+
+TEST(Validator, JudgesTiesByTheRule) {
+  const Nodes nodes = cube();
+  const Faces faces = brute_force(nodes, On::coordinates);
+  EXPECT_TRUE(judge(nodes, faces));
+  // The other diagonal of one side is as Delaunay as the first, but not by the rule. The reflection y -> -y
+  // turns the ranks in the sides z = const and x = const so that all their diagonals change.
+  Nodes mirrored = nodes;
+  for (auto& p : mirrored) p.y = -p.y;
+  Faces reversed = faces;
+  for (auto& f : reversed) std::swap(f[1], f[2]);
+  EXPECT_EQ(judge(mirrored, reversed).defect, Defect::not_delaunay);
+}
+
+TEST(Validator, RefusesNodesThatAreNoDirections) {
+  const Faces faces = brute_force(octahedron, On::coordinates);
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  for (const double bad : {nan, inf, -inf, 0.0}) {
+    Nodes nodes = octahedron;
+    nodes[4] = {0, bad, 0};
+    EXPECT_FALSE(judge(nodes, faces)) << bad;
+  }
+}
+
+// ---- A million mutants ----
+
+/// The same nodes with one arc flipped; unchanged if the arc is on the boundary or the other diagonal exists.
+Lists flip(const Rings& rings, Random& random) {
+  const std::size_t n = rings.neighbours.size();
+  Faces faces = faces_of(rings);
+  auto& f = faces[random.below(faces.size())];
+  std::rotate(f.begin(), f.begin() + static_cast<std::ptrdiff_t>(random.below(3)), f.end());
+  for (auto& g : faces)
+    for (int k = 0; k < 3; ++k)
+      if (g[k] == f[1] && g[(k + 1) % 3] == f[0]) {
+        const std::int32_t a = f[0], b = f[1], c = f[2], d = g[(k + 2) % 3];
+        f = {a, d, c};
+        g = {d, b, c};
+        const auto flipped = rings_of(n, faces);
+        return canonical_lists(flipped ? *flipped : rings, filler);
+      }
+  return canonical_lists(rings, filler);
+}
+
+/// One random change of the lists. Some leave the triangulation what it is.
+void mutate(Lists& l, Random& random) {
+  const std::size_t n = l.nodes(), slots = static_cast<std::size_t>(l.lnew > 1 ? l.lnew - 1 : 1);
+  const auto slot = [&] { return random.below(std::min(slots, l.list.size())); };
+  const auto node = [&] { return random.below(n); };
+  const auto number = [&](std::size_t limit) {
+    return static_cast<std::int32_t>(random.below(2 * limit + 3)) - static_cast<std::int32_t>(limit) - 1;
+  };
+  switch (random.below(14)) {
+    case 0:
+      l.list[slot()] = number(n);
+      break;
+    case 1:
+      l.lptr[slot()] = number(slots);
+      break;
+    case 2:
+      l.lend[node()] = number(slots);
+      break;
+    case 3:
+      std::swap(l.list[slot()], l.list[slot()]);
+      break;
+    case 4:
+      std::swap(l.lptr[slot()], l.lptr[slot()]);
+      break;
+    case 5:
+      std::swap(l.lend[node()], l.lend[node()]);
+      break;
+    case 6:
+      l.list[slot()] = l.list[slot()];
+      break;
+    case 7:
+      l.lptr[slot()] = l.lptr[slot()];
+      break;
+    case 8:
+      l.list[slot()] *= -1;
+      break;
+    case 9:
+      l.lnew += random.below(2) == 0 ? 1 : -1;
+      break;
+    case 10: {  // the list of a node starts at its next neighbour
+      auto& last = l.lend[node()];
+      if (last >= 1 && last <= static_cast<std::int32_t>(slots)) last = l.lptr[last - 1];
+      break;
+    }
+    case 11: {  // two slots change places, with all that points at them
+      const auto a = static_cast<std::int32_t>(slot()) + 1, b = static_cast<std::int32_t>(slot()) + 1;
+      std::swap(l.list[a - 1], l.list[b - 1]);
+      std::swap(l.lptr[a - 1], l.lptr[b - 1]);
+      for (auto* pointers : {&l.lptr, &l.lend})
+        for (auto& p : *pointers) p = p == a ? b : p == b ? a : p;
+      break;
+    }
+    case 12: {  // two nodes change names
+      const auto a = static_cast<std::int32_t>(node()) + 1, b = static_cast<std::int32_t>(node()) + 1;
+      std::swap(l.lend[a - 1], l.lend[b - 1]);
+      for (auto& k : l.list) {
+        if (k == a || k == -a)
+          k = k > 0 ? b : -b;
+        else if (k == b || k == -b)
+          k = k > 0 ? a : -a;
+      }
+      break;
+    }
+    default: {  // a neighbour is cut out of its list, one way only
+      auto& p = l.lptr[slot()];
+      if (p >= 1 && p <= static_cast<std::int32_t>(slots)) p = l.lptr[p - 1];
+    }
+  }
+}
+
+class Mutants : public ::testing::TestWithParam<Sample> {};
+
+void PrintTo(const Sample& s, std::ostream* out) { *out << s.name; }
+
+TEST_P(Mutants, AreRefusedUnlessTheTriangulationIsTheSame) {
+  const Nodes& nodes = GetParam().nodes;
+  const auto rings = rings_of(nodes.size(), brute_force(nodes, On::coordinates));
+  ASSERT_TRUE(rings);
+  const Lists lists = canonical_lists(*rings, filler);
+  Random random(1);
+  int equivalent = 0, refused = 0;
+  for (int i = 0; i < 85000; ++i) {
+    Lists mutant = random.below(10) == 0 ? flip(*rings, random) : lists;
+    for (std::size_t changes = 1 + random.below(3) / 2; changes > 0; --changes) mutate(mutant, random);
+    const bool lnew_unknown = random.below(8) == 0;
+    const auto decoded = rings_of(mutant);
+    const bool same = decoded && *decoded == *rings;
+    if (lnew_unknown) {  // an 8-argument caller's; slots behind the last used cannot be judged then
+      if (mutant.lnew != lists.lnew) continue;
+      mutant.lnew = 0;
+    }
+    const Verdict v = judge(nodes, mutant);
+    (same ? equivalent : refused) += 1;
+    ASSERT_EQ(static_cast<bool>(v), same)
+        << v.message << "\n list " << ::testing::PrintToString(mutant.list) << "\n lptr "
+        << ::testing::PrintToString(mutant.lptr) << "\n lend " << ::testing::PrintToString(mutant.lend)
+        << "\n lnew " << mutant.lnew;
+    if (same && mutant.lnew != 0) {
+      Lists now = canonical_lists(*rings, filler);
+      ASSERT_EQ(pstripack::lists_are_canonical(view(mutant)), now == mutant);
+    }
+  }
+  RecordProperty("equivalent", equivalent);
+  RecordProperty("refused", refused);
+  EXPECT_GT(equivalent, 5000);
+  EXPECT_GT(refused, 50000);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Mutants, ::testing::ValuesIn(samples()),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+// ---- Garbage ----
+
+TEST(Validator, ReadsNothingOutsideWhateverTheArraysHold) {
+  Random random(1);
+  const std::int32_t extremes[] = {0, 1, -1, std::numeric_limits<std::int32_t>::max(),
+                                   std::numeric_limits<std::int32_t>::min()};
+  for (const std::size_t n : {3, 4, 7, 20}) {
+    const Nodes nodes = make("random", n, 4);
+    const std::size_t slots = 6 * n - 12;
+    for (const Edge edge : {Edge::begin, Edge::end}) {
+      Guarded<std::int32_t> list(slots, edge), lptr(slots, edge), lend(n, edge);
+      const auto fill = [&](Guarded<std::int32_t>& a) {
+        const std::size_t kind = random.below(4);
+        for (std::size_t i = 0; i < a.size(); ++i) {
+          const auto small = static_cast<std::int32_t>(random.below(slots + 3));
+          a[i] = kind == 0   ? static_cast<std::int32_t>(random.bits())
+                 : kind == 1 ? extremes[random.below(5)]
+                 : kind == 2 ? small - 1
+                             : static_cast<std::int32_t>(random.below(n)) + 1;
+        }
+      };
+      for (int i = 0; i < 20000; ++i) {
+        fill(list), fill(lptr), fill(lend);
+        const std::int32_t lnews[] = {0, 1, static_cast<std::int32_t>(slots) + 1, extremes[random.below(5)],
+                                      static_cast<std::int32_t>(slots) + 2};
+        const pstripack::ListsView<std::int32_t> lists{n, list.data(), lptr.data(), lend.data(),
+                                                       lnews[random.below(5)]};
+        const Verdict v = pstripack::is_valid(nodes.data(), lists);
+        if (n > 3) {
+          ASSERT_FALSE(v);  // with three nodes chance may well find the triangle
+        }
+        ASSERT_EQ(v.message.empty(), static_cast<bool>(v));
+      }
+    }
+  }
+}
+
+TEST(Validator, SurvivesRandomTriangles) {
+  Random random(2);
+  for (int i = 0; i < 100000; ++i) {
+    const Nodes nodes = make("random", 3 + random.below(6), random.bits());
+    Faces faces(random.below(2 * nodes.size()));
+    for (auto& f : faces)
+      for (auto& k : f) k = static_cast<std::int32_t>(random.below(nodes.size() + 2)) - 1;
+    const Verdict v = judge(nodes, faces);
+    bool in_range = true;
+    for (const auto& f : faces)
+      for (const std::int32_t k : f)
+        in_range = in_range && k >= 0 && k < static_cast<std::int32_t>(nodes.size());
+    if (v) {
+      sort_faces(faces);
+      ASSERT_TRUE(in_range);
+      ASSERT_EQ(faces, brute_force(nodes, On::coordinates));
+    }
+  }
+}
+
+TEST(Validator, NamesEveryDefect) {
+  for (int d = 0; d <= static_cast<int>(Defect::not_convex); ++d)
+    for (int e = 0; e < d; ++e)
+      EXPECT_STRNE(pstripack::name(static_cast<Defect>(d)), pstripack::name(static_cast<Defect>(e)));
+}
+
+}  // namespace

@@ -1,0 +1,89 @@
+! Input that is refused: on a negative IER nothing but IER is written; a duplicate gives its number.
+! REAL_KIND: 4 or 8; STRIPACK_8_ARGUMENTS: the short argument list.
+program bad_input
+  use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_quiet_nan, ieee_value
+  use expectations
+  implicit none
+  integer, parameter :: rk = REAL_KIND, n = 8, slots = 6*n - 12, mark = -7777
+  real(rk) :: nodes(n, 3), bad(n, 3), al, b(3)
+  integer :: list(slots), lptr(slots), lend(n), lnew, k, i(3)
+#ifndef STRIPACK_8_ARGUMENTS
+  integer :: near(n), next(n)
+  real(rk) :: dist(n)
+#endif
+  integer, external :: nearnd
+  external :: trmesh, trfind
+
+  do k = 1, n
+    nodes(k, 3) = 2*real(k, rk)/(n + 1) - 1
+    nodes(k, 1) = sqrt(1 - nodes(k, 3)**2)*cos(2.4_rk*k)
+    nodes(k, 2) = sqrt(1 - nodes(k, 3)**2)*sin(2.4_rk*k)
+  end do
+
+  do k = -1, 2
+    call refuses(k, nodes, -1, "fewer than 3 nodes")
+  end do
+  bad = nodes
+  bad(1:3, :) = transpose(reshape([1._rk, 0._rk, 0._rk, 0._rk, 1._rk, 0._rk, -1._rk, 0._rk, 0._rk], [3, 3]))
+  call refuses(n, bad, -2, "the first three on a great circle")
+  bad = nodes
+  bad(2, :) = bad(1, :)
+  call refuses(n, bad, -2, "the first two equal")
+  bad = nodes
+  bad(2, 2) = ieee_value(1._rk, ieee_quiet_nan)
+  call refuses(n, bad, -5, "NaN among the first three")
+  bad = nodes
+  bad(7, 1) = ieee_value(1._rk, ieee_quiet_nan)
+  call refuses(n, bad, -5, "NaN later")
+  bad(7, 1) = ieee_value(1._rk, ieee_positive_inf)
+  call refuses(n, bad, -5, "infinity")
+  bad(7, :) = 0
+  call refuses(n, bad, -5, "zero vector")
+
+  bad = nodes
+  bad(7, :) = bad(4, :)
+  bad(8, :) = bad(2, :)
+  call mark_all
+  call expect(triangulated(n, bad) == 4, "node 7 is a copy of node 4, and the first copy")
+  call expect(all(lend(7:) == mark) .and. all(lend(:6) /= mark), "the lists are those of the nodes before the copy")
+
+  call mark_all
+  call expect(triangulated(n, nodes) == 0, "the nodes themselves are fine")
+  b = 5
+  call trfind(1, spread(ieee_value(1._rk, ieee_quiet_nan), 1, 3), n, nodes(:, 1), nodes(:, 2), nodes(:, 3), &
+              list, lptr, lend, b(1), b(2), b(3), i(1), i(2), i(3))
+  call expect(all(i == 0) .and. all(b == 5), "TRFIND of NaN")
+  al = 5
+  call expect(nearnd([0._rk, 0._rk, 0._rk], 1, n, nodes(:, 1), nodes(:, 2), nodes(:, 3), list, lptr, lend, al) == 0, &
+              "NEARND of the zero vector")
+  call expect(al == merge(0._rk, 5._rk, rk == 8), "NEARND's AL: 0 in REAL*8, untouched in REAL*4")
+
+contains
+
+  subroutine mark_all
+    list = mark
+    lptr = mark
+    lend = mark
+    lnew = mark
+  end subroutine
+
+  subroutine refuses(count, p, code, what)
+    integer, intent(in) :: count, code
+    real(rk), intent(in) :: p(n, 3)
+    character(len=*), intent(in) :: what
+    call mark_all
+    call expect(triangulated(count, p) == code, what)
+    call expect(all(list == mark) .and. all(lptr == mark) .and. all(lend == mark) .and. lnew == mark, &
+                what//": outputs untouched")
+  end subroutine
+
+  integer function triangulated(count, p) result(ier)
+    integer, intent(in) :: count
+    real(rk), intent(in) :: p(n, 3)
+#ifdef STRIPACK_8_ARGUMENTS
+    call trmesh(count, p(:, 1), p(:, 2), p(:, 3), list, lptr, lend, ier)
+#else
+    call trmesh(count, p(:, 1), p(:, 2), p(:, 3), list, lptr, lend, lnew, near, next, dist, ier)
+#endif
+  end function
+end program

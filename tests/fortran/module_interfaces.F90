@@ -1,0 +1,89 @@
+! Codes that `use` the module: explicit interfaces; INTENT(IN) arrays passed as output, which the original
+! allows; arrays of another rank. MODULE_NAME: the module's name, REAL_TYPE: the code's real type.
+module helper
+  use MODULE_NAME
+  implicit none
+contains
+  ! As a grid generator does it: LTRI, which TRLIST writes, is INTENT(IN) here.
+  subroutine triangles(n, list, lptr, lend, nrow, nt, ltri, ier)
+    integer, intent(in) :: n, list(:), lptr(:), lend(:), nrow, nt, ltri(:, :), ier
+    call trlist(n, list, lptr, lend, nrow, nt, ltri, ier)
+  end subroutine
+end module
+
+program module_interfaces
+  use helper
+  use expectations
+  implicit none
+  integer, parameter :: n = 40, slots = 6*n - 12
+  REAL_TYPE :: x(n), y(n), z(n), xc(2*n), yc(2*n), zc(2*n), rc(2*n), c(3), p(3), b(3), al, pi, total
+  integer, target :: list(slots), lptr(slots), lend(n)
+  integer :: lnew, ier, nt, ltri(6, 2*n), columns(6, n), nb, na, nodes(n), listc(slots), i(3), k
+#ifndef STRIPACK_8_ARGUMENTS
+  integer :: work(2*n)
+  REAL_TYPE :: dist(n)
+#endif
+#ifndef STRIPACK_WITHOUT_F90_EXTRAS
+  integer :: corners(3, 2*n)
+#endif
+
+  pi = acos(-real(1, kind(pi)))
+  do k = 1, n  ! within a hemisphere
+    z(k) = real(k, kind(z))/n
+    x(k) = sqrt(1 - z(k)**2)*cos(2.4*k)
+    y(k) = sqrt(1 - z(k)**2)*sin(2.4*k)
+  end do
+#ifdef STRIPACK_8_ARGUMENTS
+  call trmesh(n, x, y, z, list, lptr, lend, ier)
+  call expect(ier == 0, "TRMESH with 8 arguments")
+  call bnodes(n, list, lptr, lend, nodes, nb, na, nt)
+  lnew = 2*na + 1
+#else
+  call trmesh(n, x, y, z, list, lptr, lend, lnew, work, work(n + 1), dist, ier)
+  call expect(ier == 0, "TRMESH with 12 arguments")
+  call bnodes(n, list, lptr, lend, nodes, nb, na, nt)
+  call expect(lnew == 2*na + 1, "LNEW")
+#endif
+  call expect(nb >= 3 .and. na == nt + n - 1 .and. nt == 2*n - nb - 2, "BNODES")
+
+  call triangles(n, list, lptr, lend, 6, nt, ltri, ier)
+  call expect(ier == 0 .and. nt == 2*n - nb - 2, "TRLIST through INTENT(IN) dummies")
+#ifndef STRIPACK_WITHOUT_F90_EXTRAS
+  call trlist2(n, list, lptr, lend, nt, corners, ier)
+  call expect(ier == 0 .and. all(corners(:, :nt) == ltri(1:3, :nt)), "TRLIST2 gives the corners of TRLIST")
+#endif
+  total = 0
+  do k = 1, nt
+    associate (t => ltri(:, k))
+      total = total + areas(point(t(1)), point(t(2)), point(t(3)))
+      call expect(left(x(t(1)), y(t(1)), z(t(1)), x(t(2)), y(t(2)), z(t(2)), x(t(3)), y(t(3)), z(t(3))), "LEFT")
+      call circum(point(t(1)), point(t(2)), point(t(3)), c, ier)
+      call expect(ier == 0 .and. abs(dot_product(c, c) - 1) < 1e-5, "CIRCUM")
+    end associate
+  end do
+  call expect(total > pi .and. total < 2*pi, "AREAS add up to nearly a hemisphere")
+  c = 5
+  call circum(point(1), point(1), point(2), c, ier)
+  call expect(ier == 1 .and. all(c == 5), "CIRCUM of coincident nodes")
+
+  p = point(11) + point(12)
+  call trfind(0, p, n, x, y, z, list, lptr, lend, b(1), b(2), b(3), i(1), i(2), i(3))
+  call expect(all(i >= 1) .and. all(b >= 0), "TRFIND from a random node")
+  call expect(nearnd(point(11), 0, n, x, y, z, list, lptr, lend, al) == 11, "NEARND")
+  call expect(nbcnt(lend(11), lptr) >= 3, "NBCNT")
+  call expect(lstptr(lend(11), list(lptr(lend(11))), list, lptr) == lptr(lend(11)), "LSTPTR")
+  call scoord(x(1), y(1), z(1), b(1), b(2), b(3))
+  call expect(abs(b(3) - 1) < 1e-5, "SCOORD")
+  call trans(1, b(1), b(2), c(1), c(2), c(3))
+  call expect(all(abs(c - point(1)) < 1e-5), "TRANS")
+
+  call crlist(n, n, x, y, z, list, lend, lptr, lnew, columns, listc, nb, xc, yc, zc, rc, ier)
+  call expect(ier == 0 .and. lnew == 6*n - 11, "CRLIST")
+
+contains
+  function point(node)
+    integer, intent(in) :: node
+    REAL_TYPE :: point(3)
+    point = [x(node), y(node), z(node)]
+  end function
+end program

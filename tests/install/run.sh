@@ -1,0 +1,43 @@
+#!/bin/sh
+# Installs a build into an empty prefix and builds strangers' programs against it, by CMake, by pkg-config and
+# by hand, shared and static. Usage: run.sh BUILD_DIR SOURCE_DIR WORK_DIR
+set -eu
+build=$1 source=$2 work=$3
+prefix=$work/prefix consumer=$source/tests/install/consumer
+rm -rf "$work"
+mkdir -p "$work"
+
+cmake --install "$build" --prefix "$prefix" > "$work/install.log"
+libdir=$(dirname "$(find "$prefix" -name stripack.pc)")/..
+export PKG_CONFIG_PATH="$libdir/pkgconfig"
+
+echo "== CMake package"
+cmake -S "$consumer" -B "$work/cmake" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release > "$work/cmake.log"
+cmake --build "$work/cmake" >> "$work/cmake.log"
+for program in legacy_stripack legacy_stripack_static legacy_stripack_8arg legacy_stripack_r4 c_pstripack c_pstripack_archive; do
+  "$work/cmake/$program"
+done
+
+echo "== pkg-config"
+export LD_LIBRARY_PATH="$libdir"
+# shellcheck disable=SC2046  # lists of words on purpose
+gfortran $(pkg-config --cflags stripack) "$consumer/legacy.F90" -o "$work/pc_r8" $(pkg-config --libs stripack)
+gfortran -DSINGLE_PRECISION $(pkg-config --cflags stripack_r4) "$consumer/legacy.F90" -o "$work/pc_r4" $(pkg-config --libs stripack_r4)
+gfortran -DEIGHT_ARGUMENTS $(pkg-config --cflags stripack_8arg) "$consumer/legacy.F90" -o "$work/pc_8arg" $(pkg-config --libs stripack_8arg)
+cc $(pkg-config --cflags pstripack) "$consumer/c_api.c" -o "$work/pc_c" $(pkg-config --libs pstripack)
+for program in pc_r8 pc_r4 pc_8arg pc_c; do "$work/$program"; done
+unset LD_LIBRARY_PATH
+
+echo "== the static archives alone"
+gfortran -I "$prefix/include/pstripack/stripack" "$consumer/legacy.F90" -o "$work/static" \
+  $(pkg-config --libs --static stripack | sed "s|-lstripack|$libdir/libstripack.a|; s|-lpstripack|$libdir/libpstripack.a|")
+"$work/static"
+if ldd "$work/static" | grep -q pstripack; then echo "the static program needs a shared pstripack" >&2; exit 1; fi
+
+echo "== what the libraries need at run time"
+for library in libpstripack.so libstripack.so libstripack_r4.so libstripack_8arg.so; do
+  needs=$(ldd "$libdir/$library" | awk '{ print $1 }' | tr '\n' ' ')
+  echo "$library: $needs"
+  if echo "$needs" | grep -qiE 'mpi|boost|fmt|netcdf|ngmath'; then echo "$library needs too much" >&2; exit 1; fi
+done
+echo "installed package: all programs ran"

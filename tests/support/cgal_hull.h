@@ -1,0 +1,11 @@
+#pragma once
+// The convex hull by CGAL, exact on the coordinates as given.
+
+#include "lists.h"
+
+struct Hull {
+  Faces faces;             ///< those with a positive determinant, sorted
+  std::size_t hidden = 0;  ///< nodes that are no vertex of the hull
+};
+
+Hull cgal_hull(const Nodes& nodes);

@@ -1,0 +1,19 @@
+#pragma once
+// Something that may end the process, in a process of its own.
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+/// The exit code of `body` run in a child process, or minus the signal that ended it (-14: hung for a
+/// minute).
+template <class Body>
+int in_child(Body body) {
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(60);
+    _exit(body());
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}

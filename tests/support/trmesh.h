@@ -1,0 +1,44 @@
+#pragma once
+// pstripack_trmesh with C++ containers.
+
+#include <vector>
+
+#include "capi/pstripack.h"
+#include "lists.h"
+
+constexpr std::int32_t untouched = -987654321;  // what the arrays hold before the call
+
+struct Mesh : Lists {
+  std::int32_t ier = 0;
+};
+
+struct Columns {
+  explicit Columns(const Nodes& nodes) {
+    for (const auto& p : nodes) x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
+  }
+  std::vector<double> x, y, z;
+};
+
+/// Arrays of exactly 6n-12 and n entries.
+inline Mesh trmesh(const Nodes& nodes) {
+  const Columns c(nodes);
+  const std::size_t n = nodes.size(), slots = n < 3 ? 1 : 6 * n - 12;
+  Mesh m;
+  m.list.assign(slots, untouched);
+  m.lptr.assign(slots, untouched);
+  m.lend.assign(n, untouched);
+  m.lnew = untouched;
+  m.ier = pstripack_trmesh(static_cast<std::int32_t>(n), c.x.data(), c.y.data(), c.z.data(), m.list.data(),
+                           m.lptr.data(), m.lend.data(), &m.lnew);
+  return m;
+}
+
+/// The library's own verdict; empty if valid.
+inline std::string verdict(const Nodes& nodes, const Lists& lists) {
+  const Columns c(nodes);
+  char message[256] = "";
+  const std::int32_t code = pstripack_validate(static_cast<std::int32_t>(nodes.size()), c.x.data(),
+                                               c.y.data(), c.z.data(), lists.list.data(), lists.lptr.data(),
+                                               lists.lend.data(), lists.lnew, message, sizeof message);
+  return code == 0 ? "" : "code " + std::to_string(code) + ": " + message;
+}
