@@ -218,8 +218,8 @@ class Builder {
   ///
   ///         c           The walk came in across the edge w-u. It leaves across u-c if p is right of u->c,
   ///        / \          or across c-w if p is right of c->w. With X = (c-p) x p these are the signs of
-  ///       /   \    p    (u-p).X and -(w-p).X. Which way is a coin's toss that no processor predicts: so
-  ///      u --- w        it is computed, not branched on.
+  ///       /   \    p    (u-p).X and -(w-p).X.
+  ///      u --- w
   std::uint32_t walk(const Point& p) {
     constexpr int kSteps = 1000;  // rounding can send the walk in circles
     std::uint32_t t = last_;
