@@ -1,8 +1,8 @@
 #!/bin/sh
 # Installs a build into an empty prefix and builds strangers' programs against it, by CMake, by pkg-config and
-# by hand, shared and static. Usage: run.sh BUILD_DIR SOURCE_DIR WORK_DIR
+# by hand, shared and static. Usage: run.sh BUILD_DIR SOURCE_DIR WORK_DIR CMAKE_GENERATOR
 set -eu
-build=$1 source=$2 work=$3
+build=$1 source=$2 work=$3 generator=$4
 prefix=$work/prefix consumer=$source/tests/install/consumer
 rm -rf "$work"
 mkdir -p "$work"
@@ -12,7 +12,7 @@ libdir=$(dirname "$(find "$prefix" -name stripack.pc)")/..
 export PKG_CONFIG_PATH="$libdir/pkgconfig"
 
 echo "== CMake package"
-cmake -S "$consumer" -B "$work/cmake" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release > "$work/cmake.log"
+cmake -G "$generator" -S "$consumer" -B "$work/cmake" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release > "$work/cmake.log"
 cmake --build "$work/cmake" >> "$work/cmake.log"
 for program in legacy_stripack legacy_stripack_static legacy_stripack_8arg legacy_stripack_r4 c_pstripack c_pstripack_archive; do
   "$work/cmake/$program"
