@@ -83,9 +83,9 @@ OnCube on_cube(const Point& p) {
   return {v[face[f].s_axis] * inverse * face[f].s_sign, v[face[f].t_axis] * inverse * face[f].t_sign, f};
 }
 
+/// The cell of a fraction in [0,1], up to rounding: the factor keeps 1 in the last one.
 std::uint32_t cell(double fraction, std::uint32_t cells) {
-  const double scaled = fraction * cells;
-  return scaled <= 0 ? 0 : scaled >= cells ? cells - 1 : static_cast<std::uint32_t>(scaled);
+  return static_cast<std::uint32_t>(static_cast<int>(fraction * (static_cast<int>(cells) * (1 - 0x1p-40))));
 }
 
 // ---- sorting -----------------------------------------------------------------------------------

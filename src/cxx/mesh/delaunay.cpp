@@ -66,13 +66,13 @@ template <class Predicates>
 [[gnu::always_inline]] inline Plane make_plane(const Point& a, const Spoke& b, const Spoke& c) {
   const Point &e = b.d, &f = c.d;
   const Point n = cross(e, f);
-  const double m = 0.5 * (b.square + c.square);
-  if (!(m >= 0x1p-80)) return {0, 0, 0, 0};  // no sign is certain: the predicates decide
-  // 2^46 / 2^q, q the exponent of m, by arithmetic on the bits of m: 64u m = 2^-47 m is in [2^(q-47),
-  // 2^(q-46)).
+  const double m2 = b.square + c.square;      // 2 M
+  if (!(m2 >= 0x1p-79)) return {0, 0, 0, 0};  // no sign is certain: the predicates decide
+  // 2^47 / 2^q, q the exponent of 2M, by arithmetic on its bits: 64u M = 2^-48 (2M) is in [2^(q-48),
+  // 2^(q-47)).
   std::uint64_t bits;
-  std::memcpy(&bits, &m, sizeof bits);
-  bits = (std::uint64_t{1023 + 46 + 1023} << 52) - (bits & 0x7ff0000000000000u);
+  std::memcpy(&bits, &m2, sizeof bits);
+  bits = (std::uint64_t{1023 + 47 + 1023} << 52) - (bits & 0x7ff0000000000000u);
   double scale;
   std::memcpy(&scale, &bits, sizeof scale);
   return {n.x * scale, n.y * scale, n.z * scale, dot(n, a) * scale};
@@ -86,12 +86,13 @@ struct HiddenNode {};
 template <class Predicates>
 class Builder {
  public:
-  Builder(const Predicates& predicates, Face* faces, Plane* planes)
+  Builder(const Predicates& predicates, Face* faces, Plane* planes, std::uint32_t* corner)
       : predicates_(predicates),
         n_(predicates.size()),
         faces_(faces),
         words_(faces->vertex),
-        planes_(planes) {}
+        planes_(planes),
+        corner_(corner) {}
 
   void build() {
     start();
@@ -129,6 +130,7 @@ class Builder {
     choose_corners(corner);
     const auto [a, b, c, d] = corner;
     // front face 0: a,b,c   back face 1: b,a,c   edges opposite c, then a against b
+    corner_[a] = 0, corner_[b] = 1, corner_[c] = 2;
     faces_[0] = {{a, b, c, c}, {4 * 1 + 1, 4 * 1 + 0, 4 * 1 + 2, 0}};
     faces_[1] = {{b, a, c, c}, {4 * 0 + 1, 4 * 0 + 0, 4 * 0 + 2, 0}};
     const Spoke ab = make_spoke(predicates_, b, a), ac = make_spoke(predicates_, c, a);
@@ -201,6 +203,7 @@ class Builder {
     if (s > 1) return true;
     if (s < -1) return false;
     const Face& f = faces_[t];
+    if (f.vertex[2] == v) throw HiddenNode{};  // a face of the fan of v itself: see replace_seen_by_fan
     return predicates_.above(f.vertex[0], f.vertex[1], f.vertex[2], v);
   }
 
@@ -303,7 +306,8 @@ class Builder {
   ///
   /// A tree of m faces has m + 2 edges around it: new faces take two new places, then those of the faces
   /// already visited. A node inside the disc would be lost to the triangulation. The search then goes round
-  /// it: until it comes upon a face of the fan, or has met more faces than there are.
+  /// it: until it comes upon a face of the fan, which no filter can place above or below v, or has met more
+  /// faces than there are.
   void replace_seen_by_fan(std::uint32_t v, std::uint32_t seen) {
     const Point p = predicates_.position(v);
     std::size_t visited = 2, used = 0, top = 3, limit = visit_limit();
@@ -327,11 +331,13 @@ class Builder {
           limit = visit_limit();
         }
       } else {
-        if (vertex(code | 3) == v) throw HiddenNode{};
         const std::uint32_t t = place_[used++], w = vertex(after);
         neighbour(code) = 4 * t + 2;
         neighbour(4 * previous) = 4 * t + 1;
-        faces_[t] = {{u, w, v, v}, {0, 4 * previous, code, 0}};
+        std::uint32_t* const face = words_ + 8 * std::size_t{t};
+        face[0] = u, face[1] = w, face[2] = v;
+        face[5] = 4 * previous, face[6] = code;
+        corner_[u] = 4 * t;
         const Spoke to_w = make_spoke(predicates_, w, v);
         planes_[t] = make_plane(p, to_u, to_w);
         previous = t;
@@ -342,6 +348,7 @@ class Builder {
     neighbour(4 * previous) = 4 * first + 1;
     neighbour(4 * first + 1) = 4 * previous;
     count_ += 2;
+    corner_[v] = 4 * previous + 2;
     const auto end = place_.begin() + used;
     const auto shown = std::find_if(place_.begin(), end, [&](std::uint32_t t) { return front(t); });
     if (shown == end) throw HiddenNode{};
@@ -369,6 +376,7 @@ class Builder {
   Face* const faces_;
   std::uint32_t* const words_;  ///< the same, as words
   Plane* const planes_;
+  std::uint32_t* const corner_;  ///< for each node that is in, the code of a face at its corner
   std::size_t count_ = 0;
   std::uint32_t last_ = 0;  ///< a front face near the last node: where the next search starts
   std::uint32_t started_[4];
@@ -380,9 +388,9 @@ class Builder {
 
 template <class Predicates>
 Hull build(const Point* sorted, std::size_t n, const std::uint32_t* order, Lengths lengths, Face* faces,
-           Plane* planes) {
+           Plane* planes, std::uint32_t* corner) {
   const Predicates predicates(sorted, n);
-  Builder<Predicates> builder(predicates, faces, planes);
+  Builder<Predicates> builder(predicates, faces, planes, corner);
   builder.build();
 
   // -- 4: what is part of the triangulation
@@ -391,6 +399,7 @@ Hull build(const Point* sorted, std::size_t n, const std::uint32_t* order, Lengt
   hull.node_count = n;
   hull.order = order;
   hull.faces = faces;
+  hull.corner = corner;
   hull.face_count = builder.face_count();
   hull.surrounds_centre = builder.surrounds_centre();
   if (!hull.surrounds_centre) {
@@ -428,15 +437,16 @@ Hull delaunay(const Point* p, std::size_t n, Workspace& workspace) {
   });
   workspace.next_phase();
   Face* const faces = workspace.keep<Face>(2 * n);
+  auto* const corner = workspace.keep<std::uint32_t>(n);
   Plane* const planes = workspace.take<Plane>(2 * n);
   if (unit) {
     try {
-      return build<Coordinates>(sorted, n, order, Lengths::as_given, faces, planes);
+      return build<Coordinates>(sorted, n, order, Lengths::as_given, faces, planes, corner);
     } catch (const HiddenNode&) {
       // The lengths as given hide a node: only directions show all.
     }
   }
-  return build<Directions>(sorted, n, order, Lengths::directions, faces, planes);
+  return build<Directions>(sorted, n, order, Lengths::directions, faces, planes, corner);
 }
 
 }  // namespace pstripack

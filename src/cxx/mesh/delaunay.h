@@ -43,9 +43,10 @@ struct Hull {
   std::size_t node_count = 0, face_count = 0;
   const std::uint32_t* order = nullptr;
   const Face* faces = nullptr;
-  bool surrounds_centre = false;        ///< every face is a front face
-  std::vector<bool> back;               ///< else: true for the faces that are not part of the triangulation
-  Lengths lengths = Lengths::as_given;  ///< the predicates that decided
+  const std::uint32_t* corner = nullptr;  ///< for each node, the code 4*t + i of a face with vertex[i] there
+  bool surrounds_centre = false;          ///< every face is a front face
+  std::vector<bool> back;                 ///< else: true for the faces that are not part of the triangulation
+  Lengths lengths = Lengths::as_given;    ///< the predicates that decided
   /// Nodes left out because they coincide with one that is in: (in, out), the caller's numbers.
   std::vector<std::pair<index_t, index_t>> coincident;
 
@@ -61,7 +62,7 @@ struct Hull {
 /// overwritten then. Directions need 48 bytes a node more.
 Hull delaunay(const Point* p, std::size_t n, Workspace& workspace);
 
-/// Kept: order, sorted nodes, faces. Of the phases the insertion takes most: the planes of 2n faces.
-constexpr std::size_t workspace_bytes(std::size_t n) { return (4 + 24 + 2 * sizeof(Face) + 64) * n; }
+/// Kept: order, sorted nodes, faces, corners. Of the phases the insertion takes most: the planes of 2n faces.
+constexpr std::size_t workspace_bytes(std::size_t n) { return (4 + 24 + 2 * sizeof(Face) + 4 + 64) * n; }
 
 }  // namespace pstripack

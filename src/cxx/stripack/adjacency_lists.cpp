@@ -31,19 +31,26 @@ inline void number_on(Int* lptr, std::size_t count, std::size_t slot) {
   for (std::size_t j = 0; j < count; ++j) lptr[j] = static_cast<Int>(slot + j) + 2;
 }
 
-/// Clockwise round the corner 4*t + i of a front face to the first face after the gap, if there is one.
+/// The corner at the same node in the next face clockwise.
+std::uint32_t clockwise(const Hull& hull, std::uint32_t corner) {
+  const std::uint32_t beyond = hull.faces[face_of(corner)].neighbour[previous_edge(edge_of(corner))];
+  return 4 * face_of(beyond) + previous_edge(edge_of(beyond));
+}
+
+/// From any corner at a node to that in a front face, the first after the gap if there is one.
 std::uint32_t first_corner(const Hull& hull, std::uint32_t corner) {
-  const std::uint32_t start = face_of(corner);
+  while (!hull.front(face_of(corner))) corner = clockwise(hull, corner);
+  const std::uint32_t start = corner;
   do {
-    const std::uint32_t beyond = hull.faces[face_of(corner)].neighbour[previous_edge(edge_of(corner))];
-    if (!hull.front(face_of(beyond))) return corner;
-    corner = 4 * face_of(beyond) + previous_edge(edge_of(beyond));
-  } while (face_of(corner) != start);
+    const std::uint32_t next = clockwise(hull, corner);
+    if (!hull.front(face_of(next))) return corner;
+    corner = next;
+  } while (corner != start);
   return corner;
 }
 
 /// Appends the ring of one hull node as it will stand in LIST; returns the new end. `corner` is 4*t + i: the
-/// node is vertex[i] of the front face t. Writes up to 2*kBlock entries beyond the end.
+/// node is vertex[i] of face t. Writes up to 2*kBlock entries beyond the end.
 ///
 ///            f.vertex[previous]           The face t = (v, next, previous). Its neighbour across the edge
 ///             /      |                    v - previous, which lies opposite `next`, follows
@@ -93,28 +100,22 @@ Int write_lists(const Hull& hull, Int* list, Int* lptr, Int* lend, Workspace& wo
   const int threads = threads_for(n);
   const std::size_t pieces = static_cast<std::size_t>(threads);
   workspace.next_phase();
-  auto* const corner = workspace.take<std::uint32_t>(n);
   auto* const ring_of = workspace.take<Ring>(n);
   auto* const rings = workspace.take<Int>(6 * n + pieces * 2 * kBlock);
   std::vector<std::size_t> sums(pieces * pieces), begin_of(pieces + 1);
 
-  // One front face for each node, and the number of neighbours of the nodes of each piece, which is where
-  // its rings begin. Two threads may store different faces of one node: either will do.
+  // The number of neighbours of the nodes of each piece: where its rings begin.
   const std::size_t piece_size = n / pieces + 1;
-  parallel_pieces(hull.face_count, threads, [&](std::size_t first, std::size_t last, int thread) {
-    std::size_t* const sum = sums.data() + pieces * static_cast<std::size_t>(thread);
-    for (std::size_t t = first; t < last; ++t) {
-      if (!hull.front(t)) continue;
-      const Face& f = hull.faces[t];
-      for (std::uint32_t i = 0; i < 3; ++i) {
-        const std::uint32_t v = f.vertex[i];
-        __atomic_store_n(&corner[v], static_cast<std::uint32_t>(4 * t + i), __ATOMIC_RELAXED);
-        if (threads == 1) continue;
-        ++sum[v / piece_size];
-        if (!hull.front(face_of(f.neighbour[previous_edge(i)]))) ++sum[v / piece_size];
+  if (pieces > 1)
+    parallel_pieces(hull.face_count, threads, [&](std::size_t first, std::size_t last, int thread) {
+      std::size_t* const sum = sums.data() + pieces * static_cast<std::size_t>(thread);
+      for (std::size_t t = first; t < last; ++t) {
+        if (!hull.front(t)) continue;
+        const Face& f = hull.faces[t];
+        for (std::uint32_t i = 0; i < 3; ++i)
+          sum[f.vertex[i] / piece_size] += hull.front(face_of(f.neighbour[previous_edge(i)])) ? 1 : 2;
       }
-    }
-  });
+    });
   for (std::size_t p = 0; p < pieces; ++p) {
     begin_of[p + 1] = begin_of[p] + 2 * kBlock;
     for (std::size_t t = 0; t < pieces; ++t) begin_of[p + 1] += sums[pieces * t + p];
@@ -128,12 +129,12 @@ Int write_lists(const Hull& hull, Int* list, Int* lptr, Int* lend, Workspace& wo
     for (std::size_t v = piece_size * piece; v < last; ++v) {
       if (v + 2 * kAhead < last) {
         __builtin_prefetch(&ring_of[hull.order[v + 2 * kAhead]], 1);
-        __builtin_prefetch(&hull.faces[face_of(corner[v + 2 * kAhead])]);
-        const Face& soon = hull.faces[face_of(corner[v + kAhead])];
+        __builtin_prefetch(&hull.faces[face_of(hull.corner[v + 2 * kAhead])]);
+        const Face& soon = hull.faces[face_of(hull.corner[v + kAhead])];
         for (int i = 0; i < 3; ++i) __builtin_prefetch(&hull.faces[face_of(soon.neighbour[i])]);
       }
       Int* const begin = out;
-      out = append_ring(hull, corner[v], begin);
+      out = append_ring(hull, hull.corner[v], begin);
       ring_of[hull.order[v]] = {static_cast<std::uint32_t>(begin - rings),
                                 static_cast<std::uint32_t>(out - begin)};
     }
