@@ -17,7 +17,7 @@ Buffer<unsigned char> borrow_block(std::size_t bytes) {
   if (bytes >= kSmallest && bytes <= kLargest) {
     Buffer<unsigned char> block;
     if (const std::unique_lock lock(mutex, std::try_to_lock); lock) block.swap(kept);
-    if (block.size() >= bytes && block.size() / 2 <= bytes) return block;
+    if (block.size() >= bytes && block.size() - bytes <= bytes / 16) return block;
   }  // here a block of another size is freed, before a new one is asked for
   return Buffer<unsigned char>(bytes);
 }

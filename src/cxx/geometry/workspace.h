@@ -16,9 +16,9 @@ Buffer<unsigned char> borrow_block(std::size_t bytes);
 /// it needs them; small ones and very large ones are freed.
 void give_back_block(Buffer<unsigned char> block) noexcept;
 
-/// One block of memory for a call, because fresh pages cost a tenth of a triangulation and one block is
-/// what can be handed out again at the next call. Arrays that stay are laid from the front, those
-/// of a phase from the back; the next phase begins by giving the latter up.
+/// One block of memory for a call, because clearing fresh pages costs time and one block is what can be
+/// handed out again at the next call. Arrays that stay are laid from the front, those of a phase from the
+/// back; the next phase begins by giving the latter up.
 ///
 ///     | order | sorted nodes | faces ->            <- planes |
 ///     | kept                                   of this phase |
