@@ -97,7 +97,7 @@ class Builder {
   void build() {
     start();
     // Two rounds: every 16th node along the curve, then the rest. The first round makes the triangles
-    // small everywhere, so that the second replaces fewer of them: 4.3 instead of 5.8 a node.
+    // small everywhere, so that the second replaces fewer of them.
     constexpr std::uint32_t kStride = 16;
     const auto n = static_cast<std::uint32_t>(n_);
     for (std::uint32_t v = 0; v < n; v += kStride) insert_unless_started(v);

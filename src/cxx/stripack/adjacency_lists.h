@@ -25,8 +25,8 @@ struct ListsView {
 /// consecutive slots, nodes in increasing order, counterclockwise; an interior node starts with its
 /// smallest neighbour, a boundary node with its first boundary neighbour and ends with the negated last.
 /// `list`, `lptr`: at least 6n-12 slots, of which 1..LNEW-1 are written; `lend`: n. Returns LNEW.
-/// Every node must be in the hull (hull.coincident empty). Takes 32 bytes
-/// a node of the workspace that `delaunay` used. Parallel. Throws std::bad_alloc before writing.
+/// Every node must be in the hull (hull.coincident empty). Takes 32 bytes a node of the workspace that
+/// `delaunay` used. Parallel. Throws std::bad_alloc before writing.
 template <class Int>
 Int write_lists(const Hull& hull, Int* list, Int* lptr, Int* lend, Workspace& workspace);
 
