@@ -8,7 +8,8 @@ packages="
   libboost-dev
   libcli11-dev nlohmann-json3-dev libfmt-dev
   libgtest-dev libcgal-dev libgmp-dev libmpfr-dev
-  libncarg-dev"
+  libncarg-dev
+  libopenmpi-dev openmpi-bin"
 
 missing=""
 for package in $packages; do

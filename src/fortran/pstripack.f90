@@ -16,7 +16,7 @@ module pstripack
     pstripack_too_many_nodes = -4, &  !< 6n-12 does not fit the integer kind
     pstripack_bad_coordinate = -5, &  !< a coordinate is not finite, or a vector is zero
     pstripack_out_of_memory = -6, &
-    pstripack_bad_size = -10          !< arrays of different sizes, or too short; of this module alone
+    pstripack_bad_size = -100         !< arrays of different sizes, or too short; of this module alone
 
   !> call pstripack_trmesh(x, y, z, list, lptr, lend, lnew, ier)
   !>

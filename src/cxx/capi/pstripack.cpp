@@ -2,10 +2,13 @@
 
 #include "capi/pstripack.h"
 
+#include <atomic>
 #include <cstdio>
 #include <cstring>
 #include <vector>
 
+#include "capi/engine_hook.h"
+#include "capi/pool_client.h"
 #include "capi/version.h"
 #include "geometry/floating_point.h"
 #include "stripack/adjacency_lists.h"
@@ -15,16 +18,32 @@ namespace {
 
 using namespace pstripack;
 
+std::atomic<pstripack_trmesh_engine> other_engine{pool_trmesh};
+
+template <class Real>
+TrmeshResult trmesh_on_threads(std::int32_t n, const Real* x, const Real* y, const Real* z,
+                               std::int32_t* list, std::int32_t* lptr, std::int32_t* lend,
+                               std::int32_t* lnew) noexcept {
+  try {
+    return trmesh(n, x, y, z, list, lptr, lend, lnew);
+  } catch (...) {
+    return {PSTRIPACK_OUT_OF_MEMORY};  // only std::bad_alloc can come here, before anything was written
+  }
+}
+
 template <class Real>
 std::int32_t trmesh_call(std::int32_t n, const Real* x, const Real* y, const Real* z, std::int32_t* list,
                          std::int32_t* lptr, std::int32_t* lend, std::int32_t* lnew) noexcept {
   const DefaultFloatingPoint environment;
-  TrmeshResult result{PSTRIPACK_OUT_OF_MEMORY};
-  try {
-    result = trmesh(n, x, y, z, list, lptr, lend, lnew);
-  } catch (...) {
-    // Only std::bad_alloc can come here, before anything was written.
+  TrmeshResult result{0};
+  int answer = PSTRIPACK_ENGINE_DECLINES;
+  if (const pstripack_trmesh_engine engine = other_engine.load(std::memory_order_acquire)) {
+    const pstripack_trmesh_arguments call{
+        static_cast<std::int32_t>(sizeof(Real)), n, x, y, z, list, lptr, lend, lnew};
+    answer = engine(&call, &result.ier, &result.node, &result.other);
   }
+  if (answer == PSTRIPACK_ENGINE_DECLINES) result = trmesh_on_threads(n, x, y, z, list, lptr, lend, lnew);
+  if (answer == PSTRIPACK_ENGINE_DID_IT_SILENTLY) return result.ier;
   // STRIPACK's own codes are silent; a code that no caller knows yet says so once.
   if (result.ier == PSTRIPACK_BAD_COORDINATE) {
     const auto i = result.node - 1;
@@ -42,6 +61,10 @@ std::int32_t trmesh_call(std::int32_t n, const Real* x, const Real* y, const Rea
 
 extern "C" {
 
+pstripack_trmesh_engine pstripack_set_trmesh_engine(pstripack_trmesh_engine engine) {
+  return other_engine.exchange(engine, std::memory_order_acq_rel);
+}
+
 const char* pstripack_version(void) { return PSTRIPACK_VERSION; }
 
 const char* pstripack_strerror(int ier) {
@@ -53,12 +76,22 @@ const char* pstripack_strerror(int ier) {
       return "fewer than three nodes";
     case PSTRIPACK_COLLINEAR:
       return "the first three nodes lie on one great circle";
+    case PSTRIPACK_EMPTY_MESH:
+      return "the mesh is empty";
     case PSTRIPACK_TOO_MANY_NODES:
       return "too many nodes: 6N-11 does not fit the integer kind";
     case PSTRIPACK_BAD_COORDINATE:
       return "a coordinate is not finite, or all are zero";
     case PSTRIPACK_OUT_OF_MEMORY:
       return "out of memory";
+    case PSTRIPACK_RANKS_DISAGREE:
+      return "the ranks of a collective call disagree in N or in the coordinates";
+    case PSTRIPACK_BAD_COMM:
+      return "not a communicator that can be used: null, freed, an inter-communicator, or MPI is not running";
+    case PSTRIPACK_COINCIDENT:
+      return "two points lie in the same direction";
+    case PSTRIPACK_BAD_NUMBER:
+      return "a global number is below 1, occurs twice, or is too large for what was asked";
   }
   return "unknown code";
 }

@@ -19,9 +19,15 @@ enum {
   PSTRIPACK_OK = 0,
   PSTRIPACK_TOO_FEW_NODES = -1,  /* n < 3 */
   PSTRIPACK_COLLINEAR = -2,      /* the first three nodes lie on one great circle */
+  PSTRIPACK_EMPTY_MESH = -3,     /* distributed: there is no triangulation to ask */
   PSTRIPACK_TOO_MANY_NODES = -4, /* 6n-12 does not fit the integer kind */
   PSTRIPACK_BAD_COORDINATE = -5, /* a coordinate is not finite, or a vector is zero */
-  PSTRIPACK_OUT_OF_MEMORY = -6
+  PSTRIPACK_OUT_OF_MEMORY = -6,
+  /* Of programs that use pstripack_mpi.h. */
+  PSTRIPACK_RANKS_DISAGREE = -7, /* the ranks of a collective trmesh disagree in n or data */
+  PSTRIPACK_BAD_COMM = -8,       /* no usable communicator, or no such rank; MPI not running */
+  PSTRIPACK_COINCIDENT = -9,     /* distributed: two points in the same direction */
+  PSTRIPACK_BAD_NUMBER = -10     /* distributed: a global number is below 1, or occurs twice */
 };
 
 /* "major.minor.patch" of the library that is loaded. */

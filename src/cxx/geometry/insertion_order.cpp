@@ -136,8 +136,15 @@ Entry* sort(Entry* entries, Entry* other, std::size_t n, int key_bits) {
 
 constexpr std::size_t kCrowd = 16;
 
+/// Points at equal distances in memory.
+struct Points {
+  const unsigned char* first;
+  std::size_t stride;
+  const Point& operator[](std::size_t i) const { return *reinterpret_cast<const Point*>(first + i * stride); }
+};
+
 /// Orders the nodes of one cell, entries [first,last), along a curve through their bounding box.
-void refine(const Point* points, Entry* first, Entry* last, int depth) {
+void refine(const Points& points, Entry* first, Entry* last, int depth) {
   const std::size_t n = static_cast<std::size_t>(last - first);
   double s0 = 2, s1 = -2, t0 = 2, t1 = -2;
   for (const Entry* e = first; e != last; ++e) {
@@ -166,12 +173,13 @@ void refine(const Point* points, Entry* first, Entry* last, int depth) {
 
 }  // namespace
 
-std::uint32_t* insertion_order(const Point* points, std::size_t n, Workspace& workspace) {
-  auto* const order = workspace.keep<std::uint32_t>(n);
+void insertion_order(const Point* first_point, std::size_t n, std::uint32_t* order, Workspace& workspace,
+                     std::size_t stride) {
+  const Points points{reinterpret_cast<const unsigned char*>(first_point), stride};
   constexpr std::size_t kFew = 24;  // any walk is short
   if (n <= kFew) {
     std::iota(order, order + n, 0);
-    return order;
+    return;
   }
   // As many cells as it takes to hold few nodes each, where they are spread evenly: keys of 20, 23 or 33
   // bits (the last bits of the first kind are left out), sorted in two, two and three passes.
@@ -199,7 +207,6 @@ std::uint32_t* insertion_order(const Point* points, std::size_t n, Workspace& wo
   parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int) {
     for (std::size_t i = first; i < last; ++i) order[i] = node_of(entries[i]);
   });
-  return order;
 }
 
 }  // namespace pstripack

@@ -30,4 +30,21 @@ void parallel_pieces(std::size_t n, int threads, const Body& body) {
 #endif
 }
 
+/// Calls body(k) for k = 0..tasks-1, each once, on up to `threads` threads, which take the next one as they
+/// become free. `threads` must come from threads_for. body must not throw.
+template <class Body>
+void parallel_tasks(int tasks, int threads, const Body& body) {
+#ifdef _OPENMP
+  if (threads > 1 && tasks > 1) {
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+    for (int k = 0; k < tasks; ++k) {
+      const DefaultFloatingPoint guard;
+      body(k);
+    }
+    return;
+  }
+#endif
+  for (int k = 0; k < tasks; ++k) body(k);
+}
+
 }  // namespace pstripack

@@ -190,10 +190,21 @@ bool Coordinates::above(index_t ia, index_t ib, index_t ic, index_t id) const {
   return symbolic_above(a, b, c, d);
 }
 
-Directions::Directions(const Point* points, std::size_t n) : p_(points), n_(n), unit_(new Unit[n]) {
+Directions::Directions(const Point* points, std::size_t n) : p_(points), n_(n), unit_(n) {
   parallel_pieces(n, threads_for(n), [&](std::size_t first, std::size_t last, int) {
     for (std::size_t i = first; i < last; ++i) unit_[i] = unit(p_[i]);
   });
+}
+
+void Directions::extend(const Point* points, std::size_t n) {
+  if (n > unit_.size()) {
+    Buffer<Unit> larger(n + n / 2);
+    std::copy(unit_.begin(), unit_.begin() + n_, larger.begin());
+    unit_.swap(larger);
+  }
+  p_ = points;
+  for (std::size_t i = n_; i < n; ++i) unit_[i] = unit(p_[i]);
+  n_ = n;
 }
 
 Directions::Unit Directions::unit(const Point& p) {
@@ -224,8 +235,6 @@ Directions::Unit Directions::unit(const Point& p) {
   }
   return {{high[0], high[1], high[2]}, {low[0], low[1], low[2]}};
 }
-
-Directions::~Directions() { delete[] unit_; }
 
 // Filters on directions. A component of `difference` is known to 3u of itself and tau = 2^-96: the high
 // parts subtract with error u (exactly where they are close), the low parts add u, the sum u, and two

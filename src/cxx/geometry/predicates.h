@@ -32,6 +32,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "geometry/buffer.h"
 #include "geometry/point.h"
 
 namespace pstripack {
@@ -75,6 +76,9 @@ class Coordinates {
   Coordinates(const Point* points, std::size_t n) : p_(points), n_(n) {}
 
   std::size_t size() const { return n_; }
+  /// Lets n nodes count, which may now lie elsewhere: the first ones are those before.
+  void extend(const Point* points, std::size_t n) { p_ = points, n_ = n; }
+  const Point& given(index_t i) const { return p_[i]; }
   const Point& position(index_t i) const { return p_[i]; }
   /// p[i] - p[j], every component to one rounding.
   Point difference(index_t i, index_t j) const {
@@ -94,11 +98,11 @@ class Coordinates {
 class Directions {
  public:
   Directions(const Point* points, std::size_t n);
-  ~Directions();
-  Directions(const Directions&) = delete;
-  Directions& operator=(const Directions&) = delete;
 
   std::size_t size() const { return n_; }
+  /// Lets n nodes count, which may now lie elsewhere: the first ones are those before.
+  void extend(const Point* points, std::size_t n);
+  const Point& given(index_t i) const { return p_[i]; }
   const Point& position(index_t i) const { return unit_[i].high; }
   /// p[i]/|p[i]| - p[j]/|p[j]|, every component to 3 roundings and 2^-97.
   Point difference(index_t i, index_t j) const {
@@ -118,7 +122,7 @@ class Directions {
   static Unit unit(const Point& p);
   const Point* p_;
   std::size_t n_;
-  Unit* unit_;
+  Buffer<Unit> unit_;
 };
 
 /// Counts since the last call in this thread; for tests and measurements.

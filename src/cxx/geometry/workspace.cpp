@@ -1,6 +1,7 @@
 #include "geometry/workspace.h"
 
 #include <mutex>
+#include <utility>
 
 namespace pstripack {
 namespace {
@@ -8,17 +9,18 @@ namespace {
 constexpr std::size_t kSmallest = std::size_t{4} << 20;  // below, the allocator keeps blocks itself
 constexpr std::size_t kLargest = std::size_t{1} << 30;
 
-Buffer<unsigned char> kept;  // the one block between two calls
-std::mutex mutex;            // never waited for: another thread may hold it, or held it when we were forked
+constexpr std::size_t kCount = 4;
+Buffer<unsigned char> kept[kCount];  // between two calls
+std::mutex mutex;               // never waited for: another thread may hold it, or held it when we were forked
 
 }  // namespace
 
 Buffer<unsigned char> borrow_block(std::size_t bytes) {
   if (bytes >= kSmallest && bytes <= kLargest) {
-    Buffer<unsigned char> block;
-    if (const std::unique_lock lock(mutex, std::try_to_lock); lock) block.swap(kept);
-    if (block.size() >= bytes && block.size() - bytes <= bytes / 16) return block;
-  }  // here a block of another size is freed, before a new one is asked for
+    if (const std::unique_lock lock(mutex, std::try_to_lock); lock)
+      for (auto& block : kept)
+        if (block.size() >= bytes && block.size() - bytes <= bytes / 16) return std::exchange(block, {});
+  }
   return Buffer<unsigned char>(bytes);
 }
 
@@ -27,7 +29,15 @@ void give_back_block(Buffer<unsigned char> block) noexcept {
 #ifdef MADV_FREE
   madvise(block.data(), block.size(), MADV_FREE);  // refused: the pages stay ours
 #endif
-  if (const std::unique_lock lock(mutex, std::try_to_lock); lock) block.swap(kept);
+  const std::unique_lock lock(mutex, std::try_to_lock);
+  if (!lock) return;
+  // The newest first; the oldest go where there are too many or too much.
+  std::size_t last = 0, total = block.size();
+  while (last + 1 < kCount && kept[last].size() > 0) ++last;
+  for (; last > 0; --last) kept[last] = std::move(kept[last - 1]);
+  kept[0] = std::move(block);
+  for (std::size_t k = 1; k < kCount; ++k)
+    if ((total += kept[k].size()) > kLargest) kept[k] = {};
 }
 
 }  // namespace pstripack

@@ -8,11 +8,11 @@
 
 namespace pstripack {
 
-/// A block of memory of at least `bytes`: the one that the last call of this process gave back, if it is
+/// A block of memory of at least `bytes`: one that an earlier call of this process gave back, if it is
 /// large enough and not much too large, else a new one. Throws std::bad_alloc.
 Buffer<unsigned char> borrow_block(std::size_t bytes);
 
-/// Gives a block back. One is kept for the next call, and offered to the system, which takes its pages when
+/// Gives a block back. A few are kept for the next call, and offered to the system, which takes their pages when
 /// it needs them; small ones and very large ones are freed.
 void give_back_block(Buffer<unsigned char> block) noexcept;
 
@@ -24,7 +24,11 @@ void give_back_block(Buffer<unsigned char> block) noexcept;
 ///     | kept                                   of this phase |
 class Workspace {
  public:
-  explicit Workspace(std::size_t bytes) : block_(borrow_block(bytes + kSlack)), back_(block_.size()) {}
+  static constexpr std::size_t kSlack = 2048;  ///< covers rounding and small extras
+
+  explicit Workspace(std::size_t bytes) : Workspace(borrow_block(bytes + kSlack)) {}
+  /// In memory of somebody else, aligned to 16 bytes.
+  Workspace(unsigned char* begin, std::size_t bytes) : begin_(begin), size_(bytes), back_(bytes) {}
   ~Workspace() { give_back_block(std::move(block_)); }
   Workspace(const Workspace&) = delete;
   Workspace& operator=(const Workspace&) = delete;
@@ -32,7 +36,7 @@ class Workspace {
   /// An uninitialised array of n items that stays until clear().
   template <class T>
   T* keep(std::size_t n) {
-    T* const array = reinterpret_cast<T*>(block_.data() + front_);
+    T* const array = reinterpret_cast<T*>(begin_ + front_);
     front_ += rounded_up(n * sizeof(T));
     check();
     return array;
@@ -44,14 +48,14 @@ class Workspace {
     const std::size_t bytes = rounded_up(n * sizeof(T));
     back_ = bytes < back_ ? (back_ - bytes) / kAlignment * kAlignment : 0;
     check();
-    return reinterpret_cast<T*>(block_.data() + back_);
+    return reinterpret_cast<T*>(begin_ + back_);
   }
 
-  void next_phase() { back_ = block_.size(); }
-  void clear() { front_ = 0, back_ = block_.size(); }
+  void next_phase() { back_ = size_; }
+  void clear() { front_ = 0, back_ = size_; }
 
  private:
-  static constexpr std::size_t kAlignment = 16, kSlack = 2048;  // the slack covers rounding and small extras
+  static constexpr std::size_t kAlignment = 16;
   static std::size_t rounded_up(std::size_t bytes) {
     return (bytes + kAlignment - 1) / kAlignment * kAlignment;
   }
@@ -59,8 +63,12 @@ class Workspace {
     if (front_ > back_ || back_ == 0) throw std::length_error("pstripack: a workspace is too small");
   }
 
+  explicit Workspace(Buffer<unsigned char> block)
+      : block_(std::move(block)), begin_(block_.data()), size_(block_.size()), back_(size_) {}
+
   Buffer<unsigned char> block_;
-  std::size_t front_ = 0, back_;
+  unsigned char* begin_;
+  std::size_t size_, front_ = 0, back_;
 };
 
 }  // namespace pstripack

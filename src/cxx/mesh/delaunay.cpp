@@ -18,6 +18,7 @@
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
+#include <type_traits>
 
 #include "geometry/insertion_order.h"
 #include "geometry/parallel_for.h"
@@ -37,9 +38,6 @@ namespace {
 // Together less than 40u M, and less than 40u M for w alone. The plane is scaled by the power of two
 // 2^k with 2^-k in [64u M, 128u M]: then |n.d - w| > 1 is a certain sign, and so is |w| > 1 for
 // det(a,b,c) = n.a.
-struct Plane {
-  double x, y, z, w;
-};
 
 Point minus(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 double dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
@@ -80,39 +78,82 @@ template <class Predicates>
 
 // ---- the hull under construction ------------------------------------------------------------------
 
-/// A node inside the hull of the others, so that it would be missing from the triangulation.
-struct HiddenNode {};
-
 template <class Predicates>
-class Builder {
+class Builder final : public GrowingHull {
  public:
-  Builder(const Predicates& predicates, Face* faces, Plane* planes, std::uint32_t* corner)
-      : predicates_(predicates),
-        n_(predicates.size()),
-        faces_(faces),
-        words_(faces->vertex),
-        planes_(planes),
-        corner_(corner) {}
+  Builder(const HullArrays& arrays, std::size_t n) : predicates_(arrays.nodes, n), n_(n) {
+    set_arrays(arrays);
+  }
 
-  void build() {
-    start();
+  void build(std::size_t leading) override {
+    start(leading);
+    const auto n = static_cast<std::uint32_t>(n_), first = static_cast<std::uint32_t>(leading);
+    for (std::uint32_t v = 0; v < first; ++v) insert_unless_started(v);
     // Two rounds: every 16th node along the curve, then the rest. The first round makes the triangles
     // small everywhere, so that the second replaces fewer of them.
     constexpr std::uint32_t kStride = 16;
-    const auto n = static_cast<std::uint32_t>(n_);
-    for (std::uint32_t v = 0; v < n; v += kStride) insert_unless_started(v);
-    for (std::uint32_t v = 0; v < n; ++v)
-      if (v % kStride != 0) insert_unless_started(v);
+    for (std::uint32_t v = first; v < n; v += kStride) insert_unless_started(v);
+    for (std::uint32_t v = first; v < n; ++v)
+      if ((v - first) % kStride != 0) insert_unless_started(v);
   }
 
-  std::size_t face_count() const { return count_; }
-  const std::vector<std::pair<std::uint32_t, std::uint32_t>>& coincident() const { return coincident_; }
+  std::uint32_t add(const Point& p) override {
+    const auto v = static_cast<std::uint32_t>(n_);
+    nodes_[v] = p;
+    predicates_.extend(nodes_, n_ + 1);
+    const std::size_t before = coincident_.size();
+    insert(v);
+    if (coincident_.size() == before) return static_cast<std::uint32_t>(n_++);
+    const std::uint32_t in = coincident_.back().first;
+    coincident_.pop_back();
+    predicates_.extend(nodes_, n_);
+    return in;
+  }
 
-  /// True if the centre is certainly inside the first tetrahedron, hence inside the hull.
-  bool surrounds_centre() const { return surrounds_centre_; }
+  void move_to(const HullArrays& arrays) override {
+    set_arrays(arrays);
+    predicates_.extend(nodes_, n_);
+  }
 
-  /// det > 0: the face is part of the triangulation.
-  bool front(std::uint32_t t) const {
+  std::size_t node_count() const override { return n_; }
+  std::size_t face_count() const override { return count_; }
+  const std::vector<std::pair<std::uint32_t, std::uint32_t>>& coincident() const override {
+    return coincident_;
+  }
+  int left(std::uint32_t a, std::uint32_t b, std::uint32_t c) const override {
+    return predicates_.left(a, b, c);
+  }
+  bool above(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const override {
+    return predicates_.above(a, b, c, d);
+  }
+
+  bool surrounds_centre() const override { return surrounds_centre_; }
+
+  // -- 4: what is part of the triangulation
+
+  Hull finish() const override {
+    Hull hull;
+    hull.lengths = std::is_same_v<Predicates, Coordinates> ? Lengths::as_given : Lengths::directions;
+    hull.node_count = n_;
+    hull.face_count = count_;
+    hull.faces = faces_;
+    hull.corner = corner_;
+    hull.surrounds_centre = surrounds_centre_;
+    if (surrounds_centre_) return hull;
+    std::vector<bool> shown(n_, false);
+    hull.back.assign(count_, false);
+    hull.surrounds_centre = true;
+    for (std::uint32_t t = 0; t < count_; ++t)
+      if (front(t))
+        for (int i = 0; i < 3; ++i) shown[faces_[t].vertex[i]] = true;
+      else
+        hull.back[t] = true, hull.surrounds_centre = false;
+    for (const auto& pair : coincident_) shown[pair.second] = true;
+    if (std::find(shown.begin(), shown.end(), false) != shown.end()) throw HiddenNode{};
+    return hull;
+  }
+
+  bool front(std::uint32_t t) const override {
     const double w = planes_[t].w;
     if (w > 1) return true;
     if (w < -1) return false;
@@ -121,13 +162,21 @@ class Builder {
   }
 
  private:
+  void set_arrays(const HullArrays& arrays) {
+    nodes_ = arrays.nodes;
+    faces_ = arrays.faces;
+    words_ = arrays.faces->vertex;
+    planes_ = arrays.planes;
+    corner_ = arrays.corner;
+  }
+
   // -- 2: the first nodes
 
   /// The hull of three nodes: one triangle, seen from both sides. A fourth node near the other end of the
   /// sphere follows at once, so that the hull surrounds the centre early if it ever does.
-  void start() {
+  void start(std::size_t leading) {
     std::uint32_t corner[4];
-    choose_corners(corner);
+    choose_corners(corner, leading);
     const auto [a, b, c, d] = corner;
     // front face 0: a,b,c   back face 1: b,a,c   edges opposite c, then a against b
     corner_[a] = 0, corner_[b] = 1, corner_[c] = 2;
@@ -147,14 +196,14 @@ class Builder {
     for (std::uint32_t t = 0; t < count_; ++t) surrounds_centre_ = surrounds_centre_ && planes_[t].w > 1;
   }
 
-  /// Four nodes, the first three counterclockwise and not on one great circle: those of a sample that lie
-  /// farthest towards the corners of a regular tetrahedron if that works, else any.
-  void choose_corners(std::uint32_t (&corner)[4]) const {
+  /// Four nodes, the first three counterclockwise and not on one great circle: those of the leading nodes, or
+  /// of a sample, that lie farthest towards the corners of a regular tetrahedron if that works, else any.
+  void choose_corners(std::uint32_t (&corner)[4], std::size_t leading) const {
     static constexpr double towards[4][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
-    const std::size_t stride = n_ / 256 + 1;
+    const std::size_t count = leading > 0 ? leading : n_, stride = leading > 0 ? 1 : n_ / 256 + 1;
     double best[4] = {-4, -4, -4, -4};
     std::fill(corner, corner + 4, 0);
-    for (std::size_t v = 0; v < n_; v += stride)
+    for (std::size_t v = 0; v < count; v += stride)
       for (int k = 0; k < 4; ++k) {
         const Point& p = predicates_.position(static_cast<index_t>(v));
         const double d = p.x * towards[k][0] + p.y * towards[k][1] + p.z * towards[k][2];
@@ -173,23 +222,21 @@ class Builder {
     return turn != 0;
   }
 
+  /// The first node, the first that is not on its line, the first that is not on their great circle.
   void choose_any_corners(std::uint32_t (&corner)[4]) const {
-    // The first node that is not on the line of node 0, the first that is not on their great circle. All
-    // nodes are on that line or circle otherwise.
     const auto n = static_cast<std::uint32_t>(n_);
     corner[0] = 0;
-    for (corner[1] = 1; corner[1] < n; ++corner[1])
-      for (corner[2] = corner[1] + 1; corner[2] < n; ++corner[2]) {
-        if (turn_counterclockwise(corner)) return;
-        if (corner[2] - corner[1] > 8 && on_one_line(corner[0], corner[1])) break;
-      }
+    for (corner[1] = 1; corner[1] < n && on_one_line(corner[0], corner[1]);) ++corner[1];
+    for (corner[2] = corner[1] + 1; corner[2] < n; ++corner[2])
+      if (turn_counterclockwise(corner)) return;
     throw std::domain_error("all nodes lie on one great circle");
   }
 
-  /// True if a and b point in the same or in opposite directions, as far as a sample of nodes tells.
+  /// True if a and b point in the same or in opposite directions, exactly: a x b = 0, component by component.
   bool on_one_line(std::uint32_t a, std::uint32_t b) const {
-    const Point &p = predicates_.position(a), &q = predicates_.position(b);
-    return p.x * q.y == p.y * q.x && p.y * q.z == p.z * q.y && p.z * q.x == p.x * q.z;
+    const Point &p = predicates_.given(a), &q = predicates_.given(b);
+    return pstripack::left(p, q, {1, 0, 0}) == 0 && pstripack::left(p, q, {0, 1, 0}) == 0 &&
+           pstripack::left(p, q, {0, 0, 1}) == 0;
   }
 
   void insert_unless_started(std::uint32_t v) {
@@ -385,12 +432,13 @@ class Builder {
 
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-  const Predicates& predicates_;
-  const std::size_t n_;
-  Face* const faces_;
-  std::uint32_t* const words_;  ///< the same, as words
-  Plane* const planes_;
-  std::uint32_t* const corner_;  ///< for each node that is in, the code of a face at its corner
+  Predicates predicates_;
+  std::size_t n_;
+  Point* nodes_;
+  Face* faces_;
+  std::uint32_t* words_;  ///< the same, as words
+  Plane* planes_;
+  std::uint32_t* corner_;  ///< for each node that is in, the code of a face at its corner
   std::size_t count_ = 0;
   std::uint32_t last_ = 0;  ///< a front face near the last node: where the next search starts
   std::uint32_t started_[4];
@@ -400,67 +448,51 @@ class Builder {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> coincident_;
 };
 
-template <class Predicates>
-Hull build(const Point* sorted, std::size_t n, const std::uint32_t* order, Lengths lengths, Face* faces,
-           Plane* planes, std::uint32_t* corner) {
-  const Predicates predicates(sorted, n);
-  Builder<Predicates> builder(predicates, faces, planes, corner);
-  builder.build();
-
-  // -- 4: what is part of the triangulation
-  Hull hull;
-  hull.lengths = lengths;
-  hull.node_count = n;
-  hull.order = order;
-  hull.faces = faces;
-  hull.corner = corner;
-  hull.face_count = builder.face_count();
-  hull.surrounds_centre = builder.surrounds_centre();
-  if (!hull.surrounds_centre) {
-    std::vector<bool> shown(n, false);
-    hull.back.assign(hull.face_count, false);
-    hull.surrounds_centre = true;
-    for (std::uint32_t t = 0; t < hull.face_count; ++t)
-      if (builder.front(t))
-        for (int i = 0; i < 3; ++i) shown[faces[t].vertex[i]] = true;
-      else
-        hull.back[t] = true, hull.surrounds_centre = false;
-    for (const auto& pair : builder.coincident()) shown[pair.second] = true;
-    if (std::find(shown.begin(), shown.end(), false) != shown.end()) throw HiddenNode{};
-  }
-  for (const auto& [in, out] : builder.coincident())
-    hull.coincident.emplace_back(static_cast<index_t>(order[in]), static_cast<index_t>(order[out]));
-  return hull;
-}
-
 }  // namespace
 
+std::unique_ptr<GrowingHull> GrowingHull::make(const HullArrays& arrays, std::size_t n, Lengths lengths) {
+  if (lengths == Lengths::as_given) return std::make_unique<Builder<Coordinates>>(arrays, n);
+  return std::make_unique<Builder<Directions>>(arrays, n);
+}
+
 Hull delaunay(const Point* p, std::size_t n, Workspace& workspace) {
-  const std::uint32_t* const order = insertion_order(p, n, workspace);
-  Point* const sorted = workspace.keep<Point>(n);
+  auto* const order = workspace.keep<std::uint32_t>(n);
+  insertion_order(p, n, order, workspace);
+  HullArrays arrays;
+  arrays.capacity = n;
+  arrays.nodes = workspace.keep<Point>(n);
   std::atomic<bool> unit{true};
   parallel_pieces(n, threads_for(n), [&](std::size_t first, std::size_t last, int) {
     constexpr std::size_t kAhead = 16;
     bool all = true;
     for (std::size_t v = first; v < last; ++v) {
       if (v + kAhead < last) __builtin_prefetch(p + order[v + kAhead]);
-      sorted[v] = p[order[v]];
-      all = all & length_is_one(sorted[v]);
+      arrays.nodes[v] = p[order[v]];
+      all = all & length_is_one(arrays.nodes[v]);
     }
     if (!all) unit = false;
   });
   workspace.next_phase();
-  Face* const faces = workspace.keep<Face>(2 * n);
-  auto* const corner = workspace.keep<std::uint32_t>(n);
-  Plane* const planes = workspace.take<Plane>(2 * n);
+  arrays.faces = workspace.keep<Face>(2 * n);
+  arrays.corner = workspace.keep<std::uint32_t>(n);
+  arrays.planes = workspace.take<Plane>(2 * n);
+  const auto hull_with = [&](Lengths lengths) {
+    const auto growing = GrowingHull::make(arrays, n, lengths);
+    growing->build(0);
+    Hull hull = growing->finish();
+    hull.order = order;
+    for (const auto& [in, out] : growing->coincident())
+      hull.coincident.emplace_back(static_cast<index_t>(order[in]), static_cast<index_t>(order[out]));
+    return hull;
+  };
   if (unit) {
     try {
-      return build<Coordinates>(sorted, n, order, Lengths::as_given, faces, planes, corner);
+      return hull_with(Lengths::as_given);
     } catch (const HiddenNode&) {
       // The lengths as given hide a node: only directions show all.
     }
   }
-  return build<Directions>(sorted, n, order, Lengths::directions, faces, planes, corner);
+  return hull_with(Lengths::directions);
 }
 
 }  // namespace pstripack

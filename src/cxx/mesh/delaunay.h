@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -53,6 +54,62 @@ struct Hull {
   bool front(std::size_t face) const { return surrounds_centre || !back[face]; }
 };
 
+/// The plane of a face, scaled: see mesh/delaunay.cpp.
+struct Plane {
+  double x, y, z, w;
+};
+
+/// Thrown where a node lies inside the hull of the others, so that it would be missing from the
+/// triangulation: only with Lengths::as_given. More nodes never show it again; directions do.
+struct HiddenNode {};
+
+/// The memory of a hull that grows, of the caller: arrays for `capacity` nodes and 2 `capacity` faces.
+struct HullArrays {
+  std::size_t capacity = 0;
+  Point* nodes = nullptr;  ///< as given, in the order of insertion
+  Face* faces = nullptr;
+  Plane* planes = nullptr;
+  std::uint32_t* corner = nullptr;
+};
+
+/// A hull that nodes are added to. Nodes are numbered as they stand in HullArrays::nodes.
+class GrowingHull {
+ public:
+  /// A hull for the nodes that are in arrays.nodes[0..n-1], 3 <= n <= capacity; as_given or directions.
+  /// Throws std::bad_alloc.
+  static std::unique_ptr<GrowingHull> make(const HullArrays& arrays, std::size_t n, Lengths lengths);
+  virtual ~GrowingHull() = default;
+
+  /// Inserts the nodes: the first `leading` in their order, the rest, which should follow a curve, in two
+  /// rounds. `leading` = 0: the nodes to start from are looked for among all. Throws HiddenNode,
+  /// std::bad_alloc, std::domain_error if all nodes lie on one great circle.
+  virtual void build(std::size_t leading) = 0;
+
+  /// Adds a node after build(), if there is room. Returns its number, or that of the node that it coincides
+  /// with; then nothing has changed. Throws HiddenNode, std::bad_alloc.
+  virtual std::uint32_t add(const Point& p) = 0;
+
+  /// Goes on in other arrays, to which the contents have been copied.
+  virtual void move_to(const HullArrays& arrays) = 0;
+
+  virtual std::size_t node_count() const = 0;
+  virtual std::size_t face_count() const = 0;
+  virtual const std::vector<std::pair<std::uint32_t, std::uint32_t>>& coincident() const = 0;  ///< (in, out)
+
+  /// The predicates on nodes that have been added, exact.
+  virtual int left(std::uint32_t a, std::uint32_t b, std::uint32_t c) const = 0;
+  virtual bool above(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const = 0;
+
+  /// True if the centre is known to be inside: then every face is part of the triangulation.
+  virtual bool surrounds_centre() const = 0;
+
+  /// det > 0: the face is part of the triangulation.
+  virtual bool front(std::uint32_t face) const = 0;
+
+  /// What is part of the triangulation by now; `order` is left to the caller. Throws HiddenNode.
+  virtual Hull finish() const = 0;
+};
+
 /// The hull of the nodes p[0..n-1], n >= 3: finite, non-zero, not all on one great circle. Decides with
 /// Coordinates, or with Directions where lengths differ from 1 by more than 1e-6 or where the lengths as
 /// given would hide a node from the triangulation. Nodes that coincide are inserted once.
@@ -63,6 +120,8 @@ struct Hull {
 Hull delaunay(const Point* p, std::size_t n, Workspace& workspace);
 
 /// Kept: order, sorted nodes, faces, corners. Of the phases the insertion takes most: the planes of 2n faces.
-constexpr std::size_t workspace_bytes(std::size_t n) { return (4 + 24 + 2 * sizeof(Face) + 4 + 64) * n; }
+constexpr std::size_t workspace_bytes(std::size_t n) {
+  return (4 + 24 + 2 * sizeof(Face) + 4 + 2 * sizeof(Plane)) * n;
+}
 
 }  // namespace pstripack

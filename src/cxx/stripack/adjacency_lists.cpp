@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/parallel_for.h"
+#include "mesh/rings.h"
 
 namespace pstripack {
 namespace {
@@ -16,80 +17,10 @@ struct Ring {
   std::uint32_t begin, count;
 };
 
-/// Up to so many neighbours a ring is copied as one block, without a loop whose length no processor can
-/// guess. What is copied too much is overwritten by the next ring. Six neighbours are the mean.
-constexpr std::size_t kBlock = 8;
-
-template <class Int>
-void copy_block(const Int* from, Int* to) {
-  std::memcpy(to, from, kBlock * sizeof(Int));
-}
-
 /// LPTR from `slot` (counted from 0) on: every slot points to the next.
 template <class Int>
 inline void number_on(Int* lptr, std::size_t count, std::size_t slot) {
   for (std::size_t j = 0; j < count; ++j) lptr[j] = static_cast<Int>(slot + j) + 2;
-}
-
-/// The corner at the same node in the next face clockwise.
-std::uint32_t clockwise(const Hull& hull, std::uint32_t corner) {
-  const std::uint32_t beyond = hull.faces[face_of(corner)].neighbour[previous_edge(edge_of(corner))];
-  return 4 * face_of(beyond) + previous_edge(edge_of(beyond));
-}
-
-/// From any corner at a node to that in a front face, the first after the gap if there is one.
-std::uint32_t first_corner(const Hull& hull, std::uint32_t corner) {
-  while (!hull.front(face_of(corner))) corner = clockwise(hull, corner);
-  const std::uint32_t start = corner;
-  do {
-    const std::uint32_t next = clockwise(hull, corner);
-    if (!hull.front(face_of(next))) return corner;
-    corner = next;
-  } while (corner != start);
-  return corner;
-}
-
-/// Appends the ring of one hull node as it will stand in LIST; returns the new end. `corner` is 4*t + i: the
-/// node is vertex[i] of face t. Writes up to 2*kBlock entries beyond the end.
-///
-///            f.vertex[previous]           The face t = (v, next, previous). Its neighbour across the edge
-///             /      |                    v - previous, which lies opposite `next`, follows
-///      beyond       |  t                  counterclockwise.
-///             \      |
-///              v ------ f.vertex[next]
-template <class Int>
-Int* append_ring(const Hull& hull, std::uint32_t corner, Int* const begin) {
-  if (!hull.surrounds_centre) corner = first_corner(hull, corner);
-  Int* out = begin;
-  Int smallest = std::numeric_limits<Int>::max();
-  std::size_t smallest_at = 0;
-  const std::uint32_t first = face_of(corner);
-  do {
-    const Face& f = hull.faces[face_of(corner)];
-    const std::uint32_t next = next_edge(edge_of(corner));
-    const Int neighbour = static_cast<Int>(hull.order[f.vertex[next]]) + 1;
-    const bool smaller = neighbour < smallest;
-    smallest = smaller ? neighbour : smallest;
-    smallest_at = smaller ? static_cast<std::size_t>(out - begin) : smallest_at;
-    *out++ = neighbour;
-    const std::uint32_t beyond = f.neighbour[next];
-    if (!hull.front(face_of(beyond))) {  // the boundary: its last node closes the list
-      *out++ = -(static_cast<Int>(hull.order[f.vertex[previous_edge(edge_of(corner))]]) + 1);
-      return out;
-    }
-    corner = 4 * face_of(beyond) + next_edge(edge_of(beyond));
-  } while (face_of(corner) != first);
-  const auto count = static_cast<std::size_t>(out - begin);
-  if (count > kBlock) {
-    std::rotate(begin, begin + smallest_at, out);
-    return out;
-  }
-  // Twice in a row, then the part that starts with the smallest.
-  Int twice[2 * kBlock];
-  copy_block(begin, twice);
-  copy_block(begin, twice + count);
-  copy_block(twice + smallest_at, begin);
-  return out;
 }
 
 }  // namespace
@@ -121,6 +52,7 @@ Int write_lists(const Hull& hull, Int* list, Int* lptr, Int* lend, Workspace& wo
     for (std::size_t t = 0; t < pieces; ++t) begin_of[p + 1] += sums[pieces * t + p];
   }
 
+  const auto number = [&hull](std::uint32_t v) { return static_cast<Int>(hull.order[v]) + 1; };
   // In the order of the hull, where the faces of a star are close together in memory: all rings.
   constexpr std::size_t kAhead = 16;
   parallel_pieces(pieces, threads, [&](std::size_t piece, std::size_t, int) {
@@ -134,7 +66,7 @@ Int write_lists(const Hull& hull, Int* list, Int* lptr, Int* lend, Workspace& wo
         for (int i = 0; i < 3; ++i) __builtin_prefetch(&hull.faces[face_of(soon.neighbour[i])]);
       }
       Int* const begin = out;
-      out = append_ring(hull, hull.corner[v], begin);
+      out = append_ring(hull, hull.corner[v], number, begin);
       ring_of[hull.order[v]] = {static_cast<std::uint32_t>(begin - rings),
                                 static_cast<std::uint32_t>(out - begin)};
     }

@@ -2,37 +2,20 @@
 
 #include <cmath>
 #include <limits>
-#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "geometry/parallel_for.h"
 #include "mesh/delaunay.h"
+#include "parallel/coincidence.h"
+#include "parallel/options.h"
+#include "parallel/triangulate.h"
 #include "stripack/adjacency_lists.h"
+#include "stripack/list_pieces.h"
 
 namespace pstripack {
 namespace {
-
-/// Nodes L < M that coincide, M the smallest such index; indices from 0.
-struct Coincidence {
-  index_t l, m;
-};
-
-/// The first two nodes of each set of coincident nodes are a candidate; the one with the smallest M wins.
-Coincidence first_coincidence(const Hull& hull) {
-  std::map<index_t, Coincidence> sets;  // by the node that is in the hull
-  for (const auto& [in, out] : hull.coincident) {
-    const auto [set, is_new] = sets.try_emplace(in, Coincidence{std::min(in, out), std::max(in, out)});
-    if (is_new) continue;
-    auto& [l, m] = set->second;
-    if (out < l)
-      m = l, l = out;
-    else if (out < m)
-      m = out;
-  }
-  Coincidence best{0, std::numeric_limits<index_t>::max()};
-  for (const auto& [in, set] : sets)
-    if (set.m < best.m) best = set;
-  return best;
-}
 
 /// Copies the coordinates; returns the first node (from 0) that has no direction, n if all have one.
 template <class Real>
@@ -55,6 +38,30 @@ std::size_t copy_nodes(std::size_t n, const Real* x, const Real* y, const Real* 
   return first_bad;
 }
 
+using Pairs = std::vector<std::pair<std::int64_t, std::int64_t>>;
+
+/// The lists by patches on the threads of this process. Returns the pairs of nodes that coincide, or none and
+/// has written the lists; nothing if the nodes lie so that patches do not pay.
+template <class Int>
+std::optional<Pairs> lists_on_threads(const Point* p, std::size_t n, Int* list, Int* lptr, Int* lend,
+                                      Int* lnew) {
+  SingleProcess process;
+  LocalNodes nodes;
+  nodes.points = p;
+  nodes.count = n;
+  ParallelOptions options = options_from_environment(n);
+  options.most_questions = n / 8;
+  const Point corners[3] = {p[0], p[1], p[2]};
+  const Stars<Int> stars = triangulate<Int>(nodes, corners, {1, 2, 3}, process, options);
+  if (stars.gave_up) return std::nullopt;
+  if (stars.coincident.empty()) {
+    write_piece(stars.of_node, n, 0, list, lend, options.threads);
+    write_lptr(lend, n, lptr, options.threads);
+    *lnew = lend[n - 1] + 1;
+  }
+  return stars.coincident;
+}
+
 }  // namespace
 
 template <class Real, class Int>
@@ -63,26 +70,39 @@ TrmeshResult trmesh(Int n, const Real* x, const Real* y, const Real* z, Int* lis
   if (n < 3) return {-1};
   if (n > (std::numeric_limits<Int>::max() - 1) / 6 + 2) return {-4};  // LNEW <= 6n-11 must fit
 
-  const auto nodes = static_cast<std::size_t>(n);
-  Workspace workspace(workspace_bytes(nodes));
-  Point* const p = workspace.take<Point>(nodes);
+  auto nodes = static_cast<std::size_t>(n);
+  const bool on_threads = threads_for(nodes) > 1;
+  Workspace workspace(on_threads ? nodes * sizeof(Point) : workspace_bytes(nodes));
+  Point* p = workspace.take<Point>(nodes);
   const std::size_t bad = copy_nodes(nodes, x, y, z, p);
   if (bad < nodes) return {-5, static_cast<std::int64_t>(bad) + 1};
   if (left(p[0], p[1], p[2]) == 0) return {-2};
 
-  const Hull hull = delaunay(p, nodes, workspace);
-  if (hull.coincident.empty()) {
-    *lnew = write_lists(hull, list, lptr, lend, workspace);
-    return {0};
-  }
+  // Writes the lists of the first `nodes` nodes, or returns sets of nodes that coincide.
+  const auto triangulate_them = [&] {
+    if (on_threads) {
+      const auto coincident = lists_on_threads(p, nodes, list, lptr, lend, lnew);
+      if (coincident) return *coincident;
+    }
+    std::optional<Workspace> own_workspace;
+    if (on_threads) own_workspace.emplace(workspace_bytes(nodes));
+    Workspace& w = on_threads ? *own_workspace : workspace;
+    const Hull hull = delaunay(p, nodes, w);
+    Pairs pairs;
+    for (const auto& [in, out] : hull.coincident) pairs.emplace_back(in + 1, out + 1);
+    if (pairs.empty()) *lnew = write_lists(hull, list, lptr, lend, w);
+    return pairs;
+  };
+  const Pairs pairs = triangulate_them();
+  if (pairs.empty()) return {0};
   // Nodes 1..M-1 do not coincide, and the first three are not on one great circle: M > 3.
-  const auto [l, m] = first_coincidence(hull);
-  const auto fewer = static_cast<std::size_t>(m);
+  const Coincidence first = first_coincidence(pairs);
+  nodes = static_cast<std::size_t>(first.m) - 1;
   workspace.clear();
-  Point* const q = workspace.take<Point>(fewer);
-  copy_nodes(fewer, x, y, z, q);
-  *lnew = write_lists(delaunay(q, fewer, workspace), list, lptr, lend, workspace);
-  return {l + 1, l + 1, m + 1};
+  p = workspace.take<Point>(nodes);
+  copy_nodes(nodes, x, y, z, p);
+  triangulate_them();
+  return {static_cast<std::int32_t>(first.l), first.l, first.m};
 }
 
 template TrmeshResult trmesh(std::int32_t, const double*, const double*, const double*, std::int32_t*,

@@ -1,0 +1,29 @@
+#pragma once
+// How libpstripack_mpi takes over TRMESH: libpstripack asks this function first, if one is set.
+
+#include <stdint.h>
+
+#include "capi/pstripack.h"
+
+extern "C" {
+
+/// One TRMESH call. real_bytes: 4 or 8, the kind of x, y, z.
+struct pstripack_trmesh_arguments {
+  int32_t real_bytes, n;
+  const void *x, *y, *z;
+  int32_t *list, *lptr, *lend, *lnew;
+};
+
+enum {
+  PSTRIPACK_ENGINE_DECLINES = 0,  ///< not mine, do it on threads
+  PSTRIPACK_ENGINE_DID_IT = 1,    ///< and the code, if it is one that callers do not know, wants its line
+  PSTRIPACK_ENGINE_DID_IT_SILENTLY = 2,  ///< another rank prints that line
+};
+
+/// Carries the call out and sets *ier, *node and *other (see TrmeshResult), or declines. Must not throw.
+typedef int (*pstripack_trmesh_engine)(const pstripack_trmesh_arguments* call, int32_t* ier, int64_t* node,
+                                       int64_t* other);
+
+/// Sets the engine, null for none; returns the one before. Not part of the public interface.
+PSTRIPACK_API pstripack_trmesh_engine pstripack_set_trmesh_engine(pstripack_trmesh_engine engine);
+}

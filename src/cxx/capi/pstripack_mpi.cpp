@@ -1,0 +1,237 @@
+// The thin boundary of the MPI side: default floating-point environment in, no exception out.
+
+#include "capi/pstripack_mpi.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <new>
+#include <utility>
+
+#include "capi/engine_hook.h"
+#include "geometry/floating_point.h"
+#include "mpi/collective_trmesh.h"
+#include "mpi/distributed_mesh.h"
+
+using namespace pstripack;
+
+struct pstripack_mesh {
+  explicit pstripack_mesh(MPI_Comm comm) : mesh(comm) {}
+  DistributedMesh mesh;
+};
+
+namespace {
+
+bool mpi_is_running() {
+  int initialised = 0, finalised = 0;
+  MPI_Initialized(&initialised);
+  MPI_Finalized(&finalised);
+  return initialised && !finalised;
+}
+
+/// Calls body() and returns what it returns, or the code of what it throws.
+template <class Body>
+std::int32_t guarded(const Body& body) noexcept {
+  const DefaultFloatingPoint environment;
+  try {
+    return body();
+  } catch (const AgreedFailure& failure) {
+    return failure.code;
+  } catch (...) {
+    return code_of(std::current_exception());
+  }
+}
+
+/// The same for what the ranks do together: a failure that they have not agreed on would leave the others
+/// waiting for ever. There should be none.
+template <class Body>
+std::int32_t guarded(MpiCommunicator& ranks, const Body& body) noexcept {
+  return guarded([&] {
+    try {
+      return body();
+    } catch (const AgreedFailure&) {
+      throw;
+    } catch (const std::exception& error) {
+      ranks.abort("error", error.what());
+    } catch (...) {
+      ranks.abort("error", "unknown");
+    }
+  });
+}
+
+/// What pstripack_set_comm has set. Never destroyed: MPI may be finalised before or after static objects are.
+struct CommMode {
+  std::mutex one_call_at_a_time;
+  std::unique_ptr<MpiCommunicator> ranks;
+  pstripack_trmesh_engine engine_before = nullptr;
+  pid_t process = 0;
+};
+CommMode& comm_mode() {
+  static auto* const mode = new CommMode;
+  return *mode;
+}
+
+/// A call that must not be collective: in a forked child, which has no part in MPI; where MPI has ended; in a
+/// thread that may not call it.
+bool must_decline(const CommMode& mode) {
+  if (mode.process != getpid() || !mpi_is_running()) return true;
+  int level = MPI_THREAD_SINGLE, is_main = 0;
+  MPI_Query_thread(&level);
+  if (level == MPI_THREAD_MULTIPLE) return false;
+  MPI_Is_thread_main(&is_main);
+  return !is_main;
+}
+
+template <class Real>
+TrmeshResult collective_call(MpiCommunicator& ranks, const pstripack_trmesh_arguments& call) {
+  const auto array = [](const void* values) { return static_cast<const Real*>(values); };
+  return collective_trmesh(ranks, Arrays::on_every_rank, call.n, array(call.x), array(call.y), array(call.z),
+                           call.list, call.lptr, call.lend, call.lnew);
+}
+
+int comm_mode_engine(const pstripack_trmesh_arguments* call, std::int32_t* ier, std::int64_t* node,
+                     std::int64_t* other) {
+  CommMode& mode = comm_mode();
+  if (must_decline(mode)) return PSTRIPACK_ENGINE_DECLINES;
+  const std::lock_guard<std::mutex> lock(mode.one_call_at_a_time);
+  if (mode.ranks == nullptr) return PSTRIPACK_ENGINE_DECLINES;
+  TrmeshResult result{0};
+  *ier = guarded(*mode.ranks, [&] {
+    result = call->real_bytes == sizeof(float) ? collective_call<float>(*mode.ranks, *call)
+                                               : collective_call<double>(*mode.ranks, *call);
+    return result.ier;
+  });
+  *node = result.node;
+  *other = result.other;
+  return mode.ranks->rank() == 0 ? PSTRIPACK_ENGINE_DID_IT : PSTRIPACK_ENGINE_DID_IT_SILENTLY;
+}
+
+void end_comm_mode(CommMode& mode) {
+  if (mode.ranks == nullptr) return;
+  pstripack_set_trmesh_engine(mode.engine_before);
+  mode.ranks.reset();
+}
+
+int at_mpi_finalize(MPI_Comm, int, void*, void*) {
+  end_comm_mode(comm_mode());
+  return MPI_SUCCESS;
+}
+
+/// Attributes of MPI_COMM_SELF are deleted at the beginning of MPI_Finalize, when everything still works.
+void end_comm_mode_at_mpi_finalize() {
+  static int key = MPI_KEYVAL_INVALID;
+  if (key != MPI_KEYVAL_INVALID) return;
+  MPI_Comm_create_keyval(MPI_COMM_NULL_COPY_FN, at_mpi_finalize, &key, nullptr);
+  MPI_Comm_set_attr(MPI_COMM_SELF, key, nullptr);
+}
+
+/// A T over comm, collectively. A rank without memory for it says so to the others.
+template <class T>
+std::unique_ptr<T> make_over(MPI_Comm comm) {
+  void* const memory = ::operator new(sizeof(T), std::nothrow);
+  if (memory == nullptr)
+    MpiCommunicator(comm, MpiCommunicator::kLongestMessage, PSTRIPACK_OUT_OF_MEMORY);  // throws
+  try {
+    return std::unique_ptr<T>(new (memory) T(comm));
+  } catch (...) {
+    ::operator delete(memory);
+    throw;
+  }
+}
+
+MPI_Comm communicator_of(MPI_Fint comm) { return mpi_is_running() ? MPI_Comm_f2c(comm) : MPI_COMM_NULL; }
+
+}  // namespace
+
+extern "C" {
+
+int32_t pstripack_set_comm(MPI_Comm comm) {
+  const std::int32_t code = guarded([&] {
+    CommMode& mode = comm_mode();
+    const std::lock_guard<std::mutex> lock(mode.one_call_at_a_time);
+    if (comm == MPI_COMM_NULL) {
+      end_comm_mode(mode);
+      return 0;
+    }
+    auto ranks = make_over<MpiCommunicator>(comm);
+    end_comm_mode_at_mpi_finalize();
+    const bool is_replaced = mode.ranks != nullptr;
+    mode.ranks = std::move(ranks);
+    mode.process = getpid();
+    if (!is_replaced) mode.engine_before = pstripack_set_trmesh_engine(comm_mode_engine);
+    return 0;
+  });
+  if (code != 0)
+    std::fprintf(stderr, "pstripack: set_comm: %s (IER = %d)\n", pstripack_strerror(code),
+                 static_cast<int>(code));
+  return code;
+}
+
+int32_t pstripack_set_comm_f(MPI_Fint comm) { return pstripack_set_comm(communicator_of(comm)); }
+void pstripack_set_comm_(const MPI_Fint* comm) { pstripack_set_comm_f(*comm); }
+void pstripack_set_comm__(const MPI_Fint* comm) { pstripack_set_comm_f(*comm); }
+
+int32_t pstripack_mesh_create(MPI_Comm comm, pstripack_mesh** mesh) {
+  *mesh = nullptr;
+  return guarded([&] {
+    *mesh = make_over<pstripack_mesh>(comm).release();
+    return 0;
+  });
+}
+
+int32_t pstripack_mesh_create_f(MPI_Fint comm, pstripack_mesh** mesh) {
+  return pstripack_mesh_create(communicator_of(comm), mesh);
+}
+
+void pstripack_mesh_free(pstripack_mesh* mesh) { delete mesh; }
+
+int32_t pstripack_mesh_triangulate(pstripack_mesh* mesh, int64_t n, const double* xyz,
+                                   const int64_t* number) {
+  return guarded(mesh->mesh.ranks(), [&] { return mesh->mesh.triangulate(n, xyz, number); });
+}
+
+void pstripack_mesh_error_points(const pstripack_mesh* mesh, int64_t* first, int64_t* second) {
+  *first = mesh->mesh.error_point(0);
+  *second = mesh->mesh.error_point(1);
+}
+
+int32_t pstripack_mesh_home(const pstripack_mesh* mesh, int64_t n, const double* xyz, int32_t* rank) {
+  const DefaultFloatingPoint environment;
+  if (mesh->mesh.empty()) return PSTRIPACK_EMPTY_MESH;
+  return mesh->mesh.home(n, xyz, rank) ? PSTRIPACK_OK : PSTRIPACK_BAD_COORDINATE;
+}
+
+void pstripack_mesh_sizes(const pstripack_mesh* mesh, int64_t* points, int64_t* arcs, int64_t* triangles,
+                          int64_t* halo) {
+  *points = mesh->mesh.points();
+  *arcs = mesh->mesh.arcs();
+  *triangles = mesh->mesh.triangles();
+  *halo = mesh->mesh.halo();
+}
+
+void pstripack_mesh_stars(const pstripack_mesh* mesh, int64_t* begin, int64_t* neighbour) {
+  mesh->mesh.stars(begin, neighbour);
+}
+
+void pstripack_mesh_triangles(const pstripack_mesh* mesh, int64_t* corner) { mesh->mesh.triangles(corner); }
+
+void pstripack_mesh_halo(const pstripack_mesh* mesh, int64_t* number, double* xyz) {
+  mesh->mesh.halo(number, xyz);
+}
+
+int32_t pstripack_mesh_local_stars(const pstripack_mesh* mesh, int64_t* begin, int32_t* neighbour) {
+  return guarded([&] {
+    mesh->mesh.local_stars(begin, neighbour);
+    return 0;
+  });
+}
+
+int32_t pstripack_mesh_gather(pstripack_mesh* mesh, int32_t root, int32_t* list, int32_t* lptr, int32_t* lend,
+                              int32_t* lnew) {
+  return guarded(mesh->mesh.ranks(), [&] { return mesh->mesh.gather(root, list, lptr, lend, lnew); });
+}
+
+}  // extern "C"

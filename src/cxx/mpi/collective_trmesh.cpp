@@ -1,0 +1,262 @@
+#include "mpi/collective_trmesh.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <iterator>
+#include <limits>
+#include <vector>
+
+#include "geometry/parallel_for.h"
+#include "geometry/predicates.h"
+#include "mpi/list_pieces.h"
+#include "mpi/options.h"
+#include "parallel/coincidence.h"
+
+namespace pstripack {
+namespace {
+
+constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
+constexpr std::int32_t kTooFew = -1, kCollinear = -2, kTooMany = -4, kBadCoordinate = -5, kRanksDisagree = -7;
+
+std::uint64_t mixed(std::uint64_t bits) {
+  bits = (bits ^ (bits >> 32)) * 0xd6e8feb86659fd93u;
+  return bits ^ (bits >> 29);
+}
+
+/// 64 bits that depend on every bit of the array. The blocks are hashed one by one and added, so that the
+/// number of threads does not matter.
+std::uint64_t hash_of(const void* array, std::size_t size, std::uint64_t seed) {
+  constexpr std::size_t kBlock = 1 << 16, kLanes = 4, kStep = kLanes * sizeof(std::uint64_t);
+  const auto* const bytes = static_cast<const unsigned char*>(array);
+  const std::size_t blocks = (size + kBlock - 1) / kBlock;
+  std::vector<std::uint64_t> hash(blocks);
+  parallel_pieces(blocks, threads_for(size / 64), [&](std::size_t first, std::size_t last, int) {
+    for (std::size_t b = first; b < last; ++b) {
+      const std::size_t begin = b * kBlock, end = std::min(begin + kBlock, size);
+      std::uint64_t lane[kLanes] = {seed, b, size, 1}, word[kLanes];
+      for (std::size_t at = begin; at < end; at += kStep) {
+        if (end - at < kStep) std::memset(word, 0, sizeof word);
+        std::memcpy(word, bytes + at, std::min(kStep, end - at));
+        for (std::size_t i = 0; i < kLanes; ++i) {
+          lane[i] = (lane[i] ^ word[i]) * 0x9e3779b97f4a7c15u;
+          lane[i] ^= lane[i] >> 32;
+        }
+      }
+      hash[b] = mixed(lane[0] + mixed(lane[1] + mixed(lane[2] + mixed(lane[3]))));
+    }
+  });
+  std::uint64_t sum = mixed(seed);
+  for (const std::uint64_t h : hash) sum += h;
+  return sum;
+}
+
+/// Nodes first.. of the call as points; returns the first (from 0, of the call) that has no direction.
+template <class Real>
+std::int64_t copy_nodes(const Real* x, const Real* y, const Real* z, std::size_t count, std::size_t first,
+                        Point* p) {
+  std::vector<std::int64_t> bad(static_cast<std::size_t>(threads_for(count)), kNone);
+  parallel_pieces(count, static_cast<int>(bad.size()), [&](std::size_t begin, std::size_t end, int piece) {
+    for (std::size_t i = end; i-- > begin;) {
+      p[i] = {static_cast<double>(x[i]), static_cast<double>(y[i]), static_cast<double>(z[i])};
+      const bool finite = std::isfinite(p[i].x) && std::isfinite(p[i].y) && std::isfinite(p[i].z);
+      if (!finite || p[i] == Point{0, 0, 0})
+        bad[static_cast<std::size_t>(piece)] = static_cast<std::int64_t>(first + i);
+    }
+  });
+  return *std::min_element(bad.begin(), bad.end());
+}
+
+/// LNEW <= 6n-11 must fit, as in TRMESH.
+std::int32_t code_of_count(std::int32_t n) {
+  if (n < 3) return kTooFew;
+  return n > (std::numeric_limits<std::int32_t>::max() - 1) / 6 + 2 ? kTooMany : 0;
+}
+
+/// What a call is about, on every rank.
+struct Call {
+  std::int32_t n = 0;
+  Point corners[3] = {};  ///< nodes 1 to 3
+  std::int64_t partition = 0;
+};
+
+template <class Real>
+void take_corners(const Real* x, const Real* y, const Real* z, Point (&corners)[3]) {
+  for (int i = 0; i < 3; ++i)
+    corners[i] = {static_cast<double>(x[i]), static_cast<double>(y[i]), static_cast<double>(z[i])};
+}
+
+/// This rank's slice of the nodes, where every rank has them all. The code is that of the call so far.
+template <class Real>
+TrmeshResult take_slice(MpiCommunicator& ranks, std::int32_t n, const Real* x, const Real* y, const Real* z,
+                        Call& call, Buffer<Point>& points) {
+  ranks.set_phase("agree on the arguments");
+  call.n = n;
+  const std::int32_t count_code = code_of_count(n);
+  std::int64_t code = 0, bad = kNone, hash = 0;
+  if (count_code == 0) try {
+      const auto nodes = static_cast<std::size_t>(n);
+      const auto size = static_cast<std::size_t>(ranks.size()), me = static_cast<std::size_t>(ranks.rank());
+      const std::size_t first = slice_begin(nodes, me, size), last = slice_begin(nodes, me + 1, size);
+      std::uint64_t h = sizeof(Real);
+      for (const Real* const array : {x, y, z}) h = hash_of(array, nodes * sizeof(Real), h);
+      hash = static_cast<std::int64_t>(h);
+      points = Buffer<Point>(last - first);
+      bad = copy_nodes(x + first, y + first, z + first, last - first, first, points.data());
+      take_corners(x, y, z, call.corners);
+    } catch (...) {
+      code = code_of(std::current_exception());
+    }
+  // Smallest values; the complement is largest where the value is smallest, so both tell whether all are
+  // equal.
+  std::int64_t values[] = {n,
+                           ~std::int64_t{n},
+                           hash,
+                           ~hash,
+                           code,
+                           bad,
+                           partition_vote(ranks, options_from_environment(0).partition)};
+  ranks.all_min(values, std::size(values));
+  // Out of memory first: the hash is missing there.
+  if (values[4] != 0) throw AgreedFailure(static_cast<std::int32_t>(values[4]));
+  if (values[0] != ~values[1] || values[2] != ~values[3]) return {kRanksDisagree};
+  if (count_code != 0) return {count_code};
+  call.partition = values[6];
+  if (values[5] != kNone) return {kBadCoordinate, values[5] + 1};
+  return {0};
+}
+
+/// This rank's slice of the nodes of rank 0.
+template <class Real>
+TrmeshResult receive_slice(MpiCommunicator& ranks, std::int32_t n, const Real* x, const Real* y,
+                           const Real* z, Call& call, Buffer<Point>& points) {
+  ranks.set_phase("scatter the nodes");
+  const bool is_root = ranks.rank() == 0;
+  if (is_root) {
+    call.n = n;
+    call.partition = static_cast<std::int64_t>(options_from_environment(0).partition);
+    if (code_of_count(n) == 0) take_corners(x, y, z, call.corners);
+  }
+  ranks.broadcast(&call, sizeof call, 0);
+  if (const std::int32_t code = code_of_count(call.n); code != 0) return {code};
+
+  const auto nodes = static_cast<std::size_t>(call.n);
+  const auto size = static_cast<std::size_t>(ranks.size()), me = static_cast<std::size_t>(ranks.rank());
+  const std::size_t first = slice_begin(nodes, me, size), count = slice_begin(nodes, me + 1, size) - first;
+  Buffer<Real> mine[3];
+  std::vector<std::size_t> bytes;
+  agreed(ranks, [&] {
+    points = Buffer<Point>(count);
+    if (!is_root)
+      for (Buffer<Real>& m : mine) m = Buffer<Real>(count);
+    for (std::size_t r = 0; r <= size; ++r) bytes.push_back(slice_begin(nodes, r, size) * sizeof(Real));
+  });
+  const Real* const all[] = {x, y, z};
+  for (int i = 0; i < 3; ++i)
+    ranks.start_scatter(all[i], bytes, mine[i].data(), is_root ? 0 : count * sizeof(Real), 0);
+  if (!is_root) ranks.finish();
+  std::int64_t values[] = {0, kNone};
+  try {
+    values[1] = is_root
+                    ? copy_nodes(x, y, z, count, 0, points.data())
+                    : copy_nodes(mine[0].data(), mine[1].data(), mine[2].data(), count, first, points.data());
+  } catch (...) {
+    values[0] = code_of(std::current_exception());
+  }
+  if (is_root) ranks.finish();
+  ranks.all_min(values, std::size(values));
+  if (values[0] != 0) throw AgreedFailure(static_cast<std::int32_t>(values[0]));
+  if (values[1] != kNone) return {kBadCoordinate, values[1] + 1};
+  return {0};
+}
+
+/// Adds what has passed while it lives to one phase.
+class Stopwatch {
+ public:
+  Stopwatch(ParallelCost* cost, ParallelCost::Phase phase) : cost_(cost), phase_(phase) { add(-1); }
+  ~Stopwatch() { add(1); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  static double now(clockid_t clock) {
+    timespec t;
+    clock_gettime(clock, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  }
+  void add(int sign) {
+    if (cost_ == nullptr) return;
+    cost_->seconds[phase_] += sign * now(CLOCK_MONOTONIC);
+    cost_->cpu_seconds[phase_] += sign * now(CLOCK_PROCESS_CPUTIME_ID);
+  }
+  ParallelCost* const cost_;
+  const ParallelCost::Phase phase_;
+};
+
+}  // namespace
+
+template <class Real>
+TrmeshResult collective_trmesh(MpiCommunicator& ranks, Arrays arrays, std::int32_t n, const Real* x,
+                               const Real* y, const Real* z, std::int32_t* list, std::int32_t* lptr,
+                               std::int32_t* lend, std::int32_t* lnew, ParallelCost* cost) {
+  Call call;
+  Buffer<Point> points;
+  {
+    const Stopwatch watch(cost, ParallelCost::divide);
+    const TrmeshResult result = arrays == Arrays::on_every_rank
+                                    ? take_slice(ranks, n, x, y, z, call, points)
+                                    : receive_slice(ranks, n, x, y, z, call, points);
+    if (result.ier != 0) return result;
+  }
+  if (left(call.corners[0], call.corners[1], call.corners[2]) == 0) return {kCollinear};
+
+  const auto size = static_cast<std::size_t>(ranks.size()), me = static_cast<std::size_t>(ranks.rank());
+  std::vector<std::size_t> begin;
+  ParallelOptions options;
+  agreed(ranks, [&] {
+    begin.resize(size + 1);
+    options = options_from_environment(points.size());
+  });
+  options.partition = elected_partition(call.partition);
+  const auto cut = [&](std::size_t fewer) {
+    for (std::size_t r = 0; r <= size; ++r)
+      begin[r] = std::min(fewer, slice_begin(static_cast<std::size_t>(call.n), r, size));
+  };
+  const auto stars_of_slices = [&] {
+    ranks.set_phase("triangulate");
+    const LocalNodes mine{points.data(), begin[me + 1] - begin[me], nullptr,
+                          static_cast<std::int64_t>(begin[me]) + 1};
+    const std::int64_t numbers[3] = {1, 2, 3};
+    return triangulate<std::int32_t>(mine, call.corners, numbers, ranks, options, cost);
+  };
+  cut(static_cast<std::size_t>(call.n));
+  Stars<std::int32_t> stars = stars_of_slices();
+
+  TrmeshResult result{0};
+  if (!stars.coincident.empty()) {
+    // Nodes 1..M-1 do not coincide, and the first three are not on one great circle: M > 3.
+    Coincidence first{};
+    agreed(ranks, [&] { first = first_coincidence(stars.coincident); });
+    result = {static_cast<std::int32_t>(first.l), first.l, first.m};
+    cut(static_cast<std::size_t>(first.m) - 1);
+    stars = {};
+    stars = stars_of_slices();
+  }
+  ranks.set_phase("gather the lists");
+  const Stopwatch watch(cost, ParallelCost::gather);
+  gather_lists(ranks, stars.of_node, begin, arrays == Arrays::on_every_rank ? kEveryRank : 0, list, lptr,
+               lend, lnew);
+  ranks.set_phase("idle");
+  return result;
+}
+
+template TrmeshResult collective_trmesh(MpiCommunicator&, Arrays, std::int32_t, const double*, const double*,
+                                        const double*, std::int32_t*, std::int32_t*, std::int32_t*,
+                                        std::int32_t*, ParallelCost*);
+template TrmeshResult collective_trmesh(MpiCommunicator&, Arrays, std::int32_t, const float*, const float*,
+                                        const float*, std::int32_t*, std::int32_t*, std::int32_t*,
+                                        std::int32_t*, ParallelCost*);
+
+}  // namespace pstripack

@@ -1,0 +1,370 @@
+#include "mpi/distributed_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include "geometry/predicates.h"
+#include "mpi/list_pieces.h"
+#include "mpi/number_table.h"
+#include "mpi/options.h"
+#include "parallel/coincidence.h"
+
+namespace pstripack {
+namespace {
+
+constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t kMostPoints = std::int64_t{1} << 29;
+constexpr std::int32_t kTooFew = -1, kCollinear = -2, kEmpty = -3, kTooMany = -4, kBadCoordinate = -5,
+                       kNoSuchRank = -8, kCoincident = -9, kBadNumber = -10;
+
+bool has_direction(const Point& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && p != Point{0, 0, 0};
+}
+
+bool on_one_line(const Point& a, const Point& b) {
+  return same_direction(a, b) || same_direction(a, {-b.x, -b.y, -b.z});
+}
+
+template <class Int>
+std::int64_t absolute(Int number) {
+  return number < 0 ? -static_cast<std::int64_t>(number) : static_cast<std::int64_t>(number);
+}
+
+/// Calls visit(b, c) for each triangle (number, b, c), counterclockwise, whose smallest corner is `number`.
+template <class Int, class Visit>
+void for_each_triangle_of(std::int64_t number, const Int* ring, std::size_t count, const Visit& visit) {
+  std::int64_t before = ring[count - 1];
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::int64_t b = before, c = absolute(ring[i]);
+    before = c;
+    if (i == 0 && b < 0) continue;  // the gap of a boundary point
+    if (number < b && number < c) visit(b, c);
+  }
+}
+
+}  // namespace
+
+/// What is known of the global numbers, the same on every rank.
+struct DistributedMesh::Numbering {
+  std::int32_t code = 0;
+  std::int64_t total = 0;
+  std::int64_t low = kNone, high = 0;  ///< smallest and largest
+  PartitionKind partition = PartitionKind::bisection;
+};
+
+void DistributedMesh::clear() {
+  error_point_[0] = error_point_[1] = 0;
+  total_ = triangles_ = 0;
+  number_ = {};
+  begin_ = {};
+  short_neighbour_ = {};
+  long_neighbour_ = {};
+  halo_ = {};
+  homes_.reset();
+}
+
+/// Counts, and the codes that a look at each point tells.
+DistributedMesh::Numbering DistributedMesh::look_at(std::int64_t n, const Point* points,
+                                                    const std::int64_t* number) {
+  Numbering numbering;
+  const bool fits = n >= 0 && n < kMostPoints;
+  const std::int64_t* const counts = ranks_.all_gather_one(fits ? n : -1);
+  for (int r = 0; r < ranks_.size(); ++r) {
+    if (counts[r] < 0) {
+      numbering.code = kTooMany;
+      return numbering;
+    }
+    numbering.total += counts[r];
+  }
+  if (numbering.total < 3) {
+    numbering.code = kTooFew;
+    return numbering;
+  }
+
+  std::int64_t low = kNone, high = 0, bad = kNone;
+  for (std::int64_t i = 0; i < n; ++i) {
+    low = std::min(low, number[i]);
+    high = std::max(high, number[i]);
+    if (!has_direction(points[i])) bad = std::min(bad, number[i]);
+  }
+  std::int64_t values[] = {low, -high, bad, partition_vote(ranks_, options_from_environment(0).partition)};
+  ranks_.all_min(values, std::size(values));
+  numbering.low = values[0];
+  numbering.high = -values[1];
+  numbering.partition = elected_partition(values[3]);
+  if (numbering.low < 1) {
+    numbering.code = kBadNumber;
+    error_point_[0] = numbering.low;
+  } else if (values[2] != kNone) {
+    numbering.code = kBadCoordinate;
+    error_point_[0] = values[2];
+  }
+  return numbering;
+}
+
+/// The smallest number that occurs twice; kNone if there is none. As many numbers as low..high has are all of
+/// them exactly if each occurs once: then sums of a hash tell, and nothing is sent. A false "none" needs sums
+/// of 64 bits that are equal by chance.
+std::int64_t DistributedMesh::first_repeated(const std::int64_t* number, std::size_t n,
+                                             const Numbering& numbering) {
+  if (numbering.high - numbering.low != numbering.total - 1) return search_repeated(number, n);
+  const auto all = static_cast<std::size_t>(numbering.total), size = static_cast<std::size_t>(ranks_.size()),
+             me = static_cast<std::size_t>(ranks_.rank());
+  std::uint64_t difference = 0;
+  for (std::size_t i = 0; i < n; ++i) difference += scattered(number[i]);
+  for (std::size_t i = slice_begin(all, me, size); i < slice_begin(all, me + 1, size); ++i)
+    difference -= scattered(numbering.low + static_cast<std::int64_t>(i));
+  const std::int64_t* const differences = ranks_.all_gather_one(static_cast<std::int64_t>(difference));
+  std::uint64_t sum = 0;
+  for (std::size_t r = 0; r < size; ++r) sum += static_cast<std::uint64_t>(differences[r]);
+  return sum == 0 ? kNone : search_repeated(number, n);
+}
+
+/// Every number goes to a rank that its hash names; there all that are equal meet.
+std::int64_t DistributedMesh::search_repeated(const std::int64_t* number, std::size_t n) {
+  const auto size = static_cast<std::size_t>(ranks_.size());
+  const auto rank_of = [size](std::int64_t x) {  // by the upper bits: a table takes the lower ones
+    return static_cast<std::size_t>((scattered(x) >> 32) * size >> 32);
+  };
+  Parcels parcels;
+  agreed(ranks_, [&] {
+    parcels.begin.assign(size + 1, 0);
+    for (std::size_t i = 0; i < n; ++i) ++parcels.begin[rank_of(number[i]) + 1];
+    for (std::size_t r = 0; r < size; ++r) parcels.begin[r + 1] += parcels.begin[r];
+    std::vector<std::size_t> end(parcels.begin.begin(), parcels.begin.end() - 1);
+    parcels.bytes = Buffer<unsigned char>(n * sizeof *number);
+    auto* const out = reinterpret_cast<std::int64_t*>(parcels.bytes.data());
+    for (std::size_t i = 0; i < n; ++i) out[end[rank_of(number[i])]++] = number[i];
+    for (std::size_t& begin : parcels.begin) begin *= sizeof *number;
+  });
+  const Parcels here = ranks_.exchange(parcels);
+  std::int64_t values[] = {0, kNone};
+  try {
+    const auto* const met = reinterpret_cast<const std::int64_t*>(here.bytes.data());
+    const std::size_t count = here.begin[size] / sizeof *met;
+    NumberTable<char> table(count);
+    constexpr std::size_t kAhead = 16;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (i + kAhead < count) table.prefetch(met[i + kAhead]);
+      if (!table.insert(met[i], 0).second) values[1] = std::min(values[1], met[i]);
+    }
+  } catch (...) {
+    values[0] = code_of(std::current_exception());
+  }
+  ranks_.all_min(values, std::size(values));
+  if (values[0] != 0) throw AgreedFailure(static_cast<std::int32_t>(values[0]));
+  return values[1];
+}
+
+/// Three points that are not on one great circle; false if there are none. Three from each rank are tried
+/// first; only where all of those are on one great circle all points are looked at.
+bool DistributedMesh::find_corners(const Point* points, std::size_t n, const std::int64_t* number,
+                                   Point (&corners)[3], std::int64_t (&numbers)[3]) {
+  const auto fits = [&](int found, const Point& p) {
+    if (found == 1) return !on_one_line(corners[0], p);
+    return found == 0 || left(corners[0], corners[1], p) != 0;
+  };
+
+  NumberedPoint sample[3];
+  const std::size_t sampled = std::min<std::size_t>(n, 3);
+  for (std::size_t i = 0; i < sampled; ++i) {
+    const std::size_t at = sampled > 1 ? (n - 1) * i / (sampled - 1) : 0;
+    sample[i] = {number[at], points[at]};
+  }
+  const Parcels samples = ranks_.all_gather(sample, sampled * sizeof *sample);
+  const auto* const all = reinterpret_cast<const NumberedPoint*>(samples.bytes.data());
+  const std::size_t count = samples.begin.back() / sizeof *all;
+  int found = 0;
+  for (std::size_t i = 0; i < count && found < 3; ++i)
+    if (fits(found, all[i].point)) {
+      corners[found] = all[i].point;
+      numbers[found++] = all[i].number;
+    }
+
+  for (; found < 3; ++found) {
+    NumberedPoint mine{kNone, {}};
+    for (std::size_t i = 0; i < n; ++i)
+      if (number[i] < mine.number && fits(found, points[i])) mine = {number[i], points[i]};
+    std::int64_t first = mine.number;
+    ranks_.all_min(&first, 1);
+    if (first == kNone) return false;
+    const Parcels owner = ranks_.all_gather(&mine, mine.number == first ? sizeof mine : 0);
+    std::memcpy(&mine, owner.bytes.data(), sizeof mine);
+    corners[found] = mine.point;
+    numbers[found] = mine.number;
+  }
+  return true;
+}
+
+template <class Int>
+std::int32_t DistributedMesh::triangulate_into(Buffer<Int>& neighbour, const Point* points, std::size_t n,
+                                               const std::int64_t* number, PartitionKind partition) {
+  ranks_.set_phase("triangulate");
+  LocalNodes nodes;
+  nodes.points = points;
+  nodes.count = n;
+  nodes.numbers = number;
+  Point corners[3];
+  std::int64_t numbers[3];
+  if (!find_corners(points, n, number, corners, numbers)) return kCollinear;
+  ParallelOptions options;
+  agreed(ranks_, [&] { options = options_from_environment(n); });
+  options.partition = partition;
+  options.with_neighbours = true;
+  Stars<Int> stars = pstripack::triangulate<Int>(nodes, corners, numbers, ranks_, options);
+  if (!stars.coincident.empty()) {
+    Coincidence first{};
+    agreed(ranks_, [&] { first = first_coincidence(stars.coincident); });
+    error_point_[0] = first.l;
+    error_point_[1] = first.m;
+    return kCoincident;
+  }
+
+  // What stays is the stars alone, one after another; the memory of the triangulation goes.
+  const auto& rings = stars.of_node;
+  agreed(ranks_, [&] {
+    begin_ = Buffer<std::int64_t>(n + 1);
+    neighbour = Buffer<Int>(static_cast<std::size_t>(arcs_of(rings, n)));
+    number_ = Buffer<std::int64_t>(n);
+    halo_.reserve(stars.outside.size());
+  });
+  std::copy(number, number + n, number_.begin());
+  for (const auto& outside : stars.outside) halo_.push_back({outside.number, outside.point});
+  homes_ = std::move(stars.homes);
+  begin_[0] = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    begin_[i + 1] = begin_[i] + rings[i].count;
+    Int* const to = neighbour.data() + begin_[i];
+    copy_ring(rings[i].begin, rings[i].count, to);
+    for_each_triangle_of(number[i], to, rings[i].count, [this](std::int64_t, std::int64_t) { ++triangles_; });
+  }
+  return 0;
+}
+
+std::int32_t DistributedMesh::triangulate(std::int64_t n, const double* xyz, const std::int64_t* number) {
+  clear();
+  ranks_.set_phase("look at the points");
+  // The caller's coordinates are used where they are: they may be most of the memory of the machine.
+  static_assert(sizeof(Point) == 3 * sizeof(double));
+  const auto* const points = reinterpret_cast<const Point*>(xyz);
+  const Numbering numbering = look_at(n, points, number);
+  if (numbering.code != 0) return numbering.code;
+  const auto count = static_cast<std::size_t>(n);
+  if (const std::int64_t repeated = first_repeated(number, count, numbering); repeated != kNone) {
+    error_point_[0] = repeated;
+    return kBadNumber;
+  }
+  numbers_are_dense_ = numbering.low == 1 && numbering.high == numbering.total;
+  numbers_are_short_ = numbering.high <= std::numeric_limits<std::int32_t>::max();
+  const std::int32_t code =
+      numbers_are_short_ ? triangulate_into(short_neighbour_, points, count, number, numbering.partition)
+                         : triangulate_into(long_neighbour_, points, count, number, numbering.partition);
+  if (code == 0) total_ = numbering.total;
+  ranks_.set_phase("idle");
+  return code;
+}
+
+bool DistributedMesh::home(std::int64_t n, const double* xyz, std::int32_t* rank) const {
+  const auto* const points = reinterpret_cast<const Point*>(xyz);
+  if (!std::all_of(points, points + n, has_direction)) return false;
+  for (std::int64_t i = 0; i < n; ++i) rank[i] = homes_->rank(points[i]);
+  return true;
+}
+
+void DistributedMesh::stars(std::int64_t* begin, std::int64_t* neighbour) const {
+  begin[0] = 0;
+  for_each_star([&](std::size_t i, std::size_t count, const auto* ring) {
+    begin[i + 1] = begin[i] + static_cast<std::int64_t>(count);
+    std::copy(ring, ring + count, neighbour + begin[i]);
+  });
+}
+
+void DistributedMesh::triangles(std::int64_t* corner) const {
+  for_each_star([&](std::size_t i, std::size_t count, const auto* ring) {
+    for_each_triangle_of(number_[i], ring, count, [&](std::int64_t b, std::int64_t c) {
+      *corner++ = number_[i];
+      *corner++ = b;
+      *corner++ = c;
+    });
+  });
+}
+
+void DistributedMesh::halo(std::int64_t* number, double* xyz) const {
+  for (const auto& [outside, point] : halo_) {
+    *number++ = outside;
+    for (const double c : {point.x, point.y, point.z}) *xyz++ = c;
+  }
+}
+
+void DistributedMesh::local_stars(std::int64_t* begin, std::int32_t* neighbour) const {
+  NumberTable<std::int32_t> local(number_.size() + halo_.size());
+  std::int32_t next = 0;
+  for (const std::int64_t number : number_) local.insert(number, ++next);
+  for (const auto& outside : halo_) local.insert(outside.number, ++next);
+  begin[0] = 0;
+  for_each_star([&](std::size_t i, std::size_t count, const auto* ring) {
+    begin[i + 1] = begin[i] + static_cast<std::int64_t>(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::int32_t found = local.at(absolute(ring[k]));
+      *neighbour++ = ring[k] < 0 ? -found : found;
+    }
+  });
+}
+
+std::int32_t DistributedMesh::gather(std::int32_t root, std::int32_t* list, std::int32_t* lptr,
+                                     std::int32_t* lend, std::int32_t* lnew) {
+  if (empty()) return kEmpty;
+  if (root < kEveryRank || root >= ranks_.size()) return kNoSuchRank;
+  if (!numbers_are_dense_) return kBadNumber;
+  if (total_ > (std::numeric_limits<std::int32_t>::max() - 1) / 6 + 2) return kTooMany;
+  ranks_.set_phase("gather the lists");
+  const auto n = static_cast<std::size_t>(total_), size = static_cast<std::size_t>(ranks_.size()),
+             me = static_cast<std::size_t>(ranks_.rank());
+
+  // Stars go to the rank that has the slice of their number: number, count, neighbours.
+  const auto rank_of = [&](std::int64_t number) {  // the r with slice_begin(r) < number <= slice_begin(r+1)
+    auto r = static_cast<std::size_t>((number - 1) * static_cast<std::int64_t>(size) / total_);
+    while (slice_begin(n, r + 1, size) < static_cast<std::size_t>(number)) ++r;
+    while (slice_begin(n, r, size) >= static_cast<std::size_t>(number)) --r;
+    return r;
+  };
+  std::vector<std::size_t> begin;
+  Parcels parcels;
+  agreed(ranks_, [&] {
+    for (std::size_t r = 0; r <= size; ++r) begin.push_back(slice_begin(n, r, size));
+    parcels.begin.assign(size + 1, 0);
+    Buffer<std::uint32_t> rank(number_.size());
+    for_each_star([&](std::size_t i, std::size_t count, const auto*) {
+      rank[i] = static_cast<std::uint32_t>(rank_of(number_[i]));
+      parcels.begin[rank[i] + 1] += 2 + count;
+    });
+    for (std::size_t r = 0; r < size; ++r) parcels.begin[r + 1] += parcels.begin[r];
+    std::vector<std::size_t> end(parcels.begin.begin(), parcels.begin.end() - 1);
+    parcels.bytes = Buffer<unsigned char>(parcels.begin[size] * sizeof(std::int32_t));
+    auto* const out = reinterpret_cast<std::int32_t*>(parcels.bytes.data());
+    for_each_star(short_neighbour_, [&](std::size_t i, std::size_t count, const std::int32_t* ring) {
+      std::int32_t* to = out + end[rank[i]];  // numbers up to the total are short
+      end[rank[i]] += 2 + count;
+      *to++ = static_cast<std::int32_t>(number_[i]);
+      *to++ = static_cast<std::int32_t>(count);
+      std::copy(ring, ring + count, to);
+    });
+    for (std::size_t& b : parcels.begin) b *= sizeof(std::int32_t);
+  });
+  const Parcels here = ranks_.exchange(parcels);
+  parcels = {};
+  Buffer<Ring<std::int32_t>> rings;
+  agreed(ranks_, [&] { rings = Buffer<Ring<std::int32_t>>(begin[me + 1] - begin[me]); });
+  const auto* const words = reinterpret_cast<const std::int32_t*>(here.bytes.data());
+  for (const std::int32_t* at = words; at < words + here.begin[size] / sizeof *words; at += 2 + at[1])
+    rings[static_cast<std::size_t>(*at) - 1 - begin[me]] = {at + 2, static_cast<std::uint32_t>(at[1])};
+  gather_lists(ranks_, rings, begin, root, list, lptr, lend, lnew);
+  ranks_.set_phase("idle");
+  return 0;
+}
+
+}  // namespace pstripack

@@ -1,0 +1,87 @@
+#pragma once
+// A triangulation whose points and stars stay on their ranks: what pstripack_mesh of the C API is.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "mpi/mpi_communicator.h"
+#include "parallel/triangulate.h"
+
+namespace pstripack {
+
+/// See capi/pstripack_mpi.h for what the members mean. "Collective" ones throw AgreedFailure, having left
+/// the caller's arrays as they were.
+class DistributedMesh {
+ public:
+  /// Collective; as MpiCommunicator.
+  explicit DistributedMesh(MPI_Comm comm) : ranks_(comm) {}
+
+  MpiCommunicator& ranks() { return ranks_; }
+
+  /// Collective. The result code; after one that is not 0 the mesh is empty. Throws AgreedFailure, too.
+  std::int32_t triangulate(std::int64_t n, const double* xyz, const std::int64_t* number);
+
+  /// Empty: no triangulation yet, or the last one failed.
+  bool empty() const { return total_ == 0; }
+  std::int64_t error_point(int i) const { return error_point_[i]; }
+  std::int64_t points() const { return static_cast<std::int64_t>(number_.size()); }
+  std::int64_t arcs() const { return number_.size() > 0 ? begin_[number_.size()] : 0; }
+  std::int64_t triangles() const { return triangles_; }
+  std::int64_t halo() const { return static_cast<std::int64_t>(halo_.size()); }
+
+  /// The rank that is home to each of n points; false if one has no direction, having written nothing.
+  bool home(std::int64_t n, const double* xyz, std::int32_t* rank) const;
+  void stars(std::int64_t* begin, std::int64_t* neighbour) const;
+  void triangles(std::int64_t* corner) const;
+  void halo(std::int64_t* number, double* xyz) const;
+  /// Throws std::bad_alloc, having written nothing.
+  void local_stars(std::int64_t* begin, std::int32_t* neighbour) const;
+
+  /// Collective. root: a rank, or kEveryRank of list_pieces.h.
+  std::int32_t gather(std::int32_t root, std::int32_t* list, std::int32_t* lptr, std::int32_t* lend,
+                      std::int32_t* lnew);
+
+ private:
+  struct Numbering;
+  Numbering look_at(std::int64_t n, const Point* points, const std::int64_t* number);
+  std::int64_t first_repeated(const std::int64_t* number, std::size_t n, const Numbering& numbering);
+  std::int64_t search_repeated(const std::int64_t* number, std::size_t n);
+  bool find_corners(const Point* points, std::size_t n, const std::int64_t* number, Point (&corners)[3],
+                    std::int64_t (&numbers)[3]);
+  template <class Int>
+  std::int32_t triangulate_into(Buffer<Int>& neighbour, const Point* points, std::size_t n,
+                                const std::int64_t* number, PartitionKind partition);
+  void clear();
+  /// Calls visit(i, count, first) for each own point: its neighbours are first[0..count-1].
+  template <class Visit>
+  void for_each_star(const Visit& visit) const {
+    numbers_are_short_ ? for_each_star(short_neighbour_, visit) : for_each_star(long_neighbour_, visit);
+  }
+  template <class Int, class Visit>
+  void for_each_star(const Buffer<Int>& neighbour, const Visit& visit) const {
+    for (std::size_t i = 0; i < number_.size(); ++i)
+      visit(i, static_cast<std::size_t>(begin_[i + 1] - begin_[i]), neighbour.data() + begin_[i]);
+  }
+
+  struct NumberedPoint {
+    std::int64_t number;
+    Point point;
+  };
+
+  MpiCommunicator ranks_;
+  std::int64_t error_point_[2] = {0, 0};
+  std::int64_t total_ = 0;          ///< points of all ranks
+  bool numbers_are_short_ = true;   ///< they fit 32 bits
+  bool numbers_are_dense_ = false;  ///< they are 1..total
+  Buffer<std::int64_t> number_;     ///< of the own points
+  Buffer<std::int64_t> begin_;      ///< of their stars in one of the two arrays below
+  Buffer<std::int32_t> short_neighbour_;
+  Buffer<std::int64_t> long_neighbour_;
+  std::vector<NumberedPoint> halo_;
+  std::unique_ptr<Homes> homes_;
+  std::int64_t triangles_ = 0;
+};
+
+}  // namespace pstripack

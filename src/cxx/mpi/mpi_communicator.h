@@ -1,0 +1,92 @@
+#pragma once
+// A group of ranks over MPI: its own duplicate of a communicator, so that no message of ours meets one of
+// the program's, and its own way of waiting.
+
+#include <mpi.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "parallel/communicator.h"
+
+namespace pstripack {
+
+/// Owns a duplicate of an intra-communicator, with MPI_ERRORS_RETURN. An MPI error that cannot be agreed on
+/// (a lost process) ends the job: one line on stderr that names rank and phase, then MPI_Abort.
+///
+/// Every wait, for a message or a collective, polls: hardly any processor time is burnt while other ranks
+/// compute, and none is kept from them where there are more ranks than processors. For one thread at a time.
+class MpiCommunicator : public Communicator {
+ public:
+  /// Longest message in bytes; longer ones are cut. MPI counts in int, and some networks fail near 2^31.
+  static constexpr std::size_t kLongestMessage = std::size_t{1} << 30;
+
+  /// Collective over comm. Throws Failure(-8): null, freed, an inter-communicator, MPI not initialised or
+  /// already finalised; AgreedFailure, if memory fails or `code`, a failure of this rank so far, is not 0.
+  explicit MpiCommunicator(MPI_Comm comm, std::size_t longest_message = kLongestMessage,
+                           std::int32_t code = 0);
+  /// Collective, unless MPI is already finalised.
+  ~MpiCommunicator() override;
+  MpiCommunicator(const MpiCommunicator&) = delete;
+  MpiCommunicator& operator=(const MpiCommunicator&) = delete;
+
+  int rank() const override { return rank_; }
+  int size() const override { return size_; }
+  void all_min(std::int64_t* values, std::size_t count) override;
+  Parcels all_gather(const void* bytes, std::size_t size) override;
+  Parcels exchange(const Parcels& outgoing) override;
+
+  /// Collective. The values of all ranks, in their order, until the next call of any member. Allocates
+  /// nothing.
+  const std::int64_t* all_gather_one(std::int64_t value);
+  /// Collective. Every rank gets all of `all`, of which rank r brings the bytes [begin[r], begin[r+1]) in
+  /// place. Allocates nothing.
+  void all_gather_in_place(void* all, const std::vector<std::size_t>& begin);
+
+  /// Collective. `bytes` of rank `root` on every rank. Allocates nothing.
+  void broadcast(void* bytes, std::size_t size, int root);
+
+  /// Collective. Begin to send from `root` to each rank r its part, the bytes [begin[r], begin[r+1]) of
+  /// `all`, straight from there; all and begin count on `root` only. `mine`: where this rank wants its `size`
+  /// bytes; on `root` it may be null: not at all. The arrays belong to the call until finish(). Allocates
+  /// nothing.
+  void start_scatter(const void* all, const std::vector<std::size_t>& begin, void* mine, std::size_t size,
+                     int root);
+  /// The reverse: straight into place in `all` on `root`, where `mine` may be null: it is in place already.
+  void start_gather(const void* mine, std::size_t size, void* all, const std::vector<std::size_t>& begin,
+                    int root);
+  /// Waits for all that was started, on this rank. Between the first start and this, no other member may be
+  /// called.
+  void finish();
+
+  /// What the line about a lost process says this rank was doing.
+  void set_phase(const char* phase) { phase_ = phase; }
+  MPI_Comm handle() const { return comm_; }
+
+  /// Ends the job with one line on stderr, for what cannot be agreed on: `kind` of error, and which.
+  [[noreturn]] void abort(const char* kind, const char* text) const;
+
+ private:
+  void check(int code) const;
+  void wait(MPI_Request* requests, int count) const;
+  void wait(MPI_Request request) const { wait(&request, 1); }
+  void post_send(const void* bytes, std::size_t size, int to);
+  void post_receive(void* bytes, std::size_t size, int from);
+  std::size_t messages_for(std::size_t size) const {
+    return (size + longest_message_ - 1) / longest_message_;
+  }
+  bool ranks_outnumber_processors() const;
+  void all_gather_around_the_ring(unsigned char* all, const std::vector<std::size_t>& begin) const;
+
+  MPI_Comm comm_ = MPI_COMM_NULL;
+  int rank_ = 0, size_ = 1;
+  std::size_t longest_message_;
+  bool crowded_ = false;
+  const char* phase_ = "idle";
+  std::vector<std::int64_t> sizes_, other_sizes_;  ///< a number a rank, so that no agreement needs memory
+  std::vector<int> counts_, displacements_;
+  std::vector<MPI_Request> under_way_;  ///< its capacity is reserved before anything is posted
+};
+
+}  // namespace pstripack

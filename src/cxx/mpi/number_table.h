@@ -1,0 +1,57 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include "geometry/buffer.h"
+
+namespace pstripack {
+
+/// A bijection of 64 bits that leaves nothing of their order (the last steps of SplitMix64).
+inline std::uint64_t scattered(std::int64_t number) {
+  auto bits = static_cast<std::uint64_t>(number);
+  bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;
+  bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebu;
+  return bits ^ (bits >> 31);
+}
+
+/// Finds by number; numbers are positive. Throws std::bad_alloc when made, never later.
+template <class Value>
+class NumberTable {
+ public:
+  explicit NumberTable(std::size_t most) {
+    std::size_t places = 16;
+    while (places < 2 * most) places *= 2;
+    place_ = Buffer<Place>(places);
+    std::fill(place_.begin(), place_.end(), Place{});
+  }
+
+  /// The value of the number, and whether it is new; then it gets this one.
+  std::pair<Value, bool> insert(std::int64_t number, Value value) {
+    Place& place = place_[find(number)];
+    if (place.number == number) return {place.value, false};
+    place = {number, value};
+    return {value, true};
+  }
+  /// The number must be in the table.
+  Value at(std::int64_t number) const { return place_[find(number)].value; }
+  /// A hint that the number will be asked for soon.
+  void prefetch(std::int64_t number) const { __builtin_prefetch(&place_[home(number)], 1); }
+
+ private:
+  struct Place {
+    std::int64_t number;  // 0: empty
+    Value value;
+  };
+  std::size_t home(std::int64_t number) const { return scattered(number) & (place_.size() - 1); }
+  std::size_t find(std::int64_t number) const {
+    std::size_t at = home(number);
+    while (place_[at].number != number && place_[at].number != 0) at = (at + 1) & (place_.size() - 1);
+    return at;
+  }
+  Buffer<Place> place_;
+};
+
+}  // namespace pstripack

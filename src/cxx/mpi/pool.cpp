@@ -1,0 +1,237 @@
+#include "mpi/pool.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/signalfd.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <string>
+#include <utility>
+
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+#include "mpi/collective_trmesh.h"
+
+namespace pstripack {
+namespace {
+
+/// What rank 0 tells the others, over MPI_COMM_WORLD, where nobody else sends.
+enum Command : int { stop = 0, trmesh_r4 = 4, trmesh_r8 = 8 };
+
+void tell_workers(Command command, const MpiCommunicator& ranks) {
+  for (int r = 1; r < ranks.size(); ++r) MPI_Send(&command, 1, MPI_INT, r, 0, MPI_COMM_WORLD);
+}
+
+/// Waits for a command without using the processor that the model needs: naps grow with the time waited so
+/// far, so that the answer to one call after another is prompt and an idle hour costs nothing.
+Command next_command() {
+  using Clock = std::chrono::steady_clock;
+  constexpr double kSpin = 50e-6, kLongestNap = 1e-3;
+  int command = stop, arrived = 0;
+  MPI_Request request;
+  MPI_Irecv(&command, 1, MPI_INT, 0, 0, MPI_COMM_WORLD, &request);
+  const auto start = Clock::now();
+  for (;;) {
+    MPI_Test(&request, &arrived, MPI_STATUS_IGNORE);
+    if (arrived) return static_cast<Command>(command);
+    const double waited = std::chrono::duration<double>(Clock::now() - start).count();
+    if (waited < kSpin) continue;
+    const timespec nap{0, static_cast<long>(1e9 * std::min(waited / 8, kLongestNap))};
+    nanosleep(&nap, nullptr);
+  }
+}
+
+/// The environment of pstripack-run, as it was passed on: NAME=VALUE, each closed by a zero. MPI's variables
+/// are not in it, so a model that uses MPI itself is a single process, as it is without the pool.
+std::vector<char*> environment_in(const Descriptor& file) {
+  std::vector<char*> all;
+  struct stat status;
+  if (fstat(file.get(), &status) != 0 || status.st_size == 0) return all;
+  const auto size = static_cast<std::size_t>(status.st_size);
+  void* const text = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.get(), 0);
+  if (text == MAP_FAILED) return all;
+  for (char* at = static_cast<char*>(text); at < static_cast<char*>(text) + size; at += strlen(at) + 1)
+    all.push_back(at);
+  return all;
+}
+
+/// Where that could not be passed on: this process's environment without what mpirun has added to it.
+std::vector<char*> environment_without_mpi() {
+  std::vector<char*> all;
+  for (char** at = environ; *at != nullptr; ++at) {
+    const auto starts_with = [at](const char* prefix) { return strncmp(*at, prefix, strlen(prefix)) == 0; };
+    if (!starts_with("OMPI_") && !starts_with("PMIX_") && !starts_with("PMI_") && !starts_with("ORTE_"))
+      all.push_back(*at);
+  }
+  return all;
+}
+
+}  // namespace
+
+Steward::Steward(char** command) {
+  Descriptor from_launcher[4];
+  if (const char* const name = getenv("PSTRIPACK_POOL_LAUNCHER")) {
+    launcher_ = connect_to(name);
+    char hello = 0;
+    if (launcher_ && !receive_packet(launcher_, &hello, 1, from_launcher, 4)) launcher_.reset();
+  }
+  listener_ = listen_under_new_name(&name_);
+  if (!listener_) std::perror("pstripack: pool: no socket, trmesh runs on threads");
+
+  sigset_t child, before;
+  sigemptyset(&child);
+  sigaddset(&child, SIGCHLD);
+  sigprocmask(SIG_BLOCK, &child, &before);
+  child_signals_.reset(signalfd(-1, &child, SFD_CLOEXEC));
+  const pid_t me = getpid();
+  model_ = fork();
+  if (model_ == 0 && (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || getppid() != me)) _exit(128 + SIGKILL);
+  if (model_ == 0) become_the_model(command, from_launcher, before);
+  if (model_ < 0) {
+    std::perror("pstripack-worker: fork");
+    status_ = 126 << 8;
+  }
+  const ModelNews news{static_cast<std::int32_t>(model_), 0, 0};
+  if (launcher_ && model_ > 0) send_packet(launcher_, &news, sizeof news);
+}
+
+void Steward::become_the_model(char** command, Descriptor (&from_launcher)[4],
+                               const sigset_t& signals) const {
+  for (const int signal : {SIGUSR1, SIGUSR2, SIGTERM}) ::signal(signal, SIG_DFL);
+  sigprocmask(SIG_SETMASK, &signals, nullptr);
+  for (int fd = 0; fd < 3; ++fd)
+    if (from_launcher[fd]) dup2(from_launcher[fd].get(), fd);
+  std::vector<char*> environment = environment_in(from_launcher[3]);
+  if (environment.empty()) environment = environment_without_mpi();
+  std::string pool = "PSTRIPACK_POOL=" + name_;
+  const auto is_ours = [](const char* variable) {
+    return strncmp(variable, "PSTRIPACK_POOL=", 15) == 0 ||
+           strncmp(variable, "PSTRIPACK_POOL_LAUNCHER=", 24) == 0;
+  };
+  environment.erase(std::remove_if(environment.begin(), environment.end(), is_ours), environment.end());
+  environment.push_back(pool.data());
+  environment.push_back(nullptr);
+  execvpe(command[0], command, environment.data());
+  const int error = errno;
+  std::fprintf(stderr, "pstripack-run: %s: %s\n", command[0], strerror(error));
+  _exit(error == ENOENT ? 127 : 126);
+}
+
+bool Steward::model_has_ended() {
+  if (model_ < 0) return true;
+  if (waitpid(model_, &status_, WNOHANG) != model_) return false;
+  model_ = -1;
+  const ModelNews news{0, 1, status_};
+  told_ = launcher_ && send_packet(launcher_, &news, sizeof news);
+  return true;
+}
+
+void Steward::see_the_model_end() {
+  const timespec nap{0, 1000000};
+  while (!model_has_ended()) nanosleep(&nap, nullptr);
+}
+
+int Steward::serve(MpiCommunicator& ranks, Watchdog& watchdog) {
+  std::vector<pollfd> events;
+  while (!model_has_ended()) {
+    watchdog.set_phase("its wait for a call");
+    events = {{child_signals_.get(), POLLIN, 0}, {listener_.get(), POLLIN, 0}};
+    for (const Client& client : clients_) events.push_back({client.socket.get(), POLLIN, 0});
+    if (poll(events.data(), events.size(), -1) < 0) continue;
+
+    signalfd_siginfo ignored;
+    if (events[0].revents != 0 && read(child_signals_.get(), &ignored, sizeof ignored) < 0) continue;
+    for (std::size_t i = clients_.size(); i-- > 0;)
+      if (events[i + 2].revents != 0 && !serve(clients_[i], ranks, watchdog))
+        clients_.erase(clients_.begin() + static_cast<std::ptrdiff_t>(i));
+    if (events[1].revents != 0)
+      if (Descriptor socket = accept_from(listener_)) clients_.push_back({std::move(socket), {}});
+  }
+  clients_.clear();
+  tell_workers(stop, ranks);
+  if (told_) return 0;
+  return WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
+}
+
+bool Steward::serve(Client& client, MpiCommunicator& ranks, Watchdog& watchdog) {
+  PoolRequest request;
+  Descriptor new_area;
+  if (!receive_packet(client.socket, &request, sizeof request, &new_area, 1)) return false;
+  if (new_area) {
+    client.area = SharedArea();
+    client.area = SharedArea::map(std::move(new_area));
+    client.area.close_file();
+  }
+  PoolReply reply;
+  if (request.format != PoolRequest::kFormat || (request.real_bytes != 4 && request.real_bytes != 8) ||
+      request.n < 3 || client.area.size() < AreaLayout(request.n, request.real_bytes).size())
+    return send_packet(client.socket, &reply, sizeof reply);
+
+  watchdog.set_phase("a call");
+  const AreaLayout layout(request.n, request.real_bytes);
+  void* const area = client.area.data();
+  const auto carry_out = [&](auto real) {
+    using Real = decltype(real);
+    return collective_trmesh<Real>(ranks, Arrays::on_rank_0, request.n, layout.coordinate<Real>(area, 0),
+                                   layout.coordinate<Real>(area, 1), layout.coordinate<Real>(area, 2),
+                                   layout.list(area), layout.lptr(area), layout.lend(area), &reply.lnew);
+  };
+  tell_workers(request.real_bytes == 8 ? trmesh_r8 : trmesh_r4, ranks);
+  TrmeshResult result{0};
+  try {
+    result = request.real_bytes == 8 ? carry_out(0.0) : carry_out(0.0f);
+  } catch (const AgreedFailure& failure) {
+    result = {failure.code};
+  }
+  reply.done = 1;
+  reply.ier = result.ier;
+  reply.node = result.node;
+  reply.other = result.other;
+  return send_packet(client.socket, &reply, sizeof reply);
+}
+
+void serve_as_worker(MpiCommunicator& ranks, Watchdog& watchdog) {
+  for (;;) {
+    watchdog.set_phase("its wait for a call");
+    const Command command = next_command();
+    if (command == stop) return;
+    watchdog.set_phase("a call");
+    try {
+      if (command == trmesh_r8)
+        collective_trmesh<double>(ranks, Arrays::on_rank_0, 0, nullptr, nullptr, nullptr, nullptr, nullptr,
+                                  nullptr, nullptr);
+      else
+        collective_trmesh<float>(ranks, Arrays::on_rank_0, 0, nullptr, nullptr, nullptr, nullptr, nullptr,
+                                 nullptr, nullptr);
+    } catch (const AgreedFailure&) {
+      // Rank 0 tells the model; the next call may succeed.
+    }
+  }
+}
+
+void share_processors() {
+#ifdef _OPENMP
+  MPI_Comm machine;
+  int ranks = 1;
+  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+  MPI_Comm_size(machine, &ranks);
+  MPI_Comm_free(&machine);
+  if (getenv("OMP_NUM_THREADS") == nullptr) omp_set_num_threads(std::max(1, omp_get_num_procs() / ranks));
+#endif
+}
+
+}  // namespace pstripack

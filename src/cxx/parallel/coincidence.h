@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace pstripack {
+
+/// Of all pairs of nodes that coincide, the one that TRMESH reports: M is the smallest number of a node that
+/// coincides with an earlier one, L the earliest that it coincides with.
+struct Coincidence {
+  std::int64_t l, m;
+};
+
+/// `pairs` name the sets of coincident nodes as the edges of a graph would: any that connect them. Not empty.
+Coincidence first_coincidence(const std::vector<std::pair<std::int64_t, std::int64_t>>& pairs);
+
+}  // namespace pstripack

@@ -1,0 +1,29 @@
+#include "parallel/communicator.h"
+
+#include <algorithm>
+
+namespace pstripack {
+
+Parcels SingleProcess::all_gather(const void* bytes, std::size_t size) {
+  Parcels all{Buffer<unsigned char>(size), {0, size}};
+  const auto* const from = static_cast<const unsigned char*>(bytes);
+  std::copy(from, from + size, all.bytes.data());
+  return all;
+}
+
+Parcels SingleProcess::exchange(const Parcels& outgoing) {
+  return all_gather(outgoing.bytes.data(), outgoing.begin[1]);
+}
+
+std::int32_t code_of(const std::exception_ptr& error) {
+  constexpr std::int32_t out_of_memory = -6;
+  try {
+    std::rethrow_exception(error);
+  } catch (const Failure& failure) {
+    return failure.code;
+  } catch (...) {
+    return out_of_memory;
+  }
+}
+
+}  // namespace pstripack

@@ -1,0 +1,78 @@
+#pragma once
+// What the parallel algorithm asks of a group of ranks. It knows nothing else of them: MPI stays in
+// src/cxx/mpi, a single process is a group of one, and tests run many ranks as threads.
+
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <vector>
+
+#include "geometry/buffer.h"
+
+namespace pstripack {
+
+/// Bytes for every rank, or from every rank: those of rank r are [begin[r], begin[r+1]).
+struct Parcels {
+  Buffer<unsigned char> bytes;
+  std::vector<std::size_t> begin;
+};
+
+/// A failure that all ranks have agreed on; thrown by every rank at the same place.
+struct AgreedFailure : std::exception {
+  explicit AgreedFailure(std::int32_t c) : code(c) {}
+  const char* what() const noexcept override { return "a rank failed"; }
+  std::int32_t code;  ///< the most negative code of any rank
+};
+
+/// A group of ranks. Every member function but rank() and size() is collective: all ranks call it, in the
+/// same order. An allocation that fails inside, on any rank, is an AgreedFailure(-6) on all of them.
+class Communicator {
+ public:
+  virtual ~Communicator() = default;
+  virtual int rank() const = 0;
+  virtual int size() const = 0;
+
+  /// values[i] becomes its smallest value over all ranks.
+  virtual void all_min(std::int64_t* values, std::size_t count) = 0;
+
+  /// Every rank gets the bytes of all ranks, in the order of the ranks.
+  virtual Parcels all_gather(const void* bytes, std::size_t size) = 0;
+
+  /// Every rank r gets the bytes that each rank meant for r. `outgoing.begin` has size()+1 entries.
+  virtual Parcels exchange(const Parcels& outgoing) = 0;
+
+  /// Bytes that this rank has handed over for other ranks so far; for reports.
+  std::int64_t bytes_sent = 0;
+};
+
+/// A group of one.
+class SingleProcess : public Communicator {
+ public:
+  int rank() const override { return 0; }
+  int size() const override { return 1; }
+  void all_min(std::int64_t*, std::size_t) override {}
+  Parcels all_gather(const void* bytes, std::size_t size) override;
+  Parcels exchange(const Parcels& outgoing) override;
+};
+
+/// Runs body() on every rank and agrees on its outcome: returns if it returned everywhere, throws
+/// AgreedFailure on every rank if it threw on any. Codes: that of a `Failure`, -6 for any other exception.
+/// Collective.
+struct Failure : std::exception {
+  explicit Failure(std::int32_t c) : code(c) {}
+  std::int32_t code;
+};
+std::int32_t code_of(const std::exception_ptr& error);
+template <class Body>
+void agreed(Communicator& ranks, const Body& body) {
+  std::int64_t code = 0;
+  try {
+    body();
+  } catch (...) {
+    code = code_of(std::current_exception());
+  }
+  ranks.all_min(&code, 1);
+  if (code != 0) throw AgreedFailure(static_cast<std::int32_t>(code));
+}
+
+}  // namespace pstripack

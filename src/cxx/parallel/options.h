@@ -1,0 +1,13 @@
+#pragma once
+
+#include <cstddef>
+
+#include "parallel/triangulate.h"
+
+namespace pstripack {
+
+/// The partition that PSTRIPACK_PARTITION of this process names (bisection, stripes; read once), and as many
+/// threads and patches as `local_nodes` nodes are worth.
+ParallelOptions options_from_environment(std::size_t local_nodes);
+
+}  // namespace pstripack

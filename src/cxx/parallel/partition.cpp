@@ -1,0 +1,374 @@
+#include "parallel/partition.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pstripack {
+namespace {
+
+constexpr double kPi = 3.141592653589793;
+constexpr double kEverything = 4;  // a margin larger than the sphere
+
+// A cell of the sample has this many nodes of it or fewer: enough to tell the distance between nodes.
+constexpr std::size_t kCellSample = 16;
+// Margins in distances between nodes. A circumscribed cap of random nodes seldom has a diameter of more.
+constexpr double kMarginSpacings = 2.2;
+// What rounding may move a node that lies on a border; also keeps nodes that coincide together.
+constexpr double kLeastMargin = 1e-9;
+
+double component(const Point& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
+
+double longitude(const Point& p) {
+  const double phi = std::atan2(p.y, p.x);
+  return phi < 0 ? phi + 2 * kPi : phi;
+}
+
+}  // namespace
+
+// ---- building the tree ------------------------------------------------------------------------------
+
+class Partition::Builder {
+ public:
+  Builder(Partition& partition, const std::vector<Point>& sample, std::size_t nodes)
+      : partition_(partition),
+        sample_(sample),
+        nodes_a_sample_(sample.empty() ? 1
+                                       : static_cast<double>(nodes) / static_cast<double>(sample.size())) {}
+
+  void bisect(int patches) {
+    bisect(sample_.data(), sample_.size(), 0, patches, {}, kEverything);
+    for (Region& region : partition_.regions_) {
+      std::fill(region.deep.low, region.deep.low + 3, -1e300);
+      std::fill(region.deep.high, region.deep.high + 3, 1e300);
+      for (const Plane& p : region.pieces[0].planes) {
+        const double normal[3] = {p.x, p.y, p.z};
+        for (int axis = 0; axis < 3; ++axis)
+          if (normal[axis] > 0)
+            region.deep.low[axis] = p.d + region.largest_margin;
+          else if (normal[axis] < 0)
+            region.deep.high[axis] = -p.d - region.largest_margin;
+      }
+    }
+  }
+
+  /// Borders between stripes: stripe k is [border[k], border[k+1]), all in [0, 2 pi), cyclic.
+  void stripe(std::vector<double> border) {
+    const int patches = static_cast<int>(border.size());
+    std::vector<Stripe> stripes;
+    for (int k = 0; k < patches; ++k) stripes.push_back({border[k], k});
+    std::sort(stripes.begin(), stripes.end(),
+              [](const Stripe& a, const Stripe& b) { return a.from < b.from; });
+    for (int k = 0; k < patches; ++k) {
+      const double next = k + 1 < patches ? stripes[k + 1].from : stripes[0].from + 2 * kPi;
+      partition_.regions_[stripes[k].patch].is_cone = next - stripes[k].from <= kPi && patches > 1;
+    }
+    // The plane y = 0 divides the circle into [0, pi) and [pi, 2 pi); in each half every border is a plane
+    // through the axis.
+    const Plane half{0, 1, 0, 0};
+    Point* const first = sample_.data();
+    Point* const last = first + sample_.size();
+    Point* const middle = std::partition(first, last, [&](const Point& p) { return product(half, p) < 0; });
+    const std::int32_t root = new_cell(half);
+    const int at_zero = stripe_at(stripes, 0), at_pi = stripe_at(stripes, kPi);
+    link(root, 1, wedges(middle, last, inside(stripes, 0, kPi, at_zero), kPi, {{half}}));
+    link(root, 0, wedges(first, middle, inside(stripes, kPi, 2 * kPi, at_pi), 2 * kPi, {{opposite(half)}}));
+    finish(root);
+  }
+
+ private:
+  struct Stripe {
+    double from;
+    int patch;
+  };
+
+  /// The stripe that the meridian `phi` lies in.
+  static int stripe_at(const std::vector<Stripe>& stripes, double phi) {
+    int patch = stripes.back().patch;
+    for (const Stripe& s : stripes)
+      if (s.from <= phi) patch = s.patch;
+    return patch;
+  }
+
+  static std::vector<Stripe> inside(const std::vector<Stripe>& stripes, double from, double to, int first) {
+    std::vector<Stripe> result{{from, first}};
+    for (const Stripe& s : stripes)
+      if (s.from > from && s.from < to) result.push_back(s);
+    return result;
+  }
+
+  static Plane opposite(const Plane& p) { return {-p.x, -p.y, -p.z, -p.d}; }
+  static Plane meridian(double phi) { return {-std::sin(phi), std::cos(phi), 0, 0}; }
+
+  std::int32_t new_cell(const Plane& split) {
+    partition_.cells_.push_back({split, {0, 0}, -1, 0});
+    return static_cast<std::int32_t>(partition_.cells_.size()) - 1;
+  }
+  void link(std::int32_t parent, int side, std::int32_t child) {
+    partition_.cells_[parent].child[side] = child;
+  }
+  /// What a cell knows of those below.
+  std::int32_t finish(std::int32_t k) {
+    Cell& c = partition_.cells_[k];
+    const Cell &a = partition_.cells_[c.child[0]], &b = partition_.cells_[c.child[1]];
+    c.patch = a.patch == b.patch ? a.patch : -1;
+    c.margin = std::min(a.margin, b.margin);
+    return k;
+  }
+
+  /// Wedges of a half circle that ends at `to`, by bisection of the list of borders. `path`: the planes above
+  /// in the tree; the distance from a patch must be no less than that from any of them, or the search in the
+  /// tree would miss it.
+  std::int32_t wedges(Point* first, Point* last, const std::vector<Stripe>& stripes, double to,
+                      const Piece& path) {
+    if (stripes.size() == 1) {
+      const double from = stripes[0].from, middle = 0.5 * (from + to);
+      const Plane end = meridian(to);
+      Piece piece = path;
+      for (const Plane& p : {meridian(from), opposite(end), Plane{std::cos(middle), std::sin(middle), 0, 0}})
+        piece.planes.push_back(p);
+      partition_.regions_[stripes[0].patch].pieces.push_back(std::move(piece));
+      return cells_of_patch(first, static_cast<std::size_t>(last - first), stripes[0].patch, kEverything,
+                            true);
+    }
+    const std::size_t k = stripes.size() / 2;
+    const Plane border = meridian(stripes[k].from);
+    Point* const middle = std::partition(first, last, [&](const Point& p) { return product(border, p) < 0; });
+    const std::int32_t cell = new_cell(border);
+    link(cell, 0,
+         wedges(first, middle, {stripes.begin(), stripes.begin() + k}, stripes[k].from,
+                with(path, opposite(border))));
+    link(cell, 1, wedges(middle, last, {stripes.begin() + k, stripes.end()}, to, with(path, border)));
+    return finish(cell);
+  }
+
+  /// Boxes for `patches` patches from `first_patch` on. box: the planes around it.
+  std::int32_t bisect(Point* p, std::size_t n, int first_patch, int patches, const Piece& box,
+                      double margin) {
+    if (patches == 1) {
+      partition_.regions_[first_patch].pieces = {box};
+      return cells_of_patch(p, n, first_patch, margin, false);
+    }
+    const Extent extent = extent_of(p, n);
+    const int below = patches / 2;
+    const Plane split = split_at(p, n, n * below / patches, extent.longest());
+    const std::int32_t cell = new_cell(split);
+    Point* const middle =
+        std::partition(p, p + n, [&](const Point& q) { return product(split, q) < split.d; });
+    const auto m = static_cast<std::size_t>(middle - p);
+    const double here = margin_of(extent, n, margin);
+    link(cell, 0, bisect(p, m, first_patch, below, with(box, opposite(split)), here));
+    link(cell, 1, bisect(middle, n - m, first_patch + below, patches - below, with(box, split), here));
+    return finish(cell);
+  }
+
+  /// The cells of one patch. Stripes are bisected along their length only.
+  std::int32_t cells_of_patch(Point* p, std::size_t n, int patch, double margin, bool along_z) {
+    const Extent extent = extent_of(p, n);
+    margin = margin_of(extent, n, margin);
+    const int axis = along_z ? 2 : extent.longest();
+    if (n > kCellSample && extent.length(axis) > 0) {
+      const Plane split = split_at(p, n, n / 2, axis);
+      Point* const middle =
+          std::partition(p, p + n, [&](const Point& q) { return product(split, q) < split.d; });
+      const auto m = static_cast<std::size_t>(middle - p);
+      if (m > 0 && m < n) {
+        const std::int32_t cell = new_cell(split);
+        link(cell, 0, cells_of_patch(p, m, patch, margin, along_z));
+        link(cell, 1, cells_of_patch(middle, n - m, patch, margin, along_z));
+        return finish(cell);
+      }
+    }
+    const std::int32_t leaf = new_cell({0, 0, 0, 0});
+    partition_.cells_[leaf].patch = patch;
+    partition_.cells_[leaf].margin = margin;
+    Region& region = partition_.regions_[patch];
+    region.largest_margin = std::max(region.largest_margin, margin);
+    partition_.smallest_margin_ = std::min(partition_.smallest_margin_, margin);
+    return leaf;
+  }
+
+  struct Extent {
+    double low[3] = {4, 4, 4}, high[3] = {-4, -4, -4};
+    double length(int axis) const { return high[axis] - low[axis]; }
+    int longest() const {
+      int axis = length(1) > length(0) ? 1 : 0;
+      return length(2) > length(axis) ? 2 : axis;
+    }
+    double diagonal() const {
+      return std::sqrt(length(0) * length(0) + length(1) * length(1) + length(2) * length(2));
+    }
+  };
+  static Extent extent_of(const Point* p, std::size_t n) {
+    Extent e;
+    for (std::size_t i = 0; i < n; ++i)
+      for (int axis = 0; axis < 3; ++axis) {
+        e.low[axis] = std::min(e.low[axis], component(p[i], axis));
+        e.high[axis] = std::max(e.high[axis], component(p[i], axis));
+      }
+    return e;
+  }
+
+  /// From the size of a cell and the nodes that it stands for; that of the cell around it where its own
+  /// sample is too small to tell.
+  double margin_of(const Extent& extent, std::size_t n, double of_parent) const {
+    if (n < 4) return of_parent;
+    const double spacing = extent.diagonal() / std::sqrt(static_cast<double>(n) * nodes_a_sample_);
+    return std::max(kMarginSpacings * spacing, kLeastMargin);
+  }
+
+  /// A plane across `axis` with k of the n points below, if no two are at the same height.
+  static Plane split_at(Point* p, std::size_t n, std::size_t k, int axis) {
+    double d = 0;
+    if (n > 0) {
+      const auto lower = [axis](const Point& a, const Point& b) {
+        return component(a, axis) < component(b, axis);
+      };
+      std::nth_element(p, p + k, p + n, lower);
+      d = component(p[k], axis);
+      if (k > 0) d = 0.5 * (d + component(*std::max_element(p, p + k, lower), axis));
+    }
+    return {axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0, d};
+  }
+
+  /// The box cut by one more plane; of parallel planes only the innermost stays.
+  static Piece with(Piece box, const Plane& cut) {
+    for (Plane& p : box.planes)
+      if (p.x == cut.x && p.y == cut.y && p.z == cut.z) {
+        p.d = std::max(p.d, cut.d);
+        return box;
+      }
+    box.planes.push_back(cut);
+    return box;
+  }
+
+  Partition& partition_;
+  std::vector<Point> sample_;  // sorted into cells while they are made
+  double nodes_a_sample_;
+};
+
+Partition::Partition(PartitionKind kind, int patches, const std::vector<Point>& sample, std::size_t nodes)
+    : regions_(static_cast<std::size_t>(patches)) {
+  Builder builder(*this, sample, nodes);
+  if (kind == PartitionKind::bisection) {
+    builder.bisect(patches);
+    copy_top(0, 0);
+    return;
+  }
+  std::vector<double> phi;
+  for (const Point& p : sample) phi.push_back(longitude(p));
+  std::sort(phi.begin(), phi.end());
+  // A section of the sphere begins behind the widest gap in longitude and ends in front of it.
+  double begin = 0, width = 2 * kPi;
+  std::size_t first = 0;
+  if (!phi.empty()) {
+    double gap = phi.front() + 2 * kPi - phi.back();
+    for (std::size_t k = 1; k < phi.size(); ++k)
+      if (phi[k] - phi[k - 1] > gap) gap = phi[k] - phi[k - 1], first = k;
+    begin = phi[first] - 0.25 * gap;
+    width = 2 * kPi - 0.5 * gap;
+  }
+  std::vector<double> border;
+  for (int k = 0; k < patches; ++k) {
+    double b = begin + width * k / patches;
+    if (kind == PartitionKind::stripes && k > 0 && !phi.empty()) {
+      const std::size_t at = phi.size() * static_cast<std::size_t>(k) / static_cast<std::size_t>(patches);
+      b = phi[(first + at) % phi.size()];
+    }
+    b = std::fmod(b + 4 * kPi, 2 * kPi);
+    border.push_back(b < 2 * kPi ? b : 0);
+  }
+  builder.stripe(std::move(border));
+  copy_top(0, 0);
+}
+
+void Partition::owners(const Point* x, std::size_t n, std::uint32_t* owner) const {
+  // Some at a time, level by level: one descent would wait for every comparison.
+  constexpr std::size_t kTogether = 16;
+  for (std::size_t i = 0; i < n; i += kTogether) {
+    const std::size_t count = std::min(kTogether, n - i);
+    std::int32_t k[kTogether] = {};
+    for (int level = 0; level < top_depth_; ++level)
+      for (std::size_t j = 0; j < count; ++j) {
+        const Top& t = top_[static_cast<std::size_t>(k[j])];
+        k[j] = t.child[product(t.split, x[i + j]) >= t.split.d];
+      }
+    for (std::size_t j = 0; j < count; ++j)
+      owner[i + j] = static_cast<std::uint32_t>(top_[static_cast<std::size_t>(k[j])].patch);
+  }
+}
+
+/// Appends the cell and those below it down to cells of one patch.
+void Partition::copy_top(std::int32_t cell, int depth) {
+  const auto k = static_cast<std::int32_t>(top_.size());
+  const Cell& c = cells_[cell];
+  top_.push_back({c.split, {k, k}, c.patch});
+  top_depth_ = std::max(top_depth_, depth);
+  if (c.patch >= 0) return;
+  for (const int side : {0, 1}) {
+    top_[k].child[side] = static_cast<std::int32_t>(top_.size());
+    copy_top(c.child[side], depth + 1);
+  }
+}
+
+// ---- asking it --------------------------------------------------------------------------------------
+
+double Partition::distance(int patch, const Point& x) const {
+  double nearest = 2 * kEverything;  // of a stripe without width
+  for (const Piece& piece : regions_[patch].pieces) {
+    double s = -4;
+    for (const Plane& p : piece.planes) s = std::max(s, p.d - product(p, x));
+    nearest = std::min(nearest, s);
+  }
+  return nearest;
+}
+
+bool Partition::holds(int patch, const Point& a, const Point& b, const Point& c, double stretch) const {
+  const Region& region = regions_[patch];
+  if (region.is_cone) return true;
+  if (region.pieces.size() != 1 || !(stretch >= 1)) return false;
+  // A convex patch holds the flat triangle. Stretched, it can leave through planes beyond the centre only.
+  for (const Plane& p : region.pieces[0].planes) {
+    const double lowest = std::min({product(p, a), product(p, b), product(p, c)});
+    if (p.d < 0 && stretch * std::min(lowest, 0.0) < p.d - smallest_margin_) return false;
+  }
+  return true;
+}
+
+void Partition::near(const Point& x, double radius, std::vector<int>& patches) const {
+  std::int32_t stack[128];
+  int top = 0;
+  stack[top++] = 0;
+  while (top > 0) {
+    const Cell& c = cells_[stack[--top]];
+    if (c.patch >= 0) {
+      if (std::find(patches.begin(), patches.end(), c.patch) == patches.end()) patches.push_back(c.patch);
+      continue;
+    }
+    const double s = product(c.split, x) - c.split.d;
+    if (s >= -radius) stack[top++] = c.child[1];
+    if (s <= radius) stack[top++] = c.child[0];
+  }
+}
+
+void Partition::strangers(int q, const Ball& ball, std::vector<int>& patches) const {
+  patches.clear();
+  const double reach = distance(q, ball.centre) + ball.radius;  // how far the ball goes beyond the border
+  if (reach <= smallest_margin_) return;
+  std::int32_t stack[128];
+  int top = 0;
+  stack[top++] = 0;
+  while (top > 0) {
+    const Cell& c = cells_[stack[--top]];
+    if (c.patch == q || reach <= c.margin) continue;
+    if (c.patch >= 0 && std::find(patches.begin(), patches.end(), c.patch) != patches.end()) continue;
+    if (c.child[1] == 0) {
+      patches.push_back(c.patch);
+      continue;
+    }
+    const double s = product(c.split, ball.centre) - c.split.d;
+    if (s >= -ball.radius) stack[top++] = c.child[1];
+    if (s <= ball.radius) stack[top++] = c.child[0];
+  }
+}
+
+}  // namespace pstripack

@@ -1,0 +1,133 @@
+#pragma once
+// How the sphere is cut into patches, and what a patch knows of the nodes beyond its border.
+//
+// A partition is a binary tree of planes. Its leaves are cells that hold a few nodes of a sample; every cell
+// belongs to one patch. The same tree on every rank makes the same decisions on every rank.
+//
+//     +-------+-------+      A patch q knows its own nodes and its halo: all nodes x of another cell that are
+//     |   :   |   .   |      no farther from q than that cell's margin, a few distances between nodes there:
+//     |...:...|.q.....|          distance(q, x) <= margin(cell of x).
+//     |   :   |   :   |      So the halo is thin where nodes are dense.
+//     +-------+-------+
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "geometry/point.h"
+
+namespace pstripack {
+
+/// How the sphere is cut into patches. All give the same bits.
+enum class PartitionKind {
+  bisection,         ///< boxes with equal numbers of nodes, by recursive bisection along x, y, z
+  stripes,           ///< stripes of longitude with equal numbers of nodes
+  stripes_of_width,  ///< stripes of longitude of equal width, as published
+};
+
+struct Ball {
+  Point centre;
+  double radius;  ///< length of the straight line, not of the arc
+};
+
+class Partition {
+ public:
+  /// Patches 0..patches-1 for `nodes` nodes of which `sample` is a sample: vectors of about length 1.
+  Partition(PartitionKind kind, int patches, const std::vector<Point>& sample, std::size_t nodes);
+
+  int patches() const { return static_cast<int>(regions_.size()); }
+
+  /// The patches that n places belong to.
+  void owners(const Point* x, std::size_t n, std::uint32_t* owner) const;
+  /// The patch that x belongs to.
+  int owner(const Point& x) const {
+    std::int32_t k = 0;
+    while (cells_[k].patch < 0) k = cells_[k].child[is_beyond(cells_[k], x)];
+    return cells_[k].patch;
+  }
+
+  /// A lower bound of the distance of x from the patch; 0 or less inside. Changes by no more than x does.
+  double distance(int patch, const Point& x) const;
+
+  /// Calls visit(q) for each patch q that has x in its halo; `owner` is that of x. `scratch` is written.
+  template <class Visit>
+  void for_each_halo(const Point& x, int owner, std::vector<int>& scratch, const Visit& visit) const {
+    if (regions_[owner].deep.holds(x)) return;
+    const double margin = margin_at(x);
+    if (distance(owner, x) <= -margin) return;
+    scratch.clear();
+    near(x, margin, scratch);
+    for (const int q : scratch)
+      if (q != owner && distance(q, x) <= margin) visit(q);
+  }
+
+  /// True if x is patch q's own or in its halo.
+  bool knows(int q, const Point& x) const { return owner(x) == q || distance(q, x) <= margin_at(x); }
+
+  /// The patches that may have nodes in the ball which q does not know; none: q knows all of them.
+  void strangers(int q, const Ball& ball, std::vector<int>& patches) const;
+
+  /// The smallest margin of all cells.
+  double smallest_margin() const { return smallest_margin_; }
+
+  /// True if the patch knows every node whose direction is in the triangle of its own nodes a,b,c and that
+  /// lies up to `stretch` times as far from the centre as the triangle there.
+  bool holds(int patch, const Point& a, const Point& b, const Point& c, double stretch) const;
+
+ private:
+  struct Plane {
+    double x, y, z, d;  // inside: the product is at least d
+  };
+  struct Piece {
+    std::vector<Plane> planes;
+  };
+  struct Box {
+    double low[3] = {4, 4, 4}, high[3] = {-4, -4, -4};  // nothing
+    bool holds(const Point& p) const {
+      return (p.x > low[0]) & (p.x < high[0]) & (p.y > low[1]) & (p.y < high[1]) & (p.z > low[2]) &
+             (p.z < high[2]);
+    }
+  };
+  struct Region {
+    std::vector<Piece> pieces;
+    double largest_margin = 0;
+    Box deep;              // what is farther from the border than that, of a box
+    bool is_cone = false;  // convex, and a set of directions
+  };
+  /// A node of the tree.
+  struct Cell {
+    Plane split;              // child[1] has what is inside
+    std::int32_t child[2];    // 0: a leaf
+    std::int32_t patch = -1;  // of all leaves below, if it is one patch
+    double margin = 0;        // of a leaf; otherwise the smallest below
+  };
+
+  static double product(const Plane& p, const Point& x) { return p.x * x.x + p.y * x.y + p.z * x.z; }
+  static bool is_beyond(const Cell& cell, const Point& x) { return product(cell.split, x) >= cell.split.d; }
+
+  double margin_at(const Point& x) const {
+    std::int32_t k = 0;
+    while (cells_[k].child[1] != 0) k = cells_[k].child[is_beyond(cells_[k], x)];
+    return cells_[k].margin;
+  }
+  /// The patches within `radius` of x, each once.
+  void near(const Point& x, double radius, std::vector<int>& patches) const;
+
+  /// A node of the top of the tree: down to cells of one patch, which lead to themselves.
+  struct Top {
+    Plane split;
+    std::int32_t child[2];
+    std::int32_t patch;
+  };
+  void copy_top(std::int32_t cell, int depth);
+
+  class Builder;
+  std::vector<Top> top_;
+  int top_depth_ = 0;
+  std::vector<Cell> cells_;
+  std::vector<Region> regions_;
+  double smallest_margin_ = 4;
+};
+
+}  // namespace pstripack

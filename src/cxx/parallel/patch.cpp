@@ -1,0 +1,407 @@
+// A patch, in order: triangulate what it knows, ask about what it cannot know, learn, read off the rings.
+// Why the stars are final when no question is left: docs/parallel.md.
+
+#include "parallel/patch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "geometry/insertion_order.h"
+
+namespace pstripack {
+namespace {
+
+Point minus(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+double dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Point cross(const Point& a, const Point& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+constexpr double u = 0x1p-53;
+constexpr Ball kEverywhere{{0, 0, 0}, 4};
+
+/// A ball around the places p with |p| <= 1 + deviation and normal.p >= height, the normal a unit vector
+/// known to `error`: |p - normal|^2 = |p|^2 + 1 - 2 normal.p.
+Ball ball_beyond(const Point& normal, double height, double error, double deviation) {
+  const double square = 2 * (1 - height) + 3 * deviation + 2 * error + 16 * u;
+  return {normal, std::sqrt(std::max(square, 0.0)) + error + 1e-12};
+}
+
+}  // namespace
+
+// ---- triangulate ------------------------------------------------------------------------------------
+
+namespace {
+
+/// Room for nodes that are learnt later. They are few; where they are not, memory is taken anew.
+std::size_t capacity_for(std::size_t nodes) { return nodes + nodes / 32 + 256; }
+
+}  // namespace
+
+template <class Int>
+void Patch<Int>::set_nodes(const Record* nodes, std::size_t own, std::size_t count) {
+  nodes_ = nodes;
+  own_ = own;
+  count_ = count;
+}
+
+template <class Int>
+std::size_t Patch<Int>::workspace_bytes(std::size_t closing) const {
+  if (own_ == 0) return 0;
+  const std::size_t capacity = capacity_for(count_ + closing);
+  return capacity * (sizeof(std::uint32_t) + sizeof(Point) + sizeof(Int) + 2 * sizeof(Face) +
+                     sizeof(std::uint32_t) + 2 * sizeof(Plane)) +
+         Workspace::kSlack;
+}
+
+template <class Int>
+void Patch<Int>::triangulate(const std::vector<Record>& closing, Workspace& workspace) {
+  if (own_ == 0) return;
+  std::vector<Record> leading;
+  for (const Record& r : closing)
+    if (!partition_->knows(id_, places_(r.point))) leading.push_back(r);
+  const std::size_t first = leading.size();
+  built_ = count_ + first;
+  arrays_.capacity = capacity_for(built_);
+  order_ = workspace.keep<std::uint32_t>(built_);
+  insertion_order(&nodes_->point, count_, order_ + first, workspace, sizeof(Record));
+  workspace.next_phase();
+  arrays_.nodes = workspace.keep<Point>(arrays_.capacity);
+  number_ = workspace.keep<Int>(arrays_.capacity);
+  for (std::size_t v = 0; v < first; ++v) {
+    order_[v] = static_cast<std::uint32_t>(count_ + v);
+    arrays_.nodes[v] = leading[v].point;
+    number_[v] = static_cast<Int>(leading[v].number);
+  }
+  constexpr std::size_t kAhead = 16;
+  for (std::size_t v = first; v < built_; ++v) {
+    if (v + kAhead < built_) __builtin_prefetch(nodes_ + order_[v + kAhead]);
+    const Record& r = nodes_[order_[v]];
+    arrays_.nodes[v] = r.point;
+    number_[v] = static_cast<Int>(r.number);
+  }
+  arrays_.faces = workspace.keep<Face>(2 * arrays_.capacity);
+  arrays_.corner = workspace.keep<std::uint32_t>(arrays_.capacity);
+  arrays_.planes = workspace.take<Plane>(2 * arrays_.capacity);
+  first_planes_ = arrays_.planes;
+  growing_ = GrowingHull::make(arrays_, built_, places_.lengths());
+  growing_->build(first);
+  for (const auto& [in, out] : growing_->coincident()) coincident_.emplace_back(number_[in], number_[out]);
+}
+
+// ---- certify ----------------------------------------------------------------------------------------
+
+template <class Int>
+Ball Patch<Int>::ball_above(std::uint32_t ia, std::uint32_t ib, std::uint32_t ic) const {
+  const Point a = place(ia), e = minus(place(ib), a), f = minus(place(ic), a);
+  const Point n = cross(e, f);
+  const double length = std::sqrt(dot(n, n));
+  // Rounding of the differences and of the product, and of places that are not exact.
+  const double error =
+      (64 * u * 0.5 * (dot(e, e) + dot(f, f)) + 8 * u * (std::sqrt(dot(e, e)) + std::sqrt(dot(f, f)))) /
+      length;
+  if (!(error < 0.1)) return kEverywhere;
+  const Point normal{n.x / length, n.y / length, n.z / length};
+  return ball_beyond(normal, dot(normal, a), error, places_.deviation());
+}
+
+template <class Int>
+void Patch<Int>::ask_about_triangle(std::uint32_t t, std::vector<Question>& questions) {
+  const Face& f = arrays_.faces[t];
+  partition_->strangers(id_, ball_above(f.vertex[0], f.vertex[1], f.vertex[2]), strangers_);
+  if (strangers_.empty()) return;
+  std::uint32_t first = 0;  // the smallest number first, so that a triangle has one name
+  for (const std::uint32_t i : {1, 2})
+    if (number_[f.vertex[i]] < number_[f.vertex[first]]) first = i;
+  Question question{};
+  for (std::uint32_t i = 0, e = first; i < 3; ++i, e = next_edge(e))
+    question.corner[i] = {arrays_.nodes[f.vertex[e]], number_[f.vertex[e]]};
+  question.from = id_;
+  for (const int q : strangers_) {
+    question.to = q;
+    questions.push_back(question);
+  }
+}
+
+template <class Int>
+template <class Visit>
+void Patch<Int>::for_each_face_at_border(std::size_t first, const Visit& visit) const {
+  const auto n = static_cast<std::uint32_t>(growing_->node_count());
+  for (auto v = static_cast<std::uint32_t>(first); v < n; ++v) {
+    if (is_own(v)) continue;
+    for_each_face_at(v, [&](std::uint32_t t, std::uint32_t) {
+      const auto& corner = arrays_.faces[t].vertex;
+      int own = 0;
+      for (int i = 0; i < 3; ++i) {
+        if (corner[i] < v && corner[i] >= first && !is_own(corner[i])) return;  // met there
+        own += is_own(corner[i]);
+      }
+      if (growing_->front(t)) visit(t, own);
+    });
+  }
+}
+
+/// Seen from the front, the edge u -> w of a face at the back is w -> u, with the triangulation on its left.
+template <class Int>
+template <class Visit>
+void Patch<Int>::for_each_boundary_arc(const Visit& visit) const {
+  if (growing_->surrounds_centre()) return;
+  const auto faces = static_cast<std::uint32_t>(growing_->face_count());
+  for (std::uint32_t t = 0; t < faces; ++t) {
+    if (arrays_.planes[t].w > 1 || growing_->front(t)) continue;
+    const Face& f = arrays_.faces[t];
+    for (std::uint32_t i = 0; i < 3; ++i)
+      if (growing_->front(face_of(f.neighbour[i]))) visit(f.vertex[previous_edge(i)], f.vertex[next_edge(i)]);
+  }
+}
+
+template <class Int>
+typename Patch<Int>::Outline Patch<Int>::outline() const {
+  Outline outline;
+  if (own_ == 0) return outline;
+  outline.surrounds_centre = true;
+  for_each_boundary_arc([&](std::uint32_t a, std::uint32_t b) {
+    outline.nodes.push_back({arrays_.nodes[a], number_[a]});
+    outline.surrounds_centre = false;
+    outline.has_own = outline.has_own || is_own(a) || is_own(b);
+  });
+  return outline;
+}
+
+template <class Int>
+std::vector<Record> Patch<Int>::nodes_around_centre() const {
+  const std::size_t n = growing_->node_count();
+  for (std::size_t step = n / 128 + 1;; step /= 2) {
+    std::vector<Record> some;
+    for (std::size_t v = 0; v < n; v += step) some.push_back({arrays_.nodes[v], number_[v]});
+    if (step == 1) return some;
+    try {
+      if (some.size() > 3 && Boundary(some, places_.lengths()).empty()) return some;
+    } catch (const std::domain_error&) {
+      // All of these lie on one great circle.
+    }
+  }
+}
+
+/// Takes in nodes until all arcs of its boundary at own nodes are arcs of the boundary of all nodes.
+template <class Int>
+void Patch<Int>::mend_boundary(const Boundary& boundary) {
+  for (;;) {
+    std::vector<Record> missing;
+    for_each_boundary_arc([&](std::uint32_t a, std::uint32_t b) {
+      if ((is_own(a) || is_own(b)) && !boundary.has_arc(number_[a], number_[b]))
+        missing.push_back(
+            boundary.against_arc({arrays_.nodes[a], number_[a]}, {arrays_.nodes[b], number_[b]}));
+    });
+    if (missing.empty()) return;
+    const std::size_t before = growing_->node_count();
+    for (const Record& r : missing) take_in(r);
+    if (growing_->node_count() == before) throw std::logic_error("a boundary that cannot be mended");
+  }
+}
+
+template <class Int>
+void Patch<Int>::ask(const Boundary& boundary, std::vector<Question>& questions) {
+  if (own_ == 0 || partition_->patches() == 1) return;
+  mend_boundary(boundary);
+  // A node that lies above some triangle of own nodes lies above one that has a corner of another patch as
+  // well, or its direction is in a triangle of own nodes, which must bulge out of the patch then.
+  // After the first time only triangles at nodes that have come in since are new.
+  const bool first_time = asked_with_ == 0;
+  for_each_face_at_border(asked_with_, [&](std::uint32_t t, int own) {
+    if (own > 0) ask_about_triangle(t, questions);
+  });
+  asked_with_ = growing_->node_count();
+  if (!first_time) return;
+  // What lies in the direction of a point y of a triangle is at most 1 + deviation times as long as 1 / |y|.
+  const double margin = partition_->smallest_margin(), farthest = 1 + places_.deviation();
+  const double lowest = std::max(0.0, farthest - margin + 1e-12);
+  const auto faces = static_cast<std::uint32_t>(growing_->face_count());
+  for (std::uint32_t t = 0; t < faces; ++t) {
+    const Plane& p = arrays_.planes[t];  // its product with a unit vector is known to 1
+    const double w = p.w - 4, square = p.x * p.x + p.y * p.y + p.z * p.z;
+    if (w > 0 && w * w >= lowest * lowest * square) continue;
+    const auto& v = arrays_.faces[t].vertex;
+    if (growing_->front(t) && is_own(v[0]) && is_own(v[1]) && is_own(v[2])) {
+      const double stretch = w > 0 ? farthest * std::sqrt(square) / w : 1 / w;
+      if (!partition_->holds(id_, place(v[0]), place(v[1]), place(v[2]), stretch))
+        ask_about_triangle(t, questions);
+    }
+  }
+}
+
+// ---- the boundary of all nodes ----------------------------------------------------------------------
+
+namespace {
+bool lower_number(const Record& a, const Record& b) { return a.number < b.number; }
+}  // namespace
+
+Boundary::Boundary(std::vector<Record> candidates, Lengths lengths) : nodes_(std::move(candidates)) {
+  const std::size_t n = nodes_.size();
+  Workspace workspace(workspace_bytes(n));
+  auto* const order = workspace.keep<std::uint32_t>(n);
+  insertion_order(&nodes_[0].point, n, order, workspace, sizeof(Record));
+  workspace.next_phase();
+  HullArrays arrays{n, workspace.keep<Point>(n), workspace.keep<Face>(2 * n), nullptr, nullptr};
+  arrays.corner = workspace.keep<std::uint32_t>(n);
+  arrays.planes = workspace.take<Plane>(2 * n);
+  for (std::size_t v = 0; v < n; ++v) arrays.nodes[v] = nodes_[order[v]].point;
+  const auto growing = GrowingHull::make(arrays, n, lengths);
+  growing->build(0);
+  for (std::uint32_t t = 0; t < growing->face_count(); ++t) {
+    if (growing->front(t)) continue;
+    const Face& f = arrays.faces[t];
+    for (std::uint32_t i = 0; i < 3; ++i)
+      if (growing->front(face_of(f.neighbour[i])))
+        arcs_.emplace_back(nodes_[order[f.vertex[previous_edge(i)]]].number,
+                           nodes_[order[f.vertex[next_edge(i)]]].number);
+  }
+  std::sort(arcs_.begin(), arcs_.end());
+  std::sort(nodes_.begin(), nodes_.end(), lower_number);
+}
+
+Boundary Boundary::none(std::vector<Record> nodes) {
+  Boundary boundary;
+  boundary.nodes_ = std::move(nodes);
+  return boundary;
+}
+
+bool Boundary::has_arc(std::int64_t a, std::int64_t b) const {
+  return std::binary_search(arcs_.begin(), arcs_.end(), std::pair(a, b));
+}
+
+const Record* Boundary::find(std::int64_t number) const {
+  const auto at = std::lower_bound(nodes_.begin(), nodes_.end(), Record{{}, number}, lower_number);
+  return at != nodes_.end() && at->number == number ? &*at : nullptr;
+}
+
+const Record& Boundary::against_arc(const Record& a, const Record& b) const {
+  // On the boundary, a has another node next to it than b.
+  const auto after = std::lower_bound(arcs_.begin(), arcs_.end(), std::pair(a.number, INT64_MIN));
+  if (after != arcs_.end() && after->first == a.number) return *find(after->second);
+  // Otherwise a is not on the boundary, and some node lies strictly right of a -> b: the one farthest right.
+  const Point normal = cross(b.point, a.point);
+  const Record* farthest = nullptr;
+  double most = 0;
+  for (const Record& r : nodes_) {
+    const double height = dot(normal, r.point) / std::sqrt(dot(r.point, r.point));
+    if ((farthest == nullptr || height > most) && left(a.point, b.point, r.point) < 0)
+      farthest = &r, most = height;
+  }
+  return *farthest;
+}
+
+// ---- answer and learn -------------------------------------------------------------------------------
+
+template <class Int>
+void Patch<Int>::make_room() {
+  const std::size_t n = growing_->node_count(), faces = growing_->face_count();
+  if (n < arrays_.capacity) return;
+  HullArrays larger;
+  larger.capacity = 2 * arrays_.capacity;
+  auto memory = decltype(memory_){Buffer<Point>(larger.capacity), Buffer<Int>(larger.capacity),
+                                  Buffer<Face>(2 * larger.capacity), Buffer<Plane>(2 * larger.capacity),
+                                  Buffer<std::uint32_t>(larger.capacity)};
+  std::copy(arrays_.nodes, arrays_.nodes + n, memory.nodes.begin());
+  std::copy(number_, number_ + n, memory.number.begin());
+  std::copy(arrays_.faces, arrays_.faces + faces, memory.faces.begin());
+  std::copy(arrays_.planes, arrays_.planes + faces, memory.planes.begin());
+  std::copy(arrays_.corner, arrays_.corner + n, memory.corner.begin());
+  memory_ = std::move(memory);
+  larger.nodes = memory_.nodes.data();
+  larger.faces = memory_.faces.data();
+  larger.planes = memory_.planes.data();
+  larger.corner = memory_.corner.data();
+  number_ = memory_.number.data();
+  arrays_ = larger;
+  growing_->move_to(arrays_);
+}
+
+template <class Int>
+std::uint32_t Patch<Int>::take_in(const Record& node) {
+  const auto [taken, is_new] = taken_in_.try_emplace(node.number, 0);
+  if (!is_new) return taken->second;
+  make_room();
+  const std::size_t before = growing_->node_count();
+  const std::uint32_t v = growing_->add(node.point);
+  if (v == before)
+    number_[v] = static_cast<Int>(node.number);
+  else if (number_[v] != node.number)
+    coincident_.emplace_back(number_[v], node.number);
+  taken->second = v;
+  return v;
+}
+
+template <class Int>
+void Patch<Int>::answer(const Question& question, std::vector<Record>& nodes) {
+  nodes.clear();
+  if (own_ == 0) return;
+  std::uint32_t v[3] = {0, 0, 0};
+  for (int i = 0; i < 3; ++i) v[i] = take_in(question.corner[i]);
+  std::vector<std::uint32_t> above;
+  const auto add_those_above = [&](std::uint32_t corner) {
+    for_each_face_at(corner, [&](std::uint32_t t, std::uint32_t i) {
+      const std::uint32_t w = arrays_.faces[t].vertex[next_edge(i)];
+      if (w != v[0] && w != v[1] && w != v[2] && growing_->above(v[0], v[1], v[2], w)) above.push_back(w);
+    });
+  };
+  // All nodes lie in the cone that the hull makes at a corner, so one of the neighbours of that corner lies
+  // above if any node does. The corner with the fewest: its ring closes first.
+  std::uint32_t at[3] = {arrays_.corner[v[0]], arrays_.corner[v[1]], arrays_.corner[v[2]]}, least = 0;
+  do {
+    least = least == 2 ? 0 : least + 1;
+    at[least] = counterclockwise(at[least]);
+  } while (at[least] != arrays_.corner[v[least]]);
+  add_those_above(v[least]);
+  if (above.empty()) return;
+  for (std::uint32_t k = 0; k < 3; ++k)
+    if (k != least) add_those_above(v[k]);
+  std::sort(above.begin(), above.end());
+  above.erase(std::unique(above.begin(), above.end()), above.end());
+  // The highest few: they change the asker's triangulation most, and the others may not matter then.
+  constexpr std::size_t kFew = 64;
+  if (above.size() > kFew) {
+    const Point a = place(v[0]);
+    const Point normal = cross(minus(place(v[1]), a), minus(place(v[2]), a));
+    const auto height = [&](std::uint32_t w) { return dot(normal, minus(place(w), a)); };
+    std::nth_element(above.begin(), above.begin() + kFew, above.end(),
+                     [&](std::uint32_t s, std::uint32_t t) { return height(s) > height(t); });
+    above.resize(kFew);
+  }
+  for (const std::uint32_t w : above) nodes.push_back({arrays_.nodes[w], number_[w]});
+}
+
+template <class Int>
+void Patch<Int>::learn(const Record* nodes, std::size_t count) {
+  for (std::size_t k = 0; k < count; ++k) take_in(nodes[k]);
+}
+
+// ---- the rings --------------------------------------------------------------------------------------
+
+template <class Int>
+std::size_t Patch<Int>::finish() {
+  if (own_ == 0) return 0;
+  hull_ = growing_->finish();
+  // The triangles at own nodes are three for each triangle of own nodes, fewer for those at the border.
+  std::size_t front = hull_.face_count, at_border = 0, own_corners = 0, own_arcs = 0;
+  for_each_face_at_border(0, [&](std::uint32_t, int own) {
+    ++at_border;
+    own_corners += static_cast<std::size_t>(own);
+  });
+  if (!hull_.surrounds_centre) {
+    front -= static_cast<std::size_t>(std::count(hull_.back.begin(), hull_.back.end(), true));
+    for_each_boundary_arc([&](std::uint32_t a, std::uint32_t) { own_arcs += is_own(a); });
+  }
+  return 3 * (front - at_border) + own_corners + own_arcs;
+}
+
+template <class Int>
+void* Patch<Int>::room_for_rings(std::size_t bytes) const {
+  return bytes <= 2 * built_ * sizeof(Plane) ? first_planes_ : nullptr;
+}
+
+template class Patch<std::int32_t>;
+template class Patch<std::int64_t>;
+
+}  // namespace pstripack

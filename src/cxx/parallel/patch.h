@@ -1,0 +1,210 @@
+#pragma once
+// One patch: the triangulation of its own nodes and of those around, and which of its triangles are final.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "geometry/buffer.h"
+#include "geometry/workspace.h"
+#include "mesh/delaunay.h"
+#include "mesh/rings.h"
+#include "parallel/partition.h"
+#include "parallel/places.h"
+
+namespace pstripack {
+
+/// A node on its way between patches.
+struct Record {
+  Point point;
+  std::int64_t number;  ///< global, from 1
+};
+
+/// "Does any of your nodes lie above this triangle?"
+struct Question {
+  Record corner[3];
+  std::int32_t from, to;  ///< patches
+};
+
+/// The boundary of the triangulation of all nodes, the same for every patch; empty where they surround the
+/// centre.
+class Boundary {
+ public:
+  Boundary() = default;
+  /// The boundary of these nodes, no two the same. Throws HiddenNode, std::bad_alloc, std::domain_error if
+  /// all are on one great circle.
+  Boundary(std::vector<Record> nodes, Lengths lengths);
+  /// No boundary; the nodes surround the centre.
+  static Boundary none(std::vector<Record> nodes);
+
+  bool empty() const { return arcs_.empty(); }
+  /// True if a -> b is an arc of the boundary, with all nodes left of it or on it.
+  bool has_arc(std::int64_t a, std::int64_t b) const;
+  /// One of the nodes that shows that a -> b is not an arc of the boundary, where it is not: strictly right
+  /// of it, or next to a on the boundary.
+  const Record& against_arc(const Record& a, const Record& b) const;
+
+ private:
+  const Record* find(std::int64_t number) const;
+  std::vector<Record> nodes_;                                ///< by number
+  std::vector<std::pair<std::int64_t, std::int64_t>> arcs_;  ///< sorted
+};
+
+/// Int: what node numbers fit into.
+template <class Int>
+class Patch {
+ public:
+  Patch(int id, const Partition& partition, const Places& places)
+      : id_(id), partition_(&partition), places_(places) {}
+
+  /// The nodes: `own` of them first, then the halo. They must outlive triangulate().
+  void set_nodes(const Record* nodes, std::size_t own, std::size_t count);
+
+  /// Memory for triangulate(). `closing`: nodes of the global sample.
+  std::size_t workspace_bytes(std::size_t closing) const;
+
+  /// Triangulates the patch's nodes and those of the `closing` that it does not know: some from everywhere,
+  /// three of them not on one great circle, so that the far side is closed. The workspace must outlive
+  /// the patch and its rings. Throws HiddenNode, std::bad_alloc.
+  void triangulate(const std::vector<Record>& closing, Workspace& workspace);
+
+  /// The boundary as the patch sees it: its nodes lie in it all.
+  struct Outline {
+    bool surrounds_centre = false;  ///< there is none
+    bool has_own = false;           ///< some of its own nodes are on it
+    std::vector<Record> nodes;
+  };
+  Outline outline() const;
+  /// Of a patch that surrounds the centre: nodes that do. Throws std::bad_alloc.
+  std::vector<Record> nodes_around_centre() const;
+
+  /// What is not certain yet of the stars of its own nodes, as questions to the patches that may know better.
+  /// None: every star is the star in the triangulation of all nodes. Throws HiddenNode, std::bad_alloc.
+  void ask(const Boundary& boundary, std::vector<Question>& questions);
+
+  /// The answer of this patch to another's question: nodes that lie above, none if there are none. A patch
+  /// that answers takes in the corners of the question. Throws HiddenNode, std::bad_alloc.
+  void answer(const Question& question, std::vector<Record>& nodes);
+
+  /// Takes in the answer to a question of its own. Throws HiddenNode, std::bad_alloc.
+  void learn(const Record* nodes, std::size_t count);
+
+  /// After the last answer: the triangulation. Returns the number of entries of all rings of its own nodes.
+  /// Throws HiddenNode.
+  std::size_t finish();
+
+  /// After finish(): room for `bytes` in the workspace, in place of what is not needed any more; null if
+  /// there is not enough.
+  void* room_for_rings(std::size_t bytes) const;
+
+  /// Writes the rings of its own nodes to `out`, which has room for all and 2*kBlock entries more; calls
+  /// visit(i, begin, count) for each: node i of set_nodes has `count` entries from `begin` on.
+  template <class Visit>
+  void write_rings(Int* out, const Visit& visit) const {
+    constexpr std::size_t kAhead = 16;
+    const auto number = [this](std::uint32_t v) { return number_[v]; };
+    Int* end = out;
+    for (std::size_t v = 0; v < built_; ++v) {
+      if (v + 2 * kAhead < built_) {
+        __builtin_prefetch(&hull_.faces[face_of(hull_.corner[v + 2 * kAhead])]);
+        const Face& next = hull_.faces[face_of(hull_.corner[v + kAhead])];
+        for (int i = 0; i < 3; ++i) __builtin_prefetch(&hull_.faces[face_of(next.neighbour[i])]);
+      }
+      if (order_[v] >= own_) continue;
+      Int* const begin = end;
+      end = append_ring(hull_, hull_.corner[v], number, begin);
+      visit(order_[v], begin, static_cast<std::uint32_t>(end - begin));
+    }
+  }
+
+  /// Calls visit(i, neighbour, j) for each neighbour of each own node i; j: which own node the neighbour is,
+  /// or own() if it is none.
+  template <class Visit>
+  void for_each_neighbour(const Visit& visit) const {
+    for (std::uint32_t v = 0; v < built_; ++v) {
+      if (order_[v] >= own_) continue;
+      const auto visit_node = [&](std::uint32_t w) {
+        visit(order_[v], Record{arrays_.nodes[w], number_[w]}, is_own(w) ? order_[w] : own_);
+      };
+      for_each_face_at(v, [&](std::uint32_t t, std::uint32_t i) {
+        if (!hull_.front(t)) return;
+        const Face& f = hull_.faces[t];
+        visit_node(f.vertex[next_edge(i)]);
+        if (!hull_.front(face_of(f.neighbour[next_edge(i)]))) visit_node(f.vertex[previous_edge(i)]);
+      });
+    }
+  }
+
+  int id() const { return id_; }
+  std::size_t own() const { return own_; }
+  std::size_t halo() const { return count_ - own_; }
+  /// Different nodes in the same direction that it came upon: their numbers.
+  const std::vector<std::pair<std::int64_t, std::int64_t>>& coincident() const { return coincident_; }
+
+ private:
+  bool is_own(std::uint32_t v) const { return v < built_ && order_[v] < own_; }
+  Point place(std::uint32_t v) const { return places_(arrays_.nodes[v]); }
+
+  /// A ball that holds all places above the triangle.
+  Ball ball_above(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
+
+  void ask_about_triangle(std::uint32_t t, std::vector<Question>& questions);
+  void mend_boundary(const Boundary& boundary);
+  std::uint32_t take_in(const Record& node);
+  void make_room();
+
+  /// The corner at the same node in the next face counterclockwise.
+  std::uint32_t counterclockwise(std::uint32_t corner) const {
+    const std::uint32_t beyond = arrays_.faces[face_of(corner)].neighbour[next_edge(edge_of(corner))];
+    return 4 * face_of(beyond) + next_edge(edge_of(beyond));
+  }
+
+  /// Calls visit(t, i) for every face t of the hull around node v, which is its vertex i.
+  template <class Visit>
+  void for_each_face_at(std::uint32_t v, const Visit& visit) const {
+    const std::uint32_t first = arrays_.corner[v];
+    std::uint32_t corner = first;
+    do {
+      visit(face_of(corner), edge_of(corner));
+      corner = counterclockwise(corner);
+    } while (corner != first);
+  }
+
+  /// Calls visit(a, b) for every arc a -> b of its boundary, with the front faces on the left.
+  template <class Visit>
+  void for_each_boundary_arc(const Visit& visit) const;
+
+  /// Calls visit(t, own) for every front face t that has a corner which is not the patch's own and among the
+  /// hull nodes from `first` on; `own` of its corners are.
+  template <class Visit>
+  void for_each_face_at_border(std::size_t first, const Visit& visit) const;
+
+  int id_;
+  const Partition* partition_;
+  Places places_;
+  const Record* nodes_ = nullptr;
+  std::size_t own_ = 0, count_ = 0, built_ = 0;
+  HullArrays arrays_;
+  std::uint32_t* order_ = nullptr;  ///< of the hull nodes < built_: which of nodes_, count_ or more: closing
+  Int* number_ = nullptr;           ///< of each hull node
+  std::unique_ptr<GrowingHull> growing_;
+  Hull hull_;
+  Plane* first_planes_ = nullptr;  ///< those in the workspace, for built_ nodes at least
+  std::size_t asked_with_ = 0;     ///< hull nodes
+  std::vector<std::pair<std::int64_t, std::int64_t>> coincident_;
+  std::unordered_map<std::int64_t, std::uint32_t> taken_in_;  ///< after the start: hull nodes by number
+  std::vector<int> strangers_;
+  struct {  // where the workspace was too small for what was learnt
+    Buffer<Point> nodes;
+    Buffer<Int> number;
+    Buffer<Face> faces;
+    Buffer<Plane> planes;
+    Buffer<std::uint32_t> corner;
+  } memory_;
+};
+
+}  // namespace pstripack

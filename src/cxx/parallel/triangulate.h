@@ -1,0 +1,123 @@
+#pragma once
+// The parallel triangulation: patches over threads and ranks, certified, bit for bit the serial result.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "geometry/point.h"
+#include "geometry/workspace.h"
+#include "mesh/delaunay.h"
+#include "parallel/communicator.h"
+#include "parallel/partition.h"
+#include "parallel/places.h"
+
+namespace pstripack {
+
+/// Of a set of nodes, those that this rank brings: any of them, in any order.
+struct LocalNodes {
+  const Point* points = nullptr;          ///< finite, not zero
+  std::size_t count = 0;                  ///< < 2^29
+  const std::int64_t* numbers = nullptr;  ///< global numbers from 1; null: first_number, first_number+1, ...
+  std::int64_t first_number = 1;
+
+  std::int64_t number(std::size_t i) const {
+    return numbers != nullptr ? numbers[i] : first_number + static_cast<std::int64_t>(i);
+  }
+};
+
+struct ParallelOptions {
+  PartitionKind partition = PartitionKind::bisection;
+  int patches = 1;               ///< of this rank; may differ from rank to rank
+  int threads = 1;               ///< of this rank
+  bool with_neighbours = false;  ///< fill Stars::outside
+  /// Of a single rank: give up if the patches have more questions than this, since one patch would be faster.
+  std::size_t most_questions = SIZE_MAX;
+};
+
+/// What a triangulation cost on this rank. Seconds of the clock, and of this rank's processors.
+struct ParallelCost {
+  enum Phase { divide, triangulate, merge, lists, gather, phases };
+  double seconds[phases] = {}, cpu_seconds[phases] = {};
+  int rounds = 0;         ///< exchanges of questions that were needed
+  std::int64_t halo = 0;  ///< nodes of other patches that the patches of this rank took in
+  std::int64_t bytes_sent = 0;
+};
+
+/// The star of one node as it stands in LIST: the numbers of its neighbours, counterclockwise; of an interior
+/// node from the smallest on; of a boundary node from the first boundary neighbour to the last, negated.
+template <class Int>
+struct Ring {
+  const Int* begin;
+  std::uint32_t count;
+};
+
+/// The rings of a rank's nodes, in the order of LocalNodes.
+template <class Int>
+class RingTable {
+ public:
+  RingTable() = default;
+  RingTable(std::size_t size, const Ring<Int>* rings, const std::uint32_t* position)
+      : size_(size), rings_(rings), position_(position) {}
+  std::size_t size() const { return size_; }
+  const Ring<Int>& operator[](std::size_t i) const { return rings_[position_[i]]; }
+  /// Asks for ring i and its entries some time before they are read.
+  void prefetch(std::size_t i) const { __builtin_prefetch(rings_[position_[i]].begin); }
+
+ private:
+  std::size_t size_ = 0;
+  const Ring<Int>* rings_ = nullptr;
+  const std::uint32_t* position_ = nullptr;
+};
+
+/// Which rank is home to a place: where its patch is.
+class Homes {
+ public:
+  Homes() = default;
+  Homes(std::unique_ptr<Partition> partition, std::vector<int> first_patch, const Places& places)
+      : partition_(std::move(partition)), first_patch_(std::move(first_patch)), places_(places) {}
+  int rank(const Point& p) const {
+    const int patch = partition_->owner(places_(p));
+    return static_cast<int>(std::upper_bound(first_patch_.begin(), first_patch_.end(), patch) -
+                            first_patch_.begin()) -
+           1;
+  }
+
+ private:
+  std::unique_ptr<Partition> partition_;
+  std::vector<int> first_patch_;  ///< of each rank
+  Places places_{Lengths::as_given, 0};
+};
+
+/// The stars of this rank's nodes. Int: std::int32_t, or std::int64_t where numbers need it.
+template <class Int>
+struct Stars {
+  RingTable<Int> of_node;  ///< empty if nodes coincide
+  /// What of_node and the rings lie in.
+  std::vector<std::unique_ptr<Workspace>> memory;
+  std::vector<Buffer<Int>> more_memory;
+  Parcels received;
+  Lengths lengths = Lengths::as_given;
+  bool gave_up = false;  ///< more than options.most_questions: there is nothing else
+  /// Two different nodes in the same direction, numbers, on every rank the same; empty if there are none.
+  std::vector<std::pair<std::int64_t, std::int64_t>> coincident;
+  /// With options.with_neighbours: the nodes that the stars name and this rank did not bring, by number.
+  struct Outside {
+    std::int64_t number;
+    Point point;
+  };
+  std::vector<Outside> outside;
+  std::unique_ptr<Homes> homes;
+};
+
+/// The triangulation of the nodes of all ranks together, at least three and not all on one great circle
+/// (`corners`: three of them that are not, the same on every rank). Collective. Throws AgreedFailure, on
+/// every rank.
+template <class Int>
+Stars<Int> triangulate(const LocalNodes& nodes, const Point (&corners)[3], const std::int64_t (&numbers)[3],
+                       Communicator& ranks, const ParallelOptions& options, ParallelCost* cost = nullptr);
+
+}  // namespace pstripack

@@ -1,0 +1,59 @@
+#include "pool/shared_area.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+
+#include <utility>
+
+namespace pstripack {
+
+AreaLayout::AreaLayout(std::int32_t n, std::int32_t real_bytes) {
+  constexpr std::size_t kPage = 4096;
+  const auto nodes = static_cast<std::size_t>(n), slots = 6 * nodes - 12;
+  const auto real = static_cast<std::size_t>(real_bytes);
+  const std::size_t bytes[6] = {nodes * real, nodes * real, nodes * real, slots * 4, slots * 4, nodes * 4};
+  begin_[0] = 0;
+  for (int i = 0; i < 6; ++i) begin_[i + 1] = begin_[i] + (bytes[i] + kPage - 1) / kPage * kPage;
+}
+
+SharedArea& SharedArea::operator=(SharedArea&& other) noexcept {
+  if (this == &other) return *this;
+  clear();
+  file_ = std::move(other.file_);
+  data_ = std::exchange(other.data_, nullptr);
+  size_ = std::exchange(other.size_, 0);
+  return *this;
+}
+
+void SharedArea::clear() {
+  if (data_ != nullptr) munmap(data_, size_);
+  data_ = nullptr;
+  size_ = 0;
+  file_.reset();
+}
+
+SharedArea SharedArea::create(std::size_t size) {
+  Descriptor file(memfd_create("pstripack", MFD_CLOEXEC));
+  if (!file) return {};
+  int error = 0;
+  do error = posix_fallocate(file.get(), 0, static_cast<off_t>(size));
+  while (error == EINTR);
+  return error == 0 ? map(std::move(file)) : SharedArea();
+}
+
+SharedArea SharedArea::map(Descriptor file) {
+  struct stat status;
+  SharedArea area;
+  if (fstat(file.get(), &status) != 0 || status.st_size <= 0) return area;
+  const auto size = static_cast<std::size_t>(status.st_size);
+  void* const data = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, file.get(), 0);
+  if (data == MAP_FAILED) return area;
+  area.data_ = data;
+  area.size_ = size;
+  area.file_ = std::move(file);
+  return area;
+}
+
+}  // namespace pstripack

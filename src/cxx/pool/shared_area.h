@@ -1,0 +1,54 @@
+#pragma once
+// The arrays of one TRMESH call in memory that the model and rank 0 of its pool share.
+
+#include <cstddef>
+#include <cstdint>
+
+#include "pool/channel.h"
+
+namespace pstripack {
+
+/// Where the arrays lie in an area: x | y | z | list | lptr | lend, each on a page of its own.
+class AreaLayout {
+ public:
+  AreaLayout(std::int32_t n, std::int32_t real_bytes);
+  std::size_t size() const { return begin_[6]; }
+  template <class Real>
+  Real* coordinate(void* area, int axis) const {
+    return reinterpret_cast<Real*>(static_cast<unsigned char*>(area) + begin_[axis]);
+  }
+  std::int32_t* list(void* area) const { return coordinate<std::int32_t>(area, 3); }
+  std::int32_t* lptr(void* area) const { return coordinate<std::int32_t>(area, 4); }
+  std::int32_t* lend(void* area) const { return coordinate<std::int32_t>(area, 5); }
+
+ private:
+  std::size_t begin_[7];
+};
+
+/// Memory that two processes map. Never throws.
+class SharedArea {
+ public:
+  SharedArea() = default;
+  SharedArea(SharedArea&& other) noexcept { *this = static_cast<SharedArea&&>(other); }
+  SharedArea& operator=(SharedArea&& other) noexcept;
+  ~SharedArea() { clear(); }
+
+  /// A new area; its pages are there already, so that using it cannot fail. Empty if memory is out.
+  static SharedArea create(std::size_t size);
+  /// The other process's area. Empty on failure.
+  static SharedArea map(Descriptor file);
+
+  void* data() const { return data_; }
+  std::size_t size() const { return size_; }
+  const Descriptor& file() const { return file_; }
+  /// The memory stays.
+  void close_file() { file_.reset(); }
+
+ private:
+  void clear();
+  Descriptor file_;
+  void* data_ = nullptr;
+  std::size_t size_ = 0;
+};
+
+}  // namespace pstripack

@@ -1,0 +1,66 @@
+#pragma once
+// LIST, LPTR and LEND from the rings of consecutive nodes: all of them, or a piece.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include "geometry/parallel_for.h"
+
+namespace pstripack {
+
+template <std::size_t kCount, class Int, class Entry>
+inline void copy_some(const Int* from, Entry* to) {
+  for (std::size_t i = 0; i < kCount; ++i) to[i] = static_cast<Entry>(from[i]);
+}
+
+/// Copies a ring without a loop whose length no processor can guess, and without touching anything beside it:
+/// two blocks of fixed length that overlap. Six neighbours are the mean.
+template <class Int, class Entry>
+inline void copy_ring(const Int* from, std::size_t count, Entry* to) {
+  if (count - 4 <= 4) {
+    copy_some<4>(from, to);
+    copy_some<4>(from + count - 4, to + count - 4);
+  } else if (count - 8 <= 8) {
+    copy_some<8>(from, to);
+    copy_some<8>(from + count - 8, to + count - 8);
+  } else {
+    for (std::size_t i = 0; i < count; ++i) to[i] = static_cast<Entry>(from[i]);
+  }
+}
+
+// In what follows, rings[k].begin and rings[k].count are the ring of node k: Rings is a RingTable or a
+// pointer.
+
+/// All of LPTR, which LEND determines: each slot points to the next one, the last of a node to its first.
+/// threads: from threads_for.
+void write_lptr(const std::int32_t* lend, std::size_t n, std::int32_t* lptr, int threads);
+
+/// Entries of all rings.
+template <class Rings>
+std::int64_t arcs_of(const Rings& rings, std::size_t count) {
+  std::int64_t arcs = 0;
+  for (std::size_t k = 0; k < count; ++k) arcs += rings[k].count;
+  return arcs;
+}
+
+/// LIST and LEND of consecutive nodes: their rings one after another in `list`, the first of which is the
+/// slot first_slot (from 0) of the whole. Writes lend[0..count-1] and as many entries of `list` as the rings
+/// have. threads: from threads_for.
+template <class Rings>
+void write_piece(const Rings& rings, std::size_t count, std::size_t first_slot, std::int32_t* list,
+                 std::int32_t* lend, int threads) {
+  constexpr std::size_t kAhead = 16;  // rings lie in the order of the patches, not of the nodes
+  parallel_pieces(count, threads, [&](std::size_t first, std::size_t last, int) {
+    // A piece finds its own beginning: a sum over counts is a small part of the copying.
+    auto slot = static_cast<std::size_t>(arcs_of(rings, first));
+    for (std::size_t k = first; k < last; ++k) {
+      if (k + kAhead < last) __builtin_prefetch(rings[k + kAhead].begin);
+      copy_ring(rings[k].begin, rings[k].count, list + slot);
+      slot += rings[k].count;
+      lend[k] = static_cast<std::int32_t>(first_slot + slot);
+    }
+  });
+}
+
+}  // namespace pstripack

@@ -1,0 +1,332 @@
+!> PSTRIPACK over MPI for Fortran: the C API of libpstripack_mpi (pstripack_mpi.h, which says more).
+!>
+!> comm mode:    call pstripack_set_comm(comm) makes every TRMESH of the program collective over comm.
+!> distributed:  a type(pstripack_mesh): each rank brings its own points and gets their stars.
+!>
+!> "Collective": every rank of the communicator calls it, in the same order. Communicators may be integers
+!> (mpif.h, module mpi) or of type(MPI_Comm) (module mpi_f08).
+module pstripack_mpi
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_int, c_int32_t, c_int64_t, c_null_ptr, c_ptr
+  use mpi_f08, only: MPI_Comm
+  implicit none
+  private
+  public :: pstripack_set_comm, pstripack_mesh
+  public :: pstripack_ranks_disagree, pstripack_bad_comm, pstripack_coincident, pstripack_bad_number, &
+            pstripack_empty_mesh, pstripack_every_rank
+
+  !> Results beside those of module pstripack.
+  integer(c_int32_t), parameter :: &
+    pstripack_empty_mesh = -3, &      !< nothing triangulated yet, or without success
+    pstripack_ranks_disagree = -7, &  !< the ranks of a collective TRMESH disagree in N or data
+    pstripack_bad_comm = -8, &        !< null, freed, an inter-communicator; no such rank; MPI not running
+    pstripack_coincident = -9, &      !< two points in the same direction
+    pstripack_bad_number = -10        !< a global number is below 1, occurs twice, or is not one of 1..N
+
+  integer(c_int32_t), parameter :: pstripack_every_rank = -1
+
+  !> call pstripack_set_comm(comm [, ier])
+  !>
+  !> Collective over comm. From then on TRMESH, in all its forms, is collective over a duplicate of comm, with
+  !> the same arguments on every rank; MPI_COMM_NULL ends that. ier: 0, -6 or pstripack_bad_comm, which also
+  !> print a line.
+  interface pstripack_set_comm
+    module procedure set_comm_integer, set_comm_f08
+  end interface
+
+  !> A distributed mesh. It cannot be copied by assignment.
+  !> Collective: create, triangulate, gather, free; so is the end of its scope, which frees it.
+  type :: pstripack_mesh
+    private
+    type(c_ptr) :: handle = c_null_ptr
+  contains
+    !> create(comm, ier): over a duplicate of comm. ier: 0, -6 or pstripack_bad_comm.
+    generic, public :: create => create_integer, create_f08
+    procedure, private :: create_integer, create_f08
+    procedure, public :: triangulate
+    procedure, public :: error_points
+    procedure, public :: home
+    procedure, public :: sizes
+    procedure, public :: stars
+    procedure, public :: triangles
+    procedure, public :: halo
+    procedure, public :: local_stars
+    procedure, public :: gather
+    procedure, public :: free => free_mesh
+    generic, public :: assignment(=) => do_not_copy
+    procedure, private :: do_not_copy
+    final :: finalise
+  end type
+
+  interface
+    ! int32_t pstripack_set_comm_f(MPI_Fint comm);
+    function c_set_comm(comm) result(ier) bind(c, name="pstripack_set_comm_f")
+      import :: c_int, c_int32_t
+      integer(c_int), value, intent(in) :: comm
+      integer(c_int32_t) :: ier
+    end function
+
+    ! int32_t pstripack_mesh_create_f(MPI_Fint comm, pstripack_mesh** mesh);
+    function c_create(comm, mesh) result(ier) bind(c, name="pstripack_mesh_create_f")
+      import :: c_int, c_int32_t, c_ptr
+      integer(c_int), value, intent(in) :: comm
+      type(c_ptr), intent(out) :: mesh
+      integer(c_int32_t) :: ier
+    end function
+
+    ! void pstripack_mesh_free(pstripack_mesh* mesh);
+    subroutine c_free(mesh) bind(c, name="pstripack_mesh_free")
+      import :: c_ptr
+      type(c_ptr), value, intent(in) :: mesh
+    end subroutine
+
+    ! int32_t pstripack_mesh_triangulate(pstripack_mesh* mesh, int64_t n, const double* xyz,
+    !                                    const int64_t* number);
+    function c_triangulate(mesh, n, xyz, number) result(ier) bind(c, name="pstripack_mesh_triangulate")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value, intent(in) :: mesh
+      integer(c_int64_t), value, intent(in) :: n
+      real(c_double), intent(in) :: xyz(*)
+      integer(c_int64_t), intent(in) :: number(*)
+      integer(c_int32_t) :: ier
+    end function
+
+    ! void pstripack_mesh_error_points(const pstripack_mesh* mesh, int64_t* first, int64_t* second);
+    subroutine c_error_points(mesh, first, second) bind(c, name="pstripack_mesh_error_points")
+      import :: c_int64_t, c_ptr
+      type(c_ptr), value, intent(in) :: mesh
+      integer(c_int64_t), intent(out) :: first, second
+    end subroutine
+
+    ! void pstripack_mesh_sizes(const pstripack_mesh* mesh, int64_t* points, int64_t* arcs, int64_t* triangles,
+    !                           int64_t* halo);
+    subroutine c_sizes(mesh, points, arcs, triangles, halo) bind(c, name="pstripack_mesh_sizes")
+      import :: c_int64_t, c_ptr
+      type(c_ptr), value, intent(in) :: mesh
+      integer(c_int64_t), intent(out) :: points, arcs, triangles, halo
+    end subroutine
+
+    ! void pstripack_mesh_stars(const pstripack_mesh* mesh, int64_t* begin, int64_t* neighbour);
+    subroutine c_stars(mesh, begin, neighbour) bind(c, name="pstripack_mesh_stars")
+      import :: c_int64_t, c_ptr
+      type(c_ptr), value, intent(in) :: mesh
+      integer(c_int64_t), intent(inout) :: begin(*), neighbour(*)
+    end subroutine
+
+    ! void pstripack_mesh_triangles(const pstripack_mesh* mesh, int64_t* corner);
+    subroutine c_triangles(mesh, corner) bind(c, name="pstripack_mesh_triangles")
+      import :: c_int64_t, c_ptr
+      type(c_ptr), value, intent(in) :: mesh
+      integer(c_int64_t), intent(inout) :: corner(*)
+    end subroutine
+
+    ! void pstripack_mesh_halo(const pstripack_mesh* mesh, int64_t* number, double* xyz);
+    subroutine c_halo(mesh, number, xyz) bind(c, name="pstripack_mesh_halo")
+      import :: c_double, c_int64_t, c_ptr
+      type(c_ptr), value, intent(in) :: mesh
+      integer(c_int64_t), intent(inout) :: number(*)
+      real(c_double), intent(inout) :: xyz(*)
+    end subroutine
+
+    ! int32_t pstripack_mesh_home(const pstripack_mesh* mesh, int64_t n, const double* xyz, int32_t* rank);
+    function c_home(mesh, n, xyz, rank) result(ier) bind(c, name="pstripack_mesh_home")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value, intent(in) :: mesh
+      integer(c_int64_t), value, intent(in) :: n
+      real(c_double), intent(in) :: xyz(*)
+      integer(c_int32_t), intent(inout) :: rank(*)
+      integer(c_int32_t) :: ier
+    end function
+
+    ! int32_t pstripack_mesh_local_stars(const pstripack_mesh* mesh, int64_t* begin, int32_t* neighbour);
+    function c_local_stars(mesh, begin, neighbour) result(ier) bind(c, name="pstripack_mesh_local_stars")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value, intent(in) :: mesh
+      integer(c_int64_t), intent(inout) :: begin(*)
+      integer(c_int32_t), intent(inout) :: neighbour(*)
+      integer(c_int32_t) :: ier
+    end function
+
+    ! int32_t pstripack_mesh_gather(pstripack_mesh* mesh, int32_t root, int32_t* list, int32_t* lptr,
+    !                               int32_t* lend, int32_t* lnew);
+    function c_gather(mesh, root, list, lptr, lend, lnew) result(ier) bind(c, name="pstripack_mesh_gather")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value, intent(in) :: mesh
+      integer(c_int32_t), value, intent(in) :: root
+      integer(c_int32_t), intent(inout) :: list(*), lptr(*), lend(*), lnew
+      integer(c_int32_t) :: ier
+    end function
+  end interface
+
+contains
+
+  subroutine set_comm_integer(comm, ier)
+    integer, intent(in) :: comm
+    integer(c_int32_t), intent(out), optional :: ier
+    integer(c_int32_t) :: code
+    code = c_set_comm(comm)
+    if (present(ier)) ier = code
+  end subroutine
+
+  subroutine set_comm_f08(comm, ier)
+    type(MPI_Comm), intent(in) :: comm
+    integer(c_int32_t), intent(out), optional :: ier
+    call set_comm_integer(comm%MPI_VAL, ier)
+  end subroutine
+
+  subroutine create_integer(mesh, comm, ier)
+    class(pstripack_mesh), intent(inout) :: mesh
+    integer, intent(in) :: comm
+    integer(c_int32_t), intent(out) :: ier
+    call mesh%free()
+    ier = c_create(comm, mesh%handle)
+  end subroutine
+
+  subroutine create_f08(mesh, comm, ier)
+    class(pstripack_mesh), intent(inout) :: mesh
+    type(MPI_Comm), intent(in) :: comm
+    integer(c_int32_t), intent(out) :: ier
+    call mesh%create_integer(comm%MPI_VAL, ier)
+  end subroutine
+
+  !> Triangulates the points of all ranks together: n = size(number) of this rank, xyz(3,n), number their
+  !> global numbers from 1, each once over all ranks, in any order. ier: 0, -1 (fewer than three points in all),
+  !> -2 (all on one great circle), -4 (too many, or arrays of different sizes), -5 (not finite, or zero), -6
+  !> (out of memory), pstripack_coincident, pstripack_bad_number; then the mesh is empty.
+  subroutine triangulate(mesh, xyz, number, ier)
+    class(pstripack_mesh), intent(inout) :: mesh
+    real(c_double), intent(in), contiguous :: xyz(:, :)
+    integer(c_int64_t), intent(in), contiguous :: number(:)
+    integer(c_int32_t), intent(out) :: ier
+    integer(c_int64_t) :: n
+    ier = pstripack_empty_mesh
+    if (.not. c_associated(mesh%handle)) return
+    n = size(number, kind=c_int64_t)
+    ! All ranks must learn of it: a count that the library refuses.
+    if (size(xyz, 2, kind=c_int64_t) /= n .or. (n > 0 .and. size(xyz, 1) /= 3)) n = -1
+    ier = c_triangulate(mesh%handle, n, xyz, number)
+  end subroutine
+
+  !> After ier = -5, -9, -10: the numbers of the points that it is about, 0 for none.
+  subroutine error_points(mesh, first, second)
+    class(pstripack_mesh), intent(in) :: mesh
+    integer(c_int64_t), intent(out) :: first, second
+    first = 0
+    second = 0
+    if (c_associated(mesh%handle)) call c_error_points(mesh%handle, first, second)
+  end subroutine
+
+  !> Of this rank: own points, entries of all stars, triangles, and points of other ranks that are neighbours.
+  subroutine sizes(mesh, points, arcs, triangles, halo)
+    class(pstripack_mesh), intent(in) :: mesh
+    integer(c_int64_t), intent(out) :: points, arcs, triangles, halo
+    points = 0
+    arcs = 0
+    triangles = 0
+    halo = 0
+    if (c_associated(mesh%handle)) call c_sizes(mesh%handle, points, arcs, triangles, halo)
+  end subroutine
+
+  !> The neighbours of own point i, in global numbers, are neighbour(begin(i) : begin(i+1)-1), counterclockwise,
+  !> as in LIST. begin(points+1), neighbour(arcs).
+  subroutine stars(mesh, begin, neighbour)
+    class(pstripack_mesh), intent(in) :: mesh
+    integer(c_int64_t), intent(inout), contiguous :: begin(:), neighbour(:)
+    integer(c_int64_t) :: points
+    points = points_if_room(mesh, size(begin, kind=c_int64_t), size(neighbour, kind=c_int64_t))
+    call c_stars(mesh%handle, begin, neighbour)
+    begin(:points + 1) = begin(:points + 1) + 1
+  end subroutine
+
+  !> The rank (from 0) that would be home to each of the points xyz(3, n), so that each rank's points lie close
+  !> together and all ranks have about as many. ier: 0, -3 if the mesh is empty, -5, or -4: rank is too short.
+  subroutine home(mesh, xyz, rank, ier)
+    class(pstripack_mesh), intent(in) :: mesh
+    real(c_double), intent(in), contiguous :: xyz(:, :)
+    integer(c_int32_t), intent(inout), contiguous :: rank(:)
+    integer(c_int32_t), intent(out) :: ier
+    ier = -3
+    if (.not. c_associated(mesh%handle)) return
+    ier = -4
+    if (size(xyz, 1) /= 3 .or. size(rank) < size(xyz, 2)) return
+    ier = c_home(mesh%handle, size(xyz, 2, kind=c_int64_t), xyz, rank)
+  end subroutine
+
+  !> The same in local numbers: own points 1..points, then those of the halo. ier: 0 or -6.
+  subroutine local_stars(mesh, begin, neighbour, ier)
+    class(pstripack_mesh), intent(in) :: mesh
+    integer(c_int64_t), intent(inout), contiguous :: begin(:)
+    integer(c_int32_t), intent(inout), contiguous :: neighbour(:)
+    integer(c_int32_t), intent(out) :: ier
+    integer(c_int64_t) :: points
+    points = points_if_room(mesh, size(begin, kind=c_int64_t), size(neighbour, kind=c_int64_t))
+    ier = c_local_stars(mesh%handle, begin, neighbour)
+    if (ier == 0) begin(:points + 1) = begin(:points + 1) + 1
+  end subroutine
+
+  !> The triangles whose smallest corner is a point of this rank: corner(3, triangles), global numbers,
+  !> counterclockwise, the smallest first.
+  subroutine triangles(mesh, corner)
+    class(pstripack_mesh), intent(in) :: mesh
+    integer(c_int64_t), intent(inout), contiguous :: corner(:, :)
+    integer(c_int64_t) :: points, arcs, count, halo
+    call mesh%sizes(points, arcs, count, halo)
+    if (size(corner, kind=c_int64_t) < 3*count) error stop "pstripack_mesh: triangles: the array is too short"
+    if (c_associated(mesh%handle)) call c_triangles(mesh%handle, corner)
+  end subroutine
+
+  !> Points of other ranks that are neighbours of own ones, by increasing number: number(halo), xyz(3, halo).
+  subroutine halo(mesh, number, xyz)
+    class(pstripack_mesh), intent(in) :: mesh
+    integer(c_int64_t), intent(inout), contiguous :: number(:)
+    real(c_double), intent(inout), contiguous :: xyz(:, :)
+    integer(c_int64_t) :: points, arcs, triangles, count
+    call mesh%sizes(points, arcs, triangles, count)
+    if (size(number, kind=c_int64_t) < count .or. size(xyz, kind=c_int64_t) < 3*count) &
+      error stop "pstripack_mesh: halo: an array is too short"
+    if (c_associated(mesh%handle)) call c_halo(mesh%handle, number, xyz)
+  end subroutine
+
+  !> The lists of the whole mesh, as TRMESH gives them, on rank `root` (from 0) or on pstripack_every_rank;
+  !> the numbers must be 1..N. list, lptr (6N-12), lend (N) count on those ranks only. ier: 0,
+  !> pstripack_empty_mesh, -4 (6N-11 does not fit 32 bits), -6, pstripack_bad_comm (no such rank),
+  !> pstripack_bad_number.
+  subroutine gather(mesh, root, list, lptr, lend, lnew, ier)
+    class(pstripack_mesh), intent(inout) :: mesh
+    integer(c_int32_t), intent(in) :: root
+    integer(c_int32_t), intent(inout), contiguous :: list(:), lptr(:), lend(:)
+    integer(c_int32_t), intent(inout) :: lnew
+    integer(c_int32_t), intent(out) :: ier
+    ier = pstripack_empty_mesh
+    if (c_associated(mesh%handle)) ier = c_gather(mesh%handle, root, list, lptr, lend, lnew)
+  end subroutine
+
+  !> Collective, unless MPI is finalised already. May be called twice.
+  subroutine free_mesh(mesh)
+    class(pstripack_mesh), intent(inout) :: mesh
+    if (c_associated(mesh%handle)) call c_free(mesh%handle)
+    mesh%handle = c_null_ptr
+  end subroutine
+
+  impure elemental subroutine finalise(mesh)
+    type(pstripack_mesh), intent(inout) :: mesh
+    call mesh%free()
+  end subroutine
+
+  subroutine do_not_copy(to, from)
+    class(pstripack_mesh), intent(inout) :: to
+    class(pstripack_mesh), intent(in) :: from
+    if (c_associated(to%handle, from%handle)) return
+    error stop "pstripack_mesh: a mesh cannot be copied"
+  end subroutine
+
+  !> The number of own points, if arrays of these sizes have room for the stars.
+  integer(c_int64_t) function points_if_room(mesh, begin, neighbour) result(points)
+    class(pstripack_mesh), intent(in) :: mesh
+    integer(c_int64_t), intent(in) :: begin, neighbour
+    integer(c_int64_t) :: arcs, triangles, halo
+    if (.not. c_associated(mesh%handle)) error stop "pstripack_mesh: stars of a mesh that was not created"
+    call mesh%sizes(points, arcs, triangles, halo)
+    if (begin < points + 1 .or. neighbour < arcs) error stop "pstripack_mesh: stars: an array is too short"
+  end function
+
+end module

@@ -1,0 +1,407 @@
+// The parallel triangulation on ranks that are threads of this process: the same rings as the serial one, for
+// every number of ranks and patches, every partition, every distribution of the nodes. The configuration is
+// in the test's name: ranks, patches a rank, partition, who brings the nodes.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <numeric>
+#include <string>
+#include <tuple>
+
+#include "geometry/workspace.h"
+#include "parallel/coincidence.h"
+#include "parallel/partition.h"
+#include "parallel/triangulate.h"
+#include "point_sets.h"
+#include "support/lists.h"
+#include "support/thread_ranks.h"
+
+namespace {
+
+using namespace pstripack;
+
+enum class Brings { slices, every_other, rank_0, home };
+
+struct Configuration {
+  int ranks, patches;
+  PartitionKind partition;
+  Brings brings;
+};
+
+std::string name_of(const Configuration& c) {
+  static const char* const partition[] = {"bisection", "stripes", "stripes_of_width"};
+  static const char* const brings[] = {"slices", "every_other", "rank_0", "home"};
+  return "np" + std::to_string(c.ranks) + "_patches" + std::to_string(c.patches) + "_" +
+         partition[static_cast<int>(c.partition)] + "_" + brings[static_cast<int>(c.brings)];
+}
+
+/// A set of nodes, the first three of which are not on one great circle, and its rings by one patch.
+struct Set {
+  explicit Set(Nodes points) : nodes(std::move(points)) {
+    for (std::uint64_t seed = 1; left(nodes[0], nodes[1], nodes[2]) == 0; ++seed)
+      point_sets::shuffle(nodes, seed);
+    Workspace workspace(workspace_bytes(nodes.size()));
+    const Hull hull = delaunay(nodes.data(), nodes.size(), workspace);
+    lengths = hull.lengths;
+    for (const auto& [a, b] : hull.coincident) coincident.emplace_back(a + 1, b + 1);
+    if (!coincident.empty()) return;
+    Faces faces;
+    for (std::size_t t = 0; t < hull.face_count; ++t)
+      if (hull.front(t)) {
+        const auto& v = hull.faces[t].vertex;
+        const auto node = [&](int i) { return static_cast<std::int32_t>(hull.order[v[i]]); };
+        faces.push_back({node(0), node(1), node(2)});
+      }
+    rings = *rings_of(nodes.size(), faces);
+  }
+  Nodes nodes;
+  Rings rings;
+  Lengths lengths;
+  std::vector<std::pair<std::int64_t, std::int64_t>> coincident;
+};
+
+struct Outcome {
+  std::vector<std::vector<std::int64_t>> ring;  // by node
+  std::vector<std::int32_t> codes;              // of the ranks
+  std::vector<Stars<std::int32_t>> stars;       // without of_node
+  std::vector<ParallelCost> cost;
+};
+
+template <class Int>
+Outcome run(const Nodes& nodes, const Configuration& c, bool with_neighbours = false) {
+  const std::size_t n = nodes.size(), size = static_cast<std::size_t>(c.ranks);
+  std::vector<Nodes> points(size);
+  std::vector<std::vector<std::int64_t>> numbers(size);
+  const Partition home(PartitionKind::bisection, c.ranks, nodes, n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t r = c.brings == Brings::slices        ? i * size / n
+                          : c.brings == Brings::every_other ? i % size
+                          : c.brings == Brings::home        ? static_cast<std::size_t>(home.owner(nodes[i]))
+                                                            : 0;
+    points[r].push_back(nodes[i]);
+    numbers[r].push_back(static_cast<std::int64_t>(i) + 1);
+  }
+  Outcome out;
+  out.ring.resize(n);
+  out.codes.resize(size);
+  out.stars.resize(size);
+  out.cost.resize(size);
+  std::mutex mutex;
+  ThreadRanks::run(c.ranks, [&](Communicator& ranks) {
+    const auto r = static_cast<std::size_t>(ranks.rank());
+    LocalNodes local;
+    local.points = points[r].data();
+    local.count = points[r].size();
+    local.numbers = numbers[r].data();
+    ParallelOptions options;
+    options.partition = c.partition;
+    options.patches = c.patches;
+    options.with_neighbours = with_neighbours;
+    try {
+      const Point corners[3] = {nodes[0], nodes[1], nodes[2]};
+      Stars<Int> stars = triangulate<Int>(local, corners, {1, 2, 3}, ranks, options, &out.cost[r]);
+      const std::lock_guard lock(mutex);
+      for (std::size_t i = 0; i < stars.of_node.size(); ++i) {
+        const Ring<Int>& ring = stars.of_node[i];
+        out.ring[static_cast<std::size_t>(numbers[r][i]) - 1].assign(ring.begin, ring.begin + ring.count);
+      }
+      out.stars[r].coincident = stars.coincident;
+      out.stars[r].lengths = stars.lengths;
+      for (const auto& o : stars.outside) out.stars[r].outside.push_back({o.number, o.point});
+    } catch (const AgreedFailure& failure) {
+      out.codes[r] = failure.code;
+    }
+  });
+  return out;
+}
+
+::testing::AssertionResult is_serial(const Set& set, const Outcome& out) {
+  for (const std::int32_t code : out.codes)
+    if (code != 0) return ::testing::AssertionFailure() << "code " << code;
+  for (const auto& stars : out.stars)
+    if (stars.lengths != set.lengths) return ::testing::AssertionFailure() << "other predicates";
+  for (std::size_t k = 0; k < set.nodes.size(); ++k) {
+    const auto& expected = set.rings.neighbours[k];
+    std::vector<std::int64_t> ring;
+    for (const std::int32_t b : expected) ring.push_back(b + 1);
+    if (set.rings.boundary[k]) ring.back() = -ring.back();
+    if (ring != out.ring[k]) return ::testing::AssertionFailure() << "ring of node " << k + 1 << " differs";
+  }
+  return ::testing::AssertionSuccess();
+}
+
+// ---- all families, all configurations ---------------------------------------------------------------
+
+const std::vector<std::string> kFamilies{
+    "random",   "single",        "fibonacci",  "icosahedral",   "latlon",   "reduced-gaussian",
+    "healpix",  "cubed-sphere",  "tripolar",   "ring",          "variable", "variable:1e6",
+    "clusters", "clusters:1e-6", "dense-cap",  "antipodal",     "cap",      "box",
+    "strip",    "pairs",         "hemisphere", "hemisphere-rim"};
+
+class Configurations : public ::testing::TestWithParam<Configuration> {};
+
+TEST_P(Configurations, GiveTheSerialRings) {
+  for (const std::string& family : kFamilies)
+    for (const std::size_t n : {12u, 30u, 500u}) {
+      const Set set(point_sets::make(family, n, n));
+      EXPECT_TRUE(is_serial(set, run<std::int32_t>(set.nodes, GetParam()))) << family << " " << n;
+    }
+}
+
+std::vector<Configuration> configurations() {
+  std::vector<Configuration> all;
+  for (const auto& [ranks, patches] : std::vector<std::pair<int, int>>{
+           {1, 1}, {1, 2}, {1, 7}, {2, 1}, {3, 1}, {4, 1}, {5, 2}, {7, 1}, {8, 2}, {16, 1}, {64, 1}})
+    for (const PartitionKind kind :
+         {PartitionKind::bisection, PartitionKind::stripes, PartitionKind::stripes_of_width})
+      for (const Brings brings : {Brings::slices, Brings::every_other, Brings::rank_0, Brings::home}) {
+        if (ranks == 1 && brings != Brings::slices) continue;
+        if (ranks == 64 && (brings == Brings::rank_0 || brings == Brings::slices)) continue;
+        all.push_back({ranks, patches, kind, brings});
+      }
+  return all;
+}
+INSTANTIATE_TEST_SUITE_P(All, Configurations, ::testing::ValuesIn(configurations()),
+                         [](const auto& info) { return name_of(info.param); });
+
+// ---- larger sets, where patches have an inside ------------------------------------------------------
+
+class Families : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Families, OfTwentyThousandNodesGiveTheSerialRings) {
+  const Set set(point_sets::make(GetParam(), GetParam() == "ring" ? 3000 : 20000, 5));
+  for (const Configuration c : {Configuration{1, 9, PartitionKind::bisection, Brings::slices},
+                                Configuration{4, 2, PartitionKind::stripes, Brings::every_other},
+                                Configuration{6, 1, PartitionKind::stripes_of_width, Brings::slices}})
+    EXPECT_TRUE(is_serial(set, run<std::int32_t>(set.nodes, c))) << name_of(c);
+}
+INSTANTIATE_TEST_SUITE_P(All, Families, ::testing::ValuesIn(kFamilies), [](const auto& info) {
+  std::string name = info.param;
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+  return name;
+});
+
+// ---- nasty sets -------------------------------------------------------------------------------------
+
+constexpr Configuration kFour{4, 1, PartitionKind::bisection, Brings::slices};
+constexpr Configuration kStripes64{1, 64, PartitionKind::stripes_of_width, Brings::slices};
+
+TEST(Nasty, PolesWithSixtyFourStripes) {
+  for (const char* family : {"random", "latlon", "fibonacci", "healpix"}) {
+    const Set set(point_sets::make(family, 1000, 2));
+    EXPECT_TRUE(is_serial(set, run<std::int32_t>(set.nodes, kStripes64))) << family;
+  }
+}
+
+TEST(Nasty, MoreRanksThanPoints) {
+  for (const std::size_t n : {3u, 4u, 5u, 7u}) {
+    const Set set(point_sets::make("random", n, 11));
+    for (const Brings brings : {Brings::slices, Brings::every_other, Brings::home})
+      EXPECT_TRUE(is_serial(set, run<std::int32_t>(set.nodes, {16, 1, PartitionKind::bisection, brings})))
+          << n;
+  }
+}
+
+TEST(Nasty, AVoidAsLargeAsAContinent) {
+  Nodes nodes;
+  for (const Point& p : point_sets::make("random", 6000, 3))
+    if (p.x < 0.6) nodes.push_back(p);
+  const Set set(nodes);
+  for (const int ranks : {2, 5, 8})
+    EXPECT_TRUE(
+        is_serial(set, run<std::int32_t>(set.nodes, {ranks, 2, PartitionKind::bisection, Brings::every_other})));
+}
+
+TEST(Nasty, AllNodesInOnePatchOfEqualWidth) {
+  Nodes nodes;
+  for (const Point& p : point_sets::make("random", 30000, 3))
+    if (p.x > 0 && std::fabs(p.y) < 0.1 * p.x) nodes.push_back(p);
+  const Set set(nodes);
+  EXPECT_TRUE(
+      is_serial(set, run<std::int32_t>(set.nodes, {8, 1, PartitionKind::stripes_of_width, Brings::slices})));
+}
+
+TEST(Nasty, NodesOnBordersOfPatches) {
+  Nodes nodes;  // an exact lattice: many nodes on every plane that cuts it
+  for (int x = -6; x <= 6; ++x)
+    for (int y = -6; y <= 6; ++y)
+      for (int z = -6; z <= 6; ++z)
+        if (std::gcd(std::gcd(x, y), z) == 1) nodes.push_back({double(x), double(y), double(z)});
+  const Set set(nodes);
+  EXPECT_EQ(set.lengths, Lengths::directions);
+  for (const PartitionKind kind : {PartitionKind::bisection, PartitionKind::stripes})
+    EXPECT_TRUE(is_serial(set, run<std::int32_t>(set.nodes, {5, 2, kind, Brings::slices})));
+}
+
+TEST(Nasty, LengthsThatHideANodeInOnePatchMakeAllUseDirections) {
+  Nodes nodes = point_sets::make("cap:1e-4", 3000, 1);
+  const double shorter = 1 - 5e-7;  // deep below its neighbours, within what counts as length 1
+  Point& p = nodes[1234];
+  p = {p.x * shorter, p.y * shorter, p.z * shorter};
+  const Set set(nodes);
+  EXPECT_EQ(set.lengths, Lengths::directions);
+  EXPECT_TRUE(
+      is_serial(set, run<std::int32_t>(set.nodes, {4, 2, PartitionKind::bisection, Brings::every_other})));
+}
+
+TEST(Nasty, RadiusOfTheEarthAndOfAnAtom) {
+  for (const double radius : {6371229.0, 1e-300, 1e300}) {
+    Nodes nodes = point_sets::make("random", 2000, 9);
+    for (Point& p : nodes) p = {p.x * radius, p.y * radius, p.z * radius};
+    const Set set(nodes);
+    EXPECT_TRUE(is_serial(set, run<std::int32_t>(set.nodes, kFour))) << radius;
+  }
+}
+
+// ---- what else comes back ---------------------------------------------------------------------------
+
+TEST(Coincident, EverySetIsFoundOnEveryRank) {
+  Nodes nodes = point_sets::make("random", 2000, 4);
+  nodes[1500] = nodes[20];
+  nodes[700] = nodes[20];
+  nodes[1999] = nodes[3];
+  const Outcome out = run<std::int32_t>(nodes, {4, 2, PartitionKind::bisection, Brings::every_other});
+  for (const auto& stars : out.stars) {
+    EXPECT_EQ(first_coincidence(stars.coincident).l, 21);
+    EXPECT_EQ(first_coincidence(stars.coincident).m, 701);
+    EXPECT_EQ(stars.coincident, out.stars[0].coincident);
+  }
+}
+
+TEST(Coincident, SameDirectionOnBothSidesOfABorder) {
+  // Multiples of the same vector: their rounded directions may differ by an ulp, across any border.
+  for (int seed = 1; seed <= 20; ++seed) {
+    Nodes nodes = point_sets::make("random", 400, static_cast<std::uint64_t>(seed));
+    const std::size_t n = nodes.size();
+    for (std::size_t i = 0; i < n; ++i) nodes.push_back({3 * nodes[i].x, 3 * nodes[i].y, 3 * nodes[i].z});
+    const Set set(nodes);
+    const Outcome out = run<std::int32_t>(nodes, {8, 4, PartitionKind::bisection, Brings::slices});
+    for (const auto& stars : out.stars) {
+      const auto expected = first_coincidence(set.coincident), found = first_coincidence(stars.coincident);
+      EXPECT_EQ(found.l, expected.l);
+      EXPECT_EQ(found.m, expected.m);
+    }
+  }
+}
+
+TEST(Neighbours, OutsideAreExactlyThoseNotBrought) {
+  const Set set(point_sets::make("random", 1500, 6));
+  for (const Brings brings : {Brings::home, Brings::every_other, Brings::rank_0}) {
+    const Configuration c{5, 2, PartitionKind::bisection, brings};
+    const Outcome out = run<std::int32_t>(set.nodes, c, true);
+    const Partition home(PartitionKind::bisection, c.ranks, set.nodes, set.nodes.size());
+    for (int r = 0; r < c.ranks; ++r) {
+      const auto is_mine = [&](std::size_t i) {
+        return brings == Brings::rank_0        ? r == 0
+               : brings == Brings::every_other ? static_cast<int>(i) % c.ranks == r
+                                               : home.owner(set.nodes[i]) == r;
+      };
+      std::map<std::int64_t, Point> expected;
+      for (std::size_t i = 0; i < set.nodes.size(); ++i)
+        if (is_mine(i))
+          for (const std::int32_t b : set.rings.neighbours[i])
+            if (!is_mine(static_cast<std::size_t>(b)))
+              expected[b + 1] = set.nodes[static_cast<std::size_t>(b)];
+      std::map<std::int64_t, Point> found;
+      for (const auto& o : out.stars[static_cast<std::size_t>(r)].outside) found[o.number] = o.point;
+      EXPECT_EQ(found.size(), out.stars[static_cast<std::size_t>(r)].outside.size());
+      EXPECT_EQ(found, expected) << name_of(c) << " rank " << r;
+    }
+  }
+}
+
+TEST(Numbers, BeyondThirtyTwoBits) {
+  const Set set(point_sets::make("hemisphere", 500, 8));
+  const std::int64_t far = std::int64_t{1} << 40;
+  std::vector<std::int64_t> numbers(set.nodes.size());
+  std::iota(numbers.begin(), numbers.end(), far + 1);
+  SingleProcess process;
+  LocalNodes local;
+  local.points = set.nodes.data();
+  local.count = set.nodes.size();
+  local.numbers = numbers.data();
+  ParallelOptions options;
+  options.patches = 3;
+  const Point corners[3] = {set.nodes[0], set.nodes[1], set.nodes[2]};
+  const auto stars = triangulate<std::int64_t>(local, corners, {far + 1, far + 2, far + 3}, process, options);
+  Outcome out;
+  out.stars.resize(1);
+  out.stars[0].lengths = stars.lengths;
+  for (std::size_t i = 0; i < local.count; ++i) {
+    auto& ring =
+        out.ring.emplace_back(stars.of_node[i].begin, stars.of_node[i].begin + stars.of_node[i].count);
+    for (std::int64_t& b : ring) b += b < 0 ? far : -far;
+  }
+  EXPECT_TRUE(is_serial(set, out));
+}
+
+TEST(GivingUp, WhereThereAreTooManyQuestions) {
+  const Set set(point_sets::make("ring", 3000, 1));
+  SingleProcess process;
+  LocalNodes local;
+  local.points = set.nodes.data();
+  local.count = set.nodes.size();
+  ParallelOptions options;
+  options.patches = 4;
+  options.most_questions = 100;
+  const Point corners[3] = {set.nodes[0], set.nodes[1], set.nodes[2]};
+  EXPECT_TRUE(triangulate<std::int32_t>(local, corners, {1, 2, 3}, process, options).gave_up);
+}
+
+// ---- the partition ----------------------------------------------------------------------------------
+
+TEST(Partitions, HaloIsWhatIsKnownAndBallsAreJudgedSafely) {
+  for (const PartitionKind kind :
+       {PartitionKind::bisection, PartitionKind::stripes, PartitionKind::stripes_of_width})
+    for (const char* family : {"random", "variable:1e6", "clusters", "latlon", "cap"}) {
+      const Nodes nodes = point_sets::make(family, 4000, 1);
+      for (const int patches : {1, 2, 3, 13, 64}) {
+        const Partition partition(kind, patches, nodes, nodes.size());
+        ASSERT_EQ(partition.patches(), patches);
+        std::vector<std::uint32_t> owners(nodes.size());
+        partition.owners(nodes.data(), nodes.size(), owners.data());
+        std::vector<int> scratch;
+        for (std::size_t i = 0; i < nodes.size(); i += 7) {
+          const Point& x = nodes[i];
+          const int owner = partition.owner(x);
+          ASSERT_EQ(static_cast<int>(owners[i]), owner);
+          ASSERT_LE(partition.distance(owner, x), 1e-12);
+          std::vector<bool> in_halo(static_cast<std::size_t>(patches), false);
+          partition.for_each_halo(x, owner, scratch, [&](int q) {
+            ASSERT_FALSE(in_halo[static_cast<std::size_t>(q)]) << "twice";
+            in_halo[static_cast<std::size_t>(q)] = true;
+          });
+          for (int q = 0; q < patches; ++q)
+            ASSERT_EQ(partition.knows(q, x), q == owner || in_halo[static_cast<std::size_t>(q)])
+                << family << ", partition " << static_cast<int>(kind) << ", patch " << q << " of " << patches;
+          // A ball around it: every node in it that the patch does not know belongs to a stranger.
+          const Ball ball{x, 0.2};
+          std::vector<int> strangers;
+          partition.strangers(owner, ball, strangers);
+          for (std::size_t j = 0; j < nodes.size(); j += 3) {
+            const double dx = nodes[j].x - x.x, dy = nodes[j].y - x.y, dz = nodes[j].z - x.z;
+            if (dx * dx + dy * dy + dz * dz > 0.2 * 0.2 || partition.knows(owner, nodes[j])) continue;
+            ASSERT_NE(std::find(strangers.begin(), strangers.end(), partition.owner(nodes[j])),
+                      strangers.end());
+          }
+        }
+      }
+    }
+}
+
+TEST(Partitions, BisectionIsBalancedWhateverTheDensity) {
+  for (const char* family : {"random", "variable:1e6", "clusters", "dense-cap", "cap"}) {
+    const Nodes nodes = point_sets::make(family, 20000, 1);
+    const Partition partition(PartitionKind::bisection, 13, nodes, nodes.size());
+    std::vector<std::size_t> count(13);
+    for (const Point& x : nodes) ++count[static_cast<std::size_t>(partition.owner(x))];
+    EXPECT_LE(*std::max_element(count.begin(), count.end()), 20000 / 13 + 5) << family;
+  }
+}
+
+}  // namespace

@@ -1,0 +1,152 @@
+// Comm mode: the program's own calls of TRMESH become collective, and give the same bytes.
+
+#include <array>
+#include <thread>
+#include <vector>
+
+#include "capi/pstripack_mpi.h"
+#include "mpi_test.h"
+#include "point_sets.h"
+#include "support/child.h"
+#include "support/expect.h"
+#include "support/trmesh.h"
+
+namespace {
+
+Mesh trmesh_r4(const Nodes& nodes) {
+  const Columns c(nodes);
+  const std::vector<float> x(c.x.begin(), c.x.end()), y(c.y.begin(), c.y.end()), z(c.z.begin(), c.z.end());
+  Mesh m;
+  m.list.assign(6 * nodes.size() - 12, untouched);
+  m.lptr = m.list;
+  m.lend.assign(nodes.size(), untouched);
+  m.lnew = untouched;
+  m.ier = pstripack_trmesh_r4(static_cast<std::int32_t>(nodes.size()), x.data(), y.data(), z.data(),
+                              m.list.data(), m.lptr.data(), m.lend.data(), &m.lnew);
+  return m;
+}
+
+/// Comm mode for the life of a test.
+class CommMode {
+ public:
+  explicit CommMode(MPI_Comm comm = MPI_COMM_WORLD) : code_(pstripack_set_comm(comm)) {}
+  ~CommMode() { pstripack_set_comm(MPI_COMM_NULL); }
+  CommMode(const CommMode&) = delete;
+  CommMode& operator=(const CommMode&) = delete;
+  int code() const { return code_; }
+
+ private:
+  const int code_;
+};
+
+TEST(CommMode, GivesTheSameBytes) {
+  for (const char* family : {"random", "latlon", "cap", "hemisphere-rim", "ring"})
+    for (const std::size_t n : {5, 1000}) {
+      const Nodes nodes = point_sets::make(family, n);
+      const Mesh expected = trmesh(nodes), single = trmesh_r4(nodes);
+      const CommMode mode;
+      ASSERT_EQ(mode.code(), 0);
+      EXPECT_TRUE(trmesh(nodes) == expected) << family;
+      EXPECT_TRUE(trmesh_r4(nodes) == single) << family;
+    }
+}
+
+TEST(CommMode, IsCollectiveOnlyWhileItIsSet) {
+  const Nodes nodes = point_sets::make("random", 200);
+  const Mesh expected = trmesh(nodes);
+  { const CommMode mode; }
+  if (rank_of() == 0) {
+    EXPECT_TRUE(trmesh(nodes) == expected);
+  }
+  MPI_Barrier(MPI_COMM_WORLD);
+}
+
+TEST(CommMode, WorksOnPartsOfTheWorldWithDataOfTheirOwn) {
+  const int colour = rank_of() % 3 == 2 ? MPI_UNDEFINED : rank_of() % 3;
+  MPI_Comm part;
+  MPI_Comm_split(MPI_COMM_WORLD, colour, -rank_of(), &part);
+  const Nodes nodes = point_sets::make("random", static_cast<std::size_t>(300 + rank_of() % 3));
+  const Mesh expected = trmesh(nodes);
+  {
+    const CommMode mode(part);  // MPI_COMM_NULL on every third rank: it goes on alone
+    ASSERT_EQ(mode.code(), 0);
+    for (int calls = 0; calls <= rank_of() % 3; ++calls) EXPECT_TRUE(trmesh(nodes) == expected);
+  }
+  if (part != MPI_COMM_NULL) MPI_Comm_free(&part);
+}
+
+TEST(CommMode, IsReplacedByAnotherCommunicator) {
+  const Nodes nodes = point_sets::make("random", 100 + 10 * static_cast<std::size_t>(rank_of()));
+  const Mesh expected = trmesh(nodes);
+  const CommMode world;
+  ASSERT_EQ(pstripack_set_comm_f(MPI_Comm_c2f(MPI_COMM_SELF)), 0);
+  EXPECT_TRUE(trmesh(nodes) == expected);
+}
+
+TEST(CommMode, RanksThatDisagreeAreToldSoAndNothingIsWritten) {
+  if (size_of() < 2) GTEST_SKIP() << "nobody to disagree with";
+  const CommMode mode;
+  Nodes nodes = point_sets::make("random", 100);
+  if (rank_of() == size_of() - 1) nodes[50].x = -nodes[50].x;
+  const Mesh data = trmesh(nodes);
+  EXPECT_EQ(data.ier, PSTRIPACK_RANKS_DISAGREE);
+  EXPECT_TRUE(is_untouched(data));
+  nodes = point_sets::make("random", rank_of() == 0 ? 99 : 100);
+  const Mesh count = trmesh(nodes);
+  EXPECT_EQ(count.ier, PSTRIPACK_RANKS_DISAGREE);
+  EXPECT_TRUE(is_untouched(count));
+}
+
+TEST(CommMode, KnowsTheOtherCodes) {
+  const CommMode mode;
+  Nodes nodes = point_sets::make("random", 100);
+  EXPECT_EQ(trmesh(Nodes(nodes.begin(), nodes.begin() + 2)).ier, PSTRIPACK_TOO_FEW_NODES);
+  nodes[70] = nodes[30];
+  EXPECT_EQ(trmesh(nodes).ier, 31);
+  nodes[60] = {0, 0, 0};
+  const Mesh bad = trmesh(nodes);
+  EXPECT_EQ(bad.ier, PSTRIPACK_BAD_COORDINATE);
+  EXPECT_TRUE(is_untouched(bad));
+  nodes = point_sets::make("random", 100);
+  nodes[2] = nodes[0];
+  EXPECT_EQ(trmesh(nodes).ier, PSTRIPACK_COLLINEAR);
+}
+
+TEST(CommMode, RefusesWhatIsNoIntraCommunicatorAndKeepsTheOneBefore) {
+  const CommMode mode;
+  MPI_Comm freed;
+  MPI_Comm_dup(MPI_COMM_WORLD, &freed);
+  const MPI_Comm handle = freed;
+  MPI_Comm_free(&freed);
+  EXPECT_EQ(pstripack_set_comm(handle), PSTRIPACK_BAD_COMM);
+  EXPECT_EQ(pstripack_set_comm_f(-1), PSTRIPACK_BAD_COMM);
+  if (size_of() < 2) return;
+  const Mesh different = trmesh(point_sets::make("random", 50 + static_cast<std::size_t>(rank_of())));
+  EXPECT_EQ(different.ier, PSTRIPACK_RANKS_DISAGREE) << "not collective any more";
+}
+
+TEST(CommMode, ForkedChildrenAndOtherThreadsGoOnAlone) {
+  const Nodes nodes = point_sets::make("random", 300);
+  const Mesh expected = trmesh(nodes);
+  const CommMode mode;
+  if (rank_of() == 0) {
+    EXPECT_EQ(in_child([&] { return trmesh(nodes) == expected ? 0 : 1; }), 0);
+    Mesh in_thread;
+    std::thread([&] { in_thread = trmesh(nodes); }).join();
+    EXPECT_TRUE(in_thread == expected);
+  }
+  EXPECT_TRUE(trmesh(nodes) == expected);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const Nodes nodes = point_sets::make("random", 400);
+  const Mesh expected = trmesh(nodes);
+  if (pstripack_set_comm(MPI_COMM_WORLD) != PSTRIPACK_BAD_COMM) return 1;  // MPI is not initialised
+  const int code = run_on_every_rank(argc, argv, [] { pstripack_set_comm(MPI_COMM_WORLD); });
+  if (!(trmesh(nodes) == expected)) return 2;  // MPI_Finalize has ended comm mode
+  if (pstripack_set_comm(MPI_COMM_WORLD) != PSTRIPACK_BAD_COMM) return 3;
+  if (pstripack_set_comm(MPI_COMM_NULL) != 0) return 4;
+  return code;
+}

@@ -1,0 +1,219 @@
+// The group of ranks over MPI: every byte arrives, whatever the sizes; failures are the same on every rank.
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <ctime>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "failing_allocation.h"
+#include "mpi/mpi_communicator.h"
+#include "mpi_test.h"
+
+namespace {
+
+using pstripack::AgreedFailure;
+using pstripack::Buffer;
+using pstripack::Failure;
+using pstripack::MpiCommunicator;
+using pstripack::Parcels;
+
+const std::size_t kLimits[] = {1, 7, 64, MpiCommunicator::kLongestMessage};
+
+/// What rank `from` sends to rank `to`, known to both.
+std::vector<unsigned char> message(int from, int to, int round) {
+  const unsigned seed = 7919u * static_cast<unsigned>(from) + 104729u * static_cast<unsigned>(to) +
+                        1299709u * static_cast<unsigned>(round);
+  const std::size_t sizes[] = {0, 1, 2, 63, 64, 65, 0, 700, 5000};
+  std::vector<unsigned char> bytes(sizes[(seed >> 3) % std::size(sizes)]);
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<unsigned char>(seed + 31 * i);
+  return bytes;
+}
+
+Parcels parcels_of(const std::vector<std::vector<unsigned char>>& messages) {
+  Parcels parcels;
+  parcels.begin.push_back(0);
+  for (const auto& m : messages) parcels.begin.push_back(parcels.begin.back() + m.size());
+  parcels.bytes = Buffer<unsigned char>(parcels.begin.back());
+  for (std::size_t r = 0; r < messages.size(); ++r)
+    std::copy(messages[r].begin(), messages[r].end(), parcels.bytes.data() + parcels.begin[r]);
+  return parcels;
+}
+
+std::vector<unsigned char> parcel(const Parcels& parcels, int r) {
+  const auto k = static_cast<std::size_t>(r);
+  return {parcels.bytes.data() + parcels.begin[k], parcels.bytes.data() + parcels.begin[k + 1]};
+}
+
+TEST(Communicator, ExchangeDeliversEveryByte) {
+  for (const std::size_t limit : kLimits) {
+    MpiCommunicator ranks(MPI_COMM_WORLD, limit);
+    for (int round = 0; round < (limit == 1 ? 3 : 20); ++round) {
+      std::vector<std::vector<unsigned char>> mine;
+      for (int r = 0; r < ranks.size(); ++r) mine.push_back(message(ranks.rank(), r, round));
+      const Parcels incoming = ranks.exchange(parcels_of(mine));
+      for (int r = 0; r < ranks.size(); ++r)
+        ASSERT_EQ(parcel(incoming, r), message(r, ranks.rank(), round)) << "from " << r;
+    }
+  }
+}
+
+TEST(Communicator, GathersTheBytesOfAllRanks) {
+  for (const std::size_t limit : kLimits) {
+    MpiCommunicator ranks(MPI_COMM_WORLD, limit);
+    for (int round = 0; round < (limit == 1 ? 3 : 20); ++round) {
+      const auto mine = message(ranks.rank(), 0, round);
+      const Parcels all = ranks.all_gather(mine.data(), mine.size());
+      for (int r = 0; r < ranks.size(); ++r) ASSERT_EQ(parcel(all, r), message(r, 0, round));
+      const std::int64_t* const sizes = ranks.all_gather_one(static_cast<std::int64_t>(mine.size()));
+      for (int r = 0; r < ranks.size(); ++r)
+        ASSERT_EQ(sizes[r], static_cast<std::int64_t>(message(r, 0, round).size()));
+    }
+  }
+}
+
+TEST(Communicator, BroadcastsScattersAndGathers) {
+  for (const std::size_t limit : kLimits) {
+    MpiCommunicator ranks(MPI_COMM_WORLD, limit);
+    for (int root = 0; root < ranks.size(); ++root) {
+      std::vector<unsigned char> bytes(1000, static_cast<unsigned char>(ranks.rank()));
+      ranks.broadcast(bytes.data(), bytes.size(), root);
+      ASSERT_EQ(bytes, std::vector<unsigned char>(1000, static_cast<unsigned char>(root)));
+
+      std::vector<std::vector<unsigned char>> messages;
+      for (int r = 0; r < ranks.size(); ++r) messages.push_back(message(root, r, root));
+      const Parcels all = parcels_of(messages);
+      const auto& expected = messages[static_cast<std::size_t>(ranks.rank())];
+      std::vector<unsigned char> one(expected.size()), two(expected.size());
+      const bool is_root = ranks.rank() == root;
+      const auto begin = is_root ? all.begin : std::vector<std::size_t>();
+      ranks.start_scatter(is_root ? all.bytes.data() : nullptr, begin, one.data(), one.size(), root);
+      ranks.start_scatter(is_root ? all.bytes.data() : nullptr, begin, two.data(), two.size(), root);
+      ranks.finish();
+      ASSERT_EQ(one, expected);
+      ASSERT_EQ(two, expected);
+
+      std::vector<unsigned char> gathered(is_root ? all.bytes.size() : 0);
+      ranks.start_gather(one.data(), one.size(), gathered.data(), begin, root);
+      ranks.finish();
+      if (is_root) {
+        ASSERT_TRUE(std::equal(gathered.begin(), gathered.end(), all.bytes.begin(), all.bytes.end()));
+      }
+    }
+  }
+}
+
+TEST(Communicator, FindsTheSmallestOfEachValue) {
+  MpiCommunicator ranks(MPI_COMM_WORLD);
+  std::int64_t values[] = {ranks.rank() + 5, -ranks.rank(), INT64_MAX, INT64_MIN + ranks.rank()};
+  ranks.all_min(values, std::size(values));
+  EXPECT_EQ(values[0], 5);
+  EXPECT_EQ(values[1], 1 - ranks.size());
+  EXPECT_EQ(values[2], INT64_MAX);
+  EXPECT_EQ(values[3], INT64_MIN);
+}
+
+TEST(Communicator, CountsWhatItSends) {
+  MpiCommunicator ranks(MPI_COMM_WORLD);
+  std::vector<std::vector<unsigned char>> messages(static_cast<std::size_t>(ranks.size()),
+                                                   std::vector<unsigned char>(10));
+  ranks.exchange(parcels_of(messages));
+  EXPECT_EQ(ranks.bytes_sent, 10 * (ranks.size() - 1));
+}
+
+/// The n-th allocation fails on one rank, for every n: -6 on all ranks, and the next call works.
+TEST(Communicator, MemoryThatFailsOnOneRankFailsOnAll) {
+  for (int culprit = 0; culprit < size_of(); ++culprit) {
+    bool failed = true;
+    for (long n = 1; failed; ++n) {
+      MpiCommunicator ranks(MPI_COMM_WORLD);
+      std::vector<std::vector<unsigned char>> mine;
+      for (int r = 0; r < ranks.size(); ++r) mine.push_back(message(ranks.rank(), r, 1));
+      const Parcels outgoing = parcels_of(mine);
+      std::int64_t code = 0;
+      {
+        const FailingAllocation memory(ranks.rank() == culprit ? n : 0);
+        try {
+          ranks.exchange(outgoing);
+          ranks.all_gather(outgoing.bytes.data(), outgoing.bytes.size());
+          MpiCommunicator another(MPI_COMM_WORLD);
+        } catch (const AgreedFailure& failure) {
+          code = failure.code;
+        }
+      }
+      std::int64_t codes[] = {code, -code};
+      ranks.all_min(codes, 2);
+      ASSERT_EQ(codes[0], -codes[1]) << "the ranks disagree";
+      ASSERT_TRUE(code == 0 || code == -6);
+      failed = code != 0;
+      ASSERT_EQ(parcel(ranks.exchange(outgoing), 0), message(0, ranks.rank(), 1));
+    }
+  }
+}
+
+std::int32_t code_of_communicator(MPI_Comm comm) {
+  try {
+    MpiCommunicator ranks(comm);
+    return 0;
+  } catch (const Failure& failure) {
+    return failure.code;
+  } catch (const AgreedFailure& failure) {
+    return failure.code;
+  }
+}
+
+TEST(Communicator, RefusesWhatIsNoIntraCommunicator) {
+  EXPECT_EQ(code_of_communicator(MPI_COMM_NULL), -8);
+
+  MPI_Comm freed;
+  MPI_Comm_dup(MPI_COMM_WORLD, &freed);
+  const MPI_Comm handle = freed;
+  MPI_Comm_free(&freed);
+  EXPECT_EQ(code_of_communicator(handle), -8);
+  EXPECT_EQ(code_of_communicator(MPI_Comm_f2c(-1)), -8);
+  EXPECT_EQ(code_of_communicator(MPI_Comm_f2c(12345678)), -8);
+
+  if (size_of() > 1) {
+    MPI_Comm half, inter;
+    const int colour = rank_of() % 2;
+    MPI_Comm_split(MPI_COMM_WORLD, colour, 0, &half);
+    MPI_Intercomm_create(half, 0, MPI_COMM_WORLD, 1 - colour, 1, &inter);
+    EXPECT_EQ(code_of_communicator(inter), -8);
+    EXPECT_EQ(code_of_communicator(half), 0);
+    MPI_Comm_free(&inter);
+    MPI_Comm_free(&half);
+  }
+}
+
+TEST(Communicator, LeavesTheErrorHandlersOfTheProgramAlone) {
+  EXPECT_EQ(code_of_communicator(MPI_COMM_NULL), -8);
+  EXPECT_EQ(code_of_communicator(MPI_COMM_WORLD), 0);
+  for (const MPI_Comm comm : {MPI_COMM_WORLD, MPI_COMM_SELF}) {
+    MPI_Errhandler handler;
+    MPI_Comm_get_errhandler(comm, &handler);
+    EXPECT_EQ(handler, MPI_ERRORS_ARE_FATAL);
+    MPI_Errhandler_free(&handler);
+  }
+}
+
+double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+TEST(Communicator, WaitsWithoutBurningAProcessor) {
+  if (size_of() < 2) GTEST_SKIP() << "nobody to wait for";
+  MpiCommunicator ranks(MPI_COMM_WORLD);
+  std::int64_t value = 0;
+  ranks.all_min(&value, 1);
+  const double before = processor_seconds();
+  if (ranks.rank() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  ranks.all_min(&value, 1);
+  EXPECT_LT(processor_seconds() - before, 0.15);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int code = run_on_every_rank(argc, argv, [] {});
+  return code != 0 || code_of_communicator(MPI_COMM_WORLD) != -8;  // MPI is finalised
+}

@@ -1,0 +1,319 @@
+// Distributed meshes: whatever the distribution of the points, their stars are those of the serial lists.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "capi/pstripack_mpi.h"
+#include "mpi_test.h"
+#include "point_sets.h"
+#include "support/expect.h"
+#include "support/trmesh.h"
+
+namespace {
+
+using Number = std::function<std::int64_t(std::size_t)>;  // of the node (from 0)
+std::int64_t from_one(std::size_t i) { return static_cast<std::int64_t>(i) + 1; }
+std::int64_t huge(std::size_t i) { return (static_cast<std::int64_t>(i) + 1) * (std::int64_t{1} << 40) + 5; }
+
+class OfMesh {
+ public:
+  explicit OfMesh(MPI_Comm comm = MPI_COMM_WORLD) { EXPECT_EQ(pstripack_mesh_create(comm, &mesh_), 0); }
+  ~OfMesh() { pstripack_mesh_free(mesh_); }
+  OfMesh(const OfMesh&) = delete;
+  OfMesh& operator=(const OfMesh&) = delete;
+  operator pstripack_mesh*() const { return mesh_; }
+
+ private:
+  pstripack_mesh* mesh_ = nullptr;
+};
+
+/// The nodes of this rank (from 0), in the order in which they are passed in.
+struct Distribution {
+  const char* name;
+  std::function<int(std::size_t node, std::size_t nodes)> rank_of_node;
+  bool reversed;
+};
+const std::vector<Distribution>& distributions() {
+  static const std::vector<Distribution> all = {
+      {"slices", [](std::size_t i, std::size_t n) { return int(i * std::size_t(size_of()) / n); }, false},
+      {"slices, last first",
+       [](std::size_t i, std::size_t n) { return size_of() - 1 - int(i * std::size_t(size_of()) / n); },
+       true},
+      {"round robin", [](std::size_t i, std::size_t) { return int(i % std::size_t(size_of())); }, false},
+      {"all on one rank", [](std::size_t, std::size_t) { return size_of() - 1; }, true},
+      {"scattered",
+       [](std::size_t i, std::size_t) { return int(i * 2654435761u % 1009 % std::size_t(size_of())); },
+       true}};
+  return all;
+}
+std::vector<std::size_t> nodes_here(const Distribution& d, std::size_t n) {
+  std::vector<std::size_t> mine;
+  for (std::size_t i = 0; i < n; ++i)
+    if (d.rank_of_node(i, n) == rank_of()) mine.push_back(i);
+  if (d.reversed) std::reverse(mine.begin(), mine.end());
+  return mine;
+}
+
+int triangulate(pstripack_mesh* mesh, const Nodes& nodes, const std::vector<std::size_t>& mine,
+                const Number& number) {
+  std::vector<double> xyz;
+  std::vector<std::int64_t> numbers;
+  for (const std::size_t i : mine) {
+    xyz.insert(xyz.end(), {nodes[i].x, nodes[i].y, nodes[i].z});
+    numbers.push_back(number(i));
+  }
+  return pstripack_mesh_triangulate(mesh, static_cast<std::int64_t>(mine.size()), xyz.data(), numbers.data());
+}
+
+struct Sizes {
+  explicit Sizes(const pstripack_mesh* mesh) {
+    pstripack_mesh_sizes(mesh, &points, &arcs, &triangles, &halo);
+  }
+  std::int64_t points, arcs, triangles, halo;
+};
+
+std::int64_t sum(std::int64_t value) {
+  MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
+  return value;
+}
+
+/// Everything that a mesh tells of this rank's part, against the serial lists.
+void check_part(const pstripack_mesh* mesh, const Nodes& nodes, const std::vector<std::size_t>& mine,
+                const Number& number, const Rings& rings) {
+  const Sizes sizes(mesh);
+  ASSERT_EQ(sizes.points, static_cast<std::int64_t>(mine.size()));
+  std::map<std::int64_t, std::size_t> node_of;
+  for (std::size_t i = 0; i < nodes.size(); ++i) node_of[number(i)] = i;
+
+  std::vector<std::int64_t> begin(mine.size() + 1), neighbour(static_cast<std::size_t>(sizes.arcs));
+  pstripack_mesh_stars(mesh, begin.data(), neighbour.data());
+  ASSERT_EQ(begin.back(), sizes.arcs);
+  std::set<std::int64_t> outside;
+  const std::set<std::size_t> own(mine.begin(), mine.end());
+  for (std::size_t i = 0; i < mine.size(); ++i) {
+    std::vector<std::int64_t> expected;
+    for (const std::int32_t k : rings.neighbours[mine[i]]) {
+      expected.push_back(number(static_cast<std::size_t>(k)));
+      if (own.count(static_cast<std::size_t>(k)) == 0) outside.insert(expected.back());
+    }
+    if (rings.boundary[mine[i]]) expected.back() = -expected.back();
+    ASSERT_EQ(std::vector<std::int64_t>(neighbour.begin() + begin[i], neighbour.begin() + begin[i + 1]),
+              expected)
+        << "node " << mine[i];
+  }
+
+  std::vector<std::int64_t> halo(static_cast<std::size_t>(sizes.halo));
+  std::vector<double> xyz(3 * halo.size());
+  pstripack_mesh_halo(mesh, halo.data(), xyz.data());
+  ASSERT_EQ(halo, std::vector<std::int64_t>(outside.begin(), outside.end()));
+  for (std::size_t i = 0; i < halo.size(); ++i) {
+    const auto& p = nodes[node_of.at(halo[i])];
+    ASSERT_TRUE(xyz[3 * i] == p.x && xyz[3 * i + 1] == p.y && xyz[3 * i + 2] == p.z);
+  }
+
+  std::vector<std::int64_t> local_begin(begin.size());
+  std::vector<std::int32_t> local(neighbour.size());
+  ASSERT_EQ(pstripack_mesh_local_stars(mesh, local_begin.data(), local.data()), 0);
+  ASSERT_EQ(local_begin, begin);
+  for (std::size_t k = 0; k < local.size(); ++k) {
+    const auto at = static_cast<std::size_t>(std::abs(local[k])) - 1;
+    const std::int64_t global = at < mine.size() ? number(mine[at]) : halo[at - mine.size()];
+    ASSERT_EQ(local[k] < 0 ? -global : global, neighbour[k]);
+  }
+
+  Faces faces;
+  std::vector<std::int64_t> corner(3 * static_cast<std::size_t>(sizes.triangles));
+  pstripack_mesh_triangles(mesh, corner.data());
+  for (std::size_t t = 0; t < corner.size(); t += 3) {
+    std::array<std::int32_t, 3> face;
+    for (std::size_t i = 0; i < 3; ++i) face[i] = static_cast<std::int32_t>(node_of.at(corner[t + i]));
+    ASSERT_EQ(own.count(static_cast<std::size_t>(face[0])), 1u);
+    ASSERT_TRUE(face[0] < face[1] && face[0] < face[2]);
+    faces.push_back(face);
+  }
+  std::sort(faces.begin(), faces.end());
+  const Faces all = faces_of(rings);
+  ASSERT_TRUE(std::includes(all.begin(), all.end(), faces.begin(), faces.end()));
+}
+
+/// Collective, whatever fails on this rank.
+void check(const pstripack_mesh* mesh, const Nodes& nodes, const std::vector<std::size_t>& mine,
+           const Number& number, const Rings& rings) {
+  check_part(mesh, nodes, mine, number, rings);
+  EXPECT_EQ(sum(Sizes(mesh).triangles), static_cast<std::int64_t>(faces_of(rings).size()));
+}
+
+Rings serial_rings(const Nodes& nodes) {
+  const Mesh serial = trmesh(nodes);
+  EXPECT_EQ(serial.ier, 0);
+  return rings_of(serial).value();
+}
+
+TEST(DistributedMesh, StarsAreThoseOfTheSerialLists) {
+  OfMesh mesh;
+  for (const char* family : {"random", "latlon", "clusters", "hemisphere", "healpix", "box"})
+    for (const std::size_t n : {8, 300}) {
+      const Nodes nodes = point_sets::make(family, n);
+      const Rings rings = serial_rings(nodes);
+      for (const auto& d : distributions()) {
+        SCOPED_TRACE(std::string(family) + ", " + std::to_string(n) + ", " + d.name);
+        const auto mine = nodes_here(d, nodes.size());
+        ASSERT_EQ(triangulate(mesh, nodes, mine, from_one), 0);
+        check(mesh, nodes, mine, from_one, rings);
+      }
+    }
+}
+
+TEST(DistributedMesh, NumbersMayHaveSixtyFourBits) {
+  OfMesh mesh;
+  const Nodes nodes = point_sets::make("random", 200, 4);
+  const Rings rings = serial_rings(nodes);
+  for (const auto& d : distributions()) {
+    SCOPED_TRACE(d.name);
+    const auto mine = nodes_here(d, nodes.size());
+    ASSERT_EQ(triangulate(mesh, nodes, mine, huge), 0);
+    check(mesh, nodes, mine, huge, rings);
+    EXPECT_EQ(pstripack_mesh_gather(mesh, -1, nullptr, nullptr, nullptr, nullptr), PSTRIPACK_BAD_NUMBER);
+  }
+}
+
+TEST(DistributedMesh, GathersTheCanonicalLists) {
+  OfMesh mesh;
+  for (const char* family : {"random", "hemisphere"}) {
+    const Nodes nodes = point_sets::make(family, 300, 6);
+    const Mesh serial = trmesh(nodes);
+    for (const auto& d : distributions())
+      for (const int root : {-1, 0, size_of() - 1}) {
+        ASSERT_EQ(triangulate(mesh, nodes, nodes_here(d, nodes.size()), from_one), 0);
+        Mesh m = serial;
+        for (auto* array : {&m.list, &m.lptr, &m.lend}) std::fill(array->begin(), array->end(), untouched);
+        const bool here = root == -1 || root == rank_of();
+        ASSERT_EQ(
+            pstripack_mesh_gather(mesh, root, here ? m.list.data() : nullptr, here ? m.lptr.data() : nullptr,
+                                  here ? m.lend.data() : nullptr, here ? &m.lnew : nullptr),
+            0);
+        if (here) {
+          EXPECT_TRUE(m == serial) << family << ", " << d.name;
+        }
+      }
+  }
+}
+
+struct Failed {
+  int code;
+  std::int64_t first, second;
+};
+bool operator==(const Failed& a, const Failed& b) {
+  return a.code == b.code && a.first == b.first && a.second == b.second;
+}
+std::ostream& operator<<(std::ostream& out, const Failed& f) {
+  return out << f.code << " about " << f.first << ", " << f.second;
+}
+
+/// Of every distribution the same failure; then the mesh is empty.
+void expect_failure(const Nodes& nodes, const Number& number, const Failed& expected) {
+  OfMesh mesh;
+  for (const auto& d : distributions()) {
+    SCOPED_TRACE(d.name);
+    const auto good = point_sets::make("random", 20);
+    ASSERT_EQ(triangulate(mesh, good, nodes_here(d, good.size()), from_one), 0);
+    Failed f{triangulate(mesh, nodes, nodes_here(d, nodes.size()), number), 0, 0};
+    pstripack_mesh_error_points(mesh, &f.first, &f.second);
+    EXPECT_EQ(f, expected);
+    const Sizes sizes(mesh);
+    EXPECT_EQ(sizes.points + sizes.arcs + sizes.triangles + sizes.halo, 0);
+    EXPECT_EQ(pstripack_mesh_gather(mesh, 0, nullptr, nullptr, nullptr, nullptr), -3);
+  }
+}
+
+TEST(DistributedMesh, FailsAlikeOnEveryRank) {
+  const Nodes good = point_sets::make("random", 90, 8);
+  expect_failure({}, from_one, {PSTRIPACK_TOO_FEW_NODES, 0, 0});
+  expect_failure({good[0], good[1]}, from_one, {PSTRIPACK_TOO_FEW_NODES, 0, 0});
+
+  Nodes line;
+  for (int i = 0; i < 40; ++i) line.push_back(point_sets::from_degrees(9 * i, 0));
+  expect_failure(line, from_one, {PSTRIPACK_COLLINEAR, 0, 0});
+  expect_failure(Nodes(30, good[4]), from_one, {PSTRIPACK_COLLINEAR, 0, 0});
+  Nodes poles(30, {0, 0, 1});
+  for (std::size_t i = 0; i < 30; i += 3) poles[i] = {0, 0, -1};
+  expect_failure(poles, from_one, {PSTRIPACK_COLLINEAR, 0, 0});
+
+  Nodes bad = good;
+  bad[80].x = std::numeric_limits<double>::quiet_NaN();
+  bad[70] = {0, 0, 0};
+  expect_failure(bad, from_one, {PSTRIPACK_BAD_COORDINATE, 71, 0});
+  expect_failure(bad, huge, {PSTRIPACK_BAD_COORDINATE, huge(70), 0});
+
+  Nodes twice = good;
+  twice[33] = twice[11];
+  twice[44] = twice[33];
+  twice[22] = twice[21];
+  expect_failure(twice, from_one, {PSTRIPACK_COINCIDENT, 22, 23});
+  expect_failure(twice, huge, {PSTRIPACK_COINCIDENT, huge(21), huge(22)});
+
+  const auto with = [](std::size_t at, std::int64_t value, const Number& number) {
+    return [=](std::size_t i) { return i == at ? value : number(i); };
+  };
+  expect_failure(good, with(5, 0, from_one), {PSTRIPACK_BAD_NUMBER, 0, 0});
+  expect_failure(good, with(5, -7, huge), {PSTRIPACK_BAD_NUMBER, -7, 0});
+  expect_failure(good, with(5, 9, from_one), {PSTRIPACK_BAD_NUMBER, 9, 0});
+  expect_failure(good, with(0, 90, from_one), {PSTRIPACK_BAD_NUMBER, 90, 0});
+  expect_failure(good, with(60, huge(2), huge), {PSTRIPACK_BAD_NUMBER, huge(2), 0});
+}
+
+TEST(DistributedMesh, OnePointOffAGreatCircleIsEnough) {
+  OfMesh mesh;
+  Nodes nodes;
+  for (int i = 0; i < 40; ++i) nodes.push_back(point_sets::from_degrees(9 * i, 0));
+  nodes[25] = {0, 0, 1};
+  const Mesh serial = trmesh(nodes);
+  for (const auto& d : distributions()) {
+    ASSERT_EQ(triangulate(mesh, nodes, nodes_here(d, nodes.size()), from_one), 0) << d.name;
+    EXPECT_EQ(sum(Sizes(mesh).arcs), serial.ier == 0 ? serial.lnew - 1 : 38 + 2 * 39 + 40) << d.name;
+  }
+}
+
+TEST(DistributedMesh, RefusesCountsThatCannotBe) {
+  OfMesh mesh;
+  for (const std::int64_t n : {std::int64_t{-1}, std::int64_t{1} << 29}) {
+    const bool odd_one_out = rank_of() == size_of() - 1;
+    EXPECT_EQ(pstripack_mesh_triangulate(mesh, odd_one_out ? n : 0, nullptr, nullptr),
+              PSTRIPACK_TOO_MANY_NODES);
+  }
+}
+
+TEST(DistributedMesh, GatherRefusesRanksThatDoNotExist) {
+  OfMesh mesh;
+  const Nodes nodes = point_sets::make("random", 30);
+  ASSERT_EQ(triangulate(mesh, nodes, nodes_here(distributions()[0], nodes.size()), from_one), 0);
+  for (const int root : {-2, size_of()})
+    EXPECT_EQ(pstripack_mesh_gather(mesh, root, nullptr, nullptr, nullptr, nullptr), PSTRIPACK_BAD_COMM);
+}
+
+TEST(DistributedMesh, RefusesWhatIsNoIntraCommunicator) {
+  pstripack_mesh* mesh;
+  EXPECT_EQ(pstripack_mesh_create(MPI_COMM_NULL, &mesh), PSTRIPACK_BAD_COMM);
+  EXPECT_EQ(mesh, nullptr);
+  EXPECT_EQ(pstripack_mesh_create_f(-1, &mesh), PSTRIPACK_BAD_COMM);
+  EXPECT_EQ(mesh, nullptr);
+  pstripack_mesh_free(nullptr);
+}
+
+}  // namespace
+
+pstripack_mesh* outlives_mpi = nullptr;
+
+int main(int argc, char** argv) {
+  const int code =
+      run_on_every_rank(argc, argv, [] { pstripack_mesh_create(MPI_COMM_WORLD, &outlives_mpi); });
+  pstripack_mesh_free(outlives_mpi);
+  return code;
+}

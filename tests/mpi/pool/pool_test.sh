@@ -1,0 +1,359 @@
+#!/bin/sh
+# Tests of the pool: pool_test.sh CASE RANKS, with RUN, MODEL, MODEL_R4, CALLER, CALLER_MPI, SCVT, LIBRARY,
+# MPIEXEC and WORK in the environment. Each case compares with the same program started without pstripack-run.
+# shellcheck disable=SC2015,SC2016,SC2002,SC2094,SC2153,SC2154
+set -u
+job=
+trap 'status=$?; [ -z "$job" ] || kill "$job" 2> /dev/null; exit $status' EXIT
+case=$1 ranks=$2
+dir=$WORK/${case}_np$ranks
+rm -rf "$dir"
+mkdir -p "$dir"
+cd "$dir" || exit 1
+export PSTRIPACK_POOL_MIN_NODES=100
+caller=$(basename "$CALLER" | cut -c1-15)  # as the system names the process
+
+fail() {
+  echo "FAILED: $*"
+  for file in *.out *.err; do
+    [ -s "$file" ] && [ "$(wc -c < "$file")" -lt 20000 ] && { echo "--- $file"; cat "$file"; }
+  done
+  exit 1
+}
+
+# More ranks than processors, wherever the test runs.
+pool() { "$RUN" -n "$ranks" --oversubscribe -- "$@"; }
+
+# as_without NAME COMMAND...: the same stdout, stderr and exit code with the pool as without
+as_without() {
+  name=$1
+  shift
+  "$@" < /dev/null > "$name.alone.out" 2> "$name.alone.err"
+  alone=$?
+  pool "$@" < /dev/null > "$name.out" 2> "$name.err"
+  code=$?
+  [ $code -eq $alone ] || fail "$name: exit code $code, alone $alone"
+  cmp "$name.alone.out" "$name.out" || fail "$name: stdout differs"
+  # Programs that crash tell their addresses.
+  for file in "$name.alone.err" "$name.err"; do grep -v '^#' "$file" > "$file.text"; done
+  cmp "$name.alone.err.text" "$name.err.text" || fail "$name: stderr differs"
+}
+
+# The processes of the pool that was started as $job: those that know its name.
+processes() {
+  for environment in /proc/[0-9]*/environ; do
+    if tr '\0' '\n' 2> /dev/null < "$environment" | grep -q "^POOL_TEST=$dir\$"; then
+      pid=${environment#/proc/}
+      pid=${pid%/environ}
+      case $(cat "/proc/$pid/stat" 2> /dev/null) in *") Z "*) continue ;; esac
+      [ "$pid" = $$ ] || echo "$pid"
+    fi
+  done
+}
+
+# kill_rank RANK: at once
+kill_rank() {
+  victim=$(rank_pid "$1")
+  [ -n "$victim" ] || fail "rank $1 not found"
+  kill -9 "$victim" || fail "rank $1 not killed"
+}
+
+# The process id of a rank of the pool.
+rank_pid() {
+  for pid in $(processes); do
+    [ "$(cat "/proc/$pid/comm" 2> /dev/null)" = pstripack-worke ] || continue
+    tr '\0' '\n' 2> /dev/null < "/proc/$pid/environ" | grep -q "^OMPI_COMM_WORLD_RANK=$1\$" && echo "$pid"
+  done
+}
+
+named() {
+  for pid in $(processes); do
+    [ "$(cat "/proc/$pid/comm" 2> /dev/null)" = "$1" ] && echo "$pid"
+  done
+}
+
+no_orphan() {
+  for _ in 1 2 3 4 5 6 7 8 9 10; do
+    [ -z "$(named pstripack-worke)$(named pstripack-watch)$(named "$caller")" ] && return
+    sleep 0.5
+  done
+  for pid in $(processes); do cat "/proc/$pid/stat"; done
+  fail "a process is left"
+}
+
+# start COMMAND...: in the background, as $job; waits for what it says when it has begun
+start() {
+  begun=$1
+  shift
+  POOL_TEST=$dir
+  export POOL_TEST
+  : > job.out
+  "$RUN" -n "$ranks" --oversubscribe -- "$@" < /dev/null > job.out 2> job.err &
+  job=$!
+  waited=0
+  until grep -q "$begun" job.out; do
+    sleep 0.1
+    waited=$((waited + 1))
+    [ $waited -lt 200 ] || fail "the model has not begun"
+  done
+}
+
+# ends_within SECONDS: $code is then the exit code of $job
+ends_within() {
+  waited=0
+  while kill -0 "$job" 2> /dev/null; do
+    sleep 0.1
+    waited=$((waited + 1))
+    [ $waited -lt $(($1 * 10)) ] || fail "no end within $1 s"
+  done
+  wait "$job"
+  code=$?
+  job=
+  no_orphan
+}
+
+says() { grep -q "$1" job.err || fail "stderr does not say: $1"; }
+says_once() { [ "$(grep -c "$1" job.err)" -eq 1 ] || fail "stderr does not say once: $1"; }
+
+case $case in
+same_bytes)
+  for model in "$MODEL" "$MODEL_R4"; do
+    "$model" lists alone.bin 2> alone.err || fail "$model alone"
+    for partition in bisection stripes; do
+      PSTRIPACK_PARTITION=$partition pool "$model" lists pool.bin > model.out 2> model.err
+      code=$?
+      [ $code -eq 0 ] || fail "$model: exit code $code"
+      cmp alone.bin pool.bin || fail "$model: the lists differ"
+      cmp alone.err model.err || fail "$model: stderr differs"
+    done
+  done
+  [ ! -s model.out ] || fail "something was written to stdout"
+  ;;
+scvt)
+  for by in alone pool; do
+    [ $by = alone ] && run= || run=pool
+    $run "$SCVT" -n 2562 -i 4 -d bump -o $by | grep -v -e seconds -e wrote > $by.out || fail "scvt $by"
+  done
+  cmp alone_points.txt pool_points.txt || fail "the points differ"
+  cmp alone_triangles.txt pool_triangles.txt || fail "the triangles differ"
+  cmp alone.out pool.out || fail "stdout differs"
+  ;;
+input)
+  i=0
+  while [ $i -lt 3000 ]; do echo "line $i of the input"; i=$((i + 1)); done > input.txt
+  pool "$MODEL" echo < input.txt > file.out || fail "a file"
+  cmp input.txt file.out || fail "a file: not what went in"
+  cat input.txt | pool "$MODEL" echo > pipe.out || fail "a pipe"
+  cmp input.txt pipe.out || fail "a pipe: not what went in"
+  # A file can be read again from its beginning, and stays where the model has left it.
+  { pool sh -c 'read a; read b; echo "$b"'; read -r c; echo "$c"; } < input.txt > rest.out
+  printf 'line 1 of the input\nline 2 of the input\n' | cmp - rest.out || fail "the position in the file"
+  # Bytes, many of them.
+  head -c 3000000 /dev/urandom > bytes
+  pool cat < bytes | cmp - bytes || fail "bytes of a file"
+  cat bytes | pool cat > bytes.copy
+  cmp bytes bytes.copy || fail "bytes of a pipe"
+  ;;
+end_by_*)
+  as_without "${case#end_by_}" "$MODEL" "${case#end_by_}"
+  ;;
+never)
+  as_without never "$MODEL" never stop3
+  as_without not_ours sh -c 'echo "$PWD"; exit 7'
+  as_without at_once true
+  pool ./missing > missing.out 2> missing.err
+  [ $? -eq 127 ] || fail "a missing program: exit code"
+  grep -q 'missing: No such file' missing.err || fail "a missing program: message"
+  ;;
+signal)
+  as_without kill9 "$CALLER" kill 9
+  as_without segv "$CALLER" kill 11
+  ;;
+script)
+  # A script that starts one model after another: each uses the pool.
+  cat > script.sh << EOF
+"$MODEL" lists one.bin || exit 1
+"$CALLER" calls 5000 2 2> /dev/null || exit 2
+"$MODEL" lists two.bin || exit 3
+exit 4
+EOF
+  pool sh script.sh > script.out 2> script.err
+  [ $? -eq 4 ] || fail "exit code"
+  "$MODEL" lists alone.bin 2> /dev/null
+  cmp alone.bin one.bin && cmp alone.bin two.bin || fail "the lists differ"
+  grep -q '^pool$' script.out || fail "the pool was not used"
+  ;;
+other_machine)
+  # Rank 0 on another machine than pstripack-run, which it cannot reach: what mpirun hands through must do.
+  far() { "$MPIEXEC" --oversubscribe --bind-to none -n "$ranks" "$(dirname "$RUN")/pstripack-worker" "$@"; }
+  printf 'one\ntwo\n' | far sh -c 'cat; env | grep -c -e ^OMPI_ -e ^PMIX_; exit 3' > far.out 2> far.err
+  [ $? -eq 3 ] || fail "exit code"
+  printf 'one\ntwo\n0\n' | cmp - far.out || fail "input, output or environment"
+  far "$CALLER" kill 9 < /dev/null > kill.out 2> kill.err
+  [ $? -eq 137 ] || fail "exit code after a signal"
+  far "$CALLER" calls 5000 1 < /dev/null > calls.out 2> calls.err || fail "calls"
+  grep -q '^pool' calls.out || fail "the pool was not used"
+  ;;
+environment)
+  # The model's own is as without; the workers get ours.
+  export OMP_NUM_THREADS=2 PSTRIPACK_PARTITION=stripes
+  env | grep -v '^_=' | sort > alone.out
+  pool env | grep -v -e '^_=' -e '^PSTRIPACK_POOL=' | sort > pool.out
+  cmp alone.out pool.out || fail "the environments differ"
+  start pid "$CALLER" pause 5000 1
+  for variable in OMP_NUM_THREADS=2 PSTRIPACK_PARTITION=stripes; do
+    tr '\0' '\n' < "/proc/$(rank_pid 1)/environ" | grep -q "^$variable\$" ||
+      fail "$variable does not reach rank 1"
+  done
+  ends_within 20
+  [ $code -eq 0 ] || fail "exit code $code"
+  ;;
+own_mpi)
+  pool "$CALLER_MPI" mpi > mpi.out 2> mpi.err || fail "exit code"
+  printf 'size 1\nno pool MPI\n' | cmp - mpi.out || fail "stdout"
+  [ "$(grep -c 'pool: this program uses MPI itself' mpi.err)" -eq 1 ] || fail "it does not say so once"
+  ;;
+no_mpi)
+  # Neither without pstripack-run nor with it is MPI loaded into a program that does not ask for it.
+  "$CALLER" dlopen "$LIBRARY" > alone.out 2> alone.err || fail "dlopen alone"
+  printf 'no pool\n' | cmp - alone.out || fail "dlopen alone"
+  pool "$CALLER" dlopen "$LIBRARY" > dlopen.out 2> dlopen.err || fail "dlopen"
+  printf 'pool\n' | cmp - dlopen.out || fail "dlopen"
+  ;;
+fork | threads)
+  pool "$CALLER" "$case" > model.out 2> model.err || fail "exit code"
+  printf 'pool\n' | cmp - model.out || fail "stdout"
+  ;;
+small)
+  # A small call stays on the model's threads.
+  unset PSTRIPACK_POOL_MIN_NODES
+  pool "$CALLER" calls 10000 2 > small.out 2> small.err || fail "exit code"
+  grep -q '^no pool$' small.out || fail "it went to the pool"
+  ;;
+idle)
+  start pid "$CALLER" pause 5000 4
+  sleep 1
+  ticks() { awk '{ print $14 + $15 }' "/proc/$1/stat"; }
+  worker=$(rank_pid 1) steward=$(rank_pid 0)
+  worker_before=$(ticks "$worker") steward_before=$(ticks "$steward")
+  sleep 2
+  worker_ticks=$(($(ticks "$worker") - worker_before)) steward_ticks=$(($(ticks "$steward") - steward_before))
+  echo "in 2 s: worker $worker_ticks ticks, rank 0 $steward_ticks ticks of 0.01 s"
+  [ $worker_ticks -le 10 ] && [ $steward_ticks -le 10 ] || fail "an idle rank uses more than 5 % of a core"
+  ends_within 20
+  [ $code -eq 0 ] || fail "exit code $code"
+  ;;
+stopped)
+  start pid "$CALLER" pause 5000 2
+  worker=$(rank_pid 1)
+  kill -STOP "$worker"
+  sleep "${STOPPED_SECONDS:-4}"
+  grep -q 'done' job.out && fail "the call did not wait"
+  kill -CONT "$worker"
+  ends_within 20
+  [ $code -eq 0 ] || fail "exit code $code"
+  grep -q '^pool$' job.out || fail "the pool was not used"
+  ;;
+kill_idle)
+  last=$((ranks - 1))
+  start pid "$CALLER" pause 5000 60
+  sleep 0.5
+  kill_rank $last
+  ends_within 10
+  [ $code -ne 0 ] || fail "exit code 0"
+  says_once "pstripack: rank [0-9]* was lost"
+  says "rank $last was lost during its wait for a call"
+  ;;
+kill_during_call)
+  # At several times of a call.
+  for delay in 0.00 0.05 0.11; do
+    start 'call 2' "$CALLER" calls 400000 400
+    sleep $delay
+    kill_rank 1
+    ends_within 10
+    [ $code -ne 0 ] || fail "exit code 0"
+    says_once "pstripack: rank [0-9]* was lost"
+    says "rank 1 was lost during"
+    grep "was lost" job.err
+  done
+  ;;
+kill_rank_0)
+  start pid "$CALLER" pause 5000 60
+  kill_rank 0
+  ends_within 10
+  [ $code -ne 0 ] || fail "exit code 0"
+  says_once "pstripack: rank 0 was lost"
+  ;;
+kill_mpirun | kill_run)
+  start pid "$CALLER" pause 5000 60
+  victim=$job
+  [ "$case" = kill_run ] || victim=$(named mpiexec)$(named mpirun)$(named orterun)
+  kill -9 "$victim"
+  ends_within 10
+  [ $code -eq 137 ] || fail "exit code $code"
+  ;;
+kill_model)
+  start 'call 2' "$CALLER" calls 400000 400
+  kill -9 "$(named "$caller")"
+  ends_within 10
+  [ $code -eq 137 ] || fail "exit code $code"
+  [ ! -s job.err ] || fail "stderr is not empty"
+  ;;
+terminate)
+  # The signal reaches the model, which ends in its own way.
+  start waiting "$CALLER" term
+  kill -TERM "$job"
+  ends_within 10
+  [ $code -eq 6 ] || fail "exit code $code"
+  grep -q terminated job.out || fail "the model did not see it"
+  [ ! -s job.err ] || fail "stderr is not empty"
+  ;;
+out_of_memory)
+  # Rank 1 has memory for the small call only.
+  cp "$RUN" pstripack-run
+  cat > pstripack-worker << EOF
+#!/bin/sh
+[ "\$OMPI_COMM_WORLD_RANK" = 1 ] && ulimit -v 450000
+exec "$(dirname "$RUN")/pstripack-worker" "\$@"
+EOF
+  chmod +x pstripack-worker
+  export OMP_NUM_THREADS=1
+  ./pstripack-run -n "$ranks" --oversubscribe -- "$CALLER" codes 4000000 20000 > codes.out 2> codes.err ||
+    fail "exit code"
+  printf 'codes -6 0\npool\n' | cmp - codes.out || fail "codes"
+  [ "$(grep -c 'out of memory (IER = -6)' codes.err)" -eq 1 ] || fail "it does not say so once"
+  ;;
+options)
+  "$RUN" --help > help.out || fail "--help"
+  grep -q '^usage: pstripack-run -n P' help.out || fail "--help: text"
+  "$RUN" --version | grep -q '^pstripack-run [0-9]' || fail "--version"
+  refuse() {
+    expected=$1
+    shift
+    "$RUN" "$@" > refuse.out 2> refuse.err
+    [ $? -eq 2 ] || fail "$*: exit code"
+    grep -q -e "$expected" refuse.err || fail "$*: message"
+  }
+  refuse 'how many ranks' true
+  refuse 'no program' -n 2
+  refuse 'needs a number of ranks' -n two true
+  refuse 'needs a number of ranks' -n 0 true
+  refuse 'end with --' -n 2 --oversubscribe true
+  refuse 'must come before' --oversubscribe -n 2 -- true
+  "$(dirname "$RUN")/pstripack-worker" > worker.out 2>&1 && fail "the worker alone"
+  grep -q 'to be started by pstripack-run' worker.out || fail "the worker alone: message"
+  # One rank: the program itself.
+  "$RUN" -n 1 "$CALLER" calls 5000 1 > one.out 2> one.err || fail "-n 1"
+  grep -q '^no pool$' one.out || fail "-n 1: a pool"
+  # Arguments of the program that look like ours; mpirun's options.
+  printf 'machine slots=2\n' | sed "s/machine/$(hostname)/" > hosts
+  "$RUN" -np 2 --hostfile hosts --map-by slot -- echo -n 3 -- --help > arguments.out 2> arguments.err ||
+    fail "arguments"
+  [ "$(cat arguments.out)" = "3 -- --help" ] || fail "arguments: $(cat arguments.out)"
+  PSTRIPACK_MPIRUN=/no/mpirun "$RUN" -n 2 true 2> mpirun.err && fail "no mpirun"
+  grep -q '/no/mpirun: No such file' mpirun.err || fail "no mpirun: message"
+  ;;
+*)
+  fail "no such case"
+  ;;
+esac

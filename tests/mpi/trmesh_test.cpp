@@ -1,0 +1,262 @@
+// TRMESH by all ranks: the bytes and the codes of TRMESH by one.
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "failing_allocation.h"
+#include "mpi/collective_trmesh.h"
+#include "mpi/list_pieces.h"
+#include "mpi_test.h"
+#include "parallel/coincidence.h"
+#include "point_sets.h"
+#include "support/lists.h"
+
+namespace {
+
+using pstripack::AgreedFailure;
+using pstripack::Arrays;
+using pstripack::MpiCommunicator;
+using pstripack::TrmeshResult;
+
+constexpr std::int32_t untouched = -987654321;
+
+template <class Real>
+struct Columns {
+  explicit Columns(const Nodes& nodes) {
+    for (const auto& p : nodes) {
+      x.push_back(static_cast<Real>(p.x));
+      y.push_back(static_cast<Real>(p.y));
+      z.push_back(static_cast<Real>(p.z));
+    }
+  }
+  std::vector<Real> x, y, z;
+};
+
+/// Arrays of exactly the sizes that TRMESH asks for.
+struct Outcome : Lists {
+  explicit Outcome(std::size_t n) {
+    list.assign(n < 3 ? 1 : 6 * n - 12, untouched);
+    lptr = list;
+    lend.assign(n, untouched);
+    lnew = untouched;
+  }
+  TrmeshResult result{0};
+};
+bool operator==(const Outcome& a, const Outcome& b) {
+  return static_cast<const Lists&>(a) == static_cast<const Lists&>(b) && a.result.ier == b.result.ier &&
+         a.result.node == b.result.node && a.result.other == b.result.other;
+}
+
+template <class Real>
+Outcome by_one(const Columns<Real>& c) {
+  Outcome o(c.x.size());
+  o.result = pstripack::trmesh(static_cast<std::int32_t>(c.x.size()), c.x.data(), c.y.data(), c.z.data(),
+                               o.list.data(), o.lptr.data(), o.lend.data(), &o.lnew);
+  return o;
+}
+
+template <class Real>
+Outcome by_all(MpiCommunicator& ranks, Arrays arrays, const Columns<Real>& c) {
+  const bool has_arrays = arrays == Arrays::on_every_rank || ranks.rank() == 0;
+  Outcome o(has_arrays ? c.x.size() : 0);
+  try {
+    o.result = has_arrays ? collective_trmesh(ranks, arrays, static_cast<std::int32_t>(c.x.size()),
+                                              c.x.data(), c.y.data(), c.z.data(), o.list.data(),
+                                              o.lptr.data(), o.lend.data(), &o.lnew)
+                          : pstripack::collective_trmesh<Real>(ranks, arrays, 0, nullptr, nullptr, nullptr,
+                                                               nullptr, nullptr, nullptr, nullptr);
+  } catch (const AgreedFailure& failure) {
+    o.result = {failure.code};
+  }
+  return o;
+}
+
+template <class Real>
+void expect_the_same(MpiCommunicator& ranks, const Nodes& nodes, const std::string& what) {
+  const Columns<Real> c(nodes);
+  Outcome expected = by_one(c);
+  EXPECT_TRUE(by_all(ranks, Arrays::on_every_rank, c) == expected) << what << ", on every rank";
+  const Outcome pool = by_all(ranks, Arrays::on_rank_0, c);
+  if (ranks.rank() == 0) {
+    EXPECT_TRUE(pool == expected) << what << ", on rank 0";
+  } else {
+    EXPECT_EQ(pool.result.ier, expected.result.ier) << what;
+    EXPECT_EQ(pool.result.node, expected.result.node) << what;
+  }
+}
+
+TEST(CollectiveTrmesh, IsTrmeshOnEveryPointSet) {
+  MpiCommunicator ranks(MPI_COMM_WORLD, 4096);
+  for (const std::string& family : point_sets::families())
+    for (const std::size_t n : {12, 500}) {
+      const Nodes nodes = point_sets::make(family, n);
+      expect_the_same<double>(ranks, nodes, family + " " + std::to_string(n));
+      if (n == 500) expect_the_same<float>(ranks, nodes, family + " in single precision");
+    }
+  expect_the_same<double>(ranks, point_sets::make("random", 30000), "random");
+}
+
+TEST(CollectiveTrmesh, IsTrmeshForFewNodes) {
+  MpiCommunicator ranks(MPI_COMM_WORLD);
+  for (std::size_t n = 0; n < 20; ++n) {
+    Nodes nodes = point_sets::make("random", 20, 7);
+    nodes.resize(n);
+    expect_the_same<double>(ranks, nodes, std::to_string(n) + " nodes");
+  }
+}
+
+TEST(CollectiveTrmesh, ReportsTheSameCoincidence) {
+  MpiCommunicator ranks(MPI_COMM_WORLD);
+  const Nodes distinct = point_sets::make("random", 60, 3);
+  const std::vector<std::vector<std::pair<int, int>>> cases = {{{59, 2}},
+                                                               {{4, 1}, {5, 4}, {59, 5}},
+                                                               {{30, 20}, {25, 24}, {40, 20}},
+                                                               {{10, 9}, {11, 9}, {12, 9}, {13, 8}}};
+  for (const auto& copies : cases) {
+    Nodes nodes = distinct;
+    for (const auto& [to, from] : copies)
+      nodes[static_cast<std::size_t>(to)] = nodes[static_cast<std::size_t>(from)];
+    expect_the_same<double>(ranks, nodes, "copies");
+  }
+  Nodes all_alike(40, distinct[5]);
+  for (std::size_t i = 0; i < 3; ++i) all_alike[i] = distinct[i];
+  expect_the_same<double>(ranks, all_alike, "one node many times");
+}
+
+TEST(CollectiveTrmesh, ReportsTheSameBadInput) {
+  MpiCommunicator ranks(MPI_COMM_WORLD);
+  const Nodes good = point_sets::make("random", 50, 5);
+  for (const std::size_t bad : {0, 2, 25, 49})
+    for (const double value :
+         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+      Nodes nodes = good;
+      nodes[bad].y = nodes[49].x = value;
+      expect_the_same<double>(ranks, nodes, "not finite");
+      nodes = good;
+      nodes[bad] = {0, 0, 0};
+      expect_the_same<double>(ranks, nodes, "zero");
+    }
+  Nodes on_a_line = good;
+  on_a_line[1] = on_a_line[0];
+  expect_the_same<double>(ranks, on_a_line, "first three on a great circle");
+}
+
+TEST(CollectiveTrmesh, TooManyNodesAreRefusedBeforeAnythingIsRead) {
+  MpiCommunicator ranks(MPI_COMM_WORLD);
+  for (const Arrays arrays : {Arrays::on_every_rank, Arrays::on_rank_0}) {
+    const TrmeshResult result = pstripack::collective_trmesh<double>(
+        ranks, arrays, 357913944, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr);
+    EXPECT_EQ(result.ier, -4);
+  }
+}
+
+TEST(CollectiveTrmesh, RanksThatDisagreeAreToldSo) {
+  if (size_of() < 2) GTEST_SKIP() << "nobody to disagree with";
+  MpiCommunicator ranks(MPI_COMM_WORLD);
+  const Nodes nodes = point_sets::make("random", 100, 9);
+  for (int odd_one_out = 0; odd_one_out < ranks.size(); ++odd_one_out)
+    for (int what = 0; what < 6; ++what) {
+      Nodes mine = nodes;
+      if (ranks.rank() == odd_one_out) {
+        if (what == 0) mine.pop_back();
+        if (what == 1) mine[99].z = std::nextafter(mine[99].z, 2.0);
+        if (what == 2) std::swap(mine[3], mine[4]);
+        if (what == 3) mine[0].x = std::numeric_limits<double>::quiet_NaN();
+        if (what == 4) mine.resize(2);
+        if (what == 5) std::swap(mine[50].x, mine[50].y);
+      }
+      const Outcome o = by_all(ranks, Arrays::on_every_rank, Columns<double>(mine));
+      Outcome expected(mine.size());
+      expected.result.ier = -7;
+      EXPECT_TRUE(o == expected) << what << ": " << o.result.ier;
+    }
+}
+
+/// The n-th allocation fails on one rank, for every n: -6 on all ranks, outputs untouched, and the next call
+/// works.
+TEST(CollectiveTrmesh, MemoryThatFailsOnOneRankFailsOnAll) {
+  MpiCommunicator ranks(MPI_COMM_WORLD);
+  Nodes nodes = point_sets::make("random", 60, 9);
+  for (const bool with_coincidence : {false, true}) {
+    if (with_coincidence) nodes[50] = nodes[20];
+    const Columns<double> c(nodes);
+    const Outcome expected = by_one(c);
+    for (const Arrays arrays : {Arrays::on_every_rank, Arrays::on_rank_0})
+      for (int culprit = 0; culprit<ranks.size(); culprit += ranks.size()> 1 ? ranks.size() - 1 : 1) {
+        bool failed = true;
+        for (long n = 1; failed; ++n) {
+          const bool has_arrays = arrays == Arrays::on_every_rank || ranks.rank() == 0;
+          Outcome o(has_arrays ? nodes.size() : 0);
+          {
+            const FailingAllocation memory(ranks.rank() == culprit ? n : 0);
+            try {
+              o.result = collective_trmesh(ranks, arrays, has_arrays ? 60 : 0, c.x.data(), c.y.data(),
+                                           c.z.data(), o.list.data(), o.lptr.data(), o.lend.data(), &o.lnew);
+            } catch (const AgreedFailure& failure) {
+              o.result = {failure.code};
+            } catch (const std::exception& error) {
+              ranks.abort("a failure not agreed on", error.what());  // the others would wait for ever
+            }
+          }
+          std::int64_t codes[] = {o.result.ier, -o.result.ier};
+          ranks.all_min(codes, 2);
+          ASSERT_EQ(codes[0], -codes[1]) << "the ranks disagree";
+          failed = o.result.ier == -6;
+          if (failed) {
+            Outcome nothing(has_arrays ? nodes.size() : 0);
+            nothing.result = o.result;
+            ASSERT_TRUE(o == nothing) << "outputs written, allocation " << n;
+          } else if (has_arrays) {
+            ASSERT_TRUE(o == expected) << "allocation " << n;
+          }
+        }
+      }
+  }
+}
+
+TEST(Pieces, RingsOfEveryLengthAreCopied) {
+  std::vector<std::int64_t> entries(64);
+  for (std::size_t i = 0; i < entries.size(); ++i) entries[i] = static_cast<std::int64_t>(100 + i);
+  std::vector<pstripack::Ring<std::int64_t>> rings;
+  for (std::uint32_t count = 2; count < 40; ++count) rings.push_back({entries.data() + 64 - count, count});
+  const auto arcs = static_cast<std::size_t>(pstripack::arcs_of(rings.data(), rings.size()));
+  std::vector<std::int32_t> list(arcs + 1, untouched), lend(rings.size()), lptr(1000 + arcs + 1, untouched);
+  pstripack::write_piece(rings.data(), rings.size(), 1000, list.data(), lend.data(), 1);
+  std::size_t slot = 0;
+  for (std::size_t k = 0; k < rings.size(); ++k) {
+    for (std::uint32_t i = 0; i < rings[k].count; ++i) ASSERT_EQ(list[slot++], rings[k].begin[i]);
+    ASSERT_EQ(lend[k], static_cast<std::int32_t>(1000 + slot));
+  }
+  EXPECT_EQ(list[arcs], untouched);
+
+  for (std::int32_t& last : lend) last -= 1000;
+  pstripack::write_lptr(lend.data(), lend.size(), lptr.data(), 1);
+  for (std::size_t k = 0; k < rings.size(); ++k) {
+    const std::int32_t first = k > 0 ? lend[k - 1] + 1 : 1;
+    for (std::int32_t s = first; s < lend[k]; ++s) ASSERT_EQ(lptr[static_cast<std::size_t>(s) - 1], s + 1);
+    ASSERT_EQ(lptr[static_cast<std::size_t>(lend[k]) - 1], first);
+  }
+  EXPECT_EQ(lptr[arcs], untouched);
+}
+
+TEST(Pieces, TheFirstCoincidenceIsFoundFromAnyPairsThatConnectTheSets) {
+  const auto first = [](std::vector<std::pair<std::int64_t, std::int64_t>> pairs) {
+    const auto [l, m] = pstripack::first_coincidence(pairs);
+    return std::make_pair(l, m);
+  };
+  using Pair = std::pair<std::int64_t, std::int64_t>;
+  EXPECT_EQ(first({{7, 3}}), Pair(3, 7));
+  EXPECT_EQ(first({{9, 8}, {8, 7}, {7, 1}, {4, 5}}), Pair(4, 5));
+  EXPECT_EQ(first({{9, 2}, {9, 3}}), Pair(2, 3));
+  EXPECT_EQ(first({{10, 1}, {9, 2}, {8, 3}, {3, 10}}), Pair(1, 3));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_on_every_rank(argc, argv, [] {});
+}

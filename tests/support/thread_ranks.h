@@ -1,0 +1,108 @@
+#pragma once
+// Ranks that are threads of one process, for testing what is written for ranks without MPI.
+
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "parallel/communicator.h"
+
+/// Runs body(ranks) on `size` ranks at once.
+class ThreadRanks {
+ public:
+  using Body = std::function<void(pstripack::Communicator&)>;
+
+  static void run(int size, const Body& body) {
+    ThreadRanks group(size);
+    std::vector<std::thread> threads;
+    for (int r = 0; r < size; ++r)
+      threads.emplace_back([&group, &body, r] {
+        Rank rank(group, r);
+        body(rank);
+      });
+    for (auto& t : threads) t.join();
+  }
+
+ private:
+  explicit ThreadRanks(int size) : size_(size), posted_(static_cast<std::size_t>(size)) {}
+
+  /// Every rank posts a pointer; all see all until everybody has read.
+  template <class Read>
+  void meet(int rank, const void* mine, const Read& read) {
+    posted_[static_cast<std::size_t>(rank)] = mine;
+    wait();
+    read();
+    wait();
+  }
+
+  void wait() {
+    std::unique_lock lock(mutex_);
+    const int round = round_;
+    if (++arrived_ == size_) {
+      arrived_ = 0;
+      ++round_;
+      all_here_.notify_all();
+    } else {
+      all_here_.wait(lock, [&] { return round != round_; });
+    }
+  }
+
+  class Rank : public pstripack::Communicator {
+   public:
+    Rank(ThreadRanks& group, int rank) : group_(group), rank_(rank) {}
+    int rank() const override { return rank_; }
+    int size() const override { return group_.size_; }
+
+    void all_min(std::int64_t* values, std::size_t count) override {
+      const std::vector<std::int64_t> mine(values, values + count);
+      group_.meet(rank_, mine.data(), [&] {
+        for (const void* other : group_.posted_)
+          for (std::size_t k = 0; k < count; ++k)
+            values[k] = std::min(values[k], static_cast<const std::int64_t*>(other)[k]);
+      });
+    }
+
+    pstripack::Parcels all_gather(const void* bytes, std::size_t size) override {
+      const std::pair<const void*, std::size_t> mine(bytes, size);
+      return collect(&mine, [](const void* other) {
+        return *static_cast<const std::pair<const void*, std::size_t>*>(other);
+      });
+    }
+
+    pstripack::Parcels exchange(const pstripack::Parcels& outgoing) override {
+      bytes_sent += static_cast<std::int64_t>(outgoing.begin.back());
+      return collect(&outgoing, [this](const void* other) {
+        const auto& parcels = *static_cast<const pstripack::Parcels*>(other);
+        const std::size_t begin = parcels.begin[rank_], end = parcels.begin[rank_ + 1];
+        return std::pair<const void*, std::size_t>(parcels.bytes.data() + begin, end - begin);
+      });
+    }
+
+   private:
+    template <class Part>
+    pstripack::Parcels collect(const void* mine, const Part& part) {
+      pstripack::Parcels all;
+      group_.meet(rank_, mine, [&] {
+        all.begin.push_back(0);
+        for (const void* other : group_.posted_) all.begin.push_back(all.begin.back() + part(other).second);
+        all.bytes = pstripack::Buffer<unsigned char>(all.begin.back());
+        for (std::size_t r = 0; r < group_.posted_.size(); ++r) {
+          const auto [bytes, size] = part(group_.posted_[r]);
+          const auto* const from = static_cast<const unsigned char*>(bytes);
+          std::copy(from, from + size, all.bytes.data() + all.begin[r]);
+        }
+      });
+      return all;
+    }
+    ThreadRanks& group_;
+    const int rank_;
+  };
+
+  const int size_;
+  std::vector<const void*> posted_;
+  std::mutex mutex_;
+  std::condition_variable all_here_;
+  int arrived_ = 0, round_ = 0;
+};
