@@ -1,6 +1,7 @@
 #!/bin/sh
 # From a bare Debian 12 machine to the main job: a legacy SCVT program linked with the original STRIPACK and
-# with PSTRIPACK, the two meshes compared, and stripack-compare on 100,000 random points.
+# with PSTRIPACK, the two meshes compared; stripack-compare on 100,000 random points; the same program with
+# four MPI ranks behind it, and the distributed one, against the run without.
 # May be run again and again. Usage: ./quickstart.sh
 set -eu
 cd "$(dirname "$0")"
@@ -13,7 +14,8 @@ echo "Building in $build ..."
 [ -f $build/CMakeCache.txt ] || generator="-G Ninja"
 # shellcheck disable=SC2086  # two words on purpose
 cmake -S . -B $build ${generator:-} -DCMAKE_BUILD_TYPE=Release
-cmake --build $build --parallel "$(nproc)" --target scvt_original scvt_pstripack stripack-compare
+cmake --build $build --parallel "$(nproc)" --target scvt_original scvt_pstripack scvt_mpi \
+  pstripack_run stripack-compare
 
 mkdir -p $work
 for library in original pstripack; do
@@ -31,3 +33,23 @@ $build/compare/stripack-compare mesh $work/original $work/pstripack \
 echo
 echo "stripack-compare on 100,000 random points"
 $build/compare/stripack-compare --points random --n 100000 --seed 1 --threads "1,$(nproc)"
+
+# MPI. As root, and with more ranks than cores, Open MPI runs only if told to.
+if [ "$(id -u)" -eq 0 ]; then export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1; fi
+echo
+echo "MPI ranks on the $(nproc) cores of one machine: the same mesh; how fast, only more cores can tell"
+export OMP_NUM_THREADS=1  # of each rank
+model=$build/examples/scvt_legacy/scvt_pstripack
+# run NAME COMMAND...: with as many generators as it takes for the pool to serve the calls (50,000)
+run() {
+  name=$1
+  shift
+  echo
+  echo "$*"
+  "$@" -n 60000 -i 3 -d bump -o "$work/$name"
+}
+run alone $model
+run pool $build/src/cxx/mpi/pstripack-run -n 4 --oversubscribe -- $model
+$build/compare/stripack-compare mesh $work/alone $work/pool
+run distributed mpirun -n 2 --oversubscribe --bind-to none $build/examples/scvt_mpi/scvt_mpi
+$build/compare/stripack-compare mesh $work/alone $work/distributed

@@ -4,6 +4,7 @@
 #include <stdint.h>
 
 #include "capi/pstripack.h"
+#include "capi/report.h"
 
 extern "C" {
 
@@ -12,6 +13,7 @@ struct pstripack_trmesh_arguments {
   int32_t real_bytes, n;
   const void *x, *y, *z;
   int32_t *list, *lptr, *lend, *lnew;
+  pstripack::CallReport* report;  ///< the engine fills in mode, ranks and cost; null: nobody asks
 };
 
 enum {

@@ -98,6 +98,7 @@ bool Pool::trmesh(const pstripack_trmesh_arguments& call, PoolReply& reply) {
   PoolRequest request;
   request.real_bytes = sizeof(Real);
   request.n = call.n;
+  request.wants_cost = call.report != nullptr ? 1 : 0;
   if (!send_packet(socket_, &request, sizeof request, &new_area, 1) ||
       !receive_packet(socket_, &reply, sizeof reply)) {
     // The pool has ended, or the model has closed what it did not open, and the number may be another file's.
@@ -142,6 +143,11 @@ int pool_trmesh(const pstripack_trmesh_arguments* call, int32_t* ier, int64_t* n
       call->real_bytes == 8 ? pool->trmesh<double>(*call, reply) : pool->trmesh<float>(*call, reply);
   pool_is_busy.clear(std::memory_order_release);
   if (!done) return PSTRIPACK_ENGINE_DECLINES;
+  if (call->report != nullptr) {
+    call->report->mode = CallReport::by_pool;
+    call->report->ranks = reply.ranks;
+    call->report->cost = reply.cost;
+  }
   *ier = reply.ier;
   *node = reply.node;
   *other = reply.other;

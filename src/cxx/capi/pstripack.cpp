@@ -9,6 +9,7 @@
 
 #include "capi/engine_hook.h"
 #include "capi/pool_client.h"
+#include "capi/report.h"
 #include "capi/version.h"
 #include "geometry/floating_point.h"
 #include "stripack/adjacency_lists.h"
@@ -22,13 +23,50 @@ std::atomic<pstripack_trmesh_engine> other_engine{pool_trmesh};
 
 template <class Real>
 TrmeshResult trmesh_on_threads(std::int32_t n, const Real* x, const Real* y, const Real* z,
-                               std::int32_t* list, std::int32_t* lptr, std::int32_t* lend,
-                               std::int32_t* lnew) noexcept {
+                               std::int32_t* list, std::int32_t* lptr, std::int32_t* lend, std::int32_t* lnew,
+                               ParallelCost* cost) noexcept {
   try {
-    return trmesh(n, x, y, z, list, lptr, lend, lnew);
+    return trmesh(n, x, y, z, list, lptr, lend, lnew, cost);
   } catch (...) {
     return {PSTRIPACK_OUT_OF_MEMORY};  // only std::bad_alloc can come here, before anything was written
   }
+}
+
+/// The call by the engine, or else on threads. False: another rank reports, and prints the line of a new
+/// code.
+template <class Real>
+bool carry_out(std::int32_t n, const Real* x, const Real* y, const Real* z, std::int32_t* list,
+               std::int32_t* lptr, std::int32_t* lend, std::int32_t* lnew, TrmeshResult& result,
+               CallReport* report) noexcept {
+  int answer = PSTRIPACK_ENGINE_DECLINES;
+  if (const pstripack_trmesh_engine engine = other_engine.load(std::memory_order_acquire)) {
+    const pstripack_trmesh_arguments call{
+        static_cast<std::int32_t>(sizeof(Real)), n, x, y, z, list, lptr, lend, lnew, report};
+    answer = engine(&call, &result.ier, &result.node, &result.other);
+  }
+  if (answer == PSTRIPACK_ENGINE_DECLINES) {
+    ParallelCost* const cost = report != nullptr ? &report->cost.maximum : nullptr;
+    result = trmesh_on_threads(n, x, y, z, list, lptr, lend, lnew, cost);
+    if (cost != nullptr) report->cost.total = *cost;
+  }
+  return answer != PSTRIPACK_ENGINE_DID_IT_SILENTLY;
+}
+
+/// The same with its line in the report. Not inlined: a call without a report is not to pay for it.
+template <class Real>
+[[gnu::noinline]] bool carry_out_and_report(std::int32_t n, const Real* x, const Real* y, const Real* z,
+                                            std::int32_t* list, std::int32_t* lptr, std::int32_t* lend,
+                                            std::int32_t* lnew, TrmeshResult& result) noexcept {
+  CallReport report;
+  const double start = clock_seconds(CLOCK_MONOTONIC);
+  if (!carry_out(n, x, y, z, list, lptr, lend, lnew, result, &report)) return false;
+  report.seconds = clock_seconds(CLOCK_MONOTONIC) - start;
+  report.n = n;
+  report.ier = result.ier;
+  if (result.ier >= 0) report.nodes_in_mesh = result.ier > 0 ? result.other - 1 : n;
+  for (std::int64_t k = 0; k < report.nodes_in_mesh; ++k) report.boundary_nodes += list[lend[k] - 1] < 0;
+  pstripack_add_to_report(&report);
+  return true;
 }
 
 template <class Real>
@@ -36,14 +74,10 @@ std::int32_t trmesh_call(std::int32_t n, const Real* x, const Real* y, const Rea
                          std::int32_t* lptr, std::int32_t* lend, std::int32_t* lnew) noexcept {
   const DefaultFloatingPoint environment;
   TrmeshResult result{0};
-  int answer = PSTRIPACK_ENGINE_DECLINES;
-  if (const pstripack_trmesh_engine engine = other_engine.load(std::memory_order_acquire)) {
-    const pstripack_trmesh_arguments call{
-        static_cast<std::int32_t>(sizeof(Real)), n, x, y, z, list, lptr, lend, lnew};
-    answer = engine(&call, &result.ier, &result.node, &result.other);
-  }
-  if (answer == PSTRIPACK_ENGINE_DECLINES) result = trmesh_on_threads(n, x, y, z, list, lptr, lend, lnew);
-  if (answer == PSTRIPACK_ENGINE_DID_IT_SILENTLY) return result.ier;
+  const bool is_ours = pstripack_report_is_wanted()
+                           ? carry_out_and_report(n, x, y, z, list, lptr, lend, lnew, result)
+                           : carry_out(n, x, y, z, list, lptr, lend, lnew, result, nullptr);
+  if (!is_ours) return result.ier;
   // STRIPACK's own codes are silent; a code that no caller knows yet says so once.
   if (result.ier == PSTRIPACK_BAD_COORDINATE) {
     const auto i = result.node - 1;

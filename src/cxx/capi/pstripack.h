@@ -2,6 +2,9 @@
  *
  * Every function may be called from any number of threads at once, none is collective, none writes to
  * stdout or ends the program. Arrays belong to the caller. Node numbers count from 1, as in STRIPACK.
+ *
+ * With PSTRIPACK_REPORT=1 in the environment when the library is loaded, each triangulation writes one line
+ * to stderr, and the process a table at exit; with PSTRIPACK_REPORT=PATH to the end of that file.
  */
 #ifndef PSTRIPACK_H
 #define PSTRIPACK_H

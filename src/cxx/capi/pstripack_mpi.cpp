@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "capi/engine_hook.h"
+#include "capi/report.h"
 #include "geometry/floating_point.h"
 #include "mpi/collective_trmesh.h"
 #include "mpi/distributed_mesh.h"
@@ -87,9 +88,15 @@ bool must_decline(const CommMode& mode) {
 
 template <class Real>
 TrmeshResult collective_call(MpiCommunicator& ranks, const pstripack_trmesh_arguments& call) {
+  GroupCost* cost = nullptr;
+  if (call.report != nullptr) {
+    call.report->mode = CallReport::by_comm;
+    call.report->ranks = ranks.size();
+    cost = &call.report->cost;
+  }
   const auto array = [](const void* values) { return static_cast<const Real*>(values); };
   return collective_trmesh(ranks, Arrays::on_every_rank, call.n, array(call.x), array(call.y), array(call.z),
-                           call.list, call.lptr, call.lend, call.lnew);
+                           call.list, call.lptr, call.lend, call.lnew, cost);
 }
 
 int comm_mode_engine(const pstripack_trmesh_arguments* call, std::int32_t* ier, std::int64_t* node,
@@ -142,6 +149,26 @@ std::unique_ptr<T> make_over(MPI_Comm comm) {
   }
 }
 
+/// body(report), a call of a distributed mesh, with its line in the report of rank 0.
+template <class Body>
+std::int32_t reported(MpiCommunicator& ranks, CallReport::Mode mode, const Body& body) {
+  if (ranks.rank() != 0 || !pstripack_report_is_wanted())
+    return guarded(ranks, [&] { return body(nullptr); });
+  DistributedMesh::Report about;
+  CallReport report;
+  report.seconds = -clock_seconds(CLOCK_MONOTONIC);
+  report.ier = guarded(ranks, [&] { return body(&about); });
+  report.seconds += clock_seconds(CLOCK_MONOTONIC);
+  report.mode = mode;
+  report.ranks = ranks.size();
+  report.n = about.points;
+  report.nodes_in_mesh = report.ier == 0 ? about.points : 0;
+  report.boundary_nodes = about.boundary_points;
+  report.cost = about.cost;
+  pstripack_add_to_report(&report);
+  return report.ier;
+}
+
 MPI_Comm communicator_of(MPI_Fint comm) { return mpi_is_running() ? MPI_Comm_f2c(comm) : MPI_COMM_NULL; }
 
 }  // namespace
@@ -190,7 +217,9 @@ void pstripack_mesh_free(pstripack_mesh* mesh) { delete mesh; }
 
 int32_t pstripack_mesh_triangulate(pstripack_mesh* mesh, int64_t n, const double* xyz,
                                    const int64_t* number) {
-  return guarded(mesh->mesh.ranks(), [&] { return mesh->mesh.triangulate(n, xyz, number); });
+  return reported(mesh->mesh.ranks(), CallReport::distributed, [&](DistributedMesh::Report* report) {
+    return mesh->mesh.triangulate(n, xyz, number, report);
+  });
 }
 
 void pstripack_mesh_error_points(const pstripack_mesh* mesh, int64_t* first, int64_t* second) {
@@ -231,7 +260,9 @@ int32_t pstripack_mesh_local_stars(const pstripack_mesh* mesh, int64_t* begin, i
 
 int32_t pstripack_mesh_gather(pstripack_mesh* mesh, int32_t root, int32_t* list, int32_t* lptr, int32_t* lend,
                               int32_t* lnew) {
-  return guarded(mesh->mesh.ranks(), [&] { return mesh->mesh.gather(root, list, lptr, lend, lnew); });
+  return reported(mesh->mesh.ranks(), CallReport::distributed_gather, [&](DistributedMesh::Report* report) {
+    return mesh->mesh.gather(root, list, lptr, lend, lnew, report);
+  });
 }
 
 }  // extern "C"

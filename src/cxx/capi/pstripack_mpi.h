@@ -4,7 +4,9 @@
  *   comm mode    pstripack_set_comm(comm) makes every trmesh of the program collective over comm;
  *   distributed  a pstripack_mesh: each rank brings its own points and gets their stars.
  * "Collective": every rank of the communicator calls it, in the same order. Errors are the same on every
- * rank; nothing is written on an error, nothing aborts, nothing goes to stdout.
+ * rank; nothing is written on an error, nothing aborts, nothing goes to stdout. Only if MPI itself fails (a
+ * lost process), one line on stderr names rank and phase, and MPI_Abort ends the job. Of a killed rank MPI
+ * mostly tells nothing: then mpirun names it and ends the job.
  */
 #ifndef PSTRIPACK_MPI_H
 #define PSTRIPACK_MPI_H

@@ -1,7 +1,5 @@
 #include "mpi/collective_trmesh.h"
 
-#include <time.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -80,6 +78,7 @@ struct Call {
   std::int32_t n = 0;
   Point corners[3] = {};  ///< nodes 1 to 3
   std::int64_t partition = 0;
+  std::int64_t wants_cost = 0;  ///< rank 0 does
 };
 
 template <class Real>
@@ -91,7 +90,7 @@ void take_corners(const Real* x, const Real* y, const Real* z, Point (&corners)[
 /// This rank's slice of the nodes, where every rank has them all. The code is that of the call so far.
 template <class Real>
 TrmeshResult take_slice(MpiCommunicator& ranks, std::int32_t n, const Real* x, const Real* y, const Real* z,
-                        Call& call, Buffer<Point>& points) {
+                        bool wants_cost, Call& call, Buffer<Point>& points) {
   ranks.set_phase("agree on the arguments");
   call.n = n;
   const std::int32_t count_code = code_of_count(n);
@@ -117,8 +116,10 @@ TrmeshResult take_slice(MpiCommunicator& ranks, std::int32_t n, const Real* x, c
                            ~hash,
                            code,
                            bad,
-                           partition_vote(ranks, options_from_environment(0).partition)};
+                           partition_vote(ranks, options_from_environment(0).partition),
+                           ranks.rank() == 0 && wants_cost ? -1 : 0};
   ranks.all_min(values, std::size(values));
+  call.wants_cost = -values[7];
   // Out of memory first: the hash is missing there.
   if (values[4] != 0) throw AgreedFailure(static_cast<std::int32_t>(values[4]));
   if (values[0] != ~values[1] || values[2] != ~values[3]) return {kRanksDisagree};
@@ -131,12 +132,13 @@ TrmeshResult take_slice(MpiCommunicator& ranks, std::int32_t n, const Real* x, c
 /// This rank's slice of the nodes of rank 0.
 template <class Real>
 TrmeshResult receive_slice(MpiCommunicator& ranks, std::int32_t n, const Real* x, const Real* y,
-                           const Real* z, Call& call, Buffer<Point>& points) {
+                           const Real* z, bool wants_cost, Call& call, Buffer<Point>& points) {
   ranks.set_phase("scatter the nodes");
   const bool is_root = ranks.rank() == 0;
   if (is_root) {
     call.n = n;
     call.partition = static_cast<std::int64_t>(options_from_environment(0).partition);
+    call.wants_cost = wants_cost ? 1 : 0;
     if (code_of_count(n) == 0) take_corners(x, y, z, call.corners);
   }
   ranks.broadcast(&call, sizeof call, 0);
@@ -172,44 +174,10 @@ TrmeshResult receive_slice(MpiCommunicator& ranks, std::int32_t n, const Real* x
   return {0};
 }
 
-/// Adds what has passed while it lives to one phase.
-class Stopwatch {
- public:
-  Stopwatch(ParallelCost* cost, ParallelCost::Phase phase) : cost_(cost), phase_(phase) { add(-1); }
-  ~Stopwatch() { add(1); }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  static double now(clockid_t clock) {
-    timespec t;
-    clock_gettime(clock, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-  }
-  void add(int sign) {
-    if (cost_ == nullptr) return;
-    cost_->seconds[phase_] += sign * now(CLOCK_MONOTONIC);
-    cost_->cpu_seconds[phase_] += sign * now(CLOCK_PROCESS_CPUTIME_ID);
-  }
-  ParallelCost* const cost_;
-  const ParallelCost::Phase phase_;
-};
-
-}  // namespace
-
-template <class Real>
-TrmeshResult collective_trmesh(MpiCommunicator& ranks, Arrays arrays, std::int32_t n, const Real* x,
-                               const Real* y, const Real* z, std::int32_t* list, std::int32_t* lptr,
-                               std::int32_t* lend, std::int32_t* lnew, ParallelCost* cost) {
-  Call call;
-  Buffer<Point> points;
-  {
-    const Stopwatch watch(cost, ParallelCost::divide);
-    const TrmeshResult result = arrays == Arrays::on_every_rank
-                                    ? take_slice(ranks, n, x, y, z, call, points)
-                                    : receive_slice(ranks, n, x, y, z, call, points);
-    if (result.ier != 0) return result;
-  }
+/// The lists of the nodes that the ranks have slices of.
+TrmeshResult lists_of_slices(MpiCommunicator& ranks, Arrays arrays, const Call& call,
+                             const Buffer<Point>& points, std::int32_t* list, std::int32_t* lptr,
+                             std::int32_t* lend, std::int32_t* lnew, ParallelCost& cost) {
   if (left(call.corners[0], call.corners[1], call.corners[2]) == 0) return {kCollinear};
 
   const auto size = static_cast<std::size_t>(ranks.size()), me = static_cast<std::size_t>(ranks.rank());
@@ -220,6 +188,7 @@ TrmeshResult collective_trmesh(MpiCommunicator& ranks, Arrays arrays, std::int32
     options = options_from_environment(points.size());
   });
   options.partition = elected_partition(call.partition);
+  cost.threads = options.threads;
   const auto cut = [&](std::size_t fewer) {
     for (std::size_t r = 0; r <= size; ++r)
       begin[r] = std::min(fewer, slice_begin(static_cast<std::size_t>(call.n), r, size));
@@ -229,7 +198,7 @@ TrmeshResult collective_trmesh(MpiCommunicator& ranks, Arrays arrays, std::int32
     const LocalNodes mine{points.data(), begin[me + 1] - begin[me], nullptr,
                           static_cast<std::int64_t>(begin[me]) + 1};
     const std::int64_t numbers[3] = {1, 2, 3};
-    return triangulate<std::int32_t>(mine, call.corners, numbers, ranks, options, cost);
+    return triangulate<std::int32_t>(mine, call.corners, numbers, ranks, options, &cost);
   };
   cut(static_cast<std::size_t>(call.n));
   Stars<std::int32_t> stars = stars_of_slices();
@@ -245,18 +214,44 @@ TrmeshResult collective_trmesh(MpiCommunicator& ranks, Arrays arrays, std::int32
     stars = stars_of_slices();
   }
   ranks.set_phase("gather the lists");
-  const Stopwatch watch(cost, ParallelCost::gather);
+  const PhaseTimer timer(&cost, ParallelCost::gather, &ranks);
   gather_lists(ranks, stars.of_node, begin, arrays == Arrays::on_every_rank ? kEveryRank : 0, list, lptr,
                lend, lnew);
+  return result;
+}
+
+}  // namespace
+
+template <class Real>
+TrmeshResult collective_trmesh(MpiCommunicator& ranks, Arrays arrays, std::int32_t n, const Real* x,
+                               const Real* y, const Real* z, std::int32_t* list, std::int32_t* lptr,
+                               std::int32_t* lend, std::int32_t* lnew, GroupCost* cost) {
+  Call call;
+  Buffer<Point> points;
+  ParallelCost mine;
+  const std::int64_t sent_before = ranks.bytes_sent;
+  TrmeshResult result{0};
+  {
+    const PhaseTimer timer(&mine, ParallelCost::divide, &ranks);
+    result = arrays == Arrays::on_every_rank
+                 ? take_slice(ranks, n, x, y, z, cost != nullptr, call, points)
+                 : receive_slice(ranks, n, x, y, z, cost != nullptr, call, points);
+  }
+  if (result.ier == 0) result = lists_of_slices(ranks, arrays, call, points, list, lptr, lend, lnew, mine);
+  if (call.wants_cost != 0) {
+    mine.bytes_sent = ranks.bytes_sent - sent_before;
+    const GroupCost all = group_cost(ranks, mine);
+    if (ranks.rank() == 0) *cost = all;
+  }
   ranks.set_phase("idle");
   return result;
 }
 
 template TrmeshResult collective_trmesh(MpiCommunicator&, Arrays, std::int32_t, const double*, const double*,
                                         const double*, std::int32_t*, std::int32_t*, std::int32_t*,
-                                        std::int32_t*, ParallelCost*);
+                                        std::int32_t*, GroupCost*);
 template TrmeshResult collective_trmesh(MpiCommunicator&, Arrays, std::int32_t, const float*, const float*,
                                         const float*, std::int32_t*, std::int32_t*, std::int32_t*,
-                                        std::int32_t*, ParallelCost*);
+                                        std::int32_t*, GroupCost*);
 
 }  // namespace pstripack

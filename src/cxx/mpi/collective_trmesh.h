@@ -15,11 +15,11 @@ enum class Arrays {
 };
 
 /// TRMESH (stripack/trmesh.h) by all ranks together: the same bytes, the same codes, on every rank.
-/// Collective; Real is the same on every rank. Throws AgreedFailure, having written nothing. `cost`, if
-/// given, is added to.
+/// Collective; Real is the same on every rank. Throws AgreedFailure, having written nothing.
+/// If rank 0 passes `cost`, it is told there what the call cost all ranks; what others pass does not matter.
 template <class Real>
 TrmeshResult collective_trmesh(MpiCommunicator& ranks, Arrays arrays, std::int32_t n, const Real* x,
                                const Real* y, const Real* z, std::int32_t* list, std::int32_t* lptr,
-                               std::int32_t* lend, std::int32_t* lnew, ParallelCost* cost = nullptr);
+                               std::int32_t* lend, std::int32_t* lnew, GroupCost* cost = nullptr);
 
 }  // namespace pstripack

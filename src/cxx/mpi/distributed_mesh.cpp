@@ -5,6 +5,7 @@
 #include <cstring>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "geometry/predicates.h"
@@ -58,7 +59,8 @@ struct DistributedMesh::Numbering {
 
 void DistributedMesh::clear() {
   error_point_[0] = error_point_[1] = 0;
-  total_ = triangles_ = 0;
+  is_reported_ = false;
+  total_ = 0;
   number_ = {};
   begin_ = {};
   short_neighbour_ = {};
@@ -67,9 +69,9 @@ void DistributedMesh::clear() {
   homes_.reset();
 }
 
-/// Counts, and the codes that a look at each point tells.
+/// Counts, and the codes that a look at each point tells. wish: -1 if this rank wants a report.
 DistributedMesh::Numbering DistributedMesh::look_at(std::int64_t n, const Point* points,
-                                                    const std::int64_t* number) {
+                                                    const std::int64_t* number, std::int64_t wish) {
   Numbering numbering;
   const bool fits = n >= 0 && n < kMostPoints;
   const std::int64_t* const counts = ranks_.all_gather_one(fits ? n : -1);
@@ -91,8 +93,10 @@ DistributedMesh::Numbering DistributedMesh::look_at(std::int64_t n, const Point*
     high = std::max(high, number[i]);
     if (!has_direction(points[i])) bad = std::min(bad, number[i]);
   }
-  std::int64_t values[] = {low, -high, bad, partition_vote(ranks_, options_from_environment(0).partition)};
+  std::int64_t values[] = {low, -high, bad, partition_vote(ranks_, options_from_environment(0).partition),
+                           ranks_.rank() == 0 ? wish : 0};
   ranks_.all_min(values, std::size(values));
+  is_reported_ = values[4] != 0;
   numbering.low = values[0];
   numbering.high = -values[1];
   numbering.partition = elected_partition(values[3]);
@@ -202,7 +206,8 @@ bool DistributedMesh::find_corners(const Point* points, std::size_t n, const std
 
 template <class Int>
 std::int32_t DistributedMesh::triangulate_into(Buffer<Int>& neighbour, const Point* points, std::size_t n,
-                                               const std::int64_t* number, PartitionKind partition) {
+                                               const std::int64_t* number, PartitionKind partition,
+                                               ParallelCost& cost) {
   ranks_.set_phase("triangulate");
   LocalNodes nodes;
   nodes.points = points;
@@ -215,7 +220,8 @@ std::int32_t DistributedMesh::triangulate_into(Buffer<Int>& neighbour, const Poi
   agreed(ranks_, [&] { options = options_from_environment(n); });
   options.partition = partition;
   options.with_neighbours = true;
-  Stars<Int> stars = pstripack::triangulate<Int>(nodes, corners, numbers, ranks_, options);
+  cost.threads = options.threads;
+  Stars<Int> stars = pstripack::triangulate<Int>(nodes, corners, numbers, ranks_, options, &cost);
   if (!stars.coincident.empty()) {
     Coincidence first{};
     agreed(ranks_, [&] { first = first_coincidence(stars.coincident); });
@@ -225,6 +231,7 @@ std::int32_t DistributedMesh::triangulate_into(Buffer<Int>& neighbour, const Poi
   }
 
   // What stays is the stars alone, one after another; the memory of the triangulation goes.
+  const PhaseTimer timer(&cost, ParallelCost::lists, &ranks_);
   const auto& rings = stars.of_node;
   agreed(ranks_, [&] {
     begin_ = Buffer<std::int64_t>(n + 1);
@@ -236,35 +243,73 @@ std::int32_t DistributedMesh::triangulate_into(Buffer<Int>& neighbour, const Poi
   for (const auto& outside : stars.outside) halo_.push_back({outside.number, outside.point});
   homes_ = std::move(stars.homes);
   begin_[0] = 0;
+  constexpr std::size_t kAhead = 16;
   for (std::size_t i = 0; i < n; ++i) {
+    if (i + kAhead < n) __builtin_prefetch(rings[i + kAhead].begin);
     begin_[i + 1] = begin_[i] + rings[i].count;
-    Int* const to = neighbour.data() + begin_[i];
-    copy_ring(rings[i].begin, rings[i].count, to);
-    for_each_triangle_of(number[i], to, rings[i].count, [this](std::int64_t, std::int64_t) { ++triangles_; });
+    copy_ring(rings[i].begin, rings[i].count, neighbour.data() + begin_[i]);
   }
   return 0;
 }
 
-std::int32_t DistributedMesh::triangulate(std::int64_t n, const double* xyz, const std::int64_t* number) {
+/// Gathers the costs of all ranks. The report is rank 0's.
+void DistributedMesh::report_on(ParallelCost& mine, std::int64_t sent_before, Report* report) {
+  if (!is_reported_) return;
+  mine.bytes_sent = ranks_.bytes_sent - sent_before;
+  const GroupCost cost = group_cost(ranks_, mine);
+  std::int64_t boundary = 0;
+  for_each_star([&](std::size_t, std::size_t count, const auto* ring) { boundary += ring[count - 1] < 0; });
+  const std::int64_t* const of_rank = ranks_.all_gather_one(boundary);
+  if (ranks_.rank() != 0 || report == nullptr) return;
+  report->cost = cost;
+  report->boundary_points = std::accumulate(of_rank, of_rank + ranks_.size(), std::int64_t{0});
+}
+
+std::int32_t DistributedMesh::triangulate(std::int64_t n, const double* xyz, const std::int64_t* number,
+                                          Report* report) {
   clear();
-  ranks_.set_phase("look at the points");
   // The caller's coordinates are used where they are: they may be most of the memory of the machine.
   static_assert(sizeof(Point) == 3 * sizeof(double));
   const auto* const points = reinterpret_cast<const Point*>(xyz);
-  const Numbering numbering = look_at(n, points, number);
-  if (numbering.code != 0) return numbering.code;
+  const std::int64_t sent_before = ranks_.bytes_sent;
+  ParallelCost mine;
+  std::int32_t code;
+  try {
+    code = triangulate_points(n, points, number, report, mine);
+  } catch (...) {
+    clear();  // or what there was memory for would pass for a mesh
+    throw;
+  }
+  report_on(mine, sent_before, report);
+  ranks_.set_phase("idle");
+  return code;
+}
+
+std::int32_t DistributedMesh::triangulate_points(std::int64_t n, const Point* points,
+                                                 const std::int64_t* number, Report* report,
+                                                 ParallelCost& cost) {
+  ranks_.set_phase("look at the points");
+  Numbering numbering;
+  std::int64_t repeated = kNone;
   const auto count = static_cast<std::size_t>(n);
-  if (const std::int64_t repeated = first_repeated(number, count, numbering); repeated != kNone) {
+  {
+    const PhaseTimer timer(&cost, ParallelCost::divide, &ranks_);
+    numbering = look_at(n, points, number, report != nullptr ? -1 : 0);
+    if (report != nullptr) report->points = numbering.total;
+    if (numbering.code != 0) return numbering.code;
+    repeated = first_repeated(number, count, numbering);
+  }
+  if (repeated != kNone) {
     error_point_[0] = repeated;
     return kBadNumber;
   }
   numbers_are_dense_ = numbering.low == 1 && numbering.high == numbering.total;
   numbers_are_short_ = numbering.high <= std::numeric_limits<std::int32_t>::max();
   const std::int32_t code =
-      numbers_are_short_ ? triangulate_into(short_neighbour_, points, count, number, numbering.partition)
-                         : triangulate_into(long_neighbour_, points, count, number, numbering.partition);
+      numbers_are_short_
+          ? triangulate_into(short_neighbour_, points, count, number, numbering.partition, cost)
+          : triangulate_into(long_neighbour_, points, count, number, numbering.partition, cost);
   if (code == 0) total_ = numbering.total;
-  ranks_.set_phase("idle");
   return code;
 }
 
@@ -281,6 +326,14 @@ void DistributedMesh::stars(std::int64_t* begin, std::int64_t* neighbour) const 
     begin[i + 1] = begin[i] + static_cast<std::int64_t>(count);
     std::copy(ring, ring + count, neighbour + begin[i]);
   });
+}
+
+std::int64_t DistributedMesh::triangles() const {
+  std::int64_t triangles = 0;
+  for_each_star([&](std::size_t i, std::size_t count, const auto* ring) {
+    for_each_triangle_of(number_[i], ring, count, [&](std::int64_t, std::int64_t) { ++triangles; });
+  });
+  return triangles;
 }
 
 void DistributedMesh::triangles(std::int64_t* corner) const {
@@ -316,7 +369,22 @@ void DistributedMesh::local_stars(std::int64_t* begin, std::int32_t* neighbour) 
 }
 
 std::int32_t DistributedMesh::gather(std::int32_t root, std::int32_t* list, std::int32_t* lptr,
-                                     std::int32_t* lend, std::int32_t* lnew) {
+                                     std::int32_t* lend, std::int32_t* lnew, Report* report) {
+  const std::int64_t sent_before = ranks_.bytes_sent;
+  if (report != nullptr) report->points = total_;
+  ParallelCost mine;
+  std::int32_t code = 0;
+  {
+    const PhaseTimer timer(&mine, ParallelCost::gather, &ranks_);
+    code = gather_stars(root, list, lptr, lend, lnew);
+  }
+  report_on(mine, sent_before, report);
+  ranks_.set_phase("idle");
+  return code;
+}
+
+std::int32_t DistributedMesh::gather_stars(std::int32_t root, std::int32_t* list, std::int32_t* lptr,
+                                           std::int32_t* lend, std::int32_t* lnew) {
   if (empty()) return kEmpty;
   if (root < kEveryRank || root >= ranks_.size()) return kNoSuchRank;
   if (!numbers_are_dense_) return kBadNumber;
@@ -363,7 +431,6 @@ std::int32_t DistributedMesh::gather(std::int32_t root, std::int32_t* list, std:
   for (const std::int32_t* at = words; at < words + here.begin[size] / sizeof *words; at += 2 + at[1])
     rings[static_cast<std::size_t>(*at) - 1 - begin[me]] = {at + 2, static_cast<std::uint32_t>(at[1])};
   gather_lists(ranks_, rings, begin, root, list, lptr, lend, lnew);
-  ranks_.set_phase("idle");
   return 0;
 }
 

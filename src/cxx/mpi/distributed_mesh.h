@@ -20,15 +20,23 @@ class DistributedMesh {
 
   MpiCommunicator& ranks() { return ranks_; }
 
+  /// What a call was about, and what it cost all ranks.
+  struct Report {
+    std::int64_t points = 0, boundary_points = 0;  ///< of all ranks, as far as known
+    GroupCost cost;
+  };
+
   /// Collective. The result code; after one that is not 0 the mesh is empty. Throws AgreedFailure, too.
-  std::int32_t triangulate(std::int64_t n, const double* xyz, const std::int64_t* number);
+  /// If rank 0 passes `report`, that is filled; what others pass does not matter.
+  std::int32_t triangulate(std::int64_t n, const double* xyz, const std::int64_t* number,
+                           Report* report = nullptr);
 
   /// Empty: no triangulation yet, or the last one failed.
   bool empty() const { return total_ == 0; }
   std::int64_t error_point(int i) const { return error_point_[i]; }
   std::int64_t points() const { return static_cast<std::int64_t>(number_.size()); }
   std::int64_t arcs() const { return number_.size() > 0 ? begin_[number_.size()] : 0; }
-  std::int64_t triangles() const { return triangles_; }
+  std::int64_t triangles() const;
   std::int64_t halo() const { return static_cast<std::int64_t>(halo_.size()); }
 
   /// The rank that is home to each of n points; false if one has no direction, having written nothing.
@@ -39,20 +47,26 @@ class DistributedMesh {
   /// Throws std::bad_alloc, having written nothing.
   void local_stars(std::int64_t* begin, std::int32_t* neighbour) const;
 
-  /// Collective. root: a rank, or kEveryRank of list_pieces.h.
+  /// Collective. root: a rank, or kEveryRank of list_pieces.h. `report` is filled if triangulate() has
+  /// filled one.
   std::int32_t gather(std::int32_t root, std::int32_t* list, std::int32_t* lptr, std::int32_t* lend,
-                      std::int32_t* lnew);
+                      std::int32_t* lnew, Report* report = nullptr);
 
  private:
   struct Numbering;
-  Numbering look_at(std::int64_t n, const Point* points, const std::int64_t* number);
+  std::int32_t triangulate_points(std::int64_t n, const Point* points, const std::int64_t* number,
+                                  Report* report, ParallelCost& cost);
+  std::int32_t gather_stars(std::int32_t root, std::int32_t* list, std::int32_t* lptr, std::int32_t* lend,
+                            std::int32_t* lnew);
+  Numbering look_at(std::int64_t n, const Point* points, const std::int64_t* number, std::int64_t wish);
   std::int64_t first_repeated(const std::int64_t* number, std::size_t n, const Numbering& numbering);
   std::int64_t search_repeated(const std::int64_t* number, std::size_t n);
   bool find_corners(const Point* points, std::size_t n, const std::int64_t* number, Point (&corners)[3],
                     std::int64_t (&numbers)[3]);
   template <class Int>
   std::int32_t triangulate_into(Buffer<Int>& neighbour, const Point* points, std::size_t n,
-                                const std::int64_t* number, PartitionKind partition);
+                                const std::int64_t* number, PartitionKind partition, ParallelCost& cost);
+  void report_on(ParallelCost& mine, std::int64_t sent_before, Report* report);
   void clear();
   /// Calls visit(i, count, first) for each own point: its neighbours are first[0..count-1].
   template <class Visit>
@@ -73,6 +87,7 @@ class DistributedMesh {
   MpiCommunicator ranks_;
   std::int64_t error_point_[2] = {0, 0};
   std::int64_t total_ = 0;          ///< points of all ranks
+  bool is_reported_ = false;        ///< rank 0 wants reports, and all know it
   bool numbers_are_short_ = true;   ///< they fit 32 bits
   bool numbers_are_dense_ = false;  ///< they are 1..total
   Buffer<std::int64_t> number_;     ///< of the own points
@@ -81,7 +96,6 @@ class DistributedMesh {
   Buffer<std::int64_t> long_neighbour_;
   std::vector<NumberedPoint> halo_;
   std::unique_ptr<Homes> homes_;
-  std::int64_t triangles_ = 0;
 };
 
 }  // namespace pstripack

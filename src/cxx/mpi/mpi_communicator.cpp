@@ -53,6 +53,12 @@ bool is_usable(MPI_Comm comm) {
   return MPI_Comm_test_inter(comm, &is_inter) == MPI_SUCCESS && !is_inter;
 }
 
+double processor_seconds() {
+  timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
 /// How to pass the time until the next look: spin first, because most waits are short; then let others run;
 /// then sleep, an eighth of the time waited so far at most, so that a wait is hardly prolonged. Where ranks
 /// share processors there is no spinning, but more of letting others run: the one waited for is among them.
@@ -114,7 +120,7 @@ MpiCommunicator::~MpiCommunicator() {
 }
 
 /// More ranks of this communicator on this machine than processors that any of them may use.
-bool MpiCommunicator::ranks_outnumber_processors() const {
+bool MpiCommunicator::ranks_outnumber_processors() {
   MPI_Comm machine;
   check(MPI_Comm_split_type(comm_, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &machine));
   int ranks = 1;
@@ -146,14 +152,18 @@ void MpiCommunicator::check(int code) const {
   abort("MPI error", text);
 }
 
-void MpiCommunicator::wait(MPI_Request* requests, int count) const {
+/// The processor time of a wait is the messages' as far as they can have needed it, a second for 10^9 bytes;
+/// what is more was spent looking whether they are there.
+void MpiCommunicator::wait(MPI_Request* requests, int count, std::size_t bytes) {
+  const double start = processor_seconds();
   Patience patience(crowded_);
   for (;;) {
     int done = 0;
     check(MPI_Testall(count, requests, &done, MPI_STATUSES_IGNORE));
-    if (done) return;
+    if (done) break;
     patience.pause();
   }
+  idle_cpu_seconds += std::max(0.0, processor_seconds() - start - 1e-9 * static_cast<double>(bytes));
 }
 
 void MpiCommunicator::all_min(std::int64_t* values, std::size_t count) {
@@ -199,13 +209,12 @@ void MpiCommunicator::all_gather_in_place(void* all, const std::vector<std::size
   MPI_Request request;
   check(MPI_Iallgatherv(MPI_IN_PLACE, 0, MPI_BYTE, all, counts_.data(), displacements_.data(), MPI_BYTE,
                         comm_, &request));
-  wait(request);
+  wait(&request, 1, begin[ranks] - begin[0]);
 }
 
 /// In step s each rank hands on to its right what it got in step s-1 from its left, in lengths that MPI can
 /// count; both cut at the same places.
-void MpiCommunicator::all_gather_around_the_ring(unsigned char* all,
-                                                 const std::vector<std::size_t>& begin) const {
+void MpiCommunicator::all_gather_around_the_ring(unsigned char* all, const std::vector<std::size_t>& begin) {
   const int right = (rank_ + 1) % size_, left = (rank_ + size_ - 1) % size_;
   for (int step = 0; step + 1 < size_; ++step) {
     const auto out = static_cast<std::size_t>((rank_ - step + size_) % size_);
@@ -220,7 +229,7 @@ void MpiCommunicator::all_gather_around_the_ring(unsigned char* all,
       if (at < out_size)
         check(MPI_Isend(all + begin[out] + at, static_cast<int>(std::min(longest_message_, out_size - at)),
                         MPI_BYTE, right, kTag, comm_, &requests[count++]));
-      wait(requests, count);
+      wait(requests, count, in_size + out_size);
     }
   }
 }
@@ -279,6 +288,7 @@ void MpiCommunicator::broadcast(void* bytes, std::size_t size, int root) {
 void MpiCommunicator::post_send(const void* bytes, std::size_t size, int to) {
   const auto* const begin = static_cast<const unsigned char*>(bytes);
   bytes_sent += static_cast<std::int64_t>(size);
+  bytes_under_way_ += size;
   for (std::size_t at = 0; at < size; at += longest_message_) {
     if (under_way_.size() == under_way_.capacity()) finish();
     under_way_.emplace_back();
@@ -289,6 +299,7 @@ void MpiCommunicator::post_send(const void* bytes, std::size_t size, int to) {
 
 void MpiCommunicator::post_receive(void* bytes, std::size_t size, int from) {
   auto* const begin = static_cast<unsigned char*>(bytes);
+  bytes_under_way_ += size;
   for (std::size_t at = 0; at < size; at += longest_message_) {
     if (under_way_.size() == under_way_.capacity()) finish();
     under_way_.emplace_back();
@@ -298,8 +309,9 @@ void MpiCommunicator::post_receive(void* bytes, std::size_t size, int from) {
 }
 
 void MpiCommunicator::finish() {
-  wait(under_way_.data(), static_cast<int>(under_way_.size()));
+  wait(under_way_.data(), static_cast<int>(under_way_.size()), bytes_under_way_);
   under_way_.clear();
+  bytes_under_way_ = 0;
 }
 
 void MpiCommunicator::start_scatter(const void* all, const std::vector<std::size_t>& begin, void* mine,

@@ -60,8 +60,12 @@ class MpiCommunicator : public Communicator {
   /// called.
   void finish();
 
-  /// What the line about a lost process says this rank was doing.
-  void set_phase(const char* phase) { phase_ = phase; }
+  void set_phase(const char* phase) override {
+    phase_ = phase;
+    if (phase_place_ != nullptr) *phase_place_ = phase;
+  }
+  /// From now on the phase stands there, too; null: nowhere else.
+  void show_phase_in(const char* volatile* place) { phase_place_ = place; }
   MPI_Comm handle() const { return comm_; }
 
   /// Ends the job with one line on stderr, for what cannot be agreed on: `kind` of error, and which.
@@ -69,24 +73,26 @@ class MpiCommunicator : public Communicator {
 
  private:
   void check(int code) const;
-  void wait(MPI_Request* requests, int count) const;
-  void wait(MPI_Request request) const { wait(&request, 1); }
+  void wait(MPI_Request* requests, int count, std::size_t bytes = 0);
+  void wait(MPI_Request request) { wait(&request, 1); }
   void post_send(const void* bytes, std::size_t size, int to);
   void post_receive(void* bytes, std::size_t size, int from);
   std::size_t messages_for(std::size_t size) const {
     return (size + longest_message_ - 1) / longest_message_;
   }
-  bool ranks_outnumber_processors() const;
-  void all_gather_around_the_ring(unsigned char* all, const std::vector<std::size_t>& begin) const;
+  bool ranks_outnumber_processors();
+  void all_gather_around_the_ring(unsigned char* all, const std::vector<std::size_t>& begin);
 
   MPI_Comm comm_ = MPI_COMM_NULL;
   int rank_ = 0, size_ = 1;
   std::size_t longest_message_;
   bool crowded_ = false;
   const char* phase_ = "idle";
+  const char* volatile* phase_place_ = nullptr;
   std::vector<std::int64_t> sizes_, other_sizes_;  ///< a number a rank, so that no agreement needs memory
   std::vector<int> counts_, displacements_;
   std::vector<MPI_Request> under_way_;  ///< its capacity is reserved before anything is posted
+  std::size_t bytes_under_way_ = 0;
 };
 
 }  // namespace pstripack

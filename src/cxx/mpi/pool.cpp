@@ -145,10 +145,10 @@ void Steward::see_the_model_end() {
   while (!model_has_ended()) nanosleep(&nap, nullptr);
 }
 
-int Steward::serve(MpiCommunicator& ranks, Watchdog& watchdog) {
+int Steward::serve(MpiCommunicator& ranks) {
   std::vector<pollfd> events;
   while (!model_has_ended()) {
-    watchdog.set_phase("its wait for a call");
+    ranks.set_phase("its wait for a call");
     events = {{child_signals_.get(), POLLIN, 0}, {listener_.get(), POLLIN, 0}};
     for (const Client& client : clients_) events.push_back({client.socket.get(), POLLIN, 0});
     if (poll(events.data(), events.size(), -1) < 0) continue;
@@ -156,7 +156,7 @@ int Steward::serve(MpiCommunicator& ranks, Watchdog& watchdog) {
     signalfd_siginfo ignored;
     if (events[0].revents != 0 && read(child_signals_.get(), &ignored, sizeof ignored) < 0) continue;
     for (std::size_t i = clients_.size(); i-- > 0;)
-      if (events[i + 2].revents != 0 && !serve(clients_[i], ranks, watchdog))
+      if (events[i + 2].revents != 0 && !serve(clients_[i], ranks))
         clients_.erase(clients_.begin() + static_cast<std::ptrdiff_t>(i));
     if (events[1].revents != 0)
       if (Descriptor socket = accept_from(listener_)) clients_.push_back({std::move(socket), {}});
@@ -167,7 +167,7 @@ int Steward::serve(MpiCommunicator& ranks, Watchdog& watchdog) {
   return WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
 }
 
-bool Steward::serve(Client& client, MpiCommunicator& ranks, Watchdog& watchdog) {
+bool Steward::serve(Client& client, MpiCommunicator& ranks) {
   PoolRequest request;
   Descriptor new_area;
   if (!receive_packet(client.socket, &request, sizeof request, &new_area, 1)) return false;
@@ -181,14 +181,15 @@ bool Steward::serve(Client& client, MpiCommunicator& ranks, Watchdog& watchdog) 
       request.n < 3 || client.area.size() < AreaLayout(request.n, request.real_bytes).size())
     return send_packet(client.socket, &reply, sizeof reply);
 
-  watchdog.set_phase("a call");
+  ranks.set_phase("the start of a call");
   const AreaLayout layout(request.n, request.real_bytes);
   void* const area = client.area.data();
   const auto carry_out = [&](auto real) {
     using Real = decltype(real);
     return collective_trmesh<Real>(ranks, Arrays::on_rank_0, request.n, layout.coordinate<Real>(area, 0),
                                    layout.coordinate<Real>(area, 1), layout.coordinate<Real>(area, 2),
-                                   layout.list(area), layout.lptr(area), layout.lend(area), &reply.lnew);
+                                   layout.list(area), layout.lptr(area), layout.lend(area), &reply.lnew,
+                                   request.wants_cost != 0 ? &reply.cost : nullptr);
   };
   tell_workers(request.real_bytes == 8 ? trmesh_r8 : trmesh_r4, ranks);
   TrmeshResult result{0};
@@ -197,19 +198,20 @@ bool Steward::serve(Client& client, MpiCommunicator& ranks, Watchdog& watchdog) 
   } catch (const AgreedFailure& failure) {
     result = {failure.code};
   }
+  ranks.set_phase("the answer to a call");
   reply.done = 1;
+  reply.ranks = ranks.size();
   reply.ier = result.ier;
   reply.node = result.node;
   reply.other = result.other;
   return send_packet(client.socket, &reply, sizeof reply);
 }
 
-void serve_as_worker(MpiCommunicator& ranks, Watchdog& watchdog) {
+void serve_as_worker(MpiCommunicator& ranks) {
   for (;;) {
-    watchdog.set_phase("its wait for a call");
+    ranks.set_phase("its wait for a call");
     const Command command = next_command();
     if (command == stop) return;
-    watchdog.set_phase("a call");
     try {
       if (command == trmesh_r8)
         collective_trmesh<double>(ranks, Arrays::on_rank_0, 0, nullptr, nullptr, nullptr, nullptr, nullptr,

@@ -17,7 +17,6 @@
 #include <vector>
 
 #include "mpi/mpi_communicator.h"
-#include "mpi/watchdog.h"
 #include "pool/channel.h"
 #include "pool/messages.h"
 #include "pool/shared_area.h"
@@ -34,7 +33,7 @@ class Steward {
 
   /// Collective, with serve_as_worker() on the other ranks. Returns when the model has ended: with the code
   /// that this process should exit with.
-  int serve(MpiCommunicator& ranks, Watchdog& watchdog);
+  int serve(MpiCommunicator& ranks);
 
   /// The model has been told to end together with this process, and this process is in a signal handler:
   /// waits for the end of the model and passes it on.
@@ -50,7 +49,7 @@ class Steward {
                                      const sigset_t& signals) const;
   bool model_has_ended();
   /// False: the client is gone.
-  bool serve(Client& client, MpiCommunicator& ranks, Watchdog& watchdog);
+  bool serve(Client& client, MpiCommunicator& ranks);
 
   Descriptor launcher_;  ///< pstripack-run; none if it is on another machine
   std::string name_;
@@ -62,7 +61,7 @@ class Steward {
 };
 
 /// Any other rank: takes part in calls until the pool ends. Collective.
-void serve_as_worker(MpiCommunicator& ranks, Watchdog& watchdog);
+void serve_as_worker(MpiCommunicator& ranks);
 
 /// The threads of this rank: its share of the processors that it may use, unless OMP_NUM_THREADS says it.
 /// Collective over MPI_COMM_WORLD.

@@ -15,11 +15,9 @@ class Watchdog {
   Watchdog(const Watchdog&) = delete;
   Watchdog& operator=(const Watchdog&) = delete;
 
-  /// Memory that the watchdog reads when the rank is gone: what *phase points to then must be text that was
-  /// there before the watchdog was, such as a literal.
-  void set_phase(const char* phase) {
-    if (page_ != nullptr) page_->phase = phase;
-  }
+  /// Memory that the watchdog reads when the rank is gone: what it points to then must be text that was
+  /// there before the watchdog was, such as a literal. Null if there is no such memory.
+  const char* volatile* phase() { return page_ != nullptr ? &page_->phase : nullptr; }
   /// The end of the rank is none to talk about.
   void dismiss() {
     if (page_ != nullptr) page_->dismissed = 1;

@@ -10,6 +10,7 @@
 #include <exception>
 
 #include "mpi/pool.h"
+#include "mpi/watchdog.h"
 
 namespace {
 
@@ -61,11 +62,12 @@ int main(int argc, char** argv) {
   try {
     pstripack::share_processors();
     pstripack::MpiCommunicator ranks(MPI_COMM_WORLD);
+    ranks.show_phase_in(watchdog->phase());
     if (rank == 0)
-      code = steward->serve(ranks, *watchdog);
+      code = steward->serve(ranks);
     else
-      pstripack::serve_as_worker(ranks, *watchdog);
-    watchdog->set_phase("the end of MPI");
+      pstripack::serve_as_worker(ranks);
+    ranks.set_phase("the end of MPI");
   } catch (const std::exception& error) {
     std::fprintf(stderr, "pstripack: rank %d: %s\n", rank, error.what());
     watchdog->dismiss();

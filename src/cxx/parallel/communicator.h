@@ -24,8 +24,9 @@ struct AgreedFailure : std::exception {
   std::int32_t code;  ///< the most negative code of any rank
 };
 
-/// A group of ranks. Every member function but rank() and size() is collective: all ranks call it, in the
-/// same order. An allocation that fails inside, on any rank, is an AgreedFailure(-6) on all of them.
+/// A group of ranks. Every member function but rank(), size() and set_phase() is collective: all ranks call
+/// it, in the same order. An allocation that fails inside, on any rank, is an AgreedFailure(-6) on all of
+/// them.
 class Communicator {
  public:
   virtual ~Communicator() = default;
@@ -41,8 +42,14 @@ class Communicator {
   /// Every rank r gets the bytes that each rank meant for r. `outgoing.begin` has size()+1 entries.
   virtual Parcels exchange(const Parcels& outgoing) = 0;
 
+  /// What this rank does now, for whoever must say so if it is lost. Not collective; a literal.
+  virtual void set_phase(const char*) {}
+
   /// Bytes that this rank has handed over for other ranks so far; for reports.
   std::int64_t bytes_sent = 0;
+
+  /// Processor time that this rank has spent waiting for others so far; for reports.
+  double idle_cpu_seconds = 0;
 };
 
 /// A group of one.

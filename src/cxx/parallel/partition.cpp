@@ -37,16 +37,18 @@ class Partition::Builder {
 
   void bisect(int patches) {
     bisect(sample_.data(), sample_.size(), 0, patches, {}, kEverything);
-    for (Region& region : partition_.regions_) {
-      std::fill(region.deep.low, region.deep.low + 3, -1e300);
-      std::fill(region.deep.high, region.deep.high + 3, 1e300);
+    for (std::size_t q = 0; q < partition_.regions_.size(); ++q) {
+      const Region& region = partition_.regions_[q];
+      Box& deep = partition_.deep_[q];
+      std::fill(deep.low, deep.low + 3, -1e300);
+      std::fill(deep.high, deep.high + 3, 1e300);
       for (const Plane& p : region.pieces[0].planes) {
         const double normal[3] = {p.x, p.y, p.z};
         for (int axis = 0; axis < 3; ++axis)
           if (normal[axis] > 0)
-            region.deep.low[axis] = p.d + region.largest_margin;
+            deep.low[axis] = p.d + region.largest_margin;
           else if (normal[axis] < 0)
-            region.deep.high[axis] = -p.d - region.largest_margin;
+            deep.high[axis] = -p.d - region.largest_margin;
       }
     }
   }
@@ -146,6 +148,7 @@ class Partition::Builder {
                       double margin) {
     if (patches == 1) {
       partition_.regions_[first_patch].pieces = {box};
+      partition_.regions_[first_patch].root = static_cast<std::int32_t>(partition_.cells_.size());
       return cells_of_patch(p, n, first_patch, margin, false);
     }
     const Extent extent = extent_of(p, n);
@@ -190,9 +193,11 @@ class Partition::Builder {
   struct Extent {
     double low[3] = {4, 4, 4}, high[3] = {-4, -4, -4};
     double length(int axis) const { return high[axis] - low[axis]; }
+    /// Of lengths that hardly differ the first, so that the cuts of nodes that move stay where they are.
     int longest() const {
-      int axis = length(1) > length(0) ? 1 : 0;
-      return length(2) > length(axis) ? 2 : axis;
+      constexpr double kClearly = 1.1;
+      const int axis = length(1) > kClearly * length(0) ? 1 : 0;
+      return length(2) > kClearly * length(axis) ? 2 : axis;
     }
     double diagonal() const {
       return std::sqrt(length(0) * length(0) + length(1) * length(1) + length(2) * length(2));
@@ -247,7 +252,7 @@ class Partition::Builder {
 };
 
 Partition::Partition(PartitionKind kind, int patches, const std::vector<Point>& sample, std::size_t nodes)
-    : regions_(static_cast<std::size_t>(patches)) {
+    : regions_(static_cast<std::size_t>(patches)), deep_(static_cast<std::size_t>(patches)) {
   Builder builder(*this, sample, nodes);
   if (kind == PartitionKind::bisection) {
     builder.bisect(patches);

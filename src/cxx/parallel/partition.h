@@ -53,8 +53,8 @@ class Partition {
   /// Calls visit(q) for each patch q that has x in its halo; `owner` is that of x. `scratch` is written.
   template <class Visit>
   void for_each_halo(const Point& x, int owner, std::vector<int>& scratch, const Visit& visit) const {
-    if (regions_[owner].deep.holds(x)) return;
-    const double margin = margin_at(x);
+    if (deep_[static_cast<std::size_t>(owner)].holds(x)) return;
+    const double margin = margin_at(x, regions_[static_cast<std::size_t>(owner)].root);
     if (distance(owner, x) <= -margin) return;
     scratch.clear();
     near(x, margin, scratch);
@@ -92,8 +92,8 @@ class Partition {
   struct Region {
     std::vector<Piece> pieces;
     double largest_margin = 0;
-    Box deep;              // what is farther from the border than that, of a box
-    bool is_cone = false;  // convex, and a set of directions
+    std::int32_t root = 0;  // of the tree, or of all its cells
+    bool is_cone = false;   // convex, and a set of directions
   };
   /// A node of the tree.
   struct Cell {
@@ -106,8 +106,8 @@ class Partition {
   static double product(const Plane& p, const Point& x) { return p.x * x.x + p.y * x.y + p.z * x.z; }
   static bool is_beyond(const Cell& cell, const Point& x) { return product(cell.split, x) >= cell.split.d; }
 
-  double margin_at(const Point& x) const {
-    std::int32_t k = 0;
+  /// The margin of the cell of x, which is below `k`.
+  double margin_at(const Point& x, std::int32_t k = 0) const {
     while (cells_[k].child[1] != 0) k = cells_[k].child[is_beyond(cells_[k], x)];
     return cells_[k].margin;
   }
@@ -127,6 +127,7 @@ class Partition {
   int top_depth_ = 0;
   std::vector<Cell> cells_;
   std::vector<Region> regions_;
+  std::vector<Box> deep_;  // of each patch, what is farther from its border than any margin; of boxes only
   double smallest_margin_ = 4;
 };
 

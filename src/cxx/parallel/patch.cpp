@@ -128,6 +128,7 @@ template <class Int>
 template <class Visit>
 void Patch<Int>::for_each_face_at_border(std::size_t first, const Visit& visit) const {
   const auto n = static_cast<std::uint32_t>(growing_->node_count());
+  const bool all_are_front = growing_->surrounds_centre();
   for (auto v = static_cast<std::uint32_t>(first); v < n; ++v) {
     if (is_own(v)) continue;
     for_each_face_at(v, [&](std::uint32_t t, std::uint32_t) {
@@ -137,7 +138,7 @@ void Patch<Int>::for_each_face_at_border(std::size_t first, const Visit& visit) 
         if (corner[i] < v && corner[i] >= first && !is_own(corner[i])) return;  // met there
         own += is_own(corner[i]);
       }
-      if (growing_->front(t)) visit(t, own);
+      if (all_are_front || growing_->front(t)) visit(t, own);
     });
   }
 }
@@ -217,18 +218,31 @@ void Patch<Int>::ask(const Boundary& boundary, std::vector<Question>& questions)
   // What lies in the direction of a point y of a triangle is at most 1 + deviation times as long as 1 / |y|.
   const double margin = partition_->smallest_margin(), farthest = 1 + places_.deviation();
   const double lowest = std::max(0.0, farthest - margin + 1e-12);
-  const auto faces = static_cast<std::uint32_t>(growing_->face_count());
-  for (std::uint32_t t = 0; t < faces; ++t) {
-    const Plane& p = arrays_.planes[t];  // its product with a unit vector is known to 1
-    const double w = p.w - 4, square = p.x * p.x + p.y * p.y + p.z * p.z;
-    if (w > 0 && w * w >= lowest * lowest * square) continue;
+  const double limit = lowest * lowest;
+  const auto is_flat = [&](std::uint32_t t) {  // few are not; no branch where it cannot be guessed
+    const Plane& p = arrays_.planes[t];        // its product with a unit vector is known to 1
+    const double w = p.w - 4;
+    return (w > 0) & (w * w >= limit * (p.x * p.x + p.y * p.y + p.z * p.z));
+  };
+  const auto examine = [&](std::uint32_t t) {
     const auto& v = arrays_.faces[t].vertex;
-    if (growing_->front(t) && is_own(v[0]) && is_own(v[1]) && is_own(v[2])) {
-      const double stretch = w > 0 ? farthest * std::sqrt(square) / w : 1 / w;
-      if (!partition_->holds(id_, place(v[0]), place(v[1]), place(v[2]), stretch))
-        ask_about_triangle(t, questions);
-    }
+    if (is_flat(t) || !(is_own(v[0]) && is_own(v[1]) && is_own(v[2])) || !growing_->front(t)) return;
+    const Plane& p = arrays_.planes[t];
+    const double w = p.w - 4, square = p.x * p.x + p.y * p.y + p.z * p.z;
+    const double stretch = w > 0 ? farthest * std::sqrt(square) / w : 1 / w;
+    if (!partition_->holds(id_, place(v[0]), place(v[1]), place(v[2]), stretch))
+      ask_about_triangle(t, questions);
+  };
+  constexpr std::uint32_t kTogether = 8;
+  const auto faces = static_cast<std::uint32_t>(growing_->face_count());
+  std::uint32_t t = 0;
+  for (; t + kTogether <= faces; t += kTogether) {
+    bool all = true;
+    for (std::uint32_t j = 0; j < kTogether; ++j) all &= is_flat(t + j);
+    if (all) continue;
+    for (std::uint32_t j = 0; j < kTogether; ++j) examine(t + j);
   }
+  for (; t < faces; ++t) examine(t);
 }
 
 // ---- the boundary of all nodes ----------------------------------------------------------------------
@@ -383,17 +397,8 @@ template <class Int>
 std::size_t Patch<Int>::finish() {
   if (own_ == 0) return 0;
   hull_ = growing_->finish();
-  // The triangles at own nodes are three for each triangle of own nodes, fewer for those at the border.
-  std::size_t front = hull_.face_count, at_border = 0, own_corners = 0, own_arcs = 0;
-  for_each_face_at_border(0, [&](std::uint32_t, int own) {
-    ++at_border;
-    own_corners += static_cast<std::size_t>(own);
-  });
-  if (!hull_.surrounds_centre) {
-    front -= static_cast<std::size_t>(std::count(hull_.back.begin(), hull_.back.end(), true));
-    for_each_boundary_arc([&](std::uint32_t a, std::uint32_t) { own_arcs += is_own(a); });
-  }
-  return 3 * (front - at_border) + own_corners + own_arcs;
+  return 3 * hull_.face_count +
+         hull_.node_count;  // the corners of all triangles, and one more at the boundary
 }
 
 template <class Int>

@@ -93,8 +93,8 @@ class Patch {
   /// Takes in the answer to a question of its own. Throws HiddenNode, std::bad_alloc.
   void learn(const Record* nodes, std::size_t count);
 
-  /// After the last answer: the triangulation. Returns the number of entries of all rings of its own nodes.
-  /// Throws HiddenNode.
+  /// After the last answer: the triangulation. Returns room enough for the entries of all rings of its own
+  /// nodes. Throws HiddenNode.
   std::size_t finish();
 
   /// After finish(): room for `bytes` in the workspace, in place of what is not needed any more; null if
@@ -102,14 +102,16 @@ class Patch {
   void* room_for_rings(std::size_t bytes) const;
 
   /// Writes the rings of its own nodes to `out`, which has room for all and 2*kBlock entries more; calls
-  /// visit(i, begin, count) for each: node i of set_nodes has `count` entries from `begin` on.
-  template <class Visit>
-  void write_rings(Int* out, const Visit& visit) const {
+  /// visit(i, begin, count) for each: node i of set_nodes has `count` entries from `begin` on; soon(i) some
+  /// time before.
+  template <class Visit, class Soon>
+  void write_rings(Int* out, const Visit& visit, const Soon& soon) const {
     constexpr std::size_t kAhead = 16;
     const auto number = [this](std::uint32_t v) { return number_[v]; };
     Int* end = out;
     for (std::size_t v = 0; v < built_; ++v) {
       if (v + 2 * kAhead < built_) {
+        soon(order_[v + 2 * kAhead]);
         __builtin_prefetch(&hull_.faces[face_of(hull_.corner[v + 2 * kAhead])]);
         const Face& next = hull_.faces[face_of(hull_.corner[v + kAhead])];
         for (int i = 0; i < 3; ++i) __builtin_prefetch(&hull_.faces[face_of(next.neighbour[i])]);
@@ -136,6 +138,22 @@ class Patch {
         visit_node(f.vertex[next_edge(i)]);
         if (!hull_.front(face_of(f.neighbour[next_edge(i)]))) visit_node(f.vertex[previous_edge(i)]);
       });
+    }
+  }
+
+  /// After finish(): calls visit(node) for each node that is a neighbour of own nodes and not its own.
+  template <class Visit>
+  void for_each_node_around(const Visit& visit) const {
+    if (own_ == 0) return;
+    for (std::uint32_t v = 0; v < hull_.node_count; ++v) {
+      if (is_own(v)) continue;
+      bool has_own = false;
+      for_each_face_at(v, [&](std::uint32_t t, std::uint32_t) {
+        const auto& corner = hull_.faces[t].vertex;
+        has_own =
+            has_own || (hull_.front(t) && (is_own(corner[0]) || is_own(corner[1]) || is_own(corner[2])));
+      });
+      if (has_own) visit(Record{arrays_.nodes[v], number_[v]});
     }
   }
 

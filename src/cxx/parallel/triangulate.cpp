@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -26,30 +27,6 @@
 
 namespace pstripack {
 namespace {
-
-/// Adds the time of its life to one phase.
-class Stopwatch {
- public:
-  Stopwatch(ParallelCost& cost, ParallelCost::Phase phase)
-      : cost_(cost), phase_(phase), start_(now()), cpu_start_(cpu_now()) {}
-  ~Stopwatch() {
-    cost_.seconds[phase_] += now() - start_;
-    cost_.cpu_seconds[phase_] += cpu_now() - cpu_start_;
-  }
-
- private:
-  static double now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-  }
-  static double cpu_now() {
-    timespec t;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-  }
-  ParallelCost& cost_;
-  ParallelCost::Phase phase_;
-  double start_, cpu_start_;
-};
 
 /// Sorts by number and leaves out what is there twice.
 void keep_one_of_each(std::vector<Record>& nodes) {
@@ -120,25 +97,29 @@ class Triangulator {
   /// Throws HiddenNode on every rank, or AgreedFailure on every rank.
   Stars<Int> run() {
     {
-      const Stopwatch watch(cost_, ParallelCost::divide);
+      const PhaseTimer timer(&cost_, ParallelCost::divide, &ranks_);
+      ranks_.set_phase("divide");
       divide();
       send_nodes();
     }
     {
-      const Stopwatch watch(cost_, ParallelCost::triangulate);
+      const PhaseTimer timer(&cost_, ParallelCost::triangulate, &ranks_);
+      ranks_.set_phase("triangulate");
       triangulate_patches();
     }
     Stars<Int> stars;
     stars.lengths = places_.lengths();
     {
-      const Stopwatch watch(cost_, ParallelCost::merge);
+      const PhaseTimer timer(&cost_, ParallelCost::merge, &ranks_);
+      ranks_.set_phase("merge");
       stars.coincident = all_coincident();
       if (stars.coincident.empty()) find_boundary();
       while (stars.coincident.empty() && ask_and_learn()) stars.coincident = all_coincident();
       stars.gave_up = gave_up_;
     }
     if (stars.coincident.empty() && !gave_up_) {
-      const Stopwatch watch(cost_, ParallelCost::lists);
+      const PhaseTimer timer(&cost_, ParallelCost::lists, &ranks_);
+      ranks_.set_phase("lists");
       return_rings(stars);
       if (options_.with_neighbours) find_outside(stars);
       stars.of_node = RingTable<Int>(nodes_.count, rings_, position_);
@@ -275,15 +256,18 @@ class Triangulator {
             Point place[kTogether];
             for (std::size_t block = first; block < last; block += kTogether) {
               const std::size_t end = std::min(last, block + kTogether);
-              for (std::size_t i = block; i < end; ++i) place[i - block] = places_(nodes_.points[i]);
-              partition_->owners(place, end - block, owner + block);
+              const Point* at = nodes_.points + block;
+              if (places_.lengths() != Lengths::as_given) {
+                for (std::size_t i = block; i < end; ++i) place[i - block] = places_(nodes_.points[i]);
+                at = place;
+              }
+              partition_->owners(at, end - block, owner + block);
               for (std::size_t i = block; i < end; ++i) {
                 ++count[t][owner[i]].own;
-                partition_->for_each_halo(
-                    place[i - block], static_cast<int>(owner[i]), scratch, [&](int other) {
-                      ++count[t][static_cast<std::size_t>(other)].halo;
-                      halo[t].push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(other)});
-                    });
+                partition_->for_each_halo(at[i - block], static_cast<int>(owner[i]), scratch, [&](int other) {
+                  ++count[t][static_cast<std::size_t>(other)].halo;
+                  halo[t].push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(other)});
+                });
               }
             }
           } catch (...) {
@@ -568,16 +552,23 @@ class Triangulator {
         const std::vector<std::size_t>& from = own_from_[k];
         Ring<Int>* const mine = rings_ + own_position_[static_cast<std::size_t>(patch.id())];
         const std::size_t first = from[me_], count = from[me_ + 1] - first;
+        const auto soon = [&](std::size_t i) { __builtin_prefetch(mine + (i - first), 1); };
         if (count == patch.own()) {
-          patch.write_rings(rings, [&](std::size_t i, const Int* begin, std::uint32_t n) {
-            mine[i] = {begin, n};
-          });
+          patch.write_rings(
+              rings,
+              [&](std::size_t i, const Int* begin, std::uint32_t n) {
+                mine[i] = {begin, n};
+              },
+              soon);
           return;
         }
         others[k].resize(patch.own());
-        patch.write_rings(rings, [&](std::size_t i, const Int* begin, std::uint32_t n) {
-          (i - first < count ? mine[i - first] : others[k][i]) = {begin, n};
-        });
+        patch.write_rings(
+            rings,
+            [&](std::size_t i, const Int* begin, std::uint32_t n) {
+              (i - first < count ? mine[i - first] : others[k][i]) = {begin, n};
+            },
+            soon);
       });
 
       // For each rank and patch: the sizes of its nodes' rings, then the rings.
@@ -631,6 +622,10 @@ class Triangulator {
       std::vector<std::vector<Record>> neighbours(size_);
       for (std::size_t k = 0; k < patches_.size(); ++k) {
         const std::vector<std::size_t>& from = own_from_[k];
+        if (from[me_ + 1] - from[me_] == patches_[k].own()) {  // it has nodes of this rank only
+          patches_[k].for_each_node_around([&](const Record& node) { neighbours[me_].push_back(node); });
+          continue;
+        }
         const auto source = [&](std::size_t i) {
           return static_cast<std::size_t>(std::upper_bound(from.begin(), from.end(), i) - from.begin()) - 1;
         };
@@ -700,24 +695,32 @@ Stars<Int> triangulate(const LocalNodes& nodes, const Point (&corners)[3], const
   ParallelCost own_cost;
   ParallelCost& c = cost != nullptr ? *cost : own_cost;
   // All lengths 1? The predicates must be the same everywhere.
-  double deviation = 0;
-  bool unit = true;
-  for (std::size_t i = 0; i < nodes.count; ++i) {
-    const Point& p = nodes.points[i];
-    unit = unit && length_is_one(p);
-    deviation = std::max(deviation, std::fabs(p.x * p.x + p.y * p.y + p.z * p.z - 1));
-  }
+  std::atomic<bool> unit{true};
+  std::atomic<double> deviation{0};
+  parallel_pieces(nodes.count, options.threads, [&](std::size_t first, std::size_t last, int) {
+    double largest = 0;
+    bool all = true;
+    for (std::size_t i = first; i < last; ++i) {
+      const Point& p = nodes.points[i];
+      all = all & length_is_one(p);
+      largest = std::max(largest, std::fabs(p.x * p.x + p.y * p.y + p.z * p.z - 1));
+    }
+    if (!all) unit = false;
+    for (double seen = deviation; seen < largest && !deviation.compare_exchange_weak(seen, largest);) {
+    }
+  });
   std::int64_t agreed[2] = {unit ? 0 : -1, 0};
-  std::memcpy(&agreed[1], &deviation, sizeof deviation);
+  double most = deviation;
+  std::memcpy(&agreed[1], &most, sizeof most);
   agreed[1] = -agreed[1];  // the bits of positive numbers are in their order
   ranks.all_min(agreed, 2);
   agreed[1] = -agreed[1];
-  std::memcpy(&deviation, &agreed[1], sizeof deviation);
+  std::memcpy(&most, &agreed[1], sizeof most);
 
   const std::array<Record, 3> corner_records{
       Record{corners[0], numbers[0]}, {corners[1], numbers[1]}, {corners[2], numbers[2]}};
   const auto run = [&](Lengths lengths) {
-    return Triangulator<Int>(nodes, corner_records, ranks, options, lengths, deviation, c).run();
+    return Triangulator<Int>(nodes, corner_records, ranks, options, lengths, most, c).run();
   };
   Stars<Int> stars;
   if (agreed[0] == 0) {

@@ -12,6 +12,7 @@
 #include "geometry/workspace.h"
 #include "mesh/delaunay.h"
 #include "parallel/communicator.h"
+#include "parallel/cost.h"
 #include "parallel/partition.h"
 #include "parallel/places.h"
 
@@ -36,15 +37,6 @@ struct ParallelOptions {
   bool with_neighbours = false;  ///< fill Stars::outside
   /// Of a single rank: give up if the patches have more questions than this, since one patch would be faster.
   std::size_t most_questions = SIZE_MAX;
-};
-
-/// What a triangulation cost on this rank. Seconds of the clock, and of this rank's processors.
-struct ParallelCost {
-  enum Phase { divide, triangulate, merge, lists, gather, phases };
-  double seconds[phases] = {}, cpu_seconds[phases] = {};
-  int rounds = 0;         ///< exchanges of questions that were needed
-  std::int64_t halo = 0;  ///< nodes of other patches that the patches of this rank took in
-  std::int64_t bytes_sent = 0;
 };
 
 /// The star of one node as it stands in LIST: the numbers of its neighbours, counterclockwise; of an interior

@@ -2,6 +2,7 @@
 // LIST, LPTR and LEND from the rings of consecutive nodes: all of them, or a piece.
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -50,12 +51,24 @@ std::int64_t arcs_of(const Rings& rings, std::size_t count) {
 template <class Rings>
 void write_piece(const Rings& rings, std::size_t count, std::size_t first_slot, std::int32_t* list,
                  std::int32_t* lend, int threads) {
-  constexpr std::size_t kAhead = 16;  // rings lie in the order of the patches, not of the nodes
-  parallel_pieces(count, threads, [&](std::size_t first, std::size_t last, int) {
-    // A piece finds its own beginning: a sum over counts is a small part of the copying.
-    auto slot = static_cast<std::size_t>(arcs_of(rings, first));
+  constexpr std::size_t kAhead = 16;     // rings lie in the order of the patches, not of the nodes
+  std::array<std::size_t, 256> begin{};  // where each thread's part begins
+  threads = std::min<int>(threads, begin.size() - 1);
+  if (threads > 1)
+    parallel_pieces(count, threads, [&](std::size_t first, std::size_t last, int piece) {
+      std::size_t sum = 0;
+      for (std::size_t k = first; k < last; ++k) sum += rings[k].count;
+      begin[static_cast<std::size_t>(piece) + 1] = sum;
+    });
+  for (std::size_t t = 1; t < begin.size(); ++t) begin[t] += begin[t - 1];
+  parallel_pieces(count, threads, [&](std::size_t first, std::size_t last, int piece) {
+    std::size_t slot = begin[static_cast<std::size_t>(piece)];
     for (std::size_t k = first; k < last; ++k) {
-      if (k + kAhead < last) __builtin_prefetch(rings[k + kAhead].begin);
+      if (k + kAhead < last) {
+        const auto* const soon = rings[k + kAhead].begin;
+        __builtin_prefetch(soon);
+        __builtin_prefetch(soon + 5);  // the six entries of most rings may lie in two lines
+      }
       copy_ring(rings[k].begin, rings[k].count, list + slot);
       slot += rings[k].count;
       lend[k] = static_cast<std::int32_t>(first_slot + slot);

@@ -44,7 +44,7 @@ using Pairs = std::vector<std::pair<std::int64_t, std::int64_t>>;
 /// has written the lists; nothing if the nodes lie so that patches do not pay.
 template <class Int>
 std::optional<Pairs> lists_on_threads(const Point* p, std::size_t n, Int* list, Int* lptr, Int* lend,
-                                      Int* lnew) {
+                                      Int* lnew, ParallelCost* cost) {
   SingleProcess process;
   LocalNodes nodes;
   nodes.points = p;
@@ -52,9 +52,11 @@ std::optional<Pairs> lists_on_threads(const Point* p, std::size_t n, Int* list, 
   ParallelOptions options = options_from_environment(n);
   options.most_questions = n / 8;
   const Point corners[3] = {p[0], p[1], p[2]};
-  const Stars<Int> stars = triangulate<Int>(nodes, corners, {1, 2, 3}, process, options);
+  const Stars<Int> stars = triangulate<Int>(nodes, corners, {1, 2, 3}, process, options, cost);
+  if (cost != nullptr) cost->threads = options.threads;
   if (stars.gave_up) return std::nullopt;
   if (stars.coincident.empty()) {
+    const PhaseTimer timer(cost, ParallelCost::lists);
     write_piece(stars.of_node, n, 0, list, lend, options.threads);
     write_lptr(lend, n, lptr, options.threads);
     *lnew = lend[n - 1] + 1;
@@ -66,7 +68,7 @@ std::optional<Pairs> lists_on_threads(const Point* p, std::size_t n, Int* list, 
 
 template <class Real, class Int>
 TrmeshResult trmesh(Int n, const Real* x, const Real* y, const Real* z, Int* list, Int* lptr, Int* lend,
-                    Int* lnew) {
+                    Int* lnew, ParallelCost* cost) {
   if (n < 3) return {-1};
   if (n > (std::numeric_limits<Int>::max() - 1) / 6 + 2) return {-4};  // LNEW <= 6n-11 must fit
 
@@ -74,23 +76,33 @@ TrmeshResult trmesh(Int n, const Real* x, const Real* y, const Real* z, Int* lis
   const bool on_threads = threads_for(nodes) > 1;
   Workspace workspace(on_threads ? nodes * sizeof(Point) : workspace_bytes(nodes));
   Point* p = workspace.take<Point>(nodes);
-  const std::size_t bad = copy_nodes(nodes, x, y, z, p);
+  const auto copied = [&] {
+    const PhaseTimer timer(cost, ParallelCost::divide);
+    return copy_nodes(nodes, x, y, z, p);
+  };
+  const std::size_t bad = copied();
   if (bad < nodes) return {-5, static_cast<std::int64_t>(bad) + 1};
   if (left(p[0], p[1], p[2]) == 0) return {-2};
 
   // Writes the lists of the first `nodes` nodes, or returns sets of nodes that coincide.
   const auto triangulate_them = [&] {
     if (on_threads) {
-      const auto coincident = lists_on_threads(p, nodes, list, lptr, lend, lnew);
+      const auto coincident = lists_on_threads(p, nodes, list, lptr, lend, lnew, cost);
       if (coincident) return *coincident;
     }
     std::optional<Workspace> own_workspace;
     if (on_threads) own_workspace.emplace(workspace_bytes(nodes));
     Workspace& w = on_threads ? *own_workspace : workspace;
-    const Hull hull = delaunay(p, nodes, w);
+    const Hull hull = [&] {
+      const PhaseTimer timer(cost, ParallelCost::triangulate);
+      return delaunay(p, nodes, w);
+    }();
     Pairs pairs;
     for (const auto& [in, out] : hull.coincident) pairs.emplace_back(in + 1, out + 1);
-    if (pairs.empty()) *lnew = write_lists(hull, list, lptr, lend, w);
+    if (pairs.empty()) {
+      const PhaseTimer timer(cost, ParallelCost::lists);
+      *lnew = write_lists(hull, list, lptr, lend, w);
+    }
     return pairs;
   };
   const Pairs pairs = triangulate_them();
@@ -100,14 +112,14 @@ TrmeshResult trmesh(Int n, const Real* x, const Real* y, const Real* z, Int* lis
   nodes = static_cast<std::size_t>(first.m) - 1;
   workspace.clear();
   p = workspace.take<Point>(nodes);
-  copy_nodes(nodes, x, y, z, p);
+  copied();
   triangulate_them();
   return {static_cast<std::int32_t>(first.l), first.l, first.m};
 }
 
 template TrmeshResult trmesh(std::int32_t, const double*, const double*, const double*, std::int32_t*,
-                             std::int32_t*, std::int32_t*, std::int32_t*);
+                             std::int32_t*, std::int32_t*, std::int32_t*, ParallelCost*);
 template TrmeshResult trmesh(std::int32_t, const float*, const float*, const float*, std::int32_t*,
-                             std::int32_t*, std::int32_t*, std::int32_t*);
+                             std::int32_t*, std::int32_t*, std::int32_t*, ParallelCost*);
 
 }  // namespace pstripack

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "parallel/cost.h"
+
 namespace pstripack {
 
 /// TRMESH's answer. `node` and `other` are the nodes (from 1) a code is about, 0 where it is about none.
@@ -13,9 +15,10 @@ struct TrmeshResult {
 /// STRIPACK's TRMESH (stripack-interface 3.6) with the promises of the interface contract, section 4:
 /// canonical lists, exact decisions, IER 0, -1, -2, L > 0, -4, -5. On a negative code nothing is written.
 /// x, y, z: n components each; list, lptr: at least 6n-12 entries; lend: n. Throws std::bad_alloc, having
-/// written nothing. Real is float or double, Int std::int32_t.
+/// written nothing. Real is float or double, Int std::int32_t. `cost`, if
+/// given, is added to.
 template <class Real, class Int>
 TrmeshResult trmesh(Int n, const Real* x, const Real* y, const Real* z, Int* list, Int* lptr, Int* lend,
-                    Int* lnew);
+                    Int* lnew, ParallelCost* cost = nullptr);
 
 }  // namespace pstripack

@@ -273,7 +273,8 @@ kill_during_call)
     ends_within 10
     [ $code -ne 0 ] || fail "exit code 0"
     says_once "pstripack: rank [0-9]* was lost"
-    says "rank 1 was lost during"
+    # All that a rank does for a call, and what is between two calls.
+    says "rank 1 was lost during \(scatter the nodes\|divide\|triangulate\|merge\|lists\|gather the lists\|idle\|its wait\)"
     grep "was lost" job.err
   done
   ;;
@@ -307,6 +308,27 @@ terminate)
   [ $code -eq 6 ] || fail "exit code $code"
   grep -q terminated job.out || fail "the model did not see it"
   [ ! -s job.err ] || fail "stderr is not empty"
+  ;;
+report)
+  # The lines are the model's: of its calls by the pool, and of those on its own threads.
+  sh -c '"$CALLER" calls 5000 1; "$CALLER" calls 50 1' > alone.out 2> alone.err || fail "alone"
+  export OMP_NUM_THREADS=1
+  for where in report 1; do
+    export PSTRIPACK_REPORT=$where
+    pool sh -c '"$CALLER" calls 5000 1; "$CALLER" calls 50 1' > pool.out 2> pool.err || fail "exit code"
+    [ $where = 1 ] && grep '^pstripack: ' pool.err > report
+    [ "$(wc -l < report)" -eq 6 ] || fail "not six lines"
+    second='[0-9]+\.[0-9]{6}' line='pstripack: pool n=5000 ranks=2 threads=1 triangles=9996 boundary=0 ier=0'
+    line="$line seconds=$second divide=$second/$second triangulate=$second/$second merge=$second/$second"
+    line="$line lists=$second/$second gather=$second/$second rounds=[0-9]+ halo=[1-9][0-9]* bytes=[1-9][0-9]*"
+    grep -qE "^$line\$" report || fail "the line of the pool"
+    grep -qE "^pstripack: pool +1( +$second){7}\$" report || fail "the table"
+    grep -qE "^pstripack: threads n=50 ranks=1 threads=1 triangles=96 boundary=0 ier=0 " report ||
+      fail "the line of the threads"
+    rm report
+  done
+  grep -v pool alone.out > alone.text
+  grep -v pool pool.out | cmp - alone.text || fail "stdout differs"
   ;;
 out_of_memory)
   # Rank 1 has memory for the small call only.

@@ -1,0 +1,305 @@
+// pstripack-scaling: how the triangulation scales with ranks, measured on this machine and projected beyond
+// it.
+//
+// It starts itself under mpirun for every number of ranks. More ranks than processors share them, so the
+// clock says nothing about them; the processor time of every rank and phase does. The critical path is the
+// sum over the phases of the slowest rank's processor time, as if every rank had a processor of its own and
+// messages cost only what sending and receiving takes of the processor. Speed-ups from it are a projection,
+// and the tables say so. Serial is TRMESH on one thread, arrays in and lists out, in the same process.
+
+#include <fmt/format.h>
+#include <mpi.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <ctime>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "geometry/floating_point.h"
+#include "mpi/collective_trmesh.h"
+#include "mpi/distributed_mesh.h"
+#include "point_sets.h"
+#include "stripack/trmesh.h"
+
+namespace {
+
+using namespace pstripack;
+using Phase = ParallelCost::Phase;
+
+struct Settings {
+  std::string mode, family = "random";
+  std::size_t n = 1000000;
+  int repeats = 5, slices = 0;
+};
+
+struct Columns {
+  explicit Columns(const std::vector<Point>& points) {
+    for (const Point& p : points) x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
+  }
+  std::vector<double> x, y, z;
+};
+
+struct Lists {
+  explicit Lists(std::size_t n) : list(6 * n - 12), lptr(6 * n - 12), lend(n) {}
+  std::vector<std::int32_t> list, lptr, lend;
+  std::int32_t lnew = 0;
+};
+
+double seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+double cpu_seconds() {
+  timespec t;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+double median(std::vector<double> v) {
+  std::sort(v.begin(), v.end());
+  return v[v.size() / 2];
+}
+
+// ---- one run on some ranks: prints one line of names and values on rank 0 -----------------------------
+
+/// Processor seconds of TRMESH on one thread.
+double serial(const std::vector<Point>& points, int repeats) {
+  const Columns c(points);
+  Lists l(points.size());
+  std::vector<double> spent;
+  for (int k = 0; k <= repeats; ++k) {
+    const double start = cpu_seconds();
+    const auto n = static_cast<std::int32_t>(points.size());
+    if (trmesh(n, c.x.data(), c.y.data(), c.z.data(), l.list.data(), l.lptr.data(), l.lend.data(), &l.lnew)
+            .ier != 0)
+      throw std::runtime_error("these nodes cannot be triangulated");
+    if (k > 0 || repeats == 0) spent.push_back(cpu_seconds() - start);
+  }
+  return median(spent);
+}
+
+void print(const Settings& s, std::size_t n, int ranks, double serial_seconds, double wall, double root,
+           const GroupCost& cost) {
+  const auto& c = cost.maximum.cpu_seconds;
+  fmt::print(
+      "row n {} ranks {} serial {} wall {} root {} divide {} triangulate {} merge {} lists {} gather {} mean "
+      "{} "
+      "halo {} bytes {} rounds {}\n",
+      n, ranks, serial_seconds, wall, root, c[Phase::divide], c[Phase::triangulate], c[Phase::merge],
+      c[Phase::lists], c[Phase::gather], cost.total.cpu_seconds[Phase::triangulate] / ranks, cost.total.halo,
+      cost.total.bytes_sent, cost.maximum.rounds);
+  std::fflush(stdout);
+  static_cast<void>(s);
+}
+
+double critical_path(const GroupCost& cost) {
+  double sum = 0;
+  for (const double phase : cost.maximum.cpu_seconds) sum += phase;
+  return sum;
+}
+
+/// Which call's costs are shown: that with the median critical path.
+struct Call {
+  double wall, root;
+  GroupCost cost;
+};
+const Call& median_call(std::vector<Call>& calls) {
+  std::sort(calls.begin(), calls.end(),
+            [](const Call& a, const Call& b) { return critical_path(a.cost) < critical_path(b.cost); });
+  return calls[calls.size() / 2];
+}
+
+/// Points to the ranks that are home to them.
+void move_home(MpiCommunicator& ranks, const DistributedMesh& mesh, std::vector<Point>& points,
+               std::vector<std::int64_t>& numbers) {
+  struct Item {
+    Point point;
+    std::int64_t number;
+  };
+  std::vector<std::int32_t> home(points.size());
+  mesh.home(static_cast<std::int64_t>(points.size()), &points.data()->x, home.data());
+  const auto size = static_cast<std::size_t>(ranks.size());
+  Parcels parcels;
+  parcels.begin.assign(size + 1, 0);
+  for (const std::int32_t r : home) parcels.begin[static_cast<std::size_t>(r) + 1] += sizeof(Item);
+  for (std::size_t r = 0; r < size; ++r) parcels.begin[r + 1] += parcels.begin[r];
+  parcels.bytes = Buffer<unsigned char>(parcels.begin.back());
+  std::vector<std::size_t> at = parcels.begin;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Item item{points[i], numbers[i]};
+    std::size_t& to = at[static_cast<std::size_t>(home[i])];
+    std::copy_n(reinterpret_cast<const unsigned char*>(&item), sizeof item, parcels.bytes.data() + to);
+    to += sizeof item;
+  }
+  const Parcels here = ranks.exchange(parcels);
+  const auto* const items = reinterpret_cast<const Item*>(here.bytes.data());
+  points.clear();
+  numbers.clear();
+  for (std::size_t i = 0; i < here.begin.back() / sizeof(Item); ++i) {
+    points.push_back(items[i].point);
+    numbers.push_back(items[i].number);
+  }
+}
+
+void run_on_ranks(const Settings& s) {
+  MPI_Init(nullptr, nullptr);
+  {
+    DistributedMesh mesh(MPI_COMM_WORLD);
+    MpiCommunicator& ranks = mesh.ranks();
+    const bool is_root = ranks.rank() == 0;
+    std::vector<Point> points;
+    double serial_seconds = 0;
+    if (is_root) {
+      points = point_sets::make(s.family, s.n, 1);
+      serial_seconds = serial(points, s.repeats);
+    }
+    const std::size_t n = points.size();
+    std::vector<Call> calls;
+    if (s.mode == "distributed") {
+      std::vector<std::int64_t> numbers(n);
+      for (std::size_t i = 0; i < n; ++i) numbers[i] = static_cast<std::int64_t>(i) + 1;
+      for (int k = 0; k < 2; ++k) {  // the second time from where the first has moved them
+        mesh.triangulate(static_cast<std::int64_t>(points.size()), &points.data()->x, numbers.data());
+        move_home(ranks, mesh, points, numbers);
+      }
+      for (int k = 0; k <= s.repeats; ++k) {
+        DistributedMesh::Report report;
+        const double start = seconds(), spent = cpu_seconds();
+        mesh.triangulate(static_cast<std::int64_t>(points.size()), &points.data()->x, numbers.data(),
+                         is_root ? &report : nullptr);
+        if (k > 0) calls.push_back({seconds() - start, cpu_seconds() - spent, report.cost});
+      }
+    } else {
+      const Columns c(points);
+      Lists l(is_root ? n : 2);
+      for (int k = 0; k <= s.repeats; ++k) {
+        GroupCost cost;
+        const double start = seconds(), spent = cpu_seconds();
+        collective_trmesh(ranks, Arrays::on_rank_0, static_cast<std::int32_t>(n), c.x.data(), c.y.data(),
+                          c.z.data(), l.list.data(), l.lptr.data(), l.lend.data(), &l.lnew,
+                          is_root ? &cost : nullptr);
+        if (k > 0) calls.push_back({seconds() - start, cpu_seconds() - spent, cost});
+      }
+    }
+    if (is_root) {
+      const Call& call = median_call(calls);
+      print(s, n, ranks.size(), serial_seconds, call.wall, call.root, call.cost);
+    }
+  }
+  MPI_Finalize();
+}
+
+// ---- the tables ---------------------------------------------------------------------------------------
+
+using Row = std::map<std::string, double>;
+
+Row measure(const std::string& self, const Settings& s, int ranks) {
+  const std::string command = fmt::format(
+      "{}OMP_NUM_THREADS=1 {} --oversubscribe --bind-to none -np {} '{}' --mode {} --family {} --n {} "
+      "--repeats {}",
+      geteuid() == 0 ? "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 " : "", MPIRUN, ranks, self,
+      s.mode, s.family, s.n, s.repeats);
+  FILE* const out = popen(command.c_str(), "r");
+  if (out == nullptr) throw std::runtime_error("cannot start " + command);
+  Row row;
+  char line[2000];
+  while (std::fgets(line, sizeof line, out) != nullptr)
+    if (std::string(line).rfind("row ", 0) == 0) {
+      std::istringstream words(line + 4);
+      std::string name;
+      double value;
+      while (words >> name >> value) row[name] = value;
+    }
+  if (pclose(out) != 0 || row.empty()) throw std::runtime_error("this did not come to its end: " + command);
+  return row;
+}
+
+double path(const Row& r) {
+  return r.at("divide") + r.at("triangulate") + r.at("merge") + r.at("lists") + r.at("gather");
+}
+
+void head() {
+  fmt::print(
+      "{:>9} {:>5} {:>8} | {:>7} {:>11} {:>7} {:>7} {:>7} | {:>8} {:>9} {:>10} {:>9} | {:>9} {:>10} {:>6} "
+      "{:>9}\n",
+      "N", "ranks", "clock", "divide", "triangulate", "merge", "lists", "gather", "path", "speed-up",
+      "efficiency", "imbalance", "halo", "bytes", "rounds", "root ns/N");
+}
+
+void show(const Row& r, bool of_pool) {
+  const double ms = 1e3, speed_up = r.at("serial") / path(r);
+  fmt::print(
+      "{:>9.0f} {:>5.0f} {:>8.2f} | {:>7.2f} {:>11.2f} {:>7.2f} {:>7.2f} {:>7.2f} | {:>8.2f} {:>9.2f} "
+      "{:>10.2f} {:>9.2f} | "
+      "{:>9.0f} {:>10.0f} {:>6.0f} {:>9}\n",
+      r.at("n"), r.at("ranks"), ms * r.at("wall"), ms * r.at("divide"), ms * r.at("triangulate"),
+      ms * r.at("merge"), ms * r.at("lists"), ms * r.at("gather"), ms * path(r), speed_up,
+      speed_up / r.at("ranks"), r.at("triangulate") / r.at("mean"), r.at("halo"), r.at("bytes"),
+      r.at("rounds"),
+      of_pool ? fmt::format("{:.1f}", 1e9 * (r.at("root") - path(r) + r.at("gather")) / r.at("n")) : "");
+  std::fflush(stdout);
+}
+
+void tables(const std::string& self, Settings s, const std::vector<int>& ranks,
+            const std::vector<std::size_t>& sizes) {
+  fmt::print(
+      "Milliseconds. clock: of a call, {} processors shared by all ranks. divide ... gather: processor time "
+      "of the "
+      "slowest rank.\npath: their sum. Speed-up: PROJECTED, serial TRMESH over path. imbalance: slowest rank "
+      "over "
+      "the mean, triangulate.\nhalo, bytes: of all ranks.\n",
+      sysconf(_SC_NPROCESSORS_ONLN));
+  for (const char* mode : {"distributed", "pool"}) {
+    s.mode = mode;
+    fmt::print("\n{}, {}, constant N\n",
+               s.mode == "pool" ? "arrays and lists on rank 0" : "distributed, points at home", s.family);
+    head();
+    for (const std::size_t n : sizes) {
+      s.n = n;
+      for (const int p : ranks) show(measure(self, s, p), s.mode == "pool");
+    }
+  }
+  s.mode = "distributed";
+  fmt::print("\ndistributed, {}, constant N/P = {}\n", s.family, sizes.front());
+  head();
+  for (const int p : ranks) {
+    s.n = sizes.front() * static_cast<std::size_t>(p);
+    show(measure(self, s, p), false);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "How PSTRIPACK scales with MPI ranks: halo, bytes, processor time a phase, projected speed-up."};
+  Settings s;
+  std::vector<int> ranks{1, 2, 4, 8, 16, 32, 64};
+  std::vector<std::size_t> sizes{10000, 100000, 1000000};
+  app.add_option("--ranks", ranks, "numbers of ranks")->delimiter(',')->capture_default_str();
+  app.add_option("--sizes", sizes, "numbers of nodes")->delimiter(',')->capture_default_str();
+  app.add_option("--family", s.family, "point set, as in stripack-compare")->capture_default_str();
+  app.add_option("--repeats", s.repeats, "calls, of which the median is shown")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  app.add_option("--mode", s.mode, "one run on the ranks of this mpirun: distributed or pool")
+      ->check(CLI::IsMember({"distributed", "pool"}));
+  app.add_option("--n", s.n, "nodes of that run")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  try {
+    if (!s.mode.empty())
+      run_on_ranks(s);
+    else
+      tables(argv[0], s, ranks, sizes);
+    return 0;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "pstripack-scaling: {}\n", error.what());
+    return 1;
+  }
+}

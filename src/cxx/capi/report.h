@@ -1,0 +1,33 @@
+#pragma once
+// PSTRIPACK_REPORT: one line a call, and a table at exit, on stderr (1) or at the end of a file (PATH). This
+// process's own; never on stdout. Safe from any thread, in forked children, and after MPI_Finalize.
+
+#include <cstdint>
+
+#include "capi/pstripack.h"
+#include "parallel/cost.h"
+
+namespace pstripack {
+
+struct CallReport {
+  enum Mode { on_threads, by_pool, by_comm, distributed, distributed_gather, modes };
+  Mode mode = on_threads;
+  int ranks = 1;
+  std::int64_t n = 0;
+  std::int64_t nodes_in_mesh = 0;  ///< fewer than n after IER > 0; 0: there is no mesh
+  std::int64_t boundary_nodes = 0;
+  std::int32_t ier = 0;
+  double seconds = 0;  ///< of the whole call
+  GroupCost cost;
+};
+
+}  // namespace pstripack
+
+extern "C" {
+
+/// Is a report asked for? Not part of the public interface, but libpstripack_mpi must ask.
+PSTRIPACK_API int pstripack_report_is_wanted(void);
+
+/// Writes the line and adds the call to the table. Changes nothing that the program can see, not even errno.
+PSTRIPACK_API void pstripack_add_to_report(const pstripack::CallReport* call);
+}

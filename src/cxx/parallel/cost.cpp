@@ -1,0 +1,46 @@
+#include "parallel/cost.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace pstripack {
+namespace {
+
+template <class Combine>
+void combine_into(ParallelCost& to, const ParallelCost& from, const Combine& combine) {
+  for (int i = 0; i < ParallelCost::phases; ++i) {
+    combine(to.seconds[i], from.seconds[i]);
+    combine(to.cpu_seconds[i], from.cpu_seconds[i]);
+  }
+  combine(to.threads, from.threads);
+  combine(to.rounds, from.rounds);
+  combine(to.halo, from.halo);
+  combine(to.bytes_sent, from.bytes_sent);
+}
+
+}  // namespace
+
+void GroupCost::add(const ParallelCost& rank) {
+  ++ranks;
+  combine_into(maximum, rank, [](auto& to, auto from) { to = std::max(to, from); });
+  combine_into(total, rank, [](auto& to, auto from) { to += from; });
+}
+
+GroupCost group_cost(Communicator& ranks, const ParallelCost& mine) {
+  GroupCost group(mine);
+  if (ranks.size() == 1) return group;
+  try {
+    const Parcels all = ranks.all_gather(&mine, sizeof mine);
+    for (int r = 0; r < ranks.size(); ++r) {
+      if (r == ranks.rank()) continue;
+      ParallelCost other;
+      std::memcpy(&other, all.bytes.data() + all.begin[static_cast<std::size_t>(r)], sizeof other);
+      group.add(other);
+    }
+  } catch (const AgreedFailure&) {
+    group = GroupCost(mine);  // a report is no reason to fail
+  }
+  return group;
+}
+
+}  // namespace pstripack

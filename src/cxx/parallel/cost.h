@@ -1,0 +1,65 @@
+#pragma once
+// What a triangulation costs, for reports.
+
+#include <time.h>
+
+#include <cstdint>
+
+#include "parallel/communicator.h"
+
+namespace pstripack {
+
+inline double clock_seconds(clockid_t clock) {
+  timespec t;
+  clock_gettime(clock, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+/// What a triangulation cost on this rank. Seconds of the clock, and of this rank's processors.
+struct ParallelCost {
+  enum Phase { divide, triangulate, merge, lists, gather, phases };
+  double seconds[phases] = {}, cpu_seconds[phases] = {};
+  int threads = 1;
+  int rounds = 0;         ///< exchanges of questions that were needed
+  std::int64_t halo = 0;  ///< nodes of other patches that the patches of this rank took in
+  std::int64_t bytes_sent = 0;
+};
+
+/// The costs of the ranks of a group: the largest of each, and their sums.
+struct GroupCost {
+  GroupCost() = default;
+  explicit GroupCost(const ParallelCost& of_single) : maximum(of_single), total(of_single) {}
+  void add(const ParallelCost& rank);
+
+  int ranks = 1;  ///< that were added up
+  ParallelCost maximum, total;
+};
+
+/// Collective. Where memory for it fails: the cost of this rank alone.
+GroupCost group_cost(Communicator& ranks, const ParallelCost& mine);
+
+/// Adds what has passed while it lives to one phase, of the processors' time without what the rank has spent
+/// waiting. Null: nothing to do.
+class PhaseTimer {
+ public:
+  PhaseTimer(ParallelCost* cost, ParallelCost::Phase phase, const Communicator* ranks = nullptr)
+      : cost_(cost), phase_(phase), ranks_(ranks) {
+    add(-1);
+  }
+  ~PhaseTimer() { add(1); }
+  PhaseTimer(const PhaseTimer&) = delete;
+  PhaseTimer& operator=(const PhaseTimer&) = delete;
+
+ private:
+  void add(int sign) {
+    if (cost_ == nullptr) return;
+    cost_->seconds[phase_] += sign * clock_seconds(CLOCK_MONOTONIC);
+    const double idle = ranks_ != nullptr ? ranks_->idle_cpu_seconds : 0;
+    cost_->cpu_seconds[phase_] += sign * (clock_seconds(CLOCK_PROCESS_CPUTIME_ID) - idle);
+  }
+  ParallelCost* const cost_;
+  const ParallelCost::Phase phase_;
+  const Communicator* const ranks_;
+};
+
+}  // namespace pstripack

@@ -1,0 +1,248 @@
+// PSTRIPACK_REPORT, read where the library is loaded: every case is a program of its own, this one again.
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "point_sets.h"
+#include "support/expect.h"
+#include "support/trmesh.h"
+
+namespace {
+
+/// A folder of its own, gone at the end.
+class Folder {
+ public:
+  Folder() {
+    char name[] = "/tmp/pstripack_report_XXXXXX";
+    path_ = mkdtemp(name);
+  }
+  ~Folder() { EXPECT_EQ(std::system(("rm -rf " + path_).c_str()), 0); }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+std::string contents(const std::string& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::vector<std::string> lines(const std::string& text) {
+  std::vector<std::string> all;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) all.push_back(line);
+  return all;
+}
+
+struct Outcome {
+  std::string out, err;
+};
+
+/// Runs this program with `--as arguments` in `folder`.
+Outcome run(const Folder& folder, const std::string& environment, const std::string& arguments) {
+  char self[4096] = "";
+  EXPECT_GT(readlink("/proc/self/exe", self, sizeof self - 1), 0);
+  const std::string command = "cd " + folder.path() + " && env " + environment + " '" + self + "' --as " +
+                              arguments + " > out 2> err";
+  EXPECT_EQ(std::system(command.c_str()), 0) << arguments;
+  return {contents(folder.path() + "/out"), contents(folder.path() + "/err")};
+}
+
+const std::string kOne = "OMP_NUM_THREADS=1 PSTRIPACK_REPORT=1";
+const std::string kSeconds = "[0-9]+\\.[0-9]{6}";
+const std::string kPhases = " seconds=" + kSeconds + " divide=" + kSeconds + " triangulate=" + kSeconds +
+                            " merge=" + kSeconds + " lists=" + kSeconds + " gather=" + kSeconds;
+
+std::string line_of(const std::string& before_seconds) {
+  return "pstripack: threads " + before_seconds + kPhases + " rounds=[0-9]+ halo=[0-9]+ bytes=0";
+}
+std::string row_of(int calls) {
+  return "pstripack: threads +" + std::to_string(calls) + "( +" + kSeconds + "){7}";
+}
+
+::testing::AssertionResult matches(const std::string& line, const std::string& pattern) {
+  if (std::regex_match(line, std::regex(pattern))) return ::testing::AssertionSuccess();
+  return ::testing::AssertionFailure() << "'" << line << "' is not like\n'" << pattern << "'";
+}
+
+double value(const std::string& line, const std::string& key) {
+  const std::size_t at = line.find(" " + key + "=");
+  return at == std::string::npos ? -1 : std::stod(line.substr(at + key.size() + 2));
+}
+
+TEST(Report, IsSilentUnlessAskedFor) {
+  const Folder folder;
+  for (const char* environment : {"-u PSTRIPACK_REPORT", "PSTRIPACK_REPORT=", "PSTRIPACK_REPORT=0"}) {
+    const Outcome outcome = run(folder, environment, "calls random 1000 2");
+    EXPECT_EQ(outcome.out + outcome.err, "") << environment;
+  }
+}
+
+TEST(Report, HasALineACallAndATableAtExit) {
+  const Folder folder;
+  const Outcome outcome = run(folder, kOne, "calls random 1000 2");
+  EXPECT_EQ(outcome.out, "");
+  const auto all = lines(outcome.err);
+  ASSERT_EQ(all.size(), 4u) << outcome.err;
+  for (int i = 0; i < 2; ++i)
+    EXPECT_TRUE(matches(all[i], line_of("n=1000 ranks=1 threads=1 triangles=1996 boundary=0 ier=0")));
+  EXPECT_EQ(all[2].find("pstripack: total seconds"), 0u);
+  EXPECT_TRUE(matches(all[3], row_of(2)));
+}
+
+TEST(Report, HasNoTableWithoutACall) {
+  const Folder folder;
+  EXPECT_EQ(run(folder, kOne, "calls random 1000 0").err, "");
+}
+
+TEST(Report, PhasesAreWithinTheCall) {
+  const Folder folder;
+  for (const char* threads : {"1", "2"}) {
+    const std::string line =
+        run(folder, std::string("PSTRIPACK_REPORT=1 OMP_NUM_THREADS=") + threads, "calls random 60000 1").err;
+    double sum = 0;
+    for (const char* phase : {"divide", "triangulate", "merge", "lists", "gather"}) {
+      EXPECT_GE(value(line, phase), 0) << phase;
+      sum += value(line, phase);
+    }
+    EXPECT_GT(value(line, "triangulate"), 0);
+    EXPECT_GT(value(line, "lists"), 0);
+    EXPECT_LE(sum, value(line, "seconds") + 5e-6) << line;
+#ifdef _OPENMP
+    EXPECT_EQ(value(line, "threads"), std::stod(threads)) << line;
+#endif
+  }
+}
+
+TEST(Report, CountsBoundaryNodes) {
+  const Folder folder;
+  for (const char* family : {"cap", "hemisphere-rim"}) {
+    const std::size_t n = point_sets::make(family, 500).size();
+    const std::size_t boundary = boundary_nodes(trmesh(point_sets::make(family, n)));
+    ASSERT_GT(boundary, 0u);
+    const std::string line = run(folder, kOne, "calls " + std::string(family) + " 500 1").err;
+    EXPECT_EQ(value(line, "boundary"), static_cast<double>(boundary)) << line;
+    EXPECT_EQ(value(line, "triangles"), static_cast<double>(2 * n - 2 - boundary)) << line;
+  }
+  // Three boundary nodes: as many slots as without a boundary.
+  EXPECT_TRUE(matches(lines(run(folder, kOne, "calls random 3 1").err)[0],
+                      line_of("n=3 ranks=1 threads=1 triangles=1 boundary=3 ier=0")));
+}
+
+TEST(Report, TellsEveryCode) {
+  const Folder folder;
+  const auto all = lines(run(folder, kOne, "codes").err);
+  ASSERT_EQ(all.size(), 7u);
+  EXPECT_TRUE(matches(all[0], line_of("n=2 ranks=1 threads=1 triangles=0 boundary=0 ier=-1")));
+  EXPECT_TRUE(matches(all[1], line_of("n=100 ranks=1 threads=1 triangles=0 boundary=0 ier=-2")));
+  EXPECT_TRUE(matches(all[2], line_of("n=100 ranks=1 threads=1 triangles=0 boundary=0 ier=-5")));
+  EXPECT_EQ(all[3].find("pstripack: trmesh: node 61 of 100"), 0u) << "the line of every IER -5";
+  EXPECT_TRUE(matches(all[4], line_of("n=100 ranks=1 threads=1 triangles=[0-9]+ boundary=0 ier=31")));
+  EXPECT_EQ(value(all[4], "triangles"), 2 * 70 - 4) << "nodes 1 to 70";
+  EXPECT_TRUE(matches(all[6], row_of(4)));
+}
+
+TEST(Report, IsAppendedToAFile) {
+  const Folder folder;
+  for (const std::string& path : {std::string("report"), folder.path() + "/report"}) {
+    const Outcome outcome =
+        run(folder, "OMP_NUM_THREADS=1 PSTRIPACK_REPORT=" + path, "elsewhere random 1000 1");
+    EXPECT_EQ(outcome.out + outcome.err, "");
+  }
+  const auto all = lines(contents(folder.path() + "/report"));
+  ASSERT_EQ(all.size(), 6u);
+  EXPECT_TRUE(matches(all[3], line_of("n=1000 ranks=1 threads=1 triangles=1996 boundary=0 ier=0")));
+  EXPECT_TRUE(matches(all[5], row_of(1)));
+}
+
+TEST(Report, WarnsOnceOfAFileThatCannotBeWrittenAndGoesOn) {
+  const Folder folder;
+  for (const char* path : {"/proc/no/such/folder", "/tmp", "/dev/full"}) {
+    const Outcome outcome = run(folder, std::string("PSTRIPACK_REPORT=") + path, "calls random 100 3");
+    EXPECT_EQ(outcome.out, "");
+    ASSERT_EQ(lines(outcome.err).size(), 1u) << outcome.err;
+    EXPECT_EQ(outcome.err.find(std::string("pstripack: PSTRIPACK_REPORT: ") + path + ": "), 0u)
+        << outcome.err;
+  }
+}
+
+TEST(Report, KeepsTheLinesOfThreadsWhole) {
+  const Folder folder;
+  const auto all = lines(run(folder, kOne, "threads random 500 8").err);
+  ASSERT_EQ(all.size(), 10u);
+  for (int i = 0; i < 8; ++i)
+    EXPECT_TRUE(matches(all[i], line_of("n=500 ranks=1 threads=1 triangles=996 boundary=0 ier=0")));
+  EXPECT_TRUE(matches(all[9], row_of(8)));
+}
+
+TEST(Report, OfAForkedChildIsItsOwn) {
+  const Folder folder;
+  const auto all = lines(run(folder, kOne, "fork random 500 1").err);
+  ASSERT_EQ(all.size(), 8u);
+  EXPECT_TRUE(matches(all[4], row_of(2))) << "the child's: two calls, none of the parent's";
+  EXPECT_TRUE(matches(all[7], row_of(2))) << "the parent's: one call before, one after";
+}
+
+/// What the cases run. Exit code 0 if all results are as without a report.
+int run_as(const std::string& action, const std::string& family, std::size_t n, int count) {
+  if (action == "codes") {
+    Nodes nodes = point_sets::make("random", 100);
+    if (trmesh(Nodes(nodes.begin(), nodes.begin() + 2)).ier != PSTRIPACK_TOO_FEW_NODES) return 1;
+    std::swap(nodes[2], nodes[50]);
+    Nodes other = nodes;
+    other[2] = other[0];
+    if (trmesh(other).ier != PSTRIPACK_COLLINEAR) return 1;
+    other = nodes;
+    other[60] = {0, 0, 0};
+    if (trmesh(other).ier != PSTRIPACK_BAD_COORDINATE) return 1;
+    other = nodes;
+    other[70] = other[30];
+    return trmesh(other).ier == 31 ? 0 : 1;
+  }
+  const Nodes nodes = point_sets::make(family, n);
+  const auto call = [&nodes] {
+    errno = ENOTTY;
+    const Mesh m = trmesh(nodes);
+    if (errno != ENOTTY || !is_correct(nodes, m)) std::_Exit(1);
+  };
+  if (action == "threads") {
+    std::vector<std::thread> threads;
+    for (int i = 0; i < count; ++i) threads.emplace_back(call);
+    for (auto& t : threads) t.join();
+    return 0;
+  }
+  if (action == "elsewhere" && (chdir("/") != 0 || unsetenv("PSTRIPACK_REPORT") != 0)) return 1;
+  for (int i = 0; i < count; ++i) call();
+  if (action != "fork") return 0;
+  const pid_t child = fork();
+  if (child == 0) {
+    call();
+    call();
+    std::exit(0);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  call();
+  return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc > 2 && std::string(argv[1]) == "--as")
+    return run_as(argv[2], argc > 3 ? argv[3] : "", argc > 4 ? std::stoul(argv[4]) : 0,
+                  argc > 5 ? std::atoi(argv[5]) : 0);
+  ::testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,100 @@
+// An MPI program for job_test.sh:
+//
+//   job comm           two calls of TRMESH in comm mode, one with nodes that coincide
+//   job distributed    a distributed mesh, and its lists on rank 0
+//   job calls N        TRMESH in comm mode, N nodes, for ever; "call 2" on stdout
+//   job meshes N       the same with a distributed mesh
+//   job ... N error    from call 3 on MPI fails on rank 1
+//
+// Exit code 0 if all results are right.
+
+#include <mpi.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <vector>
+
+#include "capi/pstripack_mpi.h"
+#include "mpi_test.h"
+#include "point_sets.h"
+#include "support/trmesh.h"
+
+namespace {
+
+bool mpi_fails = false;
+
+bool in_comm_mode() {
+  Nodes nodes = point_sets::make("random", 1000);
+  if (pstripack_set_comm(MPI_COMM_WORLD) != 0 || !verdict(nodes, trmesh(nodes)).empty()) return false;
+  nodes[70] = nodes[30];
+  return trmesh(nodes).ier == 31;
+}
+
+/// Every so-manieth of the nodes.
+struct Share {
+  explicit Share(const Nodes& nodes) {
+    for (auto i = static_cast<std::size_t>(rank_of()); i < nodes.size();
+         i += static_cast<std::size_t>(size_of())) {
+      number.push_back(static_cast<std::int64_t>(i) + 1);
+      for (const double c : {nodes[i].x, nodes[i].y, nodes[i].z}) xyz.push_back(c);
+    }
+  }
+  std::int32_t triangulate(pstripack_mesh* mesh) const {
+    return pstripack_mesh_triangulate(mesh, static_cast<std::int64_t>(number.size()), xyz.data(),
+                                      number.data());
+  }
+  std::vector<std::int64_t> number;
+  std::vector<double> xyz;
+};
+
+bool distributed() {
+  const Nodes nodes = point_sets::make("cap", 500);
+  pstripack_mesh* mesh = nullptr;
+  if (pstripack_mesh_create(MPI_COMM_WORLD, &mesh) != 0 || Share(nodes).triangulate(mesh) != 0) return false;
+  Lists lists;
+  lists.list.resize(6 * nodes.size() - 12);
+  lists.lptr.resize(6 * nodes.size() - 12);
+  lists.lend.resize(nodes.size());
+  const int code =
+      pstripack_mesh_gather(mesh, 0, lists.list.data(), lists.lptr.data(), lists.lend.data(), &lists.lnew);
+  pstripack_mesh_free(mesh);
+  return code == 0 && (rank_of() != 0 || verdict(nodes, lists).empty());
+}
+
+template <class Call>
+void for_ever(bool with_error, const Call& call) {
+  for (int i = 1;; ++i) {
+    mpi_fails = with_error && i > 2 && rank_of() == 1;
+    if (call() != 0) return;
+    if (i == 2 && rank_of() == 0) std::puts("call 2");
+    std::fflush(stdout);
+  }
+}
+
+}  // namespace
+
+/// Instead of MPI's own, which PMPI_Testall still is.
+int MPI_Testall(int count, MPI_Request* requests, int* flag, MPI_Status* statuses) {
+  return mpi_fails ? MPI_ERR_OTHER : PMPI_Testall(count, requests, flag, statuses);
+}
+
+int main(int argc, char** argv) {
+  MPI_Init(&argc, &argv);
+  const char* const action = argc > 1 ? argv[1] : "";
+  const Nodes nodes = argc > 2 ? point_sets::make("random", std::strtoul(argv[2], nullptr, 10)) : Nodes();
+  const bool with_error = argc > 3 && std::strcmp(argv[3], "error") == 0;
+  bool right = false;
+  if (std::strcmp(action, "comm") == 0) right = in_comm_mode();
+  if (std::strcmp(action, "distributed") == 0) right = distributed();
+  if (std::strcmp(action, "calls") == 0 && pstripack_set_comm(MPI_COMM_WORLD) == 0)
+    for_ever(with_error, [&] { return trmesh(nodes).ier; });
+  if (std::strcmp(action, "meshes") == 0) {
+    const Share share(nodes);
+    pstripack_mesh* mesh = nullptr;
+    if (pstripack_mesh_create(MPI_COMM_WORLD, &mesh) == 0)
+      for_ever(with_error, [&] { return share.triangulate(mesh); });
+  }
+  MPI_Finalize();
+  return right ? 0 : 1;
+}

@@ -1,0 +1,114 @@
+#!/bin/sh
+# Whole MPI jobs, their reports and their ends: job_test.sh CASE RANKS, with MPIEXEC (and its flags), PROGRAM
+# and WORK in the environment.
+# shellcheck disable=SC2015,SC2016,SC2086,SC2154
+set -u
+case=$1 ranks=$2
+dir=$WORK/job_${case}_np$ranks
+rm -rf "$dir"
+mkdir -p "$dir"
+cd "$dir" || exit 1
+job=
+trap 'status=$?; [ -z "$job" ] || kill "$job" 2> /dev/null; exit $status' EXIT
+
+fail() {
+  echo "FAILED: $*"
+  for file in *.out *.err report; do [ -s "$file" ] && { echo "--- $file"; cat "$file"; }; done
+  exit 1
+}
+
+# run ARGUMENT...: on all ranks; the report is asked for on the rank $asking only, or on "all"
+run() {
+  $MPIEXEC -n "$ranks" sh -c '
+    asking=$1
+    shift
+    if [ "$asking" = all ] || [ "$asking" = "$OMPI_COMM_WORLD_RANK" ]; then
+      PSTRIPACK_REPORT=report
+      export PSTRIPACK_REPORT
+    fi
+    exec "$@"' sh "$asking" "$PROGRAM" "$@" > run.out 2> run.err || fail "exit code"
+  [ ! -s run.out ] || fail "something on stdout"
+  [ ! -s run.err ] || fail "something on stderr"
+}
+
+second='[0-9]+\.[0-9]{6}' ratio=
+[ "$ranks" -eq 1 ] || ratio="/$second"
+phases="seconds=$second"
+for phase in divide triangulate merge lists gather; do phases="$phases $phase=$second$ratio"; done
+phases="$phases rounds=[0-9]+ halo=[0-9]+ bytes=[0-9]+"
+# line NUMBER TEXT: that line of the report, TEXT before the phases
+line() { sed -n "$1p" report | grep -qE "^pstripack: $2 $phases\$" || fail "line $1 is not: $2"; }
+row() { sed -n "$1p" report | grep -qE "^pstripack: $2 +$3( +$second){7}\$" || fail "line $1 is not: row $2"; }
+
+# start ARGUMENT...: in the background, as $job
+start() {
+  : > job.out
+  $MPIEXEC -n "$ranks" sh -c 'echo $$ > rank.$OMPI_COMM_WORLD_RANK; exec "$@"' sh "$PROGRAM" "$@" \
+    > job.out 2> job.err &
+  job=$!
+}
+until_it_says() {
+  waited=0
+  until grep -q "$1" job.out; do
+    sleep 0.1
+    waited=$((waited + 1))
+    [ $waited -lt 200 ] || fail "it has not begun"
+  done
+}
+# Within 10 s, not well.
+ends() {
+  waited=0
+  while kill -0 "$job" 2> /dev/null; do
+    sleep 0.1
+    waited=$((waited + 1))
+    [ $waited -lt 100 ] || fail "no end within 10 s"
+  done
+  wait "$job" && fail "exit code 0"
+  job=
+}
+
+case $case in
+comm | distributed)
+  for asking in all 0; do
+    rm -f report
+    run "$case"
+    if [ "$case" = comm ]; then
+      [ "$(wc -l < report)" -eq 4 ] || fail "not four lines"
+      line 1 "comm n=1000 ranks=$ranks threads=1 triangles=1996 boundary=0 ier=0"
+      line 2 "comm n=1000 ranks=$ranks threads=1 triangles=136 boundary=0 ier=31"
+      row 4 comm 2
+    else
+      [ "$(wc -l < report)" -eq 5 ] || fail "not five lines"
+      line 1 "distributed n=500 ranks=$ranks threads=1 triangles=[0-9]+ boundary=[1-9][0-9]* ier=0"
+      line 2 "distributed-gather n=500 ranks=$ranks threads=1 triangles=[0-9]+ boundary=[1-9][0-9]* ier=0"
+      row 4 distributed 1
+      row 5 distributed-gather 1
+    fi
+    [ "$ranks" -eq 1 ] || grep -q 'bytes=[1-9]' report || fail "nothing was sent"
+  done
+  # A wish of another rank is none.
+  if [ "$ranks" -gt 1 ]; then
+    rm -f report
+    asking=1
+    run "$case"
+    [ ! -e report ] || fail "a report of rank 1"
+  fi
+  ;;
+kill_calls | kill_meshes)
+  # MPI tells a library nothing of a killed rank: mpirun ends the job and names the rank.
+  start "${case#kill_}" 100000
+  until_it_says 'call 2'
+  kill -9 "$(cat rank.1)"
+  ends
+  grep -q 'rank 1' job.err || fail "nobody names the rank"
+  ;;
+error_calls | error_meshes)
+  start "${case#error_}" 100000 error
+  until_it_says 'call 2'
+  ends
+  [ "$(grep -c '^pstripack: rank 1: MPI error in phase [a-z]' job.err)" -eq 1 ] || fail "no line, or several"
+  ;;
+*)
+  fail "no such case"
+  ;;
+esac
