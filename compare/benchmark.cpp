@@ -311,6 +311,35 @@ std::string ratio(const Samples& theirs, const Samples& own, double required) {
   return fmt::format("{:>9} {:>7}", measured, required > 0 ? fmt::format("({:g})", required) : "");
 }
 
+/// TRMESH on all processors beside TRMESH on one, in turn; in this process, since a forked child has one
+/// thread. The last case, therefore.
+void run_threads(int repeats) {
+#ifdef _OPENMP
+  constexpr double kRequired = 1.75;  // of two threads
+  const Nodes nodes(point_sets::make("random", 1000000, 1));
+  const Stripack library = ours();
+  const int processors = omp_get_num_procs();
+  Lists lists(nodes.n());
+  const auto seconds_on = [&](int threads) {
+    omp_set_num_threads(threads);
+    const auto start = Clock::now();
+    library.trmesh(nodes, lists);
+    return seconds_since(start);
+  };
+  Samples one, all;
+  for (const int threads : {1, processors}) seconds_on(threads);  // new pages
+  while (!all.enough(repeats)) {
+    one.add(seconds_on(1));
+    all.add(seconds_on(processors));
+  }
+  fmt::print("{:<17} {:>8} {:>9} on 1 thread, {} on {}: {:.2f} times the speed{}\n", "threads-1e6", nodes.n(),
+             microseconds(one, nodes.n()), microseconds(all, nodes.n()), processors,
+             one.median() / all.median(), processors == 2 ? fmt::format(" ({:g})", kRequired) : "");
+#else
+  static_cast<void>(repeats);
+#endif
+}
+
 /// The nodes of a case. Symmetric sets are shuffled, until the first three are not on one great circle and
 /// the original comes to an end.
 std::vector<Point> nodes_of(const Case& c, const std::optional<legacy_stripack::Original>& original_library) {
@@ -381,6 +410,7 @@ std::string processor() {
 int main(int argc, char** argv) {
   std::string names;
   for (const Case& c : kCases) names += " " + c.name;
+  names += " threads-1e6";
   CLI::App app(
       "Times of PSTRIPACK, the original STRIPACK and CGAL on one thread, and their ratios beside those\n"
       "that the project asks for. The exit code says nothing about them.",
@@ -396,7 +426,8 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     for (const std::string& name : only)
-      if (std::none_of(kCases.begin(), kCases.end(), [&](const Case& c) { return c.name == name; }))
+      if (name != "threads-1e6" &&
+          std::none_of(kCases.begin(), kCases.end(), [&](const Case& c) { return c.name == name; }))
         throw std::invalid_argument("there is no case " + name + "; cases:" + names);
     if (repeats == 0) repeats = quick ? 3 : 7;
 #ifdef _OPENMP
@@ -429,6 +460,8 @@ int main(int argc, char** argv) {
         fmt::print("{:<17} {}\n", c.name, e.what());
       }
     }
+    if (only.empty() ? !quick : std::find(only.begin(), only.end(), "threads-1e6") != only.end())
+      run_threads(repeats);
     fmt::print(
         "\ncrlist: against CSCRLIST as libngmath ships it, which turns centres into latitudes and longitudes;"
         "\ncrlist-xyz: against the same without that, as STRIPACK's CRLIST\npeak: memory during TRMESH "

@@ -65,6 +65,7 @@ void DistributedMesh::clear() {
   begin_ = {};
   short_neighbour_ = {};
   long_neighbour_ = {};
+  memory_.reset();
   halo_ = {};
   homes_.reset();
 }
@@ -205,7 +206,7 @@ bool DistributedMesh::find_corners(const Point* points, std::size_t n, const std
 }
 
 template <class Int>
-std::int32_t DistributedMesh::triangulate_into(Buffer<Int>& neighbour, const Point* points, std::size_t n,
+std::int32_t DistributedMesh::triangulate_into(Array<Int>& neighbour, const Point* points, std::size_t n,
                                                const std::int64_t* number, PartitionKind partition,
                                                ParallelCost& cost) {
   ranks_.set_phase("triangulate");
@@ -234,9 +235,11 @@ std::int32_t DistributedMesh::triangulate_into(Buffer<Int>& neighbour, const Poi
   const PhaseTimer timer(&cost, ParallelCost::lists, &ranks_);
   const auto& rings = stars.of_node;
   agreed(ranks_, [&] {
-    begin_ = Buffer<std::int64_t>(n + 1);
-    neighbour = Buffer<Int>(static_cast<std::size_t>(arcs_of(rings, n)));
-    number_ = Buffer<std::int64_t>(n);
+    const auto arcs = static_cast<std::size_t>(arcs_of(rings, n));
+    memory_ = std::make_unique<Workspace>((2 * n + 1) * sizeof(std::int64_t) + arcs * sizeof(Int));
+    begin_ = keep<std::int64_t>(n + 1);
+    neighbour = keep<Int>(arcs);
+    number_ = keep<std::int64_t>(n);
     halo_.reserve(stars.outside.size());
   });
   std::copy(number, number + n, number_.begin());

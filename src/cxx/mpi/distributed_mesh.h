@@ -53,6 +53,23 @@ class DistributedMesh {
                       std::int32_t* lnew, Report* report = nullptr);
 
  private:
+  /// An array in memory_, which the next mesh of this size gets again without new pages.
+  template <class T>
+  struct Array {
+    T* first = nullptr;
+    std::size_t count = 0;
+
+    std::size_t size() const { return count; }
+    T* data() const { return first; }
+    T* begin() const { return first; }
+    T* end() const { return first + count; }
+    T& operator[](std::size_t i) const { return first[i]; }
+  };
+  template <class T>
+  Array<T> keep(std::size_t count) {
+    return {memory_->keep<T>(count), count};
+  }
+
   struct Numbering;
   std::int32_t triangulate_points(std::int64_t n, const Point* points, const std::int64_t* number,
                                   Report* report, ParallelCost& cost);
@@ -64,7 +81,7 @@ class DistributedMesh {
   bool find_corners(const Point* points, std::size_t n, const std::int64_t* number, Point (&corners)[3],
                     std::int64_t (&numbers)[3]);
   template <class Int>
-  std::int32_t triangulate_into(Buffer<Int>& neighbour, const Point* points, std::size_t n,
+  std::int32_t triangulate_into(Array<Int>& neighbour, const Point* points, std::size_t n,
                                 const std::int64_t* number, PartitionKind partition, ParallelCost& cost);
   void report_on(ParallelCost& mine, std::int64_t sent_before, Report* report);
   void clear();
@@ -74,7 +91,7 @@ class DistributedMesh {
     numbers_are_short_ ? for_each_star(short_neighbour_, visit) : for_each_star(long_neighbour_, visit);
   }
   template <class Int, class Visit>
-  void for_each_star(const Buffer<Int>& neighbour, const Visit& visit) const {
+  void for_each_star(const Array<Int>& neighbour, const Visit& visit) const {
     for (std::size_t i = 0; i < number_.size(); ++i)
       visit(i, static_cast<std::size_t>(begin_[i + 1] - begin_[i]), neighbour.data() + begin_[i]);
   }
@@ -90,10 +107,11 @@ class DistributedMesh {
   bool is_reported_ = false;        ///< rank 0 wants reports, and all know it
   bool numbers_are_short_ = true;   ///< they fit 32 bits
   bool numbers_are_dense_ = false;  ///< they are 1..total
-  Buffer<std::int64_t> number_;     ///< of the own points
-  Buffer<std::int64_t> begin_;      ///< of their stars in one of the two arrays below
-  Buffer<std::int32_t> short_neighbour_;
-  Buffer<std::int64_t> long_neighbour_;
+  std::unique_ptr<Workspace> memory_;
+  Array<std::int64_t> number_;  ///< of the own points
+  Array<std::int64_t> begin_;   ///< of their stars in one of the two arrays below
+  Array<std::int32_t> short_neighbour_;
+  Array<std::int64_t> long_neighbour_;
   std::vector<NumberedPoint> halo_;
   std::unique_ptr<Homes> homes_;
 };

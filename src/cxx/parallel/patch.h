@@ -123,37 +123,29 @@ class Patch {
     }
   }
 
-  /// Calls visit(i, neighbour, j) for each neighbour of each own node i; j: which own node the neighbour is,
-  /// or own() if it is none.
-  template <class Visit>
-  void for_each_neighbour(const Visit& visit) const {
-    for (std::uint32_t v = 0; v < built_; ++v) {
-      if (order_[v] >= own_) continue;
-      const auto visit_node = [&](std::uint32_t w) {
-        visit(order_[v], Record{arrays_.nodes[w], number_[w]}, is_own(w) ? order_[w] : own_);
-      };
+  /// After finish(): who misses which neighbours. rank_of(i) is the rank that brought own node i, `mine` the
+  /// one that brought most. Calls visit(r, node) for each node that is a neighbour of one that r has brought
+  /// and that r has not, perhaps more than once.
+  template <class RankOf, class Visit>
+  void for_each_missing_neighbour(std::size_t mine, const RankOf& rank_of, const Visit& visit) const {
+    if (own_ == 0) return;
+    constexpr std::size_t kNobody = SIZE_MAX;
+    const auto brought_by = [&](std::uint32_t v) { return is_own(v) ? rank_of(order_[v]) : kNobody; };
+    const auto node = [&](std::uint32_t v) { return Record{arrays_.nodes[v], number_[v]}; };
+    for (std::uint32_t v = 0; v < hull_.node_count; ++v) {
+      const std::size_t r = brought_by(v);
+      if (r == mine) continue;  // its neighbours that are not are met themselves
+      bool is_missing = false;
       for_each_face_at(v, [&](std::uint32_t t, std::uint32_t i) {
         if (!hull_.front(t)) return;
-        const Face& f = hull_.faces[t];
-        visit_node(f.vertex[next_edge(i)]);
-        if (!hull_.front(face_of(f.neighbour[next_edge(i)]))) visit_node(f.vertex[previous_edge(i)]);
+        for (const std::uint32_t k : {next_edge(i), previous_edge(i)}) {
+          const std::uint32_t w = hull_.faces[t].vertex[k];
+          const std::size_t other = brought_by(w);
+          is_missing = is_missing || other == mine;
+          if (r != kNobody && other != r) visit(r, node(w));
+        }
       });
-    }
-  }
-
-  /// After finish(): calls visit(node) for each node that is a neighbour of own nodes and not its own.
-  template <class Visit>
-  void for_each_node_around(const Visit& visit) const {
-    if (own_ == 0) return;
-    for (std::uint32_t v = 0; v < hull_.node_count; ++v) {
-      if (is_own(v)) continue;
-      bool has_own = false;
-      for_each_face_at(v, [&](std::uint32_t t, std::uint32_t) {
-        const auto& corner = hull_.faces[t].vertex;
-        has_own =
-            has_own || (hull_.front(t) && (is_own(corner[0]) || is_own(corner[1]) || is_own(corner[2])));
-      });
-      if (has_own) visit(Record{arrays_.nodes[v], number_[v]});
+      if (is_missing) visit(mine, node(v));
     }
   }
 

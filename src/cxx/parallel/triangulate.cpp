@@ -622,19 +622,13 @@ class Triangulator {
       std::vector<std::vector<Record>> neighbours(size_);
       for (std::size_t k = 0; k < patches_.size(); ++k) {
         const std::vector<std::size_t>& from = own_from_[k];
-        if (from[me_ + 1] - from[me_] == patches_[k].own()) {  // it has nodes of this rank only
-          patches_[k].for_each_node_around([&](const Record& node) { neighbours[me_].push_back(node); });
-          continue;
-        }
-        const auto source = [&](std::size_t i) {
+        const std::size_t first = from[me_], count = from[me_ + 1] - first;
+        const auto rank_of = [&](std::size_t i) {
+          if (i - first < count) return me_;
           return static_cast<std::size_t>(std::upper_bound(from.begin(), from.end(), i) - from.begin()) - 1;
         };
-        patches_[k].for_each_neighbour([&](std::size_t i, const Record& neighbour, std::size_t j) {
-          const std::size_t r = source(i);
-          if (j >= from[r] && j < from[r + 1]) return;
-          std::vector<Record>& list = neighbours[r];
-          if (list.empty() || list.back().number != neighbour.number) list.push_back(neighbour);
-        });
+        patches_[k].for_each_missing_neighbour(
+            me_, rank_of, [&](std::size_t r, const Record& node) { neighbours[r].push_back(node); });
       }
       outgoing = parcels(neighbours);
     });
