@@ -9,9 +9,9 @@ namespace {
 constexpr std::size_t kSmallest = std::size_t{4} << 20;  // below, the allocator keeps blocks itself
 constexpr std::size_t kLargest = std::size_t{1} << 30;
 
-constexpr std::size_t kCount = 8;  // a call on threads takes four
+constexpr std::size_t kCount = 8;    // a call on threads takes four
 Buffer<unsigned char> kept[kCount];  // between two calls
-std::mutex mutex;               // never waited for: another thread may hold it, or held it when we were forked
+std::mutex mutex;  // never waited for: another thread may hold it, or held it when we were forked
 
 }  // namespace
 

@@ -114,7 +114,7 @@ class Triangulator {
       ranks_.set_phase("merge");
       stars.coincident = all_coincident();
       if (stars.coincident.empty()) find_boundary();
-      while (stars.coincident.empty() && ask_and_learn()) stars.coincident = all_coincident();
+      while (stars.coincident.empty() && !gave_up_ && ask_and_learn()) stars.coincident = all_coincident();
       stars.gave_up = gave_up_;
     }
     if (stars.coincident.empty() && !gave_up_) {
@@ -439,6 +439,8 @@ class Triangulator {
         nodes.insert(nodes.end(), outline.nodes.begin(), outline.nodes.end());
       }
     });
+    gave_up_ = size_ == 1 && nodes.size() > options_.most_questions;
+    if (gave_up_) return;
     ranks_.all_min(values, 2);
     if (values[0] == 0) return;
     const bool there_is_none = values[1] != INT64_MAX;

@@ -35,7 +35,8 @@ struct ParallelOptions {
   int patches = 1;               ///< of this rank; may differ from rank to rank
   int threads = 1;               ///< of this rank
   bool with_neighbours = false;  ///< fill Stars::outside
-  /// Of a single rank: give up if the patches have more questions than this, since one patch would be faster.
+  /// Of a single rank: give up if the patches have more questions, or nodes on what they take for the
+  /// boundary, than this, since one patch would be faster.
   std::size_t most_questions = SIZE_MAX;
 };
 
