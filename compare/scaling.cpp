@@ -3,9 +3,10 @@
 //
 // It starts itself under mpirun for every number of ranks. More ranks than processors share them, so the
 // clock says nothing about them; the processor time of every rank and phase does. The critical path is the
-// sum over the phases of the slowest rank's processor time, as if every rank had a processor of its own and
-// messages cost only what sending and receiving takes of the processor. Speed-ups from it are a projection,
-// and the tables say so. Serial is TRMESH on one thread, arrays in and lists out, in the same process.
+// sum over the phases of the slowest rank's processor time (each its median over the calls), as if every rank
+// had a processor of its own and messages cost only what sending and receiving takes of the processor.
+// Speed-ups from it are a projection, and the tables say so. Serial is TRMESH on one thread, arrays in and
+// lists out, in the same process.
 
 #include <fmt/format.h>
 #include <mpi.h>
@@ -84,35 +85,43 @@ double serial(const std::vector<Point>& points, int repeats) {
   return median(spent);
 }
 
-void print(const Settings& s, std::size_t n, int ranks, double serial_seconds, double wall, double root,
-           const GroupCost& cost) {
-  const auto& c = cost.maximum.cpu_seconds;
-  fmt::print(
-      "row n {} ranks {} serial {} wall {} root {} divide {} triangulate {} merge {} lists {} gather {} mean "
-      "{} "
-      "halo {} bytes {} rounds {}\n",
-      n, ranks, serial_seconds, wall, root, c[Phase::divide], c[Phase::triangulate], c[Phase::merge],
-      c[Phase::lists], c[Phase::gather], cost.total.cpu_seconds[Phase::triangulate] / ranks, cost.total.halo,
-      cost.total.bytes_sent, cost.maximum.rounds);
-  std::fflush(stdout);
-  static_cast<void>(s);
-}
-
-double critical_path(const GroupCost& cost) {
-  double sum = 0;
-  for (const double phase : cost.maximum.cpu_seconds) sum += phase;
-  return sum;
-}
-
-/// Which call's costs are shown: that with the median critical path.
 struct Call {
   double wall, root;
   GroupCost cost;
 };
-const Call& median_call(std::vector<Call>& calls) {
-  std::sort(calls.begin(), calls.end(),
-            [](const Call& a, const Call& b) { return critical_path(a.cost) < critical_path(b.cost); });
-  return calls[calls.size() / 2];
+
+/// The processor time of a rank and phase is its median over the calls, which do the same work: other ranks
+/// that share the processor disturb single calls.
+void print(MpiCommunicator& ranks, std::size_t n, double serial_seconds, const std::vector<Call>& calls) {
+  std::vector<ParallelCost> mine;
+  std::vector<double> wall, root;
+  for (const Call& call : calls) {
+    mine.push_back(call.cost.mine);
+    wall.push_back(call.wall);
+    root.push_back(call.root);
+  }
+  const Parcels all = ranks.all_gather(mine.data(), mine.size() * sizeof mine[0]);
+  if (ranks.rank() != 0) return;
+  double slowest[Phase::phases] = {}, triangulate = 0;
+  for (const std::size_t begin : all.begin) {
+    if (begin == all.begin.back()) break;
+    const auto* const of_rank = reinterpret_cast<const ParallelCost*>(all.bytes.data() + begin);
+    for (int phase = 0; phase < Phase::phases; ++phase) {
+      std::vector<double> spent;
+      for (std::size_t k = 0; k < calls.size(); ++k) spent.push_back(of_rank[k].cpu_seconds[phase]);
+      const double usual = median(spent);
+      slowest[phase] = std::max(slowest[phase], usual);
+      if (phase == Phase::triangulate) triangulate += usual / ranks.size();
+    }
+  }
+  const GroupCost& cost = calls.back().cost;
+  fmt::print(
+      "row n {} ranks {} serial {} wall {} root {} divide {} triangulate {} merge {} lists {} "
+      "gather {} mean {} halo {} bytes {} rounds {}\n",
+      n, ranks.size(), serial_seconds, median(wall), median(root), slowest[Phase::divide],
+      slowest[Phase::triangulate], slowest[Phase::merge], slowest[Phase::lists], slowest[Phase::gather],
+      triangulate, cost.total.halo, cost.total.bytes_sent, cost.maximum.rounds);
+  std::fflush(stdout);
 }
 
 /// Points to the ranks that are home to them.
@@ -172,7 +181,7 @@ void run_on_ranks(const Settings& s) {
         DistributedMesh::Report report;
         const double start = seconds(), spent = cpu_seconds();
         mesh.triangulate(static_cast<std::int64_t>(points.size()), &points.data()->x, numbers.data(),
-                         is_root ? &report : nullptr);
+                         &report);
         if (k > 0) calls.push_back({seconds() - start, cpu_seconds() - spent, report.cost});
       }
     } else {
@@ -182,15 +191,11 @@ void run_on_ranks(const Settings& s) {
         GroupCost cost;
         const double start = seconds(), spent = cpu_seconds();
         collective_trmesh(ranks, Arrays::on_rank_0, static_cast<std::int32_t>(n), c.x.data(), c.y.data(),
-                          c.z.data(), l.list.data(), l.lptr.data(), l.lend.data(), &l.lnew,
-                          is_root ? &cost : nullptr);
+                          c.z.data(), l.list.data(), l.lptr.data(), l.lend.data(), &l.lnew, &cost);
         if (k > 0) calls.push_back({seconds() - start, cpu_seconds() - spent, cost});
       }
     }
-    if (is_root) {
-      const Call& call = median_call(calls);
-      print(s, n, ranks.size(), serial_seconds, call.wall, call.root, call.cost);
-    }
+    print(ranks, n, serial_seconds, calls);
   }
   MPI_Finalize();
 }

@@ -16,7 +16,7 @@ enum class Arrays {
 
 /// TRMESH (stripack/trmesh.h) by all ranks together: the same bytes, the same codes, on every rank.
 /// Collective; Real is the same on every rank. Throws AgreedFailure, having written nothing.
-/// If rank 0 passes `cost`, it is told there what the call cost all ranks; what others pass does not matter.
+/// If rank 0 passes `cost`, it is told there what the call cost all ranks, and so are others that pass one.
 template <class Real>
 TrmeshResult collective_trmesh(MpiCommunicator& ranks, Arrays arrays, std::int32_t n, const Real* x,
                                const Real* y, const Real* z, std::int32_t* list, std::int32_t* lptr,

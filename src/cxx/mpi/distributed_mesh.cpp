@@ -263,7 +263,7 @@ void DistributedMesh::report_on(ParallelCost& mine, std::int64_t sent_before, Re
   std::int64_t boundary = 0;
   for_each_star([&](std::size_t, std::size_t count, const auto* ring) { boundary += ring[count - 1] < 0; });
   const std::int64_t* const of_rank = ranks_.all_gather_one(boundary);
-  if (ranks_.rank() != 0 || report == nullptr) return;
+  if (report == nullptr) return;
   report->cost = cost;
   report->boundary_points = std::accumulate(of_rank, of_rank + ranks_.size(), std::int64_t{0});
 }

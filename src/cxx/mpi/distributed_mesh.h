@@ -27,7 +27,7 @@ class DistributedMesh {
   };
 
   /// Collective. The result code; after one that is not 0 the mesh is empty. Throws AgreedFailure, too.
-  /// If rank 0 passes `report`, that is filled; what others pass does not matter.
+  /// If rank 0 passes `report`, that is filled, and those of the other ranks that pass one.
   std::int32_t triangulate(std::int64_t n, const double* xyz, const std::int64_t* number,
                            Report* report = nullptr);
 

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <stdexcept>
 #include <thread>
 
 namespace pstripack {
@@ -103,8 +104,8 @@ MpiCommunicator::MpiCommunicator(MPI_Comm comm, std::size_t longest_message, std
       const auto ranks = static_cast<std::size_t>(size_);
       sizes_.resize(ranks);
       other_sizes_.resize(ranks);
-      counts_.resize(ranks);
-      displacements_.resize(ranks);
+      moving_.resize(ranks);
+      packed_.resize(ranks);
       under_way_.reserve(4 * ranks + 16);
     });
   } catch (...) {
@@ -166,17 +167,88 @@ void MpiCommunicator::wait(MPI_Request* requests, int count, std::size_t bytes) 
   idle_cpu_seconds += std::max(0.0, processor_seconds() - start - 1e-9 * static_cast<double>(bytes));
 }
 
+/// Both ways at once, in lengths that MPI can count, cut at the same places on both sides.
+void MpiCommunicator::send_and_receive(const void* out, std::size_t out_size, int to, void* in,
+                                       std::size_t in_size, int from) {
+  const auto* const outgoing = static_cast<const unsigned char*>(out);
+  auto* const incoming = static_cast<unsigned char*>(in);
+  for (std::size_t at = 0; at < std::max(out_size, in_size); at += longest_message_) {
+    MPI_Request requests[2];
+    int count = 0;
+    std::size_t bytes = 0;
+    const auto part = [&](std::size_t size) {
+      const std::size_t length = std::min(longest_message_, size - at);
+      bytes += length;
+      return static_cast<int>(length);
+    };
+    if (at < in_size)
+      check(MPI_Irecv(incoming + at, part(in_size), MPI_BYTE, from, kTag, comm_, &requests[count++]));
+    if (at < out_size)
+      check(MPI_Isend(outgoing + at, part(out_size), MPI_BYTE, to, kTag, comm_, &requests[count++]));
+    wait(requests, count, bytes);
+  }
+}
+
+// The collectives take about log2(ranks) steps, in step k with the ranks that are 2^k away (Bruck, Ho,
+// Kipnis, Upfal & Weathersby 1997; the first is Hensgen, Finkel & Manber 1988). MPI's own that do not block
+// send to every rank, and those that block spin.
+
 void MpiCommunicator::all_min(std::int64_t* values, std::size_t count) {
-  MPI_Request request;
-  check(MPI_Iallreduce(MPI_IN_PLACE, values, static_cast<int>(count), MPI_INT64_T, MPI_MIN, comm_, &request));
-  wait(request);
+  std::int64_t others[kMostValues];
+  if (count > kMostValues) throw std::length_error("all_min of too many values");
+  for (int distance = 1; distance < size_; distance *= 2) {
+    send_and_receive(values, count * sizeof *values, above(distance), others, count * sizeof *values,
+                     below(distance));
+    for (std::size_t i = 0; i < count; ++i) values[i] = std::min(values[i], others[i]);
+  }
 }
 
 const std::int64_t* MpiCommunicator::all_gather_one(std::int64_t value) {
-  MPI_Request request;
-  check(MPI_Iallgather(&value, 1, MPI_INT64_T, sizes_.data(), 1, MPI_INT64_T, comm_, &request));
-  wait(request);
+  sizes_[static_cast<std::size_t>(rank_)] = value;
+  gather_blocks(sizes_.data(), [](int r) { return static_cast<std::size_t>(r) * sizeof value; });
   return sizes_.data();
+}
+
+/// Rank r has block r of `all`, the bytes [begin(r), begin(r+1)); afterwards all have all. In each step a
+/// rank has the blocks of the `distance` ranks from its own on and gets those of as many that follow.
+template <class Begin>
+void MpiCommunicator::gather_blocks(void* all, const Begin& begin) {
+  auto* const bytes = static_cast<unsigned char*>(all);
+  struct Piece {
+    std::size_t begin, end;
+  };
+  // Blocks of `count` ranks from `first` on: in two pieces, of which the second begins anew at rank 0.
+  const auto piece = [&](int first, int count, bool second) {
+    const int last = first + count;
+    if (second) return Piece{0, last > size_ ? begin(last - size_) : 0};
+    return Piece{begin(first), begin(std::min(last, size_))};
+  };
+  for (int distance = 1; distance < size_; distance *= 2) {
+    const int count = std::min(distance, size_ - distance);
+    for (const bool second : {false, true}) {
+      const Piece out = piece(rank_, count, second), in = piece(above(distance), count, second);
+      send_and_receive(bytes + out.begin, out.end - out.begin, below(distance), bytes + in.begin,
+                       in.end - in.begin, above(distance));
+    }
+  }
+}
+
+/// out[r] is for rank r; sizes_[r] becomes what rank r had for this one. Value j of the buffer is on its way
+/// to the rank that is j above the one that has it, by the bits of j.
+void MpiCommunicator::exchange_sizes(const std::int64_t* out) {
+  const auto ranks = static_cast<std::size_t>(size_), me = static_cast<std::size_t>(rank_);
+  for (std::size_t j = 0; j < ranks; ++j) moving_[j] = out[(me + j) % ranks];
+  for (std::size_t distance = 1; distance < ranks; distance *= 2) {
+    std::size_t count = 0;
+    for (std::size_t j = distance; j < ranks; ++j)
+      if ((j & distance) != 0) packed_[count++] = moving_[j];
+    send_and_receive(packed_.data(), count * sizeof *out, above(static_cast<int>(distance)), sizes_.data(),
+                     count * sizeof *out, below(static_cast<int>(distance)));
+    count = 0;
+    for (std::size_t j = distance; j < ranks; ++j)
+      if ((j & distance) != 0) moving_[j] = sizes_[count++];
+  }
+  for (std::size_t j = 0; j < ranks; ++j) sizes_[(me + ranks - j) % ranks] = moving_[j];
 }
 
 Parcels MpiCommunicator::all_gather(const void* bytes, std::size_t size) {
@@ -197,50 +269,14 @@ Parcels MpiCommunicator::all_gather(const void* bytes, std::size_t size) {
 void MpiCommunicator::all_gather_in_place(void* all, const std::vector<std::size_t>& begin) {
   const auto ranks = static_cast<std::size_t>(size_), me = static_cast<std::size_t>(rank_);
   bytes_sent += static_cast<std::int64_t>((begin[me + 1] - begin[me]) * (ranks - 1));
-  if (begin[ranks] == begin[0]) return;
-  if (begin[ranks] > std::min<std::size_t>(longest_message_, INT_MAX)) {
-    all_gather_around_the_ring(static_cast<unsigned char*>(all), begin);
-    return;
-  }
-  for (std::size_t r = 0; r < ranks; ++r) {
-    counts_[r] = static_cast<int>(begin[r + 1] - begin[r]);
-    displacements_[r] = static_cast<int>(begin[r]);
-  }
-  MPI_Request request;
-  check(MPI_Iallgatherv(MPI_IN_PLACE, 0, MPI_BYTE, all, counts_.data(), displacements_.data(), MPI_BYTE,
-                        comm_, &request));
-  wait(&request, 1, begin[ranks] - begin[0]);
-}
-
-/// In step s each rank hands on to its right what it got in step s-1 from its left, in lengths that MPI can
-/// count; both cut at the same places.
-void MpiCommunicator::all_gather_around_the_ring(unsigned char* all, const std::vector<std::size_t>& begin) {
-  const int right = (rank_ + 1) % size_, left = (rank_ + size_ - 1) % size_;
-  for (int step = 0; step + 1 < size_; ++step) {
-    const auto out = static_cast<std::size_t>((rank_ - step + size_) % size_);
-    const auto in = static_cast<std::size_t>((rank_ - step - 1 + 2 * size_) % size_);
-    const std::size_t out_size = begin[out + 1] - begin[out], in_size = begin[in + 1] - begin[in];
-    for (std::size_t at = 0; at < std::max(out_size, in_size); at += longest_message_) {
-      MPI_Request requests[2];
-      int count = 0;
-      if (at < in_size)
-        check(MPI_Irecv(all + begin[in] + at, static_cast<int>(std::min(longest_message_, in_size - at)),
-                        MPI_BYTE, left, kTag, comm_, &requests[count++]));
-      if (at < out_size)
-        check(MPI_Isend(all + begin[out] + at, static_cast<int>(std::min(longest_message_, out_size - at)),
-                        MPI_BYTE, right, kTag, comm_, &requests[count++]));
-      wait(requests, count, in_size + out_size);
-    }
-  }
+  gather_blocks(all, [&](int r) { return begin[static_cast<std::size_t>(r)]; });
 }
 
 Parcels MpiCommunicator::exchange(const Parcels& outgoing) {
   const auto ranks = static_cast<std::size_t>(size_), me = static_cast<std::size_t>(rank_);
   for (std::size_t r = 0; r < ranks; ++r)
     other_sizes_[r] = static_cast<std::int64_t>(outgoing.begin[r + 1] - outgoing.begin[r]);
-  MPI_Request request;
-  check(MPI_Ialltoall(other_sizes_.data(), 1, MPI_INT64_T, sizes_.data(), 1, MPI_INT64_T, comm_, &request));
-  wait(request);
+  exchange_sizes(other_sizes_.data());
 
   Parcels incoming;
   agreed(*this, [&] {

@@ -81,7 +81,15 @@ class MpiCommunicator : public Communicator {
     return (size + longest_message_ - 1) / longest_message_;
   }
   bool ranks_outnumber_processors();
-  void all_gather_around_the_ring(unsigned char* all, const std::vector<std::size_t>& begin);
+  int above(int distance) const { return (rank_ + distance) % size_; }
+  int below(int distance) const { return (rank_ + size_ - distance) % size_; }
+  void send_and_receive(const void* out, std::size_t out_size, int to, void* in, std::size_t in_size,
+                        int from);
+  template <class Begin>
+  void gather_blocks(void* all, const Begin& begin);
+  void exchange_sizes(const std::int64_t* out);
+
+  static constexpr std::size_t kMostValues = 16;
 
   MPI_Comm comm_ = MPI_COMM_NULL;
   int rank_ = 0, size_ = 1;
@@ -89,8 +97,8 @@ class MpiCommunicator : public Communicator {
   bool crowded_ = false;
   const char* phase_ = "idle";
   const char* volatile* phase_place_ = nullptr;
-  std::vector<std::int64_t> sizes_, other_sizes_;  ///< a number a rank, so that no agreement needs memory
-  std::vector<int> counts_, displacements_;
+  /// A number a rank, so that no agreement needs memory.
+  std::vector<std::int64_t> sizes_, other_sizes_, moving_, packed_;
   std::vector<MPI_Request> under_way_;  ///< its capacity is reserved before anything is posted
   std::size_t bytes_under_way_ = 0;
 };

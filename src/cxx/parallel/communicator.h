@@ -33,7 +33,7 @@ class Communicator {
   virtual int rank() const = 0;
   virtual int size() const = 0;
 
-  /// values[i] becomes its smallest value over all ranks.
+  /// values[i] becomes its smallest value over all ranks; at most 16 values.
   virtual void all_min(std::int64_t* values, std::size_t count) = 0;
 
   /// Every rank gets the bytes of all ranks, in the order of the ranks.

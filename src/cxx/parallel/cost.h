@@ -25,14 +25,14 @@ struct ParallelCost {
   std::int64_t bytes_sent = 0;
 };
 
-/// The costs of the ranks of a group: the largest of each, and their sums.
+/// The costs of this rank and of its group: the largest of each, and their sums.
 struct GroupCost {
   GroupCost() = default;
-  explicit GroupCost(const ParallelCost& of_single) : maximum(of_single), total(of_single) {}
+  explicit GroupCost(const ParallelCost& of_single) : mine(of_single), maximum(of_single), total(of_single) {}
   void add(const ParallelCost& rank);
 
   int ranks = 1;  ///< that were added up
-  ParallelCost maximum, total;
+  ParallelCost mine, maximum, total;
 };
 
 /// Collective. Where memory for it fails: the cost of this rank alone.

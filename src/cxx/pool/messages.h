@@ -9,7 +9,7 @@ namespace pstripack {
 
 /// What the model asks, with the area's descriptor if the area is a new one.
 struct PoolRequest {
-  static constexpr std::uint32_t kFormat = 0x50533032;  ///< changes with the messages or the layout
+  static constexpr std::uint32_t kFormat = 0x50533033;  ///< changes with the messages or the layout
   std::uint32_t format = kFormat;
   std::int32_t real_bytes = 0;  ///< 4 or 8
   std::int32_t n = 0;
