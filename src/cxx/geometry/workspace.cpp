@@ -6,16 +6,24 @@
 namespace pstripack {
 namespace {
 
-constexpr std::size_t kSmallest = std::size_t{4} << 20;  // below, the allocator keeps blocks itself
+constexpr std::size_t kSmallest = std::size_t{64} << 10;  // below, the allocator keeps blocks itself
 constexpr std::size_t kLargest = std::size_t{1} << 30;
 
-constexpr std::size_t kCount = 8;    // a call on threads takes four
+constexpr std::size_t kCount = 16;   // a call on threads takes five
 Buffer<unsigned char> kept[kCount];  // between two calls
 std::mutex mutex;  // never waited for: another thread may hold it, or held it when we were forked
+
+/// Up to a sixteenth more, so that calls of about the same size share blocks.
+std::size_t rounded_up(std::size_t bytes) {
+  std::size_t step = 1;
+  while (step < bytes / 32) step *= 2;
+  return (bytes + step - 1) / step * step;
+}
 
 }  // namespace
 
 Buffer<unsigned char> borrow_block(std::size_t bytes) {
+  if (bytes >= kSmallest) bytes = rounded_up(bytes);
   if (bytes >= kSmallest && bytes <= kLargest) {
     if (const std::unique_lock lock(mutex, std::try_to_lock); lock)
       for (auto& block : kept)
@@ -27,7 +35,9 @@ Buffer<unsigned char> borrow_block(std::size_t bytes) {
 void give_back_block(Buffer<unsigned char> block) noexcept {
   if (block.size() < kSmallest || block.size() > kLargest) return;
 #ifdef MADV_FREE
-  madvise(block.data(), block.size(), MADV_FREE);  // refused: the pages stay ours
+  constexpr std::size_t kWorthASystemCall = std::size_t{4} << 20;
+  if (block.size() >= kWorthASystemCall)
+    madvise(block.data(), block.size(), MADV_FREE);  // refused: the pages stay ours
 #endif
   const std::unique_lock lock(mutex, std::try_to_lock);
   if (!lock) return;

@@ -61,13 +61,12 @@ void DistributedMesh::clear() {
   error_point_[0] = error_point_[1] = 0;
   is_reported_ = false;
   total_ = 0;
-  number_ = {};
-  begin_ = {};
-  short_neighbour_ = {};
-  long_neighbour_ = {};
+  count_ = 0;
+  arcs_ = 0;
+  number_ = nullptr;
   memory_.reset();
-  halo_ = {};
-  homes_.reset();
+  short_stars_ = {};
+  long_stars_ = {};
 }
 
 /// Counts, and the codes that a look at each point tells. wish: -1 if this rank wants a report.
@@ -206,7 +205,7 @@ bool DistributedMesh::find_corners(const Point* points, std::size_t n, const std
 }
 
 template <class Int>
-std::int32_t DistributedMesh::triangulate_into(Array<Int>& neighbour, const Point* points, std::size_t n,
+std::int32_t DistributedMesh::triangulate_into(Stars<Int>& stars, const Point* points, std::size_t n,
                                                const std::int64_t* number, PartitionKind partition,
                                                ParallelCost& cost) {
   ranks_.set_phase("triangulate");
@@ -222,7 +221,7 @@ std::int32_t DistributedMesh::triangulate_into(Array<Int>& neighbour, const Poin
   options.partition = partition;
   options.with_neighbours = true;
   cost.threads = options.threads;
-  Stars<Int> stars = pstripack::triangulate<Int>(nodes, corners, numbers, ranks_, options, &cost);
+  stars = pstripack::triangulate<Int>(nodes, corners, numbers, ranks_, options, &cost);
   if (!stars.coincident.empty()) {
     Coincidence first{};
     agreed(ranks_, [&] { first = first_coincidence(stars.coincident); });
@@ -231,27 +230,14 @@ std::int32_t DistributedMesh::triangulate_into(Array<Int>& neighbour, const Poin
     return kCoincident;
   }
 
-  // What stays is the stars alone, one after another; the memory of the triangulation goes.
   const PhaseTimer timer(&cost, ParallelCost::lists, &ranks_);
-  const auto& rings = stars.of_node;
   agreed(ranks_, [&] {
-    const auto arcs = static_cast<std::size_t>(arcs_of(rings, n));
-    memory_ = std::make_unique<Workspace>((2 * n + 1) * sizeof(std::int64_t) + arcs * sizeof(Int));
-    begin_ = keep<std::int64_t>(n + 1);
-    neighbour = keep<Int>(arcs);
-    number_ = keep<std::int64_t>(n);
-    halo_.reserve(stars.outside.size());
+    memory_ = std::make_unique<Workspace>(n * sizeof *number);
+    number_ = memory_->keep<std::int64_t>(n);
   });
-  std::copy(number, number + n, number_.begin());
-  for (const auto& outside : stars.outside) halo_.push_back({outside.number, outside.point});
-  homes_ = std::move(stars.homes);
-  begin_[0] = 0;
-  constexpr std::size_t kAhead = 16;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (i + kAhead < n) __builtin_prefetch(rings[i + kAhead].begin);
-    begin_[i + 1] = begin_[i] + rings[i].count;
-    copy_ring(rings[i].begin, rings[i].count, neighbour.data() + begin_[i]);
-  }
+  std::copy(number, number + n, number_);
+  count_ = n;
+  arcs_ = arcs_of(stars.of_node, n);
   return 0;
 }
 
@@ -309,9 +295,8 @@ std::int32_t DistributedMesh::triangulate_points(std::int64_t n, const Point* po
   numbers_are_dense_ = numbering.low == 1 && numbering.high == numbering.total;
   numbers_are_short_ = numbering.high <= std::numeric_limits<std::int32_t>::max();
   const std::int32_t code =
-      numbers_are_short_
-          ? triangulate_into(short_neighbour_, points, count, number, numbering.partition, cost)
-          : triangulate_into(long_neighbour_, points, count, number, numbering.partition, cost);
+      numbers_are_short_ ? triangulate_into(short_stars_, points, count, number, numbering.partition, cost)
+                         : triangulate_into(long_stars_, points, count, number, numbering.partition, cost);
   if (code == 0) total_ = numbering.total;
   return code;
 }
@@ -319,7 +304,7 @@ std::int32_t DistributedMesh::triangulate_points(std::int64_t n, const Point* po
 bool DistributedMesh::home(std::int64_t n, const double* xyz, std::int32_t* rank) const {
   const auto* const points = reinterpret_cast<const Point*>(xyz);
   if (!std::all_of(points, points + n, has_direction)) return false;
-  for (std::int64_t i = 0; i < n; ++i) rank[i] = homes_->rank(points[i]);
+  for (std::int64_t i = 0; i < n; ++i) rank[i] = homes().rank(points[i]);
   return true;
 }
 
@@ -350,17 +335,17 @@ void DistributedMesh::triangles(std::int64_t* corner) const {
 }
 
 void DistributedMesh::halo(std::int64_t* number, double* xyz) const {
-  for (const auto& [outside, point] : halo_) {
-    *number++ = outside;
+  for (const auto& [name, point] : outside()) {
+    *number++ = name;
     for (const double c : {point.x, point.y, point.z}) *xyz++ = c;
   }
 }
 
 void DistributedMesh::local_stars(std::int64_t* begin, std::int32_t* neighbour) const {
-  NumberTable<std::int32_t> local(number_.size() + halo_.size());
+  NumberTable<std::int32_t> local(count_ + outside().size());
   std::int32_t next = 0;
-  for (const std::int64_t number : number_) local.insert(number, ++next);
-  for (const auto& outside : halo_) local.insert(outside.number, ++next);
+  for (std::size_t i = 0; i < count_; ++i) local.insert(number_[i], ++next);
+  for (const NumberedPoint& point : outside()) local.insert(point.number, ++next);
   begin[0] = 0;
   for_each_star([&](std::size_t i, std::size_t count, const auto* ring) {
     begin[i + 1] = begin[i] + static_cast<std::int64_t>(count);
@@ -408,7 +393,7 @@ std::int32_t DistributedMesh::gather_stars(std::int32_t root, std::int32_t* list
   agreed(ranks_, [&] {
     for (std::size_t r = 0; r <= size; ++r) begin.push_back(slice_begin(n, r, size));
     parcels.begin.assign(size + 1, 0);
-    Buffer<std::uint32_t> rank(number_.size());
+    Buffer<std::uint32_t> rank(count_);
     for_each_star([&](std::size_t i, std::size_t count, const auto*) {
       rank[i] = static_cast<std::uint32_t>(rank_of(number_[i]));
       parcels.begin[rank[i] + 1] += 2 + count;
@@ -417,7 +402,7 @@ std::int32_t DistributedMesh::gather_stars(std::int32_t root, std::int32_t* list
     std::vector<std::size_t> end(parcels.begin.begin(), parcels.begin.end() - 1);
     parcels.bytes = Buffer<unsigned char>(parcels.begin[size] * sizeof(std::int32_t));
     auto* const out = reinterpret_cast<std::int32_t*>(parcels.bytes.data());
-    for_each_star(short_neighbour_, [&](std::size_t i, std::size_t count, const std::int32_t* ring) {
+    for_each_star(short_stars_, [&](std::size_t i, std::size_t count, const std::int32_t* ring) {
       std::int32_t* to = out + end[rank[i]];  // numbers up to the total are short
       end[rank[i]] += 2 + count;
       *to++ = static_cast<std::int32_t>(number_[i]);

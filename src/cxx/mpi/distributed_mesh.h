@@ -34,10 +34,10 @@ class DistributedMesh {
   /// Empty: no triangulation yet, or the last one failed.
   bool empty() const { return total_ == 0; }
   std::int64_t error_point(int i) const { return error_point_[i]; }
-  std::int64_t points() const { return static_cast<std::int64_t>(number_.size()); }
-  std::int64_t arcs() const { return number_.size() > 0 ? begin_[number_.size()] : 0; }
+  std::int64_t points() const { return static_cast<std::int64_t>(count_); }
+  std::int64_t arcs() const { return arcs_; }
   std::int64_t triangles() const;
-  std::int64_t halo() const { return static_cast<std::int64_t>(halo_.size()); }
+  std::int64_t halo() const { return static_cast<std::int64_t>(outside().size()); }
 
   /// The rank that is home to each of n points; false if one has no direction, having written nothing.
   bool home(std::int64_t n, const double* xyz, std::int32_t* rank) const;
@@ -53,23 +53,6 @@ class DistributedMesh {
                       std::int32_t* lnew, Report* report = nullptr);
 
  private:
-  /// An array in memory_, which the next mesh of this size gets again without new pages.
-  template <class T>
-  struct Array {
-    T* first = nullptr;
-    std::size_t count = 0;
-
-    std::size_t size() const { return count; }
-    T* data() const { return first; }
-    T* begin() const { return first; }
-    T* end() const { return first + count; }
-    T& operator[](std::size_t i) const { return first[i]; }
-  };
-  template <class T>
-  Array<T> keep(std::size_t count) {
-    return {memory_->keep<T>(count), count};
-  }
-
   struct Numbering;
   std::int32_t triangulate_points(std::int64_t n, const Point* points, const std::int64_t* number,
                                   Report* report, ParallelCost& cost);
@@ -81,25 +64,28 @@ class DistributedMesh {
   bool find_corners(const Point* points, std::size_t n, const std::int64_t* number, Point (&corners)[3],
                     std::int64_t (&numbers)[3]);
   template <class Int>
-  std::int32_t triangulate_into(Array<Int>& neighbour, const Point* points, std::size_t n,
+  std::int32_t triangulate_into(Stars<Int>& stars, const Point* points, std::size_t n,
                                 const std::int64_t* number, PartitionKind partition, ParallelCost& cost);
   void report_on(ParallelCost& mine, std::int64_t sent_before, Report* report);
   void clear();
   /// Calls visit(i, count, first) for each own point: its neighbours are first[0..count-1].
   template <class Visit>
   void for_each_star(const Visit& visit) const {
-    numbers_are_short_ ? for_each_star(short_neighbour_, visit) : for_each_star(long_neighbour_, visit);
+    numbers_are_short_ ? for_each_star(short_stars_, visit) : for_each_star(long_stars_, visit);
   }
   template <class Int, class Visit>
-  void for_each_star(const Array<Int>& neighbour, const Visit& visit) const {
-    for (std::size_t i = 0; i < number_.size(); ++i)
-      visit(i, static_cast<std::size_t>(begin_[i + 1] - begin_[i]), neighbour.data() + begin_[i]);
+  void for_each_star(const Stars<Int>& stars, const Visit& visit) const {
+    constexpr std::size_t kAhead = 16;  // they lie in the order of the patches
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (i + kAhead < count_) __builtin_prefetch(stars.of_node[i + kAhead].begin);
+      visit(i, static_cast<std::size_t>(stars.of_node[i].count), stars.of_node[i].begin);
+    }
   }
 
-  struct NumberedPoint {
-    std::int64_t number;
-    Point point;
-  };
+  const std::vector<NumberedPoint>& outside() const {
+    return numbers_are_short_ ? short_stars_.outside : long_stars_.outside;
+  }
+  const Homes& homes() const { return numbers_are_short_ ? *short_stars_.homes : *long_stars_.homes; }
 
   MpiCommunicator ranks_;
   std::int64_t error_point_[2] = {0, 0};
@@ -107,13 +93,12 @@ class DistributedMesh {
   bool is_reported_ = false;        ///< rank 0 wants reports, and all know it
   bool numbers_are_short_ = true;   ///< they fit 32 bits
   bool numbers_are_dense_ = false;  ///< they are 1..total
+  std::size_t count_ = 0;           ///< own points
+  std::int64_t arcs_ = 0;           ///< neighbours of them all
   std::unique_ptr<Workspace> memory_;
-  Array<std::int64_t> number_;  ///< of the own points
-  Array<std::int64_t> begin_;   ///< of their stars in one of the two arrays below
-  Array<std::int32_t> short_neighbour_;
-  Array<std::int64_t> long_neighbour_;
-  std::vector<NumberedPoint> halo_;
-  std::unique_ptr<Homes> homes_;
+  std::int64_t* number_ = nullptr;  ///< of the own points
+  Stars<std::int32_t> short_stars_;
+  Stars<std::int64_t> long_stars_;
 };
 
 }  // namespace pstripack

@@ -1,6 +1,7 @@
 #pragma once
 // One patch: the triangulation of its own nodes and of those around, and which of its triangles are final.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -102,14 +103,15 @@ class Patch {
   void* room_for_rings(std::size_t bytes) const;
 
   /// Writes the rings of its own nodes to `out`, which has room for all and 2*kBlock entries more; calls
-  /// visit(i, begin, count) for each: node i of set_nodes has `count` entries from `begin` on; soon(i) some
-  /// time before.
-  template <class Visit, class Soon>
-  void write_rings(Int* out, const Visit& visit, const Soon& soon) const {
+  /// visit(i, begin, count) for each: node i of set_nodes has `count` entries from `begin` on; sooner(i),
+  /// then soon(i) some time before.
+  template <class Visit, class Soon, class Sooner>
+  void write_rings(Int* out, const Visit& visit, const Soon& soon, const Sooner& sooner) const {
     constexpr std::size_t kAhead = 16;
     const auto number = [this](std::uint32_t v) { return number_[v]; };
     Int* end = out;
     for (std::size_t v = 0; v < built_; ++v) {
+      if (v + 3 * kAhead < built_) sooner(order_[v + 3 * kAhead]);
       if (v + 2 * kAhead < built_) {
         soon(order_[v + 2 * kAhead]);
         __builtin_prefetch(&hull_.faces[face_of(hull_.corner[v + 2 * kAhead])]);
@@ -123,18 +125,26 @@ class Patch {
     }
   }
 
-  /// After finish(): who misses which neighbours. rank_of(i) is the rank that brought own node i, `mine` the
-  /// one that brought most. Calls visit(r, node) for each node that is a neighbour of one that r has brought
-  /// and that r has not, perhaps more than once.
-  template <class RankOf, class Visit>
-  void for_each_missing_neighbour(std::size_t mine, const RankOf& rank_of, const Visit& visit) const {
+  /// After finish(): who misses which neighbours. Rank r brought the own nodes [own_from[r], own_from[r+1]),
+  /// `mine` is the rank that brought most. Calls visit(r, node) for each node that is a neighbour of one that
+  /// r has brought and that r has not, perhaps more than once.
+  template <class Visit>
+  void for_each_missing_neighbour(std::size_t mine, const std::vector<std::size_t>& own_from,
+                                  const Visit& visit) const {
     if (own_ == 0) return;
     constexpr std::size_t kNobody = SIZE_MAX;
-    const auto brought_by = [&](std::uint32_t v) { return is_own(v) ? rank_of(order_[v]) : kNobody; };
+    const std::size_t first = own_from[mine], count = own_from[mine + 1] - first;
+    const auto brought_by = [&](std::uint32_t v) {
+      if (!is_own(v)) return kNobody;
+      if (order_[v] - first < count) return mine;
+      return static_cast<std::size_t>(std::upper_bound(own_from.begin(), own_from.end(), order_[v]) -
+                                      own_from.begin()) -
+             1;
+    };
     const auto node = [&](std::uint32_t v) { return Record{arrays_.nodes[v], number_[v]}; };
     for (std::uint32_t v = 0; v < hull_.node_count; ++v) {
+      if (v < built_ && order_[v] - first < count) continue;  // its neighbours are met themselves
       const std::size_t r = brought_by(v);
-      if (r == mine) continue;  // its neighbours that are not are met themselves
       bool is_missing = false;
       for_each_face_at(v, [&](std::uint32_t t, std::uint32_t i) {
         if (!hull_.front(t)) return;

@@ -19,6 +19,7 @@
 #include <cstring>
 #include <ctime>
 #include <numeric>
+#include <optional>
 
 #include "geometry/insertion_order.h"
 #include "geometry/parallel_for.h"
@@ -122,9 +123,9 @@ class Triangulator {
       ranks_.set_phase("lists");
       return_rings(stars);
       if (options_.with_neighbours) find_outside(stars);
-      stars.of_node = RingTable<Int>(nodes_.count, rings_, position_);
-      stars.memory.push_back(std::move(per_node_));
-      stars.memory.push_back(std::move(workspace_));
+      stars.of_node = rings_;
+      stars.memory.push_back(std::move(rings_memory_));
+      stars.memory.push_back(std::move(options_.with_neighbours ? entries_memory_ : workspace_));
       *stars.homes = Homes(std::move(partition_), std::move(first_patch_), places_);
     }
     return stars;
@@ -227,164 +228,199 @@ class Triangulator {
     std::size_t own = 0, halo = 0;
   };
 
+  /// Where the nodes of this rank belong; the latter two for each thread.
+  struct Routes {
+    struct HaloNode {
+      std::uint32_t node, patch;
+    };
+    explicit Routes(std::size_t nodes) : memory(nodes * sizeof *owner) {}
+    Workspace memory;
+    std::uint32_t* owner = nullptr;  ///< of each node; null: there is one patch only
+    std::vector<std::vector<HaloNode>> halo;
+    std::vector<std::vector<Count>> count;  ///< to each patch
+  };
+
+  /// Records of other ranks' patches travel in parcels; those of patches here are written into place, between
+  /// those that have arrived.
   void send_nodes() {
-    const std::size_t patches = static_cast<std::size_t>(first_patch_.back());
-    const int threads = options_.threads;
+    std::optional<Routes> routes;
     Parcels outgoing;
-    std::vector<std::size_t> own_begin;  // of each patch: the first of its records in their parcel
-
     in_agreement([&] {
-      std::vector<std::size_t> halo_begin(patches), parcel_records(size_, 0);
-      own_begin.resize(patches);
-      const auto pieces = static_cast<std::size_t>(threads);
-      struct HaloNode {
-        std::uint32_t node, patch;
-      };
-      std::vector<std::vector<HaloNode>> halo(pieces);
-      std::vector<std::vector<Count>> count(pieces, std::vector<Count>(patches));
-      std::vector<std::exception_ptr> errors(pieces);
-      per_node_ = std::make_unique<Workspace>(nodes_.count * (2 * sizeof(std::uint32_t) + sizeof(Ring<Int>)));
-      position_ = per_node_->keep<std::uint32_t>(nodes_.count);
-      rings_ = per_node_->keep<Ring<Int>>(nodes_.count);
-      auto* const owner = per_node_->take<std::uint32_t>(nodes_.count);
-      if (patches > 1) {
-        parallel_pieces(nodes_.count, threads, [&](std::size_t first, std::size_t last, int piece) {
-          const auto t = static_cast<std::size_t>(piece);
-          try {
-            std::vector<int> scratch;
-            constexpr std::size_t kTogether = 256;
-            Point place[kTogether];
-            for (std::size_t block = first; block < last; block += kTogether) {
-              const std::size_t end = std::min(last, block + kTogether);
-              const Point* at = nodes_.points + block;
-              if (places_.lengths() != Lengths::as_given) {
-                for (std::size_t i = block; i < end; ++i) place[i - block] = places_(nodes_.points[i]);
-                at = place;
-              }
-              partition_->owners(at, end - block, owner + block);
-              for (std::size_t i = block; i < end; ++i) {
-                ++count[t][owner[i]].own;
-                partition_->for_each_halo(at[i - block], static_cast<int>(owner[i]), scratch, [&](int other) {
-                  ++count[t][static_cast<std::size_t>(other)].halo;
-                  halo[t].push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(other)});
-                });
-              }
-            }
-          } catch (...) {
-            errors[t] = std::current_exception();
-          }
-        });
-        for (const auto& e : errors)
-          if (e) std::rethrow_exception(e);
-      } else {
-        count[0][0].own = nodes_.count;
-      }
-
-      // A parcel: the counts of each patch of the rank, then for each patch its own nodes and its halo.
-      outgoing.begin.assign(1, 0);
-      sent_.assign(patches, {});
-      own_position_.assign(patches + 1, 0);
-      for (std::size_t r = 0; r < size_; ++r) {
-        std::size_t at = 0;
-        for (auto q = static_cast<std::size_t>(first_patch_[r]);
-             q < static_cast<std::size_t>(first_patch_[r + 1]); ++q) {
-          for (const auto& c : count) sent_[q].own += c[q].own, sent_[q].halo += c[q].halo;
-          own_begin[q] = at;
-          halo_begin[q] = at + sent_[q].own;
-          at += sent_[q].own + sent_[q].halo;
-          own_position_[q + 1] = own_position_[q] + sent_[q].own;
-        }
-        parcel_records[r] = at;
-        const std::size_t header =
-            static_cast<std::size_t>(first_patch_[r + 1] - first_patch_[r]) * sizeof(Count);
-        outgoing.begin.push_back(outgoing.begin.back() +
-                                 (r == me_ || at == 0 ? 0 : header + at * sizeof(Record)));
-      }
-      outgoing.bytes = Buffer<unsigned char>(outgoing.begin.back());
-      local_memory_ = std::make_unique<Workspace>(parcel_records[me_] * sizeof(Record));
-      local_ = local_memory_->keep<Record>(parcel_records[me_]);
-
-      // Where each patch's records go: into the parcel of its rank, or stay.
-      std::vector<Record*> records(patches);
-      for (std::size_t r = 0; r < size_; ++r) {
-        const auto first = static_cast<std::size_t>(first_patch_[r]),
-                   last = static_cast<std::size_t>(first_patch_[r + 1]);
-        Record* base = local_;
-        if (r != me_) {
-          if (parcel_records[r] == 0) continue;
-          auto* const header = reinterpret_cast<Count*>(outgoing.bytes.data() + outgoing.begin[r]);
-          std::copy(sent_.begin() + static_cast<std::ptrdiff_t>(first),
-                    sent_.begin() + static_cast<std::ptrdiff_t>(last), header);
-          base = reinterpret_cast<Record*>(header + (last - first));
-        }
-        for (std::size_t q = first; q < last; ++q) records[q] = base;
-      }
-      // Where each thread goes on.
-      std::vector<std::vector<Count>> next(pieces, std::vector<Count>(patches));
-      for (std::size_t q = 0; q < patches; ++q) {
-        Count at{own_begin[q], halo_begin[q]};
-        for (std::size_t t = 0; t < pieces; ++t) {
-          next[t][q] = at;
-          at.own += count[t][q].own, at.halo += count[t][q].halo;
-        }
-      }
-      const auto record = [&](std::size_t i) { return Record{nodes_.points[i], nodes_.number(i)}; };
-      parallel_pieces(nodes_.count, threads, [&](std::size_t first, std::size_t last, int piece) {
-        auto& place = next[static_cast<std::size_t>(piece)];
-        for (std::size_t i = first; i < last; ++i) {
-          const std::size_t q = patches > 1 ? owner[i] : 0;
-          const std::size_t at = place[q].own++;
-          records[q][at] = record(i);
-          position_[i] = static_cast<std::uint32_t>(own_position_[q] + (at - own_begin[q]));
-        }
-        for (const HaloNode& h : halo[static_cast<std::size_t>(piece)])
-          records[h.patch][place[h.patch].halo++] = record(h.node);
-      });
+      routes.emplace(nodes_.count);
+      rings_memory_ = std::make_unique<Workspace>(nodes_.count * sizeof(Ring<Int>));
+      rings_ = rings_memory_->keep<Ring<Int>>(nodes_.count);
+      per_node_ = std::make_unique<Workspace>(nodes_.count * sizeof(std::uint32_t));
+      sent_nodes_ = per_node_->keep<std::uint32_t>(nodes_.count);
+      find_routes(*routes);
+      const std::size_t patches = sent_.size();
+      for (std::size_t q = 0; q < patches; ++q) sent_begin_[q + 1] = sent_begin_[q] + sent_[q].own;
+      outgoing = parcels_for_others(*routes);
     });
-
     arrived_ = ranks_.exchange(outgoing);
     in_agreement([&] {
       outgoing = {};
-      for (Patch<Int>& patch : patches_) gather_nodes(patch, own_begin);
+      place_nodes(*routes);
     });
   }
 
-  /// Hands a patch its nodes: those of this rank as they lie, or together with those that have arrived.
-  void gather_nodes(Patch<Int>& patch, const std::vector<std::size_t>& own_begin) {
-    const auto q = static_cast<std::size_t>(patch.id()), k = q - static_cast<std::size_t>(first_patch_[me_]);
-    struct Segment {
-      const Record* records;
-      Count count;
-    };
-    std::vector<Segment> segments(size_);
-    Count total;
-    bool from_others = false;
-    for (std::size_t r = 0; r < size_; ++r) {
-      Segment& s = segments[r];
-      if (r == me_) {
-        s = {local_ + own_begin[q], sent_[q]};
-      } else if (arrived_.begin[r + 1] > arrived_.begin[r]) {
-        Reader reader(arrived_.bytes.data() + arrived_.begin[r]);
-        const Count* const counts = reader.array<Count>(patches_.size());
-        for (std::size_t j = 0; j < k; ++j) reader.array<Record>(counts[j].own + counts[j].halo);
-        s = {reader.array<Record>(0), counts[k]};
-        from_others = from_others || s.count.own + s.count.halo > 0;
-      }
-      total.own += s.count.own, total.halo += s.count.halo;
-    }
-    cost_.halo += static_cast<std::int64_t>(total.halo);
-    std::vector<std::size_t>& from = own_from_.emplace_back(1, 0);
-    for (const Segment& s : segments) from.push_back(from.back() + s.count.own);
-    if (!from_others) {
-      patch.set_nodes(segments[me_].records, total.own, total.own + total.halo);
+  void find_routes(Routes& routes) {
+    const auto patches = static_cast<std::size_t>(first_patch_.back());
+    const auto pieces = static_cast<std::size_t>(options_.threads);
+    routes.halo.resize(pieces);
+    routes.count.assign(pieces, std::vector<Count>(patches));
+    sent_.assign(patches, {});
+    sent_begin_.assign(patches + 1, 0);
+    if (patches == 1) {
+      sent_[0].own = routes.count[0][0].own = nodes_.count;
       return;
     }
-    Buffer<Record>& all = gathered_.emplace_back(total.own + total.halo);
-    Record* at = all.data();
-    for (const Segment& s : segments) at = std::copy(s.records, s.records + s.count.own, at);
-    for (const Segment& s : segments)
-      at = std::copy(s.records + s.count.own, s.records + s.count.own + s.count.halo, at);
-    patch.set_nodes(all.data(), total.own, total.own + total.halo);
+    routes.owner = routes.memory.template keep<std::uint32_t>(nodes_.count);
+    std::vector<std::exception_ptr> errors(pieces);
+    parallel_pieces(nodes_.count, options_.threads, [&](std::size_t first, std::size_t last, int piece) {
+      const auto t = static_cast<std::size_t>(piece);
+      auto& count = routes.count[t];
+      try {
+        std::vector<int> scratch;
+        constexpr std::size_t kTogether = 256;
+        Point place[kTogether];
+        for (std::size_t block = first; block < last; block += kTogether) {
+          const std::size_t end = std::min(last, block + kTogether);
+          const Point* at = nodes_.points + block;
+          if (places_.lengths() != Lengths::as_given) {
+            for (std::size_t i = block; i < end; ++i) place[i - block] = places_(nodes_.points[i]);
+            at = place;
+          }
+          partition_->owners(at, end - block, routes.owner + block);
+          for (std::size_t i = block; i < end; ++i) {
+            const std::uint32_t owner = routes.owner[i];
+            ++count[owner].own;
+            partition_->for_each_halo(at[i - block], static_cast<int>(owner), scratch, [&](int other) {
+              ++count[static_cast<std::size_t>(other)].halo;
+              routes.halo[t].push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(other)});
+            });
+          }
+        }
+      } catch (...) {
+        errors[t] = std::current_exception();
+      }
+    });
+    for (const auto& e : errors)
+      if (e) std::rethrow_exception(e);
+    for (const auto& count : routes.count)
+      for (std::size_t q = 0; q < patches; ++q) sent_[q].own += count[q].own, sent_[q].halo += count[q].halo;
+  }
+
+  /// Writes the records for patches of this rank, or of the others: those of patch q to base[q], from
+  /// begin[q] on.
+  void write_records(const Routes& routes, bool here, const std::vector<Record*>& base,
+                     const std::vector<Count>& begin) {
+    const std::size_t patches = sent_.size();
+    std::vector<std::vector<Count>> next(routes.count.size(), begin);  // where each thread goes on
+    for (std::size_t t = 1; t < next.size(); ++t)
+      for (std::size_t q = 0; q < patches; ++q) {
+        next[t][q].own = next[t - 1][q].own + routes.count[t - 1][q].own;
+        next[t][q].halo = next[t - 1][q].halo + routes.count[t - 1][q].halo;
+      }
+    const auto record = [&](std::size_t i) { return Record{nodes_.points[i], nodes_.number(i)}; };
+    const std::size_t first_here = static_cast<std::size_t>(first_patch_[me_]),
+                      count_here = static_cast<std::size_t>(patches_here());
+    const auto is_wanted = [=](std::size_t q) { return (q - first_here < count_here) == here; };
+    parallel_pieces(nodes_.count, options_.threads, [&](std::size_t first, std::size_t last, int piece) {
+      auto& place = next[static_cast<std::size_t>(piece)];
+      for (std::size_t i = first; i < last; ++i) {
+        const std::size_t q = routes.owner != nullptr ? routes.owner[i] : 0;
+        if (!is_wanted(q)) continue;
+        const std::size_t at = place[q].own++;
+        base[q][at] = record(i);
+        sent_nodes_[sent_begin_[q] + (at - begin[q].own)] = static_cast<std::uint32_t>(i);
+      }
+      for (const auto& h : routes.halo[static_cast<std::size_t>(piece)])
+        if (is_wanted(h.patch)) base[h.patch][place[h.patch].halo++] = record(h.node);
+    });
+  }
+
+  /// A parcel: the counts of each patch of the rank, then for each patch its own nodes and its halo.
+  Parcels parcels_for_others(const Routes& routes) {
+    Parcels parcels;
+    parcels.begin.assign(1, 0);
+    const std::size_t patches = sent_.size();
+    std::vector<Count> begin(patches);
+    std::vector<Record*> base(patches);
+    std::vector<std::size_t> header(size_);
+    for (std::size_t r = 0; r < size_; ++r) {
+      std::size_t records = 0;
+      const auto first = static_cast<std::size_t>(first_patch_[r]),
+                 last = static_cast<std::size_t>(first_patch_[r + 1]);
+      for (std::size_t q = first; q < last; ++q) {
+        begin[q] = {records, records + sent_[q].own};
+        records += sent_[q].own + sent_[q].halo;
+      }
+      header[r] = (last - first) * sizeof(Count);
+      const bool is_empty = r == me_ || records == 0;
+      parcels.begin.push_back(parcels.begin.back() + (is_empty ? 0 : header[r] + records * sizeof(Record)));
+    }
+    if (parcels.begin.back() == 0) return parcels;
+    parcels.bytes = Buffer<unsigned char>(parcels.begin.back());
+    for (std::size_t r = 0; r < size_; ++r) {
+      if (parcels.begin[r] == parcels.begin[r + 1]) continue;
+      unsigned char* const parcel = parcels.bytes.data() + parcels.begin[r];
+      std::memcpy(parcel, &sent_[static_cast<std::size_t>(first_patch_[r])], header[r]);
+      for (auto q = static_cast<std::size_t>(first_patch_[r]);
+           q < static_cast<std::size_t>(first_patch_[r + 1]); ++q)
+        base[q] = reinterpret_cast<Record*>(parcel + header[r]);
+    }
+    write_records(routes, false, base, begin);
+    return parcels;
+  }
+
+  /// The records of each patch here: own nodes in the order of the ranks that brought them, then the halo.
+  void place_nodes(const Routes& routes) {
+    struct Segment {
+      const Record* records = nullptr;
+      Count count;
+    };
+    std::vector<std::vector<Segment>> segments(patches_.size(), std::vector<Segment>(size_));
+    for (std::size_t r = 0; r < size_; ++r) {
+      if (r == me_ || arrived_.begin[r + 1] == arrived_.begin[r]) continue;
+      Reader reader(arrived_.bytes.data() + arrived_.begin[r]);
+      const Count* const counts = reader.array<Count>(patches_.size());
+      for (std::size_t k = 0; k < patches_.size(); ++k)
+        segments[k][r] = {reader.array<Record>(counts[k].own + counts[k].halo), counts[k]};
+    }
+    std::size_t records = 0;
+    std::vector<Count> total(patches_.size());
+    for (std::size_t k = 0; k < patches_.size(); ++k) {
+      segments[k][me_].count = sent_[static_cast<std::size_t>(patches_[k].id())];
+      std::vector<std::size_t>& from = own_from_.emplace_back(1, 0);
+      for (const Segment& s : segments[k]) {
+        from.push_back(from.back() + s.count.own);
+        total[k].own += s.count.own, total[k].halo += s.count.halo;
+      }
+      records += total[k].own + total[k].halo;
+      cost_.halo += static_cast<std::int64_t>(total[k].halo);
+    }
+    records_memory_ = std::make_unique<Workspace>(records * sizeof(Record));
+    Record* at = records_memory_->keep<Record>(records);
+    std::vector<Count> begin(sent_.size());
+    std::vector<Record*> base(sent_.size());
+    for (std::size_t k = 0; k < patches_.size(); ++k) {
+      patches_[k].set_nodes(at, total[k].own, total[k].own + total[k].halo);
+      const auto q = static_cast<std::size_t>(patches_[k].id());
+      base[q] = at;
+      Record *own = at, *halo = at + total[k].own;
+      for (std::size_t r = 0; r < size_; ++r) {
+        const Segment& s = segments[k][r];
+        if (r == me_) begin[q] = {static_cast<std::size_t>(own - at), static_cast<std::size_t>(halo - at)};
+        if (s.records != nullptr) {
+          std::copy(s.records, s.records + s.count.own, own);
+          std::copy(s.records + s.count.own, s.records + s.count.own + s.count.halo, halo);
+        }
+        own += s.count.own, halo += s.count.halo;
+      }
+      at = halo;
+    }
+    arrived_ = {};
+    write_records(routes, true, base, begin);
   }
 
   // ---- 2: triangulate ----
@@ -540,67 +576,10 @@ class Triangulator {
   void return_rings(Stars<Int>& stars) {
     Parcels outgoing;
     in_agreement([&] {
-      std::vector<std::vector<Ring<Int>>> others(patches_.size());  // rings of the nodes of other ranks
-      stars.memory.reserve(2);
       stars.homes = std::make_unique<Homes>();
-      stars.more_memory.resize(patches_.size());
-      for_patches([&](Patch<Int>& patch, std::size_t k) {
-        const std::size_t entries = patch.finish() + 2 * kBlock;
-        auto* rings = static_cast<Int*>(patch.room_for_rings(entries * sizeof(Int)));
-        if (rings == nullptr) {
-          stars.more_memory[k] = Buffer<Int>(entries);
-          rings = stars.more_memory[k].data();
-        }
-        const std::vector<std::size_t>& from = own_from_[k];
-        Ring<Int>* const mine = rings_ + own_position_[static_cast<std::size_t>(patch.id())];
-        const std::size_t first = from[me_], count = from[me_ + 1] - first;
-        const auto soon = [&](std::size_t i) { __builtin_prefetch(mine + (i - first), 1); };
-        if (count == patch.own()) {
-          patch.write_rings(
-              rings,
-              [&](std::size_t i, const Int* begin, std::uint32_t n) {
-                mine[i] = {begin, n};
-              },
-              soon);
-          return;
-        }
-        others[k].resize(patch.own());
-        patch.write_rings(
-            rings,
-            [&](std::size_t i, const Int* begin, std::uint32_t n) {
-              (i - first < count ? mine[i - first] : others[k][i]) = {begin, n};
-            },
-            soon);
-      });
-
-      // For each rank and patch: the sizes of its nodes' rings, then the rings.
-      outgoing.begin.push_back(0);
-      for (std::size_t r = 0; r < size_; ++r) {
-        std::size_t bytes = 0;
-        for (std::size_t k = 0; k < patches_.size() && r != me_; ++k) {
-          bytes += (own_from_[k][r + 1] - own_from_[k][r]) * sizeof(std::uint32_t);
-          bytes = (bytes + sizeof(Int) - 1) / sizeof(Int) * sizeof(Int);
-          for (std::size_t i = own_from_[k][r]; i < own_from_[k][r + 1]; ++i)
-            bytes += others[k][i].count * sizeof(Int);
-        }
-        outgoing.begin.push_back(outgoing.begin.back() + (bytes + 7) / 8 * 8);
-      }
-      outgoing.bytes = Buffer<unsigned char>(outgoing.begin.back());
-      for (std::size_t r = 0; r < size_; ++r) {
-        if (r == me_) continue;
-        unsigned char* at = outgoing.bytes.data() + outgoing.begin[r];
-        const unsigned char* const begin = at;
-        for (std::size_t k = 0; k < patches_.size(); ++k) {
-          for (std::size_t i = own_from_[k][r]; i < own_from_[k][r + 1]; ++i, at += sizeof(std::uint32_t))
-            std::memcpy(at, &others[k][i].count, sizeof(std::uint32_t));
-          at += (sizeof(Int) - static_cast<std::size_t>(at - begin) % sizeof(Int)) % sizeof(Int);
-          for (std::size_t i = own_from_[k][r]; i < own_from_[k][r + 1]; ++i) {
-            const std::size_t size = others[k][i].count * sizeof(Int);
-            std::memcpy(at, others[k][i].begin, size);
-            at += size;
-          }
-        }
-      }
+      stars.memory.reserve(3);
+      const std::vector<std::vector<Ring<Int>>> others = write_rings(stars);
+      outgoing = rings_for_others(others);
     });
     stars.received = ranks_.exchange(outgoing);
     for (std::size_t r = 0; r < size_; ++r) {
@@ -611,10 +590,96 @@ class Triangulator {
         const std::size_t n = sent_[q].own;
         const std::uint32_t* const counts = reader.array<std::uint32_t>(n);
         reader.align(sizeof(Int));
-        Ring<Int>* const rings = rings_ + own_position_[q];
-        for (std::size_t i = 0; i < n; ++i) rings[i] = {reader.array<Int>(counts[i]), counts[i]};
+        const std::uint32_t* const node = sent_nodes_ + sent_begin_[q];
+        for (std::size_t i = 0; i < n; ++i) rings_[node[i]] = {reader.array<Int>(counts[i]), counts[i]};
       }
     }
+  }
+
+  /// The rings of this rank's nodes, into rings_; returned, for each patch, are those of the others.
+  std::vector<std::vector<Ring<Int>>> write_rings(Stars<Int>& stars) {
+    std::vector<std::size_t> begin(patches_.size() + 1, 0);
+    for_patches([&](Patch<Int>& patch, std::size_t k) { begin[k + 1] = patch.finish() + 2 * kBlock; });
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    Int* own_room = nullptr;
+    if (options_.with_neighbours) {  // the stars stay, the hulls go
+      entries_memory_ = std::make_unique<Workspace>(begin.back() * sizeof(Int));
+      own_room = entries_memory_->keep<Int>(begin.back());
+    }
+    std::vector<std::vector<Ring<Int>>> others(patches_.size());
+    stars.more_memory.resize(patches_.size());
+    for_patches([&](Patch<Int>& patch, std::size_t k) {
+      const std::size_t entries = begin[k + 1] - begin[k];
+      Int* out = own_room != nullptr ? own_room + begin[k]
+                                     : static_cast<Int*>(patch.room_for_rings(entries * sizeof(Int)));
+      if (out == nullptr) {
+        stars.more_memory[k] = Buffer<Int>(entries);
+        out = stars.more_memory[k].data();
+      }
+      const std::size_t first = own_from_[k][me_], count = own_from_[k][me_ + 1] - first;
+      const std::uint32_t* const mine = sent_nodes_ + sent_begin_[static_cast<std::size_t>(patch.id())];
+      const auto sooner = [&](std::size_t i) { __builtin_prefetch(mine + (i - first)); };
+      const auto soon = [&](std::size_t i) {
+        if (i - first < count) __builtin_prefetch(rings_ + mine[i - first], 1);
+      };
+      if (count == patch.own()) {
+        patch.write_rings(
+            out,
+            [&](std::size_t i, const Int* ring, std::uint32_t n) {
+              rings_[mine[i]] = {ring, n};
+            },
+            soon, sooner);
+        return;
+      }
+      others[k].resize(patch.own());
+      patch.write_rings(
+          out,
+          [&](std::size_t i, const Int* ring, std::uint32_t n) {
+            (i - first < count ? rings_[mine[i - first]] : others[k][i]) = {ring, n};
+          },
+          soon, sooner);
+    });
+    return others;
+  }
+
+  /// For each rank and patch: the sizes of its nodes' rings, then the rings.
+  Parcels rings_for_others(const std::vector<std::vector<Ring<Int>>>& others) const {
+    Parcels parcels;
+    parcels.begin.push_back(0);
+    for (std::size_t r = 0; r < size_; ++r) {
+      std::size_t bytes = 0;
+      for (std::size_t k = 0; k < patches_.size() && r != me_; ++k) {
+        bytes += (own_from_[k][r + 1] - own_from_[k][r]) * sizeof(std::uint32_t);
+        bytes = (bytes + sizeof(Int) - 1) / sizeof(Int) * sizeof(Int);
+        for (std::size_t i = own_from_[k][r]; i < own_from_[k][r + 1]; ++i)
+          bytes += others[k][i].count * sizeof(Int);
+      }
+      parcels.begin.push_back(parcels.begin.back() + (bytes + 7) / 8 * 8);
+    }
+    if (parcels.begin.back() == 0) return parcels;
+    parcels.bytes = Buffer<unsigned char>(parcels.begin.back());
+    for (std::size_t r = 0; r < size_; ++r) {
+      if (r == me_) continue;
+      unsigned char* at = parcels.bytes.data() + parcels.begin[r];
+      const unsigned char* const begin = at;
+      for (std::size_t k = 0; k < patches_.size(); ++k) {
+        for (std::size_t i = own_from_[k][r]; i < own_from_[k][r + 1]; ++i, at += sizeof(std::uint32_t))
+          std::memcpy(at, &others[k][i].count, sizeof(std::uint32_t));
+        at += (sizeof(Int) - static_cast<std::size_t>(at - begin) % sizeof(Int)) % sizeof(Int);
+        for (std::size_t i = own_from_[k][r]; i < own_from_[k][r + 1]; ++i) {
+          const std::size_t size = others[k][i].count * sizeof(Int);
+          std::memcpy(at, others[k][i].begin, size);
+          at += size;
+        }
+      }
+    }
+    return parcels;
+  }
+
+  /// Nodes of this rank in its own patches.
+  std::size_t nodes_here() const {
+    return sent_begin_[static_cast<std::size_t>(first_patch_[me_ + 1])] -
+           sent_begin_[static_cast<std::size_t>(first_patch_[me_])];
   }
 
   /// The neighbours of this rank's nodes that it did not bring itself.
@@ -622,38 +687,33 @@ class Triangulator {
     Parcels outgoing;
     in_agreement([&] {
       std::vector<std::vector<Record>> neighbours(size_);
-      for (std::size_t k = 0; k < patches_.size(); ++k) {
-        const std::vector<std::size_t>& from = own_from_[k];
-        const std::size_t first = from[me_], count = from[me_ + 1] - first;
-        const auto rank_of = [&](std::size_t i) {
-          if (i - first < count) return me_;
-          return static_cast<std::size_t>(std::upper_bound(from.begin(), from.end(), i) - from.begin()) - 1;
-        };
+      for (std::size_t k = 0; k < patches_.size(); ++k)
         patches_[k].for_each_missing_neighbour(
-            me_, rank_of, [&](std::size_t r, const Record& node) { neighbours[r].push_back(node); });
-      }
+            me_, own_from_[k], [&](std::size_t r, const Record& node) { neighbours[r].push_back(node); });
       outgoing = parcels(neighbours);
     });
     const Parcels incoming = ranks_.exchange(outgoing);
     in_agreement([&] {
       std::vector<Record> all(incoming.begin.back() / sizeof(Record));
       std::memcpy(static_cast<void*>(all.data()), incoming.bytes.data(), incoming.begin.back());
-      std::sort(all.begin(), all.end(), [](const Record& a, const Record& b) { return a.number < b.number; });
-      // Without those that it brought: marked in a table of some bits of the number first.
-      std::vector<bool> maybe(std::size_t{1} << 16);
-      while (maybe.size() < 16 * all.size()) maybe.resize(2 * maybe.size());
-      const auto slot = [&](std::int64_t number) {
-        return scrambled(static_cast<std::uint64_t>(number)) & (maybe.size() - 1);
-      };
-      for (const Record& r : all) maybe[slot(r.number)] = true;
+      keep_one_of_each(all);
+      // A patch does not know which nodes this rank brought for other patches; where there are none, it
+      // knows all. Those that may be among `all` are marked in a table of some bits of the number first.
       std::vector<std::int64_t> own;
-      for (std::size_t i = 0; i < nodes_.count; ++i)
-        if (maybe[slot(nodes_.number(i))]) own.push_back(nodes_.number(i));
+      if (nodes_here() < nodes_.count || patches_here() > 1) {
+        std::vector<bool> maybe(std::size_t{1} << 10);
+        while (maybe.size() < 16 * all.size()) maybe.resize(2 * maybe.size());
+        const auto slot = [&](std::int64_t number) {
+          return scrambled(static_cast<std::uint64_t>(number)) & (maybe.size() - 1);
+        };
+        for (const Record& r : all) maybe[slot(r.number)] = true;
+        for (std::size_t i = 0; i < nodes_.count; ++i)
+          if (maybe[slot(nodes_.number(i))]) own.push_back(nodes_.number(i));
+      }
       std::sort(own.begin(), own.end());
-      for (std::size_t k = 0; k < all.size(); ++k)
-        if ((k == 0 || all[k].number != all[k - 1].number) &&
-            !std::binary_search(own.begin(), own.end(), all[k].number))
-          stars.outside.push_back({all[k].number, all[k].point});
+      for (const Record& r : all)
+        if (!std::binary_search(own.begin(), own.end(), r.number))
+          stars.outside.push_back({r.number, r.point});
     });
   }
 
@@ -672,14 +732,12 @@ class Triangulator {
   Boundary boundary_;
   bool gave_up_ = false;
 
-  std::vector<Count> sent_;                ///< to each patch
-  std::vector<std::size_t> own_position_;  ///< for each patch, where its nodes begin in rings_
-  std::unique_ptr<Workspace> per_node_, local_memory_, workspace_;
-  std::uint32_t* position_ = nullptr;  ///< of each local node among those sent to their patches
-  Ring<Int>* rings_ = nullptr;         ///< of the nodes sent to their patches, in that order
-  Record* local_ = nullptr;            ///< nodes of this rank for patches of this rank
+  std::vector<Count> sent_;              ///< to each patch
+  std::vector<std::size_t> sent_begin_;  ///< for each patch, where its nodes begin in sent_nodes_
+  std::uint32_t* sent_nodes_ = nullptr;  ///< this rank's nodes, patch by patch
+  Ring<Int>* rings_ = nullptr;           ///< of this rank's nodes
+  std::unique_ptr<Workspace> per_node_, rings_memory_, entries_memory_, records_memory_, workspace_;
   Parcels arrived_;
-  std::vector<Buffer<Record>> gathered_;
   std::vector<std::vector<std::size_t>> own_from_;  ///< [patch][rank]: its own nodes that the rank brought
 };
 

@@ -32,9 +32,10 @@ struct LocalNodes {
 
 struct ParallelOptions {
   PartitionKind partition = PartitionKind::bisection;
-  int patches = 1;               ///< of this rank; may differ from rank to rank
-  int threads = 1;               ///< of this rank
-  bool with_neighbours = false;  ///< fill Stars::outside
+  int patches = 1;  ///< of this rank; may differ from rank to rank
+  int threads = 1;  ///< of this rank
+  /// Fill Stars::outside, and let the stars hold little memory beside their own.
+  bool with_neighbours = false;
   /// Of a single rank: give up if the patches have more questions, or nodes on what they take for the
   /// boundary, than this, since one patch would be faster.
   std::size_t most_questions = SIZE_MAX;
@@ -46,24 +47,6 @@ template <class Int>
 struct Ring {
   const Int* begin;
   std::uint32_t count;
-};
-
-/// The rings of a rank's nodes, in the order of LocalNodes.
-template <class Int>
-class RingTable {
- public:
-  RingTable() = default;
-  RingTable(std::size_t size, const Ring<Int>* rings, const std::uint32_t* position)
-      : size_(size), rings_(rings), position_(position) {}
-  std::size_t size() const { return size_; }
-  const Ring<Int>& operator[](std::size_t i) const { return rings_[position_[i]]; }
-  /// Asks for ring i and its entries some time before they are read.
-  void prefetch(std::size_t i) const { __builtin_prefetch(rings_[position_[i]].begin); }
-
- private:
-  std::size_t size_ = 0;
-  const Ring<Int>* rings_ = nullptr;
-  const std::uint32_t* position_ = nullptr;
 };
 
 /// Which rank is home to a place: where its patch is.
@@ -85,10 +68,16 @@ class Homes {
   Places places_{Lengths::as_given, 0};
 };
 
+struct NumberedPoint {
+  std::int64_t number;
+  Point point;
+};
+
 /// The stars of this rank's nodes. Int: std::int32_t, or std::int64_t where numbers need it.
 template <class Int>
 struct Stars {
-  RingTable<Int> of_node;  ///< empty if nodes coincide
+  /// Of each of LocalNodes; null if nodes coincide.
+  const Ring<Int>* of_node = nullptr;
   /// What of_node and the rings lie in.
   std::vector<std::unique_ptr<Workspace>> memory;
   std::vector<Buffer<Int>> more_memory;
@@ -98,11 +87,7 @@ struct Stars {
   /// Two different nodes in the same direction, numbers, on every rank the same; empty if there are none.
   std::vector<std::pair<std::int64_t, std::int64_t>> coincident;
   /// With options.with_neighbours: the nodes that the stars name and this rank did not bring, by number.
-  struct Outside {
-    std::int64_t number;
-    Point point;
-  };
-  std::vector<Outside> outside;
+  std::vector<NumberedPoint> outside;
   std::unique_ptr<Homes> homes;
 };
 

@@ -30,8 +30,7 @@ inline void copy_ring(const Int* from, std::size_t count, Entry* to) {
   }
 }
 
-// In what follows, rings[k].begin and rings[k].count are the ring of node k: Rings is a RingTable or a
-// pointer.
+// In what follows, rings[k].begin and rings[k].count are the ring of node k.
 
 /// All of LPTR, which LEND determines: each slot points to the next one, the last of a node to its first.
 /// threads: from threads_for.
