@@ -105,8 +105,8 @@ Outcome run(const Nodes& nodes, const Configuration& c, bool with_neighbours = f
       const Point corners[3] = {nodes[0], nodes[1], nodes[2]};
       Stars<Int> stars = triangulate<Int>(local, corners, {1, 2, 3}, ranks, options, &out.cost[r]);
       const std::lock_guard lock(mutex);
-      for (std::size_t i = 0; stars.of_node != nullptr && i < local.count; ++i) {
-        const Ring<Int>& ring = stars.of_node[i];
+      for (std::size_t i = 0; i < stars.of_node.size(); ++i) {
+        const Ring<Int> ring = stars.of_node[i];
         out.ring[static_cast<std::size_t>(numbers[r][i]) - 1].assign(ring.begin, ring.begin + ring.count);
       }
       out.stars[r].coincident = stars.coincident;

@@ -219,13 +219,26 @@ TEST(CollectiveTrmesh, MemoryThatFailsOnOneRankFailsOnAll) {
 }
 
 TEST(Pieces, RingsOfEveryLengthAreCopied) {
-  std::vector<std::int64_t> entries(64);
-  for (std::size_t i = 0; i < entries.size(); ++i) entries[i] = static_cast<std::int64_t>(100 + i);
-  std::vector<pstripack::Ring<std::int64_t>> rings;
-  for (std::uint32_t count = 2; count < 40; ++count) rings.push_back({entries.data() + 64 - count, count});
-  const auto arcs = static_cast<std::size_t>(pstripack::arcs_of(rings.data(), rings.size()));
+  constexpr std::int64_t least = 2, most = 300;
+  std::vector<std::int64_t> kept;
+  std::vector<std::size_t> begin;
+  std::vector<std::uint8_t> size_class;
+  std::vector<std::uint32_t> position;
+  for (std::int64_t count = least; count < most; ++count) {
+    position.push_back(static_cast<std::uint32_t>(begin.size()));
+    size_class.push_back(
+        pstripack::RingTable<std::int64_t>::size_class_of(static_cast<std::uint32_t>(count)));
+    begin.push_back(kept.size());
+    kept.push_back(count);
+    for (std::int64_t i = 0; i < count; ++i) kept.push_back(100 + 1000 * count + i);
+  }
+  std::vector<const std::int64_t*> places;
+  for (const std::size_t b : begin) places.push_back(&kept[b]);
+  const pstripack::RingTable<std::int64_t> rings(places.size(), position.data(), places.data(),
+                                                 size_class.data());
+  const std::size_t arcs = rings.arcs();
   std::vector<std::int32_t> list(arcs + 1, untouched), lend(rings.size()), lptr(1000 + arcs + 1, untouched);
-  pstripack::write_piece(rings.data(), rings.size(), 1000, list.data(), lend.data(), 1);
+  pstripack::write_piece(rings, 1000, list.data(), lend.data(), 1);
   std::size_t slot = 0;
   for (std::size_t k = 0; k < rings.size(); ++k) {
     for (std::uint32_t i = 0; i < rings[k].count; ++i) ASSERT_EQ(list[slot++], rings[k].begin[i]);

@@ -12,8 +12,8 @@ namespace pstripack {
 /// large enough and not much too large, else a new one. Throws std::bad_alloc.
 Buffer<unsigned char> borrow_block(std::size_t bytes);
 
-/// Gives a block back. A few are kept for the next call, and offered to the system, which takes their pages when
-/// it needs them; small ones and very large ones are freed.
+/// Gives a block back. A few are kept for the next call, and offered to the system, which takes their pages
+/// when it needs them; small ones and very large ones are freed.
 void give_back_block(Buffer<unsigned char> block) noexcept;
 
 /// One block of memory for a call, because clearing fresh pages costs time and one block is what can be

@@ -51,6 +51,11 @@ struct Hull {
   /// Nodes left out because they coincide with one that is in: (in, out), the caller's numbers.
   std::vector<std::pair<index_t, index_t>> coincident;
 
+  /// Of the code 4*t + i: where vertex[i] of face t is; neighbour[i] is four words further on.
+  const std::uint32_t* word(std::uint32_t code) const {
+    return faces->vertex + (std::size_t{code} + (code & ~std::uint32_t{3}));
+  }
+
   bool front(std::size_t face) const { return surrounds_centre || !back[face]; }
 };
 

@@ -2,6 +2,7 @@
 // The ring of a node: its neighbours in the order of STRIPACK's lists, read off a hull.
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -38,47 +39,128 @@ inline std::uint32_t first_corner(const Hull& hull, std::uint32_t corner) {
 }
 
 /// Appends the ring of one hull node as it will stand in LIST; returns the new end. `corner` is 4*t + i: the
-/// node is vertex[i] of face t; number(v) is the number of hull node v, from 1. Writes up to 2*kBlock entries
-/// beyond the end.
+/// node is vertex[i] of face t; number(v) is the number of hull node v, from 1.
 ///
 ///            f.vertex[previous]           The face t = (v, next, previous). Its neighbour across the edge
 ///             /      |                    v - previous, which lies opposite `next`, follows
-///      beyond       |  t                  counterclockwise.
+///      beyond       |  t                  counterclockwise. `code` is 4*t + i of `next`.
 ///             \      |
 ///              v ------ f.vertex[next]
 template <class Int, class Number>
 Int* append_ring(const Hull& hull, std::uint32_t corner, const Number& number, Int* const begin) {
   if (!hull.surrounds_centre) corner = first_corner(hull, corner);
   Int* out = begin;
-  Int smallest = std::numeric_limits<Int>::max();
-  std::size_t smallest_at = 0;
-  const std::uint32_t first = face_of(corner);
+  const std::uint32_t first = next_code(corner);
+  std::uint32_t code = first;
   do {
-    const Face& f = hull.faces[face_of(corner)];
-    const std::uint32_t next = next_edge(edge_of(corner));
-    const Int neighbour = static_cast<Int>(number(f.vertex[next]));
-    const bool smaller = neighbour < smallest;
-    smallest = smaller ? neighbour : smallest;
-    smallest_at = smaller ? static_cast<std::size_t>(out - begin) : smallest_at;
-    *out++ = neighbour;
-    const std::uint32_t beyond = f.neighbour[next];
+    *out++ = static_cast<Int>(number(*hull.word(code)));
+    const std::uint32_t beyond = hull.word(code)[4];
     if (!hull.front(face_of(beyond))) {  // the boundary: its last node closes the list
-      *out++ = -static_cast<Int>(number(f.vertex[previous_edge(edge_of(corner))]));
+      *out++ = -static_cast<Int>(number(*hull.word(next_code(code))));
       return out;
     }
-    corner = 4 * face_of(beyond) + next_edge(edge_of(beyond));
-  } while (face_of(corner) != first);
-  const auto count = static_cast<std::size_t>(out - begin);
-  if (count > kBlock) {
-    std::rotate(begin, begin + smallest_at, out);
-    return out;
-  }
-  // Twice in a row, then the part that starts with the smallest.
-  Int twice[2 * kBlock];
-  copy_block(begin, twice);
-  copy_block(begin, twice + count);
-  copy_block(twice + smallest_at, begin);
+    code = previous_code(beyond);
+  } while (code != first);
+  std::rotate(begin, std::min_element(begin, out), out);
   return out;
+}
+
+/// The same where the hull surrounds the centre and the node has up to kBlock neighbours; null if it has
+/// more. Writes up to 2*kBlock entries.
+template <class Int, class Number>
+Int* append_short_ring(const Hull& hull, std::uint32_t corner, const Number& number, Int* begin) {
+  const std::uint32_t first = next_code(corner);
+  std::uint32_t code = first, count = 0, at = 0;
+  Int ring[kBlock], twice[2 * kBlock], smallest = std::numeric_limits<Int>::max();
+  do {
+    const std::uint32_t* const word = hull.word(code);
+    const Int neighbour = static_cast<Int>(number(word[0]));
+    at = neighbour < smallest ? count : at;
+    smallest = neighbour < smallest ? neighbour : smallest;
+    if (count == kBlock) return nullptr;
+    ring[count++] = neighbour;
+    code = previous_code(word[4]);
+  } while (code != first);
+  copy_block(ring, twice);
+  copy_block(ring, twice + count);
+  copy_block(twice + at, begin);
+  return begin + count;
+}
+
+/// A ring as it is kept: its count of entries, then the entries.
+template <class Int>
+struct Ring {
+  const Int* begin;
+  std::uint32_t count;
+};
+template <class Int>
+Ring<Int> ring_at(const Int* place) {
+  return {place + 1, static_cast<std::uint32_t>(*place)};
+}
+
+/// The rings of nodes 0..size-1, wherever they are kept.
+template <class Int>
+class RingTable {
+ public:
+  RingTable() = default;
+  /// The ring of node i is kept at place[position[i]]; size_class[position[i]] is its size_class_of(count).
+  RingTable(std::size_t size, const std::uint32_t* position, const Int* const* place,
+            const std::uint8_t* size_class)
+      : size_(size), position_(position), place_(place), size_class_(size_class) {}
+
+  static constexpr std::uint8_t kMany = 255;
+  static std::uint8_t size_class_of(std::uint32_t count) {
+    return static_cast<std::uint8_t>(std::min<std::uint32_t>(count, kMany));
+  }
+
+  std::size_t size() const { return size_; }
+  Ring<Int> operator[](std::size_t i) const { return ring_at(place_[position_[i]]); }
+  /// Asks for ring i some time before it is read.
+  void prefetch(std::size_t i) const {
+    const Int* const place = place_[position_[i]];
+    __builtin_prefetch(place);
+    __builtin_prefetch(place + 6);  // most rings have six entries, which may lie in two lines
+  }
+  /// The entries of the rings first..last-1.
+  std::size_t arcs(std::size_t first, std::size_t last) const {
+    std::size_t sum = 0;
+    for (std::size_t i = first; i < last; ++i) {
+      const std::uint8_t few = size_class_[position_[i]];
+      sum += few < kMany ? few : (*this)[i].count;
+    }
+    return sum;
+  }
+  std::size_t arcs() const { return arcs(0, size_); }
+
+ private:
+  std::size_t size_ = 0;
+  const std::uint32_t* position_ = nullptr;
+  const Int* const* place_ = nullptr;
+  const std::uint8_t* size_class_ = nullptr;  ///< small, so that sums need not touch the rings
+};
+
+/// Appends the rings of those of the hull nodes first..last-1 that are wanted(v), as they are kept. Calls
+/// visit(v, place, count) for each, ahead(w) for nodes w some time before. Writes up to 2*kBlock entries
+/// beyond the end.
+template <class Int, class Wanted, class Number, class Ahead, class Visit>
+void append_rings(const Hull& hull, std::size_t first, std::size_t last, const Wanted& wanted,
+                  const Number& number, const Ahead& ahead, Int* out, const Visit& visit) {
+  constexpr std::size_t kAhead = 16;
+  for (std::size_t v = first; v < last; ++v) {
+    if (v + 2 * kAhead < last) {
+      ahead(v + 2 * kAhead);
+      __builtin_prefetch(&hull.faces[face_of(hull.corner[v + 2 * kAhead])]);
+      const Face& soon = hull.faces[face_of(hull.corner[v + kAhead])];
+      for (int i = 0; i < 3; ++i) __builtin_prefetch(&hull.faces[face_of(soon.neighbour[i])]);
+    }
+    if (!wanted(v)) continue;
+    Int* const place = out;
+    out = hull.surrounds_centre ? append_short_ring(hull, hull.corner[v], number, place + 1) : nullptr;
+    if (out == nullptr) out = append_ring(hull, hull.corner[v], number, place + 1);
+    const auto count = static_cast<std::uint32_t>(out - place - 1);
+    *place = static_cast<Int>(count);
+    visit(v, place, count);
+  }
 }
 
 }  // namespace pstripack

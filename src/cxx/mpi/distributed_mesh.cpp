@@ -237,7 +237,7 @@ std::int32_t DistributedMesh::triangulate_into(Stars<Int>& stars, const Point* p
   });
   std::copy(number, number + n, number_);
   count_ = n;
-  arcs_ = arcs_of(stars.of_node, n);
+  arcs_ = static_cast<std::int64_t>(stars.of_node.arcs());
   return 0;
 }
 
@@ -413,12 +413,25 @@ std::int32_t DistributedMesh::gather_stars(std::int32_t root, std::int32_t* list
   });
   const Parcels here = ranks_.exchange(parcels);
   parcels = {};
-  Buffer<Ring<std::int32_t>> rings;
-  agreed(ranks_, [&] { rings = Buffer<Ring<std::int32_t>>(begin[me + 1] - begin[me]); });
+  const std::size_t slice = begin[me + 1] - begin[me];
+  Buffer<const std::int32_t*> place;
+  Buffer<std::uint32_t> position;
+  Buffer<std::uint8_t> size_class;
+  agreed(ranks_, [&] {
+    place = Buffer<const std::int32_t*>(slice);
+    position = Buffer<std::uint32_t>(slice);
+    size_class = Buffer<std::uint8_t>(slice);
+  });
+  using Rings = RingTable<std::int32_t>;
   const auto* const words = reinterpret_cast<const std::int32_t*>(here.bytes.data());
-  for (const std::int32_t* at = words; at < words + here.begin[size] / sizeof *words; at += 2 + at[1])
-    rings[static_cast<std::size_t>(*at) - 1 - begin[me]] = {at + 2, static_cast<std::uint32_t>(at[1])};
-  gather_lists(ranks_, rings, begin, root, list, lptr, lend, lnew);
+  std::uint32_t k = 0;
+  for (const std::int32_t* at = words; at < words + here.begin[size] / sizeof *words; at += 2 + at[1], ++k) {
+    place[k] = at + 1;
+    size_class[k] = Rings::size_class_of(static_cast<std::uint32_t>(at[1]));
+    position[static_cast<std::size_t>(*at) - 1 - begin[me]] = k;
+  }
+  gather_lists(ranks_, Rings(slice, position.data(), place.data(), size_class.data()), begin, root, list,
+               lptr, lend, lnew);
   return 0;
 }
 

@@ -77,8 +77,9 @@ class DistributedMesh {
   void for_each_star(const Stars<Int>& stars, const Visit& visit) const {
     constexpr std::size_t kAhead = 16;  // they lie in the order of the patches
     for (std::size_t i = 0; i < count_; ++i) {
-      if (i + kAhead < count_) __builtin_prefetch(stars.of_node[i + kAhead].begin);
-      visit(i, static_cast<std::size_t>(stars.of_node[i].count), stars.of_node[i].begin);
+      if (i + kAhead < count_) stars.of_node.prefetch(i + kAhead);
+      const Ring<Int> ring = stars.of_node[i];
+      visit(i, static_cast<std::size_t>(ring.count), ring.begin);
     }
   }
 

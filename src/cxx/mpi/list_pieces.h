@@ -21,9 +21,9 @@ constexpr int kEveryRank = -1;
 /// The lists of all nodes on rank `root`, or on every rank (kEveryRank); rank r brings the rings of the nodes
 /// [begin[r], begin[r+1]). list, lptr, lend, lnew count on those ranks only. Collective. Throws
 /// AgreedFailure, having written nothing.
-template <class Rings>
-void gather_lists(MpiCommunicator& ranks, const Rings& rings, const std::vector<std::size_t>& begin, int root,
-                  std::int32_t* list, std::int32_t* lptr, std::int32_t* lend, std::int32_t* lnew) {
+template <class Int>
+void gather_lists(MpiCommunicator& ranks, const RingTable<Int>& rings, const std::vector<std::size_t>& begin,
+                  int root, std::int32_t* list, std::int32_t* lptr, std::int32_t* lend, std::int32_t* lnew) {
   const auto size = static_cast<std::size_t>(ranks.size()), me = static_cast<std::size_t>(ranks.rank());
   const std::size_t n = begin[size], first = begin[me], count = begin[me + 1] - first;
   const bool has_arrays = root == kEveryRank || root == ranks.rank();
@@ -31,7 +31,7 @@ void gather_lists(MpiCommunicator& ranks, const Rings& rings, const std::vector<
   // All memory first, so that nothing is written if it fails anywhere.
   Buffer<std::int32_t> list_piece, lend_piece;
   std::vector<std::size_t> slot_bytes, node_bytes;
-  std::int64_t arcs = arcs_of(rings, count);
+  auto arcs = static_cast<std::int64_t>(rings.arcs());
   int piece_threads = 1, lptr_threads = 1;
   try {
     piece_threads = threads_for(count);
@@ -55,19 +55,19 @@ void gather_lists(MpiCommunicator& ranks, const Rings& rings, const std::vector<
   }
   const std::size_t slot = slot_bytes[me] / sizeof *list;
   if (root == kEveryRank) {
-    write_piece(rings, count, slot, list + slot, lend + first, piece_threads);
+    write_piece(rings, slot, list + slot, lend + first, piece_threads);
     ranks.all_gather_in_place(lend, node_bytes);
     ranks.all_gather_in_place(list, slot_bytes);
     write_lptr(lend, n, lptr, lptr_threads);
   } else if (has_arrays) {
     ranks.start_gather(nullptr, 0, lend, node_bytes, root);
-    write_piece(rings, count, slot, list + slot, lend + first, piece_threads);
+    write_piece(rings, slot, list + slot, lend + first, piece_threads);
     ranks.finish();
     ranks.start_gather(nullptr, 0, list, slot_bytes, root);
     write_lptr(lend, n, lptr, lptr_threads);  // while LIST is under way
     ranks.finish();
   } else {
-    write_piece(rings, count, slot, list_piece.data(), lend_piece.data(), piece_threads);
+    write_piece(rings, slot, list_piece.data(), lend_piece.data(), piece_threads);
     ranks.start_gather(lend_piece.data(), count * sizeof *lend, nullptr, node_bytes, root);
     ranks.start_gather(list_piece.data(), static_cast<std::size_t>(arcs) * sizeof *list, nullptr, slot_bytes,
                        root);

@@ -397,8 +397,8 @@ template <class Int>
 std::size_t Patch<Int>::finish() {
   if (own_ == 0) return 0;
   hull_ = growing_->finish();
-  return 3 * hull_.face_count +
-         hull_.node_count;  // the corners of all triangles, and one more at the boundary
+  // The corners of all triangles, and for each node one more at the boundary and its count.
+  return 3 * hull_.face_count + 2 * hull_.node_count;
 }
 
 template <class Int>

@@ -103,26 +103,14 @@ class Patch {
   void* room_for_rings(std::size_t bytes) const;
 
   /// Writes the rings of its own nodes to `out`, which has room for all and 2*kBlock entries more; calls
-  /// visit(i, begin, count) for each: node i of set_nodes has `count` entries from `begin` on; sooner(i),
-  /// then soon(i) some time before.
-  template <class Visit, class Soon, class Sooner>
-  void write_rings(Int* out, const Visit& visit, const Soon& soon, const Sooner& sooner) const {
-    constexpr std::size_t kAhead = 16;
-    const auto number = [this](std::uint32_t v) { return number_[v]; };
-    Int* end = out;
-    for (std::size_t v = 0; v < built_; ++v) {
-      if (v + 3 * kAhead < built_) sooner(order_[v + 3 * kAhead]);
-      if (v + 2 * kAhead < built_) {
-        soon(order_[v + 2 * kAhead]);
-        __builtin_prefetch(&hull_.faces[face_of(hull_.corner[v + 2 * kAhead])]);
-        const Face& next = hull_.faces[face_of(hull_.corner[v + kAhead])];
-        for (int i = 0; i < 3; ++i) __builtin_prefetch(&hull_.faces[face_of(next.neighbour[i])]);
-      }
-      if (order_[v] >= own_) continue;
-      Int* const begin = end;
-      end = append_ring(hull_, hull_.corner[v], number, begin);
-      visit(order_[v], begin, static_cast<std::uint32_t>(end - begin));
-    }
+  /// visit(i, place, count) for each: the ring of node i of set_nodes is kept at `place`; soon(i) some time
+  /// before.
+  template <class Visit, class Soon>
+  void write_rings(Int* out, const Visit& visit, const Soon& soon) const {
+    append_rings(
+        hull_, 0, built_, [this](std::size_t v) { return order_[v] < own_; },
+        [this](std::uint32_t v) { return number_[v]; }, [&](std::size_t v) { soon(order_[v]); }, out,
+        [&](std::size_t v, const Int* place, std::uint32_t count) { visit(order_[v], place, count); });
   }
 
   /// After finish(): who misses which neighbours. Rank r brought the own nodes [own_from[r], own_from[r+1]),

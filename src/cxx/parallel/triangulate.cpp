@@ -123,8 +123,7 @@ class Triangulator {
       ranks_.set_phase("lists");
       return_rings(stars);
       if (options_.with_neighbours) find_outside(stars);
-      stars.of_node = rings_;
-      stars.memory.push_back(std::move(rings_memory_));
+      stars.memory.push_back(std::move(table_memory_));
       stars.memory.push_back(std::move(options_.with_neighbours ? entries_memory_ : workspace_));
       *stars.homes = Homes(std::move(partition_), std::move(first_patch_), places_);
     }
@@ -247,10 +246,11 @@ class Triangulator {
     Parcels outgoing;
     in_agreement([&] {
       routes.emplace(nodes_.count);
-      rings_memory_ = std::make_unique<Workspace>(nodes_.count * sizeof(Ring<Int>));
-      rings_ = rings_memory_->keep<Ring<Int>>(nodes_.count);
-      per_node_ = std::make_unique<Workspace>(nodes_.count * sizeof(std::uint32_t));
-      sent_nodes_ = per_node_->keep<std::uint32_t>(nodes_.count);
+      table_memory_ = std::make_unique<Workspace>(nodes_.count *
+                                                  (sizeof *position_ + sizeof *place_ + sizeof *size_class_));
+      position_ = table_memory_->keep<std::uint32_t>(nodes_.count);
+      place_ = table_memory_->keep<const Int*>(nodes_.count);
+      size_class_ = table_memory_->keep<std::uint8_t>(nodes_.count);
       find_routes(*routes);
       const std::size_t patches = sent_.size();
       for (std::size_t q = 0; q < patches; ++q) sent_begin_[q + 1] = sent_begin_[q] + sent_[q].own;
@@ -332,7 +332,7 @@ class Triangulator {
         if (!is_wanted(q)) continue;
         const std::size_t at = place[q].own++;
         base[q][at] = record(i);
-        sent_nodes_[sent_begin_[q] + (at - begin[q].own)] = static_cast<std::uint32_t>(i);
+        position_[i] = static_cast<std::uint32_t>(sent_begin_[q] + (at - begin[q].own));
       }
       for (const auto& h : routes.halo[static_cast<std::size_t>(piece)])
         if (is_wanted(h.patch)) base[h.patch][place[h.patch].halo++] = record(h.node);
@@ -578,26 +578,29 @@ class Triangulator {
     in_agreement([&] {
       stars.homes = std::make_unique<Homes>();
       stars.memory.reserve(3);
-      const std::vector<std::vector<Ring<Int>>> others = write_rings(stars);
+      const auto others = write_rings(stars);
       outgoing = rings_for_others(others);
     });
     stars.received = ranks_.exchange(outgoing);
     for (std::size_t r = 0; r < size_; ++r) {
       if (r == me_) continue;
-      Reader reader(stars.received.bytes.data() + stars.received.begin[r]);
-      for (auto q = static_cast<std::size_t>(first_patch_[r]);
-           q < static_cast<std::size_t>(first_patch_[r + 1]); ++q) {
-        const std::size_t n = sent_[q].own;
-        const std::uint32_t* const counts = reader.array<std::uint32_t>(n);
-        reader.align(sizeof(Int));
-        const std::uint32_t* const node = sent_nodes_ + sent_begin_[q];
-        for (std::size_t i = 0; i < n; ++i) rings_[node[i]] = {reader.array<Int>(counts[i]), counts[i]};
+      auto* at = reinterpret_cast<const Int*>(stars.received.bytes.data() + stars.received.begin[r]);
+      for (std::size_t k = sent_begin_[static_cast<std::size_t>(first_patch_[r])];
+           k < sent_begin_[static_cast<std::size_t>(first_patch_[r + 1])]; ++k) {
+        keep_ring(k, at, static_cast<std::uint32_t>(*at));
+        at += 1 + *at;
       }
     }
+    stars.of_node = RingTable<Int>(nodes_.count, position_, place_, size_class_);
   }
 
-  /// The rings of this rank's nodes, into rings_; returned, for each patch, are those of the others.
-  std::vector<std::vector<Ring<Int>>> write_rings(Stars<Int>& stars) {
+  void keep_ring(std::size_t position, const Int* place, std::uint32_t count) {
+    place_[position] = place;
+    size_class_[position] = RingTable<Int>::size_class_of(count);
+  }
+
+  /// The rings of this rank's nodes; returned, for each patch, are those of the others.
+  std::vector<std::vector<const Int*>> write_rings(Stars<Int>& stars) {
     std::vector<std::size_t> begin(patches_.size() + 1, 0);
     for_patches([&](Patch<Int>& patch, std::size_t k) { begin[k + 1] = patch.finish() + 2 * kBlock; });
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
@@ -606,7 +609,7 @@ class Triangulator {
       entries_memory_ = std::make_unique<Workspace>(begin.back() * sizeof(Int));
       own_room = entries_memory_->keep<Int>(begin.back());
     }
-    std::vector<std::vector<Ring<Int>>> others(patches_.size());
+    std::vector<std::vector<const Int*>> others(patches_.size());
     stars.more_memory.resize(patches_.size());
     for_patches([&](Patch<Int>& patch, std::size_t k) {
       const std::size_t entries = begin[k + 1] - begin[k];
@@ -617,61 +620,40 @@ class Triangulator {
         out = stars.more_memory[k].data();
       }
       const std::size_t first = own_from_[k][me_], count = own_from_[k][me_ + 1] - first;
-      const std::uint32_t* const mine = sent_nodes_ + sent_begin_[static_cast<std::size_t>(patch.id())];
-      const auto sooner = [&](std::size_t i) { __builtin_prefetch(mine + (i - first)); };
-      const auto soon = [&](std::size_t i) {
-        if (i - first < count) __builtin_prefetch(rings_ + mine[i - first], 1);
-      };
-      if (count == patch.own()) {
-        patch.write_rings(
-            out,
-            [&](std::size_t i, const Int* ring, std::uint32_t n) {
-              rings_[mine[i]] = {ring, n};
-            },
-            soon, sooner);
-        return;
-      }
-      others[k].resize(patch.own());
+      const std::size_t mine = sent_begin_[static_cast<std::size_t>(patch.id())];
+      others[k].resize(count < patch.own() ? patch.own() : 0);
       patch.write_rings(
           out,
           [&](std::size_t i, const Int* ring, std::uint32_t n) {
-            (i - first < count ? rings_[mine[i - first]] : others[k][i]) = {ring, n};
+            if (i - first < count)
+              keep_ring(mine + (i - first), ring, n);
+            else
+              others[k][i] = ring;
           },
-          soon, sooner);
+          [&](std::size_t i) { __builtin_prefetch(place_ + mine + (i - first), 1); });
     });
     return others;
   }
 
-  /// For each rank and patch: the sizes of its nodes' rings, then the rings.
-  Parcels rings_for_others(const std::vector<std::vector<Ring<Int>>>& others) const {
+  /// For each rank the rings of the nodes that it brought, patch by patch.
+  Parcels rings_for_others(const std::vector<std::vector<const Int*>>& others) const {
     Parcels parcels;
     parcels.begin.push_back(0);
+    const auto for_each_ring_of = [&](std::size_t r, const auto& visit) {
+      for (std::size_t k = 0; k < patches_.size() && r != me_; ++k)
+        for (std::size_t i = own_from_[k][r]; i < own_from_[k][r + 1]; ++i) visit(others[k][i]);
+    };
     for (std::size_t r = 0; r < size_; ++r) {
       std::size_t bytes = 0;
-      for (std::size_t k = 0; k < patches_.size() && r != me_; ++k) {
-        bytes += (own_from_[k][r + 1] - own_from_[k][r]) * sizeof(std::uint32_t);
-        bytes = (bytes + sizeof(Int) - 1) / sizeof(Int) * sizeof(Int);
-        for (std::size_t i = own_from_[k][r]; i < own_from_[k][r + 1]; ++i)
-          bytes += others[k][i].count * sizeof(Int);
-      }
+      for_each_ring_of(
+          r, [&](const Int* ring) { bytes += (1 + static_cast<std::size_t>(*ring)) * sizeof *ring; });
       parcels.begin.push_back(parcels.begin.back() + (bytes + 7) / 8 * 8);
     }
     if (parcels.begin.back() == 0) return parcels;
     parcels.bytes = Buffer<unsigned char>(parcels.begin.back());
     for (std::size_t r = 0; r < size_; ++r) {
-      if (r == me_) continue;
-      unsigned char* at = parcels.bytes.data() + parcels.begin[r];
-      const unsigned char* const begin = at;
-      for (std::size_t k = 0; k < patches_.size(); ++k) {
-        for (std::size_t i = own_from_[k][r]; i < own_from_[k][r + 1]; ++i, at += sizeof(std::uint32_t))
-          std::memcpy(at, &others[k][i].count, sizeof(std::uint32_t));
-        at += (sizeof(Int) - static_cast<std::size_t>(at - begin) % sizeof(Int)) % sizeof(Int);
-        for (std::size_t i = own_from_[k][r]; i < own_from_[k][r + 1]; ++i) {
-          const std::size_t size = others[k][i].count * sizeof(Int);
-          std::memcpy(at, others[k][i].begin, size);
-          at += size;
-        }
-      }
+      auto* at = reinterpret_cast<Int*>(parcels.bytes.data() + parcels.begin[r]);
+      for_each_ring_of(r, [&](const Int* ring) { at = std::copy(ring, ring + 1 + *ring, at); });
     }
     return parcels;
   }
@@ -733,10 +715,12 @@ class Triangulator {
   bool gave_up_ = false;
 
   std::vector<Count> sent_;              ///< to each patch
-  std::vector<std::size_t> sent_begin_;  ///< for each patch, where its nodes begin in sent_nodes_
-  std::uint32_t* sent_nodes_ = nullptr;  ///< this rank's nodes, patch by patch
-  Ring<Int>* rings_ = nullptr;           ///< of this rank's nodes
-  std::unique_ptr<Workspace> per_node_, rings_memory_, entries_memory_, records_memory_, workspace_;
+  std::vector<std::size_t> sent_begin_;  ///< for each patch, how many were sent to those before
+  // Of this rank's nodes: the position among all sent, patch by patch; of those at each position the ring.
+  std::uint32_t* position_ = nullptr;
+  const Int** place_ = nullptr;
+  std::uint8_t* size_class_ = nullptr;
+  std::unique_ptr<Workspace> table_memory_, entries_memory_, records_memory_, workspace_;
   Parcels arrived_;
   std::vector<std::vector<std::size_t>> own_from_;  ///< [patch][rank]: its own nodes that the rank brought
 };

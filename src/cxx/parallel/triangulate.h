@@ -11,6 +11,7 @@
 #include "geometry/point.h"
 #include "geometry/workspace.h"
 #include "mesh/delaunay.h"
+#include "mesh/rings.h"
 #include "parallel/communicator.h"
 #include "parallel/cost.h"
 #include "parallel/partition.h"
@@ -41,14 +42,6 @@ struct ParallelOptions {
   std::size_t most_questions = SIZE_MAX;
 };
 
-/// The star of one node as it stands in LIST: the numbers of its neighbours, counterclockwise; of an interior
-/// node from the smallest on; of a boundary node from the first boundary neighbour to the last, negated.
-template <class Int>
-struct Ring {
-  const Int* begin;
-  std::uint32_t count;
-};
-
 /// Which rank is home to a place: where its patch is.
 class Homes {
  public:
@@ -76,8 +69,10 @@ struct NumberedPoint {
 /// The stars of this rank's nodes. Int: std::int32_t, or std::int64_t where numbers need it.
 template <class Int>
 struct Stars {
-  /// Of each of LocalNodes; null if nodes coincide.
-  const Ring<Int>* of_node = nullptr;
+  /// Of each of LocalNodes, as it stands in LIST: the numbers of its neighbours, counterclockwise; of an
+  /// interior node from the smallest on; of a boundary node from the first boundary neighbour to the last,
+  /// negated. Empty if nodes coincide.
+  RingTable<Int> of_node;
   /// What of_node and the rings lie in.
   std::vector<std::unique_ptr<Workspace>> memory;
   std::vector<Buffer<Int>> more_memory;

@@ -12,11 +12,6 @@
 namespace pstripack {
 namespace {
 
-/// Where the ring of a node stands in the buffer of its thread.
-struct Ring {
-  std::uint32_t begin, count;
-};
-
 /// LPTR from `slot` (counted from 0) on: every slot points to the next.
 template <class Int>
 inline void number_on(Int* lptr, std::size_t count, std::size_t slot) {
@@ -31,8 +26,8 @@ Int write_lists(const Hull& hull, Int* list, Int* lptr, Int* lend, Workspace& wo
   const int threads = threads_for(n);
   const std::size_t pieces = static_cast<std::size_t>(threads);
   workspace.next_phase();
-  auto* const ring_of = workspace.take<Ring>(n);
-  auto* const rings = workspace.take<Int>(6 * n + pieces * 2 * kBlock);
+  auto* const ring_of = workspace.take<std::uint32_t>(n);  // where in `rings` it is kept
+  auto* const rings = workspace.take<Int>(7 * n + pieces * (2 * kBlock + 1));
   std::vector<std::size_t> sums(pieces * pieces), begin_of(pieces + 1);
 
   // The number of neighbours of the nodes of each piece: where its rings begin.
@@ -48,7 +43,7 @@ Int write_lists(const Hull& hull, Int* list, Int* lptr, Int* lend, Workspace& wo
       }
     });
   for (std::size_t p = 0; p < pieces; ++p) {
-    begin_of[p + 1] = begin_of[p] + 2 * kBlock;
+    begin_of[p + 1] = begin_of[p] + piece_size + 2 * kBlock;
     for (std::size_t t = 0; t < pieces; ++t) begin_of[p + 1] += sums[pieces * t + p];
   }
 
@@ -56,27 +51,20 @@ Int write_lists(const Hull& hull, Int* list, Int* lptr, Int* lend, Workspace& wo
   // In the order of the hull, where the faces of a star are close together in memory: all rings.
   constexpr std::size_t kAhead = 16;
   parallel_pieces(pieces, threads, [&](std::size_t piece, std::size_t, int) {
-    Int* out = rings + begin_of[piece];
     const std::size_t last = std::min(n, piece_size * (piece + 1));
-    for (std::size_t v = piece_size * piece; v < last; ++v) {
-      if (v + 2 * kAhead < last) {
-        __builtin_prefetch(&ring_of[hull.order[v + 2 * kAhead]], 1);
-        __builtin_prefetch(&hull.faces[face_of(hull.corner[v + 2 * kAhead])]);
-        const Face& soon = hull.faces[face_of(hull.corner[v + kAhead])];
-        for (int i = 0; i < 3; ++i) __builtin_prefetch(&hull.faces[face_of(soon.neighbour[i])]);
-      }
-      Int* const begin = out;
-      out = append_ring(hull, hull.corner[v], number, begin);
-      ring_of[hull.order[v]] = {static_cast<std::uint32_t>(begin - rings),
-                                static_cast<std::uint32_t>(out - begin)};
-    }
+    append_rings(
+        hull, piece_size * piece, last, [](std::size_t) { return true; }, number,
+        [&](std::size_t v) { __builtin_prefetch(&ring_of[hull.order[v]], 1); }, rings + begin_of[piece],
+        [&](std::size_t v, const Int* place, std::uint32_t) {
+          ring_of[hull.order[v]] = static_cast<std::uint32_t>(place - rings);
+        });
   });
 
   // In the order of the caller's nodes, where the lists are written from front to back: copy them.
   std::fill(begin_of.begin(), begin_of.end(), 0);
   parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int piece) {
     std::size_t sum = 0;
-    for (std::size_t k = first; k < last; ++k) sum += ring_of[k].count;
+    for (std::size_t k = first; k < last; ++k) sum += static_cast<std::size_t>(rings[ring_of[k]]);
     begin_of[static_cast<std::size_t>(piece) + 1] = sum;
   });
   for (std::size_t p = 0; p < pieces; ++p) begin_of[p + 1] += begin_of[p];
@@ -84,9 +72,9 @@ Int write_lists(const Hull& hull, Int* list, Int* lptr, Int* lend, Workspace& wo
     std::size_t slot = begin_of[static_cast<std::size_t>(piece)];
     const std::size_t end = begin_of[static_cast<std::size_t>(piece) + 1];
     for (std::size_t k = first; k < last; ++k) {
-      if (k + kAhead < last) __builtin_prefetch(rings + ring_of[k + kAhead].begin);
-      const Ring ring = ring_of[k];
-      const Int* const from = rings + ring.begin;
+      if (k + kAhead < last) __builtin_prefetch(rings + ring_of[k + kAhead]);
+      const Ring<Int> ring = ring_at<Int>(rings + ring_of[k]);
+      const Int* const from = ring.begin;
       if (ring.count <= kBlock && slot + kBlock <= end) {
         copy_block(from, list + slot);
         number_on(lptr + slot, kBlock, slot);

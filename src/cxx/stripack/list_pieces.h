@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "geometry/parallel_for.h"
+#include "mesh/rings.h"
 
 namespace pstripack {
 
@@ -30,46 +31,31 @@ inline void copy_ring(const Int* from, std::size_t count, Entry* to) {
   }
 }
 
-// In what follows, rings[k].begin and rings[k].count are the ring of node k.
-
 /// All of LPTR, which LEND determines: each slot points to the next one, the last of a node to its first.
 /// threads: from threads_for.
 void write_lptr(const std::int32_t* lend, std::size_t n, std::int32_t* lptr, int threads);
 
-/// Entries of all rings.
-template <class Rings>
-std::int64_t arcs_of(const Rings& rings, std::size_t count) {
-  std::int64_t arcs = 0;
-  for (std::size_t k = 0; k < count; ++k) arcs += rings[k].count;
-  return arcs;
-}
-
-/// LIST and LEND of consecutive nodes: their rings one after another in `list`, the first of which is the
-/// slot first_slot (from 0) of the whole. Writes lend[0..count-1] and as many entries of `list` as the rings
-/// have. threads: from threads_for.
-template <class Rings>
-void write_piece(const Rings& rings, std::size_t count, std::size_t first_slot, std::int32_t* list,
-                 std::int32_t* lend, int threads) {
+/// LIST and LEND of the nodes of a table: their rings one after another in `list`, the first of which is the
+/// slot first_slot (from 0) of the whole. Writes lend[0..rings.size()-1] and as many entries of `list` as the
+/// rings have. threads: from threads_for.
+template <class Int>
+void write_piece(const RingTable<Int>& rings, std::size_t first_slot, std::int32_t* list, std::int32_t* lend,
+                 int threads) {
   constexpr std::size_t kAhead = 16;     // rings lie in the order of the patches, not of the nodes
   std::array<std::size_t, 256> begin{};  // where each thread's part begins
   threads = std::min<int>(threads, begin.size() - 1);
   if (threads > 1)
-    parallel_pieces(count, threads, [&](std::size_t first, std::size_t last, int piece) {
-      std::size_t sum = 0;
-      for (std::size_t k = first; k < last; ++k) sum += rings[k].count;
-      begin[static_cast<std::size_t>(piece) + 1] = sum;
+    parallel_pieces(rings.size(), threads, [&](std::size_t first, std::size_t last, int piece) {
+      begin[static_cast<std::size_t>(piece) + 1] = rings.arcs(first, last);
     });
   for (std::size_t t = 1; t < begin.size(); ++t) begin[t] += begin[t - 1];
-  parallel_pieces(count, threads, [&](std::size_t first, std::size_t last, int piece) {
+  parallel_pieces(rings.size(), threads, [&](std::size_t first, std::size_t last, int piece) {
     std::size_t slot = begin[static_cast<std::size_t>(piece)];
     for (std::size_t k = first; k < last; ++k) {
-      if (k + kAhead < last) {
-        const auto* const soon = rings[k + kAhead].begin;
-        __builtin_prefetch(soon);
-        __builtin_prefetch(soon + 5);  // the six entries of most rings may lie in two lines
-      }
-      copy_ring(rings[k].begin, rings[k].count, list + slot);
-      slot += rings[k].count;
+      if (k + kAhead < last) rings.prefetch(k + kAhead);
+      const Ring<Int> ring = rings[k];
+      copy_ring(ring.begin, ring.count, list + slot);
+      slot += ring.count;
       lend[k] = static_cast<std::int32_t>(first_slot + slot);
     }
   });
