@@ -26,6 +26,7 @@
 #include "mpi/collective_trmesh.h"
 #include "mpi/distributed_mesh.h"
 #include "point_sets.h"
+#include "pool/shared_area.h"
 #include "stripack/trmesh.h"
 
 namespace {
@@ -156,6 +157,50 @@ void move_home(MpiCommunicator& ranks, const DistributedMesh& mesh, std::vector<
   }
 }
 
+/// TRMESH as the ranks of a pool carry it out: arrays and lists in memory that they share with rank 0, or by
+/// messages from and to rank 0, as between machines.
+class PoolCall {
+ public:
+  PoolCall(MpiCommunicator& ranks, const std::vector<Point>& points_on_root, bool shared) : ranks_(ranks) {
+    std::int64_t n = static_cast<std::int64_t>(points_on_root.size());
+    ranks.broadcast(&n, sizeof n, 0);
+    n_ = static_cast<std::int32_t>(n);
+    const AreaLayout layout(n_, sizeof(double));
+    if (ranks.rank() == 0) area_ = SharedArea::create(layout.size());
+    int place[2] = {getpid(), area_.file().get()};
+    ranks.broadcast(place, sizeof place, 0);
+    if (shared && ranks.rank() != 0) area_ = SharedArea::map_of(place[0], place[1]);
+    if (shared) arrays_ = Arrays::shared;
+    if (shared || ranks.rank() == 0) {
+      if (area_.size() < layout.size()) throw std::runtime_error("no shared memory");
+      for (int axis = 0; axis < 3; ++axis) x_[axis] = layout.coordinate<double>(area_.data(), axis);
+      list_ = layout.list(area_.data());
+      lptr_ = layout.lptr(area_.data());
+      lend_ = layout.lend(area_.data());
+    }
+    for (std::size_t i = 0; i < points_on_root.size(); ++i) {
+      x_[0][i] = points_on_root[i].x;
+      x_[1][i] = points_on_root[i].y;
+      x_[2][i] = points_on_root[i].z;
+    }
+    std::int64_t ready = 0;
+    ranks.all_min(&ready, 1);
+  }
+  void operator()(GroupCost* cost) const {
+    std::int32_t lnew = 0;
+    collective_trmesh<double>(ranks_, arrays_, list_ != nullptr ? n_ : 0, x_[0], x_[1], x_[2], list_, lptr_,
+                              lend_, &lnew, cost);
+  }
+
+ private:
+  MpiCommunicator& ranks_;
+  SharedArea area_;
+  Arrays arrays_ = Arrays::on_rank_0;
+  std::int32_t n_ = 0;
+  double* x_[3] = {};
+  std::int32_t *list_ = nullptr, *lptr_ = nullptr, *lend_ = nullptr;
+};
+
 void run_on_ranks(const Settings& s) {
   MPI_Init(nullptr, nullptr);
   {
@@ -185,13 +230,11 @@ void run_on_ranks(const Settings& s) {
         if (k > 0) calls.push_back({seconds() - start, cpu_seconds() - spent, report.cost});
       }
     } else {
-      const Columns c(points);
-      Lists l(is_root ? n : 2);
+      const PoolCall call(ranks, points, s.mode == "pool");
       for (int k = 0; k <= s.repeats; ++k) {
         GroupCost cost;
         const double start = seconds(), spent = cpu_seconds();
-        collective_trmesh(ranks, Arrays::on_rank_0, static_cast<std::int32_t>(n), c.x.data(), c.y.data(),
-                          c.z.data(), l.list.data(), l.lptr.data(), l.lend.data(), &l.lnew, &cost);
+        call(&cost);
         if (k > 0) calls.push_back({seconds() - start, cpu_seconds() - spent, cost});
       }
     }
@@ -260,14 +303,17 @@ void tables(const std::string& self, Settings s, const std::vector<int>& ranks,
       "over "
       "the mean, triangulate.\nhalo, bytes: of all ranks.\n",
       sysconf(_SC_NPROCESSORS_ONLN));
-  for (const char* mode : {"distributed", "pool"}) {
+  for (const char* mode : {"distributed", "pool", "messages"}) {
     s.mode = mode;
     fmt::print("\n{}, {}, constant N\n",
-               s.mode == "pool" ? "arrays and lists on rank 0" : "distributed, points at home", s.family);
+               s.mode == "pool"       ? "pool on one machine, arrays and lists in rank 0's memory"
+               : s.mode == "messages" ? "pool on several machines, arrays and lists sent from and to rank 0"
+                                      : "distributed, points at home",
+               s.family);
     head();
     for (const std::size_t n : sizes) {
       s.n = n;
-      for (const int p : ranks) show(measure(self, s, p), s.mode == "pool");
+      for (const int p : ranks) show(measure(self, s, p), s.mode != "distributed");
     }
   }
   s.mode = "distributed";
@@ -293,8 +339,8 @@ int main(int argc, char** argv) {
   app.add_option("--repeats", s.repeats, "calls, of which the median is shown")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
-  app.add_option("--mode", s.mode, "one run on the ranks of this mpirun: distributed or pool")
-      ->check(CLI::IsMember({"distributed", "pool"}));
+  app.add_option("--mode", s.mode, "one run on the ranks of this mpirun: distributed, pool or messages")
+      ->check(CLI::IsMember({"distributed", "pool", "messages"}));
   app.add_option("--n", s.n, "nodes of that run")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {

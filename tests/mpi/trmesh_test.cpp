@@ -1,5 +1,7 @@
 // TRMESH by all ranks: the bytes and the codes of TRMESH by one.
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -13,6 +15,7 @@
 #include "mpi_test.h"
 #include "parallel/coincidence.h"
 #include "point_sets.h"
+#include "pool/shared_area.h"
 #include "support/lists.h"
 
 namespace {
@@ -20,6 +23,7 @@ namespace {
 using pstripack::AgreedFailure;
 using pstripack::Arrays;
 using pstripack::MpiCommunicator;
+using pstripack::SharedArea;
 using pstripack::TrmeshResult;
 
 constexpr std::int32_t untouched = -987654321;
@@ -75,11 +79,51 @@ Outcome by_all(MpiCommunicator& ranks, Arrays arrays, const Columns<Real>& c) {
   return o;
 }
 
+/// In memory that all ranks share: what every rank finds there.
+template <class Real>
+Outcome by_all_in_shared_memory(MpiCommunicator& ranks, const Columns<Real>& c) {
+  const std::size_t n = c.x.size();
+  const pstripack::AreaLayout layout(static_cast<std::int32_t>(std::max<std::size_t>(n, 3)), sizeof(Real));
+  SharedArea area = ranks.rank() == 0 ? SharedArea::create(layout.size()) : SharedArea();
+  int place[2] = {getpid(), area.file().get()};
+  ranks.broadcast(place, sizeof place, 0);
+  if (ranks.rank() != 0) area = SharedArea::map_of(place[0], place[1]);
+  if (area.size() < layout.size()) ranks.abort("no shared memory", "");
+  Outcome o(n);
+  const std::vector<Real>* const columns[] = {&c.x, &c.y, &c.z};
+  const auto each_array = [&](const auto& visit) {
+    visit(o.list, layout.list(area.data()));
+    visit(o.lptr, layout.lptr(area.data()));
+    visit(o.lend, layout.lend(area.data()));
+  };
+  if (ranks.rank() == 0) {
+    for (int i = 0; i < 3; ++i)
+      std::copy(columns[i]->begin(), columns[i]->end(), layout.template coordinate<Real>(area.data(), i));
+    if (n >= 3) each_array([](const auto& own, auto* there) { std::copy(own.begin(), own.end(), there); });
+  }
+  std::int64_t ready = 0;
+  ranks.all_min(&ready, 1);
+  try {
+    o.result = collective_trmesh(
+        ranks, Arrays::shared, static_cast<std::int32_t>(n), layout.template coordinate<Real>(area.data(), 0),
+        layout.template coordinate<Real>(area.data(), 1), layout.template coordinate<Real>(area.data(), 2),
+        layout.list(area.data()), layout.lptr(area.data()), layout.lend(area.data()), &o.lnew);
+  } catch (const AgreedFailure& failure) {
+    o.result = {failure.code};
+  }
+  if (n >= 3)
+    each_array([](auto& own, const auto* there) { std::copy(there, there + own.size(), own.begin()); });
+  ranks.broadcast(&o.lnew, sizeof o.lnew, 0);
+  ranks.all_min(&ready, 1);
+  return o;
+}
+
 template <class Real>
 void expect_the_same(MpiCommunicator& ranks, const Nodes& nodes, const std::string& what) {
   const Columns<Real> c(nodes);
   Outcome expected = by_one(c);
   EXPECT_TRUE(by_all(ranks, Arrays::on_every_rank, c) == expected) << what << ", on every rank";
+  EXPECT_TRUE(by_all_in_shared_memory(ranks, c) == expected) << what << ", in shared memory";
   const Outcome pool = by_all(ranks, Arrays::on_rank_0, c);
   if (ranks.rank() == 0) {
     EXPECT_TRUE(pool == expected) << what << ", on rank 0";
@@ -247,7 +291,7 @@ TEST(Pieces, RingsOfEveryLengthAreCopied) {
   EXPECT_EQ(list[arcs], untouched);
 
   for (std::int32_t& last : lend) last -= 1000;
-  pstripack::write_lptr(lend.data(), lend.size(), lptr.data(), 1);
+  pstripack::write_lptr(lend.data(), lend.size(), 0, lptr.data(), 1);
   for (std::size_t k = 0; k < rings.size(); ++k) {
     const std::int32_t first = k > 0 ? lend[k - 1] + 1 : 1;
     for (std::int32_t s = first; s < lend[k]; ++s) ASSERT_EQ(lptr[static_cast<std::size_t>(s) - 1], s + 1);

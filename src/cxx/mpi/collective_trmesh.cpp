@@ -131,8 +131,8 @@ TrmeshResult take_slice(MpiCommunicator& ranks, std::int32_t n, const Real* x, c
 
 /// This rank's slice of the nodes of rank 0.
 template <class Real>
-TrmeshResult receive_slice(MpiCommunicator& ranks, std::int32_t n, const Real* x, const Real* y,
-                           const Real* z, bool wants_cost, Call& call, Buffer<Point>& points) {
+TrmeshResult receive_slice(MpiCommunicator& ranks, Arrays arrays, std::int32_t n, const Real* x,
+                           const Real* y, const Real* z, bool wants_cost, Call& call, Buffer<Point>& points) {
   ranks.set_phase("scatter the nodes");
   const bool is_root = ranks.rank() == 0;
   if (is_root) {
@@ -147,23 +147,23 @@ TrmeshResult receive_slice(MpiCommunicator& ranks, std::int32_t n, const Real* x
   const auto nodes = static_cast<std::size_t>(call.n);
   const auto size = static_cast<std::size_t>(ranks.size()), me = static_cast<std::size_t>(ranks.rank());
   const std::size_t first = slice_begin(nodes, me, size), count = slice_begin(nodes, me + 1, size) - first;
+  const bool by_message = arrays == Arrays::on_rank_0;
   Buffer<Real> mine[3];
   std::vector<std::size_t> bytes;
   agreed(ranks, [&] {
     points = Buffer<Point>(count);
-    if (!is_root)
+    if (by_message && !is_root)
       for (Buffer<Real>& m : mine) m = Buffer<Real>(count);
     for (std::size_t r = 0; r <= size; ++r) bytes.push_back(slice_begin(nodes, r, size) * sizeof(Real));
   });
-  const Real* const all[] = {x, y, z};
-  for (int i = 0; i < 3; ++i)
-    ranks.start_scatter(all[i], bytes, mine[i].data(), is_root ? 0 : count * sizeof(Real), 0);
+  const Real* from[] = {x, y, z};
+  for (int i = 0; i < 3 && by_message; ++i)
+    ranks.start_scatter(from[i], bytes, mine[i].data(), is_root ? 0 : count * sizeof(Real), 0);
   if (!is_root) ranks.finish();
   std::int64_t values[] = {0, kNone};
   try {
-    values[1] = is_root
-                    ? copy_nodes(x, y, z, count, 0, points.data())
-                    : copy_nodes(mine[0].data(), mine[1].data(), mine[2].data(), count, first, points.data());
+    for (int i = 0; i < 3; ++i) from[i] = by_message && !is_root ? mine[i].data() : from[i] + first;
+    values[1] = copy_nodes(from[0], from[1], from[2], count, first, points.data());
   } catch (...) {
     values[0] = code_of(std::current_exception());
   }
@@ -215,8 +215,8 @@ TrmeshResult lists_of_slices(MpiCommunicator& ranks, Arrays arrays, const Call& 
   }
   ranks.set_phase("gather the lists");
   const PhaseTimer timer(&cost, ParallelCost::gather, &ranks);
-  gather_lists(ranks, stars.of_node, begin, arrays == Arrays::on_every_rank ? kEveryRank : 0, list, lptr,
-               lend, lnew);
+  const int root = arrays == Arrays::on_every_rank ? kEveryRank : arrays == Arrays::shared ? kShared : 0;
+  gather_lists(ranks, stars.of_node, begin, root, list, lptr, lend, lnew);
   return result;
 }
 
@@ -235,7 +235,7 @@ TrmeshResult collective_trmesh(MpiCommunicator& ranks, Arrays arrays, std::int32
     const PhaseTimer timer(&mine, ParallelCost::divide, &ranks);
     result = arrays == Arrays::on_every_rank
                  ? take_slice(ranks, n, x, y, z, cost != nullptr, call, points)
-                 : receive_slice(ranks, n, x, y, z, cost != nullptr, call, points);
+                 : receive_slice(ranks, arrays, n, x, y, z, cost != nullptr, call, points);
   }
   if (result.ier == 0) result = lists_of_slices(ranks, arrays, call, points, list, lptr, lend, lnew, mine);
   if (call.wants_cost != 0) {

@@ -11,7 +11,8 @@ namespace pstripack {
 /// Where the arrays of a collective TRMESH are.
 enum class Arrays {
   on_every_rank,  ///< comm mode: the same arguments on every rank, the lists on every rank; -7 if they differ
-  on_rank_0       ///< pool mode: the others pass n = 0 and null pointers, and get the result code only
+  on_rank_0,      ///< pool mode: the others pass n = 0 and null pointers, and get the result code only
+  shared          ///< the same on one machine: every rank passes the same memory; lnew is rank 0's
 };
 
 /// TRMESH (stripack/trmesh.h) by all ranks together: the same bytes, the same codes, on every rank.

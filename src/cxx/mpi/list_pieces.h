@@ -16,9 +16,10 @@ inline std::size_t slice_begin(std::size_t n, std::size_t rank, std::size_t rank
   return n / ranks * rank + n % ranks * rank / ranks;
 }
 
-constexpr int kEveryRank = -1;
+constexpr int kEveryRank = -1, kShared = -2;
 
-/// The lists of all nodes on rank `root`, or on every rank (kEveryRank); rank r brings the rings of the nodes
+/// The lists of all nodes on rank `root`, on every rank (kEveryRank), or in memory that all ranks share and
+/// pass, lnew that of rank 0 (kShared); rank r brings the rings of the nodes
 /// [begin[r], begin[r+1]). list, lptr, lend, lnew count on those ranks only. Collective. Throws
 /// AgreedFailure, having written nothing.
 template <class Int>
@@ -26,7 +27,7 @@ void gather_lists(MpiCommunicator& ranks, const RingTable<Int>& rings, const std
                   int root, std::int32_t* list, std::int32_t* lptr, std::int32_t* lend, std::int32_t* lnew) {
   const auto size = static_cast<std::size_t>(ranks.size()), me = static_cast<std::size_t>(ranks.rank());
   const std::size_t n = begin[size], first = begin[me], count = begin[me + 1] - first;
-  const bool has_arrays = root == kEveryRank || root == ranks.rank();
+  const bool has_arrays = root < 0 || root == ranks.rank();
 
   // All memory first, so that nothing is written if it fails anywhere.
   Buffer<std::int32_t> list_piece, lend_piece;
@@ -54,17 +55,21 @@ void gather_lists(MpiCommunicator& ranks, const RingTable<Int>& rings, const std
     node_bytes[r + 1] = begin[r + 1] * sizeof *lend;
   }
   const std::size_t slot = slot_bytes[me] / sizeof *list;
-  if (root == kEveryRank) {
+  if (root == kShared) {
+    write_piece(rings, slot, list + slot, lend + first, piece_threads);
+    write_lptr(lend + first, count, slot, lptr, piece_threads);
+    ranks.all_min(&arcs, 1);  // all pieces are there
+  } else if (root == kEveryRank) {
     write_piece(rings, slot, list + slot, lend + first, piece_threads);
     ranks.all_gather_in_place(lend, node_bytes);
     ranks.all_gather_in_place(list, slot_bytes);
-    write_lptr(lend, n, lptr, lptr_threads);
+    write_lptr(lend, n, 0, lptr, lptr_threads);
   } else if (has_arrays) {
     ranks.start_gather(nullptr, 0, lend, node_bytes, root);
     write_piece(rings, slot, list + slot, lend + first, piece_threads);
     ranks.finish();
     ranks.start_gather(nullptr, 0, list, slot_bytes, root);
-    write_lptr(lend, n, lptr, lptr_threads);  // while LIST is under way
+    write_lptr(lend, n, 0, lptr, lptr_threads);  // while LIST is under way
     ranks.finish();
   } else {
     write_piece(rings, slot, list_piece.data(), lend_piece.data(), piece_threads);
@@ -73,7 +78,8 @@ void gather_lists(MpiCommunicator& ranks, const RingTable<Int>& rings, const std
                        root);
     ranks.finish();
   }
-  if (has_arrays) *lnew = static_cast<std::int32_t>(slot_bytes[size] / sizeof *list) + 1;
+  if (has_arrays && (root != kShared || me == 0))
+    *lnew = static_cast<std::int32_t>(slot_bytes[size] / sizeof *list) + 1;
 }
 
 }  // namespace pstripack

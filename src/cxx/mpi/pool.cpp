@@ -30,29 +30,64 @@ namespace pstripack {
 namespace {
 
 /// What rank 0 tells the others, over MPI_COMM_WORLD, where nobody else sends.
-enum Command : int { stop = 0, trmesh_r4 = 4, trmesh_r8 = 8 };
+struct Order {
+  std::int32_t real_bytes = 0;  ///< a TRMESH of such numbers; 0: the end
+  std::int32_t n = 0;
+  std::int64_t area = 0;  ///< where its arrays are: which area, of which process, open as which file
+  std::int32_t process = 0, file = -1;
+};
 
-void tell_workers(Command command, const MpiCommunicator& ranks) {
-  for (int r = 1; r < ranks.size(); ++r) MPI_Send(&command, 1, MPI_INT, r, 0, MPI_COMM_WORLD);
+void tell_workers(const Order& order, const MpiCommunicator& ranks) {
+  for (int r = 1; r < ranks.size(); ++r) MPI_Send(&order, sizeof order, MPI_BYTE, r, 0, MPI_COMM_WORLD);
 }
 
-/// Waits for a command without using the processor that the model needs: naps grow with the time waited so
+/// Waits for an order without using the processor that the model needs: naps grow with the time waited so
 /// far, so that the answer to one call after another is prompt and an idle hour costs nothing.
-Command next_command() {
+Order next_order() {
   using Clock = std::chrono::steady_clock;
   constexpr double kSpin = 50e-6, kLongestNap = 1e-3;
-  int command = stop, arrived = 0;
+  Order order;
+  int arrived = 0;
   MPI_Request request;
-  MPI_Irecv(&command, 1, MPI_INT, 0, 0, MPI_COMM_WORLD, &request);
+  MPI_Irecv(&order, sizeof order, MPI_BYTE, 0, 0, MPI_COMM_WORLD, &request);
   const auto start = Clock::now();
   for (;;) {
     MPI_Test(&request, &arrived, MPI_STATUS_IGNORE);
-    if (arrived) return static_cast<Command>(command);
+    if (arrived) return order;
     const double waited = std::chrono::duration<double>(Clock::now() - start).count();
     if (waited < kSpin) continue;
     const timespec nap{0, static_cast<long>(1e9 * std::min(waited / 8, kLongestNap))};
     nanosleep(&nap, nullptr);
   }
+}
+
+/// This rank is on the machine of rank 0.
+bool beside_rank_0 = false;
+
+/// Collective. True if every rank has memory for the arrays of the order: then all read and write there, and
+/// nothing is sent.
+bool all_share(MpiCommunicator& ranks, const SharedArea& area, const Order& order) {
+  std::int64_t seen = area.size() >= AreaLayout(order.n, order.real_bytes).size() ? 1 : 0;
+  ranks.all_min(&seen, 1);
+  return seen != 0;
+}
+
+/// One call, on any rank; `area` is null where there is none.
+template <class Real>
+TrmeshResult carry_out(MpiCommunicator& ranks, Arrays arrays, std::int32_t n, void* area, std::int32_t* lnew,
+                       GroupCost* cost) {
+  if (area == nullptr)
+    return collective_trmesh<Real>(ranks, arrays, 0, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,
+                                   nullptr);
+  const AreaLayout layout(n, sizeof(Real));
+  return collective_trmesh<Real>(ranks, arrays, n, layout.coordinate<Real>(area, 0),
+                                 layout.coordinate<Real>(area, 1), layout.coordinate<Real>(area, 2),
+                                 layout.list(area), layout.lptr(area), layout.lend(area), lnew, cost);
+}
+TrmeshResult carry_out(MpiCommunicator& ranks, Arrays arrays, const Order& order, void* area,
+                       std::int32_t* lnew = nullptr, GroupCost* cost = nullptr) {
+  return order.real_bytes == 8 ? carry_out<double>(ranks, arrays, order.n, area, lnew, cost)
+                               : carry_out<float>(ranks, arrays, order.n, area, lnew, cost);
 }
 
 /// The environment of pstripack-run, as it was passed on: NAME=VALUE, each closed by a zero. MPI's variables
@@ -162,7 +197,7 @@ int Steward::serve(MpiCommunicator& ranks) {
       if (Descriptor socket = accept_from(listener_)) clients_.push_back({std::move(socket), {}});
   }
   clients_.clear();
-  tell_workers(stop, ranks);
+  tell_workers({}, ranks);
   if (told_) return 0;
   return WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
 }
@@ -174,7 +209,7 @@ bool Steward::serve(Client& client, MpiCommunicator& ranks) {
   if (new_area) {
     client.area = SharedArea();
     client.area = SharedArea::map(std::move(new_area));
-    client.area.close_file();
+    client.area_number = ++areas_;
   }
   PoolReply reply;
   if (request.format != PoolRequest::kFormat || (request.real_bytes != 4 && request.real_bytes != 8) ||
@@ -182,19 +217,14 @@ bool Steward::serve(Client& client, MpiCommunicator& ranks) {
     return send_packet(client.socket, &reply, sizeof reply);
 
   ranks.set_phase("the start of a call");
-  const AreaLayout layout(request.n, request.real_bytes);
-  void* const area = client.area.data();
-  const auto carry_out = [&](auto real) {
-    using Real = decltype(real);
-    return collective_trmesh<Real>(ranks, Arrays::on_rank_0, request.n, layout.coordinate<Real>(area, 0),
-                                   layout.coordinate<Real>(area, 1), layout.coordinate<Real>(area, 2),
-                                   layout.list(area), layout.lptr(area), layout.lend(area), &reply.lnew,
-                                   request.wants_cost != 0 ? &reply.cost : nullptr);
-  };
-  tell_workers(request.real_bytes == 8 ? trmesh_r8 : trmesh_r4, ranks);
+  Order order{request.real_bytes, request.n, client.area_number, getpid(), client.area.file().get()};
+  tell_workers(order, ranks);
   TrmeshResult result{0};
   try {
-    result = request.real_bytes == 8 ? carry_out(0.0) : carry_out(0.0f);
+    const Arrays arrays = all_share(ranks, client.area, order) ? Arrays::shared : Arrays::on_rank_0;
+    client.area.close_file();  // who can share it has it by now
+    result = carry_out(ranks, arrays, order, client.area.data(), &reply.lnew,
+                       request.wants_cost != 0 ? &reply.cost : nullptr);
   } catch (const AgreedFailure& failure) {
     result = {failure.code};
   }
@@ -208,30 +238,37 @@ bool Steward::serve(Client& client, MpiCommunicator& ranks) {
 }
 
 void serve_as_worker(MpiCommunicator& ranks) {
+  SharedArea area;
+  std::int64_t area_number = 0;
   for (;;) {
     ranks.set_phase("its wait for a call");
-    const Command command = next_command();
-    if (command == stop) return;
+    const Order order = next_order();
+    if (order.real_bytes == 0) return;
+    if (order.area != area_number) {
+      area = SharedArea();
+      if (beside_rank_0) area = SharedArea::map_of(order.process, order.file);
+      area.close_file();
+      area_number = order.area;
+    }
     try {
-      if (command == trmesh_r8)
-        collective_trmesh<double>(ranks, Arrays::on_rank_0, 0, nullptr, nullptr, nullptr, nullptr, nullptr,
-                                  nullptr, nullptr);
-      else
-        collective_trmesh<float>(ranks, Arrays::on_rank_0, 0, nullptr, nullptr, nullptr, nullptr, nullptr,
-                                 nullptr, nullptr);
+      const bool shared = all_share(ranks, area, order);
+      carry_out(ranks, shared ? Arrays::shared : Arrays::on_rank_0, order, shared ? area.data() : nullptr);
     } catch (const AgreedFailure&) {
       // Rank 0 tells the model; the next call may succeed.
     }
   }
 }
 
-void share_processors() {
-#ifdef _OPENMP
+void look_around() {
   MPI_Comm machine;
-  int ranks = 1;
+  int ranks = 1, lowest = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &lowest);
   MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
   MPI_Comm_size(machine, &ranks);
+  MPI_Bcast(&lowest, 1, MPI_INT, 0, machine);
   MPI_Comm_free(&machine);
+  beside_rank_0 = lowest == 0;
+#ifdef _OPENMP
   if (getenv("OMP_NUM_THREADS") == nullptr) omp_set_num_threads(std::max(1, omp_get_num_procs() / ranks));
 #endif
 }

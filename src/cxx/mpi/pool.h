@@ -7,12 +7,16 @@
 //                  ^------- socket, shared memory -- (its libpstripack: capi/pool_client.cpp)
 //       rank 1..P-1: workers
 //
+// Where all ranks are on one machine they read the nodes from the memory that the model shares and write the
+// lists there; else rank 0 scatters and gathers.
+//
 // The model is not an MPI process. So nothing it does can harm MPI or hang the ranks: it may end in any way,
 // never call, be a script that starts one model after another, fork, or use MPI for itself.
 
 #include <signal.h>
 #include <sys/types.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -43,6 +47,7 @@ class Steward {
   struct Client {
     Descriptor socket;
     SharedArea area;
+    std::int64_t area_number = 0;
   };
 
   [[noreturn]] void become_the_model(char** command, Descriptor (&from_launcher)[4],
@@ -55,6 +60,7 @@ class Steward {
   std::string name_;
   Descriptor listener_, child_signals_;
   std::vector<Client> clients_;
+  std::int64_t areas_ = 0;  ///< that there have been
   pid_t model_ = -1;
   int status_ = 0;  ///< the model's, as wait() tells it
   bool told_ = false;
@@ -63,8 +69,8 @@ class Steward {
 /// Any other rank: takes part in calls until the pool ends. Collective.
 void serve_as_worker(MpiCommunicator& ranks);
 
-/// The threads of this rank: its share of the processors that it may use, unless OMP_NUM_THREADS says it.
-/// Collective over MPI_COMM_WORLD.
-void share_processors();
+/// Which ranks are on this machine. Sets this rank's threads: its share of the processors that it may use,
+/// unless OMP_NUM_THREADS says it. Collective over MPI_COMM_WORLD, before the two above.
+void look_around();
 
 }  // namespace pstripack

@@ -60,7 +60,7 @@ int main(int argc, char** argv) {
   int provided = 0, code = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
   try {
-    pstripack::share_processors();
+    pstripack::look_around();
     pstripack::MpiCommunicator ranks(MPI_COMM_WORLD);
     ranks.show_phase_in(watchdog->phase());
     if (rank == 0)

@@ -5,6 +5,7 @@
 #include <sys/mman.h>
 #include <sys/stat.h>
 
+#include <cstdio>
 #include <utility>
 
 namespace pstripack {
@@ -41,6 +42,12 @@ SharedArea SharedArea::create(std::size_t size) {
   do error = posix_fallocate(file.get(), 0, static_cast<off_t>(size));
   while (error == EINTR);
   return error == 0 ? map(std::move(file)) : SharedArea();
+}
+
+SharedArea SharedArea::map_of(int process, int file) {
+  char name[64];
+  std::snprintf(name, sizeof name, "/proc/%d/fd/%d", process, file);
+  return map(Descriptor(open(name, O_RDWR | O_CLOEXEC)));
 }
 
 SharedArea SharedArea::map(Descriptor file) {

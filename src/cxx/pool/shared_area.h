@@ -1,5 +1,5 @@
 #pragma once
-// The arrays of one TRMESH call in memory that the model and rank 0 of its pool share.
+// The arrays of one TRMESH call in memory that the model and the ranks of its pool on its machine share.
 
 #include <cstddef>
 #include <cstdint>
@@ -37,6 +37,8 @@ class SharedArea {
   static SharedArea create(std::size_t size);
   /// The other process's area. Empty on failure.
   static SharedArea map(Descriptor file);
+  /// The area of a process of this user on this machine, which has it open as `file`. Empty on failure.
+  static SharedArea map_of(int process, int file);
 
   void* data() const { return data_; }
   std::size_t size() const { return size_; }

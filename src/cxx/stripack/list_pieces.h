@@ -31,9 +31,11 @@ inline void copy_ring(const Int* from, std::size_t count, Entry* to) {
   }
 }
 
-/// All of LPTR, which LEND determines: each slot points to the next one, the last of a node to its first.
-/// threads: from threads_for.
-void write_lptr(const std::int32_t* lend, std::size_t n, std::int32_t* lptr, int threads);
+/// LPTR of n consecutive nodes, which LEND determines: each slot points to the next one, the last of a node
+/// to its first. lend[0] is that of the first of these nodes, lptr[0] the first slot of all; first_slot, from
+/// 0: that of these nodes. threads: from threads_for.
+void write_lptr(const std::int32_t* lend, std::size_t n, std::size_t first_slot, std::int32_t* lptr,
+                int threads);
 
 /// LIST and LEND of the nodes of a table: their rings one after another in `list`, the first of which is the
 /// slot first_slot (from 0) of the whole. Writes lend[0..rings.size()-1] and as many entries of `list` as the

@@ -58,7 +58,7 @@ std::optional<Pairs> lists_on_threads(const Point* p, std::size_t n, Int* list, 
   if (stars.coincident.empty()) {
     const PhaseTimer timer(cost, ParallelCost::lists);
     write_piece(stars.of_node, 0, list, lend, options.threads);
-    write_lptr(lend, n, lptr, options.threads);
+    write_lptr(lend, n, 0, lptr, options.threads);
     *lnew = lend[n - 1] + 1;
   }
   return stars.coincident;
