@@ -139,7 +139,7 @@ void move_home(MpiCommunicator& ranks, const DistributedMesh& mesh, std::vector<
   parcels.begin.assign(size + 1, 0);
   for (const std::int32_t r : home) parcels.begin[static_cast<std::size_t>(r) + 1] += sizeof(Item);
   for (std::size_t r = 0; r < size; ++r) parcels.begin[r + 1] += parcels.begin[r];
-  parcels.bytes = Buffer<unsigned char>(parcels.begin.back());
+  parcels.bytes = Block(parcels.begin.back());
   std::vector<std::size_t> at = parcels.begin;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Item item{points[i], numbers[i]};

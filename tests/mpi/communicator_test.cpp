@@ -15,7 +15,7 @@
 namespace {
 
 using pstripack::AgreedFailure;
-using pstripack::Buffer;
+using pstripack::Block;
 using pstripack::Failure;
 using pstripack::MpiCommunicator;
 using pstripack::Parcels;
@@ -36,7 +36,7 @@ Parcels parcels_of(const std::vector<std::vector<unsigned char>>& messages) {
   Parcels parcels;
   parcels.begin.push_back(0);
   for (const auto& m : messages) parcels.begin.push_back(parcels.begin.back() + m.size());
-  parcels.bytes = Buffer<unsigned char>(parcels.begin.back());
+  parcels.bytes = Block(parcels.begin.back());
   for (std::size_t r = 0; r < messages.size(); ++r)
     std::copy(messages[r].begin(), messages[r].end(), parcels.bytes.data() + parcels.begin[r]);
   return parcels;
@@ -95,11 +95,11 @@ TEST(Communicator, BroadcastsScattersAndGathers) {
       ASSERT_EQ(one, expected);
       ASSERT_EQ(two, expected);
 
-      std::vector<unsigned char> gathered(is_root ? all.bytes.size() : 0);
+      std::vector<unsigned char> gathered(is_root ? all.begin.back() : 0);
       ranks.start_gather(one.data(), one.size(), gathered.data(), begin, root);
       ranks.finish();
       if (is_root) {
-        ASSERT_TRUE(std::equal(gathered.begin(), gathered.end(), all.bytes.begin(), all.bytes.end()));
+        ASSERT_TRUE(std::equal(gathered.begin(), gathered.end(), all.bytes.data()));
       }
     }
   }
@@ -137,7 +137,7 @@ TEST(Communicator, MemoryThatFailsOnOneRankFailsOnAll) {
         const FailingAllocation memory(ranks.rank() == culprit ? n : 0);
         try {
           ranks.exchange(outgoing);
-          ranks.all_gather(outgoing.bytes.data(), outgoing.bytes.size());
+          ranks.all_gather(outgoing.bytes.data(), outgoing.begin.back());
           MpiCommunicator another(MPI_COMM_WORLD);
         } catch (const AgreedFailure& failure) {
           code = failure.code;

@@ -87,7 +87,7 @@ class ThreadRanks {
       group_.meet(rank_, mine, [&] {
         all.begin.push_back(0);
         for (const void* other : group_.posted_) all.begin.push_back(all.begin.back() + part(other).second);
-        all.bytes = pstripack::Buffer<unsigned char>(all.begin.back());
+        all.bytes = pstripack::Block(all.begin.back());
         for (std::size_t r = 0; r < group_.posted_.size(); ++r) {
           const auto [bytes, size] = part(group_.posted_[r]);
           const auto* const from = static_cast<const unsigned char*>(bytes);

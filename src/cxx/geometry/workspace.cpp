@@ -22,30 +22,33 @@ std::size_t rounded_up(std::size_t bytes) {
 
 }  // namespace
 
-Buffer<unsigned char> borrow_block(std::size_t bytes) {
+Block::Block(std::size_t bytes) {
   if (bytes >= kSmallest) bytes = rounded_up(bytes);
   if (bytes >= kSmallest && bytes <= kLargest) {
     if (const std::unique_lock lock(mutex, std::try_to_lock); lock)
       for (auto& block : kept)
-        if (block.size() >= bytes && block.size() - bytes <= bytes / 16) return std::exchange(block, {});
+        if (block.size() >= bytes && block.size() - bytes <= bytes / 16) {
+          memory_ = std::exchange(block, {});
+          return;
+        }
   }
-  return Buffer<unsigned char>(bytes);
+  memory_ = Buffer<unsigned char>(bytes);
 }
 
-void give_back_block(Buffer<unsigned char> block) noexcept {
-  if (block.size() < kSmallest || block.size() > kLargest) return;
+Block::~Block() {
+  if (memory_.size() < kSmallest || memory_.size() > kLargest) return;
 #ifdef MADV_FREE
   constexpr std::size_t kWorthASystemCall = std::size_t{4} << 20;
-  if (block.size() >= kWorthASystemCall)
-    madvise(block.data(), block.size(), MADV_FREE);  // refused: the pages stay ours
+  if (memory_.size() >= kWorthASystemCall)
+    madvise(memory_.data(), memory_.size(), MADV_FREE);  // refused: the pages stay ours
 #endif
   const std::unique_lock lock(mutex, std::try_to_lock);
   if (!lock) return;
   // The newest first; the oldest go where there are too many or too much.
-  std::size_t last = 0, total = block.size();
+  std::size_t last = 0, total = memory_.size();
   while (last + 1 < kCount && kept[last].size() > 0) ++last;
   for (; last > 0; --last) kept[last] = std::move(kept[last - 1]);
-  kept[0] = std::move(block);
+  kept[0] = std::move(memory_);
   for (std::size_t k = 1; k < kCount; ++k)
     if ((total += kept[k].size()) > kLargest) kept[k] = {};
 }

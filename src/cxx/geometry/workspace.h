@@ -8,13 +8,28 @@
 
 namespace pstripack {
 
-/// A block of memory of at least `bytes`: one that an earlier call of this process gave back, if it is
-/// large enough and not much too large, else a new one. Throws std::bad_alloc.
-Buffer<unsigned char> borrow_block(std::size_t bytes);
+/// A block of memory: one that an earlier call of this process gave back, if it is large enough and not much
+/// too large, else a new one. A few are kept for the next call, and offered to the system, which takes their
+/// pages when it needs them; small ones and very large ones are freed.
+class Block {
+ public:
+  Block() = default;
+  /// At least so many bytes. Throws std::bad_alloc.
+  explicit Block(std::size_t bytes);
+  Block(Block&& other) noexcept = default;
+  Block& operator=(Block&& other) noexcept {
+    std::swap(memory_, other.memory_);
+    return *this;
+  }
+  ~Block();
 
-/// Gives a block back. A few are kept for the next call, and offered to the system, which takes their pages
-/// when it needs them; small ones and very large ones are freed.
-void give_back_block(Buffer<unsigned char> block) noexcept;
+  unsigned char* data() { return memory_.data(); }
+  const unsigned char* data() const { return memory_.data(); }
+  std::size_t size() const { return memory_.size(); }
+
+ private:
+  Buffer<unsigned char> memory_;
+};
 
 /// One block of memory for a call, because clearing fresh pages costs time and one block is what can be
 /// handed out again at the next call. Arrays that stay are laid from the front, those of a phase from the
@@ -26,10 +41,9 @@ class Workspace {
  public:
   static constexpr std::size_t kSlack = 2048;  ///< covers rounding and small extras
 
-  explicit Workspace(std::size_t bytes) : Workspace(borrow_block(bytes + kSlack)) {}
+  explicit Workspace(std::size_t bytes) : Workspace(Block(bytes + kSlack)) {}
   /// In memory of somebody else, aligned to 16 bytes.
   Workspace(unsigned char* begin, std::size_t bytes) : begin_(begin), size_(bytes), back_(bytes) {}
-  ~Workspace() { give_back_block(std::move(block_)); }
   Workspace(const Workspace&) = delete;
   Workspace& operator=(const Workspace&) = delete;
 
@@ -63,10 +77,10 @@ class Workspace {
     if (front_ > back_ || back_ == 0) throw std::length_error("pstripack: a workspace is too small");
   }
 
-  explicit Workspace(Buffer<unsigned char> block)
+  explicit Workspace(Block block)
       : block_(std::move(block)), begin_(block_.data()), size_(block_.size()), back_(size_) {}
 
-  Buffer<unsigned char> block_;
+  Block block_;
   unsigned char* begin_;
   std::size_t size_, front_ = 0, back_;
 };

@@ -140,7 +140,7 @@ std::int64_t DistributedMesh::search_repeated(const std::int64_t* number, std::s
     for (std::size_t i = 0; i < n; ++i) ++parcels.begin[rank_of(number[i]) + 1];
     for (std::size_t r = 0; r < size; ++r) parcels.begin[r + 1] += parcels.begin[r];
     std::vector<std::size_t> end(parcels.begin.begin(), parcels.begin.end() - 1);
-    parcels.bytes = Buffer<unsigned char>(n * sizeof *number);
+    parcels.bytes = Block(n * sizeof *number);
     auto* const out = reinterpret_cast<std::int64_t*>(parcels.bytes.data());
     for (std::size_t i = 0; i < n; ++i) out[end[rank_of(number[i])]++] = number[i];
     for (std::size_t& begin : parcels.begin) begin *= sizeof *number;
@@ -400,7 +400,7 @@ std::int32_t DistributedMesh::gather_stars(std::int32_t root, std::int32_t* list
     });
     for (std::size_t r = 0; r < size; ++r) parcels.begin[r + 1] += parcels.begin[r];
     std::vector<std::size_t> end(parcels.begin.begin(), parcels.begin.end() - 1);
-    parcels.bytes = Buffer<unsigned char>(parcels.begin[size] * sizeof(std::int32_t));
+    parcels.bytes = Block(parcels.begin[size] * sizeof(std::int32_t));
     auto* const out = reinterpret_cast<std::int32_t*>(parcels.bytes.data());
     for_each_star(short_stars_, [&](std::size_t i, std::size_t count, const std::int32_t* ring) {
       std::int32_t* to = out + end[rank[i]];  // numbers up to the total are short

@@ -259,7 +259,7 @@ Parcels MpiCommunicator::all_gather(const void* bytes, std::size_t size) {
     all.begin.resize(ranks + 1);
     for (std::size_t r = 0; r < ranks; ++r)
       all.begin[r + 1] = all.begin[r] + static_cast<std::size_t>(sizes_[r]);
-    all.bytes = Buffer<unsigned char>(all.begin[ranks]);
+    all.bytes = Block(all.begin[ranks]);
   });
   if (size > 0) std::memcpy(all.bytes.data() + all.begin[me], bytes, size);
   all_gather_in_place(all.bytes.data(), all.begin);
@@ -287,7 +287,7 @@ Parcels MpiCommunicator::exchange(const Parcels& outgoing) {
       messages += messages_for(static_cast<std::size_t>(sizes_[r])) +
                   messages_for(static_cast<std::size_t>(other_sizes_[r]));
     }
-    incoming.bytes = Buffer<unsigned char>(incoming.begin[ranks]);
+    incoming.bytes = Block(incoming.begin[ranks]);
     under_way_.reserve(messages);
   });
 

@@ -5,7 +5,7 @@
 namespace pstripack {
 
 Parcels SingleProcess::all_gather(const void* bytes, std::size_t size) {
-  Parcels all{Buffer<unsigned char>(size), {0, size}};
+  Parcels all{Block(size), {0, size}};
   const auto* const from = static_cast<const unsigned char*>(bytes);
   std::copy(from, from + size, all.bytes.data());
   return all;

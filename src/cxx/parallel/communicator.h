@@ -7,13 +7,13 @@
 #include <exception>
 #include <vector>
 
-#include "geometry/buffer.h"
+#include "geometry/workspace.h"
 
 namespace pstripack {
 
 /// Bytes for every rank, or from every rank: those of rank r are [begin[r], begin[r+1]).
 struct Parcels {
-  Buffer<unsigned char> bytes;
+  Block bytes;
   std::vector<std::size_t> begin;
 };
 

@@ -43,7 +43,7 @@ Parcels parcels(const std::vector<std::vector<Item>>& items) {
   Parcels p;
   p.begin.push_back(0);
   for (const auto& v : items) p.begin.push_back(p.begin.back() + v.size() * sizeof(Item));
-  p.bytes = Buffer<unsigned char>(p.begin.back());
+  p.bytes = Block(p.begin.back());
   for (std::size_t r = 0; r < items.size(); ++r)
     if (!items[r].empty())
       std::memcpy(p.bytes.data() + p.begin[r], items[r].data(), items[r].size() * sizeof(Item));
@@ -360,7 +360,7 @@ class Triangulator {
       parcels.begin.push_back(parcels.begin.back() + (is_empty ? 0 : header[r] + records * sizeof(Record)));
     }
     if (parcels.begin.back() == 0) return parcels;
-    parcels.bytes = Buffer<unsigned char>(parcels.begin.back());
+    parcels.bytes = Block(parcels.begin.back());
     for (std::size_t r = 0; r < size_; ++r) {
       if (parcels.begin[r] == parcels.begin[r + 1]) continue;
       unsigned char* const parcel = parcels.bytes.data() + parcels.begin[r];
@@ -536,7 +536,7 @@ class Triangulator {
     outgoing.begin.push_back(0);
     std::size_t total = 0;
     for (const auto& a : answer) total += sizeof(std::int64_t) + a.size() * sizeof(Record);
-    outgoing.bytes = Buffer<unsigned char>(total);
+    outgoing.bytes = Block(total);
     std::size_t at = 0, k = 0;
     for (std::size_t r = 0; r < size_; ++r) {
       for (; k < incoming.begin[r + 1] / sizeof(Question); ++k) {
@@ -650,7 +650,7 @@ class Triangulator {
       parcels.begin.push_back(parcels.begin.back() + (bytes + 7) / 8 * 8);
     }
     if (parcels.begin.back() == 0) return parcels;
-    parcels.bytes = Buffer<unsigned char>(parcels.begin.back());
+    parcels.bytes = Block(parcels.begin.back());
     for (std::size_t r = 0; r < size_; ++r) {
       auto* at = reinterpret_cast<Int*>(parcels.bytes.data() + parcels.begin[r]);
       for_each_ring_of(r, [&](const Int* ring) { at = std::copy(ring, ring + 1 + *ring, at); });
