@@ -1,7 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <new>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 #include "geometry/buffer.h"
@@ -29,6 +32,32 @@ class Block {
 
  private:
   Buffer<unsigned char> memory_;
+};
+
+/// An array in a block of its own, not initialised.
+template <class T>
+class BlockArray {
+ public:
+  BlockArray() = default;
+  /// Throws std::bad_alloc.
+  explicit BlockArray(std::size_t n) : block_(bytes_of(n)), size_(n) {}
+
+  std::size_t size() const { return size_; }
+  T* data() { return reinterpret_cast<T*>(block_.data()); }
+  const T* data() const { return reinterpret_cast<const T*>(block_.data()); }
+  T& operator[](std::size_t i) { return data()[i]; }
+  const T& operator[](std::size_t i) const { return data()[i]; }
+  T* begin() { return data(); }
+  T* end() { return data() + size_; }
+
+ private:
+  static_assert(std::is_trivially_copyable_v<T>);
+  static std::size_t bytes_of(std::size_t n) {
+    if (n > static_cast<std::size_t>(PTRDIFF_MAX) / sizeof(T)) throw std::bad_alloc();
+    return n * sizeof(T);
+  }
+  Block block_;
+  std::size_t size_ = 0;
 };
 
 /// One block of memory for a call, because clearing fresh pages costs time and one block is what can be

@@ -90,7 +90,7 @@ void take_corners(const Real* x, const Real* y, const Real* z, Point (&corners)[
 /// This rank's slice of the nodes, where every rank has them all. The code is that of the call so far.
 template <class Real>
 TrmeshResult take_slice(MpiCommunicator& ranks, std::int32_t n, const Real* x, const Real* y, const Real* z,
-                        bool wants_cost, Call& call, Buffer<Point>& points) {
+                        bool wants_cost, Call& call, BlockArray<Point>& points) {
   ranks.set_phase("agree on the arguments");
   call.n = n;
   const std::int32_t count_code = code_of_count(n);
@@ -102,7 +102,7 @@ TrmeshResult take_slice(MpiCommunicator& ranks, std::int32_t n, const Real* x, c
       std::uint64_t h = sizeof(Real);
       for (const Real* const array : {x, y, z}) h = hash_of(array, nodes * sizeof(Real), h);
       hash = static_cast<std::int64_t>(h);
-      points = Buffer<Point>(last - first);
+      points = BlockArray<Point>(last - first);
       bad = copy_nodes(x + first, y + first, z + first, last - first, first, points.data());
       take_corners(x, y, z, call.corners);
     } catch (...) {
@@ -132,7 +132,8 @@ TrmeshResult take_slice(MpiCommunicator& ranks, std::int32_t n, const Real* x, c
 /// This rank's slice of the nodes of rank 0.
 template <class Real>
 TrmeshResult receive_slice(MpiCommunicator& ranks, Arrays arrays, std::int32_t n, const Real* x,
-                           const Real* y, const Real* z, bool wants_cost, Call& call, Buffer<Point>& points) {
+                           const Real* y, const Real* z, bool wants_cost, Call& call,
+                           BlockArray<Point>& points) {
   ranks.set_phase("scatter the nodes");
   const bool is_root = ranks.rank() == 0;
   if (is_root) {
@@ -148,12 +149,12 @@ TrmeshResult receive_slice(MpiCommunicator& ranks, Arrays arrays, std::int32_t n
   const auto size = static_cast<std::size_t>(ranks.size()), me = static_cast<std::size_t>(ranks.rank());
   const std::size_t first = slice_begin(nodes, me, size), count = slice_begin(nodes, me + 1, size) - first;
   const bool by_message = arrays == Arrays::on_rank_0;
-  Buffer<Real> mine[3];
+  BlockArray<Real> mine[3];
   std::vector<std::size_t> bytes;
   agreed(ranks, [&] {
-    points = Buffer<Point>(count);
+    points = BlockArray<Point>(count);
     if (by_message && !is_root)
-      for (Buffer<Real>& m : mine) m = Buffer<Real>(count);
+      for (BlockArray<Real>& m : mine) m = BlockArray<Real>(count);
     for (std::size_t r = 0; r <= size; ++r) bytes.push_back(slice_begin(nodes, r, size) * sizeof(Real));
   });
   const Real* from[] = {x, y, z};
@@ -176,7 +177,7 @@ TrmeshResult receive_slice(MpiCommunicator& ranks, Arrays arrays, std::int32_t n
 
 /// The lists of the nodes that the ranks have slices of.
 TrmeshResult lists_of_slices(MpiCommunicator& ranks, Arrays arrays, const Call& call,
-                             const Buffer<Point>& points, std::int32_t* list, std::int32_t* lptr,
+                             const BlockArray<Point>& points, std::int32_t* list, std::int32_t* lptr,
                              std::int32_t* lend, std::int32_t* lnew, ParallelCost& cost) {
   if (left(call.corners[0], call.corners[1], call.corners[2]) == 0) return {kCollinear};
 
@@ -227,7 +228,7 @@ TrmeshResult collective_trmesh(MpiCommunicator& ranks, Arrays arrays, std::int32
                                const Real* y, const Real* z, std::int32_t* list, std::int32_t* lptr,
                                std::int32_t* lend, std::int32_t* lnew, GroupCost* cost) {
   Call call;
-  Buffer<Point> points;
+  BlockArray<Point> points;
   ParallelCost mine;
   const std::int64_t sent_before = ranks.bytes_sent;
   TrmeshResult result{0};

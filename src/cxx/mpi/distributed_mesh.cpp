@@ -393,7 +393,7 @@ std::int32_t DistributedMesh::gather_stars(std::int32_t root, std::int32_t* list
   agreed(ranks_, [&] {
     for (std::size_t r = 0; r <= size; ++r) begin.push_back(slice_begin(n, r, size));
     parcels.begin.assign(size + 1, 0);
-    Buffer<std::uint32_t> rank(count_);
+    BlockArray<std::uint32_t> rank(count_);
     for_each_star([&](std::size_t i, std::size_t count, const auto*) {
       rank[i] = static_cast<std::uint32_t>(rank_of(number_[i]));
       parcels.begin[rank[i] + 1] += 2 + count;
@@ -414,13 +414,13 @@ std::int32_t DistributedMesh::gather_stars(std::int32_t root, std::int32_t* list
   const Parcels here = ranks_.exchange(parcels);
   parcels = {};
   const std::size_t slice = begin[me + 1] - begin[me];
-  Buffer<const std::int32_t*> place;
-  Buffer<std::uint32_t> position;
-  Buffer<std::uint8_t> size_class;
+  BlockArray<const std::int32_t*> place;
+  BlockArray<std::uint32_t> position;
+  BlockArray<std::uint8_t> size_class;
   agreed(ranks_, [&] {
-    place = Buffer<const std::int32_t*>(slice);
-    position = Buffer<std::uint32_t>(slice);
-    size_class = Buffer<std::uint8_t>(slice);
+    place = BlockArray<const std::int32_t*>(slice);
+    position = BlockArray<std::uint32_t>(slice);
+    size_class = BlockArray<std::uint8_t>(slice);
   });
   using Rings = RingTable<std::int32_t>;
   const auto* const words = reinterpret_cast<const std::int32_t*>(here.bytes.data());

@@ -30,7 +30,7 @@ void gather_lists(MpiCommunicator& ranks, const RingTable<Int>& rings, const std
   const bool has_arrays = root < 0 || root == ranks.rank();
 
   // All memory first, so that nothing is written if it fails anywhere.
-  Buffer<std::int32_t> list_piece, lend_piece;
+  BlockArray<std::int32_t> list_piece, lend_piece;
   std::vector<std::size_t> slot_bytes, node_bytes;
   auto arcs = static_cast<std::int64_t>(rings.arcs());
   int piece_threads = 1, lptr_threads = 1;
@@ -40,8 +40,8 @@ void gather_lists(MpiCommunicator& ranks, const RingTable<Int>& rings, const std
     slot_bytes.resize(size + 1);
     node_bytes.resize(size + 1);
     if (!has_arrays) {
-      list_piece = Buffer<std::int32_t>(static_cast<std::size_t>(arcs));
-      lend_piece = Buffer<std::int32_t>(count);
+      list_piece = BlockArray<std::int32_t>(static_cast<std::size_t>(arcs));
+      lend_piece = BlockArray<std::int32_t>(count);
     }
   } catch (...) {
     arcs = -1;

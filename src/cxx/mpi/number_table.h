@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "geometry/buffer.h"
+#include "geometry/workspace.h"
 
 namespace pstripack {
 
@@ -24,7 +24,7 @@ class NumberTable {
   explicit NumberTable(std::size_t most) {
     std::size_t places = 16;
     while (places < 2 * most) places *= 2;
-    place_ = Buffer<Place>(places);
+    place_ = BlockArray<Place>(places);
     std::fill(place_.begin(), place_.end(), Place{});
   }
 
@@ -51,7 +51,7 @@ class NumberTable {
     while (place_[at].number != number && place_[at].number != 0) at = (at + 1) & (place_.size() - 1);
     return at;
   }
-  Buffer<Place> place_;
+  BlockArray<Place> place_;
 };
 
 }  // namespace pstripack

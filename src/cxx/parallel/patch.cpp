@@ -210,8 +210,16 @@ void Patch<Int>::ask(const Boundary& boundary, std::vector<Question>& questions)
   // well, or its direction is in a triangle of own nodes, which must bulge out of the patch then.
   // After the first time only triangles at nodes that have come in since are new.
   const bool first_time = asked_with_ == 0;
+  const auto corner = [&](std::uint32_t t, int i) { return arrays_.faces[t].vertex[i]; };
+  is_around_.resize(growing_->node_count());
   for_each_face_at_border(asked_with_, [&](std::uint32_t t, int own) {
-    if (own > 0) ask_about_triangle(t, questions);
+    if (own == 0) return;
+    for (const std::uint32_t v : {corner(t, 0), corner(t, 1), corner(t, 2)})
+      if (!is_own(v) && !is_around_[v]) {
+        is_around_[v] = true;
+        around_.push_back(v);
+      }
+    ask_about_triangle(t, questions);
   });
   asked_with_ = growing_->node_count();
   if (!first_time) return;

@@ -130,8 +130,7 @@ class Patch {
              1;
     };
     const auto node = [&](std::uint32_t v) { return Record{arrays_.nodes[v], number_[v]}; };
-    for (std::uint32_t v = 0; v < hull_.node_count; ++v) {
-      if (v < built_ && order_[v] - first < count) continue;  // its neighbours are met themselves
+    const auto look_around = [&](std::uint32_t v) {
       const std::size_t r = brought_by(v);
       bool is_missing = false;
       for_each_face_at(v, [&](std::uint32_t t, std::uint32_t i) {
@@ -144,7 +143,12 @@ class Patch {
         }
       });
       if (is_missing) visit(mine, node(v));
-    }
+    };
+    // Of two neighbours one is looked at: all but the own nodes of `mine`.
+    for (const std::uint32_t v : around_) look_around(v);
+    if (count == own_) return;
+    for (std::uint32_t v = 0; v < built_; ++v)
+      if (order_[v] < own_ && order_[v] - first >= count) look_around(v);
   }
 
   int id() const { return id_; }
@@ -203,6 +207,9 @@ class Patch {
   Hull hull_;
   Plane* first_planes_ = nullptr;  ///< those in the workspace, for built_ nodes at least
   std::size_t asked_with_ = 0;     ///< hull nodes
+  std::vector<std::uint32_t>
+      around_;  ///< hull nodes of others that were neighbours of own ones when it asked
+  std::vector<bool> is_around_;
   std::vector<std::pair<std::int64_t, std::int64_t>> coincident_;
   std::unordered_map<std::int64_t, std::uint32_t> taken_in_;  ///< after the start: hull nodes by number
   std::vector<int> strangers_;

@@ -600,7 +600,7 @@ class Triangulator {
   }
 
   /// The rings of this rank's nodes; returned, for each patch, are those of the others.
-  std::vector<std::vector<const Int*>> write_rings(Stars<Int>& stars) {
+  std::vector<BlockArray<const Int*>> write_rings(Stars<Int>& stars) {
     std::vector<std::size_t> begin(patches_.size() + 1, 0);
     for_patches([&](Patch<Int>& patch, std::size_t k) { begin[k + 1] = patch.finish() + 2 * kBlock; });
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
@@ -609,7 +609,7 @@ class Triangulator {
       entries_memory_ = std::make_unique<Workspace>(begin.back() * sizeof(Int));
       own_room = entries_memory_->keep<Int>(begin.back());
     }
-    std::vector<std::vector<const Int*>> others(patches_.size());
+    std::vector<BlockArray<const Int*>> others(patches_.size());
     stars.more_memory.resize(patches_.size());
     for_patches([&](Patch<Int>& patch, std::size_t k) {
       const std::size_t entries = begin[k + 1] - begin[k];
@@ -621,7 +621,7 @@ class Triangulator {
       }
       const std::size_t first = own_from_[k][me_], count = own_from_[k][me_ + 1] - first;
       const std::size_t mine = sent_begin_[static_cast<std::size_t>(patch.id())];
-      others[k].resize(count < patch.own() ? patch.own() : 0);
+      if (count < patch.own()) others[k] = BlockArray<const Int*>(patch.own());
       patch.write_rings(
           out,
           [&](std::size_t i, const Int* ring, std::uint32_t n) {
@@ -636,7 +636,7 @@ class Triangulator {
   }
 
   /// For each rank the rings of the nodes that it brought, patch by patch.
-  Parcels rings_for_others(const std::vector<std::vector<const Int*>>& others) const {
+  Parcels rings_for_others(const std::vector<BlockArray<const Int*>>& others) const {
     Parcels parcels;
     parcels.begin.push_back(0);
     const auto for_each_ring_of = [&](std::size_t r, const auto& visit) {
@@ -686,7 +686,7 @@ class Triangulator {
         std::vector<bool> maybe(std::size_t{1} << 10);
         while (maybe.size() < 16 * all.size()) maybe.resize(2 * maybe.size());
         const auto slot = [&](std::int64_t number) {
-          return scrambled(static_cast<std::uint64_t>(number)) & (maybe.size() - 1);
+          return static_cast<std::uint64_t>(number) * 0x9e3779b97f4a7c15u >> 40 & (maybe.size() - 1);
         };
         for (const Record& r : all) maybe[slot(r.number)] = true;
         for (std::size_t i = 0; i < nodes_.count; ++i)
