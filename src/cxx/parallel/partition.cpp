@@ -225,12 +225,18 @@ class Partition::Builder {
   static Plane split_at(Point* p, std::size_t n, std::size_t k, int axis) {
     double d = 0;
     if (n > 0) {
-      const auto lower = [axis](const Point& a, const Point& b) {
-        return component(a, axis) < component(b, axis);
+      const auto split_along = [&](auto coordinate) {  // a constant of its type: compiled for each axis
+        const auto lower = [=](const Point& a, const Point& b) { return coordinate(a) < coordinate(b); };
+        std::nth_element(p, p + k, p + n, lower);
+        d = coordinate(p[k]);
+        if (k == 0) return;
+        double below = coordinate(p[0]);
+        for (std::size_t i = 1; i < k; ++i) below = std::max(below, coordinate(p[i]));
+        d = 0.5 * (d + below);
       };
-      std::nth_element(p, p + k, p + n, lower);
-      d = component(p[k], axis);
-      if (k > 0) d = 0.5 * (d + component(*std::max_element(p, p + k, lower), axis));
+      if (axis == 0) split_along([](const Point& q) { return q.x; });
+      if (axis == 1) split_along([](const Point& q) { return q.y; });
+      if (axis == 2) split_along([](const Point& q) { return q.z; });
     }
     return {axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0, d};
   }
