@@ -364,7 +364,8 @@ TEST(Partitions, HaloIsWhatIsKnownAndBallsAreJudgedSafely) {
         const Partition partition(kind, patches, nodes, nodes.size());
         ASSERT_EQ(partition.patches(), patches);
         std::vector<std::uint32_t> owners(nodes.size());
-        partition.owners(nodes.data(), nodes.size(), owners.data());
+        std::vector<double> nearest_plane(nodes.size());
+        partition.owners(nodes.data(), nodes.size(), owners.data(), nearest_plane.data());
         std::vector<int> scratch;
         for (std::size_t i = 0; i < nodes.size(); i += 7) {
           const Point& x = nodes[i];
@@ -372,7 +373,7 @@ TEST(Partitions, HaloIsWhatIsKnownAndBallsAreJudgedSafely) {
           ASSERT_EQ(static_cast<int>(owners[i]), owner);
           ASSERT_LE(partition.distance(owner, x), 1e-12);
           std::vector<bool> in_halo(static_cast<std::size_t>(patches), false);
-          partition.for_each_halo(x, owner, scratch, [&](int q) {
+          partition.for_each_halo(x, owners[i], nearest_plane[i], scratch, [&](int q) {
             ASSERT_FALSE(in_halo[static_cast<std::size_t>(q)]) << "twice";
             in_halo[static_cast<std::size_t>(q)] = true;
           });

@@ -35,23 +35,7 @@ class Partition::Builder {
         nodes_a_sample_(sample.empty() ? 1
                                        : static_cast<double>(nodes) / static_cast<double>(sample.size())) {}
 
-  void bisect(int patches) {
-    bisect(sample_.data(), sample_.size(), 0, patches, {}, kEverything);
-    for (std::size_t q = 0; q < partition_.regions_.size(); ++q) {
-      const Region& region = partition_.regions_[q];
-      Box& deep = partition_.deep_[q];
-      std::fill(deep.low, deep.low + 3, -1e300);
-      std::fill(deep.high, deep.high + 3, 1e300);
-      for (const Plane& p : region.pieces[0].planes) {
-        const double normal[3] = {p.x, p.y, p.z};
-        for (int axis = 0; axis < 3; ++axis)
-          if (normal[axis] > 0)
-            deep.low[axis] = p.d + region.largest_margin;
-          else if (normal[axis] < 0)
-            deep.high[axis] = -p.d - region.largest_margin;
-      }
-    }
-  }
+  void bisect(int patches) { bisect(sample_.data(), sample_.size(), 0, patches, {}, kEverything); }
 
   /// Borders between stripes: stripe k is [border[k], border[k+1]), all in [0, 2 pi), cyclic.
   void stripe(std::vector<double> border) {
@@ -184,8 +168,8 @@ class Partition::Builder {
     const std::int32_t leaf = new_cell({0, 0, 0, 0});
     partition_.cells_[leaf].patch = patch;
     partition_.cells_[leaf].margin = margin;
-    Region& region = partition_.regions_[patch];
-    region.largest_margin = std::max(region.largest_margin, margin);
+    double& largest = partition_.largest_margin_[patch];
+    largest = std::max(largest, margin);
     partition_.smallest_margin_ = std::min(partition_.smallest_margin_, margin);
     return leaf;
   }
@@ -258,7 +242,7 @@ class Partition::Builder {
 };
 
 Partition::Partition(PartitionKind kind, int patches, const std::vector<Point>& sample, std::size_t nodes)
-    : regions_(static_cast<std::size_t>(patches)), deep_(static_cast<std::size_t>(patches)) {
+    : regions_(static_cast<std::size_t>(patches)), largest_margin_(static_cast<std::size_t>(patches)) {
   Builder builder(*this, sample, nodes);
   if (kind == PartitionKind::bisection) {
     builder.bisect(patches);
@@ -292,19 +276,25 @@ Partition::Partition(PartitionKind kind, int patches, const std::vector<Point>& 
   copy_top(0, 0);
 }
 
-void Partition::owners(const Point* x, std::size_t n, std::uint32_t* owner) const {
+void Partition::owners(const Point* x, std::size_t n, std::uint32_t* owner, double* nearest_plane) const {
   // Some at a time, level by level: one descent would wait for every comparison.
   constexpr std::size_t kTogether = 16;
   for (std::size_t i = 0; i < n; i += kTogether) {
     const std::size_t count = std::min(kTogether, n - i);
     std::int32_t k[kTogether] = {};
+    double nearest[kTogether];
+    std::fill(nearest, nearest + kTogether, 2 * kEverything);
     for (int level = 0; level < top_depth_; ++level)
       for (std::size_t j = 0; j < count; ++j) {
         const Top& t = top_[static_cast<std::size_t>(k[j])];
-        k[j] = t.child[product(t.split, x[i + j]) >= t.split.d];
+        const double height = product(t.split, x[i + j]);
+        k[j] = t.child[height >= t.split.d];
+        nearest[j] = std::min(nearest[j], std::fabs(height - t.split.d));
       }
-    for (std::size_t j = 0; j < count; ++j)
+    for (std::size_t j = 0; j < count; ++j) {
       owner[i + j] = static_cast<std::uint32_t>(top_[static_cast<std::size_t>(k[j])].patch);
+      nearest_plane[i + j] = nearest[j];
+    }
   }
 }
 
@@ -312,7 +302,7 @@ void Partition::owners(const Point* x, std::size_t n, std::uint32_t* owner) cons
 void Partition::copy_top(std::int32_t cell, int depth) {
   const auto k = static_cast<std::int32_t>(top_.size());
   const Cell& c = cells_[cell];
-  top_.push_back({c.split, {k, k}, c.patch});
+  top_.push_back({c.patch >= 0 ? Plane{0, 0, 0, 2 * kEverything} : c.split, {k, k}, c.patch});
   top_depth_ = std::max(top_depth_, depth);
   if (c.patch >= 0) return;
   for (const int side : {0, 1}) {

@@ -38,8 +38,9 @@ class Partition {
 
   int patches() const { return static_cast<int>(regions_.size()); }
 
-  /// The patches that n places belong to.
-  void owners(const Point* x, std::size_t n, std::uint32_t* owner) const;
+  /// The patches that n places belong to, and how far they are from the nearest plane that decided so: a
+  /// lower bound of the distance from any other patch.
+  void owners(const Point* x, std::size_t n, std::uint32_t* owner, double* nearest_plane) const;
   /// The patch that x belongs to.
   int owner(const Point& x) const {
     std::int32_t k = 0;
@@ -50,16 +51,18 @@ class Partition {
   /// A lower bound of the distance of x from the patch; 0 or less inside. Changes by no more than x does.
   double distance(int patch, const Point& x) const;
 
-  /// Calls visit(q) for each patch q that has x in its halo; `owner` is that of x. `scratch` is written.
+  /// Calls visit(q) for each patch q that has x in its halo. `owner` and `nearest_plane` are those of x;
+  /// `scratch` is written.
   template <class Visit>
-  void for_each_halo(const Point& x, int owner, std::vector<int>& scratch, const Visit& visit) const {
-    if (deep_[static_cast<std::size_t>(owner)].holds(x)) return;
-    const double margin = margin_at(x, regions_[static_cast<std::size_t>(owner)].root);
-    if (distance(owner, x) <= -margin) return;
+  void for_each_halo(const Point& x, std::uint32_t owner, double nearest_plane, std::vector<int>& scratch,
+                     const Visit& visit) const {
+    if (nearest_plane > largest_margin_[owner]) return;
+    const double margin = margin_at(x, regions_[owner].root);
+    if (nearest_plane > margin) return;
     scratch.clear();
     near(x, margin, scratch);
     for (const int q : scratch)
-      if (q != owner && distance(q, x) <= margin) visit(q);
+      if (q != static_cast<int>(owner) && distance(q, x) <= margin) visit(q);
   }
 
   /// True if x is patch q's own or in its halo.
@@ -82,16 +85,8 @@ class Partition {
   struct Piece {
     std::vector<Plane> planes;
   };
-  struct Box {
-    double low[3] = {4, 4, 4}, high[3] = {-4, -4, -4};  // nothing
-    bool holds(const Point& p) const {
-      return (p.x > low[0]) & (p.x < high[0]) & (p.y > low[1]) & (p.y < high[1]) & (p.z > low[2]) &
-             (p.z < high[2]);
-    }
-  };
   struct Region {
     std::vector<Piece> pieces;
-    double largest_margin = 0;
     std::int32_t root = 0;  // of the tree, or of all its cells
     bool is_cone = false;   // convex, and a set of directions
   };
@@ -127,7 +122,7 @@ class Partition {
   int top_depth_ = 0;
   std::vector<Cell> cells_;
   std::vector<Region> regions_;
-  std::vector<Box> deep_;  // of each patch, what is farther from its border than any margin; of boxes only
+  std::vector<double> largest_margin_;  // of the cells of each patch
   double smallest_margin_ = 4;
 };
 

@@ -283,6 +283,7 @@ class Triangulator {
         std::vector<int> scratch;
         constexpr std::size_t kTogether = 256;
         Point place[kTogether];
+        double nearest_plane[kTogether];
         for (std::size_t block = first; block < last; block += kTogether) {
           const std::size_t end = std::min(last, block + kTogether);
           const Point* at = nodes_.points + block;
@@ -290,14 +291,16 @@ class Triangulator {
             for (std::size_t i = block; i < end; ++i) place[i - block] = places_(nodes_.points[i]);
             at = place;
           }
-          partition_->owners(at, end - block, routes.owner + block);
+          partition_->owners(at, end - block, routes.owner + block, nearest_plane);
           for (std::size_t i = block; i < end; ++i) {
             const std::uint32_t owner = routes.owner[i];
             ++count[owner].own;
-            partition_->for_each_halo(at[i - block], static_cast<int>(owner), scratch, [&](int other) {
-              ++count[static_cast<std::size_t>(other)].halo;
-              routes.halo[t].push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(other)});
-            });
+            partition_->for_each_halo(
+                at[i - block], owner, nearest_plane[i - block], scratch, [&](int other) {
+                  ++count[static_cast<std::size_t>(other)].halo;
+                  routes.halo[t].push_back(
+                      {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(other)});
+                });
           }
         }
       } catch (...) {
