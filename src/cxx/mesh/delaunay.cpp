@@ -196,14 +196,16 @@ class Builder final : public GrowingHull {
     for (std::uint32_t t = 0; t < count_; ++t) surrounds_centre_ = surrounds_centre_ && planes_[t].w > 1;
   }
 
-  /// Four nodes, the first three counterclockwise and not on one great circle: those of the leading nodes, or
-  /// of a sample, that lie farthest towards the corners of a regular tetrahedron if that works, else any.
+  /// Four nodes, the first three counterclockwise and not on one great circle: those of the leading nodes and
+  /// of a sample of the rest that lie farthest towards the corners of a regular tetrahedron if that works,
+  /// else any. They surround the centre if the nodes do more or less, and then all faces are known to be at
+  /// the front.
   void choose_corners(std::uint32_t (&corner)[4], std::size_t leading) const {
     static constexpr double towards[4][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
-    const std::size_t count = leading > 0 ? leading : n_, stride = leading > 0 ? 1 : n_ / 256 + 1;
+    const std::size_t stride = n_ / 256 + 1;
     double best[4] = {-4, -4, -4, -4};
     std::fill(corner, corner + 4, 0);
-    for (std::size_t v = 0; v < count; v += stride)
+    for (std::size_t v = 0; v < n_; v += v < leading ? 1 : stride)
       for (int k = 0; k < 4; ++k) {
         const Point& p = predicates_.position(static_cast<index_t>(v));
         const double d = p.x * towards[k][0] + p.y * towards[k][1] + p.z * towards[k][2];
