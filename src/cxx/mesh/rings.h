@@ -38,6 +38,14 @@ inline std::uint32_t first_corner(const Hull& hull, std::uint32_t corner) {
   return corner;
 }
 
+/// The numbers of hull nodes, from a table of what is kOffset less.
+template <class Int, std::int64_t kOffset>
+struct Numbers {
+  const Int* table;
+  std::int64_t operator()(std::uint32_t v) const { return table[v] + kOffset; }
+  void prefetch(std::uint32_t v) const { __builtin_prefetch(table + v); }
+};
+
 /// Appends the ring of one hull node as it will stand in LIST; returns the new end. `corner` is 4*t + i: the
 /// node is vertex[i] of face t; number(v) is the number of hull node v, from 1.
 ///
@@ -145,13 +153,14 @@ class RingTable {
 template <class Int, class Wanted, class Number, class Ahead, class Visit>
 void append_rings(const Hull& hull, std::size_t first, std::size_t last, const Wanted& wanted,
                   const Number& number, const Ahead& ahead, Int* out, const Visit& visit) {
-  constexpr std::size_t kAhead = 16;
+  constexpr std::size_t kAhead = 10;
   for (std::size_t v = first; v < last; ++v) {
     if (v + 2 * kAhead < last) {
       ahead(v + 2 * kAhead);
       __builtin_prefetch(&hull.faces[face_of(hull.corner[v + 2 * kAhead])]);
       const Face& soon = hull.faces[face_of(hull.corner[v + kAhead])];
       for (int i = 0; i < 3; ++i) __builtin_prefetch(&hull.faces[face_of(soon.neighbour[i])]);
+      for (int i = 0; i < 3; ++i) number.prefetch(soon.vertex[i]);
     }
     if (!wanted(v)) continue;
     Int* const place = out;

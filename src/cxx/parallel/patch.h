@@ -108,8 +108,8 @@ class Patch {
   template <class Visit, class Soon>
   void write_rings(Int* out, const Visit& visit, const Soon& soon) const {
     append_rings(
-        hull_, 0, built_, [this](std::size_t v) { return order_[v] < own_; },
-        [this](std::uint32_t v) { return number_[v]; }, [&](std::size_t v) { soon(order_[v]); }, out,
+        hull_, 0, built_, [this](std::size_t v) { return order_[v] < own_; }, Numbers<Int, 0>{number_},
+        [&](std::size_t v) { soon(order_[v]); }, out,
         [&](std::size_t v, const Int* place, std::uint32_t count) { visit(order_[v], place, count); });
   }
 

@@ -47,7 +47,7 @@ Int write_lists(const Hull& hull, Int* list, Int* lptr, Int* lend, Workspace& wo
     for (std::size_t t = 0; t < pieces; ++t) begin_of[p + 1] += sums[pieces * t + p];
   }
 
-  const auto number = [&hull](std::uint32_t v) { return static_cast<Int>(hull.order[v]) + 1; };
+  const Numbers<std::uint32_t, 1> number{hull.order};
   // In the order of the hull, where the faces of a star are close together in memory: all rings.
   constexpr std::size_t kAhead = 16;
   parallel_pieces(pieces, threads, [&](std::size_t piece, std::size_t, int) {
