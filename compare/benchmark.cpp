@@ -7,6 +7,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <malloc.h>
+#include <unistd.h>
 #ifdef _OPENMP
 #include <omp.h>
 #endif
@@ -340,6 +341,52 @@ void run_threads(int repeats) {
 #endif
 }
 
+// ---- a pool of two ranks, started as a user would -----------------------------------------------------
+
+constexpr int kPoolNodes = 1000000;
+
+/// What this program is where it is the model: prints the median seconds of its calls.
+int be_the_model(int calls) {
+  const Nodes nodes(point_sets::make("random", kPoolNodes, 1));
+  const Stripack library = ours();
+  Lists lists(nodes.n());
+  Samples samples;
+  library.trmesh(nodes, lists);  // new pages
+  while (!samples.enough(calls)) {
+    const auto start = Clock::now();
+    library.trmesh(nodes, lists);
+    samples.add(seconds_since(start));
+  }
+  fmt::print("{}\n", samples.median());
+  return 0;
+}
+
+/// The same model on its own and with a pool of two ranks of a thread each, in turn. The clock of the whole
+/// call: the way to the ranks and back is in it.
+void run_pool([[maybe_unused]] const std::string& self, [[maybe_unused]] int repeats) {
+#ifdef PSTRIPACK_RUN
+  constexpr double kRequired = 1.5;
+  const auto seconds_of = [&](const std::string& launcher) {
+    const std::string command = fmt::format(
+        "{}OMP_NUM_THREADS=1 {} '{}' --be-the-model 5",
+        geteuid() == 0 ? "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 " : "", launcher, self);
+    FILE* const out = popen(command.c_str(), "r");
+    double seconds = 0;
+    const bool is_told = out != nullptr && std::fscanf(out, "%lf", &seconds) == 1;
+    if (out == nullptr || pclose(out) != 0 || !is_told) throw std::runtime_error("no figure from " + command);
+    return seconds;
+  };
+  Samples alone, pool;
+  for (int k = 0; k < std::min(repeats, 5); ++k) {
+    alone.add(seconds_of(""));
+    pool.add(seconds_of(fmt::format("'{}' -n 2 --bind-to none --oversubscribe --", PSTRIPACK_RUN)));
+  }
+  fmt::print("{:<17} {:>8} {:>9} alone, {} with a pool of 2 ranks: {:.2f} times the speed ({:g})\n",
+             "pool-1e6", kPoolNodes, microseconds(alone, kPoolNodes), microseconds(pool, kPoolNodes),
+             alone.median() / pool.median(), kRequired);
+#endif
+}
+
 /// The nodes of a case. Symmetric sets are shuffled, until the first three are not on one great circle and
 /// the original comes to an end.
 std::vector<Point> nodes_of(const Case& c, const std::optional<legacy_stripack::Original>& original_library) {
@@ -410,7 +457,8 @@ std::string processor() {
 int main(int argc, char** argv) {
   std::string names;
   for (const Case& c : kCases) names += " " + c.name;
-  names += " threads-1e6";
+  const std::vector<std::string> parallel_cases{"threads-1e6", "pool-1e6"};
+  for (const std::string& name : parallel_cases) names += " " + name;
   CLI::App app(
       "Times of PSTRIPACK, the original STRIPACK and CGAL on one thread, and their ratios beside those\n"
       "that the project asks for. The exit code says nothing about them.",
@@ -423,10 +471,13 @@ int main(int argc, char** argv) {
   app.add_option("--only", only, "only these cases, as random-1e4,latlon-1e5")->delimiter(',');
   app.add_option("--repeats", repeats, "measurements a case, median taken; default 7, at most 3 above 2 s")
       ->check(CLI::Range(1, 1000));
+  int model_calls = 0;
+  app.add_option("--be-the-model", model_calls)->group("");  // for run_pool alone
   try {
     app.parse(argc, argv);
+    if (model_calls > 0) return be_the_model(model_calls);
     for (const std::string& name : only)
-      if (name != "threads-1e6" &&
+      if (std::find(parallel_cases.begin(), parallel_cases.end(), name) == parallel_cases.end() &&
           std::none_of(kCases.begin(), kCases.end(), [&](const Case& c) { return c.name == name; }))
         throw std::invalid_argument("there is no case " + name + "; cases:" + names);
     if (repeats == 0) repeats = quick ? 3 : 7;
@@ -460,8 +511,11 @@ int main(int argc, char** argv) {
         fmt::print("{:<17} {}\n", c.name, e.what());
       }
     }
-    if (only.empty() ? !quick : std::find(only.begin(), only.end(), "threads-1e6") != only.end())
-      run_threads(repeats);
+    const auto is_wanted = [&](const std::string& name) {
+      return only.empty() ? !quick : std::find(only.begin(), only.end(), name) != only.end();
+    };
+    if (is_wanted("pool-1e6")) run_pool(argv[0], repeats);
+    if (is_wanted("threads-1e6")) run_threads(repeats);
     fmt::print(
         "\ncrlist: against CSCRLIST as libngmath ships it, which turns centres into latitudes and longitudes;"
         "\ncrlist-xyz: against the same without that, as STRIPACK's CRLIST\npeak: memory during TRMESH "

@@ -95,12 +95,20 @@ comm | distributed)
   fi
   ;;
 kill_calls | kill_meshes)
-  # MPI tells a library nothing of a killed rank: mpirun ends the job and names the rank.
   start "${case#kill_}" 100000
   until_it_says 'call 2'
   kill -9 "$(cat rank.1)"
   ends
   grep -q 'rank 1' job.err || fail "nobody names the rank"
+  [ "$(grep -cE '^pstripack: rank 1 was lost during [a-z ]+; the job ends$' job.err)" -eq 1 ] || fail "no line, or several"
+  ;;
+end_calls | end_meshes)
+  # The job is ended from outside: no rank was lost.
+  start "${case#end_}" 100000
+  until_it_says 'call 2'
+  kill "$job"
+  ends
+  ! grep -q 'was lost' job.err || fail "a rank is said to be lost"
   ;;
 error_calls | error_meshes)
   start "${case#error_}" 100000 error

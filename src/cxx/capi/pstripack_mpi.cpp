@@ -54,6 +54,7 @@ std::int32_t guarded(MpiCommunicator& ranks, const Body& body) noexcept {
     try {
       return body();
     } catch (const AgreedFailure&) {
+      ranks.set_phase("idle");
       throw;
     } catch (const std::exception& error) {
       ranks.abort("error", error.what());
@@ -184,6 +185,7 @@ int32_t pstripack_set_comm(MPI_Comm comm) {
       return 0;
     }
     auto ranks = make_over<MpiCommunicator>(comm);
+    ranks->call_roll();
     end_comm_mode_at_mpi_finalize();
     const bool is_replaced = mode.ranks != nullptr;
     mode.ranks = std::move(ranks);
@@ -205,6 +207,7 @@ int32_t pstripack_mesh_create(MPI_Comm comm, pstripack_mesh** mesh) {
   *mesh = nullptr;
   return guarded([&] {
     *mesh = make_over<pstripack_mesh>(comm).release();
+    (*mesh)->mesh.ranks().call_roll();
     return 0;
   });
 }

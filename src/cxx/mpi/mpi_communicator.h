@@ -6,8 +6,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <optional>
 #include <vector>
 
+#include "mpi/roll_call.h"
 #include "parallel/communicator.h"
 
 namespace pstripack {
@@ -63,9 +66,14 @@ class MpiCommunicator : public Communicator {
   void set_phase(const char* phase) override {
     phase_ = phase;
     if (phase_place_ != nullptr) *phase_place_ = phase;
+    if (roll_call_) roll_call_->set_phase(is_idle(phase) ? "" : phase);
   }
   /// From now on the phase stands there, too; null: nowhere else.
   void show_phase_in(const char* volatile* place) { phase_place_ = place; }
+  /// Collective. From now on the other ranks of this machine see the phase, and say so if this one is lost.
+  void call_roll() {
+    if (size_ > 1) roll_call_.emplace(comm_);
+  }
   MPI_Comm handle() const { return comm_; }
 
   /// Ends the job with one line on stderr, for what cannot be agreed on: `kind` of error, and which.
@@ -95,8 +103,10 @@ class MpiCommunicator : public Communicator {
   int rank_ = 0, size_ = 1;
   std::size_t longest_message_;
   bool crowded_ = false;
+  static bool is_idle(const char* phase) { return std::strcmp(phase, "idle") == 0; }
   const char* phase_ = "idle";
   const char* volatile* phase_place_ = nullptr;
+  std::optional<RollCall> roll_call_;
   /// A number a rank, so that no agreement needs memory.
   std::vector<std::int64_t> sizes_, other_sizes_, moving_, packed_;
   std::vector<MPI_Request> under_way_;  ///< its capacity is reserved before anything is posted

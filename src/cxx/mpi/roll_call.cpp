@@ -1,0 +1,155 @@
+#include "mpi/roll_call.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <string.h>
+#include <sys/types.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <new>
+
+namespace pstripack {
+namespace {
+
+struct Entry {
+  pid_t process;
+  int rank;
+  volatile sig_atomic_t ending;  ///< it has got the signal itself, or may have without saying so: not lost
+  char phase[48];                ///< empty: in no call
+};
+
+struct Page {
+  explicit Page(int n) : count(n) {}
+  std::atomic<int> told{0};
+  int count;
+  Entry* entry() { return reinterpret_cast<Entry*>(this + 1); }
+};
+
+/// The pages of this process, a communicator each.
+constexpr int kPages = 16;
+std::atomic<Page*> pages[kPages];
+Entry* my_entry[kPages];
+
+// What follows runs in a signal handler: system calls and the stack only.
+
+/// Gone, or dead and not yet buried by its parent.
+bool is_lost(pid_t process) {
+  if (kill(process, 0) != 0) return errno == ESRCH;
+  char name[32] = "/proc/", text[256];
+  char* at = name + 6;
+  char digits[12];
+  int n = 0;
+  for (pid_t p = process; p > 0; p /= 10) digits[n++] = static_cast<char>('0' + p % 10);
+  while (n > 0) *at++ = digits[--n];
+  strcpy(at, "/stat");
+  const int file = open(name, O_RDONLY | O_CLOEXEC);
+  if (file < 0) return errno == ENOENT;
+  const ssize_t size = read(file, text, sizeof text - 1);
+  close(file);
+  if (size <= 0) return false;
+  text[size] = '\0';
+  const char* const end_of_name = strrchr(text, ')');
+  return end_of_name != nullptr && (end_of_name[2] == 'Z' || end_of_name[2] == 'X');
+}
+
+void tell(const Entry& lost) {
+  char line[128] = "pstripack: rank ";
+  char* at = line + strlen(line);
+  char digits[12];
+  int n = 0, rank = lost.rank;
+  do digits[n++] = static_cast<char>('0' + rank % 10);
+  while ((rank /= 10) > 0);
+  while (n > 0) *at++ = digits[--n];
+  strcpy(at, " was lost during ");
+  if (lost.phase[0] != '\0')
+    strncat(line, lost.phase, sizeof lost.phase - 1);
+  else
+    strcat(line, "its own work");
+  strcat(line, "; the job ends\n");
+  if (write(STDERR_FILENO, line, strlen(line)) < 0) return;
+}
+
+/// Who is missing where this rank or the lost one was in a call?
+void answer(int signal) {
+  for (int k = 0; k < kPages; ++k)
+    if (pages[k].load() != nullptr) my_entry[k]->ending = 1;
+  for (int k = 0; k < kPages; ++k) {
+    Page* const page = pages[k].load();
+    for (int i = 0; page != nullptr && i < page->count; ++i) {
+      const Entry& e = page->entry()[i];
+      const bool matters = e.phase[0] != '\0' || my_entry[k]->phase[0] != '\0';
+      // First whether it is there: whoever has got the signal says so before it ends.
+      if (matters && e.process > 0 && is_lost(e.process) && !e.ending && page->told.exchange(1) == 0) tell(e);
+    }
+  }
+  ::signal(signal, SIG_DFL);
+  raise(signal);
+}
+
+bool is_answered_by(void (*handler)(int)) {
+  struct sigaction now {};
+  return sigaction(SIGTERM, nullptr, &now) == 0 && (now.sa_flags & SA_SIGINFO) == 0 &&
+         now.sa_handler == handler;
+}
+
+void let_answer(void (*handler)(int)) {
+  struct sigaction next {};
+  next.sa_handler = handler;
+  sigaction(SIGTERM, &next, nullptr);
+}
+
+}  // namespace
+
+RollCall::RollCall(MPI_Comm comm) : slot_(kPages) {
+  MPI_Comm machine;
+  int rank = 0, mine = 0, count = 1;
+  MPI_Comm_rank(comm, &rank);
+  if (MPI_Comm_split_type(comm, MPI_COMM_TYPE_SHARED, rank, MPI_INFO_NULL, &machine) != MPI_SUCCESS) return;
+  MPI_Comm_rank(machine, &mine);
+  MPI_Comm_size(machine, &count);
+  me_ = static_cast<std::size_t>(mine);
+  if (count > 1) {
+    if (mine == 0) area_ = SharedArea::create(sizeof(Page) + static_cast<std::size_t>(count) * sizeof(Entry));
+    if (mine == 0 && area_.data() != nullptr) new (area_.data()) Page(count);
+    int place[2] = {getpid(), area_.file().get()};
+    MPI_Bcast(place, 2, MPI_INT, 0, machine);
+    if (mine != 0 && place[1] >= 0) area_ = SharedArea::map_of(place[0], place[1]);
+    if (area_.data() != nullptr) take_place(rank);
+    MPI_Barrier(machine);
+    area_.close_file();
+  }
+  MPI_Comm_free(&machine);
+}
+
+void RollCall::take_place(int rank) {
+  Page* const page = static_cast<Page*>(area_.data());
+  Entry& e = page->entry()[me_];
+  e.process = getpid();
+  e.rank = rank;
+  e.ending = 1;
+  if (!is_answered_by(SIG_DFL) && !is_answered_by(answer)) return;  // the program's own answer
+  for (slot_ = 0; slot_ < kPages && pages[slot_].load() != nullptr;) ++slot_;
+  if (slot_ == kPages) return;
+  my_entry[slot_] = &e;
+  pages[slot_] = page;
+  e.ending = 0;
+  if (is_answered_by(SIG_DFL)) let_answer(answer);
+}
+
+RollCall::~RollCall() {
+  if (slot_ == kPages) return;
+  my_entry[slot_]->ending = 1;
+  pages[slot_] = nullptr;
+  for (const auto& page : pages)
+    if (page.load() != nullptr) return;
+  if (is_answered_by(answer)) let_answer(SIG_DFL);
+}
+
+void RollCall::set_phase(const char* phase) {
+  if (area_.data() == nullptr) return;
+  strncpy(static_cast<Page*>(area_.data())->entry()[me_].phase, phase, sizeof(Entry::phase) - 1);
+}
+
+}  // namespace pstripack
