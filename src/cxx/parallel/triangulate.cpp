@@ -642,9 +642,13 @@ class Triangulator {
   Parcels rings_for_others(const std::vector<BlockArray<const Int*>>& others) const {
     Parcels parcels;
     parcels.begin.push_back(0);
+    constexpr std::size_t kAhead = 16;  // they lie in the order of the hulls
     const auto for_each_ring_of = [&](std::size_t r, const auto& visit) {
       for (std::size_t k = 0; k < patches_.size() && r != me_; ++k)
-        for (std::size_t i = own_from_[k][r]; i < own_from_[k][r + 1]; ++i) visit(others[k][i]);
+        for (std::size_t i = own_from_[k][r]; i < own_from_[k][r + 1]; ++i) {
+          if (i + kAhead < own_from_[k][r + 1]) __builtin_prefetch(others[k][i + kAhead]);
+          visit(others[k][i]);
+        }
     };
     for (std::size_t r = 0; r < size_; ++r) {
       std::size_t bytes = 0;
