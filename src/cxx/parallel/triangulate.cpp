@@ -50,6 +50,13 @@ Parcels parcels(const std::vector<std::vector<Item>>& items) {
   return p;
 }
 
+/// All items of all ranks.
+template <class Item>
+std::vector<Item> items(const Parcels& p) {
+  const auto* const first = reinterpret_cast<const Item*>(p.bytes.data());
+  return {first, first + p.begin.back() / sizeof(Item)};
+}
+
 /// Reads items of a parcel one after another.
 class Reader {
  public:
@@ -199,8 +206,7 @@ class Triangulator {
     const int patches = first_patch_.back();
     const Parcels samples = ranks_.all_gather(sample.data(), sample.size() * sizeof(Record));
     in_agreement([&] {
-      sample.resize(samples.begin.back() / sizeof(Record));
-      std::memcpy(static_cast<void*>(sample.data()), samples.bytes.data(), samples.begin.back());
+      sample = items<Record>(samples);
       std::vector<Point> places;
       for (const Record& r : sample) places.push_back(places_(r.point));
       partition_ = std::make_unique<Partition>(options_.partition, patches, places, nodes);
@@ -457,10 +463,7 @@ class Triangulator {
         pairs.insert(pairs.end(), patch.coincident().begin(), patch.coincident().end());
     });
     const Parcels all = ranks_.all_gather(pairs.data(), pairs.size() * sizeof(pairs[0]));
-    in_agreement([&] {
-      pairs.resize(all.begin.back() / sizeof(pairs[0]));
-      std::memcpy(static_cast<void*>(pairs.data()), all.bytes.data(), all.begin.back());
-    });
+    in_agreement([&] { pairs = items<std::pair<std::int64_t, std::int64_t>>(all); });
     return pairs;
   }
 
@@ -491,8 +494,7 @@ class Triangulator {
     });
     const Parcels all = ranks_.all_gather(nodes.data(), nodes.size() * sizeof(Record));
     in_agreement([&] {
-      nodes.resize(all.begin.back() / sizeof(Record));
-      std::memcpy(static_cast<void*>(nodes.data()), all.bytes.data(), all.begin.back());
+      nodes = items<Record>(all);
       nodes.insert(nodes.end(), corners_.begin(), corners_.end());
       keep_one_of_each(nodes);
       boundary_ =
@@ -683,8 +685,7 @@ class Triangulator {
     });
     const Parcels incoming = ranks_.exchange(outgoing);
     in_agreement([&] {
-      std::vector<Record> all(incoming.begin.back() / sizeof(Record));
-      std::memcpy(static_cast<void*>(all.data()), incoming.bytes.data(), incoming.begin.back());
+      std::vector<Record> all = items<Record>(incoming);
       keep_one_of_each(all);
       // A patch does not know which nodes this rank brought for other patches; where there are none, it
       // knows all. Those that may be among `all` are marked in a table of some bits of the number first.
