@@ -194,21 +194,26 @@ double status_bytes(const std::string& key) {
   throw std::runtime_error("no " + key + " in /proc/self/status");
 }
 
-/// Largest memory during our TRMESH, beyond what the process held before with all its arrays written.
+/// Largest memory during our TRMESH, the first of this process, beyond what it held before with all its
+/// arrays written.
+double peak_of_first_call(const Nodes& nodes, Lists& lists) {
+  malloc_trim(0);  // or memory that was freed before would be used again and not count
+  std::ofstream("/proc/self/clear_refs") << "5";  // the peak restarts at what is held now
+  const double before = status_bytes("VmHWM:");
+  ours().trmesh(nodes, lists);
+  return (status_bytes("VmHWM:") - before) / nodes.n();
+}
+
 double peak_bytes_a_node(const Nodes& nodes) {
   Shared<double> bytes;
   const auto ended = run_in_child(
       [&] {
         Lists lists(nodes.n());
-        malloc_trim(0);  // or memory that was freed before would be used again and not count
-        std::ofstream("/proc/self/clear_refs") << "5";  // the peak restarts at what is held now
-        const double before = status_bytes("VmHWM:");
-        ours().trmesh(nodes, lists);
-        bytes[0] = status_bytes("VmHWM:") - before;
+        bytes[0] = peak_of_first_call(nodes, lists);
       },
       kTimeLimit);
   if (ended.outcome != Outcome::returned) throw std::runtime_error("the memory measurement did not end");
-  return bytes[0] / nodes.n();
+  return bytes[0];
 }
 
 class Samples {
@@ -312,9 +317,43 @@ std::string ratio(const Samples& theirs, const Samples& own, double required) {
   return fmt::format("{:>9} {:>7}", measured, required > 0 ? fmt::format("({:g})", required) : "");
 }
 
+// ---- this program as a model, in a process of its own ---------------------------------------------------
+
+constexpr int kModelNodes = 1000000;
+
+struct ModelFigures {
+  double seconds = 0, peak = 0;  ///< the median of its calls; bytes a node during the first
+};
+
+/// What this program is where it is the model.
+int be_the_model(int calls) {
+  const Nodes nodes(point_sets::make("random", kModelNodes, 1));
+  const Stripack library = ours();
+  Lists lists(nodes.n());
+  const double peak = peak_of_first_call(nodes, lists);
+  Samples samples;
+  while (!samples.enough(calls)) {
+    const auto start = Clock::now();
+    library.trmesh(nodes, lists);
+    samples.add(seconds_since(start));
+  }
+  fmt::print("{} {}\n", samples.median(), peak);
+  return 0;
+}
+
+/// Started by `launcher`, which may begin with NAME=VALUE.
+ModelFigures as_model(const std::string& self, const std::string& launcher) {
+  const std::string command = fmt::format("{} '{}' --be-the-model 5", launcher, self);
+  FILE* const out = popen(command.c_str(), "r");
+  ModelFigures figures;
+  const bool is_told = out != nullptr && std::fscanf(out, "%lf %lf", &figures.seconds, &figures.peak) == 2;
+  if (out == nullptr || pclose(out) != 0 || !is_told) throw std::runtime_error("no figures from " + command);
+  return figures;
+}
+
 /// TRMESH on all processors beside TRMESH on one, in turn; in this process, since a forked child has one
 /// thread. The last case, therefore.
-void run_threads(int repeats) {
+void run_threads(const std::string& self, int repeats) {
 #ifdef _OPENMP
   constexpr double kRequired = 1.75;  // of two threads
   const Nodes nodes(point_sets::make("random", 1000000, 1));
@@ -333,33 +372,17 @@ void run_threads(int repeats) {
     one.add(seconds_on(1));
     all.add(seconds_on(processors));
   }
-  fmt::print("{:<17} {:>8} {:>9} on 1 thread, {} on {}: {:.2f} times the speed{}\n", "threads-1e6", nodes.n(),
-             microseconds(one, nodes.n()), microseconds(all, nodes.n()), processors,
-             one.median() / all.median(), processors == 2 ? fmt::format(" ({:g})", kRequired) : "");
+  fmt::print("{:<17} {:>8} {:>9} on 1 thread, {} on {}: {:.2f} times the speed{}; peak {:.0f}\n",
+             "threads-1e6", nodes.n(), microseconds(one, nodes.n()), microseconds(all, nodes.n()), processors,
+             one.median() / all.median(), processors == 2 ? fmt::format(" ({:g})", kRequired) : "",
+             as_model(self, fmt::format("OMP_NUM_THREADS={}", processors)).peak);
 #else
+  static_cast<void>(self);
   static_cast<void>(repeats);
 #endif
 }
 
-// ---- a pool of two ranks, started as a user would -----------------------------------------------------
-
-constexpr int kPoolNodes = 1000000;
-
-/// What this program is where it is the model: prints the median seconds of its calls.
-int be_the_model(int calls) {
-  const Nodes nodes(point_sets::make("random", kPoolNodes, 1));
-  const Stripack library = ours();
-  Lists lists(nodes.n());
-  Samples samples;
-  library.trmesh(nodes, lists);  // new pages
-  while (!samples.enough(calls)) {
-    const auto start = Clock::now();
-    library.trmesh(nodes, lists);
-    samples.add(seconds_since(start));
-  }
-  fmt::print("{}\n", samples.median());
-  return 0;
-}
+// ---- on threads, and with a pool of ranks -----------------------------------------------------------
 
 /// The same model on its own and with a pool of two ranks of a thread each, in turn. The clock of the whole
 /// call: the way to the ranks and back is in it.
@@ -367,14 +390,12 @@ void run_pool([[maybe_unused]] const std::string& self, [[maybe_unused]] int rep
 #ifdef PSTRIPACK_RUN
   constexpr double kRequired = 1.5;
   const auto seconds_of = [&](const std::string& launcher) {
-    const std::string command = fmt::format(
-        "{}OMP_NUM_THREADS=1 {} '{}' --be-the-model 5",
-        geteuid() == 0 ? "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 " : "", launcher, self);
-    FILE* const out = popen(command.c_str(), "r");
-    double seconds = 0;
-    const bool is_told = out != nullptr && std::fscanf(out, "%lf", &seconds) == 1;
-    if (out == nullptr || pclose(out) != 0 || !is_told) throw std::runtime_error("no figure from " + command);
-    return seconds;
+    return as_model(
+               self,
+               fmt::format("{}OMP_NUM_THREADS=1 {}",
+                           geteuid() == 0 ? "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 " : "",
+                           launcher))
+        .seconds;
   };
   Samples alone, pool;
   for (int k = 0; k < std::min(repeats, 5); ++k) {
@@ -382,7 +403,7 @@ void run_pool([[maybe_unused]] const std::string& self, [[maybe_unused]] int rep
     pool.add(seconds_of(fmt::format("'{}' -n 2 --bind-to none --oversubscribe --", PSTRIPACK_RUN)));
   }
   fmt::print("{:<17} {:>8} {:>9} alone, {} with a pool of 2 ranks: {:.2f} times the speed ({:g})\n",
-             "pool-1e6", kPoolNodes, microseconds(alone, kPoolNodes), microseconds(pool, kPoolNodes),
+             "pool-1e6", kModelNodes, microseconds(alone, kModelNodes), microseconds(pool, kModelNodes),
              alone.median() / pool.median(), kRequired);
 #endif
 }
@@ -515,7 +536,7 @@ int main(int argc, char** argv) {
       return only.empty() ? !quick : std::find(only.begin(), only.end(), name) != only.end();
     };
     if (is_wanted("pool-1e6")) run_pool(argv[0], repeats);
-    if (is_wanted("threads-1e6")) run_threads(repeats);
+    if (is_wanted("threads-1e6")) run_threads(argv[0], repeats);
     fmt::print(
         "\ncrlist: against CSCRLIST as libngmath ships it, which turns centres into latitudes and longitudes;"
         "\ncrlist-xyz: against the same without that, as STRIPACK's CRLIST\npeak: memory during TRMESH "

@@ -22,9 +22,6 @@ constexpr double degrees_per_radian = 57.295779513082320876798154814105;
 
 Point operator+(const Point& a, const Point& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 Point operator*(double s, const Point& a) { return {s * a.x, s * a.y, s * a.z}; }
-Point cross(const Point& a, const Point& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 
 /// m >= least such that the number of nodes count(m), which increases, is nearest to n.
 template <class Count>

@@ -14,15 +14,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
-#include <ctime>
 #include <map>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "geometry/floating_point.h"
+#include "mpi/area_of_all.h"
 #include "mpi/collective_trmesh.h"
 #include "mpi/distributed_mesh.h"
 #include "point_sets.h"
@@ -37,7 +36,7 @@ using Phase = ParallelCost::Phase;
 struct Settings {
   std::string mode, family = "random";
   std::size_t n = 1000000;
-  int repeats = 5, slices = 0;
+  int repeats = 5;
 };
 
 struct Columns {
@@ -53,15 +52,8 @@ struct Lists {
   std::int32_t lnew = 0;
 };
 
-double seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-double cpu_seconds() {
-  timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
+double seconds() { return clock_seconds(CLOCK_MONOTONIC); }
+double cpu_seconds() { return clock_seconds(CLOCK_PROCESS_CPUTIME_ID); }
 
 double median(std::vector<double> v) {
   std::sort(v.begin(), v.end());
@@ -166,10 +158,10 @@ class PoolCall {
     ranks.broadcast(&n, sizeof n, 0);
     n_ = static_cast<std::int32_t>(n);
     const AreaLayout layout(n_, sizeof(double));
-    if (ranks.rank() == 0) area_ = SharedArea::create(layout.size());
-    int place[2] = {getpid(), area_.file().get()};
-    ranks.broadcast(place, sizeof place, 0);
-    if (shared && ranks.rank() != 0) area_ = SharedArea::map_of(place[0], place[1]);
+    if (shared)
+      area_ = area_of_all(ranks.handle(), layout.size());
+    else if (ranks.rank() == 0)
+      area_ = SharedArea::create(layout.size());
     if (shared) arrays_ = Arrays::shared;
     if (shared || ranks.rank() == 0) {
       if (area_.size() < layout.size()) throw std::runtime_error("no shared memory");

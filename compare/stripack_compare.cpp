@@ -358,7 +358,9 @@ int compare_mesh_files(const MeshOptions& options) {
   const bool points_equal = c.largest_distance <= options.tolerance;
   const bool triangles_equal = c.only_in_a == 0 && c.only_in_b == 0;
   const auto verdict = [](bool equal) { return equal ? "equal" : "DIFFERENT"; };
-  const auto name = [](const std::string& prefix) { return std::filesystem::path(prefix).filename().string(); };
+  const auto name = [](const std::string& prefix) {
+    return std::filesystem::path(prefix).filename().string();
+  };
   fmt::print("{:<22} {:>14} {:>14}\n", "", name(options.a), name(options.b));
   fmt::print("{:<22} {:>14} {:>14}   {}: largest distance {:.1e}, tolerance {:.0e}\n", "points",
              a.points.size(), b.points.size(), verdict(points_equal), c.largest_distance, options.tolerance);

@@ -111,7 +111,7 @@ Outcome run(const Nodes& nodes, const Configuration& c, bool with_neighbours = f
       }
       out.stars[r].coincident = stars.coincident;
       out.stars[r].lengths = stars.lengths;
-      for (const auto& o : stars.outside) out.stars[r].outside.push_back({o.number, o.point});
+      out.stars[r].outside = stars.outside;
     } catch (const AgreedFailure& failure) {
       out.codes[r] = failure.code;
     }

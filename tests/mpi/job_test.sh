@@ -3,6 +3,7 @@
 # and WORK in the environment.
 # shellcheck disable=SC2015,SC2016,SC2086,SC2154
 set -u
+. "$(dirname "$0")/jobs.sh"
 case=$1 ranks=$2
 dir=$WORK/job_${case}_np$ranks
 rm -rf "$dir"
@@ -47,24 +48,10 @@ start() {
     > job.out 2> job.err &
   job=$!
 }
-until_it_says() {
-  waited=0
-  until grep -q "$1" job.out; do
-    sleep 0.1
-    waited=$((waited + 1))
-    [ $waited -lt 200 ] || fail "it has not begun"
-  done
-}
 # Within 10 s, not well.
 ends() {
-  waited=0
-  while kill -0 "$job" 2> /dev/null; do
-    sleep 0.1
-    waited=$((waited + 1))
-    [ $waited -lt 100 ] || fail "no end within 10 s"
-  done
-  wait "$job" && fail "exit code 0"
-  job=
+  has_ended_within 10
+  [ "$code" -ne 0 ] || fail "exit code 0"
 }
 
 case $case in

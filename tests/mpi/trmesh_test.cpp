@@ -1,7 +1,5 @@
 // TRMESH by all ranks: the bytes and the codes of TRMESH by one.
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "failing_allocation.h"
+#include "mpi/area_of_all.h"
 #include "mpi/collective_trmesh.h"
 #include "mpi/list_pieces.h"
 #include "mpi_test.h"
@@ -84,10 +83,7 @@ template <class Real>
 Outcome by_all_in_shared_memory(MpiCommunicator& ranks, const Columns<Real>& c) {
   const std::size_t n = c.x.size();
   const pstripack::AreaLayout layout(static_cast<std::int32_t>(std::max<std::size_t>(n, 3)), sizeof(Real));
-  SharedArea area = ranks.rank() == 0 ? SharedArea::create(layout.size()) : SharedArea();
-  int place[2] = {getpid(), area.file().get()};
-  ranks.broadcast(place, sizeof place, 0);
-  if (ranks.rank() != 0) area = SharedArea::map_of(place[0], place[1]);
+  SharedArea area = pstripack::area_of_all(ranks.handle(), layout.size());
   if (area.size() < layout.size()) ranks.abort("no shared memory", "");
   Outcome o(n);
   const std::vector<Real>* const columns[] = {&c.x, &c.y, &c.z};

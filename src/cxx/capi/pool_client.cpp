@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <limits>
 
 #ifdef _OPENMP
 #include <omp.h>
@@ -17,6 +16,7 @@
 #include "pool/channel.h"
 #include "pool/messages.h"
 #include "pool/shared_area.h"
+#include "stripack/trmesh.h"
 
 namespace pstripack {
 namespace {
@@ -130,8 +130,8 @@ std::atomic_flag pool_is_busy = ATOMIC_FLAG_INIT;
 }  // namespace
 
 int pool_trmesh(const pstripack_trmesh_arguments* call, int32_t* ier, int64_t* node, int64_t* other) {
-  constexpr std::int32_t kMostNodes = (std::numeric_limits<std::int32_t>::max() - 1) / 6 + 2;
-  if (pool == nullptr || call->n < settings.fewest_nodes || call->n > kMostNodes || getpid() != loaded_in)
+  if (pool == nullptr || call->n < settings.fewest_nodes || call->n > most_nodes<std::int32_t>() ||
+      getpid() != loaded_in)
     return PSTRIPACK_ENGINE_DECLINES;
 #ifdef _OPENMP
   if (omp_in_parallel()) return PSTRIPACK_ENGINE_DECLINES;

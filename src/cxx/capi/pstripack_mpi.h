@@ -6,7 +6,9 @@
  * "Collective": every rank of the communicator calls it, in the same order. Errors are the same on every
  * rank; nothing is written on an error, nothing aborts, nothing goes to stdout. Only if MPI itself fails (a
  * lost process), one line on stderr names rank and phase, and MPI_Abort ends the job. Of a killed rank MPI
- * mostly tells nothing: then mpirun names it and ends the job.
+ * mostly tells nothing: mpirun ends the others by SIGTERM, and one of those on the machine of the lost rank
+ * prints that line first. For that SIGTERM has a handler as long as comm mode or a mesh lasts, on more than
+ * one rank of a machine, unless the program has set one before.
  */
 #ifndef PSTRIPACK_MPI_H
 #define PSTRIPACK_MPI_H

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 namespace pstripack {
 
 /// A node as the caller gave it: Cartesian coordinates of a vector that points at it from the centre
@@ -10,5 +12,16 @@ struct Point {
 
 inline bool operator==(const Point& a, const Point& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 inline bool operator!=(const Point& a, const Point& b) { return !(a == b); }
+
+inline Point minus(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline double dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Point cross(const Point& a, const Point& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// Finite, and not zero.
+inline bool has_direction(const Point& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && p != Point{0, 0, 0};
+}
 
 }  // namespace pstripack

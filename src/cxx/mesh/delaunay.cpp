@@ -39,12 +39,6 @@ namespace {
 // 2^k with 2^-k in [64u M, 128u M]: then |n.d - w| > 1 is a certain sign, and so is |w| > 1 for
 // det(a,b,c) = n.a.
 
-Point minus(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-double dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Point cross(const Point& a, const Point& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
 double above_plane(const Plane& f, const Point& p) { return (f.x * p.x + f.y * p.y) + (f.z * p.z - f.w); }
 
 /// A node seen from another: the difference of their positions and its square.

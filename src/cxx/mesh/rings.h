@@ -74,7 +74,7 @@ Int* append_ring(const Hull& hull, std::uint32_t corner, const Number& number, I
 }
 
 /// The same where the hull surrounds the centre and the node has up to kBlock neighbours; null if it has
-/// more. Writes up to 2*kBlock entries.
+/// more. Else writes kBlock entries.
 template <class Int, class Number>
 Int* append_short_ring(const Hull& hull, std::uint32_t corner, const Number& number, Int* begin) {
   const std::uint32_t first = next_code(corner);

@@ -12,6 +12,7 @@
 #include "mpi/list_pieces.h"
 #include "mpi/options.h"
 #include "parallel/coincidence.h"
+#include "stripack/copy_nodes.h"
 
 namespace pstripack {
 namespace {
@@ -53,24 +54,15 @@ std::uint64_t hash_of(const void* array, std::size_t size, std::uint64_t seed) {
 
 /// Nodes first.. of the call as points; returns the first (from 0, of the call) that has no direction.
 template <class Real>
-std::int64_t copy_nodes(const Real* x, const Real* y, const Real* z, std::size_t count, std::size_t first,
+std::int64_t copy_slice(const Real* x, const Real* y, const Real* z, std::size_t count, std::size_t first,
                         Point* p) {
-  std::vector<std::int64_t> bad(static_cast<std::size_t>(threads_for(count)), kNone);
-  parallel_pieces(count, static_cast<int>(bad.size()), [&](std::size_t begin, std::size_t end, int piece) {
-    for (std::size_t i = end; i-- > begin;) {
-      p[i] = {static_cast<double>(x[i]), static_cast<double>(y[i]), static_cast<double>(z[i])};
-      const bool finite = std::isfinite(p[i].x) && std::isfinite(p[i].y) && std::isfinite(p[i].z);
-      if (!finite || p[i] == Point{0, 0, 0})
-        bad[static_cast<std::size_t>(piece)] = static_cast<std::int64_t>(first + i);
-    }
-  });
-  return *std::min_element(bad.begin(), bad.end());
+  const std::size_t bad = copy_nodes(count, x, y, z, p);
+  return bad < count ? static_cast<std::int64_t>(first + bad) : kNone;
 }
 
-/// LNEW <= 6n-11 must fit, as in TRMESH.
 std::int32_t code_of_count(std::int32_t n) {
   if (n < 3) return kTooFew;
-  return n > (std::numeric_limits<std::int32_t>::max() - 1) / 6 + 2 ? kTooMany : 0;
+  return n > most_nodes<std::int32_t>() ? kTooMany : 0;
 }
 
 /// What a call is about, on every rank.
@@ -103,7 +95,7 @@ TrmeshResult take_slice(MpiCommunicator& ranks, std::int32_t n, const Real* x, c
       for (const Real* const array : {x, y, z}) h = hash_of(array, nodes * sizeof(Real), h);
       hash = static_cast<std::int64_t>(h);
       points = BlockArray<Point>(last - first);
-      bad = copy_nodes(x + first, y + first, z + first, last - first, first, points.data());
+      bad = copy_slice(x + first, y + first, z + first, last - first, first, points.data());
       take_corners(x, y, z, call.corners);
     } catch (...) {
       code = code_of(std::current_exception());
@@ -164,7 +156,7 @@ TrmeshResult receive_slice(MpiCommunicator& ranks, Arrays arrays, std::int32_t n
   std::int64_t values[] = {0, kNone};
   try {
     for (int i = 0; i < 3; ++i) from[i] = by_message && !is_root ? mine[i].data() : from[i] + first;
-    values[1] = copy_nodes(from[0], from[1], from[2], count, first, points.data());
+    values[1] = copy_slice(from[0], from[1], from[2], count, first, points.data());
   } catch (...) {
     values[0] = code_of(std::current_exception());
   }

@@ -13,6 +13,8 @@
 #include "mpi/number_table.h"
 #include "mpi/options.h"
 #include "parallel/coincidence.h"
+#include "parallel/scattered.h"
+#include "stripack/trmesh.h"
 
 namespace pstripack {
 namespace {
@@ -21,10 +23,6 @@ constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t kMostPoints = std::int64_t{1} << 29;
 constexpr std::int32_t kTooFew = -1, kCollinear = -2, kEmpty = -3, kTooMany = -4, kBadCoordinate = -5,
                        kNoSuchRank = -8, kCoincident = -9, kBadNumber = -10;
-
-bool has_direction(const Point& p) {
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && p != Point{0, 0, 0};
-}
 
 bool on_one_line(const Point& a, const Point& b) {
   return same_direction(a, b) || same_direction(a, {-b.x, -b.y, -b.z});
@@ -119,9 +117,9 @@ std::int64_t DistributedMesh::first_repeated(const std::int64_t* number, std::si
   const auto all = static_cast<std::size_t>(numbering.total), size = static_cast<std::size_t>(ranks_.size()),
              me = static_cast<std::size_t>(ranks_.rank());
   std::uint64_t difference = 0;
-  for (std::size_t i = 0; i < n; ++i) difference += scattered(number[i]);
+  for (std::size_t i = 0; i < n; ++i) difference += scattered(static_cast<std::uint64_t>(number[i]));
   for (std::size_t i = slice_begin(all, me, size); i < slice_begin(all, me + 1, size); ++i)
-    difference -= scattered(numbering.low + static_cast<std::int64_t>(i));
+    difference -= scattered(static_cast<std::uint64_t>(numbering.low) + i);
   const std::int64_t* const differences = ranks_.all_gather_one(static_cast<std::int64_t>(difference));
   std::uint64_t sum = 0;
   for (std::size_t r = 0; r < size; ++r) sum += static_cast<std::uint64_t>(differences[r]);
@@ -132,7 +130,7 @@ std::int64_t DistributedMesh::first_repeated(const std::int64_t* number, std::si
 std::int64_t DistributedMesh::search_repeated(const std::int64_t* number, std::size_t n) {
   const auto size = static_cast<std::size_t>(ranks_.size());
   const auto rank_of = [size](std::int64_t x) {  // by the upper bits: a table takes the lower ones
-    return static_cast<std::size_t>((scattered(x) >> 32) * size >> 32);
+    return static_cast<std::size_t>((scattered(static_cast<std::uint64_t>(x)) >> 32) * size >> 32);
   };
   Parcels parcels;
   agreed(ranks_, [&] {
@@ -173,14 +171,14 @@ bool DistributedMesh::find_corners(const Point* points, std::size_t n, const std
     return found == 0 || left(corners[0], corners[1], p) != 0;
   };
 
-  NumberedPoint sample[3];
+  Record sample[3];
   const std::size_t sampled = std::min<std::size_t>(n, 3);
   for (std::size_t i = 0; i < sampled; ++i) {
     const std::size_t at = sampled > 1 ? (n - 1) * i / (sampled - 1) : 0;
-    sample[i] = {number[at], points[at]};
+    sample[i] = {points[at], number[at]};
   }
   const Parcels samples = ranks_.all_gather(sample, sampled * sizeof *sample);
-  const auto* const all = reinterpret_cast<const NumberedPoint*>(samples.bytes.data());
+  const auto* const all = reinterpret_cast<const Record*>(samples.bytes.data());
   const std::size_t count = samples.begin.back() / sizeof *all;
   int found = 0;
   for (std::size_t i = 0; i < count && found < 3; ++i)
@@ -190,9 +188,9 @@ bool DistributedMesh::find_corners(const Point* points, std::size_t n, const std
     }
 
   for (; found < 3; ++found) {
-    NumberedPoint mine{kNone, {}};
+    Record mine{{}, kNone};
     for (std::size_t i = 0; i < n; ++i)
-      if (number[i] < mine.number && fits(found, points[i])) mine = {number[i], points[i]};
+      if (number[i] < mine.number && fits(found, points[i])) mine = {points[i], number[i]};
     std::int64_t first = mine.number;
     ranks_.all_min(&first, 1);
     if (first == kNone) return false;
@@ -335,7 +333,7 @@ void DistributedMesh::triangles(std::int64_t* corner) const {
 }
 
 void DistributedMesh::halo(std::int64_t* number, double* xyz) const {
-  for (const auto& [name, point] : outside()) {
+  for (const auto& [point, name] : outside()) {
     *number++ = name;
     for (const double c : {point.x, point.y, point.z}) *xyz++ = c;
   }
@@ -345,7 +343,7 @@ void DistributedMesh::local_stars(std::int64_t* begin, std::int32_t* neighbour) 
   NumberTable<std::int32_t> local(count_ + outside().size());
   std::int32_t next = 0;
   for (std::size_t i = 0; i < count_; ++i) local.insert(number_[i], ++next);
-  for (const NumberedPoint& point : outside()) local.insert(point.number, ++next);
+  for (const Record& point : outside()) local.insert(point.number, ++next);
   begin[0] = 0;
   for_each_star([&](std::size_t i, std::size_t count, const auto* ring) {
     begin[i + 1] = begin[i] + static_cast<std::int64_t>(count);
@@ -376,7 +374,7 @@ std::int32_t DistributedMesh::gather_stars(std::int32_t root, std::int32_t* list
   if (empty()) return kEmpty;
   if (root < kEveryRank || root >= ranks_.size()) return kNoSuchRank;
   if (!numbers_are_dense_) return kBadNumber;
-  if (total_ > (std::numeric_limits<std::int32_t>::max() - 1) / 6 + 2) return kTooMany;
+  if (total_ > most_nodes<std::int32_t>()) return kTooMany;
   ranks_.set_phase("gather the lists");
   const auto n = static_cast<std::size_t>(total_), size = static_cast<std::size_t>(ranks_.size()),
              me = static_cast<std::size_t>(ranks_.rank());

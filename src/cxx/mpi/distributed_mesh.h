@@ -83,7 +83,7 @@ class DistributedMesh {
     }
   }
 
-  const std::vector<NumberedPoint>& outside() const {
+  const std::vector<Record>& outside() const {
     return numbers_are_short_ ? short_stars_.outside : long_stars_.outside;
   }
   const Homes& homes() const { return numbers_are_short_ ? *short_stars_.homes : *long_stars_.homes; }

@@ -12,6 +12,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "parallel/cost.h"
+
 namespace pstripack {
 namespace {
 
@@ -54,11 +56,7 @@ bool is_usable(MPI_Comm comm) {
   return MPI_Comm_test_inter(comm, &is_inter) == MPI_SUCCESS && !is_inter;
 }
 
-double processor_seconds() {
-  timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
+double processor_seconds() { return clock_seconds(CLOCK_THREAD_CPUTIME_ID); }
 
 /// How to pass the time until the next look: spin first, because most waits are short; then let others run;
 /// then sleep, an eighth of the time waited so far at most, so that a wait is hardly prolonged. Where ranks

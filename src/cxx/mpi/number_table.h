@@ -6,16 +6,9 @@
 #include <utility>
 
 #include "geometry/workspace.h"
+#include "parallel/scattered.h"
 
 namespace pstripack {
-
-/// A bijection of 64 bits that leaves nothing of their order (the last steps of SplitMix64).
-inline std::uint64_t scattered(std::int64_t number) {
-  auto bits = static_cast<std::uint64_t>(number);
-  bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;
-  bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebu;
-  return bits ^ (bits >> 31);
-}
 
 /// Finds by number; numbers are positive. Throws std::bad_alloc when made, never later.
 template <class Value>
@@ -45,7 +38,9 @@ class NumberTable {
     std::int64_t number;  // 0: empty
     Value value;
   };
-  std::size_t home(std::int64_t number) const { return scattered(number) & (place_.size() - 1); }
+  std::size_t home(std::int64_t number) const {
+    return scattered(static_cast<std::uint64_t>(number)) & (place_.size() - 1);
+  }
   std::size_t find(std::int64_t number) const {
     std::size_t at = home(number);
     while (place_[at].number != number && place_[at].number != 0) at = (at + 1) & (place_.size() - 1);

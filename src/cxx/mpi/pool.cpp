@@ -61,9 +61,6 @@ Order next_order() {
   }
 }
 
-/// This rank is on the machine of rank 0.
-bool beside_rank_0 = false;
-
 /// Collective. True if every rank has memory for the arrays of the order: then all read and write there, and
 /// nothing is sent.
 bool all_share(MpiCommunicator& ranks, const SharedArea& area, const Order& order) {
@@ -237,7 +234,7 @@ bool Steward::serve(Client& client, MpiCommunicator& ranks) {
   return send_packet(client.socket, &reply, sizeof reply);
 }
 
-void serve_as_worker(MpiCommunicator& ranks) {
+void serve_as_worker(MpiCommunicator& ranks, bool beside_rank_0) {
   SharedArea area;
   std::int64_t area_number = 0;
   for (;;) {
@@ -259,7 +256,7 @@ void serve_as_worker(MpiCommunicator& ranks) {
   }
 }
 
-void look_around() {
+bool look_around() {
   MPI_Comm machine;
   int ranks = 1, lowest = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &lowest);
@@ -267,10 +264,10 @@ void look_around() {
   MPI_Comm_size(machine, &ranks);
   MPI_Bcast(&lowest, 1, MPI_INT, 0, machine);
   MPI_Comm_free(&machine);
-  beside_rank_0 = lowest == 0;
 #ifdef _OPENMP
   if (getenv("OMP_NUM_THREADS") == nullptr) omp_set_num_threads(std::max(1, omp_get_num_procs() / ranks));
 #endif
+  return lowest == 0;
 }
 
 }  // namespace pstripack

@@ -67,10 +67,10 @@ class Steward {
 };
 
 /// Any other rank: takes part in calls until the pool ends. Collective.
-void serve_as_worker(MpiCommunicator& ranks);
+void serve_as_worker(MpiCommunicator& ranks, bool beside_rank_0);
 
-/// Which ranks are on this machine. Sets this rank's threads: its share of the processors that it may use,
-/// unless OMP_NUM_THREADS says it. Collective over MPI_COMM_WORLD, before the two above.
-void look_around();
+/// Sets this rank's threads: its share of the processors that it may use, unless OMP_NUM_THREADS says it.
+/// True if this rank is on the machine of rank 0. Collective over MPI_COMM_WORLD.
+bool look_around();
 
 }  // namespace pstripack

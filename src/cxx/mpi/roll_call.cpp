@@ -10,6 +10,8 @@
 #include <atomic>
 #include <new>
 
+#include "mpi/area_of_all.h"
+
 namespace pstripack {
 namespace {
 
@@ -111,14 +113,10 @@ RollCall::RollCall(MPI_Comm comm) : slot_(kPages) {
   MPI_Comm_size(machine, &count);
   me_ = static_cast<std::size_t>(mine);
   if (count > 1) {
-    if (mine == 0) area_ = SharedArea::create(sizeof(Page) + static_cast<std::size_t>(count) * sizeof(Entry));
+    area_ = area_of_all(machine, sizeof(Page) + static_cast<std::size_t>(count) * sizeof(Entry));
     if (mine == 0 && area_.data() != nullptr) new (area_.data()) Page(count);
-    int place[2] = {getpid(), area_.file().get()};
-    MPI_Bcast(place, 2, MPI_INT, 0, machine);
-    if (mine != 0 && place[1] >= 0) area_ = SharedArea::map_of(place[0], place[1]);
-    if (area_.data() != nullptr) take_place(rank);
     MPI_Barrier(machine);
-    area_.close_file();
+    if (area_.data() != nullptr) take_place(rank);
   }
   MPI_Comm_free(&machine);
 }

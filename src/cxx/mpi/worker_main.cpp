@@ -60,13 +60,13 @@ int main(int argc, char** argv) {
   int provided = 0, code = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
   try {
-    pstripack::look_around();
+    const bool beside_rank_0 = pstripack::look_around();
     pstripack::MpiCommunicator ranks(MPI_COMM_WORLD);
     ranks.show_phase_in(watchdog->phase());
     if (rank == 0)
       code = steward->serve(ranks);
     else
-      pstripack::serve_as_worker(ranks);
+      pstripack::serve_as_worker(ranks, beside_rank_0);
     ranks.set_phase("the end of MPI");
   } catch (const std::exception& error) {
     std::fprintf(stderr, "pstripack: rank %d: %s\n", rank, error.what());

@@ -12,12 +12,6 @@
 namespace pstripack {
 namespace {
 
-Point minus(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-double dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Point cross(const Point& a, const Point& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
 constexpr double u = 0x1p-53;
 constexpr Ball kEverywhere{{0, 0, 0}, 4};
 

@@ -16,14 +16,9 @@
 #include "mesh/rings.h"
 #include "parallel/partition.h"
 #include "parallel/places.h"
+#include "parallel/record.h"
 
 namespace pstripack {
-
-/// A node on its way between patches.
-struct Record {
-  Point point;
-  std::int64_t number;  ///< global, from 1
-};
 
 /// "Does any of your nodes lie above this triangle?"
 struct Question {

@@ -14,10 +14,8 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <cstring>
-#include <ctime>
 #include <numeric>
 #include <optional>
 
@@ -25,6 +23,7 @@
 #include "geometry/parallel_for.h"
 #include "geometry/workspace.h"
 #include "parallel/patch.h"
+#include "parallel/scattered.h"
 
 namespace pstripack {
 namespace {
@@ -67,19 +66,10 @@ class Reader {
     at_ += n * sizeof(T);
     return items;
   }
-  void align(std::size_t size) { at_ += (size - reinterpret_cast<std::uintptr_t>(at_) % size) % size; }
 
  private:
   const unsigned char* at_;
 };
-
-/// Pseudo-random bits of k (Steele, Lea & Flood 2014, splitmix64).
-std::uint64_t scrambled(std::uint64_t k) {
-  k += 0x9e3779b97f4a7c15u;
-  k = (k ^ (k >> 30)) * 0xbf58476d1ce4e5b9u;
-  k = (k ^ (k >> 27)) * 0x94d049bb133111ebu;
-  return k ^ (k >> 31);
-}
 
 /// The sample: so many nodes a patch, more where that costs little beside the work on all nodes.
 std::size_t sample_size(std::size_t nodes, std::size_t patches) {
@@ -199,7 +189,7 @@ class Triangulator {
       const std::size_t share = (wanted * nodes_.count + nodes - 1) / nodes;
       for (std::size_t k = 0; k < share; ++k) {  // one in each of `share` runs of nodes
         const std::size_t begin = nodes_.count * k / share, end = nodes_.count * (k + 1) / share;
-        const std::size_t i = begin + scrambled(k) % (end - begin);
+        const std::size_t i = begin + scattered(k + 0x9e3779b97f4a7c15u) % (end - begin);
         sample.push_back({nodes_.points[i], nodes_.number(i)});
       }
     });
@@ -582,7 +572,7 @@ class Triangulator {
     Parcels outgoing;
     in_agreement([&] {
       stars.homes = std::make_unique<Homes>();
-      stars.memory.reserve(3);
+      stars.memory.reserve(2);  // what run() moves there must not fail
       const auto others = write_rings(stars);
       outgoing = rings_for_others(others);
     });
@@ -702,8 +692,7 @@ class Triangulator {
       }
       std::sort(own.begin(), own.end());
       for (const Record& r : all)
-        if (!std::binary_search(own.begin(), own.end(), r.number))
-          stars.outside.push_back({r.number, r.point});
+        if (!std::binary_search(own.begin(), own.end(), r.number)) stars.outside.push_back(r);
     });
   }
 

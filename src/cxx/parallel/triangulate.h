@@ -16,6 +16,7 @@
 #include "parallel/cost.h"
 #include "parallel/partition.h"
 #include "parallel/places.h"
+#include "parallel/record.h"
 
 namespace pstripack {
 
@@ -61,11 +62,6 @@ class Homes {
   Places places_{Lengths::as_given, 0};
 };
 
-struct NumberedPoint {
-  std::int64_t number;
-  Point point;
-};
-
 /// The stars of this rank's nodes. Int: std::int32_t, or std::int64_t where numbers need it.
 template <class Int>
 struct Stars {
@@ -82,7 +78,7 @@ struct Stars {
   /// Two different nodes in the same direction, numbers, on every rank the same; empty if there are none.
   std::vector<std::pair<std::int64_t, std::int64_t>> coincident;
   /// With options.with_neighbours: the nodes that the stars name and this rank did not bring, by number.
-  std::vector<NumberedPoint> outside;
+  std::vector<Record> outside;
   std::unique_ptr<Homes> homes;
 };
 

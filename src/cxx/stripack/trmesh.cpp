@@ -1,7 +1,5 @@
 #include "stripack/trmesh.h"
 
-#include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -12,31 +10,11 @@
 #include "parallel/options.h"
 #include "parallel/triangulate.h"
 #include "stripack/adjacency_lists.h"
+#include "stripack/copy_nodes.h"
 #include "stripack/list_pieces.h"
 
 namespace pstripack {
 namespace {
-
-/// Copies the coordinates; returns the first node (from 0) that has no direction, n if all have one.
-template <class Real>
-std::size_t copy_nodes(std::size_t n, const Real* x, const Real* y, const Real* z, Point* p) {
-  const int threads = threads_for(n);
-  std::size_t first_bad = n;
-  parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int) {
-    std::size_t bad = n;
-    for (std::size_t i = last; i-- > first;) {
-      p[i] = {static_cast<double>(x[i]), static_cast<double>(y[i]), static_cast<double>(z[i])};
-      const bool finite = std::isfinite(p[i].x) && std::isfinite(p[i].y) && std::isfinite(p[i].z);
-      if (!finite || p[i] == Point{0, 0, 0}) bad = i;
-    }
-    if (bad == n) return;
-#ifdef _OPENMP
-#pragma omp critical(pstripack_first_bad)
-#endif
-    first_bad = std::min(first_bad, bad);
-  });
-  return first_bad;
-}
 
 using Pairs = std::vector<std::pair<std::int64_t, std::int64_t>>;
 
@@ -70,7 +48,7 @@ template <class Real, class Int>
 TrmeshResult trmesh(Int n, const Real* x, const Real* y, const Real* z, Int* list, Int* lptr, Int* lend,
                     Int* lnew, ParallelCost* cost) {
   if (n < 3) return {-1};
-  if (n > (std::numeric_limits<Int>::max() - 1) / 6 + 2) return {-4};  // LNEW <= 6n-11 must fit
+  if (n > most_nodes<Int>()) return {-4};
 
   auto nodes = static_cast<std::size_t>(n);
   const bool on_threads = threads_for(nodes) > 1;

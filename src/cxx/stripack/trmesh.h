@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "parallel/cost.h"
 
@@ -12,11 +13,16 @@ struct TrmeshResult {
   std::int64_t node = 0, other = 0;
 };
 
+/// The most nodes whose lists fit: LNEW <= 6n-11.
+template <class Int>
+constexpr Int most_nodes() {
+  return (std::numeric_limits<Int>::max() - 1) / 6 + 2;
+}
+
 /// STRIPACK's TRMESH (stripack-interface 3.6) with the promises of the interface contract, section 4:
 /// canonical lists, exact decisions, IER 0, -1, -2, L > 0, -4, -5. On a negative code nothing is written.
 /// x, y, z: n components each; list, lptr: at least 6n-12 entries; lend: n. Throws std::bad_alloc, having
-/// written nothing. Real is float or double, Int std::int32_t. `cost`, if
-/// given, is added to.
+/// written nothing. Real is float or double, Int std::int32_t. `cost`, if given, is added to.
 template <class Real, class Int>
 TrmeshResult trmesh(Int n, const Real* x, const Real* y, const Real* z, Int* list, Int* lptr, Int* lend,
                     Int* lnew, ParallelCost* cost = nullptr);

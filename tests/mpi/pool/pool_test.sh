@@ -3,6 +3,7 @@
 # MPIEXEC and WORK in the environment. Each case compares with the same program started without pstripack-run.
 # shellcheck disable=SC2015,SC2016,SC2002,SC2094,SC2153,SC2154
 set -u
+. "$(dirname "$0")/../jobs.sh"
 job=
 trap 'status=$?; [ -z "$job" ] || kill "$job" 2> /dev/null; exit $status' EXIT
 case=$1 ranks=$2
@@ -90,25 +91,12 @@ start() {
   : > job.out
   "$RUN" -n "$ranks" --oversubscribe -- "$@" < /dev/null > job.out 2> job.err &
   job=$!
-  waited=0
-  until grep -q "$begun" job.out; do
-    sleep 0.1
-    waited=$((waited + 1))
-    [ $waited -lt 200 ] || fail "the model has not begun"
-  done
+  until_it_says "$begun"
 }
 
 # ends_within SECONDS: $code is then the exit code of $job
 ends_within() {
-  waited=0
-  while kill -0 "$job" 2> /dev/null; do
-    sleep 0.1
-    waited=$((waited + 1))
-    [ $waited -lt $(($1 * 10)) ] || fail "no end within $1 s"
-  done
-  wait "$job"
-  code=$?
-  job=
+  has_ended_within "$1"
   no_orphan
 }
 
