@@ -1,0 +1,148 @@
+#include "show_result.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "capi/pstripack.h"
+
+namespace comparison {
+namespace {
+
+using nlohmann::json;
+using pstripack::Point;
+
+std::string validity(const Checked& checked) {
+  if (checked.nodes == 0) return "no mesh";
+  if (checked.verdict) return "valid";
+  return fmt::format("NOT VALID ({}): {}", name(checked.verdict.defect), checked.verdict.message);
+}
+
+// Differences by tie rule and rounding alone are no reason to call the original's mesh wrong.
+std::string validity_of_original(const Result& result) {
+  const Differences& d = result.differences;
+  const bool only_small = !d.none() && d.of(Cause::directions).places == 0 &&
+                          d.of(Cause::original_wrong).places == 0 && d.of(Cause::ours_wrong).places == 0;
+  if (!only_small) return validity(result.original_checked);
+  return d.of(Cause::rounding).places > 0 ? "valid but for its rounding" : "valid but for the tie rule";
+}
+
+void print_table(const Result& result, double timeout) {
+  fmt::print("nodes      {}\noriginal   {}\npstripack  {}\n\n", result.points_name, result.original_name,
+             pstripack_version());
+  fmt::print("{:<10} {:>7} {:>8} {:>10} {:>7}  {}\n", "", "threads", "IER", "seconds", "ratio", "result");
+  if (result.original_returned())
+    fmt::print("{:<10} {:>7} {:>8} {:>10.4g} {:>7}  {}\n", "original", 1, result.original.ier,
+               result.original.seconds, "", validity_of_original(result));
+  else
+    fmt::print("{:<10} {:>7} {:>8} {:>10} {:>7}  {}\n", "original", 1, "-", "-", "",
+               describe(result.original, timeout));
+  for (const OurRun& ours : result.ours)
+    fmt::print(
+        "{:<10} {:>7} {:>8} {:>10.4g} {:>7}  {}\n", "pstripack", ours.threads, ours.ier, ours.seconds,
+        result.original_returned() ? fmt::format("{:.2f}", result.original.seconds / ours.seconds) : "",
+        &ours == &result.ours.front()           ? validity(result.ours_checked)
+        : same_bytes(ours, result.ours.front()) ? "same bytes"
+                                                : "OTHER BYTES");
+  fmt::print("\n");
+
+  if (result.meshes_compared) {
+    const Differences& d = result.differences;
+    fmt::print("triangles  {} and {}: {}\n", result.original_checked.triangles.size(),
+               result.ours_checked.triangles.size(),
+               d.none() ? "equal"
+                        : fmt::format("{} only in the original, {} only in ours", d.original_triangles,
+                                      d.our_triangles));
+    fmt::print("boundary   {} and {} nodes: {}\n", result.original_boundary.size(),
+               result.our_boundary.size(),
+               result.original_boundary == result.our_boundary ? "equal" : "different");
+    if (!d.none()) {
+      fmt::print("\n{:<24} {:>8} {:>19} {:>10}\n", "reason of a difference", "places", "arcs: original only",
+                 "ours only");
+      for (std::size_t c = 0; c < kCauses; ++c)
+        if (d.count[c].places + d.count[c].original_arcs + d.count[c].our_arcs > 0)
+          fmt::print("{:<24} {:>8} {:>19} {:>10}\n", name(static_cast<Cause>(c)), d.count[c].places,
+                     d.count[c].original_arcs, d.count[c].our_arcs);
+    }
+  }
+  if (result.ier) fmt::print("{}: {}\n", name(result.ier->cause), result.ier->text);
+}
+
+void print_decisions(const Result& result, const std::vector<Point>& points) {
+  if (!result.differences.decisions.empty()) fmt::print("\n");
+  for (const Decision& d : result.differences.decisions) {
+    fmt::print("{}: {}\n", name(d.cause), d.text);
+    for (const auto node : d.nodes)
+      fmt::print("  node {:<9} {:>24.17g} {:>24.17g} {:>24.17g}\n", node + 1, points[node].x, points[node].y,
+                 points[node].z);
+  }
+  for (const std::string& line : result.broken_promises) fmt::print("WE ARE WRONG: {}\n", line);
+  fmt::print("\nverdict    {}\n", verdict_of(result));
+}
+
+json to_json(const Checked& checked) {
+  json j{{"nodes", checked.nodes}, {"valid", checked.nodes > 0 && checked.verdict}};
+  if (checked.nodes > 0) {
+    j["defect"] = name(checked.verdict.defect);
+    j["message"] = checked.verdict.message;
+    j["triangles"] = checked.triangles.size();
+  }
+  return j;
+}
+
+}  // namespace
+
+void print(const Result& result, const std::vector<Point>& points, double timeout) {
+  print_table(result, timeout);
+  print_decisions(result, points);
+}
+
+json to_json(const Result& result, double timeout) {
+  json j;
+  j["nodes"] = {{"name", result.points_name}, {"n", result.n}};
+  j["original"] = to_json(result.original_checked);
+  j["original"]["name"] = result.original_name;
+  j["original"]["outcome"] = describe(result.original, timeout);
+  if (result.original_returned()) {
+    j["original"]["ier"] = result.original.ier;
+    j["original"]["seconds"] = result.original.seconds;
+  }
+  j["pstripack"] = to_json(result.ours_checked);
+  j["pstripack"]["version"] = pstripack_version();
+  j["pstripack"]["broken_promises"] = result.broken_promises;
+  for (const OurRun& ours : result.ours) {
+    json run{{"threads", ours.threads},
+             {"ier", ours.ier},
+             {"seconds", ours.seconds},
+             {"same_bytes", same_bytes(ours, result.ours.front())}};
+    if (result.original_returned()) run["ratio"] = result.original.seconds / ours.seconds;
+    j["pstripack"]["runs"].push_back(run);
+  }
+  if (result.ier)
+    j["ier_difference"] = {{"cause", identifier(result.ier->cause)}, {"text", result.ier->text}};
+  if (result.meshes_compared) {
+    const Differences& d = result.differences;
+    j["triangles_equal"] = d.none();
+    j["boundary_equal"] = result.original_boundary == result.our_boundary;
+    j["boundary_nodes"] = {{"original", result.original_boundary.size()},
+                           {"pstripack", result.our_boundary.size()}};
+    for (std::size_t c = 0; c < kCauses; ++c)
+      j["differences"][identifier(static_cast<Cause>(c))] = {{"places", d.count[c].places},
+                                                             {"original_arcs", d.count[c].original_arcs},
+                                                             {"our_arcs", d.count[c].our_arcs}};
+    j["examples"] = json::array();
+    for (const Decision& decision : d.decisions) {
+      json nodes = json::array();
+      for (const auto node : decision.nodes) nodes.push_back(node + 1);
+      j["examples"].push_back({{"cause", identifier(decision.cause)},
+                               {"nodes", nodes},
+                               {"text", decision.text},
+                               {"determinant", decision.determinant},
+                               {"bound", decision.bound}});
+    }
+  }
+  j["verdict"] = verdict_of(result);
+  return j;
+}
+
+}  // namespace comparison

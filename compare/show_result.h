@@ -1,0 +1,16 @@
+#pragma once
+// A comparison for people and for programs.
+
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "comparison.h"
+
+namespace comparison {
+
+/// The table, the differences that the result describes, and the verdict; to stdout.
+void print(const Result& result, const std::vector<pstripack::Point>& points, double timeout);
+
+nlohmann::json to_json(const Result& result, double timeout);
+
+}  // namespace comparison
