@@ -93,17 +93,15 @@ Outcome run(const Nodes& nodes, const Configuration& c, bool with_neighbours = f
   std::mutex mutex;
   ThreadRanks::run(c.ranks, [&](Communicator& ranks) {
     const auto r = static_cast<std::size_t>(ranks.rank());
-    LocalNodes local;
-    local.points = points[r].data();
-    local.count = points[r].size();
-    local.numbers = numbers[r].data();
+    const LocalNodes local{points[r].data(), points[r].size(), numbers[r].data()};
     ParallelOptions options;
     options.partition = c.partition;
     options.patches = c.patches;
     options.with_neighbours = with_neighbours;
     try {
       const Point corners[3] = {nodes[0], nodes[1], nodes[2]};
-      Stars<Int> stars = triangulate<Int>(local, corners, {1, 2, 3}, ranks, options, &out.cost[r]);
+      Stars<Int> stars = triangulate<Int>(local, look_at(local.points, local.count), corners, {1, 2, 3},
+                                          ranks, options, &out.cost[r]);
       const std::lock_guard lock(mutex);
       for (std::size_t i = 0; i < stars.of_node.size(); ++i) {
         const Ring<Int> ring = stars.of_node[i];
@@ -321,14 +319,12 @@ TEST(Numbers, BeyondThirtyTwoBits) {
   std::vector<std::int64_t> numbers(set.nodes.size());
   std::iota(numbers.begin(), numbers.end(), far + 1);
   SingleProcess process;
-  LocalNodes local;
-  local.points = set.nodes.data();
-  local.count = set.nodes.size();
-  local.numbers = numbers.data();
+  const LocalNodes local{set.nodes.data(), set.nodes.size(), numbers.data()};
   ParallelOptions options;
   options.patches = 3;
   const Point corners[3] = {set.nodes[0], set.nodes[1], set.nodes[2]};
-  const auto stars = triangulate<std::int64_t>(local, corners, {far + 1, far + 2, far + 3}, process, options);
+  const auto stars = triangulate<std::int64_t>(local, look_at(local.points, local.count), corners,
+                                               {far + 1, far + 2, far + 3}, process, options);
   Outcome out;
   out.stars.resize(1);
   out.stars[0].lengths = stars.lengths;
@@ -343,14 +339,14 @@ TEST(Numbers, BeyondThirtyTwoBits) {
 TEST(GivingUp, WhereThereAreTooManyQuestions) {
   const Set set(point_sets::make("ring", 3000, 1));
   SingleProcess process;
-  LocalNodes local;
-  local.points = set.nodes.data();
-  local.count = set.nodes.size();
+  const LocalNodes local{set.nodes.data(), set.nodes.size()};
   ParallelOptions options;
   options.patches = 4;
   options.most_questions = 100;
   const Point corners[3] = {set.nodes[0], set.nodes[1], set.nodes[2]};
-  EXPECT_TRUE(triangulate<std::int32_t>(local, corners, {1, 2, 3}, process, options).gave_up);
+  EXPECT_TRUE(triangulate<std::int32_t>(local, look_at(local.points, local.count), corners, {1, 2, 3},
+                                        process, options)
+                  .gave_up);
 }
 
 // ---- the partition ----------------------------------------------------------------------------------
@@ -366,19 +362,20 @@ TEST(Partitions, HaloIsWhatIsKnownAndBallsAreJudgedSafely) {
         std::vector<std::uint32_t> owners(nodes.size());
         std::vector<double> nearest_plane(nodes.size());
         partition.owners(nodes.data(), nodes.size(), owners.data(), nearest_plane.data());
-        std::vector<int> scratch;
+        std::vector<std::vector<bool>> in_halo(nodes.size(),
+                                               std::vector<bool>(static_cast<std::size_t>(patches), false));
+        partition.for_each_halo(nodes.data(), nodes.size(), owners.data(), nearest_plane.data(),
+                                [&](std::size_t i, int q) {
+                                  ASSERT_FALSE(in_halo[i][static_cast<std::size_t>(q)]) << "twice";
+                                  in_halo[i][static_cast<std::size_t>(q)] = true;
+                                });
         for (std::size_t i = 0; i < nodes.size(); i += 7) {
           const Point& x = nodes[i];
           const int owner = partition.owner(x);
           ASSERT_EQ(static_cast<int>(owners[i]), owner);
           ASSERT_LE(partition.distance(owner, x), 1e-12);
-          std::vector<bool> in_halo(static_cast<std::size_t>(patches), false);
-          partition.for_each_halo(x, owners[i], nearest_plane[i], scratch, [&](int q) {
-            ASSERT_FALSE(in_halo[static_cast<std::size_t>(q)]) << "twice";
-            in_halo[static_cast<std::size_t>(q)] = true;
-          });
           for (int q = 0; q < patches; ++q)
-            ASSERT_EQ(partition.knows(q, x), q == owner || in_halo[static_cast<std::size_t>(q)])
+            ASSERT_EQ(partition.knows(q, x), q == owner || in_halo[i][static_cast<std::size_t>(q)])
                 << family << ", partition " << static_cast<int>(kind) << ", patch " << q << " of " << patches;
           // A ball around it: every node in it that the patch does not know belongs to a stranger.
           const Ball ball{x, 0.2};

@@ -52,13 +52,18 @@ std::uint64_t hash_of(const void* array, std::size_t size, std::uint64_t seed) {
   return sum;
 }
 
-/// Nodes first.. of the call as points; returns the first (from 0, of the call) that has no direction.
-template <class Real>
-std::int64_t copy_slice(const Real* x, const Real* y, const Real* z, std::size_t count, std::size_t first,
-                        Point* p) {
-  const std::size_t bad = copy_nodes(count, x, y, z, p);
-  return bad < count ? static_cast<std::int64_t>(first + bad) : kNone;
-}
+/// This rank's slice of the nodes.
+struct Slice {
+  BlockArray<Point> points;
+  Look look;
+
+  /// Nodes first.. of the call; returns the first (from 0, of the call) that has no direction.
+  template <class Real>
+  std::int64_t copy(const Real* x, const Real* y, const Real* z, std::size_t count, std::size_t first) {
+    look = copy_nodes(count, x, y, z, points.data());
+    return look.first_bad < count ? static_cast<std::int64_t>(first + look.first_bad) : kNone;
+  }
+};
 
 std::int32_t code_of_count(std::int32_t n) {
   if (n < 3) return kTooFew;
@@ -73,16 +78,10 @@ struct Call {
   std::int64_t wants_cost = 0;  ///< rank 0 does
 };
 
-template <class Real>
-void take_corners(const Real* x, const Real* y, const Real* z, Point (&corners)[3]) {
-  for (int i = 0; i < 3; ++i)
-    corners[i] = {static_cast<double>(x[i]), static_cast<double>(y[i]), static_cast<double>(z[i])};
-}
-
 /// This rank's slice of the nodes, where every rank has them all. The code is that of the call so far.
 template <class Real>
 TrmeshResult take_slice(MpiCommunicator& ranks, std::int32_t n, const Real* x, const Real* y, const Real* z,
-                        bool wants_cost, Call& call, BlockArray<Point>& points) {
+                        bool wants_cost, Call& call, Slice& slice) {
   ranks.set_phase("agree on the arguments");
   call.n = n;
   const std::int32_t count_code = code_of_count(n);
@@ -94,9 +93,9 @@ TrmeshResult take_slice(MpiCommunicator& ranks, std::int32_t n, const Real* x, c
       std::uint64_t h = sizeof(Real);
       for (const Real* const array : {x, y, z}) h = hash_of(array, nodes * sizeof(Real), h);
       hash = static_cast<std::int64_t>(h);
-      points = BlockArray<Point>(last - first);
-      bad = copy_slice(x + first, y + first, z + first, last - first, first, points.data());
-      take_corners(x, y, z, call.corners);
+      slice.points = BlockArray<Point>(last - first);
+      bad = slice.copy(x + first, y + first, z + first, last - first, first);
+      copy_nodes(3, x, y, z, call.corners);
     } catch (...) {
       code = code_of(std::current_exception());
     }
@@ -124,15 +123,14 @@ TrmeshResult take_slice(MpiCommunicator& ranks, std::int32_t n, const Real* x, c
 /// This rank's slice of the nodes of rank 0.
 template <class Real>
 TrmeshResult receive_slice(MpiCommunicator& ranks, Arrays arrays, std::int32_t n, const Real* x,
-                           const Real* y, const Real* z, bool wants_cost, Call& call,
-                           BlockArray<Point>& points) {
+                           const Real* y, const Real* z, bool wants_cost, Call& call, Slice& slice) {
   ranks.set_phase("scatter the nodes");
   const bool is_root = ranks.rank() == 0;
   if (is_root) {
     call.n = n;
     call.partition = static_cast<std::int64_t>(options_from_environment(0).partition);
     call.wants_cost = wants_cost ? 1 : 0;
-    if (code_of_count(n) == 0) take_corners(x, y, z, call.corners);
+    if (code_of_count(n) == 0) copy_nodes(3, x, y, z, call.corners);
   }
   ranks.broadcast(&call, sizeof call, 0);
   if (const std::int32_t code = code_of_count(call.n); code != 0) return {code};
@@ -141,22 +139,22 @@ TrmeshResult receive_slice(MpiCommunicator& ranks, Arrays arrays, std::int32_t n
   const auto size = static_cast<std::size_t>(ranks.size()), me = static_cast<std::size_t>(ranks.rank());
   const std::size_t first = slice_begin(nodes, me, size), count = slice_begin(nodes, me + 1, size) - first;
   const bool by_message = arrays == Arrays::on_rank_0;
-  BlockArray<Real> mine[3];
+  BlockArray<Real> received[3];
   std::vector<std::size_t> bytes;
   agreed(ranks, [&] {
-    points = BlockArray<Point>(count);
+    slice.points = BlockArray<Point>(count);
     if (by_message && !is_root)
-      for (BlockArray<Real>& m : mine) m = BlockArray<Real>(count);
+      for (BlockArray<Real>& r : received) r = BlockArray<Real>(count);
     for (std::size_t r = 0; r <= size; ++r) bytes.push_back(slice_begin(nodes, r, size) * sizeof(Real));
   });
   const Real* from[] = {x, y, z};
   for (int i = 0; i < 3 && by_message; ++i)
-    ranks.start_scatter(from[i], bytes, mine[i].data(), is_root ? 0 : count * sizeof(Real), 0);
+    ranks.start_scatter(from[i], bytes, received[i].data(), is_root ? 0 : count * sizeof(Real), 0);
   if (!is_root) ranks.finish();
   std::int64_t values[] = {0, kNone};
   try {
-    for (int i = 0; i < 3; ++i) from[i] = by_message && !is_root ? mine[i].data() : from[i] + first;
-    values[1] = copy_slice(from[0], from[1], from[2], count, first, points.data());
+    for (int i = 0; i < 3; ++i) from[i] = by_message && !is_root ? received[i].data() : from[i] + first;
+    values[1] = slice.copy(from[0], from[1], from[2], count, first);
   } catch (...) {
     values[0] = code_of(std::current_exception());
   }
@@ -168,9 +166,9 @@ TrmeshResult receive_slice(MpiCommunicator& ranks, Arrays arrays, std::int32_t n
 }
 
 /// The lists of the nodes that the ranks have slices of.
-TrmeshResult lists_of_slices(MpiCommunicator& ranks, Arrays arrays, const Call& call,
-                             const BlockArray<Point>& points, std::int32_t* list, std::int32_t* lptr,
-                             std::int32_t* lend, std::int32_t* lnew, ParallelCost& cost) {
+TrmeshResult lists_of_slices(MpiCommunicator& ranks, Arrays arrays, const Call& call, Slice& slice,
+                             std::int32_t* list, std::int32_t* lptr, std::int32_t* lend, std::int32_t* lnew,
+                             ParallelCost& cost) {
   if (left(call.corners[0], call.corners[1], call.corners[2]) == 0) return {kCollinear};
 
   const auto size = static_cast<std::size_t>(ranks.size()), me = static_cast<std::size_t>(ranks.rank());
@@ -178,7 +176,7 @@ TrmeshResult lists_of_slices(MpiCommunicator& ranks, Arrays arrays, const Call& 
   ParallelOptions options;
   agreed(ranks, [&] {
     begin.resize(size + 1);
-    options = options_from_environment(points.size());
+    options = options_from_environment(slice.points.size());
   });
   options.partition = elected_partition(call.partition);
   cost.threads = options.threads;
@@ -188,10 +186,9 @@ TrmeshResult lists_of_slices(MpiCommunicator& ranks, Arrays arrays, const Call& 
   };
   const auto stars_of_slices = [&] {
     ranks.set_phase("triangulate");
-    const LocalNodes mine{points.data(), begin[me + 1] - begin[me], nullptr,
+    const LocalNodes mine{slice.points.data(), begin[me + 1] - begin[me], nullptr,
                           static_cast<std::int64_t>(begin[me]) + 1};
-    const std::int64_t numbers[3] = {1, 2, 3};
-    return triangulate<std::int32_t>(mine, call.corners, numbers, ranks, options, &cost);
+    return triangulate<std::int32_t>(mine, slice.look, call.corners, {1, 2, 3}, ranks, options, &cost);
   };
   cut(static_cast<std::size_t>(call.n));
   Stars<std::int32_t> stars = stars_of_slices();
@@ -203,6 +200,7 @@ TrmeshResult lists_of_slices(MpiCommunicator& ranks, Arrays arrays, const Call& 
     agreed(ranks, [&] { first = first_coincidence(stars.coincident); });
     result = {static_cast<std::int32_t>(first.l), first.l, first.m};
     cut(static_cast<std::size_t>(first.m) - 1);
+    slice.look = look_at(slice.points.data(), begin[me + 1] - begin[me]);
     stars = {};
     stars = stars_of_slices();
   }
@@ -220,17 +218,17 @@ TrmeshResult collective_trmesh(MpiCommunicator& ranks, Arrays arrays, std::int32
                                const Real* y, const Real* z, std::int32_t* list, std::int32_t* lptr,
                                std::int32_t* lend, std::int32_t* lnew, GroupCost* cost) {
   Call call;
-  BlockArray<Point> points;
+  Slice slice;
   ParallelCost mine;
   const std::int64_t sent_before = ranks.bytes_sent;
   TrmeshResult result{0};
   {
     const PhaseTimer timer(&mine, ParallelCost::divide, &ranks);
     result = arrays == Arrays::on_every_rank
-                 ? take_slice(ranks, n, x, y, z, cost != nullptr, call, points)
-                 : receive_slice(ranks, arrays, n, x, y, z, cost != nullptr, call, points);
+                 ? take_slice(ranks, n, x, y, z, cost != nullptr, call, slice)
+                 : receive_slice(ranks, arrays, n, x, y, z, cost != nullptr, call, slice);
   }
-  if (result.ier == 0) result = lists_of_slices(ranks, arrays, call, points, list, lptr, lend, lnew, mine);
+  if (result.ier == 0) result = lists_of_slices(ranks, arrays, call, slice, list, lptr, lend, lnew, mine);
   if (call.wants_cost != 0) {
     mine.bytes_sent = ranks.bytes_sent - sent_before;
     const GroupCost all = group_cost(ranks, mine);

@@ -47,12 +47,13 @@ void for_each_triangle_of(std::int64_t number, const Int* ring, std::size_t coun
 
 }  // namespace
 
-/// What is known of the global numbers, the same on every rank.
+/// What is known of the global numbers, the same on every rank but for `look`.
 struct DistributedMesh::Numbering {
   std::int32_t code = 0;
   std::int64_t total = 0;
   std::int64_t low = kNone, high = 0;  ///< smallest and largest
   PartitionKind partition = PartitionKind::bisection;
+  Look look;  ///< at this rank's points
 };
 
 void DistributedMesh::clear() {
@@ -89,8 +90,11 @@ DistributedMesh::Numbering DistributedMesh::look_at(std::int64_t n, const Point*
   for (std::int64_t i = 0; i < n; ++i) {
     low = std::min(low, number[i]);
     high = std::max(high, number[i]);
-    if (!has_direction(points[i])) bad = std::min(bad, number[i]);
   }
+  const auto count = static_cast<std::size_t>(n);
+  numbering.look = pstripack::look_at(points, count);
+  for (auto i = static_cast<std::int64_t>(numbering.look.first_bad); i < n; ++i)
+    if (!has_direction(points[i])) bad = std::min(bad, number[i]);
   std::int64_t values[] = {low, -high, bad, partition_vote(ranks_, options_from_environment(0).partition),
                            ranks_.rank() == 0 ? wish : 0};
   ranks_.all_min(values, std::size(values));
@@ -204,22 +208,19 @@ bool DistributedMesh::find_corners(const Point* points, std::size_t n, const std
 
 template <class Int>
 std::int32_t DistributedMesh::triangulate_into(Stars<Int>& stars, const Point* points, std::size_t n,
-                                               const std::int64_t* number, PartitionKind partition,
+                                               const std::int64_t* number, const Numbering& numbering,
                                                ParallelCost& cost) {
   ranks_.set_phase("triangulate");
-  LocalNodes nodes;
-  nodes.points = points;
-  nodes.count = n;
-  nodes.numbers = number;
+  const LocalNodes nodes{points, n, number};
   Point corners[3];
   std::int64_t numbers[3];
   if (!find_corners(points, n, number, corners, numbers)) return kCollinear;
   ParallelOptions options;
   agreed(ranks_, [&] { options = options_from_environment(n); });
-  options.partition = partition;
+  options.partition = numbering.partition;
   options.with_neighbours = true;
   cost.threads = options.threads;
-  stars = pstripack::triangulate<Int>(nodes, corners, numbers, ranks_, options, &cost);
+  stars = pstripack::triangulate<Int>(nodes, numbering.look, corners, numbers, ranks_, options, &cost);
   if (!stars.coincident.empty()) {
     Coincidence first{};
     agreed(ranks_, [&] { first = first_coincidence(stars.coincident); });
@@ -292,9 +293,9 @@ std::int32_t DistributedMesh::triangulate_points(std::int64_t n, const Point* po
   }
   numbers_are_dense_ = numbering.low == 1 && numbering.high == numbering.total;
   numbers_are_short_ = numbering.high <= std::numeric_limits<std::int32_t>::max();
-  const std::int32_t code =
-      numbers_are_short_ ? triangulate_into(short_stars_, points, count, number, numbering.partition, cost)
-                         : triangulate_into(long_stars_, points, count, number, numbering.partition, cost);
+  const std::int32_t code = numbers_are_short_
+                                ? triangulate_into(short_stars_, points, count, number, numbering, cost)
+                                : triangulate_into(long_stars_, points, count, number, numbering, cost);
   if (code == 0) total_ = numbering.total;
   return code;
 }

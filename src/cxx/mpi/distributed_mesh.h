@@ -65,7 +65,7 @@ class DistributedMesh {
                     std::int64_t (&numbers)[3]);
   template <class Int>
   std::int32_t triangulate_into(Stars<Int>& stars, const Point* points, std::size_t n,
-                                const std::int64_t* number, PartitionKind partition, ParallelCost& cost);
+                                const std::int64_t* number, const Numbering& numbering, ParallelCost& cost);
   void report_on(ParallelCost& mine, std::int64_t sent_before, Report* report);
   void clear();
   /// Calls visit(i, count, first) for each own point: its neighbours are first[0..count-1].

@@ -277,14 +277,17 @@ Partition::Partition(PartitionKind kind, int patches, const std::vector<Point>& 
 }
 
 void Partition::owners(const Point* x, std::size_t n, std::uint32_t* owner, double* nearest_plane) const {
-  // Some at a time, level by level: one descent would wait for every comparison.
-  constexpr std::size_t kTogether = 16;
   for (std::size_t i = 0; i < n; i += kTogether) {
     const std::size_t count = std::min(kTogether, n - i);
-    std::int32_t k[kTogether] = {};
+    std::int32_t k[kTogether];
     double nearest[kTogether];
-    std::fill(nearest, nearest + kTogether, 2 * kEverything);
-    for (int level = 0; level < top_depth_; ++level)
+    const Top root = top_[0];  // the same for all
+    for (std::size_t j = 0; j < count; ++j) {
+      const double height = product(root.split, x[i + j]);
+      k[j] = height >= root.split.d ? root.child[1] : root.child[0];
+      nearest[j] = std::fabs(height - root.split.d);
+    }
+    for (int level = 1; level < top_depth_; ++level)
       for (std::size_t j = 0; j < count; ++j) {
         const Top& t = top_[static_cast<std::size_t>(k[j])];
         const double height = product(t.split, x[i + j]);
@@ -333,6 +336,22 @@ bool Partition::holds(int patch, const Point& a, const Point& b, const Point& c,
     if (p.d < 0 && stretch * std::min(lowest, 0.0) < p.d - smallest_margin_) return false;
   }
   return true;
+}
+
+void Partition::margins(const Point* x, const std::uint32_t* owner, const std::size_t* which, std::size_t n,
+                        double* margin) const {
+  std::int32_t k[kTogether];
+  for (std::size_t j = 0; j < n; ++j) k[j] = regions_[owner[which[j]]].root;
+  for (bool is_below = true; is_below;) {
+    is_below = false;
+    for (std::size_t j = 0; j < n; ++j) {
+      const Cell& c = cells_[k[j]];
+      const std::int32_t next = c.child[is_beyond(c, x[which[j]])];
+      is_below |= next != 0;
+      k[j] = next != 0 ? next : k[j];
+    }
+  }
+  for (std::size_t j = 0; j < n; ++j) margin[j] = cells_[k[j]].margin;
 }
 
 void Partition::near(const Point& x, double radius, std::vector<int>& patches) const {

@@ -51,18 +51,33 @@ class Partition {
   /// A lower bound of the distance of x from the patch; 0 or less inside. Changes by no more than x does.
   double distance(int patch, const Point& x) const;
 
-  /// Calls visit(q) for each patch q that has x in its halo. `owner` and `nearest_plane` are those of x;
-  /// `scratch` is written.
+  /// Calls visit(i, q) for each of n places and each patch q that has x[i] in its halo. `owner` and
+  /// `nearest_plane` are those of owners().
   template <class Visit>
-  void for_each_halo(const Point& x, std::uint32_t owner, double nearest_plane, std::vector<int>& scratch,
+  void for_each_halo(const Point* x, std::size_t n, const std::uint32_t* owner, const double* nearest_plane,
                      const Visit& visit) const {
-    if (nearest_plane > largest_margin_[owner]) return;
-    const double margin = margin_at(x, regions_[owner].root);
-    if (nearest_plane > margin) return;
-    scratch.clear();
-    near(x, margin, scratch);
-    for (const int q : scratch)
-      if (q != static_cast<int>(owner) && distance(q, x) <= margin) visit(q);
+    std::size_t candidate[kTogether], candidates = 0;
+    double margin[kTogether];
+    std::vector<int> patches;
+    const auto examine = [&] {
+      margins(x, owner, candidate, candidates, margin);
+      for (std::size_t j = 0; j < candidates; ++j) {
+        const std::size_t i = candidate[j];
+        if (nearest_plane[i] > margin[j]) continue;
+        patches.clear();
+        near(x[i], margin[j], patches);
+        for (const int q : patches)
+          if (q != static_cast<int>(owner[i]) && distance(q, x[i]) <= margin[j]) visit(i, q);
+      }
+      candidates = 0;
+    };
+    const double* const largest_margin = largest_margin_.data();
+    for (std::size_t i = 0; i < n; ++i) {
+      candidate[candidates] = i;
+      candidates += nearest_plane[i] <= largest_margin[owner[i]];
+      if (candidates == kTogether) examine();
+    }
+    examine();
   }
 
   /// True if x is patch q's own or in its halo.
@@ -98,6 +113,9 @@ class Partition {
     double margin = 0;        // of a leaf; otherwise the smallest below
   };
 
+  /// So many descents in the tree at a time, level by level: one would wait for each of its comparisons.
+  static constexpr std::size_t kTogether = 16;
+
   static double product(const Plane& p, const Point& x) { return p.x * x.x + p.y * x.y + p.z * x.z; }
   static bool is_beyond(const Cell& cell, const Point& x) { return product(cell.split, x) >= cell.split.d; }
 
@@ -106,6 +124,9 @@ class Partition {
     while (cells_[k].child[1] != 0) k = cells_[k].child[is_beyond(cells_[k], x)];
     return cells_[k].margin;
   }
+  /// The margins of the cells of x[which[0..n-1]], n <= kTogether.
+  void margins(const Point* x, const std::uint32_t* owner, const std::size_t* which, std::size_t n,
+               double* margin) const;
   /// The patches within `radius` of x, each once.
   void near(const Point& x, double radius, std::vector<int>& patches) const;
 

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <numeric>
@@ -276,7 +275,10 @@ class Triangulator {
       const auto t = static_cast<std::size_t>(piece);
       auto& count = routes.count[t];
       try {
-        std::vector<int> scratch;
+        // Several tallies: the next node's would wait for the one before to be written.
+        constexpr std::size_t kTallies = 4;
+        std::vector<std::size_t> own[kTallies];
+        for (auto& tally : own) tally.resize(patches);
         constexpr std::size_t kTogether = 256;
         Point place[kTogether];
         double nearest_plane[kTogether];
@@ -287,18 +289,16 @@ class Triangulator {
             for (std::size_t i = block; i < end; ++i) place[i - block] = places_(nodes_.points[i]);
             at = place;
           }
-          partition_->owners(at, end - block, routes.owner + block, nearest_plane);
-          for (std::size_t i = block; i < end; ++i) {
-            const std::uint32_t owner = routes.owner[i];
-            ++count[owner].own;
-            partition_->for_each_halo(
-                at[i - block], owner, nearest_plane[i - block], scratch, [&](int other) {
-                  ++count[static_cast<std::size_t>(other)].halo;
-                  routes.halo[t].push_back(
-                      {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(other)});
-                });
-          }
+          std::uint32_t* const owner = routes.owner + block;
+          partition_->owners(at, end - block, owner, nearest_plane);
+          for (std::size_t i = 0; i < end - block; ++i) ++own[i % kTallies][owner[i]];
+          partition_->for_each_halo(at, end - block, owner, nearest_plane, [&](std::size_t i, int q) {
+            ++count[static_cast<std::size_t>(q)].halo;
+            routes.halo[t].push_back({static_cast<std::uint32_t>(block + i), static_cast<std::uint32_t>(q)});
+          });
         }
+        for (const auto& tally : own)
+          for (std::size_t q = 0; q < patches; ++q) count[q].own += tally[q];
       } catch (...) {
         errors[t] = std::current_exception();
       }
@@ -725,27 +725,14 @@ class Triangulator {
 }  // namespace
 
 template <class Int>
-Stars<Int> triangulate(const LocalNodes& nodes, const Point (&corners)[3], const std::int64_t (&numbers)[3],
-                       Communicator& ranks, const ParallelOptions& options, ParallelCost* cost) {
+Stars<Int> triangulate(const LocalNodes& nodes, const Look& look, const Point (&corners)[3],
+                       const std::int64_t (&numbers)[3], Communicator& ranks, const ParallelOptions& options,
+                       ParallelCost* cost) {
   ParallelCost own_cost;
   ParallelCost& c = cost != nullptr ? *cost : own_cost;
   // All lengths 1? The predicates must be the same everywhere.
-  std::atomic<bool> unit{true};
-  std::atomic<double> deviation{0};
-  parallel_pieces(nodes.count, options.threads, [&](std::size_t first, std::size_t last, int) {
-    double largest = 0;
-    bool all = true;
-    for (std::size_t i = first; i < last; ++i) {
-      const Point& p = nodes.points[i];
-      all = all & length_is_one(p);
-      largest = std::max(largest, std::fabs(p.x * p.x + p.y * p.y + p.z * p.z - 1));
-    }
-    if (!all) unit = false;
-    for (double seen = deviation; seen < largest && !deviation.compare_exchange_weak(seen, largest);) {
-    }
-  });
-  std::int64_t agreed[2] = {unit ? 0 : -1, 0};
-  double most = deviation;
+  std::int64_t agreed[2] = {look.lengths_are_one ? 0 : -1, 0};
+  double most = look.deviation;
   std::memcpy(&agreed[1], &most, sizeof most);
   agreed[1] = -agreed[1];  // the bits of positive numbers are in their order
   ranks.all_min(agreed, 2);
@@ -772,9 +759,11 @@ Stars<Int> triangulate(const LocalNodes& nodes, const Point (&corners)[3], const
   return stars;
 }
 
-template Stars<std::int32_t> triangulate(const LocalNodes&, const Point (&)[3], const std::int64_t (&)[3],
-                                         Communicator&, const ParallelOptions&, ParallelCost*);
-template Stars<std::int64_t> triangulate(const LocalNodes&, const Point (&)[3], const std::int64_t (&)[3],
-                                         Communicator&, const ParallelOptions&, ParallelCost*);
+template Stars<std::int32_t> triangulate(const LocalNodes&, const Look&, const Point (&)[3],
+                                         const std::int64_t (&)[3], Communicator&, const ParallelOptions&,
+                                         ParallelCost*);
+template Stars<std::int64_t> triangulate(const LocalNodes&, const Look&, const Point (&)[3],
+                                         const std::int64_t (&)[3], Communicator&, const ParallelOptions&,
+                                         ParallelCost*);
 
 }  // namespace pstripack

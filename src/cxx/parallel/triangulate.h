@@ -14,23 +14,12 @@
 #include "mesh/rings.h"
 #include "parallel/communicator.h"
 #include "parallel/cost.h"
+#include "parallel/local_nodes.h"
 #include "parallel/partition.h"
 #include "parallel/places.h"
 #include "parallel/record.h"
 
 namespace pstripack {
-
-/// Of a set of nodes, those that this rank brings: any of them, in any order.
-struct LocalNodes {
-  const Point* points = nullptr;          ///< finite, not zero
-  std::size_t count = 0;                  ///< < 2^29
-  const std::int64_t* numbers = nullptr;  ///< global numbers from 1; null: first_number, first_number+1, ...
-  std::int64_t first_number = 1;
-
-  std::int64_t number(std::size_t i) const {
-    return numbers != nullptr ? numbers[i] : first_number + static_cast<std::int64_t>(i);
-  }
-};
 
 struct ParallelOptions {
   PartitionKind partition = PartitionKind::bisection;
@@ -83,10 +72,11 @@ struct Stars {
 };
 
 /// The triangulation of the nodes of all ranks together, at least three and not all on one great circle
-/// (`corners`: three of them that are not, the same on every rank). Collective. Throws AgreedFailure, on
-/// every rank.
+/// (`corners`: three of them that are not, the same on every rank). `look`: at these nodes; all nodes must
+/// have a direction. Collective. Throws AgreedFailure, on every rank.
 template <class Int>
-Stars<Int> triangulate(const LocalNodes& nodes, const Point (&corners)[3], const std::int64_t (&numbers)[3],
-                       Communicator& ranks, const ParallelOptions& options, ParallelCost* cost = nullptr);
+Stars<Int> triangulate(const LocalNodes& nodes, const Look& look, const Point (&corners)[3],
+                       const std::int64_t (&numbers)[3], Communicator& ranks, const ParallelOptions& options,
+                       ParallelCost* cost = nullptr);
 
 }  // namespace pstripack

@@ -21,16 +21,13 @@ using Pairs = std::vector<std::pair<std::int64_t, std::int64_t>>;
 /// The lists by patches on the threads of this process. Returns the pairs of nodes that coincide, or none and
 /// has written the lists; nothing if the nodes lie so that patches do not pay.
 template <class Int>
-std::optional<Pairs> lists_on_threads(const Point* p, std::size_t n, Int* list, Int* lptr, Int* lend,
-                                      Int* lnew, ParallelCost* cost) {
+std::optional<Pairs> lists_on_threads(const Point* p, std::size_t n, const Look& look, Int* list, Int* lptr,
+                                      Int* lend, Int* lnew, ParallelCost* cost) {
   SingleProcess process;
-  LocalNodes nodes;
-  nodes.points = p;
-  nodes.count = n;
   ParallelOptions options = options_from_environment(n);
   options.most_questions = n / 8;
   const Point corners[3] = {p[0], p[1], p[2]};
-  const Stars<Int> stars = triangulate<Int>(nodes, corners, {1, 2, 3}, process, options, cost);
+  const Stars<Int> stars = triangulate<Int>({p, n}, look, corners, {1, 2, 3}, process, options, cost);
   if (cost != nullptr) cost->threads = options.threads;
   if (stars.gave_up) return std::nullopt;
   if (stars.coincident.empty()) {
@@ -40,6 +37,23 @@ std::optional<Pairs> lists_on_threads(const Point* p, std::size_t n, Int* list, 
     *lnew = lend[n - 1] + 1;
   }
   return stars.coincident;
+}
+
+/// The same by one hull of all nodes p, which lie in `workspace`.
+template <class Int>
+Pairs lists_of_one_hull(const Point* p, std::size_t n, Workspace& workspace, Int* list, Int* lptr, Int* lend,
+                        Int* lnew, ParallelCost* cost) {
+  const Hull hull = [&] {
+    const PhaseTimer timer(cost, ParallelCost::triangulate);
+    return delaunay(p, n, workspace);
+  }();
+  Pairs pairs;
+  for (const auto& [in, out] : hull.coincident) pairs.emplace_back(in + 1, out + 1);
+  if (pairs.empty()) {
+    const PhaseTimer timer(cost, ParallelCost::lists);
+    *lnew = write_lists(hull, list, lptr, lend, workspace);
+  }
+  return pairs;
 }
 
 }  // namespace
@@ -54,34 +68,21 @@ TrmeshResult trmesh(Int n, const Real* x, const Real* y, const Real* z, Int* lis
   const bool on_threads = threads_for(nodes) > 1;
   Workspace workspace(on_threads ? nodes * sizeof(Point) : workspace_bytes(nodes));
   Point* p = workspace.take<Point>(nodes);
-  const auto copied = [&] {
+  Look look;
+  const auto copy = [&] {
     const PhaseTimer timer(cost, ParallelCost::divide);
-    return copy_nodes(nodes, x, y, z, p);
+    look = copy_nodes(nodes, x, y, z, p);
   };
-  const std::size_t bad = copied();
-  if (bad < nodes) return {-5, static_cast<std::int64_t>(bad) + 1};
+  copy();
+  if (look.first_bad < nodes) return {-5, static_cast<std::int64_t>(look.first_bad) + 1};
   if (left(p[0], p[1], p[2]) == 0) return {-2};
 
   // Writes the lists of the first `nodes` nodes, or returns sets of nodes that coincide.
   const auto triangulate_them = [&] {
-    if (on_threads) {
-      const auto coincident = lists_on_threads(p, nodes, list, lptr, lend, lnew, cost);
-      if (coincident) return *coincident;
-    }
-    std::optional<Workspace> own_workspace;
-    if (on_threads) own_workspace.emplace(workspace_bytes(nodes));
-    Workspace& w = on_threads ? *own_workspace : workspace;
-    const Hull hull = [&] {
-      const PhaseTimer timer(cost, ParallelCost::triangulate);
-      return delaunay(p, nodes, w);
-    }();
-    Pairs pairs;
-    for (const auto& [in, out] : hull.coincident) pairs.emplace_back(in + 1, out + 1);
-    if (pairs.empty()) {
-      const PhaseTimer timer(cost, ParallelCost::lists);
-      *lnew = write_lists(hull, list, lptr, lend, w);
-    }
-    return pairs;
+    if (!on_threads) return lists_of_one_hull(p, nodes, workspace, list, lptr, lend, lnew, cost);
+    if (const auto pairs = lists_on_threads(p, nodes, look, list, lptr, lend, lnew, cost)) return *pairs;
+    Workspace own_workspace(workspace_bytes(nodes));
+    return lists_of_one_hull(p, nodes, own_workspace, list, lptr, lend, lnew, cost);
   };
   const Pairs pairs = triangulate_them();
   if (pairs.empty()) return {0};
@@ -90,7 +91,7 @@ TrmeshResult trmesh(Int n, const Real* x, const Real* y, const Real* z, Int* lis
   nodes = static_cast<std::size_t>(first.m) - 1;
   workspace.clear();
   p = workspace.take<Point>(nodes);
-  copied();
+  copy();
   triangulate_them();
   return {static_cast<std::int32_t>(first.l), first.l, first.m};
 }
