@@ -329,23 +329,27 @@ class Builder final : public GrowingHull {
   std::uint32_t walk_exactly(const Point& p, std::uint32_t v) {
     std::uint32_t t = last_;
     for (;;) {
-      if (sees(p, v, t)) return t;
       const Face& f = faces_[t];
+      for (const std::uint32_t corner : {f.vertex[0], f.vertex[1], f.vertex[2]})
+        if (predicates_.given(corner) == predicates_.given(v)) return coincides(v, corner);
+      if (sees(p, v, t)) return t;
       std::uint32_t out = 0;
       while (out < 3 && predicates_.left(f.vertex[next_edge(out)], f.vertex[previous_edge(out)], v) >= 0)
         ++out;
       if (out == 3) {
         for (const std::uint32_t corner : {f.vertex[0], f.vertex[1], f.vertex[2]})
-          if (predicates_.coincide(corner, v)) {
-            coincident_.emplace_back(corner, v);
-            return kNone;
-          }
+          if (predicates_.coincide(corner, v)) return coincides(v, corner);
         throw HiddenNode{};
       }
       t = face_of(f.neighbour[out]);
       if (!front(t)) return t;
       last_ = t;
     }
+  }
+
+  std::uint32_t coincides(std::uint32_t v, std::uint32_t corner) {
+    coincident_.emplace_back(corner, v);
+    return kNone;
   }
 
   /// Replaces all faces that node v at p sees, `seen` among them, by a fan of faces around v.
