@@ -14,6 +14,8 @@
 #include <vector>
 
 #include "capi/pstripack.h"
+#include "chosen_original.h"
+#include "commands.h"
 #include "comparison.h"
 #include "mesh_files.h"
 #include "original.h"
@@ -57,7 +59,7 @@ struct Options {
   double timeout = 120;
   std::size_t show = 5;
   std::string json_file;
-  std::string original, abi = "r8";
+  comparison::OriginalChoice original;
 };
 
 std::vector<Point> nodes_for(const Options& options) {
@@ -67,23 +69,10 @@ std::vector<Point> nodes_for(const Options& options) {
   return point_sets::make(options.points, options.n, options.seed);
 }
 
-legacy_stripack::Original find_original(const Options& options, std::string& name) {
-  if (!options.original.empty()) {
-    name = fmt::format("{} ({})", options.original, options.abi);
-    return {options.original, legacy_stripack::abi_named(options.abi)};
-  }
-  const auto where = legacy_stripack::configured_original();
-  if (!where)
-    throw std::runtime_error("no original to compare with: this build found none; give --original LIBRARY");
-  name = where->name;
-  return legacy_stripack::Original(*where);
-}
-
 int compare_libraries(const Options& options) {
   if (options.points.empty() == options.file.empty())
     throw std::invalid_argument("give either --points FAMILY or --file FILE (--help lists the families)");
-  std::string original_name;
-  const legacy_stripack::Original original = find_original(options, original_name);
+  const auto [original, original_name] = comparison::open_original(options.original);
   std::vector<Point> points = nodes_for(options);
   if (points.size() < 3)
     throw std::runtime_error(
@@ -182,11 +171,7 @@ int main(int argc, char** argv) {
   app.add_option("--show", options.show, "print at most so many differences of each kind")
       ->capture_default_str();
   app.add_option("--json", options.json_file, "write the result to this file as well");
-  app.add_option("--original", options.original,
-                 "shared library of your own STRIPACK instead of the one found");
-  app.add_option("--abi", options.abi, "its ABI: r8 (12-argument TRMESH), r4, 8arg")
-      ->check(CLI::IsMember({"r8", "r4", "8arg"}))
-      ->capture_default_str();
+  comparison::add_original_options(app, options.original);
 
   CLI::App* mesh = app.add_subcommand("mesh", "compare two meshes that scvt_legacy wrote");
   mesh->add_option("A", mesh_options.a, "prefix of A_points.txt and A_triangles.txt")->required();
@@ -197,8 +182,14 @@ int main(int argc, char** argv) {
   mesh->add_option("--seconds", mesh_options.seconds, "seconds in trmesh of A and of B, for the table")
       ->expected(2);
 
+  comparison::Command chosen;
+  comparison::add_lists(app, chosen);
+  comparison::add_record(app, chosen);
+  comparison::add_replay(app, chosen);
+
   try {
     app.parse(argc, argv);
+    if (chosen) return chosen();
     return mesh->parsed() ? compare_mesh_files(mesh_options) : compare_libraries(options);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version

@@ -53,6 +53,8 @@ Abi abi_named(const std::string& name) {
   throw std::invalid_argument("unknown ABI '" + name + "': r8, r4 or 8arg");
 }
 
+const char* name_of(Abi abi) { return abi == Abi::r8 ? "r8" : abi == Abi::r4 ? "r4" : "8arg"; }
+
 Library::Library(const std::string& file, Abi abi)
     : handle_(dlopen(file.c_str(), kOpenFlags)), file_(file), abi_(abi) {
   if (!handle_) throw std::runtime_error("cannot load the original: " + std::string(dlerror()));

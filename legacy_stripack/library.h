@@ -14,6 +14,7 @@ enum class Abi {
 
 /// "r8", "r4", "8arg"; throws std::invalid_argument for anything else.
 Abi abi_named(const std::string& name);
+const char* name_of(Abi abi);
 
 class Library {
  public:
@@ -29,6 +30,8 @@ class Library {
               double* xc, double* yc, double* zc, double* rc, int* ier) const;
 
   Abi abi() const { return abi_; }
+  const std::string& file() const { return file_; }
+  void* trmesh_address() const { return trmesh_; }
 
   /// The address of any symbol of the library, null if it has none of that name.
   void* symbol(const char* name) const;

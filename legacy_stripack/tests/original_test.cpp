@@ -8,6 +8,8 @@
 #include <cmath>
 #include <random>
 
+#include "probe.h"
+
 namespace legacy_stripack {
 namespace {
 
@@ -55,7 +57,40 @@ TEST(library, that_is_missing_or_is_not_stripack_is_refused) {
   EXPECT_THROW(abi_named("r16"), std::invalid_argument);
 }
 
+TEST(probe, of_a_library_that_gives_no_mesh_shows_no_abi_and_lets_it_through) {
+  for (const char* file : {ORIGINAL_THAT_HANGS, ORIGINAL_THAT_CRASHES, ORIGINAL_THAT_STOPS}) {
+    const Library library(file, Abi::r8);
+    EXPECT_EQ(abi_shown_by(library), std::nullopt) << file;
+    EXPECT_NO_THROW(refuse_other_abi(library));
+  }
+}
+
 #ifdef ORIGINAL_R4  // libngmath.a was found
+
+TEST(probe, finds_the_abi_whatever_is_claimed) {
+  const struct {
+    std::string file;
+    Abi abi;
+  } cases[] = {{configured_original()->file, Abi::r8}, {ORIGINAL_R4, Abi::r4}, {ORIGINAL_8ARG, Abi::args8}};
+  for (const auto& one : cases) {
+    for (const Abi claimed : {Abi::r8, Abi::r4, Abi::args8}) {
+      const Library library(one.file, claimed);
+      EXPECT_EQ(abi_shown_by(library), one.abi) << one.file << " " << name_of(claimed);
+      if (claimed == one.abi) {
+        EXPECT_NO_THROW(refuse_other_abi(library));
+        continue;
+      }
+      try {
+        refuse_other_abi(library);
+        ADD_FAILURE() << one.file << " passes as " << name_of(claimed);
+      } catch (const std::runtime_error& e) {
+        const std::string line = e.what();
+        EXPECT_NE(line.find(one.file), std::string::npos) << line;
+        EXPECT_NE(line.find(std::string("--abi ") + name_of(one.abi)), std::string::npos) << line;
+      }
+    }
+  }
+}
 
 Nodes random_nodes(int n) {
   std::mt19937_64 random(1);

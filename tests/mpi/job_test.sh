@@ -1,6 +1,6 @@
 #!/bin/sh
-# Whole MPI jobs, their reports and their ends: job_test.sh CASE RANKS, with MPIEXEC (and its flags), PROGRAM
-# and WORK in the environment.
+# Whole MPI jobs, their reports and their ends: job_test.sh CASE RANKS, with MPIEXEC (and its flags), PROGRAM,
+# COMPARE and WORK in the environment.
 # shellcheck disable=SC2015,SC2016,SC2086,SC2154
 set -u
 . "$(dirname "$0")/jobs.sh"
@@ -80,6 +80,14 @@ comm | distributed)
     run "$case"
     [ ! -e report ] || fail "a report of rank 1"
   fi
+  ;;
+check)
+  # In comm mode rank 0 writes the calls, which are those of all ranks.
+  asking=none
+  export PSTRIPACK_CHECK=calls.rec
+  run comm
+  "$COMPARE" lists calls.rec calls.rec > lists.out || fail "the recording"
+  grep -q '^2 calls: 2 same bytes' lists.out || fail "not two calls"
   ;;
 kill_calls | kill_meshes)
   start "${case#kill_}" 100000

@@ -5,6 +5,8 @@
  *
  * With PSTRIPACK_REPORT=1 in the environment when the library is loaded, each triangulation writes one line
  * to stderr, and the process a table at exit; with PSTRIPACK_REPORT=PATH to the end of that file.
+ * With PSTRIPACK_CHECK=PATH its nodes and lists go to the end of that file; with PSTRIPACK_CHECK=lib:LIBRARY
+ * the original runs beside the program and a log of every difference goes to stderr (stripack-compare).
  */
 #ifndef PSTRIPACK_H
 #define PSTRIPACK_H

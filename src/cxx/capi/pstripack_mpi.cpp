@@ -11,6 +11,7 @@
 #include <new>
 #include <utility>
 
+#include "capi/check.h"
 #include "capi/engine_hook.h"
 #include "capi/report.h"
 #include "geometry/floating_point.h"
@@ -120,6 +121,7 @@ int comm_mode_engine(const pstripack_trmesh_arguments* call, std::int32_t* ier, 
 void end_comm_mode(CommMode& mode) {
   if (mode.ranks == nullptr) return;
   pstripack_set_trmesh_engine(mode.engine_before);
+  pstripack_leave_check_to_another_rank(0);
   mode.ranks.reset();
 }
 
@@ -190,6 +192,7 @@ int32_t pstripack_set_comm(MPI_Comm comm) {
     const bool is_replaced = mode.ranks != nullptr;
     mode.ranks = std::move(ranks);
     mode.process = getpid();
+    pstripack_leave_check_to_another_rank(mode.ranks->rank() != 0);
     if (!is_replaced) mode.engine_before = pstripack_set_trmesh_engine(comm_mode_engine);
     return 0;
   });

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Tests of the pool: pool_test.sh CASE RANKS, with RUN, MODEL, MODEL_R4, CALLER, CALLER_MPI, SCVT, LIBRARY,
-# MPIEXEC and WORK in the environment. Each case compares with the same program started without pstripack-run.
+# Tests of the pool: pool_test.sh CASE RANKS, with RUN, MODEL, MODEL_R4, CALLER, CALLER_MPI, SCVT, COMPARE,
+# LIBRARY, MPIEXEC and WORK in the environment. Each case compares with the same program started without pstripack-run.
 # shellcheck disable=SC2015,SC2016,SC2002,SC2094,SC2153,SC2154
 set -u
 . "$(dirname "$0")/../jobs.sh"
@@ -317,6 +317,16 @@ report)
   done
   grep -v pool alone.out > alone.text
   grep -v pool pool.out | cmp - alone.text || fail "stdout differs"
+  ;;
+check)
+  # The model alone writes its calls: as often and the same bytes as without a pool.
+  export PSTRIPACK_CHECK=alone.rec PSTRIPACK_REPORT=report
+  "$SCVT" -n 642 -i 3 -o alone > alone.out 2> alone.err || fail "alone"
+  export PSTRIPACK_CHECK=pool.rec
+  pool "$SCVT" -n 642 -i 3 -o pool > pool.out 2> pool.err || fail "exit code"
+  [ "$(grep -c '^pstripack: pool n=642' report)" -eq 4 ] || fail "not by the pool"
+  "$COMPARE" lists alone.rec pool.rec --bytes > lists.out || fail "the recorded calls differ"
+  grep -q '^4 calls: 4 same bytes' lists.out || fail "not four calls"
   ;;
 out_of_memory)
   # Rank 1 has memory for the small call only.

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace comparison {
+
+/// What the command line has chosen; returns the exit code.
+using Command = std::function<int()>;
+
+/// `stripack-compare lists A B`
+void add_lists(CLI::App& app, Command& chosen);
+/// `stripack-compare record -- PROGRAM ARGUMENTS`
+void add_record(CLI::App& app, Command& chosen);
+/// `stripack-compare replay FILE`
+void add_replay(CLI::App& app, Command& chosen);
+
+}  // namespace comparison

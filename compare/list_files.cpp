@@ -1,0 +1,119 @@
+#include "list_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+
+#include "stripack/trmesh.h"
+
+namespace comparison {
+namespace {
+
+using Entries = std::vector<std::int32_t>;
+
+class TextReader {
+ public:
+  explicit TextReader(const std::string& file) : name_(file), in_(file) {
+    if (!in_) throw std::runtime_error("cannot read " + file);
+  }
+
+  std::optional<Call> next() {
+    std::string word;
+    if (!next_word(word)) return std::nullopt;
+    Call call;
+    call.number = ++calls_;
+    call.n = number(word, "N", 3, pstripack::most_nodes<std::int32_t>());
+    const auto n = static_cast<std::int32_t>(call.n);
+    const std::int32_t lnew = expect("LNEW", 1, 6 * n - 11);
+    call.has_returned = true;
+    call.nodes = static_cast<std::size_t>(n);
+    call.run.lists.lnew = lnew;
+    read(call.run.lists.list, "LIST", lnew - 1, 6 * n - 12);
+    read(call.run.lists.lptr, "LPTR", lnew - 1, 6 * n - 12);
+    read(call.run.lists.lend, "LEND", n, n);
+    return call;
+  }
+
+ private:
+  static constexpr std::int32_t kAny = std::numeric_limits<std::int32_t>::max();
+
+  bool next_word(std::string& word) {
+    while (!(fields_ >> word)) {
+      std::string line;
+      if (!std::getline(in_, line)) return false;
+      ++line_;
+      fields_ = std::istringstream(line);
+    }
+    return true;
+  }
+
+  std::int32_t number(const std::string& word, const std::string& what, std::int32_t least,
+                      std::int32_t largest) const {
+    std::int32_t value = 0;
+    const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc() || rest != word.data() + word.size() || value < least || value > largest)
+      throw std::runtime_error(fmt::format(
+          "{}, line {}: expected {}{}, found '{}'", name_, line_, what,
+          largest == kAny ? ", an integer" : fmt::format(" from {} to {}", least, largest), word));
+    return value;
+  }
+
+  std::int32_t expect(const std::string& what, std::int32_t least = -kAny, std::int32_t largest = kAny) {
+    std::string word;
+    if (!next_word(word))
+      throw std::runtime_error(fmt::format("{}, line {}: the file ends, expected {}", name_, line_, what));
+    return number(word, what, least, largest);
+  }
+
+  void read(Entries& entries, const char* name, std::int32_t count, std::int32_t size) {
+    for (std::int32_t i = 1; i <= count; ++i) entries.push_back(expect(fmt::format("{}({})", name, i)));
+    entries.resize(static_cast<std::size_t>(size), kUntouched);
+  }
+
+  std::string name_;
+  std::ifstream in_;
+  std::istringstream fields_;
+  std::size_t line_ = 0;
+  std::int64_t calls_ = 0;
+};
+
+}  // namespace
+
+ByteComparison compare_bytes(const Lists& a, std::size_t nodes_of_a, const Lists& b, std::size_t nodes_of_b) {
+  ByteComparison result;
+  const auto compare = [&](const char* name, const Entries& s, std::size_t used_s, const Entries& t,
+                           std::size_t used_t) {
+    const std::size_t used = std::min(used_s, used_t);
+    for (std::size_t i = 0; i < used; ++i)
+      if (s[i] != t[i] && result.different++ == 0)
+        result.first = fmt::format("{}({}): {} and {}", name, i + 1, s[i], t[i]);
+    result.different += std::max(used_s, used_t) - used;
+  };
+  const auto slots = [](const Lists& lists, std::size_t nodes) {
+    return nodes == 0 ? 0
+                      : std::min(static_cast<std::size_t>(std::max(lists.lnew, 1)) - 1, lists.list.size());
+  };
+  const std::size_t slots_of_a = slots(a, nodes_of_a), slots_of_b = slots(b, nodes_of_b);
+  if (a.lnew != b.lnew && (nodes_of_a > 0 || nodes_of_b > 0)) {
+    result.different = 1;
+    result.first = fmt::format("LNEW: {} and {}", a.lnew, b.lnew);
+  }
+  compare("LIST", a.list, slots_of_a, b.list, slots_of_b);
+  compare("LPTR", a.lptr, slots_of_a, b.lptr, slots_of_b);
+  compare("LEND", a.lend, nodes_of_a, b.lend, nodes_of_b);
+  return result;
+}
+
+std::function<std::optional<Call>()> calls_of(const std::string& file) {
+  if (CallReader::looks_like_recording(file))
+    return [reader = std::make_shared<CallReader>(file)] { return reader->next(); };
+  return [reader = std::make_shared<TextReader>(file)] { return reader->next(); };
+}
+
+}  // namespace comparison

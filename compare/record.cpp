@@ -1,0 +1,106 @@
+// stripack-compare record: runs a model with PSTRIPACK_CHECK=FILE.
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "calls.h"
+#include "commands.h"
+
+namespace comparison {
+namespace {
+
+constexpr int kNotFound = 127;  // as of a shell
+
+struct Options {
+  std::string file = "calls.rec";
+  std::vector<std::string> command;
+};
+
+/// The exit code, 128 + signal if one ended it. A ^C is for the model.
+int run(std::vector<std::string> command) {
+  std::vector<char*> arguments;
+  for (std::string& word : command) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  pid_t process;
+  if (const int error = posix_spawnp(&process, arguments[0], nullptr, nullptr, arguments.data(), environ)) {
+    fmt::print(stderr, "stripack-compare: {}: {}\n", command[0], std::strerror(error));
+    return kNotFound;
+  }
+  signal(SIGINT, SIG_IGN);
+  signal(SIGQUIT, SIG_IGN);
+  int status = 0;
+  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+void tell_what_is_in(const std::string& file) {
+  std::size_t calls = 0, lost = 0;
+  std::int64_t smallest = 0, largest = 0;
+  CallReader reader(file);
+  while (const auto call = reader.next()) {
+    smallest = calls == 0 ? call->n : std::min(smallest, call->n);
+    largest = std::max(largest, call->n);
+    ++calls;
+    if (!call->has_returned) ++lost;
+  }
+  if (calls == 0)
+    throw std::runtime_error(
+        "no call of TRMESH was recorded: is the program linked with a library of PSTRIPACK?");
+  fmt::print(stderr, "stripack-compare: {} call{} of TRMESH in {}, n = {}", calls, calls == 1 ? "" : "s",
+             file, smallest);
+  if (largest > smallest) fmt::print(stderr, " to {}", largest);
+  if (lost > 0) fmt::print(stderr, "; {} did not return", lost);
+  fmt::print(stderr, "\n");
+}
+
+int record(const Options& options) {
+  if (!CallReader::looks_like_recording(options.file))
+    throw std::runtime_error(options.file + " exists and is no recording: give another --output");
+  const int file = open(options.file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file < 0)
+    throw std::runtime_error(fmt::format("cannot write {}: {}", options.file, std::strerror(errno)));
+  close(file);
+  setenv("PSTRIPACK_CHECK", std::filesystem::absolute(options.file).c_str(), 1);
+  const int code = run(options.command);
+  if (code == kNotFound) return code;
+  try {
+    tell_what_is_in(options.file);
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "stripack-compare: {}\n", e.what());
+  }
+  return code;
+}
+
+}  // namespace
+
+void add_record(CLI::App& app, Command& chosen) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* const record = app.add_subcommand("record", "run a model and record its calls of TRMESH");
+  record->footer(
+      "The model runs with PSTRIPACK_CHECK=FILE, and its exit code is that of this program.\n"
+      "  stripack-compare record -o calls.rec -- ./model arguments\n"
+      "  stripack-compare replay calls.rec");
+  record->add_option("-o,--output", options->file, "the recording; an older one is written over")
+      ->capture_default_str();
+  record->add_option("command", options->command, "-- program and its arguments")->required();
+  record->callback([options, &chosen] { chosen = [options] { return comparison::record(*options); }; });
+}
+
+}  // namespace comparison

@@ -1,0 +1,290 @@
+// stripack-compare replay: recorded calls of TRMESH again, by the original or by another library, and the
+// reason for every difference. Also the process beside a model with PSTRIPACK_CHECK=lib:LIBRARY.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "calls.h"
+#include "capi/pstripack.h"
+#include "chosen_original.h"
+#include "commands.h"
+#include "comparison.h"
+#include "list_files.h"
+#include "show_result.h"
+
+namespace comparison {
+namespace {
+
+using nlohmann::json;
+
+enum ExitCode { kExplained = 0, kAgainstUs = 1 };
+
+struct Options {
+  std::string file;
+  OriginalChoice original;
+  std::string library;
+  double timeout = 120;
+  std::size_t show = 5;
+  std::string json_file;
+};
+
+/// From harmless to serious.
+enum class Kind { equal, explained, no_original, not_compared, against_us };
+constexpr std::size_t kKinds = 5;
+constexpr const char* kKindNames[kKinds] = {"equal", "explained", "no result of the original", "not compared",
+                                            "WE ARE WRONG"};
+
+/// What there is to say of one call: on its line, and on lines of their own.
+struct Judgement {
+  Kind kind = Kind::equal;
+  std::string text;
+  std::vector<std::string> reasons;
+  Result result;  ///< n = 0: nothing was compared
+};
+
+std::string places_of(const Differences& differences) {
+  std::string text;
+  for (std::size_t c = 0; c < kCauses; ++c)
+    if (const std::size_t places = differences.count[c].places; places > 0)
+      text += fmt::format("{}{} {} place{}", text.empty() ? "" : ", ", name(static_cast<Cause>(c)), places,
+                          places == 1 ? "" : "s");
+  return text;
+}
+
+class Replay {
+ public:
+  explicit Replay(const Options& options)
+      : options_(options), reader_(options.file), other_(open_other(options)), json_(json::array()) {
+    if (options.json_file.empty()) return;
+    json_out_.open(options.json_file);
+    if (!json_out_) throw std::runtime_error("cannot write " + options.json_file);
+  }
+
+  int run() {
+    std::exception_ptr unreadable;
+    try {
+      while (std::optional<Call> call = reader_.next()) tell(*call, judge(*call));
+      if (calls_ == 0 && !is_beside_model())
+        throw std::runtime_error(options_.file + ": no call is recorded in it");
+    } catch (...) {
+      unreadable = std::current_exception();
+    }
+    if (calls_ > 0) summarise();
+    if (unreadable) std::rethrow_exception(unreadable);
+    return exit_code();
+  }
+
+ private:
+  static ChosenOriginal open_other(const Options& options) {
+    OriginalChoice choice = options.original;
+    if (!options.library.empty()) choice.file = options.library;
+    return open_original(choice);
+  }
+
+  bool is_beside_model() const { return options_.file == "-"; }
+
+  ExitCode exit_code() const { return count(Kind::against_us) > 0 ? kAgainstUs : kExplained; }
+  const char* name_of(Kind kind) const {
+    const bool is_of_library = kind == Kind::against_us && !options_.library.empty();
+    return is_of_library ? "OTHER RESULTS" : kKindNames[static_cast<std::size_t>(kind)];
+  }
+  std::size_t count(Kind kind) const { return kinds_[static_cast<std::size_t>(kind)]; }
+
+  Judgement judge(Call& call) {
+    if (call.points.empty()) return judge_refused(call);
+    std::string before;
+    if (!call.has_returned) {
+      if (auto lost = run_again(call)) return *std::move(lost);
+      before = "no result on record, run again: ";
+    }
+    if (call.run.ier == PSTRIPACK_OUT_OF_MEMORY || call.run.ier == PSTRIPACK_RANKS_DISAGREE ||
+        call.run.ier == PSTRIPACK_BAD_COMM)
+      return {Kind::not_compared,
+              fmt::format("{}IER = {}, {}", before, call.run.ier, pstripack_strerror(call.run.ier)),
+              {},
+              {}};
+    if (call.real_bytes == 8 && other_.original.library().abi() == legacy_stripack::Abi::r4)
+      throw std::runtime_error(
+          fmt::format("call {} is one in REAL*8: a library in REAL*4 would get other nodes", call.number));
+    Judgement judgement = judge_result(call);
+    judgement.text = before + judgement.text;
+    return judgement;
+  }
+
+  /// A call whose n TRMESH refuses unseen.
+  static Judgement judge_refused(const Call& call) {
+    const int expected = call.n < 3 ? PSTRIPACK_TOO_FEW_NODES : PSTRIPACK_TOO_MANY_NODES;
+    if (!call.has_returned) return {Kind::not_compared, "no result on record", {}, {}};
+    if (call.run.ier == expected) return {Kind::equal, fmt::format("IER = {}", expected), {}, {}};
+    return {Kind::against_us, fmt::format("IER = {}, expected {}", call.run.ier, expected), {}, {}};
+  }
+
+  /// Fills in the result of a call that had not returned when the recording ended, or, if it does not return
+  /// here either, tells that.
+  std::optional<Judgement> run_again(Call& call) const {
+    const auto work = [&] { run_ours(call.points, 1, 1); };
+    const legacy_stripack::Ended ended = legacy_stripack::run_in_child(work, options_.timeout);
+    if (ended.outcome != legacy_stripack::Outcome::returned) {
+      legacy_stripack::Triangulation ours;
+      ours.outcome = ended.outcome;
+      ours.signal = ended.signal;
+      return Judgement{Kind::against_us,
+                       "no result on record, run again: PSTRIPACK " + describe(ours, options_.timeout),
+                       {},
+                       {}};
+    }
+    call.run = run_ours(call.points, 1, 1);
+    call.nodes = call.run.ier == 0  ? call.points.size()
+                 : call.run.ier > 0 ? nodes_before_duplicate(call.points, call.run.ier)
+                                    : 0;
+    return std::nullopt;
+  }
+
+  Judgement judge_result(const Call& call) const {
+    legacy_stripack::Triangulation theirs = other_.original.triangulate(call.points, options_.timeout);
+    const std::string other_bytes = options_.library.empty() ? "" : difference_in_bytes(theirs, call);
+    Judgement judgement;
+    judgement.result =
+        compare(call.points, std::move(theirs), other_.original.epsilon(), {call.run}, options_.show);
+    const Result& result = judgement.result;
+    judgement.text = verdict_of(result);
+    if (!other_bytes.empty() || result.against_us()) {
+      judgement.kind = Kind::against_us;
+      if (!other_bytes.empty()) judgement.text = other_bytes;
+    } else if (!result.original_returned()) {
+      judgement.kind = Kind::no_original;
+      judgement.text = fmt::format("the original {}; ours passes every exact check",
+                                   describe(result.original, options_.timeout));
+    } else if (result.equal()) {
+      judgement.kind = Kind::equal;
+      if (!options_.library.empty()) judgement.text = "same bytes";
+    } else {
+      judgement.kind = Kind::explained;
+    }
+    if (const std::string places = places_of(result.differences); !places.empty())
+      judgement.text += ": " + places;
+
+    for (const std::string& broken : result.broken_promises)
+      judgement.reasons.push_back("WE ARE WRONG: " + broken);
+    if (result.ier)
+      judgement.reasons.push_back(fmt::format("{}: {}", name(result.ier->cause), result.ier->text));
+    for (const Decision& d : result.differences.decisions)
+      judgement.reasons.push_back(fmt::format("{}: {}", name(d.cause), d.text));
+    return judgement;
+  }
+
+  /// Every version of PSTRIPACK returns the same bytes: empty if this one does.
+  std::string difference_in_bytes(const legacy_stripack::Triangulation& theirs, const Call& call) const {
+    if (theirs.outcome != legacy_stripack::Outcome::returned)
+      return "the library " + describe(theirs, options_.timeout);
+    if (theirs.ier != call.run.ier) return fmt::format("IER = {} recorded, now {}", call.run.ier, theirs.ier);
+    Lists lists{theirs.list, theirs.lptr, theirs.lend, theirs.lnew};
+    if (lists.lnew == 0) lists.lnew = call.run.lists.lnew;  // the 8-argument TRMESH does not return it
+    const ByteComparison bytes = compare_bytes(call.run.lists, call.nodes, lists, call.nodes);
+    if (bytes.different == 0) return "";
+    return fmt::format("OTHER BYTES: {} entries, first recorded and now {}", bytes.different, bytes.first);
+  }
+
+  void tell(const Call& call, Judgement judgement) {
+    if (calls_++ == 0) {
+      first_process_ = call.process;
+      if (is_beside_model()) prefix_ = fmt::format("pstripack[{}]: ", call.process_id);
+    }
+    std::string which = fmt::format("call {}", call.number);
+    if (call.process != first_process_) which += fmt::format(" of process {}", call.process_id);
+    fmt::print("{}{}: n = {}: {}\n", prefix_, which, call.n, judgement.text);
+    for (const std::string& reason : judgement.reasons) fmt::print("{}  {}\n", prefix_, reason);
+    std::fflush(stdout);
+
+    ++kinds_[static_cast<std::size_t>(judgement.kind)];
+    Result& result = judgement.result;
+    result.points_name = which;
+    result.original_name = other_.name;
+    for (std::size_t c = 0; c < kCauses; ++c) places_[c] += result.differences.count[c].places;
+    if (result.n > 0 && result.original_returned()) {
+      their_seconds_ += result.original.seconds;
+      our_seconds_ += call.run.seconds;
+    }
+    if (!json_out_.is_open()) return;
+    json j = result.n > 0 ? to_json(result, options_.timeout) : json::object();
+    j["call"] = call.number;
+    j["process"] = call.process_id;
+    j["n"] = call.n;
+    j["real_bytes"] = call.real_bytes;
+    j["kind"] = name_of(judgement.kind);
+    j["text"] = judgement.text;
+    json_.push_back(std::move(j));
+  }
+
+  void summarise() {
+    fmt::print("{}{} call{}", prefix_, calls_, calls_ == 1 ? "" : "s");
+    for (std::size_t k = 0; k < kKinds; ++k)
+      if (kinds_[k] > 0) fmt::print(", {} {}", kinds_[k], name_of(static_cast<Kind>(k)));
+    fmt::print("\n");
+    for (std::size_t c = 0; c < kCauses; ++c)
+      if (places_[c] > 0)
+        fmt::print("{}  {}: {} place{}\n", prefix_, name(static_cast<Cause>(c)), places_[c],
+                   places_[c] == 1 ? "" : "s");
+    if (our_seconds_ > 0)
+      fmt::print("{}  seconds in TRMESH: {} {:.4g}, recorded {:.4g}\n", prefix_,
+                 options_.library.empty() ? "original" : "library", their_seconds_, our_seconds_);
+    std::fflush(stdout);
+    if (!json_out_.is_open()) return;
+    json j{{"file", options_.file}, {"original", other_.name}, {"calls", json_}, {"exit_code", exit_code()}};
+    if (!(json_out_ << j.dump(2) << '\n' << std::flush))
+      throw std::runtime_error("cannot write " + options_.json_file);
+  }
+
+  const Options& options_;
+  CallReader reader_;
+  ChosenOriginal other_;
+  std::string prefix_;  ///< of every line, where they come between those of a model
+  std::size_t calls_ = 0;
+  std::uint64_t first_process_ = 0;
+  std::array<std::size_t, kKinds> kinds_{};
+  std::array<std::size_t, kCauses> places_{};
+  double their_seconds_ = 0, our_seconds_ = 0;
+  json json_;
+  std::ofstream json_out_;
+};
+
+}  // namespace
+
+void add_replay(CLI::App& app, Command& chosen) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* const replay = app.add_subcommand("replay", "run recorded calls again, explain every difference");
+  replay->footer(R"(A recording is made by PSTRIPACK_CHECK=FILE ./model or by stripack-compare record. With
+PSTRIPACK_CHECK=lib:ORIGINAL[,abi=ABI][,timeout=SECONDS][,show=K][,log=FILE] this runs while the model runs.
+
+exit code
+  0  no difference, or every difference is explained
+  1  a difference counts against PSTRIPACK (--library: other bytes than recorded)
+  2  usage error or unreadable input)");
+  replay->add_option("FILE", options->file, "the recording, - for stdin")->required();
+  add_original_options(*replay, options->original);
+  replay
+      ->add_option("--library", options->library,
+                   "instead of an original, a libstripack of PSTRIPACK: it must give the recorded bytes")
+      ->excludes("--original");
+  replay->add_option("--timeout", options->timeout, "seconds after which the original is stopped, each call")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  replay->add_option("--show", options->show, "print at most so many differences of each kind for a call")
+      ->capture_default_str();
+  replay->add_option("--json", options->json_file, "write the results to this file as well");
+  replay->callback([options, &chosen] { chosen = [options] { return Replay(*options).run(); }; });
+}
+
+}  // namespace comparison
