@@ -1,0 +1,83 @@
+#pragma once
+// Lawson's insertion, which finds the triangle of a new point in the history of all splits and flips
+// (Delaunay tree: Boissonnat & Teillaud 1986; Guibas, Knuth & Sharir 1992).
+
+#include <array>
+#include <stdexcept>
+#include <vector>
+
+#include "mesh/triangulation.h"
+#include "thesis/sphere.h"
+
+namespace thesis {
+
+using pstripack::index_t;
+constexpr index_t kNone = -1;
+
+/// Rounding has led to a state that the method has no answer to, or a limit was reached.
+struct Failure : std::runtime_error {
+  using runtime_error::runtime_error;
+};
+
+/// Three vertices, counterclockwise; neighbour[i] lies opposite vertex[i].
+///
+///                    vertex[0]
+///                     /     \                                                                      .
+///        neighbour[2]/       \neighbour[1]
+///                   /         \                                                                    .
+///          vertex[1] --------- vertex[2]
+///                  neighbour[0]
+struct Tri {
+  std::array<index_t, 3> vertex, neighbour;
+};
+
+struct TreeCounts {
+  std::size_t steps = 0;    ///< down the history
+  std::size_t rescued = 0;  ///< of these, where rounding left no child that contains the point
+  std::size_t flips = 0;
+
+  void operator+=(const TreeCounts& c) { steps += c.steps, rescued += c.rescued, flips += c.flips; }
+};
+
+class DelaunayTree {
+ public:
+  /// Three "huge" vertices on a great circle: two triangles glued along their edges, each a hemisphere. The
+  /// first is the one on the left of a -> b -> c. Vertices 0, 1, 2.
+  DelaunayTree(const Point& a, const Point& b, const Point& c);
+
+  /// Adds a vertex; the numbers count on from 3. Throws Failure.
+  void insert(const Point& p);
+
+  const std::vector<Tri>& history() const { return history_; }
+  bool is_current(index_t t) const { return child_[static_cast<std::size_t>(t)][0] == kNone; }
+  static bool is_huge(index_t vertex) { return vertex < 3; }
+  const TreeCounts& counts() const { return counts_; }
+
+ private:
+  using Children = std::array<index_t, 3>;
+
+  index_t locate(const Point& p);
+  double depth_inside(index_t t, const Point& p) const;
+  void split(index_t t, index_t p);
+  void flip(index_t t, index_t opposite);
+  void legalize(index_t p);
+  Circle circle_of(index_t t) const;
+  index_t add(const Tri& tri);
+  /// Which corner of t is not an end of its edge b c.
+  std::size_t corner_off(index_t t, index_t b, index_t c) const;
+  /// Across edge b c.
+  void set_neighbour(index_t t, index_t b, index_t c, index_t neighbour);
+
+  Tri& tri(index_t t) { return history_[static_cast<std::size_t>(t)]; }
+  const Tri& tri(index_t t) const { return history_[static_cast<std::size_t>(t)]; }
+  Children& children(index_t t) { return child_[static_cast<std::size_t>(t)]; }
+  const Point& point(index_t v) const { return points_[static_cast<std::size_t>(v)]; }
+
+  std::vector<Point> points_;
+  std::vector<Tri> history_;       // all triangles that ever were; a child stands behind its parents
+  std::vector<Children> child_;    // 3 after a split, 2 after a flip, none: a triangle of today
+  std::vector<index_t> suspects_;  // triangles (p, b, c) whose edge b c is to be tested
+  TreeCounts counts_;
+};
+
+}  // namespace thesis

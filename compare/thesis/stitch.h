@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "mesh/triangulation.h"
+#include "thesis/sphere.h"
+
+namespace thesis {
+
+/// Nodes on one side of a stripe, from south to north.
+using Chain = std::vector<pstripack::index_t>;
+
+/// Algorithm 5.3: the triangles between the right chain of a stripe and the left chain of the next one to the
+/// east. |left| + |right| - 2 of them; none where a chain is empty, or where both are sides of the same
+/// stripe.
+pstripack::Triangles stitch(const std::vector<Point>& points, const Chain& left, const Chain& right);
+
+}  // namespace thesis
