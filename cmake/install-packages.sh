@@ -7,7 +7,8 @@ packages="
   g++ gfortran cmake ninja-build pkg-config
   libboost-dev
   libcli11-dev nlohmann-json3-dev libfmt-dev
-  libgtest-dev libcgal-dev libgmp-dev libmpfr-dev
+  libgtest-dev libcgal-dev libgmp-dev libmpfr-dev libqhull-dev
+  python3 gnuplot-nox librsvg2-bin
   libncarg-dev
   libopenmpi-dev openmpi-bin"
 

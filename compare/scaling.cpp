@@ -16,11 +16,13 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "csv_file.h"
 #include "mpi/area_of_all.h"
 #include "mpi/collective_trmesh.h"
 #include "mpi/distributed_mesh.h"
@@ -34,7 +36,7 @@ using namespace pstripack;
 using Phase = ParallelCost::Phase;
 
 struct Settings {
-  std::string mode, family = "random";
+  std::string mode, family = "random", owners;
   std::size_t n = 1000000;
   int repeats = 5;
 };
@@ -149,6 +151,29 @@ void move_home(MpiCommunicator& ranks, const DistributedMesh& mesh, std::vector<
   }
 }
 
+/// Rank 0 writes each triangle and the rank that lists it: x1,y1,z1,x2,y2,z2,x3,y3,z3,owner.
+void write_owners(DistributedMesh& mesh, const Settings& s) {
+  std::vector<std::int64_t> corners(3 * static_cast<std::size_t>(mesh.triangles()));
+  mesh.triangles(corners.data());
+  MpiCommunicator& ranks = mesh.ranks();
+  const Parcels all = ranks.all_gather(corners.data(), corners.size() * sizeof corners[0]);
+  if (ranks.rank() != 0) return;
+  const std::vector<Point> points = point_sets::make(s.family, s.n, 1);
+  CsvFile csv(s.owners, "x1,y1,z1,x2,y2,z2,x3,y3,z3,owner");
+  for (std::size_t rank = 0; rank + 1 < all.begin.size(); ++rank) {
+    const auto* const corner = reinterpret_cast<const std::int64_t*>(all.bytes.data() + all.begin[rank]);
+    const std::size_t count = (all.begin[rank + 1] - all.begin[rank]) / sizeof *corner;
+    for (std::size_t i = 0; i < count; i += 3) {
+      std::string row;
+      for (std::size_t k = i; k < i + 3; ++k) {
+        const Point& p = points[static_cast<std::size_t>(corner[k]) - 1];
+        row += fmt::format("{:.9g},{:.9g},{:.9g},", p.x, p.y, p.z);
+      }
+      csv.row(row + std::to_string(rank));
+    }
+  }
+}
+
 /// TRMESH as the ranks of a pool carry it out: arrays and lists in memory that they share with rank 0, or by
 /// messages from and to rank 0, as between machines.
 class PoolCall {
@@ -221,6 +246,7 @@ void run_on_ranks(const Settings& s) {
                          &report);
         if (k > 0) calls.push_back({seconds() - start, cpu_seconds() - spent, report.cost});
       }
+      if (!s.owners.empty()) write_owners(mesh, s);
     } else {
       const PoolCall call(ranks, points, s.mode == "pool");
       for (int k = 0; k <= s.repeats; ++k) {
@@ -286,8 +312,34 @@ void show(const Row& r, bool of_pool) {
   std::fflush(stdout);
 }
 
-void tables(const std::string& self, Settings s, const std::vector<int>& ranks,
-            const std::vector<std::size_t>& sizes) {
+const std::vector<std::string> kModes{"distributed", "pool", "messages"};
+const std::vector<std::string> kKinds{"constant-n", "constant-work"};
+
+struct Tables {
+  std::vector<int> ranks{1, 2, 4, 8, 16, 32, 64};
+  std::vector<std::size_t> sizes{10000, 100000, 1000000};
+  std::vector<std::string> modes = kModes, kinds = kKinds;
+  std::string csv;
+};
+
+void print_tables(const std::string& self, Settings s, const Tables& t) {
+  std::optional<CsvFile> csv;
+  if (!t.csv.empty())
+    csv.emplace(
+        t.csv,
+        "mode,points,n,ranks,serial,clock,divide,triangulate,merge,lists,gather,path,mean_triangulate,"
+        "halo,bytes,rounds");
+  const auto add = [&](std::size_t n, int ranks) {
+    s.n = n;
+    const Row r = measure(self, s, ranks);
+    show(r, s.mode != "distributed");
+    if (csv)
+      csv->row(
+          fmt::format("{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{},{}",
+                      s.mode, s.family, r.at("n"), ranks, r.at("serial"), r.at("wall"), r.at("divide"),
+                      r.at("triangulate"), r.at("merge"), r.at("lists"), r.at("gather"), path(r),
+                      r.at("mean"), r.at("halo"), r.at("bytes"), r.at("rounds")));
+  };
   fmt::print(
       "Milliseconds. clock: of a call, {} processors shared by all ranks. divide ... gather: processor time "
       "of the "
@@ -295,26 +347,23 @@ void tables(const std::string& self, Settings s, const std::vector<int>& ranks,
       "over "
       "the mean, triangulate.\nhalo, bytes: of all ranks.\n",
       sysconf(_SC_NPROCESSORS_ONLN));
-  for (const char* mode : {"distributed", "pool", "messages"}) {
-    s.mode = mode;
-    fmt::print("\n{}, {}, constant N\n",
-               s.mode == "pool"       ? "pool on one machine, arrays and lists in rank 0's memory"
-               : s.mode == "messages" ? "pool on several machines, arrays and lists sent from and to rank 0"
+  for (const std::string& kind : t.kinds)
+    for (const std::string& mode : t.modes) {
+      s.mode = mode;
+      const bool has_constant_n = kind == "constant-n";
+      fmt::print("\n{}, {}, constant {}\n",
+                 mode == "pool"       ? "pool on one machine, arrays and lists in rank 0's memory"
+                 : mode == "messages" ? "pool on several machines, arrays and lists sent from and to rank 0"
                                       : "distributed, points at home",
-               s.family);
-    head();
-    for (const std::size_t n : sizes) {
-      s.n = n;
-      for (const int p : ranks) show(measure(self, s, p), s.mode != "distributed");
+                 s.family, has_constant_n ? "N" : fmt::format("N/P = {}", t.sizes.front()));
+      head();
+      if (has_constant_n) {
+        for (const std::size_t n : t.sizes)
+          for (const int p : t.ranks) add(n, p);
+      } else {
+        for (const int p : t.ranks) add(t.sizes.front() * static_cast<std::size_t>(p), p);
+      }
     }
-  }
-  s.mode = "distributed";
-  fmt::print("\ndistributed, {}, constant N/P = {}\n", s.family, sizes.front());
-  head();
-  for (const int p : ranks) {
-    s.n = sizes.front() * static_cast<std::size_t>(p);
-    show(measure(self, s, p), false);
-  }
 }
 
 }  // namespace
@@ -323,24 +372,43 @@ int main(int argc, char** argv) {
   CLI::App app{
       "How PSTRIPACK scales with MPI ranks: halo, bytes, processor time a phase, projected speed-up."};
   Settings s;
-  std::vector<int> ranks{1, 2, 4, 8, 16, 32, 64};
-  std::vector<std::size_t> sizes{10000, 100000, 1000000};
-  app.add_option("--ranks", ranks, "numbers of ranks")->delimiter(',')->capture_default_str();
-  app.add_option("--sizes", sizes, "numbers of nodes")->delimiter(',')->capture_default_str();
+  Tables t;
+  app.add_option("--ranks", t.ranks, "numbers of ranks")->delimiter(',')->capture_default_str();
+  app.add_option("--sizes", t.sizes, "numbers of nodes; the first is N/P of the tables of constant work")
+      ->delimiter(',')
+      ->capture_default_str();
   app.add_option("--family", s.family, "point set, as in stripack-compare")->capture_default_str();
   app.add_option("--repeats", s.repeats, "calls, of which the median is shown")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
-  app.add_option("--mode", s.mode, "one run on the ranks of this mpirun: distributed, pool or messages")
-      ->check(CLI::IsMember({"distributed", "pool", "messages"}));
+  app.add_option("--modes", t.modes, "only tables of these modes")
+      ->delimiter(',')
+      ->check(CLI::IsMember(kModes))
+      ->capture_default_str();
+  app.add_option("--tables", t.kinds, "only tables of these kinds")
+      ->delimiter(',')
+      ->check(CLI::IsMember(kKinds))
+      ->capture_default_str();
+  app.add_option("--csv", t.csv, "rows in seconds are added to this file, too");
+  app.add_option("--mode", s.mode, "no tables: one run of this mode on the ranks of this mpirun")
+      ->check(CLI::IsMember(kModes));
   app.add_option("--n", s.n, "nodes of that run")->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+  app.add_option(
+      "--owners", s.owners,
+      "with --mode distributed: a new file for the corners of each triangle and the rank that has it");
   try {
+    app.parse(argc, argv);
+    if (!s.owners.empty() && s.mode != "distributed")
+      throw CLI::ValidationError("--owners", "only with --mode distributed");
     if (!s.mode.empty())
       run_on_ranks(s);
     else
-      tables(argv[0], s, ranks, sizes);
+      print_tables(argv[0], s, t);
     return 0;
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    fmt::print(stderr, "pstripack-scaling: {}\n", error.what());
+    return 2;
   } catch (const std::exception& error) {
     fmt::print(stderr, "pstripack-scaling: {}\n", error.what());
     return 1;

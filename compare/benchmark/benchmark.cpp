@@ -1,0 +1,136 @@
+// pstripack-benchmark: times of PSTRIPACK, the original STRIPACK, CGAL and Qhull, side by side in one run.
+//
+// Every measurement is a process of its own on one thread; the contenders take turns, so that a change of
+// the machine's mood meets all of them. Arrays are written before the clock starts, and a call that takes
+// less than a second is made once before it. CGAL and Qhull triangulate only; the others write their lists as
+// well.
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <ctime>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include "cases.h"
+#include "contenders.h"
+#include "curves.h"
+#include "measuring.h"
+#include "model.h"
+#include "orders.h"
+#include "original.h"
+#include "point_sets.h"
+#include "pstripack.h"
+
+using namespace benchmark;
+
+namespace {
+
+void print_head(const std::optional<legacy_stripack::Location>& where, int repeats) {
+  fmt::print("machine    {}\nprocessors {}, no binding\ncompiler   {} {}\ndate       {:%Y-%m-%d %H:%M} UTC\n",
+             processor(), std::thread::hardware_concurrency(), BENCHMARK_COMPILER, BENCHMARK_FLAGS,
+             fmt::gmtime(std::time(nullptr)));
+  fmt::print("pstripack  {}\noriginal   {}\nCGAL       {}\nQhull      {}\n", pstripack_version(),
+             where ? where->name : "none found", cgal.description, qhull.description);
+  fmt::print(
+      "threads    1, where nothing else is said\nrepeats    {}, median; at most 3 above 2 s, 1 above 30 s\n",
+      repeats);
+}
+
+/// For CLI11: what is wrong with the name, or nothing.
+std::string is_point_set(const std::string& name) {
+  try {
+    point_sets::make(name, 12);
+    return "";
+  } catch (const std::invalid_argument& e) {
+    return e.what();
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Times of PSTRIPACK, the original STRIPACK, CGAL and Qhull on one thread, and their ratios\n"
+      "beside those that the project asks for. The exit code says nothing about them.",
+      "pstripack-benchmark");
+  app.footer("cases: " + CLI::detail::join(case_names(), " "));
+  CaseSettings cases;
+  app.add_flag("--quick", cases.quick, "only cases with less than 10^6 nodes, three repeats");
+  app.add_option("--only", cases.only, "only these cases, as random-1e4,latlon-1e5")
+      ->delimiter(',')
+      ->check(CLI::IsMember(case_names()));
+  const std::string repeats_help =
+      "measurements each, median taken; default 7, at most 3 above 2 s, 1 above 30 s";
+  app.add_option("--repeats", cases.repeats, repeats_help)->check(CLI::Range(1, 1000));
+
+  CurveSettings curves;
+  CLI::App& curves_app = *app.add_subcommand(
+      "curves",
+      "Time a node against N, for all contenders and several orders of the nodes. A contender that does not\n"
+      "come to its end within the time limit, or would not fit into memory, is not asked for larger N.");
+  curves_app.add_option("--points", curves.points, "point set, as in stripack-compare")
+      ->check(is_point_set)
+      ->capture_default_str();
+  curves_app
+      .add_option("--orders", curves.orders,
+                  "given: as the point set makes them; shuffled; latitude: south to north;\n"
+                  "rows: south to north in rows along the longitude, as grids are numbered")
+      ->delimiter(',')
+      ->check(CLI::IsMember(orders()))
+      ->capture_default_str();
+  curves_app.add_option("--sizes", curves.sizes, "numbers of nodes, increasing")
+      ->delimiter(',')
+      ->check(CLI::Range(4, 300000000))
+      ->capture_default_str();
+  curves_app.add_option("--contenders", curves.contenders, "only these; ratios are to the first one")
+      ->delimiter(',')
+      ->check(CLI::IsMember(contender_names()));
+  curves_app
+      .add_option("--time-limit", curves.time_limit, "seconds of one measurement, making ready and all")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  curves_app.add_option("--repeats", curves.repeats, repeats_help)->check(CLI::Range(1, 1000));
+  curves_app.add_option("--csv", curves.csv, "rows are added to this file, too");
+
+  Model model;  // see as_model
+  app.add_option("--be-the-model", model.calls)->group("");
+  app.add_option("--model-points", model.points)->group("");
+  app.add_option("--model-order", model.order)->group("");
+  app.add_option("--model-nodes", model.n)->group("");
+  try {
+    app.parse(argc, argv);
+    if (model.calls > 0) return be_the_model(model);
+    for (int* const repeats : {&cases.repeats, &curves.repeats})
+      if (*repeats == 0) *repeats = cases.quick ? 3 : 7;
+#ifdef _OPENMP
+    omp_set_num_threads(1);
+#endif
+    const auto where = legacy_stripack::configured_original();
+    std::optional<legacy_stripack::Original> original_library;
+    if (where) original_library.emplace(*where);
+    print_head(where, curves_app.parsed() ? curves.repeats : cases.repeats);
+    if (curves_app.parsed())
+      run_curves(argv[0], curves, original_library);
+    else
+      run_cases(argv[0], cases, original_library);
+    return 0;
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return app.exit(e);
+    std::fprintf(stderr, "pstripack-benchmark: %s\n", e.what());
+    return 2;
+  } catch (const std::invalid_argument& e) {
+    std::fprintf(stderr, "pstripack-benchmark: %s\n", e.what());
+    return 2;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "pstripack-benchmark: %s\n", e.what());
+    return 1;
+  }
+}

@@ -1,0 +1,273 @@
+#include "cases.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+
+#include "contenders.h"
+#include "measuring.h"
+#include "model.h"
+#include "orders.h"
+#include "point_sets.h"
+#include "pstripack.h"
+
+namespace benchmark {
+namespace {
+
+using legacy_stripack::Library;
+using legacy_stripack::Outcome;
+using pstripack::Point;
+
+enum class Routine { trmesh, trlist, crlist, crlist_as_shipped };
+
+struct Case {
+  std::string name;
+  Routine routine;
+  std::string family;
+  int n;
+  bool shuffled;
+  double original_over_ours, cgal_over_ours;  // required at least; 0: no figure
+  bool has_witnesses() const { return cgal_over_ours > 0; }
+};
+
+const std::vector<Case> kCases{
+    {"random-1e4", Routine::trmesh, "random", 10000, false, 4.5, 2.2},
+    {"random-1e5", Routine::trmesh, "random", 100000, false, 6.5, 2.2},
+    {"random-1e6", Routine::trmesh, "random", 1000000, false, 22, 2.0},
+    {"latlon-1e5", Routine::trmesh, "latlon", 100000, false, 120, 0},
+    {"icosahedral-12", Routine::trmesh, "icosahedral", 12, true, 1, 0},
+    {"icosahedral-42", Routine::trmesh, "icosahedral", 42, true, 1, 0},
+    {"icosahedral-162", Routine::trmesh, "icosahedral", 162, true, 1, 0},
+    {"icosahedral-642", Routine::trmesh, "icosahedral", 642, true, 1, 0},
+    {"icosahedral-2562", Routine::trmesh, "icosahedral", 2562, true, 1, 0},
+    {"trlist-1e5", Routine::trlist, "random", 100000, false, 300, 0},
+    {"crlist-1e6", Routine::crlist_as_shipped, "random", 1000000, false, 3, 0},
+    {"crlist-xyz-1e6", Routine::crlist, "random", 1000000, false, 0, 0},
+};
+
+Lists lists_from(const Stripack& library, const Nodes& nodes) {
+  Lists lists(nodes.n());
+  library.trmesh(nodes, lists);
+  return lists;
+}
+
+/// Seconds of one call of the case's routine, in a process of its own. `lists` of TRMESH, if it reads them.
+double measure_call(const Case& c, const Stripack& library, const Nodes& nodes,
+                    const std::shared_ptr<Lists>& lists, int calls) {
+  return measured([&] {
+    const int n = nodes.n();
+    const std::size_t triangles = 2 * std::size_t(n) - 4;
+    switch (c.routine) {
+      case Routine::trmesh: {
+        Lists own(n);
+        return seconds_a_call([&] { library.trmesh(nodes, own); }, calls);
+      }
+      case Routine::trlist: {
+        std::vector<int> ltri(9 * triangles);
+        return seconds_a_call([&] { library.trlist(n, *lists, ltri); }, calls);
+      }
+      case Routine::crlist:
+      case Routine::crlist_as_shipped: {
+        std::vector<int> listc(3 * triangles);
+        std::vector<double> centres(4 * triangles);
+        return seconds_a_call([&] { library.crlist(nodes, *lists, listc, centres); }, calls);
+      }
+    }
+    throw std::logic_error("unknown routine");
+  });
+}
+
+/// The lists that the original itself makes, taken from a process of its own.
+std::shared_ptr<Lists> lists_of_original(const legacy_stripack::Original& original, const Nodes& nodes) {
+  constexpr double kTimeLimit = 1800;
+  const auto result = original.triangulate(nodes.x, nodes.y, nodes.z, kTimeLimit);
+  if (result.outcome != Outcome::returned || result.ier != 0)
+    throw std::runtime_error("the original did not triangulate the nodes");
+  auto lists = std::make_shared<Lists>(nodes.n());
+  lists->list = result.list;
+  lists->lptr = result.lptr;
+  lists->lend = result.lend;
+  lists->lnew = result.lnew;
+  return lists;
+}
+
+double peak_bytes_a_node(const Nodes& nodes) {
+  return measured([&] {
+    Lists lists(nodes.n());
+    return peak_of_first_call(nodes, lists);
+  });
+}
+
+std::string ratio(const Samples& theirs, const Samples& own, double required) {
+  const std::string measured = theirs.empty() ? "-" : fmt::format("{:.2f}", theirs.median() / own.median());
+  return fmt::format("{:>9} {:>7}", measured, required > 0 ? fmt::format("({:g})", required) : "");
+}
+
+// ---- on threads, and with a pool of ranks -----------------------------------------------------------
+
+const Model kModel{"random", "given", 1000000, 5};
+
+/// TRMESH on all processors beside TRMESH on one, in turn; in this process, since a forked child has one
+/// thread. The last case, therefore.
+void run_threads(const std::string& self, int repeats) {
+#ifdef _OPENMP
+  constexpr double kRequired = 1.75;  // of two threads
+  const Nodes nodes(nodes_in_order(kModel.points, static_cast<std::size_t>(kModel.n), kModel.order));
+  const Stripack library = ours();
+  const int processors = omp_get_num_procs();
+  Lists lists(nodes.n());
+  const auto seconds_on = [&](int threads) {
+    omp_set_num_threads(threads);
+    const auto start = Clock::now();
+    library.trmesh(nodes, lists);
+    return seconds_since(start);
+  };
+  Samples one, all;
+  for (const int threads : {1, processors}) seconds_on(threads);  // new pages
+  while (!all.enough(repeats)) {
+    one.add(seconds_on(1));
+    all.add(seconds_on(processors));
+  }
+  fmt::print("{:<17} {:>8} {:>9} on 1 thread, {} on {}: {:.2f} times the speed{}; peak {:.0f}\n",
+             "threads-1e6", nodes.n(), microseconds(one, nodes.n()), microseconds(all, nodes.n()), processors,
+             one.median() / all.median(), processors == 2 ? fmt::format(" ({:g})", kRequired) : "",
+             as_model(self, fmt::format("OMP_NUM_THREADS={}", processors), kModel).peak);
+#else
+  static_cast<void>(self);
+  static_cast<void>(repeats);
+#endif
+}
+
+/// The same model on its own and with a pool of two ranks of a thread each, in turn. The clock of the whole
+/// call: the way to the ranks and back is in it.
+void run_pool([[maybe_unused]] const std::string& self, [[maybe_unused]] int repeats) {
+#ifdef PSTRIPACK_RUN
+  constexpr double kRequired = 1.5;
+  const auto seconds_of = [&](const std::string& launcher) {
+    return as_model(
+               self,
+               fmt::format("{}OMP_NUM_THREADS=1 {}",
+                           geteuid() == 0 ? "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 " : "",
+                           launcher),
+               kModel)
+        .seconds;
+  };
+  Samples alone, pool;
+  for (int k = 0; k < std::min(repeats, 5); ++k) {
+    alone.add(seconds_of(""));
+    pool.add(seconds_of(fmt::format("'{}' -n 2 --bind-to none --oversubscribe --", PSTRIPACK_RUN)));
+  }
+  fmt::print("{:<17} {:>8} {:>9} alone, {} with a pool of 2 ranks: {:.2f} times the speed ({:g})\n",
+             "pool-1e6", kModel.n, microseconds(alone, kModel.n), microseconds(pool, kModel.n),
+             alone.median() / pool.median(), kRequired);
+#endif
+}
+
+/// The nodes of a case. Symmetric sets are shuffled, until the first three are not on one great circle and
+/// the original comes to an end.
+std::vector<Point> nodes_of(const Case& c, const std::optional<legacy_stripack::Original>& original_library) {
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    std::vector<Point> points = point_sets::make(c.family, c.n, 1);
+    if (!c.shuffled) return points;
+    point_sets::shuffle(points, seed);
+    const Nodes nodes(points);
+    Lists lists(nodes.n());
+    const int ier = pstripack_trmesh(nodes.n(), nodes.x.data(), nodes.y.data(), nodes.z.data(),
+                                     lists.list.data(), lists.lptr.data(), lists.lend.data(), &lists.lnew);
+    if (ier != 0) continue;
+    if (!original_library) return points;
+    const auto result = original_library->triangulate(points, 5);
+    if (result.outcome == Outcome::returned && result.ier == 0) return points;
+  }
+  throw std::runtime_error("no order of the nodes that the original can triangulate");
+}
+
+void run(const Case& c, const std::optional<legacy_stripack::Original>& original_library, int repeats) {
+  const std::vector<Point> points = nodes_of(c, original_library);
+  const Nodes nodes(points);
+  const int calls = std::max(1, 200000 / nodes.n());
+
+  const Stripack own_library = ours();
+  Stripack theirs_library;
+  if (original_library) {
+    const Library& library = original_library->library();
+    theirs_library = original(library);
+    if (c.routine == Routine::crlist_as_shipped)
+      if (const auto as_shipped = original_as_shipped(library)) theirs_library = *as_shipped;
+  }
+
+  std::shared_ptr<Lists> own_lists, theirs_lists;
+  if (c.routine != Routine::trmesh) {
+    own_lists = std::make_shared<Lists>(lists_from(own_library, nodes));
+    if (original_library) theirs_lists = lists_of_original(*original_library, nodes);
+  }
+
+  Samples own, theirs, by_cgal, by_qhull;
+  const auto witness_turn = [&](const Witness& witness, Samples& samples) {
+    if (c.has_witnesses() && witness.seconds != nullptr && !samples.enough(repeats))
+      samples.add(measured([&] { return seconds_a_call(witness, points, calls); }));
+  };
+  while (!own.enough(repeats) || (original_library && !theirs.enough(repeats))) {
+    if (!own.enough(repeats)) own.add(measure_call(c, own_library, nodes, own_lists, calls));
+    if (original_library && !theirs.enough(repeats))
+      theirs.add(measure_call(c, theirs_library, nodes, theirs_lists, calls));
+    witness_turn(cgal, by_cgal);
+    witness_turn(qhull, by_qhull);
+  }
+  const std::string memory = c.routine == Routine::trmesh && nodes.n() >= 100000
+                                 ? fmt::format("{:.0f}", peak_bytes_a_node(nodes))
+                                 : "";
+  fmt::print("{:<17} {:>8} {:>9} {:>9} {:>9} {:>9} {} {} {} {:>9}\n", c.name, nodes.n(),
+             microseconds(own, nodes.n()), microseconds(theirs, nodes.n()), microseconds(by_cgal, nodes.n()),
+             microseconds(by_qhull, nodes.n()), ratio(theirs, own, c.original_over_ours),
+             ratio(by_cgal, own, c.cgal_over_ours), ratio(by_qhull, own, 0), memory);
+  std::fflush(stdout);
+}
+
+const std::vector<std::string> kParallelCases{"threads-1e6", "pool-1e6"};
+
+}  // namespace
+
+std::vector<std::string> case_names() {
+  std::vector<std::string> names;
+  for (const Case& c : kCases) names.push_back(c.name);
+  names.insert(names.end(), kParallelCases.begin(), kParallelCases.end());
+  return names;
+}
+
+void run_cases(const std::string& self, const CaseSettings& settings,
+               const std::optional<legacy_stripack::Original>& original_library) {
+  const auto& [quick, only, repeats] = settings;
+  const auto is_wanted = [&wanted = only](const std::string& name, bool by_default) {
+    return wanted.empty() ? by_default : std::find(wanted.begin(), wanted.end(), name) != wanted.end();
+  };
+  fmt::print("in parentheses the ratio asked for\n\n");
+  fmt::print("{:<17} {:>8} {:^39} {:^17} {:^17} {:^17} {:>9}\n", "", "", "microseconds a node",
+             "original / ours", "CGAL / ours", "Qhull / ours", "peak");
+  fmt::print("{:<17} {:>8} {:>9} {:>9} {:>9} {:>9} {:>17} {:>17} {:>17} {:>9}\n", "case", "N", "ours",
+             "original", "CGAL", "Qhull", "", "", "", "bytes/N");
+  for (const Case& c : kCases) {
+    if (!is_wanted(c.name, !quick || c.n < 1000000)) continue;
+    try {
+      run(c, original_library, repeats);
+    } catch (const std::exception& e) {
+      fmt::print("{:<17} {}\n", c.name, e.what());
+    }
+  }
+  if (is_wanted("pool-1e6", !quick)) run_pool(self, repeats);
+  if (is_wanted("threads-1e6", !quick)) run_threads(self, repeats);
+  fmt::print(
+      "\ncrlist: against CSCRLIST as libngmath ships it, which turns centres into latitudes and longitudes;"
+      "\ncrlist-xyz: against the same without that, as STRIPACK's CRLIST\npeak: memory during TRMESH "
+      "beyond the caller's arrays; asked for: at most 220 bytes a node\n");
+}
+
+}  // namespace benchmark

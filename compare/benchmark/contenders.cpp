@@ -1,0 +1,117 @@
+#include "contenders.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#ifdef BENCHMARK_WITH_CGAL
+#include "cgal_contender.h"
+#endif
+#ifdef BENCHMARK_WITH_QHULL
+#include "qhull_contender.h"
+#endif
+
+extern "C" {  // libstripack, as a Fortran program calls it
+void trmesh_(const int* n, const double* x, const double* y, const double* z, int* list, int* lptr, int* lend,
+             int* lnew, int* near, int* next, double* dist, int* ier);
+void trlist_(const int* n, const int* list, const int* lptr, const int* lend, const int* nrow, int* nt,
+             int* ltri, int* ier);
+void crlist_(const int* n, const int* ncol, const double* x, const double* y, const double* z,
+             const int* list, const int* lend, int* lptr, int* lnew, int* ltri, int* listc, int* nb,
+             double* xc, double* yc, double* zc, double* rc, int* ier);
+}
+
+namespace benchmark {
+
+using legacy_stripack::Library;
+using pstripack::Point;
+
+namespace {
+
+template <class Trmesh, class Trlist, class Crlist>
+Stripack stripack(Trmesh trmesh, Trlist trlist, Crlist crlist) {
+  Stripack s;
+  s.trmesh = [=](const Nodes& p, Lists& l) {
+    const int n = p.n();
+    trmesh(&n, p.x.data(), p.y.data(), p.z.data(), l.list.data(), l.lptr.data(), l.lend.data(), &l.lnew,
+           l.near.data(), l.next.data(), l.dist.data(), &l.ier);
+    if (l.ier != 0) throw std::runtime_error(fmt::format("TRMESH returned IER = {}", l.ier));
+  };
+  s.trlist = [=](int n, const Lists& l, std::vector<int>& ltri) {
+    const int nrow = 9;
+    int nt, ier;
+    trlist(&n, l.list.data(), l.lptr.data(), l.lend.data(), &nrow, &nt, ltri.data(), &ier);
+    if (ier != 0) throw std::runtime_error(fmt::format("TRLIST returned IER = {}", ier));
+  };
+  s.crlist = [=](const Nodes& p, Lists& l, std::vector<int>& listc, std::vector<double>& centres) {
+    const int n = p.n(), ncol = 0;
+    const std::size_t stride = 2 * std::size_t(n) - 4;
+    int ltri[6], nb, ier;
+    double* c = centres.data();
+    crlist(&n, &ncol, p.x.data(), p.y.data(), p.z.data(), l.list.data(), l.lend.data(), l.lptr.data(),
+           &l.lnew, ltri, listc.data(), &nb, c, c + stride, c + 2 * stride, c + 3 * stride, &ier);
+    if (ier != 0) throw std::runtime_error(fmt::format("CRLIST returned IER = {}", ier));
+  };
+  return s;
+}
+
+}  // namespace
+
+Stripack ours() { return stripack(&trmesh_, &trlist_, &crlist_); }
+
+Stripack original(const Library& library) {
+  const auto method = [&library](auto routine) {
+    return [&library, routine](auto... arguments) { (library.*routine)(arguments...); };
+  };
+  return stripack(method(&Library::trmesh), method(&Library::trlist), method(&Library::crlist));
+}
+
+std::optional<Stripack> original_as_shipped(const Library& library) {
+  using Cscrlist = void(const int*, const int*, const double*, const double*, const double*, const int*,
+                        const int*, int*, int*, int*, int*, int*, double*, double*, double*, int*);
+  auto* const cscrlist = reinterpret_cast<Cscrlist*>(library.symbol("ngmath_cscrlist_"));
+  if (!cscrlist) return std::nullopt;
+  Stripack s = original(library);
+  s.crlist =
+      stripack(&trmesh_, &trlist_,
+               [cscrlist](const int* n, const int* ncol, const double* x, const double* y, const double* z,
+                          const int* list, const int* lend, int* lptr, int* lnew, int* ltri, int* listc,
+                          int* nb, double* rlat, double* rlon, double*, double* rc, int* ier) {
+                 cscrlist(n, ncol, x, y, z, list, lend, lptr, lnew, ltri, listc, nb, rlat, rlon, rc, ier);
+               })
+          .crlist;
+  return s;
+}
+
+#ifdef BENCHMARK_WITH_CGAL
+const Witness cgal{
+    fmt::format("{}, Delaunay_triangulation_on_sphere_2, -O3 -march=native, no lists", cgal_version()),
+    cgal_seconds};
+#else
+const Witness cgal{"none found", nullptr};
+#endif
+
+#ifdef BENCHMARK_WITH_QHULL
+const Witness qhull{
+    fmt::format("{}, convex hull without Qt, the system's libqhull_r, no lists", qhull_version()),
+    qhull_seconds};
+#else
+const Witness qhull{"none found", nullptr};
+#endif
+
+double seconds_a_call(const Witness& witness, const std::vector<Point>& points, int calls) {
+  const auto call = [&] {
+    std::size_t vertices = 0;
+    const double seconds = witness.seconds(points, vertices);
+    if (vertices != points.size())
+      throw std::runtime_error(fmt::format("kept {} of {} points", vertices, points.size()));
+    return seconds;
+  };
+  const double first = call();
+  if (first >= 1) return first;
+  double sum = 0;
+  for (int i = 0; i < calls; ++i) sum += call();
+  return sum / calls;
+}
+
+}  // namespace benchmark

@@ -1,0 +1,56 @@
+#pragma once
+// Who is measured: STRIPACK's routines, ours and the original's; CGAL and Qhull as further witnesses.
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/point.h"
+#include "library.h"
+
+namespace benchmark {
+
+struct Nodes {
+  explicit Nodes(const std::vector<pstripack::Point>& points) : all(points) {
+    for (const pstripack::Point& p : points) x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
+  }
+  int n() const { return static_cast<int>(all.size()); }
+  std::vector<pstripack::Point> all;
+  std::vector<double> x, y, z;
+};
+
+/// The caller's arrays of TRMESH, written once.
+struct Lists {
+  explicit Lists(int n)
+      : list(6 * std::size_t(n) - 12), lptr(list.size()), lend(n), near(n), next(n), dist(n) {}
+  std::vector<int> list, lptr, lend, near, next;
+  std::vector<double> dist;
+  int lnew = 0, ier = 0;
+};
+
+/// STRIPACK's routines of one of the two libraries. They throw std::runtime_error where IER is not 0.
+struct Stripack {
+  std::function<void(const Nodes&, Lists&)> trmesh;
+  std::function<void(int n, const Lists&, std::vector<int>& ltri)> trlist;  // NROW = 9
+  std::function<void(const Nodes&, Lists&, std::vector<int>& listc, std::vector<double>& centres)> crlist;
+};
+
+Stripack ours();
+Stripack original(const legacy_stripack::Library& library);
+/// The same with CSCRLIST as libngmath ships it, which returns latitudes and longitudes instead of centres;
+/// nothing where the original is not libngmath.
+std::optional<Stripack> original_as_shipped(const legacy_stripack::Library& library);
+
+/// A library that triangulates, and writes no lists.
+struct Witness {
+  std::string description;  ///< "none found" where the build found none
+  /// Seconds, and how many of the points became vertices; null where the build found none.
+  double (*seconds)(const std::vector<pstripack::Point>& points, std::size_t& vertices);
+};
+extern const Witness cgal, qhull;
+
+/// As seconds_a_call of measuring.h. Throws std::runtime_error where it does not keep all points.
+double seconds_a_call(const Witness& witness, const std::vector<pstripack::Point>& points, int calls);
+
+}  // namespace benchmark

@@ -1,0 +1,29 @@
+#pragma once
+// Time a node against N: all contenders, all orders of the nodes.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "original.h"
+
+namespace benchmark {
+
+struct CurveSettings {
+  std::string points = "random";
+  std::vector<std::string> orders{"given", "latitude", "rows"};
+  std::vector<int> sizes{100, 1000, 10000, 100000, 1000000, 10000000};
+  std::vector<std::string> contenders;  ///< none: all of contender_names()
+  double time_limit = 60;               ///< seconds of a measurement
+  int repeats = 0;
+  std::string csv;
+};
+
+const std::vector<std::string>& contender_names();
+
+/// One table an order, written to stdout; the rows to the CSV file, too, if one is named. `self`: this
+/// program.
+void run_curves(const std::string& self, const CurveSettings& settings,
+                const std::optional<legacy_stripack::Original>& original_library);
+
+}  // namespace benchmark

@@ -1,0 +1,73 @@
+#include "measuring.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <stdexcept>
+
+namespace benchmark {
+
+using legacy_stripack::Outcome;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+Measurement measure(const std::function<double()>& work, double time_limit) {
+  legacy_stripack::Shared<double> seconds;
+  const auto ended = legacy_stripack::run_in_child([&] { seconds[0] = work(); }, time_limit);
+  return {ended.outcome, seconds[0]};
+}
+
+double measured(const std::function<double()>& work) {
+  constexpr double kTimeLimit = 1800;
+  const Measurement m = measure(work, kTimeLimit);
+  if (m.outcome != Outcome::returned) throw std::runtime_error("a measurement did not come to its end");
+  return m.seconds;
+}
+
+double seconds_a_call(const std::function<void()>& call, int calls) {
+  auto start = Clock::now();
+  call();
+  const double first = seconds_since(start);
+  if (first >= 1) return first;
+  start = Clock::now();
+  for (int i = 0; i < calls; ++i) call();
+  return seconds_since(start) / calls;
+}
+
+bool Samples::enough(int repeats) const {
+  const double first = seconds_.empty() ? 0 : seconds_.front();
+  const int most = first > 30 ? 1 : first > 2 ? 3 : repeats;
+  return static_cast<int>(seconds_.size()) >= std::min(repeats, most);
+}
+
+double Samples::median() const {
+  std::vector<double> s = seconds_;
+  std::sort(s.begin(), s.end());
+  return s.size() % 2 ? s[s.size() / 2] : (s[s.size() / 2 - 1] + s[s.size() / 2]) / 2;
+}
+
+std::string microseconds(const Samples& samples, int n) {
+  return samples.empty() ? "-" : fmt::format("{:.4f}", 1e6 * samples.median() / n);
+}
+
+double bytes_in(const std::string& file, const std::string& key) {
+  std::ifstream figures(file);
+  std::string word;
+  double kilobytes;
+  while (figures >> word)
+    if (word == key && figures >> kilobytes) return 1024 * kilobytes;
+  throw std::runtime_error("no " + key + " in " + file);
+}
+
+std::string processor() {
+  std::ifstream info("/proc/cpuinfo");
+  std::string line;
+  while (std::getline(info, line))
+    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+  return "unknown processor";
+}
+
+}  // namespace benchmark

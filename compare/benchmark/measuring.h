@@ -1,0 +1,52 @@
+#pragma once
+// How the benchmark measures: in child processes, again and again, and medians of it.
+
+#include <chrono>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "child_process.h"
+
+namespace benchmark {
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start);
+
+struct Measurement {
+  legacy_stripack::Outcome outcome;
+  double seconds;
+};
+
+/// What `work` returns, which runs in a process of its own.
+Measurement measure(const std::function<double()>& work, double time_limit);
+
+/// The same, and std::runtime_error if it does not come to its end within half an hour.
+double measured(const std::function<double()>& work);
+
+/// The first call where that takes a second or more, else the mean of `calls` after it.
+double seconds_a_call(const std::function<void()>& call, int calls);
+
+class Samples {
+ public:
+  void add(double seconds) { seconds_.push_back(seconds); }
+  /// Few repeats where one takes long: at most three above 2 s, one above 30 s.
+  bool enough(int repeats) const;
+  bool empty() const { return seconds_.empty(); }
+  std::size_t size() const { return seconds_.size(); }
+  double median() const;
+
+ private:
+  std::vector<double> seconds_;
+};
+
+/// "0.2345", "-" without samples.
+std::string microseconds(const Samples& samples, int n);
+
+/// A figure such as `VmHWM:` of /proc/self/status or /proc/meminfo, in bytes.
+double bytes_in(const std::string& file, const std::string& key);
+
+/// As /proc/cpuinfo names it.
+std::string processor();
+
+}  // namespace benchmark

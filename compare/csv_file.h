@@ -1,0 +1,32 @@
+#pragma once
+// A table of comma-separated values that one run after the other adds its rows to.
+
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+class CsvFile {
+ public:
+  /// A new or empty file gets the line of column names first. Throws std::runtime_error if the file cannot
+  /// be written, or has other columns.
+  CsvFile(const std::string& file, const std::string& columns) : name_(file) {
+    std::string first;
+    if (std::ifstream old(file); std::getline(old, first) && first != columns)
+      throw std::runtime_error(file + ":1: has other columns than " + columns);
+    out_.open(file, std::ios::app);
+    if (first.empty()) out_ << columns << '\n';
+    check();
+  }
+  /// Written at once: a run that is interrupted keeps its rows.
+  void row(const std::string& values) {
+    out_ << values << std::endl;
+    check();
+  }
+
+ private:
+  void check() const {
+    if (!out_) throw std::runtime_error(name_ + ": cannot write");
+  }
+  std::string name_;
+  std::ofstream out_;
+};

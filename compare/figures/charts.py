@@ -1,0 +1,82 @@
+"""Charts drawn by gnuplot, as SVG and PNG."""
+import subprocess
+from dataclasses import dataclass, field
+
+# Okabe and Ito: told apart by colour-blind readers, too.
+BLACK, GREY, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILION, PURPLE = (
+    "#000000", "#999999", "#e69f00", "#56b4e9", "#009e73", "#f0e442", "#0072b2", "#d55e00", "#cc79a7")
+PALETTE = [BLUE, ORANGE, GREEN, VERMILION, SKY, PURPLE, YELLOW]
+
+
+@dataclass
+class Curve:
+    label: str
+    points: list  # of (x, y)
+    colour: str
+    dash: int = 1  # gnuplot's: 1 solid, 2 dashed, 3 dotted
+    symbol: int = 7  # gnuplot's point type
+
+
+@dataclass
+class Panel:
+    title: str
+    curves: list
+    x: str
+    y: str
+    ticks: list = field(default_factory=list)  # of x; none: powers of ten
+    log_y: bool = True
+
+
+def _quoted(text):
+    return "'" + text.replace("'", "''") + "'"
+
+
+def _ranges(panels):
+    """The same for all panels of a figure, with room for the key above the curves."""
+    xs, ys = zip(*(point for panel in panels for curve in panel.curves for point in curve.points))
+    x_range = f"set xrange [{min(xs) / 1.15:g}:{max(xs) * 1.15:g}]"
+    if not panels[0].log_y:
+        return [x_range, f"set yrange [0:{max(ys) * 1.5:g}]"]
+    height = max(max(ys) / min(ys), 10)
+    return [x_range, f"set yrange [{min(ys) / height ** 0.05:g}:{max(ys) * height ** 0.45:g}]"]
+
+
+def _commands(panel, number):
+    curves = [curve for curve in panel.curves if curve.points]
+    if not curves:
+        return ["set multiplot next"]
+    lines = [f"set title {_quoted(panel.title)}", f"set xlabel {_quoted(panel.x)}", f"set ylabel {_quoted(panel.y)}",
+             "unset logscale", "set logscale x", "set xtics auto", "set format x '10^{%L}'", "set format y '%g'"]
+    if panel.ticks:
+        lines += ["set format x '%g'", "set xtics (" + ", ".join(f"'{t}' {t}" for t in panel.ticks) + ")"]
+    if panel.log_y:
+        lines += ["set logscale y", "set format y '10^{%L}'"]
+    for i, curve in enumerate(curves):
+        lines += [f"$c{number}_{i} << END", *(f"{x:g} {y:g}" for x, y in curve.points), "END"]
+    plots = [f"$c{number}_{i} using 1:2 with linespoints title {_quoted(c.label)} linecolor rgb '{c.colour}' "
+             f"dashtype {c.dash} pointtype {c.symbol} linewidth 1.6 pointsize 0.5" for i, c in enumerate(curves)]
+    return lines + ["plot " + ", ".join(plots)]
+
+
+def draw(path, title, rows, note):
+    """Writes path.svg and path.png: rows of panels, the title above, the note below."""
+    panels = [panel for row in rows for panel in row]
+    columns = max(map(len, rows))
+    width, height = max(460 * columns, 820) + 40, 340 * len(rows) + 70
+    margins = f"{80 / width:.4f},{1 - 20 / width:.4f},{80 / height:.4f},{1 - 75 / height:.4f}"
+    gaps = f"{85 / width:.4f},{100 / height:.4f}"
+    commands = []
+    for terminal, suffix in (("svg", "svg"), ("pngcairo", "png")):
+        commands += ["reset session",
+                     f"set terminal {terminal} size {width},{height} font 'DejaVu Sans,11' background '#ffffff'",
+                     f"set output {_quoted(f'{path}.{suffix}')}",
+                     f"set multiplot layout {len(rows)},{columns} title {_quoted(title)} "
+                     f"margins screen {margins} spacing screen {gaps}",
+                     f"set label 1 {_quoted(note)} at screen 0.5,{14 / height:.4f} center font ',8.5'",
+                     "set key top left Left reverse samplen 2.5 font ',9'",
+                     "set grid xtics ytics linetype 1 linecolor rgb '#dddddd'", "set border linecolor rgb '#666666'",
+                     *_ranges(panels)]
+        for number, panel in enumerate(panels):
+            commands += _commands(panel, number) + ["unset label 1"]
+        commands += ["unset multiplot", "set output"]
+    subprocess.run(["gnuplot"], input="\n".join(commands), text=True, check=True)

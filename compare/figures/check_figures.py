@@ -1,0 +1,36 @@
+#!/usr/bin/env python3
+"""usage: check_figures.py FIGURES_MD FOLDER
+
+Fails unless each picture that the document embeds is in the folder, as SVG and PNG; is well-formed; and says
+what of it is projected, or that it is of one process or as computed. And unless the document embeds them all."""
+import re
+import sys
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+NOTES = ("projected from processor time on the critical path", "One process.", "nothing is projected")
+
+
+def main():
+    if len(sys.argv) != 3:
+        print(__doc__, file=sys.stderr)
+        sys.exit(2)
+    document, folder = Path(sys.argv[1]).read_text(), Path(sys.argv[2])
+    embedded = {Path(name).stem for name in re.findall(r"\]\(figures/([^)]+)\)", document)}
+    wrong = [f"{svg.name} is not in the document" for svg in folder.glob("*.svg") if svg.stem not in embedded]
+    for name in sorted(embedded):
+        svg, png = folder / f"{name}.svg", folder / f"{name}.png"
+        if not svg.exists() or not png.exists():
+            wrong.append(f"{name}: there is no SVG or no PNG")
+            continue
+        words = " ".join("".join(ElementTree.parse(svg).getroot().itertext()).split())
+        if not any(note in words for note in NOTES):
+            wrong.append(f"{name}.svg does not say what of it is projected")
+        if not png.read_bytes().startswith(b"\x89PNG"):
+            wrong.append(f"{name}.png is no PNG")
+    if wrong or not embedded:
+        sys.exit("\n".join(wrong or ["the document embeds no figure"]))
+
+
+if __name__ == "__main__":
+    main()
