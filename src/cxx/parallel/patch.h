@@ -115,27 +115,33 @@ class Patch {
   void for_each_missing_neighbour(std::size_t mine, const std::vector<std::size_t>& own_from,
                                   const Visit& visit) const {
     if (own_ == 0) return;
-    constexpr std::size_t kNobody = SIZE_MAX;
+    constexpr std::uint32_t kNobody = UINT32_MAX;
     const std::size_t first = own_from[mine], count = own_from[mine + 1] - first;
+    // Of each own node, by whom it was brought; where one rank brought all, nobody asks.
+    std::vector<std::uint32_t> bringer(count < own_ ? own_ : 0);
+    for (std::size_t r = 0; r + 1 < own_from.size() && count < own_; ++r)
+      std::fill(bringer.begin() + static_cast<std::ptrdiff_t>(own_from[r]),
+                bringer.begin() + static_cast<std::ptrdiff_t>(own_from[r + 1]),
+                static_cast<std::uint32_t>(r));
     const auto brought_by = [&](std::uint32_t v) {
       if (!is_own(v)) return kNobody;
-      if (order_[v] - first < count) return mine;
-      return static_cast<std::size_t>(std::upper_bound(own_from.begin(), own_from.end(), order_[v]) -
-                                      own_from.begin()) -
-             1;
+      return count < own_ ? bringer[order_[v]] : static_cast<std::uint32_t>(mine);
     };
     const auto node = [&](std::uint32_t v) { return Record{arrays_.nodes[v], number_[v]}; };
     const auto look_around = [&](std::uint32_t v) {
-      const std::size_t r = brought_by(v);
+      const std::uint32_t r = brought_by(v);
       bool is_missing = false;
+      const auto meet = [&](std::uint32_t w) {
+        const std::uint32_t other = brought_by(w);
+        is_missing = is_missing || other == mine;
+        if (r != kNobody && other != r) visit(std::size_t{r}, node(w));
+      };
       for_each_face_at(v, [&](std::uint32_t t, std::uint32_t i) {
         if (!hull_.front(t)) return;
-        for (const std::uint32_t k : {next_edge(i), previous_edge(i)}) {
-          const std::uint32_t w = hull_.faces[t].vertex[k];
-          const std::size_t other = brought_by(w);
-          is_missing = is_missing || other == mine;
-          if (r != kNobody && other != r) visit(r, node(w));
-        }
+        const Face& f = hull_.faces[t];
+        meet(f.vertex[next_edge(i)]);
+        // The last neighbour of a boundary node; of others the next face tells.
+        if (!hull_.front(face_of(f.neighbour[next_edge(i)]))) meet(f.vertex[previous_edge(i)]);
       });
       if (is_missing) visit(mine, node(v));
     };
