@@ -6,7 +6,7 @@ set -eu
 packages="
   g++ gfortran cmake ninja-build pkg-config
   libboost-dev
-  libcli11-dev nlohmann-json3-dev libfmt-dev
+  libcli11-dev nlohmann-json3-dev libfmt-dev libnetcdf-dev
   libgtest-dev libcgal-dev libgmp-dev libmpfr-dev libqhull-dev
   python3 gnuplot-nox librsvg2-bin
   libncarg-dev

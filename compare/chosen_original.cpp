@@ -10,9 +10,8 @@ namespace comparison {
 
 void add_original_options(CLI::App& app, OriginalChoice& choice) {
   app.add_option("--original", choice.file, "shared library of your own STRIPACK instead of the one found");
-  app.add_option("--abi", choice.abi, "its ABI: r8 (12-argument TRMESH), r4, 8arg")
-      ->check(CLI::IsMember({"r8", "r4", "8arg"}))
-      ->capture_default_str();
+  app.add_option("--original-abi", choice.abi, "its ABI: r8 (12-argument TRMESH), r4, 8arg [r8]")
+      ->check(CLI::IsMember({"r8", "r4", "8arg"}).description(""));
 }
 
 ChosenOriginal open_original(const OriginalChoice& choice) {

@@ -1,5 +1,5 @@
 #pragma once
-// The original that the options --original and --abi ask for, or the one that the build found.
+// The original that the options --original and --original-abi ask for, or the one that the build found.
 
 #include <CLI/CLI.hpp>
 #include <string>

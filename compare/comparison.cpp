@@ -53,16 +53,24 @@ Result compare(const std::vector<Point>& points, legacy_stripack::Triangulation 
   result.original = std::move(original);
   result.ours = std::move(ours);
 
+  for (const OurRun& run : result.ours)
+    if (!run.failure.empty())
+      result.broken_promises.push_back(fmt::format("the call on {} {}", describe(run), run.failure));
+  const auto returned = [](const OurRun& run) { return run.failure.empty(); };
+  std::stable_partition(result.ours.begin(), result.ours.end(), returned);
   const OurRun& first = result.ours.front();
+  if (!returned(first)) return result;
+
   const auto check = [&](int ier, const auto& lists) {
     return comparison::check(points, ier, lists.list, lists.lptr, lists.lend, lists.lnew);
   };
   result.ours_checked = check(first.ier, first.lists);
-  result.broken_promises = comparison::broken_promises(points, first, result.ours_checked);
+  for (std::string& line : comparison::broken_promises(points, first, result.ours_checked))
+    result.broken_promises.push_back(std::move(line));
   for (const OurRun& other : result.ours)
-    if (!same_bytes(first, other))
-      result.broken_promises.push_back(fmt::format(
-          "the result on {} threads is not, byte for byte, that on {}", other.threads, first.threads));
+    if (returned(other) && !same_bytes(first, other))
+      result.broken_promises.push_back(fmt::format("the result on {} is not, byte for byte, that on {}",
+                                                   describe(other), describe(first)));
 
   if (!result.original_returned()) return result;
   result.original_checked = check(result.original.ier, result.original);
@@ -81,6 +89,18 @@ Result compare(const std::vector<Point>& points, legacy_stripack::Triangulation 
                                 {result.ours_checked.triangles, result.ours_checked.verdict}, epsilon, show);
   }
   return result;
+}
+
+bool only_ties_and_rounding(const Result& result) {
+  const Differences& d = result.differences;
+  return !d.none() && d.of(Cause::directions).places == 0 && d.of(Cause::original_wrong).places == 0 &&
+         d.of(Cause::ours_wrong).places == 0;
+}
+
+std::string verdict_in_short(const Result& result) {
+  if (result.against_us()) return "WE ARE WRONG";
+  if (!result.original_returned()) return "no result";
+  return result.equal() ? "equal" : "explained";
 }
 
 std::string verdict_of(const Result& result) {

@@ -129,11 +129,14 @@ class Classifier {
   std::size_t place_of_theirs(std::size_t t) const { return place_[t]; }
   std::size_t place_of_ours(std::size_t t) const { return place_[theirs_only_.size() + t]; }
 
-  void blame(std::size_t place, Decision decision) {
-    cause_of_place_[place] = std::max(cause_of_place_[place], static_cast<int>(decision.cause));
-    const std::size_t already = std::count_if(result_.decisions.begin(), result_.decisions.end(),
-                                              [&](const Decision& d) { return d.cause == decision.cause; });
-    if (already < show_) result_.decisions.push_back(std::move(decision));
+  // `describe` makes the text, which takes longer than the judgement, where it is to be shown.
+  template <class Describe>
+  void blame(std::size_t place, Cause cause, std::vector<index_t> nodes, const Determinant* det,
+             Describe describe) {
+    cause_of_place_[place] = std::max(cause_of_place_[place], static_cast<int>(cause));
+    if (described_[static_cast<std::size_t>(cause)]++ >= show_) return;
+    result_.decisions.push_back(
+        {cause, std::move(nodes), describe(), det ? det->value() : "", det ? det->bound(epsilon_) : ""});
   }
 
   // A triangle of the original must be counterclockwise. One of ours that the original lacks at its
@@ -143,13 +146,10 @@ class Classifier {
       const auto [a, b, c] = theirs_only_[t];
       const Determinant det = left_test(points_[a], points_[b], points_[c]);
       if (det.sign() > 0) continue;
-      blame(place_of_theirs(t),
-            {Cause::original_wrong,
-             {a, b, c},
-             fmt::format("triangle {} {} {} of the original is {}: exact det(a,b,c) = {}", a + 1, b + 1,
-                         c + 1, det.sign() < 0 ? "inverted" : "flat", det.value()),
-             det.value(),
-             det.bound(epsilon_)});
+      blame(place_of_theirs(t), Cause::original_wrong, {a, b, c}, &det, [&, a = a, b = b, c = c] {
+        return fmt::format("triangle {} {} {} of the original is {}: exact det(a,b,c) = {}", a + 1, b + 1,
+                           c + 1, det.sign() < 0 ? "inverted" : "flat", det.value());
+      });
     }
     std::vector<bool> has_triangle_of_original(place_.size());
     for (std::size_t t = 0; t < theirs_only_.size(); ++t) has_triangle_of_original[place_of_theirs(t)] = true;
@@ -158,14 +158,13 @@ class Classifier {
       const auto [a, b, c] = ours_only_[t];
       const Determinant det = left_test(points_[a], points_[b], points_[c]);
       const bool small = det.within_rounding(epsilon_);
-      blame(place_of_ours(t),
-            {small ? Cause::rounding : Cause::original_wrong,
-             {a, b, c},
-             fmt::format("the original lacks triangle {} {} {} at its boundary: exact det(a,b,c) = {}, "
-                         "rounding of its LEFT {}",
-                         a + 1, b + 1, c + 1, det.value(), det.bound(epsilon_)),
-             det.value(),
-             det.bound(epsilon_)});
+      blame(place_of_ours(t), small ? Cause::rounding : Cause::original_wrong, {a, b, c}, &det,
+            [&, a = a, b = b, c = c] {
+              return fmt::format(
+                  "the original lacks triangle {} {} {} at its boundary: exact det(a,b,c) = {}, "
+                  "rounding of its LEFT {}",
+                  a + 1, b + 1, c + 1, det.value(), det.bound(epsilon_));
+            });
     }
   }
 
@@ -191,23 +190,20 @@ class Classifier {
     const bool by_directions = ours_.verdict.lengths == pstripack::Lengths::directions;
     const int decisive = by_directions ? pstripack::orientation_of_directions(pu, pv, pl, pr) : det.sign();
     if (decisive < 0) return std::nullopt;
-    std::string text =
-        fmt::format("arc {} - {} of the original, opposite nodes {} and {}: exact determinant {}", u + 1,
-                    v + 1, l + 1, r + 1, det.value());
-    Cause cause;
-    if (decisive == 0) {
-      cause = Cause::exact_tie;
-    } else if (by_directions && det.sign() <= 0) {
-      cause = Cause::directions;
-      text += "; locally Delaunay as given, not on the directions";
-    } else if (det.within_rounding(epsilon_)) {
-      cause = Cause::rounding;
-      text += "; rounding of its test " + det.bound(epsilon_);
-    } else {
-      cause = Cause::original_wrong;
-      text += "; not locally Delaunay, the rounding of its test is only " + det.bound(epsilon_);
-    }
-    blame(place, {cause, {u, v, l, r}, text, det.value(), det.bound(epsilon_)});
+    const Cause cause = decisive == 0                      ? Cause::exact_tie
+                        : by_directions && det.sign() <= 0 ? Cause::directions
+                        : det.within_rounding(epsilon_)    ? Cause::rounding
+                                                           : Cause::original_wrong;
+    blame(place, cause, {u, v, l, r}, &det, [&] {
+      std::string text =
+          fmt::format("arc {} - {} of the original, opposite nodes {} and {}: exact determinant {}", u + 1,
+                      v + 1, l + 1, r + 1, det.value());
+      if (cause == Cause::directions) text += "; locally Delaunay as given, not on the directions";
+      if (cause == Cause::rounding) text += "; rounding of its test " + det.bound(epsilon_);
+      if (cause == Cause::original_wrong)
+        text += "; not locally Delaunay, the rounding of its test is only " + det.bound(epsilon_);
+      return text;
+    });
     return cause;
   }
 
@@ -219,17 +215,14 @@ class Classifier {
       if (cause_of_place_[place] != kUndecided) continue;
       const bool of_original = t < theirs_only_.size();
       const auto [a, b, c] = of_original ? theirs_only_[t] : ours_only_[t - theirs_only_.size()];
-      const std::string where = fmt::format("triangle {} {} {} is only in {}", a + 1, b + 1, c + 1,
-                                            of_original ? "the original" : "ours");
-      if (original_.verdict)
-        blame(place, {Cause::ours_wrong,
-                      {a, b, c},
-                      where + ", and no exact check decides against the original",
-                      "",
-                      ""});
-      else
-        blame(place,
-              {Cause::original_wrong, {a, b, c}, where + "; original: " + original_.verdict.message, "", ""});
+      const bool original_fails = !original_.verdict;
+      blame(place, original_fails ? Cause::original_wrong : Cause::ours_wrong, {a, b, c}, nullptr,
+            [&, a = a, b = b, c = c] {
+              return fmt::format("triangle {} {} {} is only in {}", a + 1, b + 1, c + 1,
+                                 of_original ? "the original" : "ours") +
+                     (original_fails ? "; original: " + original_.verdict.message
+                                     : ", and no exact check decides against the original");
+            });
     }
     for (std::size_t t = 0; t < place_.size(); ++t)
       if (place_[t] == t) ++count_of_place(t).places;
@@ -252,6 +245,7 @@ class Classifier {
   std::vector<std::size_t> place_;   // of theirs_only_, then of ours_only_: a representative
   std::vector<int> cause_of_place_;  // at the representative: the strongest cause, or kUndecided
   std::vector<std::size_t> undecided_arcs_;
+  std::array<std::size_t, kCauses> described_{};  // decisions of each cause so far, shown or not
   Differences result_;
 };
 
@@ -274,13 +268,19 @@ Differences differences(const std::vector<Point>& points, const Mesh& original, 
   return Classifier(points, original, ours, epsilon, show).run();
 }
 
+// Around an inner node every neighbour ends one side and begins another; at a boundary node the first and the
+// last do not.
 std::vector<index_t> boundary_nodes(const Triangles& triangles) {
-  const Arcs arcs(triangles);
-  std::vector<index_t> nodes;
+  index_t n = 0;
+  for (const Triangle& t : triangles) n = std::max({n, t[0] + 1, t[1] + 1, t[2] + 1});
+  std::vector<std::int64_t> balance(static_cast<std::size_t>(n));
   for_each_side(triangles, [&](index_t u, index_t v, std::size_t) {
-    if (!arcs.left_of(v, u)) nodes.push_back(u);
+    balance[u] += v;
+    balance[v] -= u;
   });
-  std::sort(nodes.begin(), nodes.end());
+  std::vector<index_t> nodes;
+  for (index_t k = 0; k < n; ++k)
+    if (balance[k] != 0) nodes.push_back(k);
   return nodes;
 }
 

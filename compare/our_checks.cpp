@@ -1,12 +1,8 @@
 #include "our_checks.h"
 
 #include <fmt/format.h>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "capi/pstripack.h"
@@ -28,39 +24,6 @@ bool bad_vector(const Point& p) {
 }
 
 }  // namespace
-
-OurRun run_ours(const std::vector<Point>& points, int threads, int repeats) {
-  using Clock = std::chrono::steady_clock;
-#ifdef _OPENMP
-  omp_set_num_threads(threads);
-#endif
-  const std::size_t n = points.size();
-  std::vector<double> x(n), y(n), z(n);
-  for (std::size_t i = 0; i < n; ++i) x[i] = points[i].x, y[i] = points[i].y, z[i] = points[i].z;
-
-  OurRun run;
-  run.threads = threads;
-  Lists& lists = run.lists;
-  std::vector<double> seconds;
-  for (int repeat = 0; repeat < repeats; ++repeat) {
-    lists.list.assign(6 * n - 12, kUntouched);
-    lists.lptr.assign(6 * n - 12, kUntouched);
-    lists.lend.assign(n, kUntouched);
-    lists.lnew = kUntouched;
-    const auto start = Clock::now();
-    run.ier = pstripack_trmesh(static_cast<std::int32_t>(n), x.data(), y.data(), z.data(), lists.list.data(),
-                               lists.lptr.data(), lists.lend.data(), &lists.lnew);
-    seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
-  }
-  std::nth_element(seconds.begin(), seconds.begin() + seconds.size() / 2, seconds.end());
-  run.seconds = seconds[seconds.size() / 2];
-  return run;
-}
-
-bool same_bytes(const OurRun& a, const OurRun& b) {
-  return a.ier == b.ier && a.lists.lnew == b.lists.lnew && a.lists.list == b.lists.list &&
-         a.lists.lptr == b.lists.lptr && a.lists.lend == b.lists.lend;
-}
 
 std::size_t nodes_before_duplicate(const std::vector<Point>& points, int ier) {
   if (ier < 1 || static_cast<std::size_t>(ier) >= points.size()) return 0;

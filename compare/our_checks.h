@@ -1,5 +1,5 @@
 #pragma once
-// Runs of pstripack_trmesh, and the exact checks that they must pass whatever the original says.
+// The exact checks that a call of ours must pass whatever the original says.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,27 +8,9 @@
 
 #include "mesh/triangulation.h"
 #include "mesh/validate.h"
+#include "our_calls.h"
 
 namespace comparison {
-
-/// What one call wrote; slots that it did not write hold kUntouched.
-struct Lists {
-  std::vector<std::int32_t> list, lptr, lend;
-  std::int32_t lnew = 0;
-};
-constexpr std::int32_t kUntouched = -987654321;
-
-struct OurRun {
-  int threads = 1;
-  int ier = 0;
-  double seconds = 0;  ///< median of the repeats
-  Lists lists;
-};
-
-/// Calls pstripack_trmesh on so many threads.
-OurRun run_ours(const std::vector<pstripack::Point>& points, int threads, int repeats);
-
-bool same_bytes(const OurRun& a, const OurRun& b);
 
 /// A mesh read from lists that some TRMESH returned with `ier`.
 struct Checked {

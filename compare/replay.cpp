@@ -134,18 +134,12 @@ class Replay {
   /// Fills in the result of a call that had not returned when the recording ended, or, if it does not return
   /// here either, tells that.
   std::optional<Judgement> run_again(Call& call) const {
-    const auto work = [&] { run_ours(call.points, 1, 1); };
-    const legacy_stripack::Ended ended = legacy_stripack::run_in_child(work, options_.timeout);
-    if (ended.outcome != legacy_stripack::Outcome::returned) {
-      legacy_stripack::Triangulation ours;
-      ours.outcome = ended.outcome;
-      ours.signal = ended.signal;
-      return Judgement{Kind::against_us,
-                       "no result on record, run again: PSTRIPACK " + describe(ours, options_.timeout),
-                       {},
-                       {}};
-    }
-    call.run = run_ours(call.points, 1, 1);
+    Setting setting;
+    setting.abi = call.real_bytes == 4 ? "r4" : "r8";
+    call.run = run_ours(call.points, setting, 1, options_.timeout);
+    if (!call.run.failure.empty())
+      return Judgement{
+          Kind::against_us, "no result on record, run again: PSTRIPACK " + call.run.failure, {}, {}};
     call.nodes = call.run.ier == 0  ? call.points.size()
                  : call.run.ier > 0 ? nodes_before_duplicate(call.points, call.run.ier)
                                     : 0;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "capi/pstripack.h"
 
@@ -18,32 +19,35 @@ std::string validity(const Checked& checked) {
   return fmt::format("NOT VALID ({}): {}", name(checked.verdict.defect), checked.verdict.message);
 }
 
-// Differences by tie rule and rounding alone are no reason to call the original's mesh wrong.
 std::string validity_of_original(const Result& result) {
-  const Differences& d = result.differences;
-  const bool only_small = !d.none() && d.of(Cause::directions).places == 0 &&
-                          d.of(Cause::original_wrong).places == 0 && d.of(Cause::ours_wrong).places == 0;
-  if (!only_small) return validity(result.original_checked);
-  return d.of(Cause::rounding).places > 0 ? "valid but for its rounding" : "valid but for the tie rule";
+  if (!only_ties_and_rounding(result)) return validity(result.original_checked);
+  return result.differences.of(Cause::rounding).places > 0 ? "valid but for its rounding"
+                                                           : "valid but for the tie rule";
 }
 
 void print_table(const Result& result, double timeout) {
   fmt::print("nodes      {}\noriginal   {}\npstripack  {}\n\n", result.points_name, result.original_name,
              pstripack_version());
-  fmt::print("{:<10} {:>7} {:>8} {:>10} {:>7}  {}\n", "", "threads", "IER", "seconds", "ratio", "result");
+  constexpr auto kRow = "{:<10} {:<4} {:>7} {:>5} {:<9} {:>8} {:>10} {:>7}  {}\n";
+  const auto four_digits = [](double value) { return fmt::format("{:.4g}", value); };
+  fmt::print(kRow, "", "ABI", "threads", "ranks", "partition", "IER", "seconds", "ratio", "result");
   if (result.original_returned())
-    fmt::print("{:<10} {:>7} {:>8} {:>10.4g} {:>7}  {}\n", "original", 1, result.original.ier,
-               result.original.seconds, "", validity_of_original(result));
+    fmt::print(kRow, "original", "", "", "", "", result.original.ier, four_digits(result.original.seconds),
+               "", validity_of_original(result));
   else
-    fmt::print("{:<10} {:>7} {:>8} {:>10} {:>7}  {}\n", "original", 1, "-", "-", "",
-               describe(result.original, timeout));
-  for (const OurRun& ours : result.ours)
-    fmt::print(
-        "{:<10} {:>7} {:>8} {:>10.4g} {:>7}  {}\n", "pstripack", ours.threads, ours.ier, ours.seconds,
-        result.original_returned() ? fmt::format("{:.2f}", result.original.seconds / ours.seconds) : "",
-        &ours == &result.ours.front()           ? validity(result.ours_checked)
-        : same_bytes(ours, result.ours.front()) ? "same bytes"
-                                                : "OTHER BYTES");
+    fmt::print(kRow, "original", "", "", "", "", "-", "-", "", describe(result.original, timeout));
+  for (const OurRun& ours : result.ours) {
+    const bool returned = ours.failure.empty();
+    fmt::print(kRow, "pstripack", ours.abi, ours.threads, ours.ranks, ours.partition,
+               returned ? std::to_string(ours.ier) : "-", returned ? four_digits(ours.seconds) : "-",
+               returned && result.original_returned()
+                   ? fmt::format("{:.2f}", result.original.seconds / ours.seconds)
+                   : "",
+               !returned                               ? ours.failure
+               : &ours == &result.ours.front()         ? validity(result.ours_checked)
+               : same_bytes(ours, result.ours.front()) ? "same bytes"
+                                                       : "OTHER BYTES");
+  }
   fmt::print("\n");
 
   if (result.meshes_compared) {
@@ -68,18 +72,6 @@ void print_table(const Result& result, double timeout) {
   if (result.ier) fmt::print("{}: {}\n", name(result.ier->cause), result.ier->text);
 }
 
-void print_decisions(const Result& result, const std::vector<Point>& points) {
-  if (!result.differences.decisions.empty()) fmt::print("\n");
-  for (const Decision& d : result.differences.decisions) {
-    fmt::print("{}: {}\n", name(d.cause), d.text);
-    for (const auto node : d.nodes)
-      fmt::print("  node {:<9} {:>24.17g} {:>24.17g} {:>24.17g}\n", node + 1, points[node].x, points[node].y,
-                 points[node].z);
-  }
-  for (const std::string& line : result.broken_promises) fmt::print("WE ARE WRONG: {}\n", line);
-  fmt::print("\nverdict    {}\n", verdict_of(result));
-}
-
 json to_json(const Checked& checked) {
   json j{{"nodes", checked.nodes}, {"valid", checked.nodes > 0 && checked.verdict}};
   if (checked.nodes > 0) {
@@ -92,9 +84,21 @@ json to_json(const Checked& checked) {
 
 }  // namespace
 
+void print_decisions(const Result& result, const std::vector<Point>& points) {
+  if (!result.differences.decisions.empty() || !result.broken_promises.empty()) fmt::print("\n");
+  for (const Decision& d : result.differences.decisions) {
+    fmt::print("{}: {}\n", name(d.cause), d.text);
+    for (const auto node : d.nodes)
+      fmt::print("  node {:<9} {:>24.17g} {:>24.17g} {:>24.17g}\n", node + 1, points[node].x, points[node].y,
+                 points[node].z);
+  }
+  for (const std::string& line : result.broken_promises) fmt::print("WE ARE WRONG: {}\n", line);
+}
+
 void print(const Result& result, const std::vector<Point>& points, double timeout) {
   print_table(result, timeout);
   print_decisions(result, points);
+  fmt::print("\nverdict    {}\n", verdict_of(result));
 }
 
 json to_json(const Result& result, double timeout) {
@@ -111,11 +115,19 @@ json to_json(const Result& result, double timeout) {
   j["pstripack"]["version"] = pstripack_version();
   j["pstripack"]["broken_promises"] = result.broken_promises;
   for (const OurRun& ours : result.ours) {
-    json run{{"threads", ours.threads},
-             {"ier", ours.ier},
-             {"seconds", ours.seconds},
+    json run{{"abi", ours.abi},
+             {"threads", ours.threads},
+             {"ranks", ours.ranks},
+             {"partition", ours.partition},
              {"same_bytes", same_bytes(ours, result.ours.front())}};
-    if (result.original_returned()) run["ratio"] = result.original.seconds / ours.seconds;
+    if (ours.failure.empty()) {
+      run["ier"] = ours.ier;
+      run["seconds"] = ours.seconds;
+    } else {
+      run["failure"] = ours.failure;
+    }
+    if (result.original_returned() && ours.failure.empty())
+      run["ratio"] = result.original.seconds / ours.seconds;
     j["pstripack"]["runs"].push_back(run);
   }
   if (result.ier)

@@ -6,108 +6,46 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "capi/pstripack.h"
 #include "chosen_original.h"
 #include "commands.h"
-#include "comparison.h"
+#include "families.h"
 #include "mesh_files.h"
-#include "original.h"
-#include "point_sets.h"
-#include "show_result.h"
+#include "our_calls.h"
+#include "run.h"
 
 namespace {
 
-using nlohmann::json;
-using pstripack::Point;
-
-enum ExitCode { kExplained = 0, kAgainstUs = 1, kUsage = 2 };
+using comparison::RunOptions;
 
 const char* const kDescription =
-    "Runs the original STRIPACK and PSTRIPACK on the same nodes, checks both results exactly, and gives the\n"
-    "reason for every difference.";
+    R"(Runs the original STRIPACK and PSTRIPACK on the same nodes, checks both results exactly, and gives the reason
+for every difference.
 
-const char* const kFooter = R"(reasons
+  stripack-compare run --file nodes.txt                    your nodes
+  stripack-compare run --points latlon --n 100000 --plot difference.svg
+  stripack-compare run --points all --order shuffled,sorted --precision r8,r4 --timeout 20 --csv all.csv
+  stripack-compare run --file nodes.nc --original ./libmystripack.so --original-abi r4 --junit report.xml
+  stripack-compare run --points random --n 1000000 --threads 1,2 --ranks 1,4 --partition bisection,stripes
+  stripack-compare mesh original_run/scvt pstripack_run/scvt
+
+`run` may be left out. A case is one set of nodes in one order and precision; each runs the original once and
+PSTRIPACK in every combination of ABI, threads, ranks and partition. Options with lists take 1,2,4.)";
+
+const char* const kFooter = R"(
+Reasons of differences
   exact tie              four nodes in one plane exactly: both diagonals are Delaunay
   within its rounding    the exact determinant is smaller than the rounding of the original's own test
   directions (lengths)   lengths differ from 1: the original took them as given, PSTRIPACK the directions
   the original is wrong  an exact check fails in its result
   WE ARE WRONG           none of these: please report it
+Verdicts: equal; explained; no result (the original crashed, stopped or exceeded --timeout); WE ARE WRONG.
 
-exit code
-  0  no difference, or every difference is explained
-  1  a difference counts against PSTRIPACK (`mesh`: the meshes differ)
-  2  usage error or unreadable input
-
-examples
-  stripack-compare --points random --n 100000 --seed 1 --threads 1,2
-  stripack-compare --file nodes.txt --json result.json
-  stripack-compare mesh original_run/scvt pstripack_run/scvt)";
-
-struct Options {
-  std::string points, file;
-  std::size_t n = 10000;
-  std::uint64_t seed = 1;
-  std::vector<int> threads{1};
-  int repeats = 3;
-  double timeout = 120;
-  std::size_t show = 5;
-  std::string json_file;
-  comparison::OriginalChoice original;
-};
-
-std::vector<Point> nodes_for(const Options& options) {
-  if (!options.file.empty()) return point_sets::read(options.file);
-  if (options.points.rfind("file:", 0) == 0) return point_sets::read(options.points.substr(5));
-  if (options.n < 3) throw std::invalid_argument("--n must be at least 3");
-  return point_sets::make(options.points, options.n, options.seed);
-}
-
-int compare_libraries(const Options& options) {
-  if (options.points.empty() == options.file.empty())
-    throw std::invalid_argument("give either --points FAMILY or --file FILE (--help lists the families)");
-  const auto [original, original_name] = comparison::open_original(options.original);
-  std::vector<Point> points = nodes_for(options);
-  if (points.size() < 3)
-    throw std::runtime_error(
-        fmt::format("a triangulation needs at least 3 nodes, here are {}", points.size()));
-  if (points.size() > 357913943)
-    throw std::runtime_error("at most 357913943 nodes: 6N-12 must fit a default INTEGER");
-  std::ofstream json_out;
-  if (!options.json_file.empty()) {
-    json_out.open(options.json_file);
-    if (!json_out) throw std::runtime_error("cannot write " + options.json_file);
-  }
-
-  if (original.library().abi() == legacy_stripack::Abi::r4)
-    for (Point& p : points) p = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-  legacy_stripack::Triangulation theirs = original.triangulate(points, options.timeout, options.repeats);
-  std::vector<comparison::OurRun> ours;
-  for (const int threads : options.threads)
-    ours.push_back(comparison::run_ours(points, threads, options.repeats));
-  comparison::Result result =
-      comparison::compare(points, std::move(theirs), original.epsilon(), std::move(ours), options.show);
-  result.original_name = original_name;
-  result.points_name = !options.file.empty()
-                           ? fmt::format("{}, n = {}", options.file, result.n)
-                           : fmt::format("{}, n = {}, seed {}", options.points, result.n, options.seed);
-  const ExitCode code = result.against_us() ? kAgainstUs : kExplained;
-  comparison::print(result, points, options.timeout);
-  if (json_out.is_open()) {
-    json j = comparison::to_json(result, options.timeout);
-    j["nodes"]["seed"] = options.seed;
-    j["exit_code"] = code;
-    if (!(json_out << j.dump(2) << '\n' << std::flush))
-      throw std::runtime_error("cannot write " + options.json_file);
-  }
-  return code;
-}
+Exit code: 0 no difference, or each is explained; 1 a difference counts against PSTRIPACK (mesh: the meshes
+differ); 2 usage, unreadable input, or a library or MPI that cannot be started.)";
 
 struct MeshOptions {
   std::string a, b;
@@ -132,65 +70,90 @@ int compare_mesh_files(const MeshOptions& options) {
   if (options.seconds.size() == 2)
     fmt::print("{:<22} {:>14.4f} {:>14.4f}   ratio {:.1f}\n", "seconds in trmesh", options.seconds[0],
                options.seconds[1], options.seconds[0] / options.seconds[1]);
-  return points_equal && triangles_equal ? kExplained : kAgainstUs;
+  return points_equal && triangles_equal ? comparison::kExplained : comparison::kAgainstUs;
 }
 
-std::string footer_with_families() {
-  std::string text = "families of --points (some take a parameter, as cap:0.01), or file:PATH\n ";
-  std::size_t column = 2;
-  for (const std::string& family : point_sets::families()) {
-    if (column + family.size() > 100) text += "\n ", column = 2;
-    text += " " + family;
-    column += family.size() + 1;
-  }
-  return text + "\n\n" + kFooter;
+std::string footer() {
+  std::string text =
+      "Families of --points, with their default parameter if they take one (cap:0.01; lengths in radians)\n";
+  for (const point_sets::Family& f : point_sets::registry())
+    text += fmt::format("  {:<17} {:<12} {}\n", f.name + (f.parameter.empty() ? "" : ":" + f.parameter),
+                        f.nodes, f.what);
+  return text + kFooter;
+}
+
+void add_run_options(CLI::App& app, RunOptions& options) {
+  const auto list = [&](const char* name, auto& values, const char* text) {
+    return app.add_option(name, values, text)->delimiter(',')->allow_extra_args(false);
+  };
+  const auto choice = [&](const char* name, auto& values, const char* text,
+                          std::vector<std::string> choices) {
+    return list(name, values, text)->check(CLI::IsMember(std::move(choices)).description(""));
+  };
+  list("--points", options.points, "families, see below; `all` of them; file:PATH");
+  list("--file", options.files,
+       "text (`lon lat` in degrees or `x y z` a line; - is stdin), generators, NetCDF");
+  app.add_option("--n", options.n, "number of nodes of a family [10000]");
+  app.add_option("--seed", options.seed, "of families and of shuffling [1]");
+  choice("--order", options.orders, "given, shuffled, sorted (by latitude) [given]",
+         {"given", "shuffled", "sorted"});
+  choice("--precision", options.precisions, "of the coordinates: r8, r4 [that of the original]",
+         {"r8", "r4"});
+  choice("--abi", options.abis, "of our library: r8, r4, 8arg [as --precision]", {"r8", "r4", "8arg"});
+  list("--threads", options.threads, "thread counts [1]; fewer than 20000 nodes use one")
+      ->check(CLI::Range(1, 4096).description(""));
+  list("--ranks", options.ranks, "MPI ranks [1], started by pstripack-run")
+      ->check(CLI::Range(1, 4096).description(""));
+  choice("--partition", options.partitions, "bisection, stripes [bisection]", {"bisection", "stripes"});
+  comparison::add_original_options(app, options.original);
+  app.add_option("--timeout", options.timeout, "seconds after which the original is stopped [120]")
+      ->check(CLI::PositiveNumber.description(""));
+  app.add_option("--repeats", options.repeats, "times are medians of so many calls (fewer above 10 s) [3]")
+      ->check(CLI::Range(1, 1000).description(""));
+  app.add_option("--show", options.show, "describe so many differences of each reason [5; several cases: 0]");
+  app.add_option("--plot", options.plot, "draw them to FILE.svg or FILE.png");
+  app.add_option("--json", options.json, "write everything to this file");
+  app.add_option("--csv", options.csv, "write a row for each call of ours");
+  app.add_option("--junit", options.junit,
+                 "write JUnit XML: a test a case, which fails if it counts against us");
+}
+
+void add_mesh(CLI::App& app, MeshOptions& options, comparison::Command& chosen) {
+  CLI::App* const mesh = app.add_subcommand("mesh", "compare two meshes that scvt_legacy wrote");
+  mesh->add_option("A", options.a, "prefix of A_points.txt and A_triangles.txt")->required();
+  mesh->add_option("B", options.b, "prefix of the other mesh")->required();
+  mesh->add_option("--tolerance", options.tolerance, "largest distance of equal points")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  mesh->add_option("--seconds", options.seconds, "seconds in trmesh of A and of B, for the table")
+      ->expected(2);
+  mesh->callback([&] { chosen = [&] { return compare_mesh_files(options); }; });
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  Options options;
+  RunOptions options;
   MeshOptions mesh_options;
   CLI::App app(kDescription, "stripack-compare");
-  app.footer(footer_with_families);
+  app.footer(footer);
   app.set_version_flag("--version", pstripack_version());
-  app.add_option("--points", options.points, "family of nodes, see below");
-  app.add_option("--file", options.file, "nodes from a text file: lines `lon lat` in degrees, or `x y z`");
-  app.add_option("--n", options.n, "number of nodes")->capture_default_str();
-  app.add_option("--seed", options.seed, "seed of the family")->capture_default_str();
-  app.add_option("--threads", options.threads, "thread counts of PSTRIPACK, as 1,2,4")
-      ->delimiter(',')
-      ->check(CLI::Range(1, 4096))
-      ->capture_default_str();
-  app.add_option("--repeats", options.repeats, "times are medians of so many calls (fewer above 10 s)")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  app.add_option("--timeout", options.timeout, "seconds after which the original is stopped")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_option("--show", options.show, "print at most so many differences of each kind")
-      ->capture_default_str();
-  app.add_option("--json", options.json_file, "write the result to this file as well");
-  comparison::add_original_options(app, options.original);
-
-  CLI::App* mesh = app.add_subcommand("mesh", "compare two meshes that scvt_legacy wrote");
-  mesh->add_option("A", mesh_options.a, "prefix of A_points.txt and A_triangles.txt")->required();
-  mesh->add_option("B", mesh_options.b, "prefix of the other mesh")->required();
-  mesh->add_option("--tolerance", mesh_options.tolerance, "largest distance of equal points")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  mesh->add_option("--seconds", mesh_options.seconds, "seconds in trmesh of A and of B, for the table")
-      ->expected(2);
-
-  comparison::Command chosen;
+  add_run_options(app, options);
+  CLI::App* const run = app.add_subcommand("run", "compare the libraries");
+  add_run_options(*run, options);
+  const comparison::Command run_all = [&] { return comparison::run(options); };
+  comparison::Command chosen = run_all;  // `run` may be left out
+  run->callback([&] { chosen = run_all; });
+  add_mesh(app, mesh_options, chosen);
   comparison::add_lists(app, chosen);
   comparison::add_record(app, chosen);
   comparison::add_replay(app, chosen);
 
   try {
+    if (argc == 3 && argv[1] == std::string(comparison::kCallCommand))
+      return comparison::call_trmesh(argv[2]);
     app.parse(argc, argv);
-    if (chosen) return chosen();
-    return mesh->parsed() ? compare_mesh_files(mesh_options) : compare_libraries(options);
+    return chosen();
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
     std::fprintf(stderr, "stripack-compare: %s\n", e.what());
@@ -199,5 +162,5 @@ int main(int argc, char** argv) {
   } catch (const std::exception& e) {
     std::fprintf(stderr, "stripack-compare: %s\n", e.what());
   }
-  return kUsage;
+  return comparison::kUsage;
 }

@@ -89,7 +89,7 @@ void refuse_other_abi(const Library& library) {
   const char* const looks_like = *shown == Abi::r8   ? "REAL*8 with 12 arguments"
                                  : *shown == Abi::r4 ? "REAL*4 with 12 arguments"
                                                      : "REAL*8 with 8 arguments";
-  throw std::runtime_error(library.file() + ": its TRMESH looks like " + looks_like + ", which is --abi " +
+  throw std::runtime_error(library.file() + ": its TRMESH looks like " + looks_like + ", which is ABI " +
                            name_of(*shown) + ", not " + name_of(library.abi()));
 }
 

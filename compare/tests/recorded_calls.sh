@@ -151,16 +151,16 @@ other_abi)
   recorded r8.rec random 100
   recorded r4.rec r4 random 100
   for recording in r8.rec r4.rec; do
-    expect 0 "$COMPARE" replay $recording --original "$ORIGINAL_8ARG" --abi 8arg
+    expect 0 "$COMPARE" replay $recording --original "$ORIGINAL_8ARG" --original-abi 8arg
     prints out "1 call, 1 equal"
     expect 2 "$COMPARE" replay $recording --original "$ORIGINAL_8ARG"
-    prints err "stripack-compare: $ORIGINAL_8ARG: its TRMESH looks like REAL*8 with 8 arguments, which is --abi 8arg, not r8"
+    prints err "stripack-compare: $ORIGINAL_8ARG: its TRMESH looks like REAL*8 with 8 arguments, which is ABI 8arg, not r8"
   done
-  expect 0 "$COMPARE" replay r4.rec --original "$ORIGINAL_R4" --abi r4
-  expect 2 "$COMPARE" replay r8.rec --original "$ORIGINAL_R4" --abi r4
+  expect 0 "$COMPARE" replay r4.rec --original "$ORIGINAL_R4" --original-abi r4
+  expect 2 "$COMPARE" replay r8.rec --original "$ORIGINAL_R4" --original-abi r4
   says err "a library in REAL*4 would get other nodes"
   expect 2 "$COMPARE" --points random --n 100 --original "$ORIGINAL_R4"
-  says err "which is --abi r4, not r8"
+  says err "which is ABI r4, not r8"
   ;;
 beside)
   export PSTRIPACK_COMPARE="$COMPARE"
@@ -174,7 +174,7 @@ beside)
   PSTRIPACK_CHECK="lib:$ORIGINAL_8ARG,abi=8arg" expect 0 "$CALLER" random 500 2
   says err "]: 2 calls, 2 equal"
   PSTRIPACK_CHECK="lib:$ORIGINAL_8ARG" expect 0 "$CALLER" random 50000 3
-  says err "which is --abi 8arg, not r8"
+  says err "which is ABI 8arg, not r8"
   says err "stripack-compare has ended; calls are not checked from here on"
   # A model that is killed: the check of what it has sent ends by itself.
   PSTRIPACK_CHECK=lib:,log=killed.log "$CALLER" crash > out 2> err

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "capi/pstripack.h"
 #include "mesh/validate.h"
 #include "our_checks.h"
 #include "parallel/cost.h"
@@ -81,14 +82,24 @@ double height(const std::vector<Point>& points, index_t a, index_t b, index_t c,
 
 }  // namespace
 
-Expected expected(const std::vector<Point>& points) {
-  const comparison::OurRun run = comparison::run_ours(points, 1, 1);
-  const comparison::Checked checked =
-      comparison::check(points, run.ier, run.lists.list, run.lists.lptr, run.lists.lend, run.lists.lnew);
-  if (run.ier != 0 || !checked.verdict)
-    throw std::runtime_error("these nodes have no triangulation: IER = " + std::to_string(run.ier) +
+Triangles delaunay_triangles(const std::vector<Point>& points) {
+  const std::size_t n = points.size();
+  std::vector<double> x, y, z;
+  for (const Point& p : points) x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
+  std::vector<std::int32_t> list(n < 3 ? 0 : 6 * n - 12), lptr(list.size()), lend(n);
+  std::int32_t lnew = 0;
+  const int ier = pstripack_trmesh(static_cast<std::int32_t>(n), x.data(), y.data(), z.data(), list.data(),
+                                   lptr.data(), lend.data(), &lnew);
+  const comparison::Checked checked = comparison::check(points, ier, list, lptr, lend, lnew);
+  if (ier != 0 || !checked.verdict)
+    throw std::runtime_error("these nodes have no triangulation: IER = " + std::to_string(ier) +
                              checked.verdict.message);
-  return {checked.triangles.size(), area(points, checked.triangles)};
+  return checked.triangles;
+}
+
+Expected expected(const std::vector<Point>& points) {
+  const Triangles triangles = delaunay_triangles(points);
+  return {triangles.size(), area(points, triangles)};
 }
 
 Defects find_defects(const std::vector<Point>& points, const Triangles& triangles, double expected_area) {

@@ -13,13 +13,16 @@ namespace thesis {
 using pstripack::Point;
 using pstripack::Triangles;
 
-/// Of the Delaunay triangulation, which PSTRIPACK makes and its validator checks.
+/// Of the Delaunay triangulation.
 struct Expected {
   std::size_t triangles;
   double area;
 };
 /// Throws std::runtime_error where there is none.
 Expected expected(const std::vector<Point>& points);
+
+/// PSTRIPACK's triangulation, which its validator has checked. Throws std::runtime_error where there is none.
+Triangles delaunay_triangles(const std::vector<Point>& points);
 
 struct Defects {
   std::size_t missing_nodes = 0;      ///< in no triangle

@@ -86,7 +86,7 @@ TEST(probe, finds_the_abi_whatever_is_claimed) {
       } catch (const std::runtime_error& e) {
         const std::string line = e.what();
         EXPECT_NE(line.find(one.file), std::string::npos) << line;
-        EXPECT_NE(line.find(std::string("--abi ") + name_of(one.abi)), std::string::npos) << line;
+        EXPECT_NE(line.find(std::string("ABI ") + name_of(one.abi)), std::string::npos) << line;
       }
     }
   }

@@ -298,7 +298,7 @@ TEST(Check, BesideTheModelGetsTheStreamAndItsSettingsButNoVariablesOfTheJob) {
   EXPECT_EQ(outcome.out, "");
   EXPECT_EQ(outcome.err, "log\n") << "its stdout is the model's stderr";
   EXPECT_EQ(contents(folder.path() + "/words"),
-            "replay - --timeout 3 --original " + folder.path() + "/old.so --abi 8arg --show 7\n");
+            "replay - --timeout 3 --original " + folder.path() + "/old.so --original-abi 8arg --show 7\n");
   const std::string variables = contents(folder.path() + "/variables");
   for (const char* prefix : {"OMPI_", "PMIX_", "PSTRIPACK_"})
     EXPECT_EQ(variables.find(prefix), std::string::npos) << prefix;

@@ -68,6 +68,11 @@ TEST(Families, AreTheSameOnEveryMachine) {
 }
 
 TEST(Families, HaveTheirShapes) {
+  for (const auto& p : make("single", 1000))
+    for (const double v : {p.x, p.y, p.z}) {
+      volatile const float single = static_cast<float>(v);
+      EXPECT_EQ(v, single);
+    }
   for (const auto& p : make("cap:1e-6", 1000))
     EXPECT_LT(std::hypot(p.x - make("cap:1e-12", 1)[0].x, p.y - make("cap:1e-12", 1)[0].y), 1.1e-6);
   for (const auto& p : make("hemisphere", 1000)) EXPECT_GT(p.z, 0);
@@ -140,13 +145,17 @@ TEST(Files, HoldLongitudesAndLatitudesOrCoordinates) {
   ASSERT_EQ(b.size(), 2u);
   EXPECT_EQ(b[1], (pstripack::Point{0.75, -0.5, 0.125}));
   EXPECT_EQ(read_text("0x1.d8p+0 2 3")[0].x, 1.84375);
+  EXPECT_EQ(read_text("  2 ! generators\n1 0 0\n0 1 0\n").size(), 2u);
 }
 
 TEST(Files, AreRefusedWithFileAndLine) {
   EXPECT_NE(error_of("1 2 3\n\n1 x 3\n").find(".txt:3: 'x' is not a finite number"), std::string::npos);
   EXPECT_NE(error_of("1 2 3\n1 2\n").find(".txt:2: found 2 numbers"), std::string::npos);
   EXPECT_NE(error_of("1 2 3 4\n").find(".txt:1: expected"), std::string::npos);
-  EXPECT_NE(error_of("7\n").find(".txt:1: expected"), std::string::npos);
+  EXPECT_NE(error_of("1 2 3\n7\n").find(".txt:2: found 1 number "), std::string::npos);
+  EXPECT_NE(error_of("7.5\n1 2 3\n").find(".txt:1: expected"), std::string::npos);
+  EXPECT_NE(error_of("2\n1 2 3\n").find(".txt:1: a single number is the count"), std::string::npos);
+  EXPECT_NE(error_of("1\n1\n1 2 3\n").find(".txt:2: expected"), std::string::npos);
   EXPECT_NE(error_of("0 0\n0 91\n").find(".txt:2: latitude"), std::string::npos);
   EXPECT_NE(error_of("1 2 nan\n").find(".txt:1: 'nan'"), std::string::npos);
   EXPECT_NE(error_of("1 2 1e999\n").find(".txt:1: '1e999'"), std::string::npos);

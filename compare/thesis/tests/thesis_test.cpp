@@ -8,7 +8,6 @@
 #include <numeric>
 #include <set>
 
-#include "our_checks.h"
 #include "point_sets.h"
 #include "thesis/defects.h"
 #include "thesis/stripe.h"
@@ -21,16 +20,6 @@ using Points = std::vector<Point>;
 Triangles canonical(Triangles t) {
   pstripack::make_canonical(t);
   return t;
-}
-
-/// The Delaunay triangulation, checked by the validator.
-Triangles exact_mesh(const Points& points) {
-  const comparison::OurRun run = comparison::run_ours(points, 1, 1);
-  const comparison::Checked checked =
-      comparison::check(points, run.ier, run.lists.list, run.lists.lptr, run.lists.lend, run.lists.lnew);
-  EXPECT_EQ(run.ier, 0);
-  EXPECT_TRUE(checked.verdict) << checked.verdict.message;
-  return checked.triangles;
 }
 
 using Arcs = std::set<std::pair<index_t, index_t>>;
@@ -117,7 +106,7 @@ TEST(stripe, is_the_exact_triangulation_with_the_huge_vertices) {
     for (const index_t v : nodes) with_huge.push_back(points[static_cast<std::size_t>(v)]);
     for (const Point& p : huge_vertices(middle(k, count))) with_huge.push_back(p);
     Triangles expected;
-    for (const auto& [a, b, c] : exact_mesh(with_huge)) {
+    for (const auto& [a, b, c] : delaunay_triangles(with_huge)) {
       const auto n = static_cast<index_t>(nodes.size());
       const auto node = [&](index_t v) { return nodes[static_cast<std::size_t>(v)]; };
       if (a < n && b < n && c < n) expected.push_back({node(a), node(b), node(c)});
@@ -245,7 +234,7 @@ TEST(method, is_exact_after_filling_the_two_polar_holes_and_flips) {
       const Repair repaired = repair(points, mesh);
       EXPECT_GT(repaired.flips, before.non_delaunay_arcs / 2);
       EXPECT_EQ(repaired.stuck, 0u);
-      EXPECT_EQ(canonical(mesh), exact_mesh(points)) << count << " stripes, seed " << seed;
+      EXPECT_EQ(canonical(mesh), delaunay_triangles(points)) << count << " stripes, seed " << seed;
       ++mended;
     }
   EXPECT_GE(mended, 5);
@@ -267,7 +256,7 @@ TEST(method, hybrid_makes_the_same_triangles) {
 struct Broken : testing::Test {
   const Points points = point_sets::make("random", 500);
   const Expected right = expected(points);
-  Triangles mesh = exact_mesh(points);
+  Triangles mesh = delaunay_triangles(points);
 };
 
 TEST_F(Broken, nothing_is_found_in_the_exact_mesh) {

@@ -123,7 +123,7 @@ void ShadowProcess::start() {
     if (!value.empty()) words.insert(words.end(), {option, value});
   };
   add("--original", library_);
-  add("--abi", abi_);
+  add("--original-abi", abi_);
   add("--show", show_);
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());

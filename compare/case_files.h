@@ -1,0 +1,58 @@
+#pragma once
+// Results of many cases: a line each for people, CSV for plots, JUnit XML for continuous integration.
+
+#include <cstdint>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "comparison.h"
+
+namespace comparison {
+
+/// A comparison and what it was made with.
+struct Case {
+  std::string nodes;  ///< family or file
+  std::uint64_t seed;
+  std::string order, precision;
+  Result result;
+  double seconds;  ///< of the whole case
+};
+
+/// The places where the meshes differ, by reason: "none", "12 ties, 3 rounding".
+std::string differences_in_short(const Result& result);
+
+void print_header_of_cases();
+void print_line(const Case& one);
+
+/// One row a call of ours.
+class CsvFile {
+ public:
+  /// Throws std::runtime_error if the file cannot be written; so do the other functions.
+  explicit CsvFile(const std::string& file);
+  void add(const Case& one);
+
+ private:
+  std::string name_;
+  std::ofstream out_;
+};
+
+/// One test case a case; it fails if it counts against us.
+class JunitFile {
+ public:
+  explicit JunitFile(const std::string& file);
+  void add(const Case& one, double timeout);
+  void write();
+
+ private:
+  std::string name_;
+  std::ofstream out_;
+  std::string cases_;
+  std::size_t tests_ = 0, failures_ = 0;
+  double seconds_ = 0;
+};
+
+/// `text` inside an attribute or element of XML, whatever bytes it holds.
+std::string escaped_for_xml(const std::string& text);
+
+}  // namespace comparison

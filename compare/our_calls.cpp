@@ -1,0 +1,297 @@
+#include "our_calls.h"
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <limits.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstddef>
+#include <cstdlib>
+#include <functional>
+#include <new>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include "child_process.h"
+
+namespace comparison {
+namespace {
+
+using pstripack::Point;
+
+constexpr double kEnoughSeconds = 10;
+
+/// A file in memory that another process opens by its path. It is gone with this process, whatever happens.
+class SharedFile {
+ public:
+  explicit SharedFile(std::size_t size) : file_(memfd_create("stripack-compare", MFD_CLOEXEC)), size_(size) {
+    if (file_ < 0 || ftruncate(file_, static_cast<off_t>(size)) != 0) fail();
+    map();
+  }
+  explicit SharedFile(const char* path) : file_(open(path, O_RDWR | O_CLOEXEC)) {
+    struct stat status;
+    if (file_ < 0 || fstat(file_, &status) != 0) fail();
+    size_ = static_cast<std::size_t>(status.st_size);
+    map();
+  }
+  ~SharedFile() {
+    if (data_ != MAP_FAILED) munmap(data_, size_);
+    if (file_ >= 0) close(file_);
+  }
+  SharedFile(const SharedFile&) = delete;
+  SharedFile& operator=(const SharedFile&) = delete;
+
+  void* data() const { return data_; }
+  int descriptor() const { return file_; }
+  std::string path() const { return fmt::format("/proc/{}/fd/{}", getpid(), file_); }
+
+ private:
+  void map() {
+    data_ = mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_SHARED, file_, 0);
+    if (data_ == MAP_FAILED) fail();
+  }
+  [[noreturn]] void fail() const { throw std::system_error(errno, std::generic_category(), "shared memory"); }
+
+  int file_;
+  std::size_t size_ = 0;
+  void* data_ = MAP_FAILED;
+};
+
+/// What the two processes tell each other, before the arrays.
+struct Call {
+  char abi[8];
+  std::int32_t n, repeats;
+  std::int32_t started, returned;  // false until the other process says so
+  std::int32_t ier, lnew;
+  double seconds;
+};
+
+/// Where the arrays lie: x, y, z, then LIST, LPTR, LEND.
+struct Arrays {
+  explicit Arrays(Call* call)
+      : n(static_cast<std::size_t>(call->n)),
+        slots(6 * n - 12),
+        x(reinterpret_cast<double*>(call + 1)),
+        y(x + n),
+        z(y + n),
+        list(reinterpret_cast<std::int32_t*>(z + n)),
+        lptr(list + slots),
+        lend(lptr + slots) {}
+  static std::size_t bytes(std::size_t n) {
+    return sizeof(Call) + 3 * n * sizeof(double) + (13 * n - 24) * 4;
+  }
+
+  std::size_t n, slots;
+  double *x, *y, *z;
+  std::int32_t *list, *lptr, *lend;
+};
+
+std::string beside_this_program(const std::string& name) {
+  char self[PATH_MAX];
+  const ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
+  const std::string path(self, length > 0 ? static_cast<std::size_t>(length) : 0);
+  return name.empty() ? path : path.substr(0, path.rfind('/') + 1) + name;
+}
+
+/// Installed it lies beside this program; else where the build has put it.
+std::string path_of_pstripack_run() {
+#ifdef PSTRIPACK_RUN
+  const std::string installed = beside_this_program("pstripack-run");
+  for (const std::string& path : {installed, std::string(PSTRIPACK_RUN)})
+    if (access(path.c_str(), X_OK) == 0) return path;
+  throw std::runtime_error("--ranks: there is no " + installed);
+#else
+  throw std::runtime_error("--ranks: this build is without MPI (PSTRIPACK_WITH_MPI=OFF)");
+#endif
+}
+
+/// Nothing of ours that the user has set may reach the call, except where mpirun is and where reports go.
+void set_environment(const Setting& setting, const std::string& report) {
+  std::vector<std::string> others;
+  for (char** at = environ; *at != nullptr; ++at) {
+    const std::string name(*at, strcspn(*at, "="));
+    if (name.rfind("PSTRIPACK_", 0) == 0 && name != "PSTRIPACK_MPIRUN" && name != "PSTRIPACK_REPORT")
+      others.push_back(name);
+  }
+  for (const std::string& name : others) unsetenv(name.c_str());
+  setenv("OMP_NUM_THREADS", std::to_string(setting.threads).c_str(), 1);
+  setenv("PSTRIPACK_PARTITION", setting.partition.c_str(), 1);
+  if (setting.ranks == 1) return;
+  setenv("PSTRIPACK_POOL_MIN_NODES", "3", 1);
+  setenv("PSTRIPACK_REPORT", report.c_str(), 1);
+}
+
+[[noreturn]] void become(std::vector<std::string> words) {
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  const int nothing = open("/dev/null", O_RDONLY);
+  dup2(nothing, STDIN_FILENO);
+  execv(arguments[0], arguments.data());
+  throw std::system_error(errno, std::generic_category(), words[0]);
+}
+
+/// Reports are appended to their file, which is one byte long before.
+constexpr off_t kReportBegins = 1;
+
+/// True if the report's line says that the pool of so many ranks has done the call.
+bool done_by_ranks(const SharedFile& report, int ranks) {
+  char text[200] = "";
+  if (pread(report.descriptor(), text, sizeof text - 1, kReportBegins) < 0) return false;
+  return std::string(text).rfind("pstripack: pool ", 0) == 0 &&
+         strstr(text, fmt::format(" ranks={} ", ranks).c_str()) != nullptr;
+}
+
+template <class Real>
+using Trmesh12 = void(const std::int32_t*, const Real*, const Real*, const Real*, std::int32_t*,
+                      std::int32_t*, std::int32_t*, std::int32_t*, std::int32_t*, std::int32_t*, Real*,
+                      std::int32_t*);
+using Trmesh8 = void(const std::int32_t*, const double*, const double*, const double*, std::int32_t*,
+                     std::int32_t*, std::int32_t*, std::int32_t*);
+
+void* load_trmesh(const std::string& abi) {
+  const std::string library = abi == "r8" ? "libstripack.so.0" : "libstripack_" + abi + ".so.0";
+  void* const handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
+  void* const routine = handle != nullptr ? dlsym(handle, "trmesh_") : nullptr;
+  if (routine == nullptr) throw std::runtime_error(dlerror());
+  return routine;
+}
+
+/// A call of the 12-argument TRMESH, with the work arrays that Fortran programs pass.
+template <class Real>
+auto call_of_12(void* routine, const Arrays& arrays) {
+  const std::size_t n = arrays.n;
+  return [routine, n, x = std::vector<Real>(arrays.x, arrays.x + n),
+          y = std::vector<Real>(arrays.y, arrays.y + n), z = std::vector<Real>(arrays.z, arrays.z + n),
+          near = std::vector<std::int32_t>(n), next = std::vector<std::int32_t>(n),
+          dist = std::vector<Real>(n)](Lists& lists, std::int32_t& ier) mutable {
+    const auto count = static_cast<std::int32_t>(n);
+    reinterpret_cast<Trmesh12<Real>*>(routine)(&count, x.data(), y.data(), z.data(), lists.list.data(),
+                                               lists.lptr.data(), lists.lend.data(), &lists.lnew, near.data(),
+                                               next.data(), dist.data(), &ier);
+  };
+}
+
+/// The 8-argument TRMESH keeps LNEW to itself: one past the last slot of the last node, in canonical lists.
+std::int32_t lnew_of(const std::vector<std::int32_t>& lend) {
+  const auto last =
+      std::find_if(lend.rbegin(), lend.rend(), [](std::int32_t slot) { return slot != kUntouched; });
+  return last == lend.rend() ? kUntouched : *last + 1;
+}
+
+}  // namespace
+
+std::string describe(const Setting& setting) {
+  std::string text = setting.abi;
+  for (const auto& [count, what] : {std::pair(setting.threads, "thread"), std::pair(setting.ranks, "rank")})
+    text += fmt::format(", {} {}{}", count, what, count == 1 ? "" : "s");
+  return text + ", " + setting.partition;
+}
+
+OurRun run_ours(const std::vector<Point>& points, const Setting& setting, int repeats, double time_limit) {
+  const SharedFile file(Arrays::bytes(points.size()));
+  auto* const call = new (file.data()) Call{};
+  std::copy(setting.abi.begin(), setting.abi.end(), call->abi);
+  call->n = static_cast<std::int32_t>(points.size());
+  call->repeats = repeats;
+  const Arrays arrays(call);
+  for (std::size_t i = 0; i < arrays.n; ++i)
+    arrays.x[i] = points[i].x, arrays.y[i] = points[i].y, arrays.z[i] = points[i].z;
+
+  const SharedFile report(kReportBegins);
+  std::vector<std::string> words{beside_this_program(""), kCallCommand, file.path()};
+  if (setting.ranks > 1)
+    words.insert(words.begin(),
+                 {path_of_pstripack_run(), "-n", std::to_string(setting.ranks), "--oversubscribe", "--"});
+  const std::string report_path = report.path();  // of this process, not of the child
+  const auto ended = legacy_stripack::run_in_child(
+      [&] {
+        set_environment(setting, report_path);
+        become(words);
+      },
+      time_limit);
+
+  OurRun run;
+  static_cast<Setting&>(run) = setting;
+  if (call->started == 0)
+    throw std::runtime_error(
+        setting.ranks > 1
+            ? fmt::format("--ranks: {} MPI ranks could not be started: see above", setting.ranks)
+            : "the library for --abi " + setting.abi + " could not be called: see above");
+  if (call->returned == 0) {
+    run.failure = ended.outcome == legacy_stripack::Outcome::timed_out
+                      ? fmt::format("did not return within {:.4g} s", time_limit)
+                  : ended.signal != 0
+                      ? fmt::format("crashed (signal {}, {})", ended.signal, strsignal(ended.signal))
+                      : "ended the program";
+    return run;
+  }
+  if (setting.ranks > 1 && !done_by_ranks(report, setting.ranks)) {
+    run.failure = "was not carried out by the ranks";
+    return run;
+  }
+  run.ier = call->ier;
+  run.seconds = call->seconds;
+  run.lists = {{arrays.list, arrays.list + arrays.slots},
+               {arrays.lptr, arrays.lptr + arrays.slots},
+               {arrays.lend, arrays.lend + arrays.n},
+               call->lnew};
+  return run;
+}
+
+int call_trmesh(const char* path) {
+  using Clock = std::chrono::steady_clock;
+  const SharedFile file(path);
+  auto* const call = static_cast<Call*>(file.data());
+  const Arrays arrays(call);
+  const std::string abi = call->abi;
+  void* const routine = load_trmesh(abi);
+  std::function<void(Lists&, std::int32_t&)> trmesh;
+  if (abi == "r4")
+    trmesh = call_of_12<float>(routine, arrays);
+  else if (abi == "r8")
+    trmesh = call_of_12<double>(routine, arrays);
+  else
+    trmesh = [&](Lists& lists, std::int32_t& ier) {
+      reinterpret_cast<Trmesh8*>(routine)(&call->n, arrays.x, arrays.y, arrays.z, lists.list.data(),
+                                          lists.lptr.data(), lists.lend.data(), &ier);
+    };
+
+  call->started = 1;
+  Lists lists;
+  std::vector<double> seconds;
+  double total = 0;
+  for (int repeat = 0; repeat < call->repeats && total < kEnoughSeconds; ++repeat) {
+    lists.list.assign(arrays.slots, kUntouched);
+    lists.lptr.assign(arrays.slots, kUntouched);
+    lists.lend.assign(arrays.n, kUntouched);
+    lists.lnew = call->ier = kUntouched;
+    const auto start = Clock::now();
+    trmesh(lists, call->ier);
+    seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+    total += seconds.back();
+  }
+  std::nth_element(seconds.begin(), seconds.begin() + seconds.size() / 2, seconds.end());
+  call->seconds = seconds[seconds.size() / 2];
+  call->lnew = abi == "8arg" ? lnew_of(lists.lend) : lists.lnew;
+  std::copy(lists.list.begin(), lists.list.end(), arrays.list);
+  std::copy(lists.lptr.begin(), lists.lptr.end(), arrays.lptr);
+  std::copy(lists.lend.begin(), lists.lend.end(), arrays.lend);
+  call->returned = 1;
+  return 0;
+}
+
+bool same_bytes(const OurRun& a, const OurRun& b) {
+  return a.failure == b.failure && a.ier == b.ier && a.lists.lnew == b.lists.lnew &&
+         a.lists.list == b.lists.list && a.lists.lptr == b.lists.lptr && a.lists.lend == b.lists.lend;
+}
+
+}  // namespace comparison

@@ -1,0 +1,271 @@
+#include "plot.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <utility>
+
+#include "case_files.h"
+#include "point_sets.h"
+
+namespace comparison {
+namespace {
+
+using point_sets::normalized;
+using pstripack::cross;
+using pstripack::dot;
+using pstripack::index_t;
+using pstripack::minus;
+using pstripack::Point;
+using pstripack::Triangles;
+
+constexpr double kPanel = 360, kMargin = 12, kCaption = 66, kRow = kPanel + kCaption;
+constexpr double kWidth = 2 * kPanel + 3 * kMargin;
+constexpr std::size_t kMostRows = 60, kMostArcs = 4000, kMostNumbers = 80;
+
+using Arc = std::pair<index_t, index_t>;
+struct Place {
+  double x, y;
+};
+
+/// A stereographic projection around the nodes of a decision: circles on the sphere are circles on paper, so
+/// that one sees which node lies inside. Pixels, the panel being 0..kPanel both ways.
+class View {
+ public:
+  View(const std::vector<Point>& points, const std::vector<index_t>& nodes) : points_(points) {
+    Point sum{0, 0, 0};
+    for (const index_t node : nodes) {
+      const Point p = normalized(points[node]);
+      sum = {sum.x + p.x, sum.y + p.y, sum.z + p.z};
+    }
+    centre_ = normalized(dot(sum, sum) > 1e-6 ? sum : points[nodes[0]]);
+    const Point axis = std::fabs(centre_.z) < 0.9 ? Point{0, 0, 1} : Point{0, 1, 0};
+    east_ = normalized(cross(axis, centre_));
+    north_ = cross(centre_, east_);
+
+    Place low = project(points[nodes[0]]), high = low;
+    for (const index_t node : nodes) {
+      const Place p = project(points[node]);
+      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+    const double extent = std::max({high.x - low.x, high.y - low.y, 1e-15});
+    scale_ = 0.6 * kPanel / extent;
+    origin_ = {kPanel / 2 - scale_ * (low.x + high.x) / 2, kPanel / 2 + scale_ * (low.y + high.y) / 2};
+  }
+
+  bool in_front(const Point& p) const { return dot(normalized(p), centre_) > -0.95; }
+  Place operator()(const Point& p) const {
+    const Place q = project(p);
+    return {origin_.x + scale_ * q.x, origin_.y - scale_ * q.y};
+  }
+  Place operator()(index_t node) const { return (*this)(points_[node]); }
+  const Point& point(index_t node) const { return points_[node]; }
+
+ private:
+  /// Differences from the centre first, which keeps the digits of nodes that are close together.
+  Place project(const Point& given) const {
+    const Point p = normalized(given), d = minus(p, centre_);
+    const double factor = 2 / (1 + dot(p, centre_));
+    return {factor * dot(d, east_), factor * dot(d, north_)};
+  }
+
+  const std::vector<Point>& points_;
+  Point centre_, east_, north_;
+  double scale_ = 1;
+  Place origin_{0, 0};
+};
+
+bool in_panel(const Place& p) { return p.x >= 0 && p.x <= kPanel && p.y >= 0 && p.y <= kPanel; }
+
+/// Arcs whose box meets the panel; increasing.
+std::vector<Arc> arcs_in_view(const Triangles& triangles, const View& view) {
+  std::vector<Arc> arcs;
+  for (const auto& t : triangles)
+    for (int i = 0; i < 3; ++i) {
+      const index_t u = std::min(t[i], t[(i + 1) % 3]), v = std::max(t[i], t[(i + 1) % 3]);
+      if (!view.in_front(view.point(u)) || !view.in_front(view.point(v))) continue;
+      const Place a = view(u), b = view(v);
+      if (std::max(a.x, b.x) >= 0 && std::min(a.x, b.x) <= kPanel && std::max(a.y, b.y) >= 0 &&
+          std::min(a.y, b.y) <= kPanel)
+        arcs.emplace_back(u, v);
+    }
+  std::sort(arcs.begin(), arcs.end());
+  arcs.erase(std::unique(arcs.begin(), arcs.end()), arcs.end());
+  return arcs;
+}
+
+std::vector<Arc> without(const std::vector<Arc>& a, const std::vector<Arc>& b) {
+  std::vector<Arc> rest;
+  std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(rest));
+  return rest;
+}
+
+/// An arc of a great circle, in pieces short enough to look bent where it is.
+std::string path_of(const Arc& arc, const View& view) {
+  const Point a = normalized(view.point(arc.first)), b = normalized(view.point(arc.second));
+  const int pieces = 1 + static_cast<int>(std::acos(std::clamp(dot(a, b), -1.0, 1.0)) / 0.05);
+  std::string path;
+  for (int i = 0; i <= pieces; ++i) {
+    const double t = static_cast<double>(i) / pieces;
+    const Place p = view(Point{(1 - t) * a.x + t * b.x, (1 - t) * a.y + t * b.y, (1 - t) * a.z + t * b.z});
+    path += fmt::format("{}{:.2f} {:.2f}", i == 0 ? "M" : "L", p.x, p.y);
+  }
+  return path;
+}
+
+std::string drawn(const std::vector<Arc>& arcs, const View& view, const char* kind) {
+  std::string path;
+  for (std::size_t i = 0; i < std::min(arcs.size(), kMostArcs); ++i) path += path_of(arcs[i], view);
+  return path.empty()
+             ? ""
+             : fmt::format("<path class=\"{}{}\" d=\"{}\"/>\n", kind, arcs.size() > 100 ? " many" : "", path);
+}
+
+/// The circle through u, v and the node on their left. Left out where it looks straight.
+std::string deciding_circle(const std::vector<index_t>& nodes, const View& view) {
+  if (nodes.size() != 4) return "";
+  const Place a = view(nodes[0]), b = view(nodes[1]), c = view(nodes[2]);
+  const double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y, d = 2 * (bx * cy - by * cx);
+  const double x = (cy * (bx * bx + by * by) - by * (cx * cx + cy * cy)) / d;
+  const double y = (bx * (cx * cx + cy * cy) - cx * (bx * bx + by * by)) / d;
+  const double radius = std::hypot(x, y);
+  if (!(radius < 1e5)) return "";
+  return fmt::format("<circle class=\"deciding\" cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\"/>\n", a.x + x,
+                     a.y + y, radius);
+}
+
+std::string numbers(const std::vector<Arc>& arcs, const std::vector<index_t>& deciding, const View& view) {
+  std::vector<index_t> nodes;
+  for (const Arc& arc : arcs) nodes.insert(nodes.end(), {arc.first, arc.second});
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  const auto outside = [&](index_t node) {
+    return !in_panel(view(node)) || std::count(deciding.begin(), deciding.end(), node) > 0;
+  };
+  nodes.erase(std::remove_if(nodes.begin(), nodes.end(), outside), nodes.end());
+  if (nodes.size() > kMostNumbers) nodes.clear();
+
+  std::string text;
+  const auto write = [&](index_t node, const char* kind, double radius) {
+    const Place p = view(node);
+    text += fmt::format(
+        "<circle class=\"{0}\" cx=\"{1:.2f}\" cy=\"{2:.2f}\" r=\"{3}\"/>\n<text class=\"{0}\" x=\"{4:.2f}\" "
+        "y=\"{5:.2f}\">{6}</text>\n",
+        kind, p.x, p.y, radius, p.x + 4, p.y - 4, node + 1);
+  };
+  for (const index_t node : nodes) write(node, "node", 1.5);
+  for (const index_t node : deciding) write(node, "decided", 3);
+  return text;
+}
+
+std::string panel(double x, double y, const std::string& title, const std::string& content) {
+  return fmt::format(
+      "<svg x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{2}\">\n<rect class=\"panel\" width=\"{2}\" "
+      "height=\"{2}\"/>\n{3}<text class=\"title\" x=\"8\" y=\"18\">{4}</text>\n</svg>\n",
+      x, y, kPanel, content, title);
+}
+
+std::string caption(double y, const std::string& text) {
+  constexpr std::size_t kColumns = 112, kLines = 3;
+  std::string result;
+  std::size_t begin = 0;
+  for (std::size_t line = 0; line < kLines && begin < text.size(); ++line) {
+    std::size_t end = std::min(begin + kColumns, text.size());
+    if (const std::size_t blank = text.rfind(' ', end);
+        end < text.size() && blank != text.npos && blank > begin)
+      end = blank;
+    result +=
+        fmt::format("<text class=\"caption\" x=\"{}\" y=\"{}\">{}</text>\n", kMargin,
+                    y + 16 * static_cast<double>(line + 1), escaped_for_xml(text.substr(begin, end - begin)));
+    begin = text.find_first_not_of(' ', end);
+    if (begin == text.npos) break;
+  }
+  return result;
+}
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+}  // namespace
+
+Plot::Plot(const std::string& file) : file_(file), png_(ends_with(file, ".png")) {
+  if (!png_ && !ends_with(file, ".svg"))
+    throw std::invalid_argument("--plot " + file + ": expected FILE.svg or FILE.png");
+  if (png_ && std::system("rsvg-convert --version > /dev/null 2>&1") != 0)
+    throw std::invalid_argument("--plot " + file +
+                                ": PNG needs rsvg-convert (Debian: librsvg2-bin); SVG does not");
+}
+
+void Plot::add(const Result& result, const std::vector<Point>& points) {
+  for (const Decision& decision : result.differences.decisions) {
+    if (decision.nodes.empty() || rows_ == kMostRows) continue;
+    const View view(points, decision.nodes);
+    const std::vector<Arc> theirs = arcs_in_view(result.original_checked.triangles, view);
+    const std::vector<Arc> ours = arcs_in_view(result.ours_checked.triangles, view);
+    const std::string circle = deciding_circle(decision.nodes, view);
+    const auto content = [&](const std::vector<Arc>& own, const std::vector<Arc>& other, const char* kind) {
+      return drawn(own, view, "arc") + circle + drawn(without(own, other), view, kind) +
+             numbers(own, decision.nodes, view);
+    };
+    const double y = kMargin + static_cast<double>(rows_) * kRow;
+    body_ += panel(kMargin, y, "original", content(theirs, ours, "theirs"));
+    body_ += panel(2 * kMargin + kPanel, y, "PSTRIPACK", content(ours, theirs, "ours"));
+    body_ += caption(y + kPanel,
+                     fmt::format("{}: {}: {}", result.points_name, name(decision.cause), decision.text));
+    ++rows_;
+  }
+}
+
+std::string Plot::svg() const {
+  const double height = kMargin + static_cast<double>(rows_) * kRow;
+  return fmt::format(
+      R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="{1}" font-family="sans-serif">
+<style>
+.panel {{ fill: white; stroke: #888 }}
+path {{ fill: none; stroke-linejoin: round }}
+.arc {{ stroke: #aaa; stroke-width: 1 }}
+.theirs {{ stroke: #c81e1e; stroke-width: 2.5 }}
+.ours {{ stroke: #1e50c8; stroke-width: 2.5 }}
+.many {{ stroke-width: 1 }}
+.deciding {{ fill: none; stroke: #555; stroke-dasharray: 5 4 }}
+.node {{ fill: #777; font-size: 9px }}
+.decided {{ fill: black; font-size: 12px; font-weight: bold }}
+.title {{ fill: black; font-size: 14px }}
+.caption {{ fill: black; font-size: 12px }}
+</style>
+<rect width="100%" height="100%" fill="white"/>
+{2}</svg>
+)",
+      kWidth, height, body_);
+}
+
+void Plot::write() const {
+  if (!png_) {
+    std::ofstream out(file_);
+    if (!(out << svg() << std::flush)) throw std::runtime_error("cannot write " + file_);
+    return;
+  }
+  const std::string text = svg();
+  std::FILE* const picture = std::tmpfile();  // without a name: it cannot stay behind
+  if (picture == nullptr || std::fwrite(text.data(), 1, text.size(), picture) != text.size() ||
+      std::fflush(picture) != 0)
+    throw std::runtime_error("no room for a temporary file");
+  setenv("STRIPACK_COMPARE_PLOT", file_.c_str(), 1);
+  const std::string command = fmt::format("rsvg-convert --output \"$STRIPACK_COMPARE_PLOT\" /proc/{}/fd/{}",
+                                          getpid(), fileno(picture));
+  const int status = std::system(command.c_str());
+  std::fclose(picture);
+  if (status != 0) throw std::runtime_error("cannot write " + file_);
+}
+
+}  // namespace comparison

@@ -1,0 +1,44 @@
+#pragma once
+// What several families are made of.
+
+#include <cstddef>
+#include <utility>
+
+#include "families.h"
+
+namespace point_sets {
+
+using pstripack::Point;
+
+inline constexpr double degrees_per_radian = 57.295779513082320876798154814105;
+
+inline Point operator+(const Point& a, const Point& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Point operator*(double s, const Point& a) { return {s * a.x, s * a.y, s * a.z}; }
+
+/// m >= least such that the number of nodes count(m), which increases, is nearest to n.
+template <class Count>
+std::size_t nearest(std::size_t n, std::size_t least, Count count) {
+  std::size_t m = least;
+  while (count(m) < n) ++m;
+  return m > least && n - count(m - 1) <= count(m) - n ? m - 1 : m;
+}
+
+/// A uniform point in the unit disc: (u, v) with 0 < u^2 + v^2 < 1.
+std::pair<double, double> in_disc(Random& random);
+
+/// A uniform point in the cap of the given radius around c. Accurate for the smallest radii.
+Point in_cap(Random& random, const Point& c, double radius);
+
+/// Of the caps: nothing special about it.
+Point centre();
+
+/// n nodes uniform on the sphere.
+Points uniform(std::size_t n, Random& random);
+
+/// n nodes in caps around the given centres in turn.
+Points caps(std::size_t n, const Points& centres, double radius, Random& random);
+
+/// Every other node uniform, the others in caps around the given centres in turn.
+Points half_in_caps(std::size_t n, const Points& centres, double radius, Random& random);
+
+}  // namespace point_sets

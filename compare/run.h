@@ -1,0 +1,33 @@
+#pragma once
+// `stripack-compare run`: the original and PSTRIPACK on many sets of nodes.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "chosen_original.h"
+
+namespace comparison {
+
+struct RunOptions {
+  std::vector<std::string> points;  ///< families; "all" of them; file:PATH
+  std::vector<std::string> files;
+  std::size_t n = 10000;
+  std::uint64_t seed = 1;
+  std::vector<std::string> orders{"given"}, precisions, abis;  // the last two: empty if not chosen
+  std::vector<int> threads{1}, ranks{1};
+  std::vector<std::string> partitions{"bisection"};
+  OriginalChoice original;
+  double timeout = 120;
+  int repeats = 3;
+  std::optional<std::size_t> show;
+  std::string json, csv, junit, plot;
+};
+
+enum ExitCode { kExplained = 0, kAgainstUs = 1, kUsage = 2 };
+
+/// Runs all cases and writes what was asked for. Throws std::exception for what is exit code 2.
+ExitCode run(const RunOptions& options);
+
+}  // namespace comparison
