@@ -30,7 +30,8 @@ for every difference.
   stripack-compare run --points all --order shuffled,sorted --precision r8,r4 --timeout 20 --csv all.csv
   stripack-compare run --file nodes.nc --original ./libmystripack.so --original-abi r4 --junit report.xml
   stripack-compare run --points random --n 1000000 --threads 1,2 --ranks 1,4 --partition bisection,stripes
-  stripack-compare mesh original_run/scvt pstripack_run/scvt
+  stripack-compare record -o calls.rec -- ./model          the calls of a running model,
+  stripack-compare replay calls.rec                        and each of them with the original
 
 `run` may be left out. A case is one set of nodes in one order and precision; each runs the original once and
 PSTRIPACK in every combination of ABI, threads, ranks and partition. Options with lists take 1,2,4.)";
