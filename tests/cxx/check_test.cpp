@@ -19,51 +19,15 @@
 #include "capi/recorded_block.h"
 #include "point_sets.h"
 #include "support/expect.h"
+#include "support/this_program.h"
 #include "support/trmesh.h"
 
 namespace {
 
 using pstripack::BlockHeader;
 
-/// A folder of its own, gone at the end.
-class Folder {
- public:
-  Folder() {
-    char name[] = "/tmp/pstripack_check_XXXXXX";
-    path_ = mkdtemp(name);
-  }
-  ~Folder() { EXPECT_EQ(std::system(("rm -rf " + path_).c_str()), 0); }
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
-
-std::string contents(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
 std::size_t lines(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
-}
-
-struct Outcome {
-  int code;
-  std::string out, err;
-};
-
-/// Runs `before` and this program with `--as arguments` in `folder`, by the shell.
-Outcome run(const Folder& folder, const std::string& before, const std::string& arguments) {
-  char self[4096] = "";
-  EXPECT_GT(readlink("/proc/self/exe", self, sizeof self - 1), 0);
-  const std::string command =
-      "cd " + folder.path() + " && exec > out 2> err && " + before + " '" + self + "' --as " + arguments;
-  const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder.path() + "/out"),
-          contents(folder.path() + "/err")};
 }
 
 const std::string kToFile = "PSTRIPACK_CHECK=calls.rec";
@@ -114,7 +78,7 @@ std::string output_of(const Mesh& m, std::size_t nodes) {
 TEST(Check, IsOffUnlessAskedFor) {
   const Folder folder;
   for (const char* environment : {"env -u PSTRIPACK_CHECK", "PSTRIPACK_CHECK="}) {
-    const Outcome outcome = run(folder, environment, "calls random 1000 2");
+    const Outcome outcome = run_this_program(folder, environment, "calls random 1000 2");
     EXPECT_EQ(outcome.code, 0);
     EXPECT_EQ(outcome.out + outcome.err, "") << environment;
     EXPECT_EQ(std::system(("test \"$(ls " + folder.path() + ")\" = \"$(printf 'err\\nout')\"").c_str()), 0);
@@ -123,7 +87,7 @@ TEST(Check, IsOffUnlessAskedFor) {
 
 TEST(Check, RecordsTheBytesOfInputAndOutput) {
   const Folder folder;
-  const Outcome outcome = run(folder, kToFile, "calls cap 500 2");
+  const Outcome outcome = run_this_program(folder, kToFile, "calls cap 500 2");
   EXPECT_EQ(outcome.code, 0);
   EXPECT_EQ(outcome.out + outcome.err, "");
   const Nodes nodes = point_sets::make("cap", 500);
@@ -152,7 +116,7 @@ TEST(Check, RecordsTheBytesOfInputAndOutput) {
 
 TEST(Check, RecordsEveryCode) {
   const Folder folder;
-  run(folder, kToFile, "codes");
+  run_this_program(folder, kToFile, "codes");
   const auto all = blocks(folder);
   ASSERT_EQ(all.size(), 10u);
   const struct {
@@ -174,7 +138,7 @@ TEST(Check, RecordsEveryCode) {
 
 TEST(Check, RecordsSinglePrecisionAsItIs) {
   const Folder folder;
-  run(folder, kToFile, "single");
+  run_this_program(folder, kToFile, "single");
   const auto all = blocks(folder);
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[0].header.real_bytes, 4u);
@@ -186,7 +150,7 @@ TEST(Check, RecordsSinglePrecisionAsItIs) {
 TEST(Check, IsAppendedToTheFileOfTheFolderWhereTheProgramBegan) {
   const Folder folder;
   for (int i = 0; i < 2; ++i) {
-    const Outcome outcome = run(folder, kToFile, "elsewhere random 1000 1");
+    const Outcome outcome = run_this_program(folder, kToFile, "elsewhere random 1000 1");
     EXPECT_EQ(outcome.code, 0);
     EXPECT_EQ(outcome.out + outcome.err, "");
   }
@@ -210,19 +174,19 @@ void expect_calls(const std::vector<Block>& all, std::size_t processes, std::siz
 
 TEST(Check, KeepsTheBlocksOfThreadsWhole) {
   const Folder folder;
-  EXPECT_EQ(run(folder, kToFile, "threads random 500 16").code, 0);
+  EXPECT_EQ(run_this_program(folder, kToFile, "threads random 500 16").code, 0);
   expect_calls(blocks(folder), 1, 16);
 }
 
 TEST(Check, KeepsTheBlocksOfProcessesWhole) {
   const Folder folder;
-  EXPECT_EQ(run(folder, kToFile, "processes random 3000 4").code, 0);
+  EXPECT_EQ(run_this_program(folder, kToFile, "processes random 3000 4").code, 0);
   expect_calls(blocks(folder), 4, 5);
 }
 
 TEST(Check, OfAForkedChildIsItsOwn) {
   const Folder folder;
-  EXPECT_EQ(run(folder, kToFile, "fork random 500 1").code, 0);
+  EXPECT_EQ(run_this_program(folder, kToFile, "fork random 500 1").code, 0);
   const auto all = blocks(folder);
   ASSERT_EQ(all.size(), 8u);
   expect_calls(all, 2, 2);
@@ -231,7 +195,7 @@ TEST(Check, OfAForkedChildIsItsOwn) {
 
 TEST(Check, HasTheInputOfACallThatCrashes) {
   const Folder folder;
-  EXPECT_NE(run(folder, kToFile, "crash random 500 1").code, 0);
+  EXPECT_NE(run_this_program(folder, kToFile, "crash random 500 1").code, 0);
   const auto all = blocks(folder);
   ASSERT_EQ(all.size(), 3u);
   EXPECT_EQ(all[2].header.kind, 1u);
@@ -242,7 +206,7 @@ TEST(Check, WarnsOnceOfAFileThatCannotBeWrittenAndGoesOn) {
   const Folder folder;
   ASSERT_EQ(std::system(("mkfifo " + folder.path() + "/pipe").c_str()), 0);
   for (const std::string path : {"/proc/no/such/folder", "/tmp", "/dev/full", "pipe"}) {
-    const Outcome outcome = run(folder, "PSTRIPACK_CHECK=" + path, "calls random 100 3");
+    const Outcome outcome = run_this_program(folder, "PSTRIPACK_CHECK=" + path, "calls random 100 3");
     EXPECT_EQ(outcome.code, 0);
     EXPECT_EQ(outcome.out, "");
     EXPECT_EQ(lines(outcome.err), 1u) << outcome.err;
@@ -254,7 +218,8 @@ TEST(Check, WarnsOnceOfAFileThatCannotBeWrittenAndGoesOn) {
 TEST(Check, LeavesNoHalfBlockWhereTheDiskIsFull) {
   const Folder folder;
   // 80 times 512 bytes, not more; a call of 500 nodes takes 38,112.
-  const Outcome outcome = run(folder, "trap '' XFSZ; ulimit -f 80; " + kToFile, "calls random 500 5");
+  const Outcome outcome =
+      run_this_program(folder, "trap '' XFSZ; ulimit -f 80; " + kToFile, "calls random 500 5");
   EXPECT_EQ(outcome.code, 0);
   EXPECT_EQ(lines(outcome.err), 1u) << outcome.err;
   EXPECT_NE(outcome.err.find("calls.rec: File too large"), std::string::npos) << outcome.err;
@@ -271,7 +236,7 @@ TEST(Check, BesideTheModelMayFailToStart) {
             "'speed=3': expected abi=, timeout=, show= or log="},
            {program + "PSTRIPACK_CHECK=lib:a.so,timeout=soon", "'timeout=soon': expected seconds"},
            {"PSTRIPACK_COMPARE=/bin/false PSTRIPACK_CHECK=lib:", "stripack-compare has ended"}}) {
-    const Outcome outcome = run(folder, environment, "calls random 5000 3");
+    const Outcome outcome = run_this_program(folder, environment, "calls random 5000 3");
     EXPECT_EQ(outcome.code, 0);
     EXPECT_EQ(outcome.out, "");
     EXPECT_EQ(lines(outcome.err), 1u) << outcome.err;
@@ -290,10 +255,10 @@ TEST(Check, BesideTheModelGetsTheStreamAndItsSettingsButNoVariablesOfTheJob) {
   const Folder folder;
   write_program(folder,
                 "echo \"$@\" > words; env > variables; ls /proc/self/fd > files; cat > calls.rec; echo log");
-  const Outcome outcome = run(folder,
-                              "OMPI_COMM_WORLD_RANK=0 PMIX_RANK=0 PSTRIPACK_COMPARE=./program "
-                              "PSTRIPACK_CHECK=lib:old.so,abi=8arg,timeout=3,show=7",
-                              "calls random 500 2");
+  const Outcome outcome = run_this_program(folder,
+                                           "OMPI_COMM_WORLD_RANK=0 PMIX_RANK=0 PSTRIPACK_COMPARE=./program "
+                                           "PSTRIPACK_CHECK=lib:old.so,abi=8arg,timeout=3,show=7",
+                                           "calls random 500 2");
   EXPECT_EQ(outcome.code, 0);
   EXPECT_EQ(outcome.out, "");
   EXPECT_EQ(outcome.err, "log\n") << "its stdout is the model's stderr";
@@ -309,8 +274,8 @@ TEST(Check, BesideTheModelGetsTheStreamAndItsSettingsButNoVariablesOfTheJob) {
 TEST(Check, BesideTheModelWritesToALog) {
   const Folder folder;
   write_program(folder, "cat > calls.rec; echo out; echo err >&2");
-  const Outcome outcome =
-      run(folder, "PSTRIPACK_COMPARE=./program PSTRIPACK_CHECK=lib:,log=log", "calls random 500 1");
+  const Outcome outcome = run_this_program(folder, "PSTRIPACK_COMPARE=./program PSTRIPACK_CHECK=lib:,log=log",
+                                           "calls random 500 1");
   EXPECT_EQ(outcome.out + outcome.err, "");
   EXPECT_EQ(contents(folder.path() + "/log"), "out\nerr\n");
 }
@@ -318,8 +283,8 @@ TEST(Check, BesideTheModelWritesToALog) {
 TEST(Check, BesideTheModelDoesNotHoldItUpForEver) {
   const Folder folder;
   write_program(folder, "exec > /dev/null 2>&1; cat > /dev/null; sleep 30");
-  const Outcome outcome =
-      run(folder, "PSTRIPACK_COMPARE=./program PSTRIPACK_CHECK=lib:,timeout=0.1", "calls random 500 1");
+  const Outcome outcome = run_this_program(
+      folder, "PSTRIPACK_COMPARE=./program PSTRIPACK_CHECK=lib:,timeout=0.1", "calls random 500 1");
   EXPECT_EQ(outcome.code, 0);
   EXPECT_EQ(lines(outcome.err), 1u);
   EXPECT_NE(outcome.err.find("the check of its last calls goes on"), std::string::npos) << outcome.err;
@@ -328,7 +293,9 @@ TEST(Check, BesideTheModelDoesNotHoldItUpForEver) {
 TEST(Check, BesideAForkedChildIsAProgramOfItsOwn) {
   const Folder folder;
   write_program(folder, "cat > stream.$$; cat stream.$$ >> calls.rec");
-  EXPECT_EQ(run(folder, "PSTRIPACK_COMPARE=./program PSTRIPACK_CHECK=lib:", "fork random 500 1").code, 0);
+  EXPECT_EQ(
+      run_this_program(folder, "PSTRIPACK_COMPARE=./program PSTRIPACK_CHECK=lib:", "fork random 500 1").code,
+      0);
   expect_calls(blocks(folder), 2, 2);
   EXPECT_EQ(std::system(("test $(ls " + folder.path() + "/stream.* | wc -l) -eq 2").c_str()), 0);
 }
@@ -337,7 +304,7 @@ TEST(Check, WritesToNoFileThatTheModelHasOpenedInPlaceOfTheSocket) {
   const Folder folder;
   write_program(folder, "cat > calls.rec");
   const Outcome outcome =
-      run(folder, "PSTRIPACK_COMPARE=./program PSTRIPACK_CHECK=lib:", "closes random 500 1");
+      run_this_program(folder, "PSTRIPACK_COMPARE=./program PSTRIPACK_CHECK=lib:", "closes random 500 1");
   EXPECT_EQ(outcome.code, 0);
   EXPECT_EQ(contents(folder.path() + "/own"), "");
   expect_calls(blocks(folder), 1, 1);
@@ -404,25 +371,9 @@ int run_as(const std::string& action, const std::string& family, std::size_t n, 
     call();
     return 0;
   }
-  if (action != "fork") return 0;
-  const pid_t child = fork();
-  if (child == 0) {
-    call();
-    call();
-    std::exit(0);
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  call();
-  return status;
+  return action == "fork" ? call_around_a_fork(call) : 0;
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  if (argc > 2 && std::string(argv[1]) == "--as")
-    return run_as(argv[2], argc > 3 ? argv[3] : "", argc > 4 ? std::stoul(argv[4]) : 0,
-                  argc > 5 ? std::atoi(argv[5]) : 0);
-  ::testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}
+int main(int argc, char** argv) { return run_as_or_test(argc, argv, run_as); }

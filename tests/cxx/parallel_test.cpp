@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <numeric>
@@ -15,6 +16,7 @@
 #include "geometry/workspace.h"
 #include "parallel/coincidence.h"
 #include "parallel/partition.h"
+#include "parallel/patch.h"
 #include "parallel/triangulate.h"
 #include "point_sets.h"
 #include "support/lists.h"
@@ -183,6 +185,38 @@ INSTANTIATE_TEST_SUITE_P(All, Families, ::testing::ValuesIn(kFamilies), [](const
       name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
   return name;
 });
+
+// Patches this large need not look at triangles of their own nodes, if one bound holds for all.
+TEST(LargePatches, GiveTheSerialRings) {
+  for (const char* family : {"random", "latlon", "variable:1e6", "hemisphere"}) {
+    const Set set(point_sets::make(family, 120000, 6));
+    EXPECT_TRUE(
+        is_serial(set, run<std::int32_t>(set.nodes, {2, 1, PartitionKind::bisection, Brings::slices})))
+        << family;
+  }
+}
+
+TEST(Stretch, OfSomeNodesBoundsThatOfMore) {
+  for (const char* family : {"random", "latlon", "variable", "clusters"}) {
+    const Set set(point_sets::make(family, 2000, 4));
+    const Places places(set.lengths, 1e-15);
+    std::vector<Record> some;
+    double before = std::numeric_limits<double>::infinity();
+    for (const std::size_t count : {40, 200, 2000}) {
+      for (std::size_t i = some.size(); i < std::min(count, set.nodes.size()); ++i)
+        some.push_back({set.nodes[i], static_cast<std::int64_t>(i) + 1});
+      const double now = most_stretch(some, places);
+      EXPECT_GE(now, 1);
+      EXPECT_LE(now, before) << family;
+      before = now;
+    }
+    EXPECT_LT(before, 2) << family;
+  }
+  const Nodes nodes = point_sets::make("hemisphere", 100, 1);
+  std::vector<Record> some;
+  for (const Point& p : nodes) some.push_back({p, static_cast<std::int64_t>(some.size()) + 1});
+  EXPECT_EQ(most_stretch(some, Places(Lengths::as_given, 1e-15)), std::numeric_limits<double>::infinity());
+}
 
 // ---- nasty sets -------------------------------------------------------------------------------------
 
@@ -390,6 +424,31 @@ TEST(Partitions, HaloIsWhatIsKnownAndBallsAreJudgedSafely) {
         }
       }
     }
+}
+
+TEST(Partitions, WhatHoldsForAllTrianglesHoldsForEach) {
+  int holding = 0, open = 0;
+  for (const char* family : {"random", "cap:1", "variable"})
+    for (const int patches : {2, 3, 8}) {
+      const Nodes nodes = point_sets::make(family, 3000, 5);
+      const Partition partition(PartitionKind::bisection, patches, nodes, nodes.size());
+      std::vector<Nodes> own(static_cast<std::size_t>(patches));
+      for (const Point& p : nodes) own[static_cast<std::size_t>(partition.owner(p))].push_back(p);
+      for (int q = 0; q < patches; ++q)
+        for (const double stretch : {1.0, 1.02, 1.1, 1.5, 4.0}) {
+          if (!partition.holds_all(q, stretch)) {
+            ++open;
+            continue;
+          }
+          ++holding;
+          const Nodes& mine = own[static_cast<std::size_t>(q)];
+          for (std::size_t i = 0; i + 2 < mine.size(); ++i)
+            ASSERT_TRUE(partition.holds(q, mine[i], mine[(7 * i) % mine.size()], mine[i + 2], stretch))
+                << family << ", patch " << q << " of " << patches << ", " << stretch;
+        }
+    }
+  EXPECT_GT(holding, 0);
+  EXPECT_GT(open, 0);
 }
 
 TEST(Partitions, BisectionIsBalancedWhateverTheDensity) {

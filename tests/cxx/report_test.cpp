@@ -13,30 +13,10 @@
 
 #include "point_sets.h"
 #include "support/expect.h"
+#include "support/this_program.h"
 #include "support/trmesh.h"
 
 namespace {
-
-/// A folder of its own, gone at the end.
-class Folder {
- public:
-  Folder() {
-    char name[] = "/tmp/pstripack_report_XXXXXX";
-    path_ = mkdtemp(name);
-  }
-  ~Folder() { EXPECT_EQ(std::system(("rm -rf " + path_).c_str()), 0); }
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
-
-std::string contents(const std::string& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 std::vector<std::string> lines(const std::string& text) {
   std::vector<std::string> all;
@@ -45,18 +25,11 @@ std::vector<std::string> lines(const std::string& text) {
   return all;
 }
 
-struct Outcome {
-  std::string out, err;
-};
-
-/// Runs this program with `--as arguments` in `folder`.
+/// Runs this program in `folder`; it must end well.
 Outcome run(const Folder& folder, const std::string& environment, const std::string& arguments) {
-  char self[4096] = "";
-  EXPECT_GT(readlink("/proc/self/exe", self, sizeof self - 1), 0);
-  const std::string command = "cd " + folder.path() + " && env " + environment + " '" + self + "' --as " +
-                              arguments + " > out 2> err";
-  EXPECT_EQ(std::system(command.c_str()), 0) << arguments;
-  return {contents(folder.path() + "/out"), contents(folder.path() + "/err")};
+  const Outcome outcome = run_this_program(folder, environment, arguments);
+  EXPECT_EQ(outcome.code, 0) << arguments;
+  return outcome;
 }
 
 const std::string kOne = "OMP_NUM_THREADS=1 PSTRIPACK_REPORT=1";
@@ -83,7 +56,7 @@ double value(const std::string& line, const std::string& key) {
 
 TEST(Report, IsSilentUnlessAskedFor) {
   const Folder folder;
-  for (const char* environment : {"-u PSTRIPACK_REPORT", "PSTRIPACK_REPORT=", "PSTRIPACK_REPORT=0"}) {
+  for (const char* environment : {"env -u PSTRIPACK_REPORT", "PSTRIPACK_REPORT=", "PSTRIPACK_REPORT=0"}) {
     const Outcome outcome = run(folder, environment, "calls random 1000 2");
     EXPECT_EQ(outcome.out + outcome.err, "") << environment;
   }
@@ -224,25 +197,9 @@ int run_as(const std::string& action, const std::string& family, std::size_t n, 
   }
   if (action == "elsewhere" && (chdir("/") != 0 || unsetenv("PSTRIPACK_REPORT") != 0)) return 1;
   for (int i = 0; i < count; ++i) call();
-  if (action != "fork") return 0;
-  const pid_t child = fork();
-  if (child == 0) {
-    call();
-    call();
-    std::exit(0);
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  call();
-  return status;
+  return action == "fork" ? call_around_a_fork(call) : 0;
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  if (argc > 2 && std::string(argv[1]) == "--as")
-    return run_as(argv[2], argc > 3 ? argv[3] : "", argc > 4 ? std::stoul(argv[4]) : 0,
-                  argc > 5 ? std::atoi(argv[5]) : 0);
-  ::testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}
+int main(int argc, char** argv) { return run_as_or_test(argc, argv, run_as); }

@@ -25,12 +25,18 @@ std::size_t rounded_up(std::size_t bytes) {
 Block::Block(std::size_t bytes) {
   if (bytes >= kSmallest) bytes = rounded_up(bytes);
   if (bytes >= kSmallest && bytes <= kLargest) {
-    if (const std::unique_lock lock(mutex, std::try_to_lock); lock)
+    if (const std::unique_lock lock(mutex, std::try_to_lock); lock) {
+      // The smallest: another one may be wanted next.
+      Buffer<unsigned char>* best = nullptr;
       for (auto& block : kept)
-        if (block.size() >= bytes && block.size() - bytes <= bytes / 16) {
-          memory_ = std::exchange(block, {});
-          return;
-        }
+        if (block.size() >= bytes && block.size() - bytes <= bytes / 16 &&
+            (best == nullptr || block.size() < best->size()))
+          best = &block;
+      if (best != nullptr) {
+        memory_ = std::exchange(*best, {});
+        return;
+      }
+    }
   }
   memory_ = Buffer<unsigned char>(bytes);
 }

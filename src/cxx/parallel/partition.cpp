@@ -277,28 +277,22 @@ Partition::Partition(PartitionKind kind, int patches, const std::vector<Point>& 
 }
 
 void Partition::owners(const Point* x, std::size_t n, std::uint32_t* owner, double* nearest_plane) const {
-  for (std::size_t i = 0; i < n; i += kTogether) {
-    const std::size_t count = std::min(kTogether, n - i);
-    std::int32_t k[kTogether];
-    double nearest[kTogether];
-    const Top root = top_[0];  // the same for all
-    for (std::size_t j = 0; j < count; ++j) {
-      const double height = product(root.split, x[i + j]);
-      k[j] = height >= root.split.d ? root.child[1] : root.child[0];
-      nearest[j] = std::fabs(height - root.split.d);
-    }
-    for (int level = 1; level < top_depth_; ++level)
-      for (std::size_t j = 0; j < count; ++j) {
-        const Top& t = top_[static_cast<std::size_t>(k[j])];
-        const double height = product(t.split, x[i + j]);
-        k[j] = t.child[height >= t.split.d];
-        nearest[j] = std::min(nearest[j], std::fabs(height - t.split.d));
-      }
-    for (std::size_t j = 0; j < count; ++j) {
-      owner[i + j] = static_cast<std::uint32_t>(top_[static_cast<std::size_t>(k[j])].patch);
-      nearest_plane[i + j] = nearest[j];
-    }
+  // Level by level: one descent would wait for every comparison. On the way down owner[i] is the node
+  // reached.
+  const Top root = top_[0];  // the same for all
+  for (std::size_t i = 0; i < n; ++i) {
+    const double height = product(root.split, x[i]) - root.split.d;
+    owner[i] = static_cast<std::uint32_t>(height >= 0 ? root.child[1] : root.child[0]);
+    nearest_plane[i] = std::fabs(height);
   }
+  for (int level = 1; level < top_depth_; ++level)
+    for (std::size_t i = 0; i < n; ++i) {
+      const Top& t = top_[owner[i]];
+      const double height = product(t.split, x[i]) - t.split.d;
+      owner[i] = static_cast<std::uint32_t>(t.child[height >= 0]);
+      nearest_plane[i] = std::min(nearest_plane[i], std::fabs(height));
+    }
+  for (std::size_t i = 0; i < n; ++i) owner[i] = static_cast<std::uint32_t>(top_[owner[i]].patch);
 }
 
 /// Appends the cell and those below it down to cells of one patch.
@@ -329,7 +323,7 @@ double Partition::distance(int patch, const Point& x) const {
 bool Partition::holds(int patch, const Point& a, const Point& b, const Point& c, double stretch) const {
   const Region& region = regions_[patch];
   if (region.is_cone) return true;
-  if (region.pieces.size() != 1 || !(stretch >= 1)) return false;
+  if (region.pieces.size() != 1 || !std::isfinite(stretch)) return false;
   // A convex patch holds the flat triangle. Stretched, it can leave through planes beyond the centre only.
   for (const Plane& p : region.pieces[0].planes) {
     const double lowest = std::min({product(p, a), product(p, b), product(p, c)});
@@ -352,6 +346,17 @@ void Partition::margins(const Point* x, const std::uint32_t* owner, const std::s
     }
   }
   for (std::size_t j = 0; j < n; ++j) margin[j] = cells_[k[j]].margin;
+}
+
+bool Partition::holds_all(int patch, double stretch) const {
+  const Region& region = regions_[patch];
+  if (region.is_cone) return true;
+  if (region.pieces.size() != 1 || !std::isfinite(stretch)) return false;
+  // No corner is below p.d, up to rounding.
+  constexpr double kRounding = 1e-12;
+  for (const Plane& p : region.pieces[0].planes)
+    if (p.d < 0 && stretch * (p.d - kRounding) < p.d - smallest_margin_) return false;
+  return true;
 }
 
 void Partition::near(const Point& x, double radius, std::vector<int>& patches) const {

@@ -92,6 +92,8 @@ class Partition {
   /// True if the patch knows every node whose direction is in the triangle of its own nodes a,b,c and that
   /// lies up to `stretch` times as far from the centre as the triangle there.
   bool holds(int patch, const Point& a, const Point& b, const Point& c, double stretch) const;
+  /// True if holds() is for all triangles of the patch's own nodes.
+  bool holds_all(int patch, double stretch) const;
 
  private:
   struct Plane {

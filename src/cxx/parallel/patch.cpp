@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "geometry/insertion_order.h"
@@ -14,6 +15,15 @@ namespace {
 
 constexpr double u = 0x1p-53;
 constexpr Ball kEverywhere{{0, 0, 0}, 4};
+
+/// How many times as far from the centre as the plane of a face a place in its direction can be, no place
+/// being farther than `farthest`. Infinite unless the centre is certainly below the plane, whose product with
+/// a unit vector is known to 1.
+double stretch_of(const Plane& p, double farthest) {
+  const double w = p.w - 4;
+  return w > 0 ? farthest * std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z) / w
+               : std::numeric_limits<double>::infinity();
+}
 
 /// A ball around the places p with |p| <= 1 + deviation and normal.p >= height, the normal a unit vector
 /// known to `error`: |p - normal|^2 = |p|^2 + 1 - 2 normal.p.
@@ -197,7 +207,7 @@ void Patch<Int>::mend_boundary(const Boundary& boundary) {
 }
 
 template <class Int>
-void Patch<Int>::ask(const Boundary& boundary, std::vector<Question>& questions) {
+void Patch<Int>::ask(const Boundary& boundary, double stretch, std::vector<Question>& questions) {
   if (own_ == 0 || partition_->patches() == 1) return;
   mend_boundary(boundary);
   // A node that lies above some triangle of own nodes lies above one that has a corner of another patch as
@@ -216,7 +226,7 @@ void Patch<Int>::ask(const Boundary& boundary, std::vector<Question>& questions)
     ask_about_triangle(t, questions);
   });
   asked_with_ = growing_->node_count();
-  if (!first_time) return;
+  if (!first_time || partition_->holds_all(id_, stretch)) return;
   // What lies in the direction of a point y of a triangle is at most 1 + deviation times as long as 1 / |y|.
   const double margin = partition_->smallest_margin(), farthest = 1 + places_.deviation();
   const double lowest = std::max(0.0, farthest - margin + 1e-12);
@@ -229,10 +239,8 @@ void Patch<Int>::ask(const Boundary& boundary, std::vector<Question>& questions)
   const auto examine = [&](std::uint32_t t) {
     const auto& v = arrays_.faces[t].vertex;
     if (is_flat(t) || !(is_own(v[0]) && is_own(v[1]) && is_own(v[2])) || !growing_->front(t)) return;
-    const Plane& p = arrays_.planes[t];
-    const double w = p.w - 4, square = p.x * p.x + p.y * p.y + p.z * p.z;
-    const double stretch = w > 0 ? farthest * std::sqrt(square) / w : 1 / w;
-    if (!partition_->holds(id_, place(v[0]), place(v[1]), place(v[2]), stretch))
+    if (!partition_->holds(id_, place(v[0]), place(v[1]), place(v[2]),
+                           stretch_of(arrays_.planes[t], farthest)))
       ask_about_triangle(t, questions);
   };
   constexpr std::uint32_t kTogether = 8;
@@ -250,28 +258,55 @@ void Patch<Int>::ask(const Boundary& boundary, std::vector<Question>& questions)
 // ---- the boundary of all nodes ----------------------------------------------------------------------
 
 namespace {
+
 bool lower_number(const Record& a, const Record& b) { return a.number < b.number; }
+
+/// The hull of a few nodes, which stands for larger ones.
+struct SmallHull {
+  /// Throws HiddenNode, std::bad_alloc, std::domain_error if all are on one great circle.
+  SmallHull(const std::vector<Record>& nodes, Lengths lengths)
+      : workspace(workspace_bytes(nodes.size())), order(workspace.keep<std::uint32_t>(nodes.size())) {
+    const std::size_t n = nodes.size();
+    insertion_order(&nodes[0].point, n, order, workspace, sizeof(Record));
+    workspace.next_phase();
+    arrays = {n, workspace.keep<Point>(n), workspace.keep<Face>(2 * n), nullptr, nullptr};
+    arrays.corner = workspace.keep<std::uint32_t>(n);
+    arrays.planes = workspace.take<Plane>(2 * n);
+    for (std::size_t v = 0; v < n; ++v) arrays.nodes[v] = nodes[order[v]].point;
+    growing = GrowingHull::make(arrays, n, lengths);
+    growing->build(0);
+  }
+
+  Workspace workspace;
+  std::uint32_t* order;  ///< hull node v is nodes[order[v]]
+  HullArrays arrays;
+  std::unique_ptr<GrowingHull> growing;
+};
+
 }  // namespace
 
+double most_stretch(const std::vector<Record>& nodes, const Places& places) {
+  double most = 1;
+  try {
+    const SmallHull hull(nodes, places.lengths());
+    for (std::uint32_t t = 0; t < hull.growing->face_count(); ++t)
+      most = std::max(most, stretch_of(hull.arrays.planes[t], 1 + places.deviation()));
+  } catch (const HiddenNode&) {
+    most = std::numeric_limits<double>::infinity();
+  }
+  return most;
+}
+
 Boundary::Boundary(std::vector<Record> candidates, Lengths lengths) : nodes_(std::move(candidates)) {
-  const std::size_t n = nodes_.size();
-  Workspace workspace(workspace_bytes(n));
-  auto* const order = workspace.keep<std::uint32_t>(n);
-  insertion_order(&nodes_[0].point, n, order, workspace, sizeof(Record));
-  workspace.next_phase();
-  HullArrays arrays{n, workspace.keep<Point>(n), workspace.keep<Face>(2 * n), nullptr, nullptr};
-  arrays.corner = workspace.keep<std::uint32_t>(n);
-  arrays.planes = workspace.take<Plane>(2 * n);
-  for (std::size_t v = 0; v < n; ++v) arrays.nodes[v] = nodes_[order[v]].point;
-  const auto growing = GrowingHull::make(arrays, n, lengths);
-  growing->build(0);
-  for (std::uint32_t t = 0; t < growing->face_count(); ++t) {
-    if (growing->front(t)) continue;
-    const Face& f = arrays.faces[t];
+  const SmallHull hull(nodes_, lengths);
+  const GrowingHull& growing = *hull.growing;
+  const auto number = [&](std::uint32_t v) { return nodes_[hull.order[v]].number; };
+  for (std::uint32_t t = 0; t < growing.face_count(); ++t) {
+    if (growing.front(t)) continue;
+    const Face& f = hull.arrays.faces[t];
     for (std::uint32_t i = 0; i < 3; ++i)
-      if (growing->front(face_of(f.neighbour[i])))
-        arcs_.emplace_back(nodes_[order[f.vertex[previous_edge(i)]]].number,
-                           nodes_[order[f.vertex[next_edge(i)]]].number);
+      if (growing.front(face_of(f.neighbour[i])))
+        arcs_.emplace_back(number(f.vertex[previous_edge(i)]), number(f.vertex[next_edge(i)]));
   }
   std::sort(arcs_.begin(), arcs_.end());
   std::sort(nodes_.begin(), nodes_.end(), lower_number);

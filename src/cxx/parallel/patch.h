@@ -50,6 +50,11 @@ class Boundary {
   std::vector<std::pair<std::int64_t, std::int64_t>> arcs_;  ///< sorted
 };
 
+/// How many times as far from the centre as a triangle of a hull a place in its direction can be, for all
+/// hulls of these nodes and any others: they lie around the hull of these. Infinite if these do not surround
+/// the centre. Throws std::bad_alloc.
+double most_stretch(const std::vector<Record>& nodes, const Places& places);
+
 /// Int: what node numbers fit into.
 template <class Int>
 class Patch {
@@ -79,8 +84,9 @@ class Patch {
   std::vector<Record> nodes_around_centre() const;
 
   /// What is not certain yet of the stars of its own nodes, as questions to the patches that may know better.
-  /// None: every star is the star in the triangulation of all nodes. Throws HiddenNode, std::bad_alloc.
-  void ask(const Boundary& boundary, std::vector<Question>& questions);
+  /// None: every star is the star in the triangulation of all nodes. `stretch`: most_stretch of nodes that it
+  /// has taken in, or infinity. Throws HiddenNode, std::bad_alloc.
+  void ask(const Boundary& boundary, double stretch, std::vector<Question>& questions);
 
   /// The answer of this patch to another's question: nodes that lie above, none if there are none. A patch
   /// that answers takes in the corners of the question. Throws HiddenNode, std::bad_alloc.

@@ -15,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <numeric>
 #include <optional>
 
@@ -200,6 +201,10 @@ class Triangulator {
       for (const Record& r : sample) places.push_back(places_(r.point));
       partition_ = std::make_unique<Partition>(options_.partition, patches, places, nodes);
       choose_closing(sample);
+      // Worth it where it spares a look at more triangles than it takes time for.
+      constexpr std::size_t kManyInAPatch = 50000;
+      if (nodes / static_cast<std::size_t>(patches) > kManyInAPatch)
+        most_stretch_ = most_stretch(closing_, places_);
       for (int q = 0; q < patches_here(); ++q)
         patches_.emplace_back(first_patch_[me_] + q, *partition_, places_);
     });
@@ -277,8 +282,7 @@ class Triangulator {
       try {
         // Several tallies: the next node's would wait for the one before to be written.
         constexpr std::size_t kTallies = 4;
-        std::vector<std::size_t> own[kTallies];
-        for (auto& tally : own) tally.resize(patches);
+        std::vector<std::size_t> own(kTallies * patches);
         constexpr std::size_t kTogether = 256;
         Point place[kTogether];
         double nearest_plane[kTogether];
@@ -291,14 +295,13 @@ class Triangulator {
           }
           std::uint32_t* const owner = routes.owner + block;
           partition_->owners(at, end - block, owner, nearest_plane);
-          for (std::size_t i = 0; i < end - block; ++i) ++own[i % kTallies][owner[i]];
+          for (std::size_t i = 0; i < end - block; ++i) ++own[i % kTallies * patches + owner[i]];
           partition_->for_each_halo(at, end - block, owner, nearest_plane, [&](std::size_t i, int q) {
             ++count[static_cast<std::size_t>(q)].halo;
             routes.halo[t].push_back({static_cast<std::uint32_t>(block + i), static_cast<std::uint32_t>(q)});
           });
         }
-        for (const auto& tally : own)
-          for (std::size_t q = 0; q < patches; ++q) count[q].own += tally[q];
+        for (std::size_t k = 0; k < own.size(); ++k) count[k % patches].own += own[k];
       } catch (...) {
         errors[t] = std::current_exception();
       }
@@ -499,7 +502,8 @@ class Triangulator {
     in_agreement([&] {
       questions.resize(size_);
       std::vector<std::vector<Question>> of_patch(patches_.size());
-      for_patches([&](Patch<Int>& patch, std::size_t k) { patch.ask(boundary_, of_patch[k]); });
+      for_patches(
+          [&](Patch<Int>& patch, std::size_t k) { patch.ask(boundary_, most_stretch_, of_patch[k]); });
       for (const auto& list : of_patch)
         for (const Question& q : list) questions[rank_of(q.to)].push_back(q), --asked;
     });
@@ -706,8 +710,9 @@ class Triangulator {
 
   std::vector<int> first_patch_;  ///< of each rank
   std::unique_ptr<Partition> partition_;
-  std::vector<Record> closing_;      ///< nodes from everywhere
-  std::vector<Patch<Int>> patches_;  ///< of this rank
+  std::vector<Record> closing_;                                    ///< nodes from everywhere
+  double most_stretch_ = std::numeric_limits<double>::infinity();  ///< of the closing nodes, if computed
+  std::vector<Patch<Int>> patches_;                                ///< of this rank
   Boundary boundary_;
   bool gave_up_ = false;
 

@@ -1,0 +1,76 @@
+#pragma once
+// What a library reads where it is loaded is tested by the test program itself, run again with `--as ...`.
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+/// A folder of its own, gone at the end.
+class Folder {
+ public:
+  Folder() {
+    char name[] = "/tmp/pstripack_test_XXXXXX";
+    path_ = mkdtemp(name);
+  }
+  ~Folder() { EXPECT_EQ(std::system(("rm -rf " + path_).c_str()), 0); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+inline std::string contents(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+struct Outcome {
+  int code;  ///< -1: a signal
+  std::string out, err;
+};
+
+/// Runs `before`, words of a shell, and this program with `--as arguments` in `folder`.
+inline Outcome run_this_program(const Folder& folder, const std::string& before,
+                                const std::string& arguments) {
+  char self[4096] = "";
+  EXPECT_GT(readlink("/proc/self/exe", self, sizeof self - 1), 0);
+  const std::string command =
+      "cd " + folder.path() + " && exec > out 2> err && " + before + " '" + self + "' --as " + arguments;
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder.path() + "/out"),
+          contents(folder.path() + "/err")};
+}
+
+/// call() twice in a forked child, then once here. Returns the child's status.
+template <class Call>
+int call_around_a_fork(const Call& call) {
+  const pid_t child = fork();
+  if (child == 0) {
+    call();
+    call();
+    std::exit(0);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  call();
+  return status;
+}
+
+/// main of such a program: run_as(action, points, n, count) for `--as action points n count`, else the tests.
+template <class RunAs>
+int run_as_or_test(int argc, char** argv, const RunAs& run_as) {
+  if (argc > 2 && std::string(argv[1]) == "--as")
+    return run_as(argv[2], argc > 3 ? argv[3] : "", argc > 4 ? std::stoul(argv[4]) : 0,
+                  argc > 5 ? std::atoi(argv[5]) : 0);
+  ::testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
