@@ -34,6 +34,17 @@ gfortran -I "$prefix/include/pstripack/stripack" "$consumer/legacy.F90" -o "$wor
 "$work/static"
 if ldd "$work/static" | grep -q pstripack; then echo "the static program needs a shared pstripack" >&2; exit 1; fi
 
+if [ -x "$prefix/bin/stripack-compare" ]; then
+  echo "== stripack-compare, by itself and beside a program"
+  if "$prefix/bin/stripack-compare" run --points random --n 1000 --abi r8,8arg > "$work/compare.log" 2>&1; then
+    grep '^verdict *equal' "$work/compare.log"
+    PSTRIPACK_CHECK="lib:,log=$work/check.log" "$work/cmake/legacy_stripack"
+    grep ' equal$' "$work/check.log"
+  else
+    grep 'no original to compare with' "$work/compare.log"
+  fi
+fi
+
 echo "== what the libraries need at run time"
 for library in libpstripack.so libstripack.so libstripack_r4.so libstripack_8arg.so; do
   needs=$(ldd "$libdir/$library" | awk '{ print $1 }' | tr '\n' ' ')
