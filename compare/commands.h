@@ -5,6 +5,8 @@
 
 namespace comparison {
 
+enum ExitCode { kExplained = 0, kAgainstUs = 1, kUsage = 2 };
+
 /// What the command line has chosen; returns the exit code.
 using Command = std::function<int()>;
 

@@ -5,8 +5,6 @@
 #include <fmt/format.h>
 #include <limits.h>
 #include <string.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -21,6 +19,8 @@
 #include <utility>
 
 #include "child_process.h"
+#include "median.h"
+#include "pool/shared_area.h"
 
 namespace comparison {
 namespace {
@@ -29,41 +29,18 @@ using pstripack::Point;
 
 constexpr double kEnoughSeconds = 10;
 
-/// A file in memory that another process opens by its path. It is gone with this process, whatever happens.
-class SharedFile {
- public:
-  explicit SharedFile(std::size_t size) : file_(memfd_create("stripack-compare", MFD_CLOEXEC)), size_(size) {
-    if (file_ < 0 || ftruncate(file_, static_cast<off_t>(size)) != 0) fail();
-    map();
-  }
-  explicit SharedFile(const char* path) : file_(open(path, O_RDWR | O_CLOEXEC)) {
-    struct stat status;
-    if (file_ < 0 || fstat(file_, &status) != 0) fail();
-    size_ = static_cast<std::size_t>(status.st_size);
-    map();
-  }
-  ~SharedFile() {
-    if (data_ != MAP_FAILED) munmap(data_, size_);
-    if (file_ >= 0) close(file_);
-  }
-  SharedFile(const SharedFile&) = delete;
-  SharedFile& operator=(const SharedFile&) = delete;
+using pstripack::SharedArea;
 
-  void* data() const { return data_; }
-  int descriptor() const { return file_; }
-  std::string path() const { return fmt::format("/proc/{}/fd/{}", getpid(), file_); }
+/// Gone with this process, whatever happens.
+SharedArea new_area(std::size_t size) {
+  SharedArea area = SharedArea::create(size);
+  if (area.data() == nullptr) throw std::bad_alloc();
+  return area;
+}
 
- private:
-  void map() {
-    data_ = mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_SHARED, file_, 0);
-    if (data_ == MAP_FAILED) fail();
-  }
-  [[noreturn]] void fail() const { throw std::system_error(errno, std::generic_category(), "shared memory"); }
-
-  int file_;
-  std::size_t size_ = 0;
-  void* data_ = MAP_FAILED;
-};
+std::string path_of(const SharedArea& area) {
+  return fmt::format("/proc/{}/fd/{}", getpid(), area.file().get());
+}
 
 /// What the two processes tell each other, before the arrays.
 struct Call {
@@ -74,19 +51,23 @@ struct Call {
   double seconds;
 };
 
-/// Where the arrays lie: x, y, z, then LIST, LPTR, LEND.
+/// Where the arrays lie: behind the call.
 struct Arrays {
-  explicit Arrays(Call* call)
-      : n(static_cast<std::size_t>(call->n)),
-        slots(6 * n - 12),
-        x(reinterpret_cast<double*>(call + 1)),
-        y(x + n),
-        z(y + n),
-        list(reinterpret_cast<std::int32_t*>(z + n)),
-        lptr(list + slots),
-        lend(lptr + slots) {}
+  static constexpr std::size_t kFirst = 4096;  // a page, as AreaLayout's
+  static_assert(sizeof(Call) <= kFirst);
+
+  explicit Arrays(Call* call) : n(static_cast<std::size_t>(call->n)), slots(6 * n - 12) {
+    const pstripack::AreaLayout layout(call->n, sizeof(double));
+    void* const area = reinterpret_cast<unsigned char*>(call) + kFirst;
+    x = layout.coordinate<double>(area, 0);
+    y = layout.coordinate<double>(area, 1);
+    z = layout.coordinate<double>(area, 2);
+    list = layout.list(area);
+    lptr = layout.lptr(area);
+    lend = layout.lend(area);
+  }
   static std::size_t bytes(std::size_t n) {
-    return sizeof(Call) + 3 * n * sizeof(double) + (13 * n - 24) * 4;
+    return kFirst + pstripack::AreaLayout(static_cast<std::int32_t>(n), sizeof(double)).size();
   }
 
   std::size_t n, slots;
@@ -143,9 +124,9 @@ void set_environment(const Setting& setting, const std::string& report) {
 constexpr off_t kReportBegins = 1;
 
 /// True if the report's line says that the pool of so many ranks has done the call.
-bool done_by_ranks(const SharedFile& report, int ranks) {
+bool done_by_ranks(const SharedArea& report, int ranks) {
   char text[200] = "";
-  if (pread(report.descriptor(), text, sizeof text - 1, kReportBegins) < 0) return false;
+  if (pread(report.file().get(), text, sizeof text - 1, kReportBegins) < 0) return false;
   return std::string(text).rfind("pstripack: pool ", 0) == 0 &&
          strstr(text, fmt::format(" ranks={} ", ranks).c_str()) != nullptr;
 }
@@ -197,8 +178,8 @@ std::string describe(const Setting& setting) {
 }
 
 OurRun run_ours(const std::vector<Point>& points, const Setting& setting, int repeats, double time_limit) {
-  const SharedFile file(Arrays::bytes(points.size()));
-  auto* const call = new (file.data()) Call{};
+  const SharedArea area = new_area(Arrays::bytes(points.size()));
+  auto* const call = new (area.data()) Call{};
   std::copy(setting.abi.begin(), setting.abi.end(), call->abi);
   call->n = static_cast<std::int32_t>(points.size());
   call->repeats = repeats;
@@ -206,12 +187,12 @@ OurRun run_ours(const std::vector<Point>& points, const Setting& setting, int re
   for (std::size_t i = 0; i < arrays.n; ++i)
     arrays.x[i] = points[i].x, arrays.y[i] = points[i].y, arrays.z[i] = points[i].z;
 
-  const SharedFile report(kReportBegins);
-  std::vector<std::string> words{beside_this_program(""), kCallCommand, file.path()};
+  const SharedArea report = new_area(kReportBegins);
+  std::vector<std::string> words{beside_this_program(""), kCallCommand, path_of(area)};
   if (setting.ranks > 1)
     words.insert(words.begin(),
                  {path_of_pstripack_run(), "-n", std::to_string(setting.ranks), "--oversubscribe", "--"});
-  const std::string report_path = report.path();  // of this process, not of the child
+  const std::string report_path = path_of(report);  // of this process, not of the child
   const auto ended = legacy_stripack::run_in_child(
       [&] {
         set_environment(setting, report_path);
@@ -249,8 +230,9 @@ OurRun run_ours(const std::vector<Point>& points, const Setting& setting, int re
 
 int call_trmesh(const char* path) {
   using Clock = std::chrono::steady_clock;
-  const SharedFile file(path);
-  auto* const call = static_cast<Call*>(file.data());
+  const SharedArea area = SharedArea::map(pstripack::Descriptor(open(path, O_RDWR | O_CLOEXEC)));
+  if (area.data() == nullptr) throw std::system_error(errno, std::generic_category(), path);
+  auto* const call = static_cast<Call*>(area.data());
   const Arrays arrays(call);
   const std::string abi = call->abi;
   void* const routine = load_trmesh(abi);
@@ -279,8 +261,7 @@ int call_trmesh(const char* path) {
     seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
     total += seconds.back();
   }
-  std::nth_element(seconds.begin(), seconds.begin() + seconds.size() / 2, seconds.end());
-  call->seconds = seconds[seconds.size() / 2];
+  call->seconds = median(seconds);
   call->lnew = abi == "8arg" ? lnew_of(lists.lend) : lists.lnew;
   std::copy(lists.list.begin(), lists.list.end(), arrays.list);
   std::copy(lists.lptr.begin(), lists.lptr.end(), arrays.lptr);

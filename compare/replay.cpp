@@ -29,8 +29,6 @@ namespace {
 
 using nlohmann::json;
 
-enum ExitCode { kExplained = 0, kAgainstUs = 1 };
-
 struct Options {
   std::string file;
   OriginalChoice original;

@@ -17,12 +17,15 @@
 #include "plot.h"
 #include "point_sets.h"
 #include "show_result.h"
+#include "stripack/trmesh.h"
 
 namespace comparison {
 namespace {
 
 using nlohmann::json;
 using pstripack::Point;
+
+constexpr std::size_t kMostNodes = pstripack::most_nodes<std::int32_t>();
 
 /// Nodes as they come: made when their turn is, or read beforehand.
 struct Source {
@@ -42,15 +45,17 @@ std::vector<Source> sources_of(const RunOptions& options) {
     if (const std::size_t n = sources.back().read.size(); n < 3)
       throw std::runtime_error(
           fmt::format("{}: a triangulation needs at least 3 nodes, here are {}", file, n));
-    else if (n > 357913943)
-      throw std::runtime_error(file + ": at most 357913943 nodes: 6N-12 must fit a default INTEGER");
+    else if (n > kMostNodes)
+      throw std::runtime_error(
+          fmt::format("{}: at most {} nodes: 6N-12 must fit a default INTEGER", file, kMostNodes));
   };
   for (const std::string& name : options.points) {
     if (name.rfind("file:", 0) == 0) {
       add_file(name.substr(5));
       continue;
     }
-    if (options.n < 3 || options.n > 357913943) throw std::invalid_argument("--n must be 3 to 357913943");
+    if (options.n < 3 || options.n > kMostNodes)
+      throw std::invalid_argument(fmt::format("--n must be 3 to {}", kMostNodes));
     for (const std::string& family :
          name == "all" ? point_sets::families() : std::vector<std::string>{name}) {
       point_sets::make(family, 3);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "chosen_original.h"
+#include "commands.h"
 
 namespace comparison {
 
@@ -24,8 +25,6 @@ struct RunOptions {
   std::optional<std::size_t> show;
   std::string json, csv, junit, plot;
 };
-
-enum ExitCode { kExplained = 0, kAgainstUs = 1, kUsage = 2 };
 
 /// Runs all cases and writes what was asked for. Throws std::exception for what is exit code 2.
 ExitCode run(const RunOptions& options);

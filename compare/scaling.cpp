@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "csv_file.h"
+#include "median.h"
 #include "mpi/area_of_all.h"
 #include "mpi/collective_trmesh.h"
 #include "mpi/distributed_mesh.h"
@@ -56,11 +57,6 @@ struct Lists {
 
 double seconds() { return clock_seconds(CLOCK_MONOTONIC); }
 double cpu_seconds() { return clock_seconds(CLOCK_PROCESS_CPUTIME_ID); }
-
-double median(std::vector<double> v) {
-  std::sort(v.begin(), v.end());
-  return v[v.size() / 2];
-}
 
 // ---- one run on some ranks: prints one line of names and values on rank 0 -----------------------------
 

@@ -40,7 +40,11 @@ class Random {
 };
 
 /// A random order of the nodes (Fisher-Yates).
-void shuffle(std::vector<pstripack::Point>& points, std::uint64_t seed);
+template <class Item>
+void shuffle(std::vector<Item>& items, std::uint64_t seed) {
+  Random random(seed);
+  for (std::size_t i = items.size(); i > 1; --i) std::swap(items[i - 1], items[random.below(i)]);
+}
 
 double sin_degrees(double angle);
 double cos_degrees(double angle);

@@ -18,9 +18,4 @@ Point Random::direction() {
   return {r * u, r * v, 1 - 2 * s};
 }
 
-void shuffle(Points& points, std::uint64_t seed) {
-  Random random(seed);
-  for (std::size_t i = points.size(); i > 1; --i) std::swap(points[i - 1], points[random.below(i)]);
-}
-
 }  // namespace point_sets

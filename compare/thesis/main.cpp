@@ -37,6 +37,7 @@
 #include <string>
 #include <vector>
 
+#include "median.h"
 #include "parallel/cost.h"
 #include "point_sets.h"
 #include "thesis/defects.h"
@@ -76,11 +77,6 @@ struct Gathered {
 double seconds() { return clock_seconds(CLOCK_MONOTONIC); }
 double cpu_seconds() { return clock_seconds(CLOCK_THREAD_CPUTIME_ID); }
 
-void shuffle(Nodes& nodes, std::uint64_t seed) {
-  point_sets::Random random(seed);
-  for (std::size_t i = nodes.size(); i > 1; --i) std::swap(nodes[i - 1], nodes[random.below(i)]);
-}
-
 std::string status_of(const Stripe& stripe, std::size_t nodes) {
   if (!stripe.failure.empty()) return "failed: " + stripe.failure;
   if (nodes == 0) return "open: no nodes in this stripe";
@@ -104,7 +100,7 @@ Gathered run(const Ring& ring, const Options& options, const std::vector<Point>&
   timed(kPick, [&] {
     nodes = pick(points, first, options.threads, count);
     if (options.shuffle)
-      for (Nodes& stripe : nodes) shuffle(stripe, options.seed);
+      for (Nodes& stripe : nodes) point_sets::shuffle(stripe, options.seed);
   });
 
   StripeSeconds spent;
@@ -143,11 +139,6 @@ Gathered run(const Ring& ring, const Options& options, const std::vector<Point>&
     all.owner.insert(all.owner.end(), patches[r + 1] - patches[r], static_cast<int>(r));
   all.owner.resize(all.triangles.size(), -1);
   return all;
-}
-
-double median(std::vector<double> v) {
-  std::sort(v.begin(), v.end());
-  return v[v.size() / 2];
 }
 
 /// Of every rank and phase the median over the calls; of these the slowest rank, as pstripack-scaling does

@@ -313,18 +313,7 @@ TEST(Check, WritesToNoFileThatTheModelHasOpenedInPlaceOfTheSocket) {
 /// What the cases run. Exit code 0 if all results are as without a check.
 int run_as(const std::string& action, const std::string& family, std::size_t n, int count) {
   if (action == "codes") {
-    Nodes nodes = point_sets::make("random", 100);
-    if (trmesh(Nodes(nodes.begin(), nodes.begin() + 2)).ier != PSTRIPACK_TOO_FEW_NODES) return 1;
-    std::swap(nodes[2], nodes[50]);
-    Nodes other = nodes;
-    other[2] = other[0];
-    if (trmesh(other).ier != PSTRIPACK_COLLINEAR) return 1;
-    other = nodes;
-    other[60] = {0, 0, 0};
-    if (trmesh(other).ier != PSTRIPACK_BAD_COORDINATE) return 1;
-    other = nodes;
-    other[70] = other[30];
-    if (trmesh(other).ier != 31) return 1;
+    if (!codes_are_right()) return 1;
     return pstripack_trmesh(1 << 30, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr) ==
                    PSTRIPACK_TOO_MANY_NODES
                ? 0
@@ -336,15 +325,9 @@ int run_as(const std::string& action, const std::string& family, std::size_t n, 
     return pstripack_trmesh_r4(6, x, y, z, list, lptr, lend, &lnew);
   }
   const Nodes nodes = point_sets::make(family, n);
-  const auto call = [&nodes] {
-    errno = ENOTTY;
-    const Mesh m = trmesh(nodes);
-    if (errno != ENOTTY || !is_correct(nodes, m)) std::_Exit(1);
-  };
+  const auto call = [&nodes] { call_trmesh(nodes); };
   if (action == "threads") {
-    std::vector<std::thread> threads;
-    for (int i = 0; i < count; ++i) threads.emplace_back(call);
-    for (auto& t : threads) t.join();
+    call_on_threads(count, call);
     return 0;
   }
   if (action == "processes") {

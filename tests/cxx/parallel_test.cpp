@@ -200,6 +200,15 @@ TEST(Stretch, OfSomeNodesBoundsThatOfMore) {
   for (const char* family : {"random", "latlon", "variable", "clusters"}) {
     const Set set(point_sets::make(family, 2000, 4));
     const Places places(set.lengths, 1e-15);
+    Workspace workspace(workspace_bytes(set.nodes.size()));
+    const Hull hull = delaunay(set.nodes.data(), set.nodes.size(), workspace);
+    double least_height = 1;
+    for (std::size_t t = 0; t < hull.face_count; ++t) {
+      const auto& v = hull.faces[t].vertex;
+      const auto place = [&](int i) { return places(set.nodes[hull.order[v[i]]]); };
+      const Point n = cross(minus(place(1), place(0)), minus(place(2), place(0)));
+      least_height = std::min(least_height, dot(n, place(0)) / std::sqrt(dot(n, n)));
+    }
     std::vector<Record> some;
     double before = std::numeric_limits<double>::infinity();
     for (const std::size_t count : {40, 200, 2000}) {
@@ -207,6 +216,7 @@ TEST(Stretch, OfSomeNodesBoundsThatOfMore) {
         some.push_back({set.nodes[i], static_cast<std::int64_t>(i) + 1});
       const double now = most_stretch(some, places);
       EXPECT_GE(now, 1);
+      EXPECT_GE(now * least_height, 1 - 1e-9) << family;
       EXPECT_LE(now, before) << family;
       before = now;
     }

@@ -169,30 +169,11 @@ TEST(Report, OfAForkedChildIsItsOwn) {
 
 /// What the cases run. Exit code 0 if all results are as without a report.
 int run_as(const std::string& action, const std::string& family, std::size_t n, int count) {
-  if (action == "codes") {
-    Nodes nodes = point_sets::make("random", 100);
-    if (trmesh(Nodes(nodes.begin(), nodes.begin() + 2)).ier != PSTRIPACK_TOO_FEW_NODES) return 1;
-    std::swap(nodes[2], nodes[50]);
-    Nodes other = nodes;
-    other[2] = other[0];
-    if (trmesh(other).ier != PSTRIPACK_COLLINEAR) return 1;
-    other = nodes;
-    other[60] = {0, 0, 0};
-    if (trmesh(other).ier != PSTRIPACK_BAD_COORDINATE) return 1;
-    other = nodes;
-    other[70] = other[30];
-    return trmesh(other).ier == 31 ? 0 : 1;
-  }
+  if (action == "codes") return codes_are_right() ? 0 : 1;
   const Nodes nodes = point_sets::make(family, n);
-  const auto call = [&nodes] {
-    errno = ENOTTY;
-    const Mesh m = trmesh(nodes);
-    if (errno != ENOTTY || !is_correct(nodes, m)) std::_Exit(1);
-  };
+  const auto call = [&nodes] { call_trmesh(nodes); };
   if (action == "threads") {
-    std::vector<std::thread> threads;
-    for (int i = 0; i < count; ++i) threads.emplace_back(call);
-    for (auto& t : threads) t.join();
+    call_on_threads(count, call);
     return 0;
   }
   if (action == "elsewhere" && (chdir("/") != 0 || unsetenv("PSTRIPACK_REPORT") != 0)) return 1;

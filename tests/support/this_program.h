@@ -5,10 +5,18 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "point_sets.h"
+#include "support/expect.h"
+#include "support/trmesh.h"
 
 /// A folder of its own, gone at the end.
 class Folder {
@@ -48,6 +56,37 @@ inline Outcome run_this_program(const Folder& folder, const std::string& before,
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder.path() + "/out"),
           contents(folder.path() + "/err")};
+}
+
+/// TRMESH returns the codes that STRIPACK documents, and -5; four calls.
+inline bool codes_are_right() {
+  Nodes nodes = point_sets::make("random", 100);
+  if (trmesh(Nodes(nodes.begin(), nodes.begin() + 2)).ier != PSTRIPACK_TOO_FEW_NODES) return false;
+  std::swap(nodes[2], nodes[50]);
+  Nodes other = nodes;
+  other[2] = other[0];
+  if (trmesh(other).ier != PSTRIPACK_COLLINEAR) return false;
+  other = nodes;
+  other[60] = {0, 0, 0};
+  if (trmesh(other).ier != PSTRIPACK_BAD_COORDINATE) return false;
+  other = nodes;
+  other[70] = other[30];
+  return trmesh(other).ier == 31;
+}
+
+/// Ends the program with code 1 unless the mesh is right and errno as before.
+inline void call_trmesh(const Nodes& nodes) {
+  errno = ENOTTY;
+  const Mesh m = trmesh(nodes);
+  if (errno != ENOTTY || !is_correct(nodes, m)) std::_Exit(1);
+}
+
+/// call() on so many threads at once.
+template <class Call>
+void call_on_threads(int count, const Call& call) {
+  std::vector<std::thread> threads;
+  for (int i = 0; i < count; ++i) threads.emplace_back(call);
+  for (auto& t : threads) t.join();
 }
 
 /// call() twice in a forked child, then once here. Returns the child's status.

@@ -159,15 +159,22 @@ std::atomic<Check*> Check::writes_here_{Check::the_check_};
 
 Check* check_of_calls() noexcept { return Check::writes_here_.load(std::memory_order_relaxed); }
 
-CheckedCall check_input(Check& check, std::uint32_t real_bytes, std::int32_t n, const void* x, const void* y,
-                        const void* z) noexcept {
-  CheckedCall call{real_bytes, check.next_number(), n, 0};
+namespace {
+BlockHeader header_of(BlockHeader::Kind kind, const CheckedCall& call) {
   BlockHeader header;
-  header.kind = BlockHeader::input;
+  header.kind = kind;
   header.real_bytes = call.real_bytes;
   header.integer_bytes = sizeof(std::int32_t);
   header.call = call.number;
-  header.n = n;
+  header.n = call.n;
+  return header;
+}
+}  // namespace
+
+CheckedCall check_input(Check& check, std::uint32_t real_bytes, std::int32_t n, const void* x, const void* y,
+                        const void* z) noexcept {
+  CheckedCall call{real_bytes, check.next_number(), n, 0};
+  BlockHeader header = header_of(BlockHeader::input, call);
   // Where n is refused, TRMESH does not read the arrays, whose length may be anything.
   const bool is_read = n >= 3 && n <= most_nodes<std::int32_t>();
   const std::size_t size = is_read ? static_cast<std::size_t>(n) * real_bytes : 0;
@@ -179,13 +186,9 @@ CheckedCall check_input(Check& check, std::uint32_t real_bytes, std::int32_t n, 
 
 void check_output(Check& check, const CheckedCall& call, const TrmeshResult& result, const std::int32_t* list,
                   const std::int32_t* lptr, const std::int32_t* lend, const std::int32_t* lnew) noexcept {
-  BlockHeader header;
-  header.nanoseconds = std::llround(1e9 * (clock_seconds(CLOCK_MONOTONIC) - call.start));
-  header.kind = BlockHeader::output;
-  header.real_bytes = call.real_bytes;
-  header.integer_bytes = sizeof(std::int32_t);
-  header.call = call.number;
-  header.n = call.n;
+  const double seconds = clock_seconds(CLOCK_MONOTONIC) - call.start;
+  BlockHeader header = header_of(BlockHeader::output, call);
+  header.nanoseconds = std::llround(1e9 * seconds);
   header.ier = result.ier;
   if (result.ier >= 0) {
     header.nodes = result.ier > 0 ? result.other - 1 : call.n;

@@ -75,13 +75,18 @@ std::int32_t trmesh_call(std::int32_t n, const Real* x, const Real* y, const Rea
                          std::int32_t* lptr, std::int32_t* lend, std::int32_t* lnew) noexcept {
   const DefaultFloatingPoint environment;
   TrmeshResult result{0};
-  Check* const check = check_of_calls();
-  CheckedCall checked{};
-  if (check != nullptr) checked = check_input(*check, sizeof(Real), n, x, y, z);
-  const bool is_ours = pstripack_report_is_wanted()
-                           ? carry_out_and_report(n, x, y, z, list, lptr, lend, lnew, result)
-                           : carry_out(n, x, y, z, list, lptr, lend, lnew, result, nullptr);
-  if (check != nullptr) check_output(*check, checked, result, list, lptr, lend, lnew);
+  const auto work = [&] {
+    return pstripack_report_is_wanted() ? carry_out_and_report(n, x, y, z, list, lptr, lend, lnew, result)
+                                        : carry_out(n, x, y, z, list, lptr, lend, lnew, result, nullptr);
+  };
+  bool is_ours;
+  if (Check* const check = check_of_calls(); check == nullptr) {
+    is_ours = work();
+  } else {
+    const CheckedCall call = check_input(*check, sizeof(Real), n, x, y, z);
+    is_ours = work();
+    check_output(*check, call, result, list, lptr, lend, lnew);
+  }
   if (!is_ours) return result.ier;
   // STRIPACK's own codes are silent; a code that no caller knows yet says so once.
   if (result.ier == PSTRIPACK_BAD_COORDINATE) {

@@ -121,8 +121,9 @@ class Partition {
   static double product(const Plane& p, const Point& x) { return p.x * x.x + p.y * x.y + p.z * x.z; }
   static bool is_beyond(const Cell& cell, const Point& x) { return product(cell.split, x) >= cell.split.d; }
 
-  /// The margin of the cell of x, which is below `k`.
-  double margin_at(const Point& x, std::int32_t k = 0) const {
+  /// The margin of the cell of x.
+  double margin_at(const Point& x) const {
+    std::int32_t k = 0;
     while (cells_[k].child[1] != 0) k = cells_[k].child[is_beyond(cells_[k], x)];
     return cells_[k].margin;
   }
