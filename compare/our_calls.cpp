@@ -131,10 +131,9 @@ bool done_by_ranks(const SharedArea& report, int ranks) {
          strstr(text, fmt::format(" ranks={} ", ranks).c_str()) != nullptr;
 }
 
-template <class Real>
-using Trmesh12 = void(const std::int32_t*, const Real*, const Real*, const Real*, std::int32_t*,
-                      std::int32_t*, std::int32_t*, std::int32_t*, std::int32_t*, std::int32_t*, Real*,
-                      std::int32_t*);
+template <class Real, class Int>
+using Trmesh12 = void(const Int*, const Real*, const Real*, const Real*, Int*, Int*, Int*, Int*, Int*, Int*,
+                      Real*, Int*);
 using Trmesh8 = void(const std::int32_t*, const double*, const double*, const double*, std::int32_t*,
                      std::int32_t*, std::int32_t*, std::int32_t*);
 
@@ -146,18 +145,28 @@ void* load_trmesh(const std::string& abi) {
   return routine;
 }
 
+/// The arrays in the library's kind of integers.
+template <class Int>
+struct Output {
+  std::vector<Int> list, lptr, lend;
+  Int lnew, ier;
+};
+
+template <class Int>
+using CallOfTrmesh = std::function<void(Output<Int>&)>;
+
 /// A call of the 12-argument TRMESH, with the work arrays that Fortran programs pass.
-template <class Real>
-auto call_of_12(void* routine, const Arrays& arrays) {
+template <class Real, class Int>
+CallOfTrmesh<Int> call_of_12(void* routine, const Arrays& arrays) {
   const std::size_t n = arrays.n;
   return [routine, n, x = std::vector<Real>(arrays.x, arrays.x + n),
           y = std::vector<Real>(arrays.y, arrays.y + n), z = std::vector<Real>(arrays.z, arrays.z + n),
-          near = std::vector<std::int32_t>(n), next = std::vector<std::int32_t>(n),
-          dist = std::vector<Real>(n)](Lists& lists, std::int32_t& ier) mutable {
-    const auto count = static_cast<std::int32_t>(n);
-    reinterpret_cast<Trmesh12<Real>*>(routine)(&count, x.data(), y.data(), z.data(), lists.list.data(),
-                                               lists.lptr.data(), lists.lend.data(), &lists.lnew, near.data(),
-                                               next.data(), dist.data(), &ier);
+          near = std::vector<Int>(n), next = std::vector<Int>(n),
+          dist = std::vector<Real>(n)](Output<Int>& out) mutable {
+    const auto count = static_cast<Int>(n);
+    reinterpret_cast<Trmesh12<Real, Int>*>(routine)(&count, x.data(), y.data(), z.data(), out.list.data(),
+                                                    out.lptr.data(), out.lend.data(), &out.lnew, near.data(),
+                                                    next.data(), dist.data(), &out.ier);
   };
 }
 
@@ -166,6 +175,43 @@ std::int32_t lnew_of(const std::vector<std::int32_t>& lend) {
   const auto last =
       std::find_if(lend.rbegin(), lend.rend(), [](std::int32_t slot) { return slot != kUntouched; });
   return last == lend.rend() ? kUntouched : *last + 1;
+}
+
+CallOfTrmesh<std::int32_t> call_of_8(void* routine, const Arrays& arrays) {
+  return [routine, &arrays](Output<std::int32_t>& out) {
+    const auto count = static_cast<std::int32_t>(arrays.n);
+    reinterpret_cast<Trmesh8*>(routine)(&count, arrays.x, arrays.y, arrays.z, out.list.data(),
+                                        out.lptr.data(), out.lend.data(), &out.ier);
+    out.lnew = lnew_of(out.lend);
+  };
+}
+
+/// Calls and measures as often as it is wanted; leaves what the last call wrote.
+template <class Int>
+void make_calls(const CallOfTrmesh<Int>& trmesh, Call& call, const Arrays& arrays) {
+  using Clock = std::chrono::steady_clock;
+  call.started = 1;
+  Output<Int> out;
+  std::vector<double> seconds;
+  double total = 0;
+  for (int repeat = 0; repeat < call.repeats && total < kEnoughSeconds; ++repeat) {
+    out.list.assign(arrays.slots, kUntouched);
+    out.lptr.assign(arrays.slots, kUntouched);
+    out.lend.assign(arrays.n, kUntouched);
+    out.lnew = out.ier = kUntouched;
+    const auto start = Clock::now();
+    trmesh(out);
+    seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+    total += seconds.back();
+  }
+  call.seconds = median(seconds);
+  const auto narrow = [](Int value) { return static_cast<std::int32_t>(value); };
+  call.ier = narrow(out.ier);
+  call.lnew = narrow(out.lnew);
+  std::transform(out.list.begin(), out.list.end(), arrays.list, narrow);
+  std::transform(out.lptr.begin(), out.lptr.end(), arrays.lptr, narrow);
+  std::transform(out.lend.begin(), out.lend.end(), arrays.lend, narrow);
+  call.returned = 1;
 }
 
 }  // namespace
@@ -229,44 +275,20 @@ OurRun run_ours(const std::vector<Point>& points, const Setting& setting, int re
 }
 
 int call_trmesh(const char* path) {
-  using Clock = std::chrono::steady_clock;
   const SharedArea area = SharedArea::map(pstripack::Descriptor(open(path, O_RDWR | O_CLOEXEC)));
   if (area.data() == nullptr) throw std::system_error(errno, std::generic_category(), path);
   auto* const call = static_cast<Call*>(area.data());
   const Arrays arrays(call);
   const std::string abi = call->abi;
   void* const routine = load_trmesh(abi);
-  std::function<void(Lists&, std::int32_t&)> trmesh;
   if (abi == "r4")
-    trmesh = call_of_12<float>(routine, arrays);
-  else if (abi == "r8")
-    trmesh = call_of_12<double>(routine, arrays);
+    make_calls(call_of_12<float, std::int32_t>(routine, arrays), *call, arrays);
+  else if (abi == "8arg")
+    make_calls(call_of_8(routine, arrays), *call, arrays);
+  else if (abi == "i8")
+    make_calls(call_of_12<double, std::int64_t>(routine, arrays), *call, arrays);
   else
-    trmesh = [&](Lists& lists, std::int32_t& ier) {
-      reinterpret_cast<Trmesh8*>(routine)(&call->n, arrays.x, arrays.y, arrays.z, lists.list.data(),
-                                          lists.lptr.data(), lists.lend.data(), &ier);
-    };
-
-  call->started = 1;
-  Lists lists;
-  std::vector<double> seconds;
-  double total = 0;
-  for (int repeat = 0; repeat < call->repeats && total < kEnoughSeconds; ++repeat) {
-    lists.list.assign(arrays.slots, kUntouched);
-    lists.lptr.assign(arrays.slots, kUntouched);
-    lists.lend.assign(arrays.n, kUntouched);
-    lists.lnew = call->ier = kUntouched;
-    const auto start = Clock::now();
-    trmesh(lists, call->ier);
-    seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
-    total += seconds.back();
-  }
-  call->seconds = median(seconds);
-  call->lnew = abi == "8arg" ? lnew_of(lists.lend) : lists.lnew;
-  std::copy(lists.list.begin(), lists.list.end(), arrays.list);
-  std::copy(lists.lptr.begin(), lists.lptr.end(), arrays.lptr);
-  std::copy(lists.lend.begin(), lists.lend.end(), arrays.lend);
-  call->returned = 1;
+    make_calls(call_of_12<double, std::int32_t>(routine, arrays), *call, arrays);
   return 0;
 }
 

@@ -19,7 +19,7 @@ constexpr std::int32_t kUntouched = -987654321;
 
 /// How TRMESH is called. None of this may change a byte of the result.
 struct Setting {
-  std::string abi = "r8";  ///< of the library: r8, r4, 8arg
+  std::string abi = "r8";  ///< of the library: r8, r4, 8arg, i8
   int threads = 1;         ///< on each rank
   int ranks = 1;
   std::string partition = "bisection";

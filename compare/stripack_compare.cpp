@@ -100,7 +100,8 @@ void add_run_options(CLI::App& app, RunOptions& options) {
          {"given", "shuffled", "sorted"});
   choice("--precision", options.precisions, "of the coordinates: r8, r4 [that of the original]",
          {"r8", "r4"});
-  choice("--abi", options.abis, "of our library: r8, r4, 8arg [as --precision]", {"r8", "r4", "8arg"});
+  choice("--abi", options.abis, "of our library: r8, r4, 8arg, i8 [as --precision]",
+         {"r8", "r4", "8arg", "i8"});
   list("--threads", options.threads, "thread counts [1]; fewer than 20000 nodes use one")
       ->check(CLI::Range(1, 4096).description(""));
   list("--ranks", options.ranks, "MPI ranks [1], started by pstripack-run")

@@ -13,7 +13,7 @@ module pstripack
   integer(c_int32_t), parameter :: pstripack_ok = 0, &
     pstripack_too_few_nodes = -1, &   !< fewer than 3 nodes
     pstripack_collinear = -2, &       !< the first three nodes lie on one great circle
-    pstripack_too_many_nodes = -4, &  !< 6n-12 does not fit the integer kind
+    pstripack_too_many_nodes = -4, &  !< 6n-11 does not fit 32 bits
     pstripack_bad_coordinate = -5, &  !< a coordinate is not finite, or a vector is zero
     pstripack_out_of_memory = -6, &
     pstripack_bad_size = -100         !< arrays of different sizes, or too short; of this module alone

@@ -5,7 +5,7 @@
 !   STRIPACK_<NAME>          the routine to compile, e.g. STRIPACK_TRLIST
 ! and include this file; the library's compile definitions are
 !   STRIPACK_REAL_BYTES      4 or 8
-!   STRIPACK_INTEGER_BYTES   4
+!   STRIPACK_INTEGER_BYTES   4, or 8 with reals of 8
 !   STRIPACK_8_ARGUMENTS     if TRMESH has the arguments N,X,Y,Z,LIST,LPTR,LEND,IER
 !
 ! Rules of this text: arrays are assumed-size, so that nothing is ever copied; a routine calls nothing but
@@ -14,6 +14,17 @@
 ! at once. What the routines do:
 ! the headers in src/cxx/stripack and the interfaces in stripack_module.F90.
 
+#if STRIPACK_INTEGER_BYTES == 8
+#define INTEGER_KIND c_int64_t
+#define LOGICAL_KIND 8
+#define REAL_KIND c_double
+#define OF_INTEGER "_i8"
+#define OF_REAL "_i8"
+#define OF_TRMESH "_i8"
+#else
+#define INTEGER_KIND c_int32_t
+#define LOGICAL_KIND 4
+#define OF_INTEGER "_i4"
 #if STRIPACK_REAL_BYTES == 8
 #define REAL_KIND c_double
 #define OF_REAL "_r8"
@@ -23,10 +34,6 @@
 #define OF_REAL "_r4"
 #define OF_TRMESH "_r4"
 #endif
-#if STRIPACK_INTEGER_BYTES == 4
-#define INTEGER_KIND c_int32_t
-#define LOGICAL_KIND 4
-#define OF_INTEGER "_i4"
 #endif
 
 #ifdef STRIPACK_TRMESH

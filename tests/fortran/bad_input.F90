@@ -23,6 +23,8 @@ program bad_input
   do k = -1, 2
     call refuses(k, nodes, -1, "fewer than 3 nodes")
   end do
+  call refuses(357913944, nodes, -4, "6N-11 beyond 32 bits")
+  if (range(k) > 9) call refuses(ishft(1, bit_size(k) - 20), nodes, -4, "N beyond 32 bits")
   bad = nodes
   bad(1:3, :) = transpose(reshape([1._rk, 0._rk, 0._rk, 0._rk, 1._rk, 0._rk, -1._rk, 0._rk, 0._rk], [3, 3]))
   call refuses(n, bad, -2, "the first three on a great circle")
@@ -46,6 +48,14 @@ program bad_input
   call mark_all
   call expect(triangulated(n, bad) == 4, "node 7 is a copy of node 4, and the first copy")
   call expect(all(lend(7:) == mark) .and. all(lend(:6) /= mark), "the lists are those of the nodes before the copy")
+  call expect(all(abs(list(:lend(6))) <= 6) .and. all(lptr(:lend(6)) <= lend(6)), "and no others")
+  call expect(all(list(lend(6) + 1:) == mark) .and. all(lptr(lend(6) + 1:) == mark), "no slot behind them is touched")
+
+  bad = nodes
+  bad(:, 3) = abs(bad(:, 3))
+  call mark_all
+  call expect(triangulated(n, bad) == 0 .and. lend(n) < slots, "nodes within a hemisphere")
+  call expect(all(list(lend(n) + 1:) == mark) .and. all(lptr(lend(n) + 1:) == mark), "unused slots are not touched")
 
   call mark_all
   call expect(triangulated(n, nodes) == 0, "the nodes themselves are fine")

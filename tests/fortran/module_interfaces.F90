@@ -1,5 +1,6 @@
 ! Codes that `use` the module: explicit interfaces; INTENT(IN) arrays passed as output, which the original
-! allows; arrays of another rank. MODULE_NAME: the module's name, REAL_TYPE: the code's real type.
+! allows; arrays of another rank, sections, constants. MODULE_NAME: the module's name, REAL_TYPE: the code's
+! real type.
 module helper
   use MODULE_NAME
   implicit none
@@ -8,6 +9,20 @@ contains
   subroutine triangles(n, list, lptr, lend, nrow, nt, ltri, ier)
     integer, intent(in) :: n, list(:), lptr(:), lend(:), nrow, nt, ltri(:, :), ier
     call trlist(n, list, lptr, lend, nrow, nt, ltri, ier)
+  end subroutine
+
+  ! A constant, rows of an array, which are copied, and parts of work space.
+  subroutine mesh(xyz, list, lptr, lend, ier)
+    REAL_TYPE, intent(in) :: xyz(:, :)
+    integer, intent(inout) :: list(:), lptr(:), lend(:)
+    integer, intent(out) :: ier
+#ifdef STRIPACK_8_ARGUMENTS
+    call trmesh(40, xyz(1, :), xyz(2, :), xyz(3, :), list, lptr, lend, ier)
+#else
+    integer :: lnew, iwk(2*40)
+    REAL_TYPE :: dist(40)
+    call trmesh(40, xyz(1, :), xyz(2, :), xyz(3, :), list, lptr, lend, lnew, iwk, iwk(40 + 1), dist, ier)
+#endif
   end subroutine
 end module
 
@@ -19,6 +34,8 @@ program module_interfaces
   REAL_TYPE :: x(n), y(n), z(n), xc(2*n), yc(2*n), zc(2*n), rc(2*n), c(3), p(3), b(3), al, pi, total
   integer, target :: list(slots), lptr(slots), lend(n)
   integer :: lnew, ier, nt, ltri(6, 2*n), columns(6, n), nb, na, nodes(n), listc(slots), i(3), k
+  integer :: other_list(slots), other_lptr(slots), other_lend(n)
+  REAL_TYPE :: xyz(3, n)
 #ifndef STRIPACK_8_ARGUMENTS
   integer :: work(2*n)
   REAL_TYPE :: dist(n)
@@ -30,8 +47,8 @@ program module_interfaces
   pi = acos(-real(1, kind(pi)))
   do k = 1, n  ! within a hemisphere
     z(k) = real(k, kind(z))/n
-    x(k) = sqrt(1 - z(k)**2)*cos(2.4*k)
-    y(k) = sqrt(1 - z(k)**2)*sin(2.4*k)
+    x(k) = sqrt(1 - z(k)**2)*cos(2.4*real(k, kind(z)))
+    y(k) = sqrt(1 - z(k)**2)*sin(2.4*real(k, kind(z)))
   end do
 #ifdef STRIPACK_8_ARGUMENTS
   call trmesh(n, x, y, z, list, lptr, lend, ier)
@@ -45,6 +62,15 @@ program module_interfaces
   call expect(lnew == 2*na + 1, "LNEW")
 #endif
   call expect(nb >= 3 .and. na == nt + n - 1 .and. nt == 2*n - nb - 2, "BNODES")
+
+  xyz(1, :) = x
+  xyz(2, :) = y
+  xyz(3, :) = z
+  call mesh(xyz, other_list, other_lptr, other_lend, ier)
+  call expect(ier == 0 .and. all(other_lend == lend), "TRMESH of sections")
+  call expect(all(other_list(:lnew - 1) == list(:lnew - 1)), "the same lists")
+  call trlist(40, list(1:slots), lptr(:), lend(1), 3 + 3, nt, ltri(1, 1), ier)
+  call expect(ier == 0 .and. nt == 2*n - nb - 2, "TRLIST with constants, sections, elements")
 
   call triangles(n, list, lptr, lend, 6, nt, ltri, ier)
   call expect(ier == 0 .and. nt == 2*n - nb - 2, "TRLIST through INTENT(IN) dummies")

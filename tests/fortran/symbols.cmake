@@ -1,4 +1,5 @@
 # cmake -DNM=nm -DLIBRARY=lib.so -DARCHIVE=lib.a -DEXPECTED="a_;b_" -P symbols.cmake
+# EXPECTED: the library's part of src/fortran/symbols, which comes from the table of routines in docs/api.
 # Fails unless the library exports exactly the expected symbols, and the archive defines exactly them, one
 # an object, and needs nothing but functions of libpstripack.
 list(SORT EXPECTED)

@@ -14,7 +14,7 @@ export PKG_CONFIG_PATH="$libdir/pkgconfig"
 echo "== CMake package"
 cmake -G "$generator" -S "$consumer" -B "$work/cmake" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release > "$work/cmake.log"
 cmake --build "$work/cmake" >> "$work/cmake.log"
-for program in legacy_stripack legacy_stripack_static legacy_stripack_8arg legacy_stripack_r4 c_pstripack c_pstripack_archive; do
+for program in legacy_stripack legacy_stripack_static legacy_stripack_8arg legacy_stripack_r4 legacy_stripack_i8 c_pstripack c_pstripack_archive; do
   "$work/cmake/$program"
 done
 
@@ -24,8 +24,9 @@ export LD_LIBRARY_PATH="$libdir"
 gfortran $(pkg-config --cflags stripack) "$consumer/legacy.F90" -o "$work/pc_r8" $(pkg-config --libs stripack)
 gfortran -DSINGLE_PRECISION $(pkg-config --cflags stripack_r4) "$consumer/legacy.F90" -o "$work/pc_r4" $(pkg-config --libs stripack_r4)
 gfortran -DEIGHT_ARGUMENTS $(pkg-config --cflags stripack_8arg) "$consumer/legacy.F90" -o "$work/pc_8arg" $(pkg-config --libs stripack_8arg)
+gfortran -fdefault-integer-8 $(pkg-config --cflags stripack_i8) "$consumer/legacy.F90" -o "$work/pc_i8" $(pkg-config --libs stripack_i8)
 cc $(pkg-config --cflags pstripack) "$consumer/c_api.c" -o "$work/pc_c" $(pkg-config --libs pstripack)
-for program in pc_r8 pc_r4 pc_8arg pc_c; do "$work/$program"; done
+for program in pc_r8 pc_r4 pc_8arg pc_i8 pc_c; do "$work/$program"; done
 unset LD_LIBRARY_PATH
 
 echo "== the static archives alone"
@@ -36,7 +37,7 @@ if ldd "$work/static" | grep -q pstripack; then echo "the static program needs a
 
 if [ -x "$prefix/bin/stripack-compare" ]; then
   echo "== stripack-compare, by itself and beside a program"
-  if "$prefix/bin/stripack-compare" run --points random --n 1000 --abi r8,8arg > "$work/compare.log" 2>&1; then
+  if "$prefix/bin/stripack-compare" run --points random --n 1000 --abi r8,8arg,i8 > "$work/compare.log" 2>&1; then
     grep '^verdict *equal' "$work/compare.log"
     PSTRIPACK_CHECK="lib:,log=$work/check.log" "$work/cmake/legacy_stripack"
     grep ' equal$' "$work/check.log"
@@ -45,8 +46,13 @@ if [ -x "$prefix/bin/stripack-compare" ]; then
   fi
 fi
 
+echo "== man pages"
+for page in trmesh crlist swap; do
+  find "$prefix" -path "*/man3/$page.3" | grep -q . || { echo "no man page of $page" >&2; exit 1; }
+done
+
 echo "== what the libraries need at run time"
-for library in libpstripack.so libstripack.so libstripack_r4.so libstripack_8arg.so; do
+for library in libpstripack.so libstripack.so libstripack_r4.so libstripack_8arg.so libstripack_i8.so; do
   needs=$(ldd "$libdir/$library" | awk '{ print $1 }' | tr '\n' ' ')
   echo "$library: $needs"
   if echo "$needs" | grep -qiE 'mpi|boost|fmt|netcdf|ngmath'; then echo "$library needs too much" >&2; exit 1; fi

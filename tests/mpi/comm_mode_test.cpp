@@ -48,6 +48,7 @@ TEST(CommMode, GivesTheSameBytes) {
       ASSERT_EQ(mode.code(), 0);
       EXPECT_TRUE(trmesh(nodes) == expected) << family;
       EXPECT_TRUE(trmesh_r4(nodes) == single) << family;
+      EXPECT_TRUE(trmesh_i8(nodes) == expected) << family;
     }
 }
 
@@ -103,6 +104,7 @@ TEST(CommMode, KnowsTheOtherCodes) {
   EXPECT_EQ(trmesh(Nodes(nodes.begin(), nodes.begin() + 2)).ier, PSTRIPACK_TOO_FEW_NODES);
   nodes[70] = nodes[30];
   EXPECT_EQ(trmesh(nodes).ier, 31);
+  EXPECT_TRUE(trmesh_i8(nodes) == trmesh(nodes));
   nodes[60] = {0, 0, 0};
   const Mesh bad = trmesh(nodes);
   EXPECT_EQ(bad.ier, PSTRIPACK_BAD_COORDINATE);

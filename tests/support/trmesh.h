@@ -1,9 +1,11 @@
 #pragma once
 // pstripack_trmesh with C++ containers.
 
+#include <utility>
 #include <vector>
 
 #include "capi/pstripack.h"
+#include "guarded.h"
 #include "lists.h"
 
 constexpr std::int32_t untouched = -987654321;  // what the arrays hold before the call
@@ -30,6 +32,29 @@ inline Mesh trmesh(const Nodes& nodes) {
   m.lnew = untouched;
   m.ier = pstripack_trmesh(static_cast<std::int32_t>(n), c.x.data(), c.y.data(), c.z.data(), m.list.data(),
                            m.lptr.data(), m.lend.data(), &m.lnew);
+  return m;
+}
+
+/// The same through the call for 64-bit integers, in arrays of guarded pages; numbers beyond 32 bits, which
+/// no correct call leaves, as 0.
+inline Mesh trmesh_i8(const Nodes& nodes, Edge edge = Edge::end) {
+  const Columns c(nodes);
+  const std::size_t n = nodes.size(), slots = n < 3 ? 1 : 6 * n - 12;
+  Guarded<std::int64_t> list(std::vector<std::int64_t>(slots, untouched), edge);
+  Guarded<std::int64_t> lptr(std::vector<std::int64_t>(slots, untouched), edge);
+  Guarded<std::int64_t> lend(std::vector<std::int64_t>(n, untouched), edge);
+  std::int64_t lnew = untouched;
+  const std::int64_t ier = pstripack_trmesh_i8(static_cast<std::int64_t>(n), c.x.data(), c.y.data(),
+                                               c.z.data(), list.data(), lptr.data(), lend.data(), &lnew);
+  const auto narrow = [](std::int64_t wide) {
+    const auto value = static_cast<std::int32_t>(wide);
+    return value == wide ? value : 0;
+  };
+  Mesh m;
+  for (auto [from, to] : {std::pair(&list, &m.list), std::pair(&lptr, &m.lptr), std::pair(&lend, &m.lend)})
+    for (std::size_t i = 0; i < from->size(); ++i) to->push_back(narrow((*from)[i]));
+  m.lnew = narrow(lnew);
+  m.ier = narrow(ier);
   return m;
 }
 

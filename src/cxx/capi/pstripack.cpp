@@ -2,9 +2,11 @@
 
 #include "capi/pstripack.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 #include "capi/check.h"
@@ -70,9 +72,13 @@ template <class Real>
   return true;
 }
 
+/// TRMESH with its report, its recording and its messages. No number of nodes beyond 32 bits is different
+/// from the largest of them.
 template <class Real>
-std::int32_t trmesh_call(std::int32_t n, const Real* x, const Real* y, const Real* z, std::int32_t* list,
+TrmeshResult trmesh_call(std::int64_t nodes, const Real* x, const Real* y, const Real* z, std::int32_t* list,
                          std::int32_t* lptr, std::int32_t* lend, std::int32_t* lnew) noexcept {
+  using Limits = std::numeric_limits<std::int32_t>;
+  const auto n = static_cast<std::int32_t>(std::clamp<std::int64_t>(nodes, Limits::min(), Limits::max()));
   const DefaultFloatingPoint environment;
   TrmeshResult result{0};
   const auto work = [&] {
@@ -87,18 +93,34 @@ std::int32_t trmesh_call(std::int32_t n, const Real* x, const Real* y, const Rea
     is_ours = work();
     check_output(*check, call, result, list, lptr, lend, lnew);
   }
-  if (!is_ours) return result.ier;
+  if (!is_ours) return result;
   // STRIPACK's own codes are silent; a code that no caller knows yet says so once.
   if (result.ier == PSTRIPACK_BAD_COORDINATE) {
     const auto i = result.node - 1;
-    std::fprintf(stderr, "pstripack: trmesh: node %lld of %d is (%g, %g, %g): %s (IER = -5)\n",
-                 static_cast<long long>(result.node), static_cast<int>(n), static_cast<double>(x[i]),
-                 static_cast<double>(y[i]), static_cast<double>(z[i]), pstripack_strerror(result.ier));
+    std::fprintf(stderr, "pstripack: trmesh: node %lld of %lld is (%g, %g, %g): %s (IER = -5)\n",
+                 static_cast<long long>(result.node), static_cast<long long>(nodes),
+                 static_cast<double>(x[i]), static_cast<double>(y[i]), static_cast<double>(z[i]),
+                 pstripack_strerror(result.ier));
   } else if (result.ier < PSTRIPACK_COLLINEAR) {
-    std::fprintf(stderr, "pstripack: trmesh: %d nodes: %s (IER = %d)\n", static_cast<int>(n),
+    std::fprintf(stderr, "pstripack: trmesh: %lld nodes: %s (IER = %d)\n", static_cast<long long>(nodes),
                  pstripack_strerror(result.ier), static_cast<int>(result.ier));
   }
-  return result.ier;
+  return result;
+}
+
+/// Widens the first `count` elements of an array of 64-bit integers that begins with as many of 32 bits.
+///
+///   bytes      0   4   8   12  16  20  24
+///   narrow     |n0 |n1 |n2 |
+///   wide       |  w0   |  w1   |  w2   |      the last first: what it covers has been read
+void widen(std::int64_t* array, std::int64_t count) noexcept {
+  auto* const bytes = reinterpret_cast<unsigned char*>(array);
+  for (std::int64_t i = count - 1; i >= 0; --i) {
+    std::int32_t narrow;
+    std::memcpy(&narrow, bytes + i * std::int64_t{sizeof narrow}, sizeof narrow);
+    const std::int64_t wide = narrow;
+    std::memcpy(bytes + i * std::int64_t{sizeof wide}, &wide, sizeof wide);
+  }
 }
 
 }  // namespace
@@ -123,7 +145,7 @@ const char* pstripack_strerror(int ier) {
     case PSTRIPACK_EMPTY_MESH:
       return "the mesh is empty";
     case PSTRIPACK_TOO_MANY_NODES:
-      return "too many nodes: 6N-11 does not fit the integer kind";
+      return "too many nodes: 6N-11 does not fit 32 bits";
     case PSTRIPACK_BAD_COORDINATE:
       return "a coordinate is not finite, or all are zero";
     case PSTRIPACK_OUT_OF_MEMORY:
@@ -142,12 +164,26 @@ const char* pstripack_strerror(int ier) {
 
 int32_t pstripack_trmesh(int32_t n, const double* x, const double* y, const double* z, int32_t* list,
                          int32_t* lptr, int32_t* lend, int32_t* lnew) {
-  return trmesh_call(n, x, y, z, list, lptr, lend, lnew);
+  return trmesh_call(n, x, y, z, list, lptr, lend, lnew).ier;
 }
 
 int32_t pstripack_trmesh_r4(int32_t n, const float* x, const float* y, const float* z, int32_t* list,
                             int32_t* lptr, int32_t* lend, int32_t* lnew) {
-  return trmesh_call(n, x, y, z, list, lptr, lend, lnew);
+  return trmesh_call(n, x, y, z, list, lptr, lend, lnew).ier;
+}
+
+int64_t pstripack_trmesh_i8(int64_t n, const double* x, const double* y, const double* z, int64_t* list,
+                            int64_t* lptr, int64_t* lend, int64_t* lnew) {
+  int32_t narrow_lnew = 0;
+  const TrmeshResult result =
+      trmesh_call(n, x, y, z, reinterpret_cast<int32_t*>(list), reinterpret_cast<int32_t*>(lptr),
+                  reinterpret_cast<int32_t*>(lend), &narrow_lnew);
+  if (result.ier < 0) return result.ier;
+  widen(list, narrow_lnew - 1);
+  widen(lptr, narrow_lnew - 1);
+  widen(lend, result.ier > 0 ? result.other - 1 : n);
+  *lnew = narrow_lnew;
+  return result.ier;
 }
 
 int32_t pstripack_validate(int32_t n, const double* x, const double* y, const double* z, const int32_t* list,

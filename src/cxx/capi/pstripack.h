@@ -25,7 +25,7 @@ enum {
   PSTRIPACK_TOO_FEW_NODES = -1,  /* n < 3 */
   PSTRIPACK_COLLINEAR = -2,      /* the first three nodes lie on one great circle */
   PSTRIPACK_EMPTY_MESH = -3,     /* distributed: there is no triangulation to ask */
-  PSTRIPACK_TOO_MANY_NODES = -4, /* 6n-12 does not fit the integer kind */
+  PSTRIPACK_TOO_MANY_NODES = -4, /* 6n-11 does not fit 32 bits */
   PSTRIPACK_BAD_COORDINATE = -5, /* a coordinate is not finite, or a vector is zero */
   PSTRIPACK_OUT_OF_MEMORY = -6,
   /* Of programs that use pstripack_mpi.h. */
@@ -50,6 +50,10 @@ PSTRIPACK_API int32_t pstripack_trmesh(int32_t n, const double* x, const double*
                                        int32_t* list, int32_t* lptr, int32_t* lend, int32_t* lnew);
 PSTRIPACK_API int32_t pstripack_trmesh_r4(int32_t n, const float* x, const float* y, const float* z,
                                           int32_t* list, int32_t* lptr, int32_t* lend, int32_t* lnew);
+/* For programs with 64-bit integers. The lists are made in 32 bits, in the caller's arrays, and widened
+ * there: n has the same limit, and nothing is allocated for it. */
+PSTRIPACK_API int64_t pstripack_trmesh_i8(int64_t n, const double* x, const double* y, const double* z,
+                                          int64_t* list, int64_t* lptr, int64_t* lend, int64_t* lnew);
 
 /* 0 if the lists are a correct triangulation of the nodes: well formed, every triangle counterclockwise,
  * every arc locally Delaunay (exact signs, ties by the rule), sphere or hull covered once. Otherwise the

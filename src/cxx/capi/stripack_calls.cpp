@@ -143,5 +143,8 @@ SPHERE_CALLS(float, int32_t, r4)
 SPHERE_CALLS(double, int32_t, r8)
 MESH_CALLS(float, int32_t, r4)
 MESH_CALLS(double, int32_t, r8)
+LIST_CALLS(int64_t, i8)
+SPHERE_CALLS(double, int64_t, i8)
+MESH_CALLS(double, int64_t, i8)
 
 }  // extern "C"

@@ -4,8 +4,9 @@
  *
  * Arguments and results are those of the routine of the same name, inputs by value; see the headers of
  * src/cxx/stripack. Node and slot numbers count from 1. None is collective, keeps state, writes to stdout
- * or throws. The suffix names the kinds: _i4 integers of 32 bits; _r4, _r8 reals of 32 and 64 bits, with
- * integers of 32 bits. Functions for other kinds are further instances of the macros below.
+ * or throws. The suffix names the kinds: _r4, _r8 reals of 32 and 64 bits, with integers of 32 bits; _i8
+ * reals and integers of 64 bits; _i4, _i8 without reals. Other kinds are further instances of the macros
+ * below.
  *
  *   lstptr   slot of neighbour nb in the list that ends in slot lpl; lpl if there is none
  *   nbcnt    number of neighbours in that list
@@ -86,6 +87,9 @@ PSTRIPACK_SPHERE_CALLS(float, int32_t, r4)
 PSTRIPACK_SPHERE_CALLS(double, int32_t, r8)
 PSTRIPACK_MESH_CALLS(float, int32_t, r4)
 PSTRIPACK_MESH_CALLS(double, int32_t, r8)
+PSTRIPACK_LIST_CALLS(int64_t, i8)
+PSTRIPACK_SPHERE_CALLS(double, int64_t, i8)
+PSTRIPACK_MESH_CALLS(double, int64_t, i8)
 
 #ifdef __cplusplus
 }

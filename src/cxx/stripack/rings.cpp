@@ -100,5 +100,6 @@ void Rings<Int>::tabulate_hubs() {
 }
 
 template class Rings<std::int32_t>;
+template class Rings<std::int64_t>;
 
 }  // namespace pstripack

@@ -393,12 +393,12 @@ Int nearnd(const Vector<Real>& p, Int start, const ListsView<Int>& lists, const 
   return nearest;
 }
 
-#define PSTRIPACK_SEARCH(Real)                                                                              \
-  template Location<std::int32_t> trfind(std::int32_t, const Vector<Real>&, const ListsView<std::int32_t>&, \
-                                         const Nodes<Real>&, Real&, Real&, Real&);                          \
-  template std::int32_t nearnd(const Vector<Real>&, std::int32_t, const ListsView<std::int32_t>&,           \
-                               const Nodes<Real>&, Real&);
-PSTRIPACK_SEARCH(float)
-PSTRIPACK_SEARCH(double)
+#define PSTRIPACK_SEARCH(Real, Int)                                                                         \
+  template Location<Int> trfind(Int, const Vector<Real>&, const ListsView<Int>&, const Nodes<Real>&, Real&, \
+                                Real&, Real&);                                                              \
+  template Int nearnd(const Vector<Real>&, Int, const ListsView<Int>&, const Nodes<Real>&, Real&);
+PSTRIPACK_SEARCH(float, std::int32_t)
+PSTRIPACK_SEARCH(double, std::int32_t)
+PSTRIPACK_SEARCH(double, std::int64_t)
 
 }  // namespace pstripack

@@ -1,5 +1,6 @@
 #pragma once
-// TRFIND, NEARND: searches in a triangulation. For Real = float, double and Int = int32_t.
+// TRFIND, NEARND: searches in a triangulation. For
+// (Real, Int) = (float, int32_t), (double, int32_t), (double, int64_t).
 // They keep no state between calls, allocate nothing and always return.
 
 #include "stripack/adjacency_lists.h"

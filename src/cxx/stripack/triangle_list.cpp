@@ -171,7 +171,10 @@ BoundaryCounts<Int> boundary_nodes(const ListsView<Int>& lists, Int* nodes) {
   return {count, triangles + n - 1, triangles};
 }
 
-template TriangleListStatus triangle_list(const ListsView<std::int32_t>&, int, std::int32_t&, std::int32_t*);
-template BoundaryCounts<std::int32_t> boundary_nodes(const ListsView<std::int32_t>&, std::int32_t*);
+#define PSTRIPACK_TRIANGLE_LIST(Int)                                                 \
+  template TriangleListStatus triangle_list(const ListsView<Int>&, int, Int&, Int*); \
+  template BoundaryCounts<Int> boundary_nodes(const ListsView<Int>&, Int*);
+PSTRIPACK_TRIANGLE_LIST(std::int32_t)
+PSTRIPACK_TRIANGLE_LIST(std::int64_t)
 
 }  // namespace pstripack

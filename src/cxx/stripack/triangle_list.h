@@ -1,5 +1,5 @@
 #pragma once
-// TRLIST, TRLIST2, BNODES: triangles and boundary of a triangulation. For Int = int32_t.
+// TRLIST, TRLIST2, BNODES: triangles and boundary of a triangulation. For Int = int32_t, int64_t.
 
 #include "stripack/adjacency_lists.h"
 

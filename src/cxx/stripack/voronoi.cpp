@@ -342,11 +342,15 @@ VoronoiStatus voronoi(const ListsView<Int>& lists, const Nodes<Real>& nodes,
   return Voronoi<Real, Int>(lists, nodes, out).write();
 }
 
-#define PSTRIPACK_VORONOI(Real)                                                                             \
-  template bool circumcentre(const Vector<Real>&, const Vector<Real>&, const Vector<Real>&, Vector<Real>&); \
-  template VoronoiStatus voronoi(const ListsView<std::int32_t>&, const Nodes<Real>&,                        \
-                                 const VoronoiArrays<Real, std::int32_t>&);
-PSTRIPACK_VORONOI(float)
-PSTRIPACK_VORONOI(double)
+#define PSTRIPACK_CIRCUMCENTRE(Real) \
+  template bool circumcentre(const Vector<Real>&, const Vector<Real>&, const Vector<Real>&, Vector<Real>&);
+PSTRIPACK_CIRCUMCENTRE(float)
+PSTRIPACK_CIRCUMCENTRE(double)
+
+#define PSTRIPACK_VORONOI(Real, Int) \
+  template VoronoiStatus voronoi(const ListsView<Int>&, const Nodes<Real>&, const VoronoiArrays<Real, Int>&);
+PSTRIPACK_VORONOI(float, std::int32_t)
+PSTRIPACK_VORONOI(double, std::int32_t)
+PSTRIPACK_VORONOI(double, std::int64_t)
 
 }  // namespace pstripack

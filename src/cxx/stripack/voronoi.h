@@ -1,5 +1,6 @@
 #pragma once
-// CRLIST, CIRCUM: the Voronoi diagram of a triangulation. For Real = float, double and Int = int32_t.
+// CRLIST, CIRCUM: the Voronoi diagram of a triangulation. For
+// (Real, Int) = (float, int32_t), (double, int32_t), (double, int64_t).
 
 #include "stripack/adjacency_lists.h"
 #include "stripack/expressions.h"

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Tests of the pool: pool_test.sh CASE RANKS, with RUN, MODEL, MODEL_R4, CALLER, CALLER_MPI, SCVT, COMPARE,
+# Tests of the pool: pool_test.sh CASE RANKS, with RUN, MODEL, MODEL_R4, MODEL_I8, CALLER, CALLER_MPI, SCVT, COMPARE,
 # LIBRARY, MPIEXEC and WORK in the environment. Each case compares with the same program started without pstripack-run.
 # shellcheck disable=SC2015,SC2016,SC2002,SC2094,SC2153,SC2154
 set -u
@@ -105,7 +105,7 @@ says_once() { [ "$(grep -c "$1" job.err)" -eq 1 ] || fail "stderr does not say o
 
 case $case in
 same_bytes)
-  for model in "$MODEL" "$MODEL_R4"; do
+  for model in "$MODEL" "$MODEL_R4" "$MODEL_I8"; do
     "$model" lists alone.bin 2> alone.err || fail "$model alone"
     for partition in bisection stripes; do
       PSTRIPACK_PARTITION=$partition pool "$model" lists pool.bin > model.out 2> model.err

@@ -1,0 +1,403 @@
+#!/usr/bin/env python3
+"""Makes, from the table of routines in docs/api/routines/*.toml:
+
+  docs/api/*.md                     a page a routine, and README.md, the index by task
+  docs/man/man3/*.3                 the same as man pages
+  src/fortran/stripack_module.F90   their interfaces, from stripack_module.F90.in
+  src/fortran/symbols/*.txt         the symbols that each library exports
+
+  make-api.py           writes them
+  make-api.py --check   fails if they are not what it would write, or if the routines in
+                        stripack_abi.F90 have other arguments than the table
+  make-api.py --examples LIBRARY   prints the examples for a library as subroutines that compile
+
+Needs Python 3.11 and nothing else. The files are committed: building needs no Python.
+"""
+import argparse
+import re
+import sys
+import textwrap
+import tomllib
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+LIBRARIES = ["stripack", "stripack_r4", "stripack_8arg", "stripack_i8"]
+COMMON = "0-common.toml"
+NO_BREAK = "\u00a0"
+NEW_CODES = "New: a code that the original does not have; one line on stderr says why."
+
+
+class Argument:
+    """One line of `arguments`: names that share type, shape, use and meaning."""
+
+    def __init__(self, line, common_meaning):
+        names, kind, self.use, self.meaning = columns(line, 4)
+        self.names = names.split(", ")
+        self.type, self.shape = re.fullmatch(r"(\w+)(?:\((.*)\))?", kind).groups()
+        self.meaning = self.meaning or common_meaning[self.names[0]]
+
+    def __str__(self):
+        return f"{self.type}({self.shape})" if self.shape else self.type
+
+
+class Routine:
+    def __init__(self, name, entry, common):
+        self.name = name
+        self.purpose = entry.pop("purpose")
+        self.libraries = entry.pop("libraries", LIBRARIES)
+        self.details = entry.pop("details", [])
+        self.arguments = [Argument(line, common["meaning"]) for line in lines(entry.pop("arguments"))]
+        self.absent = {library: names.split(", ") for library, names in entry.pop("absent", {}).items()}
+        self.lout = entry.pop("lout", False)
+        self.result = columns(entry.pop("result"), 2) if "result" in entry else None
+        self.ier_name = entry.pop("ier_name", "IER")
+        self.ier = [columns(line, 3) for line in lines(entry.pop("ier", ""))]
+        self.differs = entry.pop("differs", [])
+        self.threads = entry.pop("threads", common["default"]["threads"])
+        self.cost = entry.pop("cost")
+        self.example = entry.pop("example").strip("\n")
+        self.see = entry.pop("see")
+        self.source = entry.pop("source", common["default"]["source"])
+        if entry:
+            sys.exit(f"{name}: unknown keys {', '.join(entry)}")
+
+    def names(self, library=None):
+        """The arguments in order, as the library has them."""
+        absent = self.absent.get(library, [])
+        return [name for argument in self.arguments for name in argument.names if name not in absent]
+
+    def call(self, library=None):
+        arguments = ", ".join(self.names(library)).lower()
+        return f"{'result = ' if self.result else 'call '}{self.name.lower()}({arguments})"
+
+    def synopsis(self):
+        """Lines of code: the call, and those of libraries where it differs."""
+        text = [fortran_line(self.call(), "")]
+        for library in self.absent:
+            text.append(f"{fortran_line(self.call(library), '')}    ! lib{library}")
+        return "\n".join(text).split("\n")
+
+    def has_new_codes(self):
+        return any("(new)" in when for _, when, _ in self.ier)
+
+    def where(self):
+        return ", ".join(f"lib{library}" for library in self.libraries)
+
+
+def lines(text):
+    return [line for line in text.split("\n") if line.strip()]
+
+
+def columns(line, count):
+    cells = [cell.strip() for cell in line.split("|")]
+    if len(cells) != count:
+        sys.exit(f"{len(cells)} columns, not {count}: {line}")
+    return cells
+
+
+def fortran_line(text, indent, width=110):
+    """Breaks a statement or declaration at blanks into continued lines."""
+    parts = textwrap.wrap(text, width - len(indent) - 2, subsequent_indent="    ", break_long_words=False)
+    return " &\n".join(indent + part for part in parts)
+
+
+def read_table():
+    """The groups: pairs of a title and its routines."""
+    files = sorted((ROOT / "docs/api/routines").glob("*.toml"))
+    tables = {file.name: tomllib.loads(file.read_text()) for file in files}
+    common = tables.pop(COMMON)
+    groups = []
+    for table in tables.values():
+        title = table.pop("title")
+        groups.append((title, [Routine(name, entry, common) for name, entry in table.items()]))
+    known = {routine.name for _, routines in groups for routine in routines}
+    for _, routines in groups:
+        for routine in routines:
+            for other in set(routine.see) - known:
+                sys.exit(f"{routine.name}: see {other}, which is not in the table")
+    return groups
+
+
+# ---- Markdown ----
+
+
+def markdown_paragraph(text):
+    text = text.strip("\n")
+    return text if text.startswith("```") else textwrap.fill(text, 120, break_long_words=False, break_on_hyphens=False)
+
+
+def markdown_table(head, rows):
+    def cell(text):
+        return text.replace("|", "\\|")
+
+    return "\n".join(["| " + " | ".join(head) + " |", "|" + " --- |" * len(head)]
+                     + ["| " + " | ".join(map(cell, row)) + " |" for row in rows])
+
+
+def markdown_page(routine):
+    def link(name):
+        return f"[{name}]({name.lower()}.md)"
+
+    text = [f"# {routine.name}", routine.purpose,
+            "```fortran\n" + "\n".join(routine.synopsis()) + "\n```", f"In {routine.where()}."]
+    text += map(markdown_paragraph, routine.details)
+    text.append(markdown_table(["argument", "type", "use", "meaning"],
+                               [[", ".join(a.names), str(a), a.use, a.meaning] for a in routine.arguments]))
+    if routine.result:
+        text.append(markdown_paragraph(f"Result: {routine.result[0]}: {routine.result[1]}."))
+    if routine.ier:
+        text.append(markdown_table([routine.ier_name, "when", "arrays"], routine.ier))
+        if routine.has_new_codes():
+            text.append(NEW_CODES)
+    if routine.differs:
+        text.append("**Not as in the original:**")
+        text.append("\n".join(f"- {note}" for note in routine.differs))
+    text.append(markdown_paragraph(f"**Ranks and threads:** {routine.threads}"))
+    text.append(markdown_paragraph(f"**Cost:** {routine.cost}"))
+    text.append(f"```fortran\n{routine.example}\n```")
+    if routine.see:
+        text.append("See also " + ", ".join(map(link, routine.see)) + ".")
+    text.append(f"Source: {routine.source}.")
+    text.append("[All routines](README.md)")
+    return "\n\n".join(text) + "\n"
+
+
+INDEX_HEAD = """# STRIPACK's routines
+
+A page a routine; the same pages are installed as man pages (`man 3 trmesh`). Old Fortran codes call these symbols without
+interfaces; `use stripack` gives interfaces.
+
+| library | real | integer, logical | |
+| --- | --- | --- | --- |
+| libstripack | 8 bytes | 4 bytes | |
+| libstripack_r4 | 4 bytes | 4 bytes | without TRLIST2, VORONOI_POLY_COUNT |
+| libstripack_8arg | 8 bytes | 4 bytes | TRMESH with 8 arguments; also TRIAREAS |
+| libstripack_i8 | 8 bytes | 8 bytes | for codes compiled with `-fdefault-integer-8`, `-i8`; N up to 357,913,943 as everywhere |
+
+For all of them: nodes and slots count from 1, angles are in radians unless a page says degrees, lengths in units of the
+radius. Sizes are the least an array may have; 6N-12 elements always suffice for LIST and LPTR. *in/out* is read and
+changed. No routine is collective: in an MPI program any number of ranks may call any number of times (TRMESH is if you ask
+for it). None ends the program. Nothing is printed unless the page says so; a code marked *new*, which the original does not
+have, also prints one line on stderr that says why."""
+
+INDEX_TAIL = """## Not in these libraries
+
+- ARC_COSINE, R83VEC_NORMALIZE and TIMESTAMP, which the Fortran 90 text of STRIPACK carries along: many programs define
+  routines of these names themselves, and two definitions would clash. If yours calls them, keep those few lines.
+- SSRFPACK (interpolation, Algorithm 773), which some copies of STRIPACK contain: keep yours. It calls STRIPACK's symbols and
+  works on the lists of these libraries.
+
+## How these pages are made
+
+The table is `docs/api/routines/*.toml`; `docs/api/make-api.py` makes from it these pages, the man pages, the module
+`stripack` and the lists of symbols. Edit the table, run it, commit all of them; a test compares."""
+
+
+def markdown_index(groups):
+    text = [INDEX_HEAD]
+    for title, routines in groups:
+        text.append(f"## {title}")
+        text.append(markdown_table(["routine", "purpose"],
+                                   [[f"[{r.name}]({r.name.lower()}.md)", r.purpose] for r in routines]))
+    return "\n\n".join(text + [INDEX_TAIL]) + "\n"
+
+
+# ---- man pages ----
+
+
+def troff(text):
+    """A piece of a line: no character of it is taken for a request or an escape."""
+    for character, escape in ("\\", "\\e"), ("-", "\\-"), ("^", "\\(ha"), ("~", "\\(ti"), ("'", "\\(aq"):
+        text = text.replace(character, escape)
+    return re.sub(r"`([^`]*)`", r"\\fB\1\\fP", text)
+
+
+def troff_lines(text):
+    return [("\\&" if line.startswith((".", "'")) else "") + line for line in map(troff, text.split("\n"))]
+
+
+def troff_paragraph(text):
+    text = text.strip("\n")
+    if text.startswith("```"):
+        return troff_code(text.strip("`\n").split("\n"))
+    return [".PP"] + troff_lines(" ".join(text.split()))
+
+
+def troff_code(code):
+    return [".PP", ".nf"] + [line for text in code for line in troff_lines(text)] + [".fi"]
+
+
+def man_page(routine):
+    purpose = routine.purpose[0].lower() + routine.purpose[1:].rstrip(".")
+    page = ['.\\" Made by docs/api/make-api.py', f'.TH {routine.name} 3 "" PSTRIPACK STRIPACK',
+            ".SH NAME", f"{routine.name.lower()} \\- {troff(purpose)}",
+            ".SH LIBRARY", troff(routine.where()), ".SH SYNOPSIS"] + troff_code(routine.synopsis())[1:]
+    if routine.details:
+        page.append(".SH DESCRIPTION")
+        for paragraph in routine.details:
+            page += troff_paragraph(paragraph)
+    page.append(".SH ARGUMENTS")
+    for argument in routine.arguments:
+        page += [".TP", f".B {troff(', '.join(argument.names))}",
+                 *troff_lines(f"{argument}, {argument.use}: {argument.meaning}")]
+    if routine.result:
+        page += [".SH RESULT", *troff_lines(f"{routine.result[0]}: {routine.result[1]}")]
+    if routine.ier:
+        page.append(f".SH {routine.ier_name}")
+        for value, when, state in routine.ier:
+            page += [".TP", f".B {troff(value)}", *troff_lines(when + (f" (arrays: {state})" if state else ""))]
+        if routine.has_new_codes():
+            page += [".PP", NEW_CODES]
+    for head, paragraphs in (("NOT AS IN THE ORIGINAL", routine.differs), ("RANKS AND THREADS", [routine.threads]),
+                             ("COST", [routine.cost])):
+        if paragraphs:
+            page.append(f".SH {head}")
+            page += [line for paragraph in paragraphs for line in troff_paragraph(paragraph)]
+    page += [".SH EXAMPLE"] + troff_code(routine.example.split("\n"))[1:]
+    if routine.see:
+        page += [".SH SEE ALSO", ", ".join(f"\\fB{name.lower()}\\fP(3)" for name in routine.see)]
+    page += [".SH SOURCE", *troff_lines(routine.source)]
+    return "\n".join(page) + "\n"
+
+
+# ---- the module ----
+
+
+def declared(name, shape, known):
+    """The dummy argument: sizes that are numbers or N, K, KK among the arguments, else assumed."""
+    if shape is None:
+        return name.lower()
+    *first, last = shape.split(",")
+    last = last if last.isdigit() or (last in ("N", "K", "KK") and last in known) else "*"
+    return f"{name.lower()}({', '.join([*first, last]).lower()})"
+
+
+KINDS = {"integer": "integer", "real": "real(STRIPACK_REAL_KIND)", "logical": "logical",
+         "character": "character(len=*)"}
+
+
+def interface(routine, library):
+    names = routine.names(library)
+    kind = routine.result and routine.result[0]
+    head = {None: "subroutine", "real": "function"}.get(kind, f"{kind} function")
+    text = [fortran_line(f"{head} {routine.name.lower()}({', '.join(names).lower()})", "    ")]
+    for type_ in KINDS:
+        dummies = [declared(name, None if type_ == "character" else argument.shape, names)
+                   for argument in routine.arguments if argument.type == type_
+                   for name in argument.names if name in names and not (routine.lout and name == "LOUT")]
+        if kind == type_ == "real":
+            dummies.append(routine.name.lower())
+        if dummies:
+            text.append(fortran_line(f"{KINDS[type_]} :: {', '.join(dummies)}", "      "))
+    if routine.lout:
+        text += ["#ifdef STRIPACK_WITH_LOUT", "      integer :: lout", "#else",
+                 "      integer, optional :: lout  ! not looked at", "#endif"]
+    return "\n".join(text + [f"    end {'function' if kind else 'subroutine'}"])
+
+
+def module_comment(routine):
+    about = [routine.purpose] + [" ".join(text.split()) for text in routine.details if "```" not in text]
+    hanging = len(about)
+    if routine.result:
+        about.append(f"Result  {routine.result[1]}.")
+    if routine.ier:
+        cases = [f"{value} ".replace(" ", NO_BREAK) + when for value, when, _ in routine.ier]
+        about.append(f"{routine.ier_name}  {'; '.join(cases)}.")
+    return "\n".join(textwrap.fill(part, 110, initial_indent="    ! ", break_on_hyphens=False,
+                                   subsequent_indent="    ! " if i < hanging else "    !      ")
+                     for i, part in enumerate(about)).replace(NO_BREAK, " ")
+
+
+def module_entry(routine):
+    comment = module_comment(routine)
+    if routine.absent:
+        return (f"{comment}\n#ifdef STRIPACK_8_ARGUMENTS\n{interface(routine, 'stripack_8arg')}\n#else\n"
+                f"{interface(routine, None)}\n#endif")
+    text = f"{comment}\n{interface(routine, None)}"
+    if routine.libraries == ["stripack_8arg"]:
+        return f"#ifdef STRIPACK_8_ARGUMENTS\n{text}\n#endif"
+    if "stripack_r4" not in routine.libraries:
+        return f"#ifndef STRIPACK_WITHOUT_F90_EXTRAS\n{text}\n#endif"
+    return text
+
+
+def module_text(groups):
+    entries = [module_entry(routine) for _, routines in groups for routine in routines]
+    template = (ROOT / "src/fortran/stripack_module.F90.in").read_text()
+    return template.replace("@INTERFACES@", "\n\n".join(entries))
+
+
+# ---- all files ----
+
+
+def make_all(groups):
+    """The files by their path from ROOT."""
+    routines = [routine for _, members in groups for routine in members]
+    files = {"docs/api/README.md": markdown_index(groups), "src/fortran/stripack_module.F90": module_text(groups)}
+    for routine in routines:
+        files[f"docs/api/{routine.name.lower()}.md"] = markdown_page(routine)
+        files[f"docs/man/man3/{routine.name.lower()}.3"] = man_page(routine)
+    for library in LIBRARIES:
+        symbols = sorted(f"{routine.name.lower()}_\n" for routine in routines if library in routine.libraries)
+        files[f"src/fortran/symbols/{library}.txt"] = "".join(symbols)
+    return files
+
+
+def stale(files):
+    """The paths that are not as they would be written, or would not be there."""
+    there = {path.relative_to(ROOT).as_posix()
+             for folder in ("docs/api/*.md", "docs/man/man3/*", "src/fortran/symbols/*") for path in ROOT.glob(folder)}
+    return sorted(path for path in there | files.keys()
+                  if path not in files or not (ROOT / path).exists() or (ROOT / path).read_text() != files[path])
+
+
+def wrong_signatures(groups):
+    """Routines of stripack_abi.F90 whose arguments are not the table's."""
+    expected = {r.name.lower(): [",".join(r.names(x)).lower() for x in LIBRARIES] for _, rs in groups for r in rs}
+    text = re.sub(r"&\s*", "", (ROOT / "src/fortran/stripack_abi.F90").read_text().replace(" AND_LOUT", ", lout"))
+    found = re.findall(r"^recursive .*?\b(?:subroutine|function) (\w+)\(([^)]*)\)", text, re.MULTILINE)
+    return [name for name, arguments in found
+            if arguments.replace(" ", "") not in expected.get(name, [])]
+
+
+EXAMPLE = """subroutine example_{name}
+  use stripack
+  implicit real(8) (a-h, o-z)
+  integer, dimension(100) :: list, lptr, lend, listc, near, next, nodes, npts, listv
+  integer :: ltri(6, 20), corners(3, 20), columns(6, 20), iwk(2, 20)
+  real(8), dimension(100) :: x, y, z, xc, yc, zc, rc, xv, yv, zv, rlat, rlon, dist, triarea, f, value
+  real(8), dimension(3) :: p, p1, p2, cn, c, v1, v2, v3
+  real(8) :: q(3, 100)
+{example}
+end subroutine
+"""
+
+
+def print_examples(groups, library):
+    for _, routines in groups:
+        for routine in routines:
+            if library in routine.libraries and library not in routine.absent:
+                print(EXAMPLE.format(name=routine.name.lower(), example=textwrap.indent(routine.example, "  ")))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--check", action="store_true", help="write nothing, exit with 1 if something is not up to date")
+    parser.add_argument("--examples", metavar="LIBRARY", choices=LIBRARIES, help="print them for a compiler")
+    arguments = parser.parse_args()
+    groups = read_table()
+    if arguments.examples:
+        return print_examples(groups, arguments.examples)
+    files = make_all(groups)
+    if arguments.check:
+        problems = [f"not up to date, run docs/api/make-api.py: {path}" for path in stale(files)]
+        problems += [f"stripack_abi.F90: arguments of {name} are not the table's" for name in wrong_signatures(groups)]
+        print("\n".join(problems) or f"{len(files)} files are up to date")
+        sys.exit(1 if problems else 0)
+    for path, text in files.items():
+        (ROOT / path).parent.mkdir(parents=True, exist_ok=True)
+        (ROOT / path).write_text(text)
+
+
+if __name__ == "__main__":
+    main()
