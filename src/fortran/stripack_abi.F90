@@ -10,8 +10,8 @@
 !
 ! Rules of this text: arrays are assumed-size, so that nothing is ever copied; a routine calls nothing but
 ! one function of libpstripack, never a public symbol, since programs define a SWAP, INSERT, LEFT or STORE
-! of their own; there is no STOP, no output, no saved variable; all are recursive, since threads may call
-! at once. What the routines do:
+! of their own; there is no STOP, no saved variable, no output but by routines that print; all are
+! recursive, since threads may call at once. What the routines do:
 ! the headers in src/cxx/stripack and the interfaces in stripack_module.F90.
 
 #if STRIPACK_INTEGER_BYTES == 8
@@ -278,4 +278,155 @@ recursive integer(INTEGER_KIND) function nearnd(p, ist, n, x, y, z, list, lptr, 
   end interface
   nearnd = c_nearnd(p, ist, n, x, y, z, list, lptr, lend, al)
 end function
+#endif
+
+! The routines that print: libpstripack composes the text, write_records.inc writes it.
+! TRPRNT, TRLPRT: Algorithm 772 has a last argument LOUT, the Fortran 90 texts, which are REAL*8, have not and
+! print to standard output. Whether it was passed cannot be seen, so libraries that callers of both kinds link
+! never look at it.
+#if STRIPACK_REAL_BYTES == 8 && STRIPACK_INTEGER_BYTES == 4
+#define F90_LISTING 1
+#define AND_LOUT
+#define DECLARE_LOUT integer(INTEGER_KIND), parameter :: lout = 6
+#else
+#define F90_LISTING 0
+#define AND_LOUT , lout
+#define DECLARE_LOUT integer(INTEGER_KIND) :: lout
+#endif
+
+#ifdef STRIPACK_TRPRNT
+recursive subroutine trprnt(n, x, y, z, iflag, list, lptr, lend AND_LOUT)
+  use, intrinsic :: iso_c_binding
+  use, intrinsic :: iso_fortran_env, only: error_unit
+  implicit none
+  integer(INTEGER_KIND) :: n, iflag, list(*), lptr(*), lend(*)
+  real(REAL_KIND) :: x(*), y(*), z(*)
+  DECLARE_LOUT
+  integer :: status
+  interface
+    function c_trprnt(n, x, y, z, iflag, list, lptr, lend, f90) bind(c, name="pstripack_trprnt"//OF_REAL)
+      import
+      integer(INTEGER_KIND), value :: n, iflag, f90
+      integer(INTEGER_KIND) :: list(*), lptr(*), lend(*)
+      real(REAL_KIND) :: x(*), y(*), z(*)
+      type(c_ptr) :: c_trprnt
+    end function
+  end interface
+  call write_records(c_trprnt(n, x, y, z, iflag, list, lptr, lend, int(F90_LISTING, INTEGER_KIND)), lout, status)
+  if (status /= 0) write (error_unit, '(a,i0)') "pstripack: TRPRNT: cannot write, IOSTAT = ", status
+contains
+#include "write_records.inc"
+end subroutine
+#endif
+
+#ifdef STRIPACK_TRLPRT
+recursive subroutine trlprt(n, x, y, z, iflag, nrow, nt, ltri AND_LOUT)
+  use, intrinsic :: iso_c_binding
+  use, intrinsic :: iso_fortran_env, only: error_unit
+  implicit none
+  integer(INTEGER_KIND) :: n, iflag, nrow, nt, ltri(*)
+  real(REAL_KIND) :: x(*), y(*), z(*)
+  DECLARE_LOUT
+  integer :: status
+  interface
+    function c_trlprt(n, x, y, z, iflag, nrow, nt, ltri, f90) bind(c, name="pstripack_trlprt"//OF_REAL)
+      import
+      integer(INTEGER_KIND), value :: n, iflag, nrow, nt, f90
+      integer(INTEGER_KIND) :: ltri(*)
+      real(REAL_KIND) :: x(*), y(*), z(*)
+      type(c_ptr) :: c_trlprt
+    end function
+  end interface
+  call write_records(c_trlprt(n, x, y, z, iflag, nrow, nt, ltri, int(F90_LISTING, INTEGER_KIND)), lout, status)
+  if (status /= 0) write (error_unit, '(a,i0)') "pstripack: TRLPRT: cannot write, IOSTAT = ", status
+contains
+#include "write_records.inc"
+end subroutine
+#endif
+
+#ifdef STRIPACK_TRPLOT
+recursive subroutine trplot(lun, pltsiz, elat, elon, a, n, x, y, z, list, lptr, lend, title, numbr, ier)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  integer(INTEGER_KIND) :: lun, n, list(*), lptr(*), lend(*), ier
+  real(REAL_KIND) :: pltsiz, elat, elon, a, x(*), y(*), z(*)
+  character(len=*, kind=c_char) :: title
+  logical(LOGICAL_KIND) :: numbr
+  type(c_ptr) :: text
+  integer :: status
+  interface
+    function c_trplot(lun, pltsiz, elat, elon, a, n, x, y, z, list, lptr, lend, title, title_length, numbr, ier) &
+        bind(c, name="pstripack_trplot"//OF_REAL)
+      import
+      integer(INTEGER_KIND), value :: lun, n, title_length, numbr
+      integer(INTEGER_KIND) :: list(*), lptr(*), lend(*), ier
+      real(REAL_KIND), value :: pltsiz, elat, elon, a
+      real(REAL_KIND) :: x(*), y(*), z(*)
+      character(kind=c_char) :: title(*)
+      type(c_ptr) :: c_trplot
+    end function
+  end interface
+  text = c_trplot(lun, pltsiz, elat, elon, a, n, x, y, z, list, lptr, lend, title, len(title, INTEGER_KIND), &
+                  merge(int(1, INTEGER_KIND), int(0, INTEGER_KIND), numbr), ier)
+  if (ier /= 0) return
+  call write_records(text, lun, status)
+  if (status /= 0) ier = 3
+contains
+#include "write_records.inc"
+end subroutine
+#endif
+
+#ifdef STRIPACK_VRPLOT
+recursive subroutine vrplot(lun, pltsiz, elat, elon, a, n, x, y, z, nt, listc, lptr, lend, xc, yc, zc, title, numbr, &
+                            ier)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  integer(INTEGER_KIND) :: lun, n, nt, listc(*), lptr(*), lend(*), ier
+  real(REAL_KIND) :: pltsiz, elat, elon, a, x(*), y(*), z(*), xc(*), yc(*), zc(*)
+  character(len=*, kind=c_char) :: title
+  logical(LOGICAL_KIND) :: numbr
+  type(c_ptr) :: text
+  integer :: status
+  interface
+    function c_vrplot(lun, pltsiz, elat, elon, a, n, x, y, z, nt, listc, lptr, lend, xc, yc, zc, title, &
+                      title_length, numbr, ier) bind(c, name="pstripack_vrplot"//OF_REAL)
+      import
+      integer(INTEGER_KIND), value :: lun, n, nt, title_length, numbr
+      integer(INTEGER_KIND) :: listc(*), lptr(*), lend(*), ier
+      real(REAL_KIND), value :: pltsiz, elat, elon, a
+      real(REAL_KIND) :: x(*), y(*), z(*), xc(*), yc(*), zc(*)
+      character(kind=c_char) :: title(*)
+      type(c_ptr) :: c_vrplot
+    end function
+  end interface
+  text = c_vrplot(lun, pltsiz, elat, elon, a, n, x, y, z, nt, listc, lptr, lend, xc, yc, zc, title, &
+                  len(title, INTEGER_KIND), merge(int(1, INTEGER_KIND), int(0, INTEGER_KIND), numbr), ier)
+  if (ier /= 0) return
+  call write_records(text, lun, status)
+  if (status /= 0) ier = 3
+contains
+#include "write_records.inc"
+end subroutine
+#endif
+
+#ifdef STRIPACK_VORONOI_POLY_COUNT
+recursive subroutine voronoi_poly_count(n, lend, lptr, listc)
+  use, intrinsic :: iso_c_binding
+  use, intrinsic :: iso_fortran_env, only: error_unit
+  implicit none
+  integer(INTEGER_KIND) :: n, lend(*), lptr(*), listc(*)
+  integer :: status
+  interface
+    function c_voronoi_poly_count(n, lend, lptr, listc) bind(c, name="pstripack_voronoi_poly_count"//OF_INTEGER)
+      import
+      integer(INTEGER_KIND), value :: n
+      integer(INTEGER_KIND) :: lend(*), lptr(*), listc(*)
+      type(c_ptr) :: c_voronoi_poly_count
+    end function
+  end interface
+  call write_records(c_voronoi_poly_count(n, lend, lptr, listc), int(6, INTEGER_KIND), status)
+  if (status /= 0) write (error_unit, '(a,i0)') "pstripack: VORONOI_POLY_COUNT: cannot write, IOSTAT = ", status
+contains
+#include "write_records.inc"
+end subroutine
 #endif

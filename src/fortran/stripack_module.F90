@@ -330,8 +330,8 @@ module stripack
     ! in a square of PLTSIZ inches, the bounding box, on a page of 8.5 by 11 inches. Title and captions lie
     ! outside the square. Arcs are straight segments; those with both ends outside the cap are left out.
     ! IER  0 done; 1 LUN, PLTSIZ or N out of range; 2 ELAT, ELON or A out of range; 3 the unit cannot be
-    !      written; -5 a node is not finite, or its length is not within 0.001..1000 (new); -6 out of memory
-    !      (new); -9 not the lists of a triangulation (new).
+    !      written; gfortran does not report a full disk; -5 a node is not finite, or its length is not within
+    !      0.001..1000 (new); -6 out of memory (new); -9 not the lists of a triangulation (new).
     subroutine trplot(lun, pltsiz, elat, elon, a, n, x, y, z, list, lptr, lend, title, numbr, ier)
       integer :: lun, n, list(*), lptr(*), lend(n), ier
       real(STRIPACK_REAL_KIND) :: pltsiz, elat, elon, a, x(n), y(n), z(n)
@@ -342,8 +342,9 @@ module stripack
     ! Draws a Voronoi diagram as an Encapsulated PostScript file.
     ! The view is that of TRPLOT.
     ! IER  0 done; 1 LUN, PLTSIZ or N out of range, or NT is not 2N-4; 2 ELAT, ELON or A out of range; 3 the
-    !      unit cannot be written; -5 a node is not finite, or its length is not within 0.001..1000 (new);
-    !      -6 out of memory (new); -9 not the lists of a triangulation (new).
+    !      unit cannot be written; gfortran does not report a full disk; -5 a node is not finite, or its
+    !      length is not within 0.001..1000 (new); -6 out of memory (new); -9 not the lists of a triangulation
+    !      (new).
     subroutine vrplot(lun, pltsiz, elat, elon, a, n, x, y, z, nt, listc, lptr, lend, xc, yc, zc, title, &
         numbr, ier)
       integer :: lun, n, nt, listc(*), lptr(*), lend(n), ier

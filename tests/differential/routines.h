@@ -70,4 +70,20 @@ void cstrprnt_(const int* n, const double* x, const double* y, const double* z, 
                const int* list, const int* lptr, const int* lend, const int* lout);
 void cstrlprt_(const int* n, const double* x, const double* y, const double* z, const int* iflag,
                const int* nrow, const int* nt, const int* ltri, const int* lout);
+
+// Only ours. TRPRNT and TRLPRT do not look at LOUT (libstripack_r4 and libstripack_i8 do). A Fortran string's
+// length is a hidden last argument.
+void trprnt_(const int* n, const double* x, const double* y, const double* z, const int* iflag,
+             const int* list, const int* lptr, const int* lend, const int* lout);
+void trlprt_(const int* n, const double* x, const double* y, const double* z, const int* iflag,
+             const int* nrow, const int* nt, const int* ltri, const int* lout);
+void trplot_(const int* lun, const double* pltsiz, const double* elat, const double* elon, const double* a,
+             const int* n, const double* x, const double* y, const double* z, const int* list,
+             const int* lptr, const int* lend, const char* title, const int* numbr, int* ier,
+             unsigned long title_length);
+void vrplot_(const int* lun, const double* pltsiz, const double* elat, const double* elon, const double* a,
+             const int* n, const double* x, const double* y, const double* z, const int* nt, const int* listc,
+             const int* lptr, const int* lend, const double* xc, const double* yc, const double* zc,
+             const char* title, const int* numbr, int* ier, unsigned long title_length);
+void voronoi_poly_count_(const int* n, const int* lend, const int* lptr, const int* listc);
 }

@@ -105,8 +105,64 @@ program module_interfaces
 
   call crlist(n, n, x, y, z, list, lend, lptr, lnew, columns, listc, nb, xc, yc, zc, rc, ier)
   call expect(ier == 0 .and. lnew == 6*n - 11, "CRLIST")
+  call print_and_plot
 
 contains
+  ! TRPRNT and TRLPRT with LOUT, and without where it is optional.
+  subroutine print_and_plot
+    integer :: old_list(slots), old_lptr(slots), lout
+    REAL_TYPE :: size = 7.5, latitude = 40, longitude = -100, angle = 90
+    lout = 20
+    call trmesh_again(old_list, old_lptr)
+    open (lout, status="scratch")
+    call trprnt(n, x, y, z, 0, old_list, old_lptr, lend, lout)
+    call trlprt(n, x, y, z, 1, 6, nt, ltri, lout)
+#ifdef STRIPACK_WITH_LOUT
+    call expect_records(lout, 100, huge(1), "LOUT is read")
+#else
+    call expect_records(lout, 0, 0, "LOUT is not read")
+    call trprnt(n, x, y, z, 0, old_list, old_lptr, lend)
+    call trlprt(n, x, y, z, 1, 6, nt, ltri)
+#endif
+    call trplot(lout, size, latitude, longitude, angle, n, x, y, z, old_list, old_lptr, lend, '(Mesh)', .true., ier)
+    call expect(ier == 0, "TRPLOT")
+    call expect_records(lout, 100, huge(1), "TRPLOT writes")
+    call vrplot(lout, size, latitude, longitude, angle, n, x, y, z, 2*n - 4, listc, lptr, lend, xc, yc, zc, &
+                '(Cells)', .false., ier)
+    call expect(ier == 0, "VRPLOT")
+    call expect_records(lout, 60, huge(1), "VRPLOT writes")
+    close (lout)
+#ifndef STRIPACK_WITHOUT_F90_EXTRAS
+    call voronoi_poly_count(n, lend, lptr, listc)
+#endif
+  end subroutine
+  ! LIST and LPTR as they were before CRLIST.
+  subroutine trmesh_again(list, lptr)
+    integer :: list(:), lptr(:)
+#ifdef STRIPACK_8_ARGUMENTS
+    call trmesh(n, x, y, z, list, lptr, lend, ier)
+#else
+    call trmesh(n, x, y, z, list, lptr, lend, lnew, work, work(n + 1), dist, ier)
+#endif
+    call expect(ier == 0, "TRMESH again")
+  end subroutine
+  ! The number of records written so far to a unit, which is then empty again.
+  subroutine expect_records(unit, least, most, what)
+    integer, intent(in) :: unit, least, most
+    character(len=*), intent(in) :: what
+    integer :: count, status
+    count = 0
+    rewind (unit)
+    do
+      read (unit, *, iostat=status)
+      if (status /= 0) exit
+      count = count + 1
+    end do
+    call expect(count >= least .and. count <= most, what)
+    rewind (unit)
+    endfile (unit)
+    rewind (unit)
+  end subroutine
   function point(node)
     integer, intent(in) :: node
     REAL_TYPE :: point(3)

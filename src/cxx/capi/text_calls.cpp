@@ -1,0 +1,123 @@
+#include "capi/text_calls.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <string_view>
+
+#include "stripack/listing.h"
+#include "stripack/plot.h"
+
+namespace {
+
+using namespace pstripack;
+
+/// What a handle points to.
+struct Text {
+  Records records;
+  std::size_t taken = 0;  ///< characters
+};
+
+void complain(const char* routine, const char* why) {
+  std::fprintf(stderr, "pstripack: %s: %s\n", routine, why);
+}
+
+/// The one catch-all: a handle of what compose(records) makes; null, and one line on stderr, if it throws, as
+/// only the allocator does.
+template <class Compose>
+void* composed(const char* routine, const Compose& compose) {
+  try {
+    auto text = std::make_unique<Text>();
+    compose(text->records);
+    return text.release();
+  } catch (...) {
+    complain(routine, "out of memory");
+    return nullptr;
+  }
+}
+
+/// The same for a picture, which has an IER; null unless that is 0.
+template <class Int, class Compose>
+void* picture(const char* routine, Int& ier, const Compose& compose) {
+  PlotStatus status = PlotStatus::done;
+  void* text = composed(routine, [&](Records& out) { status = compose(out); });
+  ier = text != nullptr ? static_cast<Int>(status) : Int{-6};
+  if (status == PlotStatus::bad_node)
+    complain(routine, "IER = -5: a point is not finite, or far from the unit sphere");
+  if (status == PlotStatus::broken_lists)
+    complain(routine, "IER = -9: the lists are not those of a triangulation or Voronoi diagram");
+  if (ier == 0) return text;
+  pstripack_free_text(text);
+  return nullptr;
+}
+
+ListingForm form(bool f90) { return f90 ? ListingForm::f90 : ListingForm::f77; }
+
+}  // namespace
+
+extern "C" {
+
+int32_t pstripack_next_record(void* handle, char* record, int32_t capacity) noexcept {
+  if (handle == nullptr) return -1;
+  Text& text = *static_cast<Text*>(handle);
+  const std::string_view rest = std::string_view(text.records.text()).substr(text.taken);
+  if (rest.empty()) return -1;
+  const std::size_t length = rest.find('\n');
+  const std::size_t copied = std::min(length, static_cast<std::size_t>(capacity));
+  rest.copy(record, copied);
+  text.taken += length + 1;
+  return static_cast<int32_t>(copied);
+}
+
+void pstripack_free_text(void* text) noexcept { delete static_cast<Text*>(text); }
+
+#define PRINT_CALLS(Real, Int, suffix)                                                                      \
+  void* pstripack_trprnt_##suffix(Int n, const Real* x, const Real* y, const Real* z, Int iflag,            \
+                                  const Int* list, const Int* lptr, const Int* lend, Int f90) noexcept {    \
+    return composed("TRPRNT", [&](Records& out) {                                                           \
+      const ListsView<Int> lists{static_cast<std::size_t>(n), list, lptr, lend, 0};                         \
+      list_neighbours(form(f90 != 0), iflag, lists, Nodes<Real>{x, y, z}, out);                             \
+    });                                                                                                     \
+  }                                                                                                         \
+  void* pstripack_trlprt_##suffix(Int n, const Real* x, const Real* y, const Real* z, Int iflag, Int nrow,  \
+                                  Int nt, const Int* ltri, Int f90) noexcept {                              \
+    return composed("TRLPRT", [&](Records& out) {                                                           \
+      list_triangles(form(f90 != 0), n, iflag, Nodes<Real>{x, y, z}, nrow, nt, ltri, out);                  \
+    });                                                                                                     \
+  }                                                                                                         \
+  void* pstripack_trplot_##suffix(Int lun, Real pltsiz, Real elat, Real elon, Real a, Int n, const Real* x, \
+                                  const Real* y, const Real* z, const Int* list, const Int* lptr,           \
+                                  const Int* lend, const char* title, Int title_length, Int numbr,          \
+                                  Int* ier) noexcept {                                                      \
+    const PlotFrame<Real, Int> frame{                                                                       \
+        lun, pltsiz, elat, elon, a, {title, static_cast<std::size_t>(title_length)}, numbr != 0};           \
+    return picture("TRPLOT", *ier, [&](Records& out) {                                                      \
+      const ListsView<Int> lists{static_cast<std::size_t>(n), list, lptr, lend, 0};                         \
+      return plot_triangulation(frame, lists, Nodes<Real>{x, y, z}, out);                                   \
+    });                                                                                                     \
+  }                                                                                                         \
+  void* pstripack_vrplot_##suffix(Int lun, Real pltsiz, Real elat, Real elon, Real a, Int n, const Real* x, \
+                                  const Real* y, const Real* z, Int nt, const Int* listc, const Int* lptr,  \
+                                  const Int* lend, const Real* xc, const Real* yc, const Real* zc,          \
+                                  const char* title, Int title_length, Int numbr, Int* ier) noexcept {      \
+    const PlotFrame<Real, Int> frame{                                                                       \
+        lun, pltsiz, elat, elon, a, {title, static_cast<std::size_t>(title_length)}, numbr != 0};           \
+    return picture("VRPLOT", *ier, [&](Records& out) {                                                      \
+      return plot_voronoi(frame, n, Nodes<Real>{x, y, z}, nt, listc, lptr, lend, Nodes<Real>{xc, yc, zc},   \
+                          out);                                                                             \
+    });                                                                                                     \
+  }
+
+#define COUNT_CALLS(Int, suffix)                                                                             \
+  void* pstripack_voronoi_poly_count_##suffix(Int n, const Int* lend, const Int* lptr,                       \
+                                              const Int* listc) noexcept {                                   \
+    return composed("VORONOI_POLY_COUNT", [&](Records& out) { count_polygons(n, lend, lptr, listc, out); }); \
+  }
+
+PRINT_CALLS(float, int32_t, r4)
+PRINT_CALLS(double, int32_t, r8)
+PRINT_CALLS(double, int64_t, i8)
+COUNT_CALLS(int32_t, i4)
+COUNT_CALLS(int64_t, i8)
+
+}  // extern "C"

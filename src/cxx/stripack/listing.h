@@ -1,0 +1,39 @@
+#pragma once
+// TRPRNT, TRLPRT, VORONOI_POLY_COUNT: tables for people to read. For Real = float, double and Int = int32_t,
+// int64_t. They compose the records; who called writes them. Words are ours; columns and page breaks are
+// those of the original. Throw std::bad_alloc.
+
+#include "stripack/adjacency_lists.h"
+#include "stripack/expressions.h"
+#include "stripack/records.h"
+
+namespace pstripack {
+
+/// The two layouts that are in use. They differ at page breaks, where f90 has records of one blank, and in
+/// the totals, which take three records there.
+enum class ListingForm { f77, f90 };
+
+/// The most nodes, and triangles, that a listing shows; of more it says that they are too many.
+constexpr int most_listed = 9999;
+
+/// TRPRNT: the neighbours of each node, from first to last, 0 after those of a boundary node; then the
+/// numbers of boundary nodes, arcs and triangles. Before the neighbours: the coordinates if iflag = 0; x and
+/// y if iflag > 0, taken for longitude and latitude; nothing if iflag < 0 (`nodes` is not read). Any number
+/// of neighbours. Lists that are not closed are shown as far as they go, and end the table with a remark.
+template <class Real, class Int>
+void list_neighbours(ListingForm form, Int iflag, const ListsView<Int>& lists, const Nodes<Real>& nodes,
+                     Records& out);
+
+/// TRLPRT: the nodes, with coordinates as in list_neighbours (no nodes at all if iflag < 0), then the nt
+/// columns of ltri(nrow, nt) as TRLIST gives them, then the totals.
+template <class Real, class Int>
+void list_triangles(ListingForm form, Int n, Int iflag, const Nodes<Real>& nodes, Int nrow, Int nt,
+                    const Int* ltri, Records& out);
+
+/// VORONOI_POLY_COUNT: of the Voronoi diagram that CRLIST gives, the numbers of cells, vertices and edges,
+/// Euler's sum F + V - E - 2, which is 0, and how many cells have 1, 2, ..., 19, 20 or more sides, where
+/// there are any. listc, lptr: 6n-12 slots. Of lists that are not closed it says that.
+template <class Int>
+void count_polygons(Int n, const Int* lend, const Int* lptr, const Int* listc, Records& out);
+
+}  // namespace pstripack

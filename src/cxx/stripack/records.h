@@ -1,0 +1,91 @@
+#pragma once
+// Text composed record by record, with fields as Fortran's edit descriptors write them.
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+
+namespace pstripack {
+
+/// A text of records, each ended by '\n'. Fields are right-justified. A value that its width cannot hold
+/// is written all the same, after a blank, where Fortran writes asterisks: it is worth more than the column.
+/// Independent of the locale. Throws std::bad_alloc.
+class Records {
+ public:
+  const std::string& text() const { return text_; }
+
+  Records& add(std::string_view words) {
+    text_ += words;
+    return *this;
+  }
+  Records& skip(int blanks) {
+    text_.append(static_cast<std::size_t>(blanks), ' ');
+    return *this;
+  }
+  Records& end() {
+    text_ += '\n';
+    return *this;
+  }
+  /// So many empty records.
+  Records& empty(int count) {
+    text_.append(static_cast<std::size_t>(count), '\n');
+    return *this;
+  }
+  /// Iw
+  template <class Int>
+  Records& integer(Int value, int width) {
+    std::array<char, 24> digits;
+    return justified(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr,
+                     width);
+  }
+  /// Fw.d
+  Records& fixed(double value, int width, int decimals) {
+    std::array<char, 400> digits;
+    return justified(
+        digits.data(),
+        std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed, decimals)
+            .ptr,
+        width);
+  }
+  /// Ew.6: 0.123456E+00, with three digits in the exponent 0.123456+100.
+  Records& exponential(double value, int width) {
+    if (!std::isfinite(value))
+      return justified(std::isnan(value) ? "NaN" : value < 0 ? "-Infinity" : "Infinity", width);
+    std::array<char, 16> digits;  // -d.ddddde+xxx
+    char* const end =
+        std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::scientific, 5)
+            .ptr;
+    const bool negative = digits[0] == '-';
+    const char* const d = digits.data() + (negative ? 1 : 0);
+    int exponent = 0;
+    std::from_chars(d + (d[8] == '+' ? 9 : 8), end, exponent);
+    if (value != 0) ++exponent;  // from d.ddddd to 0.dddddd
+    const int size = std::abs(exponent);
+    std::string field = negative ? "-0." : "0.";
+    field += d[0];
+    field.append(d + 2, 5);
+    if (size < 100) field += 'E';
+    field += exponent < 0 ? '-' : '+';
+    if (size < 10) field += '0';
+    return justified(field + std::to_string(size), width);
+  }
+
+ private:
+  Records& justified(std::string_view field, int width) {
+    const auto columns = static_cast<std::size_t>(width);
+    text_.append(field.size() > columns ? 1 : columns - field.size(), ' ');
+    text_ += field;
+    return *this;
+  }
+  Records& justified(const char* begin, const char* end, int width) {
+    return justified({begin, static_cast<std::size_t>(end - begin)}, width);
+  }
+
+  std::string text_;
+};
+
+}  // namespace pstripack

@@ -1,0 +1,297 @@
+// TRPRNT, TRLPRT, VORONOI_POLY_COUNT: what needs no original. The rows and page breaks that they share with
+// it are compared in tests/differential/listing_differential_test.cpp.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "capi/text_calls.h"
+#include "differential/routines.h"
+#include "support/fortran_unit.h"
+
+namespace {
+
+/// The octahedron, or its upper half; with LIST, LPTR, LEND of our TRMESH.
+struct Octahedron {
+  explicit Octahedron(int nodes) : n(nodes) {
+    int near[6], next[6], ier;
+    double dist[6];
+    trmesh_(&n, x, y, z, list, lptr, lend, &lnew, near, next, dist, &ier);
+    EXPECT_EQ(ier, 0);
+  }
+  int n, list[24], lptr[24], lend[6], lnew;
+  double x[6] = {1, 0, 0, -1, 0, 0}, y[6] = {0, 1, 0, 0, -1, 0}, z[6] = {0, 0, 1, 0, 0, -1};
+};
+
+std::string text_of(void* handle) {
+  std::string text;
+  char record[400];
+  for (int length; (length = pstripack_next_record(handle, record, sizeof record)) >= 0;)
+    text.append(record, static_cast<std::size_t>(length)) += '\n';
+  pstripack_free_text(handle);
+  return text;
+}
+
+// The layout of the Fortran 90 texts, on standard output, whatever LOUT is: it may not have been passed.
+TEST(Trprnt, OfLibstripackPrintsAsFortran90Does) {
+  const Octahedron half(5);
+  const int iflag = -1, unit = 77;
+  const auto print = [&](const int* lout) {
+    return written_to_stdout(
+        [&] { trprnt_(&half.n, half.x, half.y, half.z, &iflag, half.list, half.lptr, half.lend, lout); });
+  };
+  EXPECT_EQ(print(nullptr),
+            "\n\n\n"
+            "               PSTRIPACK: the neighbours of each node,  N =     5\n"
+            "\n\n"
+            " node        neighbours, counterclockwise\n"
+            "\n\n"
+            "    1        2    3    5    0\n"
+            " \n"
+            "    2        4    3    1    0\n"
+            " \n"
+            "    3        1    2    4    5\n"
+            " \n"
+            "    4        5    3    2    0\n"
+            " \n"
+            "    5        1    3    4    0\n"
+            " \n"
+            " \n"
+            "NB =        4 boundary nodes\n"
+            "NA =        8 arcs\n"
+            "NT =        4 triangles\n");
+  EXPECT_EQ(written_to_unit(unit, [&] { EXPECT_EQ(print(&unit), print(nullptr)); }), "");
+}
+
+TEST(Trlprt, OfLibstripackPrintsAsFortran90Does) {
+  const Octahedron half(5);
+  const int iflag = 1, nrow = 9, unit = 77;
+  int nt, ier, ltri[9 * 6];
+  trlist_(&half.n, half.list, half.lptr, half.lend, &nrow, &nt, ltri, &ier);
+  const auto print = [&](const int* lout) {
+    return written_to_stdout(
+        [&] { trlprt_(&half.n, half.x, half.y, half.z, &iflag, &nrow, &nt, ltri, lout); });
+  };
+  EXPECT_EQ(print(nullptr),
+            "\n\n\n"
+            "                  PSTRIPACK: triangles as of TRLIST,  N =    5\n"
+            "\n\n"
+            "                node      longitude         latitude\n"
+            "\n\n"
+            "                   1     0.100000E+01     0.000000E+00\n"
+            "                   2     0.000000E+00     0.100000E+01\n"
+            "                   3     0.000000E+00     0.000000E+00\n"
+            "                   4    -0.100000E+01     0.000000E+00\n"
+            "                   5     0.000000E+00    -0.100000E+01\n"
+            "\n\n"
+            "triangle         corners             neighbours              arcs\n"
+            "   no.        1      2      3      1      2      3      1      2      3\n"
+            "\n"
+            "     1        1      2      3      3      2      0      4      3      1\n"
+            "     2        1      3      5      4      0      1      7      2      3\n"
+            "     3        2      4      3      4      1      0      8      4      5\n"
+            "     4        3      4      5      0      2      3      6      7      8\n"
+            " \n"
+            "NB =        4 boundary nodes\n"
+            "NA =        8 arcs\n"
+            "NT =        4 triangles\n");
+  EXPECT_EQ(written_to_unit(unit, [&] { EXPECT_EQ(print(&unit), print(nullptr)); }), "");
+}
+
+/// Nodes with LIST, LPTR, LEND of our TRMESH.
+struct Triangulated {
+  void triangulate() {
+    n = static_cast<int>(x.size());
+    for (std::vector<int>* array : {&list, &lptr}) array->resize(6 * x.size());
+    lend.resize(x.size());
+    std::vector<int> near(x.size()), next(x.size());
+    std::vector<double> dist(x.size());
+    int ier;
+    trmesh_(&n, x.data(), y.data(), z.data(), list.data(), lptr.data(), lend.data(), &lnew, near.data(),
+            next.data(), dist.data(), &ier);
+    EXPECT_EQ(ier, 0);
+  }
+  void add(double height, double longitude) {
+    const double r = std::sqrt(1 - height * height);
+    x.push_back(r * std::cos(longitude)), y.push_back(r * std::sin(longitude)), z.push_back(height);
+  }
+  std::vector<std::string> printed(int iflag, bool f90) const {
+    return records_of(text_of(pstripack_trprnt_r8(n, x.data(), y.data(), z.data(), iflag, list.data(),
+                                                  lptr.data(), lend.data(), f90)));
+  }
+  int n, lnew;
+  std::vector<int> list, lptr, lend;
+  std::vector<double> x, y, z;
+};
+
+/// Nodes on a spiral round the sphere.
+Triangulated spiral(int n) {
+  Triangulated nodes;
+  for (int k = 0; k < n; ++k) nodes.add(1 - (2 * k + 1.0) / n, 2.4 * k);
+  nodes.triangulate();
+  return nodes;
+}
+
+/// A node with so many neighbours, and those.
+Triangulated wheel(int spokes) {
+  Triangulated nodes;
+  nodes.add(1, 0);
+  for (int k = 0; k < spokes; ++k) nodes.add(0.6, 2 * std::acos(-1.0) * k / spokes);
+  nodes.triangulate();
+  return nodes;
+}
+
+// Page breaks of the two layouts: after 58 lines, of which a row of neighbours and the blank record take two.
+TEST(Trprnt, BreaksPagesWithThreeBlanksInFortran90AndFourRecordsIn77) {
+  const Triangulated nodes = spiral(60);
+  for (const bool f90 : {false, true}) {
+    const std::vector<std::string> records = nodes.printed(-1, f90);
+    const std::string blank = f90 ? " " : "";
+    std::size_t at = 9;  // behind the heading
+    for (int k = 1; k <= nodes.n; ++k) {
+      const bool breaks = k == 27 || k == 56;  // 6 + 2 * 26 = 58, then 2 * 29
+      for (int i = 0; breaks && i < (f90 ? 3 : 4); ++i) EXPECT_EQ(records.at(at++), blank) << k;
+      EXPECT_EQ(std::stoi(records.at(at++).substr(0, 5)), k);
+      EXPECT_EQ(records.at(at++), blank) << k;
+    }
+    EXPECT_EQ(records.at(at), blank);
+    EXPECT_EQ(records.size(), at + (f90 ? 4 : 2));
+  }
+}
+
+// After a row that is just full Fortran's format writes the record, and it is empty.
+TEST(Trprnt, RecordsBetweenNodesHaveABlankInFortran90UnlessTheRowIsFull) {
+  const std::vector<std::string> records = spiral(60).printed(0, true);
+  int full = 0, other = 0;
+  for (std::size_t at = 9; at + 1 < records.size(); ++at) {
+    if (records[at].size() <= 54 || records[at].substr(0, 5) == "     ") continue;
+    const bool one_row = records[at + 1].size() < 2;
+    const bool five = records[at].size() == 54 + 5 * 5 && one_row;
+    if (one_row) {
+      EXPECT_EQ(records[at + 1], five ? "" : " ") << records[at];
+    }
+    ++(five ? full : other);
+  }
+  EXPECT_GT(full, 5);
+  EXPECT_GT(other, 5);
+  EXPECT_EQ(full + other, 60);
+  const std::vector<std::string> two_full_rows = wheel(10).printed(0, true);
+  EXPECT_EQ(two_full_rows.at(10).size(), 54u + 5 * 5);
+  EXPECT_EQ(two_full_rows.at(11), " ");
+}
+
+// The original has room for 400 neighbours.
+TEST(Trprnt, ShowsAnyNumberOfNeighbours) {
+  const std::vector<std::string> records = wheel(2000).printed(0, false);
+  int shown = 0;
+  std::size_t at = 13;  // behind the heading and a page break
+  for (; !records.at(at).empty(); ++at) shown += static_cast<int>(records[at].size() - 54) / 5;
+  EXPECT_EQ(shown, 2000);
+  EXPECT_EQ(at, 13u + 400);
+}
+
+// Bad input: a remark instead of an overrun.
+TEST(Trprnt, EndsWhereListsAreNotClosed) {
+  const std::string remark = "           LIST, LPTR, LEND are not closed lists at node    2\n";
+  for (const int slot : {0, -1, 25, 2147483647, 1}) {
+    Octahedron whole(6);
+    if (slot == 1)
+      whole.lptr[whole.lptr[whole.lend[1] - 1] - 1] = 1;  // into the list of node 1, and never back
+    else
+      whole.lptr[whole.lptr[whole.lend[1] - 1] - 1] = slot;
+    const std::string text =
+        text_of(pstripack_trprnt_r8(6, whole.x, whole.y, whole.z, -1, whole.list, whole.lptr, whole.lend, 0));
+    EXPECT_EQ(text.substr(text.size() - remark.size()), remark) << slot;
+    EXPECT_LT(text.size(), 1000u);
+  }
+  for (const int slot : {0, -1, 25, 2147483647}) {
+    Octahedron whole(6);
+    whole.lend[1] = slot;
+    const std::string text =
+        text_of(pstripack_trprnt_r8(6, whole.x, whole.y, whole.z, -1, whole.list, whole.lptr, whole.lend, 0));
+    EXPECT_EQ(text.substr(text.size() - remark.size()), remark) << slot;
+  }
+}
+
+TEST(Trlprt, ShowsNumbersThatDoNotFitTheirColumns) {
+  const double none[3] = {};
+  const std::int64_t ltri[6] = {1, 2, 123456789, -1, 0, 1000000000000};
+  const std::string text = text_of(pstripack_trlprt_i8(3, none, none, none, -1, 6, 1, ltri, 0));
+  EXPECT_NE(text.find("     1        1      2 123456789     -1      0 1000000000000\n"), std::string::npos)
+      << text;
+}
+
+TEST(VoronoiPolyCount, CountsTheCellsOfACube) {  // the dual of the octahedron
+  Octahedron whole(6);
+  int ltri[6], listc[24], nb, ier;
+  const int ncol = 1;
+  double xc[8], yc[8], zc[8], rc[8];
+  crlist_(&whole.n, &ncol, whole.x, whole.y, whole.z, whole.list, whole.lend, whole.lptr, &whole.lnew, ltri,
+          listc, &nb, xc, yc, zc, rc, &ier);
+  ASSERT_EQ(ier, 0);
+  EXPECT_EQ(written_to_stdout([&] { voronoi_poly_count_(&whole.n, whole.lend, whole.lptr, listc); }),
+            "\n"
+            "PSTRIPACK: Voronoi diagram\n"
+            "  faces          F =        6\n"
+            "  vertices       V =        8\n"
+            "  edges          E =       12\n"
+            "  F + V - E - 2    =        0\n"
+            "\n"
+            "   sides   cells   (20: 20 or more)\n"
+            "       4       6\n");
+}
+
+TEST(VoronoiPolyCount, SumsUpCellsOfTwentySidesAndMore) {
+  for (const int spokes : {25, 20, 19}) {
+    Triangulated nodes = wheel(spokes);
+    const std::size_t size = nodes.list.size();
+    std::vector<int> ltri(size), listc(size);
+    std::vector<double> xc(size), yc(size), zc(size), rc(size);
+    int nb, ier;
+    crlist_(&nodes.n, &nodes.n, nodes.x.data(), nodes.y.data(), nodes.z.data(), nodes.list.data(),
+            nodes.lend.data(), nodes.lptr.data(), &nodes.lnew, ltri.data(), listc.data(), &nb, xc.data(),
+            yc.data(), zc.data(), rc.data(), &ier);
+    ASSERT_EQ(ier, 0);
+    const std::vector<std::string> records = records_of(written_to_stdout(
+        [&] { voronoi_poly_count_(&nodes.n, nodes.lend.data(), nodes.lptr.data(), listc.data()); }));
+    std::map<int, int> expected;
+    for (const int last : nodes.lend) {
+      int sides = 1;
+      for (int slot = nodes.lptr[last - 1]; slot != last; slot = nodes.lptr[slot - 1]) ++sides;
+      ++expected[std::min(sides, 20)];
+    }
+    std::map<int, int> found;
+    for (std::size_t i = 8; i < records.size(); ++i)
+      found[std::stoi(records[i].substr(0, 8))] = std::stoi(records[i].substr(8));
+    EXPECT_EQ(found, expected);
+    EXPECT_EQ(records.at(5), "  F + V - E - 2    =        0");
+    EXPECT_EQ(records.back().substr(0, 8), spokes == 19 ? "      19" : "      20");
+  }
+}
+
+TEST(VoronoiPolyCount, SaysWhatIsNoDiagram) {
+  const std::string remark = "  N < 3, or LEND, LPTR, LISTC are not those that CRLIST gives\n";
+  const Octahedron whole(6);
+  int far[24];
+  for (int& vertex : far) vertex = 9;
+  const auto count = [&](int n, const int* lptr, const int* listc) {
+    return text_of(pstripack_voronoi_poly_count_i4(n, whole.lend, lptr, listc));
+  };
+  const int zeros[24] = {};
+  for (const std::string& text :
+       {count(2, whole.lptr, zeros), count(6, zeros, zeros), count(6, whole.lptr, far)})
+    EXPECT_EQ(text, "\nPSTRIPACK: Voronoi diagram\n" + remark);
+}
+
+TEST(Text, OfAHandleThatIsNull) {
+  char record[10];
+  EXPECT_EQ(pstripack_next_record(nullptr, record, sizeof record), -1);
+  pstripack_free_text(nullptr);
+}
+
+}  // namespace
