@@ -280,6 +280,104 @@ recursive integer(INTEGER_KIND) function nearnd(p, ist, n, x, y, z, list, lptr, 
 end function
 #endif
 
+#ifdef STRIPACK_GETNP
+recursive subroutine getnp(x, y, z, list, lptr, lend, l, npts, df, ier)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  real(REAL_KIND) :: x(*), y(*), z(*), df
+  integer(INTEGER_KIND) :: list(*), lptr(*), lend(*), l, npts(*), ier
+  interface
+    subroutine c_getnp(x, y, z, list, lptr, lend, l, npts, df, ier) bind(c, name="pstripack_getnp"//OF_REAL)
+      import
+      integer(INTEGER_KIND), value :: l
+      real(REAL_KIND) :: x(*), y(*), z(*), df
+      integer(INTEGER_KIND) :: list(*), lptr(*), lend(*), npts(*), ier
+    end subroutine
+  end interface
+  call c_getnp(x, y, z, list, lptr, lend, l, npts, df, ier)
+end subroutine
+#endif
+
+#ifdef STRIPACK_INSIDE
+recursive logical(LOGICAL_KIND) function inside(p, lv, xv, yv, zv, nv, listv, ier)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  integer(INTEGER_KIND) :: lv, nv, listv(*), ier
+  real(REAL_KIND) :: p(3), xv(*), yv(*), zv(*)
+  interface
+    function c_inside(p, lv, xv, yv, zv, nv, listv, ier) bind(c, name="pstripack_inside"//OF_REAL)
+      import
+      integer(INTEGER_KIND), value :: lv, nv
+      integer(INTEGER_KIND) :: listv(*), ier, c_inside
+      real(REAL_KIND) :: p(*), xv(*), yv(*), zv(*)
+    end function
+  end interface
+  inside = c_inside(p, lv, xv, yv, zv, nv, listv, ier) /= 0
+end function
+#endif
+
+#ifdef STRIPACK_INTRSC
+recursive subroutine intrsc(p1, p2, cn, p, ier)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  real(REAL_KIND) :: p1(3), p2(3), cn(3), p(3)
+  integer(INTEGER_KIND) :: ier
+  interface
+    subroutine c_intrsc(p1, p2, cn, p, ier) bind(c, name="pstripack_intrsc"//OF_REAL)
+      import
+      real(REAL_KIND) :: p1(*), p2(*), cn(*), p(*)
+      integer(INTEGER_KIND) :: ier
+    end subroutine
+  end interface
+  call c_intrsc(p1, p2, cn, p, ier)
+end subroutine
+#endif
+
+#ifdef STRIPACK_JRAND
+recursive integer(INTEGER_KIND) function jrand(n, ix, iy, iz)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  integer(INTEGER_KIND) :: n, ix, iy, iz
+  interface
+    function c_jrand(n, ix, iy, iz) bind(c, name="pstripack_jrand"//OF_REAL)
+      import
+      integer(INTEGER_KIND), value :: n
+      integer(INTEGER_KIND) :: ix, iy, iz, c_jrand
+    end function
+  end interface
+  jrand = c_jrand(n, ix, iy, iz)
+end function
+#endif
+
+#ifdef STRIPACK_STORE
+! The original stores X in a common block, to round it to its kind on processors with wider registers. An
+! argument comes through memory anyway.
+recursive real(REAL_KIND) function store(x)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  real(REAL_KIND) :: x
+  store = x
+end function
+#endif
+
+#ifdef STRIPACK_TRIAREAS
+recursive subroutine triareas(n, x, y, z, nt, triangles, triarea)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  integer(INTEGER_KIND) :: n, nt, triangles(*)
+  real(REAL_KIND) :: x(*), y(*), z(*), triarea(*)
+  interface
+    subroutine c_triareas(n, x, y, z, nt, triangles, triarea) bind(c, name="pstripack_triareas"//OF_REAL)
+      import
+      integer(INTEGER_KIND), value :: n, nt
+      integer(INTEGER_KIND) :: triangles(*)
+      real(REAL_KIND) :: x(*), y(*), z(*), triarea(*)
+    end subroutine
+  end interface
+  call c_triareas(n, x, y, z, nt, triangles, triarea)
+end subroutine
+#endif
+
 ! The routines that print: libpstripack composes the text, write_records.inc writes it.
 ! TRPRNT, TRLPRT: Algorithm 772 has a last argument LOUT, the Fortran 90 texts, which are REAL*8, have not and
 ! print to standard output. Whether it was passed cannot be seen, so libraries that callers of both kinds link

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "child_process.h"
-#include "differential/routines.h"
+#include "original.h"
 
 namespace differential {
 namespace {
@@ -175,19 +175,26 @@ Lists::Lists(int most)
       lend(static_cast<std::size_t>(most), mark),
       lnew(mark) {}
 
+const legacy_stripack::Library& second_original() {
+  static const legacy_stripack::Original original(legacy_stripack::configured_original().value());
+  return original.library();
+}
+
 Lists triangulated_by_original(const NodeSet& nodes, int& ier) {
   const int n = nodes.n();
   Lists lists(n + 60);  // room for nodes that a test adds
   std::vector<int> near(nodes.x.size()), next(nodes.x.size());
   std::vector<double> dist(nodes.x.size());
-  cstrmesh_(&n, nodes.x.data(), nodes.y.data(), nodes.z.data(), lists.list.data(), lists.lptr.data(),
-            lists.lend.data(), &lists.lnew, near.data(), next.data(), dist.data(), &ier);
+  second_original().trmesh(&n, nodes.x.data(), nodes.y.data(), nodes.z.data(), lists.list.data(),
+                           lists.lptr.data(), lists.lend.data(), &lists.lnew, near.data(), next.data(),
+                           dist.data(), &ier);
   return lists;
 }
 
 Result compare_all(const std::vector<NodeSet>& sets,
                    const std::function<std::string(const NodeSet&)>& compare, double limit) {
   const legacy_stripack::Shared<char> text(1000);  // what a child found
+  second_original();                               // loaded once, not in every child
   Result result;
   for (const NodeSet& set : sets) {
     text[0] = '\0';

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "library.h"
+
 namespace differential {
 
 struct NodeSet {
@@ -29,7 +31,11 @@ struct Lists {
   }
 };
 
-/// The original's TRMESH; the IER in `ier`.
+/// A second copy of the original in this process, which draws from random seeds of its own. Its CRLIST has
+/// the 17 arguments of STRIPACK.
+const legacy_stripack::Library& second_original();
+
+/// The TRMESH of the second copy, so that the seeds of the first are as fresh as ours; the IER in `ier`.
 Lists triangulated_by_original(const NodeSet& nodes, int& ier);
 
 /// What became of a comparison over many sets.

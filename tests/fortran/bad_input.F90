@@ -68,7 +68,88 @@ program bad_input
               "NEARND of the zero vector")
   call expect(al == merge(0._rk, 5._rk, rk == 8), "NEARND's AL: 0 in REAL*8, untouched in REAL*4")
 
+  call bad_arguments_of_queries
+
 contains
+
+  subroutine bad_arguments_of_queries
+    real(rk) :: nan, huge_number, c(3), one(3), none(3)
+    real(rk) :: xc(2*n), yc(2*n), zc(2*n), rc(2*n)
+    integer :: ier, ltri(6, n), listc(slots), lptr_before(slots), lnew_before, nb, l
+    logical, external :: inside
+    external :: intrsc, circum, crlist
+#ifdef STRIPACK_8_ARGUMENTS
+    real(rk) :: area(3)
+    external :: triareas
+#endif
+    nan = ieee_value(1._rk, ieee_quiet_nan)
+    huge_number = ieee_value(1._rk, ieee_positive_inf)
+    one = [1, 0, 0]
+    none = [nan, 0._rk, 0._rk]
+
+    call refuses_nodes(1, [3], 1, "GETNP: L = 1")
+    call refuses_nodes(-5, [3], 1, "GETNP: L < 0")
+    call refuses_nodes(3, [3, 0], -10, "GETNP: node 0")
+    call refuses_nodes(4, [3, 5, 3], -10, "GETNP: a node twice")
+    call refuses_nodes(n + 1, [(l, l=1, n)], -11, "GETNP: L > N")
+    nodes(3, 2) = nan
+    call refuses_nodes(2, [3], -5, "GETNP: NaN")
+    nodes(3, 2) = huge_number
+    call refuses_nodes(2, [3], -5, "GETNP: infinity")
+
+    do l = 0, n + 1
+      call trfind(l, one, n, nodes(:, 1), nodes(:, 2), nodes(:, 3), list, lptr, lend, c(1), c(2), c(3), i(1), i(2), i(3))
+      call expect(all(i >= 0) .and. all(i <= n), "TRFIND among nodes of which one is infinite")
+    end do
+
+    call expect(.not. inside(one, n, nodes(:, 1), nodes(:, 2), nodes(:, 3), 2, [1, 2], ier) .and. ier == 1, "INSIDE: NV = 2")
+    call expect(.not. inside(one, 2, nodes(:, 1), nodes(:, 2), nodes(:, 3), 3, [1, 2, 3], ier) .and. ier == 1, &
+                "INSIDE: NV > LV")
+    call expect(.not. inside(one, n, nodes(:, 1), nodes(:, 2), nodes(:, 3), 3, [1, 2, n + 1], ier) .and. ier == 2, &
+                "INSIDE: a vertex above LV")
+    call expect(.not. inside(0*one, n, nodes(:, 1), nodes(:, 2), nodes(:, 3), 3, [1, 4, 8], ier) .and. ier == 4, &
+                "INSIDE: the zero vector")
+    call expect(.not. inside(none, n, nodes(:, 1), nodes(:, 2), nodes(:, 3), 3, [1, 4, 8], ier) .and. ier == -5, &
+                "INSIDE: NaN")
+    call expect(.not. inside(one, n, nodes(:, 1), nodes(:, 2), nodes(:, 3), 3, [1, 3, 8], ier) .and. ier == -5, &
+                "INSIDE: an infinite vertex")
+
+    c = 5
+    call intrsc(one, one, [0._rk, 1._rk, 0._rk], c, ier)
+    call expect(ier == 1 .and. all(c == 5), "INTRSC: equal ends")
+    call intrsc(one, -one, one, c, ier)
+    call expect(ier == 2 .and. all(c == 5), "INTRSC: opposite ends")
+    call intrsc(one, none, one, c, ier)
+    call expect(ier == -5 .and. all(c == 5), "INTRSC: NaN")
+    call circum(one, none, [0._rk, 1._rk, 0._rk], c, ier)
+    call expect(ier == -5 .and. all(c == 5), "CIRCUM: NaN")
+    call circum(one, one, [0._rk, 1._rk, 0._rk], c, ier)
+    call expect(ier == 1 .and. all(c == 5), "CIRCUM: two corners coincide")
+
+    lptr_before = lptr
+    lnew_before = lnew
+    call crlist(n, n, nodes(:, 1), nodes(:, 2), nodes(:, 3), list, lend, lptr, lnew, ltri, listc, nb, xc, yc, zc, rc, ier)
+    call expect(ier == -5 .and. all(lptr == lptr_before) .and. lnew == lnew_before, "CRLIST: an infinite node")
+#ifdef STRIPACK_8_ARGUMENTS
+    area = 5
+    call triareas(n, nodes(:, 1), nodes(:, 2), nodes(:, 3), 2, [1, 2, 4, 1, 2, n + 1], area)
+    call expect(area(1) > 0 .and. area(2) /= area(2) .and. area(3) == 5, "TRIAREAS: a corner above N")
+#endif
+  end subroutine
+
+  subroutine refuses_nodes(l, given, code, what)
+    integer, intent(in) :: l, given(:), code
+    character(len=*), intent(in) :: what
+    integer :: npts(n + 1), ier
+    real(rk) :: df
+    external :: getnp
+    npts = mark
+    npts(:size(given)) = given
+    df = 5
+    call getnp(nodes(:, 1), nodes(:, 2), nodes(:, 3), list, lptr, lend, l, npts, df, ier)
+    call expect(ier == code .and. df == 5, what)
+    call expect(all(npts(:size(given)) == given) .and. all(npts(size(given) + 1:) == mark), what//": NPTS untouched")
+  end subroutine
 
   subroutine mark_all
     list = mark

@@ -1,5 +1,6 @@
 ! The results that every variant of the original gives for two small triangulations: TRLIST, CRLIST,
-! BNODES, TRFIND, NEARND, LSTPTR, NBCNT, through implicit interfaces, as old codes call them.
+! BNODES, TRFIND, NEARND, LSTPTR, NBCNT, GETNP; and INSIDE, INTRSC, JRAND, STORE. Through implicit interfaces, as
+! old codes call them.
 ! REAL_KIND: 4 or 8, that of the library.
 program golden_vectors
   use expectations
@@ -111,6 +112,9 @@ contains
     call expect(lstptr(lend(2), 6, list, lptr) == 11, "LSTPTR: no neighbour")
 
     if (rk == 8) call searches
+    call order_of_distance
+    call polygons
+    call random_numbers
 
     lnew = 29
     columns = mark
@@ -135,6 +139,52 @@ contains
     call search(4, [0.0_rk, 1.0_rk, 0.0_rk], [7, 6, 0], [-7d0, -7d0, -0.288d0], 2, 0.6435011087932843d0)
     call search(1, [0.6_rk, 0.0_rk, 0.8_rk], [4, 6, 1], [2.7755575615628914d-17, 0d0, 0.384d0], 1, 0d0)
     call search(7, [-0.28_rk, 0.0_rk, 0.96_rk], [4, 3, 7], [0d0, 0.410176d0, 0d0], 3, 0d0)
+  end subroutine
+
+  subroutine order_of_distance
+    integer :: npts(n), l, ier
+    real(rk) :: df
+    real(8), parameter :: cosines(2:n) = [0.768d0, 0.7104d0, 0.6d0, 0.576d0, 0.48d0, 0.2368d0]
+    external :: getnp
+    npts = mark
+    npts(1) = 3
+    do l = 2, n
+      call getnp(x, y, z, list, lptr, lend, l, npts, df, ier)
+      call expect(ier == 0 .and. abs(df + cosines(l)) < tolerance, "GETNP: DF")
+    end do
+    call expect(all(npts == [3, 4, 7, 1, 2, 5, 6]), "GETNP: nodes in order of distance")
+  end subroutine
+
+  subroutine polygons
+    integer, parameter :: boundary(4) = [2, 7, 6, 5]
+    real(rk) :: p(3)
+    integer :: ier
+    logical, external :: inside
+    external :: intrsc
+    call expect(inside([0.0_rk, 0.0_rk, 1.0_rk], n, x, y, z, 4, boundary, ier) .and. ier == 0, "INSIDE: within")
+    call expect(.not. inside([1.0_rk, 0.0_rk, 0.0_rk], n, x, y, z, 4, boundary, ier) .and. ier == 0, "INSIDE: outside")
+    call expect(inside([1.0_rk, 0.0_rk, 0.0_rk], n, x, y, z, 4, boundary(4:1:-1), ier) .and. ier == 0, &
+                "INSIDE: a clockwise polygon is its complement")
+    call intrsc([0.0_rk, 0.6_rk, 0.8_rk], [0.0_rk, -0.6_rk, 0.8_rk], [0.0_rk, 3.0_rk, 0.0_rk], p, ier)
+    call expect(ier == 0 .and. all(p == [0, 0, 1]), "INTRSC")
+  end subroutine
+
+  subroutine random_numbers
+    integer :: seeds(3), drawn(10), k
+    integer, external :: jrand
+    real(rk), external :: store
+    seeds = [1, 2, 3]
+    do k = 1, 10
+      drawn(k) = jrand(1000, seeds(1), seeds(2), seeds(3))
+    end do
+    call expect(all(drawn == [34, 778, 53, 745, 491, 983, 810, 714, 802, 990]), "JRAND: numbers")
+    call expect(all(seeds == [18240, 16436, 25613]), "JRAND: seeds")
+    seeds = [1, 2, 3]
+    do k = 1, 7997334
+      drawn(1) = jrand(4, seeds(1), seeds(2), seeds(3))
+    end do
+    call expect(drawn(1) == merge(4, 5, rk == 8), "JRAND: N+1 in single precision")
+    call expect(store(1/3.0_rk) == 1/3.0_rk, "STORE")
   end subroutine
 
   subroutine search(start, p, triangle, weights, nearest, angle)

@@ -23,6 +23,7 @@ program hard_cases
   call far_side_that_circles
   call cocircular_boundaries
   call search_near_a_sliver
+  call search_on_a_great_circle
   call search_for_nodes_of_a_grid
   call hub
   call broken_lists
@@ -133,6 +134,48 @@ contains
       call expect(i(3) == 0 .and. all(i(1:2) >= 1) .and. all(i(1:2) <= 3), "a point in line with a sliver is outside it")
     end do
   end subroutine
+
+  !> Half of the nodes on a great circle, as far as rounding allows, the others on one side of it: the triangles
+  !> beyond are slivers or end at slivers. Points on the circle lie in the triangles that are found, those beyond
+  !> see the boundary arc that is found or lie in the triangle.
+  subroutine search_on_a_great_circle
+    integer, parameter :: n = 60
+    real(rk) :: p(3, n), axis(3), u(3), v(3), c(3), b(3), angle, corner(3, 3)
+    type(mesh) :: m
+    integer :: trial, k, i(3)
+    do trial = 1, 300
+      call seed(9000 + trial)
+      axis = direction()
+      call basis(axis, u, v)
+      do k = 1, n
+        p(:, k) = direction()
+        if (dot_product(p(:, k), axis) < 0) p(:, k) = -p(:, k)
+        if (mod(k, 2) == 0) then
+          angle = 8*atan(1.0_rk)*uniform()
+          p(:, k) = cos(angle)*u + sin(angle)*v
+        end if
+      end do
+      m = triangulated(p)
+      do k = 1, 200
+        angle = 8*atan(1.0_rk)*uniform()
+        c = cos(angle)*u + sin(angle)*v
+        call trfind(mod(k, n + 1), c, n, m%x, m%y, m%z, m%list, m%lptr, m%lend, b(1), b(2), b(3), i(1), i(2), i(3))
+        call expect(all(i(1:2) >= 1) .and. all(i <= n), "a point on a great circle of nodes is found")
+        corner(:, 1) = p(:, i(1))
+        corner(:, 2) = p(:, i(2))
+        if (i(3) == 0) cycle
+        corner(:, 3) = p(:, i(3))
+        call expect(all(b >= 0) .and. side(corner(:, 1), corner(:, 2), c) > -1e-13_rk .and. &
+                    side(corner(:, 2), corner(:, 3), c) > -1e-13_rk .and. &
+                    side(corner(:, 3), corner(:, 1), c) > -1e-13_rk, "in the triangle that holds it")
+      end do
+    end do
+  end subroutine
+
+  real(rk) function side(a, b, c)
+    real(rk), intent(in) :: a(3), b(3), c(3)
+    side = c(1)*(a(2)*b(3) - b(2)*a(3)) - c(2)*(a(1)*b(3) - b(1)*a(3)) + c(3)*(a(1)*b(2) - b(1)*a(2))
+  end function
 
   !> Global grid with poles, exact and rounded collinearity everywhere.
   subroutine search_for_nodes_of_a_grid

@@ -96,6 +96,19 @@ program module_interfaces
   call trfind(0, p, n, x, y, z, list, lptr, lend, b(1), b(2), b(3), i(1), i(2), i(3))
   call expect(all(i >= 1) .and. all(b >= 0), "TRFIND from a random node")
   call expect(nearnd(point(11), 0, n, x, y, z, list, lptr, lend, al) == 11, "NEARND")
+  nodes(1) = 11
+  call getnp(x, y, z, list, lptr, lend, 2, nodes, al, ier)
+  call expect(ier == 0 .and. -al > 0.8, "GETNP")
+  call expect(inside(point(ltri(1, 1)) + point(ltri(2, 1)) + point(ltri(3, 1)), n, x, y, z, 3, ltri(1:3, 1), ier), "INSIDE")
+  call intrsc(point(1), point(2), point(3), c, ier)
+  call expect(ier == 0 .and. abs(dot_product(c, point(3))) < 1e-5, "INTRSC")
+  i = [1, 2, 3]
+  call expect(jrand(1000, i(1), i(2), i(3)) == 34, "JRAND")
+  call expect(store(al) == al, "STORE")
+#ifdef STRIPACK_8_ARGUMENTS
+  call triareas(n, x, y, z, nt, corners, rc)
+  call expect(abs(sum(rc(:nt)) - total) < 1e-12, "TRIAREAS")
+#endif
   call expect(nbcnt(lend(11), lptr) >= 3, "NBCNT")
   call expect(lstptr(lend(11), list(lptr(lend(11))), list, lptr) == lptr(lend(11)), "LSTPTR")
   call scoord(x(1), y(1), z(1), b(1), b(2), b(3))

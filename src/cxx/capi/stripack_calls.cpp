@@ -5,6 +5,9 @@
 #include <new>
 
 #include "stripack/list_queries.h"
+#include "stripack/original_rules.h"
+#include "stripack/polygon.h"
+#include "stripack/random.h"
 #include "stripack/search.h"
 #include "stripack/sphere.h"
 #include "stripack/triangle_list.h"
@@ -14,7 +17,7 @@ namespace {
 
 using namespace pstripack;
 
-constexpr int out_of_memory = -6;
+constexpr int not_finite = -5, out_of_memory = -6;
 
 template <class Int>
 ListsView<Int> view(Int n, const Int* list, const Int* lptr, const Int* lend) {
@@ -26,14 +29,33 @@ Vector<Real> vector(const Real* v) {
   return {v[0], v[1], v[2]};
 }
 
+/// What a negative code says.
+template <class Status>
+const char* meaning(Status status) {
+  return static_cast<int>(status) == not_finite ? "a coordinate is not finite"
+                                                : "LIST, LPTR, LEND are not the lists of a triangulation";
+}
+const char* meaning(NextNearestStatus status) {
+  switch (status) {
+    case NextNearestStatus::bad_nodes:
+      return "NPTS holds a number below 1, or one twice";
+    case NextNearestStatus::none_left:
+      return "no node is left that is not in NPTS";
+    default:
+      return "a coordinate is not finite";
+  }
+}
+
 /// The one catch-all: runs call() and returns its code, or -6 for an exception: nothing below throws
-/// but the allocator. Codes that STRIPACK does not have say why on stderr.
+/// but the allocator. Codes that STRIPACK does not have say why on stderr. n = 0: the routine knows no N.
 template <class Call>
 int code_of(const char* routine, long long n, const Call& call) {
   int code;
-  const char* why = "LIST, LPTR, LEND are not the lists of a triangulation";
+  const char* why;
   try {
-    code = static_cast<int>(call());
+    const auto status = call();
+    code = static_cast<int>(status);
+    why = meaning(status);
   } catch (const std::exception& error) {
     code = out_of_memory;
     why = error.what();
@@ -41,7 +63,9 @@ int code_of(const char* routine, long long n, const Call& call) {
     code = out_of_memory;
     why = "unknown exception";
   }
-  if (code < 0) std::fprintf(stderr, "pstripack: %s: IER = %d, N = %lld: %s\n", routine, code, n, why);
+  if (code < 0 && n > 0)
+    std::fprintf(stderr, "pstripack: %s: IER = %d, N = %lld: %s\n", routine, code, n, why);
+  if (code < 0 && n == 0) std::fprintf(stderr, "pstripack: %s: IER = %d: %s\n", routine, code, why);
   return code;
 }
 
@@ -99,7 +123,10 @@ extern "C" {
   void pstripack_circum_##suffix(const Real* v1, const Real* v2, const Real* v3, Real* c,                  \
                                  Int* ier) noexcept {                                                      \
     Vector<Real> centre;                                                                                   \
-    *ier = circumcentre(vector(v1), vector(v2), vector(v3), centre) ? 0 : 1;                               \
+    *ier = code_of("CIRCUM", 0, [&] {                                                                      \
+      if (!is_finite(vector(v1)) || !is_finite(vector(v2)) || !is_finite(vector(v3))) return not_finite;   \
+      return circumcentre(vector(v1), vector(v2), vector(v3), centre) ? 0 : 1;                             \
+    });                                                                                                    \
     if (*ier != 0) return;                                                                                 \
     c[0] = centre.x;                                                                                       \
     c[1] = centre.y;                                                                                       \
@@ -146,5 +173,48 @@ MESH_CALLS(double, int32_t, r8)
 LIST_CALLS(int64_t, i8)
 SPHERE_CALLS(double, int64_t, i8)
 MESH_CALLS(double, int64_t, i8)
+
+#define QUERY_CALLS(Real, Int, suffix)                                                                    \
+  void pstripack_getnp_##suffix(const Real* x, const Real* y, const Real* z, const Int* list,             \
+                                const Int* lptr, const Int* lend, Int l, Int* npts, Real* df,             \
+                                Int* ier) noexcept {                                                      \
+    const ListsView<Int> lists = view(Int{0}, list, lptr, lend);                                          \
+    *ier = code_of("GETNP", 0, [&] { return next_nearest(lists, Nodes<Real>{x, y, z}, l, npts, *df); });  \
+  }                                                                                                       \
+  Int pstripack_inside_##suffix(const Real* p, Int lv, const Real* xv, const Real* yv, const Real* zv,    \
+                                Int nv, const Int* listv, Int* ier) noexcept {                            \
+    bool result = false;                                                                                  \
+    *ier = code_of("INSIDE", 0, [&] {                                                                     \
+      return inside(vector(p), lv, Nodes<Real>{xv, yv, zv}, nv, listv, result);                           \
+    });                                                                                                   \
+    return result ? 1 : 0;                                                                                \
+  }                                                                                                       \
+  void pstripack_intrsc_##suffix(const Real* p1, const Real* p2, const Real* cn, Real* p,                 \
+                                 Int* ier) noexcept {                                                     \
+    Vector<Real> point;                                                                                   \
+    *ier = code_of("INTRSC", 0, [&] { return intersection(vector(p1), vector(p2), vector(cn), point); }); \
+    if (*ier != 0) return;                                                                                \
+    p[0] = point.x;                                                                                       \
+    p[1] = point.y;                                                                                       \
+    p[2] = point.z;                                                                                       \
+  }                                                                                                       \
+  Int pstripack_jrand_##suffix(Int n, Int* ix, Int* iy, Int* iz) noexcept {                               \
+    Seeds<Int> seeds{*ix, *iy, *iz};                                                                      \
+    const Int drawn =                                                                                     \
+        original_rules().single_precision_random ? jrand<float>(n, seeds) : jrand<Real>(n, seeds);        \
+    *ix = seeds.x;                                                                                        \
+    *iy = seeds.y;                                                                                        \
+    *iz = seeds.z;                                                                                        \
+    return drawn;                                                                                         \
+  }
+
+QUERY_CALLS(float, int32_t, r4)
+QUERY_CALLS(double, int32_t, r8)
+QUERY_CALLS(double, int64_t, i8)
+
+void pstripack_triareas_r8(int32_t n, const double* x, const double* y, const double* z, int32_t nt,
+                           const int32_t* triangles, double* triarea) noexcept {
+  triangle_areas(n, Nodes<double>{x, y, z}, nt, triangles, triarea);
+}
 
 }  // extern "C"

@@ -48,6 +48,17 @@ Real height(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c,
   return r.x * (q.y * p.z - p.y * q.z) - r.y * (q.x * p.z - p.x * q.z) + r.z * (q.x * p.y - p.x * q.y);
 }
 
+template <class Real>
+bool is_finite(const Vector<Real>& a) {
+  return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
+
+/// a x b; every component a difference of two products.
+template <class Real>
+Vector<Real> cross(const Vector<Real>& a, const Vector<Real>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
 /// arccos with its argument clamped to [-1,1]; a NaN stays one.
 template <class Real>
 Real clamped_acos(Real cosine) {

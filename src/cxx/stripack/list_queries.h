@@ -8,7 +8,8 @@
 namespace pstripack {
 
 /// LSTPTR: the slot of neighbour `wanted` in the list whose last slot is `last`; `last` itself if the
-/// wanted one is the last neighbour, or none.
+/// wanted one is the last neighbour, or none. O(degree) on canonical lists as well, where a table of slots
+/// would make it constant: that the arguments are parts of such lists cannot be told from them alone.
 template <class Int>
 Int lstptr(Int last, Int wanted, const Int* list, const Int* lptr) {
   Int slot = lptr[last - 1];

@@ -11,11 +11,13 @@ namespace pstripack {
 ///   original   lists and searches as the original's, to the last bit: the tolerance of Algorithm 772 and of
 ///              the Fortran 90 text (100 epsilon), random numbers in the working kind, seeds kept from call
 ///              to call (of each thread)
-///   ngmath     the same with the constants of libngmath: 4 epsilon, random numbers in single precision
+///   ngmath     the same as libngmath does: 4 epsilon, random numbers in single precision, AL of NEARND
+///              untouched where it finds nothing
 struct OriginalRules {
   bool follow = false;  ///< TRMESH inserts as the original does, seeds are kept
   int tolerance_in_epsilons = 100;
   bool single_precision_random = false;
+  bool clear_angle = true;  ///< NEARND in REAL*8 sets AL = 0 where it finds nothing, as the Fortran 90 text
 };
 
 /// PSTRIPACK_ORDER=canonical (or unset), original, ngmath; read once. Anything else is canonical and says so

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <limits>
+#include <type_traits>
+
 namespace pstripack {
 
 /// JRAND's three seeds (Wichmann and Hill, Applied Statistics 31, 1982).
@@ -8,18 +11,27 @@ struct Seeds {
   Int x = 1, y = 2, z = 3;
 };
 
-/// JRAND: a random integer in 1..n. The arithmetic is in the working kind; where N*u+1 rounds up to
-/// n+1, which is what the original returns about once in 10^7 draws in single precision, n comes out.
+/// factor * seed modulo `modulus`; seeds far beyond it wrap, as they do in compiled Fortran.
+template <class Int>
+Int next_seed(Int factor, Int seed, Int modulus) {
+  using Bits = std::make_unsigned_t<Int>;
+  return static_cast<Int>(static_cast<Bits>(factor) * static_cast<Bits>(seed)) % modulus;
+}
+
+/// JRAND: a random integer in 1..n, with arithmetic in the kind Real. Where n*u+1 rounds up to n+1, which
+/// it does about once in 10^7 draws in single precision, n+1 comes out: a caller that uses the number as
+/// an index must look.
 template <class Real, class Int>
 Int jrand(Int n, Seeds<Int>& seeds) {
-  seeds.x = 171 * seeds.x % 30269;
-  seeds.y = 172 * seeds.y % 30307;
-  seeds.z = 170 * seeds.z % 30323;
+  seeds.x = next_seed<Int>(171, seeds.x, 30269);
+  seeds.y = next_seed<Int>(172, seeds.y, 30307);
+  seeds.z = next_seed<Int>(170, seeds.z, 30323);
   const Real sum = static_cast<Real>(seeds.x) / Real(30269) + static_cast<Real>(seeds.y) / Real(30307) +
                    static_cast<Real>(seeds.z) / Real(30323);
   const Real fraction = sum - static_cast<Real>(static_cast<Int>(sum));
-  const Int drawn = static_cast<Int>(static_cast<Real>(n) * fraction + Real(1));
-  return drawn > n ? n : drawn;
+  const Real drawn = static_cast<Real>(n) * fraction + Real(1);
+  // The greatest integer may round up to a real that is none.
+  return drawn < static_cast<Real>(std::numeric_limits<Int>::max()) ? static_cast<Int>(drawn) : n;
 }
 
 }  // namespace pstripack

@@ -5,18 +5,16 @@
 #include <cstdint>
 #include <limits>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "geometry/predicates.h"
 #include "stripack/list_queries.h"
+#include "stripack/original_rules.h"
 #include "stripack/random.h"
 
 namespace pstripack {
 namespace {
-
-template <class Real>
-bool is_finite(const Vector<Real>& p) {
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
 
 /// The search of TRFIND. Names: o is the node from which we look, r and l the right and left end of the
 /// arc through which we look, side(a,b) > 0 where p lies left of a->b.
@@ -29,16 +27,16 @@ class Search {
         lists_(lists),
         node_(nodes),
         n_(lists_.size()),
-        steps_(4 * std::int64_t{n_} + 100),
+        steps_(4 * std::int64_t{n_} + (rules_.follow ? 1'000'000 : 100)),
         b1_(b1),
         b2_(b2),
         b3_(b3) {}
 
   Location<Int> find(Int start) {
-    if (!is_finite(p_)) return nowhere;
+    if (n_ < 3 || !is_finite(p_)) return nowhere;
     Int o = start >= 1 && start <= n_ ? start : draw();
     Location<Int> found = nowhere;
-    while (affordable()) {
+    for (int restarts = 0; affordable();) {
       Int r, l;
       switch (look_out(o, r, l)) {
         case View::wedge:
@@ -46,23 +44,21 @@ class Search {
             case Walk::arrived:
               return found;
             case Walk::left_the_hull:
-              if (see_boundary(r, l, found)) return found;
-              return search_all();
+              return see_boundary(r, l, found) ? found : walk_exactly(o);
             case Walk::astray:
-              if (++restarts_ > most_restarts) return search_all();
+              if (!rules_.follow && ++restarts > most_restarts) return walk_exactly(o);
               o = draw();
           }
           break;
         case View::outside:
-          if (see_boundary(r, l, found)) return found;
-          return search_all();
+          return see_boundary(r, l, found) ? found : walk_exactly(o);
         case View::move_on:
           break;
         case View::collinear:
           return nowhere;
       }
     }
-    return search_all();
+    return walk_exactly(o);
   }
 
  private:
@@ -71,14 +67,20 @@ class Search {
 
   static constexpr Location<Int> nowhere{0, 0, 0};
   static constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
-  static constexpr Real tolerance = 100 * epsilon;
   static constexpr int most_restarts = 30;
 
   Real side(Int a, Int b) const { return pstripack::side(node_[a], node_[b], p_); }
   Real dot(Int a, Int b) const { return pstripack::dot(node_[a], node_[b]); }
   Real dot_p(Int a) const { return pstripack::dot(p_, node_[a]); }
-  Int draw() { return jrand<Real>(n_, seeds_); }
-  /// No search that makes progress takes more steps than there are arcs.
+
+  /// A random node. JRAND's n+1, with which the original reads past LEND, becomes n.
+  Int draw() {
+    Seeds<Int>& seeds = rules_.follow ? kept_seeds<Int>() : fresh_seeds_;
+    return std::min(n_, rules_.single_precision_random ? jrand<float>(n_, seeds) : jrand<Real>(n_, seeds));
+  }
+
+  /// No search that makes progress takes more steps than there are arcs. Under original rules a million
+  /// more (10 to 20 ms) are spent on new starts: the original makes as many as it needs.
   bool affordable() { return --steps_ >= 0; }
 
   /// Finds adjacent neighbours r, l of o between which p lies, or a boundary arc r->l with p to its right.
@@ -152,6 +154,7 @@ class Search {
       if (!affordable()) return Walk::astray;
     }
     weigh(r, l, behind);
+    const Real tolerance = static_cast<Real>(rules_.tolerance_in_epsilons) * epsilon;
     if (b1_ < -tolerance || b2_ < -tolerance) return Walk::astray;
     b1_ = std::max(b1_, Real(0));
     b2_ = std::max(b2_, Real(0));
@@ -225,13 +228,41 @@ class Search {
     }
   }
 
-  // ---- the exact search, for what the walk cannot decide ----
+  // ---- the exact search, for what the rounded walk cannot decide ----
 
-  static Point exact(const Vector<Real>& v) {
-    return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+  /// The exact sign of pstripack::side(a, b, c); 0 where one of them is not finite.
+  static int exact_left(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c) {
+    const auto point = [](const Vector<Real>& v) {
+      return Point{static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+    };
+    return is_finite(a) && is_finite(b) && is_finite(c) ? left(point(a), point(b), point(c)) : 0;
   }
-  /// The exact sign of side(a,b).
-  int exact_side(Int a, Int b) const { return left(exact(node_[a]), exact(node_[b]), exact(p_)); }
+  int exact_side(Int a, Int b) const { return exact_left(node_[a], node_[b], p_); }
+
+  /// The visibility walk: out of triangle (u,v,w) through an arc that has p strictly to its right.
+  ///
+  ///        w         p lies left of u->v, or on it. The walk ends: in a Delaunay triangulation because
+  ///       / \        the planes of the triangles passed cut the ray to p ever further out, in others
+  ///      u---v       because steps are counted.
+  ///
+  Location<Int> walk_exactly(Int u) {
+    Int v = lists_.first_neighbour(u);
+    if (exact_side(u, v) < 0) std::swap(u, v);
+    for (std::int64_t steps = 4 * std::int64_t{n_}; steps > 0; --steps) {
+      const Int slot = lists_.slot_of(u, v);
+      if (lists_.entry(slot) < 0) return see_boundary_exactly(v, u);
+      const Int w = lists_.neighbour(lists_.next(slot));
+      if (exact_side(v, w) < 0) {
+        u = w;
+      } else if (exact_side(w, u) < 0) {
+        v = w;
+      } else {
+        if (contains(u, v, w)) return weighed(u, v, w);
+        break;  // a null triangle, with p elsewhere on its circle
+      }
+    }
+    return search_all();
+  }
 
   Location<Int> search_all() {
     for (Int a = 1; a <= n_; ++a) {
@@ -244,13 +275,19 @@ class Search {
         if (b > a && c > a && contains(a, b, c)) return weighed(a, b, c);
       } while (slot != last);
     }
-    return view_of_all();
+    for (Int r = 1; r <= n_; ++r)
+      if (lists_.on_boundary(r) && exact_side(r, lists_.first_neighbour(r)) < 0)
+        return see_boundary_exactly(r, lists_.first_neighbour(r));
+    return nowhere;
   }
 
+  /// True of a counterclockwise triangle that p lies in, and of a half-sphere: three nodes all the way round
+  /// a great circle.
   bool contains(Int a, Int b, Int c) const {
-    if (!is_finite(node_[a]) || !is_finite(node_[b]) || !is_finite(node_[c])) return false;
-    return exact_side(a, b) >= 0 && exact_side(b, c) >= 0 && exact_side(c, a) >= 0 &&
-           left(exact(node_[a]), exact(node_[b]), exact(node_[c])) > 0;
+    const int ab = exact_side(a, b), bc = exact_side(b, c), ca = exact_side(c, a);
+    if (ab < 0 || bc < 0 || ca < 0 || ab + bc + ca == 0) return false;
+    const int turn = exact_left(node_[a], node_[b], node_[c]);
+    return turn > 0 || (turn == 0 && ab + bc + ca == 3);
   }
 
   /// The triangle, turned so that p is closest to the arc i1-i2, and its weights.
@@ -265,30 +302,12 @@ class Search {
     return t;
   }
 
-  bool sees(Int a, Int b) const { return is_finite(node_[a]) && is_finite(node_[b]) && exact_side(a, b) < 0; }
-
-  /// The first run of boundary arcs, counterclockwise, that have p strictly to their right.
-  Location<Int> view_of_all() {
-    const Int start = lists_.first_boundary_node();
-    if (start == 0) return nowhere;
-    Int leftmost = start;
-    Int next = lists_.first_neighbour(start);
-    Int count = 0;
-    // Go to the end of the run that `start` may lie in; then to the beginning of the next one.
-    for (; sees(leftmost, next); next = lists_.first_neighbour(next)) {
-      leftmost = next;
-      if (++count > n_ || leftmost == start) return {start, start, 0};
-    }
-    for (count = 0; !sees(leftmost, next); next = lists_.first_neighbour(next)) {
-      leftmost = next;
-      if (++count > n_) return nowhere;
-    }
-    Int rightmost = next;
-    for (count = 0; count <= n_; ++count) {
-      next = lists_.first_neighbour(rightmost);
-      if (!sees(rightmost, next)) break;
-      rightmost = next;
-    }
+  /// The run of boundary arcs with p strictly to their right, one of which is r->l.
+  Location<Int> see_boundary_exactly(const Int r, const Int l) const {
+    Int rightmost = l, leftmost = r;
+    for (Int next; exact_side(rightmost, next = lists_.first_neighbour(rightmost)) < 0; rightmost = next)
+      if (next == r) return {r, r, 0};
+    for (Int next; exact_side(next = lists_.last_neighbour(leftmost), leftmost) < 0;) leftmost = next;
     return {rightmost, leftmost, 0};
   }
 
@@ -296,9 +315,9 @@ class Search {
   const ListReader<Int> lists_;
   const Nodes<Real> node_;
   const Int n_;
+  const OriginalRules& rules_ = original_rules();
   std::int64_t steps_;
-  int restarts_ = 0;
-  Seeds<Int> seeds_;
+  Seeds<Int> fresh_seeds_;
   Real &b1_, &b2_, &b3_;
 };
 
@@ -330,6 +349,43 @@ class Candidates {
   int count_;
 };
 
+/// A set of nodes; up to 64 of them take no memory from the heap.
+template <class Int>
+class NodeSet {
+ public:
+  explicit NodeSet(std::size_t most) {
+    while (most > (std::size_t{1} << bits_) / 2) ++bits_;
+    if (bits_ > few_bits) many_.assign(std::size_t{1} << bits_, 0);
+    cell_ = bits_ > few_bits ? many_.data() : few_;
+  }
+  NodeSet(const NodeSet&) = delete;
+  NodeSet& operator=(const NodeSet&) = delete;
+
+  /// False if it is there already.
+  bool insert(Int node) {
+    Int& cell = find(node);
+    return std::exchange(cell, node) == 0;
+  }
+  bool contains(Int node) const { return find(node) != 0; }
+
+ private:
+  static constexpr int few_bits = 7;
+
+  /// The node's cell, or the empty one where it would go.
+  Int& find(Int node) const {
+    const std::size_t mask = (std::size_t{1} << bits_) - 1;
+    std::size_t i =
+        static_cast<std::size_t>(static_cast<std::uint64_t>(node) * 0x9E3779B97F4A7C15 >> (64 - bits_));
+    while (cell_[i] != 0 && cell_[i] != node) i = (i + 1) & mask;
+    return cell_[i];
+  }
+
+  int bits_ = few_bits;
+  Int few_[std::size_t{1} << few_bits] = {};
+  std::vector<Int> many_;
+  Int* cell_;
+};
+
 }  // namespace
 
 template <class Real, class Int>
@@ -341,7 +397,7 @@ Location<Int> trfind(Int start, const Vector<Real>& p, const ListsView<Int>& lis
 template <class Real, class Int>
 Int nearnd(const Vector<Real>& p, Int start, const ListsView<Int>& lists, const Nodes<Real>& nodes,
            Real& angle) {
-  if constexpr (std::is_same_v<Real, double>) angle = 0;
+  if (std::is_same_v<Real, double> && original_rules().clear_angle) angle = 0;
   const ListReader<Int> reader(lists);
   const Int n = reader.size();
   if (n < 3) return 0;
@@ -393,10 +449,46 @@ Int nearnd(const Vector<Real>& p, Int start, const ListsView<Int>& lists, const 
   return nearest;
 }
 
+template <class Real, class Int>
+NextNearestStatus next_nearest(const ListsView<Int>& lists, const Nodes<Real>& nodes, Int l, Int* npts,
+                               Real& distance) {
+  if (l < 2) return NextNearestStatus::too_short;
+  const Int given = l - 1;
+  NodeSet<Int> taken(static_cast<std::size_t>(given));
+  for (Int i = 0; i < given; ++i)
+    if (npts[i] < 1 || !taken.insert(npts[i])) return NextNearestStatus::bad_nodes;
+
+  const ListReader<Int> reader(lists);
+  const Vector<Real> centre = nodes[npts[0]];
+  Int nearest = 0;
+  Real least = 2;
+  for (Int i = 0; i < given; ++i) {
+    const Int last = reader.last_slot(npts[i]);
+    Int slot = last;
+    do {
+      const Int candidate = reader.neighbour(slot);
+      if (!taken.contains(candidate)) {
+        const Real d = -dot(nodes[candidate], centre);
+        if (!std::isfinite(d)) return NextNearestStatus::not_finite;
+        if (d < least) {
+          least = d;
+          nearest = candidate;
+        }
+      }
+      slot = reader.next(slot);
+    } while (slot != last);
+  }
+  if (nearest == 0) return NextNearestStatus::none_left;
+  npts[given] = nearest;
+  distance = least;
+  return NextNearestStatus::done;
+}
+
 #define PSTRIPACK_SEARCH(Real, Int)                                                                         \
   template Location<Int> trfind(Int, const Vector<Real>&, const ListsView<Int>&, const Nodes<Real>&, Real&, \
                                 Real&, Real&);                                                              \
-  template Int nearnd(const Vector<Real>&, Int, const ListsView<Int>&, const Nodes<Real>&, Real&);
+  template Int nearnd(const Vector<Real>&, Int, const ListsView<Int>&, const Nodes<Real>&, Real&);          \
+  template NextNearestStatus next_nearest(const ListsView<Int>&, const Nodes<Real>&, Int, Int*, Real&);
 PSTRIPACK_SEARCH(float, std::int32_t)
 PSTRIPACK_SEARCH(double, std::int32_t)
 PSTRIPACK_SEARCH(double, std::int64_t)

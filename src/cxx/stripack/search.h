@@ -1,7 +1,7 @@
 #pragma once
-// TRFIND, NEARND: searches in a triangulation. For
+// TRFIND, NEARND, GETNP: searches in a triangulation. For
 // (Real, Int) = (float, int32_t), (double, int32_t), (double, int64_t).
-// They keep no state between calls, allocate nothing and always return.
+// They always return and change nothing of the triangulation.
 
 #include "stripack/adjacency_lists.h"
 #include "stripack/expressions.h"
@@ -16,20 +16,45 @@ struct Location {
   Int i1, i2, i3;
 };
 
-/// TRFIND: finds point p, starting at node `start` (random if not in 1..n; the seeds are 1, 2, 3 in
-/// every call). b1, b2, b3 are written as in TRFIND: for a triangle the weights of the corners, up to
-/// scale, none negative; b3 = 0 where p lies on the arc i1-i2.
-/// Where the walk, which goes by rounded tests, does not end soon, an exact search of all triangles decides.
+/// TRFIND: finds point p, starting at node `start` (random if not in 1..n). b1, b2, b3 are written as in
+/// TRFIND: for a triangle the weights of the corners, up to scale, none negative; b3 = 0 where p lies on the
+/// arc i1-i2.
+///
+/// The walk of Renka, ACM TOMS 23 (1997), Algorithm 772, by rounded tests. Where it goes astray it begins
+/// anew at a random node: from seeds 1, 2, 3 in every call, so that there is no state; under original rules
+/// from the seeds that the thread keeps. Where that does not end soon, a walk by exact signs decides.
+/// O(sqrt n) steps in a Delaunay triangulation of evenly spread nodes. Allocates nothing.
 template <class Real, class Int>
 Location<Int> trfind(Int start, const Vector<Real>& p, const ListsView<Int>& lists, const Nodes<Real>& nodes,
                      Real& b1, Real& b2, Real& b3);
 
 /// NEARND: the node nearest to p among the natural neighbours that TRFIND and at most 22 further
 /// insertions give, and in `angle` its distance in radians. `start` as in TRFIND, but 1 if not in 1..n.
-/// 0 if n < 3 or p is not found; `angle` is then untouched (float, as Algorithm 772) or 0 (double, as
-/// the Fortran 90 text).
+/// 0 if n < 3 or p is not found; `angle` is then untouched (float, as Algorithm 772) or 0 (double, as the
+/// Fortran 90 text, unless the original's rules say otherwise). Allocates nothing.
 template <class Real, class Int>
 Int nearnd(const Vector<Real>& p, Int start, const ListsView<Int>& lists, const Nodes<Real>& nodes,
            Real& angle);
+
+/// IER of GETNP. Unless `done` nothing is written.
+enum class NextNearestStatus {
+  done = 0,
+  too_short = 1,    ///< l < 2
+  not_finite = -5,  ///< a distance is NaN or infinite
+  bad_nodes = -10,  ///< npts[0..l-2] holds a number below 1, or one twice
+  none_left = -11   ///< no neighbour that is not in npts: l > n, or vectors far from unit length
+};
+
+/// GETNP: given the l-1 nodes nearest to node npts[0], itself the first, writes the next nearest one into
+/// npts[l-1] and -cos of its distance into `distance`. It is looked for among the neighbours of the given
+/// ones, which is right in a Delaunay triangulation; of equally near ones the first met is taken. O(l).
+/// The method: Renka, ACM TOMS 23 (1997), Algorithm 772.
+/// lists.n is not used: the routine does not know it, so that an index above it cannot be refused.
+///
+/// The original marks nodes by the signs of LEND. Here LEND is only read, so that threads may share a
+/// triangulation; the marks are in a table, which is allocated for l > 65 (std::bad_alloc).
+template <class Real, class Int>
+NextNearestStatus next_nearest(const ListsView<Int>& lists, const Nodes<Real>& nodes, Int l, Int* npts,
+                               Real& distance);
 
 }  // namespace pstripack

@@ -1,14 +1,12 @@
 #include "stripack/sphere.h"
 
 #include <cmath>
+#include <cstdint>
 #include <initializer_list>
+#include <limits>
 
 namespace pstripack {
 namespace {
-
-Vector<double> cross(const Vector<double>& a, const Vector<double>& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 
 template <class Real>
 Vector<double> widen(const Vector<Real>& a) {
@@ -54,11 +52,23 @@ Real areas(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c) 
   return area < 0 ? Real(0) : static_cast<Real>(area);
 }
 
+template <class Real, class Int>
+void triangle_areas(Int n, const Nodes<Real>& nodes, std::ptrdiff_t nt, const Int* triangles, Real* area) {
+  const auto is_node = [n](Int node) { return node >= 1 && node <= n; };
+  for (std::ptrdiff_t t = 0; t < nt; ++t) {
+    const Int a = triangles[3 * t], b = triangles[3 * t + 1], c = triangles[3 * t + 2];
+    area[t] = is_node(a) && is_node(b) && is_node(c) ? areas(nodes[a], nodes[b], nodes[c])
+                                                     : std::numeric_limits<Real>::quiet_NaN();
+  }
+}
+
 template void trans(std::ptrdiff_t, const float*, const float*, float*, float*, float*);
 template void trans(std::ptrdiff_t, const double*, const double*, double*, double*, double*);
 template SphericalCoordinates<float> scoord(const Vector<float>&);
 template SphericalCoordinates<double> scoord(const Vector<double>&);
 template float areas(const Vector<float>&, const Vector<float>&, const Vector<float>&);
 template double areas(const Vector<double>&, const Vector<double>&, const Vector<double>&);
+template void triangle_areas(std::int32_t, const Nodes<double>&, std::ptrdiff_t, const std::int32_t*,
+                             double*);
 
 }  // namespace pstripack

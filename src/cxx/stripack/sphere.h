@@ -1,5 +1,6 @@
 #pragma once
-// TRANS, SCOORD, LEFT, AREAS: conversions and measures on the unit sphere, for Real = float, double.
+// TRANS, SCOORD, LEFT, AREAS, TRIAREAS: conversions and measures on the unit sphere, for Real = float,
+// double.
 
 #include <cstddef>
 
@@ -29,8 +30,13 @@ bool closed_left(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real
 }
 
 /// AREAS: area of the spherical triangle whose corners lie in the directions of a, b, c, in
-/// steradians, 0..2 pi, for either orientation. Inner arithmetic in double; 0 for null triangles.
+/// steradians, 0..2 pi, for either orientation. Inner arithmetic in double; 0 for null triangles, NaN for
+/// NaN.
 template <class Real>
 Real areas(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c);
+
+/// TRIAREAS: areas[nt] of the triangles[3*nt] of nodes 1..n; NaN for a triangle with a corner outside 1..n.
+template <class Real, class Int>
+void triangle_areas(Int n, const Nodes<Real>& nodes, std::ptrdiff_t nt, const Int* triangles, Real* area);
 
 }  // namespace pstripack

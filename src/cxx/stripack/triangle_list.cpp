@@ -78,7 +78,8 @@ class TriangleList {
     for (std::size_t piece = 1; piece < first_.size(); ++piece) first_[piece] += first_[piece - 1];
   }
 
-  /// Rows 1-3 and the faces; t triangles come before. False if an arc has no opposite.
+  /// Rows 1-3 and the faces; t triangles come before. False if the opposite of a side is not where it
+  /// belongs.
   bool write_corners(std::size_t begin, std::size_t end, Int t, Int* ltri) {
     bool complete = true;
     rings_.template for_each_triangle<pairs>(begin, end, [&](Int a, Int b, Int c, Int ab, Int ac) {
@@ -88,7 +89,7 @@ class TriangleList {
       column[1] = b;
       column[2] = c;
       const auto ba = rings_.back(a, ab), ca = rings_.back(a, ac);
-      if (!ba.exists() || !ca.exists()) {
+      if (!ba.exists() || !ca.exists() || rings_.target(ca.next()) != b) {
         complete = false;
         return;
       }

@@ -203,17 +203,21 @@ class Voronoi {
       far_side.make_fan(start_, nb_);
       if (out_.ncol < nb_ - 2) return VoronoiStatus::too_few_columns;
       far_side.make_delaunay(agenda_);
-      for (Int g = 1; g <= nb_ - 2; ++g)
-        if (!write_centre(g, far_side.row(1, g), far_side.row(2, g), far_side.row(3, g)))
-          return VoronoiStatus::coincident_nodes;
+      for (Int g = 1; g <= nb_ - 2; ++g) {
+        const VoronoiStatus status =
+            write_centre(g, far_side.row(1, g), far_side.row(2, g), far_side.row(3, g));
+        if (status != VoronoiStatus::done) return status;
+      }
     }
-    std::atomic<bool> coincident{false}, broken{false};
+    std::atomic<bool> coincident{false}, not_finite{false}, broken{false};
     parallel_pieces(low_nodes(), threads_, [&](std::size_t begin, std::size_t end, int piece) {
       const VoronoiStatus status = write_triangles(begin, end, first_[static_cast<std::size_t>(piece)]);
       if (status == VoronoiStatus::coincident_nodes) coincident = true;
+      if (status == VoronoiStatus::not_finite) not_finite = true;
       if (status == VoronoiStatus::broken_lists) broken = true;
     });
     if (broken) return VoronoiStatus::broken_lists;
+    if (not_finite) return VoronoiStatus::not_finite;
     if (coincident) return VoronoiStatus::coincident_nodes;
     if (nb_ > 0) enter(far_side);
     return VoronoiStatus::done;
@@ -267,22 +271,24 @@ class Voronoi {
       listc(rings_.slot(ab)) = t;
       listc(rings_.slot(ba.previous())) = t;  // b->c
       listc(rings_.slot(ca.arc)) = t;
-      if (!write_centre(t, a, b, c) && status == VoronoiStatus::done)
-        status = VoronoiStatus::coincident_nodes;
+      const VoronoiStatus centre = write_centre(t, a, b, c);
+      if (status == VoronoiStatus::done || centre == VoronoiStatus::not_finite) status = centre;
     });
     return status;
   }
 
-  bool write_centre(Int t, Int a, Int b, Int c) {
+  VoronoiStatus write_centre(Int t, Int a, Int b, Int c) {
     const Vector<Real> corner = nodes_[a];
     Vector<Real> centre;
-    if (!circumcentre(corner, nodes_[b], nodes_[c], centre)) return false;
+    if (!circumcentre(corner, nodes_[b], nodes_[c], centre)) return VoronoiStatus::coincident_nodes;
     const auto i = static_cast<std::size_t>(t - 1);
     out_.xc[i] = centre.x;
     out_.yc[i] = centre.y;
     out_.zc[i] = centre.z;
     out_.rc[i] = clamped_acos(dot(corner, centre));
-    return true;
+    const bool finite =
+        !std::isnan(out_.rc[i]) || (is_finite(corner) && is_finite(nodes_[b]) && is_finite(nodes_[c]));
+    return finite ? VoronoiStatus::done : VoronoiStatus::not_finite;
   }
 
   /// Enters the far side into LISTC and LPTR. Round the boundary, counterclockwise: the columns at node
