@@ -10,8 +10,9 @@
 !
 ! Rules of this text: arrays are assumed-size, so that nothing is ever copied; a routine calls nothing but
 ! one function of libpstripack, never a public symbol, since programs define a SWAP, INSERT, LEFT or STORE
-! of their own; there is no STOP, no saved variable, no output but by routines that print; all are
-! recursive, since threads may call at once. What the routines do:
+! of their own; there is no STOP, no saved variable, no output but by routines that print, and the messages on
+! standard output that EDGE and DELNOD have always printed; all are recursive, since threads may call at once.
+! What the routines do:
 ! the headers in src/cxx/stripack and the interfaces in stripack_module.F90.
 
 #if STRIPACK_INTEGER_BYTES == 8
@@ -278,6 +279,217 @@ recursive integer(INTEGER_KIND) function nearnd(p, ist, n, x, y, z, list, lptr, 
   end interface
   nearnd = c_nearnd(p, ist, n, x, y, z, list, lptr, lend, al)
 end function
+#endif
+
+#ifdef STRIPACK_INSERT
+recursive subroutine insert(k, lp, list, lptr, lnew)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  integer(INTEGER_KIND) :: k, lp, list(*), lptr(*), lnew
+  interface
+    subroutine c_insert(k, lp, list, lptr, lnew) bind(c, name="pstripack_insert"//OF_INTEGER)
+      import
+      integer(INTEGER_KIND), value :: k, lp
+      integer(INTEGER_KIND) :: list(*), lptr(*), lnew
+    end subroutine
+  end interface
+  call c_insert(k, lp, list, lptr, lnew)
+end subroutine
+#endif
+
+#ifdef STRIPACK_INTADD
+recursive subroutine intadd(kk, i1, i2, i3, list, lptr, lend, lnew)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  integer(INTEGER_KIND) :: kk, i1, i2, i3, list(*), lptr(*), lend(*), lnew
+  interface
+    subroutine c_intadd(kk, i1, i2, i3, list, lptr, lend, lnew) bind(c, name="pstripack_intadd"//OF_INTEGER)
+      import
+      integer(INTEGER_KIND), value :: kk, i1, i2, i3
+      integer(INTEGER_KIND) :: list(*), lptr(*), lend(*), lnew
+    end subroutine
+  end interface
+  call c_intadd(kk, i1, i2, i3, list, lptr, lend, lnew)
+end subroutine
+#endif
+
+#ifdef STRIPACK_BDYADD
+recursive subroutine bdyadd(kk, i1, i2, list, lptr, lend, lnew)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  integer(INTEGER_KIND) :: kk, i1, i2, list(*), lptr(*), lend(*), lnew
+  interface
+    subroutine c_bdyadd(kk, i1, i2, list, lptr, lend, lnew) bind(c, name="pstripack_bdyadd"//OF_INTEGER)
+      import
+      integer(INTEGER_KIND), value :: kk, i1, i2
+      integer(INTEGER_KIND) :: list(*), lptr(*), lend(*), lnew
+    end subroutine
+  end interface
+  call c_bdyadd(kk, i1, i2, list, lptr, lend, lnew)
+end subroutine
+#endif
+
+#ifdef STRIPACK_COVSPH
+recursive subroutine covsph(kk, n0, list, lptr, lend, lnew)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  integer(INTEGER_KIND) :: kk, n0, list(*), lptr(*), lend(*), lnew
+  interface
+    subroutine c_covsph(kk, n0, list, lptr, lend, lnew) bind(c, name="pstripack_covsph"//OF_INTEGER)
+      import
+      integer(INTEGER_KIND), value :: kk, n0
+      integer(INTEGER_KIND) :: list(*), lptr(*), lend(*), lnew
+    end subroutine
+  end interface
+  call c_covsph(kk, n0, list, lptr, lend, lnew)
+end subroutine
+#endif
+
+#ifdef STRIPACK_SWAP
+recursive subroutine swap(in1, in2, io1, io2, list, lptr, lend, lp21)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  integer(INTEGER_KIND) :: in1, in2, io1, io2, list(*), lptr(*), lend(*), lp21
+  interface
+    subroutine c_swap(in1, in2, io1, io2, list, lptr, lend, lp21) bind(c, name="pstripack_swap"//OF_INTEGER)
+      import
+      integer(INTEGER_KIND), value :: in1, in2, io1, io2
+      integer(INTEGER_KIND) :: list(*), lptr(*), lend(*), lp21
+    end subroutine
+  end interface
+  call c_swap(in1, in2, io1, io2, list, lptr, lend, lp21)
+end subroutine
+#endif
+
+#ifdef STRIPACK_DELNB
+recursive subroutine delnb(n0, nb, n, list, lptr, lend, lnew, lph)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  integer(INTEGER_KIND) :: n0, nb, n, list(*), lptr(*), lend(*), lnew, lph
+  interface
+    subroutine c_delnb(n0, nb, n, list, lptr, lend, lnew, lph) bind(c, name="pstripack_delnb"//OF_INTEGER)
+      import
+      integer(INTEGER_KIND), value :: n0, nb, n
+      integer(INTEGER_KIND) :: list(*), lptr(*), lend(*), lnew, lph
+    end subroutine
+  end interface
+  call c_delnb(n0, nb, n, list, lptr, lend, lnew, lph)
+end subroutine
+#endif
+
+#ifdef STRIPACK_DELARC
+recursive subroutine delarc(n, io1, io2, list, lptr, lend, lnew, ier)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  integer(INTEGER_KIND) :: n, io1, io2, list(*), lptr(*), lend(*), lnew, ier
+  interface
+    subroutine c_delarc(n, io1, io2, list, lptr, lend, lnew, ier) bind(c, name="pstripack_delarc"//OF_INTEGER)
+      import
+      integer(INTEGER_KIND), value :: n, io1, io2
+      integer(INTEGER_KIND) :: list(*), lptr(*), lend(*), lnew, ier
+    end subroutine
+  end interface
+  call c_delarc(n, io1, io2, list, lptr, lend, lnew, ier)
+end subroutine
+#endif
+
+#ifdef STRIPACK_SWPTST
+recursive logical(LOGICAL_KIND) function swptst(n1, n2, n3, n4, x, y, z)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  integer(INTEGER_KIND) :: n1, n2, n3, n4
+  real(REAL_KIND) :: x(*), y(*), z(*)
+  interface
+    function c_swptst(n1, n2, n3, n4, x, y, z) bind(c, name="pstripack_swptst"//OF_REAL)
+      import
+      integer(INTEGER_KIND), value :: n1, n2, n3, n4
+      real(REAL_KIND) :: x(*), y(*), z(*)
+      integer(INTEGER_KIND) :: c_swptst
+    end function
+  end interface
+  swptst = c_swptst(n1, n2, n3, n4, x, y, z) /= 0
+end function
+#endif
+
+#ifdef STRIPACK_OPTIM
+recursive subroutine optim(x, y, z, na, list, lptr, lend, nit, iwk, ier)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  integer(INTEGER_KIND) :: na, list(*), lptr(*), lend(*), nit, iwk(*), ier
+  real(REAL_KIND) :: x(*), y(*), z(*)
+  interface
+    subroutine c_optim(x, y, z, na, list, lptr, lend, nit, iwk, ier) bind(c, name="pstripack_optim"//OF_REAL)
+      import
+      integer(INTEGER_KIND), value :: na
+      integer(INTEGER_KIND) :: list(*), lptr(*), lend(*), nit, iwk(*), ier
+      real(REAL_KIND) :: x(*), y(*), z(*)
+    end subroutine
+  end interface
+  call c_optim(x, y, z, na, list, lptr, lend, nit, iwk, ier)
+end subroutine
+#endif
+
+#ifdef STRIPACK_EDGE
+recursive subroutine edge(in1, in2, x, y, z, lwk, iwk, list, lptr, lend, ier)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  integer(INTEGER_KIND) :: in1, in2, lwk, iwk(*), list(*), lptr(*), lend(*), ier
+  real(REAL_KIND) :: x(*), y(*), z(*)
+  integer(INTEGER_KIND) :: nit, optim_ier
+  interface
+    subroutine c_edge(in1, in2, x, y, z, lwk, iwk, list, lptr, lend, ier, nit, optim_ier) &
+        bind(c, name="pstripack_edge"//OF_REAL)
+      import
+      integer(INTEGER_KIND), value :: in1, in2
+      integer(INTEGER_KIND) :: lwk, iwk(*), list(*), lptr(*), lend(*), ier, nit, optim_ier
+      real(REAL_KIND) :: x(*), y(*), z(*)
+    end subroutine
+  end interface
+  call c_edge(in1, in2, x, y, z, lwk, iwk, list, lptr, lend, ier, nit, optim_ier)
+  if (ier == 3) write (*, '(//5x,a,/5x,2(a,i0),/)') "EDGE: invalid triangulation, or null triangles on its boundary:", &
+      "no way from IN1 = ", in1, " to IN2 = ", in2
+  if (ier == 4) write (*, '(//5x,2(a,i0),/)') "EDGE: OPTIM failed: NIT = ", nit, ", IER = ", optim_ier
+end subroutine
+#endif
+
+#ifdef STRIPACK_ADDNOD
+recursive subroutine addnod(nst, k, x, y, z, list, lptr, lend, lnew, ier)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  integer(INTEGER_KIND) :: nst, k, list(*), lptr(*), lend(*), lnew, ier
+  real(REAL_KIND) :: x(*), y(*), z(*)
+  interface
+    subroutine c_addnod(nst, k, x, y, z, list, lptr, lend, lnew, ier) &
+        bind(c, name="pstripack_addnod"//OF_REAL)
+      import
+      integer(INTEGER_KIND), value :: nst, k
+      integer(INTEGER_KIND) :: list(*), lptr(*), lend(*), lnew, ier
+      real(REAL_KIND) :: x(*), y(*), z(*)
+    end subroutine
+  end interface
+  call c_addnod(nst, k, x, y, z, list, lptr, lend, lnew, ier)
+end subroutine
+#endif
+
+#ifdef STRIPACK_DELNOD
+recursive subroutine delnod(k, n, x, y, z, list, lptr, lend, lnew, lwk, iwk, ier)
+  use, intrinsic :: iso_c_binding
+  implicit none
+  integer(INTEGER_KIND) :: k, n, list(*), lptr(*), lend(*), lnew, lwk, iwk(*), ier
+  real(REAL_KIND) :: x(*), y(*), z(*)
+  integer(INTEGER_KIND) :: nit, optim_ier
+  interface
+    subroutine c_delnod(k, n, x, y, z, list, lptr, lend, lnew, lwk, iwk, ier, nit, optim_ier) &
+        bind(c, name="pstripack_delnod"//OF_REAL)
+      import
+      integer(INTEGER_KIND), value :: k
+      integer(INTEGER_KIND) :: n, list(*), lptr(*), lend(*), lnew, lwk, iwk(*), ier, nit, optim_ier
+      real(REAL_KIND) :: x(*), y(*), z(*)
+    end subroutine
+  end interface
+  call c_delnod(k, n, x, y, z, list, lptr, lend, lnew, lwk, iwk, ier, nit, optim_ier)
+  if (ier == 5) write (*, '(//5x,2(a,i0),/)') "DELNOD: OPTIM failed: NIT = ", nit, ", IER = ", optim_ier
+end subroutine
 #endif
 
 #ifdef STRIPACK_GETNP

@@ -1,0 +1,284 @@
+#include "stripack/arc_edit.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "stripack/sphere.h"
+
+namespace pstripack {
+
+template <class Real, class Int>
+OptimStatus optimize(const CheckedEditor<Int>& lists, const Nodes<Real>& nodes, Int na, Int& nit, Int* iwk) {
+  const Int most = nit;
+  nit = 0;
+  if (na < 0 || most < 1) return OptimStatus::bad_argument;
+  if (na == 0) return OptimStatus::done;
+  for (bool swapped = true; swapped;) {
+    if (nit == most) return OptimStatus::not_all;
+    ++nit;
+    swapped = false;
+    for (Int* arc = iwk; arc != iwk + 2 * na; arc += 2) {
+      const Int u = arc[0], v = arc[1];
+      if (u < 1 || v < 1) return OptimStatus::no_arc;
+      // g follows v in the list of u, h precedes it: u,v,g and v,u,h are the triangles at the arc.
+      const auto [slot, before] = lists.find(u, [&](Int s) { return lists.entry(s) == v; });
+      if (lists.neighbour(slot) != v) return OptimStatus::no_arc;
+      if (lists.entry(slot) < 0 || lists.entry(before) < 0) continue;  // on the boundary
+      const Int g = lists.neighbour(lists.next(slot)), h = lists.neighbour(before);
+      if (!swptst(g, h, u, v, nodes)) continue;
+      if (lists.swap(g, h, u, v) == 0) return OptimStatus::not_swapped;
+      arc[0] = g;
+      arc[1] = h;
+      swapped = true;
+    }
+  }
+  return OptimStatus::done;
+}
+
+template <class Real, class Int>
+OptimStatus optim(const Nodes<Real>& nodes, Int na, const EditedLists<Int>& lists, Int& nit, Int* iwk) {
+  Int unknown = std::numeric_limits<Int>::max();
+  return code_or_broken_lists([&] {
+    return optimize(CheckedEditor<Int>({lists, unknown}), nodes, na, nit, iwk);
+  });
+}
+
+template <class Int>
+DelarcStatus delarc(Int io1, Int io2, const EditedLists<Int>& arrays) {
+  const Int n = arrays.n;
+  if (n < 4 || io1 < 1 || io1 > n || io2 < 1 || io2 > n || io1 == io2) return DelarcStatus::bad_argument;
+  return code_or_broken_lists([&] {
+    const CheckedEditor<Int> lists({arrays, *arrays.lnew});
+    const auto precedes = [&](Int a, Int b) { return lists.entry(lists.last_slot(b)) == -a; };
+    // n1, n2, n3 is the triangle, and the boundary runs from n1 to n2.
+    const Int n1 = precedes(io1, io2) ? io1 : io2, n2 = io1 + io2 - n1;
+    if (!precedes(n1, n2)) return DelarcStatus::not_on_boundary;
+    const Int n3 = lists.neighbour(lists.next(lists.first_slot(n1)));
+    if (lists.on_boundary(n3)) return DelarcStatus::cuts_off;
+    if (lists.remove_neighbour(n1, n2) < 0) return DelarcStatus::no_neighbours;
+    lists.remove_neighbour(n2, n1);
+    const Int last = lists.slot_of(n3, n1);
+    lists.last_slot(n3) = last;
+    lists.entry(last) = -n1;
+    return DelarcStatus::done;
+  });
+}
+
+namespace {
+
+/// The arcs that p-q crosses are collected in the columns of IWK, in order from p to q, and exchanged for
+/// others until p-q is one of them.
+///
+///           l --- m --- .
+///         /  \   / \   / \          columns (l,r), (m,r), ...: the end left of p-q, the right one;
+///       p . . \./. .\./. . q        m is the end that the next column does not share with l-r
+///         \    r --- . --- /
+///
+template <class Real, class Int>
+class ArcForcing {
+ public:
+  ArcForcing(Int in1, Int in2, const Nodes<Real>& nodes, const CheckedEditor<Int>& lists, Int* iwk, Int lwk)
+      : p_(in1), q_(in2), node_(nodes), lists_(lists), iwk_(iwk), lwk_(lwk) {}
+
+  /// Makes p-q an arc. `crossed`: the number of columns; `made`: that of p-q.
+  EdgeStatus force(Int& crossed, Int& made) {
+    Int l, r;
+    if (!find_first(l, r)) {
+      std::swap(p_, q_);
+      if (!find_first(l, r)) return EdgeStatus::not_found;
+    }
+    if (const EdgeStatus status = collect(l, r); status != EdgeStatus::done) return status;
+    // The exchanges depend on the columns alone, not on the lists: see first whether they come to an end.
+    if (!exchange<false>()) return EdgeStatus::never_ends;
+    collect(l, r);
+    exchange<true>();
+    crossed = count_;
+    made = made_;
+    return EdgeStatus::done;
+  }
+
+ private:
+  bool left(Int a, Int b, Int c) const { return closed_left(node_[a], node_[b], node_[c]); }
+  Int& l_of(Int column) const { return iwk_[2 * (column - 1)]; }
+  Int& r_of(Int column) const { return iwk_[2 * (column - 1) + 1]; }
+  void set(Int column, Int l, Int r) const {
+    l_of(column) = l;
+    r_of(column) = r;
+  }
+
+  /// The arc opposite p that p-q crosses: of adjacent neighbours r, l the first ones between which q lies.
+  bool find_first(Int& l, Int& r) const {
+    lists_.degree(p_);  // the list closes
+    Int slot = lists_.first_slot(p_);
+    const Int first = lists_.neighbour(slot);
+    const auto turn = [&] { return lists_.neighbour(slot = lists_.next(slot)); };
+    l = first;
+    if (!lists_.on_boundary(p_))
+      while (!left(q_, p_, l))
+        if ((l = turn()) == first) return false;
+    do {
+      r = l;
+      l = turn();
+      if (left(p_, q_, l)) {
+        if (between(l, r)) return true;
+        if (!left(q_, p_, l)) return false;
+      }
+    } while (l != first);
+    return false;
+  }
+
+  /// True if l or r lies on q's side of p, and one of them on p's side of q: the arc meets p-q and not the
+  /// rest of its great circle.
+  bool between(Int l, Int r) const {
+    const auto product = [&](Int a, Int b) { return dot(node_[a], node_[b]); };
+    const Real c = product(p_, q_), pl = product(p_, l), ql = product(q_, l), pr = product(p_, r),
+               qr = product(q_, r);
+    return (ql - c * pl >= 0 || qr - c * pr >= 0) && (pl - c * ql >= 0 || pr - c * qr >= 0);
+  }
+
+  /// Walks from arc l-r through the triangles to q.
+  EdgeStatus collect(Int l, Int r) {
+    for (count_ = 0;;) {
+      if (count_ == lwk_) return EdgeStatus::too_few_columns;
+      set(++count_, l, r);
+      const Int slot = lists_.slot_of(l, r);
+      if (lists_.entry(slot) != r) return EdgeStatus::not_found;
+      const Int m = lists_.neighbour(lists_.next(slot));
+      if (m == q_) return EdgeStatus::done;
+      (left(p_, q_, m) ? l : r) = m;
+    }
+  }
+
+  /// Sweeps over the columns alpha..omega, whose arcs p-q still crosses, until none is left but the one that
+  /// p-q replaces; new arcs left of it go before alpha, new ones right of it after omega. `base` is the last
+  /// corner that a sweep could not get round, to the left of the columns (side < 0) or right; at first p.
+  ///
+  ///           l --- m
+  ///         /  \   /             where base, r, m, l is convex, as far as one can tell, m-base replaces l-r
+  ///     base    \ /
+  ///         \___ r
+  ///
+  /// False, which in exact arithmetic takes a node on the arc p-q, if a sweep exchanges nothing, or if too
+  /// many follow each other that leave the number of columns as it is.
+  template <bool kSwap>
+  bool exchange() {
+    const auto join = [&](Int m, Int base, Int l, Int r) {
+      if constexpr (kSwap) lists_.swap(m, base, l, r);  // refused or not: as Algorithm 772
+    };
+    Int alpha = 1, omega = count_, idle = 0;
+    for (;;) {
+      const Int columns_before = omega - alpha;
+      bool changed = false;  // though the number of columns may be what it was
+      Int base = p_, side = 0, column = alpha, l = l_of(column), r = r_of(column);
+      while (column != omega) {
+        Int m = l_of(column + 1);
+        if (m == l) {  // m lies right of p-q
+          m = r_of(column + 1);
+          const bool convex_at_r = left(base, r, m);
+          if (convex_at_r && side >= 0) {
+            join(m, base, l, r);
+            std::copy(&l_of(column + 1), &l_of(omega) + 2, &l_of(column));
+            set(omega--, base, m);
+            r = m;
+            continue;
+          }
+          if (convex_at_r && left(l, base, m)) {
+            join(m, base, l, r);
+            set(column, base, m);
+            changed = true;
+          } else {
+            base = r;
+            side = 1;
+          }
+          r = m;
+        } else {  // m lies left of it
+          const bool convex_at_l = left(l, base, m);
+          if (convex_at_l && side <= 0) {
+            join(m, base, l, r);
+            std::copy_backward(&l_of(alpha), &l_of(column), &l_of(column) + 2);
+            set(alpha++, base, m);
+          } else if (convex_at_l && left(base, r, m)) {
+            join(m, base, l, r);
+            set(column, m, base);
+            changed = true;
+          } else {
+            base = l;
+            side = -1;
+          }
+          l = m;
+        }
+        ++column;
+      }
+      // The corner beyond the last arc l-r is q.
+      if (base == p_) {
+        join(q_, p_, l, r);
+        set(column, 0, 0);
+        made_ = column;
+        return true;
+      }
+      if (side > 0 && left(base, r, q_)) {
+        join(q_, base, l, r);
+        set(omega--, base, q_);
+      } else if (side < 0 && left(l, base, q_)) {
+        join(q_, base, l, r);
+        std::copy_backward(&l_of(alpha), &l_of(omega), &l_of(omega) + 2);
+        set(alpha++, base, q_);
+      }
+      if (omega - alpha < columns_before)
+        idle = 0;
+      else if (!changed || ++idle > count_)
+        return false;
+    }
+  }
+
+  Int p_, q_;
+  const Nodes<Real> node_;
+  const CheckedEditor<Int>& lists_;
+  Int* const iwk_;
+  const Int lwk_;
+  Int count_ = 0, made_ = 0;
+};
+
+}  // namespace
+
+template <class Real, class Int>
+EdgeStatus edge(Int in1, Int in2, const Nodes<Real>& nodes, Int& lwk, Int* iwk,
+                const EditedLists<Int>& arrays, OptimFailure<Int>& failure) {
+  if (in1 < 1 || in2 < 1 || in1 == in2 || lwk < 0) return EdgeStatus::bad_argument;
+  Int unknown = std::numeric_limits<Int>::max();
+  return code_or_broken_lists([&] {
+    const CheckedEditor<Int> lists({arrays, unknown});
+    if (lists.are_neighbours(in1, in2)) return EdgeStatus::done;
+
+    Int crossed, made;
+    EdgeStatus status = ArcForcing<Real, Int>(in1, in2, nodes, lists, iwk, lwk).force(crossed, made);
+    if (status != EdgeStatus::done) return status;
+
+    lwk = crossed;
+    for (const bool before : {true, false}) {
+      const Int count = before ? made - 1 : crossed - made;
+      if (count == 0) continue;
+      Int nit = 4 * count;
+      const OptimStatus optimized = optimize(lists, nodes, count, nit, before ? iwk : iwk + 2 * made);
+      if (optimized == OptimStatus::not_all) status = EdgeStatus::not_optimal;
+      if (optimized == OptimStatus::done || optimized == OptimStatus::not_all) continue;
+      failure = {nit, static_cast<Int>(optimized)};
+      return EdgeStatus::optim_failed;
+    }
+    return status;
+  });
+}
+
+#define PSTRIPACK_ARC_EDIT(Real, Int)                                                            \
+  template OptimStatus optimize(const CheckedEditor<Int>&, const Nodes<Real>&, Int, Int&, Int*); \
+  template OptimStatus optim(const Nodes<Real>&, Int, const EditedLists<Int>&, Int&, Int*);      \
+  template EdgeStatus edge(Int, Int, const Nodes<Real>&, Int&, Int*, const EditedLists<Int>&,    \
+                           OptimFailure<Int>&);
+PSTRIPACK_ARC_EDIT(float, std::int32_t)
+PSTRIPACK_ARC_EDIT(double, std::int32_t)
+PSTRIPACK_ARC_EDIT(double, std::int64_t)
+#undef PSTRIPACK_ARC_EDIT
+template DelarcStatus delarc(std::int32_t, std::int32_t, const EditedLists<std::int32_t>&);
+template DelarcStatus delarc(std::int64_t, std::int64_t, const EditedLists<std::int64_t>&);
+
+}  // namespace pstripack

@@ -1,0 +1,76 @@
+#pragma once
+// SWPTST, OPTIM, DELARC, EDGE: exchange and removal of arcs (Renka, ACM TOMS 23 (1997), Algorithm 772).
+// For (Real, Int) = (float, int32_t), (double, int32_t), (double, int64_t). No allocation; always return.
+
+#include "stripack/expressions.h"
+#include "stripack/list_edit.h"
+
+namespace pstripack {
+
+/// SWPTST: node n4 lies strictly above the plane of the counterclockwise triangle n1, n2, n3, as rounded, so
+/// that the arc n1-n2 of the two triangles should be exchanged. False for NaN.
+template <class Real, class Int>
+bool swptst(Int n1, Int n2, Int n3, Int n4, const Nodes<Real>& nodes) {
+  return height(nodes[n1], nodes[n2], nodes[n3], nodes[n4]) > 0;
+}
+
+/// IER of OPTIM. Earlier exchanges stay.
+enum class OptimStatus {
+  done = 0,
+  not_all = 1,       ///< exchanges were made in the last iteration allowed
+  bad_argument = 2,  ///< na < 0 or nit < 1; nit = 0
+  no_arc = 3,        ///< a column does not hold two neighbours
+  not_swapped = 4,   ///< the nodes to be joined were neighbours
+  broken = broken_lists
+};
+
+/// OPTIM: exchanges arcs of iwk(2,na), which are pairs of neighbours, until they are locally optimal, in at
+/// most nit iterations through all columns. The columns follow the exchanges; nit: iterations begun.
+template <class Real, class Int>
+OptimStatus optim(const Nodes<Real>& nodes, Int na, const EditedLists<Int>& lists, Int& nit, Int* iwk);
+
+/// The same on lists that are being edited; throws BrokenLists.
+template <class Real, class Int>
+OptimStatus optimize(const CheckedEditor<Int>& lists, const Nodes<Real>& nodes, Int na, Int& nit, Int* iwk);
+
+/// What a message about OPTIM's failure says.
+template <class Int>
+struct OptimFailure {
+  Int nit = 0, ier = 0;
+};
+
+/// IER of DELARC. Nothing is changed unless it is `done` or `broken`.
+enum class DelarcStatus {
+  done = 0,
+  bad_argument = 1,     ///< lists.n < 4, or io1, io2 not two of its nodes
+  not_on_boundary = 2,  ///< no boundary arc
+  cuts_off = 3,         ///< the third corner of its triangle is on the boundary already
+  no_neighbours = 4,    ///< the two do not list each other
+  broken = broken_lists
+};
+
+/// DELARC: removes the boundary arc io1-io2 and its triangle.
+template <class Int>
+DelarcStatus delarc(Int io1, Int io2, const EditedLists<Int>& lists);
+
+/// IER of EDGE.
+enum class EdgeStatus {
+  done = 0,
+  bad_argument = 1,     ///< in1 < 1, in2 < 1, in1 = in2, lwk < 0; nothing is changed
+  too_few_columns = 2,  ///< more than lwk arcs are crossed; only iwk is changed
+  not_found = 3,     ///< no arc between the two is found: null triangles or broken lists; only iwk is changed
+  optim_failed = 4,  ///< the arc is there; OptimFailure has OPTIM's code
+  not_optimal = 5,   ///< the arc is there; OPTIM ran out of iterations
+  broken = broken_lists,
+  never_ends = -10  ///< exchanges would go on for ever: nodes on the arc, up to rounding; only iwk is changed
+};
+
+/// EDGE: makes in1-in2 an arc by exchanging those that it crosses, and then optimizes the others nearby.
+/// There is no test whether in1 and in2 are at most N, which is not an argument. lwk: in, columns of iwk;
+/// out, arcs that were crossed (unchanged if there are none, and on errors but optim_failed, not_optimal).
+/// iwk, on `done`: the arcs left of in1-in2, a column 0, those right of it; or with the ends exchanged.
+template <class Real, class Int>
+EdgeStatus edge(Int in1, Int in2, const Nodes<Real>& nodes, Int& lwk, Int* iwk, const EditedLists<Int>& lists,
+                OptimFailure<Int>& failure);
+
+}  // namespace pstripack

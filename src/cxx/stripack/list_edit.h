@@ -1,0 +1,369 @@
+#pragma once
+// INSERT, INTADD, BDYADD, COVSPH, SWAP, DELNB: the steps of which all changes of a triangulation are made
+// (Renka, ACM TOMS 23 (1997), Algorithm 772). They decide which slot holds which neighbour, and thereby the
+// lists that the routines above them return.
+//
+// For Int = int32_t, int64_t. Nodes and slots count from 1; k is the node that is added.
+
+#include <cstddef>
+#include <limits>
+
+#include "stripack/trmesh.h"
+
+namespace pstripack {
+
+/// LIST, LPTR, LEND, LNEW of a caller, to be changed. n: nodes for which there is room, LIST and LPTR having
+/// 6n-12 slots. lnew is null and n the greatest Int where the routine is not told (SWAP, OPTIM, EDGE).
+template <class Int>
+struct EditedLists {
+  Int n;
+  Int* list;
+  Int* lptr;
+  Int* lend;
+  Int* lnew;
+
+  static EditedLists unbounded(Int* list, Int* lptr, Int* lend) {
+    return {std::numeric_limits<Int>::max(), list, lptr, lend, nullptr};
+  }
+};
+
+/// Code for lists that are not those of a triangulation: a slot or neighbour out of range, a list that does
+/// not close, a boundary that does not.
+constexpr int broken_lists = -9;
+
+/// Thrown instead of reading or writing outside the arrays, or going round for ever.
+struct BrokenLists {};
+
+/// Runs edit() and returns its code, or broken_lists.
+template <class Edit>
+auto code_or_broken_lists(const Edit& edit) -> decltype(edit()) {
+  try {
+    return edit();
+  } catch (const BrokenLists&) {
+    return static_cast<decltype(edit())>(broken_lists);
+  }
+}
+
+/// Access to the arrays, checked: throws BrokenLists where an index is out of range.
+template <class Int>
+class CheckedArrays {
+ public:
+  using Index = Int;
+
+  /// Counts slots in `lnew`, the caller's or a copy. `nodes`: those that have lists, if not all do.
+  CheckedArrays(const EditedLists<Int>& lists, Int& lnew) : CheckedArrays(lists, lnew, lists.n) {}
+  CheckedArrays(const EditedLists<Int>& lists, Int& lnew, Int nodes)
+      : lists_(lists), lnew_(lnew), nodes_(nodes) {
+    most_slots_ = lists.n <= most_nodes<Int>() ? 6 * lists.n - 12 : std::numeric_limits<Int>::max() - 1;
+    in(1, lnew, most_slots_ + 1);
+  }
+
+  Int& list(Int slot) const { return lists_.list[in(1, slot, lnew_ - 1) - 1]; }
+  Int& lptr(Int slot) const { return lists_.lptr[in(1, slot, lnew_ - 1) - 1]; }
+  Int& lend(Int node) const { return lists_.lend[checked_node(node) - 1]; }
+  Int lnew() const { return lnew_; }
+  void set_lnew(Int lnew) const { lnew_ = lnew; }
+  Int nodes() const { return nodes_; }
+  Int checked_node(Int node) const { return in(1, node, nodes_); }
+  /// Throws unless there is room for so many further slots.
+  void reserve(Int slots) const { in(0, slots, most_slots_ + 1 - lnew_); }
+
+ private:
+  static Int in(Int least, Int value, Int most) {
+    if (value < least || value > most) throw BrokenLists();
+    return value;
+  }
+
+  const EditedLists<Int> lists_;
+  Int& lnew_;
+  Int nodes_, most_slots_;
+};
+
+/// Ends walks round lists that do not close: throws at the latest after three times as many steps as there
+/// are different slots on the way (R. P. Brent, BIT 20, 1980).
+template <class Int>
+class LoopGuard {
+ public:
+  void pass(Int slot) {
+    if (slot == mark_) throw BrokenLists();
+    if (++steps_ < lap_) return;
+    mark_ = slot;
+    lap_ *= 2;
+    steps_ = 0;
+  }
+
+ private:
+  Int mark_ = 0;
+  std::size_t steps_ = 0, lap_ = 16;
+};
+
+/// Questions to and changes of the lists in some kind of arrays.
+template <class Arrays>
+class ListEditor {
+ public:
+  using Int = typename Arrays::Index;
+
+  explicit ListEditor(const Arrays& arrays) : arrays_(arrays) {}
+
+  Int lnew() const { return arrays_.lnew(); }
+  /// The neighbour in a slot; negative if it is the last one of a boundary node.
+  Int& entry(Int slot) const { return arrays_.list(slot); }
+  Int neighbour(Int slot) const { return arrays_.checked_node(entry(slot) < 0 ? -entry(slot) : entry(slot)); }
+  Int& next(Int slot) const { return arrays_.lptr(slot); }
+  Int& last_slot(Int node) const { return arrays_.lend(node); }
+  Int first_slot(Int node) const { return next(last_slot(node)); }
+  Int first_neighbour(Int node) const { return neighbour(first_slot(node)); }
+  Int last_neighbour(Int node) const { return neighbour(last_slot(node)); }
+  bool on_boundary(Int node) const { return entry(last_slot(node)) < 0; }
+
+  struct Place {
+    Int slot, before;
+  };
+  /// The first slot in a node's list that is wanted, counted from the first neighbour, and the slot before
+  /// it. The last slot, whether or not it is wanted, if no other is.
+  template <class Wanted>
+  Place find(Int node, const Wanted& wanted) const {
+    const Int last = last_slot(node);
+    Int before = last, slot = next(last);
+    for (LoopGuard<Int> guard; slot != last && !wanted(slot); slot = next(slot)) {
+      guard.pass(slot);
+      before = slot;
+    }
+    return {slot, before};
+  }
+  /// LSTPTR.
+  Int slot_of(Int node, Int wanted) const {
+    return find(node, [&](Int slot) { return entry(slot) == wanted; }).slot;
+  }
+  bool are_neighbours(Int node, Int other) const { return neighbour(slot_of(node, other)) == other; }
+  Int degree(Int node) const {
+    Int count = 1;
+    find(node, [&](Int) {
+      ++count;
+      return false;
+    });
+    return count;
+  }
+
+  // ---- nodes are added ----
+
+  /// INSERT: k becomes the neighbour after the one in slot `before`.
+  void insert(Int k, Int before) const {
+    arrays_.reserve(1);
+    const Int after = next(before);
+    next(before) = lnew();
+    append(k, after);
+  }
+
+  /// INTADD: k in the triangle i1, i2, i3.
+  void add_inside(Int k, Int i1, Int i2, Int i3) const {
+    arrays_.checked_node(k);
+    arrays_.reserve(6);
+    const Int before[3] = {slot_of(i1, i2), slot_of(i2, i3), slot_of(i3, i1)};
+    for (const Int slot : before) insert(k, slot);
+    const Int own = lnew();
+    append(i1, own + 1);
+    append(i2, own + 2);
+    append(i3, own);
+    last_slot(k) = own + 2;
+  }
+
+  /// BDYADD: k outside the hull, where it sees the boundary from i1, the rightmost node, clockwise to i2.
+  ///
+  ///               k
+  ///           .  / \  .                     the hull is below; i1 keeps its first neighbour and i2 its
+  ///       .     /   \     .                 last one, the nodes between become interior ones
+  ///   i2 ----- w --- v ----- i1
+  ///  /                         \  .
+  void add_outside(Int k, Int i1, Int i2) const {
+    arrays_.checked_node(k);
+    arrays_.reserve(2 * visible_nodes(k, i1, i2));
+
+    const Int last = last_slot(i1), first = next(last);
+    const Int v1 = neighbour(last);
+    entry(last) = v1;
+    next(last) = lnew();
+    last_slot(i1) = lnew();
+    append(-k, first);
+    for (Int v = v1;;) {
+      const Int slot = last_slot(v);
+      insert(k, slot);
+      if (v == i2) break;
+      v = entry(slot) = neighbour(slot);
+    }
+
+    const Int own = lnew();
+    append(i1, own + 1);
+    for (Int v = v1; v != i2; v = last_neighbour(v)) append(v, lnew() + 1);
+    append(-i2, own);
+    last_slot(k) = lnew() - 1;
+  }
+
+  /// COVSPH: k sees the whole boundary, of which n0 is a node; afterwards the triangles cover the sphere.
+  void cover_sphere(Int k, Int n0) const {
+    arrays_.checked_node(k);
+    arrays_.reserve(2 * (visible_nodes(k, n0, n0) - 1));
+
+    Int v = n0;
+    do {
+      const Int slot = last_slot(v);
+      insert(k, slot);
+      v = entry(slot) = neighbour(slot);
+    } while (v != n0);
+
+    const Int own = lnew();
+    do {
+      append(v, lnew() + 1);
+      v = last_neighbour(v);
+    } while (v != n0);
+    last_slot(k) = lnew() - 1;
+    next(last_slot(k)) = own;
+  }
+
+  // ---- arcs are exchanged and removed ----
+
+  /// SWAP: the diagonal io1-io2 of a quadrilateral gives way to in1-in2. Returns the slot of in1 in the list
+  /// of in2; 0, nothing being changed, if these are neighbours already.
+  ///
+  ///           io2                       io2
+  ///          / | \                     /   \                     .
+  ///       in1  |  in2      ->       in1 --- in2
+  ///          \ | /                     \   /
+  ///           io1                       io1
+  Int swap(Int in1, Int in2, Int io1, Int io2) const {
+    if (are_neighbours(in1, in2)) return 0;
+    link(in1, io1, unlink_after(io1, in2), in2);
+    const Int slot = unlink_after(io2, in1);
+    link(in2, io2, slot, in1);
+    return slot;
+  }
+
+  /// DELNB: removes nb from the list of n0, leaving the list of nb alone. The top slot moves into the one
+  /// that this frees. Returns the latter; -2, nothing being changed, if nb is no neighbour of n0.
+  Int remove_neighbour(Int n0, Int nb) const {
+    const auto [slot, before] = find(n0, [&](Int s) { return entry(s) == nb; });
+    const Int last = last_slot(n0);
+    if (slot == last) {
+      if (neighbour(slot) != nb) return -2;
+      last_slot(n0) = before;
+      if (on_boundary(nb)) entry(before) = -entry(before);
+    } else if (on_boundary(nb) && entry(last) > 0) {
+      last_slot(n0) = before;
+      entry(before) = -entry(before);
+    }
+    next(before) = next(slot);
+    move_top_to(slot, [&, hole = slot](Int top) {
+      // nb is asked first: it may list the top slot although n0 does not list nb any more.
+      if (!redirect_in(nb, top, hole)) redirect(top, hole);
+    });
+    return slot;
+  }
+
+  /// The top slot moves to `hole`, which is in no list. redirect(top) then lets what points to it point to
+  /// `hole`.
+  template <class Redirect>
+  void move_top_to(Int hole, const Redirect& redirect) const {
+    const Int top = lnew() - 1;
+    entry(hole) = entry(top);
+    next(hole) = next(top);
+    if (hole != top) redirect(top);
+    arrays_.set_lnew(top);
+  }
+  /// Lets what points to the slot `from`, in the list of the node: false if it is not there.
+  bool redirect_in(Int node, Int from, Int to) const {
+    const auto [slot, before] = find(node, [&](Int s) { return s == from; });
+    if (slot != from) return false;
+    if (last_slot(node) == from) last_slot(node) = to;
+    next(before == from ? to : before) = to;
+    return true;
+  }
+  /// The same, whichever list it is in. Its neighbour b lists the owner, which is therefore found in
+  /// O(degree squared); where b does not, in the middle of a change, all slots are looked through.
+  void redirect(Int from, Int to) const {
+    const Int b = neighbour(from);
+    const Int owner = find(b, [&](Int slot) { return redirect_in(neighbour(slot), from, to); }).slot;
+    if (owner == last_slot(b) && !redirect_in(neighbour(owner), from, to)) redirect_anywhere(from, to);
+  }
+
+ private:
+  void append(Int neighbour, Int after) const {
+    const Int slot = lnew();
+    arrays_.set_lnew(slot + 1);
+    entry(slot) = neighbour;
+    next(slot) = after;
+  }
+
+  /// The number of boundary nodes from i1 clockwise to i2, both of which count.
+  Int visible_nodes(Int k, Int i1, Int i2) const {
+    Int count = 1, v = i1;
+    do {
+      if (!on_boundary(v) || ++count > k) throw BrokenLists();
+      v = last_neighbour(v);
+    } while (v != i2);
+    return count;
+  }
+
+  /// Takes the neighbour after `b` out of the list of a, and returns its slot.
+  Int unlink_after(Int a, Int b) const {
+    const Int before = slot_of(a, b), slot = next(before);
+    next(before) = next(slot);
+    if (last_slot(a) == slot) last_slot(a) = before;
+    return slot;
+  }
+  /// Puts c, in a free slot, after b into the list of a.
+  void link(Int a, Int b, Int slot, Int c) const {
+    const Int before = slot_of(a, b);
+    next(slot) = next(before);
+    next(before) = slot;
+    entry(slot) = c;
+  }
+
+  void redirect_anywhere(Int from, Int to) const {
+    Int node = arrays_.nodes();
+    while (node >= 1 && last_slot(node) != from) --node;
+    if (node >= 1) last_slot(node) = to;
+    for (Int slot = 1; slot < lnew() - 1; ++slot)
+      if (next(slot) == from) next(slot) = to;
+  }
+
+  const Arrays arrays_;
+};
+
+template <class Int>
+using CheckedEditor = ListEditor<CheckedArrays<Int>>;
+
+// The routines. Each returns 0, or broken_lists: nothing is changed then, except by `swap` and `delnb`.
+
+/// INSERT: k becomes the neighbour after the one in slot lp.
+template <class Int>
+int insert(Int k, Int lp, const EditedLists<Int>& lists);
+
+/// INTADD: node k = lists.n, which lies in the counterclockwise triangle i1, i2, i3, is linked to its
+/// corners.
+template <class Int>
+int intadd(Int i1, Int i2, Int i3, const EditedLists<Int>& lists);
+
+/// BDYADD: node k = lists.n, which lies outside the hull, is linked to the boundary nodes that it sees; i1 is
+/// the rightmost, i2 the leftmost, and they differ.
+template <class Int>
+int bdyadd(Int i1, Int i2, const EditedLists<Int>& lists);
+
+/// COVSPH: node k = lists.n is linked to all boundary nodes, of which n0 is one.
+template <class Int>
+int covsph(Int n0, const EditedLists<Int>& lists);
+
+/// SWAP: arc io1-io2, where io1, io2, in1 and io2, io1, in2 are counterclockwise triangles, gives way to
+/// in1-in2. `slot`: that of in1 in the list of in2; 0, nothing being changed, if they are neighbours already.
+template <class Int>
+int swap(Int in1, Int in2, Int io1, Int io2, const EditedLists<Int>& lists, Int& slot);
+
+/// DELNB's answers beside the slot that was freed.
+constexpr int no_such_node = -1, no_neighbour = -2;
+
+/// DELNB: nb is removed from the list of n0, but not n0 from that of nb. `slot`: the one that was freed, into
+/// which the top slot moved; no_such_node or no_neighbour, nothing being changed.
+/// O(degree squared) where the original looks through all slots.
+template <class Int>
+int delnb(Int n0, Int nb, const EditedLists<Int>& lists, Int& slot);
+
+}  // namespace pstripack

@@ -1,0 +1,298 @@
+// The routines that change a triangulation, on the canonical lists of our trmesh and on lists that are none:
+// judged by the validator, not by the original. For all kinds of numbers.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "point_sets.h"
+#include "stripack/adjacency_lists.h"
+#include "stripack/node_edit.h"
+#include "support/guarded.h"
+
+using namespace pstripack;
+
+namespace {
+
+using point_sets::Random;
+
+int below(Random& random, int n) { return static_cast<int>(random.below(static_cast<std::size_t>(n))); }
+int any_node(Random& random, std::int64_t n) { return 1 + below(random, static_cast<int>(n)); }
+
+template <class RealKind, class IntKind>
+struct Kinds {
+  using Real = RealKind;
+  using Int = IntKind;
+};
+
+/// A mesh in arrays that have room for `most` nodes.
+template <class Real, class Int>
+struct Mesh {
+  Int n = 0, lnew = 0;
+  std::vector<Real> x, y, z;
+  std::vector<Int> list, lptr, lend, iwk;
+
+  explicit Mesh(std::size_t most)
+      : x(most), y(most), z(most), list(6 * most - 12), lptr(6 * most - 12), lend(most), iwk(2 * most) {}
+
+  /// The canonical triangulation of the nodes.
+  Mesh(const std::vector<Point>& nodes, std::size_t most) : Mesh(most) {
+    for (const Point& p : nodes) place(++n, p);
+    const std::size_t slots = 6 * nodes.size() - 12;
+    std::vector<std::int32_t> a(slots), b(slots), c(nodes.size());
+    std::int32_t end = 0;
+    EXPECT_EQ(
+        trmesh(static_cast<std::int32_t>(n), x.data(), y.data(), z.data(), a.data(), b.data(), c.data(), &end)
+            .ier,
+        0);
+    std::copy(a.begin(), a.end(), list.begin());
+    std::copy(b.begin(), b.end(), lptr.begin());
+    std::copy(c.begin(), c.end(), lend.begin());
+    lnew = end;
+  }
+
+  void place(Int node, const Point& p) {
+    const auto i = static_cast<std::size_t>(node - 1);
+    x[i] = static_cast<Real>(p.x), y[i] = static_cast<Real>(p.y), z[i] = static_cast<Real>(p.z);
+  }
+  Nodes<Real> nodes() const { return {x.data(), y.data(), z.data()}; }
+  EditedLists<Int> lists(Int count) { return {count, list.data(), lptr.data(), lend.data(), &lnew}; }
+  EditedLists<Int> lists() { return lists(n); }
+  EditedLists<Int> unbounded() { return EditedLists<Int>::unbounded(list.data(), lptr.data(), lend.data()); }
+
+  /// ADDNOD of node n+1.
+  Int add(const Point& p, Int start = 0) {
+    place(n + 1, p);
+    const Int ier = addnod(start, nodes(), lists(n + 1));
+    if (ier == 0) ++n;
+    return ier;
+  }
+  DelnodStatus remove(Int k) {
+    Int lwk = n;
+    OptimFailure<Int> failure;
+    return delnod(k, n, x.data(), y.data(), z.data(), lists(), lwk, iwk.data(), failure);
+  }
+  EdgeStatus connect(Int a, Int b) {
+    Int lwk = n;
+    OptimFailure<Int> failure;
+    return edge(a, b, nodes(), lwk, iwk.data(), unbounded(), failure);
+  }
+
+  bool operator==(const Mesh& m) const {
+    return n == m.n && lnew == m.lnew && x == m.x && y == m.y && z == m.z && list == m.list &&
+           lptr == m.lptr && lend == m.lend;
+  }
+
+  /// "" if the lists are well formed; and, if asked for, a Delaunay triangulation by exact signs.
+  std::string fault(bool delaunay) const {
+    const std::vector<std::int32_t> a(list.begin(), list.end()), b(lptr.begin(), lptr.end()),
+        c(lend.begin(), lend.end());
+    std::vector<Point> p;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i)
+      p.push_back({static_cast<double>(x[i]), static_cast<double>(y[i]), static_cast<double>(z[i])});
+    const ListsView<std::int32_t> view{p.size(), a.data(), b.data(), c.data(),
+                                       static_cast<std::int32_t>(lnew)};
+    return (delaunay ? is_valid(p.data(), view) : check_lists(view)).message;
+  }
+};
+
+/// Anywhere, or north of latitude 17 degrees.
+Point direction(Random& random, bool anywhere) {
+  for (;;) {
+    const Point p = random.direction();
+    if (anywhere || p.z > 0.3) return p;
+  }
+}
+std::vector<Point> directions(Random& random, int n, bool anywhere) {
+  std::vector<Point> p;
+  while (static_cast<int>(p.size()) < n) p.push_back(direction(random, anywhere));
+  return p;
+}
+
+template <class K>
+class Edit : public testing::Test {};
+using AllKinds =
+    testing::Types<Kinds<float, std::int32_t>, Kinds<double, std::int32_t>, Kinds<double, std::int64_t>>;
+TYPED_TEST_SUITE(Edit, AllKinds);
+
+template <class K>
+using MeshOf = Mesh<typename K::Real, typename K::Int>;
+
+}  // namespace
+
+TYPED_TEST(Edit, ADDNODAndDELNODKeepTheDelaunayTriangulation) {
+  int opened = 0, covered = 0;
+  for (int set = 0; set < 40; ++set) {
+    Random random(static_cast<std::uint64_t>(set));
+    const bool anywhere = set % 2 == 0;
+    MeshOf<TypeParam> mesh(directions(random, 4 + below(random, 40), anywhere), 120);
+    for (int i = 0; i < 50; ++i) {
+      const bool was_covered = mesh.lnew == 6 * mesh.n - 11;
+      if (mesh.n == 4 || below(random, set % 4 == 0 ? 4 : 2) > 0) {
+        ASSERT_EQ(mesh.add(direction(random, anywhere || i % 10 == 0), below(random, 9)), 0);
+      } else {
+        const DelnodStatus status = mesh.remove(any_node(random, mesh.n));
+        ASSERT_TRUE(status == DelnodStatus::done || status == DelnodStatus::not_optimal);
+      }
+      ASSERT_EQ(mesh.fault(true), "") << "set " << set << ", edit " << i;
+      opened += was_covered && mesh.lnew < 6 * mesh.n - 11;
+      covered += !was_covered && mesh.lnew == 6 * mesh.n - 11;
+    }
+  }
+  EXPECT_GT(opened, 0);
+  EXPECT_GT(covered, 0);
+}
+
+TYPED_TEST(Edit, EDGEAndDELARCKeepTheListsWellFormed) {
+  for (int set = 0; set < 20; ++set) {
+    Random random(static_cast<std::uint64_t>(100 + set));
+    MeshOf<TypeParam> mesh(directions(random, 20 + below(random, 40), set % 2 == 0), 80);
+    using Int = typename TypeParam::Int;
+    for (int i = 0; i < 25; ++i) {
+      const Int a = any_node(random, mesh.n), b = any_node(random, mesh.n);
+      if (a == b) continue;
+      ASSERT_EQ(mesh.connect(a, b), EdgeStatus::done) << a << " " << b;
+      ASSERT_EQ(mesh.fault(false), "") << "set " << set << ", EDGE " << a << " " << b;
+      EXPECT_TRUE(CheckedEditor<Int>({mesh.lists(), mesh.lnew}).are_neighbours(a, b));
+    }
+    int removed = 0;
+    for (Int a = 1; a <= mesh.n; ++a) {
+      const Int before = -mesh.list[static_cast<std::size_t>(mesh.lend[static_cast<std::size_t>(a - 1)] - 1)];
+      if (before <= 0 || delarc(a, before, mesh.lists()) != DelarcStatus::done) continue;
+      ++removed;
+      ASSERT_EQ(mesh.fault(false), "") << "set " << set << ", DELARC " << a << " " << before;
+    }
+    EXPECT_EQ(removed > 0, set % 2 == 1);
+  }
+}
+
+TYPED_TEST(Edit, ADDNODFindsEveryCopyAmongManyNodes) {
+  for (const char* family : {"random", "hemisphere", "latlon", "icosahedral", "cubed-sphere", "clusters"}) {
+    const std::vector<Point> nodes = point_sets::make(family, 3000);
+    MeshOf<TypeParam> mesh(nodes, nodes.size() + 1);
+    const MeshOf<TypeParam> before = mesh;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      ASSERT_EQ(mesh.add(nodes[i], i % 3 == 0 ? 1 : 0), static_cast<typename TypeParam::Int>(i + 1));
+      ASSERT_EQ(mesh.lnew, before.lnew);
+    }
+    EXPECT_EQ(mesh.list, before.list);
+    EXPECT_EQ(mesh.lptr, before.lptr);
+    EXPECT_EQ(mesh.lend, before.lend);
+  }
+}
+
+TYPED_TEST(Edit, RefusedNodes) {
+  using Int = typename TypeParam::Int;
+  Random random(3);
+  MeshOf<TypeParam> mesh(directions(random, 10, true), 11);
+  const MeshOf<TypeParam> before = mesh;
+  const auto unchanged = [&] {
+    return mesh.list == before.list && mesh.lptr == before.lptr && mesh.lnew == before.lnew;
+  };
+  const double infinity = std::numeric_limits<double>::infinity(), nan = std::nan("");
+  for (const Point& p : {Point{nan, 0, 0}, {0, infinity, 0}, {0, 0, -infinity}}) EXPECT_EQ(mesh.add(p), -5);
+  EXPECT_EQ(mesh.add({0, 0, 0}), -2);
+  EXPECT_EQ(addnod<typename TypeParam::Real>(Int(1), mesh.nodes(), mesh.lists(3)), -1);
+  EXPECT_EQ(
+      addnod<typename TypeParam::Real>(Int(1), mesh.nodes(), mesh.lists(std::numeric_limits<Int>::max())),
+      -4);
+  EXPECT_TRUE(unchanged());
+  mesh.lnew = 6 * 11;  // does not leave room for another node
+  EXPECT_EQ(mesh.add({1, 0, 0}), -9);
+  mesh.lnew = before.lnew;
+  EXPECT_TRUE(unchanged());
+}
+
+TYPED_TEST(Edit, NothingIsTouchedOutsideTheArrays) {
+  // Lists of random numbers, in memory that ends where the arrays end.
+  using Int = typename TypeParam::Int;
+  using Real = typename TypeParam::Real;
+  Random random(5);
+  constexpr Int n = 6, slots = 6 * n - 12;
+  std::vector<int> codes(40);
+  const auto nodes = directions(random, n, true);
+  const MeshOf<TypeParam> mesh(nodes, n);
+  for (const ::Edge side : {::Edge::begin, ::Edge::end})
+    for (int i = 0; i < 20000; ++i) {
+      Guarded<Int> list(mesh.list, side), lptr(mesh.lptr, side), lend(mesh.lend, side), iwk(2 * n, side);
+      Guarded<Real> x(mesh.x, side), y(mesh.y, side), z(mesh.z, side);
+      Int lnew = mesh.lnew, count = n, lwk = n, slot;
+      for (int damages = below(random, i % 2 == 0 ? 4 : 40); damages > 0; --damages) {
+        Guarded<Int>& array = *std::array<Guarded<Int>*, 3>{&list, &lptr, &lend}[random.below(3)];
+        array[random.below(array.size())] =
+            below(random, 8) == 0 ? Int(below(random, 200) - 100) : Int(below(random, slots + 4) - 2);
+      }
+      if (below(random, 10) == 0) lnew = Int(below(random, 60) - 20);
+      const EditedLists<Int> lists{n, list.data(), lptr.data(), lend.data(), &lnew};
+      const Int a = below(random, n + 3) - 1, b = below(random, n + 3) - 1, c = below(random, n + 3) - 1;
+      int code = 0;
+      OptimFailure<Int> failure;
+      switch (i % 7) {
+        case 0:
+          code = insert(a, Int(below(random, 40) - 2), lists);
+          break;
+        case 1:
+          code = intadd(a, b, c, lists);
+          break;
+        case 2:
+          code = bdyadd(a, b, lists);
+          break;
+        case 3:
+          code = covsph(a, lists);
+          break;
+        case 4:
+          code = delnb(a, b, lists, slot);
+          break;
+        case 5:
+          code = static_cast<int>(delarc(a, b, lists));
+          break;
+        case 6:
+          code = static_cast<int>(
+              delnod(a, count, x.data(), y.data(), z.data(), lists, lwk, iwk.data(), failure));
+          break;
+      }
+      ++codes[static_cast<std::size_t>(code + 20)];
+    }
+  EXPECT_GT(codes[20 - 9], 100);
+  EXPECT_GT(codes[20], 100);
+}
+
+TYPED_TEST(Edit, ListsThatDoNotCloseEndTheSearch) {
+  // SWAP, OPTIM and EDGE are not told how many slots there are; here all numbers are within the arrays.
+  using Int = typename TypeParam::Int;
+  using Real = typename TypeParam::Real;
+  Random random(6);
+  constexpr Int n = 6, slots = 6 * n - 12;
+  const MeshOf<TypeParam> mesh(directions(random, n, true), n);
+  std::array<int, 3> broken{};
+  for (int i = 0; i < 30000; ++i) {
+    MeshOf<TypeParam> damaged = mesh;
+    for (int damages = 1 + below(random, 10); damages > 0; --damages) switch (below(random, 3)) {
+        case 0:
+          damaged.list[random.below(slots)] = any_node(random, n) * (below(random, 4) == 0 ? -1 : 1);
+          break;
+        case 1:
+          damaged.lptr[random.below(slots)] = any_node(random, slots);
+          break;
+        default:
+          damaged.lend[random.below(n)] = any_node(random, slots);
+      }
+    const Int a = any_node(random, n), b = any_node(random, n), c = any_node(random, n),
+              d = any_node(random, n);
+    Int slot, nit = 3;
+    damaged.iwk = {a, b, c, d};
+    damaged.iwk.resize(2 * n);
+    broken[0] += swap(a, b, c, d, damaged.unbounded(), slot) == broken_lists;
+    damaged.lptr = mesh.lptr;
+    damaged.lptr[random.below(slots)] = any_node(random, slots);
+    broken[1] += optim<Real>(damaged.nodes(), Int(2), damaged.unbounded(), nit, damaged.iwk.data()) ==
+                 OptimStatus::broken;
+    broken[2] += damaged.connect(a, b) == EdgeStatus::broken;
+  }
+  for (int count : broken) EXPECT_GT(count, 100);
+}
