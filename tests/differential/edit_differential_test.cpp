@@ -166,23 +166,14 @@ std::string difference(const Mesh& a, const Mesh& b) {
   return what;
 }
 
-/// Slots that a call has given up hold whatever was there; nobody reads them.
-void forget(Mesh& mesh, int old_lnew) {
-  for (int slot = mesh.lists.lnew; slot < old_lnew; ++slot)
-    mesh.list()[slot - 1] = mesh.lptr()[slot - 1] = Lists::mark;
-}
-
 /// Makes the same calls on both sides, from the same state, which becomes that after the calls.
 /// "" or what differs.
 std::string compare(Mesh& mesh, const Calls& calls) {
-  const int lnew = mesh.lists.lnew;
   Mesh theirs = mesh;
   mesh.results.clear();
   theirs.results.clear();
   calls(ours, mesh);
   calls(original, theirs);
-  forget(mesh, lnew);
-  forget(theirs, lnew);
   return difference(mesh, theirs);
 }
 

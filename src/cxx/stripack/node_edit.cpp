@@ -269,6 +269,8 @@ class Deletion {
     for (; own_slots_ > 0; --own_slots_) {
       Int slot = lists.next(hole);  // the other slots of k start here; the last one still points to `last_`
       lists.move_top_to(hole, [&](Int top) {
+        // The original does this even to a slot that it has given up.
+        if (Int& next = arrays_.lptr[slot - 1]; slot >= top && next == top) next = hole;
         bool own = slot == top && own_slots_ > 1;
         if (slot == top) slot = hole;
         for (Int left = own_slots_ - 1, s = slot; left > 0; --left, s = lists.next(s))
