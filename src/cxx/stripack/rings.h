@@ -18,6 +18,8 @@ enum class FirstPair { first_and_second, last_and_first };
 template <class Int>
 class Rings {
  public:
+  static constexpr Int few_neighbours = 16;  ///< nodes with more are hubs
+
   /// An arc from b back to a, and the bounds of the ring of b.
   struct Back {
     Int arc, begin, end;
@@ -84,7 +86,7 @@ class Rings {
   }
 
  private:
-  static constexpr Int few_neighbours = 16, none = -1;
+  static constexpr Int none = -1;
 
   bool are_rings(const ListsView<Int>& lists, int threads) const;
   bool copy(const ListsView<Int>& lists);

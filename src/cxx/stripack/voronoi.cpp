@@ -11,6 +11,7 @@
 #include "geometry/buffer.h"
 #include "geometry/parallel_for.h"
 #include "geometry/predicates.h"
+#include "geometry/workspace.h"
 #include "stripack/list_queries.h"
 #include "stripack/rings.h"
 
@@ -204,8 +205,8 @@ class Voronoi {
       if (out_.ncol < nb_ - 2) return VoronoiStatus::too_few_columns;
       far_side.make_delaunay(agenda_);
       for (Int g = 1; g <= nb_ - 2; ++g) {
-        const VoronoiStatus status =
-            write_centre(g, far_side.row(1, g), far_side.row(2, g), far_side.row(3, g));
+        const VoronoiStatus status = write_centre(g, nodes_[far_side.row(1, g)], nodes_[far_side.row(2, g)],
+                                                  nodes_[far_side.row(3, g)]);
         if (status != VoronoiStatus::done) return status;
       }
     }
@@ -217,6 +218,7 @@ class Voronoi {
       if (status == VoronoiStatus::broken_lists) broken = true;
     });
     if (broken) return VoronoiStatus::broken_lists;
+    write_listc();
     if (not_finite) return VoronoiStatus::not_finite;
     if (coincident) return VoronoiStatus::coincident_nodes;
     if (nb_ > 0) enter(far_side);
@@ -225,6 +227,18 @@ class Voronoi {
 
  private:
   static constexpr FirstPair pairs = FirstPair::last_and_first;
+  static constexpr Int none = -1;
+
+  // The corners of a triangle lie anywhere in the caller's arrays, in small pages: a dozen places a triangle.
+  // Here it is one for a node and one for its arcs, in huge pages.
+  struct Corner {
+    Vector<Real> position;
+    Int begin, end;  // its arcs
+  };
+  struct Arc {
+    Int entry;     // of LIST
+    Int triangle;  // on its left, 0 = none yet
+  };
 
   /// Everything that allocates; true if the lists have the counts of a triangulation, which also means
   /// that no array can be overrun.
@@ -252,7 +266,24 @@ class Voronoi {
     });
     first_[0] = nb_ > 0 ? nb_ - 2 : 0;
     for (std::size_t piece = 1; piece < first_.size(); ++piece) first_[piece] += first_[piece - 1];
-    return first_.back() == 2 * n - 4;
+    if (first_.back() != 2 * n - 4) return false;
+    gather();
+    return true;
+  }
+
+  void gather() {
+    const auto arcs = static_cast<std::size_t>(rings_.arcs());
+    corner_ = BlockArray<Corner>(lists_.view().n);
+    arc_ = BlockArray<Arc>(arcs + kTogether);
+    std::fill(arc_.begin() + arcs, arc_.end(), Arc{0, 0});
+    parallel_pieces(lists_.view().n, threads_, [this](std::size_t begin, std::size_t end, int) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const Int node = static_cast<Int>(i) + 1;
+        const Corner corner{nodes_[node], rings_.begin(node), rings_.end(node)};
+        corner_[i] = corner;
+        for (Int arc = corner.begin; arc < corner.end; ++arc) arc_[index(arc)] = {rings_.entry(arc), 0};
+      }
+    });
   }
 
   /// The nodes that can be the smallest corner of a triangle.
@@ -261,33 +292,70 @@ class Voronoi {
   /// The triangles of a piece of the nodes, t triangles before them.
   VoronoiStatus write_triangles(std::size_t begin, std::size_t end, Int t) {
     VoronoiStatus status = VoronoiStatus::done;
-    rings_.template for_each_triangle<pairs>(begin, end, [&](Int a, Int b, Int c, Int ab, Int ac) {
+    const auto write = [&](Int a, Int b, Int c, Int ab, Int ac) {
       ++t;
-      const auto ba = rings_.back(a, ab), ca = rings_.back(a, ac);
-      if (!ba.exists() || !ca.exists()) {
+      const Corner &at_b = corner(b), &at_c = corner(c);
+      const Int ba = back(a, at_b, ab), ca = back(a, at_c, ac);
+      if (ba == none || ca == none) {
         status = VoronoiStatus::broken_lists;
         return;
       }
-      listc(rings_.slot(ab)) = t;
-      listc(rings_.slot(ba.previous())) = t;  // b->c
-      listc(rings_.slot(ca.arc)) = t;
-      const VoronoiStatus centre = write_centre(t, a, b, c);
+      const Int bc = ba == at_b.begin ? at_b.end - 1 : ba - 1;
+      for (const Int arc : {ab, bc, ca}) arc_[index(arc)].triangle = t;
+      const VoronoiStatus centre = write_centre(t, corner(a).position, at_b.position, at_c.position);
       if (status == VoronoiStatus::done || centre == VoronoiStatus::not_finite) status = centre;
-    });
+    };
+    for (std::size_t i = begin; i < end; ++i) {
+      prefetch_after(i, end);
+      rings_.template for_each_triangle<pairs>(i, i + 1, write);
+    }
     return status;
   }
 
-  VoronoiStatus write_centre(Int t, Int a, Int b, Int c) {
-    const Vector<Real> corner = nodes_[a];
+  /// Asks for the corners, and then for the arcs, that the triangles of nodes soon after i+1 need. Inlined,
+  /// or GCC 12 takes it for a function without effect and drops the calls.
+  [[gnu::always_inline]] void prefetch_after(std::size_t i, std::size_t end) const {
+    constexpr std::size_t far = 16, near = 8;
+    if (i + far >= end) return;
+    const Int a = static_cast<Int>(i + far) + 1, soon = static_cast<Int>(i + near) + 1;
+    for (Int arc = rings_.begin(a); arc < rings_.end(a); ++arc)
+      if (const Int b = rings_.target(arc); b > a) __builtin_prefetch(&corner(b));
+    for (Int arc = rings_.begin(soon); arc < rings_.end(soon); ++arc)
+      if (const Int b = rings_.target(arc); b > soon) __builtin_prefetch(&arc_[index(corner(b).begin)], 1);
+  }
+
+  /// The arc of b that leads to a, where `arc` leads from a to b; `none` if there is none.
+  Int back(Int a, const Corner& b, Int arc) const {
+    if (b.end - b.begin > Rings<Int>::few_neighbours) return rings_.back(a, arc).arc;
+    for (Int begin = b.begin; begin < b.end; begin += kTogether) {
+      // Without branches: where the match is, is random.
+      const Arc* const arcs = arc_.data() + begin;
+      Int match = kTogether;
+      for (Int i = kTogether - 1; i >= 0; --i)
+        match = (arcs[i].entry == a) | (arcs[i].entry == -a) ? i : match;
+      if (match < kTogether) return begin + match < b.end ? begin + match : none;
+    }
+    return none;
+  }
+
+  void write_listc() {
+    parallel_pieces(static_cast<std::size_t>(rings_.arcs()), threads_,
+                    [this](std::size_t begin, std::size_t end, int) {
+                      for (std::size_t arc = begin; arc < end; ++arc)
+                        if (arc_[arc].triangle != 0)
+                          listc(rings_.slot(static_cast<Int>(arc))) = arc_[arc].triangle;
+                    });
+  }
+
+  VoronoiStatus write_centre(Int t, const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c) {
     Vector<Real> centre;
-    if (!circumcentre(corner, nodes_[b], nodes_[c], centre)) return VoronoiStatus::coincident_nodes;
-    const auto i = static_cast<std::size_t>(t - 1);
+    if (!circumcentre(a, b, c, centre)) return VoronoiStatus::coincident_nodes;
+    const std::size_t i = index(t - 1);
     out_.xc[i] = centre.x;
     out_.yc[i] = centre.y;
     out_.zc[i] = centre.z;
-    out_.rc[i] = clamped_acos(dot(corner, centre));
-    const bool finite =
-        !std::isnan(out_.rc[i]) || (is_finite(corner) && is_finite(nodes_[b]) && is_finite(nodes_[c]));
+    out_.rc[i] = clamped_acos(dot(a, centre));
+    const bool finite = !std::isnan(out_.rc[i]) || (is_finite(a) && is_finite(b) && is_finite(c));
     return finite ? VoronoiStatus::done : VoronoiStatus::not_finite;
   }
 
@@ -323,6 +391,9 @@ class Voronoi {
     *out_.lnew = unused;
   }
 
+  static constexpr Int kTogether = 8;  // arcs that are compared at once
+  static std::size_t index(Int i) { return static_cast<std::size_t>(i); }
+  const Corner& corner(Int node) const { return corner_[index(node - 1)]; }
   Int& listc(Int slot) const { return out_.listc[slot - 1]; }
   Int& lptr(Int slot) const { return out_.lptr[slot - 1]; }
 
@@ -332,6 +403,8 @@ class Voronoi {
   int threads_;
   Int start_ = 0, nb_ = 0;  // the first boundary node and their number
   Rings<Int> rings_;
+  BlockArray<Corner> corner_;
+  BlockArray<Arc> arc_;
   std::vector<Int> first_;  // the number of triangles before each piece of the nodes
   Agenda<Int> agenda_{0};
 };
