@@ -171,6 +171,46 @@ void run_pool([[maybe_unused]] const std::string& self, [[maybe_unused]] int rep
 #endif
 }
 
+// ---- in the original's order ------------------------------------------------------------------------
+
+/// TRMESH under PSTRIPACK_ORDER=original, which is read once a process: in a model of its own.
+struct OrderCase {
+  std::string name, family, order;
+  int n;
+  double original_over_ours;
+};
+const std::vector<OrderCase> kOrderCases{
+    {"order-random-1e5", "random", "given", 100000, 1},
+    {"order-random-1e6", "random", "given", 1000000, 1},
+    {"order-latlon-1e5", "latlon", "given", 100000, 20},
+    {"order-sorted-1e5", "random", "latitude", 100000, 0},
+};
+
+void run_order(const OrderCase& c, const std::string& self,
+               const std::optional<legacy_stripack::Original>& original_library, int repeats) {
+  const Nodes nodes(nodes_in_order(c.family, static_cast<std::size_t>(c.n), c.order));
+  const Model model{c.family, c.order, c.n, std::max(1, 200000 / c.n)};
+  Samples own, theirs;
+  double peak = 0;
+  while (!own.enough(repeats) || (original_library && !theirs.enough(repeats))) {
+    if (!own.enough(repeats)) {
+      const ModelFigures figures = as_model(self, "OMP_NUM_THREADS=1 PSTRIPACK_ORDER=original", model);
+      own.add(figures.seconds);
+      peak = figures.peak;
+    }
+    if (original_library && !theirs.enough(repeats))
+      theirs.add(measured([&] {
+        Lists lists(nodes.n());
+        const Stripack library = original(original_library->library());
+        return seconds_a_call([&] { library.trmesh(nodes, lists); }, model.calls);
+      }));
+  }
+  fmt::print("{:<17} {:>8} {:>9} {:>9} {:>9} {:>9} {} {:>17} {:>17} {:>9.0f}\n", c.name, nodes.n(),
+             microseconds(own, nodes.n()), microseconds(theirs, nodes.n()), "-", "-",
+             ratio(theirs, own, c.original_over_ours), "", "", peak);
+  std::fflush(stdout);
+}
+
 /// The nodes of a case. Symmetric sets are shuffled, until the first three are not on one great circle and
 /// the original comes to an end.
 std::vector<Point> nodes_of(const Case& c, const std::optional<legacy_stripack::Original>& original_library) {
@@ -239,6 +279,7 @@ const std::vector<std::string> kParallelCases{"threads-1e6", "pool-1e6"};
 std::vector<std::string> case_names() {
   std::vector<std::string> names;
   for (const Case& c : kCases) names.push_back(c.name);
+  for (const OrderCase& c : kOrderCases) names.push_back(c.name);
   names.insert(names.end(), kParallelCases.begin(), kParallelCases.end());
   return names;
 }
@@ -262,11 +303,14 @@ void run_cases(const std::string& self, const CaseSettings& settings,
       fmt::print("{:<17} {}\n", c.name, e.what());
     }
   }
+  for (const OrderCase& c : kOrderCases)
+    if (is_wanted(c.name, !quick || c.n < 1000000)) run_order(c, self, original_library, repeats);
   if (is_wanted("pool-1e6", !quick)) run_pool(self, repeats);
   if (is_wanted("threads-1e6", !quick)) run_threads(self, repeats);
   fmt::print(
       "\ncrlist: against CSCRLIST as libngmath ships it, which turns centres into latitudes and longitudes;"
-      "\ncrlist-xyz: against the same without that, as STRIPACK's CRLIST\npeak: memory during TRMESH "
+      "\ncrlist-xyz: against the same without that, as STRIPACK's CRLIST"
+      "\norder: lists in the original's order, PSTRIPACK_ORDER=original\npeak: memory during TRMESH "
       "beyond the caller's arrays; asked for: at most 220 bytes a node\n");
 }
 

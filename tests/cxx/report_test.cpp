@@ -167,10 +167,40 @@ TEST(Report, OfAForkedChildIsItsOwn) {
   EXPECT_TRUE(matches(all[7], row_of(2))) << "the parent's: one call before, one after";
 }
 
+/// Under PSTRIPACK_ORDER=original; a canonical result is one that is right by our own rules.
+TEST(Report, TellsTheOrder) {
+  const Folder folder;
+  const auto order_of = [&](const std::string& arguments) {
+    const std::string line = lines(run(folder, kOne + " PSTRIPACK_ORDER=original", arguments).err)[0];
+    return line.substr(line.find(" order=") + 1);
+  };
+  EXPECT_EQ(order_of("inserted random 1000 1"), "order=original");
+  EXPECT_EQ(order_of("calls latlon 1000 1"), "order=canonical: the original's triangulation is not Delaunay");
+  EXPECT_EQ(order_of("meridian"), "order=canonical: the original's search for node 4 does not end");
+  EXPECT_EQ(order_of("in-line"),
+            "order=canonical: to the original node 5 lies in line with all that it sees");
+}
+
+/// Four nodes of one meridian; and five of which the fourth hangs on the others by a null triangle.
+const Nodes kMeridian{{0.452695204446832, 0.5590320207484465, 0.6946583704589973},
+                      {0.4602557974987226, 0.5683685756099448, 0.6819983600624985},
+                      {0.467676192176097, 0.5775319998974023, 0.6691306063588582},
+                      {0.47495412815485366, 0.5865195023430131, 0.6560590289905072}};
+const Nodes kInLine{{-0.5773502691896258, 0.5773502691896258, -0.5773502691896258},
+                    {-0.7071067811865475, 0.7071067811865475, 0},
+                    {1, 0, 0},
+                    {-0.5773502691896258, 0.5773502691896258, 0.5773502691896258},
+                    {0, 0, 1}};
+
 /// What the cases run. Exit code 0 if all results are as without a report.
 int run_as(const std::string& action, const std::string& family, std::size_t n, int count) {
   if (action == "codes") return codes_are_right() ? 0 : 1;
+  if (action == "meridian" || action == "in-line") {
+    call_trmesh(action == "meridian" ? kMeridian : kInLine);
+    return 0;
+  }
   const Nodes nodes = point_sets::make(family, n);
+  if (action == "inserted") return trmesh(nodes).ier;
   const auto call = [&nodes] { call_trmesh(nodes); };
   if (action == "threads") {
     call_on_threads(count, call);

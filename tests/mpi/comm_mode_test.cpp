@@ -1,6 +1,7 @@
 // Comm mode: the program's own calls of TRMESH become collective, and give the same bytes.
 
 #include <array>
+#include <cstdlib>
 #include <thread>
 #include <vector>
 
@@ -140,9 +141,20 @@ TEST(CommMode, ForkedChildrenAndOtherThreadsGoOnAlone) {
   EXPECT_TRUE(trmesh(nodes) == expected);
 }
 
+/// Run under PSTRIPACK_ORDER=original on rank 0 alone.
+TEST(CommMode, RefusesRanksThatDisagreeInTheOrder) {
+  if (std::getenv("ORDER_OF_RANK_0") == nullptr) GTEST_SKIP() << "all ranks have the same";
+  EXPECT_EQ(pstripack_set_comm(MPI_COMM_WORLD), size_of() > 1 ? PSTRIPACK_RANKS_DISAGREE : 0);
+  pstripack_set_comm(MPI_COMM_NULL);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  const char* const order = std::getenv("ORDER_OF_RANK_0");
+  for (const char* variable : {"OMPI_COMM_WORLD_RANK", "PMI_RANK"})
+    if (const char* rank = std::getenv(variable); order != nullptr && rank != nullptr && std::atoi(rank) == 0)
+      setenv("PSTRIPACK_ORDER", order, 1);
   const Nodes nodes = point_sets::make("random", 400);
   const Mesh expected = trmesh(nodes);
   if (pstripack_set_comm(MPI_COMM_WORLD) != PSTRIPACK_BAD_COMM) return 1;  // MPI is not initialised

@@ -16,6 +16,7 @@
 #include "capi/version.h"
 #include "geometry/floating_point.h"
 #include "stripack/adjacency_lists.h"
+#include "stripack/original_rules.h"
 #include "stripack/trmesh.h"
 
 namespace {
@@ -42,7 +43,9 @@ bool carry_out(std::int32_t n, const Real* x, const Real* y, const Real* z, std:
                std::int32_t* lptr, std::int32_t* lend, std::int32_t* lnew, TrmeshResult& result,
                CallReport* report) noexcept {
   int answer = PSTRIPACK_ENGINE_DECLINES;
-  if (const pstripack_trmesh_engine engine = other_engine.load(std::memory_order_acquire)) {
+  const pstripack_trmesh_engine engine = other_engine.load(std::memory_order_acquire);
+  // The original's order is that of one insertion after the other: nothing for ranks.
+  if (engine != nullptr && !original_rules().follow) {
     const pstripack_trmesh_arguments call{
         static_cast<std::int32_t>(sizeof(Real)), n, x, y, z, list, lptr, lend, lnew, report};
     answer = engine(&call, &result.ier, &result.node, &result.other);
@@ -66,6 +69,8 @@ template <class Real>
   report.seconds = clock_seconds(CLOCK_MONOTONIC) - start;
   report.n = n;
   report.ier = result.ier;
+  report.order = result.order;
+  report.order_node = result.order_node;
   if (result.ier >= 0) report.nodes_in_mesh = result.ier > 0 ? result.other - 1 : n;
   for (std::int64_t k = 0; k < report.nodes_in_mesh; ++k) report.boundary_nodes += list[lend[k] - 1] < 0;
   pstripack_add_to_report(&report);
@@ -151,7 +156,7 @@ const char* pstripack_strerror(int ier) {
     case PSTRIPACK_OUT_OF_MEMORY:
       return "out of memory";
     case PSTRIPACK_RANKS_DISAGREE:
-      return "the ranks of a collective call disagree in N or in the coordinates";
+      return "the ranks of a collective call disagree in N, in the coordinates or in PSTRIPACK_ORDER";
     case PSTRIPACK_BAD_COMM:
       return "not a communicator that can be used: null, freed, an inter-communicator, or MPI is not running";
     case PSTRIPACK_COINCIDENT:

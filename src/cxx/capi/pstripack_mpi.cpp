@@ -17,6 +17,7 @@
 #include "geometry/floating_point.h"
 #include "mpi/collective_trmesh.h"
 #include "mpi/distributed_mesh.h"
+#include "stripack/original_rules.h"
 
 using namespace pstripack;
 
@@ -118,6 +119,14 @@ int comm_mode_engine(const pstripack_trmesh_arguments* call, std::int32_t* ier, 
   return mode.ranks->rank() == 0 ? PSTRIPACK_ENGINE_DID_IT : PSTRIPACK_ENGINE_DID_IT_SILENTLY;
 }
 
+/// Under PSTRIPACK_ORDER=original calls are not collective: all ranks must know. Collective.
+bool have_one_order(MpiCommunicator& ranks) {
+  const std::int64_t order = original_rules().follow ? original_rules().tolerance_in_epsilons : 0;
+  std::int64_t values[] = {order, -order};
+  ranks.all_min(values, 2);
+  return values[0] == -values[1];
+}
+
 void end_comm_mode(CommMode& mode) {
   if (mode.ranks == nullptr) return;
   pstripack_set_trmesh_engine(mode.engine_before);
@@ -188,6 +197,7 @@ int32_t pstripack_set_comm(MPI_Comm comm) {
     }
     auto ranks = make_over<MpiCommunicator>(comm);
     ranks->call_roll();
+    if (!have_one_order(*ranks)) return std::int32_t{PSTRIPACK_RANKS_DISAGREE};
     end_comm_mode_at_mpi_finalize();
     const bool is_replaced = mode.ranks != nullptr;
     mode.ranks = std::move(ranks);

@@ -93,9 +93,11 @@ class Report {
       line.add("/");
       line.add_seconds(microseconds(call.cost.total.seconds[i] / call.cost.ranks));
     }
-    line.add(" rounds=%d halo=%lld bytes=%lld\n", call.cost.maximum.rounds,
+    line.add(" rounds=%d halo=%lld bytes=%lld", call.cost.maximum.rounds,
              static_cast<long long>(call.cost.total.halo),
              static_cast<long long>(call.cost.total.bytes_sent));
+    add_order(line, call);
+    line.add("\n");
     write(line);
   }
 
@@ -103,6 +105,27 @@ class Report {
   struct Row {
     std::atomic<std::int64_t> calls{0}, us{0}, phase_us[ParallelCost::phases] = {};
   };
+
+  /// Last in the line, since it may be a sentence.
+  static void add_order(Text& line, const CallReport& call) {
+    const auto node = static_cast<long long>(call.order_node);
+    switch (call.order) {
+      case OriginalOrder::not_asked:
+        break;
+      case OriginalOrder::made:
+        line.add(" order=original");
+        break;
+      case OriginalOrder::collinear:
+        line.add(" order=canonical: to the original node %lld lies in line with all that it sees", node);
+        break;
+      case OriginalOrder::endless:
+        line.add(" order=canonical: the original's search for node %lld does not end", node);
+        break;
+      case OriginalOrder::wrong:
+        line.add(" order=canonical: the original's triangulation is not Delaunay");
+        break;
+    }
+  }
 
   void set_path(const char* path) {
     char folder[PATH_MAX] = "";

@@ -6,6 +6,7 @@
 
 #include "capi/pstripack.h"
 #include "parallel/cost.h"
+#include "stripack/trmesh.h"
 
 namespace pstripack {
 
@@ -17,6 +18,8 @@ struct CallReport {
   std::int64_t nodes_in_mesh = 0;  ///< fewer than n after IER > 0; 0: there is no mesh
   std::int64_t boundary_nodes = 0;
   std::int32_t ier = 0;
+  OriginalOrder order = OriginalOrder::not_asked;
+  std::int64_t order_node = 0;
   double seconds = 0;  ///< of the whole call
   GroupCost cost;
 };

@@ -174,12 +174,17 @@ PredicateCounts take_predicate_counts() { return std::exchange(counts, {}); }
 
 int Coordinates::left(index_t a, index_t b, index_t c) const { return pstripack::left(p_[a], p_[b], p_[c]); }
 
-bool Coordinates::above(index_t ia, index_t ib, index_t ic, index_t id) const {
+int Coordinates::height(index_t ia, index_t ib, index_t ic, index_t id) const {
   ++counts.above;
   const Point &a = p_[ia], &b = p_[ib], &c = p_[ic], &d = p_[id];
-  if (const int s = filter_orientation(a, b, c, d)) return s > 0;
+  if (const int s = filter_orientation(a, b, c, d)) return s;
   ++counts.exact;
-  if (const int s = exact_orientation(a, b, c, d)) return s > 0;
+  return exact_orientation(a, b, c, d);
+}
+
+bool Coordinates::above(index_t ia, index_t ib, index_t ic, index_t id) const {
+  if (const int s = height(ia, ib, ic, id)) return s > 0;
+  const Point &a = p_[ia], &b = p_[ib], &c = p_[ic], &d = p_[id];
   if (d == a || d == b || d == c || a == b || b == c || c == a) return false;
   return symbolic_above(a, b, c, d);
 }
@@ -248,16 +253,19 @@ int Directions::left(index_t a, index_t b, index_t c) const {
   return pstripack::left(p_[a], p_[b], p_[c]);
 }
 
-bool Directions::above(index_t ia, index_t ib, index_t ic, index_t id) const {
+int Directions::height(index_t ia, index_t ib, index_t ic, index_t id) const {
   ++counts.above;
   const Point e = difference(ib, ia), f = difference(ic, ia), g = difference(id, ia);
   const auto v = determinant(e, f, g);
   const double m = std::max({largest(e), largest(f), largest(g)});
-  if (const int s = certain_sign(v, kDirectionFactor * v.permanent + kDirectionAbsolute * m * m))
-    return s > 0;
+  if (const int s = certain_sign(v, kDirectionFactor * v.permanent + kDirectionAbsolute * m * m)) return s;
   ++counts.exact;
+  return exact_orientation_of_directions(p_[ia], p_[ib], p_[ic], p_[id]);
+}
+
+bool Directions::above(index_t ia, index_t ib, index_t ic, index_t id) const {
+  if (const int s = height(ia, ib, ic, id)) return s > 0;
   const Point &a = p_[ia], &b = p_[ib], &c = p_[ic], &d = p_[id];
-  if (const int s = exact_orientation_of_directions(a, b, c, d)) return s > 0;
   if (same_direction(a, b) || same_direction(b, c) || same_direction(c, a) || same_direction(a, d) ||
       same_direction(b, d) || same_direction(c, d))
     return false;

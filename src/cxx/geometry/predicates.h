@@ -86,9 +86,12 @@ class Coordinates {
   }
   int left(index_t a, index_t b, index_t c) const;
   bool above(index_t a, index_t b, index_t c, index_t d) const;
+  /// Without the tie rule: false for a zero.
+  bool strictly_above(index_t a, index_t b, index_t c, index_t d) const { return height(a, b, c, d) > 0; }
   bool coincide(index_t a, index_t b) const { return p_[a] == p_[b]; }
 
  private:
+  int height(index_t a, index_t b, index_t c, index_t d) const;  ///< the exact sign behind `above`
   const Point* p_;
   std::size_t n_;
 };
@@ -112,9 +115,12 @@ class Directions {
   }
   int left(index_t a, index_t b, index_t c) const;
   bool above(index_t a, index_t b, index_t c, index_t d) const;
+  /// Without the tie rule: false for a zero.
+  bool strictly_above(index_t a, index_t b, index_t c, index_t d) const { return height(a, b, c, d) > 0; }
   bool coincide(index_t a, index_t b) const { return same_direction(p_[a], p_[b]); }
 
  private:
+  int height(index_t a, index_t b, index_t c, index_t d) const;  ///< the exact sign behind `above`
   struct Unit {
     Point high, low;
   };

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 #include <vector>
+
+#include "geometry/parallel_for.h"
 
 namespace pstripack {
 namespace {
@@ -23,13 +26,13 @@ Verdict defect(Defect d, const std::string& what, std::initializer_list<index_t>
 }
 
 /// The star of every node: for each triangle (v,b,c) at v the pair b -> c, sorted by b.
-class Stars {
+class Corners {
  public:
   struct Pair {
     index_t b, c;
   };
 
-  Stars(std::size_t n, const Triangle* triangles, std::size_t count) : begin_(n + 1, 0), pairs_(3 * count) {
+  Corners(std::size_t n, const Triangle* triangles, std::size_t count) : begin_(n + 1, 0), pairs_(3 * count) {
     for (std::size_t t = 0; t < count; ++t)
       for (const index_t v : triangles[t]) ++begin_[static_cast<std::size_t>(v) + 1];
     std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
@@ -63,7 +66,7 @@ class Stars {
 
 /// The neighbours of v counterclockwise into `ring`; `closed` if the star has no gap. False if the star is
 /// not one cycle or one fan.
-bool ring_of(Stars& stars, index_t v, std::vector<index_t>& ring, bool& closed) {
+bool ring_of(Corners& stars, index_t v, std::vector<index_t>& ring, bool& closed) {
   const auto s = static_cast<std::size_t>(v);
   // A fan starts at the neighbour that no triangle of the star ends at.
   std::vector<index_t>& ends = ring;
@@ -87,67 +90,107 @@ bool ring_of(Stars& stars, index_t v, std::vector<index_t>& ring, bool& closed) 
                 : b == kNone && ring.size() == stars.degree(s) + 1;
 }
 
-/// All tests that depend on the predicates.
+/// The neighbours of one node.
+class Star {
+ public:
+  Star(const StarTable& stars, index_t v)
+      : begin_(stars.to.data() + stars.begin[static_cast<std::size_t>(v)]),
+        size_(stars.begin[static_cast<std::size_t>(v) + 1] - stars.begin[static_cast<std::size_t>(v)]),
+        is_fan_(begin_[size_ - 1] < 0) {}
+  std::size_t size() const { return size_; }
+  std::size_t triangles() const { return is_fan_ ? size_ - 1 : size_; }
+  bool is_fan() const { return is_fan_; }
+  index_t operator[](std::size_t i) const { return begin_[i] < 0 ? ~begin_[i] : begin_[i]; }
+  index_t after(std::size_t i) const { return (*this)[i + 1 == size_ ? 0 : i + 1]; }
+  index_t before(std::size_t i) const { return (*this)[i == 0 ? size_ - 1 : i - 1]; }
+  /// Are there triangles on both sides of the arc to neighbour i?
+  bool has_both_sides(std::size_t i) const { return !is_fan_ || (i > 0 && i + 1 < size_); }
+
+ private:
+  const index_t* begin_;
+  std::size_t size_;
+  bool is_fan_;
+};
+
 template <class Predicates>
-Verdict check_geometry(const Predicates& predicates, const Triangle* triangles, std::size_t count,
-                       Stars& stars) {
-  for (std::size_t t = 0; t < count; ++t) {
-    const auto [a, b, c] = triangles[t];
-    if (predicates.coincide(a, b))
-      return defect(Defect::coincident_nodes, "nodes of one triangle coincide", {a, b});
-    if (predicates.coincide(b, c))
-      return defect(Defect::coincident_nodes, "nodes of one triangle coincide", {b, c});
-    if (predicates.coincide(c, a))
-      return defect(Defect::coincident_nodes, "nodes of one triangle coincide", {c, a});
-    if (predicates.left(a, b, c) <= 0)
-      return defect(Defect::orientation, "triangle is not strictly counterclockwise", {a, b, c});
+Verdict check_triangles(const Predicates& predicates, index_t v, const Star& star) {
+  for (std::size_t i = 0; i < star.triangles(); ++i) {
+    const index_t b = star[i], c = star.after(i);
+    if (v > b || v > c) continue;  // each triangle once
+    for (const auto& [d, e] : {std::pair{v, b}, {b, c}, {c, v}})
+      if (predicates.coincide(d, e))
+        return defect(Defect::coincident_nodes, "nodes of one triangle coincide", {d, e});
+    if (predicates.left(v, b, c) <= 0)
+      return defect(Defect::orientation, "triangle is not strictly counterclockwise", {v, b, c});
   }
-  // All triangles being counterclockwise, each turns by less than 180 degrees around each of its corners;
-  // so the side of the arc v - ring[0] on which the neighbours lie shows how often the star winds: left,
-  // at most one exactly opposite, right, and never left again.
-  std::vector<index_t> ring;
-  for (std::size_t s = 0; s < predicates.size(); ++s) {
-    const auto v = static_cast<index_t>(s);
-    bool closed = false;
-    ring_of(stars, v, ring, closed);
-    bool on_the_right = false;
-    for (std::size_t i = 1; i < ring.size(); ++i) {
-      const int side = predicates.left(v, ring[0], ring[i]);
-      if (!closed && (side < 0 || (side == 0 && i + 1 < ring.size())))
-        return defect(Defect::not_convex, "boundary is not convex at node", {v, ring.front(), ring.back()});
-      if (on_the_right && side >= 0)
-        return defect(Defect::not_covered_once, "triangles wind more than once around node", {v});
-      on_the_right = on_the_right || side <= 0;
-    }
-  }
-  for (std::size_t t = 0; t < count; ++t)
-    for (std::size_t i = 0; i < 3; ++i) {
-      const index_t a = triangles[t][i], b = triangles[t][(i + 1) % 3], c = triangles[t][(i + 2) % 3];
-      if (b > c) continue;  // each arc once
-      const index_t d = stars.beyond(c, b);
-      if (d != kNone && predicates.above(a, b, c, d))
-        return defect(Defect::not_delaunay, "arc is not locally Delaunay (arc, opposite nodes)",
-                      {b, c, a, d});
-    }
   return {};
 }
 
-Verdict check_topology(std::size_t n, const Triangle* triangles, std::size_t count, Stars& stars) {
-  std::vector<index_t> ring;
-  std::size_t boundary_arcs = 0;
-  for (std::size_t s = 0; s < n; ++s) {
-    const auto v = static_cast<index_t>(s);
-    if (stars.degree(s) == 0) return defect(Defect::missing_node, "node is in no triangle", {v});
-    for (auto* p = stars.begin(s); p + 1 < stars.end(s); ++p)
-      if (p[0].b == p[1].b)
-        return defect(Defect::not_manifold, "arc has two triangles on one side (arc, opposite nodes)",
-                      {v, p[0].b, p[0].c, p[1].c});
-    bool closed = false;
-    if (!ring_of(stars, v, ring, closed))
-      return defect(Defect::not_manifold, "triangles around node are not one cycle or one fan", {v});
-    if (!closed) ++boundary_arcs;
+/// All triangles being counterclockwise, each turns by less than 180 degrees around each of its corners; so
+/// the side of the arc from v to its first neighbour on which the others lie shows how often the star winds:
+/// left, at most one exactly opposite, right, and never left again.
+template <class Predicates>
+Verdict check_winding(const Predicates& predicates, index_t v, const Star& star) {
+  bool on_the_right = false;
+  for (std::size_t i = 1; i < star.size(); ++i) {
+    const int side = predicates.left(v, star[0], star[i]);
+    if (star.is_fan() && (side < 0 || (side == 0 && i + 1 < star.size())))
+      return defect(Defect::not_convex, "boundary is not convex at node", {v, star[0], star.before(0)});
+    if (on_the_right && side >= 0)
+      return defect(Defect::not_covered_once, "triangles wind more than once around node", {v});
+    on_the_right = on_the_right || side <= 0;
   }
-  // Connected, by merging the corners of every triangle.
+  return {};
+}
+
+template <class Predicates>
+Verdict check_arcs(const Predicates& predicates, index_t v, const Star& star, Ties ties) {
+  for (std::size_t i = 0; i < star.size(); ++i) {
+    const index_t b = star[i];
+    if (v > b || !star.has_both_sides(i)) continue;  // each arc once
+    const index_t c = star.after(i), d = star.before(i);
+    if (ties == Ties::by_rule ? predicates.above(v, b, c, d) : predicates.strictly_above(v, b, c, d))
+      return defect(Defect::not_delaunay, "arc is not locally Delaunay (arc, opposite nodes)", {v, b, c, d});
+  }
+  return {};
+}
+
+/// All tests that depend on the predicates. Of several defects that of the first kind of test is reported:
+/// the later ones mean something only where the earlier ones hold.
+template <class Predicates>
+Verdict check_geometry(const Predicates& predicates, const StarTable& stars, Ties ties) {
+  constexpr std::size_t kTests = 3, kAhead = 8;
+  const int threads = threads_for(10 * stars.size());
+  std::vector<Verdict> found(kTests * static_cast<std::size_t>(threads));
+  parallel_pieces(stars.size(), threads, [&](std::size_t first, std::size_t last, int piece) {
+    Verdict* const verdicts = found.data() + kTests * static_cast<std::size_t>(piece);
+    std::size_t tests = kTests;  // that are still to be made
+    for (std::size_t v = first; v < last; ++v) {
+      if (v + kAhead < last)
+        for (std::size_t i = stars.begin[v + kAhead]; i < stars.begin[v + kAhead + 1]; ++i)
+          __builtin_prefetch(&predicates.position(stars.to[i] < 0 ? ~stars.to[i] : stars.to[i]));
+      const auto node = static_cast<index_t>(v);
+      const Star star(stars, node);
+      for (std::size_t test = 0; test < tests; ++test) {
+        Verdict verdict = test == 0   ? check_triangles(predicates, node, star)
+                          : test == 1 ? check_winding(predicates, node, star)
+                                      : check_arcs(predicates, node, star, ties);
+        if (verdict) continue;
+        verdicts[test] = std::move(verdict);
+        tests = test;
+      }
+    }
+  });
+  for (std::size_t test = 0; test < kTests; ++test)
+    for (std::size_t piece = 0; piece < static_cast<std::size_t>(threads); ++piece)
+      if (const Verdict& v = found[kTests * piece + test]; !v) return v;
+  return {};
+}
+
+/// One sphere or one disc? Of stars that are cycles and fans.
+Verdict check_surface(const StarTable& stars) {
+  const std::size_t n = stars.size();
+  std::size_t boundary_arcs = 0, components = n;
   std::vector<index_t> root(n);
   std::iota(root.begin(), root.end(), 0);
   const auto find = [&](index_t v) {
@@ -156,14 +199,19 @@ Verdict check_topology(std::size_t n, const Triangle* triangles, std::size_t cou
           root[static_cast<std::size_t>(root[static_cast<std::size_t>(v)])];
     return v;
   };
-  std::size_t components = n;
-  for (std::size_t t = 0; t < count; ++t)
-    for (const index_t v : {triangles[t][1], triangles[t][2]}) {
-      const index_t a = find(triangles[t][0]), b = find(v);
+  for (std::size_t v = 0; v < n; ++v) {
+    const Star star(stars, static_cast<index_t>(v));
+    boundary_arcs += star.is_fan() ? 1 : 0;  // a boundary node starts exactly one
+    for (std::size_t i = 0; i < star.size(); ++i) {
+      if (star[i] > static_cast<index_t>(v)) continue;  // each arc once
+      const index_t a = find(static_cast<index_t>(v)), b = find(star[i]);
       if (a != b) root[static_cast<std::size_t>(a)] = b, --components;
     }
-  // A boundary node starts exactly one boundary arc. V - E + F with 2 E = 3 F + boundary arcs.
-  const auto euler2 = 2 * static_cast<std::ptrdiff_t>(n) - static_cast<std::ptrdiff_t>(count) -
+  }
+  // V - E + F with 2 E = 3 F + boundary arcs; a node has as many triangles as neighbours, at the boundary one
+  // fewer.
+  const std::size_t triangles = (stars.begin[n] - boundary_arcs) / 3;
+  const auto euler2 = 2 * static_cast<std::ptrdiff_t>(n) - static_cast<std::ptrdiff_t>(triangles) -
                       static_cast<std::ptrdiff_t>(boundary_arcs);
   if (components != 1 || euler2 != (boundary_arcs == 0 ? 4 : 2)) {
     Verdict v = defect(Defect::not_covered_once, "", {});
@@ -175,14 +223,58 @@ Verdict check_topology(std::size_t n, const Triangle* triangles, std::size_t cou
   return {};
 }
 
+/// Is every node in triangles that are one cycle or one fan? Then they are the stars.
+Verdict find_stars(Corners& corners, StarTable& stars) {
+  std::vector<index_t> ring;
+  std::size_t end = 0;
+  stars.begin[0] = 0;
+  for (std::size_t s = 0; s < stars.size(); ++s) {
+    const auto v = static_cast<index_t>(s);
+    if (corners.degree(s) == 0) return defect(Defect::missing_node, "node is in no triangle", {v});
+    for (auto* p = corners.begin(s); p + 1 < corners.end(s); ++p)
+      if (p[0].b == p[1].b)
+        return defect(Defect::not_manifold, "arc has two triangles on one side (arc, opposite nodes)",
+                      {v, p[0].b, p[0].c, p[1].c});
+    bool closed = false;
+    if (!ring_of(corners, v, ring, closed))
+      return defect(Defect::not_manifold, "triangles around node are not one cycle or one fan", {v});
+    if (!closed) ring.back() = ~ring.back();
+    std::copy(ring.begin(), ring.end(), stars.to.begin() + end);
+    end += ring.size();
+    stars.begin[s + 1] = static_cast<std::uint32_t>(end);
+  }
+  return {};
+}
+
+Verdict check_directions(const Point* p, std::size_t n) {
+  const Point* const bad = std::find_if_not(p, p + n, has_direction);
+  return bad == p + n ? Verdict{}
+                      : defect(Defect::malformed, "node has no direction", {static_cast<index_t>(bad - p)});
+}
+
 }  // namespace
 
-Verdict is_valid(const Point* p, std::size_t n, const Triangle* triangles, std::size_t count,
-                 Lengths lengths) {
+Verdict is_valid(const Point* p, const StarTable& stars, Lengths lengths, Ties ties) {
+  const std::size_t n = stars.size();
+  if (Verdict v = check_directions(p, n); !v) return v;
+  if (Verdict v = check_surface(stars); !v) return v;
+
+  Verdict as_given;
+  if (lengths != Lengths::directions &&
+      (lengths == Lengths::as_given || std::all_of(p, p + n, length_is_one))) {
+    as_given = check_geometry(Coordinates(p, n), stars, ties);
+    if (as_given || lengths == Lengths::as_given) return as_given;
+  }
+  Verdict directions = check_geometry(Directions(p, n), stars, ties);
+  directions.lengths = Lengths::directions;
+  // Wrong either way: the predicates that lengths near 1 ask for name the defect.
+  return directions || as_given ? directions : as_given;
+}
+
+Verdict is_valid(const Point* p, std::size_t n, const Triangle* triangles, std::size_t count, Lengths lengths,
+                 Ties ties) {
   if (n < 3) return defect(Defect::malformed, "fewer than three nodes", {});
-  for (std::size_t i = 0; i < n; ++i)
-    if (!std::isfinite(p[i].x) || !std::isfinite(p[i].y) || !std::isfinite(p[i].z) || p[i] == Point{0, 0, 0})
-      return defect(Defect::malformed, "node has no direction", {static_cast<index_t>(i)});
+  if (Verdict v = check_directions(p, n); !v) return v;
   for (std::size_t t = 0; t < count; ++t) {
     const auto [a, b, c] = triangles[t];
     for (const index_t v : {a, b, c})
@@ -191,19 +283,10 @@ Verdict is_valid(const Point* p, std::size_t n, const Triangle* triangles, std::
     if (a == b || b == c || c == a)
       return defect(Defect::malformed, "triangle with one node twice", {a, b, c});
   }
-  Stars stars(n, triangles, count);
-  if (Verdict v = check_topology(n, triangles, count, stars); !v) return v;
-
-  Verdict as_given;
-  if (lengths != Lengths::directions &&
-      (lengths == Lengths::as_given || std::all_of(p, p + n, length_is_one))) {
-    as_given = check_geometry(Coordinates(p, n), triangles, count, stars);
-    if (as_given || lengths == Lengths::as_given) return as_given;
-  }
-  Verdict directions = check_geometry(Directions(p, n), triangles, count, stars);
-  directions.lengths = Lengths::directions;
-  // Wrong either way: the predicates that lengths near 1 ask for name the defect.
-  return directions || as_given ? directions : as_given;
+  Corners corners(n, triangles, count);
+  StarTable stars(n, 6 * count);  // each triangle has three corners and brings at most as many gaps
+  if (Verdict v = find_stars(corners, stars); !v) return v;
+  return is_valid(p, stars, lengths, ties);
 }
 
 const char* name(Defect defect) {

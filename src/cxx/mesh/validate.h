@@ -2,8 +2,10 @@
 // The validator: shares the exact predicates with the algorithm, and nothing else.
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
+#include "geometry/workspace.h"
 #include "mesh/triangulation.h"
 
 namespace pstripack {
@@ -18,6 +20,12 @@ enum class Defect {
   not_delaunay,      ///< an arc whose opposite node lies in the cap (ties by the rule)
   not_covered_once,  ///< the star of a node winds not exactly once, wrong Euler number, not connected
   not_convex         ///< a boundary node where the covered region is not convex
+};
+
+/// Which diagonal of four nodes in one circle, exactly, is right.
+enum class Ties {
+  by_rule,    ///< that of the symbolic rule (predicates.h): one triangulation is valid
+  either_way  ///< both are
 };
 
 /// What is_valid found. `node` holds up to four node indices (from 0, else -1) that show the defect.
@@ -38,7 +46,22 @@ struct Verdict {
 ///    Euler number is that of a sphere or a disc. That these local tests suffice: docs/design.md.
 /// Any number of triangles and any indices may be passed: nothing is assumed. O(n log n).
 Verdict is_valid(const Point* p, std::size_t n, const Triangle* triangles, std::size_t count,
-                 Lengths lengths = Lengths::automatic);
+                 Lengths lengths = Lengths::automatic, Ties ties = Ties::by_rule);
+
+/// The neighbours of all nodes, indices from 0: those of v are to[begin[v]] to to[begin[v+1]-1],
+/// counterclockwise, all different. The star of v is a cycle; or a fan, and then the last one is negative, as
+/// `~last`.
+struct StarTable {
+  explicit StarTable(std::size_t n, std::size_t neighbours) : begin(n + 1), to(neighbours) {}
+  std::size_t size() const { return begin.size() - 1; }
+  BlockArray<std::uint32_t> begin;
+  BlockArray<index_t> to;
+};
+
+/// The same of triangles that are given by the stars of their corners, which must agree: c follows b round a
+/// if and only if a follows c round b. Parallel.
+Verdict is_valid(const Point* p, const StarTable& stars, Lengths lengths = Lengths::automatic,
+                 Ties ties = Ties::by_rule);
 
 const char* name(Defect defect);
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "geometry/parallel_for.h"
@@ -119,81 +121,157 @@ void for_each_triangle_at(const ListsView<Int>& lists, std::size_t k, const Visi
   } while (slot != last);
 }
 
-}  // namespace
+/// Where a neighbour stands in a star. Short stars are searched, others by a sorted table of their own.
+class Places {
+ public:
+  explicit Places(const StarTable& stars) : stars_(stars) {
+    for (std::size_t v = 0; v < stars.size(); ++v) {
+      const std::uint32_t begin = stars.begin[v], end = stars.begin[v + 1];
+      if (end - begin <= kFew) continue;
+      hubs_.push_back({v, entries_.size()});
+      for (std::uint32_t i = begin; i < end; ++i) entries_.push_back({neighbour(i), i});
+      std::sort(entries_.begin() + static_cast<std::ptrdiff_t>(hubs_.back().entries), entries_.end());
+    }
+  }
 
+  index_t neighbour(std::uint32_t i) const { return stars_.to[i] < 0 ? ~stars_.to[i] : stars_.to[i]; }
+
+  /// The first place of `wanted` in the star of v, or the end of the star.
+  std::uint32_t find(index_t v, index_t wanted) const {
+    const auto s = static_cast<std::size_t>(v);
+    std::uint32_t i = stars_.begin[s];
+    const std::uint32_t end = stars_.begin[s + 1];
+    if (end - i <= kFew) {
+      while (i < end && neighbour(i) != wanted) ++i;
+      return i;
+    }
+    const auto [first, last] = entries_of(s);
+    const Entry* const entry = std::lower_bound(first, last, Entry{wanted, 0});
+    return entry != last && entry->first == wanted ? entry->second : end;
+  }
+
+  bool has_one_twice(std::size_t v) const {
+    const std::uint32_t begin = stars_.begin[v], end = stars_.begin[v + 1];
+    if (end - begin > kFew) {
+      const auto [first, last] = entries_of(v);
+      return std::adjacent_find(first, last,
+                                [](const Entry& a, const Entry& b) { return a.first == b.first; }) != last;
+    }
+    for (std::uint32_t i = begin; i < end; ++i)
+      for (std::uint32_t j = begin; j < i; ++j)
+        if (neighbour(i) == neighbour(j)) return true;
+    return false;
+  }
+
+ private:
+  static constexpr std::uint32_t kFew = 24;
+  using Entry = std::pair<index_t, std::uint32_t>;
+  struct Hub {
+    std::size_t node, entries;
+  };
+
+  std::pair<const Entry*, const Entry*> entries_of(std::size_t v) const {
+    const auto hub = std::lower_bound(hubs_.begin(), hubs_.end(), v,
+                                      [](const Hub& h, std::size_t node) { return h.node < node; });
+    const Entry* const first = entries_.data() + hub->entries;
+    return {first, first + (stars_.begin[v + 1] - stars_.begin[v])};
+  }
+
+  const StarTable& stars_;
+  std::vector<Hub> hubs_;
+  std::vector<Entry> entries_;
+};
+
+/// The neighbours of all nodes in the order of the lists, if these are closed and of the slots 1..LNEW-1.
 template <class Int>
-Verdict check_lists(const ListsView<Int>& lists) {
+Verdict read_stars(const ListsView<Int>& lists, StarTable& stars) {
   const std::size_t n = lists.n;
-  if (n < 3) return malformed("fewer than three nodes", 0);
   const std::size_t most = 6 * n - 12;
   if (lists.lnew != 0 && (lists.lnew < 1 || static_cast<std::size_t>(lists.lnew) > most + 1))
     return malformed("LNEW is out of range", 0);
   const std::size_t slots = lists.lnew != 0 ? static_cast<std::size_t>(lists.lnew) - 1 : most;
   const auto in_range = [](Int v, std::size_t last) { return v >= 1 && static_cast<std::size_t>(v) <= last; };
 
-  // Every slot once, every neighbour in range. pair_of: for each node its neighbours b with the one after b.
-  struct Pair {
-    std::size_t b, c;
-  };
   std::vector<bool> visited(slots + 1, false);
-  std::vector<std::size_t> begin(n + 1, 0);
-  std::vector<Pair> pairs;
-  pairs.reserve(slots);
+  std::uint32_t end = 0;
+  stars.begin[0] = 0;
   for (std::size_t k = 0; k < n; ++k) {
     const Int last = lists.lend[k];
     if (!in_range(last, slots)) return malformed("LEND is out of range", k);
     Int slot = last;
     do {
-      const Int next = lists.lptr[slot - 1];
-      if (!in_range(next, slots)) return malformed("LPTR is out of range", k);
-      if (visited[static_cast<std::size_t>(next)])
+      slot = lists.lptr[slot - 1];
+      if (!in_range(slot, slots)) return malformed("LPTR is out of range", k);
+      if (visited[static_cast<std::size_t>(slot)])
         return malformed("a slot is in two lists, or a list is not closed", k);
-      visited[static_cast<std::size_t>(next)] = true;
-      const Int b = lists.list[slot - 1], c = lists.list[next - 1];
-      if (c < 0 && next != last) return malformed("a negative neighbour that is not the last", k);
-      if (c < -std::numeric_limits<Int>::max() || !in_range(c < 0 ? -c : c, n) || absolute(c) == k + 1)
+      visited[static_cast<std::size_t>(slot)] = true;
+      const Int b = lists.list[slot - 1];
+      if (b < 0 && slot != last) return malformed("a negative neighbour that is not the last", k);
+      if (b < -std::numeric_limits<Int>::max() || !in_range(b < 0 ? -b : b, n) || absolute(b) == k + 1)
         return malformed("a neighbour is out of range", k);
-      // b is checked when it is reached as a successor: the last one, where this starts, in the end.
-      pairs.push_back({b > 0 ? static_cast<std::size_t>(b) - 1 : n, absolute(c) - 1});
-      slot = next;
+      stars.to[end++] = b < 0 ? static_cast<index_t>(b) : static_cast<index_t>(b - 1);  // ~(|b|-1) == b
     } while (slot != last);
-    begin[k + 1] = pairs.size();
-    if (begin[k + 1] - begin[k] < 2) return malformed("fewer than two neighbours", k);
+    stars.begin[k + 1] = end;
+    if (end - stars.begin[k] < 2) return malformed("fewer than two neighbours", k);
   }
   // Slots 1..LNEW-1 and no others; where LNEW is not known, without holes.
-  const std::size_t used = pairs.size();
-  if (lists.lnew != 0 && used != slots)
+  if (lists.lnew != 0 && end != slots)
     return malformed("LNEW does not match the number of neighbours", n - 1);
-  for (std::size_t s = 1; s <= used; ++s)
+  for (std::size_t s = 1; s <= end; ++s)
     if (!visited[s]) return malformed("slots in use are not 1..LNEW-1", n - 1);
+  return {};
+}
 
-  for (std::size_t k = 0; k < n; ++k)
-    std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(begin[k]),
-              pairs.begin() + static_cast<std::ptrdiff_t>(begin[k + 1]),
-              [](const Pair& s, const Pair& t) { return s.b < t.b; });
-  for (std::size_t k = 0; k < n; ++k)
-    for (std::size_t i = begin[k]; i < begin[k + 1]; ++i) {
-      const auto [b, c] = pairs[i];
-      if (i > begin[k] && pairs[i - 1].b == b && b != n) return malformed("a neighbour twice", k);
-      if (b == n) continue;  // after the last neighbour of a boundary node: the gap
+/// Do the stars agree with each other?
+Verdict check_stars(const StarTable& stars) {
+  constexpr std::size_t kAhead = 8;
+  const Places places(stars);
+  for (std::size_t k = 0; k < stars.size(); ++k) {
+    if (k + kAhead < stars.size())
+      for (std::uint32_t i = stars.begin[k + kAhead]; i < stars.begin[k + kAhead + 1]; ++i)
+        __builtin_prefetch(&stars.begin[static_cast<std::size_t>(places.neighbour(i))]);
+    if (k + kAhead / 2 < stars.size())
+      for (std::uint32_t i = stars.begin[k + kAhead / 2]; i < stars.begin[k + kAhead / 2 + 1]; ++i)
+        __builtin_prefetch(&stars.to[stars.begin[static_cast<std::size_t>(places.neighbour(i))]]);
+    if (places.has_one_twice(k)) return malformed("a neighbour twice", k);
+    const std::uint32_t begin = stars.begin[k], end = stars.begin[k + 1];
+    for (std::uint32_t i = begin; i < end; ++i) {
+      const auto b = static_cast<std::size_t>(places.neighbour(i));
+      const std::uint32_t b_begin = stars.begin[b], b_end = stars.begin[b + 1];
+      const std::uint32_t place = places.find(static_cast<index_t>(b), static_cast<index_t>(k));
+      if (stars.to[i] < 0) {
+        // The last neighbour of a boundary node follows it on the boundary the other way round.
+        if (stars.to[b_end - 1] >= 0 || place != b_begin)
+          return malformed("its last neighbour is not the boundary node before it", k);
+        continue;
+      }
       // c follows b in k's list, so k must follow c in b's list.
-      const auto last = pairs.begin() + static_cast<std::ptrdiff_t>(begin[b + 1]);
-      const auto p = std::lower_bound(pairs.begin() + static_cast<std::ptrdiff_t>(begin[b]), last, c,
-                                      [](const Pair& s, std::size_t value) { return s.b < value; });
-      if (p == last || p->b != c || p->c != k)
+      const index_t c = places.neighbour(i + 1 == end ? begin : i + 1);
+      const std::uint32_t before = place == b_begin ? b_end - 1 : place - 1;
+      if (place == b_end || stars.to[before] != c)
         return malformed("neighbours " + std::to_string(b + 1) + ", " + std::to_string(c + 1) +
                              " make no triangle in the list of the first",
                          k);
     }
-  // The last neighbour of a boundary node follows it on the boundary the other way round.
-  for (std::size_t k = 0; k < n; ++k)
-    if (lists.list[lists.lend[k] - 1] < 0) {
-      const std::size_t previous = absolute(lists.list[lists.lend[k] - 1]) - 1;
-      const Int last = lists.lend[previous];
-      if (lists.list[last - 1] > 0 || absolute(lists.list[lists.lptr[last - 1] - 1]) != k + 1)
-        return malformed("the boundary is broken", k);
-    }
+  }
   return {};
+}
+
+/// check_lists; the stars of good lists are left in `stars`.
+template <class Int>
+Verdict stars_of(const ListsView<Int>& lists, std::optional<StarTable>& stars) {
+  if (lists.n < 3) return malformed("fewer than three nodes", 0);
+  stars.emplace(lists.n, 6 * lists.n - 12);
+  if (Verdict v = read_stars(lists, *stars); !v) return v;
+  return check_stars(*stars);
+}
+
+}  // namespace
+
+template <class Int>
+Verdict check_lists(const ListsView<Int>& lists) {
+  std::optional<StarTable> stars;
+  return stars_of(lists, stars);
 }
 
 template <class Int>
@@ -226,10 +304,10 @@ Triangles triangles_of(const ListsView<Int>& lists) {
 }
 
 template <class Int>
-Verdict is_valid(const Point* p, const ListsView<Int>& lists, Lengths lengths) {
-  if (Verdict v = check_lists(lists); !v) return v;
-  const Triangles triangles = triangles_of(lists);
-  return is_valid(p, lists.n, triangles.data(), triangles.size(), lengths);
+Verdict is_valid(const Point* p, const ListsView<Int>& lists, Lengths lengths, Ties ties) {
+  std::optional<StarTable> stars;
+  if (Verdict v = stars_of(lists, stars); !v) return v;
+  return is_valid(p, *stars, lengths, ties);
 }
 
 #define PSTRIPACK_INSTANTIATE(Int)                                     \
@@ -237,7 +315,7 @@ Verdict is_valid(const Point* p, const ListsView<Int>& lists, Lengths lengths) {
   template Verdict check_lists(const ListsView<Int>&);                 \
   template bool lists_are_canonical(const ListsView<Int>&);            \
   template Triangles triangles_of(const ListsView<Int>&);              \
-  template Verdict is_valid(const Point*, const ListsView<Int>&, Lengths);
+  template Verdict is_valid(const Point*, const ListsView<Int>&, Lengths, Ties);
 PSTRIPACK_INSTANTIATE(std::int32_t)
 #undef PSTRIPACK_INSTANTIATE
 

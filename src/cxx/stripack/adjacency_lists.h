@@ -46,6 +46,7 @@ Triangles triangles_of(const ListsView<Int>& lists);
 
 /// check_lists, then is_valid of the triangles.
 template <class Int>
-Verdict is_valid(const Point* p, const ListsView<Int>& lists, Lengths lengths = Lengths::automatic);
+Verdict is_valid(const Point* p, const ListsView<Int>& lists, Lengths lengths = Lengths::automatic,
+                 Ties ties = Ties::by_rule);
 
 }  // namespace pstripack

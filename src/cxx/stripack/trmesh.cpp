@@ -1,5 +1,6 @@
 #include "stripack/trmesh.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -12,6 +13,8 @@
 #include "stripack/adjacency_lists.h"
 #include "stripack/copy_nodes.h"
 #include "stripack/list_pieces.h"
+#include "stripack/original_order.h"
+#include "stripack/original_rules.h"
 
 namespace pstripack {
 namespace {
@@ -56,6 +59,31 @@ Pairs lists_of_one_hull(const Point* p, std::size_t n, Workspace& workspace, Int
   return pairs;
 }
 
+/// The lists as the original makes them, if they are right: a result with the order `made`. Otherwise nothing
+/// is written. p: the nodes.
+template <class Real, class Int>
+TrmeshResult lists_in_original_order(Int n, const Real* x, const Real* y, const Real* z, const Point* p,
+                                     Int* list, Int* lptr, Int* lend, Int* lnew, ParallelCost* cost) {
+  const InsertedNodes<Int> inserted = [&] {
+    const PhaseTimer timer(cost, ParallelCost::triangulate);
+    return insert_in_order(n, x, y, z, original_rules(), Hopeless::ends);
+  }();
+  const auto [end, node, other] = inserted.outcome;
+  if (end == InsertionEnd::collinear) return {0, 0, 0, OriginalOrder::collinear, node};
+  if (end == InsertionEnd::endless) return {0, 0, 0, OriginalOrder::endless, node};
+
+  const PhaseTimer timer(cost, ParallelCost::lists);
+  if (end == InsertionEnd::hopeless || !is_valid(p, inserted.view(), Lengths::automatic, Ties::either_way))
+    return {0, 0, 0, OriginalOrder::wrong};
+  std::copy_n(inserted.list.data(), inserted.list.size(), list);
+  std::copy_n(inserted.lptr.data(), inserted.lptr.size(), lptr);
+  std::copy_n(inserted.lend.data(), inserted.lend.size(), lend);
+  *lnew = inserted.lnew;
+  if (end == InsertionEnd::coincident)
+    return {static_cast<std::int32_t>(other), other, node, OriginalOrder::made};
+  return {0, 0, 0, OriginalOrder::made};
+}
+
 }  // namespace
 
 template <class Real, class Int>
@@ -77,6 +105,12 @@ TrmeshResult trmesh(Int n, const Real* x, const Real* y, const Real* z, Int* lis
   if (look.first_bad < nodes) return {-5, static_cast<std::int64_t>(look.first_bad) + 1};
   if (left(p[0], p[1], p[2]) == 0) return {-2};
 
+  TrmeshResult result{0};
+  if (original_rules().follow) {
+    result = lists_in_original_order(n, x, y, z, p, list, lptr, lend, lnew, cost);
+    if (result.order == OriginalOrder::made) return result;
+  }
+
   // Writes the lists of the first `nodes` nodes, or returns sets of nodes that coincide.
   const auto triangulate_them = [&] {
     if (!on_threads) return lists_of_one_hull(p, nodes, workspace, list, lptr, lend, lnew, cost);
@@ -85,7 +119,7 @@ TrmeshResult trmesh(Int n, const Real* x, const Real* y, const Real* z, Int* lis
     return lists_of_one_hull(p, nodes, own_workspace, list, lptr, lend, lnew, cost);
   };
   const Pairs pairs = triangulate_them();
-  if (pairs.empty()) return {0};
+  if (pairs.empty()) return result;
   // Nodes 1..M-1 do not coincide, and the first three are not on one great circle: M > 3.
   const Coincidence first = first_coincidence(pairs);
   nodes = static_cast<std::size_t>(first.m) - 1;
@@ -93,7 +127,10 @@ TrmeshResult trmesh(Int n, const Real* x, const Real* y, const Real* z, Int* lis
   p = workspace.take<Point>(nodes);
   copy();
   triangulate_them();
-  return {static_cast<std::int32_t>(first.l), first.l, first.m};
+  result.ier = static_cast<std::int32_t>(first.l);
+  result.node = first.l;
+  result.other = first.m;
+  return result;
 }
 
 template TrmeshResult trmesh(std::int32_t, const double*, const double*, const double*, std::int32_t*,

@@ -1,0 +1,217 @@
+#pragma once
+// The search of TRFIND by its rounded tests, step for step as the original makes it.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "stripack/expressions.h"
+#include "stripack/search.h"
+
+namespace pstripack {
+
+/// Names: o is the node from which we look, r and l the right and left end of the arc through which we look,
+/// side(a,b) > 0 where p lies left of a->b; l_of_o is the slot of l in the list of o. Lists answers the
+/// questions of InsertionLists; back(a, slot) is the slot of a in the list of the neighbour in that slot of
+/// a's list. draw(n) is a random node.
+template <class Real, class Int, class Lists, class Draw>
+class TrfindWalk {
+ public:
+  TrfindWalk(const Vector<Real>& p, const Lists& lists, Real tolerance, Draw draw)
+      : p_(p), lists_(lists), tolerance_(tolerance), draw_(draw) {}
+
+  /// False if it gave up. `found` as TRFIND returns it, all 0 where all nodes lie in line.
+  bool find(Int o, Location<Int>& found) {
+    while (--steps_ >= 0) {
+      Int r, l, l_of_o;
+      switch (look_out(o, r, l, l_of_o)) {
+        case View::wedge:
+          switch (walk(o, r, l, l_of_o, found)) {
+            case Walk::arrived:
+              return true;
+            case Walk::left_the_hull:
+              return see_boundary(r, l, found);
+            case Walk::astray:
+              o = draw_(lists_.size());
+          }
+          break;
+        case View::outside:
+          return see_boundary(r, l, found);
+        case View::move_on:
+          break;
+        case View::collinear:
+          found = {0, 0, 0};
+          return true;
+      }
+    }
+    return false;
+  }
+  /// Of the triangle that was found: the slot of i2 in the list of i1.
+  Int slot_found() const { return slot_found_; }
+
+ private:
+  enum class View { wedge, outside, move_on, collinear };
+  enum class Walk { arrived, left_the_hull, astray };
+  static constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
+
+  Real side(Int a, Int b) const { return pstripack::side(lists_[a], lists_[b], p_); }
+  Real dot(Int a, Int b) const { return pstripack::dot(lists_[a], lists_[b]); }
+  Real dot_p(Int a) const { return pstripack::dot(p_, lists_[a]); }
+
+  /// Finds adjacent neighbours r, l of o between which p lies, or a boundary arc r->l with p to its right.
+  View look_out(Int& o, Int& r, Int& l, Int& l_of_o) const {
+    const Int last_slot = lists_.last_slot(o), first_slot = lists_.next(last_slot);
+    const Int last = lists_.neighbour(last_slot), first = lists_.neighbour(first_slot);
+    Int slot = first_slot;
+    r = first;
+    if (lists_.entry(last_slot) < 0) {
+      if (side(o, first) < 0) {
+        r = o;
+        l = first;
+        return View::outside;
+      }
+      if (side(last, o) < 0) {
+        r = last;
+        l = o;
+        return View::outside;
+      }
+    } else {
+      while (side(o, r) < 0) {
+        slot = lists_.next(slot);
+        r = lists_.neighbour(slot);
+        if (r == last) {
+          l = first;
+          l_of_o = first_slot;
+          return View::wedge;
+        }
+      }
+    }
+    do {
+      slot = lists_.next(slot);
+      l = lists_.neighbour(slot);
+      l_of_o = slot;
+      if (side(o, l) < 0) return View::wedge;
+      r = l;
+    } while (r != last);
+    l = first;
+    l_of_o = first_slot;
+    if (side(o, first) < 0) return View::wedge;
+
+    // p is not strictly right of any arc from o: it lies in line with one, or is o or its antipode.
+    if (std::abs(dot_p(o)) < 1 - 4 * epsilon) {
+      for (slot = last_slot; !(side(r, o) < 0); r = lists_.neighbour(slot)) {
+        slot = lists_.next(slot);
+        if (slot == last_slot) return View::collinear;
+      }
+    }
+    o = r;
+    return View::move_on;
+  }
+
+  /// Crosses triangle by triangle away from o, through arcs r-l, until p lies before the arc.
+  ///
+  ///        beyond            m_of_l, the slot of `beyond` in the list of l, follows that of r; the next arc
+  ///        is /    \            r-beyond, if that has p on the other side than o-beyond, or else beyond-l
+  ///       l ---- r           .
+  ///        \    /
+  ///        behind
+  Walk walk(Int o, Int& r, Int& l, Int l_of_o, Location<Int>& found) {
+    Int behind = o, first_r = r, first_l = l;
+    Int r_of_l = lists_.next(lists_.back(o, l_of_o));
+    Real b3;
+    while ((b3 = side(r, l)) < 0) {
+      if (lists_.entry(r_of_l) < 0) return Walk::left_the_hull;
+      const Int m_of_l = lists_.next(r_of_l), beyond = lists_.neighbour(m_of_l);
+      if (side(o, beyond) < 0) {
+        behind = l;
+        r_of_l = lists_.next(lists_.back(l, m_of_l));
+        l = beyond;
+        first_r = r;
+        if (l == first_l || l == o) return Walk::astray;
+      } else {
+        behind = r;
+        r_of_l = m_of_l;
+        r = beyond;
+        first_l = l;
+        if (r == first_r || r == o) return Walk::astray;
+      }
+      if (--steps_ < 0) return Walk::astray;
+    }
+    if (!has_weights(r, l, behind, b3)) return Walk::astray;
+    found = {r, l, behind};
+    slot_found_ = lists_.back(l, r_of_l);
+    return Walk::arrived;
+  }
+
+  /// Are the weights of a and b not clearly negative, where b3 = side(a,b) >= 0?
+  bool has_weights(Int a, Int b, Int c, Real b3) const {
+    if (b3 >= epsilon) return !(side(b, c) < -tolerance_ || side(c, a) < -tolerance_);
+    const Real cosine = dot(a, b), to_a = dot_p(a), to_b = dot_p(b);
+    return !(to_a - cosine * to_b < -tolerance_ || to_b - cosine * to_a < -tolerance_);
+  }
+
+  /// True if a boundary node is an end of what p sees, where the arc between `end` and the node `further`
+  /// away is not strictly seen. With c the part of `start` that is perpendicular to `end`, p or `further`
+  /// lies on the side of `start`; otherwise all is nearly collinear and we must look on.
+  bool ends_view(Int start, Int end, Int further) const {
+    const Vector<Real> s = lists_[start], e = lists_[end];
+    const Real cosine = pstripack::dot(s, e);
+    const Vector<Real> c{s.x - cosine * e.x, s.y - cosine * e.y, s.z - cosine * e.z};
+    return pstripack::dot(p_, c) >= 0 || pstripack::dot(lists_[further], c) >= 0;
+  }
+
+  /// The ends of the part of the boundary that p sees, given an arc r->l of it. False if it gave up.
+  bool see_boundary(const Int first_r, const Int first_l, Location<Int>& found) {
+    Int rightmost, far_end = 0;
+    for (Int r = first_r, l = first_l;;) {  // counterclockwise
+      if (--steps_ < 0) return false;
+      const Int next = lists_.first_neighbour(l);
+      if (side(l, next) >= 0) {
+        if (ends_view(r, l, next)) {
+          rightmost = l;
+          break;
+        }
+        far_end = l;
+      }
+      r = l;
+      l = next;
+      if (l == first_r) {
+        found = {l, l, 0};
+        return true;
+      }
+    }
+    if (far_end != 0) {
+      found = {rightmost, far_end, 0};
+      return true;
+    }
+    for (Int r = first_r, l = first_l;;) {  // clockwise
+      if (--steps_ < 0) return false;
+      const Int next = lists_.last_neighbour(r);
+      if (side(next, r) >= 0) {
+        if (ends_view(l, r, next)) {
+          found = {rightmost, r, 0};
+          return true;
+        }
+        rightmost = r;
+      }
+      l = r;
+      r = next;
+      if (r == first_r) {
+        found = {r, r, 0};
+        return true;
+      }
+    }
+  }
+
+  const Vector<Real> p_;
+  const Lists& lists_;
+  const Real tolerance_;
+  Draw draw_;
+  /// The original has no limit: it ends soon, or after some new starts, or never. No search that makes
+  /// progress takes more steps than there are arcs; the rest is for new starts.
+  std::int64_t steps_ = 4 * static_cast<std::int64_t>(lists_.size()) + 1'000'000;
+  Int slot_found_ = 0;
+};
+
+}  // namespace pstripack
