@@ -146,6 +146,41 @@ void run_threads(const std::string& self, int repeats) {
 #endif
 }
 
+/// CRLIST on all processors beside the original's, as libngmath ships it if it is that, in turn. In this
+/// process as well.
+void run_crlist_on_threads(const std::optional<legacy_stripack::Original>& original_library, int repeats) {
+#ifdef _OPENMP
+  if (!original_library) return;
+  constexpr double kRequired = 5;  // of two threads
+  const Nodes nodes(nodes_in_order(kModel.points, static_cast<std::size_t>(kModel.n), kModel.order));
+  const Stripack own_library = ours();
+  const auto as_shipped = original_as_shipped(original_library->library());
+  const Stripack theirs_library = as_shipped ? *as_shipped : original(original_library->library());
+  omp_set_num_threads(omp_get_num_procs());
+  Lists own_lists = lists_from(own_library, nodes);
+  const auto theirs_lists = lists_of_original(*original_library, nodes);
+  std::vector<int> listc(6 * static_cast<std::size_t>(nodes.n()) - 12);
+  std::vector<double> centres(4 * (2 * static_cast<std::size_t>(nodes.n()) - 4));
+  const auto seconds = [&](const Stripack& library, Lists& lists) {
+    const auto start = Clock::now();
+    library.crlist(nodes, lists, listc, centres);
+    return seconds_since(start);
+  };
+  seconds(own_library, own_lists);  // new pages
+  Samples own, theirs;
+  while (!own.enough(repeats)) {
+    own.add(seconds(own_library, own_lists));
+    theirs.add(seconds(theirs_library, *theirs_lists));
+  }
+  fmt::print("{:<17} {:>8} {:>9} on {} threads, the original {}: {:.2f} times the speed ({:g})\n",
+             "crlist-threads", nodes.n(), microseconds(own, nodes.n()), omp_get_num_procs(),
+             microseconds(theirs, nodes.n()), theirs.median() / own.median(), kRequired);
+#else
+  static_cast<void>(original_library);
+  static_cast<void>(repeats);
+#endif
+}
+
 /// The same model on its own and with a pool of two ranks of a thread each, in turn. The clock of the whole
 /// call: the way to the ranks and back is in it.
 void run_pool([[maybe_unused]] const std::string& self, [[maybe_unused]] int repeats) {
@@ -272,7 +307,7 @@ void run(const Case& c, const std::optional<legacy_stripack::Original>& original
   std::fflush(stdout);
 }
 
-const std::vector<std::string> kParallelCases{"threads-1e6", "pool-1e6"};
+const std::vector<std::string> kParallelCases{"threads-1e6", "pool-1e6", "crlist-threads"};
 
 }  // namespace
 
@@ -307,6 +342,7 @@ void run_cases(const std::string& self, const CaseSettings& settings,
     if (is_wanted(c.name, !quick || c.n < 1000000)) run_order(c, self, original_library, repeats);
   if (is_wanted("pool-1e6", !quick)) run_pool(self, repeats);
   if (is_wanted("threads-1e6", !quick)) run_threads(self, repeats);
+  if (is_wanted("crlist-threads", !quick)) run_crlist_on_threads(original_library, repeats);
   fmt::print(
       "\ncrlist: against CSCRLIST as libngmath ships it, which turns centres into latitudes and longitudes;"
       "\ncrlist-xyz: against the same without that, as STRIPACK's CRLIST"

@@ -60,8 +60,8 @@ class InsertionLists {
   }
 
   /// For a node that will be asked about soon.
-  void prefetch(Int node) const { __builtin_prefetch(&node_[index(node)]); }
-  void prefetch_list(Int node) const { __builtin_prefetch(&slot_[index(last_slot(node))]); }
+  [[gnu::always_inline]] void prefetch(Int node) const { __builtin_prefetch(&node_[index(node)]); }
+  [[gnu::always_inline]] void prefetch_list(Int node) const { __builtin_prefetch(&slot_[index(last_slot(node))]); }
 
   /// The triangle of nodes 1, 2 and 3.
   void start(bool is_counterclockwise) {

@@ -53,7 +53,7 @@ class WaitingNodes {
 
   Int near(Int i) const { return near_[index(i)]; }
   /// For a node that will be inserted soon.
-  void prefetch(Int i) const { __builtin_prefetch(item_.data() + range_[index(near(i))].begin); }
+  [[gnu::always_inline]] void prefetch(Int i) const { __builtin_prefetch(item_.data() + range_[index(near(i))].begin); }
   /// So far.
   std::int64_t comparisons() const { return comparisons_; }
 
