@@ -44,7 +44,8 @@ class InsertionLists {
   Int next(Int slot) const { return slot_[index(slot)].next; }
   /// The slot of a in the list of b, where `slot` is that of b in the list of a.
   static Int twin(Int slot) { return slot ^ 1; }
-  static Int back(Int, Int slot) { return twin(slot); }
+  /// The slot of c in the list of b, where this is that of b in the list of a, and a, c, b is a triangle.
+  Int slot_of_third(Int /*a*/, Int b_of_a, Int /*b*/, Int /*c*/) const { return next(twin(b_of_a)); }
   Int last_slot(Int node) const { return node_[index(node)].last_slot; }
   Int first_slot(Int node) const { return next(last_slot(node)); }
   Int first_neighbour(Int node) const { return neighbour(first_slot(node)); }
@@ -61,7 +62,9 @@ class InsertionLists {
 
   /// For a node that will be asked about soon.
   [[gnu::always_inline]] void prefetch(Int node) const { __builtin_prefetch(&node_[index(node)]); }
-  [[gnu::always_inline]] void prefetch_list(Int node) const { __builtin_prefetch(&slot_[index(last_slot(node))]); }
+  [[gnu::always_inline]] void prefetch_list(Int node) const {
+    __builtin_prefetch(&slot_[index(last_slot(node))]);
+  }
 
   /// The triangle of nodes 1, 2 and 3.
   void start(bool is_counterclockwise) {

@@ -93,8 +93,8 @@ class Insertion {
     return static_cast<double>(comparisons) > 2 * in_random_order;
   }
 
-  /// In random order everything that the insertion of a node asks for is far away in memory. These are inlined, or
-  /// GCC 12 takes them for functions without effect and drops the calls.
+  /// In random order everything that the insertion of a node asks for is far away in memory. These are
+  /// inlined, or GCC 12 takes them for functions without effect and drops the calls.
   [[gnu::always_inline]] void prefetch(Int k, const WaitingNodes<Real, Int>& waiting) const {
     constexpr Int kNode = 12, kList = 6, kWaiting = 3;
     if (k + kNode > n_) return;
@@ -113,7 +113,9 @@ class Insertion {
     };
     const Real tolerance =
         static_cast<Real>(rules_.tolerance_in_epsilons) * std::numeric_limits<Real>::epsilon();
-    TrfindWalk<Real, Int, InsertionLists<Real, Int>, decltype(draw)> walk(p, lists_, tolerance, draw);
+    Real b1, b2, b3;
+    TrfindWalk<Real, Int, InsertionLists<Real, Int>, decltype(draw)> walk(
+        p, lists_, tolerance, SearchLimits::to_follow(lists_.size()), {b1, b2, b3}, draw);
     Location<Int> found;
     if (!walk.find(start, found)) return {InsertionEnd::endless, k};
     const auto [a, b, c] = found;
@@ -122,7 +124,7 @@ class Insertion {
       for (const Int node : {a, b, c})
         if (const Vector<Real>& q = lists_[node]; q.x == p.x && q.y == p.y && q.z == p.z)
           return {InsertionEnd::coincident, k, node};
-      lists_.insert_inside(walk.slot_found());
+      lists_.insert_inside(lists_.twin(walk.slot_found()));
     } else if (a != b) {
       lists_.insert_outside(a, b);
     } else {

@@ -12,221 +12,55 @@
 #include "stripack/list_queries.h"
 #include "stripack/original_rules.h"
 #include "stripack/random.h"
+#include "stripack/trfind_walk.h"
 
 namespace pstripack {
 namespace {
 
-/// The search of TRFIND. Names: o is the node from which we look, r and l the right and left end of the
-/// arc through which we look, side(a,b) > 0 where p lies left of a->b.
+/// The caller's lists and nodes, as TrfindWalk reads them.
+template <class Real, class Int>
+class PlainLists : public ListReader<Int> {
+ public:
+  PlainLists(const ListsView<Int>& lists, const Nodes<Real>& nodes) : ListReader<Int>(lists), node_(nodes) {}
+
+  Vector<Real> operator[](Int node) const { return node_[node]; }
+  Int slot_of_third(Int /*a*/, Int /*b_of_a*/, Int b, Int c) const { return this->slot_of(b, c); }
+
+ private:
+  Nodes<Real> node_;
+};
+
+/// TRFIND: by rounded tests as the original, and where these do not soon end by exact signs.
 template <class Real, class Int>
 class Search {
  public:
-  Search(const Vector<Real>& p, const ListsView<Int>& lists, const Nodes<Real>& nodes, Real& b1, Real& b2,
-         Real& b3)
-      : p_(p),
-        lists_(lists),
-        node_(nodes),
-        n_(lists_.size()),
-        steps_(4 * std::int64_t{n_} + (rules_.follow ? 1'000'000 : 100)),
-        b1_(b1),
-        b2_(b2),
-        b3_(b3) {}
+  Search(const Vector<Real>& p, const ListsView<Int>& lists, const Nodes<Real>& nodes,
+         const Weights<Real>& weights)
+      : p_(p), lists_(lists, nodes), n_(lists_.size()), weights_(weights) {}
 
   Location<Int> find(Int start) {
     if (n_ < 3 || !is_finite(p_)) return nowhere;
-    Int o = start >= 1 && start <= n_ ? start : draw();
+    const OriginalRules& rules = original_rules();
+    Seeds<Int> fresh_seeds;
+    Seeds<Int>& seeds = rules.follow ? kept_seeds<Int>() : fresh_seeds;
+    const auto draw = [&](Int n) {  // JRAND's n+1, with which the original reads past LEND, becomes n
+      return std::min(n, rules.single_precision_random ? jrand<float>(n, seeds) : jrand<Real>(n, seeds));
+    };
+    const Real tolerance =
+        static_cast<Real>(rules.tolerance_in_epsilons) * std::numeric_limits<Real>::epsilon();
+    const SearchLimits limits =
+        rules.follow ? SearchLimits::to_follow(n_) : SearchLimits{4 * std::int64_t{n_} + 100, 30};
+    Int o = start >= 1 && start <= n_ ? start : draw(n_);
     Location<Int> found = nowhere;
-    for (int restarts = 0; affordable();) {
-      Int r, l;
-      switch (look_out(o, r, l)) {
-        case View::wedge:
-          switch (walk(o, r, l, found)) {
-            case Walk::arrived:
-              return found;
-            case Walk::left_the_hull:
-              return see_boundary(r, l, found) ? found : walk_exactly(o);
-            case Walk::astray:
-              if (!rules_.follow && ++restarts > most_restarts) return walk_exactly(o);
-              o = draw();
-          }
-          break;
-        case View::outside:
-          return see_boundary(r, l, found) ? found : walk_exactly(o);
-        case View::move_on:
-          break;
-        case View::collinear:
-          return nowhere;
-      }
-    }
-    return walk_exactly(o);
+    TrfindWalk<Real, Int, PlainLists<Real, Int>, decltype(draw)> walk(p_, lists_, tolerance, limits, weights_,
+                                                                      draw);
+    return walk.find(o, found) ? found : walk_exactly(o);
   }
 
  private:
-  enum class View { wedge, outside, move_on, collinear };
-  enum class Walk { arrived, left_the_hull, astray };
-
   static constexpr Location<Int> nowhere{0, 0, 0};
-  static constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
-  static constexpr int most_restarts = 30;
 
-  Real side(Int a, Int b) const { return pstripack::side(node_[a], node_[b], p_); }
-  Real dot(Int a, Int b) const { return pstripack::dot(node_[a], node_[b]); }
-  Real dot_p(Int a) const { return pstripack::dot(p_, node_[a]); }
-
-  /// A random node. JRAND's n+1, with which the original reads past LEND, becomes n.
-  Int draw() {
-    Seeds<Int>& seeds = rules_.follow ? kept_seeds<Int>() : fresh_seeds_;
-    return std::min(n_, rules_.single_precision_random ? jrand<float>(n_, seeds) : jrand<Real>(n_, seeds));
-  }
-
-  /// No search that makes progress takes more steps than there are arcs. Under original rules a million
-  /// more (10 to 20 ms) are spent on new starts: the original makes as many as it needs.
-  bool affordable() { return --steps_ >= 0; }
-
-  /// Finds adjacent neighbours r, l of o between which p lies, or a boundary arc r->l with p to its right.
-  View look_out(Int& o, Int& r, Int& l) const {
-    const Int last_slot = lists_.last_slot(o);
-    const Int last = lists_.neighbour(last_slot);
-    Int slot = lists_.next(last_slot);
-    const Int first = lists_.neighbour(slot);
-    r = first;
-    if (lists_.on_boundary(o)) {
-      if (side(o, first) < 0) {
-        r = o;
-        l = first;
-        return View::outside;
-      }
-      if (side(last, o) < 0) {
-        r = last;
-        l = o;
-        return View::outside;
-      }
-    } else {
-      while (side(o, r) < 0) {
-        slot = lists_.next(slot);
-        r = lists_.neighbour(slot);
-        if (r == last) {
-          l = first;
-          return View::wedge;
-        }
-      }
-    }
-    do {
-      slot = lists_.next(slot);
-      l = lists_.neighbour(slot);
-      if (side(o, l) < 0) return View::wedge;
-      r = l;
-    } while (r != last);
-    l = first;
-    if (side(o, first) < 0) return View::wedge;
-
-    // p is not strictly right of any arc from o: it lies in line with one, or is o or its antipode.
-    if (std::abs(dot_p(o)) < 1 - 4 * epsilon) {
-      for (slot = last_slot; !(side(r, o) < 0); r = lists_.neighbour(slot)) {
-        slot = lists_.next(slot);
-        if (slot == last_slot) return View::collinear;
-      }
-    }
-    o = r;
-    return View::move_on;
-  }
-
-  /// Crosses triangle by triangle away from o, through arcs r-l, until p lies before the arc.
-  Walk walk(Int o, Int& r, Int& l, Location<Int>& found) {
-    Int behind = o, first_r = r, first_l = l;
-    for (;;) {
-      b3_ = side(r, l);
-      if (!(b3_ < 0)) break;
-      const Int slot = lists_.slot_of(l, r);
-      if (lists_.entry(slot) < 0) return Walk::left_the_hull;
-      const Int beyond = lists_.neighbour(lists_.next(slot));
-      if (side(o, beyond) < 0) {
-        behind = l;
-        l = beyond;
-        first_r = r;
-        if (l == first_l || l == o) return Walk::astray;
-      } else {
-        behind = r;
-        r = beyond;
-        first_l = l;
-        if (r == first_r || r == o) return Walk::astray;
-      }
-      if (!affordable()) return Walk::astray;
-    }
-    weigh(r, l, behind);
-    const Real tolerance = static_cast<Real>(rules_.tolerance_in_epsilons) * epsilon;
-    if (b1_ < -tolerance || b2_ < -tolerance) return Walk::astray;
-    b1_ = std::max(b1_, Real(0));
-    b2_ = std::max(b2_, Real(0));
-    found = {r, l, behind};
-    return Walk::arrived;
-  }
-
-  /// b1, b2, b3 for triangle (i1,i2,i3) from b3 = side(i1,i2) >= 0.
-  void weigh(Int i1, Int i2, Int i3) {
-    if (b3_ >= epsilon) {
-      b1_ = side(i2, i3);
-      b2_ = side(i3, i1);
-    } else {
-      const Real cosine = dot(i1, i2), to_1 = dot_p(i1), to_2 = dot_p(i2);
-      b1_ = to_1 - cosine * to_2;
-      b2_ = to_2 - cosine * to_1;
-      b3_ = 0;
-    }
-  }
-
-  /// True if a boundary node is an end of what p sees, where the arc between `end` and the node `further`
-  /// away is not strictly seen. With c the part of `start` that is perpendicular to `end`, p or `further`
-  /// lies on the side of `start`; otherwise all is nearly collinear and we must look on.
-  bool ends_view(Int start, Int end, Int further) const {
-    const Vector<Real> s = node_[start], e = node_[end];
-    const Real cosine = pstripack::dot(s, e);
-    const Vector<Real> c{s.x - cosine * e.x, s.y - cosine * e.y, s.z - cosine * e.z};
-    return pstripack::dot(p_, c) >= 0 || pstripack::dot(node_[further], c) >= 0;
-  }
-
-  /// The ends of the part of the boundary that p sees, given an arc r->l of it. False if there is none.
-  bool see_boundary(const Int first_r, const Int first_l, Location<Int>& found) {
-    Int rightmost, far_end = 0;
-    for (Int r = first_r, l = first_l;;) {  // counterclockwise
-      if (!affordable()) return false;
-      const Int next = lists_.first_neighbour(l);
-      if (side(l, next) >= 0) {
-        if (ends_view(r, l, next)) {
-          rightmost = l;
-          break;
-        }
-        far_end = l;
-      }
-      r = l;
-      l = next;
-      if (l == first_r) {
-        found = {l, l, 0};
-        return true;
-      }
-    }
-    if (far_end != 0) {
-      found = {rightmost, far_end, 0};
-      return true;
-    }
-    for (Int r = first_r, l = first_l;;) {  // clockwise
-      if (!affordable()) return false;
-      const Int next = lists_.last_neighbour(r);
-      if (side(next, r) >= 0) {
-        if (ends_view(l, r, next)) {
-          found = {rightmost, r, 0};
-          return true;
-        }
-        rightmost = r;
-      }
-      l = r;
-      r = next;
-      if (r == first_r) {
-        found = {r, r, 0};
-        return true;
-      }
-    }
-  }
+  Real side(Int a, Int b) const { return pstripack::side(lists_[a], lists_[b], p_); }
 
   // ---- the exact search, for what the rounded walk cannot decide ----
 
@@ -237,7 +71,7 @@ class Search {
     };
     return is_finite(a) && is_finite(b) && is_finite(c) ? left(point(a), point(b), point(c)) : 0;
   }
-  int exact_side(Int a, Int b) const { return exact_left(node_[a], node_[b], p_); }
+  int exact_side(Int a, Int b) const { return exact_left(lists_[a], lists_[b], p_); }
 
   /// The visibility walk: out of triangle (u,v,w) through an arc that has p strictly to its right.
   ///
@@ -286,7 +120,7 @@ class Search {
   bool contains(Int a, Int b, Int c) const {
     const int ab = exact_side(a, b), bc = exact_side(b, c), ca = exact_side(c, a);
     if (ab < 0 || bc < 0 || ca < 0 || ab + bc + ca == 0) return false;
-    const int turn = exact_left(node_[a], node_[b], node_[c]);
+    const int turn = exact_left(lists_[a], lists_[b], lists_[c]);
     return turn > 0 || (turn == 0 && ab + bc + ca == 3);
   }
 
@@ -295,10 +129,10 @@ class Search {
     Location<Int> t{a, b, c};
     if (side(b, c) < side(t.i1, t.i2)) t = {b, c, a};
     if (side(c, a) < side(t.i1, t.i2)) t = {c, a, b};
-    b3_ = side(t.i1, t.i2);
-    weigh(t.i1, t.i2, t.i3);
-    b1_ = std::max(b1_, Real(0));
-    b2_ = std::max(b2_, Real(0));
+    weights_.b3 = side(t.i1, t.i2);
+    weigh(lists_[t.i1], lists_[t.i2], lists_[t.i3], p_, weights_);
+    weights_.b1 = std::max(weights_.b1, Real(0));
+    weights_.b2 = std::max(weights_.b2, Real(0));
     return t;
   }
 
@@ -312,13 +146,9 @@ class Search {
   }
 
   const Vector<Real> p_;
-  const ListReader<Int> lists_;
-  const Nodes<Real> node_;
+  const PlainLists<Real, Int> lists_;
   const Int n_;
-  const OriginalRules& rules_ = original_rules();
-  std::int64_t steps_;
-  Seeds<Int> fresh_seeds_;
-  Real &b1_, &b2_, &b3_;
+  const Weights<Real> weights_;
 };
 
 /// The nodes whose caps would lose ground if p were inserted, as a ring round p, in the order in which
@@ -391,7 +221,7 @@ class NodeSet {
 template <class Real, class Int>
 Location<Int> trfind(Int start, const Vector<Real>& p, const ListsView<Int>& lists, const Nodes<Real>& nodes,
                      Real& b1, Real& b2, Real& b3) {
-  return Search<Real, Int>(p, lists, nodes, b1, b2, b3).find(start);
+  return Search<Real, Int>(p, lists, nodes, {b1, b2, b3}).find(start);
 }
 
 template <class Real, class Int>

@@ -11,19 +11,54 @@
 
 namespace pstripack {
 
+/// What a search may take before it gives up. The original has no limit: it ends soon, or after some new
+/// starts, or never.
+struct SearchLimits {
+  std::int64_t steps;   ///< no search that makes progress takes more than there are arcs
+  std::int64_t starts;  ///< from random nodes
+
+  /// For the original's answer wherever there is one: a million steps (10 to 20 ms) for new starts.
+  static SearchLimits to_follow(std::int64_t nodes) { return {4 * nodes + 1'000'000, INT64_MAX}; }
+};
+
+/// TRFIND's weights.
+template <class Real>
+struct Weights {
+  Real &b1, &b2, &b3;
+};
+
+/// The weights of a and b, and b3 = 0 if p is so near to the arc a-b that it counts as lying on it. Before:
+/// b3 = side(a,b,p) >= 0. c: the third corner.
+template <class Real>
+void weigh(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c, const Vector<Real>& p,
+           const Weights<Real>& weights) {
+  if (weights.b3 >= std::numeric_limits<Real>::epsilon()) {
+    weights.b1 = side(b, c, p);
+    weights.b2 = side(c, a, p);
+  } else {
+    const Real cosine = dot(a, b), to_a = dot(p, a), to_b = dot(p, b);
+    weights.b1 = to_a - cosine * to_b;
+    weights.b2 = to_b - cosine * to_a;
+    weights.b3 = 0;
+  }
+}
+
 /// Names: o is the node from which we look, r and l the right and left end of the arc through which we look,
-/// side(a,b) > 0 where p lies left of a->b; l_of_o is the slot of l in the list of o. Lists answers the
-/// questions of InsertionLists; back(a, slot) is the slot of a in the list of the neighbour in that slot of
-/// a's list. draw(n) is a random node.
+/// side(a,b) > 0 where p lies left of a->b; l_of_o is the slot of l in the list of o. Lists answers questions
+/// as ListReader and InsertionLists do, lists[node] is a position; slot_of_third(o, l_of_o, l, r) is the slot
+/// of r in the list of l where o, r, l is a triangle. draw(n) is a random node.
 template <class Real, class Int, class Lists, class Draw>
 class TrfindWalk {
  public:
-  TrfindWalk(const Vector<Real>& p, const Lists& lists, Real tolerance, Draw draw)
-      : p_(p), lists_(lists), tolerance_(tolerance), draw_(draw) {}
+  TrfindWalk(const Vector<Real>& p, const Lists& lists, Real tolerance, SearchLimits limits,
+             const Weights<Real>& weights, Draw draw)
+      : p_(p), lists_(lists), tolerance_(tolerance), left_(limits), weights_(weights), draw_(draw) {}
 
-  /// False if it gave up. `found` as TRFIND returns it, all 0 where all nodes lie in line.
-  bool find(Int o, Location<Int>& found) {
-    while (--steps_ >= 0) {
+  /// False if it gave up. `found` as TRFIND returns it, all 0 where all nodes lie in line. `o`: where to
+  /// start, on return the last node from which it looked. Of the weights are written what the original
+  /// writes.
+  bool find(Int& o, Location<Int>& found) {
+    while (affordable()) {
       Int r, l, l_of_o;
       switch (look_out(o, r, l, l_of_o)) {
         case View::wedge:
@@ -33,6 +68,7 @@ class TrfindWalk {
             case Walk::left_the_hull:
               return see_boundary(r, l, found);
             case Walk::astray:
+              if (--left_.starts < 0) return false;
               o = draw_(lists_.size());
           }
           break;
@@ -47,7 +83,7 @@ class TrfindWalk {
     }
     return false;
   }
-  /// Of the triangle that was found: the slot of i2 in the list of i1.
+  /// Of the triangle that was found: the slot of i1 in the list of i2.
   Int slot_found() const { return slot_found_; }
 
  private:
@@ -55,8 +91,8 @@ class TrfindWalk {
   enum class Walk { arrived, left_the_hull, astray };
   static constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
 
+  bool affordable() { return --left_.steps >= 0; }
   Real side(Int a, Int b) const { return pstripack::side(lists_[a], lists_[b], p_); }
-  Real dot(Int a, Int b) const { return pstripack::dot(lists_[a], lists_[b]); }
   Real dot_p(Int a) const { return pstripack::dot(p_, lists_[a]); }
 
   /// Finds adjacent neighbours r, l of o between which p lies, or a boundary arc r->l with p to its right.
@@ -118,14 +154,13 @@ class TrfindWalk {
   ///        behind
   Walk walk(Int o, Int& r, Int& l, Int l_of_o, Location<Int>& found) {
     Int behind = o, first_r = r, first_l = l;
-    Int r_of_l = lists_.next(lists_.back(o, l_of_o));
-    Real b3;
-    while ((b3 = side(r, l)) < 0) {
+    Int r_of_l = lists_.slot_of_third(o, l_of_o, l, r);
+    while ((weights_.b3 = side(r, l)) < 0) {
       if (lists_.entry(r_of_l) < 0) return Walk::left_the_hull;
       const Int m_of_l = lists_.next(r_of_l), beyond = lists_.neighbour(m_of_l);
       if (side(o, beyond) < 0) {
         behind = l;
-        r_of_l = lists_.next(lists_.back(l, m_of_l));
+        r_of_l = lists_.slot_of_third(l, m_of_l, beyond, r);
         l = beyond;
         first_r = r;
         if (l == first_l || l == o) return Walk::astray;
@@ -136,19 +171,15 @@ class TrfindWalk {
         first_l = l;
         if (r == first_r || r == o) return Walk::astray;
       }
-      if (--steps_ < 0) return Walk::astray;
+      if (!affordable()) return Walk::astray;
     }
-    if (!has_weights(r, l, behind, b3)) return Walk::astray;
+    weigh(lists_[r], lists_[l], lists_[behind], p_, weights_);
+    if (weights_.b1 < -tolerance_ || weights_.b2 < -tolerance_) return Walk::astray;
+    weights_.b1 = std::max(weights_.b1, Real(0));
+    weights_.b2 = std::max(weights_.b2, Real(0));
     found = {r, l, behind};
-    slot_found_ = lists_.back(l, r_of_l);
+    slot_found_ = r_of_l;
     return Walk::arrived;
-  }
-
-  /// Are the weights of a and b not clearly negative, where b3 = side(a,b) >= 0?
-  bool has_weights(Int a, Int b, Int c, Real b3) const {
-    if (b3 >= epsilon) return !(side(b, c) < -tolerance_ || side(c, a) < -tolerance_);
-    const Real cosine = dot(a, b), to_a = dot_p(a), to_b = dot_p(b);
-    return !(to_a - cosine * to_b < -tolerance_ || to_b - cosine * to_a < -tolerance_);
   }
 
   /// True if a boundary node is an end of what p sees, where the arc between `end` and the node `further`
@@ -165,7 +196,7 @@ class TrfindWalk {
   bool see_boundary(const Int first_r, const Int first_l, Location<Int>& found) {
     Int rightmost, far_end = 0;
     for (Int r = first_r, l = first_l;;) {  // counterclockwise
-      if (--steps_ < 0) return false;
+      if (!affordable()) return false;
       const Int next = lists_.first_neighbour(l);
       if (side(l, next) >= 0) {
         if (ends_view(r, l, next)) {
@@ -186,7 +217,7 @@ class TrfindWalk {
       return true;
     }
     for (Int r = first_r, l = first_l;;) {  // clockwise
-      if (--steps_ < 0) return false;
+      if (!affordable()) return false;
       const Int next = lists_.last_neighbour(r);
       if (side(next, r) >= 0) {
         if (ends_view(l, r, next)) {
@@ -207,10 +238,9 @@ class TrfindWalk {
   const Vector<Real> p_;
   const Lists& lists_;
   const Real tolerance_;
+  SearchLimits left_;
+  const Weights<Real> weights_;
   Draw draw_;
-  /// The original has no limit: it ends soon, or after some new starts, or never. No search that makes
-  /// progress takes more steps than there are arcs; the rest is for new starts.
-  std::int64_t steps_ = 4 * static_cast<std::int64_t>(lists_.size()) + 1'000'000;
   Int slot_found_ = 0;
 };
 
