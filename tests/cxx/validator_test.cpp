@@ -71,6 +71,7 @@ std::vector<Sample> samples() {
           {"hemisphere", make("hemisphere", 9, 1)},
           {"rim", rim},
           {"ring", ring},
+          {"hub", make("ring", 28)},
           {"cap", make("cap:1e-6", 10, 1)}};
 }
 
@@ -326,6 +327,27 @@ TEST(Validator, JudgesTiesByTheRule) {
   Faces reversed = faces;
   for (auto& f : reversed) std::swap(f[1], f[2]);
   EXPECT_EQ(judge(mirrored, reversed).defect, Defect::not_delaunay);
+}
+
+TEST(Validator, AcceptsEitherDiagonalOfATieWhereItIsAskedTo) {
+  // A square round the north pole, with two diagonals, and the south pole.
+  Nodes nodes = {{0.6, 0, 0.8}, {0, 0.6, 0.8}, {-0.6, 0, 0.8}, {0, -0.6, 0.8}, {0, 0, -1}};
+  const Faces sides = {{1, 0, 4}, {2, 1, 4}, {3, 2, 4}, {0, 3, 4}};
+  const auto accepted = [&](pstripack::Ties ties, Lengths lengths) {
+    int count = 0;
+    for (Faces faces : {Faces{{0, 1, 2}, {0, 2, 3}}, Faces{{0, 1, 3}, {1, 2, 3}}}) {
+      faces.insert(faces.end(), sides.begin(), sides.end());
+      count += is_valid(nodes.data(), nodes.size(), faces.data(), faces.size(), lengths, ties) ? 1 : 0;
+    }
+    return count;
+  };
+  for (const Lengths lengths : {Lengths::as_given, Lengths::directions}) {
+    EXPECT_EQ(accepted(pstripack::Ties::by_rule, lengths), 1);
+    EXPECT_EQ(accepted(pstripack::Ties::either_way, lengths), 2);
+  }
+  nodes[0] = {0.6, 1e-16, 0.8 + 1e-15};  // no tie any more
+  for (const Lengths lengths : {Lengths::as_given, Lengths::directions})
+    EXPECT_EQ(accepted(pstripack::Ties::either_way, lengths), 1);
 }
 
 TEST(Validator, RefusesNodesThatAreNoDirections) {

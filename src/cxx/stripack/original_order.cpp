@@ -25,9 +25,9 @@ class Insertion {
   }
 
   InsertionOutcome insert_all(Hopeless hopeless, StartSearch start_search) {
-    const Seeds<Int> seeds = kept_seeds<Int>();
+    const Seeds<std::int32_t> seeds = kept_seeds();
     if (const auto outcome = try_to_insert_all(hopeless, start_search)) return *outcome;
-    kept_seeds<Int>() = seeds;
+    kept_seeds() = seeds;
     return *try_to_insert_all(hopeless, StartSearch::simulated);
   }
 
@@ -106,7 +106,7 @@ class Insertion {
   /// ADDNOD.
   InsertionOutcome insert(Int k, Int start) {
     const Vector<Real> p = lists_[k];
-    Seeds<Int>& seeds = kept_seeds<Int>();
+    Seeds<std::int32_t>& seeds = kept_seeds();
     const auto draw = [&](Int size) {
       return std::min(size,
                       rules_.single_precision_random ? jrand<float>(size, seeds) : jrand<Real>(size, seeds));

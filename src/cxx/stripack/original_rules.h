@@ -1,6 +1,8 @@
 #pragma once
 // What PSTRIPACK_ORDER asks for.
 
+#include <cstdint>
+
 #include "stripack/random.h"
 
 namespace pstripack {
@@ -24,10 +26,9 @@ struct OriginalRules {
 /// on stderr.
 const OriginalRules& original_rules();
 
-/// The seeds of this thread that are kept from call to call.
-template <class Int>
-Seeds<Int>& kept_seeds() {
-  thread_local Seeds<Int> seeds;
+/// The seeds of this thread that are kept from call to call, of all kinds of integers.
+inline Seeds<std::int32_t>& kept_seeds() {
+  thread_local Seeds<std::int32_t> seeds;
   return seeds;
 }
 

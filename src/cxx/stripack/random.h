@@ -21,11 +21,11 @@ Int next_seed(Int factor, Int seed, Int modulus) {
 /// JRAND: a random integer in 1..n, with arithmetic in the kind Real. Where n*u+1 rounds up to n+1, which
 /// it does about once in 10^7 draws in single precision, n+1 comes out: a caller that uses the number as
 /// an index must look.
-template <class Real, class Int>
-Int jrand(Int n, Seeds<Int>& seeds) {
-  seeds.x = next_seed<Int>(171, seeds.x, 30269);
-  seeds.y = next_seed<Int>(172, seeds.y, 30307);
-  seeds.z = next_seed<Int>(170, seeds.z, 30323);
+template <class Real, class Int, class SeedInt>
+Int jrand(Int n, Seeds<SeedInt>& seeds) {
+  seeds.x = next_seed<SeedInt>(171, seeds.x, 30269);
+  seeds.y = next_seed<SeedInt>(172, seeds.y, 30307);
+  seeds.z = next_seed<SeedInt>(170, seeds.z, 30323);
   const Real sum = static_cast<Real>(seeds.x) / Real(30269) + static_cast<Real>(seeds.y) / Real(30307) +
                    static_cast<Real>(seeds.z) / Real(30323);
   const Real fraction = sum - static_cast<Real>(static_cast<Int>(sum));

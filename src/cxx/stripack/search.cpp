@@ -41,8 +41,8 @@ class Search {
   Location<Int> find(Int start) {
     if (n_ < 3 || !is_finite(p_)) return nowhere;
     const OriginalRules& rules = original_rules();
-    Seeds<Int> fresh_seeds;
-    Seeds<Int>& seeds = rules.follow ? kept_seeds<Int>() : fresh_seeds;
+    Seeds<std::int32_t> fresh_seeds;
+    Seeds<std::int32_t>& seeds = rules.follow ? kept_seeds() : fresh_seeds;
     const auto draw = [&](Int n) {  // JRAND's n+1, with which the original reads past LEND, becomes n
       return std::min(n, rules.single_precision_random ? jrand<float>(n, seeds) : jrand<Real>(n, seeds));
     };

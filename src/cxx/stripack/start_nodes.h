@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "geometry/workspace.h"
@@ -53,7 +54,9 @@ class WaitingNodes {
 
   Int near(Int i) const { return near_[index(i)]; }
   /// For a node that will be inserted soon.
-  [[gnu::always_inline]] void prefetch(Int i) const { __builtin_prefetch(item_.data() + range_[index(near(i))].begin); }
+  [[gnu::always_inline]] void prefetch(Int i) const {
+    __builtin_prefetch(item_.data() + range_[index(near(i))].begin);
+  }
   /// So far.
   std::int64_t comparisons() const { return comparisons_; }
 
@@ -239,7 +242,10 @@ class SettledNodes {
     });
   }
   /// True if the events take too much memory: nodes get far more neighbours than the six of random order.
-  bool is_full() const { return events_.size() / kMostEvents > last_event_.size(); }
+  bool is_full() const {
+    constexpr auto kMostNumbers = static_cast<std::size_t>(std::numeric_limits<Int>::max() / 2);
+    return events_.size() > std::min(kMostEvents * last_event_.size(), kMostNumbers);
+  }
 
   /// Is this cosine of a node's distance from its NEAR large enough for it to be settled?
   static bool may_settle(Real cosine) { return cosine > Real(kCloserThan90); }
