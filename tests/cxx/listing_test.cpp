@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "capi/text_calls.h"
 #include "differential/routines.h"
+#include "support/composed_text.h"
 #include "support/fortran_unit.h"
 
 namespace {
@@ -27,15 +27,6 @@ struct Octahedron {
   int n, list[24], lptr[24], lend[6], lnew;
   double x[6] = {1, 0, 0, -1, 0, 0}, y[6] = {0, 1, 0, 0, -1, 0}, z[6] = {0, 0, 1, 0, 0, -1};
 };
-
-std::string text_of(void* handle) {
-  std::string text;
-  char record[400];
-  for (int length; (length = pstripack_next_record(handle, record, sizeof record)) >= 0;)
-    text.append(record, static_cast<std::size_t>(length)) += '\n';
-  pstripack_free_text(handle);
-  return text;
-}
 
 // The layout of the Fortran 90 texts, on standard output, whatever LOUT is: it may not have been passed.
 TEST(Trprnt, OfLibstripackPrintsAsFortran90Does) {

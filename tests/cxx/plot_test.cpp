@@ -18,9 +18,9 @@
 #include <utility>
 #include <vector>
 
-#include "capi/text_calls.h"
 #include "differential/routines.h"
 #include "support/child.h"
+#include "support/composed_text.h"
 #include "support/fortran_unit.h"
 
 namespace {
@@ -274,12 +274,7 @@ std::string composed(const Sphere& s, const Look& look, const Plot& plot) {
       plot(Real(look.size), Real(look.latitude), Real(look.longitude), Real(look.angle), Int(s.n), x, y, z,
            Int(s.nt), list, lptr, lend, listc, voronoi_lptr, xc, yc, zc, &ier);
   EXPECT_EQ(ier, 0);
-  std::string text;
-  char record[400];
-  for (int length; (length = pstripack_next_record(handle, record, sizeof record)) >= 0;)
-    text.append(record, static_cast<std::size_t>(length)) += '\n';
-  pstripack_free_text(handle);
-  return text;
+  return text_of(handle);
 }
 
 #define PLOTS_OF(suffix)                                                                                    \

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "capi/text_calls.h"
 #include "differential/differential.h"
 #include "differential/routines.h"
+#include "support/composed_text.h"
 #include "support/fortran_unit.h"
 
 using namespace differential;
@@ -21,16 +21,6 @@ using namespace differential;
 namespace {
 
 constexpr int unit = 77;
-
-/// The text behind a handle, which is freed.
-std::string text_of(void* handle) {
-  std::string text;
-  char record[400];
-  for (int length; (length = pstripack_next_record(handle, record, sizeof record)) >= 0;)
-    text.append(record, static_cast<std::size_t>(length)) += '\n';
-  pstripack_free_text(handle);
-  return text;
-}
 
 bool is_wording(const std::string& record) {
   for (std::size_t i = 0; i + 1 < record.size(); ++i)  // two letters in a row, but not NaN and Infinity

@@ -926,3 +926,23 @@ TEST(Differential, TRFIND_on_threads) {
   EXPECT_NE(std::vector<int>(later.begin(), later.begin() + 3000),
             std::vector<int>(later.begin() + 3000, later.end()));
 }
+
+TEST(Differential, BNODES) {
+  const Result result = compare_all(node_sets(), [](const NodeSet& nodes) -> std::string {
+    int ier;
+    const Lists lists = triangulated_by_original(nodes, ier);
+    if (ier != 0) return "";
+    const int n = nodes.n();
+    std::vector<int> ours(nodes.x.size(), Lists::mark), theirs = ours;
+    int counts[3], original_counts[3];
+    bnodes_(&n, lists.list.data(), lists.lptr.data(), lists.lend.data(), ours.data(), counts, counts + 1,
+            counts + 2);
+    csbnodes_(&n, lists.list.data(), lists.lptr.data(), lists.lend.data(), theirs.data(), original_counts,
+              original_counts + 1, original_counts + 2);
+    if (ours != theirs) return "NODES";
+    for (int i = 0; i < 3; ++i)
+      if (counts[i] != original_counts[i]) return "NB, NA or NT";
+    return "";
+  });
+  expect_equal(result, 60);
+}

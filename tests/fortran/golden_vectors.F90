@@ -9,16 +9,7 @@ program golden_vectors
   real(rk), parameter :: tolerance = 16*epsilon(1.0_rk)
   integer, parameter :: mark = -7777
 
-  ! Seven nodes in a half-sphere, as the original's TRMESH links them.
-  integer, parameter :: n = 7, slots = 6*n - 12
-  real(rk) :: x(n) = [0.6_rk, 0.0_rk, -0.28_rk, 0.0_rk, 0.48_rk, 0.8_rk, -0.48_rk]
-  real(rk) :: y(n) = [0.0_rk, 0.8_rk, 0.0_rk, -0.6_rk, 0.6_rk, -0.36_rk, -0.64_rk]
-  real(rk) :: z(n) = [0.8_rk, 0.6_rk, 0.96_rk, 0.8_rk, 0.64_rk, 0.48_rk, 0.6_rk]
-  integer :: list(slots) = [5, 3, 3, 3, 1, 2, 4, 4, 1, 3, -5, 5, 2, 1, -6, 6, 6, 5, 1, 4, -7, 7, 7, 7, 6, 4, 3, -2, &
-                            mark, mark]
-  integer :: lptr(slots) = [6, 7, 11, 14, 1, 23, 16, 5, 10, 22, 24, 2, 4, 15, 13, 12, 9, 19, 20, 21, 18, 17, 8, 3, &
-                            26, 27, 28, 25, mark, mark]
-  integer :: lend(n) = [7, 11, 6, 10, 15, 21, 28]
+  include 'seven_nodes.inc'
 
   call octahedron
   call seven_nodes

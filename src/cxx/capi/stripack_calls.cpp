@@ -200,8 +200,7 @@ MESH_CALLS(double, int64_t, i8)
   }                                                                                                       \
   Int pstripack_jrand_##suffix(Int n, Int* ix, Int* iy, Int* iz) noexcept {                               \
     Seeds<Int> seeds{*ix, *iy, *iz};                                                                      \
-    const Int drawn =                                                                                     \
-        original_rules().single_precision_random ? jrand<float>(n, seeds) : jrand<Real>(n, seeds);        \
+    const Int drawn = original_rules().random<Real>(n, seeds);                                            \
     *ix = seeds.x;                                                                                        \
     *iy = seeds.y;                                                                                        \
     *iz = seeds.z;                                                                                        \

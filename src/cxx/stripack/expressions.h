@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "geometry/point.h"
+
 namespace pstripack {
 
 template <class Real>
@@ -46,6 +48,17 @@ Real height(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c,
   const Vector<Real> q{b.x - d.x, b.y - d.y, b.z - d.z};
   const Vector<Real> r{c.x - d.x, c.y - d.y, c.z - d.z};
   return r.x * (q.y * p.z - p.y * q.z) - r.y * (q.x * p.z - p.x * q.z) + r.z * (q.x * p.y - p.x * q.y);
+}
+
+/// The coordinates, which double holds whatever their kind: for exact tests.
+template <class Real>
+Point as_point(const Vector<Real>& a) {
+  return {static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(a.z)};
+}
+
+template <class Real>
+bool coincide(const Vector<Real>& a, const Vector<Real>& b) {
+  return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
 template <class Real>

@@ -1,7 +1,6 @@
 #include "stripack/node_edit.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 
 #include "stripack/search.h"
@@ -12,11 +11,6 @@ namespace pstripack {
 // ---- ADDNOD ----
 
 namespace {
-
-template <class Real>
-bool coincide(const Vector<Real>& a, const Vector<Real>& b) {
-  return a.x == b.x && a.y == b.y && a.z == b.z;
-}
 
 /// The first of nodes 1..k-1 that has the coordinates of p; 0 if there is none.
 template <class Real, class Int>
@@ -115,8 +109,7 @@ Int addnod(Int start, const Nodes<Real>& nodes, const EditedLists<Int>& arrays) 
   if (k < 4) return code(AddnodStatus::too_few_nodes);
   if (k > most_nodes<Int>()) return code(AddnodStatus::too_many_nodes);
   const Vector<Real> p = nodes[k];
-  if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-    return code(AddnodStatus::not_finite);
+  if (!is_finite(p)) return code(AddnodStatus::not_finite);
   Real b1, b2, b3;
   const ListsView<Int> view{static_cast<std::size_t>(k - 1), arrays.list, arrays.lptr, arrays.lend, 0};
   const Location<Int> found = trfind(start < 1 ? k - 1 : start, p, view, nodes, b1, b2, b3);

@@ -107,23 +107,17 @@ class Insertion {
   InsertionOutcome insert(Int k, Int start) {
     const Vector<Real> p = lists_[k];
     Seeds<std::int32_t>& seeds = kept_seeds();
-    const auto draw = [&](Int size) {
-      return std::min(size,
-                      rules_.single_precision_random ? jrand<float>(size, seeds) : jrand<Real>(size, seeds));
-    };
-    const Real tolerance =
-        static_cast<Real>(rules_.tolerance_in_epsilons) * std::numeric_limits<Real>::epsilon();
+    const auto draw = [&](Int size) { return std::min(size, rules_.random<Real>(size, seeds)); };
     Real b1, b2, b3;
     TrfindWalk<Real, Int, InsertionLists<Real, Int>, decltype(draw)> walk(
-        p, lists_, tolerance, SearchLimits::to_follow(lists_.size()), {b1, b2, b3}, draw);
+        p, lists_, rules_.tolerance<Real>(), SearchLimits::to_follow(lists_.size()), {b1, b2, b3}, draw);
     Location<Int> found;
     if (!walk.find(start, found)) return {InsertionEnd::endless, k};
     const auto [a, b, c] = found;
     if (a == 0) return {InsertionEnd::collinear, k};
     if (c != 0) {
       for (const Int node : {a, b, c})
-        if (const Vector<Real>& q = lists_[node]; q.x == p.x && q.y == p.y && q.z == p.z)
-          return {InsertionEnd::coincident, k, node};
+        if (coincide(lists_[node], p)) return {InsertionEnd::coincident, k, node};
       lists_.insert_inside(lists_.twin(walk.slot_found()));
     } else if (a != b) {
       lists_.insert_outside(a, b);
@@ -135,10 +129,7 @@ class Insertion {
 
   // ---- Grids: is it wrong already? ----
 
-  Point point(Int node) const {
-    const Vector<Real>& p = lists_[node];
-    return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
-  }
+  Point point(Int node) const { return as_point(lists_[node]); }
 
   /// Four nodes of a grid lie in one circle up to rounding, and rounded tests choose the wrong diagonal of
   /// some.
@@ -207,6 +198,5 @@ InsertedNodes<Int> insert_in_order(Int n, const Real* x, const Real* y, const Re
                                               const OriginalRules&, Hopeless, StartSearch);
 PSTRIPACK_ORIGINAL_ORDER(float, std::int32_t)
 PSTRIPACK_ORIGINAL_ORDER(double, std::int32_t)
-PSTRIPACK_ORIGINAL_ORDER(double, std::int64_t)
 
 }  // namespace pstripack

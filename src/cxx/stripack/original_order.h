@@ -41,7 +41,7 @@ struct InsertedNodes {
 enum class Hopeless { goes_on, ends };
 
 /// Renka's TRMESH (Algorithm 772): inserts node by node, with the tests as he rounds them. n >= 3. Nothing is
-/// said about whether the result is right. One thread, with its kept_seeds; some 200 bytes a node. Throws
+/// said about whether the result is right. One thread, with its kept_seeds; O(n) memory. Throws
 /// std::bad_alloc.
 template <class Real, class Int>
 InsertedNodes<Int> insert_in_order(Int n, const Real* x, const Real* y, const Real* z,

@@ -2,6 +2,7 @@
 // What PSTRIPACK_ORDER asks for.
 
 #include <cstdint>
+#include <limits>
 
 #include "stripack/random.h"
 
@@ -20,6 +21,17 @@ struct OriginalRules {
   int tolerance_in_epsilons = 100;
   bool single_precision_random = false;
   bool clear_angle = true;  ///< NEARND in REAL*8 sets AL = 0 where it finds nothing, as the Fortran 90 text
+
+  /// Of TRFIND.
+  template <class Real>
+  Real tolerance() const {
+    return static_cast<Real>(tolerance_in_epsilons) * std::numeric_limits<Real>::epsilon();
+  }
+  /// JRAND. Real: the working kind.
+  template <class Real, class Int, class SeedInt>
+  Int random(Int n, Seeds<SeedInt>& seeds) const {
+    return single_precision_random ? jrand<float>(n, seeds) : jrand<Real>(n, seeds);
+  }
 };
 
 /// PSTRIPACK_ORDER=canonical (or unset), original, ngmath; read once. Anything else is canonical and says so

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -44,16 +43,14 @@ class Search {
     Seeds<std::int32_t> fresh_seeds;
     Seeds<std::int32_t>& seeds = rules.follow ? kept_seeds() : fresh_seeds;
     const auto draw = [&](Int n) {  // JRAND's n+1, with which the original reads past LEND, becomes n
-      return std::min(n, rules.single_precision_random ? jrand<float>(n, seeds) : jrand<Real>(n, seeds));
+      return std::min(n, rules.random<Real>(n, seeds));
     };
-    const Real tolerance =
-        static_cast<Real>(rules.tolerance_in_epsilons) * std::numeric_limits<Real>::epsilon();
     const SearchLimits limits =
         rules.follow ? SearchLimits::to_follow(n_) : SearchLimits{4 * std::int64_t{n_} + 100, 30};
     Int o = start >= 1 && start <= n_ ? start : draw(n_);
     Location<Int> found = nowhere;
-    TrfindWalk<Real, Int, PlainLists<Real, Int>, decltype(draw)> walk(p_, lists_, tolerance, limits, weights_,
-                                                                      draw);
+    TrfindWalk<Real, Int, PlainLists<Real, Int>, decltype(draw)> walk(p_, lists_, rules.tolerance<Real>(),
+                                                                      limits, weights_, draw);
     return walk.find(o, found) ? found : walk_exactly(o);
   }
 
@@ -66,10 +63,7 @@ class Search {
 
   /// The exact sign of pstripack::side(a, b, c); 0 where one of them is not finite.
   static int exact_left(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c) {
-    const auto point = [](const Vector<Real>& v) {
-      return Point{static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
-    };
-    return is_finite(a) && is_finite(b) && is_finite(c) ? left(point(a), point(b), point(c)) : 0;
+    return is_finite(a) && is_finite(b) && is_finite(c) ? left(as_point(a), as_point(b), as_point(c)) : 0;
   }
   int exact_side(Int a, Int b) const { return exact_left(lists_[a], lists_[b], p_); }
 

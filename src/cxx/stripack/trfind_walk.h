@@ -17,7 +17,7 @@ struct SearchLimits {
   std::int64_t steps;   ///< no search that makes progress takes more than there are arcs
   std::int64_t starts;  ///< from random nodes
 
-  /// For the original's answer wherever there is one: a million steps (10 to 20 ms) for new starts.
+  /// For the original's answer wherever there is one: a million steps for new starts.
   static SearchLimits to_follow(std::int64_t nodes) { return {4 * nodes + 1'000'000, INT64_MAX}; }
 };
 

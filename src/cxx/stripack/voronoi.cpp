@@ -137,10 +137,7 @@ class FarSide {
     return ltri_[6 * static_cast<std::size_t>(g - 1) + static_cast<std::size_t>(i - 1)];
   }
 
-  Point point(Int node) const {
-    const Vector<Real> p = nodes_[node];
-    return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
-  }
+  Point point(Int node) const { return as_point(nodes_[node]); }
 
   int side_to(Int neighbour, Int g) const {
     return cell(4, g) == neighbour ? 1 : cell(5, g) == neighbour ? 2 : 3;
