@@ -97,11 +97,16 @@ constexpr int kNodeBits = 29, kKeyBits = 64 - kNodeBits;  // 3 for the face, 2 x
 std::uint64_t key_of(Entry e) { return e >> kNodeBits; }
 std::uint32_t node_of(Entry e) { return static_cast<std::uint32_t>(e & ((Entry{1} << kNodeBits) - 1)); }
 
-/// Stable radix sort of n entries by their keys of key_bits bits, least significant digit first, back and
-/// forth between `entries` and `other`. Returns the one that holds the result.
-Entry* radix_sort(Entry* entries, Entry* other, std::size_t n, int key_bits) {
+/// Sorts n entries by their keys of key_bits bits and returns the one of `entries` and `other` that holds the
+/// result. A stable radix sort, least significant digit first, back and forth between the two; of few entries
+/// one by comparisons.
+Entry* sort(Entry* entries, Entry* other, std::size_t n, int key_bits) {
   const int passes = (key_bits + 11) / 12, digit_bits = (key_bits + passes - 1) / passes;
   const std::size_t digits = std::size_t{1} << digit_bits;
+  if (8 * n < digits * static_cast<std::size_t>(passes)) {
+    std::sort(entries, entries + n);
+    return entries;
+  }
   const int threads = threads_for(n);
   std::vector<std::size_t> next(digits * threads);  // [thread][digit]: where the thread puts its next one
   for (int pass = 0; pass < passes; ++pass) {
@@ -126,12 +131,6 @@ Entry* radix_sort(Entry* entries, Entry* other, std::size_t n, int key_bits) {
   return entries;
 }
 
-Entry* sort(Entry* entries, Entry* other, std::size_t n, int key_bits) {
-  if (n >= 1000) return radix_sort(entries, other, n, key_bits);
-  std::sort(entries, entries + n);
-  return entries;
-}
-
 // ---- cells with many nodes ---------------------------------------------------------------------
 
 constexpr std::size_t kCrowd = 16;
@@ -143,32 +142,58 @@ struct Points {
   const Point& operator[](std::size_t i) const { return *reinterpret_cast<const Point*>(first + i * stride); }
 };
 
+/// A square on a face of the cube.
+struct Square {
+  double s0, t0, side;
+  std::uint32_t cell_s(const OnCube& q, std::uint32_t cells) const { return cell((q.s - s0) / side, cells); }
+  std::uint32_t cell_t(const OnCube& q, std::uint32_t cells) const { return cell((q.t - t0) / side, cells); }
+};
+
+/// Grows with the places put in.
+struct Box {
+  double s0 = 2, s1 = -2, t0 = 2, t1 = -2;
+  void include(const OnCube& q) {
+    s0 = std::min(s0, q.s), s1 = std::max(s1, q.s), t0 = std::min(t0, q.t), t1 = std::max(t1, q.t);
+  }
+  Square square() const { return {s0, t0, std::max(s1 - s0, t1 - t0)}; }
+};
+
 /// Orders the nodes of one cell, entries [first,last), along a curve through their bounding box.
 void refine(const Points& points, Entry* first, Entry* last, int depth) {
   const std::size_t n = static_cast<std::size_t>(last - first);
-  double s0 = 2, s1 = -2, t0 = 2, t1 = -2;
-  for (const Entry* e = first; e != last; ++e) {
-    const OnCube q = on_cube(points[node_of(*e)]);
-    s0 = std::min(s0, q.s), s1 = std::max(s1, q.s), t0 = std::min(t0, q.t), t1 = std::max(t1, q.t);
-  }
-  const double side = std::max(s1 - s0, t1 - t0);
-  if (!(side > 0)) return;  // all in one direction, as far as doubles tell
+  Buffer<OnCube> place(n);
+  Box box;
+  for (std::size_t k = 0; k < n; ++k) box.include(place[k] = on_cube(points[node_of(first[k])]));
+  const Square square = box.square();
+  if (!(square.side > 0)) return;  // all in one direction, as far as doubles tell
+  // Again as many cells as it takes; keys of 10, 20 or 30 bits.
+  const int blocks = n < 8000 ? 1 : n < 8000000 ? 2 : 3;
+  const std::uint32_t cells = 1u << (kLevels * blocks);
   Buffer<Entry> entries(2 * n);
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::uint32_t node = node_of(first[k]);
-    const OnCube q = on_cube(points[node]);
-    entries[k] = along_curve(cell((q.s - s0) / side, kSide * kSide * kSide),
-                             cell((q.t - t0) / side, kSide * kSide * kSide), 3, 0)
+  for (std::size_t k = 0; k < n; ++k)
+    entries[k] = along_curve(square.cell_s(place[k], cells), square.cell_t(place[k], cells), blocks, 0)
                      << kNodeBits |
-                 node;
-  }
-  const Entry* const sorted = sort(entries.data(), entries.data() + n, n, 6 * kLevels);
+                 node_of(first[k]);
+  const Entry* const sorted = sort(entries.data(), entries.data() + n, n, 2 * kLevels * blocks);
   std::copy(sorted, sorted + n, first);
   if (depth == 0) return;
   for (std::size_t i = 0, j; i < n; i = j) {
     for (j = i + 1; j < n && key_of(first[j]) == key_of(first[i]);) ++j;
     if (j - i > kCrowd) refine(points, first + i, first + j, depth - 1);
   }
+}
+
+/// The square of each face that the cells divide: the whole face, or the nodes' own where all are on one.
+Square square_of_all(const Points& points, std::size_t n) {
+  Box box;
+  const int face = on_cube(points[0]).face;
+  for (std::size_t i = 0; i < n; ++i) {
+    const OnCube q = on_cube(points[i]);
+    if (q.face != face) return {-1, -1, 2};
+    box.include(q);
+  }
+  const Square square = box.square();
+  return square.side > 0 ? square : Square{-1, -1, 2};
 }
 
 }  // namespace
@@ -189,11 +214,12 @@ void insertion_order(const Point* first_point, std::size_t n, std::uint32_t* ord
   Entry* entries = workspace.take<Entry>(n);
   Entry* const other = workspace.take<Entry>(n);
   const int threads = threads_for(n);
+  const Square square = square_of_all(points, n);
   parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int) {
     for (std::size_t i = first; i < last; ++i) {
       const OnCube q = on_cube(points[i]);
-      const std::uint64_t along = along_curve(cell(0.5 * (q.s + 1), cells), cell(0.5 * (q.t + 1), cells),
-                                              blocks, static_cast<std::uint16_t>(q.face & kSwap));
+      const std::uint64_t along = along_curve(square.cell_s(q, cells), square.cell_t(q, cells), blocks,
+                                              static_cast<std::uint16_t>(q.face & kSwap));
       entries[i] =
           (static_cast<std::uint64_t>(q.face) << (2 * kLevels * blocks) | along) >> dropped << kNodeBits | i;
     }
@@ -201,8 +227,8 @@ void insertion_order(const Point* first_point, std::size_t n, std::uint32_t* ord
   entries = sort(entries, other, n, 2 * kLevels * blocks + 3 - dropped);
   for (std::size_t i = 0, j; i < n; i = j) {
     for (j = i + 1; j < n && key_of(entries[j]) == key_of(entries[i]);) ++j;
-    // Each level divides a cell's side by 2^15 or ends at doubles that do not differ.
-    if (j - i > kCrowd) refine(points, entries + i, entries + j, 6);
+    // Each level divides a cell's side by 2^5 or more, or ends at doubles that do not differ.
+    if (j - i > kCrowd) refine(points, entries + i, entries + j, 20);
   }
   parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int) {
     for (std::size_t i = first; i < last; ++i) order[i] = node_of(entries[i]);

@@ -62,8 +62,13 @@ int filter_left(const Point& a, const Point& b, const Point& c) {
 
 bool moderate(const Point& a) { return largest(a) < kLargest; }
 
+// Zeros that need no arithmetic are common: nodes on the equator, on one parallel.
+
 int exact_left(const Point& a, const Point& b, const Point& c) {
   using namespace exact;
+  if ((a.x == 0 && b.x == 0 && c.x == 0) || (a.y == 0 && b.y == 0 && c.y == 0) ||
+      (a.z == 0 && b.z == 0 && c.z == 0))
+    return 0;
   if (Grid p, q, r; on_grid(a, p) && on_grid(b, q) && on_grid(c, r)) return sign_of_det(p, q, r);
   const int bits = std::max({span_of(a).bits(), span_of(b).bits(), span_of(c).bits()});
   return bits <= kSmallBits ? exact::left<Integer512>(a, b, c) : exact::left<Integer>(a, b, c);
@@ -71,6 +76,9 @@ int exact_left(const Point& a, const Point& b, const Point& c) {
 
 int exact_orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
   using namespace exact;
+  if ((a.x == b.x && b.x == c.x && c.x == d.x) || (a.y == b.y && b.y == c.y && c.y == d.y) ||
+      (a.z == b.z && b.z == c.z && c.z == d.z))
+    return 0;
   if (Grid p, q, r, s; on_grid(a, p) && on_grid(b, q) && on_grid(c, r) && on_grid(d, s))
     return sign_of_det(q - p, r - p, s - p);
   Span span = span_of(a);
@@ -104,9 +112,12 @@ bool symbolic_above(const Point& a, const Point& b, const Point& c, const Point&
     int sign;
   };
   Term terms[4] = {{&d, &a, &b, &c, 1}, {&c, &a, &b, &d, -1}, {&b, &a, &c, &d, 1}, {&a, &b, &c, &d, -1}};
-  std::sort(terms, terms + 4, [](const Term& s, const Term& t) { return lower_rank(*t.node, *s.node); });
-  for (const Term& t : terms)
-    if (const int bracket = left(*t.p, *t.q, *t.r)) return t.sign * bracket > 0;
+  for (int remaining = 4; remaining > 0; --remaining) {
+    Term& highest = *std::max_element(
+        terms, terms + remaining, [](const Term& s, const Term& t) { return lower_rank(*s.node, *t.node); });
+    if (const int bracket = left(*highest.p, *highest.q, *highest.r)) return highest.sign * bracket > 0;
+    highest = terms[remaining - 1];
+  }
   return false;  // all four on one great circle
 }
 
@@ -197,9 +208,9 @@ Directions::Directions(const Point* points, std::size_t n) : p_(points), n_(n), 
 
 void Directions::extend(const Point* points, std::size_t n) {
   if (n > unit_.size()) {
-    Buffer<Unit> larger(n + n / 2);
+    BlockArray<Unit> larger(n + n / 2);
     std::copy(unit_.begin(), unit_.begin() + n_, larger.begin());
-    unit_.swap(larger);
+    unit_ = std::move(larger);
   }
   p_ = points;
   for (std::size_t i = n_; i < n; ++i) unit_[i] = unit(p_[i]);
@@ -207,10 +218,14 @@ void Directions::extend(const Point* points, std::size_t n) {
 }
 
 Directions::Unit Directions::unit(const Point& p) {
-  // Scale to [1/2,1) by a power of two: exact, up to components below 2^-1074 of the largest.
-  int e;
-  std::frexp(largest(p), &e);
-  const double c[3] = {std::ldexp(p.x, -e), std::ldexp(p.y, -e), std::ldexp(p.z, -e)};
+  double c[3] = {p.x, p.y, p.z};
+  // Where squares could leave the range, scaled to [1/2,1) by a power of two: exact, up to components below
+  // 2^-1074 of the largest. Elsewhere the errors of products that underflow are below 2^-400 of |p|^2.
+  if (const double most = largest(p); !(most > 0x1p-300 && most < 0x1p300)) {
+    int e;
+    std::frexp(most, &e);
+    for (double& v : c) v = std::ldexp(v, -e);
+  }
   // s = |p|^2 to 2^-103 of itself
   Pair s = product(c[0], c[0]);
   for (int k = 1; k < 3; ++k) {
@@ -255,10 +270,14 @@ int Directions::left(index_t a, index_t b, index_t c) const {
 
 int Directions::height(index_t ia, index_t ib, index_t ic, index_t id) const {
   ++counts.above;
-  const Point e = difference(ib, ia), f = difference(ic, ia), g = difference(id, ia);
-  const auto v = determinant(e, f, g);
-  const double m = std::max({largest(e), largest(f), largest(g)});
-  if (const int s = certain_sign(v, kDirectionFactor * v.permanent + kDirectionAbsolute * m * m)) return s;
+  // From each of the four, by even permutations: of a needle only the differences from a near node are small.
+  const index_t seen_from[4][4] = {{ia, ib, ic, id}, {ib, ia, id, ic}, {ic, id, ia, ib}, {id, ic, ib, ia}};
+  for (const auto& [a, b, c, d] : seen_from) {
+    const Point e = difference(b, a), f = difference(c, a), g = difference(d, a);
+    const auto v = determinant(e, f, g);
+    const double m = std::max({largest(e), largest(f), largest(g)});
+    if (const int s = certain_sign(v, kDirectionFactor * v.permanent + kDirectionAbsolute * m * m)) return s;
+  }
   ++counts.exact;
   return exact_orientation_of_directions(p_[ia], p_[ib], p_[ic], p_[id]);
 }

@@ -32,8 +32,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "geometry/buffer.h"
 #include "geometry/point.h"
+#include "geometry/workspace.h"
 
 namespace pstripack {
 
@@ -128,7 +128,7 @@ class Directions {
   static Unit unit(const Point& p);
   const Point* p_;
   std::size_t n_;
-  Buffer<Unit> unit_;
+  BlockArray<Unit> unit_;
 };
 
 /// Counts since the last call in this thread; for tests and measurements.

@@ -26,6 +26,12 @@
 namespace pstripack {
 namespace {
 
+/// A node seen from another: the difference of their positions and its square.
+struct Spoke {
+  Point d;
+  double square;
+};
+
 // ---- the plane of a face: the filter in front of `above` -----------------------------------------
 //
 // For a face a,b,c let e = b-a, f = c-a, n = e x f, w = n.a. Node d sees it if n.d - w > 0. Errors, with
@@ -38,14 +44,25 @@ namespace {
 // Together less than 40u M, and less than 40u M for w alone. The plane is scaled by the power of two
 // 2^k with 2^-k in [64u M, 128u M]: then |n.d - w| > 1 is a certain sign, and so is |w| > 1 for
 // det(a,b,c) = n.a.
+//
+// Where all is close together n.d drowns in the rounding of w. Then, and wherever it is at hand, the
+// difference g = a - d to any corner a of the face takes the place of d: small and accurate. n.g has an error
+// of 13u M |g| from n, 6u |n| |g| from the product, and 2^-95 M; in the scale of the plane, where 64u M < 1,
+// that is less than |g| / 2 + 2^-45.
 
 double above_plane(const Plane& f, const Point& p) { return (f.x * p.x + f.y * p.y) + (f.z * p.z - f.w); }
 
-/// A node seen from another: the difference of their positions and its square.
-struct Spoke {
-  Point d;
-  double square;
-};
+/// The same of a node from which the spoke leads to a corner.
+double above_plane(const Plane& f, const Spoke& to_corner) {
+  const Point& g = to_corner.d;
+  return -(f.x * g.x + f.y * g.y + f.z * g.z);
+}
+
+/// How far from zero its sign is certain.
+double certain_height(const Spoke& to_corner) {
+  const Point& g = to_corner.d;
+  return 0.5 * (std::fabs(g.x) + std::fabs(g.y) + std::fabs(g.z)) + 0x1p-45;
+}
 
 template <class Predicates>
 [[gnu::always_inline]] inline Spoke make_spoke(const Predicates& predicates, std::uint32_t to,
@@ -83,12 +100,16 @@ class Builder final : public GrowingHull {
     start(leading);
     const auto n = static_cast<std::uint32_t>(n_), first = static_cast<std::uint32_t>(leading);
     for (std::uint32_t v = 0; v < first; ++v) insert_unless_started(v);
-    // Two rounds: every 16th node along the curve, then the rest. The first round makes the triangles
-    // small everywhere, so that the second replaces fewer of them.
-    constexpr std::uint32_t kStride = 16;
-    for (std::uint32_t v = first; v < n; v += kStride) insert_unless_started(v);
-    for (std::uint32_t v = first; v < n; ++v)
-      if ((v - first) % kStride != 0) insert_unless_started(v);
+    // In rounds, each with 16 times the nodes of those before: at last all nodes along the curve, before that
+    // every 16th, and so on. A round makes the triangles small everywhere, so that the next replaces few of
+    // them, however the nodes lie. In two rounds, nodes in line towards the middle of an arc of others would
+    // each take the faces at all of those from the node before: quadratic.
+    constexpr std::uint32_t kRatio = 16;
+    std::uint32_t stride = 1;
+    while (stride <= (n - first) / kRatio) stride *= kRatio;
+    for (std::uint32_t done = 0; stride > 0; done = stride, stride /= kRatio)
+      for (std::uint32_t v = first; v < n; v += stride)
+        if (done == 0 || ((v - first) & (done - 1)) != 0) insert_unless_started(v);
   }
 
   std::uint32_t add(const Point& p) override {
@@ -134,16 +155,16 @@ class Builder final : public GrowingHull {
     hull.corner = corner_;
     hull.surrounds_centre = surrounds_centre_;
     if (surrounds_centre_) return hull;
-    std::vector<bool> shown(n_, false);
     hull.back.assign(count_, false);
+    hull.at_back.assign(n_, false);
     hull.surrounds_centre = true;
-    for (std::uint32_t t = 0; t < count_; ++t)
-      if (front(t))
-        for (int i = 0; i < 3; ++i) shown[faces_[t].vertex[i]] = true;
-      else
-        hull.back[t] = true, hull.surrounds_centre = false;
-    for (const auto& pair : coincident_) shown[pair.second] = true;
-    if (std::find(shown.begin(), shown.end(), false) != shown.end()) throw HiddenNode{};
+    for (std::uint32_t t = 0; t < count_; ++t) {
+      if (front(t)) continue;
+      hull.back[t] = true, hull.surrounds_centre = false;
+      for (int i = 0; i < 3; ++i) hull.at_back[faces_[t].vertex[i]] = true;
+    }
+    for (std::uint32_t v = 0; v < n_; ++v)
+      if (hull.at_back[v] && !has_front_face(hull, v)) throw HiddenNode{};
     return hull;
   }
 
@@ -162,6 +183,15 @@ class Builder final : public GrowingHull {
     words_ = arrays.faces->vertex;
     planes_ = arrays.planes;
     corner_ = arrays.corner;
+  }
+
+  static bool has_front_face(const Hull& hull, std::uint32_t v) {
+    std::uint32_t corner = hull.corner[v];
+    do {
+      if (hull.front(face_of(corner))) return true;
+      corner = clockwise(hull, corner);
+    } while (corner != hull.corner[v]);
+    return false;
   }
 
   // -- 2: the first nodes
@@ -241,35 +271,38 @@ class Builder final : public GrowingHull {
 
   // -- 3: one node
 
-  bool sees(const Point& p, std::uint32_t v, std::uint32_t t) const {
+  /// Whether node v at p sees face t. to_corner: from v to any corner of t.
+  bool sees(const Point& p, std::uint32_t v, std::uint32_t t, const Spoke& to_corner) const {
     const double s = above_plane(planes_[t], p);
     if (s > 1) return true;
     if (s < -1) return false;
-    return sees_closely(v, t);
+    return sees_closely(v, t, to_corner);
   }
 
-  /// The same where all is so close together that n.d - w drowns in the rounding of w: with g = d - a
-  /// instead, small and accurate, n.g has an error of 13u M |g| from n, 6u |n| |g| from the product, and
-  /// 2^-95 M. In the scale of the plane, where 64u M < 1, that is less than |g| / 2 + 2^-45. The zero plane
-  /// passes nothing.
-  bool sees_closely(std::uint32_t v, std::uint32_t t) const {
+  /// The same where all is close together: the plane and p alone would hardly tell.
+  bool sees_closely(std::uint32_t v, std::uint32_t t, const Spoke& to_corner) const {
     const Face& f = faces_[t];
     if (f.vertex[2] == v) throw HiddenNode{};  // a face of the fan of v itself: see replace_seen_by_fan
-    const Plane& n = planes_[t];
-    const Point g = predicates_.difference(static_cast<index_t>(v), static_cast<index_t>(f.vertex[2]));
-    const double s = n.x * g.x + n.y * g.y + n.z * g.z;
-    const double bound = 0.5 * (std::fabs(g.x) + std::fabs(g.y) + std::fabs(g.z)) + 0x1p-45;
-    if (s > bound) return true;
-    if (s < -bound) return false;
-    return predicates_.above(f.vertex[0], f.vertex[1], f.vertex[2], v);
+    const int side = certain_side(t, to_corner);
+    return side != 0 ? side > 0 : predicates_.above(f.vertex[0], f.vertex[1], f.vertex[2], v);
+  }
+
+  /// +1: the node from which the spoke leads to a corner of face t sees it, -1: it does not, 0: not certain.
+  int certain_side(std::uint32_t t, const Spoke& to_corner) const {
+    const double s = above_plane(planes_[t], to_corner), certain = certain_height(to_corner);
+    return (s > certain) - (s < -certain);
   }
 
   void insert(std::uint32_t v) {
     const Point& p = predicates_.position(v);
     std::uint32_t seen = walk(p);
-    if (seen == kNone) seen = walk_exactly(p, v);
+    if (seen != kNone)
+      return replace_seen_by_fan(
+          v, seen, [&](std::uint32_t t, const Spoke& to_corner) { return sees(p, v, t, to_corner); });
+    seen = walk_exactly(v);
     if (seen == kNone) return;  // coincides with a node that is in
-    replace_seen_by_fan(v, seen);
+    replace_seen_by_fan(
+        v, seen, [&](std::uint32_t t, const Spoke& to_corner) { return sees_closely(v, t, to_corner); });
   }
 
   /// Walks from the last face towards p by floating-point tests, until a face is certainly seen; kNone
@@ -321,18 +354,23 @@ class Builder final : public GrowingHull {
   /// The same walk by exact signs. It ends: seen from the centre, the front faces are a regular
   /// triangulation of the directions, and in those a walk towards a point never returns to a triangle
   /// (Edelsbrunner 1990, acyclicity).
-  ///   - A face that p sees: done.
+  ///   - A face that p sees: done; but not by a tie of directions, where p may only outrank a node that it
+  ///     coincides with. That one is a corner of the face below p.
   ///   - The silhouette: p is strictly right of an edge u->v between a front face F and a face B that is
   ///     not one. The plane through the centre, u and v is above F on its far side and above B on its
   ///     near side, so what neither F nor B has below it lies left of that plane: p sees F or B.
-  ///   - A front face below which p lies, its direction inside: p is one of its corners, or hidden.
-  std::uint32_t walk_exactly(const Point& p, std::uint32_t v) {
+  ///   - A front face below which p lies, its direction inside: p is one of its corners, or hidden. (Another
+  ///     direction inside lies strictly above.)
+  std::uint32_t walk_exactly(std::uint32_t v) {
     std::uint32_t t = last_;
     for (;;) {
       const Face& f = faces_[t];
+      const int side = certain_side(t, make_spoke(predicates_, f.vertex[0], v));
+      if (side > 0) return t;
       for (const std::uint32_t corner : {f.vertex[0], f.vertex[1], f.vertex[2]})
         if (predicates_.given(corner) == predicates_.given(v)) return coincides(v, corner);
-      if (sees(p, v, t)) return t;
+      const bool seen = side == 0 && predicates_.above(f.vertex[0], f.vertex[1], f.vertex[2], v);
+      if (seen && !by_tie_of_directions(v, f)) return t;
       std::uint32_t out = 0;
       while (out < 3 && predicates_.left(f.vertex[next_edge(out)], f.vertex[previous_edge(out)], v) >= 0)
         ++out;
@@ -341,10 +379,18 @@ class Builder final : public GrowingHull {
           if (predicates_.coincide(corner, v)) return coincides(v, corner);
         throw HiddenNode{};
       }
-      t = face_of(f.neighbour[out]);
-      if (!front(t)) return t;
-      last_ = t;
+      const std::uint32_t next = face_of(f.neighbour[out]);
+      if (!front(next)) return seen ? t : next;
+      last_ = t = next;
     }
+  }
+
+  /// True if v, which sees the face, lies in its plane. Not asked of coordinates: there nodes that coincide
+  /// have the same rank, and see the same.
+  bool by_tie_of_directions([[maybe_unused]] std::uint32_t v, [[maybe_unused]] const Face& f) const {
+    if constexpr (std::is_same_v<Predicates, Directions>)
+      return !predicates_.strictly_above(f.vertex[0], f.vertex[1], f.vertex[2], v);
+    return false;
   }
 
   std::uint32_t coincides(std::uint32_t v, std::uint32_t corner) {
@@ -367,9 +413,10 @@ class Builder final : public GrowingHull {
   ///
   /// A tree of m faces has m + 2 edges around it: new faces take two new places, then those of the faces
   /// already visited. A node inside the disc would be lost to the triangulation. The search then goes round
-  /// it: until it comes upon a face of the fan, which no filter can place above or below v, or has met more
+  /// it: until it comes upon a face of the fan, which no plane can place above or below v, or has met more
   /// faces than there are.
-  void replace_seen_by_fan(std::uint32_t v, std::uint32_t seen) {
+  template <class Sees>
+  [[gnu::always_inline]] void replace_seen_by_fan(std::uint32_t v, std::uint32_t seen, const Sees& sees) {
     const Point p = predicates_.position(v);
     std::size_t visited = 2, used = 0, top = 3, limit = visit_limit();
     place_[0] = static_cast<std::uint32_t>(count_);
@@ -382,7 +429,7 @@ class Builder final : public GrowingHull {
     Spoke to_u = make_spoke(predicates_, u, v);
     while (top > 0) {
       const std::uint32_t code = stack_[--top], after = next_code(code);
-      if (sees(p, v, face_of(code))) {
+      if (sees(face_of(code), to_u)) {
         stack_[top++] = neighbour(previous_code(code));
         stack_[top++] = neighbour(after);
         place_[visited++] = face_of(code);

@@ -46,7 +46,8 @@ struct Hull {
   const Face* faces = nullptr;
   const std::uint32_t* corner = nullptr;  ///< for each node, the code 4*t + i of a face with vertex[i] there
   bool surrounds_centre = false;          ///< every face is a front face
-  std::vector<bool> back;                 ///< else: true for the faces that are not part of the triangulation
+  // Else: true for the faces that are not part of the triangulation, and for their corners.
+  std::vector<bool> back, at_back;
   Lengths lengths = Lengths::as_given;    ///< the predicates that decided
   /// Nodes left out because they coincide with one that is in: (in, out), the caller's numbers.
   std::vector<std::pair<index_t, index_t>> coincident;
@@ -57,7 +58,15 @@ struct Hull {
   }
 
   bool front(std::size_t face) const { return surrounds_centre || !back[face]; }
+  /// All faces around the node are part of the triangulation.
+  bool inner(std::size_t node) const { return surrounds_centre || !at_back[node]; }
 };
+
+/// The corner at the same node in the next face clockwise.
+inline std::uint32_t clockwise(const Hull& hull, std::uint32_t corner) {
+  const std::uint32_t beyond = hull.faces[face_of(corner)].neighbour[previous_edge(edge_of(corner))];
+  return 4 * face_of(beyond) + previous_edge(edge_of(beyond));
+}
 
 /// The plane of a face, scaled: see mesh/delaunay.cpp.
 struct Plane {

@@ -20,12 +20,6 @@ void copy_block(const Int* from, Int* to) {
   std::memcpy(to, from, kBlock * sizeof(Int));
 }
 
-/// The corner at the same node in the next face clockwise.
-inline std::uint32_t clockwise(const Hull& hull, std::uint32_t corner) {
-  const std::uint32_t beyond = hull.faces[face_of(corner)].neighbour[previous_edge(edge_of(corner))];
-  return 4 * face_of(beyond) + previous_edge(edge_of(beyond));
-}
-
 /// From any corner at a node to that in a front face, the first after the gap if there is one.
 inline std::uint32_t first_corner(const Hull& hull, std::uint32_t corner) {
   while (!hull.front(face_of(corner))) corner = clockwise(hull, corner);
@@ -73,8 +67,7 @@ Int* append_ring(const Hull& hull, std::uint32_t corner, const Number& number, I
   return out;
 }
 
-/// The same where the hull surrounds the centre and the node has up to kBlock neighbours; null if it has
-/// more. Else writes kBlock entries.
+/// The same of an inner node with up to kBlock neighbours; null if it has more. Else writes kBlock entries.
 template <class Int, class Number>
 Int* append_short_ring(const Hull& hull, std::uint32_t corner, const Number& number, Int* begin) {
   const std::uint32_t first = next_code(corner);
@@ -164,7 +157,7 @@ void append_rings(const Hull& hull, std::size_t first, std::size_t last, const W
     }
     if (!wanted(v)) continue;
     Int* const place = out;
-    out = hull.surrounds_centre ? append_short_ring(hull, hull.corner[v], number, place + 1) : nullptr;
+    out = hull.inner(v) ? append_short_ring(hull, hull.corner[v], number, place + 1) : nullptr;
     if (out == nullptr) out = append_ring(hull, hull.corner[v], number, place + 1);
     const auto count = static_cast<std::uint32_t>(out - place - 1);
     *place = static_cast<Int>(count);
