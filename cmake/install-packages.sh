@@ -8,6 +8,7 @@ packages="
   libboost-dev
   libcli11-dev nlohmann-json3-dev libfmt-dev libnetcdf-dev
   libgtest-dev libcgal-dev libgmp-dev libmpfr-dev libqhull-dev
+  abigail-tools
   python3 gnuplot-nox librsvg2-bin ghostscript
   libncarg-dev
   libopenmpi-dev openmpi-bin"

@@ -4,7 +4,7 @@ include_guard(GLOBAL)
 
 set(point_sets_dir ${CMAKE_CURRENT_LIST_DIR}/point_sets)
 set(point_set_families random single fibonacci icosahedral latlon reduced_gaussian healpix cubed_sphere tripolar ring
-                       variable clusters dense_cap antipodal cap box strip pairs hemisphere hemisphere_rim)
+                       variable clusters dense_cap antipodal cap box strip tee pairs hemisphere hemisphere_rim)
 list(TRANSFORM point_set_families PREPEND ${point_sets_dir}/families/)
 list(TRANSFORM point_set_families APPEND .cpp)
 add_library(point_sets STATIC

@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 #include "contenders.h"
 #include "measuring.h"
@@ -18,6 +19,7 @@
 #include "orders.h"
 #include "point_sets.h"
 #include "pstripack.h"
+#include "time_of_orders.h"
 
 namespace benchmark {
 namespace {
@@ -308,6 +310,8 @@ void run(const Case& c, const std::optional<legacy_stripack::Original>& original
 }
 
 const std::vector<std::string> kParallelCases{"threads-1e6", "pool-1e6", "crlist-threads"};
+const std::vector<std::pair<std::string, int>> kTimesOfOrders{{"orders-1e5", 100000},
+                                                              {"orders-1e6", 1000000}};
 
 }  // namespace
 
@@ -316,6 +320,7 @@ std::vector<std::string> case_names() {
   for (const Case& c : kCases) names.push_back(c.name);
   for (const OrderCase& c : kOrderCases) names.push_back(c.name);
   names.insert(names.end(), kParallelCases.begin(), kParallelCases.end());
+  for (const auto& [name, n] : kTimesOfOrders) names.push_back(name);
   return names;
 }
 
@@ -325,7 +330,12 @@ void run_cases(const std::string& self, const CaseSettings& settings,
   const auto is_wanted = [&wanted = only](const std::string& name, bool by_default) {
     return wanted.empty() ? by_default : std::find(wanted.begin(), wanted.end(), name) != wanted.end();
   };
-  fmt::print("in parentheses the ratio asked for\n\n");
+  for (const auto& [name, n] : kTimesOfOrders)
+    if (is_wanted(name, !quick)) run_time_of_orders(n, repeats);
+  const auto is_of_orders = [](const std::string& name) { return name.rfind("orders-", 0) == 0; };
+  if (!only.empty() && std::all_of(only.begin(), only.end(), is_of_orders)) return;
+
+  fmt::print("\nin parentheses the ratio asked for\n\n");
   fmt::print("{:<17} {:>8} {:^39} {:^17} {:^17} {:^17} {:>9}\n", "", "", "microseconds a node",
              "original / ours", "CGAL / ours", "Qhull / ours", "peak");
   fmt::print("{:<17} {:>8} {:>9} {:>9} {:>9} {:>9} {:>17} {:>17} {:>17} {:>9}\n", "case", "N", "ours",

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 #include <tuple>
+#include <utility>
 
 #include "point_sets.h"
 
@@ -13,38 +15,98 @@ using pstripack::Point;
 
 namespace {
 
-void sort_by_rows(std::vector<Point>& nodes) {
-  constexpr double kPi = 3.14159265358979323846;
-  // A grid of about square cells has twice as many columns as rows.
-  const double rows = std::sqrt(static_cast<double>(nodes.size()) / 2);
-  struct Placed {
-    double row, longitude;
-    Point node;
-  };
-  std::vector<Placed> placed;
-  for (const Point& p : nodes)
-    placed.push_back({std::floor(std::asin(p.z) / kPi * rows), std::atan2(p.y, p.x), p});
-  std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
-    return std::tie(a.row, a.longitude) < std::tie(b.row, b.longitude);
-  });
-  std::transform(placed.begin(), placed.end(), nodes.begin(), [](const Placed& p) { return p.node; });
+constexpr double kPi = 3.14159265358979323846;
+
+template <class Key>
+void sort_by(std::vector<Point>& nodes, Key key) {
+  std::vector<std::pair<decltype(key(nodes[0])), Point>> keyed;
+  for (const Point& p : nodes) keyed.push_back({key(p), p});
+  std::stable_sort(keyed.begin(), keyed.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::transform(keyed.begin(), keyed.end(), nodes.begin(), [](const auto& k) { return k.second; });
+}
+
+double latitude(const Point& p) { return p.z; }
+double longitude(const Point& p) { return std::atan2(p.y, p.x); }
+
+/// From 0 to `zones` - 1, and zones at the upper end itself.
+double zone(double value, double low, double high, double zones) {
+  return std::floor((value - low) / (high - low) * zones);
+}
+
+/// The cell of the cylinder (longitude, z), whose cells are equal in area: 2^30 x 2^30 of them.
+std::pair<std::uint64_t, std::uint64_t> cell(const Point& p) {
+  constexpr double kSide = 0x1p30;
+  const auto within = [](double c) { return static_cast<std::uint64_t>(std::clamp(c, 0.0, kSide - 1)); };
+  return {within(zone(longitude(p), -kPi, kPi, kSide)), within(zone(p.z, -1, 1, kSide))};
+}
+
+std::uint64_t along_morton(const Point& p) {
+  const auto [i, j] = cell(p);
+  std::uint64_t key = 0;
+  for (int bit = 29; bit >= 0; --bit) key = key << 2 | (i >> bit & 1) << 1 | (j >> bit & 1);
+  return key;
+}
+
+std::uint64_t along_hilbert(const Point& p) {
+  auto [i, j] = cell(p);
+  std::uint64_t key = 0;
+  for (int bit = 29; bit >= 0; --bit) {
+    const std::uint64_t a = i >> bit & 1, b = j >> bit & 1;
+    key = key << 2 | (3 * a ^ b);
+    if (b == 0) {  // the curve enters and leaves these quadrants with the axes swapped
+      if (a == 1) i = ~i, j = ~j;
+      std::swap(i, j);
+    }
+  }
+  return key;
+}
+
+/// First, last, second, last but one ...
+void from_both_ends(std::vector<Point>& nodes) {
+  std::vector<Point> alternating;
+  for (std::size_t first = 0, last = nodes.size(); first < last;) {
+    alternating.push_back(nodes[first++]);
+    if (first < last) alternating.push_back(nodes[--last]);
+  }
+  nodes.swap(alternating);
 }
 
 }  // namespace
 
 const std::vector<std::string>& orders() {
-  static const std::vector<std::string> names{"given", "shuffled", "latitude", "rows"};
+  static const std::vector<std::string> names{"given", "shuffled", "x",      "latitude", "southward",
+                                              "rows",  "columns",  "morton", "hilbert",  "ends"};
   return names;
 }
 
 std::vector<Point> nodes_in_order(const std::string& family, std::size_t n, const std::string& order) {
   std::vector<Point> nodes = point_sets::make(family, n, 1);
+  // A grid of about square cells has twice as many columns as rows.
+  const double rows = std::sqrt(static_cast<double>(nodes.size()) / 2);
   if (order == "shuffled") {
     point_sets::shuffle(nodes, 1);
+  } else if (order == "x") {
+    sort_by(nodes, [](const Point& p) { return p.x; });
   } else if (order == "latitude") {
-    std::sort(nodes.begin(), nodes.end(), [](const Point& a, const Point& b) { return a.z < b.z; });
+    sort_by(nodes, latitude);
+  } else if (order == "southward") {
+    sort_by(nodes, [](const Point& p) { return -latitude(p); });
   } else if (order == "rows") {
-    sort_by_rows(nodes);
+    sort_by(nodes, [rows](const Point& p) {
+      return std::make_pair(zone(std::asin(p.z), -kPi / 2, kPi / 2, rows), longitude(p));
+    });
+  } else if (order == "columns") {
+    sort_by(nodes, [rows](const Point& p) {
+      return std::make_pair(zone(longitude(p), -kPi, kPi, 2 * rows), latitude(p));
+    });
+  } else if (order == "morton") {
+    sort_by(nodes, along_morton);
+  } else if (order == "hilbert") {
+    sort_by(nodes, along_hilbert);
+  } else if (order == "ends") {
+    sort_by(nodes, latitude);
+    from_both_ends(nodes);
   } else if (order != "given") {
     throw std::invalid_argument("there is no order " + order);
   }

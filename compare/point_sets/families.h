@@ -40,6 +40,7 @@ Family antipodal_family();
 Family cap_family();
 Family box_family();
 Family strip_family();
+Family tee_family();
 Family pairs_family();
 Family hemisphere_family();
 Family hemisphere_rim_family();

@@ -16,7 +16,8 @@ const std::vector<Family>& registry() {
       cubed_sphere_family(), tripolar_family(), ring_family(),
       // uneven
       variable_family(), clusters_family(), dense_cap_family(), antipodal_family(), cap_family(),
-      box_family(), strip_family(), pairs_family(), hemisphere_family(), hemisphere_rim_family()};
+      box_family(), strip_family(), tee_family(), pairs_family(), hemisphere_family(),
+      hemisphere_rim_family()};
   return families;
 }
 

@@ -137,10 +137,10 @@ Outcome run(const Nodes& nodes, const Configuration& c, bool with_neighbours = f
 // ---- all families, all configurations ---------------------------------------------------------------
 
 const std::vector<std::string> kFamilies{
-    "random",   "single",        "fibonacci",  "icosahedral",   "latlon",   "reduced-gaussian",
-    "healpix",  "cubed-sphere",  "tripolar",   "ring",          "variable", "variable:1e6",
-    "clusters", "clusters:1e-6", "dense-cap",  "antipodal",     "cap",      "box",
-    "strip",    "pairs",         "hemisphere", "hemisphere-rim"};
+    "random",   "single",        "fibonacci", "icosahedral", "latlon",        "reduced-gaussian",
+    "healpix",  "cubed-sphere",  "tripolar",  "ring",        "variable",      "variable:1e6",
+    "clusters", "clusters:1e-6", "dense-cap", "antipodal",   "cap",           "box",
+    "strip",    "tee",           "pairs",     "hemisphere",  "hemisphere-rim"};
 
 class Configurations : public ::testing::TestWithParam<Configuration> {};
 

@@ -150,6 +150,20 @@ TEST(Report, WarnsOnceOfAFileThatCannotBeWrittenAndGoesOn) {
   }
 }
 
+/// A name that is cut off would be that of another file.
+TEST(Report, IsNotWrittenUnderAnotherNameWhereItsOwnIsTooLong) {
+  const Folder folder;
+  std::string deep;
+  while (folder.path().size() + deep.size() < 3900) deep += "/" + std::string(100, 'd');
+  const std::string command =
+      "mkdir -p '" + folder.path() + deep + "' && cd '" + folder.path() + deep + "' && env";
+  const Outcome outcome =
+      run(folder, command + " PSTRIPACK_REPORT=" + std::string(250, 'r'), "calls random 100 1");
+  EXPECT_EQ(lines(outcome.err).size(), 1u) << outcome.err;
+  EXPECT_NE(outcome.err.find("File name too long; there is no report"), std::string::npos) << outcome.err;
+  EXPECT_EQ(std::system(("test -z \"$(find " + folder.path() + " -name 'r*')\"").c_str()), 0);
+}
+
 TEST(Report, KeepsTheLinesOfThreadsWhole) {
   const Folder folder;
   const auto all = lines(run(folder, kOne, "threads random 500 8").err);

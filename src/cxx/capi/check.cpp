@@ -22,6 +22,7 @@
 #include "capi/recorded_block.h"
 #include "capi/shadow_process.h"
 #include "capi/transfer.h"
+#include "geometry/environment.h"
 #include "parallel/cost.h"
 
 namespace pstripack {
@@ -63,7 +64,7 @@ class Check {
   /// What the environment asks for where the library is loaded, and where the program is then: it may change
   /// both later. Null if it asks for nothing.
   static Check* from_environment() {
-    const char* const value = secure_getenv("PSTRIPACK_CHECK");
+    const char* const value = environment_variable("PSTRIPACK_CHECK");
     if (value == nullptr || *value == '\0') return nullptr;
     try {
       char folder[PATH_MAX];

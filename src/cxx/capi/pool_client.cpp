@@ -12,6 +12,7 @@
 #include <omp.h>
 #endif
 
+#include "geometry/environment.h"
 #include "geometry/parallel_for.h"
 #include "pool/channel.h"
 #include "pool/messages.h"
@@ -34,10 +35,10 @@ struct Settings {
   std::int32_t fewest_nodes = kFewestNodes;
 
   Settings() {
-    const char* const name = std::getenv("PSTRIPACK_POOL");
+    const char* const name = environment_variable("PSTRIPACK_POOL");
     if (name != nullptr && std::strlen(name) < sizeof pool) std::strcpy(pool, name);
     // For tests, whose calls are small.
-    if (const char* const fewest = std::getenv("PSTRIPACK_POOL_MIN_NODES"))
+    if (const char* const fewest = environment_variable("PSTRIPACK_POOL_MIN_NODES"))
       fewest_nodes = std::atoi(fewest) < 3 ? 3 : std::atoi(fewest);
   }
 };
@@ -79,6 +80,13 @@ void copy(void* to, const void* from, std::size_t size) {
       });
 }
 
+/// The lengths in it are those of n nodes.
+bool fits(const PoolReply& reply, std::int32_t n) {
+  return reply.done == 0 || reply.ier < 0 ||
+         (1 <= reply.lnew && reply.lnew <= 6 * n - 11 &&
+          (reply.ier == 0 || (1 <= reply.other && reply.other <= n)));
+}
+
 template <class Real>
 bool Pool::trmesh(const pstripack_trmesh_arguments& call, PoolReply& reply) {
   if (!is_open()) return false;
@@ -100,7 +108,7 @@ bool Pool::trmesh(const pstripack_trmesh_arguments& call, PoolReply& reply) {
   request.n = call.n;
   request.wants_cost = call.report != nullptr ? 1 : 0;
   if (!send_packet(socket_, &request, sizeof request, &new_area, 1) ||
-      !receive_packet(socket_, &reply, sizeof reply)) {
+      !receive_packet(socket_, &reply, sizeof reply) || !fits(reply, call.n)) {
     // The pool has ended, or the model has closed what it did not open, and the number may be another file's.
     socket_.release();
     area_ = SharedArea();

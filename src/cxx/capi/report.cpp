@@ -14,6 +14,8 @@
 #include <cstdio>
 #include <cstring>
 
+#include "geometry/environment.h"
+
 namespace pstripack {
 namespace {
 
@@ -60,7 +62,7 @@ class Report {
   /// What the environment asks for where the library is loaded, and where the program is then: it may change
   /// both later. Null if it asks for nothing.
   static Report* from_environment() {
-    const char* const value = secure_getenv("PSTRIPACK_REPORT");
+    const char* const value = environment_variable("PSTRIPACK_REPORT");
     if (value == nullptr || *value == '\0' || std::strcmp(value, "0") == 0) return nullptr;
     static Report report;
     if (std::strcmp(value, "1") != 0) report.set_path(value);
@@ -127,10 +129,12 @@ class Report {
     }
   }
 
+  /// A name that is cut off would be another file's.
   void set_path(const char* path) {
     char folder[PATH_MAX] = "";
-    if (*path != '/' && getcwd(folder, sizeof folder) != nullptr) std::strcat(folder, "/");
-    std::snprintf(path_, sizeof path_, "%s%s", folder, path);
+    const bool is_relative = *path != '/' && getcwd(folder, sizeof folder) != nullptr;
+    const int length = std::snprintf(path_, sizeof path_, "%s%s%s", folder, is_relative ? "/" : "", path);
+    if (length >= static_cast<int>(sizeof path_)) fail(path, ENAMETOOLONG);
   }
 
   void clear() {
@@ -176,8 +180,12 @@ class Report {
     const bool written = file >= 0 && text.write_to(file);
     const int error = errno;
     if (file >= 0) close(file);
-    if (!written && !has_failed_.exchange(true))
-      std::fprintf(stderr, "pstripack: PSTRIPACK_REPORT: %s: %s; there is no report\n", path_,
+    if (!written) fail(path_, error);
+  }
+
+  void fail(const char* path, int error) {
+    if (!has_failed_.exchange(true))
+      std::fprintf(stderr, "pstripack: PSTRIPACK_REPORT: %s: %s; there is no report\n", path,
                    std::strerror(error));
   }
 

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "capi/transfer.h"
+#include "geometry/environment.h"
 #include "parallel/cost.h"
 
 namespace pstripack {
@@ -36,7 +37,7 @@ bool starts_with(const char* text, const char* beginning) {
 /// wherever PATH finds it.
 std::string program() {
   const std::string name = "stripack-compare";
-  if (const char* const given = secure_getenv("PSTRIPACK_COMPARE")) return given;
+  if (const char* const given = environment_variable("PSTRIPACK_COMPARE")) return given;
   Dl_info library;
   char file[PATH_MAX];
   if (dladdr(reinterpret_cast<const void*>(&program), &library) != 0 &&

@@ -24,6 +24,7 @@
 #include <omp.h>
 #endif
 
+#include "geometry/environment.h"
 #include "mpi/collective_trmesh.h"
 
 namespace pstripack {
@@ -116,7 +117,7 @@ std::vector<char*> environment_without_mpi() {
 
 Steward::Steward(char** command) {
   Descriptor from_launcher[4];
-  if (const char* const name = getenv("PSTRIPACK_POOL_LAUNCHER")) {
+  if (const char* const name = environment_variable("PSTRIPACK_POOL_LAUNCHER")) {
     launcher_ = connect_to(name);
     char hello = 0;
     if (launcher_ && !receive_packet(launcher_, &hello, 1, from_launcher, 4)) launcher_.reset();
@@ -265,7 +266,8 @@ bool look_around() {
   MPI_Bcast(&lowest, 1, MPI_INT, 0, machine);
   MPI_Comm_free(&machine);
 #ifdef _OPENMP
-  if (getenv("OMP_NUM_THREADS") == nullptr) omp_set_num_threads(std::max(1, omp_get_num_procs() / ranks));
+  if (environment_variable("OMP_NUM_THREADS") == nullptr)
+    omp_set_num_threads(std::max(1, omp_get_num_procs() / ranks));
 #endif
   return lowest == 0;
 }

@@ -23,6 +23,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/environment.h"
 #include "pool/channel.h"
 #include "pool/messages.h"
 
@@ -110,7 +111,7 @@ std::string path_of_worker() {
 }
 
 std::string path_of_mpirun() {
-  if (const char* const path = std::getenv("PSTRIPACK_MPIRUN")) return path;
+  if (const char* const path = pstripack::environment_variable("PSTRIPACK_MPIRUN")) return path;
   return access(PSTRIPACK_MPIRUN, X_OK) == 0 ? PSTRIPACK_MPIRUN : "mpirun";
 }
 

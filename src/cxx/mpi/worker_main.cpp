@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <exception>
 
+#include "geometry/environment.h"
 #include "mpi/pool.h"
 #include "mpi/watchdog.h"
 
@@ -33,7 +34,7 @@ void end_on_request(int signal, siginfo_t* sender, void*) {
 /// The rank, known before MPI is initialised; -1 if this is no rank.
 int rank_from_environment() {
   for (const char* const variable : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"})
-    if (const char* const rank = std::getenv(variable)) return std::atoi(rank);
+    if (const char* const rank = pstripack::environment_variable(variable)) return std::atoi(rank);
   return -1;
 }
 

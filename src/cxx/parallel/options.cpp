@@ -2,16 +2,16 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 
+#include "geometry/environment.h"
 #include "geometry/parallel_for.h"
 
 namespace pstripack {
 namespace {
 
 PartitionKind partition_from_environment() {
-  const char* const name = std::getenv("PSTRIPACK_PARTITION");
+  const char* const name = environment_variable("PSTRIPACK_PARTITION");
   if (name == nullptr || *name == '\0' || std::strcmp(name, "bisection") == 0)
     return PartitionKind::bisection;
   if (std::strcmp(name, "stripes") == 0) return PartitionKind::stripes;

@@ -1,0 +1,40 @@
+#!/bin/sh
+# abi.sh check LIBRARY BASELINE [HEADER...]   fails where a program that was built with the library of the baseline might
+#                                             not run with this one: functions removed, arguments or soname changed
+# abi.sh accept LIBRARY BASELINE [HEADER...]  makes this library the baseline
+# With headers only the functions that they declare count.
+set -eu
+action=$1 library=$2 baseline=$3
+shift 3
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+: > "$work/suppressions"
+if [ $# -gt 0 ]; then
+  functions=$(sed -n 's/^PSTRIPACK_API [^(]*[ *]\(pstripack_[a-z0-9_]*\)(.*/\1/p' "$@" | paste -sd'|')
+  for name in name symbol_name; do
+    printf '[suppress_function]\n  %s_not_regexp = ^(%s)$\n  drop = yes\n' $name "$functions"
+  done > "$work/suppressions"
+fi
+of_library='' of_second=''
+for header; do
+  of_library="$of_library --hf $header"
+  of_second="$of_second --hf2 $header"
+done
+
+if [ "$action" = accept ]; then
+  # shellcheck disable=SC2086  # a list of words on purpose
+  abidw --suppressions "$work/suppressions" $of_library --drop-private-types --exported-interfaces-only \
+    --no-architecture --no-corpus-path --no-show-locs --no-comp-dir-path --no-elf-needed --no-write-default-sizes \
+    "$library" |
+    sed -E "s/ path='([^']*\/)?/ path='/" > "$baseline"
+else
+  # abidiff calls a baseline that it cannot read the same as the library.
+  # shellcheck disable=SC2086
+  if ! abidiff --suppressions "$work/suppressions" $of_second --drop-private-types --no-architecture \
+       --no-added-syms "$baseline" "$library" 2> "$work/errors" || [ -s "$work/errors" ]; then
+    cat "$work/errors" >&2
+    echo "$library: the ABI is not that of $baseline. If that is intended: new soname, tests/abi/accept.sh" >&2
+    exit 1
+  fi
+fi
