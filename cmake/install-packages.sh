@@ -1,6 +1,7 @@
 #!/bin/sh
-# Installs what PSTRIPACK is built, tested and compared with, on Debian 12. Does nothing, and asks for no
-# rights, where all of it is there already. Called by quickstart.sh and test.sh.
+# Installs what PSTRIPACK is built, tested and compared with, on Debian 12, and the packages that are named. Does
+# nothing, and asks for no rights, where all of it is there already. Called by quickstart.sh and test.sh.
+# Usage: install-packages.sh [package...]
 set -eu
 
 packages="
@@ -11,7 +12,7 @@ packages="
   abigail-tools
   python3 gnuplot-nox librsvg2-bin ghostscript
   libncarg-dev
-  libopenmpi-dev openmpi-bin"
+  libopenmpi-dev openmpi-bin $*"
 
 missing=""
 for package in $packages; do

@@ -1,11 +1,8 @@
-// The catalogue's section "Numbers": what is no direction, extreme sizes, and the floating-point environment.
+// The catalogue's section "Numbers": what is no direction, and extreme sizes. The floating-point environment:
+// tests/numerics.
 
-#include <fenv.h>
 #include <gtest/gtest.h>
 #include <sys/mman.h>
-#if defined(__x86_64__)
-#include <xmmintrin.h>
-#endif
 
 #include <algorithm>
 #include <cmath>
@@ -260,107 +257,5 @@ TEST(SinglePrecision, NodesAreCorrectAndAsInDouble) {
     EXPECT_TRUE(m == expected) << n;
   }
 }
-
-// ---- The caller's floating-point environment ----
-
-/// Sets that reach the filter, the exact stage, the tie rule, and the directions.
-std::vector<Nodes> hard_sets() {
-  Nodes denormal = make("random", 100);
-  for (int i = -3; i <= 3; ++i)
-    for (int j = -3; j <= 3; ++j) denormal.push_back({1, i * tiny, j * 1e-310});
-  return {make("random", 1000),
-          make("ring", 500),
-          make("cap:1e-8", 500),
-          make("pairs", 1000),
-          make("cubed-sphere", 600),
-          scaled(make("random", 500), 6371229),
-          denormal,
-          make("random", 50000)};
-}
-
-#if defined(__x86_64__)
-/// Control and status word of SSE, and all of the x87 environment that C knows.
-struct Environment {
-  unsigned mxcsr = _mm_getcsr();
-  int rounding = fegetround(), flags = fetestexcept(FE_ALL_EXCEPT), traps = fegetexcept();
-};
-bool operator==(const Environment& a, const Environment& b) {
-  return a.mxcsr == b.mxcsr && a.rounding == b.rounding && a.flags == b.flags && a.traps == b.traps;
-}
-
-/// Runs all hard sets inside the environment that `enter` makes; expects the bits of the default one.
-template <class Enter>
-void expect_same_bits(Enter enter) {
-  const std::vector<Nodes> sets = hard_sets();
-  std::vector<Mesh> expected;
-  for (const Nodes& nodes : sets) expected.push_back(trmesh(nodes));
-  for (std::size_t i = 0; i < sets.size(); ++i) {
-    const Columns c(sets[i]);
-    const std::size_t n = sets[i].size();
-    Mesh m;
-    m.list.assign(6 * n - 12, untouched), m.lptr.assign(6 * n - 12, untouched), m.lend.assign(n, untouched);
-    fenv_t before;
-    fegetenv(&before);
-    enter();
-    const Environment inside;
-    m.ier = pstripack_trmesh(static_cast<std::int32_t>(n), c.x.data(), c.y.data(), c.z.data(), m.list.data(),
-                             m.lptr.data(), m.lend.data(), &m.lnew);
-    const Environment after;
-    const std::int32_t validated =
-        pstripack_validate(static_cast<std::int32_t>(n), c.x.data(), c.y.data(), c.z.data(), m.list.data(),
-                           m.lptr.data(), m.lend.data(), m.lnew, nullptr, 0);
-    const Environment after_validation;
-    fesetenv(&before);
-    EXPECT_EQ(m.ier, 0) << "set " << i;
-    EXPECT_TRUE(m == expected[i]) << "set " << i;
-    EXPECT_TRUE(after == inside) << "set " << i << ": environment not restored";
-    EXPECT_EQ(validated, 0) << "set " << i;
-    EXPECT_TRUE(after_validation == inside) << "set " << i << ": environment not restored by the validator";
-  }
-}
-
-TEST(Environment, RoundingModesChangeNoBit) {
-  for (const int mode : {FE_TONEAREST, FE_DOWNWARD, FE_UPWARD, FE_TOWARDZERO})
-    expect_same_bits([mode] { fesetround(mode); });
-}
-
-TEST(Environment, FlushToZeroChangesNoBit) {
-  for (const unsigned bits : {0x8000u, 0x0040u, 0x8040u})  // flush to zero, denormals are zero, both
-    expect_same_bits([bits] { _mm_setcsr(_mm_getcsr() | bits); });
-}
-
-TEST(Environment, TrapsDoNotFire) {
-  expect_same_bits([] {
-    feclearexcept(FE_ALL_EXCEPT);
-    feenableexcept(FE_ALL_EXCEPT);
-  });
-}
-
-TEST(Environment, FlagsThatWereRaisedStayRaised) {
-  expect_same_bits([] {
-    feclearexcept(FE_ALL_EXCEPT);
-    feraiseexcept(FE_DIVBYZERO | FE_INVALID);
-  });
-}
-
-TEST(Environment, ThreadsOfTheFirstCallInheritItAndChangeNoBit) {
-  // Here the first call, which starts the threads, is made in the strange environment.
-  const Nodes nodes = make("random", 100000);
-  const Columns c(nodes);
-  Mesh m = trmesh({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
-  m.list.assign(6 * nodes.size() - 12, untouched), m.lptr = m.list, m.lend.assign(nodes.size(), untouched);
-  fenv_t before;
-  fegetenv(&before);
-  fesetround(FE_UPWARD);
-  _mm_setcsr(_mm_getcsr() | 0x8040u);
-  feclearexcept(FE_ALL_EXCEPT);
-  feenableexcept(FE_ALL_EXCEPT);
-  m.ier = pstripack_trmesh(static_cast<std::int32_t>(nodes.size()), c.x.data(), c.y.data(), c.z.data(),
-                           m.list.data(), m.lptr.data(), m.lend.data(), &m.lnew);
-  fesetenv(&before);
-  EXPECT_TRUE(is_correct(nodes, m));
-  EXPECT_TRUE(trmesh(nodes) == m);
-}
-#endif
 
 }  // namespace

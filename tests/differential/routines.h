@@ -1,89 +1,154 @@
 #pragma once
-// STRIPACK's routines as Fortran symbols, REAL*8, INTEGER*4: ours (trmesh_, ...) from libstripack, and the
-// original's (cstrmesh_, ...) from libngmath, with the same arguments. Logical functions return 0 or not 0.
+// STRIPACK's routines as Fortran symbols: ours (trmesh_, ...) from libstripack, or from the library that
+// STRIPACK_REAL, STRIPACK_INTEGER and STRIPACK_8_ARGUMENTS describe, and the original's (cstrmesh_, ...) from
+// libngmath, with the same arguments. Logical functions return 0 or not 0.
+
+#ifndef STRIPACK_REAL
+#define STRIPACK_REAL double
+#define STRIPACK_INTEGER int
+#endif
+
+using StripackReal = STRIPACK_REAL;
+using StripackInteger = STRIPACK_INTEGER;
 
 extern "C" {
 
 #define STRIPACK_ROUTINES(of)                                                                                \
-  void of##addnod_(const int* nst, const int* k, const double* x, const double* y, const double* z,          \
-                   int* list, int* lptr, int* lend, int* lnew, int* ier);                                    \
-  double of##areas_(const double* v1, const double* v2, const double* v3);                                   \
-  void of##bdyadd_(const int* kk, const int* i1, const int* i2, int* list, int* lptr, int* lend, int* lnew); \
-  void of##bnodes_(const int* n, const int* list, const int* lptr, const int* lend, int* nodes, int* nb,     \
-                   int* na, int* nt);                                                                        \
-  void of##circum_(const double* v1, const double* v2, const double* v3, double* c, int* ier);               \
-  void of##covsph_(const int* kk, const int* n0, int* list, int* lptr, int* lend, int* lnew);                \
-  void of##delarc_(const int* n, const int* io1, const int* io2, int* list, int* lptr, int* lend, int* lnew, \
-                   int* ier);                                                                                \
-  void of##delnb_(const int* n0, const int* nb, const int* n, int* list, int* lptr, int* lend, int* lnew,    \
-                  int* lph);                                                                                 \
-  void of##delnod_(const int* k, int* n, double* x, double* y, double* z, int* list, int* lptr, int* lend,   \
-                   int* lnew, int* lwk, int* iwk, int* ier);                                                 \
-  void of##edge_(const int* in1, const int* in2, const double* x, const double* y, const double* z,          \
-                 int* lwk, int* iwk, int* list, int* lptr, int* lend, int* ier);                             \
-  void of##getnp_(const double* x, const double* y, const double* z, const int* list, const int* lptr,       \
-                  int* lend, const int* l, int* npts, double* df, int* ier);                                 \
-  void of##insert_(const int* k, const int* lp, int* list, int* lptr, int* lnew);                            \
-  int of##inside_(const double* p, const int* lv, const double* xv, const double* yv, const double* zv,      \
-                  const int* nv, const int* listv, int* ier);                                                \
-  void of##intadd_(const int* kk, const int* i1, const int* i2, const int* i3, int* list, int* lptr,         \
-                   int* lend, int* lnew);                                                                    \
-  void of##intrsc_(const double* p1, const double* p2, const double* cn, double* p, int* ier);               \
-  int of##jrand_(const int* n, int* ix, int* iy, int* iz);                                                   \
-  int of##left_(const double* x1, const double* y1, const double* z1, const double* x2, const double* y2,    \
-                const double* z2, const double* x0, const double* y0, const double* z0);                     \
-  int of##lstptr_(const int* lpl, const int* nb, const int* list, const int* lptr);                          \
-  int of##nbcnt_(const int* lpl, const int* lptr);                                                           \
-  int of##nearnd_(const double* p, const int* ist, const int* n, const double* x, const double* y,           \
-                  const double* z, const int* list, const int* lptr, const int* lend, double* al);           \
-  void of##optim_(const double* x, const double* y, const double* z, const int* na, int* list, int* lptr,    \
-                  int* lend, int* nit, int* iwk, int* ier);                                                  \
-  double of##store_(const double* x);                                                                        \
-  void of##swap_(const int* in1, const int* in2, const int* io1, const int* io2, int* list, int* lptr,       \
-                 int* lend, int* lp21);                                                                      \
-  int of##swptst_(const int* n1, const int* n2, const int* n3, const int* n4, const double* x,               \
-                  const double* y, const double* z);                                                         \
-  void of##trfind_(const int* nst, const double* p, const int* n, const double* x, const double* y,          \
-                   const double* z, const int* list, const int* lptr, const int* lend, double* b1,           \
-                   double* b2, double* b3, int* i1, int* i2, int* i3);                                       \
-  void of##trlist_(const int* n, const int* list, const int* lptr, const int* lend, const int* nrow,         \
-                   int* nt, int* ltri, int* ier);                                                            \
-  void of##trmesh_(const int* n, const double* x, const double* y, const double* z, int* list, int* lptr,    \
-                   int* lend, int* lnew, int* near, int* next, double* dist, int* ier);
+  void of##addnod_(const StripackInteger* nst, const StripackInteger* k, const StripackReal* x,              \
+                   const StripackReal* y, const StripackReal* z, StripackInteger* list,                      \
+                   StripackInteger* lptr, StripackInteger* lend, StripackInteger* lnew,                      \
+                   StripackInteger* ier);                                                                    \
+  StripackReal of##areas_(const StripackReal* v1, const StripackReal* v2, const StripackReal* v3);           \
+  void of##bdyadd_(const StripackInteger* kk, const StripackInteger* i1, const StripackInteger* i2,          \
+                   StripackInteger* list, StripackInteger* lptr, StripackInteger* lend,                      \
+                   StripackInteger* lnew);                                                                   \
+  void of##bnodes_(const StripackInteger* n, const StripackInteger* list, const StripackInteger* lptr,       \
+                   const StripackInteger* lend, StripackInteger* nodes, StripackInteger* nb,                 \
+                   StripackInteger* na, StripackInteger* nt);                                                \
+  void of##circum_(const StripackReal* v1, const StripackReal* v2, const StripackReal* v3, StripackReal* c,  \
+                   StripackInteger* ier);                                                                    \
+  void of##covsph_(const StripackInteger* kk, const StripackInteger* n0, StripackInteger* list,              \
+                   StripackInteger* lptr, StripackInteger* lend, StripackInteger* lnew);                     \
+  void of##delarc_(const StripackInteger* n, const StripackInteger* io1, const StripackInteger* io2,         \
+                   StripackInteger* list, StripackInteger* lptr, StripackInteger* lend,                      \
+                   StripackInteger* lnew, StripackInteger* ier);                                             \
+  void of##delnb_(const StripackInteger* n0, const StripackInteger* nb, const StripackInteger* n,            \
+                  StripackInteger* list, StripackInteger* lptr, StripackInteger* lend,                       \
+                  StripackInteger* lnew, StripackInteger* lph);                                              \
+  void of##delnod_(const StripackInteger* k, StripackInteger* n, StripackReal* x, StripackReal* y,           \
+                   StripackReal* z, StripackInteger* list, StripackInteger* lptr, StripackInteger* lend,     \
+                   StripackInteger* lnew, StripackInteger* lwk, StripackInteger* iwk, StripackInteger* ier); \
+  void of##edge_(const StripackInteger* in1, const StripackInteger* in2, const StripackReal* x,              \
+                 const StripackReal* y, const StripackReal* z, StripackInteger* lwk, StripackInteger* iwk,   \
+                 StripackInteger* list, StripackInteger* lptr, StripackInteger* lend, StripackInteger* ier); \
+  void of##getnp_(const StripackReal* x, const StripackReal* y, const StripackReal* z,                       \
+                  const StripackInteger* list, const StripackInteger* lptr, StripackInteger* lend,           \
+                  const StripackInteger* l, StripackInteger* npts, StripackReal* df, StripackInteger* ier);  \
+  void of##insert_(const StripackInteger* k, const StripackInteger* lp, StripackInteger* list,               \
+                   StripackInteger* lptr, StripackInteger* lnew);                                            \
+  StripackInteger of##inside_(const StripackReal* p, const StripackInteger* lv, const StripackReal* xv,      \
+                              const StripackReal* yv, const StripackReal* zv, const StripackInteger* nv,     \
+                              const StripackInteger* listv, StripackInteger* ier);                           \
+  void of##intadd_(const StripackInteger* kk, const StripackInteger* i1, const StripackInteger* i2,          \
+                   const StripackInteger* i3, StripackInteger* list, StripackInteger* lptr,                  \
+                   StripackInteger* lend, StripackInteger* lnew);                                            \
+  void of##intrsc_(const StripackReal* p1, const StripackReal* p2, const StripackReal* cn, StripackReal* p,  \
+                   StripackInteger* ier);                                                                    \
+  StripackInteger of##jrand_(const StripackInteger* n, StripackInteger* ix, StripackInteger* iy,             \
+                             StripackInteger* iz);                                                           \
+  StripackInteger of##left_(const StripackReal* x1, const StripackReal* y1, const StripackReal* z1,          \
+                            const StripackReal* x2, const StripackReal* y2, const StripackReal* z2,          \
+                            const StripackReal* x0, const StripackReal* y0, const StripackReal* z0);         \
+  StripackInteger of##lstptr_(const StripackInteger* lpl, const StripackInteger* nb,                         \
+                              const StripackInteger* list, const StripackInteger* lptr);                     \
+  StripackInteger of##nbcnt_(const StripackInteger* lpl, const StripackInteger* lptr);                       \
+  StripackInteger of##nearnd_(const StripackReal* p, const StripackInteger* ist, const StripackInteger* n,   \
+                              const StripackReal* x, const StripackReal* y, const StripackReal* z,           \
+                              const StripackInteger* list, const StripackInteger* lptr,                      \
+                              const StripackInteger* lend, StripackReal* al);                                \
+  void of##optim_(const StripackReal* x, const StripackReal* y, const StripackReal* z,                       \
+                  const StripackInteger* na, StripackInteger* list, StripackInteger* lptr,                   \
+                  StripackInteger* lend, StripackInteger* nit, StripackInteger* iwk, StripackInteger* ier);  \
+  StripackReal of##store_(const StripackReal* x);                                                            \
+  void of##swap_(const StripackInteger* in1, const StripackInteger* in2, const StripackInteger* io1,         \
+                 const StripackInteger* io2, StripackInteger* list, StripackInteger* lptr,                   \
+                 StripackInteger* lend, StripackInteger* lp21);                                              \
+  StripackInteger of##swptst_(const StripackInteger* n1, const StripackInteger* n2,                          \
+                              const StripackInteger* n3, const StripackInteger* n4, const StripackReal* x,   \
+                              const StripackReal* y, const StripackReal* z);                                 \
+  void of##trfind_(const StripackInteger* nst, const StripackReal* p, const StripackInteger* n,              \
+                   const StripackReal* x, const StripackReal* y, const StripackReal* z,                      \
+                   const StripackInteger* list, const StripackInteger* lptr, const StripackInteger* lend,    \
+                   StripackReal* b1, StripackReal* b2, StripackReal* b3, StripackInteger* i1,                \
+                   StripackInteger* i2, StripackInteger* i3);                                                \
+  void of##trlist_(const StripackInteger* n, const StripackInteger* list, const StripackInteger* lptr,       \
+                   const StripackInteger* lend, const StripackInteger* nrow, StripackInteger* nt,            \
+                   StripackInteger* ltri, StripackInteger* ier);
 
 STRIPACK_ROUTINES()
 STRIPACK_ROUTINES(cs)
 
 // Where the arguments differ.
-void trans_(const int* n, const double* rlat, const double* rlon, double* x, double* y, double* z);
-void cstransd_(const int* n, const double* rlat, const double* rlon, double* x, double* y, double* z);
-void scoord_(const double* px, const double* py, const double* pz, double* plat, double* plon, double* pnrm);
-void csscoordd_(const double* px, const double* py, const double* pz, double* plat, double* plon,
-                double* pnrm);
-void crlist_(const int* n, const int* ncol, const double* x, const double* y, const double* z,
-             const int* list, const int* lend, int* lptr, int* lnew, int* ltri, int* listc, int* nb,
-             double* xc, double* yc, double* zc, double* rc, int* ier);
-void cscrlist_(const int* n, const int* ncol, const double* x, const double* y, const double* z,
-               const int* list, const int* lend, int* lptr, int* lnew, int* ltri, int* listc, int* nb,
-               double* rlato, double* rlono, double* rc, int* ier);
-void cstrprnt_(const int* n, const double* x, const double* y, const double* z, const int* iflag,
-               const int* list, const int* lptr, const int* lend, const int* lout);
-void cstrlprt_(const int* n, const double* x, const double* y, const double* z, const int* iflag,
-               const int* nrow, const int* nt, const int* ltri, const int* lout);
+void cstrmesh_(const StripackInteger* n, const StripackReal* x, const StripackReal* y, const StripackReal* z,
+               StripackInteger* list, StripackInteger* lptr, StripackInteger* lend, StripackInteger* lnew,
+               StripackInteger* near, StripackInteger* next, StripackReal* dist, StripackInteger* ier);
+#ifdef STRIPACK_8_ARGUMENTS
+void trmesh_(const StripackInteger* n, const StripackReal* x, const StripackReal* y, const StripackReal* z,
+             StripackInteger* list, StripackInteger* lptr, StripackInteger* lend, StripackInteger* ier);
+#else
+void trmesh_(const StripackInteger* n, const StripackReal* x, const StripackReal* y, const StripackReal* z,
+             StripackInteger* list, StripackInteger* lptr, StripackInteger* lend, StripackInteger* lnew,
+             StripackInteger* near, StripackInteger* next, StripackReal* dist, StripackInteger* ier);
+#endif
+void trans_(const StripackInteger* n, const StripackReal* rlat, const StripackReal* rlon, StripackReal* x,
+            StripackReal* y, StripackReal* z);
+void cstransd_(const StripackInteger* n, const StripackReal* rlat, const StripackReal* rlon, StripackReal* x,
+               StripackReal* y, StripackReal* z);
+void scoord_(const StripackReal* px, const StripackReal* py, const StripackReal* pz, StripackReal* plat,
+             StripackReal* plon, StripackReal* pnrm);
+void csscoordd_(const StripackReal* px, const StripackReal* py, const StripackReal* pz, StripackReal* plat,
+                StripackReal* plon, StripackReal* pnrm);
+void crlist_(const StripackInteger* n, const StripackInteger* ncol, const StripackReal* x,
+             const StripackReal* y, const StripackReal* z, const StripackInteger* list,
+             const StripackInteger* lend, StripackInteger* lptr, StripackInteger* lnew, StripackInteger* ltri,
+             StripackInteger* listc, StripackInteger* nb, StripackReal* xc, StripackReal* yc,
+             StripackReal* zc, StripackReal* rc, StripackInteger* ier);
+void cscrlist_(const StripackInteger* n, const StripackInteger* ncol, const StripackReal* x,
+               const StripackReal* y, const StripackReal* z, const StripackInteger* list,
+               const StripackInteger* lend, StripackInteger* lptr, StripackInteger* lnew,
+               StripackInteger* ltri, StripackInteger* listc, StripackInteger* nb, StripackReal* rlato,
+               StripackReal* rlono, StripackReal* rc, StripackInteger* ier);
+void cstrprnt_(const StripackInteger* n, const StripackReal* x, const StripackReal* y, const StripackReal* z,
+               const StripackInteger* iflag, const StripackInteger* list, const StripackInteger* lptr,
+               const StripackInteger* lend, const StripackInteger* lout);
+void cstrlprt_(const StripackInteger* n, const StripackReal* x, const StripackReal* y, const StripackReal* z,
+               const StripackInteger* iflag, const StripackInteger* nrow, const StripackInteger* nt,
+               const StripackInteger* ltri, const StripackInteger* lout);
 
-// Only ours. TRPRNT and TRLPRT do not look at LOUT (libstripack_r4 and libstripack_i8 do). A Fortran string's
-// length is a hidden last argument.
-void trprnt_(const int* n, const double* x, const double* y, const double* z, const int* iflag,
-             const int* list, const int* lptr, const int* lend, const int* lout);
-void trlprt_(const int* n, const double* x, const double* y, const double* z, const int* iflag,
-             const int* nrow, const int* nt, const int* ltri, const int* lout);
-void trplot_(const int* lun, const double* pltsiz, const double* elat, const double* elon, const double* a,
-             const int* n, const double* x, const double* y, const double* z, const int* list,
-             const int* lptr, const int* lend, const char* title, const int* numbr, int* ier,
-             unsigned long title_length);
-void vrplot_(const int* lun, const double* pltsiz, const double* elat, const double* elon, const double* a,
-             const int* n, const double* x, const double* y, const double* z, const int* nt, const int* listc,
-             const int* lptr, const int* lend, const double* xc, const double* yc, const double* zc,
-             const char* title, const int* numbr, int* ier, unsigned long title_length);
-void voronoi_poly_count_(const int* n, const int* lend, const int* lptr, const int* listc);
+// Only ours; TRLIST2 and VORONOI_POLY_COUNT not in libstripack_r4, TRIAREAS in libstripack_8arg alone. TRPRNT
+// and TRLPRT do not look at LOUT (libstripack_r4 and libstripack_i8 do). A Fortran string's length is a
+// hidden last argument.
+void trprnt_(const StripackInteger* n, const StripackReal* x, const StripackReal* y, const StripackReal* z,
+             const StripackInteger* iflag, const StripackInteger* list, const StripackInteger* lptr,
+             const StripackInteger* lend, const StripackInteger* lout);
+void trlprt_(const StripackInteger* n, const StripackReal* x, const StripackReal* y, const StripackReal* z,
+             const StripackInteger* iflag, const StripackInteger* nrow, const StripackInteger* nt,
+             const StripackInteger* ltri, const StripackInteger* lout);
+void trplot_(const StripackInteger* lun, const StripackReal* pltsiz, const StripackReal* elat,
+             const StripackReal* elon, const StripackReal* a, const StripackInteger* n, const StripackReal* x,
+             const StripackReal* y, const StripackReal* z, const StripackInteger* list,
+             const StripackInteger* lptr, const StripackInteger* lend, const char* title,
+             const StripackInteger* numbr, StripackInteger* ier, unsigned long title_length);
+void vrplot_(const StripackInteger* lun, const StripackReal* pltsiz, const StripackReal* elat,
+             const StripackReal* elon, const StripackReal* a, const StripackInteger* n, const StripackReal* x,
+             const StripackReal* y, const StripackReal* z, const StripackInteger* nt,
+             const StripackInteger* listc, const StripackInteger* lptr, const StripackInteger* lend,
+             const StripackReal* xc, const StripackReal* yc, const StripackReal* zc, const char* title,
+             const StripackInteger* numbr, StripackInteger* ier, unsigned long title_length);
+void voronoi_poly_count_(const StripackInteger* n, const StripackInteger* lend, const StripackInteger* lptr,
+                         const StripackInteger* listc);
+void trlist2_(const StripackInteger* n, const StripackInteger* list, const StripackInteger* lptr,
+              const StripackInteger* lend, StripackInteger* nt, StripackInteger* ltri, StripackInteger* ier);
+void triareas_(const StripackInteger* n, const StripackReal* x, const StripackReal* y, const StripackReal* z,
+               const StripackInteger* nt, const StripackInteger* triangles, StripackReal* triarea);
 }

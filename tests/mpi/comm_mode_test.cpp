@@ -9,6 +9,7 @@
 #include "mpi_test.h"
 #include "point_sets.h"
 #include "support/child.h"
+#include "support/environment.h"
 #include "support/expect.h"
 #include "support/trmesh.h"
 
@@ -51,6 +52,40 @@ TEST(CommMode, GivesTheSameBytes) {
       EXPECT_TRUE(trmesh_r4(nodes) == single) << family;
       EXPECT_TRUE(trmesh_i8(nodes) == expected) << family;
     }
+}
+
+TEST(CommMode, GivesTheSameBytesInAnyFloatingPointEnvironmentAndLeavesItAsItWas) {
+  for (const char* family : {"pairs", "hemisphere-rim", "cap:1e-8"}) {
+    const Nodes nodes = point_sets::make(family, 1000);
+    const Mesh expected = trmesh(nodes);
+    Mesh strange;
+    bool is_as_before;
+    {
+      const StrangeEnvironment environment;
+      const Environment before;
+      const CommMode mode;
+      strange = trmesh(nodes);
+      is_as_before = Environment() == before;
+    }
+    EXPECT_TRUE(strange == expected) << family;
+    EXPECT_TRUE(is_as_before) << family;
+  }
+}
+
+TEST(CommMode, TouchesNothingOutsideTheArrays) {
+  const Nodes nodes = point_sets::make("hemisphere", 1000);
+  const Columns c(nodes);
+  const auto n = static_cast<std::int32_t>(nodes.size());
+  const CommMode mode;
+  for (const Edge edge : {Edge::begin, Edge::end}) {
+    Guarded<double> x(c.x, edge), y(c.y, edge), z(c.z, edge);
+    x.make_read_only(), y.make_read_only(), z.make_read_only();
+    Guarded<std::int32_t> list(6 * nodes.size() - 12, edge), lptr(list.size(), edge),
+        lend(nodes.size(), edge), lnew(1, edge);
+    EXPECT_EQ(
+        pstripack_trmesh(n, x.data(), y.data(), z.data(), list.data(), lptr.data(), lend.data(), lnew.data()),
+        0);
+  }
 }
 
 TEST(CommMode, IsCollectiveOnlyWhileItIsSet) {

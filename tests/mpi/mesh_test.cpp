@@ -13,6 +13,7 @@
 #include "capi/pstripack_mpi.h"
 #include "mpi_test.h"
 #include "point_sets.h"
+#include "support/environment.h"
 #include "support/expect.h"
 #include "support/trmesh.h"
 
@@ -203,6 +204,82 @@ TEST(DistributedMesh, GathersTheCanonicalLists) {
           EXPECT_TRUE(m == serial) << family << ", " << d.name;
         }
       }
+  }
+}
+
+TEST(DistributedMesh, IsTheSameInAnyFloatingPointEnvironmentAndLeavesItAsItWas) {
+  for (const char* family : {"pairs", "hemisphere-rim"}) {
+    const Nodes nodes = point_sets::make(family, 300);
+    const Mesh serial = trmesh(nodes);
+    const auto mine = nodes_here(distributions()[2], nodes.size());
+    std::vector<double> xyz;
+    for (const auto& p : nodes) xyz.insert(xyz.end(), {p.x, p.y, p.z});
+    const auto home = [&](const pstripack_mesh* mesh) {
+      std::vector<std::int32_t> ranks(nodes.size(), -1);
+      EXPECT_EQ(pstripack_mesh_home(mesh, static_cast<std::int64_t>(nodes.size()), xyz.data(), ranks.data()),
+                0);
+      return ranks;
+    };
+    pstripack_mesh* strange = nullptr;
+    Mesh gathered = serial;
+    std::fill(gathered.list.begin(), gathered.list.end(), untouched);
+    int code;
+    std::vector<std::int32_t> home_of_nodes;
+    bool is_as_before;
+    {
+      const StrangeEnvironment environment;
+      const Environment before;
+      code = pstripack_mesh_create(MPI_COMM_WORLD, &strange);
+      code += triangulate(strange, nodes, mine, from_one);
+      code += pstripack_mesh_gather(strange, -1, gathered.list.data(), gathered.lptr.data(),
+                                    gathered.lend.data(), &gathered.lnew);
+      home_of_nodes = home(strange);
+      is_as_before = Environment() == before;
+    }
+    ASSERT_EQ(code, 0);
+    EXPECT_TRUE(is_as_before);
+    EXPECT_TRUE(gathered == serial);
+    check_part(strange, nodes, mine, from_one, serial_rings(nodes));
+    pstripack_mesh_free(strange);
+    OfMesh usual;
+    ASSERT_EQ(triangulate(usual, nodes, mine, from_one), 0);
+    EXPECT_EQ(home(usual), home_of_nodes);
+  }
+}
+
+TEST(DistributedMesh, NothingOutsideTheArraysIsTouched) {
+  const Nodes nodes = point_sets::make("hemisphere", 300);
+  const auto mine = nodes_here(distributions()[2], nodes.size());
+  std::vector<double> coordinates;
+  std::vector<std::int64_t> numbers;
+  for (const std::size_t i : mine) {
+    coordinates.insert(coordinates.end(), {nodes[i].x, nodes[i].y, nodes[i].z});
+    numbers.push_back(from_one(i));
+  }
+  const auto n = static_cast<std::int64_t>(mine.size());
+  for (const Edge edge : {Edge::begin, Edge::end}) {
+    const OfMesh mesh;
+    Guarded<double> xyz(coordinates, edge);
+    Guarded<std::int64_t> number(numbers, edge);
+    xyz.make_read_only(), number.make_read_only();
+    ASSERT_EQ(pstripack_mesh_triangulate(mesh, n, xyz.data(), number.data()), 0);
+    Guarded<std::int32_t> rank(mine.size(), edge);
+    EXPECT_EQ(pstripack_mesh_home(mesh, n, xyz.data(), rank.data()), 0);
+
+    const Sizes sizes(mesh);
+    const auto arcs = static_cast<std::size_t>(sizes.arcs), halo = static_cast<std::size_t>(sizes.halo);
+    Guarded<std::int64_t> begin(mine.size() + 1, edge), neighbour(arcs, edge), halo_number(halo, edge),
+        corner(3 * static_cast<std::size_t>(sizes.triangles), edge);
+    Guarded<std::int32_t> local(arcs, edge);
+    Guarded<double> halo_xyz(3 * halo, edge);
+    pstripack_mesh_stars(mesh, begin.data(), neighbour.data());
+    EXPECT_EQ(pstripack_mesh_local_stars(mesh, begin.data(), local.data()), 0);
+    pstripack_mesh_halo(mesh, halo_number.data(), halo_xyz.data());
+    pstripack_mesh_triangles(mesh, corner.data());
+
+    Guarded<std::int32_t> list(6 * nodes.size() - 12, edge), lptr(list.size(), edge),
+        lend(nodes.size(), edge), lnew(1, edge);
+    EXPECT_EQ(pstripack_mesh_gather(mesh, -1, list.data(), lptr.data(), lend.data(), lnew.data()), 0);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "geometry/floating_point.h"
 #include "stripack/arc_edit.h"
 #include "stripack/list_edit.h"
 #include "stripack/node_edit.h"
@@ -60,33 +61,41 @@ extern "C" {
 #define NODE_EDIT_CALLS(Real, Int, suffix)                                                                  \
   Int pstripack_swptst_##suffix(Int n1, Int n2, Int n3, Int n4, const Real* x, const Real* y,               \
                                 const Real* z) noexcept {                                                   \
-    return swptst(n1, n2, n3, n4, Nodes<Real>{x, y, z}) ? 1 : 0;                                            \
+    return in_default_floating_point([&] { return swptst(n1, n2, n3, n4, Nodes<Real>{x, y, z}); }) ? 1 : 0; \
   }                                                                                                         \
   void pstripack_optim_##suffix(const Real* x, const Real* y, const Real* z, Int na, Int* list, Int* lptr,  \
                                 Int* lend, Int* nit, Int* iwk, Int* ier) noexcept {                         \
-    *ier = said("OPTIM",                                                                                    \
-                optim(Nodes<Real>{x, y, z}, na, EditedLists<Int>::unbounded(list, lptr, lend), *nit, iwk)); \
+    *ier = said(                                                                                            \
+        "OPTIM", in_default_floating_point([&] {                                                            \
+          return optim(Nodes<Real>{x, y, z}, na, EditedLists<Int>::unbounded(list, lptr, lend), *nit, iwk); \
+        }));                                                                                                \
   }                                                                                                         \
   void pstripack_edge_##suffix(Int in1, Int in2, const Real* x, const Real* y, const Real* z, Int* lwk,     \
                                Int* iwk, Int* list, Int* lptr, Int* lend, Int* ier, Int* nit,               \
                                Int* optim_ier) noexcept {                                                   \
     OptimFailure<Int> failure;                                                                              \
-    *ier = said("EDGE", edge(in1, in2, Nodes<Real>{x, y, z}, *lwk, iwk,                                     \
-                             EditedLists<Int>::unbounded(list, lptr, lend), failure));                      \
+    *ier = said("EDGE", in_default_floating_point([&] {                                                     \
+                  return edge(in1, in2, Nodes<Real>{x, y, z}, *lwk, iwk,                                    \
+                              EditedLists<Int>::unbounded(list, lptr, lend), failure);                      \
+                }));                                                                                        \
     if (failure.ier == 0) return;                                                                           \
     *nit = failure.nit;                                                                                     \
     *optim_ier = failure.ier;                                                                               \
   }                                                                                                         \
   void pstripack_addnod_##suffix(Int nst, Int k, const Real* x, const Real* y, const Real* z, Int* list,    \
                                  Int* lptr, Int* lend, Int* lnew, Int* ier) noexcept {                      \
-    *ier = addnod(nst, Nodes<Real>{x, y, z}, EditedLists<Int>{k, list, lptr, lend, lnew});                  \
+    *ier = in_default_floating_point([&] {                                                                  \
+      return addnod(nst, Nodes<Real>{x, y, z}, EditedLists<Int>{k, list, lptr, lend, lnew});                \
+    });                                                                                                     \
     if (*ier < 0) said("ADDNOD", *ier);                                                                     \
   }                                                                                                         \
   void pstripack_delnod_##suffix(Int k, Int* n, Real* x, Real* y, Real* z, Int* list, Int* lptr, Int* lend, \
                                  Int* lnew, Int* lwk, Int* iwk, Int* ier, Int* nit,                         \
                                  Int* optim_ier) noexcept {                                                 \
     OptimFailure<Int> failure;                                                                              \
-    *ier = said("DELNOD", delnod(k, *n, x, y, z, {*n, list, lptr, lend, lnew}, *lwk, iwk, failure));        \
+    *ier = said("DELNOD", in_default_floating_point([&] {                                                   \
+                  return delnod(k, *n, x, y, z, {*n, list, lptr, lend, lnew}, *lwk, iwk, failure);          \
+                }));                                                                                        \
     if (failure.ier == 0) return;                                                                           \
     *nit = failure.nit;                                                                                     \
     *optim_ier = failure.ier;                                                                               \

@@ -80,11 +80,11 @@ template <class Real>
 /// TRMESH with its report, its recording and its messages. No number of nodes beyond 32 bits is different
 /// from the largest of them.
 template <class Real>
-TrmeshResult trmesh_call(std::int64_t nodes, const Real* x, const Real* y, const Real* z, std::int32_t* list,
-                         std::int32_t* lptr, std::int32_t* lend, std::int32_t* lnew) noexcept {
+TrmeshResult trmesh_with_messages(std::int64_t nodes, const Real* x, const Real* y, const Real* z,
+                                  std::int32_t* list, std::int32_t* lptr, std::int32_t* lend,
+                                  std::int32_t* lnew) noexcept {
   using Limits = std::numeric_limits<std::int32_t>;
   const auto n = static_cast<std::int32_t>(std::clamp<std::int64_t>(nodes, Limits::min(), Limits::max()));
-  const DefaultFloatingPoint environment;
   TrmeshResult result{0};
   const auto work = [&] {
     return pstripack_report_is_wanted() ? carry_out_and_report(n, x, y, z, list, lptr, lend, lnew, result)
@@ -111,6 +111,12 @@ TrmeshResult trmesh_call(std::int64_t nodes, const Real* x, const Real* y, const
                  pstripack_strerror(result.ier), static_cast<int>(result.ier));
   }
   return result;
+}
+
+template <class Real>
+TrmeshResult trmesh_call(std::int64_t n, const Real* x, const Real* y, const Real* z, std::int32_t* list,
+                         std::int32_t* lptr, std::int32_t* lend, std::int32_t* lnew) noexcept {
+  return in_default_floating_point([&] { return trmesh_with_messages(n, x, y, z, list, lptr, lend, lnew); });
 }
 
 /// Widens the first `count` elements of an array of 64-bit integers that begins with as many of 32 bits.
@@ -194,7 +200,6 @@ int64_t pstripack_trmesh_i8(int64_t n, const double* x, const double* y, const d
 int32_t pstripack_validate(int32_t n, const double* x, const double* y, const double* z, const int32_t* list,
                            const int32_t* lptr, const int32_t* lend, int32_t lnew, char* message,
                            int32_t length) {
-  const DefaultFloatingPoint environment;
   const auto say = [&](const char* text) {
     if (message != nullptr && length > 0)
       std::snprintf(message, static_cast<std::size_t>(length), "%s", text);
@@ -207,7 +212,7 @@ int32_t pstripack_validate(int32_t n, const double* x, const double* y, const do
     std::vector<Point> p(static_cast<std::size_t>(n));
     for (std::size_t i = 0; i < p.size(); ++i) p[i] = {x[i], y[i], z[i]};
     const ListsView<std::int32_t> lists{p.size(), list, lptr, lend, lnew};
-    const Verdict verdict = is_valid(p.data(), lists);
+    const Verdict verdict = in_default_floating_point([&] { return is_valid(p.data(), lists); });
     say(verdict.message.c_str());
     return static_cast<std::int32_t>(verdict.defect);
   } catch (...) {

@@ -35,12 +35,12 @@ bool mpi_is_running() {
   return initialised && !finalised;
 }
 
-/// Calls body() and returns what it returns, or the code of what it throws.
+/// Calls body() in the default floating-point environment and returns what it returns, or the code of what it
+/// throws.
 template <class Body>
 std::int32_t guarded(const Body& body) noexcept {
-  const DefaultFloatingPoint environment;
   try {
-    return body();
+    return in_default_floating_point(body);
   } catch (const AgreedFailure& failure) {
     return failure.code;
   } catch (...) {
@@ -166,19 +166,21 @@ template <class Body>
 std::int32_t reported(MpiCommunicator& ranks, CallReport::Mode mode, const Body& body) {
   if (ranks.rank() != 0 || !pstripack_report_is_wanted())
     return guarded(ranks, [&] { return body(nullptr); });
-  DistributedMesh::Report about;
-  CallReport report;
-  report.seconds = -clock_seconds(CLOCK_MONOTONIC);
-  report.ier = guarded(ranks, [&] { return body(&about); });
-  report.seconds += clock_seconds(CLOCK_MONOTONIC);
-  report.mode = mode;
-  report.ranks = ranks.size();
-  report.n = about.points;
-  report.nodes_in_mesh = report.ier == 0 ? about.points : 0;
-  report.boundary_nodes = about.boundary_points;
-  report.cost = about.cost;
-  pstripack_add_to_report(&report);
-  return report.ier;
+  return in_default_floating_point([&] {
+    DistributedMesh::Report about;
+    CallReport report;
+    const double start = clock_seconds(CLOCK_MONOTONIC);
+    report.ier = guarded(ranks, [&] { return body(&about); });
+    report.seconds = clock_seconds(CLOCK_MONOTONIC) - start;
+    report.mode = mode;
+    report.ranks = ranks.size();
+    report.n = about.points;
+    report.nodes_in_mesh = report.ier == 0 ? about.points : 0;
+    report.boundary_nodes = about.boundary_points;
+    report.cost = about.cost;
+    pstripack_add_to_report(&report);
+    return report.ier;
+  });
 }
 
 MPI_Comm communicator_of(MPI_Fint comm) { return mpi_is_running() ? MPI_Comm_f2c(comm) : MPI_COMM_NULL; }
@@ -244,9 +246,9 @@ void pstripack_mesh_error_points(const pstripack_mesh* mesh, int64_t* first, int
 }
 
 int32_t pstripack_mesh_home(const pstripack_mesh* mesh, int64_t n, const double* xyz, int32_t* rank) {
-  const DefaultFloatingPoint environment;
   if (mesh->mesh.empty()) return PSTRIPACK_EMPTY_MESH;
-  return mesh->mesh.home(n, xyz, rank) ? PSTRIPACK_OK : PSTRIPACK_BAD_COORDINATE;
+  const bool are_finite = in_default_floating_point([&] { return mesh->mesh.home(n, xyz, rank); });
+  return are_finite ? PSTRIPACK_OK : PSTRIPACK_BAD_COORDINATE;
 }
 
 void pstripack_mesh_sizes(const pstripack_mesh* mesh, int64_t* points, int64_t* arcs, int64_t* triangles,

@@ -4,6 +4,7 @@
 #include <exception>
 #include <new>
 
+#include "geometry/floating_point.h"
 #include "stripack/list_queries.h"
 #include "stripack/original_rules.h"
 #include "stripack/polygon.h"
@@ -46,14 +47,15 @@ const char* meaning(NextNearestStatus status) {
   }
 }
 
-/// The one catch-all: runs call() and returns its code, or -6 for an exception: nothing below throws
-/// but the allocator. Codes that STRIPACK does not have say why on stderr. n = 0: the routine knows no N.
+/// The one catch-all: runs call() in the default floating-point environment and returns its code, or -6 for
+/// an exception: nothing below throws but the allocator. Codes that STRIPACK does not have say why on stderr.
+/// n = 0: the routine knows no N.
 template <class Call>
 int code_of(const char* routine, long long n, const Call& call) {
   int code;
   const char* why;
   try {
-    const auto status = call();
+    const auto status = in_default_floating_point(call);
     code = static_cast<int>(status);
     why = meaning(status);
   } catch (const std::exception& error) {
@@ -105,20 +107,22 @@ extern "C" {
 #define SPHERE_CALLS(Real, Int, suffix)                                                                    \
   void pstripack_trans_##suffix(Int n, const Real* rlat, const Real* rlon, Real* x, Real* y,               \
                                 Real* z) noexcept {                                                        \
-    trans(n, rlat, rlon, x, y, z);                                                                         \
+    in_default_floating_point([&] { trans(n, rlat, rlon, x, y, z); });                                     \
   }                                                                                                        \
   void pstripack_scoord_##suffix(Real px, Real py, Real pz, Real* plat, Real* plon, Real* pnrm) noexcept { \
-    const SphericalCoordinates<Real> p = scoord<Real>({px, py, pz});                                       \
+    const Vector<Real> v{px, py, pz};                                                                      \
+    const auto p = in_default_floating_point([&] { return scoord(v); });                                   \
     *plat = p.latitude;                                                                                    \
     *plon = p.longitude;                                                                                   \
     *pnrm = p.norm;                                                                                        \
   }                                                                                                        \
   Int pstripack_left_##suffix(Real x1, Real y1, Real z1, Real x2, Real y2, Real z2, Real x0, Real y0,      \
                               Real z0) noexcept {                                                          \
-    return closed_left<Real>({x1, y1, z1}, {x2, y2, z2}, {x0, y0, z0}) ? 1 : 0;                            \
+    const Vector<Real> a{x1, y1, z1}, b{x2, y2, z2}, p{x0, y0, z0};                                        \
+    return in_default_floating_point([&] { return closed_left(a, b, p); }) ? 1 : 0;                        \
   }                                                                                                        \
   Real pstripack_areas_##suffix(const Real* v1, const Real* v2, const Real* v3) noexcept {                 \
-    return areas(vector(v1), vector(v2), vector(v3));                                                      \
+    return in_default_floating_point([&] { return areas(vector(v1), vector(v2), vector(v3)); });           \
   }                                                                                                        \
   void pstripack_circum_##suffix(const Real* v1, const Real* v2, const Real* v3, Real* c,                  \
                                  Int* ier) noexcept {                                                      \
@@ -200,7 +204,7 @@ MESH_CALLS(double, int64_t, i8)
   }                                                                                                       \
   Int pstripack_jrand_##suffix(Int n, Int* ix, Int* iy, Int* iz) noexcept {                               \
     Seeds<Int> seeds{*ix, *iy, *iz};                                                                      \
-    const Int drawn = original_rules().random<Real>(n, seeds);                                            \
+    const Int drawn = in_default_floating_point([&] { return original_rules().random<Real>(n, seeds); }); \
     *ix = seeds.x;                                                                                        \
     *iy = seeds.y;                                                                                        \
     *iz = seeds.z;                                                                                        \
@@ -213,7 +217,7 @@ QUERY_CALLS(double, int64_t, i8)
 
 void pstripack_triareas_r8(int32_t n, const double* x, const double* y, const double* z, int32_t nt,
                            const int32_t* triangles, double* triarea) noexcept {
-  triangle_areas(n, Nodes<double>{x, y, z}, nt, triangles, triarea);
+  in_default_floating_point([&] { triangle_areas(n, Nodes<double>{x, y, z}, nt, triangles, triarea); });
 }
 
 }  // extern "C"

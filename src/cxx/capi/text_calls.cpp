@@ -5,6 +5,7 @@
 #include <memory>
 #include <string_view>
 
+#include "geometry/floating_point.h"
 #include "stripack/listing.h"
 #include "stripack/plot.h"
 
@@ -22,13 +23,13 @@ void complain(const char* routine, const char* why) {
   std::fprintf(stderr, "pstripack: %s: %s\n", routine, why);
 }
 
-/// The one catch-all: a handle of what compose(records) makes; null, and one line on stderr, if it throws, as
-/// only the allocator does.
+/// The one catch-all: a handle of what compose(records) makes in the default floating-point environment;
+/// null, and one line on stderr, if it throws, as only the allocator does.
 template <class Compose>
 void* composed(const char* routine, const Compose& compose) {
   try {
     auto text = std::make_unique<Text>();
-    compose(text->records);
+    in_default_floating_point([&] { compose(text->records); });
     return text.release();
   } catch (...) {
     complain(routine, "out of memory");

@@ -23,10 +23,9 @@ void parallel_pieces(std::size_t n, int threads, const Body& body) {
   const auto pieces = static_cast<std::size_t>(threads);
   const auto begin = [&](std::size_t t) { return n / pieces * t + n % pieces * t / pieces; };
 #pragma omp parallel for schedule(static, 1) num_threads(threads)
-  for (int t = 0; t < threads; ++t) {
-    const DefaultFloatingPoint guard;
-    body(begin(static_cast<std::size_t>(t)), begin(static_cast<std::size_t>(t) + 1), t);
-  }
+  for (int t = 0; t < threads; ++t)
+    in_default_floating_point(
+        [&] { body(begin(static_cast<std::size_t>(t)), begin(static_cast<std::size_t>(t) + 1), t); });
 #endif
 }
 
@@ -37,10 +36,7 @@ void parallel_tasks(int tasks, int threads, const Body& body) {
 #ifdef _OPENMP
   if (threads > 1 && tasks > 1) {
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-    for (int k = 0; k < tasks; ++k) {
-      const DefaultFloatingPoint guard;
-      body(k);
-    }
+    for (int k = 0; k < tasks; ++k) in_default_floating_point([&] { body(k); });
     return;
   }
 #endif

@@ -1,0 +1,29 @@
+#pragma once
+// Every routine of one of the libraries libstripack*, called on sets of nodes that lead it everywhere. Which
+// library: differential/routines.h.
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "geometry/point.h"
+#include "support/guarded.h"
+
+struct NamedNodes {
+  std::string name;
+  std::vector<pstripack::Point> nodes;
+};
+
+/// Sets that reach every stage of the predicates, both kinds of meshes, all ways to add a node, threads, and
+/// those that TRMESH refuses.
+std::vector<NamedNodes> spread_of_nodes();
+
+/// Calls a routine, given by its name and a function without arguments.
+using CallRoutine = std::function<void(const char* routine, const std::function<void()>& call)>;
+
+/// Calls every routine by `call_routine`, with arrays of exactly the documented sizes beside pages that
+/// cannot be touched, those it only reads on pages that cannot be written. Returns a hash of all that they
+/// return, write and print.
+std::uint64_t fingerprint_of_every_routine(const std::vector<pstripack::Point>& nodes, Edge edge,
+                                           const CallRoutine& call_routine);

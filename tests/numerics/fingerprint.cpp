@@ -1,0 +1,26 @@
+// Prints a line a set of nodes: a hash of all that the routines of libstripack give, called in the
+// floating-point environment in which this program was started, which -ffast-math makes another one. Two
+// builds of PSTRIPACK are to print the same. Which environment that is goes to stderr.
+
+#include <cinttypes>
+#include <cstdio>
+
+#include "numerics/every_routine.h"
+#include "support/environment.h"
+
+int main() {
+  fenv_t at_start;
+  fegetenv(&at_start);
+#if defined(__SSE2__)
+  std::fprintf(stderr, "started with MXCSR = %x\n", _mm_getcsr() & ~0x3fu);
+#endif
+  fesetenv(FE_DFL_ENV);
+  const CallRoutine call_as_started = [&](const char*, const std::function<void()>& call) {
+    fesetenv(&at_start);
+    call();
+    fesetenv(FE_DFL_ENV);
+  };
+  for (const NamedNodes& set : spread_of_nodes())
+    std::printf("%016" PRIx64 " %s\n", fingerprint_of_every_routine(set.nodes, Edge::end, call_as_started),
+                set.name.c_str());
+}
