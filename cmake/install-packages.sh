@@ -12,7 +12,8 @@ packages="
   abigail-tools
   python3 gnuplot-nox librsvg2-bin ghostscript
   libncarg-dev
-  libopenmpi-dev openmpi-bin $*"
+  libopenmpi-dev openmpi-bin
+  $*"
 
 missing=""
 for package in $packages; do

@@ -1,9 +1,11 @@
 #pragma once
 // A table of comma-separated values that one run after the other adds its rows to.
 
+#include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 class CsvFile {
  public:
@@ -11,10 +13,12 @@ class CsvFile {
   /// be written, or has other columns.
   CsvFile(const std::string& file, const std::string& columns) : name_(file) {
     std::string first;
-    if (std::ifstream old(file); std::getline(old, first) && first != columns)
-      throw std::runtime_error(file + ":1: has other columns than " + columns);
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(file, ignored))  // of a device there may be no end
+      if (std::ifstream old(file); std::getline(old, first) && first != columns)
+        throw std::runtime_error(file + ":1: has other columns than " + columns);
     out_.open(file, std::ios::app);
-    if (first.empty()) out_ << columns << '\n';
+    if (first.empty()) out_ << columns << std::endl;
     check();
   }
   /// Written at once: a run that is interrupted keeps its rows.

@@ -34,9 +34,12 @@ class TextReader {
     call.has_returned = true;
     call.nodes = static_cast<std::size_t>(n);
     call.run.lists.lnew = lnew;
-    read(call.run.lists.list, "LIST", lnew - 1, 6 * n - 12);
-    read(call.run.lists.lptr, "LPTR", lnew - 1, 6 * n - 12);
-    read(call.run.lists.lend, "LEND", n, n);
+    read(call.run.lists.list, "LIST", lnew - 1);
+    read(call.run.lists.lptr, "LPTR", lnew - 1);
+    read(call.run.lists.lend, "LEND", n);
+    // Only now: an N that is wrong has been found out before so much memory is asked for.
+    for (Entries* slots : {&call.run.lists.list, &call.run.lists.lptr})
+      slots->resize(6 * static_cast<std::size_t>(n) - 12, kUntouched);
     return call;
   }
 
@@ -71,9 +74,8 @@ class TextReader {
     return number(word, what, least, largest);
   }
 
-  void read(Entries& entries, const char* name, std::int32_t count, std::int32_t size) {
+  void read(Entries& entries, const char* name, std::int32_t count) {
     for (std::int32_t i = 1; i <= count; ++i) entries.push_back(expect(fmt::format("{}({})", name, i)));
-    entries.resize(static_cast<std::size_t>(size), kUntouched);
   }
 
   std::string name_;

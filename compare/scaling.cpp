@@ -29,6 +29,7 @@
 #include "mpi/distributed_mesh.h"
 #include "point_sets.h"
 #include "pool/shared_area.h"
+#include "printed.h"
 #include "stripack/trmesh.h"
 
 namespace {
@@ -400,6 +401,7 @@ int main(int argc, char** argv) {
       run_on_ranks(s);
     else
       print_tables(argv[0], s, t);
+    expect_printed();
     return 0;
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);

@@ -15,6 +15,7 @@
 #include "families.h"
 #include "mesh_files.h"
 #include "our_calls.h"
+#include "printed.h"
 #include "run.h"
 
 namespace {
@@ -155,7 +156,9 @@ int main(int argc, char** argv) {
     if (argc == 3 && argv[1] == std::string(comparison::kCallCommand))
       return comparison::call_trmesh(argv[2]);
     app.parse(argc, argv);
-    return chosen();
+    const int code = chosen();
+    expect_printed();
+    return code;
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
     std::fprintf(stderr, "stripack-compare: %s\n", e.what());

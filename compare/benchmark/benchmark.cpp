@@ -27,6 +27,7 @@
 #include "orders.h"
 #include "original.h"
 #include "point_sets.h"
+#include "printed.h"
 #include "pstripack.h"
 
 using namespace benchmark;
@@ -121,6 +122,7 @@ int main(int argc, char** argv) {
       run_curves(argv[0], curves, original_library);
     else
       run_cases(argv[0], cases, original_library);
+    expect_printed();
     return 0;
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);

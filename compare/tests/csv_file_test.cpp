@@ -24,6 +24,8 @@ TEST_F(CsvFileTest, SecondRunAddsRowsUnderTheSameHead) {
   EXPECT_EQ(text_of(file), "a,b\n1,2\n3,4\n");
 }
 
+TEST(CsvFile, TellsAtOnceThatTheDiskIsFull) { EXPECT_THROW(CsvFile("/dev/full", "a,b"), std::runtime_error); }
+
 TEST_F(CsvFileTest, OtherColumnsAreRefused) {
   CsvFile(file, "a,b").row("1,2");
   EXPECT_THROW(CsvFile(file, "a,c"), std::runtime_error);

@@ -40,6 +40,7 @@
 #include "median.h"
 #include "parallel/cost.h"
 #include "point_sets.h"
+#include "printed.h"
 #include "thesis/defects.h"
 #include "thesis/ring.h"
 #include "thesis/stripe.h"
@@ -335,6 +336,7 @@ int main(int argc, char** argv) {
     for (Call& call : calls) all = run(ring, options, points, call);
     const Call call = slowest(ring, calls);
     if (ring.is_root()) at_the_root(options, points, ring, call, all);
+    expect_printed();
     return 0;
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return ring.is_root() ? app.exit(e) : 0;  // --help

@@ -243,7 +243,7 @@ TEST(Components, DenormalOnesAreCorrect) {
 }
 
 TEST(SinglePrecision, NodesAreCorrectAndAsInDouble) {
-  for (const std::size_t n : {4, 1000, 100000}) {
+  for (const std::size_t n : {4, 1000, 100000, 1000000}) {
     const Nodes nodes = make("single", n);
     const Columns c(nodes);
     const std::vector<float> x(c.x.begin(), c.x.end()), y(c.y.begin(), c.y.end()), z(c.z.begin(), c.z.end());

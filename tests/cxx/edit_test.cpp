@@ -232,7 +232,7 @@ TYPED_TEST(Edit, NothingIsTouchedOutsideTheArrays) {
       const Int a = below(random, n + 3) - 1, b = below(random, n + 3) - 1, c = below(random, n + 3) - 1;
       int code = 0;
       OptimFailure<Int> failure;
-      switch (i % 7) {
+      switch (i % 8) {
         case 0:
           code = insert(a, Int(below(random, 40) - 2), lists);
           break;
@@ -254,6 +254,9 @@ TYPED_TEST(Edit, NothingIsTouchedOutsideTheArrays) {
         case 6:
           code = static_cast<int>(
               delnod(a, count, x.data(), y.data(), z.data(), lists, lwk, iwk.data(), failure));
+          break;
+        case 7:
+          code = static_cast<int>(addnod(a, Nodes<Real>{x.data(), y.data(), z.data()}, lists));
           break;
       }
       ++codes[static_cast<std::size_t>(code + 20)];

@@ -19,6 +19,7 @@
 #include "parallel/patch.h"
 #include "parallel/triangulate.h"
 #include "point_sets.h"
+#include "support/judge.h"
 #include "support/lists.h"
 #include "support/thread_ranks.h"
 
@@ -289,6 +290,45 @@ TEST(Nasty, LengthsThatHideANodeInOnePatchMakeAllUseDirections) {
   EXPECT_EQ(set.lengths, Lengths::directions);
   EXPECT_TRUE(
       is_serial(set, run<std::int32_t>(set.nodes, {4, 2, PartitionKind::bisection, Brings::every_other})));
+}
+
+/// One node a little below the unit sphere, with companions beside it that hide it, or do not, whichever of
+/// them is inserted first. Where it is the last to go, only the search that goes round it notices.
+TEST(Nasty, DirectionsAreUsedExactlyWhereLengthsHideANode) {
+  int hidden = 0, shown = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    point_sets::Random random(seed);
+    Nodes nodes = point_sets::make(seed % 3 == 0 ? "fibonacci" : "random", 8 + seed % 50, seed);
+    const std::size_t k = random.below(nodes.size());
+    const Point p = nodes[k];
+    const double depth = random.uniform(1e-7, 9e-7), distance = std::pow(10, -random.uniform(3, 6));
+    for (std::size_t companions = 1 + random.below(4); companions > 0; --companions) {
+      const Point q = random.direction();
+      nodes.push_back(
+          point_sets::normalized({p.x + distance * q.x, p.y + distance * q.y, p.z + distance * q.z}));
+    }
+    nodes[k] = {p.x * (1 - depth), p.y * (1 - depth), p.z * (1 - depth)};
+    Nodes others = nodes;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+    const Set without(others);
+    bool is_hidden = false;
+    for (const auto& [a, b, c] : faces_of(without.rings)) {
+      const Point &u = without.nodes[a], &v = without.nodes[b], &w = without.nodes[c], &x = nodes[k];
+      is_hidden =
+          is_hidden || (exact::left(u, v, x) >= 0 && exact::left(v, w, x) >= 0 && exact::left(w, u, x) >= 0 &&
+                        exact::orientation(exact::On::coordinates, u, v, w, x) <= 0);
+    }
+    (is_hidden ? hidden : shown) += 1;
+    const Set set(nodes);
+    ASSERT_EQ(set.lengths, is_hidden ? Lengths::directions : Lengths::as_given) << seed;
+    ASSERT_EQ(fault(set.nodes, set.rings, is_hidden ? exact::On::directions : exact::On::coordinates), "")
+        << seed;
+    for (const Configuration c : {Configuration{1, 3, PartitionKind::bisection, Brings::slices},
+                                  Configuration{4, 1, PartitionKind::stripes, Brings::every_other}})
+      ASSERT_TRUE(is_serial(set, run<std::int32_t>(set.nodes, c))) << seed << " " << name_of(c);
+  }
+  EXPECT_GT(hidden, 50);
+  EXPECT_GT(shown, 50);
 }
 
 TEST(Nasty, RadiusOfTheEarthAndOfAnAtom) {

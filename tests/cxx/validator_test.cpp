@@ -1,4 +1,5 @@
-// The validator against meshes that are broken in every way we know, and a million mutated lists.
+// The validator against meshes that are broken in every way we know, and a million mutated lists, more or
+// fewer with PSTRIPACK_CASES.
 
 #include <gtest/gtest.h>
 
@@ -8,6 +9,7 @@
 #include "mesh/validate.h"
 #include "point_sets.h"
 #include "stripack/adjacency_lists.h"
+#include "support/cases.h"
 #include "support/guarded.h"
 #include "support/judge.h"
 
@@ -116,9 +118,17 @@ TEST(Validator, FindsIndicesOutOfRange) {
 }
 
 TEST(Validator, FindsACornerTwiceInATriangle) {
-  Faces faces = brute_force(octahedron, On::coordinates);
-  faces[3][1] = faces[3][0];
-  EXPECT_EQ(judge(octahedron, faces).defect, Defect::malformed);
+  for (const std::size_t corner : {0, 1, 2}) {
+    Faces faces = brute_force(octahedron, On::coordinates);
+    faces[3][corner] = faces[3][(corner + 1) % 3];
+    EXPECT_EQ(judge(octahedron, faces).defect, Defect::malformed);
+  }
+}
+
+TEST(Validator, RefusesFewerThanThreeNodes) {
+  EXPECT_EQ(judge({}, Faces{}).defect, Defect::malformed);
+  EXPECT_EQ(judge({{1, 0, 0}, {0, 1, 0}}, Faces{}).defect, Defect::malformed);
+  EXPECT_EQ(judge({{1, 0, 0}, {0, 1, 0}}, Lists{}).defect, Defect::malformed);
 }
 
 TEST(Validator, FindsATriangleTwice) {
@@ -143,12 +153,28 @@ TEST(Validator, FindsStarsOfTwoFans) {
   EXPECT_EQ(judge(octahedron, faces).defect, Defect::not_manifold);
 }
 
+TEST(Validator, FindsStarsOfTwoCycles) {
+  Nodes nodes = octahedron;  // and another that shares node 2
+  Faces faces = brute_force(octahedron, On::coordinates);
+  for (auto f : brute_force(octahedron, On::coordinates)) {
+    for (auto& k : f) k = k == 2 ? 2 : k + 6;
+    faces.push_back(f);
+  }
+  nodes.insert(nodes.end(), octahedron.begin(), octahedron.end());
+  nodes[8] = nodes.back();
+  nodes.pop_back();
+  for (auto& f : faces)
+    for (auto& k : f) k = k == 11 ? 8 : k;
+  EXPECT_EQ(judge(nodes, faces).message, "triangles around node are not one cycle or one fan: 3");
+}
+
 TEST(Validator, FindsMissingNodes) {
   Nodes nodes = octahedron;
   nodes.push_back(point_sets::normalized({1, 2, 3}));
   const Verdict v = judge(nodes, brute_force(octahedron, On::coordinates));
   EXPECT_EQ(v.defect, Defect::missing_node);
-  EXPECT_EQ(v.node[0], 6);
+  EXPECT_EQ(v.node, (std::array<pstripack::index_t, 4>{6, -1, -1, -1}));
+  EXPECT_EQ(v.message, "node is in no triangle: 7");
   EXPECT_EQ(judge(octahedron, Faces{}).defect, Defect::missing_node);
 }
 
@@ -216,6 +242,27 @@ TEST(Validator, FindsHoles) {
   Faces faces = brute_force(nodes, On::coordinates);
   faces.erase(faces.begin() + 11);
   EXPECT_EQ(judge(nodes, faces).defect, Defect::not_convex);
+  // Without a triangle of the octahedron its corners have neighbours in all four directions.
+  faces = brute_force(octahedron, On::coordinates);
+  faces.erase(faces.begin());
+  EXPECT_EQ(judge(octahedron, faces).defect, Defect::not_convex);
+}
+
+/// The torus of seven nodes, and what is left without a node's star: every star is one cycle or one fan.
+TEST(Validator, FindsSurfacesThatAreNeitherSphereNorDisc) {
+  const Nodes nodes = make("random", 7, 1);
+  Faces torus;
+  for (std::int32_t i = 0; i < 7; ++i) {
+    torus.push_back({i, (i + 1) % 7, (i + 3) % 7});
+    torus.push_back({i, (i + 3) % 7, (i + 2) % 7});
+  }
+  EXPECT_EQ(judge(nodes, torus).message,
+            "the surface is not one sphere or one disc: 1 component(s), 2(V-E+F) = 0, 0 boundary arcs");
+  Faces rest;
+  for (const auto& f : torus)
+    if (f[0] != 6 && f[1] != 6 && f[2] != 6) rest.push_back(f);
+  EXPECT_EQ(judge({nodes.begin(), nodes.end() - 1}, rest).message,
+            "the surface is not one sphere or one disc: 1 component(s), 2(V-E+F) = -2, 6 boundary arcs");
 }
 
 TEST(Validator, FindsADentInTheBoundary) {
@@ -356,7 +403,8 @@ TEST(Validator, RefusesNodesThatAreNoDirections) {
   for (const double bad : {nan, inf, -inf, 0.0}) {
     Nodes nodes = octahedron;
     nodes[4] = {0, bad, 0};
-    EXPECT_FALSE(judge(nodes, faces)) << bad;
+    EXPECT_EQ(judge(nodes, faces).message, "node has no direction: 5") << bad;
+    EXPECT_EQ(judge(nodes, canonical_lists(*rings_of(6, faces))).defect, Defect::malformed) << bad;
   }
 }
 
@@ -461,7 +509,7 @@ TEST_P(Mutants, AreRefusedUnlessTheTriangulationIsTheSame) {
   const Lists lists = canonical_lists(*rings, filler);
   Random random(1);
   int equivalent = 0, refused = 0;
-  for (int i = 0; i < 85000; ++i) {
+  for (int i = 0; i < cases(85000); ++i) {
     Lists mutant = random.below(10) == 0 ? flip(*rings, random) : lists;
     for (std::size_t changes = 1 + random.below(3) / 2; changes > 0; --changes) mutate(mutant, random);
     const bool lnew_unknown = random.below(8) == 0;
@@ -484,8 +532,8 @@ TEST_P(Mutants, AreRefusedUnlessTheTriangulationIsTheSame) {
   }
   RecordProperty("equivalent", equivalent);
   RecordProperty("refused", refused);
-  EXPECT_GT(equivalent, 5000);
-  EXPECT_GT(refused, 50000);
+  EXPECT_GE(equivalent, cases(5000));
+  EXPECT_GE(refused, cases(50000));
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, Mutants, ::testing::ValuesIn(samples()),
@@ -512,7 +560,7 @@ TEST(Validator, ReadsNothingOutsideWhateverTheArraysHold) {
                              : static_cast<std::int32_t>(random.below(n)) + 1;
         }
       };
-      for (int i = 0; i < 20000; ++i) {
+      for (int i = 0; i < cases(20000); ++i) {
         fill(list), fill(lptr), fill(lend);
         const std::int32_t lnews[] = {0, 1, static_cast<std::int32_t>(slots) + 1, extremes[random.below(5)],
                                       static_cast<std::int32_t>(slots) + 2};
@@ -530,7 +578,7 @@ TEST(Validator, ReadsNothingOutsideWhateverTheArraysHold) {
 
 TEST(Validator, SurvivesRandomTriangles) {
   Random random(2);
-  for (int i = 0; i < 100000; ++i) {
+  for (int i = 0; i < cases(100000); ++i) {
     const Nodes nodes = make("random", 3 + random.below(6), random.bits());
     Faces faces(random.below(2 * nodes.size()));
     for (auto& f : faces)
@@ -552,6 +600,7 @@ TEST(Validator, NamesEveryDefect) {
   for (int d = 0; d <= static_cast<int>(Defect::not_convex); ++d)
     for (int e = 0; e < d; ++e)
       EXPECT_STRNE(pstripack::name(static_cast<Defect>(d)), pstripack::name(static_cast<Defect>(e)));
+  EXPECT_STREQ(pstripack::name(static_cast<Defect>(-1)), "unknown");
 }
 
 }  // namespace

@@ -159,6 +159,13 @@ TEST(CommMode, RefusesWhatIsNoIntraCommunicatorAndKeepsTheOneBefore) {
   EXPECT_EQ(pstripack_set_comm(handle), PSTRIPACK_BAD_COMM);
   EXPECT_EQ(pstripack_set_comm_f(-1), PSTRIPACK_BAD_COMM);
   if (size_of() < 2) return;
+  MPI_Comm half, inter;
+  const int colour = rank_of() % 2;
+  MPI_Comm_split(MPI_COMM_WORLD, colour, 0, &half);
+  MPI_Intercomm_create(half, 0, MPI_COMM_WORLD, 1 - colour, 1, &inter);
+  EXPECT_EQ(pstripack_set_comm(inter), PSTRIPACK_BAD_COMM);
+  MPI_Comm_free(&inter);
+  MPI_Comm_free(&half);
   const Mesh different = trmesh(point_sets::make("random", 50 + static_cast<std::size_t>(rank_of())));
   EXPECT_EQ(different.ier, PSTRIPACK_RANKS_DISAGREE) << "not collective any more";
 }

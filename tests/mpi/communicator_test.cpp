@@ -8,9 +8,9 @@
 #include <thread>
 #include <vector>
 
-#include "failing_allocation.h"
 #include "mpi/mpi_communicator.h"
 #include "mpi_test.h"
+#include "support/failing_allocation.h"
 
 namespace {
 

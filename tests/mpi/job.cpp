@@ -8,6 +8,7 @@
 //
 // Exit code 0 if all results are right.
 
+#include <dlfcn.h>
 #include <mpi.h>
 
 #include <cstdio>
@@ -74,9 +75,10 @@ void for_ever(bool with_error, const Call& call) {
 
 }  // namespace
 
-/// Instead of MPI's own, which PMPI_Testall still is.
+/// In front of MPI's own, or of one that stands before that.
 int MPI_Testall(int count, MPI_Request* requests, int* flag, MPI_Status* statuses) {
-  return mpi_fails ? MPI_ERR_OTHER : PMPI_Testall(count, requests, flag, statuses);
+  static auto* const next = reinterpret_cast<decltype(&MPI_Testall)>(dlsym(RTLD_NEXT, "MPI_Testall"));
+  return mpi_fails ? MPI_ERR_OTHER : next(count, requests, flag, statuses);
 }
 
 int main(int argc, char** argv) {

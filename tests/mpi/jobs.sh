@@ -1,5 +1,30 @@
-# For scripts that start a job in the background, as $job, with its output in job.out. They have a function fail.
+# For scripts that start a job in the background, as $job, with its output in job.out. They have a function fail, and
+# JOB in the environment of all its processes, by which they are found: a text that no other job has.
 # shellcheck disable=SC2154
+
+# The processes of the job, without those that have ended and are not yet buried.
+processes() {
+  for environment in $(grep -lzxF "JOB=$JOB" /proc/[0-9]*/environ 2> /dev/null); do
+    pid=${environment#/proc/}
+    pid=${pid%/environ}
+    case $(cat "/proc/$pid/stat" 2> /dev/null) in '' | *") Z "* | *") X "*) continue ;; esac
+    [ "$pid" = $$ ] || echo "$pid"
+  done
+}
+
+# named NAME: those that run this program
+named() {
+  for pid in $(processes); do
+    [ "$(cat "/proc/$pid/comm" 2> /dev/null)" = "$(echo "$1" | cut -c1-15)" ] && echo "$pid"
+  done
+}
+
+# process_of_rank RANK PROGRAM
+process_of_rank() {
+  for pid in $(named "$2"); do
+    grep -qzxF "OMPI_COMM_WORLD_RANK=$1" "/proc/$pid/environ" 2> /dev/null && echo "$pid"
+  done
+}
 
 # until_it_says TEXT
 until_it_says() {

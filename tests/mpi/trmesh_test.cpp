@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "failing_allocation.h"
 #include "mpi/area_of_all.h"
 #include "mpi/collective_trmesh.h"
 #include "mpi/list_pieces.h"
@@ -15,6 +14,7 @@
 #include "parallel/coincidence.h"
 #include "point_sets.h"
 #include "pool/shared_area.h"
+#include "support/failing_allocation.h"
 #include "support/lists.h"
 
 namespace {

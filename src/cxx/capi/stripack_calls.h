@@ -23,11 +23,12 @@
  *   trfind   b1, b2, b3, i1, i2, i3; all of i1, i2, i3 are 0 if p[3] is not found
  *   nearnd   the nearest node, 0 if there is none; al in radians
  *   getnp    npts[l], of which the last is written; df; ier: 0; 1 l < 2; -5 a coordinate is not finite; -6
- * out of memory; -10 npts holds a number below 1 or one twice; -11 no node left inside   1 if p[3] lies in
- * the polygon, else 0; ier: 0; 1 bad nv; 2 bad vertex; 3 self-intersecting; 4 no reference point; -5 not
- * finite. 0 unless ier = 0 intrsc   p[3]; ier: 0; 1 parallel; 2 antipodal; -5 not finite. p is untouched
- * unless ier = 0 jrand    a random integer in 1..n, or n+1 (see random.h); ix, iy, iz advance triareas
- * triarea[nt] of triangles[3*nt]
+ *            out of memory; -10 npts holds a number below 1 or one twice; -11 no node left
+ *   inside   1 if p[3] lies in the polygon, else 0; ier: 0; 1 bad nv; 2 bad vertex; 3 self-intersecting;
+ *            4 no reference point; -5 not finite. 0 unless ier = 0
+ *   intrsc   p[3]; ier: 0; 1 parallel; 2 antipodal; -5 not finite. p is untouched unless ier = 0
+ *   jrand    a random integer in 1..n, or n+1 (see random.h); ix, iy, iz advance
+ *   triareas triarea[nt] of triangles[3*nt]
  *
  * A negative ier, which STRIPACK does not have, also prints one line on stderr.
  */

@@ -34,7 +34,7 @@ int sign(const Int& v) {
 /// The exponents that the components of a vector span, as values m * 2^e with 53-bit m.
 struct Span {
   int low = 1 << 20, high = -(1 << 20);
-  int bits() const { return high < low ? 1 : high - low + 53; }
+  int bits() const { return high - low + 53; }  // negative if there is none
   void join(double v) {
     if (v == 0) return;
     int e;
@@ -148,11 +148,15 @@ int orientation(const Point& a, const Point& b, const Point& c, const Point& d, 
   return sign(det(scaled<Int>(b, low) - base, scaled<Int>(c, low) - base, scaled<Int>(d, low) - base));
 }
 
-// Signs of sums of square roots, by squaring until none is left. All radicands are non-negative.
+// Signs of sums of square roots, in integers alone. Where the two halves of a sum have the same sign, that is
+// the sign; where they have opposite signs, the sign is that of the difference of their squares, times that
+// of the first. Squares have fewer roots: of four roots two halves of two each, whose squares differ by an
+// integer and two roots; of these the squares differ by an integer and one root; and of these by an integer.
+// So three steps always suffice, and nothing is rounded. All radicands are positive.
 
 /// sign of A sqrt(a) + B sqrt(b)
 inline int sign_of_sum(const Integer& A, const Integer& a, const Integer& B, const Integer& b) {
-  const int s = a == 0 ? 0 : sign(A), t = b == 0 ? 0 : sign(B);
+  const int s = sign(A), t = sign(B);
   if (s == 0 || s == t) return t;
   if (t == 0) return s;
   return s * sign(Integer(A * A * a - B * B * b));

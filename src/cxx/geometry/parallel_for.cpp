@@ -6,7 +6,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <vector>
+#include <memory>
+#include <new>
 #endif
 
 namespace pstripack {
@@ -23,7 +24,8 @@ const pid_t loaded_in = getpid();
 bool can_start(int count) {
   thread_local int started = 0;
   if (count <= started) return true;
-  std::vector<pthread_t> threads(static_cast<std::size_t>(count));
+  const std::unique_ptr<pthread_t[]> threads(new (std::nothrow) pthread_t[static_cast<std::size_t>(count)]);
+  if (threads == nullptr) return false;
   int running = 0;
   const auto nothing = [](void*) -> void* { return nullptr; };
   while (running < count &&
@@ -36,7 +38,7 @@ bool can_start(int count) {
 
 }  // namespace
 
-int threads_for(std::size_t items) {
+int threads_for(std::size_t items) noexcept {
   constexpr std::size_t kWorthAThread = 10000;
   if (items < 2 * kWorthAThread || omp_in_parallel()) return 1;
   const auto most = static_cast<std::size_t>(omp_get_max_threads());
@@ -44,7 +46,7 @@ int threads_for(std::size_t items) {
   return threads > 1 && getpid() == loaded_in && can_start(threads - 1) ? threads : 1;
 }
 #else
-int threads_for(std::size_t) { return 1; }
+int threads_for(std::size_t) noexcept { return 1; }
 #endif
 
 }  // namespace pstripack

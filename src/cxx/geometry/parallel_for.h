@@ -9,7 +9,7 @@ namespace pstripack {
 
 /// Threads for `items` pieces of work of some 10 ns each: one inside a parallel region, for few items, in
 /// a forked child (where OpenMP's threads are gone), and where the system gives no threads.
-int threads_for(std::size_t items);
+int threads_for(std::size_t items) noexcept;
 
 /// Calls body(first, last, piece) for a partition of [0,n) into `threads` contiguous pieces, in the order of
 /// the pieces, one a thread. `threads` must come from threads_for. body must not throw.

@@ -7,14 +7,17 @@
 #include "geometry/exact.h"
 #include "geometry/parallel_for.h"
 
-// Error bounds below: u = 2^-53 is the unit roundoff, E(v) the error of a computed v. "Permanent" is the
-// expression of a determinant with every term replaced by its absolute value; it is computed alongside.
+// Error bounds below: u = 2^-53 is the unit roundoff of rounding to nearest, which every entry of the library
+// sets (geometry/floating_point.h). "Permanent" is the expression of a determinant with every term replaced
+// by its absolute value; it is computed alongside.
 
 namespace pstripack {
 namespace {
 
 constexpr double u = 0x1p-53;
-// Underflow adds at most a few 2^-1074 times factors below kLargest^2 to a determinant.
+// A product that underflows is wrong by 2^-1075 at most, and is multiplied by one difference, below
+// 2 kLargest: nine products together change a determinant by less than kUnderflow. Sums do not underflow.
+// The third powers of differences do not overflow.
 constexpr double kUnderflow = 1e-250;
 constexpr double kLargest = 1e30;
 
@@ -44,9 +47,9 @@ int certain_sign(const Determinant& d, double bound) {
 
 // Filter for vectors that are exact or known to one rounding a component.
 // e, f, g: differences with one rounding each. A product of three carries 3 roundings of the differences,
-// 2 of the products, 1 of the subtraction, at most 2 of the sums: 8 u permanent to first order. Shewchuk
-// (1997, orient3d, stage A) shows 7u + 56u^2 for the same evaluation; 9u covers the higher orders and the
-// rounding of the permanent itself.
+// 2 of the products, 1 of the subtraction, at most 2 of the sums: the error is at most (1-u)^-8 - 1 <
+// 8u + 40u^2 of the permanent of the computed differences. That permanent and the bound come out smaller by
+// 8 roundings at most, and 9u (1-u)^8 > 8u + 40u^2. (Shewchuk 1997, orient3d, stage A: 7u + 56u^2.)
 constexpr double kFactor = 9 * u;
 
 int filter_orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
@@ -64,11 +67,14 @@ bool moderate(const Point& a) { return largest(a) < kLargest; }
 
 // Zeros that need no arithmetic are common: nodes on the equator, on one parallel.
 
+template <class... Points>
+bool in_coordinate_plane(const Points&... p) {
+  return ((p.x == 0) && ...) || ((p.y == 0) && ...) || ((p.z == 0) && ...);
+}
+
 int exact_left(const Point& a, const Point& b, const Point& c) {
   using namespace exact;
-  if ((a.x == 0 && b.x == 0 && c.x == 0) || (a.y == 0 && b.y == 0 && c.y == 0) ||
-      (a.z == 0 && b.z == 0 && c.z == 0))
-    return 0;
+  if (in_coordinate_plane(a, b, c)) return 0;
   if (Grid p, q, r; on_grid(a, p) && on_grid(b, q) && on_grid(c, r)) return sign_of_det(p, q, r);
   const int bits = std::max({span_of(a).bits(), span_of(b).bits(), span_of(c).bits()});
   return bits <= kSmallBits ? exact::left<Integer512>(a, b, c) : exact::left<Integer>(a, b, c);
@@ -92,6 +98,7 @@ int exact_orientation(const Point& a, const Point& b, const Point& c, const Poin
 /// The volume of the directions times |a||b||c||d|:  |a| [bcd] - |b| [acd] + |c| [abd] - |d| [abc].
 int exact_orientation_of_directions(const Point& a, const Point& b, const Point& c, const Point& d) {
   using namespace exact;
+  if (in_coordinate_plane(a, b, c, d)) return 0;
   const auto A = scaled<Integer>(a, span_of(a).low), B = scaled<Integer>(b, span_of(b).low),
              C = scaled<Integer>(c, span_of(c).low), D = scaled<Integer>(d, span_of(d).low);
   return sign_of_sum({det(B, C, D), -det(A, C, D), det(A, B, D), -det(A, B, C)},
@@ -171,11 +178,8 @@ bool same_direction(const Point& a, const Point& b) {
   if ((a.x < 0) != (b.x < 0) || (a.y < 0) != (b.y < 0) || (a.z < 0) != (b.z < 0)) return false;
   if ((a.x == 0) != (b.x == 0) || (a.y == 0) != (b.y == 0) || (a.z == 0) != (b.z == 0)) return false;
   if (a == b) return true;
-  if (moderate(a) && moderate(b)) {  // a x b clearly not zero: no need for exact arithmetic
-    const Point n = cross(a, b);
-    const double scale = largest(a) * largest(b);
-    if (largest(n) > 4 * u * scale + kUnderflow) return false;
-  }
+  // Products that are equal are rounded to equal doubles, also where they overflow or underflow.
+  if (a.x * b.y != a.y * b.x || a.y * b.z != a.z * b.y || a.z * b.x != a.x * b.z) return false;
   using namespace exact;
   const auto n = exact::cross(scaled<Integer>(a, span_of(a).low), scaled<Integer>(b, span_of(b).low));
   return n.x == 0 && n.y == 0 && n.z == 0;  // equal signs: not opposite
@@ -187,10 +191,7 @@ int Coordinates::left(index_t a, index_t b, index_t c) const { return pstripack:
 
 int Coordinates::height(index_t ia, index_t ib, index_t ic, index_t id) const {
   ++counts.above;
-  const Point &a = p_[ia], &b = p_[ib], &c = p_[ic], &d = p_[id];
-  if (const int s = filter_orientation(a, b, c, d)) return s;
-  ++counts.exact;
-  return exact_orientation(a, b, c, d);
+  return orientation(p_[ia], p_[ib], p_[ic], p_[id]);
 }
 
 bool Coordinates::above(index_t ia, index_t ib, index_t ic, index_t id) const {
@@ -218,23 +219,28 @@ void Directions::extend(const Point* points, std::size_t n) {
 }
 
 Directions::Unit Directions::unit(const Point& p) {
+  // Where squares could leave the range, scaled to [1/2,1) by a power of two: exact, up to bits below 2^-1074
+  // of the largest component. What underflows below is as small, in a vector of moderate length 2^-400 of it.
+  // Then `product` (Dekker 1971) and `sum` (Knuth) are exact, and high + low is p/|p| with relative errors
+  // of, in units of u^2,
+  //   3    half the error of s: two sums of three small terms, 3 each;
+  //   9.4  what one Newton step for 1/sqrt(s) leaves: 3/8 h^2 with h = 1 - s r0^2 below 5u, by the rounding
+  //        of the root, of the quotient, and s.low;
+  //   8.5  half the error of `residual`: 16 for its five roundings, 1 for s.low * rr.low, which is left out;
+  //   8.5  the roundings of r1, of c * r1 and of its sum with q.low, 2.5 + 2.5 + 3.5:
+  // together less than 2^-101.
   double c[3] = {p.x, p.y, p.z};
-  // Where squares could leave the range, scaled to [1/2,1) by a power of two: exact, up to components below
-  // 2^-1074 of the largest. Elsewhere the errors of products that underflow are below 2^-400 of |p|^2.
   if (const double most = largest(p); !(most > 0x1p-300 && most < 0x1p300)) {
     int e;
     std::frexp(most, &e);
     for (double& v : c) v = std::ldexp(v, -e);
   }
-  // s = |p|^2 to 2^-103 of itself
   Pair s = product(c[0], c[0]);
   for (int k = 1; k < 3; ++k) {
     const Pair q = product(c[k], c[k]);
     const Pair t = sum(s.high, q.high);
     s = sum_of_ordered(t.high, t.low + (s.low + q.low));
   }
-  // One Newton step for r = 1/sqrt(s): r0 has a relative error below 3u, so 1 - s r0^2 is below 2^-50
-  // and the step leaves 3/8 of its square, below 2^-101. All roundings of the residual are below 2^-103.
   const double r0 = 1 / std::sqrt(s.high);
   const Pair rr = product(r0, r0);
   const Pair one = product(s.high, rr.high);
@@ -250,13 +256,17 @@ Directions::Unit Directions::unit(const Point& p) {
   return {{high[0], high[1], high[2]}, {low[0], low[1], low[2]}};
 }
 
-// Filters on directions. A component of `difference` is known to 3u of itself and tau = 2^-96: the high
-// parts subtract with error u (exactly where they are close), the low parts add u, the sum u, and two
-// directions 2^-98 each. A product of three differences then carries 3*3u + 5u = 14u of the permanent, and
-// the tau terms are at most 6 products * 3 factors * tau * m^2, m the largest component: 2^-91 m^2 with
-// room. 16u covers higher orders.
+// Filters on directions. A component of `difference` is known to 2u of itself and tau = 2^-99: the high parts
+// subtract exactly where they are within a factor of 2 of each other (Sterbenz), else with an error u of
+// themselves, which is u (1 + 4u) of the result; the last sum adds u; the low parts, 2^-54 each at most,
+// subtract with an error below 2^-106; and two directions add 2^-101 each. A product of three differences
+// then carries 3*2u + 5u = 11u of the permanent, 12u with higher orders and the rounding of the bound. The
+// tau terms are at most 6 products * 3 factors * tau m^2, m the largest component: 2^-94 m^2. A sign is
+// certain only where 6 m^3 > 2^-91 m^2, so where tau < m/32, and then terms of tau^2 and tau^3 are less than
+// an eighth of that. In `left` the third vector is a position, known to u of itself and not small: 10u, and
+// 2^-95 m. For such m nothing underflows that counts.
 namespace {
-constexpr double kDirectionFactor = 16 * u;
+constexpr double kDirectionFactor = 12 * u;
 constexpr double kDirectionAbsolute = 0x1p-91;
 }  // namespace
 

@@ -11,7 +11,8 @@
 //   (2) above(a,b,c,d) == above(b,c,a,d)
 //   (3) above(a,b,c,d) != above(b,a,c,d), except where all four lie on one great circle: both false
 //   (4) the sign behind `above` is antisymmetric under every permutation of its four arguments
-//   (5) none depends on the numbering of the nodes, on the rounding mode, on FMA or on threads
+//   (5) none depends on the numbering of the nodes, on FMA or on threads; nor on the rounding mode of the
+//       program, which is left at every entry of the library (geometry/floating_point.h)
 //
 // Two sets of predicates share this interface; the kernel takes the set as a parameter:
 //   Coordinates  the vectors exactly as given;
@@ -60,7 +61,10 @@ enum class Lengths {
 };
 
 /// True if |p| is within 1e-6 of 1: Coordinates may be used. False if p is not finite.
-inline bool length_is_one(const Point& p) { return std::fabs(p.x * p.x + p.y * p.y + p.z * p.z - 1) <= 2e-6; }
+/// (1 +- 1e-6)^2 = 1 + 1e-12 +- 2e-6: exact but for the rounding of the square.
+inline bool length_is_one(const Point& p) {
+  return std::fabs(p.x * p.x + p.y * p.y + p.z * p.z - (1 + 1e-12)) <= 2e-6;
+}
 
 /// The stage that decided a call; for tests and for measuring how often the filter gives up.
 struct PredicateCounts {
@@ -69,7 +73,7 @@ struct PredicateCounts {
   std::uint64_t symbolic = 0;  ///< of these, zeros of `above` that the tie rule decided
 };
 
-/// Predicates on the nodes p[0..n-1] as given. Lengths must be within 1e-6 of 1.
+/// Predicates on the nodes p[0..n-1] as given.
 /// Holds a pointer only: the points must outlive it.
 class Coordinates {
  public:
@@ -107,7 +111,7 @@ class Directions {
   void extend(const Point* points, std::size_t n);
   const Point& given(index_t i) const { return p_[i]; }
   const Point& position(index_t i) const { return unit_[i].high; }
-  /// p[i]/|p[i]| - p[j]/|p[j]|, every component to 3 roundings and 2^-97.
+  /// p[i]/|p[i]| - p[j]/|p[j]|, every component to 2 roundings and 2^-99.
   Point difference(index_t i, index_t j) const {
     const Unit &a = unit_[i], &b = unit_[j];
     return {(a.high.x - b.high.x) + (a.low.x - b.low.x), (a.high.y - b.high.y) + (a.low.y - b.low.y),
@@ -124,7 +128,7 @@ class Directions {
   struct Unit {
     Point high, low;
   };
-  /// high + low = p/|p|, every component to 2^-98.
+  /// high + low = p/|p|, every component to 2^-101; high is the sum rounded.
   static Unit unit(const Point& p);
   const Point* p_;
   std::size_t n_;

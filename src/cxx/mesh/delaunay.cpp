@@ -97,6 +97,7 @@ class Builder final : public GrowingHull {
   }
 
   void build(std::size_t leading) override {
+    if constexpr (std::is_same_v<Predicates, Coordinates>) look_for_hidden_nodes(leading);
     start(leading);
     const auto n = static_cast<std::uint32_t>(n_), first = static_cast<std::uint32_t>(leading);
     for (std::uint32_t v = 0; v < first; ++v) insert_unless_started(v);
@@ -180,7 +181,7 @@ class Builder final : public GrowingHull {
   void set_arrays(const HullArrays& arrays) {
     nodes_ = arrays.nodes;
     faces_ = arrays.faces;
-    words_ = arrays.faces->vertex;
+    words_ = reinterpret_cast<std::uint32_t*>(arrays.faces);
     planes_ = arrays.planes;
     corner_ = arrays.corner;
   }
@@ -192,6 +193,49 @@ class Builder final : public GrowingHull {
       corner = clockwise(hull, corner);
     } while (corner != hull.corner[v]);
     return false;
+  }
+
+  /// Throws HiddenNode if the nodes around some of the closest pairs along the curve show one: if lengths as
+  /// given hide any, they mostly hide one of these, and it need not cost a hull to find out.
+  void look_for_hidden_nodes(std::size_t first) const {
+    constexpr std::size_t kMany = 4096, kPairs = 16, kAround = 32;
+    constexpr double kClose = 1e-14;  // the square: farther apart, rounded lengths hide nothing
+    if (n_ - first < kMany) return;
+    struct Pair {
+      double square = kClose;
+      std::size_t node = 0;
+    } closest[kPairs];  // a heap, the least close in front
+    const auto closer = [](const Pair& a, const Pair& b) { return a.square < b.square; };
+    for (std::size_t v = first; v + 1 < n_; ++v) {
+      const Point d = minus(nodes_[v + 1], nodes_[v]);
+      const double square = dot(d, d);
+      if (!(square < closest[0].square) || square == 0) continue;
+      std::pop_heap(closest, closest + kPairs, closer);
+      closest[kPairs - 1] = {square, v};
+      std::push_heap(closest, closest + kPairs, closer);
+    }
+    // With two nodes from elsewhere, for those around may be on one great circle.
+    constexpr std::size_t kElsewhere = 2, kNodes = kAround + kElsewhere;
+    const std::size_t count = n_ - first;
+    Point nodes[kNodes];
+    Face faces[2 * kNodes];
+    Plane planes[2 * kNodes];
+    std::uint32_t corner[kNodes];
+    for (const Pair& pair : closest) {
+      if (pair.square == kClose) continue;
+      const std::size_t begin =
+          std::min(std::max(pair.node, first + kAround / 2) - kAround / 2, n_ - kAround);
+      std::copy_n(nodes_ + begin, kAround, nodes);
+      for (std::size_t k = 0; k < kElsewhere; ++k)
+        nodes[kAround + k] = nodes_[first + (begin - first + (k + 1) * count / (kElsewhere + 1)) % count];
+      Builder some({kNodes, nodes, faces, planes, corner}, kNodes);
+      try {
+        some.build(0);
+      } catch (const std::domain_error&) {
+        continue;
+      }
+      some.finish();
+    }
   }
 
   // -- 2: the first nodes

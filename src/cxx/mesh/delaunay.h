@@ -54,7 +54,7 @@ struct Hull {
 
   /// Of the code 4*t + i: where vertex[i] of face t is; neighbour[i] is four words further on.
   const std::uint32_t* word(std::uint32_t code) const {
-    return faces->vertex + (std::size_t{code} + (code & ~std::uint32_t{3}));
+    return reinterpret_cast<const std::uint32_t*>(faces) + (std::size_t{code} + (code & ~std::uint32_t{3}));
   }
 
   bool front(std::size_t face) const { return surrounds_centre || !back[face]; }

@@ -13,15 +13,13 @@ namespace {
 
 constexpr index_t kNone = -1;
 
+/// Of at most four nodes.
 Verdict defect(Defect d, const std::string& what, std::initializer_list<index_t> nodes) {
   Verdict v;
   v.defect = d;
   v.message = what + ":";
-  std::size_t k = 0;
-  for (const index_t node : nodes) {
-    if (k < v.node.size()) v.node[k++] = node;
-    v.message += " " + std::to_string(static_cast<long long>(node) + 1);
-  }
+  std::copy(nodes.begin(), nodes.end(), v.node.begin());
+  for (const index_t node : nodes) v.message += " " + std::to_string(static_cast<long long>(node) + 1);
   return v;
 }
 

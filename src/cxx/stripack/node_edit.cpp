@@ -110,12 +110,10 @@ Int addnod(Int start, const Nodes<Real>& nodes, const EditedLists<Int>& arrays) 
   if (k > most_nodes<Int>()) return code(AddnodStatus::too_many_nodes);
   const Vector<Real> p = nodes[k];
   if (!is_finite(p)) return code(AddnodStatus::not_finite);
-  Real b1, b2, b3;
-  const ListsView<Int> view{static_cast<std::size_t>(k - 1), arrays.list, arrays.lptr, arrays.lend, 0};
-  const Location<Int> found = trfind(start < 1 ? k - 1 : start, p, view, nodes, b1, b2, b3);
 
   return code_or_broken_lists([&]() -> Int {
     const CheckedEditor<Int> lists({arrays, *arrays.lnew});
+    const Location<Int> found = trfind_in_edited(start < 1 ? k - 1 : start, p, arrays, k - 1, nodes);
     if (const Int same = copy_of(k, found, lists, nodes)) return same;
     const auto [i1, i2, i3] = found;
     if (i1 == 0) return code(AddnodStatus::collinear);

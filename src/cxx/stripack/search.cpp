@@ -29,13 +29,53 @@ class PlainLists : public ListReader<Int> {
   Nodes<Real> node_;
 };
 
-/// TRFIND: by rounded tests as the original, and where these do not soon end by exact signs.
+/// Arrays of lists that may be none: throws BrokenLists also where there are more steps round a node, or more
+/// nodes on the way, than any search in good lists takes.
+template <class Int>
+class CountedArrays : public CheckedArrays<Int> {
+ public:
+  CountedArrays(const EditedLists<Int>& lists, Int nodes)
+      : CheckedArrays<Int>(lists, *lists.lnew, nodes), most_steps_(4 * std::int64_t{nodes} + 10) {
+    if (original_rules().follow) most_nodes_ = 4 * SearchLimits::to_follow(nodes).steps;
+  }
+
+  Int& lptr(Int slot) const {
+    if (++steps_ > most_steps_) throw BrokenLists();
+    return CheckedArrays<Int>::lptr(slot);
+  }
+  Int& lend(Int node) const {
+    steps_ = 0;
+    if (--most_nodes_ < 0) throw BrokenLists();
+    return CheckedArrays<Int>::lend(node);
+  }
+
+ private:
+  const std::int64_t most_steps_;
+  mutable std::int64_t steps_ = 0, most_nodes_ = 64 * std::int64_t{this->nodes()} + 1000;
+};
+
+/// Lists that are being edited, and nodes.
 template <class Real, class Int>
+class GuardedLists : public ListEditor<CountedArrays<Int>> {
+ public:
+  GuardedLists(const EditedLists<Int>& lists, Int count, const Nodes<Real>& nodes)
+      : ListEditor<CountedArrays<Int>>({lists, count}), count_(count), node_(nodes) {}
+
+  Int size() const { return count_; }
+  Vector<Real> operator[](Int node) const { return node_[node]; }
+  Int slot_of_third(Int /*a*/, Int /*b_of_a*/, Int b, Int c) const { return this->slot_of(b, c); }
+
+ private:
+  Int count_;
+  Nodes<Real> node_;
+};
+
+/// TRFIND: by rounded tests as the original, and where these do not soon end by exact signs.
+template <class Real, class Int, class Lists>
 class Search {
  public:
-  Search(const Vector<Real>& p, const ListsView<Int>& lists, const Nodes<Real>& nodes,
-         const Weights<Real>& weights)
-      : p_(p), lists_(lists, nodes), n_(lists_.size()), weights_(weights) {}
+  Search(const Vector<Real>& p, const Lists& lists, const Weights<Real>& weights)
+      : p_(p), lists_(lists), n_(lists_.size()), weights_(weights) {}
 
   Location<Int> find(Int start) {
     if (n_ < 3 || !is_finite(p_)) return nowhere;
@@ -49,8 +89,8 @@ class Search {
         rules.follow ? SearchLimits::to_follow(n_) : SearchLimits{4 * std::int64_t{n_} + 100, 30};
     Int o = start >= 1 && start <= n_ ? start : draw(n_);
     Location<Int> found = nowhere;
-    TrfindWalk<Real, Int, PlainLists<Real, Int>, decltype(draw)> walk(p_, lists_, rules.tolerance<Real>(),
-                                                                      limits, weights_, draw);
+    TrfindWalk<Real, Int, Lists, decltype(draw)> walk(p_, lists_, rules.tolerance<Real>(), limits, weights_,
+                                                      draw);
     return walk.find(o, found) ? found : walk_exactly(o);
   }
 
@@ -140,7 +180,7 @@ class Search {
   }
 
   const Vector<Real> p_;
-  const PlainLists<Real, Int> lists_;
+  const Lists& lists_;
   const Int n_;
   const Weights<Real> weights_;
 };
@@ -215,7 +255,16 @@ class NodeSet {
 template <class Real, class Int>
 Location<Int> trfind(Int start, const Vector<Real>& p, const ListsView<Int>& lists, const Nodes<Real>& nodes,
                      Real& b1, Real& b2, Real& b3) {
-  return Search<Real, Int>(p, lists, nodes, {b1, b2, b3}).find(start);
+  const PlainLists<Real, Int> plain(lists, nodes);
+  return Search<Real, Int, PlainLists<Real, Int>>(p, plain, {b1, b2, b3}).find(start);
+}
+
+template <class Real, class Int>
+Location<Int> trfind_in_edited(Int start, const Vector<Real>& p, const EditedLists<Int>& lists, Int count,
+                               const Nodes<Real>& nodes) {
+  const GuardedLists<Real, Int> guarded(lists, count, nodes);
+  Real b1, b2, b3;
+  return Search<Real, Int, GuardedLists<Real, Int>>(p, guarded, {b1, b2, b3}).find(start);
 }
 
 template <class Real, class Int>
@@ -311,6 +360,8 @@ NextNearestStatus next_nearest(const ListsView<Int>& lists, const Nodes<Real>& n
 #define PSTRIPACK_SEARCH(Real, Int)                                                                         \
   template Location<Int> trfind(Int, const Vector<Real>&, const ListsView<Int>&, const Nodes<Real>&, Real&, \
                                 Real&, Real&);                                                              \
+  template Location<Int> trfind_in_edited(Int, const Vector<Real>&, const EditedLists<Int>&, Int,           \
+                                          const Nodes<Real>&);                                              \
   template Int nearnd(const Vector<Real>&, Int, const ListsView<Int>&, const Nodes<Real>&, Real&);          \
   template NextNearestStatus next_nearest(const ListsView<Int>&, const Nodes<Real>&, Int, Int*, Real&);
 PSTRIPACK_SEARCH(float, std::int32_t)

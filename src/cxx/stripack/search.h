@@ -5,6 +5,7 @@
 
 #include "stripack/adjacency_lists.h"
 #include "stripack/expressions.h"
+#include "stripack/list_edit.h"
 
 namespace pstripack {
 
@@ -27,6 +28,11 @@ struct Location {
 template <class Real, class Int>
 Location<Int> trfind(Int start, const Vector<Real>& p, const ListsView<Int>& lists, const Nodes<Real>& nodes,
                      Real& b1, Real& b2, Real& b3);
+
+/// The same in lists of `count` nodes that may be none: then throws BrokenLists.
+template <class Real, class Int>
+Location<Int> trfind_in_edited(Int start, const Vector<Real>& p, const EditedLists<Int>& lists, Int count,
+                               const Nodes<Real>& nodes);
 
 /// NEARND: the node nearest to p among the natural neighbours that TRFIND and at most 22 further
 /// insertions give, and in `angle` its distance in radians. `start` as in TRFIND, but 1 if not in 1..n.

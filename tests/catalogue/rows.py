@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+"""The catalogue's rows (rows.toml).
+
+rows.py check CTEST BUILD   every row has tests, all that it names exist, and no record is without a row
+rows.py print               the table, with what is on record, as Markdown
+"""
+
+import fnmatch
+import json
+import pathlib
+import subprocess
+import sys
+import tomllib
+
+here = pathlib.Path(__file__).resolve().parent
+recorded_as = "record_test.Of/Catalogue.{}IsAsRecorded/"
+
+
+def catalogue():
+    with open(here / "rows.toml", "rb") as file:
+        return tomllib.load(file)
+
+
+def tests_of(ctest, build):
+    out = subprocess.run([ctest, "--test-dir", build, "--show-only=json-v1"], check=True, capture_output=True)
+    # GoogleTest's names may end with a comment that shows the parameter.
+    return [test["name"].split("  # ")[0] for test in json.loads(out.stdout)["tests"]]
+
+
+def faults(rows, tests):
+    covered = set()
+    for row in rows:
+        if not row["tests"]:
+            yield f"no test: {row['input']}"
+        for pattern in row["tests"]:
+            if not fnmatch.filter(tests, pattern):
+                yield f"no test is named {pattern}: {row['input']}"
+        for pattern in row.get("record", []):
+            for who in "Original", "Ours":
+                found = fnmatch.filter(tests, recorded_as.format(who) + pattern)
+                covered.update(found)
+                if not found:
+                    yield f"nothing of {who.lower()} is on record for {pattern}: {row['input']}"
+    for test in tests:
+        if test.startswith("record_test.") and test not in covered:
+            yield f"in no row: {test}"
+
+
+def record():
+    """What the original does, by name of the input."""
+    found = {}
+    for line in (here / "record.txt").read_text().splitlines():
+        name, separator, text = line.partition(" original: ")
+        if separator:
+            found[name] = text
+    for file in (here.parent / "data").glob("*.txt"):
+        for line in file.read_text().splitlines():
+            if line.startswith("# original: "):
+                found["file_" + file.stem.replace("-", "m")] = line.removeprefix("# original: ")
+    return found
+
+
+def print_table(sections, rows):
+    originals = record()
+    for number, section in enumerate(sections, 1):
+        print(f"## {section}\n\n| input | original | ours | tests |\n| --- | --- | --- | --- |")
+        for row in rows:
+            if row["section"] != number:
+                continue
+            names = [name for pattern in row.get("record", []) for name in sorted(fnmatch.filter(originals, pattern))]
+            original = "<br>".join(f"{name}: {originals[name]}" for name in names)
+            tests = "<br>".join(row["tests"] + ([f"`{row['measured']}`"] if "measured" in row else []))
+            print(f"| {row['input']} | {original} | {row['ours']} | {tests} |")
+        print()
+
+
+def main():
+    read = catalogue()
+    if sys.argv[1:] == ["print"]:
+        print_table(read["section"], read["row"])
+    elif len(sys.argv) == 4 and sys.argv[1] == "check":
+        found = list(faults(read["row"], tests_of(sys.argv[2], sys.argv[3])))
+        print(*found, sep="\n")
+        sys.exit(1 if found else 0)
+    else:
+        sys.exit(__doc__)
+
+
+main()

@@ -1,0 +1,269 @@
+// Hard inputs that are in no row of the catalogue.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "point_sets.h"
+#include "support/expect.h"
+
+namespace {
+
+using point_sets::from_degrees;
+using point_sets::make;
+using point_sets::normalized;
+using point_sets::Random;
+using pstripack::Point;
+
+constexpr double tiny = std::numeric_limits<double>::denorm_min();
+
+::testing::AssertionResult is_as_promised(const Nodes& nodes) {
+  return ::is_as_promised(nodes, trmesh(nodes));
+}
+
+Point minus(const Point& p) { return {-p.x, -p.y, -p.z}; }
+
+/// Each component one ulp up, one down, or as it is.
+Point shaken(const Point& p, Random& random) {
+  const auto one = [&random](double v) {
+    const std::size_t way = random.below(3);
+    return way == 2 ? v : std::nextafter(v, way == 0 ? 2 : -2);
+  };
+  return {one(p.x), one(p.y), one(p.z)};
+}
+
+/// As they are, and in two random orders.
+void expect_as_promised_in_any_order(Nodes nodes, const std::string& what) {
+  EXPECT_TRUE(is_as_promised(nodes)) << what;
+  for (const std::uint64_t seed : {1, 2}) {
+    point_sets::shuffle(nodes, seed);
+    EXPECT_TRUE(is_as_promised(nodes)) << what << ", shuffled, seed " << seed;
+  }
+}
+
+TEST(GreatCircle, ThroughThePolesShakenByUlpsIsCorrect) {
+  Random random(1);
+  for (int longitude = 0; longitude < 180; longitude += 3)
+    for (const int step : {4, 10, 30}) {
+      Nodes nodes;
+      for (int angle = 0; angle < 360; angle += step) {
+        const Point p = from_degrees(0, angle);
+        nodes.push_back(
+            shaken({p.x * point_sets::cos_degrees(longitude), p.x * point_sets::sin_degrees(longitude), p.z},
+                   random));
+      }
+      expect_as_promised_in_any_order(nodes, std::to_string(longitude) + " degrees");
+    }
+}
+
+TEST(GreatCircle, SeveralThatCrossInThePolesAreCorrect) {
+  for (const int circles : {2, 3, 7}) {
+    Nodes nodes = {{0, 0, 1}, {0, 0, -1}};
+    for (int c = 0; c < circles; ++c)
+      for (int latitude = -80; latitude <= 80; latitude += 8)
+        for (const int side : {0, 180}) nodes.push_back(from_degrees(180.0 * c / circles + side, latitude));
+    expect_as_promised_in_any_order(nodes, std::to_string(circles) + " circles");
+  }
+}
+
+TEST(GreatCircle, TheEquatorAtDenormalHeightsIsCorrect) {
+  Random random(2);
+  for (const double height : {tiny, 3 * tiny, 1e-310, 0x1p-1022, 1e-300})
+    for (const int n : {5, 36, 200}) {
+      Nodes nodes;
+      for (int i = 0; i < n; ++i) {
+        nodes.push_back(from_degrees(360.0 * i / n, 0));
+        nodes.back().z = height * (static_cast<double>(random.below(3)) - 1);
+      }
+      expect_as_promised_in_any_order(nodes, std::to_string(height) + " of " + std::to_string(n));
+    }
+}
+
+TEST(Antipodes, OfThreeToEightNodesAreCorrect) {
+  Random random(3);
+  for (std::size_t n = 3; n <= 8; ++n)
+    for (int trial = 0; trial < 500; ++trial) {
+      const bool lattice = trial % 2 == 0;
+      Nodes nodes;
+      while (nodes.size() < n) {
+        Point p = random.direction();
+        if (lattice) p = {std::round(2 * p.x), std::round(2 * p.y), std::round(2 * p.z)};
+        if (p == Point{0, 0, 0}) continue;
+        nodes.push_back(normalized(p));
+        if (nodes.size() < n) nodes.push_back(minus(nodes[random.below(nodes.size())]));
+      }
+      point_sets::shuffle(nodes, random.bits());
+      ASSERT_TRUE(is_as_promised(nodes)) << n << " nodes, trial " << trial;
+    }
+}
+
+TEST(Plane, AllNodesInOneBesideTheCentreAreOneTie) {
+  // The 36 integer points of the circle x^2 + y^2 = 65^2: cocircular without rounding, and still so in any
+  // plane.
+  for (const double z : {0.25, 1.0, 0x1p-40}) {
+    Nodes nodes;
+    for (int x = -65; x <= 65; ++x)
+      for (int y = -65; y <= 65; ++y)
+        if (x * x + y * y == 65 * 65) nodes.push_back({double(x), double(y), 65 * z});
+    ASSERT_EQ(nodes.size(), 36u);
+    expect_as_promised_in_any_order(nodes, "z = " + std::to_string(z));
+    const Mesh m = trmesh(nodes);
+    EXPECT_EQ(boundary_nodes(m), nodes.size());
+    for (Point& p : nodes) p = {p.x + p.z, p.y + p.z, p.z - p.x - p.y};  // in another plane
+    expect_as_promised_in_any_order(nodes, "tilted, z = " + std::to_string(z));
+  }
+}
+
+TEST(SmallCircles, TwoParallelOnesAreCorrect) {
+  for (const auto& [low, high] :
+       {std::pair{10., 20.}, {-30., 30.}, {-1e-9, 1e-9}, {60., 60.000001}, {-89.9, 89.9}})
+    for (const double turn : {0., 1.8}) {
+      Nodes nodes;
+      for (int i = 0; i < 100; ++i) {
+        nodes.push_back(from_degrees(3.6 * i, low));
+        nodes.push_back(from_degrees(3.6 * i + turn, high));
+      }
+      expect_as_promised_in_any_order(nodes, std::to_string(low) + " and " + std::to_string(high));
+    }
+}
+
+TEST(Spiral, FromPoleToPoleIsCorrect) {
+  for (const int turns : {1, 7, 50})
+    for (const int n : {10, 300, 3000}) {
+      Nodes nodes;
+      for (int k = 0; k < n; ++k)
+        nodes.push_back(from_degrees(360.0 * turns * k / n, -90 + 180.0 * k / (n - 1)));
+      expect_as_promised_in_any_order(nodes, std::to_string(turns) + " turns, " + std::to_string(n));
+    }
+}
+
+TEST(Lattice, OfPowersOfTwoIsCorrectInBothPrecisions) {
+  // Directions on a grid of 2^-k: exact in float too, with ties everywhere and coinciding directions.
+  for (const int steps : {2, 4, 8}) {
+    Nodes nodes;
+    for (int x = -steps; x <= steps; ++x)
+      for (int y = -steps; y <= steps; ++y)
+        for (int z = -steps; z <= steps; ++z)
+          if (std::max({std::abs(x), std::abs(y), std::abs(z)}) == steps)
+            nodes.push_back({double(x) / steps, double(y) / steps, double(z) / steps});
+    point_sets::shuffle(nodes, 1);
+    expect_as_promised_in_any_order(nodes, std::to_string(steps));
+    const Columns c(nodes);
+    const std::vector<float> x(c.x.begin(), c.x.end()), y(c.y.begin(), c.y.end()), z(c.z.begin(), c.z.end());
+    const Mesh expected = trmesh(nodes);
+    Mesh m = expected;
+    m.ier = pstripack_trmesh_r4(static_cast<std::int32_t>(nodes.size()), x.data(), y.data(), z.data(),
+                                m.list.data(), m.lptr.data(), m.lend.data(), &m.lnew);
+    EXPECT_EQ(m.ier, expected.ier);
+    EXPECT_TRUE(m == expected) << steps;
+  }
+}
+
+TEST(Symmetry, OfSignsAndAxesToTheBitIsCorrect) {
+  // 48 images of each of some directions: a geodesic grid that is symmetric without rounding.
+  Random random(4);
+  for (const std::size_t orbits : {1, 5, 40}) {
+    Nodes nodes;
+    for (std::size_t k = 0; k < orbits; ++k) {
+      const Point d = random.direction();
+      double v[3] = {std::fabs(d.x), std::fabs(d.y), std::fabs(d.z)};
+      std::sort(v, v + 3);
+      do
+        for (int signs = 0; signs < 8; ++signs)
+          nodes.push_back({signs & 1 ? -v[0] : v[0], signs & 2 ? -v[1] : v[1], signs & 4 ? -v[2] : v[2]});
+      while (std::next_permutation(v, v + 3));
+    }
+    ASSERT_EQ(nodes.size(), 48 * orbits);
+    expect_as_promised_in_any_order(nodes, std::to_string(orbits) + " orbits");
+  }
+}
+
+/// On coordinates the mesh is wrong: some node is hidden by lengths, and directions decided.
+bool is_decided_by_directions(const Nodes& nodes) {
+  return !fault(nodes, *rings_of(trmesh(nodes)), exact::On::coordinates).empty();
+}
+
+TEST(HiddenNodes, BehindOneThatIsLongerByLessThanTheToleranceAreCorrect) {
+  // A node longer by e hides one at about that distance, or most of a crowd within the root of 8e.
+  Random random(5);
+  for (const double longer : {1e-9, 1e-7, 0.9e-6})
+    for (const auto& [hidden, within] : {std::pair{1, longer}, {100, 0.5 * std::sqrt(longer)}}) {
+      Nodes nodes = make("random", 200);
+      const Point top = nodes[100];
+      nodes[100] = {top.x * (1 + longer), top.y * (1 + longer), top.z * (1 + longer)};
+      for (int k = 0; k < hidden; ++k)
+        nodes.push_back(
+            normalized({top.x + within * random.uniform(-1, 1), top.y + within * random.uniform(-1, 1),
+                        top.z + within * random.uniform(-1, 1)}));
+      ASSERT_EQ(lengths_call_for(nodes), exact::On::coordinates);
+      EXPECT_TRUE(is_decided_by_directions(nodes)) << hidden << " behind one longer by " << longer;
+      expect_as_promised_in_any_order(nodes, std::to_string(hidden) + " hidden");
+    }
+}
+
+TEST(HiddenNodes, AmongLengthsWithin1em7OfOneAreCorrect) {
+  Random random(6);
+  for (const char* family : {"random", "cap:1e-3", "latlon", "ring"}) {
+    Nodes nodes = make(family, 3000);
+    for (Point& p : nodes) {
+      const double length = 1 + 1e-7 * random.uniform(-1, 1);
+      p = {p.x * length, p.y * length, p.z * length};
+    }
+    EXPECT_EQ(is_decided_by_directions(nodes), std::string(family) == "cap:1e-3") << family;
+    expect_as_promised_in_any_order(nodes, family);
+  }
+}
+
+TEST(HiddenNodes, AndTiesTogetherAreCorrect) {
+  // A lattice with many cocircular fours; then one node in its midst, shorter by an ulp or more.
+  for (const double shorter : {0x1p-53, 0x1p-40, 1e-8, 0.9e-6})
+    for (const int which : {0, 13, 25}) {
+      Nodes nodes;
+      for (int x = -1; x <= 1; ++x)
+        for (int y = -1; y <= 1; ++y)
+          for (int z = -1; z <= 1; ++z)
+            if (x != 0 || y != 0 || z != 0) nodes.push_back(normalized({double(x), double(y), double(z)}));
+      Point& p = nodes[static_cast<std::size_t>(which)];
+      p = {p.x * (1 - shorter), p.y * (1 - shorter), p.z * (1 - shorter)};
+      for (const Point& q : make("cap:1e-4", 50)) nodes.push_back(q);
+      for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        point_sets::shuffle(nodes, seed);
+        EXPECT_TRUE(is_as_promised(nodes)) << shorter << " at " << which << ", seed " << seed;
+      }
+    }
+}
+
+TEST(Clusters, WithinClustersAreCorrect) {
+  // Distances from 1 down to 1e-16 in one set: each node near an earlier one, at a scale of its own.
+  Random random(7);
+  for (int trial = 0; trial < 20; ++trial) {
+    Nodes nodes = make("random", 4, 11);
+    while (nodes.size() < 1000) {
+      const Point& near = nodes[random.below(nodes.size())];
+      const double scale = std::pow(10, random.uniform(-16, 0));
+      nodes.push_back(
+          normalized({near.x + scale * random.uniform(-1, 1), near.y + scale * random.uniform(-1, 1),
+                      near.z + scale * random.uniform(-1, 1)}));
+    }
+    ASSERT_TRUE(is_as_promised(nodes)) << trial;
+  }
+}
+
+TEST(Coordinates, ThatAreEqualInOneComponentAreCorrect) {
+  // All x are one number: the ranks of the tie rule are decided by y and z.
+  Random random(8);
+  for (const double x : {0.5, -0x1p-30, 0x1p30}) {
+    Nodes nodes;
+    for (int k = 0; k < 500; ++k) nodes.push_back({x, random.uniform(-1, 1), random.uniform(-1, 1)});
+    expect_as_promised_in_any_order(nodes, std::to_string(x));
+    nodes.clear();
+    for (int y = -5; y <= 5; ++y)
+      for (int z = -5; z <= 5; ++z) nodes.push_back({x, double(y), double(z)});
+    point_sets::shuffle(nodes, 3);
+    expect_as_promised_in_any_order(nodes, "lattice at " + std::to_string(x));
+  }
+}
+
+}  // namespace

@@ -1,0 +1,316 @@
+// The n-th allocation of a call fails, for each n, in every routine that allocates: the code that says so,
+// results as they were, no leak, and the next call is right.
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <numeric>
+#include <thread>
+
+#include "capi/pstripack.h"
+#include "capi/stripack_calls.h"
+#include "capi/text_calls.h"
+#include "injection.h"
+#include "point_sets.h"
+#include "support/lists.h"
+
+namespace {
+
+/// The routines for one kind of reals and integers.
+#define KIND(name, RealType, IntType, list_suffix, suffix, trmesh_name)          \
+  struct name {                                                                  \
+    using Real = RealType;                                                       \
+    using Int = IntType;                                                         \
+    static constexpr auto trmesh = trmesh_name;                                  \
+    static constexpr auto trlist = pstripack_trlist_##list_suffix;               \
+    static constexpr auto trlist2 = pstripack_trlist2_##list_suffix;             \
+    static constexpr auto polygons = pstripack_voronoi_poly_count_##list_suffix; \
+    static constexpr auto crlist = pstripack_crlist_##suffix;                    \
+    static constexpr auto trfind = pstripack_trfind_##suffix;                    \
+    static constexpr auto nearnd = pstripack_nearnd_##suffix;                    \
+    static constexpr auto getnp = pstripack_getnp_##suffix;                      \
+    static constexpr auto inside = pstripack_inside_##suffix;                    \
+    static constexpr auto trprnt = pstripack_trprnt_##suffix;                    \
+    static constexpr auto trlprt = pstripack_trlprt_##suffix;                    \
+    static constexpr auto trplot = pstripack_trplot_##suffix;                    \
+    static constexpr auto vrplot = pstripack_vrplot_##suffix;                    \
+  }
+KIND(R4, float, std::int32_t, i4, r4, pstripack_trmesh_r4);
+KIND(R8, double, std::int32_t, i4, r8, pstripack_trmesh);
+KIND(I8, double, std::int64_t, i8, i8, pstripack_trmesh_i8);
+
+/// The arrays of a triangulation and what is made of it.
+template <class Kind>
+struct Arrays {
+  using Real = typename Kind::Real;
+  using Int = typename Kind::Int;
+
+  explicit Arrays(const Nodes& nodes)
+      : n(static_cast<Int>(nodes.size())),
+        list(6 * nodes.size() - 12, -77),
+        lptr(list),
+        lend(nodes.size(), -77),
+        lnew(1, -77) {
+    for (const auto& p : nodes) {
+      x.push_back(static_cast<Real>(p.x));
+      y.push_back(static_cast<Real>(p.y));
+      z.push_back(static_cast<Real>(p.z));
+    }
+  }
+  Call trmesh() {
+    return {[this] {
+              return Kind::trmesh(n, x.data(), y.data(), z.data(), list.data(), lptr.data(), lend.data(),
+                                  lnew.data());
+            },
+            {Result(list), Result(lptr), Result(lend), Result(lnew)}};
+  }
+
+  Int n;
+  std::vector<Real> x, y, z;
+  std::vector<Int> list, lptr, lend, lnew;
+};
+
+template <class Kind>
+Arrays<Kind> triangulated(const Nodes& nodes) {
+  Arrays<Kind> a(nodes);
+  EXPECT_EQ(a.trmesh().run(), 0);
+  return a;
+}
+
+/// Sets that take every path: sphere, boundary, a coincidence, predicates on directions.
+std::vector<Nodes> small_sets() {
+  std::vector<Nodes> sets{point_sets::make("random", 200), point_sets::make("cap", 150),
+                          point_sets::make("random", 200), point_sets::make("random", 200)};
+  sets[2][170] = sets[2][60];
+  for (std::size_t i = 0; i < 200; ++i) {
+    const double length = 1 + static_cast<double>(i % 7) / 4;
+    sets[3][i] = {length * sets[3][i].x, length * sets[3][i].y, length * sets[3][i].z};
+  }
+  return sets;
+}
+
+template <class Kind>
+class EachAllocation : public ::testing::Test {
+ protected:
+  static void fails(const Call& call) { failures += fail_each_allocation(call); }
+  static void TearDownTestSuite() { std::printf("%ld allocations failed\n", failures), failures = 0; }
+  static inline long failures = 0;
+};
+using Kinds = ::testing::Types<R4, R8, I8>;
+TYPED_TEST_SUITE(EachAllocation, Kinds);
+
+TYPED_TEST(EachAllocation, OfTrmesh) {
+  for (const Nodes& nodes : small_sets()) {
+    Arrays<TypeParam> a(nodes);
+    this->fails(a.trmesh());
+  }
+}
+
+TYPED_TEST(EachAllocation, OfTriangleLists) {
+  using Int = typename TypeParam::Int;
+  omp_set_num_threads(2);
+  for (const std::size_t n : {200, 20000}) {
+    Arrays<TypeParam> a = triangulated<TypeParam>(point_sets::make("random", n));
+    std::vector<Int> ltri(9 * (2 * n - 4), -77);
+    Int nt = 0, ier = 0;
+    const auto code = [&] { return ier != 0 && nt != 0 ? -99 : ier; };
+    this->fails({[&] {
+                   TypeParam::trlist(a.n, a.list.data(), a.lptr.data(), a.lend.data(), 9, &nt, ltri.data(),
+                                     &ier);
+                   return code();
+                 },
+                 {Result(ltri)}});
+    this->fails({[&] {
+                   TypeParam::trlist2(a.n, a.list.data(), a.lptr.data(), a.lend.data(), &nt, ltri.data(),
+                                      &ier);
+                   return code();
+                 },
+                 {Result(ltri)}});
+  }
+}
+
+/// CRLIST and what prints and draws its result.
+TYPED_TEST(EachAllocation, OfVoronoiDiagrams) {
+  using Real = typename TypeParam::Real;
+  using Int = typename TypeParam::Int;
+  omp_set_num_threads(2);
+  for (const Nodes& nodes :
+       {point_sets::make("random", 200), point_sets::make("cap", 150), point_sets::make("random", 20000)}) {
+    Arrays<TypeParam> a = triangulated<TypeParam>(nodes);
+    const std::size_t n = nodes.size();
+    std::vector<Int> ltri(6 * n, -77), listc(a.list.size(), -77), nb(1, -77);
+    std::vector<Real> xc(2 * n, 5), yc(xc), zc(xc), rc(xc);
+    Int ier = 0;
+    this->fails({[&] {
+                   TypeParam::crlist(a.n, a.n, a.x.data(), a.y.data(), a.z.data(), a.list.data(),
+                                     a.lend.data(), a.lptr.data(), a.lnew.data(), ltri.data(), listc.data(),
+                                     nb.data(), xc.data(), yc.data(), zc.data(), rc.data(), &ier);
+                   return ier;
+                 },
+                 {Result(a.lptr), Result(a.lnew), Result(ltri), Result(listc), Result(nb), Result(xc),
+                  Result(yc), Result(zc), Result(rc)}});
+    if (n > 200) continue;
+    const auto text = [](void* handle) {
+      pstripack_free_text(handle);
+      return handle == nullptr ? -6 : 0;
+    };
+    this->fails({[&] {
+                   void* const picture =
+                       TypeParam::vrplot(7, Real(7.5), 30, 40, 90, a.n, a.x.data(), a.y.data(), a.z.data(),
+                                         2 * a.n - 4, listc.data(), a.lptr.data(), a.lend.data(), xc.data(),
+                                         yc.data(), zc.data(), "(title)", 7, 1, &ier);
+                   return text(picture) == ier ? ier : -99;
+                 },
+                 {}});
+    this->fails(
+        {[&] { return text(TypeParam::polygons(a.n, a.lend.data(), a.lptr.data(), listc.data())); }, {}});
+  }
+}
+
+TYPED_TEST(EachAllocation, OfSearches) {
+  using Real = typename TypeParam::Real;
+  using Int = typename TypeParam::Int;
+  for (const char* family : {"random", "cap", "ring"}) {
+    const Nodes nodes = point_sets::make(family, 300);
+    Arrays<TypeParam> a = triangulated<TypeParam>(nodes);
+    const Real p[] = {Real(0.6), Real(-0.48), Real(0.64)};
+    std::vector<Real> b(3, 5), al(1, 5);
+    std::vector<Int> i(3, -77);
+    this->fails({[&] {
+                   TypeParam::trfind(1, p, a.n, a.x.data(), a.y.data(), a.z.data(), a.list.data(),
+                                     a.lptr.data(), a.lend.data(), &b[0], &b[1], &b[2], &i[0], &i[1], &i[2]);
+                   return i[0];
+                 },
+                 {Result(b)},
+                 0});
+    this->fails({[&] {
+                   return TypeParam::nearnd(p, 1, a.n, a.x.data(), a.y.data(), a.z.data(), a.list.data(),
+                                            a.lptr.data(), a.lend.data(), al.data());
+                 },
+                 {Result(al)},
+                 0});
+    std::vector<Int> npts(40, 0);
+    std::vector<Real> df(1, 5);
+    npts[0] = 1;
+    for (Int l = 2, ier = 0; l <= 40; ++l) {
+      const auto next = [&, l] {
+        Int code = 0;
+        TypeParam::getnp(a.x.data(), a.y.data(), a.z.data(), a.list.data(), a.lptr.data(), a.lend.data(), l,
+                         npts.data(), df.data(), &code);
+        return code;
+      };
+      if (l == 2 || l == 40) this->fails({next, {Result(npts), Result(df)}});
+      ier = next();
+      ASSERT_EQ(ier, 0);
+    }
+    std::vector<Int> polygon(20);
+    std::iota(polygon.begin(), polygon.end(), Int{1});
+    Int ier = 0;
+    this->fails({[&] {
+                   TypeParam::inside(p, a.n, a.x.data(), a.y.data(), a.z.data(), 20, polygon.data(), &ier);
+                   return ier;
+                 },
+                 {}});
+  }
+}
+
+TYPED_TEST(EachAllocation, OfListings) {
+  using Real = typename TypeParam::Real;
+  using Int = typename TypeParam::Int;
+  Arrays<TypeParam> a = triangulated<TypeParam>(point_sets::make("cap", 100));
+  std::vector<Int> ltri(9 * 200, -77);
+  Int nt = 0, ier = 0;
+  TypeParam::trlist(a.n, a.list.data(), a.lptr.data(), a.lend.data(), 9, &nt, ltri.data(), &ier);
+  const auto text = [](void* handle) {
+    pstripack_free_text(handle);
+    return handle == nullptr ? -6 : 0;
+  };
+  for (const Int f90 : {0, 1}) {
+    this->fails({[&] {
+                   return text(TypeParam::trprnt(a.n, a.x.data(), a.y.data(), a.z.data(), 0, a.list.data(),
+                                                 a.lptr.data(), a.lend.data(), f90));
+                 },
+                 {}});
+    this->fails({[&] {
+                   return text(TypeParam::trlprt(a.n, a.x.data(), a.y.data(), a.z.data(), 0, 9, nt,
+                                                 ltri.data(), f90));
+                 },
+                 {}});
+  }
+  this->fails({[&] {
+                 void* const picture =
+                     TypeParam::trplot(7, Real(7.5), 30, 40, 90, a.n, a.x.data(), a.y.data(), a.z.data(),
+                                       a.list.data(), a.lptr.data(), a.lend.data(), "(title)", 7, 1, &ier);
+                 return text(picture) == ier ? ier : -99;
+               },
+               {}});
+}
+
+using EachAllocationOf = EachAllocation<R8>;
+
+TEST_F(EachAllocationOf, TrmeshOnThreads) {
+  omp_set_num_threads(2);
+  Nodes nodes = point_sets::make("random", 20000);
+  for (const bool with_coincidence : {false, true}) {
+    if (with_coincidence) nodes[15000] = nodes[7000];
+    Arrays<R8> a(nodes);
+    Call call = a.trmesh();
+    call.every = 8;  // the calls take a while
+    fails(call);
+  }
+}
+
+/// As a model under pstripack-run. Each call is the first of its thread, and needs more shared memory than
+/// the one before: what cannot be had sends the call to the model's own threads.
+TEST_F(EachAllocationOf, ACallThatGoesToThePool) {
+  if (std::getenv("PSTRIPACK_POOL") == nullptr) GTEST_SKIP() << "not under pstripack-run";
+  std::size_t n = 170000;
+  for (const bool for_good : {false, true}) {
+    bool failed = true;
+    for (long which = 1; failed; ++which, failures += failed, n += 2000) {
+      Arrays<R8> a(point_sets::make("random", n));
+      const Call call = a.trmesh();
+      std::int64_t code = 0;
+      std::thread([&] {
+        const FailingAllocation memory(which, for_good);
+        code = call.run();
+        failed = FailingAllocation::happened();
+      }).join();
+      ASSERT_TRUE(code == 0 ? a.lnew[0] == 6 * a.n - 11 : code == -6 && failed) << which;
+      for (const Result& r : call.results) ASSERT_TRUE(code == 0 || r.is_untouched()) << which;
+    }
+  }
+  EXPECT_GT(failures, 5);
+}
+
+TEST_F(EachAllocationOf, TheValidator) {
+  for (const Nodes& nodes : {point_sets::make("random", 200), point_sets::make("cap", 150)}) {
+    Arrays<R8> a = triangulated<R8>(nodes);
+    for (const int change : {0, 1}) {  // correct lists, and broken ones
+      a.list[5] += change;
+      fails({[&] {
+               char message[200];
+               return pstripack_validate(a.n, a.x.data(), a.y.data(), a.z.data(), a.list.data(),
+                                         a.lptr.data(), a.lend.data(), a.lnew[0], message, sizeof message);
+             },
+             {},
+             -6,
+             0});
+    }
+  }
+}
+
+TEST_F(EachAllocationOf, TheFingerprint) {
+  Arrays<R8> a = triangulated<R8>(point_sets::make("random", 200));
+  fails({[&] {
+           return static_cast<std::int64_t>(
+               pstripack_fingerprint(a.n, a.list.data(), a.lptr.data(), a.lend.data()));
+         },
+         {},
+         0,
+         0});
+}
+
+}  // namespace

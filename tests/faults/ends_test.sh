@@ -1,0 +1,49 @@
+#!/bin/sh
+# MPI programs that end in every way, with comm mode or a mesh and a call behind them: the exit code that they have
+# without any call of ours, no hang, nothing left. ends_test.sh MODE, with MPIEXEC (and its flags), PROGRAM
+# (ending_program) and WORK in the environment.
+# shellcheck disable=SC2086,SC2154
+set -u
+. "$(dirname "$0")/../mpi/jobs.sh"
+mode=$1
+dir=$WORK/ends_$mode
+rm -rf "$dir"
+mkdir -p "$dir"
+cd "$dir" || exit 1
+export JOB=$dir OMP_NUM_THREADS=1
+job=
+trap 'status=$?; [ -z "$job" ] || kill -9 $job $(processes) 2> /dev/null; exit $status' EXIT
+
+fail() {
+  echo "FAILED: $mode: $*"
+  cat job.out job.err
+  exit 1
+}
+
+# run MODE END WHO: $code is its exit code
+run() {
+  : > job.out
+  $MPIEXEC -n 3 "$PROGRAM" "$@" > job.out 2> job.err &
+  job=$!
+  has_ended_within 60
+  for _ in 1 2 3 4 5 6 7 8 9 10; do
+    [ -n "$(processes)" ] || return
+    sleep 0.5
+  done
+  fail "processes are left after $*: $(processes)"
+}
+
+# END:CODE, where all ranks end so; 1 is what mpiexec makes of an end without MPI_Finalize.
+for end in finalize:0 finalize3:3 stop:1 stop3:3 error_stop:2 exit5:5 abort:134 mpi_abort:7; do
+  how=${end%:*}
+  for who in all 1; do
+    # A collective call waits for ever for a rank that has finalised MPI, as any of MPI's own does.
+    case $who:$how in 1:finalize*) continue ;; esac
+    run without "$how" $who
+    alone=$code
+    [ $who != all ] || [ $alone -eq "${end#*:}" ] || fail "$how, no call of ours: exit code $alone"
+    run "$mode" "$how" $who
+    [ $code -eq $alone ] || fail "$how $who: exit code $code, without a call of ours $alone"
+    echo "$how $who: $code"
+  done
+done

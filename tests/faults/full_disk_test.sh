@@ -1,0 +1,63 @@
+#!/bin/sh
+# Every tool on a disk that is full, or becomes full: one line on stderr that names the file,
+# an exit code that is not 0. full_disk_test.sh, with COMPARE, BENCHMARK, SCALING ("" where they are not built) and WORK
+# in the environment. (The library's own files, PSTRIPACK_REPORT and PSTRIPACK_CHECK: report_test, check_test.)
+# shellcheck disable=SC2015,SC2086,SC2154
+set -u
+dir=$WORK/full_disk
+rm -rf "$dir"
+mkdir -p "$dir"
+cd "$dir" || exit 1
+ln -s /dev/full full.svg
+export OMP_NUM_THREADS=1
+
+fail() {
+  echo "FAILED: $*"
+  cat err
+  exit 1
+}
+
+# refuses FILE COMMAND...: it says once, and last, that it cannot write FILE
+refuses() {
+  file=$1
+  shift
+  "$@" > /dev/null 2> err
+  code=$?
+  [ $code -ne 0 ] && [ $code -lt 126 ] || fail "exit code $code of $*"
+  grep 'cannot write' err | grep -qF "$file" || fail "it does not say that it cannot write $file: $*"
+  [ "$(grep -c '' err)" -eq 1 ] || fail "not one line of $*"
+}
+# cannot_print COMMAND...: the same of the standard output
+cannot_print() {
+  "$@" > /dev/full 2> err
+  code=$?
+  [ $code -ne 0 ] && [ $code -lt 126 ] || fail "exit code $code of $* > /dev/full"
+  grep -q 'cannot write' err || fail "it does not say that it cannot print: $*"
+}
+
+if [ -n "$COMPARE" ]; then
+  run="$COMPARE run --points latlon --n 300 --repeats 1"
+  for output in csv json junit; do refuses /dev/full $run --$output /dev/full; done
+  refuses full.svg $run --plot full.svg
+  # One that becomes full: 4 kilobytes.
+  mkdir small
+  on_small_disk() { unshare --map-root-user --mount sh -c 'mount -t tmpfs -o size=4k none small && "$@"' sh "$@"; }
+  if on_small_disk true 2> /dev/null; then
+    refuses small/json on_small_disk $run --order given,shuffled,sorted --json small/json
+    refuses small/junit on_small_disk $run --order given,shuffled,sorted --show 50 --junit small/junit
+    refuses small/plot.svg on_small_disk $run --plot small/plot.svg
+  else
+    echo "no file system of our own can be mounted here: no disk that becomes full"
+  fi
+  cannot_print $run
+fi
+if [ -n "$SCALING" ]; then
+  scaling="$SCALING --ranks 1 --sizes 1000 --repeats 1 --modes distributed --tables constant-n"
+  refuses /dev/full $scaling --csv /dev/full
+  cannot_print $scaling
+fi
+if [ -n "$BENCHMARK" ]; then
+  curves="$BENCHMARK curves --sizes 100 --repeats 1 --contenders pstripack"
+  refuses /dev/full $curves --csv /dev/full
+  cannot_print $curves
+fi

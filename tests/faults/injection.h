@@ -1,0 +1,93 @@
+#pragma once
+// A call whose allocations fail, one after the other.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "geometry/workspace.h"
+#include "support/failing_allocation.h"
+
+/// An array that a call writes, with what it holds before.
+class Result {
+ public:
+  template <class T>
+  explicit Result(std::vector<T>& array)
+      : place_(reinterpret_cast<unsigned char*>(array.data())),
+        before_(place_, place_ + array.size() * sizeof(T)) {}
+
+  void restore() const { std::copy(before_.begin(), before_.end(), place_); }
+  std::vector<unsigned char> bytes() const { return {place_, place_ + before_.size()}; }
+  bool is_untouched() const { return std::equal(before_.begin(), before_.end(), place_); }
+
+ private:
+  unsigned char* place_;
+  std::vector<unsigned char> before_;
+};
+
+struct Call {
+  std::function<std::int64_t()> run;  ///< returns its code
+  std::vector<Result> results;
+  std::int64_t out_of_memory = -6;  ///< the code that says so
+  std::ptrdiff_t lines = 1;         ///< on stderr then
+  long every = 1;                   ///< after so many failures a call without one is tried
+};
+
+/// Blocks that the library keeps for its next call are given back to the system: it keeps 1 GB at most, and
+/// the newest first.
+inline void empty_the_cache() { pstripack::Block(std::size_t{1} << 30); }
+
+/// Runs the call with its first allocation failing, then with its second, until no more is made; then with
+/// all allocations failing from the first on, from the second on, ... Each must give the code for it and
+/// leave the results as they were, or do without; keep no memory; and leave a library whose next call is
+/// right. Returns how many allocations failed at least.
+inline long fail_each_allocation(const Call& call) {
+  const auto restore = [&] {
+    std::for_each(call.results.begin(), call.results.end(), [](auto& r) { r.restore(); });
+  };
+  const auto written = [&] {
+    std::vector<std::vector<unsigned char>> all;
+    for (const Result& r : call.results) all.push_back(r.bytes());
+    return all;
+  };
+  restore();
+  const std::int64_t code = call.run();
+  const auto expected = written();
+  EXPECT_NE(code, call.out_of_memory);
+  long failures = 0;
+  for (const bool for_good : {false, true})
+    for (long which = 1;; ++which, ++failures) {
+      restore();
+      empty_the_cache();
+      std::int64_t now;
+      ::testing::internal::CaptureStderr();
+      {
+        const FailingAllocation memory(which, for_good);
+        now = call.run();
+      }
+      const std::string said = ::testing::internal::GetCapturedStderr();
+      const std::string where =
+          (for_good ? "from allocation " : "allocation ") + std::to_string(which) + ": " + said;
+      empty_the_cache();
+      EXPECT_EQ(FailingAllocation::blocks(), 0u) << where;
+      if (now == call.out_of_memory) {
+        EXPECT_TRUE(FailingAllocation::happened()) << where;
+        for (const Result& r : call.results) EXPECT_TRUE(r.is_untouched()) << where;
+        EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), call.lines) << where;
+      } else {
+        EXPECT_EQ(now, code) << where;
+        EXPECT_TRUE(written() == expected) << where;
+      }
+      if (which % call.every == 0) {
+        restore();
+        EXPECT_EQ(call.run(), code) << "after " << where;
+        EXPECT_TRUE(written() == expected) << "after " << where;
+      }
+      if (::testing::Test::HasFailure() || !FailingAllocation::happened()) break;
+    }
+  return failures;
+}

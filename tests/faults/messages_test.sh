@@ -1,0 +1,99 @@
+#!/bin/sh
+# MPI's faults by the interposer: messages_test.sh CASE MODE, with RUN, MPIEXEC (and its flags), INTERPOSER, JOB_PROGRAM
+# (mpi_job), MODEL (pool_model) and WORK in the environment.
+#   late      messages are late and in another order, with $SEEDS seeds: results as ever
+#   stopped   each rank at every $EVERY-th call of MPI stands still for $MILLISECONDS: results as ever
+#   killed    each rank at every $EVERY-th call of MPI is killed: the job is over, one line names rank and phase
+# MODE: pool, comm, distributed. LIMIT: seconds until a job must be over [60: the machine may be loaded].
+# shellcheck disable=SC2086,SC2154
+set -u
+. "$(dirname "$0")/../mpi/jobs.sh"
+case=$1 mode=$2 ranks=3 limit=${LIMIT:-60}
+dir=$WORK/messages_${case}_$mode
+rm -rf "$dir"
+mkdir -p "$dir"
+cd "$dir" || exit 1
+export JOB=$dir OMP_NUM_THREADS=1 PSTRIPACK_POOL_MIN_NODES=100
+job=
+trap 'status=$?; [ -z "$job" ] || kill -9 $job $(processes) 2> /dev/null; exit $status' EXIT
+
+fail() {
+  echo "FAILED: $mode: $*"
+  cat job.out job.err
+  exit 1
+}
+
+# run FAULT...: the job, with these variables for the interposer; $code is its exit code
+run() {
+  options="-x LD_PRELOAD=$INTERPOSER"
+  for fault in "$@"; do options="$options -x $fault"; done
+  : > job.out
+  case $mode in
+  pool) "$RUN" -n $ranks --oversubscribe $options -- "$MODEL" lists pool.bin > job.out 2> job.err < /dev/null & ;;
+  *) $MPIEXEC $options -n $ranks "$JOB_PROGRAM" "$mode" > job.out 2> job.err & ;;
+  esac
+  job=$!
+  has_ended_within "$limit"
+}
+
+# The program itself checks its results; those of the model are compared with the ones that it has alone.
+is_right() {
+  [ $code -eq 0 ] || fail "exit code $code with $*"
+  [ $mode != pool ] || cmp alone.bin pool.bin || fail "the lists differ with $*"
+}
+[ $mode != pool ] || "$MODEL" lists alone.bin 2> /dev/null || fail "alone"
+
+# each_call BODY: for rank and call of MPI, every $EVERY-th
+each_call() {
+  run FAULT_COUNT=calls
+  is_right FAULT_COUNT
+  for rank in 0 1 2; do
+    call=1
+    while [ $call -le "$(cat calls.$rank)" ]; do
+      "$@"
+      call=$((call + EVERY))
+    done
+  done
+}
+
+stop() {
+  run FAULT_STOP=$rank:$call:$MILLISECONDS
+  is_right FAULT_STOP=$rank:$call:$MILLISECONDS
+  stops=$((stops + 1))
+}
+
+# Where MPI and comm mode begin and end, the first and last calls, mpiexec alone names the rank.
+kill_at() {
+  run FAULT_KILL=$rank:$call
+  [ $code -ne 0 ] || fail "exit code 0 with FAULT_KILL=$rank:$call"
+  phase=$(sed -n "s/^pstripack: rank $rank was lost during \(.*\); the job ends\$/\1/p" job.err)
+  [ "$(grep -c 'was lost' job.err)" -le 1 ] || fail "several lines with FAULT_KILL=$rank:$call"
+  [ -n "$phase" ] || [ $call -le 25 ] || [ $call -gt $(($(cat calls.$rank) - 10)) ] ||
+    fail "nobody names rank and phase with FAULT_KILL=$rank:$call"
+  [ -z "$(processes)" ] || sleep 3
+  [ -z "$(processes)" ] || fail "processes are left with FAULT_KILL=$rank:$call"
+  echo "rank $rank, call $call: ${phase:-not in a call of ours}"
+}
+
+case $case in
+late)
+  seed=0
+  while [ $seed -lt "$SEEDS" ]; do
+    seed=$((seed + 1))
+    run FAULT_SEED=$seed
+    is_right FAULT_SEED=$seed
+  done
+  echo "$seed runs"
+  ;;
+stopped)
+  stops=0
+  each_call stop
+  echo "$stops stops"
+  ;;
+killed)
+  each_call kill_at
+  ;;
+*)
+  fail "no such case"
+  ;;
+esac

@@ -1,0 +1,205 @@
+// The n-th allocation fails, for each n, on one rank or on all, in every call of pstripack_mpi.h: the same
+// code on all ranks, results as they were, no leak, and the next call is right.
+
+#include <functional>
+#include <vector>
+
+#include "capi/pstripack_mpi.h"
+#include "geometry/workspace.h"
+#include "mpi/mpi_test.h"
+#include "point_sets.h"
+#include "support/expect.h"
+#include "support/failing_allocation.h"
+#include "support/trmesh.h"
+
+namespace {
+
+/// The smallest and the largest of all ranks.
+struct Extent {
+  explicit Extent(int value) {
+    const int mine[] = {value, -value};
+    int all[2];
+    MPI_Allreduce(mine, all, 2, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
+    smallest = all[0], largest = -all[1];
+  }
+  int smallest, largest;
+};
+
+enum Ranks { only_first, only_last, every };
+bool is_hit(Ranks which) { return which == every || rank_of() == (which == only_first ? 0 : size_of() - 1); }
+
+/// Blocks that the library keeps for its next call are given back.
+void empty_the_cache() { pstripack::Block(std::size_t{1} << 30); }
+
+/// call() gives its code, check(code) what is wrong after it; clear() ends what a call without an error
+/// began.
+void fail_each_allocation(
+    const std::function<int()>& call, const std::function<bool(int)>& is_right,
+    const std::function<void()>& clear = [] {}) {
+  long failures = 0;
+  for (const Ranks hit : {only_first, only_last, every})
+    for (const bool for_good : {false, true}) {
+      bool failed = true;
+      for (long which = 1; failed; ++which, failures += failed) {
+        int code;
+        {
+          const FailingAllocation memory(is_hit(hit) ? which : 0, for_good);
+          code = call();
+        }
+        const Extent codes(code);
+        ASSERT_EQ(codes.smallest, codes.largest) << "the ranks disagree, allocation " << which;
+        ASSERT_TRUE(code == 0 || code == PSTRIPACK_OUT_OF_MEMORY) << code;
+        ASSERT_TRUE(is_right(code)) << "code " << code << ", allocation " << which;
+        if (code == 0) clear();
+        failed = Extent(FailingAllocation::happened()).largest != 0;
+        empty_the_cache();
+        ASSERT_EQ(FailingAllocation::blocks(), 0u) << "allocation " << which;
+        ASSERT_EQ(call(), 0) << "after allocation " << which;
+        ASSERT_TRUE(is_right(0)) << "after allocation " << which;
+        clear();
+      }
+    }
+  if (rank_of() == 0) std::printf("%ld allocations failed\n", failures);
+}
+
+const Nodes& nodes() {
+  static const Nodes random = point_sets::make("random", 500);
+  return random;
+}
+
+struct Part {
+  Part() {
+    for (auto i = static_cast<std::size_t>(rank_of()); i < nodes().size();
+         i += static_cast<std::size_t>(size_of())) {
+      number.push_back(static_cast<std::int64_t>(i) + 1);
+      xyz.insert(xyz.end(), {nodes()[i].x, nodes()[i].y, nodes()[i].z});
+    }
+  }
+  int triangulate(pstripack_mesh* mesh) const {
+    return pstripack_mesh_triangulate(mesh, static_cast<std::int64_t>(number.size()), xyz.data(),
+                                      number.data());
+  }
+  std::vector<double> xyz;
+  std::vector<std::int64_t> number;
+};
+
+std::int64_t points_of(const pstripack_mesh* mesh) {
+  std::int64_t points, arcs, triangles, halo;
+  pstripack_mesh_sizes(mesh, &points, &arcs, &triangles, &halo);
+  return points;
+}
+
+// First: what the first call of the process allocates is hit, too.
+TEST(EachAllocation, OfCommMode) {
+  Mesh m;
+  const Columns c(nodes());
+  const auto clear_arrays = [&] {
+    m.list.assign(6 * nodes().size() - 12, untouched);
+    m.lptr = m.list;
+    m.lend.assign(nodes().size(), untouched);
+    m.lnew = untouched;
+  };
+  const Mesh expected = trmesh(nodes());
+  const auto call = [&] {
+    return pstripack_trmesh(static_cast<std::int32_t>(nodes().size()), c.x.data(), c.y.data(), c.z.data(),
+                            m.list.data(), m.lptr.data(), m.lend.data(), &m.lnew);
+  };
+  fail_each_allocation([] { return pstripack_set_comm(MPI_COMM_WORLD); }, [](int) { return true; },
+                       [] { pstripack_set_comm(MPI_COMM_NULL); });
+  ASSERT_EQ(pstripack_set_comm(MPI_COMM_WORLD), 0);
+  clear_arrays();
+  fail_each_allocation(call, [&](int code) {
+    m.ier = code;
+    const bool right = code == 0 ? m == expected : is_untouched(m);
+    clear_arrays();
+    return right;
+  });
+  pstripack_set_comm(MPI_COMM_NULL);
+}
+
+TEST(EachAllocation, OfDistributedMeshes) {
+  pstripack_mesh* mesh = nullptr;
+  const auto free_it = [&] { pstripack_mesh_free(mesh), mesh = nullptr; };
+  fail_each_allocation([&] { return pstripack_mesh_create(MPI_COMM_WORLD, &mesh); },
+                       [&](int code) { return (code == 0) == (mesh != nullptr); }, free_it);
+
+  const Part part;
+  ASSERT_EQ(pstripack_mesh_create(MPI_COMM_WORLD, &mesh), 0);
+  const auto all = static_cast<std::int64_t>(part.number.size());
+  fail_each_allocation(
+      [&] { return part.triangulate(mesh); },
+      [&](int code) { return points_of(mesh) == (code == 0 ? all : 0); },
+      // An empty mesh has no memory.
+      [&] { EXPECT_EQ(pstripack_mesh_triangulate(mesh, -1, nullptr, nullptr), PSTRIPACK_TOO_MANY_NODES); });
+
+  ASSERT_EQ(part.triangulate(mesh), 0);
+  const Mesh expected = trmesh(nodes());
+  for (const std::int32_t root : {0, -1}) {
+    const bool gets = root == -1 || rank_of() == root;
+    Mesh m;
+    const auto clear_arrays = [&] {
+      m.list.assign(6 * nodes().size() - 12, untouched);
+      m.lptr = m.list;
+      m.lend.assign(nodes().size(), untouched);
+      m.lnew = untouched;
+    };
+    clear_arrays();
+    fail_each_allocation(
+        [&] {
+          return pstripack_mesh_gather(mesh, root, m.list.data(), m.lptr.data(), m.lend.data(), &m.lnew);
+        },
+        [&](int code) {
+          m.ier = 0;
+          const bool right = code == 0 && gets ? m == expected : is_untouched(m);
+          clear_arrays();
+          return right;
+        });
+  }
+  free_it();
+}
+
+// Not collective: each rank has its own code.
+TEST(EachAllocation, OfTheCallsOfOneRank) {
+  pstripack_mesh* mesh = nullptr;
+  const Part part;
+  ASSERT_EQ(pstripack_mesh_create(MPI_COMM_WORLD, &mesh), 0);
+  ASSERT_EQ(part.triangulate(mesh), 0);
+  std::int64_t points, arcs, triangles, halo;
+  pstripack_mesh_sizes(mesh, &points, &arcs, &triangles, &halo);
+  std::vector<std::int64_t> begin(static_cast<std::size_t>(points) + 1, untouched);
+  std::vector<std::int32_t> neighbour(static_cast<std::size_t>(arcs), untouched),
+      rank(begin.size() - 1, untouched);
+  ASSERT_EQ(pstripack_mesh_local_stars(mesh, begin.data(), neighbour.data()), 0);
+  const auto expected_begin = begin;
+  const auto expected = neighbour;
+  bool failed = true;
+  for (long which = 1; failed; ++which) {
+    begin.assign(begin.size(), untouched);
+    neighbour.assign(neighbour.size(), untouched);
+    const auto empty_begin = begin;
+    const auto empty = neighbour;
+    int code, home;
+    {
+      const FailingAllocation memory(which);
+      code = pstripack_mesh_local_stars(mesh, begin.data(), neighbour.data());
+      failed = FailingAllocation::happened();
+    }
+    EXPECT_EQ(code, failed ? PSTRIPACK_OUT_OF_MEMORY : 0);
+    EXPECT_TRUE(begin == (failed ? empty_begin : expected_begin) && neighbour == (failed ? empty : expected));
+    {
+      const FailingAllocation memory(which);
+      home = pstripack_mesh_home(mesh, points, part.xyz.data(), rank.data());
+      EXPECT_FALSE(FailingAllocation::happened());
+    }
+    EXPECT_EQ(home, 0);
+    empty_the_cache();
+    EXPECT_EQ(FailingAllocation::blocks(), 0u);
+  }
+  pstripack_mesh_free(mesh);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_on_every_rank(argc, argv, [] {});
+}

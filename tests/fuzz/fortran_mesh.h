@@ -1,0 +1,42 @@
+#pragma once
+// A triangulation as Fortran programs hold it, made and changed by the public symbols of libstripack.
+
+#include <numeric>
+
+#include "differential/routines.h"
+#include "input.h"
+
+struct FortranMesh {
+  int n = 0, lnew = 0;
+  std::vector<double> x, y, z;
+  std::vector<int> list, lptr, lend;
+
+  /// Room for `most` nodes.
+  explicit FortranMesh(int most)
+      : x(most), y(most), z(most), list(6 * most - 12), lptr(6 * most - 12), lend(most) {}
+
+  void place(int node, const pstripack::Point& p) { x[node - 1] = p.x, y[node - 1] = p.y, z[node - 1] = p.z; }
+  pstripack::Point node(int k) const { return {x[k - 1], y[k - 1], z[k - 1]}; }
+
+  /// IER of TRMESH.
+  int triangulate(const Nodes& nodes) {
+    n = static_cast<int>(nodes.size());
+    for (int k = 1; k <= n; ++k) place(k, nodes[k - 1]);
+    int near, next, ier;
+    double dist;
+    trmesh_(&n, x.data(), y.data(), z.data(), list.data(), lptr.data(), lend.data(), &lnew, &near, &next,
+            &dist, &ier);
+    return ier;
+  }
+
+  int last_neighbour(int k) const { return list[lend[k - 1] - 1]; }  ///< negative at the boundary
+
+  Lists lists() const {
+    Lists copy;
+    copy.list.assign(list.begin(), list.begin() + 6 * n - 12);
+    copy.lptr.assign(lptr.begin(), lptr.begin() + 6 * n - 12);
+    copy.lend.assign(lend.begin(), lend.begin() + n);
+    copy.lnew = lnew;
+    return copy;
+  }
+};

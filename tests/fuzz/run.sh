@@ -1,0 +1,26 @@
+#!/bin/sh
+# Looks for inputs that make a routine fail, with libFuzzer, for so many seconds a target: run.sh [SECONDS]
+#
+# Inputs that reach code that none did before are kept in build-fuzz/corpus; one that fails is written to
+# build-fuzz/TARGET-crash-... or -timeout-...: run.sh then ends with code 1, and
+#   build-fuzz/tests/fuzz/fuzz_TARGET FILE
+# shows what happens. To have what was found tested everywhere:
+#   build-fuzz/tests/fuzz/fuzz_TARGET -merge=1 tests/fuzz/corpus/TARGET build-fuzz/corpus/TARGET
+set -eu
+cd "$(dirname "$0")/../.."
+seconds=${1:-60}
+
+sh cmake/install-packages.sh clang libclang-rt-dev
+cmake --preset fuzz
+cmake --build --preset fuzz --parallel "$(nproc)"
+
+code=0
+for target in predicates kernel list_routines queries file_readers; do
+  echo "== $target"
+  mkdir -p build-fuzz/corpus/$target
+  # stderr is closed for the routines, which print a line for each code that the original does not have.
+  build-fuzz/tests/fuzz/fuzz_$target -max_total_time="$seconds" -max_len=1024 -timeout=60 -rss_limit_mb=4096 \
+    -close_fd_mask=2 -print_final_stats=1 -artifact_prefix=build-fuzz/$target- \
+    build-fuzz/corpus/$target tests/fuzz/corpus/$target || code=1
+done
+exit $code

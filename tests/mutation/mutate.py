@@ -1,0 +1,234 @@
+#!/usr/bin/env python3
+"""Mutation testing of the predicates and the validators.
+
+  tests/mutation/mutate.py [--per-line K] [--file PART] BUILD
+
+Plants one bug at a time in a copy of the sources (operators, constants, conditions, arguments, dropped
+statements; of each line K mutants, drawn the same way every time, 0: all), builds the tests that should notice
+and runs them, the quickest first. A mutant is caught where a test fails, crashes or takes 20 times its usual time.
+Equivalent are those that the compiler turns into the same code, and those that equivalent.txt explains: a line
+"file | text of the line | text of the mutant, or * | reason" each.
+
+Fails where a mutant survives, or where a line has mutants and none of them is caught or explained. What was caught
+is kept in BUILD/caught and not tried again; remove that file to begin anew. Takes about an hour of one processor.
+"""
+
+import argparse
+import pathlib
+import random
+import re
+import resource
+import subprocess
+import sys
+import time
+
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+# Of each file the lines from the first text to the second; the tests: (executable, filter, share of the cases).
+QUICK = ("predicates_test", "-Exact.*:Filter.IsMeasured*", 0.01)
+LONGER = ("predicates_test", "-Exact.*:Filter.IsMeasured*", 0.2)
+KERNEL = ("parallel_test", "Nasty.*:Coincident.*", 1)
+VALIDATOR = ("validator_test", "-*Mutants*:*RandomTriangles*:*ReadsNothing*", 1)
+LISTS = ("validator_test", "*Mutants*:*RandomTriangles*:*ReadsNothing*", 0.1)
+SUBJECTS = {
+    "src/cxx/geometry/predicates.cpp": ("constexpr double u", "}  // namespace pstripack", [QUICK, LONGER, KERNEL]),
+    "src/cxx/geometry/exact.h": ("constexpr int kSmallBits", "}  // namespace pstripack::exact", [QUICK, LONGER]),
+    "src/cxx/geometry/predicates.h": ("inline bool length_is_one", "/// Counts since", [QUICK, KERNEL]),
+    "src/cxx/mesh/validate.cpp": ("Verdict defect(", "const char* name(", [VALIDATOR, LISTS]),
+    "src/cxx/stripack/adjacency_lists.cpp": ("Verdict malformed(", "#define PSTRIPACK", [VALIDATOR, LISTS]),
+}
+
+REPLACEMENTS = [
+    (r" < ", [" <= ", " >= "]), (r" <= ", [" < ", " > "]), (r" > ", [" >= ", " <= "]), (r" >= ", [" > ", " < "]),
+    (r" == ", [" != "]), (r" != ", [" == "]), (r" && ", [" || "]), (r" \|\| ", [" && "]),
+    (r" \+ ", [" - "]), (r" - ", [" + "]), (r" \* ", [" + "]), (r" / ", [" * "]), (r" & ", [" | "]),
+    (r" << ", [" >> "]), (r" >> ", [" << "]), (r" \+= ", [" -= "]), (r" -= ", [" += "]), (r" = ", [" += "]),
+    (r"\+\+", ["--"]), (r"--", ["++"]), (r"!(?=[\w(])", [""]), (r"~", [""]), (r"(?<=[ ({])-(?=[\w(])", [""]),
+    (r"\btrue\b", ["false"]), (r"\bfalse\b", ["true"]), (r"\bmin\b", ["max"]), (r"\bmax\b", ["min"]),
+    (r"\bhigh\b", ["low"]), (r"(?<=[.\w])\.x\b", [".y"]), (r"\bcontinue;", [";"]), (r"\blower_bound\b", ["upper_bound"]),
+    (r"\breturn [^;]+;", ["return {};"]),
+]
+
+
+def variants_of_number(text, is_constant):
+    """Bounds are made too small and too large by much, other numbers by one."""
+    if text.startswith("0x1p"):
+        exponent = int(text[4:])
+        return [f"0x1p{exponent - 2}", f"0x1p{exponent + 2}", "0x0p0"]
+    if not text.isdigit():
+        return ["0.0", text.replace("e-", "e+")]
+    n = int(text)
+    return [str(n // 4), str(4 * n), "0"] if is_constant else [str(n + 1), str(max(n - 1, 0))]
+
+
+def mutants_of(line):
+    """All mutants of a line of code."""
+    code = line.split("//")[0].rstrip()
+    masked = re.sub(r'"[^"]*"', lambda m: "_" * len(m.group()), code)
+    found = []
+
+    def put(begin, end, text):
+        found.append(code[:begin] + text + code[end:])
+
+    if not masked.strip() or re.match(r"\s*(#|template|using|namespace|struct|class|case|[}\])]+;?$)", masked):
+        return []
+    for pattern, texts in REPLACEMENTS:
+        for m in re.finditer(pattern, masked):
+            for text in texts:
+                put(m.start(), m.end(), text)
+    for m in re.finditer(r"(?<![\w.])(0x1p-?\d+|\d+e-?\d+|\d+)(?![\w.])", masked):
+        for text in variants_of_number(m.group(), "constexpr" in masked):
+            put(m.start(), m.end(), text)
+    for m in re.finditer(r"\b(?:if|while) \((.*)\)(?= |$)", masked):
+        if m.group(1).count("(") == m.group(1).count(")") and ";" not in m.group(1):
+            put(m.start(1), m.end(1), f"!({code[m.start(1):m.end(1)]})")
+    for m in re.finditer(r"\b\w+\((\w+), (\w+)", masked):
+        put(m.start(1), m.end(2), f"{m.group(2)}, {m.group(1)}")
+    for m in re.finditer(r" \? ([^?:]+) : ([^?:;]+?)(?=[;,)])", masked):
+        put(m.start(1), m.end(2), f"{code[m.start(2):m.end(2)]} : {code[m.start(1):m.end(1)]}")
+    if masked.endswith(";") and not re.match(r"\s*(return|const|auto|break|std::\w+[<&*])", masked):
+        put(len(code) - len(code.lstrip()), len(code), ";")
+    return sorted(set(found) - {code})
+
+
+class Mutation:
+    def __init__(self, build):
+        self.build = build
+        self.tree = build / "source"
+        files = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=SOURCE, check=True,
+                               capture_output=True, text=True).stdout.split("\n")
+        for name in filter(lambda name: (SOURCE / name).is_file(), files):
+            text = (SOURCE / name).read_bytes()
+            copy = self.tree / name
+            if not copy.exists() or copy.read_bytes() != text:
+                copy.parent.mkdir(parents=True, exist_ok=True)
+                copy.write_bytes(text)
+        subprocess.run(["cmake", "-S", self.tree, "-B", build / "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+                        "-DCMAKE_CXX_FLAGS_RELEASE=-O1", "-DPSTRIPACK_TOOLS=OFF", "-DPSTRIPACK_EXAMPLES=OFF",
+                        "-DPSTRIPACK_WITH_MPI=OFF"], check=True, stdout=subprocess.DEVNULL)
+
+    def make(self, target, check=False):
+        done = subprocess.run(["ninja", "-C", self.build / "build", target], capture_output=True, text=True)
+        if check and done.returncode != 0:
+            sys.exit(done.stdout)
+        return done.returncode == 0
+
+    def objects(self):
+        """The object code of the library."""
+        return {p: p.read_bytes() for p in sorted((self.build / "build/src/cxx").rglob("*.o"))}
+
+    def passes(self, stage, seconds):
+        """True if the tests of the stage pass in so many seconds of processor time."""
+        test, pattern, share = stage
+
+        def limits():
+            resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))
+            resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+            if test != "parallel_test":  # many threads, each with its share of addresses
+                resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
+
+        done = subprocess.run([self.build / "build/tests/cxx" / test, f"--gtest_filter={pattern}", "--gtest_brief=1"],
+                              env={"GTEST_FAIL_FAST": "1", "PSTRIPACK_CASES": str(share), "OMP_NUM_THREADS": "2"},
+                              preexec_fn=limits, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        return done.returncode == 0
+
+    def prepare(self, stages):
+        """Builds the tests, unchanged; the processor time to allow for each stage."""
+        seconds = []
+        for stage in stages:
+            self.make(stage[0], check=True)
+            before = resource.getrusage(resource.RUSAGE_CHILDREN)
+            if not self.passes(stage, 3600):
+                sys.exit(f"{stage[0]} fails without a mutant")
+            after = resource.getrusage(resource.RUSAGE_CHILDREN)
+            seconds.append(int(20 * (after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)) + 5)
+        return seconds
+
+    def outcome(self, stages, seconds, original):
+        if not self.make(stages[0][0]):
+            return "no program"
+        if original and self.objects() == original:
+            return "equivalent"
+        for stage, limit in zip(stages, seconds):
+            if not self.make(stage[0]):
+                return "no program"
+            if not self.passes(stage, limit):
+                return "caught"
+        return "survived"
+
+
+def explanations():
+    found = {}
+    for line in (SOURCE / "tests/mutation/equivalent.txt").read_text().splitlines():
+        if line and not line.startswith("#"):
+            file, text, mutant, reason = [part.strip() for part in line.split(" | ")]
+            found[file, text, mutant] = reason
+    return found
+
+
+def main():
+    parser = argparse.ArgumentParser(usage=__doc__)
+    parser.add_argument("--per-line", type=int, default=2)
+    parser.add_argument("--file", default="")
+    parser.add_argument("build", type=pathlib.Path)
+    arguments = parser.parse_args()
+    build = arguments.build.resolve()
+    mutation = Mutation(build)
+    explained = explanations()
+    kept = build / "caught"
+    caught_before = set(kept.read_text().splitlines()) if kept.exists() else set()
+    total = {"lines": 0, "mutants": 0, "caught": 0, "equivalent": 0}
+    survivors, bare = [], []
+    for name, (first, last, stages) in SUBJECTS.items():
+        if arguments.file not in name:
+            continue
+        start = time.time()
+        copy = mutation.tree / name
+        lines = copy.read_text().split("\n")
+        begin = next(k for k, line in enumerate(lines) if first in line)
+        end = next(k for k, line in enumerate(lines) if k > begin and last in line)
+        seconds = mutation.prepare(stages)
+        original = {} if name.endswith("predicates.h") else mutation.objects()  # inlined elsewhere
+        count = dict.fromkeys(total, 0)
+        for k in range(begin, end):
+            mutants = mutants_of(lines[k])
+            random.Random(lines[k]).shuffle(mutants)
+            text, outcomes = lines[k].strip(), []
+            for mutant in mutants:
+                if arguments.per_line and len(outcomes) >= arguments.per_line:
+                    break
+                key = f"{name} | {text} | {mutant.strip()}"
+                if key in caught_before:
+                    outcomes.append("caught")
+                elif {(name, text, mutant.strip()), (name, text, "*")} & set(explained):
+                    outcomes.append("equivalent")
+                else:
+                    copy.write_text("\n".join(lines[:k] + [mutant] + lines[k + 1:]))
+                    outcome = mutation.outcome(stages, seconds, original)
+                    if outcome == "no program":
+                        continue
+                    outcomes.append(outcome)
+                    if outcome == "caught":
+                        with kept.open("a") as file:
+                            file.write(key + "\n")
+                    elif outcome == "survived":
+                        survivors.append(f"{name}:{k + 1}: {text}\n    {mutant.strip()}")
+                        print("survived", survivors[-1], flush=True)
+            if outcomes:
+                count["lines"] += 1
+                count["mutants"] += len(outcomes)
+                count["caught"] += outcomes.count("caught")
+                count["equivalent"] += outcomes.count("equivalent")
+                if "caught" not in outcomes and (name, text, "*") not in explained:
+                    bare.append(f"{name}:{k + 1}: {text}")
+        copy.write_text("\n".join(lines))
+        print(f"{name}: " + ", ".join(f"{value} {what}" for what, value in count.items()) +
+              f"; {time.time() - start:.0f} s", flush=True)
+        for what in total:
+            total[what] += count[what]
+    print(", ".join(f"{value} {what}" for what, value in total.items()) + f", {len(survivors)} survived")
+    for line in bare:
+        print("no mutant caught:", line)
+    sys.exit(1 if survivors or bare else 0)
+
+
+main()

@@ -1,0 +1,11 @@
+#pragma once
+// How many random cases a test tries: PSTRIPACK_CASES multiplies the usual number, up for a long run by hand,
+// down where the tests are run for every mutant of a source file (tests/mutation).
+
+#include <cmath>
+#include <cstdlib>
+
+inline int cases(double usual) {
+  const char* const factor = std::getenv("PSTRIPACK_CASES");
+  return static_cast<int>(std::ceil(factor == nullptr ? usual : usual * std::atof(factor)));
+}
