@@ -1,8 +1,13 @@
+#include "text_file.h"
+
 #include <algorithm>
+#include <cerrno>
+#include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
-#include <fstream>
-#include <iostream>
+#include <cstring>
+#include <memory>
 #include <stdexcept>
 
 #include "numbers.h"
@@ -11,57 +16,21 @@
 namespace point_sets {
 namespace {
 
-using Points = std::vector<pstripack::Point>;
-
 std::string numbers(std::size_t count) {
   return std::to_string(count) + (count == 1 ? " number" : " numbers");
 }
 
-Points read(std::istream& in, const std::string& name) {
-  Points points;
-  std::size_t columns = 0, number = 0, line_of_count = 0;
-  double count = 0;
-  const auto fail = [&](std::size_t at, const std::string& what) {
-    throw std::runtime_error(name + ":" + std::to_string(at) + ": " + what);
-  };
-  std::vector<double> v;
-  for (std::string line; std::getline(in, line);) {
-    ++number;
-    line.resize(std::min(line.size(), line.find_first_of("#!")));
-    v.clear();
-    const char* const between = " \t\r\f\v,";
-    for (std::size_t begin = 0, end; (begin = line.find_first_not_of(between, begin)) != line.npos;
-         begin = end) {
-      end = std::min(line.size(), line.find_first_of(between, begin));
-      const std::string word = line.substr(begin, end - begin);
-      double value;
-      if (!parse(word, value)) fail(number, "'" + word + "' is not a finite number");
-      v.push_back(value);
-    }
-    if (v.empty()) continue;
-    if (columns == 0 && line_of_count == 0 && v.size() == 1 && v[0] >= 1 && v[0] == std::floor(v[0])) {
-      line_of_count = number;
-      count = v[0];
-      continue;
-    }
-    if (columns == 0) columns = v.size();
-    if (columns != 2 && columns != 3)
-      fail(number, "expected 'lon lat' or 'x y z', found " + numbers(v.size()));
-    if (v.size() != columns)
-      fail(number, "found " + numbers(v.size()) + " where the lines before have " + std::to_string(columns));
-    if (columns == 3) {
-      points.push_back({v[0], v[1], v[2]});
-    } else {
-      if (std::fabs(v[1]) > 90) fail(number, "latitude outside -90..90 degrees");
-      points.push_back(from_degrees(v[0], v[1]));
-    }
-  }
-  if (in.bad()) throw std::runtime_error(name + ": read error");
-  if (points.empty()) throw std::runtime_error(name + ": no points: expected lines 'lon lat' or 'x y z'");
-  if (line_of_count > 0 && count != static_cast<double>(points.size()))
-    fail(line_of_count, "a single number is the count of the points that follow; there are " +
-                            std::to_string(points.size()));
-  return points;
+[[noreturn]] void fail(const std::string& name, std::size_t line, const std::string& what) {
+  throw std::runtime_error(name + ":" + std::to_string(line) + ": " + what);
+}
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == ',' || c == '\r' || c == '\f' || c == '\v'; }
+
+/// What nearly all words are goes the fast way.
+bool parse_word(std::string_view word, double& value) {
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error == std::errc() && end == word.data() + word.size()) return std::isfinite(value);
+  return parse(std::string(word), value);
 }
 
 }  // namespace
@@ -76,11 +45,80 @@ bool parse(std::string text, double& value) {
   return end != text.c_str() && *end == '\0' && std::isfinite(value);
 }
 
-Points read(const std::string& file) {
-  if (file == "-") return read(std::cin, "stdin");
-  std::ifstream in(file);
-  if (!in) throw std::runtime_error(file + ": cannot be opened");
-  return read(in, file);
+std::string contents_of(const std::string& file) {
+  const bool is_stdin = file == "-";
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> opened(is_stdin ? nullptr : std::fopen(file.c_str(), "rb"),
+                                                         std::fclose);
+  std::FILE* const in = is_stdin ? stdin : opened.get();
+  const std::string name = is_stdin ? "stdin" : file;
+  if (in == nullptr) throw std::runtime_error(name + ": cannot be opened: " + std::strerror(errno));
+  std::string text;
+  for (std::size_t got = 1; got > 0;) {
+    const std::size_t before = text.size(), more = std::max<std::size_t>(before, std::size_t{1} << 16);
+    text.resize(before + more);
+    got = std::fread(&text[before], 1, more, in);
+    text.resize(before + got);
+  }
+  if (std::ferror(in)) throw std::runtime_error(name + ": read error: " + std::strerror(errno));
+  return text;
+}
+
+Table table_of(std::string_view text, const std::string& name, std::size_t most_columns) {
+  Table table;
+  std::size_t number = 0, line_of_count = 0;
+  double count = 0;
+  while (!text.empty()) {
+    ++number;
+    const std::size_t length = std::min(text.size(), text.find('\n'));
+    std::string_view line = text.substr(0, length);
+    text.remove_prefix(std::min(text.size(), length + 1));
+    line = line.substr(0, line.find_first_of("#!"));
+
+    const std::size_t before = table.values.size();
+    for (std::size_t begin = 0, end;; begin = end) {
+      while (begin < line.size() && is_blank(line[begin])) ++begin;
+      if (begin == line.size()) break;
+      for (end = begin; end < line.size() && !is_blank(line[end]);) ++end;
+      const std::string_view word = line.substr(begin, end - begin);
+      double value = 0;
+      if (!parse_word(word, value)) fail(name, number, "'" + std::string(word) + "' is not a finite number");
+      table.values.push_back(value);
+    }
+    const std::size_t columns = table.values.size() - before;
+    if (columns == 0) continue;
+    if (columns == 1 && table.columns == 0 && line_of_count == 0 && table.values[0] >= 1 &&
+        table.values[0] == std::floor(table.values[0])) {
+      line_of_count = number;
+      count = table.values[0];
+      table.values.clear();
+      continue;
+    }
+    if (table.columns == 0) table.columns = columns;
+    if (table.columns < 2 || table.columns > most_columns)
+      fail(name, number, "expected 'lon lat' or 'x y z', found " + numbers(columns));
+    if (columns != table.columns)
+      fail(name, number,
+           "found " + numbers(columns) + " where the lines before have " + std::to_string(table.columns));
+    table.lines.push_back(number);
+  }
+  if (table.rows() == 0) throw std::runtime_error(name + ": no points: expected lines 'lon lat' or 'x y z'");
+  if (line_of_count > 0 && count != static_cast<double>(table.rows()))
+    fail(name, line_of_count,
+         "a single number is the count of the points that follow; there are " + std::to_string(table.rows()));
+  return table;
+}
+
+std::vector<pstripack::Point> read(const std::string& file) {
+  const std::string name = file == "-" ? "stdin" : file;
+  const Table table = table_of(contents_of(file), name);
+  std::vector<pstripack::Point> points(table.rows());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double* const v = table.row(i);
+    if (table.columns == 2 && std::fabs(v[1]) > 90)
+      fail(name, table.lines[i], "latitude outside -90..90 degrees");
+    points[i] = table.columns == 2 ? from_degrees(v[0], v[1]) : pstripack::Point{v[0], v[1], v[2]};
+  }
+  return points;
 }
 
 }  // namespace point_sets

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes, from the table of routines in docs/api/routines/*.toml:
 
-  docs/api/*.md                     a page a routine, and README.md, the index by task
+  docs/api/*.md                     a page a routine, README.md, the index by task, and ier.md, all codes
   docs/man/man3/*.3                 the same as man pages
   src/fortran/stripack_module.F90   their interfaces, from stripack_module.F90.in
   src/fortran/symbols/*.txt         the symbols that each library exports
@@ -202,7 +202,21 @@ def markdown_index(groups):
     return "\n\n".join(text + [INDEX_TAIL]) + "\n"
 
 
+IER_HEAD = """# The codes of all routines
+
+From the page of each, where the state of the arrays stands as well. TRMESH and the C API, with what to do:
+[ier.md](../ier.md). *new*: a code that the original does not have; one line on stderr says why."""
+
+
+def markdown_ier(groups):
+    rows = [[f"[{r.name}]({r.name.lower()}.md)", r.ier_name, value, when]
+            for _, routines in groups for r in routines for value, when, _ in r.ier if value != "0"]
+    return f"{IER_HEAD}\n\n{markdown_table(['routine', 'argument', 'code', 'when'], rows)}\n"
+
+
 # ---- man pages ----
+
+MADE_HERE = '.\\" Made by docs/api/make-api.py'
 
 
 def troff(text):
@@ -229,7 +243,7 @@ def troff_code(code):
 
 def man_page(routine):
     purpose = routine.purpose[0].lower() + routine.purpose[1:].rstrip(".")
-    page = ['.\\" Made by docs/api/make-api.py', f'.TH {routine.name} 3 "" PSTRIPACK STRIPACK',
+    page = [MADE_HERE, f'.TH {routine.name} 3 "" PSTRIPACK STRIPACK',
             ".SH NAME", f"{routine.name.lower()} \\- {troff(purpose)}",
             ".SH LIBRARY", troff(routine.where()), ".SH SYNOPSIS"] + troff_code(routine.synopsis())[1:]
     if routine.details:
@@ -333,7 +347,8 @@ def module_text(groups):
 def make_all(groups):
     """The files by their path from ROOT."""
     routines = [routine for _, members in groups for routine in members]
-    files = {"docs/api/README.md": markdown_index(groups), "src/fortran/stripack_module.F90": module_text(groups)}
+    files = {"docs/api/README.md": markdown_index(groups), "docs/api/ier.md": markdown_ier(groups),
+             "src/fortran/stripack_module.F90": module_text(groups)}
     for routine in routines:
         files[f"docs/api/{routine.name.lower()}.md"] = markdown_page(routine)
         files[f"docs/man/man3/{routine.name.lower()}.3"] = man_page(routine)
@@ -345,8 +360,9 @@ def make_all(groups):
 
 def stale(files):
     """The paths that are not as they would be written, or would not be there."""
-    there = {path.relative_to(ROOT).as_posix()
-             for folder in ("docs/api/*.md", "docs/man/man3/*", "src/fortran/symbols/*") for path in ROOT.glob(folder)}
+    there = {path for folder in ("docs/api/*.md", "src/fortran/symbols/*") for path in ROOT.glob(folder)}
+    there |= {path for path in ROOT.glob("docs/man/man3/*") if path.read_text().startswith(MADE_HERE)}
+    there = {path.relative_to(ROOT).as_posix() for path in there}
     return sorted(path for path in there | files.keys()
                   if path not in files or not (ROOT / path).exists() or (ROOT / path).read_text() != files[path])
 

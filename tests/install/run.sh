@@ -46,9 +46,16 @@ if [ -x "$prefix/bin/stripack-compare" ]; then
   fi
 fi
 
+if [ -x "$prefix/bin/pstripack" ]; then
+  echo "== pstripack"
+  "$prefix/bin/pstripack" -q points random 100 | "$prefix/bin/pstripack" -q info - | grep '^triangles *196$'
+fi
+
 echo "== man pages"
-for page in trmesh crlist swap; do
-  find "$prefix" -path "*/man3/$page.3" | grep -q . || { echo "no man page of $page" >&2; exit 1; }
+pages="trmesh.3 crlist.3 swap.3 pstripack.3"
+for tool in "$prefix"/bin/*; do pages="$pages $(basename "$tool").1"; done
+for page in $pages; do
+  find "$prefix" -path "*/man?/$page" | grep -q . || { echo "no man page $page" >&2; exit 1; }
 done
 
 echo "== what the libraries need at run time"

@@ -48,7 +48,7 @@ struct Hull {
   bool surrounds_centre = false;          ///< every face is a front face
   // Else: true for the faces that are not part of the triangulation, and for their corners.
   std::vector<bool> back, at_back;
-  Lengths lengths = Lengths::as_given;    ///< the predicates that decided
+  Lengths lengths = Lengths::as_given;  ///< the predicates that decided
   /// Nodes left out because they coincide with one that is in: (in, out), the caller's numbers.
   std::vector<std::pair<index_t, index_t>> coincident;
 

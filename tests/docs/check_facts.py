@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+"""What documents say again is what the sources say: codes and their names, functions, variables of the environment, the
+version.
+
+  check_facts.py ROOT
+"""
+import re
+import sys
+from pathlib import Path
+
+ROOT = Path(sys.argv[1])
+problems = []
+
+
+def read(path):
+    return (ROOT / path).read_text()
+
+
+def compare(what, expected, found):
+    for item in sorted(expected ^ found, key=str):
+        problems.append(f"{what}: {item} is only in the {'sources' if item in expected else 'document'}")
+
+
+def codes():
+    """(name, value) of each code in the header and the modules, and in the tables of docs/ier.md."""
+    header = re.search(r"enum \{(.*?)\}", read("src/cxx/capi/pstripack.h"), re.DOTALL)[1]
+    declared = re.findall(r"(PSTRIPACK_\w+) = (-?\d+)", header)
+    for module in "pstripack", "pstripack_mpi":
+        constants = re.findall(r"(?s)integer\(c_int32_t\), parameter :: .*?(?=\n\n)", read(f"src/fortran/{module}.f90"))
+        declared += [(name.upper(), value) for text in constants
+                     for name, value in re.findall(r"(pstripack_\w+) = (-?\d+)", text)]
+    declared = {pair for pair in declared if pair[0] != "PSTRIPACK_EVERY_RANK"}  # a rank, no code
+    tables = re.findall(r"(?m)^\| (-?\d+) \| (PSTRIPACK_\w+) \|", read("docs/ier.md"))
+    compare("docs/ier.md", declared, {(name, value) for value, name in tables})
+
+
+def functions():
+    """Of the C headers, on their man pages; those for Fortran's calls, whose names end in an underscore, are no API."""
+    for name in "pstripack", "pstripack_mpi":
+        declared = set(re.findall(r"(?m)^PSTRIPACK_API .*?(\w*[^_\W])\(", read(f"src/cxx/capi/{name}.h")))
+        synopsis = re.search(r"(?s)\.SH SYNOPSIS\n.*?#include(.*?)\.SH", read(f"docs/man/man3/{name}.3"))[1]
+        compare(f"docs/man/man3/{name}.3", declared, set(re.findall(r"\w+ \*?(pstripack_\w+)\(", synopsis)))
+
+
+def environment():
+    """What the engine reads of PSTRIPACK_*; PSTRIPACK_POOL* is between pstripack-run and its ranks."""
+    used = {name for path in (ROOT / "src").rglob("*.cpp")
+            for name in re.findall(r'environment_variable\("(PSTRIPACK_(?!POOL)\w+)"\)', path.read_text())}
+    named = {"docs/modes.md": used - {"PSTRIPACK_COMPARE"},
+             "docs/man/man3/pstripack.3": used - {"PSTRIPACK_COMPARE", "PSTRIPACK_MPIRUN"},
+             "docs/man/man1/pstripack-run.1": {"PSTRIPACK_MPIRUN", "PSTRIPACK_REPORT"}}
+    for document, expected in named.items():
+        compare(document, expected, set(re.findall(r"\bPSTRIPACK_[A-Z]+\b", read(document))))
+
+
+def version():
+    number = re.search(r"project\(pstripack VERSION (\S+)", read("CMakeLists.txt"))[1]
+    for document, pattern in ("CITATION.cff", rf"(?m)^version: {number}$"), ("CHANGELOG.md", rf"(?m)^## {number}\b"):
+        if not re.search(pattern, read(document)):
+            problems.append(f"{document}: not version {number}")
+
+
+for check in codes, functions, environment, version:
+    check()
+print("\n".join(problems) or "as in the sources")
+sys.exit(1 if problems else 0)

@@ -1,0 +1,62 @@
+#!/usr/bin/env python3
+"""The job scripts in docs/modes.md: those of Slurm and of PBS, as many as there are modes. Each is correct bash, has its
+directives where batch systems look for them, and, with --run, does what its mode says: the model runs once, or on every
+rank, with the threads of a rank. mpirun and pstripack-run are real; what the batch system would set is set here.
+
+  run_job_scripts.py MODES.MD WORK_DIR [--run]
+"""
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+RANKS, THREADS = 2, 1
+MODEL = '#!/bin/sh\necho "rank ${OMPI_COMM_WORLD_RANK:-of a serial model}, $OMP_NUM_THREADS threads"\n'
+SETTINGS = {"SBATCH": {"SLURM_NTASKS": str(RANKS), "SLURM_CPUS_PER_TASK": str(THREADS)},
+            "PBS": {"PBS_O_WORKDIR": ".", "PBS_NODEFILE": "nodes", "OMP_NUM_THREADS": str(THREADS)}}
+
+
+def check_directives(script, system):
+    """Before the first command: later ones are comments to the batch system."""
+    first, *rest = script.split("\n")
+    assert first == "#!/bin/bash", first
+    directives = [line for line in rest if line.startswith(f"#{system} ")]
+    assert len(directives) >= 2 and rest[:len(directives)] == directives, f"directives of {system} are not at the head"
+
+
+def check_run(script, system, folder):
+    done = subprocess.run(["bash", "job"], cwd=folder, env=os.environ | SETTINGS[system], capture_output=True, text=True,
+                          timeout=60)
+    assert done.returncode == 0, done.stderr
+    ranks = range(RANKS) if "\nmpirun" in script else ["of a serial model"]
+    expected = [f"rank {rank}, {THREADS} threads" for rank in ranks]
+    assert sorted(done.stdout.split("\n"))[1:] == expected, done.stdout
+
+
+def main():
+    text, work, run = Path(sys.argv[1]).read_text(), Path(sys.argv[2]), sys.argv[3:] == ["--run"]
+    modes = re.findall(r"^## (Threads|Pool|Comm|Distributed)\n(.*?)(?=^## )", text, re.MULTILINE | re.DOTALL)
+    assert len(modes) == 4
+    for mode, section in modes:
+        scripts = re.findall(r"^```sh\n(#!.*?)^```", section, re.MULTILINE | re.DOTALL)
+        assert len(scripts) == len(SETTINGS), f"{mode}: {len(scripts)} job scripts"
+        for system, script in zip(SETTINGS, scripts):
+            folder = work / f"{mode}-{system}"
+            folder.mkdir(parents=True, exist_ok=True)
+            (folder / "job").write_text(script)
+            (folder / "model").write_text(MODEL)
+            (folder / "model").chmod(0o755)
+            (folder / "nodes").write_text("localhost\n" * RANKS)
+            try:
+                subprocess.run(["bash", "-n", folder / "job"], check=True)
+                check_directives(script, system)
+                if run:
+                    check_run(script, system, folder)
+            except (AssertionError, subprocess.SubprocessError) as error:
+                sys.exit(f"{mode}, {system}: {error}\n{script}")
+            print(f"{mode}, {system}: right")
+
+
+if __name__ == "__main__":
+    main()

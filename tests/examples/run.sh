@@ -1,0 +1,15 @@
+#!/bin/sh
+# Runs the commands that the head of an example tells ("$ command") in a copy of its folder, where the installed package
+# is found, and checks what it prints. Usage: run.sh EXAMPLE_DIR WORK_DIR PREFIX
+set -eu
+example=$1 work=$2 prefix=$3
+rm -rf "$work"
+cp -r "$example" "$work"
+cd "$work"
+
+libdir=$(dirname "$(dirname "$(find "$prefix" -name stripack.pc)")")
+export PKG_CONFIG_PATH="$libdir/pkgconfig" LD_LIBRARY_PATH="$libdir" CMAKE_PREFIX_PATH="$prefix"
+sed -n 's/^[^$]*\$ //p' mesh.* > commands.sh
+sh -eux commands.sh > output.log
+cat output.log
+tail -n 1 output.log | grep -qx '1000 nodes, 1996 triangles, area 12.566371'

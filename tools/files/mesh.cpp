@@ -1,0 +1,328 @@
+#include "files/mesh.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "geometry/parallel_for.h"
+#include "mesh/delaunay.h"
+#include "stripack/list_queries.h"
+#include "stripack/triangle_list.h"
+#include "stripack/trmesh.h"
+#include "stripack/voronoi.h"
+
+namespace files {
+namespace {
+
+using pstripack::Triangle;
+using pstripack::Triangles;
+
+struct Columns {
+  explicit Columns(const std::vector<Point>& points) : x(points.size()), y(x.size()), z(x.size()) {
+    for (std::size_t i = 0; i < points.size(); ++i)
+      x[i] = points[i].x, y[i] = points[i].y, z[i] = points[i].z;
+  }
+  std::vector<double> x, y, z;
+};
+
+Mesh empty_mesh(std::vector<Point> points) {
+  Mesh mesh;
+  const std::size_t n = points.size();
+  mesh.points = std::move(points);
+  mesh.list.resize(6 * n - 12);
+  mesh.lptr.resize(6 * n - 12);
+  mesh.lend.resize(n);
+  return mesh;
+}
+
+void check_count(std::size_t n) {
+  if (n < 3) throw NoMesh(fmt::format("a triangulation needs at least 3 nodes, here are {}", n));
+  if (n > static_cast<std::size_t>(pstripack::most_nodes<std::int32_t>()))
+    throw NoMesh(
+        fmt::format("at most {} nodes: 6N-12 must fit 32 bits", pstripack::most_nodes<std::int32_t>()));
+}
+
+/// Three nodes that are not on one great circle: far from each other, so that rounding seldom decides.
+std::vector<std::size_t> three_corners(const std::vector<Point>& points) {
+  const auto farthest = [&](const auto& measure) {
+    std::size_t best = 0;
+    double most = -1;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (const double m = measure(unit(points[i])); m > most) best = i, most = m;
+    return best;
+  };
+  const Point a = unit(points[0]);
+  const std::size_t second = farthest([&](const Point& p) {
+    const Point c = cross(a, p);
+    return dot(c, c);
+  });
+  const Point normal = cross(a, unit(points[second]));
+  std::size_t third = farthest([&](const Point& p) { return std::fabs(dot(normal, p)); });
+  const auto spans = [&](std::size_t i) {
+    return pstripack::left(points[0], points[second], points[i]) != 0;
+  };
+  for (std::size_t i = 0; i < points.size() && !spans(third); ++i)
+    if (spans(i)) third = i;
+  if (!spans(third)) throw NoMesh("all nodes lie on one great circle: they have no triangulation");
+  return {0, second, third};
+}
+
+/// The nodes in an order that TRMESH takes: the first three not on one great circle.
+std::vector<std::size_t> order_with_corners_first(const std::vector<Point>& points) {
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const std::vector<std::size_t> corners = three_corners(points);
+  for (std::size_t k = 0; k < 3; ++k) std::swap(order[k], *std::find(order.begin(), order.end(), corners[k]));
+  return order;
+}
+
+/// Of the arcs that the triangles of a node have opposite it: from one neighbour to the next.
+struct Step {
+  std::int32_t from, to;
+};
+
+/// The neighbours round a node, as its list has them, by following its steps. `steps` are sorted.
+void write_ring(std::size_t node, const Step* begin, const Step* end, std::vector<std::int32_t>& ring) {
+  const auto fail = [&](const char* what) { throw NoMesh(fmt::format("node {}: {}", node + 1, what)); };
+  if (begin == end) fail("is the corner of no triangle");
+  const auto step_from = [&](std::int32_t from) {
+    const Step* const step =
+        std::lower_bound(begin, end, from, [](const Step& s, std::int32_t f) { return s.from < f; });
+    return step != end && step->from == from ? step : nullptr;
+  };
+  for (const Step* s = begin; s + 1 < end; ++s)
+    if (s[0].from == s[1].from) fail("an arc has two triangles on one side");
+  std::vector<std::int32_t> reached;
+  for (const Step* s = begin; s != end; ++s) reached.push_back(s->to);
+  std::sort(reached.begin(), reached.end());
+  std::int32_t first = begin->from;
+  bool at_boundary = false;
+  for (const Step* s = begin; s != end; ++s) {
+    if (std::binary_search(reached.begin(), reached.end(), s->from)) continue;
+    if (at_boundary) fail("its triangles are not one fan");
+    first = s->from;
+    at_boundary = true;
+  }
+  ring.assign(1, first);
+  const auto count = static_cast<std::size_t>(end - begin);
+  for (const Step* s = step_from(first); s != nullptr && ring.size() <= count; s = step_from(s->to)) {
+    if (!at_boundary && s->to == first) break;
+    ring.push_back(s->to);
+  }
+  if (ring.size() != count + (at_boundary ? 1 : 0)) fail("its triangles are not one cycle");
+  if (at_boundary) ring.back() = -ring.back();
+}
+
+/// triangulate(), by way of other numbers.
+Mesh triangulate_in_order(const std::vector<Point>& points, const std::vector<std::size_t>& order) {
+  std::vector<Point> ordered(points.size());
+  for (std::size_t i = 0; i < order.size(); ++i) ordered[i] = points[order[i]];
+  try {
+    const Mesh mesh = triangulate(std::move(ordered));
+    Triangles triangles = pstripack::triangles_of(mesh.lists());
+    for (Triangle& t : triangles)
+      for (pstripack::index_t& node : t)
+        node = static_cast<pstripack::index_t>(order[static_cast<std::size_t>(node)]);
+    return mesh_of(points, triangles);
+  } catch (const CoincidentNodes& e) {
+    const auto [first, second] = std::minmax(order[e.first], order[e.second]);
+    throw CoincidentNodes(first, second);
+  }
+}
+
+}  // namespace
+
+Mesh triangulate(std::vector<Point> points) {
+  const std::size_t n = points.size();
+  check_count(n);
+  if (pstripack::left(points[0], points[1], points[2]) == 0)
+    return triangulate_in_order(points, order_with_corners_first(points));
+  const Columns c(points);
+  Mesh mesh = empty_mesh(std::move(points));
+  const pstripack::TrmeshResult result =
+      pstripack::trmesh(static_cast<std::int32_t>(n), c.x.data(), c.y.data(), c.z.data(), mesh.list.data(),
+                        mesh.lptr.data(), mesh.lend.data(), &mesh.lnew);
+  if (result.ier > 0)
+    throw CoincidentNodes(static_cast<std::size_t>(result.node) - 1,
+                          static_cast<std::size_t>(result.other) - 1);
+  if (result.ier < 0) throw NoMesh(fmt::format("the triangulation failed with code {}", result.ier));
+  return mesh;
+}
+
+std::vector<std::size_t> duplicates(const std::vector<Point>& points) {
+  check_count(points.size());
+  three_corners(points);
+  pstripack::Workspace workspace(pstripack::workspace_bytes(points.size()));
+  const pstripack::Hull hull = pstripack::delaunay(points.data(), points.size(), workspace);
+  std::map<std::size_t, std::size_t> earliest;  // of the node that is in: the first in its direction
+  std::vector<std::size_t> later;
+  for (const auto& [in, out] : hull.coincident) {
+    const auto i = static_cast<std::size_t>(in), o = static_cast<std::size_t>(out);
+    std::size_t& first = earliest.emplace(i, i).first->second;
+    later.push_back(std::max(first, o));
+    first = std::min(first, o);
+  }
+  std::sort(later.begin(), later.end());
+  return later;
+}
+
+Mesh mesh_of(std::vector<Point> points, const Triangles& triangles) {
+  const std::size_t n = points.size();
+  check_count(n);
+  std::vector<std::size_t> begin(n + 1);
+  for (const Triangle& t : triangles)
+    for (const pstripack::index_t node : t) ++begin[static_cast<std::size_t>(node) + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<Step> steps(begin[n]);
+  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+  for (const Triangle& t : triangles)
+    for (std::size_t k = 0; k < 3; ++k)
+      steps[next[static_cast<std::size_t>(t[k])]++] = {t[(k + 1) % 3] + 1, t[(k + 2) % 3] + 1};
+
+  Mesh mesh = empty_mesh(std::move(points));
+  std::vector<std::int32_t> ring;
+  std::size_t slot = 0;
+  for (std::size_t node = 0; node < n; ++node) {
+    Step *const first = steps.data() + begin[node], *const last = steps.data() + begin[node + 1];
+    std::sort(first, last, [](const Step& a, const Step& b) { return a.from < b.from; });
+    write_ring(node, first, last, ring);
+    if (slot + ring.size() > mesh.list.size()) throw NoMesh("more arcs than a triangulation can have");
+    const std::size_t first_slot = slot;
+    for (const std::int32_t neighbour : ring) {
+      mesh.list[slot] = neighbour;
+      mesh.lptr[slot] = static_cast<std::int32_t>(slot + 2);
+      ++slot;
+    }
+    mesh.lptr[slot - 1] = static_cast<std::int32_t>(first_slot + 1);
+    mesh.lend[node] = static_cast<std::int32_t>(slot);
+  }
+  mesh.lnew = static_cast<std::int32_t>(slot + 1);
+  return mesh;
+}
+
+std::size_t Mesh::triangles() const {
+  const bool has_boundary = pstripack::ListReader<std::int32_t>(lists()).first_boundary_node() > 0;
+  const std::size_t arcs = (static_cast<std::size_t>(lnew) - 1) / 2;
+  return arcs + (has_boundary ? 1 : 2) - points.size();  // Euler
+}
+
+std::vector<std::int32_t> triangles_of(const Mesh& mesh) {
+  std::vector<std::int32_t> triangles(3 * (2 * mesh.points.size() - 4));
+  std::int32_t count = 0;
+  if (pstripack::triangle_list(mesh.lists(), 3, count, triangles.data()) !=
+      pstripack::TriangleListStatus::done)
+    throw NoMesh("the lists are broken");
+  triangles.resize(3 * static_cast<std::size_t>(count));
+  return triangles;
+}
+
+Point unit(const Point& p) {
+  const double length = std::hypot(p.x, p.y, p.z);
+  return {p.x / length, p.y / length, p.z / length};
+}
+
+std::vector<Point> unit(const std::vector<Point>& points) {
+  std::vector<Point> result(points.size());
+  pstripack::parallel_pieces(
+      points.size(), pstripack::threads_for(points.size()), [&](std::size_t first, std::size_t last, int) {
+        for (std::size_t i = first; i < last; ++i)
+          result[i] = pstripack::length_is_one(points[i]) ? points[i] : unit(points[i]);
+      });
+  return result;
+}
+
+std::vector<Point> circumcentres(const std::vector<Point>& unit_points,
+                                 const std::vector<std::int32_t>& triangles) {
+  std::vector<Point> centres(triangles.size() / 3);
+  const auto at = [&](std::size_t k) -> pstripack::Vector<double> {
+    const Point& p = unit_points[static_cast<std::size_t>(triangles[k]) - 1];
+    return {p.x, p.y, p.z};
+  };
+  pstripack::parallel_pieces(centres.size(), pstripack::threads_for(centres.size()),
+                             [&](std::size_t first, std::size_t last, int) {
+                               for (std::size_t t = first; t < last; ++t) {
+                                 pstripack::Vector<double> c = at(3 * t);
+                                 circumcentre(at(3 * t), at(3 * t + 1), at(3 * t + 2), c);
+                                 centres[t] = {c.x, c.y, c.z};
+                               }
+                             });
+  return centres;
+}
+
+std::size_t Faces::most_corners() const {
+  std::size_t most = 0;
+  for (std::size_t f = 0; f < size(); ++f) most = std::max(most, corners(f));
+  return most;
+}
+
+Faces triangle_faces(const Mesh& mesh) {
+  Faces faces;
+  faces.points = unit(mesh.points);
+  faces.corner = triangles_of(mesh);
+  faces.begin.resize(faces.corner.size() / 3 + 1);
+  for (std::size_t f = 0; f < faces.begin.size(); ++f) faces.begin[f] = 3 * f;
+  return faces;
+}
+
+std::vector<Point> centroids(const Faces& faces) {
+  std::vector<Point> centres(faces.size());
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    Point sum{0, 0, 0};
+    for (std::size_t k = faces.begin[f]; k < faces.begin[f + 1]; ++k) {
+      const Point& p = faces.points[static_cast<std::size_t>(faces.corner[k]) - 1];
+      sum = {sum.x + p.x, sum.y + p.y, sum.z + p.z};
+    }
+    centres[f] = unit(sum);
+  }
+  return centres;
+}
+
+Faces voronoi_faces(const Mesh& mesh) {
+  const std::size_t n = mesh.points.size();
+  const Columns c(unit(mesh.points));
+  std::vector<std::int32_t> lptr = mesh.lptr, listc(6 * n - 12);
+  std::int32_t lnew = mesh.lnew, nb = 0;
+  std::vector<std::int32_t> boundary(n);
+  const auto on_boundary =
+      static_cast<std::size_t>(pstripack::boundary_nodes(mesh.lists(), boundary.data()).boundary_nodes);
+  const std::size_t ncol = std::max<std::size_t>(on_boundary, 3) - 2;
+  std::vector<std::int32_t> ltri(6 * ncol);
+  std::vector<double> x(2 * n - 4), y(x.size()), z(x.size()), radius(x.size());
+  const pstripack::VoronoiArrays<double, std::int32_t> out{static_cast<std::int32_t>(ncol),
+                                                           lptr.data(),
+                                                           &lnew,
+                                                           ltri.data(),
+                                                           listc.data(),
+                                                           &nb,
+                                                           x.data(),
+                                                           y.data(),
+                                                           z.data(),
+                                                           radius.data()};
+  const pstripack::ListsView<std::int32_t> lists{n, mesh.list.data(), lptr.data(), mesh.lend.data(), lnew};
+  const pstripack::VoronoiStatus status =
+      pstripack::voronoi(lists, pstripack::Nodes<double>{c.x.data(), c.y.data(), c.z.data()}, out);
+  if (status != pstripack::VoronoiStatus::done)
+    throw NoMesh(fmt::format("the Voronoi diagram failed with code {}", static_cast<int>(status)));
+
+  Faces faces;
+  faces.centres = unit(mesh.points);
+  faces.points.resize(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) faces.points[i] = {x[i], y[i], z[i]};
+  faces.begin.push_back(0);
+  for (std::size_t node = 0; node < n; ++node) {
+    const std::int32_t last = mesh.lend[node];
+    std::int32_t slot = last;
+    do {
+      slot = lptr[static_cast<std::size_t>(slot) - 1];
+      faces.corner.push_back(listc[static_cast<std::size_t>(slot) - 1]);
+    } while (slot != last);
+    faces.begin.push_back(faces.corner.size());
+  }
+  return faces;
+}
+
+}  // namespace files

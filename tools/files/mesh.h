@@ -1,0 +1,80 @@
+#pragma once
+// Triangulations and Voronoi diagrams, as the writers take them. Nodes, triangles and slots count from 1.
+
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <vector>
+
+#include "files/nodes.h"
+#include "stripack/adjacency_lists.h"
+
+namespace files {
+
+/// Nodes and the canonical lists of their triangulation.
+struct Mesh {
+  std::vector<Point> points;    ///< as given
+  std::vector<double> density;  ///< of each node; empty: not known
+  std::vector<std::int32_t> list, lptr, lend;
+  std::int32_t lnew = 0;
+
+  std::size_t triangles() const;
+  pstripack::ListsView<std::int32_t> lists() const {
+    return {points.size(), list.data(), lptr.data(), lend.data(), lnew};
+  }
+};
+
+/// What keeps nodes from having a triangulation; nodes from 0.
+struct NoMesh : std::runtime_error {
+  using runtime_error::runtime_error;
+};
+struct CoincidentNodes : NoMesh {
+  CoincidentNodes(std::size_t f, std::size_t s) : NoMesh("two nodes coincide"), first(f), second(s) {}
+  std::size_t first, second;
+};
+
+/// The Delaunay triangulation of at least three nodes that all have a direction. Throws NoMesh where all of
+/// them lie on one great circle, where two coincide, or where there are too many.
+Mesh triangulate(std::vector<Point> points);
+
+/// Of the nodes that point in one direction, all but the first, in increasing order. As triangulate.
+std::vector<std::size_t> duplicates(const std::vector<Point>& points);
+
+/// The mesh of these triangles (counterclockwise, from 0). Throws NoMesh unless every node is a corner, and
+/// the triangles round each node are one cycle or one fan.
+Mesh mesh_of(std::vector<Point> points, const pstripack::Triangles& triangles);
+
+/// Three corners a triangle, counterclockwise, the smallest first.
+std::vector<std::int32_t> triangles_of(const Mesh& mesh);
+
+Point unit(const Point& p);
+std::vector<Point> unit(const std::vector<Point>& points);
+
+/// The centre of the circumscribed cap of each triangle.
+std::vector<Point> circumcentres(const std::vector<Point>& unit_points,
+                                 const std::vector<std::int32_t>& triangles);
+
+/// Polygons on the unit sphere: face f has the corners corner[begin[f]] ... corner[begin[f+1]-1],
+/// counterclockwise.
+struct Faces {
+  std::vector<Point> points;
+  std::vector<Point> centres;  ///< the node that each face belongs to; empty: none
+  std::vector<std::size_t> begin;
+  std::vector<std::int32_t> corner;
+
+  std::size_t size() const { return begin.size() - 1; }
+  std::size_t corners(std::size_t f) const { return begin[f + 1] - begin[f]; }
+  std::size_t most_corners() const;
+};
+
+/// The direction of the sum of each face's corners.
+std::vector<Point> centroids(const Faces& faces);
+
+/// The triangles as faces.
+Faces triangle_faces(const Mesh& mesh);
+
+/// The Voronoi diagram: a face a node. Where the nodes lie in a hemisphere, the cells of boundary nodes share
+/// the rest of the sphere (STRIPACK's CRLIST).
+Faces voronoi_faces(const Mesh& mesh);
+
+}  // namespace files

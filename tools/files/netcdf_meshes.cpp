@@ -1,0 +1,239 @@
+// Writers of NetCDF: UGRID, SCRIP, the input of MPAS' mesh converter, nodes alone.
+
+#include <netcdf.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "files/writers.h"
+
+namespace files {
+namespace {
+
+/// A NetCDF file in the making: first definitions, then values.
+class Writer {
+ public:
+  explicit Writer(const OutputFile& file) : name_(file.name()) {
+    check(nc_create(file.path().c_str(), NC_CLOBBER | NC_NETCDF4 | NC_CLASSIC_MODEL, &id_));
+    check(nc_set_fill(id_, NC_NOFILL, nullptr));
+  }
+  ~Writer() {
+    if (id_ >= 0) nc_abort(id_);
+  }
+  Writer(const Writer&) = delete;
+  Writer& operator=(const Writer&) = delete;
+
+  int dimension(const char* name, std::size_t length) {
+    int dimension = 0;
+    check(nc_def_dim(id_, name, length, &dimension));
+    return dimension;
+  }
+  int variable(const char* name, nc_type type, const std::vector<int>& dimensions) {
+    int variable = 0;
+    check(nc_def_var(id_, name, type, static_cast<int>(dimensions.size()), dimensions.data(), &variable));
+    return variable;
+  }
+  /// Of angles, in degrees or radians.
+  int angle(const char* name, const std::vector<int>& dimensions, const char* units) {
+    const int id = variable(name, NC_DOUBLE, dimensions);
+    attribute(id, "units", units);
+    return id;
+  }
+  void attribute(int variable, const char* name, const std::string& text) {
+    check(nc_put_att_text(id_, variable, name, text.size(), text.data()));
+  }
+  void attribute(int variable, const char* name, int value) {
+    check(nc_put_att_int(id_, variable, name, NC_INT, 1, &value));
+  }
+  void attribute(int variable, const char* name, double value) {
+    check(nc_put_att_double(id_, variable, name, NC_DOUBLE, 1, &value));
+  }
+  void end_definitions() { check(nc_enddef(id_)); }
+  void put(int variable, const std::vector<double>& values) {
+    check(nc_put_var_double(id_, variable, values.data()));
+  }
+  void put(int variable, const std::vector<std::int32_t>& values) {
+    check(nc_put_var_int(id_, variable, values.data()));
+  }
+  void put(int x, int y, int z, const std::vector<Point>& points) {
+    std::vector<double> values(points.size());
+    for (const auto& [variable, component] :
+         {std::pair(x, &Point::x), std::pair(y, &Point::y), std::pair(z, &Point::z)}) {
+      for (std::size_t i = 0; i < points.size(); ++i) values[i] = points[i].*component;
+      put(variable, values);
+    }
+  }
+  void close() {
+    const int id = id_;
+    id_ = -1;
+    check(nc_close(id));
+  }
+
+ private:
+  void check(int status) const {
+    if (status != NC_NOERR) throw std::runtime_error(name_ + ": cannot be written: " + nc_strerror(status));
+  }
+  std::string name_;
+  int id_ = -1;
+};
+
+/// A table with a row a face, as wide as the face with most corners: entry(slot of faces.corner), and after
+/// the last corner of a face `rest(that entry)`.
+template <class T, class Entry, class Rest>
+std::vector<T> padded(const Faces& faces, std::size_t width, const Entry& entry, const Rest& rest) {
+  std::vector<T> table;
+  table.reserve(faces.size() * width);
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    for (std::size_t k = faces.begin[f]; k < faces.begin[f + 1]; ++k) table.push_back(entry(k));
+    table.resize((f + 1) * width, rest(table.back()));
+  }
+  return table;
+}
+
+}  // namespace
+
+void write_ugrid(const OutputFile& file, const Faces& faces, const std::vector<Point>& vectors) {
+  constexpr std::int32_t kNone = -1;
+  const std::size_t width = faces.most_corners();
+  const bool has_centres = !faces.centres.empty();
+  Writer out(file);
+  const int nodes = out.dimension("mesh_nodes", faces.points.size());
+  const int n_faces = out.dimension("mesh_faces", faces.size());
+  const int corners = out.dimension("mesh_face_corners", width);
+  const int mesh = out.variable("mesh", NC_INT, {});
+  out.attribute(NC_GLOBAL, "Conventions", "CF-1.8 UGRID-1.0");
+  out.attribute(mesh, "cf_role", "mesh_topology");
+  out.attribute(mesh, "topology_dimension", 2);
+  out.attribute(mesh, "node_coordinates", "mesh_node_lon mesh_node_lat");
+  out.attribute(mesh, "face_node_connectivity", "mesh_face_nodes");
+  if (has_centres) out.attribute(mesh, "face_coordinates", "mesh_face_lon mesh_face_lat");
+  out.attribute(mesh, "face_dimension", "mesh_faces");
+  const int connectivity = out.variable("mesh_face_nodes", NC_INT, {n_faces, corners});
+  out.attribute(connectivity, "cf_role", "face_node_connectivity");
+  out.attribute(connectivity, "start_index", 1);
+  out.attribute(connectivity, "_FillValue", kNone);
+  const auto angles = [&](const char* lon_name, const char* lat_name, int dimension) {
+    const int lon = out.angle(lon_name, {dimension}, "degrees_east");
+    const int lat = out.angle(lat_name, {dimension}, "degrees_north");
+    out.attribute(lon, "standard_name", "longitude");
+    out.attribute(lat, "standard_name", "latitude");
+    return std::pair(lon, lat);
+  };
+  const auto [node_lon, node_lat] = angles("mesh_node_lon", "mesh_node_lat", nodes);
+  const auto [face_lon, face_lat] =
+      has_centres ? angles("mesh_face_lon", "mesh_face_lat", n_faces) : std::pair(-1, -1);
+  const int x = out.variable("mesh_node_x", NC_DOUBLE, {nodes});
+  const int y = out.variable("mesh_node_y", NC_DOUBLE, {nodes});
+  const int z = out.variable("mesh_node_z", NC_DOUBLE, {nodes});
+  for (const int component : {x, y, z})
+    out.attribute(component, "long_name", "Cartesian coordinate of the node as it was given");
+  out.end_definitions();
+
+  const LonLat of_nodes(faces.points, true);
+  out.put(node_lon, of_nodes.lon);
+  out.put(node_lat, of_nodes.lat);
+  if (has_centres) {
+    const LonLat of_faces(faces.centres, true);
+    out.put(face_lon, of_faces.lon);
+    out.put(face_lat, of_faces.lat);
+  }
+  out.put(x, y, z, vectors);
+  if (faces.corner.size() == faces.size() * width)
+    out.put(connectivity, faces.corner);
+  else
+    out.put(connectivity, padded<std::int32_t>(
+                              faces, width, [&](std::size_t k) { return faces.corner[k]; },
+                              [](std::int32_t) { return kNone; }));
+  out.close();
+}
+
+void write_scrip(const OutputFile& file, const Faces& faces) {
+  const std::size_t width = faces.most_corners();
+  Writer out(file);
+  const int size = out.dimension("grid_size", faces.size());
+  const int corners = out.dimension("grid_corners", width);
+  const int rank = out.dimension("grid_rank", 1);
+  const int dims = out.variable("grid_dims", NC_INT, {rank});
+  const int centre_lat = out.angle("grid_center_lat", {size}, "degrees");
+  const int centre_lon = out.angle("grid_center_lon", {size}, "degrees");
+  const int imask = out.variable("grid_imask", NC_INT, {size});
+  out.attribute(imask, "units", "unitless");
+  const int corner_lat = out.angle("grid_corner_lat", {size, corners}, "degrees");
+  const int corner_lon = out.angle("grid_corner_lon", {size, corners}, "degrees");
+  out.end_definitions();
+
+  const LonLat of_centres(faces.centres.empty() ? centroids(faces) : faces.centres, true);
+  const LonLat of_points(faces.points, true);
+  out.put(dims, std::vector<std::int32_t>{static_cast<std::int32_t>(faces.size())});
+  out.put(centre_lat, of_centres.lat);
+  out.put(centre_lon, of_centres.lon);
+  out.put(imask, std::vector<std::int32_t>(faces.size(), 1));
+  for (const auto& [variable, values] :
+       {std::pair(corner_lat, &of_points.lat), std::pair(corner_lon, &of_points.lon)})
+    out.put(variable,
+            padded<double>(  // the last corner again, as SCRIP wants it
+                faces, width,
+                [&](std::size_t k) { return (*values)[static_cast<std::size_t>(faces.corner[k]) - 1]; },
+                [](double last) { return last; }));
+  out.close();
+}
+
+void write_mpas(const OutputFile& file, const Mesh& mesh) {
+  const std::vector<Point> cells = unit(mesh.points);
+  const std::vector<std::int32_t> triangles = triangles_of(mesh);
+  const std::vector<Point> vertices = circumcentres(cells, triangles);
+  Writer out(file);
+  const int n_cells = out.dimension("nCells", cells.size());
+  const int n_vertices = out.dimension("nVertices", vertices.size());
+  const int degree = out.dimension("vertexDegree", 3);
+  out.attribute(NC_GLOBAL, "on_a_sphere", "YES");
+  out.attribute(NC_GLOBAL, "sphere_radius", 1.0);
+  out.attribute(NC_GLOBAL, "is_periodic", "NO");
+  out.attribute(NC_GLOBAL, "mesh_spec", "1.0");
+  out.attribute(NC_GLOBAL, "history", "pstripack");
+  struct Variables {
+    int x, y, z, lon, lat;
+  };
+  const auto places = [&](const std::string& of, int dimension) -> Variables {
+    const auto name = [&](const char* begin) { return begin + of; };
+    return {out.variable(name("x").c_str(), NC_DOUBLE, {dimension}),
+            out.variable(name("y").c_str(), NC_DOUBLE, {dimension}),
+            out.variable(name("z").c_str(), NC_DOUBLE, {dimension}),
+            out.angle(name("lon").c_str(), {dimension}, "rad"),
+            out.angle(name("lat").c_str(), {dimension}, "rad")};
+  };
+  const Variables of_cells = places("Cell", n_cells), of_vertices = places("Vertex", n_vertices);
+  const int cells_on_vertex = out.variable("cellsOnVertex", NC_INT, {n_vertices, degree});
+  const int density = out.variable("meshDensity", NC_DOUBLE, {n_cells});
+  out.end_definitions();
+
+  const auto put = [&](const Variables& to, const std::vector<Point>& points) {
+    out.put(to.x, to.y, to.z, points);
+    LonLat angles(points, false);
+    for (double& lon : angles.lon)
+      if (lon < 0) lon += 6.2831853071795865;  // MPAS: 0 to 2 pi
+    out.put(to.lon, angles.lon);
+    out.put(to.lat, angles.lat);
+  };
+  put(of_cells, cells);
+  put(of_vertices, vertices);
+  out.put(cells_on_vertex, triangles);
+  out.put(density, mesh.density.empty() ? std::vector<double>(cells.size(), 1) : mesh.density);
+  out.close();
+}
+
+void write_netcdf_nodes(const OutputFile& file, const std::vector<Point>& points) {
+  Writer out(file);
+  const int n = out.dimension("nCells", points.size());
+  const int lon = out.angle("lon", {n}, "degrees_east"), lat = out.angle("lat", {n}, "degrees_north");
+  const int x = out.variable("xCell", NC_DOUBLE, {n}), y = out.variable("yCell", NC_DOUBLE, {n}),
+            z = out.variable("zCell", NC_DOUBLE, {n});
+  out.end_definitions();
+  const LonLat angles(points, true);
+  out.put(lon, angles.lon);
+  out.put(lat, angles.lat);
+  out.put(x, y, z, points);
+  out.close();
+}
+
+}  // namespace files

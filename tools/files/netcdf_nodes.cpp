@@ -1,0 +1,225 @@
+// Nodes of NetCDF files: those of a UGRID mesh; xCell, yCell, zCell; or lonCell and latCell, lon and lat,
+// longitude and latitude, grid_center_lon and grid_center_lat (SCRIP): of one shape, or the two axes of a
+// grid (rows of latitude, one after the other), in the units that the attribute says. Missing units: radians
+// for lonCell and latCell, else those of the options, else an error.
+
+#include <fmt/format.h>
+#include <netcdf.h>
+#include <netcdf_mem.h>
+
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "files/nodes.h"
+
+namespace files {
+namespace {
+
+/// A NetCDF file that is open for reading.
+class File {
+ public:
+  File(const std::string& name, const std::string& contents, Units units) : name_(name), units_(units) {
+    // NetCDF takes bytes to read as void*, and does not change them without NC_WRITE.
+    check(contents.empty() ? nc_open(name.c_str(), NC_NOWRITE, &id_)
+                           : nc_open_mem(name.c_str(), NC_NOWRITE, contents.size(),
+                                         const_cast<char*>(contents.data()), &id_),
+          "");
+  }
+  ~File() { nc_close(id_); }
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+
+  [[noreturn]] void fail(const std::string& what) const { throw std::runtime_error(name_ + ": " + what); }
+  void check(int status, const std::string& variable) const {
+    if (status != NC_NOERR)
+      fail((variable.empty() ? "" : "variable " + variable + ": ") + nc_strerror(status));
+  }
+  int id() const { return id_; }
+  Units units() const { return units_; }  ///< of angles that have none
+
+ private:
+  std::string name_;
+  Units units_;
+  int id_ = -1;
+};
+
+struct Variable {
+  std::string name;
+  std::vector<int> dimensions;
+  std::vector<double> values;
+  std::string units;  ///< empty: the file does not say
+};
+
+bool has(const File& file, const std::string& name) {
+  int id;
+  return nc_inq_varid(file.id(), name.c_str(), &id) == NC_NOERR;
+}
+
+std::string text_attribute(const File& file, int variable, const char* name) {
+  std::string text;
+  if (std::size_t length; nc_inq_attlen(file.id(), variable, name, &length) == NC_NOERR) {
+    nc_type type;
+    if (nc_inq_atttype(file.id(), variable, name, &type) != NC_NOERR || type != NC_CHAR) return text;
+    text.resize(length);
+    file.check(nc_get_att_text(file.id(), variable, name, text.data()), name);
+  }
+  return text;
+}
+
+/// The number of the variable and the length of each of its dimensions.
+std::pair<int, std::vector<std::size_t>> shape_of(const File& file, const std::string& name,
+                                                  std::vector<int>& dimensions) {
+  const auto check = [&](int status) { file.check(status, name); };
+  int id, rank;
+  check(nc_inq_varid(file.id(), name.c_str(), &id));
+  check(nc_inq_varndims(file.id(), id, &rank));
+  dimensions.resize(static_cast<std::size_t>(rank));
+  check(nc_inq_vardimid(file.id(), id, dimensions.data()));
+  std::vector<std::size_t> lengths(dimensions.size());
+  for (std::size_t d = 0; d < lengths.size(); ++d)
+    check(nc_inq_dimlen(file.id(), dimensions[d], &lengths[d]));
+  return {id, lengths};
+}
+
+Variable read(const File& file, const std::string& name) {
+  Variable v;
+  v.name = name;
+  const auto check = [&](int status) { file.check(status, name); };
+  const auto [id, lengths] = shape_of(file, name, v.dimensions);
+  std::size_t count = 1;
+  for (const std::size_t length : lengths) count *= length;
+  v.values.resize(count);
+  check(nc_get_var_double(file.id(), id, v.values.data()));
+  v.units = text_attribute(file, id, "units");
+  if (nc_inq_attid(file.id(), id, "scale_factor", nullptr) == NC_NOERR)
+    file.fail("variable " + name + ": packed (scale_factor); expected plain numbers");
+  double fill = 0;
+  const bool has_fill = nc_get_att_double(file.id(), id, "_FillValue", &fill) == NC_NOERR;
+  for (std::size_t i = 0; i < count; ++i)
+    if (!std::isfinite(v.values[i]) || (has_fill && v.values[i] == fill))
+      file.fail(fmt::format("variable {}, value {}: missing or not finite: remove the node", name, i + 1));
+  return v;
+}
+
+/// True: degrees, false: radians.
+bool in_degrees(const File& file, const Variable& v) {
+  if (v.units.rfind("degree", 0) == 0) return true;
+  if (v.units.rfind("rad", 0) == 0) return false;
+  if (v.units.empty() && (v.name == "lonCell" || v.name == "latCell")) return false;
+  if (v.units.empty() && file.units() != Units::said_or_unmistakable) return file.units() == Units::degrees;
+  file.fail(fmt::format("variable {}: units '{}'; expected degrees or radians", v.name, v.units));
+}
+
+std::vector<Point> from_angles(const File& file, const Variable& lon, const Variable& lat,
+                               const char*& units) {
+  const bool lon_in_degrees = in_degrees(file, lon), lat_in_degrees = in_degrees(file, lat);
+  units = lat_in_degrees ? "degrees" : "radians";
+  Angles angles{lon.values.data(), lat.values.data(), 1, lon_in_degrees, lat_in_degrees};
+  if (const std::size_t bad = first_beyond_pole(angles, lat.values.size()); bad < lat.values.size())
+    file.fail(
+        fmt::format("variable {}, value {}: {} is beyond the pole", lat.name, bad + 1, lat.values[bad]));
+  if (lon.dimensions == lat.dimensions) return points_of(angles, lon.values.size());
+  if (lon.dimensions.size() != 1 || lat.dimensions.size() != 1)
+    file.fail(fmt::format("variables {} and {}: expected one shape, or two axes of one dimension each",
+                          lon.name, lat.name));
+  std::vector<double> grid;
+  for (const double y : lat.values)
+    for (const double x : lon.values) grid.insert(grid.end(), {x, y});
+  return points_of({grid.data(), grid.data() + 1, 2, lon_in_degrees, lat_in_degrees}, grid.size() / 2);
+}
+
+std::vector<Point> from_coordinates(const File& file, const std::string& x_name, const std::string& y_name,
+                                    const std::string& z_name) {
+  const Variable x = read(file, x_name), y = read(file, y_name), z = read(file, z_name);
+  if (x.dimensions != y.dimensions || x.dimensions != z.dimensions)
+    file.fail("variables " + x_name + ", " + y_name + ", " + z_name + ": expected one shape");
+  std::vector<Point> points(x.values.size());
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] = {x.values[i], y.values[i], z.values[i]};
+  return points;
+}
+
+/// Corners of triangles, row after row, counted from `first`.
+void read_triangles(const File& file, Nodes& nodes, const std::string& name, long long first) {
+  std::vector<int> dimensions;
+  const auto [id, lengths] = shape_of(file, name, dimensions);
+  if (lengths.size() != 2 || lengths[1] != 3)
+    file.fail("variable " + name + ": expected faces of three corners each");
+  std::vector<long long> corners(3 * lengths[0]);
+  file.check(nc_get_var_longlong(file.id(), id, corners.data()), name);
+  set_triangles(nodes, corners, first);
+}
+
+/// The name of the variable that describes a UGRID mesh of faces; empty if there is none.
+std::string ugrid_mesh(const File& file) {
+  int count = 0;
+  file.check(nc_inq_nvars(file.id(), &count), "");
+  for (int v = 0; v < count; ++v) {
+    if (text_attribute(file, v, "cf_role") != "mesh_topology") continue;
+    char name[NC_MAX_NAME + 1];
+    file.check(nc_inq_varname(file.id(), v, name), "");
+    return name;
+  }
+  return "";
+}
+
+void read_ugrid(const File& file, Nodes& nodes, const std::string& mesh, bool with_triangles) {
+  int id = 0;
+  file.check(nc_inq_varid(file.id(), mesh.c_str(), &id), mesh);
+  // Our own files have the vectors, too, which angles would round.
+  if (has(file, mesh + "_node_x")) {
+    nodes.points = from_coordinates(file, mesh + "_node_x", mesh + "_node_y", mesh + "_node_z");
+    nodes.kind += ", UGRID, x y z";
+  } else {
+    std::istringstream names(text_attribute(file, id, "node_coordinates"));
+    std::string lon, lat;
+    if (!(names >> lon >> lat)) file.fail("variable " + mesh + ": expected node_coordinates 'lon lat'");
+    const char* units = "";
+    nodes.points = from_angles(file, read(file, lon), read(file, lat), units);
+    nodes.kind += fmt::format(", UGRID, lon lat in {}", units);
+  }
+  const std::string faces = text_attribute(file, id, "face_node_connectivity");
+  if (!with_triangles || faces.empty()) return;
+  int faces_id = 0;
+  file.check(nc_inq_varid(file.id(), faces.c_str(), &faces_id), faces);
+  long long first = 0;
+  nc_get_att_longlong(file.id(), faces_id, "start_index", &first);  // UGRID: 0 where it is missing
+  read_triangles(file, nodes, faces, first);
+}
+
+}  // namespace
+
+Nodes read_netcdf(const std::string& name, const ReadOptions& options, const std::string& contents) {
+  const File file(name, contents, options.units);
+  Nodes nodes;
+  nodes.file = name;
+  nodes.kind = "NetCDF";
+  if (const std::string mesh = ugrid_mesh(file); !mesh.empty()) {
+    read_ugrid(file, nodes, mesh, options.with_triangles);
+  } else if (has(file, "xCell") && options.coordinates != Coordinates::lonlat) {
+    nodes.points = from_coordinates(file, "xCell", "yCell", "zCell");
+    nodes.kind += ", xCell yCell zCell";
+  } else {
+    for (const auto& [lon, lat] :
+         {std::pair("lonCell", "latCell"), std::pair("lon", "lat"), std::pair("longitude", "latitude"),
+          std::pair("grid_center_lon", "grid_center_lat")}) {
+      if (!has(file, lon)) continue;
+      const char* units = "";
+      nodes.points = from_angles(file, read(file, lon), read(file, lat), units);
+      nodes.kind += fmt::format(", {} {} in {}", lon, lat, units);
+      break;
+    }
+    if (nodes.kind == "NetCDF")
+      file.fail("no nodes: expected variables xCell, yCell, zCell, or lonCell, latCell, or lon, lat");
+  }
+  if (nodes.points.empty()) file.fail("no nodes: the variables are empty");
+  if (has(file, "meshDensity")) nodes.density = read(file, "meshDensity").values;
+  if (nodes.density.size() != nodes.points.size()) nodes.density.clear();
+  if (options.with_triangles && has(file, "xCell") && has(file, "cellsOnVertex"))
+    read_triangles(file, nodes, "cellsOnVertex", 1);
+  return nodes;
+}
+
+}  // namespace files

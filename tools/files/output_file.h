@@ -1,0 +1,57 @@
+#pragma once
+// Files that are there whole or not at all.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace files {
+
+/// A file under a temporary name beside the final one, which it gets by commit(). Without commit() nothing
+/// remains, nor after SIGHUP, SIGINT and SIGTERM. `-` is stdout; what is no regular file (a device, a pipe)
+/// is written to by commit(). One at a time. Throws std::runtime_error "NAME: cannot be written: why".
+class OutputFile {
+ public:
+  explicit OutputFile(const std::string& name);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  const std::string& path() const { return temporary_; }  ///< where to write until commit()
+  const std::string& name() const { return name_; }       ///< for messages
+  void commit();
+
+ private:
+  void copy_to_target() const;
+  std::string name_, target_, temporary_;
+  bool copies_;  ///< the target cannot be replaced
+};
+
+[[noreturn]] void fail_to_write(const std::string& name, int error);
+
+/// Text for an OutputFile, through a buffer.
+class TextWriter {
+ public:
+  explicit TextWriter(const OutputFile& file);
+
+  template <class... Values>
+  void print(fmt::format_string<Values...> format, Values&&... values) {
+    fmt::format_to(std::back_inserter(buffer_), format, std::forward<Values>(values)...);
+    if (buffer_.size() > kFull) flush();
+  }
+  void write(const void* bytes, std::size_t size);
+  /// The last call; without it the file is not complete.
+  void close();
+
+ private:
+  static constexpr std::size_t kFull = std::size_t{1} << 20;
+  void flush();
+  std::string name_;
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> out_;
+  fmt::memory_buffer buffer_;
+};
+
+}  // namespace files

@@ -1,0 +1,22 @@
+// In place of netcdf_nodes.cpp and netcdf_meshes.cpp where there is no NetCDF.
+
+#include <stdexcept>
+
+#include "files/writers.h"
+
+namespace files {
+namespace {
+
+[[noreturn]] void refuse(const std::string& file) {
+  throw std::runtime_error(file + ": NetCDF, but this build has none (Debian: libnetcdf-dev)");
+}
+
+}  // namespace
+
+Nodes read_netcdf(const std::string& file, const ReadOptions&, const std::string&) { refuse(file); }
+void write_ugrid(const OutputFile& file, const Faces&, const std::vector<Point>&) { refuse(file.name()); }
+void write_scrip(const OutputFile& file, const Faces&) { refuse(file.name()); }
+void write_mpas(const OutputFile& file, const Mesh&) { refuse(file.name()); }
+void write_netcdf_nodes(const OutputFile& file, const std::vector<Point>&) { refuse(file.name()); }
+
+}  // namespace files

@@ -1,0 +1,183 @@
+#include "files/writers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <sstream>
+#include <stdexcept>
+
+#include "geometry/parallel_for.h"
+
+namespace files {
+namespace {
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+[[noreturn]] void refuse(const OutputFile& file, Format format, const char* why) {
+  for (const FormatEntry& f : formats())
+    if (f.format == format) throw std::runtime_error(file.name() + ": " + f.name + " " + why);
+  throw std::logic_error("a format that is not in the table");
+}
+
+void write_off(const OutputFile& file, const Faces& faces) {
+  TextWriter out(file);
+  out.print("OFF\n{} {} 0\n", faces.points.size(), faces.size());
+  for (const Point& p : faces.points) out.print("{} {} {}\n", p.x, p.y, p.z);
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    out.print("{}", faces.corners(f));
+    for (std::size_t k = faces.begin[f]; k < faces.begin[f + 1]; ++k) out.print(" {}", faces.corner[k] - 1);
+    out.print("\n");
+  }
+  out.close();
+}
+
+void write_gmsh(const OutputFile& file, const Faces& faces) {
+  TextWriter out(file);
+  out.print("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{}\n", faces.points.size());
+  for (std::size_t i = 0; i < faces.points.size(); ++i)
+    out.print("{} {} {} {}\n", i + 1, faces.points[i].x, faces.points[i].y, faces.points[i].z);
+  out.print("$EndNodes\n$Elements\n{}\n", faces.size());
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const std::int32_t* const c = &faces.corner[3 * f];
+    out.print("{} 2 2 1 1 {} {} {}\n", f + 1, c[0], c[1], c[2]);  // a triangle with two tags
+  }
+  out.print("$EndElements\n");
+  out.close();
+}
+
+/// VTK's XML, unstructured, as text.
+void write_vtu(const OutputFile& file, const Faces& faces) {
+  const bool triangles = faces.most_corners() == 3;
+  TextWriter out(file);
+  const auto begin = [&](const char* type, const char* name) {
+    out.print("<DataArray type=\"{}\" Name=\"{}\" format=\"ascii\">\n", type, name);
+  };
+  const auto end = [&] { out.print("</DataArray>\n"); };
+  out.print(
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" "
+      "byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n"
+      "<Points>\n<DataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\" format=\"ascii\">\n",
+      faces.points.size(), faces.size());
+  for (const Point& p : faces.points) out.print("{} {} {}\n", p.x, p.y, p.z);
+  end();
+  out.print("</Points>\n<Cells>\n");
+  begin("Int32", "connectivity");
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    for (std::size_t k = faces.begin[f]; k < faces.begin[f + 1]; ++k)
+      out.print(k == faces.begin[f] ? "{}" : " {}", faces.corner[k] - 1);
+    out.print("\n");
+  }
+  end();
+  begin("Int64", "offsets");
+  for (std::size_t f = 0; f < faces.size(); ++f) out.print("{}\n", faces.begin[f + 1]);
+  end();
+  begin("UInt8", "types");
+  for (std::size_t f = 0; f < faces.size(); ++f) out.print("{}\n", triangles ? 5 : 7);
+  end();
+  out.print("</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
+  out.close();
+}
+
+/// As `stripack-compare lists` reads them.
+void write_lists(const OutputFile& file, const Mesh& mesh) {
+  TextWriter out(file);
+  const auto all = [&](const std::vector<std::int32_t>& values, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i)
+      out.print(i % 12 == 11 || i + 1 == count ? "{}\n" : "{} ", values[i]);
+  };
+  const auto slots = static_cast<std::size_t>(mesh.lnew) - 1;
+  out.print("{} {}\n", mesh.points.size(), mesh.lnew);
+  all(mesh.list, slots);
+  all(mesh.lptr, slots);
+  all(mesh.lend, mesh.points.size());
+  out.close();
+}
+
+}  // namespace
+
+const std::vector<FormatEntry>& formats() {
+  static const std::vector<FormatEntry> table{
+      {Format::ugrid, "ugrid", ".nc .ugrid.nc", "NetCDF, UGRID conventions: start_index 1, _FillValue -1"},
+      {Format::mpas, "mpas", ".mpas.nc", "NetCDF, input of MPAS' mesh converter (triangles only)"},
+      {Format::scrip, "scrip", ".scrip.nc", "NetCDF, SCRIP grid of the faces"},
+      {Format::vtu, "vtu", ".vtu", "VTK unstructured grid, for ParaView"},
+      {Format::off, "off", ".off", "Object File Format"},
+      {Format::gmsh, "gmsh", ".msh", "gmsh 2.2, text (triangles only)"},
+      {Format::lists, "lists", ".lists", "N LNEW, LIST, LPTR, LEND as text (triangles only)"},
+      {Format::xyz, "xyz", ".xyz .txt", "nodes: text, x y z a line"},
+      {Format::lonlat, "lonlat", ".lonlat", "nodes: text, lon lat in degrees a line"},
+      {Format::netcdf, "nodes", ".nodes.nc", "nodes: NetCDF, lon, lat and xCell, yCell, zCell"},
+      {Format::raw, "raw", ".raw .bin .f64", "nodes: x y z as raw doubles of this machine"}};
+  return table;
+}
+
+bool holds_a_mesh(Format format) { return format < Format::xyz; }
+
+std::optional<Format> format_of(const std::string& to, const std::string& file) {
+  std::optional<Format> found;
+  std::size_t longest = 0;
+  for (const FormatEntry& f : formats()) {
+    if (to == f.name) return f.format;
+    std::istringstream suffixes(f.suffixes);
+    for (std::string suffix; suffixes >> suffix;)
+      if (ends_with(file, suffix) && suffix.size() > longest) found = f.format, longest = suffix.size();
+  }
+  return found;
+}
+
+void write_faces(const OutputFile& file, Format format, const Faces& faces) {
+  switch (format) {
+    case Format::ugrid:
+      return write_ugrid(file, faces, faces.points);
+    case Format::scrip:
+      return write_scrip(file, faces);
+    case Format::vtu:
+      return write_vtu(file, faces);
+    case Format::off:
+      return write_off(file, faces);
+    default:
+      refuse(file, format, "cannot hold polygons: --to ugrid, scrip, vtu or off can");
+  }
+}
+
+void write_mesh(const OutputFile& file, Format format, const Mesh& mesh) {
+  if (format == Format::mpas) return write_mpas(file, mesh);
+  if (format == Format::lists) return write_lists(file, mesh);
+  if (!holds_a_mesh(format))
+    refuse(file, format, "holds nodes, not a mesh: `pstripack convert` writes nodes");
+  const Faces faces = triangle_faces(mesh);
+  if (format == Format::ugrid) return write_ugrid(file, faces, mesh.points);
+  if (format == Format::gmsh) return write_gmsh(file, faces);
+  write_faces(file, format, faces);
+}
+
+void write_nodes(const OutputFile& file, Format format, const std::vector<Point>& points) {
+  if (format == Format::netcdf) return write_netcdf_nodes(file, points);
+  if (holds_a_mesh(format)) refuse(file, format, "holds a mesh, and here are nodes only: use `triangulate`");
+  TextWriter out(file);
+  if (format == Format::raw) {
+    out.write(points.data(), points.size() * sizeof(Point));
+  } else if (format == Format::xyz) {
+    for (const Point& p : points) out.print("{} {} {}\n", p.x, p.y, p.z);
+  } else {
+    const LonLat angles(points, true);
+    for (std::size_t i = 0; i < points.size(); ++i) out.print("{} {}\n", angles.lon[i], angles.lat[i]);
+  }
+  out.close();
+}
+
+LonLat::LonLat(const std::vector<Point>& points, bool degrees) : lon(points.size()), lat(points.size()) {
+  const double scale = degrees ? 57.295779513082321 : 1;
+  pstripack::parallel_pieces(points.size(), pstripack::threads_for(points.size()),
+                             [&](std::size_t first, std::size_t last, int) {
+                               for (std::size_t i = first; i < last; ++i) {
+                                 const Point& p = points[i];
+                                 lon[i] = std::atan2(p.y, p.x) * scale;
+                                 lat[i] = std::atan2(p.z, std::sqrt(p.x * p.x + p.y * p.y)) * scale;
+                               }
+                             });
+}
+
+}  // namespace files

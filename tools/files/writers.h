@@ -1,0 +1,48 @@
+#pragma once
+// Writers of meshes and nodes.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "files/mesh.h"
+#include "files/output_file.h"
+
+namespace files {
+
+enum class Format { ugrid, mpas, scrip, vtu, off, gmsh, lists, xyz, lonlat, netcdf, raw };
+
+struct FormatEntry {
+  Format format;
+  const char* name;
+  const char* suffixes;  ///< separated by blanks
+  const char* what;
+};
+
+/// All of them: for --help, --to and the choice by suffix.
+const std::vector<FormatEntry>& formats();
+bool holds_a_mesh(Format format);
+
+/// By the name --to has given, or else by the longest suffix of `file` in the table.
+std::optional<Format> format_of(const std::string& to, const std::string& file);
+
+/// What a triangulation is written as.
+void write_mesh(const OutputFile& file, Format format, const Mesh& mesh);
+/// The same of any polygons: ugrid, scrip, vtu, off. Others throw std::runtime_error.
+void write_faces(const OutputFile& file, Format format, const Faces& faces);
+/// Nodes alone: xyz, lonlat, netcdf, raw.
+void write_nodes(const OutputFile& file, Format format, const std::vector<Point>& points);
+
+/// Longitude and latitude of unit vectors, -180 to 180 and -90 to 90 degrees, or in radians.
+struct LonLat {
+  LonLat(const std::vector<Point>& points, bool degrees);
+  std::vector<double> lon, lat;
+};
+
+// In netcdf_meshes.cpp.
+void write_ugrid(const OutputFile& file, const Faces& faces, const std::vector<Point>& vectors);
+void write_scrip(const OutputFile& file, const Faces& faces);
+void write_mpas(const OutputFile& file, const Mesh& mesh);
+void write_netcdf_nodes(const OutputFile& file, const std::vector<Point>& points);
+
+}  // namespace files

@@ -1,0 +1,173 @@
+// `pstripack info`.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "pstripack/options.h"
+#include "pstripack/progress.h"
+#include "stripack/list_queries.h"
+
+namespace program {
+namespace {
+
+using files::Mesh;
+using files::Point;
+
+struct Options {
+  Input input;
+  bool json = false;
+};
+
+/// A value, and the node (from 1, in the input) or nodes that have it.
+struct Extreme {
+  double value;
+  std::int32_t first = 0, second = 0;
+};
+
+struct Facts {
+  std::size_t triangles = 0, arcs = 0, boundary = 0, near = 0;
+  Extreme fewest{1e300}, most{0}, shortest{1e300}, longest{0}, sharpest{1e300};
+  double mean = 0;  ///< length of an arc
+};
+
+/// Pairs closer than this part of the mean length of an arc count as near duplicates.
+constexpr double kNear = 1e-3;
+
+double angle_between(const Point& a, const Point& b) {
+  const Point d = minus(a, b);
+  return 2 * std::asin(std::min(1.0, std::sqrt(dot(d, d)) / 2));  // accurate for small ones
+}
+
+/// The angle at b of the plane triangle a, b, c, in degrees.
+double corner_angle(const Point& a, const Point& b, const Point& c) {
+  const Point u = minus(a, b), v = minus(c, b), w = cross(u, v);
+  return std::atan2(std::sqrt(dot(w, w)), dot(u, v)) * 57.295779513082321;
+}
+
+Facts facts_of(const Mesh& mesh) {
+  Facts facts;
+  const std::vector<Point> points = files::unit(mesh.points);
+  const auto at = [&](std::int32_t node) { return points[static_cast<std::size_t>(node) - 1]; };
+  const pstripack::ListReader<std::int32_t> reader(mesh.lists());
+  std::vector<double> lengths;
+  for (std::int32_t node = 1; node <= reader.size(); ++node) {
+    double degree = 0;
+    std::int32_t slot = reader.last_slot(node);
+    do {
+      ++degree;
+      const std::int32_t neighbour = reader.neighbour(slot);
+      if (neighbour > node) {
+        const double length = angle_between(at(node), at(neighbour));
+        lengths.push_back(length);
+        facts.mean += length;
+        if (length < facts.shortest.value) facts.shortest = {length, node, neighbour};
+        if (length > facts.longest.value) facts.longest = {length, node, neighbour};
+      }
+      slot = reader.next(slot);
+    } while (slot != reader.last_slot(node));
+    if (reader.on_boundary(node)) ++facts.boundary;
+    if (degree < facts.fewest.value) facts.fewest = {degree, node};
+    if (degree > facts.most.value) facts.most = {degree, node};
+  }
+  facts.arcs = lengths.size();
+  facts.mean /= static_cast<double>(lengths.size());
+  facts.near = static_cast<std::size_t>(std::count_if(
+      lengths.begin(), lengths.end(), [&](double length) { return length < kNear * facts.mean; }));
+  const std::vector<std::int32_t> triangles = files::triangles_of(mesh);
+  facts.triangles = triangles.size() / 3;
+  for (std::size_t t = 0; t < triangles.size(); t += 3)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int32_t a = triangles[t + k], b = triangles[t + (k + 1) % 3], c = triangles[t + (k + 2) % 3];
+      if (const double angle = corner_angle(at(a), at(b), at(c)); angle < facts.sharpest.value)
+        facts.sharpest = {angle, b};
+    }
+  return facts;
+}
+
+void info(const Options& options) {
+  Progress progress;
+  files::Nodes nodes = progress.step("reading", [&] { return read_nodes(options.input); });
+  const std::size_t given = nodes.points.size();
+  std::vector<std::size_t> duplicates;
+  std::vector<std::size_t> number(given);  // in the input, of each node left
+  for (std::size_t i = 0; i < given; ++i) number[i] = i + 1;
+  const Mesh mesh = progress.step("triangulating", [&] {
+    try {
+      duplicates = files::duplicates(nodes.points);
+      const auto is_left = [&](std::size_t n) {
+        return !std::binary_search(duplicates.begin(), duplicates.end(), n - 1);
+      };
+      number.erase(std::stable_partition(number.begin(), number.end(), is_left), number.end());
+      std::vector<Point> left;
+      for (const std::size_t n : number) left.push_back(nodes.points[n - 1]);
+      return files::triangulate(std::move(left));
+    } catch (const files::NoMesh& e) {
+      throw std::runtime_error(nodes.file + ": " + e.what());
+    }
+  });
+  const Facts f = progress.step("measuring", [&] { return facts_of(mesh); });
+  const auto given_number = [&](std::int32_t node) { return number[static_cast<std::size_t>(node) - 1]; };
+
+  if (options.json) {
+    const auto extreme = [&](const Extreme& e) {
+      nlohmann::ordered_json j{{"value", e.value}, {"nodes", {given_number(e.first)}}};
+      if (e.second > 0) j["nodes"].push_back(given_number(e.second));
+      return j;
+    };
+    const nlohmann::ordered_json j{{"file", nodes.file},
+                                   {"kind", nodes.kind},
+                                   {"nodes", given},
+                                   {"duplicates", duplicates.size()},
+                                   {"triangles", f.triangles},
+                                   {"arcs", f.arcs},
+                                   {"boundary_nodes", f.boundary},
+                                   {"fewest_neighbours", extreme(f.fewest)},
+                                   {"most_neighbours", extreme(f.most)},
+                                   {"shortest_arc", extreme(f.shortest)},
+                                   {"mean_arc", f.mean},
+                                   {"longest_arc", extreme(f.longest)},
+                                   {"near_duplicates", f.near},
+                                   {"smallest_angle_degrees", extreme(f.sharpest)}};
+    fmt::print("{}\n", j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    return;
+  }
+  const auto line = [](const char* name, const std::string& text) { fmt::print("{:<16} {}\n", name, text); };
+  const auto pair = [&](const Extreme& e) {
+    return fmt::format("{:.6g} rad, {:.6g} degrees: {} and {}", e.value, e.value * 57.295779513082321,
+                       nodes.place(given_number(e.first) - 1), nodes.place(given_number(e.second) - 1));
+  };
+  line("file", fmt::format("{} ({})", nodes.file, nodes.kind));
+  line("nodes", fmt::format("{}", given));
+  line("duplicates", duplicates.empty() ? "none"
+                                        : fmt::format("{}, the first is {}; left out below",
+                                                      duplicates.size(), nodes.place(duplicates[0])));
+  line("triangles", fmt::format("{}", f.triangles));
+  line("arcs", fmt::format("{}", f.arcs));
+  line("boundary",
+       f.boundary == 0 ? "none: the triangles cover the sphere" : fmt::format("{} nodes", f.boundary));
+  line("neighbours",
+       fmt::format("{} ({}) to {} ({})", f.fewest.value, nodes.place(given_number(f.fewest.first) - 1),
+                   f.most.value, nodes.place(given_number(f.most.first) - 1)));
+  line("tightest pair", pair(f.shortest));
+  line("mean arc", fmt::format("{:.6g} rad, {:.6g} degrees", f.mean, f.mean * 57.295779513082321));
+  line("longest arc", pair(f.longest));
+  line("near duplicates", fmt::format("{} pairs closer than {} of the mean arc", f.near, kNear));
+  line("smallest angle", fmt::format("{:.6g} degrees, at {}", f.sharpest.value,
+                                     nodes.place(given_number(f.sharpest.first) - 1)));
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, Command& chosen) {
+  CLI::App* const sub = app.add_subcommand(
+      "info", "counts, boundary, duplicates, tightest pair and quality of the triangulation of the nodes");
+  const auto options = std::make_shared<Options>();
+  add_input(*sub, options->input);
+  sub->add_flag("--json", options->json, "the same for programs");
+  sub->callback([=, &chosen] { chosen = [=] { info(*options); }; });
+}
+
+}  // namespace program

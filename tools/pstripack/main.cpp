@@ -1,0 +1,71 @@
+// pstripack: meshes on the sphere from the command line.
+
+#include <fmt/format.h>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+#include <new>
+
+#include "pstripack/options.h"
+
+namespace {
+
+constexpr auto kDescription = R"(Exact Delaunay triangulations and Voronoi diagrams of nodes on the sphere.
+
+  pstripack points fibonacci 10000 -o nodes.nc
+  pstripack info nodes.nc
+  pstripack triangulate nodes.nc -o mesh.nc
+  pstripack voronoi nodes.nc -o cells.vtu
+  pstripack triangulate lonlat.txt -o mpas_input.mpas.nc
+
+`pstripack COMMAND --help` tells the rest.)";
+
+constexpr auto kFooter =
+    R"(Input is text (`lon lat` or `x y z` a line; commas count as blanks, # and ! start
+comments; the number of nodes may stand alone in a first line), OFF, raw doubles, or NetCDF (UGRID; xCell, yCell,
+zCell; lonCell, latCell; lon, lat). Angles that could be degrees or radians are refused unless --units says
+which.
+
+Results go to files, which are there whole or not at all, or to stdout; all else to stderr. OMP_NUM_THREADS and
+the affinity mask are honoured.
+
+Exit code: 0 done; 1 the input cannot be used, or the output not be written; 2 the command line is wrong.)";
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace program;
+  CLI::App app(kDescription, "pstripack");
+  app.footer(kFooter);
+  app.set_version_flag("--version", PSTRIPACK_VERSION);
+  app.require_subcommand(1);
+  app.fallthrough();
+  app.add_flag("-q,--quiet", global().quiet, "nothing on stderr but errors");
+  app.add_option("--threads", global().threads, "[as many as there are processors]")
+      ->type_name("NUMBER")
+      ->check(CLI::Range(1, 4096).description(""));
+  Command chosen;
+  add_triangulate(app, chosen);
+  add_voronoi(app, chosen);
+  add_info(app, chosen);
+  add_points(app, chosen);
+  add_convert(app, chosen);
+  try {
+    app.parse(argc, argv);
+#ifdef _OPENMP
+    if (global().threads > 0) omp_set_num_threads(global().threads);
+#endif
+    chosen();
+    return kDone;
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
+    fmt::print(stderr, "pstripack: {}\n", e.what());
+    return kUsage;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "pstripack: out of memory\n");
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "pstripack: {}\n", e.what());
+  }
+  return kFailed;
+}

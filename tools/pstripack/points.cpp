@@ -1,0 +1,68 @@
+// `pstripack points`.
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <stdexcept>
+
+#include "families.h"
+#include "point_sets.h"
+#include "pstripack/options.h"
+
+namespace program {
+namespace {
+
+struct Options {
+  std::string name;
+  std::size_t n = 0;
+  std::uint64_t seed = 1;
+  Output output;
+};
+
+std::string families() {
+  std::string text =
+      "Families, with their default parameter if they take one (cap:0.01; lengths in radians), and "
+      "the\nnodes that N gives:";
+  for (const point_sets::Family& f : point_sets::registry())
+    text += fmt::format("\n  {:<17} {:<12} {}", f.name + (f.parameter.empty() ? "" : ":" + f.parameter),
+                        f.nodes, f.what);
+  return text + "\n\n";
+}
+
+void write(Options& options) {
+  options.output.choose(files::Format::xyz);
+  if (files::holds_a_mesh(options.output.format)) {
+    // .nc is the suffix of meshes first.
+    if (options.output.format != files::Format::ugrid || !options.output.to.empty())
+      throw CLI::ValidationError("--output",
+                                 "points are nodes, not a mesh: give --to xyz, lonlat, nodes or raw");
+    options.output.format = files::Format::netcdf;
+  }
+  std::vector<files::Point> points;
+  try {
+    points = point_sets::make(options.name, options.n, options.seed);
+  } catch (const std::invalid_argument& e) {
+    throw CLI::ValidationError("NAME", e.what());
+  }
+  files::OutputFile file(options.output.file);
+  write_nodes(file, options.output.format, points);
+  file.commit();
+}
+
+}  // namespace
+
+void add_points(CLI::App& app, Command& chosen) {
+  CLI::App* const sub = app.add_subcommand("points", "nodes to try things with");
+  const auto options = std::make_shared<Options>();
+  sub->add_option("NAME", options->name, "family of nodes, see below")->required()->type_name("");
+  sub->add_option("N", options->n, "how many; grids take the nearest number that they can have")
+      ->required()
+      ->type_name("")
+      ->check(CLI::Range(std::size_t{3}, std::size_t{357913943}).description(""));
+  sub->add_option("--seed", options->seed, "of random families")->type_name("NUMBER")->capture_default_str();
+  add_output(*sub, options->output, false);
+  sub->footer(families() + sub->get_footer());
+  sub->callback([=, &chosen] { chosen = [=] { write(*options); }; });
+}
+
+}  // namespace program

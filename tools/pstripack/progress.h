@@ -1,0 +1,56 @@
+#pragma once
+// What the program does now, on stderr: one changing line on a terminal, else a line every ten seconds.
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace program {
+
+/// "pstripack: text" on stderr, unless --quiet.
+void say(const std::string& text);
+
+/// The steps of a command and what they took.
+class Progress {
+ public:
+  Progress();
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// work(), which is reported as `doing` while it lasts.
+  template <class Work>
+  auto step(const char* doing, const Work& work) {
+    begin(doing);
+    struct End {
+      Progress& progress;
+      ~End() { progress.end(); }
+    } at_end{*this};
+    return work();
+  }
+
+  /// The last line: `what`, and the seconds of each step.
+  void finish(const std::string& what);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void begin(const char* doing);
+  void end();
+  void report();
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+  const bool on_terminal_;
+  std::string doing_;  ///< empty: nothing
+  Clock::time_point start_;
+  std::vector<std::pair<std::string, double>> steps_;
+  bool ends_ = false;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::thread reporter_;
+};
+
+}  // namespace program

@@ -1,0 +1,69 @@
+// `pstripack triangulate` and `pstripack voronoi`.
+
+#include <fmt/format.h>
+
+#include "pstripack/options.h"
+#include "pstripack/progress.h"
+
+namespace program {
+namespace {
+
+struct Options {
+  Input input;
+  Output output;
+};
+
+/// `write(file, mesh)` writes the result and returns what is in it, for the last line.
+template <class Write>
+void run(Options& options, const Write& write) {
+  options.output.choose();
+  files::OutputFile file(options.output.file);
+  Progress progress;
+  const files::Nodes nodes = progress.step("reading", [&] { return read_nodes(options.input); });
+  const files::Mesh mesh = progress.step("triangulating", [&] { return triangulate(nodes); });
+  const std::string what = progress.step("writing", [&] {
+    const std::string written = write(file, mesh);
+    file.commit();
+    return written;
+  });
+  progress.finish(fmt::format("{} nodes ({}), {}", nodes.points.size(), nodes.kind, what));
+}
+
+void triangulate(Options& options) {
+  run(options, [&](const files::OutputFile& file, const files::Mesh& mesh) {
+    write_mesh(file, options.output.format, mesh);
+    return fmt::format("{} triangles", mesh.triangles());
+  });
+}
+
+void voronoi(Options& options) {
+  run(options, [&](const files::OutputFile& file, const files::Mesh& mesh) {
+    const files::Faces faces = files::voronoi_faces(mesh);
+    write_faces(file, options.output.format, faces);
+    return fmt::format("{} cells, {} corners", faces.size(), faces.points.size());
+  });
+}
+
+void add(CLI::App& app, const char* name, const char* text, void (*command)(Options&), Command& chosen) {
+  CLI::App* const sub = app.add_subcommand(name, text);
+  const auto options = std::make_shared<Options>();
+  add_input(*sub, options->input);
+  add_duplicates(*sub, options->input);
+  add_output(*sub, options->output, true);
+  sub->callback([=, &chosen] { chosen = [=] { command(*options); }; });
+}
+
+}  // namespace
+
+void add_triangulate(CLI::App& app, Command& chosen) {
+  add(app, "triangulate", "Delaunay triangulation of the nodes, exact: a mesh of triangles", triangulate,
+      chosen);
+}
+
+void add_voronoi(CLI::App& app, Command& chosen) {
+  add(app, "voronoi",
+      "Voronoi diagram of the nodes: a mesh of polygons, one a node, in the order of the nodes", voronoi,
+      chosen);
+}
+
+}  // namespace program

@@ -1,0 +1,127 @@
+#include "files/mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "point_sets.h"
+#include "stripack/adjacency_lists.h"
+
+namespace files {
+namespace {
+
+using Points = std::vector<Point>;
+
+bool same_lists(const Mesh& a, const Mesh& b) {
+  const auto used = [](const Mesh& m, const std::vector<std::int32_t>& v) {
+    return std::vector<std::int32_t>(v.begin(), v.begin() + m.lnew - 1);
+  };
+  return a.lnew == b.lnew && a.lend == b.lend && used(a, a.list) == used(b, b.list) &&
+         used(a, a.lptr) == used(b, b.lptr);
+}
+
+TEST(mesh, of_its_own_triangles_has_the_same_lists) {
+  for (const char* const family : {"random", "hemisphere", "icosahedral", "cap", "ring"}) {
+    const Mesh mesh = triangulate(point_sets::make(family, 500));
+    EXPECT_TRUE(same_lists(mesh, mesh_of(mesh.points, pstripack::triangles_of(mesh.lists())))) << family;
+  }
+}
+
+TEST(mesh, counts_its_triangles) {
+  const Points octant{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  EXPECT_EQ(triangulate(octant).triangles(), 1u);
+  for (const char* const family : {"random", "hemisphere", "cap"}) {
+    const Mesh mesh = triangulate(point_sets::make(family, 300));
+    EXPECT_EQ(mesh.triangles(), triangles_of(mesh).size() / 3) << family;
+  }
+}
+
+TEST(mesh, does_not_need_its_first_three_nodes_off_one_great_circle) {
+  Points points{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}};
+  for (const Point& p : point_sets::make("random", 200)) points.push_back(p);
+  const Mesh mesh = triangulate(points);
+  EXPECT_TRUE(pstripack::is_valid(points.data(), mesh.lists()));
+  EXPECT_TRUE(pstripack::lists_are_canonical(mesh.lists()));
+}
+
+TEST(mesh, needs_nodes_off_one_great_circle) {
+  EXPECT_THROW(triangulate({{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}), NoMesh);
+  EXPECT_THROW(triangulate({{1, 0, 0}, {0, 1, 0}}), NoMesh);
+}
+
+TEST(mesh, names_the_nodes_that_coincide) {
+  Points points = point_sets::make("random", 100);
+  points[70] = points[30];
+  try {
+    triangulate(points);
+    FAIL() << "two nodes in one place";
+  } catch (const CoincidentNodes& e) {
+    EXPECT_EQ(e.first, 30u);
+    EXPECT_EQ(e.second, 70u);
+  }
+}
+
+TEST(duplicates, are_all_nodes_but_the_first_in_each_place) {
+  Points points = point_sets::make("random", 100);
+  points[50] = points[90] = points[7] = points[60];
+  points[3] = points[2];
+  EXPECT_EQ(duplicates(points), (std::vector<std::size_t>{3, 50, 60, 90}));
+  EXPECT_TRUE(duplicates(point_sets::make("random", 100)).empty());
+}
+
+TEST(mesh_of_triangles, is_refused_where_they_are_none) {
+  const Points points{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, -1, -1}};
+  EXPECT_THROW(mesh_of(points, {{0, 1, 2}}), NoMesh);                        // a node without one
+  EXPECT_THROW(mesh_of(points, {{0, 1, 2}, {0, 1, 3}, {0, 3, 2}}), NoMesh);  // an arc with two on one side
+  EXPECT_NO_THROW(mesh_of(points, {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}));
+}
+
+/// The area of a triangle on the unit sphere.
+double area(const Point& a, const Point& b, const Point& c) {
+  return 2 * std::atan2(dot(a, cross(b, c)), 1 + dot(a, b) + dot(b, c) + dot(c, a));
+}
+
+double area(const Faces& faces) {
+  double sum = 0;
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for (std::size_t k = faces.begin[f] + 2; k < faces.begin[f + 1]; ++k) {
+      const auto at = [&](std::size_t slot) {
+        return faces.points[static_cast<std::size_t>(faces.corner[slot]) - 1];
+      };
+      sum += area(at(faces.begin[f]), at(k - 1), at(k));
+    }
+  return sum;
+}
+
+TEST(faces, cover_the_sphere_once) {
+  for (const char* const family : {"random", "icosahedral", "healpix", "variable"}) {
+    const Mesh mesh = triangulate(point_sets::make(family, 600));
+    EXPECT_NEAR(area(triangle_faces(mesh)), 4 * std::acos(-1), 1e-11) << family;
+    EXPECT_NEAR(area(voronoi_faces(mesh)), 4 * std::acos(-1), 1e-11) << family;
+  }
+}
+
+TEST(voronoi_faces, have_corners_as_far_from_their_node_as_from_the_neighbours) {
+  const Mesh mesh = triangulate(point_sets::make("random", 300));
+  const Faces cells = voronoi_faces(mesh);
+  ASSERT_EQ(cells.size(), mesh.points.size());
+  std::vector<double> nearest(cells.points.size(), -1);
+  for (std::size_t c = 0; c < cells.points.size(); ++c)
+    for (const Point& node : mesh.points) nearest[c] = std::max(nearest[c], dot(node, cells.points[c]));
+  for (std::size_t f = 0; f < cells.size(); ++f)
+    for (std::size_t k = cells.begin[f]; k < cells.begin[f + 1]; ++k) {
+      const auto corner = static_cast<std::size_t>(cells.corner[k]) - 1;
+      EXPECT_NEAR(dot(mesh.points[f], cells.points[corner]), nearest[corner], 1e-12);
+    }
+}
+
+TEST(voronoi_faces, close_the_sphere_where_the_nodes_lie_in_a_hemisphere) {
+  const Faces cells = voronoi_faces(triangulate(point_sets::make("hemisphere", 200)));
+  EXPECT_EQ(cells.size(), 200u);
+  EXPECT_EQ(cells.points.size(), 396u);
+  for (const std::int32_t corner : cells.corner) EXPECT_TRUE(corner >= 1 && corner <= 396);
+}
+
+}  // namespace
+}  // namespace files

@@ -1,0 +1,154 @@
+// Nodes of NetCDF files.
+
+#include <gtest/gtest.h>
+#include <netcdf.h>
+
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+#include "files/nodes.h"
+
+namespace files {
+namespace {
+
+using Points = std::vector<Point>;
+
+Points points_of(const std::string& file) { return read(file).points; }
+
+std::string error_of(const std::string& file) {
+  try {
+    read(file);
+  } catch (const std::runtime_error& e) {
+    return e.what();
+  }
+  return "no error";
+}
+
+/// A NetCDF file of the variables that a test wants, removed in the end.
+class NetcdfFile {
+ public:
+  NetcdfFile() : name_(testing::TempDir() + "netcdf_nodes_test.nc") {
+    check(nc_create(name_.c_str(), NC_CLOBBER, &id_));
+  }
+  ~NetcdfFile() { std::remove(name_.c_str()); }
+
+  int dimension(const char* name, std::size_t length) {
+    int dimension = 0;
+    check(nc_def_dim(id_, name, length, &dimension));
+    return dimension;
+  }
+  NetcdfFile& with(const char* name, const std::vector<int>& dimensions, const std::vector<double>& values,
+                   const std::string& units = "") {
+    int variable = 0;
+    check(
+        nc_def_var(id_, name, NC_DOUBLE, static_cast<int>(dimensions.size()), dimensions.data(), &variable));
+    if (!units.empty()) check(nc_put_att_text(id_, variable, "units", units.size(), units.data()));
+    const double fill = -999;
+    check(nc_put_att_double(id_, variable, "_FillValue", NC_DOUBLE, 1, &fill));
+    check(nc_enddef(id_));
+    check(nc_put_var_double(id_, variable, values.data()));
+    check(nc_redef(id_));
+    return *this;
+  }
+  std::string closed() {
+    check(nc_close(id_));
+    return name_;
+  }
+
+ private:
+  static void check(int status) { ASSERT_EQ(status, NC_NOERR) << nc_strerror(status); }
+  std::string name_;
+  int id_ = 0;
+};
+
+TEST(netcdf, coordinates_are_taken_as_they_are) {
+  NetcdfFile file;
+  const int n = file.dimension("nCells", 3);
+  file.with("lonCell", {n}, {9, 9, 9}).with("xCell", {n}, {6371229, 0, 0});
+  file.with("yCell", {n}, {0, 6371229, 0}).with("zCell", {n}, {0, 0, 2});
+  EXPECT_EQ(points_of(file.closed()), (Points{{6371229, 0, 0}, {0, 6371229, 0}, {0, 0, 2}}));
+}
+
+TEST(netcdf, angles_are_in_the_units_of_the_attribute) {
+  const double right = std::acos(0.0);
+  {
+    NetcdfFile file;
+    const int n = file.dimension("n", 2);
+    file.with("lon", {n}, {0, 90}, "degrees_east").with("lat", {n}, {90, 0}, "degrees_north");
+    EXPECT_EQ(points_of(file.closed()), (Points{{0, 0, 1}, {0, 1, 0}}));
+  }
+  for (const char* const units : {"radians", ""}) {  // MPAS writes none
+    NetcdfFile file;
+    const int n = file.dimension("nCells", 2);
+    file.with("lonCell", {n}, {0, right}, units).with("latCell", {n}, {right, 0}, units);
+    const Points points = points_of(file.closed());
+    ASSERT_EQ(points.size(), 2u);
+    EXPECT_NEAR(points[0].z, 1, 1e-15);
+    EXPECT_NEAR(points[1].y, 1, 1e-15);
+  }
+}
+
+TEST(netcdf, axes_are_a_grid_and_fields_are_pairs) {
+  {
+    NetcdfFile file;
+    const int nx = file.dimension("x", 2), ny = file.dimension("y", 2);  // of equal length, but two
+    file.with("longitude", {nx}, {0, 90}, "degrees").with("latitude", {ny}, {0, 30}, "degrees");
+    const Points points = points_of(file.closed());
+    ASSERT_EQ(points.size(), 4u);
+    EXPECT_EQ(points[1], (Point{0, 1, 0}));
+    EXPECT_NEAR(points[2].z, 0.5, 1e-15);
+  }
+  NetcdfFile file;
+  const int nx = file.dimension("x", 2), ny = file.dimension("y", 1);
+  file.with("lon", {ny, nx}, {0, 90}, "degrees").with("lat", {ny, nx}, {0, 90}, "degrees");
+  EXPECT_EQ(points_of(file.closed()).size(), 2u);
+}
+
+TEST(netcdf, what_cannot_be_used_is_refused_by_name) {
+  const auto error = [](const auto& fill_in) {
+    NetcdfFile file;
+    fill_in(file, file.dimension("n", 2), file.dimension("m", 1));
+    return error_of(file.closed());
+  };
+  EXPECT_NE(error([](NetcdfFile& f, int n, int) {
+              f.with("depth", {n}, {1, 2});
+            }).find("expected variables xCell"),
+            std::string::npos);
+  EXPECT_NE(error([](NetcdfFile& f, int n, int) {
+              f.with("lon", {n}, {1, 2}, "degrees");
+            }).find("variable lat"),
+            std::string::npos);
+  EXPECT_NE(error([](NetcdfFile& f, int n, int) {
+              f.with("lon", {n}, {1, 2}).with("lat", {n}, {1, 2});
+            }).find("variable lon: units ''; expected degrees or radians"),
+            std::string::npos);
+  EXPECT_NE(error([](NetcdfFile& f, int n, int) {
+              f.with("lon", {n}, {1, 2}, "degrees").with("lat", {n}, {1, 91}, "degrees");
+            }).find("variable lat, value 2: 91 is beyond the pole"),
+            std::string::npos);
+  EXPECT_NE(error([](NetcdfFile& f, int n, int) {
+              f.with("lon", {n}, {1, -999}, "degrees").with("lat", {n}, {1, 2}, "degrees");
+            }).find("variable lon, value 2: missing"),
+            std::string::npos);
+  EXPECT_NE(error([](NetcdfFile& f, int n, int m) {
+              f.with("lon", {n}, {1, 2}, "degrees").with("lat", {m, n}, {1, 2}, "degrees");
+            }).find("expected one shape"),
+            std::string::npos);
+  EXPECT_NE(error([](NetcdfFile& f, int n, int m) {
+              f.with("xCell", {n}, {1, 2}).with("yCell", {n}, {1, 2}).with("zCell", {m}, {1});
+            }).find("expected one shape"),
+            std::string::npos);
+}
+
+TEST(netcdf, units_that_are_missing_may_be_said) {
+  NetcdfFile file;
+  const int n = file.dimension("n", 2);
+  file.with("lon", {n}, {0, 90}).with("lat", {n}, {90, 0});
+  ReadOptions options;
+  options.units = Units::degrees;
+  EXPECT_EQ(read(file.closed(), options).points, (Points{{0, 0, 1}, {0, 1, 0}}));
+}
+
+}  // namespace
+}  // namespace files

@@ -1,0 +1,104 @@
+"""What pstripack writes, read by programs that are not ours: ncdump, netCDF4, xarray, meshio.
+
+other_readers.py PSTRIPACK NCDUMP FOLDER
+"""
+import math
+import subprocess
+import sys
+from pathlib import Path
+
+import meshio
+import netCDF4
+import numpy as np
+import xarray
+
+PROGRAM, NCDUMP, FOLDER = sys.argv[1], sys.argv[2], Path(sys.argv[3])
+N = 642  # icosahedral: 12 nodes have five neighbours, all others six
+TRIANGLES = 2 * N - 4
+
+
+def run(*arguments):
+    subprocess.run([PROGRAM, "-q", *map(str, arguments)], check=True)
+
+
+def unit_vectors(lon, lat):
+    lon, lat = np.radians(lon), np.radians(lat)
+    return np.stack([np.cos(lat) * np.cos(lon), np.cos(lat) * np.sin(lon), np.sin(lat)], axis=1)
+
+
+def signed_volumes(points, triangles):
+    a, b, c = (points[triangles[:, k]] for k in range(3))
+    return np.einsum("ij,ij->i", a, np.cross(b, c))
+
+
+def check_ugrid(nodes, mesh_file, cells_file):
+    header = subprocess.run([NCDUMP, "-h", mesh_file], check=True, capture_output=True, text=True).stdout
+    for line in (f"mesh_nodes = {N} ;", f"mesh_faces = {TRIANGLES} ;", 'mesh:cf_role = "mesh_topology" ;',
+                 "mesh_face_nodes:start_index = 1 ;", "mesh_face_nodes:_FillValue = -1 ;"):
+        assert line in header, line
+
+    with netCDF4.Dataset(mesh_file) as mesh:
+        faces = mesh["mesh_face_nodes"]
+        triangles = faces[:] - faces.start_index
+        assert not np.ma.is_masked(triangles) and triangles.shape == (TRIANGLES, 3)
+        points = unit_vectors(mesh["mesh_node_lon"][:], mesh["mesh_node_lat"][:])
+        assert np.allclose(points, nodes, rtol=0, atol=1e-14)
+        assert (signed_volumes(points, triangles) > 0).all()
+
+    with xarray.open_dataset(cells_file) as cells:  # what is missing becomes NaN
+        assert cells["mesh_face_nodes"].shape == (N, 6)
+        missing = np.isnan(cells["mesh_face_nodes"].values)
+        assert missing.sum() == 12 and missing[:, 5].sum() == 12
+        assert cells.sizes["mesh_nodes"] == TRIANGLES
+
+
+def check_mpas(nodes, file):
+    with netCDF4.Dataset(file) as mesh:
+        assert mesh.on_a_sphere.strip() == "YES" and mesh.sphere_radius == 1
+        assert (len(mesh.dimensions["nCells"]), len(mesh.dimensions["nVertices"])) == (N, TRIANGLES)
+        cells, vertices = (np.stack([mesh[axis + of][:] for axis in "xyz"], axis=1) for of in ("Cell", "Vertex"))
+        assert np.allclose(cells, nodes, rtol=0, atol=1e-15)
+        triangles = mesh["cellsOnVertex"][:] - 1
+        assert (signed_volumes(cells, triangles) > 0).all()
+        distances = np.linalg.norm(cells[triangles] - vertices[:, None, :], axis=2)
+        assert np.allclose(distances, distances[:, :1], rtol=0, atol=1e-13)  # a vertex is a circumcentre
+        for of, points in (("Cell", cells), ("Vertex", vertices)):
+            lon, lat = mesh["lon" + of][:], mesh["lat" + of][:]
+            assert lon.min() >= 0 and lon.max() < 2 * math.pi
+            assert np.allclose(unit_vectors(np.degrees(lon), np.degrees(lat)), points, rtol=0, atol=1e-14)
+        assert (mesh["meshDensity"][:] == 1).all()
+
+
+def check_scrip(nodes, file):
+    with netCDF4.Dataset(file) as grid:
+        assert grid["grid_dims"][:].tolist() == [N] and (grid["grid_imask"][:] == 1).all()
+        centres = unit_vectors(grid["grid_center_lon"][:], grid["grid_center_lat"][:])
+        assert np.allclose(centres, nodes, rtol=0, atol=1e-14)
+        lon, lat = grid["grid_corner_lon"][:], grid["grid_corner_lat"][:]
+        assert lon.shape == (N, 6)
+        assert ((lon[:, 5] == lon[:, 4]) & (lat[:, 5] == lat[:, 4])).sum() == 12  # pentagons: padded
+
+
+def check_by_meshio(nodes, file, cells, count):
+    mesh = meshio.read(file)
+    assert [(block.type, len(block)) for block in mesh.cells] == [(cells, count)], mesh.cells
+    if nodes is not None:
+        assert (mesh.points == nodes).all()
+
+
+FOLDER.mkdir(parents=True, exist_ok=True)
+run("points", "icosahedral", N, "-o", FOLDER / "nodes.txt")
+nodes = np.loadtxt(FOLDER / "nodes.txt")
+for suffix in ("nc", "mpas.nc", "vtu", "off", "msh"):
+    run("triangulate", FOLDER / "nodes.txt", "-o", FOLDER / f"mesh.{suffix}")
+for suffix in ("nc", "scrip.nc"):
+    run("voronoi", FOLDER / "nodes.txt", "-o", FOLDER / f"cells.{suffix}")
+check_ugrid(nodes, FOLDER / "mesh.nc", FOLDER / "cells.nc")
+check_mpas(nodes, FOLDER / "mesh.mpas.nc")
+check_scrip(nodes, FOLDER / "cells.scrip.nc")
+for suffix in ("vtu", "off", "msh"):
+    check_by_meshio(nodes, FOLDER / f"mesh.{suffix}", "triangle", TRIANGLES)
+run("points", "cubed-sphere", 96, "-o", FOLDER / "cube.txt")
+run("voronoi", FOLDER / "cube.txt", "-o", FOLDER / "cube.vtu")
+assert sum(len(block) for block in meshio.read(FOLDER / "cube.vtu").cells) == 96
+print("all files are as they should be")

@@ -1,0 +1,109 @@
+#include "files/output_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include "support/this_program.h"
+
+namespace files {
+namespace {
+
+std::size_t entries(const std::string& folder) {
+  namespace fs = std::filesystem;
+  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+void write(OutputFile& file, const char* text) {
+  TextWriter out(file);
+  out.print("{}", text);
+  out.close();
+}
+
+TEST(output_file, has_its_name_only_when_it_is_complete) {
+  const Folder folder;
+  const std::string name = folder.path() + "/a";
+  {
+    OutputFile file(name);
+    write(file, "new");
+    EXPECT_FALSE(std::filesystem::exists(name));
+    file.commit();
+    EXPECT_EQ(contents(name), "new");
+  }
+  {
+    OutputFile file(name);
+    write(file, "half");
+  }
+  EXPECT_EQ(contents(name), "new");
+  EXPECT_EQ(entries(folder.path()), 1u);
+}
+
+TEST(output_file, has_the_permissions_of_any_new_file) {
+  const Folder folder;
+  const mode_t before = umask(027);
+  {
+    OutputFile file(folder.path() + "/a");
+    file.commit();
+  }
+  umask(before);
+  struct stat status;
+  ASSERT_EQ(stat((folder.path() + "/a").c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777, 0640u);
+}
+
+TEST(output_file, replaces_what_a_link_points_to) {
+  const Folder folder;
+  std::ofstream(folder.path() + "/target") << "old";
+  std::filesystem::create_symlink("target", folder.path() + "/link");
+  {
+    OutputFile file(folder.path() + "/link");
+    write(file, "new");
+    file.commit();
+  }
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.path() + "/link"));
+  EXPECT_EQ(contents(folder.path() + "/target"), "new");
+}
+
+TEST(output_file, leaves_nothing_after_a_signal) {
+  const Folder folder;
+  const pid_t child = fork();
+  if (child == 0) {
+    OutputFile file(folder.path() + "/a");
+    write(file, "half");
+    raise(SIGTERM);
+    _exit(0);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM);
+  EXPECT_EQ(entries(folder.path()), 0u);
+}
+
+TEST(output_file, writes_to_what_cannot_be_replaced) {
+  OutputFile file("/dev/null");
+  write(file, "text");
+  file.commit();
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+TEST(output_file, that_cannot_be_written_is_refused_by_name) {
+  EXPECT_THROW(OutputFile("/no/such/folder/a"), std::runtime_error);
+  EXPECT_THROW(OutputFile("/tmp"), std::runtime_error);
+  EXPECT_THROW(
+      {
+        OutputFile file("/dev/full");
+        write(file, "text");
+        file.commit();
+      },
+      std::runtime_error);
+}
+
+}  // namespace
+}  // namespace files
