@@ -173,7 +173,9 @@ void write_scrip(const OutputFile& file, const Faces& faces) {
     out.put(variable,
             padded<double>(  // the last corner again, as SCRIP wants it
                 faces, width,
-                [&](std::size_t k) { return (*values)[static_cast<std::size_t>(faces.corner[k]) - 1]; },
+                [&, values = values](std::size_t k) {
+                  return (*values)[static_cast<std::size_t>(faces.corner[k]) - 1];
+                },
                 [](double last) { return last; }));
   out.close();
 }
