@@ -74,13 +74,13 @@ inline bool codes_are_right() {
   return trmesh(other).ier == 31;
 }
 
-/// Ends the program with code 1 unless the mesh is right and errno as before.
 #if defined(__has_feature)
 #if __has_feature(thread_sanitizer)
 #define ERRNO_IS_THE_SANITIZERS
 #endif
 #endif
 
+/// Ends the program with code 1 unless the mesh is right and errno as before.
 inline void call_trmesh(const Nodes& nodes) {
   errno = ENOTTY;
   const Mesh m = trmesh(nodes);
