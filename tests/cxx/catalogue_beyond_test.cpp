@@ -19,10 +19,6 @@ using pstripack::Point;
 
 constexpr double tiny = std::numeric_limits<double>::denorm_min();
 
-::testing::AssertionResult is_as_promised(const Nodes& nodes) {
-  return ::is_as_promised(nodes, trmesh(nodes));
-}
-
 Point minus(const Point& p) { return {-p.x, -p.y, -p.z}; }
 
 /// Each component one ulp up, one down, or as it is.

@@ -23,10 +23,6 @@ constexpr double inf = std::numeric_limits<double>::infinity(),
                  nan = std::numeric_limits<double>::quiet_NaN(),
                  tiny = std::numeric_limits<double>::denorm_min(), huge = std::numeric_limits<double>::max();
 
-::testing::AssertionResult is_as_promised(const Nodes& nodes) {
-  return ::is_as_promised(nodes, trmesh(nodes));
-}
-
 // ---- Refused, with one line on stderr that names the node ----
 
 /// The code, outputs untouched, one line that names node k.

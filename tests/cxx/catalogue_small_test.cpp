@@ -24,10 +24,6 @@ Nodes data(const std::string& file) { return point_sets::read(TEST_DATA_DIR "/" 
 
 int ier_of(const Nodes& nodes) { return trmesh(nodes).ier; }
 
-::testing::AssertionResult is_as_promised(const Nodes& nodes) {
-  return ::is_as_promised(nodes, trmesh(nodes));
-}
-
 // ---- Fewer than five ----
 
 TEST(FewNodes, BelowThreeAreRefusedInSilence) {

@@ -7,12 +7,8 @@ set -u
 . "$(dirname "$0")/../mpi/jobs.sh"
 mode=$1
 dir=$WORK/ends_$mode
-rm -rf "$dir"
-mkdir -p "$dir"
-cd "$dir" || exit 1
+start_in "$dir"
 export JOB=$dir OMP_NUM_THREADS=1
-job=
-trap 'status=$?; [ -z "$job" ] || kill -9 $job $(processes) 2> /dev/null; exit $status' EXIT
 
 fail() {
   echo "FAILED: $mode: $*"

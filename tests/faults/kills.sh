@@ -12,12 +12,8 @@ set -u
 . "$(dirname "$0")/../mpi/jobs.sh"
 count=$1 signal=${2:-KILL} seed=${3:-1} limit=${LIMIT:-10} ranks=3
 dir=$WORK/kills_$signal
-rm -rf "$dir"
-mkdir -p "$dir"
-cd "$dir" || exit 1
+start_in "$dir"
 export OMP_NUM_THREADS=1 PSTRIPACK_POOL_MIN_NODES=100
-job=
-trap 'status=$?; [ -z "$job" ] || kill -9 $job $(processes) 2> /dev/null; exit $status' EXIT
 
 fail() {
   echo "FAILED: kill $i of $mode, rank $victim_rank: $*"

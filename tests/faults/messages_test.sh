@@ -10,12 +10,8 @@ set -u
 . "$(dirname "$0")/../mpi/jobs.sh"
 case=$1 mode=$2 ranks=3 limit=${LIMIT:-60}
 dir=$WORK/messages_${case}_$mode
-rm -rf "$dir"
-mkdir -p "$dir"
-cd "$dir" || exit 1
+start_in "$dir"
 export JOB=$dir OMP_NUM_THREADS=1 PSTRIPACK_POOL_MIN_NODES=100
-job=
-trap 'status=$?; [ -z "$job" ] || kill -9 $job $(processes) 2> /dev/null; exit $status' EXIT
 
 fail() {
   echo "FAILED: $mode: $*"

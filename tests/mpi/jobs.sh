@@ -2,6 +2,16 @@
 # JOB in the environment of all its processes, by which they are found: a text that no other job has.
 # shellcheck disable=SC2154
 
+# start_in FOLDER: in this folder, emptied; nothing of a job is left when the script ends, however it ends
+start_in() {
+  rm -rf "$1"
+  mkdir -p "$1"
+  cd "$1" || exit 1
+  job=
+  # shellcheck disable=SC2086  # several processes
+  trap 'status=$?; [ -z "$job" ] || kill -9 $job $(processes) 2> /dev/null; exit $status' EXIT
+}
+
 # The processes of the job, without those that have ended and are not yet buried.
 processes() {
   for environment in $(grep -lzxF "JOB=$JOB" /proc/[0-9]*/environ 2> /dev/null); do

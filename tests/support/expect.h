@@ -64,3 +64,8 @@ inline ::testing::AssertionResult is_as_promised(const Nodes& nodes, const Mesh&
       return ::testing::AssertionFailure() << "slot " << i + 1 << " written";
   return is_correct(front, cut);
 }
+
+/// The same of what the library returns for them.
+inline ::testing::AssertionResult is_as_promised(const Nodes& nodes) {
+  return is_as_promised(nodes, trmesh(nodes));
+}

@@ -83,7 +83,7 @@ void copy(void* to, const void* from, std::size_t size) {
 /// The lengths in it are those of n nodes.
 bool fits(const PoolReply& reply, std::int32_t n) {
   return reply.done == 0 || reply.ier < 0 ||
-         (1 <= reply.lnew && reply.lnew <= 6 * n - 11 &&
+         (1 <= reply.lnew && reply.lnew - 1 <= 6 * (n - 2) &&  // 6n itself may not fit
           (reply.ier == 0 || (1 <= reply.other && reply.other <= n)));
 }
 
