@@ -189,7 +189,7 @@ module stripack
     !      3 no arc that crosses is found: null triangles or a broken triangulation; a message on standard
     !      output; 4 OPTIM failed; a message on standard output; 5 OPTIM came to its limit of iterations;
     !      -9 not the lists of a triangulation (new); -10 the arcs cannot be swapped away: nodes lie on
-    !      IN1-IN2, up to rounding (new).
+    !      IN1-IN2, up to rounding, or triangles overlap (new).
     subroutine edge(in1, in2, x, y, z, lwk, iwk, list, lptr, lend, ier)
       integer :: in1, in2, lwk, iwk(2, *), list(*), lptr(*), lend(*), ier
       real(STRIPACK_REAL_KIND) :: x(*), y(*), z(*)

@@ -48,8 +48,7 @@ class Changes {
       case 2:
         return remove();
       case 3:
-        return general_ ? connect()
-                        : add();  // where rounding decides wrongly EDGE may break lists, as the original
+        return connect();
       case 4:
         return cut();
       case 5:

@@ -195,47 +195,67 @@ class Builder final : public GrowingHull {
     return false;
   }
 
-  /// Throws HiddenNode if the nodes around some of the closest pairs along the curve show one: if lengths as
-  /// given hide any, they mostly hide one of these, and it need not cost a hull to find out.
+  /// Throws HiddenNode if the nodes around some of the closest along the curve show one: if lengths as given
+  /// hide any, they mostly hide one of these, and it need not cost a hull to find out.
   void look_for_hidden_nodes(std::size_t first) const {
-    constexpr std::size_t kMany = 4096, kPairs = 16, kAround = 32;
-    constexpr double kClose = 1e-14;  // the square: farther apart, rounded lengths hide nothing
+    constexpr std::size_t kMany = 4096, kPlaces = 16, kAround = 32;
     if (n_ - first < kMany) return;
-    struct Pair {
-      double square = kClose;
+    struct Place {
+      double closeness = kClose;
       std::size_t node = 0;
-    } closest[kPairs];  // a heap, the least close in front
-    const auto closer = [](const Pair& a, const Pair& b) { return a.square < b.square; };
-    for (std::size_t v = first; v + 1 < n_; ++v) {
-      const Point d = minus(nodes_[v + 1], nodes_[v]);
-      const double square = dot(d, d);
-      if (!(square < closest[0].square) || square == 0) continue;
-      std::pop_heap(closest, closest + kPairs, closer);
-      closest[kPairs - 1] = {square, v};
-      std::push_heap(closest, closest + kPairs, closer);
+    } closest[kPlaces];  // a heap, the least close in front
+    const auto closer = [](const Place& a, const Place& b) { return a.closeness < b.closeness; };
+    for (std::size_t v = first; v + kReach < n_; ++v) {
+      double least = square_between(v, v + 1);
+      for (std::size_t k = 2; k <= kReach; ++k) least = std::min(least, square_between(v, v + k));
+      if (!(least * least < closest[0].closeness)) continue;
+      const double closeness = closeness_of(v, first);
+      if (!(closeness < closest[0].closeness)) continue;
+      std::pop_heap(closest, closest + kPlaces, closer);
+      closest[kPlaces - 1] = {closeness, v};
+      std::push_heap(closest, closest + kPlaces, closer);
     }
-    // With two nodes from elsewhere, for those around may be on one great circle.
-    constexpr std::size_t kElsewhere = 2, kNodes = kAround + kElsewhere;
-    const std::size_t count = n_ - first;
+    if (std::all_of(closest, closest + kPlaces, [](const Place& p) { return p.closeness == kClose; })) return;
+    // With corners of the whole, for those around may be on one great circle.
+    std::uint32_t corners[4];
+    choose_corners(corners, first);
+    constexpr std::size_t kNodes = kAround + 4;
     Point nodes[kNodes];
     Face faces[2 * kNodes];
     Plane planes[2 * kNodes];
     std::uint32_t corner[kNodes];
-    for (const Pair& pair : closest) {
-      if (pair.square == kClose) continue;
+    std::transform(corners, corners + 4, nodes, [&](std::uint32_t v) { return nodes_[v]; });
+    for (const Place& place : closest) {
+      if (place.closeness == kClose) continue;
       const std::size_t begin =
-          std::min(std::max(pair.node, first + kAround / 2) - kAround / 2, n_ - kAround);
-      std::copy_n(nodes_ + begin, kAround, nodes);
-      for (std::size_t k = 0; k < kElsewhere; ++k)
-        nodes[kAround + k] = nodes_[first + (begin - first + (k + 1) * count / (kElsewhere + 1)) % count];
+          std::min(std::max(place.node, first + kAround / 2) - kAround / 2, n_ - kAround);
+      std::copy_n(nodes_ + begin, kAround, nodes + 4);
       Builder some({kNodes, nodes, faces, planes, corner}, kNodes);
-      try {
-        some.build(0);
-      } catch (const std::domain_error&) {
-        continue;
-      }
+      some.build(0);
       some.finish();
     }
+  }
+
+  // Between neighbours at the distances g and h a node on the sphere rises above them by some g h / 2. Its
+  // closeness is g^2 h^2; from kClose on, rounded lengths hide nothing. Nodes in one cell of the curve are in
+  // any order: the neighbours are looked for up to kReach places ahead, then up to kAside to both sides.
+  static constexpr double kClose = 0x1p-90;
+  static constexpr std::size_t kReach = 3, kAside = 8;
+
+  double square_between(std::size_t a, std::size_t b) const {
+    const Point d = minus(nodes_[b], nodes_[a]);
+    return dot(d, d);
+  }
+
+  double closeness_of(std::size_t v, std::size_t first) const {
+    double least = 1, second = 1;
+    for (std::size_t u = std::max(v, first + kAside) - kAside; u < std::min(v + kAside + 1, n_); ++u) {
+      const double square = square_between(u, v);
+      if (square == 0) continue;  // v itself, or in its place
+      second = std::min(second, std::max(least, square));
+      least = std::min(least, square);
+    }
+    return least * second;
   }
 
   // -- 2: the first nodes

@@ -88,8 +88,10 @@ class ArcForcing {
       if (!find_first(l, r)) return EdgeStatus::not_found;
     }
     if (const EdgeStatus status = collect(l, r); status != EdgeStatus::done) return status;
-    // The exchanges depend on the columns alone, not on the lists: see first whether they come to an end.
-    if (!exchange<false>()) return EdgeStatus::never_ends;
+    // The exchanges depend on the columns alone: see first, in the columns, whether all can be made and end.
+    first_left_ = l;
+    first_right_ = r;
+    if (!exchange<false>()) return EdgeStatus::not_possible;
     collect(l, r);
     exchange<true>();
     crossed = count_;
@@ -149,6 +151,33 @@ class ArcForcing {
     }
   }
 
+  int columns_of(Int a, Int b) const {
+    int found = 0;
+    for (Int column = 1; column <= count_; ++column)
+      found += (l_of(column) == a && r_of(column) == b) || (l_of(column) == b && r_of(column) == a);
+    return found;
+  }
+
+  /// Before an exchange that only the columns know of: SWAP would put m-base in the place of l-r. It refuses
+  /// where m-base is an arc already: one of the lists that p-q does not cross, or one of the columns.
+  /// Triangles that overlap, from rounding or from changes before, lead there. Algorithm 772 goes on all the
+  /// same, with columns that are no arcs any more.
+  bool can_join(Int m, Int base, Int l, Int r) const {
+    if (columns_of(l, r) != 1 || columns_of(m, base) != 0) return false;
+    return !lists_.are_neighbours(m, base) || was_crossed(m, base);
+  }
+
+  /// True if a-b was in a column before the exchanges: walks there again.
+  bool was_crossed(Int a, Int b) const {
+    Int l = first_left_, r = first_right_;
+    for (;;) {
+      if ((l == a && r == b) || (l == b && r == a)) return true;
+      const Int m = lists_.neighbour(lists_.next(lists_.slot_of(l, r)));
+      if (m == q_) return false;
+      (left(p_, q_, m) ? l : r) = m;
+    }
+  }
+
   /// Sweeps over the columns alpha..omega, whose arcs p-q still crosses, until none is left but the one that
   /// p-q replaces; new arcs left of it go before alpha, new ones right of it after omega. `base` is the last
   /// corner that a sweep could not get round, to the left of the columns (side < 0) or right; at first p.
@@ -159,11 +188,15 @@ class ArcForcing {
   ///         \___ r
   ///
   /// False, which in exact arithmetic takes a node on the arc p-q, if a sweep exchanges nothing, or if too
-  /// many follow each other that leave the number of columns as it is.
+  /// many follow each other that leave the number of columns as it is; or if an exchange cannot be made.
   template <bool kSwap>
   bool exchange() {
+    bool possible = true;
     const auto join = [&](Int m, Int base, Int l, Int r) {
-      if constexpr (kSwap) lists_.swap(m, base, l, r);  // refused or not: as Algorithm 772
+      if constexpr (kSwap)
+        lists_.swap(m, base, l, r);
+      else
+        possible = possible && can_join(m, base, l, r);
     };
     Int alpha = 1, omega = count_, idle = 0;
     for (;;) {
@@ -214,7 +247,7 @@ class ArcForcing {
         join(q_, p_, l, r);
         set(column, 0, 0);
         made_ = column;
-        return true;
+        return possible;
       }
       if (side > 0 && left(base, r, q_)) {
         join(q_, base, l, r);
@@ -224,6 +257,7 @@ class ArcForcing {
         std::copy_backward(&l_of(alpha), &l_of(omega), &l_of(omega) + 2);
         set(alpha++, base, q_);
       }
+      if (!possible) return false;
       if (omega - alpha < columns_before)
         idle = 0;
       else if (!changed || ++idle > count_)
@@ -236,6 +270,7 @@ class ArcForcing {
   const CheckedEditor<Int>& lists_;
   Int* const iwk_;
   const Int lwk_;
+  Int first_left_ = 0, first_right_ = 0;  ///< the first column, before exchanges
   Int count_ = 0, made_ = 0;
 };
 

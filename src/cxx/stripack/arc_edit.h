@@ -62,7 +62,7 @@ enum class EdgeStatus {
   optim_failed = 4,  ///< the arc is there; OptimFailure has OPTIM's code
   not_optimal = 5,   ///< the arc is there; OPTIM ran out of iterations
   broken = broken_lists,
-  never_ends = -10  ///< exchanges would go on for ever: nodes on the arc, up to rounding; only iwk is changed
+  not_possible = -10  ///< nodes on the arc, up to rounding, or triangles that overlap; only iwk is changed
 };
 
 /// EDGE: makes in1-in2 an arc by exchanging those that it crosses, and then optimizes the others nearby.
