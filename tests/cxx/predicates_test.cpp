@@ -527,12 +527,15 @@ TEST(Above, IsFalseWhereTwoNodesCoincide) {
 
 TEST(Extended, PredicatesAreThoseOfAllNodes) {
   const auto nodes = point_sets::make("random", 40);
-  Coordinates coordinates(nodes.data(), 4);
-  Directions directions(nodes.data(), 4);
+  std::vector<Point> places[2] = {{nodes.begin(), nodes.begin() + 4}, {}};
+  Coordinates coordinates(places[0].data(), 4);
+  Directions directions(places[0].data(), 4);
   for (std::size_t n = 5; n <= nodes.size(); ++n) {
-    const std::vector<Point> elsewhere(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(n));
+    std::vector<Point>& elsewhere = places[n % 2];
+    elsewhere.assign(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(n));
     coordinates.extend(elsewhere.data(), n);
     directions.extend(elsewhere.data(), n);
+    for (Point& before : places[(n + 1) % 2]) before = {0, 0, 0};
     const Directions anew(elsewhere.data(), n);
     ASSERT_EQ(coordinates.size(), n);
     ASSERT_EQ(directions.size(), n);
@@ -633,6 +636,31 @@ TEST(VanishingVolumes, AreToldFromZero) {
   }
 }
 
+// ---- Directions as close as doubles can have them ----
+
+/// Neighbouring quotients of Fibonacci numbers differ by 2^-100 and less; the rounded difference is anything.
+TEST(Directions, ThatDifferLeastOfAllAreToldApart) {
+  Random random(21);
+  for (int i = 0; i < 3000; ++i) {
+    double f = 1, g = 1;
+    for (int k = static_cast<int>(random.below(8)) + 69; k > 0; --k) f = std::exchange(g, f + g);
+    const Point a{f, g, 0}, b{g - f, f, 0};
+    Four four{a, b, random.direction(), random.direction()};
+    const std::size_t turn = random.below(3), first = random.below(4);
+    for (Point& p : four) p = turn == 0 ? p : turn == 1 ? Point{p.y, p.z, p.x} : Point{p.z, p.x, p.y};
+    std::rotate(four.begin(), four.begin() + static_cast<std::ptrdiff_t>(first), four.end());
+    const Directions on(four.data(), 4);
+    for (const auto& n : {std::array<int, 3>{0, 1, 2}, {1, 2, 3}, {2, 3, 0}, {3, 0, 1}})
+      ASSERT_EQ(on.left(n[0], n[1], n[2]),
+                exact::left(four[static_cast<std::size_t>(n[0])], four[static_cast<std::size_t>(n[1])],
+                            four[static_cast<std::size_t>(n[2])]))
+          << text(four);
+    ASSERT_EQ(on.above(0, 1, 2, 3),
+              exact::above(exact::On::directions, four[0], four[1], four[2], four[3]) > 0)
+        << text(four);
+  }
+}
+
 // ---- What the kernel builds its filter on ----
 
 using Wide = boost::multiprecision::cpp_bin_float_100;
@@ -645,6 +673,11 @@ TEST(Directions, PositionsAndDifferencesAreAsAccurateAsPromised) {
     for (Point& p : f) {
       const double s = std::exp(random.uniform(-20, 20));
       p = {s * p.x, s * p.y, s * p.z};
+      // All of it, or one component, almost as large or as small as there is.
+      const int exponent = random.below(2) == 0 ? 990 : -990;
+      if (i % 4 == 1) p = {std::ldexp(p.x, exponent), std::ldexp(p.y, exponent), std::ldexp(p.z, exponent)};
+      double Point::*const one[3] = {&Point::x, &Point::y, &Point::z};
+      if (double& c = p.*one[random.below(3)]; i % 4 == 2) c = std::ldexp(c, exponent);
     }
     const Directions on(f.data(), 4);
     Wide unit[2][3];
@@ -697,6 +730,50 @@ TEST(Filter, IsMeasuredOnAllFamilies) {
     std::printf("%-18s %8.5f exact %8.5f by the tie rule\n", family.c_str(), s.exact, s.symbolic);
     EXPECT_LE(s.symbolic, s.exact);
   }
+}
+
+TEST(Filter, IsLeftOutWhereLargeComponentsMakeUpForProductsThatUnderflow) {
+  // det(e,f,g) = 1e-170 * 1e-170 * 1e200 - 1e-170 * 1 * 1e-30: the first product underflows to zero.
+  const Point o{0, 0, 0}, e{0, 1e-170, 0}, f{1, 0, 1e-170}, g{1e200, 0, 1e-30};
+  EXPECT_EQ(pstripack::orientation(o, e, f, g), 1);
+  EXPECT_EQ(pstripack::orientation(o, f, g, e), 1);
+  EXPECT_EQ(pstripack::orientation(o, g, e, f), 1);
+  // The same with a third vector that the differences of the others from it hide.
+  const Point a{1e200, 0, 1e-214}, b{1e200, 1e-170, 1e-214}, c{std::nextafter(1e200, 1e300), 0, 1e-170};
+  EXPECT_EQ(pstripack::left(a, b, c), exact::left(a, b, c));
+  EXPECT_EQ(pstripack::left(b, c, a), exact::left(a, b, c));
+  EXPECT_EQ(pstripack::left(c, a, b), exact::left(a, b, c));
+}
+
+TEST(Filter, CountsWhatItDoesNotDecide) {
+  const auto counts_of = [](const auto& call) {
+    pstripack::take_predicate_counts();
+    call();
+    const auto c = pstripack::take_predicate_counts();
+    return std::array<long, 3>{static_cast<long>(c.above), static_cast<long>(c.exact),
+                               static_cast<long>(c.symbolic)};
+  };
+  using Counts = std::array<long, 3>;
+  const double h = std::sqrt(0.5);
+  const Four clear{Point{1, 0, 0}, Point{0, 1, 0}, Point{0, 0, 1}, Point{h, h, 0}},
+      tied{Point{0.6, 0.8, 0}, Point{-0.6, 0.8, 0}, Point{-0.8, -0.6, 0}, Point{0.6, -0.8, 0}},
+      level{Point{0.6, 0, 0.8}, Point{0, 0.6, 0.8}, Point{-0.6, 0, 0.8}, Point{0, -0.6, 0.8}},
+      oblique{Point{1, 0, 0}, Point{0, 1, 0}, Point{0, 0, 1}, Point{1, 1, -1}};
+  for (const Four* four : {&clear, &tied, &level, &oblique}) {
+    const Point &a = (*four)[0], &b = (*four)[1], &c = (*four)[2], &d = (*four)[3];
+    const Coordinates given(four->data(), 4);
+    const Directions unit(four->data(), 4);
+    const long tie = exact::orientation(exact::On::coordinates, a, b, c, d) == 0;
+    const long unit_tie = exact::orientation(exact::On::directions, a, b, c, d) == 0;
+    EXPECT_EQ(counts_of([&] { pstripack::orientation(a, b, c, d); }), (Counts{0, tie, 0}));
+    EXPECT_EQ(counts_of([&] { pstripack::orientation_of_directions(a, b, c, d); }), (Counts{0, 1, 0}));
+    EXPECT_EQ(counts_of([&] { (void)given.strictly_above(0, 1, 2, 3); }), (Counts{1, tie, 0}));
+    EXPECT_EQ(counts_of([&] { (void)unit.strictly_above(0, 1, 2, 3); }), (Counts{1, unit_tie, 0}));
+    EXPECT_EQ(counts_of([&] { (void)given.above(0, 1, 2, 3); })[2], tie);
+    EXPECT_EQ(counts_of([&] { (void)unit.above(0, 1, 2, 3); })[2], unit_tie);
+  }
+  EXPECT_EQ(counts_of([&] { pstripack::left(clear[0], clear[1], clear[2]); }), (Counts{0, 0, 0}));
+  EXPECT_EQ(counts_of([&] { pstripack::left(clear[0], clear[1], clear[3]); }), (Counts{0, 1, 0}));
 }
 
 TEST(Filter, CountsTheTieRuleOnTies) {

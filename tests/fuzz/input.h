@@ -22,10 +22,11 @@ class Input {
   /// Any bits of this type.
   template <class T>
   T bits() {
-    T value{};
-    const std::size_t taken = std::min(sizeof value, size_ - at_);
-    std::memcpy(&value, data_ + at_, taken);
-    at_ += taken;
+    // Not by a memcpy of as many as there are: for a lone byte GCC 12 leaves out the zero.
+    std::uint8_t bytes[sizeof(T)];
+    for (std::uint8_t& byte : bytes) byte = empty() ? 0 : data_[at_++];
+    T value;
+    std::memcpy(&value, bytes, sizeof value);
     return value;
   }
   /// 0..n-1, n <= 256.

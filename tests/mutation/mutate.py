@@ -25,7 +25,7 @@ import time
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 # Of each file the lines from the first text to the second; the tests: (executable, filter, share of the cases).
 QUICK = ("predicates_test", "-Exact.*:Filter.IsMeasured*", 0.01)
-LONGER = ("predicates_test", "-Exact.*:Filter.IsMeasured*", 0.2)
+LONGER = ("predicates_test", "-Exact.*:Filter.IsMeasured*", 0.05)
 KERNEL = ("parallel_test", "Nasty.*:Coincident.*", 1)
 VALIDATOR = ("validator_test", "-*Mutants*:*RandomTriangles*:*ReadsNothing*", 1)
 LISTS = ("validator_test", "*Mutants*:*RandomTriangles*:*ReadsNothing*", 0.1)

@@ -72,6 +72,16 @@ bool in_coordinate_plane(const Points&... p) {
   return ((p.x == 0) && ...) || ((p.y == 0) && ...) || ((p.z == 0) && ...);
 }
 
+int exact_zero() {
+  ++counts.exact;
+  return 0;
+}
+
+template <class... Points>
+bool in_parallel_plane(const Point& a, const Points&... p) {
+  return ((p.x == a.x) && ...) || ((p.y == a.y) && ...) || ((p.z == a.z) && ...);
+}
+
 int exact_left(const Point& a, const Point& b, const Point& c) {
   using namespace exact;
   if (in_coordinate_plane(a, b, c)) return 0;
@@ -82,9 +92,6 @@ int exact_left(const Point& a, const Point& b, const Point& c) {
 
 int exact_orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
   using namespace exact;
-  if ((a.x == b.x && b.x == c.x && c.x == d.x) || (a.y == b.y && b.y == c.y && c.y == d.y) ||
-      (a.z == b.z && b.z == c.z && c.z == d.z))
-    return 0;
   if (Grid p, q, r, s; on_grid(a, p) && on_grid(b, q) && on_grid(c, r) && on_grid(d, s))
     return sign_of_det(q - p, r - p, s - p);
   Span span = span_of(a);
@@ -98,7 +105,6 @@ int exact_orientation(const Point& a, const Point& b, const Point& c, const Poin
 /// The volume of the directions times |a||b||c||d|:  |a| [bcd] - |b| [acd] + |c| [abd] - |d| [abc].
 int exact_orientation_of_directions(const Point& a, const Point& b, const Point& c, const Point& d) {
   using namespace exact;
-  if (in_coordinate_plane(a, b, c, d)) return 0;
   const auto A = scaled<Integer>(a, span_of(a).low), B = scaled<Integer>(b, span_of(b).low),
              C = scaled<Integer>(c, span_of(c).low), D = scaled<Integer>(d, span_of(d).low);
   return sign_of_sum({det(B, C, D), -det(A, C, D), det(A, B, D), -det(A, B, C)},
@@ -163,6 +169,7 @@ int left(const Point& a, const Point& b, const Point& c) {
 }
 
 int orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
+  if (in_parallel_plane(a, b, c, d)) return exact_zero();
   if (moderate(a) && moderate(b) && moderate(c) && moderate(d))
     if (const int s = filter_orientation(a, b, c, d)) return s;
   ++counts.exact;
@@ -170,6 +177,7 @@ int orientation(const Point& a, const Point& b, const Point& c, const Point& d) 
 }
 
 int orientation_of_directions(const Point& a, const Point& b, const Point& c, const Point& d) {
+  if (in_coordinate_plane(a, b, c, d)) return exact_zero();
   ++counts.exact;
   return exact_orientation_of_directions(a, b, c, d);
 }
@@ -280,6 +288,7 @@ int Directions::left(index_t a, index_t b, index_t c) const {
 
 int Directions::height(index_t ia, index_t ib, index_t ic, index_t id) const {
   ++counts.above;
+  if (in_coordinate_plane(p_[ia], p_[ib], p_[ic], p_[id])) return exact_zero();
   // From each of the four, by even permutations: of a needle only the differences from a near node are small.
   const index_t seen_from[4][4] = {{ia, ib, ic, id}, {ib, ia, id, ic}, {ic, id, ia, ib}, {id, ic, ib, ia}};
   for (const auto& [a, b, c, d] : seen_from) {
