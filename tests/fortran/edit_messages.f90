@@ -5,7 +5,7 @@ program edit_messages
   use expectations
   implicit none
   integer, parameter :: seven(3, 7) = reshape([1, 1, 1, 0, 1, 1, 0, -1, 0, -1, 1, 1, 0, 1, 0, 0, 0, 1, 0, -1, 1], [3, 7])
-  integer, parameter :: six(3, 6) = reshape([0, -1, -1, 0, -1, 1, 1, 0, 0, 1, -1, -1, -1, -1, 0, -1, -1, 1], [3, 6])
+  integer, parameter :: six(3, 6) = reshape([-2, 1, 1, -2, 0, -1, -1, 0, 1, -1, -1, 0, 1, -2, 1, 0, -1, 1], [3, 6])
   integer, parameter :: eight(3, 8) = reshape([0, 1, 0, 0, 1, -1, -1, -1, -1, 1, 1, 0, 1, 0, 0, 0, -1, 0, -1, -1, 0, &
                                                1, -1, 1], [3, 8])
   integer :: list(48), lptr(48), lend(8), lnew, lwk, iwk(2, 8), ier, n
@@ -21,11 +21,11 @@ program edit_messages
   call expect(ier == 3 .and. lwk == 8, "EDGE: IER 3")
 
   call place(six)
-  list(:20) = [3, 2, 1, -3, 2, -1, 4, 4, 4, 3, 2, 1, -5, 5, 1, 2, -6, 6, 5, -2]
-  lptr(:20) = [9, 13, 8, 18, 7, 5, 6, 4, 2, 11, 12, 10, 1, 3, 16, 17, 15, 14, 20, 19]
-  lend(:6) = [13, 4, 6, 12, 17, 20]
+  list(:22) = [2, -3, 3, -1, 1, 2, 4, 4, 3, 2, -5, 5, 5, 3, 4, -2, 6, 6, 6, 3, 4, 5]
+  lptr(:22) = [2, 1, 4, 13, 6, 7, 17, 3, 10, 12, 5, 18, 8, 19, 16, 14, 11, 9, 15, 21, 22, 20]
+  lend(:6) = [2, 4, 11, 10, 16, 22]
   lwk = 8
-  call edge(3, 6, x, y, z, lwk, iwk, list, lptr, lend, ier)
+  call edge(1, 5, x, y, z, lwk, iwk, list, lptr, lend, ier)
   call expect(ier == 4, "EDGE: IER 4")
 
   call place(eight)
