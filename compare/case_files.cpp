@@ -3,13 +3,15 @@
 #include <fmt/format.h>
 
 #include <cstddef>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "capi/pstripack.h"
+#include "pictures/svg.h"
 
 namespace comparison {
 namespace {
+
+using pictures::escaped_for_xml;
 
 constexpr auto kLine = "{:<18} {:<8} {:<4} {:>8} {:>6} {:<18} {:>9} {:>9} {:>6}  {:<12} {}\n";
 
@@ -48,12 +50,6 @@ std::ofstream open(const std::string& name) {
   std::ofstream out(name);
   if (!out) throw std::runtime_error("cannot write " + name);
   return out;
-}
-
-/// The text with U+FFFD in place of what is not UTF-8.
-std::string valid_utf8(const std::string& text) {
-  using nlohmann::json;
-  return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace));
 }
 
 }  // namespace
@@ -114,29 +110,6 @@ void CsvFile::add(const Case& one) {
     out_ << ',' << verdict_in_short(r) << '\n';
   }
   if (!(out_ << std::flush)) throw std::runtime_error("cannot write " + name_);
-}
-
-std::string escaped_for_xml(const std::string& text) {
-  std::string result;
-  for (const char c : valid_utf8(text)) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' ? '?' : c;
-    }
-  }
-  return result;
 }
 
 JunitFile::JunitFile(const std::string& file) : name_(file), out_(open(file)) {}

@@ -52,7 +52,4 @@ class JunitFile {
   double seconds_ = 0;
 };
 
-/// `text` inside an attribute or element of XML, whatever bytes it holds.
-std::string escaped_for_xml(const std::string& text);
-
 }  // namespace comparison

@@ -1,19 +1,14 @@
 #include "plot.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <fstream>
 #include <iterator>
 #include <stdexcept>
 #include <utility>
 
-#include "case_files.h"
 #include "point_sets.h"
 
 namespace comparison {
@@ -32,9 +27,8 @@ constexpr double kWidth = 2 * kPanel + 3 * kMargin;
 constexpr std::size_t kMostRows = 60, kMostArcs = 4000, kMostNumbers = 80;
 
 using Arc = std::pair<index_t, index_t>;
-struct Place {
-  double x, y;
-};
+using pictures::Path;
+using pictures::Place;
 
 /// A stereographic projection around the nodes of a decision: circles on the sphere are circles on paper, so
 /// that one sees which node lies inside. Pixels, the panel being 0..kPanel both ways.
@@ -110,24 +104,25 @@ std::vector<Arc> without(const std::vector<Arc>& a, const std::vector<Arc>& b) {
 }
 
 /// An arc of a great circle, in pieces short enough to look bent where it is.
-std::string path_of(const Arc& arc, const View& view) {
+void add(const Arc& arc, const View& view, Path& path) {
   const Point a = normalized(view.point(arc.first)), b = normalized(view.point(arc.second));
   const int pieces = 1 + static_cast<int>(std::acos(std::clamp(dot(a, b), -1.0, 1.0)) / 0.05);
-  std::string path;
   for (int i = 0; i <= pieces; ++i) {
     const double t = static_cast<double>(i) / pieces;
     const Place p = view(Point{(1 - t) * a.x + t * b.x, (1 - t) * a.y + t * b.y, (1 - t) * a.z + t * b.z});
-    path += fmt::format("{}{:.2f} {:.2f}", i == 0 ? "M" : "L", p.x, p.y);
+    if (i == 0)
+      path.move(p);
+    else
+      path.line(p);
   }
-  return path;
 }
 
 std::string drawn(const std::vector<Arc>& arcs, const View& view, const char* kind) {
-  std::string path;
-  for (std::size_t i = 0; i < std::min(arcs.size(), kMostArcs); ++i) path += path_of(arcs[i], view);
-  return path.empty()
-             ? ""
-             : fmt::format("<path class=\"{}{}\" d=\"{}\"/>\n", kind, arcs.size() > 100 ? " many" : "", path);
+  Path path;
+  for (std::size_t i = 0; i < std::min(arcs.size(), kMostArcs); ++i) add(arcs[i], view, path);
+  return path.empty() ? ""
+                      : fmt::format("<path class=\"{}{}\" d=\"{}\"/>\n", kind,
+                                    arcs.size() > 100 ? " many" : "", path.data());
 }
 
 /// The circle through u, v and the node on their left. Left out where it looks straight.
@@ -183,27 +178,22 @@ std::string caption(double y, const std::string& text) {
     if (const std::size_t blank = text.rfind(' ', end);
         end < text.size() && blank != text.npos && blank > begin)
       end = blank;
-    result +=
-        fmt::format("<text class=\"caption\" x=\"{}\" y=\"{}\">{}</text>\n", kMargin,
-                    y + 16 * static_cast<double>(line + 1), escaped_for_xml(text.substr(begin, end - begin)));
+    result += fmt::format("<text class=\"caption\" x=\"{}\" y=\"{}\">{}</text>\n", kMargin,
+                          y + 16 * static_cast<double>(line + 1),
+                          pictures::escaped_for_xml(text.substr(begin, end - begin)));
     begin = text.find_first_not_of(' ', end);
     if (begin == text.npos) break;
   }
   return result;
 }
 
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
 }  // namespace
 
-Plot::Plot(const std::string& file) : file_(file), png_(ends_with(file, ".png")) {
-  if (!png_ && !ends_with(file, ".svg"))
-    throw std::invalid_argument("--plot " + file + ": expected FILE.svg or FILE.png");
-  if (png_ && std::system("rsvg-convert --version > /dev/null 2>&1") != 0)
-    throw std::invalid_argument("--plot " + file +
-                                ": PNG needs rsvg-convert (Debian: librsvg2-bin); SVG does not");
+Plot::Plot(const std::string& file) : file_(file) {
+  const auto kind = pictures::kind_of(file);
+  if (!kind) throw std::invalid_argument("--plot " + file + ": expected FILE.svg or FILE.png");
+  kind_ = *kind;
+  pictures::expect_converter(kind_);
 }
 
 void Plot::add(const Result& result, const std::vector<Point>& points) {
@@ -250,22 +240,9 @@ path {{ fill: none; stroke-linejoin: round }}
 }
 
 void Plot::write() const {
-  if (!png_) {
-    std::ofstream out(file_);
-    if (!(out << svg() << std::flush)) throw std::runtime_error("cannot write " + file_);
-    return;
-  }
-  const std::string text = svg();
-  std::FILE* const picture = std::tmpfile();  // without a name: it cannot stay behind
-  if (picture == nullptr || std::fwrite(text.data(), 1, text.size(), picture) != text.size() ||
-      std::fflush(picture) != 0)
-    throw std::runtime_error("no room for a temporary file");
-  setenv("STRIPACK_COMPARE_PLOT", file_.c_str(), 1);
-  const std::string command = fmt::format("rsvg-convert --output \"$STRIPACK_COMPARE_PLOT\" /proc/{}/fd/{}",
-                                          getpid(), fileno(picture));
-  const int status = std::system(command.c_str());
-  std::fclose(picture);
-  if (status != 0) throw std::runtime_error("cannot write " + file_);
+  files::OutputFile file(file_);
+  pictures::write(file, kind_, svg());
+  file.commit();
 }
 
 }  // namespace comparison

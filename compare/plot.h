@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "comparison.h"
+#include "pictures/svg.h"
 
 namespace comparison {
 
@@ -26,7 +27,7 @@ class Plot {
 
  private:
   std::string file_;
-  bool png_;
+  pictures::Kind kind_;
   std::string body_;
   std::size_t rows_ = 0;
 };

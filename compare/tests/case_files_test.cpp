@@ -30,11 +30,6 @@ std::string contents(const std::string& file) {
   return text.str();
 }
 
-TEST(xml, is_escaped_and_holds_no_byte_that_xml_forbids) {
-  EXPECT_EQ(escaped_for_xml(kOddName), "a&lt;b&gt;&amp;&quot;c'd&quot; ?\xef\xbf\xbd\xc3\xa9,.txt");
-  EXPECT_EQ(escaped_for_xml("two\nlines\t"), "two\nlines\t");
-}
-
 TEST(junit, has_a_test_case_for_each_case_and_a_failure_where_one_counts_against_us) {
   const std::string file = testing::TempDir() + "case_files_test.xml";
   JunitFile junit(file);

@@ -17,6 +17,7 @@
 #include "parallel/coincidence.h"
 #include "parallel/partition.h"
 #include "parallel/patch.h"
+#include "parallel/sample.h"
 #include "parallel/triangulate.h"
 #include "point_sets.h"
 #include "support/judge.h"
@@ -508,6 +509,26 @@ TEST(Partitions, BisectionIsBalancedWhateverTheDensity) {
     std::vector<std::size_t> count(13);
     for (const Point& x : nodes) ++count[static_cast<std::size_t>(partition.owner(x))];
     EXPECT_LE(*std::max_element(count.begin(), count.end()), 20000 / 13 + 5) << family;
+  }
+}
+
+// Slices as in pool and comm mode, from which pictures of owners are made.
+TEST(Partitions, OverRanksAreThoseOfTheTriangulation) {
+  const Nodes nodes = point_sets::make("variable", 3001);
+  for (const PartitionKind kind : {PartitionKind::bisection, PartitionKind::stripes}) {
+    constexpr int kRanks = 7;
+    const Partition expected = partition_over_ranks(kind, kRanks, nodes);
+    ThreadRanks::run(kRanks, [&](Communicator& ranks) {
+      const auto r = static_cast<std::size_t>(ranks.rank());
+      const std::size_t first = slice_begin(nodes.size(), r, kRanks);
+      const LocalNodes local{nodes.data() + first, slice_begin(nodes.size(), r + 1, kRanks) - first, nullptr,
+                             static_cast<std::int64_t>(first) + 1};
+      ParallelOptions options;
+      options.partition = kind;
+      const auto stars = triangulate<std::int32_t>(local, look_at(local.points, local.count),
+                                                   {nodes[0], nodes[1], nodes[2]}, {1, 2, 3}, ranks, options);
+      for (const Point& p : nodes) ASSERT_EQ(stars.homes->rank(p), expected.owner(p));
+    });
   }
 }
 

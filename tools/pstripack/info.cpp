@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "files/measures.h"
 #include "pstripack/options.h"
 #include "pstripack/progress.h"
 #include "stripack/list_queries.h"
@@ -13,6 +14,8 @@
 namespace program {
 namespace {
 
+using files::angle_between;
+using files::corner_angle;
 using files::Mesh;
 using files::Point;
 
@@ -35,17 +38,6 @@ struct Facts {
 
 /// Pairs closer than this part of the mean length of an arc count as near duplicates.
 constexpr double kNear = 1e-3;
-
-double angle_between(const Point& a, const Point& b) {
-  const Point d = minus(a, b);
-  return 2 * std::asin(std::min(1.0, std::sqrt(dot(d, d)) / 2));  // accurate for small ones
-}
-
-/// The angle at b of the plane triangle a, b, c, in degrees.
-double corner_angle(const Point& a, const Point& b, const Point& c) {
-  const Point u = minus(a, b), v = minus(c, b), w = cross(u, v);
-  return std::atan2(std::sqrt(dot(w, w)), dot(u, v)) * 57.295779513082321;
-}
 
 Facts facts_of(const Mesh& mesh) {
   Facts facts;

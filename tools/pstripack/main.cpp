@@ -18,6 +18,7 @@ constexpr auto kDescription = R"(Exact Delaunay triangulations and Voronoi diagr
   pstripack triangulate nodes.nc -o mesh.nc
   pstripack voronoi nodes.nc -o cells.vtu
   pstripack triangulate lonlat.txt -o mpas_input.mpas.nc
+  pstripack plot mesh.nc -o mesh.svg
 
 `pstripack COMMAND --help` tells the rest.)";
 
@@ -51,6 +52,7 @@ int main(int argc, char** argv) {
   add_info(app, chosen);
   add_points(app, chosen);
   add_convert(app, chosen);
+  add_plot(app, chosen);
   try {
     app.parse(argc, argv);
 #ifdef _OPENMP

@@ -48,6 +48,7 @@ void add_voronoi(CLI::App& app, Command& chosen);
 void add_info(CLI::App& app, Command& chosen);
 void add_points(CLI::App& app, Command& chosen);
 void add_convert(CLI::App& app, Command& chosen);
+void add_plot(CLI::App& app, Command& chosen);
 
 /// --quiet and --threads of the whole program.
 struct Global {

@@ -26,7 +26,7 @@ octahedron() { printf '1 0 0\n0 1 0\n0 0 1\n-1 0 0\n0 -1 0\n0 0 -1\n'; }
 
 case $1 in
 documented_help)
-  for command in "" triangulate voronoi info points convert; do
+  for command in "" triangulate voronoi info points convert plot; do
     # shellcheck disable=SC2086  # nothing, or one word
     "$PSTRIPACK" $command --help > help
     awk -v line="\$ pstripack ${command:+$command }--help" \
@@ -153,6 +153,53 @@ duplicates)
   "$PSTRIPACK" -q info near.txt > info.txt
   grep -q "^tightest pair *1e-07 rad, .*: node 1 (line 1) and node 7 (line 7)$" info.txt || fail "$(cat info.txt)"
   grep -q "^near duplicates *1 pairs" info.txt || fail "$(cat info.txt)"
+  ;;
+
+pictures)
+  "$PSTRIPACK" -q points random 300 -o nodes.txt
+  "$PSTRIPACK" -q plot nodes.txt -o a.svg
+  grep -q '>nodes.txt: 300 nodes, 596 triangles<' a.svg || fail "no title"
+  "$PSTRIPACK" -q plot - -o - --to svg --title "nodes.txt: 300 nodes, 596 triangles" < nodes.txt > b.svg
+  cmp a.svg b.svg
+  for threads in 1 2; do
+    "$PSTRIPACK" -q --threads $threads plot nodes.txt --what cells --colour owner:5:stripes -o owner$threads.svg
+  done
+  cmp owner1.svg owner2.svg
+  "$PSTRIPACK" -q plot nodes.txt --what cells --colour owner:5 -o boxes.svg
+  if cmp -s owner1.svg boxes.svg; then fail "stripes are boxes"; fi
+  # The triangles of a mesh are drawn as they are: the other diagonal of a square on the equator.
+  square='0.9 0.3 0.3\n0.9 -0.3 0.3\n0.9 -0.3 -0.3\n0.9 0.3 -0.31\n'
+  printf "OFF\n4 2 0\n${square}3 0 1 2\n3 0 2 3\n" > one.off
+  printf "OFF\n4 2 0\n${square}3 0 1 3\n3 1 2 3\n" > other.off
+  "$PSTRIPACK" -q plot one.off --title "" -o one.svg
+  "$PSTRIPACK" -q plot other.off --title "" -o other.svg
+  if cmp -s one.svg other.svg; then fail "the triangles of a file are not drawn"; fi
+  if command -v rsvg-convert > /dev/null; then
+    "$PSTRIPACK" -q plot nodes.txt --view lonlat --width 1000 -o a.png
+    # The signature and, in the header, 1000 (0x3e8) by 548 (0x224) pixels.
+    [ "$(od -A n -t x1 -N 24 a.png | tr -d ' \n')" = 89504e470d0a1a0a0000000d49484452000003e800000224 ] ||
+      fail "a.png is no PNG of 1000 x 548 pixels: $(od -A n -t x1 -N 24 a.png)"
+  fi
+  # PNG without the program that makes it.
+  code=0
+  PATH=/no/such/folder "$PSTRIPACK" plot nodes.txt -o b.png 2> err || code=$?
+  [ $code = 1 ] && grep -q "PNG needs rsvg-convert (Debian: librsvg2-bin)" err || fail "$code: $(cat err)"
+  refuses 2 "picture.gif: expected FILE.svg or FILE.png" plot nodes.txt -o picture.gif
+  refuses 2 "--view: mercator: expected orthographic, lonlat" plot nodes.txt -o c.svg --view mercator
+  refuses 2 "--view: lonlat:10: expected" plot nodes.txt -o c.svg --view lonlat:10
+  refuses 2 "--view: orthographic:0,91: expected" plot nodes.txt -o c.svg --view orthographic:0,91
+  refuses 2 "--colour: owner:0: expected none, size, degree" plot nodes.txt -o c.svg --colour owner:0
+  refuses 2 "--colour: owner:4:boxes: expected" plot nodes.txt -o c.svg --colour owner:4:boxes
+  refuses 2 "degree is a property of nodes: say --what cells" plot nodes.txt -o c.svg --colour degree
+  refuses 2 "histograms have no --view" plot nodes.txt -o c.svg --what histograms --view lonlat
+  refuses 1 "no/such/folder/c.svg: cannot be written: No such file" plot nodes.txt -o no/such/folder/c.svg
+  refuses 1 "/dev/full: cannot be written: No space left" plot nodes.txt -o /dev/full --to svg
+  "$PSTRIPACK" -q points fibonacci 410000 -o many.raw
+  refuses 1 "nodes are in view, at most 200,000 can be drawn: zoom in, for example by --view orthographic:0,30 --radius" \
+    plot many.raw --from raw --coordinates xyz -q -o c.svg
+  printf '1 0 0\n0 1 0\n0 0 1\n' > three.txt
+  refuses 1 "three.txt: around some nodes, which lie on one circle, cells reach" plot three.txt --what cells -o c.svg
+  [ ! -e c.svg ] && [ ! -e b.png ] || fail "a picture of a failed run"
   ;;
 
 *)

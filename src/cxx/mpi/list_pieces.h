@@ -7,14 +7,10 @@
 #include <vector>
 
 #include "mpi/mpi_communicator.h"
+#include "parallel/local_nodes.h"
 #include "stripack/list_pieces.h"
 
 namespace pstripack {
-
-/// Node numbers 0..n-1 cut into one slice a rank, as equal as they come: rank r has [begin[r], begin[r+1]).
-inline std::size_t slice_begin(std::size_t n, std::size_t rank, std::size_t ranks) {
-  return n / ranks * rank + n % ranks * rank / ranks;
-}
 
 constexpr int kEveryRank = -1, kShared = -2;
 

@@ -24,6 +24,11 @@ struct LocalNodes {
   }
 };
 
+/// Node numbers 0..n-1 cut into one slice a rank, as equal as they come: rank r has [begin[r], begin[r+1]).
+inline std::size_t slice_begin(std::size_t n, std::size_t rank, std::size_t ranks) {
+  return n / ranks * rank + n % ranks * rank / ranks;
+}
+
 /// What one look at all coordinates tells.
 struct Look {
   std::size_t first_bad = 0;    ///< the first node (from 0) without a direction; their number if all have one

@@ -23,7 +23,7 @@
 #include "geometry/parallel_for.h"
 #include "geometry/workspace.h"
 #include "parallel/patch.h"
-#include "parallel/scattered.h"
+#include "parallel/sample.h"
 
 namespace pstripack {
 namespace {
@@ -70,11 +70,6 @@ class Reader {
  private:
   const unsigned char* at_;
 };
-
-/// The sample: so many nodes a patch, more where that costs little beside the work on all nodes.
-std::size_t sample_size(std::size_t nodes, std::size_t patches) {
-  return std::min(nodes, std::max(64 * patches, std::clamp<std::size_t>(nodes / 64, 256, 4096)));
-}
 
 constexpr std::size_t kClosingNodes = 256;
 
@@ -185,13 +180,7 @@ class Triangulator {
         first_patch_.push_back(first_patch_.back() + static_cast<int>(h.patches));
         nodes += static_cast<std::size_t>(h.nodes);
       }
-      const std::size_t wanted = sample_size(nodes, static_cast<std::size_t>(first_patch_.back()));
-      const std::size_t share = (wanted * nodes_.count + nodes - 1) / nodes;
-      for (std::size_t k = 0; k < share; ++k) {  // one in each of `share` runs of nodes
-        const std::size_t begin = nodes_.count * k / share, end = nodes_.count * (k + 1) / share;
-        const std::size_t i = begin + scattered(k + 0x9e3779b97f4a7c15u) % (end - begin);
-        sample.push_back({nodes_.points[i], nodes_.number(i)});
-      }
+      add_share(nodes_, sample_size(nodes, static_cast<std::size_t>(first_patch_.back())), nodes, sample);
     });
     const int patches = first_patch_.back();
     const Parcels samples = ranks_.all_gather(sample.data(), sample.size() * sizeof(Record));

@@ -1,0 +1,29 @@
+#pragma once
+// Lengths, angles and areas of what has unit vectors as corners.
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/point.h"
+
+namespace files {
+
+/// In radians; accurate for small ones.
+inline double angle_between(const pstripack::Point& a, const pstripack::Point& b) {
+  const pstripack::Point d = minus(a, b);
+  return 2 * std::asin(std::min(1.0, std::sqrt(dot(d, d)) / 2));
+}
+
+/// The angle at b of the plane triangle a, b, c, in degrees.
+inline double corner_angle(const pstripack::Point& a, const pstripack::Point& b, const pstripack::Point& c) {
+  const pstripack::Point u = minus(a, b), v = minus(c, b), w = cross(u, v);
+  return std::atan2(std::sqrt(dot(w, w)), dot(u, v)) * 57.295779513082321;
+}
+
+/// Of the spherical triangle, in steradians; positive if it is counterclockwise (van Oosterom & Strackee
+/// 1983, with differences, which keep the digits of small triangles).
+inline double triangle_area(const pstripack::Point& a, const pstripack::Point& b, const pstripack::Point& c) {
+  return 2 * std::atan2(dot(a, cross(minus(b, a), minus(c, a))), 1 + dot(a, b) + dot(b, c) + dot(c, a));
+}
+
+}  // namespace files

@@ -1,0 +1,22 @@
+#pragma once
+// Colours, as "#rrggbb".
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace pictures {
+
+/// Viridis (van der Walt & Smith 2015): its lightness grows in equal steps. t: 0 to 1.
+std::string viridis(double t);
+
+/// By number of neighbours: white for six, blue below, red above; those of 4 and 8 for all beyond.
+std::string colour_of_degree(int degree);
+
+/// Of Okabe & Ito: told apart by colour-blind readers, too.
+constexpr const char* kVermilion = "#d55e00";
+
+/// A colour for each of n things, another one than those of the things beside it where that is possible.
+std::vector<std::string> distinct_colours(const std::vector<std::vector<std::size_t>>& beside);
+
+}  // namespace pictures

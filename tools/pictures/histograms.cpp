@@ -1,0 +1,131 @@
+#include "pictures/histograms.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "files/measures.h"
+#include "pictures/scale.h"
+#include "pictures/sheet.h"
+#include "stripack/list_queries.h"
+
+namespace pictures {
+namespace {
+
+constexpr double kDegree = 57.295779513082321;
+constexpr const char* kBars = "#31688e";
+
+/// Numbers of values, in bars from side to side.
+class Panel {
+ public:
+  Panel(Sheet& sheet, double left, double top) : sheet_(sheet), left_(left), top_(top) {}
+
+  /// Of what is told of the values, `factor` is the unit.
+  void titles(const std::string& title, const std::vector<double>& values, double factor) {
+    std::vector<double> sorted = values;
+    std::sort(sorted.begin(), sorted.end());
+    sheet_.text({left_, top_ + 12}, 14, Anchor::start, title);
+    sheet_.text(
+        {left_, top_ + 30}, 12, Anchor::start,
+        fmt::format("min {}, median {}, max {}", short_number(sorted.front() / factor),
+                    short_number(sorted[sorted.size() / 2] / factor), short_number(sorted.back() / factor)),
+        kGrey);
+  }
+
+  /// Bars of equal width but for gaps of that part of it.
+  void bars(const std::vector<std::size_t>& counts, double gap) {
+    const double most = static_cast<double>(*std::max_element(counts.begin(), counts.end()));
+    const double bar = kWide / static_cast<double>(counts.size());
+    for (const double tick : round_values(0, most, 4)) {
+      if (tick != std::floor(tick)) continue;
+      const double y = bottom() - kHigh * tick / most;
+      sheet_.rectangle(left_, y - 0.4, kWide, 0.8, "#dddddd");
+      sheet_.text({left_ - 6, y + 4}, 12, Anchor::end, grouped(static_cast<std::size_t>(tick)));
+    }
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      const double height = kHigh * static_cast<double>(counts[i]) / most;
+      if (counts[i] > 0)
+        sheet_.rectangle(left_ + bar * (static_cast<double>(i) + gap / 2), bottom() - height, bar * (1 - gap),
+                         height, kBars);
+    }
+    sheet_.rectangle(left_, bottom(), kWide, 1, kGrey);
+  }
+
+  void tick(double t, const std::string& label) {
+    const double x = left_ + t * kWide;
+    sheet_.rectangle(x - 0.5, bottom(), 1, 5, kGrey);
+    sheet_.text({x, bottom() + 18}, 12, Anchor::middle, label);
+  }
+
+  static constexpr double kWide = 310, kHigh = 170, kAll = kHigh + 90;
+
+ private:
+  double bottom() const { return top_ + 44 + kHigh; }
+  Sheet& sheet_;
+  double left_, top_;
+};
+
+/// `unit` follows the power of ten that the ticks are multiples of.
+void draw(Panel panel, const std::string& title, const std::string& unit, const std::vector<double>& values,
+          bool linear = false) {
+  constexpr std::size_t kBins = 40;
+  const Scale scale(values, linear);
+  std::vector<std::size_t> counts(kBins);
+  for (const double value : values)
+    ++counts[std::min(kBins - 1, static_cast<std::size_t>(scale(value) * kBins))];
+  panel.titles(fmt::format("{}, {}{}", title, scale.name_of_factor(), unit), values, scale.factor());
+  panel.bars(counts, 0.08);
+  for (const Scale::Tick& tick : scale.ticks(5)) panel.tick(scale(tick.value), tick.label);
+}
+
+void draw_degrees(Panel panel, const std::vector<double>& degrees) {
+  const auto [low, high] = std::minmax_element(degrees.begin(), degrees.end());
+  const auto first = static_cast<std::size_t>(*low), last = static_cast<std::size_t>(*high);
+  std::vector<std::size_t> counts(last - first + 1);
+  for (const double degree : degrees) ++counts[static_cast<std::size_t>(degree) - first];
+  panel.titles("neighbours of a node", degrees, 1);
+  panel.bars(counts, 0.3);
+  const std::size_t step = 1 + counts.size() / 14;
+  for (std::size_t i = 0; i < counts.size(); i += step)
+    panel.tick((static_cast<double>(i) + 0.5) / static_cast<double>(counts.size()),
+               std::to_string(first + i));
+}
+
+}  // namespace
+
+std::string histograms(const files::Mesh& mesh, const std::string& title, double width) {
+  const std::vector<files::Point> points = files::unit(mesh.points);
+  const auto at = [&](std::int32_t node) { return points[static_cast<std::size_t>(node) - 1]; };
+  std::vector<double> angles, lengths, areas, degrees;
+  const std::vector<std::int32_t> triangles = files::triangles_of(mesh);
+  for (std::size_t t = 0; t < triangles.size(); t += 3) {
+    const files::Point a = at(triangles[t]), b = at(triangles[t + 1]), c = at(triangles[t + 2]);
+    angles.push_back(
+        std::min({files::corner_angle(a, b, c), files::corner_angle(b, c, a), files::corner_angle(c, a, b)}));
+    areas.push_back(files::triangle_area(a, b, c));
+  }
+  const pstripack::ListReader<std::int32_t> reader(mesh.lists());
+  for (std::int32_t node = 1; node <= reader.size(); ++node) {
+    double degree = 0;
+    std::int32_t slot = reader.last_slot(node);
+    do {
+      ++degree;
+      if (const std::int32_t neighbour = reader.neighbour(slot); neighbour > node)
+        lengths.push_back(files::angle_between(at(node), at(neighbour)) * kDegree);
+      slot = reader.next(slot);
+    } while (slot != reader.last_slot(node));
+    degrees.push_back(degree);
+  }
+
+  Sheet sheet;
+  const double top = sheet.title(title) + 6, left = 72, right = 462;
+  draw({sheet, left, top}, "smallest angle of a triangle", "degrees", angles, true);
+  draw({sheet, right, top}, "length of an arc", "degrees", lengths);
+  draw({sheet, left, top + Panel::kAll}, "area of a triangle", "sr", areas);
+  draw_degrees({sheet, right, top + Panel::kAll}, degrees);
+  return sheet.svg(top + 2 * Panel::kAll, width);
+}
+
+}  // namespace pictures

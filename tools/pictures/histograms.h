@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "files/mesh.h"
+
+namespace pictures {
+
+/// Four histograms as SVG: smallest angles, lengths of arcs, areas of triangles, neighbours of nodes.
+std::string histograms(const files::Mesh& mesh, const std::string& title, double width);
+
+}  // namespace pictures

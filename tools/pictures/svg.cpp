@@ -1,0 +1,111 @@
+#include "pictures/svg.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace pictures {
+namespace {
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+/// The text with U+FFFD in place of what is not UTF-8.
+std::string valid_utf8(const std::string& text) {
+  using nlohmann::json;
+  return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace));
+}
+
+void write_png(const files::OutputFile& file, const std::string& svg) {
+  using Stream = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+  const Stream picture(std::tmpfile(), std::fclose);  // without a name: it cannot stay behind
+  if (picture == nullptr || std::fwrite(svg.data(), 1, svg.size(), picture.get()) != svg.size() ||
+      std::fflush(picture.get()) != 0)
+    files::fail_to_write("a temporary file", errno);
+  setenv("PSTRIPACK_PICTURE", file.path().c_str(), 1);
+  const std::string command =
+      fmt::format("rsvg-convert --unlimited --output \"$PSTRIPACK_PICTURE\" /proc/{}/fd/{}", getpid(),
+                  fileno(picture.get()));
+  if (std::system(command.c_str()) != 0)
+    throw std::runtime_error(file.name() + ": cannot be written: rsvg-convert has failed");
+}
+
+}  // namespace
+
+std::optional<Kind> kind_of(const std::string& file) {
+  if (ends_with(file, ".svg")) return Kind::svg;
+  if (ends_with(file, ".png")) return Kind::png;
+  return std::nullopt;
+}
+
+void expect_converter(Kind kind) {
+  if (kind == Kind::png && std::system("rsvg-convert --version > /dev/null 2>&1") != 0)
+    throw std::runtime_error("PNG needs rsvg-convert (Debian: librsvg2-bin); SVG does not");
+}
+
+void write(const files::OutputFile& file, Kind kind, const std::string& svg) {
+  if (kind == Kind::png) return write_png(file, svg);
+  files::TextWriter out(file);
+  out.write(svg.data(), svg.size());
+  out.close();
+}
+
+std::string escaped_for_xml(const std::string& text) {
+  std::string result;
+  for (const char c : valid_utf8(text)) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' ? '?' : c;
+    }
+  }
+  return result;
+}
+
+void Path::move(const Place& p) {
+  last_ = rounded(p);
+  add('M', last_);
+}
+
+void Path::line(const Place& p) {
+  const Hundredths to = rounded(p), by{to.x - last_.x, to.y - last_.y};
+  if (by.x == 0 && by.y == 0) return;
+  add('l', by);
+  last_ = to;
+}
+
+/// "M12.3-4": as short as SVG allows.
+void Path::add(char command, const Hundredths& p) {
+  const auto number = [&](long value, bool first) {
+    if (value < 0)
+      data_ += '-';
+    else if (!first)
+      data_ += ' ';
+    const long size = std::labs(value), rest = size % 100;
+    if (size >= 100 || rest == 0) data_ += std::to_string(size / 100);
+    if (rest != 0) data_ += rest % 10 == 0 ? fmt::format(".{}", rest / 10) : fmt::format(".{:02}", rest);
+  };
+  data_ += command;
+  number(p.x, true);
+  number(p.y, false);
+}
+
+}  // namespace pictures

@@ -1,0 +1,55 @@
+#pragma once
+// Pictures as SVG, or PNG made of it: for `pstripack plot` and `stripack-compare --plot`.
+
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "files/output_file.h"
+
+namespace pictures {
+
+enum class Kind { svg, png };
+
+/// By the suffix of the file: .svg or .png.
+std::optional<Kind> kind_of(const std::string& file);
+
+/// Throws std::runtime_error where PNG is wanted and rsvg-convert, which makes it, is not there.
+void expect_converter(Kind kind);
+
+/// Writes the picture; commit() is the caller's. Throws std::runtime_error if it cannot be written.
+void write(const files::OutputFile& file, Kind kind, const std::string& svg);
+
+/// `text` inside an attribute or element of XML, whatever bytes it holds.
+std::string escaped_for_xml(const std::string& text);
+
+/// On paper: to the right and down, in pixels.
+struct Place {
+  double x, y;
+};
+
+/// The data of a <path>, in hundredths of a pixel. What has no length there is left out.
+class Path {
+ public:
+  void move(const Place& p);
+  void line(const Place& p);
+  void close() { data_ += 'Z'; }
+  /// Round, of the width of the line, with stroke-linecap="round".
+  void dot(const Place& p) {
+    move(p);
+    data_ += "h0";
+  }
+  bool empty() const { return data_.empty(); }
+  const std::string& data() const { return data_; }
+
+ private:
+  struct Hundredths {
+    long x, y;
+  };
+  static Hundredths rounded(const Place& p) { return {std::lround(100 * p.x), std::lround(100 * p.y)}; }
+  void add(char command, const Hundredths& p);
+  std::string data_;
+  Hundredths last_{0, 0};
+};
+
+}  // namespace pictures

@@ -1,0 +1,369 @@
+#include "pictures/view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "point_sets.h"
+
+namespace pictures {
+namespace {
+
+using pstripack::cross;
+using pstripack::dot;
+
+constexpr double kDegree = 57.295779513082321;
+
+/// A piece looks straight if its middle is so many pixels off, at most.
+constexpr double kStraight = 0.05;
+/// Longer pieces are cut anyhow: a piece may be bent like an S. Cosine of the angle.
+const double kLong = std::cos(10 / kDegree);
+constexpr int kDeepest = 16;
+
+Point middle_of(const Point& a, const Point& b) {
+  const Point sum{a.x + b.x, a.y + b.y, a.z + b.z};
+  if (dot(sum, sum) > 1e-24) return point_sets::normalized(sum);
+  // Opposite each other: any way is as long as another.
+  return point_sets::normalized(cross(a, std::fabs(a.z) < 0.9 ? Point{0, 0, 1} : Point{0, 1, 0}));
+}
+
+double distance_from_line(const Place& p, const Place& a, const Place& b) {
+  const double x = b.x - a.x, y = b.y - a.y, length = std::hypot(x, y);
+  if (length < 1e-9) return std::hypot(p.x - a.x, p.y - a.y);
+  return std::fabs(x * (p.y - a.y) - y * (p.x - a.x)) / length;
+}
+
+/// The part of the outline where inside(p) >= 0; inside is linear.
+template <class Item, class Inside, class Between>
+std::vector<Item> cut(const std::vector<Item>& outline, const Inside& inside, const Between& between) {
+  std::vector<Item> kept;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Item &p = outline[i], &q = outline[(i + 1) % outline.size()];
+    const double at_p = inside(p), at_q = inside(q);
+    if (at_p >= 0) kept.push_back(p);
+    if ((at_p > 0 && at_q < 0) || (at_p < 0 && at_q > 0)) kept.push_back(between(p, q, at_p / (at_p - at_q)));
+  }
+  return kept;
+}
+
+Place between(const Place& a, const Place& b, double t) {
+  return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
+}
+
+std::string number(double degrees) { return fmt::format("{:g}", std::round(std::fabs(degrees) * 100) / 100); }
+
+/// The one nearest to `near` of all longitudes that are the same.
+double turned_to(double lon, double near) { return lon + 360 * std::round((near - lon) / 360); }
+
+}  // namespace
+
+Outline clipped_polygon(const Outline& outline, const Frame& frame) {
+  Outline kept = cut(
+      outline, [&](const Place& p) { return p.x - frame.left; }, between);
+  kept = cut(
+      kept, [&](const Place& p) { return frame.right - p.x; }, between);
+  kept = cut(
+      kept, [&](const Place& p) { return p.y - frame.top; }, between);
+  return cut(
+      kept, [&](const Place& p) { return frame.bottom - p.y; }, between);
+}
+
+std::vector<Outline> clipped_line(const Outline& line, const Frame& frame) {
+  std::vector<Outline> parts;
+  bool goes_on = false;  // with the last part
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const Place &a = line[i], &b = line[i + 1];
+    double from = 0, to = 1;  // Liang & Barsky 1984
+    const auto keep = [&](double at_a, double at_b) {
+      if (at_a < 0 && at_b < 0) from = 2;
+      if (at_a < 0 && at_b >= 0) from = std::max(from, at_a / (at_a - at_b));
+      if (at_a >= 0 && at_b < 0) to = std::min(to, at_a / (at_a - at_b));
+    };
+    keep(a.x - frame.left, b.x - frame.left);
+    keep(frame.right - a.x, frame.right - b.x);
+    keep(a.y - frame.top, b.y - frame.top);
+    keep(frame.bottom - a.y, frame.bottom - b.y);
+    if (from > to) {
+      goes_on = false;
+      continue;
+    }
+    if (!goes_on || from > 0) parts.push_back({from > 0 ? between(a, b, from) : a});
+    parts.back().push_back(to < 1 ? between(a, b, to) : b);
+    goes_on = to == 1;
+  }
+  return parts;
+}
+
+Spot spot_of(const Point& p) {
+  return {std::atan2(p.y, p.x) * kDegree, std::atan2(p.z, std::hypot(p.x, p.y)) * kDegree};
+}
+
+std::string name_of_longitude(double lon) {
+  lon = turned_to(lon, 0);
+  const std::string size = number(lon);
+  return size + "°" + (size == "0" || size == "180" ? "" : lon < 0 ? "W" : "E");
+}
+
+std::string name_of_latitude(double lat) {
+  const std::string size = number(lat);
+  return size + "°" + (size == "0" ? "" : lat < 0 ? "S" : "N");
+}
+
+std::string name_of(const Spot& spot) {
+  return name_of_longitude(spot.lon) + " " + name_of_latitude(spot.lat);
+}
+
+// ---- orthographic -----------------------------------------------------------------------------------------
+
+Orthographic::Orthographic(const Spot& centre, double radius, const Frame& frame)
+    : eye_(point_sets::from_degrees(centre.lon, centre.lat)),
+      east_{-point_sets::sin_degrees(centre.lon), point_sets::cos_degrees(centre.lon), 0},
+      north_(cross(eye_, east_)),
+      middle_{(frame.left + frame.right) / 2, (frame.top + frame.bottom) / 2},
+      shows_limb_(radius >= 90) {
+  const double half = std::min(frame.width(), frame.height()) / 2;
+  frame_ = {middle_.x - half, middle_.y - half, middle_.x + half, middle_.y + half};
+  scale_ = shows_limb_ ? half : half / point_sets::sin_degrees(radius);
+}
+
+std::optional<Place> Orthographic::place(const Point& p) const {
+  const Point t = turned(p);
+  const Place q = on_paper(t);
+  const bool seen =
+      t.z >= 0 && q.x >= frame_.left && q.x <= frame_.right && q.y >= frame_.top && q.y <= frame_.bottom;
+  return seen ? std::optional(q) : std::nullopt;
+}
+
+/// All of the arc but its first point; turned.
+void Orthographic::add_arc(const Point& a, const Point& b, Outline& outline, int depth) const {
+  const Point m = middle_of(a, b);
+  const bool halve = depth < kDeepest && (dot(a, b) < kLong || distance_from_line(on_paper(m), on_paper(a),
+                                                                                  on_paper(b)) > kStraight);
+  if (halve) {
+    add_arc(a, m, outline, depth + 1);
+    add_arc(m, b, outline, depth + 1);
+  } else {
+    outline.push_back(on_paper(b));
+  }
+}
+
+namespace {
+
+/// Of two turned points on both sides of the limb: the point between them on it.
+Point on_limb(const Point& a, const Point& b, double t) {
+  Point p = {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), 0};
+  const double length = std::hypot(p.x, p.y);
+  return {p.x / length, p.y / length, 0};
+}
+
+double in_front(const Point& turned) { return turned.z; }
+
+}  // namespace
+
+// Cut at the limb, where it ends in an arc of the limb:
+//
+//        b .---.            a b c is cut to a b p q, and what lies between p and q, both on the limb, is an
+//        arc
+//         /     \ p         of a great circle like any other.
+//      a '--.    '.
+//            '--. :\        A convex polygon whose corners are all behind the limb is behind it.
+//               q'--' c
+std::vector<Outline> Orthographic::polygon(const std::vector<Point>& corners) const {
+  std::vector<Point> all;
+  for (const Point& p : corners) all.push_back(turned(p));
+  const std::vector<Point> seen = cut(all, in_front, on_limb);
+  if (seen.size() < 3) return {};
+  Outline outline;
+  for (std::size_t i = 0; i < seen.size(); ++i) add_arc(seen[i], seen[(i + 1) % seen.size()], outline);
+  if (!shows_limb_) outline = clipped_polygon(outline, frame_);
+  if (outline.size() < 3) return {};
+  return {outline};
+}
+
+std::vector<Outline> Orthographic::arc(const Point& a, const Point& b) const {
+  Point p = turned(a), q = turned(b);
+  if (p.z < 0 && q.z < 0) return {};
+  const double t = p.z / (p.z - q.z);
+  if (p.z < 0)
+    p = on_limb(p, q, t);
+  else if (q.z < 0)
+    q = on_limb(p, q, t);
+  Outline line{on_paper(p)};
+  add_arc(p, q, line);
+  if (shows_limb_) return {line};
+  return clipped_line(line, frame_);
+}
+
+// ---- longitude and latitude -------------------------------------------------------------------------------
+
+LonLat::LonLat(const Spot& centre, double radius, const Frame& frame) {
+  const bool all = radius >= 90;
+  const double squeezed = all ? 1 : std::max(0.05, point_sets::cos_degrees(centre.lat));
+  // As far to the east and west as a cap of that radius reaches.
+  const bool pole = all || std::fabs(centre.lat) + radius >= 90;
+  const double half = pole ? 180
+                           : kDegree * std::asin(std::min(1.0, point_sets::sin_degrees(radius) /
+                                                                   point_sets::cos_degrees(centre.lat)));
+  west_ = centre.lon - half, east_ = centre.lon + half;
+  south_ = all ? -90 : std::max(-90.0, centre.lat - radius);
+  north_ = all ? 90 : std::min(90.0, centre.lat + radius);
+  per_lat_ = std::min(frame.width() / (squeezed * 2 * half), frame.height() / (north_ - south_));
+  per_lon_ = per_lat_ * squeezed;
+  const double width = per_lon_ * 2 * half, middle = (frame.left + frame.right) / 2;
+  frame_ = {middle - width / 2, frame.top, middle + width / 2, frame.top + per_lat_ * (north_ - south_)};
+}
+
+/// A line on the map with its longitudes unrolled: from one point to the next by less than half a turn.
+///
+///        90 N  ------1=======2------     A corner at the pole is the line 1-2. If the polygon is on the left
+///        of
+///                    |       |           its arcs, as ever, it lies below that line, which leads west (at
+///                    the ^       v           south pole, where it lies above, east). b       a
+class LonLat::Unrolled {
+ public:
+  explicit Unrolled(const LonLat& view) : view_(view) {}
+
+  /// The line begins anew at p.
+  void begin(const Point& p) { begin(p, spot_of(p).lon); }
+  void begin(const Point& p, double lon) { line.push_back({lon, spot_of(p).lat}); }
+  /// From the last point, p, to q, neither of them a pole, nor one in between.
+  void go(const Point& p, const Point& q, int depth = 0) {
+    Spot to = spot_of(q);
+    to.lon = turned_to(to.lon, line.back().lon);
+    add(p, q, to, depth);
+  }
+  /// Due north or south to a pole.
+  void go_to_pole(double lat) { line.push_back({line.back().lon, lat}); }
+  /// From a pole due south or north to p.
+  void leave_pole(const Point& p) {
+    const double pole = line.back().lat, sign = pole > 0 ? -1 : 1;
+    double lon = turned_to(spot_of(p).lon, line.back().lon);
+    if (sign * (lon - line.back().lon) < 0) lon += sign * 360;
+    line.push_back({lon, pole});
+    line.push_back({lon, spot_of(p).lat});
+  }
+
+  std::vector<Spot> line;
+
+ private:
+  void add(const Point& p, const Point& q, const Spot& to, int depth) {
+    const Spot from = line.back();
+    const Point m = middle_of(p, q);
+    Spot middle = spot_of(m);
+    middle.lon = turned_to(middle.lon, (from.lon + to.lon) / 2);
+    const auto paper = [&](const Spot& s) { return view_.on_paper(s); };
+    if (depth < kDeepest && (dot(p, q) < kLong || std::fabs(to.lon - from.lon) > 10 ||
+                             distance_from_line(paper(middle), paper(from), paper(to)) > kStraight)) {
+      add(p, m, middle, depth + 1);
+      add(m, q, to, depth + 1);
+    } else {
+      line.push_back(to);
+    }
+  }
+  const LonLat& view_;
+};
+
+namespace {
+
+/// 90 or -90 for a pole, 0 for other points.
+double pole_at(const Point& p) {
+  constexpr double kNear = 1e-9;
+  return std::fabs(p.x) < kNear && std::fabs(p.y) < kNear ? std::copysign(90.0, p.z) : 0;
+}
+
+/// The pole that lies between a and b on their arc, as a point.
+std::optional<Point> pole_between(const Point& a, const Point& b) {
+  if (pole_at(a) != 0 || pole_at(b) != 0) return std::nullopt;
+  const Point normal = cross(a, b);
+  if (std::fabs(normal.z) > 1e-9 * std::sqrt(dot(normal, normal))) return std::nullopt;
+  // Both poles are on the circle; they lie on other meridians than a or b, or beyond the arc.
+  const double cosine = a.x * b.x + a.y * b.y;
+  if (cosine > 0) return std::nullopt;
+  return Point{0, 0, a.z + b.z > 0 ? 1.0 : -1.0};
+}
+
+}  // namespace
+
+std::optional<Place> LonLat::place(const Point& p) const {
+  Spot s = spot_of(p);
+  s.lon = turned_to(s.lon, (west_ + east_) / 2);
+  if (s.lon < west_ || s.lon > east_ || s.lat < south_ || s.lat > north_) return std::nullopt;
+  return on_paper(s);
+}
+
+std::vector<Outline> LonLat::polygon(const std::vector<Point>& corners) const {
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    points.push_back(corners[i]);
+    if (const auto pole = pole_between(corners[i], corners[(i + 1) % corners.size()]))
+      points.push_back(*pole);
+  }
+  const auto first =
+      std::find_if(points.begin(), points.end(), [](const Point& p) { return pole_at(p) == 0; });
+  if (first == points.end()) return {};
+  std::rotate(points.begin(), first, points.end());
+
+  Unrolled unrolled(*this);
+  unrolled.begin(points[0]);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Point &p = points[i], &q = points[(i + 1) % points.size()];
+    if (const double pole = pole_at(q); pole != 0)
+      unrolled.go_to_pole(pole);
+    else if (pole_at(p) != 0)
+      unrolled.leave_pole(q);
+    else
+      unrolled.go(p, q);
+  }
+  // Once round the sphere: the pole on its left is inside.
+  std::vector<Spot>& line = unrolled.line;
+  if (const double turn = line.back().lon - line.front().lon; std::fabs(turn) > 180) {
+    const double pole = turn > 0 ? 90 : -90, begin = line.front().lon;
+    line.push_back({line.back().lon, pole});
+    line.push_back({begin, pole});
+  }
+
+  const auto [low, high] = std::minmax_element(line.begin(), line.end(),
+                                               [](const Spot& a, const Spot& b) { return a.lon < b.lon; });
+  const double from = low->lon, to = high->lon;
+  std::vector<Outline> parts;
+  for (double turn = 360 * std::ceil((west_ - to) / 360); from + turn <= east_; turn += 360) {
+    Outline outline;
+    for (const Spot& s : line) outline.push_back(on_paper({s.lon + turn, s.lat}));
+    outline = clipped_polygon(outline, frame_);
+    if (outline.size() >= 3) parts.push_back(outline);
+  }
+  return parts;
+}
+
+std::vector<Outline> LonLat::arc(const Point& a, const Point& b) const {
+  if (const auto pole = pole_between(a, b)) {
+    std::vector<Outline> parts = arc(a, *pole);
+    for (Outline& part : arc(*pole, b)) parts.push_back(std::move(part));
+    return parts;
+  }
+  Unrolled unrolled(*this);
+  if (const double pole = pole_at(b); pole != 0) {
+    unrolled.begin(a);
+    unrolled.go_to_pole(pole);
+  } else if (pole_at(a) != 0) {
+    unrolled.begin(a, spot_of(b).lon);
+    unrolled.line.push_back(spot_of(b));
+  } else {
+    unrolled.begin(a);
+    unrolled.go(a, b);
+  }
+  const auto [low, high] = std::minmax_element(unrolled.line.begin(), unrolled.line.end(),
+                                               [](const Spot& s, const Spot& t) { return s.lon < t.lon; });
+  const double from = low->lon, to = high->lon;
+  std::vector<Outline> parts;
+  for (double turn = 360 * std::ceil((west_ - to) / 360); from + turn <= east_; turn += 360) {
+    Outline line;
+    for (const Spot& s : unrolled.line) line.push_back(on_paper({s.lon + turn, s.lat}));
+    for (Outline& part : clipped_line(line, frame_)) parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+}  // namespace pictures

@@ -1,0 +1,195 @@
+// `pstripack plot`.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include "pictures/histograms.h"
+#include "pictures/mesh_picture.h"
+#include "pictures/scale.h"
+#include "pictures/svg.h"
+#include "pstripack/options.h"
+#include "pstripack/progress.h"
+
+namespace program {
+namespace {
+
+using pictures::MeshOptions;
+
+struct Options {
+  Input input;
+  std::string file, to, what = "triangles", view, colour = "none";
+  std::optional<double> radius;
+  std::optional<std::string> title;
+  double width = 800;
+};
+
+/// "a:b:c" in parts.
+std::vector<std::string> parts_of(const std::string& text, char separator) {
+  std::vector<std::string> parts(1);
+  for (const char c : text)
+    if (c == separator)
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  return parts;
+}
+
+/// NaN if it is not a number.
+double number_of(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  return text.empty() || *end != '\0' ? NAN : value;
+}
+
+/// orthographic[:LON,LAT] or lonlat[:LON,LAT]
+void set_view(const std::string& text, MeshOptions& mesh) {
+  const auto refuse = [&] {
+    throw CLI::ValidationError("--view", text +
+                                             ": expected orthographic, lonlat, or one of them with the "
+                                             "centre in degrees: orthographic:LON,LAT");
+  };
+  const std::vector<std::string> parts = parts_of(text, ':');
+  mesh.lonlat = parts[0] == "lonlat";
+  if ((!mesh.lonlat && parts[0] != "orthographic") || parts.size() > 2) refuse();
+  if (parts.size() == 1) return;
+  const std::vector<std::string> numbers = parts_of(parts[1], ',');
+  if (numbers.size() != 2) refuse();
+  mesh.centre = {number_of(numbers[0]), number_of(numbers[1])};
+  if (!(std::fabs(mesh.centre->lon) <= 360 && std::fabs(mesh.centre->lat) <= 90)) refuse();
+}
+
+/// none, size, degree or owner:P[:bisection|stripes]
+void set_colour(const std::string& text, MeshOptions& mesh) {
+  using Colour = MeshOptions::Colour;
+  const std::vector<std::string> parts = parts_of(text, ':');
+  const std::map<std::string, Colour> words{
+      {"none", Colour::none}, {"size", Colour::size}, {"degree", Colour::degree}};
+  if (const auto word = words.find(text); word != words.end()) {
+    mesh.colour = word->second;
+    return;
+  }
+  const std::map<std::string, pstripack::PartitionKind> kinds{
+      {"bisection", pstripack::PartitionKind::bisection}, {"stripes", pstripack::PartitionKind::stripes}};
+  const double ranks = parts.size() < 2 ? NAN : number_of(parts[1]);
+  const auto kind = kinds.find(parts.size() == 3 ? parts[2] : "bisection");
+  constexpr double kMost = 4096;
+  if (parts[0] != "owner" || parts.size() > 3 || !(ranks >= 1 && ranks <= kMost) ||
+      ranks != std::floor(ranks) || kind == kinds.end())
+    throw CLI::ValidationError(
+        "--colour", text + ": expected none, size, degree, or owner:P, owner:P:stripes for 1 to 4096 ranks");
+  mesh.colour = Colour::owner;
+  mesh.ranks = static_cast<int>(ranks);
+  mesh.partition = kind->second;
+}
+
+pictures::Kind kind_of(const Options& options) {
+  if (options.to == "svg") return pictures::Kind::svg;
+  if (options.to == "png") return pictures::Kind::png;
+  const auto kind = pictures::kind_of(options.file);
+  if (!kind)
+    throw CLI::ValidationError("--output",
+                               options.file + ": expected FILE.svg or FILE.png, or --to svg or png");
+  return *kind;
+}
+
+void plot(Options& options) {
+  const pictures::Kind kind = kind_of(options);
+  const bool histograms = options.what == "histograms";
+  MeshOptions mesh_options;
+  if (options.what == "cells") mesh_options.what = MeshOptions::What::cells;
+  if (!options.view.empty()) set_view(options.view, mesh_options);
+  set_colour(options.colour, mesh_options);
+  mesh_options.radius = options.radius;
+  mesh_options.width = options.width;
+  if (histograms && (!options.view.empty() || options.radius || options.colour != "none"))
+    throw CLI::ValidationError("--what", "histograms have no --view, --radius or --colour");
+  if (mesh_options.colour == MeshOptions::Colour::degree && mesh_options.what != MeshOptions::What::cells)
+    throw CLI::ValidationError("--colour", "degree is a property of nodes: say --what cells");
+  pictures::expect_converter(kind);
+
+  options.input.read.with_triangles = !options.input.drop_duplicates;  // their numbers would be others
+  files::OutputFile file(options.file);
+  Progress progress;
+  const files::Nodes nodes = progress.step("reading", [&] { return read_nodes(options.input); });
+  const files::Mesh mesh = progress.step("triangulating", [&] {
+    if (nodes.triangles.empty()) return triangulate(nodes);
+    try {
+      return files::mesh_of(nodes.points, nodes.triangles);
+    } catch (const files::NoMesh& e) {
+      throw std::runtime_error(nodes.file + ": " + e.what());
+    }
+  });
+  progress.step("drawing", [&] {
+    mesh_options.title =
+        options.title
+            ? *options.title
+            : fmt::format("{}: {} nodes, {} triangles", std::filesystem::path(nodes.file).filename().string(),
+                          pictures::grouped(mesh.points.size()), pictures::grouped(mesh.triangles()));
+    std::string svg;
+    try {
+      svg = histograms ? pictures::histograms(mesh, mesh_options.title, options.width)
+                       : mesh_picture(mesh, mesh_options);
+    } catch (const std::runtime_error& e) {
+      throw std::runtime_error(nodes.file + ": " + e.what());
+    }
+    write(file, kind, svg);
+    file.commit();
+  });
+  progress.finish(
+      fmt::format("{} nodes ({}), {} triangles", nodes.points.size(), nodes.kind, mesh.triangles()));
+}
+
+}  // namespace
+
+void add_plot(CLI::App& app, Command& chosen) {
+  CLI::App* const sub = app.add_subcommand(
+      "plot",
+      "a picture of the triangulation or its Voronoi cells, or histograms of its quality: SVG or PNG");
+  const auto options = std::make_shared<Options>();
+  add_input(*sub, options->input);
+  add_duplicates(*sub, options->input);
+  sub->add_option("-o,--output", options->file, "picture to write: FILE.svg or FILE.png; - is stdout")
+      ->required()
+      ->type_name("FILE");
+  sub->add_option("--to", options->to, "svg or png [by the suffix of the file]")
+      ->type_name("FORMAT")
+      ->check(CLI::IsMember({"svg", "png"}).description(""));
+  sub->add_option("--what", options->what, "triangles, cells (of the Voronoi diagram) or histograms")
+      ->type_name("WORD")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"triangles", "cells", "histograms"}).description(""));
+  sub->add_option("--view", options->view,
+                  "orthographic or lonlat, or with a centre orthographic:LON,LAT [the middle of the nodes]")
+      ->type_name("VIEW");
+  sub->add_option("--radius", options->radius, "zoom: show so many degrees around the centre [all nodes]")
+      ->type_name("DEGREES")
+      ->check(CLI::Range(1e-6, 180.0).description(""));
+  sub->add_option("--colour,--color", options->colour,
+                  "none, size, degree, owner:P or owner:P:stripes, see below")
+      ->type_name("BY")
+      ->capture_default_str();
+  sub->add_option("--title", options->title, "[file and counts]")->type_name("TEXT");
+  sub->add_option("--width", options->width, "of the picture")
+      ->type_name("PIXELS")
+      ->capture_default_str()
+      ->check(CLI::Range(100.0, 20000.0).description(""));
+  sub->footer(R"(  pstripack plot mesh.nc -o mesh.svg
+  pstripack plot nodes.txt --view orthographic:10,45 --radius 5 -o zoom.png --width 1600
+  pstripack plot nodes.txt --what cells --colour size -o cells.svg
+
+Colours:
+  size             area of the triangle or cell
+  degree           number of neighbours of the node; of cells
+  owner:P          which of P ranks has the node, if they share it by recursive bisection
+  owner:P:stripes  ditto, by stripes of longitude
+
+Triangles of UGRID, MPAS and OFF are drawn as they are; other nodes are triangulated first. Nodes that do not cover
+the sphere are shown as close as possible, their boundary in orange. At most 200,000 nodes in view: --view and
+--radius choose a part. PNG is made by rsvg-convert (Debian: librsvg2-bin).)");
+  sub->callback([=, &chosen] { chosen = [=] { plot(*options); }; });
+}
+
+}  // namespace program

@@ -1,0 +1,423 @@
+// Pictures: what is drawn has the area that it must have, on each map, wherever it is cut.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <boost/property_tree/xml_parser.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "files/measures.h"
+#include "pictures/colours.h"
+#include "pictures/histograms.h"
+#include "pictures/mesh_picture.h"
+#include "pictures/scale.h"
+#include "pictures/svg.h"
+#include "pictures/view.h"
+#include "point_sets.h"
+
+namespace pictures {
+namespace {
+
+using files::Faces;
+using files::Mesh;
+
+constexpr double kPi = 3.14159265358979324;
+
+/// Positive where the outline goes round counterclockwise as one looks at it; y points down.
+double area_of(const Outline& outline) {
+  double twice = 0;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Place &p = outline[i], &q = outline[(i + 1) % outline.size()];
+    twice -= p.x * q.y - q.x * p.y;
+  }
+  return twice / 2;
+}
+
+std::vector<std::vector<Point>> polygons_of(const Faces& faces) {
+  std::vector<std::vector<Point>> polygons(faces.size());
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for (std::size_t k = faces.begin[f]; k < faces.begin[f + 1]; ++k)
+      polygons[f].push_back(faces.points[static_cast<std::size_t>(faces.corner[k]) - 1]);
+  return polygons;
+}
+
+/// The area of all, none of which is drawn inside out (slivers at the limb may be, by less than one sees).
+double area_of_all(const std::vector<std::vector<Point>>& polygons, const View& view) {
+  double sum = 0;
+  for (const auto& polygon : polygons)
+    for (const Outline& outline : view.polygon(polygon)) {
+      const double area = area_of(outline);
+      EXPECT_GT(area, -1);
+      sum += area;
+      for (const Place& p : outline) {
+        EXPECT_GE(p.x, view.frame().left - 1e-6);
+        EXPECT_LE(p.x, view.frame().right + 1e-6);
+        EXPECT_GE(p.y, view.frame().top - 1e-6);
+        EXPECT_LE(p.y, view.frame().bottom + 1e-6);
+      }
+    }
+  return sum;
+}
+
+const Frame kPaper{10, 20, 730, 1000};
+
+Mesh mesh_of_family(const std::string& family, std::size_t n) {
+  return files::triangulate(point_sets::make(family, n));
+}
+
+/// Of families that cover the sphere. Nodes at the poles, on the antimeridian and on the limb; arcs through
+/// poles and along meridians.
+const char* const kFamilies[] = {"random",       "fibonacci",   "latlon",
+                                 "cubed-sphere", "icosahedral", "variable:10"};
+
+TEST(lonlat, faces_cover_the_map_once) {
+  for (const char* family : kFamilies)
+    for (const std::size_t n : {20, 60, 800}) {
+      const Mesh mesh = mesh_of_family(family, n);
+      for (const double lon : {0.0, 77.7, -180.0, 45.0}) {
+        const LonLat map({lon, 0}, 90, kPaper);
+        EXPECT_NEAR(map.frame().width(), 720, 1e-9);
+        EXPECT_NEAR(map.frame().height(), 360, 1e-9);
+        // 2 pixels a degree: 360 x 180 degrees. Pieces are straight to 0.05 pixels on both sides alike.
+        EXPECT_NEAR(area_of_all(polygons_of(files::triangle_faces(mesh)), map), 720 * 360, 1e-3)
+            << family << " " << n << " " << lon;
+        EXPECT_NEAR(area_of_all(polygons_of(files::voronoi_faces(mesh)), map), 720 * 360, 1e-3)
+            << family << " " << n << " " << lon << ", cells";
+      }
+    }
+}
+
+TEST(lonlat, faces_cover_a_part_of_the_map_once) {
+  const Mesh mesh = mesh_of_family("random", 300);
+  for (const Spot centre : {Spot{0, 0}, Spot{175, 40}, Spot{-100, -85}, Spot{180, 90}})
+    for (const double radius : {3.0, 20.0, 60.0}) {
+      const LonLat map(centre, radius, kPaper);
+      EXPECT_NEAR(area_of_all(polygons_of(files::triangle_faces(mesh)), map),
+                  map.frame().width() * map.frame().height(), 1e-3)
+          << centre.lon << " " << centre.lat << " " << radius;
+    }
+}
+
+TEST(lonlat, a_triangle_around_a_pole_is_all_that_is_above_it) {
+  for (const double sign : {1.0, -1.0}) {
+    std::vector<Point> triangle;
+    for (const double lon : {0.0, 120.0, 240.0}) triangle.push_back(point_sets::from_degrees(lon, sign * 60));
+    if (sign < 0) std::reverse(triangle.begin(), triangle.end());
+    const LonLat map({30, 0}, 90, kPaper);
+    double area = 0;
+    for (const Outline& part : map.polygon(triangle)) {
+      area += area_of(part);
+      EXPECT_TRUE(std::any_of(part.begin(), part.end(), [&](const Place& p) {
+        return std::fabs(p.y - (sign > 0 ? map.frame().top : map.frame().bottom)) < 1e-9;
+      }));
+    }
+    // Between its sides and the pole: 60 degrees at the corners, tan(lat) = tan(60)/cos(60) in between.
+    double expected = 0;
+    constexpr int kSteps = 20000;
+    for (int i = 0; i < kSteps; ++i) {
+      const double off = (60 - 120 * (i + 0.5) / kSteps) * kPi / 180;  // from the middle of a side
+      const double lat = std::atan(std::tan(kPi / 3) / std::cos(kPi / 3) * std::cos(off)) * 180 / kPi;
+      expected += 3 * (90 - lat) * 120 / kSteps;
+    }
+    EXPECT_NEAR(area / 4, expected, 0.001 * expected);
+  }
+}
+
+TEST(lonlat, a_corner_at_a_pole_is_a_line_and_an_arc_over_a_pole_ends_there) {
+  const LonLat map({0, 0}, 90, kPaper);
+  const std::vector<Point> triangle{
+      point_sets::from_degrees(10, 0), point_sets::from_degrees(50, 0), {0, 0, 1}};
+  const std::vector<Outline> parts = map.polygon(triangle);
+  ASSERT_EQ(parts.size(), 1u);
+  EXPECT_NEAR(area_of(parts[0]) / 4, 40 * 90, 1e-6);
+  const std::vector<Outline> arcs =
+      map.arc(point_sets::from_degrees(20, 70), point_sets::from_degrees(-160, 80));
+  ASSERT_EQ(arcs.size(), 2u);
+  for (const Outline& arc : arcs) {
+    const double x = arc.front().x;
+    for (const Place& p : arc) EXPECT_NEAR(p.x, x, 1e-9);
+    EXPECT_NEAR(std::min(arc.front().y, arc.back().y), map.frame().top, 1e-9);
+  }
+}
+
+TEST(lonlat, an_arc_over_the_antimeridian_is_cut_there) {
+  const LonLat map({0, 0}, 90, kPaper);
+  const std::vector<Outline> parts =
+      map.arc(point_sets::from_degrees(170, 10), point_sets::from_degrees(-170, 10));
+  ASSERT_EQ(parts.size(), 2u);
+  double length = 0;
+  std::vector<double> ends;
+  for (const Outline& part : parts) {
+    for (const Place& p : {part.front(), part.back()})
+      if (std::fabs(p.x - map.frame().left) < 1e-6 || std::fabs(p.x - map.frame().right) < 1e-6)
+        ends.push_back(p.y);
+    length += std::fabs(part.back().x - part.front().x);
+  }
+  EXPECT_NEAR(length, 2 * 20, 1e-9);
+  ASSERT_EQ(ends.size(), 2u);
+  EXPECT_NEAR(ends[0], ends[1], 1e-9);
+}
+
+TEST(orthographic, faces_cover_the_disc_once) {
+  for (const char* family : kFamilies)
+    for (const std::size_t n : {20, 60, 800})
+      for (const Spot eye : {Spot{0, 30}, Spot{0, 0}, Spot{45, 90}, Spot{-90, -45}}) {
+        const Orthographic sphere(eye, 90, kPaper);
+        EXPECT_NEAR(sphere.scale(), 360, 1e-9);
+        const Mesh mesh = mesh_of_family(family, n);
+        // Pieces of the limb leave out 2/3 of 0.05 pixels at most, along 2 pi 360 pixels.
+        for (const Faces& faces : {files::triangle_faces(mesh), files::voronoi_faces(mesh)})
+          EXPECT_NEAR(area_of_all(polygons_of(faces), sphere) / (360 * 360), kPi, 6e-4)
+              << family << " " << n << " " << eye.lon << " " << eye.lat;
+      }
+}
+
+TEST(orthographic, faces_cover_a_part_of_the_sphere_once) {
+  const Mesh mesh = mesh_of_family("random", 500);
+  for (const double radius : {0.01, 1.0, 30.0}) {
+    const Orthographic part({12, 55}, radius, kPaper);
+    EXPECT_NEAR(area_of_all(polygons_of(files::triangle_faces(mesh)), part), 720 * 720, 1e-3);
+  }
+}
+
+TEST(orthographic, arcs_end_at_the_limb_and_hidden_ones_are_not_drawn) {
+  const Orthographic sphere({0, 0}, 90, kPaper);
+  const auto distance = [&](const Place& p) {
+    return std::hypot(p.x - sphere.middle().x, p.y - sphere.middle().y) / sphere.scale();
+  };
+  const std::vector<Outline> cut =
+      sphere.arc(point_sets::from_degrees(70, 20), point_sets::from_degrees(120, 40));
+  ASSERT_EQ(cut.size(), 1u);
+  EXPECT_NEAR(distance(cut[0].back()), 1, 1e-12);
+  EXPECT_LT(distance(cut[0].front()), 0.99);
+  EXPECT_TRUE(sphere.arc(point_sets::from_degrees(100, 0), point_sets::from_degrees(150, 0)).empty());
+  EXPECT_FALSE(sphere.place(point_sets::from_degrees(91, 0)));
+  EXPECT_TRUE(sphere.place(point_sets::from_degrees(89, 0)));
+  EXPECT_LT(sphere.place(point_sets::from_degrees(0, 10))->y, sphere.middle().y);  // north is up
+  EXPECT_GT(sphere.place(point_sets::from_degrees(10, 0))->x, sphere.middle().x);  // east is right
+}
+
+TEST(views, pieces_of_an_arc_look_straight) {
+  const Point a = point_sets::from_degrees(-60, 40), b = point_sets::from_degrees(50, 55);
+  const LonLat map({0, 0}, 90, kPaper);
+  const Orthographic sphere({0, 30}, 90, kPaper);
+  for (const View* view : {static_cast<const View*>(&map), static_cast<const View*>(&sphere)}) {
+    const std::vector<Outline> line = view->arc(a, b);
+    ASSERT_EQ(line.size(), 1u);
+    for (double t = 0; t <= 1; t += 0.001) {
+      const Point p =
+          point_sets::normalized({(1 - t) * a.x + t * b.x, (1 - t) * a.y + t * b.y, (1 - t) * a.z + t * b.z});
+      const Place on = *view->place(p);
+      double nearest = 1e9;
+      for (std::size_t i = 0; i + 1 < line[0].size(); ++i) {
+        const Place &u = line[0][i], &v = line[0][i + 1];
+        const double dx = v.x - u.x, dy = v.y - u.y;
+        const double s = std::clamp(((on.x - u.x) * dx + (on.y - u.y) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
+        nearest = std::min(nearest, std::hypot(u.x + s * dx - on.x, u.y + s * dy - on.y));
+      }
+      EXPECT_LT(nearest, 0.1);
+    }
+  }
+}
+
+TEST(views, name_their_spots) {
+  EXPECT_EQ(name_of({-12.5, 40}), "12.5°W 40°N");
+  EXPECT_EQ(name_of({190, -0.25}), "170°W 0.25°S");
+  EXPECT_EQ(name_of({540, 0}), "180° 0°");
+}
+
+// ---- measures, scales, colours
+// ------------------------------------------------------------------------------
+
+TEST(measures, areas_of_triangles_add_up_to_the_sphere_and_small_ones_keep_their_digits) {
+  const Mesh mesh = mesh_of_family("variable", 2000);
+  const auto polygons = polygons_of(files::triangle_faces(mesh));
+  double sum = 0;
+  for (const auto& t : polygons) sum += files::triangle_area(t[0], t[1], t[2]);
+  EXPECT_NEAR(sum, 4 * kPi, 1e-10);
+  constexpr double kSmall = 1e-9;
+  EXPECT_NEAR(files::triangle_area({1, 0, 0}, {1, kSmall, 0}, {1, 0, kSmall}) / (kSmall * kSmall / 2), 1,
+              1e-6);
+}
+
+TEST(scale, has_round_ticks_in_its_range_that_are_labelled_with_their_values) {
+  for (const auto& values : std::vector<std::vector<double>>{{0.123, 0.127},
+                                                             {3e-7, 5e-7},
+                                                             {1, 19},
+                                                             {2e-5, 9e-4},
+                                                             {1e-9, 3},
+                                                             {7, 7},
+                                                             {0, 0},
+                                                             {-3, 5},
+                                                             {1e8, 3e8}}) {
+    const Scale scale(values);
+    const auto ticks = scale.ticks(5);
+    EXPECT_GE(ticks.size(), 2u) << values[0];
+    EXPECT_LE(ticks.size(), 11u) << values[0];
+    for (const Scale::Tick& tick : ticks) {
+      EXPECT_GE(scale(tick.value), -1e-6) << values[0];
+      EXPECT_LE(scale(tick.value), 1 + 1e-6) << values[0];
+    }
+    for (std::size_t i = 1; i < ticks.size(); ++i) {
+      EXPECT_LT(ticks[i - 1].value, ticks[i].value);
+      EXPECT_NE(ticks[i - 1].label, ticks[i].label);
+    }
+  }
+  const Scale small({2e-5, 4e-5});
+  EXPECT_EQ(small.name_of_factor(), "10⁻⁵ ");
+  EXPECT_DOUBLE_EQ(small.factor(), 1e-5);
+  EXPECT_EQ(small.ticks(2)[0].label, "2");
+  EXPECT_NEAR(small.ticks(2)[0].value, 2e-5, 1e-18);
+  EXPECT_EQ(Scale({1e-9, 3}).ticks(4).front().label, "10⁻⁹");
+  EXPECT_EQ(grouped(1234567), "1,234,567");
+  EXPECT_EQ(grouped(999), "999");
+}
+
+TEST(colours, of_neighbours_differ) {
+  // A wheel: eight in a ring, each beside the two next to it and the hub.
+  std::vector<std::vector<std::size_t>> beside(9);
+  for (std::size_t i = 0; i < 8; ++i) {
+    beside[i] = {(i + 1) % 8, (i + 7) % 8, 8};
+    beside[8].push_back(i);
+  }
+  const std::vector<std::string> colours = distinct_colours(beside);
+  for (std::size_t i = 0; i < beside.size(); ++i)
+    for (const std::size_t other : beside[i]) EXPECT_NE(colours[i], colours[other]);
+  EXPECT_EQ(viridis(0), "#440154");
+  EXPECT_EQ(viridis(1), "#fde725");
+}
+
+// ---- whole pictures
+// -----------------------------------------------------------------------------------------
+
+boost::property_tree::ptree parsed(const std::string& svg) {
+  std::istringstream in(svg);
+  boost::property_tree::ptree tree;
+  boost::property_tree::read_xml(in, tree);  // throws unless well-formed
+  return tree;
+}
+
+std::size_t count(const std::string& text, const std::string& what) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(what); at != text.npos; at = text.find(what, at + 1)) ++found;
+  return found;
+}
+
+TEST(mesh_picture, of_every_kind_is_well_formed_and_without_nan) {
+  using Colour = MeshOptions::Colour;
+  using What = MeshOptions::What;
+  for (const char* family : {"random", "latlon", "cap", "hemisphere-rim", "clusters", "ring"})
+    for (const std::size_t n : {5, 100}) {
+      const Mesh mesh = mesh_of_family(family, n);
+      for (const What what : {What::triangles, What::cells})
+        for (const Colour colour : {Colour::none, Colour::size, Colour::degree, Colour::owner})
+          for (const bool lonlat : {false, true}) {
+            if (what == What::triangles && colour == Colour::degree) continue;
+            MeshOptions options;
+            options.what = what;
+            options.colour = colour;
+            options.ranks = 3;
+            options.lonlat = lonlat;
+            options.title = "a < b & \"c\"";
+            options.width = 400;
+            const std::string svg = mesh_picture(mesh, options);
+            const auto tree = parsed(svg);
+            EXPECT_EQ(tree.get<double>("svg.<xmlattr>.width"), 400);
+            EXPECT_EQ(count(svg, "nan"), 0u) << family << n;
+            EXPECT_EQ(count(svg, "inf"), 0u) << family << n;
+            EXPECT_EQ(count(svg, "a &lt; b &amp; &quot;c&quot;"), 1u);
+          }
+    }
+}
+
+TEST(mesh_picture, counts_neighbours_and_nodes_of_ranks_in_its_legend) {
+  const Mesh mesh = mesh_of_family("icosahedral", 162);  // twelve nodes have five neighbours, the others six
+  MeshOptions options;
+  options.what = MeshOptions::What::cells;
+  options.colour = MeshOptions::Colour::degree;
+  const std::string by_degree = mesh_picture(mesh, options);
+  EXPECT_EQ(count(by_degree, ">5 (12)<"), 1u);
+  EXPECT_EQ(count(by_degree, ">6 (150)<"), 1u);
+  options.colour = MeshOptions::Colour::owner;
+  options.ranks = 1;
+  EXPECT_EQ(count(mesh_picture(mesh, options), "162 to 162 nodes each"), 1u);
+  options.ranks = 2;
+  options.partition = pstripack::PartitionKind::stripes;
+  EXPECT_EQ(count(mesh_picture(mesh, options), "stripes: which of 2 ranks owns a node"), 1u);
+}
+
+TEST(mesh_picture, marks_the_boundary_of_a_part_of_the_sphere) {
+  MeshOptions options;
+  EXPECT_EQ(count(mesh_picture(mesh_of_family("random", 100), options), "boundary"), 0u);
+  EXPECT_EQ(
+      count(mesh_picture(files::triangulate({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}), options), "3 boundary nodes"),
+      1u);
+}
+
+TEST(mesh_picture, of_cells_that_are_lunes_is_refused) {
+  const Mesh mesh = files::triangulate({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+  MeshOptions options;
+  EXPECT_NO_THROW(parsed(mesh_picture(mesh, options)));
+  options.what = MeshOptions::What::cells;
+  EXPECT_THROW(mesh_picture(mesh, options), std::runtime_error);
+}
+
+TEST(mesh_picture, of_too_many_nodes_in_view_says_how_to_zoom) {
+  const Mesh mesh = mesh_of_family("fibonacci", 2 * kMostNodesInView + 2000);
+  MeshOptions options;
+  try {
+    mesh_picture(mesh, options);
+    FAIL();
+  } catch (const std::runtime_error& e) {
+    EXPECT_NE(std::string(e.what()).find("--view orthographic:0,30 --radius 72"), std::string::npos)
+        << e.what();
+  }
+  options.radius = 2;
+  EXPECT_NO_THROW(parsed(mesh_picture(mesh, options)));
+}
+
+TEST(histograms, count_what_is_in_the_mesh) {
+  const std::string svg = histograms(mesh_of_family("icosahedral", 162), "t", 800);
+  EXPECT_EQ(parsed(svg).get<double>("svg.<xmlattr>.width"), 800);
+  EXPECT_EQ(count(svg, "min 5, median 6, max 6"), 1u);
+  // The octahedron: all angles 60 degrees, all arcs 90, all areas an eighth of the sphere.
+  const std::string same = histograms(
+      files::triangulate({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}), "", 800);
+  EXPECT_EQ(count(same, "min 60, median 60, max 60"), 1u);
+  EXPECT_EQ(count(same, "min 90, median 90, max 90"), 1u);
+  EXPECT_EQ(count(same, "min 1.571, median 1.571, max 1.571"), 1u);
+  EXPECT_EQ(count(same, "nan"), 0u);
+}
+
+// ---- files
+// ----------------------------------------------------------------------------------------------------
+
+TEST(xml, is_escaped_and_holds_no_byte_that_xml_forbids) {
+  const char* const odd = "a<b>&\"c'd\" \x01\xff\xc3\xa9,.txt";  // one control byte, one that is not UTF-8
+  EXPECT_EQ(escaped_for_xml(odd), "a&lt;b&gt;&amp;&quot;c'd&quot; ?\xef\xbf\xbd\xc3\xa9,.txt");
+  EXPECT_EQ(escaped_for_xml("two\nlines\t"), "two\nlines\t");
+}
+
+TEST(path, is_short_and_exact_to_hundredths) {
+  Path path;
+  path.move({12.347, -7});
+  path.line({12.349, -7});  // nothing to see
+  path.line({13.5, -7.104});
+  path.close();
+  path.dot({1, 2});
+  EXPECT_EQ(path.data(), "M12.35-7l1.15-.1ZM1 2h0");
+}
+
+TEST(kinds, are_known_by_their_suffix) {
+  EXPECT_EQ(kind_of("a.svg"), Kind::svg);
+  EXPECT_EQ(kind_of("a.b.png"), Kind::png);
+  EXPECT_FALSE(kind_of("a.gif"));
+  EXPECT_FALSE(kind_of(".svg"));
+}
+
+}  // namespace
+}  // namespace pictures
