@@ -512,6 +512,22 @@ TEST(SameDirection, LooksAtEveryComponent) {
       ASSERT_EQ(pstripack::same_direction(a, b), exact::same_direction(a, b)) << text({a, b, a, b});
 }
 
+TEST(Above, StrictlyIsTheSignOfTheVolume) {
+  const Four f{Point{1, 0, 0}, Point{0, 1, 0}, Point{0, 0, 1}, Point{0.6, 0.8, 0}};
+  const Coordinates given(f.data(), 4);
+  const Directions unit(f.data(), 4);
+  EXPECT_TRUE(given.strictly_above(0, 1, 2, 3) && unit.strictly_above(0, 1, 2, 3));
+  EXPECT_FALSE(given.strictly_above(1, 0, 2, 3) || unit.strictly_above(1, 0, 2, 3));
+  EXPECT_FALSE(given.strictly_above(0, 1, 3, 3) || unit.strictly_above(0, 1, 3, 3));
+}
+
+TEST(Coordinates, CoincideWhereAllAreEqual) {
+  const std::vector<Point> p{{1, 2, 3}, {1, 2, 3}, {1, 2, 4}, {1, 3, 3}, {2, 2, 3}, {2, 4, 6}};
+  const Coordinates on(p.data(), p.size());
+  EXPECT_TRUE(on.coincide(0, 1));
+  for (const int other : {2, 3, 4, 5}) EXPECT_FALSE(on.coincide(0, other)) << other;
+}
+
 TEST(Above, IsFalseWhereTwoNodesCoincide) {
   const Four different_ones = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 1, 1}}};
   for (std::size_t i = 0; i < 4; ++i)

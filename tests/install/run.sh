@@ -1,18 +1,26 @@
 #!/bin/sh
 # Installs a build into an empty prefix and builds strangers' programs against it, by CMake, by pkg-config and
-# by hand, shared and static. Usage: run.sh BUILD_DIR SOURCE_DIR WORK_DIR CMAKE_GENERATOR
+# by hand, shared and static; with MPIEXEC also those with MPI.
+# Usage: run.sh BUILD_DIR SOURCE_DIR WORK_DIR CMAKE_GENERATOR VERSION [MPIEXEC]
+# shellcheck disable=SC2046  # lists of words on purpose
 set -eu
-build=$1 source=$2 work=$3 generator=$4
+build=$1 source=$2 work=$3 generator=$4 version=$5 mpiexec=${6:-}
 prefix=$work/prefix consumer=$source/tests/install/consumer
 rm -rf "$work"
 mkdir -p "$work"
 
+# The build folder's list of what is installed stays that of the user.
+manifest=$build/install_manifest.txt
+if [ -e "$manifest" ]; then cp -p "$manifest" "$work"; fi
 cmake --install "$build" --prefix "$prefix" > "$work/install.log"
+rm "$manifest"
+if [ -e "$work/install_manifest.txt" ]; then mv "$work/install_manifest.txt" "$manifest"; fi
 libdir=$(dirname "$(find "$prefix" -name stripack.pc)")/..
 export PKG_CONFIG_PATH="$libdir/pkgconfig"
 
 echo "== CMake package"
-cmake -G "$generator" -S "$consumer" -B "$work/cmake" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release > "$work/cmake.log"
+cmake -G "$generator" -S "$consumer" -B "$work/cmake" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release \
+  -DMPI="${mpiexec:+ON}" > "$work/cmake.log"
 cmake --build "$work/cmake" >> "$work/cmake.log"
 for program in legacy_stripack legacy_stripack_static legacy_stripack_8arg legacy_stripack_r4 legacy_stripack_i8 c_pstripack c_pstripack_archive; do
   "$work/cmake/$program"
@@ -20,14 +28,34 @@ done
 
 echo "== pkg-config"
 export LD_LIBRARY_PATH="$libdir"
-# shellcheck disable=SC2046  # lists of words on purpose
 gfortran $(pkg-config --cflags stripack) "$consumer/legacy.F90" -o "$work/pc_r8" $(pkg-config --libs stripack)
 gfortran -DSINGLE_PRECISION $(pkg-config --cflags stripack_r4) "$consumer/legacy.F90" -o "$work/pc_r4" $(pkg-config --libs stripack_r4)
 gfortran -DEIGHT_ARGUMENTS $(pkg-config --cflags stripack_8arg) "$consumer/legacy.F90" -o "$work/pc_8arg" $(pkg-config --libs stripack_8arg)
 gfortran -fdefault-integer-8 $(pkg-config --cflags stripack_i8) "$consumer/legacy.F90" -o "$work/pc_i8" $(pkg-config --libs stripack_i8)
 cc $(pkg-config --cflags pstripack) "$consumer/c_api.c" -o "$work/pc_c" $(pkg-config --libs pstripack)
 for program in pc_r8 pc_r4 pc_8arg pc_i8 pc_c; do "$work/$program"; done
+"$work/pc_c" | grep "^c_api: pstripack $version,"
+for package in stripack stripack_r4 stripack_8arg stripack_i8 pstripack pstripack_fortran; do
+  pkg-config --exact-version="$version" $package
+done
 unset LD_LIBRARY_PATH
+
+if [ -n "$mpiexec" ]; then
+  echo "== MPI: CMake package, pkg-config"
+  export LD_LIBRARY_PATH="$libdir"
+  cc $(pkg-config --cflags pstripack_mpi) "$consumer/mpi.c" -o "$work/pc_mpi" $(pkg-config --libs pstripack_mpi)
+  mpifort $(pkg-config --cflags stripack pstripack_mpi_fortran) "$consumer/mpi_fortran.f90" -o "$work/pc_mpi_fortran" \
+    $(pkg-config --libs stripack pstripack_mpi_fortran)
+  for program in "$work/pc_mpi" "$work/pc_mpi_fortran" "$work/cmake/mpi_pstripack_mpi" \
+    "$work/cmake/mpi_pstripack_mpi_archive" "$work/cmake/mpi_pstripack_mpi_fortran" \
+    "$work/cmake/mpi_pstripack_mpi_fortran_static"; do
+    PSTRIPACK_REPORT=1 "$mpiexec" -n 2 "$program" > "$work/mpi.log" 2>&1 || { cat "$work/mpi.log"; exit 1; }
+    grep -x 'mpi: 2 ranks, 24 slots' "$work/mpi.log"
+    grep -o 'pstripack: comm n=6 ranks=2' "$work/mpi.log"
+  done
+  pkg-config --exact-version="$version" pstripack_mpi pstripack_mpi_fortran
+  unset LD_LIBRARY_PATH
+fi
 
 echo "== the static archives alone"
 gfortran -I "$prefix/include/pstripack/stripack" "$consumer/legacy.F90" -o "$work/static" \

@@ -1,0 +1,101 @@
+# Debian packages: `cmake --workflow --preset packages` configures for /usr, builds and packs; `cpack -G DEB` packs any
+# other build. One package a component of the install rules; what is not yet as Debian wants it, finish-packages.cmake
+# finishes.
+set(PSTRIPACK_PACKAGE_CONTACT "The PSTRIPACK developers <pstripack@no-address.invalid>" CACHE STRING
+    "Maintainer of the packages that cpack makes: Name <address>")
+
+set(CPACK_PACKAGE_NAME pstripack)
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGE_CONTACT ${PSTRIPACK_PACKAGE_CONTACT})
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package has its own
+set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
+set(CPACK_GENERATOR DEB)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_THREADS 0)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE
+                                                WORLD_READ WORLD_EXECUTE)
+set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/finish-packages.cmake)
+set(CPACK_PSTRIPACK_SOURCE_DIR ${PROJECT_SOURCE_DIR})
+set(CPACK_PSTRIPACK_BINARY_DIR ${PROJECT_BINARY_DIR})
+
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_RELEASE 0upstream1)  # Debian's own would begin with 1, and so replace it
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/src/cxx/capi ${PROJECT_BINARY_DIR}/src/fortran)
+set(CPACK_COMPONENTS_ALL "")
+
+# debian_package(component NAME package SECTION section SUMMARY line DESCRIPTION text
+#                [DEPENDS package...] [RECOMMENDS package...] [SUGGESTS package...] [LIBRARIES])
+#
+# LIBRARIES: it has shared libraries for others to link. Libraries of ours among the others are meant in this very
+# version.
+macro(debian_package component)
+  cmake_parse_arguments(arg "LIBRARIES" "NAME;SECTION;SUMMARY;DESCRIPTION" "DEPENDS;RECOMMENDS;SUGGESTS" ${ARGN})
+  string(TOUPPER ${component} COMPONENT)
+  list(APPEND CPACK_COMPONENTS_ALL ${component})
+  set(CPACK_DEBIAN_${COMPONENT}_PACKAGE_NAME ${arg_NAME})
+  set(CPACK_DEBIAN_${COMPONENT}_PACKAGE_SECTION ${arg_SECTION})
+  set(CPACK_COMPONENT_${COMPONENT}_DESCRIPTION "${arg_SUMMARY}\n${arg_DESCRIPTION}")
+  foreach(relation DEPENDS RECOMMENDS SUGGESTS)
+    list(TRANSFORM arg_${relation} REPLACE "^libpstripack.*$"
+         "\\0 (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
+    list(JOIN arg_${relation} ", " CPACK_DEBIAN_${COMPONENT}_PACKAGE_${relation})
+  endforeach()
+  if(arg_LIBRARIES)
+    set(CPACK_DEBIAN_${COMPONENT}_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/packaging/triggers)
+  endif()
+endmacro()
+file(WRITE ${PROJECT_BINARY_DIR}/packaging/triggers "activate-noawait ldconfig\n")
+
+set(about "PSTRIPACK computes Delaunay triangulations and Voronoi diagrams on the
+sphere, exactly and in parallel, behind the calls of STRIPACK (ACM
+Algorithm 772).
+.
+")
+set(soversion ${PROJECT_VERSION_MAJOR})
+debian_package(runtime NAME libpstripack${soversion} SECTION libs LIBRARIES
+  SUMMARY "Delaunay triangulation on the sphere: drop-in replacement of STRIPACK"
+  DESCRIPTION "${about}This package has the shared libraries, and links to them by which a
+program that is linked with another libstripack.so runs with them.")
+debian_package(development NAME libpstripack-dev SECTION libdevel
+  DEPENDS libpstripack${soversion} RECOMMENDS gfortran pkg-config SUGGESTS libpstripack-mpi-dev g++
+  SUMMARY "Delaunay triangulation on the sphere: to link programs"
+  DESCRIPTION "${about}This package has the headers, Fortran modules, static libraries, man
+pages, pkg-config files, the CMake package and pstripack-config.")
+if(PSTRIPACK_WITH_MPI)
+  if("${MPI_C_LIBRARIES}" MATCHES mpich)
+    set(mpi_packages mpich libmpich-dev)
+  else()
+    set(mpi_packages openmpi-bin libopenmpi-dev)
+  endif()
+  list(POP_FRONT mpi_packages mpirun_package mpi_dev_package)
+  debian_package(mpi NAME libpstripack-mpi${soversion} SECTION libs LIBRARIES
+    DEPENDS libpstripack${soversion}
+    SUMMARY "Delaunay triangulation on the sphere: libraries for MPI programs"
+    DESCRIPTION "${about}This package has the shared libraries for programs that use MPI
+themselves.")
+  debian_package(mpi_development NAME libpstripack-mpi-dev SECTION libdevel
+    DEPENDS libpstripack-mpi${soversion} libpstripack-dev ${mpi_dev_package}
+    SUMMARY "Delaunay triangulation on the sphere: to link MPI programs"
+    DESCRIPTION "${about}This package has the header, Fortran module, static libraries and man
+page for programs that use MPI themselves.")
+  debian_package(mpi_tools NAME pstripack-mpi SECTION science
+    DEPENDS libpstripack${soversion} ${mpirun_package}
+    SUMMARY "Delaunay triangulation on the sphere: MPI ranks for serial programs"
+    DESCRIPTION "${about}This package has pstripack-run, which starts an unchanged serial program
+with MPI ranks behind its calls.")
+endif()
+if(PSTRIPACK_TOOLS)
+  debian_package(tools NAME pstripack SECTION science DEPENDS libpstripack${soversion} SUGGESTS pstripack-mpi
+    SUMMARY "Delaunay triangulation on the sphere: commands"
+    DESCRIPTION "${about}This package has pstripack, which makes meshes of files of nodes, and
+stripack-compare, which runs an original STRIPACK beside this one and
+explains every difference.")
+endif()
+
+include(CPack)

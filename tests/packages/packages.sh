@@ -1,0 +1,83 @@
+#!/bin/sh
+# The Debian packages that cpack makes of a build: lintian has no errors and no warnings; each has what its name says,
+# depends on what it needs and not on MPI without need; together they have every installed file, once.
+# Usage: packages.sh BUILD_DIR WORK_DIR VERSION PREFIX CONSUMER_DIR    PREFIX: what `cmake --install` installs
+set -eu
+build=$1 work=$2 version=$3 prefix=$4 consumer=$5
+rm -rf "$work"
+mkdir -p "$work/all"
+fail() { echo "$*" >&2; exit 1; }
+
+cp "$build"/install_manifest*.txt "$work" 2>/dev/null || true
+(cd "$build" && cpack -G DEB -B "$work/packages") > "$work/cpack.log" || { cat "$work/cpack.log"; exit 1; }
+for manifest in "$build"/install_manifest_*.txt; do  # the target `uninstall` would take it for an installation
+  [ ! -e "$manifest" ] || [ -e "$work/${manifest##*/}" ] || fail "cpack has left $manifest"
+done
+cd "$work/packages"
+rm -rf _CPack_Packages
+
+# A build that is not for /usr has no multiarch folders, which the MPI part's paths offend.
+multiarch=$(dpkg-architecture -q DEB_HOST_MULTIARCH)
+suppressed=running-as-root
+dpkg-deb -c libpstripack-dev_*.deb | grep -q "/usr/lib/$multiarch/pkgconfig/" ||
+  suppressed=pkg-config-multi-arch-wrong-dir,pkg-config-unavailable-for-cross-compilation
+lintian --allow-root --fail-on error,warning --suppress-tags "$suppressed" ./*.deb
+
+# has PACKAGE DEPENDS_ON NOT_ON PATH...
+has() {
+  file=$(echo "$1"_*.deb) on=$2 not_on=$3
+  shift 3
+  [ -e "$file" ] || fail "no package $file"
+  [ "$(dpkg-deb -f "$file" Version | cut -d- -f1)" = "$version" ] || fail "$file: version"
+  depends=$(dpkg-deb -f "$file" Depends)
+  echo "$depends" | grep -qE "$on" || fail "$file does not depend on $on: $depends"
+  if echo "$depends" | grep -qE "$not_on"; then fail "$file depends on $not_on: $depends"; fi
+  dpkg-deb -c "$file" | awk '{ print $6 }' > contents
+  for path in "$@"; do
+    grep -qE "^\./usr/$path\$" contents || fail "$file has no $path"
+  done
+  rm contents
+}
+lib="lib(/$multiarch)?"
+soname=${version%%.*}
+for library in libpstripack libpstripack_fortran libstripack libstripack_r4 libstripack_8arg libstripack_i8; do
+  has "libpstripack$soname" libgomp 'mpi|netcdf|fmt|python' "$lib/$library.so.$soname"
+  has libpstripack-dev "libpstripack$soname \(= $version" 'mpi|netcdf|fmt' "$lib/$library.so" "$lib/$library.a" \
+    "$lib/pkgconfig/${library#lib}.pc"
+done
+for abi in r8 r4 8arg i8; do
+  has "libpstripack$soname" libgfortran mpi "$lib/pstripack/switch/$abi/libstripack.so"
+done
+has libpstripack-dev "libpstripack$soname" mpi include/pstripack.h include/pstripack/stripack/stripack.mod \
+  share/pstripack/stripack_module.F90 "$lib/cmake/pstripack/pstripackConfig.cmake" bin/pstripack-config \
+  share/man/man3/trmesh.3.gz share/man/man1/pstripack-config.1.gz
+if grep -q '^PSTRIPACK_WITH_MPI:BOOL=ON' "$build/CMakeCache.txt"; then
+  has "libpstripack-mpi$soname" "mpi.*|libpstripack$soname \(= $version" 'netcdf|-dev' "$lib/libpstripack_mpi.so.$soname" \
+    "$lib/libpstripack_mpi_fortran.so.$soname"
+  has libpstripack-mpi-dev "libpstripack-mpi$soname.*libpstripack-dev.*-dev" netcdf include/pstripack_mpi.h \
+    "$lib/libpstripack_mpi.so" "$lib/libpstripack_mpi.a" "$lib/pkgconfig/pstripack_mpi.pc" share/man/man3/pstripack_mpi.3.gz
+  has pstripack-mpi "libpstripack$soname .*mpi" netcdf bin/pstripack-run bin/pstripack-worker \
+    share/man/man1/pstripack-run.1.gz
+fi
+has pstripack "libpstripack$soname \(= $version" mpi bin/pstripack bin/stripack-compare share/man/man1/pstripack.1.gz
+
+# Every file of `cmake --install` but the modulefile, once.
+for file in ./*.deb; do
+  dpkg-deb -x "$file" "$work/all"
+  dpkg-deb -c "$file" | awk '$1 !~ /^d/ { print $6 }'
+done | sed 's/\.gz$//; s|^\./usr||' | grep -vE '^/share/(doc|lintian)/' | sort > "$work/packed"
+(cd "$prefix" && find . ! -type d | sed 's/^\.//' | grep -v '^/share/pstripack/modulefiles/' | sort) > "$work/installed"
+diff "$work/installed" "$work/packed" || fail "what is installed (<) is not what is packed (>)"
+
+# A CMake project finds the packages without MPI, also where MPI is installed.
+for file in libpstripack"$soname"_*.deb libpstripack-dev_*.deb; do dpkg-deb -x "$file" "$work/without_mpi"; done
+{
+  cmake -S "$consumer" -B "$work/consumer" -DCMAKE_PREFIX_PATH="$work/without_mpi/usr"
+  cmake --build "$work/consumer" --target legacy_stripack
+} > "$work/consumer.log" 2>&1 || { cat "$work/consumer.log"; exit 1; }
+"$work/consumer/legacy_stripack"
+
+find "$work/all" -name '*.so.*' -type f -o -path '*/bin/*' -type f | while read -r file; do
+  if readelf -SW "$file" 2>/dev/null | grep -q '\.debug_info'; then fail "$file is not stripped"; fi
+done
+echo "packages: $(find . -name '*.deb' | wc -l), with $(wc -l < "$work/packed") files"
