@@ -77,6 +77,43 @@ std::vector<Sample> samples() {
           {"cap", make("cap:1e-6", 10, 1)}};
 }
 
+TEST(Validator, RefusesAStarThatRunsIntoACycle) {
+  // Around node 0: 1, 2, 3, 2, 3, ...
+  EXPECT_FALSE(judge({{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, -1, 0}}, Faces{{0, 1, 2}, {0, 2, 3}, {0, 3, 2}}));
+}
+
+TEST(Validator, TellsCanonicalListsFromOthers) {
+  for (const Sample& s : samples()) {
+    const auto rings = rings_of(s.nodes.size(), brute_force(s.nodes, On::coordinates));
+    ASSERT_TRUE(rings) << s.name;
+    const Lists lists = canonical_lists(*rings);
+    ASSERT_TRUE(pstripack::lists_are_canonical(view(lists))) << s.name;
+    for (std::size_t k = 0; k < lists.lend.size(); ++k) {
+      const auto first = static_cast<std::size_t>(k == 0 ? 0 : lists.lend[k - 1]);
+      const auto last = static_cast<std::size_t>(lists.lend[k] - 1);
+      const auto refused = [&](const auto& change) {
+        Lists other = lists;
+        change(other);
+        return !pstripack::lists_are_canonical(view(other));
+      };
+      EXPECT_TRUE(refused([&](Lists& l) { l.lend[k] = static_cast<int>(first); })) << s.name;
+      EXPECT_TRUE(refused([&](Lists& l) { std::swap(l.lptr[first], l.lptr[last]); })) << s.name;
+      EXPECT_TRUE(refused([&](Lists& l) { l.lptr[last] = 0; })) << s.name;
+      if (lists.list[last] > 0)
+        EXPECT_TRUE(refused([&](Lists& l) {
+          std::rotate(l.list.begin() + static_cast<std::ptrdiff_t>(first),
+                      l.list.begin() + static_cast<std::ptrdiff_t>(first) + 1,
+                      l.list.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+        })) << s.name;
+    }
+    Lists other = lists;
+    ++other.lnew;
+    EXPECT_FALSE(pstripack::lists_are_canonical(view(other))) << s.name;
+    other.lnew = 0;  // not known
+    EXPECT_TRUE(pstripack::lists_are_canonical(view(other))) << s.name;
+  }
+}
+
 TEST(Validator, AcceptsBruteForceMeshes) {
   for (const Sample& s : samples()) {
     const Faces faces = brute_force(s.nodes, On::coordinates);

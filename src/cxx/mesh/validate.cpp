@@ -84,8 +84,7 @@ bool ring_of(Corners& stars, index_t v, std::vector<index_t>& ring, bool& closed
     ring.push_back(b);
     b = stars.beyond(v, b);
   } while (b != kNone && b != start && ring.size() <= stars.degree(s));
-  return closed ? b == start && ring.size() == stars.degree(s)
-                : b == kNone && ring.size() == stars.degree(s) + 1;
+  return closed ? ring.size() == stars.degree(s) : b == kNone && ring.size() == stars.degree(s) + 1;
 }
 
 /// The neighbours of one node.
