@@ -88,7 +88,8 @@ page for programs that use MPI themselves.")
     DEPENDS libpstripack${soversion} ${mpirun_package}
     SUMMARY "Delaunay triangulation on the sphere: MPI ranks for serial programs"
     DESCRIPTION "${about}This package has pstripack-run, which starts an unchanged serial program
-with MPI ranks behind its calls.")
+with MPI ranks behind its calls, and what the command pstripack becomes under
+mpirun.")
 endif()
 if(PSTRIPACK_TOOLS)
   debian_package(tools NAME pstripack SECTION science DEPENDS libpstripack${soversion} SUGGESTS pstripack-mpi

@@ -33,6 +33,11 @@ bool parse_word(std::string_view word, double& value) {
   return parse(std::string(word), value);
 }
 
+bool is_nan(std::string_view word) {
+  const auto is = [&](std::size_t i, char c) { return (word[i] | 0x20) == c; };
+  return word.size() == 3 && is(0, 'n') && is(1, 'a') && is(2, 'n');
+}
+
 }  // namespace
 
 bool parse(std::string text, double& value) {
@@ -63,7 +68,7 @@ std::string contents_of(const std::string& file) {
   return text;
 }
 
-Table table_of(std::string_view text, const std::string& name, std::size_t most_columns) {
+Table table_of(std::string_view text, const std::string& name, std::size_t most_columns, bool with_nan) {
   Table table;
   std::size_t number = 0, line_of_count = 0;
   double count = 0;
@@ -81,7 +86,10 @@ Table table_of(std::string_view text, const std::string& name, std::size_t most_
       for (end = begin; end < line.size() && !is_blank(line[end]);) ++end;
       const std::string_view word = line.substr(begin, end - begin);
       double value = 0;
-      if (!parse_word(word, value)) fail(name, number, "'" + std::string(word) + "' is not a finite number");
+      if (with_nan && is_nan(word))
+        value = std::nan("");
+      else if (!parse_word(word, value))
+        fail(name, number, "'" + std::string(word) + "' is not a finite number");
       table.values.push_back(value);
     }
     const std::size_t columns = table.values.size() - before;

@@ -56,7 +56,7 @@ if grep -q '^PSTRIPACK_WITH_MPI:BOOL=ON' "$build/CMakeCache.txt"; then
     "$lib/libpstripack_mpi_fortran.so.$soname"
   has libpstripack-mpi-dev "libpstripack-mpi$soname.*libpstripack-dev.*-dev" netcdf include/pstripack_mpi.h \
     "$lib/libpstripack_mpi.so" "$lib/libpstripack_mpi.a" "$lib/pkgconfig/pstripack_mpi.pc" share/man/man3/pstripack_mpi.3.gz
-  has pstripack-mpi "libpstripack$soname .*mpi" netcdf bin/pstripack-run bin/pstripack-worker \
+  has pstripack-mpi "libpstripack$soname .*mpi" python bin/pstripack-run bin/pstripack-worker bin/pstripack-mpi \
     share/man/man1/pstripack-run.1.gz
 fi
 has pstripack "libpstripack$soname \(= $version" mpi bin/pstripack bin/stripack-compare share/man/man1/pstripack.1.gz

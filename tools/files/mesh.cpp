@@ -12,7 +12,6 @@
 #include "mesh/delaunay.h"
 #include "stripack/list_queries.h"
 #include "stripack/triangle_list.h"
-#include "stripack/trmesh.h"
 #include "stripack/voronoi.h"
 
 namespace files {
@@ -20,6 +19,11 @@ namespace {
 
 using pstripack::Triangle;
 using pstripack::Triangles;
+
+Trmesh& the_trmesh() {
+  static Trmesh trmesh = [](auto... arguments) { return pstripack::trmesh(arguments...); };
+  return trmesh;
+}
 
 struct Columns {
   explicit Columns(const std::vector<Point>& points) : x(points.size()), y(x.size()), z(x.size()) {
@@ -136,6 +140,8 @@ Mesh triangulate_in_order(const std::vector<Point>& points, const std::vector<st
 
 }  // namespace
 
+void set_trmesh(Trmesh trmesh) { the_trmesh() = std::move(trmesh); }
+
 Mesh triangulate(std::vector<Point> points) {
   const std::size_t n = points.size();
   check_count(n);
@@ -144,8 +150,8 @@ Mesh triangulate(std::vector<Point> points) {
   const Columns c(points);
   Mesh mesh = empty_mesh(std::move(points));
   const pstripack::TrmeshResult result =
-      pstripack::trmesh(static_cast<std::int32_t>(n), c.x.data(), c.y.data(), c.z.data(), mesh.list.data(),
-                        mesh.lptr.data(), mesh.lend.data(), &mesh.lnew);
+      the_trmesh()(static_cast<std::int32_t>(n), c.x.data(), c.y.data(), c.z.data(), mesh.list.data(),
+                   mesh.lptr.data(), mesh.lend.data(), &mesh.lnew);
   if (result.ier > 0)
     throw CoincidentNodes(static_cast<std::size_t>(result.node) - 1,
                           static_cast<std::size_t>(result.other) - 1);

@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <stdexcept>
 #include <vector>
 
 #include "files/nodes.h"
 #include "stripack/adjacency_lists.h"
+#include "stripack/trmesh.h"
 
 namespace files {
 
@@ -15,6 +17,7 @@ namespace files {
 struct Mesh {
   std::vector<Point> points;    ///< as given
   std::vector<double> density;  ///< of each node; empty: not known
+  Notes notes;
   std::vector<std::int32_t> list, lptr, lend;
   std::int32_t lnew = 0;
 
@@ -32,6 +35,13 @@ struct CoincidentNodes : NoMesh {
   CoincidentNodes(std::size_t f, std::size_t s) : NoMesh("two nodes coincide"), first(f), second(s) {}
   std::size_t first, second;
 };
+
+/// What `triangulate` calls. It is TRMESH of this process (stripack/trmesh.h), unless a program puts that of
+/// many processes in its place.
+using Trmesh = std::function<pstripack::TrmeshResult(std::int32_t n, const double* x, const double* y,
+                                                     const double* z, std::int32_t* list, std::int32_t* lptr,
+                                                     std::int32_t* lend, std::int32_t* lnew)>;
+void set_trmesh(Trmesh trmesh);
 
 /// The Delaunay triangulation of at least three nodes that all have a direction. Throws NoMesh where all of
 /// them lie on one great circle, where two coincide, or where there are too many.

@@ -3,7 +3,9 @@
 #include <netcdf.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "files/writers.h"
 
@@ -32,6 +34,21 @@ class Writer {
     int variable = 0;
     check(nc_def_var(id_, name, type, static_cast<int>(dimensions.size()), dimensions.data(), &variable));
     return variable;
+  }
+  /// "degrees_east" and "degrees_north", as CF wants them.
+  std::pair<int, int> lon_lat(const char* lon_name, const char* lat_name, const std::vector<int>& of_lon,
+                              const std::vector<int>& of_lat) {
+    const int lon = angle(lon_name, of_lon, "degrees_east"), lat = angle(lat_name, of_lat, "degrees_north");
+    attribute(lon, "standard_name", "longitude");
+    attribute(lat, "standard_name", "latitude");
+    return {lon, lat};
+  }
+  /// The density of nodes; none if it is not known.
+  int density(const std::vector<double>& values, int nodes) {
+    return values.empty() ? -1 : variable("meshDensity", NC_DOUBLE, {nodes});
+  }
+  void attributes(const Notes& notes) {
+    for (const auto& [name, text] : notes) attribute(NC_GLOBAL, name.c_str(), text);
   }
   /// Of angles, in degrees or radians.
   int angle(const char* name, const std::vector<int>& dimensions, const char* units) {
@@ -92,7 +109,8 @@ std::vector<T> padded(const Faces& faces, std::size_t width, const Entry& entry,
 
 }  // namespace
 
-void write_ugrid(const OutputFile& file, const Faces& faces, const std::vector<Point>& vectors) {
+void write_ugrid(const OutputFile& file, const Faces& faces, const std::vector<Point>& vectors,
+                 const std::vector<double>& density, const Notes& notes) {
   constexpr std::int32_t kNone = -1;
   const std::size_t width = faces.most_corners();
   const bool has_centres = !faces.centres.empty();
@@ -112,21 +130,21 @@ void write_ugrid(const OutputFile& file, const Faces& faces, const std::vector<P
   out.attribute(connectivity, "cf_role", "face_node_connectivity");
   out.attribute(connectivity, "start_index", 1);
   out.attribute(connectivity, "_FillValue", kNone);
-  const auto angles = [&](const char* lon_name, const char* lat_name, int dimension) {
-    const int lon = out.angle(lon_name, {dimension}, "degrees_east");
-    const int lat = out.angle(lat_name, {dimension}, "degrees_north");
-    out.attribute(lon, "standard_name", "longitude");
-    out.attribute(lat, "standard_name", "latitude");
-    return std::pair(lon, lat);
-  };
-  const auto [node_lon, node_lat] = angles("mesh_node_lon", "mesh_node_lat", nodes);
+  out.attributes(notes);
+  const auto [node_lon, node_lat] = out.lon_lat("mesh_node_lon", "mesh_node_lat", {nodes}, {nodes});
   const auto [face_lon, face_lat] =
-      has_centres ? angles("mesh_face_lon", "mesh_face_lat", n_faces) : std::pair(-1, -1);
+      has_centres ? out.lon_lat("mesh_face_lon", "mesh_face_lat", {n_faces}, {n_faces}) : std::pair(-1, -1);
   const int x = out.variable("mesh_node_x", NC_DOUBLE, {nodes});
   const int y = out.variable("mesh_node_y", NC_DOUBLE, {nodes});
   const int z = out.variable("mesh_node_z", NC_DOUBLE, {nodes});
   for (const int component : {x, y, z})
     out.attribute(component, "long_name", "Cartesian coordinate of the node as it was given");
+  const int of_density = out.density(density, nodes);
+  if (!density.empty()) {
+    out.attribute(of_density, "mesh", "mesh");
+    out.attribute(of_density, "location", "node");
+    out.attribute(of_density, "coordinates", "mesh_node_lon mesh_node_lat");
+  }
   out.end_definitions();
 
   const LonLat of_nodes(faces.points, true);
@@ -138,6 +156,7 @@ void write_ugrid(const OutputFile& file, const Faces& faces, const std::vector<P
     out.put(face_lat, of_faces.lat);
   }
   out.put(x, y, z, vectors);
+  if (!density.empty()) out.put(of_density, density);
   if (faces.corner.size() == faces.size() * width)
     out.put(connectivity, faces.corner);
   else
@@ -193,6 +212,7 @@ void write_mpas(const OutputFile& file, const Mesh& mesh) {
   out.attribute(NC_GLOBAL, "is_periodic", "NO");
   out.attribute(NC_GLOBAL, "mesh_spec", "1.0");
   out.attribute(NC_GLOBAL, "history", "pstripack");
+  out.attributes(mesh.notes);
   struct Variables {
     int x, y, z, lon, lat;
   };
@@ -224,17 +244,65 @@ void write_mpas(const OutputFile& file, const Mesh& mesh) {
   out.close();
 }
 
-void write_netcdf_nodes(const OutputFile& file, const std::vector<Point>& points) {
+void write_netcdf_nodes(const OutputFile& file, const std::vector<Point>& points,
+                        const std::vector<double>& density, const Notes& notes) {
   Writer out(file);
   const int n = out.dimension("nCells", points.size());
   const int lon = out.angle("lon", {n}, "degrees_east"), lat = out.angle("lat", {n}, "degrees_north");
   const int x = out.variable("xCell", NC_DOUBLE, {n}), y = out.variable("yCell", NC_DOUBLE, {n}),
-            z = out.variable("zCell", NC_DOUBLE, {n});
+            z = out.variable("zCell", NC_DOUBLE, {n}), of_density = out.density(density, n);
+  out.attributes(notes);
   out.end_definitions();
   const LonLat angles(points, true);
   out.put(lon, angles.lon);
   out.put(lat, angles.lat);
   out.put(x, y, z, points);
+  if (!density.empty()) out.put(of_density, density);
+  out.close();
+}
+
+namespace {
+
+/// The variable of a field, named unlike the coordinates.
+int field_variable(Writer& out, const Field& field, const std::vector<int>& dimensions) {
+  const bool is_taken = field.name == "lon" || field.name == "lat" || field.name == "point";
+  const int id = out.variable((field.name + (is_taken ? "_value" : "")).c_str(), NC_DOUBLE, dimensions);
+  if (!field.units.empty()) out.attribute(id, "units", field.units);
+  out.attribute(id, "_FillValue", NC_FILL_DOUBLE);
+  out.attribute(NC_GLOBAL, "Conventions", "CF-1.8");
+  return id;
+}
+
+std::vector<double> filled(std::vector<double> values) {
+  for (double& v : values)
+    if (std::isnan(v)) v = NC_FILL_DOUBLE;
+  return values;
+}
+
+}  // namespace
+
+void write_netcdf_field(const OutputFile& file, const LonLat& places, const Field& field) {
+  Writer out(file);
+  const int n = out.dimension("point", places.lon.size());
+  const auto [lon, lat] = out.lon_lat("lon", "lat", {n}, {n});
+  const int values = field_variable(out, field, {n});
+  out.attribute(values, "coordinates", "lon lat");
+  out.end_definitions();
+  out.put(lon, places.lon);
+  out.put(lat, places.lat);
+  out.put(values, filled(field.values));
+  out.close();
+}
+
+void write_netcdf_grid(const OutputFile& file, const Grid& grid, const Field& field) {
+  Writer out(file);
+  const int n_lat = out.dimension("lat", grid.lat.size()), n_lon = out.dimension("lon", grid.lon.size());
+  const auto [lon, lat] = out.lon_lat("lon", "lat", {n_lon}, {n_lat});
+  const int values = field_variable(out, field, {n_lat, n_lon});
+  out.end_definitions();
+  out.put(lon, grid.lon);
+  out.put(lat, grid.lat);
+  out.put(values, filled(field.values));
   out.close();
 }
 

@@ -7,8 +7,8 @@
 #include <netcdf.h>
 #include <netcdf_mem.h>
 
+#include <algorithm>
 #include <cmath>
-#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -104,6 +104,80 @@ Variable read(const File& file, const std::string& name) {
   return v;
 }
 
+/// A number of an attribute, or `otherwise`.
+double number_attribute(const File& file, int variable, const char* name, double otherwise) {
+  std::size_t length = 0;
+  double value = 0;
+  if (nc_inq_attlen(file.id(), variable, name, &length) != NC_NOERR || length != 1 ||
+      nc_get_att_double(file.id(), variable, name, &value) != NC_NOERR)
+    return otherwise;
+  return value;
+}
+
+/// "T(time=12, lat=96)".
+std::string shape_text(const File& file, const std::string& name, const std::vector<int>& dimensions) {
+  std::string text;
+  for (const int dimension : dimensions) {
+    char dimension_name[NC_MAX_NAME + 1];
+    std::size_t length = 0;
+    file.check(nc_inq_dim(file.id(), dimension, dimension_name, &length), name);
+    text += fmt::format("{}{}={}", text.empty() ? "" : ", ", dimension_name, length);
+  }
+  return fmt::format("{}({})", name, text);
+}
+
+/// True of the dimensions of the nodes, perhaps behind others of length 1.
+bool is_of_nodes(const File& file, const std::string& name, const std::vector<int>& of_nodes) {
+  std::vector<int> dimensions;
+  const std::vector<std::size_t> lengths = shape_of(file, name, dimensions).second;
+  if (dimensions.size() < of_nodes.size()) return false;
+  const std::size_t extra = dimensions.size() - of_nodes.size();
+  for (std::size_t d = 0; d < extra; ++d)
+    if (lengths[d] != 1) return false;
+  return std::equal(of_nodes.begin(), of_nodes.end(),
+                    dimensions.begin() + static_cast<std::ptrdiff_t>(extra));
+}
+
+/// The names of what --variable may name.
+std::string names_of_values(const File& file, const std::vector<int>& of_nodes) {
+  int count = 0;
+  file.check(nc_inq_nvars(file.id(), &count), "");
+  std::string names;
+  for (int v = 0; v < count; ++v) {
+    char name[NC_MAX_NAME + 1];
+    nc_type type = NC_CHAR;
+    file.check(nc_inq_varname(file.id(), v, name), "");
+    file.check(nc_inq_vartype(file.id(), v, &type), name);
+    if (type != NC_CHAR && type <= NC_UINT64 && type != NC_STRING && is_of_nodes(file, name, of_nodes))
+      names += (names.empty() ? "" : ", ") + std::string(name);
+  }
+  return names.empty() ? "none" : names;
+}
+
+/// The value of each node, NaN where it is missing.
+void read_values(const File& file, Nodes& nodes, const std::string& name, const std::vector<int>& of_nodes) {
+  if (name.empty() || !has(file, name))
+    file.fail(fmt::format("{}say --variable NAME; with a value a node there are: {}",
+                          name.empty() ? "" : "there is no variable " + name + "; ",
+                          names_of_values(file, of_nodes)));
+  std::vector<int> dimensions;
+  const int id = shape_of(file, name, dimensions).first;
+  if (!is_of_nodes(file, name, of_nodes))
+    file.fail(fmt::format("variable {}: expected {}; take one layer out, say by ncks -d time,0",
+                          shape_text(file, name, dimensions), shape_text(file, name, of_nodes)));
+  std::vector<double> values(nodes.points.size());
+  file.check(nc_get_var_double(file.id(), id, values.data()), name);
+  const double fill = number_attribute(file, id, "_FillValue", NC_FILL_DOUBLE);
+  const double missing = number_attribute(file, id, "missing_value", fill);
+  const double scale = number_attribute(file, id, "scale_factor", 1);
+  const double offset = number_attribute(file, id, "add_offset", 0);
+  for (double& v : values)
+    v = v == fill || v == missing || !std::isfinite(v) ? std::nan("") : v * scale + offset;
+  nodes.values = std::move(values);
+  nodes.value_name = name;
+  nodes.value_units = text_attribute(file, id, "units");
+}
+
 /// True: degrees, false: radians.
 bool in_degrees(const File& file, const Variable& v) {
   if (v.units.rfind("degree", 0) == 0) return true;
@@ -113,32 +187,38 @@ bool in_degrees(const File& file, const Variable& v) {
   file.fail(fmt::format("variable {}: units '{}'; expected degrees or radians", v.name, v.units));
 }
 
-std::vector<Point> from_angles(const File& file, const Variable& lon, const Variable& lat,
-                               const char*& units) {
+/// Points, and the dimensions that they have in the file.
+struct Places {
+  std::vector<Point> points;
+  std::vector<int> dimensions;
+};
+
+Places from_angles(const File& file, const Variable& lon, const Variable& lat, const char*& units) {
   const bool lon_in_degrees = in_degrees(file, lon), lat_in_degrees = in_degrees(file, lat);
   units = lat_in_degrees ? "degrees" : "radians";
   Angles angles{lon.values.data(), lat.values.data(), 1, lon_in_degrees, lat_in_degrees};
   if (const std::size_t bad = first_beyond_pole(angles, lat.values.size()); bad < lat.values.size())
     file.fail(
         fmt::format("variable {}, value {}: {} is beyond the pole", lat.name, bad + 1, lat.values[bad]));
-  if (lon.dimensions == lat.dimensions) return points_of(angles, lon.values.size());
+  if (lon.dimensions == lat.dimensions) return {points_of(angles, lon.values.size()), lon.dimensions};
   if (lon.dimensions.size() != 1 || lat.dimensions.size() != 1)
     file.fail(fmt::format("variables {} and {}: expected one shape, or two axes of one dimension each",
                           lon.name, lat.name));
   std::vector<double> grid;
   for (const double y : lat.values)
     for (const double x : lon.values) grid.insert(grid.end(), {x, y});
-  return points_of({grid.data(), grid.data() + 1, 2, lon_in_degrees, lat_in_degrees}, grid.size() / 2);
+  return {points_of({grid.data(), grid.data() + 1, 2, lon_in_degrees, lat_in_degrees}, grid.size() / 2),
+          {lat.dimensions[0], lon.dimensions[0]}};
 }
 
-std::vector<Point> from_coordinates(const File& file, const std::string& x_name, const std::string& y_name,
-                                    const std::string& z_name) {
+Places from_coordinates(const File& file, const std::string& x_name, const std::string& y_name,
+                        const std::string& z_name) {
   const Variable x = read(file, x_name), y = read(file, y_name), z = read(file, z_name);
   if (x.dimensions != y.dimensions || x.dimensions != z.dimensions)
     file.fail("variables " + x_name + ", " + y_name + ", " + z_name + ": expected one shape");
   std::vector<Point> points(x.values.size());
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = {x.values[i], y.values[i], z.values[i]};
-  return points;
+  return {points, x.dimensions};
 }
 
 /// Corners of triangles, row after row, counted from `first`.
@@ -165,28 +245,42 @@ std::string ugrid_mesh(const File& file) {
   return "";
 }
 
-void read_ugrid(const File& file, Nodes& nodes, const std::string& mesh, bool with_triangles) {
+/// Sets the nodes and their kind; returns their dimensions.
+std::vector<int> read_ugrid(const File& file, Nodes& nodes, const std::string& mesh, bool with_triangles) {
   int id = 0;
+  Places places;
   file.check(nc_inq_varid(file.id(), mesh.c_str(), &id), mesh);
   // Our own files have the vectors, too, which angles would round.
   if (has(file, mesh + "_node_x")) {
-    nodes.points = from_coordinates(file, mesh + "_node_x", mesh + "_node_y", mesh + "_node_z");
+    places = from_coordinates(file, mesh + "_node_x", mesh + "_node_y", mesh + "_node_z");
     nodes.kind += ", UGRID, x y z";
   } else {
     std::istringstream names(text_attribute(file, id, "node_coordinates"));
     std::string lon, lat;
     if (!(names >> lon >> lat)) file.fail("variable " + mesh + ": expected node_coordinates 'lon lat'");
     const char* units = "";
-    nodes.points = from_angles(file, read(file, lon), read(file, lat), units);
+    places = from_angles(file, read(file, lon), read(file, lat), units);
     nodes.kind += fmt::format(", UGRID, lon lat in {}", units);
   }
+  nodes.points = std::move(places.points);
   const std::string faces = text_attribute(file, id, "face_node_connectivity");
-  if (!with_triangles || faces.empty()) return;
+  if (!with_triangles || faces.empty()) return places.dimensions;
   int faces_id = 0;
   file.check(nc_inq_varid(file.id(), faces.c_str(), &faces_id), faces);
   long long first = 0;
   nc_get_att_longlong(file.id(), faces_id, "start_index", &first);  // UGRID: 0 where it is missing
   read_triangles(file, nodes, faces, first);
+  return places.dimensions;
+}
+
+void read_notes(const File& file, Notes& notes) {
+  int count = 0;
+  file.check(nc_inq_natts(file.id(), &count), "");
+  for (int a = 0; a < count; ++a) {
+    char name[NC_MAX_NAME + 1];
+    file.check(nc_inq_attname(file.id(), NC_GLOBAL, a, name), "");
+    if (std::string(name).rfind("scvt_", 0) == 0) notes[name] = text_attribute(file, NC_GLOBAL, name);
+  }
 }
 
 }  // namespace
@@ -196,10 +290,12 @@ Nodes read_netcdf(const std::string& name, const ReadOptions& options, const std
   Nodes nodes;
   nodes.file = name;
   nodes.kind = "NetCDF";
+  Places places;
   if (const std::string mesh = ugrid_mesh(file); !mesh.empty()) {
-    read_ugrid(file, nodes, mesh, options.with_triangles);
+    places.dimensions = read_ugrid(file, nodes, mesh, options.with_triangles);
   } else if (has(file, "xCell") && options.coordinates != Coordinates::lonlat) {
-    nodes.points = from_coordinates(file, "xCell", "yCell", "zCell");
+    places = from_coordinates(file, "xCell", "yCell", "zCell");
+    nodes.points = std::move(places.points);
     nodes.kind += ", xCell yCell zCell";
   } else {
     for (const auto& [lon, lat] :
@@ -207,7 +303,8 @@ Nodes read_netcdf(const std::string& name, const ReadOptions& options, const std
           std::pair("grid_center_lon", "grid_center_lat")}) {
       if (!has(file, lon)) continue;
       const char* units = "";
-      nodes.points = from_angles(file, read(file, lon), read(file, lat), units);
+      places = from_angles(file, read(file, lon), read(file, lat), units);
+      nodes.points = std::move(places.points);
       nodes.kind += fmt::format(", {} {} in {}", lon, lat, units);
       break;
     }
@@ -215,6 +312,8 @@ Nodes read_netcdf(const std::string& name, const ReadOptions& options, const std
       file.fail("no nodes: expected variables xCell, yCell, zCell, or lonCell, latCell, or lon, lat");
   }
   if (nodes.points.empty()) file.fail("no nodes: the variables are empty");
+  if (options.with_values) read_values(file, nodes, options.variable, places.dimensions);
+  read_notes(file, nodes.notes);
   if (has(file, "meshDensity")) nodes.density = read(file, "meshDensity").values;
   if (nodes.density.size() != nodes.points.size()) nodes.density.clear();
   if (options.with_triangles && has(file, "xCell") && has(file, "cellsOnVertex"))

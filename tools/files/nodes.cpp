@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "geometry/parallel_for.h"
+#include "numbers.h"
 #include "point_sets.h"
 #include "text_file.h"
 
@@ -67,8 +68,50 @@ void set_coordinates(Nodes& nodes, const double* values, std::size_t columns, st
   nodes.kind += ", x y z";
 }
 
+/// The columns of a value and its place.
+struct ValueColumns {
+  std::size_t place, value;
+};
+
+ValueColumns value_columns(const Nodes& nodes, std::size_t columns, const ReadOptions& options) {
+  const auto fail = [&](const std::string& what) {
+    throw std::runtime_error(fmt::format("{}: has {} columns; {}", nodes.file, columns, what));
+  };
+  const bool detected = options.coordinates == Coordinates::detected;
+  if (detected && columns != 3 && columns != 4)
+    fail("expected 'lon lat value' or 'x y z value'; of more columns say --coordinates and --variable");
+  const std::size_t place = options.coordinates == Coordinates::lonlat || (detected && columns == 3) ? 2 : 3;
+  double column = static_cast<double>(place + 1);
+  if (!options.variable.empty() && !point_sets::parse(options.variable, column))
+    fail("--variable of text is the number of a column, not '" + options.variable + "'");
+  if (column != std::floor(column) || column <= static_cast<double>(place) ||
+      column > static_cast<double>(columns))
+    fail(fmt::format("the first {} are the place: there is no value in column {}", place, column));
+  return {place, static_cast<std::size_t>(column) - 1};
+}
+
+/// Rows of a place and values, of which some may be missing.
+void read_text_with_values(Nodes& nodes, std::string_view text, const ReadOptions& options) {
+  point_sets::Table table = point_sets::table_of(text, nodes.file, text.size(), true);
+  const ValueColumns columns = value_columns(nodes, table.columns, options);
+  nodes.lines = std::move(table.lines);
+  for (std::size_t i = 0; i < nodes.lines.size(); ++i) {
+    const double* const row = &table.values[table.columns * i];
+    for (std::size_t k = 0; k < columns.place; ++k)
+      if (std::isnan(row[k]))
+        throw std::runtime_error(
+            fmt::format("{}: {}: its place is 'nan': remove the row", nodes.file, nodes.place(i)));
+    nodes.values.push_back(row[columns.value]);
+  }
+  if (columns.place == 2)
+    set_angles(nodes, table.values.data(), table.columns, nodes.lines.size(), options.units);
+  else
+    set_coordinates(nodes, table.values.data(), table.columns, nodes.lines.size());
+}
+
 void read_text(Nodes& nodes, std::string_view text, const ReadOptions& options) {
   nodes.kind = "text";
+  if (options.with_values) return read_text_with_values(nodes, text, options);
   const bool lonlat = options.coordinates == Coordinates::lonlat;
   point_sets::Table table = point_sets::table_of(text, nodes.file, lonlat ? text.size() : 3);
   if (options.coordinates == Coordinates::xyz && table.columns != 3)
@@ -191,13 +234,15 @@ Nodes read(const std::string& file, const ReadOptions& options) {
   if (may_be_netcdf && has_magic_of_netcdf(contents)) return read_netcdf(nodes.file, options, contents);
   if (options.container == Container::netcdf) throw std::runtime_error(nodes.file + ": not a NetCDF file");
   if (options.container == Container::raw) {
+    if (options.with_values)
+      throw std::runtime_error(nodes.file + ": values are read from text and NetCDF only");
     read_raw(nodes, contents, options);
     return nodes;
   }
   if (std::string_view(contents).substr(0, 4096).find('\0') != std::string::npos)
     throw std::runtime_error(nodes.file +
                              ": binary, but not NetCDF; raw doubles need --from raw and --coordinates");
-  if (first_word(contents) == "OFF")
+  if (first_word(contents) == "OFF" && !options.with_values)
     read_off(nodes, contents, options);
   else
     read_text(nodes, contents, options);

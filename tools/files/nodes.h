@@ -2,6 +2,7 @@
 // Nodes, and meshes, as files hold them.
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -20,14 +21,22 @@ struct ReadOptions {
   Coordinates coordinates = Coordinates::detected;
   Units units = Units::said_or_unmistakable;  ///< of angles, where the file itself does not say
   bool with_triangles = false;                ///< read those of UGRID, MPAS and OFF as well
+  bool with_values = false;                   ///< of text and NetCDF: read a value a node as well,
+  std::string variable;  ///< of this name (NetCDF), in this column (text; empty: the one after the place)
 };
+
+/// What a NetCDF file says of how it was made: global attributes whose names begin with "scvt_".
+using Notes = std::map<std::string, std::string>;
 
 struct Nodes {
   std::string file;  ///< as messages name it
   std::string kind;  ///< "text, lon lat in degrees"
   std::vector<Point> points;
-  std::vector<std::size_t> lines;  ///< of text: of each node, from 1
-  std::vector<double> density;     ///< meshDensity of MPAS, where the file has it
+  std::vector<std::size_t> lines;       ///< of text: of each node, from 1
+  std::vector<double> density;          ///< meshDensity of MPAS, where the file has it
+  std::vector<double> values;           ///< where asked for; NaN: missing
+  std::string value_name, value_units;  ///< where the file says
+  Notes notes;
   pstripack::Triangles triangles;  ///< counterclockwise; empty unless asked for and there
 
   /// "node 17", with its line where it has one.

@@ -14,9 +14,17 @@ namespace {
 }  // namespace
 
 Nodes read_netcdf(const std::string& file, const ReadOptions&, const std::string&) { refuse(file); }
-void write_ugrid(const OutputFile& file, const Faces&, const std::vector<Point>&) { refuse(file.name()); }
+void write_ugrid(const OutputFile& file, const Faces&, const std::vector<Point>&, const std::vector<double>&,
+                 const Notes&) {
+  refuse(file.name());
+}
 void write_scrip(const OutputFile& file, const Faces&) { refuse(file.name()); }
 void write_mpas(const OutputFile& file, const Mesh&) { refuse(file.name()); }
-void write_netcdf_nodes(const OutputFile& file, const std::vector<Point>&) { refuse(file.name()); }
+void write_netcdf_nodes(const OutputFile& file, const std::vector<Point>&, const std::vector<double>&,
+                        const Notes&) {
+  refuse(file.name());
+}
+void write_netcdf_field(const OutputFile& file, const LonLat&, const Field&) { refuse(file.name()); }
+void write_netcdf_grid(const OutputFile& file, const Grid&, const Field&) { refuse(file.name()); }
 
 }  // namespace files

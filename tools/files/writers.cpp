@@ -148,13 +148,14 @@ void write_mesh(const OutputFile& file, Format format, const Mesh& mesh) {
   if (!holds_a_mesh(format))
     refuse(file, format, "holds nodes, not a mesh: `pstripack convert` writes nodes");
   const Faces faces = triangle_faces(mesh);
-  if (format == Format::ugrid) return write_ugrid(file, faces, mesh.points);
+  if (format == Format::ugrid) return write_ugrid(file, faces, mesh.points, mesh.density, mesh.notes);
   if (format == Format::gmsh) return write_gmsh(file, faces);
   write_faces(file, format, faces);
 }
 
-void write_nodes(const OutputFile& file, Format format, const std::vector<Point>& points) {
-  if (format == Format::netcdf) return write_netcdf_nodes(file, points);
+void write_nodes(const OutputFile& file, Format format, const std::vector<Point>& points,
+                 const std::vector<double>& density, const Notes& notes) {
+  if (format == Format::netcdf) return write_netcdf_nodes(file, points, density, notes);
   if (holds_a_mesh(format)) refuse(file, format, "holds a mesh, and here are nodes only: use `triangulate`");
   TextWriter out(file);
   if (format == Format::raw) {
@@ -166,6 +167,24 @@ void write_nodes(const OutputFile& file, Format format, const std::vector<Point>
     for (std::size_t i = 0; i < points.size(); ++i) out.print("{} {}\n", angles.lon[i], angles.lat[i]);
   }
   out.close();
+}
+
+void write_field(const OutputFile& file, const LonLat& places, const Field& field) {
+  TextWriter out(file);
+  out.print("# lon lat {}{}{}\n", field.name, field.units.empty() ? "" : ", ", field.units);
+  for (std::size_t i = 0; i < field.values.size(); ++i)
+    out.print("{} {} {}\n", places.lon[i], places.lat[i], field.values[i]);
+  out.close();
+}
+
+LonLat Grid::places() const {
+  LonLat all;
+  for (const double y : lat)
+    for (const double x : lon) {
+      all.lon.push_back(x);
+      all.lat.push_back(y);
+    }
+  return all;
 }
 
 LonLat::LonLat(const std::vector<Point>& points, bool degrees) : lon(points.size()), lat(points.size()) {

@@ -30,19 +30,41 @@ std::optional<Format> format_of(const std::string& to, const std::string& file);
 void write_mesh(const OutputFile& file, Format format, const Mesh& mesh);
 /// The same of any polygons: ugrid, scrip, vtu, off. Others throw std::runtime_error.
 void write_faces(const OutputFile& file, Format format, const Faces& faces);
-/// Nodes alone: xyz, lonlat, netcdf, raw.
-void write_nodes(const OutputFile& file, Format format, const std::vector<Point>& points);
+/// Nodes alone: xyz, lonlat, netcdf, raw. NetCDF holds the rest as well.
+void write_nodes(const OutputFile& file, Format format, const std::vector<Point>& points,
+                 const std::vector<double>& density = {}, const Notes& notes = {});
 
-/// Longitude and latitude of unit vectors, -180 to 180 and -90 to 90 degrees, or in radians.
+/// Longitudes and latitudes: of unit vectors, -180 to 180 and -90 to 90 degrees, or in radians.
 struct LonLat {
+  LonLat() = default;
   LonLat(const std::vector<Point>& points, bool degrees);
   std::vector<double> lon, lat;
 };
 
+/// A grid of longitudes and latitudes, in degrees.
+struct Grid {
+  std::vector<double> lon, lat;
+  LonLat places() const;  ///< of all its points, row after row of latitude
+};
+
+/// A value at each place; NaN: missing.
+struct Field {
+  std::string name = "value", units;
+  std::vector<double> values;
+};
+
+/// Text: lon lat (degrees) and value a line, `nan` where it is missing.
+void write_field(const OutputFile& file, const LonLat& places, const Field& field);
+/// NetCDF, CF conventions: _FillValue where it is missing.
+void write_netcdf_field(const OutputFile& file, const LonLat& places, const Field& field);
+void write_netcdf_grid(const OutputFile& file, const Grid& grid, const Field& field);
+
 // In netcdf_meshes.cpp.
-void write_ugrid(const OutputFile& file, const Faces& faces, const std::vector<Point>& vectors);
+void write_ugrid(const OutputFile& file, const Faces& faces, const std::vector<Point>& vectors,
+                 const std::vector<double>& density = {}, const Notes& notes = {});
 void write_scrip(const OutputFile& file, const Faces& faces);
 void write_mpas(const OutputFile& file, const Mesh& mesh);
-void write_netcdf_nodes(const OutputFile& file, const std::vector<Point>& points);
+void write_netcdf_nodes(const OutputFile& file, const std::vector<Point>& points,
+                        const std::vector<double>& density, const Notes& notes);
 
 }  // namespace files

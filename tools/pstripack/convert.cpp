@@ -33,12 +33,13 @@ void convert(Options& options) {
       try {
         files::Mesh mesh = files::mesh_of(nodes.points, nodes.triangles);
         mesh.density = nodes.density;
+        mesh.notes = nodes.notes;
         write_mesh(file, format, mesh);
       } catch (const files::NoMesh& e) {
         throw std::runtime_error(nodes.file + ": " + e.what());
       }
     } else {
-      write_nodes(file, format, nodes.points);
+      write_nodes(file, format, nodes.points, nodes.density, nodes.notes);
     }
     file.commit();
   });

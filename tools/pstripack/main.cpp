@@ -8,6 +8,7 @@
 #include <new>
 
 #include "pstripack/options.h"
+#include "pstripack/ranks.h"
 
 namespace {
 
@@ -18,6 +19,8 @@ constexpr auto kDescription = R"(Exact Delaunay triangulations and Voronoi diagr
   pstripack triangulate nodes.nc -o mesh.nc
   pstripack voronoi nodes.nc -o cells.vtu
   pstripack triangulate lonlat.txt -o mpas_input.mpas.nc
+  pstripack scvt 10242 --density bump -o mesh.mpas.nc
+  pstripack interpolate stations.txt --to-grid 180x360 -o field.nc
   pstripack plot mesh.nc -o mesh.svg
 
 `pstripack COMMAND --help` tells the rest.)";
@@ -33,9 +36,7 @@ the affinity mask are honoured.
 
 Exit code: 0 done; 1 the input cannot be used, or the output not be written; 2 the command line is wrong.)";
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   using namespace program;
   CLI::App app(kDescription, "pstripack");
   app.footer(kFooter);
@@ -52,6 +53,8 @@ int main(int argc, char** argv) {
   add_info(app, chosen);
   add_points(app, chosen);
   add_convert(app, chosen);
+  add_scvt(app, chosen);
+  add_interpolate(app, chosen);
   add_plot(app, chosen);
   try {
     app.parse(argc, argv);
@@ -70,4 +73,10 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "pstripack: {}\n", e.what());
   }
   return kFailed;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return program::on_rank_0(argc, argv, [&] { return run(argc, argv); });
 }

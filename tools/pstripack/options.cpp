@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -14,14 +13,6 @@ namespace program {
 namespace {
 
 using files::Nodes;
-
-template <class Enum>
-void add_choice(CLI::App& app, const char* name, Enum& value, const std::map<std::string, Enum>& choices,
-                const char* text) {
-  app.add_option(name, value, text)
-      ->type_name("WORD")
-      ->transform(CLI::CheckedTransformer(choices).description(""));
-}
 
 void check_directions(const Nodes& nodes) {
   for (std::size_t i = 0; i < nodes.points.size(); ++i)
@@ -47,25 +38,6 @@ void check_lengths(const Nodes& nodes) {
         nodes.file, low, nodes.place(shortest), high, nodes.place(longest)));
 }
 
-void drop_duplicates(Nodes& nodes) {
-  const std::vector<std::size_t> dropped = files::duplicates(nodes.points);
-  const auto drop = [&](auto& values) {
-    if (values.empty()) return;
-    std::size_t kept = 0, next = 0;
-    for (std::size_t i = 0; i < values.size(); ++i)
-      if (next < dropped.size() && dropped[next] == i)
-        ++next;
-      else
-        values[kept++] = values[i];
-    values.resize(kept);
-  };
-  drop(nodes.points);
-  drop(nodes.lines);
-  drop(nodes.density);
-  if (!dropped.empty())
-    say(fmt::format("{}: {} nodes dropped that coincide with earlier ones", nodes.file, dropped.size()));
-}
-
 std::string suffixes() {
   std::string text;
   for (const files::FormatEntry& f : files::formats())
@@ -81,15 +53,19 @@ Global& global() {
 }
 
 void add_input(CLI::App& app, Input& input) {
-  using namespace files;
   app.add_option("IN", input.file, "file of nodes; - is stdin")->required()->type_name("");
-  add_choice(app, "--from", input.read.container,
+  add_reading(app, input.read);
+}
+
+void add_reading(CLI::App& app, files::ReadOptions& read) {
+  using namespace files;
+  add_choice(app, "--from", read.container,
              {{"text", Container::text}, {"netcdf", Container::netcdf}, {"raw", Container::raw}},
              "text, netcdf, raw (doubles of this machine) [text and netcdf are detected]");
-  add_choice(app, "--coordinates", input.read.coordinates,
+  add_choice(app, "--coordinates", read.coordinates,
              {{"xyz", Coordinates::xyz}, {"lonlat", Coordinates::lonlat}},
              "xyz: three columns, any lengths; lonlat: the first two columns [by the number of columns]");
-  add_choice(app, "--units", input.read.units, {{"degrees", Units::degrees}, {"radians", Units::radians}},
+  add_choice(app, "--units", read.units, {{"degrees", Units::degrees}, {"radians", Units::radians}},
              "of lon lat, where the file does not say: degrees, radians");
 }
 
@@ -119,32 +95,63 @@ void Output::choose(std::optional<files::Format> otherwise) {
   format = *found;
 }
 
+Nodes read_places(const std::string& file, const files::ReadOptions& options) {
+  Nodes nodes = files::read(file, options);
+  check_directions(nodes);
+  if (options.coordinates != files::Coordinates::xyz) check_lengths(nodes);
+  return nodes;
+}
+
 Nodes read_nodes(const Input& input) {
-  Nodes nodes = files::read(input.file, input.read);
+  Nodes nodes = read_places(input.file, input.read);
   if (nodes.points.size() < 3)
     throw std::runtime_error(fmt::format("{}: a triangulation needs at least 3 nodes, here are {}",
                                          nodes.file, nodes.points.size()));
-  check_directions(nodes);
-  if (input.read.coordinates != files::Coordinates::xyz) check_lengths(nodes);
-  try {
-    if (input.drop_duplicates) drop_duplicates(nodes);
-  } catch (const files::NoMesh& e) {
-    throw std::runtime_error(nodes.file + ": " + e.what());
-  }
+  if (input.drop_duplicates) drop_duplicates(nodes);
   return nodes;
+}
+
+void drop_duplicates(Nodes& nodes) {
+  std::vector<std::size_t> dropped;
+  try {
+    dropped = files::duplicates(nodes.points);
+  } catch (const files::NoMesh& e) {
+    throw no_mesh_of(nodes, e);
+  }
+  const auto drop = [&](auto& values) {
+    if (values.empty()) return;
+    std::size_t kept = 0, next = 0;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (next < dropped.size() && dropped[next] == i)
+        ++next;
+      else
+        values[kept++] = values[i];
+    values.resize(kept);
+  };
+  drop(nodes.points);
+  drop(nodes.lines);
+  drop(nodes.density);
+  drop(nodes.values);
+  if (!dropped.empty())
+    say(fmt::format("{}: {} nodes dropped that coincide with earlier ones", nodes.file, dropped.size()));
+}
+
+std::runtime_error no_mesh_of(const Nodes& nodes, const files::NoMesh& why) {
+  if (const auto* const coincident = dynamic_cast<const files::CoincidentNodes*>(&why))
+    return std::runtime_error(
+        fmt::format("{}: {} and {} are in the same place: remove one, or say --drop-duplicates", nodes.file,
+                    nodes.place(coincident->first), nodes.place(coincident->second)));
+  return std::runtime_error(nodes.file + ": " + why.what());
 }
 
 files::Mesh triangulate(const Nodes& nodes) {
   try {
     files::Mesh mesh = files::triangulate(nodes.points);
     mesh.density = nodes.density;
+    mesh.notes = nodes.notes;
     return mesh;
-  } catch (const files::CoincidentNodes& e) {
-    throw std::runtime_error(
-        fmt::format("{}: {} and {} are in the same place: remove one, or say --drop-duplicates", nodes.file,
-                    nodes.place(e.first), nodes.place(e.second)));
   } catch (const files::NoMesh& e) {
-    throw std::runtime_error(nodes.file + ": " + e.what());
+    throw no_mesh_of(nodes, e);
   }
 }
 

@@ -26,17 +26,22 @@ Progress::~Progress() {
   if (reporter_.joinable()) reporter_.join();
 }
 
-void Progress::begin(const char* doing) {
+void Progress::begin(const char* step) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  doing_ = doing;
+  step_ = doing_ = step;
   start_ = Clock::now();
 }
 
 void Progress::end() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  steps_.emplace_back(doing_, seconds());
+  steps_.emplace_back(step_, seconds());
   doing_.clear();
   if (on_terminal_ && !global().quiet) fmt::print(stderr, "\r\033[K");
+}
+
+void Progress::now(std::string doing) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  doing_ = std::move(doing);
 }
 
 void Progress::report() {
@@ -53,6 +58,7 @@ void Progress::report() {
 void Progress::finish(const std::string& what) {
   std::string text = what;
   for (const auto& [doing, seconds] : steps_) text += fmt::format("; {} {:.3f} s", doing, seconds);
+  if (global().ranks > 1) text += fmt::format("; on {} ranks", global().ranks);
   say(text);
 }
 

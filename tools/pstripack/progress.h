@@ -33,18 +33,21 @@ class Progress {
     return work();
   }
 
+  /// From now on, within a step, this is what is being done.
+  void now(std::string doing);
+
   /// The last line: `what`, and the seconds of each step.
   void finish(const std::string& what);
 
  private:
   using Clock = std::chrono::steady_clock;
-  void begin(const char* doing);
+  void begin(const char* step);
   void end();
   void report();
   double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
   const bool on_terminal_;
-  std::string doing_;  ///< empty: nothing
+  std::string step_, doing_;  ///< empty: nothing
   Clock::time_point start_;
   std::vector<std::pair<std::string, double>> steps_;
   bool ends_ = false;

@@ -51,6 +51,16 @@ class NetcdfFile {
     check(nc_redef(id_));
     return *this;
   }
+  NetcdfFile& attribute(const char* variable, const char* name, double value) {
+    int id = 0;
+    check(nc_inq_varid(id_, variable, &id));
+    check(nc_put_att_double(id_, id, name, NC_DOUBLE, 1, &value));
+    return *this;
+  }
+  NetcdfFile& note(const char* name, const std::string& text) {
+    check(nc_put_att_text(id_, NC_GLOBAL, name, text.size(), text.data()));
+    return *this;
+  }
   std::string closed() {
     check(nc_close(id_));
     return name_;
@@ -139,6 +149,50 @@ TEST(netcdf, what_cannot_be_used_is_refused_by_name) {
               f.with("xCell", {n}, {1, 2}).with("yCell", {n}, {1, 2}).with("zCell", {m}, {1});
             }).find("expected one shape"),
             std::string::npos);
+}
+
+ReadOptions values_of(const std::string& variable) {
+  ReadOptions options;
+  options.with_values = true;
+  options.variable = variable;
+  return options;
+}
+
+TEST(netcdf, values_have_the_dimensions_of_the_nodes) {
+  NetcdfFile file;
+  const int time = file.dimension("time", 1), ny = file.dimension("lat", 2), nx = file.dimension("lon", 3);
+  const int other = file.dimension("other", 3), layers = file.dimension("layers", 2);
+  file.with("lon", {nx}, {0, 90, 180}, "degrees").with("lat", {ny}, {0, 30}, "degrees");
+  file.with("t", {time, ny, nx}, {1, 2, 3, 4, -999, 6}, "K").with("turned", {nx, ny}, {1, 2, 3, 4, 5, 6});
+  file.with("elsewhere", {ny, other}, {1, 2, 3, 4, 5, 6});
+  file.with("deep", {layers, ny, nx}, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12});
+  file.with("packed", {ny, nx}, {1, 2, 3, 4, -999, -5});
+  file.attribute("packed", "scale_factor", 10).attribute("packed", "add_offset", 100);
+  file.attribute("packed", "missing_value", -5);
+  file.note("scvt_density", "bump").note("title", "not a note");
+  const std::string name = file.closed();
+  const Nodes nodes = read(name, values_of("t"));
+  ASSERT_EQ(nodes.values.size(), 6u);
+  EXPECT_EQ(nodes.values[3], 4);  // the first of the second row
+  EXPECT_NEAR(nodes.points[3].z, 0.5, 1e-15);
+  EXPECT_TRUE(std::isnan(nodes.values[4]));
+  EXPECT_EQ(nodes.value_name, "t");
+  EXPECT_EQ(nodes.value_units, "K");
+  EXPECT_EQ(nodes.notes, (Notes{{"scvt_density", "bump"}}));
+  const Nodes packed = read(name, values_of("packed"));
+  EXPECT_EQ(packed.values[2], 130);
+  EXPECT_TRUE(std::isnan(packed.values[4]) && std::isnan(packed.values[5]));
+  for (const char* const variable : {"turned", "elsewhere", "deep", "none", ""}) {
+    try {
+      read(name, values_of(variable));
+      ADD_FAILURE() << variable << " was read";
+    } catch (const std::runtime_error& e) {
+      const std::string words = *variable == '\0' || variable == std::string("none")
+                                    ? "with a value a node there are: t, packed"
+                                    : "expected " + std::string(variable) + "(lat=2, lon=3)";
+      EXPECT_NE(std::string(e.what()).find(words), std::string::npos) << e.what();
+    }
+  }
 }
 
 TEST(netcdf, units_that_are_missing_may_be_said) {

@@ -97,6 +97,29 @@ TEST(text, a_number_that_is_not_finite_is_refused_with_its_line) {
   expect_error("10 20\nnan 20\n", ":2: 'nan' is not a finite number");
 }
 
+TEST(text, values_follow_the_place) {
+  ReadOptions options;
+  options.with_values = true;
+  const Nodes lonlat = read_bytes("90 0 7\n200 10 NaN\n", options);
+  EXPECT_EQ(lonlat.points[0], (Point{0, 1, 0}));
+  EXPECT_EQ(lonlat.values[0], 7);
+  EXPECT_TRUE(std::isnan(lonlat.values[1]));
+  const Nodes xyz = read_bytes("0 1 0 7\n1 0 0 8\n", options);
+  EXPECT_EQ(xyz.points, (Points{{0, 1, 0}, {1, 0, 0}}));
+  EXPECT_EQ(xyz.values, (std::vector<double>{7, 8}));
+  expect_error("90 0 inf\n", "'inf' is not a finite number", options);
+  expect_error("nan 0 1\n", "node 1 (line 1): its place is 'nan'", options);
+  options.coordinates = Coordinates::lonlat;
+  options.variable = "4";
+  EXPECT_EQ(read_bytes("90 0 7 8\n", options).values[0], 8);
+  for (const char* const column : {"2", "5", "3.5", "-1"}) {
+    options.variable = column;
+    expect_error("90 0 7 8\n", "there is no value in column", options);
+  }
+  options.container = Container::raw;
+  expect_error("x", "values are read from text and NetCDF only", options);
+}
+
 TEST(raw_doubles, are_read_when_said_and_checked) {
   const ReadOptions xyz = with(Container::raw, Coordinates::xyz);
   EXPECT_EQ(read_bytes(bytes_of({1, 0, 0, 0, 1, 0}), xyz).points, (Points{{1, 0, 0}, {0, 1, 0}}));

@@ -86,6 +86,38 @@ def check_by_meshio(nodes, file, cells, count):
         assert (mesh.points == nodes).all()
 
 
+def check_field(nodes):
+    """A regional field on a grid, and at points."""
+    north = nodes[nodes[:, 2] > 0.1]
+    np.savetxt(FOLDER / "values.txt", np.column_stack([north, 280 + north[:, 2]]), fmt="%.17g")
+    run("interpolate", FOLDER / "values.txt", "--grid-step", 5, "-o", FOLDER / "grid.nc")
+    with xarray.open_dataset(FOLDER / "grid.nc") as grid:
+        value = grid["value"]
+        assert value.dims == ("lat", "lon") and value.shape == (36, 72)
+        assert grid.lon.units == "degrees_east" and grid.lat.standard_name == "latitude"
+        assert grid.lat.values[[0, -1]].tolist() == [-87.5, 87.5] and grid.lon.values[[0, -1]].tolist() == [-177.5, 177.5]
+        exact = 280 + np.sin(np.radians(grid.lat.values))[:, None]
+        assert np.isnan(value.values[:18]).all() and np.abs(value.values[20:] - exact[20:]).max() < 0.01
+    header = subprocess.run([NCDUMP, "-h", FOLDER / "grid.nc"], check=True, capture_output=True, text=True).stdout
+    for line in ("double value(lat, lon) ;", "value:_FillValue = ", ':Conventions = "CF-1.8" ;'):
+        assert line in header, line
+    run("interpolate", FOLDER / "values.txt", "--to-points", FOLDER / "nodes.txt", "-o", FOLDER / "points.nc")
+    with xarray.open_dataset(FOLDER / "points.nc") as points:
+        assert points["value"].dims == ("point",) and {"lon", "lat"} <= set(points["value"].coords)
+        assert np.allclose(unit_vectors(points.lon.values, points.lat.values), nodes, rtol=0, atol=1e-14)
+        assert (points["value"].values[nodes[:, 2] > 0.1] == 280 + north[:, 2]).all()
+
+
+def check_scvt():
+    run("scvt", 100, "--density", "bump", "--iterations", 5, "-o", FOLDER / "scvt.mpas.nc")
+    run("scvt", 100, "--density", "bump", "--iterations", 5, "-o", FOLDER / "scvt.nc")
+    with netCDF4.Dataset(FOLDER / "scvt.mpas.nc") as mpas, xarray.open_dataset(FOLDER / "scvt.nc") as ugrid:
+        density = mpas["meshDensity"][:]
+        assert 1 <= density.min() < 1.1 and 60 < density.max() <= 81
+        assert (ugrid["meshDensity"].values == density).all() and ugrid["meshDensity"].location == "node"
+        assert ugrid.scvt_iterations == "5" and mpas.scvt_density == "bump"
+
+
 FOLDER.mkdir(parents=True, exist_ok=True)
 run("points", "icosahedral", N, "-o", FOLDER / "nodes.txt")
 nodes = np.loadtxt(FOLDER / "nodes.txt")
@@ -101,4 +133,6 @@ for suffix in ("vtu", "off", "msh"):
 run("points", "cubed-sphere", 96, "-o", FOLDER / "cube.txt")
 run("voronoi", FOLDER / "cube.txt", "-o", FOLDER / "cube.vtu")
 assert sum(len(block) for block in meshio.read(FOLDER / "cube.vtu").cells) == 96
+check_field(nodes)
+check_scvt()
 print("all files are as they should be")

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Runs pstripack and checks output, files, messages and exit codes. Usage: program.sh CASE; environment:
-# PSTRIPACK, COMPARE (programs), DOCUMENT (docs/pstripack.md), WORK (folder for files).
+# PSTRIPACK, COMPARE (programs), DOCUMENT (docs/pstripack.md), WORK (folder for files), MPIRUN (mpirun and its options).
 set -eu
 mkdir -p "$WORK/$1"
 cd "$WORK/$1"
@@ -26,7 +26,8 @@ octahedron() { printf '1 0 0\n0 1 0\n0 0 1\n-1 0 0\n0 -1 0\n0 0 -1\n'; }
 
 case $1 in
 documented_help)
-  for command in "" triangulate voronoi info points convert plot; do
+  commands=$("$PSTRIPACK" --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z]*\) .*/\1/p')
+  for command in "" $commands; do
     # shellcheck disable=SC2086  # nothing, or one word
     "$PSTRIPACK" $command --help > help
     awk -v line="\$ pstripack ${command:+$command }--help" \
@@ -200,6 +201,202 @@ pictures)
   printf '1 0 0\n0 1 0\n0 0 1\n' > three.txt
   refuses 1 "three.txt: around some nodes, which lie on one circle, cells reach" plot three.txt --what cells -o c.svg
   [ ! -e c.svg ] && [ ! -e b.png ] || fail "a picture of a failed run"
+  ;;
+
+scvt)
+  "$PSTRIPACK" scvt 300 --density bump --iterations 12 -o direct.nodes.nc 2> err
+  grep -q '^pstripack: 300 generators, 12 iterations, NOT converged to 0.001: largest move .*, energy .*; iterating .* s; writing .* s$' err ||
+    fail "$(cat err)"
+  # A run that is cut short and goes on, by its checkpoint and by its output, comes to the same bytes.
+  "$PSTRIPACK" -q scvt 300 --density bump --iterations 9 --checkpoint checkpoint.nc --every 4 -o short.mpas.nc
+  [ "$("$PSTRIPACK" -q convert checkpoint.nc -o - --to xyz | wc -l)" = 300 ] || fail "checkpoint.nc is not whole"
+  for start in checkpoint.nc short.mpas.nc; do
+    "$PSTRIPACK" scvt --start $start --iterations 12 -o resumed.nodes.nc 2> err
+    grep -q " 12 iterations, " err || fail "$(cat err)"
+    cmp direct.nodes.nc resumed.nodes.nc
+  done
+  "$PSTRIPACK" scvt --start direct.nodes.nc --iterations 12 -o again.nodes.nc 2> err
+  grep -q "none was left to do" err || fail "$(cat err)"
+  cmp direct.nodes.nc again.nodes.nc
+  # Formats without density, other threads, a tolerance that is reached.
+  "$PSTRIPACK" -q --threads 3 scvt 300 --density bump --iterations 12 -o threads.txt
+  "$PSTRIPACK" -q convert direct.nodes.nc -o direct.txt
+  cmp direct.txt threads.txt
+  "$PSTRIPACK" scvt 50 --tolerance 0.1 -o loose.off 2> err
+  grep -q " iterations, converged to 0.1: " err || fail "$(cat err)"
+  # A density in a file, here constant; it goes along with the file by name.
+  "$PSTRIPACK" -q points latlon 100 | sed 's/$/ 2/' > two.txt
+  "$PSTRIPACK" -q scvt 300 --density-file two.txt --iterations 5 -o file.nodes.nc
+  "$PSTRIPACK" -q scvt 300 --iterations 5 -o constant.nodes.nc
+  for run in file constant; do "$PSTRIPACK" -q convert $run.nodes.nc -o - --to lonlat | cut -c 1-9 > $run.txt; done
+  cmp file.txt constant.txt
+  "$PSTRIPACK" -q scvt --start file.nodes.nc --iterations 6 -o more.nodes.nc
+  "$PSTRIPACK" -q scvt 300 --density-file two.txt --iterations 6 -o six.nodes.nc
+  cmp more.nodes.nc six.nodes.nc
+  rm two.txt
+  refuses 1 "two.txt: cannot be opened" scvt --start file.nodes.nc --iterations 7 -o failed.nc
+  ;;
+
+bad_scvt)
+  refuses 2 "give either N, for random generators, or --start FILE" scvt -o failed.off
+  octahedron > start.txt
+  refuses 2 "give either N" scvt 10 --start start.txt -o failed.off
+  refuses 2 "density 'potato': expected constant, bump or bump:LON,LAT" scvt 10 --density potato -o failed.off
+  refuses 2 "excludes" scvt 10 --density bump --density-file start.txt -o failed.off
+  refuses 2 "no format has this suffix" scvt 10 -o failed.xxx
+  refuses 1 "no/folder/failed.off: cannot be written" scvt 10 -o no/folder/failed.off
+  refuses 1 "no/checkpoint.nc: cannot be written" scvt 10 --checkpoint no/checkpoint.nc -o failed.off
+  "$PSTRIPACK" -q points hemisphere 30 -o half.txt
+  refuses 1 "half.txt: the generators lie in one hemisphere" scvt --start half.txt -o failed.off
+  sed 's/$/ 1/' half.txt > half_density.txt
+  refuses 1 "the density is not known on the whole sphere" scvt 10 --density-file half_density.txt -o failed.off
+  { octahedron; octahedron; } > twice.txt
+  refuses 1 "twice.txt: node 1 (line 1) and node 7 (line 7) are in the same place" scvt --start twice.txt -o failed.off
+  "$PSTRIPACK" -q scvt --start twice.txt --drop-duplicates -o once.off
+  octahedron | sed '4s/$/ 0/; 4!s/$/ 1/' > zero.txt
+  refuses 1 "zero.txt: node 4 (line 4): density 0: must be positive" scvt 10 --density-file zero.txt -o failed.off
+  [ ! -e failed.off ] || fail "failed.off was written"
+  ;;
+
+interpolate)
+  octahedron | sed '1,3s/$/ 1/; 4,6s/$/ 3/' > values.txt
+  printf '0 0\n45 0\n90 90\n225 0\n' > places.txt
+  for method in linear natural; do
+    "$PSTRIPACK" interpolate values.txt --to-points places.txt --method $method -o out.txt 2> err
+    grep -q '^pstripack: 6 nodes (text, x y z), 4 places, 0 outside the nodes; ' err || fail "$(cat err)"
+    awk '!/#/ { printf "%.6g ", $3 }' out.txt > got
+    expected="1 1 1 3 "
+    [ $method = linear ] || expected="1 1.08915 1 2.91085 "  # the nodes across the arc have a share
+    [ "$(cat got)" = "$expected" ] || fail "$method: $(cat out.txt)"
+  done
+  # The nodes themselves, to the last bit; through a pipe; lon lat and a column; threads.
+  "$PSTRIPACK" -q points random 300 -o nodes.txt
+  awk '{ printf "%s %.17g\n", $0, $1 * $2 + $3 }' nodes.txt > values.txt
+  awk '{ printf "%.17g\n", $4 }' values.txt > expected
+  "$PSTRIPACK" -q interpolate - --to-points nodes.txt --method natural -o - < values.txt | awk '!/#/ { printf "%.17g\n", $3 }' > got
+  cmp expected got
+  "$PSTRIPACK" -q --threads 1 interpolate values.txt --grid-step 5 --method natural -o one.txt
+  "$PSTRIPACK" -q --threads 3 interpolate values.txt --to-grid 36x72 --method natural -o three.txt
+  cmp one.txt three.txt
+  [ "$(sed -n 2p one.txt | cut -d' ' -f1,2)" = "-177.5 -87.5" ] || fail "the first cell: $(sed -n 2p one.txt)"
+  "$PSTRIPACK" -q convert nodes.txt -o - --to lonlat | awk '{ print $0, "7", NR }' > columns.txt
+  "$PSTRIPACK" -q interpolate columns.txt --coordinates lonlat --variable 4 --to-points nodes.txt -o out.txt
+  awk '!/#/ && ($3 - NR + 1) ^ 2 > 1e-16' out.txt > wrong
+  [ ! -s wrong ] || fail "$(cat wrong)"
+  # Outside of a region.
+  "$PSTRIPACK" -q points cap:0.3 100 | awk '{ print $0, NR }' > region.txt
+  "$PSTRIPACK" interpolate region.txt --grid-step 10 -o missing.txt 2> err
+  outside=$(sed -n 's/.* places, \([0-9]*\) outside the nodes.*/\1/p' err)
+  [ "$outside" -gt 600 ] && [ "$(grep -c ' nan$' missing.txt)" = "$outside" ] || fail "$(cat err)"
+  "$PSTRIPACK" -q interpolate region.txt --grid-step 10 --outside nearest -o nearest.txt
+  ! grep nan nearest.txt || fail "a value is missing"
+  "$PSTRIPACK" -q interpolate region.txt --to-grid 2x3 --region 10,40,-20,0 -o grid.txt --outside nearest
+  [ "$(awk '!/#/ { print $1, $2 }' grid.txt | tr '\n' ',')" = "15 -15,25 -15,35 -15,15 -5,25 -5,35 -5," ] || fail "$(cat grid.txt)"
+  # Missing values and duplicates.
+  { sed -n 1p region.txt; sed '5s/[^ ]*$/nan/' region.txt; } > odd.txt
+  "$PSTRIPACK" -q points cap:0.3 100 -o places.txt
+  "$PSTRIPACK" interpolate odd.txt --skip-missing --drop-duplicates --to-points places.txt -o out.txt 2> err
+  grep -q "odd.txt: 1 nodes without value left out" err || fail "$(cat err)"
+  grep -q "odd.txt: 1 nodes dropped that coincide" err || fail "$(cat err)"
+  awk '!/#/ && NR != 6 && $3 != NR - 1' out.txt > wrong  # all but the fifth, which had none
+  [ ! -s wrong ] || fail "$(cat wrong)"
+  ;;
+
+bad_values)
+  octahedron | sed '2s/$/ nan/; 2!s/$/ 1/' > values.txt
+  refuses 1 "values.txt: node 2 (line 2) has no value: remove it, or say --skip-missing" interpolate values.txt --grid-step 30 -o failed.txt
+  refuses 2 "give one of --to-points, --to-grid, --grid-step" interpolate values.txt -o failed.txt
+  refuses 2 "give one of --to-points, --to-grid, --grid-step" interpolate values.txt --grid-step 30 --to-grid 2x2 -o failed.txt
+  refuses 2 "180 degrees are no multiple of 7" interpolate values.txt --grid-step 7 -o failed.txt
+  refuses 2 "'180' is not 2 numbers" interpolate values.txt --to-grid 180 -o failed.txt
+  refuses 2 "expected NLATxNLON" interpolate values.txt --to-grid 0x10 -o failed.txt
+  refuses 2 "expected WEST,EAST,SOUTH,NORTH" interpolate values.txt --grid-step 1 --region 0,10,20,10 -o failed.txt
+  refuses 2 "neither .nc nor .txt: give --to" interpolate values.txt --grid-step 30 -o failed.xxx
+  octahedron > bare.txt
+  refuses 1 "may be degrees or radians" interpolate bare.txt --grid-step 30 -o failed.txt
+  printf '10 20\n30 40\n' > two.txt
+  refuses 1 "two.txt: has 2 columns; expected 'lon lat value' or 'x y z value'" interpolate two.txt --grid-step 30 -o failed.txt
+  printf '10 20 1 2 3\n30 40 1 2 3\n' > five.txt
+  refuses 1 "of more columns say --coordinates and --variable" interpolate five.txt --grid-step 30 -o failed.txt
+  refuses 1 "there is no value in column 9" interpolate five.txt --coordinates lonlat --variable 9 --grid-step 30 -o failed.txt
+  refuses 1 "is the number of a column, not 'depth'" interpolate five.txt --coordinates lonlat --variable depth --grid-step 30 -o failed.txt
+  printf '10 20 1\nnan 40 1\n' > place.txt
+  refuses 1 "place.txt: node 2 (line 2): its place is 'nan': remove the row" interpolate place.txt --grid-step 30 -o failed.txt
+  { octahedron; octahedron; } | sed 's/$/ 1/' > twice.txt
+  refuses 1 "are in the same place: remove one, or say --drop-duplicates" interpolate twice.txt --grid-step 30 -o failed.txt
+  "$PSTRIPACK" -q points cap:0.3 100 | sed 's/$/ 1/' > region.txt
+  refuses 1 "places lie outside the nodes of region.txt, the first is place 1, lon -165 lat -75: --outside missing or nearest" \
+    interpolate region.txt --grid-step 30 --outside error -o failed.txt
+  refuses 1 "no.txt: cannot be opened" interpolate region.txt --to-points no.txt -o failed.txt
+  [ ! -e failed.txt ] || fail "failed.txt was written"
+  ;;
+
+netcdf_values)
+  values_of() { awk '!/#/ { print $3 }' "$1"; }
+  "$PSTRIPACK" -q points random 200 | awk '{ printf "%s %.17g\n", $0, 280 + $3 }' > values.txt
+  # To a grid, from there to points and to nodes: a grid in NetCDF holds values again.
+  "$PSTRIPACK" -q interpolate values.txt --grid-step 2 -o grid.nc
+  "$PSTRIPACK" -q interpolate values.txt --grid-step 2 -o grid.txt
+  awk '!/#/ { print $1, $2 }' grid.txt > places.txt
+  values_of grid.txt > expected
+  "$PSTRIPACK" -q interpolate grid.nc --variable value --to-points places.txt -o back.txt
+  values_of back.txt | cmp expected -
+  "$PSTRIPACK" -q interpolate values.txt --to-points places.txt -o points.nc
+  "$PSTRIPACK" -q interpolate points.nc --variable value --to-points places.txt -o back.txt
+  paste grid.txt back.txt | awk '!/#/ && ($3 - $6) ^ 2 > 1e-24' > wrong  # the places have been rounded
+  [ ! -s wrong ] || fail "$(cat wrong)"
+  # What is missing there is missing here.
+  "$PSTRIPACK" -q points cap:0.5 100 | sed 's/$/ 1/' > region.txt
+  "$PSTRIPACK" -q interpolate region.txt --grid-step 10 -o region.nc
+  refuses 1 "node 1 has no value: remove it, or say --skip-missing" interpolate region.nc --variable value --grid-step 30 -o failed.nc
+  "$PSTRIPACK" -q interpolate region.nc --variable value --skip-missing --grid-step 30 --outside nearest -o out.txt
+  awk '!/#/ && $3 != 1' out.txt > wrong
+  [ ! -s wrong ] || fail "$(cat wrong)"
+  refuses 1 "region.nc: say --variable NAME; with a value a node there are: value" interpolate region.nc --grid-step 30 -o failed.nc
+  refuses 1 "there is no variable depth; say" interpolate region.nc --variable depth --grid-step 30 -o failed.nc
+  refuses 1 "variable lon(lon=36): expected lon(lat=18, lon=36); take one layer out" interpolate region.nc --variable lon --grid-step 30 -o failed.nc
+  [ ! -e failed.nc ] || fail "failed.nc was written"
+  ;;
+
+ranks)
+  # shellcheck disable=SC2086  # lists of words on purpose
+  run() { ranks=$1; shift; $MPIRUN -n "$ranks" "$PSTRIPACK" "$@"; }
+  "$PSTRIPACK" -q points random 3000 -o nodes.txt
+  "$PSTRIPACK" -q triangulate nodes.txt -o serial.lists
+  "$PSTRIPACK" -q voronoi nodes.txt -o serial.off
+  "$PSTRIPACK" -q scvt 500 --density bump --iterations 3 -o serial.txt
+  for n in 1 2 3; do
+    run $n triangulate nodes.txt -o ranks.lists 2> err
+    [ "$(grep -c ^pstripack: err)" = 1 ] || fail "$n ranks: $(cat err)"
+    [ $n = 1 ] || grep -q "; on $n ranks$" err || fail "$n ranks: $(cat err)"
+    cmp serial.lists ranks.lists
+    run $n -q voronoi nodes.txt -o ranks.off
+    cmp serial.off ranks.off
+    run $n -q scvt 500 --density bump --iterations 3 -o ranks.txt
+    cmp serial.txt ranks.txt
+    [ "$(run $n -q points random 10 | wc -l)" = 10 ] || fail "points, by $n ranks"
+    run $n -q triangulate - -o ranks.lists < nodes.txt
+    cmp serial.lists ranks.lists
+    # One message, exit code 1 or 2, nothing left.
+    { cat nodes.txt; head -n 1 nodes.txt; } > twice.txt
+    for case in "1 twice.txt" "1 missing.txt" "2 nodes.txt --potato"; do
+      code=0
+      # shellcheck disable=SC2086
+      run $n triangulate ${case#* } -o failed.lists > out 2> err || code=$?
+      [ "$code" = "${case%% *}" ] || fail "$n ranks, $case: exit code $code: $(cat err)"
+      [ "$(grep -c ^pstripack: err)" = 1 ] || fail "$n ranks, $case: $(cat err)"
+      [ ! -e failed.lists ] || fail "failed.lists was written"
+    done
+  done
+  code=0
+  $MPIRUN -n 1 "$PSTRIPACK" -q triangulate nodes.txt -o a.lists : -n 1 "$PSTRIPACK" -q triangulate nodes.txt -o b.lists 2> err || code=$?
+  [ $code = 2 ] && grep -q "the ranks have different command lines" err || fail "exit code $code: $(cat err)"
+  [ ! -e a.lists ] && [ ! -e b.lists ] || fail "two command lines, and one was obeyed"
+  # Where pstripack-mpi is not installed, rank 0 works alone.
+  cp "$PSTRIPACK" alone
+  $MPIRUN -n 3 ./alone -q triangulate nodes.txt -o alone.lists 2> err
+  [ "$(cat err)" = "pstripack: no pstripack-mpi is installed: rank 0 works alone, on its threads" ] || fail "$(cat err)"
+  cmp serial.lists alone.lists
   ;;
 
 *)

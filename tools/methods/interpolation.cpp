@@ -1,0 +1,244 @@
+#include "methods/interpolation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/parallel_for.h"
+#include "geometry/predicates.h"
+#include "methods/sphere.h"
+#include "stripack/list_queries.h"
+#include "stripack/search.h"
+
+namespace methods {
+namespace {
+
+using Reader = pstripack::ListReader<std::int32_t>;
+
+constexpr double kOnBorder = 1e-12;
+
+std::vector<Point> directions(const std::vector<Point>& points) {
+  std::vector<Point> result(points.size());
+  std::transform(points.begin(), points.end(), result.begin(), [](const Point& p) { return files::unit(p); });
+  return result;
+}
+
+double square(const Point& d) { return dot(d, d); }
+
+/// Divides the parts by their sum.
+void make_shares(std::vector<Share>& shares) {
+  double sum = 0;
+  for (const Share& s : shares) sum += s.part;
+  for (Share& s : shares) s.part /= sum;
+}
+
+}  // namespace
+
+/// The triangle that a place lies in, counterclockwise, the smallest number first: the same for every search.
+struct Interpolation::Corners {
+  std::int32_t node[3];
+};
+
+Interpolation::Interpolation(const std::vector<Point>& nodes) : mesh_(files::triangulate(directions(nodes))) {
+  Point sum{0, 0, 0};
+  for (const Point& p : mesh_.points) {
+    x_.push_back(p.x), y_.push_back(p.y), z_.push_back(p.z);
+    sum = {sum.x + p.x, sum.y + p.y, sum.z + p.z};
+  }
+  middle_ = files::unit(sum);  // used only where nodes lie in a hemisphere: not zero then
+}
+
+/// False where p is outside; p just outside is moved inside.
+bool Interpolation::find(Point& p, std::int32_t& near, Corners& corners) const {
+  const auto locate = [&] {
+    double b1, b2, b3;
+    const pstripack::Location<std::int32_t> found =
+        pstripack::trfind(near, pstripack::Vector<double>{p.x, p.y, p.z}, mesh_.lists(),
+                          pstripack::Nodes<double>{x_.data(), y_.data(), z_.data()}, b1, b2, b3);
+    near = found.i1;
+    corners = {{found.i1, found.i2, found.i3}};
+    std::rotate(corners.node, std::min_element(corners.node, corners.node + 3), corners.node + 3);
+    return found.i3 != 0;
+  };
+  if (locate()) return true;
+  const Point inwards = minus(middle_, p);
+  p = files::unit({p.x + kOnBorder * inwards.x, p.y + kOnBorder * inwards.y, p.z + kOnBorder * inwards.z});
+  return locate();
+}
+
+bool Interpolation::linear(const Point& p, std::int32_t& near, std::vector<Share>& shares) const {
+  shares.clear();
+  Point place = p;
+  Corners corners;
+  if (!find(place, near, corners)) return false;
+  const auto& [a, b, c] = corners.node;
+  for (const std::int32_t node : {a, b, c})
+    if (at(node) == p) {
+      shares = {{node, 1}};
+      return true;
+    }
+  for (const Share& s : {Share{a, volume(place, at(b), at(c))}, Share{b, volume(place, at(c), at(a))},
+                         Share{c, volume(place, at(a), at(b))}})
+    if (s.part > 0) shares.push_back(s);              // rounding may lead across an arc
+  if (shares.empty()) shares = {{nearest(p, a), 1}};  // of a triangle that is hardly more than an arc
+  make_shares(shares);
+  return true;
+}
+
+bool Interpolation::is_above(std::int32_t a, std::int32_t b, std::int32_t c, const Point& p) const {
+  return pstripack::orientation(at(a), at(b), at(c), p) > 0;
+}
+
+/// The natural neighbours of p, counterclockwise: the border of the triangles whose caps p lies in, by exact
+/// signs. The triangles bound a convex body, above which p lies: so those that it sees hang together, without
+/// a hole. (But for nodes so close that rounding has pushed one below its neighbours; then there may be no
+/// end, and false is returned.)
+///
+///          w          The triangle beyond the arc u->v, which has p on its left.
+///        /   \        If p lies above it, w comes in between u and v.
+///       v --- u
+///          p
+///
+bool Interpolation::natural_ring(const Point& p, const Corners& corners,
+                                 std::vector<std::int32_t>& ring) const {
+  const Reader reader(mesh_.lists());
+  ring.assign(corners.node, corners.node + 3);
+  for (std::size_t i = 0; i < ring.size();) {
+    const std::int32_t u = ring[i], v = ring[i + 1 < ring.size() ? i + 1 : 0];
+    const std::int32_t slot = reader.slot_of(v, u);
+    const bool at_border = reader.entry(slot) < 0;
+    const std::int32_t w = at_border ? 0 : reader.neighbour(reader.next(slot));
+    if (!at_border && is_above(v, u, w, p))
+      ring.insert(ring.begin() + static_cast<std::ptrdiff_t>(i) + 1, w);
+    else
+      ++i;
+    if (ring.size() > mesh_.points.size()) return false;
+  }
+  std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end()), ring.end());
+  return true;
+}
+
+/// What the cell of `node`, which comes between `before` and `after` in the ring round p, would lose to p:
+/// the polygon of the corners that it has on p's side, between two corners of p's own cell.
+///
+///        new   after       old: circumcentres of the triangles of `node` from `after` to `before`
+///     old |
+///   p     |  node          new: of p, node, after and of p, before, node
+///     old |
+///        new   before
+///
+double Interpolation::lost_area(const Point& p, std::int32_t before, std::int32_t node,
+                                std::int32_t after) const {
+  const Reader reader(mesh_.lists());
+  const Point first = circumcentre(p, at(node), at(after));
+  Point last{};
+  double area = 0;
+  bool has_last = false;
+  const auto add = [&](const Point& corner) {
+    if (has_last) area += triangle_area(first, last, corner);
+    last = corner;
+    has_last = true;
+  };
+  std::int32_t slot = reader.slot_of(node, after);
+  for (std::int32_t from = after; from != before;) {
+    slot = reader.next(slot);
+    const std::int32_t to = reader.neighbour(slot);
+    add(circumcentre(at(node), at(from), at(to)));
+    from = to;
+  }
+  add(circumcentre(p, at(before), at(node)));
+  return area;
+}
+
+bool Interpolation::natural(const Point& p, std::int32_t& near, std::vector<Share>& shares) const {
+  shares.clear();
+  Point place = p;
+  Corners corners;
+  if (!find(place, near, corners)) return false;
+  // Not above its own triangle: closer to a corner than what rounding leaves of the height.
+  const std::int32_t* const c = corners.node;
+  const bool is_corner = at(c[0]) == p || at(c[1]) == p || at(c[2]) == p;
+  std::vector<std::int32_t> ring;
+  if (is_corner || !is_above(c[0], c[1], c[2], place) || !natural_ring(place, corners, ring))
+    return linear(p, near, shares);
+  for (std::size_t i = 0, k = ring.size(); i < k; ++i) {
+    const double area = lost_area(place, ring[(i + k - 1) % k], ring[i], ring[(i + 1) % k]);
+    if (area > 0) shares.push_back({ring[i], area});
+  }
+  if (shares.empty()) return linear(p, near, shares);
+  make_shares(shares);
+  return true;
+}
+
+/// Steps to nearer neighbours, as long as there are any.
+std::int32_t Interpolation::descend(const Point& p, std::int32_t node) const {
+  const Reader reader(mesh_.lists());
+  for (double best = square(minus(at(node), p));;) {
+    const std::int32_t here = node, last = reader.last_slot(here);
+    std::int32_t slot = last;
+    do {
+      slot = reader.next(slot);
+      const std::int32_t neighbour = reader.neighbour(slot);
+      if (const double d = square(minus(at(neighbour), p)); d < best) best = d, node = neighbour;
+    } while (slot != last);
+    if (node == here) return node;
+  }
+}
+
+// On the way from a node to p one enters the cells of nearer and nearer nodes; each is a neighbour of the one
+// before. Only where the nodes lie in a hemisphere are there neighbours that the lists do not have, two nodes
+// of the border, and their cells meet more than 90 degrees away from both. So the descent ends in the nearest
+// node if it begins at one less than 90 degrees away. If there is such a node, there is one on the border: a
+// node is a sum of positive multiples of nodes there. For the same reason, if there is none, the nearest is
+// on the border.
+std::int32_t Interpolation::nearest(const Point& p, std::int32_t near) const {
+  const Reader reader(mesh_.lists());
+  std::int32_t node = descend(p, near >= 1 && near <= reader.size() ? near : 1);
+  const std::int32_t border = reader.first_boundary_node();
+  if (dot(at(node), p) > 0 || border == 0) return node;
+  std::int32_t round = border;
+  do {
+    if (dot(at(round), p) > dot(at(node), p)) node = round;
+    round = reader.first_neighbour(round);
+  } while (round != border);
+  return descend(p, node);
+}
+
+Interpolation::Result Interpolation::values_at(const std::vector<Point>& places,
+                                               const std::vector<double>& values, Method method,
+                                               Outside outside) const {
+  constexpr std::size_t kBlock = 512;  // searches begin anew: what they find does not depend on the threads
+  Result result;
+  result.values.resize(places.size());
+  const std::size_t blocks = (places.size() + kBlock - 1) / kBlock;
+  std::vector<std::size_t> count_outside(blocks);
+  const auto value_of = [&](std::int32_t node) { return values[static_cast<std::size_t>(node) - 1]; };
+  const auto block = [&](std::size_t b) {
+    std::int32_t near = 1;
+    std::vector<Share> shares;
+    for (std::size_t i = b * kBlock; i < std::min((b + 1) * kBlock, places.size()); ++i) {
+      const Point p = files::unit(places[i]);
+      if (!(method == Method::linear ? linear(p, near, shares) : natural(p, near, shares))) {
+        ++count_outside[b];
+        result.values[i] = outside == Outside::missing ? std::numeric_limits<double>::quiet_NaN()
+                                                       : value_of(near = nearest(p, near));
+        continue;
+      }
+      double sum = 0, low = value_of(shares[0].node), high = low;
+      for (const Share& s : shares) {
+        const double v = value_of(s.node);
+        sum += s.part * v;
+        low = std::min(low, v), high = std::max(high, v);
+      }
+      result.values[i] = std::clamp(sum, low, high);  // rounding leads out of it
+    }
+  };
+  pstripack::parallel_pieces(blocks, pstripack::threads_for(100 * places.size()),
+                             [&](std::size_t first, std::size_t last, int) {
+                               for (std::size_t b = first; b < last; ++b) block(b);
+                             });
+  for (const std::size_t count : count_outside) result.outside += count;
+  return result;
+}
+
+}  // namespace methods

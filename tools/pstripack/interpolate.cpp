@@ -1,0 +1,222 @@
+// `pstripack interpolate`.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "methods/interpolation.h"
+#include "numbers.h"
+#include "pstripack/options.h"
+#include "pstripack/progress.h"
+
+namespace program {
+namespace {
+
+using methods::Interpolation;
+
+enum class Outside { missing, nearest, error };
+
+struct Options {
+  Input input;
+  bool skip_missing = false;
+  std::string points, grid, region;
+  double step = 0;
+  Interpolation::Method method = Interpolation::Method::linear;
+  Outside outside = Outside::missing;
+  std::string output, to;
+};
+
+std::vector<double> numbers_in(const std::string& option, const std::string& text, char separator,
+                               std::size_t count) {
+  std::vector<double> numbers;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(separator, begin), text.size());
+    double value = 0;
+    if (!point_sets::parse(text.substr(begin, end - begin), value))
+      throw CLI::ValidationError(option, "'" + text + "' is not " + std::to_string(count) + " numbers");
+    numbers.push_back(value);
+    begin = end + 1;
+  }
+  if (numbers.size() != count)
+    throw CLI::ValidationError(option, "'" + text + "' is not " + std::to_string(count) + " numbers");
+  return numbers;
+}
+
+/// The centres of `count` equal parts of low to high.
+std::vector<double> centres(double low, double high, std::size_t count) {
+  std::vector<double> c(count);
+  for (std::size_t i = 0; i < count; ++i)
+    c[i] = low + (high - low) * (2 * static_cast<double>(i) + 1) / (2 * static_cast<double>(count));
+  return c;
+}
+
+/// How many of --grid-step fit.
+double parts(double extent, double step) {
+  const double count = std::round(extent / step);
+  if (count < 1 || std::fabs(count * step - extent) > 1e-6 * extent)
+    throw CLI::ValidationError("--grid-step", fmt::format("{} degrees are no multiple of {}", extent, step));
+  return count;
+}
+
+files::Grid grid_of(const Options& options) {
+  const std::vector<double> r = options.region.empty() ? std::vector<double>{-180, 180, -90, 90}
+                                                       : numbers_in("--region", options.region, ',', 4);
+  if (!(r[0] < r[1] && r[1] - r[0] <= 360 && r[2] < r[3] && r[2] >= -90 && r[3] <= 90))
+    throw CLI::ValidationError("--region", "expected WEST,EAST,SOUTH,NORTH in degrees, in this order");
+  std::vector<double> counts;
+  if (!options.grid.empty())
+    counts = numbers_in("--to-grid", options.grid, 'x', 2);
+  else
+    counts = {parts(r[3] - r[2], options.step), parts(r[1] - r[0], options.step)};
+  for (const double count : counts)
+    if (!(count >= 1 && count == std::floor(count)) || counts[0] * counts[1] > 1e10)
+      throw CLI::ValidationError("--to-grid", "expected NLATxNLON, say 180x360");
+  return {centres(r[0], r[1], static_cast<std::size_t>(counts[1])),
+          centres(r[2], r[3], static_cast<std::size_t>(counts[0]))};
+}
+
+bool is_netcdf(const Options& options) {
+  const auto ends_with = [&](const std::string& suffix) {
+    const std::string& file = options.output;
+    return file.size() > suffix.size() &&
+           file.compare(file.size() - suffix.size(), suffix.size(), suffix) == 0;
+  };
+  if (!options.to.empty()) return options.to == "netcdf";
+  if (ends_with(".nc")) return true;
+  if (options.output != "-" && !ends_with(".txt"))
+    throw CLI::ValidationError("--output",
+                               options.output + ": neither .nc nor .txt: give --to netcdf or --to text");
+  return false;
+}
+
+/// Leaves out nodes without value, or throws.
+void see_to_missing(files::Nodes& nodes, bool skip) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < nodes.values.size(); ++i) {
+    if (std::isnan(nodes.values[i])) {
+      if (!skip)
+        throw std::runtime_error(
+            fmt::format("{}: {} has no value: remove it, or say --skip-missing", nodes.file, nodes.place(i)));
+      continue;
+    }
+    nodes.points[kept] = nodes.points[i];
+    nodes.values[kept] = nodes.values[i];
+    if (!nodes.lines.empty()) nodes.lines[kept] = nodes.lines[i];
+    ++kept;
+  }
+  if (kept < nodes.values.size())
+    say(fmt::format("{}: {} nodes without value left out", nodes.file, nodes.values.size() - kept));
+  nodes.points.resize(kept);
+  nodes.values.resize(kept);
+  if (!nodes.lines.empty()) nodes.lines.resize(kept);
+}
+
+files::Nodes read_values(Options& options) {
+  options.input.read.with_values = true;
+  files::Nodes nodes = read_places(options.input.file, options.input.read);
+  see_to_missing(nodes, options.skip_missing);
+  if (options.input.drop_duplicates) drop_duplicates(nodes);
+  return nodes;
+}
+
+void interpolate(Options& options) {
+  if (options.points.empty() + options.grid.empty() + (options.step == 0) != 2)
+    throw CLI::ValidationError("--to-points", "give one of --to-points, --to-grid, --grid-step");
+  if (!options.region.empty() && !options.points.empty())
+    throw CLI::ValidationError("--region", "is of a grid, not of --to-points");
+  const bool netcdf = is_netcdf(options);
+  files::Grid grid;
+  if (options.points.empty()) grid = grid_of(options);
+  files::OutputFile file(options.output);
+
+  Progress progress;
+  const files::Nodes nodes = progress.step("reading", [&] { return read_values(options); });
+  const std::vector<files::Point> places = progress.step("reading the places", [&] {
+    if (options.points.empty()) {
+      const files::LonLat all = grid.places();
+      return files::points_of({all.lon.data(), all.lat.data(), 1, true, true}, all.lon.size());
+    }
+    files::ReadOptions read;
+    read.units = options.input.read.units;
+    return read_places(options.points, read).points;
+  });
+  const Interpolation interpolation = progress.step("triangulating", [&] {
+    try {
+      return Interpolation(nodes.points);
+    } catch (const files::NoMesh& e) {
+      throw no_mesh_of(nodes, e);
+    }
+  });
+  const Interpolation::Result result = progress.step("interpolating", [&] {
+    return interpolation.values_at(places, nodes.values, options.method,
+                                   options.outside == Outside::nearest ? Interpolation::Outside::nearest
+                                                                       : Interpolation::Outside::missing);
+  });
+  if (options.outside == Outside::error && result.outside > 0) {
+    std::size_t first = 0;
+    while (!std::isnan(result.values[first])) ++first;
+    const files::LonLat where({places[first]}, true);
+    throw std::runtime_error(
+        fmt::format("{} of {} places lie outside the nodes of {}, the first is place {}, lon {:.6g} lat "
+                    "{:.6g}: --outside missing "
+                    "or nearest",
+                    result.outside, places.size(), nodes.file, first + 1, where.lon[0], where.lat[0]));
+  }
+  progress.step("writing", [&] {
+    const files::Field field{nodes.value_name.empty() ? "value" : nodes.value_name, nodes.value_units,
+                             result.values};
+    const bool is_grid = options.points.empty();
+    if (netcdf && is_grid)
+      write_netcdf_grid(file, grid, field);
+    else
+      (netcdf ? files::write_netcdf_field : files::write_field)(
+          file, is_grid ? grid.places() : files::LonLat(places, true), field);
+    file.commit();
+  });
+  progress.finish(fmt::format("{} nodes ({}), {} places, {} outside the nodes", nodes.points.size(),
+                              nodes.kind, places.size(), result.outside));
+}
+
+}  // namespace
+
+void add_interpolate(CLI::App& app, Command& chosen) {
+  CLI::App* const sub = app.add_subcommand(
+      "interpolate", "values at scattered nodes to points or a grid of longitude and latitude");
+  const auto options = std::make_shared<Options>();
+  sub->add_option("VALUES", options->input.file, "file of nodes and values; - is stdin")
+      ->required()
+      ->type_name("");
+  sub->add_option("--variable", options->input.read.variable,
+                  "of NetCDF: name; of text: column, from 1 [the one after the place]")
+      ->type_name("NAME");
+  sub->add_option("--to-points", options->points, "file of places")->type_name("FILE");
+  sub->add_option("--to-grid", options->grid, "cell centres of a grid, 180x360 say")->type_name("NLATxNLON");
+  sub->add_option("--grid-step", options->step, "the same by the width of a cell")
+      ->type_name("DEGREES")
+      ->check(CLI::PositiveNumber.description(""));
+  sub->add_option("--region", options->region, "edges of the grid: WEST,EAST,SOUTH,NORTH [-180,180,-90,90]")
+      ->type_name("DEGREES");
+  add_choice(*sub, "--method", options->method,
+             {{"linear", Interpolation::Method::linear}, {"natural", Interpolation::Method::natural}},
+             "linear on triangles, or natural neighbours [linear]");
+  add_choice(*sub, "--outside", options->outside,
+             {{"missing", Outside::missing}, {"nearest", Outside::nearest}, {"error", Outside::error}},
+             "of regional nodes: missing values there, the value of the nearest node, or an error [missing]");
+  sub->add_flag("--skip-missing", options->skip_missing, "leave out nodes without value [an error]");
+  add_reading(*sub, options->input.read);
+  add_duplicates(*sub, options->input);
+  sub->add_option("-o,--output", options->output, "file to write; - is stdout")
+      ->required()
+      ->type_name("FILE");
+  sub->add_option("--to", options->to, "text (lon lat value a line) or netcdf [by the suffix: .txt, .nc]")
+      ->type_name("WORD")
+      ->check(CLI::IsMember({"text", "netcdf"}).description(""));
+  sub->footer(
+      R"(VALUES is text, `lon lat value` or `x y z value` a line, or NetCDF. `nan` and _FillValue are missing values, in
+both directions. --from and --coordinates are of VALUES, --units of VALUES and of the points.)");
+  sub->callback([=, &chosen] { chosen = [=] { interpolate(*options); }; });
+}
+
+}  // namespace program

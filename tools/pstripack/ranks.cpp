@@ -1,0 +1,47 @@
+#include "pstripack/ranks.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <system_error>
+
+#include "geometry/environment.h"
+
+namespace program {
+namespace {
+
+/// What the launcher has told this process; all but Slurm's PMIx in two variables.
+struct Launched {
+  int size = 1, rank = 0;
+};
+
+Launched launched() {
+  using pstripack::environment_variable;
+  constexpr const char* kVariables[][2] = {{"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"},
+                                           {"PMI_SIZE", "PMI_RANK"},
+                                           {"SLURM_STEP_NUM_TASKS", "PMIX_RANK"}};
+  for (const auto& [name_of_size, name_of_rank] : kVariables) {
+    const char* const size = environment_variable(name_of_size);
+    const char* const rank = environment_variable(name_of_rank);
+    if (size != nullptr && rank != nullptr) return {std::atoi(size), std::atoi(rank)};
+  }
+  return {};
+}
+
+}  // namespace
+
+int on_rank_0(int, char** argv, const std::function<int()>& work) {
+  const Launched here = launched();
+  if (here.size > 1) {
+    std::error_code error;
+    const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
+    execv((self.parent_path() / "pstripack-mpi").c_str(), argv);  // returns only where there is none
+    if (here.rank > 0) return 0;
+    fmt::print(stderr, "pstripack: no pstripack-mpi is installed: rank 0 works alone, on its threads\n");
+  }
+  return work();
+}
+
+}  // namespace program

@@ -1,0 +1,93 @@
+// Of pstripack-mpi. The ranks but 0 wait for its word: to triangulate with it, or to end with its exit code.
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <new>
+#include <stdexcept>
+#include <string_view>
+
+#include "files/mesh.h"
+#include "mpi/collective_trmesh.h"
+#include "mpi/mpi_communicator.h"
+#include "pstripack/options.h"
+#include "pstripack/ranks.h"
+#include "stripack/original_rules.h"
+
+namespace program {
+namespace {
+
+using pstripack::MpiCommunicator;
+
+/// What rank 0 sends: this, or an exit code.
+constexpr std::int32_t kTriangulate = -1;
+
+std::int32_t word_of_rank_0(MpiCommunicator& ranks, std::int32_t word = 0) {
+  ranks.broadcast(&word, sizeof word, 0);
+  return word;
+}
+
+int lead(MpiCommunicator& ranks, const std::function<int()>& work) {
+  // The original's order is that of one insertion after the other: nothing for ranks.
+  if (!pstripack::original_rules().follow)
+    files::set_trmesh([&](std::int32_t n, const double* x, const double* y, const double* z,
+                          std::int32_t* list, std::int32_t* lptr, std::int32_t* lend, std::int32_t* lnew) {
+      global().ranks = ranks.size();
+      word_of_rank_0(ranks, kTriangulate);
+      try {
+        return collective_trmesh(ranks, pstripack::Arrays::on_rank_0, n, x, y, z, list, lptr, lend, lnew);
+      } catch (const pstripack::AgreedFailure&) {
+        throw std::bad_alloc();  // on any rank
+      }
+    });
+  return word_of_rank_0(ranks, work());
+}
+
+int follow(MpiCommunicator& ranks) {
+  for (;;) {
+    const std::int32_t word = word_of_rank_0(ranks);
+    if (word != kTriangulate) return word;
+    try {
+      pstripack::collective_trmesh<double>(ranks, pstripack::Arrays::on_rank_0, 0, nullptr, nullptr, nullptr,
+                                           nullptr, nullptr, nullptr, nullptr);
+    } catch (const pstripack::AgreedFailure&) {  // rank 0 says so
+    }
+  }
+}
+
+/// True on every rank or none. Ranks with other arguments would never see theirs obeyed.
+bool have_one_command_line(MpiCommunicator& ranks, int argc, char** argv) {
+  std::string all;
+  for (int i = 1; i < argc; ++i) all += std::string(argv[i]) + '\0';
+  const auto hash = static_cast<std::int64_t>(std::hash<std::string>{}(all) >> 1);
+  std::int64_t values[] = {hash, ~hash};
+  ranks.all_min(values, 2);
+  return values[0] == ~values[1];
+}
+
+}  // namespace
+
+int on_rank_0(int argc, char** argv, const std::function<int()>& work) {
+  int provided = 0, code = kFailed;
+  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
+  try {
+    MpiCommunicator ranks(MPI_COMM_WORLD);
+    ranks.call_roll();
+    if (have_one_command_line(ranks, argc, argv)) {
+      code = ranks.rank() == 0 ? lead(ranks, work) : follow(ranks);
+    } else {
+      code = kUsage;
+      if (ranks.rank() == 0)
+        fmt::print(stderr,
+                   "pstripack: the ranks have different command lines: start each command by an mpirun of "
+                   "its own\n");
+    }
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "pstripack: {}\n", e.what());
+    MPI_Abort(MPI_COMM_WORLD, kFailed);
+  }
+  MPI_Finalize();
+  return code;
+}
+
+}  // namespace program

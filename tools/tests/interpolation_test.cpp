@@ -1,0 +1,282 @@
+// Interpolation between scattered nodes: the properties of its shares, and of its values.
+
+#include "methods/interpolation.h"
+
+#include <gtest/gtest.h>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "methods/sphere.h"
+#include "point_sets.h"
+#include "stripack/list_queries.h"
+
+namespace methods {
+namespace {
+
+using Points = std::vector<Point>;
+using Method = Interpolation::Method;
+constexpr double kFullSphere = 12.566370614359173;
+
+/// Cells in one circle, nodes of all densities, and regional ones.
+const char* const kFamilies[] = {"random", "latlon", "healpix", "variable", "clusters", "hemisphere", "cap"};
+
+Points places(std::size_t n, std::uint64_t seed) { return point_sets::make("random", n, seed); }
+
+bool shares_at(const Interpolation& in, Method method, const Point& p, std::vector<Share>& shares) {
+  std::int32_t near = 1;
+  return method == Method::linear ? in.linear(p, near, shares) : in.natural(p, near, shares);
+}
+
+std::vector<double> random_values(std::size_t n) {
+  point_sets::Random random(5);
+  std::vector<double> values(n);
+  for (double& v : values) v = random.uniform(-1, 1);
+  return values;
+}
+
+TEST(shares, are_positive_and_add_up_to_one) {
+  for (const char* const family : kFamilies)
+    for (const Method method : {Method::linear, Method::natural}) {
+      const Interpolation in(point_sets::make(family, 400));
+      std::vector<Share> shares;
+      std::size_t inside = 0;
+      for (const Point& p : places(2000, 3)) {
+        if (!shares_at(in, method, p, shares)) continue;
+        ++inside;
+        double sum = 0;
+        for (const Share& s : shares) {
+          EXPECT_GT(s.part, 0);
+          sum += s.part;
+        }
+        EXPECT_NEAR(sum, 1, 1e-14);
+      }
+      EXPECT_TRUE(inside > 0 || family == std::string("cap")) << family;
+    }
+}
+
+TEST(shares, of_a_node_are_its_own_alone) {
+  for (const char* const family : kFamilies)
+    for (const Method method : {Method::linear, Method::natural}) {
+      const Points nodes = point_sets::make(family, 300);
+      const std::vector<double> values = random_values(nodes.size());
+      const Interpolation::Result result =
+          Interpolation(nodes).values_at(nodes, values, method, Interpolation::Outside::missing);
+      EXPECT_EQ(result.values, values) << family;
+      EXPECT_EQ(result.outside, 0u);
+    }
+}
+
+TEST(linear, is_linear_in_the_plane_of_the_corners) {
+  const Points nodes = point_sets::make("random", 300);
+  const Interpolation in(nodes);
+  std::vector<Share> shares;
+  for (const Point& p : places(1000, 4)) {
+    ASSERT_TRUE(shares_at(in, Method::linear, p, shares));
+    ASSERT_LE(shares.size(), 3u);
+    Point q{0, 0, 0};  // the shares' mean of the corners
+    for (const Share& s : shares) {
+      const Point& v = nodes[static_cast<std::size_t>(s.node) - 1];
+      q = {q.x + s.part * v.x, q.y + s.part * v.y, q.z + s.part * v.z};
+    }
+    const Point off = cross(p, q);  // is on the ray to p
+    EXPECT_LT(dot(off, off), 1e-28);
+    EXPECT_GT(dot(p, q), 0);
+  }
+}
+
+/// The area of each Voronoi cell.
+std::vector<double> cell_areas(const Points& nodes) {
+  const files::Faces cells = files::voronoi_faces(files::triangulate(nodes));
+  std::vector<double> areas(cells.size());
+  for (std::size_t f = 0; f < cells.size(); ++f)
+    for (std::size_t k = cells.begin[f] + 2; k < cells.begin[f + 1]; ++k) {
+      const auto at = [&](std::size_t i) {
+        return cells.points[static_cast<std::size_t>(cells.corner[i]) - 1];
+      };
+      areas[f] += triangle_area(at(cells.begin[f]), at(k - 1), at(k));
+    }
+  return areas;
+}
+
+/// Areas of cells that are larger than a hemisphere are known but for whole spheres.
+double difference(double a, double b) { return std::remainder(a - b, kFullSphere); }
+
+TEST(natural, shares_are_what_the_cells_lose_to_a_new_node) {
+  for (const char* const family : {"random", "latlon", "variable", "hemisphere"}) {
+    Points nodes = point_sets::make(family, 150);
+    const std::vector<double> before = cell_areas(nodes);
+    const Interpolation in(nodes);
+    for (const Point& p : places(60, 8)) {
+      std::vector<Share> shares;
+      if (!shares_at(in, Method::natural, p, shares)) continue;
+      nodes.push_back(p);
+      const std::vector<double> after = cell_areas(nodes);
+      nodes.pop_back();
+      std::vector<double> parts(nodes.size());
+      for (const Share& s : shares) parts[static_cast<std::size_t>(s.node) - 1] = s.part;
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        EXPECT_NEAR(parts[i] * after.back(), difference(before[i], after[i]), 1e-12) << family;
+    }
+  }
+}
+
+TEST(natural, has_no_kinks_at_arcs) {
+  // Second differences of a smooth function: linear interpolation has kinks at arcs.
+  const Points nodes = point_sets::make("fibonacci", 500);
+  std::vector<double> values;
+  for (const Point& p : nodes) values.push_back(p.x * p.y + p.z);
+  const Interpolation in(nodes);
+  double largest[2] = {0, 0};
+  for (const Method method : {Method::linear, Method::natural}) {
+    Points way;
+    for (int i = 0; i < 20000; ++i) way.push_back(point_sets::from_degrees(i * 1e-3, 41.3));
+    const std::vector<double> v = in.values_at(way, values, method, Interpolation::Outside::missing).values;
+    double& most = largest[method == Method::natural];
+    for (std::size_t i = 2; i < v.size(); ++i)
+      most = std::max(most, std::fabs(v[i] - 2 * v[i - 1] + v[i - 2]));
+  }
+  EXPECT_LT(largest[1], largest[0] / 10);
+}
+
+TEST(values, are_continuous) {
+  constexpr double kStep = 1e-7;
+  for (const char* const family : {"random", "latlon", "healpix", "icosahedral"})
+    for (const Method method : {Method::linear, Method::natural}) {
+      const Points nodes = point_sets::make(family, 200);
+      const std::vector<double> values = random_values(nodes.size());
+      // Pairs of places on both sides of arcs, of corners of cells, and of nodes.
+      Points pairs;
+      const auto add = [&](const Point& middle, const Point& towards) {
+        for (const double step : {-kStep, kStep})
+          pairs.push_back(files::unit(
+              {middle.x + step * towards.x, middle.y + step * towards.y, middle.z + step * towards.z}));
+      };
+      const files::Mesh mesh = files::triangulate(nodes);
+      const files::Faces triangles = files::triangle_faces(mesh);
+      for (std::size_t t = 0; t < triangles.size(); ++t) {
+        const auto at = [&](std::size_t k) {
+          return triangles.points[static_cast<std::size_t>(triangles.corner[3 * t + k]) - 1];
+        };
+        const Point a = at(0), b = at(1), c = at(2), centre = circumcentre(a, b, c);
+        for (const Point& towards : {cross(a, b), b, c}) {
+          add(a, towards);
+          add({a.x + 2 * b.x, a.y + 2 * b.y, a.z + 2 * b.z}, towards);
+          add(centre, towards);
+          // On the circle of the corners, where other neighbours come in.
+          add({2 * dot(a, centre) * centre.x - a.x, 2 * dot(a, centre) * centre.y - a.y,
+               2 * dot(a, centre) * centre.z - a.z},
+              centre);
+        }
+      }
+      const std::vector<double> v =
+          Interpolation(nodes).values_at(pairs, values, method, Interpolation::Outside::missing).values;
+      for (std::size_t i = 0; i < v.size(); i += 2) EXPECT_NEAR(v[i], v[i + 1], 2e-4) << family;
+    }
+}
+
+TEST(values, lie_between_those_of_the_nodes_with_a_share) {
+  const Points nodes = point_sets::make("random", 300);
+  const std::vector<double> values = random_values(nodes.size());
+  const Interpolation in(nodes);
+  const Points at = places(3000, 6);
+  for (const Method method : {Method::linear, Method::natural}) {
+    const std::vector<double> v = in.values_at(at, values, method, Interpolation::Outside::missing).values;
+    std::vector<Share> shares;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      ASSERT_TRUE(shares_at(in, method, at[i], shares));
+      double low = 2, high = -2, sum = 0;
+      for (const Share& s : shares) {
+        const double value = values[static_cast<std::size_t>(s.node) - 1];
+        low = std::min(low, value), high = std::max(high, value), sum += s.part * value;
+      }
+      EXPECT_TRUE(low <= v[i] && v[i] <= high);
+      EXPECT_NEAR(v[i], sum, 1e-12);
+    }
+  }
+  const Interpolation::Result constant = in.values_at(at, std::vector<double>(nodes.size(), 0.1),
+                                                      Method::natural, Interpolation::Outside::missing);
+  EXPECT_EQ(constant.values, std::vector<double>(at.size(), 0.1));  // to the last bit
+}
+
+TEST(outside, is_what_lies_beyond_the_border_but_not_the_border) {
+  const Points nodes = point_sets::make("hemisphere", 200);
+  const files::Mesh mesh = files::triangulate(nodes);
+  const pstripack::ListReader<std::int32_t> reader(mesh.lists());
+  const Interpolation in(nodes);
+  std::vector<Share> shares;
+  const std::int32_t first = reader.first_boundary_node();
+  std::int32_t node = first;
+  do {
+    const std::int32_t next = reader.first_neighbour(node);
+    const Point a = nodes[static_cast<std::size_t>(node) - 1], b = nodes[static_cast<std::size_t>(next) - 1];
+    const Point on = files::unit({a.x + 2 * b.x, a.y + 2 * b.y, a.z + 2 * b.z}), out = cross(b, a);
+    for (const Method method : {Method::linear, Method::natural}) {
+      EXPECT_TRUE(shares_at(in, method, on, shares));
+      EXPECT_FALSE(shares_at(
+          in, method, files::unit({on.x + 1e-9 * out.x, on.y + 1e-9 * out.y, on.z + 1e-9 * out.z}), shares));
+    }
+    node = next;
+  } while (node != first);
+  Points at = places(1000, 2);
+  const Interpolation::Result result =
+      in.values_at(at, random_values(nodes.size()), Method::linear, Interpolation::Outside::missing);
+  EXPECT_EQ(static_cast<std::size_t>(std::count_if(result.values.begin(), result.values.end(),
+                                                   [](double v) { return std::isnan(v); })),
+            result.outside);
+  EXPECT_GT(result.outside, 450u);
+}
+
+TEST(nearest, is_the_nearest_of_all_nodes_wherever_the_place) {
+  for (const char* const family :
+       {"random", "hemisphere", "cap", "cap:0.8", "cap:1.4", "strip:1e-9", "box"}) {
+    const Points nodes = point_sets::make(family, 200);
+    const Interpolation in(nodes);
+    for (const Point& p : places(500, 9)) {
+      const auto distance = [&](const Point& node) { return dot(minus(node, p), minus(node, p)); };
+      double least = 9;
+      for (const Point& node : nodes) least = std::min(least, distance(files::unit(node)));
+      for (const std::int32_t near : {1, 100})
+        EXPECT_NEAR(distance(nodes[static_cast<std::size_t>(in.nearest(p, near)) - 1]), least, 1e-14)
+            << family;
+    }
+  }
+}
+
+TEST(nearest, is_found_across_the_far_side_of_a_region) {
+  // Its border is high at longitudes 90 and 270: there is no way down from 180, and the nearest is not on the
+  // border.
+  Points nodes;
+  for (const auto& [lon, lat] :
+       {std::pair(-10.0, 10.0), std::pair(10.0, 10.0), std::pair(0.0, 10.2), std::pair(90.0, 50.0),
+        std::pair(180.0, 10.0), std::pair(270.0, 50.0), std::pair(30.0, 80.0)})
+    nodes.push_back(point_sets::from_degrees(lon, lat));
+  const Interpolation in(nodes);
+  for (std::int32_t near = 1; near <= 7; ++near)
+    EXPECT_EQ(in.nearest(point_sets::from_degrees(0, -60), near), 3);
+}
+
+#ifdef _OPENMP
+TEST(values, are_the_same_bits_on_any_number_of_threads) {
+  const Points nodes = point_sets::make("healpix", 1000);
+  const std::vector<double> values = random_values(nodes.size());
+  const Interpolation in(nodes);
+  const Points at = point_sets::make("latlon", 20000);  // many on arcs
+  for (const Method method : {Method::linear, Method::natural}) {
+    std::vector<std::vector<double>> all;
+    for (const int threads : {1, 2, 3}) {
+      omp_set_num_threads(threads);
+      all.push_back(in.values_at(at, values, method, Interpolation::Outside::missing).values);
+    }
+    EXPECT_EQ(all[0], all[1]);
+    EXPECT_EQ(all[0], all[2]);
+  }
+}
+#endif
+
+}  // namespace
+}  // namespace methods
