@@ -5,13 +5,17 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
+#include <string>
 
 #include "mesh/validate.h"
 #include "point_sets.h"
 #include "stripack/adjacency_lists.h"
+#include "stripack/trmesh.h"
 #include "support/cases.h"
 #include "support/guarded.h"
 #include "support/judge.h"
+#include "support/trmesh.h"
 
 namespace {
 
@@ -21,6 +25,7 @@ using point_sets::make;
 using point_sets::Random;
 using pstripack::Defect;
 using pstripack::Lengths;
+using pstripack::Point;
 using pstripack::Verdict;
 
 constexpr std::int32_t filler = -987654321;  // in slots that no list uses
@@ -441,8 +446,83 @@ TEST(Validator, RefusesNodesThatAreNoDirections) {
     Nodes nodes = octahedron;
     nodes[4] = {0, bad, 0};
     EXPECT_EQ(judge(nodes, faces).message, "node has no direction: 5") << bad;
-    EXPECT_EQ(judge(nodes, canonical_lists(*rings_of(6, faces))).defect, Defect::malformed) << bad;
+    EXPECT_EQ(judge(nodes, canonical_lists(*rings_of(6, faces))).message, "node has no direction: 5") << bad;
   }
+}
+
+TEST(Validator, NamesTheArcOfThreeTriangles) {
+  Faces faces = brute_force(octahedron, On::coordinates);
+  Nodes nodes = octahedron;
+  nodes.push_back(point_sets::normalized({1, 1, -1}));
+  faces.push_back({0, 1, 6});
+  const Verdict v = judge(nodes, faces);
+  EXPECT_EQ(std::set<int>(v.node.begin(), v.node.end()), (std::set<int>{0, 1, 2, 6})) << v.message;
+}
+
+TEST(Validator, TellsWhatIsWrongWithLists) {
+  const Lists good = canonical_lists(*rings_of(6, brute_force(octahedron, On::coordinates)), filler);
+  const Nodes half = make("ring", 9);
+  const Lists open = canonical_lists(*rings_of(half.size(), brute_force(half, On::coordinates)), filler);
+  ASSERT_TRUE(pstripack::check_lists(view(good)) && pstripack::check_lists(view(open)));
+  const auto told = [](Lists lists, const auto& change) {
+    change(lists);
+    const Verdict v = pstripack::check_lists(view(lists));
+    EXPECT_EQ(v.defect, Defect::malformed);
+    return std::to_string(v.node[0]) + " " + v.message;
+  };
+  EXPECT_EQ(told(good, [](Lists& l) { l.lnew = 26; }), "0 node 1: LNEW is out of range");
+  EXPECT_EQ(told(good, [](Lists& l) { l.lend[3] = 25; }), "3 node 4: LEND is out of range");
+  EXPECT_EQ(told(good, [](Lists& l) { l.lptr[7] = 0; }), "1 node 2: LPTR is out of range");
+  EXPECT_EQ(told(good, [](Lists& l) { l.list[9] = 7; }), "2 node 3: a neighbour is out of range");
+  EXPECT_EQ(told(good, [](Lists& l) { l.list[1] = l.list[0]; }), "0 node 1: a neighbour twice");
+  EXPECT_EQ(told(good, [](Lists& l) { std::swap(l.list[1], l.list[2]); }),
+            "0 node 1: neighbours 2, " + std::to_string(good.list[2]) +
+                " make no triangle in the list of the first");
+  EXPECT_EQ(told(open, [](Lists& l) { ++l.lnew; }), "8 node 9: LNEW does not match the number of neighbours");
+  // Slot 1 moves behind the others.
+  EXPECT_EQ(told(open,
+                 [](Lists& l) {
+                   const auto free = static_cast<std::size_t>(l.lnew - 1),
+                              last = static_cast<std::size_t>(l.lend[0] - 1);
+                   l.list[free] = l.list[0];
+                   l.lptr[free] = 2;
+                   l.lptr[last] = l.lnew;
+                   l.lnew = 0;
+                 }),
+            "8 node 9: slots in use are not 1..LNEW-1");
+}
+
+TEST(Validator, AcceptsAndDoubtsNodesOfManyNeighbours) {
+  constexpr int n = 60, north = 0, south = 1;  // both have all the others, which lie on the equator
+  Nodes nodes{{0, 0, 1}, {0, 0, -1}};
+  Faces faces;
+  for (int i = 0; i < n; ++i) {
+    nodes.push_back(from_degrees(360. * i / n, 0));
+    faces.push_back({north, 2 + i, 2 + (i + 1) % n});
+    faces.push_back({south, 2 + (i + 1) % n, 2 + i});
+  }
+  const Lists lists = canonical_lists(*rings_of(nodes.size(), faces));
+  EXPECT_TRUE(judge(nodes, lists)) << judge(nodes, lists).message;
+  for (const std::size_t slot : {10u, 70u}) {  // of the one, of the other
+    Lists twice = lists;
+    twice.list[slot] = twice.list[slot + 1];
+    EXPECT_FALSE(judge(nodes, twice)) << slot;
+  }
+}
+
+TEST(Validator, FindsADefectOfTheLastNodes) {
+  Nodes nodes = make("random", 20000);  // several threads
+  std::sort(nodes.begin(), nodes.end(), [](const Point& a, const Point& b) { return a.z < b.z; });
+  const Columns c(nodes);
+  const int n = static_cast<int>(nodes.size());
+  Lists lists{std::vector<int>(6 * nodes.size() - 12), std::vector<int>(6 * nodes.size() - 12),
+              std::vector<int>(nodes.size())};
+  const auto result = pstripack::trmesh(n, c.x.data(), c.y.data(), c.z.data(), lists.list.data(),
+                                        lists.lptr.data(), lists.lend.data(), &lists.lnew);
+  ASSERT_EQ(result.ier, 0);
+  EXPECT_TRUE(judge(nodes, lists));
+  nodes.back() = {0, 0, -1};
+  EXPECT_EQ(judge(nodes, lists).defect, Defect::orientation);
 }
 
 // ---- A million mutants ----
