@@ -4,13 +4,13 @@
   tests/mutation/mutate.py [--per-line K] [--file PART] BUILD
 
 Plants one bug at a time in a copy of the sources (operators, constants, conditions, arguments, dropped
-statements; of each line K mutants, drawn the same way every time, 0: all), builds the tests that should notice
-and runs them, the quickest first. A mutant is caught where a test fails, crashes or takes 20 times its usual time.
-Equivalent are those that the compiler turns into the same code, and those that equivalent.txt explains: a line
+statements; of each line K mutants that are not equivalent, drawn the same way every time, 0: all), builds the tests
+that should notice and runs them, the quickest first. A mutant is caught where a test fails, crashes or takes 20 times
+its usual time. Equivalent are those that the compiler turns into the same code, and those that equivalent.txt explains: a line
 "file | text of the line | text of the mutant, or * | reason" each.
 
-Fails where a mutant survives, or where a line has mutants and none of them is caught or explained. What was caught
-is kept in BUILD/caught and not tried again; remove that file to begin anew. Takes about an hour of one processor.
+Fails where a mutant survives. Lines of which all mutants are equivalent are listed. What was caught is kept in
+BUILD/caught and not tried again; remove that file to begin anew. Takes about an hour of one processor.
 """
 
 import argparse
@@ -194,7 +194,7 @@ def main():
             random.Random(lines[k]).shuffle(mutants)
             text, outcomes = lines[k].strip(), []
             for mutant in mutants:
-                if arguments.per_line and len(outcomes) >= arguments.per_line:
+                if arguments.per_line and len(outcomes) - outcomes.count("equivalent") >= arguments.per_line:
                     break
                 key = f"{name} | {text} | {mutant.strip()}"
                 if key in caught_before:
@@ -227,8 +227,8 @@ def main():
             total[what] += count[what]
     print(", ".join(f"{value} {what}" for what, value in total.items()) + f", {len(survivors)} survived")
     for line in bare:
-        print("no mutant caught:", line)
-    sys.exit(1 if survivors or bare else 0)
+        print("nothing to notice:", line)
+    sys.exit(1 if survivors else 0)
 
 
 main()

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "files/nodes.h"
+#include "stripack/trmesh.h"
 
 namespace files {
 namespace {
@@ -84,13 +85,24 @@ std::pair<int, std::vector<std::size_t>> shape_of(const File& file, const std::s
   return {id, lengths};
 }
 
+// A header of a few bytes can announce any number: looked at before there is memory for it.
+void require_few(const File& file, const std::string& name, std::size_t rows, std::size_t row) {
+  constexpr std::size_t most = pstripack::most_nodes<std::int32_t>();
+  if (rows > most / std::max<std::size_t>(row, 1))
+    file.fail(
+        fmt::format("variable {}: {} times {} values; there can be {} nodes at most", name, rows, row, most));
+}
+
 Variable read(const File& file, const std::string& name) {
   Variable v;
   v.name = name;
   const auto check = [&](int status) { file.check(status, name); };
   const auto [id, lengths] = shape_of(file, name, v.dimensions);
   std::size_t count = 1;
-  for (const std::size_t length : lengths) count *= length;
+  for (const std::size_t length : lengths) {
+    require_few(file, name, length, count);
+    count *= length;
+  }
   v.values.resize(count);
   check(nc_get_var_double(file.id(), id, v.values.data()));
   v.units = text_attribute(file, id, "units");
@@ -204,6 +216,7 @@ Places from_angles(const File& file, const Variable& lon, const Variable& lat, c
   if (lon.dimensions.size() != 1 || lat.dimensions.size() != 1)
     file.fail(fmt::format("variables {} and {}: expected one shape, or two axes of one dimension each",
                           lon.name, lat.name));
+  require_few(file, lat.name, lat.values.size(), lon.values.size());
   std::vector<double> grid;
   for (const double y : lat.values)
     for (const double x : lon.values) grid.insert(grid.end(), {x, y});
@@ -227,6 +240,7 @@ void read_triangles(const File& file, Nodes& nodes, const std::string& name, lon
   const auto [id, lengths] = shape_of(file, name, dimensions);
   if (lengths.size() != 2 || lengths[1] != 3)
     file.fail("variable " + name + ": expected faces of three corners each");
+  require_few(file, name, lengths[0] / 2, 1);  // twice as many triangles as nodes
   std::vector<long long> corners(3 * lengths[0]);
   file.check(nc_get_var_longlong(file.id(), id, corners.data()), name);
   set_triangles(nodes, corners, first);

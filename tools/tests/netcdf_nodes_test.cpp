@@ -158,6 +158,31 @@ ReadOptions values_of(const std::string& variable) {
   return options;
 }
 
+TEST(netcdf, what_a_header_announces_is_bounded) {
+  const std::string name = testing::TempDir() + "netcdf_nodes_test_large.nc";
+  const auto error_of_lengths = [&](std::vector<std::size_t> lengths) {
+    int id, variable;
+    nc_create(name.c_str(), NC_CLOBBER | NC_NETCDF4, &id);
+    std::vector<int> dimensions(lengths.size());
+    for (std::size_t d = 0; d < lengths.size(); ++d)
+      nc_def_dim(id, ("n" + std::to_string(d)).c_str(), lengths[d], &dimensions[d]);
+    const std::vector<std::size_t> chunk(lengths.size(), 100);
+    for (const char* axis : {"lon", "lat"}) {
+      nc_def_var(id, axis, NC_DOUBLE, static_cast<int>(dimensions.size()), dimensions.data(), &variable);
+      nc_def_var_chunking(id, variable, NC_CHUNKED, chunk.data());
+    }
+    nc_close(id);
+    const std::string error = error_of(name);  // of lon or lat, whichever is read first
+    return error.substr(std::min(error.size(), name.size() + 16));
+  };
+  EXPECT_EQ(error_of_lengths({357913944}), "357913944 times 1 values; there can be 357913943 nodes at most");
+  EXPECT_EQ(error_of_lengths({20000, 20000}),
+            "20000 times 20000 values; there can be 357913943 nodes at most");
+  EXPECT_EQ(error_of_lengths({std::size_t{1} << 32, std::size_t{1} << 32}),
+            "4294967296 times 1 values; there can be 357913943 nodes at most");
+  std::remove(name.c_str());
+}
+
 TEST(netcdf, values_have_the_dimensions_of_the_nodes) {
   NetcdfFile file;
   const int time = file.dimension("time", 1), ny = file.dimension("lat", 2), nx = file.dimension("lon", 3);
