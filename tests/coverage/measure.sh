@@ -16,7 +16,7 @@ build=${1:-$source/build-coverage}
 if [ $# -eq 0 ]; then
   tests='predicates_test|validator_test|mesh_test|edit_test|listing_test|plot_test|check_test|report_test|wide_integers'
   tests="$tests|catalogue_(numbers|callers|duplicates|beyond)|FewNodes|Nasty|Coincident|GivingUp|fuzz_corpus|faults"
-  tests="$tests|fortran\\.|privileges|point_files|dlopen|Differential\\.(EDGE|DELARC|DELNOD|OPTIM|CRLIST|INTRSC|TRLIST)$|np(1|3)_patches2_bisection_slices"
+  tests="$tests|fortran\\.|privileges|point_files|dlopen|np(1|3)_patches2_bisection_slices"
   # Those with the most nodes; a limit of the size of files, which the counts' files have to keep as well.
   set -- -R "$tests" -E 'AMillion|SinglePrecision.Nodes|DiskIsFull|LargePatches'
 fi

@@ -1,5 +1,6 @@
 // PSTRIPACK_CHECK, read where the library is loaded: every case is a program of its own, this one again.
 
+#include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -204,8 +205,9 @@ TEST(Check, HasTheInputOfACallThatCrashes) {
 
 TEST(Check, WarnsOnceOfAFileThatCannotBeWrittenAndGoesOn) {
   const Folder folder;
-  ASSERT_EQ(std::system(("mkfifo " + folder.path() + "/pipe").c_str()), 0);
-  for (const std::string path : {"/proc/no/such/folder", "/tmp", "/dev/full", "pipe"}) {
+  ASSERT_EQ(std::system(("mkfifo " + folder.path() + "/pipe " + folder.path() + "/read").c_str()), 0);
+  const int reader = open((folder.path() + "/read").c_str(), O_RDONLY | O_NONBLOCK);
+  for (const std::string path : {"/proc/no/such/folder", "/tmp", "/dev/full", "pipe", "read"}) {
     const Outcome outcome = run_this_program(folder, "PSTRIPACK_CHECK=" + path, "calls random 100 3");
     EXPECT_EQ(outcome.code, 0);
     EXPECT_EQ(outcome.out, "");
@@ -213,6 +215,7 @@ TEST(Check, WarnsOnceOfAFileThatCannotBeWrittenAndGoesOn) {
     EXPECT_EQ(outcome.err.find("pstripack: PSTRIPACK_CHECK: "), 0u) << outcome.err;
     EXPECT_NE(outcome.err.find(path + ": "), std::string::npos) << outcome.err;
   }
+  close(reader);
 }
 
 TEST(Check, LeavesNoHalfBlockWhereTheDiskIsFull) {
@@ -234,7 +237,9 @@ TEST(Check, BesideTheModelMayFailToStart) {
            {program + "PSTRIPACK_CHECK=lib:,log=/no/such/log", "/no/such/log"},
            {program + "PSTRIPACK_CHECK=lib:a.so,speed=3",
             "'speed=3': expected abi=, timeout=, show= or log="},
+           {program + "PSTRIPACK_CHECK=lib:a.so,log=", "'log=': expected abi=, timeout=, show= or log="},
            {program + "PSTRIPACK_CHECK=lib:a.so,timeout=soon", "'timeout=soon': expected seconds"},
+           {program + "PSTRIPACK_CHECK=lib:a.so,timeout=3s", "'timeout=3s': expected seconds"},
            {"PSTRIPACK_COMPARE=/bin/false PSTRIPACK_CHECK=lib:", "stripack-compare has ended"}}) {
     const Outcome outcome = run_this_program(folder, environment, "calls random 5000 3");
     EXPECT_EQ(outcome.code, 0);

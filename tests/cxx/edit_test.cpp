@@ -208,6 +208,31 @@ TYPED_TEST(Edit, RefusedNodes) {
   EXPECT_TRUE(unchanged());
 }
 
+TYPED_TEST(Edit, ColumnsAndArcsThatAreNone) {
+  using Int = typename TypeParam::Int;
+  Random random(4);
+  MeshOf<TypeParam> mesh(directions(random, 12, false), 12);
+  const auto optim_of = [&](Int a, Int b) {
+    Int nit = 3, iwk[2] = {a, b};
+    return optim(mesh.nodes(), Int(1), mesh.unbounded(), nit, iwk);
+  };
+  EXPECT_EQ(optim_of(0, 2), OptimStatus::no_arc);
+  EXPECT_EQ(optim_of(2, -1), OptimStatus::no_arc);
+  // A boundary arc of which one end does not know.
+  Int a = 1;
+  const auto last = [&](Int k) -> Int& {
+    return mesh.list[static_cast<std::size_t>(mesh.lend[static_cast<std::size_t>(k - 1)] - 1)];
+  };
+  while (last(a) > 0) ++a;
+  const Int b = -last(a);  // the boundary runs from b to a
+  const Int first_of_b = mesh.lptr[static_cast<std::size_t>(mesh.lend[static_cast<std::size_t>(b - 1)] - 1)];
+  mesh.list[static_cast<std::size_t>(first_of_b - 1)] =
+      mesh.list[static_cast<std::size_t>(mesh.lptr[static_cast<std::size_t>(first_of_b - 1)] - 1)];
+  const DelarcStatus status = delarc(b, a, mesh.lists());
+  EXPECT_TRUE(status == DelarcStatus::no_neighbours || status == DelarcStatus::cuts_off)
+      << static_cast<int>(status);
+}
+
 TYPED_TEST(Edit, NothingIsTouchedOutsideTheArrays) {
   // Lists of random numbers, in memory that ends where the arrays end.
   using Int = typename TypeParam::Int;

@@ -24,7 +24,7 @@ refuses() {
   "$@" > /dev/null 2> err
   code=$?
   [ $code -ne 0 ] && [ $code -lt 126 ] || fail "exit code $code of $*"
-  grep 'cannot write' err | grep -qF "$file" || fail "it does not say that it cannot write $file: $*"
+  grep -E 'cannot write|cannot be written' err | grep -qF "$file" || fail "it does not say that it cannot write $file: $*"
   [ "$(grep -c '' err)" -eq 1 ] || fail "not one line of $*"
 }
 # cannot_print COMMAND...: the same of the standard output

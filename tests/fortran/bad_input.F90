@@ -75,9 +75,9 @@ contains
   subroutine bad_arguments_of_queries
     real(rk) :: nan, huge_number, c(3), one(3), none(3)
     real(rk) :: xc(2*n), yc(2*n), zc(2*n), rc(2*n)
-    integer :: ier, ltri(6, n), listc(slots), lptr_before(slots), lnew_before, nb, l
+    integer :: ier, ltri(6, n), listc(slots), lptr_before(slots), lnew_before, nb, l, k
     logical, external :: inside
-    external :: intrsc, circum, crlist
+    external :: intrsc, circum, crlist, addnod
 #ifdef STRIPACK_8_ARGUMENTS
     real(rk) :: area(3)
     external :: triareas
@@ -121,6 +121,10 @@ contains
     call expect(ier == 2 .and. all(c == 5), "INTRSC: opposite ends")
     call intrsc(one, none, one, c, ier)
     call expect(ier == -5 .and. all(c == 5), "INTRSC: NaN")
+    call intrsc(none, one, one, c, ier)
+    call expect(ier == -5 .and. all(c == 5), "INTRSC: NaN first")
+    call intrsc(one, [0._rk, 1._rk, 0._rk], none, c, ier)
+    call expect(ier == -5 .and. all(c == 5), "INTRSC: NaN in the normal")
     call circum(one, none, [0._rk, 1._rk, 0._rk], c, ier)
     call expect(ier == -5 .and. all(c == 5), "CIRCUM: NaN")
     call circum(one, one, [0._rk, 1._rk, 0._rk], c, ier)
@@ -130,6 +134,25 @@ contains
     lnew_before = lnew
     call crlist(n, n, nodes(:, 1), nodes(:, 2), nodes(:, 3), list, lend, lptr, lnew, ltri, listc, nb, xc, yc, zc, rc, ier)
     call expect(ier == -5 .and. all(lptr == lptr_before) .and. lnew == lnew_before, "CRLIST: an infinite node")
+    call crlist(2, n, nodes(:, 1), nodes(:, 2), nodes(:, 3), list, lend, lptr, lnew, ltri, listc, nb, xc, yc, zc, rc, ier)
+    call expect(ier == 1 .and. all(lptr == lptr_before) .and. lnew == lnew_before, "CRLIST: two nodes")
+    nodes(3, :) = nodes(2, :)
+    call crlist(n, n, nodes(:, 1), nodes(:, 2), nodes(:, 3), list, lend, lptr, lnew, ltri, listc, nb, xc, yc, zc, rc, ier)
+    call expect(ier == 3, "CRLIST: coincident nodes")
+    nodes(3, :) = [0, 0, 1]
+    lptr = lptr_before
+    lnew = lnew_before
+    do k = 1, lend(n)  ! nobody knows node 1 any more
+      if (abs(list(k)) == 1) list(k) = sign(n, list(k))
+    end do
+    call crlist(n, n, nodes(:, 1), nodes(:, 2), nodes(:, 3), list, lend, lptr, lnew, ltri, listc, nb, xc, yc, zc, rc, ier)
+    call expect(ier /= 0, "CRLIST: a node that its neighbours do not know")
+
+    call addnod(1, (huge(k) - 1)/6 + 3, nodes(:, 1), nodes(:, 2), nodes(:, 3), list, lptr, lend, lnew, ier)
+    call expect(ier == -4, "ADDNOD: 6K-12 does not fit")
+    nodes(n, 1) = nan
+    call addnod(1, n, nodes(:, 1), nodes(:, 2), nodes(:, 3), list, lptr, lend, lnew, ier)
+    call expect(ier == -5, "ADDNOD: NaN")
 #ifdef STRIPACK_8_ARGUMENTS
     area = 5
     call triareas(n, nodes(:, 1), nodes(:, 2), nodes(:, 3), 2, [1, 2, 4, 1, 2, n + 1], area)
