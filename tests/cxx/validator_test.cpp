@@ -493,19 +493,20 @@ TEST(Validator, TellsWhatIsWrongWithLists) {
 }
 
 TEST(Validator, AcceptsAndDoubtsNodesOfManyNeighbours) {
-  constexpr int n = 60, north = 0, south = 1;  // both have all the others, which lie on the equator
-  Nodes nodes{{0, 0, 1}, {0, 0, -1}};
+  constexpr int n = 60, north = n, south = n + 1;  // both have all the others, which lie on the equator
+  Nodes nodes;
   Faces faces;
   for (int i = 0; i < n; ++i) {
     nodes.push_back(from_degrees(360. * i / n, 0));
-    faces.push_back({north, 2 + i, 2 + (i + 1) % n});
-    faces.push_back({south, 2 + (i + 1) % n, 2 + i});
+    faces.push_back({north, i, (i + 1) % n});
+    faces.push_back({south, (i + 1) % n, i});
   }
+  nodes.insert(nodes.end(), {{0, 0, 1}, {0, 0, -1}});
   const Lists lists = canonical_lists(*rings_of(nodes.size(), faces));
   EXPECT_TRUE(judge(nodes, lists)) << judge(nodes, lists).message;
-  for (const std::size_t slot : {10u, 70u}) {  // of the one, of the other
+  for (std::size_t slot = 4 * n; slot + 1 < 6 * n; ++slot) {  // nodes that one of the two does not know
     Lists twice = lists;
-    twice.list[slot] = twice.list[slot + 1];
+    twice.list[slot] = twice.list[slot == 5 * n - 1 ? slot - 1 : slot + 1];
     EXPECT_FALSE(judge(nodes, twice)) << slot;
   }
 }
