@@ -652,6 +652,26 @@ TEST(VanishingVolumes, AreToldFromZero) {
   }
 }
 
+// ---- Around the grid of exact.h ----
+
+/// Integers of three bits, at every scale about 1, where they leave the grid: mostly zeros, never an
+/// overflow.
+TEST(Grid, IsLeftOutBeforeAnythingOverflows) {
+  Random random(22);
+  for (int i = 0; i < cases(40000); ++i) {
+    const double scale = std::ldexp(1, static_cast<int>(random.below(6)) - 3);
+    const auto component = [&] { return scale * (static_cast<double>(random.below(7)) - 3); };
+    Four f;
+    for (Point& p : f) do
+        p = {component(), component(), component()};
+      while (p == Point{0, 0, 0});
+    ASSERT_EQ(pstripack::orientation(f[0], f[1], f[2], f[3]),
+              exact::orientation(exact::On::coordinates, f[0], f[1], f[2], f[3]))
+        << text(f);
+    ASSERT_EQ(pstripack::left(f[0], f[1], f[2]), exact::left(f[0], f[1], f[2])) << text(f);
+  }
+}
+
 // ---- Directions as close as doubles can have them ----
 
 /// Neighbouring quotients of Fibonacci numbers differ by 2^-100 and less; the rounded difference is anything.
