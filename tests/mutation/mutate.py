@@ -6,8 +6,8 @@
 Plants one bug at a time in a copy of the sources (operators, constants, conditions, arguments, dropped
 statements; of each line K mutants that are not equivalent, drawn the same way every time, 0: all), builds the tests
 that should notice and runs them, the quickest first. A mutant is caught where a test fails, crashes or takes 20 times
-its usual time. Equivalent are those that the compiler turns into the same code, and those that equivalent.txt explains: a line
-"file | text of the line | text of the mutant, or * | reason" each.
+its usual time. Equivalent are those that the compiler turns into the same code, and those that equivalent.txt
+explains: a line "file | text of the line | text of the mutant, or * | reason" each.
 
 Fails where a mutant survives. Lines of which all mutants are equivalent are listed. What was caught is kept in
 BUILD/caught and not tried again; remove that file to begin anew. Takes about an hour of one processor.

@@ -20,10 +20,15 @@ inline double corner_angle(const pstripack::Point& a, const pstripack::Point& b,
   return std::atan2(std::sqrt(dot(w, w)), dot(u, v)) * 57.295779513082321;
 }
 
+/// det(a,b,c), accurate for close vectors.
+inline double volume(const pstripack::Point& a, const pstripack::Point& b, const pstripack::Point& c) {
+  return dot(a, cross(minus(b, a), minus(c, a)));
+}
+
 /// Of the spherical triangle, in steradians; positive if it is counterclockwise (van Oosterom & Strackee
 /// 1983, with differences, which keep the digits of small triangles).
 inline double triangle_area(const pstripack::Point& a, const pstripack::Point& b, const pstripack::Point& c) {
-  return 2 * std::atan2(dot(a, cross(minus(b, a), minus(c, a))), 1 + dot(a, b) + dot(b, c) + dot(c, a));
+  return 2 * std::atan2(volume(a, b, c), 1 + dot(a, b) + dot(b, c) + dot(c, a));
 }
 
 }  // namespace files
