@@ -654,21 +654,29 @@ TEST(VanishingVolumes, AreToldFromZero) {
 
 // ---- Around the grid of exact.h ----
 
-/// Integers of three bits, at every scale about 1, where they leave the grid: mostly zeros, never an
-/// overflow.
+/// Integers of three bits, at every scale about 1, where they leave the grid, and the last in line or in
+/// plane with the others, but for last bits: what no filter tells must not overflow.
 TEST(Grid, IsLeftOutBeforeAnythingOverflows) {
   Random random(22);
   for (int i = 0; i < cases(40000); ++i) {
     const double scale = std::ldexp(1, static_cast<int>(random.below(6)) - 3);
-    const auto component = [&] { return scale * (static_cast<double>(random.below(7)) - 3); };
-    Four f;
-    for (Point& p : f) do
-        p = {component(), component(), component()};
-      while (p == Point{0, 0, 0});
+    const auto multiple = [&] { return scale * (static_cast<double>(random.below(7)) - 3); };
+    const auto any = [&] { return Point{multiple(), multiple(), multiple()}; };
+    const auto nudged = [&](const Point& p) {
+      const auto nudge = [&](double v) {
+        return v * (1 + 0x1p-52 * (static_cast<double>(random.below(3)) - 1));
+      };
+      return Point{nudge(p.x), nudge(p.y), nudge(p.z)};
+    };
+    const double s = static_cast<double>(random.below(3)) - 1, t = static_cast<double>(random.below(3)) - 1;
+    const Point a = any(), b = any(), c = any();
+    // Beside the plane of the others by a last bit, or in it: what no floating point tells.
+    const Four f{a, b, c, nudged(plus(plus(plus(Point{0, 0, 0}, 1 - s - t, a), s, b), t, c))};
+    const Point in_plane = nudged(plus(plus(Point{0, 0, 0}, s, a), t, b));
     ASSERT_EQ(pstripack::orientation(f[0], f[1], f[2], f[3]),
               exact::orientation(exact::On::coordinates, f[0], f[1], f[2], f[3]))
         << text(f);
-    ASSERT_EQ(pstripack::left(f[0], f[1], f[2]), exact::left(f[0], f[1], f[2])) << text(f);
+    ASSERT_EQ(pstripack::left(a, b, in_plane), exact::left(a, b, in_plane)) << text({a, b, in_plane, c});
   }
 }
 
@@ -774,8 +782,11 @@ TEST(Filter, IsLeftOutWhereLargeComponentsMakeUpForProductsThatUnderflow) {
   EXPECT_EQ(pstripack::orientation(o, e, f, g), 1);
   EXPECT_EQ(pstripack::orientation(o, f, g, e), 1);
   EXPECT_EQ(pstripack::orientation(o, g, e, f), 1);
-  // The same with a third vector that the differences of the others from it hide.
-  const Point a{1e200, 0, 1e-214}, b{1e200, 1e-170, 1e-214}, c{std::nextafter(1e200, 1e300), 0, 1e-170};
+  // det(a,b,c) = 0.4 * 2^-537 * (1e200 * 2^-537 - 1e-152 * ulp(1e200)): seen from a, the first product
+  // underflows.
+  const double t = 0x1p-537;
+  const Point a{1e200, 1e-152, 0}, b{std::nextafter(1e200, 1e300), 1e-152 + t, 0}, c{1e200, 1e-152, 0.4 * t};
+  EXPECT_EQ(pstripack::left(a, b, c), 1);
   EXPECT_EQ(pstripack::left(a, b, c), exact::left(a, b, c));
   EXPECT_EQ(pstripack::left(b, c, a), exact::left(a, b, c));
   EXPECT_EQ(pstripack::left(c, a, b), exact::left(a, b, c));

@@ -1,6 +1,7 @@
 #pragma once
 // Ranks that are threads of one process, for testing what is written for ranks without MPI.
 
+#include <algorithm>
 #include <condition_variable>
 #include <functional>
 #include <mutex>
@@ -71,7 +72,29 @@ class ThreadRanks {
       });
     }
 
-    pstripack::Parcels exchange(const pstripack::Parcels& outgoing) override {
+    const std::int64_t* all_gather_one(std::int64_t value) override {
+      values_.resize(group_.posted_.size());
+      group_.meet(rank_, &value, [&] {
+        for (std::size_t r = 0; r < values_.size(); ++r)
+          values_[r] = *static_cast<const std::int64_t*>(group_.posted_[r]);
+      });
+      return values_.data();
+    }
+
+    void all_gather_in_place(void* all, const std::vector<std::size_t>& begin) override {
+      group_.meet(rank_, all, [&] {
+        for (std::size_t r = 0; r < group_.posted_.size(); ++r) {
+          const auto* const from = static_cast<const unsigned char*>(group_.posted_[r]);
+          if (static_cast<int>(r) != rank_)
+            std::copy(from + begin[r], from + begin[r + 1], static_cast<unsigned char*>(all) + begin[r]);
+        }
+      });
+    }
+
+    pstripack::Parcels exchange(const pstripack::Parcels& outgoing, std::int32_t code) override {
+      const std::int64_t* const codes = all_gather_one(code);
+      const std::int64_t least = *std::min_element(codes, codes + group_.size_);
+      if (least < 0) throw pstripack::AgreedFailure(static_cast<std::int32_t>(least));
       bytes_sent += static_cast<std::int64_t>(outgoing.begin.back());
       return collect(&outgoing, [this](const void* other) {
         const auto& parcels = *static_cast<const pstripack::Parcels*>(other);
@@ -98,6 +121,7 @@ class ThreadRanks {
     }
     ThreadRanks& group_;
     const int rank_;
+    std::vector<std::int64_t> values_;
   };
 
   const int size_;

@@ -84,7 +84,6 @@ bool in_parallel_plane(const Point& a, const Points&... p) {
 
 int exact_left(const Point& a, const Point& b, const Point& c) {
   using namespace exact;
-  if (in_coordinate_plane(a, b, c)) return 0;
   if (Grid p, q, r; on_grid(a, p) && on_grid(b, q) && on_grid(c, r)) return sign_of_det(p, q, r);
   const int bits = std::max({span_of(a).bits(), span_of(b).bits(), span_of(c).bits()});
   return bits <= kSmallBits ? exact::left<Integer512>(a, b, c) : exact::left<Integer>(a, b, c);
@@ -162,6 +161,7 @@ Pair product(double a, double b) {
 }  // namespace
 
 int left(const Point& a, const Point& b, const Point& c) {
+  if (in_coordinate_plane(a, b, c)) return exact_zero();
   if (moderate(a) && moderate(b) && moderate(c))
     if (const int s = filter_left(a, b, c)) return s;
   ++counts.exact;
@@ -279,6 +279,7 @@ constexpr double kDirectionAbsolute = 0x1p-91;
 }  // namespace
 
 int Directions::left(index_t a, index_t b, index_t c) const {
+  if (in_coordinate_plane(p_[a], p_[b], p_[c])) return exact_zero();
   const Point e = difference(b, a), f = difference(c, a);
   const auto v = determinant(e, f, position(a));
   const double m = std::max(largest(e), largest(f));

@@ -271,7 +271,6 @@ Verdict is_valid(const Point* p, const StarTable& stars, Lengths lengths, Ties t
 Verdict is_valid(const Point* p, std::size_t n, const Triangle* triangles, std::size_t count, Lengths lengths,
                  Ties ties) {
   if (n < 3) return defect(Defect::malformed, "fewer than three nodes", {});
-  if (Verdict v = check_directions(p, n); !v) return v;
   for (std::size_t t = 0; t < count; ++t) {
     const auto [a, b, c] = triangles[t];
     for (const index_t v : {a, b, c})

@@ -175,20 +175,25 @@ bool DistributedMesh::find_corners(const Point* points, std::size_t n, const std
     return found == 0 || left(corners[0], corners[1], p) != 0;
   };
 
-  Record sample[3];
+  std::vector<Record> sample;  // number 0: none
+  std::vector<std::size_t> begin;
+  agreed(ranks_, [&] {
+    const auto size = static_cast<std::size_t>(ranks_.size());
+    sample.assign(3 * size, Record{{}, 0});
+    for (std::size_t r = 0; r <= size; ++r) begin.push_back(3 * r * sizeof(Record));
+  });
+  Record* const share = sample.data() + 3 * ranks_.rank();
   const std::size_t sampled = std::min<std::size_t>(n, 3);
   for (std::size_t i = 0; i < sampled; ++i) {
     const std::size_t at = sampled > 1 ? (n - 1) * i / (sampled - 1) : 0;
-    sample[i] = {points[at], number[at]};
+    share[i] = {points[at], number[at]};
   }
-  const Parcels samples = ranks_.all_gather(sample, sampled * sizeof *sample);
-  const auto* const all = reinterpret_cast<const Record*>(samples.bytes.data());
-  const std::size_t count = samples.begin.back() / sizeof *all;
+  ranks_.all_gather_in_place(sample.data(), begin);
   int found = 0;
-  for (std::size_t i = 0; i < count && found < 3; ++i)
-    if (fits(found, all[i].point)) {
-      corners[found] = all[i].point;
-      numbers[found++] = all[i].number;
+  for (const Record& r : sample)
+    if (r.number != 0 && found < 3 && fits(found, r.point)) {
+      corners[found] = r.point;
+      numbers[found++] = r.number;
     }
 
   for (; found < 3; ++found) {

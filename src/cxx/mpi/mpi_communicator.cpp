@@ -270,11 +270,13 @@ void MpiCommunicator::all_gather_in_place(void* all, const std::vector<std::size
   gather_blocks(all, [&](int r) { return begin[static_cast<std::size_t>(r)]; });
 }
 
-Parcels MpiCommunicator::exchange(const Parcels& outgoing) {
+Parcels MpiCommunicator::exchange(const Parcels& outgoing, std::int32_t code) {
   const auto ranks = static_cast<std::size_t>(size_), me = static_cast<std::size_t>(rank_);
   for (std::size_t r = 0; r < ranks; ++r)
-    other_sizes_[r] = static_cast<std::int64_t>(outgoing.begin[r + 1] - outgoing.begin[r]);
+    other_sizes_[r] = code != 0 ? code : static_cast<std::int64_t>(outgoing.begin[r + 1] - outgoing.begin[r]);
   exchange_sizes(other_sizes_.data());
+  const std::int64_t least = *std::min_element(sizes_.begin(), sizes_.end());
+  if (least < 0) throw AgreedFailure(static_cast<std::int32_t>(least));
 
   Parcels incoming;
   agreed(*this, [&] {

@@ -38,14 +38,9 @@ class MpiCommunicator : public Communicator {
   int size() const override { return size_; }
   void all_min(std::int64_t* values, std::size_t count) override;
   Parcels all_gather(const void* bytes, std::size_t size) override;
-  Parcels exchange(const Parcels& outgoing) override;
-
-  /// Collective. The values of all ranks, in their order, until the next call of any member. Allocates
-  /// nothing.
-  const std::int64_t* all_gather_one(std::int64_t value);
-  /// Collective. Every rank gets all of `all`, of which rank r brings the bytes [begin[r], begin[r+1]) in
-  /// place. Allocates nothing.
-  void all_gather_in_place(void* all, const std::vector<std::size_t>& begin);
+  const std::int64_t* all_gather_one(std::int64_t value) override;
+  void all_gather_in_place(void* all, const std::vector<std::size_t>& begin) override;
+  Parcels exchange(const Parcels& outgoing, std::int32_t code = 0) override;
 
   /// Collective. `bytes` of rank `root` on every rank. Allocates nothing.
   void broadcast(void* bytes, std::size_t size, int root);

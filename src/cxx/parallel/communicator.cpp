@@ -11,7 +11,8 @@ Parcels SingleProcess::all_gather(const void* bytes, std::size_t size) {
   return all;
 }
 
-Parcels SingleProcess::exchange(const Parcels& outgoing) {
+Parcels SingleProcess::exchange(const Parcels& outgoing, std::int32_t code) {
+  if (code != 0) throw AgreedFailure(code);
   return all_gather(outgoing.bytes.data(), outgoing.begin[1]);
 }
 

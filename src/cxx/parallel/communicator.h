@@ -38,9 +38,15 @@ class Communicator {
 
   /// Every rank gets the bytes of all ranks, in the order of the ranks.
   virtual Parcels all_gather(const void* bytes, std::size_t size) = 0;
+  /// The values of all ranks, in their order, until the next call of any member. Allocates nothing.
+  virtual const std::int64_t* all_gather_one(std::int64_t value) = 0;
+  /// Every rank gets all of `all`, of which rank r brings the bytes [begin[r], begin[r+1]) in place.
+  /// Allocates nothing.
+  virtual void all_gather_in_place(void* all, const std::vector<std::size_t>& begin) = 0;
 
-  /// Every rank r gets the bytes that each rank meant for r. `outgoing.begin` has size()+1 entries.
-  virtual Parcels exchange(const Parcels& outgoing) = 0;
+  /// Every rank r gets the bytes that each rank meant for r. `outgoing.begin` has size()+1 entries. A rank
+  /// that comes with the code of a failure (< 0) has nothing to send: AgreedFailure(the most negative code).
+  virtual Parcels exchange(const Parcels& outgoing, std::int32_t code = 0) = 0;
 
   /// What this rank does now, for whoever must say so if it is lost. Not collective; a literal.
   virtual void set_phase(const char*) {}
@@ -59,7 +65,15 @@ class SingleProcess : public Communicator {
   int size() const override { return 1; }
   void all_min(std::int64_t*, std::size_t) override {}
   Parcels all_gather(const void* bytes, std::size_t size) override;
-  Parcels exchange(const Parcels& outgoing) override;
+  const std::int64_t* all_gather_one(std::int64_t value) override {
+    value_ = value;
+    return &value_;
+  }
+  void all_gather_in_place(void*, const std::vector<std::size_t>&) override {}
+  Parcels exchange(const Parcels& outgoing, std::int32_t code) override;
+
+ private:
+  std::int64_t value_ = 0;
 };
 
 /// Runs body() on every rank and agrees on its outcome: returns if it returned everywhere, throws

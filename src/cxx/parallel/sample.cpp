@@ -11,12 +11,15 @@ std::size_t sample_size(std::size_t nodes, std::size_t patches) {
   return std::min(nodes, std::max(64 * patches, std::clamp<std::size_t>(nodes / 64, 256, 4096)));
 }
 
-void add_share(const LocalNodes& mine, std::size_t wanted, std::size_t nodes, std::vector<Record>& sample) {
-  const std::size_t share = (wanted * mine.count + nodes - 1) / nodes;
+std::size_t share_of_sample(std::size_t of_rank, std::size_t wanted, std::size_t nodes) {
+  return (wanted * of_rank + nodes - 1) / nodes;
+}
+
+void write_share(const LocalNodes& mine, std::size_t share, Record* sample) {
   for (std::size_t k = 0; k < share; ++k) {
     const std::size_t begin = mine.count * k / share, end = mine.count * (k + 1) / share;
     const std::size_t i = begin + scattered(k + 0x9e3779b97f4a7c15u) % (end - begin);
-    sample.push_back({mine.points[i], mine.number(i)});
+    sample[k] = {mine.points[i], mine.number(i)};
   }
 }
 
@@ -25,7 +28,9 @@ Partition partition_over_ranks(PartitionKind kind, int ranks, const std::vector<
   std::vector<Record> sample;
   for (std::size_t r = 0; r < size; ++r) {
     const std::size_t first = slice_begin(n, r, size), last = slice_begin(n, r + 1, size);
-    add_share({nodes.data() + first, last - first}, wanted, n, sample);
+    const std::size_t share = share_of_sample(last - first, wanted, n);
+    sample.resize(sample.size() + share);
+    write_share({nodes.data() + first, last - first}, share, sample.data() + sample.size() - share);
   }
   std::vector<Point> points;
   for (const Record& record : sample) points.push_back(record.point);

@@ -14,8 +14,11 @@ namespace pstripack {
 /// So many nodes a patch, more where that costs little beside the work on all nodes.
 std::size_t sample_size(std::size_t nodes, std::size_t patches);
 
-/// Adds one node in each of as many runs of this rank's nodes as are its share of `wanted` out of `nodes`.
-void add_share(const LocalNodes& mine, std::size_t wanted, std::size_t nodes, std::vector<Record>& sample);
+/// Of `wanted` out of `nodes` the share of a rank that brings `of_rank` of them.
+std::size_t share_of_sample(std::size_t of_rank, std::size_t wanted, std::size_t nodes);
+
+/// Writes a node in each of `share` runs of this rank's nodes.
+void write_share(const LocalNodes& mine, std::size_t share, Record* sample);
 
 /// How `ranks` ranks of one patch each share these nodes (of about length 1) if each has brought its slice
 /// of them, as in pool and comm mode.

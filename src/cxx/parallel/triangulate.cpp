@@ -132,20 +132,49 @@ class Triangulator {
            1;
   }
 
-  /// Runs body() and agrees with the other ranks on its outcome.
+  // Ranks agree on the outcome of what each of them does: the lowest code. Failures in here have lower codes
+  // than a hidden node, which is no failure.
+  static constexpr std::int32_t kHidden = -1;
+
   template <class Body>
-  void in_agreement(const Body& body) {
-    std::int64_t code_and_hidden[2] = {0, 0};
+  static std::int32_t outcome_of(const Body& body) {
     try {
       body();
     } catch (const HiddenNode&) {
-      code_and_hidden[1] = -1;
+      return kHidden;
     } catch (...) {
-      code_and_hidden[0] = code_of(std::current_exception());
+      return code_of(std::current_exception());
     }
-    ranks_.all_min(code_and_hidden, 2);
-    if (code_and_hidden[0] != 0) throw AgreedFailure(static_cast<std::int32_t>(code_and_hidden[0]));
-    if (code_and_hidden[1] != 0) throw HiddenNode{};
+    return 0;
+  }
+  static void accept(std::int64_t outcome) {
+    if (outcome == kHidden) throw HiddenNode{};
+    if (outcome != 0) throw AgreedFailure(static_cast<std::int32_t>(outcome));
+  }
+
+  /// Runs body() and agrees with the other ranks on its outcome. On the way `values`, as they are after
+  /// body(), become the smallest of all ranks.
+  template <class Body, class... Values>
+  void in_agreement(const Body& body, Values&... values) {
+    const std::int64_t outcome = outcome_of(body);
+    std::int64_t all[] = {outcome, values...};
+    ranks_.all_min(all, std::size(all));
+    accept(all[0]);
+    [[maybe_unused]] std::size_t k = 0;
+    ((values = all[++k]), ...);
+  }
+
+  /// Exchanges what body() returns, and agrees on its outcome on the way.
+  template <class Body>
+  Parcels exchange_in_agreement(const Body& body) {
+    Parcels outgoing;
+    const std::int32_t outcome = outcome_of([&] { outgoing = body(); });
+    try {
+      return ranks_.exchange(outgoing, outcome);
+    } catch (const AgreedFailure& failure) {
+      accept(failure.code);
+      throw;
+    }
   }
 
   /// body(patch, k) for every patch of this rank, on its threads. Throws what a body threw.
@@ -166,26 +195,32 @@ class Triangulator {
   // ---- 1: divide ----
 
   void divide() {
-    struct Header {
-      std::int64_t nodes, patches;
-    } mine{static_cast<std::int64_t>(nodes_.count), options_.patches};
-    const Parcels headers = ranks_.all_gather(&mine, sizeof mine);
+    // A rank has less than 2^29 nodes.
+    const std::int64_t* const nodes_and_patches =
+        ranks_.all_gather_one(static_cast<std::int64_t>(nodes_.count) | std::int64_t{options_.patches} << 32);
+    const auto nodes_of = [=](std::size_t r) {
+      return static_cast<std::size_t>(nodes_and_patches[r] & 0xffffffff);
+    };
     std::size_t nodes = 0;
     std::vector<Record> sample;
+    std::vector<std::size_t> begin;  // bytes that the ranks bring
     in_agreement([&] {
       first_patch_.assign(1, 0);
       for (std::size_t r = 0; r < size_; ++r) {
-        Header h;
-        std::memcpy(&h, headers.bytes.data() + headers.begin[r], sizeof h);
-        first_patch_.push_back(first_patch_.back() + static_cast<int>(h.patches));
-        nodes += static_cast<std::size_t>(h.nodes);
+        first_patch_.push_back(first_patch_.back() + static_cast<int>(nodes_and_patches[r] >> 32));
+        nodes += nodes_of(r);
       }
-      add_share(nodes_, sample_size(nodes, static_cast<std::size_t>(first_patch_.back())), nodes, sample);
+      const std::size_t wanted = sample_size(nodes, static_cast<std::size_t>(first_patch_.back()));
+      begin.assign(1, 0);
+      for (std::size_t r = 0; r < size_; ++r)
+        begin.push_back(begin.back() + share_of_sample(nodes_of(r), wanted, nodes) * sizeof(Record));
+      sample.resize(begin.back() / sizeof(Record));
+      write_share(nodes_, share_of_sample(nodes_.count, wanted, nodes),
+                  sample.data() + begin[me_] / sizeof(Record));
     });
     const int patches = first_patch_.back();
-    const Parcels samples = ranks_.all_gather(sample.data(), sample.size() * sizeof(Record));
+    ranks_.all_gather_in_place(sample.data(), begin);
     in_agreement([&] {
-      sample = items<Record>(samples);
       std::vector<Point> places;
       for (const Record& r : sample) places.push_back(places_(r.point));
       partition_ = std::make_unique<Partition>(options_.partition, patches, places, nodes);
@@ -232,8 +267,7 @@ class Triangulator {
   /// those that have arrived.
   void send_nodes() {
     std::optional<Routes> routes;
-    Parcels outgoing;
-    in_agreement([&] {
+    arrived_ = exchange_in_agreement([&] {
       routes.emplace(nodes_.count);
       table_memory_ = std::make_unique<Workspace>(nodes_.count *
                                                   (sizeof *position_ + sizeof *place_ + sizeof *size_class_));
@@ -243,13 +277,9 @@ class Triangulator {
       find_routes(*routes);
       const std::size_t patches = sent_.size();
       for (std::size_t q = 0; q < patches; ++q) sent_begin_[q + 1] = sent_begin_[q] + sent_[q].own;
-      outgoing = parcels_for_others(*routes);
+      return parcels_for_others(*routes);
     });
-    arrived_ = ranks_.exchange(outgoing);
-    in_agreement([&] {
-      outgoing = {};
-      place_nodes(*routes);
-    });
+    in_agreement([&] { place_nodes(*routes); });
   }
 
   void find_routes(Routes& routes) {
@@ -417,28 +447,35 @@ class Triangulator {
   // ---- 2: triangulate ----
 
   void triangulate_patches() {
-    in_agreement([&] {
-      constexpr std::size_t kPage = 4096;
-      std::vector<std::size_t> begin{0};
-      for (const Patch<Int>& patch : patches_)
-        begin.push_back(begin.back() + (patch.workspace_bytes(closing_.size()) + kPage - 1) / kPage * kPage);
-      workspace_ = std::make_unique<Workspace>(begin.back());
-      unsigned char* const memory = workspace_->keep<unsigned char>(begin.back());
-      for_patches([&](Patch<Int>& patch, std::size_t k) {
-        Workspace part(memory + begin[k], begin[k + 1] - begin[k]);
-        patch.triangulate(closing_, part);
-      });
-    });
+    in_agreement(
+        [&] {
+          constexpr std::size_t kPage = 4096;
+          std::vector<std::size_t> begin{0};
+          for (const Patch<Int>& patch : patches_)
+            begin.push_back(begin.back() +
+                            (patch.workspace_bytes(closing_.size()) + kPage - 1) / kPage * kPage);
+          workspace_ = std::make_unique<Workspace>(begin.back());
+          unsigned char* const memory = workspace_->keep<unsigned char>(begin.back());
+          for_patches([&](Patch<Int>& patch, std::size_t k) {
+            Workspace part(memory + begin[k], begin[k + 1] - begin[k]);
+            patch.triangulate(closing_, part);
+          });
+          count_coincident();
+        },
+        least_coincident_);
   }
 
   // ---- 3: merge ----
 
+  void count_coincident() {
+    least_coincident_ = 0;
+    for (const Patch<Int>& patch : patches_)
+      least_coincident_ -= static_cast<std::int64_t>(patch.coincident().size());
+  }
+
   /// Different nodes in the same direction that any patch came upon.
   std::vector<std::pair<std::int64_t, std::int64_t>> all_coincident() {
-    std::int64_t count = 0;
-    for (const Patch<Int>& patch : patches_) count -= static_cast<std::int64_t>(patch.coincident().size());
-    ranks_.all_min(&count, 1);
-    if (count == 0) return {};
+    if (least_coincident_ == 0) return {};
     std::vector<std::pair<std::int64_t, std::int64_t>> pairs;
     in_agreement([&] {
       for (const Patch<Int>& patch : patches_)
@@ -453,26 +490,26 @@ class Triangulator {
   /// the centre shows that there is none; if no patch does, all nodes lie inside what the patches see.
   void find_boundary() {
     std::vector<Record> nodes;
-    std::int64_t values[2] = {0,
-                              INT64_MAX};  // some patch has own nodes on it; the first patch that surrounds
-    in_agreement([&] {
-      for (const Patch<Int>& patch : patches_) {
-        const auto outline = patch.outline();
-        if (outline.has_own) values[0] = -1;
-        if (outline.surrounds_centre) values[1] = std::min<std::int64_t>(values[1], patch.id());
-        nodes.insert(nodes.end(), outline.nodes.begin(), outline.nodes.end());
-      }
-    });
+    std::int64_t has_own = 0;              // -1 if some patch has own nodes on it
+    std::int64_t surrounding = INT64_MAX;  // the first patch that surrounds the centre
+    in_agreement(
+        [&] {
+          for (const Patch<Int>& patch : patches_) {
+            const auto outline = patch.outline();
+            if (outline.has_own) has_own = -1;
+            if (outline.surrounds_centre) surrounding = std::min<std::int64_t>(surrounding, patch.id());
+            nodes.insert(nodes.end(), outline.nodes.begin(), outline.nodes.end());
+          }
+        },
+        has_own, surrounding);
     gave_up_ = size_ == 1 && nodes.size() > options_.most_questions;
-    if (gave_up_) return;
-    ranks_.all_min(values, 2);
-    if (values[0] == 0) return;
-    const bool there_is_none = values[1] != INT64_MAX;
+    if (gave_up_ || has_own == 0) return;
+    const bool there_is_none = surrounding != INT64_MAX;
     in_agreement([&] {
       if (!there_is_none) return;
       nodes.clear();
       for (const Patch<Int>& patch : patches_)
-        if (patch.id() == values[1]) nodes = patch.nodes_around_centre();
+        if (patch.id() == surrounding) nodes = patch.nodes_around_centre();
     });
     const Parcels all = ranks_.all_gather(nodes.data(), nodes.size() * sizeof(Record));
     in_agreement([&] {
@@ -488,26 +525,29 @@ class Triangulator {
   bool ask_and_learn() {
     std::vector<std::vector<Question>> questions;  // to each rank
     std::int64_t asked = 0;
-    in_agreement([&] {
-      questions.resize(size_);
-      std::vector<std::vector<Question>> of_patch(patches_.size());
-      for_patches(
-          [&](Patch<Int>& patch, std::size_t k) { patch.ask(boundary_, most_stretch_, of_patch[k]); });
-      for (const auto& list : of_patch)
-        for (const Question& q : list) questions[rank_of(q.to)].push_back(q), --asked;
-    });
-    ranks_.all_min(&asked, 1);
+    in_agreement(
+        [&] {
+          questions.resize(size_);
+          std::vector<std::vector<Question>> of_patch(patches_.size());
+          for_patches(
+              [&](Patch<Int>& patch, std::size_t k) { patch.ask(boundary_, most_stretch_, of_patch[k]); });
+          for (const auto& list : of_patch)
+            for (const Question& q : list) questions[rank_of(q.to)].push_back(q), --asked;
+        },
+        asked);
     if (asked == 0) return false;
     gave_up_ = size_ == 1 && static_cast<std::size_t>(-asked) > options_.most_questions;
     if (gave_up_) return false;
     ++cost_.rounds;
 
-    Parcels outgoing;
-    in_agreement([&] { outgoing = parcels(questions); });
-    const Parcels incoming = ranks_.exchange(outgoing);
-    in_agreement([&] { outgoing = answers(incoming); });
-    const Parcels replies = ranks_.exchange(outgoing);
-    in_agreement([&] { learn(questions, replies); });
+    const Parcels incoming = exchange_in_agreement([&] { return parcels(questions); });
+    const Parcels replies = exchange_in_agreement([&] { return answers(incoming); });
+    in_agreement(
+        [&] {
+          learn(questions, replies);
+          count_coincident();
+        },
+        least_coincident_);
     return true;
   }
 
@@ -562,14 +602,11 @@ class Triangulator {
   // ---- 4: lists ----
 
   void return_rings(Stars<Int>& stars) {
-    Parcels outgoing;
-    in_agreement([&] {
+    stars.received = exchange_in_agreement([&] {
       stars.homes = std::make_unique<Homes>();
       stars.memory.reserve(2);  // what run() moves there must not fail
-      const auto others = write_rings(stars);
-      outgoing = rings_for_others(others);
+      return rings_for_others(write_rings(stars));
     });
-    stars.received = ranks_.exchange(outgoing);
     for (std::size_t r = 0; r < size_; ++r) {
       if (r == me_) continue;
       auto* at = reinterpret_cast<const Int*>(stars.received.bytes.data() + stars.received.begin[r]);
@@ -658,15 +695,13 @@ class Triangulator {
 
   /// The neighbours of this rank's nodes that it did not bring itself.
   void find_outside(Stars<Int>& stars) {
-    Parcels outgoing;
-    in_agreement([&] {
+    const Parcels incoming = exchange_in_agreement([&] {
       std::vector<std::vector<Record>> neighbours(size_);
       for (std::size_t k = 0; k < patches_.size(); ++k)
         patches_[k].for_each_missing_neighbour(
             me_, own_from_[k], [&](std::size_t r, const Record& node) { neighbours[r].push_back(node); });
-      outgoing = parcels(neighbours);
+      return parcels(neighbours);
     });
-    const Parcels incoming = ranks_.exchange(outgoing);
     in_agreement([&] {
       std::vector<Record> all = items<Record>(incoming);
       keep_one_of_each(all);
@@ -703,6 +738,7 @@ class Triangulator {
   double most_stretch_ = std::numeric_limits<double>::infinity();  ///< of the closing nodes, if computed
   std::vector<Patch<Int>> patches_;                                ///< of this rank
   Boundary boundary_;
+  std::int64_t least_coincident_ = 0;  ///< 0: no patch has come upon any; agreed on
   bool gave_up_ = false;
 
   std::vector<Count> sent_;              ///< to each patch
