@@ -375,8 +375,14 @@ ranks)
     run $n -q scvt 500 --density bump --iterations 3 -o ranks.txt
     cmp serial.txt ranks.txt
     [ "$(run $n -q points random 10 | wc -l)" = 10 ] || fail "points, by $n ranks"
-    run $n -q triangulate - -o ranks.lists < nodes.txt
-    cmp serial.lists ranks.lists
+    # mpirun of Open MPI 4.1 crashes at times in its own mca_iof_hnp while it hands on a file: once more, then.
+    for _ in 1 2 3 4 5 6; do
+      code=0
+      run $n -q triangulate - -o read.lists < nodes.txt 2> err || code=$?
+      grep -q mca_iof_hnp err || break
+    done
+    [ $code = 0 ] || fail "$n ranks, -: exit code $code: $(cat err)"
+    cmp serial.lists read.lists
     # One message, exit code 1 or 2, nothing left.
     { cat nodes.txt; head -n 1 nodes.txt; } > twice.txt
     for case in "1 twice.txt" "1 missing.txt" "2 nodes.txt --potato"; do
