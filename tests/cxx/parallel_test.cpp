@@ -332,6 +332,41 @@ TEST(Nasty, DirectionsAreUsedExactlyWhereLengthsHideANode) {
   EXPECT_GT(shown, 50);
 }
 
+/// Clusters closer together than lengths reach: a patch may be the first to see that a node is hidden when it
+/// is asked about another's triangle, or when it is answered.
+TEST(Nasty, LengthsThatHideANodeInALaterRoundMakeAllUseDirections) {
+  int hidden = 0;
+  for (std::uint64_t seed = 1; seed <= 500; ++seed) {
+    point_sets::Random random(seed);
+    const std::size_t clusters = 2 + random.below(4), each = 3 + random.below(30);
+    const double apart = std::pow(10, -random.uniform(3, 4)),
+                 wide = apart * std::pow(10, -random.uniform(0.5, 2.5));
+    const auto beside = [&](const Point& p, double distance) {
+      const Point q = random.direction();
+      return point_sets::normalized({p.x + distance * q.x, p.y + distance * q.y, p.z + distance * q.z});
+    };
+    const Point middle = random.direction();
+    Nodes nodes;
+    for (std::size_t k = 0; k < clusters; ++k) {
+      const Point centre = beside(middle, apart);
+      for (std::size_t i = 0; i < each; ++i) nodes.push_back(beside(centre, wide));
+    }
+    for (std::size_t some = 1 + random.below(3); some > 0; --some) {
+      Point& p = nodes[random.below(nodes.size())];
+      const double length = 1 + random.uniform(-9e-7, 9e-7);
+      p = {p.x * length, p.y * length, p.z * length};
+    }
+    const Set set(nodes);
+    hidden += set.lengths == Lengths::directions;
+    for (const int ranks : {2, 4})
+      ASSERT_TRUE(is_serial(
+          set, run<std::int32_t>(set.nodes, {ranks, 1, PartitionKind::bisection, Brings::every_other})))
+          << seed << ", " << ranks << " ranks";
+  }
+  EXPECT_GT(hidden, 300);
+  EXPECT_LT(hidden, 500);
+}
+
 TEST(Nasty, RadiusOfTheEarthAndOfAnAtom) {
   for (const double radius : {6371229.0, 1e-300, 1e300}) {
     Nodes nodes = point_sets::make("random", 2000, 9);
