@@ -409,15 +409,19 @@ TEST(Coincident, SameDirectionOnBothSidesOfABorder) {
 
 TEST(Neighbours, OutsideAreExactlyThoseNotBrought) {
   const Set set(point_sets::make("random", 1500, 6));
-  for (const Brings brings : {Brings::home, Brings::every_other, Brings::rank_0}) {
-    const Configuration c{5, 2, PartitionKind::bisection, brings};
+  for (const auto& [patches, brings] : {std::pair{1, Brings::home},
+                                        {1, Brings::every_other},
+                                        {2, Brings::home},
+                                        {2, Brings::every_other},
+                                        {2, Brings::rank_0}}) {
+    const Configuration c{5, patches, PartitionKind::bisection, brings};
     const Outcome out = run<std::int32_t>(set.nodes, c, true);
     const Partition home(PartitionKind::bisection, c.ranks, set.nodes, set.nodes.size());
     for (int r = 0; r < c.ranks; ++r) {
       const auto is_mine = [&](std::size_t i) {
-        return brings == Brings::rank_0        ? r == 0
-               : brings == Brings::every_other ? static_cast<int>(i) % c.ranks == r
-                                               : home.owner(set.nodes[i]) == r;
+        return c.brings == Brings::rank_0        ? r == 0
+               : c.brings == Brings::every_other ? static_cast<int>(i) % c.ranks == r
+                                                 : home.owner(set.nodes[i]) == r;
       };
       std::map<std::int64_t, Point> expected;
       for (std::size_t i = 0; i < set.nodes.size(); ++i)

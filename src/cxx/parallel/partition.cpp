@@ -18,6 +18,33 @@ constexpr double kLeastMargin = 1e-9;
 
 double component(const Point& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 
+/// What lies between the k smallest heights, all from low to high, and the others; k > 0. Counts in bins, so
+/// that only those of one bin are compared with each other: no branch of a selection can be guessed.
+double height_between(const std::vector<double>& height, std::size_t k, double low, double high) {
+  constexpr int kBins = 64;
+  const double scale = high > low ? (kBins - 1) / (high - low) : 0;
+  const auto bin_of = [=](double h) { return static_cast<int>((h - low) * scale); };
+  std::array<std::size_t, kBins> count{};
+  for (const double h : height) ++count[bin_of(h)];
+  std::size_t before = 0;
+  int bin = 0;
+  while (before + count[bin] <= k) before += count[bin++];
+  std::vector<double> inside(count[bin] + 1);  // the last one is written, but not kept
+  std::size_t n = 0;
+  for (const double h : height) {
+    inside[n] = h;
+    n += bin_of(h) == bin;
+  }
+  const auto kth = inside.begin() + static_cast<std::ptrdiff_t>(k - before);
+  std::nth_element(inside.begin(), kth, inside.end() - 1);
+  double below = low;
+  for (auto h = inside.begin(); h < kth; ++h) below = std::max(below, *h);
+  if (k == before)
+    for (const double h : height)
+      if (bin_of(h) < bin) below = std::max(below, h);
+  return 0.5 * (below + *kth);
+}
+
 double longitude(const Point& p) {
   const double phi = std::atan2(p.y, p.x);
   return phi < 0 ? phi + 2 * kPi : phi;
@@ -29,9 +56,11 @@ double longitude(const Point& p) {
 
 class Partition::Builder {
  public:
-  Builder(Partition& partition, const std::vector<Point>& sample, std::size_t nodes)
+  /// Sorts the sample into cells.
+  Builder(Partition& partition, std::vector<Point>& sample, std::size_t nodes)
       : partition_(partition),
         sample_(sample),
+        others_(sample.size()),
         nodes_a_sample_(sample.empty() ? 1
                                        : static_cast<double>(nodes) / static_cast<double>(sample.size())) {}
 
@@ -53,7 +82,7 @@ class Partition::Builder {
     const Plane half{0, 1, 0, 0};
     Point* const first = sample_.data();
     Point* const last = first + sample_.size();
-    Point* const middle = std::partition(first, last, [&](const Point& p) { return product(half, p) < 0; });
+    Point* const middle = separate(first, last, half);
     const std::int32_t root = new_cell(half);
     const int at_zero = stripe_at(stripes, 0), at_pi = stripe_at(stripes, kPi);
     link(root, 1, wedges(middle, last, inside(stripes, 0, kPi, at_zero), kPi, {{half}}));
@@ -118,7 +147,7 @@ class Partition::Builder {
     }
     const std::size_t k = stripes.size() / 2;
     const Plane border = meridian(stripes[k].from);
-    Point* const middle = std::partition(first, last, [&](const Point& p) { return product(border, p) < 0; });
+    Point* const middle = separate(first, last, border);
     const std::int32_t cell = new_cell(border);
     link(cell, 0,
          wedges(first, middle, {stripes.begin(), stripes.begin() + k}, stripes[k].from,
@@ -137,10 +166,9 @@ class Partition::Builder {
     }
     const Extent extent = extent_of(p, n);
     const int below = patches / 2;
-    const Plane split = split_at(p, n, n * below / patches, extent.longest());
+    const Plane split = split_at(p, n, n * below / patches, extent.longest(), extent);
     const std::int32_t cell = new_cell(split);
-    Point* const middle =
-        std::partition(p, p + n, [&](const Point& q) { return product(split, q) < split.d; });
+    Point* const middle = separate(p, p + n, split);
     const auto m = static_cast<std::size_t>(middle - p);
     const double here = margin_of(extent, n, margin);
     link(cell, 0, bisect(p, m, first_patch, below, with(box, opposite(split)), here));
@@ -154,9 +182,8 @@ class Partition::Builder {
     margin = margin_of(extent, n, margin);
     const int axis = along_z ? 2 : extent.longest();
     if (n > kCellSample && extent.length(axis) > 0) {
-      const Plane split = split_at(p, n, n / 2, axis);
-      Point* const middle =
-          std::partition(p, p + n, [&](const Point& q) { return product(split, q) < split.d; });
+      const Plane split = split_at(p, n, n / 2, axis, extent);
+      Point* const middle = separate(p, p + n, split);
       const auto m = static_cast<std::size_t>(middle - p);
       if (m > 0 && m < n) {
         const std::int32_t cell = new_cell(split);
@@ -206,23 +233,29 @@ class Partition::Builder {
   }
 
   /// A plane across `axis` with k of the n points below, if no two are at the same height.
-  static Plane split_at(Point* p, std::size_t n, std::size_t k, int axis) {
-    double d = 0;
-    if (n > 0) {
-      const auto split_along = [&](auto coordinate) {  // a constant of its type: compiled for each axis
-        const auto lower = [=](const Point& a, const Point& b) { return coordinate(a) < coordinate(b); };
-        std::nth_element(p, p + k, p + n, lower);
-        d = coordinate(p[k]);
-        if (k == 0) return;
-        double below = coordinate(p[0]);
-        for (std::size_t i = 1; i < k; ++i) below = std::max(below, coordinate(p[i]));
-        d = 0.5 * (d + below);
-      };
-      if (axis == 0) split_along([](const Point& q) { return q.x; });
-      if (axis == 1) split_along([](const Point& q) { return q.y; });
-      if (axis == 2) split_along([](const Point& q) { return q.z; });
+  Plane split_at(const Point* p, std::size_t n, std::size_t k, int axis, const Extent& extent) {
+    double d = extent.low[axis];
+    if (k > 0) {
+      height_.resize(n);
+      for (std::size_t i = 0; i < n; ++i) height_[i] = component(p[i], axis);
+      d = height_between(height_, k, extent.low[axis], extent.high[axis]);
     }
-    return {axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0, d};
+    return {axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0, n > 0 ? d : 0};
+  }
+
+  /// Those below the plane first, in the order they had; returns the first of the others. Writes both ways
+  /// and goes on in one: no branch.
+  Point* separate(Point* first, Point* last, const Plane& plane) {
+    Point *below = first, *others = others_.data();
+    for (Point* p = first; p < last; ++p) {
+      const Point q = *p;
+      const bool is_inside = product(plane, q) >= plane.d;
+      *below = *others = q;
+      below += !is_inside;
+      others += is_inside;
+    }
+    std::copy(others_.data(), others, below);
+    return below;
   }
 
   /// The box cut by one more plane; of parallel planes only the innermost stays.
@@ -237,11 +270,13 @@ class Partition::Builder {
   }
 
   Partition& partition_;
-  std::vector<Point> sample_;  // sorted into cells while they are made
+  std::vector<Point>& sample_;
+  std::vector<Point> others_;
+  std::vector<double> height_;
   double nodes_a_sample_;
 };
 
-Partition::Partition(PartitionKind kind, int patches, const std::vector<Point>& sample, std::size_t nodes)
+Partition::Partition(PartitionKind kind, int patches, std::vector<Point> sample, std::size_t nodes)
     : regions_(static_cast<std::size_t>(patches)), largest_margin_(static_cast<std::size_t>(patches)) {
   Builder builder(*this, sample, nodes);
   if (kind == PartitionKind::bisection) {

@@ -34,7 +34,7 @@ struct Ball {
 class Partition {
  public:
   /// Patches 0..patches-1 for `nodes` nodes of which `sample` is a sample: vectors of about length 1.
-  Partition(PartitionKind kind, int patches, const std::vector<Point>& sample, std::size_t nodes);
+  Partition(PartitionKind kind, int patches, std::vector<Point> sample, std::size_t nodes);
 
   int patches() const { return static_cast<int>(regions_.size()); }
 

@@ -134,13 +134,17 @@ class Patch {
       return count < own_ ? bringer[order_[v]] : static_cast<std::uint32_t>(mine);
     };
     const auto node = [&](std::uint32_t v) { return Record{arrays_.nodes[v], number_[v]}; };
+    // Of each hull node, who was told of it last: most are missed by one rank, at several of its nodes.
+    std::vector<std::uint32_t> told(count < own_ ? growing_->node_count() : 0, kNobody);
     const auto look_around = [&](std::uint32_t v) {
       const std::uint32_t r = brought_by(v);
       bool is_missing = false;
       const auto meet = [&](std::uint32_t w) {
         const std::uint32_t other = brought_by(w);
         is_missing = is_missing || other == mine;
-        if (r != kNobody && other != r) visit(std::size_t{r}, node(w));
+        if (r == kNobody || other == r || told[w] == r) return;
+        told[w] = r;
+        visit(std::size_t{r}, node(w));
       };
       for_each_face_at(v, [&](std::uint32_t t, std::uint32_t i) {
         if (!hull_.front(t)) return;

@@ -202,7 +202,7 @@ class Triangulator {
       return static_cast<std::size_t>(nodes_and_patches[r] & 0xffffffff);
     };
     std::size_t nodes = 0;
-    std::vector<Record> sample;
+    BlockArray<Record> sample;
     std::vector<std::size_t> begin;  // bytes that the ranks bring
     in_agreement([&] {
       first_patch_.assign(1, 0);
@@ -214,7 +214,7 @@ class Triangulator {
       begin.assign(1, 0);
       for (std::size_t r = 0; r < size_; ++r)
         begin.push_back(begin.back() + share_of_sample(nodes_of(r), wanted, nodes) * sizeof(Record));
-      sample.resize(begin.back() / sizeof(Record));
+      sample = BlockArray<Record>(begin.back() / sizeof(Record));
       write_share(nodes_, share_of_sample(nodes_.count, wanted, nodes),
                   sample.data() + begin[me_] / sizeof(Record));
     });
@@ -222,8 +222,9 @@ class Triangulator {
     ranks_.all_gather_in_place(sample.data(), begin);
     in_agreement([&] {
       std::vector<Point> places;
+      places.reserve(sample.size());
       for (const Record& r : sample) places.push_back(places_(r.point));
-      partition_ = std::make_unique<Partition>(options_.partition, patches, places, nodes);
+      partition_ = std::make_unique<Partition>(options_.partition, patches, std::move(places), nodes);
       choose_closing(sample);
       // Worth it where it spares a look at more triangles than it takes time for.
       constexpr std::size_t kManyInAPatch = 50000;
@@ -235,7 +236,7 @@ class Triangulator {
   }
 
   /// Some of the sample and the corners, each once, along a curve.
-  void choose_closing(const std::vector<Record>& sample) {
+  void choose_closing(BlockArray<Record>& sample) {
     std::vector<Record> some(corners_.begin(), corners_.end());
     const std::size_t step = sample.size() / kClosingNodes + 1;
     for (std::size_t k = 0; k < sample.size(); k += step) some.push_back(sample[k]);
