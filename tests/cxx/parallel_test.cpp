@@ -75,19 +75,16 @@ struct Outcome {
   std::vector<ParallelCost> cost;
 };
 
+/// homes: of the ranks in the last call, then in this one.
 template <class Int>
-Outcome run(const Nodes& nodes, const Configuration& c, bool with_neighbours = false) {
-  const std::size_t n = nodes.size(), size = static_cast<std::size_t>(c.ranks);
+Outcome run(const Nodes& nodes, const std::vector<std::size_t>& rank_of_node,
+            const ParallelOptions& all_options, std::vector<std::unique_ptr<Homes>>& homes) {
+  const std::size_t n = nodes.size(), size = homes.size();
   std::vector<Nodes> points(size);
   std::vector<std::vector<std::int64_t>> numbers(size);
-  const Partition home(PartitionKind::bisection, c.ranks, nodes, n);
   for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t r = c.brings == Brings::slices        ? i * size / n
-                          : c.brings == Brings::every_other ? i % size
-                          : c.brings == Brings::home        ? static_cast<std::size_t>(home.owner(nodes[i]))
-                                                            : 0;
-    points[r].push_back(nodes[i]);
-    numbers[r].push_back(static_cast<std::int64_t>(i) + 1);
+    points[rank_of_node[i]].push_back(nodes[i]);
+    numbers[rank_of_node[i]].push_back(static_cast<std::int64_t>(i) + 1);
   }
   Outcome out;
   out.ring.resize(n);
@@ -95,13 +92,11 @@ Outcome run(const Nodes& nodes, const Configuration& c, bool with_neighbours = f
   out.stars.resize(size);
   out.cost.resize(size);
   std::mutex mutex;
-  ThreadRanks::run(c.ranks, [&](Communicator& ranks) {
+  ThreadRanks::run(static_cast<int>(size), [&](Communicator& ranks) {
     const auto r = static_cast<std::size_t>(ranks.rank());
     const LocalNodes local{points[r].data(), points[r].size(), numbers[r].data()};
-    ParallelOptions options;
-    options.partition = c.partition;
-    options.patches = c.patches;
-    options.with_neighbours = with_neighbours;
+    ParallelOptions options = all_options;
+    options.last = homes[r].get();
     try {
       const Point corners[3] = {nodes[0], nodes[1], nodes[2]};
       Stars<Int> stars = triangulate<Int>(local, look_at(local.points, local.count), corners, {1, 2, 3},
@@ -114,11 +109,30 @@ Outcome run(const Nodes& nodes, const Configuration& c, bool with_neighbours = f
       out.stars[r].coincident = stars.coincident;
       out.stars[r].lengths = stars.lengths;
       out.stars[r].outside = stars.outside;
+      homes[r] = std::move(stars.homes);
     } catch (const AgreedFailure& failure) {
       out.codes[r] = failure.code;
     }
   });
   return out;
+}
+
+template <class Int>
+Outcome run(const Nodes& nodes, const Configuration& c, bool with_neighbours = false) {
+  const std::size_t n = nodes.size(), size = static_cast<std::size_t>(c.ranks);
+  const Partition home(PartitionKind::bisection, c.ranks, nodes, n);
+  std::vector<std::size_t> rank_of_node;
+  for (std::size_t i = 0; i < n; ++i)
+    rank_of_node.push_back(c.brings == Brings::slices        ? i * size / n
+                           : c.brings == Brings::every_other ? i % size
+                           : c.brings == Brings::home        ? static_cast<std::size_t>(home.owner(nodes[i]))
+                                                             : 0);
+  ParallelOptions options;
+  options.partition = c.partition;
+  options.patches = c.patches;
+  options.with_neighbours = with_neighbours;
+  std::vector<std::unique_ptr<Homes>> homes(size);
+  return run<Int>(nodes, rank_of_node, options, homes);
 }
 
 ::testing::AssertionResult is_serial(const Set& set, const Outcome& out) {
@@ -435,6 +449,93 @@ TEST(Neighbours, OutsideAreExactlyThoseNotBrought) {
       EXPECT_EQ(found, expected) << name_of(c) << " rank " << r;
     }
   }
+}
+
+// ---- patches of the last call -----------------------------------------------------------------------
+
+class KeptPatches : public ::testing::Test {
+ protected:
+  static constexpr std::size_t kRanks = 5;
+
+  std::vector<std::size_t> at_home(const Nodes& nodes) const {
+    std::vector<std::size_t> rank_of_node;
+    for (const Point& p : nodes) rank_of_node.push_back(static_cast<std::size_t>(homes_[0]->rank(p)));
+    return rank_of_node;
+  }
+  /// True if every rank keeps its patches; in any case the rings must be right.
+  bool keeps(const Nodes& nodes, const std::vector<std::size_t>& rank_of_node) {
+    std::vector<std::shared_ptr<const Partition>> before;
+    for (const auto& h : homes_) before.push_back(h != nullptr ? h->partition() : nullptr);
+    EXPECT_TRUE(is_serial(Set(nodes), run<std::int32_t>(nodes, rank_of_node, options_, homes_)));
+    std::size_t kept = 0;
+    for (std::size_t r = 0; r < kRanks; ++r)
+      kept += homes_[r] != nullptr && homes_[r]->partition() == before[r];
+    EXPECT_TRUE(kept == 0 || kept == kRanks) << kept;
+    return kept > 0;
+  }
+  static Nodes moved(Nodes nodes, double distance) {
+    point_sets::Random random(7);
+    for (Point& p : nodes) {
+      const Point q = random.direction();
+      p = point_sets::normalized({p.x + distance * q.x, p.y + distance * q.y, p.z + distance * q.z});
+    }
+    return nodes;
+  }
+
+  void SetUp() override {
+    options_.with_neighbours = true;
+    std::vector<std::size_t> slices;
+    for (std::size_t i = 0; i < nodes_.size(); ++i) slices.push_back(i * kRanks / nodes_.size());
+    EXPECT_FALSE(keeps(nodes_, slices));
+    EXPECT_FALSE(keeps(nodes_, slices));  // most are on another rank than where they belong
+  }
+
+  const Nodes nodes_ = Set(point_sets::make("variable", 8000, 3)).nodes;
+  ParallelOptions options_;
+  std::vector<std::unique_ptr<Homes>> homes_{kRanks};
+};
+
+TEST_F(KeptPatches, WhereNodesAreAtHomeAndWhereTheyMoveALittle) {
+  EXPECT_TRUE(keeps(nodes_, at_home(nodes_)));
+  const Nodes shaken = moved(nodes_, 1e-3);
+  EXPECT_TRUE(keeps(shaken, at_home(nodes_)));
+  EXPECT_TRUE(keeps(shaken, at_home(shaken)));
+}
+
+TEST_F(KeptPatches, NotWhereOneHasMoreThanItsShare) {
+  Nodes more = nodes_;
+  const std::size_t rank = at_home({nodes_[0]})[0];
+  for (const Point& p : moved(nodes_, 1e-2))
+    if (at_home({p})[0] == rank) more.push_back(p);
+  EXPECT_FALSE(keeps(more, at_home(more)));
+}
+
+TEST_F(KeptPatches, NotWhereNodesAreElsewhere) { EXPECT_FALSE(keeps(moved(nodes_, 1), at_home(nodes_))); }
+
+TEST_F(KeptPatches, NotForOtherPredicatesKindsOrNumbersOfPatches) {
+  Nodes longer = nodes_;
+  for (std::size_t i = 0; i < longer.size(); i += 2)
+    longer[i] = {3 * longer[i].x, 3 * longer[i].y, 3 * longer[i].z};
+  EXPECT_FALSE(keeps(longer, at_home(longer)));
+  EXPECT_TRUE(keeps(longer, at_home(longer)));
+  options_.partition = PartitionKind::stripes;
+  EXPECT_FALSE(keeps(longer, at_home(longer)));
+  EXPECT_TRUE(keeps(longer, at_home(longer)));
+  options_.patches = 2;
+  EXPECT_FALSE(keeps(longer, at_home(longer)));
+  EXPECT_TRUE(keeps(longer, at_home(longer)));
+}
+
+/// Patches made for other nodes: thin or thick halos cost time only.
+TEST_F(KeptPatches, HoldForNodesThatAreDenseElsewhere) {
+  Nodes nodes = point_sets::make("random", nodes_.size(), 9);
+  std::vector<std::size_t> count(kRanks);
+  Nodes chosen;
+  const std::vector<std::size_t> rank = at_home(nodes);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (count[rank[i]]++ < 500) chosen.push_back(nodes[i]);
+  chosen = Set(chosen).nodes;
+  EXPECT_TRUE(keeps(chosen, at_home(chosen)));
 }
 
 TEST(Numbers, BeyondThirtyTwoBits) {

@@ -224,6 +224,7 @@ std::int32_t DistributedMesh::triangulate_into(Stars<Int>& stars, const Point* p
   agreed(ranks_, [&] { options = options_from_environment(n); });
   options.partition = numbering.partition;
   options.with_neighbours = true;
+  options.last = homes_.get();
   cost.threads = options.threads;
   stars = pstripack::triangulate<Int>(nodes, numbering.look, corners, numbers, ranks_, options, &cost);
   if (!stars.coincident.empty()) {
@@ -240,6 +241,7 @@ std::int32_t DistributedMesh::triangulate_into(Stars<Int>& stars, const Point* p
     number_ = memory_->keep<std::int64_t>(n);
   });
   std::copy(number, number + n, number_);
+  homes_ = std::move(stars.homes);
   count_ = n;
   arcs_ = static_cast<std::int64_t>(stars.of_node.arcs());
   return 0;
@@ -271,8 +273,10 @@ std::int32_t DistributedMesh::triangulate(std::int64_t n, const double* xyz, con
     code = triangulate_points(n, points, number, report, mine);
   } catch (...) {
     clear();  // or what there was memory for would pass for a mesh
+    homes_.reset();
     throw;
   }
+  if (code != 0) homes_.reset();
   report_on(mine, sent_before, report);
   ranks_.set_phase("idle");
   return code;
@@ -308,7 +312,7 @@ std::int32_t DistributedMesh::triangulate_points(std::int64_t n, const Point* po
 bool DistributedMesh::home(std::int64_t n, const double* xyz, std::int32_t* rank) const {
   const auto* const points = reinterpret_cast<const Point*>(xyz);
   if (!std::all_of(points, points + n, has_direction)) return false;
-  for (std::int64_t i = 0; i < n; ++i) rank[i] = homes().rank(points[i]);
+  for (std::int64_t i = 0; i < n; ++i) rank[i] = homes_->rank(points[i]);
   return true;
 }
 

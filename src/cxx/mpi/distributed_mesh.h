@@ -86,7 +86,6 @@ class DistributedMesh {
   const std::vector<Record>& outside() const {
     return numbers_are_short_ ? short_stars_.outside : long_stars_.outside;
   }
-  const Homes& homes() const { return numbers_are_short_ ? *short_stars_.homes : *long_stars_.homes; }
 
   MpiCommunicator ranks_;
   std::int64_t error_point_[2] = {0, 0};
@@ -100,6 +99,7 @@ class DistributedMesh {
   std::int64_t* number_ = nullptr;  ///< of the own points
   Stars<std::int32_t> short_stars_;
   Stars<std::int64_t> long_stars_;
+  std::unique_ptr<Homes> homes_;  ///< of the last triangulation, which the next may keep; null: it failed
 };
 
 }  // namespace pstripack

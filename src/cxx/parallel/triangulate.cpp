@@ -72,6 +72,9 @@ class Reader {
 };
 
 constexpr std::size_t kClosingNodes = 256;
+// Whether patches can be kept is judged by so many nodes of a rank; so many more than its share do not
+// matter.
+constexpr std::size_t kLookedAt = 256, kCloselyEnough = 64;
 
 template <class Int>
 class Triangulator {
@@ -117,7 +120,7 @@ class Triangulator {
       if (options_.with_neighbours) find_outside(stars);
       stars.memory.push_back(std::move(table_memory_));
       stars.memory.push_back(std::move(options_.with_neighbours ? entries_memory_ : workspace_));
-      *stars.homes = Homes(std::move(partition_), std::move(first_patch_), places_);
+      *stars.homes = Homes(std::move(partition_), options_.partition, std::move(first_patch_), places_);
     }
     return stars;
   }
@@ -195,22 +198,31 @@ class Triangulator {
   // ---- 1: divide ----
 
   void divide() {
-    // A rank has less than 2^29 nodes.
-    const std::int64_t* const nodes_and_patches =
-        ranks_.all_gather_one(static_cast<std::int64_t>(nodes_.count) | std::int64_t{options_.patches} << 32);
-    const auto nodes_of = [=](std::size_t r) {
-      return static_cast<std::size_t>(nodes_and_patches[r] & 0xffffffff);
-    };
+    // A rank has less than 2^29 nodes, and as few patches as threads.
+    const std::int64_t* const headers =
+        ranks_.all_gather_one(static_cast<std::int64_t>(nodes_.count) | std::int64_t{options_.patches} << 32 |
+                              std::int64_t{most_are_at_home()} << 62);
+    const auto nodes_of = [=](std::size_t r) { return static_cast<std::size_t>(headers[r] & 0xffffffff); };
+    const auto patches_of = [=](std::size_t r) { return static_cast<int>(headers[r] >> 32 & 0x3fffffff); };
+    bool keeps_patches = std::all_of(headers, headers + size_, [](std::int64_t h) { return h >> 62 != 0; });
     std::size_t nodes = 0;
     BlockArray<Record> sample;
     std::vector<std::size_t> begin;  // bytes that the ranks bring
     in_agreement([&] {
       first_patch_.assign(1, 0);
       for (std::size_t r = 0; r < size_; ++r) {
-        first_patch_.push_back(first_patch_.back() + static_cast<int>(nodes_and_patches[r] >> 32));
+        first_patch_.push_back(first_patch_.back() + patches_of(r));
         nodes += nodes_of(r);
       }
-      const std::size_t wanted = sample_size(nodes, static_cast<std::size_t>(first_patch_.back()));
+      const auto patches = static_cast<std::size_t>(first_patch_.back());
+      const auto has_its_share = [&](std::size_t r) {
+        const std::size_t share = nodes / patches * static_cast<std::size_t>(patches_of(r));
+        return nodes_of(r) <= share + share / 4 + kCloselyEnough;
+      };
+      keeps_patches =
+          keeps_patches && options_.last->are_for(options_.partition, first_patch_, places_.lengths());
+      for (std::size_t r = 0; r < size_; ++r) keeps_patches = keeps_patches && has_its_share(r);
+      const std::size_t wanted = keeps_patches ? std::min(nodes, kClosingNodes) : sample_size(nodes, patches);
       begin.assign(1, 0);
       for (std::size_t r = 0; r < size_; ++r)
         begin.push_back(begin.back() + share_of_sample(nodes_of(r), wanted, nodes) * sizeof(Record));
@@ -218,13 +230,17 @@ class Triangulator {
       write_share(nodes_, share_of_sample(nodes_.count, wanted, nodes),
                   sample.data() + begin[me_] / sizeof(Record));
     });
-    const int patches = first_patch_.back();
     ranks_.all_gather_in_place(sample.data(), begin);
     in_agreement([&] {
-      std::vector<Point> places;
-      places.reserve(sample.size());
-      for (const Record& r : sample) places.push_back(places_(r.point));
-      partition_ = std::make_unique<Partition>(options_.partition, patches, std::move(places), nodes);
+      const int patches = first_patch_.back();
+      if (keeps_patches) {
+        partition_ = options_.last->partition();
+      } else {
+        std::vector<Point> places;
+        places.reserve(sample.size());
+        for (const Record& r : sample) places.push_back(places_(r.point));
+        partition_ = std::make_shared<Partition>(options_.partition, patches, std::move(places), nodes);
+      }
       choose_closing(sample);
       // Worth it where it spares a look at more triangles than it takes time for.
       constexpr std::size_t kManyInAPatch = 50000;
@@ -233,6 +249,16 @@ class Triangulator {
       for (int q = 0; q < patches_here(); ++q)
         patches_.emplace_back(first_patch_[me_] + q, *partition_, places_);
     });
+  }
+
+  /// True if the last call's patches are known, and nearly all of some of this rank's nodes are at home.
+  bool most_are_at_home() const {
+    if (options_.last == nullptr) return false;
+    const std::size_t step = nodes_.count / kLookedAt + 1;
+    std::size_t away = 0;
+    for (std::size_t i = 0; i < nodes_.count; i += step)
+      away += options_.last->rank(nodes_.points[i]) != static_cast<int>(me_);
+    return away <= kLookedAt / 16;
   }
 
   /// Some of the sample and the corners, each once, along a curve.
@@ -734,7 +760,7 @@ class Triangulator {
   const std::size_t me_, size_;
 
   std::vector<int> first_patch_;  ///< of each rank
-  std::unique_ptr<Partition> partition_;
+  std::shared_ptr<const Partition> partition_;
   std::vector<Record> closing_;                                    ///< nodes from everywhere
   double most_stretch_ = std::numeric_limits<double>::infinity();  ///< of the closing nodes, if computed
   std::vector<Patch<Int>> patches_;                                ///< of this rank

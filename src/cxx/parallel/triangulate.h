@@ -21,6 +21,8 @@
 
 namespace pstripack {
 
+class Homes;
+
 struct ParallelOptions {
   PartitionKind partition = PartitionKind::bisection;
   int patches = 1;  ///< of this rank; may differ from rank to rank
@@ -30,14 +32,27 @@ struct ParallelOptions {
   /// Of a single rank: give up if the patches have more questions, or nodes on what they take for the
   /// boundary, than this, since one patch would be faster.
   std::size_t most_questions = SIZE_MAX;
+  /// Of an earlier call on these ranks, on all of them or none: its patches are kept if nearly all nodes are
+  /// where they belong in them, in equal numbers. Then nodes that were sent home are at home.
+  const Homes* last = nullptr;
 };
 
 /// Which rank is home to a place: where its patch is.
 class Homes {
  public:
   Homes() = default;
-  Homes(std::unique_ptr<Partition> partition, std::vector<int> first_patch, const Places& places)
-      : partition_(std::move(partition)), first_patch_(std::move(first_patch)), places_(places) {}
+  Homes(std::shared_ptr<const Partition> partition, PartitionKind kind, std::vector<int> first_patch,
+        const Places& places)
+      : partition_(std::move(partition)),
+        kind_(kind),
+        first_patch_(std::move(first_patch)),
+        places_(places) {}
+
+  const std::shared_ptr<const Partition>& partition() const { return partition_; }
+  /// True if a call could have these patches, so many on each rank, for nodes in such places.
+  bool are_for(PartitionKind kind, const std::vector<int>& first_patch, Lengths lengths) const {
+    return kind == kind_ && first_patch == first_patch_ && lengths == places_.lengths();
+  }
   int rank(const Point& p) const {
     const int patch = partition_->owner(places_(p));
     return static_cast<int>(std::upper_bound(first_patch_.begin(), first_patch_.end(), patch) -
@@ -46,7 +61,8 @@ class Homes {
   }
 
  private:
-  std::unique_ptr<Partition> partition_;
+  std::shared_ptr<const Partition> partition_;
+  PartitionKind kind_ = PartitionKind::bisection;
   std::vector<int> first_patch_;  ///< of each rank
   Places places_{Lengths::as_given, 0};
 };
