@@ -239,7 +239,7 @@ contains
 
   !> The rank (from 0) that would be home to each of the points xyz(3, n), so that each rank's points lie close
   !> together and all ranks have about as many. Points that have been sent there stay at home in later calls, until
-  !> some rank has a quarter more than its share. ier: 0, -3 if the mesh is empty, -5, or -4: rank is too short.
+  !> some rank has an eighth more than its share. ier: 0, -3 if the mesh is empty, -5, or -4: rank is too short.
   subroutine home(mesh, xyz, rank, ier)
     class(pstripack_mesh), intent(in) :: mesh
     real(c_double), intent(in), contiguous :: xyz(:, :)

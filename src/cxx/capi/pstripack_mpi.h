@@ -73,7 +73,7 @@ PSTRIPACK_API void pstripack_mesh_error_points(const pstripack_mesh* mesh, int64
 /* The rank that would be home to each of n points, so that each rank's points lie close together and all
  * ranks have about as many; from the points of the last pstripack_mesh_triangulate. Not collective. 0, -3
  * if the mesh is empty, or -5, having written nothing. rank: n entries, from 0. Points that have been sent there
- * stay at home in later calls, until some rank has a quarter more than its share. */
+ * stay at home in later calls, until some rank has an eighth more than its share. */
 PSTRIPACK_API int32_t pstripack_mesh_home(const pstripack_mesh* mesh, int64_t n, const double* xyz,
                                           int32_t* rank);
 

@@ -217,7 +217,7 @@ class Triangulator {
       const auto patches = static_cast<std::size_t>(first_patch_.back());
       const auto has_its_share = [&](std::size_t r) {
         const std::size_t share = nodes / patches * static_cast<std::size_t>(patches_of(r));
-        return nodes_of(r) <= share + share / 4 + kCloselyEnough;
+        return nodes_of(r) <= share + share / 8 + kCloselyEnough;
       };
       keeps_patches =
           keeps_patches && options_.last->are_for(options_.partition, first_patch_, places_.lengths());
