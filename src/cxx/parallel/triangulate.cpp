@@ -255,10 +255,10 @@ class Triangulator {
   bool most_are_at_home() const {
     if (options_.last == nullptr) return false;
     const std::size_t step = nodes_.count / kLookedAt + 1;
-    std::size_t away = 0;
-    for (std::size_t i = 0; i < nodes_.count; i += step)
+    std::size_t looked_at = 0, away = 0;
+    for (std::size_t i = 0; i < nodes_.count; i += step, ++looked_at)
       away += options_.last->rank(nodes_.points[i]) != static_cast<int>(me_);
-    return away <= kLookedAt / 16;
+    return 16 * away <= looked_at;
   }
 
   /// Some of the sample and the corners, each once, along a curve.
