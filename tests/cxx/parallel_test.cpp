@@ -661,6 +661,24 @@ TEST(Partitions, BisectionIsBalancedWhateverTheDensity) {
   }
 }
 
+// Stripes are cut along z wherever their nodes lie; so are nodes of equal height, and all but one of it.
+TEST(Partitions, OfNodesWhoseHeightsHardlyDiffer) {
+  for (const double height : {0.0, 5e-324, 1e-310, 1e-200, 1e-17}) {
+    point_sets::Random random(3);
+    Nodes nodes;
+    for (int k = 0; k < 400; ++k) {
+      const double phi = random.uniform(0, 6.28), z = k % 3 == 0 ? 0 : height * random.uniform(0, 1);
+      nodes.push_back({std::cos(phi), std::sin(phi), z});
+    }
+    for (const PartitionKind kind : {PartitionKind::bisection, PartitionKind::stripes}) {
+      const Partition partition(kind, 7, nodes, nodes.size());
+      std::vector<std::size_t> count(7);
+      for (const Point& x : nodes) ++count[static_cast<std::size_t>(partition.owner(x))];
+      EXPECT_LE(*std::max_element(count.begin(), count.end()), 400 / 7 + 3) << height;
+    }
+  }
+}
+
 // Slices as in pool and comm mode, from which pictures of owners are made.
 TEST(Partitions, OverRanksAreThoseOfTheTriangulation) {
   const Nodes nodes = point_sets::make("variable", 3001);

@@ -22,7 +22,8 @@ double component(const Point& p, int axis) { return axis == 0 ? p.x : axis == 1 
 /// that only those of one bin are compared with each other: no branch of a selection can be guessed.
 double height_between(const std::vector<double>& height, std::size_t k, double low, double high) {
   constexpr int kBins = 64;
-  const double scale = high > low ? (kBins - 1) / (high - low) : 0;
+  constexpr double kTiny = 1e-300;  // its inverse is finite; below, one bin has them all
+  const double scale = high - low > kTiny ? (kBins - 1) / (high - low) : 0;
   const auto bin_of = [=](double h) { return static_cast<int>((h - low) * scale); };
   std::array<std::size_t, kBins> count{};
   for (const double h : height) ++count[bin_of(h)];
