@@ -632,6 +632,28 @@ TEST(Filter, GivesUpWhereRoundingTellsTheWrongSign) {
   EXPECT_EQ(exact::orientation(exact::On::coordinates, zero, e, f, g), -1);
 }
 
+/// Vectors far longer than 1 and nearly along one axis, the last beside the plane of the others by rounding:
+/// of the products in the bound those with the large component alone keep it large enough.
+TEST(Filter, GivesUpWhereOneComponentIsLargeAndRoundingDecides) {
+  Random random(23);
+  double Point::*const axis[] = {&Point::x, &Point::y, &Point::z};
+  for (int i = 0; i < cases(30000); ++i) {
+    const auto any = [&] {
+      Point p{random.uniform(-1e4, 1e4), random.uniform(-1e4, 1e4), random.uniform(-1e4, 1e4)};
+      p.*axis[i % 3] += 1e8;
+      return p;
+    };
+    const double s = random.uniform(-1, 2), t = random.uniform(-1, 2);
+    const Point a = any(), b = any(), c = any(), zero{0, 0, 0};
+    const Point in_plane = plus(plus(zero, 1 - s, a), s, b),
+                level = plus(plus(plus(zero, 1 - s - t, a), s, b), t, c);
+    ASSERT_EQ(pstripack::left(a, b, in_plane), exact::left(a, b, in_plane)) << text({a, b, in_plane, c});
+    ASSERT_EQ(pstripack::orientation(a, b, c, level),
+              exact::orientation(exact::On::coordinates, a, b, c, level))
+        << text({a, b, c, level});
+  }
+}
+
 /// Four nodes near the equator, and four near one circle of latitude, off by t and by about t^2: down towards
 /// the least double, and a volume of 1e-647.
 TEST(VanishingVolumes, AreToldFromZero) {
@@ -821,6 +843,7 @@ TEST(Filter, CountsWhatItDoesNotDecide) {
   }
   EXPECT_EQ(counts_of([&] { pstripack::left(clear[0], clear[1], clear[2]); }), (Counts{0, 0, 0}));
   EXPECT_EQ(counts_of([&] { pstripack::left(clear[0], clear[1], clear[3]); }), (Counts{0, 1, 0}));
+  EXPECT_EQ(counts_of([&] { pstripack::left({1, 0, 1}, {0, 1, 1}, {1, 1, 2}); }), (Counts{0, 1, 0}));
 }
 
 TEST(Filter, CountsTheTieRuleOnTies) {
