@@ -677,20 +677,28 @@ TEST(VanishingVolumes, AreToldFromZero) {
 // ---- Around the grid of exact.h ----
 
 /// Integers of three bits, at every scale about 1, where they leave the grid, and the last in line or in
-/// plane with the others, but for last bits: what no filter tells must not overflow.
+/// plane with the others, but for last bits: what no filter tells must not overflow. Every other time those
+/// that leave it by little: 2 and 3, the last node the fourth corner of a parallelogram.
 TEST(Grid, IsLeftOutBeforeAnythingOverflows) {
   Random random(22);
   for (int i = 0; i < cases(40000); ++i) {
     const double scale = std::ldexp(1, static_cast<int>(random.below(6)) - 3);
     const auto multiple = [&] { return scale * (static_cast<double>(random.below(7)) - 3); };
-    const auto any = [&] { return Point{multiple(), multiple(), multiple()}; };
+    const auto two_or_three = [&] {
+      return (random.below(2) == 0 ? 1 : -1) * (2 + static_cast<double>(random.below(2)));
+    };
+    const auto any = [&] {
+      return i % 2 == 0 ? Point{multiple(), multiple(), multiple()}
+                        : Point{two_or_three(), two_or_three(), two_or_three()};
+    };
     const auto nudged = [&](const Point& p) {
       const auto nudge = [&](double v) {
         return v * (1 + 0x1p-52 * (static_cast<double>(random.below(3)) - 1));
       };
       return Point{nudge(p.x), nudge(p.y), nudge(p.z)};
     };
-    const double s = static_cast<double>(random.below(3)) - 1, t = static_cast<double>(random.below(3)) - 1;
+    const double s = static_cast<double>(random.below(3)) - 1,
+                 t = i % 2 == 0 ? static_cast<double>(random.below(3)) - 1 : -s;
     const Point a = any(), b = any(), c = any();
     // Beside the plane of the others by a last bit, or in it: what no floating point tells.
     const Four f{a, b, c, nudged(plus(plus(plus(Point{0, 0, 0}, 1 - s - t, a), s, b), t, c))};

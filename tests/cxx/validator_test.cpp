@@ -104,12 +104,13 @@ TEST(Validator, TellsCanonicalListsFromOthers) {
       EXPECT_TRUE(refused([&](Lists& l) { l.lend[k] = static_cast<int>(first); })) << s.name;
       EXPECT_TRUE(refused([&](Lists& l) { std::swap(l.lptr[first], l.lptr[last]); })) << s.name;
       EXPECT_TRUE(refused([&](Lists& l) { l.lptr[last] = 0; })) << s.name;
-      if (lists.list[last] > 0)
+      if (lists.list[last] > 0) {
         EXPECT_TRUE(refused([&](Lists& l) {
           std::rotate(l.list.begin() + static_cast<std::ptrdiff_t>(first),
                       l.list.begin() + static_cast<std::ptrdiff_t>(first) + 1,
                       l.list.begin() + static_cast<std::ptrdiff_t>(last) + 1);
         })) << s.name;
+      }
     }
     Lists other = lists;
     ++other.lnew;
@@ -235,10 +236,18 @@ TEST(Validator, FindsInvertedTriangles) {
 }
 
 TEST(Validator, FindsFlatTriangles) {
-  // Three nodes on the equator as a triangle: det is exactly 0.
+  // Three nodes on the equator as a triangle: det is exactly 0. Whatever the numbers of its corners.
   const Nodes nodes = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, 0, 1}};
   const Faces faces = {{0, 1, 3}, {1, 2, 3}, {0, 2, 1}};
-  EXPECT_EQ(judge(nodes, faces).defect, Defect::orientation);
+  std::array<std::int32_t, 4> number = {0, 1, 2, 3};
+  do {
+    Nodes renumbered(4);
+    for (std::size_t i = 0; i < 4; ++i) renumbered[static_cast<std::size_t>(number[i])] = nodes[i];
+    Faces of_those = faces;
+    for (auto& f : of_those)
+      for (auto& corner : f) corner = number[static_cast<std::size_t>(corner)];
+    EXPECT_EQ(judge(renumbered, of_those).defect, Defect::orientation);
+  } while (std::next_permutation(number.begin(), number.end()));
 }
 
 TEST(Validator, FindsANodePulledThroughItsStar) {
