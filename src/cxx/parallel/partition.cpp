@@ -272,8 +272,8 @@ class Partition::Builder {
 
   Partition& partition_;
   std::vector<Point>& sample_;
-  std::vector<Point> others_;
-  std::vector<double> height_;
+  std::vector<Point> others_;   // of separate()
+  std::vector<double> height_;  // of split_at()
   double nodes_a_sample_;
 };
 

@@ -198,7 +198,7 @@ class Triangulator {
   // ---- 1: divide ----
 
   void divide() {
-    // A rank has less than 2^29 nodes, and as few patches as threads.
+    // A rank has less than 2^29 nodes and less than 2^30 patches.
     const std::int64_t* const headers =
         ranks_.all_gather_one(static_cast<std::int64_t>(nodes_.count) | std::int64_t{options_.patches} << 32 |
                               std::int64_t{most_are_at_home()} << 62);

@@ -21,22 +21,6 @@
 
 namespace pstripack {
 
-class Homes;
-
-struct ParallelOptions {
-  PartitionKind partition = PartitionKind::bisection;
-  int patches = 1;  ///< of this rank; may differ from rank to rank
-  int threads = 1;  ///< of this rank
-  /// Fill Stars::outside, and let the stars hold little memory beside their own.
-  bool with_neighbours = false;
-  /// Of a single rank: give up if the patches have more questions, or nodes on what they take for the
-  /// boundary, than this, since one patch would be faster.
-  std::size_t most_questions = SIZE_MAX;
-  /// Of an earlier call on these ranks, on all of them or none: its patches are kept if nearly all nodes are
-  /// where they belong in them, in equal numbers. Then nodes that were sent home are at home.
-  const Homes* last = nullptr;
-};
-
 /// Which rank is home to a place: where its patch is.
 class Homes {
  public:
@@ -65,6 +49,20 @@ class Homes {
   PartitionKind kind_ = PartitionKind::bisection;
   std::vector<int> first_patch_;  ///< of each rank
   Places places_{Lengths::as_given, 0};
+};
+
+struct ParallelOptions {
+  PartitionKind partition = PartitionKind::bisection;
+  int patches = 1;  ///< of this rank; may differ from rank to rank
+  int threads = 1;  ///< of this rank
+  /// Fill Stars::outside, and let the stars hold little memory beside their own.
+  bool with_neighbours = false;
+  /// Of a single rank: give up if the patches have more questions, or nodes on what they take for the
+  /// boundary, than this, since one patch would be faster.
+  std::size_t most_questions = SIZE_MAX;
+  /// Of an earlier call on these ranks, on all of them or none: its patches are kept if nearly all nodes are
+  /// where they belong in them, in equal numbers. Then nodes that were sent home are at home.
+  const Homes* last = nullptr;
 };
 
 /// The stars of this rank's nodes. Int: std::int32_t, or std::int64_t where numbers need it.
