@@ -313,4 +313,19 @@ TEST_F(EachAllocationOf, TheFingerprint) {
          0});
 }
 
+TEST(Blocks, ThoseKeptAreGivenUpBeforeMemoryIsOut) {
+  constexpr std::size_t small = 1 << 20, large = 3 << 20;
+  for (const bool one_is_kept : {true, false}) {
+    pstripack::free_kept_blocks();
+    if (one_is_kept) pstripack::Block{small};
+    const FailingAllocation memory(1);
+    if (one_is_kept)
+      EXPECT_NO_THROW(pstripack::Block{large});
+    else
+      EXPECT_THROW(pstripack::Block{large}, std::bad_alloc);
+    EXPECT_TRUE(FailingAllocation::happened());
+  }
+  pstripack::free_kept_blocks();
+}
+
 }  // namespace

@@ -37,10 +37,6 @@ struct Call {
   long every = 1;                   ///< after so many failures a call without one is tried
 };
 
-/// Blocks that the library keeps for its next call are given back to the system: it keeps 1 GB at most, and
-/// the newest first.
-inline void empty_the_cache() { pstripack::Block(std::size_t{1} << 30); }
-
 /// Runs the call with its first allocation failing, then with its second, until no more is made; then with
 /// all allocations failing from the first on, from the second on, ... Each must give the code for it and
 /// leave the results as they were, or do without; keep no memory; and leave a library whose next call is
@@ -62,7 +58,7 @@ inline long fail_each_allocation(const Call& call) {
   for (const bool for_good : {false, true})
     for (long which = 1;; ++which, ++failures) {
       restore();
-      empty_the_cache();
+      pstripack::free_kept_blocks();
       std::int64_t now;
       ::testing::internal::CaptureStderr();
       {
@@ -72,7 +68,7 @@ inline long fail_each_allocation(const Call& call) {
       const std::string said = ::testing::internal::GetCapturedStderr();
       const std::string where =
           (for_good ? "from allocation " : "allocation ") + std::to_string(which) + ": " + said;
-      empty_the_cache();
+      pstripack::free_kept_blocks();
       EXPECT_EQ(FailingAllocation::blocks(), 0u) << where;
       if (now == call.out_of_memory) {
         EXPECT_TRUE(FailingAllocation::happened()) << where;

@@ -28,9 +28,6 @@ struct Extent {
 enum Ranks { only_first, only_last, every };
 bool is_hit(Ranks which) { return which == every || rank_of() == (which == only_first ? 0 : size_of() - 1); }
 
-/// Blocks that the library keeps for its next call are given back.
-void empty_the_cache() { pstripack::Block(std::size_t{1} << 30); }
-
 /// call() gives its code, check(code) what is wrong after it; clear() ends what a call without an error
 /// began.
 void fail_each_allocation(
@@ -42,6 +39,7 @@ void fail_each_allocation(
       bool failed = true;
       for (long which = 1; failed; ++which, failures += failed) {
         int code;
+        pstripack::free_kept_blocks();
         {
           const FailingAllocation memory(is_hit(hit) ? which : 0, for_good);
           code = call();
@@ -52,7 +50,7 @@ void fail_each_allocation(
         ASSERT_TRUE(is_right(code)) << "code " << code << ", allocation " << which;
         if (code == 0) clear();
         failed = Extent(FailingAllocation::happened()).largest != 0;
-        empty_the_cache();
+        pstripack::free_kept_blocks();
         ASSERT_EQ(FailingAllocation::blocks(), 0u) << "allocation " << which;
         ASSERT_EQ(call(), 0) << "after allocation " << which;
         ASSERT_TRUE(is_right(0)) << "after allocation " << which;
@@ -179,6 +177,7 @@ TEST(EachAllocation, OfTheCallsOfOneRank) {
     const auto empty_begin = begin;
     const auto empty = neighbour;
     int code, home;
+    pstripack::free_kept_blocks();
     {
       const FailingAllocation memory(which);
       code = pstripack_mesh_local_stars(mesh, begin.data(), neighbour.data());
@@ -192,7 +191,7 @@ TEST(EachAllocation, OfTheCallsOfOneRank) {
       EXPECT_FALSE(FailingAllocation::happened());
     }
     EXPECT_EQ(home, 0);
-    empty_the_cache();
+    pstripack::free_kept_blocks();
     EXPECT_EQ(FailingAllocation::blocks(), 0u);
   }
   pstripack_mesh_free(mesh);

@@ -22,6 +22,17 @@ std::size_t rounded_up(std::size_t bytes) {
 
 }  // namespace
 
+bool free_kept_blocks() noexcept {
+  const std::unique_lock lock(mutex, std::try_to_lock);
+  if (!lock) return false;
+  bool any = false;
+  for (auto& block : kept) {
+    any = any || block.size() > 0;
+    block = {};
+  }
+  return any;
+}
+
 Block::Block(std::size_t bytes) {
   if (bytes >= kSmallest) bytes = rounded_up(bytes);
   if (bytes >= kSmallest && bytes <= kLargest) {
@@ -38,7 +49,12 @@ Block::Block(std::size_t bytes) {
       }
     }
   }
-  memory_ = Buffer<unsigned char>(bytes);
+  try {
+    memory_ = Buffer<unsigned char>(bytes);
+  } catch (const std::bad_alloc&) {
+    if (!free_kept_blocks()) throw;
+    memory_ = Buffer<unsigned char>(bytes);
+  }
 }
 
 Block::~Block() {

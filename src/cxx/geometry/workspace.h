@@ -17,7 +17,7 @@ namespace pstripack {
 class Block {
  public:
   Block() = default;
-  /// At least so many bytes. Throws std::bad_alloc.
+  /// At least so many bytes. Throws std::bad_alloc, if there is no memory even without the blocks kept.
   explicit Block(std::size_t bytes);
   Block(Block&& other) noexcept = default;
   Block& operator=(Block&& other) noexcept {
@@ -33,6 +33,9 @@ class Block {
  private:
   Buffer<unsigned char> memory_;
 };
+
+/// Gives those that are kept back to the system; false if there are none.
+bool free_kept_blocks() noexcept;
 
 /// An array in a block of its own, not initialised.
 template <class T>

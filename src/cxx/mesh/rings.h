@@ -99,6 +99,15 @@ Ring<Int> ring_at(const Int* place) {
   return {place + 1, static_cast<std::uint32_t>(*place)};
 }
 
+/// Copies a ring as it is kept; returns the end. Reads and writes up to kBlock entries beyond it.
+template <class Int>
+Int* copy_kept_ring(const Int* place, Int* to) {
+  const std::size_t entries = 1 + static_cast<std::size_t>(*place);
+  copy_block(place, to);
+  if (entries > kBlock) std::copy(place + kBlock, place + entries, to + kBlock);
+  return to + entries;
+}
+
 /// The rings of nodes 0..size-1, wherever they are kept.
 template <class Int>
 class RingTable {
@@ -113,6 +122,10 @@ class RingTable {
   static std::uint8_t size_class_of(std::uint32_t count) {
     return static_cast<std::uint8_t>(std::min<std::uint32_t>(count, kMany));
   }
+  /// The entries of the ring at `place`, without a look at most.
+  static std::size_t count_of(const Int* place, std::uint8_t size_class) {
+    return size_class < kMany ? size_class : ring_at(place).count;
+  }
 
   std::size_t size() const { return size_; }
   Ring<Int> operator[](std::size_t i) const { return ring_at(place_[position_[i]]); }
@@ -126,8 +139,8 @@ class RingTable {
   std::size_t arcs(std::size_t first, std::size_t last) const {
     std::size_t sum = 0;
     for (std::size_t i = first; i < last; ++i) {
-      const std::uint8_t few = size_class_[position_[i]];
-      sum += few < kMany ? few : (*this)[i].count;
+      const std::uint32_t k = position_[i];
+      sum += count_of(place_[k], size_class_[k]);
     }
     return sum;
   }

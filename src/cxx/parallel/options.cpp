@@ -27,11 +27,7 @@ ParallelOptions options_from_environment(std::size_t local_nodes) {
   ParallelOptions options;
   options.partition = partition;
   options.threads = threads_for(local_nodes);
-  // Several patches a thread, so that none waits long for the slowest and a patch fits into the cache.
-  constexpr std::size_t kPatch = 65536, kMost = 2;
-  const auto threads = static_cast<std::size_t>(options.threads);
-  const std::size_t a_thread = std::clamp<std::size_t>(local_nodes / threads / kPatch, 1, kMost);
-  options.patches = options.threads > 1 ? static_cast<int>(threads * a_thread) : 1;
+  options.patches = options.threads;
   return options;
 }
 

@@ -118,6 +118,7 @@ class Triangulator {
       ranks_.set_phase("lists");
       return_rings(stars);
       if (options_.with_neighbours) find_outside(stars);
+      stars.memory.push_back(std::move(position_memory_));
       stars.memory.push_back(std::move(table_memory_));
       stars.memory.push_back(std::move(options_.with_neighbours ? entries_memory_ : workspace_));
       *stars.homes = Homes(std::move(partition_), options_.partition, std::move(first_patch_), places_);
@@ -296,14 +297,11 @@ class Triangulator {
     std::optional<Routes> routes;
     arrived_ = exchange_in_agreement([&] {
       routes.emplace(nodes_.count);
-      table_memory_ = std::make_unique<Workspace>(nodes_.count *
-                                                  (sizeof *position_ + sizeof *place_ + sizeof *size_class_));
-      position_ = table_memory_->keep<std::uint32_t>(nodes_.count);
-      place_ = table_memory_->keep<const Int*>(nodes_.count);
-      size_class_ = table_memory_->keep<std::uint8_t>(nodes_.count);
+      position_memory_ = std::make_unique<Workspace>(nodes_.count * sizeof *position_);
+      position_ = position_memory_->keep<std::uint32_t>(nodes_.count);
       find_routes(*routes);
-      const std::size_t patches = sent_.size();
-      for (std::size_t q = 0; q < patches; ++q) sent_begin_[q + 1] = sent_begin_[q] + sent_[q].own;
+      for (std::size_t q = 0; q < sent_.size(); ++q)
+        away_begin_[q + 1] = away_begin_[q] + (rank_of(static_cast<int>(q)) == me_ ? 0 : sent_[q].own);
       return parcels_for_others(*routes);
     });
     in_agreement([&] { place_nodes(*routes); });
@@ -315,7 +313,7 @@ class Triangulator {
     routes.halo.resize(pieces);
     routes.count.assign(pieces, std::vector<Count>(patches));
     sent_.assign(patches, {});
-    sent_begin_.assign(patches + 1, 0);
+    away_begin_.assign(patches + 1, 0);
     if (patches == 1) {
       sent_[0].own = routes.count[0][0].own = nodes_.count;
       return;
@@ -373,6 +371,9 @@ class Triangulator {
     const std::size_t first_here = static_cast<std::size_t>(first_patch_[me_]),
                       count_here = static_cast<std::size_t>(patches_here());
     const auto is_wanted = [=](std::size_t q) { return (q - first_here < count_here) == here; };
+    std::vector<std::size_t> table(patches);  // where the ring of a patch's record 0 would be in the table
+    for (std::size_t q = 0; q < patches; ++q)
+      if (is_wanted(q)) table[q] = here ? own_begin_[q - first_here] : away_begin_[q] - begin[q].own;
     parallel_pieces(nodes_.count, options_.threads, [&](std::size_t first, std::size_t last, int piece) {
       auto& place = next[static_cast<std::size_t>(piece)];
       for (std::size_t i = first; i < last; ++i) {
@@ -380,7 +381,7 @@ class Triangulator {
         if (!is_wanted(q)) continue;
         const std::size_t at = place[q].own++;
         base[q][at] = record(i);
-        position_[i] = static_cast<std::uint32_t>(sent_begin_[q] + (at - begin[q].own));
+        position_[i] = static_cast<std::uint32_t>(table[q] + at);
       }
       for (const auto& h : routes.halo[static_cast<std::size_t>(piece)])
         if (is_wanted(h.patch)) base[h.patch][place[h.patch].halo++] = record(h.node);
@@ -435,7 +436,7 @@ class Triangulator {
       for (std::size_t k = 0; k < patches_.size(); ++k)
         segments[k][r] = {reader.array<Record>(counts[k].own + counts[k].halo), counts[k]};
     }
-    std::size_t records = 0;
+    std::size_t records = 0, rings = away_begin_.back();
     std::vector<Count> total(patches_.size());
     for (std::size_t k = 0; k < patches_.size(); ++k) {
       segments[k][me_].count = sent_[static_cast<std::size_t>(patches_[k].id())];
@@ -444,9 +445,14 @@ class Triangulator {
         from.push_back(from.back() + s.count.own);
         total[k].own += s.count.own, total[k].halo += s.count.halo;
       }
+      own_begin_.push_back(rings);
+      rings += total[k].own;
       records += total[k].own + total[k].halo;
       cost_.halo += static_cast<std::int64_t>(total[k].halo);
     }
+    table_memory_ = std::make_unique<Workspace>(rings * (sizeof *place_ + sizeof *size_class_));
+    place_ = table_memory_->keep<const Int*>(rings);
+    size_class_ = table_memory_->keep<std::uint8_t>(rings);
     records_memory_ = std::make_unique<Workspace>(records * sizeof(Record));
     Record* at = records_memory_->keep<Record>(records);
     std::vector<Count> begin(sent_.size());
@@ -631,14 +637,15 @@ class Triangulator {
   void return_rings(Stars<Int>& stars) {
     stars.received = exchange_in_agreement([&] {
       stars.homes = std::make_unique<Homes>();
-      stars.memory.reserve(2);  // what run() moves there must not fail
-      return rings_for_others(write_rings(stars));
+      stars.memory.reserve(3);  // what run() moves there must not fail
+      write_rings(stars);
+      return rings_for_others();
     });
     for (std::size_t r = 0; r < size_; ++r) {
       if (r == me_) continue;
       auto* at = reinterpret_cast<const Int*>(stars.received.bytes.data() + stars.received.begin[r]);
-      for (std::size_t k = sent_begin_[static_cast<std::size_t>(first_patch_[r])];
-           k < sent_begin_[static_cast<std::size_t>(first_patch_[r + 1])]; ++k) {
+      for (std::size_t k = away_begin_[static_cast<std::size_t>(first_patch_[r])];
+           k < away_begin_[static_cast<std::size_t>(first_patch_[r + 1])]; ++k) {
         keep_ring(k, at, static_cast<std::uint32_t>(*at));
         at += 1 + *at;
       }
@@ -651,8 +658,7 @@ class Triangulator {
     size_class_[position] = RingTable<Int>::size_class_of(count);
   }
 
-  /// The rings of this rank's nodes; returned, for each patch, are those of the others.
-  std::vector<BlockArray<const Int*>> write_rings(Stars<Int>& stars) {
+  void write_rings(Stars<Int>& stars) {
     std::vector<std::size_t> begin(patches_.size() + 1, 0);
     for_patches([&](Patch<Int>& patch, std::size_t k) { begin[k + 1] = patch.finish() + 2 * kBlock; });
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
@@ -661,7 +667,6 @@ class Triangulator {
       entries_memory_ = std::make_unique<Workspace>(begin.back() * sizeof(Int));
       own_room = entries_memory_->keep<Int>(begin.back());
     }
-    std::vector<BlockArray<const Int*>> others(patches_.size());
     stars.more_memory.resize(patches_.size());
     for_patches([&](Patch<Int>& patch, std::size_t k) {
       const std::size_t entries = begin[k + 1] - begin[k];
@@ -671,53 +676,42 @@ class Triangulator {
         stars.more_memory[k] = Buffer<Int>(entries);
         out = stars.more_memory[k].data();
       }
-      const std::size_t first = own_from_[k][me_], count = own_from_[k][me_ + 1] - first;
-      const std::size_t mine = sent_begin_[static_cast<std::size_t>(patch.id())];
-      if (count < patch.own()) others[k] = BlockArray<const Int*>(patch.own());
       patch.write_rings(
           out,
-          [&](std::size_t i, const Int* ring, std::uint32_t n) {
-            if (i - first < count)
-              keep_ring(mine + (i - first), ring, n);
-            else
-              others[k][i] = ring;
-          },
-          [&](std::size_t i) { __builtin_prefetch(place_ + mine + (i - first), 1); });
+          [&](std::size_t i, const Int* ring, std::uint32_t n) { keep_ring(own_begin_[k] + i, ring, n); },
+          [&](std::size_t i) { __builtin_prefetch(place_ + own_begin_[k] + i, 1); });
     });
-    return others;
   }
 
   /// For each rank the rings of the nodes that it brought, patch by patch.
-  Parcels rings_for_others(const std::vector<BlockArray<const Int*>>& others) const {
+  Parcels rings_for_others() const {
     Parcels parcels;
     parcels.begin.push_back(0);
-    constexpr std::size_t kAhead = 16;  // they lie in the order of the hulls
-    const auto for_each_ring_of = [&](std::size_t r, const auto& visit) {
+    const auto for_each_run_of = [&](std::size_t r, const auto& visit) {
       for (std::size_t k = 0; k < patches_.size() && r != me_; ++k)
-        for (std::size_t i = own_from_[k][r]; i < own_from_[k][r + 1]; ++i) {
-          if (i + kAhead < own_from_[k][r + 1]) __builtin_prefetch(others[k][i + kAhead]);
-          visit(others[k][i]);
-        }
+        visit(own_begin_[k] + own_from_[k][r], own_begin_[k] + own_from_[k][r + 1]);
     };
     for (std::size_t r = 0; r < size_; ++r) {
-      std::size_t bytes = 0;
-      for_each_ring_of(
-          r, [&](const Int* ring) { bytes += (1 + static_cast<std::size_t>(*ring)) * sizeof *ring; });
-      parcels.begin.push_back(parcels.begin.back() + (bytes + 7) / 8 * 8);
+      std::size_t entries = 0;
+      for_each_run_of(r, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+          entries += 1 + RingTable<Int>::count_of(place_[i], size_class_[i]);
+      });
+      parcels.begin.push_back(parcels.begin.back() + (entries * sizeof(Int) + 7) / 8 * 8);
     }
     if (parcels.begin.back() == 0) return parcels;
-    parcels.bytes = Block(parcels.begin.back());
+    parcels.bytes = Block(parcels.begin.back() + kBlock * sizeof(Int));
     for (std::size_t r = 0; r < size_; ++r) {
       auto* at = reinterpret_cast<Int*>(parcels.bytes.data() + parcels.begin[r]);
-      for_each_ring_of(r, [&](const Int* ring) { at = std::copy(ring, ring + 1 + *ring, at); });
+      for_each_run_of(r, [&](std::size_t first, std::size_t last) {
+        constexpr std::size_t kAhead = 16;  // they lie in the order of the hulls
+        for (std::size_t i = first; i < last; ++i) {
+          if (i + kAhead < last) __builtin_prefetch(place_[i + kAhead]);
+          at = copy_kept_ring(place_[i], at);
+        }
+      });
     }
     return parcels;
-  }
-
-  /// Nodes of this rank in its own patches.
-  std::size_t nodes_here() const {
-    return sent_begin_[static_cast<std::size_t>(first_patch_[me_ + 1])] -
-           sent_begin_[static_cast<std::size_t>(first_patch_[me_])];
   }
 
   /// The neighbours of this rank's nodes that it did not bring itself.
@@ -735,7 +729,7 @@ class Triangulator {
       // A patch does not know which nodes this rank brought for other patches; where there are none, it
       // knows all. Those that may be among `all` are marked in a table of some bits of the number first.
       std::vector<std::int64_t> own;
-      if (nodes_here() < nodes_.count || patches_here() > 1) {
+      if (away_begin_.back() > 0 || patches_here() > 1) {
         std::vector<bool> maybe(std::size_t{1} << 10);
         while (maybe.size() < 16 * all.size()) maybe.resize(2 * maybe.size());
         const auto slot = [&](std::int64_t number) {
@@ -768,13 +762,14 @@ class Triangulator {
   std::int64_t least_coincident_ = 0;  ///< 0: no patch has come upon any; agreed on
   bool gave_up_ = false;
 
-  std::vector<Count> sent_;              ///< to each patch
-  std::vector<std::size_t> sent_begin_;  ///< for each patch, how many were sent to those before
-  // Of this rank's nodes: the position among all sent, patch by patch; of those at each position the ring.
-  std::uint32_t* position_ = nullptr;
+  std::vector<Count> sent_;  ///< to each patch
+  // The table of rings: of this rank's nodes in the patches of other ranks, patch by patch, then of all own
+  // nodes of each patch here. away_begin_ is for each patch of all, own_begin_ for each here.
+  std::vector<std::size_t> away_begin_, own_begin_;
   const Int** place_ = nullptr;
   std::uint8_t* size_class_ = nullptr;
-  std::unique_ptr<Workspace> table_memory_, entries_memory_, records_memory_, workspace_;
+  std::uint32_t* position_ = nullptr;  ///< of each of this rank's nodes in the table
+  std::unique_ptr<Workspace> position_memory_, table_memory_, entries_memory_, records_memory_, workspace_;
   Parcels arrived_;
   std::vector<std::vector<std::size_t>> own_from_;  ///< [patch][rank]: its own nodes that the rank brought
 };
