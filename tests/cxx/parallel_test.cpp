@@ -700,4 +700,27 @@ TEST(Partitions, OverRanksAreThoseOfTheTriangulation) {
   }
 }
 
+TEST(Workspace, ArraysBeginWithCacheLinesAndEndInsideIt) {
+  std::vector<unsigned char> memory(4096 + 64);
+  for (std::size_t beyond = 0; beyond < 64; ++beyond) {
+    unsigned char* const begin = memory.data() + beyond;
+    Workspace workspace(begin, 4096);
+    std::vector<std::pair<unsigned char*, std::size_t>> arrays;
+    for (const std::size_t size : {1, 63, 64, 65, 200, 500}) {
+      arrays.emplace_back(workspace.keep<unsigned char>(size), size);
+      arrays.emplace_back(workspace.take<unsigned char>(size), size);
+    }
+    std::sort(arrays.begin(), arrays.end());
+    const unsigned char* end = begin;
+    for (const auto& [array, size] : arrays) {
+      EXPECT_EQ(reinterpret_cast<std::uintptr_t>(array) % 64, 0u);
+      EXPECT_GE(array, end);
+      end = array + size;
+    }
+    EXPECT_LE(end, begin + 4096);
+    EXPECT_THROW(workspace.keep<unsigned char>(2500), std::length_error);
+  }
+  EXPECT_THROW(Workspace(memory.data() + 1, 10).keep<unsigned char>(1), std::length_error);
+}
+
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <new>
@@ -74,8 +75,8 @@ class Workspace {
   static constexpr std::size_t kSlack = 2048;  ///< covers rounding and small extras
 
   explicit Workspace(std::size_t bytes) : Workspace(Block(bytes + kSlack)) {}
-  /// In memory of somebody else, aligned to 16 bytes.
-  Workspace(unsigned char* begin, std::size_t bytes) : begin_(begin), size_(bytes), back_(bytes) {}
+  /// In memory of somebody else.
+  Workspace(unsigned char* begin, std::size_t bytes) : begin_(begin), size_(bytes), back_(bytes) { align(); }
   Workspace(const Workspace&) = delete;
   Workspace& operator=(const Workspace&) = delete;
 
@@ -101,7 +102,8 @@ class Workspace {
   void clear() { front_ = 0, back_ = size_; }
 
  private:
-  static constexpr std::size_t kAlignment = 16;
+  /// A cache line: faces and planes, half as long, must not lie in two.
+  static constexpr std::size_t kAlignment = 64;
   static std::size_t rounded_up(std::size_t bytes) {
     return (bytes + kAlignment - 1) / kAlignment * kAlignment;
   }
@@ -110,7 +112,15 @@ class Workspace {
   }
 
   explicit Workspace(Block block)
-      : block_(std::move(block)), begin_(block_.data()), size_(block_.size()), back_(size_) {}
+      : block_(std::move(block)), begin_(block_.data()), size_(block_.size()), back_(size_) {
+    align();
+  }
+  void align() {
+    const std::size_t beyond = reinterpret_cast<std::uintptr_t>(begin_) % kAlignment;
+    const std::size_t skipped = std::min(size_, (kAlignment - beyond) % kAlignment);
+    begin_ += skipped;
+    back_ = size_ -= skipped;
+  }
 
   Block block_;
   unsigned char* begin_;
