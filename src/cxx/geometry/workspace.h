@@ -35,7 +35,7 @@ class Block {
   Buffer<unsigned char> memory_;
 };
 
-/// Gives those that are kept back to the system; false if there are none.
+/// Gives those that are kept back to the system; false if there are none, or another thread is at them.
 bool free_kept_blocks() noexcept;
 
 /// An array in a block of its own, not initialised.

@@ -1,6 +1,5 @@
 #include "parallel/options.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <cstring>
 

@@ -700,7 +700,7 @@ class Triangulator {
       parcels.begin.push_back(parcels.begin.back() + (entries * sizeof(Int) + 7) / 8 * 8);
     }
     if (parcels.begin.back() == 0) return parcels;
-    parcels.bytes = Block(parcels.begin.back() + kBlock * sizeof(Int));
+    parcels.bytes = Block(parcels.begin.back() + kBlock * sizeof(Int));  // see copy_kept_ring
     for (std::size_t r = 0; r < size_; ++r) {
       auto* at = reinterpret_cast<Int*>(parcels.bytes.data() + parcels.begin[r]);
       for_each_run_of(r, [&](std::size_t first, std::size_t last) {
