@@ -6,7 +6,7 @@
 // sum over the phases of the slowest rank's processor time (each its median over the calls), as if every rank
 // had a processor of its own and messages cost only what sending and receiving takes of the processor.
 // Speed-ups from it are a projection, and the tables say so. Serial is TRMESH on one thread, arrays in and
-// lists out, in the same process.
+// lists out, in the process of rank 0, between the calls of all ranks.
 
 #include <fmt/format.h>
 #include <mpi.h>
@@ -43,52 +43,60 @@ struct Settings {
   int repeats = 5;
 };
 
-struct Columns {
-  explicit Columns(const std::vector<Point>& points) {
-    for (const Point& p : points) x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
-  }
-  std::vector<double> x, y, z;
-};
-
-struct Lists {
-  explicit Lists(std::size_t n) : list(6 * n - 12), lptr(6 * n - 12), lend(n) {}
-  std::vector<std::int32_t> list, lptr, lend;
-  std::int32_t lnew = 0;
-};
-
 double seconds() { return clock_seconds(CLOCK_MONOTONIC); }
 double cpu_seconds() { return clock_seconds(CLOCK_PROCESS_CPUTIME_ID); }
 
 // ---- one run on some ranks: prints one line of names and values on rank 0 -----------------------------
 
-/// Processor seconds of TRMESH on one thread.
-double serial(const std::vector<Point>& points, int repeats) {
-  const Columns c(points);
-  Lists l(points.size());
-  std::vector<double> spent;
-  for (int k = 0; k <= repeats; ++k) {
-    const double start = cpu_seconds();
-    const auto n = static_cast<std::int32_t>(points.size());
-    if (trmesh(n, c.x.data(), c.y.data(), c.z.data(), l.list.data(), l.lptr.data(), l.lend.data(), &l.lnew)
-            .ier != 0)
-      throw std::runtime_error("these nodes cannot be triangulated");
-    if (k > 0 || repeats == 0) spent.push_back(cpu_seconds() - start);
+/// TRMESH on one thread of rank 0, while the other ranks sleep.
+class SerialCall {
+ public:
+  SerialCall(MpiCommunicator& ranks, const std::vector<Point>& points_on_root)
+      : ranks_(ranks), n_(points_on_root.size()) {
+    if (ranks.rank() != 0) return;
+    for (const Point& p : points_on_root) x_.push_back(p.x), y_.push_back(p.y), z_.push_back(p.z);
+    list_.resize(6 * n_ - 12);
+    lptr_.resize(6 * n_ - 12);
+    lend_.resize(n_);
   }
-  return median(spent);
-}
+  /// Processor seconds; 0 on the other ranks. Collective.
+  double operator()() {
+    double spent = 0;
+    if (ranks_.rank() == 0) {
+      const double start = cpu_seconds();
+      std::int32_t lnew = 0;
+      if (trmesh(static_cast<std::int32_t>(n_), x_.data(), y_.data(), z_.data(), list_.data(), lptr_.data(),
+                 lend_.data(), &lnew)
+              .ier != 0)
+        throw std::runtime_error("these nodes cannot be triangulated");
+      spent = cpu_seconds() - start;
+    }
+    MPI_Request all_are_here;
+    MPI_Ibarrier(ranks_.handle(), &all_are_here);
+    for (int done = 0; MPI_Test(&all_are_here, &done, MPI_STATUS_IGNORE), !done;) usleep(1000);
+    return spent;
+  }
+
+ private:
+  MpiCommunicator& ranks_;
+  std::size_t n_;
+  std::vector<double> x_, y_, z_;
+  std::vector<std::int32_t> list_, lptr_, lend_;
+};
 
 struct Call {
-  double wall, root;
+  double serial, wall, root;
   GroupCost cost;
 };
 
 /// The processor time of a rank and phase is its median over the calls, which do the same work: other ranks
 /// that share the processor disturb single calls.
-void print(MpiCommunicator& ranks, std::size_t n, double serial_seconds, const std::vector<Call>& calls) {
+void print(MpiCommunicator& ranks, std::size_t n, const std::vector<Call>& calls) {
   std::vector<ParallelCost> mine;
-  std::vector<double> wall, root;
+  std::vector<double> serial, wall, root;
   for (const Call& call : calls) {
     mine.push_back(call.cost.mine);
+    serial.push_back(call.serial);
     wall.push_back(call.wall);
     root.push_back(call.root);
   }
@@ -110,7 +118,7 @@ void print(MpiCommunicator& ranks, std::size_t n, double serial_seconds, const s
   fmt::print(
       "row n {} ranks {} serial {} wall {} root {} divide {} triangulate {} merge {} lists {} "
       "gather {} mean {} halo {} bytes {} rounds {}\n",
-      n, ranks.size(), serial_seconds, median(wall), median(root), slowest[Phase::divide],
+      n, ranks.size(), median(serial), median(wall), median(root), slowest[Phase::divide],
       slowest[Phase::triangulate], slowest[Phase::merge], slowest[Phase::lists], slowest[Phase::gather],
       triangulate, cost.total.halo, cost.total.bytes_sent, cost.maximum.rounds);
   std::fflush(stdout);
@@ -220,15 +228,20 @@ void run_on_ranks(const Settings& s) {
   {
     DistributedMesh mesh(MPI_COMM_WORLD);
     MpiCommunicator& ranks = mesh.ranks();
-    const bool is_root = ranks.rank() == 0;
     std::vector<Point> points;
-    double serial_seconds = 0;
-    if (is_root) {
-      points = point_sets::make(s.family, s.n, 1);
-      serial_seconds = serial(points, s.repeats);
-    }
+    if (ranks.rank() == 0) points = point_sets::make(s.family, s.n, 1);
     const std::size_t n = points.size();
+    SerialCall serial(ranks, points);
     std::vector<Call> calls;
+    // Each call of all ranks follows a serial one: what slows the machine down slows both. The first of both
+    // do not count.
+    const auto measure = [&](const auto& call) {
+      for (int k = 0; k <= s.repeats; ++k) {
+        const double alone = serial(), start = seconds(), spent = cpu_seconds();
+        const GroupCost cost = call();
+        if (k > 0) calls.push_back({alone, seconds() - start, cpu_seconds() - spent, cost});
+      }
+    };
     if (s.mode == "distributed") {
       std::vector<std::int64_t> numbers(n);
       for (std::size_t i = 0; i < n; ++i) numbers[i] = static_cast<std::int64_t>(i) + 1;
@@ -236,24 +249,22 @@ void run_on_ranks(const Settings& s) {
         mesh.triangulate(static_cast<std::int64_t>(points.size()), &points.data()->x, numbers.data());
         move_home(ranks, mesh, points, numbers);
       }
-      for (int k = 0; k <= s.repeats; ++k) {
+      measure([&] {
         DistributedMesh::Report report;
-        const double start = seconds(), spent = cpu_seconds();
         mesh.triangulate(static_cast<std::int64_t>(points.size()), &points.data()->x, numbers.data(),
                          &report);
-        if (k > 0) calls.push_back({seconds() - start, cpu_seconds() - spent, report.cost});
-      }
+        return report.cost;
+      });
       if (!s.owners.empty()) write_owners(mesh, s);
     } else {
       const PoolCall call(ranks, points, s.mode == "pool");
-      for (int k = 0; k <= s.repeats; ++k) {
+      measure([&] {
         GroupCost cost;
-        const double start = seconds(), spent = cpu_seconds();
         call(&cost);
-        if (k > 0) calls.push_back({seconds() - start, cpu_seconds() - spent, cost});
-      }
+        return cost;
+      });
     }
-    print(ranks, n, serial_seconds, calls);
+    print(ranks, n, calls);
   }
   MPI_Finalize();
 }

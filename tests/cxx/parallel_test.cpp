@@ -587,6 +587,7 @@ TEST(GivingUp, WhereThereAreTooManyQuestions) {
 // ---- the partition ----------------------------------------------------------------------------------
 
 TEST(Partitions, HaloIsWhatIsKnownAndBallsAreJudgedSafely) {
+  std::size_t deep = 0;
   for (const PartitionKind kind :
        {PartitionKind::bisection, PartitionKind::stripes, PartitionKind::stripes_of_width})
     for (const char* family : {"random", "variable:1e6", "clusters", "latlon", "cap"}) {
@@ -604,6 +605,19 @@ TEST(Partitions, HaloIsWhatIsKnownAndBallsAreJudgedSafely) {
                                   ASSERT_FALSE(in_halo[i][static_cast<std::size_t>(q)]) << "twice";
                                   in_halo[i][static_cast<std::size_t>(q)] = true;
                                 });
+        std::vector<std::uint32_t> not_deep(nodes.size());
+        for (int q = 0; q < patches; ++q) {
+          const std::size_t n = partition.not_deep(q, nodes.data(), nodes.size(), not_deep.data());
+          for (std::size_t i = 0, k = 0; i < nodes.size(); ++i) {
+            if (k < n && not_deep[k] == i) {
+              ++k;
+              continue;
+            }
+            ASSERT_EQ(static_cast<int>(owners[i]), q);
+            ASSERT_EQ(std::count(in_halo[i].begin(), in_halo[i].end(), true), 0);
+            ++deep;
+          }
+        }
         for (std::size_t i = 0; i < nodes.size(); i += 7) {
           const Point& x = nodes[i];
           const int owner = partition.owner(x);
@@ -625,6 +639,7 @@ TEST(Partitions, HaloIsWhatIsKnownAndBallsAreJudgedSafely) {
         }
       }
     }
+  EXPECT_GT(deep, 0u);
 }
 
 TEST(Partitions, WhatHoldsForAllTrianglesHoldsForEach) {
@@ -660,6 +675,57 @@ TEST(Partitions, BisectionIsBalancedWhateverTheDensity) {
     for (const Point& x : nodes) ++count[static_cast<std::size_t>(partition.owner(x))];
     EXPECT_LE(*std::max_element(count.begin(), count.end()), 20000 / 13 + 5) << family;
   }
+}
+
+// A sample of 64 nodes a patch leaves some patches with a third more than their share.
+TEST(Partitions, CutsAreMovedToWhereAllNodesAreShared) {
+  constexpr int kPatches = 24;
+  for (const char* family : {"random", "variable:1e6", "clusters", "dense-cap", "cap"}) {
+    const Nodes nodes = point_sets::make(family, 100000, 1);
+    const LocalNodes local{nodes.data(), nodes.size()};
+    std::vector<Record> sample(sample_size(nodes.size(), kPatches));
+    write_share(local, sample.size(), sample.data());
+    Nodes places;
+    for (const Record& r : sample) places.push_back(r.point);
+    const auto most = [&](const Cuts& cuts) {
+      const Partition partition(cuts, places, nodes.size());
+      std::vector<std::size_t> count(kPatches);
+      for (const Point& x : nodes) ++count[static_cast<std::size_t>(partition.owner(x))];
+      return static_cast<double>(*std::max_element(count.begin(), count.end())) * kPatches /
+             static_cast<double>(nodes.size());
+    };
+    Cuts cuts(kPatches, places, places_to_count(local, nodes.size(), kPatches, Places(Lengths::as_given, 0)));
+    for (int level = 0; level < Cuts::levels(kPatches); ++level) {
+      std::vector<std::int64_t> counter(Cuts::counters(kPatches));
+      cuts.cut();
+      cuts.count(counter.data());
+      cuts.move(counter.data());
+    }
+    EXPECT_GT(most(Cuts::of_sample(kPatches, places)), 1.15) << family;
+    EXPECT_LT(most(cuts), 1.02) << family;
+  }
+}
+
+// All heights the same, fewer places than patches, nothing counted: the cuts stay where they are.
+TEST(Partitions, CutsOfHardlyAnything) {
+  for (const std::size_t n : {0, 1, 2, 30}) {
+    const Nodes places(n, {0.6, 0.8, 0});
+    const Cuts at_medians = Cuts::of_sample(5, places);
+    for (const Nodes& counted : {Nodes(), places}) {
+      Cuts cuts(5, places, counted);
+      for (int level = 0; level < Cuts::levels(5); ++level) {
+        std::vector<std::int64_t> counter(Cuts::counters(5));
+        cuts.cut();
+        cuts.count(counter.data());
+        cuts.move(counter.data());
+      }
+      ASSERT_EQ(cuts.all().size(), 4u);
+      for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(cuts.all()[k].height, at_medians.all()[k].height);
+      EXPECT_EQ(Partition(cuts, places, n).patches(), 5);
+    }
+  }
+  EXPECT_EQ(Cuts::levels(1), 0);
+  EXPECT_TRUE(Cuts::of_sample(1, Nodes(7, {1, 0, 0})).all().empty());
 }
 
 // Stripes are cut along z even where their nodes hardly differ in it: differences without a finite inverse.

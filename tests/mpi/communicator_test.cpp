@@ -105,6 +105,21 @@ TEST(Communicator, BroadcastsScattersAndGathers) {
   }
 }
 
+TEST(Communicator, FindsTheSumOfEachValue) {
+  for (const std::size_t limit : {std::size_t{7}, MpiCommunicator::kLongestMessage}) {
+    MpiCommunicator ranks(MPI_COMM_WORLD, limit);
+    for (const std::int64_t count : {0, 1, 3, 2048, 2049, 5000}) {
+      std::vector<std::int64_t> values;
+      for (std::int64_t i = 0; i < count; ++i)
+        values.push_back((ranks.rank() - 1) * i - (std::int64_t{1} << 40));
+      ranks.all_sum(values.data(), values.size());
+      const std::int64_t size = ranks.size(), of_ranks = size * (size - 1) / 2 - size;
+      for (std::int64_t i = 0; i < count; ++i)
+        ASSERT_EQ(values[static_cast<std::size_t>(i)], of_ranks * i - size * (std::int64_t{1} << 40));
+    }
+  }
+}
+
 TEST(Communicator, FindsTheSmallestOfEachValue) {
   MpiCommunicator ranks(MPI_COMM_WORLD);
   std::int64_t values[] = {ranks.rank() + 5, -ranks.rank(), INT64_MAX, INT64_MIN + ranks.rank()};

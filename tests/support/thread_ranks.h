@@ -65,6 +65,15 @@ class ThreadRanks {
       });
     }
 
+    void all_sum(std::int64_t* values, std::size_t count) override {
+      const std::vector<std::int64_t> mine(values, values + count);
+      std::fill(values, values + count, 0);
+      group_.meet(rank_, mine.data(), [&] {
+        for (const void* other : group_.posted_)
+          for (std::size_t k = 0; k < count; ++k) values[k] += static_cast<const std::int64_t*>(other)[k];
+      });
+    }
+
     pstripack::Parcels all_gather(const void* bytes, std::size_t size) override {
       const std::pair<const void*, std::size_t> mine(bytes, size);
       return collect(&mine, [](const void* other) {

@@ -118,6 +118,7 @@ class Builder final : public GrowingHull {
     nodes_[v] = p;
     predicates_.extend(nodes_, n_ + 1);
     const std::size_t before = coincident_.size();
+    start_near(predicates_.position(v));
     insert(v);
     if (coincident_.size() == before) return static_cast<std::uint32_t>(n_++);
     const std::uint32_t in = coincident_.back().first;
@@ -367,6 +368,25 @@ class Builder final : public GrowingHull {
     if (seen == kNone) return;  // coincides with a node that is in
     replace_seen_by_fan(
         v, seen, [&](std::uint32_t t, const Spoke& to_corner) { return sees_closely(v, t, to_corner); });
+  }
+
+  /// Lets the next search start at the nearest of some nodes: that of the last may have ended far away, and
+  /// each face on the way is one that no cache holds (Muecke, Saias & Zhu 1999, jump and walk).
+  void start_near(const Point& p) {
+    if (!coincident_.empty()) return;  // some nodes are not in
+    const auto square_from = [&](std::uint32_t v) {
+      const Point d = minus(predicates_.position(v), p);
+      return dot(d, d);
+    };
+    constexpr std::size_t kLookedAt = 64;
+    const std::size_t step = n_ / kLookedAt + 1;
+    double least = square_from(faces_[last_].vertex[0]);
+    for (std::size_t v = 0; v < n_; v += step) {
+      const double square = square_from(static_cast<std::uint32_t>(v));
+      if (!(square < least)) continue;
+      const std::uint32_t t = face_of(corner_[v]);
+      if (planes_[t].w > 1) least = square, last_ = t;
+    }
   }
 
   /// Walks from the last face towards p by floating-point tests, until a face is certainly seen; kNone

@@ -201,6 +201,27 @@ void MpiCommunicator::all_min(std::int64_t* values, std::size_t count) {
   }
 }
 
+/// Up a binomial tree to rank 0, which tells all.
+void MpiCommunicator::all_sum(std::int64_t* values, std::size_t count) {
+  constexpr std::size_t kTogether = 2048;
+  std::int64_t others[kTogether];
+  for (std::size_t at = 0; at < count; at += kTogether) {
+    std::int64_t* const mine = values + at;
+    const std::size_t n = std::min(kTogether, count - at), bytes = n * sizeof *mine;
+    for (int distance = 1; distance < size_; distance *= 2) {
+      if ((rank_ & distance) != 0) {
+        send_and_receive(mine, bytes, rank_ - distance, nullptr, 0, 0);
+        bytes_sent += static_cast<std::int64_t>(bytes);
+        break;
+      }
+      if (rank_ + distance >= size_) continue;
+      send_and_receive(nullptr, 0, 0, others, bytes, rank_ + distance);
+      for (std::size_t i = 0; i < n; ++i) mine[i] += others[i];
+    }
+    broadcast(mine, bytes, 0);
+  }
+}
+
 const std::int64_t* MpiCommunicator::all_gather_one(std::int64_t value) {
   sizes_[static_cast<std::size_t>(rank_)] = value;
   gather_blocks(sizes_.data(), [](int r) { return static_cast<std::size_t>(r) * sizeof value; });

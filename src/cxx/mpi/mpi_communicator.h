@@ -37,6 +37,7 @@ class MpiCommunicator : public Communicator {
   int rank() const override { return rank_; }
   int size() const override { return size_; }
   void all_min(std::int64_t* values, std::size_t count) override;
+  void all_sum(std::int64_t* values, std::size_t count) override;
   Parcels all_gather(const void* bytes, std::size_t size) override;
   const std::int64_t* all_gather_one(std::int64_t value) override;
   void all_gather_in_place(void* all, const std::vector<std::size_t>& begin) override;

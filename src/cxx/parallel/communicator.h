@@ -36,6 +36,9 @@ class Communicator {
   /// values[i] becomes its smallest value over all ranks; at most 16 values.
   virtual void all_min(std::int64_t* values, std::size_t count) = 0;
 
+  /// values[i] becomes its sum over all ranks. Allocates nothing.
+  virtual void all_sum(std::int64_t* values, std::size_t count) = 0;
+
   /// Every rank gets the bytes of all ranks, in the order of the ranks.
   virtual Parcels all_gather(const void* bytes, std::size_t size) = 0;
   /// The values of all ranks, in their order, until the next call of any member. Allocates nothing.
@@ -64,6 +67,7 @@ class SingleProcess : public Communicator {
   int rank() const override { return 0; }
   int size() const override { return 1; }
   void all_min(std::int64_t*, std::size_t) override {}
+  void all_sum(std::int64_t*, std::size_t) override {}
   Parcels all_gather(const void* bytes, std::size_t size) override;
   const std::int64_t* all_gather_one(std::int64_t value) override {
     value_ = value;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace pstripack {
 namespace {
@@ -15,36 +16,6 @@ constexpr std::size_t kCellSample = 16;
 constexpr double kMarginSpacings = 2.2;
 // What rounding may move a node that lies on a border; also keeps nodes that coincide together.
 constexpr double kLeastMargin = 1e-9;
-
-double component(const Point& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
-
-/// What lies between the k smallest heights, all from low to high, and the others; k > 0. Counts in bins, so
-/// that only those of one bin are compared with each other: no branch of a selection can be guessed.
-double height_between(const std::vector<double>& height, std::size_t k, double low, double high) {
-  constexpr int kBins = 64;
-  constexpr double kTiny = 1e-300;  // its inverse is finite; below, one bin has them all
-  const double scale = high - low > kTiny ? (kBins - 1) / (high - low) : 0;
-  const auto bin_of = [=](double h) { return static_cast<int>((h - low) * scale); };
-  std::array<std::size_t, kBins> count{};
-  for (const double h : height) ++count[bin_of(h)];
-  std::size_t before = 0;
-  int bin = 0;
-  while (before + count[bin] <= k) before += count[bin++];
-  std::vector<double> inside(count[bin] + 1);  // the last one is written, but not kept
-  std::size_t n = 0;
-  for (const double h : height) {
-    inside[n] = h;
-    n += bin_of(h) == bin;
-  }
-  const auto kth = inside.begin() + static_cast<std::ptrdiff_t>(k - before);
-  std::nth_element(inside.begin(), kth, inside.end() - 1);
-  double below = low;
-  for (auto h = inside.begin(); h < kth; ++h) below = std::max(below, *h);
-  if (k == before)
-    for (const double h : height)
-      if (bin_of(h) < bin) below = std::max(below, h);
-  return 0.5 * (below + *kth);
-}
 
 double longitude(const Point& p) {
   const double phi = std::atan2(p.y, p.x);
@@ -61,11 +32,13 @@ class Partition::Builder {
   Builder(Partition& partition, std::vector<Point>& sample, std::size_t nodes)
       : partition_(partition),
         sample_(sample),
-        others_(sample.size()),
+        halves_(sample.size()),
         nodes_a_sample_(sample.empty() ? 1
                                        : static_cast<double>(nodes) / static_cast<double>(sample.size())) {}
 
-  void bisect(int patches) { bisect(sample_.data(), sample_.size(), 0, patches, {}, kEverything); }
+  void bisect(const Cuts& cuts) {
+    bisect(cuts, cuts.all().empty() ? -1 : 0, sample_.data(), sample_.size(), 0, {}, kEverything);
+  }
 
   /// Borders between stripes: stripe k is [border[k], border[k+1]), all in [0, 2 pi), cyclic.
   void stripe(std::vector<double> border) {
@@ -157,33 +130,41 @@ class Partition::Builder {
     return finish(cell);
   }
 
-  /// Boxes for `patches` patches from `first_patch` on. box: the planes around it.
-  std::int32_t bisect(Point* p, std::size_t n, int first_patch, int patches, const Piece& box,
-                      double margin) {
-    if (patches == 1) {
-      partition_.regions_[first_patch].pieces = {box};
-      partition_.regions_[first_patch].root = static_cast<std::int32_t>(partition_.cells_.size());
+  /// Boxes for the patches from `first_patch` on that cut k divides. box: the planes around it.
+  std::int32_t bisect(const Cuts& cuts, std::int32_t k, Point* p, std::size_t n, int first_patch,
+                      const Piece& box, double margin) {
+    if (k < 0) {
+      Region& region = partition_.regions_[first_patch];
+      region.pieces = {box};
+      region.root = static_cast<std::int32_t>(partition_.cells_.size());
+      region.is_box = true;
+      for (const Plane& p : box.planes) {
+        const int axis = axis_of(p);
+        if (p.x + p.y + p.z > 0)
+          region.low[axis] = p.d;
+        else
+          region.high[axis] = -p.d;
+      }
       return cells_of_patch(p, n, first_patch, margin, false);
     }
-    const Extent extent = extent_of(p, n);
-    const int below = patches / 2;
-    const Plane split = split_at(p, n, n * below / patches, extent.longest(), extent);
+    const Cuts::Cut& cut = cuts.all()[k];
+    const Plane split = across(cut.axis, cut.height);
     const std::int32_t cell = new_cell(split);
+    const double here = margin_of(Extent(p, n), n, margin);
     Point* const middle = separate(p, p + n, split);
     const auto m = static_cast<std::size_t>(middle - p);
-    const double here = margin_of(extent, n, margin);
-    link(cell, 0, bisect(p, m, first_patch, below, with(box, opposite(split)), here));
-    link(cell, 1, bisect(middle, n - m, first_patch + below, patches - below, with(box, split), here));
+    link(cell, 0, bisect(cuts, cut.child[0], p, m, first_patch, with(box, opposite(split)), here));
+    link(cell, 1, bisect(cuts, cut.child[1], middle, n - m, first_patch + cut.below, with(box, split), here));
     return finish(cell);
   }
 
   /// The cells of one patch. Stripes are bisected along their length only.
   std::int32_t cells_of_patch(Point* p, std::size_t n, int patch, double margin, bool along_z) {
-    const Extent extent = extent_of(p, n);
+    const Extent extent(p, n);
     margin = margin_of(extent, n, margin);
     const int axis = along_z ? 2 : extent.longest();
     if (n > kCellSample && extent.length(axis) > 0) {
-      const Plane split = split_at(p, n, n / 2, axis, extent);
+      const Plane split = across(axis, middle_height(p, n, axis, extent));
       Point* const middle = separate(p, p + n, split);
       const auto m = static_cast<std::size_t>(middle - p);
       if (m > 0 && m < n) {
@@ -202,29 +183,6 @@ class Partition::Builder {
     return leaf;
   }
 
-  struct Extent {
-    double low[3] = {4, 4, 4}, high[3] = {-4, -4, -4};
-    double length(int axis) const { return high[axis] - low[axis]; }
-    /// Of lengths that hardly differ the first, so that the cuts of nodes that move stay where they are.
-    int longest() const {
-      constexpr double kClearly = 1.1;
-      const int axis = length(1) > kClearly * length(0) ? 1 : 0;
-      return length(2) > kClearly * length(axis) ? 2 : axis;
-    }
-    double diagonal() const {
-      return std::sqrt(length(0) * length(0) + length(1) * length(1) + length(2) * length(2));
-    }
-  };
-  static Extent extent_of(const Point* p, std::size_t n) {
-    Extent e;
-    for (std::size_t i = 0; i < n; ++i)
-      for (int axis = 0; axis < 3; ++axis) {
-        e.low[axis] = std::min(e.low[axis], component(p[i], axis));
-        e.high[axis] = std::max(e.high[axis], component(p[i], axis));
-      }
-    return e;
-  }
-
   /// From the size of a cell and the nodes that it stands for; that of the cell around it where its own
   /// sample is too small to tell.
   double margin_of(const Extent& extent, std::size_t n, double of_parent) const {
@@ -233,30 +191,18 @@ class Partition::Builder {
     return std::max(kMarginSpacings * spacing, kLeastMargin);
   }
 
-  /// A plane across `axis` with k of the n points below, if no two are at the same height.
-  Plane split_at(const Point* p, std::size_t n, std::size_t k, int axis, const Extent& extent) {
-    double d = extent.low[axis];
-    if (k > 0) {
-      height_.resize(n);
-      for (std::size_t i = 0; i < n; ++i) height_[i] = component(p[i], axis);
-      d = height_between(height_, k, extent.low[axis], extent.high[axis]);
-    }
-    return {axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0, n > 0 ? d : 0};
+  static Plane across(int axis, double height) {
+    return {axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0, height};
   }
 
-  /// Those below the plane first, in the order they had; returns the first of the others. Writes both ways
-  /// and goes on in one: no branch.
+  /// Between the lower and the upper half of n > 1 points, if no two are at the same height.
+  double middle_height(const Point* p, std::size_t n, int axis, const Extent& extent) {
+    const std::vector<double> height = halves_.heights(p, n, n / 2 - 1, n / 2 + 1, axis, extent);
+    return 0.5 * (height[0] + height[1]);
+  }
+
   Point* separate(Point* first, Point* last, const Plane& plane) {
-    Point *below = first, *others = others_.data();
-    for (Point* p = first; p < last; ++p) {
-      const Point q = *p;
-      const bool is_inside = product(plane, q) >= plane.d;
-      *below = *others = q;
-      below += !is_inside;
-      others += is_inside;
-    }
-    std::copy(others_.data(), others, below);
-    return below;
+    return halves_.separate(first, last, [&](const Point& x) { return product(plane, x) >= plane.d; });
   }
 
   /// The box cut by one more plane; of parallel planes only the innermost stays.
@@ -272,19 +218,27 @@ class Partition::Builder {
 
   Partition& partition_;
   std::vector<Point>& sample_;
-  std::vector<Point> others_;   // of separate()
-  std::vector<double> height_;  // of split_at()
+  Halves halves_;
   double nodes_a_sample_;
 };
 
+Partition::Partition(const Cuts& cuts, std::vector<Point> sample, std::size_t nodes)
+    : Partition(static_cast<int>(cuts.all().size()) + 1) {
+  Builder(*this, sample, nodes).bisect(cuts);
+  copy_top(0, 0);
+  for (int q = 0; q < patches(); ++q) find_beside(q);
+}
+
+Partition::Partition(int patches)
+    : regions_(static_cast<std::size_t>(patches)), largest_margin_(static_cast<std::size_t>(patches)) {}
+
 Partition::Partition(PartitionKind kind, int patches, std::vector<Point> sample, std::size_t nodes)
-    : regions_(static_cast<std::size_t>(patches)), largest_margin_(static_cast<std::size_t>(patches)) {
-  Builder builder(*this, sample, nodes);
+    : Partition(patches) {
   if (kind == PartitionKind::bisection) {
-    builder.bisect(patches);
-    copy_top(0, 0);
+    *this = Partition(Cuts::of_sample(patches, sample), sample, nodes);
     return;
   }
+  Builder builder(*this, sample, nodes);
   std::vector<double> phi;
   for (const Point& p : sample) phi.push_back(longitude(p));
   std::sort(phi.begin(), phi.end());
@@ -331,6 +285,23 @@ void Partition::owners(const Point* x, std::size_t n, std::uint32_t* owner, doub
   for (std::size_t i = 0; i < n; ++i) owner[i] = static_cast<std::uint32_t>(top_[owner[i]].patch);
 }
 
+std::size_t Partition::not_deep(int patch, const Point* x, std::size_t n, std::uint32_t* which) const {
+  const Region& region = regions_[patch];
+  if (!region.is_box) {
+    std::iota(which, which + n, 0);
+    return n;
+  }
+  const double deep = largest_margin_[patch];
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double depth = std::min({x[i].x - region.low[0], region.high[0] - x[i].x, x[i].y - region.low[1],
+                                   region.high[1] - x[i].y, x[i].z - region.low[2], region.high[2] - x[i].z});
+    which[count] = static_cast<std::uint32_t>(i);
+    count += !(depth > deep);
+  }
+  return count;
+}
+
 /// Appends the cell and those below it down to cells of one patch.
 void Partition::copy_top(std::int32_t cell, int depth) {
   const auto k = static_cast<std::int32_t>(top_.size());
@@ -347,8 +318,12 @@ void Partition::copy_top(std::int32_t cell, int depth) {
 // ---- asking it --------------------------------------------------------------------------------------
 
 double Partition::distance(int patch, const Point& x) const {
+  const Region& region = regions_[patch];
+  if (region.is_box)
+    return std::max({-4.0, region.low[0] - x.x, x.x - region.high[0], region.low[1] - x.y,
+                     x.y - region.high[1], region.low[2] - x.z, x.z - region.high[2]});
   double nearest = 2 * kEverything;  // of a stripe without width
-  for (const Piece& piece : regions_[patch].pieces) {
+  for (const Piece& piece : region.pieces) {
     double s = -4;
     for (const Plane& p : piece.planes) s = std::max(s, p.d - product(p, x));
     nearest = std::min(nearest, s);
@@ -393,6 +368,23 @@ bool Partition::holds_all(int patch, double stretch) const {
   for (const Plane& p : region.pieces[0].planes)
     if (p.d < 0 && stretch * (p.d - kRounding) < p.d - smallest_margin_) return false;
   return true;
+}
+
+void Partition::find_beside(int patch) {
+  Region& region = regions_[patch];
+  const double margin = largest_margin_[patch];
+  std::vector<std::int32_t> stack{0};
+  while (!stack.empty()) {
+    const Cell& c = cells_[stack.back()];
+    stack.pop_back();
+    if (c.patch >= 0) {
+      if (c.patch != patch) region.beside.push_back(c.patch);
+      continue;
+    }
+    const int axis = axis_of(c.split);
+    if (region.high[axis] + margin >= c.split.d) stack.push_back(c.child[1]);
+    if (region.low[axis] - margin <= c.split.d) stack.push_back(c.child[0]);
+  }
 }
 
 void Partition::near(const Point& x, double radius, std::vector<int>& patches) const {

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "geometry/point.h"
+#include "parallel/cuts.h"
 
 namespace pstripack {
 
@@ -35,6 +36,8 @@ class Partition {
  public:
   /// Patches 0..patches-1 for `nodes` nodes of which `sample` is a sample: vectors of about length 1.
   Partition(PartitionKind kind, int patches, std::vector<Point> sample, std::size_t nodes);
+  /// Bisection by these cuts.
+  Partition(const Cuts& cuts, std::vector<Point> sample, std::size_t nodes);
 
   int patches() const { return static_cast<int>(regions_.size()); }
 
@@ -47,6 +50,10 @@ class Partition {
     while (cells_[k].patch < 0) k = cells_[k].child[is_beyond(cells_[k], x)];
     return cells_[k].patch;
   }
+
+  /// Which of n places may be another patch's own or in its halo: writes their indices, from the lowest on,
+  /// and returns how many there are. The others are deep in this patch.
+  std::size_t not_deep(int patch, const Point* x, std::size_t n, std::uint32_t* which) const;
 
   /// A lower bound of the distance of x from the patch; 0 or less inside. Changes by no more than x does.
   double distance(int patch, const Point& x) const;
@@ -64,9 +71,12 @@ class Partition {
       for (std::size_t j = 0; j < candidates; ++j) {
         const std::size_t i = candidate[j];
         if (nearest_plane[i] > margin[j]) continue;
-        patches.clear();
-        near(x[i], margin[j], patches);
-        for (const int q : patches)
+        const Region& region = regions_[owner[i]];
+        if (!region.is_box) {
+          patches.clear();
+          near(x[i], margin[j], patches);
+        }
+        for (const int q : region.is_box ? region.beside : patches)
           if (q != static_cast<int>(owner[i]) && distance(q, x[i]) <= margin[j]) visit(i, q);
       }
       candidates = 0;
@@ -105,7 +115,10 @@ class Partition {
   struct Region {
     std::vector<Piece> pieces;
     std::int32_t root = 0;  // of the tree, or of all its cells
-    bool is_cone = false;   // convex, and a set of directions
+    bool is_box = false;    // between these heights across x, y and z
+    double low[3] = {-8, -8, -8}, high[3] = {8, 8, 8};
+    std::vector<int> beside;  // of a box: patches that may have nodes of this one in their halo
+    bool is_cone = false;     // convex, and a set of directions
   };
   /// A node of the tree.
   struct Cell {
@@ -119,6 +132,8 @@ class Partition {
   static constexpr std::size_t kTogether = 16;
 
   static double product(const Plane& p, const Point& x) { return p.x * x.x + p.y * x.y + p.z * x.z; }
+  /// Of a plane across one of them.
+  static int axis_of(const Plane& p) { return p.x != 0 ? 0 : p.y != 0 ? 1 : 2; }
   static bool is_beyond(const Cell& cell, const Point& x) { return product(cell.split, x) >= cell.split.d; }
 
   /// The margin of the cell of x.
@@ -140,7 +155,9 @@ class Partition {
     std::int32_t patch;
   };
   void copy_top(std::int32_t cell, int depth);
+  void find_beside(int patch);
 
+  explicit Partition(int patches);
   class Builder;
   std::vector<Top> top_;
   int top_depth_ = 0;

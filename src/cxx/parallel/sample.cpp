@@ -7,6 +7,8 @@
 
 namespace pstripack {
 
+constexpr std::size_t kAhead = 16;  // to be fetched, far apart in memory as they are
+
 std::size_t sample_size(std::size_t nodes, std::size_t patches) {
   return std::min(nodes, std::max(64 * patches, std::clamp<std::size_t>(nodes / 64, 256, 4096)));
 }
@@ -16,25 +18,61 @@ std::size_t share_of_sample(std::size_t of_rank, std::size_t wanted, std::size_t
 }
 
 void write_share(const LocalNodes& mine, std::size_t share, Record* sample) {
-  for (std::size_t k = 0; k < share; ++k) {
+  const auto node = [&](std::size_t k) {
     const std::size_t begin = mine.count * k / share, end = mine.count * (k + 1) / share;
-    const std::size_t i = begin + scattered(k + 0x9e3779b97f4a7c15u) % (end - begin);
+    return begin + scattered(k + 0x9e3779b97f4a7c15u) % (end - begin);
+  };
+  for (std::size_t k = 0; k < share; ++k) {
+    if (k + kAhead < share) __builtin_prefetch(mine.points + node(k + kAhead));
+    const std::size_t i = node(k);
     sample[k] = {mine.points[i], mine.number(i)};
   }
 }
 
+std::vector<Point> places_to_count(const LocalNodes& mine, std::size_t nodes, std::size_t patches,
+                                   const Places& places) {
+  constexpr std::size_t kEnough = 8192;  // of a patch, to share them as equally as one can tell
+  const std::size_t step = nodes / (kEnough * patches) + 1;
+  std::vector<Point> counted;
+  counted.reserve(mine.count / step + 1);
+  const auto node = [&](std::size_t first) {
+    return first + ((scattered(first) >> 32) * std::min(step, mine.count - first) >> 32);
+  };
+  for (std::size_t first = 0; first < mine.count; first += step) {
+    if (first + kAhead * step < mine.count) __builtin_prefetch(mine.points + node(first + kAhead * step));
+    counted.push_back(places(mine.points[node(first)]));
+  }
+  return counted;
+}
+
 Partition partition_over_ranks(PartitionKind kind, int ranks, const std::vector<Point>& nodes) {
   const std::size_t n = nodes.size(), size = static_cast<std::size_t>(ranks), wanted = sample_size(n, size);
+  const auto nodes_of = [&](std::size_t r) {
+    const std::size_t first = slice_begin(n, r, size);
+    return LocalNodes{nodes.data() + first, slice_begin(n, r + 1, size) - first};
+  };
   std::vector<Record> sample;
   for (std::size_t r = 0; r < size; ++r) {
-    const std::size_t first = slice_begin(n, r, size), last = slice_begin(n, r + 1, size);
-    const std::size_t share = share_of_sample(last - first, wanted, n);
+    const std::size_t share = share_of_sample(nodes_of(r).count, wanted, n);
     sample.resize(sample.size() + share);
-    write_share({nodes.data() + first, last - first}, share, sample.data() + sample.size() - share);
+    write_share(nodes_of(r), share, sample.data() + sample.size() - share);
   }
   std::vector<Point> points;
   for (const Record& record : sample) points.push_back(record.point);
-  return Partition(kind, ranks, points, n);
+  if (kind != PartitionKind::bisection) return Partition(kind, ranks, points, n);
+  std::vector<Point> counted;
+  for (std::size_t r = 0; r < size; ++r) {
+    const std::vector<Point> of_rank = places_to_count(nodes_of(r), n, size, Places(Lengths::as_given, 0));
+    counted.insert(counted.end(), of_rank.begin(), of_rank.end());
+  }
+  Cuts cuts(ranks, points, std::move(counted));
+  for (int level = 0; level < Cuts::levels(ranks); ++level) {
+    std::vector<std::int64_t> counter(Cuts::counters(ranks));
+    cuts.cut();
+    cuts.count(counter.data());
+    cuts.move(counter.data());
+  }
+  return Partition(cuts, points, n);
 }
 
 }  // namespace pstripack

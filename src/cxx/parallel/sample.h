@@ -7,6 +7,7 @@
 
 #include "parallel/local_nodes.h"
 #include "parallel/partition.h"
+#include "parallel/places.h"
 #include "parallel/record.h"
 
 namespace pstripack {
@@ -19,6 +20,11 @@ std::size_t share_of_sample(std::size_t of_rank, std::size_t wanted, std::size_t
 
 /// Writes a node in each of `share` runs of this rank's nodes.
 void write_share(const LocalNodes& mine, std::size_t share, Record* sample);
+
+/// The places of those nodes of this rank that the cuts between patches are moved by: on every rank the same
+/// share.
+std::vector<Point> places_to_count(const LocalNodes& mine, std::size_t nodes, std::size_t patches,
+                                   const Places& places);
 
 /// How `ranks` ranks of one patch each share these nodes (of about length 1) if each has brought its slice
 /// of them, as in pool and comm mode.

@@ -232,16 +232,12 @@ class Triangulator {
                   sample.data() + begin[me_] / sizeof(Record));
     });
     ranks_.all_gather_in_place(sample.data(), begin);
+    if (keeps_patches)
+      partition_ = options_.last->partition();
+    else
+      cut_anew(sample, nodes);
     in_agreement([&] {
       const int patches = first_patch_.back();
-      if (keeps_patches) {
-        partition_ = options_.last->partition();
-      } else {
-        std::vector<Point> places;
-        places.reserve(sample.size());
-        for (const Record& r : sample) places.push_back(places_(r.point));
-        partition_ = std::make_shared<Partition>(options_.partition, patches, std::move(places), nodes);
-      }
       choose_closing(sample);
       // Worth it where it spares a look at more triangles than it takes time for.
       constexpr std::size_t kManyInAPatch = 50000;
@@ -249,6 +245,35 @@ class Triangulator {
         most_stretch_ = most_stretch(closing_, places_);
       for (int q = 0; q < patches_here(); ++q)
         patches_.emplace_back(first_patch_[me_] + q, *partition_, places_);
+    });
+  }
+
+  void cut_anew(BlockArray<Record>& sample, std::size_t nodes) {
+    const int patches = first_patch_.back();
+    std::vector<Point> places;
+    std::optional<Cuts> cuts;
+    std::vector<std::int64_t> counter;
+    in_agreement([&] {
+      places.reserve(sample.size());
+      for (const Record& r : sample) places.push_back(places_(r.point));
+      if (options_.partition != PartitionKind::bisection) return;
+      cuts.emplace(patches, places,
+                   places_to_count(nodes_, nodes, static_cast<std::size_t>(patches), places_));
+      counter.resize(Cuts::counters(patches));
+    });
+    // A rank that fails counts nothing from there on, until all come to an agreement.
+    std::int32_t outcome = 0;
+    for (int level = 0; cuts && level < Cuts::levels(patches); ++level) {
+      std::fill(counter.begin(), counter.end(), 0);
+      if (outcome == 0) outcome = outcome_of([&] { cuts->cut(); });
+      if (outcome == 0) cuts->count(counter.data());
+      ranks_.all_sum(counter.data(), counter.size());
+      if (outcome == 0) cuts->move(counter.data());
+    }
+    in_agreement([&] {
+      if (outcome != 0) throw Failure(outcome);
+      partition_ = cuts ? std::make_shared<Partition>(*cuts, std::move(places), nodes)
+                        : std::make_shared<Partition>(options_.partition, patches, std::move(places), nodes);
     });
   }
 
@@ -327,22 +352,34 @@ class Triangulator {
         // Several tallies: the next node's would wait for the one before to be written.
         constexpr std::size_t kTallies = 4;
         std::vector<std::size_t> own(kTallies * patches);
+        // Nodes are often at home, deep in the first patch here. That is sooner told than their owner; only
+        // the others are looked at closely.
+        const auto home = static_cast<std::uint32_t>(first_patch_[me_]);
         constexpr std::size_t kTogether = 256;
         Point place[kTogether];
+        std::uint32_t which[kTogether], its_owner[kTogether];
         double nearest_plane[kTogether];
         for (std::size_t block = first; block < last; block += kTogether) {
-          const std::size_t end = std::min(last, block + kTogether);
+          const std::size_t all = std::min(last - block, kTogether);
           const Point* at = nodes_.points + block;
           if (places_.lengths() != Lengths::as_given) {
-            for (std::size_t i = block; i < end; ++i) place[i - block] = places_(nodes_.points[i]);
+            for (std::size_t i = 0; i < all; ++i) place[i] = places_(at[i]);
             at = place;
           }
           std::uint32_t* const owner = routes.owner + block;
-          partition_->owners(at, end - block, owner, nearest_plane);
-          for (std::size_t i = 0; i < end - block; ++i) ++own[i % kTallies * patches + owner[i]];
-          partition_->for_each_halo(at, end - block, owner, nearest_plane, [&](std::size_t i, int q) {
+          std::fill(owner, owner + all, home);
+          const std::size_t n = partition_->not_deep(static_cast<int>(home), at, all, which);
+          own[home] += all - n;
+          for (std::size_t i = 0; i < n; ++i) place[i] = at[which[i]];
+          partition_->owners(place, n, its_owner, nearest_plane);
+          for (std::size_t i = 0; i < n; ++i) {
+            ++own[i % kTallies * patches + its_owner[i]];
+            owner[which[i]] = its_owner[i];
+          }
+          partition_->for_each_halo(place, n, its_owner, nearest_plane, [&](std::size_t i, int q) {
             ++count[static_cast<std::size_t>(q)].halo;
-            routes.halo[t].push_back({static_cast<std::uint32_t>(block + i), static_cast<std::uint32_t>(q)});
+            routes.halo[t].push_back(
+                {static_cast<std::uint32_t>(block + which[i]), static_cast<std::uint32_t>(q)});
           });
         }
         for (std::size_t k = 0; k < own.size(); ++k) count[k % patches].own += own[k];

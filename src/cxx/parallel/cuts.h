@@ -1,0 +1,112 @@
+#pragma once
+// Where recursive bisection cuts the sphere into boxes with equal numbers of nodes. Level by level: each box
+// is cut at the median of a sample, the same on every rank; then the cut moves to where it should be by what
+// all ranks count near it, of many more nodes.
+//
+//          |    |   | | ||| | |   |    |        Each cut has bins of height around it, between nodes of the
+//     <----+  : | : | | |||:| | | : |  +---->   sample, so that all have about as many nodes. The outermost
+//          |    |   | | ||| | |   |    |        have what lies farther off, too.
+//                        cut
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "geometry/point.h"
+
+namespace pstripack {
+
+inline double component(const Point& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
+
+/// The box around some points.
+struct Extent {
+  Extent(const Point* p, std::size_t n);
+  double low[3] = {4, 4, 4}, high[3] = {-4, -4, -4};
+  double length(int axis) const { return high[axis] - low[axis]; }
+  /// Of lengths that hardly differ the first, so that the cuts of nodes that move stay where they are.
+  int longest() const;
+  double diagonal() const;
+};
+
+/// Cuts points in two, again and again, in place.
+class Halves {
+ public:
+  explicit Halves(std::size_t most_points) : others_(most_points) {}
+
+  /// The heights across `axis` of the points of ranks [first, last) from below, sorted; first < last <= n.
+  std::vector<double> heights(const Point* p, std::size_t n, std::size_t first, std::size_t last, int axis,
+                              const Extent& extent);
+
+  /// Those that are not beyond first, in the order they had; returns the first of the others. Writes both
+  /// ways and goes on in one: no branch.
+  template <class IsBeyond>
+  Point* separate(Point* first, Point* last, const IsBeyond& is_beyond) {
+    Point *below = first, *others = others_.data();
+    for (Point* p = first; p < last; ++p) {
+      const Point q = *p;
+      const bool beyond = is_beyond(q);
+      *below = *others = q;
+      below += !beyond;
+      others += beyond;
+    }
+    std::copy(others_.data(), others, below);
+    return below;
+  }
+
+ private:
+  std::vector<Point> others_;
+  std::vector<double> height_;
+};
+
+/// The cuts between the patches of a bisection, a binary tree.
+class Cuts {
+ public:
+  static constexpr std::size_t kBins = 16, kEdges = kBins - 1;
+  struct Cut {
+    int axis;
+    double height;          ///< what is not lower lies beyond
+    double edge[kEdges];    ///< between the bins, from below
+    int patches, below;     ///< to cut apart, and how many of them lie below
+    std::int32_t child[2];  ///< below and beyond; -1: one patch
+  };
+
+  /// None yet. Vectors of about length 1: the sample is the same on every rank, `counted` are of this rank.
+  Cuts(int patches, std::vector<Point> sample, std::vector<Point> counted);
+  /// All, at the medians of the sample.
+  static Cuts of_sample(int patches, std::vector<Point> sample);
+
+  /// How often to cut.
+  static int levels(int patches);
+  /// Cuts all boxes at the medians of the sample. Throws std::bad_alloc.
+  void cut();
+  /// At most so many counters for the cuts of one level.
+  static std::size_t counters(int patches) { return kBins * (static_cast<std::size_t>(patches) + 1) / 2; }
+  /// Adds the counted nodes to the counters of the cuts of this level.
+  void count(std::int64_t* counter) const;
+  /// Moves them to where there are as many on each side as there should be, by the sums of the counters of
+  /// all ranks; no farther than the outermost edges.
+  void move(const std::int64_t* counter);
+
+  /// The first cut is the root. Empty if there is one patch.
+  const std::vector<Cut>& all() const { return cuts_; }
+
+ private:
+  struct Points {
+    Point *first, *last;
+    std::size_t size() const { return static_cast<std::size_t>(last - first); }
+  };
+  struct Box {
+    Points sample, counted;
+    std::int32_t cut;
+  };
+  void cut(const Points& sample, const Points& counted, int patches);
+
+  const int patches_;
+  std::vector<Point> sample_, counted_;
+  Halves halves_;
+  std::vector<Cut> cuts_;
+  std::vector<Box> boxes_;  ///< of this level
+};
+
+}  // namespace pstripack
