@@ -56,6 +56,16 @@ struct DistributedMesh::Numbering {
   Look look;  ///< at this rank's points
 };
 
+/// Room for three points of each rank, in the order of the ranks; number 0: none.
+struct DistributedMesh::ThreeOfEach {
+  ThreeOfEach() = default;
+  explicit ThreeOfEach(std::size_t ranks) : nodes(3 * ranks, Record{{}, 0}) {
+    for (std::size_t r = 0; r <= ranks; ++r) begin.push_back(3 * r * sizeof(Record));
+  }
+  std::vector<Record> nodes;
+  std::vector<std::size_t> begin;  ///< bytes
+};
+
 void DistributedMesh::clear() {
   error_point_[0] = error_point_[1] = 0;
   is_reported_ = false;
@@ -169,28 +179,21 @@ std::int64_t DistributedMesh::search_repeated(const std::int64_t* number, std::s
 /// Three points that are not on one great circle; false if there are none. Three from each rank are tried
 /// first; only where all of those are on one great circle all points are looked at.
 bool DistributedMesh::find_corners(const Point* points, std::size_t n, const std::int64_t* number,
-                                   Point (&corners)[3], std::int64_t (&numbers)[3]) {
+                                   ThreeOfEach& sample, Point (&corners)[3], std::int64_t (&numbers)[3]) {
   const auto fits = [&](int found, const Point& p) {
     if (found == 1) return !on_one_line(corners[0], p);
     return found == 0 || left(corners[0], corners[1], p) != 0;
   };
 
-  std::vector<Record> sample;  // number 0: none
-  std::vector<std::size_t> begin;
-  agreed(ranks_, [&] {
-    const auto size = static_cast<std::size_t>(ranks_.size());
-    sample.assign(3 * size, Record{{}, 0});
-    for (std::size_t r = 0; r <= size; ++r) begin.push_back(3 * r * sizeof(Record));
-  });
-  Record* const share = sample.data() + 3 * ranks_.rank();
+  Record* const share = sample.nodes.data() + 3 * ranks_.rank();
   const std::size_t sampled = std::min<std::size_t>(n, 3);
   for (std::size_t i = 0; i < sampled; ++i) {
     const std::size_t at = sampled > 1 ? (n - 1) * i / (sampled - 1) : 0;
     share[i] = {points[at], number[at]};
   }
-  ranks_.all_gather_in_place(sample.data(), begin);
+  ranks_.all_gather_in_place(sample.nodes.data(), sample.begin);
   int found = 0;
-  for (const Record& r : sample)
+  for (const Record& r : sample.nodes)
     if (r.number != 0 && found < 3 && fits(found, r.point)) {
       corners[found] = r.point;
       numbers[found++] = r.number;
@@ -219,9 +222,17 @@ std::int32_t DistributedMesh::triangulate_into(Stars<Int>& stars, const Point* p
   const LocalNodes nodes{points, n, number};
   Point corners[3];
   std::int64_t numbers[3];
-  if (!find_corners(points, n, number, corners, numbers)) return kCollinear;
+  ThreeOfEach sample;
   ParallelOptions options;
-  agreed(ranks_, [&] { options = options_from_environment(n); });
+  std::unique_ptr<Workspace> memory;
+  std::int64_t* own_number = nullptr;
+  agreed(ranks_, [&] {
+    sample = ThreeOfEach(static_cast<std::size_t>(ranks_.size()));
+    options = options_from_environment(n);
+    memory = std::make_unique<Workspace>(n * sizeof *number);
+    own_number = memory->keep<std::int64_t>(n);
+  });
+  if (!find_corners(points, n, number, sample, corners, numbers)) return kCollinear;
   options.partition = numbering.partition;
   options.with_neighbours = true;
   options.last = homes_.get();
@@ -236,10 +247,8 @@ std::int32_t DistributedMesh::triangulate_into(Stars<Int>& stars, const Point* p
   }
 
   const PhaseTimer timer(&cost, ParallelCost::lists, &ranks_);
-  agreed(ranks_, [&] {
-    memory_ = std::make_unique<Workspace>(n * sizeof *number);
-    number_ = memory_->keep<std::int64_t>(n);
-  });
+  memory_ = std::move(memory);
+  number_ = own_number;
   std::copy(number, number + n, number_);
   homes_ = std::move(stars.homes);
   count_ = n;

@@ -54,6 +54,7 @@ class DistributedMesh {
 
  private:
   struct Numbering;
+  struct ThreeOfEach;
   std::int32_t triangulate_points(std::int64_t n, const Point* points, const std::int64_t* number,
                                   Report* report, ParallelCost& cost);
   std::int32_t gather_stars(std::int32_t root, std::int32_t* list, std::int32_t* lptr, std::int32_t* lend,
@@ -61,8 +62,8 @@ class DistributedMesh {
   Numbering look_at(std::int64_t n, const Point* points, const std::int64_t* number, std::int64_t wish);
   std::int64_t first_repeated(const std::int64_t* number, std::size_t n, const Numbering& numbering);
   std::int64_t search_repeated(const std::int64_t* number, std::size_t n);
-  bool find_corners(const Point* points, std::size_t n, const std::int64_t* number, Point (&corners)[3],
-                    std::int64_t (&numbers)[3]);
+  bool find_corners(const Point* points, std::size_t n, const std::int64_t* number, ThreeOfEach& sample,
+                    Point (&corners)[3], std::int64_t (&numbers)[3]);
   template <class Int>
   std::int32_t triangulate_into(Stars<Int>& stars, const Point* points, std::size_t n,
                                 const std::int64_t* number, const Numbering& numbering, ParallelCost& cost);

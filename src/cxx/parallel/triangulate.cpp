@@ -110,7 +110,11 @@ class Triangulator {
       ranks_.set_phase("merge");
       stars.coincident = all_coincident();
       if (stars.coincident.empty()) find_boundary();
-      while (stars.coincident.empty() && !gave_up_ && ask_and_learn()) stars.coincident = all_coincident();
+      if (stars.coincident.empty() && !gave_up_) in_agreement([&] { ask(); }, answered_);
+      while (stars.coincident.empty() && !gave_up_ && answered_ < 0) {
+        learn_and_ask();
+        stars.coincident = all_coincident();
+      }
       stars.gave_up = gave_up_;
     }
     if (stars.coincident.empty() && !gave_up_) {
@@ -531,8 +535,9 @@ class Triangulator {
             patch.triangulate(closing_, part);
           });
           count_coincident();
+          look_for_boundary();
         },
-        least_coincident_);
+        least_coincident_, has_own_on_boundary_, surrounding_);
   }
 
   // ---- 3: merge ----
@@ -556,30 +561,28 @@ class Triangulator {
     return pairs;
   }
 
+  /// What the patches here take for the boundary of all nodes.
+  void look_for_boundary() {
+    for (const Patch<Int>& patch : patches_) {
+      const auto outline = patch.outline();
+      if (outline.has_own) has_own_on_boundary_ = -1;
+      if (outline.surrounds_centre) surrounding_ = std::min<std::int64_t>(surrounding_, patch.id());
+      outline_.insert(outline_.end(), outline.nodes.begin(), outline.nodes.end());
+    }
+  }
+
   /// The boundary of all nodes, if any patch has own nodes on what it takes for it. A patch that surrounds
   /// the centre shows that there is none; if no patch does, all nodes lie inside what the patches see.
   void find_boundary() {
-    std::vector<Record> nodes;
-    std::int64_t has_own = 0;              // -1 if some patch has own nodes on it
-    std::int64_t surrounding = INT64_MAX;  // the first patch that surrounds the centre
-    in_agreement(
-        [&] {
-          for (const Patch<Int>& patch : patches_) {
-            const auto outline = patch.outline();
-            if (outline.has_own) has_own = -1;
-            if (outline.surrounds_centre) surrounding = std::min<std::int64_t>(surrounding, patch.id());
-            nodes.insert(nodes.end(), outline.nodes.begin(), outline.nodes.end());
-          }
-        },
-        has_own, surrounding);
+    std::vector<Record> nodes = std::move(outline_);
     gave_up_ = size_ == 1 && nodes.size() > options_.most_questions;
-    if (gave_up_ || has_own == 0) return;
-    const bool there_is_none = surrounding != INT64_MAX;
+    if (gave_up_ || has_own_on_boundary_ == 0) return;
+    const bool there_is_none = surrounding_ != INT64_MAX;
     in_agreement([&] {
       if (!there_is_none) return;
       nodes.clear();
       for (const Patch<Int>& patch : patches_)
-        if (patch.id() == surrounding) nodes = patch.nodes_around_centre();
+        if (patch.id() == surrounding_) nodes = patch.nodes_around_centre();
     });
     const Parcels all = ranks_.all_gather(nodes.data(), nodes.size() * sizeof(Record));
     in_agreement([&] {
@@ -591,34 +594,31 @@ class Triangulator {
     });
   }
 
-  /// One round; false if nobody had a question.
-  bool ask_and_learn() {
-    std::vector<std::vector<Question>> questions;  // to each rank
-    std::int64_t asked = 0;
-    in_agreement(
-        [&] {
-          questions.resize(size_);
-          std::vector<std::vector<Question>> of_patch(patches_.size());
-          for_patches(
-              [&](Patch<Int>& patch, std::size_t k) { patch.ask(boundary_, most_stretch_, of_patch[k]); });
-          for (const auto& list : of_patch)
-            for (const Question& q : list) questions[rank_of(q.to)].push_back(q), --asked;
-        },
-        asked);
-    if (asked == 0) return false;
-    gave_up_ = size_ == 1 && static_cast<std::size_t>(-asked) > options_.most_questions;
-    if (gave_up_) return false;
-    ++cost_.rounds;
+  /// What the patches here want to know.
+  void ask() {
+    questions_.assign(size_, {});
+    answered_ = 0;
+    std::vector<std::vector<Question>> of_patch(patches_.size());
+    for_patches([&](Patch<Int>& patch, std::size_t k) { patch.ask(boundary_, most_stretch_, of_patch[k]); });
+    for (const auto& list : of_patch)
+      for (const Question& q : list) questions_[rank_of(q.to)].push_back(q), --answered_;
+    gave_up_ = size_ == 1 && static_cast<std::size_t>(-answered_) > options_.most_questions;
+  }
 
-    const Parcels incoming = exchange_in_agreement([&] { return parcels(questions); });
+  /// One round: questions, answers, and what is asked next. Patches that came upon nodes which coincide have
+  /// no more questions.
+  void learn_and_ask() {
+    ++cost_.rounds;
+    const Parcels incoming = exchange_in_agreement([&] { return parcels(questions_); });
     const Parcels replies = exchange_in_agreement([&] { return answers(incoming); });
     in_agreement(
         [&] {
-          learn(questions, replies);
+          learn(replies);
           count_coincident();
+          answered_ = 0;
+          if (least_coincident_ == 0) ask();
         },
-        least_coincident_);
-    return true;
+        least_coincident_, answered_);
   }
 
   /// The answers to the questions of each rank, in their order: a count, then nodes.
@@ -650,7 +650,7 @@ class Triangulator {
     return outgoing;
   }
 
-  void learn(const std::vector<std::vector<Question>>& questions, const Parcels& replies) {
+  void learn(const Parcels& replies) {
     struct Answer {
       const Record* nodes;
       std::size_t count;
@@ -658,7 +658,7 @@ class Triangulator {
     std::vector<std::vector<Answer>> of_patch(patches_.size());
     for (std::size_t r = 0; r < size_; ++r) {
       Reader reader(replies.bytes.data() + replies.begin[r]);
-      for (const Question& q : questions[r]) {
+      for (const Question& q : questions_[r]) {
         const auto n = static_cast<std::size_t>(*reader.array<std::int64_t>(1));
         of_patch[static_cast<std::size_t>(q.from - first_patch_[me_])].push_back(
             {reader.array<Record>(n), n});
@@ -795,8 +795,13 @@ class Triangulator {
   std::vector<Record> closing_;                                    ///< nodes from everywhere
   double most_stretch_ = std::numeric_limits<double>::infinity();  ///< of the closing nodes, if computed
   std::vector<Patch<Int>> patches_;                                ///< of this rank
+  std::vector<Record> outline_;                                    ///< of the patches here
+  std::int64_t has_own_on_boundary_ = 0;  ///< -1: some patch has own nodes on its outline; agreed on
+  std::int64_t surrounding_ = INT64_MAX;  ///< the first patch that surrounds the centre; agreed on
   Boundary boundary_;
-  std::int64_t least_coincident_ = 0;  ///< 0: no patch has come upon any; agreed on
+  std::int64_t least_coincident_ = 0;             ///< 0: no patch has come upon any; agreed on
+  std::vector<std::vector<Question>> questions_;  ///< to each rank
+  std::int64_t answered_ = 0;                     ///< less than 0: some rank has questions; agreed on
   bool gave_up_ = false;
 
   std::vector<Count> sent_;  ///< to each patch
