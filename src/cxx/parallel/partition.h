@@ -1,8 +1,9 @@
 #pragma once
 // How the sphere is cut into patches, and what a patch knows of the nodes beyond its border.
 //
-// A partition is a binary tree of planes. Its leaves are cells that hold a few nodes of a sample; every cell
-// belongs to one patch. The same tree on every rank makes the same decisions on every rank.
+// A partition is a binary tree of planes, first those between the patches (cuts.h). Its leaves are cells that
+// hold a few nodes of a sample; every cell belongs to one patch. The same tree on every rank makes the same
+// decisions on every rank.
 //
 //     +-------+-------+      A patch q knows its own nodes and its halo: all nodes x of another cell that are
 //     |   :   |   .   |      no farther from q than that cell's margin, a few distances between nodes there:
@@ -10,7 +11,6 @@
 //     |   :   |   :   |      So the halo is thin where nodes are dense.
 //     +-------+-------+
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>

@@ -110,8 +110,8 @@ class Triangulator {
       ranks_.set_phase("merge");
       stars.coincident = all_coincident();
       if (stars.coincident.empty()) find_boundary();
-      if (stars.coincident.empty() && !gave_up_) in_agreement([&] { ask(); }, answered_);
-      while (stars.coincident.empty() && !gave_up_ && answered_ < 0) {
+      if (stars.coincident.empty() && !gave_up_) in_agreement([&] { ask(); }, asked_);
+      while (stars.coincident.empty() && !gave_up_ && asked_ < 0) {
         learn_and_ask();
         stars.coincident = all_coincident();
       }
@@ -597,12 +597,12 @@ class Triangulator {
   /// What the patches here want to know.
   void ask() {
     questions_.assign(size_, {});
-    answered_ = 0;
+    asked_ = 0;
     std::vector<std::vector<Question>> of_patch(patches_.size());
     for_patches([&](Patch<Int>& patch, std::size_t k) { patch.ask(boundary_, most_stretch_, of_patch[k]); });
     for (const auto& list : of_patch)
-      for (const Question& q : list) questions_[rank_of(q.to)].push_back(q), --answered_;
-    gave_up_ = size_ == 1 && static_cast<std::size_t>(-answered_) > options_.most_questions;
+      for (const Question& q : list) questions_[rank_of(q.to)].push_back(q), --asked_;
+    gave_up_ = size_ == 1 && static_cast<std::size_t>(-asked_) > options_.most_questions;
   }
 
   /// One round: questions, answers, and what is asked next. Patches that came upon nodes which coincide have
@@ -615,10 +615,10 @@ class Triangulator {
         [&] {
           learn(replies);
           count_coincident();
-          answered_ = 0;
+          asked_ = 0;
           if (least_coincident_ == 0) ask();
         },
-        least_coincident_, answered_);
+        least_coincident_, asked_);
   }
 
   /// The answers to the questions of each rank, in their order: a count, then nodes.
@@ -801,7 +801,7 @@ class Triangulator {
   Boundary boundary_;
   std::int64_t least_coincident_ = 0;             ///< 0: no patch has come upon any; agreed on
   std::vector<std::vector<Question>> questions_;  ///< to each rank
-  std::int64_t answered_ = 0;                     ///< less than 0: some rank has questions; agreed on
+  std::int64_t asked_ = 0;                        ///< less than 0: some rank has questions; agreed on
   bool gave_up_ = false;
 
   std::vector<Count> sent_;  ///< to each patch
