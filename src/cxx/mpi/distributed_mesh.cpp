@@ -226,13 +226,16 @@ std::int32_t DistributedMesh::triangulate_into(Stars<Int>& stars, const Point* p
   ParallelOptions options;
   std::unique_ptr<Workspace> memory;
   std::int64_t* own_number = nullptr;
-  agreed(ranks_, [&] {
-    sample = ThreeOfEach(static_cast<std::size_t>(ranks_.size()));
-    options = options_from_environment(n);
-    memory = std::make_unique<Workspace>(n * sizeof *number);
-    own_number = memory->keep<std::int64_t>(n);
-  });
-  if (!find_corners(points, n, number, sample, corners, numbers)) return kCollinear;
+  {
+    const PhaseTimer timer(&cost, ParallelCost::divide, &ranks_);
+    agreed(ranks_, [&] {
+      sample = ThreeOfEach(static_cast<std::size_t>(ranks_.size()));
+      options = options_from_environment(n);
+      memory = std::make_unique<Workspace>(n * sizeof *number);
+      own_number = memory->keep<std::int64_t>(n);
+    });
+    if (!find_corners(points, n, number, sample, corners, numbers)) return kCollinear;
+  }
   options.partition = numbering.partition;
   options.with_neighbours = true;
   options.last = homes_.get();

@@ -66,9 +66,14 @@ Cuts::Cuts(int patches, std::vector<Point> sample, std::vector<Point> counted)
       counted_(std::move(counted)),
       halves_(std::max(sample_.size(), counted_.size())) {}
 
-Cuts Cuts::of_sample(int patches, std::vector<Point> sample) {
-  Cuts cuts(patches, std::move(sample), {});
-  for (int level = 0; level < levels(patches); ++level) cuts.cut();
+Cuts Cuts::of_sample(int patches, std::vector<Point> sample, std::vector<Point> counted) {
+  Cuts cuts(patches, std::move(sample), std::move(counted));
+  for (int level = 0; level < levels(patches); ++level) {
+    std::vector<std::int64_t> counter(counters(patches));
+    cuts.cut();
+    cuts.count(counter.data());
+    cuts.move(counter.data());
+  }
   return cuts;
 }
 

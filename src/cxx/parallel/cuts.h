@@ -73,8 +73,9 @@ class Cuts {
 
   /// None yet. Vectors of about length 1: the sample is the same on every rank, `counted` are of this rank.
   Cuts(int patches, std::vector<Point> sample, std::vector<Point> counted);
-  /// All, at the medians of the sample.
-  static Cuts of_sample(int patches, std::vector<Point> sample);
+  Cuts(Cuts&&) = default;  // boxes point into the arrays
+  /// All, at the medians of the sample, moved by what is counted here alone.
+  static Cuts of_sample(int patches, std::vector<Point> sample, std::vector<Point> counted = {});
 
   /// How often to cut.
   static int levels(int patches);
@@ -85,7 +86,7 @@ class Cuts {
   /// Adds the counted nodes to the counters of the cuts of this level.
   void count(std::int64_t* counter) const;
   /// Moves them to where there are as many on each side as there should be, by the sums of the counters of
-  /// all ranks; no farther than the outermost edges.
+  /// all ranks; no farther than the outermost edges, and not where nothing was counted.
   void move(const std::int64_t* counter);
 
   /// The first cut is the root. Empty if there is one patch.

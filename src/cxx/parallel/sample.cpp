@@ -7,8 +7,6 @@
 
 namespace pstripack {
 
-constexpr std::size_t kAhead = 16;  // to be fetched, far apart in memory as they are
-
 std::size_t sample_size(std::size_t nodes, std::size_t patches) {
   return std::min(nodes, std::max(64 * patches, std::clamp<std::size_t>(nodes / 64, 256, 4096)));
 }
@@ -18,13 +16,9 @@ std::size_t share_of_sample(std::size_t of_rank, std::size_t wanted, std::size_t
 }
 
 void write_share(const LocalNodes& mine, std::size_t share, Record* sample) {
-  const auto node = [&](std::size_t k) {
-    const std::size_t begin = mine.count * k / share, end = mine.count * (k + 1) / share;
-    return begin + scattered(k + 0x9e3779b97f4a7c15u) % (end - begin);
-  };
   for (std::size_t k = 0; k < share; ++k) {
-    if (k + kAhead < share) __builtin_prefetch(mine.points + node(k + kAhead));
-    const std::size_t i = node(k);
+    const std::size_t begin = mine.count * k / share, end = mine.count * (k + 1) / share;
+    const std::size_t i = begin + scattered(k + 0x9e3779b97f4a7c15u) % (end - begin);
     sample[k] = {mine.points[i], mine.number(i)};
   }
 }
@@ -35,12 +29,9 @@ std::vector<Point> places_to_count(const LocalNodes& mine, std::size_t nodes, st
   const std::size_t step = nodes / (kEnough * patches) + 1;
   std::vector<Point> counted;
   counted.reserve(mine.count / step + 1);
-  const auto node = [&](std::size_t first) {
-    return first + ((scattered(first) >> 32) * std::min(step, mine.count - first) >> 32);
-  };
   for (std::size_t first = 0; first < mine.count; first += step) {
-    if (first + kAhead * step < mine.count) __builtin_prefetch(mine.points + node(first + kAhead * step));
-    counted.push_back(places(mine.points[node(first)]));
+    const std::size_t choice = std::min(step, mine.count - first);
+    counted.push_back(places(mine.points[first + ((scattered(first) >> 32) * choice >> 32)]));
   }
   return counted;
 }
@@ -65,14 +56,7 @@ Partition partition_over_ranks(PartitionKind kind, int ranks, const std::vector<
     const std::vector<Point> of_rank = places_to_count(nodes_of(r), n, size, Places(Lengths::as_given, 0));
     counted.insert(counted.end(), of_rank.begin(), of_rank.end());
   }
-  Cuts cuts(ranks, points, std::move(counted));
-  for (int level = 0; level < Cuts::levels(ranks); ++level) {
-    std::vector<std::int64_t> counter(Cuts::counters(ranks));
-    cuts.cut();
-    cuts.count(counter.data());
-    cuts.move(counter.data());
-  }
-  return Partition(cuts, points, n);
+  return Partition(Cuts::of_sample(ranks, points, std::move(counted)), points, n);
 }
 
 }  // namespace pstripack

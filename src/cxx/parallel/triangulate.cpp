@@ -1,6 +1,7 @@
 // The parallel triangulation, in order:
-//   1  divide        a sample of the nodes, the same on every rank, cuts the sphere into patches; every node
-//                    goes to its patch and to those that have it in their halo
+//   1  divide        a sample of the nodes, the same on every rank, and counts near the cuts divide the
+//   sphere
+//                    into patches; every node goes to its patch and to those that have it in their halo
 //   2  triangulate   every patch its own nodes, its halo and a few nodes from everywhere
 //   3  merge         every patch asks the others about what it cannot know, until nothing is left to ask
 //   4  lists         the stars of the nodes go back to the ranks that brought them
@@ -252,6 +253,7 @@ class Triangulator {
     });
   }
 
+  /// Patches with equal numbers of nodes, as far as a sample and counts can tell.
   void cut_anew(BlockArray<Record>& sample, std::size_t nodes) {
     const int patches = first_patch_.back();
     std::vector<Point> places;
