@@ -75,6 +75,12 @@ struct Outcome {
   std::vector<ParallelCost> cost;
 };
 
+Look look_of_all(const LocalNodes& nodes, Communicator& ranks) {
+  Look look = look_at(nodes.points, nodes.count);
+  agree_on(look, ranks);
+  return look;
+}
+
 /// homes: of the ranks in the last call, then in this one.
 template <class Int>
 Outcome run(const Nodes& nodes, const std::vector<std::size_t>& rank_of_node,
@@ -99,8 +105,8 @@ Outcome run(const Nodes& nodes, const std::vector<std::size_t>& rank_of_node,
     options.last = homes[r].get();
     try {
       const Point corners[3] = {nodes[0], nodes[1], nodes[2]};
-      Stars<Int> stars = triangulate<Int>(local, look_at(local.points, local.count), corners, {1, 2, 3},
-                                          ranks, options, &out.cost[r]);
+      Stars<Int> stars = triangulate<Int>(local, look_of_all(local, ranks), corners, {1, 2, 3}, ranks,
+                                          options, &out.cost[r]);
       const std::lock_guard lock(mutex);
       for (std::size_t i = 0; i < stars.of_node.size(); ++i) {
         const Ring<Int> ring = stars.of_node[i];
@@ -748,7 +754,7 @@ TEST(Partitions, OverRanksAreThoseOfTheTriangulation) {
                              static_cast<std::int64_t>(first) + 1};
       ParallelOptions options;
       options.partition = kind;
-      const auto stars = triangulate<std::int32_t>(local, look_at(local.points, local.count),
+      const auto stars = triangulate<std::int32_t>(local, look_of_all(local, ranks),
                                                    {nodes[0], nodes[1], nodes[2]}, {1, 2, 3}, ranks, options);
       for (const Point& p : nodes) ASSERT_EQ(stars.homes->rank(p), expected.owner(p));
     });

@@ -12,7 +12,6 @@
 #include "mpi/list_pieces.h"
 #include "mpi/options.h"
 #include "parallel/coincidence.h"
-#include "stripack/copy_nodes.h"
 
 namespace pstripack {
 namespace {
@@ -54,14 +53,25 @@ std::uint64_t hash_of(const void* array, std::size_t size, std::uint64_t seed) {
 
 /// This rank's slice of the nodes.
 struct Slice {
-  BlockArray<Point> points;
+  NodeArrays nodes;
+  std::size_t count = 0;
   Look look;
+  NodeArrays of_all_ranks;
+  bool can_read_all = false;  ///< of_all_ranks is set
+  Block received[3];          ///< x, y, z, where they had to be sent
 
-  /// Nodes first.. of the call; returns the first (from 0, of the call) that has no direction.
+  /// Looks at nodes first.. of the call; returns the first (from 0, of the call) that has no direction.
   template <class Real>
-  std::int64_t copy(const Real* x, const Real* y, const Real* z, std::size_t count, std::size_t first) {
-    look = copy_nodes(count, x, y, z, points.data());
+  std::int64_t take(const Real* x, const Real* y, const Real* z, std::size_t how_many, std::size_t first) {
+    nodes = NodeArrays(x, y, z);
+    count = how_many;
+    look = look_at(nodes, count);
     return look.first_bad < count ? static_cast<std::int64_t>(first + look.first_bad) : kNone;
+  }
+  template <class Real>
+  void share(const Real* x, const Real* y, const Real* z) {
+    of_all_ranks = NodeArrays(x, y, z);
+    can_read_all = true;
   }
 };
 
@@ -93,9 +103,9 @@ TrmeshResult take_slice(MpiCommunicator& ranks, std::int32_t n, const Real* x, c
       std::uint64_t h = sizeof(Real);
       for (const Real* const array : {x, y, z}) h = hash_of(array, nodes * sizeof(Real), h);
       hash = static_cast<std::int64_t>(h);
-      slice.points = BlockArray<Point>(last - first);
-      bad = slice.copy(x + first, y + first, z + first, last - first, first);
-      copy_nodes(3, x, y, z, call.corners);
+      bad = slice.take(x + first, y + first, z + first, last - first, first);
+      slice.share(x, y, z);
+      slice.of_all_ranks.points(0, 3, call.corners);
     } catch (...) {
       code = code_of(std::current_exception());
     }
@@ -108,8 +118,11 @@ TrmeshResult take_slice(MpiCommunicator& ranks, std::int32_t n, const Real* x, c
                            code,
                            bad,
                            partition_vote(ranks, options_from_environment(0).partition),
-                           ranks.rank() == 0 && wants_cost ? -1 : 0};
+                           ranks.rank() == 0 && wants_cost ? -1 : 0,
+                           slice.look.vote_for_lengths(),
+                           slice.look.vote_for_deviation()};
   ranks.all_min(values, std::size(values));
+  slice.look.elect(values[8], values[9]);
   call.wants_cost = -values[7];
   // Out of memory first: the hash is missing there.
   if (values[4] != 0) throw AgreedFailure(static_cast<std::int32_t>(values[4]));
@@ -130,7 +143,7 @@ TrmeshResult receive_slice(MpiCommunicator& ranks, Arrays arrays, std::int32_t n
     call.n = n;
     call.partition = static_cast<std::int64_t>(options_from_environment(0).partition);
     call.wants_cost = wants_cost ? 1 : 0;
-    if (code_of_count(n) == 0) copy_nodes(3, x, y, z, call.corners);
+    if (code_of_count(n) == 0) NodeArrays(x, y, z).points(0, 3, call.corners);
   }
   ranks.broadcast(&call, sizeof call, 0);
   if (const std::int32_t code = code_of_count(call.n); code != 0) return {code};
@@ -139,27 +152,31 @@ TrmeshResult receive_slice(MpiCommunicator& ranks, Arrays arrays, std::int32_t n
   const auto size = static_cast<std::size_t>(ranks.size()), me = static_cast<std::size_t>(ranks.rank());
   const std::size_t first = slice_begin(nodes, me, size), count = slice_begin(nodes, me + 1, size) - first;
   const bool by_message = arrays == Arrays::on_rank_0;
-  BlockArray<Real> received[3];
   std::vector<std::size_t> bytes;
   agreed(ranks, [&] {
-    slice.points = BlockArray<Point>(count);
     if (by_message && !is_root)
-      for (BlockArray<Real>& r : received) r = BlockArray<Real>(count);
+      for (Block& block : slice.received) block = Block(count * sizeof(Real));
     for (std::size_t r = 0; r <= size; ++r) bytes.push_back(slice_begin(nodes, r, size) * sizeof(Real));
   });
   const Real* from[] = {x, y, z};
   for (int i = 0; i < 3 && by_message; ++i)
-    ranks.start_scatter(from[i], bytes, received[i].data(), is_root ? 0 : count * sizeof(Real), 0);
+    ranks.start_scatter(from[i], bytes, slice.received[i].data(), is_root ? 0 : count * sizeof(Real), 0);
   if (!is_root) ranks.finish();
-  std::int64_t values[] = {0, kNone};
+  std::int64_t values[] = {0, kNone, 0, 0};
   try {
-    for (int i = 0; i < 3; ++i) from[i] = by_message && !is_root ? received[i].data() : from[i] + first;
-    values[1] = slice.copy(from[0], from[1], from[2], count, first);
+    if (!by_message) slice.share(x, y, z);
+    for (int i = 0; i < 3; ++i)
+      from[i] =
+          by_message && !is_root ? reinterpret_cast<const Real*>(slice.received[i].data()) : from[i] + first;
+    values[1] = slice.take(from[0], from[1], from[2], count, first);
   } catch (...) {
     values[0] = code_of(std::current_exception());
   }
   if (is_root) ranks.finish();
+  values[2] = slice.look.vote_for_lengths();
+  values[3] = slice.look.vote_for_deviation();
   ranks.all_min(values, std::size(values));
+  slice.look.elect(values[2], values[3]);
   if (values[0] != 0) throw AgreedFailure(static_cast<std::int32_t>(values[0]));
   if (values[1] != kNone) return {kBadCoordinate, values[1] + 1};
   return {0};
@@ -176,7 +193,7 @@ TrmeshResult lists_of_slices(MpiCommunicator& ranks, Arrays arrays, const Call& 
   ParallelOptions options;
   agreed(ranks, [&] {
     begin.resize(size + 1);
-    options = options_from_environment(slice.points.size());
+    options = options_from_environment(slice.count);
   });
   options.partition = elected_partition(call.partition);
   cost.threads = options.threads;
@@ -186,8 +203,9 @@ TrmeshResult lists_of_slices(MpiCommunicator& ranks, Arrays arrays, const Call& 
   };
   const auto stars_of_slices = [&] {
     ranks.set_phase("triangulate");
-    const LocalNodes mine{slice.points.data(), begin[me + 1] - begin[me], nullptr,
-                          static_cast<std::int64_t>(begin[me]) + 1};
+    const LocalNodes mine{slice.nodes, begin[me + 1] - begin[me], nullptr,
+                          static_cast<std::int64_t>(begin[me]) + 1,
+                          slice.can_read_all ? &slice.of_all_ranks : nullptr};
     return triangulate<std::int32_t>(mine, slice.look, call.corners, {1, 2, 3}, ranks, options, &cost);
   };
   cut(static_cast<std::size_t>(call.n));
@@ -200,7 +218,8 @@ TrmeshResult lists_of_slices(MpiCommunicator& ranks, Arrays arrays, const Call& 
     agreed(ranks, [&] { first = first_coincidence(stars.coincident); });
     result = {static_cast<std::int32_t>(first.l), first.l, first.m};
     cut(static_cast<std::size_t>(first.m) - 1);
-    slice.look = look_at(slice.points.data(), begin[me + 1] - begin[me]);
+    slice.look = look_at(slice.nodes, begin[me + 1] - begin[me]);
+    agree_on(slice.look, ranks);
     stars = {};
     stars = stars_of_slices();
   }

@@ -105,9 +105,15 @@ DistributedMesh::Numbering DistributedMesh::look_at(std::int64_t n, const Point*
   numbering.look = pstripack::look_at(points, count);
   for (auto i = static_cast<std::int64_t>(numbering.look.first_bad); i < n; ++i)
     if (!has_direction(points[i])) bad = std::min(bad, number[i]);
-  std::int64_t values[] = {low, -high, bad, partition_vote(ranks_, options_from_environment(0).partition),
-                           ranks_.rank() == 0 ? wish : 0};
+  std::int64_t values[] = {low,
+                           -high,
+                           bad,
+                           partition_vote(ranks_, options_from_environment(0).partition),
+                           ranks_.rank() == 0 ? wish : 0,
+                           numbering.look.vote_for_lengths(),
+                           numbering.look.vote_for_deviation()};
   ranks_.all_min(values, std::size(values));
+  numbering.look.elect(values[5], values[6]);
   is_reported_ = values[4] != 0;
   numbering.low = values[0];
   numbering.high = -values[1];

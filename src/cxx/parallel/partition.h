@@ -63,10 +63,9 @@ class Partition {
   template <class Visit>
   void for_each_halo(const Point* x, std::size_t n, const std::uint32_t* owner, const double* nearest_plane,
                      const Visit& visit) const {
-    std::size_t candidate[kTogether], candidates = 0;
     double margin[kTogether];
     std::vector<int> patches;
-    const auto examine = [&] {
+    const auto examine = [&](const std::size_t* candidate, std::size_t candidates) {
       margins(x, owner, candidate, candidates, margin);
       for (std::size_t j = 0; j < candidates; ++j) {
         const std::size_t i = candidate[j];
@@ -79,15 +78,16 @@ class Partition {
         for (const int q : region.is_box ? region.beside : patches)
           if (q != static_cast<int>(owner[i]) && distance(q, x[i]) <= margin[j]) visit(i, q);
       }
-      candidates = 0;
     };
     const double* const largest_margin = largest_margin_.data();
-    for (std::size_t i = 0; i < n; ++i) {
-      candidate[candidates] = i;
-      candidates += nearest_plane[i] <= largest_margin[owner[i]];
-      if (candidates == kTogether) examine();
+    for (std::size_t i = 0; i < n;) {
+      std::size_t candidate[kTogether], candidates = 0;  // not seen by examine(): a count in a register
+      for (; i < n && candidates < kTogether; ++i) {
+        candidate[candidates] = i;
+        candidates += nearest_plane[i] <= largest_margin[owner[i]];
+      }
+      examine(candidate, candidates);
     }
-    examine();
   }
 
   /// True if x is patch q's own or in its halo.

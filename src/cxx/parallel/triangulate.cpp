@@ -214,6 +214,7 @@ class Triangulator {
     std::size_t nodes = 0;
     BlockArray<Record> sample;
     std::vector<std::size_t> begin;  // bytes that the ranks bring
+    std::vector<std::int64_t> counter;
     in_agreement([&] {
       first_patch_.assign(1, 0);
       for (std::size_t r = 0; r < size_; ++r) {
@@ -235,13 +236,16 @@ class Triangulator {
       sample = BlockArray<Record>(begin.back() / sizeof(Record));
       write_share(nodes_, share_of_sample(nodes_.count, wanted, nodes),
                   sample.data() + begin[me_] / sizeof(Record));
+      counter.resize(Cuts::counters(first_patch_.back()));
     });
     ranks_.all_gather_in_place(sample.data(), begin);
+    std::int32_t outcome = 0;
     if (keeps_patches)
       partition_ = options_.last->partition();
     else
-      cut_anew(sample, nodes);
+      outcome = cut_anew(sample, nodes, counter);
     in_agreement([&] {
+      if (outcome != 0) throw Failure(outcome);
       const int patches = first_patch_.back();
       choose_closing(sample);
       // Worth it where it spares a look at more triangles than it takes time for.
@@ -253,31 +257,29 @@ class Triangulator {
     });
   }
 
-  /// Patches with equal numbers of nodes, as far as a sample and counts can tell.
-  void cut_anew(BlockArray<Record>& sample, std::size_t nodes) {
+  /// Patches with equal numbers of nodes, as far as a sample and counts can tell. Returns the outcome here: a
+  /// rank that fails counts nothing from there on.
+  std::int32_t cut_anew(BlockArray<Record>& sample, std::size_t nodes, std::vector<std::int64_t>& counter) {
     const int patches = first_patch_.back();
+    const bool is_bisection = options_.partition == PartitionKind::bisection;
     std::vector<Point> places;
     std::optional<Cuts> cuts;
-    std::vector<std::int64_t> counter;
-    in_agreement([&] {
+    std::int32_t outcome = outcome_of([&] {
       places.reserve(sample.size());
       for (const Record& r : sample) places.push_back(places_(r.point));
-      if (options_.partition != PartitionKind::bisection) return;
-      cuts.emplace(patches, places,
-                   places_to_count(nodes_, nodes, static_cast<std::size_t>(patches), places_));
-      counter.resize(Cuts::counters(patches));
+      if (is_bisection)
+        cuts.emplace(patches, places,
+                     places_to_count(nodes_, nodes, static_cast<std::size_t>(patches), places_));
     });
-    // A rank that fails counts nothing from there on, until all come to an agreement.
-    std::int32_t outcome = 0;
-    for (int level = 0; cuts && level < Cuts::levels(patches); ++level) {
+    for (int level = 0; is_bisection && level < Cuts::levels(patches); ++level) {
       std::fill(counter.begin(), counter.end(), 0);
       if (outcome == 0) outcome = outcome_of([&] { cuts->cut(); });
       if (outcome == 0) cuts->count(counter.data());
       ranks_.all_sum(counter.data(), counter.size());
       if (outcome == 0) cuts->move(counter.data());
     }
-    in_agreement([&] {
-      if (outcome != 0) throw Failure(outcome);
+    if (outcome != 0) return outcome;
+    return outcome_of([&] {
       partition_ = cuts ? std::make_shared<Partition>(*cuts, std::move(places), nodes)
                         : std::make_shared<Partition>(options_.partition, patches, std::move(places), nodes);
     });
@@ -335,7 +337,7 @@ class Triangulator {
         away_begin_[q + 1] = away_begin_[q] + (rank_of(static_cast<int>(q)) == me_ ? 0 : sent_[q].own);
       return parcels_for_others(*routes);
     });
-    in_agreement([&] { place_nodes(*routes); });
+    placed_ = outcome_of([&] { place_nodes(*routes); });
   }
 
   void find_routes(Routes& routes) {
@@ -358,8 +360,9 @@ class Triangulator {
         // Several tallies: the next node's would wait for the one before to be written.
         constexpr std::size_t kTallies = 4;
         std::vector<std::size_t> own(kTallies * patches);
-        // Nodes are often at home, deep in the first patch here. That is sooner told than their owner; only
-        // the others are looked at closely.
+        // Nodes are often at home, most of them deep in the first patch here. That is sooner told than their
+        // owner; only the others are looked at closely.
+        bool most_are_deep = true;
         const auto home = static_cast<std::uint32_t>(first_patch_[me_]);
         constexpr std::size_t kTogether = 256;
         Point place[kTogether];
@@ -367,26 +370,35 @@ class Triangulator {
         double nearest_plane[kTogether];
         for (std::size_t block = first; block < last; block += kTogether) {
           const std::size_t all = std::min(last - block, kTogether);
-          const Point* at = nodes_.points + block;
+          const Point* at = nodes_.points.points(block, all, place);
           if (places_.lengths() != Lengths::as_given) {
             for (std::size_t i = 0; i < all; ++i) place[i] = places_(at[i]);
             at = place;
           }
           std::uint32_t* const owner = routes.owner + block;
-          std::fill(owner, owner + all, home);
-          const std::size_t n = partition_->not_deep(static_cast<int>(home), at, all, which);
-          own[home] += all - n;
-          for (std::size_t i = 0; i < n; ++i) place[i] = at[which[i]];
-          partition_->owners(place, n, its_owner, nearest_plane);
-          for (std::size_t i = 0; i < n; ++i) {
-            ++own[i % kTallies * patches + its_owner[i]];
-            owner[which[i]] = its_owner[i];
+          const auto route = [&](std::size_t n, const auto& index) {
+            partition_->owners(at, n, its_owner, nearest_plane);
+            for (std::size_t i = 0; i < n; ++i) {
+              ++own[i % kTallies * patches + its_owner[i]];
+              owner[index(i)] = its_owner[i];
+            }
+            partition_->for_each_halo(at, n, its_owner, nearest_plane, [&](std::size_t i, int q) {
+              ++count[static_cast<std::size_t>(q)].halo;
+              routes.halo[t].push_back(
+                  {static_cast<std::uint32_t>(block + index(i)), static_cast<std::uint32_t>(q)});
+            });
+          };
+          if (most_are_deep) {
+            std::fill(owner, owner + all, home);
+            const std::size_t n = partition_->not_deep(static_cast<int>(home), at, all, which);
+            own[home] += all - n;
+            for (std::size_t i = 0; i < n; ++i) place[i] = at[which[i]];
+            at = place;
+            route(n, [&](std::size_t i) { return which[i]; });
+            most_are_deep = 2 * n <= all;
+          } else {
+            route(all, [](std::size_t i) { return i; });
           }
-          partition_->for_each_halo(place, n, its_owner, nearest_plane, [&](std::size_t i, int q) {
-            ++count[static_cast<std::size_t>(q)].halo;
-            routes.halo[t].push_back(
-                {static_cast<std::uint32_t>(block + which[i]), static_cast<std::uint32_t>(q)});
-          });
         }
         for (std::size_t k = 0; k < own.size(); ++k) count[k % patches].own += own[k];
       } catch (...) {
@@ -399,10 +411,11 @@ class Triangulator {
       for (std::size_t q = 0; q < patches; ++q) sent_[q].own += count[q].own, sent_[q].halo += count[q].halo;
   }
 
-  /// Writes the records for patches of this rank, or of the others: those of patch q to base[q], from
-  /// begin[q] on.
-  void write_records(const Routes& routes, bool here, const std::vector<Record*>& base,
-                     const std::vector<Count>& begin) {
+  /// Writes the items item(i) of the nodes i for patches of this rank, or of the others: those of patch q to
+  /// base[q], from begin[q] on.
+  template <class Item, class MakeItem>
+  void write_items(const Routes& routes, bool here, const std::vector<Item*>& base,
+                   const std::vector<Count>& begin, const MakeItem& item) {
     const std::size_t patches = sent_.size();
     std::vector<std::vector<Count>> next(routes.count.size(), begin);  // where each thread goes on
     for (std::size_t t = 1; t < next.size(); ++t)
@@ -410,11 +423,10 @@ class Triangulator {
         next[t][q].own = next[t - 1][q].own + routes.count[t - 1][q].own;
         next[t][q].halo = next[t - 1][q].halo + routes.count[t - 1][q].halo;
       }
-    const auto record = [&](std::size_t i) { return Record{nodes_.points[i], nodes_.number(i)}; };
     const std::size_t first_here = static_cast<std::size_t>(first_patch_[me_]),
                       count_here = static_cast<std::size_t>(patches_here());
     const auto is_wanted = [=](std::size_t q) { return (q - first_here < count_here) == here; };
-    std::vector<std::size_t> table(patches);  // where the ring of a patch's record 0 would be in the table
+    std::vector<std::size_t> table(patches);  // where the ring of a patch's item 0 would be in the table
     for (std::size_t q = 0; q < patches; ++q)
       if (is_wanted(q)) table[q] = here ? own_begin_[q - first_here] : away_begin_[q] - begin[q].own;
     parallel_pieces(nodes_.count, options_.threads, [&](std::size_t first, std::size_t last, int piece) {
@@ -423,33 +435,53 @@ class Triangulator {
         const std::size_t q = routes.owner != nullptr ? routes.owner[i] : 0;
         if (!is_wanted(q)) continue;
         const std::size_t at = place[q].own++;
-        base[q][at] = record(i);
+        base[q][at] = item(i);
         position_[i] = static_cast<std::uint32_t>(table[q] + at);
       }
       for (const auto& h : routes.halo[static_cast<std::size_t>(piece)])
-        if (is_wanted(h.patch)) base[h.patch][place[h.patch].halo++] = record(h.node);
+        if (is_wanted(h.patch)) base[h.patch][place[h.patch].halo++] = item(h.node);
     });
   }
 
-  /// A parcel: the counts of each patch of the rank, then for each patch its own nodes and its halo.
+  /// As what a node travels to a rank that can read it.
+  using Number = std::uint32_t;
+
+  /// body(item), where item(i) is the record of node i of this rank.
+  template <class Body>
+  auto with_records(const Body& body) const {
+    return nodes_.points.visit([&](const auto& node) {
+      return body([&](std::size_t i) { return Record{node(i), nodes_.number(i)}; });
+    });
+  }
+
   Parcels parcels_for_others(const Routes& routes) {
+    if (nodes_.of_all_ranks != nullptr)
+      return parcels_of<Number>(routes,
+                                [this](std::size_t i) { return static_cast<Number>(nodes_.number(i)); });
+    return with_records([&](const auto& record) { return parcels_of<Record>(routes, record); });
+  }
+
+  /// A parcel: the counts of each patch of the rank, then for each patch its own nodes and its halo.
+  template <class Item, class MakeItem>
+  Parcels parcels_of(const Routes& routes, const MakeItem& item) {
     Parcels parcels;
     parcels.begin.assign(1, 0);
     const std::size_t patches = sent_.size();
     std::vector<Count> begin(patches);
-    std::vector<Record*> base(patches);
+    std::vector<Item*> base(patches);
     std::vector<std::size_t> header(size_);
     for (std::size_t r = 0; r < size_; ++r) {
-      std::size_t records = 0;
+      std::size_t items = 0;
       const auto first = static_cast<std::size_t>(first_patch_[r]),
                  last = static_cast<std::size_t>(first_patch_[r + 1]);
       for (std::size_t q = first; q < last; ++q) {
-        begin[q] = {records, records + sent_[q].own};
-        records += sent_[q].own + sent_[q].halo;
+        begin[q] = {items, items + sent_[q].own};
+        items += sent_[q].own + sent_[q].halo;
       }
       header[r] = (last - first) * sizeof(Count);
-      const bool is_empty = r == me_ || records == 0;
-      parcels.begin.push_back(parcels.begin.back() + (is_empty ? 0 : header[r] + records * sizeof(Record)));
+      const bool is_empty = r == me_ || items == 0;
+      const std::size_t bytes = is_empty ? 0 : header[r] + items * sizeof(Item);
+      parcels.begin.push_back(parcels.begin.back() + (bytes + 7) / 8 * 8);
     }
     if (parcels.begin.back() == 0) return parcels;
     parcels.bytes = Block(parcels.begin.back());
@@ -459,25 +491,49 @@ class Triangulator {
       std::memcpy(parcel, &sent_[static_cast<std::size_t>(first_patch_[r])], header[r]);
       for (auto q = static_cast<std::size_t>(first_patch_[r]);
            q < static_cast<std::size_t>(first_patch_[r + 1]); ++q)
-        base[q] = reinterpret_cast<Record*>(parcel + header[r]);
+        base[q] = reinterpret_cast<Item*>(parcel + header[r]);
     }
-    write_records(routes, false, base, begin);
+    write_items(routes, false, base, begin, item);
     return parcels;
   }
 
+  /// What has arrived of a patch from one rank: its own nodes, then its halo, as records or as numbers.
+  class Segment {
+   public:
+    Segment() = default;
+    Segment(Reader& reader, Count c, const NodeArrays* all) : count(c), all_(all) {
+      const std::size_t items = c.own + c.halo;
+      if (all != nullptr)
+        numbers_ = reader.array<Number>(items);
+      else
+        records_ = reader.array<Record>(items);
+    }
+    /// Its items first..last-1.
+    void copy(std::size_t first, std::size_t last, Record* to) const {
+      if (numbers_ != nullptr)
+        all_->visit([&](const auto& node) {
+          for (std::size_t i = first; i < last; ++i) *to++ = {node(numbers_[i] - 1), numbers_[i]};
+        });
+      else if (records_ != nullptr)
+        std::copy(records_ + first, records_ + last, to);
+    }
+    Count count;
+
+   private:
+    const NodeArrays* all_ = nullptr;
+    const Record* records_ = nullptr;
+    const Number* numbers_ = nullptr;
+  };
+
   /// The records of each patch here: own nodes in the order of the ranks that brought them, then the halo.
   void place_nodes(const Routes& routes) {
-    struct Segment {
-      const Record* records = nullptr;
-      Count count;
-    };
     std::vector<std::vector<Segment>> segments(patches_.size(), std::vector<Segment>(size_));
     for (std::size_t r = 0; r < size_; ++r) {
       if (r == me_ || arrived_.begin[r + 1] == arrived_.begin[r]) continue;
       Reader reader(arrived_.bytes.data() + arrived_.begin[r]);
       const Count* const counts = reader.array<Count>(patches_.size());
       for (std::size_t k = 0; k < patches_.size(); ++k)
-        segments[k][r] = {reader.array<Record>(counts[k].own + counts[k].halo), counts[k]};
+        segments[k][r] = Segment(reader, counts[k], nodes_.of_all_ranks);
     }
     std::size_t records = 0, rings = away_begin_.back();
     std::vector<Count> total(patches_.size());
@@ -508,16 +564,14 @@ class Triangulator {
       for (std::size_t r = 0; r < size_; ++r) {
         const Segment& s = segments[k][r];
         if (r == me_) begin[q] = {static_cast<std::size_t>(own - at), static_cast<std::size_t>(halo - at)};
-        if (s.records != nullptr) {
-          std::copy(s.records, s.records + s.count.own, own);
-          std::copy(s.records + s.count.own, s.records + s.count.own + s.count.halo, halo);
-        }
+        s.copy(0, s.count.own, own);
+        s.copy(s.count.own, s.count.own + s.count.halo, halo);
         own += s.count.own, halo += s.count.halo;
       }
       at = halo;
     }
     arrived_ = {};
-    write_records(routes, true, base, begin);
+    with_records([&](const auto& record) { write_items(routes, true, base, begin, record); });
   }
 
   // ---- 2: triangulate ----
@@ -525,6 +579,7 @@ class Triangulator {
   void triangulate_patches() {
     in_agreement(
         [&] {
+          if (placed_ != 0) throw Failure(placed_);
           constexpr std::size_t kPage = 4096;
           std::vector<std::size_t> begin{0};
           for (const Patch<Int>& patch : patches_)
@@ -815,10 +870,17 @@ class Triangulator {
   std::uint32_t* position_ = nullptr;  ///< of each of this rank's nodes in the table
   std::unique_ptr<Workspace> position_memory_, table_memory_, entries_memory_, records_memory_, workspace_;
   Parcels arrived_;
+  std::int32_t placed_ = 0;                         ///< the outcome here, not agreed on yet
   std::vector<std::vector<std::size_t>> own_from_;  ///< [patch][rank]: its own nodes that the rank brought
 };
 
 }  // namespace
+
+void agree_on(Look& look, Communicator& ranks) {
+  std::int64_t votes[] = {look.vote_for_lengths(), look.vote_for_deviation()};
+  ranks.all_min(votes, std::size(votes));
+  look.elect(votes[0], votes[1]);
+}
 
 template <class Int>
 Stars<Int> triangulate(const LocalNodes& nodes, const Look& look, const Point (&corners)[3],
@@ -826,22 +888,13 @@ Stars<Int> triangulate(const LocalNodes& nodes, const Look& look, const Point (&
                        ParallelCost* cost) {
   ParallelCost own_cost;
   ParallelCost& c = cost != nullptr ? *cost : own_cost;
-  // All lengths 1? The predicates must be the same everywhere.
-  std::int64_t agreed[2] = {look.lengths_are_one ? 0 : -1, 0};
-  double most = look.deviation;
-  std::memcpy(&agreed[1], &most, sizeof most);
-  agreed[1] = -agreed[1];  // the bits of positive numbers are in their order
-  ranks.all_min(agreed, 2);
-  agreed[1] = -agreed[1];
-  std::memcpy(&most, &agreed[1], sizeof most);
-
   const std::array<Record, 3> corner_records{
       Record{corners[0], numbers[0]}, {corners[1], numbers[1]}, {corners[2], numbers[2]}};
   const auto run = [&](Lengths lengths) {
-    return Triangulator<Int>(nodes, corner_records, ranks, options, lengths, most, c).run();
+    return Triangulator<Int>(nodes, corner_records, ranks, options, lengths, look.deviation, c).run();
   };
   Stars<Int> stars;
-  if (agreed[0] == 0) {
+  if (look.lengths_are_one) {  // the predicates must be the same everywhere
     try {
       stars = run(Lengths::as_given);
       c.bytes_sent = ranks.bytes_sent;

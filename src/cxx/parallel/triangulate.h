@@ -85,9 +85,12 @@ struct Stars {
   std::unique_ptr<Homes> homes;
 };
 
+/// What all ranks see: lengths and deviation become those of all nodes. Collective.
+void agree_on(Look& look, Communicator& ranks);
+
 /// The triangulation of the nodes of all ranks together, at least three and not all on one great circle
-/// (`corners`: three of them that are not, the same on every rank). `look`: at these nodes; all nodes must
-/// have a direction. Collective. Throws AgreedFailure, on every rank.
+/// (`corners`: three of them that are not, the same on every rank). `look`: what all ranks see; all nodes
+/// must have a direction. Collective. Throws AgreedFailure, on every rank.
 template <class Int>
 Stars<Int> triangulate(const LocalNodes& nodes, const Look& look, const Point (&corners)[3],
                        const std::int64_t (&numbers)[3], Communicator& ranks, const ParallelOptions& options,

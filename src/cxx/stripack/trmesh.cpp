@@ -11,7 +11,6 @@
 #include "parallel/options.h"
 #include "parallel/triangulate.h"
 #include "stripack/adjacency_lists.h"
-#include "stripack/copy_nodes.h"
 #include "stripack/list_pieces.h"
 #include "stripack/original_order.h"
 #include "stripack/original_rules.h"
@@ -24,13 +23,13 @@ using Pairs = std::vector<std::pair<std::int64_t, std::int64_t>>;
 /// The lists by patches on the threads of this process. Returns the pairs of nodes that coincide, or none and
 /// has written the lists; nothing if the nodes lie so that patches do not pay.
 template <class Int>
-std::optional<Pairs> lists_on_threads(const Point* p, std::size_t n, const Look& look, Int* list, Int* lptr,
-                                      Int* lend, Int* lnew, ParallelCost* cost) {
+std::optional<Pairs> lists_on_threads(const NodeArrays& nodes, std::size_t n, const Look& look, Int* list,
+                                      Int* lptr, Int* lend, Int* lnew, ParallelCost* cost) {
   SingleProcess process;
   ParallelOptions options = options_from_environment(n);
   options.most_questions = n / 8;
-  const Point corners[3] = {p[0], p[1], p[2]};
-  const Stars<Int> stars = triangulate<Int>({p, n}, look, corners, {1, 2, 3}, process, options, cost);
+  const Point corners[3] = {nodes[0], nodes[1], nodes[2]};
+  const Stars<Int> stars = triangulate<Int>({nodes, n}, look, corners, {1, 2, 3}, process, options, cost);
   if (cost != nullptr) cost->threads = options.threads;
   if (stars.gave_up) return std::nullopt;
   if (stars.coincident.empty()) {
@@ -60,10 +59,10 @@ Pairs lists_of_one_hull(const Point* p, std::size_t n, Workspace& workspace, Int
 }
 
 /// The lists as the original makes them, if they are right: a result with the order `made`. Otherwise nothing
-/// is written. p: the nodes.
+/// is written.
 template <class Real, class Int>
-TrmeshResult lists_in_original_order(Int n, const Real* x, const Real* y, const Real* z, const Point* p,
-                                     Int* list, Int* lptr, Int* lend, Int* lnew, ParallelCost* cost) {
+TrmeshResult lists_in_original_order(Int n, const Real* x, const Real* y, const Real* z, Int* list, Int* lptr,
+                                     Int* lend, Int* lnew, ParallelCost* cost) {
   const InsertedNodes<Int> inserted = [&] {
     const PhaseTimer timer(cost, ParallelCost::triangulate);
     return insert_in_order(n, x, y, z, original_rules(), Hopeless::ends);
@@ -73,7 +72,10 @@ TrmeshResult lists_in_original_order(Int n, const Real* x, const Real* y, const 
   if (end == InsertionEnd::endless) return {0, 0, 0, OriginalOrder::endless, node};
 
   const PhaseTimer timer(cost, ParallelCost::lists);
-  if (end == InsertionEnd::hopeless || !is_valid(p, inserted.view(), Lengths::automatic, Ties::either_way))
+  BlockArray<Point> nodes(static_cast<std::size_t>(n));
+  NodeArrays(x, y, z).points(0, nodes.size(), nodes.data());
+  if (end == InsertionEnd::hopeless ||
+      !is_valid(nodes.data(), inserted.view(), Lengths::automatic, Ties::either_way))
     return {0, 0, 0, OriginalOrder::wrong};
   std::copy_n(inserted.list.data(), inserted.list.size(), list);
   std::copy_n(inserted.lptr.data(), inserted.lptr.size(), lptr);
@@ -93,39 +95,51 @@ TrmeshResult trmesh(Int n, const Real* x, const Real* y, const Real* z, Int* lis
   if (n > most_nodes<Int>()) return {-4};
 
   auto nodes = static_cast<std::size_t>(n);
+  const NodeArrays arrays(x, y, z);
   const bool on_threads = threads_for(nodes) > 1;
-  Workspace workspace(on_threads ? nodes * sizeof(Point) : workspace_bytes(nodes));
-  Point* p = workspace.take<Point>(nodes);
+  // Patches read the nodes where they are, one hull has a copy.
+  std::optional<Workspace> workspace;
+  Point* p = nullptr;
   Look look;
-  const auto copy = [&] {
+  const auto look_at_them = [&] {
     const PhaseTimer timer(cost, ParallelCost::divide);
-    look = copy_nodes(nodes, x, y, z, p);
+    look = look_at(arrays, nodes);
   };
-  copy();
+  const auto copy_them = [&] {
+    const PhaseTimer timer(cost, ParallelCost::divide);
+    if (!workspace) workspace.emplace(workspace_bytes(nodes));
+    workspace->clear();
+    p = workspace->take<Point>(nodes);
+    look = arrays.visit([&](const auto& node) {
+      return look_at(nodes, threads_for(nodes), [&](std::size_t i) { return p[i] = node(i); });
+    });
+  };
+  const auto take_them = [&] { on_threads ? look_at_them() : copy_them(); };
+  take_them();
   if (look.first_bad < nodes) return {-5, static_cast<std::int64_t>(look.first_bad) + 1};
-  if (left(p[0], p[1], p[2]) == 0) return {-2};
+  if (left(arrays[0], arrays[1], arrays[2]) == 0) return {-2};
 
   TrmeshResult result{0};
   if (original_rules().follow) {
-    result = lists_in_original_order(n, x, y, z, p, list, lptr, lend, lnew, cost);
+    result = lists_in_original_order(n, x, y, z, list, lptr, lend, lnew, cost);
     if (result.order == OriginalOrder::made) return result;
   }
 
   // Writes the lists of the first `nodes` nodes, or returns sets of nodes that coincide.
   const auto triangulate_them = [&] {
-    if (!on_threads) return lists_of_one_hull(p, nodes, workspace, list, lptr, lend, lnew, cost);
-    if (const auto pairs = lists_on_threads(p, nodes, look, list, lptr, lend, lnew, cost)) return *pairs;
-    Workspace own_workspace(workspace_bytes(nodes));
-    return lists_of_one_hull(p, nodes, own_workspace, list, lptr, lend, lnew, cost);
+    if (on_threads) {
+      if (const auto pairs = lists_on_threads(arrays, nodes, look, list, lptr, lend, lnew, cost))
+        return *pairs;
+      copy_them();
+    }
+    return lists_of_one_hull(p, nodes, *workspace, list, lptr, lend, lnew, cost);
   };
   const Pairs pairs = triangulate_them();
   if (pairs.empty()) return result;
   // Nodes 1..M-1 do not coincide, and the first three are not on one great circle: M > 3.
   const Coincidence first = first_coincidence(pairs);
   nodes = static_cast<std::size_t>(first.m) - 1;
-  workspace.clear();
-  p = workspace.take<Point>(nodes);
-  copy();
+  take_them();
   triangulate_them();
   result.ier = static_cast<std::int32_t>(first.l);
   result.node = first.l;
