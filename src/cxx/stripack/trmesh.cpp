@@ -96,8 +96,9 @@ TrmeshResult trmesh(Int n, const Real* x, const Real* y, const Real* z, Int* lis
 
   auto nodes = static_cast<std::size_t>(n);
   const NodeArrays arrays(x, y, z);
-  const bool on_threads = threads_for(nodes) > 1;
-  // Patches read the nodes where they are, one hull has a copy.
+  const bool on_threads = threads_for(nodes) > 1, in_original_order = original_rules().follow;
+  // One hull has a copy of the nodes. It is made at once, unless they may be triangulated without.
+  const bool copied_at_once = !on_threads && !in_original_order;
   std::optional<Workspace> workspace;
   Point* p = nullptr;
   Look look;
@@ -114,24 +115,23 @@ TrmeshResult trmesh(Int n, const Real* x, const Real* y, const Real* z, Int* lis
       return look_at(nodes, threads_for(nodes), [&](std::size_t i) { return p[i] = node(i); });
     });
   };
-  const auto take_them = [&] { on_threads ? look_at_them() : copy_them(); };
+  const auto take_them = [&] { copied_at_once ? copy_them() : look_at_them(); };
   take_them();
   if (look.first_bad < nodes) return {-5, static_cast<std::int64_t>(look.first_bad) + 1};
   if (left(arrays[0], arrays[1], arrays[2]) == 0) return {-2};
 
   TrmeshResult result{0};
-  if (original_rules().follow) {
+  if (in_original_order) {
     result = lists_in_original_order(n, x, y, z, list, lptr, lend, lnew, cost);
     if (result.order == OriginalOrder::made) return result;
   }
 
   // Writes the lists of the first `nodes` nodes, or returns sets of nodes that coincide.
   const auto triangulate_them = [&] {
-    if (on_threads) {
+    if (on_threads)
       if (const auto pairs = lists_on_threads(arrays, nodes, look, list, lptr, lend, lnew, cost))
         return *pairs;
-      copy_them();
-    }
+    if (!copied_at_once) copy_them();
     return lists_of_one_hull(p, nodes, *workspace, list, lptr, lend, lnew, cost);
   };
   const Pairs pairs = triangulate_them();
