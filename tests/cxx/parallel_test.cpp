@@ -81,6 +81,17 @@ Look look_of_all(const LocalNodes& nodes, Communicator& ranks) {
   return look;
 }
 
+template <class Int>
+void keep(const Stars<Int>& stars, const LocalNodes& nodes, std::size_t rank, Outcome& out) {
+  for (std::size_t i = 0; i < stars.of_node.size(); ++i) {
+    const Ring<Int> ring = stars.of_node[i];
+    out.ring[static_cast<std::size_t>(nodes.number(i)) - 1].assign(ring.begin, ring.begin + ring.count);
+  }
+  out.stars[rank].coincident = stars.coincident;
+  out.stars[rank].lengths = stars.lengths;
+  out.stars[rank].outside = stars.outside;
+}
+
 /// homes: of the ranks in the last call, then in this one.
 template <class Int>
 Outcome run(const Nodes& nodes, const std::vector<std::size_t>& rank_of_node,
@@ -108,13 +119,7 @@ Outcome run(const Nodes& nodes, const std::vector<std::size_t>& rank_of_node,
       Stars<Int> stars = triangulate<Int>(local, look_of_all(local, ranks), corners, {1, 2, 3}, ranks,
                                           options, &out.cost[r]);
       const std::lock_guard lock(mutex);
-      for (std::size_t i = 0; i < stars.of_node.size(); ++i) {
-        const Ring<Int> ring = stars.of_node[i];
-        out.ring[static_cast<std::size_t>(numbers[r][i]) - 1].assign(ring.begin, ring.begin + ring.count);
-      }
-      out.stars[r].coincident = stars.coincident;
-      out.stars[r].lengths = stars.lengths;
-      out.stars[r].outside = stars.outside;
+      keep(stars, local, r, out);
       homes[r] = std::move(stars.homes);
     } catch (const AgreedFailure& failure) {
       out.codes[r] = failure.code;
@@ -207,6 +212,78 @@ INSTANTIATE_TEST_SUITE_P(All, Families, ::testing::ValuesIn(kFamilies), [](const
       name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
   return name;
 });
+
+// ---- nodes in arrays --------------------------------------------------------------------------------
+
+template <class Real>
+struct Arrays {
+  explicit Arrays(const Nodes& nodes) {
+    for (const Point& p : nodes) {
+      x.push_back(static_cast<Real>(p.x));
+      y.push_back(static_cast<Real>(p.y));
+      z.push_back(static_cast<Real>(p.z));
+    }
+  }
+  NodeArrays from(std::size_t first) const { return {x.data() + first, y.data() + first, z.data() + first}; }
+  Nodes nodes() const {
+    Nodes all;
+    for (std::size_t i = 0; i < x.size(); ++i) all.push_back(from(0)[i]);
+    return all;
+  }
+  std::vector<Real> x, y, z;
+};
+
+TEST(NodeArrays, GiveTheirNodes) {
+  const Nodes nodes = point_sets::make("random", 40, 3);
+  const Arrays<double> doubles(nodes);
+  const Arrays<float> floats(nodes);
+  Point room[30];
+  EXPECT_EQ(NodeArrays(nodes.data()).points(7, 30, room), nodes.data() + 7);
+  EXPECT_EQ(doubles.from(0).points(7, 30, room), room);
+  EXPECT_TRUE(std::equal(room, room + 30, nodes.begin() + 7));
+  EXPECT_EQ(floats.from(7).points(0, 30, room), room);
+  for (std::size_t i = 0; i < 30; ++i) {
+    const Point& p = nodes[i + 7];
+    EXPECT_EQ(NodeArrays(nodes.data())[i + 7], p);
+    EXPECT_EQ(doubles.from(7)[i], p);
+    EXPECT_EQ(room[i], (Point{floats.x[i + 7], floats.y[i + 7], floats.z[i + 7]}));
+  }
+}
+
+/// Each rank has a slice, and can read the nodes of all.
+template <class Real>
+::testing::AssertionResult are_serial_by_number(const Arrays<Real>& arrays, int size, int patches) {
+  const Set set(arrays.nodes());
+  const std::size_t n = set.nodes.size();
+  const NodeArrays all = arrays.from(0);
+  Outcome out;
+  out.ring.resize(n);
+  out.stars.resize(static_cast<std::size_t>(size));
+  std::mutex mutex;
+  ThreadRanks::run(size, [&](Communicator& ranks) {
+    const auto r = static_cast<std::size_t>(ranks.rank()), p = static_cast<std::size_t>(size);
+    const std::size_t first = slice_begin(n, r, p);
+    const LocalNodes local{arrays.from(first), slice_begin(n, r + 1, p) - first, nullptr,
+                           static_cast<std::int64_t>(first) + 1, &all};
+    ParallelOptions options;
+    options.patches = patches;
+    const Point corners[3] = {set.nodes[0], set.nodes[1], set.nodes[2]};
+    const auto stars =
+        triangulate<std::int32_t>(local, look_of_all(local, ranks), corners, {1, 2, 3}, ranks, options);
+    const std::lock_guard lock(mutex);
+    keep(stars, local, r, out);
+  });
+  return is_serial(set, out);
+}
+
+TEST(NodesThatAllCanRead, GiveTheSerialRings) {
+  for (const char* family : {"random", "latlon", "variable:1e6", "hemisphere"})
+    for (const auto& [ranks, patches] : {std::pair{2, 1}, {3, 2}, {16, 1}}) {
+      const Nodes nodes = point_sets::make(family, 5000, 9);
+      EXPECT_TRUE(are_serial_by_number(Arrays<double>(nodes), ranks, patches)) << family << " " << ranks;
+      EXPECT_TRUE(are_serial_by_number(Arrays<float>(nodes), ranks, patches)) << family << " " << ranks;
+    }
+}
 
 // Patches this large need not look at triangles of their own nodes, if one bound holds for all.
 TEST(LargePatches, GiveTheSerialRings) {
