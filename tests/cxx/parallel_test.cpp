@@ -20,6 +20,7 @@
 #include "parallel/sample.h"
 #include "parallel/triangulate.h"
 #include "point_sets.h"
+#include "support/columns.h"
 #include "support/judge.h"
 #include "support/lists.h"
 #include "support/thread_ranks.h"
@@ -215,47 +216,37 @@ INSTANTIATE_TEST_SUITE_P(All, Families, ::testing::ValuesIn(kFamilies), [](const
 
 // ---- nodes in arrays --------------------------------------------------------------------------------
 
+/// From the node `first` on.
 template <class Real>
-struct Arrays {
-  explicit Arrays(const Nodes& nodes) {
-    for (const Point& p : nodes) {
-      x.push_back(static_cast<Real>(p.x));
-      y.push_back(static_cast<Real>(p.y));
-      z.push_back(static_cast<Real>(p.z));
-    }
-  }
-  NodeArrays from(std::size_t first) const { return {x.data() + first, y.data() + first, z.data() + first}; }
-  Nodes nodes() const {
-    Nodes all;
-    for (std::size_t i = 0; i < x.size(); ++i) all.push_back(from(0)[i]);
-    return all;
-  }
-  std::vector<Real> x, y, z;
-};
+NodeArrays from(const Columns<Real>& c, std::size_t first) {
+  return {c.x.data() + first, c.y.data() + first, c.z.data() + first};
+}
 
 TEST(NodeArrays, GiveTheirNodes) {
   const Nodes nodes = point_sets::make("random", 40, 3);
-  const Arrays<double> doubles(nodes);
-  const Arrays<float> floats(nodes);
+  const Columns<double> doubles(nodes);
+  const Columns<float> floats(nodes);
   Point room[30];
   EXPECT_EQ(NodeArrays(nodes.data()).points(7, 30, room), nodes.data() + 7);
-  EXPECT_EQ(doubles.from(0).points(7, 30, room), room);
+  EXPECT_EQ(from(doubles, 0).points(7, 30, room), room);
   EXPECT_TRUE(std::equal(room, room + 30, nodes.begin() + 7));
-  EXPECT_EQ(floats.from(7).points(0, 30, room), room);
+  EXPECT_EQ(from(floats, 7).points(0, 30, room), room);
   for (std::size_t i = 0; i < 30; ++i) {
     const Point& p = nodes[i + 7];
     EXPECT_EQ(NodeArrays(nodes.data())[i + 7], p);
-    EXPECT_EQ(doubles.from(7)[i], p);
+    EXPECT_EQ(from(doubles, 7)[i], p);
     EXPECT_EQ(room[i], (Point{floats.x[i + 7], floats.y[i + 7], floats.z[i + 7]}));
   }
 }
 
 /// Each rank has a slice, and can read the nodes of all.
 template <class Real>
-::testing::AssertionResult are_serial_by_number(const Arrays<Real>& arrays, int size, int patches) {
-  const Set set(arrays.nodes());
-  const std::size_t n = set.nodes.size();
-  const NodeArrays all = arrays.from(0);
+::testing::AssertionResult are_serial_by_number(const Columns<Real>& columns, int size, int patches) {
+  const std::size_t n = columns.x.size();
+  const NodeArrays all = from(columns, 0);
+  Nodes nodes(n);
+  all.points(0, n, nodes.data());
+  const Set set(nodes);
   Outcome out;
   out.ring.resize(n);
   out.stars.resize(static_cast<std::size_t>(size));
@@ -263,7 +254,7 @@ template <class Real>
   ThreadRanks::run(size, [&](Communicator& ranks) {
     const auto r = static_cast<std::size_t>(ranks.rank()), p = static_cast<std::size_t>(size);
     const std::size_t first = slice_begin(n, r, p);
-    const LocalNodes local{arrays.from(first), slice_begin(n, r + 1, p) - first, nullptr,
+    const LocalNodes local{from(columns, first), slice_begin(n, r + 1, p) - first, nullptr,
                            static_cast<std::int64_t>(first) + 1, &all};
     ParallelOptions options;
     options.patches = patches;
@@ -280,8 +271,8 @@ TEST(NodesThatAllCanRead, GiveTheSerialRings) {
   for (const char* family : {"random", "latlon", "variable:1e6", "hemisphere"})
     for (const auto& [ranks, patches] : {std::pair{2, 1}, {3, 2}, {16, 1}}) {
       const Nodes nodes = point_sets::make(family, 5000, 9);
-      EXPECT_TRUE(are_serial_by_number(Arrays<double>(nodes), ranks, patches)) << family << " " << ranks;
-      EXPECT_TRUE(are_serial_by_number(Arrays<float>(nodes), ranks, patches)) << family << " " << ranks;
+      EXPECT_TRUE(are_serial_by_number(Columns<double>(nodes), ranks, patches)) << family << " " << ranks;
+      EXPECT_TRUE(are_serial_by_number(Columns<float>(nodes), ranks, patches)) << family << " " << ranks;
     }
 }
 

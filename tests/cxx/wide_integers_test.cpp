@@ -91,7 +91,7 @@ struct Both {
         lptr(wide(m.lptr)),
         lend(wide(m.lend)) {}
 
-  Columns c;
+  Columns<> c;
   std::size_t size;
   std::int32_t n;
   Mesh m;

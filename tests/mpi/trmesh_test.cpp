@@ -14,6 +14,7 @@
 #include "parallel/coincidence.h"
 #include "point_sets.h"
 #include "pool/shared_area.h"
+#include "support/columns.h"
 #include "support/failing_allocation.h"
 #include "support/lists.h"
 
@@ -26,18 +27,6 @@ using pstripack::SharedArea;
 using pstripack::TrmeshResult;
 
 constexpr std::int32_t untouched = -987654321;
-
-template <class Real>
-struct Columns {
-  explicit Columns(const Nodes& nodes) {
-    for (const auto& p : nodes) {
-      x.push_back(static_cast<Real>(p.x));
-      y.push_back(static_cast<Real>(p.y));
-      z.push_back(static_cast<Real>(p.z));
-    }
-  }
-  std::vector<Real> x, y, z;
-};
 
 /// Arrays of exactly the sizes that TRMESH asks for.
 struct Outcome : Lists {

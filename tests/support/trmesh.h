@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "capi/pstripack.h"
+#include "columns.h"
 #include "guarded.h"
 #include "lists.h"
 
@@ -12,13 +13,6 @@ constexpr std::int32_t untouched = -987654321;  // what the arrays hold before t
 
 struct Mesh : Lists {
   std::int32_t ier = 0;
-};
-
-struct Columns {
-  explicit Columns(const Nodes& nodes) {
-    for (const auto& p : nodes) x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
-  }
-  std::vector<double> x, y, z;
 };
 
 /// Arrays of exactly 6n-12 and n entries.

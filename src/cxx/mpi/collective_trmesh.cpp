@@ -5,6 +5,7 @@
 #include <cstring>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "geometry/parallel_for.h"
@@ -56,9 +57,8 @@ struct Slice {
   NodeArrays nodes;
   std::size_t count = 0;
   Look look;
-  NodeArrays of_all_ranks;
-  bool can_read_all = false;  ///< of_all_ranks is set
-  Block received[3];          ///< x, y, z, where they had to be sent
+  std::optional<NodeArrays> of_all_ranks;  ///< where this rank can read them
+  Block received[3];                       ///< x, y, z, where they had to be sent
 
   /// Looks at nodes first.. of the call; returns the first (from 0, of the call) that has no direction.
   template <class Real>
@@ -67,11 +67,6 @@ struct Slice {
     count = how_many;
     look = look_at(nodes, count);
     return look.first_bad < count ? static_cast<std::int64_t>(first + look.first_bad) : kNone;
-  }
-  template <class Real>
-  void share(const Real* x, const Real* y, const Real* z) {
-    of_all_ranks = NodeArrays(x, y, z);
-    can_read_all = true;
   }
 };
 
@@ -104,8 +99,8 @@ TrmeshResult take_slice(MpiCommunicator& ranks, std::int32_t n, const Real* x, c
       for (const Real* const array : {x, y, z}) h = hash_of(array, nodes * sizeof(Real), h);
       hash = static_cast<std::int64_t>(h);
       bad = slice.take(x + first, y + first, z + first, last - first, first);
-      slice.share(x, y, z);
-      slice.of_all_ranks.points(0, 3, call.corners);
+      slice.of_all_ranks.emplace(x, y, z);
+      slice.of_all_ranks->points(0, 3, call.corners);
     } catch (...) {
       code = code_of(std::current_exception());
     }
@@ -164,7 +159,7 @@ TrmeshResult receive_slice(MpiCommunicator& ranks, Arrays arrays, std::int32_t n
   if (!is_root) ranks.finish();
   std::int64_t values[] = {0, kNone, 0, 0};
   try {
-    if (!by_message) slice.share(x, y, z);
+    if (!by_message) slice.of_all_ranks.emplace(x, y, z);
     for (int i = 0; i < 3; ++i)
       from[i] =
           by_message && !is_root ? reinterpret_cast<const Real*>(slice.received[i].data()) : from[i] + first;
@@ -205,7 +200,7 @@ TrmeshResult lists_of_slices(MpiCommunicator& ranks, Arrays arrays, const Call& 
     ranks.set_phase("triangulate");
     const LocalNodes mine{slice.nodes, begin[me + 1] - begin[me], nullptr,
                           static_cast<std::int64_t>(begin[me]) + 1,
-                          slice.can_read_all ? &slice.of_all_ranks : nullptr};
+                          slice.of_all_ranks ? &*slice.of_all_ranks : nullptr};
     return triangulate<std::int32_t>(mine, slice.look, call.corners, {1, 2, 3}, ranks, options, &cost);
   };
   cut(static_cast<std::size_t>(call.n));

@@ -1,6 +1,5 @@
 // The parallel triangulation, in order:
-//   1  divide        a sample of the nodes, the same on every rank, and counts near the cuts divide the
-//   sphere
+//   1  divide        a sample of the nodes, the same on every rank, and counts near the cuts cut the sphere
 //                    into patches; every node goes to its patch and to those that have it in their halo
 //   2  triangulate   every patch its own nodes, its halo and a few nodes from everywhere
 //   3  merge         every patch asks the others about what it cannot know, until nothing is left to ask
@@ -49,6 +48,9 @@ Parcels parcels(const std::vector<std::vector<Item>>& items) {
       std::memcpy(p.bytes.data() + p.begin[r], items[r].data(), items[r].size() * sizeof(Item));
   return p;
 }
+
+/// So that the next parcel begins where numbers of 64 bits can.
+constexpr std::size_t rounded_up(std::size_t bytes) { return (bytes + 7) / 8 * 8; }
 
 /// All items of all ranks.
 template <class Item>
@@ -481,7 +483,7 @@ class Triangulator {
       header[r] = (last - first) * sizeof(Count);
       const bool is_empty = r == me_ || items == 0;
       const std::size_t bytes = is_empty ? 0 : header[r] + items * sizeof(Item);
-      parcels.begin.push_back(parcels.begin.back() + (bytes + 7) / 8 * 8);
+      parcels.begin.push_back(parcels.begin.back() + rounded_up(bytes));
     }
     if (parcels.begin.back() == 0) return parcels;
     parcels.bytes = Block(parcels.begin.back());
@@ -791,7 +793,7 @@ class Triangulator {
         for (std::size_t i = first; i < last; ++i)
           entries += 1 + RingTable<Int>::count_of(place_[i], size_class_[i]);
       });
-      parcels.begin.push_back(parcels.begin.back() + (entries * sizeof(Int) + 7) / 8 * 8);
+      parcels.begin.push_back(parcels.begin.back() + rounded_up(entries * sizeof(Int)));
     }
     if (parcels.begin.back() == 0) return parcels;
     parcels.bytes = Block(parcels.begin.back() + kBlock * sizeof(Int));  // see copy_kept_ring

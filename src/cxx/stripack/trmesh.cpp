@@ -72,11 +72,12 @@ TrmeshResult lists_in_original_order(Int n, const Real* x, const Real* y, const 
   if (end == InsertionEnd::endless) return {0, 0, 0, OriginalOrder::endless, node};
 
   const PhaseTimer timer(cost, ParallelCost::lists);
-  BlockArray<Point> nodes(static_cast<std::size_t>(n));
-  NodeArrays(x, y, z).points(0, nodes.size(), nodes.data());
-  if (end == InsertionEnd::hopeless ||
-      !is_valid(nodes.data(), inserted.view(), Lengths::automatic, Ties::either_way))
-    return {0, 0, 0, OriginalOrder::wrong};
+  const auto are_right = [&] {
+    BlockArray<Point> nodes(static_cast<std::size_t>(n));
+    NodeArrays(x, y, z).points(0, nodes.size(), nodes.data());
+    return is_valid(nodes.data(), inserted.view(), Lengths::automatic, Ties::either_way);
+  };
+  if (end == InsertionEnd::hopeless || !are_right()) return {0, 0, 0, OriginalOrder::wrong};
   std::copy_n(inserted.list.data(), inserted.list.size(), list);
   std::copy_n(inserted.lptr.data(), inserted.lptr.size(), lptr);
   std::copy_n(inserted.lend.data(), inserted.lend.size(), lend);
