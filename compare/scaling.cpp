@@ -85,18 +85,18 @@ class SerialCall {
 };
 
 struct Call {
-  double serial, wall, root;
+  double wall, root;
   GroupCost cost;
 };
 
 /// The processor time of a rank and phase is its median over the calls, which do the same work: other ranks
 /// that share the processor disturb single calls.
-void print(MpiCommunicator& ranks, std::size_t n, const std::vector<Call>& calls) {
+void print(MpiCommunicator& ranks, std::size_t n, const std::vector<double>& serial,
+           const std::vector<Call>& calls) {
   std::vector<ParallelCost> mine;
-  std::vector<double> serial, wall, root;
+  std::vector<double> wall, root;
   for (const Call& call : calls) {
     mine.push_back(call.cost.mine);
-    serial.push_back(call.serial);
     wall.push_back(call.wall);
     root.push_back(call.root);
   }
@@ -232,14 +232,22 @@ void run_on_ranks(const Settings& s) {
     if (ranks.rank() == 0) points = point_sets::make(s.family, s.n, 1);
     const std::size_t n = points.size();
     SerialCall serial(ranks, points);
+    std::vector<double> alone;
     std::vector<Call> calls;
-    // Each call of all ranks follows a serial one: what slows the machine down slows both. The first of both
-    // do not count.
+    // Serial calls and calls of all ranks in turn: what slows the machine down slows both. Some of a kind in
+    // a row, of which the first does not count: on a virtual machine processors that have slept are slow to
+    // come back.
     const auto measure = [&](const auto& call) {
-      for (int k = 0; k <= s.repeats; ++k) {
-        const double alone = serial(), start = seconds(), spent = cpu_seconds();
-        const GroupCost cost = call();
-        if (k > 0) calls.push_back({alone, seconds() - start, cpu_seconds() - spent, cost});
+      constexpr int kInARow = 3;
+      while (calls.size() < static_cast<std::size_t>(s.repeats)) {
+        serial();
+        for (int k = 0; k < kInARow; ++k) alone.push_back(serial());
+        call();
+        for (int k = 0; k < kInARow; ++k) {
+          const double start = seconds(), spent = cpu_seconds();
+          const GroupCost cost = call();
+          calls.push_back({seconds() - start, cpu_seconds() - spent, cost});
+        }
       }
     };
     if (s.mode == "distributed") {
@@ -264,7 +272,7 @@ void run_on_ranks(const Settings& s) {
         return cost;
       });
     }
-    print(ranks, n, calls);
+    print(ranks, n, alone, calls);
   }
   MPI_Finalize();
 }
@@ -386,7 +394,7 @@ int main(int argc, char** argv) {
       ->delimiter(',')
       ->capture_default_str();
   app.add_option("--family", s.family, "point set, as in stripack-compare")->capture_default_str();
-  app.add_option("--repeats", s.repeats, "calls, of which the median is shown")
+  app.add_option("--repeats", s.repeats, "calls of each kind, at least, of which the median is shown")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   app.add_option("--modes", t.modes, "only tables of these modes")

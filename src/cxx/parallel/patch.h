@@ -109,9 +109,11 @@ class Patch {
   template <class Visit, class Soon>
   void write_rings(Int* out, const Visit& visit, const Soon& soon) const {
     append_rings(
-        hull_, 0, built_, [this](std::size_t v) { return order_[v] < own_; }, Numbers<Int, 0>{number_},
-        [&](std::size_t v) { soon(order_[v]); }, out,
-        [&](std::size_t v, const Int* place, std::uint32_t count) { visit(order_[v], place, count); });
+        hull_, 0, built_, [order = order_, own = own_](std::size_t v) { return order[v] < own; },
+        Numbers<Int, 0>{number_}, [order = order_, soon](std::size_t v) { soon(order[v]); }, out,
+        [order = order_, visit](std::size_t v, const Int* place, std::uint32_t count) {
+          visit(order[v], place, count);
+        });
   }
 
   /// After finish(): who misses which neighbours. Rank r brought the own nodes [own_from[r], own_from[r+1]),

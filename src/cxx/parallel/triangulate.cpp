@@ -742,16 +742,12 @@ class Triangulator {
       auto* at = reinterpret_cast<const Int*>(stars.received.bytes.data() + stars.received.begin[r]);
       for (std::size_t k = away_begin_[static_cast<std::size_t>(first_patch_[r])];
            k < away_begin_[static_cast<std::size_t>(first_patch_[r + 1])]; ++k) {
-        keep_ring(k, at, static_cast<std::uint32_t>(*at));
+        place_[k] = at;
+        size_class_[k] = RingTable<Int>::size_class_of(static_cast<std::uint32_t>(*at));
         at += 1 + *at;
       }
     }
     stars.of_node = RingTable<Int>(nodes_.count, position_, place_, size_class_);
-  }
-
-  void keep_ring(std::size_t position, const Int* place, std::uint32_t count) {
-    place_[position] = place;
-    size_class_[position] = RingTable<Int>::size_class_of(count);
   }
 
   void write_rings(Stars<Int>& stars) {
@@ -772,10 +768,16 @@ class Triangulator {
         stars.more_memory[k] = Buffer<Int>(entries);
         out = stars.more_memory[k].data();
       }
+      // By value: a byte that is written could change anything that is reached through `this`.
+      const Int** const place = place_ + own_begin_[k];
+      std::uint8_t* const size_class = size_class_ + own_begin_[k];
       patch.write_rings(
           out,
-          [&](std::size_t i, const Int* ring, std::uint32_t n) { keep_ring(own_begin_[k] + i, ring, n); },
-          [&](std::size_t i) { __builtin_prefetch(place_ + own_begin_[k] + i, 1); });
+          [=](std::size_t i, const Int* ring, std::uint32_t n) {
+            place[i] = ring;
+            size_class[i] = RingTable<Int>::size_class_of(n);
+          },
+          [=](std::size_t i) { __builtin_prefetch(place + i, 1); });
     });
   }
 
