@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "csv_file.h"
+#include "in_a_row.h"
 #include "median.h"
 #include "mpi/area_of_all.h"
 #include "mpi/collective_trmesh.h"
@@ -234,20 +235,18 @@ void run_on_ranks(const Settings& s) {
     SerialCall serial(ranks, points);
     std::vector<double> alone;
     std::vector<Call> calls;
-    // Serial calls and calls of all ranks in turn: what slows the machine down slows both. Some of a kind in
-    // a row, of which the first does not count: on a virtual machine processors that have slept are slow to
-    // come back.
+    // In turn: what slows the machine down slows both.
     const auto measure = [&](const auto& call) {
-      constexpr int kInARow = 3;
       while (calls.size() < static_cast<std::size_t>(s.repeats)) {
-        serial();
-        for (int k = 0; k < kInARow; ++k) alone.push_back(serial());
-        call();
-        for (int k = 0; k < kInARow; ++k) {
+        in_a_row([&](bool counts) {
+          const double spent = serial();
+          if (counts) alone.push_back(spent);
+        });
+        in_a_row([&](bool counts) {
           const double start = seconds(), spent = cpu_seconds();
           const GroupCost cost = call();
-          calls.push_back({seconds() - start, cpu_seconds() - spent, cost});
-        }
+          if (counts) calls.push_back({seconds() - start, cpu_seconds() - spent, cost});
+        });
       }
     };
     if (s.mode == "distributed") {
@@ -394,7 +393,7 @@ int main(int argc, char** argv) {
       ->delimiter(',')
       ->capture_default_str();
   app.add_option("--family", s.family, "point set, as in stripack-compare")->capture_default_str();
-  app.add_option("--repeats", s.repeats, "calls of each kind, at least, of which the median is shown")
+  app.add_option("--repeats", s.repeats, "calls of each kind, by threes, of which the median is shown")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   app.add_option("--modes", t.modes, "only tables of these modes")

@@ -41,7 +41,8 @@ void print_head(const std::optional<legacy_stripack::Location>& where, int repea
   fmt::print("pstripack  {}\noriginal   {}\nCGAL       {}\nQhull      {}\n", pstripack_version(),
              where ? where->name : "none found", cgal.description, qhull.description);
   fmt::print(
-      "threads    1, where nothing else is said\nrepeats    {}, median; at most 3 above 2 s, 1 above 30 s\n",
+      "threads    1, where nothing else is said\nrepeats    {}, median; at most 3 above 2 s, 1 above 30 s; "
+      "on threads by threes\n",
       repeats);
 }
 
@@ -69,7 +70,7 @@ int main(int argc, char** argv) {
       ->delimiter(',')
       ->check(CLI::IsMember(case_names()));
   const std::string repeats_help =
-      "measurements each, median taken; default 7, at most 3 above 2 s, 1 above 30 s";
+      "measurements each, median taken; default 7, at most 3 above 2 s, 1 above 30 s; on threads by threes";
   app.add_option("--repeats", cases.repeats, repeats_help)->check(CLI::Range(1, 1000));
 
   CurveSettings curves;

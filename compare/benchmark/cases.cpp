@@ -132,17 +132,10 @@ void run_threads(const std::string& self, int repeats) {
     library.trmesh(nodes, lists);
     return seconds_since(start);
   };
-  // Some calls of a kind in a row, and the first does not count: its pages are new, and on a virtual machine
-  // processors that have slept through the other kind's calls are slow to come back.
-  const auto measure = [&](int threads, Samples& samples) {
-    constexpr int kInARow = 3;
-    seconds_on(threads);
-    for (int k = 0; k < kInARow; ++k) samples.add(seconds_on(threads));
-  };
   Samples one, all;
   while (!all.enough(repeats)) {
-    measure(1, one);
-    measure(processors, all);
+    measure_in_a_row(one, [&] { return seconds_on(1); });
+    measure_in_a_row(all, [&] { return seconds_on(processors); });
   }
   fmt::print("{:<17} {:>8} {:>9} on 1 thread, {} on {}: {:.2f} times the speed{}; peak {:.0f}\n",
              "threads-1e6", nodes.n(), microseconds(one, nodes.n()), microseconds(all, nodes.n()), processors,
@@ -174,11 +167,10 @@ void run_crlist_on_threads(const std::optional<legacy_stripack::Original>& origi
     library.crlist(nodes, lists, listc, centres);
     return seconds_since(start);
   };
-  seconds(own_library, own_lists);  // new pages
   Samples own, theirs;
   while (!own.enough(repeats)) {
-    own.add(seconds(own_library, own_lists));
-    theirs.add(seconds(theirs_library, *theirs_lists));
+    measure_in_a_row(own, [&] { return seconds(own_library, own_lists); });
+    measure_in_a_row(theirs, [&] { return seconds(theirs_library, *theirs_lists); });
   }
   fmt::print("{:<17} {:>8} {:>9} on {} threads, the original {}: {:.2f} times the speed ({:g})\n",
              "crlist-threads", nodes.n(), microseconds(own, nodes.n()), omp_get_num_procs(),

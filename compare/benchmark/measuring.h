@@ -40,6 +40,9 @@ class Samples {
   std::vector<double> seconds_;
 };
 
+/// Adds what `seconds` returns of some calls in a row: see in_a_row.h.
+void measure_in_a_row(Samples& samples, const std::function<double()>& seconds);
+
 /// "0.2345", "-" without samples.
 std::string microseconds(const Samples& samples, int n);
 

@@ -108,6 +108,7 @@ class Patch {
   /// before.
   template <class Visit, class Soon>
   void write_rings(Int* out, const Visit& visit, const Soon& soon) const {
+    // By value: where visit() writes bytes, they could change anything that is reached through `this`.
     append_rings(
         hull_, 0, built_, [order = order_, own = own_](std::size_t v) { return order[v] < own; },
         Numbers<Int, 0>{number_}, [order = order_, soon](std::size_t v) { soon(order[v]); }, out,

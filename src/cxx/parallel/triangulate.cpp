@@ -768,7 +768,7 @@ class Triangulator {
         stars.more_memory[k] = Buffer<Int>(entries);
         out = stars.more_memory[k].data();
       }
-      // By value: a byte that is written could change anything that is reached through `this`.
+      // By value, as in Patch::write_rings.
       const Int** const place = place_ + own_begin_[k];
       std::uint8_t* const size_class = size_class_ + own_begin_[k];
       patch.write_rings(
