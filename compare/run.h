@@ -12,7 +12,7 @@
 namespace comparison {
 
 struct RunOptions {
-  std::vector<std::string> points;  ///< families; "all" of them; file:PATH
+  std::vector<std::string> points;  ///< families; "all": point_sets::families(); file:PATH
   std::vector<std::string> files;
   std::size_t n = 10000;
   std::uint64_t seed = 1;

@@ -92,7 +92,7 @@ void add_run_options(CLI::App& app, RunOptions& options) {
                           std::vector<std::string> choices) {
     return list(name, values, text)->check(CLI::IsMember(std::move(choices)).description(""));
   };
-  list("--points", options.points, "families, see below; `all` of them; file:PATH");
+  list("--points", options.points, "families, see below; `all`: random to hemisphere-rim; file:PATH");
   list("--file", options.files,
        "text (`lon lat` in degrees or `x y z` a line; - is stdin), generators, NetCDF");
   app.add_option("--n", options.n, "number of nodes of a family [10000]");

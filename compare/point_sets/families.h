@@ -20,7 +20,7 @@ struct Family {
   std::function<Points(std::size_t n, double parameter, Random& random)> make;
 };
 
-/// All of them, in the order in which they are listed.
+/// All of them, in the order in which they are listed: families(), then hard_families().
 const std::vector<Family>& registry();
 
 Family random_family();
@@ -44,5 +44,30 @@ Family tee_family();
 Family pairs_family();
 Family hemisphere_family();
 Family hemisphere_rim_family();
+
+Family small_circle_family();
+Family two_curves_family();
+Family crossing_family();
+Family ellipse_family();
+Family spiral_family();
+Family comb_family();
+Family falling_tee_family();
+Family moment_family();
+Family falling_family();
+Family ulp_groups_family();
+Family axis_cap_family();
+Family nest_family();
+Family rays_family();
+Family lattice_family();
+Family earth_family();
+Family rounded_family();
+Family rotated_pole_family();
+Family refined_family();
+Family satellite_family();
+Family swaths_family();
+Family tracks_family();
+Family rivers_family();
+Family coast_family();
+Family earthquakes_family();
 
 }  // namespace point_sets

@@ -2,6 +2,7 @@
 // What several families are made of.
 
 #include <cstddef>
+#include <functional>
 #include <utility>
 
 #include "families.h"
@@ -25,6 +26,29 @@ std::size_t nearest(std::size_t n, std::size_t least, Count count) {
 
 /// A uniform point in the unit disc: (u, v) with 0 < u^2 + v^2 < 1.
 std::pair<double, double> in_disc(Random& random);
+
+/// The centre of a map, and its directions: of unit length, at right angles.
+struct Frame {
+  Point c, e1, e2;
+};
+Frame frame(const Point& c);
+
+/// The direction of c + u e1 + v e2.
+Point at(const Frame& frame, double u, double v);
+
+/// 10^-x, x >= 0.
+double ten_to_minus(double x);
+
+/// What `draw` returns, n times, without repeats; fewer where it returns nothing but repeats.
+Points distinct(std::size_t n, const std::function<Point()>& draw);
+
+/// A circular orbit, and the earth that turns below it.
+struct Orbit {
+  double inclination;  ///< degrees
+  /// At the angle `along` from the ascending node, `across` to its left, when the earth has turned by `turn`:
+  /// degrees.
+  Point seen_from_earth(double along, double across, double turn) const;
+};
 
 /// A uniform point in the cap of the given radius around c. Accurate for the smallest radii.
 Point in_cap(Random& random, const Point& c, double radius);

@@ -3,7 +3,9 @@
 namespace point_sets {
 namespace {
 
-Points cap_nodes(std::size_t n, double radius, Random& random) { return caps(n, {centre()}, radius, random); }
+Points cap_nodes(std::size_t n, double radius, Random& random) {
+  return distinct(n, [&] { return in_cap(random, centre(), radius); });
+}
 
 }  // namespace
 
