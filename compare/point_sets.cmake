@@ -11,7 +11,7 @@ set(point_set_families random single fibonacci icosahedral latlon reduced_gaussi
 list(TRANSFORM point_set_families PREPEND ${point_sets_dir}/families/)
 list(TRANSFORM point_set_families APPEND .cpp)
 add_library(point_sets STATIC
-  ${point_sets_dir}/angles.cpp ${point_sets_dir}/point_sets.cpp ${point_sets_dir}/random_numbers.cpp
+  ${point_sets_dir}/angles.cpp ${point_sets_dir}/distributions.cpp ${point_sets_dir}/point_sets.cpp ${point_sets_dir}/random_numbers.cpp
   ${point_sets_dir}/shapes.cpp ${point_sets_dir}/text_file.cpp ${point_set_families})
 target_include_directories(point_sets
   PUBLIC ${point_sets_dir} $<TARGET_PROPERTY:pstripack_geometry,INTERFACE_INCLUDE_DIRECTORIES>)

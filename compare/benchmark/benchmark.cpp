@@ -66,9 +66,14 @@ int main(int argc, char** argv) {
   app.footer("cases: " + CLI::detail::join(case_names(), " "));
   CaseSettings cases;
   app.add_flag("--quick", cases.quick, "only cases with less than 10^6 nodes, three repeats");
-  app.add_option("--only", cases.only, "only these cases, as random-1e4,latlon-1e5")
+  app.add_option(
+         "--only", cases.only,
+         "only these cases, as random-1e4,latlon-1e5; the case `distributions` runs where it is named")
       ->delimiter(',')
       ->check(CLI::IsMember(case_names()));
+  app.add_option("--sets", cases.sets, "only these point sets in the case `distributions`")
+      ->delimiter(',')
+      ->check(is_point_set);
   const std::string repeats_help =
       "measurements each, median taken; default 7, at most 3 above 2 s, 1 above 30 s; on threads by threes";
   app.add_option("--repeats", cases.repeats, repeats_help)->check(CLI::Range(1, 1000));

@@ -19,6 +19,7 @@
 #include "orders.h"
 #include "point_sets.h"
 #include "pstripack.h"
+#include "time_of_distributions.h"
 #include "time_of_orders.h"
 
 namespace benchmark {
@@ -310,6 +311,7 @@ void run(const Case& c, const std::optional<legacy_stripack::Original>& original
 const std::vector<std::string> kParallelCases{"threads-1e6", "pool-1e6", "crlist-threads"};
 const std::vector<std::pair<std::string, int>> kTimesOfOrders{{"orders-1e5", 100000},
                                                               {"orders-1e6", 1000000}};
+const std::string kDistributions = "distributions";
 
 }  // namespace
 
@@ -319,19 +321,23 @@ std::vector<std::string> case_names() {
   for (const OrderCase& c : kOrderCases) names.push_back(c.name);
   names.insert(names.end(), kParallelCases.begin(), kParallelCases.end());
   for (const auto& [name, n] : kTimesOfOrders) names.push_back(name);
+  names.push_back(kDistributions);
   return names;
 }
 
 void run_cases(const std::string& self, const CaseSettings& settings,
                const std::optional<legacy_stripack::Original>& original_library) {
-  const auto& [quick, only, repeats] = settings;
+  const auto& [quick, only, sets, repeats] = settings;
   const auto is_wanted = [&wanted = only](const std::string& name, bool by_default) {
     return wanted.empty() ? by_default : std::find(wanted.begin(), wanted.end(), name) != wanted.end();
   };
   for (const auto& [name, n] : kTimesOfOrders)
     if (is_wanted(name, !quick)) run_time_of_orders(n, repeats);
-  const auto is_of_orders = [](const std::string& name) { return name.rfind("orders-", 0) == 0; };
-  if (!only.empty() && std::all_of(only.begin(), only.end(), is_of_orders)) return;
+  if (is_wanted(kDistributions, false)) run_time_of_distributions(sets, repeats);
+  const auto is_beside_random = [](const std::string& name) {
+    return name == kDistributions || name.rfind("orders-", 0) == 0;
+  };
+  if (!only.empty() && std::all_of(only.begin(), only.end(), is_beside_random)) return;
 
   fmt::print("\nin parentheses the ratio asked for\n\n");
   fmt::print("{:<17} {:>8} {:^39} {:^17} {:^17} {:^17} {:>9}\n", "", "", "microseconds a node",

@@ -6,18 +6,16 @@
 #include <cstdio>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "contenders.h"
-#include "measuring.h"
+#include "beside_random.h"
 #include "orders.h"
-#include "pstripack.h"
 
 namespace benchmark {
 namespace {
 
-constexpr double kLimit = 1.5;  // times random order
+constexpr double kLimit = 1.5;       // times random order
+constexpr double kTimeLimit = 1800;  // seconds
 
 struct Row {
   std::string family, order;
@@ -66,29 +64,6 @@ const std::vector<Row> kRows{
     {"pairs:1e-10", "given"},
 };
 
-/// Where the first three nodes are collinear, TRMESH returns at once: another node takes the third's place.
-Nodes nodes_of(const Row& row, int n) {
-  std::vector<pstripack::Point> points = nodes_in_order(row.family, static_cast<std::size_t>(n), row.order);
-  for (std::size_t other = points.size(); other > 3; --other) {
-    const Nodes nodes(points);
-    Lists lists(nodes.n());
-    if (pstripack_trmesh(nodes.n(), nodes.x.data(), nodes.y.data(), nodes.z.data(), lists.list.data(),
-                         lists.lptr.data(), lists.lend.data(), &lists.lnew) != -2)
-      return nodes;
-    std::swap(points[2], points[other - 1]);
-  }
-  throw std::runtime_error("all nodes are collinear");
-}
-
-double seconds_a_node(const Nodes& nodes) {
-  const double seconds = measured([&] {
-    Lists lists(nodes.n());
-    const Stripack library = ours();
-    return seconds_a_call([&] { library.trmesh(nodes, lists); }, std::max(1, 200000 / nodes.n()));
-  });
-  return seconds / nodes.n();
-}
-
 }  // namespace
 
 void run_time_of_orders(int n, int repeats) {
@@ -99,16 +74,14 @@ void run_time_of_orders(int n, int repeats) {
   const Nodes random(nodes_in_order("random", static_cast<std::size_t>(n), "given"));
   double largest = 0;
   for (const Row& row : kRows) {
-    const Nodes nodes = nodes_of(row, n);
-    Samples own, randoms;
-    while (!own.enough(repeats) || !randoms.enough(repeats)) {
-      own.add(seconds_a_node(nodes));
-      randoms.add(seconds_a_node(random));
-    }
-    const double ratio = own.median() / randoms.median();
+    const Nodes nodes =
+        with_a_triangle_first(nodes_in_order(row.family, static_cast<std::size_t>(n), row.order));
+    const BesideRandom b = measure_beside_random(nodes, random, repeats, kTimeLimit);
+    if (!b.in_time) throw std::runtime_error("a measurement did not come to its end");
+    const double ratio = b.ratio();
     largest = std::max(largest, ratio);
     fmt::print("{:<17} {:<10} {:>8} {:>9.4f} {:>10.4f} {:>7.2f}{}\n", row.family, row.order, nodes.n(),
-               1e6 * own.median(), 1e6 * randoms.median(), ratio, ratio > kLimit ? " above" : "");
+               1e6 * b.own.median(), 1e6 * b.random.median(), ratio, ratio > kLimit ? " above" : "");
     std::fflush(stdout);
   }
   fmt::print("largest {:.2f} of {} rows ({:g})\n", largest, kRows.size(), kLimit);

@@ -1,0 +1,26 @@
+#pragma once
+// How far the questions of a triangulation go through the stages of the predicates.
+
+#include <cstdint>
+#include <vector>
+
+#include "geometry/predicates.h"
+#include "mesh/delaunay.h"
+
+struct StageCounts {
+  std::uint64_t asked;  ///< questions `above` that reached the predicates
+  /// How often a stage was entered, also for `left` and for comparing directions.
+  std::uint64_t double_double, integers, big_integers, tie_rule;
+};
+
+inline StageCounts stages_of(const pstripack::PredicateCounts& c) {
+  return {c.above, 0, c.exact, 0, c.symbolic};
+}
+
+/// Of the triangulation of the nodes by the kernel, in this thread.
+inline StageCounts stage_counts(const std::vector<pstripack::Point>& nodes) {
+  pstripack::Workspace workspace(pstripack::workspace_bytes(nodes.size()));
+  pstripack::take_predicate_counts();
+  pstripack::delaunay(nodes.data(), nodes.size(), workspace);
+  return stages_of(pstripack::take_predicate_counts());
+}
