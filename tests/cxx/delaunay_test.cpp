@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "distributions.h"
 #include "point_sets.h"
 #include "support/expect.h"
 #include "support/guarded.h"
@@ -46,6 +47,21 @@ std::vector<Case> cases(const std::vector<std::size_t>& sizes) {
   return all;
 }
 
+/// Of every distribution that the benchmark measures; few nodes, as exact arithmetic judges all of them.
+std::vector<Case> hard_cases(const std::vector<std::size_t>& sizes) {
+  std::vector<Case> all;
+  for (const point_sets::Distribution& d : point_sets::distributions())
+    for (const std::size_t n : sizes) all.push_back({d.name, n});
+  return all;
+}
+
+/// With the first three nodes not on one great circle, so that TRMESH triangulates them.
+Nodes with_a_triangle_first(Nodes nodes) {
+  for (std::uint64_t seed = 1; exact::left(nodes[0], nodes[1], nodes[2]) == 0; ++seed)
+    point_sets::shuffle(nodes, seed);
+  return nodes;
+}
+
 const std::vector<std::size_t> small = {3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 20, 50}, medium = {100, 1000},
                                large = {10000, 100000};
 
@@ -76,12 +92,21 @@ INSTANTIATE_TEST_SUITE_P(Small, Delaunay, ::testing::ValuesIn(cases(small)), nam
 INSTANTIATE_TEST_SUITE_P(Medium, Delaunay, ::testing::ValuesIn(cases(medium)), name_of);
 INSTANTIATE_TEST_SUITE_P(Large, Delaunay, ::testing::ValuesIn(cases(large)), name_of);
 
+class HardNodes : public ::testing::TestWithParam<Case> {};
+
+TEST_P(HardNodes, AreTriangulatedCorrectly) {
+  const Nodes nodes = with_a_triangle_first(make(GetParam().family, GetParam().n));
+  EXPECT_TRUE(is_correct(nodes, trmesh(nodes)));
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, HardNodes, ::testing::ValuesIn(hard_cases({12, 300})), name_of);
+
 /// With so few nodes no algorithm is needed to know the answer: all triples are tried.
 class FewNodes : public ::testing::TestWithParam<std::size_t> {};
 
-TEST_P(FewNodes, AreTriangulatedAsByTryingAllTriples) {
-  for (const Case& c : cases({GetParam()}))
-    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+void compare_with_all_triples(const std::vector<Case>& cases, std::uint64_t seeds) {
+  for (const Case& c : cases)
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
       Nodes nodes = make(c.family, c.n, seed);
       if (seed % 2 == 0) point_sets::shuffle(nodes, seed);
       if (nodes.size() > 12 || expected_ier(nodes) != 0) continue;
@@ -92,6 +117,11 @@ TEST_P(FewNodes, AreTriangulatedAsByTryingAllTriples) {
       if (!rings_of(nodes.size(), expected)) expected = brute_force(nodes, exact::On::directions);
       ASSERT_EQ(faces_of(*rings), expected) << c.family << " seed " << seed;
     }
+}
+
+TEST_P(FewNodes, AreTriangulatedAsByTryingAllTriples) {
+  compare_with_all_triples(cases({GetParam()}), 20);
+  compare_with_all_triples(hard_cases({GetParam()}), 2);
 }
 
 INSTANTIATE_TEST_SUITE_P(N, FewNodes, ::testing::Range(std::size_t{3}, std::size_t{12}));
@@ -178,10 +208,8 @@ Faces renamed(const Faces& faces, const std::vector<std::int32_t>& order) {
 class Numbering : public ::testing::TestWithParam<Case> {};
 
 TEST_P(Numbering, DoesNotChangeTheTriangles) {
-  Nodes nodes = make(GetParam().family, GetParam().n);
+  const Nodes nodes = with_a_triangle_first(make(GetParam().family, GetParam().n));
   const std::size_t n = nodes.size();
-  for (std::uint64_t seed = 1; exact::left(nodes[0], nodes[1], nodes[2]) == 0; ++seed)
-    point_sets::shuffle(nodes, seed);
   const Mesh m = trmesh(nodes);
   ASSERT_EQ(m.ier, 0);
   const auto rings = rings_of(m);
@@ -222,6 +250,7 @@ TEST_P(Numbering, DoesNotChangeTheTriangles) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, Numbering, ::testing::ValuesIn(cases({12, 100, 5000})), name_of);
+INSTANTIATE_TEST_SUITE_P(Hard, Numbering, ::testing::ValuesIn(hard_cases({100})), name_of);
 
 class ThreadCount : public ::testing::TestWithParam<Case> {};
 
@@ -243,6 +272,7 @@ TEST_P(ThreadCount, DoesNotChangeABit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, ThreadCount, ::testing::ValuesIn(cases({3, 100, 10000, 100000})), name_of);
+INSTANTIATE_TEST_SUITE_P(Hard, ThreadCount, ::testing::ValuesIn(hard_cases({100, 300})), name_of);
 
 TEST(Runs, AreTheSameToTheBit) {
   const Nodes nodes = make("random", 20000);
