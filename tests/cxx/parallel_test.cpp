@@ -13,6 +13,7 @@
 #include <string>
 #include <tuple>
 
+#include "distributions.h"
 #include "geometry/workspace.h"
 #include "parallel/coincidence.h"
 #include "parallel/partition.h"
@@ -213,6 +214,18 @@ INSTANTIATE_TEST_SUITE_P(All, Families, ::testing::ValuesIn(kFamilies), [](const
       name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
   return name;
 });
+
+/// The same for every distribution that the benchmark measures; nests over more than 100 decades, nearly
+/// every question about which takes big integers, have fewer nodes.
+TEST(Distributions, GiveTheSerialRings) {
+  for (const point_sets::Distribution& d : point_sets::distributions()) {
+    const Set set(point_sets::make(d.name, d.limit > 4 ? 60 : 600, 5));
+    ASSERT_TRUE(set.coincident.empty()) << d.name;
+    for (const Configuration c : {Configuration{1, 5, PartitionKind::bisection, Brings::slices},
+                                  Configuration{4, 1, PartitionKind::stripes, Brings::every_other}})
+      EXPECT_TRUE(is_serial(set, run<std::int32_t>(set.nodes, c))) << d.name << ", " << name_of(c);
+  }
+}
 
 // ---- nodes in arrays --------------------------------------------------------------------------------
 
