@@ -14,7 +14,7 @@ Points two_curves_nodes(std::size_t n, double width, Random& random) {
 }  // namespace
 
 Family two_curves_family() {
-  return {"two-curves", "1e-3", "n", "along (1, t, w) and (1, t^2, -w), t uniform; the parameter is w",
+  return {"two-curves", "1e-3", "n", "along (1, t, w) and (1, t^2, minus w), t uniform; the parameter is w",
           two_curves_nodes};
 }
 
