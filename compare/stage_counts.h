@@ -14,7 +14,7 @@ struct StageCounts {
 };
 
 inline StageCounts stages_of(const pstripack::PredicateCounts& c) {
-  return {c.above, 0, c.exact, 0, c.symbolic};
+  return {c.above, c.double_double, c.integers, c.big_integers, c.symbolic};
 }
 
 /// Of the triangulation of the nodes by the kernel, in this thread.

@@ -21,10 +21,17 @@ namespace pstripack::exact {
 namespace mp = boost::multiprecision;
 using Integer512 =
     mp::number<mp::cpp_int_backend<512, 512, mp::signed_magnitude, mp::unchecked, void>, mp::et_off>;
+/// For the directions, whose square roots take 32 times the bits of a coordinate and 64 more.
+using RootInteger =
+    mp::number<mp::cpp_int_backend<2688, 2688, mp::signed_magnitude, mp::unchecked, void>, mp::et_off>;
 using Integer = mp::number<mp::cpp_int_backend<>, mp::et_off>;
 
 /// Bits of a coordinate up to which det3 of differences (3*(bits+1)+3 bits) fits Integer512.
 constexpr int kSmallBits = 168;
+
+/// Bits of a coordinate up to which sign_of_sum of four brackets fits RootInteger: a bracket has 3 bits + 3,
+/// its square times a squared length 8 bits + 8, and squared twice more 32 bits + 44.
+constexpr int kRootBits = 82;
 
 template <class Int>
 int sign(const Int& v) {
@@ -155,7 +162,8 @@ int orientation(const Point& a, const Point& b, const Point& c, const Point& d, 
 // So three steps always suffice, and nothing is rounded. All radicands are positive.
 
 /// sign of A sqrt(a) + B sqrt(b)
-inline int sign_of_sum(const Integer& A, const Integer& a, const Integer& B, const Integer& b) {
+template <class Integer>
+int sign_of_sum(const Integer& A, const Integer& a, const Integer& B, const Integer& b) {
   const int s = sign(A), t = sign(B);
   if (s == 0 || s == t) return t;
   if (t == 0) return s;
@@ -163,8 +171,8 @@ inline int sign_of_sum(const Integer& A, const Integer& a, const Integer& B, con
 }
 
 /// sign of E + F sqrt(f) + G sqrt(g)
-inline int sign_of_sum(const Integer& E, const Integer& F, const Integer& f, const Integer& G,
-                       const Integer& g) {
+template <class Integer>
+int sign_of_sum(const Integer& E, const Integer& F, const Integer& f, const Integer& G, const Integer& g) {
   const int s = sign(E), t = sign_of_sum(F, f, G, g);
   if (s == 0 || s == t) return t;
   if (t == 0) return s;
@@ -174,7 +182,8 @@ inline int sign_of_sum(const Integer& E, const Integer& F, const Integer& f, con
 }
 
 /// sign of A sqrt(a) + B sqrt(b) + C sqrt(c) + D sqrt(d)
-inline int sign_of_sum(const std::array<Integer, 4>& factor, const std::array<Integer, 4>& root) {
+template <class Integer>
+int sign_of_sum(const std::array<Integer, 4>& factor, const std::array<Integer, 4>& root) {
   const auto& [A, B, C, D] = factor;
   const auto& [a, b, c, d] = root;
   const int s = sign_of_sum(A, a, B, b), t = sign_of_sum(C, c, D, d);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 #include <vector>
 
@@ -158,12 +159,45 @@ struct Box {
   Square square() const { return {s0, t0, std::max(s1 - s0, t1 - t0)}; }
 };
 
+/// Grows with v as its exponent does: equal steps for equal ratios, on both sides of zero.
+double logarithmic(double v) {
+  std::int64_t bits;
+  const double size = std::fabs(v);
+  std::memcpy(&bits, &size, sizeof bits);
+  return static_cast<double>(v < 0 ? -bits : bits);
+}
+
+/// True if the numbers from low to high span so many powers of two that equal parts hardly divide them.
+bool spans_scales(double low, double high) {
+  constexpr double kOctave = 0x1p52, kOctaves = 32;
+  return logarithmic(high) - logarithmic(low) > kOctaves * kOctave;
+}
+
+/// How the cells divide a square: into equal parts, or, where most nodes lie in one of these, by their scale.
+enum class Division { equal, by_scale };
+
 /// Orders the nodes of one cell, entries [first,last), along a curve through their bounding box.
-void refine(const Points& points, Entry* first, Entry* last, int depth) {
+///
+/// In equal parts, each level divides the side of a cell by 2^5 or more. Nodes that come closer and closer to
+/// one place, by as many decades as the exponent of a double allows, would need one level for each few of
+/// them: where that place has a coordinate 0, all scales are told apart at once.
+void refine(const Points& points, Entry* first, Entry* last, int depth, Division division) {
   const std::size_t n = static_cast<std::size_t>(last - first);
   Buffer<OnCube> place(n);
   Box box;
   for (std::size_t k = 0; k < n; ++k) box.include(place[k] = on_cube(points[node_of(first[k])]));
+  if (division == Division::by_scale) {
+    const bool s = spans_scales(box.s0, box.s1), t = spans_scales(box.t0, box.t1);
+    const auto part = [](bool by_scale, double v, double low, double high) {
+      if (!(high > low)) return 0.0;
+      return by_scale ? (logarithmic(v) - logarithmic(low)) / (logarithmic(high) - logarithmic(low))
+                      : (v - low) / (high - low);
+    };
+    if (s || t) {
+      for (OnCube& q : place) q.s = part(s, q.s, box.s0, box.s1), q.t = part(t, q.t, box.t0, box.t1);
+      box = {0, 1, 0, 1};
+    }
+  }
   const Square square = box.square();
   if (!(square.side > 0)) return;  // all in one direction, as far as doubles tell
   // Again as many cells as it takes; keys of 10, 20 or 30 bits.
@@ -179,7 +213,8 @@ void refine(const Points& points, Entry* first, Entry* last, int depth) {
   if (depth == 0) return;
   for (std::size_t i = 0, j; i < n; i = j) {
     for (j = i + 1; j < n && key_of(first[j]) == key_of(first[i]);) ++j;
-    if (j - i > kCrowd) refine(points, first + i, first + j, depth - 1);
+    if (j - i > kCrowd)
+      refine(points, first + i, first + j, depth - 1, 2 * (j - i) > n ? Division::by_scale : Division::equal);
   }
 }
 
@@ -227,8 +262,8 @@ void insertion_order(const Point* first_point, std::size_t n, std::uint32_t* ord
   entries = sort(entries, other, n, 2 * kLevels * blocks + 3 - dropped);
   for (std::size_t i = 0, j; i < n; i = j) {
     for (j = i + 1; j < n && key_of(entries[j]) == key_of(entries[i]);) ++j;
-    // Each level divides a cell's side by 2^5 or more, or ends at doubles that do not differ.
-    if (j - i > kCrowd) refine(points, entries + i, entries + j, 20);
+    // Three levels by scale and eleven in equal parts come to doubles that do not differ.
+    if (j - i > kCrowd) refine(points, entries + i, entries + j, 20, Division::equal);
   }
   parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int) {
     for (std::size_t i = first; i < last; ++i) order[i] = node_of(entries[i]);

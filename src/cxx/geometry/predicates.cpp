@@ -4,14 +4,18 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/double_double.h"
 #include "geometry/exact.h"
-#include "geometry/parallel_for.h"
+#include "geometry/predicate_stages.h"
 
 // Error bounds below: u = 2^-53 is the unit roundoff of rounding to nearest, which every entry of the library
 // sets (geometry/floating_point.h). "Permanent" is the expression of a determinant with every term replaced
 // by its absolute value; it is computed alongside.
 
 namespace pstripack {
+
+thread_local PredicateCounts stages;
+
 namespace {
 
 constexpr double u = 0x1p-53;
@@ -21,16 +25,12 @@ constexpr double u = 0x1p-53;
 constexpr double kUnderflow = 1e-250;
 constexpr double kLargest = 1e30;
 
-thread_local PredicateCounts counts;
-
-double largest(const Point& a) { return std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)}); }
-
 /// det(e,f,g) and its permanent.
 struct Determinant {
   double value, permanent;
 };
 
-Determinant determinant(const Point& e, const Point& f, const Point& g) {
+[[gnu::always_inline]] inline Determinant determinant(const Point& e, const Point& f, const Point& g) {
   const double yz = e.y * f.z, zy = e.z * f.y, zx = e.z * f.x, xz = e.x * f.z, xy = e.x * f.y, yx = e.y * f.x;
   return {(yz - zy) * g.x + (zx - xz) * g.y + (xy - yx) * g.z,
           (std::fabs(yz) + std::fabs(zy)) * std::fabs(g.x) +
@@ -63,20 +63,11 @@ int filter_left(const Point& a, const Point& b, const Point& c) {
   return certain_sign(v, kFactor * v.permanent + kUnderflow);
 }
 
-bool moderate(const Point& a) { return largest(a) < kLargest; }
-
-// Zeros that need no arithmetic are common: nodes on the equator, on one parallel.
-
-template <class... Points>
-bool in_coordinate_plane(const Points&... p) {
-  return ((p.x == 0) && ...) || ((p.y == 0) && ...) || ((p.z == 0) && ...);
+bool moderate(const Point& a) {
+  return std::fabs(a.x) < kLargest && std::fabs(a.y) < kLargest && std::fabs(a.z) < kLargest;
 }
 
-int exact_zero() {
-  ++counts.exact;
-  return 0;
-}
-
+/// A zero that needs no arithmetic: nodes on one parallel.
 template <class... Points>
 bool in_parallel_plane(const Point& a, const Points&... p) {
   return ((p.x == a.x) && ...) || ((p.y == a.y) && ...) || ((p.z == a.z) && ...);
@@ -84,30 +75,41 @@ bool in_parallel_plane(const Point& a, const Points&... p) {
 
 int exact_left(const Point& a, const Point& b, const Point& c) {
   using namespace exact;
-  if (Grid p, q, r; on_grid(a, p) && on_grid(b, q) && on_grid(c, r)) return sign_of_det(p, q, r);
   const int bits = std::max({span_of(a).bits(), span_of(b).bits(), span_of(c).bits()});
-  return bits <= kSmallBits ? exact::left<Integer512>(a, b, c) : exact::left<Integer>(a, b, c);
+  if (bits <= kSmallBits) return exact::left<Integer512>(a, b, c);
+  ++stages.big_integers;
+  return exact::left<Integer>(a, b, c);
 }
 
 int exact_orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
   using namespace exact;
-  if (Grid p, q, r, s; on_grid(a, p) && on_grid(b, q) && on_grid(c, r) && on_grid(d, s))
-    return sign_of_det(q - p, r - p, s - p);
   Span span = span_of(a);
   span.join(b);
   span.join(c);
   span.join(d);
-  return span.bits() <= kSmallBits ? exact::orientation<Integer512>(a, b, c, d, span.low)
-                                   : exact::orientation<Integer>(a, b, c, d, span.low);
+  if (span.bits() <= kSmallBits) return exact::orientation<Integer512>(a, b, c, d, span.low);
+  ++stages.big_integers;
+  return exact::orientation<Integer>(a, b, c, d, span.low);
 }
 
-/// The volume of the directions times |a||b||c||d|:  |a| [bcd] - |b| [acd] + |c| [abd] - |d| [abc].
-int exact_orientation_of_directions(const Point& a, const Point& b, const Point& c, const Point& d) {
-  using namespace exact;
-  const auto A = scaled<Integer>(a, span_of(a).low), B = scaled<Integer>(b, span_of(b).low),
-             C = scaled<Integer>(c, span_of(c).low), D = scaled<Integer>(d, span_of(d).low);
-  return sign_of_sum({det(B, C, D), -det(A, C, D), det(A, B, D), -det(A, B, C)},
-                     {dot(A, A), dot(B, B), dot(C, C), dot(D, D)});
+// Differences are exact sums of two doubles. In units of u^2: minors 6 + 4, their products 6, two sums 4
+// each: 24 of the permanent, and 2^-99 is 32 of it with its rounding and higher orders.
+constexpr double kFineFactor = 0x1p-99;
+
+int fine_orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
+  ++stages.double_double;
+  struct Difference {
+    DoubleDouble x, y, z;
+    Difference(const Point& p, const Point& q)
+        : x(two_sum(p.x, -q.x)), y(two_sum(p.y, -q.y)), z(two_sum(p.z, -q.z)) {}
+  };
+  const Difference e(b, a), f(c, a), g(d, a);
+  const DoubleDouble value =
+      (e.y * f.z - e.z * f.y) * g.x + (e.z * f.x - e.x * f.z) * g.y + (e.x * f.y - e.y * f.x) * g.z;
+  const double permanent = determinant({e.x.high, e.y.high, e.z.high}, {f.x.high, f.y.high, f.z.high},
+                                       {g.x.high, g.y.high, g.z.high})
+                               .permanent;
+  return certain_sign({value.high, 0}, kFineFactor * permanent + kUnderflow);
 }
 
 bool lower_rank(const Point& a, const Point& b) {
@@ -116,70 +118,58 @@ bool lower_rank(const Point& a, const Point& b) {
   return a.z < b.z;
 }
 
-/// The tie rule of predicates.h for four nodes whose volume is zero. No two may coincide.
+}  // namespace
+
 bool symbolic_above(const Point& a, const Point& b, const Point& c, const Point& d) {
-  ++counts.symbolic;
+  ++stages.symbolic;
   struct Term {
     const Point *node, *p, *q, *r;  // pushing `node` outwards gives the sign of sign * [pqr]
     int sign;
   };
   Term terms[4] = {{&d, &a, &b, &c, 1}, {&c, &a, &b, &d, -1}, {&b, &a, &c, &d, 1}, {&a, &b, &c, &d, -1}};
   for (int remaining = 4; remaining > 0; --remaining) {
-    Term& highest = *std::max_element(
-        terms, terms + remaining, [](const Term& s, const Term& t) { return lower_rank(*s.node, *t.node); });
-    if (const int bracket = left(*highest.p, *highest.q, *highest.r)) return highest.sign * bracket > 0;
-    highest = terms[remaining - 1];
+    Term* highest = terms;
+    for (Term* t = terms + 1; t < terms + remaining; ++t)
+      if (lower_rank(*highest->node, *t->node)) highest = t;
+    if (const int bracket = left(*highest->p, *highest->q, *highest->r)) return highest->sign * bracket > 0;
+    *highest = terms[remaining - 1];
   }
   return false;  // all four on one great circle
 }
 
-// Double-double arithmetic, just enough for p/|p|. Dekker's product: no FMA is assumed.
-struct Pair {
-  double high, low;
-};
-
-Pair sum_of_ordered(double a, double b) {  // |a| >= |b|
-  const double s = a + b;
-  return {s, b - (s - a)};
-}
-
-Pair sum(double a, double b) {
-  const double s = a + b, t = s - a;
-  return {s, (a - (s - t)) + (b - t)};
-}
-
-Pair product(double a, double b) {
-  const auto split = [](double v) {
-    const double c = 134217729.0 * v, high = c - (c - v);
-    return Pair{high, v - high};
-  };
-  const Pair s = split(a), t = split(b);
-  const double p = a * b;
-  return {p, ((s.high * t.high - p) + s.high * t.low + s.low * t.high) + s.low * t.low};
-}
-
-}  // namespace
-
-int left(const Point& a, const Point& b, const Point& c) {
-  if (in_coordinate_plane(a, b, c)) return exact_zero();
-  if (moderate(a) && moderate(b) && moderate(c))
-    if (const int s = filter_left(a, b, c)) return s;
-  ++counts.exact;
+int left_of_vectors(const Point& a, const Point& b, const Point& c) {
+  using namespace exact;
+  if (Grid p, q, r; on_grid(a, p) && on_grid(b, q) && on_grid(c, r)) {
+    ++stages.integers;
+    return sign_of_det(p, q, r);
+  }
+  if (const int s = fine_left(a, b, c)) return s;
+  ++stages.integers;
   return exact_left(a, b, c);
 }
 
-int orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
-  if (in_parallel_plane(a, b, c, d)) return exact_zero();
-  if (moderate(a) && moderate(b) && moderate(c) && moderate(d))
-    if (const int s = filter_orientation(a, b, c, d)) return s;
-  ++counts.exact;
-  return exact_orientation(a, b, c, d);
+int left(const Point& a, const Point& b, const Point& c) {
+  ++stages.left;
+  if (in_coordinate_plane(a, b, c)) return 0;
+  if (moderate(a) && moderate(b) && moderate(c))
+    if (const int s = filter_left(a, b, c)) return s;
+  return left_of_vectors(a, b, c);
 }
 
-int orientation_of_directions(const Point& a, const Point& b, const Point& c, const Point& d) {
-  if (in_coordinate_plane(a, b, c, d)) return exact_zero();
-  ++counts.exact;
-  return exact_orientation_of_directions(a, b, c, d);
+int orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
+  if (in_parallel_plane(a, b, c, d)) return 0;
+  const bool all_moderate = moderate(a) && moderate(b) && moderate(c) && moderate(d);
+  if (all_moderate)
+    if (const int s = filter_orientation(a, b, c, d)) return s;
+  using namespace exact;
+  if (Grid p, q, r, s; on_grid(a, p) && on_grid(b, q) && on_grid(c, r) && on_grid(d, s)) {
+    ++stages.integers;
+    return sign_of_det(q - p, r - p, s - p);
+  }
+  if (all_moderate)
+    if (const int s = fine_orientation(a, b, c, d)) return s;
+  ++stages.integers;
+  return exact_orientation(a, b, c, d);
 }
 
 bool same_direction(const Point& a, const Point& b) {
@@ -193,122 +183,51 @@ bool same_direction(const Point& a, const Point& b) {
   return n.x == 0 && n.y == 0 && n.z == 0;  // equal signs: not opposite
 }
 
-PredicateCounts take_predicate_counts() { return std::exchange(counts, {}); }
+PredicateCounts take_predicate_counts() { return std::exchange(stages, {}); }
 
 int Coordinates::left(index_t a, index_t b, index_t c) const { return pstripack::left(p_[a], p_[b], p_[c]); }
 
 int Coordinates::height(index_t ia, index_t ib, index_t ic, index_t id) const {
-  ++counts.above;
+  ++stages.above;
   return orientation(p_[ia], p_[ib], p_[ic], p_[id]);
 }
 
-bool Coordinates::above(index_t ia, index_t ib, index_t ic, index_t id) const {
-  if (const int s = height(ia, ib, ic, id)) return s > 0;
+bool Coordinates::above(index_t a, index_t b, index_t c, index_t d) const {
+  if (const int s = height(a, b, c, d)) return s > 0;
+  return above_of_tie(a, b, c, d);
+}
+
+bool Coordinates::above_of_tie(index_t ia, index_t ib, index_t ic, index_t id) const {
   const Point &a = p_[ia], &b = p_[ib], &c = p_[ic], &d = p_[id];
   if (d == a || d == b || d == c || a == b || b == c || c == a) return false;
   return symbolic_above(a, b, c, d);
 }
 
-Directions::Directions(const Point* points, std::size_t n) : p_(points), n_(n), unit_(n) {
-  parallel_pieces(n, threads_for(n), [&](std::size_t first, std::size_t last, int) {
-    for (std::size_t i = first; i < last; ++i) unit_[i] = unit(p_[i]);
-  });
+void Coordinates::View::from(index_t v) {
+  v_ = v;
+  seen_.forget();
+  exact::Grid g{};
+  viewpoint_.on_grid = exact::on_grid(nodes_.p_[v], g);
+  viewpoint_.x = g.x, viewpoint_.y = g.y, viewpoint_.z = g.z;
 }
 
-void Directions::extend(const Point* points, std::size_t n) {
-  if (n > unit_.size()) {
-    BlockArray<Unit> larger(n + n / 2);
-    std::copy(unit_.begin(), unit_.begin() + n_, larger.begin());
-    unit_ = std::move(larger);
-  }
-  p_ = points;
-  for (std::size_t i = n_; i < n; ++i) unit_[i] = unit(p_[i]);
-  n_ = n;
-}
-
-Directions::Unit Directions::unit(const Point& p) {
-  // Where squares could leave the range, scaled to [1/2,1) by a power of two: exact, up to bits below 2^-1074
-  // of the largest component. What underflows below is as small, in a vector of moderate length 2^-400 of it.
-  // Then `product` (Dekker 1971) and `sum` (Knuth) are exact, and high + low is p/|p| with relative errors
-  // of, in units of u^2,
-  //   3    half the error of s: two sums of three small terms, 3 each;
-  //   9.4  what one Newton step for 1/sqrt(s) leaves: 3/8 h^2 with h = 1 - s r0^2 below 5u, by the rounding
-  //        of the root, of the quotient, and s.low;
-  //   8.5  half the error of `residual`: 16 for its five roundings, 1 for s.low * rr.low, which is left out;
-  //   8.5  the roundings of r1, of c * r1 and of its sum with q.low, 2.5 + 2.5 + 3.5:
-  // together less than 2^-101.
-  double c[3] = {p.x, p.y, p.z};
-  if (const double most = largest(p); !(most > 0x1p-300 && most < 0x1p300)) {
-    int e;
-    std::frexp(most, &e);
-    for (double& v : c) v = std::ldexp(v, -e);
-  }
-  Pair s = product(c[0], c[0]);
-  for (int k = 1; k < 3; ++k) {
-    const Pair q = product(c[k], c[k]);
-    const Pair t = sum(s.high, q.high);
-    s = sum_of_ordered(t.high, t.low + (s.low + q.low));
-  }
-  const double r0 = 1 / std::sqrt(s.high);
-  const Pair rr = product(r0, r0);
-  const Pair one = product(s.high, rr.high);
-  const double residual = ((1 - one.high) - one.low) - (s.high * rr.low + s.low * rr.high);
-  const double r1 = r0 * residual * 0.5;
-  double high[3], low[3];
-  for (int k = 0; k < 3; ++k) {
-    const Pair q = product(c[k], r0);
-    const Pair v = sum_of_ordered(q.high, q.low + c[k] * r1);
-    high[k] = v.high;
-    low[k] = v.low;
-  }
-  return {{high[0], high[1], high[2]}, {low[0], low[1], low[2]}};
-}
-
-// Filters on directions. A component of `difference` is known to 2u of itself and tau = 2^-99: the high parts
-// subtract exactly where they are within a factor of 2 of each other (Sterbenz), else with an error u of
-// themselves, which is u (1 + 4u) of the result; the last sum adds u; the low parts, 2^-54 each at most,
-// subtract with an error below 2^-106; and two directions add 2^-101 each. A product of three differences
-// then carries 3*2u + 5u = 11u of the permanent, 12u with higher orders and the rounding of the bound. The
-// tau terms are at most 6 products * 3 factors * tau m^2, m the largest component: 2^-94 m^2. A sign is
-// certain only where 6 m^3 > 2^-91 m^2, so where tau < m/32, and then terms of tau^2 and tau^3 are less than
-// an eighth of that. In `left` the third vector is a position, known to u of itself and not small: 10u, and
-// 2^-95 m. For such m nothing underflows that counts.
-namespace {
-constexpr double kDirectionFactor = 12 * u;
-constexpr double kDirectionAbsolute = 0x1p-91;
-}  // namespace
-
-int Directions::left(index_t a, index_t b, index_t c) const {
-  if (in_coordinate_plane(p_[a], p_[b], p_[c])) return exact_zero();
-  const Point e = difference(b, a), f = difference(c, a);
-  const auto v = determinant(e, f, position(a));
-  const double m = std::max(largest(e), largest(f));
-  if (const int s = certain_sign(v, kDirectionFactor * v.permanent + kDirectionAbsolute * m)) return s;
-  return pstripack::left(p_[a], p_[b], p_[c]);
-}
-
-int Directions::height(index_t ia, index_t ib, index_t ic, index_t id) const {
-  ++counts.above;
-  if (in_coordinate_plane(p_[ia], p_[ib], p_[ic], p_[id])) return exact_zero();
-  // From each of the four, by even permutations: of a needle only the differences from a near node are small.
-  const index_t seen_from[4][4] = {{ia, ib, ic, id}, {ib, ia, id, ic}, {ic, id, ia, ib}, {id, ic, ib, ia}};
-  for (const auto& [a, b, c, d] : seen_from) {
-    const Point e = difference(b, a), f = difference(c, a), g = difference(d, a);
-    const auto v = determinant(e, f, g);
-    const double m = std::max({largest(e), largest(f), largest(g)});
-    if (const int s = certain_sign(v, kDirectionFactor * v.permanent + kDirectionAbsolute * m * m)) return s;
-  }
-  ++counts.exact;
-  return exact_orientation_of_directions(p_[ia], p_[ib], p_[ic], p_[id]);
-}
-
-bool Directions::above(index_t ia, index_t ib, index_t ic, index_t id) const {
-  if (const int s = height(ia, ib, ic, id)) return s > 0;
-  const Point &a = p_[ia], &b = p_[ib], &c = p_[ic], &d = p_[id];
-  if (same_direction(a, b) || same_direction(b, c) || same_direction(c, a) || same_direction(a, d) ||
-      same_direction(b, d) || same_direction(c, d))
-    return false;
-  return symbolic_above(a, b, c, d);
+bool Coordinates::View::above(index_t a, index_t b, index_t c) {
+  if (!viewpoint_.on_grid) return nodes_.above(a, b, c, v_);
+  const auto seen = [&](index_t i) -> const Difference& {
+    return seen_(i, [&](Difference& d) {
+      exact::Grid g{};
+      d.on_grid = exact::on_grid(nodes_.p_[i], g);
+      d.x = g.x - viewpoint_.x, d.y = g.y - viewpoint_.y, d.z = g.z - viewpoint_.z;
+    });
+  };
+  const Difference e = seen(c), f = seen(b), g = seen(a);
+  if (!(e.on_grid && f.on_grid && g.on_grid)) return nodes_.above(a, b, c, v_);
+  ++stages.above;
+  ++stages.integers;
+  if (const int s = exact::sign_of_det({e.x, e.y, e.z}, {f.x, f.y, f.z}, {g.x, g.y, g.z})) return s > 0;
+  const auto coincides = [&](const Difference& d) { return d.x == 0 && d.y == 0 && d.z == 0; };
+  return !coincides(e) && !coincides(f) && !coincides(g) &&
+         symbolic_above(nodes_.p_[a], nodes_.p_[b], nodes_.p_[c], nodes_.p_[v_]);
 }
 
 }  // namespace pstripack

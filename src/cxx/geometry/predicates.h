@@ -32,6 +32,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 
 #include "geometry/point.h"
 #include "geometry/workspace.h"
@@ -66,11 +67,14 @@ inline bool length_is_one(const Point& p) {
   return std::fabs(p.x * p.x + p.y * p.y + p.z * p.z - (1 + 1e-12)) <= 2e-6;
 }
 
-/// The stage that decided a call; for tests and for measuring how often the filter gives up.
+/// How often a stage was entered, by all predicates together; for tests and for measuring what the filters
+/// leave open.
 struct PredicateCounts {
-  std::uint64_t above = 0;     ///< calls that reached the predicates at all
-  std::uint64_t exact = 0;     ///< determinants, of `left` as well, that floating point could not decide
-  std::uint64_t symbolic = 0;  ///< of these, zeros of `above` that the tie rule decided
+  std::uint64_t above = 0, left = 0;  ///< calls that reached the predicates at all
+  std::uint64_t double_double = 0;    ///< not decided by doubles
+  std::uint64_t integers = 0;         ///< nor by double-double, or small integers came first
+  std::uint64_t big_integers = 0;     ///< of these, too large for a fixed size
+  std::uint64_t symbolic = 0;         ///< zeros of `above` that the tie rule decided
 };
 
 /// Predicates on the nodes p[0..n-1] as given.
@@ -93,9 +97,11 @@ class Coordinates {
   /// Without the tie rule: false for a zero.
   bool strictly_above(index_t a, index_t b, index_t c, index_t d) const { return height(a, b, c, d) > 0; }
   bool coincide(index_t a, index_t b) const { return p_[a] == p_[b]; }
+  class View;
 
  private:
-  int height(index_t a, index_t b, index_t c, index_t d) const;  ///< the exact sign behind `above`
+  int height(index_t a, index_t b, index_t c, index_t d) const;         ///< the exact sign behind `above`
+  bool above_of_tie(index_t a, index_t b, index_t c, index_t d) const;  ///< by the tie rule
   const Point* p_;
   std::size_t n_;
 };
@@ -120,11 +126,18 @@ class Directions {
   int left(index_t a, index_t b, index_t c) const;
   bool above(index_t a, index_t b, index_t c, index_t d) const;
   /// Without the tie rule: false for a zero.
-  bool strictly_above(index_t a, index_t b, index_t c, index_t d) const { return height(a, b, c, d) > 0; }
+  bool strictly_above(index_t a, index_t b, index_t c, index_t d) const {
+    return orientation(a, b, c, d) > 0;
+  }
+  /// The exact sign behind `above`.
+  int orientation(index_t a, index_t b, index_t c, index_t d) const;
   bool coincide(index_t a, index_t b) const { return same_direction(p_[a], p_[b]); }
+  class View;
 
  private:
-  int height(index_t a, index_t b, index_t c, index_t d) const;  ///< the exact sign behind `above`
+  /// The same without the filter in doubles, seen from the node that makes errors small.
+  int height_from_best(index_t a, index_t b, index_t c, index_t d) const;
+  bool above_of_tie(index_t a, index_t b, index_t c, index_t d) const;  ///< by the tie rule
   struct Unit {
     Point high, low;
   };
@@ -133,6 +146,69 @@ class Directions {
   const Point* p_;
   std::size_t n_;
   BlockArray<Unit> unit_;
+};
+
+/// What a view of the predicates remembers of nodes: a slot for those whose numbers end in the same bits.
+/// What it holds counts until the next call of `forget`.
+template <class Item>
+class Remembered {
+ public:
+  void forget() { ++time_; }
+  /// The item of node i, which `make` writes if it is not there.
+  template <class Make>
+  Item& operator()(index_t i, const Make& make) {
+    const auto k = static_cast<std::size_t>(i) % kSlots;
+    const std::uint64_t key = time_ << 32 | static_cast<std::uint32_t>(i);
+    if (key_[k] != key) {
+      make(item_[k]);
+      key_[k] = key;
+    }
+    return item_[k];
+  }
+
+ private:
+  static constexpr std::size_t kSlots = 32;
+  std::uint64_t time_ = 1;  // 2^32 nodes are more than there are
+  std::uint64_t key_[kSlots] = {};
+  Item item_[kSlots];
+};
+
+/// The predicates seen from one node, where floating point alone has not decided. A node that is inserted is
+/// compared with each of its neighbours-to-be in some three faces: their differences are computed once.
+class Coordinates::View {
+ public:
+  explicit View(const Coordinates& nodes) : nodes_(nodes) {}
+  void from(index_t v);
+  bool above(index_t a, index_t b, index_t c);  ///< Coordinates::above(a, b, c, v); no two of a, b, c coincide
+  int left(index_t a, index_t b) { return nodes_.left(a, b, v_); }
+
+ private:
+  /// From v to the node, in multiples of 2^-61 if it is one.
+  struct Difference {
+    std::int64_t x, y, z;
+    bool on_grid;
+  };
+  const Coordinates& nodes_;
+  index_t v_ = 0;
+  Difference viewpoint_{};
+  Remembered<Difference> seen_;
+};
+
+class Directions::View {
+ public:
+  explicit View(const Directions& nodes);
+  ~View();
+  void from(index_t v);
+  bool above(index_t a, index_t b, index_t c);  ///< Directions::above(a, b, c, v); no two of a, b, c coincide
+  int left(index_t a, index_t b);               ///< Directions::left(a, b, v)
+  /// The last answer of `above` came from the tie rule: v lies in the plane.
+  bool tied() const { return tied_; }
+
+ private:
+  struct Memory;
+  bool tied_ = false;
+  const Directions& nodes_;
+  std::unique_ptr<Memory> memory_;
 };
 
 /// Counts since the last call in this thread; for tests and measurements.

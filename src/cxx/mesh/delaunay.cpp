@@ -337,7 +337,7 @@ class Builder final : public GrowingHull {
   // -- 3: one node
 
   /// Whether node v at p sees face t. to_corner: from v to any corner of t.
-  bool sees(const Point& p, std::uint32_t v, std::uint32_t t, const Spoke& to_corner) const {
+  bool sees(const Point& p, std::uint32_t v, std::uint32_t t, const Spoke& to_corner) {
     const double s = above_plane(planes_[t], p);
     if (s > 1) return true;
     if (s < -1) return false;
@@ -345,11 +345,11 @@ class Builder final : public GrowingHull {
   }
 
   /// The same where all is close together: the plane and p alone would hardly tell.
-  bool sees_closely(std::uint32_t v, std::uint32_t t, const Spoke& to_corner) const {
+  bool sees_closely(std::uint32_t v, std::uint32_t t, const Spoke& to_corner) {
     const Face& f = faces_[t];
     if (f.vertex[2] == v) throw HiddenNode{};  // a face of the fan of v itself: see replace_seen_by_fan
     const int side = certain_side(t, to_corner);
-    return side != 0 ? side > 0 : predicates_.above(f.vertex[0], f.vertex[1], f.vertex[2], v);
+    return side != 0 ? side > 0 : view_.above(f.vertex[0], f.vertex[1], f.vertex[2]);
   }
 
   /// +1: the node from which the spoke leads to a corner of face t sees it, -1: it does not, 0: not certain.
@@ -360,6 +360,7 @@ class Builder final : public GrowingHull {
 
   void insert(std::uint32_t v) {
     const Point& p = predicates_.position(v);
+    view_.from(static_cast<index_t>(v));
     std::uint32_t seen = walk(p);
     if (seen != kNone)
       return replace_seen_by_fan(
@@ -453,11 +454,10 @@ class Builder final : public GrowingHull {
       if (side > 0) return t;
       for (const std::uint32_t corner : {f.vertex[0], f.vertex[1], f.vertex[2]})
         if (predicates_.given(corner) == predicates_.given(v)) return coincides(v, corner);
-      const bool seen = side == 0 && predicates_.above(f.vertex[0], f.vertex[1], f.vertex[2], v);
-      if (seen && !by_tie_of_directions(v, f)) return t;
+      const bool seen = side == 0 && view_.above(f.vertex[0], f.vertex[1], f.vertex[2]);
+      if (seen && !by_tie_of_directions()) return t;
       std::uint32_t out = 0;
-      while (out < 3 && predicates_.left(f.vertex[next_edge(out)], f.vertex[previous_edge(out)], v) >= 0)
-        ++out;
+      while (out < 3 && view_.left(f.vertex[next_edge(out)], f.vertex[previous_edge(out)]) >= 0) ++out;
       if (out == 3) {
         for (const std::uint32_t corner : {f.vertex[0], f.vertex[1], f.vertex[2]})
           if (predicates_.coincide(corner, v)) return coincides(v, corner);
@@ -469,11 +469,10 @@ class Builder final : public GrowingHull {
     }
   }
 
-  /// True if v, which sees the face, lies in its plane. Not asked of coordinates: there nodes that coincide
-  /// have the same rank, and see the same.
-  bool by_tie_of_directions([[maybe_unused]] std::uint32_t v, [[maybe_unused]] const Face& f) const {
-    if constexpr (std::is_same_v<Predicates, Directions>)
-      return !predicates_.strictly_above(f.vertex[0], f.vertex[1], f.vertex[2], v);
+  /// True if v, which `view_` has just seen above a face, lies in its plane. Not asked of coordinates: there
+  /// nodes that coincide have the same rank, and see the same.
+  bool by_tie_of_directions() const {
+    if constexpr (std::is_same_v<Predicates, Directions>) return view_.tied();
     return false;
   }
 
@@ -542,7 +541,10 @@ class Builder final : public GrowingHull {
     count_ += 2;
     corner_[v] = 4 * previous + 2;
     const auto end = place_.begin() + used;
-    const auto shown = std::find_if(place_.begin(), end, [&](std::uint32_t t) { return front(t); });
+    const auto shown = std::find_if(place_.begin(), end, [&](std::uint32_t t) {
+      const double w = planes_[t].w;
+      return w > 1 || (w >= -1 && view_.left(faces_[t].vertex[0], faces_[t].vertex[1]) > 0);
+    });
     if (shown == end) throw HiddenNode{};
     last_ = *shown;
   }
@@ -564,6 +566,7 @@ class Builder final : public GrowingHull {
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
   Predicates predicates_;
+  typename Predicates::View view_{predicates_};
   std::size_t n_;
   Point* nodes_;
   Face* faces_;

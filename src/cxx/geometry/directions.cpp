@@ -1,0 +1,565 @@
+// The predicates on directions p/|p|, at every scale.
+//
+// Seen from one of four nodes, the apex a, the other three are p = b, c, d. With
+//
+//     N_p = a x p,    D_pq = (N_p x N_q).x = a.x [apq],    G_p = |a||p| - a.p,    [pqr] = det(p,q,r),
+//
+// where x stands for the axis on which a has its largest component, the volume of the directions,
+//
+//     V |a||b||c||d| = |a|[bcd] - |b|[acd] + |c|[abd] - |d|[abc],
+//
+// loses its first term when a times the identity  [bcd] a - [acd] b + [abd] c - [abc] d = 0  is subtracted:
+//
+//     a.x |a| V |a||b||c||d| = -D_cd G_b + D_bd G_c - D_bc G_d                                        (*)
+//
+// No norms cancel any more. N_p and G_p = |N_p|^2 / (|a||p| + a.p) are as small as p is close to a, and each
+// is known to a small relative error, so (*) decides nodes that are 1e-150 apart as well as others:
+//
+//                    d                 N_p: p in the plane tangent at a, turned by a right angle
+//        c        .                    D_pq: twice the area of the triangle a,p,q there
+//           \  .                       G_p: how far p lies below that plane, times lengths
+//            a ---- b
+//
+// Stages: (*) in doubles; in double-double; integers. References: Shewchuk (1997), Adaptive precision
+// floating-point arithmetic and fast robust geometric predicates; Devillers & Pion (2003), Efficient exact
+// geometric predicates for Delaunay triangulations.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <utility>
+
+#include "geometry/double_double.h"
+#include "geometry/exact.h"
+#include "geometry/parallel_for.h"
+#include "geometry/predicate_stages.h"
+#include "geometry/predicates.h"
+
+namespace pstripack {
+namespace {
+
+double largest(const Point& a) { return std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)}); }
+
+/// The axes so that x is the one of the largest component; their cyclic order is kept, and with it all signs.
+struct Axes {
+  explicit Axes(const Point& a) {
+    const double u = std::fabs(a.x), v = std::fabs(a.y), w = std::fabs(a.z);
+    first = u >= v ? (u >= w ? 0 : 2) : (v >= w ? 1 : 2);
+    negative = (&a.x)[first] < 0;
+  }
+  Point operator()(const Point& p) const {
+    if (first == 0) return p;
+    return first == 1 ? Point{p.y, p.z, p.x} : Point{p.z, p.x, p.y};
+  }
+  int first;
+  bool negative;  ///< the sign of D is that of -[apq]
+};
+
+/// Of a number that is not negative: larger for larger ones.
+int exponent_of(double value) {
+  std::uint64_t bits;
+  std::memcpy(&bits, &value, sizeof bits);
+  return static_cast<int>(bits >> 52);
+}
+
+/// A power of two and its inverse, so that value * by is in [1,2). For a positive value from 2^-1000 to
+/// 2^1000.
+struct Scale {
+  double by, inverse;
+  explicit Scale(double value) {
+    std::uint64_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    const std::uint64_t exponent = bits & 0x7ff0000000000000u, up = 0x7fe0000000000000u - exponent;
+    std::memcpy(&by, &up, sizeof by);
+    std::memcpy(&inverse, &exponent, sizeof inverse);
+  }
+};
+
+// ---- in doubles ---------------------------------------------------------------------------------------
+//
+// u = 2^-53. From the differences e = p - a of the directions, N_p = a x e. Errors, relative to sums of
+// absolute values, which are computed alongside (py of N.y, and so on):
+//   e        a component k is known to 2.1u of itself and t_k = 2^-99 m_k + 2^-760, m_k the larger of |a_k|
+//            and |p_k|: high - high adds u unless it is exact (Sterbenz), then the last sum another u; the
+//            directions are known to 2^-101 m_k each, and the difference of the low parts rounds by 2^-105
+//            m_k
+//   N        2.1u, the rounding of a, of the product, of the difference: 5.2u py, and |a_z| t_x + |a_x| t_z,
+//            which is less than 5.2u (2^-47 m_z + 2^-700): that is added to py. For N.x: 2^-47 m_y m_z
+//   D        twice 5.2u, product, difference: 13u of r = py qz + pz qy
+//   G        near a (|e|^2 < 1): |N|^2 / (2 - |e|^2 / 2) with q = px^2 + py^2 + pz^2: |N|^2 15u q, the
+//            denominator, above 1.5, and the division 7u, so 15u q, and G <= 0.67 q
+//            elsewhere |e|^2 / 2: less than 8u q with q = |e|^2, and G = q/2
+//   D G      13u 0.67 + 15u + u < 25u of r q; the two sums of (*) 2u more; the bound itself is rounded
+//            some 20 times: 28u.
+// Where nothing underflows: kNegligible is added for products of numbers that were not scaled.
+constexpr double u = 0x1p-53;
+constexpr double kFactor = 28 * u;
+constexpr double kNegligible = 0x1p-900;
+
+/// A node seen from the apex. All is multiplied by 1 / `weight` per order in N.
+struct Seen {
+  double y, z;                ///< of N
+  double py, pz;              ///< no less than their terms' absolute values
+  double g, q;                ///< G, and what its error is measured by
+  double weight = 1, by = 1;  ///< powers of two, inverse to each other
+};
+
+[[gnu::always_inline]] inline Seen seen_from(const Point& a, const Point& p, const Point& e) {
+  const double ae_yz = a.y * e.z, ae_zy = a.z * e.y, ae_zx = a.z * e.x, ae_xz = a.x * e.z, ae_xy = a.x * e.y,
+               ae_yx = a.y * e.x;
+  const double my = std::fabs(a.y) + std::fabs(p.y), mz = std::fabs(a.z) + std::fabs(p.z);
+  Seen s;
+  const double x = ae_yz - ae_zy;
+  s.y = ae_zx - ae_xz;
+  s.z = ae_xy - ae_yx;
+  const double px = std::fabs(ae_yz) + std::fabs(ae_zy) + 0x1p-47 * (my * mz + 0x1p-650);
+  s.py = std::fabs(ae_zx) + std::fabs(ae_xz) + (0x1p-47 * mz + 0x1p-700);
+  s.pz = std::fabs(ae_xy) + std::fabs(ae_yx) + (0x1p-47 * my + 0x1p-700);
+  const double square = dot(e, e);
+  if (!(square < 1)) {
+    s.g = 0.5 * square;
+    s.q = square;
+    return s;
+  }
+  // Squares and products of four small numbers would underflow.
+  if (const double most = std::max(s.py, s.pz); most < 0x1p-120) {
+    const Scale scale(most);
+    s.by = scale.by, s.weight = scale.inverse;
+    s.y *= s.by, s.z *= s.by, s.py *= s.by, s.pz *= s.by;
+  }
+  const double sx = x * s.by, spx = px * s.by;
+  s.g = (sx * sx + s.y * s.y + s.z * s.z) / (2 - 0.5 * square);
+  s.q = spx * spx + s.py * s.py + s.pz * s.pz;
+  return s;
+}
+
+struct Estimate {
+  double value, magnitude;
+};
+
+Estimate area(const Seen& p, const Seen& q) { return {p.y * q.z - p.z * q.y, p.py * q.pz + p.pz * q.py}; }
+
+int certain_sign(double value, double bound) { return (value > bound) - (value < -bound); }
+
+int filter_left(const Seen& b, const Seen& c) {
+  const Estimate d = area(b, c);
+  return certain_sign(d.value, kFactor * d.magnitude + kNegligible);
+}
+
+int filter_height(const Seen& b, const Seen& c, const Seen& d) {
+  const Estimate cd = area(c, d), bd = area(b, d), bc = area(b, c);
+  double tb = cd.value * b.g, tc = bd.value * c.g, td = bc.value * d.g;
+  double mb = cd.magnitude * b.q, mc = bd.magnitude * c.q, md = bc.magnitude * d.q;
+  if (b.weight != 1 || c.weight != 1 || d.weight != 1) {
+    const double most = std::min({b.by, c.by, d.by});
+    const double wb = b.weight * most, wc = c.weight * most, wd = d.weight * most;
+    tb *= wb, tc *= wc, td *= wd;
+    mb *= wb, mc *= wc, md *= wd;
+  }
+  return certain_sign((tc - tb) - td, kFactor * ((mc + mb) + md) + kNegligible);
+}
+
+// ---- in double-double -----------------------------------------------------------------------------------
+//
+// A node far from the apex, |e| >= 2^-17: from the directions, high + low, each component known to 2^-101 of
+// itself. A component of e is known to 2^-98 m_k, so N to 2^-80 (py + 2^-17 m_z), and G = |e|^2 / 2 to
+// |e| 2^-97 <= 2^-80 |e|^2. The arithmetic adds less than 2^-98.
+// A node near the apex: from the vectors as given, since a x p does not depend on how much longer than a p
+// is, and the difference of its products is exact but for 3u^2 of itself and 8u^3 of the products: 3u^2 m
+// with m = |N| + 4u (...), and 2^-850 where a component of up to 2^-1074 is lost, times at most 2^100. G =
+// |N|^2 / S with S = |a||p| + a.p: with X = a.p, S - 2X = C / (2X + (S - 2X)) for C = |N|^2 < 2^-33 X^2 is
+// known to 2^-53 of itself: G to 2^-85. Each of the three nodes appears once in each term of (*), as N or as
+// G, so its length does not matter. All together less than 2^-80 (2 + 1 + ...) < 2^-78 of the sum of the
+// magnitudes of (*), rounded as well.
+constexpr double kFineFactor = 0x1p-76;
+constexpr double kNear = 0x1p-34;  ///< of |e|^2
+
+// Sums and products whose low parts are not brought below half a unit of the high ones: shorter, and wrong by
+// a few u^2 of the absolute values, which is all that is asked for here.
+
+[[gnu::always_inline]] inline DoubleDouble loose_sum(const DoubleDouble& x, const DoubleDouble& y) {
+  const DoubleDouble s = two_sum(x.high, y.high);
+  return {s.high, s.low + (x.low + y.low)};
+}
+
+/// A double-double whose high part is ready for products.
+struct Factor {
+  Halves high;
+  double low;
+  Factor() = default;
+  explicit Factor(const DoubleDouble& x) : high(x.high), low(x.low) {}
+  double value() const { return high.value; }
+};
+
+[[gnu::always_inline]] inline DoubleDouble loose_product(const Factor& x, const Factor& y) {
+  const DoubleDouble p = two_product(x.high, y.high);
+  return {p.high, p.low + (x.high.value * y.low + x.low * y.high.value)};
+}
+
+/// a vector as given, scaled, its axes permuted.
+struct FinePoint {
+  Halves x, y, z;
+  FinePoint() = default;
+  FinePoint(const Point& p, const Axes& axes) {
+    Point v = axes(p);
+    if (const double most = largest(v); !(most > 0x1p-100 && most < 0x1p100)) {
+      int e;
+      std::frexp(most, &e);
+      v = {std::ldexp(v.x, -e), std::ldexp(v.y, -e), std::ldexp(v.z, -e)};
+    }
+    x = Halves(v.x), y = Halves(v.y), z = Halves(v.z);
+  }
+};
+
+struct FineComponent {
+  DoubleDouble value;
+  double magnitude;
+};
+
+[[gnu::always_inline]] inline FineComponent component(const Halves& a, const Halves& b, const Halves& c,
+                                                      const Halves& d) {
+  const DoubleDouble v = difference_of_products(a, b, c, d);
+  return {v, std::fabs(v.high) +
+                 (4 * u * (std::fabs(a.value * b.value) + std::fabs(c.value * d.value)) + 0x1p-850)};
+}
+
+/// N of given vectors, scaled.
+struct FineCross {
+  FineComponent x, y, z;
+  double weight = 1, by = 1;
+
+  FineCross(const FinePoint& a, const FinePoint& p)
+      : x(component(a.y, p.z, a.z, p.y)), y(component(a.z, p.x, a.x, p.z)), z(component(a.x, p.y, a.y, p.x)) {
+    const double most = std::max(y.magnitude, z.magnitude);
+    if (most > 0x1p-100) return;
+    const Scale scale(most);  // most >= 2^-850
+    weight = scale.inverse, by = scale.by;
+    for (FineComponent* c : {&x, &y, &z}) c->value = scaled_by(c->value, by), c->magnitude *= by;
+  }
+};
+
+/// As Seen.
+struct FineSeen {
+  Factor y, z, g;
+  double py, pz, q;
+  double weight, by;
+};
+
+/// The apex, axes permuted.
+struct FineApex {
+  Factor x, y, z;  ///< of the direction
+  FinePoint given;
+};
+
+FineApex fine_apex(const Axes& axes, const Point& high, const Point& low, const Point& given) {
+  const Point h = axes(high), l = axes(low);
+  return {Factor({h.x, l.x}), Factor({h.y, l.y}), Factor({h.z, l.z}), FinePoint(given, axes)};
+}
+
+void see(const FineApex& a, const Point& high, const Point& low, const FinePoint& given, FineSeen& seen) {
+  const auto difference = [](double p_high, double p_low, const Factor& apex) {
+    const DoubleDouble d = two_sum(p_high, -apex.value());
+    return Factor({d.high, d.low + (p_low - apex.low)});
+  };
+  const Factor x = difference(high.x, low.x, a.x), y = difference(high.y, low.y, a.y),
+               z = difference(high.z, low.z, a.z);
+  const double square = dot(Point{x.value(), y.value(), z.value()}, {x.value(), y.value(), z.value()});
+  if (square >= kNear) {
+    const auto component = [](const Factor& a, const Factor& b, const Factor& c, const Factor& d) {
+      const DoubleDouble p = loose_product(a, b), q = loose_product(c, d);
+      return loose_sum(p, {-q.high, -q.low});
+    };
+    seen.y = Factor(component(a.z, x, a.x, z));
+    seen.z = Factor(component(a.x, y, a.y, x));
+    seen.py = std::fabs(a.z.value() * x.value()) + std::fabs(a.x.value() * z.value()) +
+              (0x1p-17 * (std::fabs(a.z.value()) + std::fabs(high.z)) + 0x1p-700);
+    seen.pz = std::fabs(a.x.value() * y.value()) + std::fabs(a.y.value() * x.value()) +
+              (0x1p-17 * (std::fabs(a.y.value()) + std::fabs(high.y)) + 0x1p-700);
+    const DoubleDouble g =
+        loose_sum(loose_sum(loose_product(x, x), loose_product(y, y)), loose_product(z, z));
+    seen.g = Factor({0.5 * g.high, 0.5 * g.low});
+    seen.q = square;
+    seen.weight = seen.by = 1;
+    return;
+  }
+  const FineCross n(a.given, given);
+  seen.y = Factor(n.y.value), seen.z = Factor(n.z.value);
+  seen.py = n.y.magnitude, seen.pz = n.z.magnitude;
+  seen.weight = n.weight, seen.by = n.by;
+  const Factor nx(n.x.value);
+  const DoubleDouble c = loose_sum(loose_sum(loose_product(nx, nx), loose_product(seen.y, seen.y)),
+                                   loose_product(seen.z, seen.z));
+  DoubleDouble s = loose_sum(loose_sum(two_product(a.given.x, given.x), two_product(a.given.y, given.y)),
+                             two_product(a.given.z, given.z));
+  s = {2 * s.high, 2 * s.low};
+  const double inverse = 1 / s.high, rest = c.high * n.weight * n.weight * inverse;
+  s = loose_sum(s, {rest - rest * rest * inverse, 0});
+  const double g = c.high / s.high;
+  const DoubleDouble back = two_product(g, s.high);
+  seen.g = Factor({g, (((c.high - back.high) - back.low) + (c.low - g * s.low)) * inverse});
+  seen.q = (n.x.magnitude * n.x.magnitude + n.y.magnitude * n.y.magnitude + n.z.magnitude * n.z.magnitude) *
+           inverse;
+}
+
+struct FineEstimate {
+  Factor value;
+  double magnitude;
+};
+
+[[gnu::always_inline]] inline FineEstimate area(const FineSeen& p, const FineSeen& q) {
+  const DoubleDouble s = loose_product(p.y, q.z), t = loose_product(p.z, q.y);
+  return {Factor(loose_sum(s, {-t.high, -t.low})), p.py * q.pz + p.pz * q.py};
+}
+
+int fine_height(const FineSeen& b, const FineSeen& c, const FineSeen& d) {
+  const FineEstimate cd = area(c, d), bd = area(b, d), bc = area(b, c);
+  DoubleDouble tb = loose_product(cd.value, b.g), tc = loose_product(bd.value, c.g),
+               td = loose_product(bc.value, d.g);
+  double mb = cd.magnitude * b.q, mc = bd.magnitude * c.q, md = bc.magnitude * d.q;
+  if (b.weight != 1 || c.weight != 1 || d.weight != 1) {
+    const double most = std::min({b.by, c.by, d.by});
+    const double wb = b.weight * most, wc = c.weight * most, wd = d.weight * most;
+    tb = scaled_by(tb, wb), tc = scaled_by(tc, wc), td = scaled_by(td, wd);
+    mb *= wb, mc *= wc, md *= wd;
+  }
+  const DoubleDouble value = loose_sum(loose_sum(tc, {-tb.high, -tb.low}), {-td.high, -td.low});
+  return certain_sign(value.high + value.low, kFineFactor * ((mb + mc) + md) + kNegligible);
+}
+
+// ---- in integers --------------------------------------------------------------------------------------
+
+/// The sign of the volume times |a||b||c||d|:  |a| [bcd] - |b| [acd] + |c| [abd] - |d| [abc].
+template <class Int>
+int exact_height(const Point& a, const Point& b, const Point& c, const Point& d) {
+  using namespace exact;
+  const auto A = scaled<Int>(a, span_of(a).low), B = scaled<Int>(b, span_of(b).low),
+             C = scaled<Int>(c, span_of(c).low), D = scaled<Int>(d, span_of(d).low);
+  return sign_of_sum<Int>({det(B, C, D), -det(A, C, D), det(A, B, D), -det(A, B, C)},
+                          {dot(A, A), dot(B, B), dot(C, C), dot(D, D)});
+}
+
+/// All brackets are zero. Three are enough: were a, b, c independent, d would be a sum of them without any.
+bool on_great_circle(const Point& a, const Point& b, const Point& c, const Point& d) {
+  return in_coordinate_plane(a, b, c, d) ||
+         (left_of_vectors(a, b, d) == 0 && left_of_vectors(b, c, d) == 0 && left_of_vectors(c, a, d) == 0);
+}
+
+int exact_height_of_directions(const Point& a, const Point& b, const Point& c, const Point& d) {
+  using namespace exact;
+  const int bits = std::max({span_of(a).bits(), span_of(b).bits(), span_of(c).bits(), span_of(d).bits()});
+  ++stages.integers;
+  if (bits <= kRootBits) return exact_height<RootInteger>(a, b, c, d);
+  ++stages.big_integers;
+  return exact_height<Integer>(a, b, c, d);
+}
+
+}  // namespace
+
+int fine_left(const Point& pa, const Point& pb, const Point& pc) {
+  // Two factors N, the product, the difference: 3 + 3 + 6 + 4 units of u^2, less than 2^-101 of the
+  // magnitude.
+  constexpr double kFactor = 0x1p-100;
+  ++stages.double_double;
+  const Axes axes(pa);
+  const FinePoint a(pa, axes);
+  const FineCross b(a, FinePoint(pb, axes)), c(a, FinePoint(pc, axes));
+  const DoubleDouble value = b.y.value * c.z.value - b.z.value * c.y.value;
+  const int sign = certain_sign(
+      value.high, kFactor * (b.y.magnitude * c.z.magnitude + b.z.magnitude * c.y.magnitude) + kNegligible);
+  return axes.negative ? -sign : sign;
+}
+
+int orientation_of_directions(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const Point four[4] = {a, b, c, d};
+  return Directions(four, 4).orientation(0, 1, 2, 3);
+}
+
+Directions::Directions(const Point* points, std::size_t n) : p_(points), n_(n), unit_(n) {
+  parallel_pieces(n, threads_for(n), [&](std::size_t first, std::size_t last, int) {
+    for (std::size_t i = first; i < last; ++i) unit_[i] = unit(p_[i]);
+  });
+}
+
+void Directions::extend(const Point* points, std::size_t n) {
+  if (n > unit_.size()) {
+    BlockArray<Unit> larger(n + n / 2);
+    std::copy(unit_.begin(), unit_.begin() + n_, larger.begin());
+    unit_ = std::move(larger);
+  }
+  p_ = points;
+  for (std::size_t i = n_; i < n; ++i) unit_[i] = unit(p_[i]);
+  n_ = n;
+}
+
+Directions::Unit Directions::unit(const Point& p) {
+  // Where squares could leave the range, scaled to [1/2,1) by a power of two: exact, up to bits below 2^-1074
+  // of the largest component. What underflows below is as small, in a vector of moderate length 2^-400 of it.
+  // Then `two_product` and `two_sum` are exact, and high + low is p/|p| with relative errors
+  // of, in units of u^2,
+  //   3    half the error of s: two sums of three small terms, 3 each;
+  //   9.4  what one Newton step for 1/sqrt(s) leaves: 3/8 h^2 with h = 1 - s r0^2 below 5u, by the rounding
+  //        of the root, of the quotient, and s.low;
+  //   8.5  half the error of `residual`: 16 for its five roundings, 1 for s.low * rr.low, which is left out;
+  //   8.5  the roundings of r1, of c * r1 and of its sum with q.low, 2.5 + 2.5 + 3.5:
+  // together less than 2^-101.
+  double c[3] = {p.x, p.y, p.z};
+  if (const double most = largest(p); !(most > 0x1p-300 && most < 0x1p300)) {
+    int e;
+    std::frexp(most, &e);
+    for (double& v : c) v = std::ldexp(v, -e);
+  }
+  DoubleDouble s = two_product(c[0], c[0]);
+  for (int k = 1; k < 3; ++k) {
+    const DoubleDouble q = two_product(c[k], c[k]);
+    const DoubleDouble t = two_sum(s.high, q.high);
+    s = two_sum_of_ordered(t.high, t.low + (s.low + q.low));
+  }
+  const double r0 = 1 / std::sqrt(s.high);
+  const DoubleDouble rr = two_product(r0, r0);
+  const DoubleDouble one = two_product(s.high, rr.high);
+  const double residual = ((1 - one.high) - one.low) - (s.high * rr.low + s.low * rr.high);
+  const double r1 = r0 * residual * 0.5;
+  double high[3], low[3];
+  for (int k = 0; k < 3; ++k) {
+    const DoubleDouble q = two_product(c[k], r0);
+    const DoubleDouble v = two_sum_of_ordered(q.high, q.low + c[k] * r1);
+    high[k] = v.high;
+    // Smaller than the error, and its square would underflow, which takes a processor many times as long.
+    low[k] = std::fabs(v.low) < 0x1p-110 * std::fabs(v.high) ? 0 : v.low;
+  }
+  return {{high[0], high[1], high[2]}, {low[0], low[1], low[2]}};
+}
+
+int Directions::left(index_t ia, index_t ib, index_t ic) const {
+  ++stages.left;
+  const Point &a = p_[ia], &b = p_[ib], &c = p_[ic];
+  if (in_coordinate_plane(a, b, c)) return 0;
+  const Axes axes(position(ia));
+  const Point apex = axes(position(ia));
+  const auto seen = [&](index_t i) { return seen_from(apex, axes(position(i)), axes(difference(i, ia))); };
+  if (const int s = filter_left(seen(ib), seen(ic))) return axes.negative ? -s : s;
+  return left_of_vectors(a, b, c);
+}
+
+int Directions::orientation(index_t a, index_t b, index_t c, index_t d) const {
+  const Axes axes(position(a));
+  const Point apex = axes(position(a));
+  const auto seen = [&](index_t i) { return seen_from(apex, axes(position(i)), axes(difference(i, a))); };
+  if (const int s = filter_height(seen(b), seen(c), seen(d))) return axes.negative ? -s : s;
+  return height_from_best(a, b, c, d);
+}
+
+int Directions::height_from_best(index_t ia, index_t ib, index_t ic, index_t id) const {
+  // Errors grow with the product of the distances from the apex: of a needle, one of the two close nodes.
+  // Exponents add up where the product would underflow.
+  const auto distance = [&](index_t i, index_t j) { return exponent_of(largest(difference(i, j))); };
+  const int ab = distance(ia, ib), ac = distance(ia, ic), ad = distance(ia, id), bc = distance(ib, ic),
+            bd = distance(ib, id), cd = distance(ic, id);
+  const int product[4] = {ab + ac + ad, ab + bc + bd, ac + bc + cd, ad + bd + cd};
+  const index_t even[4][4] = {{ia, ib, ic, id}, {ib, ia, id, ic}, {ic, id, ia, ib}, {id, ic, ib, ia}};
+  const auto& [a, b, c, d] = even[std::min_element(product, product + 4) - product];
+  ++stages.double_double;
+  const Axes axes(position(a));
+  const FineApex apex = fine_apex(axes, unit_[a].high, unit_[a].low, p_[a]);
+  FineSeen seen[3];
+  const index_t others[3] = {b, c, d};
+  for (int k = 0; k < 3; ++k) {
+    const index_t i = others[k];
+    see(apex, axes(unit_[i].high), axes(unit_[i].low), FinePoint(p_[i], axes), seen[k]);
+  }
+  if (const int s = fine_height(seen[0], seen[1], seen[2])) return axes.negative ? -s : s;
+  if (on_great_circle(p_[a], p_[b], p_[c], p_[d])) return 0;
+  return exact_height_of_directions(p_[a], p_[b], p_[c], p_[d]);
+}
+
+bool Directions::above(index_t a, index_t b, index_t c, index_t d) const {
+  ++stages.above;
+  if (const int s = orientation(a, b, c, d)) return s > 0;
+  return above_of_tie(a, b, c, d);
+}
+
+bool Directions::above_of_tie(index_t ia, index_t ib, index_t ic, index_t id) const {
+  const Point &a = p_[ia], &b = p_[ib], &c = p_[ic], &d = p_[id];
+  if (same_direction(a, b) || same_direction(b, c) || same_direction(c, a) || same_direction(a, d) ||
+      same_direction(b, d) || same_direction(c, d))
+    return false;
+  return symbolic_above(a, b, c, d);
+}
+
+// ---- from one node --------------------------------------------------------------------------------------
+
+struct Directions::View::Memory {
+  index_t v = 0;
+  Axes axes{{1, 0, 0}};
+  Point apex{};
+  FineApex fine_apex;
+  bool is_fine = false;  ///< fine_apex is that of v
+  Remembered<Seen> seen;
+  Remembered<FineSeen> fine_seen;
+};
+
+Directions::View::View(const Directions& nodes) : nodes_(nodes), memory_(std::make_unique<Memory>()) {}
+Directions::View::~View() = default;
+
+void Directions::View::from(index_t v) {
+  Memory& m = *memory_;
+  m.v = v;
+  m.axes = Axes(nodes_.position(v));
+  m.apex = m.axes(nodes_.position(v));
+  m.is_fine = false;
+  m.seen.forget();
+  m.fine_seen.forget();
+}
+
+bool Directions::View::above(index_t a, index_t b, index_t c) {
+  Memory& m = *memory_;
+  tied_ = false;
+  ++stages.above;
+  const auto seen = [&](index_t i) {
+    return m.seen(i, [&](Seen& s) {
+      s = seen_from(m.apex, m.axes(nodes_.position(i)), m.axes(nodes_.difference(i, m.v)));
+    });
+  };
+  const auto signed_for_axes = [&](int s) { return m.axes.negative ? -s : s; };
+  // c, b, a seen from v: an even permutation of a, b, c, v.
+  if (const int s = signed_for_axes(filter_height(seen(c), seen(b), seen(a)))) return s > 0;
+  const Point &pa = nodes_.given(a), &pb = nodes_.given(b), &pc = nodes_.given(c), &pv = nodes_.given(m.v);
+  const bool maybe_in_line = filter_left(seen(a), seen(b)) == 0 && filter_left(seen(b), seen(c)) == 0 &&
+                             filter_left(seen(c), seen(a)) == 0;
+  if (maybe_in_line && on_great_circle(pa, pb, pc, pv)) {
+    tied_ = true;
+    return false;
+  }
+  ++stages.double_double;
+  if (!m.is_fine) {
+    m.fine_apex = fine_apex(m.axes, nodes_.unit_[m.v].high, nodes_.unit_[m.v].low, pv);
+    m.is_fine = true;
+  }
+  const auto fine_seen = [&](index_t i, const Point& p) -> const FineSeen& {
+    return m.fine_seen(i, [&](FineSeen& s) {
+      see(m.fine_apex, m.axes(nodes_.unit_[i].high), m.axes(nodes_.unit_[i].low), FinePoint(p, m.axes), s);
+    });
+  };
+  const FineSeen fc = fine_seen(c, pc), fb = fine_seen(b, pb);
+  if (const int s = signed_for_axes(fine_height(fc, fb, fine_seen(a, pa)))) return s > 0;
+  if (const int s = nodes_.height_from_best(a, b, c, m.v)) return s > 0;
+  tied_ = true;
+  return !same_direction(pa, pv) && !same_direction(pb, pv) && !same_direction(pc, pv) &&
+         symbolic_above(pa, pb, pc, pv);
+}
+
+int Directions::View::left(index_t a, index_t b) {
+  Memory& m = *memory_;
+  ++stages.left;
+  const auto seen = [&](index_t i) {
+    return m.seen(i, [&](Seen& s) {
+      s = seen_from(m.apex, m.axes(nodes_.position(i)), m.axes(nodes_.difference(i, m.v)));
+    });
+  };
+  if (const int s = filter_left(seen(a), seen(b))) return m.axes.negative ? -s : s;
+  if (in_coordinate_plane(nodes_.given(a), nodes_.given(b), nodes_.given(m.v))) return 0;
+  return left_of_vectors(nodes_.given(a), nodes_.given(b), nodes_.given(m.v));
+}
+
+}  // namespace pstripack
