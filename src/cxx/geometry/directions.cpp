@@ -160,6 +160,28 @@ int filter_height(const Seen& b, const Seen& c, const Seen& d) {
   return certain_sign((tc - tb) - td, kFactor * ((mc + mb) + md) + kNegligible);
 }
 
+/// The step from c to d, which are close to each other: N_d = N_c + N, G_d = G_c + G, and what is left of
+/// (*),
+///
+///     -D(N_c, N) G_b + D(N_b, N) G_c - D_bc G,
+///
+/// is small with the step in every term. N = a x f and G = -a.f with f = d - c are known as well as for e
+/// above; the error of G is less than 6u of q = |a.x f.x| + ... + 2^-46.
+Seen step(const Point& a, const Point& p, const Point& f) {
+  Seen s = seen_from(a, p, f);
+  s.g = -dot(a, f);
+  s.q = std::fabs(a.x * f.x) + std::fabs(a.y * f.y) + std::fabs(a.z * f.z) + 0x1p-46;
+  return s;
+}
+
+int filter_height_of_pair(const Seen& b, const Seen& c, const Seen& s) {
+  if (b.weight != 1 || c.weight != 1 || s.weight != 1) return 0;
+  const Estimate cs = area(c, s), bs = area(b, s), bc = area(b, c);
+  return certain_sign(
+      (bs.value * c.g - cs.value * b.g) - bc.value * s.g,
+      kFactor * ((bs.magnitude * c.q + cs.magnitude * b.q) + bc.magnitude * s.q) + kNegligible);
+}
+
 // ---- in double-double -----------------------------------------------------------------------------------
 //
 // A node far from the apex, |e| >= 2^-17: from the directions, high + low, each component known to 2^-101 of
@@ -443,34 +465,49 @@ int Directions::left(index_t ia, index_t ib, index_t ic) const {
 }
 
 int Directions::orientation(index_t a, index_t b, index_t c, index_t d) const {
-  const Axes axes(position(a));
-  const Point apex = axes(position(a));
-  const auto seen = [&](index_t i) { return seen_from(apex, axes(position(i)), axes(difference(i, a))); };
-  if (const int s = filter_height(seen(b), seen(c), seen(d))) return axes.negative ? -s : s;
-  return height_from_best(a, b, c, d);
+  if (const int s = filter_seen_from_first({a, b, c, d})) return s;
+  bool first_will_do;
+  const Four best = best_first({a, b, c, d}, first_will_do);
+  if (!first_will_do)
+    if (const int s = filter_seen_from_first(best)) return s;
+  return height_seen_from_first(best);
 }
 
-int Directions::height_from_best(index_t ia, index_t ib, index_t ic, index_t id) const {
-  // Errors grow with the product of the distances from the apex: of a needle, one of the two close nodes.
-  // Exponents add up where the product would underflow.
-  const auto distance = [&](index_t i, index_t j) { return exponent_of(largest(difference(i, j))); };
-  const int ab = distance(ia, ib), ac = distance(ia, ic), ad = distance(ia, id), bc = distance(ib, ic),
-            bd = distance(ib, id), cd = distance(ic, id);
-  const int product[4] = {ab + ac + ad, ab + bc + bd, ac + bc + cd, ad + bd + cd};
-  const index_t even[4][4] = {{ia, ib, ic, id}, {ib, ia, id, ic}, {ic, id, ia, ib}, {id, ic, ib, ia}};
-  const auto& [a, b, c, d] = even[std::min_element(product, product + 4) - product];
+int Directions::filter_seen_from_first(const Four& f) const {
+  const Axes axes(position(f[0]));
+  const Point apex = axes(position(f[0]));
+  const auto seen = [&](index_t i) { return seen_from(apex, axes(position(i)), axes(difference(i, f[0]))); };
+  const int s = filter_height(seen(f[1]), seen(f[2]), seen(f[3]));
+  return axes.negative ? -s : s;
+}
+
+int Directions::height_seen_from_first(const Four& f) const {
   ++stages.double_double;
-  const Axes axes(position(a));
-  const FineApex apex = fine_apex(axes, unit_[a].high, unit_[a].low, p_[a]);
+  const Axes axes(position(f[0]));
+  const FineApex apex = fine_apex(axes, unit_[f[0]].high, unit_[f[0]].low, p_[f[0]]);
   FineSeen seen[3];
-  const index_t others[3] = {b, c, d};
-  for (int k = 0; k < 3; ++k) {
-    const index_t i = others[k];
+  for (std::size_t k = 0; k < 3; ++k) {
+    const index_t i = f[k + 1];
     see(apex, axes(unit_[i].high), axes(unit_[i].low), FinePoint(p_[i], axes), seen[k]);
   }
   if (const int s = fine_height(seen[0], seen[1], seen[2])) return axes.negative ? -s : s;
-  if (on_great_circle(p_[a], p_[b], p_[c], p_[d])) return 0;
-  return exact_height_of_directions(p_[a], p_[b], p_[c], p_[d]);
+  if (on_great_circle(p_[f[0]], p_[f[1]], p_[f[2]], p_[f[3]])) return 0;
+  return exact_height_of_directions(p_[f[0]], p_[f[1]], p_[f[2]], p_[f[3]]);
+}
+
+Directions::Four Directions::best_first(const Four& f, bool& first_will_do) const {
+  // Errors grow with the product of the distances from the apex: of a needle, one of the two close nodes.
+  // Exponents add up where the product would underflow.
+  const auto distance = [&](std::size_t i, std::size_t j) {
+    return exponent_of(largest(difference(f[i], f[j])));
+  };
+  const int ab = distance(0, 1), ac = distance(0, 2), ad = distance(0, 3), bc = distance(1, 2),
+            bd = distance(1, 3), cd = distance(2, 3);
+  const int product[4] = {ab + ac + ad, ab + bc + bd, ac + bc + cd, ad + bd + cd};
+  const Four even[4] = {f, {f[1], f[0], f[3], f[2]}, {f[2], f[3], f[0], f[1]}, {f[3], f[2], f[1], f[0]}};
+  const auto least = std::min_element(product, product + 4) - product;
+  first_will_do = product[0] <= product[least] + 3;
+  return even[least];
 }
 
 bool Directions::above(index_t a, index_t b, index_t c, index_t d) const {
@@ -490,6 +527,23 @@ bool Directions::above_of_tie(index_t ia, index_t ib, index_t ic, index_t id) co
 // ---- from one node --------------------------------------------------------------------------------------
 
 struct Directions::View::Memory {
+  explicit Memory(const Directions& directions) : nodes(directions) {}
+
+  [[gnu::always_inline]] const Seen& see(index_t i) {
+    return seen(i,
+                [&](Seen& s) { s = seen_from(apex, axes(nodes.position(i)), axes(nodes.difference(i, v))); });
+  }
+  const FineSeen& see_finely(index_t i) {
+    if (!is_fine)
+      fine_apex = pstripack::fine_apex(axes, nodes.unit_[v].high, nodes.unit_[v].low, nodes.given(v));
+    is_fine = true;
+    return fine_seen(i, [&](FineSeen& s) {
+      pstripack::see(fine_apex, axes(nodes.unit_[i].high), axes(nodes.unit_[i].low),
+                     FinePoint(nodes.given(i), axes), s);
+    });
+  }
+
+  const Directions& nodes;
   index_t v = 0;
   Axes axes{{1, 0, 0}};
   Point apex{};
@@ -499,7 +553,7 @@ struct Directions::View::Memory {
   Remembered<FineSeen> fine_seen;
 };
 
-Directions::View::View(const Directions& nodes) : nodes_(nodes), memory_(std::make_unique<Memory>()) {}
+Directions::View::View(const Directions& nodes) : nodes_(nodes), memory_(std::make_unique<Memory>(nodes)) {}
 Directions::View::~View() = default;
 
 void Directions::View::from(index_t v) {
@@ -516,34 +570,41 @@ bool Directions::View::above(index_t a, index_t b, index_t c) {
   Memory& m = *memory_;
   tied_ = false;
   ++stages.above;
-  const auto seen = [&](index_t i) {
-    return m.seen(i, [&](Seen& s) {
-      s = seen_from(m.apex, m.axes(nodes_.position(i)), m.axes(nodes_.difference(i, m.v)));
-    });
-  };
   const auto signed_for_axes = [&](int s) { return m.axes.negative ? -s : s; };
   // c, b, a seen from v: an even permutation of a, b, c, v.
-  if (const int s = signed_for_axes(filter_height(seen(c), seen(b), seen(a)))) return s > 0;
+  const index_t node[3] = {c, b, a};
+  const Seen seen[3] = {m.see(c), m.see(b), m.see(a)};
+  if (const int s = signed_for_axes(filter_height(seen[0], seen[1], seen[2]))) return s > 0;
+  // Two that are close to each other, as v may be to the third.
+  std::size_t pair = 0;
+  double least = 4;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Point f = nodes_.difference(node[(k + 1) % 3], node[k]);
+    if (const double square = dot(f, f); square < least) pair = k, least = square;
+  }
+  if (const Seen& first = seen[pair]; least < 0x1p-10 * first.q) {
+    const index_t from = node[pair], to = node[(pair + 1) % 3];
+    const Seen s = step(m.apex, m.axes(nodes_.position(from)), m.axes(nodes_.difference(to, from)));
+    if (const int sign = signed_for_axes(filter_height_of_pair(seen[(pair + 2) % 3], first, s)))
+      return sign > 0;
+  }
+  bool v_will_do;
+  const Four best = nodes_.best_first({m.v, c, b, a}, v_will_do);
+  if (!v_will_do)
+    if (const int s = nodes_.filter_seen_from_first(best)) return s > 0;
   const Point &pa = nodes_.given(a), &pb = nodes_.given(b), &pc = nodes_.given(c), &pv = nodes_.given(m.v);
-  const bool maybe_in_line = filter_left(seen(a), seen(b)) == 0 && filter_left(seen(b), seen(c)) == 0 &&
-                             filter_left(seen(c), seen(a)) == 0;
+  const bool maybe_in_line = filter_left(seen[0], seen[1]) == 0 && filter_left(seen[1], seen[2]) == 0 &&
+                             filter_left(seen[2], seen[0]) == 0;
   if (maybe_in_line && on_great_circle(pa, pb, pc, pv)) {
     tied_ = true;
     return false;
   }
-  ++stages.double_double;
-  if (!m.is_fine) {
-    m.fine_apex = fine_apex(m.axes, nodes_.unit_[m.v].high, nodes_.unit_[m.v].low, pv);
-    m.is_fine = true;
+  if (v_will_do) {
+    ++stages.double_double;
+    const FineSeen fc = m.see_finely(c), fb = m.see_finely(b);
+    if (const int s = signed_for_axes(fine_height(fc, fb, m.see_finely(a)))) return s > 0;
   }
-  const auto fine_seen = [&](index_t i, const Point& p) -> const FineSeen& {
-    return m.fine_seen(i, [&](FineSeen& s) {
-      see(m.fine_apex, m.axes(nodes_.unit_[i].high), m.axes(nodes_.unit_[i].low), FinePoint(p, m.axes), s);
-    });
-  };
-  const FineSeen fc = fine_seen(c, pc), fb = fine_seen(b, pb);
-  if (const int s = signed_for_axes(fine_height(fc, fb, fine_seen(a, pa)))) return s > 0;
-  if (const int s = nodes_.height_from_best(a, b, c, m.v)) return s > 0;
+  if (const int s = nodes_.height_seen_from_first(best)) return s > 0;
   tied_ = true;
   return !same_direction(pa, pv) && !same_direction(pb, pv) && !same_direction(pc, pv) &&
          symbolic_above(pa, pb, pc, pv);
@@ -552,12 +613,8 @@ bool Directions::View::above(index_t a, index_t b, index_t c) {
 int Directions::View::left(index_t a, index_t b) {
   Memory& m = *memory_;
   ++stages.left;
-  const auto seen = [&](index_t i) {
-    return m.seen(i, [&](Seen& s) {
-      s = seen_from(m.apex, m.axes(nodes_.position(i)), m.axes(nodes_.difference(i, m.v)));
-    });
-  };
-  if (const int s = filter_left(seen(a), seen(b))) return m.axes.negative ? -s : s;
+  const Seen seen = m.see(a);
+  if (const int s = filter_left(seen, m.see(b))) return m.axes.negative ? -s : s;
   if (in_coordinate_plane(nodes_.given(a), nodes_.given(b), nodes_.given(m.v))) return 0;
   return left_of_vectors(nodes_.given(a), nodes_.given(b), nodes_.given(m.v));
 }

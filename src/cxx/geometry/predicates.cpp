@@ -112,29 +112,11 @@ int fine_orientation(const Point& a, const Point& b, const Point& c, const Point
   return certain_sign({value.high, 0}, kFineFactor * permanent + kUnderflow);
 }
 
-bool lower_rank(const Point& a, const Point& b) {
-  if (a.x != b.x) return a.x < b.x;
-  if (a.y != b.y) return a.y < b.y;
-  return a.z < b.z;
-}
-
 }  // namespace
 
 bool symbolic_above(const Point& a, const Point& b, const Point& c, const Point& d) {
-  ++stages.symbolic;
-  struct Term {
-    const Point *node, *p, *q, *r;  // pushing `node` outwards gives the sign of sign * [pqr]
-    int sign;
-  };
-  Term terms[4] = {{&d, &a, &b, &c, 1}, {&c, &a, &b, &d, -1}, {&b, &a, &c, &d, 1}, {&a, &b, &c, &d, -1}};
-  for (int remaining = 4; remaining > 0; --remaining) {
-    Term* highest = terms;
-    for (Term* t = terms + 1; t < terms + remaining; ++t)
-      if (lower_rank(*highest->node, *t->node)) highest = t;
-    if (const int bracket = left(*highest->p, *highest->q, *highest->r)) return highest->sign * bracket > 0;
-    *highest = terms[remaining - 1];
-  }
-  return false;  // all four on one great circle
+  return symbolic_above(a, b, c, d,
+                        [](const Point& p, const Point& q, const Point& r) { return left(p, q, r); });
 }
 
 int left_of_vectors(const Point& a, const Point& b, const Point& c) {
@@ -223,11 +205,19 @@ bool Coordinates::View::above(index_t a, index_t b, index_t c) {
   const Difference e = seen(c), f = seen(b), g = seen(a);
   if (!(e.on_grid && f.on_grid && g.on_grid)) return nodes_.above(a, b, c, v_);
   ++stages.above;
-  ++stages.integers;
-  if (const int s = exact::sign_of_det({e.x, e.y, e.z}, {f.x, f.y, f.z}, {g.x, g.y, g.z})) return s > 0;
+  if ((e.x | f.x | g.x) != 0 && (e.y | f.y | g.y) != 0 &&
+      (e.z | f.z | g.z) != 0) {  // else all on one parallel
+    ++stages.integers;
+    if (const int s = exact::sign_of_det({e.x, e.y, e.z}, {f.x, f.y, f.z}, {g.x, g.y, g.z})) return s > 0;
+  }
   const auto coincides = [&](const Difference& d) { return d.x == 0 && d.y == 0 && d.z == 0; };
+  // On the grid everything is of moderate size.
   return !coincides(e) && !coincides(f) && !coincides(g) &&
-         symbolic_above(nodes_.p_[a], nodes_.p_[b], nodes_.p_[c], nodes_.p_[v_]);
+         symbolic_above(nodes_.p_[a], nodes_.p_[b], nodes_.p_[c], nodes_.p_[v_],
+                        [](const Point& p, const Point& q, const Point& r) {
+                          const int s = filter_left(r, p, q);
+                          return s != 0 ? s : pstripack::left(p, q, r);
+                        });
 }
 
 }  // namespace pstripack

@@ -29,6 +29,7 @@
 // A radial push changes no LEFT. Four nodes on one great circle have four zero brackets: they stay a
 // zero for every rank and count as "not above".
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -135,8 +136,13 @@ class Directions {
   class View;
 
  private:
-  /// The same without the filter in doubles, seen from the node that makes errors small.
-  int height_from_best(index_t a, index_t b, index_t c, index_t d) const;
+  using Four = std::array<index_t, 4>;
+  /// The same, seen from f[0]: in doubles, where 0 means not certain; and exactly, from double-double on.
+  int filter_seen_from_first(const Four& f) const;
+  int height_seen_from_first(const Four& f) const;
+  /// An even permutation with the node in front from which errors are smallest; whether f[0] is about as
+  /// good.
+  Four best_first(const Four& f, bool& first_will_do) const;
   bool above_of_tie(index_t a, index_t b, index_t c, index_t d) const;  ///< by the tie rule
   struct Unit {
     Point high, low;
@@ -179,7 +185,8 @@ class Coordinates::View {
  public:
   explicit View(const Coordinates& nodes) : nodes_(nodes) {}
   void from(index_t v);
-  bool above(index_t a, index_t b, index_t c);  ///< Coordinates::above(a, b, c, v); no two of a, b, c coincide
+  bool above(index_t a, index_t b,
+             index_t c);  ///< Coordinates::above(a, b, c, v); no two of a, b, c coincide
   int left(index_t a, index_t b) { return nodes_.left(a, b, v_); }
 
  private:

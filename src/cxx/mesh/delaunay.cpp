@@ -399,7 +399,8 @@ class Builder final : public GrowingHull {
   ///       /   \    p    (u-p).X and -(w-p).X.
   ///      u --- w
   std::uint32_t walk(const Point& p) {
-    constexpr int kSteps = 1000;  // rounding can send the walk in circles
+    constexpr int kSteps = 1000;
+    std::uint32_t passed = kNone;  // rounding can send the walk in circles: a face it has met, ever later
     std::uint32_t t = last_;
     if (above_plane(planes_[t], p) > 1) return t;
     const Face& first = faces_[t];
@@ -417,7 +418,8 @@ class Builder final : public GrowingHull {
       t = face_of(code);
       const Plane& plane = planes_[t];
       if (above_plane(plane, p) > 1) return t;
-      if (!(plane.w > 1)) return kNone;
+      if (!(plane.w > 1) || t == passed) return kNone;
+      if ((step & (step - 1)) == 0) passed = t;
       last_ = t;
       const Face& f = faces_[t];
       const std::uint32_t in = edge_of(code);
@@ -450,6 +452,11 @@ class Builder final : public GrowingHull {
     std::uint32_t t = last_;
     for (;;) {
       const Face& f = faces_[t];
+      // Of nodes along lines the faces next to each other lie far apart in memory.
+      for (std::uint32_t i = 0; i < 3; ++i) {
+        __builtin_prefetch(planes_ + face_of(f.neighbour[i]));
+        __builtin_prefetch(faces_ + face_of(f.neighbour[i]));
+      }
       const int side = certain_side(t, make_spoke(predicates_, f.vertex[0], v));
       if (side > 0) return t;
       for (const std::uint32_t corner : {f.vertex[0], f.vertex[1], f.vertex[2]})
