@@ -17,7 +17,7 @@ memcheck() {
 for library in stripack stripack_r4 stripack_8arg stripack_i8; do
   memcheck "$tests/numerics/${library}_environment_test" --gtest_filter='Memory*'
 done
-memcheck "$tests/cxx/edit_test" --gtest_filter='-*Outside*:*DoNotClose*'
+memcheck "$tests/cxx/edit_test"
 memcheck "$tests/cxx/listing_test"
 memcheck "$tests/cxx/plot_test" --gtest_filter='-*Ier_6*'  # runs out of memory, where valgrind ends a program
 memcheck "$tests/cxx/mesh_test"

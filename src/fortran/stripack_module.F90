@@ -185,11 +185,14 @@ module stripack
     ! On success one column of IWK is (0,0); the new arcs left of IN1-IN2 stand before it, those to its right
     ! after it (left and right are exchanged if the search had to start from IN2). N columns always suffice
     ! unless nodes are collinear.
+    ! EDGE is told neither N nor the lengths of the arrays. Broken lists make it read outside LIST and LPTR
+    ! where LEND or LPTR is above 6N-12, and outside X, Y, Z and LEND where the list of IN1 or IN2 has a
+    ! neighbour above N. A number above N in another list is used only if two lists have it where it belongs.
     ! IER  0 the arc is there; 1 IN1 < 1, IN2 < 1, IN1 = IN2 or LWK < 0; 2 more than LWK arcs cross IN1-IN2;
     !      3 no arc that crosses is found: null triangles or a broken triangulation; a message on standard
-    !      output; 4 OPTIM failed; a message on standard output; 5 OPTIM came to its limit of iterations;
-    !      -9 not the lists of a triangulation (new); -10 the arcs cannot be swapped away: nodes lie on
-    !      IN1-IN2, up to rounding, or triangles overlap (new).
+    !      output; 4 OPTIM failed, with -9 too; a message on standard output; 5 OPTIM came to its limit of
+    !      iterations; -9 not the lists of a triangulation (new); -10 the arcs cannot be swapped away: nodes
+    !      lie on IN1-IN2, up to rounding, or triangles overlap (new).
     subroutine edge(in1, in2, x, y, z, lwk, iwk, list, lptr, lend, ier)
       integer :: in1, in2, lwk, iwk(2, *), list(*), lptr(*), lend(*), ier
       real(STRIPACK_REAL_KIND) :: x(*), y(*), z(*)
@@ -199,6 +202,9 @@ module stripack
     ! Swaps arcs of the list IWK for the other diagonal of their quadrilateral where the circumcircle test
     ! wants it, in passes until one makes no swap. Arcs of the boundary are passed over. A swapped arc is
     ! replaced in IWK by the new one.
+    ! OPTIM is told neither N nor the lengths of the arrays. Broken lists make it read outside LIST and LPTR
+    ! where LEND or LPTR is above 6N-12. A node number above all in IWK is used only if the lists of both ends
+    ! of an arc have it; if both are wrong in the same way, OPTIM reads outside X, Y, Z and LEND as well.
     ! IER  0 done: the last pass made no swap; 1 NIT passes did not suffice; 2 NA < 0 or NIT < 1; 3 a column
     !      is not an arc of the triangulation; 4 the other diagonal of a quadrilateral is an arc already: not
     !      a triangulation; -9 not the lists of a triangulation (new).
@@ -246,9 +252,13 @@ module stripack
     end subroutine
 
     ! Exchanges the diagonal of a quadrilateral.
-    ! Arc IO1-IO2, between triangles (IO1,IO2,IN1) and (IO2,IO1,IN2), is replaced by IN1-IN2. That they are
-    ! triangles is not tested. No slot is gained or lost.
-    ! LP21  > 0 done; 0 IN1 and IN2 are neighbours already; -9 not the lists of a triangulation (new).
+    ! Arc IO1-IO2, between triangles (IO1,IO2,IN1) and (IO2,IO1,IN2), is replaced by IN1-IN2. The lists of all
+    ! four nodes must have both triangles, whatever the coordinates. No slot is gained or lost.
+    ! SWAP is told neither N nor the lengths of the arrays. A node that is above N, and LEND or LPTR above
+    ! 6N-12, make it read outside the arrays. It writes only to slots in which it has read one of the four
+    ! nodes, and to LEND of IO1 and IO2.
+    ! LP21  > 0 done; 0 IN1 and IN2 are neighbours already; -9 the lists do not have these two triangles
+    !      (new).
     subroutine swap(in1, in2, io1, io2, list, lptr, lend, lp21)
       integer :: in1, in2, io1, io2, list(*), lptr(*), lend(*), lp21
     end subroutine

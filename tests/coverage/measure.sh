@@ -14,7 +14,7 @@ build=${1:-$source/build-coverage}
 [ $# -eq 0 ] || shift
 
 if [ $# -eq 0 ]; then
-  tests='predicates_test|validator_test|mesh_test|edit_test|listing_test|plot_test|check_test|report_test|wide_integers'
+  tests='predicates_test|validator_test|mesh_test|edit_(broken_lists_)?test|listing_test|plot_test|check_test|report_test|wide_integers'
   tests="$tests|catalogue_(numbers|callers|duplicates|beyond)|FewNodes|Nasty|Coincident|GivingUp|fuzz_corpus|faults"
   tests="$tests|fortran\\.|privileges|point_files|dlopen|np(1|3)_patches2_bisection_slices"
   # Those with the most nodes; a limit of the size of files, which the counts' files have to keep as well.

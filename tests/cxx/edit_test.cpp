@@ -1,10 +1,9 @@
-// The routines that change a triangulation, on the canonical lists of our trmesh and on lists that are none:
-// judged by the validator, not by the original. For all kinds of numbers.
+// The routines that change a triangulation, on the canonical lists of our trmesh: judged by the validator,
+// not by the original. For all kinds of numbers. Lists that are none: edit_broken_lists_test.cpp.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -13,7 +12,6 @@
 #include "point_sets.h"
 #include "stripack/adjacency_lists.h"
 #include "stripack/node_edit.h"
-#include "support/guarded.h"
 
 using namespace pstripack;
 
@@ -231,96 +229,4 @@ TYPED_TEST(Edit, ColumnsAndArcsThatAreNone) {
   const DelarcStatus status = delarc(b, a, mesh.lists());
   EXPECT_TRUE(status == DelarcStatus::no_neighbours || status == DelarcStatus::cuts_off)
       << static_cast<int>(status);
-}
-
-TYPED_TEST(Edit, NothingIsTouchedOutsideTheArrays) {
-  // Lists of random numbers, in memory that ends where the arrays end.
-  using Int = typename TypeParam::Int;
-  using Real = typename TypeParam::Real;
-  Random random(5);
-  constexpr Int n = 6, slots = 6 * n - 12;
-  std::vector<int> codes(40);
-  const auto nodes = directions(random, n, true);
-  const MeshOf<TypeParam> mesh(nodes, n);
-  for (const ::Edge side : {::Edge::begin, ::Edge::end})
-    for (int i = 0; i < 20000; ++i) {
-      Guarded<Int> list(mesh.list, side), lptr(mesh.lptr, side), lend(mesh.lend, side), iwk(2 * n, side);
-      Guarded<Real> x(mesh.x, side), y(mesh.y, side), z(mesh.z, side);
-      Int lnew = mesh.lnew, count = n, lwk = n, slot;
-      for (int damages = below(random, i % 2 == 0 ? 4 : 40); damages > 0; --damages) {
-        Guarded<Int>& array = *std::array<Guarded<Int>*, 3>{&list, &lptr, &lend}[random.below(3)];
-        array[random.below(array.size())] =
-            below(random, 8) == 0 ? Int(below(random, 200) - 100) : Int(below(random, slots + 4) - 2);
-      }
-      if (below(random, 10) == 0) lnew = Int(below(random, 60) - 20);
-      const EditedLists<Int> lists{n, list.data(), lptr.data(), lend.data(), &lnew};
-      const Int a = below(random, n + 3) - 1, b = below(random, n + 3) - 1, c = below(random, n + 3) - 1;
-      int code = 0;
-      OptimFailure<Int> failure;
-      switch (i % 8) {
-        case 0:
-          code = insert(a, Int(below(random, 40) - 2), lists);
-          break;
-        case 1:
-          code = intadd(a, b, c, lists);
-          break;
-        case 2:
-          code = bdyadd(a, b, lists);
-          break;
-        case 3:
-          code = covsph(a, lists);
-          break;
-        case 4:
-          code = delnb(a, b, lists, slot);
-          break;
-        case 5:
-          code = static_cast<int>(delarc(a, b, lists));
-          break;
-        case 6:
-          code = static_cast<int>(
-              delnod(a, count, x.data(), y.data(), z.data(), lists, lwk, iwk.data(), failure));
-          break;
-        case 7:
-          code = static_cast<int>(addnod(a, Nodes<Real>{x.data(), y.data(), z.data()}, lists));
-          break;
-      }
-      ++codes[static_cast<std::size_t>(code + 20)];
-    }
-  EXPECT_GT(codes[20 - 9], 100);
-  EXPECT_GT(codes[20], 100);
-}
-
-TYPED_TEST(Edit, ListsThatDoNotCloseEndTheSearch) {
-  // SWAP, OPTIM and EDGE are not told how many slots there are; here all numbers are within the arrays.
-  using Int = typename TypeParam::Int;
-  using Real = typename TypeParam::Real;
-  Random random(6);
-  constexpr Int n = 6, slots = 6 * n - 12;
-  const MeshOf<TypeParam> mesh(directions(random, n, true), n);
-  std::array<int, 3> broken{};
-  for (int i = 0; i < 30000; ++i) {
-    MeshOf<TypeParam> damaged = mesh;
-    for (int damages = 1 + below(random, 10); damages > 0; --damages) switch (below(random, 3)) {
-        case 0:
-          damaged.list[random.below(slots)] = any_node(random, n) * (below(random, 4) == 0 ? -1 : 1);
-          break;
-        case 1:
-          damaged.lptr[random.below(slots)] = any_node(random, slots);
-          break;
-        default:
-          damaged.lend[random.below(n)] = any_node(random, slots);
-      }
-    const Int a = any_node(random, n), b = any_node(random, n), c = any_node(random, n),
-              d = any_node(random, n);
-    Int slot, nit = 3;
-    damaged.iwk = {a, b, c, d};
-    damaged.iwk.resize(2 * n);
-    broken[0] += swap(a, b, c, d, damaged.unbounded(), slot) == broken_lists;
-    damaged.lptr = mesh.lptr;
-    damaged.lptr[random.below(slots)] = any_node(random, slots);
-    broken[1] += optim<Real>(damaged.nodes(), Int(2), damaged.unbounded(), nit, damaged.iwk.data()) ==
-                 OptimStatus::broken;
-    broken[2] += damaged.connect(a, b) == EdgeStatus::broken;
-  }
-  for (int count : broken) EXPECT_GT(count, 100);
 }

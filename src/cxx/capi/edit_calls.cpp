@@ -18,7 +18,8 @@ int said(const char* routine, Code code) {
   const char* why = nullptr;
   if (ier == static_cast<int>(AddnodStatus::too_many_nodes)) why = "6K-12 does not fit an INTEGER";
   if (ier == static_cast<int>(AddnodStatus::not_finite)) why = "a coordinate of node K is not finite";
-  if (ier == broken_lists) why = "LIST, LPTR, LEND are not the lists of a triangulation";
+  if (ier == broken_lists)
+    why = "LIST, LPTR, LEND are not the lists of a triangulation that fits the arguments";
   if (ier == static_cast<int>(EdgeStatus::not_possible))
     why = "the arc cannot be made: nodes lie on it, up to rounding, or triangles overlap";
   if (why != nullptr) std::fprintf(stderr, "pstripack: %s: code %d: %s\n", routine, ier, why);

@@ -13,6 +13,7 @@ OptimStatus optimize(const CheckedEditor<Int>& lists, const Nodes<Real>& nodes, 
   nit = 0;
   if (na < 0 || most < 1) return OptimStatus::bad_argument;
   if (na == 0) return OptimStatus::done;
+  Int known = lists.known_node();
   for (bool swapped = true; swapped;) {
     if (nit == most) return OptimStatus::not_all;
     ++nit;
@@ -25,6 +26,11 @@ OptimStatus optimize(const CheckedEditor<Int>& lists, const Nodes<Real>& nodes, 
       if (lists.neighbour(slot) != v) return OptimStatus::no_arc;
       if (lists.entry(slot) < 0 || lists.entry(before) < 0) continue;  // on the boundary
       const Int g = lists.neighbour(lists.next(slot)), h = lists.neighbour(before);
+      known = std::max({known, u, v});
+      if (std::max(g, h) > known) {
+        lists.between(g, u, h, v);  // throws unless the other list has them, too
+        known = std::max(g, h);
+      }
       if (!swptst(g, h, u, v, nodes)) continue;
       if (lists.swap(g, h, u, v) == 0) return OptimStatus::not_swapped;
       arc[0] = g;
@@ -67,7 +73,8 @@ DelarcStatus delarc(Int io1, Int io2, const EditedLists<Int>& arrays) {
 namespace {
 
 /// The arcs that p-q crosses are collected in the columns of IWK, in order from p to q, and exchanged for
-/// others until p-q is one of them.
+/// others until p-q is one of them. That lists with one wrong entry are broken shows before the first
+/// exchange.
 ///
 ///           l --- m --- .
 ///         /  \   / \   / \          columns (l,r), (m,r), ...: the end left of p-q, the right one;
@@ -87,12 +94,14 @@ class ArcForcing {
       std::swap(p_, q_);
       if (!find_first(l, r)) return EdgeStatus::not_found;
     }
-    if (const EdgeStatus status = collect(l, r); status != EdgeStatus::done) return status;
+    // p-q may leave p where there is no triangle, if the triangles do not cover their convex hull.
+    const bool outside = lists_.entry(lists_.last_slot(p_)) == -r;
+    if (const EdgeStatus status = collect(l, r, outside); status != EdgeStatus::done) return status;
     // The exchanges depend on the columns alone: see first, in the columns, whether all can be made and end.
     first_left_ = l;
     first_right_ = r;
-    if (!exchange<false>()) return EdgeStatus::not_possible;
-    collect(l, r);
+    if (outside || !exchange<false>()) return EdgeStatus::not_possible;
+    collect_again(l, r);
     exchange<true>();
     crossed = count_;
     made = made_;
@@ -138,15 +147,45 @@ class ArcForcing {
     return (ql - c * pl >= 0 || qr - c * pr >= 0) && (pl - c * ql >= 0 || pr - c * qr >= 0);
   }
 
-  /// Walks from arc l-r through the triangles to q.
-  EdgeStatus collect(Int l, Int r) {
+  /// The third corner of the triangle beyond l-r.
+  Int beyond(Int l, Int r) const { return lists_.neighbour(lists_.next(lists_.slot_of(l, r))); }
+
+  /// Walks from arc l-r through the triangles to q. The lists of all corners must close and agree on each
+  /// triangle: no node m is looked up before the lists of l and r both have it. `outside`: p,r,l is none.
+  EdgeStatus collect(Int l, Int r, bool outside) {
+    Int base = p_, seen = 0;  // seen: whichever of l, r was an end of the column before
     for (count_ = 0;;) {
       if (count_ == lwk_) return EdgeStatus::too_few_columns;
       set(++count_, l, r);
-      const Int slot = lists_.slot_of(l, r);
+      const auto [slot, before] = lists_.find(l, [&](Int s) { return lists_.entry(s) == r; });
       if (lists_.entry(slot) != r) return EdgeStatus::not_found;
       const Int m = lists_.neighbour(lists_.next(slot));
-      if (m == q_) return EdgeStatus::done;
+      const auto [l_of_r, m_of_r] = lists_.find(r, [&](Int s) { return lists_.entry(s) == l; });
+      if (lists_.neighbour(l_of_r) != l || lists_.entry(m_of_r) != m) throw BrokenLists();
+      if (count_ > 1 || !outside) {
+        if (lists_.entry(before) != base || !lists_.is_side(l_of_r, l, base) ||
+            (count_ == 1 && !lists_.is_side(lists_.slot_of(p_, r), r, l)))
+          throw BrokenLists();
+      }
+      if (l != seen) lists_.go_on_to_last(slot, l);
+      if (r != seen) lists_.go_on_to_last(l_of_r, r);
+      if (m == q_) {
+        const Int l_of_q = lists_.slot_of(q_, l);
+        if (!lists_.is_side(l_of_q, l, r)) throw BrokenLists();
+        lists_.go_on_to_last(l_of_q, q_);
+        return EdgeStatus::done;
+      }
+      Int& replaced = left(p_, q_, m) ? l : r;
+      base = replaced;
+      replaced = m;
+      seen = m == l ? r : l;
+    }
+  }
+  /// The same columns, of lists that `collect` has seen.
+  void collect_again(Int l, Int r) {
+    for (Int column = 1; column <= count_; ++column) {
+      set(column, l, r);
+      const Int m = beyond(l, r);
       (left(p_, q_, m) ? l : r) = m;
     }
   }
@@ -159,12 +198,15 @@ class ArcForcing {
   }
 
   /// Before an exchange that only the columns know of: SWAP would put m-base in the place of l-r. It refuses
-  /// where m-base is an arc already: one of the lists that p-q does not cross, or one of the columns.
+  /// where m-base is an arc already: one of the lists that p-q does not cross, or one of the columns. Throws
+  /// BrokenLists where only one end of m-base lists the other, or lists it twice.
   /// Triangles that overlap, from rounding or from changes before, lead there. Algorithm 772 goes on all the
   /// same, with columns that are no arcs any more.
   bool can_join(Int m, Int base, Int l, Int r) const {
     if (columns_of(l, r) != 1 || columns_of(m, base) != 0) return false;
-    return !lists_.are_neighbours(m, base) || was_crossed(m, base);
+    const Int times = lists_.times(m, base);
+    if (times > 1 || lists_.times(base, m) != times) throw BrokenLists();
+    return times == 0 || was_crossed(m, base);
   }
 
   /// True if a-b was in a column before the exchanges: walks there again.
@@ -172,7 +214,7 @@ class ArcForcing {
     Int l = first_left_, r = first_right_;
     for (;;) {
       if ((l == a && r == b) || (l == b && r == a)) return true;
-      const Int m = lists_.neighbour(lists_.next(lists_.slot_of(l, r)));
+      const Int m = beyond(l, r);
       if (m == q_) return false;
       (left(p_, q_, m) ? l : r) = m;
     }
@@ -193,10 +235,10 @@ class ArcForcing {
   bool exchange() {
     bool possible = true;
     const auto join = [&](Int m, Int base, Int l, Int r) {
-      if constexpr (kSwap)
-        lists_.swap(m, base, l, r);
-      else
+      if constexpr (!kSwap)
         possible = possible && can_join(m, base, l, r);
+      else if (lists_.swap(m, base, l, r) == 0)
+        throw BrokenLists();
     };
     Int alpha = 1, omega = count_, idle = 0;
     for (;;) {
@@ -294,7 +336,8 @@ EdgeStatus edge(Int in1, Int in2, const Nodes<Real>& nodes, Int& lwk, Int* iwk,
       const Int count = before ? made - 1 : crossed - made;
       if (count == 0) continue;
       Int nit = 4 * count;
-      const OptimStatus optimized = optimize(lists, nodes, count, nit, before ? iwk : iwk + 2 * made);
+      const OptimStatus optimized = code_or_broken_lists(
+          [&] { return optimize(lists, nodes, count, nit, before ? iwk : iwk + 2 * made); });
       if (optimized == OptimStatus::not_all) status = EdgeStatus::not_optimal;
       if (optimized == OptimStatus::done || optimized == OptimStatus::not_all) continue;
       failure = {nit, static_cast<Int>(optimized)};

@@ -26,6 +26,7 @@ enum class OptimStatus {
 
 /// OPTIM: exchanges arcs of iwk(2,na), which are pairs of neighbours, until they are locally optimal, in at
 /// most nit iterations through all columns. The columns follow the exchanges; nit: iterations begun.
+/// N is no argument: a node above all in the columns is looked up only if two lists have it where it belongs.
 template <class Real, class Int>
 OptimStatus optim(const Nodes<Real>& nodes, Int na, const EditedLists<Int>& lists, Int& nit, Int* iwk);
 
@@ -61,7 +62,7 @@ enum class EdgeStatus {
   not_found = 3,     ///< no arc between the two is found: null triangles or broken lists; only iwk is changed
   optim_failed = 4,  ///< the arc is there; OptimFailure has OPTIM's code
   not_optimal = 5,   ///< the arc is there; OPTIM ran out of iterations
-  broken = broken_lists,
+  broken = broken_lists,  ///< only iwk is changed, unless several entries are wrong
   not_possible = -10  ///< nodes on the arc, up to rounding, or triangles that overlap; only iwk is changed
 };
 

@@ -44,7 +44,8 @@ auto code_or_broken_lists(const Edit& edit) -> decltype(edit()) {
   }
 }
 
-/// Access to the arrays, checked: throws BrokenLists where an index is out of range.
+/// Access to the arrays, checked: throws BrokenLists where an index is out of range. Where N and LNEW are not
+/// told only numbers below 1 are: SECURITY.md says what else is done about these, and what cannot be.
 template <class Int>
 class CheckedArrays {
  public:
@@ -106,9 +107,14 @@ class ListEditor {
   explicit ListEditor(const Arrays& arrays) : arrays_(arrays) {}
 
   Int lnew() const { return arrays_.lnew(); }
+  /// The greatest node that is certain to exist; 0 if N is not told.
+  Int known_node() const { return arrays_.nodes() < std::numeric_limits<Int>::max() ? arrays_.nodes() : 0; }
   /// The neighbour in a slot; negative if it is the last one of a boundary node.
   Int& entry(Int slot) const { return arrays_.list(slot); }
-  Int neighbour(Int slot) const { return arrays_.checked_node(entry(slot) < 0 ? -entry(slot) : entry(slot)); }
+  Int neighbour(Int slot) const {
+    const Int node = entry(slot);
+    return arrays_.checked_node(node < -std::numeric_limits<Int>::max() ? 0 : node < 0 ? -node : node);
+  }
   Int& next(Int slot) const { return arrays_.lptr(slot); }
   Int& last_slot(Int node) const { return arrays_.lend(node); }
   Int first_slot(Int node) const { return next(last_slot(node)); }
@@ -136,10 +142,35 @@ class ListEditor {
     return find(node, [&](Int slot) { return entry(slot) == wanted; }).slot;
   }
   bool are_neighbours(Int node, Int other) const { return neighbour(slot_of(node, other)) == other; }
+  /// The slot of b in a node's list, in which a, b, c follow each other; throws BrokenLists if they do not.
+  Place between(Int a, Int b, Int c, Int node) const {
+    const Place place = find(node, [&](Int slot) { return entry(slot) == b; });
+    if (entry(place.before) != a || entry(place.slot) != b || neighbour(next(place.slot)) != c)
+      throw BrokenLists();
+    return place;
+  }
+  /// True if a slot holds a and the next one b: a, b and the node whose list this is are a triangle.
+  bool is_side(Int slot, Int a, Int b) const {
+    return entry(slot) == a && (entry(next(slot)) == b || entry(next(slot)) == -b);
+  }
+  /// Goes on from a slot to the last one of a node; throws BrokenLists if that does not come.
+  void go_on_to_last(Int slot, Int node) const {
+    const Int last = last_slot(node);
+    for (LoopGuard<Int> guard; slot != last; slot = next(slot)) guard.pass(slot);
+  }
   Int degree(Int node) const {
     Int count = 1;
     find(node, [&](Int) {
       ++count;
+      return false;
+    });
+    return count;
+  }
+  /// How often a node's list has another: 0 or 1 in a triangulation.
+  Int times(Int node, Int other) const {
+    Int count = last_neighbour(node) == other ? 1 : 0;
+    find(node, [&](Int slot) {
+      if (entry(slot) == other) ++count;
       return false;
     });
     return count;
@@ -230,12 +261,20 @@ class ListEditor {
   ///       in1  |  in2      ->       in1 --- in2
   ///          \ | /                     \   /
   ///           io1                       io1
+  ///
+  /// Where N is not told, writes nothing before the lists of all four nodes have shown both triangles: a slot
+  /// that is written held one of the four.
   Int swap(Int in1, Int in2, Int io1, Int io2) const {
+    if (known_node() == 0) return swap_in_triangles(in1, in2, io1, io2);
     if (are_neighbours(in1, in2)) return 0;
-    link(in1, io1, unlink_after(io1, in2), in2);
-    const Int slot = unlink_after(io2, in1);
-    link(in2, io2, slot, in1);
-    return slot;
+    const auto after = [&](Int node, Int other) {
+      const Int before = slot_of(node, other);
+      return Place{next(before), before};
+    };
+    move(io1, after(io1, in2), slot_of(in1, io1), in2);
+    const Place of_io1 = after(io2, in1);
+    move(io2, of_io1, slot_of(in2, io2), in1);
+    return of_io1.slot;
   }
 
   /// DELNB: removes nb from the list of n0, leaving the list of nb alone. The top slot moves into the one
@@ -245,11 +284,11 @@ class ListEditor {
     const Int last = last_slot(n0);
     if (slot == last) {
       if (neighbour(slot) != nb) return -2;
+      if (on_boundary(nb)) entry(before) = -neighbour(before);
       last_slot(n0) = before;
-      if (on_boundary(nb)) entry(before) = -entry(before);
     } else if (on_boundary(nb) && entry(last) > 0) {
+      entry(before) = -neighbour(before);
       last_slot(n0) = before;
-      entry(before) = -entry(before);
     }
     next(before) = next(slot);
     move_top_to(slot, [&, hole = slot](Int top) {
@@ -300,19 +339,30 @@ class ListEditor {
       if (!on_boundary(v) || ++count > k) throw BrokenLists();
       v = last_neighbour(v);
     } while (v != i2);
+    if (!on_boundary(i2)) throw BrokenLists();
     return count;
   }
 
-  /// Takes the neighbour after `b` out of the list of a, and returns its slot.
-  Int unlink_after(Int a, Int b) const {
-    const Int before = slot_of(a, b), slot = next(before);
-    next(before) = next(slot);
-    if (last_slot(a) == slot) last_slot(a) = before;
-    return slot;
+  Int swap_in_triangles(Int in1, Int in2, Int io1, Int io2) const {
+    Int to_io1 = last_slot(in1);
+    const Int to_in2 = find(in1, [&](Int slot) {
+                         if (is_side(slot, io1, io2)) to_io1 = slot;
+                         return entry(slot) == in2;
+                       }).slot;
+    if (neighbour(to_in2) == in2) return 0;
+    const Int to_io2 = find(in2, [&](Int slot) { return is_side(slot, io2, io1); }).slot;
+    if (!is_side(to_io1, io1, io2) || !is_side(to_io2, io2, io1)) throw BrokenLists();
+    const Place of_io2 = between(in2, io2, in1, io1), of_io1 = between(in1, io1, in2, io2);
+    move(io1, of_io2, to_io1, in2);
+    move(io2, of_io1, to_io2, in1);
+    return of_io1.slot;
   }
-  /// Puts c, in a free slot, after b into the list of a.
-  void link(Int a, Int b, Int slot, Int c) const {
-    const Int before = slot_of(a, b);
+
+  /// Takes a slot out of the list of a node; it then holds c, after the slot `before` in another list.
+  void move(Int node, const Place& place, Int before, Int c) const {
+    const Int slot = place.slot;
+    next(place.before) = next(slot);
+    if (last_slot(node) == slot) last_slot(node) = place.before;
     next(slot) = next(before);
     next(before) = slot;
     entry(slot) = c;
@@ -332,7 +382,7 @@ class ListEditor {
 template <class Int>
 using CheckedEditor = ListEditor<CheckedArrays<Int>>;
 
-// The routines. Each returns 0, or broken_lists: nothing is changed then, except by `swap` and `delnb`.
+// The routines. Each returns 0, or broken_lists: nothing is changed then, except by `delnb`.
 
 /// INSERT: k becomes the neighbour after the one in slot lp.
 template <class Int>
