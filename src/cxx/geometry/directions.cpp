@@ -556,18 +556,21 @@ struct Directions::View::Memory {
 Directions::View::View(const Directions& nodes) : nodes_(nodes), memory_(std::make_unique<Memory>(nodes)) {}
 Directions::View::~View() = default;
 
-void Directions::View::from(index_t v) {
+Directions::View::Memory& Directions::View::memory() {
   Memory& m = *memory_;
-  m.v = v;
-  m.axes = Axes(nodes_.position(v));
-  m.apex = m.axes(nodes_.position(v));
+  if (is_ready_) return m;
+  is_ready_ = true;
+  m.v = v_;
+  m.axes = Axes(nodes_.position(v_));
+  m.apex = m.axes(nodes_.position(v_));
   m.is_fine = false;
   m.seen.forget();
   m.fine_seen.forget();
+  return m;
 }
 
 bool Directions::View::above(index_t a, index_t b, index_t c) {
-  Memory& m = *memory_;
+  Memory& m = memory();
   tied_ = false;
   ++stages.above;
   const auto signed_for_axes = [&](int s) { return m.axes.negative ? -s : s; };
@@ -611,7 +614,7 @@ bool Directions::View::above(index_t a, index_t b, index_t c) {
 }
 
 int Directions::View::left(index_t a, index_t b) {
-  Memory& m = *memory_;
+  Memory& m = memory();
   ++stages.left;
   const Seen seen = m.see(a);
   if (const int s = filter_left(seen, m.see(b))) return m.axes.negative ? -s : s;

@@ -58,12 +58,12 @@ int filter_orientation(const Point& a, const Point& b, const Point& c, const Poi
 }
 
 /// det(a,b,c) = det(b-a, c-a, a): small where the nodes are close, so the bound is small as well.
-int filter_left(const Point& a, const Point& b, const Point& c) {
+[[gnu::always_inline]] inline int filter_left(const Point& a, const Point& b, const Point& c) {
   const auto v = determinant(minus(b, a), minus(c, a), a);
   return certain_sign(v, kFactor * v.permanent + kUnderflow);
 }
 
-bool moderate(const Point& a) {
+inline bool moderate(const Point& a) {
   return std::fabs(a.x) < kLargest && std::fabs(a.y) < kLargest && std::fabs(a.z) < kLargest;
 }
 
@@ -185,39 +185,41 @@ bool Coordinates::above_of_tie(index_t ia, index_t ib, index_t ic, index_t id) c
   return symbolic_above(a, b, c, d);
 }
 
-void Coordinates::View::from(index_t v) {
-  v_ = v;
+void Coordinates::View::look() {
+  is_ready_ = true;
   seen_.forget();
   exact::Grid g{};
-  viewpoint_.on_grid = exact::on_grid(nodes_.p_[v], g);
+  viewpoint_.on_grid = exact::on_grid(nodes_.p_[v_], g);
   viewpoint_.x = g.x, viewpoint_.y = g.y, viewpoint_.z = g.z;
 }
 
-bool Coordinates::View::above(index_t a, index_t b, index_t c) {
-  if (!viewpoint_.on_grid) return nodes_.above(a, b, c, v_);
-  const auto seen = [&](index_t i) -> const Difference& {
-    return seen_(i, [&](Difference& d) {
-      exact::Grid g{};
-      d.on_grid = exact::on_grid(nodes_.p_[i], g);
-      d.x = g.x - viewpoint_.x, d.y = g.y - viewpoint_.y, d.z = g.z - viewpoint_.z;
-    });
-  };
-  const Difference e = seen(c), f = seen(b), g = seen(a);
-  if (!(e.on_grid && f.on_grid && g.on_grid)) return nodes_.above(a, b, c, v_);
-  ++stages.above;
-  if ((e.x | f.x | g.x) != 0 && (e.y | f.y | g.y) != 0 &&
-      (e.z | f.z | g.z) != 0) {  // else all on one parallel
+const Coordinates::View::Difference& Coordinates::View::see(index_t i) {
+  return seen_(i, [&](Difference& d) {
+    exact::Grid g{};
+    d.on_grid = viewpoint_.on_grid && exact::on_grid(nodes_.p_[i], g);
+    d.x = g.x - viewpoint_.x, d.y = g.y - viewpoint_.y, d.z = g.z - viewpoint_.z;
+  });
+}
+
+bool Coordinates::View::above(index_t ia, index_t ib, index_t ic) {
+  const Point &a = nodes_.p_[ia], &b = nodes_.p_[ib], &c = nodes_.p_[ic], &v = nodes_.p_[v_];
+  if (!in_parallel_plane(a, b, c, v)) {
+    if (!is_ready_) look();
+    const Difference e = see(ic), f = see(ib), g = see(ia);
+    if (!(e.on_grid && f.on_grid && g.on_grid)) return nodes_.above(ia, ib, ic, v_);
     ++stages.integers;
-    if (const int s = exact::sign_of_det({e.x, e.y, e.z}, {f.x, f.y, f.z}, {g.x, g.y, g.z})) return s > 0;
+    if (const int s = exact::sign_of_det({e.x, e.y, e.z}, {f.x, f.y, f.z}, {g.x, g.y, g.z})) {
+      ++stages.above;
+      return s > 0;
+    }
   }
-  const auto coincides = [&](const Difference& d) { return d.x == 0 && d.y == 0 && d.z == 0; };
-  // On the grid everything is of moderate size.
-  return !coincides(e) && !coincides(f) && !coincides(g) &&
-         symbolic_above(nodes_.p_[a], nodes_.p_[b], nodes_.p_[c], nodes_.p_[v_],
-                        [](const Point& p, const Point& q, const Point& r) {
-                          const int s = filter_left(r, p, q);
-                          return s != 0 ? s : pstripack::left(p, q, r);
-                        });
+  ++stages.above;
+  return v != a && v != b && v != c &&
+         symbolic_above(a, b, c, v, [](const Point& p, const Point& q, const Point& r) {
+           if (moderate(p) && moderate(q) && moderate(r))
+             if (const int s = filter_left(r, p, q)) return s;
+           return pstripack::left(p, q, r);
+         });
 }
 
 }  // namespace pstripack

@@ -184,19 +184,22 @@ class Remembered {
 class Coordinates::View {
  public:
   explicit View(const Coordinates& nodes) : nodes_(nodes) {}
-  void from(index_t v);
+  void from(index_t v) { v_ = v, is_ready_ = false; }
   bool above(index_t a, index_t b,
              index_t c);  ///< Coordinates::above(a, b, c, v); no two of a, b, c coincide
   int left(index_t a, index_t b) { return nodes_.left(a, b, v_); }
 
  private:
-  /// From v to the node, in multiples of 2^-61 if it is one.
+  /// From v to the node, in multiples of 2^-61 if both are.
   struct Difference {
     std::int64_t x, y, z;
     bool on_grid;
   };
+  void look();  ///< from v, which few insertions need
+  const Difference& see(index_t i);
   const Coordinates& nodes_;
   index_t v_ = 0;
+  bool is_ready_ = false;
   Difference viewpoint_{};
   Remembered<Difference> seen_;
 };
@@ -205,7 +208,7 @@ class Directions::View {
  public:
   explicit View(const Directions& nodes);
   ~View();
-  void from(index_t v);
+  void from(index_t v) { v_ = v, is_ready_ = false; }
   bool above(index_t a, index_t b, index_t c);  ///< Directions::above(a, b, c, v); no two of a, b, c coincide
   int left(index_t a, index_t b);               ///< Directions::left(a, b, v)
   /// The last answer of `above` came from the tie rule: v lies in the plane.
@@ -213,7 +216,9 @@ class Directions::View {
 
  private:
   struct Memory;
-  bool tied_ = false;
+  Memory& memory();  ///< of what is seen from v
+  index_t v_ = 0;
+  bool is_ready_ = false, tied_ = false;
   const Directions& nodes_;
   std::unique_ptr<Memory> memory_;
 };

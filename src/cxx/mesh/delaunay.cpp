@@ -196,15 +196,18 @@ class Builder final : public GrowingHull {
     return false;
   }
 
-  /// Throws HiddenNode if the nodes around some of the closest along the curve show one: if lengths as given
-  /// hide any, they mostly hide one of these, and it need not cost a hull to find out.
+  /// Throws HiddenNode if the nodes around some of the closest show one: if lengths as given hide any, they
+  /// mostly hide one of these, and it need not cost a hull to find out. First those around along the curve;
+  /// then, for the very closest, all that are near.
   void look_for_hidden_nodes(std::size_t first) const {
     constexpr std::size_t kMany = 4096, kPlaces = 16, kAround = 32;
     if (n_ - first < kMany) return;
+    const double close = closeness_that_hides();
     struct Place {
-      double closeness = kClose;
-      std::size_t node = 0;
+      double closeness;
+      std::size_t node;
     } closest[kPlaces];  // a heap, the least close in front
+    std::fill(closest, closest + kPlaces, Place{close, 0});
     const auto closer = [](const Place& a, const Place& b) { return a.closeness < b.closeness; };
     for (std::size_t v = first; v + kReach < n_; ++v) {
       double least = square_between(v, v + 1);
@@ -216,32 +219,78 @@ class Builder final : public GrowingHull {
       closest[kPlaces - 1] = {closeness, v};
       std::push_heap(closest, closest + kPlaces, closer);
     }
-    if (std::all_of(closest, closest + kPlaces, [](const Place& p) { return p.closeness == kClose; })) return;
+    std::sort(closest, closest + kPlaces, closer);
+    const auto places = static_cast<std::size_t>(
+        std::find_if(closest, closest + kPlaces, [&](const Place& p) { return p.closeness == close; }) -
+        closest);
+    if (places == 0) return;
     // With corners of the whole, for those around may be on one great circle.
     std::uint32_t corners[4];
     choose_corners(corners, first);
-    constexpr std::size_t kNodes = kAround + 4;
-    Point nodes[kNodes];
-    Face faces[2 * kNodes];
-    Plane planes[2 * kNodes];
-    std::uint32_t corner[kNodes];
-    std::transform(corners, corners + 4, nodes, [&](std::uint32_t v) { return nodes_[v]; });
-    for (const Place& place : closest) {
-      if (place.closeness == kClose) continue;
-      const std::size_t begin =
-          std::min(std::max(place.node, first + kAround / 2) - kAround / 2, n_ - kAround);
-      std::copy_n(nodes_ + begin, kAround, nodes + 4);
-      Builder some({kNodes, nodes, faces, planes, corner}, kNodes);
+    for (std::size_t k = 0; k < places; ++k) {
+      SmallSet around(*this, corners);
+      const std::size_t begin = begin_of_those_around(closest[k].node, first, kAround);
+      for (std::size_t v = begin; v < begin + kAround; ++v) around.add(nodes_[v]);
+      around.triangulate();
+    }
+    constexpr std::size_t kClosest = 4, kNear = 12;
+    const std::size_t looked_at = std::min(places, kClosest);
+    double reach[kClosest];  // squares: there are at least kNear nodes within
+    std::vector<SmallSet> near(looked_at, SmallSet(*this, corners));
+    for (std::size_t k = 0; k < looked_at; ++k) {
+      double square[kAround];
+      const std::size_t begin = begin_of_those_around(closest[k].node, first, kAround);
+      for (std::size_t v = 0; v < kAround; ++v) square[v] = square_between(closest[k].node, begin + v);
+      std::nth_element(square, square + kNear, square + kAround);
+      reach[k] = square[kNear];
+    }
+    for (std::size_t v = 0; v < n_; ++v)
+      for (std::size_t k = 0; k < looked_at; ++k)
+        if (square_between(closest[k].node, v) <= reach[k]) near[k].add(nodes_[v]);
+    for (SmallSet& some : near) some.triangulate();
+  }
+
+  /// The corners of the whole and some nodes more, up to a few.
+  class SmallSet {
+   public:
+    SmallSet(const Builder& whole, const std::uint32_t (&corners)[4]) {
+      for (const std::uint32_t v : corners) add(whole.nodes_[v]);
+    }
+    void add(const Point& p) {
+      if (count_ < kMost) nodes_[count_++] = p;
+    }
+    /// Throws HiddenNode.
+    void triangulate() {
+      Face faces[2 * kMost];
+      Plane planes[2 * kMost];
+      std::uint32_t corner[kMost];
+      Builder some({kMost, nodes_, faces, planes, corner}, count_);
       some.build(0);
       some.finish();
     }
+
+   private:
+    static constexpr std::size_t kMost = 64;
+    Point nodes_[kMost];
+    std::size_t count_ = 0;
+  };
+
+  std::size_t begin_of_those_around(std::size_t v, std::size_t first, std::size_t around) const {
+    return std::min(std::max(v, first + around / 2) - around / 2, n_ - around);
   }
 
   // Between neighbours at the distances g and h a node on the sphere rises above them by some g h / 2. Its
-  // closeness is g^2 h^2; from kClose on, rounded lengths hide nothing. Nodes in one cell of the curve are in
-  // any order: the neighbours are looked for up to kReach places ahead, then up to kAside to both sides.
-  static constexpr double kClose = 0x1p-90;
+  // closeness is g^2 h^2. Lengths that differ by less than that hide nothing: those of some nodes tell how
+  // much they differ, and rounding is 2^-46 at most. Nodes in one cell of the curve are in any order: the
+  // neighbours are looked for up to kReach places ahead, then up to kAside to both sides.
   static constexpr std::size_t kReach = 3, kAside = 8;
+
+  double closeness_that_hides() const {
+    double deviation = 0x1p-48;
+    for (std::size_t v = 0; v < n_; v += n_ / 1024 + 1)
+      deviation = std::max(deviation, std::fabs(dot(nodes_[v], nodes_[v]) - 1));
+    return 8 * deviation * (8 * deviation);
+  }
 
   double square_between(std::size_t a, std::size_t b) const {
     const Point d = minus(nodes_[b], nodes_[a]);
