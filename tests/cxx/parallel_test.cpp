@@ -671,6 +671,36 @@ TEST(GivingUp, WhereThereAreTooManyQuestions) {
                   .gave_up);
 }
 
+bool gives_up(const std::string& family, ParallelCost& cost) {
+  const Set set(point_sets::make(family, 20000, 1));
+  SingleProcess process;
+  const LocalNodes local{set.nodes.data(), set.nodes.size()};
+  ParallelOptions options;
+  options.patches = 2;
+  options.most_questions = set.nodes.size() / 8;
+  const Point corners[3] = {set.nodes[0], set.nodes[1], set.nodes[2]};
+  return triangulate<std::int32_t>(local, look_at(local.points, local.count), corners, {1, 2, 3}, process,
+                                   options, &cost)
+      .gave_up;
+}
+
+TEST(GivingUp, BeforeTheTriangulationWherePatchesWouldNotPay) {
+  for (const char* family :
+       {"small-circle:1", "moment:6", "hemisphere-rim", "crossing:1e-3", "cap:1e-12", "nest:150"}) {
+    ParallelCost cost;
+    EXPECT_TRUE(gives_up(family, cost)) << family;
+    EXPECT_EQ(cost.seconds[ParallelCost::triangulate], 0) << family;
+  }
+}
+
+TEST(GivingUp, NotWhereTheyPay) {
+  for (const char* family : {"random", "latlon", "earth", "variable:1e6", "hemisphere", "box", "cap:0.0175",
+                             "strip:1e-15", "comb:1e-9", "ulp-groups:8", "tracks:50", "coast:0.3"}) {
+    ParallelCost cost;
+    EXPECT_FALSE(gives_up(family, cost)) << family;
+  }
+}
+
 // ---- the partition ----------------------------------------------------------------------------------
 
 TEST(Partitions, HaloIsWhatIsKnownAndBallsAreJudgedSafely) {

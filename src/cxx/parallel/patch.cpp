@@ -25,6 +25,14 @@ double stretch_of(const Plane& p, double farthest) {
                : std::numeric_limits<double>::infinity();
 }
 
+/// The same for a triangle, whatever its plane: a mean y of places no shorter than 1 - deviation, whose
+/// distances are at most h, has |y|^2 >= (1 - deviation)^2 - h^2 / 3.
+double stretch_of(const Point& a, const Point& b, const Point& c, double deviation) {
+  const Point e = minus(b, a), f = minus(c, a), g = minus(c, b);
+  const double lowest = 1 - deviation - 0.5 * std::max({dot(e, e), dot(f, f), dot(g, g)}) - 4 * u;
+  return lowest > 0 ? (1 + deviation) / lowest : std::numeric_limits<double>::infinity();
+}
+
 /// A ball around the places p with |p| <= 1 + deviation and normal.p >= height, the normal a unit vector
 /// known to `error`: |p - normal|^2 = |p|^2 + 1 - 2 normal.p.
 Ball ball_beyond(const Point& normal, double height, double error, double deviation) {
@@ -60,12 +68,12 @@ std::size_t Patch<Int>::workspace_bytes(std::size_t closing) const {
 }
 
 template <class Int>
-void Patch<Int>::triangulate(const std::vector<Record>& closing, Workspace& workspace) {
+void Patch<Int>::set_up(const std::vector<Record>& closing, Workspace& workspace) {
   if (own_ == 0) return;
   std::vector<Record> leading;
   for (const Record& r : closing)
     if (!partition_->knows(id_, places_(r.point))) leading.push_back(r);
-  const std::size_t first = leading.size();
+  const std::size_t first = leading_ = leading.size();
   built_ = count_ + first;
   arrays_.capacity = capacity_for(built_);
   order_ = workspace.keep<std::uint32_t>(built_);
@@ -90,7 +98,13 @@ void Patch<Int>::triangulate(const std::vector<Record>& closing, Workspace& work
   arrays_.planes = workspace.take<Plane>(2 * arrays_.capacity);
   first_planes_ = arrays_.planes;
   growing_ = GrowingHull::make(arrays_, built_, places_.lengths());
-  growing_->build(first);
+  growing_->look_for_hidden_nodes(first);
+}
+
+template <class Int>
+void Patch<Int>::triangulate() {
+  if (own_ == 0) return;
+  growing_->build(leading_);
   for (const auto& [in, out] : growing_->coincident()) coincident_.emplace_back(number_[in], number_[out]);
 }
 
@@ -239,9 +253,10 @@ void Patch<Int>::ask(const Boundary& boundary, double stretch, std::vector<Quest
   const auto examine = [&](std::uint32_t t) {
     const auto& v = arrays_.faces[t].vertex;
     if (is_flat(t) || !(is_own(v[0]) && is_own(v[1]) && is_own(v[2])) || !growing_->front(t)) return;
-    if (!partition_->holds(id_, place(v[0]), place(v[1]), place(v[2]),
-                           stretch_of(arrays_.planes[t], farthest)))
-      ask_about_triangle(t, questions);
+    const Point a = place(v[0]), b = place(v[1]), c = place(v[2]);
+    const double most =
+        std::min(stretch_of(arrays_.planes[t], farthest), stretch_of(a, b, c, places_.deviation()));
+    if (!partition_->holds(id_, a, b, c, most)) ask_about_triangle(t, questions);
   };
   constexpr std::uint32_t kTogether = 8;
   const auto faces = static_cast<std::uint32_t>(growing_->face_count());
@@ -295,6 +310,33 @@ double most_stretch(const std::vector<Record>& nodes, const Places& places) {
     most = std::numeric_limits<double>::infinity();
   }
   return most;
+}
+
+bool patches_know_most(const std::vector<Record>& nodes, const Partition& partition, const Places& places) {
+  if (nodes.size() < 64) return true;
+  try {
+    const SmallHull hull(nodes, places.lengths());
+    const GrowingHull& growing = *hull.growing;
+    std::vector<int> owner;
+    for (std::size_t v = 0; v < nodes.size(); ++v)
+      owner.push_back(partition.owner(places(hull.arrays.nodes[v])));
+    std::size_t triangles = 0, shared = 0, outside = 0;
+    for (std::uint32_t t = 0; t < growing.face_count(); ++t) {
+      const Face& f = hull.arrays.faces[t];
+      if (!growing.surrounds_centre() && !growing.front(t)) {
+        for (const std::uint32_t next : {f.neighbour[0], f.neighbour[1], f.neighbour[2]})
+          outside += growing.front(face_of(next));
+        continue;
+      }
+      ++triangles;
+      shared += owner[f.vertex[0]] != owner[f.vertex[1]] || owner[f.vertex[1]] != owner[f.vertex[2]];
+    }
+    // Nodes spread over an area: a tenth of the triangles, and the boundary has hardly any nodes.
+    return 3 * shared <= triangles && 5 * outside <= nodes.size();
+  } catch (const HiddenNode&) {
+  } catch (const std::domain_error&) {
+  }
+  return true;  // the nodes do not tell
 }
 
 Boundary::Boundary(std::vector<Record> candidates, Lengths lengths) : nodes_(std::move(candidates)) {

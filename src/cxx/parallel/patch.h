@@ -55,6 +55,11 @@ class Boundary {
 /// the centre. Throws std::bad_alloc.
 double most_stretch(const std::vector<Record>& nodes, const Places& places);
 
+/// What nodes from everywhere tell of the triangulation: false if so many of them lie on the boundary, or so
+/// many triangles have corners in different patches, as along lines that cross, that the patches would ask
+/// each other about nearly everything.
+bool patches_know_most(const std::vector<Record>& nodes, const Partition& partition, const Places& places);
+
 /// Int: what node numbers fit into.
 template <class Int>
 class Patch {
@@ -62,16 +67,18 @@ class Patch {
   Patch(int id, const Partition& partition, const Places& places)
       : id_(id), partition_(&partition), places_(places) {}
 
-  /// The nodes: `own` of them first, then the halo. They must outlive triangulate().
+  /// The nodes: `own` of them first, then the halo. They must outlive set_up().
   void set_nodes(const Record* nodes, std::size_t own, std::size_t count);
 
-  /// Memory for triangulate(). `closing`: nodes of the global sample.
+  /// Memory for set_up(). `closing`: nodes of the global sample.
   std::size_t workspace_bytes(std::size_t closing) const;
 
-  /// Triangulates the patch's nodes and those of the `closing` that it does not know: some from everywhere,
-  /// three of them not on one great circle, so that the far side is closed. The workspace must outlive
-  /// the patch and its rings. Throws HiddenNode, std::bad_alloc.
-  void triangulate(const std::vector<Record>& closing, Workspace& workspace);
+  /// Sorts the patch's nodes and those of the `closing` that it does not know: some from everywhere, three of
+  /// them not on one great circle, so that the far side is closed. The workspace must outlive the patch and
+  /// its rings. Throws HiddenNode where it is easy to see that one is hidden, std::bad_alloc.
+  void set_up(const std::vector<Record>& closing, Workspace& workspace);
+  /// Triangulates them. Throws HiddenNode, std::bad_alloc.
+  void triangulate();
 
   /// The boundary as the patch sees it: its nodes lie in it all.
   struct Outline {
@@ -213,7 +220,7 @@ class Patch {
   const Partition* partition_;
   Places places_;
   const Record* nodes_ = nullptr;
-  std::size_t own_ = 0, count_ = 0, built_ = 0;
+  std::size_t own_ = 0, count_ = 0, leading_ = 0, built_ = 0;
   HullArrays arrays_;
   std::uint32_t* order_ = nullptr;  ///< of the hull nodes < built_: which of nodes_, count_ or more: closing
   Int* number_ = nullptr;           ///< of each hull node

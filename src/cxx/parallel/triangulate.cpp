@@ -99,7 +99,12 @@ class Triangulator {
       const PhaseTimer timer(&cost_, ParallelCost::divide, &ranks_);
       ranks_.set_phase("divide");
       divide();
-      send_nodes();
+      if (!gave_up_) send_nodes();
+    }
+    if (gave_up_) {
+      Stars<Int> none;
+      none.gave_up = true;
+      return none;
     }
     {
       const PhaseTimer timer(&cost_, ParallelCost::triangulate, &ranks_);
@@ -249,6 +254,11 @@ class Triangulator {
     in_agreement([&] {
       if (outcome != 0) throw Failure(outcome);
       const int patches = first_patch_.back();
+      if (may_give_up() && !patches_know_most(some_of(sample, 256 * static_cast<std::size_t>(patches)),
+                                              *partition_, places_)) {
+        gave_up_ = true;
+        return;
+      }
       choose_closing(sample);
       // Worth it where it spares a look at more triangles than it takes time for.
       constexpr std::size_t kManyInAPatch = 50000;
@@ -297,6 +307,19 @@ class Triangulator {
     return 16 * away <= looked_at;
   }
 
+  /// One process, whose caller has another way: questions to itself would only cost.
+  bool may_give_up() const {
+    return size_ == 1 && first_patch_.back() > 1 && options_.most_questions < nodes_.count;
+  }
+
+  static std::vector<Record> some_of(const BlockArray<Record>& sample, std::size_t most) {
+    std::vector<Record> some;
+    const std::size_t step = sample.size() / most + 1;
+    for (std::size_t k = 0; k < sample.size(); k += step) some.push_back(sample[k]);
+    keep_one_of_each(some);
+    return some;
+  }
+
   /// Some of the sample and the corners, each once, along a curve.
   void choose_closing(BlockArray<Record>& sample) {
     std::vector<Record> some(corners_.begin(), corners_.end());
@@ -335,11 +358,17 @@ class Triangulator {
       position_memory_ = std::make_unique<Workspace>(nodes_.count * sizeof *position_);
       position_ = position_memory_->keep<std::uint32_t>(nodes_.count);
       find_routes(*routes);
+      if (may_give_up()) {
+        std::size_t halo = 0;
+        for (const Count& c : sent_) halo += c.halo;
+        gave_up_ = halo > nodes_.count / 4 * (sent_.size() - 1);  // all in all, more work than one hull
+        if (gave_up_) return Parcels{{}, std::vector<std::size_t>(size_ + 1, 0)};
+      }
       for (std::size_t q = 0; q < sent_.size(); ++q)
         away_begin_[q + 1] = away_begin_[q] + (rank_of(static_cast<int>(q)) == me_ ? 0 : sent_[q].own);
       return parcels_for_others(*routes);
     });
-    placed_ = outcome_of([&] { place_nodes(*routes); });
+    if (!gave_up_) placed_ = outcome_of([&] { place_nodes(*routes); });
   }
 
   void find_routes(Routes& routes) {
@@ -591,8 +620,10 @@ class Triangulator {
           unsigned char* const memory = workspace_->keep<unsigned char>(begin.back());
           for_patches([&](Patch<Int>& patch, std::size_t k) {
             Workspace part(memory + begin[k], begin[k + 1] - begin[k]);
-            patch.triangulate(closing_, part);
+            patch.set_up(closing_, part);
           });
+          // What one patch has seen to be hidden, no other begins to triangulate for nothing.
+          for_patches([](Patch<Int>& patch, std::size_t) { patch.triangulate(); });
           count_coincident();
           look_for_boundary();
         },
