@@ -31,6 +31,7 @@ VALIDATOR = ("validator_test", "-*Mutants*:*RandomTriangles*:*ReadsNothing*", 1)
 LISTS = ("validator_test", "*Mutants*:*RandomTriangles*:*ReadsNothing*", 0.1)
 SUBJECTS = {
     "src/cxx/geometry/predicates.cpp": ("constexpr double u", "}  // namespace pstripack", [QUICK, LONGER, KERNEL]),
+    "src/cxx/geometry/directions.cpp": ("double largest(", "}  // namespace pstripack", [QUICK, LONGER, KERNEL]),
     "src/cxx/geometry/exact.h": ("constexpr int kSmallBits", "}  // namespace pstripack::exact", [QUICK, LONGER]),
     "src/cxx/geometry/predicates.h": ("inline bool length_is_one", "/// Counts since", [QUICK, KERNEL]),
     "src/cxx/mesh/validate.cpp": ("Verdict defect(", "const char* name(", [VALIDATOR, LISTS]),
