@@ -219,7 +219,7 @@ struct Factor {
   return {p.high, p.low + (x.high.value * y.low + x.low * y.high.value)};
 }
 
-/// a vector as given, scaled, its axes permuted.
+/// A vector as given, scaled, its axes permuted.
 struct FinePoint {
   Halves x, y, z;
   FinePoint() = default;
@@ -510,13 +510,9 @@ Directions::Four Directions::best_first(const Four& f, bool& first_will_do) cons
   return even[least];
 }
 
-bool Directions::above(index_t a, index_t b, index_t c, index_t d) const {
+bool Directions::above(index_t ia, index_t ib, index_t ic, index_t id) const {
   ++stages.above;
-  if (const int s = orientation(a, b, c, d)) return s > 0;
-  return above_of_tie(a, b, c, d);
-}
-
-bool Directions::above_of_tie(index_t ia, index_t ib, index_t ic, index_t id) const {
+  if (const int s = orientation(ia, ib, ic, id)) return s > 0;
   const Point &a = p_[ia], &b = p_[ib], &c = p_[ic], &d = p_[id];
   if (same_direction(a, b) || same_direction(b, c) || same_direction(c, a) || same_direction(a, d) ||
       same_direction(b, d) || same_direction(c, d))

@@ -5,10 +5,6 @@
 // Lefevre, Louvet, Muller, Picot & Rideau 2023 for the square root; rounded up):
 //   x + y   4, where the signs differ: of |x| + |y|
 //   x * y   6
-//   x / y  16
-//   sqrt    4
-
-#include <cmath>
 
 namespace pstripack {
 
@@ -58,21 +54,6 @@ inline DoubleDouble operator-(const DoubleDouble& x, const DoubleDouble& y) { re
 inline DoubleDouble operator*(const DoubleDouble& x, const DoubleDouble& y) {
   const DoubleDouble p = two_product(x.high, y.high);
   return two_sum_of_ordered(p.high, p.low + (x.high * y.low + x.low * y.high));
-}
-
-inline DoubleDouble operator/(const DoubleDouble& x, const DoubleDouble& y) {
-  const double q = x.high / y.high;
-  const DoubleDouble p = two_product(q, y.high);
-  const double rest = ((x.high - p.high) - p.low) + (x.low - q * y.low);
-  return two_sum_of_ordered(q, rest / y.high);
-}
-
-/// x > 0
-inline DoubleDouble sqrt(const DoubleDouble& x) {
-  const double r = std::sqrt(x.high);
-  const DoubleDouble p = two_product(r, r);
-  const double rest = ((x.high - p.high) - p.low) + x.low;
-  return two_sum_of_ordered(r, rest / (2 * r));
 }
 
 /// x * scale, exactly: `scale` is a power of two.

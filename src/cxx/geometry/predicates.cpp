@@ -174,12 +174,8 @@ int Coordinates::height(index_t ia, index_t ib, index_t ic, index_t id) const {
   return orientation(p_[ia], p_[ib], p_[ic], p_[id]);
 }
 
-bool Coordinates::above(index_t a, index_t b, index_t c, index_t d) const {
-  if (const int s = height(a, b, c, d)) return s > 0;
-  return above_of_tie(a, b, c, d);
-}
-
-bool Coordinates::above_of_tie(index_t ia, index_t ib, index_t ic, index_t id) const {
+bool Coordinates::above(index_t ia, index_t ib, index_t ic, index_t id) const {
+  if (const int s = height(ia, ib, ic, id)) return s > 0;
   const Point &a = p_[ia], &b = p_[ib], &c = p_[ic], &d = p_[id];
   if (d == a || d == b || d == c || a == b || b == c || c == a) return false;
   return symbolic_above(a, b, c, d);

@@ -101,8 +101,7 @@ class Coordinates {
   class View;
 
  private:
-  int height(index_t a, index_t b, index_t c, index_t d) const;         ///< the exact sign behind `above`
-  bool above_of_tie(index_t a, index_t b, index_t c, index_t d) const;  ///< by the tie rule
+  int height(index_t a, index_t b, index_t c, index_t d) const;  ///< the exact sign behind `above`
   const Point* p_;
   std::size_t n_;
 };
@@ -143,7 +142,6 @@ class Directions {
   /// An even permutation with the node in front from which errors are smallest; whether f[0] is about as
   /// good.
   Four best_first(const Four& f, bool& first_will_do) const;
-  bool above_of_tie(index_t a, index_t b, index_t c, index_t d) const;  ///< by the tie rule
   struct Unit {
     Point high, low;
   };
@@ -185,8 +183,8 @@ class Coordinates::View {
  public:
   explicit View(const Coordinates& nodes) : nodes_(nodes) {}
   void from(index_t v) { v_ = v, is_ready_ = false; }
-  bool above(index_t a, index_t b,
-             index_t c);  ///< Coordinates::above(a, b, c, v); no two of a, b, c coincide
+  /// Coordinates::above(a, b, c, v); no two of a, b, c coincide.
+  bool above(index_t a, index_t b, index_t c);
   int left(index_t a, index_t b) { return nodes_.left(a, b, v_); }
 
  private:
