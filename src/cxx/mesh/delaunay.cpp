@@ -142,6 +142,9 @@ class Builder final : public GrowingHull {
   bool above(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const override {
     return predicates_.above(a, b, c, d);
   }
+  Point difference(std::uint32_t a, std::uint32_t b) const override {
+    return predicates_.difference(static_cast<index_t>(a), static_cast<index_t>(b));
+  }
 
   /// Throws HiddenNode if the nodes around some of the closest show one: if lengths as given hide any, they
   /// mostly hide one of these, and it need not cost a hull to find out. First those around along the curve;
