@@ -44,7 +44,8 @@ ask_loader() {
 
 # examine FILE: a program, or a library by itself
 examine() {
-  readelf -hldSW "$1" > "$work/header"
+  readelf -hldSW "$1" > "$work/header" 2> "$work/errors" || true
+  if grep -q 'Error:' "$work/errors"; then fail "$1 is damaged: $(head -n 1 "$work/errors")"; fi
   : > "$work/loader"
   if grep -q '(NEEDED)' "$work/header"; then ask_loader "$1"; fi
   sed -n 's/^\t\(.* => \)\{0,1\}\(.*\) (0x[0-9a-f]*)$/\2/p' "$work/loader" | while read -r library; do
@@ -89,7 +90,7 @@ if [ ! -e "$subject" ] && [ -d "/proc/$subject" ] && [ "${subject#*[!0-9]}" = "$
   program=$(readlink "/proc/$subject/exe") || fail "$name: belongs to somebody else, or has no program"
   [ -f "$program" ] || fail "$name: its program is not there any more: $program"
   sed -n 's/^[^ ]* [^ ]* [^ ]* [^ ]* [^ ]* *\(\/.*\)/\1/p' "/proc/$subject/maps" | sort -u > "$work/mapped"
-  cd "/proc/$subject/cwd"
+  cd "/proc/$subject/cwd" || fail "$name: belongs to somebody else"
   unset LD_LIBRARY_PATH LD_PRELOAD
   for variable in LD_LIBRARY_PATH LD_PRELOAD; do
     value=$(tr '\0' '\n' < "/proc/$subject/environ" | sed -n "s/^$variable=//p")
@@ -112,7 +113,7 @@ else
   if [ ! -f "$subject" ] || [ ! -r "$subject" ]; then fail "$subject: not a file that can be read"; fi
   is_elf "$subject" || fail "$subject is not a program but a script or data; ask for the program that it starts, or for a process"
   program=$(readlink -f "$subject")
-  if readelf -hW "$program" | grep -q 'Type: *REL'; then fail "$subject is not linked yet"; fi
+  if readelf -hW "$program" 2> /dev/null | grep -q 'Type: *REL'; then fail "$subject is not linked yet"; fi
   examine "$program"
 fi
 

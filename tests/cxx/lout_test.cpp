@@ -1,5 +1,5 @@
-// TRPRNT and TRLPRT of libstripack_r4 and libstripack_i8, which look at LOUT: callers written against the Fortran 90
-// text do not pass it, and leave anything in its place.
+// TRPRNT and TRLPRT of libstripack_r4 and libstripack_i8, which look at LOUT: callers written against the
+// Fortran 90 text do not pass it, and leave anything in its place.
 
 #include <gtest/gtest.h>
 
@@ -78,7 +78,8 @@ TEST(Lout, NotPassedPrintsOnStandardOutputWhateverIsInItsPlace) {
 
 TEST(Lout, CountsOnlyIfItIsFrom1To99) {
   Octahedron mesh;
-  for (const Int no_unit : {-20, 0, 100, 1 << 20}) expect_standard_output(mesh, &no_unit, std::to_string(no_unit));
+  for (const Int no_unit : {-20, 0, 100, 1 << 20})
+    expect_standard_output(mesh, &no_unit, std::to_string(no_unit));
 }
 
 TEST(Lout, CountsOnlyIfTheUnitIsConnectedForFormattedWriting) {

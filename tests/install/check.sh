@@ -181,8 +181,10 @@ refused() {
   grep -qF -e "$text" "$work/errors" || { cat "$work/errors"; fail "refused, but not because '$text': $*"; }
 }
 echo '#!/bin/sh' > script
+head -c 1000 right > half
 refused "script is not a program but a script" --check script
 refused "model.o is not linked yet" --check model.o
+refused "half is damaged" --check half
 refused "no such file, and no such process" --check "$work/nowhere"
 refused "not a file that can be read" --check "$work"
 refused "takes a program, or the number of a process, and nothing else" --check
