@@ -6,6 +6,7 @@
 #   a text       "@(#)PSTRIPACK library ROUTINE" is in every file that has that routine of ours, also after strip
 # Exit status: 0 all that are called are ours; 1 not so, or it cannot be seen; 2 no answer.
 set -eu
+export LC_ALL=C
 subject=$1
 routines="TRMESH TRLIST CRLIST TRFIND GETNP"
 symbols='^(trmesh|trlist|crlist|trfind|getnp)_$'
@@ -24,7 +25,7 @@ trap 'rm -rf "$work"' EXIT
 
 is_elf() { [ "$(head -c 4 "$1" | tail -c 3)" = ELF ]; }
 symbol_of() { echo "$1_" | tr '[:upper:]' '[:lower:]'; }
-texts_of() { LC_ALL=C grep -aoE '@\(#\)PSTRIPACK [a-z0-9_]+ [A-Z]+' "$1" || true; }
+texts_of() { grep -aoE '@\(#\)PSTRIPACK [a-z0-9_]+ [A-Z]+' "$1" || true; }
 interpreter_of() { readelf -lW "$1" | sed -n 's/.*program interpreter: \(.*\)]/\1/p'; }
 
 # has FILE TYPES [nm's option]: lines for $work/found, of the symbols with one of nm's types
