@@ -19,6 +19,7 @@ cat > bin/pkg-config << EOF
 for word in "\$@"; do
   case \$word in
     --cflags) echo "-I$build/modules/stripack" ;;
+    stripack_f90) echo "-L$libraries/f90_helpers -lstripack_f90" ;;
     stripack*) [ "\$1" != --libs ] || echo "-L$libraries -l\$word -Wl,-rpath,$libraries" ;;
   esac
 done
@@ -74,6 +75,13 @@ run README.md 'objcopy --redefine-sym'
 PSTRIPACK_REPORT=1 ./model > out 2> err
 has out 'IER 0'
 has out 'another routine'
+has err 'pstripack: threads n=6 '
+
+echo "== helpers of the Fortran 90 text"
+sed 's/call another/call timestamp/' main.f90 > sphere_delaunay.f90
+run burkardt.md 'gfortran sphere_delaunay.f90'
+PSTRIPACK_REPORT=1 ./sphere_delaunay > out 2> err
+has out 'IER 0'
 has err 'pstripack: threads n=6 '
 
 echo "== a stale module file"
