@@ -1,0 +1,144 @@
+#include "stripack/exact_difference.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "mesh/delaunay.h"
+#include "parallel/coincidence.h"
+
+namespace pstripack {
+namespace {
+
+/// The faces of the exact mesh, those in one circle joined: two nodes of the same circle may be joined by an
+/// arc.
+class Circles {
+ public:
+  Circles(const Hull& hull, const Point* p) : hull_(hull), p_(p), circle_(hull.face_count) {
+    std::iota(circle_.begin(), circle_.end(), 0);
+    for_each_edge([&](std::uint32_t face, std::uint32_t beyond, std::uint32_t edge) {
+      if (beyond < face && hull.front(beyond) && are_in_one_circle(face, edge))
+        circle_[circle_of(face)] = circle_of(beyond);
+    });
+  }
+
+  /// visit(face, the face beyond, the edge between) for all faces of the mesh; the face beyond may not be of
+  /// the mesh.
+  template <class Visit>
+  void for_each_edge(const Visit& visit) const {
+    for (std::uint32_t face = 0; face < hull_.face_count; ++face)
+      for (std::uint32_t edge = 0; edge < 3 && hull_.front(face); ++edge)
+        visit(face, face_of(hull_.faces[face].neighbour[edge]), edge);
+  }
+  /// The caller's node, from 0.
+  std::uint32_t node(std::uint32_t face, std::uint32_t corner) const {
+    return hull_.order[hull_.faces[face].vertex[corner]];
+  }
+  std::uint32_t circle_of(std::uint32_t face) {
+    while (circle_[face] != face) face = circle_[face] = circle_[circle_[face]];
+    return face;
+  }
+
+ private:
+  bool are_in_one_circle(std::uint32_t face, std::uint32_t edge) const {
+    const std::uint32_t code = hull_.faces[face].neighbour[edge];
+    const Point &a = p_[node(face, 0)], &b = p_[node(face, 1)], &c = p_[node(face, 2)],
+                &d = p_[node(face_of(code), edge_of(code))];
+    return (hull_.lengths == Lengths::directions ? orientation_of_directions(a, b, c, d)
+                                                 : orientation(a, b, c, d)) == 0;
+  }
+
+  const Hull& hull_;
+  const Point* const p_;
+  std::vector<std::uint32_t> circle_;
+};
+
+/// Calls visit(b) for each neighbour b of node a, both from 0.
+template <class Int, class Visit>
+void for_each_neighbour(const ListsView<Int>& lists, std::size_t a, const Visit& visit) {
+  const Int last = lists.lend[a];
+  Int slot = last;
+  do {
+    visit(static_cast<std::size_t>(std::abs(lists.list[slot - 1])) - 1);
+    slot = lists.lptr[slot - 1];
+  } while (slot != last);
+}
+
+/// Arcs between nodes that have no circle of the exact mesh in common.
+template <class Int>
+std::int64_t wrong_arcs(const ListsView<Int>& lists, Circles& circles) {
+  // The circles of node a are of[begin[a]] to of[begin[a+1]-1], each once.
+  const std::size_t n = lists.n;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;  // node, circle
+  circles.for_each_edge([&](std::uint32_t face, std::uint32_t, std::uint32_t corner) {
+    pairs.emplace_back(circles.node(face, corner), circles.circle_of(face));
+  });
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  std::vector<std::size_t> begin(n + 1, 0);
+  for (const auto& pair : pairs) ++begin[pair.first + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+
+  std::int64_t wrong = 0;
+  std::vector<std::size_t> is_of(2 * n, n);  // the last node whose circle this was
+  for (std::size_t a = 0; a < n; ++a) {
+    for (std::size_t i = begin[a]; i < begin[a + 1]; ++i) is_of[pairs[i].second] = a;
+    for_each_neighbour(lists, a, [&](std::size_t b) {
+      const auto is_of_a = [&](const auto& pair) { return is_of[pair.second] == a; };
+      if (b < a && std::none_of(pairs.begin() + static_cast<std::ptrdiff_t>(begin[b]),
+                                pairs.begin() + static_cast<std::ptrdiff_t>(begin[b + 1]), is_of_a))
+        ++wrong;
+    });
+  }
+  return wrong;
+}
+
+template <class Int>
+std::int64_t boundary_difference(const ListsView<Int>& lists, const Hull& hull, const Circles& circles) {
+  const std::size_t n = lists.n;
+  std::vector<bool> is_exact(n, false);
+  circles.for_each_edge([&](std::uint32_t face, std::uint32_t beyond, std::uint32_t edge) {
+    if (hull.front(beyond)) return;
+    is_exact[circles.node(face, next_edge(edge))] = is_exact[circles.node(face, previous_edge(edge))] = true;
+  });
+  std::int64_t here = 0, exact = 0, different = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const bool is_here = lists.list[lists.lend[k] - 1] < 0;
+    here += is_here;
+    exact += is_exact[k];
+    different += is_here != is_exact[k];
+  }
+  // A triangulation has 2n-4 triangles without a boundary, 2n-2-b with one of b nodes.
+  return (here == 0) == (exact == 0) ? different : std::max(here, exact) - 2;
+}
+
+}  // namespace
+
+template <class Int>
+ExactDifference exact_difference(const NodeArrays& nodes, const ListsView<Int>& lists) {
+  ExactDifference difference;
+  BlockArray<Point> copy(lists.n);
+  const Point* const p = nodes.points(0, lists.n, copy.data());
+  if (left(p[0], p[1], p[2]) == 0) {
+    difference.ier = -2;
+    return difference;
+  }
+  Workspace workspace(workspace_bytes(lists.n));
+  const Hull hull = delaunay(p, lists.n, workspace);
+  if (!hull.coincident.empty()) {
+    std::vector<std::pair<std::int64_t, std::int64_t>> pairs;
+    for (const auto& [in, out] : hull.coincident) pairs.emplace_back(in + 1, out + 1);
+    difference.ier = static_cast<std::int32_t>(first_coincidence(pairs).l);
+    return difference;
+  }
+  Circles circles(hull, p);
+  difference.arcs = wrong_arcs(lists, circles);
+  difference.boundary_triangles = boundary_difference(lists, hull, circles);
+  return difference;
+}
+
+template ExactDifference exact_difference(const NodeArrays&, const ListsView<std::int32_t>&);
+
+}  // namespace pstripack
