@@ -95,23 +95,32 @@ std::int64_t wrong_arcs(const ListsView<Int>& lists, Circles& circles) {
   return wrong;
 }
 
+/// Triangles at the boundary that one of the two triangulations has only; and the arcs of ours that come with
+/// those that are ours.
+struct BoundaryDifference {
+  std::int64_t triangles, our_arcs;
+};
+
 template <class Int>
-std::int64_t boundary_difference(const ListsView<Int>& lists, const Hull& hull, const Circles& circles) {
-  const std::size_t n = lists.n;
-  std::vector<bool> is_exact(n, false);
+BoundaryDifference boundary_difference(const ListsView<Int>& lists, const Hull& hull,
+                                       const Circles& circles) {
+  std::vector<bool> is_exact(lists.n, false);
   circles.for_each_edge([&](std::uint32_t face, std::uint32_t beyond, std::uint32_t edge) {
     if (hull.front(beyond)) return;
     is_exact[circles.node(face, next_edge(edge))] = is_exact[circles.node(face, previous_edge(edge))] = true;
   });
-  std::int64_t here = 0, exact = 0, different = 0;
-  for (std::size_t k = 0; k < n; ++k) {
-    const bool is_here = lists.list[lists.lend[k] - 1] < 0;
-    here += is_here;
-    exact += is_exact[k];
-    different += is_here != is_exact[k];
+  std::int64_t both = 0, ours_only = 0, exact_only = 0;
+  for (std::size_t k = 0; k < lists.n; ++k) {
+    const bool is_ours = lists.list[lists.lend[k] - 1] < 0;
+    both += is_ours && is_exact[k];
+    ours_only += is_ours && !is_exact[k];
+    exact_only += !is_ours && is_exact[k];
   }
-  // A triangulation has 2n-4 triangles without a boundary, 2n-2-b with one of b nodes.
-  return (here == 0) == (exact == 0) ? different : std::max(here, exact) - 2;
+  // With b nodes on the boundary a triangulation has 2n-2-b triangles and 3n-3-b arcs, without a boundary
+  // 2n-4 and 3n-6.
+  if (both + exact_only == 0 && ours_only > 0) return {ours_only - 2, 0};
+  if (both + ours_only == 0 && exact_only > 0) return {exact_only - 2, exact_only - 3};
+  return {ours_only + exact_only, exact_only};
 }
 
 }  // namespace
@@ -134,8 +143,9 @@ ExactDifference exact_difference(const NodeArrays& nodes, const ListsView<Int>& 
     return difference;
   }
   Circles circles(hull, p);
-  difference.arcs = wrong_arcs(lists, circles);
-  difference.boundary_triangles = boundary_difference(lists, hull, circles);
+  const auto [triangles, our_arcs] = boundary_difference(lists, hull, circles);
+  difference.boundary_triangles = triangles;
+  difference.arcs = std::max<std::int64_t>(wrong_arcs(lists, circles) - our_arcs, 0);
   return difference;
 }
 

@@ -11,10 +11,10 @@ namespace pstripack {
 struct ExactDifference {
   /// TRMESH's exact answer for these nodes, where it is not 0: there is nothing to compare with then.
   std::int32_t ier = 0;
-  /// Arcs that the exact mesh does not have, nor could have: four nodes exactly in one circle may have either
-  /// diagonal.
+  /// Arcs that the exact mesh does not have, nor could have (four nodes exactly in one circle may have either
+  /// diagonal), and that do not come with one of the boundary triangles below.
   std::int64_t arcs = 0;
-  /// Triangles at the boundary that one of the two has and the other has not: the nodes that are on the
+  /// Triangles at the boundary that the exact mesh has and this one has not, or the reverse: the nodes on the
   /// boundary of one of them only. Where one of them covers the sphere, by how many triangles they differ.
   std::int64_t boundary_triangles = 0;
 };
