@@ -68,6 +68,7 @@ TrmeshResult lists_in_original_order(Int n, const Real* x, const Real* y, const 
   InsertedNodes<Int> inserted;
   const auto insert = [&](Hopeless hopeless, StartSearch start_search) {
     const PhaseTimer timer(cost, ParallelCost::triangulate);
+    inserted = {};
     inserted = insert_in_order(n, x, y, z, rules, hopeless, start_search);
   };
   /// What became of the insertion; `good` if the lists are.
