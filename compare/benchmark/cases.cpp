@@ -361,7 +361,8 @@ void run_cases(const std::string& self, const CaseSettings& settings,
   fmt::print(
       "\ncrlist: against CSCRLIST as libngmath ships it, which turns centres into latitudes and longitudes;"
       "\ncrlist-xyz: against the same without that, as STRIPACK's CRLIST"
-      "\norder: lists in the original's order, PSTRIPACK_ORDER=original; order-bitwise: PSTRIPACK_ORDER=bitwise"
+      "\norder: lists in the original's order, PSTRIPACK_ORDER=original"
+      "\norder-bitwise: PSTRIPACK_ORDER=bitwise"
       "\npeak: memory during TRMESH "
       "beyond the caller's arrays; asked for: at most 220 bytes a node\n");
 }
