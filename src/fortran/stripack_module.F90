@@ -6,19 +6,16 @@
 ! the module file. What gfortran needs to be told, by library:
 !
 !   libstripack        nothing
-!   libstripack_r4     -DSTRIPACK_REAL_KIND=4 -DSTRIPACK_WITHOUT_F90_EXTRAS -DSTRIPACK_WITH_LOUT
+!   libstripack_r4     -DSTRIPACK_REAL_KIND=4
 !   libstripack_8arg   -DSTRIPACK_8_ARGUMENTS
-!   libstripack_i8     -fdefault-integer-8 -DSTRIPACK_WITH_LOUT
+!   libstripack_i8     -fdefault-integer-8
 !
 !   STRIPACK_MODULE        name of the module                    default: stripack
 !                          (CMake's own dependency scanner does not see through it; in a CMake project write
 !                          a module of that name that contains `use stripack`)
 !   STRIPACK_REAL_KIND     kind of all REAL arguments            default: double precision, which is the kind
 !                          of the library and of a default REAL promoted by -r8 or -fdefault-real-8
-!   STRIPACK_WITHOUT_F90_EXTRAS   no TRLIST2, VORONOI_POLY_COUNT, which libstripack_r4 does not have
-!   STRIPACK_WITH_LOUT     TRPRNT and TRLPRT print on unit LOUT. The other libraries serve programs that do
-!                          not pass it, too; so they cannot look at it and print on standard output
-!   STRIPACK_8_ARGUMENTS   TRMESH without LNEW, NEAR, NEXT, DIST; with TRIAREAS
+!   STRIPACK_8_ARGUMENTS   TRMESH without LNEW, NEAR, NEXT, DIST
 !
 ! INTEGER and LOGICAL are the default kinds. No dummy has an INTENT: programs pass INTENT(IN) arrays of
 ! their own as output, as the original allows. Arrays are explicit-shape or assumed-size.
@@ -82,7 +79,6 @@ module stripack
       integer :: n, list(*), lptr(*), lend(n), nrow, nt, ltri(nrow, *), ier
     end subroutine
 
-#ifndef STRIPACK_WITHOUT_F90_EXTRAS
     ! Lists the corners of the triangles.
     ! Rows 1-3 of what TRLIST gives, with the same numbers.
     ! IER  0 done; 1 N < 3; 2 not the lists of a triangulation: a neighbour does not list the node; -6 out of
@@ -90,7 +86,6 @@ module stripack
     subroutine trlist2(n, list, lptr, lend, nt, ltri, ier)
       integer :: n, list(*), lptr(*), lend(n), nt, ltri(3, *), ier
     end subroutine
-#endif
 
     ! Lists the boundary nodes and counts arcs and triangles.
     ! NODES starts with the boundary node of smallest index and goes round counterclockwise. NB = 0 if the
@@ -300,14 +295,12 @@ module stripack
       real(STRIPACK_REAL_KIND) :: v1(3), v2(3), v3(3), c(3)
     end subroutine
 
-#ifndef STRIPACK_WITHOUT_F90_EXTRAS
     ! Prints how many cells of the Voronoi diagram have how many edges.
     ! On standard output: faces, vertices, edges, the Euler defect F+V-E-2, and a table of the numbers of
     ! cells with 1 to 19, and 20 or more, edges. All arguments are as CRLIST leaves them.
     subroutine voronoi_poly_count(n, lend, lptr, listc)
       integer :: n, lend(n), lptr(*), listc(*)
     end subroutine
-#endif
 
     ! Prints the adjacency lists.
     ! Per node its number, coordinates as IFLAG says, and its neighbours, counterclockwise; those of a
@@ -316,11 +309,7 @@ module stripack
     subroutine trprnt(n, x, y, z, iflag, list, lptr, lend, lout)
       integer :: n, iflag, list(*), lptr(*), lend(n)
       real(STRIPACK_REAL_KIND) :: x(*), y(*), z(*)
-#ifdef STRIPACK_WITH_LOUT
-      integer :: lout
-#else
-      integer, optional :: lout  ! not looked at
-#endif
+      integer, optional :: lout
     end subroutine
 
     ! Prints the triangles.
@@ -329,11 +318,7 @@ module stripack
     subroutine trlprt(n, x, y, z, iflag, nrow, nt, ltri, lout)
       integer :: n, iflag, nrow, nt, ltri(nrow, *)
       real(STRIPACK_REAL_KIND) :: x(*), y(*), z(*)
-#ifdef STRIPACK_WITH_LOUT
-      integer :: lout
-#else
-      integer, optional :: lout  ! not looked at
-#endif
+      integer, optional :: lout
     end subroutine
 
     ! Draws a triangulation as an Encapsulated PostScript file.
@@ -385,14 +370,12 @@ module stripack
       real(STRIPACK_REAL_KIND) :: v1(3), v2(3), v3(3), areas
     end function
 
-#ifdef STRIPACK_8_ARGUMENTS
     ! Areas of listed triangles.
     ! AREAS of each triangle; NaN where a corner is outside 1..N.
     subroutine triareas(n, x, y, z, nt, triangles, triarea)
       integer :: n, nt, triangles(3, *)
       real(STRIPACK_REAL_KIND) :: x(n), y(n), z(n), triarea(*)
     end subroutine
-#endif
 
     ! Tests on which side of a great circle a point lies.
     ! True if point 0 lies to the left of, or on, the great circle from point 1 to point 2, seen from outside

@@ -74,7 +74,10 @@ extern "C" {
   pstripack_areas_##suffix(const Real* v1, const Real* v2, const Real* v3) PSTRIPACK_NOEXCEPT;             \
   PSTRIPACK_CALL(void)                                                                                     \
   pstripack_circum_##suffix(const Real* v1, const Real* v2, const Real* v3, Real* c, Int* ier)             \
-      PSTRIPACK_NOEXCEPT;
+      PSTRIPACK_NOEXCEPT;                                                                                  \
+  PSTRIPACK_CALL(void)                                                                                     \
+  pstripack_triareas_##suffix(Int n, const Real* x, const Real* y, const Real* z, Int nt,                  \
+                              const Int* triangles, Real* triarea) PSTRIPACK_NOEXCEPT;
 
 #define PSTRIPACK_MESH_CALLS(Real, Int, suffix)                                                              \
   PSTRIPACK_CALL(void)                                                                                       \
@@ -112,9 +115,6 @@ PSTRIPACK_MESH_CALLS(double, int64_t, i8)
 PSTRIPACK_QUERY_CALLS(float, int32_t, r4)
 PSTRIPACK_QUERY_CALLS(double, int32_t, r8)
 PSTRIPACK_QUERY_CALLS(double, int64_t, i8)
-PSTRIPACK_CALL(void)
-pstripack_triareas_r8(int32_t n, const double* x, const double* y, const double* z, int32_t nt,
-                      const int32_t* triangles, double* triarea) PSTRIPACK_NOEXCEPT;
 
 #ifdef __cplusplus
 }
