@@ -48,7 +48,8 @@ module stripack
     ! The lists are canonical: the neighbours of node k in consecutive slots, nodes in increasing order; an
     ! interior node starts with its smallest neighbour, a boundary node with its first boundary neighbour.
     ! They are the same bytes for any number of threads and ranks. `PSTRIPACK_ORDER=original` gives the order
-    ! of the original's insertion instead, wherever the original returns a correct triangulation.
+    ! of the original's insertion instead, wherever the original returns a correct triangulation;
+    ! `PSTRIPACK_ORDER=bitwise` also where its triangulation is not exact, with its IER.
     ! IER  0 done; -1 N < 3; -2 nodes 1, 2, 3 lie on one great circle, by exact sign: give others first;
     !      L > 0 nodes L and M coincide, L < M; M is the smallest such index; -4 N > 357,913,943: 6N-11 does
     !      not fit 32 bits, in libstripack_i8 neither (new); -5 a coordinate is not finite, or a node is

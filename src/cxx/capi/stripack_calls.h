@@ -4,7 +4,7 @@
  *
  * Arguments and results are those of the routine of the same name, inputs by value; see the headers of
  * src/cxx/stripack. Node and slot numbers count from 1. None is collective, writes to stdout or throws. None
- * keeps state, but for the random seeds of each thread under PSTRIPACK_ORDER=original or ngmath. The suffix
+ * keeps state, but for the random seeds of each thread where PSTRIPACK_ORDER is not canonical. The suffix
  * names the kinds: _r4, _r8 reals of 32 and 64 bits, with integers of 32 bits; _i8 reals and integers of 64
  * bits; _i4, _i8 without reals. Other kinds are further instances of the macros below.
  *
