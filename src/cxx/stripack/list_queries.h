@@ -49,7 +49,7 @@ class ListReader {
   }
 
   /// For a node whose ring will be asked for soon.
-  void prefetch(Int node) const {
+  void prefetch_list(Int node) const {
     const auto i = static_cast<std::size_t>(last_slot(node) - 1);
     __builtin_prefetch(lists_.list + i);
     __builtin_prefetch(lists_.lptr + i);

@@ -21,7 +21,8 @@ namespace {
 template <class Real, class Int>
 class PlainLists : public ListReader<Int> {
  public:
-  PlainLists(const ListsView<Int>& lists, const Nodes<Real>& nodes) : ListReader<Int>(lists), node_(nodes) {}
+  PlainLists(const ListsView<Int>& lists, const Nodes<Real>& nodes)
+      : ListReader<Int>(lists), node_{nodes.x, nodes.y, nodes.z} {}
 
   Vector<Real> operator[](Int node) const { return node_[node]; }
   Int slot_of_third(Int /*a*/, Int /*b_of_a*/, Int b, Int c) const { return this->slot_of(b, c); }
@@ -65,6 +66,7 @@ class GuardedLists : public ListEditor<CountedArrays<Int>> {
   Int size() const { return count_; }
   Vector<Real> operator[](Int node) const { return node_[node]; }
   Int slot_of_third(Int /*a*/, Int /*b_of_a*/, Int b, Int c) const { return this->slot_of(b, c); }
+  void prefetch_list(Int /*node*/) const {}  // numbers are checked when they are used
 
  private:
   Int count_;
@@ -337,7 +339,7 @@ NextNearestStatus nearest_of_others(const ListsView<Int>& lists, const Nodes<Rea
   NodeTable<Int, Cell> taken(npts, cells, bits);
   for (Int i = 1; i < given; ++i)
     if (npts[i] < 1 || !taken.insert(i)) return NextNearestStatus::bad_nodes;
-  for (Int i = 0; i < given; ++i) reader.prefetch(npts[i]);
+  for (Int i = 0; i < given; ++i) reader.prefetch_list(npts[i]);
 
   Nearest<Real, Int> nearest(nodes, npts[0]);
   constexpr int most = 64;
