@@ -229,8 +229,10 @@ class NodeTable {
 
   /// npts[place]; false if it is there already.
   bool insert(Int place) {
-    const std::size_t cell = find(hash(npts_[place]), npts_[place]);
-    if (is_at(cell, npts_[place])) return false;
+    const Int node = npts_[place];
+    std::size_t cell = hash(node);
+    if (cells_[cell] != 0) cell = find(cell, node);
+    if (is_at(cell, node)) return false;
     cells_[cell] = static_cast<Cell>(place);
     return true;
   }
