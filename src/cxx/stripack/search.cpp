@@ -303,6 +303,13 @@ class Nearest {
     nearest_ = is_nearer ? node : nearest_;
     distance_ = is_nearer ? distance : distance_;
   }
+  /// For a node that will be compared soon.
+  void prefetch(Int node) const {
+    const auto i = static_cast<std::size_t>(node - 1);
+    __builtin_prefetch(nodes_.x + i);
+    __builtin_prefetch(nodes_.y + i);
+    __builtin_prefetch(nodes_.z + i);
+  }
   NextNearestStatus write(Int& node, Real& distance) const {
     if (!finite_) return NextNearestStatus::not_finite;
     if (nearest_ == 0) return NextNearestStatus::none_left;
@@ -352,7 +359,8 @@ NextNearestStatus nearest_of_others(const ListsView<Int>& lists, const Nodes<Rea
     count = 0;
   };
   const auto visit = [&](Int node) __attribute__((always_inline)) {
-    others[count] = node;  // where the next one goes, too, if this one is taken
+    if (given < 8) nearest.prefetch(node);  // of many, most are taken
+    others[count] = node;                   // where the next one goes, too, if this one is taken
     count += !taken.contains(node);
     if (count == most) compare();
   };
