@@ -118,8 +118,9 @@ module stripack
     ! Finds the next nearest node to a node.
     ! NPTS(1) is a node, NPTS(2..L-1) the nodes nearest to it, in order, as earlier calls have given them; the
     ! call adds NPTS(L). L = 2, 3, ... so gives all nodes by their distance from NPTS(1).
-    ! IER  0 done; 1 L < 2; -5 a distance is not finite (new); -6 out of memory, only if L > 65 (new);
-    !      -10 NPTS has a number below 1, or one twice (new); -11 no node is left: L > N (new).
+    ! IER  0 done; 1 L < 2; -5 a distance is not finite (new); -6 out of memory, only if L > 257 (new); -9 a
+    !      list runs into a loop (new); -10 NPTS has a number below 1, or one twice (new); -11 no node is
+    !      left: L > N (new).
     subroutine getnp(x, y, z, list, lptr, lend, l, npts, df, ier)
       integer :: list(*), lptr(*), lend(*), l, npts(*), ier
       real(STRIPACK_REAL_KIND) :: x(*), y(*), z(*), df

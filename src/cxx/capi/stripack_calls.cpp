@@ -38,6 +38,8 @@ const char* meaning(Status status) {
 }
 const char* meaning(NextNearestStatus status) {
   switch (status) {
+    case NextNearestStatus::broken_lists:
+      return "LIST, LPTR, LEND are not the lists of a triangulation";
     case NextNearestStatus::bad_nodes:
       return "NPTS holds a number below 1, or one twice";
     case NextNearestStatus::none_left:
