@@ -31,7 +31,6 @@ int nearnd_(const double* p, const int* ist, const int* n, const double* x, cons
 namespace benchmark {
 namespace {
 
-using legacy_stripack::Abi;
 using legacy_stripack::Outcome;
 using pstripack::Point;
 
@@ -175,7 +174,7 @@ void searches(const Table& table, const Nodes& nodes, const Lists& lists) {
 
 void run_time_of_queries(int n, const legacy_stripack::Original& original, int repeats) {
   const legacy_stripack::Library& library = original.library();
-  if (library.abi() == Abi::r4) throw std::runtime_error("queries: the original is not REAL*8");
+  if (library.abi().real_bytes == 4) throw std::runtime_error("queries: the original is not REAL*8");
   const Queries own{getnp_, trfind_, nearnd_};
   const Queries theirs{found<decltype(getnp_)>(library, "getnp_"),
                        found<decltype(trfind_)>(library, "trfind_"),

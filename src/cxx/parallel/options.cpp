@@ -1,5 +1,6 @@
 #include "parallel/options.h"
 
+#include <cerrno>
 #include <cstdio>
 #include <cstring>
 
@@ -22,7 +23,10 @@ PartitionKind partition_from_environment() {
 }  // namespace
 
 ParallelOptions options_from_environment(std::size_t local_nodes) {
+  // Threads that wait here for each other may find another errno: the program's must stay.
+  const int error = errno;
   static const PartitionKind partition = partition_from_environment();
+  errno = error;
   ParallelOptions options;
   options.partition = partition;
   options.threads = threads_for(local_nodes);

@@ -1,5 +1,7 @@
 #include "stripack/original_rules.h"
 
+#include <atomic>
+#include <cerrno>
 #include <cstdio>
 #include <cstring>
 
@@ -32,7 +34,13 @@ OriginalRules read_environment() {
 }  // namespace
 
 const OriginalRules& original_rules() {
+  static std::atomic<const OriginalRules*> known{nullptr};
+  if (const OriginalRules* const rules = known.load(std::memory_order_acquire)) return *rules;
+  // Threads that wait here for each other may find another errno: the program's must stay.
+  const int error = errno;
   static const OriginalRules rules = read_environment();
+  known.store(&rules, std::memory_order_release);
+  errno = error;
   return rules;
 }
 
