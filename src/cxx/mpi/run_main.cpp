@@ -211,7 +211,8 @@ void give_mpirun_its_own_input() {
 }
 
 /// mpirun's stderr on its way to ours. Hydra kills all ranks by SIGKILL when one is lost, and their watchdogs
-/// cannot know which was the first: of the lines that name a lost rank only the first passes.
+/// cannot know which was the first: of the lines that name a lost rank only the first passes, nearly always
+/// the true one.
 class ErrorLines {
  public:
   bool open() { return pipe2(ends_, O_CLOEXEC) == 0 && fcntl(ends_[0], F_SETFL, O_NONBLOCK) == 0; }

@@ -259,7 +259,8 @@ kill_idle)
   says "rank $last was lost during its wait for a call"
   ;;
 kill_during_call)
-  # At several times of a call.
+  # At several times of a call. Hydra kills the others so soon that on a loaded machine one of them may be named.
+  [ "$OPEN_MPI" = TRUE ] && lost=1 || lost='[0-9]*'
   for delay in 0.00 0.05 0.11; do
     start 'call 2' "$CALLER" calls 400000 400
     sleep $delay
@@ -268,7 +269,7 @@ kill_during_call)
     [ $code -ne 0 ] || fail "exit code 0"
     says_once "pstripack: rank [0-9]* was lost"
     # All that a rank does for a call, and what is between two calls.
-    says "rank 1 was lost during \(scatter the nodes\|divide\|triangulate\|merge\|lists\|gather the lists\|idle\|its wait\)"
+    says "rank $lost was lost during \(scatter the nodes\|divide\|triangulate\|merge\|lists\|gather the lists\|idle\|its wait\)"
     grep "was lost" job.err
   done
   ;;
