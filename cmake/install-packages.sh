@@ -5,7 +5,7 @@
 set -eu
 
 packages="
-  g++ gfortran cmake ninja-build pkg-config
+  g++ gfortran cmake ninja-build pkg-config dpkg-dev
   libboost-dev
   libcli11-dev nlohmann-json3-dev libfmt-dev libnetcdf-dev
   libgtest-dev libcgal-dev libgmp-dev libmpfr-dev libqhull-dev

@@ -98,5 +98,10 @@ if(PSTRIPACK_TOOLS)
 stripack-compare, which runs an original STRIPACK beside this one and
 explains every difference.")
 endif()
+debian_package(documents NAME pstripack-doc SECTION doc
+  SUMMARY "Delaunay triangulation on the sphere: documents and examples"
+  DESCRIPTION "${about}This package has the documents, among them how to relink a program, and
+examples in several languages.")
+set(CPACK_DEBIAN_DOCUMENTS_PACKAGE_ARCHITECTURE all)
 
 include(CPack)

@@ -2,29 +2,46 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "probe.h"
 
 namespace comparison {
+namespace {
+constexpr double kLongestProbe = 2;  // seconds a call of TRMESH for six nodes
+}
 
 void add_original_options(CLI::App& app, OriginalChoice& choice) {
   app.add_option("--original", choice.file, "shared library of your own STRIPACK instead of the one found");
-  app.add_option("--original-abi", choice.abi, "its ABI: r8 (12-argument TRMESH), r4, 8arg [r8]")
-      ->check(CLI::IsMember({"r8", "r4", "8arg"}).description(""));
+  app.add_option("--original-abi", choice.abi,
+                 "its ABI, where it cannot be found out: r8, r4, i8, 8arg, several as in r4-8arg");
 }
 
-ChosenOriginal open_original(const OriginalChoice& choice) {
-  if (choice.file.empty()) {
-    const auto where = legacy_stripack::configured_original();
-    if (!where)
-      throw std::runtime_error("no original to compare with: this build found none; give --original LIBRARY");
-    return {legacy_stripack::Original(*where), where->name};
-  }
-  ChosenOriginal chosen{{choice.file, legacy_stripack::abi_named(choice.abi)},
-                        fmt::format("{} ({})", choice.file, choice.abi)};
-  legacy_stripack::refuse_other_abi(chosen.original.library());
-  return chosen;
+ChosenOriginal open_original(const OriginalChoice& choice, double timeout, int real_bytes) {
+  using legacy_stripack::Abi;
+  auto where = legacy_stripack::configured_original();
+  if (!choice.file.empty()) where = {choice.file, choice.file, Abi{real_bytes, 4, 12}};
+  if (!where)
+    throw std::runtime_error("no original to compare with: this build found none; give --original LIBRARY");
+  if (!choice.abi.empty()) where->abi = legacy_stripack::abi_named(choice.abi);
+
+  const auto probe = probe_abi(legacy_stripack::Library(where->file), where->abi.real_bytes,
+                               std::min(timeout, kLongestProbe));
+  const auto text_of = [](const Abi& abi) { return fmt::format("{}: {}", name_of(abi), describe(abi)); };
+  if (!probe.abi)
+    fmt::print(
+        stderr,
+        "stripack-compare: {}: its ABI cannot be found out, for TRMESH does not triangulate six nodes: {}. "
+        "It is called as {}{}\n",
+        where->name, probe.why_not, text_of(where->abi),
+        choice.abi.empty() ? ", which --original-abi, or abi= in PSTRIPACK_CHECK, overrides" : "");
+  else if (!choice.abi.empty() && !(where->abi == *probe.abi))
+    throw std::runtime_error(fmt::format("{}: its TRMESH answers to ABI {}, not to {}", where->name,
+                                         text_of(*probe.abi), text_of(where->abi)));
+  else
+    where->abi = *probe.abi;
+  return {legacy_stripack::Original(*where), fmt::format("{} ({})", where->name, text_of(where->abi))};
 }
 
 }  // namespace comparison

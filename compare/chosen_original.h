@@ -9,15 +9,17 @@
 namespace comparison {
 
 struct OriginalChoice {
-  std::string file, abi = "r8";
+  std::string file, abi;  ///< abi: empty if it is to be found out
 };
 void add_original_options(CLI::App& app, OriginalChoice& choice);
 
 struct ChosenOriginal {
   legacy_stripack::Original original;
-  std::string name;  ///< for people
+  std::string name;  ///< for people: with its ABI
 };
-/// Throws std::runtime_error if there is none, or if its TRMESH answers to another ABI.
-ChosenOriginal open_original(const OriginalChoice& choice);
+/// Finds out the ABI by calling TRMESH. Where that finds none it is called with reals of `real_bytes`, the
+/// kind of whoever calls; unless they chose an ABI, and stderr says so. Throws std::runtime_error if
+/// there is no original, or one of another ABI than was chosen. `timeout` is that of any call, in seconds.
+ChosenOriginal open_original(const OriginalChoice& choice, double timeout, int real_bytes = 8);
 
 }  // namespace comparison

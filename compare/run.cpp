@@ -80,7 +80,7 @@ std::vector<std::string> abis_for(const std::string& precision, const RunOptions
 
 std::vector<std::string> precisions_for(const RunOptions& options,
                                         const legacy_stripack::Original& original) {
-  const bool single = original.library().abi() == legacy_stripack::Abi::r4;
+  const bool single = original.library().abi().real_bytes == 4;
   if (options.precisions.empty()) return {single ? "r4" : "r8"};
   if (single && std::count(options.precisions.begin(), options.precisions.end(), "r8") > 0)
     throw std::invalid_argument("an original in REAL*4 takes REAL*4 coordinates: give --precision r4");
@@ -128,7 +128,7 @@ void write_json(std::ofstream& out, const json& j, const std::string& file) {
 ExitCode run(const RunOptions& options) {
   using Clock = std::chrono::steady_clock;
   const std::vector<Source> sources = sources_of(options);
-  const auto [original, original_name] = open_original(options.original);
+  const auto [original, original_name] = open_original(options.original, options.timeout);
   const std::vector<std::string> precisions = precisions_for(options, original);
   for (const std::string& precision : precisions) abis_for(precision, options);
 

@@ -29,7 +29,7 @@ for every difference.
   stripack-compare run --file nodes.txt                    your nodes
   stripack-compare run --points latlon --n 100000 --plot difference.svg
   stripack-compare run --points all --order shuffled,sorted --precision r8,r4 --timeout 20 --csv all.csv
-  stripack-compare run --file nodes.nc --original ./libmystripack.so --original-abi r4 --junit report.xml
+  stripack-compare run --file nodes.nc --original ./libmystripack.so --junit report.xml
   stripack-compare run --points random --n 1000000 --threads 1,2 --ranks 1,4 --partition bisection,stripes
   stripack-compare record -o calls.rec -- ./model          the calls of a running model,
   stripack-compare replay calls.rec                        and each of them with the original

@@ -1,4 +1,4 @@
-// stripack_original for an original in another ABI (r4, 8arg): the REAL*8, 12-argument symbols that the
+// stripack_original for an original in another ABI (r4, 8arg, i8): the REAL*8, 12-argument symbols that the
 // example calls, passed on to the user's library.
 
 #include <cstdio>

@@ -6,23 +6,34 @@
 
 namespace legacy_stripack {
 
-enum class Abi {
-  r8,    ///< REAL*8, 12-argument TRMESH
-  r4,    ///< REAL*4, 12-argument TRMESH, as Algorithm 772 was published
-  args8  ///< REAL*8, TRMESH(N,X,Y,Z,LIST,LPTR,LEND,IER)
+/// How an original is called. The default is that of stripack_original.
+struct Abi {
+  int real_bytes = 8;
+  int integer_bytes = 4;
+  int arguments = 12;  ///< of TRMESH; 8 are N, X, Y, Z, LIST, LPTR, LEND, IER
+
+  bool operator==(const Abi& other) const {
+    return real_bytes == other.real_bytes && integer_bytes == other.integer_bytes &&
+           arguments == other.arguments;
+  }
 };
 
-/// "r8", "r4", "8arg"; throws std::invalid_argument for anything else.
+/// What differs from the default, r4, i8, 8arg, joined by `-`; r8 if nothing does. Throws
+/// std::invalid_argument for anything else.
 Abi abi_named(const std::string& name);
-const char* name_of(Abi abi);
+std::string name_of(const Abi& abi);
+
+/// "REAL*4, INTEGER*4, TRMESH with 12 arguments"
+std::string describe(const Abi& abi);
 
 class Library {
  public:
   /// Throws std::runtime_error if the file cannot be loaded or is not STRIPACK.
-  Library(const std::string& file, Abi abi);
+  explicit Library(const std::string& file, Abi abi = {});
 
   void trmesh(const int* n, const double* x, const double* y, const double* z, int* list, int* lptr,
               int* lend, int* lnew, int* near, int* next, double* dist, int* ier) const;
+  /// TRLIST and CRLIST have the same arguments in every ABI. Throw std::runtime_error if there is none.
   void trlist(const int* n, const int* list, const int* lptr, const int* lend, const int* nrow, int* nt,
               int* ltri, int* ier) const;
   void crlist(const int* n, const int* ncol, const double* x, const double* y, const double* z,
@@ -37,7 +48,7 @@ class Library {
   void* symbol(const char* name) const;
 
  private:
-  void* routine(const char* name, bool required) const;
+  void* routine(const std::string& name) const;
   void* handle_;  // never closed: Fortran libraries do not like to be unloaded
   std::string file_;
   Abi abi_;

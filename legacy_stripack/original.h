@@ -50,7 +50,7 @@ class Original {
                             const std::vector<double>& z, double time_limit, int calls = 1) const;
 
   /// The distance from 1 to the next number in the original's arithmetic.
-  double epsilon() const { return library_.abi() == Abi::r4 ? 0x1p-23 : 0x1p-52; }
+  double epsilon() const { return library_.abi().real_bytes == 4 ? 0x1p-23 : 0x1p-52; }
 
   /// The routines themselves, for use inside run_in_child.
   const Library& library() const { return library_; }

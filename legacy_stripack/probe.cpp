@@ -1,96 +1,124 @@
 #include "probe.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <set>
-#include <stdexcept>
 #include <string>
 
 #include "child_process.h"
+#include "original.h"
 
 namespace legacy_stripack {
 namespace {
 
 constexpr int kNodes = 6, kSlots = 24;
 constexpr double kCoordinate[3][kNodes] = {{1, 0, 0, -1, 0, 0}, {0, 1, 0, 0, -1, 0}, {0, 0, 1, 0, 0, -1}};
-constexpr double kTimeLimit = 2;
-constexpr int kUnwritten = -987654321;
 constexpr std::size_t kRoom = 1024;  // entries of every array
+constexpr int kUnwritten = 0x55;     // every byte of the integers
+
+/// An array of integers or reals of 4 or 8 bytes.
+struct Array {
+  std::int64_t words[kRoom];
+
+  template <class T>
+  T get(std::size_t i) const {
+    T value;
+    std::memcpy(&value, reinterpret_cast<const char*>(words) + i * sizeof value, sizeof value);
+    return value;
+  }
+  template <class T>
+  void set(std::size_t i, T value) {
+    std::memcpy(reinterpret_cast<char*>(words) + i * sizeof value, &value, sizeof value);
+  }
+};
 
 /// Arguments in the order of the 12-argument TRMESH, in memory that child and parent share. The eighth is
 /// LNEW there and IER of the 8-argument one, which takes no notice of the rest.
 struct Arguments {
   std::int64_t n;  // read as 4 bytes or as 8
-  double coordinates[3][kRoom];
-  int list[kRoom], lptr[kRoom], lend[kRoom], eighth[kRoom], near[kRoom], next[kRoom];
-  double dist[kRoom];
-  int twelfth[kRoom];
+  Array coordinates[3], list, lptr, lend, eighth, near, next, dist, twelfth;
 };
-using Trmesh = void(const void* n, const void* x, const void* y, const void* z, int* list, int* lptr,
-                    int* lend, int* eighth, int* near, int* next, void* dist, int* twelfth);
+using Trmesh = void(const void* n, const void* x, const void* y, const void* z, void* list, void* lptr,
+                    void* lend, void* eighth, void* near, void* next, void* dist, void* twelfth);
 
 /// Every node has four different neighbours, and they are not the opposite one.
+template <class Int>
 bool is_octahedron(const Arguments& a) {
-  const auto is_slot = [](int slot) { return 1 <= slot && slot <= kSlots; };
+  const auto is_slot = [](Int slot) { return 1 <= slot && slot <= kSlots; };
   for (int k = 1; k <= kNodes; ++k) {
-    std::set<int> neighbours;
-    int slot = a.lend[k - 1];
+    std::set<Int> neighbours;
+    const Int last = a.lend.get<Int>(static_cast<std::size_t>(k - 1));
+    Int slot = last;
     for (int i = 0; i < 4; ++i) {
       if (!is_slot(slot)) return false;
-      neighbours.insert(a.list[slot - 1]);
-      slot = a.lptr[slot - 1];
+      neighbours.insert(a.list.get<Int>(static_cast<std::size_t>(slot - 1)));
+      slot = a.lptr.get<Int>(static_cast<std::size_t>(slot - 1));
     }
-    std::set<int> expected;
+    std::set<Int> expected;
     for (int other = 1; other <= kNodes; ++other)
       if (other % 3 != k % 3) expected.insert(other);
-    if (slot != a.lend[k - 1] || neighbours != expected) return false;
+    if (slot != last || neighbours != expected) return false;
   }
   return true;
 }
 
-template <class Real>
-void write_coordinates(Arguments& a) {
-  for (int axis = 0; axis < 3; ++axis)
-    std::copy_n(kCoordinate[axis], kNodes, reinterpret_cast<Real*>(a.coordinates[axis]));
+/// The ABI in which the arguments are right after the call.
+template <class Int>
+std::optional<Abi> abi_of_answer(const Arguments& a, int real_bytes) {
+  if (!is_octahedron<Int>(a)) return std::nullopt;
+  if (a.twelfth.get<Int>(0) == 0) return Abi{real_bytes, sizeof(Int), 12};
+  if (a.eighth.get<Int>(0) == 0) return Abi{real_bytes, sizeof(Int), 8};
+  return std::nullopt;
 }
 
-/// The ABI that answers to coordinates of this kind.
-std::optional<Abi> answer(const Library& library, bool single_precision) {
+/// Adds what happened if it finds none.
+std::optional<Abi> answer(const Library& library, int real_bytes, double time_limit, std::string& why_not) {
   const Shared<Arguments> shared;
   Arguments& a = *shared.data();
   a.n = kNodes;
-  single_precision ? write_coordinates<float>(a) : write_coordinates<double>(a);
-  a.eighth[0] = a.twelfth[0] = kUnwritten;
+  for (int axis = 0; axis < 3; ++axis)
+    for (std::size_t i = 0; i < kNodes; ++i) {
+      const double value = kCoordinate[axis][i];
+      real_bytes == 4 ? a.coordinates[axis].set(i, static_cast<float>(value))
+                      : a.coordinates[axis].set(i, value);
+    }
+  for (Array* array : {&a.eighth, &a.twelfth}) std::memset(array, kUnwritten, sizeof *array);
   const auto trmesh = reinterpret_cast<Trmesh*>(library.trmesh_address());
   const Ended ended = run_in_child(
       [&] {
-        trmesh(&a.n, a.coordinates[0], a.coordinates[1], a.coordinates[2], a.list, a.lptr, a.lend, a.eighth,
-               a.near, a.next, a.dist, a.twelfth);
+        const int nowhere = open("/dev/null", O_WRONLY);
+        for (const int file : {STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, file);
+        trmesh(&a.n, &a.coordinates[0], &a.coordinates[1], &a.coordinates[2], &a.list, &a.lptr, &a.lend,
+               &a.eighth, &a.near, &a.next, &a.dist, &a.twelfth);
       },
-      kTimeLimit);
-  if (ended.outcome != Outcome::returned || !is_octahedron(a)) return std::nullopt;
-  if (a.twelfth[0] == 0) return single_precision ? Abi::r4 : Abi::r8;
-  if (a.eighth[0] == 0 && !single_precision) return Abi::args8;
+      time_limit);
+  const bool has_returned = ended.outcome == Outcome::returned;
+  if (has_returned) {
+    if (const auto abi = abi_of_answer<std::int32_t>(a, real_bytes)) return abi;
+    if (const auto abi = abi_of_answer<std::int64_t>(a, real_bytes)) return abi;
+  }
+  Triangulation call;
+  call.outcome = ended.outcome;
+  call.signal = ended.signal;
+  why_not += (why_not.empty() ? "with REAL*" : "; with REAL*") + std::to_string(real_bytes) + " it " +
+             describe(call, time_limit) + (has_returned ? " other lists" : "");
   return std::nullopt;
 }
 
 }  // namespace
 
-std::optional<Abi> abi_shown_by(const Library& library) {
-  const bool single_precision = library.abi() == Abi::r4;
-  if (const auto abi = answer(library, single_precision)) return abi;
-  return answer(library, !single_precision);
-}
-
-void refuse_other_abi(const Library& library) {
-  const auto shown = abi_shown_by(library);
-  if (!shown || *shown == library.abi()) return;
-  const char* const looks_like = *shown == Abi::r8   ? "REAL*8 with 12 arguments"
-                                 : *shown == Abi::r4 ? "REAL*4 with 12 arguments"
-                                                     : "REAL*8 with 8 arguments";
-  throw std::runtime_error(library.file() + ": its TRMESH looks like " + looks_like + ", which is ABI " +
-                           name_of(*shown) + ", not " + name_of(library.abi()));
+Probe probe_abi(const Library& library, int first_real_bytes, double time_limit) {
+  Probe probe;
+  for (const int real_bytes : {first_real_bytes, 12 - first_real_bytes}) {
+    probe.abi = answer(library, real_bytes, time_limit, probe.why_not);
+    if (probe.abi) break;
+  }
+  return probe;
 }
 
 }  // namespace legacy_stripack

@@ -2,17 +2,20 @@
 // Which ABI a library has, found out by calling it.
 
 #include <optional>
+#include <string>
 
 #include "library.h"
 
 namespace legacy_stripack {
 
-/// The ABI in which the library's TRMESH triangulates the six corners of an octahedron; none if it does in no
-/// ABI. Each call is a child process with a time limit, and room around what a wrong ABI might write.
-std::optional<Abi> abi_shown_by(const Library& library);
+struct Probe {
+  std::optional<Abi> abi;  ///< none if the library's TRMESH gives the right triangles in no ABI
+  std::string why_not;     ///< then: what it did instead, "with REAL*8 it crashed ..."
+};
 
-/// Throws std::runtime_error, which names the right ABI, if the library shows another one than it was opened
-/// with. A library that shows none is let through: its results will speak for themselves.
-void refuse_other_abi(const Library& library);
+/// Has TRMESH triangulate the six corners of an octahedron, in REAL*8 and in REAL*4, those of
+/// `first_real_bytes` first; the library's own ABI does not matter. Each call is a child process with a time
+/// limit and room around what a wrong ABI might write; what it prints is lost.
+Probe probe_abi(const Library& library, int first_real_bytes, double time_limit = 2);
 
 }  // namespace legacy_stripack

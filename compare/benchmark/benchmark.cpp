@@ -68,7 +68,8 @@ int main(int argc, char** argv) {
   app.add_flag("--quick", cases.quick, "only cases with less than 10^6 nodes, three repeats");
   app.add_option(
          "--only", cases.only,
-         "only these cases, as random-1e4,latlon-1e5; the case `distributions` runs where it is named")
+         "only these cases, as random-1e4,latlon-1e5; the cases `distributions` and `queries-...` run "
+         "where they are named")
       ->delimiter(',')
       ->check(CLI::IsMember(case_names()));
   app.add_option("--sets", cases.sets, "only these point sets in the case `distributions`")

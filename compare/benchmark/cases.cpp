@@ -21,6 +21,7 @@
 #include "pstripack.h"
 #include "time_of_distributions.h"
 #include "time_of_orders.h"
+#include "time_of_queries.h"
 
 namespace benchmark {
 namespace {
@@ -209,17 +210,18 @@ void run_pool([[maybe_unused]] const std::string& self, [[maybe_unused]] int rep
 
 // ---- in the original's order ------------------------------------------------------------------------
 
-/// TRMESH under PSTRIPACK_ORDER=original, which is read once a process: in a model of its own.
+/// TRMESH under PSTRIPACK_ORDER, which is read once a process: in a model of its own.
 struct OrderCase {
-  std::string name, family, order;
+  std::string name, setting, family, order;
   int n;
   double original_over_ours;
 };
 const std::vector<OrderCase> kOrderCases{
-    {"order-random-1e5", "random", "given", 100000, 1},
-    {"order-random-1e6", "random", "given", 1000000, 1},
-    {"order-latlon-1e5", "latlon", "given", 100000, 20},
-    {"order-sorted-1e5", "random", "latitude", 100000, 0},
+    {"order-random-1e5", "original", "random", "given", 100000, 1},
+    {"order-random-1e6", "original", "random", "given", 1000000, 1},
+    {"order-latlon-1e5", "original", "latlon", "given", 100000, 20},
+    {"order-sorted-1e5", "original", "random", "latitude", 100000, 0},
+    {"order-bitwise-1e5", "bitwise", "latlon", "given", 100000, 1},
 };
 
 void run_order(const OrderCase& c, const std::string& self,
@@ -230,7 +232,7 @@ void run_order(const OrderCase& c, const std::string& self,
   double peak = 0;
   while (!own.enough(repeats) || (original_library && !theirs.enough(repeats))) {
     if (!own.enough(repeats)) {
-      const ModelFigures figures = as_model(self, "OMP_NUM_THREADS=1 PSTRIPACK_ORDER=original", model);
+      const ModelFigures figures = as_model(self, "OMP_NUM_THREADS=1 PSTRIPACK_ORDER=" + c.setting, model);
       own.add(figures.seconds);
       peak = figures.peak;
     }
@@ -311,6 +313,8 @@ void run(const Case& c, const std::optional<legacy_stripack::Original>& original
 const std::vector<std::string> kParallelCases{"threads-1e6", "pool-1e6", "crlist-threads"};
 const std::vector<std::pair<std::string, int>> kTimesOfOrders{{"orders-1e5", 100000},
                                                               {"orders-1e6", 1000000}};
+const std::vector<std::pair<std::string, int>> kTimesOfQueries{
+    {"queries-1e3", 1000}, {"queries-1e4", 10000}, {"queries-1e5", 100000}, {"queries-1e6", 1000000}};
 const std::string kDistributions = "distributions";
 
 }  // namespace
@@ -321,6 +325,7 @@ std::vector<std::string> case_names() {
   for (const OrderCase& c : kOrderCases) names.push_back(c.name);
   names.insert(names.end(), kParallelCases.begin(), kParallelCases.end());
   for (const auto& [name, n] : kTimesOfOrders) names.push_back(name);
+  for (const auto& [name, n] : kTimesOfQueries) names.push_back(name);
   names.push_back(kDistributions);
   return names;
 }
@@ -334,10 +339,15 @@ void run_cases(const std::string& self, const CaseSettings& settings,
   for (const auto& [name, n] : kTimesOfOrders)
     if (is_wanted(name, !quick)) run_time_of_orders(n, repeats);
   if (is_wanted(kDistributions, false)) run_time_of_distributions(sets, repeats);
-  const auto is_beside_random = [](const std::string& name) {
-    return name == kDistributions || name.rfind("orders-", 0) == 0;
+  for (const auto& [name, n] : kTimesOfQueries)
+    if (is_wanted(name, false)) {
+      if (!original_library) throw std::invalid_argument(name + ": there is no original to compare with");
+      run_time_of_queries(n, *original_library, repeats);
+    }
+  const auto has_its_own_table = [](const std::string& name) {
+    return name == kDistributions || name.rfind("orders-", 0) == 0 || name.rfind("queries-", 0) == 0;
   };
-  if (!only.empty() && std::all_of(only.begin(), only.end(), is_beside_random)) return;
+  if (!only.empty() && std::all_of(only.begin(), only.end(), has_its_own_table)) return;
 
   fmt::print("\nin parentheses the ratio asked for\n\n");
   fmt::print("{:<17} {:>8} {:^39} {:^17} {:^17} {:^17} {:>9}\n", "", "", "microseconds a node",
@@ -360,7 +370,9 @@ void run_cases(const std::string& self, const CaseSettings& settings,
   fmt::print(
       "\ncrlist: against CSCRLIST as libngmath ships it, which turns centres into latitudes and longitudes;"
       "\ncrlist-xyz: against the same without that, as STRIPACK's CRLIST"
-      "\norder: lists in the original's order, PSTRIPACK_ORDER=original\npeak: memory during TRMESH "
+      "\norder: lists in the original's order, PSTRIPACK_ORDER=original"
+      "\norder-bitwise: PSTRIPACK_ORDER=bitwise"
+      "\npeak: memory during TRMESH "
       "beyond the caller's arrays; asked for: at most 220 bytes a node\n");
 }
 

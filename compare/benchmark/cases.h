@@ -11,7 +11,8 @@ namespace benchmark {
 
 struct CaseSettings {
   bool quick = false;
-  std::vector<std::string> only;  ///< none: all of case_names() but distributions, or those that are quick
+  std::vector<std::string>
+      only;  ///< none: all of case_names() but distributions and queries, or those that are quick
   std::vector<std::string> sets;  ///< of distributions; none: all
   int repeats = 0;
 };

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Tests of lists, record and replay, and of the check beside a model: recorded_calls.sh CASE, with COMPARE,
-# CALLER and WORK in the environment; ORIGINAL, ORIGINAL_8ARG, ORIGINAL_R4, HANGS, CRASHES, STOPS and LIBRARY
-# where there are such libraries.
+# CALLER and WORK in the environment; ORIGINAL, ORIGINAL_8ARG, ORIGINAL_R4, ORIGINAL_CS, HANGS, CRASHES, STOPS,
+# LIBRARY, LIBRARY_R4, LIBRARY_8ARG and LIBRARY_I8 where there are such libraries.
 # shellcheck disable=SC2153,SC2154
 set -u
 case=$1
@@ -118,6 +118,21 @@ replay)
   expect 0 "$COMPARE" replay crash.rec
   prints out "call 2: n = 100: no result on record, run again: equal"
   ;;
+original_order)
+  # Lists in the original's order are compared slot by slot; under bitwise their mesh may be wrong.
+  for set in "random 500" "latlon 500" "latlon 1000" "collinear 100"; do
+    # shellcheck disable=SC2086
+    PSTRIPACK_ORDER=bitwise-ngmath recorded calls.rec $set
+  done
+  expect 0 "$COMPARE" replay calls.rec
+  [ "$(grep -c ': same bytes$' out)" -eq 3 ] || fail "not three of the same bytes"
+  prints out "4 calls, 4 equal"
+  # Other lists: LIST(1) changed, byte 104 + 2400 + 104.
+  PSTRIPACK_ORDER=bitwise-ngmath recorded other.rec random 100
+  printf '\377' | dd of=other.rec bs=1 seek=2608 conv=notrunc 2> dd.err
+  expect 1 "$COMPARE" replay other.rec
+  prints out "1 call, 1 WE ARE WRONG"
+  ;;
 against_us)
   # A recording whose lists were changed: LIST(1) of the first result, byte 104 + 2400 + 104.
   recorded calls.rec random 100
@@ -150,17 +165,40 @@ faulty_originals)
 other_abi)
   recorded r8.rec random 100
   recorded r4.rec r4 random 100
-  for recording in r8.rec r4.rec; do
-    expect 0 "$COMPARE" replay $recording --original "$ORIGINAL_8ARG" --original-abi 8arg
+  # finds RECORDING LIBRARY ABI: without being told
+  finds() {
+    expect 0 "$COMPARE" replay "$1" --original "$2"
+    prints out "original: $2 ($3)"
     prints out "1 call, 1 equal"
-    expect 2 "$COMPARE" replay $recording --original "$ORIGINAL_8ARG"
-    prints err "stripack-compare: $ORIGINAL_8ARG: its TRMESH looks like REAL*8 with 8 arguments, which is ABI 8arg, not r8"
+    [ ! -s err ] || fail "says something on stderr"
+  }
+  for recording in r8.rec r4.rec; do
+    for library in "$ORIGINAL" "$ORIGINAL_CS" "$LIBRARY"; do
+      finds $recording "$library" "r8: REAL*8, INTEGER*4, TRMESH with 12 arguments"
+    done
+    for library in "$ORIGINAL_8ARG" "$LIBRARY_8ARG"; do
+      finds $recording "$library" "8arg: REAL*8, INTEGER*4, TRMESH with 8 arguments"
+    done
+    finds $recording "$LIBRARY_I8" "i8: REAL*8, INTEGER*8, TRMESH with 12 arguments"
   done
-  expect 0 "$COMPARE" replay r4.rec --original "$ORIGINAL_R4" --original-abi r4
-  expect 2 "$COMPARE" replay r8.rec --original "$ORIGINAL_R4" --original-abi r4
-  says err "a library in REAL*4 would get other nodes"
-  expect 2 "$COMPARE" --points random --n 100 --original "$ORIGINAL_R4"
-  says err "which is ABI r4, not r8"
+  for library in "$ORIGINAL_R4" "$LIBRARY_R4"; do
+    finds r4.rec "$library" "r4: REAL*4, INTEGER*4, TRMESH with 12 arguments"
+    expect 2 "$COMPARE" replay r8.rec --original "$library"
+    says err "a library in REAL*4 would get other nodes"
+  done
+  expect 0 "$COMPARE" replay r8.rec --library "$LIBRARY_I8"
+  prints out "call 1: n = 100: same bytes"
+  # A choice that the library contradicts, and one that there is not.
+  expect 2 "$COMPARE" replay r8.rec --original "$ORIGINAL_8ARG" --original-abi r8
+  prints err "stripack-compare: $ORIGINAL_8ARG: its TRMESH answers to ABI 8arg: REAL*8, INTEGER*4, TRMESH with 8 arguments, not to r8: REAL*8, INTEGER*4, TRMESH with 12 arguments"
+  expect 2 "$COMPARE" replay r8.rec --original "$ORIGINAL" --original-abi r16
+  says err "unknown ABI 'r16'"
+  # Nothing found: the kinds of the recording, or those chosen.
+  expect 0 "$COMPARE" replay r4.rec --original "$CRASHES"
+  says err "$CRASHES: its ABI cannot be found out, for TRMESH does not triangulate six nodes: with REAL*4 it crashed (signal 11"
+  says err "It is called as r4: REAL*4, INTEGER*4, TRMESH with 12 arguments, which --original-abi, or abi= in PSTRIPACK_CHECK, overrides"
+  expect 0 "$COMPARE" replay r4.rec --original "$CRASHES" --original-abi i8-8arg
+  prints out "original: $CRASHES (i8-8arg: REAL*8, INTEGER*8, TRMESH with 8 arguments)"
   ;;
 beside)
   export PSTRIPACK_COMPARE="$COMPARE"
@@ -170,11 +208,15 @@ beside)
   says err "]: 2 calls, 2 explained"
   PSTRIPACK_CHECK="lib:$HANGS,timeout=0.2,log=log" expect 0 "$CALLER" random 500 2
   [ ! -s err ] || fail "not to the log"
+  says log "its ABI cannot be found out"
   says log "]: 2 calls, 2 no result of the original"
-  PSTRIPACK_CHECK="lib:$ORIGINAL_8ARG,abi=8arg" expect 0 "$CALLER" random 500 2
-  says err "]: 2 calls, 2 equal"
-  PSTRIPACK_CHECK="lib:$ORIGINAL_8ARG" expect 0 "$CALLER" random 50000 3
-  says err "which is ABI 8arg, not r8"
+  for library in "$ORIGINAL_8ARG" "$ORIGINAL_CS" "$LIBRARY_I8"; do
+    PSTRIPACK_CHECK="lib:$library" expect 0 "$CALLER" random 500 2
+    says err "]: original: $library ("
+    says err "]: 2 calls, 2 equal"
+  done
+  PSTRIPACK_CHECK="lib:$ORIGINAL_8ARG,abi=r8" expect 0 "$CALLER" random 50000 3
+  says err "its TRMESH answers to ABI 8arg"
   says err "stripack-compare has ended; calls are not checked from here on"
   # A model that is killed: the check of what it has sent ends by itself.
   PSTRIPACK_CHECK=lib:,log=killed.log "$CALLER" crash > out 2> err

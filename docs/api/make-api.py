@@ -4,7 +4,7 @@
   docs/api/*.md                     a page a routine, README.md, the index by task, and ier.md, all codes
   docs/man/man3/*.3                 the same as man pages
   src/fortran/stripack_module.F90   their interfaces, from stripack_module.F90.in
-  src/fortran/symbols/*.txt         the symbols that each library exports
+  src/fortran/symbols.txt           the symbols that each library exports
 
   make-api.py           writes them
   make-api.py --check   fails if they are not what it would write, or if the routines in
@@ -23,6 +23,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 LIBRARIES = ["stripack", "stripack_r4", "stripack_8arg", "stripack_i8"]
 COMMON = "0-common.toml"
+WHERE = ", ".join(f"lib{library}" for library in LIBRARIES)
 NO_BREAK = "\u00a0"
 NEW_CODES = "New: a code that the original does not have; one line on stderr says why."
 
@@ -44,7 +45,6 @@ class Routine:
     def __init__(self, name, entry, common):
         self.name = name
         self.purpose = entry.pop("purpose")
-        self.libraries = entry.pop("libraries", LIBRARIES)
         self.details = entry.pop("details", [])
         self.arguments = [Argument(line, common["meaning"]) for line in lines(entry.pop("arguments"))]
         self.absent = {library: names.split(", ") for library, names in entry.pop("absent", {}).items()}
@@ -79,9 +79,6 @@ class Routine:
 
     def has_new_codes(self):
         return any("(new)" in when for _, when, _ in self.ier)
-
-    def where(self):
-        return ", ".join(f"lib{library}" for library in self.libraries)
 
 
 def lines(text):
@@ -139,7 +136,7 @@ def markdown_page(routine):
         return f"[{name}]({name.lower()}.md)"
 
     text = [f"# {routine.name}", routine.purpose,
-            "```fortran\n" + "\n".join(routine.synopsis()) + "\n```", f"In {routine.where()}."]
+            "```fortran\n" + "\n".join(routine.synopsis()) + "\n```", f"In {WHERE}."]
     text += map(markdown_paragraph, routine.details)
     text.append(markdown_table(["argument", "type", "use", "meaning"],
                                [[", ".join(a.names), str(a), a.use, a.meaning] for a in routine.arguments]))
@@ -170,8 +167,8 @@ interfaces; `use stripack` gives interfaces.
 | library | real | integer, logical | |
 | --- | --- | --- | --- |
 | libstripack | 8 bytes | 4 bytes | |
-| libstripack_r4 | 4 bytes | 4 bytes | without TRLIST2, VORONOI_POLY_COUNT |
-| libstripack_8arg | 8 bytes | 4 bytes | TRMESH with 8 arguments; also TRIAREAS |
+| libstripack_r4 | 4 bytes | 4 bytes | |
+| libstripack_8arg | 8 bytes | 4 bytes | TRMESH with 8 arguments |
 | libstripack_i8 | 8 bytes | 8 bytes | for codes compiled with `-fdefault-integer-8`, `-i8`; N up to 357,913,943 as everywhere |
 
 For all of them: nodes and slots count from 1, angles are in radians unless a page says degrees, lengths in units of the
@@ -182,15 +179,30 @@ have, also prints one line on stderr that says why."""
 
 INDEX_TAIL = """## Not in these libraries
 
-- ARC_COSINE, R83VEC_NORMALIZE and TIMESTAMP, which the Fortran 90 text of STRIPACK carries along: many programs define
-  routines of these names themselves, and two definitions would clash. If yours calls them, keep those few lines.
 - SSRFPACK (interpolation, Algorithm 773), which some copies of STRIPACK contain: keep yours. It calls STRIPACK's symbols and
   works on the lists of these libraries.
+
+## Helpers of the Fortran 90 text
+
+Programs written against that text also call routines of the same file that have nothing to do with triangulations. They are
+in the archive `libstripack_f90.a`, to be linked before the library: `$(pstripack-config --abi f90,r8 --libs)`, `pkg-config
+--libs stripack_f90 stripack`, or the CMake target `pstripack::stripack_f90`. Each is an object of its own, so that a
+routine of the same name in your program is used instead.
+
+| routine | what it does |
+| --- | --- |
+| `call timestamp()` | prints date and time on standard output: `31 May 2001   9:45:54.872 AM` |
+| `arc_cosine(c)` | arc cosine, real(8); arguments beyond -1 and 1 count as -1 and 1 |
+| `d_pi()`, `r_pi()` | pi, real(8) and real(4) |
+| `call d3vec_normalize(n, x, y, z)`, `call r83vec_normalize(n, x, y, z)` | scales n vectors, real(8), to length 1, in place; zero vectors stay |
+
+Reals are real(8), as in that text, but for `r_pi`. `n` is a default integer of 4 bytes, or of 8 bytes on little-endian machines.
+A program in single precision keeps its own `arc_cosine` and `r83vec_normalize`.
 
 ## How these pages are made
 
 The table is `docs/api/routines/*.toml`; `docs/api/make-api.py` makes from it these pages, the man pages, the module
-`stripack` and the lists of symbols. Edit the table, run it, commit all of them; a test compares."""
+`stripack` and the list of symbols. Edit the table, run it, commit all of them; a test compares."""
 
 
 def markdown_index(groups):
@@ -245,7 +257,7 @@ def man_page(routine):
     purpose = routine.purpose[0].lower() + routine.purpose[1:].rstrip(".")
     page = [MADE_HERE, f'.TH {routine.name} 3 "" PSTRIPACK STRIPACK',
             ".SH NAME", f"{routine.name.lower()} \\- {troff(purpose)}",
-            ".SH LIBRARY", troff(routine.where()), ".SH SYNOPSIS"] + troff_code(routine.synopsis())[1:]
+            ".SH LIBRARY", troff(WHERE), ".SH SYNOPSIS"] + troff_code(routine.synopsis())[1:]
     if routine.details:
         page.append(".SH DESCRIPTION")
         for paragraph in routine.details:
@@ -304,8 +316,7 @@ def interface(routine, library):
         if dummies:
             text.append(fortran_line(f"{KINDS[type_]} :: {', '.join(dummies)}", "      "))
     if routine.lout:
-        text += ["#ifdef STRIPACK_WITH_LOUT", "      integer :: lout", "#else",
-                 "      integer, optional :: lout  ! not looked at", "#endif"]
+        text.append("      integer, optional :: lout")
     return "\n".join(text + [f"    end {'function' if kind else 'subroutine'}"])
 
 
@@ -327,12 +338,7 @@ def module_entry(routine):
     if routine.absent:
         return (f"{comment}\n#ifdef STRIPACK_8_ARGUMENTS\n{interface(routine, 'stripack_8arg')}\n#else\n"
                 f"{interface(routine, None)}\n#endif")
-    text = f"{comment}\n{interface(routine, None)}"
-    if routine.libraries == ["stripack_8arg"]:
-        return f"#ifdef STRIPACK_8_ARGUMENTS\n{text}\n#endif"
-    if "stripack_r4" not in routine.libraries:
-        return f"#ifndef STRIPACK_WITHOUT_F90_EXTRAS\n{text}\n#endif"
-    return text
+    return f"{comment}\n{interface(routine, None)}"
 
 
 def module_text(groups):
@@ -348,19 +354,17 @@ def make_all(groups):
     """The files by their path from ROOT."""
     routines = [routine for _, members in groups for routine in members]
     files = {"docs/api/README.md": markdown_index(groups), "docs/api/ier.md": markdown_ier(groups),
-             "src/fortran/stripack_module.F90": module_text(groups)}
+             "src/fortran/stripack_module.F90": module_text(groups),
+             "src/fortran/symbols.txt": "".join(sorted(f"{routine.name.lower()}_\n" for routine in routines))}
     for routine in routines:
         files[f"docs/api/{routine.name.lower()}.md"] = markdown_page(routine)
         files[f"docs/man/man3/{routine.name.lower()}.3"] = man_page(routine)
-    for library in LIBRARIES:
-        symbols = sorted(f"{routine.name.lower()}_\n" for routine in routines if library in routine.libraries)
-        files[f"src/fortran/symbols/{library}.txt"] = "".join(symbols)
     return files
 
 
 def stale(files):
     """The paths that are not as they would be written, or would not be there."""
-    there = {path for folder in ("docs/api/*.md", "src/fortran/symbols/*") for path in ROOT.glob(folder)}
+    there = set(ROOT.glob("docs/api/*.md"))
     there |= {path for path in ROOT.glob("docs/man/man3/*") if path.read_text().startswith(MADE_HERE)}
     there = {path.relative_to(ROOT).as_posix() for path in there}
     return sorted(path for path in there | files.keys()
@@ -392,7 +396,7 @@ end subroutine
 def print_examples(groups, library):
     for _, routines in groups:
         for routine in routines:
-            if library in routine.libraries and library not in routine.absent:
+            if library not in routine.absent:
                 print(EXAMPLE.format(name=routine.name.lower(), example=textwrap.indent(routine.example, "  ")))
 
 

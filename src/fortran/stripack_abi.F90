@@ -10,7 +10,7 @@
 !
 ! Rules of this text: arrays are assumed-size, so that nothing is ever copied; a routine calls nothing but
 ! one function of libpstripack, never a public symbol, since programs define a SWAP, INSERT, LEFT or STORE
-! of their own; there is no STOP, no saved variable, no output but by routines that print, and the messages on
+! of their own; there is no STOP, no saved variable but IDENT, no output but by routines that print, and the messages on
 ! standard output that EDGE and DELNOD have always printed; all are recursive, since threads may call at once.
 ! What the routines do:
 ! the headers in src/cxx/stripack and the interfaces in stripack_module.F90.
@@ -37,6 +37,11 @@
 #endif
 #endif
 
+! By this text in a program or library, stripped or not, `pstripack-config --check` knows our routines from others of
+! the same names. It is volatile and decides something, so that no compiler or linker leaves it out.
+#define IDENT(ROUTINE) character(len=40), save, volatile :: ident = "@(#)PSTRIPACK "//STRIPACK_LIBRARY//" "//ROUTINE
+#define KEEP_IDENT if (ident(1:1) /= "@") return
+
 #ifdef STRIPACK_TRMESH
 #ifdef STRIPACK_8_ARGUMENTS
 recursive subroutine trmesh(n, x, y, z, list, lptr, lend, ier)
@@ -52,6 +57,7 @@ recursive subroutine trmesh(n, x, y, z, list, lptr, lend, lnew, near, next, dist
   integer(INTEGER_KIND) :: n, list(*), lptr(*), lend(*), lnew, near(*), next(*), ier
   real(REAL_KIND) :: x(*), y(*), z(*), dist(*)
 #endif
+  IDENT("TRMESH")
   interface
     function c_trmesh(n, x, y, z, list, lptr, lend, lnew) bind(c, name="pstripack_trmesh"//OF_TRMESH)
       import
@@ -60,6 +66,7 @@ recursive subroutine trmesh(n, x, y, z, list, lptr, lend, lnew, near, next, dist
       integer(INTEGER_KIND) :: list(*), lptr(*), lend(*), lnew, c_trmesh
     end function
   end interface
+  KEEP_IDENT
   ier = c_trmesh(n, x, y, z, list, lptr, lend, lnew)
 end subroutine
 #endif
@@ -198,6 +205,7 @@ recursive subroutine trlist(n, list, lptr, lend, nrow, nt, ltri, ier)
   use, intrinsic :: iso_c_binding
   implicit none
   integer(INTEGER_KIND) :: n, list(*), lptr(*), lend(*), nrow, nt, ltri(*), ier
+  IDENT("TRLIST")
   interface
     subroutine c_trlist(n, list, lptr, lend, nrow, nt, ltri, ier) bind(c, name="pstripack_trlist"//OF_INTEGER)
       import
@@ -205,6 +213,7 @@ recursive subroutine trlist(n, list, lptr, lend, nrow, nt, ltri, ier)
       integer(INTEGER_KIND) :: list(*), lptr(*), lend(*), nt, ltri(*), ier
     end subroutine
   end interface
+  KEEP_IDENT
   call c_trlist(n, list, lptr, lend, nrow, nt, ltri, ier)
 end subroutine
 #endif
@@ -231,6 +240,7 @@ recursive subroutine crlist(n, ncol, x, y, z, list, lend, lptr, lnew, ltri, list
   implicit none
   integer(INTEGER_KIND) :: n, ncol, list(*), lend(*), lptr(*), lnew, ltri(*), listc(*), nb, ier
   real(REAL_KIND) :: x(*), y(*), z(*), xc(*), yc(*), zc(*), rc(*)
+  IDENT("CRLIST")
   interface
     subroutine c_crlist(n, ncol, x, y, z, list, lend, lptr, lnew, ltri, listc, nb, xc, yc, zc, rc, ier) &
         bind(c, name="pstripack_crlist"//OF_REAL)
@@ -240,6 +250,7 @@ recursive subroutine crlist(n, ncol, x, y, z, list, lend, lptr, lnew, ltri, list
       real(REAL_KIND) :: x(*), y(*), z(*), xc(*), yc(*), zc(*), rc(*)
     end subroutine
   end interface
+  KEEP_IDENT
   call c_crlist(n, ncol, x, y, z, list, lend, lptr, lnew, ltri, listc, nb, xc, yc, zc, rc, ier)
 end subroutine
 #endif
@@ -250,6 +261,7 @@ recursive subroutine trfind(nst, p, n, x, y, z, list, lptr, lend, b1, b2, b3, i1
   implicit none
   integer(INTEGER_KIND) :: nst, n, list(*), lptr(*), lend(*), i1, i2, i3
   real(REAL_KIND) :: p(3), x(*), y(*), z(*), b1, b2, b3
+  IDENT("TRFIND")
   interface
     subroutine c_trfind(nst, p, n, x, y, z, list, lptr, lend, b1, b2, b3, i1, i2, i3) &
         bind(c, name="pstripack_trfind"//OF_REAL)
@@ -259,6 +271,7 @@ recursive subroutine trfind(nst, p, n, x, y, z, list, lptr, lend, b1, b2, b3, i1
       real(REAL_KIND) :: p(*), x(*), y(*), z(*), b1, b2, b3
     end subroutine
   end interface
+  KEEP_IDENT
   call c_trfind(nst, p, n, x, y, z, list, lptr, lend, b1, b2, b3, i1, i2, i3)
 end subroutine
 #endif
@@ -498,6 +511,7 @@ recursive subroutine getnp(x, y, z, list, lptr, lend, l, npts, df, ier)
   implicit none
   real(REAL_KIND) :: x(*), y(*), z(*), df
   integer(INTEGER_KIND) :: list(*), lptr(*), lend(*), l, npts(*), ier
+  IDENT("GETNP")
   interface
     subroutine c_getnp(x, y, z, list, lptr, lend, l, npts, df, ier) bind(c, name="pstripack_getnp"//OF_REAL)
       import
@@ -506,6 +520,7 @@ recursive subroutine getnp(x, y, z, list, lptr, lend, l, npts, df, ier)
       integer(INTEGER_KIND) :: list(*), lptr(*), lend(*), npts(*), ier
     end subroutine
   end interface
+  KEEP_IDENT
   call c_getnp(x, y, z, list, lptr, lend, l, npts, df, ier)
 end subroutine
 #endif
@@ -591,17 +606,20 @@ end subroutine
 #endif
 
 ! The routines that print: libpstripack composes the text, write_records.inc writes it.
-! TRPRNT, TRLPRT: Algorithm 772 has a last argument LOUT, the Fortran 90 texts, which are REAL*8, have not and
-! print to standard output. Whether it was passed cannot be seen, so libraries that callers of both kinds link
-! never look at it.
+! TRPRNT, TRLPRT: Algorithm 772 has a last argument LOUT, the Fortran 90 texts have not and print to standard
+! output. Those texts are REAL*8: libstripack and libstripack_8arg never look at LOUT. The others serve mostly callers
+! that pass it: listing_unit.inc says when it counts.
 #if STRIPACK_REAL_BYTES == 8 && STRIPACK_INTEGER_BYTES == 4
 #define F90_LISTING 1
 #define AND_LOUT
-#define DECLARE_LOUT integer(INTEGER_KIND), parameter :: lout = 6
+#define DECLARE_LOUT
+#define LISTING_UNIT(fifth, sixth, seventh, eighth) int(6, INTEGER_KIND)
 #else
+#define STRIPACK_WITH_LOUT
 #define F90_LISTING 0
 #define AND_LOUT , lout
-#define DECLARE_LOUT integer(INTEGER_KIND) :: lout
+#define DECLARE_LOUT integer(INTEGER_KIND), optional :: lout
+#define LISTING_UNIT(fifth, sixth, seventh, eighth) listing_unit(lout, n, fifth, sixth, seventh, eighth)
 #endif
 
 #ifdef STRIPACK_TRPRNT
@@ -622,9 +640,11 @@ recursive subroutine trprnt(n, x, y, z, iflag, list, lptr, lend AND_LOUT)
       type(c_ptr) :: c_trprnt
     end function
   end interface
-  call write_records(c_trprnt(n, x, y, z, iflag, list, lptr, lend, int(F90_LISTING, INTEGER_KIND)), lout, status)
+  call write_records(c_trprnt(n, x, y, z, iflag, list, lptr, lend, int(F90_LISTING, INTEGER_KIND)), &
+                     LISTING_UNIT(iflag, list(1), lptr(1), lend(1)), status)
   if (status /= 0) write (error_unit, '(a,i0)') "pstripack: TRPRNT: cannot write, IOSTAT = ", status
 contains
+#include "listing_unit.inc"
 #include "write_records.inc"
 end subroutine
 #endif
@@ -647,9 +667,11 @@ recursive subroutine trlprt(n, x, y, z, iflag, nrow, nt, ltri AND_LOUT)
       type(c_ptr) :: c_trlprt
     end function
   end interface
-  call write_records(c_trlprt(n, x, y, z, iflag, nrow, nt, ltri, int(F90_LISTING, INTEGER_KIND)), lout, status)
+  call write_records(c_trlprt(n, x, y, z, iflag, nrow, nt, ltri, int(F90_LISTING, INTEGER_KIND)), &
+                     LISTING_UNIT(iflag, nrow, nt, ltri(1)), status)
   if (status /= 0) write (error_unit, '(a,i0)') "pstripack: TRLPRT: cannot write, IOSTAT = ", status
 contains
+#include "listing_unit.inc"
 #include "write_records.inc"
 end subroutine
 #endif

@@ -6,19 +6,16 @@
 ! the module file. What gfortran needs to be told, by library:
 !
 !   libstripack        nothing
-!   libstripack_r4     -DSTRIPACK_REAL_KIND=4 -DSTRIPACK_WITHOUT_F90_EXTRAS -DSTRIPACK_WITH_LOUT
+!   libstripack_r4     -DSTRIPACK_REAL_KIND=4
 !   libstripack_8arg   -DSTRIPACK_8_ARGUMENTS
-!   libstripack_i8     -fdefault-integer-8 -DSTRIPACK_WITH_LOUT
+!   libstripack_i8     -fdefault-integer-8
 !
 !   STRIPACK_MODULE        name of the module                    default: stripack
 !                          (CMake's own dependency scanner does not see through it; in a CMake project write
 !                          a module of that name that contains `use stripack`)
 !   STRIPACK_REAL_KIND     kind of all REAL arguments            default: double precision, which is the kind
 !                          of the library and of a default REAL promoted by -r8 or -fdefault-real-8
-!   STRIPACK_WITHOUT_F90_EXTRAS   no TRLIST2, VORONOI_POLY_COUNT, which libstripack_r4 does not have
-!   STRIPACK_WITH_LOUT     TRPRNT and TRLPRT print on unit LOUT. The other libraries serve programs that do
-!                          not pass it, too; so they cannot look at it and print on standard output
-!   STRIPACK_8_ARGUMENTS   TRMESH without LNEW, NEAR, NEXT, DIST; with TRIAREAS
+!   STRIPACK_8_ARGUMENTS   TRMESH without LNEW, NEAR, NEXT, DIST
 !
 ! INTEGER and LOGICAL are the default kinds. No dummy has an INTENT: programs pass INTENT(IN) arrays of
 ! their own as output, as the original allows. Arrays are explicit-shape or assumed-size.
@@ -51,7 +48,8 @@ module stripack
     ! The lists are canonical: the neighbours of node k in consecutive slots, nodes in increasing order; an
     ! interior node starts with its smallest neighbour, a boundary node with its first boundary neighbour.
     ! They are the same bytes for any number of threads and ranks. `PSTRIPACK_ORDER=original` gives the order
-    ! of the original's insertion instead, wherever the original returns a correct triangulation.
+    ! of the original's insertion instead, wherever the original returns a correct triangulation;
+    ! `PSTRIPACK_ORDER=bitwise` also where its triangulation is not exact, with its IER.
     ! IER  0 done; -1 N < 3; -2 nodes 1, 2, 3 lie on one great circle, by exact sign: give others first;
     !      L > 0 nodes L and M coincide, L < M; M is the smallest such index; -4 N > 357,913,943: 6N-11 does
     !      not fit 32 bits, in libstripack_i8 neither (new); -5 a coordinate is not finite, or a node is
@@ -81,7 +79,6 @@ module stripack
       integer :: n, list(*), lptr(*), lend(n), nrow, nt, ltri(nrow, *), ier
     end subroutine
 
-#ifndef STRIPACK_WITHOUT_F90_EXTRAS
     ! Lists the corners of the triangles.
     ! Rows 1-3 of what TRLIST gives, with the same numbers.
     ! IER  0 done; 1 N < 3; 2 not the lists of a triangulation: a neighbour does not list the node; -6 out of
@@ -89,7 +86,6 @@ module stripack
     subroutine trlist2(n, list, lptr, lend, nt, ltri, ier)
       integer :: n, list(*), lptr(*), lend(n), nt, ltri(3, *), ier
     end subroutine
-#endif
 
     ! Lists the boundary nodes and counts arcs and triangles.
     ! NODES starts with the boundary node of smallest index and goes round counterclockwise. NB = 0 if the
@@ -122,8 +118,9 @@ module stripack
     ! Finds the next nearest node to a node.
     ! NPTS(1) is a node, NPTS(2..L-1) the nodes nearest to it, in order, as earlier calls have given them; the
     ! call adds NPTS(L). L = 2, 3, ... so gives all nodes by their distance from NPTS(1).
-    ! IER  0 done; 1 L < 2; -5 a distance is not finite (new); -6 out of memory, only if L > 65 (new);
-    !      -10 NPTS has a number below 1, or one twice (new); -11 no node is left: L > N (new).
+    ! IER  0 done; 1 L < 2; -5 a distance is not finite (new); -6 out of memory, only if L > 257 (new); -9 a
+    !      list runs into a loop (new); -10 NPTS has a number below 1, or one twice (new); -11 no node is
+    !      left: L > N (new).
     subroutine getnp(x, y, z, list, lptr, lend, l, npts, df, ier)
       integer :: list(*), lptr(*), lend(*), l, npts(*), ier
       real(STRIPACK_REAL_KIND) :: x(*), y(*), z(*), df
@@ -299,14 +296,12 @@ module stripack
       real(STRIPACK_REAL_KIND) :: v1(3), v2(3), v3(3), c(3)
     end subroutine
 
-#ifndef STRIPACK_WITHOUT_F90_EXTRAS
     ! Prints how many cells of the Voronoi diagram have how many edges.
     ! On standard output: faces, vertices, edges, the Euler defect F+V-E-2, and a table of the numbers of
     ! cells with 1 to 19, and 20 or more, edges. All arguments are as CRLIST leaves them.
     subroutine voronoi_poly_count(n, lend, lptr, listc)
       integer :: n, lend(n), lptr(*), listc(*)
     end subroutine
-#endif
 
     ! Prints the adjacency lists.
     ! Per node its number, coordinates as IFLAG says, and its neighbours, counterclockwise; those of a
@@ -315,11 +310,7 @@ module stripack
     subroutine trprnt(n, x, y, z, iflag, list, lptr, lend, lout)
       integer :: n, iflag, list(*), lptr(*), lend(n)
       real(STRIPACK_REAL_KIND) :: x(*), y(*), z(*)
-#ifdef STRIPACK_WITH_LOUT
-      integer :: lout
-#else
-      integer, optional :: lout  ! not looked at
-#endif
+      integer, optional :: lout
     end subroutine
 
     ! Prints the triangles.
@@ -328,11 +319,7 @@ module stripack
     subroutine trlprt(n, x, y, z, iflag, nrow, nt, ltri, lout)
       integer :: n, iflag, nrow, nt, ltri(nrow, *)
       real(STRIPACK_REAL_KIND) :: x(*), y(*), z(*)
-#ifdef STRIPACK_WITH_LOUT
-      integer :: lout
-#else
-      integer, optional :: lout  ! not looked at
-#endif
+      integer, optional :: lout
     end subroutine
 
     ! Draws a triangulation as an Encapsulated PostScript file.
@@ -384,14 +371,12 @@ module stripack
       real(STRIPACK_REAL_KIND) :: v1(3), v2(3), v3(3), areas
     end function
 
-#ifdef STRIPACK_8_ARGUMENTS
     ! Areas of listed triangles.
     ! AREAS of each triangle; NaN where a corner is outside 1..N.
     subroutine triareas(n, x, y, z, nt, triangles, triarea)
       integer :: n, nt, triangles(3, *)
       real(STRIPACK_REAL_KIND) :: x(n), y(n), z(n), triarea(*)
     end subroutine
-#endif
 
     ! Tests on which side of a great circle a point lies.
     ! True if point 0 lies to the left of, or on, the great circle from point 1 to point 2, seen from outside

@@ -76,7 +76,7 @@ endif()
 
 symbols_of(${ARCHIVE} needed --undefined-only)
 foreach(name IN LISTS needed)
-  if(NOT name MATCHES "^(pstripack_|_gfortran_(st_write|transfer_))" AND NOT name MATCHES "${instrumented}")
+  if(NOT name MATCHES "^(pstripack_|_gfortran_(st_write|st_inquire|transfer_))" AND NOT name MATCHES "${instrumented}")
     message(FATAL_ERROR "${ARCHIVE} needs ${name}")
   endif()
 endforeach()

@@ -671,13 +671,13 @@ TEST(GivingUp, WhereThereAreTooManyQuestions) {
                   .gave_up);
 }
 
-bool gives_up(const std::string& family, ParallelCost& cost) {
+bool gives_up(const std::string& family, int patches, std::size_t most_questions, ParallelCost& cost) {
   const Set set(point_sets::make(family, 20000, 1));
   SingleProcess process;
   const LocalNodes local{set.nodes.data(), set.nodes.size()};
   ParallelOptions options;
-  options.patches = 2;
-  options.most_questions = set.nodes.size() / 8;
+  options.patches = patches;
+  options.most_questions = most_questions;
   const Point corners[3] = {set.nodes[0], set.nodes[1], set.nodes[2]};
   return triangulate<std::int32_t>(local, look_at(local.points, local.count), corners, {1, 2, 3}, process,
                                    options, &cost)
@@ -686,18 +686,27 @@ bool gives_up(const std::string& family, ParallelCost& cost) {
 
 TEST(GivingUp, BeforeTheTriangulationWherePatchesWouldNotPay) {
   for (const char* family :
-       {"small-circle:1", "moment:6", "hemisphere-rim", "crossing:1e-3", "cap:1e-12", "nest:150"}) {
+       {"small-circle:1", "moment:6", "hemisphere-rim", "crossing:1e-3", "axis-cap:1e-150", "nest:150"}) {
     ParallelCost cost;
-    EXPECT_TRUE(gives_up(family, cost)) << family;
+    EXPECT_TRUE(gives_up(family, 2, 2500, cost)) << family;
     EXPECT_EQ(cost.seconds[ParallelCost::triangulate], 0) << family;
   }
 }
 
 TEST(GivingUp, NotWhereTheyPay) {
-  for (const char* family : {"random", "latlon", "earth", "variable:1e6", "hemisphere", "box", "cap:0.0175",
-                             "strip:1e-15", "comb:1e-9", "ulp-groups:8", "tracks:50", "coast:0.3"}) {
+  for (const char* family :
+       {"random", "latlon", "earth", "variable:1e6", "hemisphere", "box", "cap:0.0175", "strip:1e-15",
+        "comb:1e-9", "ulp-groups:8", "tracks:50", "coast:0.3", "cap:1e-12"}) {
     ParallelCost cost;
-    EXPECT_FALSE(gives_up(family, cost)) << family;
+    EXPECT_FALSE(gives_up(family, 2, 2500, cost)) << family;
+  }
+}
+
+TEST(GivingUp, NodesThatAreCloseTogetherAreNoReasonToAsk) {
+  for (const char* family :
+       {"random", "cap:1e-6", "cap:1e-10", "dense-cap:1e-7", "pairs:1e-10", "ulp-groups:8"}) {
+    ParallelCost cost;
+    EXPECT_FALSE(gives_up(family, 16, 4000, cost)) << family;
   }
 }
 

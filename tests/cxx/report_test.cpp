@@ -181,18 +181,40 @@ TEST(Report, OfAForkedChildIsItsOwn) {
   EXPECT_TRUE(matches(all[7], row_of(2))) << "the parent's: one call before, one after";
 }
 
+/// How the line of the first call ends under PSTRIPACK_ORDER.
+std::string order_of(const std::string& order, const std::string& arguments) {
+  const Folder folder;
+  const std::string line = lines(run(folder, kOne + " PSTRIPACK_ORDER=" + order, arguments).err)[0];
+  return line.substr(line.find(" order=") + 1);
+}
+
 /// Under PSTRIPACK_ORDER=original; a canonical result is one that is right by our own rules.
 TEST(Report, TellsTheOrder) {
-  const Folder folder;
-  const auto order_of = [&](const std::string& arguments) {
-    const std::string line = lines(run(folder, kOne + " PSTRIPACK_ORDER=original", arguments).err)[0];
-    return line.substr(line.find(" order=") + 1);
-  };
+  const auto order_of = [&](const std::string& arguments) { return ::order_of("original", arguments); };
   EXPECT_EQ(order_of("inserted random 1000 1"), "order=original");
   EXPECT_EQ(order_of("calls latlon 1000 1"), "order=canonical: the original's triangulation is not Delaunay");
   EXPECT_EQ(order_of("meridian"), "order=canonical: the original's search for node 4 does not end");
   EXPECT_EQ(order_of("in-line"),
             "order=canonical: to the original node 5 lies in line with all that it sees");
+  EXPECT_EQ(order_of("six"), "order=canonical: the original's triangulation is not Delaunay");
+}
+
+TEST(Report, TellsHowFarFromTheExactMeshTheOriginalIs) {
+  const auto order_of = [&](const std::string& arguments) { return ::order_of("bitwise", arguments); };
+  EXPECT_EQ(order_of("inserted random 1000 1"), "order=original");
+  EXPECT_EQ(order_of("six"), "order=original: differs from the exact mesh in 1 arc and 2 boundary triangles");
+  EXPECT_EQ(order_of("copy"), "order=original: the exact IER is 2");
+  EXPECT_EQ(order_of("collinear"), "order=original: the exact IER is -2");
+  EXPECT_EQ(order_of("meridian"), "order=canonical: the original's search for node 4 does not end");
+  EXPECT_EQ(order_of("in-line"),
+            "order=canonical: to the original node 5 lies in line with all that it sees");
+}
+
+TEST(Report, TellsTheOrdersThatThereAre) {
+  const Folder folder;
+  EXPECT_EQ(lines(run(folder, "PSTRIPACK_ORDER=bitwse", "calls random 100 1").err),
+            std::vector<std::string>{"pstripack: PSTRIPACK_ORDER=bitwse: not canonical, original, bitwise, "
+                                     "ngmath or bitwise-ngmath; canonical is used"});
 }
 
 /// Four nodes of one meridian; and five of which the fourth hangs on the others by a null triangle.
@@ -206,6 +228,24 @@ const Nodes kInLine{{-0.5773502691896258, 0.5773502691896258, -0.577350269189625
                     {-0.5773502691896258, 0.5773502691896258, 0.5773502691896258},
                     {0, 0, 1}};
 
+/// Three nodes on each of two meridians, whose middle ones lie on the arc between the others up to rounding.
+const Nodes kSix{{0.43730985356969798, -0.75744288503322266, -0.48480962024633706},
+                 {0.57476950271242455, -0.73567141543654491, -0.35836794954530027},
+                 {0.46679021324860098, -0.80850436582248753, -0.35836794954530027},
+                 {0.5998821115988352, -0.76781408904324377, -0.224951054343865},
+                 {0.48718503239261773, -0.843829228791103, -0.224951054343865},
+                 {0.53846965924633561, -0.6892097345422058, -0.48480962024633706}};
+/// A copy of a boundary node that the original overlooks; and three nodes that it takes for a triangle.
+const Nodes kCopy{{0.055377944486151971, 0.60915738934767161, 0.79111349265931374},
+                  {0.4174990074953337, -0.42552783456255167, 0.80288270672179562},
+                  {0.39353301315160438, 0.54203603698239844, 0.7425151191539705},
+                  {0.02410824797196362, -0.59467011664176939, 0.80360826573212074},
+                  {0.4174990074953337, -0.42552783456255167, 0.80288270672179562}};
+const Nodes kCollinear{{0.40453300979666307, 0.50375808767131636, 0.76326982980502467},
+                       {0.037488103807702212, -0.34676496022124548, 0.93720259519255533},
+                       {0.40453300979666307, 0.50375808767131636, 0.76326982980502467},
+                       {0.10629463039294457, -0.45175217917001442, 0.88578858660787141}};
+
 /// What the cases run. Exit code 0 if all results are as without a report.
 int run_as(const std::string& action, const std::string& family, std::size_t n, int count) {
   if (action == "codes") return codes_are_right() ? 0 : 1;
@@ -213,6 +253,8 @@ int run_as(const std::string& action, const std::string& family, std::size_t n, 
     call_trmesh(action == "meridian" ? kMeridian : kInLine);
     return 0;
   }
+  for (const auto& [name, nodes] : {std::pair("six", &kSix), {"copy", &kCopy}, {"collinear", &kCollinear}})
+    if (action == name) return trmesh(*nodes).ier;
   const Nodes nodes = point_sets::make(family, n);
   if (action == "inserted") return trmesh(nodes).ier;
   const auto call = [&nodes] { call_trmesh(nodes); };

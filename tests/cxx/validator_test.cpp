@@ -316,6 +316,30 @@ TEST(Validator, FindsSurfacesThatAreNeitherSphereNorDisc) {
             "the surface is not one sphere or one disc: 1 component(s), 2(V-E+F) = -2, 6 boundary arcs");
 }
 
+/// Of lists alone: two spheres are none; one sphere or disc is, wherever its nodes lie.
+TEST(Validator, KnowsTheTopologyOfLists) {
+  Faces two = brute_force(octahedron, On::coordinates);
+  EXPECT_TRUE(check_topology(view(canonical_lists(*rings_of(6, two)))));
+  Faces other = two;
+  for (auto& f : other)
+    for (auto& k : f) k += 6;
+  two.insert(two.end(), other.begin(), other.end());
+  const Lists lists = canonical_lists(*rings_of(12, two));
+  EXPECT_TRUE(check_lists(view(lists)));
+  EXPECT_EQ(check_topology(view(lists)).message,
+            "the surface is not one sphere or one disc: 2 component(s), 2(V-E+F) = 8, 0 boundary arcs");
+
+  const Nodes nodes = make("random", 40, 5);
+  Faces faces = brute_force(nodes, On::coordinates);
+  faces.erase(faces.begin() + 11);
+  const Lists dented = canonical_lists(*rings_of(nodes.size(), faces));
+  EXPECT_FALSE(judge(nodes, dented));
+  EXPECT_TRUE(check_topology(view(dented)));
+  Lists broken = dented;
+  broken.list[0] = broken.list[1];
+  EXPECT_FALSE(check_topology(view(broken)));
+}
+
 TEST(Validator, FindsADentInTheBoundary) {
   const Nodes nodes = make("hemisphere", 30, 5);
   const Faces faces = brute_force(nodes, On::coordinates);

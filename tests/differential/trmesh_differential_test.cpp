@@ -3,9 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
+#include <set>
 #include <thread>
+#include <utility>
 
 #include "child_process.h"
 #include "differential/differential.h"
@@ -13,6 +17,7 @@
 #include "differential/routines.h"
 #include "point_sets.h"
 #include "stripack/original_order.h"
+#include "stripack/trmesh.h"
 
 using namespace differential;
 using namespace pstripack;
@@ -99,6 +104,77 @@ std::string fault_of_ours(const NodeSet& nodes, const Triangulation& ours) {
 bool is_right(const NodeSet& nodes, const Triangulation& original) {
   const auto [ier, count] = first_copy(nodes);
   return original.ier == ier && nodes_in(original, nodes.x.size()) == count && judged(nodes, original);
+}
+
+/// Are these lists a triangulation at all: do they close, does every arc go both ways, with at most one
+/// triangle on each side, is all connected, with one boundary or none, as STRIPACK marks it, and with Euler's
+/// number?
+bool is_a_triangulation(const Lists& lists, std::size_t n) {
+  const auto at = [](const std::vector<int>& v, int i) { return v.at(static_cast<std::size_t>(i) - 1); };
+  std::set<std::pair<int, int>> sides, used;  // a->b with a triangle on its left; all arcs
+  std::set<int> slots;
+  std::vector<int> boundary(n + 1, 0);  // the next boundary node counterclockwise
+  std::size_t boundary_nodes = 0;
+  for (int k = 1; k <= static_cast<int>(n); ++k) {
+    const int last = at(lists.lend, k);
+    for (int slot = last;;) {
+      if (slot < 1 || slot >= lists.lnew || !slots.insert(slot).second) return false;
+      const int b = at(lists.list, slot), next = at(lists.lptr, slot);
+      if (next < 1 || next >= lists.lnew) return false;
+      const int c = std::abs(at(lists.list, next));
+      if (b == 0 || std::abs(b) > static_cast<int>(n) || c < 1 || c > static_cast<int>(n)) return false;
+      if (!used.insert({k, std::abs(b)}).second || (b < 0 && slot != last)) return false;
+      if (b > 0) sides.insert({k, b});  // of the triangle k, b, c
+      if (b < 0) {
+        boundary[static_cast<std::size_t>(k)] = c;
+        ++boundary_nodes;
+      }
+      slot = next;
+      if (slot == last) break;
+    }
+  }
+  if (slots.size() + 1 != static_cast<std::size_t>(lists.lnew)) return false;
+  std::size_t triangles = 0;  // by their corners
+  for (int k = 1; k <= static_cast<int>(n); ++k) {
+    const int last = at(lists.lend, k);
+    int slot = last;
+    do {
+      const int b = at(lists.list, slot), c = std::abs(at(lists.list, at(lists.lptr, slot)));
+      if (used.count({std::abs(b), k}) == 0) return false;
+      if (b > 0) {
+        ++triangles;
+        if (sides.count({b, c}) == 0 || sides.count({c, k}) == 0) return false;
+      }
+      slot = at(lists.lptr, slot);
+    } while (slot != last);
+  }
+  std::size_t on_the_way = 0;
+  if (boundary_nodes > 0) {
+    const auto start = static_cast<int>(
+        std::find_if(boundary.begin(), boundary.end(), [](int b) { return b != 0; }) - boundary.begin());
+    int k = start;
+    do {
+      ++on_the_way;
+      k = boundary[static_cast<std::size_t>(k)];
+    } while (k != start && k != 0 && on_the_way <= n);
+    if (k != start) return false;
+  }
+  std::vector<bool> reached(n + 1, false);
+  std::vector<int> waiting{1};
+  reached[1] = true;
+  std::size_t count = 1;
+  while (!waiting.empty()) {
+    const int k = waiting.back();
+    waiting.pop_back();
+    for (auto arc = used.lower_bound({k, 0}); arc != used.end() && arc->first == k; ++arc)
+      if (const auto b = static_cast<std::size_t>(arc->second); !reached[b]) {
+        reached[b] = true;
+        ++count;
+        waiting.push_back(arc->second);
+      }
+  }
+  return count == n && on_the_way == boundary_nodes && triangles % 3 == 0 &&
+         n - used.size() / 2 + triangles / 3 == (boundary_nodes == 0 ? 2 : 1);
 }
 
 /// 5.1, 5.2 and 5.4 of what is known about the original: it does not end, or gives up with IER = -2.
@@ -354,4 +430,75 @@ TEST(Differential, TRMESH_on_threads) {
   for (std::size_t i = 0; i < sets.size(); ++i)
     for (int thread = 1; thread < 3; ++thread)
       EXPECT_EQ(difference(results[thread][i], results[0][i]), "") << sets[i]->name;
+}
+
+// Under PSTRIPACK_ORDER=bitwise-ngmath: lists and IER are the original's wherever these lists are a
+// triangulation, right or not; where they are not, or the original gives up or does not end, ours are right.
+
+void expect_bits_of_original(const std::vector<NodeSet>& sets, int least_wrong) {
+  const legacy_stripack::Shared<int> wrong;
+  const Result result = compare_all(
+      sets,
+      [&](const NodeSet& nodes) -> std::string {
+        const Triangulation ours = by_us(nodes), original = by_original(nodes);
+        if (original.ier < 0 || !is_a_triangulation(original.lists, nodes_in(original, nodes.x.size())))
+          return fault_of_ours(nodes, ours);
+        if (!is_right(nodes, original)) ++*wrong.data();
+        return difference(ours, original);
+      },
+      1);
+  std::printf("%d as the original's although that is wrong\n", *wrong.data());
+  EXPECT_GT(*wrong.data(), least_wrong);
+  expect_equal(result, 60);
+  for (const NodeSet& nodes : sets)
+    if (std::count(result.not_returned.begin(), result.not_returned.end(), nodes.name) > 0) {
+      EXPECT_EQ(fault_of_ours(nodes, by_us(nodes)), "") << nodes.name;
+    }
+}
+
+TEST(Bitwise, TRMESH) { expect_bits_of_original(node_sets(), 100); }
+
+TEST(Bitwise, TRMESH_of_grids) {
+  std::vector<NodeSet> sets{kOneMeridian, kHalfACircle, kLateCollinear};
+  const auto add = [&](const std::string& family, std::size_t n) {
+    std::vector<Point> points = point_sets::make(family, n);
+    const std::string name = family + " " + std::to_string(n);
+    sets.push_back(node_set(name, points));
+    point_sets::shuffle(points, 1);
+    sets.push_back(node_set(name + " shuffled", points));
+  };
+  for (const std::size_t n : {10, 50, 200, 1000, 3000, 10000}) add("latlon", n);
+  for (const char* family : {"tripolar", "cubed-sphere", "healpix", "reduced-gaussian"})
+    for (const std::size_t n : {200, 2000}) add(family, n);
+  expect_bits_of_original(sets, 10);
+}
+
+/// In single precision, of which there is no original here.
+TEST(Bitwise, TRMESH_r4) {
+  int wrong = 0, right = 0;
+  for (const NodeSet& nodes : node_sets()) {
+    const std::vector<float> x(nodes.x.begin(), nodes.x.end()), y(nodes.y.begin(), nodes.y.end()),
+        z(nodes.z.begin(), nodes.z.end());
+    ReferenceTrmesh<float> reference(x, y, z, {4, true});
+    const int ier = reference.run();
+    if (ier < 0) continue;
+    Triangulation ours{0, Lists(nodes.n())};
+    kept_seeds() = {};
+    const TrmeshResult result = trmesh(nodes.n(), x.data(), y.data(), z.data(), ours.lists.list.data(),
+                                       ours.lists.lptr.data(), ours.lists.lend.data(), &ours.lists.lnew);
+    ASSERT_EQ(result.ier, ier) << nodes.name;
+    const auto slots = static_cast<std::size_t>(reference.lnew) - 1;
+    const auto are_equal = [](const std::vector<int>& a, const std::vector<int>& b, std::size_t count) {
+      return std::equal(a.begin(), a.begin() + static_cast<std::ptrdiff_t>(count), b.begin() + 1);
+    };
+    ASSERT_EQ(ours.lists.lnew, reference.lnew) << nodes.name;
+    ASSERT_TRUE(are_equal(ours.lists.list, reference.list, slots)) << nodes.name;
+    ASSERT_TRUE(are_equal(ours.lists.lptr, reference.lptr, slots)) << nodes.name;
+    ASSERT_TRUE(are_equal(ours.lists.lend, reference.lend, static_cast<std::size_t>(reference.nodes)))
+        << nodes.name;
+    ++(result.order == OriginalOrder::inexact ? wrong : right);
+  }
+  std::printf("%d wrong, %d right\n", wrong, right);
+  EXPECT_GT(wrong, 100);
+  EXPECT_GT(right, 500);
 }

@@ -4,6 +4,7 @@ version.
 
   check_facts.py ROOT
 """
+import json
 import re
 import sys
 from pathlib import Path
@@ -60,7 +61,20 @@ def version():
             problems.append(f"{document}: not version {number}")
 
 
-for check in codes, functions, environment, version:
+def commands():
+    """Options and presets of CMake in the commands of all documents."""
+    options = set(re.findall(r"(?m)^(?:option|set)\((\w*STRIPACK_\w+)", read("CMakeLists.txt")))
+    presets = {one["name"] for kind, all_of in json.loads(read("CMakePresets.json")).items() if kind.endswith("Presets")
+               for one in all_of}
+    for path in ROOT.glob("*.md"), ROOT.glob("docs/**/*.md"):
+        for page in path:
+            text = page.read_text()
+            for what, known, found in (("option", options, re.findall(r"-D(\w*STRIPACK_(?:WITH|TESTS|TOOLS|EXAMPLES|ORIGINAL)\w*)=", text)),
+                                       ("preset", presets, re.findall(r"--preset ([\w-]+)", text))):
+                problems.extend(f"{page.relative_to(ROOT)}: no {what} {name}" for name in set(found) - known)
+
+
+for check in codes, functions, environment, version, commands:
     check()
 print("\n".join(problems) or "as in the sources")
 sys.exit(1 if problems else 0)

@@ -54,7 +54,7 @@ for kind in shared --static; do
 done
 
 # Every ABI that the list names has answers.
-[ "$(config --abi | wc -l)" -eq 8 ] || fail "--abi lists $(config --abi | wc -l)"
+[ "$(config --abi | wc -l)" -eq 9 ] || fail "--abi lists $(config --abi | wc -l)"
 for abi in r8 r4 8arg i8; do
   [ -e "$(config --abi $abi --switch-dir)/libstripack.so" ] || fail "$abi: no libstripack.so to switch to"
 done
@@ -72,6 +72,7 @@ refused "unknown option --flibs" --flibs
 refused "no ABI is called r16" --abi r16 --libs
 refused "nothing asked for" --abi r4
 refused "c has no Fortran module" --abi c --fflags
+refused "f90 has no Fortran module" --abi f90 --fflags
 refused "not for pstripack" --abi pstripack --switch-dir
 refused "not for r8,r4" --abi r8,r4 --switch-dir
 rm -f "$prefix/include/pstripack_mpi.h"

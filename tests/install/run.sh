@@ -22,7 +22,7 @@ echo "== CMake package"
 cmake -G "$generator" -S "$consumer" -B "$work/cmake" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release \
   -DMPI="${mpiexec:+ON}" > "$work/cmake.log"
 cmake --build "$work/cmake" >> "$work/cmake.log"
-for program in legacy_stripack legacy_stripack_static legacy_stripack_8arg legacy_stripack_r4 legacy_stripack_i8 c_pstripack c_pstripack_archive; do
+for program in legacy_stripack legacy_stripack_static legacy_stripack_8arg legacy_stripack_r4 legacy_stripack_i8 fortran90 c_pstripack c_pstripack_archive; do
   "$work/cmake/$program"
 done
 
@@ -35,7 +35,7 @@ gfortran -fdefault-integer-8 $(pkg-config --cflags stripack_i8) "$consumer/legac
 cc $(pkg-config --cflags pstripack) "$consumer/c_api.c" -o "$work/pc_c" $(pkg-config --libs pstripack)
 for program in pc_r8 pc_r4 pc_8arg pc_i8 pc_c; do "$work/$program"; done
 "$work/pc_c" | grep "^c_api: pstripack $version,"
-for package in stripack stripack_r4 stripack_8arg stripack_i8 pstripack pstripack_fortran; do
+for package in stripack stripack_r4 stripack_8arg stripack_i8 stripack_f90 pstripack pstripack_fortran; do
   pkg-config --exact-version="$version" $package
 done
 unset LD_LIBRARY_PATH

@@ -245,22 +245,18 @@ class EveryRoutine {
       hash_.add(triangles);
       if (rows == 6 && n_ <= 300) print_triangles(triangles, rows, count);
     }
-#ifndef STRIPACK_WITHOUT_F90_EXTRAS
     Guarded<Int> corners(static_cast<std::size_t>(3 * nt), side_);
     Int count = mark, ier = mark;
     call("TRLIST2",
          [&] { trlist2_(&n_, list.data(), lptr.data(), lend.data(), &count, corners.data(), &ier); });
     hash_.add(count, ier);
     hash_.add(corners);
-#ifdef STRIPACK_8_ARGUMENTS
     corners.make_read_only();
     Guarded<Real> areas(static_cast<std::size_t>(nt), side_);
     call("TRIAREAS",
          [&] { triareas_(&n_, x_.data(), y_.data(), z_.data(), &nt, corners.data(), areas.data()); });
     hash_.add(areas);
-#endif
-#endif
-#ifndef STRIPACK_WITH_LOUT  // double, std::int32_t
+#ifndef LOUT_COUNTS  // double, std::int32_t
     Int defect = mark;
     std::uint64_t print = 0;
     call("pstripack_validate", [&] {
@@ -345,11 +341,9 @@ class EveryRoutine {
                 &f.numbers, &code, std::strlen(f.title));
       });
     });
-#ifndef STRIPACK_WITHOUT_F90_EXTRAS
     hash_.add(written_to_stdout([&] {
       call("VORONOI_POLY_COUNT", [&] { voronoi_poly_count_(&n_, lend.data(), lptr.data(), listc.data()); });
     }));
-#endif
   }
 
   // ---- what prints ----
@@ -372,7 +366,7 @@ class EveryRoutine {
   }
   template <class Print>
   void print(const Print& routine) {
-#ifdef STRIPACK_WITH_LOUT
+#ifdef LOUT_COUNTS
     hash_.add(written_to_unit(7, routine));
 #else
     hash_.add(written_to_stdout(routine));

@@ -2,8 +2,9 @@
 # From a bare Debian 12 to running programs, by the packages: a new root folder of nothing but debootstrap's minimum, in
 # which the packages are installed by apt and the examples are built by their own commands. Measures the two commands
 # from the bare root to the first of them. Needs root, debootstrap, network, and some minutes.
-# Usage: tests/packages/bare-root.sh PACKAGES_DIR [ROOT_DIR]
+# Usage: tests/packages/bare-root.sh PACKAGES_DIR|--build [ROOT_DIR]
 #        cmake --workflow --preset packages && tests/packages/bare-root.sh build-packages/packages
+#        --build: instead, the first block of docs/relink.md, which builds the packages there, in a copy of what is committed
 #        ROOT_DIR: a bare root that is there already; it is copied
 set -eu
 if [ "${1:-}" != --in-namespace ]; then  # mounts end with this script
@@ -26,8 +27,12 @@ mount -t proc proc "$root/proc"
 mkdir -p "$root/dev/shm"
 mount -t tmpfs tmpfs "$root/dev/shm"
 mkdir "$root/work"
-cp "$packages"/*.deb "$root/work"
-cp -r "$source/examples" "$root/work"
+if [ "$packages" = --build ]; then
+  git -C "$source" archive HEAD | tar -x -C "$root/work"
+else
+  cp "$packages"/*.deb "$root/work"
+  cp -r "$source/examples" "$root/work"
+fi
 
 # inside COMMAND: as a user of the new system would type it
 inside() {
@@ -35,7 +40,7 @@ inside() {
   echo "\$ $1"
   env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive OMPI_ALLOW_RUN_AS_ROOT=1 \
     OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 \
-    chroot "$root" sh -c "cd /work && { $1
+    chroot "$root" sh -euc "cd /work && { $1
 }" > "$root/output" 2>&1 || { cat "$root/output"; exit 1; }
   tail -n 3 "$root/output"
 }
@@ -47,6 +52,14 @@ example() {
   output_has "$answer"
 }
 
+if [ "$packages" = --build ]; then
+  inside "$(awk '/^```/ { if (inside) exit; inside = /^```sh$/; next } inside' "$source/docs/relink.md" | sed 's/^sudo //')"
+  output_has "$answer"
+  inside "stripack-compare --version && ls /usr/share/doc/pstripack/docs/relink.md"
+  echo
+  echo "bare root: the block of docs/relink.md ran"
+  exit
+fi
 inside "apt-get update -q"
 start=$(date +%s)
 inside "apt-get install -y -q ./libpstripack0_*.deb ./libpstripack-dev_*.deb"

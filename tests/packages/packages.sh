@@ -49,6 +49,7 @@ for abi in r8 r4 8arg i8; do
   has "libpstripack$soname" libgfortran mpi "$lib/pstripack/switch/$abi/libstripack.so"
 done
 has libpstripack-dev "libpstripack$soname" mpi include/pstripack.h include/pstripack/stripack/stripack.mod \
+  "$lib/libstripack_f90.a" "$lib/pkgconfig/stripack_f90.pc" share/pstripack/which_trmesh.sh \
   share/pstripack/stripack_module.F90 "$lib/cmake/pstripack/pstripackConfig.cmake" bin/pstripack-config \
   share/man/man3/trmesh.3.gz share/man/man1/pstripack-config.1.gz
 if grep -q '^PSTRIPACK_WITH_MPI:BOOL=ON' "$build/CMakeCache.txt"; then
@@ -57,15 +58,20 @@ if grep -q '^PSTRIPACK_WITH_MPI:BOOL=ON' "$build/CMakeCache.txt"; then
   has libpstripack-mpi-dev "libpstripack-mpi$soname.*libpstripack-dev.*-dev" netcdf include/pstripack_mpi.h \
     "$lib/libpstripack_mpi.so" "$lib/libpstripack_mpi.a" "$lib/pkgconfig/pstripack_mpi.pc" share/man/man3/pstripack_mpi.3.gz
   has pstripack-mpi "libpstripack$soname .*mpi" python bin/pstripack-run bin/pstripack-worker bin/pstripack-mpi \
-    share/man/man1/pstripack-run.1.gz
+    share/man/man1/pstripack-run.1.gz share/bash-completion/completions/pstripack-run
 fi
 has pstripack "libpstripack$soname \(= $version" mpi bin/pstripack bin/stripack-compare share/man/man1/pstripack.1.gz
+has pstripack-doc '^$' . share/doc/pstripack/README.md share/doc/pstripack/docs/relink.md \
+  share/doc/pstripack/docs/clients/mpas.md share/doc/pstripack/examples/fortran77/mesh.f
+completions=share/bash-completion/completions
+has libpstripack-dev . mpi "$completions/pstripack-config"
+has pstripack . mpi "$completions/pstripack" "$completions/stripack-compare"
 
 # Every file of `cmake --install` but the modulefile, once.
 for file in ./*.deb; do
   dpkg-deb -x "$file" "$work/all"
   dpkg-deb -c "$file" | awk '$1 !~ /^d/ { print $6 }'
-done | sed 's/\.gz$//; s|^\./usr||' | grep -vE '^/share/(doc|lintian)/' | sort > "$work/packed"
+done | sed 's/\.gz$//; s|^\./usr||' | grep -vE '^/share/(doc/[^/]*/(copyright|changelog|changelog.Debian)$|lintian/)' | sort > "$work/packed"
 (cd "$prefix" && find . ! -type d | sed 's/^\.//' | grep -v '^/share/pstripack/modulefiles/' | sort) > "$work/installed"
 diff "$work/installed" "$work/packed" || fail "what is installed (<) is not what is packed (>)"
 

@@ -15,6 +15,7 @@
 #include "capi/report.h"
 #include "capi/version.h"
 #include "geometry/floating_point.h"
+#include "parallel/node_arrays.h"
 #include "stripack/adjacency_lists.h"
 #include "stripack/original_rules.h"
 #include "stripack/trmesh.h"
@@ -73,6 +74,15 @@ template <class Real>
   report.order_node = result.order_node;
   if (result.ier >= 0) report.nodes_in_mesh = result.ier > 0 ? result.other - 1 : n;
   for (std::int64_t k = 0; k < report.nodes_in_mesh; ++k) report.boundary_nodes += list[lend[k] - 1] < 0;
+  if (result.order == OriginalOrder::inexact) {
+    try {
+      const auto nodes = static_cast<std::size_t>(report.nodes_in_mesh);
+      report.difference =
+          exact_difference(NodeArrays(x, y, z), ListsView<std::int32_t>{nodes, list, lptr, lend, *lnew});
+    } catch (...) {
+      // Only std::bad_alloc can come here: the report says that nothing was compared.
+    }
+  }
   pstripack_add_to_report(&report);
   return true;
 }

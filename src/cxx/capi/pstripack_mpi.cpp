@@ -121,9 +121,10 @@ int comm_mode_engine(const pstripack_trmesh_arguments* call, std::int32_t* ier, 
   return mode.ranks->rank() == 0 ? PSTRIPACK_ENGINE_DID_IT : PSTRIPACK_ENGINE_DID_IT_SILENTLY;
 }
 
-/// Under PSTRIPACK_ORDER=original calls are not collective: all ranks must know. Collective.
+/// Where PSTRIPACK_ORDER is not canonical calls are not collective: all ranks must know. Collective.
 bool have_one_order(MpiCommunicator& ranks) {
-  const std::int64_t order = original_rules().follow ? original_rules().tolerance_in_epsilons : 0;
+  const OriginalRules& rules = original_rules();
+  const std::int64_t order = rules.follow ? 2 * rules.tolerance_in_epsilons + (rules.bitwise ? 1 : 0) : 0;
   std::int64_t values[] = {order, -order};
   ranks.all_min(values, 2);
   return values[0] == -values[1];

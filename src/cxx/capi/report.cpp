@@ -117,6 +117,10 @@ class Report {
       case OriginalOrder::made:
         line.add(" order=original");
         break;
+      case OriginalOrder::inexact:
+        line.add(" order=original");
+        add_difference(line, call.difference);
+        break;
       case OriginalOrder::collinear:
         line.add(" order=canonical: to the original node %lld lies in line with all that it sees", node);
         break;
@@ -126,6 +130,23 @@ class Report {
       case OriginalOrder::wrong:
         line.add(" order=canonical: the original's triangulation is not Delaunay");
         break;
+      case OriginalOrder::broken:
+        line.add(" order=canonical: the original's lists are no triangulation");
+        break;
+    }
+  }
+
+  static void add_difference(Text& line, const std::optional<ExactDifference>& difference) {
+    if (!difference) {
+      line.add(": not compared with the exact mesh, out of memory");
+    } else if (difference->ier != 0) {
+      line.add(": the exact IER is %d", static_cast<int>(difference->ier));
+    } else if (const auto [ier, arcs, triangles] = *difference; arcs > 0 || triangles > 0) {
+      line.add(": differs from the exact mesh in ");
+      if (arcs > 0) line.add("%lld arc%s", static_cast<long long>(arcs), arcs == 1 ? "" : "s");
+      if (arcs > 0 && triangles > 0) line.add(" and ");
+      if (triangles > 0)
+        line.add("%lld boundary triangle%s", static_cast<long long>(triangles), triangles == 1 ? "" : "s");
     }
   }
 

@@ -3,9 +3,11 @@
 // process's own; never on stdout. Safe from any thread, in forked children, and after MPI_Finalize.
 
 #include <cstdint>
+#include <optional>
 
 #include "capi/pstripack.h"
 #include "parallel/cost.h"
+#include "stripack/exact_difference.h"
 #include "stripack/trmesh.h"
 
 namespace pstripack {
@@ -20,7 +22,8 @@ struct CallReport {
   std::int32_t ier = 0;
   OriginalOrder order = OriginalOrder::not_asked;
   std::int64_t order_node = 0;
-  double seconds = 0;  ///< of the whole call
+  std::optional<ExactDifference> difference;  ///< of an inexact mesh; none: no memory to find it
+  double seconds = 0;                         ///< of the whole call
   GroupCost cost;
 };
 

@@ -12,7 +12,7 @@ namespace pstripack {
 class ShadowProcess {
  public:
   /// What stands behind `lib:` in PSTRIPACK_CHECK:
-  /// LIBRARY[,abi=r8|r4|8arg][,timeout=SECONDS][,show=K][,log=FILE]. Relative paths start at `folder`. Throws
+  /// LIBRARY[,abi=ABI][,timeout=SECONDS][,show=K][,log=FILE]. Relative paths start at `folder`. Throws
   /// std::invalid_argument.
   ShadowProcess(const std::string& settings, const std::string& folder);
 

@@ -38,6 +38,8 @@ const char* meaning(Status status) {
 }
 const char* meaning(NextNearestStatus status) {
   switch (status) {
+    case NextNearestStatus::broken_lists:
+      return "LIST, LPTR, LEND are not the lists of a triangulation";
     case NextNearestStatus::bad_nodes:
       return "NPTS holds a number below 1, or one twice";
     case NextNearestStatus::none_left:
@@ -135,6 +137,10 @@ extern "C" {
     c[0] = centre.x;                                                                                       \
     c[1] = centre.y;                                                                                       \
     c[2] = centre.z;                                                                                       \
+  }                                                                                                        \
+  void pstripack_triareas_##suffix(Int n, const Real* x, const Real* y, const Real* z, Int nt,             \
+                                   const Int* triangles, Real* triarea) noexcept {                         \
+    in_default_floating_point([&] { triangle_areas(n, Nodes<Real>{x, y, z}, nt, triangles, triarea); });   \
   }
 
 #define MESH_CALLS(Real, Int, suffix)                                                                        \
@@ -214,10 +220,5 @@ MESH_CALLS(double, int64_t, i8)
 QUERY_CALLS(float, int32_t, r4)
 QUERY_CALLS(double, int32_t, r8)
 QUERY_CALLS(double, int64_t, i8)
-
-void pstripack_triareas_r8(int32_t n, const double* x, const double* y, const double* z, int32_t nt,
-                           const int32_t* triangles, double* triarea) noexcept {
-  in_default_floating_point([&] { triangle_areas(n, Nodes<double>{x, y, z}, nt, triangles, triarea); });
-}
 
 }  // extern "C"

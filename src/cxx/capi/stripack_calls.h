@@ -4,7 +4,7 @@
  *
  * Arguments and results are those of the routine of the same name, inputs by value; see the headers of
  * src/cxx/stripack. Node and slot numbers count from 1. None is collective, writes to stdout or throws. None
- * keeps state, but for the random seeds of each thread under PSTRIPACK_ORDER=original or ngmath. The suffix
+ * keeps state, but for the random seeds of each thread where PSTRIPACK_ORDER is not canonical. The suffix
  * names the kinds: _r4, _r8 reals of 32 and 64 bits, with integers of 32 bits; _i8 reals and integers of 64
  * bits; _i4, _i8 without reals. Other kinds are further instances of the macros below.
  *
@@ -74,7 +74,10 @@ extern "C" {
   pstripack_areas_##suffix(const Real* v1, const Real* v2, const Real* v3) PSTRIPACK_NOEXCEPT;             \
   PSTRIPACK_CALL(void)                                                                                     \
   pstripack_circum_##suffix(const Real* v1, const Real* v2, const Real* v3, Real* c, Int* ier)             \
-      PSTRIPACK_NOEXCEPT;
+      PSTRIPACK_NOEXCEPT;                                                                                  \
+  PSTRIPACK_CALL(void)                                                                                     \
+  pstripack_triareas_##suffix(Int n, const Real* x, const Real* y, const Real* z, Int nt,                  \
+                              const Int* triangles, Real* triarea) PSTRIPACK_NOEXCEPT;
 
 #define PSTRIPACK_MESH_CALLS(Real, Int, suffix)                                                              \
   PSTRIPACK_CALL(void)                                                                                       \
@@ -112,9 +115,6 @@ PSTRIPACK_MESH_CALLS(double, int64_t, i8)
 PSTRIPACK_QUERY_CALLS(float, int32_t, r4)
 PSTRIPACK_QUERY_CALLS(double, int32_t, r8)
 PSTRIPACK_QUERY_CALLS(double, int64_t, i8)
-PSTRIPACK_CALL(void)
-pstripack_triareas_r8(int32_t n, const double* x, const double* y, const double* z, int32_t nt,
-                      const int32_t* triangles, double* triarea) PSTRIPACK_NOEXCEPT;
 
 #ifdef __cplusplus
 }

@@ -12,6 +12,8 @@
  * or Voronoi diagram. NULL unless 0. title[title_length]; numbr: 0 or not voronoi_poly_count  needs no reals:
  * _i4, _i8
  *
+ *   pstripack_number_at     what `address` points to, for an argument that may not have been passed; -1 if it
+ *                           cannot be read, or is the address of another argument: n and the 5th to 8th
  *   pstripack_next_record   copies the next record, without its end, to record[capacity]: the number of its
  *                           characters, at most capacity; -1 after the last one, or if text is NULL
  *   pstripack_free_text     text may be NULL
@@ -47,9 +49,12 @@ PSTRIPACK_CALL(void) pstripack_free_text(void* text) PSTRIPACK_NOEXCEPT;
                             const Int* lend, const Real* xc, const Real* yc, const Real* zc,                 \
                             const char* title, Int title_length, Int numbr, Int* ier) PSTRIPACK_NOEXCEPT;
 
-#define PSTRIPACK_COUNT_CALLS(Int, suffix)                                                         \
-  PSTRIPACK_CALL(void*)                                                                            \
-  pstripack_voronoi_poly_count_##suffix(Int n, const Int* lend, const Int* lptr, const Int* listc) \
+#define PSTRIPACK_COUNT_CALLS(Int, suffix)                                                           \
+  PSTRIPACK_CALL(Int)                                                                                \
+  pstripack_number_at_##suffix(const Int* address, const Int* n, const Int* fifth, const Int* sixth, \
+                               const Int* seventh, const Int* eighth) PSTRIPACK_NOEXCEPT;            \
+  PSTRIPACK_CALL(void*)                                                                              \
+  pstripack_voronoi_poly_count_##suffix(Int n, const Int* lend, const Int* lptr, const Int* listc)   \
       PSTRIPACK_NOEXCEPT;
 
 PSTRIPACK_PRINT_CALLS(float, int32_t, r4)

@@ -1,5 +1,8 @@
 #include "geometry/workspace.h"
 
+#include <unistd.h>
+
+#include <algorithm>
 #include <mutex>
 #include <utility>
 
@@ -7,7 +10,21 @@ namespace pstripack {
 namespace {
 
 constexpr std::size_t kSmallest = std::size_t{64} << 10;  // below, the allocator keeps blocks itself
-constexpr std::size_t kLargest = std::size_t{1} << 30;
+
+/// Of all blocks together. Those that the system can take back are kept up to half of its memory: fresh pages
+/// of a large call take longer to clear than to fill.
+std::size_t most_kept() {
+  constexpr std::size_t kAlways = std::size_t{1} << 30;
+#ifdef MADV_FREE
+  static const std::size_t half_of_memory = [] {
+    const long pages = sysconf(_SC_PHYS_PAGES), bytes = sysconf(_SC_PAGESIZE);
+    return pages > 0 && bytes > 0 ? static_cast<std::size_t>(pages) / 2 * static_cast<std::size_t>(bytes) : 0;
+  }();
+  return std::max(kAlways, half_of_memory);
+#else
+  return kAlways;
+#endif
+}
 
 constexpr std::size_t kCount = 16;   // a call on threads takes five
 Buffer<unsigned char> kept[kCount];  // between two calls
@@ -35,7 +52,7 @@ bool free_kept_blocks() noexcept {
 
 Block::Block(std::size_t bytes) {
   if (bytes >= kSmallest) bytes = rounded_up(bytes);
-  if (bytes >= kSmallest && bytes <= kLargest) {
+  if (bytes >= kSmallest && bytes <= most_kept()) {
     if (const std::unique_lock lock(mutex, std::try_to_lock); lock) {
       // The smallest: another one may be wanted next.
       Buffer<unsigned char>* best = nullptr;
@@ -58,7 +75,7 @@ Block::Block(std::size_t bytes) {
 }
 
 Block::~Block() {
-  if (memory_.size() < kSmallest || memory_.size() > kLargest) return;
+  if (memory_.size() < kSmallest || memory_.size() > most_kept()) return;
 #ifdef MADV_FREE
   constexpr std::size_t kWorthASystemCall = std::size_t{4} << 20;
   if (memory_.size() >= kWorthASystemCall)
@@ -72,7 +89,7 @@ Block::~Block() {
   for (; last > 0; --last) kept[last] = std::move(kept[last - 1]);
   kept[0] = std::move(memory_);
   for (std::size_t k = 1; k < kCount; ++k)
-    if ((total += kept[k].size()) > kLargest) kept[k] = {};
+    if ((total += kept[k].size()) > most_kept()) kept[k] = {};
 }
 
 }  // namespace pstripack

@@ -142,6 +142,9 @@ class Builder final : public GrowingHull {
   bool above(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const override {
     return predicates_.above(a, b, c, d);
   }
+  Point difference(std::uint32_t a, std::uint32_t b) const override {
+    return predicates_.difference(static_cast<index_t>(a), static_cast<index_t>(b));
+  }
 
   /// Throws HiddenNode if the nodes around some of the closest show one: if lengths as given hide any, they
   /// mostly hide one of these, and it need not cost a hull to find out. First those around along the curve;
@@ -413,11 +416,13 @@ class Builder final : public GrowingHull {
     std::uint32_t seen = walk(p);
     if (seen != kNone)
       return replace_seen_by_fan(
-          v, seen, [&](std::uint32_t t, const Spoke& to_corner) { return sees(p, v, t, to_corner); });
+          v, seen, [](std::uint32_t) {},
+          [&](std::uint32_t t, const Spoke& to_corner) { return sees(p, v, t, to_corner); });
     seen = walk_exactly(v);
     if (seen == kNone) return;  // coincides with a node that is in
     replace_seen_by_fan(
-        v, seen, [&](std::uint32_t t, const Spoke& to_corner) { return sees_closely(v, t, to_corner); });
+        v, seen, [&](std::uint32_t code) { fetch(face_of(code)); },
+        [&](std::uint32_t t, const Spoke& to_corner) { return sees_closely(v, t, to_corner); });
   }
 
   /// Lets the next search start at the nearest of some nodes: that of the last may have ended far away, and
@@ -501,11 +506,7 @@ class Builder final : public GrowingHull {
     std::uint32_t t = last_;
     for (;;) {
       const Face& f = faces_[t];
-      // Of nodes along lines the faces next to each other lie far apart in memory.
-      for (std::uint32_t i = 0; i < 3; ++i) {
-        __builtin_prefetch(planes_ + face_of(f.neighbour[i]));
-        __builtin_prefetch(faces_ + face_of(f.neighbour[i]));
-      }
+      for (int i = 0; i < 3; ++i) fetch(face_of(f.neighbour[i]));
       const int side = certain_side(t, make_spoke(predicates_, f.vertex[0], v));
       if (side > 0) return t;
       for (const std::uint32_t corner : {f.vertex[0], f.vertex[1], f.vertex[2]})
@@ -523,6 +524,12 @@ class Builder final : public GrowingHull {
       if (!front(next)) return seen ? t : next;
       last_ = t = next;
     }
+  }
+
+  /// Of nodes along lines the faces next to each other lie far apart in memory.
+  void fetch(std::uint32_t t) const {
+    __builtin_prefetch(planes_ + t);
+    __builtin_prefetch(faces_ + t);
   }
 
   /// True if v, which `view_` has just seen above a face, lies in its plane. Not asked of coordinates: there
@@ -554,14 +561,17 @@ class Builder final : public GrowingHull {
   /// already visited. A node inside the disc would be lost to the triangulation. The search then goes round
   /// it: until it comes upon a face of the fan, which no plane can place above or below v, or has met more
   /// faces than there are.
-  template <class Sees>
-  [[gnu::always_inline]] void replace_seen_by_fan(std::uint32_t v, std::uint32_t seen, const Sees& sees) {
+  ///
+  /// expect(code): the search will come to this face.
+  template <class Expect, class Sees>
+  [[gnu::always_inline]] void replace_seen_by_fan(std::uint32_t v, std::uint32_t seen, const Expect& expect,
+                                                  const Sees& sees) {
     const Point p = predicates_.position(v);
     std::size_t visited = 2, used = 0, top = 3, limit = visit_limit();
     place_[0] = static_cast<std::uint32_t>(count_);
     place_[1] = static_cast<std::uint32_t>(count_ + 1);
     place_[visited++] = seen;
-    for (int k = 0; k < 3; ++k) stack_[k] = faces_[seen].neighbour[2 - k];
+    for (int k = 0; k < 3; ++k) expect(stack_[k] = faces_[seen].neighbour[2 - k]);
     const std::uint32_t first = place_[0];
     std::uint32_t previous = first;
     std::uint32_t u = faces_[seen].vertex[1];  // where edge 0 of `seen` starts
@@ -569,8 +579,8 @@ class Builder final : public GrowingHull {
     while (top > 0) {
       const std::uint32_t code = stack_[--top], after = next_code(code);
       if (sees(face_of(code), to_u)) {
-        stack_[top++] = neighbour(previous_code(code));
-        stack_[top++] = neighbour(after);
+        expect(stack_[top++] = neighbour(previous_code(code)));
+        expect(stack_[top++] = neighbour(after));
         place_[visited++] = face_of(code);
         if (visited >= limit) {
           if (visited >= count_ + 2) throw HiddenNode{};

@@ -117,6 +117,8 @@ class GrowingHull {
   /// The predicates on nodes that have been added, exact.
   virtual int left(std::uint32_t a, std::uint32_t b, std::uint32_t c) const = 0;
   virtual bool above(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const = 0;
+  /// From node b to node a, as the predicates place them: every component to 2 roundings and 2^-99.
+  virtual Point difference(std::uint32_t a, std::uint32_t b) const = 0;
 
   /// True if the centre is known to be inside: then every face is part of the triangulation.
   virtual bool surrounds_centre() const = 0;

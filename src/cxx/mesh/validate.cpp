@@ -184,7 +184,37 @@ Verdict check_geometry(const Predicates& predicates, const StarTable& stars, Tie
   return {};
 }
 
-/// One sphere or one disc? Of stars that are cycles and fans.
+/// Is every node in triangles that are one cycle or one fan? Then they are the stars.
+Verdict find_stars(Corners& corners, StarTable& stars) {
+  std::vector<index_t> ring;
+  std::size_t end = 0;
+  stars.begin[0] = 0;
+  for (std::size_t s = 0; s < stars.size(); ++s) {
+    const auto v = static_cast<index_t>(s);
+    if (corners.degree(s) == 0) return defect(Defect::missing_node, "node is in no triangle", {v});
+    for (auto* p = corners.begin(s); p + 1 < corners.end(s); ++p)
+      if (p[0].b == p[1].b)
+        return defect(Defect::not_manifold, "arc has two triangles on one side (arc, opposite nodes)",
+                      {v, p[0].b, p[0].c, p[1].c});
+    bool closed = false;
+    if (!ring_of(corners, v, ring, closed))
+      return defect(Defect::not_manifold, "triangles around node are not one cycle or one fan", {v});
+    if (!closed) ring.back() = ~ring.back();
+    std::copy(ring.begin(), ring.end(), stars.to.begin() + end);
+    end += ring.size();
+    stars.begin[s + 1] = static_cast<std::uint32_t>(end);
+  }
+  return {};
+}
+
+Verdict check_directions(const Point* p, std::size_t n) {
+  const Point* const bad = std::find_if_not(p, p + n, has_direction);
+  return bad == p + n ? Verdict{}
+                      : defect(Defect::malformed, "node has no direction", {static_cast<index_t>(bad - p)});
+}
+
+}  // namespace
+
 Verdict check_surface(const StarTable& stars) {
   const std::size_t n = stars.size();
   std::size_t boundary_arcs = 0, components = n;
@@ -219,37 +249,6 @@ Verdict check_surface(const StarTable& stars) {
   }
   return {};
 }
-
-/// Is every node in triangles that are one cycle or one fan? Then they are the stars.
-Verdict find_stars(Corners& corners, StarTable& stars) {
-  std::vector<index_t> ring;
-  std::size_t end = 0;
-  stars.begin[0] = 0;
-  for (std::size_t s = 0; s < stars.size(); ++s) {
-    const auto v = static_cast<index_t>(s);
-    if (corners.degree(s) == 0) return defect(Defect::missing_node, "node is in no triangle", {v});
-    for (auto* p = corners.begin(s); p + 1 < corners.end(s); ++p)
-      if (p[0].b == p[1].b)
-        return defect(Defect::not_manifold, "arc has two triangles on one side (arc, opposite nodes)",
-                      {v, p[0].b, p[0].c, p[1].c});
-    bool closed = false;
-    if (!ring_of(corners, v, ring, closed))
-      return defect(Defect::not_manifold, "triangles around node are not one cycle or one fan", {v});
-    if (!closed) ring.back() = ~ring.back();
-    std::copy(ring.begin(), ring.end(), stars.to.begin() + end);
-    end += ring.size();
-    stars.begin[s + 1] = static_cast<std::uint32_t>(end);
-  }
-  return {};
-}
-
-Verdict check_directions(const Point* p, std::size_t n) {
-  const Point* const bad = std::find_if_not(p, p + n, has_direction);
-  return bad == p + n ? Verdict{}
-                      : defect(Defect::malformed, "node has no direction", {static_cast<index_t>(bad - p)});
-}
-
-}  // namespace
 
 Verdict is_valid(const Point* p, const StarTable& stars, Lengths lengths, Ties ties) {
   const std::size_t n = stars.size();

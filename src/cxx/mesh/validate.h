@@ -63,6 +63,9 @@ struct StarTable {
 Verdict is_valid(const Point* p, const StarTable& stars, Lengths lengths = Lengths::automatic,
                  Ties ties = Ties::by_rule);
 
+/// Are these stars one sphere or one disc, wherever the nodes lie? In linear time.
+Verdict check_surface(const StarTable& stars);
+
 const char* name(Defect defect);
 
 }  // namespace pstripack

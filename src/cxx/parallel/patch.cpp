@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <tuple>
 
 #include "geometry/insertion_order.h"
 
@@ -112,16 +113,30 @@ void Patch<Int>::triangulate() {
 
 template <class Int>
 Ball Patch<Int>::ball_above(std::uint32_t ia, std::uint32_t ib, std::uint32_t ic) const {
-  const Point a = place(ia), e = minus(place(ib), a), f = minus(place(ic), a);
+  // From the corner opposite the longest edge: the product of the others is large then, even in a needle.
+  const auto square = [](const Point& d) { return dot(d, d); };
+  for (int turn = 0; turn < 2; ++turn) {
+    const double bc = square(growing_->difference(ic, ib));
+    if (bc >= square(growing_->difference(ib, ia)) && bc >= square(growing_->difference(ic, ia))) break;
+    std::tie(ia, ib, ic) = std::make_tuple(ib, ic, ia);
+  }
+  const Point a = place(ia), e = growing_->difference(ib, ia), f = growing_->difference(ic, ia);
   const Point n = cross(e, f);
-  const double length = std::sqrt(dot(n, n));
-  // Rounding of the differences and of the product, and of places that are not exact.
-  const double error =
-      (64 * u * 0.5 * (dot(e, e) + dot(f, f)) + 8 * u * (std::sqrt(dot(e, e)) + std::sqrt(dot(f, f)))) /
-      length;
+  const double length = std::sqrt(dot(n, n)), edge_e = std::sqrt(dot(e, e)), edge_f = std::sqrt(dot(f, f));
+  // Rounding of the differences and of their product: 12u |e||f| and 2^-95 (|e| + |f|), as of a plane in
+  // mesh/delaunay.cpp.
+  const double error = (16 * u * edge_e * edge_f + 0x1p-94 * (edge_e + edge_f)) / length;
   if (!(error < 0.1)) return kEverywhere;
   const Point normal{n.x / length, n.y / length, n.z / length};
-  return ball_beyond(normal, dot(normal, a), error, places_.deviation());
+  const Ball ball = ball_beyond(normal, dot(normal, a), error, places_.deviation());
+  if (places_.lengths() == Lengths::as_given) return ball;
+  // Of directions no place has another length than 1, but by rounding, 5u. The centre is below the plane, so
+  // no place above it is farther from a than twice the radius of the circle through a, b, c: the smaller ball
+  // where the height drowns in the rounding of the other one.
+  const double edge_g = std::sqrt(square(growing_->difference(ic, ib)));
+  const double diameter = edge_e * edge_f * edge_g / (length * (1 - error));
+  const double radius = diameter * (1 + 64 * u) + 32 * u;
+  return radius < ball.radius ? Ball{a, radius} : ball;
 }
 
 template <class Int>
@@ -163,28 +178,30 @@ void Patch<Int>::for_each_face_at_border(std::size_t first, const Visit& visit) 
 
 /// Seen from the front, the edge u -> w of a face at the back is w -> u, with the triangulation on its left.
 template <class Int>
-template <class Visit>
-void Patch<Int>::for_each_boundary_arc(const Visit& visit) const {
-  if (growing_->surrounds_centre()) return;
+std::vector<typename Patch<Int>::Arc> Patch<Int>::boundary_arcs() const {
+  std::vector<Arc> arcs;
+  if (growing_->surrounds_centre()) return arcs;
   const auto faces = static_cast<std::uint32_t>(growing_->face_count());
   for (std::uint32_t t = 0; t < faces; ++t) {
     if (arrays_.planes[t].w > 1 || growing_->front(t)) continue;
     const Face& f = arrays_.faces[t];
     for (std::uint32_t i = 0; i < 3; ++i)
-      if (growing_->front(face_of(f.neighbour[i]))) visit(f.vertex[previous_edge(i)], f.vertex[next_edge(i)]);
+      if (growing_->front(face_of(f.neighbour[i])))
+        arcs.push_back({f.vertex[previous_edge(i)], f.vertex[next_edge(i)]});
   }
+  return arcs;
 }
 
 template <class Int>
-typename Patch<Int>::Outline Patch<Int>::outline() const {
+typename Patch<Int>::Outline Patch<Int>::outline() {
   Outline outline;
   if (own_ == 0) return outline;
-  outline.surrounds_centre = true;
-  for_each_boundary_arc([&](std::uint32_t a, std::uint32_t b) {
-    outline.nodes.push_back({arrays_.nodes[a], number_[a]});
-    outline.surrounds_centre = false;
-    outline.has_own = outline.has_own || is_own(a) || is_own(b);
-  });
+  first_arcs_ = boundary_arcs();
+  outline.surrounds_centre = first_arcs_.empty();
+  for (const Arc& arc : first_arcs_) {
+    outline.nodes.push_back({arrays_.nodes[arc.a], number_[arc.a]});
+    outline.has_own = outline.has_own || is_own(arc.a) || is_own(arc.b);
+  }
   return outline;
 }
 
@@ -206,13 +223,14 @@ std::vector<Record> Patch<Int>::nodes_around_centre() const {
 /// Takes in nodes until all arcs of its boundary at own nodes are arcs of the boundary of all nodes.
 template <class Int>
 void Patch<Int>::mend_boundary(const Boundary& boundary) {
-  for (;;) {
+  // Between outline() and the first ask() nothing comes in.
+  std::vector<Arc> arcs = asked_with_ == 0 ? std::move(first_arcs_) : boundary_arcs();
+  for (;; arcs = boundary_arcs()) {
     std::vector<Record> missing;
-    for_each_boundary_arc([&](std::uint32_t a, std::uint32_t b) {
+    for (const auto& [a, b] : arcs)
       if ((is_own(a) || is_own(b)) && !boundary.has_arc(number_[a], number_[b]))
         missing.push_back(
             boundary.against_arc({arrays_.nodes[a], number_[a]}, {arrays_.nodes[b], number_[b]}));
-    });
     if (missing.empty()) return;
     const std::size_t before = growing_->node_count();
     for (const Record& r : missing) take_in(r);
@@ -252,11 +270,11 @@ void Patch<Int>::ask(const Boundary& boundary, double stretch, std::vector<Quest
   };
   const auto examine = [&](std::uint32_t t) {
     const auto& v = arrays_.faces[t].vertex;
-    if (is_flat(t) || !(is_own(v[0]) && is_own(v[1]) && is_own(v[2])) || !growing_->front(t)) return;
+    if (is_flat(t) || !(is_own(v[0]) && is_own(v[1]) && is_own(v[2]))) return;
     const Point a = place(v[0]), b = place(v[1]), c = place(v[2]);
     const double most =
         std::min(stretch_of(arrays_.planes[t], farthest), stretch_of(a, b, c, places_.deviation()));
-    if (!partition_->holds(id_, a, b, c, most)) ask_about_triangle(t, questions);
+    if (!partition_->holds(id_, a, b, c, most) && growing_->front(t)) ask_about_triangle(t, questions);
   };
   constexpr std::uint32_t kTogether = 8;
   const auto faces = static_cast<std::uint32_t>(growing_->face_count());

@@ -86,7 +86,7 @@ class Patch {
     bool has_own = false;           ///< some of its own nodes are on it
     std::vector<Record> nodes;
   };
-  Outline outline() const;
+  Outline outline();
   /// Of a patch that surrounds the centre: nodes that do. Throws std::bad_alloc.
   std::vector<Record> nodes_around_centre() const;
 
@@ -207,9 +207,11 @@ class Patch {
     } while (corner != first);
   }
 
-  /// Calls visit(a, b) for every arc a -> b of its boundary, with the front faces on the left.
-  template <class Visit>
-  void for_each_boundary_arc(const Visit& visit) const;
+  /// An arc a -> b of its boundary, with the front faces on the left.
+  struct Arc {
+    std::uint32_t a, b;
+  };
+  std::vector<Arc> boundary_arcs() const;
 
   /// Calls visit(t, own) for every front face t that has a corner which is not the patch's own and among the
   /// hull nodes from `first` on; `own` of its corners are.
@@ -226,6 +228,7 @@ class Patch {
   Int* number_ = nullptr;           ///< of each hull node
   std::unique_ptr<GrowingHull> growing_;
   Hull hull_;
+  std::vector<Arc> first_arcs_;    ///< of outline(), until ask()
   Plane* first_planes_ = nullptr;  ///< those in the workspace, for built_ nodes at least
   std::size_t asked_with_ = 0;     ///< hull nodes
   std::vector<std::uint32_t>

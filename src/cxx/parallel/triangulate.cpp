@@ -653,7 +653,7 @@ class Triangulator {
 
   /// What the patches here take for the boundary of all nodes.
   void look_for_boundary() {
-    for (const Patch<Int>& patch : patches_) {
+    for (Patch<Int>& patch : patches_) {
       const auto outline = patch.outline();
       if (outline.has_own) has_own_on_boundary_ = -1;
       if (outline.surrounds_centre) surrounding_ = std::min<std::int64_t>(surrounding_, patch.id());

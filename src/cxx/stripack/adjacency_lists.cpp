@@ -275,6 +275,13 @@ Verdict check_lists(const ListsView<Int>& lists) {
 }
 
 template <class Int>
+Verdict check_topology(const ListsView<Int>& lists) {
+  std::optional<StarTable> stars;
+  if (Verdict v = stars_of(lists, stars); !v) return v;
+  return check_surface(*stars);
+}
+
+template <class Int>
 bool lists_are_canonical(const ListsView<Int>& lists) {
   Int slot = 1;
   for (std::size_t k = 0; k < lists.n; ++k) {
@@ -313,6 +320,7 @@ Verdict is_valid(const Point* p, const ListsView<Int>& lists, Lengths lengths, T
 #define PSTRIPACK_INSTANTIATE(Int)                                     \
   template Int write_lists(const Hull&, Int*, Int*, Int*, Workspace&); \
   template Verdict check_lists(const ListsView<Int>&);                 \
+  template Verdict check_topology(const ListsView<Int>&);              \
   template bool lists_are_canonical(const ListsView<Int>&);            \
   template Triangles triangles_of(const ListsView<Int>&);              \
   template Verdict is_valid(const Point*, const ListsView<Int>&, Lengths, Ties);

@@ -36,6 +36,10 @@ Int write_lists(const Hull& hull, Int* list, Int* lptr, Int* lend, Workspace& wo
 template <class Int>
 Verdict check_lists(const ListsView<Int>& lists);
 
+/// check_lists, and the triangles are one sphere or one disc. Nothing is said about where the nodes lie.
+template <class Int>
+Verdict check_topology(const ListsView<Int>& lists);
+
 /// True if the lists are canonical (interface contract, section 4.3). Needs check_lists to hold.
 template <class Int>
 bool lists_are_canonical(const ListsView<Int>& lists);

@@ -8,13 +8,24 @@
 namespace pstripack {
 namespace {
 
+constexpr struct {
+  const char* name;
+  OriginalRules rules;
+} kOrders[] = {{"canonical", {}},
+               {"original", {true, 100, false, true}},
+               {"bitwise", {true, 100, false, true, true}},
+               {"ngmath", {true, 4, true, false}},
+               {"bitwise-ngmath", {true, 4, true, false, true}}};
+
 OriginalRules read_environment() {
-  const char* const order = environment_variable("PSTRIPACK_ORDER");
-  if (order == nullptr || *order == '\0' || std::strcmp(order, "canonical") == 0) return {};
-  if (std::strcmp(order, "original") == 0) return {true};
-  if (std::strcmp(order, "ngmath") == 0) return {true, 4, true, false};
-  std::fprintf(
-      stderr, "pstripack: PSTRIPACK_ORDER=%s: not canonical, original or ngmath; canonical is used\n", order);
+  const char* const value = environment_variable("PSTRIPACK_ORDER");
+  if (value == nullptr || *value == '\0') return {};
+  for (const auto& order : kOrders)
+    if (std::strcmp(value, order.name) == 0) return order.rules;
+  std::fprintf(stderr,
+               "pstripack: PSTRIPACK_ORDER=%s: not canonical, original, bitwise, ngmath or bitwise-ngmath; "
+               "canonical is used\n",
+               value);
   return {};
 }
 

@@ -14,13 +14,15 @@ namespace pstripack {
 ///   original   lists and searches as the original's, to the last bit: the tolerance of Algorithm 772 and of
 ///              the Fortran 90 text (100 epsilon), random numbers in the working kind, seeds kept from call
 ///              to call (of each thread)
-///   ngmath     the same as libngmath does: 4 epsilon, random numbers in single precision, AL of NEARND
-///              untouched where it finds nothing
+///   bitwise    the same, and TRMESH also where the original's triangulation is not the exact mesh
+///   ngmath, bitwise-ngmath  the same as libngmath does: 4 epsilon, random numbers in single precision, AL of
+///              NEARND untouched where it finds nothing
 struct OriginalRules {
   bool follow = false;  ///< TRMESH inserts as the original does, seeds are kept
   int tolerance_in_epsilons = 100;
   bool single_precision_random = false;
   bool clear_angle = true;  ///< NEARND in REAL*8 sets AL = 0 where it finds nothing, as the Fortran 90 text
+  bool bitwise = false;     ///< of TRMESH any triangulation that the original makes, exact or not
 
   /// Of TRFIND.
   template <class Real>
@@ -34,8 +36,8 @@ struct OriginalRules {
   }
 };
 
-/// PSTRIPACK_ORDER=canonical (or unset), original, ngmath; read once. Anything else is canonical and says so
-/// on stderr.
+/// PSTRIPACK_ORDER, canonical if unset; read once. Anything but the names above is canonical and says so on
+/// stderr.
 const OriginalRules& original_rules();
 
 /// The seeds of this thread that are kept from call to call, of all kinds of integers.

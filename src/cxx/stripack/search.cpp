@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -20,7 +21,8 @@ namespace {
 template <class Real, class Int>
 class PlainLists : public ListReader<Int> {
  public:
-  PlainLists(const ListsView<Int>& lists, const Nodes<Real>& nodes) : ListReader<Int>(lists), node_(nodes) {}
+  PlainLists(const ListsView<Int>& lists, const Nodes<Real>& nodes)
+      : ListReader<Int>(lists), node_{nodes.x, nodes.y, nodes.z} {}
 
   Vector<Real> operator[](Int node) const { return node_[node]; }
   Int slot_of_third(Int /*a*/, Int /*b_of_a*/, Int b, Int c) const { return this->slot_of(b, c); }
@@ -64,6 +66,7 @@ class GuardedLists : public ListEditor<CountedArrays<Int>> {
   Int size() const { return count_; }
   Vector<Real> operator[](Int node) const { return node_[node]; }
   Int slot_of_third(Int /*a*/, Int /*b_of_a*/, Int b, Int c) const { return this->slot_of(b, c); }
+  void prefetch_list(Int /*node*/) const {}  // numbers are checked when they are used
 
  private:
   Int count_;
@@ -213,42 +216,159 @@ class Candidates {
   int count_;
 };
 
-/// A set of nodes; up to 64 of them take no memory from the heap.
-template <class Int>
-class NodeSet {
- public:
-  explicit NodeSet(std::size_t most) {
-    while (most > (std::size_t{1} << bits_) / 2) ++bits_;
-    if (bits_ > few_bits) many_.assign(std::size_t{1} << bits_, 0);
-    cell_ = bits_ > few_bits ? many_.data() : few_;
-  }
-  NodeSet(const NodeSet&) = delete;
-  NodeSet& operator=(const NodeSet&) = delete;
+/// So many nodes GETNP is given without a need for memory from the heap: a byte holds their places.
+constexpr int most_without_memory = 256;
 
-  /// False if it is there already.
-  bool insert(Int node) {
-    Int& cell = find(node);
-    return std::exchange(cell, node) == 0;
+/// The nodes that GETNP is given, as a hash table of their places in NPTS. An empty cell holds place 0: node
+/// npts[0] is one of them anyway, so that one comparison answers for an empty cell and for the right one.
+template <class Int, class Cell>
+class NodeTable {
+ public:
+  /// `cells`: 2^bits of them, all 0.
+  NodeTable(const Int* npts, Cell* cells, int bits) : npts_(npts), cells_(cells), shift_(64 - bits) {}
+
+  /// npts[place]; false if it is there already.
+  bool insert(Int place) {
+    const Int node = npts_[place];
+    std::size_t cell = hash(node);
+    if (cells_[cell] != 0) cell = find(cell, node);
+    if (is_at(cell, node)) return false;
+    cells_[cell] = static_cast<Cell>(place);
+    return true;
   }
-  bool contains(Int node) const { return find(node) != 0; }
+  /// Without a branch on whether it is there, which no processor foresees.
+  bool contains(Int node) const {
+    const std::size_t cell = hash(node);
+    const std::size_t place = static_cast<std::size_t>(cells_[cell]), is_other = npts_[place] != node;
+    if (__builtin_expect((place & (0 - is_other)) != 0, false)) return is_at(find(cell, node), node);
+    return is_other == 0;
+  }
 
  private:
-  static constexpr int few_bits = 7;
-
-  /// The node's cell, or the empty one where it would go.
-  Int& find(Int node) const {
-    const std::size_t mask = (std::size_t{1} << bits_) - 1;
-    std::size_t i =
-        static_cast<std::size_t>(static_cast<std::uint64_t>(node) * 0x9E3779B97F4A7C15 >> (64 - bits_));
-    while (cell_[i] != 0 && cell_[i] != node) i = (i + 1) & mask;
-    return cell_[i];
+  std::size_t hash(Int node) const {
+    return static_cast<std::size_t>(static_cast<std::uint64_t>(node) * 0x9E3779B97F4A7C15 >> shift_);
+  }
+  bool is_at(std::size_t cell, Int node) const {
+    return npts_[static_cast<std::size_t>(cells_[cell])] == node;
+  }
+  /// The node's cell, or the empty one where it would go, from this one on.
+  [[gnu::noinline]] std::size_t find(std::size_t cell, Int node) const {
+    const std::size_t last = (std::size_t{1} << (64 - shift_)) - 1;
+    while (cells_[cell] != 0 && !is_at(cell, node)) cell = cell == last ? 0 : cell + 1;
+    return cell;
   }
 
-  int bits_ = few_bits;
-  Int few_[std::size_t{1} << few_bits] = {};
-  std::vector<Int> many_;
-  Int* cell_;
+  const Int* npts_;
+  Cell* cells_;
+  int shift_;
 };
+
+/// Calls visit(neighbour) for the neighbours in the list of which this is the last slot, the last one first.
+/// False if that list is not closed but runs into a loop.
+template <class Int, class Visit>
+[[gnu::always_inline]] inline bool each_neighbour(const ListReader<Int>& reader, Int last,
+                                                  const Visit& visit) {
+  Int slot = last, passed = 0;
+  unsigned jumps = 0, jumps_to_pass = 64;
+  do {
+    visit(reader.neighbour(slot));
+    const Int next = reader.next(slot);
+    if (next == slot + 1) {
+      // As mostly in canonical lists. The compiler must not see that this is `next`, too: the processor would
+      // wait for LPTR before it can ask for the next neighbour.
+      ++slot;
+      asm("" : "+r"(slot));
+    } else {
+      slot = next;
+      if (slot == passed) return false;
+      if (++jumps == jumps_to_pass) {  // Brent's search for a loop
+        passed = slot;
+        jumps_to_pass *= 2;
+      }
+    }
+  } while (slot != last);
+  return true;
+}
+
+/// The nearest to a centre of the nodes that are compared; of equally near ones the first.
+template <class Real, class Int>
+class Nearest {
+ public:
+  Nearest(const Nodes<Real>& nodes, Int centre) : nodes_(nodes), centre_(nodes[centre]) {}
+
+  [[gnu::always_inline]] void compare(Int node) {
+    const Real distance = -dot(nodes_[node], centre_);
+    finite_ &= std::isfinite(distance);
+    const bool is_nearer = distance < distance_;
+    nearest_ = is_nearer ? node : nearest_;
+    distance_ = is_nearer ? distance : distance_;
+  }
+  /// For a node that will be compared soon.
+  void prefetch(Int node) const {
+    const auto i = static_cast<std::size_t>(node - 1);
+    __builtin_prefetch(nodes_.x + i);
+    __builtin_prefetch(nodes_.y + i);
+    __builtin_prefetch(nodes_.z + i);
+  }
+  NextNearestStatus write(Int& node, Real& distance) const {
+    if (!finite_) return NextNearestStatus::not_finite;
+    if (nearest_ == 0) return NextNearestStatus::none_left;
+    node = nearest_;
+    distance = distance_;
+    return NextNearestStatus::done;
+  }
+
+ private:
+  const Nodes<Real>& nodes_;
+  const Vector<Real> centre_;
+  Int nearest_ = 0;
+  Real distance_ = 2;
+  bool finite_ = true;
+};
+
+/// GETNP for l = 2.
+template <class Real, class Int>
+NextNearestStatus nearest_neighbour(const ListsView<Int>& lists, const Nodes<Real>& nodes, Int* npts,
+                                    Real& distance) {
+  const ListReader<Int> reader(lists);
+  const Int centre = npts[0];
+  Nearest<Real, Int> nearest(nodes, centre);
+  const auto visit = [&](Int node) __attribute__((always_inline)) {
+    if (node != centre) nearest.compare(node);
+  };
+  if (!each_neighbour(reader, reader.last_slot(centre), visit)) return NextNearestStatus::broken_lists;
+  return nearest.write(npts[1], distance);
+}
+
+/// GETNP for more. `cells`: 2^bits of them, all 0, which can hold a number below `given`.
+template <class Real, class Int, class Cell>
+NextNearestStatus nearest_of_others(const ListsView<Int>& lists, const Nodes<Real>& nodes, Int given,
+                                    Int* npts, Real& distance, Cell* cells, int bits) {
+  const ListReader<Int> reader(lists);
+  NodeTable<Int, Cell> taken(npts, cells, bits);
+  for (Int i = 1; i < given; ++i)
+    if (npts[i] < 1 || !taken.insert(i)) return NextNearestStatus::bad_nodes;
+  for (Int i = 0; i < given; ++i) reader.prefetch_list(npts[i]);
+
+  Nearest<Real, Int> nearest(nodes, npts[0]);
+  constexpr int most = 64;
+  Int others[most];  // nodes that are not taken, to be compared
+  int count = 0;
+  const auto compare = [&] {
+    for (int i = 0; i < count; ++i) nearest.compare(others[i]);
+    count = 0;
+  };
+  const auto visit = [&](Int node) __attribute__((always_inline)) {
+    if (given < 8) nearest.prefetch(node);  // of many, most are taken
+    others[count] = node;                   // where the next one goes, too, if this one is taken
+    count += !taken.contains(node);
+    if (count == most) compare();
+  };
+  for (Int i = 0; i < given; ++i)
+    if (!each_neighbour(reader, reader.last_slot(npts[i]), visit)) return NextNearestStatus::broken_lists;
+  compare();
+  return nearest.write(npts[given], distance);
+}
 
 }  // namespace
 
@@ -327,34 +447,18 @@ NextNearestStatus next_nearest(const ListsView<Int>& lists, const Nodes<Real>& n
                                Real& distance) {
   if (l < 2) return NextNearestStatus::too_short;
   const Int given = l - 1;
-  NodeSet<Int> taken(static_cast<std::size_t>(given));
-  for (Int i = 0; i < given; ++i)
-    if (npts[i] < 1 || !taken.insert(npts[i])) return NextNearestStatus::bad_nodes;
-
-  const ListReader<Int> reader(lists);
-  const Vector<Real> centre = nodes[npts[0]];
-  Int nearest = 0;
-  Real least = 2;
-  for (Int i = 0; i < given; ++i) {
-    const Int last = reader.last_slot(npts[i]);
-    Int slot = last;
-    do {
-      const Int candidate = reader.neighbour(slot);
-      if (!taken.contains(candidate)) {
-        const Real d = -dot(nodes[candidate], centre);
-        if (!std::isfinite(d)) return NextNearestStatus::not_finite;
-        if (d < least) {
-          least = d;
-          nearest = candidate;
-        }
-      }
-      slot = reader.next(slot);
-    } while (slot != last);
+  if (npts[0] < 1) return NextNearestStatus::bad_nodes;
+  if (given == 1) return nearest_neighbour(lists, nodes, npts, distance);
+  constexpr int cells_a_node = 16;  // so that few nodes meet another one's cell
+  int bits = 5;
+  while ((std::int64_t{1} << bits) < cells_a_node * std::int64_t{given}) ++bits;
+  if (given <= most_without_memory) {
+    std::uint8_t cells[cells_a_node * most_without_memory];
+    std::memset(cells, 0, std::size_t{1} << bits);
+    return nearest_of_others(lists, nodes, given, npts, distance, cells, bits);
   }
-  if (nearest == 0) return NextNearestStatus::none_left;
-  npts[given] = nearest;
-  distance = least;
-  return NextNearestStatus::done;
+  std::vector<Int> cells(std::size_t{1} << bits);
+  return nearest_of_others(lists, nodes, given, npts, distance, cells.data(), bits);
 }
 
 #define PSTRIPACK_SEARCH(Real, Int)                                                                         \

@@ -45,10 +45,11 @@ Int nearnd(const Vector<Real>& p, Int start, const ListsView<Int>& lists, const 
 /// IER of GETNP. Unless `done` nothing is written.
 enum class NextNearestStatus {
   done = 0,
-  too_short = 1,    ///< l < 2
-  not_finite = -5,  ///< a distance is NaN or infinite
-  bad_nodes = -10,  ///< npts[0..l-2] holds a number below 1, or one twice
-  none_left = -11   ///< no neighbour that is not in npts: l > n, or vectors far from unit length
+  too_short = 1,      ///< l < 2
+  not_finite = -5,    ///< a distance is NaN or infinite
+  broken_lists = -9,  ///< a list runs into a loop; other damage is not looked for
+  bad_nodes = -10,    ///< npts[0..l-2] holds a number below 1, or one twice
+  none_left = -11     ///< no neighbour that is not in npts: l > n, or vectors far from unit length
 };
 
 /// GETNP: given the l-1 nodes nearest to node npts[0], itself the first, writes the next nearest one into
@@ -58,7 +59,7 @@ enum class NextNearestStatus {
 /// lists.n is not used: the routine does not know it, so that an index above it cannot be refused.
 ///
 /// The original marks nodes by the signs of LEND. Here LEND is only read, so that threads may share a
-/// triangulation; the marks are in a table, which is allocated for l > 65 (std::bad_alloc).
+/// triangulation; the marks are in a table, which is allocated for l > 257 (std::bad_alloc).
 template <class Real, class Int>
 NextNearestStatus next_nearest(const ListsView<Int>& lists, const Nodes<Real>& nodes, Int l, Int* npts,
                                Real& distance);

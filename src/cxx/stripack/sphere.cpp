@@ -68,7 +68,10 @@ template SphericalCoordinates<float> scoord(const Vector<float>&);
 template SphericalCoordinates<double> scoord(const Vector<double>&);
 template float areas(const Vector<float>&, const Vector<float>&, const Vector<float>&);
 template double areas(const Vector<double>&, const Vector<double>&, const Vector<double>&);
-template void triangle_areas(std::int32_t, const Nodes<double>&, std::ptrdiff_t, const std::int32_t*,
-                             double*);
+#define PSTRIPACK_AREAS(Real, Int) \
+  template void triangle_areas(Int, const Nodes<Real>&, std::ptrdiff_t, const Int*, Real*);
+PSTRIPACK_AREAS(float, std::int32_t)
+PSTRIPACK_AREAS(double, std::int32_t)
+PSTRIPACK_AREAS(double, std::int64_t)
 
 }  // namespace pstripack

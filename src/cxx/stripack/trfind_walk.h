@@ -158,6 +158,7 @@ class TrfindWalk {
     while ((weights_.b3 = side(r, l)) < 0) {
       if (lists_.entry(r_of_l) < 0) return Walk::left_the_hull;
       const Int m_of_l = lists_.next(r_of_l), beyond = lists_.neighbour(m_of_l);
+      lists_.prefetch_list(beyond);  // while we wait for its position
       if (side(o, beyond) < 0) {
         behind = l;
         r_of_l = lists_.slot_of_third(l, m_of_l, beyond, r);

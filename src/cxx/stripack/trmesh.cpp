@@ -58,33 +58,52 @@ Pairs lists_of_one_hull(const Point* p, std::size_t n, Workspace& workspace, Int
   return pairs;
 }
 
-/// The lists as the original makes them, if they are right: a result with the order `made`. Otherwise nothing
-/// is written.
+/// The lists as the original makes them, if they are right or, under PSTRIPACK_ORDER=bitwise, a triangulation
+/// at all: a result with the order `made` or `inexact`. Otherwise nothing is written.
 template <class Real, class Int>
 TrmeshResult lists_in_original_order(Int n, const Real* x, const Real* y, const Real* z, Int* list, Int* lptr,
                                      Int* lend, Int* lnew, ParallelCost* cost) {
-  const InsertedNodes<Int> inserted = [&] {
+  const OriginalRules& rules = original_rules();
+  const Seeds<std::int32_t> seeds = kept_seeds();
+  InsertedNodes<Int> inserted;
+  const auto insert = [&](Hopeless hopeless, StartSearch start_search) {
     const PhaseTimer timer(cost, ParallelCost::triangulate);
-    return insert_in_order(n, x, y, z, original_rules(), Hopeless::ends);
-  }();
-  const auto [end, node, other] = inserted.outcome;
-  if (end == InsertionEnd::collinear) return {0, 0, 0, OriginalOrder::collinear, node};
-  if (end == InsertionEnd::endless) return {0, 0, 0, OriginalOrder::endless, node};
-
-  const PhaseTimer timer(cost, ParallelCost::lists);
-  const auto are_right = [&] {
-    BlockArray<Point> nodes(static_cast<std::size_t>(n));
-    NodeArrays(x, y, z).points(0, nodes.size(), nodes.data());
-    return is_valid(nodes.data(), inserted.view(), Lengths::automatic, Ties::either_way);
+    inserted = {};
+    inserted = insert_in_order(n, x, y, z, rules, hopeless, start_search);
   };
-  if (end == InsertionEnd::hopeless || !are_right()) return {0, 0, 0, OriginalOrder::wrong};
+  /// What became of the insertion; `good` if the lists are.
+  const auto outcome = [&](OriginalOrder good, OriginalOrder bad, const auto& are_good) -> TrmeshResult {
+    const auto [end, node, other] = inserted.outcome;
+    if (end == InsertionEnd::collinear) return {0, 0, 0, OriginalOrder::collinear, node};
+    if (end == InsertionEnd::endless) return {0, 0, 0, OriginalOrder::endless, node};
+    const PhaseTimer timer(cost, ParallelCost::lists);
+    if (end == InsertionEnd::hopeless || !are_good()) return {0, 0, 0, bad};
+    if (end == InsertionEnd::coincident) return {static_cast<std::int32_t>(other), other, node, good};
+    return {0, 0, 0, good};
+  };
+
+  insert(Hopeless::ends, StartSearch::adaptive);
+  TrmeshResult result = outcome(OriginalOrder::made, OriginalOrder::wrong, [&] {
+    const NodeArrays arrays(x, y, z);
+    BlockArray<Point> nodes(static_cast<std::size_t>(n));
+    arrays.points(0, nodes.size(), nodes.data());
+    return left(nodes[0], nodes[1], nodes[2]) != 0 &&
+           is_valid(nodes.data(), inserted.view(), Lengths::automatic, Ties::either_way);
+  });
+  if (rules.bitwise && result.order != OriginalOrder::made) {
+    // Again, to the end and by the original's bookkeeping alone: nodes are located only where the
+    // triangulation is right.
+    kept_seeds() = seeds;
+    insert(Hopeless::goes_on, StartSearch::simulated);
+    result = outcome(OriginalOrder::inexact, OriginalOrder::broken,
+                     [&] { return static_cast<bool>(check_topology(inserted.view())); });
+  }
+  if (result.order != OriginalOrder::made && result.order != OriginalOrder::inexact) return result;
   std::copy_n(inserted.list.data(), inserted.list.size(), list);
   std::copy_n(inserted.lptr.data(), inserted.lptr.size(), lptr);
   std::copy_n(inserted.lend.data(), inserted.lend.size(), lend);
   *lnew = inserted.lnew;
-  if (end == InsertionEnd::coincident)
-    return {static_cast<std::int32_t>(other), other, node, OriginalOrder::made};
-  return {0, 0, 0, OriginalOrder::made};
+  return result;
 }
 
 }  // namespace
@@ -119,13 +138,14 @@ TrmeshResult trmesh(Int n, const Real* x, const Real* y, const Real* z, Int* lis
   const auto take_them = [&] { copied_at_once ? copy_them() : look_at_them(); };
   take_them();
   if (look.first_bad < nodes) return {-5, static_cast<std::int64_t>(look.first_bad) + 1};
-  if (left(arrays[0], arrays[1], arrays[2]) == 0) return {-2};
+  const bool are_collinear = left(arrays[0], arrays[1], arrays[2]) == 0;
 
   TrmeshResult result{0};
-  if (in_original_order) {
+  if (in_original_order && (!are_collinear || original_rules().bitwise)) {
     result = lists_in_original_order(n, x, y, z, list, lptr, lend, lnew, cost);
-    if (result.order == OriginalOrder::made) return result;
+    if (result.order == OriginalOrder::made || result.order == OriginalOrder::inexact) return result;
   }
+  if (are_collinear) return {-2};
 
   // Writes the lists of the first `nodes` nodes, or returns sets of nodes that coincide.
   const auto triangulate_them = [&] {

@@ -325,6 +325,16 @@ report)
   grep -v pool alone.out > alone.text
   grep -v pool pool.out | cmp - alone.text || fail "stdout differs"
   ;;
+bitwise)
+  # The model makes the original's lists on its own thread, and tells by code 9 that it did not use the pool.
+  "$MODEL" lists canonical || fail "canonical"
+  export PSTRIPACK_ORDER=bitwise
+  "$MODEL" lists alone || fail "alone"
+  cmp -s canonical alone && fail "canonical lists"
+  pool "$MODEL" lists pool > pool.out 2> pool.err
+  [ $? -eq 9 ] || fail "exit code"
+  cmp alone pool || fail "the lists differ"
+  ;;
 check)
   # The model alone writes its calls: as often and the same bytes as without a pool.
   export PSTRIPACK_CHECK=alone.rec PSTRIPACK_REPORT=report

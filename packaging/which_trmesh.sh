@@ -1,0 +1,151 @@
+# shellcheck shell=sh
+# What `pstripack-config --check PROGRAM|PID` runs: whose TRMESH, TRLIST, CRLIST, TRFIND, GETNP does a program call?
+# Three witnesses, and the program does not run:
+#   nm           what the program has itself; of a stripped program it sees only what shared libraries may call
+#   the loader   what it takes from shared libraries: the loader binds all symbols, reports each, and ends, as for ldd
+#   a text       "@(#)PSTRIPACK library ROUTINE" is in every file that has that routine of ours, also after strip
+# Exit status: 0 all that are called are ours; 1 not so, or it cannot be seen; 2 no answer.
+set -eu
+export LC_ALL=C
+subject=$1
+routines="TRMESH TRLIST CRLIST TRFIND GETNP"
+symbols='^(trmesh|trlist|crlist|trfind|getnp)_$'
+
+fail() {
+  echo "pstripack-config --check: $*" >&2
+  exit 2
+}
+for tool in nm readelf; do
+  command -v $tool > /dev/null || fail "needs $tool (Debian: apt-get install binutils)"
+done
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+: > "$work/found"     # lines: symbol, and the file that has it; "?" if it cannot be seen, "-" if no file has it
+: > "$work/examined"  # the files that have been seen as part of a program or library
+
+is_elf() { [ "$(head -c 4 "$1" | tail -c 3)" = ELF ]; }
+symbol_of() { echo "$1_" | tr '[:upper:]' '[:lower:]'; }
+texts_of() { grep -aoE '@\(#\)PSTRIPACK [a-z0-9_]+ [A-Z]+' "$1" || true; }
+interpreter_of() { readelf -lW "$1" | sed -n 's/.*program interpreter: \(.*\)]/\1/p'; }
+
+# has FILE TYPES [nm's option]: lines for $work/found, of the symbols with one of nm's types
+has() {
+  nm ${3:+"$3"} -P "$1" 2> /dev/null |
+    awk -v symbols="$symbols" -v types="^[$2]\$" -v file="$1" '$1 ~ symbols && $2 ~ types { print $1, file }'
+}
+
+# ask_loader FILE: its answer in $work/loader
+ask_loader() {
+  loader=$(interpreter_of "$1")
+  [ -n "$loader" ] || loader=$(interpreter_of "$(readlink -f /bin/sh)")  # of a shared library
+  env -u LD_DEBUG_OUTPUT LD_TRACE_LOADED_OBJECTS=1 LD_WARN=yes LD_BIND_NOW=yes LD_DEBUG=bindings "$loader" "$1" \
+    > "$work/loader" 2>&1 || fail "$1 cannot be loaded: $(grep -v 'binding file' "$work/loader" | tail -n 1)"
+  grep -q 'binding file' "$work/loader" || fail "$loader does not report bindings; the GNU C library's loader does"
+}
+
+# examine FILE: a program, or a library by itself
+examine() {
+  readelf -hldSW "$1" > "$work/header" 2> "$work/errors" || true
+  if grep -q 'Error:' "$work/errors"; then fail "$1 is damaged: $(head -n 1 "$work/errors")"; fi
+  : > "$work/loader"
+  if grep -q '(NEEDED)' "$work/header"; then ask_loader "$1"; fi
+  sed -n 's/^\t\(.* => \)\{0,1\}\(.*\) (0x[0-9a-f]*)$/\2/p' "$work/loader" | while read -r library; do
+    [ ! -e "$library" ] || readlink -f "$library"
+  done > "$work/loaded"
+  { echo "$1"; cat "$work/loaded"; } >> "$work/examined"
+  sed -n 's/^\t\(.*\) => not found$/\1/p' "$work/loader" | sort -u | while read -r library; do
+    echo "pstripack-config --check: $1 needs $library, which is not found" >&2
+  done
+
+  # Calls from one file to another.
+  sed -n "s/.*binding file .* to \(.*\) \[[0-9]*\]: normal symbol \`\([^']*\)'.*/\2 \1/p
+          s/.*undefined symbol: \([^[:space:]]*\).*/\1 -/p" "$work/loader" |
+    awk -v symbols="$symbols" '$1 ~ symbols' | while read -r symbol file; do
+      [ "$file" = - ] || file=$(readlink -f "$file")
+      echo "$symbol $file"
+    done >> "$work/found"
+
+  # Calls within a file: to what it does not show to others, and of a program to all that it has.
+  while read -r library; do has "$library" t; done < "$work/loaded" >> "$work/found"
+  if ! grep -qE 'program interpreter|Type: *EXEC|Flags:.*PIE' "$work/header"; then
+    { has "$1" t; has "$1" TWi -D; } >> "$work/found"
+    return
+  fi
+  {
+    has "$1" TtWwi
+    has "$1" TWi -D
+    texts_of "$1" | while read -r _ _ routine; do echo "$(symbol_of "$routine") $1"; done
+  } >> "$work/found"
+
+  # A stripped program hides what it has, unless a library that it was linked with has it, too: then the linker shows it.
+  if grep -q ' SYMTAB ' "$work/header"; then return; fi
+  while read -r library; do has "$library" TWi -D; done < "$work/loaded" > "$work/shown"
+  for routine in $routines; do
+    symbol=$(symbol_of "$routine")
+    grep -q "^$symbol " "$work/found" "$work/shown" || echo "$symbol ?" >> "$work/found"
+  done
+}
+
+if [ ! -e "$subject" ] && [ -d "/proc/$subject" ] && [ "${subject#*[!0-9]}" = "$subject" ]; then
+  name="process $subject"
+  program=$(readlink "/proc/$subject/exe") || fail "$name: belongs to somebody else, or has no program"
+  [ -f "$program" ] || fail "$name: its program is not there any more: $program"
+  sed -n 's/^[^ ]* [^ ]* [^ ]* [^ ]* [^ ]* *\(\/.*\)/\1/p' "/proc/$subject/maps" | sort -u > "$work/mapped"
+  cd "/proc/$subject/cwd" || fail "$name: belongs to somebody else"
+  unset LD_LIBRARY_PATH LD_PRELOAD
+  for variable in LD_LIBRARY_PATH LD_PRELOAD; do
+    value=$(tr '\0' '\n' < "/proc/$subject/environ" | sed -n "s/^$variable=//p")
+    [ -z "$value" ] || export "$variable=$value"
+  done
+  examine "$program"
+  # What it has loaded since, as Python does: those that call others first, and so each with the libraries that it needs.
+  for types in U TWi; do
+    while read -r file; do
+      if [ ! -f "$file" ] || grep -qxF "$file" "$work/examined" || ! is_elf "$file"; then continue; fi
+      if [ -n "$(has "$file" $types -D)$(has "$file" t)" ]; then examine "$file"; fi
+    done < "$work/mapped"
+  done
+  while read -r _ file; do
+    case $file in /*) grep -qxF "$file" "$work/mapped" || fail "$name has not loaded $file: what it began with has changed" ;; esac
+  done < "$work/found"
+else
+  name=$subject
+  [ -e "$subject" ] || fail "$subject: no such file, and no such process"
+  if [ ! -f "$subject" ] || [ ! -r "$subject" ]; then fail "$subject: not a file that can be read"; fi
+  is_elf "$subject" || fail "$subject is not a program but a script or data; ask for the program that it starts, or for a process"
+  program=$(readlink -f "$subject")
+  if readelf -hW "$program" 2> /dev/null | grep -q 'Type: *REL'; then fail "$subject is not linked yet"; fi
+  examine "$program"
+fi
+
+status=0
+sort -u "$work/found" -o "$work/found"
+for routine in $routines; do
+  symbol=$(symbol_of "$routine")
+  grep -q "^$symbol " "$work/found" || echo "$symbol  "
+  grep "^$symbol " "$work/found" || true
+done | {
+  while read -r symbol file; do
+    routine=$(echo "${symbol%_}" | tr '[:lower:]' '[:upper:]')
+    where=$file
+    [ "$file" != "$program" ] || where="in the program itself"
+    case $file in
+      "") answer="not called" ;;
+      "?")
+        if grep -q "^$symbol [/-]" "$work/found"; then continue; fi
+        answer="not seen; the program is stripped"
+        # Who has any of them has TRMESH: it is enough to know whose that is.
+        grep -q '^trmesh_ /' "$work/found" || status=1 ;;
+      -) status=1 answer="nobody's: the symbol is undefined" ;;
+      *)
+        library=$(texts_of "$file" | sed -n "s/.*PSTRIPACK \(.*\) $routine\$/\1/p" | head -n 1)
+        if [ -n "$library" ]; then answer="ours ($library): $where"; else status=1 answer="NOT OURS: $where"; fi ;;
+    esac
+    printf '%-6s  %s\n' "$routine" "$answer"
+  done
+  if ! [ -s "$work/found" ]; then
+    echo "pstripack-config --check: $name calls none of them; of what it loads while it runs, ask by its process" >&2
+    status=1
+  fi
+  exit $status
+}

@@ -1,0 +1,3 @@
+recursive subroutine r83vec_normalize(n, x, y, z)
+  include "normalize.inc"
+end subroutine

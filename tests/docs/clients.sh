@@ -1,0 +1,156 @@
+#!/bin/sh
+# What docs/clients says, with programs that are built as those clients are: the commands of its pages, word for word,
+# and what linkers and nm say. Without libngmath all but NCAR's page.
+# Usage: clients.sh SOURCE_DIR BUILD_DIR FORTRAN_LIBRARIES_DIR STRIPACK_COMPARE WORK_DIR
+set -eu
+pages=$1/docs/clients source=$1 build=$2 libraries=$3 compare=$4 work=$5
+rm -rf "$work"
+mkdir -p "$work/bin" "$work/switch/8arg"
+cd "$work"
+fail() {
+  echo "FAILED: $*" >&2
+  for file in out err; do [ ! -s $file ] || cat $file >&2; done
+  exit 1
+}
+
+# What the commands need to find, as if all were installed.
+cat > bin/pkg-config << EOF
+#!/bin/sh
+for word in "\$@"; do
+  case \$word in
+    --cflags) echo "-I$build/modules/stripack" ;;
+    stripack_f90) echo "-L$libraries/f90_helpers -lstripack_f90" ;;
+    stripack*) [ "\$1" != --libs ] || echo "-L$libraries -l\$word -Wl,-rpath,$libraries" ;;
+  esac
+done
+EOF
+cat > bin/pstripack-config << EOF
+#!/bin/sh
+[ "\$*" = "--abi 8arg --switch-dir" ] || exit 1
+echo "$work/switch/8arg"
+EOF
+chmod +x bin/*
+ln -s "$libraries/libstripack_8arg.so" switch/8arg/libstripack.so
+ln -s "$compare" bin/stripack-compare
+export PATH="$work/bin:$PATH"
+
+# run PAGE TEXT: the block of commands that has this text
+run() {
+  awk -v text="$2" '/^```/ { if (inside && index(block, text)) { printf "%s", block; found = 1 }
+                             inside = /^```sh/; block = ""; next }
+                    inside { block = block $0 "\n" } END { exit !found }' "$pages/$1" > commands || fail "$1 has no $2"
+  sh -eu commands > out 2> err || fail "$1: $(cat commands)"
+}
+# has FILE TEXT
+has() { grep -qF -e "$2" "$1" || fail "$1 lacks: $2"; }
+
+cat > main.f90 << 'EOF'
+  integer, parameter :: n = 6
+  real(8) :: x(n) = [1,0,0,-1,0,0], y(n) = [0,1,0,0,-1,0], z(n) = [0,0,1,0,0,-1], dist(n)
+  integer :: list(6*n-12), lptr(6*n-12), lend(n), lnew, near(n), next(n), ier
+  call trmesh(n, x, y, z, list, lptr, lend, lnew, near, next, dist, ier)
+  print '(a, i0)', 'IER ', ier
+  call another
+end
+EOF
+cat > both.f90 << 'EOF'
+subroutine trmesh(n, x, y, z, list, lptr, lend, lnew, near, next, dist, ier)
+  integer :: n, list(*), lptr(*), lend(*), lnew, near(*), next(*), ier
+  real(8) :: x(*), y(*), z(*), dist(*)
+  ier = 99
+end subroutine
+subroutine another
+  print '(a)', 'another routine'
+end subroutine
+EOF
+
+echo "== one file with both"
+gfortran -c main.f90 both.f90
+nm -A ./*.o | grep -i trmesh > out
+has out 'U trmesh_'
+has out 'T trmesh_'
+gfortran main.o both.o -o model && ./model > out
+has out 'IER 99'
+run README.md 'objcopy --redefine-sym'
+PSTRIPACK_REPORT=1 ./model > out 2> err
+has out 'IER 0'
+has out 'another routine'
+has err 'pstripack: threads n=6 '
+
+echo "== helpers of the Fortran 90 text"
+sed 's/call another/call timestamp/' main.f90 > sphere_delaunay.f90
+run burkardt.md 'gfortran sphere_delaunay.f90'
+PSTRIPACK_REPORT=1 ./sphere_delaunay > out 2> err
+has out 'IER 0'
+has err 'pstripack: threads n=6 '
+
+echo "== a stale module file"
+{ echo 'module stripack; contains'; sed '/^subroutine another/,$d' both.f90; echo 'end module'; } > STRIPACK.f90
+{ echo 'use stripack'; sed '/another/d' main.f90; } > caller.f90
+gfortran -c STRIPACK.f90
+build_caller() {
+  # shellcheck disable=SC2046  # lists of words on purpose
+  gfortran caller.f90 -o caller $(pkg-config --cflags stripack) $(pkg-config --libs stripack) 2> err
+}
+if build_caller; then fail "a stale module file does no harm"; fi
+has err "undefined reference to \`__stripack_MOD_trmesh'"
+has "$pages/README.md" "undefined reference to \`__stripack_MOD_trmesh'"
+rm -f stripack.mod STRIPACK.o
+build_caller || fail "without the stale module file"
+./caller > out
+has out 'IER 0'
+
+echo "== an extension of Python"
+cat > extension.c << 'EOF'
+void trmesh_(int *n, double *x, double *y, double *z, int *list, int *lptr, int *lend, int *ier) { *ier = 99; }
+int triangulate(void) {
+  int n = 6, list[24], lptr[24], lend[6], ier;
+  double x[] = {1, 0, 0, -1, 0, 0}, y[] = {0, 1, 0, 0, -1, 0}, z[] = {0, 0, 1, 0, 0, -1};
+  trmesh_(&n, x, y, z, list, lptr, lend, &ier);
+  return ier;
+}
+EOF
+cc -shared -fPIC -w extension.c -o _stripack.so
+echo "import ctypes; print('IER', ctypes.CDLL('./_stripack.so').triangulate())" > script.py
+python3 script.py > out
+has out 'IER 99'
+run stripy.md LD_PRELOAD
+has out 'IER 0'
+has err 'pstripack: threads n=6 '
+
+if ! echo 'end' | gfortran -x f95 - -lngmath -o empty 2> /dev/null; then
+  echo "== NCAR Graphics: no libngmath, not tried"
+  exit
+fi
+echo "== NCAR Graphics"
+cp "$source/examples/ncl/cstrmesh.f" .
+cat > model.f << 'EOF'
+      INTEGER N, NT, LTRI(3,20), IWK(27*6), IER
+      PARAMETER (N = 6)
+      DOUBLE PRECISION LAT(N), LON(N), RWK(13*N)
+      DATA LAT /0, 0, 90, 0, 0, -90/, LON /0, 90, 0, 180, -90, 0/
+      CALL CSSTRID (N, LAT, LON, NT, LTRI, IWK, RWK, IER)
+      PRINT '(A,I0)', 'triangles ', NT
+      END
+EOF
+run ncl.md 'gfortran model.f cstrmesh.f'
+PSTRIPACK_REPORT=1 ./model > out 2> err
+has out 'triangles 8'
+has err 'pstripack: threads n=6 '
+for seed in 1 2 3 4 5 6 7 8; do echo "$((seed * 37)) $((seed * 11 - 50))"; done > nodes.txt
+run ncl.md stripack-compare
+has out 'ngmath.so (r8: REAL*8, INTEGER*4, TRMESH with 12 arguments)'
+has out 'verdict    equal'
+if command -v ncl > /dev/null; then
+  printf 'begin\n  print(dimsizes(csstri((/0.,0.,90.,0.,0.,-90./), (/0.,90.,0.,180.,-90.,0./))))\nend\n' > script.ncl
+  run ncl.md 'LD_PRELOAD=./cstrmesh.so'
+  has out '(0)	8'
+  has err 'pstripack: threads n=6 '
+fi
+# Every name of the library is on the page: those with d, of C and the splines by their pattern.
+library=$(gfortran -print-file-name=libngmath.a)
+nm -g --defined-only "$library" 2> /dev/null | awk '$2 == "T" && /cs/ { print $3 }' | sed -n 's/_$//; /^cs/p' | sort -u |
+  grep -vE '^csa[123]' | sed -E 's/^(csstri|cssgrid|csvoro|css2c|csc2s)d$/\1/' | sort -u > names
+grep -oE '\bcs[a-z0-9]+' "$pages/ncl.md" | sort -u > told
+comm -23 names told > missing
+[ ! -s missing ] || fail "names that ncl.md does not tell: $(cat missing)"

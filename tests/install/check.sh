@@ -1,0 +1,194 @@
+#!/bin/sh
+# Programs for the Fortran 90 text link with libstripack_f90 before the library; and `pstripack-config --check` says
+# whose TRMESH a program or a process calls, linked in every right and wrong way, with an old library made here.
+# Usage: check.sh PREFIX CONSUMER_DIR WORK_DIR
+# shellcheck disable=SC2046,SC2086  # lists of words on purpose
+set -eu
+prefix=$1 consumer=$2 work=$3
+rm -rf "$work"
+mkdir -p "$work/a folder"
+cd "$work/a folder"
+config=$prefix/bin/pstripack-config
+switch=$($config --switch-dir)
+libdir=${switch%/pstripack/switch/r8}
+ours_r8=$(readlink -f "$libdir/libstripack.so")
+fail() { echo "$*" >&2; exit 1; }
+
+# answers STATUS "ROUTINE  answer..." QUESTION: the whole answer, "not called" left out; commands before the question: env
+answers() {
+  expected_status=$1 expected=$2
+  shift 2
+  status=0
+  "$@" > "$work/answer" 2> "$work/errors" || status=$?
+  found=$(grep -v ' not called$' "$work/answer" | tr '\n' ';')
+  if [ $status != "$expected_status" ] || [ "$found" != "$expected" ]; then
+    cat "$work/errors"
+    fail "$*: status $status: $found; expected $expected_status: $expected"
+  fi
+  echo "$expected_status $*"
+}
+check() { answers "$1" "$2" "$config" --check "$3"; }
+each() { for routine in $1; do printf '%-6s  %s;' "$routine" "$2"; done; }
+some="TRMESH TRLIST" all="TRMESH TRLIST CRLIST TRFIND GETNP"
+
+# The old library has everything in one object, as the original's text is one file.
+cat > old.f90 << 'END'
+subroutine trmesh
+  call trfind
+end subroutine
+subroutine trlist
+end subroutine
+subroutine crlist
+end subroutine
+subroutine trfind
+end subroutine
+subroutine getnp
+end subroutine
+subroutine timestamp
+end subroutine
+END
+cat > model.f90 << 'END'
+call trmesh
+call trlist
+call timestamp
+end
+END
+gfortran -fPIC -c old.f90
+ar rc libold.a old.o
+mkdir old
+gfortran -shared old.o -o old/libstripack.so
+gfortran -fPIC -c model.f90
+
+# A program that calls the helpers, and one that has its own.
+for kind in "" --static; do
+  gfortran "$consumer/fortran90.f90" -o fortran90 $($config --abi f90,r8 $kind --libs)
+  LD_LIBRARY_PATH=$libdir ./fortran90 > output
+  tail -n 1 output | grep -qx 'fortran90: right' || fail "fortran90 $kind"
+  head -n 1 output | grep -qxE '[ 1-3][0-9] [A-Z][a-z]+ [0-9]{4}  [ 1][0-9]:[0-5][0-9]:[0-5][0-9]\.[0-9]{3} (AM|PM|Noon|Midnight)' ||
+    fail "timestamp: $(head -n 1 output)"
+done
+gfortran "$consumer/fortran90.f90" -o fortran90 $(PKG_CONFIG_PATH="$libdir/pkgconfig" pkg-config --libs stripack_f90 stripack)
+for half in AM PM; do  # in a time zone where it is now 0:30, or 12:30
+  if [ $half = AM ]; then local_minute=30; else local_minute=750; fi
+  west=$((($(date +%s) / 60 - local_minute) % 1440))
+  TZ=$(printf 'XYZ%02d:%02d' $((west / 60)) $((west % 60))) LD_LIBRARY_PATH=$libdir ./fortran90 | head -n 1 > output
+  grep -qE " 12:3[01]:.* $half\$" output || fail "timestamp half an hour after 0 or 12 o'clock: $(cat output)"
+done
+cat > own.f90 << 'END'
+call timestamp
+end
+subroutine timestamp
+  print '(a)', 'my own'
+end subroutine
+END
+gfortran own.f90 -o own $($config --abi f90,r8 --libs)
+[ "$(./own)" = 'my own' ] || fail "the program's own timestamp"
+
+# Linked rightly: the helpers' archive before our library.
+gfortran model.o -o right $($config --abi f90,r8 --libs) -Wl,-rpath,"$libdir"
+check 0 "$(each "$some" "ours (libstripack): $ours_r8")" right
+strip -o right_stripped right
+check 0 "$(each "$some" "ours (libstripack): $ours_r8")" right_stripped
+gfortran model.o -o right_r4 $($config --abi f90,r4 --libs) -Wl,-rpath,"$libdir"
+check 0 "$(each "$some" "ours (libstripack_r4): $(readlink -f "$libdir/libstripack_r4.so")")" right_r4
+gfortran -Wl,--gc-sections model.o -o right_static $($config --abi f90,r8 --static --libs)
+check 0 "$(each "$some" "ours (libstripack): in the program itself")" right_static
+strip right_static
+check 0 "$(each "$some" "ours (libstripack): in the program itself")$(each "CRLIST TRFIND GETNP" "not seen; the program is stripped")" \
+  right_static
+
+# The old library behind ours for its timestamp: as an archive it brings its TRMESH with it.
+gfortran model.o -o wrong $($config --libs) libold.a -Wl,-rpath,"$libdir"
+check 1 "$(each "$all" "NOT OURS: in the program itself")" wrong
+strip wrong
+check 1 "$(each "$all" "NOT OURS: in the program itself")" wrong
+gfortran model.o -o wrong_static libold.a
+check 1 "$(each "$all" "NOT OURS: in the program itself")" wrong_static
+strip wrong_static
+check 1 "$(each "$all" "not seen; the program is stripped")" wrong_static
+
+# As a shared library: what is found first counts; the environment decides.
+gfortran model.o -o first "$PWD/old/libstripack.so" $($config --libs) -Wl,-rpath,"$libdir"
+old=$PWD/old/libstripack.so
+check 1 "$(each "$some" "NOT OURS: $old")$(each TRFIND "NOT OURS: $old")" first
+gfortran model.o -o behind $($config --libs) "$old" -Wl,-rpath,"$libdir"
+check 0 "$(each "$some" "ours (libstripack): $ours_r8")$(each TRFIND "ours (libstripack): $ours_r8")" behind
+answers 0 "$(each "$some" "ours (libstripack): $ours_r8")$(each TRFIND "ours (libstripack): $ours_r8")" \
+  env LD_PRELOAD="$switch/libstripack.so" "$config" --check first
+gfortran model.o -o switched -Lold -lstripack
+answers 1 "$(each "$some" "NOT OURS: $old")$(each TRFIND "NOT OURS: $old")" env LD_LIBRARY_PATH=old "$config" --check switched
+gfortran model.f90 -shared -fPIC -o libmodel.so $($config --abi f90,r8 --libs) -Wl,-rpath,"$libdir"
+check 0 "$(each "$some" "ours (libstripack): $ours_r8")" libmodel.so
+answers 1 "$(each "$some" "nobody's: the symbol is undefined")" env -u LD_LIBRARY_PATH "$config" --check switched
+grep -q 'needs libstripack.so, which is not found' "$work/errors" || fail "the library that is missing is not named"
+
+# A library of the program's that has the old one inside, shown to others or not.
+echo 'end' > nothing.f90
+echo '{ global: sub_; local: *; };' > hidden.map
+echo 'subroutine sub
+call trmesh
+end' > sub.f90
+gfortran -shared -fPIC sub.f90 old.o -o libshown.so
+gfortran -shared -fPIC sub.f90 old.o -o libhidden.so -Wl,--version-script=hidden.map
+gfortran -Wl,--no-as-needed nothing.f90 -o inside_hidden "$PWD/libhidden.so"
+check 1 "$(each "$all" "NOT OURS: $PWD/libhidden.so")" inside_hidden
+gfortran -shared -fPIC sub.f90 -o libsub.so $($config --libs) -Wl,-rpath,"$libdir"
+
+# A process: what it has begun with, and what it has loaded since.
+cat > host.c << 'END'
+#include <dlfcn.h>
+#include <stdio.h>
+#ifdef CALLS
+void trmesh_(void);
+void (*call)(void) = trmesh_;
+#endif
+int main(int count, char** paths) {
+  for (int i = 1; i < count; ++i)
+    if (!dlopen(paths[i], RTLD_NOW)) return puts(dlerror());
+  puts("ready");
+  fflush(stdout);
+  return getchar() != EOF;
+}
+END
+cc host.c -o host -ldl
+cc -DCALLS host.c -o calling_host -ldl -Lold -lstripack
+mkfifo to_host from_host
+# process STATUS ANSWER COMMAND...
+process() {
+  expected_status=$1 expected=$2
+  shift 2
+  "$@" < to_host > from_host &
+  host=$!
+  exec 3> to_host
+  read -r ready < from_host
+  [ "$ready" = ready ] || fail "$*: $ready"
+  (cd / && check "$expected_status" "$expected" $host)
+  exec 3>&-
+  wait $host
+}
+process 0 "$(each TRMESH "ours (libstripack): $ours_r8")" ./host ./libsub.so
+process 1 "$(each "$all" "NOT OURS: $PWD/libshown.so")" ./host ./libshown.so
+process 1 "$(each "$all" "NOT OURS: $PWD/libhidden.so")" ./host ./libhidden.so
+process 1 "$(each "TRMESH TRFIND" "NOT OURS: $old")" env LD_LIBRARY_PATH=old ./calling_host
+process 0 "$(each TRMESH "ours (libstripack): $ours_r8")" env LD_LIBRARY_PATH="$switch" ./calling_host
+process 1 "" ./host
+
+# refused TEXT QUESTION...
+refused() {
+  text=$1
+  shift
+  answers 2 "" "$config" "$@"
+  grep -qF -e "$text" "$work/errors" || { cat "$work/errors"; fail "refused, but not because '$text': $*"; }
+}
+echo '#!/bin/sh' > script
+head -c 1000 right > half
+refused "script is not a program but a script" --check script
+refused "model.o is not linked yet" --check model.o
+refused "half is damaged" --check half
+refused "no such file, and no such process" --check "$work/nowhere"
+refused "not a file that can be read" --check "$work"
+refused "takes a program, or the number of a process, and nothing else" --check
+refused "takes a program, or the number of a process, and nothing else" --check right wrong
+answers 1 "" "$config" --check host
+grep -q 'calls none of them' "$work/errors" || fail "a program that calls none of them"
+echo "pstripack-config --check: all answers are right"
