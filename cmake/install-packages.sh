@@ -9,7 +9,7 @@ packages="
   libboost-dev
   libcli11-dev nlohmann-json3-dev libfmt-dev libnetcdf-dev
   libgtest-dev libcgal-dev libgmp-dev libmpfr-dev libqhull-dev
-  abigail-tools lintian environment-modules
+  abigail-tools lintian environment-modules iproute2
   netcdf-bin python3-netcdf4 python3-xarray python3-meshio
   python3 python3-numpy doxygen gnuplot-nox librsvg2-bin ghostscript
   libncarg-dev

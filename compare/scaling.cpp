@@ -282,7 +282,7 @@ using Row = std::map<std::string, double>;
 
 Row measure(const std::string& self, const Settings& s, int ranks) {
   const std::string command = fmt::format(
-      "{}OMP_NUM_THREADS=1 {} --oversubscribe --bind-to none -np {} '{}' --mode {} --family {} --n {} "
+      "{}OMP_NUM_THREADS=1 {} -n {} '{}' --mode {} --family {} --n {} "
       "--repeats {}",
       geteuid() == 0 ? "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 " : "", MPIRUN, ranks, self,
       s.mode, s.family, s.n, s.repeats);

@@ -498,6 +498,7 @@ contains
   subroutine fail(message)
     character(len=*), intent(in) :: message
     if (rank == 0) write (0, '(2a)') 'scvt_mpi: ', trim(message)
+    call MPI_Type_free(point)  ! MPICH complains of what is left
     call MPI_Finalize()
     stop 1, quiet=.true.
   end subroutine fail

@@ -1,11 +1,11 @@
 #!/bin/sh
 # MPI's faults by the interposer: messages_test.sh CASE MODE, with RUN, MPIEXEC (and its flags), INTERPOSER, JOB_PROGRAM
-# (mpi_job), MODEL (pool_model) and WORK in the environment.
+# (mpi_job), MODEL (pool_model), OPEN_MPI (TRUE: not Hydra) and WORK in the environment.
 #   late      messages are late and in another order, with $SEEDS seeds: results as ever
 #   stopped   each rank at every $EVERY-th call of MPI stands still for $MILLISECONDS: results as ever
 #   killed    each rank at every $EVERY-th call of MPI is killed: the job is over, one line names rank and phase
 # MODE: pool, comm, distributed. LIMIT: seconds until a job must be over [60: the machine may be loaded].
-# shellcheck disable=SC2086,SC2154
+# shellcheck disable=SC2015,SC2086,SC2154
 set -u
 . "$(dirname "$0")/../mpi/jobs.sh"
 case=$1 mode=$2 ranks=3 limit=${LIMIT:-60}
@@ -21,8 +21,11 @@ fail() {
 
 # run FAULT...: the job, with these variables for the interposer; $code is its exit code
 run() {
-  options="-x LD_PRELOAD=$INTERPOSER"
-  for fault in "$@"; do options="$options -x $fault"; done
+  options=
+  for variable in LD_PRELOAD="$INTERPOSER" "$@"; do
+    [ "$OPEN_MPI" = TRUE ] && option="-x $variable" || option="-genv ${variable%%=*} ${variable#*=}"
+    options="$options $option"
+  done
   : > job.out
   case $mode in
   pool) "$RUN" -n $ranks --oversubscribe $options -- "$MODEL" lists pool.bin > job.out 2> job.err < /dev/null & ;;

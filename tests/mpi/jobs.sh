@@ -32,7 +32,7 @@ named() {
 # process_of_rank RANK PROGRAM
 process_of_rank() {
   for pid in $(named "$2"); do
-    grep -qzxF "OMPI_COMM_WORLD_RANK=$1" "/proc/$pid/environ" 2> /dev/null && echo "$pid"
+    grep -qzxF -e "OMPI_COMM_WORLD_RANK=$1" -e "PMI_RANK=$1" "/proc/$pid/environ" 2> /dev/null && echo "$pid"
   done
 }
 

@@ -54,9 +54,8 @@ std::string program() {
 std::vector<char*> environment_of_program() {
   std::vector<char*> variables;
   for (char** variable = environ; *variable != nullptr; ++variable) {
-    bool is_of_model = false;
-    for (const char* prefix : {"OMPI_", "PMIX_", "PMI_", "PSTRIPACK_", "LD_PRELOAD="})
-      is_of_model = is_of_model || starts_with(*variable, prefix);
+    const bool is_of_model = is_from_mpi_launcher(*variable) || starts_with(*variable, "PSTRIPACK_") ||
+                             starts_with(*variable, "LD_PRELOAD=");
     if (!is_of_model) variables.push_back(*variable);
   }
   variables.push_back(nullptr);

@@ -105,11 +105,8 @@ std::vector<char*> environment_in(const Descriptor& file) {
 /// Where that could not be passed on: this process's environment without what mpirun has added to it.
 std::vector<char*> environment_without_mpi() {
   std::vector<char*> all;
-  for (char** at = environ; *at != nullptr; ++at) {
-    const auto starts_with = [at](const char* prefix) { return strncmp(*at, prefix, strlen(prefix)) == 0; };
-    if (!starts_with("OMPI_") && !starts_with("PMIX_") && !starts_with("PMI_") && !starts_with("ORTE_"))
-      all.push_back(*at);
-  }
+  for (char** at = environ; *at != nullptr; ++at)
+    if (!is_from_mpi_launcher(*at)) all.push_back(*at);
   return all;
 }
 

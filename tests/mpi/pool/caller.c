@@ -100,7 +100,7 @@ static int mpi_is_loaded(void) {
   char line[4096];
   int loaded = 0;
   FILE* const maps = fopen("/proc/self/maps", "r");
-  while (maps != NULL && fgets(line, sizeof line, maps) != NULL) loaded |= strstr(line, "/libmpi.so") != NULL;
+  while (maps != NULL && fgets(line, sizeof line, maps) != NULL) loaded |= strstr(line, "/libmpi.so") != NULL || strstr(line, "/libmpich.so") != NULL;
   if (maps != NULL) fclose(maps);
   return loaded;
 }

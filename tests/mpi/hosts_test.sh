@@ -1,0 +1,178 @@
+#!/bin/sh
+# Jobs over three machines, by Open MPI: hosts_test.sh CASE, with RUN, MPIEXEC (and its flags), JOB_PROGRAM (mpi_job),
+# MODEL, CALLER and WORK in the environment.
+#
+# The machines are made of namespaces, on the machine of the test: h1, where jobs are started, h2 and h3 each have a
+# host name, a network, processes and shared memory of their own; a virtual switch connects them. What takes the place
+# of ssh enters their namespaces. It all is gone with the test. Exit code 77 where namespaces cannot be had.
+# shellcheck disable=SC2015,SC2016,SC2086,SC2153,SC2154
+set -u
+case=$1
+dir=$WORK/hosts_$case
+if [ "${2:-}" != inside ]; then
+  rm -rf "$dir"
+  mkdir -p "$dir"
+  [ "$(id -u)" -eq 0 ] && user= || user=--map-root-user
+  namespaces="--net --mount --uts --ipc --pid --fork --mount-proc"
+  unshare $user $namespaces sh -c 'ip link add one type veth peer name other && ip link add switch type bridge &&
+      mount -t tmpfs none /dev/shm && unshare "$@" true' sh $namespaces > "$dir/refusal" 2>&1 || {
+    echo "skipped: no namespaces here: $(cat "$dir/refusal")"
+    exit 77
+  }
+  exec unshare $user $namespaces --kill-child sh "$0" "$case" inside
+fi
+
+. "$(dirname "$0")/jobs.sh"
+start_in "$dir"
+touch job.out job.err
+fail() {
+  echo "FAILED: $case: $*"
+  cat job.out job.err
+  exit 1
+}
+
+# ---- the machines
+# this_machine_is NAME: in its namespaces
+cat > this_machine_is << 'EOF'
+hostname "$1"
+mount -t tmpfs none /dev/shm
+mount -t sysfs none /sys
+ip link set lo up
+EOF
+sh this_machine_is h1
+printf '127.0.0.1 localhost\n10.0.0.1 h1\n10.0.0.2 h2\n10.0.0.3 h3\n' > addresses
+mount --bind addresses /etc/hosts
+ip link add switch type bridge
+ip addr add 10.0.0.1/24 dev switch
+ip link set switch up
+# make_machines: h2 and h3, anew
+make_machines() {
+  for host in h2 h3; do
+    [ ! -e $host.pid ] || kill -9 "$(cat $host.pid)" 2> /dev/null
+    ip link del to_$host 2> /dev/null
+    rm -f $host.is_up
+    unshare --net --mount --uts --ipc --pid --fork --mount-proc sh -c '
+      sh this_machine_is $1
+      : > $1.is_up
+      exec sleep 1000' sh $host 2> $host.err &
+    until [ -e $host.is_up ]; do sleep 0.02; done
+    read -r pid < /proc/$!/task/$!/children
+    echo $pid > $host.pid
+    ip link add to_$host type veth peer name eth0 netns $pid
+    ip link set to_$host master switch up
+    nsenter -t $pid -n sh -c "ip addr add 10.0.0.${host#h}/24 dev eth0 && ip link set eth0 up" || fail "no machine $host"
+  done
+}
+make_machines
+
+# In place of ssh: no variables go with it, and it does not notice that the other machine has lost its power.
+cat > ssh << EOF
+#!/bin/sh
+while :; do case \$1 in -*) shift ;; *) break ;; esac; done
+read -r pid < "$dir/\$1.pid"
+shift
+nsenter -t \$pid -m -u -i -n -p env -i PATH="$PATH" HOME="$HOME" TMPDIR=/dev/shm sh -c "cd; \$*"
+code=\$?
+[ \$code -eq 137 ] && exec sleep 1000
+exit \$code
+EOF
+chmod +x ssh
+
+# ---- the jobs
+export OMP_NUM_THREADS=1 PSTRIPACK_POOL_MIN_NODES=100
+export TMPDIR=/dev/shm  # of this machine alone
+printf 'h1 slots=2\nh2 slots=2\nh3 slots=2\n' > machines
+export OMPI_MCA_plm_rsh_agent="$dir/ssh"
+# Seconds until Open MPI notices that a machine is gone.
+export OMPI_MCA_oob_tcp_keepalive_time=2 OMPI_MCA_oob_tcp_keepalive_intvl=1 OMPI_MCA_oob_tcp_keepalive_probes=3
+pool() { "$RUN" -n 6 --hostfile machines -- "$@"; }
+ranks() { $MPIEXEC -n 6 --hostfile machines "$@"; }
+
+# All that runs here, but for this script and the machines.
+processes() {
+  for stat in /proc/[0-9]*/stat; do
+    read -r pid name state _ < "$stat" || continue
+    case $name:$state in *:Z | *:X | '(sleep):'* | '(unshare):'* | '(sh):'* | '(ssh):'*) continue ;; esac
+    [ "$(readlink "/proc/$pid/exe")" = "$(readlink /proc/self/exe)" ] || echo "$pid"
+  done 2> /dev/null
+}
+
+# start MODE: a job that calls for ever, as $job; it is in its calls then
+start() {
+  : > job.out
+  case $1 in
+  idle) pool "$CALLER" pause 5000 1000 ;;
+  pool) pool "$CALLER" calls 400000 10000 ;;
+  *) ranks "$JOB_PROGRAM" "$1" 100000 ;;
+  esac > job.out 2> job.err < /dev/null &
+  job=$!
+  until_it_says 'call 2\|pid'
+}
+
+# ends MODE SECONDS: within that time, not well, and nothing is left of it anywhere
+ends() {
+  has_ended_within "$2"
+  [ $code -ne 0 ] || fail "$1: exit code 0"
+  for _ in 1 2 3 4 5 6 7 8 9 10; do
+    left=$(processes)
+    [ -n "$left" ] || return
+    sleep 0.5
+  done
+  for pid in $left; do cat "/proc/$pid/stat"; done
+  fail "$1: processes are left"
+}
+
+case $case in
+same_bytes)
+  ranks hostname > names || fail "three machines"
+  [ "$(sort names | tr '\n' ' ')" = 'h1 h1 h2 h2 h3 h3 ' ] || fail "not two ranks on each machine: $(cat names)"
+  "$MODEL" lists alone.bin 2> alone.err
+  pool "$MODEL" lists pool.bin > job.out 2> job.err || fail "pool: exit code"
+  cmp alone.bin pool.bin || fail "pool: the lists differ"
+  # Open MPI's starter is at times late to put ssh into a group of its own, and says so.
+  grep -v 'plm:rsh: Warning: setpgid' job.err | cmp alone.err - || fail "pool: stderr differs"
+  for mode in comm distributed; do  # the program checks the lists
+    ranks "$JOB_PROGRAM" $mode > job.out 2> job.err || fail "$mode: exit code"
+  done
+  ;;
+ends)
+  for end in stop3 abort; do
+    "$MODEL" $end > alone.out 2> alone.err < /dev/null
+    alone=$?
+    pool "$MODEL" $end > job.out 2> job.err < /dev/null
+    code=$?
+    [ $code -eq $alone ] || fail "$end: exit code $code, alone $alone"
+    cmp alone.out job.out || fail "$end: stdout differs"
+  done
+  ;;
+killed)
+  # A rank on another machine.
+  for mode in idle pool calls meshes; do
+    start $mode
+    case $mode in idle | pool) program=pstripack-worker ;; *) program=$(basename "$JOB_PROGRAM") ;; esac
+    kill -9 "$(process_of_rank 2 $program)" || fail "$mode: no such rank"
+    ends $mode 30
+    [ "$(grep -cE '^pstripack: rank 2 was lost during [a-z ]+; the job ends$' job.err)" -eq 1 ] ||
+      fail "$mode: no line that names the rank, or several"
+  done
+  ;;
+vanished)
+  # A machine: its network is gone, its power, all its processes.
+  for how_and_mode in network:meshes power:idle power:calls processes:pool; do
+    how=${how_and_mode%:*} mode=${how_and_mode#*:}
+    make_machines
+    case $mode in
+    idle | pool) gone='^pstripack-run: mpirun has ended the job with exit code [0-9]+: a machine is lost' ;;
+    *) gone='^ORTE has lost communication with a remote daemon' ;;
+    esac
+    start $mode
+    [ $how = processes ] || ip link set to_h2 down
+    [ $how = network ] || kill -9 "$(cat h2.pid)"
+    ends $how_and_mode 30
+    [ "$(grep -cE "$gone" job.err)" -eq 1 ] || fail "$how_and_mode: no line that says it, or several"
+  done
+  ;;
+*)
+  fail "no such case"
+  ;;
+esac
