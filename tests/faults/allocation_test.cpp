@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <omp.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -318,6 +319,18 @@ TEST_F(EachAllocationOf, TheFingerprint) {
          {},
          0,
          0});
+}
+
+TEST(Blocks, ALargeCallFindsItsOwnAgain) {
+  const auto pages = static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES));
+  const std::size_t large = (std::size_t{1} << 30) + (std::size_t{1} << 28);
+  if (pages < 4 * (large / static_cast<std::size_t>(sysconf(_SC_PAGESIZE))))
+    GTEST_SKIP() << "half of the memory is too little";
+  pstripack::free_kept_blocks();
+  pstripack::Block{large};  // none of its pages is touched
+  const FailingAllocation none_is_made(1);
+  EXPECT_NO_THROW(pstripack::Block{large});
+  EXPECT_FALSE(FailingAllocation::happened());
 }
 
 TEST(Blocks, ThoseKeptAreGivenUpBeforeMemoryIsOut) {

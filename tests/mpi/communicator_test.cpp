@@ -60,6 +60,36 @@ TEST(Communicator, ExchangeDeliversEveryByte) {
   }
 }
 
+/// Run by `ctest -C long -L long`: takes 5 GB.
+TEST(Communicator, DISABLED_MovesMoreThanAnIntegerCounts) {
+  MpiCommunicator ranks(MPI_COMM_WORLD);
+  ASSERT_EQ(ranks.size(), 2);
+  constexpr std::size_t kBytes = (std::size_t{1} << 31) + 4097, kWord = sizeof(std::uint64_t);
+  const auto word = [](std::size_t i) { return 0x9e3779b97f4a7c15u * (i + 1); };
+  Parcels outgoing;
+  outgoing.begin = {0, 0, ranks.rank() == 0 ? kBytes : 0};
+  outgoing.bytes = Block(outgoing.begin[2]);
+  const auto for_each_word = [](const auto& visit) {
+    for (std::size_t i = 0; i < kBytes / kWord; ++i) visit(i);
+  };
+  for_each_word([&](std::size_t i) {
+    const std::uint64_t w = word(i);
+    if (ranks.rank() == 0) std::memcpy(outgoing.bytes.data() + i * kWord, &w, kWord);
+  });
+  if (ranks.rank() == 0) outgoing.bytes.data()[kBytes - 1] = 77;
+  const Parcels incoming = ranks.exchange(outgoing);
+  if (ranks.rank() == 0) return;
+  ASSERT_EQ(incoming.begin[1], kBytes);
+  std::size_t wrong = 0;
+  for_each_word([&](std::size_t i) {
+    std::uint64_t w;
+    std::memcpy(&w, incoming.bytes.data() + i * kWord, kWord);
+    wrong += w != word(i);
+  });
+  EXPECT_EQ(wrong, 0u);
+  EXPECT_EQ(incoming.bytes.data()[kBytes - 1], 77);
+}
+
 TEST(Communicator, GathersTheBytesOfAllRanks) {
   for (const std::size_t limit : kLimits) {
     MpiCommunicator ranks(MPI_COMM_WORLD, limit);
