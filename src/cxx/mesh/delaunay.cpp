@@ -510,7 +510,10 @@ class Builder final : public GrowingHull {
       const int side = certain_side(t, make_spoke(predicates_, f.vertex[0], v));
       if (side > 0) return t;
       for (const std::uint32_t corner : {f.vertex[0], f.vertex[1], f.vertex[2]})
-        if (predicates_.given(corner) == predicates_.given(v)) return coincides(v, corner);
+        // Positions first: they are at hand.
+        if (predicates_.position(corner) == predicates_.position(v) &&
+            predicates_.given(corner) == predicates_.given(v))
+          return coincides(v, corner);
       const bool seen = side == 0 && view_.above(f.vertex[0], f.vertex[1], f.vertex[2]);
       if (seen && !by_tie_of_directions()) return t;
       std::uint32_t out = 0;
