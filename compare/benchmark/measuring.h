@@ -24,7 +24,8 @@ Measurement measure(const std::function<double()>& work, double time_limit);
 /// The same, and std::runtime_error if it does not come to its end within half an hour.
 double measured(const std::function<double()>& work);
 
-/// The first call where that takes a second or more, else the mean of `calls` after it.
+/// The mean of `calls` after the first, for which the system clears pages; where that takes 4 seconds or more,
+/// its time.
 double seconds_a_call(const std::function<void()>& call, int calls);
 
 class Samples {
