@@ -6,7 +6,7 @@ set(point_sets_dir ${CMAKE_CURRENT_LIST_DIR}/point_sets)
 set(point_set_families random single fibonacci icosahedral latlon reduced_gaussian healpix cubed_sphere tripolar ring
                        variable clusters dense_cap antipodal cap box strip tee pairs hemisphere hemisphere_rim
                        small_circle two_curves crossing ellipse spiral comb falling_tee moment falling
-                       ulp_groups axis_cap nest rays lattice earth rounded rotated_pole refined
+                       ulp_groups axis_cap nest mirrored_nest rays lattice earth rounded rotated_pole refined
                        satellite swaths tracks rivers coast earthquakes)
 list(TRANSFORM point_set_families PREPEND ${point_sets_dir}/families/)
 list(TRANSFORM point_set_families APPEND .cpp)

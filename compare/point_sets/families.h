@@ -57,6 +57,7 @@ Family falling_family();
 Family ulp_groups_family();
 Family axis_cap_family();
 Family nest_family();
+Family mirrored_nest_family();
 Family rays_family();
 Family lattice_family();
 Family earth_family();

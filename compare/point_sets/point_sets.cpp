@@ -26,7 +26,8 @@ std::vector<Family> hard() {
           small_circle_family(), two_curves_family(), crossing_family(), ellipse_family(), spiral_family(),
           comb_family(), falling_tee_family(), moment_family(),
           // over many decades, and as close as doubles can be
-          falling_family(), ulp_groups_family(), axis_cap_family(), nest_family(), rays_family(),
+          falling_family(), ulp_groups_family(), axis_cap_family(), nest_family(), mirrored_nest_family(),
+          rays_family(),
           // lattices
           lattice_family(), earth_family(), rounded_family(), rotated_pole_family(), refined_family(),
           // of instruments

@@ -16,6 +16,6 @@ Points rays_nodes(std::size_t n, double decades, Random& random) {
 
 }  // namespace
 
-Family rays_family() { return {"rays", "100", "n", "the same along 64 rays, and (1, 0, 0)", rays_nodes}; }
+Family rays_family() { return {"rays", "100", "n", "nest along 64 rays, and (1, 0, 0)", rays_nodes}; }
 
 }  // namespace point_sets
