@@ -62,6 +62,7 @@ class InsertionLists {
 
   /// For a node that will be asked about soon.
   [[gnu::always_inline]] void prefetch(Int node) const { __builtin_prefetch(&node_[index(node)]); }
+  void prefetch_neighbours(Int /*first_slot*/, Int /*last_slot*/) const {}
   [[gnu::always_inline]] void prefetch_list(Int node) const {
     __builtin_prefetch(&slot_[index(last_slot(node))]);
   }

@@ -26,6 +26,17 @@ class PlainLists : public ListReader<Int> {
 
   Vector<Real> operator[](Int node) const { return node_[node]; }
   Int slot_of_third(Int /*a*/, Int /*b_of_a*/, Int b, Int c) const { return this->slot_of(b, c); }
+  /// Their positions, where they fill consecutive slots, as in canonical lists.
+  void prefetch_neighbours(Int first_slot, Int last_slot) const {
+    constexpr Int most = 8;
+    if (last_slot <= first_slot || last_slot - first_slot > most) return;
+    for (Int slot = first_slot + 1; slot < last_slot; ++slot) {
+      const auto i = static_cast<std::size_t>(this->neighbour(slot) - 1);
+      __builtin_prefetch(node_.x + i);
+      __builtin_prefetch(node_.y + i);
+      __builtin_prefetch(node_.z + i);
+    }
+  }
 
  private:
   Nodes<Real> node_;
@@ -67,6 +78,7 @@ class GuardedLists : public ListEditor<CountedArrays<Int>> {
   Vector<Real> operator[](Int node) const { return node_[node]; }
   Int slot_of_third(Int /*a*/, Int /*b_of_a*/, Int b, Int c) const { return this->slot_of(b, c); }
   void prefetch_list(Int /*node*/) const {}  // numbers are checked when they are used
+  void prefetch_neighbours(Int /*first_slot*/, Int /*last_slot*/) const {}
 
  private:
   Int count_;

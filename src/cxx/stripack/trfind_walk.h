@@ -83,8 +83,12 @@ class TrfindWalk {
     }
     return false;
   }
-  /// Of the triangle that was found: the slot of i1 in the list of i2.
-  Int slot_found() const { return slot_found_; }
+  /// Of the triangle that was found: the slot of i1 in the list of i2. Looked for only where it is asked for,
+  /// if no arc was crossed: a list more to wait for.
+  Int slot_found() const {
+    if (found_.slot != 0) return found_.slot;
+    return lists_.slot_of_third(found_.behind, found_.l_of_behind, found_.l, found_.r);
+  }
 
  private:
   enum class View { wedge, outside, move_on, collinear };
@@ -99,6 +103,7 @@ class TrfindWalk {
   View look_out(Int& o, Int& r, Int& l, Int& l_of_o) const {
     const Int last_slot = lists_.last_slot(o), first_slot = lists_.next(last_slot);
     const Int last = lists_.neighbour(last_slot), first = lists_.neighbour(first_slot);
+    lists_.prefetch_neighbours(first_slot, last_slot);
     Int slot = first_slot;
     r = first;
     if (lists_.entry(last_slot) < 0) {
@@ -154,8 +159,9 @@ class TrfindWalk {
   ///        behind
   Walk walk(Int o, Int& r, Int& l, Int l_of_o, Location<Int>& found) {
     Int behind = o, first_r = r, first_l = l;
-    Int r_of_l = lists_.slot_of_third(o, l_of_o, l, r);
+    Int r_of_l = 0;
     while ((weights_.b3 = side(r, l)) < 0) {
+      if (r_of_l == 0) r_of_l = lists_.slot_of_third(o, l_of_o, l, r);
       if (lists_.entry(r_of_l) < 0) return Walk::left_the_hull;
       const Int m_of_l = lists_.next(r_of_l), beyond = lists_.neighbour(m_of_l);
       lists_.prefetch_list(beyond);  // while we wait for its position
@@ -179,7 +185,7 @@ class TrfindWalk {
     weights_.b1 = std::max(weights_.b1, Real(0));
     weights_.b2 = std::max(weights_.b2, Real(0));
     found = {r, l, behind};
-    slot_found_ = r_of_l;
+    found_ = {r, l, behind, l_of_o, r_of_l};
     return Walk::arrived;
   }
 
@@ -242,7 +248,10 @@ class TrfindWalk {
   SearchLimits left_;
   const Weights<Real> weights_;
   Draw draw_;
-  Int slot_found_ = 0;
+  struct {
+    Int r, l, behind, l_of_behind;
+    Int slot;  ///< of r in the list of l; 0: not looked for
+  } found_{};
 };
 
 }  // namespace pstripack
