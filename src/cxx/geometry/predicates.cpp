@@ -58,12 +58,8 @@ int filter_orientation(const Point& a, const Point& b, const Point& c, const Poi
 }
 
 /// det(a,b,c) = det(b-a, c-a, a): small where the nodes are close, so the bound is small as well.
-[[gnu::always_inline]] inline Determinant left_determinant(const Point& a, const Point& b, const Point& c) {
-  return determinant(minus(b, a), minus(c, a), a);
-}
-
 [[gnu::always_inline]] inline int filter_left(const Point& a, const Point& b, const Point& c) {
-  const auto v = left_determinant(a, b, c);
+  const auto v = determinant(minus(b, a), minus(c, a), a);
   return certain_sign(v, kFactor * v.permanent + kUnderflow);
 }
 
@@ -214,11 +210,9 @@ bool above_by_tie(const Point& a, const Point& b, const Point& c, const Point& v
   if (first != second && v.x != c.x && b.x != a.x) {
     const auto& turn = bracket[second > first ? ba : vc];
     const Point &p = *node[turn[0]], &q = *node[turn[1]], &r = *node[turn[2]];
-    const Determinant d = left_determinant(r, p, q);
-    const double bound = kFactor * d.permanent + kUnderflow;
-    if (std::fabs(d.value) > bound) {
+    if (const int s = moderate(p) && moderate(q) && moderate(r) ? filter_left(r, p, q) : 0) {
       ++stages.symbolic;
-      return d.value > 0;
+      return s > 0;
     }
   }
   return v != a && v != b && v != c && symbolic_above(a, b, c, v);
