@@ -27,6 +27,7 @@ SOURCE = pathlib.Path(__file__).resolve().parents[2]
 QUICK = ("predicates_test", "-Exact.*:Filter.IsMeasured*", 0.01)
 LONGER = ("predicates_test", "-Exact.*:Filter.IsMeasured*", 0.05)
 KERNEL = ("parallel_test", "Nasty.*:Coincident.*", 1)
+FLIPS = ("flips_test", "*", 0.5)
 VALIDATOR = ("validator_test", "-*Mutants*:*RandomTriangles*:*ReadsNothing*", 1)
 LISTS = ("validator_test", "*Mutants*:*RandomTriangles*:*ReadsNothing*", 0.1)
 SUBJECTS = {
@@ -34,6 +35,7 @@ SUBJECTS = {
     "src/cxx/geometry/directions.cpp": ("double largest(", "}  // namespace pstripack", [QUICK, LONGER, KERNEL]),
     "src/cxx/geometry/exact.h": ("constexpr int kSmallBits", "}  // namespace pstripack::exact", [QUICK, LONGER]),
     "src/cxx/geometry/predicates.h": ("inline bool length_is_one", "/// Counts since", [QUICK, KERNEL]),
+    "src/cxx/mesh/flips.cpp": ("struct Spokes {", "}  // namespace pstripack", [FLIPS]),
     "src/cxx/mesh/validate.cpp": ("Verdict defect(", "const char* name(", [VALIDATOR, LISTS]),
     "src/cxx/stripack/adjacency_lists.cpp": ("Verdict malformed(", "#define PSTRIPACK", [VALIDATOR, LISTS]),
 }

@@ -1,0 +1,327 @@
+// Where a call may begin with the mesh of the last one:
+//   1  every star is tested in floating point; those that are not certain, exactly
+//   2  arcs that are not locally Delaunay are flipped, and their surroundings tested again (Lawson 1977)
+//
+// If every triangle is counterclockwise and one direction lies in one triangle only, the mesh covers the
+// sphere once. If then every arc is locally Delaunay, by the exact predicate with its tie rule, it is the
+// Delaunay triangulation: proof in docs/design.md, "Warm start".
+
+#include "mesh/flips.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <exception>
+
+#include "geometry/insertion_order.h"
+#include "geometry/parallel_for.h"
+
+namespace pstripack {
+
+MovingMesh::MovingMesh(const Point* p, std::size_t n, const std::int32_t* list, const std::int32_t* lend)
+    : n_(n), workspace_(workspace_bytes(n)) {
+  order_ = workspace_.keep<std::uint32_t>(n);
+  insertion_order(p, n, order_, workspace_);
+  workspace_.next_phase();
+  inside_ = workspace_.keep<std::uint32_t>(n);
+  nodes_ = workspace_.keep<Point>(n);
+  stars_ = workspace_.keep<Star>(n);
+  rings_ = workspace_.keep<std::uint32_t>(kSlots * n);
+  is_changed_ = workspace_.keep<std::uint8_t>(n);
+  parallel_pieces(n, threads_for(n), [&](std::size_t first, std::size_t last, int) {
+    for (std::size_t v = first; v < last; ++v) inside_[order_[v]] = static_cast<std::uint32_t>(v);
+  });
+  std::fill_n(is_changed_, n, std::uint8_t{0});
+  lay_rings(list, lend);
+}
+
+void MovingMesh::set_lists(const std::int32_t* list, const std::int32_t* lend) {
+  for (const std::uint32_t v : changed_) is_changed_[v] = 0;
+  changed_.clear();
+  // As many flips as there may be in one call can need some room for longer rings.
+  if (end_ + n_ / 2 > kSlots * n_) lay_rings(list, lend);
+}
+
+/// Every ring with one free slot behind it.
+void MovingMesh::lay_rings(const std::int32_t* list, const std::int32_t* lend) {
+  constexpr std::size_t kAhead = 16;
+  const int threads = threads_for(n_);
+  std::vector<std::size_t> begin(static_cast<std::size_t>(threads) + 1);
+  const auto slot = [&](std::size_t k) { return static_cast<std::size_t>(k == 0 ? 0 : lend[k - 1]); };
+  parallel_pieces(n_, threads, [&](std::size_t first, std::size_t last, int piece) {
+    std::size_t sum = 0;
+    for (std::size_t v = first; v < last; ++v) {
+      if (v + kAhead < last) __builtin_prefetch(lend + order_[v + kAhead]);
+      const std::size_t k = order_[v], count = slot(k + 1) - slot(k);
+      stars_[v].count = static_cast<std::uint32_t>(count);
+      sum += count + 1;
+    }
+    begin[static_cast<std::size_t>(piece) + 1] = sum;
+  });
+  for (std::size_t t = 1; t < begin.size(); ++t) begin[t] += begin[t - 1];
+  parallel_pieces(n_, threads, [&](std::size_t first, std::size_t last, int piece) {
+    std::size_t at = begin[static_cast<std::size_t>(piece)];
+    for (std::size_t v = first; v < last; ++v) {
+      if (v + 2 * kAhead < last) __builtin_prefetch(lend + order_[v + 2 * kAhead]);
+      if (v + kAhead < last) __builtin_prefetch(list + slot(order_[v + kAhead]));
+      const std::int32_t* const ring = list + slot(order_[v]);
+      stars_[v].begin = static_cast<std::uint32_t>(at);
+      for (std::uint32_t i = 0; i < stars_[v].count; ++i) rings_[at++] = inside_[ring[i] - 1];
+      rings_[at++] = kFree;
+    }
+  });
+  end_ = begin.back();
+  rings_[end_++] = kTaken;
+}
+
+// ---- 1: the tests ---------------------------------------------------------------------------------------
+
+namespace {
+
+/// A star with more neighbours is tested exactly.
+constexpr std::uint32_t kMost = 28;
+
+using Two = double __attribute__((vector_size(16)));
+using TwoMasks = decltype(Two{} > Two{});
+
+Two two_at(const double* from) {
+  Two two;
+  std::memcpy(&two, from, sizeof two);
+  return two;
+}
+
+/// The neighbours of a node relative to it, counterclockwise, the first three again at the end: two
+/// neighbours can be tested at a time.
+struct Spokes {
+  double x[kMost + 4], y[kMost + 4], z[kMost + 4];
+  double reach;  ///< the largest component of all
+
+  void look(const Point* nodes, const Point& p, const std::uint32_t* ring, std::uint32_t count) {
+    double most_x = 0, most_y = 0, most_z = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const Point d = minus(nodes[ring[i]], p);
+      x[i] = d.x, y[i] = d.y, z[i] = d.z;
+      most_x = std::max(most_x, std::fabs(d.x));
+      most_y = std::max(most_y, std::fabs(d.y));
+      most_z = std::max(most_z, std::fabs(d.z));
+    }
+    for (std::uint32_t i = 0; i < 3; ++i) x[count + i] = x[i], y[count + i] = y[i], z[count + i] = z[i];
+    reach = std::max(most_x, std::max(most_y, most_z));
+  }
+
+  /// True if all triangles of the star are certainly counterclockwise and all its arcs are certainly locally
+  /// Delaunay. With e, f, g three consecutive spokes of the node at p:
+  ///
+  ///        g    f           (e x f).p > 0: the triangle p, p+e, p+f is counterclockwise
+  ///         \   |   e       (e x f).g < 0: g is below its plane
+  ///          \  |  /
+  ///            p
+  ///
+  /// Every product of three components is at most R^3, or 1.001 R^2 where p is one of the factors, and six of
+  /// them make a determinant, which carries 8 roundings (predicates.cpp, kFactor): its error is less than 9u
+  /// 6.01 R^3 < 64u R^3, u = 2^-53, and that is rounded in the two products below. What underflows is less
+  /// than 1e-250.
+  bool are_certain(const Point& p, std::uint32_t count) const {
+    const double square = reach * reach, low = 0x1p-47 * square + 1e-250,
+                 high = 0x1p-47 * (square * reach) + 1e-250;
+    TwoMasks certain = Two{} == Two{};
+    for (std::uint32_t i = 0; i < count; i += 2) {
+      const Two ex = two_at(x + i), ey = two_at(y + i), ez = two_at(z + i);
+      const Two fx = two_at(x + i + 1), fy = two_at(y + i + 1), fz = two_at(z + i + 1);
+      const Two gx = two_at(x + i + 2), gy = two_at(y + i + 2), gz = two_at(z + i + 2);
+      const Two nx = ey * fz - ez * fy, ny = ez * fx - ex * fz, nz = ex * fy - ey * fx;
+      certain &= (nx * p.x + ny * p.y + nz * p.z > low) & (nx * gx + ny * gy + nz * gz < -high);
+    }
+    return (certain[0] & certain[1]) != 0;
+  }
+};
+
+}  // namespace
+
+/// A triangle with a direction strictly inside it, by exact signs.
+bool MovingMesh::choose_mark(Mark& mark) const {
+  constexpr std::uint32_t kTries = 16;
+  for (std::uint32_t v = 0; v < std::min<std::size_t>(n_, kTries); ++v) {
+    const std::uint32_t* const ring = rings_ + stars_[v].begin;
+    mark = {{v, ring[0], ring[1]}, {}};
+    const Point &a = nodes_[v], &b = nodes_[ring[0]], &c = nodes_[ring[1]];
+    const Point sum{a.x + b.x + c.x, a.y + b.y + c.y, a.z + b.z + c.z};
+    const double length = std::sqrt(dot(sum, sum));
+    const Point& g = mark.towards = {sum.x / length, sum.y / length, sum.z / length};
+    if (has_direction(g) && left(a, b, g) > 0 && left(b, c, g) > 0 && left(c, a, g) > 0) return true;
+  }
+  return false;
+}
+
+/// Tests the stars first..last-1 and appends arcs that are not locally Delaunay; each is tested at one of its
+/// ends at least. False: a triangle is not counterclockwise, or holds the direction of the mark.
+///
+/// Only triangles near the mark can hold it. With R the reach of a star, |g| and the lengths of nodes 1 but
+/// for 1e-6: the ray towards g meets a triangle v,a,b in a point q with |q-v| <= max(|a-v|, |b-v|) <= 1.74 R.
+/// From |q|^2 = sum of l_i |p_i|^2 - sum of l_i l_j |p_i-p_j|^2, l the barycentric coordinates of q, follows
+/// 1 - |q| <= 4 R^2 + 3e-6, so |g-v| <= 2 R + 4e-6 where R <= 1/16.
+bool MovingMesh::test(std::size_t first, std::size_t last, const Mark& mark, const std::atomic<bool>& stopped,
+                      std::vector<Arc>& suspects) const {
+  Spokes spokes;
+  const Point g = mark.towards;
+  for (std::size_t v = first; v < last; ++v) {
+    const Star star = stars_[v];
+    const Point p = nodes_[v];
+    bool is_certain = false;
+    if (star.count <= kMost) {
+      spokes.look(nodes_, p, rings_ + star.begin, star.count);
+      const double reach = spokes.reach, near = 2 * reach + 4e-6;
+      const bool is_far =
+          std::fabs(p.x - g.x) > near || std::fabs(p.y - g.y) > near || std::fabs(p.z - g.z) > near;
+      is_certain = is_far && reach <= 0x1p-4 && spokes.are_certain(p, star.count);
+    }
+    if (is_certain) continue;
+    if (stopped.load(std::memory_order_relaxed) || !examine(static_cast<std::uint32_t>(v), mark, suspects))
+      return false;
+  }
+  return true;
+}
+
+/// The same of one star, exactly: each triangle at the first of its corners, each arc at the first of its
+/// ends. The other end may have found it certain.
+bool MovingMesh::examine(std::uint32_t v, const Mark& mark, std::vector<Arc>& suspects) const {
+  const Coordinates predicates(nodes_, n_);
+  const auto id = [](std::uint32_t w) { return static_cast<index_t>(w); };
+  const auto is_corner_of_mark = [&](std::uint32_t w) {
+    return w == mark.corner[0] || w == mark.corner[1] || w == mark.corner[2];
+  };
+  const Star star = stars_[v];
+  const std::uint32_t* const ring = rings_ + star.begin;
+  std::uint32_t c = ring[star.count - 1];
+  for (std::uint32_t i = 0; i < star.count; ++i) {
+    const std::uint32_t b = ring[i], d = ring[i + 1 < star.count ? i + 1 : 0];
+    if (v < c && v < b) {
+      if (predicates.left(id(v), id(c), id(b)) <= 0) return false;
+      const Point &p = nodes_[v], &q = nodes_[c], &r = nodes_[b], &g = mark.towards;
+      if (!(is_corner_of_mark(v) && is_corner_of_mark(c) && is_corner_of_mark(b)) && left(p, q, g) >= 0 &&
+          left(q, r, g) >= 0 && left(r, p, g) >= 0)
+        return false;
+    }
+    if (v < b && predicates.above(id(v), id(c), id(b), id(d))) suspects.push_back({v, b});
+    c = b;
+  }
+  return true;
+}
+
+bool MovingMesh::repair() {
+  flips_ = 0;
+  Mark mark;
+  if (!choose_mark(mark)) return false;
+  const int threads = threads_for(n_);
+  std::atomic<bool> stopped{false};
+  std::vector<std::vector<Arc>> suspects(static_cast<std::size_t>(threads));
+  std::vector<std::exception_ptr> errors(suspects.size());
+  parallel_pieces(n_, threads, [&](std::size_t first, std::size_t last, int piece) {
+    const auto t = static_cast<std::size_t>(piece);
+    try {
+      if (!test(first, last, mark, stopped, suspects[t])) stopped = true;
+    } catch (...) {
+      errors[t] = std::current_exception();
+    }
+  });
+  for (const auto& e : errors)
+    if (e) std::rethrow_exception(e);
+  if (stopped) return false;
+  for (std::size_t t = 1; t < suspects.size(); ++t)
+    suspects[0].insert(suspects[0].end(), suspects[t].begin(), suspects[t].end());
+  return flip(suspects[0]);
+}
+
+// ---- 2: flips -------------------------------------------------------------------------------------------
+
+/// Flips arcs until all are locally Delaunay. `suspects`: those that may not be. Every flip pushes the
+/// surface outwards, so it ends; false if it would take long, or an arc cannot be flipped.
+///
+///          b                     b          The arc a-b goes if d is above the triangle a,c,b. Then c-d
+///          comes,
+///        / | \                 /   \        if the triangles a,c,d and b,d,c are counterclockwise; both lie
+///      d   |   c      ->     d ----- c      in the quadrangle, which is covered once as before.
+///        \ | /                 \   /
+///          a                     a
+bool MovingMesh::flip(std::vector<Arc>& suspects) {
+  const Coordinates predicates(nodes_, n_);
+  const auto id = [](std::uint32_t w) { return static_cast<index_t>(w); };
+  std::size_t work = 8 * n_ + 1000;  // in slots of rings: beyond, a new triangulation is faster
+  while (!suspects.empty()) {
+    const auto [a, b] = suspects.back();
+    suspects.pop_back();
+    const Star star = stars_[a];
+    const std::uint32_t* const ring = rings_ + star.begin;
+    const std::uint32_t at = place_of(b, star);
+    if (at == star.count) continue;  // it has gone
+    const std::uint32_t c = ring[at == 0 ? star.count - 1 : at - 1],
+                        d = ring[at + 1 == star.count ? 0 : at + 1];
+    if (!predicates.above(id(a), id(c), id(b), id(d))) continue;
+    if (predicates.left(id(a), id(c), id(d)) <= 0 || predicates.left(id(b), id(d), id(c)) <= 0) return false;
+    const std::size_t cost = 8 + stars_[a].count + stars_[b].count + stars_[c].count + stars_[d].count;
+    if (cost > work) return false;
+    work -= cost;
+    remove(a, at);
+    remove(b, place_of(a, stars_[b]));
+    if (!insert(c, place_of(a, stars_[c]), d) || !insert(d, place_of(b, stars_[d]), c)) return false;
+    for (const std::uint32_t v : {a, b, c, d}) note_change(v);
+    for (const Arc& arc : {Arc{a, c}, Arc{c, b}, Arc{b, d}, Arc{d, a}}) suspects.push_back(arc);
+    ++flips_;
+  }
+  return true;
+}
+
+std::uint32_t MovingMesh::place_of(std::uint32_t b, const Star& star) const {
+  const std::uint32_t* const ring = rings_ + star.begin;
+  return static_cast<std::uint32_t>(std::find(ring, ring + star.count, b) - ring);
+}
+
+/// Puts a neighbour in front of the one at `place`. False: there is no room.
+bool MovingMesh::insert(std::uint32_t v, std::uint32_t place, std::uint32_t neighbour) {
+  Star& star = stars_[v];
+  if (rings_[star.begin + star.count] != kFree) {
+    const std::size_t room = 2 * std::size_t{star.count};
+    if (end_ + room + 1 > kSlots * n_) return false;
+    std::copy_n(rings_ + star.begin, star.count, rings_ + end_);
+    std::fill_n(rings_ + end_ + star.count, room - star.count, kFree);
+    star.begin = static_cast<std::uint32_t>(end_);
+    end_ += room;
+    rings_[end_++] = kTaken;
+  }
+  std::uint32_t* const ring = rings_ + star.begin;
+  std::copy_backward(ring + place, ring + star.count, ring + star.count + 1);
+  ring[place] = neighbour;
+  ++star.count;
+  return true;
+}
+
+void MovingMesh::remove(std::uint32_t v, std::uint32_t place) {
+  Star& star = stars_[v];
+  std::uint32_t* const ring = rings_ + star.begin;
+  std::copy(ring + place + 1, ring + star.count, ring + place);
+  ring[--star.count] = kFree;
+}
+
+void MovingMesh::note_change(std::uint32_t v) {
+  if (is_changed_[v] != 0) return;
+  changed_.push_back(v);
+  is_changed_[v] = 1;
+}
+
+// ---- what has changed -----------------------------------------------------------------------------------
+
+std::vector<MovingMesh::Change> MovingMesh::changes() const {
+  std::vector<Change> all(changed_.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = {order_[changed_[i]], stars_[changed_[i]].count};
+  std::sort(all.begin(), all.end(), [](const Change& a, const Change& b) { return a.node < b.node; });
+  return all;
+}
+
+void MovingMesh::write_ring(std::size_t k, std::int32_t* list) const {
+  const Star star = stars_[inside_[k]];
+  std::transform(rings_ + star.begin, rings_ + star.begin + star.count, list,
+                 [&](std::uint32_t v) { return static_cast<std::int32_t>(order_[v]) + 1; });
+  std::rotate(list, std::min_element(list, list + star.count), list + star.count);
+}
+
+}  // namespace pstripack

@@ -1,0 +1,58 @@
+#pragma once
+// A mesh whose nodes move, beside the triangulation made anew.
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "lists.h"
+#include "mesh/delaunay.h"
+#include "mesh/flips.h"
+
+/// The canonical lists, if the nodes are such as a moving mesh may have: they surround the centre,
+/// coordinates decide, no two coincide.
+inline std::optional<Lists> made_anew(const Nodes& nodes) {
+  const bool ones = std::all_of(nodes.begin(), nodes.end(), pstripack::length_is_one);
+  using namespace pstripack;
+  Workspace workspace(workspace_bytes(nodes.size()) + 48 * nodes.size());
+  const Hull hull = delaunay(nodes.data(), nodes.size(), workspace);
+  if (!ones || !hull.surrounds_centre || hull.lengths != Lengths::as_given || !hull.coincident.empty())
+    return {};
+  Faces faces;
+  for (std::size_t t = 0; t < hull.face_count; ++t) {
+    const auto& v = hull.faces[t].vertex;
+    const auto number = [&](std::uint32_t w) { return static_cast<std::int32_t>(hull.order[w]); };
+    faces.push_back({number(v[0]), number(v[1]), number(v[2])});
+  }
+  return canonical_lists(*rings_of(nodes.size(), faces));
+}
+
+/// A mesh and its lists, brought along from what has changed.
+class Follower {
+ public:
+  Follower(const Nodes& nodes, const Lists& lists)
+      : mesh_(nodes.data(), nodes.size(), lists.list.data(), lists.lend.data()), rings_(*rings_of(lists)) {}
+
+  /// The lists of these nodes, if the mesh can follow. As its users must, it refuses other lengths.
+  std::optional<Lists> follow(const Nodes& nodes) {
+    if (!std::all_of(nodes.begin(), nodes.end(), pstripack::length_is_one)) return {};
+    for (std::size_t k = 0; k < nodes.size(); ++k) mesh_.node(k) = nodes[k];
+    if (!mesh_.repair()) return {};
+    for (const auto& [k, count] : mesh_.changes()) {
+      std::vector<std::int32_t> ring(count);
+      mesh_.write_ring(k, ring.data());
+      for (std::int32_t& v : ring) --v;
+      rings_.neighbours[k] = ring;
+    }
+    flips += mesh_.flips();
+    Lists lists = canonical_lists(rings_);
+    if (mesh_.change_count() > nodes.size() / 4) mesh_.set_lists(lists.list.data(), lists.lend.data());
+    return lists;
+  }
+  std::size_t flips = 0;
+
+ private:
+  pstripack::MovingMesh mesh_;
+  Rings rings_;
+};

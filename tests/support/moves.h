@@ -1,0 +1,58 @@
+#pragma once
+// Ways in which the nodes of a mesh move from one call to the next.
+
+#include <cmath>
+
+#include "lists.h"
+#include "point_sets.h"
+
+/// The mean distance of neighbours among n nodes.
+inline double spacing(std::size_t n) { return std::sqrt(4 * 3.14159265358979 / static_cast<double>(n)); }
+
+/// Every node by up to `distance` in any direction.
+inline void move_all(Nodes& nodes, double distance, point_sets::Random& random) {
+  for (auto& p : nodes) {
+    const auto d = random.direction();
+    const double by = distance * random.uniform();
+    p = point_sets::normalized({p.x + by * d.x, p.y + by * d.y, p.z + by * d.z});
+  }
+}
+
+/// All nodes around an axis.
+inline void rotate(Nodes& nodes, const pstripack::Point& axis, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  for (auto& p : nodes) {
+    const auto across = pstripack::cross(axis, p);
+    const double along = (1 - c) * pstripack::dot(axis, p);
+    p = {c * p.x + s * across.x + along * axis.x, c * p.y + s * across.y + along * axis.y,
+         c * p.z + s * across.z + along * axis.z};
+  }
+}
+
+/// A step of Lloyd's method, on nodes that surround the centre: each goes to the centroid of its Voronoi
+/// cell.
+inline void lloyd_step(Nodes& nodes, const std::vector<std::int32_t>& list,
+                       const std::vector<std::int32_t>& lend) {
+  using namespace pstripack;
+  const Nodes before = nodes;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const std::int32_t begin = k == 0 ? 0 : lend[k - 1], count = lend[k] - begin;
+    const Point p = before[k];
+    const auto neighbour = [&](std::int32_t i) {
+      return before[static_cast<std::size_t>(std::abs(list[static_cast<std::size_t>(begin + i % count)])) -
+                    1];
+    };
+    const auto corner = [&](std::int32_t i) {
+      return point_sets::normalized(cross(minus(neighbour(i), p), minus(neighbour(i + 1), p)));
+    };
+    Point sum{0, 0, 0}, q = corner(0);
+    for (std::int32_t i = 1; i <= count; ++i) {
+      const Point r = corner(i), n = cross(minus(q, p), minus(r, p));
+      const double area = std::sqrt(dot(n, n));
+      sum = {sum.x + area * (p.x + q.x + r.x), sum.y + area * (p.y + q.y + r.y),
+             sum.z + area * (p.z + q.z + r.z)};
+      q = r;
+    }
+    if (dot(sum, sum) > 0) nodes[k] = point_sets::normalized(sum);
+  }
+}
