@@ -38,7 +38,7 @@ const std::string kPhases = " seconds=" + kSeconds + " divide=" + kSeconds + " t
                             " merge=" + kSeconds + " lists=" + kSeconds + " gather=" + kSeconds;
 
 std::string line_of(const std::string& before_seconds) {
-  return "pstripack: threads " + before_seconds + kPhases + " rounds=[0-9]+ halo=[0-9]+ bytes=0";
+  return "pstripack: threads " + before_seconds + kPhases + " rounds=[0-9]+ halo=[0-9]+ bytes=0 start=cold";
 }
 std::string row_of(int calls) {
   return "pstripack: threads +" + std::to_string(calls) + "( +" + kSeconds + "){7}";

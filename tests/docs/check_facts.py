@@ -51,7 +51,7 @@ def environment():
              "docs/man/man3/pstripack.3": used - {"PSTRIPACK_COMPARE", "PSTRIPACK_MPIRUN"},
              "docs/man/man1/pstripack-run.1": {"PSTRIPACK_MPIRUN", "PSTRIPACK_REPORT"}}
     for document, expected in named.items():
-        compare(document, expected, set(re.findall(r"\bPSTRIPACK_[A-Z]+\b", read(document))))
+        compare(document, expected, set(re.findall(r"\bPSTRIPACK_[A-Z]+(?:_START)?\b", read(document))))
 
 
 def version():

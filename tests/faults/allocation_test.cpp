@@ -13,9 +13,12 @@
 #include "capi/pstripack.h"
 #include "capi/stripack_calls.h"
 #include "capi/text_calls.h"
+#include "geometry/workspace.h"
 #include "injection.h"
 #include "point_sets.h"
+#include "stripack/warm_start.h"
 #include "support/lists.h"
+#include "support/moves.h"
 
 namespace {
 
@@ -268,6 +271,46 @@ TEST_F(EachAllocationOf, TrmeshOnThreads) {
     call.every = 8;  // the calls take a while
     fails(call);
   }
+}
+
+/// Calls with nodes that hardly move, of which any may run out of memory: the next ones are right.
+TEST_F(EachAllocationOf, TrmeshThatBeginsWithTheLastMesh) {
+  constexpr int kCalls = 5;
+  constexpr std::size_t n = 6000;
+  std::vector<Arrays<R8>> right;
+  Nodes nodes = point_sets::make("random", n);
+  point_sets::Random random(1);
+  for (int i = 0; i < kCalls; ++i) {
+    right.push_back(triangulated<R8>(nodes));
+    move_all(nodes, 1e-3 * spacing(n), random);
+  }
+  for (int failing = 0; failing < kCalls; ++failing) {
+    bool failed = true;
+    for (long which = 1; failed; ++which, failures += failed) {
+      pstripack::forget_last_meshes();
+      pstripack::free_kept_blocks();
+      for (int i = 0; i < kCalls; ++i) {
+        Arrays<R8> a = right[static_cast<std::size_t>(i)];
+        for (auto* lists : {&a.list, &a.lptr, &a.lend, &a.lnew}) std::fill(lists->begin(), lists->end(), -77);
+        const Call call = a.trmesh();
+        std::int64_t code;
+        {
+          const FailingAllocation memory(i == failing ? which : 0);
+          code = call.run();
+          if (i == failing) failed = FailingAllocation::happened();
+        }
+        ASSERT_TRUE(code == 0 || (code == -6 && i == failing)) << which << " " << i << " " << code;
+        if (code == 0) {
+          ASSERT_TRUE(a.list == right[static_cast<std::size_t>(i)].list &&
+                      a.lptr == right[static_cast<std::size_t>(i)].lptr &&
+                      a.lend == right[static_cast<std::size_t>(i)].lend);
+        } else {
+          for (const Result& r : call.results) ASSERT_TRUE(r.is_untouched()) << which;
+        }
+      }
+    }
+  }
+  EXPECT_GT(failures, 20);
 }
 
 /// As a model under pstripack-run. Each call is the first of its thread, and needs more shared memory than

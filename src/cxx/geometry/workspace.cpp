@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <mutex>
 #include <utility>
 
@@ -27,6 +28,9 @@ const std::size_t most_kept = std::size_t{1} << 30;
 
 constexpr std::size_t kCount = 16;   // a call on threads takes five
 Buffer<unsigned char> kept[kCount];  // between two calls
+/// Of others, who count among those that are kept. Their pages cannot be taken: a quarter of the bound.
+std::atomic<std::size_t> staying{0};
+std::atomic<bool (*)() noexcept> give_up_more{nullptr};
 std::mutex mutex;  // never waited for: another thread may hold it, or held it when we were forked
 
 /// Up to a sixteenth more, so that calls of about the same size share blocks.
@@ -38,10 +42,21 @@ std::size_t rounded_up(std::size_t bytes) {
 
 }  // namespace
 
+bool may_stay(std::size_t bytes) noexcept {
+  if (staying.fetch_add(bytes) + bytes <= most_kept / 4) return true;
+  staying -= bytes;
+  return false;
+}
+
+void has_left(std::size_t bytes) noexcept { staying -= bytes; }
+
+void set_give_up_more(bool (*give_up)() noexcept) noexcept { give_up_more = give_up; }
+
 bool free_kept_blocks() noexcept {
+  bool (*const give_up)() noexcept = give_up_more;
+  bool any = give_up != nullptr && give_up();
   const std::unique_lock lock(mutex, std::try_to_lock);
-  if (!lock) return false;
-  bool any = false;
+  if (!lock) return any;
   for (auto& block : kept) {
     any = any || block.size() > 0;
     block = {};
@@ -83,7 +98,7 @@ Block::~Block() {
   const std::unique_lock lock(mutex, std::try_to_lock);
   if (!lock) return;
   // The newest first; the oldest go where there are too many or too much.
-  std::size_t last = 0, total = memory_.size();
+  std::size_t last = 0, total = memory_.size() + staying;
   while (last + 1 < kCount && kept[last].size() > 0) ++last;
   for (; last > 0; --last) kept[last] = std::move(kept[last - 1]);
   kept[0] = std::move(memory_);

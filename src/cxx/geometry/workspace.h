@@ -35,8 +35,16 @@ class Block {
   Buffer<unsigned char> memory_;
 };
 
-/// Gives those that are kept back to the system; false if there are none, or another thread is at them.
+/// Gives those that are kept back to the system, and what give_up_more() gives up; false if there is nothing, or
+/// another thread is at it.
 bool free_kept_blocks() noexcept;
+
+/// Of memory that somebody else keeps from one call to the next: whether so many bytes more may stay. If so,
+/// they are counted until they have left.
+bool may_stay(std::size_t bytes) noexcept;
+void has_left(std::size_t bytes) noexcept;
+/// What gives it up where memory is out; true if there was any.
+void set_give_up_more(bool (*give_up)() noexcept) noexcept;
 
 /// An array in a block of its own, not initialised.
 template <class T>

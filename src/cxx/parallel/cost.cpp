@@ -16,6 +16,7 @@ void combine_into(ParallelCost& to, const ParallelCost& from, const Combine& com
   combine(to.rounds, from.rounds);
   combine(to.halo, from.halo);
   combine(to.bytes_sent, from.bytes_sent);
+  combine(to.flips, from.flips);
 }
 
 }  // namespace

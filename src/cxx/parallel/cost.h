@@ -23,6 +23,7 @@ struct ParallelCost {
   int rounds = 0;         ///< exchanges of questions that were needed
   std::int64_t halo = 0;  ///< nodes of other patches that the patches of this rank took in
   std::int64_t bytes_sent = 0;
+  std::int64_t flips = -1;  ///< of a call that began with an earlier mesh; -1: it did not
 };
 
 /// The costs of this rank and of its group: the largest of each, and their sums.

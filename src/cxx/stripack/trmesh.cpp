@@ -14,6 +14,7 @@
 #include "stripack/list_pieces.h"
 #include "stripack/original_order.h"
 #include "stripack/original_rules.h"
+#include "stripack/warm_start.h"
 
 namespace pstripack {
 namespace {
@@ -117,6 +118,11 @@ TrmeshResult trmesh(Int n, const Real* x, const Real* y, const Real* z, Int* lis
   auto nodes = static_cast<std::size_t>(n);
   const NodeArrays arrays(x, y, z);
   const bool on_threads = threads_for(nodes) > 1, in_original_order = original_rules().follow;
+  std::optional<WarmStart> warm_start;
+  if (!in_original_order) {
+    warm_start.emplace(arrays, nodes);
+    if (warm_start->write_lists(list, lptr, lend, lnew, cost)) return {0};
+  }
   // One hull has a copy of the nodes. It is made at once, unless they may be triangulated without.
   const bool copied_at_once = !on_threads && !in_original_order;
   std::optional<Workspace> workspace;
@@ -156,7 +162,10 @@ TrmeshResult trmesh(Int n, const Real* x, const Real* y, const Real* z, Int* lis
     return lists_of_one_hull(p, nodes, *workspace, list, lptr, lend, lnew, cost);
   };
   const Pairs pairs = triangulate_them();
-  if (pairs.empty()) return result;
+  if (pairs.empty()) {
+    if (warm_start) warm_start->remember(list, lend, *lnew);
+    return result;
+  }
   // Nodes 1..M-1 do not coincide, and the first three are not on one great circle: M > 3.
   const Coincidence first = first_coincidence(pairs);
   nodes = static_cast<std::size_t>(first.m) - 1;

@@ -1,0 +1,425 @@
+// Calls of TRMESH that may begin with the mesh of an earlier one: the same bytes as those of calls that
+// cannot.
+
+#include "stripack/warm_start.h"
+
+#include <gtest/gtest.h>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+#include <algorithm>
+#include <functional>
+#include <string>
+#include <thread>
+
+#include "geometry/predicates.h"
+#include "mesh/delaunay.h"
+#include "point_sets.h"
+#include "stripack/adjacency_lists.h"
+#include "stripack/trmesh.h"
+#include "support/child.h"
+#include "support/columns.h"
+#include "support/lists.h"
+#include "support/moves.h"
+
+namespace {
+
+using namespace pstripack;
+using point_sets::make;
+using point_sets::Random;
+
+constexpr std::int32_t untouched = -987654321;
+
+struct Result : Lists {
+  std::int32_t ier = 0;
+  bool is_warm = false;
+  std::int64_t flips = 0;
+};
+
+/// In arrays of its own, which are freed before the next call.
+template <class Real = double>
+Result call(const Nodes& nodes) {
+  const Columns<Real> c(nodes);
+  Result r;
+  r.list.assign(6 * nodes.size() - 12, untouched);
+  r.lptr = r.list;
+  r.lend.assign(nodes.size(), untouched);
+  r.lnew = untouched;
+  ParallelCost cost;
+  const TrmeshResult result =
+      trmesh<Real, std::int32_t>(static_cast<std::int32_t>(nodes.size()), c.x.data(), c.y.data(), c.z.data(),
+                                 r.list.data(), r.lptr.data(), r.lend.data(), &r.lnew, &cost);
+  r.ier = result.ier;
+  r.is_warm = cost.flips >= 0;
+  r.flips = std::max<std::int64_t>(cost.flips, 0);
+  return r;
+}
+
+Result cold_call(const Nodes& nodes) {
+  forget_last_meshes();
+  Result r = call(nodes);
+  EXPECT_FALSE(r.is_warm);
+  return r;
+}
+
+bool same(const Result& a, const Result& b) { return a == b && a.ier == b.ier; }
+
+struct Tally {
+  int warm = 0, cold = 0;
+  std::int64_t flips = 0;
+};
+
+/// The same bytes for all of these sets, one after another, warm and cold.
+Tally compare(const std::vector<Nodes>& sets) {
+  forget_last_meshes();
+  std::vector<Result> results;
+  Tally tally;
+  for (const Nodes& nodes : sets) {
+    results.push_back(call(nodes));
+    ++(results.back().is_warm ? tally.warm : tally.cold);
+    tally.flips += results.back().flips;
+  }
+  for (std::size_t i = 0; i < sets.size(); ++i)
+    EXPECT_TRUE(same(results[i], cold_call(sets[i])))
+        << "call " << i + 1 << (results[i].is_warm ? ", warm" : ", cold");
+  forget_last_meshes();
+  return tally;
+}
+
+/// `steps` sets, each of which `move(nodes, step)` makes of the one before.
+std::vector<Nodes> sets_of(Nodes nodes, int steps, const std::function<void(Nodes&, int)>& move) {
+  std::vector<Nodes> sets;
+  for (int step = 0; step < steps; ++step) {
+    if (step > 0) move(nodes, step);
+    sets.push_back(nodes);
+  }
+  return sets;
+}
+
+/// With the first three nodes not on one great circle.
+Nodes nodes_of(const std::string& family, std::size_t n) {
+  Nodes nodes = make(family, n, 1);
+  for (std::uint64_t seed = 1; left(nodes[0], nodes[1], nodes[2]) == 0; ++seed)
+    point_sets::shuffle(nodes, seed);
+  return nodes;
+}
+
+constexpr std::size_t kN = 2000;
+
+TEST(WarmStart, BeginsWithTheThirdCallOfNodesThatHardlyMove) {
+  Random random(1);
+  std::vector<bool> warm;
+  forget_last_meshes();
+  for (const Nodes& nodes :
+       sets_of(nodes_of("random", kN), 5, [&](Nodes&p, int) { move_all(p, 1e-3 * spacing(kN), random); }))
+    warm.push_back(call(nodes).is_warm);
+  EXPECT_EQ(warm, (std::vector<bool>{false, false, true, true, true}));
+}
+
+TEST(WarmStart, IsInvisibleUnderLloydSteps) {
+  for (const std::string& family : point_sets::families()) {
+    SCOPED_TRACE(family);
+    std::vector<Nodes> sets{nodes_of(family, kN)};
+    while (sets.size() < 12) {
+      const Result r = cold_call(sets.back());
+      if (r.ier != 0) break;
+      sets.push_back(sets.back());
+      lloyd_step(sets.back(), r.list, r.lend);
+    }
+    const Tally tally = compare(sets);
+    if (family == "random") {
+      EXPECT_GE(tally.warm, 8);
+    }
+  }
+}
+
+TEST(WarmStart, IsInvisibleUnderMovesOfAnySize) {
+  Random random(2);
+  for (const std::string family : {"random", "latlon", "icosahedral", "fibonacci", "variable:1e3"})
+    for (const double fraction : {1e-16, 1e-12, 1e-6, 1e-3, 0.01, 0.03, 0.1, 0.3, 1.0}) {
+      SCOPED_TRACE(family + ", " + std::to_string(fraction));
+      const Nodes nodes = nodes_of(family, kN);
+      const double distance = fraction * spacing(nodes.size());
+      const Tally tally = compare(sets_of(nodes, 6, [&](Nodes& p, int) { move_all(p, distance, random); }));
+      if ((fraction <= 1e-3 && family == "random") || (fraction <= 0.01 && family == "fibonacci")) {
+        EXPECT_EQ(tally.warm, 4);
+      }
+      if (fraction == 1) {
+        EXPECT_EQ(tally.warm, 0);
+      }
+    }
+}
+
+TEST(WarmStart, CopiesTheListsOfNodesThatStayWhereTheyAre) {
+  const Tally tally = compare(std::vector<Nodes>(5, nodes_of("latlon", kN)));
+  EXPECT_EQ(tally.warm, 3);
+  EXPECT_EQ(tally.flips, 0);
+}
+
+TEST(WarmStart, IsInvisibleWhereOneNodeJumps) {
+  Random random(3);
+  const Tally tally = compare(sets_of(nodes_of("random", kN), 40, [&](Nodes& p, int step) {
+    move_all(p, 1e-4 * spacing(kN), random);
+    if (step % 8 == 5) p[random.below(kN)] = random.direction();
+  }));
+  EXPECT_GT(tally.warm, 0);
+  EXPECT_GE(tally.cold, 2 + 5);
+}
+
+/// What does not fit is tried ever more seldom.
+TEST(WarmStart, IsNotTriedAgainAndAgain) {
+  Random random(4);
+  forget_last_meshes();
+  int tries = 0;
+  Nodes nodes = nodes_of("random", kN);
+  for (int step = 0; step < 100; ++step) {
+    nodes[random.below(kN)] = random.direction();
+    const Columns<> c(nodes);
+    WarmStart start({c.x.data(), c.y.data(), c.z.data()}, kN);
+    std::vector<std::int32_t> list(6 * kN), lptr(6 * kN), lend(kN);
+    std::int32_t lnew;
+    tries += start.is_prepared();
+    EXPECT_FALSE(start.write_lists(list.data(), lptr.data(), lend.data(), &lnew, nullptr));
+    Workspace workspace(workspace_bytes(kN));
+    lnew =
+        write_lists(delaunay(nodes.data(), kN, workspace), list.data(), lptr.data(), lend.data(), workspace);
+    start.remember(list.data(), lend.data(), lnew);
+  }
+  EXPECT_GE(tries, 2);
+  EXPECT_LE(tries, 6);
+  forget_last_meshes();
+}
+
+TEST(WarmStart, IsInvisibleUnderTiesThatAppearAndVanish) {
+  for (const std::string family : {"latlon", "icosahedral", "cubed-sphere"}) {
+    SCOPED_TRACE(family);
+    const Nodes lattice = nodes_of(family, kN);
+    const Tally tally = compare(sets_of(lattice, 12, [&](Nodes& p, int step) {
+      if (step % 3 == 0)
+        p = lattice;
+      else
+        for (std::size_t k = 0; k < p.size(); k += 13) p[k].z = std::nextafter(p[k].z, step % 3 == 1 ? 2 : 0);
+    }));
+    EXPECT_GT(tally.warm, 4);
+  }
+}
+
+TEST(WarmStart, FindsNodesThatCoincide) {
+  Nodes nodes = nodes_of("random", kN);
+  forget_last_meshes();
+  for (int i = 0; i < 4; ++i) call(nodes);
+  nodes[1700] = nodes[40];
+  const Result r = call(nodes);
+  EXPECT_EQ(r.ier, 41);
+  EXPECT_TRUE(same(r, cold_call(nodes)));
+  nodes[1700] = {2 * nodes[40].x, 2 * nodes[40].y, 2 * nodes[40].z};
+  EXPECT_TRUE(same(call(nodes), cold_call(nodes)));
+}
+
+TEST(WarmStart, ReturnsTheCodesOfColdCalls) {
+  const Nodes good = nodes_of("random", kN);
+  const auto after_warm_calls = [&](const Nodes& nodes) {
+    forget_last_meshes();
+    for (int i = 0; i < 4; ++i) EXPECT_EQ(call(good).is_warm, i >= 2);
+    const Result r = call(nodes);
+    EXPECT_TRUE(same(r, cold_call(nodes)));
+    return r.ier;
+  };
+  Nodes bad = good;
+  bad[1234].y = std::nan("");
+  EXPECT_EQ(after_warm_calls(bad), -5);
+  bad = good;
+  bad[777] = {0, 0, 0};
+  EXPECT_EQ(after_warm_calls(bad), -5);
+  bad = good;
+  bad[2] = {-bad[1].x, -bad[1].y, -bad[1].z};
+  EXPECT_EQ(after_warm_calls(bad), -2);
+}
+
+/// Codes of nodes that a mesh could follow: the first three come to lie on one great circle.
+TEST(WarmStart, ReturnsMinusTwoOfNodesThatHardlyMove) {
+  Nodes nodes = nodes_of("random", kN);
+  const auto swap_to = [&](std::size_t to, std::size_t from) { std::swap(nodes[to], nodes[from]); };
+  const Point p = nodes[0];
+  swap_to(1, static_cast<std::size_t>(
+                 std::min_element(nodes.begin() + 1, nodes.end(),
+                                  [&](const Point& a, const Point& b) { return dot(a, p) > dot(b, p); }) -
+                 nodes.begin()));
+  const Point q = nodes[1];
+  const Point normal = point_sets::normalized(cross(p, q));
+  swap_to(2, static_cast<std::size_t>(std::min_element(nodes.begin() + 2, nodes.end(),
+                                                       [&](const Point& a, const Point& b) {
+                                                         return std::fabs(dot(a, normal)) <
+                                                                std::fabs(dot(b, normal));
+                                                       }) -
+                                      nodes.begin()));
+  // Onto the equator: all of it turned, so that zeros are exact.
+  const Point third = point_sets::normalized(cross(normal, p));
+  for (Point& r : nodes) r = point_sets::normalized({dot(r, p), dot(r, third), dot(r, normal)});
+  nodes[0].z = nodes[1].z = 1e-9;
+  forget_last_meshes();
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(call(nodes).is_warm, i >= 2);
+  nodes[0].z = nodes[1].z = nodes[2].z = 0;
+  const Result r = call(nodes);
+  EXPECT_EQ(r.ier, -2);
+  EXPECT_EQ(r.lnew, untouched);
+}
+
+TEST(WarmStart, IsInvisibleWhereLengthsHideNodes) {
+  Random random(5);
+  Nodes first = nodes_of("random", kN);
+  for (std::size_t k = 0; k < 50; ++k) {
+    const Point &p = first[k], d = random.direction();
+    first[kN - 1 - k] = point_sets::normalized({p.x + 1e-5 * d.x, p.y + 1e-5 * d.y, p.z + 1e-5 * d.z});
+  }
+  const Tally tally = compare(sets_of(first, 12, [&](Nodes& p, int step) {
+    if (step == 6) {
+      for (std::size_t k = 0; k < 50; ++k) {
+        Point& q = p[k];
+        q = {q.x * (1 - 9e-7), q.y * (1 - 9e-7), q.z * (1 - 9e-7)};
+      }
+    } else {
+      move_all(p, 1e-9, random);
+      if (step > 6)
+        for (std::size_t k = 0; k < 50; ++k)
+          p[k] = {p[k].x * (1 - 9e-7), p[k].y * (1 - 9e-7), p[k].z * (1 - 9e-7)};
+    }
+  }));
+  EXPECT_GE(tally.warm, 4);
+}
+
+TEST(WarmStart, IsInvisibleForOtherLengths) {
+  Random random(6);
+  const Tally tally = compare(sets_of(nodes_of("random", kN), 8, [&](Nodes& p, int step) {
+    move_all(p, 1e-4 * spacing(kN), random);
+    for (std::size_t k = 0; k < kN && step > 4; ++k) p[k] = {2 * p[k].x, 2 * p[k].y, 2 * p[k].z};
+  }));
+  EXPECT_EQ(tally.warm, 3);
+}
+
+TEST(WarmStart, IsInvisibleWhereNodesBecomeAHemisphere) {
+  const Tally tally = compare(sets_of(nodes_of("random", kN), 60, [&](Nodes& p, int) {
+    for (Point& q : p) q = point_sets::normalized({q.x, q.y, q.z + 0.1});
+  }));
+  EXPECT_GT(tally.cold, 10);
+}
+
+TEST(WarmStart, IsInvisibleWhereNChanges) {
+  Random random(7);
+  const Tally tally = compare(sets_of(nodes_of("random", kN), 20, [&](Nodes& p, int step) {
+    move_all(p, 1e-4 * spacing(kN), random);
+    if (step % 5 == 4) p.push_back(random.direction());
+    if (step % 10 == 9) p.pop_back(), p.pop_back();
+  }));
+  EXPECT_GT(tally.warm, 4);
+}
+
+TEST(WarmStart, KeepsSeveralMeshes) {
+  Random random(8);
+  std::vector<Nodes> sets,
+      current{nodes_of("random", kN), nodes_of("fibonacci", kN), nodes_of("random", 1500)};
+  for (int step = 0; step < 8; ++step)
+    for (Nodes& nodes : current) {
+      move_all(nodes, 1e-4 * spacing(kN), random);
+      sets.push_back(nodes);
+    }
+  EXPECT_EQ(compare(sets).warm, 3 * 6);
+}
+
+TEST(WarmStart, IsInvisibleForOtherNodesOfTheSameNumber) {
+  std::vector<Nodes> sets;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) sets.push_back(make("random", kN, seed));
+  EXPECT_EQ(compare(sets).warm, 0);
+}
+
+TEST(WarmStart, IsInvisibleInSinglePrecision) {
+  Random random(9);
+  const auto sets =
+      sets_of(nodes_of("random", kN), 8, [&](Nodes& p, int) { move_all(p, 1e-2 * spacing(kN), random); });
+  forget_last_meshes();
+  std::vector<Result> results;
+  int warm = 0;
+  for (const Nodes& nodes : sets) results.push_back(call<float>(nodes)), warm += results.back().is_warm;
+  EXPECT_EQ(warm, 6);
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    forget_last_meshes();
+    EXPECT_TRUE(same(results[i], call<float>(sets[i]))) << i;
+  }
+}
+
+TEST(WarmStart, IsInvisibleToThreadsThatCallAtOnce) {
+  constexpr std::size_t kThreads = 6;
+  std::vector<std::vector<Nodes>> sets(kThreads);
+  std::vector<std::vector<Result>> results(kThreads);
+  for (std::size_t t = 0; t < kThreads; ++t) {
+    Random random(t);
+    sets[t] = sets_of(make("random", kN + t % 2, t / 2), 30, [&](Nodes& p, int step) {
+      move_all(p, (step % 7 == 6 ? 0.5 : 1e-3) * spacing(kN), random);
+    });
+  }
+  forget_last_meshes();
+  std::vector<std::thread> threads;
+  for (std::size_t t = 0; t < kThreads; ++t)
+    threads.emplace_back([&, t] {
+      for (const Nodes& nodes : sets[t]) results[t].push_back(call(nodes));
+    });
+  for (auto& thread : threads) thread.join();
+  for (std::size_t t = 0; t < kThreads; ++t)
+    for (std::size_t i = 0; i < sets[t].size(); ++i)
+      EXPECT_TRUE(same(results[t][i], cold_call(sets[t][i]))) << t << " " << i;
+}
+
+TEST(WarmStart, BeginsAnewInAForkedChild) {
+  const Nodes nodes = nodes_of("random", kN);
+  forget_last_meshes();
+  Result last;
+  for (int i = 0; i < 3; ++i) last = call(nodes);
+  EXPECT_TRUE(last.is_warm);
+  EXPECT_EQ(in_child([&] {
+              for (int i = 0; i < 4; ++i) {
+                const Result r = call(nodes);
+                if (!same(r, last) || r.is_warm != (i >= 2)) return 1 + i;
+              }
+              return 0;
+            }),
+            0);
+  EXPECT_TRUE(call(nodes).is_warm);
+  forget_last_meshes();
+}
+
+TEST(WarmStart, GivesItsMemoryUpWhereItIsAskedFor) {
+  const Nodes nodes = nodes_of("random", kN);
+  for (int i = 0; i < 4; ++i) call(nodes);
+  EXPECT_TRUE(free_kept_blocks());
+  EXPECT_FALSE(forget_last_meshes());
+  EXPECT_FALSE(call(nodes).is_warm);
+  forget_last_meshes();
+}
+
+#ifdef _OPENMP
+TEST(WarmStart, IsInvisibleOnThreads) {
+  Random random(10);
+  constexpr std::size_t kMany = 50000;
+  const auto sets = sets_of(make("fibonacci", kMany, 1), 8, [&](Nodes& p, int step) {
+    move_all(p, (step < 5 ? 1e-3 : 0.02) * spacing(kMany), random);
+  });
+  std::vector<Result> first;
+  for (const int threads : {1, 2, 3}) {
+    omp_set_num_threads(threads);
+    forget_last_meshes();
+    int warm = 0;
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+      Result r = call(sets[i]);
+      warm += r.is_warm;
+      if (threads == 1) first.push_back(cold_call(sets[i])), forget_last_meshes();
+      EXPECT_TRUE(same(r, first[i])) << threads << " threads, call " << i + 1;
+    }
+    EXPECT_EQ(warm, threads == 1 ? 0 : 6);
+  }
+  omp_set_num_threads(1);
+  EXPECT_GT(compare(sets).flips, 100);
+}
+#endif
+
+}  // namespace
