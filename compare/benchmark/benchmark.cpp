@@ -13,6 +13,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
 #include <ctime>
 #include <optional>
 #include <stdexcept>
@@ -29,6 +30,7 @@
 #include "point_sets.h"
 #include "printed.h"
 #include "pstripack.h"
+#include "time_of_warm_starts.h"
 
 using namespace benchmark;
 
@@ -66,10 +68,10 @@ int main(int argc, char** argv) {
   app.footer("cases: " + CLI::detail::join(case_names(), " "));
   CaseSettings cases;
   app.add_flag("--quick", cases.quick, "only cases with less than 10^6 nodes, three repeats");
-  app.add_option(
-         "--only", cases.only,
-         "only these cases, as random-1e4,latlon-1e5; the cases `distributions` and `queries-...` run "
-         "where they are named")
+  app.add_option("--only", cases.only,
+                 "only these cases, as random-1e4,latlon-1e5; the cases `distributions`, `warm-start` and "
+                 "`queries-...` "
+                 "run where they are named")
       ->delimiter(',')
       ->check(CLI::IsMember(case_names()));
   app.add_option("--sets", cases.sets, "only these point sets in the case `distributions`")
@@ -113,8 +115,13 @@ int main(int argc, char** argv) {
   app.add_option("--model-points", model.points)->group("");
   app.add_option("--model-order", model.order)->group("");
   app.add_option("--model-nodes", model.n)->group("");
+  MovingModel moving_model;  // see run_time_of_warm_starts
+  app.add_option("--be-the-moving-model", moving_model.moves)->group("");
   try {
     app.parse(argc, argv);
+    if (!moving_model.moves.empty()) return be_the_moving_model(moving_model);
+    // Calls with the same nodes again and again are to take the time of a first one.
+    setenv("PSTRIPACK_WARM_START", "0", 1);
     if (model.calls > 0) return be_the_model(model);
     for (int* const repeats : {&cases.repeats, &curves.repeats})
       if (*repeats == 0) *repeats = cases.quick ? 3 : 7;

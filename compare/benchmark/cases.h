@@ -12,7 +12,7 @@ namespace benchmark {
 struct CaseSettings {
   bool quick = false;
   std::vector<std::string>
-      only;  ///< none: all of case_names() but distributions and queries, or those that are quick
+      only;  ///< none: all of case_names() but distributions, queries and warm-start, or those that are quick
   std::vector<std::string> sets;  ///< of distributions; none: all
   int repeats = 0;
 };

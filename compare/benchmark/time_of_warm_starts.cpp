@@ -1,0 +1,183 @@
+#include "time_of_warm_starts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <stdexcept>
+#include <vector>
+
+#include "contenders.h"
+#include "point_sets.h"
+
+namespace benchmark {
+namespace {
+
+using pstripack::Point;
+
+enum class Moves { lloyd, far, other, alternating, none };
+
+struct Row {
+  std::string name;
+  int n, threads;
+  Moves moves;
+  double part;        ///< of a step of Lloyd's method
+  int before, calls;  ///< steps of Lloyd's method before; calls that are measured
+  double required;    ///< cold over warm
+};
+
+const std::vector<Row> kRows{
+    {"lloyd-1e5", 100000, 1, Moves::lloyd, 0.06, 12, 20, 3.0},
+    {"lloyd-1e6", 1000000, 1, Moves::lloyd, 0.06, 12, 6, 2.7},
+    {"lloyd-1e6-threads", 1000000, 2, Moves::lloyd, 0.06, 12, 6, 2.5},
+    {"flips-1e5", 100000, 1, Moves::lloyd, 0.4, 5, 5, 2.0},
+    {"far-1e5", 100000, 1, Moves::far, 0, 0, 12, 0.97},
+    {"other-1e5", 100000, 1, Moves::other, 0, 0, 12, 0.97},
+    {"alternating-1e5", 100000, 1, Moves::alternating, 0, 0, 12, 0.97},
+    {"first-1e5", 100000, 1, Moves::none, 0, 0, 1, 0.97},
+};
+
+const Row& row(const std::string& name) {
+  const auto found = std::find_if(kRows.begin(), kRows.end(), [&](const Row& r) { return r.name == name; });
+  if (found == kRows.end()) throw std::invalid_argument(name + ": no way of moving nodes");
+  return *found;
+}
+
+/// The mean distance of neighbours.
+double spacing(int n) { return std::sqrt(4 * 3.14159265358979 / n); }
+
+void move_all(std::vector<Point>& points, double distance, point_sets::Random& random) {
+  for (Point& p : points) {
+    const Point d = random.direction();
+    p = point_sets::normalized({p.x + distance * d.x, p.y + distance * d.y, p.z + distance * d.z});
+  }
+}
+
+/// A step of Lloyd's method: each node by `part` of the way to the centroid of its Voronoi cell.
+std::vector<Point> lloyd_step(const Nodes& nodes, const Lists& lists, double part) {
+  std::vector<Point> moved = nodes.all;
+  for (std::size_t k = 0; k < moved.size(); ++k) {
+    const int begin = k == 0 ? 0 : lists.lend[k - 1], count = lists.lend[k] - begin;
+    const Point p = nodes.all[k];
+    const auto neighbour = [&](int i) {
+      const auto slot = static_cast<std::size_t>(begin + i % count);
+      return nodes.all[static_cast<std::size_t>(lists.list[slot]) - 1];
+    };
+    const auto corner = [&](int i) {
+      return point_sets::normalized(cross(minus(neighbour(i), p), minus(neighbour(i + 1), p)));
+    };
+    Point sum{0, 0, 0}, q = corner(0);
+    for (int i = 1; i <= count; ++i) {
+      const Point r = corner(i), n = cross(minus(q, p), minus(r, p));
+      const double area = std::sqrt(dot(n, n));
+      sum = {sum.x + area * (p.x + q.x + r.x), sum.y + area * (p.y + q.y + r.y),
+             sum.z + area * (p.z + q.z + r.z)};
+      q = r;
+    }
+    const Point middle = point_sets::normalized(sum);
+    moved[k] = point_sets::normalized(
+        {p.x + part * (middle.x - p.x), p.y + part * (middle.y - p.y), p.z + part * (middle.z - p.z)});
+  }
+  return moved;
+}
+
+struct Times {
+  std::vector<double> cold, warm;
+  double flips = 0;  ///< of warm calls, the mean
+  int warm_calls = 0;
+};
+
+/// Adds the times of one run of the row's model. They are the last lines of its report.
+void run_model(const std::string& self, const Row& row, bool warm, Times& times) {
+  const std::string command = fmt::format(
+      "OMP_NUM_THREADS={} PSTRIPACK_WARM_START={} PSTRIPACK_REPORT=/dev/stdout '{}' --be-the-moving-model {}",
+      row.threads, warm ? 1 : 0, self, row.name);
+  FILE* const out = popen(command.c_str(), "r");
+  if (out == nullptr) throw std::runtime_error("cannot start " + command);
+  struct Call {
+    double seconds;
+    long flips;
+  };
+  std::vector<Call> calls;
+  char line[4096];
+  while (std::fgets(line, sizeof line, out) != nullptr) {
+    const std::string text = line;
+    const auto value = [&](const std::string& key) {
+      const std::size_t at = text.find(" " + key + "=");
+      return at == std::string::npos ? -1 : std::stod(text.substr(at + key.size() + 2));
+    };
+    if (value("seconds") >= 0) calls.push_back({value("seconds"), std::lround(value("flips"))});
+  }
+  if (pclose(out) != 0 || calls.size() < static_cast<std::size_t>(row.calls))
+    throw std::runtime_error("no report from " + command);
+  for (auto c = calls.end() - row.calls; c != calls.end(); ++c) {
+    (warm ? times.warm : times.cold).push_back(c->seconds);
+    if (c->flips >= 0) ++times.warm_calls, times.flips += static_cast<double>(c->flips);
+  }
+}
+
+}  // namespace
+
+int be_the_moving_model(const MovingModel& model) {
+  const Row& r = row(model.moves);
+  const Stripack library = ours();
+  const auto n = static_cast<std::size_t>(r.n);
+  point_sets::Random random(1);
+  std::vector<Point> points = point_sets::make("random", n, 1);
+  Lists lists(r.n);
+  const auto call = [&] {
+    const Nodes nodes(points);
+    library.trmesh(nodes, lists);
+    return nodes;
+  };
+  for (int step = 0; step < r.before; ++step) points = lloyd_step(call(), lists, 1);
+  // Two calls more, after which a mesh is kept.
+  for (int step = r.moves == Moves::none ? 2 : 0; step < r.calls + 2; ++step) {
+    const Nodes nodes = call();
+    switch (r.moves) {
+      case Moves::lloyd:
+        points = lloyd_step(nodes, lists, r.part);
+        break;
+      case Moves::far:
+        move_all(points, 10 * spacing(r.n), random);
+        break;
+      case Moves::other:
+        points = point_sets::make("random", n, static_cast<std::uint64_t>(step) + 2);
+        break;
+      case Moves::alternating:
+        points = point_sets::make("random", n, 1 + static_cast<std::uint64_t>(step + 1) % 6);
+        break;
+      case Moves::none:
+        break;
+    }
+  }
+  return 0;
+}
+
+void run_time_of_warm_starts(const std::string& self, int repeats) {
+  fmt::print(
+      "\nTRMESH on random nodes that have moved since the last call: a call that may begin with the last mesh"
+      "\nbeside the same call with PSTRIPACK_WARM_START=0, in turn; the least time of all calls\n\n"
+      "{:<18} {:>8} {:>7} {:>9} {:>9} {:>17} {:>9} {:>12}\n",
+      "nodes moved by", "N", "threads", "cold us/N", "warm us/N", "cold / warm", "flips/N", "warm calls");
+  for (const Row& r : kRows) {
+    Times times;
+    // A call that is the only one of its process needs more of them.
+    const int runs = std::max(1, r.calls == 1     ? 6 * repeats
+                                 : r.n >= 1000000 ? std::min(repeats, 3)
+                                                  : repeats);
+    for (int run = 0; run < runs; ++run)
+      for (const bool warm : {false, true}) run_model(self, r, warm, times);
+    const double cold = *std::min_element(times.cold.begin(), times.cold.end()),
+                 warm = *std::min_element(times.warm.begin(), times.warm.end());
+    fmt::print("{:<18} {:>8} {:>7} {:>9.4f} {:>9.4f} {:>9.2f} {:>7} {:>9.5f} {:>12}\n", r.name, r.n,
+               r.threads, 1e6 * cold / r.n, 1e6 * warm / r.n, cold / warm, fmt::format("({:g})", r.required),
+               times.warm_calls > 0 ? times.flips / times.warm_calls / r.n : 0.0,
+               fmt::format("{}/{}", times.warm_calls, times.warm.size()));
+    std::fflush(stdout);
+  }
+}
+
+}  // namespace benchmark
