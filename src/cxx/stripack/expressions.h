@@ -26,6 +26,13 @@ struct Nodes {
     const auto i = static_cast<std::size_t>(node - 1);
     return {x[i], y[i], z[i]};
   }
+  template <class Int>
+  void prefetch(Int node) const {
+    const auto i = static_cast<std::size_t>(node - 1);
+    __builtin_prefetch(x + i);
+    __builtin_prefetch(y + i);
+    __builtin_prefetch(z + i);
+  }
 };
 
 template <class Real>

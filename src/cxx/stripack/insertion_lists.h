@@ -62,7 +62,7 @@ class InsertionLists {
 
   /// For a node that will be asked about soon.
   [[gnu::always_inline]] void prefetch(Int node) const { __builtin_prefetch(&node_[index(node)]); }
-  void prefetch_neighbours(Int /*first_slot*/, Int /*last_slot*/) const {}
+  bool is_in_few_slots(Int /*node*/, Int& /*first*/, Int& /*last*/) const { return false; }
   [[gnu::always_inline]] void prefetch_list(Int node) const {
     __builtin_prefetch(&slot_[index(last_slot(node))]);
   }

@@ -41,6 +41,8 @@ class ListReader {
   Int next(Int slot) const { return lists_.lptr[slot - 1]; }
   Int last_slot(Int node) const { return lists_.lend[node - 1]; }
   Int first_slot(Int node) const { return next(last_slot(node)); }
+  /// first_slot in canonical lists, in others any number.
+  Int foreseen_first_slot(Int node) const { return node == 1 ? 1 : last_slot(node - 1) + 1; }
   Int first_neighbour(Int node) const { return neighbour(first_slot(node)); }
   Int last_neighbour(Int node) const { return neighbour(last_slot(node)); }
   bool on_boundary(Int node) const { return entry(last_slot(node)) < 0; }
@@ -48,7 +50,8 @@ class ListReader {
     return lstptr(last_slot(node), wanted, lists_.list, lists_.lptr);
   }
 
-  /// For a node whose ring will be asked for soon.
+  /// For a node whose list will be asked for soon.
+  void prefetch_last_slot(Int node) const { __builtin_prefetch(lists_.lend + (node - 1)); }
   void prefetch_list(Int node) const {
     const auto i = static_cast<std::size_t>(last_slot(node) - 1);
     __builtin_prefetch(lists_.list + i);

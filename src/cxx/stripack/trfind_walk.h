@@ -99,11 +99,31 @@ class TrfindWalk {
   Real side(Int a, Int b) const { return pstripack::side(lists_[a], lists_[b], p_); }
   Real dot_p(Int a) const { return pstripack::dot(p_, lists_[a]); }
 
+  /// The wedge that look_out finds, by tests of all neighbours without a branch between them: positions are
+  /// waited for together, and no branch is predicted wrongly. Before: the list of o is in slots first..last.
+  /// False, where there is no wedge or o is on the boundary: look_out has to look.
+  bool find_wedge(Int o, Int first, Int last, Int& r, Int& l, Int& l_of_o) const {
+    if (lists_.entry(last) < 0) return false;
+    const int count = static_cast<int>(last - first) + 1;
+    unsigned right = 0;  // bit i: p lies right of the arc from o to its i-th neighbour
+    for (int i = 0; i < count; ++i)
+      right |= static_cast<unsigned>(side(o, lists_.neighbour(first + i)) < 0) << i;
+    const int not_right = __builtin_ctz(~right | 1u << (count - 1));  // or the last one
+    const unsigned right_after = (right & (~1u << not_right)) | (right & 1) << count;
+    if (right_after == 0) return false;
+    const int i = __builtin_ctz(right_after);
+    r = lists_.neighbour(first + i - 1);
+    l_of_o = i == count ? first : first + i;
+    l = lists_.neighbour(l_of_o);
+    return true;
+  }
+
   /// Finds adjacent neighbours r, l of o between which p lies, or a boundary arc r->l with p to its right.
   View look_out(Int& o, Int& r, Int& l, Int& l_of_o) const {
+    Int begin, end;
+    if (lists_.is_in_few_slots(o, begin, end) && find_wedge(o, begin, end, r, l, l_of_o)) return View::wedge;
     const Int last_slot = lists_.last_slot(o), first_slot = lists_.next(last_slot);
     const Int last = lists_.neighbour(last_slot), first = lists_.neighbour(first_slot);
-    lists_.prefetch_neighbours(first_slot, last_slot);
     Int slot = first_slot;
     r = first;
     if (lists_.entry(last_slot) < 0) {
