@@ -608,21 +608,22 @@ class Triangulator {
   // ---- 2: triangulate ----
 
   void triangulate_patches() {
+    in_agreement([&] {
+      if (placed_ != 0) throw Failure(placed_);
+      constexpr std::size_t kPage = 4096;
+      std::vector<std::size_t> begin{0};
+      for (const Patch<Int>& patch : patches_)
+        begin.push_back(begin.back() + (patch.workspace_bytes(closing_.size()) + kPage - 1) / kPage * kPage);
+      workspace_ = std::make_unique<Workspace>(begin.back());
+      unsigned char* const memory = workspace_->keep<unsigned char>(begin.back());
+      for_patches([&](Patch<Int>& patch, std::size_t k) {
+        Workspace part(memory + begin[k], begin[k + 1] - begin[k]);
+        patch.set_up(closing_, part);
+      });
+    });
+    // What one patch has seen to be hidden, no other begins to triangulate for nothing.
     in_agreement(
         [&] {
-          if (placed_ != 0) throw Failure(placed_);
-          constexpr std::size_t kPage = 4096;
-          std::vector<std::size_t> begin{0};
-          for (const Patch<Int>& patch : patches_)
-            begin.push_back(begin.back() +
-                            (patch.workspace_bytes(closing_.size()) + kPage - 1) / kPage * kPage);
-          workspace_ = std::make_unique<Workspace>(begin.back());
-          unsigned char* const memory = workspace_->keep<unsigned char>(begin.back());
-          for_patches([&](Patch<Int>& patch, std::size_t k) {
-            Workspace part(memory + begin[k], begin[k + 1] - begin[k]);
-            patch.set_up(closing_, part);
-          });
-          // What one patch has seen to be hidden, no other begins to triangulate for nothing.
           for_patches([](Patch<Int>& patch, std::size_t) { patch.triangulate(); });
           count_coincident();
         },
