@@ -203,13 +203,29 @@ void Patch<Int>::ask_about_arcs(const std::array<Record, 3>& corners, Doubts& do
     const int side = left(corners[0].point, corners[2].point, x);
     return (side != 0 ? side : left(corners[1].point, corners[2].point, x)) > 0;
   };
-  for (const auto& [a, b] : boundary_arcs()) {
+  std::vector<Arc> arcs;
+  if (asked_with_ == 0) {
+    arcs = boundary_arcs();
+  } else {
+    for (const Arc& arc : asked_arcs_)
+      if (beside_on_boundary(arc.a).b == arc.b) arcs.push_back(arc);
+    // An arc that was none before ends at a node that has come in since.
+    for (auto v = static_cast<std::uint32_t>(asked_with_); v < growing_->node_count(); ++v) {
+      const Arc beside = beside_on_boundary(v);
+      if (beside.a == kNobody) continue;
+      arcs.push_back({beside.a, v});
+      arcs.push_back({v, beside.b});
+    }
+  }
+  asked_arcs_.clear();
+  for (const auto& [a, b] : arcs) {
     const bool owns_a = is_own(a), owns_b = is_own(b);
     if (!owns_a && !owns_b) continue;
     const auto ask = [&](int patch) {
       doubts.questions.push_back(
           {{{arrays_.nodes[a], number_[a]}, {arrays_.nodes[b], number_[b]}, {{0, 0, 0}, 0}}, id_, patch});
       ++doubts.arcs;
+      if (asked_arcs_.empty() || asked_arcs_.back().a != a) asked_arcs_.push_back({a, b});
     };
     if (owns_a && is_left(a) && !is_left(b)) {
       for (int q = 0; q < partition_->patches(); ++q)

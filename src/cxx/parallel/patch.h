@@ -215,6 +215,7 @@ class Patch {
   Hull hull_;
   Plane* first_planes_ = nullptr;  ///< those in the workspace, for built_ nodes at least
   std::size_t asked_with_ = 0;     ///< hull nodes
+  std::vector<Arc> asked_arcs_;    ///< of the boundary, when it asked last
   std::vector<std::uint32_t>
       around_;  ///< hull nodes of others that were neighbours of own ones when it asked
   std::vector<bool> is_around_;
