@@ -117,9 +117,9 @@ class Triangulator {
       const PhaseTimer timer(&cost_, ParallelCost::merge, &ranks_);
       ranks_.set_phase("merge");
       stars.coincident = all_coincident();
-      if (stars.coincident.empty()) find_boundary();
-      if (stars.coincident.empty() && !gave_up_) in_agreement([&] { ask(); }, asked_);
-      while (stars.coincident.empty() && !gave_up_ && asked_ < 0) {
+      if (stars.coincident.empty()) in_agreement([&] { ask(); }, asked_, asked_about_arcs_, has_grown_);
+      while (stars.coincident.empty() && !gave_up_ &&
+             (asked_ < 0 || (asked_about_arcs_ < 0 && has_grown_ < 0))) {
         learn_and_ask();
         stars.coincident = all_coincident();
       }
@@ -608,26 +608,26 @@ class Triangulator {
   // ---- 2: triangulate ----
 
   void triangulate_patches() {
+    in_agreement([&] {
+      if (placed_ != 0) throw Failure(placed_);
+      constexpr std::size_t kPage = 4096;
+      std::vector<std::size_t> begin{0};
+      for (const Patch<Int>& patch : patches_)
+        begin.push_back(begin.back() + (patch.workspace_bytes(closing_.size()) + kPage - 1) / kPage * kPage);
+      workspace_ = std::make_unique<Workspace>(begin.back());
+      unsigned char* const memory = workspace_->keep<unsigned char>(begin.back());
+      for_patches([&](Patch<Int>& patch, std::size_t k) {
+        Workspace part(memory + begin[k], begin[k + 1] - begin[k]);
+        patch.set_up(closing_, part);
+      });
+    });
+    // What one patch has seen to be hidden, no other begins to triangulate for nothing.
     in_agreement(
         [&] {
-          if (placed_ != 0) throw Failure(placed_);
-          constexpr std::size_t kPage = 4096;
-          std::vector<std::size_t> begin{0};
-          for (const Patch<Int>& patch : patches_)
-            begin.push_back(begin.back() +
-                            (patch.workspace_bytes(closing_.size()) + kPage - 1) / kPage * kPage);
-          workspace_ = std::make_unique<Workspace>(begin.back());
-          unsigned char* const memory = workspace_->keep<unsigned char>(begin.back());
-          for_patches([&](Patch<Int>& patch, std::size_t k) {
-            Workspace part(memory + begin[k], begin[k + 1] - begin[k]);
-            patch.set_up(closing_, part);
-          });
-          // What one patch has seen to be hidden, no other begins to triangulate for nothing.
           for_patches([](Patch<Int>& patch, std::size_t) { patch.triangulate(); });
           count_coincident();
-          look_for_boundary();
         },
-        least_coincident_, has_own_on_boundary_, surrounding_);
+        least_coincident_);
   }
 
   // ---- 3: merge ----
@@ -651,48 +651,19 @@ class Triangulator {
     return pairs;
   }
 
-  /// What the patches here take for the boundary of all nodes.
-  void look_for_boundary() {
-    for (Patch<Int>& patch : patches_) {
-      const auto outline = patch.outline();
-      if (outline.has_own) has_own_on_boundary_ = -1;
-      if (outline.surrounds_centre) surrounding_ = std::min<std::int64_t>(surrounding_, patch.id());
-      outline_.insert(outline_.end(), outline.nodes.begin(), outline.nodes.end());
-    }
-  }
-
-  /// The boundary of all nodes, if any patch has own nodes on what it takes for it. A patch that surrounds
-  /// the centre shows that there is none; if no patch does, all nodes lie inside what the patches see.
-  void find_boundary() {
-    std::vector<Record> nodes = std::move(outline_);
-    gave_up_ = size_ == 1 && nodes.size() > options_.most_questions;
-    if (gave_up_ || has_own_on_boundary_ == 0) return;
-    const bool there_is_none = surrounding_ != INT64_MAX;
-    in_agreement([&] {
-      if (!there_is_none) return;
-      nodes.clear();
-      for (const Patch<Int>& patch : patches_)
-        if (patch.id() == surrounding_) nodes = patch.nodes_around_centre();
-    });
-    const Parcels all = ranks_.all_gather(nodes.data(), nodes.size() * sizeof(Record));
-    in_agreement([&] {
-      nodes = items<Record>(all);
-      nodes.insert(nodes.end(), corners_.begin(), corners_.end());
-      keep_one_of_each(nodes);
-      boundary_ =
-          there_is_none ? Boundary::none(std::move(nodes)) : Boundary(std::move(nodes), places_.lengths());
-    });
-  }
-
   /// What the patches here want to know.
   void ask() {
     questions_.assign(size_, {});
-    asked_ = 0;
-    std::vector<std::vector<Question>> of_patch(patches_.size());
-    for_patches([&](Patch<Int>& patch, std::size_t k) { patch.ask(boundary_, most_stretch_, of_patch[k]); });
-    for (const auto& list : of_patch)
-      for (const Question& q : list) questions_[rank_of(q.to)].push_back(q), --asked_;
-    gave_up_ = size_ == 1 && static_cast<std::size_t>(-asked_) > options_.most_questions;
+    asked_ = asked_about_arcs_ = has_grown_ = 0;
+    std::vector<Doubts> of_patch(patches_.size());
+    for_patches([&](Patch<Int>& patch, std::size_t k) { of_patch[k] = patch.ask(corners_, most_stretch_); });
+    for (const Doubts& doubts : of_patch) {
+      for (const Question& q : doubts.questions) questions_[rank_of(q.to)].push_back(q);
+      asked_ -= static_cast<std::int64_t>(doubts.questions.size() - doubts.arcs);
+      asked_about_arcs_ -= static_cast<std::int64_t>(doubts.arcs);
+      has_grown_ = doubts.has_grown ? -1 : has_grown_;
+    }
+    gave_up_ = size_ == 1 && static_cast<std::size_t>(-asked_ - asked_about_arcs_) > options_.most_questions;
   }
 
   /// One round: questions, answers, and what is asked next. Patches that came upon nodes which coincide have
@@ -705,10 +676,10 @@ class Triangulator {
         [&] {
           learn(replies);
           count_coincident();
-          asked_ = 0;
+          asked_ = asked_about_arcs_ = has_grown_ = 0;
           if (least_coincident_ == 0) ask();
         },
-        least_coincident_, asked_);
+        least_coincident_, asked_, asked_about_arcs_, has_grown_);
   }
 
   /// The answers to the questions of each rank, in their order: a count, then nodes.
@@ -887,13 +858,10 @@ class Triangulator {
   std::vector<Record> closing_;                                    ///< nodes from everywhere
   double most_stretch_ = std::numeric_limits<double>::infinity();  ///< of the closing nodes, if computed
   std::vector<Patch<Int>> patches_;                                ///< of this rank
-  std::vector<Record> outline_;                                    ///< of the patches here
-  std::int64_t has_own_on_boundary_ = 0;  ///< -1: some patch has own nodes on its outline; agreed on
-  std::int64_t surrounding_ = INT64_MAX;  ///< the first patch that surrounds the centre; agreed on
-  Boundary boundary_;
   std::int64_t least_coincident_ = 0;             ///< 0: no patch has come upon any; agreed on
   std::vector<std::vector<Question>> questions_;  ///< to each rank
-  std::int64_t asked_ = 0;                        ///< less than 0: some rank has questions; agreed on
+  // Less than 0, agreed on: some rank has questions about triangles, about arcs, nodes since it asked last.
+  std::int64_t asked_ = 0, asked_about_arcs_ = 0, has_grown_ = 0;
   bool gave_up_ = false;
 
   std::vector<Count> sent_;  ///< to each patch

@@ -33,9 +33,11 @@ class Homes {
         places_(places) {}
 
   const std::shared_ptr<const Partition>& partition() const { return partition_; }
-  /// True if a call could have these patches, so many on each rank, for nodes in such places.
+  /// True if a call could have these patches, so many on each rank, for nodes in such places. Lengths are as
+  /// given where they are about one: then the places are nearly those of directions.
   bool are_for(PartitionKind kind, const std::vector<int>& first_patch, Lengths lengths) const {
-    return kind == kind_ && first_patch == first_patch_ && lengths == places_.lengths();
+    return kind == kind_ && first_patch == first_patch_ &&
+           (lengths == Lengths::as_given || lengths == places_.lengths());
   }
   int rank(const Point& p) const {
     const int patch = partition_->owner(places_(p));
