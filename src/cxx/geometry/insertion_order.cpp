@@ -132,6 +132,11 @@ Entry* sort(Entry* entries, Entry* other, std::size_t n, int key_bits) {
   return entries;
 }
 
+// ---- nodes alone -------------------------------------------------------------------------------
+
+constexpr std::size_t kEvenly = 16;      ///< between neighbours on the curve, so many mean distances are rare
+constexpr std::size_t kMostAlone = 256;  ///< parts of the curve
+
 // ---- cells with many nodes ---------------------------------------------------------------------
 
 constexpr std::size_t kCrowd = 16;
@@ -233,13 +238,13 @@ Square square_of_all(const Points& points, std::size_t n) {
 
 }  // namespace
 
-void insertion_order(const Point* first_point, std::size_t n, std::uint32_t* order, Workspace& workspace,
-                     std::size_t stride) {
+std::size_t insertion_order(const Point* first_point, std::size_t n, std::uint32_t* order,
+                            Workspace& workspace, std::size_t stride) {
   const Points points{reinterpret_cast<const unsigned char*>(first_point), stride};
   constexpr std::size_t kFew = 24;  // any walk is short
   if (n <= kFew) {
     std::iota(order, order + n, 0);
-    return;
+    return 0;
   }
   // As many cells as it takes to hold few nodes each, where they are spread evenly: keys of 20, 23 or 33
   // bits (the last bits of the first kind are left out), sorted in two, two and three passes.
@@ -260,14 +265,29 @@ void insertion_order(const Point* first_point, std::size_t n, std::uint32_t* ord
     }
   });
   entries = sort(entries, other, n, 2 * kLevels * blocks + 3 - dropped);
+  // Alone: nobody else within such a part of the curve, on either side. Of nodes spread evenly none is.
+  const std::uint64_t apart =
+      (key_of(entries[n - 1]) - key_of(entries[0])) / std::min<std::size_t>(n / kEvenly, kMostAlone);
+  std::uint64_t before = 0;
+  std::vector<std::size_t> alone;
   for (std::size_t i = 0, j; i < n; i = j) {
-    for (j = i + 1; j < n && key_of(entries[j]) == key_of(entries[i]);) ++j;
+    const std::uint64_t key = key_of(entries[i]);
+    for (j = i + 1; j < n && key_of(entries[j]) == key;) ++j;
+    if (j == i + 1 && (i == 0 || key - before > apart) && (j == n || key_of(entries[j]) - key > apart))
+      alone.push_back(i);
+    before = key;
     // Three levels by scale and eleven in equal parts come to doubles that do not differ.
     if (j - i > kCrowd) refine(points, entries + i, entries + j, 20, Division::equal);
   }
   parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int) {
-    for (std::size_t i = first; i < last; ++i) order[i] = node_of(entries[i]);
+    auto next = std::lower_bound(alone.begin(), alone.end(), first);
+    for (std::size_t i = first; i < last; ++i) {
+      const bool is_alone = next != alone.end() && *next == i;
+      order[is_alone ? next - alone.begin() : i + (alone.end() - next)] = node_of(entries[i]);
+      next += is_alone;
+    }
   });
+  return alone.size();
 }
 
 }  // namespace pstripack

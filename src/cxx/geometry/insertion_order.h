@@ -13,7 +13,10 @@ namespace pstripack {
 /// sphere, so that a search that starts where the last one ended is short. It concerns speed only: any
 /// order gives the same triangulation. Non-zero finite vectors of any length, `stride` bytes apart;
 /// n < 2^29; `order` has n entries. Parallel. Takes 16 bytes a node of the workspace.
-void insertion_order(const Point* points, std::size_t n, std::uint32_t* order, Workspace& workspace,
-                     std::size_t stride = sizeof(Point));
+///
+/// Nodes that stand alone come in front, in the same order; returns how many, some 256 at most. One that came
+/// late would see most of what was built without it: of a circle and its pole, all triangles.
+std::size_t insertion_order(const Point* points, std::size_t n, std::uint32_t* order, Workspace& workspace,
+                            std::size_t stride = sizeof(Point));
 
 }  // namespace pstripack

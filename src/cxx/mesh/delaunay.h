@@ -44,8 +44,10 @@ struct Hull {
   std::size_t node_count = 0, face_count = 0;
   const std::uint32_t* order = nullptr;
   const Face* faces = nullptr;
-  const std::uint32_t* corner = nullptr;  ///< for each node, the code 4*t + i of a face with vertex[i] there
-  bool surrounds_centre = false;          ///< every face is a front face
+  /// For each node, the code 4*t + i of a face with vertex[i] there; of a node with faces at the back, of the
+  /// first front face counterclockwise after them.
+  const std::uint32_t* corner = nullptr;
+  bool surrounds_centre = false;  ///< every face is a front face
   // Else: true for the faces that are not part of the triangulation, and for their corners.
   std::vector<bool> back, at_back;
   Lengths lengths = Lengths::as_given;  ///< the predicates that decided
@@ -126,7 +128,8 @@ class GrowingHull {
   /// det > 0: the face is part of the triangulation.
   virtual bool front(std::uint32_t face) const = 0;
 
-  /// What is part of the triangulation by now; `order` is left to the caller. Throws HiddenNode.
+  /// What is part of the triangulation by now; `order` is left to the caller. Turns corners to where the
+  /// rings of their nodes start: see Hull. Throws HiddenNode.
   virtual Hull finish() const = 0;
 };
 

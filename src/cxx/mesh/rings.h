@@ -20,18 +20,6 @@ void copy_block(const Int* from, Int* to) {
   std::memcpy(to, from, kBlock * sizeof(Int));
 }
 
-/// From any corner at a node to that in a front face, the first after the gap if there is one.
-inline std::uint32_t first_corner(const Hull& hull, std::uint32_t corner) {
-  while (!hull.front(face_of(corner))) corner = clockwise(hull, corner);
-  const std::uint32_t start = corner;
-  do {
-    const std::uint32_t next = clockwise(hull, corner);
-    if (!hull.front(face_of(next))) return corner;
-    corner = next;
-  } while (corner != start);
-  return corner;
-}
-
 /// The numbers of hull nodes, from a table of what is kOffset less.
 template <class Int, std::int64_t kOffset>
 struct Numbers {
@@ -50,7 +38,6 @@ struct Numbers {
 ///              v ------ f.vertex[next]
 template <class Int, class Number>
 Int* append_ring(const Hull& hull, std::uint32_t corner, const Number& number, Int* const begin) {
-  if (!hull.surrounds_centre) corner = first_corner(hull, corner);
   Int* out = begin;
   const std::uint32_t first = next_code(corner);
   std::uint32_t code = first;
