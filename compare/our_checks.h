@@ -22,11 +22,11 @@ Checked check(const std::vector<pstripack::Point>& points, int ier, const std::v
               const std::vector<std::int32_t>& lptr, const std::vector<std::int32_t>& lend,
               std::int32_t lnew);
 
-/// The nodes that a result with code L > 0 covers: M-1, where M > L is the first node that coincides
-/// with node L; 0 if there is none.
+/// Number of nodes in the lists of a result with code L > 0: M-1, where M > L is the first node that
+/// coincides with node L; 0 if there is none.
 std::size_t nodes_before_duplicate(const std::vector<pstripack::Point>& points, int ier);
 
-/// Promises of interface.md, section 4, that our result breaks; one line each, empty if none.
+/// What our result breaks of docs/differences.md and docs/ier.md: one line per promise, empty if none.
 std::vector<std::string> broken_promises(const std::vector<pstripack::Point>& points, const OurRun& run,
                                          const Checked& checked);
 

@@ -21,7 +21,7 @@ struct Node {
 using Nodes = std::vector<Node>;
 
 const Nodes kOctahedron{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
-// stripack-interface.md, appendix A.1
+// LIST and LPTR that the original returns for the octahedron.
 const std::vector<int> kOctahedronList{2, 3, 3, 1, 1, 2, 4, 4, 3, 2, 5, 5,
                                        5, 1, 3, 4, 6, 6, 6, 6, 1, 5, 4, 2};
 const std::vector<int> kOctahedronLptr{2, 11, 4,  20, 6, 7,  12, 3, 10, 19, 17, 5,
@@ -130,7 +130,7 @@ TEST(original, gives_the_golden_lists_of_the_octahedron) {
 }
 
 TEST(original, that_never_returns_does_not_stop_us) {
-  // Four nodes of one meridian: stripack-interface.md, section 5.1.
+  // Four nodes of one meridian, for which the original does not return.
   const Nodes meridian{{0.452695204446832, 0.5590320207484465, 0.6946583704589973},
                        {0.4602557974987226, 0.5683685756099448, 0.6819983600624985},
                        {0.467676192176097, 0.5775319998974023, 0.6691306063588582},

@@ -169,7 +169,7 @@ std::string names_of_values(const File& file, const std::vector<int>& of_nodes) 
 /// The value of each node, NaN where it is missing.
 void read_values(const File& file, Nodes& nodes, const std::string& name, const std::vector<int>& of_nodes) {
   if (name.empty() || !has(file, name))
-    file.fail(fmt::format("{}say --variable NAME; with a value a node there are: {}",
+    file.fail(fmt::format("{}say --variable NAME; variables with one value per node: {}",
                           name.empty() ? "" : "there is no variable " + name + "; ",
                           names_of_values(file, of_nodes)));
   std::vector<int> dimensions;

@@ -32,14 +32,14 @@ constexpr Int most_nodes() {
   return (std::numeric_limits<Int>::max() - 1) / 6 + 2;
 }
 
-/// STRIPACK's TRMESH (stripack-interface 3.6) with the promises of the interface contract, section 4:
-/// canonical lists, exact decisions, IER 0, -1, -2, L > 0, -4, -5. On a negative code nothing is written.
-/// Under PSTRIPACK_ORDER=original (original_rules.h) the lists are the original's, by inserting node by node
-/// on the calling thread, wherever they are a correct triangulation; four nodes in one circle may then have
-/// either diagonal. Under PSTRIPACK_ORDER=bitwise lists and IER are the original's wherever its IER is not
-/// negative and its lists are a triangulation, right or not. x, y, z: n components each; list, lptr: at least
-/// 6n-12 entries; lend: n. Throws std::bad_alloc, having written nothing. Real is float or double, Int
-/// std::int32_t. `cost`, if given, is added to.
+/// STRIPACK's TRMESH with canonical lists and exact decisions (docs/differences.md). IER is 0, -1, -2, L > 0,
+/// -4 or -5 (docs/ier.md). On a negative code nothing is written. Under PSTRIPACK_ORDER=original
+/// (original_rules.h) the lists are the original's, by inserting node by node on the calling thread, wherever
+/// they are a correct triangulation; four nodes in one circle may then have either diagonal. Under
+/// PSTRIPACK_ORDER=bitwise lists and IER are the original's wherever its IER is not negative and its lists
+/// are a triangulation, right or not. x, y, z: n components each; list, lptr: at least 6n-12 entries; lend:
+/// n. Throws std::bad_alloc, having written nothing. Real is float or double, Int std::int32_t. `cost`, if
+/// given, is added to.
 template <class Real, class Int>
 TrmeshResult trmesh(Int n, const Real* x, const Real* y, const Real* z, Int* list, Int* lptr, Int* lend,
                     Int* lnew, ParallelCost* cost = nullptr);
