@@ -80,7 +80,7 @@ void write_vtu(const OutputFile& file, const Faces& faces) {
   out.close();
 }
 
-/// As `stripack-compare lists` reads them.
+/// In the format that `stripack-compare lists` reads.
 void write_lists(const OutputFile& file, const Mesh& mesh) {
   TextWriter out(file);
   const auto all = [&](const std::vector<std::int32_t>& values, std::size_t count) {
