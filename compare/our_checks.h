@@ -14,8 +14,8 @@ namespace comparison {
 
 /// A mesh read from lists that some TRMESH returned with `ier`.
 struct Checked {
-  std::size_t nodes = 0;       ///< that the lists hold: n, or M-1 where node M is a duplicate; 0: no lists
-  pstripack::Verdict verdict;  ///< of these nodes
+  std::size_t nodes = 0;           ///< in the lists: n, or M-1 if node M is a duplicate; 0: no lists
+  pstripack::Verdict verdict;      ///< of these nodes
   pstripack::Triangles triangles;  ///< canonical; empty if the lists are broken
 };
 Checked check(const std::vector<pstripack::Point>& points, int ier, const std::vector<std::int32_t>& list,

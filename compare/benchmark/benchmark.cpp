@@ -1,9 +1,8 @@
 // pstripack-benchmark: times of PSTRIPACK, the original STRIPACK, CGAL and Qhull, side by side in one run.
 //
-// Every measurement is a process of its own on one thread; the contenders take turns, so that a change of
-// the machine's mood meets all of them. Arrays are written before the clock starts, and a call that takes
-// less than a second is made once before it. CGAL and Qhull triangulate only; the others write their lists as
-// well.
+// Every measurement runs in its own process on one thread; the contenders alternate, so that changes in the
+// machine's speed affect all. Arrays are written before the clock starts, and a call of less than a second is
+// preceded by one that does not count. CGAL and Qhull only triangulate; the others also write their lists.
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -46,7 +45,7 @@ void print_head(const std::optional<legacy_stripack::Location>& where, int repea
       repeats);
 }
 
-/// For CLI11: what is wrong with the name, or nothing.
+/// For CLI11: the error in the name, or nothing.
 std::string is_point_set(const std::string& name) {
   try {
     point_sets::make(name, 12);
