@@ -288,7 +288,7 @@ exit code
   replay->add_option("--timeout", options->timeout, "seconds after which the original is stopped, each call")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  replay->add_option("--show", options->show, "print at most so many differences of each kind for a call")
+  replay->add_option("--show", options->show, "largest number of differences of each kind printed per call")
       ->capture_default_str();
   replay->add_option("--json", options->json_file, "write the results to this file as well");
   replay->callback([options, &chosen] { chosen = [options] { return Replay(*options).run(); }; });

@@ -385,7 +385,7 @@ void print_tables(const std::string& self, Settings s, const Tables& t) {
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "How PSTRIPACK scales with MPI ranks: halo, bytes, processor time a phase, projected speed-up."};
+      "How PSTRIPACK scales with MPI ranks: halo, bytes, processor time per phase, projected speed-up."};
   Settings s;
   Tables t;
   app.add_option("--ranks", t.ranks, "numbers of ranks")->delimiter(',')->capture_default_str();
@@ -393,7 +393,7 @@ int main(int argc, char** argv) {
       ->delimiter(',')
       ->capture_default_str();
   app.add_option("--family", s.family, "point set, as in stripack-compare")->capture_default_str();
-  app.add_option("--repeats", s.repeats, "calls of each kind, by threes, of which the median is shown")
+  app.add_option("--repeats", s.repeats, "calls of each kind, three in a row, of which the median is shown")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   app.add_option("--modes", t.modes, "only tables of these modes")
@@ -404,13 +404,12 @@ int main(int argc, char** argv) {
       ->delimiter(',')
       ->check(CLI::IsMember(kKinds))
       ->capture_default_str();
-  app.add_option("--csv", t.csv, "rows in seconds are added to this file, too");
+  app.add_option("--csv", t.csv, "also add rows, in seconds, to this file");
   app.add_option("--mode", s.mode, "no tables: one run of this mode on the ranks of this mpirun")
       ->check(CLI::IsMember(kModes));
   app.add_option("--n", s.n, "nodes of that run")->capture_default_str();
-  app.add_option(
-      "--owners", s.owners,
-      "with --mode distributed: a new file for the corners of each triangle and the rank that has it");
+  app.add_option("--owners", s.owners,
+                 "with --mode distributed: write the corners of each triangle and its rank to this new file");
   try {
     app.parse(argc, argv);
     if (!s.owners.empty() && s.mode != "distributed")
