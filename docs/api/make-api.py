@@ -14,6 +14,7 @@
 Needs Python 3.11 and nothing else. The files are committed: building needs no Python.
 """
 import argparse
+import itertools
 import re
 import sys
 import textwrap
@@ -35,6 +36,7 @@ class Argument:
         names, kind, self.use, self.meaning = columns(line, 4)
         self.names = names.split(", ")
         self.type, self.shape = re.fullmatch(r"(\w+)(?:\((.*)\))?", kind).groups()
+        self.is_list = not self.meaning
         self.meaning = self.meaning or common_meaning[self.names[0]]
 
     def __str__(self):
@@ -132,6 +134,19 @@ def markdown_table(head, rows):
                      + ["| " + " | ".join(map(cell, row)) + " |" for row in rows])
 
 
+def argument_rows(routine):
+    """LIST, LPTR, LEND and LNEW, where they mean what they always mean, share a row."""
+    rows = []
+    for is_list, group in itertools.groupby(routine.arguments, lambda a: a.is_list and a.use):
+        group = list(group)
+        if is_list:
+            names = ", ".join(name for a in group for name in a.names)
+            rows.append([names, ", ".join(dict.fromkeys(map(str, group))), group[0].use, "the [lists](trmesh.md)"])
+        else:
+            rows += [[", ".join(a.names), str(a), a.use, a.meaning] for a in group]
+    return rows
+
+
 def markdown_page(routine):
     def link(name):
         return f"[{name}]({name.lower()}.md)"
@@ -139,8 +154,7 @@ def markdown_page(routine):
     text = [f"# {routine.name}", routine.purpose,
             "```fortran\n" + "\n".join(routine.synopsis()) + "\n```"]
     text += map(markdown_paragraph, routine.details)
-    text.append(markdown_table(["argument", "type", "use", "meaning"],
-                               [[", ".join(a.names), str(a), a.use, a.meaning] for a in routine.arguments]))
+    text.append(markdown_table(["argument", "type", "use", "meaning"], argument_rows(routine)))
     if routine.result:
         text.append(markdown_paragraph(f"Result: {routine.result[0]}: {routine.result[1]}."))
     if routine.ier:
@@ -156,7 +170,7 @@ def markdown_page(routine):
         text.append("See also " + ", ".join(map(link, routine.see)) + ".")
     if not routine.has_default["source"]:
         text.append(f"Source: {routine.source}.")
-    text.append("[All routines, and what holds for all](README.md)")
+    text.append("[Common to all routines](README.md)")
     return "\n\n".join(text) + "\n"
 
 
@@ -175,7 +189,8 @@ interfaces; `use stripack` provides interfaces.
 Unless a page says otherwise:
 
 - Every library has the routine. Nodes and slots count from 1; angles are in radians, lengths in units of the radius.
-- Sizes are the smallest allowed; 6N-12 elements always suffice for LIST and LPTR. *in/out* is read and changed.
+- Sizes are the smallest allowed; 6N-12 elements always suffice for LIST and LPTR. If *LIST, LPTR, LEND* share a row, LIST and
+  LPTR have the first size, LEND the second. *in/out* is read and changed.
 - No routine is collective: in an MPI program any number of ranks may call any number of times (TRMESH is collective on
   request). Any number of threads may call it at once with their own arrays.
 - No routine ends the program or prints. A code marked *new*, which the original does not have, also prints one line on
@@ -225,9 +240,9 @@ not in the original; one line on stderr says why."""
 
 
 def markdown_ier(groups):
-    rows = [[f"[{r.name}]({r.name.lower()}.md)", r.ier_name, value, when]
+    rows = [[f"[{r.name}]({r.name.lower()}.md)" + (f" {r.ier_name}" if r.ier_name != "IER" else ""), value, when]
             for _, routines in groups for r in routines for value, when, _ in r.ier if value != "0"]
-    return f"{IER_HEAD}\n\n{markdown_table(['routine', 'argument', 'code', 'when'], rows)}\n"
+    return f"{IER_HEAD}\n\n{markdown_table(['routine', 'IER', 'when'], rows)}\n"
 
 
 # ---- man pages ----
