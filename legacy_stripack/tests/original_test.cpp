@@ -155,7 +155,7 @@ TEST(original, is_the_same_through_every_abi) {
 }
 
 TEST(library, of_64_bit_integers_is_the_same_as_of_32) {
-  // Ours, for there is no original of that ABI; the order of slots is our own.
+  // Our library, since there is no original of that ABI; the order of slots is our own.
   const Nodes nodes = random_nodes(500);
   const Triangulation r8 = Original(STRIPACK, kR8).triangulate(nodes, 10);
   const Triangulation i8 = Original(STRIPACK_I8, kI8).triangulate(nodes, 10);
@@ -200,7 +200,7 @@ std::vector<double> crlist_of_octahedron(const Library& library) {
 }
 
 TEST(crlist, has_stripacks_17_arguments_and_cartesian_centres_in_every_abi) {
-  // Appendix A.1: (+--), (++-), (+++), (+-+), (-+-), (-++), (--+), (---) over root 3.
+  // Circumcentres: (+--), (++-), (+++), (+-+), (-+-), (-++), (--+), (---) over root 3.
   const int sign[8][3] = {{1, -1, -1}, {1, 1, -1}, {1, 1, 1},   {1, -1, 1},
                           {-1, 1, -1}, {-1, 1, 1}, {-1, -1, 1}, {-1, -1, -1}};
   const Location where = *configured_original();

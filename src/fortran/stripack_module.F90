@@ -1,9 +1,9 @@
 ! Module stripack: explicit interfaces to the symbols of libstripack, libstripack_r4, libstripack_8arg and
 ! libstripack_i8. Made by docs/api/make-api.py from stripack_module.F90.in and docs/api/routines: edit those.
 !
-! This file is installed, because module files belong to one compiler. Compile it yourself as you compile
-! your code, with any -r8, -i8, -fdefault-real-8 or -fdefault-integer-8 of yours; no object is needed, only
-! the module file. What gfortran needs to be told, by library:
+! This file is installed because module files are for one compiler. Compile it with your code's options, such as
+! -r8, -i8, -fdefault-real-8 or -fdefault-integer-8; only the module file is needed, no object. Options that
+! gfortran needs, by library:
 !
 !   libstripack        nothing
 !   libstripack_r4     -DSTRIPACK_REAL_KIND=4
@@ -11,8 +11,8 @@
 !   libstripack_i8     -fdefault-integer-8
 !
 !   STRIPACK_MODULE        name of the module                    default: stripack
-!                          (CMake's own dependency scanner does not see through it; in a CMake project write
-!                          a module of that name that contains `use stripack`)
+!                          (CMake's dependency scanner does not expand it; in a CMake project write a module
+!                          of that name that contains `use stripack`)
 !   STRIPACK_REAL_KIND     kind of all REAL arguments            default: double precision, which is the kind
 !                          of the library and of a default REAL promoted by -r8 or -fdefault-real-8
 !   STRIPACK_8_ARGUMENTS   TRMESH without LNEW, NEAR, NEXT, DIST
@@ -20,10 +20,10 @@
 ! INTEGER and LOGICAL are the default kinds. No dummy has an INTENT: programs pass INTENT(IN) arrays of
 ! their own as output, as the original allows. Arrays are explicit-shape or assumed-size.
 !
-! All routines: none is collective (of an MPI program any number of ranks may call any number of times), any
-! number of threads may call at once with arrays of their own. Nodes and slots count from 1. LIST and LPTR have
+! All routines: none is collective (in an MPI program any number of ranks may call any number of times), any
+! number of threads may call at once with their own arrays. Nodes and slots count from 1. LIST and LPTR have
 ! at least 6N-12 elements, LEND has N. Angles are in radians except in TRPLOT and VRPLOT, lengths in units of the
-! radius. What each argument is: man 3 trmesh and its like, or docs/api.
+! radius. All arguments: man 3 trmesh etc., or docs/api.
 
 #ifndef STRIPACK_REAL_KIND
 #define STRIPACK_REAL_KIND selected_real_kind(15, 307)
