@@ -165,7 +165,8 @@ def markdown_page(routine):
     if not routine.has_default["threads"]:
         text.append(markdown_paragraph(f"**Ranks and threads:** {routine.threads}"))
     text.append(markdown_paragraph(f"**Cost:** {routine.cost}"))
-    text.append(f"```fortran\n{routine.example}\n```")
+    if routine.example != routine.call():  # else it stands above
+        text.append(f"```fortran\n{routine.example}\n```")
     if routine.see:
         text.append("See also " + ", ".join(map(link, routine.see)) + ".")
     if not routine.has_default["source"]:
