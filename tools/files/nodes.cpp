@@ -127,7 +127,7 @@ void read_raw(Nodes& nodes, std::string_view bytes, const ReadOptions& options) 
   nodes.kind = "raw doubles";
   if (options.coordinates == Coordinates::detected)
     throw std::runtime_error(nodes.file +
-                             ": raw doubles do not say what they are: give --coordinates xyz or lonlat");
+                             ": raw doubles have no format information: give --coordinates xyz or lonlat");
   const std::size_t columns = options.coordinates == Coordinates::xyz ? 3 : 2;
   if (bytes.empty() || bytes.size() % (columns * sizeof(double)) != 0)
     throw std::runtime_error(
