@@ -48,7 +48,7 @@ class ListReader {
     return lstptr(last_slot(node), wanted, lists_.list, lists_.lptr);
   }
 
-  /// Prefetches the list of a node that will be used soon.
+  /// For a node whose ring will be asked for soon.
   void prefetch_list(Int node) const {
     const auto i = static_cast<std::size_t>(last_slot(node) - 1);
     __builtin_prefetch(lists_.list + i);
