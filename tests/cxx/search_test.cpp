@@ -1,5 +1,5 @@
-// GETNP beside a search of all nodes; TRFIND and NEARND on lists in two orders of the slots. For all kinds of
-// numbers. The lists, LEND too, and the nodes lie in memory that cannot be written.
+// GETNP compared with a search of all nodes; TRFIND and NEARND on lists in two orders of the slots. For all
+// kinds of numbers. The lists, including LEND, and the nodes lie in read-only memory.
 
 #include "stripack/search.h"
 
@@ -121,8 +121,8 @@ TYPED_TEST(NextNearest, GivesAllNodesByDistance) {
     }
 }
 
-/// Any nodes may be given, in any order: also such as meet in the table, as equal steps in number do in one
-/// that takes the last bits.
+/// Any nodes may be given, in any order: also numbers that collide in the table, as equally spaced ones do in
+/// a table indexed by the last bits.
 TYPED_TEST(NextNearest, IsTheNearestNeighbourOfAnyGivenNodes) {
   using Real = typename TypeParam::Real;
   using Int = typename TypeParam::Int;
@@ -160,7 +160,7 @@ TYPED_TEST(NextNearest, IsTheNearestNeighbourOfAnyGivenNodes) {
     }
 }
 
-/// Wherever the wrong number stands; and no number is followed before all have been looked at.
+/// Wherever the wrong number stands; all are checked before any is used.
 TYPED_TEST(NextNearest, RefusesWrongNodes) {
   using Real = typename TypeParam::Real;
   using Int = typename TypeParam::Int;

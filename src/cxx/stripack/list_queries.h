@@ -1,5 +1,5 @@
 #pragma once
-// LSTPTR, NBCNT and the other questions that one asks LIST, LPTR, LEND. Slots and nodes count from 1.
+// LSTPTR, NBCNT and other queries on LIST, LPTR, LEND. Slots and nodes count from 1.
 
 #include <cstddef>
 
@@ -7,9 +7,9 @@
 
 namespace pstripack {
 
-/// LSTPTR: the slot of neighbour `wanted` in the list whose last slot is `last`; `last` itself if the
-/// wanted one is the last neighbour, or none. O(degree) on canonical lists as well, where a table of slots
-/// would make it constant: that the arguments are parts of such lists cannot be told from them alone.
+/// LSTPTR: the slot of neighbour `wanted` in the list whose last slot is `last`; `last` itself if the wanted
+/// one is the last neighbour, or none. O(degree) even for canonical lists, where a table of slots would make
+/// it constant: the arguments alone do not show that they belong to such lists.
 template <class Int>
 Int lstptr(Int last, Int wanted, const Int* list, const Int* lptr) {
   Int slot = lptr[last - 1];
@@ -25,7 +25,7 @@ Int nbcnt(Int last, const Int* lptr) {
   return count;
 }
 
-/// The lists of a triangulation by their own numbers.
+/// The lists of a triangulation, indexed by the caller's numbers.
 template <class Int>
 class ListReader {
  public:
