@@ -19,6 +19,19 @@ struct Case {
   double seconds;  ///< of the whole case
 };
 
+/// How many cases ended in which way.
+struct Summary {
+  std::size_t cases = 0, equal = 0, explained = 0, no_result = 0, against_us = 0;
+
+  void add(const Result& result) {
+    ++cases;
+    ++(result.against_us()           ? against_us
+       : !result.original_returned() ? no_result
+       : result.equal()              ? equal
+                                     : explained);
+  }
+};
+
 /// The places where the meshes differ, by reason: "none", "12 ties, 3 rounding".
 std::string differences_in_short(const Result& result);
 

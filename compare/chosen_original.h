@@ -1,7 +1,6 @@
 #pragma once
 // The original chosen by --original and --original-abi, or the one that the build found.
 
-#include <CLI/CLI.hpp>
 #include <string>
 
 #include "original.h"
@@ -11,7 +10,6 @@ namespace comparison {
 struct OriginalChoice {
   std::string file, abi;  ///< abi: empty to detect it
 };
-void add_original_options(CLI::App& app, OriginalChoice& choice);
 
 struct ChosenOriginal {
   legacy_stripack::Original original;

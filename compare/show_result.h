@@ -1,7 +1,6 @@
 #pragma once
-// A comparison for people and for programs.
+// A comparison for people.
 
-#include <nlohmann/json_fwd.hpp>
 #include <vector>
 
 #include "comparison.h"
@@ -13,7 +12,5 @@ void print(const Result& result, const std::vector<pstripack::Point>& points, do
 
 /// The part that describes each difference, and what counts against us.
 void print_decisions(const Result& result, const std::vector<pstripack::Point>& points);
-
-nlohmann::json to_json(const Result& result, double timeout);
 
 }  // namespace comparison

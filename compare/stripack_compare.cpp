@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@
 namespace {
 
 using comparison::RunOptions;
+
+/// The command chosen on the command line; returns the exit code.
+using Command = std::function<int()>;
 
 const char* const kDescription =
     R"(Runs the original STRIPACK and PSTRIPACK on the same nodes, checks both results exactly, and explains every
@@ -85,6 +89,12 @@ std::string footer() {
   return text + kFooter;
 }
 
+void add_original_options(CLI::App& app, comparison::OriginalChoice& choice) {
+  app.add_option("--original", choice.file, "shared library of your own STRIPACK instead of the one found");
+  app.add_option("--original-abi", choice.abi,
+                 "its ABI, where it cannot be found out: r8, r4, i8, 8arg, several as in r4-8arg");
+}
+
 void add_run_options(CLI::App& app, RunOptions& options) {
   const auto list = [&](const char* name, auto& values, const char* text) {
     return app.add_option(name, values, text)->delimiter(',')->allow_extra_args(false);
@@ -108,7 +118,7 @@ void add_run_options(CLI::App& app, RunOptions& options) {
   list("--ranks", options.ranks, "MPI ranks [1], started by pstripack-run")
       ->check(CLI::Range(1, 4096).description(""));
   choice("--partition", options.partitions, "bisection, stripes [bisection]", {"bisection", "stripes"});
-  comparison::add_original_options(app, options.original);
+  add_original_options(app, options.original);
   app.add_option("--timeout", options.timeout, "seconds after which the original is stopped [120]")
       ->check(CLI::PositiveNumber.description(""));
   app.add_option("--repeats", options.repeats,
@@ -122,7 +132,7 @@ void add_run_options(CLI::App& app, RunOptions& options) {
                  "write JUnit XML: one test per case, which fails if it counts against us");
 }
 
-void add_mesh(CLI::App& app, MeshOptions& options, comparison::Command& chosen) {
+void add_mesh(CLI::App& app, MeshOptions& options, Command& chosen) {
   CLI::App* const mesh = app.add_subcommand("mesh", "compare two meshes that scvt_legacy wrote");
   mesh->add_option("A", options.a, "prefix of A_points.txt and A_triangles.txt")->required();
   mesh->add_option("B", options.b, "prefix of the other mesh")->required();
@@ -134,24 +144,79 @@ void add_mesh(CLI::App& app, MeshOptions& options, comparison::Command& chosen) 
   mesh->callback([&] { chosen = [&] { return compare_mesh_files(options); }; });
 }
 
+void add_lists(CLI::App& app, comparison::ListsOptions& options, Command& chosen) {
+  CLI::App* const lists = app.add_subcommand("lists", "compare the LIST, LPTR, LEND of two files");
+  lists->footer(R"(a file
+  a recording of PSTRIPACK_CHECK=FILE, or text, for each call: N and LNEW, then LIST(1..LNEW-1),
+  LPTR(1..LNEW-1) and LEND(1..N), as WRITE(10,*) N,LNEW ... makes it. Calls are compared in their order.
+
+exit code
+  0  every call has the same triangles in both files (--bytes: the same bytes)
+  1  not so
+  2  usage error or unreadable input)");
+  lists->add_option("A", options.a, "file")->required();
+  lists->add_option("B", options.b, "file")->required();
+  lists->add_flag("--bytes", options.bytes, "the lists must be the same bytes, not only the same triangles");
+  lists->callback([&] { chosen = [&] { return comparison::compare_lists(options); }; });
+}
+
+void add_record(CLI::App& app, comparison::RecordOptions& options, Command& chosen) {
+  CLI::App* const record = app.add_subcommand("record", "run a model and record its calls of TRMESH");
+  record->footer(
+      "The model runs with PSTRIPACK_CHECK=FILE, and its exit code is that of this program.\n"
+      "  stripack-compare record -o calls.rec -- ./model arguments\n"
+      "  stripack-compare replay calls.rec");
+  record->add_option("-o,--output", options.file, "the recording; an older one is written over")
+      ->capture_default_str();
+  record->add_option("command", options.command, "-- program and its arguments")->required();
+  record->callback([&] { chosen = [&] { return comparison::record(options); }; });
+}
+
+void add_replay(CLI::App& app, comparison::ReplayOptions& options, Command& chosen) {
+  CLI::App* const replay = app.add_subcommand("replay", "run recorded calls again, explain every difference");
+  replay->footer(R"(A recording is made by PSTRIPACK_CHECK=FILE ./model or by stripack-compare record. With
+PSTRIPACK_CHECK=lib:ORIGINAL[,abi=ABI][,timeout=SECONDS][,show=K][,log=FILE] this runs while the model runs.
+
+exit code
+  0  no difference, or every difference is explained
+  1  a difference counts against PSTRIPACK (--library: other bytes than recorded)
+  2  usage error or unreadable input)");
+  replay->add_option("FILE", options.file, "the recording, - for stdin")->required();
+  add_original_options(*replay, options.original);
+  replay
+      ->add_option("--library", options.library,
+                   "instead of an original, a libstripack of PSTRIPACK: it must give the recorded bytes")
+      ->excludes("--original");
+  replay->add_option("--timeout", options.timeout, "seconds after which the original is stopped, each call")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  replay->add_option("--show", options.show, "largest number of differences of each kind printed per call")
+      ->capture_default_str();
+  replay->add_option("--json", options.json_file, "write the results to this file as well");
+  replay->callback([&] { chosen = [&] { return comparison::replay(options); }; });
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   RunOptions options;
   MeshOptions mesh_options;
+  comparison::ListsOptions lists_options;
+  comparison::RecordOptions record_options;
+  comparison::ReplayOptions replay_options;
   CLI::App app(kDescription, "stripack-compare");
   app.footer(footer);
   app.set_version_flag("--version", pstripack_version());
   add_run_options(app, options);
   CLI::App* const run = app.add_subcommand("run", "compare the libraries");
   add_run_options(*run, options);
-  const comparison::Command run_all = [&] { return comparison::run(options); };
-  comparison::Command chosen = run_all;  // `run` may be left out
+  const Command run_all = [&] { return comparison::run(options); };
+  Command chosen = run_all;  // `run` may be left out
   run->callback([&] { chosen = run_all; });
   add_mesh(app, mesh_options, chosen);
-  comparison::add_lists(app, chosen);
-  comparison::add_record(app, chosen);
-  comparison::add_replay(app, chosen);
+  add_lists(app, lists_options, chosen);
+  add_record(app, record_options, chosen);
+  add_replay(app, replay_options, chosen);
 
   try {
     if (argc == 3 && argv[1] == std::string(comparison::kCallCommand))
