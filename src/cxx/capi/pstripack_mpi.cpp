@@ -41,8 +41,6 @@ template <class Body>
 std::int32_t guarded(const Body& body) noexcept {
   try {
     return in_default_floating_point(body);
-  } catch (const AgreedFailure& failure) {
-    return failure.code;
   } catch (...) {
     return code_of(std::current_exception());
   }

@@ -11,13 +11,13 @@
 #include "geometry/parallel_for.h"
 #include "geometry/predicates.h"
 #include "mpi/list_pieces.h"
-#include "mpi/options.h"
+#include "parallel/agreement.h"
 #include "parallel/coincidence.h"
+#include "parallel/options.h"
 
 namespace pstripack {
 namespace {
 
-constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
 constexpr std::int32_t kTooFew = -1, kCollinear = -2, kTooMany = -4, kBadCoordinate = -5, kRanksDisagree = -7;
 
 std::uint64_t mixed(std::uint64_t bits) {
@@ -66,7 +66,7 @@ struct Slice {
     nodes = NodeArrays(x, y, z);
     count = how_many;
     look = look_at(nodes, count);
-    return look.first_bad < count ? static_cast<std::int64_t>(first + look.first_bad) : kNone;
+    return look.first_bad < count ? static_cast<std::int64_t>(first + look.first_bad) : Smallest::kNone;
   }
 };
 
@@ -79,8 +79,8 @@ std::int32_t code_of_count(std::int32_t n) {
 struct Call {
   std::int32_t n = 0;
   Point corners[3] = {};  ///< nodes 1 to 3
-  std::int64_t partition = 0;
-  std::int64_t wants_cost = 0;  ///< rank 0 does
+  PartitionKind partition = PartitionKind::bisection;
+  bool wants_cost = false;  ///< rank 0 does
 };
 
 /// This rank's slice of the nodes, where every rank has them all. The code is that of the call so far.
@@ -90,41 +90,32 @@ TrmeshResult take_slice(MpiCommunicator& ranks, std::int32_t n, const Real* x, c
   ranks.set_phase("agree on the arguments");
   call.n = n;
   const std::int32_t count_code = code_of_count(n);
-  std::int64_t code = 0, bad = kNone, hash = 0;
-  if (count_code == 0) try {
-      const auto nodes = static_cast<std::size_t>(n);
-      const auto size = static_cast<std::size_t>(ranks.size()), me = static_cast<std::size_t>(ranks.rank());
-      const std::size_t first = slice_begin(nodes, me, size), last = slice_begin(nodes, me + 1, size);
-      std::uint64_t h = sizeof(Real);
-      for (const Real* const array : {x, y, z}) h = hash_of(array, nodes * sizeof(Real), h);
-      hash = static_cast<std::int64_t>(h);
-      bad = slice.take(x + first, y + first, z + first, last - first, first);
-      slice.of_all_ranks.emplace(x, y, z);
-      slice.of_all_ranks->points(0, 3, call.corners);
-    } catch (...) {
-      code = code_of(std::current_exception());
-    }
-  // Smallest values; the complement is largest where the value is smallest, so both tell whether all are
-  // equal.
-  std::int64_t values[] = {n,
-                           ~std::int64_t{n},
-                           hash,
-                           ~hash,
-                           code,
-                           bad,
-                           partition_vote(ranks, options_from_environment(0).partition),
-                           ranks.rank() == 0 && wants_cost ? -1 : 0,
-                           slice.look.vote_for_lengths(),
-                           slice.look.vote_for_deviation()};
-  ranks.all_min(values, std::size(values));
-  slice.look.elect(values[8], values[9]);
-  call.wants_cost = -values[7];
-  // Out of memory first: the hash is missing there.
-  if (values[4] != 0) throw AgreedFailure(static_cast<std::int32_t>(values[4]));
-  if (values[0] != ~values[1] || values[2] != ~values[3]) return {kRanksDisagree};
+  // All pass the same where the smallest is the largest.
+  Smallest least_n{n}, least_hash{0}, bad;
+  Largest most_n{n}, most_hash;
+  OfRank0 partition(ranks, options_from_environment(0).partition);
+  OnAny reported{ranks.rank() == 0 && wants_cost};
+  in_agreement(
+      ranks,
+      [&] {
+        if (count_code != 0) return;
+        const auto nodes = static_cast<std::size_t>(n);
+        const auto size = static_cast<std::size_t>(ranks.size()), me = static_cast<std::size_t>(ranks.rank());
+        const std::size_t first = slice_begin(nodes, me, size), last = slice_begin(nodes, me + 1, size);
+        std::uint64_t hash = sizeof(Real);
+        for (const Real* const array : {x, y, z}) hash = hash_of(array, nodes * sizeof(Real), hash);
+        least_hash.value = most_hash.value = static_cast<std::int64_t>(hash);
+        bad.value = slice.take(x + first, y + first, z + first, last - first, first);
+        slice.of_all_ranks.emplace(x, y, z);
+        slice.of_all_ranks->points(0, 3, call.corners);
+      },
+      least_n, most_n, least_hash, most_hash, bad, partition, reported, slice.look.lengths_are_one,
+      slice.look.deviation);
+  call.wants_cost = reported.value;
+  if (least_n.value != most_n.value || least_hash.value != most_hash.value) return {kRanksDisagree};
   if (count_code != 0) return {count_code};
-  call.partition = values[6];
-  if (values[5] != kNone) return {kBadCoordinate, values[5] + 1};
+  call.partition = partition.value;
+  if (bad.exists()) return {kBadCoordinate, bad.value + 1};
   return {0};
 }
 
@@ -136,8 +127,8 @@ TrmeshResult receive_slice(MpiCommunicator& ranks, Arrays arrays, std::int32_t n
   const bool is_root = ranks.rank() == 0;
   if (is_root) {
     call.n = n;
-    call.partition = static_cast<std::int64_t>(options_from_environment(0).partition);
-    call.wants_cost = wants_cost ? 1 : 0;
+    call.partition = options_from_environment(0).partition;
+    call.wants_cost = wants_cost;
     if (code_of_count(n) == 0) NodeArrays(x, y, z).points(0, 3, call.corners);
   }
   ranks.broadcast(&call, sizeof call, 0);
@@ -148,7 +139,7 @@ TrmeshResult receive_slice(MpiCommunicator& ranks, Arrays arrays, std::int32_t n
   const std::size_t first = slice_begin(nodes, me, size), count = slice_begin(nodes, me + 1, size) - first;
   const bool by_message = arrays == Arrays::on_rank_0;
   std::vector<std::size_t> bytes;
-  agreed(ranks, [&] {
+  in_agreement(ranks, [&] {
     if (by_message && !is_root)
       for (Block& block : slice.received) block = Block(count * sizeof(Real));
     for (std::size_t r = 0; r <= size; ++r) bytes.push_back(slice_begin(nodes, r, size) * sizeof(Real));
@@ -157,23 +148,18 @@ TrmeshResult receive_slice(MpiCommunicator& ranks, Arrays arrays, std::int32_t n
   for (int i = 0; i < 3 && by_message; ++i)
     ranks.start_scatter(from[i], bytes, slice.received[i].data(), is_root ? 0 : count * sizeof(Real), 0);
   if (!is_root) ranks.finish();
-  std::int64_t values[] = {0, kNone, 0, 0};
-  try {
+  Smallest bad;
+  Outcome outcome = Outcome::of([&] {
     if (!by_message) slice.of_all_ranks.emplace(x, y, z);
     for (int i = 0; i < 3; ++i)
       from[i] =
           by_message && !is_root ? reinterpret_cast<const Real*>(slice.received[i].data()) : from[i] + first;
-    values[1] = slice.take(from[0], from[1], from[2], count, first);
-  } catch (...) {
-    values[0] = code_of(std::current_exception());
-  }
+    bad.value = slice.take(from[0], from[1], from[2], count, first);
+  });
   if (is_root) ranks.finish();
-  values[2] = slice.look.vote_for_lengths();
-  values[3] = slice.look.vote_for_deviation();
-  ranks.all_min(values, std::size(values));
-  slice.look.elect(values[2], values[3]);
-  if (values[0] != 0) throw AgreedFailure(static_cast<std::int32_t>(values[0]));
-  if (values[1] != kNone) return {kBadCoordinate, values[1] + 1};
+  agree(ranks, outcome, bad, slice.look.lengths_are_one, slice.look.deviation);
+  outcome.accept();
+  if (bad.exists()) return {kBadCoordinate, bad.value + 1};
   return {0};
 }
 
@@ -186,11 +172,11 @@ TrmeshResult lists_of_slices(MpiCommunicator& ranks, Arrays arrays, const Call& 
   const auto size = static_cast<std::size_t>(ranks.size()), me = static_cast<std::size_t>(ranks.rank());
   std::vector<std::size_t> begin;
   ParallelOptions options;
-  agreed(ranks, [&] {
+  in_agreement(ranks, [&] {
     begin.resize(size + 1);
     options = options_from_environment(slice.count);
   });
-  options.partition = elected_partition(call.partition);
+  options.partition = call.partition;
   cost.threads = options.threads;
   const auto cut = [&](std::size_t fewer) {
     for (std::size_t r = 0; r <= size; ++r)
@@ -210,7 +196,7 @@ TrmeshResult lists_of_slices(MpiCommunicator& ranks, Arrays arrays, const Call& 
   if (!stars.coincident.empty()) {
     // Nodes 1..M-1 do not coincide, and the first three are not on one great circle: M > 3.
     Coincidence first{};
-    agreed(ranks, [&] { first = first_coincidence(stars.coincident); });
+    in_agreement(ranks, [&] { first = first_coincidence(stars.coincident); });
     result = {static_cast<std::int32_t>(first.l), first.l, first.m};
     cut(static_cast<std::size_t>(first.m) - 1);
     slice.look = look_at(slice.nodes, begin[me + 1] - begin[me]);
@@ -243,7 +229,7 @@ TrmeshResult collective_trmesh(MpiCommunicator& ranks, Arrays arrays, std::int32
                  : receive_slice(ranks, arrays, n, x, y, z, cost != nullptr, call, slice);
   }
   if (result.ier == 0) result = lists_of_slices(ranks, arrays, call, slice, list, lptr, lend, lnew, mine);
-  if (call.wants_cost != 0) {
+  if (call.wants_cost) {
     mine.bytes_sent = ranks.bytes_sent - sent_before;
     const GroupCost all = group_cost(ranks, mine);
     if (cost != nullptr) *cost = all;

@@ -59,7 +59,7 @@ class DistributedMesh {
                                   Report* report, ParallelCost& cost);
   std::int32_t gather_stars(std::int32_t root, std::int32_t* list, std::int32_t* lptr, std::int32_t* lend,
                             std::int32_t* lnew);
-  Numbering look_at(std::int64_t n, const Point* points, const std::int64_t* number, std::int64_t wish);
+  Numbering look_at(std::int64_t n, const Point* points, const std::int64_t* number, bool wants_report);
   std::int64_t first_repeated(const std::int64_t* number, std::size_t n, const Numbering& numbering);
   std::int64_t search_repeated(const std::int64_t* number, std::size_t n);
   bool find_corners(const Point* points, std::size_t n, const std::int64_t* number, ThreeOfEach& sample,

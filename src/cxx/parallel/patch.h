@@ -173,8 +173,6 @@ class Patch {
   }
 
   int id() const { return id_; }
-  std::size_t own() const { return own_; }
-  std::size_t halo() const { return count_ - own_; }
   /// Different nodes in the same direction that it came upon: their numbers.
   const std::vector<std::pair<std::int64_t, std::int64_t>>& coincident() const { return coincident_; }
 
