@@ -18,9 +18,9 @@
 #include <system_error>
 #include <utility>
 
+#include "base/shared_area.h"
 #include "child_process.h"
 #include "median.h"
-#include "pool/shared_area.h"
 
 namespace comparison {
 namespace {

@@ -22,8 +22,8 @@
 #include "commands.h"
 #include "comparison.h"
 #include "list_files.h"
+#include "lists/adjacency_lists.h"
 #include "show_result.h"
-#include "stripack/adjacency_lists.h"
 
 namespace comparison {
 namespace {

@@ -12,12 +12,12 @@
 #include <utility>
 
 #include "case_files.h"
+#include "lists/limits.h"
 #include "node_sets.h"
 #include "original.h"
 #include "plot.h"
 #include "point_sets.h"
 #include "show_result.h"
-#include "stripack/trmesh.h"
 
 namespace comparison {
 namespace {

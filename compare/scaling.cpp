@@ -22,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "base/shared_area.h"
 #include "csv_file.h"
 #include "in_a_row.h"
 #include "median.h"
@@ -29,9 +30,9 @@
 #include "mpi/collective_trmesh.h"
 #include "mpi/distributed_mesh.h"
 #include "point_sets.h"
-#include "pool/shared_area.h"
+#include "pool/area_layout.h"
 #include "printed.h"
-#include "stripack/trmesh.h"
+#include "trmesh/trmesh.h"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // How far lists are from the exact mesh: of exact meshes, and of these after changes whose effect is known.
 
-#include "stripack/exact_difference.h"
+#include "trmesh/exact_difference.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include "point_sets.h"
 #include "stripack/arc_edit.h"
 #include "stripack/list_edit.h"
-#include "stripack/trmesh.h"
+#include "trmesh/trmesh.h"
 
 using namespace pstripack;
 

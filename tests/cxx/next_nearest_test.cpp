@@ -11,8 +11,8 @@
 
 #include "point_sets.h"
 #include "stripack/search.h"
-#include "stripack/trmesh.h"
 #include "support/guarded.h"
+#include "trmesh/trmesh.h"
 
 using namespace pstripack;
 

@@ -13,8 +13,8 @@
 #include <string>
 #include <tuple>
 
+#include "base/workspace.h"
 #include "distributions.h"
-#include "geometry/workspace.h"
 #include "parallel/coincidence.h"
 #include "parallel/partition.h"
 #include "parallel/patch.h"

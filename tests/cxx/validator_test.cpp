@@ -8,14 +8,14 @@
 #include <set>
 #include <string>
 
+#include "lists/adjacency_lists.h"
 #include "mesh/validate.h"
 #include "point_sets.h"
-#include "stripack/adjacency_lists.h"
-#include "stripack/trmesh.h"
 #include "support/cases.h"
 #include "support/guarded.h"
 #include "support/judge.h"
 #include "support/trmesh.h"
+#include "trmesh/trmesh.h"
 
 namespace {
 

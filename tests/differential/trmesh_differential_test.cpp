@@ -16,8 +16,8 @@
 #include "differential/reference_trmesh.h"
 #include "differential/routines.h"
 #include "point_sets.h"
-#include "stripack/original_order.h"
-#include "stripack/trmesh.h"
+#include "stripack/original/original_order.h"
+#include "trmesh/trmesh.h"
 
 using namespace differential;
 using namespace pstripack;

@@ -22,9 +22,9 @@
 
 #include "point_sets.h"
 #include "small_pools.h"
-#include "stripack/trmesh.h"
 #include "support/exact.h"
 #include "support/judge.h"
+#include "trmesh/trmesh.h"
 #ifdef HAVE_CGAL
 #include "support/cgal_hull.h"
 #endif

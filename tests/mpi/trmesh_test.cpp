@@ -7,13 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "base/shared_area.h"
 #include "mpi/area_of_all.h"
 #include "mpi/collective_trmesh.h"
-#include "mpi/list_pieces.h"
+#include "mpi/gather_lists.h"
 #include "mpi_test.h"
 #include "parallel/coincidence.h"
 #include "point_sets.h"
-#include "pool/shared_area.h"
+#include "pool/area_layout.h"
 #include "support/columns.h"
 #include "support/failing_allocation.h"
 #include "support/lists.h"

@@ -8,7 +8,8 @@
 #include <numeric>
 #include <utility>
 
-#include "geometry/parallel_for.h"
+#include "base/parallel_for.h"
+#include "lists/limits.h"
 #include "mesh/delaunay.h"
 #include "stripack/list_queries.h"
 #include "stripack/triangle_list.h"

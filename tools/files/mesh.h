@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "files/nodes.h"
-#include "stripack/adjacency_lists.h"
-#include "stripack/trmesh.h"
+#include "lists/adjacency_lists.h"
+#include "trmesh/trmesh.h"
 
 namespace files {
 
@@ -36,7 +36,7 @@ struct CoincidentNodes : NoMesh {
   std::size_t first, second;
 };
 
-/// What `triangulate` calls. It is TRMESH of this process (stripack/trmesh.h), unless a program puts that of
+/// What `triangulate` calls. It is TRMESH of this process (trmesh/trmesh.h), unless a program puts that of
 /// many processes in its place.
 using Trmesh = std::function<pstripack::TrmeshResult(std::int32_t n, const double* x, const double* y,
                                                      const double* z, std::int32_t* list, std::int32_t* lptr,

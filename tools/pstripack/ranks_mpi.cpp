@@ -12,7 +12,7 @@
 #include "mpi/mpi_communicator.h"
 #include "pstripack/options.h"
 #include "pstripack/ranks.h"
-#include "stripack/original_rules.h"
+#include "stripack/original/original_rules.h"
 
 namespace program {
 namespace {

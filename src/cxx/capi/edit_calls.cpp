@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "geometry/floating_point.h"
+#include "base/floating_point.h"
 #include "stripack/arc_edit.h"
 #include "stripack/list_edit.h"
 #include "stripack/node_edit.h"

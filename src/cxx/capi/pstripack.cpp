@@ -9,16 +9,16 @@
 #include <limits>
 #include <vector>
 
-#include "capi/check.h"
-#include "capi/engine_hook.h"
-#include "capi/pool_client.h"
-#include "capi/report.h"
+#include "base/floating_point.h"
+#include "capi/hooks.h"
 #include "capi/version.h"
-#include "geometry/floating_point.h"
-#include "parallel/node_arrays.h"
-#include "stripack/adjacency_lists.h"
-#include "stripack/original_rules.h"
-#include "stripack/trmesh.h"
+#include "geometry/node_arrays.h"
+#include "lists/adjacency_lists.h"
+#include "observe/check.h"
+#include "observe/report.h"
+#include "pool/client.h"
+#include "stripack/original/original_rules.h"
+#include "trmesh/trmesh.h"
 
 namespace {
 
@@ -83,7 +83,7 @@ template <class Real>
       // Only std::bad_alloc can come here: the report says that nothing was compared.
     }
   }
-  pstripack_add_to_report(&report);
+  add_to_report(report);
   return true;
 }
 
@@ -97,8 +97,8 @@ TrmeshResult trmesh_with_messages(std::int64_t nodes, const Real* x, const Real*
   const auto n = static_cast<std::int32_t>(std::clamp<std::int64_t>(nodes, Limits::min(), Limits::max()));
   TrmeshResult result{0};
   const auto work = [&] {
-    return pstripack_report_is_wanted() ? carry_out_and_report(n, x, y, z, list, lptr, lend, lnew, result)
-                                        : carry_out(n, x, y, z, list, lptr, lend, lnew, result, nullptr);
+    return report_is_wanted() ? carry_out_and_report(n, x, y, z, list, lptr, lend, lnew, result)
+                              : carry_out(n, x, y, z, list, lptr, lend, lnew, result, nullptr);
   };
   bool is_ours;
   if (Check* const check = check_of_calls(); check == nullptr) {
@@ -151,6 +151,10 @@ extern "C" {
 pstripack_trmesh_engine pstripack_set_trmesh_engine(pstripack_trmesh_engine engine) {
   return other_engine.exchange(engine, std::memory_order_acq_rel);
 }
+
+int pstripack_report_is_wanted(void) { return report_is_wanted(); }
+void pstripack_add_to_report(const CallReport* call) { add_to_report(*call); }
+void pstripack_leave_check_to_another_rank(int leave) { leave_check_to_another_rank(leave != 0); }
 
 const char* pstripack_version(void) { return PSTRIPACK_VERSION; }
 

@@ -11,13 +11,11 @@
 #include <new>
 #include <utility>
 
-#include "capi/check.h"
-#include "capi/engine_hook.h"
-#include "capi/report.h"
-#include "geometry/floating_point.h"
+#include "base/floating_point.h"
+#include "capi/hooks.h"
 #include "mpi/collective_trmesh.h"
 #include "mpi/distributed_mesh.h"
-#include "stripack/original_rules.h"
+#include "stripack/original/original_rules.h"
 
 using namespace pstripack;
 

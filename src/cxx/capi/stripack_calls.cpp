@@ -4,9 +4,9 @@
 #include <exception>
 #include <new>
 
-#include "geometry/floating_point.h"
+#include "base/floating_point.h"
 #include "stripack/list_queries.h"
-#include "stripack/original_rules.h"
+#include "stripack/original/original_rules.h"
 #include "stripack/polygon.h"
 #include "stripack/random.h"
 #include "stripack/search.h"

@@ -10,7 +10,7 @@
 #include <memory>
 #include <string_view>
 
-#include "geometry/floating_point.h"
+#include "base/floating_point.h"
 #include "stripack/listing.h"
 #include "stripack/plot.h"
 

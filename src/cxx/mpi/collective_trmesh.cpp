@@ -8,9 +8,10 @@
 #include <optional>
 #include <vector>
 
-#include "geometry/parallel_for.h"
+#include "base/parallel_for.h"
 #include "geometry/predicates.h"
-#include "mpi/list_pieces.h"
+#include "lists/limits.h"
+#include "mpi/gather_lists.h"
 #include "parallel/agreement.h"
 #include "parallel/coincidence.h"
 #include "parallel/options.h"

@@ -4,7 +4,7 @@
 
 #include "mpi/mpi_communicator.h"
 #include "parallel/triangulate.h"
-#include "stripack/trmesh.h"
+#include "trmesh/trmesh.h"
 
 namespace pstripack {
 
@@ -15,7 +15,7 @@ enum class Arrays {
   shared          ///< the same on one machine: every rank passes the same memory; lnew is rank 0's
 };
 
-/// TRMESH (stripack/trmesh.h) by all ranks together: the same bytes, the same codes, on every rank.
+/// TRMESH (trmesh/trmesh.h) by all ranks together: the same bytes, the same codes, on every rank.
 /// Collective; Real is the same on every rank. Throws AgreedFailure, having written nothing.
 /// If rank 0 passes `cost`, it is told there what the call cost all ranks, and so are others that pass one.
 template <class Real>

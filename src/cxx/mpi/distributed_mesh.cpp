@@ -8,13 +8,14 @@
 #include <utility>
 
 #include "geometry/predicates.h"
-#include "mpi/list_pieces.h"
+#include "lists/limits.h"
+#include "mpi/gather_lists.h"
 #include "mpi/number_table.h"
 #include "parallel/agreement.h"
 #include "parallel/coincidence.h"
 #include "parallel/options.h"
 #include "parallel/scattered.h"
-#include "stripack/trmesh.h"
+#include "trmesh/trmesh.h"
 
 namespace pstripack {
 namespace {

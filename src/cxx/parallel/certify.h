@@ -2,17 +2,14 @@
 // The fourth phase: every patch asks the others about what it cannot know, until nothing is left to ask.
 
 #include <cstddef>
-#include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "parallel/coincidence.h"
 #include "parallel/divide.h"
 #include "parallel/patches.h"
 
 namespace pstripack {
-
-/// Numbers of two different nodes in the same direction.
-using CoincidentPairs = std::vector<std::pair<std::int64_t, std::int64_t>>;
 
 /// Patches in which the star of every own node is the star in the triangulation of all nodes, unless nodes
 /// coincide or it has given up.

@@ -4,7 +4,7 @@
 #include <exception>
 #include <optional>
 
-#include "geometry/parallel_for.h"
+#include "base/parallel_for.h"
 
 namespace pstripack {
 namespace {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "geometry/workspace.h"
+#include "base/workspace.h"
 #include "parallel/agreement.h"
 #include "parallel/divide.h"
 

@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <mutex>
 
-#include "geometry/parallel_for.h"
+#include "base/parallel_for.h"
+#include "geometry/node_arrays.h"
 #include "geometry/point.h"
 #include "geometry/predicates.h"
 #include "parallel/agreement.h"
-#include "parallel/node_arrays.h"
 
 namespace pstripack {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/workspace.h"
+#include "base/workspace.h"
 
 namespace pstripack {
 

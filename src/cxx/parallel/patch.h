@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/buffer.h"
-#include "geometry/workspace.h"
+#include "base/buffer.h"
+#include "base/workspace.h"
 #include "mesh/delaunay.h"
-#include "mesh/rings.h"
+#include "mesh/ring_table.h"
 #include "parallel/partition.h"
 #include "parallel/places.h"
 #include "parallel/record.h"

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "geometry/parallel_for.h"
+#include "base/parallel_for.h"
 #include "parallel/agreement.h"
 #include "parallel/deliver.h"
 #include "parallel/divide.h"

@@ -6,9 +6,9 @@
 #include <memory>
 #include <vector>
 
-#include "geometry/buffer.h"
-#include "geometry/workspace.h"
-#include "mesh/rings.h"
+#include "base/buffer.h"
+#include "base/workspace.h"
+#include "mesh/ring_table.h"
 #include "parallel/certify.h"
 #include "parallel/deliver.h"
 #include "parallel/divide.h"

@@ -3,7 +3,7 @@
 // (Real, Int) = (float, int32_t), (double, int32_t), (double, int64_t).
 // They always return and change nothing of the triangulation.
 
-#include "stripack/adjacency_lists.h"
+#include "lists/adjacency_lists.h"
 #include "stripack/expressions.h"
 #include "stripack/list_edit.h"
 

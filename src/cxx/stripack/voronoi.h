@@ -2,7 +2,7 @@
 // CRLIST, CIRCUM: the Voronoi diagram of a triangulation. For
 // (Real, Int) = (float, int32_t), (double, int32_t), (double, int64_t).
 
-#include "stripack/adjacency_lists.h"
+#include "lists/adjacency_lists.h"
 #include "stripack/expressions.h"
 
 namespace pstripack {
@@ -39,7 +39,8 @@ struct VoronoiArrays {
 /// they come first, and the slots of their arcs are added to LPTR. O(n) beside the swaps among those,
 /// with OpenMP threads for large n; the same bytes for any number of them.
 /// Always returns: where rounded swap tests of cocircular boundary nodes would undo each other for ever,
-/// exact ones take over. Takes 80 bytes a node for the call. Throws std::bad_alloc before anything is written.
+/// exact ones take over. Takes 80 bytes a node for the call. Throws std::bad_alloc before anything is
+/// written.
 template <class Real, class Int>
 VoronoiStatus voronoi(const ListsView<Int>& lists, const Nodes<Real>& nodes,
                       const VoronoiArrays<Real, Int>& out);
