@@ -272,7 +272,7 @@ Outputs call_trmesh(const Pool& pool, const Case& drawn) {
   }
   Outputs out;
   const pstripack::TrmeshResult result =
-      pstripack::trmesh<double, std::int32_t>(drawn.n, x, y, z, out.list, out.lptr, out.lend, &out.lnew);
+      pstripack::trmesh({drawn.n, {x, y, z}, {out.list, out.lptr, out.lend, &out.lnew}});
   out.ier = result.ier;
   out.node = static_cast<std::int32_t>(result.node);
   out.other = static_cast<std::int32_t>(result.other);

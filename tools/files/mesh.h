@@ -38,9 +38,7 @@ struct CoincidentNodes : NoMesh {
 
 /// What `triangulate` calls. It is TRMESH of this process (trmesh/trmesh.h), unless a program puts that of
 /// many processes in its place.
-using Trmesh = std::function<pstripack::TrmeshResult(std::int32_t n, const double* x, const double* y,
-                                                     const double* z, std::int32_t* list, std::int32_t* lptr,
-                                                     std::int32_t* lend, std::int32_t* lnew)>;
+using Trmesh = std::function<pstripack::TrmeshResult(const pstripack::TrmeshCall&)>;
 void set_trmesh(Trmesh trmesh);
 
 /// The Delaunay triangulation of at least three nodes that all have a direction. Throws NoMesh where all of

@@ -372,23 +372,21 @@ void DistributedMesh::local_stars(std::int64_t* begin, std::int32_t* neighbour) 
   });
 }
 
-std::int32_t DistributedMesh::gather(std::int32_t root, std::int32_t* list, std::int32_t* lptr,
-                                     std::int32_t* lend, std::int32_t* lnew, Report* report) {
+std::int32_t DistributedMesh::gather(std::int32_t root, const ListArrays& lists, Report* report) {
   const std::int64_t sent_before = ranks_.bytes_sent;
   if (report != nullptr) report->points = total_;
   ParallelCost mine;
   std::int32_t code = 0;
   {
     const PhaseTimer timer(&mine, ParallelCost::gather, &ranks_);
-    code = gather_stars(root, list, lptr, lend, lnew);
+    code = gather_stars(root, lists);
   }
   report_on(mine, sent_before, report);
   ranks_.set_phase("idle");
   return code;
 }
 
-std::int32_t DistributedMesh::gather_stars(std::int32_t root, std::int32_t* list, std::int32_t* lptr,
-                                           std::int32_t* lend, std::int32_t* lnew) {
+std::int32_t DistributedMesh::gather_stars(std::int32_t root, const ListArrays& lists) {
   if (empty()) return kEmpty;
   if (root < kEveryRank || root >= ranks_.size()) return kNoSuchRank;
   if (!numbers_are_dense_) return kBadNumber;
@@ -439,8 +437,8 @@ std::int32_t DistributedMesh::gather_stars(std::int32_t root, std::int32_t* list
     size_class[k] = Rings::size_class_of(static_cast<std::uint32_t>(at[1]));
     position[static_cast<std::size_t>(*at) - 1 - begin[me]] = k;
   }
-  gather_lists(ranks_, Rings(slice, position.data(), place.data(), size_class.data()), begin, root, list,
-               lptr, lend, lnew);
+  gather_lists(ranks_, Rings(slice, position.data(), place.data(), size_class.data()), begin,
+               root == kEveryRank ? Arrays::on_every_rank : Arrays::on_one_rank, root, lists);
   return 0;
 }
 

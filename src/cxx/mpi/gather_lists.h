@@ -9,21 +9,26 @@
 #include "lists/list_pieces.h"
 #include "mpi/mpi_communicator.h"
 #include "parallel/local_nodes.h"
+#include "trmesh/call.h"
 
 namespace pstripack {
 
-constexpr int kEveryRank = -1, kShared = -2;
+/// Which ranks have the arrays of a call.
+enum class Arrays {
+  on_every_rank,
+  on_one_rank,
+  shared  ///< all have the same memory, on one machine; lnew is rank 0's
+};
 
-/// The lists of all nodes on rank `root`, on every rank (kEveryRank), or in memory that all ranks share and
-/// pass, lnew that of rank 0 (kShared); rank r brings the rings of the nodes
-/// [begin[r], begin[r+1]). list, lptr, lend, lnew count on those ranks only. Collective. Throws
-/// AgreedFailure, having written nothing.
+/// The lists of all nodes in these arrays; `root`: the one rank. Rank r brings the rings of the nodes
+/// [begin[r], begin[r+1]). Collective. Throws AgreedFailure, having written nothing.
 template <class Int>
 void gather_lists(MpiCommunicator& ranks, const RingTable<Int>& rings, const std::vector<std::size_t>& begin,
-                  int root, std::int32_t* list, std::int32_t* lptr, std::int32_t* lend, std::int32_t* lnew) {
+                  Arrays arrays, int root, const ListArrays& lists) {
+  const auto& [list, lptr, lend, lnew] = lists;
   const auto size = static_cast<std::size_t>(ranks.size()), me = static_cast<std::size_t>(ranks.rank());
   const std::size_t n = begin[size], first = begin[me], count = begin[me + 1] - first;
-  const bool has_arrays = root < 0 || root == ranks.rank();
+  const bool has_arrays = arrays != Arrays::on_one_rank || root == ranks.rank();
 
   // All memory first, so that nothing is written if it fails anywhere.
   BlockArray<std::int32_t> list_piece, lend_piece;
@@ -51,11 +56,11 @@ void gather_lists(MpiCommunicator& ranks, const RingTable<Int>& rings, const std
     node_bytes[r + 1] = begin[r + 1] * sizeof *lend;
   }
   const std::size_t slot = slot_bytes[me] / sizeof *list;
-  if (root == kShared) {
+  if (arrays == Arrays::shared) {
     write_piece(rings, slot, list + slot, lend + first, piece_threads);
     write_lptr(lend + first, count, slot, lptr, piece_threads);
     ranks.all_min(&arcs, 1);  // all pieces are there
-  } else if (root == kEveryRank) {
+  } else if (arrays == Arrays::on_every_rank) {
     write_piece(rings, slot, list + slot, lend + first, piece_threads);
     ranks.all_gather_in_place(lend, node_bytes);
     ranks.all_gather_in_place(list, slot_bytes);
@@ -74,7 +79,7 @@ void gather_lists(MpiCommunicator& ranks, const RingTable<Int>& rings, const std
                        root);
     ranks.finish();
   }
-  if (has_arrays && (root != kShared || me == 0))
+  if (has_arrays && (arrays != Arrays::shared || me == 0))
     *lnew = static_cast<std::int32_t>(slot_bytes[size] / sizeof *list) + 1;
 }
 

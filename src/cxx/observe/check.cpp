@@ -173,21 +173,23 @@ BlockHeader header_of(BlockHeader::Kind kind, const CheckedCall& call) {
 }
 }  // namespace
 
-CheckedCall check_input(Check& check, std::uint32_t real_bytes, std::int32_t n, const void* x, const void* y,
-                        const void* z) noexcept {
-  CheckedCall call{real_bytes, check.next_number(), n, 0};
+CheckedCall check_input(Check& check, const TrmeshCall& trmesh) noexcept {
+  const NodeArrays& nodes = trmesh.nodes;
+  CheckedCall call{static_cast<std::uint32_t>(nodes.real_bytes()), check.next_number(), trmesh.n, 0};
   BlockHeader header = header_of(BlockHeader::input, call);
   // Where n is refused, TRMESH does not read the arrays, whose length may be anything.
-  const bool is_read = n >= 3 && n <= most_nodes<std::int32_t>();
-  const std::size_t size = is_read ? static_cast<std::size_t>(n) * real_bytes : 0;
-  iovec parts[4] = {{}, bytes(x, size), bytes(y, size), bytes(z, size)};
+  const bool is_read = trmesh.n >= 3 && trmesh.n <= most_nodes<std::int32_t>();
+  const std::size_t size = is_read ? static_cast<std::size_t>(trmesh.n) * nodes.real_bytes() : 0;
+  iovec parts[4] = {
+      {}, bytes(nodes.array(0), size), bytes(nodes.array(1), size), bytes(nodes.array(2), size)};
   check.write(header, parts, 4);
   call.start = clock_seconds(CLOCK_MONOTONIC);
   return call;
 }
 
-void check_output(Check& check, const CheckedCall& call, const TrmeshResult& result, const std::int32_t* list,
-                  const std::int32_t* lptr, const std::int32_t* lend, const std::int32_t* lnew) noexcept {
+void check_output(Check& check, const CheckedCall& call, const TrmeshResult& result,
+                  const ListArrays& lists) noexcept {
+  const auto& [list, lptr, lend, lnew] = lists;
   const double seconds = clock_seconds(CLOCK_MONOTONIC) - call.start;
   BlockHeader header = header_of(BlockHeader::output, call);
   header.nanoseconds = std::llround(1e9 * seconds);

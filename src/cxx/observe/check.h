@@ -21,10 +21,9 @@ class Check;
 Check* check_of_calls() noexcept;
 
 /// Writes the input block, before anything is computed: a call that crashes or hangs is on record.
-CheckedCall check_input(Check& check, std::uint32_t real_bytes, std::int32_t n, const void* x, const void* y,
-                        const void* z) noexcept;
-void check_output(Check& check, const CheckedCall& call, const TrmeshResult& result, const std::int32_t* list,
-                  const std::int32_t* lptr, const std::int32_t* lend, const std::int32_t* lnew) noexcept;
+CheckedCall check_input(Check& check, const TrmeshCall& call) noexcept;
+void check_output(Check& check, const CheckedCall& call, const TrmeshResult& result,
+                  const ListArrays& lists) noexcept;
 
 /// In comm mode rank 0 writes the calls, which are the same on all ranks.
 void leave_check_to_another_rank(bool leave);

@@ -59,7 +59,6 @@ bool program_uses_mpi() {
 class Pool {
  public:
   /// False: not carried out, nothing written.
-  template <class Real>
   bool trmesh(const pstripack_trmesh_arguments& call, PoolReply& reply);
 
  private:
@@ -91,10 +90,9 @@ bool fits(const PoolReply& reply, std::int32_t n) {
           (reply.ier == 0 || (1 <= reply.other && reply.other <= n)));
 }
 
-template <class Real>
 bool Pool::trmesh(const pstripack_trmesh_arguments& call, PoolReply& reply) {
   if (!is_open()) return false;
-  const AreaLayout layout(call.n, sizeof(Real));
+  const AreaLayout layout(call.n, call.real_bytes);
   int new_area = -1;
   if (area_.size() < layout.size()) {
     area_ = SharedArea();
@@ -105,10 +103,11 @@ bool Pool::trmesh(const pstripack_trmesh_arguments& call, PoolReply& reply) {
   void* const area = area_.data();
   const auto n = static_cast<std::size_t>(call.n);
   const void* const xyz[] = {call.x, call.y, call.z};
-  for (int axis = 0; axis < 3; ++axis) copy(layout.coordinate<Real>(area, axis), xyz[axis], n * sizeof(Real));
+  const std::size_t bytes = n * static_cast<std::size_t>(call.real_bytes);
+  for (int axis = 0; axis < 3; ++axis) copy(layout.coordinate(area, axis), xyz[axis], bytes);
 
   PoolRequest request;
-  request.real_bytes = sizeof(Real);
+  request.real_bytes = call.real_bytes;
   request.n = call.n;
   request.wants_cost = call.report != nullptr ? 1 : 0;
   if (!send_packet(socket_, &request, sizeof request, &new_area, 1) ||
@@ -125,11 +124,12 @@ bool Pool::trmesh(const pstripack_trmesh_arguments& call, PoolReply& reply) {
   }
   if (reply.ier >= 0) {
     const std::size_t slots = static_cast<std::size_t>(reply.lnew) - 1;
-    copy(call.list, layout.list(area), slots * sizeof(std::int32_t));
-    copy(call.lptr, layout.lptr(area), slots * sizeof(std::int32_t));
+    const ListArrays lists = layout.call(area, nullptr).lists;
+    copy(call.list, lists.list, slots * sizeof(std::int32_t));
+    copy(call.lptr, lists.lptr, slots * sizeof(std::int32_t));
     // L > 0: the lists of nodes 1..M-1.
     const std::size_t listed = reply.ier > 0 ? static_cast<std::size_t>(reply.other) - 1 : n;
-    copy(call.lend, layout.lend(area), listed * sizeof(std::int32_t));
+    copy(call.lend, lists.lend, listed * sizeof(std::int32_t));
     *call.lnew = reply.lnew;
   }
   return true;
@@ -151,8 +151,7 @@ int pool_trmesh(const pstripack_trmesh_arguments* call, int32_t* ier, int64_t* n
   // Another thread's call is under way: this one need not wait for it.
   if (pool_is_busy.test_and_set(std::memory_order_acquire)) return PSTRIPACK_ENGINE_DECLINES;
   PoolReply reply;
-  const bool done =
-      call->real_bytes == 8 ? pool->trmesh<double>(*call, reply) : pool->trmesh<float>(*call, reply);
+  const bool done = pool->trmesh(*call, reply);
   pool_is_busy.clear(std::memory_order_release);
   if (!done) return PSTRIPACK_ENGINE_DECLINES;
   if (call->report != nullptr) {

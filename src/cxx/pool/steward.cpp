@@ -73,21 +73,12 @@ bool all_share(MpiCommunicator& ranks, const SharedArea& area, const Order& orde
 }
 
 /// One call, on any rank; `area` is null where there is none.
-template <class Real>
-TrmeshResult carry_out(MpiCommunicator& ranks, Arrays arrays, std::int32_t n, void* area, std::int32_t* lnew,
-                       GroupCost* cost) {
-  if (area == nullptr)
-    return collective_trmesh<Real>(ranks, arrays, 0, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,
-                                   nullptr);
-  const AreaLayout layout(n, sizeof(Real));
-  return collective_trmesh<Real>(ranks, arrays, n, layout.coordinate<Real>(area, 0),
-                                 layout.coordinate<Real>(area, 1), layout.coordinate<Real>(area, 2),
-                                 layout.list(area), layout.lptr(area), layout.lend(area), lnew, cost);
-}
 TrmeshResult carry_out(MpiCommunicator& ranks, Arrays arrays, const Order& order, void* area,
                        std::int32_t* lnew = nullptr, GroupCost* cost = nullptr) {
-  return order.real_bytes == 8 ? carry_out<double>(ranks, arrays, order.n, area, lnew, cost)
-                               : carry_out<float>(ranks, arrays, order.n, area, lnew, cost);
+  TrmeshCall call;
+  call.nodes = NodeArrays(static_cast<std::size_t>(order.real_bytes), nullptr, nullptr, nullptr);
+  if (area != nullptr) call = AreaLayout(order.n, order.real_bytes).call(area, lnew);
+  return collective_trmesh(ranks, arrays, call, cost);
 }
 
 /// The environment of pstripack-run, as it was passed on: NAME=VALUE, each closed by a zero. MPI's variables
@@ -218,7 +209,7 @@ bool Steward::serve(Client& client, MpiCommunicator& ranks) {
   tell_workers(order, ranks);
   TrmeshResult result{0};
   try {
-    const Arrays arrays = all_share(ranks, client.area, order) ? Arrays::shared : Arrays::on_rank_0;
+    const Arrays arrays = all_share(ranks, client.area, order) ? Arrays::shared : Arrays::on_one_rank;
     client.area.close_file();  // who can share it has it by now
     result = carry_out(ranks, arrays, order, client.area.data(), &reply.lnew,
                        request.wants_cost != 0 ? &reply.cost : nullptr);
@@ -249,7 +240,7 @@ void serve_as_worker(MpiCommunicator& ranks, bool beside_rank_0) {
     }
     try {
       const bool shared = all_share(ranks, area, order);
-      carry_out(ranks, shared ? Arrays::shared : Arrays::on_rank_0, order, shared ? area.data() : nullptr);
+      carry_out(ranks, shared ? Arrays::shared : Arrays::on_one_rank, order, shared ? area.data() : nullptr);
     } catch (const AgreedFailure&) {
       // Rank 0 tells the model; the next call may succeed.
     }

@@ -19,57 +19,108 @@
 namespace pstripack {
 namespace {
 
-/// The lists by patches on the threads of this process. Returns the pairs of nodes that coincide, or none and
-/// has written the lists; nothing if the nodes lie so that patches do not pay.
-template <class Int>
-std::optional<CoincidentPairs> lists_on_threads(const NodeArrays& nodes, std::size_t n, const Look& look,
-                                                Int* list, Int* lptr, Int* lend, Int* lnew,
-                                                ParallelCost* cost) {
-  SingleProcess process;
-  ParallelOptions options = options_from_environment(n);
-  options.most_questions = n / 8;
-  const Point corners[3] = {nodes[0], nodes[1], nodes[2]};
-  const Stars<Int> stars = triangulate<Int>({nodes, n}, look, corners, {1, 2, 3}, process, options, cost);
-  if (cost != nullptr) cost->threads = options.threads;
-  if (stars.gave_up) return std::nullopt;
-  if (stars.coincident.empty()) {
-    const PhaseTimer timer(cost, ParallelCost::lists);
-    write_piece(stars.of_node, 0, list, lend, options.threads);
-    write_lptr(lend, n, 0, lptr, options.threads);
-    *lnew = lend[n - 1] + 1;
-  }
-  return stars.coincident;
-}
+/// By patches on the threads of this process, or by one hull.
+class OnThreads {
+ public:
+  OnThreads(const TrmeshCall& call, bool in_original_order, ParallelCost* cost)
+      : call_(call),
+        cost_(cost),
+        on_threads_(threads_for(static_cast<std::size_t>(call.n)) > 1),
+        copied_at_once_(!on_threads_ && !in_original_order) {}
 
-/// The same by one hull of all nodes p, which lie in `workspace`.
-template <class Int>
-CoincidentPairs lists_of_one_hull(const Point* p, std::size_t n, Workspace& workspace, Int* list, Int* lptr,
-                                  Int* lend, Int* lnew, ParallelCost* cost) {
-  const Hull hull = [&] {
-    const PhaseTimer timer(cost, ParallelCost::triangulate);
-    return delaunay(p, n, workspace);
-  }();
-  CoincidentPairs pairs;
-  for (const auto& [in, out] : hull.coincident) pairs.emplace_back(in + 1, out + 1);
-  if (pairs.empty()) {
-    const PhaseTimer timer(cost, ParallelCost::lists);
-    *lnew = write_lists(hull, list, lptr, lend, workspace);
+  /// Looks at the first n nodes; the number of the first (from 0) that has no direction, n if all have one.
+  std::size_t look(std::size_t n) {
+    n_ = n;
+    if (copied_at_once_) {
+      copy();
+    } else {
+      const PhaseTimer timer(cost_, ParallelCost::divide);
+      look_ = look_at(call_.nodes, n);
+    }
+    return look_.first_bad;
   }
-  return pairs;
-}
+
+  std::optional<Coincidence> triangulate(std::size_t n) {
+    if (n != n_) look(n);
+    CoincidentPairs pairs;
+    if (!on_threads_ || !by_patches(pairs)) by_one_hull(pairs);
+    if (pairs.empty()) return std::nullopt;
+    return first_coincidence(pairs);
+  }
+
+  void deliver() {
+    const PhaseTimer timer(cost_, ParallelCost::lists);
+    const auto& [list, lptr, lend, lnew] = call_.lists;
+    if (stars_) {
+      const int threads = options_.threads;
+      write_piece(stars_->of_node, 0, list, lend, threads);
+      write_lptr(lend, n_, 0, lptr, threads);
+      *lnew = lend[n_ - 1] + 1;
+    } else {
+      *lnew = write_lists(hull_, list, lptr, lend, *workspace_);
+    }
+  }
+
+ private:
+  /// One hull has a copy of the nodes. It is made at once, unless they may be triangulated without.
+  void copy() {
+    const PhaseTimer timer(cost_, ParallelCost::divide);
+    if (!workspace_) workspace_.emplace(workspace_bytes(n_));
+    workspace_->clear();
+    copy_ = workspace_->take<Point>(n_);
+    look_ = call_.nodes.visit([&](const auto& node) {
+      return look_at(n_, threads_for(n_), [&](std::size_t i) { return copy_[i] = node(i); });
+    });
+  }
+
+  /// False if the nodes lie so that patches do not pay.
+  bool by_patches(CoincidentPairs& pairs) {
+    SingleProcess process;
+    options_ = options_from_environment(n_);
+    options_.most_questions = n_ / 8;
+    const NodeArrays& nodes = call_.nodes;
+    const Point corners[3] = {nodes[0], nodes[1], nodes[2]};
+    stars_.reset();
+    stars_ = pstripack::triangulate<std::int32_t>({nodes, n_}, look_, corners, {1, 2, 3}, process, options_,
+                                                  cost_);
+    if (cost_ != nullptr) cost_->threads = options_.threads;
+    pairs = stars_->coincident;
+    if (!stars_->gave_up) return true;
+    stars_.reset();
+    return false;
+  }
+
+  void by_one_hull(CoincidentPairs& pairs) {
+    if (!copied_at_once_) copy();
+    const PhaseTimer timer(cost_, ParallelCost::triangulate);
+    hull_ = delaunay(copy_, n_, *workspace_);
+    for (const auto& [in, out] : hull_.coincident) pairs.emplace_back(in + 1, out + 1);
+  }
+
+  const TrmeshCall& call_;
+  ParallelCost* const cost_;
+  const bool on_threads_, copied_at_once_;
+  std::size_t n_ = 0;  ///< nodes that are looked at
+  Look look_;
+  ParallelOptions options_;
+  std::optional<Stars<std::int32_t>> stars_;  ///< by patches
+  std::optional<Workspace> workspace_;        ///< of one hull
+  Point* copy_ = nullptr;
+  Hull hull_;
+};
 
 /// The lists as the original makes them, if they are right or, under PSTRIPACK_ORDER=bitwise, a triangulation
 /// at all: a result with the order `made` or `inexact`. Otherwise nothing is written.
-template <class Real, class Int>
-TrmeshResult lists_in_original_order(Int n, const Real* x, const Real* y, const Real* z, Int* list, Int* lptr,
-                                     Int* lend, Int* lnew, ParallelCost* cost) {
+TrmeshResult lists_in_original_order(const TrmeshCall& call, ParallelCost* cost) {
   const OriginalRules& rules = original_rules();
   const Seeds<std::int32_t> seeds = kept_seeds();
-  InsertedNodes<Int> inserted;
+  InsertedNodes<std::int32_t> inserted;
   const auto insert = [&](Hopeless hopeless, StartSearch start_search) {
     const PhaseTimer timer(cost, ParallelCost::triangulate);
     inserted = {};
-    inserted = insert_in_order(n, x, y, z, rules, hopeless, start_search);
+    inserted = call.nodes.visit_arrays([&](const auto* x, const auto* y, const auto* z) {
+      return insert_in_order(call.n, x, y, z, rules, hopeless, start_search);
+    });
   };
   /// What became of the insertion; `good` if the lists are.
   const auto outcome = [&](OriginalOrder good, OriginalOrder bad, const auto& are_good) -> TrmeshResult {
@@ -84,9 +135,8 @@ TrmeshResult lists_in_original_order(Int n, const Real* x, const Real* y, const 
 
   insert(Hopeless::ends, StartSearch::adaptive);
   TrmeshResult result = outcome(OriginalOrder::made, OriginalOrder::wrong, [&] {
-    const NodeArrays arrays(x, y, z);
-    BlockArray<Point> nodes(static_cast<std::size_t>(n));
-    arrays.points(0, nodes.size(), nodes.data());
+    BlockArray<Point> nodes(static_cast<std::size_t>(call.n));
+    call.nodes.points(0, nodes.size(), nodes.data());
     return left(nodes[0], nodes[1], nodes[2]) != 0 &&
            is_valid(nodes.data(), inserted.view(), Lengths::automatic, Ties::either_way);
   });
@@ -99,78 +149,36 @@ TrmeshResult lists_in_original_order(Int n, const Real* x, const Real* y, const 
                      [&] { return static_cast<bool>(check_topology(inserted.view())); });
   }
   if (result.order != OriginalOrder::made && result.order != OriginalOrder::inexact) return result;
-  std::copy_n(inserted.list.data(), inserted.list.size(), list);
-  std::copy_n(inserted.lptr.data(), inserted.lptr.size(), lptr);
-  std::copy_n(inserted.lend.data(), inserted.lend.size(), lend);
-  *lnew = inserted.lnew;
+  std::copy_n(inserted.list.data(), inserted.list.size(), call.lists.list);
+  std::copy_n(inserted.lptr.data(), inserted.lptr.size(), call.lists.lptr);
+  std::copy_n(inserted.lend.data(), inserted.lend.size(), call.lists.lend);
+  *call.lists.lnew = inserted.lnew;
   return result;
 }
 
 }  // namespace
 
-template <class Real, class Int>
-TrmeshResult trmesh(Int n, const Real* x, const Real* y, const Real* z, Int* list, Int* lptr, Int* lend,
-                    Int* lnew, ParallelCost* cost) {
-  if (n < 3) return {-1};
-  if (n > most_nodes<Int>()) return {-4};
+TrmeshResult trmesh(const TrmeshCall& call, ParallelCost* cost) {
+  if (call.n < 3) return {-1};
+  if (call.n > most_nodes<std::int32_t>()) return {-4};
 
-  auto nodes = static_cast<std::size_t>(n);
-  const NodeArrays arrays(x, y, z);
-  const bool on_threads = threads_for(nodes) > 1, in_original_order = original_rules().follow;
-  // One hull has a copy of the nodes. It is made at once, unless they may be triangulated without.
-  const bool copied_at_once = !on_threads && !in_original_order;
-  std::optional<Workspace> workspace;
-  Point* p = nullptr;
-  Look look;
-  const auto look_at_them = [&] {
-    const PhaseTimer timer(cost, ParallelCost::divide);
-    look = look_at(arrays, nodes);
-  };
-  const auto copy_them = [&] {
-    const PhaseTimer timer(cost, ParallelCost::divide);
-    if (!workspace) workspace.emplace(workspace_bytes(nodes));
-    workspace->clear();
-    p = workspace->take<Point>(nodes);
-    look = arrays.visit([&](const auto& node) {
-      return look_at(nodes, threads_for(nodes), [&](std::size_t i) { return p[i] = node(i); });
-    });
-  };
-  const auto take_them = [&] { copied_at_once ? copy_them() : look_at_them(); };
-  take_them();
-  if (look.first_bad < nodes) return {-5, static_cast<std::int64_t>(look.first_bad) + 1};
-  const bool are_collinear = left(arrays[0], arrays[1], arrays[2]) == 0;
+  const auto n = static_cast<std::size_t>(call.n);
+  const OriginalRules& rules = original_rules();
+  OnThreads way(call, rules.follow, cost);
+  const std::size_t first_bad = way.look(n);
+  if (first_bad < n) return {-5, static_cast<std::int64_t>(first_bad) + 1};
+  const bool are_collinear = left(call.nodes[0], call.nodes[1], call.nodes[2]) == 0;
 
-  TrmeshResult result{0};
-  if (in_original_order && (!are_collinear || original_rules().bitwise)) {
-    result = lists_in_original_order(n, x, y, z, list, lptr, lend, lnew, cost);
-    if (result.order == OriginalOrder::made || result.order == OriginalOrder::inexact) return result;
+  TrmeshResult original{0};
+  if (rules.follow && (!are_collinear || rules.bitwise)) {
+    original = lists_in_original_order(call, cost);
+    if (original.order == OriginalOrder::made || original.order == OriginalOrder::inexact) return original;
   }
   if (are_collinear) return {-2};
-
-  // Writes the lists of the first `nodes` nodes, or returns sets of nodes that coincide.
-  const auto triangulate_them = [&] {
-    if (on_threads)
-      if (const auto pairs = lists_on_threads(arrays, nodes, look, list, lptr, lend, lnew, cost))
-        return *pairs;
-    if (!copied_at_once) copy_them();
-    return lists_of_one_hull(p, nodes, *workspace, list, lptr, lend, lnew, cost);
-  };
-  const CoincidentPairs pairs = triangulate_them();
-  if (pairs.empty()) return result;
-  // Nodes 1..M-1 do not coincide, and the first three are not on one great circle: M > 3.
-  const Coincidence first = first_coincidence(pairs);
-  nodes = static_cast<std::size_t>(first.m) - 1;
-  take_them();
-  triangulate_them();
-  result.ier = static_cast<std::int32_t>(first.l);
-  result.node = first.l;
-  result.other = first.m;
+  TrmeshResult result = triangulate_and_deliver(call.n, way);
+  result.order = original.order;
+  result.order_node = original.order_node;
   return result;
 }
-
-template TrmeshResult trmesh(std::int32_t, const double*, const double*, const double*, std::int32_t*,
-                             std::int32_t*, std::int32_t*, std::int32_t*, ParallelCost*);
-template TrmeshResult trmesh(std::int32_t, const float*, const float*, const float*, std::int32_t*,
-                             std::int32_t*, std::int32_t*, std::int32_t*, ParallelCost*);
 
 }  // namespace pstripack

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "parallel/cost.h"
+#include "trmesh/call.h"
 
 namespace pstripack {
 
@@ -25,16 +26,28 @@ struct TrmeshResult {
   std::int64_t order_node = 0;  ///< the node that is in line, or searched for
 };
 
-/// STRIPACK's TRMESH (stripack-interface 3.6) with the promises of the interface contract, section 4:
-/// canonical lists, exact decisions, IER 0, -1, -2, L > 0, -4, -5. On a negative code nothing is written.
-/// Under PSTRIPACK_ORDER=original (original_rules.h) the lists are the original's, by inserting node by node
-/// on the calling thread, wherever they are a correct triangulation; four nodes in one circle may then have
-/// either diagonal. Under PSTRIPACK_ORDER=bitwise lists and IER are the original's wherever its IER is not
-/// negative and its lists are a triangulation, right or not. x, y, z: n components each; list, lptr: at least
-/// 6n-12 entries; lend: n. Throws std::bad_alloc, having written nothing. Real is float or double, Int
-/// std::int32_t. `cost`, if given, is added to.
-template <class Real, class Int>
-TrmeshResult trmesh(Int n, const Real* x, const Real* y, const Real* z, Int* list, Int* lptr, Int* lend,
-                    Int* lnew, ParallelCost* cost = nullptr);
+/// STRIPACK's TRMESH: canonical lists, exact decisions, IER 0, -1, -2, L > 0, -4, -5. On a negative code
+/// nothing is written. Under PSTRIPACK_ORDER=original (original_rules.h) the lists are the original's, by
+/// inserting node by node on the calling thread, wherever they are a correct triangulation; four nodes in one
+/// circle may then have either diagonal. Under PSTRIPACK_ORDER=bitwise lists and IER are the original's
+/// wherever its IER is not negative and its lists are a triangulation, right or not. Throws std::bad_alloc,
+/// having written nothing. `cost`, if given, is added to.
+TrmeshResult trmesh(const TrmeshCall& call, ParallelCost* cost = nullptr);
+
+/// The common end of every way to carry out a call: by one hull, on threads, by ranks. Way:
+///   std::optional<Coincidence> triangulate(std::size_t n)   the first n nodes; what coincides, if any does
+///   void deliver()                                           writes the lists of what has been triangulated
+/// Where nodes coincide the lists are those of the nodes before the first that does.
+template <class Way>
+TrmeshResult triangulate_and_deliver(std::int32_t n, Way& way) {
+  TrmeshResult result{0};
+  if (const auto first = way.triangulate(static_cast<std::size_t>(n))) {
+    result = {static_cast<std::int32_t>(first->l), first->l, first->m};
+    // Nodes 1..M-1 do not coincide, and the first three are not on one great circle: M > 3.
+    way.triangulate(static_cast<std::size_t>(first->m) - 1);
+  }
+  way.deliver();
+  return result;
+}
 
 }  // namespace pstripack

@@ -23,7 +23,7 @@
 #ifndef PSTRIPACK_TEXT_CALLS_H
 #define PSTRIPACK_TEXT_CALLS_H
 
-#include "capi/stripack_calls.h"
+#include "support/stripack_calls.h"
 
 #ifdef __cplusplus
 extern "C" {

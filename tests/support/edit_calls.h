@@ -26,7 +26,7 @@
 #ifndef PSTRIPACK_EDIT_CALLS_H
 #define PSTRIPACK_EDIT_CALLS_H
 
-#include "capi/stripack_calls.h"
+#include "support/stripack_calls.h"
 
 #ifdef __cplusplus
 extern "C" {
