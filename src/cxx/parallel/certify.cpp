@@ -22,55 +22,34 @@ CoincidentPairs all_coincident(const Patches<Int>& patches, Communicator& ranks)
   return pairs;
 }
 
-/// The boundary of all nodes, if any patch has own nodes on what it takes for it. A patch that surrounds the
-/// centre shows that there is none; if no patch does, all nodes lie inside what the patches see.
-template <class Int>
-Boundary find_boundary(Patches<Int>& patches, const Division& division, const Corners& corners,
-                       Communicator& ranks) {
-  Boundary boundary;
-  std::vector<Record> nodes = std::move(patches.outline);
-  if (!patches.have_own_on_outline.value) return boundary;
-  const bool there_is_none = patches.surrounding.exists();
-  in_agreement(ranks, [&] {
-    if (!there_is_none) return;
-    nodes.clear();
-    for (const Patch<Int>& patch : patches.of_rank)
-      if (patch.id() == patches.surrounding.value) nodes = patch.nodes_around_centre();
-  });
-  const Parcels all = ranks.all_gather(nodes.data(), nodes.size() * sizeof(Record));
-  in_agreement(ranks, [&] {
-    const Items<Record> items(all);
-    nodes.assign(items.begin(), items.end());
-    nodes.insert(nodes.end(), corners.begin(), corners.end());
-    keep_one_of_each(nodes);
-    boundary = there_is_none ? Boundary::none(std::move(nodes))
-                             : Boundary(std::move(nodes), division.places.lengths());
-  });
-  return boundary;
-}
-
 /// What the patches here want to know.
 struct Questions {
   std::vector<std::vector<Question>> to_rank;
   std::size_t count = 0;
-  OnAny exist;  ///< here, or on all ranks once these have agreed
+  // Here, or on any rank once these have agreed:
+  OnAny about_triangles, about_arcs;
+  OnAny have_grown;  ///< patches have taken in nodes since they asked last
+
+  /// If not, every star is final; questions about arcs alone end where nobody learns from them.
+  bool must_be_asked() const { return about_triangles.value || (about_arcs.value && have_grown.value); }
 };
 
 template <class Int>
-Questions ask(Patches<Int>& patches, const Boundary& boundary, const Division& division, std::size_t ranks,
+Questions ask(Patches<Int>& patches, const Corners& corners, const Division& division, std::size_t ranks,
               int threads) {
   Questions questions;
   questions.to_rank.resize(ranks);
-  std::vector<std::vector<Question>> of_patch(patches.of_rank.size());
+  std::vector<Doubts> of_patch(patches.of_rank.size());
   patches.for_each(threads, [&](Patch<Int>& patch, std::size_t k) {
-    patch.ask(boundary, division.most_stretch, of_patch[k]);
+    of_patch[k] = patch.ask(corners, division.most_stretch);
   });
-  for (const auto& list : of_patch)
-    for (const Question& q : list) {
-      questions.to_rank[division.patches.rank_of(q.to)].push_back(q);
-      ++questions.count;
-    }
-  questions.exist.value = questions.count > 0;
+  for (const Doubts& doubts : of_patch) {
+    for (const Question& q : doubts.questions) questions.to_rank[division.patches.rank_of(q.to)].push_back(q);
+    questions.count += doubts.questions.size();
+    questions.about_triangles.value |= doubts.questions.size() > doubts.arcs;
+    questions.about_arcs.value |= doubts.arcs > 0;
+    questions.have_grown.value |= doubts.has_grown;
+  }
   return questions;
 }
 
@@ -137,17 +116,14 @@ Certified<Int> certify(Patches<Int> found, const Division& division, const Corne
   const bool is_single = ranks.size() == 1;
   certified.coincident = all_coincident(patches, ranks);
   if (!certified.coincident.empty()) return certified;
-  certified.gave_up = is_single && patches.outline.size() > options.most_questions;
-  if (certified.gave_up) return certified;
 
-  const Boundary boundary = find_boundary(patches, division, corners, ranks);
   Questions questions;
   const auto ask_all = [&] {
-    questions = ask(patches, boundary, division, static_cast<std::size_t>(ranks.size()), options.threads);
+    questions = ask(patches, corners, division, static_cast<std::size_t>(ranks.size()), options.threads);
     certified.gave_up = is_single && questions.count > options.most_questions;
   };
-  in_agreement(ranks, ask_all, questions.exist);
-  while (certified.is_done() && questions.exist.value) {
+  in_agreement(ranks, ask_all, questions.about_triangles, questions.about_arcs, questions.have_grown);
+  while (certified.is_done() && questions.must_be_asked()) {
     ++certified.rounds;
     const Parcels incoming = exchange_in_agreement(ranks, [&] { return packed(questions.to_rank); });
     const Parcels replies =
@@ -160,7 +136,7 @@ Certified<Int> certify(Patches<Int> found, const Division& division, const Corne
           // Patches that came upon nodes which coincide have no more questions.
           if (!patches.see_coincidence.value) ask_all();
         },
-        patches.see_coincidence, questions.exist);
+        patches.see_coincidence, questions.about_triangles, questions.about_arcs, questions.have_grown);
     certified.coincident = all_coincident(patches, ranks);
   }
   return certified;

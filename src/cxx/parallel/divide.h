@@ -80,9 +80,11 @@ class Homes {
       : partition_(division.partition), kind_(kind), patches_(division.patches), places_(division.places) {}
 
   const std::shared_ptr<const Partition>& partition() const { return partition_; }
-  /// True if a call could have these patches, so many on each rank, for nodes in such places.
+  /// True if a call could have these patches, so many on each rank, for nodes in such places. Lengths are as
+  /// given where they are about one: then the places are nearly those of directions.
   bool are_for(PartitionKind kind, const PatchRanges& patches, Lengths lengths) const {
-    return kind == kind_ && patches == patches_ && lengths == places_.lengths();
+    return kind == kind_ && patches == patches_ &&
+           (lengths == Lengths::as_given || lengths == places_.lengths());
   }
   int rank(const Point& p) const { return static_cast<int>(patches_.rank_of(partition_->owner(places_(p)))); }
 

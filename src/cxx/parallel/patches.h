@@ -14,15 +14,12 @@
 
 namespace pstripack {
 
-/// The triangulations of this rank's patches, and what the patches of all ranks have seen.
+/// The triangulations of this rank's patches.
 template <class Int>
 struct Patches {
   std::vector<Patch<Int>> of_rank;
   std::unique_ptr<Workspace> memory;
-  std::vector<Record> outline;  ///< what the patches here take for the boundary of all nodes
-  OnAny see_coincidence;        ///< nodes that coincide
-  OnAny have_own_on_outline;    ///< own nodes on what a patch takes for the boundary
-  Smallest surrounding;         ///< the first patch that surrounds the centre
+  OnAny see_coincidence;  ///< a patch of any rank: nodes that coincide
 
   /// body(patch, k) for every patch of this rank, on so many threads. Throws what a body threw.
   template <class Body>
