@@ -1,10 +1,10 @@
-# How tests, and programs that measure, start ranks, by whichever MPI was found:
+# How tests and measuring programs start ranks, with any MPI:
 #   mpiexec             command and options: more ranks than processors, bound to none
 #   mpiexec_words       the same as words for a shell
 #   mpi_environment     for tests: without it Open MPI refuses to run as root
 #   mpi_is_open_mpi     Hydra, the launcher of MPICH and Intel MPI, has other options, and needs none of these
-#   mpi_patience        how many times as long tests may take: MPICH's ranks spin while they wait, on processors that
-#                       others need
+#   mpi_patience        factor of the time limits of tests: MPICH's ranks spin while they wait, on processors that
+# others need
 set(mpi_environment OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1)
 if(NOT PSTRIPACK_WITH_MPI)
   return()

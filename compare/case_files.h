@@ -1,5 +1,5 @@
 #pragma once
-// Results of many cases: a line each for people, CSV for plots, JUnit XML for continuous integration.
+// Results of many cases: one line per case for people, CSV for plots, JUnit XML for continuous integration.
 
 #include <cstdint>
 #include <fstream>
@@ -10,7 +10,7 @@
 
 namespace comparison {
 
-/// A comparison and what it was made with.
+/// A comparison and its settings.
 struct Case {
   std::string nodes;  ///< family or file
   std::uint64_t seed;
@@ -25,7 +25,7 @@ std::string differences_in_short(const Result& result);
 void print_header_of_cases();
 void print_line(const Case& one);
 
-/// One row a call of ours.
+/// One row per call of ours.
 class CsvFile {
  public:
   /// Throws std::runtime_error if the file cannot be written; so do the other functions.
@@ -37,7 +37,7 @@ class CsvFile {
   std::ofstream out_;
 };
 
-/// One test case a case; it fails if it counts against us.
+/// One test case per case; it fails if it counts against us.
 class JunitFile {
  public:
   explicit JunitFile(const std::string& file);

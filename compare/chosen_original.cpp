@@ -9,7 +9,7 @@
 
 namespace comparison {
 namespace {
-constexpr double kLongestProbe = 2;  // seconds a call of TRMESH for six nodes
+constexpr double kLongestProbe = 2;  // seconds per call of TRMESH for six nodes
 }
 
 void add_original_options(CLI::App& app, OriginalChoice& choice) {

@@ -7,7 +7,7 @@ namespace comparison {
 
 enum ExitCode { kExplained = 0, kAgainstUs = 1, kUsage = 2 };
 
-/// What the command line has chosen; returns the exit code.
+/// The command chosen on the command line; returns the exit code.
 using Command = std::function<int()>;
 
 /// `stripack-compare lists A B`

@@ -25,14 +25,14 @@
 namespace comparison {
 namespace {
 
-constexpr int kNotFound = 127;  // as of a shell
+constexpr int kNotFound = 127;  // as in a shell
 
 struct Options {
   std::string file = "calls.rec";
   std::vector<std::string> command;
 };
 
-/// The exit code, 128 + signal if one ended it. A ^C is for the model.
+/// The exit code, 128 + signal if a signal ended the model. ^C goes to the model only.
 int run(std::vector<std::string> command) {
   std::vector<char*> arguments;
   for (std::string& word : command) arguments.push_back(word.data());

@@ -39,13 +39,13 @@ struct Options {
   std::string json_file;
 };
 
-/// From harmless to serious.
+/// Verdicts, from harmless to serious.
 enum class Kind { equal, explained, no_original, not_compared, against_us };
 constexpr std::size_t kKinds = 5;
 constexpr const char* kKindNames[kKinds] = {"equal", "explained", "no result of the original", "not compared",
                                             "WE ARE WRONG"};
 
-/// What there is to say of one call: on its line, and on lines of their own.
+/// The report on one call: on its line, and on separate lines.
 struct Judgement {
   Kind kind = Kind::equal;
   std::string text;
@@ -88,7 +88,7 @@ class Replay {
   }
 
  private:
-  /// At the first call, whose kinds are those of the library unless it answers to others.
+  /// Loads the original at the first call; it determines the kinds unless the original's were detected.
   void open_other(const Call& call) {
     if (is_beside_model()) prefix_ = fmt::format("pstripack[{}]: ", call.process_id);
     OriginalChoice choice = options_.original;
@@ -127,7 +127,7 @@ class Replay {
     return judgement;
   }
 
-  /// A call whose n TRMESH refuses unseen.
+  /// A call whose n TRMESH refuses without reading the nodes.
   static Judgement judge_refused(const Call& call) {
     const int expected = call.n < 3 ? PSTRIPACK_TOO_FEW_NODES : PSTRIPACK_TOO_MANY_NODES;
     if (!call.has_returned) return {Kind::not_compared, "no result on record", {}, {}};
@@ -135,8 +135,8 @@ class Replay {
     return {Kind::against_us, fmt::format("IER = {}, expected {}", call.run.ier, expected), {}, {}};
   }
 
-  /// Fills in the result of a call that had not returned when the recording ended, or, if it does not return
-  /// here either, tells that.
+  /// Fills in the result of a call that had not returned when the recording ended, or reports that it does
+  /// not return here either.
   std::optional<Judgement> run_again(Call& call) const {
     Setting setting;
     setting.abi = call.real_bytes == 4 ? "r4" : "r8";
@@ -185,8 +185,8 @@ class Replay {
     return judgement;
   }
 
-  /// Lists as PSTRIPACK_ORDER may ask for: not canonical. Where they are the original's, nothing is asked of
-  /// their mesh.
+  /// Lists under PSTRIPACK_ORDER, which are not canonical. If they are the original's, their mesh is not
+  /// checked.
   static bool are_in_another_order(const Call& call) {
     const Lists& lists = call.run.lists;
     if (call.nodes < 3) return false;
@@ -195,7 +195,7 @@ class Replay {
     return pstripack::check_topology(view) && !pstripack::lists_are_canonical(view);
   }
 
-  /// Every version of PSTRIPACK returns the same bytes: empty if this one does.
+  /// Compares with the recorded bytes, which every version of PSTRIPACK returns: empty if equal.
   std::string difference_in_bytes(const legacy_stripack::Triangulation& theirs, const Call& call) const {
     if (theirs.outcome != legacy_stripack::Outcome::returned)
       return "the library " + describe(theirs, options_.timeout);
@@ -257,7 +257,7 @@ class Replay {
   const Options& options_;
   CallReader reader_;
   std::optional<ChosenOriginal> other_;
-  std::string prefix_;  ///< of every line, where they come between those of a model
+  std::string prefix_;  ///< of every line, if the lines appear between those of a model
   std::size_t calls_ = 0;
   std::uint64_t first_process_ = 0;
   std::array<std::size_t, kKinds> kinds_{};
@@ -288,7 +288,7 @@ exit code
   replay->add_option("--timeout", options->timeout, "seconds after which the original is stopped, each call")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  replay->add_option("--show", options->show, "print at most so many differences of each kind for a call")
+  replay->add_option("--show", options->show, "largest number of differences of each kind printed per call")
       ->capture_default_str();
   replay->add_option("--json", options->json_file, "write the results to this file as well");
   replay->callback([options, &chosen] { chosen = [options] { return Replay(*options).run(); }; });

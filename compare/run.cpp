@@ -27,7 +27,7 @@ using pstripack::Point;
 
 constexpr std::size_t kMostNodes = pstripack::most_nodes<std::int32_t>();
 
-/// Nodes as they come: made when their turn is, or read beforehand.
+/// Nodes of one case: generated when needed, or read beforehand.
 struct Source {
   std::string name;
   std::vector<Point> read;  ///< of a file; empty: a family
@@ -37,7 +37,7 @@ struct Source {
   }
 };
 
-/// All of them. What cannot be read, and a family that there is not, is said before the first case runs.
+/// All sets of nodes. Unreadable files and unknown families are reported before the first case runs.
 std::vector<Source> sources_of(const RunOptions& options) {
   std::vector<Source> sources;
   const auto add_file = [&](const std::string& file) {

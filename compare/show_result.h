@@ -11,7 +11,7 @@ namespace comparison {
 /// The table, the differences that the result describes, and the verdict; to stdout.
 void print(const Result& result, const std::vector<pstripack::Point>& points, double timeout);
 
-/// The part of it that says what each described difference is, and what counts against us.
+/// The part that describes each difference, and what counts against us.
 void print_decisions(const Result& result, const std::vector<pstripack::Point>& points);
 
 nlohmann::json to_json(const Result& result, double timeout);

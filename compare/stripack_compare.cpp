@@ -23,26 +23,26 @@ namespace {
 using comparison::RunOptions;
 
 const char* const kDescription =
-    R"(Runs the original STRIPACK and PSTRIPACK on the same nodes, checks both results exactly, and gives the reason
-for every difference.
+    R"(Runs the original STRIPACK and PSTRIPACK on the same nodes, checks both results exactly, and explains every
+difference.
 
   stripack-compare run --file nodes.txt                    your nodes
   stripack-compare run --points latlon --n 100000 --plot difference.svg
   stripack-compare run --points all --order shuffled,sorted --precision r8,r4 --timeout 20 --csv all.csv
   stripack-compare run --file nodes.nc --original ./libmystripack.so --junit report.xml
   stripack-compare run --points random --n 1000000 --threads 1,2 --ranks 1,4 --partition bisection,stripes
-  stripack-compare record -o calls.rec -- ./model          the calls of a running model,
-  stripack-compare replay calls.rec                        and each of them with the original
+  stripack-compare record -o calls.rec -- ./model          records the calls of a model
+  stripack-compare replay calls.rec                        repeats each of them with the original
 
-`run` may be left out. A case is one set of nodes in one order and precision; each runs the original once and
-PSTRIPACK in every combination of ABI, threads, ranks and partition. Options with lists take 1,2,4.)";
+`run` is optional. A case is one set of nodes in one order and precision; each runs the original once and
+PSTRIPACK in every combination of ABI, threads, ranks and partition. Lists in options have commas: 1,2,4.)";
 
 const char* const kFooter = R"(
 Reasons of differences
-  exact tie              four nodes in one plane exactly: both diagonals are Delaunay
-  within its rounding    the exact determinant is smaller than the rounding of the original's own test
-  directions (lengths)   lengths differ from 1: the original took them as given, PSTRIPACK the directions
-  the original is wrong  an exact check fails in its result
+  exact tie              four nodes exactly in one plane: both diagonals are Delaunay
+  within its rounding    the exact determinant is below the rounding error of the original's test
+  directions (lengths)   lengths differ from 1: the original used the vectors as given, PSTRIPACK their directions
+  the original is wrong  its result fails an exact check
   WE ARE WRONG           none of these: please report it
 Verdicts: equal; explained; no result (the original crashed, stopped or exceeded --timeout); WE ARE WRONG.
 
@@ -77,7 +77,8 @@ int compare_mesh_files(const MeshOptions& options) {
 
 std::string footer() {
   std::string text =
-      "Families of --points, with their default parameter if they take one (cap:0.01; lengths in radians)\n";
+      "Families of --points with their default parameter, if any (cap:0.01 gives another; lengths in "
+      "radians)\n";
   for (const point_sets::Family& f : point_sets::registry())
     text += fmt::format("  {:<17} {:<12} {}\n", f.name + (f.parameter.empty() ? "" : ":" + f.parameter),
                         f.nodes, f.what);
@@ -94,15 +95,14 @@ void add_run_options(CLI::App& app, RunOptions& options) {
   };
   list("--points", options.points, "families, see below; `all`: random to hemisphere-rim; file:PATH");
   list("--file", options.files,
-       "text (`lon lat` in degrees or `x y z` a line; - is stdin), generators, NetCDF");
+       "text (lines of `lon lat` in degrees or of `x y z`; - is stdin), generators, NetCDF");
   app.add_option("--n", options.n, "number of nodes of a family [10000]");
-  app.add_option("--seed", options.seed, "of families and of shuffling [1]");
+  app.add_option("--seed", options.seed, "seed of families and of shuffling [1]");
   choice("--order", options.orders, "given, shuffled, sorted (by latitude) [given]",
          {"given", "shuffled", "sorted"});
-  choice("--precision", options.precisions, "of the coordinates: r8, r4 [that of the original]",
+  choice("--precision", options.precisions, "precision of the coordinates: r8, r4 [the original's]",
          {"r8", "r4"});
-  choice("--abi", options.abis, "of our library: r8, r4, 8arg, i8 [as --precision]",
-         {"r8", "r4", "8arg", "i8"});
+  choice("--abi", options.abis, "our library: r8, r4, 8arg, i8 [as --precision]", {"r8", "r4", "8arg", "i8"});
   list("--threads", options.threads, "thread counts [1]; fewer than 20000 nodes use one")
       ->check(CLI::Range(1, 4096).description(""));
   list("--ranks", options.ranks, "MPI ranks [1], started by pstripack-run")
@@ -111,14 +111,15 @@ void add_run_options(CLI::App& app, RunOptions& options) {
   comparison::add_original_options(app, options.original);
   app.add_option("--timeout", options.timeout, "seconds after which the original is stopped [120]")
       ->check(CLI::PositiveNumber.description(""));
-  app.add_option("--repeats", options.repeats, "times are medians of so many calls (fewer above 10 s) [3]")
+  app.add_option("--repeats", options.repeats,
+                 "number of calls, of whose times the median is taken (fewer above 10 s) [3]")
       ->check(CLI::Range(1, 1000).description(""));
-  app.add_option("--show", options.show, "describe so many differences of each reason [5; several cases: 0]");
-  app.add_option("--plot", options.plot, "draw them to FILE.svg or FILE.png");
+  app.add_option("--show", options.show, "number of differences described per reason [5; several cases: 0]");
+  app.add_option("--plot", options.plot, "draw the described differences to FILE.svg or FILE.png");
   app.add_option("--json", options.json, "write everything to this file");
-  app.add_option("--csv", options.csv, "write a row for each call of ours");
+  app.add_option("--csv", options.csv, "write one row per call of ours");
   app.add_option("--junit", options.junit,
-                 "write JUnit XML: a test a case, which fails if it counts against us");
+                 "write JUnit XML: one test per case, which fails if it counts against us");
 }
 
 void add_mesh(CLI::App& app, MeshOptions& options, comparison::Command& chosen) {

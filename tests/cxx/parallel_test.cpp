@@ -820,7 +820,7 @@ TEST(Partitions, BisectionIsBalancedWhateverTheDensity) {
   }
 }
 
-// A sample of some nodes a patch leaves some patches much too large.
+// A sample of a few nodes per patch leaves some patches much too large.
 TEST(Partitions, CutsAreMovedToWhereAllNodesAreShared) {
   constexpr int kPatches = 24;
   for (const char* family : {"random", "variable:1e6", "clusters", "dense-cap", "cap"}) {

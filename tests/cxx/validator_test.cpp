@@ -368,7 +368,7 @@ TEST(Validator, RefusesTheBackOfAHemisphere) {
 }
 
 /// Both poles and 2k nodes near the equator, around which the fan of each pole winds twice: every triangle
-/// counterclockwise, every arc locally Delaunay, Euler number 2. Only the stars of the poles tell.
+/// counterclockwise, every arc locally Delaunay, Euler number 2. Only the stars of the poles show the defect.
 TEST(Validator, FindsABranchedDoubleCover) {
   for (const int k : {3, 4, 5, 8, 50}) {
     Nodes nodes = {{0, 0, 1}, {0, 0, -1}};

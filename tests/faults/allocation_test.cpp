@@ -1,5 +1,5 @@
-// The n-th allocation of a call fails, for each n, in every routine that allocates: the code that says so,
-// results as they were, no leak, and the next call is right.
+// The n-th allocation of a call fails, for each n, in every routine that allocates: the documented code,
+// results unchanged, no leak, and the next call is correct.
 
 #include <gtest/gtest.h>
 #include <omp.h>

@@ -151,8 +151,8 @@ struct SmallFaces {
   int count = 0;
 };
 
-/// All triples of `nodes` with a positive determinant and none of the others above. Lets go of what is more
-/// than there can be.
+/// All triples of `nodes` with a positive determinant and none of the others above; drops those beyond the
+/// largest possible number.
 SmallFaces brute_force(const Pool& pool, const Fours& fours, Mask nodes) {
   SmallFaces faces;
   const auto add = [&](int a, int b, int c) {
@@ -183,8 +183,7 @@ struct Expected {
   SmallFaces faces;
 };
 
-/// The contract's lists of these faces, of the first `n` nodes of the case. False if they do not fit
-/// together.
+/// The canonical lists of these faces, of the first `n` nodes of the case. False if they do not fit together.
 bool write_lists(const Case& drawn, int n, const SmallFaces& faces, Outputs& out) {
   std::array<int, kPoolSize> number;
   for (int i = 0; i < n; ++i) number[drawn.point[i]] = i;

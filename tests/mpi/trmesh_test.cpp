@@ -1,4 +1,4 @@
-// TRMESH by all ranks: the bytes and the codes of TRMESH by one.
+// TRMESH by all ranks returns the bytes and codes of TRMESH by one.
 
 #include <algorithm>
 #include <cmath>
@@ -142,7 +142,8 @@ TEST(CollectiveTrmesh, IsTrmeshOnEveryPointSet) {
 
 TEST(CollectiveTrmesh, IsTrmeshOnHardNodes) {
   MpiCommunicator ranks(MPI_COMM_WORLD);
-  // So many ranks on two processors take seconds a call: each sixth family there, all of them on fewer ranks.
+  // With this many ranks on two processors a call takes seconds: every sixth family here, all of them on
+  // fewer ranks.
   const std::size_t step = ranks.size() > 16 ? 6 : 1;
   for (std::size_t k = 0; k < point_sets::hard_families().size(); k += step) {
     const std::string& family = point_sets::hard_families()[k];

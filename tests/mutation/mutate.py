@@ -118,7 +118,7 @@ class Mutation:
         return {p: p.read_bytes() for p in sorted((self.build / "build/src/cxx").rglob("*.o"))}
 
     def passes(self, stage, seconds):
-        """True if the tests of the stage pass in so many seconds of processor time."""
+        """True if the tests of the stage pass within this processor time, in seconds."""
         test, pattern, share = stage
 
         def limits():

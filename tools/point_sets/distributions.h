@@ -1,6 +1,6 @@
 #pragma once
 // The point sets whose time is compared with that of random nodes: pstripack-benchmark --only distributions,
-// and the tests that judge small ones of them.
+// and the tests of small ones of them.
 
 #include <string>
 #include <vector>
@@ -8,8 +8,8 @@
 namespace point_sets {
 
 struct Distribution {
-  std::string name;  ///< as point_sets::make takes it
-  double limit;      ///< time a node at most, in units of that of as many random nodes
+  std::string name;  ///< name for point_sets::make
+  double limit;      ///< largest time per node, in units of that of as many random nodes
 };
 
 const std::vector<Distribution>& distributions();

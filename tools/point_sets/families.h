@@ -1,5 +1,5 @@
 #pragma once
-// The families of point_sets::make: one function a family, in a file of its name.
+// The families of point_sets::make: one function per family, in a file of its name.
 
 #include <cstddef>
 #include <functional>
@@ -15,7 +15,7 @@ using Points = std::vector<pstripack::Point>;
 struct Family {
   std::string name;
   std::string parameter;  ///< its default, as written; empty: the family takes none
-  std::string nodes;      ///< how many there are when n are asked for
+  std::string nodes;      ///< their number if n are requested
   std::string what;       ///< one line for --help and docs/point-sets.md
   std::function<Points(std::size_t n, double parameter, Random& random)> make;
 };

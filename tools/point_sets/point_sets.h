@@ -1,6 +1,6 @@
 #pragma once
-// Named sets of nodes, of unit length where nothing else is said, bit for bit the same on every IEEE machine:
-// a generator of our own, and of the mathematical functions only sqrt and sines and cosines of our own.
+// Named sets of nodes, of unit length unless otherwise stated, bit for bit the same on every IEEE machine:
+// they use our own generator, sines and cosines, and of the mathematical library only sqrt.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,15 +16,15 @@ namespace point_sets {
 /// docs/point-sets.md lists them.
 std::vector<pstripack::Point> make(const std::string& family, std::size_t n, std::uint64_t seed = 1);
 
-/// The names of the families, without parameters: those that every test takes, and those that are hard to
-/// decide or nodes as instruments deliver them.
+/// The names of the families, without parameters: those that every test uses; and those that are hard for
+/// rounded arithmetic, or nodes as instruments deliver them.
 const std::vector<std::string>& families();
 const std::vector<std::string>& hard_families();
 
-/// Nodes from a text file, `-` for stdin: a line `lon lat` (degrees) or `x y z` (taken as they are), the
-/// same in all lines; decimal or hexadecimal, also with Fortran's D exponents; commas count as blanks,
-/// `#` and `!` start comments. The number of nodes may stand alone in a first line, as in files of
-/// generators. Throws std::runtime_error with file and line number on anything else.
+/// Nodes from a text file, `-` for stdin: lines of `lon lat` (degrees) or of `x y z` (any lengths); decimal
+/// or hexadecimal, also with Fortran's D exponents; commas count as blanks, `#` and `!` start comments. The
+/// first line may hold the number of nodes alone. Throws std::runtime_error with file and line number on
+/// anything else.
 std::vector<pstripack::Point> read(const std::string& file);
 
 /// SplitMix64.

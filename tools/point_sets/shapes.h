@@ -1,5 +1,5 @@
 #pragma once
-// What several families are made of.
+// Parts that several families share.
 
 #include <cstddef>
 #include <functional>
@@ -39,7 +39,7 @@ Point at(const Frame& frame, double u, double v);
 /// 10^-x, x >= 0.
 double ten_to_minus(double x);
 
-/// What `draw` returns, n times, without repeats; fewer where it returns nothing but repeats.
+/// `n` results of `draw` without repeats; fewer if it returns only repeats.
 Points distinct(std::size_t n, const std::function<Point()>& draw);
 
 /// A circular orbit, and the earth that turns below it.
@@ -53,7 +53,7 @@ struct Orbit {
 /// A uniform point in the cap of the given radius around c. Accurate for the smallest radii.
 Point in_cap(Random& random, const Point& c, double radius);
 
-/// Of the caps: nothing special about it.
+/// Centre of the caps: an arbitrary direction.
 Point centre();
 
 /// n nodes uniform on the sphere.

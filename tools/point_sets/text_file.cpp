@@ -26,7 +26,7 @@ std::string numbers(std::size_t count) {
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == ',' || c == '\r' || c == '\f' || c == '\v'; }
 
-/// What nearly all words are goes the fast way.
+/// Fast path for nearly all words.
 bool parse_word(std::string_view word, double& value) {
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error == std::errc() && end == word.data() + word.size()) return std::isfinite(value);

@@ -8,7 +8,7 @@
 
 namespace point_sets {
 
-/// Rows of as many numbers each, all finite, or NaN where that is allowed.
+/// Rows with equal numbers of finite values, or NaN if allowed.
 struct Table {
   std::size_t columns = 0;
   std::vector<double> values;      ///< row after row
@@ -19,13 +19,13 @@ struct Table {
 };
 
 /// The numbers in `text`: decimal or hexadecimal, also with Fortran's D exponents; commas count as blanks,
-/// `#` and `!` start comments. The number of rows may stand alone in a first line. Throws std::runtime_error
-/// with `name` and line on anything else, on fewer than 2 or more than `most_columns` columns, and without
-/// rows. `with_nan`: the word `nan` is a number, too.
+/// `#` and `!` start comments. The first line may hold the number of rows alone. Throws std::runtime_error
+/// with `name` and line on anything else, on fewer than 2 or more than `most_columns` columns, and if there
+/// are no rows. `with_nan`: the word `nan` is a number, too.
 Table table_of(std::string_view text, const std::string& name, std::size_t most_columns = 3,
                bool with_nan = false);
 
-/// All of a file; `-`: of stdin. Throws std::runtime_error.
+/// The same for a file; `-`: stdin. Throws std::runtime_error.
 std::string contents_of(const std::string& file);
 
 }  // namespace point_sets

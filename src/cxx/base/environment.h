@@ -6,12 +6,11 @@
 
 namespace pstripack {
 
-/// Its value; null if there is none, and in a program that has rights which its caller has not (setuid,
-/// setgid, file capabilities): there the caller shall not name files to write to or programs to start.
+/// Value of an environment variable; null if it is unset, or if the program has rights that its caller lacks
+/// (setuid, setgid, file capabilities): such a caller must not choose files to write or programs to start.
 inline const char* environment_variable(const char* name) { return secure_getenv(name); }
 
-/// Whether NAME=VALUE is what mpirun or the like tells the ranks that it starts: Open MPI, Slurm, MPICH,
-/// Intel.
+/// True if NAME=VALUE is a variable that mpirun (Open MPI, Slurm, MPICH, Intel) sets for the ranks it starts.
 inline bool is_from_mpi_launcher(const char* variable) {
   constexpr const char* kPrefixes[] = {
       "OMPI_", "ORTE_", "PMIX_", "PMI_", "HYDI_", "MPI_LOCALRANKID=", "MPI_LOCALNRANKS="};

@@ -19,8 +19,8 @@ namespace {
 /// still counts on the team of its parent and would wait for it for ever.
 const pid_t loaded_in = getpid();
 
-/// True if the system would start `count` threads now. OpenMP's run-time library ends the program where it
-/// would not, so this is asked first, once for each thread that calls: its team stays.
+/// True if the system can start `count` threads now. OpenMP's run-time library ends the program if it cannot,
+/// so this is tested first, once per calling thread: its team stays.
 bool can_start(int count) {
   thread_local int started = 0;
   if (count <= started) return true;

@@ -1,5 +1,5 @@
 #pragma once
-// How much work is worth a team of threads, decided in one place.
+// Number of threads for an amount of work, decided in one place.
 
 #include <cstddef>
 
@@ -12,7 +12,7 @@ namespace pstripack {
 int threads_for(std::size_t items) noexcept;
 
 /// Calls body(first, last, piece) for a partition of [0,n) into `threads` contiguous pieces, in the order of
-/// the pieces, one a thread. `threads` must come from threads_for. body must not throw.
+/// the pieces, one per thread. `threads` must come from threads_for. body must not throw.
 template <class Body>
 void parallel_pieces(std::size_t n, int threads, const Body& body) {
   if (threads <= 1) {

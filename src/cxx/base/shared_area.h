@@ -14,17 +14,17 @@ class SharedArea {
   SharedArea& operator=(SharedArea&& other) noexcept;
   ~SharedArea() { clear(); }
 
-  /// A new area; its pages are there already, so that using it cannot fail. Empty if memory is out.
+  /// A new area whose pages are allocated, so that using it cannot fail. Empty if memory is out.
   static SharedArea create(std::size_t size);
   /// The other process's area. Empty on failure.
   static SharedArea map(Descriptor file);
-  /// The area of a process of this user on this machine, which has it open as `file`. Empty on failure.
+  /// The area of a process of this user on this machine, in which it is open as `file`. Empty on failure.
   static SharedArea map_of(int process, int file);
 
   void* data() const { return data_; }
   std::size_t size() const { return size_; }
   const Descriptor& file() const { return file_; }
-  /// The memory stays.
+  /// Closes the descriptor; the memory stays mapped.
   void close_file() { file_.reset(); }
 
  private:

@@ -16,20 +16,20 @@ std::size_t half_of_memory() {
   return pages > 0 && bytes > 0 ? static_cast<std::size_t>(pages) / 2 * static_cast<std::size_t>(bytes) : 0;
 }
 
-/// Of all blocks together. Those that the system can take back are kept up to half of its memory: fresh pages
-/// of a large call take longer to clear than to fill. Found out when the library is loaded: threads that
-/// wait for each other at their first call would change errno.
+/// Upper limit of all kept blocks together: half of the system's memory, of pages that the system can take
+/// back, because fresh pages of a large call take longer to clear than to fill. Computed when the library is
+/// loaded: threads that wait for each other at their first call would change errno.
 #ifdef MADV_FREE
 const std::size_t most_kept = std::max(std::size_t{1} << 30, half_of_memory());
 #else
 const std::size_t most_kept = std::size_t{1} << 30;
 #endif
 
-constexpr std::size_t kCount = 16;   // a call on threads takes five
+constexpr std::size_t kCount = 16;   // number of kept blocks; a call on threads uses five
 Buffer<unsigned char> kept[kCount];  // between two calls
-std::mutex mutex;  // never waited for: another thread may hold it, or held it when we were forked
+std::mutex mutex;  // only try_lock: another thread may hold it, or held it when we were forked
 
-/// Up to a sixteenth more, so that calls of about the same size share blocks.
+/// Rounded up by at most a sixteenth, so that calls of similar size share blocks.
 std::size_t rounded_up(std::size_t bytes) {
   std::size_t step = 1;
   while (step < bytes / 32) step *= 2;
@@ -53,7 +53,7 @@ Block::Block(std::size_t bytes) {
   if (bytes >= kSmallest) bytes = rounded_up(bytes);
   if (bytes >= kSmallest && bytes <= most_kept) {
     if (const std::unique_lock lock(mutex, std::try_to_lock); lock) {
-      // The smallest: another one may be wanted next.
+      // Take the smallest: a larger one may be needed next.
       Buffer<unsigned char>* best = nullptr;
       for (auto& block : kept)
         if (block.size() >= bytes && block.size() - bytes <= bytes / 16 &&
@@ -78,11 +78,11 @@ Block::~Block() {
 #ifdef MADV_FREE
   constexpr std::size_t kWorthASystemCall = std::size_t{4} << 20;
   if (memory_.size() >= kWorthASystemCall)
-    madvise(memory_.data(), memory_.size(), MADV_FREE);  // refused: the pages stay ours
+    madvise(memory_.data(), memory_.size(), MADV_FREE);  // if refused, the pages stay with the process
 #endif
   const std::unique_lock lock(mutex, std::try_to_lock);
   if (!lock) return;
-  // The newest first; the oldest go where there are too many or too much.
+  // The newest first; drop the oldest if there are too many or they are too large.
   std::size_t last = 0, total = memory_.size();
   while (last + 1 < kCount && kept[last].size() > 0) ++last;
   for (; last > 0; --last) kept[last] = std::move(kept[last - 1]);

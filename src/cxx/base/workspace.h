@@ -12,13 +12,14 @@
 
 namespace pstripack {
 
-/// A block of memory: one that an earlier call of this process gave back, if it is large enough and not much
-/// too large, else a new one. A few are kept for the next call, and offered to the system, which takes their
-/// pages when it needs them; small ones and very large ones are freed.
+/// A block of memory: a kept block of an earlier call of this process if one is large enough and not much too
+/// large, else a new one. On destruction a few blocks are kept for the next call and offered to the system,
+/// which takes their pages when it needs them; small and very large blocks are freed.
 class Block {
  public:
   Block() = default;
-  /// At least so many bytes. Throws std::bad_alloc, if there is no memory even without the blocks kept.
+  /// Allocates at least `bytes`. Throws std::bad_alloc if there is no memory even after the kept blocks are
+  /// freed.
   explicit Block(std::size_t bytes);
   Block(Block&& other) noexcept = default;
   Block& operator=(Block&& other) noexcept {
@@ -35,10 +36,10 @@ class Block {
   Buffer<unsigned char> memory_;
 };
 
-/// Gives those that are kept back to the system; false if there are none, or another thread is at them.
+/// Gives all kept blocks back to the system; false if there are none, or another thread holds the lock.
 bool free_kept_blocks() noexcept;
 
-/// An array in a block of its own, not initialised.
+/// An uninitialised array in its own block.
 template <class T>
 class BlockArray {
  public:
@@ -64,9 +65,9 @@ class BlockArray {
   std::size_t size_ = 0;
 };
 
-/// One block of memory for a call, because clearing fresh pages costs time and one block is what can be
-/// handed out again at the next call. Arrays that stay are laid from the front, those of a phase from the
-/// back; the next phase begins by giving the latter up.
+/// One block of memory per call: clearing fresh pages costs time, and one block can be reused whole by the
+/// next call. Arrays that live through the call are laid from the front, those of a phase from the back;
+/// next_phase() releases the latter.
 ///
 ///     | order | sorted nodes | faces ->            <- planes |
 ///     | kept                                   of this phase |
@@ -75,7 +76,7 @@ class Workspace {
   static constexpr std::size_t kSlack = 2048;  ///< covers rounding and small extras
 
   explicit Workspace(std::size_t bytes) : Workspace(Block(bytes + kSlack)) {}
-  /// In memory of somebody else.
+  /// In memory owned by the caller.
   Workspace(unsigned char* begin, std::size_t bytes) : begin_(begin), size_(bytes), back_(bytes) { align(); }
   Workspace(const Workspace&) = delete;
   Workspace& operator=(const Workspace&) = delete;
@@ -102,7 +103,7 @@ class Workspace {
   void clear() { front_ = 0, back_ = size_; }
 
  private:
-  /// A cache line: faces and planes, half as long, must not lie in two.
+  /// Alignment to a cache line: faces and planes, half as long, must not straddle two.
   static constexpr std::size_t kAlignment = 64;
   static std::size_t rounded_up(std::size_t bytes) {
     return (bytes + kAlignment - 1) / kAlignment * kAlignment;

@@ -28,11 +28,11 @@ Int write_lists(const Hull& hull, Int* list, Int* lptr, Int* lend, Workspace& wo
   const int threads = threads_for(n);
   const std::size_t pieces = static_cast<std::size_t>(threads);
   workspace.next_phase();
-  auto* const ring_of = workspace.take<std::uint32_t>(n);  // where in `rings` it is kept
+  auto* const ring_of = workspace.take<std::uint32_t>(n);  // where in `rings` the node's ring is stored
   auto* const rings = workspace.take<Int>(7 * n + pieces * (2 * kBlock + 1));
   std::vector<std::size_t> sums(pieces * pieces), begin_of(pieces + 1);
 
-  // The number of neighbours of the nodes of each piece: where its rings begin.
+  // Number of neighbours of the nodes of each piece: gives where its rings begin.
   const std::size_t piece_size = n / pieces + 1;
   if (pieces > 1)
     parallel_pieces(hull.face_count, threads, [&](std::size_t first, std::size_t last, int thread) {
@@ -50,7 +50,8 @@ Int write_lists(const Hull& hull, Int* list, Int* lptr, Int* lend, Workspace& wo
   }
 
   const Numbers<std::uint32_t, 1> number{hull.order};
-  // In the order of the hull, where the faces of a star are close together in memory: all rings.
+  // First pass, in the order of the hull, where the faces of a star are close together in memory: store all
+  // rings.
   constexpr std::size_t kAhead = 16;
   parallel_pieces(pieces, threads, [&](std::size_t piece, std::size_t, int) {
     const std::size_t last = std::min(n, piece_size * (piece + 1));
@@ -62,7 +63,8 @@ Int write_lists(const Hull& hull, Int* list, Int* lptr, Int* lend, Workspace& wo
         });
   });
 
-  // In the order of the caller's nodes, where the lists are written from front to back: copy them.
+  // Second pass, in the order of the caller's nodes, so that the lists are written from front to back: copy
+  // the rings.
   std::fill(begin_of.begin(), begin_of.end(), 0);
   parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int piece) {
     std::size_t sum = 0;
@@ -107,8 +109,8 @@ std::size_t absolute(Int v) {
   return static_cast<std::size_t>(v < 0 ? -v : v);
 }
 
-/// Calls visit(b, c) for each neighbour b of node k (from 0), in order, and the one after it, c; both
-/// indices from 0. The last neighbour of a boundary node is followed by none.
+/// Calls visit(b, c) for each neighbour b of node k (from 0), in order, and its successor c; both indices
+/// from 0. The last neighbour of a boundary node has no successor.
 template <class Int, class Visit>
 void for_each_triangle_at(const ListsView<Int>& lists, std::size_t k, const Visit& visit) {
   const Int last = lists.lend[k];
@@ -121,7 +123,7 @@ void for_each_triangle_at(const ListsView<Int>& lists, std::size_t k, const Visi
   } while (slot != last);
 }
 
-/// Where a neighbour stands in a star. Short stars are searched, others by a sorted table of their own.
+/// Finds a neighbour's position in a star: by search in short stars, else by a sorted table.
 class Places {
  public:
   explicit Places(const StarTable& stars) : stars_(stars) {
@@ -136,7 +138,7 @@ class Places {
 
   index_t neighbour(std::uint32_t i) const { return stars_.to[i] < 0 ? ~stars_.to[i] : stars_.to[i]; }
 
-  /// The first place of `wanted` in the star of v, or the end of the star.
+  /// The first position of `wanted` in the star of v, or the end of the star.
   std::uint32_t find(index_t v, index_t wanted) const {
     const auto s = static_cast<std::size_t>(v);
     std::uint32_t i = stars_.begin[s];
@@ -182,7 +184,8 @@ class Places {
   std::vector<Entry> entries_;
 };
 
-/// The neighbours of all nodes in the order of the lists, if these are closed and of the slots 1..LNEW-1.
+/// The neighbours of all nodes in the order of the lists, if these are closed and use exactly the slots
+/// 1..LNEW-1.
 template <class Int>
 Verdict read_stars(const ListsView<Int>& lists, StarTable& stars) {
   const std::size_t n = lists.n;
@@ -214,7 +217,7 @@ Verdict read_stars(const ListsView<Int>& lists, StarTable& stars) {
     stars.begin[k + 1] = end;
     if (end - stars.begin[k] < 2) return malformed("fewer than two neighbours", k);
   }
-  // Slots 1..LNEW-1 and no others; where LNEW is not known, without holes.
+  // Exactly the slots 1..LNEW-1; if LNEW is not known, without gaps.
   if (lists.lnew != 0 && end != slots)
     return malformed("LNEW does not match the number of neighbours", n - 1);
   for (std::size_t s = 1; s <= end; ++s)
@@ -222,7 +225,7 @@ Verdict read_stars(const ListsView<Int>& lists, StarTable& stars) {
   return {};
 }
 
-/// Do the stars agree with each other?
+/// True if the stars agree with each other.
 Verdict check_stars(const StarTable& stars) {
   constexpr std::size_t kAhead = 8;
   const Places places(stars);
@@ -257,7 +260,7 @@ Verdict check_stars(const StarTable& stars) {
   return {};
 }
 
-/// check_lists; the stars of good lists are left in `stars`.
+/// check_lists; stores the stars of valid lists in `stars`.
 template <class Int>
 Verdict stars_of(const ListsView<Int>& lists, std::optional<StarTable>& stars) {
   if (lists.n < 3) return malformed("fewer than three nodes", 0);

@@ -21,26 +21,26 @@ struct ListsView {
   Int lnew;
 };
 
-/// Writes the canonical lists of a hull (interface contract, section 4.3): the neighbours of node k fill
+/// Writes the canonical lists of a hull (docs/differences.md, Canonical lists): the neighbours of node k fill
 /// consecutive slots, nodes in increasing order, counterclockwise; an interior node starts with its
 /// smallest neighbour, a boundary node with its first boundary neighbour and ends with the negated last.
 /// `list`, `lptr`: at least 6n-12 slots, of which 1..LNEW-1 are written; `lend`: n. Returns LNEW.
-/// Every node must be in the hull (hull.coincident empty). Takes 32 bytes a node of the workspace that
+/// Every node must be in the hull (hull.coincident empty). Takes 32 bytes per node of the workspace that
 /// `delaunay` used. Parallel. Throws std::bad_alloc before writing.
 template <class Int>
 Int write_lists(const Hull& hull, Int* list, Int* lptr, Int* lend, Workspace& workspace);
 
-/// Structure alone: slots in range, every slot 1..LNEW-1 in exactly one closed list, neighbours in
+/// Checks the structure only: slots in range, every slot 1..LNEW-1 in exactly one closed list, neighbours in
 /// range and different, symmetric adjacency, signs only at the last neighbour of a boundary node.
 /// Reads no slot outside 1..6n-12, whatever the arrays hold.
 template <class Int>
 Verdict check_lists(const ListsView<Int>& lists);
 
-/// check_lists, and the triangles are one sphere or one disc. Nothing is said about where the nodes lie.
+/// check_lists, and that the triangles form one sphere or one disc. Ignores coordinates.
 template <class Int>
 Verdict check_topology(const ListsView<Int>& lists);
 
-/// True if the lists are canonical (interface contract, section 4.3). Needs check_lists to hold.
+/// True if the lists are canonical (docs/differences.md, Canonical lists). Needs check_lists to hold.
 template <class Int>
 bool lists_are_canonical(const ListsView<Int>& lists);
 

@@ -4,7 +4,7 @@
 
 namespace pstripack {
 
-/// The most nodes whose lists fit: LNEW <= 6n-11.
+/// The largest number of nodes whose lists fit: LNEW <= 6n-11.
 template <class Int>
 constexpr Int most_nodes() {
   return (std::numeric_limits<Int>::max() - 1) / 6 + 2;

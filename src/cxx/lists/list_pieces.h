@@ -16,8 +16,8 @@ inline void copy_some(const Int* from, Entry* to) {
   for (std::size_t i = 0; i < kCount; ++i) to[i] = static_cast<Entry>(from[i]);
 }
 
-/// Copies a ring without a loop whose length no processor can guess, and without touching anything beside it:
-/// two blocks of fixed length that overlap. Six neighbours are the mean.
+/// Copies a ring, touching nothing beside it, as two overlapping blocks of fixed length, because the length
+/// of a loop would be mispredicted. The mean is six neighbours.
 template <class Int, class Entry>
 inline void copy_ring(const Int* from, std::size_t count, Entry* to) {
   if (count - 4 <= 4) {
@@ -32,8 +32,8 @@ inline void copy_ring(const Int* from, std::size_t count, Entry* to) {
 }
 
 /// LPTR of n consecutive nodes, which LEND determines: each slot points to the next one, the last of a node
-/// to its first. lend[0] is that of the first of these nodes, lptr[0] the first slot of all; first_slot, from
-/// 0: that of these nodes. threads: from threads_for.
+/// to its first. lend[0] belongs to the first of these nodes; lptr[0] is the first slot of all; first_slot,
+/// from 0, is theirs. threads: from threads_for.
 void write_lptr(const std::int32_t* lend, std::size_t n, std::size_t first_slot, std::int32_t* lptr,
                 int threads);
 

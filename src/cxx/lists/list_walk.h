@@ -4,17 +4,16 @@
 
 namespace pstripack {
 
-/// Walks round the lists of a triangulation, or of a Voronoi diagram, that nobody has checked: it touches no
-/// slot outside 1..6n-12 and takes no more than 6n-12 steps in all walks together, as each slot is in one
-/// list.
+/// Walks through the unchecked lists of a triangulation or Voronoi diagram: it touches no slot outside
+/// 1..6n-12 and takes at most 6n-12 steps in all walks together, since each slot is in one list.
 template <class Int>
 class ListWalk {
  public:
   ListWalk(Int n, const Int* lptr)
       : slots_(6 * static_cast<std::uint64_t>(n) - 12), left_(slots_), lptr_(lptr) {}
 
-  /// Calls visit(slot, next) for all pairs of consecutive slots of the list that `last` belongs to: `last`
-  /// and the first slot come first. False if that list is not closed; it is visited as far as it can be.
+  /// Calls visit(slot, next) for all pairs of consecutive slots of the list that `last` belongs to, starting
+  /// with `last` and the first slot. False if that list is not closed; it is then visited up to the defect.
   template <class Visit>
   bool operator()(Int last, Visit visit) {
     if (!is_slot(last)) return false;

@@ -11,8 +11,8 @@
 
 namespace pstripack {
 
-/// Up to so many neighbours a ring is copied as one block, without a loop whose length no processor can
-/// guess. What is copied too much is overwritten by the next ring. Six neighbours are the mean.
+/// Rings of up to this many neighbours are copied as one block of fixed length, because the length of a loop
+/// would be mispredicted. The next ring overwrites the excess. The mean is six neighbours.
 constexpr std::size_t kBlock = 8;
 
 template <class Int>
@@ -20,19 +20,7 @@ void copy_block(const Int* from, Int* to) {
   std::memcpy(to, from, kBlock * sizeof(Int));
 }
 
-/// From any corner at a node to that in a front face, the first after the gap if there is one.
-inline std::uint32_t first_corner(const Hull& hull, std::uint32_t corner) {
-  while (!hull.front(face_of(corner))) corner = clockwise(hull, corner);
-  const std::uint32_t start = corner;
-  do {
-    const std::uint32_t next = clockwise(hull, corner);
-    if (!hull.front(face_of(next))) return corner;
-    corner = next;
-  } while (corner != start);
-  return corner;
-}
-
-/// The numbers of hull nodes, from a table of what is kOffset less.
+/// Numbers of hull nodes, from a table of numbers minus kOffset.
 template <class Int, std::int64_t kOffset>
 struct Numbers {
   const Int* table;
@@ -50,7 +38,6 @@ struct Numbers {
 ///              v ------ f.vertex[next]
 template <class Int, class Number>
 Int* append_ring(const Hull& hull, std::uint32_t corner, const Number& number, Int* const begin) {
-  if (!hull.surrounds_centre) corner = first_corner(hull, corner);
   Int* out = begin;
   const std::uint32_t first = next_code(corner);
   std::uint32_t code = first;
@@ -67,7 +54,8 @@ Int* append_ring(const Hull& hull, std::uint32_t corner, const Number& number, I
   return out;
 }
 
-/// The same of an inner node with up to kBlock neighbours; null if it has more. Else writes kBlock entries.
+/// The same for an inner node with up to kBlock neighbours; null if it has more. Otherwise writes kBlock
+/// entries.
 template <class Int, class Number>
 Int* append_short_ring(const Hull& hull, std::uint32_t corner, const Number& number, Int* begin) {
   const std::uint32_t first = next_code(corner);
@@ -88,7 +76,7 @@ Int* append_short_ring(const Hull& hull, std::uint32_t corner, const Number& num
   return begin + count;
 }
 
-/// A ring as it is kept: its count of entries, then the entries.
+/// A stored ring: its number of entries, then the entries.
 template <class Int>
 struct Ring {
   const Int* begin;
@@ -99,7 +87,7 @@ Ring<Int> ring_at(const Int* place) {
   return {place + 1, static_cast<std::uint32_t>(*place)};
 }
 
-/// Copies a ring as it is kept; returns the end. Reads and writes up to kBlock entries beyond it.
+/// Copies a stored ring; returns the end. Reads and writes up to kBlock entries beyond it.
 template <class Int>
 Int* copy_kept_ring(const Int* place, Int* to) {
   const std::size_t entries = 1 + static_cast<std::size_t>(*place);
@@ -108,12 +96,12 @@ Int* copy_kept_ring(const Int* place, Int* to) {
   return to + entries;
 }
 
-/// The rings of nodes 0..size-1, wherever they are kept.
+/// The rings of nodes 0..size-1, wherever they are stored.
 template <class Int>
 class RingTable {
  public:
   RingTable() = default;
-  /// The ring of node i is kept at place[position[i]]; size_class[position[i]] is its size_class_of(count).
+  /// The ring of node i is stored at place[position[i]]; size_class[position[i]] is its size_class_of(count).
   RingTable(std::size_t size, const std::uint32_t* position, const Int* const* place,
             const std::uint8_t* size_class)
       : size_(size), position_(position), place_(place), size_class_(size_class) {}
@@ -122,20 +110,20 @@ class RingTable {
   static std::uint8_t size_class_of(std::uint32_t count) {
     return static_cast<std::uint8_t>(std::min<std::uint32_t>(count, kMany));
   }
-  /// The entries of the ring at `place`, without a look at most.
+  /// The entries of the ring at `place`, usually without reading its count.
   static std::size_t count_of(const Int* place, std::uint8_t size_class) {
     return size_class < kMany ? size_class : ring_at(place).count;
   }
 
   std::size_t size() const { return size_; }
   Ring<Int> operator[](std::size_t i) const { return ring_at(place_[position_[i]]); }
-  /// Asks for ring i some time before it is read.
+  /// Prefetches ring i before it is read.
   void prefetch(std::size_t i) const {
     const Int* const place = place_[position_[i]];
     __builtin_prefetch(place);
     __builtin_prefetch(place + 6);  // most rings have six entries, which may lie in two lines
   }
-  /// The entries of the rings first..last-1.
+  /// Number of entries of the rings first..last-1.
   std::size_t arcs(std::size_t first, std::size_t last) const {
     std::size_t sum = 0;
     for (std::size_t i = first; i < last; ++i) {
@@ -153,9 +141,8 @@ class RingTable {
   const std::uint8_t* size_class_ = nullptr;  ///< small, so that sums need not touch the rings
 };
 
-/// Appends the rings of those of the hull nodes first..last-1 that are wanted(v), as they are kept. Calls
-/// visit(v, place, count) for each, ahead(w) for nodes w some time before. Writes up to 2*kBlock entries
-/// beyond the end.
+/// Appends the stored rings of those hull nodes first..last-1 that are wanted(v). Calls visit(v, place,
+/// count) for each, and ahead(w) for later nodes w to prefetch. Writes up to 2*kBlock entries beyond the end.
 template <class Int, class Wanted, class Number, class Ahead, class Visit>
 void append_rings(const Hull& hull, std::size_t first, std::size_t last, const Wanted& wanted,
                   const Number& number, const Ahead& ahead, Int* out, const Visit& visit) {

@@ -74,11 +74,11 @@ void Patch<Int>::set_up(const std::vector<Record>& closing, Workspace& workspace
   std::vector<Record> leading;
   for (const Record& r : closing)
     if (!partition_->knows(id_, places_(r.point))) leading.push_back(r);
-  const std::size_t first = leading_ = leading.size();
+  const std::size_t first = leading.size();
   built_ = count_ + first;
   arrays_.capacity = capacity_for(built_);
   order_ = workspace.keep<std::uint32_t>(built_);
-  insertion_order(&nodes_->point, count_, order_ + first, workspace, sizeof(Record));
+  leading_ = first + insertion_order(&nodes_->point, count_, order_ + first, workspace, sizeof(Record));
   workspace.next_phase();
   arrays_.nodes = workspace.keep<Point>(arrays_.capacity);
   number_ = workspace.keep<Int>(arrays_.capacity);
@@ -99,7 +99,7 @@ void Patch<Int>::set_up(const std::vector<Record>& closing, Workspace& workspace
   arrays_.planes = workspace.take<Plane>(2 * arrays_.capacity);
   first_planes_ = arrays_.planes;
   growing_ = GrowingHull::make(arrays_, built_, places_.lengths());
-  growing_->look_for_hidden_nodes(first);
+  growing_->look_for_hidden_nodes(leading_);
 }
 
 template <class Int>
@@ -299,14 +299,14 @@ struct SmallHull {
   SmallHull(const std::vector<Record>& nodes, Lengths lengths)
       : workspace(workspace_bytes(nodes.size())), order(workspace.keep<std::uint32_t>(nodes.size())) {
     const std::size_t n = nodes.size();
-    insertion_order(&nodes[0].point, n, order, workspace, sizeof(Record));
+    const std::size_t alone = insertion_order(&nodes[0].point, n, order, workspace, sizeof(Record));
     workspace.next_phase();
     arrays = {n, workspace.keep<Point>(n), workspace.keep<Face>(2 * n), nullptr, nullptr};
     arrays.corner = workspace.keep<std::uint32_t>(n);
     arrays.planes = workspace.take<Plane>(2 * n);
     for (std::size_t v = 0; v < n; ++v) arrays.nodes[v] = nodes[order[v]].point;
     growing = GrowingHull::make(arrays, n, lengths);
-    growing->build(0);
+    growing->build(alone);
   }
 
   Workspace workspace;

@@ -12,8 +12,8 @@
 namespace pstripack {
 namespace {
 
-/// The faces of the exact mesh, those in one circle joined: two nodes of the same circle may be joined by an
-/// arc.
+/// The faces of the exact mesh, with cocircular ones merged: any two nodes of the same circle may be joined
+/// by an arc.
 class Circles {
  public:
   Circles(const Hull& hull, const Point* p) : hull_(hull), p_(p), circle_(hull.face_count) {
@@ -24,8 +24,8 @@ class Circles {
     });
   }
 
-  /// visit(face, the face beyond, the edge between) for all faces of the mesh; the face beyond may not be of
-  /// the mesh.
+  /// Calls visit(face, the face beyond, the edge between) for all faces of the mesh; the face beyond may be
+  /// outside the mesh.
   template <class Visit>
   void for_each_edge(const Visit& visit) const {
     for (std::uint32_t face = 0; face < hull_.face_count; ++face)
@@ -66,7 +66,7 @@ void for_each_neighbour(const ListsView<Int>& lists, std::size_t a, const Visit&
   } while (slot != last);
 }
 
-/// Arcs between nodes that have no circle of the exact mesh in common.
+/// Number of arcs between nodes that share no circle of the exact mesh.
 template <class Int>
 std::int64_t wrong_arcs(const ListsView<Int>& lists, Circles& circles) {
   using Pair = std::pair<std::uint32_t, std::uint32_t>;  // a node and one of its circles
@@ -76,12 +76,12 @@ std::int64_t wrong_arcs(const ListsView<Int>& lists, Circles& circles) {
   });
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  std::vector<std::size_t> begin(lists.n + 1, 0);  // where those of each node begin
+  std::vector<std::size_t> begin(lists.n + 1, 0);  // where the pairs of each node begin
   for (const Pair& pair : pairs) ++begin[pair.first + 1];
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
 
-  // Those of the node with fewer are looked up among those of the other: linear in all, for the arcs of a
-  // triangulation make three forests, and in a forest each node has one parent.
+  // Search the node with fewer circles among those of the other: linear in total, since the arcs of a
+  // triangulation form three forests, and in a forest each node has one parent.
   const auto have_one_in_common = [&](std::size_t a, std::size_t b) {
     const auto count = [&](std::size_t node) { return begin[node + 1] - begin[node]; };
     if (count(a) > count(b)) std::swap(a, b);
@@ -96,7 +96,7 @@ std::int64_t wrong_arcs(const ListsView<Int>& lists, Circles& circles) {
   return wrong;
 }
 
-/// Triangles at the boundary that one of the two triangulations has only; and the arcs of ours that come with
+/// Number of boundary triangles that only one of the two triangulations has, and of our arcs that come with
 /// those that are ours.
 struct BoundaryDifference {
   std::int64_t triangles, our_arcs;

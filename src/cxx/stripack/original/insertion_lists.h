@@ -1,8 +1,8 @@
 #pragma once
 // The triangulation that TRMESH builds node by node: STRIPACK's INTADD, BDYADD, COVSPH, SWAP and the swap
-// loop of ADDNOD, which between them decide which neighbour gets which slot of LIST.
+// loop of ADDNOD, which together determine which neighbour gets which slot of LIST.
 //
-// Kept otherwise than in LIST, LPTR and LEND, because memory is what the time goes for:
+// The layout differs from LIST, LPTR and LEND, because memory access dominates the time:
 //   - a slot's neighbour and the slot after it lie side by side, and so do a node and its last slot;
 //   - the two slots of an arc, that of b in the list of a and that of a in the list of b, are 2i and 2i+1.
 //     STRIPACK's swap moves both from one arc to another. So no list is ever searched: where (a,b,c) is a
@@ -14,7 +14,7 @@
 //                a --> b                slot of b in the list of c:  next(twin(next(s)))
 //                   s                   .
 //
-//   - which place in LIST a slot has is written down when it comes into use.
+//   - each slot's position in LIST is recorded when the slot comes into use.
 
 #include <cstddef>
 
@@ -23,7 +23,7 @@
 
 namespace pstripack {
 
-/// Nodes count from 1. Slots, too, but not as in LIST.
+/// Nodes and slots count from 1, but slots are not those of LIST.
 template <class Real, class Int>
 class InsertionLists {
  public:
@@ -33,7 +33,7 @@ class InsertionLists {
         slot_(6 * static_cast<std::size_t>(n)),
         place_(6 * static_cast<std::size_t>(n)) {}
 
-  /// Puts a node in place before it is inserted.
+  /// Stores the coordinates of a node before it is inserted.
   void place(Int node, const Vector<Real>& position) { node_[index(node)].position = position; }
 
   Int size() const { return size_; }
@@ -60,9 +60,9 @@ class InsertionLists {
     } while (slot != last);
   }
 
-  /// For a node that will be asked about soon.
+  /// Prefetches the list of a node that will be used soon.
   [[gnu::always_inline]] void prefetch(Int node) const { __builtin_prefetch(&node_[index(node)]); }
-  void prefetch_neighbours(Int /*first_slot*/, Int /*last_slot*/) const {}
+  bool is_in_few_slots(Int /*node*/, Int& /*first*/, Int& /*last*/) const { return false; }
   [[gnu::always_inline]] void prefetch_list(Int node) const {
     __builtin_prefetch(&slot_[index(last_slot(node))]);
   }
@@ -133,8 +133,8 @@ class InsertionLists {
     finish_list(k, first);
   }
 
-  /// The swaps of ADDNOD that make the triangulation Delaunay again round the last node, k: the arcs opposite
-  /// to it, counterclockwise. False if it gave up, having swapped more than arcs there are.
+  /// The swaps of ADDNOD that restore the Delaunay property around the last node, k: tests the arcs opposite
+  /// k, counterclockwise. False if it gave up after more swaps than there are arcs.
   ///
   ///           v                   v
   ///          /|\                 / \        if w is above the plane of (k,u,v): k-w for u-v;
@@ -168,9 +168,9 @@ class InsertionLists {
     return false;
   }
 
-  /// Slots that are in use.
+  /// Number of slots in use.
   std::size_t slots() const { return index(end_ - kFirst); }
-  /// LIST and LPTR with so many slots, and LEND.
+  /// Writes LIST and LPTR, with slots() entries, and LEND.
   void write(Int* list, Int* lptr, Int* lend) const {
     for (Int s = kFirst; s < end_; ++s) {
       const std::size_t to = index(place_[index(s)] - 1);
@@ -212,11 +212,11 @@ class InsertionLists {
     slot_[index(end_ - 1)].next = twin(first);
     node_[index(k)].last_slot = end_ - 1;
   }
-  /// Makes the boundary node interior of which this is the last slot; returns the boundary node before it.
+  /// Makes a boundary node, given by its last slot, interior; returns the boundary node before it.
   Int open(Int last) { return slot_[index(last)].entry = neighbour(last); }
 
   bool are_adjacent(Int a, Int b) const {
-    // In step round both, so that a node with many neighbours does not matter.
+    // Step through both lists alternately, so that a node with many neighbours does not matter.
     const Int last_of_a = last_slot(a), last_of_b = last_slot(b);
     Int of_a = last_of_a, of_b = last_of_b;
     do {
@@ -248,7 +248,7 @@ class InsertionLists {
 
   BlockArray<Node> node_;
   BlockArray<Slot> slot_;
-  BlockArray<Int> place_;  ///< of a slot, in LIST
+  BlockArray<Int> place_;  ///< of a slot: its position in LIST
   Int size_ = 0, end_ = kFirst;
 };
 

@@ -10,13 +10,13 @@
 
 namespace pstripack {
 
-/// How the insertion of the nodes ended.
+/// How the insertion ended.
 enum class InsertionEnd {
-  complete,    ///< all are in
-  coincident,  ///< `node` coincides with `other`: nodes 1..node-1 are in
-  collinear,   ///< the original's IER = -2: node 3 or a later one lies in line with all that it sees
-  endless,     ///< the original's search for `node`, or the swaps round it, do not end
-  hopeless     ///< with nodes 1..`node` in there is an arc that is not Delaunay, and that will stay
+  complete,    ///< all nodes are inserted
+  coincident,  ///< `node` coincides with `other`: nodes 1..node-1 are inserted
+  collinear,   ///< the original's IER = -2: it finds `node`, 3 or later, collinear with all it sees
+  endless,     ///< the original's search for `node`, or the swaps around it, do not end
+  hopeless     ///< after nodes 1..`node` an arc is not Delaunay, and will stay
 };
 
 struct InsertionOutcome {
@@ -24,12 +24,12 @@ struct InsertionOutcome {
   std::int64_t node = 0, other = 0;
 };
 
-/// Lists as the original's TRMESH makes them; empty where the insertion neither was complete nor met a node
-/// that coincides.
+/// Lists as the original's TRMESH makes them; empty unless the insertion was complete or met a coincident
+/// node.
 template <class Int>
 struct InsertedNodes {
   InsertionOutcome outcome;
-  std::size_t nodes = 0;           ///< that are in the lists
+  std::size_t nodes = 0;           ///< number of nodes in the lists
   BlockArray<Int> list{}, lptr{};  ///< LNEW-1 slots
   BlockArray<Int> lend{};
   Int lnew = 0;
@@ -37,12 +37,11 @@ struct InsertedNodes {
   ListsView<Int> view() const { return {nodes, list.data(), lptr.data(), lend.data(), lnew}; }
 };
 
-/// Whether to go on with a triangulation that cannot become right.
+/// Whether to continue with a triangulation that cannot become correct.
 enum class Hopeless { goes_on, ends };
 
-/// Renka's TRMESH (Algorithm 772): inserts node by node, with the tests as he rounds them. n >= 3. Nothing is
-/// said about whether the result is right. One thread, with its kept_seeds; O(n) memory. Throws
-/// std::bad_alloc.
+/// Renka's TRMESH (Algorithm 772): inserts node by node, with its rounded tests. n >= 3. The result may be
+/// wrong. One thread, with its kept_seeds; O(n) memory. Throws std::bad_alloc.
 template <class Real, class Int>
 InsertedNodes<Int> insert_in_order(Int n, const Real* x, const Real* y, const Real* z,
                                    const OriginalRules& rules, Hopeless hopeless = Hopeless::goes_on,

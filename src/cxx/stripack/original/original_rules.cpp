@@ -36,7 +36,7 @@ OriginalRules read_environment() {
 const OriginalRules& original_rules() {
   static std::atomic<const OriginalRules*> known{nullptr};
   if (const OriginalRules* const rules = known.load(std::memory_order_acquire)) return *rules;
-  // Threads that wait here for each other may find another errno: the program's must stay.
+  // Waiting here for another thread may change errno: restore the program's.
   const int error = errno;
   static const OriginalRules rules = read_environment();
   known.store(&rules, std::memory_order_release);

@@ -1,5 +1,5 @@
 #pragma once
-// What PSTRIPACK_ORDER asks for.
+// The settings of PSTRIPACK_ORDER.
 
 #include <cstdint>
 #include <limits>
@@ -24,23 +24,23 @@ struct OriginalRules {
   bool clear_angle = true;  ///< NEARND in REAL*8 sets AL = 0 where it finds nothing, as the Fortran 90 text
   bool bitwise = false;     ///< of TRMESH any triangulation that the original makes, exact or not
 
-  /// Of TRFIND.
+  /// Constants of TRFIND.
   template <class Real>
   Real tolerance() const {
     return static_cast<Real>(tolerance_in_epsilons) * std::numeric_limits<Real>::epsilon();
   }
-  /// JRAND. Real: the working kind.
+  /// JRAND's arithmetic. Real: the working kind.
   template <class Real, class Int, class SeedInt>
   Int random(Int n, Seeds<SeedInt>& seeds) const {
     return single_precision_random ? jrand<float>(n, seeds) : jrand<Real>(n, seeds);
   }
 };
 
-/// PSTRIPACK_ORDER, canonical if unset; read once. Anything but the names above is canonical and says so on
+/// Reads PSTRIPACK_ORDER once; canonical if unset. Any name but those above is canonical, with a message on
 /// stderr.
 const OriginalRules& original_rules();
 
-/// The seeds of this thread that are kept from call to call, of all kinds of integers.
+/// This thread's seeds, kept from call to call, shared by all kinds of integers.
 inline Seeds<std::int32_t>& kept_seeds() {
   thread_local Seeds<std::int32_t> seeds;
   return seeds;

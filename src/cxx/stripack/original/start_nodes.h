@@ -1,8 +1,8 @@
 #pragma once
-// Where TRMESH begins its searches. The original keeps, for every node i that is not yet inserted, a node
-// NEAR(i) near it: of nodes 1, 2, 3 the nearest; and whenever a node k is inserted whose neighbours then
-// include NEAR(i), and which is strictly nearer, k. The search for i begins at NEAR(i), and that decides
-// which slots its neighbours get. So the values must be the original's, also where there are nearer nodes.
+// Start nodes of TRMESH's searches. The original keeps, for every node i not yet inserted, a node NEAR(i):
+// initially the nearest of nodes 1, 2, 3. When a node k is inserted that becomes a neighbour of NEAR(i) and
+// is strictly nearer to i, NEAR(i) = k. The search for i begins at NEAR(i), which affects the slots that its
+// neighbours get. So NEAR must equal the original's, even if other nodes are nearer.
 
 #include <algorithm>
 #include <cmath>
@@ -16,26 +16,26 @@
 
 namespace pstripack {
 
-/// How NEAR(i) is found. The same values either way.
+/// Method to find NEAR(i). All give the same values.
 enum class StartSearch {
   adaptive,    ///< simulated, until that is clearly slower than in random order
   simulated,   ///< by the original's bookkeeping
   by_location  ///< by location in the triangulation, for those nodes for which it is safe
 };
 
-/// The nodes that wait for their insertion, by NEAR, with their coordinates: what takes the time is to
-/// compare them with new nodes.
+/// The nodes that wait for insertion, grouped by NEAR, with their coordinates: comparing them with new nodes
+/// takes most of the time.
 ///
 ///     | of 1 |   | of 2 | | of 3 |  ...  | of k |         free         |
 ///
-/// Those that move to a new node are copied to the end; the gaps are closed when the free part is used up,
-/// which in random order happens a dozen times.
+/// Nodes that move to a new NEAR are copied to the end; gaps are closed when the free part is used up, about
+/// a dozen times in random order.
 template <class Real, class Int>
 class WaitingNodes {
  public:
   using Lists = InsertionLists<Real, Int>;
 
-  /// Of nodes 4..n, which lie in `lists`, where 1, 2 and 3 are inserted.
+  /// For nodes 4..n, which are stored in `lists`; 1, 2 and 3 are inserted.
   WaitingNodes(Int n, const Lists& lists)
       : lists_(lists), item_(2 * index(n)), range_(index(n) + 1), near_(index(n) + 1) {
     std::size_t counts[4] = {};
@@ -53,15 +53,15 @@ class WaitingNodes {
   }
 
   Int near(Int i) const { return near_[index(i)]; }
-  /// For a node that will be inserted soon.
+  /// Prefetches a node that will be inserted soon.
   [[gnu::always_inline]] void prefetch(Int i) const {
     __builtin_prefetch(item_.data() + range_[index(near(i))].begin);
   }
-  /// So far.
+  /// Number of comparisons so far.
   std::int64_t comparisons() const { return comparisons_; }
 
-  /// Node k, the last one, has been inserted, and waits no longer: those of its neighbours' nodes that are
-  /// nearer to it move to k. Returns the largest cosine of their distances from k, -2 without any.
+  /// Call after inserting node k, which no longer waits: waiting nodes of its neighbours that are nearer to k
+  /// move to k. Returns the largest cosine of their distances from k, -2 if there are none.
   Real compare_with(Int k) {
     make_room(k);
     const Vector<Real> p = lists_[k];
@@ -78,7 +78,7 @@ class WaitingNodes {
         const bool waits = item->node > k, is_nearer = to_k > dot(item->position, q);
         if (is_nearer) near_[index(item->node)] = k;
         largest = is_nearer && to_k > largest ? to_k : largest;
-        // Which way an item goes is random: it is written to both, without a branch.
+        // The destination of an item is unpredictable: write it to both, without a branch.
         *moving = *item;
         moving += waits & is_nearer ? 1 : 0;
         *staying = *item;
@@ -116,7 +116,7 @@ class WaitingNodes {
 
   static std::size_t index(Int node) { return static_cast<std::size_t>(node); }
 
-  /// For all that may move to k, and one more, which is written but does not count.
+  /// Room for all nodes that may move to k, plus one that is written but not counted.
   void make_room(Int k) {
     std::size_t most = 1;
     lists_.for_each_neighbour(k, [&](Int j) { most += range_[index(j)].end - range_[index(j)].begin; });
@@ -158,7 +158,7 @@ class NodeGrid {
     const Cell cell = cell_of(p);
     for (int level = 0; level < levels_; ++level) node_[place(cell, level)] = node;
   }
-  /// The last node of the smallest cell round p that has one; node 1 if none has.
+  /// The last node of the smallest non-empty cell around p; node 1 if there is none.
   template <class Real>
   Int near(const Vector<Real>& p) const {
     const Cell cell = cell_of(p);
@@ -232,7 +232,7 @@ class SettledNodes {
     for (Int k = 1; k <= lists.size(); ++k) grid_.insert(k, lists[k]);
   }
 
-  /// Node k, the last one, has been inserted.
+  /// Call after inserting node k.
   void add(Int k) {
     grid_.insert(k, lists_[k]);
     lists_.for_each_neighbour(k, [&](Int neighbour) {
@@ -247,9 +247,9 @@ class SettledNodes {
     return events_.size() > std::min(kMostEvents * last_event_.size(), kMostNumbers);
   }
 
-  /// Is this cosine of a node's distance from its NEAR large enough for it to be settled?
+  /// True if this cosine of a node's distance from its NEAR is large enough for it to be settled.
   static bool may_settle(Real cosine) { return cosine > Real(kCloserThan90); }
-  /// Settles node i at p if `near`, its NEAR, is its nearest node. It is, if no neighbour of `near` is
+  /// Settles node i at p if `near`, its NEAR, is its nearest node, that is, if no neighbour of `near` is
   /// nearer.
   bool settle(Int i, const Vector<Real>& p, Int near) {
     const Real cosine = dot(p, lists_[near]);
@@ -263,7 +263,7 @@ class SettledNodes {
 
   /// NEAR of the settled node i at p.
   Int near(Int i, const Vector<Real>& p) {
-    // To the nearest node, nearer and nearer. From 90 degrees and more away the end might be another one.
+    // Descend to the nearest node. From a start 90 degrees away or more the descent might end elsewhere.
     const Settled settled = settled_[index(i)];
     Int nearest = grid_.near(p);
     if (dot(p, lists_[settled.near]) > dot(p, lists_[nearest])) nearest = settled.near;
@@ -278,7 +278,7 @@ class SettledNodes {
         }
       });
     }
-    // All that are equally near: any two are joined by arcs between them.
+    // All equally near nodes: arcs between them join any two.
     Int equal[kMostEqual] = {nearest}, first = nearest;
     int count = 1;
     for (int visited = 0; visited < count; ++visited)
@@ -295,19 +295,20 @@ class SettledNodes {
  private:
   static constexpr double kTie = 0x1p-40, kCloserThan90 = 0x1p-20;
   static constexpr int kMostEqual = 32;
-  static constexpr std::size_t kMostEvents = 32;  ///< a node
+  static constexpr std::size_t kMostEvents = 32;  ///< per node
   /// NEAR of a node when it was settled, 0 = it is not, and the number of nodes then.
   struct Settled {
     Int near, at;
   };
-  /// Node k was inserted, and the node that this is kept for was a neighbour of k.
+  /// Node k was inserted and became a neighbour of the node that owns this event.
   struct Event {
     Int k, previous;
   };
 
   static std::size_t index(Int node) { return static_cast<std::size_t>(node); }
 
-  /// What the original's comparisons make of NEAR = `near` after the insertion of node `since`.
+  /// NEAR as the original's comparisons give it, starting from NEAR = `near` after the insertion of node
+  /// `since`.
   Int compared(const Vector<Real>& p, Int near, Int since) {
     for (;;) {
       later_.clear();

@@ -1,5 +1,7 @@
-// GETNP beside a search of all nodes, for all kinds of numbers. The lists, LEND too, and the nodes lie in
-// memory that cannot be written.
+// GETNP compared with a search of all nodes; TRFIND and NEARND on lists in two orders of the slots. For all
+// kinds of numbers. The lists, including LEND, and the nodes lie in read-only memory.
+
+#include "stripack/search.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +12,6 @@
 #include <vector>
 
 #include "point_sets.h"
-#include "stripack/search.h"
 #include "support/guarded.h"
 #include "trmesh/trmesh.h"
 
@@ -72,13 +73,13 @@ struct Mesh {
     for (Guarded<Int>* array : {&list, &lptr, &lend}) array->make_read_only();
   }
   NextNearestStatus next(Int l, Int* npts, Real& distance) {
-    return next_nearest(ListsView<Int>{0, list.data(), lptr.data(), lend.data(), 0},
-                        Nodes<Real>{x.data(), y.data(), z.data()}, l, npts, distance);
+    ListsView<Int> without_count = lists();
+    without_count.n = 0;
+    return next_nearest(without_count, nodes(), l, npts, distance);
   }
-  Real distance(Int a, Int b) {
-    const Nodes<Real> nodes{x.data(), y.data(), z.data()};
-    return -dot(nodes[b], nodes[a]);
-  }
+  ListsView<Int> lists() { return {n, list.data(), lptr.data(), lend.data(), 0}; }
+  Nodes<Real> nodes() { return {x.data(), y.data(), z.data()}; }
+  Real distance(Int a, Int b) { return -dot(nodes()[b], nodes()[a]); }
 
   std::size_t n;
   Guarded<Real> x, y, z;
@@ -121,8 +122,8 @@ TYPED_TEST(NextNearest, GivesAllNodesByDistance) {
     }
 }
 
-/// Any nodes may be given, in any order: also such as meet in the table, as equal steps in number do in one
-/// that takes the last bits.
+/// Any nodes may be given, in any order: also numbers that collide in the table, as equally spaced ones do in
+/// a table indexed by the last bits.
 TYPED_TEST(NextNearest, IsTheNearestNeighbourOfAnyGivenNodes) {
   using Real = typename TypeParam::Real;
   using Int = typename TypeParam::Int;
@@ -160,7 +161,7 @@ TYPED_TEST(NextNearest, IsTheNearestNeighbourOfAnyGivenNodes) {
     }
 }
 
-/// Wherever the wrong number stands; and no number is followed before all have been looked at.
+/// Wherever the wrong number stands; all are checked before any is used.
 TYPED_TEST(NextNearest, RefusesWrongNodes) {
   using Real = typename TypeParam::Real;
   using Int = typename TypeParam::Int;
@@ -203,5 +204,48 @@ TYPED_TEST(NextNearest, EndsInListsThatLoop) {
         EXPECT_EQ(distance, 5);
       }
     }
+  }
+}
+
+/// What TRFIND and NEARND answer depends on the lists, not on the slots that hold them: where a node's
+/// neighbours fill consecutive slots they are looked at together.
+TYPED_TEST(NextNearest, SearchesAnswerAlikeInAnySlots) {
+  using Real = typename TypeParam::Real;
+  using Int = typename TypeParam::Int;
+  for (const char* const set :
+       {"random", "cap", "cap:0.001", "latlon", "icosahedral", "cubed-sphere", "ring"}) {
+    const std::vector<Point> points = point_sets::make(set, 162);
+    Mesh<TypeParam> canonical(points), shuffled(points, Slots::shuffled);
+    canonical.make_read_only();
+    shuffled.make_read_only();
+    const auto n = static_cast<Int>(points.size());
+    std::vector<Vector<Real>> places;  // nodes, middles of arcs, far sides, and anywhere
+    const auto add = [&](const Vector<Real>& p) { places.push_back(p); };
+    for (Int k = 1; k <= n; k += 7) {
+      const Vector<Real> a = canonical.nodes()[k], b = canonical.nodes()[n + 1 - k];
+      add(a);
+      add({a.x + b.x, a.y + b.y, a.z + b.z});
+      add({-a.x, -a.y, -a.z});
+    }
+    for (const Point& p : point_sets::make("random", 40))
+      add({static_cast<Real>(p.x), static_cast<Real>(p.y), static_cast<Real>(p.z)});
+    for (const Vector<Real>& p : places)
+      for (Int start = 1; start <= n; start += 5) {
+        Real b[2][3] = {}, angle[2] = {};
+        Location<Int> at[2] = {};
+        Int nearest[2] = {};
+        int k = 0;
+        for (Mesh<TypeParam>* const mesh : {&canonical, &shuffled}) {
+          at[k] = trfind(start, p, mesh->lists(), mesh->nodes(), b[k][0], b[k][1], b[k][2]);
+          nearest[k] = nearnd(p, start, mesh->lists(), mesh->nodes(), angle[k]);
+          ++k;
+        }
+        ASSERT_EQ(at[0].i1, at[1].i1) << set << " from " << start;
+        ASSERT_EQ(at[0].i2, at[1].i2) << set << " from " << start;
+        ASSERT_EQ(at[0].i3, at[1].i3) << set << " from " << start;
+        for (int i = 0; i < 3; ++i) ASSERT_EQ(b[0][i], b[1][i]) << set << " from " << start;
+        ASSERT_EQ(nearest[0], nearest[1]) << set << " from " << start;
+        ASSERT_EQ(angle[0], angle[1]) << set << " from " << start;
+      }
   }
 }
