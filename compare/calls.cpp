@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "capi/recorded_block.h"
-#include "stripack/trmesh.h"
+#include "lists/limits.h"
+#include "observe/recorded_block.h"
 
 namespace comparison {
 namespace {

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "stripack/trmesh.h"
+#include "lists/limits.h"
 
 namespace comparison {
 namespace {

@@ -10,8 +10,8 @@
 
 #include "commands.h"
 #include "list_files.h"
+#include "lists/adjacency_lists.h"
 #include "mesh/triangulation.h"
-#include "stripack/adjacency_lists.h"
 
 namespace comparison {
 namespace {

@@ -18,9 +18,10 @@
 #include <system_error>
 #include <utility>
 
+#include "base/shared_area.h"
 #include "child_process.h"
 #include "median.h"
-#include "pool/shared_area.h"
+#include "pool/area_layout.h"
 
 namespace comparison {
 namespace {
@@ -59,12 +60,11 @@ struct Arrays {
   explicit Arrays(Call* call) : n(static_cast<std::size_t>(call->n)), slots(6 * n - 12) {
     const pstripack::AreaLayout layout(call->n, sizeof(double));
     void* const area = reinterpret_cast<unsigned char*>(call) + kFirst;
-    x = layout.coordinate<double>(area, 0);
-    y = layout.coordinate<double>(area, 1);
-    z = layout.coordinate<double>(area, 2);
-    list = layout.list(area);
-    lptr = layout.lptr(area);
-    lend = layout.lend(area);
+    double** const coordinates[] = {&x, &y, &z};
+    for (int axis = 0; axis < 3; ++axis)
+      *coordinates[axis] = static_cast<double*>(layout.coordinate(area, axis));
+    const pstripack::ListArrays lists = layout.call(area, nullptr).lists;
+    list = lists.list, lptr = lists.lptr, lend = lists.lend;
   }
   static std::size_t bytes(std::size_t n) {
     return kFirst + pstripack::AreaLayout(static_cast<std::int32_t>(n), sizeof(double)).size();

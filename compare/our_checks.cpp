@@ -7,7 +7,7 @@
 
 #include "capi/pstripack.h"
 #include "exact.h"
-#include "stripack/adjacency_lists.h"
+#include "lists/adjacency_lists.h"
 
 namespace comparison {
 namespace {

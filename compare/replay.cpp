@@ -20,8 +20,8 @@
 #include "comparison.h"
 #include "json_files.h"
 #include "list_files.h"
+#include "lists/adjacency_lists.h"
 #include "show_result.h"
-#include "stripack/adjacency_lists.h"
 
 namespace comparison {
 namespace {

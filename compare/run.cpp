@@ -11,12 +11,12 @@
 
 #include "case_files.h"
 #include "json_files.h"
+#include "lists/limits.h"
 #include "node_sets.h"
 #include "original.h"
 #include "plot.h"
 #include "point_sets.h"
 #include "show_result.h"
-#include "stripack/trmesh.h"
 
 namespace comparison {
 namespace {

@@ -22,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "base/shared_area.h"
 #include "csv_file.h"
 #include "in_a_row.h"
 #include "median.h"
@@ -29,9 +30,9 @@
 #include "mpi/collective_trmesh.h"
 #include "mpi/distributed_mesh.h"
 #include "point_sets.h"
-#include "pool/shared_area.h"
+#include "pool/area_layout.h"
 #include "printed.h"
-#include "stripack/trmesh.h"
+#include "trmesh/trmesh.h"
 
 namespace {
 
@@ -66,10 +67,10 @@ class SerialCall {
     if (ranks_.rank() == 0) {
       const double start = cpu_seconds();
       std::int32_t lnew = 0;
-      if (trmesh(static_cast<std::int32_t>(n_), x_.data(), y_.data(), z_.data(), list_.data(), lptr_.data(),
-                 lend_.data(), &lnew)
-              .ier != 0)
-        throw std::runtime_error("these nodes cannot be triangulated");
+      const TrmeshCall call{static_cast<std::int32_t>(n_),
+                            {x_.data(), y_.data(), z_.data()},
+                            {list_.data(), lptr_.data(), lend_.data(), &lnew}};
+      if (trmesh(call).ier != 0) throw std::runtime_error("these nodes cannot be triangulated");
       spent = cpu_seconds() - start;
     }
     MPI_Request all_are_here;
@@ -187,8 +188,8 @@ class PoolCall {
   PoolCall(MpiCommunicator& ranks, const std::vector<Point>& points_on_root, bool shared) : ranks_(ranks) {
     std::int64_t n = static_cast<std::int64_t>(points_on_root.size());
     ranks.broadcast(&n, sizeof n, 0);
-    n_ = static_cast<std::int32_t>(n);
-    const AreaLayout layout(n_, sizeof(double));
+    const AreaLayout layout(static_cast<std::int32_t>(n), sizeof(double));
+    double* x[3] = {};
     if (shared)
       area_ = area_of_all(ranks.handle(), layout.size());
     else if (ranks.rank() == 0)
@@ -196,32 +197,30 @@ class PoolCall {
     if (shared) arrays_ = Arrays::shared;
     if (shared || ranks.rank() == 0) {
       if (area_.size() < layout.size()) throw std::runtime_error("no shared memory");
-      for (int axis = 0; axis < 3; ++axis) x_[axis] = layout.coordinate<double>(area_.data(), axis);
-      list_ = layout.list(area_.data());
-      lptr_ = layout.lptr(area_.data());
-      lend_ = layout.lend(area_.data());
+      call_ = layout.call(area_.data(), nullptr);
+      for (int axis = 0; axis < 3; ++axis)
+        x[axis] = static_cast<double*>(layout.coordinate(area_.data(), axis));
     }
     for (std::size_t i = 0; i < points_on_root.size(); ++i) {
-      x_[0][i] = points_on_root[i].x;
-      x_[1][i] = points_on_root[i].y;
-      x_[2][i] = points_on_root[i].z;
+      x[0][i] = points_on_root[i].x;
+      x[1][i] = points_on_root[i].y;
+      x[2][i] = points_on_root[i].z;
     }
     std::int64_t ready = 0;
     ranks.all_min(&ready, 1);
   }
   void operator()(GroupCost* cost) const {
     std::int32_t lnew = 0;
-    collective_trmesh<double>(ranks_, arrays_, list_ != nullptr ? n_ : 0, x_[0], x_[1], x_[2], list_, lptr_,
-                              lend_, &lnew, cost);
+    TrmeshCall call = call_;
+    call.lists.lnew = &lnew;
+    collective_trmesh(ranks_, arrays_, call, cost);
   }
 
  private:
   MpiCommunicator& ranks_;
   SharedArea area_;
-  Arrays arrays_ = Arrays::on_rank_0;
-  std::int32_t n_ = 0;
-  double* x_[3] = {};
-  std::int32_t *list_ = nullptr, *lptr_ = nullptr, *lend_ = nullptr;
+  Arrays arrays_ = Arrays::on_one_rank;
+  TrmeshCall call_;
 };
 
 void run_on_ranks(const Settings& s) {

@@ -18,9 +18,9 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/workspace.h"
+#include "base/workspace.h"
 #include "mesh/delaunay.h"
-#include "mesh/rings.h"
+#include "mesh/ring_table.h"
 #include "parallel/partition.h"
 #include "parallel/patch.h"
 #include "parallel/places.h"

@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "capi/recorded_block.h"
+#include "observe/recorded_block.h"
 #include "point_sets.h"
 #include "support/expect.h"
 #include "support/this_program.h"

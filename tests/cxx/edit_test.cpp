@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "lists/adjacency_lists.h"
 #include "point_sets.h"
-#include "stripack/adjacency_lists.h"
 #include "stripack/node_edit.h"
 
 using namespace pstripack;

@@ -1,6 +1,6 @@
 // The distance of lists from the exact mesh: for exact meshes, and after changes with known effect.
 
-#include "stripack/exact_difference.h"
+#include "trmesh/exact_difference.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include "point_sets.h"
 #include "stripack/arc_edit.h"
 #include "stripack/list_edit.h"
-#include "stripack/trmesh.h"
+#include "trmesh/trmesh.h"
 
 using namespace pstripack;
 

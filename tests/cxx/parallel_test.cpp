@@ -13,8 +13,8 @@
 #include <string>
 #include <tuple>
 
+#include "base/workspace.h"
 #include "distributions.h"
-#include "geometry/workspace.h"
 #include "parallel/coincidence.h"
 #include "parallel/partition.h"
 #include "parallel/patch.h"
@@ -626,8 +626,10 @@ TEST(Homes, OfDirectionsAreForLengthsAboutOneToo) {
   const auto partition =
       std::make_shared<Partition>(PartitionKind::bisection, 2, point_sets::make("random", 100, 1), 100);
   const auto are_for = [&](Lengths last, Lengths now) {
-    return Homes(partition, PartitionKind::bisection, {0, 1, 2}, Places(last, 1e-7))
-        .are_for(PartitionKind::bisection, {0, 1, 2}, now);
+    Division division(Places(last, 1e-7));
+    division.partition = partition;
+    for (int rank = 0; rank < 2; ++rank) division.patches.add(1);
+    return Homes(division, PartitionKind::bisection).are_for(PartitionKind::bisection, division.patches, now);
   };
   EXPECT_TRUE(are_for(Lengths::as_given, Lengths::as_given));
   EXPECT_TRUE(are_for(Lengths::directions, Lengths::directions));

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "point_sets.h"
-#include "stripack/trmesh.h"
 #include "support/guarded.h"
+#include "trmesh/trmesh.h"
 
 using namespace pstripack;
 
@@ -48,10 +48,11 @@ struct Mesh {
     }
     std::vector<std::int32_t> a(list.size()), b(list.size()), c(n);
     std::int32_t end = 0;
-    EXPECT_EQ(
-        trmesh(static_cast<std::int32_t>(n), x.data(), y.data(), z.data(), a.data(), b.data(), c.data(), &end)
-            .ier,
-        0);
+    EXPECT_EQ(trmesh({static_cast<std::int32_t>(n),
+                      {x.data(), y.data(), z.data()},
+                      {a.data(), b.data(), c.data(), &end}})
+                  .ier,
+              0);
     std::vector<std::size_t> place(static_cast<std::size_t>(end - 1));
     std::iota(place.begin(), place.end(), std::size_t{0});
     point_sets::Random random(1);

@@ -8,14 +8,14 @@
 #include <set>
 #include <string>
 
+#include "lists/adjacency_lists.h"
 #include "mesh/validate.h"
 #include "point_sets.h"
-#include "stripack/adjacency_lists.h"
-#include "stripack/trmesh.h"
 #include "support/cases.h"
 #include "support/guarded.h"
 #include "support/judge.h"
 #include "support/trmesh.h"
+#include "trmesh/trmesh.h"
 
 namespace {
 
@@ -551,8 +551,10 @@ TEST(Validator, FindsADefectOfTheLastNodes) {
   const int n = static_cast<int>(nodes.size());
   Lists lists{std::vector<int>(6 * nodes.size() - 12), std::vector<int>(6 * nodes.size() - 12),
               std::vector<int>(nodes.size())};
-  const auto result = pstripack::trmesh(n, c.x.data(), c.y.data(), c.z.data(), lists.list.data(),
-                                        lists.lptr.data(), lists.lend.data(), &lists.lnew);
+  const auto result =
+      pstripack::trmesh({n,
+                         {c.x.data(), c.y.data(), c.z.data()},
+                         {lists.list.data(), lists.lptr.data(), lists.lend.data(), &lists.lnew}});
   ASSERT_EQ(result.ier, 0);
   EXPECT_TRUE(judge(nodes, lists));
   nodes.back() = {0, 0, -1};

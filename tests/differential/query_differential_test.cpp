@@ -14,7 +14,7 @@
 #include "child_process.h"
 #include "differential/differential.h"
 #include "differential/routines.h"
-#include "stripack_calls.h"
+#include "support/stripack_calls.h"
 
 using namespace differential;
 

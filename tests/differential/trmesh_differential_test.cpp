@@ -16,8 +16,8 @@
 #include "differential/reference_trmesh.h"
 #include "differential/routines.h"
 #include "point_sets.h"
-#include "stripack/original_order.h"
-#include "stripack/trmesh.h"
+#include "stripack/original/original_order.h"
+#include "trmesh/trmesh.h"
 
 using namespace differential;
 using namespace pstripack;
@@ -484,8 +484,10 @@ TEST(Bitwise, TRMESH_r4) {
     if (ier < 0) continue;
     Triangulation ours{0, Lists(nodes.n())};
     kept_seeds() = {};
-    const TrmeshResult result = trmesh(nodes.n(), x.data(), y.data(), z.data(), ours.lists.list.data(),
-                                       ours.lists.lptr.data(), ours.lists.lend.data(), &ours.lists.lnew);
+    const TrmeshResult result =
+        trmesh({nodes.n(),
+                {x.data(), y.data(), z.data()},
+                {ours.lists.list.data(), ours.lists.lptr.data(), ours.lists.lend.data(), &ours.lists.lnew}});
     ASSERT_EQ(result.ier, ier) << nodes.name;
     const auto slots = static_cast<std::size_t>(reference.lnew) - 1;
     const auto are_equal = [](const std::vector<int>& a, const std::vector<int>& b, std::size_t count) {

@@ -11,8 +11,8 @@
 #include <thread>
 
 #include "capi/pstripack.h"
-#include "capi/stripack_calls.h"
-#include "capi/text_calls.h"
+#include "support/stripack_calls.h"
+#include "support/text_calls.h"
 #include "injection.h"
 #include "point_sets.h"
 #include "support/lists.h"

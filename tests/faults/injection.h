@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/workspace.h"
+#include "base/workspace.h"
 #include "support/failing_allocation.h"
 
 /// An array that a call writes, with what it holds before.

@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
+#include "base/workspace.h"
 #include "capi/pstripack_mpi.h"
-#include "geometry/workspace.h"
 #include "mpi/mpi_test.h"
 #include "point_sets.h"
 #include "support/expect.h"

@@ -22,9 +22,9 @@
 
 #include "point_sets.h"
 #include "small_pools.h"
-#include "stripack/trmesh.h"
 #include "support/exact.h"
 #include "support/judge.h"
+#include "trmesh/trmesh.h"
 #ifdef HAVE_CGAL
 #include "support/cgal_hull.h"
 #endif
@@ -271,7 +271,7 @@ Outputs call_trmesh(const Pool& pool, const Case& drawn) {
   }
   Outputs out;
   const pstripack::TrmeshResult result =
-      pstripack::trmesh<double, std::int32_t>(drawn.n, x, y, z, out.list, out.lptr, out.lend, &out.lnew);
+      pstripack::trmesh({drawn.n, {x, y, z}, {out.list, out.lptr, out.lend, &out.lnew}});
   out.ier = result.ier;
   out.node = static_cast<std::int32_t>(result.node);
   out.other = static_cast<std::int32_t>(result.other);

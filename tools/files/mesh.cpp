@@ -8,7 +8,8 @@
 #include <numeric>
 #include <utility>
 
-#include "geometry/parallel_for.h"
+#include "base/parallel_for.h"
+#include "lists/limits.h"
 #include "mesh/delaunay.h"
 #include "stripack/list_queries.h"
 #include "stripack/triangle_list.h"
@@ -21,7 +22,7 @@ using pstripack::Triangle;
 using pstripack::Triangles;
 
 Trmesh& the_trmesh() {
-  static Trmesh trmesh = [](auto... arguments) { return pstripack::trmesh(arguments...); };
+  static Trmesh trmesh = [](const pstripack::TrmeshCall& call) { return pstripack::trmesh(call); };
   return trmesh;
 }
 
@@ -150,8 +151,9 @@ Mesh triangulate(std::vector<Point> points) {
   const Columns c(points);
   Mesh mesh = empty_mesh(std::move(points));
   const pstripack::TrmeshResult result =
-      the_trmesh()(static_cast<std::int32_t>(n), c.x.data(), c.y.data(), c.z.data(), mesh.list.data(),
-                   mesh.lptr.data(), mesh.lend.data(), &mesh.lnew);
+      the_trmesh()({static_cast<std::int32_t>(n),
+                    {c.x.data(), c.y.data(), c.z.data()},
+                    {mesh.list.data(), mesh.lptr.data(), mesh.lend.data(), &mesh.lnew}});
   if (result.ier > 0)
     throw CoincidentNodes(static_cast<std::size_t>(result.node) - 1,
                           static_cast<std::size_t>(result.other) - 1);

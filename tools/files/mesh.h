@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "files/nodes.h"
-#include "stripack/adjacency_lists.h"
-#include "stripack/trmesh.h"
+#include "lists/adjacency_lists.h"
+#include "trmesh/trmesh.h"
 
 namespace files {
 
@@ -36,11 +36,9 @@ struct CoincidentNodes : NoMesh {
   std::size_t first, second;
 };
 
-/// The TRMESH that `triangulate` calls: that of this process (stripack/trmesh.h) unless a program replaces
-/// it, for example by that of many processes.
-using Trmesh = std::function<pstripack::TrmeshResult(std::int32_t n, const double* x, const double* y,
-                                                     const double* z, std::int32_t* list, std::int32_t* lptr,
-                                                     std::int32_t* lend, std::int32_t* lnew)>;
+/// What `triangulate` calls. It is TRMESH of this process (trmesh/trmesh.h), unless a program puts that of
+/// many processes in its place.
+using Trmesh = std::function<pstripack::TrmeshResult(const pstripack::TrmeshCall&)>;
 void set_trmesh(Trmesh trmesh);
 
 /// The Delaunay triangulation of at least three nodes that all have a direction. Throws NoMesh if all of them

@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "files/nodes.h"
-#include "stripack/trmesh.h"
+#include "lists/limits.h"
 
 namespace files {
 namespace {

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include "geometry/parallel_for.h"
+#include "base/parallel_for.h"
 #include "numbers.h"
 #include "point_sets.h"
 #include "text_file.h"

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "geometry/parallel_for.h"
+#include "base/parallel_for.h"
 
 namespace files {
 namespace {

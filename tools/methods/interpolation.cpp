@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/parallel_for.h"
+#include "base/parallel_for.h"
 #include "geometry/predicates.h"
 #include "methods/sphere.h"
 #include "stripack/list_queries.h"

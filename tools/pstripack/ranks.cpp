@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "geometry/environment.h"
+#include "base/environment.h"
 
 namespace program {
 namespace {

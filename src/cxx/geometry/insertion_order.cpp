@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-#include "geometry/parallel_for.h"
+#include "base/parallel_for.h"
 
 namespace pstripack {
 namespace {

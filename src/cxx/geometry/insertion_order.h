@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/workspace.h"
 #include "geometry/point.h"
-#include "geometry/workspace.h"
 
 namespace pstripack {
 

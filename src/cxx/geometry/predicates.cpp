@@ -9,7 +9,7 @@
 #include "geometry/predicate_stages.h"
 
 // Error bounds below: u = 2^-53 is the unit roundoff of rounding to nearest, which every entry of the library
-// sets (geometry/floating_point.h). "Permanent" is the expression of a determinant with every term replaced
+// sets (base/floating_point.h). "Permanent" is the expression of a determinant with every term replaced
 // by its absolute value; it is computed alongside.
 
 namespace pstripack {

@@ -12,7 +12,7 @@
 //   (3) above(a,b,c,d) != above(b,a,c,d), except where all four lie on one great circle: both false
 //   (4) the sign behind `above` is antisymmetric under every permutation of its four arguments
 //   (5) none depends on the numbering of the nodes, on FMA or on threads; nor on the rounding mode of the
-//       program, which is left at every entry of the library (geometry/floating_point.h)
+//       program, which is left at every entry of the library (base/floating_point.h)
 //
 // Two sets of predicates share this interface; the kernel takes the set as a parameter:
 //   Coordinates  the vectors exactly as given;
@@ -35,8 +35,8 @@
 #include <cstdint>
 #include <memory>
 
+#include "base/workspace.h"
 #include "geometry/point.h"
-#include "geometry/workspace.h"
 
 namespace pstripack {
 

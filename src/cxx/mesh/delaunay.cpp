@@ -20,8 +20,8 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "base/parallel_for.h"
 #include "geometry/insertion_order.h"
-#include "geometry/parallel_for.h"
 
 namespace pstripack {
 namespace {

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/workspace.h"
 #include "geometry/predicates.h"
-#include "geometry/workspace.h"
 #include "mesh/triangulation.h"
 
 namespace pstripack {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/parallel_for.h"
+#include "base/parallel_for.h"
 
 namespace pstripack {
 namespace {

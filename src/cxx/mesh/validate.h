@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "geometry/workspace.h"
+#include "base/workspace.h"
 #include "mesh/triangulation.h"
 
 namespace pstripack {

@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/buffer.h"
-#include "geometry/workspace.h"
+#include "base/buffer.h"
+#include "base/workspace.h"
 #include "mesh/delaunay.h"
-#include "mesh/rings.h"
+#include "mesh/ring_table.h"
 #include "parallel/partition.h"
 #include "parallel/places.h"
 #include "parallel/record.h"
@@ -151,7 +151,6 @@ class Patch {
   }
 
   int id() const { return id_; }
-  std::size_t own() const { return own_; }
   std::size_t halo() const { return count_ - own_; }
   /// Different nodes in the same direction that it came upon: their numbers.
   const std::vector<std::pair<std::int64_t, std::int64_t>>& coincident() const { return coincident_; }

@@ -42,11 +42,6 @@ struct Ancillary {
 
 }  // namespace
 
-void Descriptor::reset(int fd) {
-  if (fd_ >= 0) close(fd_);
-  fd_ = fd;
-}
-
 Descriptor listen_under_new_name(std::string* name) {
   Descriptor listener(socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
   if (!listener) return {};

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "stripack/trmesh.h"
+#include "lists/limits.h"
 
 namespace pstripack {
 

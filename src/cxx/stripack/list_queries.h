@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "stripack/adjacency_lists.h"
+#include "lists/adjacency_lists.h"
 
 namespace pstripack {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "stripack/list_walk.h"
+#include "lists/list_walk.h"
 
 namespace pstripack {
 namespace {

@@ -3,7 +3,7 @@
 // int64_t. They compose the records; the caller writes them. Words are ours; columns and page breaks are
 // those of the original. Throw std::bad_alloc.
 
-#include "stripack/adjacency_lists.h"
+#include "lists/adjacency_lists.h"
 #include "stripack/expressions.h"
 #include "stripack/records.h"
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "stripack/list_walk.h"
+#include "lists/list_walk.h"
 
 namespace pstripack {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include "stripack/adjacency_lists.h"
+#include "lists/adjacency_lists.h"
 #include "stripack/expressions.h"
 #include "stripack/records.h"
 

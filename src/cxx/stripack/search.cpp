@@ -10,7 +10,7 @@
 
 #include "geometry/predicates.h"
 #include "stripack/list_queries.h"
-#include "stripack/original_rules.h"
+#include "stripack/original/original_rules.h"
 #include "stripack/random.h"
 #include "stripack/trfind_walk.h"
 

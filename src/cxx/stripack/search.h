@@ -2,7 +2,7 @@
 // TRFIND, NEARND, GETNP: searches in a triangulation, for (Real, Int) = (float, int32_t), (double, int32_t),
 // (double, int64_t). They always return and do not change the triangulation.
 
-#include "stripack/adjacency_lists.h"
+#include "lists/adjacency_lists.h"
 #include "stripack/expressions.h"
 #include "stripack/list_edit.h"
 

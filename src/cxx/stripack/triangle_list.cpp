@@ -6,10 +6,10 @@
 #include <type_traits>
 #include <vector>
 
-#include "geometry/buffer.h"
-#include "geometry/parallel_for.h"
+#include "base/buffer.h"
+#include "base/parallel_for.h"
+#include "lists/rings.h"
 #include "stripack/list_queries.h"
-#include "stripack/rings.h"
 
 namespace pstripack {
 namespace {

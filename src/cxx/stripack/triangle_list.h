@@ -1,7 +1,7 @@
 #pragma once
 // TRLIST, TRLIST2, BNODES: triangles and boundary of a triangulation. For Int = int32_t, int64_t.
 
-#include "stripack/adjacency_lists.h"
+#include "lists/adjacency_lists.h"
 
 namespace pstripack {
 

@@ -8,12 +8,12 @@
 #include <initializer_list>
 #include <vector>
 
-#include "geometry/buffer.h"
-#include "geometry/parallel_for.h"
+#include "base/buffer.h"
+#include "base/parallel_for.h"
+#include "base/workspace.h"
 #include "geometry/predicates.h"
-#include "geometry/workspace.h"
+#include "lists/rings.h"
 #include "stripack/list_queries.h"
-#include "stripack/rings.h"
 
 namespace pstripack {
 

@@ -2,7 +2,7 @@
 // CRLIST, CIRCUM: the Voronoi diagram of a triangulation. For
 // (Real, Int) = (float, int32_t), (double, int32_t), (double, int64_t).
 
-#include "stripack/adjacency_lists.h"
+#include "lists/adjacency_lists.h"
 #include "stripack/expressions.h"
 
 namespace pstripack {
