@@ -49,7 +49,7 @@ run() {
   "$@" -n 60000 -i 3 -d bump -o "$work/$name"
 }
 run alone $model
-run pool $build/src/cxx/mpi/pstripack-run -n 4 --oversubscribe -- $model
+run pool $build/src/cxx/pool/pstripack-run -n 4 --oversubscribe -- $model
 $build/compare/stripack-compare mesh $work/alone $work/pool
 run distributed mpirun -n 2 --oversubscribe --bind-to none $build/examples/scvt_mpi/scvt_mpi
 $build/compare/stripack-compare mesh $work/alone $work/distributed

@@ -3,11 +3,22 @@
 set -eu
 cd "$(dirname "$0")"
 build=build
+. tests/stages.sh
 
-sh cmake/install-packages.sh
+configure() {
+  [ -f $build/CMakeCache.txt ] || generator="-G Ninja"
+  # shellcheck disable=SC2086  # two words on purpose
+  cmake -S . -B $build ${generator:-} -DCMAKE_BUILD_TYPE=Release
+}
+run_tests() {
+  code=0
+  # More tests than processors: some wait.
+  ctest --test-dir $build --output-on-failure --parallel $(($(nproc) * 3 / 2)) --output-junit tests.xml "$@" || code=$?
+  slowest $build/tests.xml
+  return $code
+}
 
-[ -f $build/CMakeCache.txt ] || generator="-G Ninja"
-# shellcheck disable=SC2086  # two words on purpose
-cmake -S . -B $build ${generator:-} -DCMAKE_BUILD_TYPE=Release
-cmake --build $build --parallel "$(nproc)"
-ctest --test-dir $build --output-on-failure --parallel "$(nproc)" "$@"
+stage "install packages" sh cmake/install-packages.sh
+stage configure configure
+stage build cmake --build $build --parallel "$(nproc)"
+stage tests run_tests "$@"

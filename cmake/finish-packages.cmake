@@ -1,7 +1,7 @@
-# Run by cpack between installing and packing (packages.cmake): what Debian's policy asks of each package beside the
+# Run by cpack between installing and packing (packages.cmake): what Debian's policy requires of each package beside the
 # installed files: copyright and changelog, compressed man pages, archives without debugging symbols.
 
-# cpack's own lists of what it installed, which name places in the system: not for the target `uninstall`.
+# cpack's own lists of installed files name places in the system: remove them, they are not for the target `uninstall`.
 foreach(component IN LISTS CPACK_COMPONENTS_ALL)
   file(REMOVE ${CPACK_PSTRIPACK_BINARY_DIR}/install_manifest_${component}.txt)
 endforeach()
@@ -13,8 +13,8 @@ find_program(GZIP gzip REQUIRED)
 find_program(STRIP strip REQUIRED)
 set(source ${CPACK_PSTRIPACK_SOURCE_DIR})
 
-# The licence as a paragraph of Debian's format: indented, empty lines as dots; its title and the line of copyright
-# stand in fields.
+# The licence as a paragraph of Debian's format: indented, with dots for empty lines; its title and copyright line are
+# fields.
 file(READ ${source}/LICENSE licence)
 string(REGEX MATCH "Copyright \\(c\\) ([^\n]+)\n+(.*)" _ "${licence}")
 set(holder ${CMAKE_MATCH_1})
@@ -30,7 +30,7 @@ License: BSD-3-Clause
  ${licence}
 ")
 
-# The tools contain these libraries, whose licences ask to be told.
+# The tools contain these libraries, whose licences require a notice.
 set(copyright_of_tools "${copyright}")
 foreach(library libcli11-dev nlohmann-json3-dev)
   if(EXISTS /usr/share/doc/${library}/copyright)
@@ -39,7 +39,7 @@ foreach(library libcli11-dev nlohmann-json3-dev)
   endif()
 endforeach()
 
-# Of the libraries: where lintian errs.
+# For the libraries: false reports of lintian.
 set(overrides_of_libraries
   "# They call libpstripack, libgfortran and nothing else.\n"
   "library-not-linked-against-libc\n"

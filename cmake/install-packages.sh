@@ -1,6 +1,6 @@
 #!/bin/sh
-# Installs what PSTRIPACK is built, tested and compared with, on Debian 12, and the packages that are named. Does
-# nothing, and asks for no rights, where all of it is there already. Called by quickstart.sh and test.sh.
+# Installs the packages with which PSTRIPACK is built, tested and compared, on Debian 12, and those named as arguments.
+# Does nothing, and needs no rights, if all are installed. Called by quickstart.sh and test.sh.
 # Usage: install-packages.sh [package...]
 set -eu
 

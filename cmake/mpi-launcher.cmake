@@ -1,11 +1,13 @@
-# How tests, and programs that measure, start ranks, by whichever MPI was found:
+# How tests and measuring programs start ranks, with any MPI:
 #   mpiexec             command and options: more ranks than processors, bound to none
 #   mpiexec_words       the same as words for a shell
-#   mpi_environment     for tests: without it Open MPI refuses to run as root
+#   mpi_environment     for tests: without it Open MPI refuses to run as root, and ranks that wait take processors from
+#                       those that compute
 #   mpi_is_open_mpi     Hydra, the launcher of MPICH and Intel MPI, has other options, and needs none of these
-#   mpi_patience        how many times as long tests may take: MPICH's ranks spin while they wait, on processors that
+#   mpi_patience        factor of the time limits of tests: MPICH's ranks spin while they wait, on processors that
 #                       others need
-set(mpi_environment OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1)
+#   add_mpi_test, starts_ranks: tests, below
+set(mpi_environment OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1)
 if(NOT PSTRIPACK_WITH_MPI)
   return()
 endif()
@@ -19,3 +21,46 @@ if(mpiexec_version MATCHES "Open MPI|OpenRTE")
   list(APPEND mpiexec --oversubscribe --bind-to none)
 endif()
 list(JOIN mpiexec " " mpiexec_words)
+
+# starts_ranks(test [LIMIT seconds] [PROCESSORS n] [LABELS label...] [ENVIRONMENT variable=value...]): the properties of
+# a test whose command starts ranks itself. PROCESSORS: 1 unless all ranks compute most of the time; other tests wait for
+# launchers and deadlines, and may as well wait beside each other. Those that may take longest are started first.
+function(starts_ranks test)
+  cmake_parse_arguments(arg "" "LIMIT;PROCESSORS" "LABELS;ENVIRONMENT" ${ARGN})
+  if(NOT arg_LIMIT)
+    set(arg_LIMIT 60)
+  endif()
+  if(NOT arg_PROCESSORS)
+    set(arg_PROCESSORS 1)
+  endif()
+  math(EXPR limit "${arg_LIMIT} * ${mpi_patience}")
+  set(labels mpi ${arg_LABELS})
+  set(environment ${mpi_environment} ${arg_ENVIRONMENT})
+  set_tests_properties(${test} PROPERTIES TIMEOUT ${limit} COST ${arg_LIMIT} PROCESSORS ${arg_PROCESSORS} LABELS "${labels}"
+                                          ENVIRONMENT "${environment}")
+endfunction()
+
+# add_mpi_test(test RANKS n [THREADS n] [LONG] [FOLDER path] [LIMIT, LABELS, ENVIRONMENT as above] COMMAND target argument...)
+# LONG: only `ctest -C long` runs it.
+function(add_mpi_test test)
+  cmake_parse_arguments(arg "LONG" "RANKS;THREADS;LIMIT;FOLDER" "LABELS;ENVIRONMENT;COMMAND" ${ARGN})
+  list(POP_FRONT arg_COMMAND program)
+  set(options)
+  if(arg_LONG)
+    list(APPEND options CONFIGURATIONS long)
+    list(APPEND arg_LABELS long)
+  endif()
+  if(arg_FOLDER)
+    list(APPEND options WORKING_DIRECTORY ${arg_FOLDER})
+  endif()
+  if(NOT arg_THREADS)
+    set(arg_THREADS 1)
+  endif()
+  set(processors 1)
+  if(arg_RANKS GREATER 4)
+    set(processors 2)
+  endif()
+  add_test(NAME ${test} ${options} COMMAND ${mpiexec} -n ${arg_RANKS} $<TARGET_FILE:${program}> ${arg_COMMAND})
+  starts_ranks(${test} LIMIT "${arg_LIMIT}" PROCESSORS ${processors} LABELS ${arg_LABELS}
+               ENVIRONMENT OMP_NUM_THREADS=${arg_THREADS} ${arg_ENVIRONMENT})
+endfunction()

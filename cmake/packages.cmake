@@ -1,6 +1,5 @@
 # Debian packages: `cmake --workflow --preset packages` configures for /usr, builds and packs; `cpack -G DEB` packs any
-# other build. One package a component of the install rules; what is not yet as Debian wants it, finish-packages.cmake
-# finishes.
+# other build. One package per component of the install rules; finish-packages.cmake adds what Debian requires.
 set(PSTRIPACK_PACKAGE_CONTACT "The PSTRIPACK developers <pstripack@no-address.invalid>" CACHE STRING
     "Maintainer of the packages that cpack makes: Name <address>")
 
@@ -32,8 +31,8 @@ set(CPACK_COMPONENTS_ALL "")
 # debian_package(component NAME package SECTION section SUMMARY line DESCRIPTION text
 #                [DEPENDS package...] [RECOMMENDS package...] [SUGGESTS package...] [LIBRARIES])
 #
-# LIBRARIES: it has shared libraries for others to link. Libraries of ours among the others are meant in this very
-# version.
+# LIBRARIES: it has shared libraries for others to link. Of our libraries among the others exactly this version is
+# required.
 macro(debian_package component)
   cmake_parse_arguments(arg "LIBRARIES" "NAME;SECTION;SUMMARY;DESCRIPTION" "DEPENDS;RECOMMENDS;SUGGESTS" ${ARGN})
   string(TOUPPER ${component} COMPONENT)

@@ -1,5 +1,5 @@
-# The target `uninstall`: removes the files that the last `cmake --install` wrote, which it lists in
-# install_manifest*.txt, and of their folders those that are PSTRIPACK's by their name and empty then.
+# The target `uninstall`: removes the files listed in install_manifest*.txt by the last `cmake --install`, and those of
+# their folders that have PSTRIPACK's name and are then empty.
 # Usage: cmake -DBUILD_DIR=build -P uninstall.cmake
 file(GLOB manifests ${BUILD_DIR}/install_manifest*.txt)
 if(NOT manifests)

@@ -22,15 +22,14 @@ struct Call {
   std::uint64_t process = 0;
   std::int64_t process_id = 0, number = 0, n = 0;
   std::size_t real_bytes = 8;
-  std::vector<pstripack::Point> points;  ///< empty where TRMESH refuses n without reading them
-  bool has_returned = false;             ///< false: the rest is not on record
-  std::size_t nodes = 0;                 ///< that the lists hold
+  std::vector<pstripack::Point> points;  ///< empty if TRMESH refuses n without reading them
+  bool has_returned = false;             ///< false: the rest is not recorded
+  std::size_t nodes = 0;                 ///< number of nodes in the lists
   OurRun run;
 };
 
-/// The recorded calls in the order in which they returned, then those that did not. Holds no more than the
-/// calls that are under way. Every error is a std::runtime_error that names the file, the byte and what was
-/// expected.
+/// The recorded calls in the order in which they returned, then those that did not. Keeps only unfinished
+/// calls in memory. Every error is a std::runtime_error that names the file, the byte and what was expected.
 class CallReader {
  public:
   explicit CallReader(const std::string& file);  ///< `-`: stdin
@@ -55,7 +54,7 @@ class CallReader {
 
   std::string name_;
   std::unique_ptr<std::FILE, Close> file_;
-  std::uint64_t offset_ = 0, block_ = 0;  ///< bytes read; where the block begins
+  std::uint64_t offset_ = 0, block_ = 0;  ///< bytes read; begin of the current block
   std::map<std::pair<std::uint64_t, std::int64_t>, Call> under_way_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Results of many cases: a line each for people, CSV for plots, JUnit XML for continuous integration.
+// Results of many cases: one line per case for people, CSV for plots, JUnit XML for continuous integration.
 
 #include <cstdint>
 #include <fstream>
@@ -10,7 +10,7 @@
 
 namespace comparison {
 
-/// A comparison and what it was made with.
+/// A comparison and its settings.
 struct Case {
   std::string nodes;  ///< family or file
   std::uint64_t seed;
@@ -19,13 +19,26 @@ struct Case {
   double seconds;  ///< of the whole case
 };
 
+/// How many cases ended in which way.
+struct Summary {
+  std::size_t cases = 0, equal = 0, explained = 0, no_result = 0, against_us = 0;
+
+  void add(const Result& result) {
+    ++cases;
+    ++(result.against_us()           ? against_us
+       : !result.original_returned() ? no_result
+       : result.equal()              ? equal
+                                     : explained);
+  }
+};
+
 /// The places where the meshes differ, by reason: "none", "12 ties, 3 rounding".
 std::string differences_in_short(const Result& result);
 
 void print_header_of_cases();
 void print_line(const Case& one);
 
-/// One row a call of ours.
+/// One row per call of ours.
 class CsvFile {
  public:
   /// Throws std::runtime_error if the file cannot be written; so do the other functions.
@@ -37,7 +50,7 @@ class CsvFile {
   std::ofstream out_;
 };
 
-/// One test case a case; it fails if it counts against us.
+/// One test case per case; it fails if it counts against us.
 class JunitFile {
  public:
   explicit JunitFile(const std::string& file);

@@ -9,13 +9,7 @@
 
 namespace comparison {
 namespace {
-constexpr double kLongestProbe = 2;  // seconds a call of TRMESH for six nodes
-}
-
-void add_original_options(CLI::App& app, OriginalChoice& choice) {
-  app.add_option("--original", choice.file, "shared library of your own STRIPACK instead of the one found");
-  app.add_option("--original-abi", choice.abi,
-                 "its ABI, where it cannot be found out: r8, r4, i8, 8arg, several as in r4-8arg");
+constexpr double kLongestProbe = 2;  // seconds per call of TRMESH for six nodes
 }
 
 ChosenOriginal open_original(const OriginalChoice& choice, double timeout, int real_bytes) {

@@ -1,7 +1,6 @@
 #pragma once
-// The original that the options --original and --original-abi ask for, or the one that the build found.
+// The original chosen by --original and --original-abi, or the one that the build found.
 
-#include <CLI/CLI.hpp>
 #include <string>
 
 #include "original.h"
@@ -9,17 +8,16 @@
 namespace comparison {
 
 struct OriginalChoice {
-  std::string file, abi;  ///< abi: empty if it is to be found out
+  std::string file, abi;  ///< abi: empty to detect it
 };
-void add_original_options(CLI::App& app, OriginalChoice& choice);
 
 struct ChosenOriginal {
   legacy_stripack::Original original;
   std::string name;  ///< for people: with its ABI
 };
-/// Finds out the ABI by calling TRMESH. Where that finds none it is called with reals of `real_bytes`, the
-/// kind of whoever calls; unless they chose an ABI, and stderr says so. Throws std::runtime_error if
-/// there is no original, or one of another ABI than was chosen. `timeout` is that of any call, in seconds.
+/// Detects the ABI by calling TRMESH. If that fails, uses reals of `real_bytes`, the caller's kind, and says
+/// so on stderr, unless an ABI was chosen. Throws std::runtime_error if there is no original, or if it has
+/// another ABI than the chosen one. `timeout`: seconds for any call.
 ChosenOriginal open_original(const OriginalChoice& choice, double timeout, int real_bytes = 8);
 
 }  // namespace comparison

@@ -1,20 +1,39 @@
 #pragma once
+// What stripack_compare.cpp reads from the command line, and the functions that do it. Each returns the exit
+// code.
 
-#include <CLI/CLI.hpp>
-#include <functional>
+#include <string>
+#include <vector>
+
+#include "chosen_original.h"
 
 namespace comparison {
 
 enum ExitCode { kExplained = 0, kAgainstUs = 1, kUsage = 2 };
 
-/// What the command line has chosen; returns the exit code.
-using Command = std::function<int()>;
-
 /// `stripack-compare lists A B`
-void add_lists(CLI::App& app, Command& chosen);
+struct ListsOptions {
+  std::string a, b;
+  bool bytes = false;
+};
+int compare_lists(const ListsOptions& options);
+
 /// `stripack-compare record -- PROGRAM ARGUMENTS`
-void add_record(CLI::App& app, Command& chosen);
+struct RecordOptions {
+  std::string file = "calls.rec";
+  std::vector<std::string> command;
+};
+int record(const RecordOptions& options);
+
 /// `stripack-compare replay FILE`
-void add_replay(CLI::App& app, Command& chosen);
+struct ReplayOptions {
+  std::string file;
+  OriginalChoice original;
+  std::string library;
+  double timeout = 120;
+  std::size_t show = 5;
+  std::string json_file;
+};
+int replay(const ReplayOptions& options);
 
 }  // namespace comparison

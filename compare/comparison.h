@@ -1,5 +1,5 @@
 #pragma once
-// What the original and PSTRIPACK made of the same nodes, checked exactly, and the verdict.
+// Results of the original and PSTRIPACK for the same nodes, checked exactly, and the verdict.
 
 #include <cstddef>
 #include <optional>
@@ -18,13 +18,13 @@ struct IerDifference {
   std::string text;
 };
 
-/// Everything that is known after both have run.
+/// All results after both have run.
 struct Result {
   std::string points_name, original_name;
   std::size_t n = 0;
   legacy_stripack::Triangulation original;
   Checked original_checked;
-  std::vector<OurRun> ours;  ///< the first returned, if any did
+  std::vector<OurRun> ours;  ///< the first of them returned, if any did
   Checked ours_checked;
   std::vector<std::string> broken_promises;
   std::optional<IerDifference> ier;
@@ -40,14 +40,13 @@ struct Result {
   bool equal() const { return original_returned() && !ier && (!meshes_compared || differences.none()); }
 };
 
-/// Checks and compares results on the same nodes, of ours at least one: `epsilon` is that of the original's
-/// arithmetic, `show` how many differences of each cause are described. points_name and original_name are the
-/// caller's to fill in.
+/// Checks and compares results for the same nodes, at least one of them ours: `epsilon` is that of the
+/// original's arithmetic, `show` the number of differences described per cause. The caller fills in
+/// points_name and original_name.
 Result compare(const std::vector<pstripack::Point>& points, legacy_stripack::Triangulation original,
                double epsilon, std::vector<OurRun> ours, std::size_t show);
 
-/// True if the meshes differ, and by nothing but tie rule and rounding: no reason to call the original's
-/// wrong.
+/// True if the meshes differ only by tie rule and rounding: no reason to call the original's wrong.
 bool only_ties_and_rounding(const Result& result);
 
 /// "equal", "explained", "no result", "WE ARE WRONG"

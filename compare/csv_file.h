@@ -1,5 +1,5 @@
 #pragma once
-// A table of comma-separated values that one run after the other adds its rows to.
+// A table of comma-separated values to which successive runs add rows.
 
 #include <filesystem>
 #include <fstream>
@@ -14,14 +14,14 @@ class CsvFile {
   CsvFile(const std::string& file, const std::string& columns) : name_(file) {
     std::string first;
     std::error_code ignored;
-    if (std::filesystem::is_regular_file(file, ignored))  // of a device there may be no end
+    if (std::filesystem::is_regular_file(file, ignored))  // a device may have no end
       if (std::ifstream old(file); std::getline(old, first) && first != columns)
         throw std::runtime_error(file + ":1: has other columns than " + columns);
     out_.open(file, std::ios::app);
     if (first.empty()) out_ << columns << std::endl;
     check();
   }
-  /// Written at once: a run that is interrupted keeps its rows.
+  /// Written at once, so that an interrupted run keeps its rows.
   void row(const std::string& values) {
     out_ << values << std::endl;
     check();

@@ -102,7 +102,7 @@ class Classifier {
   }
 
  private:
-  // For a result that is no mesh at all.
+  // For a result that is no mesh.
   void blame_all(Cause cause, const std::string& text) {
     result_.count[static_cast<std::size_t>(cause)].places = 1;
     result_.decisions.push_back({cause, {}, text, "", ""});
@@ -129,7 +129,7 @@ class Classifier {
   std::size_t place_of_theirs(std::size_t t) const { return place_[t]; }
   std::size_t place_of_ours(std::size_t t) const { return place_[theirs_only_.size() + t]; }
 
-  // `describe` makes the text, which takes longer than the judgement, where it is to be shown.
+  // `describe` makes the text, which takes longer than the decision, only if it is to be shown.
   template <class Describe>
   void blame(std::size_t place, Cause cause, std::vector<index_t> nodes, const Determinant* det,
              Describe describe) {
@@ -207,8 +207,9 @@ class Classifier {
     return cause;
   }
 
-  // What has no cause of its own has that of its place. A place without any: our mesh passes every exact
-  // check, so the original's must fail one there, or else the contradiction counts against us.
+  // Arcs and triangles without a cause have that of their place. If the place has none, although our mesh
+  // passes every exact check, the original's must fail one there; otherwise the contradiction counts against
+  // us.
   void judge_the_rest(const Arcs& theirs, const Arcs& own) {
     for (std::size_t t = 0; t < place_.size(); ++t) {
       const std::size_t place = place_[t];

@@ -23,13 +23,13 @@ constexpr std::size_t kCauses = 5;
 const char* name(Cause cause);        ///< for tables: "exact tie"
 const char* identifier(Cause cause);  ///< for JSON: "exact_tie"
 
-/// One decision that the original took otherwise: an arc of its result and the opposite nodes, or
-/// three nodes on its boundary.
+/// A decision that the original made differently: an arc of its result and the opposite nodes, or three nodes
+/// on its boundary.
 struct Decision {
   Cause cause;
   std::vector<pstripack::index_t> nodes;  ///< from 0: u, v, left of u-v, right of u-v; or three nodes
   std::string text;                       ///< one line, node numbers from 1
-  std::string determinant, bound;         ///< decimal; empty where there is none
+  std::string determinant, bound;         ///< decimal; empty if there is none
 };
 
 struct Count {
@@ -48,7 +48,7 @@ struct Differences {
 };
 
 struct Mesh {
-  const pstripack::Triangles& triangles;  ///< canonical; a manifold where anything is to be said about it
+  const pstripack::Triangles& triangles;  ///< canonical; a manifold if anything is known about it
   const pstripack::Verdict& verdict;
 };
 

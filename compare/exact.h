@@ -1,5 +1,6 @@
 #pragma once
-// The harness's own exact arithmetic: integers of any length, sharing no line with the predicates it judges.
+// The comparison's own exact arithmetic: integers of any length, sharing no code with the predicates it
+// judges.
 
 #include <boost/multiprecision/cpp_int.hpp>
 #include <string>

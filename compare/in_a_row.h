@@ -1,8 +1,8 @@
 #pragma once
 
-/// Where two kinds of calls are measured in turn: some of one kind in a row. call(false) does not count, then
-/// call(true) does, three times. On a virtual machine processors that have slept through the other kind's
-/// calls are slow to come back; and the first call of all has pages that are new to it.
+/// For measuring two kinds of calls alternately: some of one kind in a row. call(false) is not measured;
+/// call(true) is, three times. On a virtual machine processors that slept during the other kind's calls are
+/// slow to return; and the very first call uses new pages.
 template <class Call>
 void in_a_row(const Call& call) {
   for (const bool counts : {false, true, true, true}) call(counts);

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "stripack/trmesh.h"
+#include "lists/limits.h"
 
 namespace comparison {
 namespace {
@@ -37,7 +37,7 @@ class TextReader {
     read(call.run.lists.list, "LIST", lnew - 1);
     read(call.run.lists.lptr, "LPTR", lnew - 1);
     read(call.run.lists.lend, "LEND", n);
-    // Only now: an N that is wrong has been found out before so much memory is asked for.
+    // Allocate only now: a wrong N has been detected by here.
     for (Entries* slots : {&call.run.lists.list, &call.run.lists.lptr})
       slots->resize(6 * static_cast<std::size_t>(n) - 12, kUntouched);
     return call;

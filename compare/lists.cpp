@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <iterator>
-#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 
 #include "commands.h"
 #include "list_files.h"
+#include "lists/adjacency_lists.h"
 #include "mesh/triangulation.h"
-#include "stripack/adjacency_lists.h"
 
 namespace comparison {
 namespace {
@@ -21,11 +20,6 @@ using pstripack::Triangle;
 using pstripack::Triangles;
 
 enum ExitCode { kEqual = 0, kDifferent = 1 };
-
-struct Options {
-  std::string a, b;
-  bool bytes = false;
-};
 
 enum class Verdict { same_bytes, same_triangles, different };
 
@@ -99,7 +93,9 @@ Pair compare(const Call& a, const Call& b) {
               describe(only_in_first(in_b.triangles, in_a.triangles), "B")};
 }
 
-int compare_lists(const Options& options) {
+}  // namespace
+
+int compare_lists(const ListsOptions& options) {
   const auto next_of_a = calls_of(options.a), next_of_b = calls_of(options.b);
   std::size_t count[3] = {}, missing = 0, number = 0;
   for (;;) {
@@ -120,25 +116,6 @@ int compare_lists(const Options& options) {
       number, number == 1 ? "" : "s", count[0], count[1], count[2], missing);
   const bool equal = count[2] == 0 && missing == 0 && (count[1] == 0 || !options.bytes);
   return equal ? kEqual : kDifferent;
-}
-
-}  // namespace
-
-void add_lists(CLI::App& app, Command& chosen) {
-  const auto options = std::make_shared<Options>();
-  CLI::App* const lists = app.add_subcommand("lists", "compare the LIST, LPTR, LEND of two files");
-  lists->footer(R"(a file
-  a recording of PSTRIPACK_CHECK=FILE, or text, for each call: N and LNEW, then LIST(1..LNEW-1),
-  LPTR(1..LNEW-1) and LEND(1..N), as WRITE(10,*) N,LNEW ... makes it. Calls are compared in their order.
-
-exit code
-  0  every call has the same triangles in both files (--bytes: the same bytes)
-  1  not so
-  2  usage error or unreadable input)");
-  lists->add_option("A", options->a, "file")->required();
-  lists->add_option("B", options->b, "file")->required();
-  lists->add_flag("--bytes", options->bytes, "the lists must be the same bytes, not only the same triangles");
-  lists->callback([options, &chosen] { chosen = [options] { return compare_lists(*options); }; });
 }
 
 }  // namespace comparison

@@ -14,8 +14,8 @@ struct MeshFiles {
   pstripack::Triangles triangles;  ///< canonical
 };
 
-/// Reads PREFIX_points.txt (x y z a line) and PREFIX_triangles.txt (three node numbers a line, from 1).
-/// Throws std::runtime_error with one line that says what is wrong where.
+/// Reads PREFIX_points.txt (lines of x y z) and PREFIX_triangles.txt (lines of three node numbers, from 1).
+/// Throws std::runtime_error with one line that names the error and its place.
 MeshFiles read_mesh(const std::string& prefix);
 
 struct MeshComparison {

@@ -1,5 +1,5 @@
 #pragma once
-// The nodes of a comparison: from where, in which order, in which precision.
+// The nodes of a comparison: source, order, precision.
 
 #include <cstdint>
 #include <string>
@@ -9,15 +9,15 @@
 
 namespace comparison {
 
-/// Nodes from a file: text as point_sets::read takes it, or NetCDF as files::read does. Throws
-/// std::runtime_error with one line that says what was expected where.
+/// Nodes from a file: text in the format of point_sets::read, or NetCDF in that of files::read. Throws
+/// std::runtime_error with one line that names what was expected where.
 std::vector<pstripack::Point> read_nodes(const std::string& file);
 
-/// "given"; "shuffled"; "sorted": by z, that is, latitude, and where that is equal by longitude. That is
-/// about the slowest of the orders that models have for a method that inserts node after node.
+/// "given"; "shuffled"; "sorted": by z (latitude), then by longitude. Of the orders in models this is about
+/// the slowest for a method that inserts node after node.
 void put_in_order(std::vector<pstripack::Point>& points, const std::string& order, std::uint64_t seed);
 
-/// Coordinates that REAL*4 programs would have: the nearest ones.
+/// Coordinates rounded to REAL*4.
 void round_to_single(std::vector<pstripack::Point>& points);
 
 }  // namespace comparison

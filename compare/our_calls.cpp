@@ -18,9 +18,10 @@
 #include <system_error>
 #include <utility>
 
+#include "base/shared_area.h"
 #include "child_process.h"
 #include "median.h"
-#include "pool/shared_area.h"
+#include "pool/area_layout.h"
 
 namespace comparison {
 namespace {
@@ -31,7 +32,7 @@ constexpr double kEnoughSeconds = 10;
 
 using pstripack::SharedArea;
 
-/// Gone with this process, whatever happens.
+/// A file that is removed when this process ends, in whatever way.
 SharedArea new_area(std::size_t size) {
   SharedArea area = SharedArea::create(size);
   if (area.data() == nullptr) throw std::bad_alloc();
@@ -42,7 +43,7 @@ std::string path_of(const SharedArea& area) {
   return fmt::format("/proc/{}/fd/{}", getpid(), area.file().get());
 }
 
-/// What the two processes tell each other, before the arrays.
+/// The data that the two processes exchange, before the arrays.
 struct Call {
   char abi[8];
   std::int32_t n, repeats;
@@ -51,7 +52,7 @@ struct Call {
   double seconds;
 };
 
-/// Where the arrays lie: behind the call.
+/// The arrays follow the call in the file.
 struct Arrays {
   static constexpr std::size_t kFirst = 4096;  // a page, as AreaLayout's
   static_assert(sizeof(Call) <= kFirst);
@@ -59,12 +60,11 @@ struct Arrays {
   explicit Arrays(Call* call) : n(static_cast<std::size_t>(call->n)), slots(6 * n - 12) {
     const pstripack::AreaLayout layout(call->n, sizeof(double));
     void* const area = reinterpret_cast<unsigned char*>(call) + kFirst;
-    x = layout.coordinate<double>(area, 0);
-    y = layout.coordinate<double>(area, 1);
-    z = layout.coordinate<double>(area, 2);
-    list = layout.list(area);
-    lptr = layout.lptr(area);
-    lend = layout.lend(area);
+    double** const coordinates[] = {&x, &y, &z};
+    for (int axis = 0; axis < 3; ++axis)
+      *coordinates[axis] = static_cast<double*>(layout.coordinate(area, axis));
+    const pstripack::ListArrays lists = layout.call(area, nullptr).lists;
+    list = lists.list, lptr = lists.lptr, lend = lists.lend;
   }
   static std::size_t bytes(std::size_t n) {
     return kFirst + pstripack::AreaLayout(static_cast<std::int32_t>(n), sizeof(double)).size();
@@ -82,7 +82,7 @@ std::string beside_this_program(const std::string& name) {
   return name.empty() ? path : path.substr(0, path.rfind('/') + 1) + name;
 }
 
-/// Installed it lies beside this program; else where the build has put it.
+/// The installed program beside this one, else that of the build.
 std::string path_of_pstripack_run() {
 #ifdef PSTRIPACK_RUN
   const std::string installed = beside_this_program("pstripack-run");
@@ -94,7 +94,7 @@ std::string path_of_pstripack_run() {
 #endif
 }
 
-/// Nothing of ours that the user has set may reach the call, except where mpirun is and where reports go.
+/// Removes our variables from the environment of the call, except the location of mpirun and of reports.
 void set_environment(const Setting& setting, const std::string& report) {
   std::vector<std::string> others;
   for (char** at = environ; *at != nullptr; ++at) {
@@ -120,10 +120,10 @@ void set_environment(const Setting& setting, const std::string& report) {
   throw std::system_error(errno, std::generic_category(), words[0]);
 }
 
-/// Reports are appended to their file, which is one byte long before.
+/// Reports are appended to their file, which initially has one byte.
 constexpr off_t kReportBegins = 1;
 
-/// True if the report's line says that the pool of so many ranks has done the call.
+/// True if the report's line says that the pool of `ranks` ranks has executed the call.
 bool done_by_ranks(const SharedArea& report, int ranks) {
   char text[200] = "";
   if (pread(report.file().get(), text, sizeof text - 1, kReportBegins) < 0) return false;
@@ -186,7 +186,7 @@ CallOfTrmesh<std::int32_t> call_of_8(void* routine, const Arrays& arrays) {
   };
 }
 
-/// Calls and measures as often as it is wanted; leaves what the last call wrote.
+/// Calls and measures as often as requested; keeps what the last call wrote.
 template <class Int>
 void make_calls(const CallOfTrmesh<Int>& trmesh, Call& call, const Arrays& arrays) {
   using Clock = std::chrono::steady_clock;

@@ -1,6 +1,6 @@
 #pragma once
-// Calls of the drop-in libraries as a Fortran program makes them: their symbol trmesh_, in a process of its
-// own, on threads, or on MPI ranks behind pstripack-run.
+// Calls of the drop-in libraries as a Fortran program makes them: by their symbol trmesh_, in their own
+// process, on threads, or on MPI ranks behind pstripack-run.
 
 #include <cstdint>
 #include <string>
@@ -29,7 +29,7 @@ struct Setting {
 std::string describe(const Setting& setting);
 
 struct OurRun : Setting {
-  std::string failure;  ///< what happened instead, if the call did not return; the rest is empty then
+  std::string failure;  ///< why the call did not return; the rest is then empty
   int ier = 0;
   double seconds = 0;  ///< median of the repeats
   Lists lists;

@@ -7,7 +7,7 @@
 
 #include "capi/pstripack.h"
 #include "exact.h"
-#include "stripack/adjacency_lists.h"
+#include "lists/adjacency_lists.h"
 
 namespace comparison {
 namespace {
@@ -17,7 +17,7 @@ using pstripack::Point;
 
 bool finite(const Point& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
-// Code -5 is right for these: not finite, zero, or so short or long that no exact product fits a double.
+// Code -5 is correct for these: not finite, zero, or so short or long that no exact product fits a double.
 bool bad_vector(const Point& p) {
   const double largest = std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
   return !finite(p) || !(largest > 1e-150) || largest > 1e150;

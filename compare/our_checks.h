@@ -14,19 +14,19 @@ namespace comparison {
 
 /// A mesh read from lists that some TRMESH returned with `ier`.
 struct Checked {
-  std::size_t nodes = 0;       ///< that the lists hold: n, or M-1 where node M is a duplicate; 0: no lists
-  pstripack::Verdict verdict;  ///< of these nodes
+  std::size_t nodes = 0;           ///< in the lists: n, or M-1 if node M is a duplicate; 0: no lists
+  pstripack::Verdict verdict;      ///< of these nodes
   pstripack::Triangles triangles;  ///< canonical; empty if the lists are broken
 };
 Checked check(const std::vector<pstripack::Point>& points, int ier, const std::vector<std::int32_t>& list,
               const std::vector<std::int32_t>& lptr, const std::vector<std::int32_t>& lend,
               std::int32_t lnew);
 
-/// The nodes that a result with code L > 0 covers: M-1, where M > L is the first node that coincides
-/// with node L; 0 if there is none.
+/// Number of nodes in the lists of a result with code L > 0: M-1, where M > L is the first node that
+/// coincides with node L; 0 if there is none.
 std::size_t nodes_before_duplicate(const std::vector<pstripack::Point>& points, int ier);
 
-/// Promises of interface.md, section 4, that our result breaks; one line each, empty if none.
+/// What our result breaks of docs/differences.md and docs/ier.md: one line per promise, empty if none.
 std::vector<std::string> broken_promises(const std::vector<pstripack::Point>& points, const OurRun& run,
                                          const Checked& checked);
 

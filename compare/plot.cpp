@@ -30,8 +30,8 @@ using Arc = std::pair<index_t, index_t>;
 using pictures::Path;
 using pictures::Place;
 
-/// A stereographic projection around the nodes of a decision: circles on the sphere are circles on paper, so
-/// that one sees which node lies inside. Pixels, the panel being 0..kPanel both ways.
+/// A stereographic projection around the nodes of a decision: circles on the sphere are circles on paper,
+/// which shows the node inside. In pixels, 0..kPanel in both directions.
 class View {
  public:
   View(const std::vector<Point>& points, const std::vector<index_t>& nodes) : points_(points) {
@@ -65,7 +65,7 @@ class View {
   const Point& point(index_t node) const { return points_[node]; }
 
  private:
-  /// Differences from the centre first, which keeps the digits of nodes that are close together.
+  /// Subtracts the centre first, which keeps the digits of close nodes.
   Place project(const Point& given) const {
     const Point p = normalized(given), d = minus(p, centre_);
     const double factor = 2 / (1 + dot(p, centre_));
@@ -80,7 +80,7 @@ class View {
 
 bool in_panel(const Place& p) { return p.x >= 0 && p.x <= kPanel && p.y >= 0 && p.y <= kPanel; }
 
-/// Arcs whose box meets the panel; increasing.
+/// Arcs whose box intersects the panel; increasing.
 std::vector<Arc> arcs_in_view(const Triangles& triangles, const View& view) {
   std::vector<Arc> arcs;
   for (const auto& t : triangles)
@@ -103,7 +103,7 @@ std::vector<Arc> without(const std::vector<Arc>& a, const std::vector<Arc>& b) {
   return rest;
 }
 
-/// An arc of a great circle, in pieces short enough to look bent where it is.
+/// An arc of a great circle, in pieces short enough to show its curvature.
 void add(const Arc& arc, const View& view, Path& path) {
   const Point a = normalized(view.point(arc.first)), b = normalized(view.point(arc.second));
   const int pieces = 1 + static_cast<int>(std::acos(std::clamp(dot(a, b), -1.0, 1.0)) / 0.05);

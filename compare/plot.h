@@ -16,7 +16,7 @@ class Plot {
   /// FILE.svg, or FILE.png where rsvg-convert is installed; throws std::invalid_argument for anything else.
   explicit Plot(const std::string& file);
 
-  /// Draws the differences that the result describes, as long as there is room.
+  /// Draws the differences that the result describes, as long as there is space.
   void add(const Result& result, const std::vector<pstripack::Point>& points);
 
   std::size_t rows() const { return rows_; }

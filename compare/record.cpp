@@ -14,7 +14,6 @@
 #include <cstring>
 #include <exception>
 #include <filesystem>
-#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -25,14 +24,9 @@
 namespace comparison {
 namespace {
 
-constexpr int kNotFound = 127;  // as of a shell
+constexpr int kNotFound = 127;  // as in a shell
 
-struct Options {
-  std::string file = "calls.rec";
-  std::vector<std::string> command;
-};
-
-/// The exit code, 128 + signal if one ended it. A ^C is for the model.
+/// The exit code, 128 + signal if a signal ended the model. ^C goes to the model only.
 int run(std::vector<std::string> command) {
   std::vector<char*> arguments;
   for (std::string& word : command) arguments.push_back(word.data());
@@ -70,7 +64,9 @@ void tell_what_is_in(const std::string& file) {
   fmt::print(stderr, "\n");
 }
 
-int record(const Options& options) {
+}  // namespace
+
+int record(const RecordOptions& options) {
   if (!CallReader::looks_like_recording(options.file))
     throw std::runtime_error(options.file + " exists and is no recording: give another --output");
   const int file = open(options.file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
@@ -86,21 +82,6 @@ int record(const Options& options) {
     fmt::print(stderr, "stripack-compare: {}\n", e.what());
   }
   return code;
-}
-
-}  // namespace
-
-void add_record(CLI::App& app, Command& chosen) {
-  const auto options = std::make_shared<Options>();
-  CLI::App* const record = app.add_subcommand("record", "run a model and record its calls of TRMESH");
-  record->footer(
-      "The model runs with PSTRIPACK_CHECK=FILE, and its exit code is that of this program.\n"
-      "  stripack-compare record -o calls.rec -- ./model arguments\n"
-      "  stripack-compare replay calls.rec");
-  record->add_option("-o,--output", options->file, "the recording; an older one is written over")
-      ->capture_default_str();
-  record->add_option("command", options->command, "-- program and its arguments")->required();
-  record->callback([options, &chosen] { chosen = [options] { return comparison::record(*options); }; });
 }
 
 }  // namespace comparison

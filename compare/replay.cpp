@@ -7,9 +7,6 @@
 #include <array>
 #include <cstdio>
 #include <exception>
-#include <fstream>
-#include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -21,31 +18,21 @@
 #include "chosen_original.h"
 #include "commands.h"
 #include "comparison.h"
+#include "json_files.h"
 #include "list_files.h"
+#include "lists/adjacency_lists.h"
 #include "show_result.h"
-#include "stripack/adjacency_lists.h"
 
 namespace comparison {
 namespace {
 
-using nlohmann::json;
-
-struct Options {
-  std::string file;
-  OriginalChoice original;
-  std::string library;
-  double timeout = 120;
-  std::size_t show = 5;
-  std::string json_file;
-};
-
-/// From harmless to serious.
+/// Verdicts, from harmless to serious.
 enum class Kind { equal, explained, no_original, not_compared, against_us };
 constexpr std::size_t kKinds = 5;
 constexpr const char* kKindNames[kKinds] = {"equal", "explained", "no result of the original", "not compared",
                                             "WE ARE WRONG"};
 
-/// What there is to say of one call: on its line, and on lines of their own.
+/// The report on one call: on its line, and on separate lines.
 struct Judgement {
   Kind kind = Kind::equal;
   std::string text;
@@ -64,10 +51,8 @@ std::string places_of(const Differences& differences) {
 
 class Replay {
  public:
-  explicit Replay(const Options& options) : options_(options), reader_(options.file), json_(json::array()) {
-    if (options.json_file.empty()) return;
-    json_out_.open(options.json_file);
-    if (!json_out_) throw std::runtime_error("cannot write " + options.json_file);
+  explicit Replay(const ReplayOptions& options) : options_(options), reader_(options.file) {
+    if (!options.json_file.empty()) json_.emplace(options.json_file);
   }
 
   int run() {
@@ -88,7 +73,7 @@ class Replay {
   }
 
  private:
-  /// At the first call, whose kinds are those of the library unless it answers to others.
+  /// Loads the original at the first call; it determines the kinds unless the original's were detected.
   void open_other(const Call& call) {
     if (is_beside_model()) prefix_ = fmt::format("pstripack[{}]: ", call.process_id);
     OriginalChoice choice = options_.original;
@@ -127,7 +112,7 @@ class Replay {
     return judgement;
   }
 
-  /// A call whose n TRMESH refuses unseen.
+  /// A call whose n TRMESH refuses without reading the nodes.
   static Judgement judge_refused(const Call& call) {
     const int expected = call.n < 3 ? PSTRIPACK_TOO_FEW_NODES : PSTRIPACK_TOO_MANY_NODES;
     if (!call.has_returned) return {Kind::not_compared, "no result on record", {}, {}};
@@ -135,8 +120,8 @@ class Replay {
     return {Kind::against_us, fmt::format("IER = {}, expected {}", call.run.ier, expected), {}, {}};
   }
 
-  /// Fills in the result of a call that had not returned when the recording ended, or, if it does not return
-  /// here either, tells that.
+  /// Fills in the result of a call that had not returned when the recording ended, or reports that it does
+  /// not return here either.
   std::optional<Judgement> run_again(Call& call) const {
     Setting setting;
     setting.abi = call.real_bytes == 4 ? "r4" : "r8";
@@ -185,8 +170,8 @@ class Replay {
     return judgement;
   }
 
-  /// Lists as PSTRIPACK_ORDER may ask for: not canonical. Where they are the original's, nothing is asked of
-  /// their mesh.
+  /// Lists under PSTRIPACK_ORDER, which are not canonical. If they are the original's, their mesh is not
+  /// checked.
   static bool are_in_another_order(const Call& call) {
     const Lists& lists = call.run.lists;
     if (call.nodes < 3) return false;
@@ -195,7 +180,7 @@ class Replay {
     return pstripack::check_topology(view) && !pstripack::lists_are_canonical(view);
   }
 
-  /// Every version of PSTRIPACK returns the same bytes: empty if this one does.
+  /// Compares with the recorded bytes, which every version of PSTRIPACK returns: empty if equal.
   std::string difference_in_bytes(const legacy_stripack::Triangulation& theirs, const Call& call) const {
     if (theirs.outcome != legacy_stripack::Outcome::returned)
       return "the library " + describe(theirs, options_.timeout);
@@ -224,15 +209,7 @@ class Replay {
       their_seconds_ += result.original.seconds;
       our_seconds_ += call.run.seconds;
     }
-    if (!json_out_.is_open()) return;
-    json j = result.n > 0 ? to_json(result, options_.timeout) : json::object();
-    j["call"] = call.number;
-    j["process"] = call.process_id;
-    j["n"] = call.n;
-    j["real_bytes"] = call.real_bytes;
-    j["kind"] = name_of(judgement.kind);
-    j["text"] = judgement.text;
-    json_.push_back(std::move(j));
+    if (json_) json_->add(call, result, name_of(judgement.kind), judgement.text, options_.timeout);
   }
 
   void summarise() {
@@ -248,50 +225,23 @@ class Replay {
       fmt::print("{}  seconds in TRMESH: {} {:.4g}, recorded {:.4g}\n", prefix_,
                  options_.library.empty() ? "original" : "library", their_seconds_, our_seconds_);
     std::fflush(stdout);
-    if (!json_out_.is_open()) return;
-    json j{{"file", options_.file}, {"original", other_->name}, {"calls", json_}, {"exit_code", exit_code()}};
-    if (!(json_out_ << j.dump(2) << '\n' << std::flush))
-      throw std::runtime_error("cannot write " + options_.json_file);
+    if (json_) json_->write_calls(options_.file, other_->name, exit_code());
   }
 
-  const Options& options_;
+  const ReplayOptions& options_;
   CallReader reader_;
   std::optional<ChosenOriginal> other_;
-  std::string prefix_;  ///< of every line, where they come between those of a model
+  std::string prefix_;  ///< of every line, if the lines appear between those of a model
   std::size_t calls_ = 0;
   std::uint64_t first_process_ = 0;
   std::array<std::size_t, kKinds> kinds_{};
   std::array<std::size_t, kCauses> places_{};
   double their_seconds_ = 0, our_seconds_ = 0;
-  json json_;
-  std::ofstream json_out_;
+  std::optional<JsonFile> json_;
 };
 
 }  // namespace
 
-void add_replay(CLI::App& app, Command& chosen) {
-  const auto options = std::make_shared<Options>();
-  CLI::App* const replay = app.add_subcommand("replay", "run recorded calls again, explain every difference");
-  replay->footer(R"(A recording is made by PSTRIPACK_CHECK=FILE ./model or by stripack-compare record. With
-PSTRIPACK_CHECK=lib:ORIGINAL[,abi=ABI][,timeout=SECONDS][,show=K][,log=FILE] this runs while the model runs.
-
-exit code
-  0  no difference, or every difference is explained
-  1  a difference counts against PSTRIPACK (--library: other bytes than recorded)
-  2  usage error or unreadable input)");
-  replay->add_option("FILE", options->file, "the recording, - for stdin")->required();
-  add_original_options(*replay, options->original);
-  replay
-      ->add_option("--library", options->library,
-                   "instead of an original, a libstripack of PSTRIPACK: it must give the recorded bytes")
-      ->excludes("--original");
-  replay->add_option("--timeout", options->timeout, "seconds after which the original is stopped, each call")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  replay->add_option("--show", options->show, "print at most so many differences of each kind for a call")
-      ->capture_default_str();
-  replay->add_option("--json", options->json_file, "write the results to this file as well");
-  replay->callback([options, &chosen] { chosen = [options] { return Replay(*options).run(); }; });
-}
+int replay(const ReplayOptions& options) { return Replay(options).run(); }
 
 }  // namespace comparison

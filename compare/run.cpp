@@ -5,29 +5,27 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
 
 #include "case_files.h"
+#include "json_files.h"
+#include "lists/limits.h"
 #include "node_sets.h"
 #include "original.h"
 #include "plot.h"
 #include "point_sets.h"
 #include "show_result.h"
-#include "stripack/trmesh.h"
 
 namespace comparison {
 namespace {
 
-using nlohmann::json;
 using pstripack::Point;
 
 constexpr std::size_t kMostNodes = pstripack::most_nodes<std::int32_t>();
 
-/// Nodes as they come: made when their turn is, or read beforehand.
+/// Nodes of one case: generated when needed, or read beforehand.
 struct Source {
   std::string name;
   std::vector<Point> read;  ///< of a file; empty: a family
@@ -37,7 +35,7 @@ struct Source {
   }
 };
 
-/// All of them. What cannot be read, and a family that there is not, is said before the first case runs.
+/// All sets of nodes. Unreadable files and unknown families are reported before the first case runs.
 std::vector<Source> sources_of(const RunOptions& options) {
   std::vector<Source> sources;
   const auto add_file = [&](const std::string& file) {
@@ -106,23 +104,6 @@ std::string name_of_case(const Case& one, bool is_family, std::size_t n) {
   return name;
 }
 
-struct Summary {
-  std::size_t cases = 0, equal = 0, explained = 0, no_result = 0, against_us = 0;
-
-  void add(const Result& result) {
-    ++cases;
-    ++(result.against_us()           ? against_us
-       : !result.original_returned() ? no_result
-       : result.equal()              ? equal
-                                     : explained);
-  }
-};
-
-void write_json(std::ofstream& out, const json& j, const std::string& file) {
-  const std::string text = j.dump(2, ' ', false, json::error_handler_t::replace);  // names may hold any bytes
-  if (!(out << text << '\n' << std::flush)) throw std::runtime_error("cannot write " + file);
-}
-
 }  // namespace
 
 ExitCode run(const RunOptions& options) {
@@ -132,18 +113,13 @@ ExitCode run(const RunOptions& options) {
   const std::vector<std::string> precisions = precisions_for(options, original);
   for (const std::string& precision : precisions) abis_for(precision, options);
 
-  std::ofstream json_out;
-  if (!options.json.empty()) {
-    json_out.open(options.json);
-    if (!json_out) throw std::runtime_error("cannot write " + options.json);
-  }
+  const auto json = options.json.empty() ? nullptr : std::make_unique<JsonFile>(options.json);
   const auto csv = options.csv.empty() ? nullptr : std::make_unique<CsvFile>(options.csv);
   const auto junit = options.junit.empty() ? nullptr : std::make_unique<JunitFile>(options.junit);
   const auto plot = options.plot.empty() ? nullptr : std::make_unique<Plot>(options.plot);
 
   const bool one_case = sources.size() * options.orders.size() * precisions.size() == 1;
   const std::size_t show = options.show.value_or(one_case || plot ? 5 : 1);
-  json cases = json::array();
   Summary summary;
   if (!one_case) print_header_of_cases();
 
@@ -175,13 +151,7 @@ ExitCode run(const RunOptions& options) {
         if (csv) csv->add(one);
         if (junit) junit->add(one, options.timeout);
         if (plot) plot->add(one.result, points);
-        if (json_out.is_open()) {
-          json j = to_json(one.result, options.timeout);
-          j["nodes"]["seed"] = options.seed;
-          j["order"] = order;
-          j["precision"] = precision;
-          cases.push_back(std::move(j));
-        }
+        if (json) json->add(one, options.timeout);
       }
 
   const ExitCode code = summary.against_us > 0 ? kAgainstUs : kExplained;
@@ -194,17 +164,7 @@ ExitCode run(const RunOptions& options) {
   if (plot && plot->rows() > 0) plot->write();
   if (plot && plot->rows() == 0)
     fmt::print("plot       no difference to draw: {} not written\n", options.plot);
-  if (json_out.is_open())
-    write_json(json_out,
-               {{"cases", cases},
-                {"summary",
-                 {{"cases", summary.cases},
-                  {"equal", summary.equal},
-                  {"explained", summary.explained},
-                  {"no_result", summary.no_result},
-                  {"against_us", summary.against_us}}},
-                {"exit_code", code}},
-               options.json);
+  if (json) json->write_cases(summary, code);
   return code;
 }
 

@@ -26,7 +26,7 @@ struct RunOptions {
   std::string json, csv, junit, plot;
 };
 
-/// Runs all cases and writes what was asked for. Throws std::exception for what is exit code 2.
+/// Runs all cases and writes the requested files. Throws std::exception for errors with exit code 2.
 ExitCode run(const RunOptions& options);
 
 }  // namespace comparison

@@ -1,12 +1,12 @@
 // pstripack-scaling: how the triangulation scales with ranks, measured on this machine and projected beyond
 // it.
 //
-// It starts itself under mpirun for every number of ranks. More ranks than processors share them, so the
-// clock says nothing about them; the processor time of every rank and phase does. The critical path is the
-// sum over the phases of the slowest rank's processor time (each its median over the calls), as if every rank
-// had a processor of its own and messages cost only what sending and receiving takes of the processor.
-// Speed-ups from it are a projection, and the tables say so. Serial is TRMESH on one thread, arrays in and
-// lists out, in the process of rank 0, between the calls of all ranks.
+// It starts itself under mpirun for every number of ranks. More ranks than processors share them, so only the
+// processor time of each rank and phase is meaningful, not the clock. The critical path is the sum over the
+// phases of the slowest rank's processor time (each its median over the calls), as if every rank had its own
+// processor and messages cost only the processor time of sending and receiving. Speed-ups from it are
+// projections, and the tables say so. Serial is TRMESH on one thread, from arrays to lists, in the process of
+// rank 0, between the calls of all ranks.
 
 #include <fmt/format.h>
 #include <mpi.h>
@@ -22,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "base/shared_area.h"
 #include "csv_file.h"
 #include "in_a_row.h"
 #include "median.h"
@@ -29,9 +30,9 @@
 #include "mpi/collective_trmesh.h"
 #include "mpi/distributed_mesh.h"
 #include "point_sets.h"
-#include "pool/shared_area.h"
+#include "pool/area_layout.h"
 #include "printed.h"
-#include "stripack/trmesh.h"
+#include "trmesh/trmesh.h"
 
 namespace {
 
@@ -66,10 +67,10 @@ class SerialCall {
     if (ranks_.rank() == 0) {
       const double start = cpu_seconds();
       std::int32_t lnew = 0;
-      if (trmesh(static_cast<std::int32_t>(n_), x_.data(), y_.data(), z_.data(), list_.data(), lptr_.data(),
-                 lend_.data(), &lnew)
-              .ier != 0)
-        throw std::runtime_error("these nodes cannot be triangulated");
+      const TrmeshCall call{static_cast<std::int32_t>(n_),
+                            {x_.data(), y_.data(), z_.data()},
+                            {list_.data(), lptr_.data(), lend_.data(), &lnew}};
+      if (trmesh(call).ier != 0) throw std::runtime_error("these nodes cannot be triangulated");
       spent = cpu_seconds() - start;
     }
     MPI_Request all_are_here;
@@ -90,8 +91,8 @@ struct Call {
   GroupCost cost;
 };
 
-/// The processor time of a rank and phase is its median over the calls, which do the same work: other ranks
-/// that share the processor disturb single calls.
+/// Processor time of a rank and phase: the median over the calls, which do the same work, because other ranks
+/// on the same processor disturb single calls.
 void print(MpiCommunicator& ranks, std::size_t n, const std::vector<double>& serial,
            const std::vector<Call>& calls) {
   std::vector<ParallelCost> mine;
@@ -125,7 +126,7 @@ void print(MpiCommunicator& ranks, std::size_t n, const std::vector<double>& ser
   std::fflush(stdout);
 }
 
-/// Points to the ranks that are home to them.
+/// Moves the points to their home ranks.
 void move_home(MpiCommunicator& ranks, const DistributedMesh& mesh, std::vector<Point>& points,
                std::vector<std::int64_t>& numbers) {
   struct Item {
@@ -180,15 +181,15 @@ void write_owners(DistributedMesh& mesh, const Settings& s) {
   }
 }
 
-/// TRMESH as the ranks of a pool carry it out: arrays and lists in memory that they share with rank 0, or by
-/// messages from and to rank 0, as between machines.
+/// TRMESH as the ranks of a pool execute it: arrays and lists in memory shared with rank 0, or in messages
+/// from and to rank 0, as between machines.
 class PoolCall {
  public:
   PoolCall(MpiCommunicator& ranks, const std::vector<Point>& points_on_root, bool shared) : ranks_(ranks) {
     std::int64_t n = static_cast<std::int64_t>(points_on_root.size());
     ranks.broadcast(&n, sizeof n, 0);
-    n_ = static_cast<std::int32_t>(n);
-    const AreaLayout layout(n_, sizeof(double));
+    const AreaLayout layout(static_cast<std::int32_t>(n), sizeof(double));
+    double* x[3] = {};
     if (shared)
       area_ = area_of_all(ranks.handle(), layout.size());
     else if (ranks.rank() == 0)
@@ -196,32 +197,30 @@ class PoolCall {
     if (shared) arrays_ = Arrays::shared;
     if (shared || ranks.rank() == 0) {
       if (area_.size() < layout.size()) throw std::runtime_error("no shared memory");
-      for (int axis = 0; axis < 3; ++axis) x_[axis] = layout.coordinate<double>(area_.data(), axis);
-      list_ = layout.list(area_.data());
-      lptr_ = layout.lptr(area_.data());
-      lend_ = layout.lend(area_.data());
+      call_ = layout.call(area_.data(), nullptr);
+      for (int axis = 0; axis < 3; ++axis)
+        x[axis] = static_cast<double*>(layout.coordinate(area_.data(), axis));
     }
     for (std::size_t i = 0; i < points_on_root.size(); ++i) {
-      x_[0][i] = points_on_root[i].x;
-      x_[1][i] = points_on_root[i].y;
-      x_[2][i] = points_on_root[i].z;
+      x[0][i] = points_on_root[i].x;
+      x[1][i] = points_on_root[i].y;
+      x[2][i] = points_on_root[i].z;
     }
     std::int64_t ready = 0;
     ranks.all_min(&ready, 1);
   }
   void operator()(GroupCost* cost) const {
     std::int32_t lnew = 0;
-    collective_trmesh<double>(ranks_, arrays_, list_ != nullptr ? n_ : 0, x_[0], x_[1], x_[2], list_, lptr_,
-                              lend_, &lnew, cost);
+    TrmeshCall call = call_;
+    call.lists.lnew = &lnew;
+    collective_trmesh(ranks_, arrays_, call, cost);
   }
 
  private:
   MpiCommunicator& ranks_;
   SharedArea area_;
-  Arrays arrays_ = Arrays::on_rank_0;
-  std::int32_t n_ = 0;
-  double* x_[3] = {};
-  std::int32_t *list_ = nullptr, *lptr_ = nullptr, *lend_ = nullptr;
+  Arrays arrays_ = Arrays::on_one_rank;
+  TrmeshCall call_;
 };
 
 void run_on_ranks(const Settings& s) {
@@ -235,7 +234,7 @@ void run_on_ranks(const Settings& s) {
     SerialCall serial(ranks, points);
     std::vector<double> alone;
     std::vector<Call> calls;
-    // In turn: what slows the machine down slows both.
+    // Alternate, so that disturbances affect both.
     const auto measure = [&](const auto& call) {
       while (calls.size() < static_cast<std::size_t>(s.repeats)) {
         in_a_row([&](bool counts) {
@@ -385,7 +384,7 @@ void print_tables(const std::string& self, Settings s, const Tables& t) {
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "How PSTRIPACK scales with MPI ranks: halo, bytes, processor time a phase, projected speed-up."};
+      "How PSTRIPACK scales with MPI ranks: halo, bytes, processor time per phase, projected speed-up."};
   Settings s;
   Tables t;
   app.add_option("--ranks", t.ranks, "numbers of ranks")->delimiter(',')->capture_default_str();
@@ -393,7 +392,7 @@ int main(int argc, char** argv) {
       ->delimiter(',')
       ->capture_default_str();
   app.add_option("--family", s.family, "point set, as in stripack-compare")->capture_default_str();
-  app.add_option("--repeats", s.repeats, "calls of each kind, by threes, of which the median is shown")
+  app.add_option("--repeats", s.repeats, "calls of each kind, three in a row, of which the median is shown")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   app.add_option("--modes", t.modes, "only tables of these modes")
@@ -404,13 +403,12 @@ int main(int argc, char** argv) {
       ->delimiter(',')
       ->check(CLI::IsMember(kKinds))
       ->capture_default_str();
-  app.add_option("--csv", t.csv, "rows in seconds are added to this file, too");
+  app.add_option("--csv", t.csv, "also add rows, in seconds, to this file");
   app.add_option("--mode", s.mode, "no tables: one run of this mode on the ranks of this mpirun")
       ->check(CLI::IsMember(kModes));
   app.add_option("--n", s.n, "nodes of that run")->capture_default_str();
-  app.add_option(
-      "--owners", s.owners,
-      "with --mode distributed: a new file for the corners of each triangle and the rank that has it");
+  app.add_option("--owners", s.owners,
+                 "with --mode distributed: write the corners of each triangle and its rank to this new file");
   try {
     app.parse(argc, argv);
     if (!s.owners.empty() && s.mode != "distributed")

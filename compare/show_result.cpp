@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "capi/pstripack.h"
@@ -10,7 +9,6 @@
 namespace comparison {
 namespace {
 
-using nlohmann::json;
 using pstripack::Point;
 
 std::string validity(const Checked& checked) {
@@ -72,16 +70,6 @@ void print_table(const Result& result, double timeout) {
   if (result.ier) fmt::print("{}: {}\n", name(result.ier->cause), result.ier->text);
 }
 
-json to_json(const Checked& checked) {
-  json j{{"nodes", checked.nodes}, {"valid", checked.nodes > 0 && checked.verdict}};
-  if (checked.nodes > 0) {
-    j["defect"] = name(checked.verdict.defect);
-    j["message"] = checked.verdict.message;
-    j["triangles"] = checked.triangles.size();
-  }
-  return j;
-}
-
 }  // namespace
 
 void print_decisions(const Result& result, const std::vector<Point>& points) {
@@ -99,62 +87,6 @@ void print(const Result& result, const std::vector<Point>& points, double timeou
   print_table(result, timeout);
   print_decisions(result, points);
   fmt::print("\nverdict    {}\n", verdict_of(result));
-}
-
-json to_json(const Result& result, double timeout) {
-  json j;
-  j["nodes"] = {{"name", result.points_name}, {"n", result.n}};
-  j["original"] = to_json(result.original_checked);
-  j["original"]["name"] = result.original_name;
-  j["original"]["outcome"] = describe(result.original, timeout);
-  if (result.original_returned()) {
-    j["original"]["ier"] = result.original.ier;
-    j["original"]["seconds"] = result.original.seconds;
-  }
-  j["pstripack"] = to_json(result.ours_checked);
-  j["pstripack"]["version"] = pstripack_version();
-  j["pstripack"]["broken_promises"] = result.broken_promises;
-  for (const OurRun& ours : result.ours) {
-    json run{{"abi", ours.abi},
-             {"threads", ours.threads},
-             {"ranks", ours.ranks},
-             {"partition", ours.partition},
-             {"same_bytes", same_bytes(ours, result.ours.front())}};
-    if (ours.failure.empty()) {
-      run["ier"] = ours.ier;
-      run["seconds"] = ours.seconds;
-    } else {
-      run["failure"] = ours.failure;
-    }
-    if (result.original_returned() && ours.failure.empty())
-      run["ratio"] = result.original.seconds / ours.seconds;
-    j["pstripack"]["runs"].push_back(run);
-  }
-  if (result.ier)
-    j["ier_difference"] = {{"cause", identifier(result.ier->cause)}, {"text", result.ier->text}};
-  if (result.meshes_compared) {
-    const Differences& d = result.differences;
-    j["triangles_equal"] = d.none();
-    j["boundary_equal"] = result.original_boundary == result.our_boundary;
-    j["boundary_nodes"] = {{"original", result.original_boundary.size()},
-                           {"pstripack", result.our_boundary.size()}};
-    for (std::size_t c = 0; c < kCauses; ++c)
-      j["differences"][identifier(static_cast<Cause>(c))] = {{"places", d.count[c].places},
-                                                             {"original_arcs", d.count[c].original_arcs},
-                                                             {"our_arcs", d.count[c].our_arcs}};
-    j["examples"] = json::array();
-    for (const Decision& decision : d.decisions) {
-      json nodes = json::array();
-      for (const auto node : decision.nodes) nodes.push_back(node + 1);
-      j["examples"].push_back({{"cause", identifier(decision.cause)},
-                               {"nodes", nodes},
-                               {"text", decision.text},
-                               {"determinant", decision.determinant},
-                               {"bound", decision.bound}});
-    }
-  }
-  j["verdict"] = verdict_of(result);
-  return j;
 }
 
 }  // namespace comparison

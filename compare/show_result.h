@@ -1,7 +1,6 @@
 #pragma once
-// A comparison for people and for programs.
+// A comparison for people.
 
-#include <nlohmann/json_fwd.hpp>
 #include <vector>
 
 #include "comparison.h"
@@ -11,9 +10,7 @@ namespace comparison {
 /// The table, the differences that the result describes, and the verdict; to stdout.
 void print(const Result& result, const std::vector<pstripack::Point>& points, double timeout);
 
-/// The part of it that says what each described difference is, and what counts against us.
+/// The part that describes each difference, and what counts against us.
 void print_decisions(const Result& result, const std::vector<pstripack::Point>& points);
-
-nlohmann::json to_json(const Result& result, double timeout);
 
 }  // namespace comparison

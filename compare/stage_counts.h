@@ -1,5 +1,5 @@
 #pragma once
-// How far the questions of a triangulation go through the stages of the predicates.
+// Counts of the predicates' stages during a triangulation.
 
 #include <cstdint>
 #include <vector>
@@ -8,7 +8,7 @@
 #include "mesh/delaunay.h"
 
 struct StageCounts {
-  std::uint64_t asked;  ///< questions `above` that reached the predicates
+  std::uint64_t asked;  ///< calls of `above` that reached the predicates
   /// How often a stage was entered, also for `left` and for comparing directions.
   std::uint64_t double_double, integers, big_integers, tie_rule;
 };
@@ -17,7 +17,7 @@ inline StageCounts stages_of(const pstripack::PredicateCounts& c) {
   return {c.above, c.double_double, c.integers, c.big_integers, c.symbolic};
 }
 
-/// Of the triangulation of the nodes by the kernel, in this thread.
+/// For the triangulation of the nodes by the kernel, in this thread.
 inline StageCounts stage_counts(const std::vector<pstripack::Point>& nodes) {
   pstripack::Workspace workspace(pstripack::workspace_bytes(nodes.size()));
   pstripack::take_predicate_counts();

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,27 +23,30 @@ namespace {
 
 using comparison::RunOptions;
 
+/// The command chosen on the command line; returns the exit code.
+using Command = std::function<int()>;
+
 const char* const kDescription =
-    R"(Runs the original STRIPACK and PSTRIPACK on the same nodes, checks both results exactly, and gives the reason
-for every difference.
+    R"(Runs the original STRIPACK and PSTRIPACK on the same nodes, checks both results exactly, and explains every
+difference.
 
   stripack-compare run --file nodes.txt                    your nodes
   stripack-compare run --points latlon --n 100000 --plot difference.svg
   stripack-compare run --points all --order shuffled,sorted --precision r8,r4 --timeout 20 --csv all.csv
   stripack-compare run --file nodes.nc --original ./libmystripack.so --junit report.xml
   stripack-compare run --points random --n 1000000 --threads 1,2 --ranks 1,4 --partition bisection,stripes
-  stripack-compare record -o calls.rec -- ./model          the calls of a running model,
-  stripack-compare replay calls.rec                        and each of them with the original
+  stripack-compare record -o calls.rec -- ./model          records the calls of a model
+  stripack-compare replay calls.rec                        repeats each of them with the original
 
-`run` may be left out. A case is one set of nodes in one order and precision; each runs the original once and
-PSTRIPACK in every combination of ABI, threads, ranks and partition. Options with lists take 1,2,4.)";
+`run` is optional. A case is one set of nodes in one order and precision; each runs the original once and
+PSTRIPACK in every combination of ABI, threads, ranks and partition. Lists in options have commas: 1,2,4.)";
 
 const char* const kFooter = R"(
 Reasons of differences
-  exact tie              four nodes in one plane exactly: both diagonals are Delaunay
-  within its rounding    the exact determinant is smaller than the rounding of the original's own test
-  directions (lengths)   lengths differ from 1: the original took them as given, PSTRIPACK the directions
-  the original is wrong  an exact check fails in its result
+  exact tie              four nodes exactly in one plane: both diagonals are Delaunay
+  within its rounding    the exact determinant is below the rounding error of the original's test
+  directions (lengths)   lengths differ from 1: the original used the vectors as given, PSTRIPACK their directions
+  the original is wrong  its result fails an exact check
   WE ARE WRONG           none of these: please report it
 Verdicts: equal; explained; no result (the original crashed, stopped or exceeded --timeout); WE ARE WRONG.
 
@@ -77,11 +81,18 @@ int compare_mesh_files(const MeshOptions& options) {
 
 std::string footer() {
   std::string text =
-      "Families of --points, with their default parameter if they take one (cap:0.01; lengths in radians)\n";
+      "Families of --points with their default parameter, if any (cap:0.01 gives another; lengths in "
+      "radians)\n";
   for (const point_sets::Family& f : point_sets::registry())
     text += fmt::format("  {:<17} {:<12} {}\n", f.name + (f.parameter.empty() ? "" : ":" + f.parameter),
                         f.nodes, f.what);
   return text + kFooter;
+}
+
+void add_original_options(CLI::App& app, comparison::OriginalChoice& choice) {
+  app.add_option("--original", choice.file, "shared library of your own STRIPACK instead of the one found");
+  app.add_option("--original-abi", choice.abi,
+                 "its ABI, where it cannot be found out: r8, r4, i8, 8arg, several as in r4-8arg");
 }
 
 void add_run_options(CLI::App& app, RunOptions& options) {
@@ -94,34 +105,34 @@ void add_run_options(CLI::App& app, RunOptions& options) {
   };
   list("--points", options.points, "families, see below; `all`: random to hemisphere-rim; file:PATH");
   list("--file", options.files,
-       "text (`lon lat` in degrees or `x y z` a line; - is stdin), generators, NetCDF");
+       "text (lines of `lon lat` in degrees or of `x y z`; - is stdin), generators, NetCDF");
   app.add_option("--n", options.n, "number of nodes of a family [10000]");
-  app.add_option("--seed", options.seed, "of families and of shuffling [1]");
+  app.add_option("--seed", options.seed, "seed of families and of shuffling [1]");
   choice("--order", options.orders, "given, shuffled, sorted (by latitude) [given]",
          {"given", "shuffled", "sorted"});
-  choice("--precision", options.precisions, "of the coordinates: r8, r4 [that of the original]",
+  choice("--precision", options.precisions, "precision of the coordinates: r8, r4 [the original's]",
          {"r8", "r4"});
-  choice("--abi", options.abis, "of our library: r8, r4, 8arg, i8 [as --precision]",
-         {"r8", "r4", "8arg", "i8"});
+  choice("--abi", options.abis, "our library: r8, r4, 8arg, i8 [as --precision]", {"r8", "r4", "8arg", "i8"});
   list("--threads", options.threads, "thread counts [1]; fewer than 20000 nodes use one")
       ->check(CLI::Range(1, 4096).description(""));
   list("--ranks", options.ranks, "MPI ranks [1], started by pstripack-run")
       ->check(CLI::Range(1, 4096).description(""));
   choice("--partition", options.partitions, "bisection, stripes [bisection]", {"bisection", "stripes"});
-  comparison::add_original_options(app, options.original);
+  add_original_options(app, options.original);
   app.add_option("--timeout", options.timeout, "seconds after which the original is stopped [120]")
       ->check(CLI::PositiveNumber.description(""));
-  app.add_option("--repeats", options.repeats, "times are medians of so many calls (fewer above 10 s) [3]")
+  app.add_option("--repeats", options.repeats,
+                 "number of calls, of whose times the median is taken (fewer above 10 s) [3]")
       ->check(CLI::Range(1, 1000).description(""));
-  app.add_option("--show", options.show, "describe so many differences of each reason [5; several cases: 0]");
-  app.add_option("--plot", options.plot, "draw them to FILE.svg or FILE.png");
+  app.add_option("--show", options.show, "number of differences described per reason [5; several cases: 0]");
+  app.add_option("--plot", options.plot, "draw the described differences to FILE.svg or FILE.png");
   app.add_option("--json", options.json, "write everything to this file");
-  app.add_option("--csv", options.csv, "write a row for each call of ours");
+  app.add_option("--csv", options.csv, "write one row per call of ours");
   app.add_option("--junit", options.junit,
-                 "write JUnit XML: a test a case, which fails if it counts against us");
+                 "write JUnit XML: one test per case, which fails if it counts against us");
 }
 
-void add_mesh(CLI::App& app, MeshOptions& options, comparison::Command& chosen) {
+void add_mesh(CLI::App& app, MeshOptions& options, Command& chosen) {
   CLI::App* const mesh = app.add_subcommand("mesh", "compare two meshes that scvt_legacy wrote");
   mesh->add_option("A", options.a, "prefix of A_points.txt and A_triangles.txt")->required();
   mesh->add_option("B", options.b, "prefix of the other mesh")->required();
@@ -133,24 +144,79 @@ void add_mesh(CLI::App& app, MeshOptions& options, comparison::Command& chosen) 
   mesh->callback([&] { chosen = [&] { return compare_mesh_files(options); }; });
 }
 
+void add_lists(CLI::App& app, comparison::ListsOptions& options, Command& chosen) {
+  CLI::App* const lists = app.add_subcommand("lists", "compare the LIST, LPTR, LEND of two files");
+  lists->footer(R"(a file
+  a recording of PSTRIPACK_CHECK=FILE, or text, for each call: N and LNEW, then LIST(1..LNEW-1),
+  LPTR(1..LNEW-1) and LEND(1..N), as WRITE(10,*) N,LNEW ... makes it. Calls are compared in their order.
+
+exit code
+  0  every call has the same triangles in both files (--bytes: the same bytes)
+  1  not so
+  2  usage error or unreadable input)");
+  lists->add_option("A", options.a, "file")->required();
+  lists->add_option("B", options.b, "file")->required();
+  lists->add_flag("--bytes", options.bytes, "the lists must be the same bytes, not only the same triangles");
+  lists->callback([&] { chosen = [&] { return comparison::compare_lists(options); }; });
+}
+
+void add_record(CLI::App& app, comparison::RecordOptions& options, Command& chosen) {
+  CLI::App* const record = app.add_subcommand("record", "run a model and record its calls of TRMESH");
+  record->footer(
+      "The model runs with PSTRIPACK_CHECK=FILE, and its exit code is that of this program.\n"
+      "  stripack-compare record -o calls.rec -- ./model arguments\n"
+      "  stripack-compare replay calls.rec");
+  record->add_option("-o,--output", options.file, "the recording; an older one is written over")
+      ->capture_default_str();
+  record->add_option("command", options.command, "-- program and its arguments")->required();
+  record->callback([&] { chosen = [&] { return comparison::record(options); }; });
+}
+
+void add_replay(CLI::App& app, comparison::ReplayOptions& options, Command& chosen) {
+  CLI::App* const replay = app.add_subcommand("replay", "run recorded calls again, explain every difference");
+  replay->footer(R"(A recording is made by PSTRIPACK_CHECK=FILE ./model or by stripack-compare record. With
+PSTRIPACK_CHECK=lib:ORIGINAL[,abi=ABI][,timeout=SECONDS][,show=K][,log=FILE] this runs while the model runs.
+
+exit code
+  0  no difference, or every difference is explained
+  1  a difference counts against PSTRIPACK (--library: other bytes than recorded)
+  2  usage error or unreadable input)");
+  replay->add_option("FILE", options.file, "the recording, - for stdin")->required();
+  add_original_options(*replay, options.original);
+  replay
+      ->add_option("--library", options.library,
+                   "instead of an original, a libstripack of PSTRIPACK: it must give the recorded bytes")
+      ->excludes("--original");
+  replay->add_option("--timeout", options.timeout, "seconds after which the original is stopped, each call")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  replay->add_option("--show", options.show, "largest number of differences of each kind printed per call")
+      ->capture_default_str();
+  replay->add_option("--json", options.json_file, "write the results to this file as well");
+  replay->callback([&] { chosen = [&] { return comparison::replay(options); }; });
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   RunOptions options;
   MeshOptions mesh_options;
+  comparison::ListsOptions lists_options;
+  comparison::RecordOptions record_options;
+  comparison::ReplayOptions replay_options;
   CLI::App app(kDescription, "stripack-compare");
   app.footer(footer);
   app.set_version_flag("--version", pstripack_version());
   add_run_options(app, options);
   CLI::App* const run = app.add_subcommand("run", "compare the libraries");
   add_run_options(*run, options);
-  const comparison::Command run_all = [&] { return comparison::run(options); };
-  comparison::Command chosen = run_all;  // `run` may be left out
+  const Command run_all = [&] { return comparison::run(options); };
+  Command chosen = run_all;  // `run` may be left out
   run->callback([&] { chosen = run_all; });
   add_mesh(app, mesh_options, chosen);
-  comparison::add_lists(app, chosen);
-  comparison::add_record(app, chosen);
-  comparison::add_replay(app, chosen);
+  add_lists(app, lists_options, chosen);
+  add_record(app, record_options, chosen);
+  add_replay(app, replay_options, chosen);
 
   try {
     if (argc == 3 && argv[1] == std::string(comparison::kCallCommand))

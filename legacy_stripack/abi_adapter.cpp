@@ -11,7 +11,7 @@ namespace {
 
 using legacy_stripack::Library;
 
-// Calls a routine of the user's library. Without that library there is nothing that the program could do.
+// Calls a routine of the user's library. Without that library the program cannot continue.
 template <class Routine, class... Arguments>
 void call(Routine routine, Arguments... arguments) {
   try {

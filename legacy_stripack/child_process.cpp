@@ -35,7 +35,7 @@ using Clock = std::chrono::steady_clock;
   _exit(1);
 }
 
-// Waits until the pipe can be read, or is closed by the end of the child. False: the time is over.
+// Waits until the pipe is readable, or closed by the end of the child. False if the time is over.
 bool wait_for(int pipe, double time_limit) {
   const auto end = Clock::now() + std::chrono::duration<double>(time_limit);
   for (;;) {

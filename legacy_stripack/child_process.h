@@ -1,5 +1,5 @@
 #pragma once
-// Work that may hang or crash, in a process of its own, and memory shared with it.
+// Runs work that may hang or crash in its own process, and memory shared with it.
 
 #include <sys/mman.h>
 
@@ -11,8 +11,8 @@
 namespace legacy_stripack {
 
 enum class Outcome {
-  returned,   ///< the work came to its end
-  timed_out,  ///< it did not within the time limit, and was killed
+  returned,   ///< the work finished
+  timed_out,  ///< it exceeded the time limit and was killed
   crashed,    ///< a signal ended it
   stopped     ///< it ended the process itself: STOP, exit, or an exception (reported on stderr)
 };
@@ -22,8 +22,8 @@ struct Ended {
   int signal;  ///< of a crash, else 0
 };
 
-/// Runs `work` in a child process; what it writes to stdout appears on stderr. Results come back through
-/// Shared memory. Do not use OpenMP on more than one thread in both the parent and `work`.
+/// Runs `work` in a child process; what it writes to stdout appears on stderr. Results come back in Shared
+/// memory. Do not use OpenMP on more than one thread in both the parent and `work`.
 Ended run_in_child(const std::function<void()>& work, double time_limit_seconds);
 
 /// `count` objects of a trivial type, zero at first, seen by this process and its later children.

@@ -42,7 +42,8 @@ void in_kinds_of(const Abi& abi, const Call& call) {
     abi.integer_bytes == 4 ? call(float{}, std::int32_t{}) : call(float{}, std::int64_t{});
 }
 
-/// A caller's array as the library takes it: itself where the kinds are the same, else a copy, which is
+/// A caller's array as the library takes it: the array itself if the kinds are the same, else a copy, which
+/// is copied back at the end unless the array is const.
 /// copied back at the end unless the array is const.
 template <class To, class From>
 class Converted {
@@ -74,7 +75,7 @@ std::size_t nodes_of(int n) { return n < 3 ? 0 : static_cast<std::size_t>(n); }
 std::size_t slots_of(int n) { return n < 3 ? 0 : 6 * nodes_of(n) - 12; }
 std::size_t triangles_of(int n) { return n < 3 ? 0 : 2 * nodes_of(n) - 4; }
 
-// One past the last slot in use. All slots below LNEW are in use, so the largest one tells.
+// One past the last slot in use. All slots below LNEW are in use, so the largest slot determines it.
 int first_unused_slot(int n, const int* lptr, const int* lend) {
   int largest = 0;
   for (int k = 0; k < n; ++k) {
@@ -164,7 +165,7 @@ void Library::trmesh(const int* n, const double* x, const double* y, const doubl
       reinterpret_cast<Trmesh8<Real, Int>*>(trmesh_)(&count, x_.data(), y_.data(), z_.data(), list_.data(),
                                                      lptr_.data(), lend_.data(), ier_.data());
   });
-  // Where nodes coincide the lists hold fewer nodes than n, and nothing says how many.
+  // If nodes coincide, the lists hold fewer than n nodes, and nothing shows how many.
   if (abi_.arguments == 8) *lnew = *ier == 0 ? first_unused_slot(*n, lptr, lend) : 0;
 }
 

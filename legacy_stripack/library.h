@@ -1,6 +1,6 @@
 #pragma once
 // The original's routines in this process, whatever its ABI: loaded by path, called as REAL*8 with the
-// 12-argument TRMESH. It can hang or crash: original.h runs it in a process of its own.
+// 12-argument TRMESH. They can hang or crash: original.h runs them in their own process.
 
 #include <string>
 
@@ -18,7 +18,7 @@ struct Abi {
   }
 };
 
-/// What differs from the default, r4, i8, 8arg, joined by `-`; r8 if nothing does. Throws
+/// The differences from the default, r4, i8, 8arg, joined by `-`; r8 if there are none. Throws
 /// std::invalid_argument for anything else.
 Abi abi_named(const std::string& name);
 std::string name_of(const Abi& abi);
@@ -33,7 +33,7 @@ class Library {
 
   void trmesh(const int* n, const double* x, const double* y, const double* z, int* list, int* lptr,
               int* lend, int* lnew, int* near, int* next, double* dist, int* ier) const;
-  /// TRLIST and CRLIST have the same arguments in every ABI. Throw std::runtime_error if there is none.
+  /// TRLIST and CRLIST have the same arguments in every ABI. Throw std::runtime_error if missing.
   void trlist(const int* n, const int* list, const int* lptr, const int* lend, const int* nrow, int* nt,
               int* ltri, int* ier) const;
   void crlist(const int* n, const int* ncol, const double* x, const double* y, const double* z,

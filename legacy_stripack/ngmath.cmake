@@ -1,6 +1,6 @@
 # libstripack_original.so from libngmath.a: the objects of the shared routines, every name without its CS.
 # TRANS and SCOORD are single precision there; the double ones are CSTRANSD and CSSCOORDD.
-# CSCRLIST has an argument list of its own: crlist_ comes from ngmath_crlist.c.
+# CSCRLIST has other arguments: crlist_ comes from ngmath_crlist.c.
 
 set(routines addnod areas bdyadd bnodes circum covsph delarc delnb delnod edge getnp insert inside intadd
              intrsc jrand left lstptr nbcnt nearnd optim store swap swptst trfind trlist trlprt trmesh trprnt)

@@ -1,5 +1,5 @@
 #pragma once
-// Runs the original STRIPACK and always comes back: every call is a child process with a time limit.
+// Runs the original STRIPACK and always returns: every call is a child process with a time limit.
 
 #include <optional>
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace legacy_stripack {
 
-/// Where the build found an original; empty if it found none.
+/// The original that the build found; empty if it found none.
 struct Location {
   std::string name;  ///< for people
   std::string file;
@@ -18,13 +18,13 @@ struct Location {
 };
 std::optional<Location> configured_original();
 
-/// What one call of TRMESH gave. The other members mean something only if it returned.
+/// Result of one call of TRMESH. The other members are valid only if it returned.
 struct Triangulation {
   Outcome outcome = Outcome::returned;
   int signal = 0;
   int ier = 0;
-  int lnew = 0;                       ///< 0: not known (8-argument ABI, coincident nodes)
-  std::vector<int> list, lptr, lend;  ///< 6n-12, 6n-12, n entries; 0 where nothing was written
+  int lnew = 0;                       ///< 0: unknown (8-argument ABI, coincident nodes)
+  std::vector<int> list, lptr, lend;  ///< 6n-12, 6n-12, n entries; 0 if not written
   double seconds = 0;                 ///< median of the calls, around TRMESH alone
 };
 
@@ -34,8 +34,8 @@ class Original {
   explicit Original(const Location& where) : Original(where.file, where.abi) {}
 
   /// Nodes are any type with members x, y, z. Calls TRMESH `calls` times, fewer once they have taken 10 s;
-  /// the lists are those of the first call. The time limit (seconds) is for all calls together: one that
-  /// hangs after the first has returned changes nothing.
+  /// the lists are those of the first call. The time limit (seconds) is for all calls together; if the first
+  /// has returned, a later one that hangs does not change the result.
   template <class Node>
   Triangulation triangulate(const std::vector<Node>& nodes, double time_limit, int calls = 1) const {
     std::vector<double> x, y, z;

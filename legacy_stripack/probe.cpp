@@ -37,8 +37,8 @@ struct Array {
   }
 };
 
-/// Arguments in the order of the 12-argument TRMESH, in memory that child and parent share. The eighth is
-/// LNEW there and IER of the 8-argument one, which takes no notice of the rest.
+/// Arguments in the order of the 12-argument TRMESH, in memory shared by child and parent. The eighth is LNEW
+/// there and IER of the 8-argument one, which ignores the rest.
 struct Arguments {
   std::int64_t n;  // read as 4 bytes or as 8
   Array coordinates[3], list, lptr, lend, eighth, near, next, dist, twelfth;
@@ -67,7 +67,7 @@ bool is_octahedron(const Arguments& a) {
   return true;
 }
 
-/// The ABI in which the arguments are right after the call.
+/// The ABI for which the arguments are correct after the call.
 template <class Int>
 std::optional<Abi> abi_of_answer(const Arguments& a, int real_bytes) {
   if (!is_octahedron<Int>(a)) return std::nullopt;
@@ -76,7 +76,7 @@ std::optional<Abi> abi_of_answer(const Arguments& a, int real_bytes) {
   return std::nullopt;
 }
 
-/// Adds what happened if it finds none.
+/// Adds the outcome if it finds none.
 std::optional<Abi> answer(const Library& library, int real_bytes, double time_limit, std::string& why_not) {
   const Shared<Arguments> shared;
   Arguments& a = *shared.data();

@@ -1,5 +1,5 @@
 #pragma once
-// Which ABI a library has, found out by calling it.
+// Detects the ABI of a library by calling it.
 
 #include <optional>
 #include <string>
@@ -10,12 +10,12 @@ namespace legacy_stripack {
 
 struct Probe {
   std::optional<Abi> abi;  ///< none if the library's TRMESH gives the right triangles in no ABI
-  std::string why_not;     ///< then: what it did instead, "with REAL*8 it crashed ..."
+  std::string why_not;     ///< if none: the outcomes, "with REAL*8 it crashed ..."
 };
 
-/// Has TRMESH triangulate the six corners of an octahedron, in REAL*8 and in REAL*4, those of
-/// `first_real_bytes` first; the library's own ABI does not matter. Each call is a child process with a time
-/// limit and room around what a wrong ABI might write; what it prints is lost.
+/// Calls TRMESH for the six corners of an octahedron, in REAL*8 and in REAL*4, those of `first_real_bytes`
+/// first; the library's own ABI does not matter. Each call is a child process with a time limit and space for
+/// what a wrong ABI might overwrite; its output is discarded.
 Probe probe_abi(const Library& library, int first_real_bytes, double time_limit = 2);
 
 }  // namespace legacy_stripack

@@ -1,5 +1,5 @@
-# Completion in bash for pstripack, stripack-compare, pstripack-config and pstripack-run: commands and options are those
-# that the program itself tells with --help, so that they are never those of another version.
+# Completion in bash for pstripack, stripack-compare, pstripack-config and pstripack-run: commands and options
+# come from the program's own --help, so they always fit its version.
 
 _pstripack_completion() {
   local program=$1 current=$2 previous=$3 command="" commands word
@@ -23,5 +23,5 @@ _pstripack_completion() {
   mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current")
 }
 
-# Where there is nothing of the above: names of files.
+# Otherwise: file names.
 complete -o bashdefault -o default -F _pstripack_completion pstripack stripack-compare pstripack-config pstripack-run

@@ -1,7 +1,7 @@
 # shellcheck shell=sh
 # What `pstripack-config --check PROGRAM|PID` runs: whose TRMESH, TRLIST, CRLIST, TRFIND, GETNP does a program call?
 # Three witnesses, and the program does not run:
-#   nm           what the program has itself; of a stripped program it sees only what shared libraries may call
+#   nm           what the program defines; of a stripped program it shows only what shared libraries may call
 #   the loader   what it takes from shared libraries: the loader binds all symbols, reports each, and ends, as for ldd
 #   a text       "@(#)PSTRIPACK library ROUTINE" is in every file that has that routine of ours, also after strip
 # Exit status: 0 all that are called are ours; 1 not so, or it cannot be seen; 2 no answer.

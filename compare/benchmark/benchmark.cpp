@@ -1,9 +1,8 @@
 // pstripack-benchmark: times of PSTRIPACK, the original STRIPACK, CGAL and Qhull, side by side in one run.
 //
-// Every measurement is a process of its own on one thread; the contenders take turns, so that a change of
-// the machine's mood meets all of them. Arrays are written before the clock starts, and a call that takes
-// less than a second is made once before it. CGAL and Qhull triangulate only; the others write their lists as
-// well.
+// Every measurement runs in its own process on one thread; the contenders alternate, so that changes in the
+// machine's speed affect all. Arrays are written before the clock starts, and a call of less than a second is
+// preceded by one that does not count. CGAL and Qhull only triangulate; the others also write their lists.
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -48,7 +47,7 @@ void print_head(const std::optional<legacy_stripack::Location>& where, int repea
       repeats);
 }
 
-/// For CLI11: what is wrong with the name, or nothing.
+/// For CLI11: the error in the name, or nothing.
 std::string is_point_set(const std::string& name) {
   try {
     point_sets::make(name, 12);
@@ -62,16 +61,15 @@ std::string is_point_set(const std::string& name) {
 
 int main(int argc, char** argv) {
   CLI::App app(
-      "Times of PSTRIPACK, the original STRIPACK, CGAL and Qhull on one thread, and their ratios\n"
-      "beside those that the project asks for. The exit code says nothing about them.",
+      "Times of PSTRIPACK, the original STRIPACK, CGAL and Qhull on one thread, and their ratios beside\n"
+      "the required ones. The exit code does not depend on them.",
       "pstripack-benchmark");
   app.footer("cases: " + CLI::detail::join(case_names(), " "));
   CaseSettings cases;
   app.add_flag("--quick", cases.quick, "only cases with less than 10^6 nodes, three repeats");
   app.add_option("--only", cases.only,
-                 "only these cases, as random-1e4,latlon-1e5; the cases `distributions`, `warm-start` and "
-                 "`queries-...` "
-                 "run where they are named")
+                 "only these cases, for example random-1e4,latlon-1e5; `distributions`, `warm-start` and "
+                 "`queries-...` run only if named")
       ->delimiter(',')
       ->check(CLI::IsMember(case_names()));
   app.add_option("--sets", cases.sets, "only these point sets in the case `distributions`")
@@ -82,10 +80,10 @@ int main(int argc, char** argv) {
   app.add_option("--repeats", cases.repeats, repeats_help)->check(CLI::Range(1, 1000));
 
   CurveSettings curves;
-  CLI::App& curves_app = *app.add_subcommand(
-      "curves",
-      "Time a node against N, for all contenders and several orders of the nodes. A contender that does not\n"
-      "come to its end within the time limit, or would not fit into memory, is not asked for larger N.");
+  CLI::App& curves_app = *app.add_subcommand("curves",
+                                             "Time per node against N, for all contenders and several orders "
+                                             "of the nodes. A contender that exceeds\n"
+                                             "the time limit, or would not fit into memory, skips larger N.");
   curves_app.add_option("--points", curves.points, "point set, as in stripack-compare")
       ->check(is_point_set)
       ->capture_default_str();
@@ -104,11 +102,11 @@ int main(int argc, char** argv) {
       ->delimiter(',')
       ->check(CLI::IsMember(contender_names()));
   curves_app
-      .add_option("--time-limit", curves.time_limit, "seconds of one measurement, making ready and all")
+      .add_option("--time-limit", curves.time_limit, "seconds of one measurement, including its preparation")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   curves_app.add_option("--repeats", curves.repeats, repeats_help)->check(CLI::Range(1, 1000));
-  curves_app.add_option("--csv", curves.csv, "rows are added to this file, too");
+  curves_app.add_option("--csv", curves.csv, "also add rows to this file");
 
   Model model;  // see as_model
   app.add_option("--be-the-model", model.calls)->group("");

@@ -21,7 +21,7 @@ Measurement seconds_of_trmesh(const Nodes& nodes, double time_limit) {
       time_limit);
 }
 
-/// False if it took too long.
+/// False if it exceeded the time limit.
 bool add(Samples& samples, const Nodes& nodes, double time_limit) {
   const Measurement m = seconds_of_trmesh(nodes, time_limit);
   if (m.outcome == Outcome::timed_out) return false;

@@ -1,5 +1,5 @@
 #pragma once
-// The time of TRMESH on some nodes beside its time on as many random ones.
+// The time of TRMESH on some nodes relative to that on as many random ones.
 
 #include <vector>
 
@@ -8,17 +8,17 @@
 
 namespace benchmark {
 
-/// TRMESH returns at once where the first three nodes are collinear: another node takes the third's place.
-/// Throws std::runtime_error where all are collinear with the first two.
+/// TRMESH returns at once if the first three nodes are collinear: this swaps another node into the third
+/// place. Throws std::runtime_error if all are collinear with the first two.
 Nodes with_a_triangle_first(std::vector<pstripack::Point> points);
 
 struct BesideRandom {
-  bool in_time = true;  ///< false: a measurement took longer than the limit, and there is no ratio
-  Samples own, random;  ///< seconds a node
+  bool in_time = true;  ///< false: a measurement exceeded the limit, and there is no ratio
+  Samples own, random;  ///< seconds per node
   double ratio() const { return own.median() / random.median(); }
 };
 
-/// In turn, each in a process of its own that has `time_limit` seconds.
+/// Alternates, each measurement in its own process with `time_limit` seconds.
 BesideRandom measure_beside_random(const Nodes& nodes, const Nodes& random, int repeats, double time_limit);
 
 }  // namespace benchmark

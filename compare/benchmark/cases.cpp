@@ -39,7 +39,7 @@ struct Case {
   std::string family;
   int n;
   bool shuffled;
-  double original_over_ours, cgal_over_ours;  // required at least; 0: no figure
+  double original_over_ours, cgal_over_ours;  // smallest ratio required; 0: none
   bool has_witnesses() const { return cgal_over_ours > 0; }
 };
 
@@ -64,7 +64,7 @@ Lists lists_from(const Stripack& library, const Nodes& nodes) {
   return lists;
 }
 
-/// Seconds of one call of the case's routine, in a process of its own. `lists` of TRMESH, if it reads them.
+/// Seconds of one call of the case's routine, in its own process. `lists` of TRMESH, if it reads them.
 double measure_call(const Case& c, const Stripack& library, const Nodes& nodes,
                     const std::shared_ptr<Lists>& lists, int calls) {
   return measured([&] {
@@ -90,7 +90,7 @@ double measure_call(const Case& c, const Stripack& library, const Nodes& nodes,
   });
 }
 
-/// The lists that the original itself makes, taken from a process of its own.
+/// The original's own lists, made in their own process.
 std::shared_ptr<Lists> lists_of_original(const legacy_stripack::Original& original, const Nodes& nodes) {
   constexpr double kTimeLimit = 1800;
   const auto result = original.triangulate(nodes.x, nodes.y, nodes.z, kTimeLimit);
@@ -120,8 +120,8 @@ std::string ratio(const Samples& theirs, const Samples& own, double required) {
 
 const Model kModel{"random", "given", 1000000, 5};
 
-/// TRMESH on all processors beside TRMESH on one, in turn; in this process, since a forked child has one
-/// thread. The last case, therefore.
+/// TRMESH on all processors and on one, alternating; in this process, since a forked child has one thread.
+/// Therefore the last case.
 void run_threads(const std::string& self, int repeats) {
 #ifdef _OPENMP
   constexpr double kRequired = 1.75;  // of two threads
@@ -150,8 +150,7 @@ void run_threads(const std::string& self, int repeats) {
 #endif
 }
 
-/// CRLIST on all processors beside the original's, as libngmath ships it if it is that, in turn. In this
-/// process as well.
+/// CRLIST on all processors and the original's, libngmath's if it is that, alternating. Also in this process.
 void run_crlist_on_threads(const std::optional<legacy_stripack::Original>& original_library, int repeats) {
 #ifdef _OPENMP
   if (!original_library) return;
@@ -184,8 +183,8 @@ void run_crlist_on_threads(const std::optional<legacy_stripack::Original>& origi
 #endif
 }
 
-/// The same model on its own and with a pool of two ranks of a thread each, in turn. The clock of the whole
-/// call: the way to the ranks and back is in it.
+/// The same model alone and with a pool of two single-threaded ranks, alternating. Measures the whole call,
+/// including the transfer to the ranks and back.
 void run_pool([[maybe_unused]] const std::string& self, [[maybe_unused]] int repeats) {
 #ifdef PSTRIPACK_RUN
   constexpr double kRequired = 1.5;
@@ -211,7 +210,7 @@ void run_pool([[maybe_unused]] const std::string& self, [[maybe_unused]] int rep
 
 // ---- in the original's order ------------------------------------------------------------------------
 
-/// TRMESH under PSTRIPACK_ORDER, which is read once a process: in a model of its own.
+/// TRMESH under PSTRIPACK_ORDER, which a process reads once: in its own model.
 struct OrderCase {
   std::string name, setting, family, order;
   int n;
@@ -250,8 +249,8 @@ void run_order(const OrderCase& c, const std::string& self,
   std::fflush(stdout);
 }
 
-/// The nodes of a case. Symmetric sets are shuffled, until the first three are not on one great circle and
-/// the original comes to an end.
+/// The nodes of a case. Symmetric sets are shuffled until the first three are not on one great circle and the
+/// original returns.
 std::vector<Point> nodes_of(const Case& c, const std::optional<legacy_stripack::Original>& original_library) {
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     std::vector<Point> points = point_sets::make(c.family, c.n, 1);

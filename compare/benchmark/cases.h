@@ -1,5 +1,5 @@
 #pragma once
-// The cases that the project measures itself by: one table, a row a case, ratios beside those asked for.
+// The benchmark's standard cases: one table, one row per case, ratios beside the required ones.
 
 #include <optional>
 #include <string>
@@ -12,7 +12,7 @@ namespace benchmark {
 struct CaseSettings {
   bool quick = false;
   std::vector<std::string>
-      only;  ///< none: all of case_names() but distributions, queries and warm-start, or those that are quick
+      only;  ///< none: all of case_names() except distributions, queries and warm-start, or the quick ones
   std::vector<std::string> sets;  ///< of distributions; none: all
   int repeats = 0;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Who is measured: STRIPACK's routines, ours and the original's; CGAL and Qhull as further witnesses.
+// The contenders: STRIPACK's routines, ours and the original's; CGAL and Qhull for comparison.
 
 #include <functional>
 #include <optional>
@@ -38,19 +38,19 @@ struct Stripack {
 
 Stripack ours();
 Stripack original(const legacy_stripack::Library& library);
-/// The same with CSCRLIST as libngmath ships it, which returns latitudes and longitudes instead of centres;
-/// nothing where the original is not libngmath.
+/// The same with libngmath's CSCRLIST, which returns latitudes and longitudes instead of centres; empty if
+/// the original is not libngmath.
 std::optional<Stripack> original_as_shipped(const legacy_stripack::Library& library);
 
 /// A library that triangulates, and writes no lists.
 struct Witness {
-  std::string description;  ///< "none found" where the build found none
-  /// Seconds, and how many of the points became vertices; null where the build found none.
+  std::string description;  ///< "none found" if the build found none
+  /// Seconds, and the number of points that became vertices; null if the build found none.
   double (*seconds)(const std::vector<pstripack::Point>& points, std::size_t& vertices);
 };
 extern const Witness cgal, qhull;
 
-/// As seconds_a_call of measuring.h. Throws std::runtime_error where it does not keep all points.
+/// As seconds_a_call of measuring.h. Throws std::runtime_error if it does not keep all points.
 double seconds_a_call(const Witness& witness, const std::vector<pstripack::Point>& points, int calls);
 
 }  // namespace benchmark

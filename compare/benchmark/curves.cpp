@@ -20,7 +20,7 @@ namespace {
 
 using legacy_stripack::Outcome;
 
-/// A set of nodes, and how often it is triangulated in one measurement.
+/// A set of nodes, and the number of times that one measurement triangulates it.
 struct Task {
   Task(const std::string& points_, const std::string& order_, int wanted)
       : points(points_),
@@ -36,7 +36,7 @@ struct Task {
 struct Contender {
   std::string name;
   int threads;
-  double bytes_a_node;  ///< that its process takes, arrays and nodes included: measured, and rounded up
+  double bytes_a_node;  ///< memory of its process, arrays and nodes included: measured, and rounded up
   std::function<Measurement(const Task&, double time_limit)> measure;
 };
 
@@ -57,7 +57,7 @@ Contender witness_contender(const std::string& name, double bytes_a_node, const 
           }};
 }
 
-/// The time limit is for others: this one comes to its end.
+/// The time limit applies to the others: this one always finishes.
 Contender threads_contender(const std::string& name, double bytes_a_node, const std::string& self) {
   const int processors = static_cast<int>(std::thread::hardware_concurrency());
   return {name, processors, bytes_a_node, [self, processors](const Task& task, double) {
@@ -67,11 +67,11 @@ Contender threads_contender(const std::string& name, double bytes_a_node, const 
           }};
 }
 
-/// What a contender has done in one order, from size to size.
+/// Results of one contender in one order, from size to size.
 struct Course {
   Contender contender;
   Samples samples;    ///< at this size
-  std::string ended;  ///< why it is not asked any more
+  std::string ended;  ///< why it takes no further part
 };
 
 std::string reason(Outcome outcome, int n, double time_limit) {
@@ -85,7 +85,7 @@ std::string reason(Outcome outcome, int n, double time_limit) {
   }
 }
 
-/// Contenders take turns, until each has enough samples or has come to its end.
+/// Contenders alternate until each has enough samples or has ended.
 void measure_all(std::vector<Course>& courses, const Task& task, const CurveSettings& settings) {
   const auto wants_turn = [&](const Course& c) {
     return c.ended.empty() && !c.samples.enough(settings.repeats);

@@ -1,5 +1,5 @@
 #pragma once
-// Time a node against N: all contenders, all orders of the nodes.
+// Time per node against N: all contenders, all orders of the nodes.
 
 #include <optional>
 #include <string>
@@ -21,8 +21,7 @@ struct CurveSettings {
 
 const std::vector<std::string>& contender_names();
 
-/// One table an order, written to stdout; the rows to the CSV file, too, if one is named. `self`: this
-/// program.
+/// Writes one table per order to stdout, and the rows to the CSV file, if one is named. `self`: this program.
 void run_curves(const std::string& self, const CurveSettings& settings,
                 const std::optional<legacy_stripack::Original>& original_library);
 

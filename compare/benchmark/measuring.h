@@ -1,5 +1,5 @@
 #pragma once
-// How the benchmark measures: in child processes, again and again, and medians of it.
+// How the benchmark measures: repeatedly, in child processes, taking medians.
 
 #include <chrono>
 #include <functional>
@@ -18,20 +18,20 @@ struct Measurement {
   double seconds;
 };
 
-/// What `work` returns, which runs in a process of its own.
+/// The result of `work`, which runs in its own process.
 Measurement measure(const std::function<double()>& work, double time_limit);
 
-/// The same, and std::runtime_error if it does not come to its end within half an hour.
+/// The same, but throws std::runtime_error if it does not end within half an hour.
 double measured(const std::function<double()>& work);
 
-/// The mean of `calls` after the first, for which the system clears pages; where that takes 4 seconds or more,
-/// its time.
+/// The mean of `calls` calls after the first, for which the system clears pages; if the first takes 4 seconds
+/// or more, its time.
 double seconds_a_call(const std::function<void()>& call, int calls);
 
 class Samples {
  public:
   void add(double seconds) { seconds_.push_back(seconds); }
-  /// Few repeats where one takes long: at most three above 2 s, one above 30 s.
+  /// Fewer repeats of slow calls: at most three above 2 s, one above 30 s.
   bool enough(int repeats) const;
   bool empty() const { return seconds_.empty(); }
   std::size_t size() const { return seconds_.size(); }
@@ -41,7 +41,7 @@ class Samples {
   std::vector<double> seconds_;
 };
 
-/// Adds what `seconds` returns of some calls in a row: see in_a_row.h.
+/// Adds the result of `seconds`, which makes some calls in a row: see in_a_row.h.
 void measure_in_a_row(Samples& samples, const std::function<double()>& seconds);
 
 /// "0.2345", "-" without samples.

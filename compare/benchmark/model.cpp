@@ -14,8 +14,8 @@
 namespace benchmark {
 
 double peak_of_first_call(const Nodes& nodes, Lists& lists) {
-  malloc_trim(0);  // or memory that was freed before would be used again and not count
-  std::ofstream("/proc/self/clear_refs") << "5";  // the peak restarts at what is held now
+  malloc_trim(0);                                 // otherwise freed memory would be reused and not counted
+  std::ofstream("/proc/self/clear_refs") << "5";  // resets the peak to the current size
   const auto peak = [] { return bytes_in("/proc/self/status", "VmHWM:"); };
   const double before = peak();
   ours().trmesh(nodes, lists);

@@ -1,5 +1,5 @@
 #pragma once
-// This program as a model of its own, which threads and pools of ranks need: a forked child has one thread.
+// This program started as a model, for measuring threads and pools of ranks: a forked child has one thread.
 
 #include <string>
 
@@ -13,17 +13,17 @@ struct Model {
 };
 
 struct ModelFigures {
-  double seconds = 0, peak = 0;  ///< a call; bytes a node during the first
+  double seconds = 0, peak = 0;  ///< per call; bytes per node during the first
 };
 
-/// What this program is where it is the model. The exit code.
+/// Runs this program as the model. Returns the exit code.
 int be_the_model(const Model& model);
 
-/// Started by `launcher`, which may begin with NAME=VALUE.
+/// Starts the model by `launcher`, which may begin with NAME=VALUE.
 ModelFigures as_model(const std::string& self, const std::string& launcher, const Model& model);
 
-/// The largest memory during our TRMESH, the first of this process, beyond what it held before with all its
-/// arrays written. Bytes a node.
+/// Bytes per node: the peak memory during TRMESH, the first call of this process, minus that held before with
+/// all arrays written.
 double peak_of_first_call(const Nodes& nodes, Lists& lists);
 
 }  // namespace benchmark

@@ -1,5 +1,5 @@
 #pragma once
-// The orders in which the nodes are given: what an incremental construction is sensitive to.
+// Orders of the nodes, to which an incremental construction is sensitive.
 
 #include <string>
 #include <vector>

@@ -10,7 +10,7 @@ static_assert(sizeof(pstripack::Point) == 3 * sizeof(coordT), "points are read a
 
 double qhull_seconds(const std::vector<pstripack::Point>& points, std::size_t& vertices) {
   using Clock = std::chrono::steady_clock;
-  std::vector<pstripack::Point> nodes = points;  // Qhull wants to be allowed to write
+  std::vector<pstripack::Point> nodes = points;  // Qhull requires write access
   char command[] = "qhull";
   qhT qhull;
 

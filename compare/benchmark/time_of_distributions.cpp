@@ -18,7 +18,7 @@ namespace {
 
 using point_sets::Distribution;
 
-constexpr double kTimeLimit = 60;  // seconds a measurement
+constexpr double kTimeLimit = 60;  // seconds per measurement
 
 struct Size {
   const char* name;
@@ -27,7 +27,7 @@ struct Size {
 };
 constexpr Size kSizes[] = {{"10^4", 10000, 7}, {"10^5", 100000, 5}, {"10^6", 1000000, 3}};
 
-/// In a process of its own; nothing if that takes too long.
+/// Runs in its own process; empty if that exceeds the limit.
 std::optional<StageCounts> counts_of(const Nodes& nodes) {
   const legacy_stripack::Shared<StageCounts> counts;
   const auto ended = legacy_stripack::run_in_child([&] { counts[0] = stage_counts(nodes.all); }, kTimeLimit);

@@ -1,12 +1,13 @@
 #pragma once
-// The promise about time, distribution by distribution.
+// The time of each distribution of nodes relative to random nodes.
 
 #include <string>
 #include <vector>
 
 namespace benchmark {
 
-/// A row a set, written to stdout: beside random nodes at several N, and what the predicates had to do.
+/// Writes one row per set to stdout: ratios at several N, and how often the stages of the predicates were
+/// entered.
 /// `only`: point sets; none: all of point_sets::distributions().
 void run_time_of_distributions(const std::vector<std::string>& only, int repeats);
 

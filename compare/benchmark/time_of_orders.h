@@ -1,9 +1,9 @@
 #pragma once
-// The promise about time: any order of the nodes, any density, beside random nodes in random order.
+// The time of any order or density of nodes relative to random nodes in random order.
 
 namespace benchmark {
 
-/// A row a set of about n nodes, written to stdout.
+/// Writes one row per set of about n nodes to stdout.
 void run_time_of_orders(int n, int repeats);
 
 }  // namespace benchmark

@@ -53,8 +53,8 @@ double thread_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// Both are asked the same of the same lists, in turn, in a process of their own; of each the least time
-/// counts.
+/// Both libraries get the same questions about the same lists, alternating, in their own process; the
+/// smallest time of each counts.
 class Table {
  public:
   Table(const Queries& own, const Queries& theirs, int repeats)
@@ -138,8 +138,8 @@ void searches(const Table& table, const Nodes& nodes, const Lists& lists) {
                     lists.lptr.data(), lists.lend.data(), &al);
   };
 
-  // Points at a typical distance from a node anywhere; and points anywhere, so many that walks of about
-  // sqrt(n) steps to them take some tenths of a second.
+  // Points at a typical distance from any node; and points anywhere, as many as take some tenths of a second
+  // in walks of about sqrt(n) steps.
   const std::size_t many = 20000, few = std::min(many, static_cast<std::size_t>(1e6 / std::sqrt(n)));
   const std::vector<Point> anywhere = point_sets::make("random", many, 2);
   std::vector<Point> beside;

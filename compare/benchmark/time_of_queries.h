@@ -1,5 +1,5 @@
 #pragma once
-// The promise about searches: TRFIND, NEARND and GETNP beside the original's, call by call.
+// The time of TRFIND, NEARND and GETNP relative to the original's, call by call.
 
 #include "original.h"
 

@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
   if (words.at(0) == "crash") {
     call<double>(point_sets::make("random", 100));
-    // As a program whose LIST is not there: TRMESH ends by a signal, when the input is on record.
+    // A program whose LIST is missing: TRMESH ends by a signal, after the input was recorded.
     std::vector<double> x, y, z;
     for (const auto& p : point_sets::make("random", 100))
       x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);

@@ -8,8 +8,8 @@
 #include <cstring>
 #include <fstream>
 
-#include "capi/recorded_block.h"
 #include "list_files.h"
+#include "observe/recorded_block.h"
 
 namespace comparison {
 namespace {

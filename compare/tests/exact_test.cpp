@@ -9,7 +9,7 @@
 namespace comparison {
 namespace {
 
-// The original's expression for its swap test, stripack-interface.md, section 0.
+// The expression that the original rounds in its swap test.
 template <class Real>
 Real computed_swap_test(const Point& p1, const Point& p2, const Point& p3, const Point& p4) {
   const Real x4 = static_cast<Real>(p4.x), y4 = static_cast<Real>(p4.y), z4 = static_cast<Real>(p4.z);

@@ -68,7 +68,7 @@ double area(const std::vector<Point>& points, const Triangles& triangles) {
   return static_cast<double>(sum);
 }
 
-/// The rounding of coordinates alone moves a node that far off the plane of nodes on its circle.
+/// The rounding of coordinates alone moves a node this far off the plane of cocircular nodes.
 constexpr double kTie = 1e-14;
 
 /// Of d above the plane of a, b, c.

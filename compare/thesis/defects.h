@@ -1,6 +1,6 @@
 #pragma once
-// What the method leaves wrong, counted exactly, and what it costs to mend it by flips. The root does both
-// with all triangles at hand; neither is part of the method.
+// Exact counts of the method's defects, and the cost of repairing them by flips. The root does both with all
+// triangles; neither is part of the method.
 
 #include <cstddef>
 #include <string>

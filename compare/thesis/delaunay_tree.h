@@ -14,7 +14,7 @@ namespace thesis {
 using pstripack::index_t;
 constexpr index_t kNone = -1;
 
-/// Rounding has led to a state that the method has no answer to, or a limit was reached.
+/// Rounding led to a state that the method does not handle, or a limit was reached.
 struct Failure : std::runtime_error {
   using runtime_error::runtime_error;
 };

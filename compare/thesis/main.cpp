@@ -303,18 +303,18 @@ void add_options(CLI::App& app, Options& options) {
       ->capture_default_str();
   app.add_option("--n", options.n, "number of nodes")->capture_default_str();
   app.add_option("--seed", options.seed, "seed of the family, and of --shuffle")->capture_default_str();
-  app.add_option("--threads", options.threads, "stripes a process, a thread each")
+  app.add_option("--threads", options.threads, "stripes per process, each on its own thread")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  app.add_option("--repeats", options.repeats, "times are medians of so many calls")
+  app.add_option("--repeats", options.repeats, "number of calls, of whose times the median is taken")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   app.add_flag("--shuffle", options.shuffle,
-               "insert the nodes of a stripe in random order, not as they come");
-  app.add_flag("--check", options.check, "count, exactly, what is wrong with the mesh");
+               "insert the nodes of a stripe in random order instead of the given one");
+  app.add_flag("--check", options.check, "count the defects of the mesh exactly");
   app.add_flag("--repair", options.repair, "then flip arcs until all are locally Delaunay; holes stay");
   app.add_option("--csv", options.csv, "append one line to this file; a new one gets a header");
-  app.add_option("--triangles", options.triangles, "write three node numbers a triangle, after the repair");
+  app.add_option("--triangles", options.triangles, "write three node numbers per triangle, after the repair");
   app.add_option(
       "--owners", options.owners,
       "write corners of each triangle and the process that made it, -1: stitched; before the repair");

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes, from the table of routines in docs/api/routines/*.toml:
 
-  docs/api/*.md                     a page a routine, README.md, the index by task, and ier.md, all codes
+  docs/api/*.md                     a page per routine, README.md, the index by task, and ier.md, all codes
   docs/man/man3/*.3                 the same as man pages
   src/fortran/stripack_module.F90   their interfaces, from stripack_module.F90.in
   src/fortran/symbols.txt           the symbols that each library exports
@@ -14,6 +14,7 @@
 Needs Python 3.11 and nothing else. The files are committed: building needs no Python.
 """
 import argparse
+import itertools
 import re
 import sys
 import textwrap
@@ -35,6 +36,7 @@ class Argument:
         names, kind, self.use, self.meaning = columns(line, 4)
         self.names = names.split(", ")
         self.type, self.shape = re.fullmatch(r"(\w+)(?:\((.*)\))?", kind).groups()
+        self.is_list = not self.meaning
         self.meaning = self.meaning or common_meaning[self.names[0]]
 
     def __str__(self):
@@ -58,6 +60,7 @@ class Routine:
         self.example = entry.pop("example").strip("\n")
         self.see = entry.pop("see")
         self.source = entry.pop("source", common["default"]["source"])
+        self.has_default = {key: getattr(self, key) == text for key, text in common["default"].items()}
         if entry:
             sys.exit(f"{name}: unknown keys {', '.join(entry)}")
 
@@ -131,38 +134,51 @@ def markdown_table(head, rows):
                      + ["| " + " | ".join(map(cell, row)) + " |" for row in rows])
 
 
+def argument_rows(routine):
+    """LIST, LPTR, LEND and LNEW, where they mean what they always mean, share a row."""
+    rows = []
+    for is_list, group in itertools.groupby(routine.arguments, lambda a: a.is_list and a.use):
+        group = list(group)
+        if is_list:
+            names = ", ".join(name for a in group for name in a.names)
+            rows.append([names, ", ".join(dict.fromkeys(map(str, group))), group[0].use, "the [lists](trmesh.md)"])
+        else:
+            rows += [[", ".join(a.names), str(a), a.use, a.meaning] for a in group]
+    return rows
+
+
 def markdown_page(routine):
     def link(name):
         return f"[{name}]({name.lower()}.md)"
 
     text = [f"# {routine.name}", routine.purpose,
-            "```fortran\n" + "\n".join(routine.synopsis()) + "\n```", f"In {WHERE}."]
+            "```fortran\n" + "\n".join(routine.synopsis()) + "\n```"]
     text += map(markdown_paragraph, routine.details)
-    text.append(markdown_table(["argument", "type", "use", "meaning"],
-                               [[", ".join(a.names), str(a), a.use, a.meaning] for a in routine.arguments]))
+    text.append(markdown_table(["argument", "type", "use", "meaning"], argument_rows(routine)))
     if routine.result:
         text.append(markdown_paragraph(f"Result: {routine.result[0]}: {routine.result[1]}."))
     if routine.ier:
         text.append(markdown_table([routine.ier_name, "when", "arrays"], routine.ier))
-        if routine.has_new_codes():
-            text.append(NEW_CODES)
     if routine.differs:
-        text.append("**Not as in the original:**")
+        text.append("**Differences from the original:**")
         text.append("\n".join(f"- {note}" for note in routine.differs))
-    text.append(markdown_paragraph(f"**Ranks and threads:** {routine.threads}"))
+    if not routine.has_default["threads"]:
+        text.append(markdown_paragraph(f"**Ranks and threads:** {routine.threads}"))
     text.append(markdown_paragraph(f"**Cost:** {routine.cost}"))
-    text.append(f"```fortran\n{routine.example}\n```")
+    if routine.example != routine.call():  # else it stands above
+        text.append(f"```fortran\n{routine.example}\n```")
     if routine.see:
         text.append("See also " + ", ".join(map(link, routine.see)) + ".")
-    text.append(f"Source: {routine.source}.")
-    text.append("[All routines](README.md)")
+    if not routine.has_default["source"]:
+        text.append(f"Source: {routine.source}.")
+    text.append("[Common to all routines](README.md)")
     return "\n\n".join(text) + "\n"
 
 
 INDEX_HEAD = """# STRIPACK's routines
 
-A page a routine; the same pages are installed as man pages (`man 3 trmesh`). Old Fortran codes call these symbols without
-interfaces; `use stripack` gives interfaces.
+One page per routine, also installed as a man page (`man 3 trmesh`). Old Fortran codes call these symbols without
+interfaces; `use stripack` provides interfaces.
 
 | library | real | integer, logical | |
 | --- | --- | --- | --- |
@@ -171,23 +187,27 @@ interfaces; `use stripack` gives interfaces.
 | libstripack_8arg | 8 bytes | 4 bytes | TRMESH with 8 arguments |
 | libstripack_i8 | 8 bytes | 8 bytes | for codes compiled with `-fdefault-integer-8`, `-i8`; N up to 357,913,943 as everywhere |
 
-For all of them: nodes and slots count from 1, angles are in radians unless a page says degrees, lengths in units of the
-radius. Sizes are the least an array may have; 6N-12 elements always suffice for LIST and LPTR. *in/out* is read and
-changed. No routine is collective: in an MPI program any number of ranks may call any number of times (TRMESH is if you ask
-for it). None ends the program. Nothing is printed unless the page says so; a code marked *new*, which the original does not
-have, also prints one line on stderr that says why."""
+Unless a page says otherwise:
+
+- Every library has the routine. Nodes and slots count from 1; angles are in radians, lengths in units of the radius.
+- Sizes are the smallest allowed; 6N-12 elements always suffice for LIST and LPTR. If *LIST, LPTR, LEND* share a row, LIST and
+  LPTR have the first size, LEND the second. *in/out* is read and changed.
+- No routine is collective: in an MPI program any number of ranks may call any number of times (TRMESH is collective on
+  request). Any number of threads may call it at once with their own arrays.
+- No routine ends the program or prints. A code marked *new*, which the original does not have, also prints one line on
+  stderr that says why.
+- The source is R. J. Renka, "Algorithm 772: STRIPACK", ACM Transactions on Mathematical Software 23 (1997) 416-434."""
 
 INDEX_TAIL = """## Not in these libraries
 
-- SSRFPACK (interpolation, Algorithm 773), which some copies of STRIPACK contain: keep yours. It calls STRIPACK's symbols and
-  works on the lists of these libraries.
+- SSRFPACK (interpolation, Algorithm 773), which some copies of STRIPACK contain: keep yours. It calls STRIPACK's symbols
+  and works on these lists.
 
 ## Helpers of the Fortran 90 text
 
-Programs written against that text also call routines of the same file that have nothing to do with triangulations. They are
-in the archive `libstripack_f90.a`, to be linked before the library: `$(pstripack-config --abi f90,r8 --libs)`, `pkg-config
---libs stripack_f90 stripack`, or the CMake target `pstripack::stripack_f90`. Each is an object of its own, so that a
-routine of the same name in your program is used instead.
+Programs for that text also call unrelated routines of the same file. They are in the archive `libstripack_f90.a`, linked
+before the library: `$(pstripack-config --abi f90,r8 --libs)`, `pkg-config --libs stripack_f90 stripack`, or the CMake
+target `pstripack::stripack_f90`. Each is a separate object, so a routine of the same name in your program replaces it.
 
 | routine | what it does |
 | --- | --- |
@@ -196,13 +216,13 @@ routine of the same name in your program is used instead.
 | `d_pi()`, `r_pi()` | pi, real(8) and real(4) |
 | `call d3vec_normalize(n, x, y, z)`, `call r83vec_normalize(n, x, y, z)` | scales n vectors, real(8), to length 1, in place; zero vectors stay |
 
-Reals are real(8), as in that text, but for `r_pi`. `n` is a default integer of 4 bytes, or of 8 bytes on little-endian machines.
+Reals are real(8), as in that text, except `r_pi`. `n` is a 4-byte default integer, or an 8-byte one on little-endian machines.
 A program in single precision keeps its own `arc_cosine` and `r83vec_normalize`.
 
 ## How these pages are made
 
-The table is `docs/api/routines/*.toml`; `docs/api/make-api.py` makes from it these pages, the man pages, the module
-`stripack` and the list of symbols. Edit the table, run it, commit all of them; a test compares."""
+`docs/api/make-api.py` makes these pages, the man pages, the module `stripack` and the list of symbols from the table
+`docs/api/routines/*.toml`. Edit the table, run the script, commit all; a test compares."""
 
 
 def markdown_index(groups):
@@ -216,14 +236,14 @@ def markdown_index(groups):
 
 IER_HEAD = """# The codes of all routines
 
-From the page of each, where the state of the arrays stands as well. TRMESH and the C API, with what to do:
-[ier.md](../ier.md). *new*: a code that the original does not have; one line on stderr says why."""
+Each routine's page also gives the state of the arrays. TRMESH and the C API, with remedies: [ier.md](../ier.md). *new*:
+not in the original; one line on stderr says why."""
 
 
 def markdown_ier(groups):
-    rows = [[f"[{r.name}]({r.name.lower()}.md)", r.ier_name, value, when]
+    rows = [[f"[{r.name}]({r.name.lower()}.md)" + (f" {r.ier_name}" if r.ier_name != "IER" else ""), value, when]
             for _, routines in groups for r in routines for value, when, _ in r.ier if value != "0"]
-    return f"{IER_HEAD}\n\n{markdown_table(['routine', 'argument', 'code', 'when'], rows)}\n"
+    return f"{IER_HEAD}\n\n{markdown_table(['routine', 'IER', 'when'], rows)}\n"
 
 
 # ---- man pages ----
@@ -274,7 +294,7 @@ def man_page(routine):
             page += [".TP", f".B {troff(value)}", *troff_lines(when + (f" (arrays: {state})" if state else ""))]
         if routine.has_new_codes():
             page += [".PP", NEW_CODES]
-    for head, paragraphs in (("NOT AS IN THE ORIGINAL", routine.differs), ("RANKS AND THREADS", [routine.threads]),
+    for head, paragraphs in (("DIFFERENCES FROM THE ORIGINAL", routine.differs), ("RANKS AND THREADS", [routine.threads]),
                              ("COST", [routine.cost])):
         if paragraphs:
             page.append(f".SH {head}")

@@ -21,7 +21,7 @@ struct Node {
 using Nodes = std::vector<Node>;
 
 const Nodes kOctahedron{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
-// stripack-interface.md, appendix A.1
+// LIST and LPTR that the original returns for the octahedron.
 const std::vector<int> kOctahedronList{2, 3, 3, 1, 1, 2, 4, 4, 3, 2, 5, 5,
                                        5, 1, 3, 4, 6, 6, 6, 6, 1, 5, 4, 2};
 const std::vector<int> kOctahedronLptr{2, 11, 4,  20, 6, 7,  12, 3, 10, 19, 17, 5,
@@ -130,7 +130,7 @@ TEST(original, gives_the_golden_lists_of_the_octahedron) {
 }
 
 TEST(original, that_never_returns_does_not_stop_us) {
-  // Four nodes of one meridian: stripack-interface.md, section 5.1.
+  // Four nodes of one meridian, for which the original does not return.
   const Nodes meridian{{0.452695204446832, 0.5590320207484465, 0.6946583704589973},
                        {0.4602557974987226, 0.5683685756099448, 0.6819983600624985},
                        {0.467676192176097, 0.5775319998974023, 0.6691306063588582},
@@ -155,7 +155,7 @@ TEST(original, is_the_same_through_every_abi) {
 }
 
 TEST(library, of_64_bit_integers_is_the_same_as_of_32) {
-  // Ours, for there is no original of that ABI; the order of slots is our own.
+  // Our library, since there is no original of that ABI; the order of slots is our own.
   const Nodes nodes = random_nodes(500);
   const Triangulation r8 = Original(STRIPACK, kR8).triangulate(nodes, 10);
   const Triangulation i8 = Original(STRIPACK_I8, kI8).triangulate(nodes, 10);
@@ -200,7 +200,7 @@ std::vector<double> crlist_of_octahedron(const Library& library) {
 }
 
 TEST(crlist, has_stripacks_17_arguments_and_cartesian_centres_in_every_abi) {
-  // Appendix A.1: (+--), (++-), (+++), (+-+), (-+-), (-++), (--+), (---) over root 3.
+  // Circumcentres: (+--), (++-), (+++), (+-+), (-+-), (-++), (--+), (---) over root 3.
   const int sign[8][3] = {{1, -1, -1}, {1, 1, -1}, {1, 1, 1},   {1, -1, 1},
                           {-1, 1, -1}, {-1, 1, 1}, {-1, -1, 1}, {-1, -1, -1}};
   const Location where = *configured_original();

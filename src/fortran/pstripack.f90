@@ -9,7 +9,7 @@ module pstripack
   public :: pstripack_ok, pstripack_too_few_nodes, pstripack_collinear, pstripack_too_many_nodes, &
             pstripack_bad_coordinate, pstripack_out_of_memory, pstripack_bad_size
 
-  !> Results of pstripack_trmesh. Another one is L > 0: nodes L and M > L coincide, M the smallest such.
+  ! !> Results of pstripack_trmesh. Any other is L > 0: nodes L and M > L coincide, M the smallest such.
   integer(c_int32_t), parameter :: pstripack_ok = 0, &
     pstripack_too_few_nodes = -1, &   !< fewer than 3 nodes
     pstripack_collinear = -2, &       !< the first three nodes lie on one great circle
@@ -113,9 +113,9 @@ contains
     end if
   end function
 
-  !> The number of the broken promise if the lists are not a correct triangulation of the n = size(x) nodes
-  !> (exact signs), 0 if they are, an error code if this could not be found out; `message` says which nodes.
-  !> list, lptr (at least 6n-12), lend (at least n); lnew as TRMESH gave it, or 0.
+  ! !> The number of the violated property if the lists are not a correct triangulation of the n = size(x)
+  ! nodes (exact signs), 0 if they are, an error code if this could not be determined; `message` names the
+  ! nodes. list, lptr (at least 6n-12), lend (at least n); lnew from TRMESH, or 0.
   function pstripack_validate(x, y, z, list, lptr, lend, lnew, message) result(defect)
     real(c_double), intent(in), contiguous :: x(:), y(:), z(:)
     integer(c_int32_t), intent(in), contiguous :: list(:), lptr(:), lend(:)

@@ -14,7 +14,7 @@ module pstripack_mpi
   public :: pstripack_ranks_disagree, pstripack_bad_comm, pstripack_coincident, pstripack_bad_number, &
             pstripack_empty_mesh, pstripack_every_rank
 
-  !> Results beside those of module pstripack.
+  ! !> Results in addition to those of module pstripack.
   integer(c_int32_t), parameter :: &
     pstripack_empty_mesh = -3, &      !< nothing triangulated yet, or without success
     pstripack_ranks_disagree = -7, &  !< the ranks of a collective TRMESH disagree in N or data
@@ -26,9 +26,9 @@ module pstripack_mpi
 
   !> call pstripack_set_comm(comm [, ier])
   !>
-  !> Collective over comm. From then on TRMESH, in all its forms, is collective over a duplicate of comm, with
-  !> the same arguments on every rank; MPI_COMM_NULL ends that. ier: 0, -6 or pstripack_bad_comm, which also
-  !> print a line.
+  ! !> Collective over comm. From then on TRMESH, in all its forms, is collective over a duplicate of comm,
+  ! with the same arguments on every rank; MPI_COMM_NULL ends that. ier: 0, -6 or pstripack_bad_comm; errors
+  ! also print a line.
   interface pstripack_set_comm
     module procedure set_comm_integer, set_comm_f08
   end interface
@@ -201,12 +201,12 @@ contains
     ier = pstripack_empty_mesh
     if (.not. c_associated(mesh%handle)) return
     n = size(number, kind=c_int64_t)
-    ! All ranks must learn of it: a count that the library refuses.
+    ! A count that the library refuses, so that all ranks return the error.
     if (size(xyz, 2, kind=c_int64_t) /= n .or. (n > 0 .and. size(xyz, 1) /= 3)) n = -1
     ier = c_triangulate(mesh%handle, n, xyz, number)
   end subroutine
 
-  !> After ier = -5, -9, -10: the numbers of the points that it is about, 0 for none.
+  ! !> After ier = -5, -9, -10: the numbers of the points concerned, 0 for none.
   subroutine error_points(mesh, first, second)
     class(pstripack_mesh), intent(in) :: mesh
     integer(c_int64_t), intent(out) :: first, second
@@ -215,7 +215,8 @@ contains
     if (c_associated(mesh%handle)) call c_error_points(mesh%handle, first, second)
   end subroutine
 
-  !> Of this rank: own points, entries of all stars, triangles, and points of other ranks that are neighbours.
+  ! !> For this rank: own points, entries of all stars, triangles, and points of other ranks that are
+  ! neighbours.
   subroutine sizes(mesh, points, arcs, triangles, halo)
     class(pstripack_mesh), intent(in) :: mesh
     integer(c_int64_t), intent(out) :: points, arcs, triangles, halo
@@ -237,9 +238,9 @@ contains
     begin(:points + 1) = begin(:points + 1) + 1
   end subroutine
 
-  !> The rank (from 0) that would be home to each of the points xyz(3, n), so that each rank's points lie close
-  !> together and all ranks have about as many. Points that have been sent there stay at home in later calls, until
-  !> some rank has an eighth more than its share. ier: 0, -3 if the mesh is empty, -5, or -4: rank is too short.
+  ! !> The rank (from 0) that should own each of the points xyz(3, n), so that each rank's points lie close
+  ! together and all ranks have about as many. Points sent there stay at home in later calls, until some rank
+  ! has an eighth more than its share.
   subroutine home(mesh, xyz, rank, ier)
     class(pstripack_mesh), intent(in) :: mesh
     real(c_double), intent(in), contiguous :: xyz(:, :)

@@ -1,9 +1,9 @@
 ! Module stripack: explicit interfaces to the symbols of libstripack, libstripack_r4, libstripack_8arg and
 ! libstripack_i8. Made by docs/api/make-api.py from stripack_module.F90.in and docs/api/routines: edit those.
 !
-! This file is installed, because module files belong to one compiler. Compile it yourself as you compile
-! your code, with any -r8, -i8, -fdefault-real-8 or -fdefault-integer-8 of yours; no object is needed, only
-! the module file. What gfortran needs to be told, by library:
+! This file is installed because module files are for one compiler. Compile it with your code's options, such as
+! -r8, -i8, -fdefault-real-8 or -fdefault-integer-8; only the module file is needed, no object. Options that
+! gfortran needs, by library:
 !
 !   libstripack        nothing
 !   libstripack_r4     -DSTRIPACK_REAL_KIND=4
@@ -11,8 +11,8 @@
 !   libstripack_i8     -fdefault-integer-8
 !
 !   STRIPACK_MODULE        name of the module                    default: stripack
-!                          (CMake's own dependency scanner does not see through it; in a CMake project write
-!                          a module of that name that contains `use stripack`)
+!                          (CMake's dependency scanner does not expand it; in a CMake project write a module
+!                          of that name that contains `use stripack`)
 !   STRIPACK_REAL_KIND     kind of all REAL arguments            default: double precision, which is the kind
 !                          of the library and of a default REAL promoted by -r8 or -fdefault-real-8
 !   STRIPACK_8_ARGUMENTS   TRMESH without LNEW, NEAR, NEXT, DIST
@@ -20,10 +20,10 @@
 ! INTEGER and LOGICAL are the default kinds. No dummy has an INTENT: programs pass INTENT(IN) arrays of
 ! their own as output, as the original allows. Arrays are explicit-shape or assumed-size.
 !
-! All routines: none is collective (of an MPI program any number of ranks may call any number of times), any
-! number of threads may call at once with arrays of their own. Nodes and slots count from 1. LIST and LPTR have
+! All routines: none is collective (in an MPI program any number of ranks may call any number of times), any
+! number of threads may call at once with their own arrays. Nodes and slots count from 1. LIST and LPTR have
 ! at least 6N-12 elements, LEND has N. Angles are in radians except in TRPLOT and VRPLOT, lengths in units of the
-! radius. What each argument is: man 3 trmesh and its like, or docs/api.
+! radius. All arguments: man 3 trmesh etc., or docs/api.
 
 #ifndef STRIPACK_REAL_KIND
 #define STRIPACK_REAL_KIND selected_real_kind(15, 307)
@@ -39,21 +39,21 @@ module stripack
   interface
 
     ! Builds the Delaunay triangulation of nodes on the unit sphere.
-    ! The triangulation covers the sphere, or the convex hull of the nodes where all of them lie in a
-    ! hemisphere: it then has NB >= 3 boundary nodes, 3N-NB-3 arcs and 2N-NB-2 triangles; else 3N-6 arcs and
-    ! 2N-4 triangles.
-    ! The neighbours of node k stand in slots of LIST, counterclockwise: the last one in slot LEND(k), the
-    ! first one in slot LPTR(LEND(k)), and after the one in slot s that in slot LPTR(s). The last neighbour of
-    ! a boundary node is negated.
-    ! The lists are canonical: the neighbours of node k in consecutive slots, nodes in increasing order; an
+    ! The triangulation covers the sphere and has 3N-6 arcs and 2N-4 triangles. If all nodes lie in a
+    ! hemisphere, it covers their convex hull and has NB >= 3 boundary nodes, 3N-NB-3 arcs and 2N-NB-2
+    ! triangles.
+    ! LIST holds the neighbours of node k counterclockwise: the last in slot LEND(k), the first in slot
+    ! LPTR(LEND(k)), the successor of slot s in slot LPTR(s). The last neighbour of a boundary node is
+    ! negated.
+    ! The lists are canonical: nodes in increasing order, the neighbours of each in consecutive slots; an
     ! interior node starts with its smallest neighbour, a boundary node with its first boundary neighbour.
-    ! They are the same bytes for any number of threads and ranks. `PSTRIPACK_ORDER=original` gives the order
-    ! of the original's insertion instead, wherever the original returns a correct triangulation;
-    ! `PSTRIPACK_ORDER=bitwise` also where its triangulation is not exact, with its IER.
-    ! IER  0 done; -1 N < 3; -2 nodes 1, 2, 3 lie on one great circle, by exact sign: give others first;
+    ! Threads and ranks do not change the bytes. `PSTRIPACK_ORDER=original` returns the original's lists
+    ! wherever its triangulation is correct; `PSTRIPACK_ORDER=bitwise` also where it is not exact, with its
+    ! IER.
+    ! IER  0 done; -1 N < 3; -2 nodes 1, 2, 3 lie on one great circle, by exact sign: number others first;
     !      L > 0 nodes L and M coincide, L < M; M is the smallest such index; -4 N > 357,913,943: 6N-11 does
-    !      not fit 32 bits, in libstripack_i8 neither (new); -5 a coordinate is not finite, or a node is
-    !      (0,0,0) (new); -6 out of memory (new); -7 collective calls only: the ranks disagree in N or in the
+    !      not fit 32 bits; in libstripack_i8 too (new); -5 a coordinate is not finite, or a node is (0,0,0)
+    !      (new); -6 out of memory (new); -7 collective calls only: the ranks disagree in N or in the
     !      coordinates (new); -8 collective calls only: the communicator cannot be used (new).
 #ifdef STRIPACK_8_ARGUMENTS
     subroutine trmesh(n, x, y, z, list, lptr, lend, ier)
@@ -69,10 +69,9 @@ module stripack
 
     ! Lists the triangles with their neighbours and, on request, their arcs.
     ! Column t of LTRI is triangle t. Rows 1-3: its corners, counterclockwise, the smallest first. Rows 4-6:
-    ! the number of the triangle opposite the corner in row 1-3, 0 at the boundary. Rows 7-9 (NROW = 9): the
-    ! number of the arc opposite it.
-    ! Triangles are numbered by their smallest corner, then in the order of its list; arcs from 1 to NA, each
-    ! when its last triangle is met. CRLIST numbers triangles otherwise.
+    ! the triangle opposite each corner, 0 at the boundary. Rows 7-9 (NROW = 9): the arc opposite each corner.
+    ! Triangles are numbered by their smallest corner, then in the order of its list; arcs from 1 to NA, in
+    ! the order of their last triangle. CRLIST numbers triangles differently.
     ! IER  0 done; 1 N < 3, or NROW is neither 6 nor 9; 2 not the lists of a triangulation: a neighbour does
     !      not list the node; -6 out of memory (new).
     subroutine trlist(n, list, lptr, lend, nrow, nt, ltri, ier)
@@ -80,7 +79,7 @@ module stripack
     end subroutine
 
     ! Lists the corners of the triangles.
-    ! Rows 1-3 of what TRLIST gives, with the same numbers.
+    ! Rows 1-3 of TRLIST's LTRI, with the same numbers.
     ! IER  0 done; 1 N < 3; 2 not the lists of a triangulation: a neighbour does not list the node; -6 out of
     !      memory (new).
     subroutine trlist2(n, list, lptr, lend, nt, ltri, ier)
@@ -88,27 +87,27 @@ module stripack
     end subroutine
 
     ! Lists the boundary nodes and counts arcs and triangles.
-    ! NODES starts with the boundary node of smallest index and goes round counterclockwise. NB = 0 if the
-    ! triangles cover the sphere; NODES is not written then.
+    ! NODES lists them counterclockwise from the smallest. If the triangles cover the sphere, NB = 0 and NODES
+    ! is not written.
     subroutine bnodes(n, list, lptr, lend, nodes, nb, na, nt)
       integer :: n, list(*), lptr(*), lend(n), nodes(*), nb, na, nt
     end subroutine
 
     ! Finds the triangle that contains a point.
-    ! I3 /= 0: (I1,I2,I3) is the counterclockwise triangle that contains P. B1, B2, B3 >= 0 are its weights up
-    ! to a common factor: P points at (B1*node I1 + B2*node I2 + B3*node I3)/(B1+B2+B3). B3 = 0 if P lies on
-    ! the arc I1-I2.
-    ! I3 = 0: P is outside. I1 and I2 are the rightmost and the leftmost boundary node that P sees (looking
-    ! from P at the triangles); I1 = I2 if it sees all of them. I1 = I2 = I3 = 0: not found: all nodes lie on
-    ! one great circle, or P is zero or NaN. B1, B2, B3 then need not be written.
+    ! I3 /= 0: (I1,I2,I3) is the counterclockwise triangle that contains P. B1, B2, B3 >= 0 are weights up to
+    ! a common factor: P points at (B1*node I1 + B2*node I2 + B3*node I3)/(B1+B2+B3). B3 = 0 if P lies on the
+    ! arc I1-I2.
+    ! I3 = 0: P is outside. I1 and I2 are the rightmost and the leftmost boundary node visible from P (looking
+    ! at the triangles); I1 = I2 if all are. I1 = I2 = I3 = 0: not found, because all nodes lie on one great
+    ! circle, or P is zero or NaN. B1, B2, B3 are then undefined.
     subroutine trfind(nst, p, n, x, y, z, list, lptr, lend, b1, b2, b3, i1, i2, i3)
       integer :: nst, n, list(*), lptr(*), lend(n), i1, i2, i3
       real(STRIPACK_REAL_KIND) :: p(3), x(n), y(n), z(n), b1, b2, b3
     end subroutine
 
     ! Finds the node nearest to a point.
-    ! The result is the nearest node and AL its distance. It is right if P has at most 25 natural neighbours
-    ! in a Delaunay triangulation; after EDGE or DELARC it may be wrong.
+    ! Returns the nearest node, and its distance in AL. Correct if P has at most 25 natural neighbours in a
+    ! Delaunay triangulation; possibly wrong after EDGE or DELARC.
     ! Result  the nearest node; 0 if N < 3 or P is not found, see TRFIND.
     integer function nearnd(p, ist, n, x, y, z, list, lptr, lend, al)
       integer :: ist, n, list(*), lptr(*), lend(n)
@@ -116,11 +115,11 @@ module stripack
     end function
 
     ! Finds the next nearest node to a node.
-    ! NPTS(1) is a node, NPTS(2..L-1) the nodes nearest to it, in order, as earlier calls have given them; the
-    ! call adds NPTS(L). L = 2, 3, ... so gives all nodes by their distance from NPTS(1).
+    ! NPTS(1) is a node, NPTS(2..L-1) the nodes nearest to it, in order, from earlier calls; the call sets
+    ! NPTS(L). Calls with L = 2, 3, ... give all nodes by their distance from NPTS(1).
     ! IER  0 done; 1 L < 2; -5 a distance is not finite (new); -6 out of memory, only if L > 257 (new); -9 a
-    !      list runs into a loop (new); -10 NPTS has a number below 1, or one twice (new); -11 no node is
-    !      left: L > N (new).
+    !      list runs into a loop (new); -10 NPTS holds a number below 1, or the same one twice (new); -11 no
+    !      node is left: L > N (new).
     subroutine getnp(x, y, z, list, lptr, lend, l, npts, df, ier)
       integer :: list(*), lptr(*), lend(*), l, npts(*), ier
       real(STRIPACK_REAL_KIND) :: x(*), y(*), z(*), df
@@ -133,16 +132,16 @@ module stripack
     end function
 
     ! Finds the slot of a neighbour.
-    ! The result s has LIST(s) = NB, except that it is LPL if NB is the last neighbour (LIST(LPL) is then NB
-    ! or -NB) or no neighbour at all: compare abs(LIST(s)) where that matters.
+    ! Returns the slot s with LIST(s) = NB, or LPL if NB is the last neighbour (LIST(LPL) is then NB or -NB)
+    ! or no neighbour: compare abs(LIST(s)) where that matters.
     ! Result  slot of NB in the list of node k, or LPL.
     integer function lstptr(lpl, nb, list, lptr)
       integer :: lpl, nb, list(*), lptr(*)
     end function
 
     ! Adds a node to a triangulation.
-    ! Node K is entered into the triangulation of nodes 1..K-1, and arcs are swapped until all are locally
-    ! Delaunay again. Slots from LNEW on are used.
+    ! Inserts node K into the triangulation of nodes 1..K-1 and swaps arcs until all are locally Delaunay.
+    ! Uses slots from LNEW on.
     ! IER  0 done; -1 K < 4; -2 node K and all others lie on one great circle, or node K is (0,0,0);
     !      L > 0 node K coincides with node L; -4 6K-12 does not fit the integer kind (new); -5 a coordinate
     !      of node K is not finite (new); -9 not the lists of a triangulation (new).
@@ -152,14 +151,13 @@ module stripack
     end subroutine
 
     ! Deletes a node from a triangulation.
-    ! Node K goes, nodes K+1..N become K..N-1 in all arrays, coordinates included, and N and LNEW shrink.
-    ! Columns of IWK hold the end points, in the new numbers, of the arcs that took the place of those of K,
-    ! optimised.
-    ! A node with m neighbours needs m-3 columns in IWK, one more if it is a boundary node. If there are
-    ! fewer, IER = 2 and LWK tells the number.
+    ! Nodes K+1..N become K..N-1 in all arrays, coordinates included; N and LNEW decrease. The columns of IWK
+    ! hold the end points, in the new numbers, of the arcs that replace those of K, optimised.
+    ! A node with m neighbours needs m-3 columns of IWK, m-2 on the boundary. With fewer, IER = 2 and LWK
+    ! returns the number.
     ! IER  0 done; 1 K outside 1..N, N < 4, or LWK < 0; 2 LWK is too small; 3 K has fewer than 3 neighbours,
     !      or a neighbour does not list it: not a triangulation; 4 arcs of an interior node cannot be swapped
-    !      away although there is a boundary; 5 OPTIM failed; a message on standard output; 6 OPTIM came to
+    !      away although there is a boundary; 5 OPTIM failed; a message on standard output; 6 OPTIM reached
     !      its limit of iterations; -9 not the lists of a triangulation (new).
     subroutine delnod(k, n, x, y, z, list, lptr, lend, lnew, lwk, iwk, ier)
       integer :: k, n, list(*), lptr(*), lend(n), lnew, lwk, iwk(2, *), ier
@@ -167,27 +165,26 @@ module stripack
     end subroutine
 
     ! Removes a boundary arc.
-    ! The triangle on the arc goes and the node opposite becomes a boundary node. What is left need not be
-    ! convex: TRFIND, NEARND, ADDNOD, DELNOD and EDGE are then not reliable.
+    ! Removes the triangle on the arc; the node opposite becomes a boundary node. The result may not be
+    ! convex: TRFIND, NEARND, ADDNOD, DELNOD and EDGE are then unreliable.
     ! IER  0 done; 1 N < 4, a node outside 1..N, or IO1 = IO2; 2 IO1-IO2 is not a boundary arc; 3 the node
-    !      opposite is a boundary node already; 4 the nodes do not list each other: not a triangulation;
+    !      opposite is already a boundary node; 4 the nodes do not list each other: not a triangulation;
     !      -9 not the lists of a triangulation (new).
     subroutine delarc(n, io1, io2, list, lptr, lend, lnew, ier)
       integer :: n, io1, io2, list(*), lptr(*), lend(n), lnew, ier
     end subroutine
 
     ! Forces an arc between two nodes.
-    ! Arcs that cross IN1-IN2 are swapped until it is there; the new arcs beside it are then optimised. So
-    ! boundaries of regions become arcs. Later calls of ADDNOD, DELNOD or OPTIM may swap it away again.
-    ! On success one column of IWK is (0,0); the new arcs left of IN1-IN2 stand before it, those to its right
-    ! after it (left and right are exchanged if the search had to start from IN2). N columns always suffice
-    ! unless nodes are collinear.
-    ! EDGE is told neither N nor the lengths of the arrays. Broken lists make it read outside LIST and LPTR
-    ! where LEND or LPTR is above 6N-12, and outside X, Y, Z and LEND where the list of IN1 or IN2 has a
-    ! neighbour above N. A number above N in another list is used only if two lists have it where it belongs.
-    ! IER  0 the arc is there; 1 IN1 < 1, IN2 < 1, IN1 = IN2 or LWK < 0; 2 more than LWK arcs cross IN1-IN2;
-    !      3 no arc that crosses is found: null triangles or a broken triangulation; a message on standard
-    !      output; 4 OPTIM failed, with -9 too; a message on standard output; 5 OPTIM came to its limit of
+    ! Swaps arcs that cross IN1-IN2 until it exists, then optimises the new arcs beside it: boundaries of
+    ! regions become arcs. Later calls of ADDNOD, DELNOD or OPTIM may swap it away.
+    ! On success one column of IWK is (0,0), after the new arcs left of IN1-IN2 and before those right of it
+    ! (exchanged if the search had to start from IN2). N columns suffice unless nodes are collinear.
+    ! EDGE is told neither N nor the lengths of the arrays. With broken lists it reads outside LIST and LPTR
+    ! if LEND or LPTR is above 6N-12, and outside X, Y, Z and LEND if the list of IN1 or IN2 holds a neighbour
+    ! above N. It uses a number above N from another list only if two lists agree on it.
+    ! IER  0 the arc exists; 1 IN1 < 1, IN2 < 1, IN1 = IN2 or LWK < 0; 2 more than LWK arcs cross IN1-IN2;
+    !      3 no crossing arc is found: null triangles or a broken triangulation; a message on standard output;
+    !      4 OPTIM failed, also with -9; a message on standard output; 5 OPTIM reached its limit of
     !      iterations; -9 not the lists of a triangulation (new); -10 the arcs cannot be swapped away: nodes
     !      lie on IN1-IN2, up to rounding, or triangles overlap (new).
     subroutine edge(in1, in2, x, y, z, lwk, iwk, list, lptr, lend, ier)
@@ -196,35 +193,34 @@ module stripack
     end subroutine
 
     ! Optimises a set of arcs.
-    ! Swaps arcs of the list IWK for the other diagonal of their quadrilateral where the circumcircle test
-    ! wants it, in passes until one makes no swap. Arcs of the boundary are passed over. A swapped arc is
-    ! replaced in IWK by the new one.
-    ! OPTIM is told neither N nor the lengths of the arrays. Broken lists make it read outside LIST and LPTR
-    ! where LEND or LPTR is above 6N-12. A node number above all in IWK is used only if the lists of both ends
-    ! of an arc have it; if both are wrong in the same way, OPTIM reads outside X, Y, Z and LEND as well.
+    ! Replaces arcs in IWK by the other diagonal of their quadrilateral where the circumcircle test requires
+    ! it, in passes until one makes no swap, and updates IWK. Skips boundary arcs.
+    ! OPTIM is told neither N nor the lengths of the arrays. With broken lists it reads outside LIST and LPTR
+    ! if LEND or LPTR is above 6N-12. It uses a node number above all in IWK only if the lists of both ends of
+    ! an arc agree on it; if both are wrong, it also reads outside X, Y, Z and LEND.
     ! IER  0 done: the last pass made no swap; 1 NIT passes did not suffice; 2 NA < 0 or NIT < 1; 3 a column
-    !      is not an arc of the triangulation; 4 the other diagonal of a quadrilateral is an arc already: not
+    !      is not an arc of the triangulation; 4 the other diagonal of a quadrilateral is already an arc: not
     !      a triangulation; -9 not the lists of a triangulation (new).
     subroutine optim(x, y, z, na, list, lptr, lend, nit, iwk, ier)
       integer :: na, list(*), lptr(*), lend(*), nit, iwk(2, *), ier
       real(STRIPACK_REAL_KIND) :: x(*), y(*), z(*)
     end subroutine
 
-    ! Enters a node into a triangle.
-    ! Connects node KK to the corners of triangle (I1,I2,I3). Arcs are not optimised: ADDNOD does both. The
-    ! six new slots are LNEW..LNEW+5. That the triangle contains the node is not tested.
+    ! Inserts a node into a triangle.
+    ! Connects node KK to the corners of triangle (I1,I2,I3), without testing that it contains KK and without
+    ! optimising arcs: ADDNOD does both. The six new slots are LNEW..LNEW+5.
     subroutine intadd(kk, i1, i2, i3, list, lptr, lend, lnew)
       integer :: kk, i1, i2, i3, list(*), lptr(*), lend(kk), lnew
     end subroutine
 
-    ! Enters a node outside the triangles, which sees part of the boundary.
-    ! Connects node KK to the boundary nodes from I1 to I2, clockwise, which it sees; I1 and I2 stay boundary
-    ! nodes, those between become interior. Arcs are not optimised: ADDNOD does both.
+    ! Inserts a node outside the triangles from which part of the boundary is visible.
+    ! Connects node KK to the boundary nodes visible from it, clockwise from I1 to I2; those between I1 and I2
+    ! become interior. Arcs are not optimised: ADDNOD does both.
     subroutine bdyadd(kk, i1, i2, list, lptr, lend, lnew)
       integer :: kk, i1, i2, list(*), lptr(*), lend(kk), lnew
     end subroutine
 
-    ! Enters a node outside the triangles, which sees all of the boundary.
+    ! Inserts a node outside the triangles from which the whole boundary is visible.
     ! Connects node KK to all boundary nodes; the triangles then cover the sphere. Arcs are not optimised:
     ! ADDNOD does both.
     subroutine covsph(kk, n0, list, lptr, lend, lnew)
@@ -232,16 +228,15 @@ module stripack
     end subroutine
 
     ! Inserts a neighbour into a list.
-    ! K becomes the neighbour after the one in slot LP; it goes to slot LNEW. After the last neighbour of a
-    ! node K becomes its first one.
+    ! K, in slot LNEW, becomes the neighbour after the one in slot LP; after a node's last neighbour it
+    ! becomes the first.
     subroutine insert(k, lp, list, lptr, lnew)
       integer :: k, lp, list(*), lptr(*), lnew
     end subroutine
 
     ! Deletes a neighbour from a list.
-    ! NB goes from the list of N0; the entry of N0 in the list of NB stays. If NB is a boundary node, N0
-    ! becomes one. The entry in the last slot, LNEW-1, moves into the slot that is free, so that slots
-    ! 1..LNEW-1 stay in use.
+    ! Removes NB from the list of N0, not N0 from the list of NB. If NB is a boundary node, N0 becomes one.
+    ! The entry in the last slot, LNEW-1, moves into the free slot, so that slots 1..LNEW-1 stay in use.
     ! LPH  > 0 done; -1 N < 3, or N0 or NB outside 1..N; -2 NB is not a neighbour of N0; -9 not the lists of a
     !      triangulation (new).
     subroutine delnb(n0, nb, n, list, lptr, lend, lnew, lph)
@@ -249,20 +244,21 @@ module stripack
     end subroutine
 
     ! Exchanges the diagonal of a quadrilateral.
-    ! Arc IO1-IO2, between triangles (IO1,IO2,IN1) and (IO2,IO1,IN2), is replaced by IN1-IN2. The lists of all
-    ! four nodes must have both triangles, whatever the coordinates. No slot is gained or lost.
-    ! SWAP is told neither N nor the lengths of the arrays. A node that is above N, and LEND or LPTR above
-    ! 6N-12, make it read outside the arrays. It writes only to slots in which it has read one of the four
-    ! nodes, and to LEND of IO1 and IO2.
-    ! LP21  > 0 done; 0 IN1 and IN2 are neighbours already; -9 the lists do not have these two triangles
+    ! Replaces arc IO1-IO2, between triangles (IO1,IO2,IN1) and (IO2,IO1,IN2), by IN1-IN2, whatever the
+    ! coordinates. The lists of all four nodes must contain both triangles. The number of slots does not
+    ! change.
+    ! SWAP is told neither N nor the lengths of the arrays: given a node above N, or LEND or LPTR above 6N-12,
+    ! it reads outside the arrays. It writes only to slots in which it has read one of the four nodes, and to
+    ! LEND of IO1 and IO2.
+    ! LP21  > 0 done; 0 IN1 and IN2 are already neighbours; -9 the lists do not contain these two triangles
     !      (new).
     subroutine swap(in1, in2, io1, io2, list, lptr, lend, lp21)
       integer :: in1, in2, io1, io2, list(*), lptr(*), lend(*), lp21
     end subroutine
 
     ! Tests whether a diagonal should be exchanged.
-    ! For triangles (N3,N4,N1) and (N4,N3,N2): true if N2 lies strictly above the plane of N3, N4, N1, that is
-    ! inside their circumcircle, so that arc N1-N2 should replace N3-N4. Exact ties and NaN give false. The
+    ! For triangles (N3,N4,N1) and (N4,N3,N2): true if N2 lies strictly above the plane of N3, N4, N1, that
+    ! is, inside their circumcircle: arc N1-N2 should then replace N3-N4. Exact ties and NaN give false. The
     ! determinant is rounded as in the original.
     ! Result  true: exchange.
     logical function swptst(n1, n2, n3, n4, x, y, z)
@@ -271,14 +267,14 @@ module stripack
     end function
 
     ! Builds the Voronoi diagram of a triangulation.
-    ! Voronoi vertex t is the circumcentre of triangle t: a unit vector XC, YC, ZC and the radius RC. There
-    ! are always 2N-4: if there is a boundary, NB-2 triangles of boundary nodes close the sphere on the far
-    ! side. They come first, and their centres lie more than 90 degrees from their corners.
-    ! LISTC has the numbers of the vertices by the slots of LIST: from LPL = LEND(k), following LPTR round to
-    ! LPL again, LISTC(LP) gives the vertices of the cell of node k, counterclockwise. The slot of b in the
-    ! list of a has the triangle left of the arc from a to b.
-    ! With a boundary LPTR and LNEW are changed: they then describe the Voronoi diagram and no longer fit
-    ! LIST. Keep copies if you go on with the triangulation. Triangles are numbered otherwise than by TRLIST.
+    ! Voronoi vertex t is the circumcentre of triangle t: a unit vector XC, YC, ZC, with radius RC. There are
+    ! always 2N-4. If there is a boundary, NB-2 triangles of boundary nodes close the sphere on the far side;
+    ! they come first, and their centres lie more than 90 degrees from their corners.
+    ! LISTC holds vertex numbers by the slots of LIST: from LPL = LEND(k), following LPTR back to LPL,
+    ! LISTC(LP) are the vertices of the cell of node k, counterclockwise. The slot of b in the list of a holds
+    ! the triangle left of the arc from a to b.
+    ! With a boundary LPTR and LNEW change to describe the Voronoi diagram and no longer fit LIST: keep copies
+    ! if you still need the triangulation. TRLIST numbers triangles differently.
     ! IER  0 done; 1 N < 3; 2 NCOL < NB-2; 3 corners of a triangle coincide; -5 a coordinate is not finite
     !      (new); -6 out of memory (new); -9 not the lists of a triangulation (new).
     subroutine crlist(n, ncol, x, y, z, list, lend, lptr, lnew, ltri, listc, nb, xc, yc, zc, rc, ier)
@@ -287,8 +283,7 @@ module stripack
     end subroutine
 
     ! Circumcentre of a spherical triangle.
-    ! C has the same distance from all corners and lies on their counterclockwise side; clockwise corners give
-    ! the antipode.
+    ! C is equidistant from all corners, on their counterclockwise side; clockwise corners give its antipode.
     ! IER  0 done; 1 two corners coincide, or nearly: the normal of their plane is 0 as rounded; -5 a
     !      coordinate is not finite (new).
     subroutine circum(v1, v2, v3, c, ier)
@@ -296,17 +291,16 @@ module stripack
       real(STRIPACK_REAL_KIND) :: v1(3), v2(3), v3(3), c(3)
     end subroutine
 
-    ! Prints how many cells of the Voronoi diagram have how many edges.
-    ! On standard output: faces, vertices, edges, the Euler defect F+V-E-2, and a table of the numbers of
-    ! cells with 1 to 19, and 20 or more, edges. All arguments are as CRLIST leaves them.
+    ! Prints the number of Voronoi cells by their number of edges.
+    ! On standard output: faces, vertices, edges, the Euler defect F+V-E-2, and the numbers of cells with 1 to
+    ! 19, and 20 or more, edges. Pass the arguments as CRLIST returns them.
     subroutine voronoi_poly_count(n, lend, lptr, listc)
       integer :: n, lend(n), lptr(*), listc(*)
     end subroutine
 
     ! Prints the adjacency lists.
-    ! Per node its number, coordinates as IFLAG says, and its neighbours, counterclockwise; those of a
-    ! boundary node end with 0. At the end the numbers of boundary nodes, arcs and triangles. Pages have 58
-    ! lines.
+    ! For each node its number, coordinates as IFLAG says, and neighbours, counterclockwise, followed by 0 for
+    ! a boundary node. Then the numbers of boundary nodes, arcs and triangles. Pages have 58 lines.
     subroutine trprnt(n, x, y, z, iflag, list, lptr, lend, lout)
       integer :: n, iflag, list(*), lptr(*), lend(n)
       real(STRIPACK_REAL_KIND) :: x(*), y(*), z(*)
@@ -314,8 +308,8 @@ module stripack
     end subroutine
 
     ! Prints the triangles.
-    ! Nodes and coordinates as IFLAG says, then the triangles of TRLIST: corners, neighbours and, with NROW =
-    ! 9, arcs; at the end the numbers of boundary nodes, arcs and triangles. Pages have 58 lines.
+    ! Nodes and coordinates as IFLAG says; the triangles of TRLIST: corners, neighbours and, with NROW = 9,
+    ! arcs; the numbers of boundary nodes, arcs and triangles. Pages have 58 lines.
     subroutine trlprt(n, x, y, z, iflag, nrow, nt, ltri, lout)
       integer :: n, iflag, nrow, nt, ltri(nrow, *)
       real(STRIPACK_REAL_KIND) :: x(*), y(*), z(*)
@@ -323,9 +317,9 @@ module stripack
     end subroutine
 
     ! Draws a triangulation as an Encapsulated PostScript file.
-    ! An orthographic view of the hemisphere round (ELAT,ELON), of which the cap of angle A is shown: a circle
-    ! in a square of PLTSIZ inches, the bounding box, on a page of 8.5 by 11 inches. Title and captions lie
-    ! outside the square. Arcs are straight segments; those with both ends outside the cap are left out.
+    ! An orthographic view of the cap of angle A around (ELAT,ELON): a circle in a square of PLTSIZ inches,
+    ! the bounding box, on a page of 8.5 by 11 inches. Title and captions lie outside the square. Arcs are
+    ! straight segments; those with both ends outside the cap are omitted.
     ! IER  0 done; 1 LUN, PLTSIZ or N out of range; 2 ELAT, ELON or A out of range; 3 the unit cannot be
     !      written; gfortran does not report a full disk; -5 a node is not finite, or its length is not within
     !      0.001..1000 (new); -6 out of memory (new); -9 not the lists of a triangulation (new).
@@ -364,8 +358,8 @@ module stripack
     end subroutine
 
     ! Area of a spherical triangle.
-    ! The sum of the angles less pi, on the unit sphere: 0..2*pi. Vectors may have any length but 0 and either
-    ! orientation; null triangles have area 0.
+    ! The sum of the angles minus pi, 0..2*pi. Vectors may have any length but 0 and either orientation; null
+    ! triangles have area 0.
     ! Result  area, steradians.
     function areas(v1, v2, v3)
       real(STRIPACK_REAL_KIND) :: v1(3), v2(3), v3(3), areas
@@ -379,17 +373,16 @@ module stripack
     end subroutine
 
     ! Tests on which side of a great circle a point lies.
-    ! True if point 0 lies to the left of, or on, the great circle from point 1 to point 2, seen from outside
-    ! the sphere: the determinant of the three is >= 0, as rounded in the original's order. NaN gives false.
+    ! True if point 0 lies left of, or on, the great circle from point 1 to point 2, seen from outside the
+    ! sphere: their determinant, rounded in the original's order, is >= 0. NaN gives false.
     ! Result  true: left or on.
     logical function left(x1, y1, z1, x2, y2, z2, x0, y0, z0)
       real(STRIPACK_REAL_KIND) :: x1, y1, z1, x2, y2, z2, x0, y0, z0
     end function
 
     ! Tests whether a point lies inside a spherical polygon.
-    ! The inside is to the left of the edges LISTV(1) to LISTV(2), ..., LISTV(NV) to LISTV(1):
-    ! counterclockwise vertices enclose it. Clockwise ones describe the complement. Near the boundary, within
-    ! rounding, the answer may be either.
+    ! The inside is left of the edges LISTV(1) to LISTV(2), ..., LISTV(NV) to LISTV(1): clockwise vertices
+    ! describe the complement. Within rounding of the boundary the answer may be either.
     ! Result  true: inside; false if IER /= 0.
     ! IER  0 done; 1 NV < 3 or NV > LV; 2 an index in LISTV is outside 1..LV; 3 the polygon crosses itself;
     !      4 no edge gives a point of reference: degenerate polygon, or P is zero; -5 a coordinate of P or of
@@ -400,8 +393,8 @@ module stripack
     end function
 
     ! Intersects an arc with a great circle.
-    ! P is the point, of the two where the great circle through P1 and P2 meets the one with normal CN, on the
-    ! side of the arc. P need not lie between P1 and P2.
+    ! The great circle through P1 and P2 meets the one with normal CN in two points; P is the one on the side
+    ! of the arc, not necessarily between P1 and P2.
     ! IER  0 done; 1 P1 and P2 have the same distance from the plane of the circle: P1 = P2, CN = 0, or no
     !      point is the nearest; 2 P1 and P2 are antipodes; -5 an argument is not finite (new).
     subroutine intrsc(p1, p2, cn, p, ier)
@@ -410,16 +403,16 @@ module stripack
     end subroutine
 
     ! Random integer in 1..N.
-    ! The generator of Wichmann and Hill with three seeds, which the call advances. Set each once to 1..30000.
-    ! It is the generator with which TRFIND draws start nodes.
+    ! The Wichmann-Hill generator, with three seeds that the call advances; set each once to 1..30000. TRFIND
+    ! draws start nodes with it.
     ! Result  uniformly distributed in 1..N.
     integer function jrand(n, ix, iy, iz)
       integer :: n, ix, iy, iz
     end function
 
     ! Returns its argument, rounded to the working precision.
-    ! The original forces the value through memory, on machines whose registers are wider. With IEEE
-    ! arithmetic it is X.
+    ! The original forces the value through memory on machines with wider registers. With IEEE arithmetic it
+    ! is X.
     ! Result  X.
     function store(x)
       real(STRIPACK_REAL_KIND) :: x, store

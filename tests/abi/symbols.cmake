@@ -44,7 +44,7 @@ endforeach()
 
 symbols_of(${LIBRARY} undefined -D --undefined-only)
 if("${undefined}" MATCHES "(^|;)getenv")
-  message(FATAL_ERROR "${LIBRARY} calls getenv: use environment_variable of geometry/environment.h")
+  message(FATAL_ERROR "${LIBRARY} calls getenv: use environment_variable of base/environment.h")
 endif()
 
 if(NOT ONE_SYMBOL_AN_OBJECT)

@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue's sets of nodes by name, for the record of what was made of them.
+// The catalogue's sets of nodes by name, for the record of results.
 
 #include <functional>
 #include <string>
@@ -12,5 +12,5 @@ struct Input {
   std::function<Nodes()> nodes;
 };
 
-/// All that are generated; those of tests/data are files with a record of their own.
+/// All generated sets; those of tests/data are files with their own record.
 const std::vector<Input>& generated_inputs();

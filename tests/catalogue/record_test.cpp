@@ -1,8 +1,8 @@
-// What the original and ours make of every input of the catalogue, against what is on record: in record.txt,
-// and for the point files of tests/data in the comments at their beginning. The original runs in a process of
-// its own with a time limit.
+// Compares the original's and our result for every input of the catalogue with the record: in record.txt, and
+// for the point files of tests/data in the comments at their beginning. The original runs in its own process
+// with a time limit.
 //
-// `record_test --print SECONDS` writes the lines of record.txt and tests/data anew, with that time limit.
+// `record_test --print SECONDS` writes the lines of record.txt and tests/data again, with that time limit.
 
 #include <gtest/gtest.h>
 
@@ -64,7 +64,7 @@ TEST_P(Catalogue, OursIsAsRecorded) {
 
 #ifdef HAVE_NGMATH
 TEST_P(Catalogue, OriginalIsAsRecorded) {
-  // Where it should return it gets all the time that a loaded machine may need.
+  // If it should return, it gets all the time that a loaded machine may need.
   const bool hangs = GetParam().original == "does not return";
   EXPECT_EQ(original_behaviour(GetParam().input.nodes(), hangs ? 1 : 100), GetParam().original);
 }

@@ -23,7 +23,7 @@ REQUIRED = [
     "src/cxx/geometry/exact.h",
     "src/cxx/mesh/validate.cpp",
     "src/cxx/mesh/validate.h",
-    "src/cxx/stripack/adjacency_lists.cpp",
+    "src/cxx/lists/adjacency_lists.cpp",
 ]
 ERROR = re.compile(
     r"\bthrow\b|\bcatch \(|return \{?-\d|return (defect|malformed)\(|Status::(?!done\b)\w+|"

@@ -21,7 +21,7 @@ constexpr double tiny = std::numeric_limits<double>::denorm_min();
 
 Point minus(const Point& p) { return {-p.x, -p.y, -p.z}; }
 
-/// Each component one ulp up, one down, or as it is.
+/// Each component one ulp up, one down, or unchanged.
 Point shaken(const Point& p, Random& random) {
   const auto one = [&random](double v) {
     const std::size_t way = random.below(3);
@@ -30,7 +30,7 @@ Point shaken(const Point& p, Random& random) {
   return {one(p.x), one(p.y), one(p.z)};
 }
 
-/// As they are, and in two random orders.
+/// In the given and in two random orders.
 void expect_as_promised_in_any_order(Nodes nodes, const std::string& what) {
   EXPECT_TRUE(is_as_promised(nodes)) << what;
   for (const std::uint64_t seed : {1, 2}) {
@@ -213,7 +213,7 @@ TEST(HiddenNodes, AmongLengthsWithin1em7OfOneAreCorrect) {
 }
 
 TEST(HiddenNodes, AndTiesTogetherAreCorrect) {
-  // A lattice with many cocircular fours; then one node in its midst, shorter by an ulp or more.
+  // A lattice with many cocircular fours; then one node among them, shorter by an ulp or more.
   for (const double shorter : {0x1p-53, 0x1p-40, 1e-8, 0.9e-6})
     for (const int which : {0, 13, 25}) {
       Nodes nodes;

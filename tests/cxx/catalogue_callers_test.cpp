@@ -1,4 +1,4 @@
-// The catalogue's section "Callers and machines", as far as it concerns the C API of one process.
+// Section "Callers and machines" of tests/catalogue/rows.toml, for the C API of one process.
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -64,13 +64,13 @@ TEST(Calls, FromInsideAParallelRegionAreRight) {
   EXPECT_EQ(wrong, 0);
 }
 
-/// How many calls keep memory flat: so many, or what PSTRIPACK_TEST_CALLS says.
+/// Number of calls over which memory must stay flat: `number`, or PSTRIPACK_TEST_CALLS.
 int calls_or(int number) {
   const char* const asked = std::getenv("PSTRIPACK_TEST_CALLS");
   return asked != nullptr ? std::atoi(asked) : number;
 }
 
-/// run(calls) leaves memory as it was after some first calls.
+/// Memory must not grow during run(calls), after some first calls.
 template <class Run>
 void expect_flat_memory(const Run& run, int first, int calls) {
   run(first);
@@ -146,7 +146,7 @@ TEST(Calls, InAForkedChildAreRight) {
 }
 
 TEST(Calls, DoNotFollowAddresses) {
-  // The triple is all there is: the next call gets other points at the same address.
+  // The triple identifies nothing: the next call gets other points at the same address.
   Nodes nodes = make("random", 500);
   const Mesh first = trmesh(nodes);
   const Mesh other = trmesh(make("random", 500, 2));
@@ -155,7 +155,7 @@ TEST(Calls, DoNotFollowAddresses) {
 }
 
 TEST(OutOfMemory, IsReportedAndTouchesNothing) {
-  // In a child whose address space is limited to what it has and a little more: any amount must do.
+  // In a child whose address space is limited to little more than it uses: every limit must work.
   const Nodes nodes = make("random", 200000);
   int refused = 0, done = 0;
   for (std::size_t kilobytes = 64; kilobytes < (1u << 20); kilobytes = kilobytes * 5 / 4) {

@@ -1,4 +1,4 @@
-// The catalogue's section "Duplicates and near-duplicates".
+// Section "Duplicates and near-duplicates" of tests/catalogue/rows.toml.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace {
 using point_sets::make;
 using pstripack::Point;
 
-/// L of the smallest M, the lists those of a call with the nodes 1..M-1, bit for bit.
+/// Expects L of the smallest M, and bit for bit the lists of a call with the nodes 1..M-1.
 void expect_duplicate(const Nodes& nodes, int l, std::size_t m) {
   ASSERT_EQ(expected_ier(nodes), l);
   ::testing::internal::CaptureStderr();
@@ -105,7 +105,7 @@ TEST(Duplicate, TheSameDirectionWithAnotherLengthIsReported) {
     nodes[30] = {scale * p.x, scale * p.y, scale * p.z};
     expect_duplicate(nodes, 11, 31);
   }
-  // Lengths that differ by less than 1e-6: the node would only be hidden behind the other.
+  // Lengths that differ by less than 1e-6: without the check for copies one node would only hide the other.
   for (const double scale : {1 + 0x1p-52, 1 - 0x1p-53, 1 + 0x1p-30}) {
     Nodes nodes = make("random", 50);
     nodes[10] = {0, 1, 0};
@@ -132,7 +132,7 @@ TEST(Duplicate, IsReportedTheSameWithAnyThreads) {
 
 constexpr double radians = 0.017453292519943295;
 
-/// Rows and columns as naive programs make them; at the poles cos(90 degrees) = 6e-17.
+/// Rows and columns as simple programs compute them; at the poles cos(90 degrees) = 6e-17.
 Nodes naive_grid(int rows, int columns, bool poles, bool seam_twice) {
   Nodes nodes;
   for (int j = poles ? 0 : 1; j <= (poles ? rows : rows - 1); ++j)

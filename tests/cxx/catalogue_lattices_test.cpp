@@ -1,4 +1,4 @@
-// The catalogue's section "Lattices, orders, densities", but for what is about ranks.
+// Section "Lattices, orders, densities" of tests/catalogue/rows.toml, except what concerns ranks.
 
 #include <gtest/gtest.h>
 
@@ -185,7 +185,8 @@ std::uint64_t morton(const Point& p) {
   return key;
 }
 
-/// The place along Hilbert's curve through the cube, 20 bits an axis (Skilling, AIP Conf. Proc. 707, 2004).
+/// The position along Hilbert's curve through the cube, 20 bits per axis (Skilling, AIP Conf. Proc. 707,
+/// 2004).
 std::uint64_t hilbert(const Point& p) {
   std::uint32_t v[3] = {static_cast<std::uint32_t>((p.x + 1) * 0x1p18),
                         static_cast<std::uint32_t>((p.y + 1) * 0x1p18),

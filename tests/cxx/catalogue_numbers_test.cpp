@@ -1,5 +1,5 @@
-// The catalogue's section "Numbers": what is no direction, and extreme sizes. The floating-point environment:
-// tests/numerics.
+// Section "Numbers" of tests/catalogue/rows.toml: vectors without direction, and extreme sizes. The
+// floating-point environment: tests/numerics.
 
 #include <gtest/gtest.h>
 #include <sys/mman.h>

@@ -1,4 +1,4 @@
-// The catalogue's section "Small and special": a test or more for each row.
+// Section "Small and special" of tests/catalogue/rows.toml: at least one test per row.
 
 #include <gtest/gtest.h>
 
@@ -91,7 +91,7 @@ TEST(FewNodes, FourOnOneSideHaveABoundary) {
 
 // ---- All small subsets of the 26 directions of a cube ----
 
-/// What is known of all fours of the 26 nodes, from tests/support/exact.h.
+/// All signs of fours of the 26 nodes, from tests/support/exact.h.
 class CubeDirections {
  public:
   explicit CubeDirections(bool unit) {

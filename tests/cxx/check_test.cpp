@@ -1,4 +1,4 @@
-// PSTRIPACK_CHECK, read where the library is loaded: every case is a program of its own, this one again.
+// PSTRIPACK_CHECK, which is read when the library is loaded: every case runs this program again.
 
 #include <fcntl.h>
 #include <sys/wait.h>
@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "capi/recorded_block.h"
+#include "observe/recorded_block.h"
 #include "point_sets.h"
 #include "support/expect.h"
 #include "support/this_program.h"
@@ -160,7 +160,7 @@ TEST(Check, IsAppendedToTheFileOfTheFolderWhereTheProgramBegan) {
   EXPECT_NE(all[0].header.process, all[2].header.process);
 }
 
-/// Every call of every process is there once, its input before its output.
+/// Every call of every process is recorded once, its input before its output.
 void expect_calls(const std::vector<Block>& all, std::size_t processes, std::size_t calls_of_each) {
   std::map<std::uint64_t, std::map<std::int64_t, std::vector<std::uint32_t>>> kinds;
   for (const Block& b : all) kinds[b.header.process][b.header.call].push_back(b.header.kind);

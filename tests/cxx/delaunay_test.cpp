@@ -103,7 +103,7 @@ TEST_P(HardNodes, AreTriangulatedCorrectly) {
 
 INSTANTIATE_TEST_SUITE_P(Of, HardNodes, ::testing::ValuesIn(hard_cases({12, 300, 2000})), name_of);
 
-/// With so few nodes no algorithm is needed to know the answer: all triples are tried.
+/// For so few nodes the result is known by trying all triples.
 class FewNodes : public ::testing::TestWithParam<std::size_t> {};
 
 void compare_with_all_triples(const std::vector<Case>& cases, std::uint64_t seeds) {

@@ -2,7 +2,8 @@
 // arrays, and changes nothing where it says so. For all kinds of numbers.
 //
 // Arrays have just the length that the documentation asks for and lie between pages that cannot be touched.
-// SWAP, OPTIM and EDGE are told neither N nor LNEW: they cannot know that a slot number is too great, so they
+// SWAP, OPTIM and EDGE are told neither N nor LNEW: they cannot detect a slot number that is too large, so
+// they
 // get none that is. Node numbers may be anything, except two that agree (see docs/api/optim.md) and those in
 // the lists of the nodes that EDGE connects.
 

@@ -1,5 +1,5 @@
 // The routines that change a triangulation, on the canonical lists of our trmesh: judged by the validator,
-// not by the original. For all kinds of numbers. Lists that are none: edit_broken_lists_test.cpp.
+// not by the original. For all kinds of numbers. Invalid lists: edit_broken_lists_test.cpp.
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "lists/adjacency_lists.h"
 #include "point_sets.h"
-#include "stripack/adjacency_lists.h"
 #include "stripack/node_edit.h"
 
 using namespace pstripack;
@@ -86,7 +86,7 @@ struct Mesh {
            lptr == m.lptr && lend == m.lend;
   }
 
-  /// "" if the lists are well formed; and, if asked for, a Delaunay triangulation by exact signs.
+  /// Empty if the lists are well formed and, if requested, a Delaunay triangulation by exact signs.
   std::string fault(bool delaunay) const {
     const std::vector<std::int32_t> a(list.begin(), list.end()), b(lptr.begin(), lptr.end()),
         c(lend.begin(), lend.end());
@@ -216,7 +216,7 @@ TYPED_TEST(Edit, ColumnsAndArcsThatAreNone) {
   };
   EXPECT_EQ(optim_of(0, 2), OptimStatus::no_arc);
   EXPECT_EQ(optim_of(2, -1), OptimStatus::no_arc);
-  // A boundary arc of which one end does not know.
+  // A boundary arc that one end does not list.
   Int a = 1;
   const auto last = [&](Int k) -> Int& {
     return mesh.list[static_cast<std::size_t>(mesh.lend[static_cast<std::size_t>(k - 1)] - 1)];

@@ -1,6 +1,6 @@
-// How far lists are from the exact mesh: of exact meshes, and of these after changes whose effect is known.
+// The distance of lists from the exact mesh: for exact meshes, and after changes with known effect.
 
-#include "stripack/exact_difference.h"
+#include "trmesh/exact_difference.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include "point_sets.h"
 #include "stripack/arc_edit.h"
 #include "stripack/list_edit.h"
-#include "stripack/trmesh.h"
+#include "trmesh/trmesh.h"
 
 using namespace pstripack;
 
@@ -195,7 +195,7 @@ TEST(ExactDifference, CountsTrianglesOverTheWholeBoundary) {
   EXPECT_EQ(mesh.difference().boundary_triangles, boundary - 2);
 }
 
-/// Lists that hide that nodes coincide or lie in line are those of other nodes.
+/// Nodes that coincide or are collinear, with the lists of other nodes, which hide it.
 TEST(ExactDifference, TellsTheExactCode) {
   Mesh mesh(point_sets::make("random", 40));
   mesh.nodes[30] = mesh.nodes[10];

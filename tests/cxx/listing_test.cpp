@@ -1,5 +1,5 @@
-// TRPRNT, TRLPRT, VORONOI_POLY_COUNT: what needs no original. The rows and page breaks that they share with
-// it are compared in tests/differential/listing_differential_test.cpp.
+// TRPRNT, TRLPRT, VORONOI_POLY_COUNT without the original. The rows and page breaks that they share with it
+// are compared in tests/differential/listing_differential_test.cpp.
 
 #include <gtest/gtest.h>
 
@@ -128,7 +128,7 @@ Triangulated spiral(int n) {
   return nodes;
 }
 
-/// A node with so many neighbours, and those.
+/// A node with this many neighbours, and these.
 Triangulated wheel(int spokes) {
   Triangulated nodes;
   nodes.add(1, 0);

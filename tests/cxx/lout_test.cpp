@@ -1,5 +1,5 @@
-// TRPRNT and TRLPRT of libstripack_r4 and libstripack_i8, which look at LOUT: callers written against the
-// Fortran 90 text do not pass it, and leave anything in its place.
+// TRPRNT and TRLPRT of libstripack_r4 and libstripack_i8, which use LOUT: callers written for the Fortran 90
+// text do not pass it, and leave an arbitrary value in its place.
 
 #include <gtest/gtest.h>
 

@@ -13,8 +13,8 @@
 #include <string>
 #include <tuple>
 
+#include "base/workspace.h"
 #include "distributions.h"
-#include "geometry/workspace.h"
 #include "parallel/coincidence.h"
 #include "parallel/partition.h"
 #include "parallel/patch.h"
@@ -620,6 +620,23 @@ TEST_F(KeptPatches, NotForOtherPredicatesKindsOrNumbersOfPatches) {
   EXPECT_TRUE(keeps_soon(longer));
 }
 
+/// Where lengths about one hide a node, each call tries them as given first. The patches that the last call
+/// had made for directions are kept by both attempts.
+TEST(Homes, OfDirectionsAreForLengthsAboutOneToo) {
+  const auto partition =
+      std::make_shared<Partition>(PartitionKind::bisection, 2, point_sets::make("random", 100, 1), 100);
+  const auto are_for = [&](Lengths last, Lengths now) {
+    Division division(Places(last, 1e-7));
+    division.partition = partition;
+    for (int rank = 0; rank < 2; ++rank) division.patches.add(1);
+    return Homes(division, PartitionKind::bisection).are_for(PartitionKind::bisection, division.patches, now);
+  };
+  EXPECT_TRUE(are_for(Lengths::as_given, Lengths::as_given));
+  EXPECT_TRUE(are_for(Lengths::directions, Lengths::directions));
+  EXPECT_TRUE(are_for(Lengths::directions, Lengths::as_given));
+  EXPECT_FALSE(are_for(Lengths::as_given, Lengths::directions));
+}
+
 /// Patches made for other nodes: thin or thick halos cost time only.
 TEST_F(KeptPatches, HoldForNodesThatAreDenseElsewhere) {
   const Nodes nodes = point_sets::make("random", 5 * nodes_.size(), 9);
@@ -803,7 +820,7 @@ TEST(Partitions, BisectionIsBalancedWhateverTheDensity) {
   }
 }
 
-// A sample of some nodes a patch leaves some patches much too large.
+// A sample of a few nodes per patch leaves some patches much too large.
 TEST(Partitions, CutsAreMovedToWhereAllNodesAreShared) {
   constexpr int kPatches = 24;
   for (const char* family : {"random", "variable:1e6", "clusters", "dense-cap", "cap"}) {

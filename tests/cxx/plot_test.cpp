@@ -95,7 +95,7 @@ struct Sphere {
   std::vector<int> list, lptr, lend, listc, voronoi_lptr;
 };
 
-/// How one looks at the sphere.
+/// A view of the sphere.
 struct Look {
   double size, latitude, longitude, angle;
 

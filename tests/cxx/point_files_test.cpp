@@ -1,5 +1,5 @@
-// Every point file of tests/data, in the given and in other orders. A bug that was found becomes a file
-// there: hexadecimal floats, and a comment that says what went wrong.
+// Every point file of tests/data, in the given and in other orders. Every bug found becomes a file there:
+// hexadecimal floats, and a comment on what went wrong.
 
 #include <gtest/gtest.h>
 

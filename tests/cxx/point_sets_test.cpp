@@ -15,7 +15,7 @@ namespace {
 
 using point_sets::make;
 
-/// 0 where a family does not promise unit length.
+/// 0 if the family does not promise unit length.
 double tolerance_of_length(const std::string& family) {
   for (const char* other : {"moment", "axis-cap", "nest", "mirrored-nest", "rays", "lattice", "earth"})
     if (family == other) return 0;

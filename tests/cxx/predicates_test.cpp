@@ -600,8 +600,8 @@ TEST(Length, CountsAsOneWithinAMillionthOfIt) {
   for (const double bad : {inf, -inf, inf - inf, 1e300}) EXPECT_FALSE(pstripack::length_is_one({bad, 0, 1}));
 }
 
-// Determinants whose computed value has the wrong sign, and is so many times u of the permanent (found by
-// hill climbing): nobody but a bound above that notices.
+// Determinants whose computed value has the wrong sign, although it is this many times u of the permanent
+// (found by hill climbing): only a larger bound rejects it.
 TEST(Filter, GivesUpWhereRoundingTellsTheWrongSign) {
   const Four orientation = {{{-0x1.fe5d5b1d5d464p-2, 0x1.4aeb534d1a5fbp-1, 0x1.27d5cbf981a3ap-1},  // 3.1
                              {-0x1.62dc385b64351p-1, -0x1.8ddd74e2f0dddp-2, 0x1.36e053dbf959bp-1},
@@ -678,9 +678,9 @@ TEST(VanishingVolumes, AreToldFromZero) {
 
 // ---- Around the grid of exact.h ----
 
-/// Integers of three bits, at every scale about 1, where they leave the grid, and the last in line or in
-/// plane with the others, but for last bits: what no filter tells must not overflow. Every other time those
-/// that leave it by little: 2 and 3, the last node the fourth corner of a parallelogram.
+/// Integers of three bits, at every scale about 1, at the edge of the grid; the last one collinear or
+/// coplanar with the others but for last bits: undecided by the filter, and must not overflow. Every other
+/// time slightly outside the grid: 2 and 3, the last node the fourth corner of a parallelogram.
 TEST(Grid, IsLeftOutBeforeAnythingOverflows) {
   Random random(22);
   for (int i = 0; i < cases(40000); ++i) {
@@ -702,7 +702,7 @@ TEST(Grid, IsLeftOutBeforeAnythingOverflows) {
     const double s = static_cast<double>(random.below(3)) - 1,
                  t = i % 2 == 0 ? static_cast<double>(random.below(3)) - 1 : -s;
     const Point a = any(), b = any(), c = any();
-    // Beside the plane of the others by a last bit, or in it: what no floating point tells.
+    // Off the plane of the others by a last bit, or in it: undecided in floating point.
     const Four f{a, b, c, nudged(plus(plus(plus(Point{0, 0, 0}, 1 - s - t, a), s, b), t, c))};
     const Point in_plane = nudged(plus(plus(Point{0, 0, 0}, s, a), t, b));
     ASSERT_EQ(pstripack::orientation(f[0], f[1], f[2], f[3]),
@@ -949,9 +949,9 @@ TEST(Stages, AreCountedWhereTheyAreEntered) {
     Counts as_given, of_directions;  // of the volume, without the tie rule
   };
   const Row rows[] = {
-      // Doubles see it.
+      // Decided by doubles.
       {{Point{1, 0, 0}, Point{0, 1, 0}, Point{0, 0, 1}, Point{h, h, 0}}, {}, {}},
-      // The equator: no arithmetic for coordinates; for directions once double-double has not told.
+      // The equator: no arithmetic for coordinates; for directions after double-double is undecided.
       {{Point{0.6, 0.8, 0}, Point{-0.6, 0.8, 0}, Point{-0.8, -0.6, 0}, Point{0.6, -0.8, 0}}, {}, {0, 0, 1}},
       // A parallel: a tie of directions takes the integers of a bracket and of the volume.
       {{Point{0.6, 0, 0.8}, Point{0, 0.6, 0.8}, Point{-0.6, 0, 0.8}, Point{0, -0.6, 0.8}}, {}, {0, 0, 1, 2}},

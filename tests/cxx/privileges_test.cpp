@@ -1,5 +1,5 @@
-// A program with rights that its caller has not (setuid, setgid) does nothing that the caller's environment
-// asks the library for. Run by root: a copy of this program, started by another user.
+// A program with rights that its caller lacks (setuid, setgid) ignores the library's variables in the
+// caller's environment. Run by root: a copy of this program, started by another user.
 
 #include <fcntl.h>
 #include <poll.h>
@@ -43,8 +43,8 @@ class Listener {
   int socket_;
 };
 
-/// What a program of mode `mode`, owned by root, leaves behind when another user starts it with an
-/// environment that asks for everything.
+/// The files that a program of mode `mode`, owned by root, leaves behind when another user starts it with all
+/// variables set.
 struct Effects {
   int code;
   bool is_privileged, has_report, has_recording, has_warned, has_connected, has_started_a_program;

@@ -1,4 +1,4 @@
-// PSTRIPACK_REPORT, read where the library is loaded: every case is a program of its own, this one again.
+// PSTRIPACK_REPORT, which is read when the library is loaded: every case runs this program again.
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -150,7 +150,7 @@ TEST(Report, WarnsOnceOfAFileThatCannotBeWrittenAndGoesOn) {
   }
 }
 
-/// A name that is cut off would be that of another file.
+/// A truncated name would be that of another file.
 TEST(Report, IsNotWrittenUnderAnotherNameWhereItsOwnIsTooLong) {
   const Folder folder;
   std::string deep;
@@ -217,7 +217,7 @@ TEST(Report, TellsTheOrdersThatThereAre) {
                                      "ngmath or bitwise-ngmath; canonical is used"});
 }
 
-/// Four nodes of one meridian; and five of which the fourth hangs on the others by a null triangle.
+/// Four nodes of one meridian; and five of which the fourth is attached by a null triangle.
 const Nodes kMeridian{{0.452695204446832, 0.5590320207484465, 0.6946583704589973},
                       {0.4602557974987226, 0.5683685756099448, 0.6819983600624985},
                       {0.467676192176097, 0.5775319998974023, 0.6691306063588582},

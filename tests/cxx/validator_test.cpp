@@ -8,14 +8,14 @@
 #include <set>
 #include <string>
 
+#include "lists/adjacency_lists.h"
 #include "mesh/validate.h"
 #include "point_sets.h"
-#include "stripack/adjacency_lists.h"
-#include "stripack/trmesh.h"
 #include "support/cases.h"
 #include "support/guarded.h"
 #include "support/judge.h"
 #include "support/trmesh.h"
+#include "trmesh/trmesh.h"
 
 namespace {
 
@@ -368,7 +368,7 @@ TEST(Validator, RefusesTheBackOfAHemisphere) {
 }
 
 /// Both poles and 2k nodes near the equator, around which the fan of each pole winds twice: every triangle
-/// counterclockwise, every arc locally Delaunay, Euler number 2. Only the stars of the poles tell.
+/// counterclockwise, every arc locally Delaunay, Euler number 2. Only the stars of the poles show the defect.
 TEST(Validator, FindsABranchedDoubleCover) {
   for (const int k : {3, 4, 5, 8, 50}) {
     Nodes nodes = {{0, 0, 1}, {0, 0, -1}};
@@ -551,8 +551,10 @@ TEST(Validator, FindsADefectOfTheLastNodes) {
   const int n = static_cast<int>(nodes.size());
   Lists lists{std::vector<int>(6 * nodes.size() - 12), std::vector<int>(6 * nodes.size() - 12),
               std::vector<int>(nodes.size())};
-  const auto result = pstripack::trmesh(n, c.x.data(), c.y.data(), c.z.data(), lists.list.data(),
-                                        lists.lptr.data(), lists.lend.data(), &lists.lnew);
+  const auto result =
+      pstripack::trmesh({n,
+                         {c.x.data(), c.y.data(), c.z.data()},
+                         {lists.list.data(), lists.lptr.data(), lists.lend.data(), &lists.lnew}});
   ASSERT_EQ(result.ier, 0);
   EXPECT_TRUE(judge(nodes, lists));
   nodes.back() = {0, 0, -1};

@@ -1,7 +1,7 @@
 // Calls of TRMESH that may begin with the mesh of an earlier one: the same bytes as those of calls that
 // cannot.
 
-#include "stripack/warm_start.h"
+#include "trmesh/warm_start.h"
 
 #include <gtest/gtest.h>
 #ifdef _OPENMP
@@ -14,14 +14,14 @@
 #include <thread>
 
 #include "geometry/predicates.h"
+#include "lists/adjacency_lists.h"
 #include "mesh/delaunay.h"
 #include "point_sets.h"
-#include "stripack/adjacency_lists.h"
-#include "stripack/trmesh.h"
 #include "support/child.h"
 #include "support/columns.h"
 #include "support/lists.h"
 #include "support/moves.h"
+#include "trmesh/trmesh.h"
 
 namespace {
 

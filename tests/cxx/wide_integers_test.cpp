@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "capi/stripack_calls.h"
+#include "support/stripack_calls.h"
 #include "point_sets.h"
 #include "support/expect.h"
 

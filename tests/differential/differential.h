@@ -38,7 +38,7 @@ const legacy_stripack::Library& second_original();
 /// The TRMESH of the second copy, so that the seeds of the first are as fresh as ours; the IER in `ier`.
 Lists triangulated_by_original(const NodeSet& nodes, int& ier);
 
-/// What became of a comparison over many sets.
+/// Result of a comparison over many sets.
 struct Result {
   int compared = 0;                       ///< sets on which both sides returned
   std::vector<std::string> not_returned;  ///< sets on which a call hung or crashed: names

@@ -126,7 +126,7 @@ struct Mesh {
 
 using Calls = std::function<void(const Routines&, Mesh&)>;
 
-/// Codes that came up in a test, in all its children.
+/// Codes that occurred in a test, in all its children.
 class Codes {
  public:
   void note(int code) { ++count_[static_cast<std::size_t>(std::clamp(code, -20, 20) + 20)]; }
@@ -147,7 +147,7 @@ class Codes {
 sigjmp_buf out_of_call;
 void leave(int) { siglongjmp(out_of_call, 1); }
 
-/// Makes calls that may not return; false if they did not within 0.01 seconds of work.
+/// Makes calls that may not return; false if they do not within 0.01 seconds of processor time.
 bool returns(const Calls& calls, const Routines& routines, Mesh& mesh) {
   signal(SIGVTALRM, leave);
   const itimerval limit{{0, 0}, {0, 10000}}, none{{0, 0}, {0, 0}};
@@ -568,7 +568,7 @@ TEST(Differential, DELNOD) {
       if (const std::string d = delnod(mesh, k, mesh.n); !d.empty()) return d;
     if (const std::string d = delnod(mesh, 1, -1); !d.empty()) return d;
     if (mesh.n > 3) {
-      // A node of which a neighbour does not know; a node with one neighbour.
+      // A node that a neighbour does not list; a node with one neighbour.
       Mesh damaged = mesh;
       const int a = dice.node(mesh), b = mesh.neighbours(a).front();
       int slot = mesh.last(b);

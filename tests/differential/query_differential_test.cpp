@@ -1,5 +1,5 @@
-// The routines that ask and measure, each test named after its routine. Random seeds: both sides are asked
-// the same in the same order, in processes in which nothing was drawn before.
+// The routines that query and measure, each test named after its routine. Random seeds: both sides get the
+// same calls in the same order, in processes in which nothing was drawn before.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 #include "child_process.h"
 #include "differential/differential.h"
 #include "differential/routines.h"
-#include "stripack_calls.h"
+#include "support/stripack_calls.h"
 
 using namespace differential;
 
@@ -437,7 +437,7 @@ TEST(Differential, STORE) {
 
 namespace {
 
-/// Three vectors of the kinds that tell triangle routines apart.
+/// Three vectors of all kinds that triangle routines treat differently.
 void triple(Random& random, int trial, Vec& a, Vec& b, Vec& c) {
   a = random.direction(), b = random.direction(), c = random.direction();
   switch (trial % 10) {
@@ -872,7 +872,8 @@ TEST(Differential, TRFIND_ends) {
   }
 }
 
-// Enough draws to tell JRAND in single precision from JRAND in double: they differ once in 30000 for N = 500.
+// Enough draws to distinguish JRAND in single precision from JRAND in double: they differ once in 30000 for N
+// = 500.
 TEST(Differential, TRFIND_random_starts) {
   const NodeSet* largest = &node_sets()[0];  // that covers the sphere
   for (const NodeSet& set : node_sets())

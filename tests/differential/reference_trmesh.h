@@ -1,7 +1,7 @@
 #pragma once
-// TRMESH as plainly as it can be written, on LIST, LPTR and LEND, with nothing made faster: what the
-// product's is compared with in REAL*4, of which there is no original here. In REAL*8 it is itself compared
-// with libngmath's. Positions in the vectors are those of Fortran: element 0 is not used.
+// A plain TRMESH on LIST, LPTR and LEND, without optimisations: the reference for the product's in REAL*4,
+// for which there is no original here. In REAL*8 it is itself compared with libngmath's. Positions in the
+// vectors are those of Fortran: element 0 is not used.
 
 #include <cmath>
 #include <cstdlib>
@@ -25,7 +25,7 @@ class ReferenceTrmesh {
     lend.assign(static_cast<std::size_t>(n) + 1, 0);
   }
 
-  /// IER; -99 where a search takes more new starts than this.
+  /// IER; -99 if a search takes more restarts than this.
   int run(int most_starts = 20000) {
     starts_left_ = most_starts;
     const Real d = side(1, 2, 3);

@@ -16,8 +16,8 @@
 #include "differential/reference_trmesh.h"
 #include "differential/routines.h"
 #include "point_sets.h"
-#include "stripack/original_order.h"
-#include "stripack/trmesh.h"
+#include "stripack/original/original_order.h"
+#include "trmesh/trmesh.h"
 
 using namespace differential;
 using namespace pstripack;
@@ -79,8 +79,8 @@ Verdict judged(const NodeSet& nodes, const Triangulation& t) {
       Lengths::automatic, Ties::either_way);
 }
 
-/// L and M of the first node M that lies in the direction of an earlier one, as IER and the number of nodes
-/// before.
+/// As IER and number of nodes before: L and M of the first node M that lies in the direction of an earlier
+/// one.
 std::pair<int, std::size_t> first_copy(const NodeSet& nodes) {
   const std::vector<Point> p = points_of(nodes);
   const std::size_t most = std::min<std::size_t>(p.size(), 1000);  // the larger sets have none
@@ -90,7 +90,7 @@ std::pair<int, std::size_t> first_copy(const NodeSet& nodes) {
   return {0, p.size()};
 }
 
-/// Is our result right, whatever the original's?
+/// True if our result is correct, regardless of the original's.
 std::string fault_of_ours(const NodeSet& nodes, const Triangulation& ours) {
   const std::vector<Point> p = points_of(nodes);
   if (left(p[0], p[1], p[2]) == 0) return ours.ier == -2 ? "" : "IER of collinear first nodes";
@@ -100,15 +100,15 @@ std::string fault_of_ours(const NodeSet& nodes, const Triangulation& ours) {
   return judged(nodes, ours).message;
 }
 
-/// What the original returns is a triangulation of the nodes that it should have taken in.
+/// True if the original's result is a triangulation of all nodes that it had to insert.
 bool is_right(const NodeSet& nodes, const Triangulation& original) {
   const auto [ier, count] = first_copy(nodes);
   return original.ier == ier && nodes_in(original, nodes.x.size()) == count && judged(nodes, original);
 }
 
-/// Are these lists a triangulation at all: do they close, does every arc go both ways, with at most one
-/// triangle on each side, is all connected, with one boundary or none, as STRIPACK marks it, and with Euler's
-/// number?
+/// True if these lists are a triangulation at all: they close, every arc goes both ways with at most one
+/// triangle on each side, all is connected, with at most one boundary, marked as by STRIPACK, and Euler's
+/// number is right.
 bool is_a_triangulation(const Lists& lists, std::size_t n) {
   const auto at = [](const std::vector<int>& v, int i) { return v.at(static_cast<std::size_t>(i) - 1); };
   std::set<std::pair<int, int>> sides, used;  // a->b with a triangle on its left; all arcs
@@ -177,7 +177,7 @@ bool is_a_triangulation(const Lists& lists, std::size_t n) {
          n - used.size() / 2 + triangles / 3 == (boundary_nodes == 0 ? 2 : 1);
 }
 
-/// 5.1, 5.2 and 5.4 of what is known about the original: it does not end, or gives up with IER = -2.
+/// Nodes for which the original does not end, or gives up with IER = -2.
 const NodeSet kOneMeridian{"one meridian",
                            {0.452695204446832, 0.4602557974987226, 0.467676192176097, 0.47495412815485366},
                            {0.5590320207484465, 0.5683685756099448, 0.5775319998974023, 0.5865195023430131},
@@ -288,7 +288,7 @@ TEST(Differential, TRMESH_steps) {
   expect_equal(result, 60);
 }
 
-/// NEAR by location gives what the original's bookkeeping gives, where the triangulation is right.
+/// NEAR by location equals the original's bookkeeping if the triangulation is correct.
 TEST(Differential, TRMESH_start_nodes) {
   int compared = 0;
   for (const char* family :
@@ -329,7 +329,7 @@ TEST(Differential, TRMESH_start_nodes) {
   std::printf("%d sets compared\n", compared);
 }
 
-/// Where the insertion is given up early, its end would have been wrong. Returns how often.
+/// If the insertion was given up early, its result would have been wrong. Returns how often that happened.
 template <class Real>
 int times_given_up() {
   int times = 0;
@@ -473,7 +473,7 @@ TEST(Bitwise, TRMESH_of_grids) {
   expect_bits_of_original(sets, 10);
 }
 
-/// In single precision, of which there is no original here.
+/// In single precision, for which there is no original here.
 TEST(Bitwise, TRMESH_r4) {
   int wrong = 0, right = 0;
   for (const NodeSet& nodes : node_sets()) {
@@ -484,8 +484,10 @@ TEST(Bitwise, TRMESH_r4) {
     if (ier < 0) continue;
     Triangulation ours{0, Lists(nodes.n())};
     kept_seeds() = {};
-    const TrmeshResult result = trmesh(nodes.n(), x.data(), y.data(), z.data(), ours.lists.list.data(),
-                                       ours.lists.lptr.data(), ours.lists.lend.data(), &ours.lists.lnew);
+    const TrmeshResult result =
+        trmesh({nodes.n(),
+                {x.data(), y.data(), z.data()},
+                {ours.lists.list.data(), ours.lists.lptr.data(), ours.lists.lend.data(), &ours.lists.lnew}});
     ASSERT_EQ(result.ier, ier) << nodes.name;
     const auto slots = static_cast<std::size_t>(reference.lnew) - 1;
     const auto are_equal = [](const std::vector<int>& a, const std::vector<int>& b, std::size_t count) {

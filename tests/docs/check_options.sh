@@ -1,12 +1,12 @@
 #!/bin/sh
-# The man page of a tool has every option that the tool and its subcommands tell with --help, and no other.
+# The man page of a tool has exactly the options in the --help of the tool and its subcommands.
 # Usage: check_options.sh TOOL MAN1_DIR
 set -eu
 tool=$1
 name=$(basename "$tool")
 page=$2/$name.1
 
-# The options of a text, a line each: -x and --word.
+# The options in a text, one per line: -x and --word.
 options() { grep -oE -e '(^|[][ ,"])--?[a-z][a-z0-9-]*' | grep -oE -e '--?[a-z][a-z0-9-]*' | sort -u; }
 subcommands=$("$tool" --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z]*\) .*/\1/p')
 for subcommand in "" $subcommands; do

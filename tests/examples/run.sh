@@ -1,5 +1,5 @@
 #!/bin/sh
-# Runs the commands that the head of an example tells ("$ command") in a copy of its folder, where the installed package
+# Runs the commands at the head of an example ("$ command") in a copy of its folder, where the installed package
 # is found, and checks what it prints. Usage: run.sh EXAMPLE_DIR WORK_DIR PREFIX
 set -eu
 example=$1 work=$2 prefix=$3

@@ -1,5 +1,5 @@
-// The n-th allocation of a call fails, for each n, in every routine that allocates: the code that says so,
-// results as they were, no leak, and the next call is right.
+// The n-th allocation of a call fails, for each n, in every routine that allocates: the documented code,
+// results unchanged, no leak, and the next call is correct.
 
 #include <gtest/gtest.h>
 #include <omp.h>
@@ -10,15 +10,15 @@
 #include <numeric>
 #include <thread>
 
+#include "base/workspace.h"
 #include "capi/pstripack.h"
-#include "capi/stripack_calls.h"
-#include "capi/text_calls.h"
-#include "geometry/workspace.h"
 #include "injection.h"
 #include "point_sets.h"
-#include "stripack/warm_start.h"
 #include "support/lists.h"
 #include "support/moves.h"
+#include "support/stripack_calls.h"
+#include "support/text_calls.h"
+#include "trmesh/warm_start.h"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/workspace.h"
+#include "base/workspace.h"
 #include "support/failing_allocation.h"
 
 /// An array that a call writes, with what it holds before.
@@ -34,13 +34,13 @@ struct Call {
   std::vector<Result> results;
   std::int64_t out_of_memory = -6;  ///< the code that says so
   std::ptrdiff_t lines = 1;         ///< on stderr then
-  long every = 1;                   ///< after so many failures a call without one is tried
+  long every = 1;                   ///< a call without failures is tried after this many failures
 };
 
-/// Runs the call with its first allocation failing, then with its second, until no more is made; then with
-/// all allocations failing from the first on, from the second on, ... Each must give the code for it and
-/// leave the results as they were, or do without; keep no memory; and leave a library whose next call is
-/// right. Returns how many allocations failed at least.
+/// Runs the call with its first allocation failing, then its second, until no more is made; then with all
+/// allocations failing from the first on, from the second on, ... Each must return the code for it and leave
+/// the results unchanged, or do without the memory; leak nothing; and leave a library whose next call is
+/// correct. Returns a lower bound of the number of failed allocations.
 inline long fail_each_allocation(const Call& call) {
   const auto restore = [&] {
     std::for_each(call.results.begin(), call.results.end(), [](auto& r) { r.restore(); });

@@ -4,7 +4,7 @@
 # LIMIT: seconds within which a job must be over [10].
 #
 # The modes take turns: pool, comm, distributed. The victim is any of three ranks, of a pool sometimes the model.
-# Prints a line a kill and a table: the phase that the job named, seconds until the job was over, processes left.
+# Prints a line per kill and a table: the phase that the job named, seconds until the job was over, processes left.
 # Fails unless every job was over in time, with an exit code that is not 0, nothing left, and, after kill -9, one line
 # that names the rank that was lost and its phase, where it or another was in a call.
 # shellcheck disable=SC2086,SC2154

@@ -1,11 +1,11 @@
 // The n-th allocation fails, for each n, on one rank or on all, in every call of pstripack_mpi.h: the same
-// code on all ranks, results as they were, no leak, and the next call is right.
+// code on all ranks, results unchanged, no leak, and the next call is correct.
 
 #include <functional>
 #include <vector>
 
+#include "base/workspace.h"
 #include "capi/pstripack_mpi.h"
-#include "geometry/workspace.h"
 #include "mpi/mpi_test.h"
 #include "point_sets.h"
 #include "support/expect.h"
@@ -28,8 +28,7 @@ struct Extent {
 enum Ranks { only_first, only_last, every };
 bool is_hit(Ranks which) { return which == every || rank_of() == (which == only_first ? 0 : size_of() - 1); }
 
-/// call() gives its code, check(code) what is wrong after it; clear() ends what a call without an error
-/// began.
+/// call() returns its code, check(code) the defect after it, if any; clear() undoes a call without an error.
 void fail_each_allocation(
     const std::function<int()>& call, const std::function<bool(int)>& is_right,
     const std::function<void()>& clear = [] {}) {

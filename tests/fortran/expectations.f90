@@ -1,4 +1,4 @@
-!> What all tests here share: a failed expectation says which one and ends the program with an error.
+! !> Shared by all tests here: a failed expectation is named and ends the program with an error.
 module expectations
   implicit none
 contains

@@ -1,5 +1,5 @@
 #pragma once
-// What the fuzz targets make of the bytes that they are given, and how they fail.
+// Typed values from the bytes of a fuzz input, and how a target fails.
 
 #include <algorithm>
 #include <cstddef>

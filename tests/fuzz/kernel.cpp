@@ -1,5 +1,5 @@
-// TRMESH on nodes of any bits: the code that the contract promises, a correct mesh by the tests' own judge,
-// no access outside the arrays, no result touched on a negative code.
+// TRMESH on nodes of any bits: the documented code, a correct mesh by the tests' own judge, no access outside
+// the arrays, no result touched on a negative code.
 
 #include <algorithm>
 

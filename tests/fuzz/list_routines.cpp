@@ -111,7 +111,7 @@ class Changes {
     return "EDGE, IER = " + std::to_string(ier);
   }
 
-  /// DELARC, now and then of nodes that are no boundary arc.
+  /// DELARC, sometimes for nodes that are no boundary arc.
   std::string cut() {
     const int a = any_node();
     const int b = a >= 1 && a <= mesh_.n && input_.below(4) > 0 ? -mesh_.last_neighbour(a) : any_node();
@@ -167,7 +167,7 @@ class Changes {
               "the arc that SWAP should have made");
   }
 
-  /// INTADD, BDYADD, COVSPH: a node without the exchanges that ADDNOD makes, as TRFIND says.
+  /// INTADD, BDYADD, COVSPH where TRFIND locates the node, without ADDNOD's swaps.
   std::string enter() {
     if (!place_next()) return "nothing";
     const int k = mesh_.n + 1, start = any_node();
@@ -193,8 +193,8 @@ class Changes {
     return "COVSPH";
   }
 
-  /// A routine on copies of the lists in which some entries are anything. SWAP, OPTIM and EDGE, which are not
-  /// told how long the arrays are, get numbers within them.
+  /// Calls a routine on copies of the lists in which some entries are arbitrary. SWAP, OPTIM and EDGE, which
+  /// are not told the lengths of the arrays, get numbers within them.
   std::string with_damaged_lists() {
     const ::Edge side = input_.below(2) == 0 ? ::Edge::begin : ::Edge::end;
     const int routine = input_.below(10), n = mesh_.n, slots = 6 * n - 12;

@@ -1,5 +1,4 @@
-// The routines that ask a triangulation and change nothing, by the public symbols, with arguments of any
-// bits.
+// The routines that query a triangulation, by the public symbols, with arguments of any bits.
 
 #include <array>
 #include <cmath>

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Looks for inputs that make a routine fail, with libFuzzer, for so many seconds a target: run.sh [SECONDS]
+# Searches for inputs that make a routine fail, with libFuzzer, SECONDS per target: run.sh [SECONDS]
 #
 # Inputs that reach code that none did before are kept in build-fuzz/corpus; one that fails is written to
 # build-fuzz/TARGET-crash-... or -timeout-...: run.sh then ends with code 1, and

@@ -1,5 +1,5 @@
 #pragma once
-// Pools of points that small sets of nodes are drawn from: lattices of few coordinates, and all degeneracies.
+// Pools of points for small sets of nodes: lattices of few coordinates, and all degeneracies.
 
 #include <cstddef>
 #include <cstdint>

@@ -22,9 +22,9 @@
 
 #include "point_sets.h"
 #include "small_pools.h"
-#include "stripack/trmesh.h"
 #include "support/exact.h"
 #include "support/judge.h"
+#include "trmesh/trmesh.h"
 #ifdef HAVE_CGAL
 #include "support/cgal_hull.h"
 #endif
@@ -151,8 +151,8 @@ struct SmallFaces {
   int count = 0;
 };
 
-/// All triples of `nodes` with a positive determinant and none of the others above. Lets go of what is more
-/// than there can be.
+/// All triples of `nodes` with a positive determinant and none of the others above; drops those beyond the
+/// largest possible number.
 SmallFaces brute_force(const Pool& pool, const Fours& fours, Mask nodes) {
   SmallFaces faces;
   const auto add = [&](int a, int b, int c) {
@@ -183,8 +183,7 @@ struct Expected {
   SmallFaces faces;
 };
 
-/// The contract's lists of these faces, of the first `n` nodes of the case. False if they do not fit
-/// together.
+/// The canonical lists of these faces, of the first `n` nodes of the case. False if they do not fit together.
 bool write_lists(const Case& drawn, int n, const SmallFaces& faces, Outputs& out) {
   std::array<int, kPoolSize> number;
   for (int i = 0; i < n; ++i) number[drawn.point[i]] = i;
@@ -272,7 +271,7 @@ Outputs call_trmesh(const Pool& pool, const Case& drawn) {
   }
   Outputs out;
   const pstripack::TrmeshResult result =
-      pstripack::trmesh<double, std::int32_t>(drawn.n, x, y, z, out.list, out.lptr, out.lend, &out.lnew);
+      pstripack::trmesh({drawn.n, {x, y, z}, {out.list, out.lptr, out.lend, &out.lnew}});
   out.ier = result.ier;
   out.node = static_cast<std::int32_t>(result.node);
   out.other = static_cast<std::int32_t>(result.other);

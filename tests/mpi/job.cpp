@@ -32,7 +32,7 @@ bool in_comm_mode() {
   return trmesh(nodes).ier == 31;
 }
 
-/// Every so-manieth of the nodes.
+/// This rank's nodes: every n-th one on n ranks.
 struct Share {
   explicit Share(const Nodes& nodes) {
     for (auto i = static_cast<std::size_t>(rank_of()); i < nodes.size();

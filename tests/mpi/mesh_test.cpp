@@ -85,7 +85,7 @@ std::int64_t sum(std::int64_t value) {
   return value;
 }
 
-/// Everything that a mesh tells of this rank's part, against the serial lists.
+/// Compares all that a mesh returns for this rank's part with the serial lists.
 void check_part(const pstripack_mesh* mesh, const Nodes& nodes, const std::vector<std::size_t>& mine,
                 const Number& number, const Rings& rings) {
   const Sizes sizes(mesh);

@@ -1,4 +1,4 @@
-// TRMESH by all ranks: the bytes and the codes of TRMESH by one.
+// TRMESH by all ranks returns the bytes and codes of TRMESH by one.
 
 #include <algorithm>
 #include <cmath>
@@ -7,13 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "base/shared_area.h"
 #include "mpi/area_of_all.h"
 #include "mpi/collective_trmesh.h"
-#include "mpi/list_pieces.h"
+#include "mpi/gather_lists.h"
 #include "mpi_test.h"
 #include "parallel/coincidence.h"
 #include "point_sets.h"
-#include "pool/shared_area.h"
+#include "pool/area_layout.h"
 #include "support/columns.h"
 #include "support/failing_allocation.h"
 #include "support/lists.h"
@@ -24,6 +25,7 @@ using pstripack::AgreedFailure;
 using pstripack::Arrays;
 using pstripack::MpiCommunicator;
 using pstripack::SharedArea;
+using pstripack::TrmeshCall;
 using pstripack::TrmeshResult;
 
 constexpr std::int32_t untouched = -987654321;
@@ -44,10 +46,22 @@ bool operator==(const Outcome& a, const Outcome& b) {
 }
 
 template <class Real>
+TrmeshCall call_of(const Columns<Real>& c, Outcome& o) {
+  return {static_cast<std::int32_t>(c.x.size()),
+          {c.x.data(), c.y.data(), c.z.data()},
+          {o.list.data(), o.lptr.data(), o.lend.data(), &o.lnew}};
+}
+
+/// Of a rank that has no arrays.
+template <class Real>
+TrmeshCall no_call() {
+  return {0, pstripack::NodeArrays(sizeof(Real), nullptr, nullptr, nullptr), {}};
+}
+
+template <class Real>
 Outcome by_one(const Columns<Real>& c) {
   Outcome o(c.x.size());
-  o.result = pstripack::trmesh(static_cast<std::int32_t>(c.x.size()), c.x.data(), c.y.data(), c.z.data(),
-                               o.list.data(), o.lptr.data(), o.lend.data(), &o.lnew);
+  o.result = pstripack::trmesh(call_of(c, o));
   return o;
 }
 
@@ -56,11 +70,7 @@ Outcome by_all(MpiCommunicator& ranks, Arrays arrays, const Columns<Real>& c) {
   const bool has_arrays = arrays == Arrays::on_every_rank || ranks.rank() == 0;
   Outcome o(has_arrays ? c.x.size() : 0);
   try {
-    o.result = has_arrays ? collective_trmesh(ranks, arrays, static_cast<std::int32_t>(c.x.size()),
-                                              c.x.data(), c.y.data(), c.z.data(), o.list.data(),
-                                              o.lptr.data(), o.lend.data(), &o.lnew)
-                          : pstripack::collective_trmesh<Real>(ranks, arrays, 0, nullptr, nullptr, nullptr,
-                                                               nullptr, nullptr, nullptr, nullptr);
+    o.result = collective_trmesh(ranks, arrays, has_arrays ? call_of(c, o) : no_call<Real>());
   } catch (const AgreedFailure& failure) {
     o.result = {failure.code};
   }
@@ -77,22 +87,23 @@ Outcome by_all_in_shared_memory(MpiCommunicator& ranks, const Columns<Real>& c) 
   Outcome o(n);
   const std::vector<Real>* const columns[] = {&c.x, &c.y, &c.z};
   const auto each_array = [&](const auto& visit) {
-    visit(o.list, layout.list(area.data()));
-    visit(o.lptr, layout.lptr(area.data()));
-    visit(o.lend, layout.lend(area.data()));
+    const pstripack::ListArrays lists = layout.call(area.data(), nullptr).lists;
+    visit(o.list, lists.list);
+    visit(o.lptr, lists.lptr);
+    visit(o.lend, lists.lend);
   };
   if (ranks.rank() == 0) {
     for (int i = 0; i < 3; ++i)
-      std::copy(columns[i]->begin(), columns[i]->end(), layout.template coordinate<Real>(area.data(), i));
+      std::copy(columns[i]->begin(), columns[i]->end(),
+                static_cast<Real*>(layout.coordinate(area.data(), i)));
     if (n >= 3) each_array([](const auto& own, auto* there) { std::copy(own.begin(), own.end(), there); });
   }
   std::int64_t ready = 0;
   ranks.all_min(&ready, 1);
   try {
-    o.result = collective_trmesh(
-        ranks, Arrays::shared, static_cast<std::int32_t>(n), layout.template coordinate<Real>(area.data(), 0),
-        layout.template coordinate<Real>(area.data(), 1), layout.template coordinate<Real>(area.data(), 2),
-        layout.list(area.data()), layout.lptr(area.data()), layout.lend(area.data()), &o.lnew);
+    TrmeshCall call = layout.call(area.data(), &o.lnew);
+    call.n = static_cast<std::int32_t>(n);
+    o.result = collective_trmesh(ranks, Arrays::shared, call);
   } catch (const AgreedFailure& failure) {
     o.result = {failure.code};
   }
@@ -109,7 +120,7 @@ void expect_the_same(MpiCommunicator& ranks, const Nodes& nodes, const std::stri
   Outcome expected = by_one(c);
   EXPECT_TRUE(by_all(ranks, Arrays::on_every_rank, c) == expected) << what << ", on every rank";
   EXPECT_TRUE(by_all_in_shared_memory(ranks, c) == expected) << what << ", in shared memory";
-  const Outcome pool = by_all(ranks, Arrays::on_rank_0, c);
+  const Outcome pool = by_all(ranks, Arrays::on_one_rank, c);
   if (ranks.rank() == 0) {
     EXPECT_TRUE(pool == expected) << what << ", on rank 0";
   } else {
@@ -131,7 +142,8 @@ TEST(CollectiveTrmesh, IsTrmeshOnEveryPointSet) {
 
 TEST(CollectiveTrmesh, IsTrmeshOnHardNodes) {
   MpiCommunicator ranks(MPI_COMM_WORLD);
-  // So many ranks on two processors take seconds a call: each sixth family there, all of them on fewer ranks.
+  // With this many ranks on two processors a call takes seconds: every sixth family here, all of them on
+  // fewer ranks.
   const std::size_t step = ranks.size() > 16 ? 6 : 1;
   for (std::size_t k = 0; k < point_sets::hard_families().size(); k += step) {
     const std::string& family = point_sets::hard_families()[k];
@@ -186,9 +198,10 @@ TEST(CollectiveTrmesh, ReportsTheSameBadInput) {
 
 TEST(CollectiveTrmesh, TooManyNodesAreRefusedBeforeAnythingIsRead) {
   MpiCommunicator ranks(MPI_COMM_WORLD);
-  for (const Arrays arrays : {Arrays::on_every_rank, Arrays::on_rank_0}) {
-    const TrmeshResult result = pstripack::collective_trmesh<double>(
-        ranks, arrays, 357913944, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr);
+  for (const Arrays arrays : {Arrays::on_every_rank, Arrays::on_one_rank}) {
+    TrmeshCall call = no_call<double>();
+    call.n = 357913944;
+    const TrmeshResult result = collective_trmesh(ranks, arrays, call);
     EXPECT_EQ(result.ier, -4);
   }
 }
@@ -224,7 +237,7 @@ TEST(CollectiveTrmesh, MemoryThatFailsOnOneRankFailsOnAll) {
     if (with_coincidence) nodes[50] = nodes[20];
     const Columns<double> c(nodes);
     const Outcome expected = by_one(c);
-    for (const Arrays arrays : {Arrays::on_every_rank, Arrays::on_rank_0})
+    for (const Arrays arrays : {Arrays::on_every_rank, Arrays::on_one_rank})
       for (int culprit = 0; culprit<ranks.size(); culprit += ranks.size()> 1 ? ranks.size() - 1 : 1) {
         bool failed = true;
         for (long n = 1; failed; ++n) {
@@ -233,8 +246,9 @@ TEST(CollectiveTrmesh, MemoryThatFailsOnOneRankFailsOnAll) {
           {
             const FailingAllocation memory(ranks.rank() == culprit ? n : 0);
             try {
-              o.result = collective_trmesh(ranks, arrays, has_arrays ? 60 : 0, c.x.data(), c.y.data(),
-                                           c.z.data(), o.list.data(), o.lptr.data(), o.lend.data(), &o.lnew);
+              TrmeshCall call = call_of(c, o);
+              if (!has_arrays) call.n = 0;
+              o.result = collective_trmesh(ranks, arrays, call);
             } catch (const AgreedFailure& failure) {
               o.result = {failure.code};
             } catch (const std::exception& error) {

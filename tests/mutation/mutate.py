@@ -37,7 +37,7 @@ SUBJECTS = {
     "src/cxx/geometry/predicates.h": ("inline bool length_is_one", "/// Counts since", [QUICK, KERNEL]),
     "src/cxx/mesh/flips.cpp": ("struct Spokes {", "}  // namespace pstripack", [FLIPS]),
     "src/cxx/mesh/validate.cpp": ("Verdict defect(", "const char* name(", [VALIDATOR, LISTS]),
-    "src/cxx/stripack/adjacency_lists.cpp": ("Verdict malformed(", "#define PSTRIPACK", [VALIDATOR, LISTS]),
+    "src/cxx/lists/adjacency_lists.cpp": ("Verdict malformed(", "#define PSTRIPACK", [VALIDATOR, LISTS]),
 }
 
 REPLACEMENTS = [
@@ -120,7 +120,7 @@ class Mutation:
         return {p: p.read_bytes() for p in sorted((self.build / "build/src/cxx").rglob("*.o"))}
 
     def passes(self, stage, seconds):
-        """True if the tests of the stage pass in so many seconds of processor time."""
+        """True if the tests of the stage pass within this processor time, in seconds."""
         test, pattern, share = stage
 
         def limits():

@@ -1,6 +1,6 @@
 #pragma once
-// Every routine of one of the libraries libstripack*, called on sets of nodes that lead it everywhere. Which
-// library: differential/routines.h.
+// Calls every routine of one of the libraries libstripack* on sets of nodes that reach all its paths. The
+// library is chosen as in differential/routines.h.
 
 #include <cstdint>
 #include <functional>

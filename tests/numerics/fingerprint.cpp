@@ -1,6 +1,6 @@
-// Prints a line a set of nodes: a hash of all that the routines of libstripack give, called in the
-// floating-point environment in which this program was started, which -ffast-math makes another one. Two
-// builds of PSTRIPACK are to print the same. Which environment that is goes to stderr.
+// Prints one line per set of nodes: a hash of all results of libstripack's routines, called in the
+// floating-point environment in which this program was started, which -ffast-math changes. Two builds of
+// PSTRIPACK must print the same. stderr names the environment.
 
 #include <cinttypes>
 #include <cstdio>

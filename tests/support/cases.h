@@ -1,6 +1,6 @@
 #pragma once
-// How many random cases a test tries: PSTRIPACK_CASES multiplies the usual number, up for a long run by hand,
-// down where the tests are run for every mutant of a source file (tests/mutation).
+// Number of random cases of a test: PSTRIPACK_CASES multiplies the default, up for a long run by hand, down
+// where the tests are run for every mutant of a source file (tests/mutation).
 
 #include <cmath>
 #include <cstdlib>

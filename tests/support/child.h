@@ -1,5 +1,5 @@
 #pragma once
-// Something that may end the process, in a process of its own.
+// Runs code that may end the process in its own process.
 
 #include <sys/wait.h>
 #include <unistd.h>

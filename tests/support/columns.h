@@ -4,7 +4,7 @@
 
 #include "lists.h"
 
-/// The coordinates of nodes in arrays of their own, as TRMESH takes them.
+/// The coordinates of nodes in three arrays, as TRMESH takes them.
 template <class Real = double>
 struct Columns {
   explicit Columns(const Nodes& nodes) {

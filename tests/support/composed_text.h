@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "capi/text_calls.h"
+#include "support/text_calls.h"
 
 /// The text behind a handle, which is freed.
 inline std::string text_of(void* handle) {

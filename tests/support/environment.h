@@ -1,5 +1,5 @@
 #pragma once
-// The floating-point environment of a thread: how a program may have set it, and what of it can be seen.
+// The floating-point environment of a thread: changing it as programs do, and reading it.
 
 #include <fenv.h>
 #if defined(__SSE2__)
@@ -41,7 +41,7 @@ inline void enter_strange_environment() {
   trap_all();
 }
 
-/// That one while it lives.
+/// Sets that environment while it lives.
 class StrangeEnvironment {
  public:
   StrangeEnvironment() {

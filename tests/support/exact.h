@@ -1,6 +1,6 @@
 #pragma once
-// The geometry once more, for judging the library's: big integers from the first step, no filter, no code
-// shared with src/. Points are finite and not zero.
+// Independent geometry for judging the library's: big integers throughout, no filter, no code shared with
+// src/. Points are finite and not zero.
 
 #include <boost/multiprecision/cpp_int.hpp>
 
@@ -12,7 +12,7 @@ using pstripack::Point;
 using Integer = boost::multiprecision::cpp_int;
 using Rational = boost::multiprecision::cpp_rational;
 
-/// What a node is: the vector as given, or its direction p/|p|.
+/// Meaning of a node: the vector as given, or its direction p/|p|.
 enum class On { coordinates, directions };
 
 /// The sign of det(a,b,c).

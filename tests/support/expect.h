@@ -1,5 +1,5 @@
 #pragma once
-// What nearly every test of the C API asks.
+// Checks that nearly every test of the C API makes.
 
 #include <gtest/gtest.h>
 
@@ -16,8 +16,8 @@ inline bool is_untouched(const Mesh& m) {
   return all(m.list) && all(m.lptr) && all(m.lend) && m.lnew == untouched;
 }
 
-/// V of the catalogue: IER = 0, canonical lists, nothing written behind them, valid for the library's
-/// validator and for the tests' own judge.
+/// What tests/catalogue/rows.toml calls V: IER = 0, canonical lists, nothing written behind them, accepted by
+/// the library's validator and by the tests' own judge.
 inline ::testing::AssertionResult is_correct(const Nodes& nodes, const Mesh& m) {
   if (m.ier != 0) return ::testing::AssertionFailure() << "IER = " << m.ier;
   const auto rings = rings_of(m);
@@ -37,7 +37,7 @@ inline std::size_t boundary_nodes(const Mesh& m) {
   return count;
 }
 
-/// The contract for any input that is finite: the documented code and what goes with it.
+/// For any finite input: the documented code (docs/ier.md), and lists or untouched arrays accordingly.
 inline ::testing::AssertionResult is_as_promised(const Nodes& nodes, const Mesh& m) {
   const int ier = expected_ier(nodes);
   if (m.ier != ier) return ::testing::AssertionFailure() << "IER = " << m.ier << ", expected " << ier;

@@ -1,20 +1,20 @@
 #pragma once
-// Memory that runs out when a test wants it to, for all code that is linked statically into the program:
-// new, malloc, aligned_alloc, mmap and posix_fallocate (the memory that processes share).
+// Makes memory run out on request, for all code linked statically into the program: new, malloc,
+// aligned_alloc, mmap and posix_fallocate (the memory that processes share).
 
 #include <cstddef>
 
-/// While it lives, the allocation number `which` (from 1) fails, on whatever thread, and all later ones if
-/// `for_good`; 0: none does.
+/// While it lives, allocation number `which` (from 1) fails, on any thread, and all later ones if `for_good`;
+/// 0: none fails.
 class FailingAllocation {
  public:
   explicit FailingAllocation(long which, bool for_good = false);
   ~FailingAllocation();
   FailingAllocation(const FailingAllocation&) = delete;
   FailingAllocation& operator=(const FailingAllocation&) = delete;
-  /// True if it did.
+  /// True if it failed.
   static bool happened();
-  /// Blocks of the heap that were taken while one lived, the last one or those before, and are not given
-  /// back.
+  /// Number of heap blocks that were allocated while one of these lived, the last or an earlier one, and are
+  /// not freed.
   static std::size_t blocks();
 };

@@ -1,5 +1,5 @@
 #pragma once
-// What Fortran routines write, to a unit or to standard output, as text.
+// Captures as text what Fortran routines write, to a unit or to standard output.
 
 #include <fcntl.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
 #pragma once
-// Arrays whose neighbouring pages cannot be touched, for finding any access outside.
+// Arrays between inaccessible pages, which detect any access outside.
 
 #include <sys/mman.h>
 #include <unistd.h>

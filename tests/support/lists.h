@@ -32,18 +32,18 @@ inline bool operator==(const Rings& a, const Rings& b) {
   return a.neighbours == b.neighbours && a.boundary == b.boundary;
 }
 
-/// Nothing unless each of the slots 1..lnew-1 is in exactly one closed list, with a neighbour in range,
+/// Empty unless each of the slots 1..lnew-1 is in exactly one closed list, with a neighbour in range,
 /// different from the others and from the node, and negative only at LEND. Reads nothing else.
 std::optional<Rings> rings_of(const Lists& lists);
 
-/// The lists of these rings, as the contract (interface, 4.3) wants them. lnew is one past the last slot;
-/// the arrays have 6n-12 slots if that is enough, those not used hold `filler`.
+/// The canonical lists (docs/differences.md) of these rings. lnew is one past the last slot; the arrays have
+/// 6n-12 slots if that is enough, unused ones hold `filler`.
 Lists canonical_lists(const Rings& rings, std::int32_t filler = 0);
 
 /// Every triangle once, smallest corner first, sorted. Arcs that do not match are ignored.
 Faces faces_of(const Rings& rings);
 
-/// The rings of a set of triangles; nothing if the star of some node is not one cycle or one fan.
+/// The rings of a set of triangles; empty if the star of some node is not one cycle or one fan.
 std::optional<Rings> rings_of(std::size_t nodes, const Faces& faces);
 
 /// Smallest corner first, sorted.

@@ -1,5 +1,5 @@
 #pragma once
-// What a library reads where it is loaded is tested by the test program itself, run again with `--as ...`.
+// For settings that a library reads when it is loaded: the test program runs itself again with `--as ...`.
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -18,7 +18,7 @@
 #include "support/expect.h"
 #include "support/trmesh.h"
 
-/// A folder of its own, gone at the end.
+/// A temporary folder, removed at the end.
 class Folder {
  public:
   Folder() {
@@ -90,7 +90,7 @@ inline void call_trmesh(const Nodes& nodes) {
   if (!is_correct(nodes, m)) std::_Exit(1);
 }
 
-/// call() on so many threads at once.
+/// Runs call() on `count` threads at once.
 template <class Call>
 void call_on_threads(int count, const Call& call) {
   std::vector<std::thread> threads;

@@ -1,5 +1,5 @@
 #pragma once
-// Ranks that are threads of one process, for testing what is written for ranks without MPI.
+// Ranks that are threads of one process, for testing code for ranks without MPI.
 
 #include <algorithm>
 #include <condition_variable>
@@ -29,7 +29,7 @@ class ThreadRanks {
  private:
   explicit ThreadRanks(int size) : size_(size), posted_(static_cast<std::size_t>(size)) {}
 
-  /// Every rank posts a pointer; all see all until everybody has read.
+  /// Every rank posts a pointer; all ranks read all pointers before the next call.
   template <class Read>
   void meet(int rank, const void* mine, const Read& read) {
     posted_[static_cast<std::size_t>(rank)] = mine;

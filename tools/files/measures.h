@@ -1,5 +1,5 @@
 #pragma once
-// Lengths, angles and areas of what has unit vectors as corners.
+// Lengths, angles and areas of arcs and triangles with unit vectors as corners.
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace files {
 
-/// In radians; accurate for small ones.
+/// Angle between two vectors in radians; accurate for small ones.
 inline double angle_between(const pstripack::Point& a, const pstripack::Point& b) {
   const pstripack::Point d = minus(a, b);
   return 2 * std::asin(std::min(1.0, std::sqrt(dot(d, d)) / 2));
@@ -25,7 +25,7 @@ inline double volume(const pstripack::Point& a, const pstripack::Point& b, const
   return dot(a, cross(minus(b, a), minus(c, a)));
 }
 
-/// Of the spherical triangle, in steradians; positive if it is counterclockwise (van Oosterom & Strackee
+/// Area of the spherical triangle, in steradians; positive if it is counterclockwise (van Oosterom & Strackee
 /// 1983, with differences, which keep the digits of small triangles).
 inline double triangle_area(const pstripack::Point& a, const pstripack::Point& b, const pstripack::Point& c) {
   return 2 * std::atan2(volume(a, b, c), 1 + dot(a, b) + dot(b, c) + dot(c, a));

@@ -8,7 +8,8 @@
 #include <numeric>
 #include <utility>
 
-#include "geometry/parallel_for.h"
+#include "base/parallel_for.h"
+#include "lists/limits.h"
 #include "mesh/delaunay.h"
 #include "stripack/list_queries.h"
 #include "stripack/triangle_list.h"
@@ -21,7 +22,7 @@ using pstripack::Triangle;
 using pstripack::Triangles;
 
 Trmesh& the_trmesh() {
-  static Trmesh trmesh = [](auto... arguments) { return pstripack::trmesh(arguments...); };
+  static Trmesh trmesh = [](const pstripack::TrmeshCall& call) { return pstripack::trmesh(call); };
   return trmesh;
 }
 
@@ -50,7 +51,7 @@ void check_count(std::size_t n) {
         fmt::format("at most {} nodes: 6N-12 must fit 32 bits", pstripack::most_nodes<std::int32_t>()));
 }
 
-/// Three nodes that are not on one great circle: far from each other, so that rounding seldom decides.
+/// Three nodes that are not on one great circle, chosen far from each other.
 std::vector<std::size_t> three_corners(const std::vector<Point>& points) {
   const auto farthest = [&](const auto& measure) {
     std::size_t best = 0;
@@ -75,7 +76,7 @@ std::vector<std::size_t> three_corners(const std::vector<Point>& points) {
   return {0, second, third};
 }
 
-/// The nodes in an order that TRMESH takes: the first three not on one great circle.
+/// The nodes in an order that TRMESH accepts: the first three not on one great circle.
 std::vector<std::size_t> order_with_corners_first(const std::vector<Point>& points) {
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -84,12 +85,12 @@ std::vector<std::size_t> order_with_corners_first(const std::vector<Point>& poin
   return order;
 }
 
-/// Of the arcs that the triangles of a node have opposite it: from one neighbour to the next.
+/// The arc opposite a node in one of its triangles: from one neighbour to the next.
 struct Step {
   std::int32_t from, to;
 };
 
-/// The neighbours round a node, as its list has them, by following its steps. `steps` are sorted.
+/// The neighbours around a node, in the order of its list, by following `steps`, which are sorted.
 void write_ring(std::size_t node, const Step* begin, const Step* end, std::vector<std::int32_t>& ring) {
   const auto fail = [&](const char* what) { throw NoMesh(fmt::format("node {}: {}", node + 1, what)); };
   if (begin == end) fail("is the corner of no triangle");
@@ -121,7 +122,7 @@ void write_ring(std::size_t node, const Step* begin, const Step* end, std::vecto
   if (at_boundary) ring.back() = -ring.back();
 }
 
-/// triangulate(), by way of other numbers.
+/// triangulate() with renumbered nodes.
 Mesh triangulate_in_order(const std::vector<Point>& points, const std::vector<std::size_t>& order) {
   std::vector<Point> ordered(points.size());
   for (std::size_t i = 0; i < order.size(); ++i) ordered[i] = points[order[i]];
@@ -150,8 +151,9 @@ Mesh triangulate(std::vector<Point> points) {
   const Columns c(points);
   Mesh mesh = empty_mesh(std::move(points));
   const pstripack::TrmeshResult result =
-      the_trmesh()(static_cast<std::int32_t>(n), c.x.data(), c.y.data(), c.z.data(), mesh.list.data(),
-                   mesh.lptr.data(), mesh.lend.data(), &mesh.lnew);
+      the_trmesh()({static_cast<std::int32_t>(n),
+                    {c.x.data(), c.y.data(), c.z.data()},
+                    {mesh.list.data(), mesh.lptr.data(), mesh.lend.data(), &mesh.lnew}});
   if (result.ier > 0)
     throw CoincidentNodes(static_cast<std::size_t>(result.node) - 1,
                           static_cast<std::size_t>(result.other) - 1);
@@ -164,7 +166,7 @@ std::vector<std::size_t> duplicates(const std::vector<Point>& points) {
   three_corners(points);
   pstripack::Workspace workspace(pstripack::workspace_bytes(points.size()));
   const pstripack::Hull hull = pstripack::delaunay(points.data(), points.size(), workspace);
-  std::map<std::size_t, std::size_t> earliest;  // of the node that is in: the first in its direction
+  std::map<std::size_t, std::size_t> earliest;  // for each inserted node the first node in its direction
   std::vector<std::size_t> later;
   for (const auto& [in, out] : hull.coincident) {
     const auto i = static_cast<std::size_t>(in), o = static_cast<std::size_t>(out);

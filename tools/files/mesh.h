@@ -1,5 +1,5 @@
 #pragma once
-// Triangulations and Voronoi diagrams, as the writers take them. Nodes, triangles and slots count from 1.
+// Triangulations and Voronoi diagrams for the writers. Nodes, triangles and slots count from 1.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,15 +8,15 @@
 #include <vector>
 
 #include "files/nodes.h"
-#include "stripack/adjacency_lists.h"
-#include "stripack/trmesh.h"
+#include "lists/adjacency_lists.h"
+#include "trmesh/trmesh.h"
 
 namespace files {
 
 /// Nodes and the canonical lists of their triangulation.
 struct Mesh {
   std::vector<Point> points;    ///< as given
-  std::vector<double> density;  ///< of each node; empty: not known
+  std::vector<double> density;  ///< of each node; empty: unknown
   Notes notes;
   std::vector<std::int32_t> list, lptr, lend;
   std::int32_t lnew = 0;
@@ -27,7 +27,7 @@ struct Mesh {
   }
 };
 
-/// What keeps nodes from having a triangulation; nodes from 0.
+/// Why nodes have no triangulation; nodes from 0.
 struct NoMesh : std::runtime_error {
   using runtime_error::runtime_error;
 };
@@ -36,25 +36,23 @@ struct CoincidentNodes : NoMesh {
   std::size_t first, second;
 };
 
-/// What `triangulate` calls. It is TRMESH of this process (stripack/trmesh.h), unless a program puts that of
+/// What `triangulate` calls. It is TRMESH of this process (trmesh/trmesh.h), unless a program puts that of
 /// many processes in its place.
-using Trmesh = std::function<pstripack::TrmeshResult(std::int32_t n, const double* x, const double* y,
-                                                     const double* z, std::int32_t* list, std::int32_t* lptr,
-                                                     std::int32_t* lend, std::int32_t* lnew)>;
+using Trmesh = std::function<pstripack::TrmeshResult(const pstripack::TrmeshCall&)>;
 void set_trmesh(Trmesh trmesh);
 
-/// The Delaunay triangulation of at least three nodes that all have a direction. Throws NoMesh where all of
-/// them lie on one great circle, where two coincide, or where there are too many.
+/// The Delaunay triangulation of at least three nodes that all have a direction. Throws NoMesh if all of them
+/// lie on one great circle, two coincide, or there are too many.
 Mesh triangulate(std::vector<Point> points);
 
-/// Of the nodes that point in one direction, all but the first, in increasing order. As triangulate.
+/// All but the first of the nodes in each direction, in increasing order. Throws as triangulate.
 std::vector<std::size_t> duplicates(const std::vector<Point>& points);
 
-/// The mesh of these triangles (counterclockwise, from 0). Throws NoMesh unless every node is a corner, and
-/// the triangles round each node are one cycle or one fan.
+/// The mesh of these triangles (counterclockwise, from 0). Throws NoMesh unless every node is a corner and
+/// the triangles around each node form one cycle or one fan.
 Mesh mesh_of(std::vector<Point> points, const pstripack::Triangles& triangles);
 
-/// Three corners a triangle, counterclockwise, the smallest first.
+/// Three corners per triangle, counterclockwise, the smallest first.
 std::vector<std::int32_t> triangles_of(const Mesh& mesh);
 
 Point unit(const Point& p);
@@ -83,8 +81,8 @@ std::vector<Point> centroids(const Faces& faces);
 /// The triangles as faces.
 Faces triangle_faces(const Mesh& mesh);
 
-/// The Voronoi diagram: a face a node. Where the nodes lie in a hemisphere, the cells of boundary nodes share
-/// the rest of the sphere (STRIPACK's CRLIST).
+/// The Voronoi diagram: one face per node. If the nodes lie in a hemisphere, the cells of boundary nodes
+/// share the rest of the sphere (STRIPACK's CRLIST).
 Faces voronoi_faces(const Mesh& mesh);
 
 }  // namespace files

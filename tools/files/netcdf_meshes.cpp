@@ -12,7 +12,7 @@
 namespace files {
 namespace {
 
-/// A NetCDF file in the making: first definitions, then values.
+/// A NetCDF file being written: first definitions, then values.
 class Writer {
  public:
   explicit Writer(const OutputFile& file) : name_(file.name()) {
@@ -35,7 +35,7 @@ class Writer {
     check(nc_def_var(id_, name, type, static_cast<int>(dimensions.size()), dimensions.data(), &variable));
     return variable;
   }
-  /// "degrees_east" and "degrees_north", as CF wants them.
+  /// "degrees_east" and "degrees_north", as CF requires.
   std::pair<int, int> lon_lat(const char* lon_name, const char* lat_name, const std::vector<int>& of_lon,
                               const std::vector<int>& of_lat) {
     const int lon = angle(lon_name, of_lon, "degrees_east"), lat = angle(lat_name, of_lat, "degrees_north");
@@ -43,14 +43,14 @@ class Writer {
     attribute(lat, "standard_name", "latitude");
     return {lon, lat};
   }
-  /// The density of nodes; none if it is not known.
+  /// Writes the density of nodes, if it is known.
   int density(const std::vector<double>& values, int nodes) {
     return values.empty() ? -1 : variable("meshDensity", NC_DOUBLE, {nodes});
   }
   void attributes(const Notes& notes) {
     for (const auto& [name, text] : notes) attribute(NC_GLOBAL, name.c_str(), text);
   }
-  /// Of angles, in degrees or radians.
+  /// Writes angles, in degrees or radians.
   int angle(const char* name, const std::vector<int>& dimensions, const char* units) {
     const int id = variable(name, NC_DOUBLE, dimensions);
     attribute(id, "units", units);
@@ -94,8 +94,8 @@ class Writer {
   int id_ = -1;
 };
 
-/// A table with a row a face, as wide as the face with most corners: entry(slot of faces.corner), and after
-/// the last corner of a face `rest(that entry)`.
+/// A table with one row per face, as wide as the face with most corners: entry(slot of faces.corner), and
+/// after the last corner of a face `rest(that entry)`.
 template <class T, class Entry, class Rest>
 std::vector<T> padded(const Faces& faces, std::size_t width, const Entry& entry, const Rest& rest) {
   std::vector<T> table;
@@ -190,7 +190,7 @@ void write_scrip(const OutputFile& file, const Faces& faces) {
   for (const auto& [variable, values] :
        {std::pair(corner_lat, &of_points.lat), std::pair(corner_lon, &of_points.lon)})
     out.put(variable,
-            padded<double>(  // the last corner again, as SCRIP wants it
+            padded<double>(  // the last corner again, as SCRIP requires
                 faces, width,
                 [&, values = values](std::size_t k) {
                   return (*values)[static_cast<std::size_t>(faces.corner[k]) - 1];

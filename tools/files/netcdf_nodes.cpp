@@ -14,12 +14,12 @@
 #include <utility>
 
 #include "files/nodes.h"
-#include "stripack/trmesh.h"
+#include "lists/limits.h"
 
 namespace files {
 namespace {
 
-/// A NetCDF file that is open for reading.
+/// A NetCDF file open for reading.
 class File {
  public:
   File(const std::string& name, const std::string& contents, Units units) : name_(name), units_(units) {
@@ -39,7 +39,7 @@ class File {
       fail((variable.empty() ? "" : "variable " + variable + ": ") + nc_strerror(status));
   }
   int id() const { return id_; }
-  Units units() const { return units_; }  ///< of angles that have none
+  Units units() const { return units_; }  ///< of angles without units
 
  private:
   std::string name_;
@@ -51,7 +51,7 @@ struct Variable {
   std::string name;
   std::vector<int> dimensions;
   std::vector<double> values;
-  std::string units;  ///< empty: the file does not say
+  std::string units;  ///< empty: not in the file
 };
 
 bool has(const File& file, const std::string& name) {
@@ -85,7 +85,7 @@ std::pair<int, std::vector<std::size_t>> shape_of(const File& file, const std::s
   return {id, lengths};
 }
 
-// A header of a few bytes can announce any number: looked at before there is memory for it.
+// A header of a few bytes can announce any number: check it before allocating.
 void require_few(const File& file, const std::string& name, std::size_t rows, std::size_t row) {
   constexpr std::size_t most = pstripack::most_nodes<std::int32_t>();
   if (rows > most / std::max<std::size_t>(row, 1))
@@ -138,7 +138,7 @@ std::string shape_text(const File& file, const std::string& name, const std::vec
   return fmt::format("{}({})", name, text);
 }
 
-/// True of the dimensions of the nodes, perhaps behind others of length 1.
+/// True if the dimensions are those of the nodes, possibly after others of length 1.
 bool is_of_nodes(const File& file, const std::string& name, const std::vector<int>& of_nodes) {
   std::vector<int> dimensions;
   const std::vector<std::size_t> lengths = shape_of(file, name, dimensions).second;
@@ -150,7 +150,7 @@ bool is_of_nodes(const File& file, const std::string& name, const std::vector<in
                     dimensions.begin() + static_cast<std::ptrdiff_t>(extra));
 }
 
-/// The names of what --variable may name.
+/// The variables that --variable may name.
 std::string names_of_values(const File& file, const std::vector<int>& of_nodes) {
   int count = 0;
   file.check(nc_inq_nvars(file.id(), &count), "");
@@ -169,7 +169,7 @@ std::string names_of_values(const File& file, const std::vector<int>& of_nodes) 
 /// The value of each node, NaN where it is missing.
 void read_values(const File& file, Nodes& nodes, const std::string& name, const std::vector<int>& of_nodes) {
   if (name.empty() || !has(file, name))
-    file.fail(fmt::format("{}say --variable NAME; with a value a node there are: {}",
+    file.fail(fmt::format("{}say --variable NAME; variables with one value per node: {}",
                           name.empty() ? "" : "there is no variable " + name + "; ",
                           names_of_values(file, of_nodes)));
   std::vector<int> dimensions;
@@ -199,7 +199,7 @@ bool in_degrees(const File& file, const Variable& v) {
   file.fail(fmt::format("variable {}: units '{}'; expected degrees or radians", v.name, v.units));
 }
 
-/// Points, and the dimensions that they have in the file.
+/// Points, and their dimensions in the file.
 struct Places {
   std::vector<Point> points;
   std::vector<int> dimensions;
@@ -264,7 +264,7 @@ std::vector<int> read_ugrid(const File& file, Nodes& nodes, const std::string& m
   int id = 0;
   Places places;
   file.check(nc_inq_varid(file.id(), mesh.c_str(), &id), mesh);
-  // Our own files have the vectors, too, which angles would round.
+  // Our own files also have the vectors, which angles would round.
   if (has(file, mesh + "_node_x")) {
     places = from_coordinates(file, mesh + "_node_x", mesh + "_node_y", mesh + "_node_z");
     nodes.kind += ", UGRID, x y z";
@@ -282,7 +282,7 @@ std::vector<int> read_ugrid(const File& file, Nodes& nodes, const std::string& m
   int faces_id = 0;
   file.check(nc_inq_varid(file.id(), faces.c_str(), &faces_id), faces);
   long long first = 0;
-  nc_get_att_longlong(file.id(), faces_id, "start_index", &first);  // UGRID: 0 where it is missing
+  nc_get_att_longlong(file.id(), faces_id, "start_index", &first);  // UGRID's default is 0
   read_triangles(file, nodes, faces, first);
   return places.dimensions;
 }

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include "geometry/parallel_for.h"
+#include "base/parallel_for.h"
 #include "numbers.h"
 #include "point_sets.h"
 #include "text_file.h"
@@ -36,7 +36,7 @@ Angles angles_in(const double* values, std::size_t stride, bool degrees) {
   return {values, values + 1, stride, degrees, degrees};
 }
 
-/// Rows `lon lat`, perhaps with more columns. What cannot be radians is degrees.
+/// Rows `lon lat`, possibly with more columns. Angles that cannot be radians are degrees.
 void set_angles(Nodes& nodes, const double* values, std::size_t columns, std::size_t n, Units units) {
   if (units == Units::said_or_unmistakable) {
     bool may_be_radians = true;
@@ -90,7 +90,7 @@ ValueColumns value_columns(const Nodes& nodes, std::size_t columns, const ReadOp
   return {place, static_cast<std::size_t>(column) - 1};
 }
 
-/// Rows of a place and values, of which some may be missing.
+/// Rows of coordinates and values, of which some may be missing.
 void read_text_with_values(Nodes& nodes, std::string_view text, const ReadOptions& options) {
   point_sets::Table table = point_sets::table_of(text, nodes.file, text.size(), true);
   const ValueColumns columns = value_columns(nodes, table.columns, options);
@@ -127,7 +127,7 @@ void read_raw(Nodes& nodes, std::string_view bytes, const ReadOptions& options) 
   nodes.kind = "raw doubles";
   if (options.coordinates == Coordinates::detected)
     throw std::runtime_error(nodes.file +
-                             ": raw doubles do not say what they are: give --coordinates xyz or lonlat");
+                             ": raw doubles have no format information: give --coordinates xyz or lonlat");
   const std::size_t columns = options.coordinates == Coordinates::xyz ? 3 : 2;
   if (bytes.empty() || bytes.size() % (columns * sizeof(double)) != 0)
     throw std::runtime_error(

@@ -1,5 +1,5 @@
 #pragma once
-// Nodes, and meshes, as files hold them.
+// Nodes and meshes read from files.
 
 #include <cstddef>
 #include <map>
@@ -19,39 +19,39 @@ enum class Units { said_or_unmistakable, degrees, radians };
 struct ReadOptions {
   Container container = Container::detected;  ///< raw doubles are never detected
   Coordinates coordinates = Coordinates::detected;
-  Units units = Units::said_or_unmistakable;  ///< of angles, where the file itself does not say
+  Units units = Units::said_or_unmistakable;  ///< of angles, if the file does not say
   bool with_triangles = false;                ///< read those of UGRID, MPAS and OFF as well
-  bool with_values = false;                   ///< of text and NetCDF: read a value a node as well,
-  std::string variable;  ///< of this name (NetCDF), in this column (text; empty: the one after the place)
+  bool with_values = false;                   ///< of text and NetCDF: also read one value per node,
+  std::string variable;  ///< name (NetCDF) or column (text; empty: the one after the coordinates)
 };
 
-/// What a NetCDF file says of how it was made: global attributes whose names begin with "scvt_".
+/// Attributes of a NetCDF file about its creation: global attributes whose names begin with "scvt_".
 using Notes = std::map<std::string, std::string>;
 
 struct Nodes {
-  std::string file;  ///< as messages name it
+  std::string file;  ///< name in messages
   std::string kind;  ///< "text, lon lat in degrees"
   std::vector<Point> points;
   std::vector<std::size_t> lines;       ///< of text: of each node, from 1
-  std::vector<double> density;          ///< meshDensity of MPAS, where the file has it
-  std::vector<double> values;           ///< where asked for; NaN: missing
-  std::string value_name, value_units;  ///< where the file says
+  std::vector<double> density;          ///< meshDensity of MPAS, if in the file
+  std::vector<double> values;           ///< if requested; NaN: missing
+  std::string value_name, value_units;  ///< if in the file
   Notes notes;
-  pstripack::Triangles triangles;  ///< counterclockwise; empty unless asked for and there
+  pstripack::Triangles triangles;  ///< counterclockwise; empty unless requested and present
 
-  /// "node 17", with its line where it has one.
+  /// "node 17", with its line if it has one.
   std::string place(std::size_t i) const;
 };
 
 /// Reads nodes: text `lon lat` or `x y z` (point_sets/text_file.h), OFF, NetCDF (netcdf_nodes.cpp), raw
-/// doubles in the byte order of the machine; `-` is stdin. Vectors are taken as they are. Throws
+/// doubles in the byte order of the machine; `-` is stdin. Vectors keep their lengths. Throws
 /// std::runtime_error: one line with file, line or index, and remedy.
 Nodes read(const std::string& file, const ReadOptions& options = {});
 
 /// NetCDF's own formats, and HDF5's, by the first bytes.
 bool is_netcdf(const std::string& file);
 
-// Below: for the readers of one container each.
+// Below: one reader per container.
 
 /// Longitudes and latitudes in degrees or radians.
 struct Angles {
@@ -63,11 +63,11 @@ std::vector<Point> points_of(const Angles& angles, std::size_t n);
 /// The first latitude beyond a pole, allowing for single precision; n if there is none.
 std::size_t first_beyond_pole(const Angles& angles, std::size_t n);
 
-/// `contents`: of a file that came through a pipe; empty: read the file.
+/// `contents`: bytes that came through a pipe; empty: read the file.
 Nodes read_netcdf(const std::string& file, const ReadOptions& options, const std::string& contents = "");
 
-/// Takes the corners as read, from `first` on, and turns clockwise triangles round. Throws
-/// std::runtime_error on corners that are no nodes or lie on one great circle.
+/// Takes the corners, which count from `first`, and reverses clockwise triangles. Throws std::runtime_error
+/// on corners that are no nodes or lie on one great circle.
 void set_triangles(Nodes& nodes, const std::vector<long long>& corners, long long first);
 
 }  // namespace files

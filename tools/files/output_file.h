@@ -1,5 +1,5 @@
 #pragma once
-// Files that are there whole or not at all.
+// Files written completely or not at all.
 
 #include <fmt/format.h>
 
@@ -10,9 +10,9 @@
 
 namespace files {
 
-/// A file under a temporary name beside the final one, which it gets by commit(). Without commit() nothing
-/// remains, nor after SIGHUP, SIGINT and SIGTERM. `-` is stdout; what is no regular file (a device, a pipe)
-/// is written to by commit(). One at a time. Throws std::runtime_error "NAME: cannot be written: why".
+/// A temporary file beside the final one, renamed by commit(). Without commit(), or after SIGHUP, SIGINT and
+/// SIGTERM, nothing remains. `-` is stdout; commit() copies to it and to targets that are no regular files
+/// (devices, pipes). One at a time. Throws std::runtime_error "NAME: cannot be written: why".
 class OutputFile {
  public:
   explicit OutputFile(const std::string& name);
@@ -27,7 +27,7 @@ class OutputFile {
  private:
   void copy_to_target() const;
   std::string name_, target_, temporary_;
-  bool copies_;  ///< the target cannot be replaced
+  bool copies_;  ///< the target cannot be replaced: copy to it
 };
 
 [[noreturn]] void fail_to_write(const std::string& name, int error);
@@ -43,7 +43,7 @@ class TextWriter {
     if (buffer_.size() > kFull) flush();
   }
   void write(const void* bytes, std::size_t size);
-  /// The last call; without it the file is not complete.
+  /// Must be the last call; without it the file is not complete.
   void close();
 
  private:

@@ -1,4 +1,4 @@
-// In place of netcdf_nodes.cpp and netcdf_meshes.cpp where there is no NetCDF.
+// Replaces netcdf_nodes.cpp and netcdf_meshes.cpp in builds without NetCDF.
 
 #include <stdexcept>
 

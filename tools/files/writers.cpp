@@ -6,7 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "geometry/parallel_for.h"
+#include "base/parallel_for.h"
 
 namespace files {
 namespace {
@@ -80,7 +80,7 @@ void write_vtu(const OutputFile& file, const Faces& faces) {
   out.close();
 }
 
-/// As `stripack-compare lists` reads them.
+/// In the format that `stripack-compare lists` reads.
 void write_lists(const OutputFile& file, const Mesh& mesh) {
   TextWriter out(file);
   const auto all = [&](const std::vector<std::int32_t>& values, std::size_t count) {
@@ -106,10 +106,10 @@ const std::vector<FormatEntry>& formats() {
       {Format::off, "off", ".off", "Object File Format"},
       {Format::gmsh, "gmsh", ".msh", "gmsh 2.2, text (triangles only)"},
       {Format::lists, "lists", ".lists", "N LNEW, LIST, LPTR, LEND as text (triangles only)"},
-      {Format::xyz, "xyz", ".xyz .txt", "nodes: text, x y z a line"},
-      {Format::lonlat, "lonlat", ".lonlat", "nodes: text, lon lat in degrees a line"},
+      {Format::xyz, "xyz", ".xyz .txt", "nodes: text, lines of x y z"},
+      {Format::lonlat, "lonlat", ".lonlat", "nodes: text, lines of lon lat in degrees"},
       {Format::netcdf, "nodes", ".nodes.nc", "nodes: NetCDF, lon, lat and xCell, yCell, zCell"},
-      {Format::raw, "raw", ".raw .bin .f64", "nodes: x y z as raw doubles of this machine"}};
+      {Format::raw, "raw", ".raw .bin .f64", "nodes: x y z as raw doubles in this machine's byte order"}};
   return table;
 }
 

@@ -19,18 +19,18 @@ struct FormatEntry {
   const char* what;
 };
 
-/// All of them: for --help, --to and the choice by suffix.
+/// All formats: for --help, --to and the choice by suffix.
 const std::vector<FormatEntry>& formats();
 bool holds_a_mesh(Format format);
 
-/// By the name --to has given, or else by the longest suffix of `file` in the table.
+/// The format named by --to, else that of the longest suffix of `file` in the table.
 std::optional<Format> format_of(const std::string& to, const std::string& file);
 
-/// What a triangulation is written as.
+/// Writes a triangulation.
 void write_mesh(const OutputFile& file, Format format, const Mesh& mesh);
-/// The same of any polygons: ugrid, scrip, vtu, off. Others throw std::runtime_error.
+/// The same for any polygons: ugrid, scrip, vtu, off. Other formats throw std::runtime_error.
 void write_faces(const OutputFile& file, Format format, const Faces& faces);
-/// Nodes alone: xyz, lonlat, netcdf, raw. NetCDF holds the rest as well.
+/// Writes nodes alone: xyz, lonlat, netcdf, raw. NetCDF also holds density and notes.
 void write_nodes(const OutputFile& file, Format format, const std::vector<Point>& points,
                  const std::vector<double>& density = {}, const Notes& notes = {});
 
@@ -53,7 +53,7 @@ struct Field {
   std::vector<double> values;
 };
 
-/// Text: lon lat (degrees) and value a line, `nan` where it is missing.
+/// Text: lines of lon lat (degrees) value, `nan` where it is missing.
 void write_field(const OutputFile& file, const LonLat& places, const Field& field);
 /// NetCDF, CF conventions: _FillValue where it is missing.
 void write_netcdf_field(const OutputFile& file, const LonLat& places, const Field& field);

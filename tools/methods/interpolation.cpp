@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/parallel_for.h"
+#include "base/parallel_for.h"
 #include "geometry/predicates.h"
 #include "methods/sphere.h"
 #include "stripack/list_queries.h"
@@ -25,7 +25,7 @@ std::vector<Point> directions(const std::vector<Point>& points) {
 
 double square(const Point& d) { return dot(d, d); }
 
-/// Divides the parts by their sum.
+/// Normalises the weights to sum 1.
 void make_shares(std::vector<Share>& shares) {
   double sum = 0;
   for (const Share& s : shares) sum += s.part;
@@ -34,7 +34,8 @@ void make_shares(std::vector<Share>& shares) {
 
 }  // namespace
 
-/// The triangle that a place lies in, counterclockwise, the smallest number first: the same for every search.
+/// The triangle that contains a place, counterclockwise, the smallest number first: the same for every
+/// search.
 struct Interpolation::Corners {
   std::int32_t node[3];
 };
@@ -45,10 +46,10 @@ Interpolation::Interpolation(const std::vector<Point>& nodes) : mesh_(files::tri
     x_.push_back(p.x), y_.push_back(p.y), z_.push_back(p.z);
     sum = {sum.x + p.x, sum.y + p.y, sum.z + p.z};
   }
-  middle_ = files::unit(sum);  // used only where nodes lie in a hemisphere: not zero then
+  middle_ = files::unit(sum);  // used only if nodes lie in a hemisphere: not zero then
 }
 
-/// False where p is outside; p just outside is moved inside.
+/// False if p is outside; p just outside is moved inside.
 bool Interpolation::find(Point& p, std::int32_t& near, Corners& corners) const {
   const auto locate = [&] {
     double b1, b2, b3;
@@ -89,9 +90,9 @@ bool Interpolation::is_above(std::int32_t a, std::int32_t b, std::int32_t c, con
   return pstripack::orientation(at(a), at(b), at(c), p) > 0;
 }
 
-/// The natural neighbours of p, counterclockwise: the border of the triangles whose caps p lies in, by exact
-/// signs. The triangles bound a convex body, above which p lies: so those that it sees hang together, without
-/// a hole. (But for nodes so close that rounding has pushed one below its neighbours; then there may be no
+/// The natural neighbours of p, counterclockwise: the border of the triangles whose caps contain p, by exact
+/// signs. The triangles bound a convex body, above which p lies, so the visible ones are connected, without a
+/// hole. (Except for nodes so close that rounding has pushed one below its neighbours; then the walk may not
 /// end, and false is returned.)
 ///
 ///          w          The triangle beyond the arc u->v, which has p on its left.
@@ -118,8 +119,8 @@ bool Interpolation::natural_ring(const Point& p, const Corners& corners,
   return true;
 }
 
-/// What the cell of `node`, which comes between `before` and `after` in the ring round p, would lose to p:
-/// the polygon of the corners that it has on p's side, between two corners of p's own cell.
+/// The area that the cell of `node`, which comes between `before` and `after` in the ring around p, would
+/// lose to p: the polygon of its corners on p's side, between two corners of p's own cell.
 ///
 ///        new   after       old: circumcentres of the triangles of `node` from `after` to `before`
 ///     old |
@@ -155,7 +156,7 @@ bool Interpolation::natural(const Point& p, std::int32_t& near, std::vector<Shar
   Point place = p;
   Corners corners;
   if (!find(place, near, corners)) return false;
-  // Not above its own triangle: closer to a corner than what rounding leaves of the height.
+  // Not above its own triangle: p is so close to a corner that the height is lost in rounding.
   const std::int32_t* const c = corners.node;
   const bool is_corner = at(c[0]) == p || at(c[1]) == p || at(c[2]) == p;
   std::vector<std::int32_t> ring;
@@ -185,12 +186,12 @@ std::int32_t Interpolation::descend(const Point& p, std::int32_t node) const {
   }
 }
 
-// On the way from a node to p one enters the cells of nearer and nearer nodes; each is a neighbour of the one
-// before. Only where the nodes lie in a hemisphere are there neighbours that the lists do not have, two nodes
-// of the border, and their cells meet more than 90 degrees away from both. So the descent ends in the nearest
-// node if it begins at one less than 90 degrees away. If there is such a node, there is one on the border: a
-// node is a sum of positive multiples of nodes there. For the same reason, if there is none, the nearest is
-// on the border.
+// The segment from a node to p passes through the cells of nearer and nearer nodes, each a neighbour of the
+// previous one. Only if the nodes lie in a hemisphere can such neighbours, two nodes of the border, be
+// missing from the lists; their cells meet more than 90 degrees away from both. So the descent ends in the
+// nearest node if it begins less than 90 degrees away. If there is such a node, there is one on the border,
+// since a node is a sum of positive multiples of border nodes. For the same reason, if there is none, the
+// nearest node is on the border.
 std::int32_t Interpolation::nearest(const Point& p, std::int32_t near) const {
   const Reader reader(mesh_.lists());
   std::int32_t node = descend(p, near >= 1 && near <= reader.size() ? near : 1);
@@ -207,7 +208,7 @@ std::int32_t Interpolation::nearest(const Point& p, std::int32_t near) const {
 Interpolation::Result Interpolation::values_at(const std::vector<Point>& places,
                                                const std::vector<double>& values, Method method,
                                                Outside outside) const {
-  constexpr std::size_t kBlock = 512;  // searches begin anew: what they find does not depend on the threads
+  constexpr std::size_t kBlock = 512;  // searches restart here, so results do not depend on the threads
   Result result;
   result.values.resize(places.size());
   const std::size_t blocks = (places.size() + kBlock - 1) / kBlock;
@@ -230,7 +231,7 @@ Interpolation::Result Interpolation::values_at(const std::vector<Point>& places,
         sum += s.part * v;
         low = std::min(low, v), high = std::max(high, v);
       }
-      result.values[i] = std::clamp(sum, low, high);  // rounding leads out of it
+      result.values[i] = std::clamp(sum, low, high);  // rounding may leave the range
     }
   };
   pstripack::parallel_pieces(blocks, pstripack::threads_for(100 * places.size()),

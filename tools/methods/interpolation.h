@@ -1,5 +1,5 @@
 #pragma once
-// Values between scattered nodes: linear on triangles, and by natural neighbours.
+// Interpolation between scattered nodes: linear on triangles, and by natural neighbours.
 
 #include <cstdint>
 #include <vector>
@@ -10,32 +10,33 @@ namespace methods {
 
 using files::Point;
 
-/// The part that the value at a node has in the value at a place.
+/// The weight of a node's value in the value at a place.
 struct Share {
   std::int32_t node;  ///< from 1
   double part;
 };
 
-/// A triangulation in which places are looked up. All members may be called by many threads at a time.
+/// A triangulation for interpolation. Any number of threads may call its members at a time.
 ///
-/// `near` is the node that a search starts at, from 1, and becomes one near the place: whoever looks up one
-/// place after the other keeps it. Places are unit vectors. Those up to 1e-12 outside the triangles count as
-/// on their border.
+/// `near` is the node, from 1, at which a search starts; it becomes one near the place, so keep it between
+/// successive places. Places are unit vectors. Those up to 1e-12 outside the triangles count as on their
+/// border.
 ///
-/// The shares of a place are positive, add up to 1, and a node in the very place has all.
+/// The shares of a place are positive with sum 1; at a node, that node has the whole share.
 class Interpolation {
  public:
   /// Throws files::NoMesh, with indices into `nodes`. Only the directions of the nodes count.
   explicit Interpolation(const std::vector<Point>& nodes);
 
-  /// The corners of the triangle a, b, c that p lies in, by the barycentric coordinates of where the ray to p
-  /// meets the plane of the corners: det(p,b,c), det(a,p,c), det(a,b,p) over their sum. (Renka's, SSRFPACK.)
-  /// Continuous; linear along arcs as seen from the centre. False, and no shares, outside the triangles.
+  /// The corners of the triangle a, b, c that contains p, with the barycentric coordinates of the point where
+  /// the ray to p meets the plane of the corners: det(p,b,c), det(a,p,c), det(a,b,p) over their sum. (Renka,
+  /// SSRFPACK.) Continuous; linear along arcs as seen from the centre. False, without shares, outside the
+  /// triangles.
   bool linear(const Point& p, std::int32_t& near, std::vector<Share>& shares) const;
 
-  /// Natural neighbours (Sibson 1981, with areas on the sphere): if p were a node as well, the part of its
-  /// Voronoi cell that each neighbour would have lost to it. Continuous, and smooth but at the nodes. False,
-  /// and no shares, outside the triangles.
+  /// Natural neighbours (Sibson 1981, with areas on the sphere): if p were a node, the part of its Voronoi
+  /// cell that each neighbour would lose to it. Continuous, and smooth except at the nodes. False, without
+  /// shares, outside the triangles.
   bool natural(const Point& p, std::int32_t& near, std::vector<Share>& shares) const;
 
   /// The node nearest to p, wherever p is.
@@ -47,8 +48,8 @@ class Interpolation {
     std::vector<double> values;  ///< NaN: missing
     std::size_t outside = 0;
   };
-  /// The value at each place, which lies between those of the nodes that have a share. The same bits for any
-  /// number of threads.
+  /// The value at each place, within the range of the contributing nodes. The same bits for any number of
+  /// threads.
   Result values_at(const std::vector<Point>& places, const std::vector<double>& values, Method method,
                    Outside outside) const;
 

@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/parallel_for.h"
 #include "files/writers.h"
-#include "geometry/parallel_for.h"
 #include "methods/sphere.h"
 #include "numbers.h"
 #include "point_sets.h"

@@ -15,7 +15,7 @@ namespace methods {
 class Density {
  public:
   virtual ~Density() = default;
-  /// At a unit vector; NaN where it is not known. `near` as in Interpolation.
+  /// Density at a unit vector; NaN if unknown. `near` as in Interpolation.
   virtual double at(const Point& p, std::int32_t& near) const = 0;
   virtual double largest() const = 0;
 };
@@ -25,10 +25,10 @@ class Density {
 /// at the distance d from LON, LAT; cells are RATIO times narrower there. Throws std::invalid_argument.
 std::unique_ptr<Density> density_of(const std::string& formula);
 
-/// Between values at nodes, which are positive, linearly. Throws files::NoMesh.
+/// Linear interpolation between positive values at nodes. Throws files::NoMesh.
 std::unique_ptr<Density> density_between(const std::vector<Point>& nodes, std::vector<double> values);
 
-/// n random generators, about as dense as the cells will be: by the square root of the density.
+/// n random generators, with about the final density: proportional to the square root of the density.
 std::vector<Point> random_generators(std::size_t n, const Density& density, std::uint64_t seed);
 
 /// Lloyd's method (Du, Gunzburger, Ju: Constrained centroidal Voronoi tessellations for surfaces, SIAM J.
@@ -50,8 +50,8 @@ class Lloyd {
         0;  ///< of the generators before the step: integral of density times squared distance (chord)
     double move = 0;  ///< the largest, each relative to the width of its cell, the square root of its area
   };
-  /// The same bits for any number of threads and ranks. Throws files::NoMesh, also where the generators lie
-  /// in a hemisphere, or the density is not known.
+  /// The same bits for any number of threads and ranks. Throws files::NoMesh, also if the generators lie in a
+  /// hemisphere or the density is unknown.
   Step step();
 
   const std::vector<Point>& generators() const { return generators_; }
@@ -60,7 +60,7 @@ class Lloyd {
  private:
   std::vector<Point> generators_;
   const Density& density_;
-  std::vector<std::int32_t> near_;  ///< where the density was found last, for each generator
+  std::vector<std::int32_t> near_;  ///< for each generator: where the density was last found
 };
 
 }  // namespace methods

@@ -37,11 +37,11 @@ std::string colour_of_degree(int degree) {
 }
 
 std::vector<std::string> distinct_colours(const std::vector<std::vector<std::size_t>>& beside) {
-  // Okabe & Ito's without black, and lighter, so that lines and numbers are seen on them.
+  // Those of Okabe & Ito without black, and lighter, so that lines and numbers stay visible.
   constexpr std::array<const char*, 8> kColours{"#5aa5d6", "#f0b849", "#4cbf99", "#e58a4f",
                                                 "#d9a6c2", "#f2e86d", "#a8d4f0", "#c4c4c4"};
-  // Last those with the fewest neighbours left (Matula & Beck 1983): on a sphere each then has at most five
-  // neighbours before it, so that eight colours do.
+  // Colour those with the fewest remaining neighbours last (Matula & Beck 1983): on a sphere each then has at
+  // most five coloured neighbours, so eight colours suffice.
   const std::size_t n = beside.size();
   std::vector<std::size_t> left(n), order;
   for (std::size_t i = 0; i < n; ++i) left[i] = beside[i].size();
@@ -54,7 +54,7 @@ std::vector<std::string> distinct_colours(const std::vector<std::vector<std::siz
       if (left[other] != kTaken) --left[other];
   }
   std::reverse(order.begin(), order.end());
-  // Of the colours that are rarest beside it, the rarest of all.
+  // Of the colours rarest among its neighbours, the rarest overall.
   std::vector<std::size_t> chosen(n, kColours.size());
   std::array<std::size_t, kColours.size()> used{};
   for (const std::size_t i : order) {

@@ -13,10 +13,10 @@ std::string viridis(double t);
 /// By number of neighbours: white for six, blue below, red above; those of 4 and 8 for all beyond.
 std::string colour_of_degree(int degree);
 
-/// Of Okabe & Ito: told apart by colour-blind readers, too.
+/// Colours of Okabe & Ito, which colour-blind readers can distinguish.
 constexpr const char* kVermilion = "#d55e00";
 
-/// A colour for each of n things, another one than those of the things beside it where that is possible.
+/// A colour for each of n things, different from those of its neighbours if possible.
 std::vector<std::string> distinct_colours(const std::vector<std::vector<std::size_t>>& beside);
 
 }  // namespace pictures

@@ -17,12 +17,12 @@ namespace {
 constexpr double kDegree = 57.295779513082321;
 constexpr const char* kBars = "#31688e";
 
-/// Numbers of values, in bars from side to side.
+/// Counts of values, in bars across the whole width.
 class Panel {
  public:
   Panel(Sheet& sheet, double left, double top) : sheet_(sheet), left_(left), top_(top) {}
 
-  /// Of what is told of the values, `factor` is the unit.
+  /// `factor` is the unit of the printed values.
   void titles(const std::string& title, const std::vector<double>& values, double factor) {
     std::vector<double> sorted = values;
     std::sort(sorted.begin(), sorted.end());
@@ -34,7 +34,7 @@ class Panel {
         kGrey);
   }
 
-  /// Bars of equal width but for gaps of that part of it.
+  /// Bars of equal width, with gaps of this fraction of it.
   void bars(const std::vector<std::size_t>& counts, double gap) {
     const double most = static_cast<double>(*std::max_element(counts.begin(), counts.end()));
     const double bar = kWide / static_cast<double>(counts.size());
@@ -67,7 +67,7 @@ class Panel {
   double left_, top_;
 };
 
-/// `unit` follows the power of ten that the ticks are multiples of.
+/// `unit` follows the power of ten of the ticks.
 void draw(Panel panel, const std::string& title, const std::string& unit, const std::vector<double>& values,
           bool linear = false) {
   constexpr std::size_t kBins = 40;

@@ -87,7 +87,7 @@ class MeshPicture {
     Point sum{0, 0, 0};
     for (const Point& p : nodes_) sum = {sum.x + p.x, sum.y + p.y, sum.z + p.z};
     Spot spot = spot_of(dot(sum, sum) > 1e-12 ? sum : nodes_[0]);
-    for (double* angle : {&spot.lon, &spot.lat})  // round numbers, where they are as good
+    for (double* angle : {&spot.lon, &spot.lat})  // round numbers, if they fit as well
       for (const double unit : {1e-4, 1e-3, 1e-2, 0.1, 1.0})
         if (const double rounded = std::round(*angle / unit) * unit; std::fabs(rounded - *angle) < 1e-9)
           *angle = rounded;
@@ -118,8 +118,8 @@ class MeshPicture {
                     centre_.lon, centre_.lat, fewer));
   }
 
-  /// Cells of nodes on one small circle, three for example, are lunes: which way their sides go, their ends
-  /// do not tell.
+  /// Cells of nodes on one small circle, for example of three nodes, are lunes: the ends of a side do not
+  /// determine its direction.
   void expect_sides_shorter_than_a_half_turn() const {
     for (std::size_t f = 0; f < faces_.size(); ++f)
       for (std::size_t k = faces_.begin[f]; k < faces_.begin[f + 1]; ++k) {
@@ -133,7 +133,7 @@ class MeshPicture {
       }
   }
 
-  /// Degrees between lines of longitude or latitude, so that about `lines` are seen over `span`.
+  /// Spacing in degrees of lines of longitude or latitude, so that about `lines` are visible over `span`.
   static double graticule_step(double span, double lines) {
     constexpr double kSteps[] = {90, 60, 30, 15, 10, 5, 2, 1};
     double step = 90;
@@ -227,13 +227,13 @@ class MeshPicture {
       while (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
       add(view_->polygon(corners), true, paths[shade_of[f]]);
     }
-    // Its own colour around each face: else paper shows between neighbours.
+    // Stroke each face in its own colour; otherwise paper shows between neighbours.
     for (std::size_t s = 0; s < shades_.size(); ++s)
       sheet_.path(paths[s],
                   fmt::format("fill=\"{0}\" stroke=\"{0}\" stroke-width=\"0.4\"", shades_[s].colour));
   }
 
-  /// Fills shades_; returns that of each face.
+  /// Fills shades_; returns the shade of each face.
   std::vector<std::size_t> choose_shades() {
     switch (options_.colour) {
       case Colour::size:
@@ -245,7 +245,7 @@ class MeshPicture {
     }
   }
 
-  /// Cells of boundary nodes have no size of their own.
+  /// Cells of boundary nodes have no size.
   std::vector<std::size_t> shades_of_size() {
     std::vector<double> area(faces_.size());
     for (std::size_t f = 0; f < area.size(); ++f) {
@@ -322,10 +322,10 @@ class MeshPicture {
     }
   }
 
-  /// Each side of a face once: it has two faces, in one of which it leads to the larger number. The shorter
-  /// the finer, so that dense parts do not become blots.
+  /// Each side of a face once: it has two faces, in one of which it leads to the larger number. Shorter sides
+  /// are finer, so that dense parts do not become blots.
   void draw_lines() {
-    constexpr int kClasses = 10;  // each twice as long as the one before: from 1 pixel on
+    constexpr int kClasses = 10;  // each twice as long as the previous one, from 1 pixel on
     std::vector<Path> paths(kClasses);
     double length = 0;
     std::size_t count = 0;

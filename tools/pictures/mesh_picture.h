@@ -25,7 +25,7 @@ struct MeshOptions {
   double width = 800;  ///< pixels
 };
 
-/// More nodes than this are not drawn: lines would be closer than pixels, and files larger than viewers take.
+/// More nodes than this are refused: lines would be closer than pixels, and files too large for viewers.
 constexpr std::size_t kMostNodesInView = 200000;
 
 /// As SVG. Throws std::runtime_error where too many nodes are in view.

@@ -8,7 +8,7 @@
 namespace pictures {
 namespace {
 
-/// Values that span more than this are shown on a logarithmic scale.
+/// Values whose largest ratio exceeds this are shown on a logarithmic scale.
 constexpr double kMuch = 20;
 
 int exponent_of(double value) { return static_cast<int>(std::floor(std::log10(value))); }

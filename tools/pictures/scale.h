@@ -6,10 +6,10 @@
 
 namespace pictures {
 
-/// From the smallest to the largest of some values, linear or, where they span much, logarithmic.
+/// The range of some values, linear or, if their ratio is large, logarithmic.
 class Scale {
  public:
-  /// Not empty; finite. Always linear: for those of which one knows how large they can be, as angles.
+  /// Not empty; finite. Always linear: for values with a known range, such as angles.
   explicit Scale(const std::vector<double>& values, bool always_linear = false);
 
   double operator()(double value) const;  ///< 0 to 1 for those values
@@ -21,7 +21,7 @@ class Scale {
     double value;
     std::string label;
   };
-  /// At round values, some `about` of them. Labels are to be multiplied by factor().
+  /// At round values, about `about` of them. Labels are to be multiplied by factor().
   std::vector<Tick> ticks(int about) const;
   double factor() const;
   /// "" or "10⁻⁴ ", before the name of the unit.
@@ -43,7 +43,7 @@ std::string grouped(std::size_t number);
 /// "10⁻⁴"
 std::string power_of_ten(int exponent);
 
-/// With so many significant digits, never in exponential form but for very small and very large ones.
+/// With this many significant digits, in exponential form only for very small and very large numbers.
 std::string short_number(double value);
 
 }  // namespace pictures

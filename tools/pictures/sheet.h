@@ -1,5 +1,5 @@
 #pragma once
-// What a picture consists of, 800 units wide and as high as it becomes.
+// The elements of a picture, 800 units wide and as high as needed.
 
 #include <string>
 
@@ -15,7 +15,7 @@ enum class Anchor { start, middle, end };
 
 class Sheet {
  public:
-  /// Elements as they are.
+  /// Adds elements unchanged.
   void add(const std::string& elements) { body_ += elements; }
   void text(const Place& at, double size, Anchor anchor, const std::string& words,
             const char* colour = kBlack);

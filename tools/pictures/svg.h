@@ -14,7 +14,7 @@ enum class Kind { svg, png };
 /// By the suffix of the file: .svg or .png.
 std::optional<Kind> kind_of(const std::string& file);
 
-/// Throws std::runtime_error where PNG is wanted and rsvg-convert, which makes it, is not there.
+/// Throws std::runtime_error if PNG is requested and rsvg-convert, which makes it, is missing.
 void expect_converter(Kind kind);
 
 /// Writes the picture; commit() is the caller's. Throws std::runtime_error if it cannot be written.
@@ -28,7 +28,7 @@ struct Place {
   double x, y;
 };
 
-/// The data of a <path>, in hundredths of a pixel. What has no length there is left out.
+/// The data of a <path>, in hundredths of a pixel. Parts without length are left out.
 class Path {
  public:
   void move(const Place& p);

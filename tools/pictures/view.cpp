@@ -16,16 +16,16 @@ using pstripack::dot;
 
 constexpr double kDegree = 57.295779513082321;
 
-/// A piece looks straight if its middle is so many pixels off, at most.
+/// A piece looks straight if its middle is at most this many pixels off.
 constexpr double kStraight = 0.05;
-/// Longer pieces are cut anyhow: a piece may be bent like an S. Cosine of the angle.
+/// Longer pieces are always cut: a piece may be bent like an S. Cosine of the angle.
 const double kLong = std::cos(10 / kDegree);
 constexpr int kDeepest = 16;
 
 Point middle_of(const Point& a, const Point& b) {
   const Point sum{a.x + b.x, a.y + b.y, a.z + b.z};
   if (dot(sum, sum) > 1e-24) return point_sets::normalized(sum);
-  // Opposite each other: any way is as long as another.
+  // Antipodal points: any connecting arc is equally long.
   return point_sets::normalized(cross(a, std::fabs(a.z) < 0.9 ? Point{0, 0, 1} : Point{0, 1, 0}));
 }
 
@@ -54,7 +54,7 @@ Place between(const Place& a, const Place& b, double t) {
 
 std::string number(double degrees) { return fmt::format("{:g}", std::round(std::fabs(degrees) * 100) / 100); }
 
-/// The one nearest to `near` of all longitudes that are the same.
+/// Of all equal longitudes the one nearest to `near`.
 double turned_to(double lon, double near) { return lon + 360 * std::round((near - lon) / 360); }
 
 }  // namespace
@@ -201,7 +201,7 @@ std::vector<Outline> Orthographic::arc(const Point& a, const Point& b) const {
 LonLat::LonLat(const Spot& centre, double radius, const Frame& frame) {
   const bool all = radius >= 90;
   const double squeezed = all ? 1 : std::max(0.05, point_sets::cos_degrees(centre.lat));
-  // As far to the east and west as a cap of that radius reaches.
+  // As far to the east and west as a cap of that radius extends.
   const bool pole = all || std::fabs(centre.lat) + radius >= 90;
   const double half = pole ? 180
                            : kDegree * std::asin(std::min(1.0, point_sets::sin_degrees(radius) /
@@ -225,7 +225,7 @@ class LonLat::Unrolled {
  public:
   explicit Unrolled(const LonLat& view) : view_(view) {}
 
-  /// The line begins anew at p.
+  /// The line restarts at p.
   void begin(const Point& p) { begin(p, spot_of(p).lon); }
   void begin(const Point& p, double lon) { line.push_back({lon, spot_of(p).lat}); }
   /// From the last point, p, to q, neither of them a pole, nor one in between.
@@ -278,7 +278,7 @@ std::optional<Point> pole_between(const Point& a, const Point& b) {
   if (pole_at(a) != 0 || pole_at(b) != 0) return std::nullopt;
   const Point normal = cross(a, b);
   if (std::fabs(normal.z) > 1e-9 * std::sqrt(dot(normal, normal))) return std::nullopt;
-  // Both poles are on the circle; they lie on other meridians than a or b, or beyond the arc.
+  // Both poles are on the circle, but on other meridians than a or b, or beyond the arc.
   const double cosine = a.x * b.x + a.y * b.y;
   if (cosine > 0) return std::nullopt;
   return Point{0, 0, a.z + b.z > 0 ? 1.0 : -1.0};

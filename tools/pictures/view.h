@@ -21,7 +21,7 @@ struct Frame {
   double height() const { return bottom - top; }
 };
 
-/// The part of an outline in the frame. What leaves it and comes back runs along its border in between.
+/// The part of an outline in the frame. Where it leaves and re-enters, it follows the frame's border.
 Outline clipped_polygon(const Outline& outline, const Frame& frame);
 /// The parts of a line in the frame.
 std::vector<Outline> clipped_line(const Outline& line, const Frame& frame);
@@ -44,11 +44,11 @@ class View {
   /// The paper that it fills, or a circle in that.
   const Frame& frame() const { return frame_; }
 
-  /// Where a point is, if one sees it.
+  /// The position of a point, if visible.
   virtual std::optional<Place> place(const Point& p) const = 0;
-  /// What one sees of a convex polygon, corners counterclockwise: closed outlines.
+  /// The visible part of a convex polygon, corners counterclockwise: closed outlines.
   virtual std::vector<Outline> polygon(const std::vector<Point>& corners) const = 0;
-  /// What one sees of an arc shorter than half a great circle.
+  /// The visible part of an arc shorter than half a great circle.
   virtual std::vector<Outline> arc(const Point& a, const Point& b) const = 0;
 
  protected:

@@ -22,7 +22,7 @@ void convert(Options& options) {
       progress.step("reading", [&] { return files::read(options.input.file, options.input.read); });
   files::Format format = options.output.format;
   const bool has_mesh = !nodes.triangles.empty();
-  // .nc stands for both kinds.
+  // The suffix .nc stands for meshes and for nodes.
   if (format == files::Format::ugrid && !has_mesh && options.output.to.empty())
     format = files::Format::netcdf;
   if (files::holds_a_mesh(format) && !has_mesh)
@@ -50,8 +50,8 @@ void convert(Options& options) {
 }  // namespace
 
 void add_convert(CLI::App& app, Command& chosen) {
-  CLI::App* const sub = app.add_subcommand(
-      "convert", "the same nodes, or triangles (of UGRID, MPAS, OFF) as they are, in another format");
+  CLI::App* const sub =
+      app.add_subcommand("convert", "the same nodes or triangles (of UGRID, MPAS, OFF) in another format");
   const auto options = std::make_shared<Options>();
   add_input(*sub, options->input);
   add_output(*sub, options->output, true);

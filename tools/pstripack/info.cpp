@@ -36,7 +36,7 @@ struct Facts {
   double mean = 0;  ///< length of an arc
 };
 
-/// Pairs closer than this part of the mean length of an arc count as near duplicates.
+/// Nodes closer than this fraction of the mean arc length count as near duplicates.
 constexpr double kNear = 1e-3;
 
 Facts facts_of(const Mesh& mesh) {
@@ -158,7 +158,7 @@ void add_info(CLI::App& app, Command& chosen) {
       "info", "counts, boundary, duplicates, tightest pair and quality of the triangulation of the nodes");
   const auto options = std::make_shared<Options>();
   add_input(*sub, options->input);
-  sub->add_flag("--json", options->json, "the same for programs");
+  sub->add_flag("--json", options->json, "print JSON");
   sub->callback([=, &chosen] { chosen = [=] { info(*options); }; });
 }
 

@@ -72,7 +72,7 @@ files::Grid grid_of(const Options& options) {
     counts = {parts(r[3] - r[2], options.step), parts(r[1] - r[0], options.step)};
   for (const double count : counts)
     if (!(count >= 1 && count == std::floor(count)) || counts[0] * counts[1] > 1e10)
-      throw CLI::ValidationError("--to-grid", "expected NLATxNLON, say 180x360");
+      throw CLI::ValidationError("--to-grid", "expected NLATxNLON, for example 180x360");
   return {centres(r[0], r[1], static_cast<std::size_t>(counts[1])),
           centres(r[2], r[3], static_cast<std::size_t>(counts[0]))};
 }
@@ -183,39 +183,40 @@ void interpolate(Options& options) {
 
 void add_interpolate(CLI::App& app, Command& chosen) {
   CLI::App* const sub = app.add_subcommand(
-      "interpolate", "values at scattered nodes to points or a grid of longitude and latitude");
+      "interpolate", "interpolates values at scattered nodes to points or to a longitude-latitude grid");
   const auto options = std::make_shared<Options>();
   sub->add_option("VALUES", options->input.file, "file of nodes and values; - is stdin")
       ->required()
       ->type_name("");
   sub->add_option("--variable", options->input.read.variable,
-                  "of NetCDF: name; of text: column, from 1 [the one after the place]")
+                  "name (NetCDF) or column (text, from 1) [the column after the coordinates]")
       ->type_name("NAME");
-  sub->add_option("--to-points", options->points, "file of places")->type_name("FILE");
-  sub->add_option("--to-grid", options->grid, "cell centres of a grid, 180x360 say")->type_name("NLATxNLON");
-  sub->add_option("--grid-step", options->step, "the same by the width of a cell")
+  sub->add_option("--to-points", options->points, "file of points")->type_name("FILE");
+  sub->add_option("--to-grid", options->grid, "cell centres of a grid, for example 180x360")
+      ->type_name("NLATxNLON");
+  sub->add_option("--grid-step", options->step, "the same grid, by the width of a cell")
       ->type_name("DEGREES")
       ->check(CLI::PositiveNumber.description(""));
   sub->add_option("--region", options->region, "edges of the grid: WEST,EAST,SOUTH,NORTH [-180,180,-90,90]")
       ->type_name("DEGREES");
   add_choice(*sub, "--method", options->method,
              {{"linear", Interpolation::Method::linear}, {"natural", Interpolation::Method::natural}},
-             "linear on triangles, or natural neighbours [linear]");
+             "linear (on triangles) or natural (neighbours) [linear]");
   add_choice(*sub, "--outside", options->outside,
              {{"missing", Outside::missing}, {"nearest", Outside::nearest}, {"error", Outside::error}},
-             "of regional nodes: missing values there, the value of the nearest node, or an error [missing]");
-  sub->add_flag("--skip-missing", options->skip_missing, "leave out nodes without value [an error]");
+             "beyond regional nodes: missing (values), nearest (node's value) or error [missing]");
+  sub->add_flag("--skip-missing", options->skip_missing, "leave out nodes without a value [an error]");
   add_reading(*sub, options->input.read);
   add_duplicates(*sub, options->input);
   sub->add_option("-o,--output", options->output, "file to write; - is stdout")
       ->required()
       ->type_name("FILE");
-  sub->add_option("--to", options->to, "text (lon lat value a line) or netcdf [by the suffix: .txt, .nc]")
+  sub->add_option("--to", options->to, "text (lines of lon lat value) or netcdf [by the suffix: .txt, .nc]")
       ->type_name("WORD")
       ->check(CLI::IsMember({"text", "netcdf"}).description(""));
   sub->footer(
-      R"(VALUES is text, `lon lat value` or `x y z value` a line, or NetCDF. `nan` and _FillValue are missing values, in
-both directions. --from and --coordinates are of VALUES, --units of VALUES and of the points.)");
+      R"(VALUES is text with `lon lat value` or `x y z value` on each line, or NetCDF. `nan` and _FillValue are missing
+values, in input and output. --from and --coordinates apply to VALUES, --units to VALUES and the points.)");
   sub->callback([=, &chosen] { chosen = [=] { interpolate(*options); }; });
 }
 

@@ -23,18 +23,17 @@ constexpr auto kDescription = R"(Exact Delaunay triangulations and Voronoi diagr
   pstripack interpolate stations.txt --to-grid 180x360 -o field.nc
   pstripack plot mesh.nc -o mesh.svg
 
-`pstripack COMMAND --help` tells the rest.)";
+`pstripack COMMAND --help` describes a command.)";
 
 constexpr auto kFooter =
-    R"(Input is text (`lon lat` or `x y z` a line; commas count as blanks, # and ! start
-comments; the number of nodes may stand alone in a first line), OFF, raw doubles, or NetCDF (UGRID; xCell, yCell,
-zCell; lonCell, latCell; lon, lat). Angles that could be degrees or radians are refused unless --units says
-which.
+    R"(Input: text with `lon lat` or `x y z` on each line (commas count as blanks, # and ! start comments, the
+first line may hold the number of nodes alone), OFF, raw doubles, or NetCDF (UGRID; xCell, yCell, zCell; lonCell,
+latCell; lon, lat). Angles that could be degrees or radians are refused unless --units says which.
 
-Results go to files, which are there whole or not at all, or to stdout; all else to stderr. OMP_NUM_THREADS and
+Output: a file, written completely or not at all, or stdout. Everything else goes to stderr. OMP_NUM_THREADS and
 the affinity mask are honoured.
 
-Exit code: 0 done; 1 the input cannot be used, or the output not be written; 2 the command line is wrong.)";
+Exit code: 0 success; 1 the input cannot be used or the output cannot be written; 2 wrong command line.)";
 
 int run(int argc, char** argv) {
   using namespace program;
@@ -43,8 +42,8 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", PSTRIPACK_VERSION);
   app.require_subcommand(1);
   app.fallthrough();
-  app.add_flag("-q,--quiet", global().quiet, "nothing on stderr but errors");
-  app.add_option("--threads", global().threads, "[as many as there are processors]")
+  app.add_flag("-q,--quiet", global().quiet, "print only errors on stderr");
+  app.add_option("--threads", global().threads, "number of threads [all processors]")
       ->type_name("NUMBER")
       ->check(CLI::Range(1, 4096).description(""));
   Command chosen;

@@ -21,7 +21,7 @@ void check_directions(const Nodes& nodes) {
           fmt::format("{}: {} is zero or not finite: remove it", nodes.file, nodes.place(i)));
 }
 
-/// Three columns that are no points of a sphere are most likely something else.
+/// Three columns whose vectors differ in length by more than 1 % are most likely not x y z.
 void check_lengths(const Nodes& nodes) {
   std::size_t shortest = 0, longest = 0;
   std::vector<double> square(nodes.points.size());
@@ -61,16 +61,17 @@ void add_reading(CLI::App& app, files::ReadOptions& read) {
   using namespace files;
   add_choice(app, "--from", read.container,
              {{"text", Container::text}, {"netcdf", Container::netcdf}, {"raw", Container::raw}},
-             "text, netcdf, raw (doubles of this machine) [text and netcdf are detected]");
+             "text, netcdf or raw (doubles in this machine's byte order) [text and netcdf are detected]");
   add_choice(app, "--coordinates", read.coordinates,
              {{"xyz", Coordinates::xyz}, {"lonlat", Coordinates::lonlat}},
              "xyz: three columns, any lengths; lonlat: the first two columns [by the number of columns]");
   add_choice(app, "--units", read.units, {{"degrees", Units::degrees}, {"radians", Units::radians}},
-             "of lon lat, where the file does not say: degrees, radians");
+             "degrees or radians, where the file does not say");
 }
 
 void add_duplicates(CLI::App& app, Input& input) {
-  app.add_flag("--drop-duplicates", input.drop_duplicates, "of nodes in one place keep the first [an error]");
+  app.add_flag("--drop-duplicates", input.drop_duplicates,
+               "keep the first of nodes in the same place [an error]");
 }
 
 void add_output(CLI::App& app, Output& output, bool required) {
@@ -85,7 +86,7 @@ void add_output(CLI::App& app, Output& output, bool required) {
   app.add_option("--to", output.to, "format, see below [by the suffix of the file]")
       ->type_name("FORMAT")
       ->check(CLI::IsMember(names).description(""));
-  app.footer("Formats, with the suffixes that stand for them:" + suffixes());
+  app.footer("Formats and their suffixes:" + suffixes());
 }
 
 void Output::choose(std::optional<files::Format> otherwise) {

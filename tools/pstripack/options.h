@@ -1,5 +1,5 @@
 #pragma once
-// What the commands have in common: input, output, exit codes.
+// Common parts of the commands: input, output, exit codes.
 
 #include <CLI/CLI.hpp>
 #include <functional>
@@ -15,7 +15,7 @@ namespace program {
 
 enum ExitCode { kDone = 0, kFailed = 1, kUsage = 2 };
 
-/// What the command line has chosen.
+/// The command chosen on the command line.
 using Command = std::function<void()>;
 
 /// An option that takes one of some words.
@@ -36,7 +36,7 @@ struct Input {
 void add_input(CLI::App& app, Input& input);
 /// --from, --coordinates, --units.
 void add_reading(CLI::App& app, files::ReadOptions& read);
-/// Also what to do about nodes that coincide.
+/// --drop-duplicates.
 void add_duplicates(CLI::App& app, Input& input);
 
 /// OUT and its format.
@@ -50,16 +50,16 @@ struct Output {
 };
 void add_output(CLI::App& app, Output& output, bool required);
 
-/// Nodes with directions, on one sphere or said to be directions.
+/// Nodes with directions, on one sphere or declared to be directions.
 files::Nodes read_places(const std::string& file, const files::ReadOptions& options);
 
-/// Nodes that can be triangulated: read_places, at least three; without duplicates where the user wants that.
+/// Nodes that can be triangulated: read_places, at least three; without duplicates if requested.
 files::Nodes read_nodes(const Input& input);
 
-/// Leaves out all but the first of nodes in one place.
+/// Leaves out all but the first of coincident nodes.
 void drop_duplicates(files::Nodes& nodes);
 
-/// What to tell of nodes that have no triangulation: file, nodes and remedy.
+/// The error for nodes without a triangulation: file, nodes and remedy.
 std::runtime_error no_mesh_of(const files::Nodes& nodes, const files::NoMesh& why);
 
 /// Their triangulation; errors name file and nodes.
@@ -74,11 +74,11 @@ void add_interpolate(CLI::App& app, Command& chosen);
 void add_convert(CLI::App& app, Command& chosen);
 void add_plot(CLI::App& app, Command& chosen);
 
-/// Of the whole program: --quiet, --threads, ranks.
+/// Options of the whole program: --quiet, --threads, ranks.
 struct Global {
   bool quiet = false;
   int threads = 0;  ///< 0: as OpenMP says
-  int ranks = 1;    ///< that have triangulated
+  int ranks = 1;    ///< number of ranks that triangulated
 };
 Global& global();
 

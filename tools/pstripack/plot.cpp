@@ -146,8 +146,7 @@ void plot(Options& options) {
 
 void add_plot(CLI::App& app, Command& chosen) {
   CLI::App* const sub = app.add_subcommand(
-      "plot",
-      "a picture of the triangulation or its Voronoi cells, or histograms of its quality: SVG or PNG");
+      "plot", "picture of the triangulation or its Voronoi cells, or histograms of its quality: SVG or PNG");
   const auto options = std::make_shared<Options>();
   add_input(*sub, options->input);
   add_duplicates(*sub, options->input);
@@ -164,7 +163,7 @@ void add_plot(CLI::App& app, Command& chosen) {
   sub->add_option("--view", options->view,
                   "orthographic or lonlat, or with a centre orthographic:LON,LAT [the middle of the nodes]")
       ->type_name("VIEW");
-  sub->add_option("--radius", options->radius, "zoom: show so many degrees around the centre [all nodes]")
+  sub->add_option("--radius", options->radius, "zoom: show this many degrees around the centre [all nodes]")
       ->type_name("DEGREES")
       ->check(CLI::Range(1e-6, 180.0).description(""));
   sub->add_option("--colour,--color", options->colour,
@@ -172,7 +171,7 @@ void add_plot(CLI::App& app, Command& chosen) {
       ->type_name("BY")
       ->capture_default_str();
   sub->add_option("--title", options->title, "[file and counts]")->type_name("TEXT");
-  sub->add_option("--width", options->width, "of the picture")
+  sub->add_option("--width", options->width, "width of the picture")
       ->type_name("PIXELS")
       ->capture_default_str()
       ->check(CLI::Range(100.0, 20000.0).description(""));
@@ -182,13 +181,14 @@ void add_plot(CLI::App& app, Command& chosen) {
 
 Colours:
   size             area of the triangle or cell
-  degree           number of neighbours of the node; of cells
-  owner:P          which of P ranks has the node, if they share it by recursive bisection
-  owner:P:stripes  ditto, by stripes of longitude
+  degree           number of neighbours of the node; with --what cells only
+  owner:P          rank that owns the node if P ranks divide the sphere by recursive bisection
+  owner:P:stripes  the same, by stripes of longitude
 
-Triangles of UGRID, MPAS and OFF are drawn as they are; other nodes are triangulated first. Nodes that do not cover
-the sphere are shown as close as possible, their boundary in orange. At most 200,000 nodes in view: --view and
---radius choose a part. PNG is made by rsvg-convert (Debian: librsvg2-bin).)");
+Triangles of UGRID, MPAS and OFF files are drawn as they are; other nodes are triangulated first. Nodes that do not
+cover the sphere are shown as close as possible, their boundary in orange. At most 200,000 nodes may be in view:
+choose a part by --view and --radius. PNG needs rsvg-convert (Debian: librsvg2-bin).)");
+
   sub->callback([=, &chosen] { chosen = [=] { plot(*options); }; });
 }
 

@@ -21,8 +21,8 @@ struct Options {
 
 std::string families() {
   std::string text =
-      "Families, with their default parameter if they take one (cap:0.01; lengths in radians), and "
-      "the\nnodes that N gives:";
+      "Families with their default parameter, if any (cap:0.01 gives another; lengths in radians), and "
+      "the\nnumber of nodes for N:";
   for (const point_sets::Family& f : point_sets::registry())
     text += fmt::format("\n  {:<17} {:<12} {}", f.name + (f.parameter.empty() ? "" : ":" + f.parameter),
                         f.nodes, f.what);
@@ -32,7 +32,7 @@ std::string families() {
 void write(Options& options) {
   options.output.choose(files::Format::xyz);
   if (files::holds_a_mesh(options.output.format)) {
-    // .nc is the suffix of meshes first.
+    // By its suffix, .nc is a UGRID mesh.
     if (options.output.format != files::Format::ugrid || !options.output.to.empty())
       throw CLI::ValidationError("--output",
                                  "points are nodes, not a mesh: give --to xyz, lonlat, nodes or raw");
@@ -52,14 +52,16 @@ void write(Options& options) {
 }  // namespace
 
 void add_points(CLI::App& app, Command& chosen) {
-  CLI::App* const sub = app.add_subcommand("points", "nodes to try things with");
+  CLI::App* const sub = app.add_subcommand("points", "test nodes of many kinds");
   const auto options = std::make_shared<Options>();
   sub->add_option("NAME", options->name, "family of nodes, see below")->required()->type_name("");
-  sub->add_option("N", options->n, "how many; grids take the nearest number that they can have")
+  sub->add_option("N", options->n, "number of nodes; grids take the nearest number they can have")
       ->required()
       ->type_name("")
       ->check(CLI::Range(std::size_t{3}, std::size_t{357913943}).description(""));
-  sub->add_option("--seed", options->seed, "of random families")->type_name("NUMBER")->capture_default_str();
+  sub->add_option("--seed", options->seed, "seed of random families")
+      ->type_name("NUMBER")
+      ->capture_default_str();
   add_output(*sub, options->output, false);
   sub->footer(families() + sub->get_footer());
   sub->callback([=, &chosen] { chosen = [=] { write(*options); }; });

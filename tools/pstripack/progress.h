@@ -1,5 +1,5 @@
 #pragma once
-// What the program does now, on stderr: one changing line on a terminal, else a line every ten seconds.
+// Progress on stderr: one changing line on a terminal, otherwise a line every ten seconds.
 
 #include <chrono>
 #include <condition_variable>
@@ -14,7 +14,7 @@ namespace program {
 /// "pstripack: text" on stderr, unless --quiet.
 void say(const std::string& text);
 
-/// The steps of a command and what they took.
+/// The steps of a command and their times.
 class Progress {
  public:
   Progress();
@@ -22,7 +22,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// work(), which is reported as `doing` while it lasts.
+  /// Runs work(), reported as `doing` while it lasts.
   template <class Work>
   auto step(const char* doing, const Work& work) {
     begin(doing);
@@ -33,7 +33,7 @@ class Progress {
     return work();
   }
 
-  /// From now on, within a step, this is what is being done.
+  /// Changes the reported text within a step.
   void now(std::string doing);
 
   /// The last line: `what`, and the seconds of each step.

@@ -7,12 +7,13 @@
 #include <filesystem>
 #include <system_error>
 
-#include "geometry/environment.h"
+#include "base/environment.h"
 
 namespace program {
 namespace {
 
-/// What the launcher has told this process; all but Slurm's PMIx in two variables.
+/// The number of ranks and this rank, from the launcher's environment. Under Slurm with PMIx the number is in
+/// Slurm's variable.
 struct Launched {
   int size = 1, rank = 0;
 };

@@ -12,7 +12,7 @@
 #include "mpi/mpi_communicator.h"
 #include "pstripack/options.h"
 #include "pstripack/ranks.h"
-#include "stripack/original_rules.h"
+#include "stripack/original/original_rules.h"
 
 namespace program {
 namespace {
@@ -30,12 +30,11 @@ std::int32_t word_of_rank_0(MpiCommunicator& ranks, std::int32_t word = 0) {
 int lead(MpiCommunicator& ranks, const std::function<int()>& work) {
   // The original's order is that of one insertion after the other: nothing for ranks.
   if (!pstripack::original_rules().follow)
-    files::set_trmesh([&](std::int32_t n, const double* x, const double* y, const double* z,
-                          std::int32_t* list, std::int32_t* lptr, std::int32_t* lend, std::int32_t* lnew) {
+    files::set_trmesh([&](const pstripack::TrmeshCall& call) {
       global().ranks = ranks.size();
       word_of_rank_0(ranks, kTriangulate);
       try {
-        return collective_trmesh(ranks, pstripack::Arrays::on_rank_0, n, x, y, z, list, lptr, lend, lnew);
+        return collective_trmesh(ranks, pstripack::Arrays::on_one_rank, call);
       } catch (const pstripack::AgreedFailure&) {
         throw std::bad_alloc();  // on any rank
       }
@@ -48,8 +47,7 @@ int follow(MpiCommunicator& ranks) {
     const std::int32_t word = word_of_rank_0(ranks);
     if (word != kTriangulate) return word;
     try {
-      pstripack::collective_trmesh<double>(ranks, pstripack::Arrays::on_rank_0, 0, nullptr, nullptr, nullptr,
-                                           nullptr, nullptr, nullptr, nullptr);
+      pstripack::collective_trmesh(ranks, pstripack::Arrays::on_one_rank, {});
     } catch (const pstripack::AgreedFailure&) {  // rank 0 says so
     }
   }

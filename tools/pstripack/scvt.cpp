@@ -25,7 +25,7 @@ struct Options {
   Output output, checkpoint{"", "", files::Format::netcdf};
 };
 
-// What files say of a run, so that another can go on with it.
+// Attributes of the output with which another run continues this one.
 constexpr auto kIterations = "scvt_iterations", kDensity = "scvt_density", kDensityFile = "scvt_density_file",
                kVariable = "scvt_density_variable";
 
@@ -155,37 +155,39 @@ void scvt(Options& options) {
 
 void add_scvt(CLI::App& app, Command& chosen) {
   CLI::App* const sub = app.add_subcommand(
-      "scvt", "spherical centroidal Voronoi tessellation: generators moved to the centroids of their cells");
+      "scvt", "spherical centroidal Voronoi tessellation: moves generators to the centroids of their cells");
   const auto options = std::make_shared<Options>();
-  sub->add_option("N", options->n, "how many random generators, unless --start gives them")
+  sub->add_option("N", options->n, "number of random generators, unless --start is given")
       ->type_name("")
       ->check(CLI::Range(std::size_t{4}, std::size_t{357913943}).description(""));
-  sub->add_option("--seed", options->seed, "of the random generators")
+  sub->add_option("--seed", options->seed, "seed of the random generators")
       ->type_name("NUMBER")
       ->capture_default_str();
   sub->add_option("--start", options->start.file,
-                  "generators to begin with; or the output or checkpoint of a run to go on with")
+                  "initial generators, or the output or checkpoint of a run to continue")
       ->type_name("FILE");
   CLI::Option* const formula =
       sub->add_option("--density", options->density, "see below [that of --start, or constant]")
           ->type_name("FORMULA");
   sub->add_option("--density-file", options->density_file,
-                  "lon lat value or x y z value a line, or NetCDF: linear in between")
+                  "density at nodes, linear in between: lines of lon lat value or x y z value, or NetCDF")
       ->type_name("FILE")
       ->excludes(formula);
   sub->add_option("--variable", options->variable,
-                  "of the density file: name (NetCDF) or column (text, from 1)")
+                  "in the density file: name (NetCDF) or column (text, from 1)")
       ->type_name("NAME");
   sub->add_option("--tolerance", options->tolerance,
-                  "end when no generator moves by more than this part of the width of its cell")
+                  "stop when no generator moves further than this fraction of the width of its cell")
       ->type_name("NUMBER")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1e300).description(""));
-  sub->add_option("--iterations", options->iterations, "at most, those before --start among them")
+  sub->add_option("--iterations", options->iterations,
+                  "largest number of iterations, those of the continued run included")
       ->type_name("NUMBER")
       ->capture_default_str();
-  sub->add_option("--checkpoint", options->checkpoint.file, "file to write now and then")->type_name("FILE");
-  sub->add_option("--every", options->every, "how many iterations from one checkpoint to the next")
+  sub->add_option("--checkpoint", options->checkpoint.file, "file to write every --every iterations")
+      ->type_name("FILE");
+  sub->add_option("--every", options->every, "iterations between checkpoints")
       ->type_name("NUMBER")
       ->capture_default_str()
       ->check(CLI::Range(std::size_t{1}, std::size_t{1000000000}).description(""));
@@ -196,10 +198,10 @@ void add_scvt(CLI::App& app, Command& chosen) {
   constant                            1
   bump                                bump:0,30,30,10,3
   bump:LON,LAT,RADIUS,WIDTH,RATIO     (1 + (RATIO-1) (1 + tanh((RADIUS-d)/WIDTH))/2)^4, d the distance from LON,LAT,
-                                      all in degrees: within RADIUS cells are RATIO times narrower than far away
+                                      all in degrees: cells within RADIUS are RATIO times narrower than far away
 
-A run that is cut short goes on by --start CHECKPOINT, with the rest of the command as it was: NetCDF files know
-their iterations and density. --from, --coordinates and --units are of both input files.
+To continue a run, repeat its command with --start CHECKPOINT: NetCDF files hold their iterations and density.
+--from, --coordinates and --units apply to both input files.
 
 )" + sub->get_footer());
   sub->callback([=, &chosen] { chosen = [=] { scvt(*options); }; });

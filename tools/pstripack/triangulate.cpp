@@ -56,13 +56,13 @@ void add(CLI::App& app, const char* name, const char* text, void (*command)(Opti
 }  // namespace
 
 void add_triangulate(CLI::App& app, Command& chosen) {
-  add(app, "triangulate", "Delaunay triangulation of the nodes, exact: a mesh of triangles", triangulate,
+  add(app, "triangulate", "exact Delaunay triangulation of the nodes: a mesh of triangles", triangulate,
       chosen);
 }
 
 void add_voronoi(CLI::App& app, Command& chosen) {
   add(app, "voronoi",
-      "Voronoi diagram of the nodes: a mesh of polygons, one a node, in the order of the nodes", voronoi,
+      "Voronoi diagram of the nodes: a mesh with one polygon per node, in the order of the nodes", voronoi,
       chosen);
 }
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lists/adjacency_lists.h"
 #include "point_sets.h"
-#include "stripack/adjacency_lists.h"
 
 namespace files {
 namespace {

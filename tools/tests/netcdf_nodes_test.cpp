@@ -213,7 +213,7 @@ TEST(netcdf, values_have_the_dimensions_of_the_nodes) {
       ADD_FAILURE() << variable << " was read";
     } catch (const std::runtime_error& e) {
       const std::string words = *variable == '\0' || variable == std::string("none")
-                                    ? "with a value a node there are: t, packed"
+                                    ? "variables with one value per node: t, packed"
                                     : "expected " + std::string(variable) + "(lat=2, lon=3)";
       EXPECT_NE(std::string(e.what()).find(words), std::string::npos) << e.what();
     }

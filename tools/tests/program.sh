@@ -26,14 +26,27 @@ octahedron() { printf '1 0 0\n0 1 0\n0 0 1\n-1 0 0\n0 -1 0\n0 0 -1\n'; }
 
 case $1 in
 documented_help)
-  commands=$("$PSTRIPACK" --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z]*\) .*/\1/p')
-  for command in "" $commands; do
-    # shellcheck disable=SC2086  # nothing, or one word
-    "$PSTRIPACK" $command --help > help
-    awk -v line="\$ pstripack ${command:+$command }--help" \
-      '$0 == line { on = 1; next } on && /^```/ { exit } on' "$DOCUMENT" > documented
-    diff help documented || fail "docs/pstripack.md has another --help of 'pstripack $command'"
+  # $DOCUMENT has the whole help of the program. The help of a command leaves out lines that are there, lines that
+  # several commands share (under `$ pstripack COMMAND --help`), and the families, which another test compares with
+  # docs/point-sets.md.
+  block_of() {
+    awk -v line="\$ pstripack ${1:+$1 }--help" \
+      '$0 == line { on = 1; next } on && /^```/ { found = 1; exit } on { print } END { exit !found }' "$DOCUMENT" ||
+      fail "docs/pstripack.md has no --help of 'pstripack $1'"
+  }
+  block_of COMMAND > shared
+  "$PSTRIPACK" --help > help
+  block_of "" | diff help - || fail "docs/pstripack.md has another --help of 'pstripack'"
+  cat shared help > elsewhere
+  : > used
+  for command in $(sed -n '/^Subcommands:/,/^$/s/^  \([a-z]*\) .*/\1/p' help); do
+    "$PSTRIPACK" "$command" --help | tee -a used |
+      awk 'NR == FNR { elsewhere[$0]; next } /^Families/ { skip = 1 } /^$/ { skip = 0; blank = 1; next }
+           skip || $0 in elsewhere { next } { if (blank && n) print ""; blank = 0; n = 1; print }' elsewhere - > own
+    block_of "$command" | diff own - || fail "docs/pstripack.md has another --help of 'pstripack $command'"
   done
+  sort used | uniq -d > several
+  grep -vxF -f several shared > stale || [ ! -s stale ] || fail "not in the help of several commands: $(cat stale)"
   ;;
 
 pipes)
@@ -352,7 +365,7 @@ netcdf_values)
   "$PSTRIPACK" -q interpolate region.nc --variable value --skip-missing --grid-step 30 --outside nearest -o out.txt
   awk '!/#/ && $3 != 1' out.txt > wrong
   [ ! -s wrong ] || fail "$(cat wrong)"
-  refuses 1 "region.nc: say --variable NAME; with a value a node there are: value" interpolate region.nc --grid-step 30 -o failed.nc
+  refuses 1 "region.nc: say --variable NAME; variables with one value per node: value" interpolate region.nc --grid-step 30 -o failed.nc
   refuses 1 "there is no variable depth; say" interpolate region.nc --variable depth --grid-step 30 -o failed.nc
   refuses 1 "variable lon(lon=36): expected lon(lat=18, lon=36); take one layer out" interpolate region.nc --variable lon --grid-step 30 -o failed.nc
   [ ! -e failed.nc ] || fail "failed.nc was written"

@@ -1,8 +1,13 @@
-#include "capi/edit_calls.h"
+// The routines of STRIPACK that change a triangulation, as C functions: as stripack_calls.cpp, but input that
+// the routine changes goes by pointer. Codes that STRIPACK does not have (-4, -5, -9, -10) print one line on
+// stderr. edge, delnod: where optim failed, *nit and *optim_ier are what it returned; else they are not
+// written.
+
+#include <stdint.h>
 
 #include <cstdio>
 
-#include "geometry/floating_point.h"
+#include "base/floating_point.h"
 #include "stripack/arc_edit.h"
 #include "stripack/list_edit.h"
 #include "stripack/node_edit.h"
@@ -28,6 +33,7 @@ int said(const char* routine, Code code) {
 
 }  // namespace
 
+#pragma GCC visibility push(default)
 extern "C" {
 
 #define LIST_EDIT_CALLS(Int, suffix)                                                                       \
@@ -109,3 +115,4 @@ NODE_EDIT_CALLS(double, int32_t, r8)
 NODE_EDIT_CALLS(double, int64_t, i8)
 
 }  // extern "C"
+#pragma GCC visibility pop

@@ -9,16 +9,16 @@
 #include <limits>
 #include <vector>
 
-#include "capi/check.h"
-#include "capi/engine_hook.h"
-#include "capi/pool_client.h"
-#include "capi/report.h"
+#include "base/floating_point.h"
+#include "capi/hooks.h"
 #include "capi/version.h"
-#include "geometry/floating_point.h"
-#include "parallel/node_arrays.h"
-#include "stripack/adjacency_lists.h"
-#include "stripack/original_rules.h"
-#include "stripack/trmesh.h"
+#include "geometry/node_arrays.h"
+#include "lists/adjacency_lists.h"
+#include "observe/check.h"
+#include "observe/report.h"
+#include "pool/client.h"
+#include "stripack/original/original_rules.h"
+#include "trmesh/trmesh.h"
 
 namespace {
 
@@ -26,12 +26,9 @@ using namespace pstripack;
 
 std::atomic<pstripack_trmesh_engine> other_engine{pool_trmesh};
 
-template <class Real>
-TrmeshResult trmesh_on_threads(std::int32_t n, const Real* x, const Real* y, const Real* z,
-                               std::int32_t* list, std::int32_t* lptr, std::int32_t* lend, std::int32_t* lnew,
-                               ParallelCost* cost) noexcept {
+TrmeshResult trmesh_on_threads(const TrmeshCall& call, ParallelCost* cost) noexcept {
   try {
-    return trmesh(n, x, y, z, list, lptr, lend, lnew, cost);
+    return trmesh(call, cost);
   } catch (...) {
     return {PSTRIPACK_OUT_OF_MEMORY};  // only std::bad_alloc can come here, before anything was written
   }
@@ -39,82 +36,85 @@ TrmeshResult trmesh_on_threads(std::int32_t n, const Real* x, const Real* y, con
 
 /// The call by the engine, or else on threads. False: another rank reports, and prints the line of a new
 /// code.
-template <class Real>
-bool carry_out(std::int32_t n, const Real* x, const Real* y, const Real* z, std::int32_t* list,
-               std::int32_t* lptr, std::int32_t* lend, std::int32_t* lnew, TrmeshResult& result,
-               CallReport* report) noexcept {
+bool carry_out(const TrmeshCall& call, TrmeshResult& result, CallReport* report) noexcept {
   int answer = PSTRIPACK_ENGINE_DECLINES;
   const pstripack_trmesh_engine engine = other_engine.load(std::memory_order_acquire);
   // The original's order is that of one insertion after the other: nothing for ranks.
   if (engine != nullptr && !original_rules().follow) {
-    const pstripack_trmesh_arguments call{
-        static_cast<std::int32_t>(sizeof(Real)), n, x, y, z, list, lptr, lend, lnew, report};
-    answer = engine(&call, &result.ier, &result.node, &result.other);
+    const NodeArrays& nodes = call.nodes;
+    const auto& [list, lptr, lend, lnew] = call.lists;
+    const pstripack_trmesh_arguments arguments{static_cast<std::int32_t>(nodes.real_bytes()),
+                                               call.n,
+                                               nodes.array(0),
+                                               nodes.array(1),
+                                               nodes.array(2),
+                                               list,
+                                               lptr,
+                                               lend,
+                                               lnew,
+                                               report};
+    answer = engine(&arguments, &result.ier, &result.node, &result.other);
   }
   if (answer == PSTRIPACK_ENGINE_DECLINES) {
     ParallelCost* const cost = report != nullptr ? &report->cost.maximum : nullptr;
-    result = trmesh_on_threads(n, x, y, z, list, lptr, lend, lnew, cost);
+    result = trmesh_on_threads(call, cost);
     if (cost != nullptr) report->cost.total = *cost;
   }
   return answer != PSTRIPACK_ENGINE_DID_IT_SILENTLY;
 }
 
 /// The same with its line in the report. Not inlined: a call without a report is not to pay for it.
-template <class Real>
-[[gnu::noinline]] bool carry_out_and_report(std::int32_t n, const Real* x, const Real* y, const Real* z,
-                                            std::int32_t* list, std::int32_t* lptr, std::int32_t* lend,
-                                            std::int32_t* lnew, TrmeshResult& result) noexcept {
+[[gnu::noinline]] bool carry_out_and_report(const TrmeshCall& call, TrmeshResult& result) noexcept {
+  const auto& [list, lptr, lend, lnew] = call.lists;
   CallReport report;
   const double start = clock_seconds(CLOCK_MONOTONIC);
-  if (!carry_out(n, x, y, z, list, lptr, lend, lnew, result, &report)) return false;
+  if (!carry_out(call, result, &report)) return false;
   report.seconds = clock_seconds(CLOCK_MONOTONIC) - start;
-  report.n = n;
+  report.n = call.n;
   report.ier = result.ier;
   report.order = result.order;
   report.order_node = result.order_node;
-  if (result.ier >= 0) report.nodes_in_mesh = result.ier > 0 ? result.other - 1 : n;
+  if (result.ier >= 0) report.nodes_in_mesh = result.ier > 0 ? result.other - 1 : call.n;
   for (std::int64_t k = 0; k < report.nodes_in_mesh; ++k) report.boundary_nodes += list[lend[k] - 1] < 0;
   if (result.order == OriginalOrder::inexact) {
     try {
       const auto nodes = static_cast<std::size_t>(report.nodes_in_mesh);
       report.difference =
-          exact_difference(NodeArrays(x, y, z), ListsView<std::int32_t>{nodes, list, lptr, lend, *lnew});
+          exact_difference(call.nodes, ListsView<std::int32_t>{nodes, list, lptr, lend, *lnew});
     } catch (...) {
       // Only std::bad_alloc can come here: the report says that nothing was compared.
     }
   }
-  pstripack_add_to_report(&report);
+  add_to_report(report);
   return true;
 }
 
 /// TRMESH with its report, its recording and its messages. No number of nodes beyond 32 bits is different
 /// from the largest of them.
-template <class Real>
-TrmeshResult trmesh_with_messages(std::int64_t nodes, const Real* x, const Real* y, const Real* z,
-                                  std::int32_t* list, std::int32_t* lptr, std::int32_t* lend,
-                                  std::int32_t* lnew) noexcept {
+TrmeshResult trmesh_with_messages(std::int64_t nodes, const NodeArrays& arrays,
+                                  const ListArrays& lists) noexcept {
   using Limits = std::numeric_limits<std::int32_t>;
-  const auto n = static_cast<std::int32_t>(std::clamp<std::int64_t>(nodes, Limits::min(), Limits::max()));
+  const TrmeshCall call{
+      static_cast<std::int32_t>(std::clamp<std::int64_t>(nodes, Limits::min(), Limits::max())), arrays,
+      lists};
   TrmeshResult result{0};
   const auto work = [&] {
-    return pstripack_report_is_wanted() ? carry_out_and_report(n, x, y, z, list, lptr, lend, lnew, result)
-                                        : carry_out(n, x, y, z, list, lptr, lend, lnew, result, nullptr);
+    return report_is_wanted() ? carry_out_and_report(call, result) : carry_out(call, result, nullptr);
   };
   bool is_ours;
   if (Check* const check = check_of_calls(); check == nullptr) {
     is_ours = work();
   } else {
-    const CheckedCall call = check_input(*check, sizeof(Real), n, x, y, z);
+    const CheckedCall checked = check_input(*check, call);
     is_ours = work();
-    check_output(*check, call, result, list, lptr, lend, lnew);
+    check_output(*check, checked, result, lists);
   }
   if (!is_ours) return result;
   // STRIPACK's own codes are silent; a code that no caller knows yet says so once.
   if (result.ier == PSTRIPACK_BAD_COORDINATE) {
-    const auto i = result.node - 1;
+    const Point p = arrays[static_cast<std::size_t>(result.node) - 1];
     std::fprintf(stderr, "pstripack: trmesh: node %lld of %lld is (%g, %g, %g): %s (IER = -5)\n",
-                 static_cast<long long>(result.node), static_cast<long long>(nodes),
-                 static_cast<double>(x[i]), static_cast<double>(y[i]), static_cast<double>(z[i]),
+                 static_cast<long long>(result.node), static_cast<long long>(nodes), p.x, p.y, p.z,
                  pstripack_strerror(result.ier));
   } else if (result.ier < PSTRIPACK_COLLINEAR) {
     std::fprintf(stderr, "pstripack: trmesh: %lld nodes: %s (IER = %d)\n", static_cast<long long>(nodes),
@@ -126,7 +126,9 @@ TrmeshResult trmesh_with_messages(std::int64_t nodes, const Real* x, const Real*
 template <class Real>
 TrmeshResult trmesh_call(std::int64_t n, const Real* x, const Real* y, const Real* z, std::int32_t* list,
                          std::int32_t* lptr, std::int32_t* lend, std::int32_t* lnew) noexcept {
-  return in_default_floating_point([&] { return trmesh_with_messages(n, x, y, z, list, lptr, lend, lnew); });
+  return in_default_floating_point([&] {
+    return trmesh_with_messages(n, {x, y, z}, {list, lptr, lend, lnew});
+  });
 }
 
 /// Widens the first `count` elements of an array of 64-bit integers that begins with as many of 32 bits.
@@ -151,6 +153,10 @@ extern "C" {
 pstripack_trmesh_engine pstripack_set_trmesh_engine(pstripack_trmesh_engine engine) {
   return other_engine.exchange(engine, std::memory_order_acq_rel);
 }
+
+int pstripack_report_is_wanted(void) { return report_is_wanted(); }
+void pstripack_add_to_report(const CallReport* call) { add_to_report(*call); }
+void pstripack_leave_check_to_another_rank(int leave) { leave_check_to_another_rank(leave != 0); }
 
 const char* pstripack_version(void) { return PSTRIPACK_VERSION; }
 

@@ -11,13 +11,11 @@
 #include <new>
 #include <utility>
 
-#include "capi/check.h"
-#include "capi/engine_hook.h"
-#include "capi/report.h"
-#include "geometry/floating_point.h"
+#include "base/floating_point.h"
+#include "capi/hooks.h"
 #include "mpi/collective_trmesh.h"
 #include "mpi/distributed_mesh.h"
-#include "stripack/original_rules.h"
+#include "stripack/original/original_rules.h"
 
 using namespace pstripack;
 
@@ -41,8 +39,6 @@ template <class Body>
 std::int32_t guarded(const Body& body) noexcept {
   try {
     return in_default_floating_point(body);
-  } catch (const AgreedFailure& failure) {
-    return failure.code;
   } catch (...) {
     return code_of(std::current_exception());
   }
@@ -91,7 +87,6 @@ bool must_decline(const CommMode& mode) {
   return !is_main;
 }
 
-template <class Real>
 TrmeshResult collective_call(MpiCommunicator& ranks, const pstripack_trmesh_arguments& call) {
   GroupCost* cost = nullptr;
   if (call.report != nullptr) {
@@ -99,9 +94,9 @@ TrmeshResult collective_call(MpiCommunicator& ranks, const pstripack_trmesh_argu
     call.report->ranks = ranks.size();
     cost = &call.report->cost;
   }
-  const auto array = [](const void* values) { return static_cast<const Real*>(values); };
-  return collective_trmesh(ranks, Arrays::on_every_rank, call.n, array(call.x), array(call.y), array(call.z),
-                           call.list, call.lptr, call.lend, call.lnew, cost);
+  const NodeArrays nodes(static_cast<std::size_t>(call.real_bytes), call.x, call.y, call.z);
+  return collective_trmesh(ranks, Arrays::on_every_rank,
+                           {call.n, nodes, {call.list, call.lptr, call.lend, call.lnew}}, cost);
 }
 
 int comm_mode_engine(const pstripack_trmesh_arguments* call, std::int32_t* ier, std::int64_t* node,
@@ -112,8 +107,7 @@ int comm_mode_engine(const pstripack_trmesh_arguments* call, std::int32_t* ier, 
   if (mode.ranks == nullptr) return PSTRIPACK_ENGINE_DECLINES;
   TrmeshResult result{0};
   *ier = guarded(*mode.ranks, [&] {
-    result = call->real_bytes == sizeof(float) ? collective_call<float>(*mode.ranks, *call)
-                                               : collective_call<double>(*mode.ranks, *call);
+    result = collective_call(*mode.ranks, *call);
     return result.ier;
   });
   *node = result.node;
@@ -125,9 +119,10 @@ int comm_mode_engine(const pstripack_trmesh_arguments* call, std::int32_t* ier, 
 bool have_one_order(MpiCommunicator& ranks) {
   const OriginalRules& rules = original_rules();
   const std::int64_t order = rules.follow ? 2 * rules.tolerance_in_epsilons + (rules.bitwise ? 1 : 0) : 0;
-  std::int64_t values[] = {order, -order};
-  ranks.all_min(values, 2);
-  return values[0] == -values[1];
+  Smallest least{order};
+  Largest most{order};
+  agree(ranks, least, most);
+  return least.value == most.value;
 }
 
 void end_comm_mode(CommMode& mode) {
@@ -282,7 +277,7 @@ int32_t pstripack_mesh_local_stars(const pstripack_mesh* mesh, int64_t* begin, i
 int32_t pstripack_mesh_gather(pstripack_mesh* mesh, int32_t root, int32_t* list, int32_t* lptr, int32_t* lend,
                               int32_t* lnew) {
   return reported(mesh->mesh.ranks(), CallReport::distributed_gather, [&](DistributedMesh::Report* report) {
-    return mesh->mesh.gather(root, list, lptr, lend, lnew, report);
+    return mesh->mesh.gather(root, {list, lptr, lend, lnew}, report);
   });
 }
 

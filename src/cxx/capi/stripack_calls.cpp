@@ -1,12 +1,23 @@
-#include "capi/stripack_calls.h"
+// The routines of STRIPACK as C functions: what the libraries libstripack* call. Exported from libpstripack
+// since those are linked to it; TRMESH itself is pstripack_trmesh of pstripack.h.
+//
+// Arguments and results are those of the routine of the same name, inputs by value; see docs/api and the
+// headers of src/cxx/stripack. Node and slot numbers count from 1. None is collective, writes to stdout or
+// throws. None keeps state, but for the random seeds of each thread where PSTRIPACK_ORDER is not canonical.
+// The suffix names the kinds: _r4, _r8 reals of 32 and 64 bits, with integers of 32 bits; _i8 reals and
+// integers of 64 bits; _i4, _i8 without reals. Other kinds are further instances of the macros. No header
+// declares them but that of the tests: Fortran has its own, in stripack_abi.F90. A negative ier prints one
+// line on stderr.
+
+#include <stdint.h>
 
 #include <cstdio>
 #include <exception>
 #include <new>
 
-#include "geometry/floating_point.h"
+#include "base/floating_point.h"
 #include "stripack/list_queries.h"
-#include "stripack/original_rules.h"
+#include "stripack/original/original_rules.h"
 #include "stripack/polygon.h"
 #include "stripack/random.h"
 #include "stripack/search.h"
@@ -82,6 +93,7 @@ Int triangles(const char* routine, Int n, const Int* list, const Int* lptr, cons
 
 }  // namespace
 
+#pragma GCC visibility push(default)
 extern "C" {
 
 #define LIST_CALLS(Int, suffix)                                                                        \
@@ -222,3 +234,4 @@ QUERY_CALLS(double, int32_t, r8)
 QUERY_CALLS(double, int64_t, i8)
 
 }  // extern "C"
+#pragma GCC visibility pop

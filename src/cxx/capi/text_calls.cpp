@@ -1,6 +1,9 @@
-#include "capi/text_calls.h"
+// The routines of STRIPACK that print, as C functions: as stripack_calls.cpp. Only a Fortran procedure can
+// write to a Fortran unit. So each function composes the whole text that its routine prints and returns a
+// handle of it, or NULL; the caller takes it record by record and frees it. A text belongs to one thread.
 
 #include <fcntl.h>
+#include <stdint.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -10,7 +13,7 @@
 #include <memory>
 #include <string_view>
 
-#include "geometry/floating_point.h"
+#include "base/floating_point.h"
 #include "stripack/listing.h"
 #include "stripack/plot.h"
 
@@ -53,11 +56,12 @@ void* picture(const char* routine, Int& ier, const Compose& compose) {
   if (status == PlotStatus::broken_lists)
     complain(routine, "IER = -9: the lists are not those of a triangulation or Voronoi diagram");
   if (ier == 0) return text;
-  pstripack_free_text(text);
+  delete static_cast<Text*>(text);
   return nullptr;
 }
 
-/// See pstripack_number_at. The system reads it, which fails where a load would end the program.
+/// What `address` points to, for an argument that may not have been passed; -1 if it cannot be read, or is
+/// the address of another argument. The system reads it, which fails where a load would end the program.
 template <class Int>
 Int number_at(const Int* address, std::initializer_list<const Int*> other_arguments) {
   Int number = -1;
@@ -75,6 +79,7 @@ ListingForm form(bool f90) { return f90 ? ListingForm::f90 : ListingForm::f77; }
 
 }  // namespace
 
+#pragma GCC visibility push(default)
 extern "C" {
 
 int32_t pstripack_next_record(void* handle, char* record, int32_t capacity) noexcept {
@@ -145,3 +150,4 @@ COUNT_CALLS(int32_t, i4)
 COUNT_CALLS(int64_t, i8)
 
 }  // extern "C"
+#pragma GCC visibility pop

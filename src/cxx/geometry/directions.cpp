@@ -30,9 +30,9 @@
 #include <cstring>
 #include <utility>
 
+#include "base/parallel_for.h"
 #include "geometry/double_double.h"
 #include "geometry/exact.h"
-#include "geometry/parallel_for.h"
 #include "geometry/predicate_stages.h"
 #include "geometry/predicates.h"
 

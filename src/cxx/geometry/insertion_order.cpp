@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-#include "geometry/parallel_for.h"
+#include "base/parallel_for.h"
 
 namespace pstripack {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 // (i,j) of 32 x 32 along the curve and the state in that cell. A state says whether the axes are swapped
 // (bit 0) and whether the curve runs backwards (bit 1).
 
-constexpr int kLevels = 5;  // of a block
+constexpr int kLevels = 5;  // per block
 constexpr std::uint32_t kSide = 1 << kLevels;
 
 struct Step {
@@ -27,7 +27,7 @@ struct Step {
 constexpr std::uint16_t kSwap = 1, kInvert = 2;
 
 constexpr std::array<std::array<Step, kSide * kSide>, 4> make_steps() {
-  // Position along the curve of the quadrant (i,j), for each state, and what the state changes by there.
+  // For each state: position along the curve of the quadrant (i,j), and the change of state there.
   constexpr std::uint16_t position_of[4][4] = {{0, 1, 3, 2}, {0, 3, 1, 2}, {2, 3, 1, 0}, {2, 1, 3, 0}};
   constexpr std::uint16_t change[4] = {kSwap, 0, 0, kInvert | kSwap};
   std::array<std::array<Step, kSide * kSide>, 4> steps{};
@@ -47,7 +47,7 @@ constexpr std::array<std::array<Step, kSide * kSide>, 4> make_steps() {
 
 constexpr auto steps = make_steps();
 
-/// Position of the cell (i,j) of kSide^blocks x kSide^blocks along the curve: 2 kLevels bits a block.
+/// Position of the cell (i,j) of kSide^blocks x kSide^blocks along the curve: 2 kLevels bits per block.
 std::uint64_t along_curve(std::uint32_t i, std::uint32_t j, int blocks, std::uint16_t state) {
   std::uint64_t key = 0;
   for (int b = kLevels * (blocks - 1); b >= 0; b -= kLevels) {
@@ -98,9 +98,9 @@ constexpr int kNodeBits = 29, kKeyBits = 64 - kNodeBits;  // 3 for the face, 2 x
 std::uint64_t key_of(Entry e) { return e >> kNodeBits; }
 std::uint32_t node_of(Entry e) { return static_cast<std::uint32_t>(e & ((Entry{1} << kNodeBits) - 1)); }
 
-/// Sorts n entries by their keys of key_bits bits and returns the one of `entries` and `other` that holds the
-/// result. A stable radix sort, least significant digit first, back and forth between the two; of few entries
-/// one by comparisons.
+/// Sorts n entries by their keys of key_bits bits; returns `entries` or `other`, whichever holds the result.
+/// A stable radix sort, least significant digit first, alternating between the two; a comparison sort for few
+/// entries.
 Entry* sort(Entry* entries, Entry* other, std::size_t n, int key_bits) {
   const int passes = (key_bits + 11) / 12, digit_bits = (key_bits + passes - 1) / passes;
   const std::size_t digits = std::size_t{1} << digit_bits;
@@ -109,7 +109,7 @@ Entry* sort(Entry* entries, Entry* other, std::size_t n, int key_bits) {
     return entries;
   }
   const int threads = threads_for(n);
-  std::vector<std::size_t> next(digits * threads);  // [thread][digit]: where the thread puts its next one
+  std::vector<std::size_t> next(digits * threads);  // [thread][digit]: where the thread puts its next entry
   for (int pass = 0; pass < passes; ++pass) {
     const int shift = kNodeBits + pass * digit_bits;
     const auto digit = [&](Entry e) { return (e >> shift) & (digits - 1); };
@@ -132,6 +132,11 @@ Entry* sort(Entry* entries, Entry* other, std::size_t n, int key_bits) {
   return entries;
 }
 
+// ---- nodes alone -------------------------------------------------------------------------------
+
+constexpr std::size_t kEvenly = 16;      ///< between neighbours on the curve, so many mean distances are rare
+constexpr std::size_t kMostAlone = 256;  ///< parts of the curve
+
 // ---- cells with many nodes ---------------------------------------------------------------------
 
 constexpr std::size_t kCrowd = 16;
@@ -150,7 +155,7 @@ struct Square {
   std::uint32_t cell_t(const OnCube& q, std::uint32_t cells) const { return cell((q.t - t0) / side, cells); }
 };
 
-/// Grows with the places put in.
+/// Grows with the positions added.
 struct Box {
   double s0 = 2, s1 = -2, t0 = 2, t1 = -2;
   void include(const OnCube& q) {
@@ -167,20 +172,20 @@ double logarithmic(double v) {
   return static_cast<double>(v < 0 ? -bits : bits);
 }
 
-/// True if the numbers from low to high span so many powers of two that equal parts hardly divide them.
+/// True if the numbers from low to high span many powers of two, so that equal parts hardly separate them.
 bool spans_scales(double low, double high) {
   constexpr double kOctave = 0x1p52, kOctaves = 32;
   return logarithmic(high) - logarithmic(low) > kOctaves * kOctave;
 }
 
-/// How the cells divide a square: into equal parts, or, where most nodes lie in one of these, by their scale.
+/// How the cells divide a square: into equal parts, or by exponent if most nodes lie in one of these.
 enum class Division { equal, by_scale };
 
 /// Orders the nodes of one cell, entries [first,last), along a curve through their bounding box.
 ///
-/// In equal parts, each level divides the side of a cell by 2^5 or more. Nodes that come closer and closer to
-/// one place, by as many decades as the exponent of a double allows, would need one level for each few of
-/// them: where that place has a coordinate 0, all scales are told apart at once.
+/// Equal parts divide the side of a cell by at least 2^5 at each level. Nodes that approach one point over as
+/// many decades as a double's exponent allows would need one level for each few of them: if that point has a
+/// coordinate 0, dividing by exponent separates all scales at once.
 void refine(const Points& points, Entry* first, Entry* last, int depth, Division division) {
   const std::size_t n = static_cast<std::size_t>(last - first);
   Buffer<OnCube> place(n);
@@ -199,8 +204,8 @@ void refine(const Points& points, Entry* first, Entry* last, int depth, Division
     }
   }
   const Square square = box.square();
-  if (!(square.side > 0)) return;  // all in one direction, as far as doubles tell
-  // Again as many cells as it takes; keys of 10, 20 or 30 bits.
+  if (!(square.side > 0)) return;  // all directions are equal as doubles
+  // As many cells as needed; keys of 10, 20 or 30 bits.
   const int blocks = n < 8000 ? 1 : n < 8000000 ? 2 : 3;
   const std::uint32_t cells = 1u << (kLevels * blocks);
   Buffer<Entry> entries(2 * n);
@@ -218,7 +223,8 @@ void refine(const Points& points, Entry* first, Entry* last, int depth, Division
   }
 }
 
-/// The square of each face that the cells divide: the whole face, or the nodes' own where all are on one.
+/// The square of each face that the cells divide: the whole face, or the nodes' bounding square if all are on
+/// one.
 Square square_of_all(const Points& points, std::size_t n) {
   Box box;
   const int face = on_cube(points[0]).face;
@@ -233,16 +239,16 @@ Square square_of_all(const Points& points, std::size_t n) {
 
 }  // namespace
 
-void insertion_order(const Point* first_point, std::size_t n, std::uint32_t* order, Workspace& workspace,
-                     std::size_t stride) {
+std::size_t insertion_order(const Point* first_point, std::size_t n, std::uint32_t* order,
+                            Workspace& workspace, std::size_t stride) {
   const Points points{reinterpret_cast<const unsigned char*>(first_point), stride};
   constexpr std::size_t kFew = 24;  // any walk is short
   if (n <= kFew) {
     std::iota(order, order + n, 0);
-    return;
+    return 0;
   }
-  // As many cells as it takes to hold few nodes each, where they are spread evenly: keys of 20, 23 or 33
-  // bits (the last bits of the first kind are left out), sorted in two, two and three passes.
+  // As many cells as needed for few nodes per cell if spread evenly: keys of 20, 23 or 33 bits (omitting the
+  // last bits of the first kind), sorted in two, two and three passes.
   const int blocks = n < 20000000 ? 2 : 3;
   const int dropped = n < 50000 ? 3 : 0;
   const std::uint32_t cells = blocks == 2 ? kSide * kSide : kSide * kSide * kSide;
@@ -260,14 +266,29 @@ void insertion_order(const Point* first_point, std::size_t n, std::uint32_t* ord
     }
   });
   entries = sort(entries, other, n, 2 * kLevels * blocks + 3 - dropped);
+  // Alone: nobody else within such a part of the curve, on either side. Of nodes spread evenly none is.
+  const std::uint64_t apart =
+      (key_of(entries[n - 1]) - key_of(entries[0])) / std::min<std::size_t>(n / kEvenly, kMostAlone);
+  std::uint64_t before = 0;
+  std::vector<std::size_t> alone;
   for (std::size_t i = 0, j; i < n; i = j) {
-    for (j = i + 1; j < n && key_of(entries[j]) == key_of(entries[i]);) ++j;
-    // Three levels by scale and eleven in equal parts come to doubles that do not differ.
+    const std::uint64_t key = key_of(entries[i]);
+    for (j = i + 1; j < n && key_of(entries[j]) == key;) ++j;
+    if (j == i + 1 && (i == 0 || key - before > apart) && (j == n || key_of(entries[j]) - key > apart))
+      alone.push_back(i);
+    before = key;
+    // Three levels by exponent and eleven in equal parts reach adjacent doubles.
     if (j - i > kCrowd) refine(points, entries + i, entries + j, 20, Division::equal);
   }
   parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int) {
-    for (std::size_t i = first; i < last; ++i) order[i] = node_of(entries[i]);
+    auto next = std::lower_bound(alone.begin(), alone.end(), first);
+    for (std::size_t i = first; i < last; ++i) {
+      const bool is_alone = next != alone.end() && *next == i;
+      order[is_alone ? next - alone.begin() : i + (alone.end() - next)] = node_of(entries[i]);
+      next += is_alone;
+    }
   });
+  return alone.size();
 }
 
 }  // namespace pstripack

@@ -1,5 +1,5 @@
 #pragma once
-// What the two sets of predicates share. Internal to the layer.
+// Stages shared by both sets of predicates. Internal to the layer.
 
 #include "geometry/predicates.h"
 
@@ -7,16 +7,16 @@ namespace pstripack {
 
 extern thread_local PredicateCounts stages;
 
-/// A zero that needs no arithmetic: nodes on the equator. They are common.
+/// A zero found without arithmetic: nodes on the equator, which are common.
 template <class... Points>
 bool in_coordinate_plane(const Points&... p) {
   return ((p.x == 0) && ...) || ((p.y == 0) && ...) || ((p.z == 0) && ...);
 }
 
-/// `left` in integers, or what decides before them, without the filter in doubles.
+/// `left` by the stages after the filter in doubles.
 int left_of_vectors(const Point& a, const Point& b, const Point& c);
 
-/// `left` in double-double: 0 where it cannot tell.
+/// `left` in double-double: 0 if undecided.
 int fine_left(const Point& a, const Point& b, const Point& c);
 
 inline bool lower_rank(const Point& a, const Point& b) {

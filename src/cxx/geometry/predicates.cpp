@@ -9,7 +9,7 @@
 #include "geometry/predicate_stages.h"
 
 // Error bounds below: u = 2^-53 is the unit roundoff of rounding to nearest, which every entry of the library
-// sets (geometry/floating_point.h). "Permanent" is the expression of a determinant with every term replaced
+// sets (base/floating_point.h). "Permanent" is the expression of a determinant with every term replaced
 // by its absolute value; it is computed alongside.
 
 namespace pstripack {
@@ -67,7 +67,7 @@ inline bool moderate(const Point& a) {
   return std::fabs(a.x) < kLargest && std::fabs(a.y) < kLargest && std::fabs(a.z) < kLargest;
 }
 
-/// A zero that needs no arithmetic: nodes on one parallel.
+/// A zero found without arithmetic: nodes on one parallel.
 template <class... Points>
 bool in_parallel_plane(const Point& a, const Points&... p) {
   return ((p.x == a.x) && ...) || ((p.y == a.y) && ...) || ((p.z == a.z) && ...);
@@ -199,8 +199,9 @@ const Coordinates::View::Difference& Coordinates::View::see(index_t i) {
 
 namespace {
 
-/// symbolic_above; false where v coincides with another node. By the million on parallels and lattices: the
-/// highest node is mostly the one with the largest x, found without a branch that would be mispredicted.
+/// symbolic_above; false if v coincides with another node. Called by the million on parallels and lattices:
+/// the highest-ranked node is mostly the one with the largest x, found without a branch that would be
+/// mispredicted.
 bool above_by_tie(const Point& a, const Point& b, const Point& c, const Point& v) {
   const Point* const node[4] = {&v, &c, &b, &a};
   // By which node is highest: three nodes that turn left if pushing it outwards lifts v above a,b,c.

@@ -12,7 +12,7 @@
 //   (3) above(a,b,c,d) != above(b,a,c,d), except where all four lie on one great circle: both false
 //   (4) the sign behind `above` is antisymmetric under every permutation of its four arguments
 //   (5) none depends on the numbering of the nodes, on FMA or on threads; nor on the rounding mode of the
-//       program, which is left at every entry of the library (geometry/floating_point.h)
+//       program, which is left at every entry of the library (base/floating_point.h)
 //
 // Two sets of predicates share this interface; the kernel takes the set as a parameter:
 //   Coordinates  the vectors exactly as given;
@@ -35,8 +35,8 @@
 #include <cstdint>
 #include <memory>
 
+#include "base/workspace.h"
 #include "geometry/point.h"
-#include "geometry/workspace.h"
 
 namespace pstripack {
 
@@ -68,12 +68,11 @@ inline bool length_is_one(const Point& p) {
   return std::fabs(p.x * p.x + p.y * p.y + p.z * p.z - (1 + 1e-12)) <= 2e-6;
 }
 
-/// How often a stage was entered, by all predicates together; for tests and for measuring what the filters
-/// leave open.
+/// Number of times each stage was entered, over all predicates; for tests and for measuring the filters.
 struct PredicateCounts {
-  std::uint64_t above = 0, left = 0;  ///< calls that reached the predicates at all
+  std::uint64_t above = 0, left = 0;  ///< calls that the kernel passed to the predicates
   std::uint64_t double_double = 0;    ///< not decided by doubles
-  std::uint64_t integers = 0;         ///< nor by double-double, or small integers came first
+  std::uint64_t integers = 0;         ///< not decided by double-double, or small integers came first
   std::uint64_t big_integers = 0;     ///< of these, too large for a fixed size
   std::uint64_t symbolic = 0;         ///< zeros of `above` that the tie rule decided
 };
@@ -85,7 +84,7 @@ class Coordinates {
   Coordinates(const Point* points, std::size_t n) : p_(points), n_(n) {}
 
   std::size_t size() const { return n_; }
-  /// Lets n nodes count, which may now lie elsewhere: the first ones are those before.
+  /// Changes the number of nodes to n and their address; nodes kept before must be unchanged.
   void extend(const Point* points, std::size_t n) { p_ = points, n_ = n; }
   const Point& given(index_t i) const { return p_[i]; }
   const Point& position(index_t i) const { return p_[i]; }
@@ -107,13 +106,13 @@ class Coordinates {
 };
 
 /// Predicates on the directions p[i]/|p[i]| of any finite non-zero vectors.
-/// Keeps 48 bytes a node beside the points, which must outlive it.
+/// Keeps 48 bytes per node beside the points, which must outlive it.
 class Directions {
  public:
   Directions(const Point* points, std::size_t n);
 
   std::size_t size() const { return n_; }
-  /// Lets n nodes count, which may now lie elsewhere: the first ones are those before.
+  /// Changes the number of nodes to n and their address; nodes kept before must be unchanged.
   void extend(const Point* points, std::size_t n);
   const Point& given(index_t i) const { return p_[i]; }
   const Point& position(index_t i) const { return unit_[i].high; }
@@ -139,8 +138,8 @@ class Directions {
   /// The same, seen from f[0]: in doubles, where 0 means not certain; and exactly, from double-double on.
   int filter_seen_from_first(const Four& f) const;
   int height_seen_from_first(const Four& f) const;
-  /// An even permutation with the node in front from which errors are smallest; whether f[0] is about as
-  /// good.
+  /// An even permutation with the node in front for which the error bound is smallest; whether f[0] is about
+  /// as good.
   Four best_first(const Four& f, bool& first_will_do) const;
   struct Unit {
     Point high, low;
@@ -152,13 +151,13 @@ class Directions {
   BlockArray<Unit> unit_;
 };
 
-/// What a view of the predicates remembers of nodes: a slot for those whose numbers end in the same bits.
-/// What it holds counts until the next call of `forget`.
+/// Cache of values per node, used by a view of the predicates: nodes whose numbers end in the same bits share
+/// a slot. Entries are valid until the next call of `forget`.
 template <class Item>
 class Remembered {
  public:
   void forget() { ++time_; }
-  /// The item of node i, which `make` writes if it is not there.
+  /// The entry of node i; `make` computes it if it is not in the cache.
   template <class Make>
   Item& operator()(index_t i, const Make& make) {
     const auto k = static_cast<std::size_t>(i) % kSlots;
@@ -172,13 +171,14 @@ class Remembered {
 
  private:
   static constexpr std::size_t kSlots = 32;
-  std::uint64_t time_ = 1;  // 2^32 nodes are more than there are
+  std::uint64_t time_ = 1;  // fits 32 bits: one view per inserted node
   std::uint64_t key_[kSlots] = {};
   Item item_[kSlots];
 };
 
-/// The predicates seen from one node, where floating point alone has not decided. A node that is inserted is
-/// compared with each of its neighbours-to-be in some three faces: their differences are computed once.
+/// The predicates as seen from one node v, for cases that floating point alone has not decided. A node being
+/// inserted is compared with each of its future neighbours in about three faces: the differences to them are
+/// computed once.
 class Coordinates::View {
  public:
   explicit View(const Coordinates& nodes) : nodes_(nodes) {}
@@ -188,12 +188,12 @@ class Coordinates::View {
   int left(index_t a, index_t b) { return nodes_.left(a, b, v_); }
 
  private:
-  /// From v to the node, in multiples of 2^-61 if both are.
+  /// Difference from v to the node; in multiples of 2^-61 if both are such multiples.
   struct Difference {
     std::int64_t x, y, z;
     bool on_grid;
   };
-  void look();  ///< from v, which few insertions need
+  void look();  ///< prepares v; few insertions need it
   const Difference& see(index_t i);
   const Coordinates& nodes_;
   index_t v_ = 0;
@@ -214,7 +214,7 @@ class Directions::View {
 
  private:
   struct Memory;
-  Memory& memory();  ///< of what is seen from v
+  Memory& memory();  ///< cache of differences to v
   index_t v_ = 0;
   bool is_ready_ = false, tied_ = false;
   const Directions& nodes_;

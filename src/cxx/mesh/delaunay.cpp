@@ -20,8 +20,8 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "base/parallel_for.h"
 #include "geometry/insertion_order.h"
-#include "geometry/parallel_for.h"
 
 namespace pstripack {
 namespace {
@@ -223,7 +223,7 @@ class Builder final : public GrowingHull {
       for (int i = 0; i < 3; ++i) hull.at_back[faces_[t].vertex[i]] = true;
     }
     for (std::uint32_t v = 0; v < n_; ++v)
-      if (hull.at_back[v] && !has_front_face(hull, v)) throw HiddenNode{};
+      if (hull.at_back[v] && !turn_to_first_front_face(hull, v)) throw HiddenNode{};
     return hull;
   }
 
@@ -244,12 +244,18 @@ class Builder final : public GrowingHull {
     corner_ = arrays.corner;
   }
 
-  static bool has_front_face(const Hull& hull, std::uint32_t v) {
-    std::uint32_t corner = hull.corner[v];
+  /// Makes the corner of v, which has a face at the back, that of the first front face counterclockwise after
+  /// the gap: there its ring starts. False if it has none.
+  bool turn_to_first_front_face(const Hull& hull, std::uint32_t v) const {
+    std::uint32_t corner = corner_[v];
     do {
-      if (hull.front(face_of(corner))) return true;
-      corner = clockwise(hull, corner);
-    } while (corner != hull.corner[v]);
+      const std::uint32_t next = clockwise(hull, corner);
+      if (hull.front(face_of(corner)) && !hull.front(face_of(next))) {
+        corner_[v] = corner;
+        return true;
+      }
+      corner = next;
+    } while (corner != corner_[v]);
     return false;
   }
 
@@ -660,7 +666,7 @@ std::unique_ptr<GrowingHull> GrowingHull::make(const HullArrays& arrays, std::si
 
 Hull delaunay(const Point* p, std::size_t n, Workspace& workspace) {
   auto* const order = workspace.keep<std::uint32_t>(n);
-  insertion_order(p, n, order, workspace);
+  const std::size_t alone = insertion_order(p, n, order, workspace);
   HullArrays arrays;
   arrays.capacity = n;
   arrays.nodes = workspace.keep<Point>(n);
@@ -681,8 +687,8 @@ Hull delaunay(const Point* p, std::size_t n, Workspace& workspace) {
   arrays.planes = workspace.take<Plane>(2 * n);
   const auto hull_with = [&](Lengths lengths) {
     const auto growing = GrowingHull::make(arrays, n, lengths);
-    growing->look_for_hidden_nodes(0);
-    growing->build(0);
+    growing->look_for_hidden_nodes(alone);
+    growing->build(alone);
     Hull hull = growing->finish();
     hull.order = order;
     for (const auto& [in, out] : growing->coincident())

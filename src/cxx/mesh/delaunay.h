@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/workspace.h"
 #include "geometry/predicates.h"
-#include "geometry/workspace.h"
 #include "mesh/triangulation.h"
 
 namespace pstripack {
@@ -23,7 +23,7 @@ namespace pstripack {
 ///                   /         \                                                                  .
 ///          vertex[1] --------- vertex[2]
 ///                  neighbour[0]
-/// Four words each, of which the last is not used, so that a code finds its word by a sum: see `word`.
+/// Four words per array, the last unused, so that adding the code gives the address of a word: see `word`.
 struct Face {
   std::uint32_t vertex[4];
   std::uint32_t neighbour[4];
@@ -37,28 +37,30 @@ inline std::uint32_t previous_edge(std::uint32_t e) { return (0x2102u >> (4 * e)
 inline std::uint32_t next_code(std::uint32_t code) { return (code & 3) == 2 ? code - 2 : code + 1; }
 inline std::uint32_t previous_code(std::uint32_t code) { return (code & 3) == 0 ? code + 2 : code - 1; }
 
-/// The hull of n nodes. Hull nodes are numbered along the insertion curve: hull node v is the caller's
-/// node order[v]. `front` tells whether a face belongs to the triangulation: those with det > 0, which
-/// are all of them where the nodes surround the centre. Its arrays lie in the workspace of the call.
+/// The hull of n nodes. Hull nodes are numbered along the insertion curve: hull node v is the caller's node
+/// order[v]. `front` is true for faces of the triangulation, those with det > 0; if the nodes surround the
+/// centre, these are all faces. The arrays lie in the workspace of the call.
 struct Hull {
   std::size_t node_count = 0, face_count = 0;
   const std::uint32_t* order = nullptr;
   const Face* faces = nullptr;
-  const std::uint32_t* corner = nullptr;  ///< for each node, the code 4*t + i of a face with vertex[i] there
-  bool surrounds_centre = false;          ///< every face is a front face
-  // Else: true for the faces that are not part of the triangulation, and for their corners.
+  /// For each node, the code 4*t + i of a face with vertex[i] there; of a node with faces at the back, of the
+  /// first front face counterclockwise after them.
+  const std::uint32_t* corner = nullptr;
+  bool surrounds_centre = false;  ///< every face is a front face
+  // If not surrounds_centre: true for faces outside the triangulation, and for their corners.
   std::vector<bool> back, at_back;
   Lengths lengths = Lengths::as_given;  ///< the predicates that decided
-  /// Nodes left out because they coincide with one that is in: (in, out), the caller's numbers.
+  /// Coincident nodes: (inserted, left out), in the caller's numbers.
   std::vector<std::pair<index_t, index_t>> coincident;
 
-  /// Of the code 4*t + i: where vertex[i] of face t is; neighbour[i] is four words further on.
+  /// Address of vertex[i] of face t for the code 4*t + i; neighbour[i] is four words further.
   const std::uint32_t* word(std::uint32_t code) const {
     return reinterpret_cast<const std::uint32_t*>(faces) + (std::size_t{code} + (code & ~std::uint32_t{3}));
   }
 
   bool front(std::size_t face) const { return surrounds_centre || !back[face]; }
-  /// All faces around the node are part of the triangulation.
+  /// True if all faces around the node are part of the triangulation.
   bool inner(std::size_t node) const { return surrounds_centre || !at_back[node]; }
 };
 
@@ -73,11 +75,11 @@ struct Plane {
   double x, y, z, w;
 };
 
-/// Thrown where a node lies inside the hull of the others, so that it would be missing from the
-/// triangulation: only with Lengths::as_given. More nodes never show it again; directions do.
+/// Thrown if a node lies inside the hull of the others and so would be missing from the triangulation: only
+/// with Lengths::as_given. Adding nodes never uncovers it; predicates on directions do.
 struct HiddenNode {};
 
-/// The memory of a hull that grows, of the caller: arrays for `capacity` nodes and 2 `capacity` faces.
+/// Memory of a growing hull, owned by the caller: arrays for `capacity` nodes and 2 `capacity` faces.
 struct HullArrays {
   std::size_t capacity = 0;
   Point* nodes = nullptr;  ///< as given, in the order of insertion
@@ -86,7 +88,7 @@ struct HullArrays {
   std::uint32_t* corner = nullptr;
 };
 
-/// A hull that nodes are added to. Nodes are numbered as they stand in HullArrays::nodes.
+/// A hull to which nodes are added. Nodes are numbered as in HullArrays::nodes.
 class GrowingHull {
  public:
   /// A hull for the nodes that are in arrays.nodes[0..n-1], 3 <= n <= capacity; as_given or directions.
@@ -94,30 +96,31 @@ class GrowingHull {
   static std::unique_ptr<GrowingHull> make(const HullArrays& arrays, std::size_t n, Lengths lengths);
   virtual ~GrowingHull() = default;
 
-  /// Throws HiddenNode if it is easy to see, without a hull, that some node lies inside the hull of the
-  /// others. `leading`: as for build().
+  /// Throws HiddenNode if a quick test, without a hull, finds a node inside the hull of the others.
+  /// `leading`: as for build().
   virtual void look_for_hidden_nodes(std::size_t leading) const = 0;
 
-  /// Inserts the nodes: the first `leading` in their order, the rest, which should follow a curve, in
-  /// rounds. `leading` = 0: the nodes to start from are looked for among all. Throws HiddenNode,
-  /// std::bad_alloc, std::domain_error if all nodes lie on one great circle.
+  /// Inserts the first `leading` nodes in their order, then the others, which should follow a curve, in
+  /// rounds. `leading` = 0: the start nodes are chosen among all. Throws HiddenNode, std::bad_alloc,
+  /// std::domain_error if all nodes lie on one great circle.
   virtual void build(std::size_t leading) = 0;
 
-  /// Adds a node after build(), if there is room. Returns its number, or that of the node that it coincides
-  /// with; then nothing has changed. Throws HiddenNode, std::bad_alloc.
+  /// Adds a node after build(), if there is room. Returns its number, or the number of the node with which it
+  /// coincides, having changed nothing. Throws HiddenNode, std::bad_alloc.
   virtual std::uint32_t add(const Point& p) = 0;
 
-  /// Goes on in other arrays, to which the contents have been copied.
+  /// Continues in other arrays, to which the caller has copied the contents.
   virtual void move_to(const HullArrays& arrays) = 0;
 
   virtual std::size_t node_count() const = 0;
   virtual std::size_t face_count() const = 0;
   virtual const std::vector<std::pair<std::uint32_t, std::uint32_t>>& coincident() const = 0;  ///< (in, out)
 
-  /// The predicates on nodes that have been added, exact.
+  /// Exact predicates on the nodes added so far.
   virtual int left(std::uint32_t a, std::uint32_t b, std::uint32_t c) const = 0;
   virtual bool above(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const = 0;
-  /// From node b to node a, as the predicates place them: every component to 2 roundings and 2^-99.
+  /// Difference from node b to node a in the predicates' coordinates: every component to 2 roundings and
+  /// 2^-99.
   virtual Point difference(std::uint32_t a, std::uint32_t b) const = 0;
 
   /// True if the centre is known to be inside: then every face is part of the triangulation.
@@ -126,20 +129,21 @@ class GrowingHull {
   /// det > 0: the face is part of the triangulation.
   virtual bool front(std::uint32_t face) const = 0;
 
-  /// What is part of the triangulation by now; `order` is left to the caller. Throws HiddenNode.
+  /// The current triangulation, except `order`, which the caller sets. Turns corners to where the rings of
+  /// their nodes start: see Hull. Throws HiddenNode.
   virtual Hull finish() const = 0;
 };
 
-/// The hull of the nodes p[0..n-1], n >= 3: finite, non-zero, not all on one great circle. Decides with
-/// Coordinates, or with Directions where lengths differ from 1 by more than 1e-6 or where the lengths as
-/// given would hide a node from the triangulation. Nodes that coincide are inserted once.
-/// Deterministic up to the numbering of faces. Throws std::bad_alloc, std::domain_error if all nodes lie
-/// on one great circle. n < 2^29.
-/// The workspace must have workspace_bytes(n), and may hold p as an array of the current phase, which is
-/// overwritten then. Directions need 48 bytes a node more.
+/// The hull of the nodes p[0..n-1], 3 <= n < 2^29: finite, non-zero, not all on one great circle. Uses
+/// Coordinates; Directions if a length differs from 1 by more than 1e-6 or the given lengths would hide a
+/// node from the triangulation. Coincident nodes are inserted once. Deterministic up to the numbering of
+/// faces. Throws std::bad_alloc, std::domain_error if all nodes lie on one great circle. The workspace must
+/// have workspace_bytes(n); it may hold p as an array of the current phase, which is then overwritten.
+/// Directions need 48 more bytes per node.
 Hull delaunay(const Point* p, std::size_t n, Workspace& workspace);
 
-/// Kept: order, sorted nodes, faces, corners. Of the phases the insertion takes most: the planes of 2n faces.
+/// Kept arrays: order, sorted nodes, faces, corners. The largest phase is the insertion: the planes of 2n
+/// faces.
 constexpr std::size_t workspace_bytes(std::size_t n) {
   return (4 + 24 + 2 * sizeof(Face) + 4 + 2 * sizeof(Plane)) * n;
 }

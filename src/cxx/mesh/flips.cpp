@@ -13,8 +13,8 @@
 #include <cstring>
 #include <exception>
 
+#include "base/parallel_for.h"
 #include "geometry/insertion_order.h"
-#include "geometry/parallel_for.h"
 
 namespace pstripack {
 

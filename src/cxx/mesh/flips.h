@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/workspace.h"
 #include "geometry/predicates.h"
-#include "geometry/workspace.h"
 
 namespace pstripack {
 

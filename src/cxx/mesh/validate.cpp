@@ -6,14 +6,14 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/parallel_for.h"
+#include "base/parallel_for.h"
 
 namespace pstripack {
 namespace {
 
 constexpr index_t kNone = -1;
 
-/// Of at most four nodes.
+/// A defect that concerns at most four nodes.
 Verdict defect(Defect d, const std::string& what, std::initializer_list<index_t> nodes) {
   Verdict v;
   v.defect = d;
@@ -100,7 +100,7 @@ class Star {
   index_t operator[](std::size_t i) const { return begin_[i] < 0 ? ~begin_[i] : begin_[i]; }
   index_t after(std::size_t i) const { return (*this)[i + 1 == size_ ? 0 : i + 1]; }
   index_t before(std::size_t i) const { return (*this)[i == 0 ? size_ - 1 : i - 1]; }
-  /// Are there triangles on both sides of the arc to neighbour i?
+  /// True if there are triangles on both sides of the arc to neighbour i.
   bool has_both_sides(std::size_t i) const { return !is_fan_ || (i > 0 && i + 1 < size_); }
 
  private:
@@ -123,9 +123,9 @@ Verdict check_triangles(const Predicates& predicates, index_t v, const Star& sta
   return {};
 }
 
-/// All triangles being counterclockwise, each turns by less than 180 degrees around each of its corners; so
-/// the side of the arc from v to its first neighbour on which the others lie shows how often the star winds:
-/// left, at most one exactly opposite, right, and never left again.
+/// All triangles are counterclockwise, so each turns by less than 180 degrees around each of its corners. The
+/// sides of the arc from v to its first neighbour on which the other neighbours lie therefore show how often
+/// the star winds. Winding once: left, at most one exactly opposite, then right, and never left again.
 template <class Predicates>
 Verdict check_winding(const Predicates& predicates, index_t v, const Star& star) {
   bool on_the_right = false;
@@ -152,8 +152,8 @@ Verdict check_arcs(const Predicates& predicates, index_t v, const Star& star, Ti
   return {};
 }
 
-/// All tests that depend on the predicates. Of several defects that of the first kind of test is reported:
-/// the later ones mean something only where the earlier ones hold.
+/// All tests that use the predicates. Of several defects the first in the order of tests is reported: later
+/// tests are meaningful only if earlier ones pass.
 template <class Predicates>
 Verdict check_geometry(const Predicates& predicates, const StarTable& stars, Ties ties) {
   constexpr std::size_t kTests = 3, kAhead = 8;
@@ -161,7 +161,7 @@ Verdict check_geometry(const Predicates& predicates, const StarTable& stars, Tie
   std::vector<Verdict> found(kTests * static_cast<std::size_t>(threads));
   parallel_pieces(stars.size(), threads, [&](std::size_t first, std::size_t last, int piece) {
     Verdict* const verdicts = found.data() + kTests * static_cast<std::size_t>(piece);
-    std::size_t tests = kTests;  // that are still to be made
+    std::size_t tests = kTests;  // tests still to be made
     for (std::size_t v = first; v < last; ++v) {
       if (v + kAhead < last)
         for (std::size_t i = stars.begin[v + kAhead]; i < stars.begin[v + kAhead + 1]; ++i)
@@ -184,7 +184,7 @@ Verdict check_geometry(const Predicates& predicates, const StarTable& stars, Tie
   return {};
 }
 
-/// Is every node in triangles that are one cycle or one fan? Then they are the stars.
+/// True if the triangles at every node form one cycle or one fan; they are then its star.
 Verdict find_stars(Corners& corners, StarTable& stars) {
   std::vector<index_t> ring;
   std::size_t end = 0;
@@ -263,7 +263,7 @@ Verdict is_valid(const Point* p, const StarTable& stars, Lengths lengths, Ties t
   }
   Verdict directions = check_geometry(Directions(p, n), stars, ties);
   directions.lengths = Lengths::directions;
-  // Wrong either way: the predicates that lengths near 1 ask for name the defect.
+  // Invalid with both sets of predicates: report the defect found with those that lengths near 1 select.
   return directions || as_given ? directions : as_given;
 }
 

@@ -1,11 +1,11 @@
 #pragma once
-// The validator: shares the exact predicates with the algorithm, and nothing else.
+// The validator: shares only the exact predicates with the algorithm.
 
 #include <cstddef>
 #include <cstdint>
 #include <string>
 
-#include "geometry/workspace.h"
+#include "base/workspace.h"
 #include "mesh/triangulation.h"
 
 namespace pstripack {
@@ -22,13 +22,13 @@ enum class Defect {
   not_convex         ///< a boundary node where the covered region is not convex
 };
 
-/// Which diagonal of four nodes in one circle, exactly, is right.
+/// Which diagonals of four exactly cocircular nodes are accepted.
 enum class Ties {
-  by_rule,    ///< that of the symbolic rule (predicates.h): one triangulation is valid
-  either_way  ///< both are
+  by_rule,    ///< only that of the symbolic rule (predicates.h): one triangulation is valid
+  either_way  ///< both
 };
 
-/// What is_valid found. `node` holds up to four node indices (from 0, else -1) that show the defect.
+/// Result of is_valid. `node` holds up to four node indices (from 0, else -1) that show the defect.
 struct Verdict {
   Defect defect = Defect::none;
   std::array<index_t, 4> node{-1, -1, -1, -1};
@@ -43,8 +43,8 @@ struct Verdict {
 ///  - every interior arc is locally Delaunay (exact sign, ties by the symbolic rule);
 ///  - the sphere, or the convex hull of the nodes in a hemisphere, is covered exactly once: every
 ///    star winds once, the boundary is locally convex (exact signs), the surface is connected and its
-///    Euler number is that of a sphere or a disc. That these local tests suffice: docs/design.md.
-/// Any number of triangles and any indices may be passed: nothing is assumed. O(n log n).
+///    Euler number is that of a sphere or a disc. docs/design.md proves that these local tests suffice.
+/// Accepts any number of triangles and any indices. O(n log n).
 Verdict is_valid(const Point* p, std::size_t n, const Triangle* triangles, std::size_t count,
                  Lengths lengths = Lengths::automatic, Ties ties = Ties::by_rule);
 
@@ -58,12 +58,12 @@ struct StarTable {
   BlockArray<index_t> to;
 };
 
-/// The same of triangles that are given by the stars of their corners, which must agree: c follows b round a
-/// if and only if a follows c round b. Parallel.
+/// The same for triangles given by the stars of their corners, which must agree: c follows b around a if and
+/// only if a follows c around b. Parallel.
 Verdict is_valid(const Point* p, const StarTable& stars, Lengths lengths = Lengths::automatic,
                  Ties ties = Ties::by_rule);
 
-/// Are these stars one sphere or one disc, wherever the nodes lie? In linear time.
+/// True if these stars form one sphere or one disc, regardless of coordinates. O(n).
 Verdict check_surface(const StarTable& stars);
 
 const char* name(Defect defect);

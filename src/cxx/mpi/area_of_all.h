@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "pool/shared_area.h"
+#include "base/shared_area.h"
 
 namespace pstripack {
 

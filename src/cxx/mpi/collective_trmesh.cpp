@@ -8,16 +8,17 @@
 #include <optional>
 #include <vector>
 
-#include "geometry/parallel_for.h"
+#include "base/parallel_for.h"
 #include "geometry/predicates.h"
-#include "mpi/list_pieces.h"
-#include "mpi/options.h"
+#include "lists/limits.h"
+#include "mpi/gather_lists.h"
+#include "parallel/agreement.h"
 #include "parallel/coincidence.h"
+#include "parallel/options.h"
 
 namespace pstripack {
 namespace {
 
-constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
 constexpr std::int32_t kTooFew = -1, kCollinear = -2, kTooMany = -4, kBadCoordinate = -5, kRanksDisagree = -7;
 
 std::uint64_t mixed(std::uint64_t bits) {
@@ -52,198 +53,193 @@ std::uint64_t hash_of(const void* array, std::size_t size, std::uint64_t seed) {
   return sum;
 }
 
-/// This rank's slice of the nodes.
-struct Slice {
-  NodeArrays nodes;
-  std::size_t count = 0;
-  Look look;
-  std::optional<NodeArrays> of_all_ranks;  ///< where this rank can read them
-  Block received[3];                       ///< x, y, z, where they had to be sent
-
-  /// Looks at nodes first.. of the call; returns the first (from 0, of the call) that has no direction.
-  template <class Real>
-  std::int64_t take(const Real* x, const Real* y, const Real* z, std::size_t how_many, std::size_t first) {
-    nodes = NodeArrays(x, y, z);
-    count = how_many;
-    look = look_at(nodes, count);
-    return look.first_bad < count ? static_cast<std::int64_t>(first + look.first_bad) : kNone;
-  }
-};
-
 std::int32_t code_of_count(std::int32_t n) {
   if (n < 3) return kTooFew;
   return n > most_nodes<std::int32_t>() ? kTooMany : 0;
 }
 
 /// What a call is about, on every rank.
-struct Call {
+struct Headline {
   std::int32_t n = 0;
   Point corners[3] = {};  ///< nodes 1 to 3
-  std::int64_t partition = 0;
-  std::int64_t wants_cost = 0;  ///< rank 0 does
+  PartitionKind partition = PartitionKind::bisection;
+  bool wants_cost = false;  ///< rank 0 does
+
+  std::size_t slice(int rank, const Communicator& ranks) const {
+    return slice_begin(static_cast<std::size_t>(n), static_cast<std::size_t>(rank),
+                       static_cast<std::size_t>(ranks.size()));
+  }
 };
 
-/// This rank's slice of the nodes, where every rank has them all. The code is that of the call so far.
-template <class Real>
-TrmeshResult take_slice(MpiCommunicator& ranks, std::int32_t n, const Real* x, const Real* y, const Real* z,
-                        bool wants_cost, Call& call, Slice& slice) {
-  ranks.set_phase("agree on the arguments");
-  call.n = n;
-  const std::int32_t count_code = code_of_count(n);
-  std::int64_t code = 0, bad = kNone, hash = 0;
-  if (count_code == 0) try {
-      const auto nodes = static_cast<std::size_t>(n);
-      const auto size = static_cast<std::size_t>(ranks.size()), me = static_cast<std::size_t>(ranks.rank());
-      const std::size_t first = slice_begin(nodes, me, size), last = slice_begin(nodes, me + 1, size);
-      std::uint64_t h = sizeof(Real);
-      for (const Real* const array : {x, y, z}) h = hash_of(array, nodes * sizeof(Real), h);
-      hash = static_cast<std::int64_t>(h);
-      bad = slice.take(x + first, y + first, z + first, last - first, first);
-      slice.of_all_ranks.emplace(x, y, z);
-      slice.of_all_ranks->points(0, 3, call.corners);
-    } catch (...) {
-      code = code_of(std::current_exception());
-    }
-  // Smallest values; the complement is largest where the value is smallest, so both tell whether all are
-  // equal.
-  std::int64_t values[] = {n,
-                           ~std::int64_t{n},
-                           hash,
-                           ~hash,
-                           code,
-                           bad,
-                           partition_vote(ranks, options_from_environment(0).partition),
-                           ranks.rank() == 0 && wants_cost ? -1 : 0,
-                           slice.look.vote_for_lengths(),
-                           slice.look.vote_for_deviation()};
-  ranks.all_min(values, std::size(values));
-  slice.look.elect(values[8], values[9]);
-  call.wants_cost = -values[7];
-  // Out of memory first: the hash is missing there.
-  if (values[4] != 0) throw AgreedFailure(static_cast<std::int32_t>(values[4]));
-  if (values[0] != ~values[1] || values[2] != ~values[3]) return {kRanksDisagree};
+/// A call by ranks, each of which has a slice of the nodes.
+class ByRanks {
+ public:
+  ByRanks(MpiCommunicator& ranks, Arrays arrays, const TrmeshCall& call, ParallelCost& cost)
+      : ranks_(ranks), arrays_(arrays), call_(call), cost_(cost) {}
+
+  /// Collective. The code so far: 0 if the slices can be triangulated.
+  TrmeshResult prepare(bool wants_cost);
+  std::int32_t n() const { return headline_.n; }
+  bool wants_cost() const { return headline_.wants_cost; }
+  /// Collective, as triangulate_and_deliver() asks for.
+  std::optional<Coincidence> triangulate(std::size_t n);
+  void deliver();
+
+ private:
+  TrmeshResult take_slice(bool wants_cost);
+  TrmeshResult receive_slice(bool wants_cost);
+  /// Looks at this rank's slice, the nodes first.. of the call, and says which has no direction.
+  void look(std::size_t first, Smallest& bad) {
+    look_ = look_at(nodes_, count_);
+    if (look_.first_bad < count_) bad.value = static_cast<std::int64_t>(first + look_.first_bad);
+  }
+
+  MpiCommunicator& ranks_;
+  const Arrays arrays_;
+  const TrmeshCall& call_;
+  ParallelCost& cost_;
+  Headline headline_;
+  // This rank's slice:
+  NodeArrays nodes_;
+  std::size_t count_ = 0;
+  Look look_;
+  std::optional<NodeArrays> of_all_ranks_;  ///< where this rank can read them
+  Block received_[3];                       ///< x, y, z, where they had to be sent
+  // What has been triangulated:
+  ParallelOptions options_;
+  std::vector<std::size_t> begin_;  ///< of each rank, and the end
+  Stars<std::int32_t> stars_;
+};
+
+/// Every rank has all nodes.
+TrmeshResult ByRanks::take_slice(bool wants_cost) {
+  ranks_.set_phase("agree on the arguments");
+  const std::int32_t n = headline_.n = call_.n, count_code = code_of_count(n);
+  // All pass the same where the smallest is the largest.
+  Smallest least_n{n}, least_hash{0}, bad;
+  Largest most_n{n}, most_hash;
+  OfRank0 partition(ranks_, options_from_environment(0).partition);
+  OnAny reported{ranks_.rank() == 0 && wants_cost};
+  in_agreement(
+      ranks_,
+      [&] {
+        if (count_code != 0) return;
+        const std::size_t bytes = static_cast<std::size_t>(n) * call_.nodes.real_bytes();
+        std::uint64_t hash = call_.nodes.real_bytes();
+        for (int axis = 0; axis < 3; ++axis) hash = hash_of(call_.nodes.array(axis), bytes, hash);
+        least_hash.value = most_hash.value = static_cast<std::int64_t>(hash);
+        const std::size_t first = headline_.slice(ranks_.rank(), ranks_);
+        nodes_ = call_.nodes.from(first);
+        count_ = headline_.slice(ranks_.rank() + 1, ranks_) - first;
+        look(first, bad);
+        of_all_ranks_ = call_.nodes;
+        call_.nodes.points(0, 3, headline_.corners);
+      },
+      least_n, most_n, least_hash, most_hash, bad, partition, reported, look_.lengths_are_one,
+      look_.deviation);
+  headline_.wants_cost = reported.value;
+  if (least_n.value != most_n.value || least_hash.value != most_hash.value) return {kRanksDisagree};
   if (count_code != 0) return {count_code};
-  call.partition = values[6];
-  if (values[5] != kNone) return {kBadCoordinate, values[5] + 1};
+  headline_.partition = partition.value;
+  if (bad.exists()) return {kBadCoordinate, bad.value + 1};
   return {0};
 }
 
-/// This rank's slice of the nodes of rank 0.
-template <class Real>
-TrmeshResult receive_slice(MpiCommunicator& ranks, Arrays arrays, std::int32_t n, const Real* x,
-                           const Real* y, const Real* z, bool wants_cost, Call& call, Slice& slice) {
-  ranks.set_phase("scatter the nodes");
-  const bool is_root = ranks.rank() == 0;
+/// The nodes are rank 0's, or in memory that all share.
+TrmeshResult ByRanks::receive_slice(bool wants_cost) {
+  ranks_.set_phase("scatter the nodes");
+  const bool is_root = ranks_.rank() == 0;
   if (is_root) {
-    call.n = n;
-    call.partition = static_cast<std::int64_t>(options_from_environment(0).partition);
-    call.wants_cost = wants_cost ? 1 : 0;
-    if (code_of_count(n) == 0) NodeArrays(x, y, z).points(0, 3, call.corners);
+    headline_.n = call_.n;
+    headline_.partition = options_from_environment(0).partition;
+    headline_.wants_cost = wants_cost;
+    if (code_of_count(call_.n) == 0) call_.nodes.points(0, 3, headline_.corners);
   }
-  ranks.broadcast(&call, sizeof call, 0);
-  if (const std::int32_t code = code_of_count(call.n); code != 0) return {code};
+  ranks_.broadcast(&headline_, sizeof headline_, 0);
+  if (const std::int32_t code = code_of_count(headline_.n); code != 0) return {code};
 
-  const auto nodes = static_cast<std::size_t>(call.n);
-  const auto size = static_cast<std::size_t>(ranks.size()), me = static_cast<std::size_t>(ranks.rank());
-  const std::size_t first = slice_begin(nodes, me, size), count = slice_begin(nodes, me + 1, size) - first;
-  const bool by_message = arrays == Arrays::on_rank_0;
+  const std::size_t first = headline_.slice(ranks_.rank(), ranks_), real = call_.nodes.real_bytes();
+  count_ = headline_.slice(ranks_.rank() + 1, ranks_) - first;
+  const bool by_message = arrays_ == Arrays::on_one_rank, receives = by_message && !is_root;
   std::vector<std::size_t> bytes;
-  agreed(ranks, [&] {
-    if (by_message && !is_root)
-      for (Block& block : slice.received) block = Block(count * sizeof(Real));
-    for (std::size_t r = 0; r <= size; ++r) bytes.push_back(slice_begin(nodes, r, size) * sizeof(Real));
+  in_agreement(ranks_, [&] {
+    if (receives)
+      for (Block& block : received_) block = Block(count_ * real);
+    for (int r = 0; r <= ranks_.size(); ++r) bytes.push_back(headline_.slice(r, ranks_) * real);
   });
-  const Real* from[] = {x, y, z};
-  for (int i = 0; i < 3 && by_message; ++i)
-    ranks.start_scatter(from[i], bytes, slice.received[i].data(), is_root ? 0 : count * sizeof(Real), 0);
-  if (!is_root) ranks.finish();
-  std::int64_t values[] = {0, kNone, 0, 0};
-  try {
-    if (!by_message) slice.of_all_ranks.emplace(x, y, z);
-    for (int i = 0; i < 3; ++i)
-      from[i] =
-          by_message && !is_root ? reinterpret_cast<const Real*>(slice.received[i].data()) : from[i] + first;
-    values[1] = slice.take(from[0], from[1], from[2], count, first);
-  } catch (...) {
-    values[0] = code_of(std::current_exception());
-  }
-  if (is_root) ranks.finish();
-  values[2] = slice.look.vote_for_lengths();
-  values[3] = slice.look.vote_for_deviation();
-  ranks.all_min(values, std::size(values));
-  slice.look.elect(values[2], values[3]);
-  if (values[0] != 0) throw AgreedFailure(static_cast<std::int32_t>(values[0]));
-  if (values[1] != kNone) return {kBadCoordinate, values[1] + 1};
+  for (int axis = 0; axis < 3 && by_message; ++axis)
+    ranks_.start_scatter(call_.nodes.array(axis), bytes, received_[axis].data(), receives ? count_ * real : 0,
+                         0);
+  if (!is_root) ranks_.finish();
+  Smallest bad;
+  Outcome outcome = Outcome::of([&] {
+    if (!by_message) of_all_ranks_ = call_.nodes;
+    nodes_ = receives ? NodeArrays(real, received_[0].data(), received_[1].data(), received_[2].data())
+                      : call_.nodes.from(first);
+    look(first, bad);
+  });
+  if (is_root) ranks_.finish();
+  agree(ranks_, outcome, bad, look_.lengths_are_one, look_.deviation);
+  outcome.accept();
+  if (bad.exists()) return {kBadCoordinate, bad.value + 1};
   return {0};
 }
 
-/// The lists of the nodes that the ranks have slices of.
-TrmeshResult lists_of_slices(MpiCommunicator& ranks, Arrays arrays, const Call& call, Slice& slice,
-                             std::int32_t* list, std::int32_t* lptr, std::int32_t* lend, std::int32_t* lnew,
-                             ParallelCost& cost) {
-  if (left(call.corners[0], call.corners[1], call.corners[2]) == 0) return {kCollinear};
+TrmeshResult ByRanks::prepare(bool wants_cost) {
+  const PhaseTimer timer(&cost_, ParallelCost::divide, &ranks_);
+  const TrmeshResult result =
+      arrays_ == Arrays::on_every_rank ? take_slice(wants_cost) : receive_slice(wants_cost);
+  if (result.ier != 0) return result;
+  const Point(&corners)[3] = headline_.corners;
+  if (left(corners[0], corners[1], corners[2]) == 0) return {kCollinear};
+  return {0};
+}
 
-  const auto size = static_cast<std::size_t>(ranks.size()), me = static_cast<std::size_t>(ranks.rank());
-  std::vector<std::size_t> begin;
-  ParallelOptions options;
-  agreed(ranks, [&] {
-    begin.resize(size + 1);
-    options = options_from_environment(slice.count);
-  });
-  options.partition = elected_partition(call.partition);
-  cost.threads = options.threads;
-  const auto cut = [&](std::size_t fewer) {
-    for (std::size_t r = 0; r <= size; ++r)
-      begin[r] = std::min(fewer, slice_begin(static_cast<std::size_t>(call.n), r, size));
-  };
-  const auto stars_of_slices = [&] {
-    ranks.set_phase("triangulate");
-    const LocalNodes mine{slice.nodes, begin[me + 1] - begin[me], nullptr,
-                          static_cast<std::int64_t>(begin[me]) + 1,
-                          slice.of_all_ranks ? &*slice.of_all_ranks : nullptr};
-    return triangulate<std::int32_t>(mine, slice.look, call.corners, {1, 2, 3}, ranks, options, &cost);
-  };
-  cut(static_cast<std::size_t>(call.n));
-  Stars<std::int32_t> stars = stars_of_slices();
-
-  TrmeshResult result{0};
-  if (!stars.coincident.empty()) {
-    // Nodes 1..M-1 do not coincide, and the first three are not on one great circle: M > 3.
-    Coincidence first{};
-    agreed(ranks, [&] { first = first_coincidence(stars.coincident); });
-    result = {static_cast<std::int32_t>(first.l), first.l, first.m};
-    cut(static_cast<std::size_t>(first.m) - 1);
-    slice.look = look_at(slice.nodes, begin[me + 1] - begin[me]);
-    agree_on(slice.look, ranks);
-    stars = {};
-    stars = stars_of_slices();
+std::optional<Coincidence> ByRanks::triangulate(std::size_t n) {
+  const auto me = static_cast<std::size_t>(ranks_.rank());
+  const bool is_first = begin_.empty();
+  if (is_first) {
+    in_agreement(ranks_, [&] {
+      begin_.resize(static_cast<std::size_t>(ranks_.size()) + 1);
+      options_ = options_from_environment(count_);
+    });
+    options_.partition = headline_.partition;
+    cost_.threads = options_.threads;
   }
-  ranks.set_phase("gather the lists");
-  const PhaseTimer timer(&cost, ParallelCost::gather, &ranks);
-  const int root = arrays == Arrays::on_every_rank ? kEveryRank : arrays == Arrays::shared ? kShared : 0;
-  gather_lists(ranks, stars.of_node, begin, root, list, lptr, lend, lnew);
-  return result;
+  for (std::size_t r = 0; r < begin_.size(); ++r)
+    begin_[r] = std::min(n, headline_.slice(static_cast<int>(r), ranks_));
+  const std::size_t count = begin_[me + 1] - begin_[me];
+  if (!is_first) {
+    look_ = look_at(nodes_, count);
+    agree_on(look_, ranks_);
+    stars_ = {};
+  }
+  const LocalNodes mine{nodes_, count, nullptr, static_cast<std::int64_t>(begin_[me]) + 1,
+                        of_all_ranks_ ? &*of_all_ranks_ : nullptr};
+  stars_ = pstripack::triangulate<std::int32_t>(mine, look_, headline_.corners, {1, 2, 3}, ranks_, options_,
+                                                &cost_);
+  if (stars_.coincident.empty()) return std::nullopt;
+  std::optional<Coincidence> first;
+  in_agreement(ranks_, [&] { first = first_coincidence(stars_.coincident); });
+  return first;
+}
+
+void ByRanks::deliver() {
+  ranks_.set_phase("gather the lists");
+  const PhaseTimer timer(&cost_, ParallelCost::gather, &ranks_);
+  gather_lists(ranks_, stars_.of_node, begin_, arrays_, 0, call_.lists);
 }
 
 }  // namespace
 
-template <class Real>
-TrmeshResult collective_trmesh(MpiCommunicator& ranks, Arrays arrays, std::int32_t n, const Real* x,
-                               const Real* y, const Real* z, std::int32_t* list, std::int32_t* lptr,
-                               std::int32_t* lend, std::int32_t* lnew, GroupCost* cost) {
-  Call call;
-  Slice slice;
+TrmeshResult collective_trmesh(MpiCommunicator& ranks, Arrays arrays, const TrmeshCall& call,
+                               GroupCost* cost) {
   ParallelCost mine;
   const std::int64_t sent_before = ranks.bytes_sent;
-  TrmeshResult result{0};
-  {
-    const PhaseTimer timer(&mine, ParallelCost::divide, &ranks);
-    result = arrays == Arrays::on_every_rank
-                 ? take_slice(ranks, n, x, y, z, cost != nullptr, call, slice)
-                 : receive_slice(ranks, arrays, n, x, y, z, cost != nullptr, call, slice);
-  }
-  if (result.ier == 0) result = lists_of_slices(ranks, arrays, call, slice, list, lptr, lend, lnew, mine);
-  if (call.wants_cost != 0) {
+  ByRanks way(ranks, arrays, call, mine);
+  TrmeshResult result = way.prepare(cost != nullptr);
+  if (result.ier == 0) result = triangulate_and_deliver(way.n(), way);
+  if (way.wants_cost()) {
     mine.bytes_sent = ranks.bytes_sent - sent_before;
     const GroupCost all = group_cost(ranks, mine);
     if (cost != nullptr) *cost = all;
@@ -251,12 +247,5 @@ TrmeshResult collective_trmesh(MpiCommunicator& ranks, Arrays arrays, std::int32
   ranks.set_phase("idle");
   return result;
 }
-
-template TrmeshResult collective_trmesh(MpiCommunicator&, Arrays, std::int32_t, const double*, const double*,
-                                        const double*, std::int32_t*, std::int32_t*, std::int32_t*,
-                                        std::int32_t*, GroupCost*);
-template TrmeshResult collective_trmesh(MpiCommunicator&, Arrays, std::int32_t, const float*, const float*,
-                                        const float*, std::int32_t*, std::int32_t*, std::int32_t*,
-                                        std::int32_t*, GroupCost*);
 
 }  // namespace pstripack

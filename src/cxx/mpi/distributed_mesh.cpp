@@ -2,24 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <iterator>
 #include <limits>
 #include <numeric>
 #include <utility>
 
 #include "geometry/predicates.h"
-#include "mpi/list_pieces.h"
+#include "lists/limits.h"
+#include "mpi/gather_lists.h"
 #include "mpi/number_table.h"
-#include "mpi/options.h"
+#include "parallel/agreement.h"
 #include "parallel/coincidence.h"
+#include "parallel/options.h"
 #include "parallel/scattered.h"
-#include "stripack/trmesh.h"
+#include "trmesh/trmesh.h"
 
 namespace pstripack {
 namespace {
 
-constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t kNone = Smallest::kNone;
 constexpr std::int64_t kMostPoints = std::int64_t{1} << 29;
 constexpr std::int32_t kTooFew = -1, kCollinear = -2, kEmpty = -3, kTooMany = -4, kBadCoordinate = -5,
                        kNoSuchRank = -8, kCoincident = -9, kBadNumber = -10;
@@ -78,9 +79,9 @@ void DistributedMesh::clear() {
   long_stars_ = {};
 }
 
-/// Counts, and the codes that a look at each point tells. wish: -1 if this rank wants a report.
+/// Counts, and the codes that a look at each point tells.
 DistributedMesh::Numbering DistributedMesh::look_at(std::int64_t n, const Point* points,
-                                                    const std::int64_t* number, std::int64_t wish) {
+                                                    const std::int64_t* number, bool wants_report) {
   Numbering numbering;
   const bool fits = n >= 0 && n < kMostPoints;
   const std::int64_t* const counts = ranks_.all_gather_one(fits ? n : -1);
@@ -96,34 +97,30 @@ DistributedMesh::Numbering DistributedMesh::look_at(std::int64_t n, const Point*
     return numbering;
   }
 
-  std::int64_t low = kNone, high = 0, bad = kNone;
+  Smallest low, bad;
+  Largest high;
   for (std::int64_t i = 0; i < n; ++i) {
-    low = std::min(low, number[i]);
-    high = std::max(high, number[i]);
+    low.value = std::min(low.value, number[i]);
+    high.value = std::max(high.value, number[i]);
   }
   const auto count = static_cast<std::size_t>(n);
   numbering.look = pstripack::look_at(points, count);
   for (auto i = static_cast<std::int64_t>(numbering.look.first_bad); i < n; ++i)
-    if (!has_direction(points[i])) bad = std::min(bad, number[i]);
-  std::int64_t values[] = {low,
-                           -high,
-                           bad,
-                           partition_vote(ranks_, options_from_environment(0).partition),
-                           ranks_.rank() == 0 ? wish : 0,
-                           numbering.look.vote_for_lengths(),
-                           numbering.look.vote_for_deviation()};
-  ranks_.all_min(values, std::size(values));
-  numbering.look.elect(values[5], values[6]);
-  is_reported_ = values[4] != 0;
-  numbering.low = values[0];
-  numbering.high = -values[1];
-  numbering.partition = elected_partition(values[3]);
+    if (!has_direction(points[i])) bad.value = std::min(bad.value, number[i]);
+  OfRank0 partition(ranks_, options_from_environment(0).partition);
+  OnAny reported{ranks_.rank() == 0 && wants_report};
+  agree(ranks_, low, high, bad, partition, reported, numbering.look.lengths_are_one,
+        numbering.look.deviation);
+  is_reported_ = reported.value;
+  numbering.low = low.value;
+  numbering.high = high.value;
+  numbering.partition = partition.value;
   if (numbering.low < 1) {
     numbering.code = kBadNumber;
     error_point_[0] = numbering.low;
-  } else if (values[2] != kNone) {
+  } else if (bad.exists()) {
     numbering.code = kBadCoordinate;
-    error_point_[0] = values[2];
+    error_point_[0] = bad.value;
   }
   return numbering;
 }
@@ -152,34 +149,27 @@ std::int64_t DistributedMesh::search_repeated(const std::int64_t* number, std::s
   const auto rank_of = [size](std::int64_t x) {  // by the upper bits: a table takes the lower ones
     return static_cast<std::size_t>((scattered(static_cast<std::uint64_t>(x)) >> 32) * size >> 32);
   };
-  Parcels parcels;
-  agreed(ranks_, [&] {
-    parcels.begin.assign(size + 1, 0);
-    for (std::size_t i = 0; i < n; ++i) ++parcels.begin[rank_of(number[i]) + 1];
-    for (std::size_t r = 0; r < size; ++r) parcels.begin[r + 1] += parcels.begin[r];
-    std::vector<std::size_t> end(parcels.begin.begin(), parcels.begin.end() - 1);
-    parcels.bytes = Block(n * sizeof *number);
-    auto* const out = reinterpret_cast<std::int64_t*>(parcels.bytes.data());
-    for (std::size_t i = 0; i < n; ++i) out[end[rank_of(number[i])]++] = number[i];
-    for (std::size_t& begin : parcels.begin) begin *= sizeof *number;
+  const Parcels here = exchange_in_agreement(ranks_, [&] {
+    ParcelWriter writer(size);
+    for (std::size_t i = 0; i < n; ++i) writer.expect<std::int64_t>(rank_of(number[i]));
+    writer.make_room();
+    for (std::size_t i = 0; i < n; ++i) writer.put(rank_of(number[i]), number[i]);
+    return writer.finish();
   });
-  const Parcels here = ranks_.exchange(parcels);
-  std::int64_t values[] = {0, kNone};
-  try {
-    const auto* const met = reinterpret_cast<const std::int64_t*>(here.bytes.data());
-    const std::size_t count = here.begin[size] / sizeof *met;
-    NumberTable<char> table(count);
-    constexpr std::size_t kAhead = 16;
-    for (std::size_t i = 0; i < count; ++i) {
-      if (i + kAhead < count) table.prefetch(met[i + kAhead]);
-      if (!table.insert(met[i], 0).second) values[1] = std::min(values[1], met[i]);
-    }
-  } catch (...) {
-    values[0] = code_of(std::current_exception());
-  }
-  ranks_.all_min(values, std::size(values));
-  if (values[0] != 0) throw AgreedFailure(static_cast<std::int32_t>(values[0]));
-  return values[1];
+  Smallest repeated;
+  in_agreement(
+      ranks_,
+      [&] {
+        const Items<std::int64_t> met(here);
+        NumberTable<char> table(met.size());
+        constexpr std::ptrdiff_t kAhead = 16;
+        for (const std::int64_t* at = met.begin(); at < met.end(); ++at) {
+          if (met.end() - at > kAhead) table.prefetch(at[kAhead]);
+          if (!table.insert(*at, 0).second) repeated.value = std::min(repeated.value, *at);
+        }
+      },
+      repeated);
+  return repeated.value;
 }
 
 /// Three points that are not on one great circle; false if there are none. Three from each rank are tried
@@ -206,16 +196,16 @@ bool DistributedMesh::find_corners(const Point* points, std::size_t n, const std
     }
 
   for (; found < 3; ++found) {
-    Record mine{{}, kNone};
+    Record mine{{}, Smallest::kNone};
     for (std::size_t i = 0; i < n; ++i)
       if (number[i] < mine.number && fits(found, points[i])) mine = {points[i], number[i]};
-    std::int64_t first = mine.number;
-    ranks_.all_min(&first, 1);
-    if (first == kNone) return false;
-    const Parcels owner = ranks_.all_gather(&mine, mine.number == first ? sizeof mine : 0);
-    std::memcpy(&mine, owner.bytes.data(), sizeof mine);
-    corners[found] = mine.point;
-    numbers[found] = mine.number;
+    Smallest first{mine.number};
+    agree(ranks_, first);
+    if (!first.exists()) return false;
+    const Parcels owner = ranks_.all_gather(&mine, mine.number == first.value ? sizeof mine : 0);
+    const Record& corner = *Items<Record>(owner).begin();
+    corners[found] = corner.point;
+    numbers[found] = corner.number;
   }
   return true;
 }
@@ -234,7 +224,7 @@ std::int32_t DistributedMesh::triangulate_into(Stars<Int>& stars, const Point* p
   std::int64_t* own_number = nullptr;
   {
     const PhaseTimer timer(&cost, ParallelCost::divide, &ranks_);
-    agreed(ranks_, [&] {
+    in_agreement(ranks_, [&] {
       sample = ThreeOfEach(static_cast<std::size_t>(ranks_.size()));
       options = options_from_environment(n);
       memory = std::make_unique<Workspace>(n * sizeof *number);
@@ -249,7 +239,7 @@ std::int32_t DistributedMesh::triangulate_into(Stars<Int>& stars, const Point* p
   stars = pstripack::triangulate<Int>(nodes, numbering.look, corners, numbers, ranks_, options, &cost);
   if (!stars.coincident.empty()) {
     Coincidence first{};
-    agreed(ranks_, [&] { first = first_coincidence(stars.coincident); });
+    in_agreement(ranks_, [&] { first = first_coincidence(stars.coincident); });
     error_point_[0] = first.l;
     error_point_[1] = first.m;
     return kCoincident;
@@ -309,7 +299,7 @@ std::int32_t DistributedMesh::triangulate_points(std::int64_t n, const Point* po
   const auto count = static_cast<std::size_t>(n);
   {
     const PhaseTimer timer(&cost, ParallelCost::divide, &ranks_);
-    numbering = look_at(n, points, number, report != nullptr ? -1 : 0);
+    numbering = look_at(n, points, number, report != nullptr);
     if (report != nullptr) report->points = numbering.total;
     if (numbering.code != 0) return numbering.code;
     repeated = first_repeated(number, count, numbering);
@@ -382,23 +372,21 @@ void DistributedMesh::local_stars(std::int64_t* begin, std::int32_t* neighbour) 
   });
 }
 
-std::int32_t DistributedMesh::gather(std::int32_t root, std::int32_t* list, std::int32_t* lptr,
-                                     std::int32_t* lend, std::int32_t* lnew, Report* report) {
+std::int32_t DistributedMesh::gather(std::int32_t root, const ListArrays& lists, Report* report) {
   const std::int64_t sent_before = ranks_.bytes_sent;
   if (report != nullptr) report->points = total_;
   ParallelCost mine;
   std::int32_t code = 0;
   {
     const PhaseTimer timer(&mine, ParallelCost::gather, &ranks_);
-    code = gather_stars(root, list, lptr, lend, lnew);
+    code = gather_stars(root, lists);
   }
   report_on(mine, sent_before, report);
   ranks_.set_phase("idle");
   return code;
 }
 
-std::int32_t DistributedMesh::gather_stars(std::int32_t root, std::int32_t* list, std::int32_t* lptr,
-                                           std::int32_t* lend, std::int32_t* lnew) {
+std::int32_t DistributedMesh::gather_stars(std::int32_t root, const ListArrays& lists) {
   if (empty()) return kEmpty;
   if (root < kEveryRank || root >= ranks_.size()) return kNoSuchRank;
   if (!numbers_are_dense_) return kBadNumber;
@@ -415,49 +403,42 @@ std::int32_t DistributedMesh::gather_stars(std::int32_t root, std::int32_t* list
     return r;
   };
   std::vector<std::size_t> begin;
-  Parcels parcels;
-  agreed(ranks_, [&] {
+  const Parcels here = exchange_in_agreement(ranks_, [&] {
     for (std::size_t r = 0; r <= size; ++r) begin.push_back(slice_begin(n, r, size));
-    parcels.begin.assign(size + 1, 0);
     BlockArray<std::uint32_t> rank(count_);
+    ParcelWriter writer(size);
     for_each_star([&](std::size_t i, std::size_t count, const auto*) {
       rank[i] = static_cast<std::uint32_t>(rank_of(number_[i]));
-      parcels.begin[rank[i] + 1] += 2 + count;
+      writer.expect<std::int32_t>(rank[i], 2 + count);
     });
-    for (std::size_t r = 0; r < size; ++r) parcels.begin[r + 1] += parcels.begin[r];
-    std::vector<std::size_t> end(parcels.begin.begin(), parcels.begin.end() - 1);
-    parcels.bytes = Block(parcels.begin[size] * sizeof(std::int32_t));
-    auto* const out = reinterpret_cast<std::int32_t*>(parcels.bytes.data());
+    writer.make_room();
     for_each_star(short_stars_, [&](std::size_t i, std::size_t count, const std::int32_t* ring) {
-      std::int32_t* to = out + end[rank[i]];  // numbers up to the total are short
-      end[rank[i]] += 2 + count;
+      auto* to = writer.room<std::int32_t>(rank[i], 2 + count);  // numbers up to the total are short
       *to++ = static_cast<std::int32_t>(number_[i]);
       *to++ = static_cast<std::int32_t>(count);
       std::copy(ring, ring + count, to);
     });
-    for (std::size_t& b : parcels.begin) b *= sizeof(std::int32_t);
+    return writer.finish();
   });
-  const Parcels here = ranks_.exchange(parcels);
-  parcels = {};
   const std::size_t slice = begin[me + 1] - begin[me];
   BlockArray<const std::int32_t*> place;
   BlockArray<std::uint32_t> position;
   BlockArray<std::uint8_t> size_class;
-  agreed(ranks_, [&] {
+  in_agreement(ranks_, [&] {
     place = BlockArray<const std::int32_t*>(slice);
     position = BlockArray<std::uint32_t>(slice);
     size_class = BlockArray<std::uint8_t>(slice);
   });
   using Rings = RingTable<std::int32_t>;
-  const auto* const words = reinterpret_cast<const std::int32_t*>(here.bytes.data());
+  const Items<std::int32_t> words(here);
   std::uint32_t k = 0;
-  for (const std::int32_t* at = words; at < words + here.begin[size] / sizeof *words; at += 2 + at[1], ++k) {
+  for (const std::int32_t* at = words.begin(); at < words.end(); at += 2 + at[1], ++k) {
     place[k] = at + 1;
     size_class[k] = Rings::size_class_of(static_cast<std::uint32_t>(at[1]));
     position[static_cast<std::size_t>(*at) - 1 - begin[me]] = k;
   }
-  gather_lists(ranks_, Rings(slice, position.data(), place.data(), size_class.data()), begin, root, list,
-               lptr, lend, lnew);
+  gather_lists(ranks_, Rings(slice, position.data(), place.data(), size_class.data()), begin,
+               root == kEveryRank ? Arrays::on_every_rank : Arrays::on_one_rank, root, lists);
   return 0;
 }
 

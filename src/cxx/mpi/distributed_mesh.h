@@ -8,6 +8,7 @@
 
 #include "mpi/mpi_communicator.h"
 #include "parallel/triangulate.h"
+#include "trmesh/call.h"
 
 namespace pstripack {
 
@@ -47,19 +48,18 @@ class DistributedMesh {
   /// Throws std::bad_alloc, having written nothing.
   void local_stars(std::int64_t* begin, std::int32_t* neighbour) const;
 
-  /// Collective. root: a rank, or kEveryRank of list_pieces.h. `report` is filled if triangulate() has
+  /// Collective. root: the rank that has the arrays, or kEveryRank. `report` is filled if triangulate() has
   /// filled one.
-  std::int32_t gather(std::int32_t root, std::int32_t* list, std::int32_t* lptr, std::int32_t* lend,
-                      std::int32_t* lnew, Report* report = nullptr);
+  static constexpr std::int32_t kEveryRank = -1;
+  std::int32_t gather(std::int32_t root, const ListArrays& lists, Report* report = nullptr);
 
  private:
   struct Numbering;
   struct ThreeOfEach;
   std::int32_t triangulate_points(std::int64_t n, const Point* points, const std::int64_t* number,
                                   Report* report, ParallelCost& cost);
-  std::int32_t gather_stars(std::int32_t root, std::int32_t* list, std::int32_t* lptr, std::int32_t* lend,
-                            std::int32_t* lnew);
-  Numbering look_at(std::int64_t n, const Point* points, const std::int64_t* number, std::int64_t wish);
+  std::int32_t gather_stars(std::int32_t root, const ListArrays& lists);
+  Numbering look_at(std::int64_t n, const Point* points, const std::int64_t* number, bool wants_report);
   std::int64_t first_repeated(const std::int64_t* number, std::size_t n, const Numbering& numbering);
   std::int64_t search_repeated(const std::int64_t* number, std::size_t n);
   bool find_corners(const Point* points, std::size_t n, const std::int64_t* number, ThreeOfEach& sample,

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "parallel/agreement.h"
 #include "parallel/cost.h"
 
 namespace pstripack {
@@ -97,7 +98,7 @@ MpiCommunicator::MpiCommunicator(MPI_Comm comm, std::size_t longest_message, std
   MPI_Comm_size(comm_, &size_);
   try {
     crowded_ = ranks_outnumber_processors();
-    agreed(*this, [this, code] {
+    in_agreement(*this, [this, code] {
       if (code != 0) throw Failure(code);
       const auto ranks = static_cast<std::size_t>(size_);
       sizes_.resize(ranks);
@@ -274,7 +275,7 @@ Parcels MpiCommunicator::all_gather(const void* bytes, std::size_t size) {
   const auto ranks = static_cast<std::size_t>(size_), me = static_cast<std::size_t>(rank_);
   all_gather_one(static_cast<std::int64_t>(size));
   Parcels all;
-  agreed(*this, [&] {
+  in_agreement(*this, [&] {
     all.begin.resize(ranks + 1);
     for (std::size_t r = 0; r < ranks; ++r)
       all.begin[r + 1] = all.begin[r] + static_cast<std::size_t>(sizes_[r]);
@@ -300,7 +301,7 @@ Parcels MpiCommunicator::exchange(const Parcels& outgoing, std::int32_t code) {
   if (least < 0) throw AgreedFailure(static_cast<std::int32_t>(least));
 
   Parcels incoming;
-  agreed(*this, [&] {
+  in_agreement(*this, [&] {
     std::size_t messages = 0;
     incoming.begin.resize(ranks + 1);
     for (std::size_t r = 0; r < ranks; ++r) {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "geometry/workspace.h"
+#include "base/workspace.h"
 #include "parallel/scattered.h"
 
 namespace pstripack {

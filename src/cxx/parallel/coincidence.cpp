@@ -5,7 +5,7 @@
 
 namespace pstripack {
 
-Coincidence first_coincidence(const std::vector<std::pair<std::int64_t, std::int64_t>>& pairs) {
+Coincidence first_coincidence(const CoincidentPairs& pairs) {
   std::vector<std::int64_t> node;  // those that coincide with another, by number
   node.reserve(2 * pairs.size());
   for (const auto& [a, b] : pairs) {

@@ -6,6 +6,9 @@
 
 namespace pstripack {
 
+/// Numbers of two different nodes in the same direction.
+using CoincidentPairs = std::vector<std::pair<std::int64_t, std::int64_t>>;
+
 /// Of all pairs of nodes that coincide, the one that TRMESH reports: M is the smallest number of a node that
 /// coincides with an earlier one, L the earliest that it coincides with.
 struct Coincidence {
@@ -13,6 +16,6 @@ struct Coincidence {
 };
 
 /// `pairs` name the sets of coincident nodes as the edges of a graph would: any that connect them. Not empty.
-Coincidence first_coincidence(const std::vector<std::pair<std::int64_t, std::int64_t>>& pairs);
+Coincidence first_coincidence(const CoincidentPairs& pairs);
 
 }  // namespace pstripack

@@ -22,6 +22,8 @@ std::int32_t code_of(const std::exception_ptr& error) {
     std::rethrow_exception(error);
   } catch (const Failure& failure) {
     return failure.code;
+  } catch (const AgreedFailure& failure) {
+    return failure.code;
   } catch (...) {
     return out_of_memory;
   }

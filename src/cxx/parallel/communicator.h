@@ -7,22 +7,26 @@
 #include <exception>
 #include <vector>
 
-#include "geometry/workspace.h"
+#include "parallel/parcels.h"
 
 namespace pstripack {
 
-/// Bytes for every rank, or from every rank: those of rank r are [begin[r], begin[r+1]).
-struct Parcels {
-  Block bytes;
-  std::vector<std::size_t> begin;
+/// A failure here.
+struct Failure : std::exception {
+  explicit Failure(std::int32_t c) : code(c) {}
+  std::int32_t code;  ///< less than 0
 };
 
-/// A failure that all ranks have agreed on; thrown by every rank at the same place.
+/// A failure that all ranks have agreed on, of any of them: the most negative code. Thrown by every rank at
+/// the same place.
 struct AgreedFailure : std::exception {
   explicit AgreedFailure(std::int32_t c) : code(c) {}
   const char* what() const noexcept override { return "a rank failed"; }
-  std::int32_t code;  ///< the most negative code of any rank
+  std::int32_t code;
 };
+
+/// That of either; -6, out of memory, of any other exception.
+std::int32_t code_of(const std::exception_ptr& error);
 
 /// A group of ranks. Every member function but rank(), size() and set_phase() is collective: all ranks call
 /// it, in the same order. An allocation that fails inside, on any rank, is an AgreedFailure(-6) on all of
@@ -79,25 +83,5 @@ class SingleProcess : public Communicator {
  private:
   std::int64_t value_ = 0;
 };
-
-/// Runs body() on every rank and agrees on its outcome: returns if it returned everywhere, throws
-/// AgreedFailure on every rank if it threw on any. Codes: that of a `Failure`, -6 for any other exception.
-/// Collective.
-struct Failure : std::exception {
-  explicit Failure(std::int32_t c) : code(c) {}
-  std::int32_t code;
-};
-std::int32_t code_of(const std::exception_ptr& error);
-template <class Body>
-void agreed(Communicator& ranks, const Body& body) {
-  std::int64_t code = 0;
-  try {
-    body();
-  } catch (...) {
-    code = code_of(std::current_exception());
-  }
-  ranks.all_min(&code, 1);
-  if (code != 0) throw AgreedFailure(static_cast<std::int32_t>(code));
-}
 
 }  // namespace pstripack

@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <cstring>
 
-#include "geometry/environment.h"
-#include "geometry/parallel_for.h"
+#include "base/environment.h"
+#include "base/parallel_for.h"
 
 namespace pstripack {
 namespace {

@@ -74,11 +74,11 @@ void Patch<Int>::set_up(const std::vector<Record>& closing, Workspace& workspace
   std::vector<Record> leading;
   for (const Record& r : closing)
     if (!partition_->knows(id_, places_(r.point))) leading.push_back(r);
-  const std::size_t first = leading_ = leading.size();
+  const std::size_t first = leading.size();
   built_ = count_ + first;
   arrays_.capacity = capacity_for(built_);
   order_ = workspace.keep<std::uint32_t>(built_);
-  insertion_order(&nodes_->point, count_, order_ + first, workspace, sizeof(Record));
+  leading_ = first + insertion_order(&nodes_->point, count_, order_ + first, workspace, sizeof(Record));
   workspace.next_phase();
   arrays_.nodes = workspace.keep<Point>(arrays_.capacity);
   number_ = workspace.keep<Int>(arrays_.capacity);
@@ -99,7 +99,7 @@ void Patch<Int>::set_up(const std::vector<Record>& closing, Workspace& workspace
   arrays_.planes = workspace.take<Plane>(2 * arrays_.capacity);
   first_planes_ = arrays_.planes;
   growing_ = GrowingHull::make(arrays_, built_, places_.lengths());
-  growing_->look_for_hidden_nodes(first);
+  growing_->look_for_hidden_nodes(leading_);
 }
 
 template <class Int>
@@ -192,56 +192,56 @@ std::vector<typename Patch<Int>::Arc> Patch<Int>::boundary_arcs() const {
   return arcs;
 }
 
+/// An arc with one end of another patch is asked of that patch. Where all agree, the arcs at own nodes close
+/// to curves that turn left only, around a place z inside the triangle of the corners. Each of them crosses
+/// the great circle through z and a corner; the arc that crosses it is asked of all, so that there is one
+/// curve and no node beyond it. z is infinitely close to the first corner, on the side of the second.
 template <class Int>
-typename Patch<Int>::Outline Patch<Int>::outline() {
-  Outline outline;
-  if (own_ == 0) return outline;
-  first_arcs_ = boundary_arcs();
-  outline.surrounds_centre = first_arcs_.empty();
-  for (const Arc& arc : first_arcs_) {
-    outline.nodes.push_back({arrays_.nodes[arc.a], number_[arc.a]});
-    outline.has_own = outline.has_own || is_own(arc.a) || is_own(arc.b);
+void Patch<Int>::ask_about_arcs(const std::array<Record, 3>& corners, Doubts& doubts) {
+  const auto is_left = [&](std::uint32_t v) {
+    const Point& x = arrays_.nodes[v];
+    const int side = left(corners[0].point, corners[2].point, x);
+    return (side != 0 ? side : left(corners[1].point, corners[2].point, x)) > 0;
+  };
+  std::vector<Arc> arcs;
+  if (asked_with_ == 0) {
+    arcs = boundary_arcs();
+  } else {
+    for (const Arc& arc : asked_arcs_)
+      if (beside_on_boundary(arc.a).b == arc.b) arcs.push_back(arc);
+    // An arc that was none before ends at a node that has come in since.
+    for (auto v = static_cast<std::uint32_t>(asked_with_); v < growing_->node_count(); ++v) {
+      const Arc beside = beside_on_boundary(v);
+      if (beside.a == kNobody) continue;
+      arcs.push_back({beside.a, v});
+      arcs.push_back({v, beside.b});
+    }
   }
-  return outline;
-}
-
-template <class Int>
-std::vector<Record> Patch<Int>::nodes_around_centre() const {
-  const std::size_t n = growing_->node_count();
-  for (std::size_t step = n / 128 + 1;; step /= 2) {
-    std::vector<Record> some;
-    for (std::size_t v = 0; v < n; v += step) some.push_back({arrays_.nodes[v], number_[v]});
-    if (step == 1) return some;
-    try {
-      if (some.size() > 3 && Boundary(some, places_.lengths()).empty()) return some;
-    } catch (const std::domain_error&) {
-      // All of these lie on one great circle.
+  asked_arcs_.clear();
+  for (const auto& [a, b] : arcs) {
+    const bool owns_a = is_own(a), owns_b = is_own(b);
+    if (!owns_a && !owns_b) continue;
+    const auto ask = [&](int patch) {
+      doubts.questions.push_back(
+          {{{arrays_.nodes[a], number_[a]}, {arrays_.nodes[b], number_[b]}, {{0, 0, 0}, 0}}, id_, patch});
+      ++doubts.arcs;
+      if (asked_arcs_.empty() || asked_arcs_.back().a != a) asked_arcs_.push_back({a, b});
+    };
+    if (owns_a && is_left(a) && !is_left(b)) {
+      for (int q = 0; q < partition_->patches(); ++q)
+        if (q != id_) ask(q);
+    } else if (!owns_a || !owns_b) {
+      ask(partition_->owner(place(owns_a ? b : a)));
     }
   }
 }
 
-/// Takes in nodes until all arcs of its boundary at own nodes are arcs of the boundary of all nodes.
 template <class Int>
-void Patch<Int>::mend_boundary(const Boundary& boundary) {
-  // Between outline() and the first ask() nothing comes in.
-  std::vector<Arc> arcs = asked_with_ == 0 ? std::move(first_arcs_) : boundary_arcs();
-  for (;; arcs = boundary_arcs()) {
-    std::vector<Record> missing;
-    for (const auto& [a, b] : arcs)
-      if ((is_own(a) || is_own(b)) && !boundary.has_arc(number_[a], number_[b]))
-        missing.push_back(
-            boundary.against_arc({arrays_.nodes[a], number_[a]}, {arrays_.nodes[b], number_[b]}));
-    if (missing.empty()) return;
-    const std::size_t before = growing_->node_count();
-    for (const Record& r : missing) take_in(r);
-    if (growing_->node_count() == before) throw std::logic_error("a boundary that cannot be mended");
-  }
-}
-
-template <class Int>
-void Patch<Int>::ask(const Boundary& boundary, double stretch, std::vector<Question>& questions) {
-  if (own_ == 0 || partition_->patches() == 1) return;
-  mend_boundary(boundary);
+Doubts Patch<Int>::ask(const std::array<Record, 3>& corners, double stretch) {
+  Doubts doubts;
+  if (own_ == 0 || partition_->patches() == 1) return doubts;
+  doubts.has_grown = growing_->node_count() != asked_with_;
+  ask_about_arcs(corners, doubts);
   // A node that lies above some triangle of own nodes lies above one that has a corner of another patch as
   // well, or its direction is in a triangle of own nodes, which must bulge out of the patch then.
   // After the first time only triangles at nodes that have come in since are new.
@@ -255,10 +255,10 @@ void Patch<Int>::ask(const Boundary& boundary, double stretch, std::vector<Quest
         is_around_[v] = true;
         around_.push_back(v);
       }
-    ask_about_triangle(t, questions);
+    ask_about_triangle(t, doubts.questions);
   });
   asked_with_ = growing_->node_count();
-  if (!first_time || partition_->holds_all(id_, stretch)) return;
+  if (!first_time || partition_->holds_all(id_, stretch)) return doubts;
   // What lies in the direction of a point y of a triangle is at most 1 + deviation times as long as 1 / |y|.
   const double margin = partition_->smallest_margin(), farthest = 1 + places_.deviation();
   const double lowest = std::max(0.0, farthest - margin + 1e-12);
@@ -274,7 +274,7 @@ void Patch<Int>::ask(const Boundary& boundary, double stretch, std::vector<Quest
     const Point a = place(v[0]), b = place(v[1]), c = place(v[2]);
     const double most =
         std::min(stretch_of(arrays_.planes[t], farthest), stretch_of(a, b, c, places_.deviation()));
-    if (!partition_->holds(id_, a, b, c, most) && growing_->front(t)) ask_about_triangle(t, questions);
+    if (!partition_->holds(id_, a, b, c, most) && growing_->front(t)) ask_about_triangle(t, doubts.questions);
   };
   constexpr std::uint32_t kTogether = 8;
   const auto faces = static_cast<std::uint32_t>(growing_->face_count());
@@ -286,13 +286,12 @@ void Patch<Int>::ask(const Boundary& boundary, double stretch, std::vector<Quest
     for (std::uint32_t j = 0; j < kTogether; ++j) examine(t + j);
   }
   for (; t < faces; ++t) examine(t);
+  return doubts;
 }
 
-// ---- the boundary of all nodes ----------------------------------------------------------------------
+// ---- what some nodes tell of all --------------------------------------------------------------------
 
 namespace {
-
-bool lower_number(const Record& a, const Record& b) { return a.number < b.number; }
 
 /// The hull of a few nodes, which stands for larger ones.
 struct SmallHull {
@@ -300,14 +299,14 @@ struct SmallHull {
   SmallHull(const std::vector<Record>& nodes, Lengths lengths)
       : workspace(workspace_bytes(nodes.size())), order(workspace.keep<std::uint32_t>(nodes.size())) {
     const std::size_t n = nodes.size();
-    insertion_order(&nodes[0].point, n, order, workspace, sizeof(Record));
+    const std::size_t alone = insertion_order(&nodes[0].point, n, order, workspace, sizeof(Record));
     workspace.next_phase();
     arrays = {n, workspace.keep<Point>(n), workspace.keep<Face>(2 * n), nullptr, nullptr};
     arrays.corner = workspace.keep<std::uint32_t>(n);
     arrays.planes = workspace.take<Plane>(2 * n);
     for (std::size_t v = 0; v < n; ++v) arrays.nodes[v] = nodes[order[v]].point;
     growing = GrowingHull::make(arrays, n, lengths);
-    growing->build(0);
+    growing->build(alone);
   }
 
   Workspace workspace;
@@ -357,52 +356,6 @@ bool patches_know_most(const std::vector<Record>& nodes, const Partition& partit
   return true;  // the nodes do not tell
 }
 
-Boundary::Boundary(std::vector<Record> candidates, Lengths lengths) : nodes_(std::move(candidates)) {
-  const SmallHull hull(nodes_, lengths);
-  const GrowingHull& growing = *hull.growing;
-  const auto number = [&](std::uint32_t v) { return nodes_[hull.order[v]].number; };
-  for (std::uint32_t t = 0; t < growing.face_count(); ++t) {
-    if (growing.front(t)) continue;
-    const Face& f = hull.arrays.faces[t];
-    for (std::uint32_t i = 0; i < 3; ++i)
-      if (growing.front(face_of(f.neighbour[i])))
-        arcs_.emplace_back(number(f.vertex[previous_edge(i)]), number(f.vertex[next_edge(i)]));
-  }
-  std::sort(arcs_.begin(), arcs_.end());
-  std::sort(nodes_.begin(), nodes_.end(), lower_number);
-}
-
-Boundary Boundary::none(std::vector<Record> nodes) {
-  Boundary boundary;
-  boundary.nodes_ = std::move(nodes);
-  return boundary;
-}
-
-bool Boundary::has_arc(std::int64_t a, std::int64_t b) const {
-  return std::binary_search(arcs_.begin(), arcs_.end(), std::pair(a, b));
-}
-
-const Record* Boundary::find(std::int64_t number) const {
-  const auto at = std::lower_bound(nodes_.begin(), nodes_.end(), Record{{}, number}, lower_number);
-  return at != nodes_.end() && at->number == number ? &*at : nullptr;
-}
-
-const Record& Boundary::against_arc(const Record& a, const Record& b) const {
-  // On the boundary, a has another node next to it than b.
-  const auto after = std::lower_bound(arcs_.begin(), arcs_.end(), std::pair(a.number, INT64_MIN));
-  if (after != arcs_.end() && after->first == a.number) return *find(after->second);
-  // Otherwise a is not on the boundary, and some node lies strictly right of a -> b: the one farthest right.
-  const Point normal = cross(b.point, a.point);
-  const Record* farthest = nullptr;
-  double most = 0;
-  for (const Record& r : nodes_) {
-    const double height = dot(normal, r.point) / std::sqrt(dot(r.point, r.point));
-    if ((farthest == nullptr || height > most) && left(a.point, b.point, r.point) < 0)
-      farthest = &r, most = height;
-  }
-  return *farthest;
-}
-
 // ---- answer and learn -------------------------------------------------------------------------------
 
 template <class Int>
@@ -445,9 +398,71 @@ std::uint32_t Patch<Int>::take_in(const Record& node) {
 }
 
 template <class Int>
+typename Patch<Int>::Arc Patch<Int>::beside_on_boundary(std::uint32_t v) const {
+  Arc beside{kNobody, kNobody};
+  if (growing_->surrounds_centre()) return beside;
+  for_each_face_at(v, [&](std::uint32_t t, std::uint32_t i) {
+    if (growing_->front(t)) return;
+    const Face& f = arrays_.faces[t];
+    const std::uint32_t next = next_edge(i), previous = previous_edge(i);
+    if (growing_->front(face_of(f.neighbour[next]))) beside.b = f.vertex[previous];
+    if (growing_->front(face_of(f.neighbour[previous]))) beside.a = f.vertex[next];
+  });
+  return beside;
+}
+
+/// Uphill on the hull, which is convex: rounding can end the way early.
+template <class Int>
+std::uint32_t Patch<Int>::farthest_right(std::uint32_t a, std::uint32_t b, std::uint32_t v) const {
+  const Point normal = cross(place(b), place(a));
+  double highest = dot(normal, place(v));
+  for (std::uint32_t from = kNobody, farthest = v; from != farthest;) {
+    from = farthest;
+    for_each_face_at(from, [&](std::uint32_t t, std::uint32_t i) {
+      const std::uint32_t w = arrays_.faces[t].vertex[next_edge(i)];
+      const double height = dot(normal, place(w));
+      if (height > highest) highest = height, farthest = w;
+    });
+    if (growing_->left(a, b, farthest) < 0) v = farthest;
+  }
+  return v;
+}
+
+/// Nodes strictly right of a -> b or on it, if it is not an arc of the boundary. If a is on the boundary, the
+/// next node there is such a node; else a is inside, and one of its neighbours is.
+template <class Int>
+void Patch<Int>::answer_about_arc(std::uint32_t a, std::uint32_t b, std::vector<Record>& nodes) {
+  const std::uint32_t next = beside_on_boundary(a).b, previous = beside_on_boundary(b).a;
+  if (next == b) return;
+  const auto add = [&](std::uint32_t v) { nodes.push_back({arrays_.nodes[v], number_[v]}); };
+  std::uint32_t right = kNobody;
+  const auto look_at = [&](std::uint32_t v) {
+    if (v != kNobody && v != b && growing_->left(a, b, v) < 0) right = v;
+  };
+  if (next != kNobody) {
+    add(next);
+    look_at(next);
+  } else {
+    for_each_face_at(a, [&](std::uint32_t t, std::uint32_t i) {
+      if (right == kNobody) look_at(arrays_.faces[t].vertex[next_edge(i)]);
+    });
+  }
+  if (previous != kNobody && previous != next) add(previous);
+  if (right == kNobody) return;
+  if (right != next) add(right);
+  const std::uint32_t farthest = farthest_right(a, b, right);
+  if (farthest != right) add(farthest);
+}
+
+template <class Int>
 void Patch<Int>::answer(const Question& question, std::vector<Record>& nodes) {
   nodes.clear();
   if (own_ == 0) return;
+  if (question.is_about_arc()) {
+    const std::uint32_t a = take_in(question.corner[0]), b = take_in(question.corner[1]);
+    answer_about_arc(a, b, nodes);
+    return;
+  }
   std::uint32_t v[3] = {0, 0, 0};
   for (int i = 0; i < 3; ++i) v[i] = take_in(question.corner[i]);
   std::vector<std::uint32_t> above;

@@ -10,44 +10,30 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/buffer.h"
-#include "geometry/workspace.h"
+#include "base/buffer.h"
+#include "base/workspace.h"
 #include "mesh/delaunay.h"
-#include "mesh/rings.h"
+#include "mesh/ring_table.h"
 #include "parallel/partition.h"
 #include "parallel/places.h"
 #include "parallel/record.h"
 
 namespace pstripack {
 
-/// "Does any of your nodes lie above this triangle?"
+/// "Does any of your nodes lie above this triangle?" Or, of an arc a -> b of the boundary, where the third
+/// corner is the centre: "Is it an arc of your boundary?"
 struct Question {
   Record corner[3];
   std::int32_t from, to;  ///< patches
+
+  bool is_about_arc() const { return corner[2].point == Point{0, 0, 0}; }
 };
 
-/// The boundary of the triangulation of all nodes, the same for every patch; empty where they surround the
-/// centre.
-class Boundary {
- public:
-  Boundary() = default;
-  /// The boundary of these nodes, no two the same. Throws HiddenNode, std::bad_alloc, std::domain_error if
-  /// all are on one great circle.
-  Boundary(std::vector<Record> nodes, Lengths lengths);
-  /// No boundary; the nodes surround the centre.
-  static Boundary none(std::vector<Record> nodes);
-
-  bool empty() const { return arcs_.empty(); }
-  /// True if a -> b is an arc of the boundary, with all nodes left of it or on it.
-  bool has_arc(std::int64_t a, std::int64_t b) const;
-  /// One of the nodes that shows that a -> b is not an arc of the boundary, where it is not: strictly right
-  /// of it, or next to a on the boundary.
-  const Record& against_arc(const Record& a, const Record& b) const;
-
- private:
-  const Record* find(std::int64_t number) const;
-  std::vector<Record> nodes_;                                ///< by number
-  std::vector<std::pair<std::int64_t, std::int64_t>> arcs_;  ///< sorted
+/// What is not certain yet.
+struct Doubts {
+  std::vector<Question> questions;
+  std::size_t arcs = 0;    ///< of the boundary: so many of the questions are about them
+  bool has_grown = false;  ///< the patch has taken in nodes since it asked last
 };
 
 /// How many times as far from the centre as a triangle of a hull a place in its direction can be, for all
@@ -80,23 +66,16 @@ class Patch {
   /// Triangulates them. Throws HiddenNode, std::bad_alloc.
   void triangulate();
 
-  /// The boundary as the patch sees it: its nodes lie in it all.
-  struct Outline {
-    bool surrounds_centre = false;  ///< there is none
-    bool has_own = false;           ///< some of its own nodes are on it
-    std::vector<Record> nodes;
-  };
-  Outline outline();
-  /// Of a patch that surrounds the centre: nodes that do. Throws std::bad_alloc.
-  std::vector<Record> nodes_around_centre() const;
-
   /// What is not certain yet of the stars of its own nodes, as questions to the patches that may know better.
-  /// None: every star is the star in the triangulation of all nodes. `stretch`: most_stretch of nodes that it
-  /// has taken in, or infinity. Throws HiddenNode, std::bad_alloc.
-  void ask(const Boundary& boundary, double stretch, std::vector<Question>& questions);
+  /// Every star is the star in the triangulation of all nodes when no patch has a question about triangles
+  /// and, if any has one about arcs, none has grown. `corners`: three nodes that every patch knows, not on
+  /// one great circle. `stretch`: most_stretch of nodes that it has taken in, or infinity. Throws HiddenNode,
+  /// std::bad_alloc.
+  Doubts ask(const std::array<Record, 3>& corners, double stretch);
 
-  /// The answer of this patch to another's question: nodes that lie above, none if there are none. A patch
-  /// that answers takes in the corners of the question. Throws HiddenNode, std::bad_alloc.
+  /// The answer of this patch to another's question: nodes that lie above, or that show that the arc is none
+  /// of the boundary; none if there are none. A patch that answers takes in the corners of the question.
+  /// Throws HiddenNode, std::bad_alloc.
   void answer(const Question& question, std::vector<Record>& nodes);
 
   /// Takes in the answer to a question of its own. Throws HiddenNode, std::bad_alloc.
@@ -131,7 +110,6 @@ class Patch {
   void for_each_missing_neighbour(std::size_t mine, const std::vector<std::size_t>& own_from,
                                   const Visit& visit) const {
     if (own_ == 0) return;
-    constexpr std::uint32_t kNobody = UINT32_MAX;
     const std::size_t first = own_from[mine], count = own_from[mine + 1] - first;
     // Of each own node, by whom it was brought; where one rank brought all, nobody asks.
     std::vector<std::uint32_t> bringer(count < own_ ? own_ : 0);
@@ -173,12 +151,13 @@ class Patch {
   }
 
   int id() const { return id_; }
-  std::size_t own() const { return own_; }
   std::size_t halo() const { return count_ - own_; }
   /// Different nodes in the same direction that it came upon: their numbers.
   const std::vector<std::pair<std::int64_t, std::int64_t>>& coincident() const { return coincident_; }
 
  private:
+  static constexpr std::uint32_t kNobody = UINT32_MAX;
+
   bool is_own(std::uint32_t v) const { return v < built_ && order_[v] < own_; }
   Point place(std::uint32_t v) const { return places_(arrays_.nodes[v]); }
 
@@ -186,7 +165,8 @@ class Patch {
   Ball ball_above(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
 
   void ask_about_triangle(std::uint32_t t, std::vector<Question>& questions);
-  void mend_boundary(const Boundary& boundary);
+  void ask_about_arcs(const std::array<Record, 3>& corners, Doubts& doubts);
+  void answer_about_arc(std::uint32_t a, std::uint32_t b, std::vector<Record>& nodes);
   std::uint32_t take_in(const Record& node);
   void make_room();
 
@@ -212,6 +192,10 @@ class Patch {
     std::uint32_t a, b;
   };
   std::vector<Arc> boundary_arcs() const;
+  /// Of the boundary next to v; kNobody where v is not on it.
+  Arc beside_on_boundary(std::uint32_t v) const;
+  /// Of a node strictly right of a -> b: itself, or one farther right that is strictly right, too.
+  std::uint32_t farthest_right(std::uint32_t a, std::uint32_t b, std::uint32_t v) const;
 
   /// Calls visit(t, own) for every front face t that has a corner which is not the patch's own and among the
   /// hull nodes from `first` on; `own` of its corners are.
@@ -228,9 +212,9 @@ class Patch {
   Int* number_ = nullptr;           ///< of each hull node
   std::unique_ptr<GrowingHull> growing_;
   Hull hull_;
-  std::vector<Arc> first_arcs_;    ///< of outline(), until ask()
   Plane* first_planes_ = nullptr;  ///< those in the workspace, for built_ nodes at least
   std::size_t asked_with_ = 0;     ///< hull nodes
+  std::vector<Arc> asked_arcs_;    ///< of the boundary, when it asked last
   std::vector<std::uint32_t>
       around_;  ///< hull nodes of others that were neighbours of own ones when it asked
   std::vector<bool> is_around_;

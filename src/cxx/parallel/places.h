@@ -18,10 +18,13 @@ class Places {
   double deviation() const { return lengths_ == Lengths::as_given ? deviation_ : 0x1p-50; }
   Point operator()(const Point& p) const {
     if (lengths_ == Lengths::as_given) return p;
-    // Scaled by a power of two first: squares must not overflow or vanish.
-    int e;
-    std::frexp(std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}), &e);
-    const Point q{std::ldexp(p.x, -e), std::ldexp(p.y, -e), std::ldexp(p.z, -e)};
+    Point q = p;
+    const double largest = std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+    if (!(largest > 0x1p-400 && largest < 0x1p400)) {  // squares must not overflow or vanish
+      int e;
+      std::frexp(largest, &e);
+      q = {std::ldexp(p.x, -e), std::ldexp(p.y, -e), std::ldexp(p.z, -e)};
+    }
     const double r = 1 / std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z);
     return {q.x * r, q.y * r, q.z * r};
   }

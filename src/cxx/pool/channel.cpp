@@ -35,17 +35,12 @@ bool is_ours(const Descriptor& socket) {
   return getsockopt(socket.get(), SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0 && peer.uid == geteuid();
 }
 
-/// A packet's descriptors travel as those that exist, after a map of their places.
+/// The descriptors of a packet: a bit map of the places in use, then those that exist.
 struct Ancillary {
   alignas(cmsghdr) char bytes[CMSG_SPACE(kMostDescriptors * sizeof(int))];
 };
 
 }  // namespace
-
-void Descriptor::reset(int fd) {
-  if (fd_ >= 0) close(fd_);
-  fd_ = fd;
-}
 
 Descriptor listen_under_new_name(std::string* name) {
   Descriptor listener(socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));

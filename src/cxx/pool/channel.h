@@ -1,56 +1,33 @@
 #pragma once
-// Local sockets between processes of one user on one machine. Packets keep their borders and can carry file
-// descriptors. The names are in Linux's abstract name space: nothing is left behind in any folder.
+// Local sockets between processes of one user on one machine. They preserve packet boundaries and can carry
+// file descriptors. Their names are in Linux's abstract name space, so no files are left behind.
 
 #include <cstddef>
 #include <string>
 
+#include "base/descriptor.h"
+
 namespace pstripack {
 
-/// Owns a file descriptor, or none (-1).
-class Descriptor {
- public:
-  Descriptor() = default;
-  explicit Descriptor(int fd) : fd_(fd) {}
-  Descriptor(Descriptor&& other) noexcept : fd_(other.release()) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    reset(other.release());
-    return *this;
-  }
-  ~Descriptor() { reset(); }
-
-  int get() const { return fd_; }
-  explicit operator bool() const { return fd_ >= 0; }
-  int release() {
-    const int fd = fd_;
-    fd_ = -1;
-    return fd;
-  }
-  void reset(int fd = -1);
-
- private:
-  int fd_ = -1;
-};
-
 /// A socket that listens under a new name, close-on-exec like every descriptor of this file. None on failure,
-/// with errno.
+/// with errno set.
 Descriptor listen_under_new_name(std::string* name);
 
-/// Connects to a name; waits where the listener has not accepted yet. None on failure, or if the listener is
-/// another user's.
+/// Connects to a name, waiting until the listener accepts. None on failure, or if the listener belongs to
+/// another user.
 Descriptor connect_to(const char* name);
 
-/// The next connection; none if it is another user's.
+/// Accepts the next connection; none if it belongs to another user.
 Descriptor accept_from(const Descriptor& listener);
 
-/// One packet, and up to kMostDescriptors descriptors with it (-1: none in this place). False if the other
-/// side is gone. No signal is raised.
+/// Sends one packet, with up to kMostDescriptors descriptors (-1: none in this place). False if the other
+/// side is gone. Raises no signal.
 constexpr int kMostDescriptors = 4;
 bool send_packet(const Descriptor& to, const void* bytes, std::size_t size, const int* descriptors = nullptr,
                  int count = 0);
 
 /// Waits for one packet of exactly `size` bytes. False if the other side is gone or sent something else.
-/// descriptors: `count` places; those that carry nothing become none.
+/// descriptors: `count` places; those without a descriptor become none.
 bool receive_packet(const Descriptor& from, void* bytes, std::size_t size, Descriptor* descriptors = nullptr,
                     int count = 0);
 

@@ -7,27 +7,27 @@
 
 namespace pstripack {
 
-/// What the model asks, with the area's descriptor if the area is a new one.
+/// The model's request, with the area's descriptor if the area is new.
 struct PoolRequest {
-  static constexpr std::uint32_t kFormat = 0x50533033;  ///< changes with the messages or the layout
+  static constexpr std::uint32_t kFormat = 0x50533033;  ///< changes whenever messages or layout change
   std::uint32_t format = kFormat;
   std::int32_t real_bytes = 0;  ///< 4 or 8
   std::int32_t n = 0;
   std::int32_t wants_cost = 0;
 };
 
-/// The answer; done == 0: not carried out, do it yourself.
+/// The answer; done == 0: not executed, the model computes it itself.
 struct PoolReply {
   std::int32_t done = 0, ier = 0, lnew = 0;
   std::int64_t node = 0, other = 0;
   std::int32_t ranks = 1;
-  GroupCost cost;  ///< if it was asked for
+  GroupCost cost;  ///< if requested
 };
 
-/// What rank 0 tells pstripack-run about the model: that it has begun, that it has ended.
+/// Rank 0 reports to pstripack-run that the model has started or ended.
 struct ModelNews {
   std::int32_t process = 0, has_ended = 0;
-  std::int32_t status = 0;  ///< as wait() tells it
+  std::int32_t status = 0;  ///< as returned by wait()
 };
 
 }  // namespace pstripack

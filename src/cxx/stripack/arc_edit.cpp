@@ -28,7 +28,7 @@ OptimStatus optimize(const CheckedEditor<Int>& lists, const Nodes<Real>& nodes, 
       const Int g = lists.neighbour(lists.next(slot)), h = lists.neighbour(before);
       known = std::max({known, u, v});
       if (std::max(g, h) > known) {
-        lists.between(g, u, h, v);  // throws unless the other list has them, too
+        lists.between(g, u, h, v);  // throws unless the other list contains them, too
         known = std::max(g, h);
       }
       if (!swptst(g, h, u, v, nodes)) continue;
@@ -72,8 +72,8 @@ DelarcStatus delarc(Int io1, Int io2, const EditedLists<Int>& arrays) {
 
 namespace {
 
-/// The arcs that p-q crosses are collected in the columns of IWK, in order from p to q, and exchanged for
-/// others until p-q is one of them. That lists with one wrong entry are broken shows before the first
+/// The arcs that p-q crosses are collected in the columns of IWK, in order from p to q, and swapped until p-q
+/// is one of them. Lists with one wrong entry are detected before the first swap.
 /// exchange.
 ///
 ///           l --- m --- .
@@ -94,10 +94,11 @@ class ArcForcing {
       std::swap(p_, q_);
       if (!find_first(l, r)) return EdgeStatus::not_found;
     }
-    // p-q may leave p where there is no triangle, if the triangles do not cover their convex hull.
+    // p-q may leave p where there is no triangle if the triangles do not cover their convex hull.
     const bool outside = lists_.entry(lists_.last_slot(p_)) == -r;
     if (const EdgeStatus status = collect(l, r, outside); status != EdgeStatus::done) return status;
-    // The exchanges depend on the columns alone: see first, in the columns, whether all can be made and end.
+    // The swaps depend on the columns alone: simulate them on the columns first, to see whether all are
+    // possible and end.
     first_left_ = l;
     first_right_ = r;
     if (outside || !exchange<false>()) return EdgeStatus::not_possible;
@@ -151,9 +152,10 @@ class ArcForcing {
   Int beyond(Int l, Int r) const { return lists_.neighbour(lists_.next(lists_.slot_of(l, r))); }
 
   /// Walks from arc l-r through the triangles to q. The lists of all corners must close and agree on each
-  /// triangle: no node m is looked up before the lists of l and r both have it. `outside`: p,r,l is none.
+  /// triangle: a node m is used as an index only after the lists of l and r both contain it. `outside`: p,r,l
+  /// is no triangle.
   EdgeStatus collect(Int l, Int r, bool outside) {
-    Int base = p_, seen = 0;  // seen: whichever of l, r was an end of the column before
+    Int base = p_, seen = 0;  // seen: the one of l, r that was an end of the previous column
     for (count_ = 0;;) {
       if (count_ == lwk_) return EdgeStatus::too_few_columns;
       set(++count_, l, r);
@@ -181,7 +183,7 @@ class ArcForcing {
       seen = m == l ? r : l;
     }
   }
-  /// The same columns, of lists that `collect` has seen.
+  /// The same columns, from lists that `collect` has checked.
   void collect_again(Int l, Int r) {
     for (Int column = 1; column <= count_; ++column) {
       set(column, l, r);
@@ -197,11 +199,10 @@ class ArcForcing {
     return found;
   }
 
-  /// Before an exchange that only the columns know of: SWAP would put m-base in the place of l-r. It refuses
-  /// where m-base is an arc already: one of the lists that p-q does not cross, or one of the columns. Throws
-  /// BrokenLists where only one end of m-base lists the other, or lists it twice.
-  /// Triangles that overlap, from rounding or from changes before, lead there. Algorithm 772 goes on all the
-  /// same, with columns that are no arcs any more.
+  /// Called before a simulated swap of l-r for m-base. SWAP refuses it if m-base is already an arc: one of
+  /// the lists that p-q does not cross, or one of the columns. Throws BrokenLists if only one end of m-base
+  /// lists the other, or lists it twice. Overlapping triangles, from rounding or from earlier changes, lead
+  /// here. Algorithm 772 continues with columns that are no longer arcs.
   bool can_join(Int m, Int base, Int l, Int r) const {
     if (columns_of(l, r) != 1 || columns_of(m, base) != 0) return false;
     const Int times = lists_.times(m, base);
@@ -209,7 +210,7 @@ class ArcForcing {
     return times == 0 || was_crossed(m, base);
   }
 
-  /// True if a-b was in a column before the exchanges: walks there again.
+  /// True if a-b was in a column before the swaps: repeats the walk.
   bool was_crossed(Int a, Int b) const {
     Int l = first_left_, r = first_right_;
     for (;;) {
@@ -220,17 +221,17 @@ class ArcForcing {
     }
   }
 
-  /// Sweeps over the columns alpha..omega, whose arcs p-q still crosses, until none is left but the one that
-  /// p-q replaces; new arcs left of it go before alpha, new ones right of it after omega. `base` is the last
-  /// corner that a sweep could not get round, to the left of the columns (side < 0) or right; at first p.
+  /// Sweeps over the columns alpha..omega, whose arcs p-q still crosses, until only the one remains that p-q
+  /// replaces; new arcs left of it go before alpha, new ones right of it after omega. `base` is the last
+  /// corner that a sweep could not pass, left of the columns (side < 0) or right; initially p.
   ///
   ///           l --- m
   ///         /  \   /             where base, r, m, l is convex, as far as one can tell, m-base replaces l-r
   ///     base    \ /
   ///         \___ r
   ///
-  /// False, which in exact arithmetic takes a node on the arc p-q, if a sweep exchanges nothing, or if too
-  /// many follow each other that leave the number of columns as it is; or if an exchange cannot be made.
+  /// Returns false if a sweep swaps nothing, if too many consecutive sweeps leave the number of columns
+  /// unchanged, or if a swap is impossible; in exact arithmetic this requires a node on the arc p-q.
   template <bool kSwap>
   bool exchange() {
     bool possible = true;
@@ -243,7 +244,7 @@ class ArcForcing {
     Int alpha = 1, omega = count_, idle = 0;
     for (;;) {
       const Int columns_before = omega - alpha;
-      bool changed = false;  // though the number of columns may be what it was
+      bool changed = false;  // even if the number of columns has not changed
       Int base = p_, side = 0, column = alpha, l = l_of(column), r = r_of(column);
       while (column != omega) {
         Int m = l_of(column + 1);
@@ -312,7 +313,7 @@ class ArcForcing {
   const CheckedEditor<Int>& lists_;
   Int* const iwk_;
   const Int lwk_;
-  Int first_left_ = 0, first_right_ = 0;  ///< the first column, before exchanges
+  Int first_left_ = 0, first_right_ = 0;  ///< the first column before the swaps
   Int count_ = 0, made_ = 0;
 };
 

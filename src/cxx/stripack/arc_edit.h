@@ -1,5 +1,5 @@
 #pragma once
-// SWPTST, OPTIM, DELARC, EDGE: exchange and removal of arcs (Renka, ACM TOMS 23 (1997), Algorithm 772).
+// SWPTST, OPTIM, DELARC, EDGE: swap and removal of arcs (Renka, ACM TOMS 23 (1997), Algorithm 772).
 // For (Real, Int) = (float, int32_t), (double, int32_t), (double, int64_t). No allocation; always return.
 
 #include "stripack/expressions.h"
@@ -7,34 +7,34 @@
 
 namespace pstripack {
 
-/// SWPTST: node n4 lies strictly above the plane of the counterclockwise triangle n1, n2, n3, as rounded, so
-/// that the arc n1-n2 of the two triangles should be exchanged. False for NaN.
+/// SWPTST: true if node n4 lies strictly above the plane of the counterclockwise triangle n1, n2, n3, as
+/// rounded, so that the common arc n1-n2 of the two triangles should be swapped. False for NaN.
 template <class Real, class Int>
 bool swptst(Int n1, Int n2, Int n3, Int n4, const Nodes<Real>& nodes) {
   return height(nodes[n1], nodes[n2], nodes[n3], nodes[n4]) > 0;
 }
 
-/// IER of OPTIM. Earlier exchanges stay.
+/// IER of OPTIM. Earlier swaps stay.
 enum class OptimStatus {
   done = 0,
-  not_all = 1,       ///< exchanges were made in the last iteration allowed
+  not_all = 1,       ///< the last allowed iteration still made swaps
   bad_argument = 2,  ///< na < 0 or nit < 1; nit = 0
   no_arc = 3,        ///< a column does not hold two neighbours
   not_swapped = 4,   ///< the nodes to be joined were neighbours
   broken = broken_lists
 };
 
-/// OPTIM: exchanges arcs of iwk(2,na), which are pairs of neighbours, until they are locally optimal, in at
-/// most nit iterations through all columns. The columns follow the exchanges; nit: iterations begun.
-/// N is no argument: a node above all in the columns is looked up only if two lists have it where it belongs.
+/// OPTIM: swaps arcs of iwk(2,na), which are pairs of neighbours, until they are locally optimal, in at most
+/// nit iterations through all columns. Updates the columns; nit: iterations made. The routine is not told N:
+/// it uses a node number above all in the columns as an index only if two lists agree on it.
 template <class Real, class Int>
 OptimStatus optim(const Nodes<Real>& nodes, Int na, const EditedLists<Int>& lists, Int& nit, Int* iwk);
 
-/// The same on lists that are being edited; throws BrokenLists.
+/// The same for lists that are being edited; throws BrokenLists.
 template <class Real, class Int>
 OptimStatus optimize(const CheckedEditor<Int>& lists, const Nodes<Real>& nodes, Int na, Int& nit, Int* iwk);
 
-/// What a message about OPTIM's failure says.
+/// The data of a message about OPTIM's failure.
 template <class Int>
 struct OptimFailure {
   Int nit = 0, ier = 0;
@@ -45,7 +45,7 @@ enum class DelarcStatus {
   done = 0,
   bad_argument = 1,     ///< lists.n < 4, or io1, io2 not two of its nodes
   not_on_boundary = 2,  ///< no boundary arc
-  cuts_off = 3,         ///< the third corner of its triangle is on the boundary already
+  cuts_off = 3,         ///< the third corner of its triangle is already on the boundary
   no_neighbours = 4,    ///< the two do not list each other
   broken = broken_lists
 };
@@ -66,10 +66,10 @@ enum class EdgeStatus {
   not_possible = -10  ///< nodes on the arc, up to rounding, or triangles that overlap; only iwk is changed
 };
 
-/// EDGE: makes in1-in2 an arc by exchanging those that it crosses, and then optimizes the others nearby.
-/// There is no test whether in1 and in2 are at most N, which is not an argument. lwk: in, columns of iwk;
-/// out, arcs that were crossed (unchanged if there are none, and on errors but optim_failed, not_optimal).
-/// iwk, on `done`: the arcs left of in1-in2, a column 0, those right of it; or with the ends exchanged.
+/// EDGE: makes in1-in2 an arc by swapping those that it crosses, and then optimises the others nearby. EDGE
+/// is not told N, so it cannot detect in1 or in2 above N. lwk: in, columns of iwk; out, number of arcs
+/// crossed (unchanged if there are none, and on errors except optim_failed, not_optimal). iwk, on `done`: the
+/// arcs left of in1-in2, a column 0, those right of it; or left and right exchanged.
 template <class Real, class Int>
 EdgeStatus edge(Int in1, Int in2, const Nodes<Real>& nodes, Int& lwk, Int* iwk, const EditedLists<Int>& lists,
                 OptimFailure<Int>& failure);

@@ -1,5 +1,5 @@
 #pragma once
-// The expressions that decide STRIPACK's results. Their order of evaluation, one rounding an operation
+// The expressions that decide STRIPACK's results. Their order of evaluation, with one rounding per operation
 // in the working kind, is part of the behaviour: compile with -ffp-contract=off and change nothing.
 
 #include <cmath>
@@ -26,6 +26,13 @@ struct Nodes {
     const auto i = static_cast<std::size_t>(node - 1);
     return {x[i], y[i], z[i]};
   }
+  template <class Int>
+  void prefetch(Int node) const {
+    const auto i = static_cast<std::size_t>(node - 1);
+    __builtin_prefetch(x + i);
+    __builtin_prefetch(y + i);
+    __builtin_prefetch(z + i);
+  }
 };
 
 template <class Real>
@@ -50,7 +57,7 @@ Real height(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c,
   return r.x * (q.y * p.z - p.y * q.z) - r.y * (q.x * p.z - p.x * q.z) + r.z * (q.x * p.y - p.x * q.y);
 }
 
-/// The coordinates, which double holds whatever their kind: for exact tests.
+/// The coordinates as doubles, which represent both kinds exactly: for exact tests.
 template <class Real>
 Point as_point(const Vector<Real>& a) {
   return {static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(a.z)};

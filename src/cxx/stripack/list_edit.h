@@ -1,19 +1,20 @@
 #pragma once
-// INSERT, INTADD, BDYADD, COVSPH, SWAP, DELNB: the steps of which all changes of a triangulation are made
-// (Renka, ACM TOMS 23 (1997), Algorithm 772). They decide which slot holds which neighbour, and thereby the
-// lists that the routines above them return.
+// INSERT, INTADD, BDYADD, COVSPH, SWAP, DELNB: the steps of all changes of a triangulation (Renka, ACM TOMS
+// 23 (1997), Algorithm 772). They determine which slot holds which neighbour, and so the lists that the
+// routines above them return.
 //
 // For Int = int32_t, int64_t. Nodes and slots count from 1; k is the node that is added.
 
 #include <cstddef>
 #include <limits>
 
-#include "stripack/trmesh.h"
+#include "lists/limits.h"
 
 namespace pstripack {
 
-/// LIST, LPTR, LEND, LNEW of a caller, to be changed. n: nodes for which there is room, LIST and LPTR having
-/// 6n-12 slots. lnew is null and n the greatest Int where the routine is not told (SWAP, OPTIM, EDGE).
+/// A caller's LIST, LPTR, LEND, LNEW, to be changed. n: number of nodes for which there is room; LIST and
+/// LPTR have 6n-12 slots. If the routine is not told N (SWAP, OPTIM, EDGE), lnew is null and n the largest
+/// Int.
 template <class Int>
 struct EditedLists {
   Int n;
@@ -31,7 +32,7 @@ struct EditedLists {
 /// not close, a boundary that does not.
 constexpr int broken_lists = -9;
 
-/// Thrown instead of reading or writing outside the arrays, or going round for ever.
+/// Thrown instead of reading or writing outside the arrays, or looping for ever.
 struct BrokenLists {};
 
 /// Runs edit() and returns its code, or broken_lists.
@@ -44,14 +45,14 @@ auto code_or_broken_lists(const Edit& edit) -> decltype(edit()) {
   }
 }
 
-/// Access to the arrays, checked: throws BrokenLists where an index is out of range. Where N and LNEW are not
-/// told only numbers below 1 are: SECURITY.md says what else is done about these, and what cannot be.
+/// Checked access to the arrays: throws BrokenLists if an index is out of range. If N and LNEW are unknown,
+/// only numbers below 1 are out of range: SECURITY.md explains what else is checked, and what cannot be.
 template <class Int>
 class CheckedArrays {
  public:
   using Index = Int;
 
-  /// Counts slots in `lnew`, the caller's or a copy. `nodes`: those that have lists, if not all do.
+  /// Counts slots in `lnew`, the caller's or a copy. `nodes`: number of nodes that have lists, if not n.
   CheckedArrays(const EditedLists<Int>& lists, Int& lnew) : CheckedArrays(lists, lnew, lists.n) {}
   CheckedArrays(const EditedLists<Int>& lists, Int& lnew, Int nodes)
       : lists_(lists), lnew_(lnew), nodes_(nodes) {
@@ -66,7 +67,7 @@ class CheckedArrays {
   void set_lnew(Int lnew) const { lnew_ = lnew; }
   Int nodes() const { return nodes_; }
   Int checked_node(Int node) const { return in(1, node, nodes_); }
-  /// Throws unless there is room for so many further slots.
+  /// Throws unless there is room for `slots` further slots.
   void reserve(Int slots) const { in(0, slots, most_slots_ + 1 - lnew_); }
 
  private:
@@ -80,8 +81,8 @@ class CheckedArrays {
   Int nodes_, most_slots_;
 };
 
-/// Ends walks round lists that do not close: throws at the latest after three times as many steps as there
-/// are different slots on the way (R. P. Brent, BIT 20, 1980).
+/// Ends walks in lists that do not close: throws after at most three times as many steps as there are
+/// different slots on the way (R. P. Brent, BIT 20, 1980).
 template <class Int>
 class LoopGuard {
  public:
@@ -98,7 +99,7 @@ class LoopGuard {
   std::size_t steps_ = 0, lap_ = 16;
 };
 
-/// Questions to and changes of the lists in some kind of arrays.
+/// Reads and changes lists in any kind of arrays.
 template <class Arrays>
 class ListEditor {
  public:
@@ -107,7 +108,7 @@ class ListEditor {
   explicit ListEditor(const Arrays& arrays) : arrays_(arrays) {}
 
   Int lnew() const { return arrays_.lnew(); }
-  /// The greatest node that is certain to exist; 0 if N is not told.
+  /// The largest node number known to exist; 0 if N is unknown.
   Int known_node() const { return arrays_.nodes() < std::numeric_limits<Int>::max() ? arrays_.nodes() : 0; }
   /// The neighbour in a slot; negative if it is the last one of a boundary node.
   Int& entry(Int slot) const { return arrays_.list(slot); }
@@ -125,8 +126,8 @@ class ListEditor {
   struct Place {
     Int slot, before;
   };
-  /// The first slot in a node's list that is wanted, counted from the first neighbour, and the slot before
-  /// it. The last slot, whether or not it is wanted, if no other is.
+  /// The first slot in a node's list, counted from its first neighbour, that satisfies `wanted`, and the slot
+  /// before it. The last slot if none satisfies it.
   template <class Wanted>
   Place find(Int node, const Wanted& wanted) const {
     const Int last = last_slot(node);
@@ -153,7 +154,7 @@ class ListEditor {
   bool is_side(Int slot, Int a, Int b) const {
     return entry(slot) == a && (entry(next(slot)) == b || entry(next(slot)) == -b);
   }
-  /// Goes on from a slot to the last one of a node; throws BrokenLists if that does not come.
+  /// Advances from a slot to the last one of a node; throws BrokenLists if it does not occur.
   void go_on_to_last(Int slot, Int node) const {
     const Int last = last_slot(node);
     for (LoopGuard<Int> guard; slot != last; slot = next(slot)) guard.pass(slot);
@@ -166,7 +167,7 @@ class ListEditor {
     });
     return count;
   }
-  /// How often a node's list has another: 0 or 1 in a triangulation.
+  /// Number of times that a node's list contains another: 0 or 1 in a triangulation.
   Int times(Int node, Int other) const {
     Int count = last_neighbour(node) == other ? 1 : 0;
     find(node, [&](Int slot) {
@@ -251,10 +252,10 @@ class ListEditor {
     next(last_slot(k)) = own;
   }
 
-  // ---- arcs are exchanged and removed ----
+  // ---- arcs are swapped and removed ----
 
-  /// SWAP: the diagonal io1-io2 of a quadrilateral gives way to in1-in2. Returns the slot of in1 in the list
-  /// of in2; 0, nothing being changed, if these are neighbours already.
+  /// SWAP: replaces the diagonal io1-io2 of a quadrilateral by in1-in2. Returns the slot of in1 in the list
+  /// of in2; 0, with nothing changed, if these are already neighbours.
   ///
   ///           io2                       io2
   ///          / | \                     /   \                     .
@@ -262,8 +263,8 @@ class ListEditor {
   ///          \ | /                     \   /
   ///           io1                       io1
   ///
-  /// Where N is not told, writes nothing before the lists of all four nodes have shown both triangles: a slot
-  /// that is written held one of the four.
+  /// If N is unknown, writes nothing before the lists of all four nodes have shown both triangles, and only
+  /// to slots that held one of the four.
   Int swap(Int in1, Int in2, Int io1, Int io2) const {
     if (known_node() == 0) return swap_in_triangles(in1, in2, io1, io2);
     if (are_neighbours(in1, in2)) return 0;
@@ -277,8 +278,8 @@ class ListEditor {
     return of_io1.slot;
   }
 
-  /// DELNB: removes nb from the list of n0, leaving the list of nb alone. The top slot moves into the one
-  /// that this frees. Returns the latter; -2, nothing being changed, if nb is no neighbour of n0.
+  /// DELNB: removes nb from the list of n0, not n0 from the list of nb. The top slot moves into the freed
+  /// slot. Returns the latter; -2, with nothing changed, if nb is no neighbour of n0.
   Int remove_neighbour(Int n0, Int nb) const {
     const auto [slot, before] = find(n0, [&](Int s) { return entry(s) == nb; });
     const Int last = last_slot(n0);
@@ -292,14 +293,14 @@ class ListEditor {
     }
     next(before) = next(slot);
     move_top_to(slot, [&, hole = slot](Int top) {
-      // nb is asked first: it may list the top slot although n0 does not list nb any more.
+      // Search nb's list first: it may use the top slot although n0 no longer lists nb.
       if (!redirect_in(nb, top, hole)) redirect(top, hole);
     });
     return slot;
   }
 
-  /// The top slot moves to `hole`, which is in no list. redirect(top) then lets what points to it point to
-  /// `hole`.
+  /// Moves the top slot to `hole`, which is in no list. redirect(top) must then make what points to `top`
+  /// point to `hole`.
   template <class Redirect>
   void move_top_to(Int hole, const Redirect& redirect) const {
     const Int top = lnew() - 1;
@@ -308,7 +309,7 @@ class ListEditor {
     if (hole != top) redirect(top);
     arrays_.set_lnew(top);
   }
-  /// Lets what points to the slot `from`, in the list of the node: false if it is not there.
+  /// Redirects what points to the slot `from`, in the list of the node: false if it is not there.
   bool redirect_in(Int node, Int from, Int to) const {
     const auto [slot, before] = find(node, [&](Int s) { return s == from; });
     if (slot != from) return false;
@@ -316,8 +317,8 @@ class ListEditor {
     next(before == from ? to : before) = to;
     return true;
   }
-  /// The same, whichever list it is in. Its neighbour b lists the owner, which is therefore found in
-  /// O(degree squared); where b does not, in the middle of a change, all slots are looked through.
+  /// The same, whichever list it is in. Its neighbour b lists the owner, which is therefore found in O(degree
+  /// squared); if b does not, in the middle of a change, all slots are searched.
   void redirect(Int from, Int to) const {
     const Int b = neighbour(from);
     const Int owner = find(b, [&](Int slot) { return redirect_in(neighbour(slot), from, to); }).slot;
@@ -332,7 +333,7 @@ class ListEditor {
     next(slot) = after;
   }
 
-  /// The number of boundary nodes from i1 clockwise to i2, both of which count.
+  /// Number of boundary nodes from i1 clockwise to i2, both included.
   Int visible_nodes(Int k, Int i1, Int i2) const {
     Int count = 1, v = i1;
     do {
@@ -358,7 +359,7 @@ class ListEditor {
     return of_io1.slot;
   }
 
-  /// Takes a slot out of the list of a node; it then holds c, after the slot `before` in another list.
+  /// Removes a slot from the list of a node; it then holds c, after the slot `before` in another list.
   void move(Int node, const Place& place, Int before, Int c) const {
     const Int slot = place.slot;
     next(place.before) = next(slot);
@@ -402,17 +403,17 @@ int bdyadd(Int i1, Int i2, const EditedLists<Int>& lists);
 template <class Int>
 int covsph(Int n0, const EditedLists<Int>& lists);
 
-/// SWAP: arc io1-io2, where io1, io2, in1 and io2, io1, in2 are counterclockwise triangles, gives way to
-/// in1-in2. `slot`: that of in1 in the list of in2; 0, nothing being changed, if they are neighbours already.
+/// SWAP: replaces arc io1-io2, where io1, io2, in1 and io2, io1, in2 are counterclockwise triangles, by
+/// in1-in2. `slot`: that of in1 in the list of in2; 0, with nothing changed, if they are already neighbours.
 template <class Int>
 int swap(Int in1, Int in2, Int io1, Int io2, const EditedLists<Int>& lists, Int& slot);
 
-/// DELNB's answers beside the slot that was freed.
+/// Values of DELNB's LPH other than the freed slot.
 constexpr int no_such_node = -1, no_neighbour = -2;
 
-/// DELNB: nb is removed from the list of n0, but not n0 from that of nb. `slot`: the one that was freed, into
-/// which the top slot moved; no_such_node or no_neighbour, nothing being changed.
-/// O(degree squared) where the original looks through all slots.
+/// DELNB: removes nb from the list of n0, but not n0 from that of nb. `slot`: the freed slot, into which the
+/// top slot moved; or no_such_node or no_neighbour, with nothing changed. O(degree squared); the original
+/// searches all slots.
 template <class Int>
 int delnb(Int n0, Int nb, const EditedLists<Int>& lists, Int& slot);
 

@@ -1,15 +1,15 @@
 #pragma once
-// LSTPTR, NBCNT and the other questions that one asks LIST, LPTR, LEND. Slots and nodes count from 1.
+// LSTPTR, NBCNT and other queries on LIST, LPTR, LEND. Slots and nodes count from 1.
 
 #include <cstddef>
 
-#include "stripack/adjacency_lists.h"
+#include "lists/adjacency_lists.h"
 
 namespace pstripack {
 
-/// LSTPTR: the slot of neighbour `wanted` in the list whose last slot is `last`; `last` itself if the
-/// wanted one is the last neighbour, or none. O(degree) on canonical lists as well, where a table of slots
-/// would make it constant: that the arguments are parts of such lists cannot be told from them alone.
+/// LSTPTR: the slot of neighbour `wanted` in the list whose last slot is `last`; `last` itself if the wanted
+/// one is the last neighbour, or none. O(degree) even for canonical lists, where a table of slots would make
+/// it constant: the arguments alone do not show that they belong to such lists.
 template <class Int>
 Int lstptr(Int last, Int wanted, const Int* list, const Int* lptr) {
   Int slot = lptr[last - 1];
@@ -25,7 +25,7 @@ Int nbcnt(Int last, const Int* lptr) {
   return count;
 }
 
-/// The lists of a triangulation by their own numbers.
+/// The lists of a triangulation, indexed by the caller's numbers.
 template <class Int>
 class ListReader {
  public:
@@ -41,6 +41,8 @@ class ListReader {
   Int next(Int slot) const { return lists_.lptr[slot - 1]; }
   Int last_slot(Int node) const { return lists_.lend[node - 1]; }
   Int first_slot(Int node) const { return next(last_slot(node)); }
+  /// first_slot in canonical lists, in others any number.
+  Int foreseen_first_slot(Int node) const { return node == 1 ? 1 : last_slot(node - 1) + 1; }
   Int first_neighbour(Int node) const { return neighbour(first_slot(node)); }
   Int last_neighbour(Int node) const { return neighbour(last_slot(node)); }
   bool on_boundary(Int node) const { return entry(last_slot(node)) < 0; }
@@ -48,7 +50,8 @@ class ListReader {
     return lstptr(last_slot(node), wanted, lists_.list, lists_.lptr);
   }
 
-  /// For a node whose ring will be asked for soon.
+  /// For a node whose list will be asked for soon.
+  void prefetch_last_slot(Int node) const { __builtin_prefetch(lists_.lend + (node - 1)); }
   void prefetch_list(Int node) const {
     const auto i = static_cast<std::size_t>(last_slot(node) - 1);
     __builtin_prefetch(lists_.list + i);

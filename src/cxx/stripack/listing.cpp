@@ -5,17 +5,17 @@
 #include <cstdint>
 #include <vector>
 
-#include "stripack/list_walk.h"
+#include "lists/list_walk.h"
 
 namespace pstripack {
 namespace {
 
 constexpr int page_length = 58;
 
-/// What sets the two forms apart.
+/// The differences between the two layouts.
 struct Layout {
   std::string_view blank;  ///< a blank record between the parts of a table
-  int page_break;          ///< so many of them
+  int page_break;          ///< number of blank records at a page break
   bool totals_in_rows;
 };
 constexpr Layout layout_of(ListingForm form) {
@@ -26,7 +26,7 @@ void blank(const Layout& layout, int count, Records& out) {
   for (int i = 0; i < count; ++i) out.add(layout.blank).end();
 }
 
-/// How many of a node's coordinates a listing shows.
+/// Number of a node's coordinates that a listing shows.
 template <class Int>
 int shown_coordinates(Int iflag) {
   return iflag < 0 ? 0 : iflag > 0 ? 2 : 3;

@@ -1,19 +1,19 @@
 #pragma once
 // TRPRNT, TRLPRT, VORONOI_POLY_COUNT: tables for people to read. For Real = float, double and Int = int32_t,
-// int64_t. They compose the records; who called writes them. Words are ours; columns and page breaks are
+// int64_t. They compose the records; the caller writes them. Words are ours; columns and page breaks are
 // those of the original. Throw std::bad_alloc.
 
-#include "stripack/adjacency_lists.h"
+#include "lists/adjacency_lists.h"
 #include "stripack/expressions.h"
 #include "stripack/records.h"
 
 namespace pstripack {
 
-/// The two layouts that are in use. They differ at page breaks, where f90 has records of one blank, and in
-/// the totals, which take three records there.
+/// The two layouts in use. They differ at page breaks, where f90 has records of one blank, and in the totals,
+/// which take three records in f90.
 enum class ListingForm { f77, f90 };
 
-/// The most nodes, and triangles, that a listing shows; of more it says that they are too many.
+/// The largest number of nodes, and of triangles, that a listing shows; a larger number is reported instead.
 constexpr int most_listed = 9999;
 
 /// TRPRNT: the neighbours of each node, from first to last, 0 after those of a boundary node; then the
@@ -30,9 +30,9 @@ template <class Real, class Int>
 void list_triangles(ListingForm form, Int n, Int iflag, const Nodes<Real>& nodes, Int nrow, Int nt,
                     const Int* ltri, Records& out);
 
-/// VORONOI_POLY_COUNT: of the Voronoi diagram that CRLIST gives, the numbers of cells, vertices and edges,
-/// Euler's sum F + V - E - 2, which is 0, and how many cells have 1, 2, ..., 19, 20 or more sides, where
-/// there are any. listc, lptr: 6n-12 slots. Of lists that are not closed it says that.
+/// VORONOI_POLY_COUNT: for the Voronoi diagram from CRLIST, the numbers of cells, vertices and edges, Euler's
+/// sum F + V - E - 2, which is 0, and the non-zero numbers of cells with 1, 2, ..., 19, 20 or more sides.
+/// listc, lptr: 6n-12 slots. Reports lists that are not closed.
 template <class Int>
 void count_polygons(Int n, const Int* lend, const Int* lptr, const Int* listc, Records& out);
 

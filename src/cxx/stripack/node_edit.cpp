@@ -53,10 +53,10 @@ Int descend(const Vector<Real>& p, Int start, const CheckedEditor<Int>& lists, c
   return coincide(nodes[next], p) ? next : 0;
 }
 
-/// A node that coincides with node k; 0 if there is none. `found`: where k lies.
+/// A node that coincides with node k; 0 if there is none. `found`: the location of k.
 template <class Real, class Int>
 Int copy_of(Int k, const Location<Int>& found, const CheckedEditor<Int>& lists, const Nodes<Real>& nodes) {
-  constexpr Int few = 1000;  // these are looked through in a fraction of the time that the search takes
+  constexpr Int few = 1000;  // scanning these costs a fraction of the search
   const Vector<Real> p = nodes[k];
   if (found.i3 != 0)
     for (const Int node : {found.i1, found.i2, found.i3})
@@ -65,9 +65,9 @@ Int copy_of(Int k, const Location<Int>& found, const CheckedEditor<Int>& lists, 
   return descend(p, found.i1, lists, nodes);
 }
 
-/// Restores the Delaunay property round node k: looks at the arcs u-v opposite k, counterclockwise, and joins
-/// k to the node w beyond, if it lies in the cap of the triangle. At most k-1 exchanges, since each of them
-/// gives k a further neighbour.
+/// Restores the Delaunay property around node k: tests the arcs u-v opposite k, counterclockwise, and swaps
+/// u-v for k-w, with w beyond, if k lies in the cap of that triangle. At most k-1 swaps, since each gives k a
+/// further neighbour.
 ///
 ///          w
 ///        /   \                         .
@@ -175,7 +175,7 @@ class Deletion {
   /// A node's number after the deletion.
   Int renumbered(Int node) const { return node > k_ ? node - 1 : node; }
 
-  /// Exchanges arcs k-m for l-r, until k has three neighbours or no arc can go: the quadrilateral must be
+  /// Swaps arcs k-m for l-r until k has three neighbours or no arc can be swapped: the quadrilateral must be
   /// convex at k and at m, unless that is a boundary node.
   ///
   ///           m
@@ -215,7 +215,7 @@ class Deletion {
     throw BrokenLists();
   }
 
-  /// True if the triangles covered the sphere and will not any more: k does not lie within its last three
+  /// True if the triangles covered the sphere and will no longer do so: k does not lie within its last three
   /// neighbours a, b, c, or has more.
   bool opens_the_hull() {
     if (neighbours_ == 3) {
@@ -260,7 +260,7 @@ class Deletion {
     for (; own_slots_ > 0; --own_slots_) {
       Int slot = lists.next(hole);  // the other slots of k start here; the last one still points to `last_`
       lists.move_top_to(hole, [&](Int top) {
-        // The original does this even to a slot that it has given up.
+        // The original does this even to a slot that it has freed.
         if (Int& next = arrays_.lptr[slot - 1]; slot >= top && next == top) next = hole;
         bool own = slot == top && own_slots_ > 1;
         if (slot == top) slot = hole;
@@ -292,10 +292,10 @@ class Deletion {
   Real* const z_;
   const Nodes<Real> node_;
   const EditedLists<Int> arrays_;
-  Int lnew_;  // the caller's changes when the deletion is certain
+  Int lnew_;  // copied to the caller's when the deletion is certain
   const CheckedEditor<Int> lists_;
-  bool on_boundary_ = false;  // k, or it is treated so
-  Int neighbours_ = 0;        // of k, and one more on the boundary
+  bool on_boundary_ = false;  // k is on the boundary, or treated as if
+  Int neighbours_ = 0;        // of k, plus one on the boundary
   Int new_arcs_ = 0;          // columns of IWK
   Int last_ = 0, own_slots_ = 0;
 };

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "stripack/list_walk.h"
+#include "lists/list_walk.h"
 
 namespace pstripack {
 namespace {
@@ -24,7 +24,7 @@ namespace {
 //     annotation
 constexpr int page_x = 306, page_y = 396;  // the middle of the page
 
-/// Seen from far away: right and up in the picture, and depth towards the eye.
+/// As seen from far away: right and up in the picture, and depth towards the eye.
 template <class Real>
 struct Seen {
   Real x, y, depth;
@@ -45,7 +45,7 @@ class View {
     radius_ = std::sin(degree * frame.angle);
   }
 
-  /// Of the window.
+  /// Radius of the window.
   Real radius() const { return radius_; }
   Seen<Real> operator()(const Vector<Real>& p) const {
     return {right_.x * p.x + right_.y * p.y, dot(up_, p), dot(eye_, p)};
@@ -73,13 +73,13 @@ template <class Real, class Int>
 bool can_be_drawn(Int count, const Nodes<Real>& points) {
   for (Int i = 1; i <= count; ++i) {
     const Real square = dot(points[i], points[i]);
-    if (!(square >= Real(1e-6) && square <= Real(1e6))) return false;  // NaN neither
+    if (!(square >= Real(1e-6) && square <= Real(1e6))) return false;  // also for NaN
   }
   return true;
 }
 
-/// TITLE as a PostScript string of at most `most` characters in the parentheses. What would leave them early
-/// or never (a parenthesis too many, a backslash at the end) is taken for text.
+/// TITLE as a PostScript string of at most `most` characters in parentheses. Characters that would end the
+/// string early or never (an unmatched parenthesis, a backslash at the end) become plain text.
 std::string postscript_string(std::string_view title, std::size_t most) {
   const std::size_t begin = std::min(title.find_first_not_of(' '), title.size());
   title = title.substr(begin, title.find_last_not_of(' ') + 1 - begin);
@@ -133,7 +133,7 @@ class Picture {
     out_.integer(page_x + half, 4).integer(page_y + half, 4).end();
     out_.add("%%Title: ").add(what).end().add("%%Creator: PSTRIPACK").end().add("%%EndComments").end();
 
-    // The rim in points, then the sphere's own coordinates, lines one point wide, nothing beyond the rim.
+    // The rim in points; then the sphere's own coordinates, lines one point wide, clipped to the rim.
     number(2).add(" setlinewidth").end();
     number(page_x);
     number(page_y).integer(rim(), 4).add(" 0 360 arc").end().add("stroke").end();
@@ -186,7 +186,7 @@ class Picture {
   }
 
  private:
-  static constexpr Real largest_scale = Real(1e30);  // PostScript's numbers end at 1e38
+  static constexpr Real largest_scale = Real(1e30);  // PostScript's largest number is 1e38
 
   /// Its radius on paper.
   int rim() const {
@@ -241,7 +241,7 @@ PlotStatus plot_triangulation(const PlotFrame<Real, Int>& frame, const ListsView
         return;
       }
       const Seen<Real> to = picture.view(nodes[b]);
-      if (b > a || !picture.view.in_window(to)) picture.line(from, to);  // an arc is met from both ends
+      if (b > a || !picture.view.in_window(to)) picture.line(from, to);  // each arc is met from both ends
     });
     readable = readable && closed;
   }

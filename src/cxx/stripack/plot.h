@@ -4,13 +4,13 @@
 
 #include <string_view>
 
-#include "stripack/adjacency_lists.h"
+#include "lists/adjacency_lists.h"
 #include "stripack/expressions.h"
 #include "stripack/records.h"
 
 namespace pstripack {
 
-/// IER of TRPLOT, VRPLOT, but for 3, output errors. What is composed is a picture only if it is `done`.
+/// IER of TRPLOT and VRPLOT, except 3, output errors. The text is a picture only if the result is `done`.
 enum class PlotStatus {
   done = 0,
   bad_size = 1,       ///< lun not in 0..99, plot_size not in 1..8.5, n < 3, VRPLOT: nt not 2n-4
@@ -19,10 +19,10 @@ enum class PlotStatus {
   broken_lists = -9,  ///< not the lists of a triangulation or Voronoi diagram, as far as they are read
 };
 
-/// What is seen, and how large. Lengths on paper in inches, angles in degrees.
+/// The view and its size. Lengths on paper in inches, angles in degrees.
 template <class Real, class Int>
 struct PlotFrame {
-  Int lun;                   ///< Fortran unit; looked at only here
+  Int lun;                   ///< Fortran unit; used only to check its range
   Real plot_size;            ///< side of the bounding box
   Real latitude, longitude;  ///< the centre of the window, in the middle of the picture
   Real angle;                ///< from the centre of the window to its rim

@@ -74,7 +74,7 @@ IntersectionStatus intersection(const Vector<Real>& p1, const Vector<Real>& p2, 
 //         q -->|--> p     being left of q->p. The one nearest to p leads in or out, as the count says.
 //              |
 //
-// Otherwise another edge gets its turn to give q, or the boundary crosses itself.
+// Otherwise another edge provides q, or the boundary crosses itself.
 template <class Real, class Int>
 PolygonStatus inside(const Vector<Real>& p, Int lv, const Nodes<Real>& vertices, Int nv, const Int* listv,
                      bool& result) {
@@ -87,7 +87,7 @@ PolygonStatus inside(const Vector<Real>& p, Int lv, const Nodes<Real>& vertices,
   for (Int k = 0; k < nv; ++k)
     if (!is_finite(vertex(k))) return PolygonStatus::not_finite;
 
-  Vector<Real> crossing{0, 0, 0};  // keeps its value where an edge joins opposite points
+  Vector<Real> crossing{0, 0, 0};  // keeps its value if an edge joins opposite points
   for (Int edge = 0; edge < nv; ++edge) {
     Vector<Real> q;
     if (!left_of_middle(vertex(edge), vertex(edge + 1 < nv ? edge + 1 : 0), q)) continue;
@@ -95,8 +95,8 @@ PolygonStatus inside(const Vector<Real>& p, Int lv, const Nodes<Real>& vertices,
     if (is_zero(normal)) continue;
     const Vector<Real> before_p = cross(p, normal), after_q = cross(normal, q);
 
-    Int crossings = 0;  // of the whole great circle
-    bool even = true;   // crossings of the arc from q to p
+    Int crossings = 0;  // with the whole great circle
+    bool even = true;   // parity of the crossings of the arc from q to p
     bool q_inside = true, p_inside = true;
     Real nearest_q = -2, nearest_p = -2;
     Vector<Real> v = vertex(nv - 1);

@@ -26,13 +26,13 @@ enum class PolygonStatus {
   bad_count = 1,          ///< nv < 3 or nv > lv
   bad_vertex = 2,         ///< an entry of listv outside 1..lv
   self_intersecting = 3,  ///< the crossings contradict each other
-  no_reference = 4,       ///< no edge gives a point inside to compare with: P is zero, or lies badly to all
+  no_reference = 4,       ///< no edge gives a reference point inside: P is zero, or badly placed for all
   not_finite = -5         ///< NaN or infinity in P or in a vertex
 };
 
-/// INSIDE: whether p lies in the region left of the polygon listv[0..nv-1], indices 1..lv of `vertices`.
-/// A clockwise polygon has its complement inside. `result` is false unless `done`. Within rounding of the
-/// boundary either answer may come.
+/// INSIDE: true if p lies in the region left of the polygon listv[0..nv-1], indices 1..lv of `vertices`. The
+/// inside of a clockwise polygon is its complement. `result` is false unless `done`. Within rounding of the
+/// boundary either answer is possible.
 template <class Real, class Int>
 PolygonStatus inside(const Vector<Real>& p, Int lv, const Nodes<Real>& vertices, Int nv, const Int* listv,
                      bool& result);

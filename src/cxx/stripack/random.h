@@ -18,9 +18,8 @@ Int next_seed(Int factor, Int seed, Int modulus) {
   return static_cast<Int>(static_cast<Bits>(factor) * static_cast<Bits>(seed)) % modulus;
 }
 
-/// JRAND: a random integer in 1..n, with arithmetic in the kind Real. Where n*u+1 rounds up to n+1, which
-/// it does about once in 10^7 draws in single precision, n+1 comes out: a caller that uses the number as
-/// an index must look.
+/// JRAND: a random integer in 1..n, with arithmetic in the kind Real. If n*u+1 rounds up to n+1, about once
+/// in 10^7 draws in single precision, the result is n+1: check it before using it as an index.
 template <class Real, class Int, class SeedInt>
 Int jrand(Int n, Seeds<SeedInt>& seeds) {
   seeds.x = next_seed<SeedInt>(171, seeds.x, 30269);
@@ -30,7 +29,7 @@ Int jrand(Int n, Seeds<SeedInt>& seeds) {
                    static_cast<Real>(seeds.z) / Real(30323);
   const Real fraction = sum - static_cast<Real>(static_cast<Int>(sum));
   const Real drawn = static_cast<Real>(n) * fraction + Real(1);
-  // The greatest integer may round up to a real that is none.
+  // The largest integer may round up to a real that is no Int.
   return drawn < static_cast<Real>(std::numeric_limits<Int>::max()) ? static_cast<Int>(drawn) : n;
 }
 

@@ -11,8 +11,8 @@
 
 namespace pstripack {
 
-/// A text of records, each ended by '\n'. Fields are right-justified. A value that its width cannot hold
-/// is written all the same, after a blank, where Fortran writes asterisks: it is worth more than the column.
+/// A text of records, each ended by '\n'. Fields are right-justified. A value too wide for its field is
+/// written in full, after a blank, where Fortran writes asterisks: the value matters more than the column.
 /// Independent of the locale. Throws std::bad_alloc.
 class Records {
  public:

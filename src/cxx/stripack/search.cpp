@@ -10,7 +10,7 @@
 
 #include "geometry/predicates.h"
 #include "stripack/list_queries.h"
-#include "stripack/original_rules.h"
+#include "stripack/original/original_rules.h"
 #include "stripack/random.h"
 #include "stripack/trfind_walk.h"
 
@@ -26,16 +26,16 @@ class PlainLists : public ListReader<Int> {
 
   Vector<Real> operator[](Int node) const { return node_[node]; }
   Int slot_of_third(Int /*a*/, Int /*b_of_a*/, Int b, Int c) const { return this->slot_of(b, c); }
-  /// Their positions, where they fill consecutive slots, as in canonical lists.
-  void prefetch_neighbours(Int first_slot, Int last_slot) const {
+  /// True if the list of a node is in the slots first..last, in order, and these are few: as in canonical
+  /// lists.
+  bool is_in_few_slots(Int node, Int& first, Int& last) const {
     constexpr Int most = 8;
-    if (last_slot <= first_slot || last_slot - first_slot > most) return;
-    for (Int slot = first_slot + 1; slot < last_slot; ++slot) {
-      const auto i = static_cast<std::size_t>(this->neighbour(slot) - 1);
-      __builtin_prefetch(node_.x + i);
-      __builtin_prefetch(node_.y + i);
-      __builtin_prefetch(node_.z + i);
-    }
+    first = this->foreseen_first_slot(node);
+    last = this->last_slot(node);
+    if (first < 1 || last <= first || last - first >= most) return false;
+    Int elsewhere = this->next(last) ^ first;
+    for (Int slot = first; slot < last; ++slot) elsewhere |= this->next(slot) ^ (slot + 1);
+    return elsewhere == 0;
   }
 
  private:
@@ -78,7 +78,7 @@ class GuardedLists : public ListEditor<CountedArrays<Int>> {
   Vector<Real> operator[](Int node) const { return node_[node]; }
   Int slot_of_third(Int /*a*/, Int /*b_of_a*/, Int b, Int c) const { return this->slot_of(b, c); }
   void prefetch_list(Int /*node*/) const {}  // numbers are checked when they are used
-  void prefetch_neighbours(Int /*first_slot*/, Int /*last_slot*/) const {}
+  bool is_in_few_slots(Int /*node*/, Int& /*first*/, Int& /*last*/) const { return false; }
 
  private:
   Int count_;
@@ -209,6 +209,8 @@ class Candidates {
 
   explicit Candidates(Int first) : count_(1) { node_[0] = first; }
 
+  Int& beyond(int i) { return beyond_[i]; }  ///< the node on the other side of the arc to the next; 0: none
+
   int count() const { return count_; }
   bool full() const { return count_ == most; }
   Int operator[](int i) const { return node_[i]; }
@@ -224,6 +226,7 @@ class Candidates {
 
  private:
   Int node_[most] = {};
+  Int beyond_[most] = {};
   int next_[most] = {};
   int count_;
 };
@@ -275,21 +278,22 @@ class NodeTable {
   int shift_;
 };
 
-/// Calls visit(neighbour) for the neighbours in the list of which this is the last slot, the last one first.
-/// False if that list is not closed but runs into a loop.
+/// Calls visit(neighbour) for the neighbours of a node, the last one first. False if their list is not closed
+/// but runs into a loop. The next slot is foreseen as in canonical lists and compared with LPTR: the
+/// processor predicts that branch, but to follow LPTR it would have to wait for memory.
 template <class Int, class Visit>
-[[gnu::always_inline]] inline bool each_neighbour(const ListReader<Int>& reader, Int last,
+[[gnu::always_inline]] inline bool each_neighbour(const ListReader<Int>& reader, Int node,
                                                   const Visit& visit) {
-  Int slot = last, passed = 0;
+  const Int last = reader.last_slot(node);
+  Int slot = last, foreseen = reader.foreseen_first_slot(node), passed = 0;
   unsigned jumps = 0, jumps_to_pass = 64;
   do {
     visit(reader.neighbour(slot));
     const Int next = reader.next(slot);
-    if (next == slot + 1) {
-      // As mostly in canonical lists. The compiler must not see that this is `next`, too: the processor would
-      // wait for LPTR before it can ask for the next neighbour.
-      ++slot;
-      asm("" : "+r"(slot));
+    Int onward = foreseen;
+    asm("" : "+r"(onward));  // or the compiler would use `next`, which is equal
+    if (next == foreseen) {
+      slot = onward;
     } else {
       slot = next;
       if (slot == passed) return false;
@@ -298,6 +302,7 @@ template <class Int, class Visit>
         jumps_to_pass *= 2;
       }
     }
+    foreseen = slot + 1;
   } while (slot != last);
   return true;
 }
@@ -309,33 +314,25 @@ class Nearest {
   Nearest(const Nodes<Real>& nodes, Int centre) : nodes_(nodes), centre_(nodes[centre]) {}
 
   [[gnu::always_inline]] void compare(Int node) {
-    const Real distance = -dot(nodes_[node], centre_);
-    finite_ &= std::isfinite(distance);
-    const bool is_nearer = distance < distance_;
-    nearest_ = is_nearer ? node : nearest_;
-    distance_ = is_nearer ? distance : distance_;
-  }
-  /// For a node that will be compared soon.
-  void prefetch(Int node) const {
-    const auto i = static_cast<std::size_t>(node - 1);
-    __builtin_prefetch(nodes_.x + i);
-    __builtin_prefetch(nodes_.y + i);
-    __builtin_prefetch(nodes_.z + i);
+    const Real cosine = dot(nodes_[node], centre_);
+    not_finite_ += 0 * cosine;
+    nearest_ = cosine > cosine_ ? node : nearest_;
+    cosine_ = cosine > cosine_ ? cosine : cosine_;
   }
   NextNearestStatus write(Int& node, Real& distance) const {
-    if (!finite_) return NextNearestStatus::not_finite;
+    if (not_finite_ != 0) return NextNearestStatus::not_finite;
     if (nearest_ == 0) return NextNearestStatus::none_left;
     node = nearest_;
-    distance = distance_;
+    distance = -cosine_;
     return NextNearestStatus::done;
   }
 
  private:
-  const Nodes<Real>& nodes_;
+  const Nodes<Real> nodes_;
   const Vector<Real> centre_;
   Int nearest_ = 0;
-  Real distance_ = 2;
-  bool finite_ = true;
+  Real cosine_ = -2;
+  Real not_finite_ = 0;  ///< 0, or NaN
 };
 
 /// GETNP for l = 2.
@@ -346,16 +343,19 @@ NextNearestStatus nearest_neighbour(const ListsView<Int>& lists, const Nodes<Rea
   const Int centre = npts[0];
   Nearest<Real, Int> nearest(nodes, centre);
   const auto visit = [&](Int node) __attribute__((always_inline)) {
+    reader.prefetch_last_slot(node);
     if (node != centre) nearest.compare(node);
   };
-  if (!each_neighbour(reader, reader.last_slot(centre), visit)) return NextNearestStatus::broken_lists;
+  if (!each_neighbour(reader, centre, visit)) return NextNearestStatus::broken_lists;
   return nearest.write(npts[1], distance);
 }
 
-/// GETNP for more. `cells`: 2^bits of them, all 0, which can hold a number below `given`.
-template <class Real, class Int, class Cell>
-NextNearestStatus nearest_of_others(const ListsView<Int>& lists, const Nodes<Real>& nodes, Int given,
-                                    Int* npts, Real& distance, Cell* cells, int bits) {
+/// GETNP for more. `cells`: 2^bits of them, all 0, which can hold a number below `given`. A function of its
+/// own for few and for many, since compilers run out of registers where both are one.
+template <bool few, class Real, class Int, class Cell>
+[[gnu::noinline]] NextNearestStatus nearest_of_others(const ListsView<Int>& lists, const Nodes<Real>& nodes,
+                                                      Int given, Int* npts, Real& distance, Cell* cells,
+                                                      int bits) {
   const ListReader<Int> reader(lists);
   NodeTable<Int, Cell> taken(npts, cells, bits);
   for (Int i = 1; i < given; ++i)
@@ -366,18 +366,26 @@ NextNearestStatus nearest_of_others(const ListsView<Int>& lists, const Nodes<Rea
   constexpr int most = 64;
   Int others[most];  // nodes that are not taken, to be compared
   int count = 0;
-  const auto compare = [&] {
-    for (int i = 0; i < count; ++i) nearest.compare(others[i]);
+  const auto compare = [&]() __attribute__((always_inline)) {
+    for (int i = 0; i < count; ++i) {
+      if (!few) reader.prefetch_last_slot(others[i]);
+      nearest.compare(others[i]);
+    }
     count = 0;
   };
+  // Of the slots one is what the next call needs: callers ask for l = 2, 3, 4...
+  const auto prefetch = [&](Int node) {
+    nodes.prefetch(node);
+    reader.prefetch_last_slot(node);
+  };
   const auto visit = [&](Int node) __attribute__((always_inline)) {
-    if (given < 8) nearest.prefetch(node);  // of many, most are taken
-    others[count] = node;                   // where the next one goes, too, if this one is taken
+    if (few) prefetch(node);  // of many, most are taken
+    others[count] = node;     // where the next one goes, too, if this one is taken
     count += !taken.contains(node);
     if (count == most) compare();
   };
   for (Int i = 0; i < given; ++i)
-    if (!each_neighbour(reader, reader.last_slot(npts[i]), visit)) return NextNearestStatus::broken_lists;
+    if (!each_neighbour(reader, npts[i], visit)) return NextNearestStatus::broken_lists;
   compare();
   return nearest.write(npts[given], distance);
 }
@@ -423,21 +431,33 @@ Int nearnd(const Vector<Real>& p, Int start, const ListsView<Int>& lists, const 
     ring.insert(0, end);
   }
 
+  // Asked for when an arc comes to the ring, so that lists and positions are there when it is its turn.
+  const auto look_beyond = [&](int u) {
+    const Int slot = reader.slot_of(ring[ring.after(u)], ring[u]);
+    ring.beyond(u) = reader.entry(slot) < 0 ? 0 : reader.neighbour(reader.next(slot));
+    if (ring.beyond(u) == 0) return;
+    nodes.prefetch(ring.beyond(u));
+    reader.prefetch_list(ring.beyond(u));
+  };
+  for (int i = 0; i < ring.count(); ++i)
+    if (ring[i] != 0) reader.prefetch_list(ring[i]);
+  for (int u = 0, v; ring[v = ring.after(u)] != 0; u = v) {
+    look_beyond(u);
+    if (v == 0) break;
+  }
+
   // Between neighbours u and v on the ring goes the node beyond their arc, if p lies in its cap.
-  for (int u = 0, v = ring.after(0);;) {
-    const Int slot = reader.slot_of(ring[v], ring[u]);
-    if (reader.entry(slot) >= 0) {
-      const Int beyond = reader.neighbour(reader.next(slot));
+  for (int u = 0, v; ring[v = ring.after(u)] != 0;) {
+    if (const Int beyond = ring.beyond(u); beyond != 0) {
       if (ring.full()) break;
       if (height(nodes[ring[v]], nodes[ring[u]], nodes[beyond], p) > 0) {
-        v = ring.insert(beyond, u);
+        look_beyond(ring.insert(beyond, u));
+        look_beyond(u);
         continue;
       }
     }
     if (v == 0) break;
     u = v;
-    v = ring.after(u);
-    if (ring[v] == 0) break;
   }
 
   Int nearest = ring[0];
@@ -462,15 +482,21 @@ NextNearestStatus next_nearest(const ListsView<Int>& lists, const Nodes<Real>& n
   if (npts[0] < 1) return NextNearestStatus::bad_nodes;
   if (given == 1) return nearest_neighbour(lists, nodes, npts, distance);
   constexpr int cells_a_node = 16;  // so that few nodes meet another one's cell
-  int bits = 5;
+  constexpr int few = 8;
+  int bits = 7;
+  static_assert(cells_a_node * few == 1 << 7);
+  if (given <= few) {
+    std::uint8_t cells[cells_a_node * few] = {};
+    return nearest_of_others<true>(lists, nodes, given, npts, distance, cells, bits);
+  }
   while ((std::int64_t{1} << bits) < cells_a_node * std::int64_t{given}) ++bits;
   if (given <= most_without_memory) {
     std::uint8_t cells[cells_a_node * most_without_memory];
     std::memset(cells, 0, std::size_t{1} << bits);
-    return nearest_of_others(lists, nodes, given, npts, distance, cells, bits);
+    return nearest_of_others<false>(lists, nodes, given, npts, distance, cells, bits);
   }
   std::vector<Int> cells(std::size_t{1} << bits);
-  return nearest_of_others(lists, nodes, given, npts, distance, cells.data(), bits);
+  return nearest_of_others<false>(lists, nodes, given, npts, distance, cells.data(), bits);
 }
 
 #define PSTRIPACK_SEARCH(Real, Int)                                                                         \

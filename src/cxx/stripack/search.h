@@ -1,35 +1,34 @@
 #pragma once
-// TRFIND, NEARND, GETNP: searches in a triangulation. For
-// (Real, Int) = (float, int32_t), (double, int32_t), (double, int64_t).
-// They always return and change nothing of the triangulation.
+// TRFIND, NEARND, GETNP: searches in a triangulation, for (Real, Int) = (float, int32_t), (double, int32_t),
+// (double, int64_t). They always return and do not change the triangulation.
 
-#include "stripack/adjacency_lists.h"
+#include "lists/adjacency_lists.h"
 #include "stripack/expressions.h"
 #include "stripack/list_edit.h"
 
 namespace pstripack {
 
-/// Where a point lies. Three nodes: the counterclockwise triangle that contains it. i3 = 0: it is
-/// outside; i1 and i2 are the rightmost and leftmost boundary node that it sees, i1 = i2 if it sees
-/// them all. All 0: not found: all nodes lie on one great circle, or the point is zero or not finite.
+/// Location of a point. Three nodes: the counterclockwise triangle that contains it. i3 = 0: it is outside;
+/// i1 and i2 are the rightmost and leftmost boundary node visible from it, i1 = i2 if all are. All 0: not
+/// found, because all nodes lie on one great circle, or the point is zero or not finite.
 template <class Int>
 struct Location {
   Int i1, i2, i3;
 };
 
 /// TRFIND: finds point p, starting at node `start` (random if not in 1..n). b1, b2, b3 are written as in
-/// TRFIND: for a triangle the weights of the corners, up to scale, none negative; b3 = 0 where p lies on the
-/// arc i1-i2.
+/// TRFIND: for a triangle the non-negative weights of the corners, up to scale; b3 = 0 if p lies on the arc
+/// i1-i2.
 ///
-/// The walk of Renka, ACM TOMS 23 (1997), Algorithm 772, by rounded tests. Where it goes astray it begins
-/// anew at a random node: from seeds 1, 2, 3 in every call, so that there is no state; under original rules
-/// from the seeds that the thread keeps. Where that does not end soon, a walk by exact signs decides.
-/// O(sqrt n) steps in a Delaunay triangulation of evenly spread nodes. Allocates nothing.
+/// The walk of Renka, ACM TOMS 23 (1997), Algorithm 772, by rounded tests. Where it fails it restarts at a
+/// random node: from seeds 1, 2, 3 in every call, so that there is no state; under original rules from the
+/// seeds that the thread keeps. If that does not end soon, a walk by exact signs decides. O(sqrt n) steps in
+/// a Delaunay triangulation of evenly spread nodes. Allocates nothing.
 template <class Real, class Int>
 Location<Int> trfind(Int start, const Vector<Real>& p, const ListsView<Int>& lists, const Nodes<Real>& nodes,
                      Real& b1, Real& b2, Real& b3);
 
-/// The same in lists of `count` nodes that may be none: then throws BrokenLists.
+/// The same for unchecked lists of `count` nodes: throws BrokenLists if they are invalid.
 template <class Real, class Int>
 Location<Int> trfind_in_edited(Int start, const Vector<Real>& p, const EditedLists<Int>& lists, Int count,
                                const Nodes<Real>& nodes);
@@ -47,19 +46,19 @@ enum class NextNearestStatus {
   done = 0,
   too_short = 1,      ///< l < 2
   not_finite = -5,    ///< a distance is NaN or infinite
-  broken_lists = -9,  ///< a list runs into a loop; other damage is not looked for
-  bad_nodes = -10,    ///< npts[0..l-2] holds a number below 1, or one twice
+  broken_lists = -9,  ///< a list runs into a loop; other defects are not checked
+  bad_nodes = -10,    ///< npts[0..l-2] holds a number below 1, or the same one twice
   none_left = -11     ///< no neighbour that is not in npts: l > n, or vectors far from unit length
 };
 
-/// GETNP: given the l-1 nodes nearest to node npts[0], itself the first, writes the next nearest one into
-/// npts[l-1] and -cos of its distance into `distance`. It is looked for among the neighbours of the given
-/// ones, which is right in a Delaunay triangulation; of equally near ones the first met is taken. O(l).
-/// The method: Renka, ACM TOMS 23 (1997), Algorithm 772.
-/// lists.n is not used: the routine does not know it, so that an index above it cannot be refused.
+/// GETNP: given node npts[0] and the l-2 nodes nearest to it, writes the next nearest one into npts[l-1] and
+/// -cos of its distance into `distance`. It searches the neighbours of the given nodes, which is correct in a
+/// Delaunay triangulation; of equally near ones it takes the first. O(l). The method: Renka, ACM TOMS 23
+/// (1997), Algorithm 772. The routine is not told N (lists.n is not used), so it cannot detect a node number
+/// above N.
 ///
-/// The original marks nodes by the signs of LEND. Here LEND is only read, so that threads may share a
-/// triangulation; the marks are in a table, which is allocated for l > 257 (std::bad_alloc).
+/// The original marks nodes by the signs of LEND. Here LEND is only read, so threads may share a
+/// triangulation; the marks are in a table, allocated for l > 257 (std::bad_alloc).
 template <class Real, class Int>
 NextNearestStatus next_nearest(const ListsView<Int>& lists, const Nodes<Real>& nodes, Int l, Int* npts,
                                Real& distance);

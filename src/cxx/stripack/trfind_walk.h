@@ -1,5 +1,5 @@
 #pragma once
-// The search of TRFIND by its rounded tests, step for step as the original makes it.
+// TRFIND's search by rounded tests, step by step as in the original.
 
 #include <algorithm>
 #include <cmath>
@@ -11,13 +11,12 @@
 
 namespace pstripack {
 
-/// What a search may take before it gives up. The original has no limit: it ends soon, or after some new
-/// starts, or never.
+/// Limits of a search. The original has none: it ends soon, or after some restarts, or never.
 struct SearchLimits {
-  std::int64_t steps;   ///< no search that makes progress takes more than there are arcs
-  std::int64_t starts;  ///< from random nodes
+  std::int64_t steps;   ///< a search that makes progress takes at most as many as there are arcs
+  std::int64_t starts;  ///< restarts at random nodes
 
-  /// For the original's answer wherever there is one: a million steps for new starts.
+  /// Returns the original's answer if it has one: up to a million steps for restarts.
   static SearchLimits to_follow(std::int64_t nodes) { return {4 * nodes + 1'000'000, INT64_MAX}; }
 };
 
@@ -27,8 +26,8 @@ struct Weights {
   Real &b1, &b2, &b3;
 };
 
-/// The weights of a and b, and b3 = 0 if p is so near to the arc a-b that it counts as lying on it. Before:
-/// b3 = side(a,b,p) >= 0. c: the third corner.
+/// The weights of a and b; b3 = 0 if p is so close to the arc a-b that it counts as lying on it. Requires b3
+/// = side(a,b,p) >= 0. c: the third corner.
 template <class Real>
 void weigh(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c, const Vector<Real>& p,
            const Weights<Real>& weights) {
@@ -43,10 +42,10 @@ void weigh(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c, 
   }
 }
 
-/// Names: o is the node from which we look, r and l the right and left end of the arc through which we look,
-/// side(a,b) > 0 where p lies left of a->b; l_of_o is the slot of l in the list of o. Lists answers questions
-/// as ListReader and InsertionLists do, lists[node] is a position; slot_of_third(o, l_of_o, l, r) is the slot
-/// of r in the list of l where o, r, l is a triangle. draw(n) is a random node.
+/// Names: o is the node from which the search looks, r and l the right and left end of the arc through which
+/// it looks; side(a,b) > 0 if p lies left of a->b; l_of_o is the slot of l in the list of o. Lists has the
+/// interface of ListReader and InsertionLists; lists[node] is a position; slot_of_third(o, l_of_o, l, r) is
+/// the slot of r in the list of l if o, r, l is a triangle. draw(n) returns a random node.
 template <class Real, class Int, class Lists, class Draw>
 class TrfindWalk {
  public:
@@ -54,9 +53,8 @@ class TrfindWalk {
              const Weights<Real>& weights, Draw draw)
       : p_(p), lists_(lists), tolerance_(tolerance), left_(limits), weights_(weights), draw_(draw) {}
 
-  /// False if it gave up. `found` as TRFIND returns it, all 0 where all nodes lie in line. `o`: where to
-  /// start, on return the last node from which it looked. Of the weights are written what the original
-  /// writes.
+  /// False if it gave up. `found` as TRFIND returns it, all 0 if all nodes are collinear. `o`: the start
+  /// node; on return the last node from which it looked. Writes the same weights as the original.
   bool find(Int& o, Location<Int>& found) {
     while (affordable()) {
       Int r, l, l_of_o;
@@ -83,8 +81,8 @@ class TrfindWalk {
     }
     return false;
   }
-  /// Of the triangle that was found: the slot of i1 in the list of i2. Looked for only where it is asked for,
-  /// if no arc was crossed: a list more to wait for.
+  /// The slot of i1 in the list of i2 in the found triangle. If no arc was crossed, it is searched only on
+  /// request, because that reads another list.
   Int slot_found() const {
     if (found_.slot != 0) return found_.slot;
     return lists_.slot_of_third(found_.behind, found_.l_of_behind, found_.l, found_.r);
@@ -99,11 +97,31 @@ class TrfindWalk {
   Real side(Int a, Int b) const { return pstripack::side(lists_[a], lists_[b], p_); }
   Real dot_p(Int a) const { return pstripack::dot(p_, lists_[a]); }
 
+  /// The wedge that look_out finds, by tests of all neighbours without a branch between them: positions are
+  /// waited for together, and no branch is predicted wrongly. Before: the list of o is in slots first..last.
+  /// False, where there is no wedge or o is on the boundary: look_out has to look.
+  bool find_wedge(Int o, Int first, Int last, Int& r, Int& l, Int& l_of_o) const {
+    if (lists_.entry(last) < 0) return false;
+    const int count = static_cast<int>(last - first) + 1;
+    unsigned right = 0;  // bit i: p lies right of the arc from o to its i-th neighbour
+    for (int i = 0; i < count; ++i)
+      right |= static_cast<unsigned>(side(o, lists_.neighbour(first + i)) < 0) << i;
+    const int not_right = __builtin_ctz(~right | 1u << (count - 1));  // or the last one
+    const unsigned right_after = (right & (~1u << not_right)) | (right & 1) << count;
+    if (right_after == 0) return false;
+    const int i = __builtin_ctz(right_after);
+    r = lists_.neighbour(first + i - 1);
+    l_of_o = i == count ? first : first + i;
+    l = lists_.neighbour(l_of_o);
+    return true;
+  }
+
   /// Finds adjacent neighbours r, l of o between which p lies, or a boundary arc r->l with p to its right.
   View look_out(Int& o, Int& r, Int& l, Int& l_of_o) const {
+    Int begin, end;
+    if (lists_.is_in_few_slots(o, begin, end) && find_wedge(o, begin, end, r, l, l_of_o)) return View::wedge;
     const Int last_slot = lists_.last_slot(o), first_slot = lists_.next(last_slot);
     const Int last = lists_.neighbour(last_slot), first = lists_.neighbour(first_slot);
-    lists_.prefetch_neighbours(first_slot, last_slot);
     Int slot = first_slot;
     r = first;
     if (lists_.entry(last_slot) < 0) {
@@ -139,7 +157,7 @@ class TrfindWalk {
     l_of_o = first_slot;
     if (side(o, first) < 0) return View::wedge;
 
-    // p is not strictly right of any arc from o: it lies in line with one, or is o or its antipode.
+    // p is not strictly right of any arc from o: it is collinear with one, or is o or its antipode.
     if (std::abs(dot_p(o)) < 1 - 4 * epsilon) {
       for (slot = last_slot; !(side(r, o) < 0); r = lists_.neighbour(slot)) {
         slot = lists_.next(slot);
@@ -189,9 +207,9 @@ class TrfindWalk {
     return Walk::arrived;
   }
 
-  /// True if a boundary node is an end of what p sees, where the arc between `end` and the node `further`
-  /// away is not strictly seen. With c the part of `start` that is perpendicular to `end`, p or `further`
-  /// lies on the side of `start`; otherwise all is nearly collinear and we must look on.
+  /// True if a boundary node is an end of the visible part of the boundary, given that the arc between `end`
+  /// and the node `further` away is not strictly visible. With c the part of `start` perpendicular to `end`,
+  /// p or `further` lies on the side of `start`; otherwise all is nearly collinear and the search continues.
   bool ends_view(Int start, Int end, Int further) const {
     const Vector<Real> s = lists_[start], e = lists_[end];
     const Real cosine = pstripack::dot(s, e);
@@ -199,7 +217,7 @@ class TrfindWalk {
     return pstripack::dot(p_, c) >= 0 || pstripack::dot(lists_[further], c) >= 0;
   }
 
-  /// The ends of the part of the boundary that p sees, given an arc r->l of it. False if it gave up.
+  /// The ends of the part of the boundary visible from p, given one visible arc r->l. False if it gave up.
   bool see_boundary(const Int first_r, const Int first_l, Location<Int>& found) {
     Int rightmost, far_end = 0;
     for (Int r = first_r, l = first_l;;) {  // counterclockwise

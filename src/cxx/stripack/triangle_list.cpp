@@ -6,15 +6,15 @@
 #include <type_traits>
 #include <vector>
 
-#include "geometry/buffer.h"
-#include "geometry/parallel_for.h"
+#include "base/buffer.h"
+#include "base/parallel_for.h"
+#include "lists/rings.h"
 #include "stripack/list_queries.h"
-#include "stripack/rings.h"
 
 namespace pstripack {
 namespace {
 
-// How the work is done. Let a be the smallest corner of triangle (a,b,c):
+// Method. Let a be the smallest corner of triangle (a,b,c):
 //
 //               c             Its sides, by the corner opposite:
 //              / \              a: b->c, the arc before b->a in the ring of b
@@ -35,7 +35,7 @@ class TriangleList {
 
   TriangleListStatus write(Int& nt, Int* ltri) {
     if (!readable_) return TriangleListStatus::broken_lists;
-    // Pieces of the nodes, one a thread: count, add up, number.
+    // Pieces of the nodes, one per thread: count, sum up, number.
     const std::size_t nodes = static_cast<std::size_t>(rings_.size()) - 2;
     parallel_pieces(nodes, threads_, [this](std::size_t begin, std::size_t end, int piece) {
       Int count = 0;
@@ -78,8 +78,7 @@ class TriangleList {
     for (std::size_t piece = 1; piece < first_.size(); ++piece) first_[piece] += first_[piece - 1];
   }
 
-  /// Rows 1-3 and the faces; t triangles come before. False if the opposite of a side is not where it
-  /// belongs.
+  /// Rows 1-3 and the faces; t triangles come before. False if the reverse of a side is not in its list.
   bool write_corners(std::size_t begin, std::size_t end, Int t, Int* ltri) {
     bool complete = true;
     rings_.template for_each_triangle<pairs>(begin, end, [&](Int a, Int b, Int c, Int ab, Int ac) {

@@ -1,7 +1,7 @@
 #pragma once
 // TRLIST, TRLIST2, BNODES: triangles and boundary of a triangulation. For Int = int32_t, int64_t.
 
-#include "stripack/adjacency_lists.h"
+#include "lists/adjacency_lists.h"
 
 namespace pstripack {
 
@@ -13,7 +13,7 @@ enum class TriangleListStatus {
       2  ///< a neighbour does not list the node, or the lists are not closed; columns may be written
 };
 
-/// TRLIST: column t (t = 1..nt) of LTRI(rows, nt), column by column:
+/// TRLIST: column t (t = 1..nt) of LTRI(rows, nt):
 ///   rows 1-3  the corners, counterclockwise, smallest first;
 ///   rows 4-6  the triangle opposite the corner in row 1-3, 0 = none;
 ///   rows 7-9  (rows = 9) the arc opposite the corner, arcs numbered from 1.

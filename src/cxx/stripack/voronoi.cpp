@@ -8,12 +8,12 @@
 #include <initializer_list>
 #include <vector>
 
-#include "geometry/buffer.h"
-#include "geometry/parallel_for.h"
+#include "base/buffer.h"
+#include "base/parallel_for.h"
+#include "base/workspace.h"
 #include "geometry/predicates.h"
-#include "geometry/workspace.h"
+#include "lists/rings.h"
 #include "stripack/list_queries.h"
-#include "stripack/rings.h"
 
 namespace pstripack {
 
@@ -31,9 +31,9 @@ bool circumcentre(const Vector<Real>& a, const Vector<Real>& b, const Vector<Rea
 
 namespace {
 
-/// The columns that repeated passes over all columns 1..n would have to look at, in the order in which they
-/// would come to them: a pass skips a column that cannot have changed its mind. Its cost is that of the
-/// swaps, not of the passes, of which a smooth boundary of n nodes needs about n/4.
+/// The columns that repeated passes over all columns 1..n would test, in the same order, without those that
+/// cannot have changed. The cost is that of the swaps, not of the passes, of which a smooth boundary of n
+/// nodes needs about n/4.
 template <class Int>
 class Agenda {
  public:
@@ -55,7 +55,7 @@ class Agenda {
       next_pass_.push_back(column);
     }
   }
-  /// The next column to look at; 0 if there is none.
+  /// The next column to test; 0 if there is none.
   Int take() {
     if (this_pass_.empty()) {
       this_pass_.swap(next_pass_);
@@ -104,10 +104,10 @@ class FarSide {
   /// Swaps diagonals until every arc passes the Delaunay test seen from the far side, in the order of
   /// repeated passes over all columns.
   ///
-  /// Rounded tests of nearly cocircular nodes may go round in circles. A swap that is right by the exact
-  /// sign puts a tetrahedron of positive volume under the surface, so every circle contains a wrong one.
-  /// After 16 wrong swaps a column (where the rounded test does settle, at most 1.4 were seen) the exact
-  /// test takes over, which always ends.
+  /// Rounded tests of nearly cocircular nodes may cycle. A swap that is right by the exact sign puts a
+  /// tetrahedron of positive volume under the surface, so every cycle contains a wrong one. After 16 wrong
+  /// swaps per column (at most 1.4 were seen where the rounded test settles) the exact test takes over, which
+  /// always ends.
   void make_delaunay(Agenda<Int>& agenda) {
     std::int64_t wrong_swaps_left = 16 * std::int64_t{count_} + 100;
     const auto rounded = [&](Int a, Int b, Int c, Int d) {
@@ -120,7 +120,7 @@ class FarSide {
     swap(agenda, exact, [] { return false; });
   }
 
-  /// The place of the first zero in rows 4-6: a side that is an arc of the boundary.
+  /// The first zero in rows 4-6: a side on the boundary.
   void find_open_side(Int& g, int& i) const {
     for (g = 1;; ++g)
       for (i = 1; i <= 3; ++i)
@@ -148,7 +148,7 @@ class FarSide {
            orientation(point(a), point(b), point(c), point(d)) > 0;
   }
 
-  /// Swaps until `test` is content; false if `stop` says so before.
+  /// Swaps until `test` requires none; false if `stop` ends it earlier.
   template <class Test, class Stop>
   bool swap(Agenda<Int>& agenda, const Test& test, const Stop& stop) {
     agenda.add_all();
@@ -226,8 +226,8 @@ class Voronoi {
   static constexpr FirstPair pairs = FirstPair::last_and_first;
   static constexpr Int none = -1;
 
-  // The corners of a triangle lie anywhere in the caller's arrays, in small pages: a dozen places a triangle.
-  // Here it is one for a node and one for its arcs, in huge pages.
+  // A triangle reads about a dozen places of the caller's arrays, in small pages. Here one place per node and
+  // one for its arcs are read, in huge pages.
   struct Corner {
     Vector<Real> position;
     Int begin, end;  // its arcs
@@ -237,8 +237,8 @@ class Voronoi {
     Int triangle;  // on its left, 0 = none yet
   };
 
-  /// Everything that allocates; true if the lists have the counts of a triangulation, which also means
-  /// that no array can be overrun.
+  /// Does all allocation; true if the lists have the counts of a triangulation, which also means that no
+  /// array can be overrun.
   bool read() {
     const Int n = lists_.size();
     if (!rings_.read(lists_.view(), threads_)) return false;
@@ -309,8 +309,8 @@ class Voronoi {
     return status;
   }
 
-  /// Asks for the corners, and then for the arcs, that the triangles of nodes soon after i+1 need. Inlined,
-  /// or GCC 12 takes it for a function without effect and drops the calls.
+  /// Prefetches the corners, then the arcs, of the triangles of nodes soon after i+1. Inlined, since GCC 12
+  /// otherwise takes it for free of effects and drops the calls.
   [[gnu::always_inline]] void prefetch_after(std::size_t i, std::size_t end) const {
     constexpr std::size_t far = 16, near = 8;
     if (i + far >= end) return;
@@ -325,7 +325,7 @@ class Voronoi {
   Int back(Int a, const Corner& b, Int arc) const {
     if (b.end - b.begin > Rings<Int>::few_neighbours) return rings_.back(a, arc).arc;
     for (Int begin = b.begin; begin < b.end; begin += kTogether) {
-      // Without branches: where the match is, is random.
+      // Without branches: the position of the match is unpredictable.
       const Arc* const arcs = arc_.data() + begin;
       Int match = kTogether;
       for (Int i = kTogether - 1; i >= 0; --i)

@@ -2,7 +2,7 @@
 // CRLIST, CIRCUM: the Voronoi diagram of a triangulation. For
 // (Real, Int) = (float, int32_t), (double, int32_t), (double, int64_t).
 
-#include "stripack/adjacency_lists.h"
+#include "lists/adjacency_lists.h"
 #include "stripack/expressions.h"
 
 namespace pstripack {
@@ -34,12 +34,12 @@ struct VoronoiArrays {
   Real *xc, *yc, *zc, *rc;  ///< [2n-4] circumcentres and radii (radians) of the triangles
 };
 
-/// CRLIST: circumcentres and radii of all triangles and, by slots of LIST, their order round each node.
-/// If the nodes lie in a hemisphere, nb-2 triangles of boundary nodes close the sphere on the far side;
-/// they come first, and the slots of their arcs are added to LPTR. O(n) beside the swaps among those,
-/// with OpenMP threads for large n; the same bytes for any number of them.
-/// Always returns: where rounded swap tests of cocircular boundary nodes would undo each other for ever,
-/// exact ones take over. Takes 80 bytes a node for the call. Throws std::bad_alloc before anything is written.
+/// CRLIST: circumcentres and radii of all triangles and, by slots of LIST, their order around each node. If
+/// the nodes lie in a hemisphere, nb-2 triangles of boundary nodes close the sphere on the far side; they
+/// come first, and the slots of their arcs are added to LPTR. O(n) plus the swaps among those, with OpenMP
+/// threads for large n; the same bytes for any number of them. Always returns: where rounded swap tests of
+/// cocircular boundary nodes would cycle, exact ones take over. Takes 80 bytes per node during the call.
+/// Throws std::bad_alloc before anything is written.
 template <class Real, class Int>
 VoronoiStatus voronoi(const ListsView<Int>& lists, const Nodes<Real>& nodes,
                       const VoronoiArrays<Real, Int>& out);

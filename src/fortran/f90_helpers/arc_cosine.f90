@@ -1,4 +1,4 @@
-! The arc cosine of c; that of -1 or 1 where rounding has carried c beyond.
+! The arc cosine of c; arguments beyond -1 and 1, from rounding, count as -1 and 1.
 recursive double precision function arc_cosine(c)
   implicit none
   double precision :: c

@@ -1,0 +1,22 @@
+#pragma once
+// Every environment variable is read here.
+
+#include <stdlib.h>
+#include <string.h>
+
+namespace pstripack {
+
+/// Value of an environment variable; null if it is unset, or if the program has rights that its caller lacks
+/// (setuid, setgid, file capabilities): such a caller must not choose files to write or programs to start.
+inline const char* environment_variable(const char* name) { return secure_getenv(name); }
+
+/// True if NAME=VALUE is a variable that mpirun (Open MPI, Slurm, MPICH, Intel) sets for the ranks it starts.
+inline bool is_from_mpi_launcher(const char* variable) {
+  constexpr const char* kPrefixes[] = {
+      "OMPI_", "ORTE_", "PMIX_", "PMI_", "HYDI_", "MPI_LOCALRANKID=", "MPI_LOCALNRANKS="};
+  for (const char* const prefix : kPrefixes)
+    if (strncmp(variable, prefix, strlen(prefix)) == 0) return true;
+  return false;
+}
+
+}  // namespace pstripack

@@ -1,0 +1,109 @@
+#include "base/workspace.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <utility>
+
+namespace pstripack {
+namespace {
+
+constexpr std::size_t kSmallest = std::size_t{64} << 10;  // below, the allocator keeps blocks itself
+
+std::size_t half_of_memory() {
+  const long pages = sysconf(_SC_PHYS_PAGES), bytes = sysconf(_SC_PAGESIZE);
+  return pages > 0 && bytes > 0 ? static_cast<std::size_t>(pages) / 2 * static_cast<std::size_t>(bytes) : 0;
+}
+
+/// Upper limit of all kept blocks together: half of the system's memory, of pages that the system can take
+/// back, because fresh pages of a large call take longer to clear than to fill. Computed when the library is
+/// loaded: threads that wait for each other at their first call would change errno.
+#ifdef MADV_FREE
+const std::size_t most_kept = std::max(std::size_t{1} << 30, half_of_memory());
+#else
+const std::size_t most_kept = std::size_t{1} << 30;
+#endif
+
+constexpr std::size_t kCount = 16;   // number of kept blocks; a call on threads uses five
+Buffer<unsigned char> kept[kCount];  // between two calls
+/// What others keep, which counts among those that are kept. Their pages cannot be taken: a quarter of the bound.
+std::atomic<std::size_t> staying{0};
+std::atomic<bool (*)() noexcept> give_up_more{nullptr};
+std::mutex mutex;  // only try_lock: another thread may hold it, or held it when we were forked
+
+/// Rounded up by at most a sixteenth, so that calls of similar size share blocks.
+std::size_t rounded_up(std::size_t bytes) {
+  std::size_t step = 1;
+  while (step < bytes / 32) step *= 2;
+  return (bytes + step - 1) / step * step;
+}
+
+}  // namespace
+
+bool may_stay(std::size_t bytes) noexcept {
+  if (staying.fetch_add(bytes) + bytes <= most_kept / 4) return true;
+  staying -= bytes;
+  return false;
+}
+
+void has_left(std::size_t bytes) noexcept { staying -= bytes; }
+
+void set_give_up_more(bool (*give_up)() noexcept) noexcept { give_up_more = give_up; }
+
+bool free_kept_blocks() noexcept {
+  bool (*const give_up)() noexcept = give_up_more;
+  bool any = give_up != nullptr && give_up();
+  const std::unique_lock lock(mutex, std::try_to_lock);
+  if (!lock) return any;
+  for (auto& block : kept) {
+    any = any || block.size() > 0;
+    block = {};
+  }
+  return any;
+}
+
+Block::Block(std::size_t bytes) {
+  if (bytes >= kSmallest) bytes = rounded_up(bytes);
+  if (bytes >= kSmallest && bytes <= most_kept) {
+    if (const std::unique_lock lock(mutex, std::try_to_lock); lock) {
+      // Take the smallest: a larger one may be needed next.
+      Buffer<unsigned char>* best = nullptr;
+      for (auto& block : kept)
+        if (block.size() >= bytes && block.size() - bytes <= bytes / 16 &&
+            (best == nullptr || block.size() < best->size()))
+          best = &block;
+      if (best != nullptr) {
+        memory_ = std::exchange(*best, {});
+        return;
+      }
+    }
+  }
+  try {
+    memory_ = Buffer<unsigned char>(bytes);
+  } catch (const std::bad_alloc&) {
+    if (!free_kept_blocks()) throw;
+    memory_ = Buffer<unsigned char>(bytes);
+  }
+}
+
+Block::~Block() {
+  if (memory_.size() < kSmallest || memory_.size() > most_kept) return;
+#ifdef MADV_FREE
+  constexpr std::size_t kWorthASystemCall = std::size_t{4} << 20;
+  if (memory_.size() >= kWorthASystemCall)
+    madvise(memory_.data(), memory_.size(), MADV_FREE);  // if refused, the pages stay with the process
+#endif
+  const std::unique_lock lock(mutex, std::try_to_lock);
+  if (!lock) return;
+  // The newest first; drop the oldest if there are too many or they are too large.
+  std::size_t last = 0, total = memory_.size() + staying;
+  while (last + 1 < kCount && kept[last].size() > 0) ++last;
+  for (; last > 0; --last) kept[last] = std::move(kept[last - 1]);
+  kept[0] = std::move(memory_);
+  for (std::size_t k = 1; k < kCount; ++k)
+    if ((total += kept[k].size()) > most_kept) kept[k] = {};
+}
+
+}  // namespace pstripack

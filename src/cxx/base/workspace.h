@@ -1,0 +1,139 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <new>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+
+#include "base/buffer.h"
+
+namespace pstripack {
+
+/// A block of memory: a kept block of an earlier call of this process if one is large enough and not much too
+/// large, else a new one. On destruction a few blocks are kept for the next call and offered to the system,
+/// which takes their pages when it needs them; small and very large blocks are freed.
+class Block {
+ public:
+  Block() = default;
+  /// Allocates at least `bytes`. Throws std::bad_alloc if there is no memory even after the kept blocks are
+  /// freed.
+  explicit Block(std::size_t bytes);
+  Block(Block&& other) noexcept = default;
+  Block& operator=(Block&& other) noexcept {
+    std::swap(memory_, other.memory_);
+    return *this;
+  }
+  ~Block();
+
+  unsigned char* data() { return memory_.data(); }
+  const unsigned char* data() const { return memory_.data(); }
+  std::size_t size() const { return memory_.size(); }
+
+ private:
+  Buffer<unsigned char> memory_;
+};
+
+/// Gives all kept blocks back to the system, and what give_up_more() gives up; false if there is nothing, or
+/// another thread holds the lock.
+bool free_kept_blocks() noexcept;
+
+/// Of memory that somebody else keeps from one call to the next: whether so many bytes more may stay. If so,
+/// they are counted until they have left.
+bool may_stay(std::size_t bytes) noexcept;
+void has_left(std::size_t bytes) noexcept;
+/// What gives it up where memory is out; true if there was any.
+void set_give_up_more(bool (*give_up)() noexcept) noexcept;
+
+/// An uninitialised array in its own block.
+template <class T>
+class BlockArray {
+ public:
+  BlockArray() = default;
+  /// Throws std::bad_alloc.
+  explicit BlockArray(std::size_t n) : block_(bytes_of(n)), size_(n) {}
+
+  std::size_t size() const { return size_; }
+  T* data() { return reinterpret_cast<T*>(block_.data()); }
+  const T* data() const { return reinterpret_cast<const T*>(block_.data()); }
+  T& operator[](std::size_t i) { return data()[i]; }
+  const T& operator[](std::size_t i) const { return data()[i]; }
+  T* begin() { return data(); }
+  T* end() { return data() + size_; }
+
+ private:
+  static_assert(std::is_trivially_copyable_v<T>);
+  static std::size_t bytes_of(std::size_t n) {
+    if (n > static_cast<std::size_t>(PTRDIFF_MAX) / sizeof(T)) throw std::bad_alloc();
+    return n * sizeof(T);
+  }
+  Block block_;
+  std::size_t size_ = 0;
+};
+
+/// One block of memory per call: clearing fresh pages costs time, and one block can be reused whole by the
+/// next call. Arrays that live through the call are laid from the front, those of a phase from the back;
+/// next_phase() releases the latter.
+///
+///     | order | sorted nodes | faces ->            <- planes |
+///     | kept                                   of this phase |
+class Workspace {
+ public:
+  static constexpr std::size_t kSlack = 2048;  ///< covers rounding and small extras
+
+  explicit Workspace(std::size_t bytes) : Workspace(Block(bytes + kSlack)) {}
+  /// In memory owned by the caller.
+  Workspace(unsigned char* begin, std::size_t bytes) : begin_(begin), size_(bytes), back_(bytes) { align(); }
+  Workspace(const Workspace&) = delete;
+  Workspace& operator=(const Workspace&) = delete;
+
+  /// An uninitialised array of n items that stays until clear().
+  template <class T>
+  T* keep(std::size_t n) {
+    T* const array = reinterpret_cast<T*>(begin_ + front_);
+    front_ += rounded_up(n * sizeof(T));
+    check();
+    return array;
+  }
+
+  /// An uninitialised array of n items for this phase: valid until next_phase().
+  template <class T>
+  T* take(std::size_t n) {
+    const std::size_t bytes = rounded_up(n * sizeof(T));
+    back_ = bytes < back_ ? (back_ - bytes) / kAlignment * kAlignment : 0;
+    check();
+    return reinterpret_cast<T*>(begin_ + back_);
+  }
+
+  void next_phase() { back_ = size_; }
+  void clear() { front_ = 0, back_ = size_; }
+
+ private:
+  /// Alignment to a cache line: faces and planes, half as long, must not straddle two.
+  static constexpr std::size_t kAlignment = 64;
+  static std::size_t rounded_up(std::size_t bytes) {
+    return (bytes + kAlignment - 1) / kAlignment * kAlignment;
+  }
+  void check() const {
+    if (front_ > back_ || back_ == 0) throw std::length_error("pstripack: a workspace is too small");
+  }
+
+  explicit Workspace(Block block)
+      : block_(std::move(block)), begin_(block_.data()), size_(block_.size()), back_(size_) {
+    align();
+  }
+  void align() {
+    const std::size_t beyond = reinterpret_cast<std::uintptr_t>(begin_) % kAlignment;
+    const std::size_t skipped = std::min(size_, (kAlignment - beyond) % kAlignment);
+    begin_ += skipped;
+    back_ = size_ -= skipped;
+  }
+
+  Block block_;
+  unsigned char* begin_;
+  std::size_t size_, front_ = 0, back_;
+};
+
+}  // namespace pstripack

@@ -1,0 +1,333 @@
+#include "lists/adjacency_lists.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/parallel_for.h"
+#include "mesh/ring_table.h"
+
+namespace pstripack {
+namespace {
+
+/// LPTR from `slot` (counted from 0) on: every slot points to the next.
+template <class Int>
+inline void number_on(Int* lptr, std::size_t count, std::size_t slot) {
+  for (std::size_t j = 0; j < count; ++j) lptr[j] = static_cast<Int>(slot + j) + 2;
+}
+
+}  // namespace
+
+template <class Int>
+Int write_lists(const Hull& hull, Int* list, Int* lptr, Int* lend, Workspace& workspace) {
+  const std::size_t n = hull.node_count;
+  const int threads = threads_for(n);
+  const std::size_t pieces = static_cast<std::size_t>(threads);
+  workspace.next_phase();
+  auto* const ring_of = workspace.take<std::uint32_t>(n);  // where in `rings` the node's ring is stored
+  auto* const rings = workspace.take<Int>(7 * n + pieces * (2 * kBlock + 1));
+  std::vector<std::size_t> sums(pieces * pieces), begin_of(pieces + 1);
+
+  // Number of neighbours of the nodes of each piece: gives where its rings begin.
+  const std::size_t piece_size = n / pieces + 1;
+  if (pieces > 1)
+    parallel_pieces(hull.face_count, threads, [&](std::size_t first, std::size_t last, int thread) {
+      std::size_t* const sum = sums.data() + pieces * static_cast<std::size_t>(thread);
+      for (std::size_t t = first; t < last; ++t) {
+        if (!hull.front(t)) continue;
+        const Face& f = hull.faces[t];
+        for (std::uint32_t i = 0; i < 3; ++i)
+          sum[f.vertex[i] / piece_size] += hull.front(face_of(f.neighbour[previous_edge(i)])) ? 1 : 2;
+      }
+    });
+  for (std::size_t p = 0; p < pieces; ++p) {
+    begin_of[p + 1] = begin_of[p] + piece_size + 2 * kBlock;
+    for (std::size_t t = 0; t < pieces; ++t) begin_of[p + 1] += sums[pieces * t + p];
+  }
+
+  const Numbers<std::uint32_t, 1> number{hull.order};
+  // First pass, in the order of the hull, where the faces of a star are close together in memory: store all
+  // rings.
+  constexpr std::size_t kAhead = 16;
+  parallel_pieces(pieces, threads, [&](std::size_t piece, std::size_t, int) {
+    const std::size_t last = std::min(n, piece_size * (piece + 1));
+    append_rings(
+        hull, piece_size * piece, last, [](std::size_t) { return true; }, number,
+        [&](std::size_t v) { __builtin_prefetch(&ring_of[hull.order[v]], 1); }, rings + begin_of[piece],
+        [&](std::size_t v, const Int* place, std::uint32_t) {
+          ring_of[hull.order[v]] = static_cast<std::uint32_t>(place - rings);
+        });
+  });
+
+  // Second pass, in the order of the caller's nodes, so that the lists are written from front to back: copy
+  // the rings.
+  std::fill(begin_of.begin(), begin_of.end(), 0);
+  parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int piece) {
+    std::size_t sum = 0;
+    for (std::size_t k = first; k < last; ++k) sum += static_cast<std::size_t>(rings[ring_of[k]]);
+    begin_of[static_cast<std::size_t>(piece) + 1] = sum;
+  });
+  for (std::size_t p = 0; p < pieces; ++p) begin_of[p + 1] += begin_of[p];
+  parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int piece) {
+    std::size_t slot = begin_of[static_cast<std::size_t>(piece)];
+    const std::size_t end = begin_of[static_cast<std::size_t>(piece) + 1];
+    for (std::size_t k = first; k < last; ++k) {
+      if (k + kAhead < last) __builtin_prefetch(rings + ring_of[k + kAhead]);
+      const Ring<Int> ring = ring_at<Int>(rings + ring_of[k]);
+      const Int* const from = ring.begin;
+      if (ring.count <= kBlock && slot + kBlock <= end) {
+        copy_block(from, list + slot);
+        number_on(lptr + slot, kBlock, slot);
+      } else {
+        std::copy(from, from + ring.count, list + slot);
+        number_on(lptr + slot, ring.count, slot);
+      }
+      lptr[slot + ring.count - 1] = static_cast<Int>(slot) + 1;
+      slot += ring.count;
+      lend[k] = static_cast<Int>(slot);
+    }
+  });
+  return static_cast<Int>(begin_of[pieces]) + 1;
+}
+
+namespace {
+
+Verdict malformed(const std::string& what, std::size_t node) {
+  Verdict v;
+  v.defect = Defect::malformed;
+  v.node[0] = static_cast<index_t>(node);
+  v.message = "node " + std::to_string(node + 1) + ": " + what;
+  return v;
+}
+
+template <class Int>
+std::size_t absolute(Int v) {
+  return static_cast<std::size_t>(v < 0 ? -v : v);
+}
+
+/// Calls visit(b, c) for each neighbour b of node k (from 0), in order, and its successor c; both indices
+/// from 0. The last neighbour of a boundary node has no successor.
+template <class Int, class Visit>
+void for_each_triangle_at(const ListsView<Int>& lists, std::size_t k, const Visit& visit) {
+  const Int last = lists.lend[k];
+  Int slot = last;
+  do {
+    const Int next = lists.lptr[slot - 1];
+    if (lists.list[slot - 1] > 0)
+      visit(absolute(lists.list[slot - 1]) - 1, absolute(lists.list[next - 1]) - 1);
+    slot = next;
+  } while (slot != last);
+}
+
+/// Finds a neighbour's position in a star: by search in short stars, else by a sorted table.
+class Places {
+ public:
+  explicit Places(const StarTable& stars) : stars_(stars) {
+    for (std::size_t v = 0; v < stars.size(); ++v) {
+      const std::uint32_t begin = stars.begin[v], end = stars.begin[v + 1];
+      if (end - begin <= kFew) continue;
+      hubs_.push_back({v, entries_.size()});
+      for (std::uint32_t i = begin; i < end; ++i) entries_.push_back({neighbour(i), i});
+      std::sort(entries_.begin() + static_cast<std::ptrdiff_t>(hubs_.back().entries), entries_.end());
+    }
+  }
+
+  index_t neighbour(std::uint32_t i) const { return stars_.to[i] < 0 ? ~stars_.to[i] : stars_.to[i]; }
+
+  /// The first position of `wanted` in the star of v, or the end of the star.
+  std::uint32_t find(index_t v, index_t wanted) const {
+    const auto s = static_cast<std::size_t>(v);
+    std::uint32_t i = stars_.begin[s];
+    const std::uint32_t end = stars_.begin[s + 1];
+    if (end - i <= kFew) {
+      while (i < end && neighbour(i) != wanted) ++i;
+      return i;
+    }
+    const auto [first, last] = entries_of(s);
+    const Entry* const entry = std::lower_bound(first, last, Entry{wanted, 0});
+    return entry != last && entry->first == wanted ? entry->second : end;
+  }
+
+  bool has_one_twice(std::size_t v) const {
+    const std::uint32_t begin = stars_.begin[v], end = stars_.begin[v + 1];
+    if (end - begin > kFew) {
+      const auto [first, last] = entries_of(v);
+      return std::adjacent_find(first, last,
+                                [](const Entry& a, const Entry& b) { return a.first == b.first; }) != last;
+    }
+    for (std::uint32_t i = begin; i < end; ++i)
+      for (std::uint32_t j = begin; j < i; ++j)
+        if (neighbour(i) == neighbour(j)) return true;
+    return false;
+  }
+
+ private:
+  static constexpr std::uint32_t kFew = 24;
+  using Entry = std::pair<index_t, std::uint32_t>;
+  struct Hub {
+    std::size_t node, entries;
+  };
+
+  std::pair<const Entry*, const Entry*> entries_of(std::size_t v) const {
+    const auto hub = std::lower_bound(hubs_.begin(), hubs_.end(), v,
+                                      [](const Hub& h, std::size_t node) { return h.node < node; });
+    const Entry* const first = entries_.data() + hub->entries;
+    return {first, first + (stars_.begin[v + 1] - stars_.begin[v])};
+  }
+
+  const StarTable& stars_;
+  std::vector<Hub> hubs_;
+  std::vector<Entry> entries_;
+};
+
+/// The neighbours of all nodes in the order of the lists, if these are closed and use exactly the slots
+/// 1..LNEW-1.
+template <class Int>
+Verdict read_stars(const ListsView<Int>& lists, StarTable& stars) {
+  const std::size_t n = lists.n;
+  const std::size_t most = 6 * n - 12;
+  if (lists.lnew != 0 && (lists.lnew < 1 || static_cast<std::size_t>(lists.lnew) > most + 1))
+    return malformed("LNEW is out of range", 0);
+  const std::size_t slots = lists.lnew != 0 ? static_cast<std::size_t>(lists.lnew) - 1 : most;
+  const auto in_range = [](Int v, std::size_t last) { return v >= 1 && static_cast<std::size_t>(v) <= last; };
+
+  std::vector<bool> visited(slots + 1, false);
+  std::uint32_t end = 0;
+  stars.begin[0] = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const Int last = lists.lend[k];
+    if (!in_range(last, slots)) return malformed("LEND is out of range", k);
+    Int slot = last;
+    do {
+      slot = lists.lptr[slot - 1];
+      if (!in_range(slot, slots)) return malformed("LPTR is out of range", k);
+      if (visited[static_cast<std::size_t>(slot)])
+        return malformed("a slot is in two lists, or a list is not closed", k);
+      visited[static_cast<std::size_t>(slot)] = true;
+      const Int b = lists.list[slot - 1];
+      if (b < 0 && slot != last) return malformed("a negative neighbour that is not the last", k);
+      if (b < -std::numeric_limits<Int>::max() || !in_range(b < 0 ? -b : b, n) || absolute(b) == k + 1)
+        return malformed("a neighbour is out of range", k);
+      stars.to[end++] = b < 0 ? static_cast<index_t>(b) : static_cast<index_t>(b - 1);  // ~(|b|-1) == b
+    } while (slot != last);
+    stars.begin[k + 1] = end;
+    if (end - stars.begin[k] < 2) return malformed("fewer than two neighbours", k);
+  }
+  // Exactly the slots 1..LNEW-1; if LNEW is not known, without gaps.
+  if (lists.lnew != 0 && end != slots)
+    return malformed("LNEW does not match the number of neighbours", n - 1);
+  for (std::size_t s = 1; s <= end; ++s)
+    if (!visited[s]) return malformed("slots in use are not 1..LNEW-1", n - 1);
+  return {};
+}
+
+/// True if the stars agree with each other.
+Verdict check_stars(const StarTable& stars) {
+  constexpr std::size_t kAhead = 8;
+  const Places places(stars);
+  for (std::size_t k = 0; k < stars.size(); ++k) {
+    if (k + kAhead < stars.size())
+      for (std::uint32_t i = stars.begin[k + kAhead]; i < stars.begin[k + kAhead + 1]; ++i)
+        __builtin_prefetch(&stars.begin[static_cast<std::size_t>(places.neighbour(i))]);
+    if (k + kAhead / 2 < stars.size())
+      for (std::uint32_t i = stars.begin[k + kAhead / 2]; i < stars.begin[k + kAhead / 2 + 1]; ++i)
+        __builtin_prefetch(&stars.to[stars.begin[static_cast<std::size_t>(places.neighbour(i))]]);
+    if (places.has_one_twice(k)) return malformed("a neighbour twice", k);
+    const std::uint32_t begin = stars.begin[k], end = stars.begin[k + 1];
+    for (std::uint32_t i = begin; i < end; ++i) {
+      const auto b = static_cast<std::size_t>(places.neighbour(i));
+      const std::uint32_t b_begin = stars.begin[b], b_end = stars.begin[b + 1];
+      const std::uint32_t place = places.find(static_cast<index_t>(b), static_cast<index_t>(k));
+      if (stars.to[i] < 0) {
+        // The last neighbour of a boundary node follows it on the boundary the other way round.
+        if (stars.to[b_end - 1] >= 0 || place != b_begin)
+          return malformed("its last neighbour is not the boundary node before it", k);
+        continue;
+      }
+      // c follows b in k's list, so k must follow c in b's list.
+      const index_t c = places.neighbour(i + 1 == end ? begin : i + 1);
+      const std::uint32_t before = place == b_begin ? b_end - 1 : place - 1;
+      if (place == b_end || stars.to[before] != c)
+        return malformed("neighbours " + std::to_string(b + 1) + ", " + std::to_string(c + 1) +
+                             " make no triangle in the list of the first",
+                         k);
+    }
+  }
+  return {};
+}
+
+/// check_lists; stores the stars of valid lists in `stars`.
+template <class Int>
+Verdict stars_of(const ListsView<Int>& lists, std::optional<StarTable>& stars) {
+  if (lists.n < 3) return malformed("fewer than three nodes", 0);
+  stars.emplace(lists.n, 6 * lists.n - 12);
+  if (Verdict v = read_stars(lists, *stars); !v) return v;
+  return check_stars(*stars);
+}
+
+}  // namespace
+
+template <class Int>
+Verdict check_lists(const ListsView<Int>& lists) {
+  std::optional<StarTable> stars;
+  return stars_of(lists, stars);
+}
+
+template <class Int>
+Verdict check_topology(const ListsView<Int>& lists) {
+  std::optional<StarTable> stars;
+  if (Verdict v = stars_of(lists, stars); !v) return v;
+  return check_surface(*stars);
+}
+
+template <class Int>
+bool lists_are_canonical(const ListsView<Int>& lists) {
+  Int slot = 1;
+  for (std::size_t k = 0; k < lists.n; ++k) {
+    const Int first = slot, last = lists.lend[k];
+    if (last < first) return false;
+    for (; slot < last; ++slot)
+      if (lists.lptr[slot - 1] != slot + 1) return false;
+    if (lists.lptr[last - 1] != first) return false;
+    if (lists.list[last - 1] > 0 &&
+        *std::min_element(lists.list + first - 1, lists.list + last) != lists.list[first - 1])
+      return false;
+    ++slot;
+  }
+  return lists.lnew == 0 || lists.lnew == slot;
+}
+
+template <class Int>
+Triangles triangles_of(const ListsView<Int>& lists) {
+  Triangles triangles;
+  triangles.reserve(2 * lists.n);
+  for (std::size_t k = 0; k < lists.n; ++k)
+    for_each_triangle_at(lists, k, [&](std::size_t b, std::size_t c) {
+      if (k < b && k < c)
+        triangles.push_back({static_cast<index_t>(k), static_cast<index_t>(b), static_cast<index_t>(c)});
+    });
+  return triangles;
+}
+
+template <class Int>
+Verdict is_valid(const Point* p, const ListsView<Int>& lists, Lengths lengths, Ties ties) {
+  std::optional<StarTable> stars;
+  if (Verdict v = stars_of(lists, stars); !v) return v;
+  return is_valid(p, *stars, lengths, ties);
+}
+
+#define PSTRIPACK_INSTANTIATE(Int)                                     \
+  template Int write_lists(const Hull&, Int*, Int*, Int*, Workspace&); \
+  template Verdict check_lists(const ListsView<Int>&);                 \
+  template Verdict check_topology(const ListsView<Int>&);              \
+  template bool lists_are_canonical(const ListsView<Int>&);            \
+  template Triangles triangles_of(const ListsView<Int>&);              \
+  template Verdict is_valid(const Point*, const ListsView<Int>&, Lengths, Ties);
+PSTRIPACK_INSTANTIATE(std::int32_t)
+#undef PSTRIPACK_INSTANTIATE
+
+}  // namespace pstripack

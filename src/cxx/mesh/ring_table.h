@@ -1,0 +1,168 @@
+#pragma once
+// The ring of a node: its neighbours in the order of STRIPACK's lists, read off a hull.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+#include "mesh/delaunay.h"
+
+namespace pstripack {
+
+/// Rings of up to this many neighbours are copied as one block of fixed length, because the length of a loop
+/// would be mispredicted. The next ring overwrites the excess. The mean is six neighbours.
+constexpr std::size_t kBlock = 8;
+
+template <class Int>
+void copy_block(const Int* from, Int* to) {
+  std::memcpy(to, from, kBlock * sizeof(Int));
+}
+
+/// Numbers of hull nodes, from a table of numbers minus kOffset.
+template <class Int, std::int64_t kOffset>
+struct Numbers {
+  const Int* table;
+  std::int64_t operator()(std::uint32_t v) const { return table[v] + kOffset; }
+  void prefetch(std::uint32_t v) const { __builtin_prefetch(table + v); }
+};
+
+/// Appends the ring of one hull node as it will stand in LIST; returns the new end. `corner` is 4*t + i: the
+/// node is vertex[i] of face t; number(v) is the number of hull node v, from 1.
+///
+///            f.vertex[previous]           The face t = (v, next, previous). Its neighbour across the edge
+///             /      |                    v - previous, which lies opposite `next`, follows
+///      beyond       |  t                  counterclockwise. `code` is 4*t + i of `next`.
+///             \      |
+///              v ------ f.vertex[next]
+template <class Int, class Number>
+Int* append_ring(const Hull& hull, std::uint32_t corner, const Number& number, Int* const begin) {
+  Int* out = begin;
+  const std::uint32_t first = next_code(corner);
+  std::uint32_t code = first;
+  do {
+    *out++ = static_cast<Int>(number(*hull.word(code)));
+    const std::uint32_t beyond = hull.word(code)[4];
+    if (!hull.front(face_of(beyond))) {  // the boundary: its last node closes the list
+      *out++ = -static_cast<Int>(number(*hull.word(next_code(code))));
+      return out;
+    }
+    code = previous_code(beyond);
+  } while (code != first);
+  std::rotate(begin, std::min_element(begin, out), out);
+  return out;
+}
+
+/// The same for an inner node with up to kBlock neighbours; null if it has more. Otherwise writes kBlock
+/// entries.
+template <class Int, class Number>
+Int* append_short_ring(const Hull& hull, std::uint32_t corner, const Number& number, Int* begin) {
+  const std::uint32_t first = next_code(corner);
+  std::uint32_t code = first, count = 0, at = 0;
+  Int ring[kBlock], twice[2 * kBlock], smallest = std::numeric_limits<Int>::max();
+  do {
+    const std::uint32_t* const word = hull.word(code);
+    const Int neighbour = static_cast<Int>(number(word[0]));
+    at = neighbour < smallest ? count : at;
+    smallest = neighbour < smallest ? neighbour : smallest;
+    if (count == kBlock) return nullptr;
+    ring[count++] = neighbour;
+    code = previous_code(word[4]);
+  } while (code != first);
+  copy_block(ring, twice);
+  copy_block(ring, twice + count);
+  copy_block(twice + at, begin);
+  return begin + count;
+}
+
+/// A stored ring: its number of entries, then the entries.
+template <class Int>
+struct Ring {
+  const Int* begin;
+  std::uint32_t count;
+};
+template <class Int>
+Ring<Int> ring_at(const Int* place) {
+  return {place + 1, static_cast<std::uint32_t>(*place)};
+}
+
+/// Copies a stored ring; returns the end. Reads and writes up to kBlock entries beyond it.
+template <class Int>
+Int* copy_kept_ring(const Int* place, Int* to) {
+  const std::size_t entries = 1 + static_cast<std::size_t>(*place);
+  copy_block(place, to);
+  if (entries > kBlock) std::copy(place + kBlock, place + entries, to + kBlock);
+  return to + entries;
+}
+
+/// The rings of nodes 0..size-1, wherever they are stored.
+template <class Int>
+class RingTable {
+ public:
+  RingTable() = default;
+  /// The ring of node i is stored at place[position[i]]; size_class[position[i]] is its size_class_of(count).
+  RingTable(std::size_t size, const std::uint32_t* position, const Int* const* place,
+            const std::uint8_t* size_class)
+      : size_(size), position_(position), place_(place), size_class_(size_class) {}
+
+  static constexpr std::uint8_t kMany = 255;
+  static std::uint8_t size_class_of(std::uint32_t count) {
+    return static_cast<std::uint8_t>(std::min<std::uint32_t>(count, kMany));
+  }
+  /// The entries of the ring at `place`, usually without reading its count.
+  static std::size_t count_of(const Int* place, std::uint8_t size_class) {
+    return size_class < kMany ? size_class : ring_at(place).count;
+  }
+
+  std::size_t size() const { return size_; }
+  Ring<Int> operator[](std::size_t i) const { return ring_at(place_[position_[i]]); }
+  /// Prefetches ring i before it is read.
+  void prefetch(std::size_t i) const {
+    const Int* const place = place_[position_[i]];
+    __builtin_prefetch(place);
+    __builtin_prefetch(place + 6);  // most rings have six entries, which may lie in two lines
+  }
+  /// Number of entries of the rings first..last-1.
+  std::size_t arcs(std::size_t first, std::size_t last) const {
+    std::size_t sum = 0;
+    for (std::size_t i = first; i < last; ++i) {
+      const std::uint32_t k = position_[i];
+      sum += count_of(place_[k], size_class_[k]);
+    }
+    return sum;
+  }
+  std::size_t arcs() const { return arcs(0, size_); }
+
+ private:
+  std::size_t size_ = 0;
+  const std::uint32_t* position_ = nullptr;
+  const Int* const* place_ = nullptr;
+  const std::uint8_t* size_class_ = nullptr;  ///< small, so that sums need not touch the rings
+};
+
+/// Appends the stored rings of those hull nodes first..last-1 that are wanted(v). Calls visit(v, place,
+/// count) for each, and ahead(w) for later nodes w to prefetch. Writes up to 2*kBlock entries beyond the end.
+template <class Int, class Wanted, class Number, class Ahead, class Visit>
+void append_rings(const Hull& hull, std::size_t first, std::size_t last, const Wanted& wanted,
+                  const Number& number, const Ahead& ahead, Int* out, const Visit& visit) {
+  constexpr std::size_t kAhead = 10;
+  for (std::size_t v = first; v < last; ++v) {
+    if (v + 2 * kAhead < last) {
+      ahead(v + 2 * kAhead);
+      __builtin_prefetch(&hull.faces[face_of(hull.corner[v + 2 * kAhead])]);
+      const Face& soon = hull.faces[face_of(hull.corner[v + kAhead])];
+      for (int i = 0; i < 3; ++i) __builtin_prefetch(&hull.faces[face_of(soon.neighbour[i])]);
+      for (int i = 0; i < 3; ++i) number.prefetch(soon.vertex[i]);
+    }
+    if (!wanted(v)) continue;
+    Int* const place = out;
+    out = hull.inner(v) ? append_short_ring(hull, hull.corner[v], number, place + 1) : nullptr;
+    if (out == nullptr) out = append_ring(hull, hull.corner[v], number, place + 1);
+    const auto count = static_cast<std::uint32_t>(out - place - 1);
+    *place = static_cast<Int>(count);
+    visit(v, place, count);
+  }
+}
+
+}  // namespace pstripack

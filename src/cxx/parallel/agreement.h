@@ -1,0 +1,131 @@
+#pragma once
+// How ranks agree: on whether all of them could do something, and on what holds for all of them together.
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+#include "parallel/communicator.h"
+
+namespace pstripack {
+
+// Votes: what ranks agree on, each as a number of which the smallest of all ranks tells what holds for all.
+
+/// True if it is true on any rank.
+struct OnAny {
+  bool value = false;
+  std::int64_t encode() const { return value ? -1 : 0; }
+  void decode(std::int64_t least) { value = least != 0; }
+};
+
+/// True if it is true on all ranks.
+struct OnAll {
+  bool value = true;
+  std::int64_t encode() const { return value ? 1 : 0; }
+  void decode(std::int64_t least) { value = least != 0; }
+};
+
+struct Smallest {
+  static constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
+  std::int64_t value = kNone;
+  bool exists() const { return value != kNone; }
+  std::int64_t encode() const { return value; }
+  void decode(std::int64_t least) { value = least; }
+};
+
+struct Largest {
+  std::int64_t value = 0;
+  std::int64_t encode() const { return ~value; }
+  void decode(std::int64_t least) { value = ~least; }
+};
+
+/// Of numbers that are not negative.
+struct LargestReal {
+  double value = 0;
+  std::int64_t encode() const {  // the bits of such numbers are in their order
+    std::int64_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    return ~bits;
+  }
+  void decode(std::int64_t least) {
+    const std::int64_t bits = ~least;
+    std::memcpy(&value, &bits, sizeof value);
+  }
+};
+
+/// Rank 0's.
+template <class Value>
+struct OfRank0 {
+  OfRank0(const Communicator& ranks, Value v) : value(v), counts(ranks.rank() == 0) {}
+  Value value;
+  bool counts;
+  std::int64_t encode() const { return counts ? static_cast<std::int64_t>(value) : Smallest::kNone; }
+  void decode(std::int64_t least) { value = static_cast<Value>(least); }
+};
+
+/// How something ended. Most negative: that of a failure; else a hidden node, which is no failure.
+class Outcome {
+ public:
+  template <class Body>
+  static Outcome of(const Body& body) {
+    Outcome outcome;
+    try {
+      body();
+    } catch (...) {
+      outcome.code_ = code_of_current();
+    }
+    return outcome;
+  }
+  /// For Communicator::exchange().
+  std::int32_t code() const { return code_; }
+  static Outcome of_code(std::int32_t code) {
+    Outcome outcome;
+    outcome.code_ = code;
+    return outcome;
+  }
+  bool is_good() const { return code_ == 0; }
+  /// Returns if it is good. Throws HiddenNode or AgreedFailure.
+  void accept() const;
+
+  std::int64_t encode() const { return code_; }
+  void decode(std::int64_t least) { code_ = static_cast<std::int32_t>(least); }
+
+ private:
+  static std::int32_t code_of_current();
+  std::int32_t code_ = 0;
+};
+
+/// The votes become those of all ranks together. Collective.
+template <class... Votes>
+void agree(Communicator& ranks, Votes&... votes) {
+  std::int64_t all[] = {votes.encode()...};
+  ranks.all_min(all, sizeof...(Votes));
+  const std::int64_t* least = all;
+  (votes.decode(*least++), ...);
+}
+
+/// Runs body() on every rank and agrees on how it ended: returns if it returned everywhere, else throws the
+/// same on every rank, AgreedFailure or HiddenNode. On the way it agrees on the votes as they are after
+/// body(). Collective.
+template <class Body, class... Votes>
+void in_agreement(Communicator& ranks, const Body& body, Votes&... votes) {
+  Outcome outcome = Outcome::of(body);
+  agree(ranks, outcome, votes...);
+  outcome.accept();
+}
+
+/// Exchanges what body() returns, and agrees on how it ended on the way. Collective.
+template <class Body>
+Parcels exchange_in_agreement(Communicator& ranks, const Body& body) {
+  Parcels outgoing;
+  const Outcome outcome = Outcome::of([&] { outgoing = body(); });
+  try {
+    return ranks.exchange(outgoing, outcome.code());
+  } catch (const AgreedFailure& failure) {
+    Outcome::of_code(failure.code).accept();
+    throw;
+  }
+}
+
+}  // namespace pstripack

@@ -1,0 +1,42 @@
+#pragma once
+// The second phase: every node goes to its patch and to those that have it in their halo.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "base/workspace.h"
+#include "parallel/agreement.h"
+#include "parallel/divide.h"
+
+namespace pstripack {
+
+/// Where the rings of nodes belong: in a table, first those of this rank's nodes in the patches of other
+/// ranks, patch by patch, then those of all own nodes of each patch here.
+struct ReturnAddresses {
+  std::vector<std::size_t> away_begin;  ///< of each patch of all
+  std::vector<std::size_t> own_begin;   ///< of each patch here; then the end of the table
+  std::vector<std::vector<std::size_t>>
+      own_from;  ///< [patch here][rank]: its own nodes that the rank brought
+  std::unique_ptr<Workspace> memory;
+  std::uint32_t* position = nullptr;  ///< of each of this rank's nodes in the table
+};
+
+/// What the patches of this rank know.
+struct Delivery {
+  struct PatchNodes {
+    const Record* first;
+    std::size_t own, halo;  ///< own nodes in the order of the ranks that brought them, then the halo
+  };
+  std::vector<PatchNodes> of_patch;
+  std::unique_ptr<Workspace> memory;
+  ReturnAddresses addresses;
+  Outcome outcome;       ///< here: the next agreement has to accept it
+  bool gave_up = false;  ///< then there is nothing else
+};
+
+/// Collective. Throws AgreedFailure.
+Delivery deliver(const LocalNodes& nodes, const Division& division, Communicator& ranks, int threads);
+
+}  // namespace pstripack

@@ -1,0 +1,167 @@
+#include "parallel/divide.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+
+#include "geometry/insertion_order.h"
+#include "parallel/agreement.h"
+#include "parallel/patch.h"
+#include "parallel/sample.h"
+
+namespace pstripack {
+namespace {
+
+constexpr std::size_t kClosingNodes = 256;
+// Whether patches can be kept is judged by so many nodes of a rank; so many more than its share do not
+// matter.
+constexpr std::size_t kLookedAt = 256, kCloselyEnough = 64;
+
+/// What a rank brings, told to all in one number.
+struct Headcount {
+  std::size_t nodes;  ///< < 2^29
+  int patches;        ///< < 2^30
+  bool are_at_home;   ///< the last call's patches are known, and nearly all of its nodes are in those here
+
+  std::int64_t encode() const {
+    return static_cast<std::int64_t>(nodes) | std::int64_t{patches} << 32 | std::int64_t{are_at_home} << 62;
+  }
+  static Headcount decode(std::int64_t h) {
+    return {static_cast<std::size_t>(h & 0xffffffff), static_cast<int>(h >> 32 & 0x3fffffff), h >> 62 != 0};
+  }
+};
+
+bool most_are_at_home(const LocalNodes& nodes, const Homes& homes, int me) {
+  const std::size_t step = nodes.count / kLookedAt + 1;
+  std::size_t looked_at = 0, away = 0;
+  for (std::size_t i = 0; i < nodes.count; i += step, ++looked_at) away += homes.rank(nodes.points[i]) != me;
+  return 16 * away <= looked_at;
+}
+
+/// What the ranks bring, and the sample to which each has written its share.
+struct Supply {
+  std::size_t nodes = 0;      ///< of all ranks
+  bool keeps_patches = true;  ///< of the last call
+  BlockArray<Record> sample;
+  std::vector<std::size_t> begin;     ///< bytes of the sample that the ranks bring
+  std::vector<std::int64_t> counter;  ///< room for those of cut_anew
+};
+
+Supply take_stock(const LocalNodes& nodes, const PatchRanges& patches, const std::vector<Headcount>& heads,
+                  const Division& division, std::size_t me, const ParallelOptions& options) {
+  Supply supply;
+  for (const Headcount& h : heads) {
+    supply.nodes += h.nodes;
+    supply.keeps_patches = supply.keeps_patches && h.are_at_home;
+  }
+  const auto all_patches = static_cast<std::size_t>(patches.count());
+  const auto has_its_share = [&](const Headcount& h) {
+    const std::size_t share = supply.nodes / all_patches * static_cast<std::size_t>(h.patches);
+    return h.nodes <= share + share / 8 + kCloselyEnough;
+  };
+  supply.keeps_patches = supply.keeps_patches &&
+                         options.last->are_for(options.partition, patches, division.places.lengths()) &&
+                         std::all_of(heads.begin(), heads.end(), has_its_share);
+  const std::size_t wanted =
+      supply.keeps_patches ? std::min(supply.nodes, kClosingNodes) : sample_size(supply.nodes, all_patches);
+  supply.begin.assign(1, 0);
+  for (const Headcount& h : heads)
+    supply.begin.push_back(supply.begin.back() +
+                           share_of_sample(h.nodes, wanted, supply.nodes) * sizeof(Record));
+  supply.sample = BlockArray<Record>(supply.begin.back() / sizeof(Record));
+  write_share(nodes, share_of_sample(nodes.count, wanted, supply.nodes),
+              supply.sample.data() + supply.begin[me] / sizeof(Record));
+  supply.counter.resize(Cuts::counters(patches.count()));
+  return supply;
+}
+
+/// Patches with equal numbers of nodes, as far as a sample and counts can tell: the outcome here, which is
+/// not agreed on yet. A rank that fails counts nothing from there on.
+Outcome cut_anew(const LocalNodes& nodes, Supply& supply, PartitionKind kind, Communicator& ranks,
+                 Division& division) {
+  const int patches = division.patches.count();
+  const bool is_bisection = kind == PartitionKind::bisection;
+  std::vector<Point> places;
+  std::optional<Cuts> cuts;
+  Outcome outcome = Outcome::of([&] {
+    places.reserve(supply.sample.size());
+    for (const Record& r : supply.sample) places.push_back(division.places(r.point));
+    if (is_bisection)
+      cuts.emplace(patches, places,
+                   places_to_count(nodes, supply.nodes, static_cast<std::size_t>(patches), division.places));
+  });
+  for (int level = 0; is_bisection && level < Cuts::levels(patches); ++level) {
+    std::fill(supply.counter.begin(), supply.counter.end(), 0);
+    if (outcome.is_good()) outcome = Outcome::of([&] { cuts->cut(); });
+    if (outcome.is_good()) cuts->count(supply.counter.data());
+    ranks.all_sum(supply.counter.data(), supply.counter.size());
+    if (outcome.is_good()) cuts->move(supply.counter.data());
+  }
+  if (!outcome.is_good()) return outcome;
+  return Outcome::of([&] {
+    division.partition = cuts ? std::make_shared<Partition>(*cuts, std::move(places), supply.nodes)
+                              : std::make_shared<Partition>(kind, patches, std::move(places), supply.nodes);
+  });
+}
+
+/// About `most` of the sample and those given, each once.
+std::vector<Record> some_of(BlockArray<Record>& sample, std::size_t most, std::vector<Record> some = {}) {
+  const std::size_t step = sample.size() / most + 1;
+  for (std::size_t k = 0; k < sample.size(); k += step) some.push_back(sample[k]);
+  keep_one_of_each(some);
+  return some;
+}
+
+/// Some of the sample and the corners along a curve.
+std::vector<Record> closing_nodes(BlockArray<Record>& sample, const Corners& corners) {
+  const std::vector<Record> some = some_of(sample, kClosingNodes, {corners.begin(), corners.end()});
+  Workspace workspace(16 * some.size());
+  std::vector<std::uint32_t> order(some.size());
+  insertion_order(&some[0].point, some.size(), order.data(), workspace, sizeof(Record));
+  std::vector<Record> closing;
+  for (const std::uint32_t k : order) closing.push_back(some[k]);
+  return closing;
+}
+
+}  // namespace
+
+Division divide(const LocalNodes& nodes, const Corners& corners, const Places& places, Communicator& ranks,
+                const ParallelOptions& options) {
+  const auto me = static_cast<std::size_t>(ranks.rank()), size = static_cast<std::size_t>(ranks.size());
+  Division division(places);
+  Supply supply;
+  const bool at_home =
+      options.last != nullptr && most_are_at_home(nodes, *options.last, static_cast<int>(me));
+  const std::int64_t* const encoded =
+      ranks.all_gather_one(Headcount{nodes.count, options.patches, at_home}.encode());
+  in_agreement(ranks, [&] {
+    std::vector<Headcount> heads;
+    for (std::size_t r = 0; r < size; ++r) {
+      heads.push_back(Headcount::decode(encoded[r]));
+      division.patches.add(heads.back().patches);
+    }
+    supply = take_stock(nodes, division.patches, heads, division, me, options);
+  });
+  ranks.all_gather_in_place(supply.sample.data(), supply.begin);
+  Outcome outcome;
+  if (supply.keeps_patches)
+    division.partition = options.last->partition();
+  else
+    outcome = cut_anew(nodes, supply, options.partition, ranks, division);
+  in_agreement(ranks, [&] {
+    outcome.accept();
+    const auto patches = static_cast<std::size_t>(division.patches.count());
+    division.may_give_up = size == 1 && patches > 1 && options.most_questions < nodes.count;
+    division.gave_up = division.may_give_up &&
+                       !patches_know_most(some_of(supply.sample, 256 * patches), *division.partition, places);
+    if (division.gave_up) return;
+    division.closing = closing_nodes(supply.sample, corners);
+    // Worth it where it spares a look at more triangles than it takes time for.
+    constexpr std::size_t kManyInAPatch = 50000;
+    if (supply.nodes / patches > kManyInAPatch)
+      division.most_stretch = most_stretch(division.closing, places);
+  });
+  return division;
+}
+
+}  // namespace pstripack

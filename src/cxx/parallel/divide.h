@@ -1,0 +1,102 @@
+#pragma once
+// The first phase: a sample of the nodes, the same on every rank, and counts near the cuts cut the sphere
+// into patches.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "parallel/communicator.h"
+#include "parallel/local_nodes.h"
+#include "parallel/partition.h"
+#include "parallel/places.h"
+#include "parallel/record.h"
+
+namespace pstripack {
+
+class Homes;
+
+struct ParallelOptions {
+  PartitionKind partition = PartitionKind::bisection;
+  int patches = 1;  ///< of this rank; may differ from rank to rank
+  int threads = 1;  ///< of this rank
+  /// Fill Stars::outside, and let the stars hold little memory beside their own.
+  bool with_neighbours = false;
+  /// Of a single rank: give up if the patches have more questions, or nodes on what they take for the
+  /// boundary, than this, since one patch would be faster.
+  std::size_t most_questions = SIZE_MAX;
+  /// Of an earlier call on these ranks, on all of them or none: its patches are kept if nearly all nodes are
+  /// where they belong in them, in equal numbers. Then nodes that were sent home are at home.
+  const Homes* last = nullptr;
+};
+
+/// Three nodes that are not on one great circle, the same on every rank.
+using Corners = std::array<Record, 3>;
+
+/// Which patches each rank has, counted through all ranks.
+class PatchRanges {
+ public:
+  /// So many of the next rank.
+  void add(int patches) {
+    if (first_.empty()) first_.push_back(0);
+    first_.push_back(first_.back() + patches);
+  }
+
+  int count() const { return first_.back(); }
+  int first(std::size_t rank) const { return first_[rank]; }
+  int end(std::size_t rank) const { return first_[rank + 1]; }
+  std::size_t count(std::size_t rank) const { return static_cast<std::size_t>(end(rank) - first(rank)); }
+  std::size_t rank_of(int patch) const {
+    return static_cast<std::size_t>(std::upper_bound(first_.begin(), first_.end(), patch) - first_.begin()) -
+           1;
+  }
+  bool operator==(const PatchRanges& other) const { return first_ == other.first_; }
+
+ private:
+  std::vector<int> first_;  ///< of each rank, and the end; no memory before ranks can agree on it
+};
+
+/// The sphere cut into patches. The same on every rank.
+struct Division {
+  explicit Division(const Places& p) : places(p) {}
+  Places places;
+  PatchRanges patches;
+  std::shared_ptr<const Partition> partition;
+  std::vector<Record> closing;                                    ///< nodes from everywhere
+  double most_stretch = std::numeric_limits<double>::infinity();  ///< of the closing nodes, if computed
+  bool may_give_up =
+      false;             ///< one process, whose caller has another way: questions to itself would only cost
+  bool gave_up = false;  ///< then there is nothing else
+};
+
+/// Which rank is home to a place: where its patch is.
+class Homes {
+ public:
+  Homes(const Division& division, PartitionKind kind)
+      : partition_(division.partition), kind_(kind), patches_(division.patches), places_(division.places) {}
+
+  const std::shared_ptr<const Partition>& partition() const { return partition_; }
+  /// True if a call could have these patches, so many on each rank, for nodes in such places. Lengths are as
+  /// given where they are about one: then the places are nearly those of directions.
+  bool are_for(PartitionKind kind, const PatchRanges& patches, Lengths lengths) const {
+    return kind == kind_ && patches == patches_ &&
+           (lengths == Lengths::as_given || lengths == places_.lengths());
+  }
+  int rank(const Point& p) const { return static_cast<int>(patches_.rank_of(partition_->owner(places_(p)))); }
+
+ private:
+  std::shared_ptr<const Partition> partition_;
+  PartitionKind kind_;
+  PatchRanges patches_;
+  Places places_;
+};
+
+/// Collective. Throws AgreedFailure.
+Division divide(const LocalNodes& nodes, const Corners& corners, const Places& places, Communicator& ranks,
+                const ParallelOptions& options);
+
+}  // namespace pstripack

@@ -1,0 +1,46 @@
+#pragma once
+// The third phase: every patch triangulates its own nodes, its halo and a few nodes from everywhere.
+
+#include <cstddef>
+#include <exception>
+#include <memory>
+#include <vector>
+
+#include "base/parallel_for.h"
+#include "parallel/agreement.h"
+#include "parallel/deliver.h"
+#include "parallel/divide.h"
+#include "parallel/patch.h"
+
+namespace pstripack {
+
+/// The triangulations of this rank's patches.
+template <class Int>
+struct Patches {
+  std::vector<Patch<Int>> of_rank;
+  std::unique_ptr<Workspace> memory;
+  OnAny see_coincidence;  ///< a patch of any rank: nodes that coincide
+
+  /// body(patch, k) for every patch of this rank, on so many threads. Throws what a body threw.
+  template <class Body>
+  void for_each(int threads, const Body& body) {
+    std::vector<std::exception_ptr> errors(of_rank.size());
+    parallel_tasks(static_cast<int>(of_rank.size()), threads, [&](int task) {
+      const auto k = static_cast<std::size_t>(task);
+      try {
+        body(of_rank[k], k);
+      } catch (...) {
+        errors[k] = std::current_exception();
+      }
+    });
+    for (const auto& e : errors)
+      if (e) std::rethrow_exception(e);
+  }
+};
+
+/// Collective. Throws AgreedFailure or HiddenNode.
+template <class Int>
+Patches<Int> triangulate_patches(const Delivery& delivery, const Division& division, Communicator& ranks,
+                                 int threads);
+
+}  // namespace pstripack

@@ -1,0 +1,181 @@
+#include "parallel/return_rings.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace pstripack {
+namespace {
+
+/// Where the rings are that belong to the addresses.
+template <class Int>
+struct Table {
+  std::unique_ptr<Workspace> memory;
+  const Int** place = nullptr;
+  std::uint8_t* size_class = nullptr;
+
+  void make_room(std::size_t rings) {
+    memory = std::make_unique<Workspace>(rings * (sizeof *place + sizeof *size_class));
+    place = memory->template keep<const Int*>(rings);
+    size_class = memory->template keep<std::uint8_t>(rings);
+  }
+};
+
+/// Writes the rings of the own nodes of all patches here: where these are, or, if `apart`, into memory of
+/// their own, which is returned: the stars stay, the hulls go.
+template <class Int>
+std::unique_ptr<Workspace> write_rings(Patches<Int>& patches, const ReturnAddresses& addresses, bool apart,
+                                       int threads, Table<Int>& table,
+                                       std::vector<Buffer<Int>>& more_memory) {
+  std::vector<std::size_t> begin(patches.of_rank.size() + 1, 0);
+  patches.for_each(threads,
+                   [&](Patch<Int>& patch, std::size_t k) { begin[k + 1] = patch.finish() + 2 * kBlock; });
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::unique_ptr<Workspace> memory;
+  Int* room = nullptr;
+  if (apart) {
+    memory = std::make_unique<Workspace>(begin.back() * sizeof(Int));
+    room = memory->template keep<Int>(begin.back());
+  }
+  more_memory.resize(patches.of_rank.size());
+  patches.for_each(threads, [&](Patch<Int>& patch, std::size_t k) {
+    const std::size_t entries = begin[k + 1] - begin[k];
+    Int* out =
+        room != nullptr ? room + begin[k] : static_cast<Int*>(patch.room_for_rings(entries * sizeof(Int)));
+    if (out == nullptr) {
+      more_memory[k] = Buffer<Int>(entries);
+      out = more_memory[k].data();
+    }
+    // By value, as in Patch::write_rings.
+    const Int** const place = table.place + addresses.own_begin[k];
+    std::uint8_t* const size_class = table.size_class + addresses.own_begin[k];
+    patch.write_rings(
+        out,
+        [=](std::size_t i, const Int* ring, std::uint32_t n) {
+          place[i] = ring;
+          size_class[i] = RingTable<Int>::size_class_of(n);
+        },
+        [=](std::size_t i) { __builtin_prefetch(place + i, 1); });
+  });
+  return memory;
+}
+
+/// For each rank the rings of the nodes that it brought, patch by patch.
+template <class Int>
+Parcels rings_for_others(const Table<Int>& table, const ReturnAddresses& addresses, std::size_t size,
+                         std::size_t me) {
+  const auto for_each_run_of = [&](std::size_t r, const auto& visit) {
+    for (std::size_t k = 0; k < addresses.own_from.size() && r != me; ++k)
+      visit(addresses.own_begin[k] + addresses.own_from[k][r],
+            addresses.own_begin[k] + addresses.own_from[k][r + 1]);
+  };
+  ParcelWriter writer(size);
+  for (std::size_t r = 0; r < size; ++r)
+    for_each_run_of(r, [&](std::size_t first, std::size_t last) {
+      std::size_t entries = 0;
+      for (std::size_t i = first; i < last; ++i)
+        entries += 1 + RingTable<Int>::count_of(table.place[i], table.size_class[i]);
+      writer.expect<Int>(r, entries);
+    });
+  writer.make_room(kBlock * sizeof(Int));  // see copy_kept_ring
+  if (writer.empty()) return writer.finish();
+  for (std::size_t r = 0; r < size; ++r) {
+    auto* at = writer.room<Int>(r, 0);
+    for_each_run_of(r, [&](std::size_t first, std::size_t last) {
+      constexpr std::size_t kAhead = 16;  // they lie in the order of the hulls
+      for (std::size_t i = first; i < last; ++i) {
+        if (i + kAhead < last) __builtin_prefetch(table.place[i + kAhead]);
+        at = copy_kept_ring(table.place[i], at);
+      }
+    });
+  }
+  return writer.finish();
+}
+
+/// Those of this rank's nodes that were in patches of others.
+template <class Int>
+void enter_received(const Parcels& received, const ReturnAddresses& addresses, const PatchRanges& patches,
+                    std::size_t me, Table<Int>& table) {
+  for (std::size_t r = 0; r + 1 < received.begin.size(); ++r) {
+    if (r == me) continue;
+    const Int* at = Items<Int>(received, r).begin();
+    for (std::size_t k = addresses.away_begin[static_cast<std::size_t>(patches.first(r))];
+         k < addresses.away_begin[static_cast<std::size_t>(patches.end(r))]; ++k) {
+      table.place[k] = at;
+      table.size_class[k] = RingTable<Int>::size_class_of(static_cast<std::uint32_t>(*at));
+      at += 1 + *at;
+    }
+  }
+}
+
+/// The neighbours of this rank's nodes that it did not bring itself.
+template <class Int>
+std::vector<Record> find_outside(const Patches<Int>& patches, const ReturnAddresses& addresses,
+                                 const LocalNodes& nodes, Communicator& ranks) {
+  const auto size = static_cast<std::size_t>(ranks.size()), me = static_cast<std::size_t>(ranks.rank());
+  const Parcels incoming = exchange_in_agreement(ranks, [&] {
+    std::vector<std::vector<Record>> neighbours(size);
+    for (std::size_t k = 0; k < patches.of_rank.size(); ++k)
+      patches.of_rank[k].for_each_missing_neighbour(
+          me, addresses.own_from[k],
+          [&](std::size_t r, const Record& node) { neighbours[r].push_back(node); });
+    return packed(neighbours);
+  });
+  std::vector<Record> outside;
+  in_agreement(ranks, [&] {
+    const Items<Record> items(incoming);
+    std::vector<Record> all(items.begin(), items.end());
+    keep_one_of_each(all);
+    // A patch does not know which nodes this rank brought for other patches; where there are none, it knows
+    // all. Those that may be among `all` are marked in a table of some bits of the number first.
+    std::vector<std::int64_t> own;
+    if (addresses.away_begin.back() > 0 || patches.of_rank.size() > 1) {
+      std::vector<bool> maybe(std::size_t{1} << 10);
+      while (maybe.size() < 16 * all.size()) maybe.resize(2 * maybe.size());
+      const auto slot = [&](std::int64_t number) {
+        return static_cast<std::uint64_t>(number) * 0x9e3779b97f4a7c15u >> 40 & (maybe.size() - 1);
+      };
+      for (const Record& r : all) maybe[slot(r.number)] = true;
+      for (std::size_t i = 0; i < nodes.count; ++i)
+        if (maybe[slot(nodes.number(i))]) own.push_back(nodes.number(i));
+    }
+    std::sort(own.begin(), own.end());
+    for (const Record& r : all)
+      if (!std::binary_search(own.begin(), own.end(), r.number)) outside.push_back(r);
+  });
+  return outside;
+}
+
+}  // namespace
+
+template <class Int>
+Stars<Int> return_rings(Patches<Int> patches, ReturnAddresses addresses, const LocalNodes& nodes,
+                        const Division& division, Communicator& ranks, const ParallelOptions& options) {
+  const auto me = static_cast<std::size_t>(ranks.rank());
+  Stars<Int> stars;
+  stars.lengths = division.places.lengths();
+  Table<Int> table;
+  std::unique_ptr<Workspace> entries;
+  stars.received = exchange_in_agreement(ranks, [&] {
+    stars.homes = std::make_unique<Homes>(division, options.partition);
+    stars.memory.reserve(3);  // what is moved there below must not fail
+    table.make_room(addresses.own_begin.back());
+    entries =
+        write_rings(patches, addresses, options.with_neighbours, options.threads, table, stars.more_memory);
+    return rings_for_others(table, addresses, static_cast<std::size_t>(ranks.size()), me);
+  });
+  enter_received(stars.received, addresses, division.patches, me, table);
+  stars.of_node = RingTable<Int>(nodes.count, addresses.position, table.place, table.size_class);
+  if (options.with_neighbours) stars.outside = find_outside(patches, addresses, nodes, ranks);
+  stars.memory.push_back(std::move(addresses.memory));
+  stars.memory.push_back(std::move(table.memory));
+  stars.memory.push_back(std::move(options.with_neighbours ? entries : patches.memory));
+  return stars;
+}
+
+template Stars<std::int32_t> return_rings(Patches<std::int32_t>, ReturnAddresses, const LocalNodes&,
+                                          const Division&, Communicator&, const ParallelOptions&);
+template Stars<std::int64_t> return_rings(Patches<std::int64_t>, ReturnAddresses, const LocalNodes&,
+                                          const Division&, Communicator&, const ParallelOptions&);
+
+}  // namespace pstripack

@@ -1,0 +1,42 @@
+#pragma once
+// The last phase: the stars of the nodes go back to the ranks that brought them.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "base/buffer.h"
+#include "base/workspace.h"
+#include "mesh/ring_table.h"
+#include "parallel/certify.h"
+#include "parallel/deliver.h"
+#include "parallel/divide.h"
+
+namespace pstripack {
+
+/// The stars of this rank's nodes. Int: std::int32_t, or std::int64_t where numbers need it.
+template <class Int>
+struct Stars {
+  /// Of each of LocalNodes, as it stands in LIST: the numbers of its neighbours, counterclockwise; of an
+  /// interior node from the smallest on; of a boundary node from the first boundary neighbour to the last,
+  /// negated. Empty if nodes coincide.
+  RingTable<Int> of_node;
+  /// What of_node and the rings lie in.
+  std::vector<std::unique_ptr<Workspace>> memory;
+  std::vector<Buffer<Int>> more_memory;
+  Parcels received;
+  Lengths lengths = Lengths::as_given;
+  bool gave_up = false;        ///< more than options.most_questions: there is nothing else
+  CoincidentPairs coincident;  ///< on every rank the same; empty if there are none
+  /// With options.with_neighbours: the nodes that the stars name and this rank did not bring, by number.
+  std::vector<Record> outside;
+  std::unique_ptr<Homes> homes;
+};
+
+/// `addresses`: of these nodes. Collective. Throws AgreedFailure or HiddenNode.
+template <class Int>
+Stars<Int> return_rings(Patches<Int> patches, ReturnAddresses addresses, const LocalNodes& nodes,
+                        const Division& division, Communicator& ranks, const ParallelOptions& options);
+
+}  // namespace pstripack

@@ -1,0 +1,80 @@
+// pstripack-worker: a rank of the pool. Started by pstripack-run through mpirun; all ranks get the model's
+// command line, rank 0 starts the model.
+
+#include <mpi.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+
+#include "base/environment.h"
+#include "pool/steward.h"
+#include "pool/watchdog.h"
+
+namespace {
+
+pstripack::Watchdog* watchdog = nullptr;
+pstripack::Steward* steward = nullptr;
+
+/// mpirun ends its job by SIGTERM to all ranks: not a loss to be reported. Rank 0 lets the model, which got
+/// the same signal, end first in its own way; SIGKILL follows if that takes long.
+void end_on_request(int signal, siginfo_t* sender, void*) {
+  if (sender->si_pid != watchdog->launcher()) {
+    ::signal(signal, SIG_DFL);
+    raise(signal);
+    return;
+  }
+  watchdog->dismiss();
+  if (steward != nullptr) steward->see_the_model_end();
+  _exit(128 + signal);
+}
+
+/// The rank, known before MPI is initialised; -1 if this is no rank.
+int rank_from_environment() {
+  for (const char* const variable : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"})
+    if (const char* const rank = pstripack::environment_variable(variable)) return std::atoi(rank);
+  return -1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int rank = rank_from_environment();
+  if (argc < 2 || rank < 0) {
+    std::fputs("pstripack-worker: to be started by pstripack-run; see pstripack-run --help\n", stderr);
+    return 2;
+  }
+  static pstripack::Watchdog the_watchdog(rank);
+  watchdog = &the_watchdog;
+  static pstripack::Steward* const the_steward = rank == 0 ? new pstripack::Steward(argv + 1) : nullptr;
+  steward = the_steward;
+  struct sigaction action {};
+  action.sa_sigaction = end_on_request;
+  action.sa_flags = SA_SIGINFO;
+  sigaction(SIGTERM, &action, nullptr);
+  // mpirun forwards these to all processes; they are meant for the model.
+  signal(SIGUSR1, SIG_IGN);
+  signal(SIGUSR2, SIG_IGN);
+
+  int provided = 0, code = 0;
+  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
+  try {
+    const bool beside_rank_0 = pstripack::look_around();
+    pstripack::MpiCommunicator ranks(MPI_COMM_WORLD);
+    ranks.show_phase_in(watchdog->phase());
+    if (rank == 0)
+      code = steward->serve(ranks);
+    else
+      pstripack::serve_as_worker(ranks, beside_rank_0);
+    ranks.set_phase("the end of MPI");
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "pstripack: rank %d: %s\n", rank, error.what());
+    watchdog->dismiss();
+    MPI_Abort(MPI_COMM_WORLD, 1);
+  }
+  MPI_Finalize();
+  watchdog->dismiss();
+  return code;
+}

@@ -1,0 +1,202 @@
+#include "stripack/original/original_order.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <type_traits>
+
+#include "geometry/predicates.h"
+#include "stripack/original/insertion_lists.h"
+#include "stripack/random.h"
+#include "stripack/trfind_walk.h"
+
+namespace pstripack {
+namespace {
+
+/// Inserts node after node into the lists until the last one, or until something prevents it.
+template <class Real, class Int>
+class Insertion {
+ public:
+  Insertion(Int n, const Real* x, const Real* y, const Real* z, const OriginalRules& rules)
+      : n_(n), rules_(rules), lists_(n) {
+    const Nodes<Real> nodes{x, y, z};
+    for (Int k = 1; k <= n; ++k) lists_.place(k, nodes[k]);
+  }
+
+  InsertionOutcome insert_all(Hopeless hopeless, StartSearch start_search) {
+    const Seeds<std::int32_t> seeds = kept_seeds();
+    if (const auto outcome = try_to_insert_all(hopeless, start_search)) return *outcome;
+    kept_seeds() = seeds;
+    return *try_to_insert_all(hopeless, StartSearch::simulated);
+  }
+
+  void write(InsertedNodes<Int>& to) const {
+    to.nodes = static_cast<std::size_t>(lists_.size());
+    to.list = BlockArray<Int>(lists_.slots());
+    to.lptr = BlockArray<Int>(lists_.slots());
+    to.lend = BlockArray<Int>(to.nodes);
+    lists_.write(to.list.data(), to.lptr.data(), to.lend.data());
+    to.lnew = static_cast<Int>(lists_.slots()) + 1;
+  }
+
+ private:
+  /// Empty if that takes too much memory, which cannot happen if the search is simulated.
+  std::optional<InsertionOutcome> try_to_insert_all(Hopeless hopeless, StartSearch start_search) {
+    const Real d = side(lists_[1], lists_[2], lists_[3]);
+    if (d == 0) return InsertionOutcome{InsertionEnd::collinear, 3};
+    lists_.start(d > 0);
+
+    WaitingNodes<Real, Int> waiting(n_, lists_);
+    std::optional<SettledNodes<Real, Int>> settled;
+    const auto is_settled = [&](Int i, const Vector<Real>& p, Int near) {
+      return settled->settle(i, p, near);
+    };
+    const bool may_locate = start_search != StartSearch::simulated && can_locate();
+    std::int64_t next_look = hopeless == Hopeless::ends ? 1000 : n_;
+    for (Int k = 4; k <= n_; ++k) {
+      prefetch(k, waiting);
+      if (may_locate && !settled &&
+          (start_search == StartSearch::by_location || locating_pays(k, waiting.comparisons()))) {
+        settled.emplace(n_, lists_);
+        for (Int j = 1; j < k; ++j) waiting.forget(j, is_settled);
+      }
+      const Int start = settled && settled->is_settled(k) ? settled->near(k, lists_[k]) : waiting.near(k);
+      if (const InsertionOutcome outcome = insert(k, start); outcome.end != InsertionEnd::complete)
+        return outcome;
+      const Real cosine = waiting.compare_with(k);
+      if (settled) {
+        settled->add(k);
+        if (settled->may_settle(cosine)) waiting.forget(k, is_settled);
+        if (settled->is_full()) return std::nullopt;
+      }
+      if (k == next_look && k < n_) {
+        if (is_hopeless()) return InsertionOutcome{InsertionEnd::hopeless, k};
+        next_look *= 8;
+      }
+    }
+    return InsertionOutcome{};
+  }
+
+  /// In single precision too many nodes are equally near; and the search uses directions.
+  bool can_locate() const {
+    constexpr double kUpToRounding = 0x1p-49;
+    if (!std::is_same_v<Real, double>) return false;
+    for (Int k = 1; k <= n_; ++k)
+      if (!(std::fabs(static_cast<double>(dot(lists_[k], lists_[k])) - 1) < kUpToRounding)) return false;
+    return true;
+  }
+  /// In random order a new node is compared with 6n/k waiting ones; if it is compared with many more, waiting
+  /// nodes are in long lists.
+  bool locating_pays(Int k, std::int64_t comparisons) const {
+    const double in_random_order = 6 * static_cast<double>(n_) * (1 + std::log(static_cast<double>(k)));
+    return static_cast<double>(comparisons) > 2 * in_random_order;
+  }
+
+  /// In random order all data for the insertion of a node are far away in memory. Inlined, since GCC 12
+  /// otherwise takes these functions for free of effects and drops the calls.
+  [[gnu::always_inline]] void prefetch(Int k, const WaitingNodes<Real, Int>& waiting) const {
+    constexpr Int kNode = 12, kList = 6, kWaiting = 3;
+    if (k + kNode > n_) return;
+    lists_.prefetch(waiting.near(k + kNode));
+    lists_.prefetch_list(waiting.near(k + kList));
+    waiting.prefetch(k + kWaiting);
+  }
+
+  /// ADDNOD.
+  InsertionOutcome insert(Int k, Int start) {
+    const Vector<Real> p = lists_[k];
+    Seeds<std::int32_t>& seeds = kept_seeds();
+    const auto draw = [&](Int size) { return std::min(size, rules_.random<Real>(size, seeds)); };
+    Real b1, b2, b3;
+    TrfindWalk<Real, Int, InsertionLists<Real, Int>, decltype(draw)> walk(
+        p, lists_, rules_.tolerance<Real>(), SearchLimits::to_follow(lists_.size()), {b1, b2, b3}, draw);
+    Location<Int> found;
+    if (!walk.find(start, found)) return {InsertionEnd::endless, k};
+    const auto [a, b, c] = found;
+    if (a == 0) return {InsertionEnd::collinear, k};
+    if (c != 0) {
+      for (const Int node : {a, b, c})
+        if (coincide(lists_[node], p)) return {InsertionEnd::coincident, k, node};
+      lists_.insert_inside(lists_.twin(walk.slot_found()));
+    } else if (a != b) {
+      lists_.insert_outside(a, b);
+    } else {
+      lists_.cover(a);
+    }
+    return lists_.restore_delaunay() ? InsertionOutcome{} : InsertionOutcome{InsertionEnd::endless, k};
+  }
+
+  // ---- Grids: is the triangulation already wrong? ----
+
+  Point point(Int node) const { return as_point(lists_[node]); }
+
+  /// The four nodes of a grid cell are cocircular up to rounding, and rounded tests choose the wrong diagonal
+  /// of some.
+  bool is_hopeless() const {
+    int tries = 20;
+    for (Int a = 1; a <= lists_.size(); ++a) {
+      const Int last = lists_.last_slot(a);
+      Int slot = last;
+      do {
+        const Int before = lists_.neighbour(slot);
+        slot = lists_.next(slot);
+        const Int b = lists_.neighbour(slot), c = lists_.neighbour(lists_.next(slot));
+        const bool has_two_sides = lists_.entry(last) > 0 || (slot != last && slot != lists_.next(last));
+        if (a > b || !has_two_sides || orientation(point(a), point(b), point(c), point(before)) <= 0)
+          continue;
+        if (is_lasting_fault(a, b, c, before)) return true;
+        if (--tries == 0) return false;
+      } while (slot != last);
+    }
+    return false;
+  }
+
+  /// True if the arc a-b of the triangles (a,b,c) and (b,a,d) is wrong by exact signs, and will stay. It
+  /// stays if all nodes are so far outside the circumscribed caps of both that rounded tests agree: no search
+  /// ends in these triangles, and no swap begins there.
+  bool is_lasting_fault(Int a, Int b, Int c, Int d) const {
+    return orientation_of_directions(point(a), point(b), point(c), point(d)) > 0 && stays(a, b, c, d) &&
+           stays(b, a, d, c);
+  }
+  bool stays(Int a, Int b, Int c, Int d) const {
+    const Point p = point(a), e = minus(point(b), p), f = minus(point(c), p), normal = cross(e, f);
+    // Each test is a determinant of three differences from a corner of the triangle. Two of them are no
+    // longer than its sides, so the permanent is at most 6 side^2 reach, and the error 9u of it
+    // (predicates.cpp). Four times that leaves room for our own rounding.
+    constexpr double u = std::numeric_limits<Real>::epsilon() / 2;
+    const double side_2 = 2 * (dot(e, e) + dot(f, f)), side = std::sqrt(side_2);
+    for (Int i = 1; i <= n_; ++i) {
+      if (i == a || i == b || i == c || i == d) continue;
+      const Point g = minus(point(i), p);
+      const double reach = std::sqrt(dot(g, g)) + side;
+      if (!(dot(normal, g) < -4 * 9 * u * 6 * side_2 * reach)) return false;
+    }
+    return true;
+  }
+
+  const Int n_;
+  const OriginalRules& rules_;
+  InsertionLists<Real, Int> lists_;
+};
+
+}  // namespace
+
+template <class Real, class Int>
+InsertedNodes<Int> insert_in_order(Int n, const Real* x, const Real* y, const Real* z,
+                                   const OriginalRules& rules, Hopeless hopeless, StartSearch start_search) {
+  Insertion<Real, Int> insertion(n, x, y, z, rules);
+  InsertedNodes<Int> result;
+  result.outcome = insertion.insert_all(hopeless, start_search);
+  const InsertionEnd end = result.outcome.end;
+  if (end == InsertionEnd::complete || end == InsertionEnd::coincident) insertion.write(result);
+  return result;
+}
+
+#define PSTRIPACK_ORIGINAL_ORDER(Real, Int)                                               \
+  template InsertedNodes<Int> insert_in_order(Int, const Real*, const Real*, const Real*, \
+                                              const OriginalRules&, Hopeless, StartSearch);
+PSTRIPACK_ORIGINAL_ORDER(float, std::int32_t)
+PSTRIPACK_ORIGINAL_ORDER(double, std::int32_t)
+
+}  // namespace pstripack

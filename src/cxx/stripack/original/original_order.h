@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "base/workspace.h"
+#include "lists/adjacency_lists.h"
+#include "stripack/original/original_rules.h"
+#include "stripack/original/start_nodes.h"
+
+namespace pstripack {
+
+/// How the insertion ended.
+enum class InsertionEnd {
+  complete,    ///< all nodes are inserted
+  coincident,  ///< `node` coincides with `other`: nodes 1..node-1 are inserted
+  collinear,   ///< the original's IER = -2: it finds `node`, 3 or later, collinear with all it sees
+  endless,     ///< the original's search for `node`, or the swaps around it, do not end
+  hopeless     ///< after nodes 1..`node` an arc is not Delaunay, and will stay
+};
+
+struct InsertionOutcome {
+  InsertionEnd end = InsertionEnd::complete;
+  std::int64_t node = 0, other = 0;
+};
+
+/// Lists as the original's TRMESH makes them; empty unless the insertion was complete or met a coincident
+/// node.
+template <class Int>
+struct InsertedNodes {
+  InsertionOutcome outcome;
+  std::size_t nodes = 0;           ///< number of nodes in the lists
+  BlockArray<Int> list{}, lptr{};  ///< LNEW-1 slots
+  BlockArray<Int> lend{};
+  Int lnew = 0;
+
+  ListsView<Int> view() const { return {nodes, list.data(), lptr.data(), lend.data(), lnew}; }
+};
+
+/// Whether to continue with a triangulation that cannot become correct.
+enum class Hopeless { goes_on, ends };
+
+/// Renka's TRMESH (Algorithm 772): inserts node by node, with its rounded tests. n >= 3. The result may be
+/// wrong. One thread, with its kept_seeds; O(n) memory. Throws std::bad_alloc.
+template <class Real, class Int>
+InsertedNodes<Int> insert_in_order(Int n, const Real* x, const Real* y, const Real* z,
+                                   const OriginalRules& rules, Hopeless hopeless = Hopeless::goes_on,
+                                   StartSearch start_search = StartSearch::adaptive);
+
+}  // namespace pstripack

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+
+#include "geometry/node_arrays.h"
+
+namespace pstripack {
+
+/// STRIPACK's lists in the caller's arrays: list, lptr: at least 6n-12 entries; lend: n.
+struct ListArrays {
+  std::int32_t *list = nullptr, *lptr = nullptr, *lend = nullptr, *lnew = nullptr;
+};
+
+/// One call of TRMESH: n nodes of either kind, and where their lists go.
+struct TrmeshCall {
+  std::int32_t n = 0;
+  NodeArrays nodes;
+  ListArrays lists;
+};
+
+}  // namespace pstripack

@@ -1,0 +1,345 @@
+#include "trmesh/warm_start.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <new>
+#include <optional>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "base/environment.h"
+#include "base/parallel_for.h"
+#include "lists/list_pieces.h"
+#include "mesh/flips.h"
+
+namespace pstripack {
+namespace {
+
+constexpr std::size_t kFewest = 1000;  ///< nodes: below, a cold call takes less time than it would be worth
+
+bool is_allowed() {
+  // Threads that wait here for each other may find another errno: the program's must stay.
+  const int error = errno;
+  static const bool allowed = [] {
+    const char* const value = environment_variable("PSTRIPACK_WARM_START");
+    return value == nullptr || std::strcmp(value, "0") != 0;
+  }();
+  errno = error;
+  return allowed;
+}
+
+// ---- does a mesh fit the nodes? ---------------------------------------------------------------------------
+
+/// Some stars of a mesh, for a look whether it fits other nodes. Small: every call can afford one.
+class SampleOfStars {
+ public:
+  SampleOfStars(std::size_t n, const std::int32_t* list, const std::int32_t* lend) {
+    const std::size_t wanted = std::min<std::size_t>(kStars, n / 64);
+    for (std::size_t j = 0; j < wanted; ++j) {
+      const std::size_t k = n / wanted * j + n / (2 * wanted);
+      const std::int32_t begin = lend[k - 1], end = lend[k];
+      if (static_cast<std::size_t>(end - begin) > kMost) continue;
+      stars_.push_back({static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(end - begin)});
+      rings_.insert(rings_.end(), list + begin, list + end);
+    }
+  }
+
+  /// True if all triangles of these stars are counterclockwise and few of their arcs are not locally
+  /// Delaunay, as far as rounded arithmetic can tell.
+  bool fits(const NodeArrays& nodes) const {
+    constexpr std::size_t kFew = 16;  // one arc of so many
+    std::size_t arcs = 0, bad = 0;
+    const std::int32_t* ring = rings_.data();
+    for (const auto& [k, count] : stars_) {
+      const Point p = nodes[k];
+      Point spoke[kMost + 2];
+      for (std::size_t i = 0; i < count; ++i) {
+        const Point q = nodes[static_cast<std::size_t>(ring[i]) - 1];
+        if (!length_is_one(q)) return false;
+        spoke[i] = minus(q, p);
+      }
+      spoke[count] = spoke[0], spoke[count + 1] = spoke[1];
+      for (std::size_t i = 0; i < count; ++i) {
+        const Point n = cross(spoke[i], spoke[i + 1]);
+        const Point &e = spoke[i], &f = spoke[i + 1], &g = spoke[i + 2];
+        const double size = dot(n, n), length = dot(e, e) * dot(f, f);
+        if (dot(n, p) < 0 && size > 0x1p-40 * length) return false;
+        const double height = dot(n, g);
+        bad += height > 0 && height * height > 0x1p-80 * length * dot(g, g);
+      }
+      arcs += count;
+      if (bad * kFew > std::max<std::size_t>(arcs, 256)) return false;
+      ring += count;
+    }
+    return bad * kFew <= arcs;
+  }
+
+ private:
+  static constexpr std::size_t kStars = 128, kMost = 30;
+  struct Star {
+    std::uint32_t node, count;
+  };
+  std::vector<Star> stars_;
+  std::vector<std::int32_t> rings_;
+};
+
+/// Bytes that stay with the process: given back when it dies.
+class Stay {
+ public:
+  /// Throws std::bad_alloc if there are too many already.
+  explicit Stay(std::size_t bytes) : bytes_(bytes) {
+    if (!may_stay(bytes)) throw std::bad_alloc();
+  }
+  ~Stay() { has_left(bytes_); }
+  Stay(const Stay&) = delete;
+  Stay& operator=(const Stay&) = delete;
+
+ private:
+  const std::size_t bytes_;
+};
+
+}  // namespace
+
+/// LIST and LEND of a mesh, and the mesh itself from the first call on that begins with it.
+struct KeptMesh {
+  KeptMesh(std::size_t n, std::size_t slots)
+      : stay((slots + n) * sizeof(std::int32_t) + MovingMesh::bytes(n)), list(slots), lend(n) {}
+  std::int32_t begin(std::size_t k) const { return k == 0 ? 0 : lend[k - 1]; }
+
+  const Stay stay;
+  BlockArray<std::int32_t> list, lend;
+  std::optional<MovingMesh> mesh;
+};
+
+/// What is kept of one call for another.
+struct LastMesh {
+  std::size_t n;
+  pid_t process;
+  SampleOfStars sample;
+  /// How many calls must find that the mesh of the call before fits before one is kept as a whole. More,
+  /// where such meshes turned out not to fit in the end.
+  int patience = 1, patient = 0;
+  std::unique_ptr<KeptMesh> kept = nullptr;
+
+  void lose_patience() {
+    constexpr int kMost = 64;
+    patience = std::min(2 * patience, kMost);
+    patient = 0;
+    kept.reset();
+  }
+};
+
+namespace {
+
+constexpr std::size_t kLast = 4;  ///< callers with meshes of their own
+std::atomic<LastMesh*> last_meshes[kLast];
+std::atomic<unsigned> next_to_go{0};
+
+/// The mesh of an earlier call that fits these nodes, if there is one. `patience` becomes that of others with
+/// as many nodes, if it is more.
+std::unique_ptr<LastMesh> take_last_mesh(const NodeArrays& nodes, std::size_t n, int& patience) {
+  for (auto& place : last_meshes) {
+    std::unique_ptr<LastMesh> last(place.exchange(nullptr, std::memory_order_acq_rel));
+    if (last == nullptr || last->process != getpid()) continue;  // a forked child begins anew
+    if (last->n == n) {
+      if (last->sample.fits(nodes)) return last;
+      patience = std::max(patience, last->patience);
+    }
+    LastMesh* none = nullptr;
+    if (place.compare_exchange_strong(none, last.get(), std::memory_order_acq_rel)) last.release();
+  }
+  return nullptr;
+}
+
+void put_back(std::unique_ptr<LastMesh> last) {
+  for (auto& place : last_meshes) {
+    LastMesh* none = nullptr;
+    if (place.compare_exchange_strong(none, last.get(), std::memory_order_acq_rel)) {
+      last.release();
+      return;
+    }
+  }
+  auto& place = last_meshes[next_to_go.fetch_add(1, std::memory_order_relaxed) % kLast];
+  last.reset(place.exchange(last.release(), std::memory_order_acq_rel));
+}
+
+// ---- lists ------------------------------------------------------------------------------------------------
+
+/// What is different in the lists of a mesh from those that are kept of it.
+class ListChanges {
+ public:
+  ListChanges() = default;
+  /// Throws std::bad_alloc.
+  explicit ListChanges(const KeptMesh& kept) : changes_(kept.mesh->changes()), shift_(changes_.size() + 1) {
+    for (std::size_t j = 0; j < changes_.size(); ++j) {
+      const auto [k, count] = changes_[j];
+      shift_[j + 1] = shift_[j] + static_cast<std::int32_t>(count) - (kept.lend[k] - kept.begin(k));
+    }
+  }
+  std::size_t count() const { return changes_.size(); }
+
+  /// The lists of the mesh: runs of what is kept, and a ring for each change. Parallel.
+  void write(const KeptMesh& kept, std::int32_t* list, std::int32_t* lptr, std::int32_t* lend) const {
+    const std::size_t n = kept.mesh->size();
+    const std::int32_t *const old_list = kept.list.data(), *const old_end = kept.lend.data();
+    const int threads = threads_for(n);
+    parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int) {
+      auto j = static_cast<std::size_t>(
+          std::lower_bound(changes_.begin(), changes_.end(), first,
+                           [](const MovingMesh::Change& c, std::size_t k) { return c.node < k; }) -
+          changes_.begin());
+      for (std::size_t k = first; k < last;) {
+        const std::int32_t begin = kept.begin(k), shift = shift_[j];
+        const std::size_t end = j < changes_.size() ? std::min<std::size_t>(changes_[j].node, last) : last;
+        if (end > k) std::copy(old_list + begin, old_list + old_end[end - 1], list + begin + shift);
+        for (; k < end; ++k) lend[k] = old_end[k] + shift;
+        if (k == last) break;
+        const std::int32_t place = kept.begin(k) + shift;
+        kept.mesh->write_ring(k, list + place);
+        lend[k++] = place + static_cast<std::int32_t>(changes_[j++].count);
+      }
+    });
+    write_lptr(lend, n, 0, lptr, threads);
+  }
+
+ private:
+  std::vector<MovingMesh::Change> changes_;
+  std::vector<std::int32_t> shift_;  ///< by how many slots the lists have moved behind so many changes
+};
+
+void copy(const std::int32_t* from, std::size_t count, std::int32_t* to) {
+  parallel_pieces(count, threads_for(count / 8), [&](std::size_t first, std::size_t last, int) {
+    std::copy(from + first, from + last, to + first);
+  });
+}
+
+}  // namespace
+
+WarmStart::WarmStart(const NodeArrays& nodes, std::size_t n) : nodes_(nodes), n_(n) {
+  if (n >= kFewest && is_allowed()) last_ = take_last_mesh(nodes, n, patience_);
+}
+
+WarmStart::~WarmStart() {
+  if (last_ != nullptr) put_back(std::move(last_));
+}
+
+bool WarmStart::is_prepared() const { return last_ != nullptr && last_->kept != nullptr; }
+
+/// Tells the mesh where its nodes are now: whether all have length one, and whether any has moved.
+std::pair<bool, bool> WarmStart::move_nodes(KeptMesh& kept) const {
+  constexpr std::size_t kAhead = 16;
+  const bool is_new = !kept.mesh;
+  if (is_new) {
+    BlockArray<Point> points(n_);
+    nodes_.points(0, n_, points.data());
+    if (!std::all_of(points.begin(), points.end(), length_is_one)) return {false, false};
+    kept.mesh.emplace(points.data(), n_, kept.list.data(), kept.lend.data());
+  }
+  MovingMesh& mesh = *kept.mesh;
+  std::atomic<bool> all_have_length_one{true}, any_has_moved{is_new};
+  nodes_.visit([&](const auto& node) {
+    parallel_pieces(n_, threads_for(n_), [&](std::size_t first, std::size_t last, int) {
+      bool have_length_one = true, has_moved = false;
+      for (std::size_t k = first; k < last; ++k) {
+        if (k + kAhead < last) mesh.prefetch(k + kAhead);
+        const Point p = node(k);
+        Point& place = mesh.node(k);
+        have_length_one = have_length_one & length_is_one(p);
+        has_moved = has_moved | (place != p);
+        place = p;
+      }
+      if (!have_length_one) all_have_length_one = false;
+      if (has_moved) any_has_moved = true;
+    });
+  });
+  return {all_have_length_one, any_has_moved};
+}
+
+bool WarmStart::write_lists(const ListArrays& lists, ParallelCost* cost) noexcept {
+  if (!is_prepared()) return false;
+  KeptMesh& kept = *last_->kept;
+  const auto& [list, lptr, lend, lnew] = lists;
+  try {
+    bool fits, has_moved;
+    ListChanges changes;
+    {
+      const PhaseTimer timer(cost, ParallelCost::divide);
+      std::tie(fits, has_moved) = move_nodes(kept);
+      fits = fits && left(nodes_[0], nodes_[1], nodes_[2]) != 0;
+    }
+    {
+      const PhaseTimer timer(cost, ParallelCost::triangulate);
+      if (fits && has_moved) fits = kept.mesh->repair();
+      if (fits) changes = ListChanges(kept);
+    }
+    if (!fits) {
+      last_->lose_patience();
+      return false;
+    }
+    const PhaseTimer timer(cost, ParallelCost::lists);
+    changes.write(kept, list, lptr, lend);
+    *lnew = lend[n_ - 1] + 1;
+    if (changes.count() > n_ / 16) {
+      copy(list, kept.list.size(), kept.list.data());
+      copy(lend, n_, kept.lend.data());
+      kept.mesh->set_lists(kept.list.data(), kept.lend.data());
+    }
+    last_->patience = 1;
+    if (cost != nullptr) {
+      cost->threads = threads_for(n_);
+      cost->flips = has_moved ? static_cast<std::int64_t>(kept.mesh->flips()) : 0;
+    }
+  } catch (const std::bad_alloc&) {
+    last_->lose_patience();
+    return false;
+  }
+  take_sample(list, lend);
+  return true;
+}
+
+/// If there is no memory for it, the next call finds nothing.
+void WarmStart::take_sample(const std::int32_t* list, const std::int32_t* lend) noexcept {
+  try {
+    last_->sample = SampleOfStars(n_, list, lend);
+  } catch (const std::bad_alloc&) {
+    last_.reset();
+  }
+}
+
+void WarmStart::remember(const ListArrays& lists) noexcept {
+  const auto& [list, lptr, lend, lnew] = lists;
+  const auto slots = static_cast<std::size_t>(*lnew) - 1;
+  if (n_ < kFewest || !is_allowed() || slots != 6 * n_ - 12) return;  // a boundary: not for a warm start
+  try {
+    if (last_ == nullptr) {
+      last_.reset(new LastMesh{n_, getpid(), SampleOfStars(n_, list, lend), patience_});
+      return;
+    }
+    if (++last_->patient >= last_->patience) {
+      set_give_up_more(forget_last_meshes);
+      last_->kept = std::make_unique<KeptMesh>(n_, slots);
+      copy(list, slots, last_->kept->list.data());
+      copy(lend, n_, last_->kept->lend.data());
+    }
+  } catch (const std::bad_alloc&) {
+    // Then the next call goes the cold way as well.
+  }
+  if (last_ != nullptr) take_sample(list, lend);
+}
+
+bool forget_last_meshes() noexcept {
+  bool any = false;
+  for (auto& place : last_meshes) {
+    const std::unique_ptr<LastMesh> last(place.exchange(nullptr, std::memory_order_acq_rel));
+    any = any || last != nullptr;
+  }
+  return any;
+}
+
+}  // namespace pstripack

@@ -1,0 +1,3 @@
+#pragma once
+#include "geometry/high.h"
+#include <mpi.h>

@@ -1,0 +1,132 @@
+#include "text_file.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+
+#include "numbers.h"
+#include "point_sets.h"
+
+namespace point_sets {
+namespace {
+
+std::string numbers(std::size_t count) {
+  return std::to_string(count) + (count == 1 ? " number" : " numbers");
+}
+
+[[noreturn]] void fail(const std::string& name, std::size_t line, const std::string& what) {
+  throw std::runtime_error(name + ":" + std::to_string(line) + ": " + what);
+}
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == ',' || c == '\r' || c == '\f' || c == '\v'; }
+
+/// Fast path for nearly all words.
+bool parse_word(std::string_view word, double& value) {
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error == std::errc() && end == word.data() + word.size()) return std::isfinite(value);
+  return parse(std::string(word), value);
+}
+
+bool is_nan(std::string_view word) {
+  const auto is = [&](std::size_t i, char c) { return (word[i] | 0x20) == c; };
+  return word.size() == 3 && is(0, 'n') && is(1, 'a') && is(2, 'n');
+}
+
+}  // namespace
+
+bool parse(std::string text, double& value) {
+  const bool hexadecimal = text.find_first_of("xX") != std::string::npos;
+  if (!hexadecimal)
+    for (char& c : text)
+      if (c == 'd' || c == 'D') c = 'e';
+  char* end = nullptr;
+  value = std::strtod(text.c_str(), &end);
+  return end != text.c_str() && *end == '\0' && std::isfinite(value);
+}
+
+std::string contents_of(const std::string& file) {
+  const bool is_stdin = file == "-";
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> opened(is_stdin ? nullptr : std::fopen(file.c_str(), "rb"),
+                                                         std::fclose);
+  std::FILE* const in = is_stdin ? stdin : opened.get();
+  const std::string name = is_stdin ? "stdin" : file;
+  if (in == nullptr) throw std::runtime_error(name + ": cannot be opened: " + std::strerror(errno));
+  std::string text;
+  for (std::size_t got = 1; got > 0;) {
+    const std::size_t before = text.size(), more = std::max<std::size_t>(before, std::size_t{1} << 16);
+    text.resize(before + more);
+    got = std::fread(&text[before], 1, more, in);
+    text.resize(before + got);
+  }
+  if (std::ferror(in)) throw std::runtime_error(name + ": read error: " + std::strerror(errno));
+  return text;
+}
+
+Table table_of(std::string_view text, const std::string& name, std::size_t most_columns, bool with_nan) {
+  Table table;
+  std::size_t number = 0, line_of_count = 0;
+  double count = 0;
+  while (!text.empty()) {
+    ++number;
+    const std::size_t length = std::min(text.size(), text.find('\n'));
+    std::string_view line = text.substr(0, length);
+    text.remove_prefix(std::min(text.size(), length + 1));
+    line = line.substr(0, line.find_first_of("#!"));
+
+    const std::size_t before = table.values.size();
+    for (std::size_t begin = 0, end;; begin = end) {
+      while (begin < line.size() && is_blank(line[begin])) ++begin;
+      if (begin == line.size()) break;
+      for (end = begin; end < line.size() && !is_blank(line[end]);) ++end;
+      const std::string_view word = line.substr(begin, end - begin);
+      double value = 0;
+      if (with_nan && is_nan(word))
+        value = std::nan("");
+      else if (!parse_word(word, value))
+        fail(name, number, "'" + std::string(word) + "' is not a finite number");
+      table.values.push_back(value);
+    }
+    const std::size_t columns = table.values.size() - before;
+    if (columns == 0) continue;
+    if (columns == 1 && table.columns == 0 && line_of_count == 0 && table.values[0] >= 1 &&
+        table.values[0] == std::floor(table.values[0])) {
+      line_of_count = number;
+      count = table.values[0];
+      table.values.clear();
+      continue;
+    }
+    if (table.columns == 0) table.columns = columns;
+    if (table.columns < 2 || table.columns > most_columns)
+      fail(name, number, "expected 'lon lat' or 'x y z', found " + numbers(columns));
+    if (columns != table.columns)
+      fail(name, number,
+           "found " + numbers(columns) + " where the lines before have " + std::to_string(table.columns));
+    table.lines.push_back(number);
+  }
+  if (table.rows() == 0) throw std::runtime_error(name + ": no points: expected lines 'lon lat' or 'x y z'");
+  if (line_of_count > 0 && count != static_cast<double>(table.rows()))
+    fail(name, line_of_count,
+         "a single number is the count of the points that follow; there are " + std::to_string(table.rows()));
+  return table;
+}
+
+std::vector<pstripack::Point> read(const std::string& file) {
+  const std::string name = file == "-" ? "stdin" : file;
+  const Table table = table_of(contents_of(file), name);
+  std::vector<pstripack::Point> points(table.rows());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double* const v = table.row(i);
+    if (table.columns == 2 && std::fabs(v[1]) > 90)
+      fail(name, table.lines[i], "latitude outside -90..90 degrees");
+    points[i] = table.columns == 2 ? from_degrees(v[0], v[1]) : pstripack::Point{v[0], v[1], v[2]};
+  }
+  return points;
+}
+
+}  // namespace point_sets
