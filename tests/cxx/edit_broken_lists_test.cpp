@@ -18,6 +18,7 @@
 #include "point_sets.h"
 #include "stripack/node_edit.h"
 #include "support/guarded.h"
+#include "trmesh/trmesh.h"
 
 using namespace pstripack;
 
@@ -62,10 +63,10 @@ class Arrays {
     put_nodes();
     std::vector<std::int32_t> list(6 * kNodes - 12), lptr(list.size()), lend(kNodes);
     std::int32_t lnew = 0;
-    EXPECT_EQ(trmesh(std::int32_t{kNodes}, x_.data(), y_.data(), z_.data(), list.data(), lptr.data(),
-                     lend.data(), &lnew)
-                  .ier,
-              0);
+    EXPECT_EQ(
+        trmesh({kNodes, {x_.data(), y_.data(), z_.data()}, {list.data(), lptr.data(), lend.data(), &lnew}})
+            .ier,
+        0);
     right_lnew_ = lnew;
     right_.assign(list.begin(), list.end());
     right_.resize(list_.size());

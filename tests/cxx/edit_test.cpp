@@ -12,6 +12,7 @@
 #include "lists/adjacency_lists.h"
 #include "point_sets.h"
 #include "stripack/node_edit.h"
+#include "trmesh/trmesh.h"
 
 using namespace pstripack;
 
@@ -44,10 +45,11 @@ struct Mesh {
     const std::size_t slots = 6 * nodes.size() - 12;
     std::vector<std::int32_t> a(slots), b(slots), c(nodes.size());
     std::int32_t end = 0;
-    EXPECT_EQ(
-        trmesh(static_cast<std::int32_t>(n), x.data(), y.data(), z.data(), a.data(), b.data(), c.data(), &end)
-            .ier,
-        0);
+    EXPECT_EQ(trmesh({static_cast<std::int32_t>(n),
+                      {x.data(), y.data(), z.data()},
+                      {a.data(), b.data(), c.data(), &end}})
+                  .ier,
+              0);
     std::copy(a.begin(), a.end(), list.begin());
     std::copy(b.begin(), b.end(), lptr.begin());
     std::copy(c.begin(), c.end(), lend.begin());

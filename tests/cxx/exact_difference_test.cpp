@@ -29,7 +29,8 @@ struct Mesh {
       z.push_back(p.z);
     }
     n = static_cast<int>(x.size());
-    EXPECT_EQ(trmesh(n, x.data(), y.data(), z.data(), list.data(), lptr.data(), lend.data(), &lnew).ier, 0);
+    EXPECT_EQ(trmesh({n, {x.data(), y.data(), z.data()}, {list.data(), lptr.data(), lend.data(), &lnew}}).ier,
+              0);
   }
 
   EditedLists<int> lists() { return {n, list.data(), lptr.data(), lend.data(), &lnew}; }
