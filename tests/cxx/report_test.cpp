@@ -195,7 +195,8 @@ TEST(Report, TellsTheOrder) {
   EXPECT_EQ(order_of("calls latlon 1000 1"), "order=canonical: the original's triangulation is not Delaunay");
   EXPECT_EQ(order_of("meridian"), "order=canonical: the original's search for node 4 does not end");
   EXPECT_EQ(order_of("in-line"),
-            "order=canonical: to the original node 5 lies in line with all that it sees");
+            "order=canonical: STRIPACK rejects node 5: within rounding it is collinear with every visible "
+            "boundary edge");
   EXPECT_EQ(order_of("six"), "order=canonical: the original's triangulation is not Delaunay");
 }
 
@@ -207,7 +208,8 @@ TEST(Report, TellsHowFarFromTheExactMeshTheOriginalIs) {
   EXPECT_EQ(order_of("collinear"), "order=original: the exact IER is -2");
   EXPECT_EQ(order_of("meridian"), "order=canonical: the original's search for node 4 does not end");
   EXPECT_EQ(order_of("in-line"),
-            "order=canonical: to the original node 5 lies in line with all that it sees");
+            "order=canonical: STRIPACK rejects node 5: within rounding it is collinear with every visible "
+            "boundary edge");
 }
 
 TEST(Report, TellsTheOrdersThatThereAre) {

@@ -237,12 +237,11 @@ bool MovingMesh::repair() {
 /// Flips arcs until all are locally Delaunay. `suspects`: those that may not be. Every flip pushes the
 /// surface outwards, so it ends; false if it would take long, or an arc cannot be flipped.
 ///
-///          b                     b          The arc a-b goes if d is above the triangle a,c,b. Then c-d
-///          comes,
-///        / | \                 /   \        if the triangles a,c,d and b,d,c are counterclockwise; both lie
-///      d   |   c      ->     d ----- c      in the quadrangle, which is covered once as before.
-///        \ | /                 \   /
-///          a                     a
+///          b                   b
+///        / | \               /   \        The arc a-b goes if d is above the triangle a,c,b. Then c-d
+///      d   |   c    ->     d ----- c      comes, if the triangles a,c,d and b,d,c are counterclockwise:
+///        \ | /               \   /        both lie in the quadrangle, which is covered once as before.
+///          a                   a
 bool MovingMesh::flip(std::vector<Arc>& suspects) {
   const Coordinates predicates(nodes_, n_);
   const auto id = [](std::uint32_t w) { return static_cast<index_t>(w); };

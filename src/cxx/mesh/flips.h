@@ -16,7 +16,7 @@ namespace pstripack {
 /// close together in memory.
 class MovingMesh {
  public:
-  /// The mesh with these canonical lists (interface contract, section 4.3) of the nodes p[0..n-1], which
+  /// The mesh with these canonical lists (docs/differences.md) of the nodes p[0..n-1], which
   /// surround the centre; n < 2^29. Parallel. Throws std::bad_alloc.
   MovingMesh(const Point* p, std::size_t n, const std::int32_t* list, const std::int32_t* lend);
 

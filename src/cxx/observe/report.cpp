@@ -100,7 +100,8 @@ class Report {
              static_cast<long long>(call.cost.total.bytes_sent));
     if (call.mode == CallReport::on_threads) {
       line.add(" start=%s", call.cost.maximum.flips >= 0 ? "warm" : "cold");
-      if (call.cost.maximum.flips >= 0) line.add(" flips=%lld", static_cast<long long>(call.cost.maximum.flips));
+      if (call.cost.maximum.flips >= 0)
+        line.add(" flips=%lld", static_cast<long long>(call.cost.maximum.flips));
     }
     add_order(line, call);
     line.add("\n");
@@ -126,7 +127,11 @@ class Report {
         add_difference(line, call.difference);
         break;
       case OriginalOrder::collinear:
-        line.add(" order=canonical: to the original node %lld lies in line with all that it sees", node);
+        line.add(
+            " order=canonical: STRIPACK rejects node %lld: within rounding it is collinear with every "
+            "visible "
+            "boundary edge",
+            node);
         break;
       case OriginalOrder::endless:
         line.add(" order=canonical: the original's search for node %lld does not end", node);
