@@ -127,11 +127,9 @@ class Report {
         add_difference(line, call.difference);
         break;
       case OriginalOrder::collinear:
-        line.add(
-            " order=canonical: STRIPACK rejects node %lld: within rounding it is collinear with every "
-            "visible "
-            "boundary edge",
-            node);
+        line.add(" order=canonical: STRIPACK rejects node %lld: within rounding it is collinear with every ",
+                 node);
+        line.add("visible boundary edge");
         break;
       case OriginalOrder::endless:
         line.add(" order=canonical: the original's search for node %lld does not end", node);
