@@ -4,15 +4,18 @@
 #include "trmesh/warm_start.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 #ifdef _OPENMP
 #include <omp.h>
 #endif
 
 #include <algorithm>
+#include <cstdlib>
 #include <functional>
 #include <string>
 #include <thread>
 
+#include "base/workspace.h"
 #include "geometry/predicates.h"
 #include "lists/adjacency_lists.h"
 #include "mesh/delaunay.h"
@@ -96,6 +99,14 @@ std::vector<Nodes> sets_of(Nodes nodes, int steps, const std::function<void(Node
     sets.push_back(nodes);
   }
   return sets;
+}
+
+/// How many bytes more may stay with the process.
+std::size_t room() {
+  std::size_t bytes = 0;
+  for (std::size_t step = std::size_t{1} << 50; step > 0; step /= 2)
+    if (may_stay(bytes + step)) has_left(bytes += step);
+  return bytes;
 }
 
 /// With the first three nodes not on one great circle.
@@ -401,6 +412,219 @@ TEST(WarmStart, GivesItsMemoryUpWhereItIsAskedFor) {
   EXPECT_TRUE(free_kept_blocks());
   EXPECT_FALSE(forget_last_meshes());
   EXPECT_FALSE(call(nodes).is_warm);
+  forget_last_meshes();
+}
+
+/// A call with nodes that do not fit leaves the mesh to those that do.
+TEST(WarmStart, RecognisesItsNodesAfterOthers) {
+  const auto is_recognised = [](const Nodes& nodes) {
+    const Columns<> c(nodes);
+    return WarmStart({c.x.data(), c.y.data(), c.z.data()}, nodes.size()).is_prepared();
+  };
+  const auto is_kept = [](const Nodes& nodes) {
+    forget_last_meshes();
+    for (int i = 0; i < 2; ++i) EXPECT_FALSE(call(nodes).is_warm);
+  };
+  const Nodes nodes = nodes_of("random", kN);
+  is_kept(nodes);
+  EXPECT_TRUE(is_recognised(nodes));
+  Nodes others = nodes;
+  for (Point& p : others) p = {2 * p.x, 2 * p.y, 2 * p.z};
+  EXPECT_FALSE(is_recognised(others));
+  // Every 64th star is looked at: one jump turns its triangles over, too few to count as arcs.
+  int seen = 0;
+  for (std::size_t k = 0; k < 64; ++k) {
+    others = nodes;
+    others[k] = {-nodes[k].x, -nodes[k].y, -nodes[k].z};
+    seen += !is_recognised(others);
+  }
+  EXPECT_GE(seen, 1);
+  EXPECT_LT(seen, 32);
+  EXPECT_TRUE(call(nodes).is_warm);
+
+  // Half the diagonals of the quadrangles are not locally Delaunay any more; no triangle is turned over.
+  const Nodes lattice = nodes_of("latlon", 1100);
+  is_kept(lattice);
+  Random random(11);
+  others = lattice;
+  for (std::size_t k = 0; k < others.size(); k += 3) {
+    const Point &p = lattice[k], d = random.direction();
+    others[k] = point_sets::normalized({p.x + 1e-6 * d.x, p.y + 1e-6 * d.y, p.z + 1e-6 * d.z});
+  }
+  EXPECT_FALSE(is_recognised(others));
+  EXPECT_TRUE(call(lattice).is_warm);
+  forget_last_meshes();
+}
+
+/// One node far from the stars that are looked at first: its length decides which predicates are right.
+TEST(WarmStart, IsInvisibleWhereOneLengthIsNotOne) {
+  const Nodes nodes = nodes_of("random", 1000);
+  for (std::size_t k = 0; k < 1000; k += 50)
+    for (const int calls : {2, 3}) {
+      Nodes others = nodes;
+      Point& p = others[k];
+      p = {p.x * 1.0005, p.y * 1.0005, p.z * 1.0005};
+      forget_last_meshes();
+      for (int i = 0; i < calls; ++i) call(nodes);
+      const Result r = call(others);
+      EXPECT_FALSE(r.is_warm);
+      EXPECT_TRUE(same(r, cold_call(others))) << k;
+    }
+}
+
+/// Stars with more neighbours than a sample has room for are left out of it.
+TEST(WarmStart, IsInvisibleAroundHubs) {
+  Random random(12);
+  Nodes nodes = nodes_of("random", 1000);
+  std::size_t around = 0;
+  const auto put_around = [&](const Point& hub) {  // hubs have multiples of 3 as numbers
+    const Point u = point_sets::normalized(cross(hub, {0.36, 0.48, 0.8})), v = cross(hub, u);
+    for (int i = 0; i < 60; ++i) {
+      const double c = 1e-3 * std::cos(0.1047 * i), s = 1e-3 * std::sin(0.1047 * i);
+      while (around % 3 == 0) ++around;
+      nodes[around++] = point_sets::normalized(
+          {hub.x + c * u.x + s * v.x, hub.y + c * u.y + s * v.y, hub.z + c * u.z + s * v.z});
+    }
+  };
+  for (const std::size_t k : {33, 99, 165, 231, 297, 363, 429}) put_around(nodes[k]);
+  const Tally tally = compare(sets_of(nodes, 5, [&](Nodes& p, int) { move_all(p, 1e-9, random); }));
+  EXPECT_EQ(tally.warm, 3);
+}
+
+/// The first look of a kept mesh at its nodes is at the lists of another call, wherever these nodes have
+/// been before: its memory may hold them still.
+TEST(WarmStart, TestsAMeshThatIsNew) {
+  Random random(13);
+  const Nodes nodes = nodes_of("fibonacci", kN);
+  Nodes others = nodes;
+  move_all(others, 0.02 * spacing(kN), random);
+  forget_last_meshes();
+  for (int i = 0; i < 3; ++i) call(nodes);
+  forget_last_meshes();
+  for (int i = 0; i < 2; ++i) call(others);
+  const Result r = call(nodes);
+  EXPECT_TRUE(r.is_warm);
+  EXPECT_GT(r.flips, 0);
+  EXPECT_EQ(call(nodes).flips, 0);  // of this call, in which none has moved
+  EXPECT_TRUE(same(r, cold_call(nodes)));
+}
+
+/// Rings that grow need room, which is made where the lists are kept anew.
+TEST(WarmStart, GoesOnWithEveryCall) {
+  Random random(14);
+  const Tally tally = compare(sets_of(make("fibonacci", 1000, 1), 150,
+                                      [&](Nodes& p, int) { move_all(p, 0.05 * spacing(1000), random); }));
+  EXPECT_EQ(tally.cold, 2);
+}
+
+/// Nodes may drift while no mesh is kept: a call is compared with the one before, warm or cold.
+TEST(WarmStart, LooksAtTheLastCallOnly) {
+  Nodes nodes = make("fibonacci", kN, 1);
+  const Nodes drift = make("random", kN, 2);
+  forget_last_meshes();
+  int i = 0;
+  for (; i <= 8; ++i) {  // meshes that do not fit: the next is kept after eight calls
+    nodes[0] = {-nodes[0].x, -nodes[0].y, -nodes[0].z};
+    EXPECT_FALSE(call(nodes).is_warm);
+  }
+  for (; i <= 16; ++i) {
+    const double by = 0.03 * spacing(kN);
+    for (std::size_t k = 0; k < kN; ++k) {
+      Point& p = nodes[k];
+      p = point_sets::normalized({p.x + by * drift[k].x, p.y + by * drift[k].y, p.z + by * drift[k].z});
+    }
+    EXPECT_EQ(call(nodes).is_warm, i == 16) << i;
+  }
+  forget_last_meshes();
+}
+
+/// What is of no use is not kept: boundaries, few nodes.
+TEST(WarmStart, KeepsNothingThatNoCallCanBeginWith) {
+  forget_last_meshes();
+  call(make("cap", kN, 1));
+  EXPECT_FALSE(forget_last_meshes());
+  call(nodes_of("random", 999));
+  EXPECT_FALSE(forget_last_meshes());
+  call(nodes_of("random", 1000));
+  EXPECT_TRUE(forget_last_meshes());
+}
+
+TEST(WarmStart, KeepsNothingWhereItIsOff) {
+  const char* const value = std::getenv("PSTRIPACK_WARM_START");
+  if (value != nullptr && value == std::string("0")) {
+    for (int i = 0; i < 3; ++i) EXPECT_FALSE(call(make("random", kN, 1)).is_warm);
+    EXPECT_FALSE(forget_last_meshes());
+    return;
+  }
+  EXPECT_EQ(in_child([] {
+              setenv("PSTRIPACK_WARM_START", "0", 1);
+              execl("/proc/self/exe", "warm_start_test", "--gtest_filter=WarmStart.KeepsNothingWhereItIsOff",
+                    nullptr);
+              return 1;
+            }),
+            0);
+}
+
+/// Four callers that came first do not keep four others out.
+TEST(WarmStart, ForgetsTheMeshesOfOthersInTurn) {
+  const auto set = [](std::uint64_t seed) { return make("random", 1000, seed); };
+  forget_last_meshes();
+  const std::size_t before = room();
+  for (std::uint64_t seed = 1; seed <= 4; ++seed)
+    for (int i = 0; i < 2; ++i) call(set(seed));
+  for (int round = 0; round < 3; ++round)
+    for (std::uint64_t seed = 5; seed <= 8; ++seed) EXPECT_EQ(call(set(seed)).is_warm, round == 2);
+  EXPECT_TRUE(forget_last_meshes());
+  EXPECT_FALSE(forget_last_meshes());
+  EXPECT_EQ(room(), before);
+}
+
+/// After a mesh that did not fit, a mesh is kept one call later than else; once one fits, as before.
+TEST(WarmStart, WaitsOneCallMoreAfterAMeshThatDidNotFit) {
+  const Nodes here = nodes_of("random", kN);
+  Nodes there = here;
+  there[0] = {-here[0].x, -here[0].y, -here[0].z};
+  forget_last_meshes();
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(call(here).is_warm, i == 2);
+  for (int round = 0; round < 3; ++round)
+    for (const Nodes& nodes : {there, here})
+      for (int i = 0; i < 3; ++i) EXPECT_EQ(call(nodes).is_warm, i == 2) << round << " " << i;
+  forget_last_meshes();
+}
+
+/// A mesh that never fits, though the sample does, is tried again after 2, 4, ... 64, 64 calls.
+TEST(WarmStart, IsTriedAgainAfterAtMost64Calls) {
+  const Nodes nodes = nodes_of("random", 1000);
+  const Result lists = cold_call(nodes);
+  Nodes others = nodes;
+  others[0] = {2 * nodes[0].x, 2 * nodes[0].y, 2 * nodes[0].z};
+  const Columns<> c(others);
+  forget_last_meshes();
+  std::vector<int> tries;
+  for (int i = 0, last = 0; i < 300; ++i) {
+    Result r = lists;
+    const ListArrays arrays{r.list.data(), r.lptr.data(), r.lend.data(), &r.lnew};
+    WarmStart start({c.x.data(), c.y.data(), c.z.data()}, 1000);
+    if (start.is_prepared()) tries.push_back(i - last), last = i;
+    EXPECT_FALSE(start.write_lists(arrays, nullptr));
+    start.remember(arrays);
+  }
+  EXPECT_EQ(tries, (std::vector<int>{2, 2, 4, 8, 16, 32, 64, 64, 64}));
+  forget_last_meshes();
+}
+
+/// All meshes together have a bound: what is kept counts, and where there is no room nothing is.
+TEST(WarmStart, CountsWhatItKeeps) {
+  const Nodes nodes = nodes_of("random", kN);
+  forget_last_meshes();
+  const std::size_t before = room();
+  for (int i = 0; i < 2; ++i) call(nodes);
+  EXPECT_LT(room(), before - 50 * kN);
+  forget_last_meshes();
+  EXPECT_EQ(room(), before);
+  ASSERT_TRUE(may_stay(before));
+  for (int i = 0; i < 4; ++i) EXPECT_FALSE(call(nodes).is_warm);
+  has_left(before);
   forget_last_meshes();
 }
 
