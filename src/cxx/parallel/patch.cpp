@@ -218,7 +218,8 @@ void Patch<Int>::ask_about_arcs(const std::array<Record, 3>& corners, Doubts& do
     }
   }
   asked_arcs_.clear();
-  for (const auto& [a, b] : arcs) {
+  for (const Arc& arc : arcs) {
+    const std::uint32_t a = arc.a, b = arc.b;
     const bool owns_a = is_own(a), owns_b = is_own(b);
     if (!owns_a && !owns_b) continue;
     const auto ask = [&](int patch) {
