@@ -2,6 +2,8 @@
 // Number of threads for an amount of work, decided in one place.
 
 #include <cstddef>
+#include <exception>
+#include <vector>
 
 #include "base/floating_point.h"
 
@@ -42,5 +44,30 @@ void parallel_tasks(int tasks, int threads, const Body& body) {
 #endif
   for (int k = 0; k < tasks; ++k) body(k);
 }
+
+/// What bodies of the above throw, one for each piece or task: they must not let it out themselves.
+class ErrorsOfThreads {
+ public:
+  /// Throws std::bad_alloc.
+  explicit ErrorsOfThreads(std::size_t bodies) : errors_(bodies) {}
+
+  /// In the k-th body: runs part(), and keeps what it throws.
+  template <class Part>
+  void keep(std::size_t k, const Part& part) noexcept {
+    try {
+      part();
+    } catch (...) {
+      errors_[k] = std::current_exception();
+    }
+  }
+  /// After all bodies: throws the first error in their order, if there is any.
+  void rethrow() const {
+    for (const auto& e : errors_)
+      if (e) std::rethrow_exception(e);
+  }
+
+ private:
+  std::vector<std::exception_ptr> errors_;
+};
 
 }  // namespace pstripack

@@ -52,12 +52,16 @@ class NodeArrays {
     return visit([=](const auto& node) { return node(i); });
   }
 
+  /// Copies the nodes first..first+n-1.
+  void copy(std::size_t first, std::size_t n, Point* to) const {
+    visit([=](const auto& node) {
+      for (std::size_t i = 0; i < n; ++i) to[i] = node(first + i);
+    });
+  }
   /// The nodes first..first+n-1 as points: where they are, or copied to `room`.
   const Point* points(std::size_t first, std::size_t n, Point* room) const {
     if (points_ != nullptr) return points_ + first;
-    visit([=](const auto& node) {
-      for (std::size_t i = 0; i < n; ++i) room[i] = node(first + i);
-    });
+    copy(first, n, room);
     return room;
   }
 

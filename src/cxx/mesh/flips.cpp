@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <exception>
 
 #include "base/parallel_for.h"
 #include "geometry/insertion_order.h"
@@ -215,17 +214,14 @@ bool MovingMesh::repair() {
   const int threads = threads_for(n_);
   std::atomic<bool> stopped{false};
   std::vector<std::vector<Arc>> suspects(static_cast<std::size_t>(threads));
-  std::vector<std::exception_ptr> errors(suspects.size());
+  ErrorsOfThreads errors(suspects.size());
   parallel_pieces(n_, threads, [&](std::size_t first, std::size_t last, int piece) {
     const auto t = static_cast<std::size_t>(piece);
-    try {
+    errors.keep(t, [&] {
       if (!test(first, last, mark, stopped, suspects[t])) stopped = true;
-    } catch (...) {
-      errors[t] = std::current_exception();
-    }
+    });
   });
-  for (const auto& e : errors)
-    if (e) std::rethrow_exception(e);
+  errors.rethrow();
   if (stopped) return false;
   for (std::size_t t = 1; t < suspects.size(); ++t)
     suspects[0].insert(suspects[0].end(), suspects[t].begin(), suspects[t].end());

@@ -133,7 +133,7 @@ TrmeshResult ByRanks::take_slice(bool wants_cost) {
         count_ = headline_.slice(ranks_.rank() + 1, ranks_) - first;
         look(first, bad);
         of_all_ranks_ = call_.nodes;
-        call_.nodes.points(0, 3, headline_.corners);
+        call_.nodes.copy(0, 3, headline_.corners);
       },
       least_n, most_n, least_hash, most_hash, bad, partition, reported, look_.lengths_are_one,
       look_.deviation);
@@ -153,7 +153,7 @@ TrmeshResult ByRanks::receive_slice(bool wants_cost) {
     headline_.n = call_.n;
     headline_.partition = options_from_environment(0).partition;
     headline_.wants_cost = wants_cost;
-    if (code_of_count(call_.n) == 0) call_.nodes.points(0, 3, headline_.corners);
+    if (code_of_count(call_.n) == 0) call_.nodes.copy(0, 3, headline_.corners);
   }
   ranks_.broadcast(&headline_, sizeof headline_, 0);
   if (const std::int32_t code = code_of_count(headline_.n); code != 0) return {code};

@@ -1,7 +1,6 @@
 #include "parallel/deliver.h"
 
 #include <algorithm>
-#include <exception>
 #include <optional>
 
 #include "base/parallel_for.h"
@@ -104,17 +103,12 @@ void find_routes(const Here& here, Routes& routes) {
     return;
   }
   routes.owner = routes.memory.keep<std::uint32_t>(nodes);
-  std::vector<std::exception_ptr> errors(threads);
+  ErrorsOfThreads errors(threads);
   parallel_pieces(nodes, static_cast<int>(threads), [&](std::size_t first, std::size_t last, int piece) {
     const auto t = static_cast<std::size_t>(piece);
-    try {
-      route_some(here, first, last, t, routes);
-    } catch (...) {
-      errors[t] = std::current_exception();
-    }
+    errors.keep(t, [&] { route_some(here, first, last, t, routes); });
   });
-  for (const auto& e : errors)
-    if (e) std::rethrow_exception(e);
+  errors.rethrow();
   for (const auto& count : routes.count)
     for (std::size_t q = 0; q < patches; ++q) routes.sent[q] += count[q];
 }

@@ -26,8 +26,7 @@ struct ParallelOptions {
   int threads = 1;  ///< of this rank
   /// Fill Stars::outside, and let the stars hold little memory beside their own.
   bool with_neighbours = false;
-  /// Of a single rank: give up if the patches have more questions, or nodes on what they take for the
-  /// boundary, than this, since one patch would be faster.
+  /// Of a single rank: give up if the patches have more questions than this, since one patch would be faster.
   std::size_t most_questions = SIZE_MAX;
   /// Of an earlier call on these ranks, on all of them or none: its patches are kept if nearly all nodes are
   /// where they belong in them, in equal numbers. Then nodes that were sent home are at home.
@@ -68,8 +67,8 @@ struct Division {
   std::shared_ptr<const Partition> partition;
   std::vector<Record> closing;                                    ///< nodes from everywhere
   double most_stretch = std::numeric_limits<double>::infinity();  ///< of the closing nodes, if computed
-  bool may_give_up =
-      false;             ///< one process, whose caller has another way: questions to itself would only cost
+  /// One process, whose caller has another way: questions to itself would only cost.
+  bool may_give_up = false;
   bool gave_up = false;  ///< then there is nothing else
 };
 

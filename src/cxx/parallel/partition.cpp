@@ -14,7 +14,8 @@ constexpr double kEverything = 4;  // a margin larger than the sphere
 constexpr std::size_t kCellSample = 16;
 // Margins in distances between nodes. A circumscribed cap of random nodes seldom has a diameter of more.
 constexpr double kMarginSpacings = 2.2;
-// Places that differ by rounding only, by less than 2^-49, are known to the same patches: nodes that coincide.
+// Places that differ by rounding only, by less than 2^-49, are known to the same patches: nodes that
+// coincide.
 constexpr double kLeastMargin = 0x1p-48;
 
 double longitude(const Point& p) {

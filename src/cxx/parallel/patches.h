@@ -2,7 +2,6 @@
 // The third phase: every patch triangulates its own nodes, its halo and a few nodes from everywhere.
 
 #include <cstddef>
-#include <exception>
 #include <memory>
 #include <vector>
 
@@ -24,17 +23,12 @@ struct Patches {
   /// body(patch, k) for every patch of this rank, on so many threads. Throws what a body threw.
   template <class Body>
   void for_each(int threads, const Body& body) {
-    std::vector<std::exception_ptr> errors(of_rank.size());
+    ErrorsOfThreads errors(of_rank.size());
     parallel_tasks(static_cast<int>(of_rank.size()), threads, [&](int task) {
       const auto k = static_cast<std::size_t>(task);
-      try {
-        body(of_rank[k], k);
-      } catch (...) {
-        errors[k] = std::current_exception();
-      }
+      errors.keep(k, [&] { body(of_rank[k], k); });
     });
-    for (const auto& e : errors)
-      if (e) std::rethrow_exception(e);
+    errors.rethrow();
   }
 };
 

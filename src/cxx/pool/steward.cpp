@@ -14,13 +14,10 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <string>
 #include <utility>
-
-#include "pool/area_layout.h"
 
 #ifdef _OPENMP
 #include <omp.h>
@@ -28,11 +25,12 @@
 
 #include "base/environment.h"
 #include "mpi/collective_trmesh.h"
+#include "pool/area_layout.h"
 
 namespace pstripack {
 namespace {
 
-/// What rank 0 tells the others, over MPI_COMM_WORLD, where nobody else sends.
+/// What rank 0 tells the others.
 struct Order {
   std::int32_t real_bytes = 0;  ///< a TRMESH of such numbers; 0: the end
   std::int32_t n = 0;
@@ -40,29 +38,7 @@ struct Order {
   std::int32_t process = 0, file = -1;
 };
 
-void tell_workers(const Order& order, const MpiCommunicator& ranks) {
-  for (int r = 1; r < ranks.size(); ++r) MPI_Send(&order, sizeof order, MPI_BYTE, r, 0, MPI_COMM_WORLD);
-}
-
-/// Waits for an order without using the processor that the model needs: naps grow with the time waited so
-/// far, so that the answer to one call after another is prompt and an idle hour costs nothing.
-Order next_order() {
-  using Clock = std::chrono::steady_clock;
-  constexpr double kSpin = 50e-6, kLongestNap = 1e-3;
-  Order order;
-  int arrived = 0;
-  MPI_Request request;
-  MPI_Irecv(&order, sizeof order, MPI_BYTE, 0, 0, MPI_COMM_WORLD, &request);
-  const auto start = Clock::now();
-  for (;;) {
-    MPI_Test(&request, &arrived, MPI_STATUS_IGNORE);
-    if (arrived) return order;
-    const double waited = std::chrono::duration<double>(Clock::now() - start).count();
-    if (waited < kSpin) continue;
-    const timespec nap{0, static_cast<long>(1e9 * std::min(waited / 8, kLongestNap))};
-    nanosleep(&nap, nullptr);
-  }
-}
+void tell_workers(const Order& order) { tell_others(&order, sizeof order); }
 
 /// Collective. True if every rank has memory for the arrays of the order: then all read and write there, and
 /// nothing is sent.
@@ -185,7 +161,7 @@ int Steward::serve(MpiCommunicator& ranks) {
       if (Descriptor socket = accept_from(listener_)) clients_.push_back({std::move(socket), {}});
   }
   clients_.clear();
-  tell_workers({}, ranks);
+  tell_workers({});
   if (told_) return 0;
   return WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
 }
@@ -206,7 +182,7 @@ bool Steward::serve(Client& client, MpiCommunicator& ranks) {
 
   ranks.set_phase("the start of a call");
   Order order{request.real_bytes, request.n, client.area_number, getpid(), client.area.file().get()};
-  tell_workers(order, ranks);
+  tell_workers(order);
   TrmeshResult result{0};
   try {
     const Arrays arrays = all_share(ranks, client.area, order) ? Arrays::shared : Arrays::on_one_rank;
@@ -230,7 +206,8 @@ void serve_as_worker(MpiCommunicator& ranks, bool beside_rank_0) {
   std::int64_t area_number = 0;
   for (;;) {
     ranks.set_phase("its wait for a call");
-    const Order order = next_order();
+    Order order;
+    wait_for_rank_0(&order, sizeof order);
     if (order.real_bytes == 0) return;
     if (order.area != area_number) {
       area = SharedArea();
@@ -247,19 +224,11 @@ void serve_as_worker(MpiCommunicator& ranks, bool beside_rank_0) {
   }
 }
 
-bool look_around() {
-  MPI_Comm machine;
-  int ranks = 1, lowest = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &lowest);
-  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
-  MPI_Comm_size(machine, &ranks);
-  MPI_Bcast(&lowest, 1, MPI_INT, 0, machine);
-  MPI_Comm_free(&machine);
+void share_processors([[maybe_unused]] const RanksOfMachine& here) {
 #ifdef _OPENMP
   if (environment_variable("OMP_NUM_THREADS") == nullptr)
-    omp_set_num_threads(std::max(1, omp_get_num_procs() / ranks));
+    omp_set_num_threads(std::max(1, omp_get_num_procs() / here.count));
 #endif
-  return lowest == 0;
 }
 
 }  // namespace pstripack

@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "base/shared_area.h"
-#include "mpi/mpi_communicator.h"
+#include "mpi/world.h"
 #include "pool/channel.h"
 #include "pool/messages.h"
 
@@ -70,7 +70,6 @@ class Steward {
 void serve_as_worker(MpiCommunicator& ranks, bool beside_rank_0);
 
 /// Sets this rank's threads: its share of the processors that it may use, unless OMP_NUM_THREADS says it.
-/// True if this rank is on the machine of rank 0. Collective over MPI_COMM_WORLD.
-bool look_around();
+void share_processors(const RanksOfMachine& here);
 
 }  // namespace pstripack

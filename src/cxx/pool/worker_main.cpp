@@ -1,7 +1,6 @@
 // pstripack-worker: a rank of the pool. Started by pstripack-run through mpirun; all ranks get the model's
 // command line, rank 0 starts the model.
 
-#include <mpi.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -58,23 +57,25 @@ int main(int argc, char** argv) {
   signal(SIGUSR1, SIG_IGN);
   signal(SIGUSR2, SIG_IGN);
 
-  int provided = 0, code = 0;
-  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
-  try {
-    const bool beside_rank_0 = pstripack::look_around();
-    pstripack::MpiCommunicator ranks(MPI_COMM_WORLD);
-    ranks.show_phase_in(watchdog->phase());
-    if (rank == 0)
-      code = steward->serve(ranks);
-    else
-      pstripack::serve_as_worker(ranks, beside_rank_0);
-    ranks.set_phase("the end of MPI");
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "pstripack: rank %d: %s\n", rank, error.what());
-    watchdog->dismiss();
-    MPI_Abort(MPI_COMM_WORLD, 1);
+  int code = 0;
+  {
+    const pstripack::World world;
+    try {
+      const pstripack::RanksOfMachine here = ranks_of_machine(world);
+      pstripack::share_processors(here);
+      pstripack::MpiCommunicator ranks = world.communicator();
+      ranks.show_phase_in(watchdog->phase());
+      if (rank == 0)
+        code = steward->serve(ranks);
+      else
+        pstripack::serve_as_worker(ranks, here.have_rank_0);
+      ranks.set_phase("the end of MPI");
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "pstripack: rank %d: %s\n", rank, error.what());
+      watchdog->dismiss();
+      world.abort();
+    }
   }
-  MPI_Finalize();
   watchdog->dismiss();
   return code;
 }

@@ -137,7 +137,7 @@ TrmeshResult lists_in_original_order(const TrmeshCall& call, ParallelCost* cost)
   insert(Hopeless::ends, StartSearch::adaptive);
   TrmeshResult result = outcome(OriginalOrder::made, OriginalOrder::wrong, [&] {
     BlockArray<Point> nodes(static_cast<std::size_t>(call.n));
-    call.nodes.points(0, nodes.size(), nodes.data());
+    call.nodes.copy(0, nodes.size(), nodes.data());
     return left(nodes[0], nodes[1], nodes[2]) != 0 &&
            is_valid(nodes.data(), inserted.view(), Lengths::automatic, Ties::either_way);
   });

@@ -237,7 +237,7 @@ std::pair<bool, bool> WarmStart::move_nodes(KeptMesh& kept) const {
   const bool is_new = !kept.mesh;
   if (is_new) {
     BlockArray<Point> points(n_);
-    nodes_.points(0, n_, points.data());
+    nodes_.copy(0, n_, points.data());
     if (!std::all_of(points.begin(), points.end(), length_is_one)) return {false, false};
     kept.mesh.emplace(points.data(), n_, kept.list.data(), kept.lend.data());
   }
