@@ -702,8 +702,7 @@ bool gives_up(const std::string& family, int patches, std::size_t most_questions
 }
 
 TEST(GivingUp, BeforeTheTriangulationWherePatchesWouldNotPay) {
-  for (const char* family :
-       {"small-circle:1", "moment:6", "hemisphere-rim", "crossing:1e-3", "axis-cap:1e-150", "nest:150"}) {
+  for (const char* family : {"small-circle:1", "moment:6", "hemisphere-rim", "crossing:1e-3", "nest:150"}) {
     ParallelCost cost;
     EXPECT_TRUE(gives_up(family, 2, 2500, cost)) << family;
     EXPECT_EQ(cost.seconds[ParallelCost::triangulate], 0) << family;
@@ -713,7 +712,7 @@ TEST(GivingUp, BeforeTheTriangulationWherePatchesWouldNotPay) {
 TEST(GivingUp, NotWhereTheyPay) {
   for (const char* family :
        {"random", "latlon", "earth", "variable:1e6", "hemisphere", "box", "cap:0.0175", "strip:1e-15",
-        "comb:1e-9", "ulp-groups:8", "tracks:50", "coast:0.3", "cap:1e-12"}) {
+        "comb:1e-9", "ulp-groups:8", "tracks:50", "coast:0.3", "cap:1e-12", "axis-cap:1e-150"}) {
     ParallelCost cost;
     EXPECT_FALSE(gives_up(family, 2, 2500, cost)) << family;
   }
@@ -724,6 +723,40 @@ TEST(GivingUp, NodesThatAreCloseTogetherAreNoReasonToAsk) {
        {"random", "cap:1e-6", "cap:1e-10", "dense-cap:1e-7", "pairs:1e-10", "ulp-groups:8"}) {
     ParallelCost cost;
     EXPECT_FALSE(gives_up(family, 16, 4000, cost)) << family;
+  }
+  for (const char* family : {"random", "cap:1e-6", "axis-cap"}) {
+    ParallelCost cost;
+    EXPECT_FALSE(gives_up(family, 16, 300, cost)) << family;
+  }
+}
+
+TEST(Halo, IsThinWhereDensityVaries) {
+  const std::pair<const char*, int> most[] = {
+      {"random", 8500}, {"clusters:1e-7", 8500}, {"falling:14", 40000}, {"axis-cap", 14000}};
+  for (const auto& [family, nodes] : most) {
+    ParallelCost cost;
+    gives_up(family, 16, SIZE_MAX, cost);
+    EXPECT_LT(cost.halo, nodes) << family;
+  }
+}
+
+TEST(Halo, IsSentOnceWhereSomeNodesTellThatLengthsHideOne) {
+  for (const char* family : {"dense-cap:1e-7", "falling:14", "cap:1e-12"}) {
+    // Lengths of 2 are never taken as given.
+    std::int64_t halo[2];
+    for (const double length : {1, 2}) {
+      Nodes nodes = point_sets::make(family, 20000, 1);
+      for (Point& p : nodes) p = {length * p.x, length * p.y, length * p.z};
+      SingleProcess process;
+      const LocalNodes local{nodes.data(), nodes.size()};
+      ParallelOptions options;
+      options.patches = 4;
+      ParallelCost cost;
+      triangulate<std::int32_t>(local, look_at(local.points, local.count), {nodes[0], nodes[1], nodes[2]},
+                                {1, 2, 3}, process, options, &cost);
+      halo[length == 2] = cost.halo;
+    }
+    EXPECT_EQ(halo[0], halo[1]) << family;
   }
 }
 

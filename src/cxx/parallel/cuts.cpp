@@ -22,9 +22,7 @@ int Extent::longest() const {
   return length(2) > kClearly * length(axis) ? 2 : axis;
 }
 
-double Extent::diagonal() const {
-  return std::sqrt(length(0) * length(0) + length(1) * length(1) + length(2) * length(2));
-}
+double Extent::diagonal() const { return std::hypot(length(0), length(1), length(2)); }
 
 /// Counts in bins, so that only those of a few bins are compared with each other: no branch of a selection
 /// can be guessed.

@@ -13,6 +13,8 @@ namespace pstripack {
 namespace {
 
 constexpr std::size_t kClosingNodes = 256;
+// So many tell in time whether lengths hide a node: later it costs what the patches have cost until then.
+constexpr std::size_t kLookedThrough = 500;
 // Whether patches can be kept is judged by so many nodes of a rank; so many more than its share do not
 // matter.
 constexpr std::size_t kLookedAt = 256, kCloselyEnough = 64;
@@ -42,6 +44,7 @@ bool most_are_at_home(const LocalNodes& nodes, const Homes& homes, int me) {
 struct Supply {
   std::size_t nodes = 0;      ///< of all ranks
   bool keeps_patches = true;  ///< of the last call
+  bool looks_through = true;  ///< for hidden nodes; not where the last call found none
   BlockArray<Record> sample;
   std::vector<std::size_t> begin;     ///< bytes of the sample that the ranks bring
   std::vector<std::int64_t> counter;  ///< room for those of cut_anew
@@ -62,8 +65,10 @@ Supply take_stock(const LocalNodes& nodes, const PatchRanges& patches, const std
   supply.keeps_patches = supply.keeps_patches &&
                          options.last->are_for(options.partition, patches, division.places.lengths()) &&
                          std::all_of(heads.begin(), heads.end(), has_its_share);
+  supply.looks_through = !supply.keeps_patches || options.last->lengths() != division.places.lengths();
+  const std::size_t enough = supply.looks_through ? kLookedThrough : kClosingNodes;
   const std::size_t wanted =
-      supply.keeps_patches ? std::min(supply.nodes, kClosingNodes) : sample_size(supply.nodes, all_patches);
+      supply.keeps_patches ? std::min(supply.nodes, enough) : sample_size(supply.nodes, all_patches);
   supply.begin.assign(1, 0);
   for (const Headcount& h : heads)
     supply.begin.push_back(supply.begin.back() +
@@ -76,14 +81,17 @@ Supply take_stock(const LocalNodes& nodes, const PatchRanges& patches, const std
 }
 
 /// Patches with equal numbers of nodes, as far as a sample and counts can tell: the outcome here, which is
-/// not agreed on yet. A rank that fails counts nothing from there on.
+/// not agreed on yet. A rank that fails, or has failed before, counts nothing from there on.
 Outcome cut_anew(const LocalNodes& nodes, Supply& supply, PartitionKind kind, Communicator& ranks,
-                 Division& division) {
+                 Division& division, Outcome outcome) {
   const int patches = division.patches.count();
   const bool is_bisection = kind == PartitionKind::bisection;
   std::vector<Point> places;
   std::optional<Cuts> cuts;
-  Outcome outcome = Outcome::of([&] {
+  const auto go_on = [&](const auto& body) {
+    if (outcome.is_good()) outcome = Outcome::of(body);
+  };
+  go_on([&] {
     places.reserve(supply.sample.size());
     for (const Record& r : supply.sample) places.push_back(division.places(r.point));
     if (is_bisection)
@@ -92,16 +100,16 @@ Outcome cut_anew(const LocalNodes& nodes, Supply& supply, PartitionKind kind, Co
   });
   for (int level = 0; is_bisection && level < Cuts::levels(patches); ++level) {
     std::fill(supply.counter.begin(), supply.counter.end(), 0);
-    if (outcome.is_good()) outcome = Outcome::of([&] { cuts->cut(); });
+    go_on([&] { cuts->cut(); });
     if (outcome.is_good()) cuts->count(supply.counter.data());
     ranks.all_sum(supply.counter.data(), supply.counter.size());
     if (outcome.is_good()) cuts->move(supply.counter.data());
   }
-  if (!outcome.is_good()) return outcome;
-  return Outcome::of([&] {
+  go_on([&] {
     division.partition = cuts ? std::make_shared<Partition>(*cuts, std::move(places), supply.nodes)
                               : std::make_shared<Partition>(kind, patches, std::move(places), supply.nodes);
   });
+  return outcome;
 }
 
 /// About `most` of the sample and those given, each once.
@@ -112,15 +120,15 @@ std::vector<Record> some_of(BlockArray<Record>& sample, std::size_t most, std::v
   return some;
 }
 
-/// Some of the sample and the corners along a curve.
-std::vector<Record> closing_nodes(BlockArray<Record>& sample, const Corners& corners) {
-  const std::vector<Record> some = some_of(sample, kClosingNodes, {corners.begin(), corners.end()});
+/// About `most` of the sample and the corners, along a curve.
+std::vector<Record> along_curve(BlockArray<Record>& sample, std::size_t most, const Corners& corners) {
+  const std::vector<Record> some = some_of(sample, most, {corners.begin(), corners.end()});
   Workspace workspace(16 * some.size());
   std::vector<std::uint32_t> order(some.size());
   insertion_order(&some[0].point, some.size(), order.data(), workspace, sizeof(Record));
-  std::vector<Record> closing;
-  for (const std::uint32_t k : order) closing.push_back(some[k]);
-  return closing;
+  std::vector<Record> ordered;
+  for (const std::uint32_t k : order) ordered.push_back(some[k]);
+  return ordered;
 }
 
 }  // namespace
@@ -143,11 +151,15 @@ Division divide(const LocalNodes& nodes, const Corners& corners, const Places& p
     supply = take_stock(nodes, division.patches, heads, division, me, options);
   });
   ranks.all_gather_in_place(supply.sample.data(), supply.begin);
-  Outcome outcome;
+  Outcome outcome = Outcome::of([&] {
+    if (supply.looks_through)
+      look_for_hidden_nodes(along_curve(supply.sample, kLookedThrough, corners), places);
+    division.closing = along_curve(supply.sample, kClosingNodes, corners);
+  });
   if (supply.keeps_patches)
     division.partition = options.last->partition();
   else
-    outcome = cut_anew(nodes, supply, options.partition, ranks, division);
+    outcome = cut_anew(nodes, supply, options.partition, ranks, division, outcome);
   in_agreement(ranks, [&] {
     outcome.accept();
     const auto patches = static_cast<std::size_t>(division.patches.count());
@@ -155,7 +167,6 @@ Division divide(const LocalNodes& nodes, const Corners& corners, const Places& p
     division.gave_up = division.may_give_up &&
                        !patches_know_most(some_of(supply.sample, 256 * patches), *division.partition, places);
     if (division.gave_up) return;
-    division.closing = closing_nodes(supply.sample, corners);
     // Worth it where it spares a look at more triangles than it takes time for.
     constexpr std::size_t kManyInAPatch = 50000;
     if (supply.nodes / patches > kManyInAPatch)

@@ -85,6 +85,7 @@ class Homes {
     return kind == kind_ && patches == patches_ &&
            (lengths == Lengths::as_given || lengths == places_.lengths());
   }
+  Lengths lengths() const { return places_.lengths(); }
   int rank(const Point& p) const { return static_cast<int>(patches_.rank_of(partition_->owner(places_(p)))); }
 
  private:

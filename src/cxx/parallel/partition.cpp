@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace pstripack {
 namespace {
@@ -11,12 +12,12 @@ constexpr double kPi = 3.141592653589793;
 constexpr double kEverything = 4;  // a margin larger than the sphere
 
 // A cell of the sample has this many nodes of it or fewer: enough to tell the distance between nodes.
-constexpr std::size_t kCellSample = 16;
+// Uneven cells are cut down to fewer.
+constexpr std::size_t kCellSample = 16, kUnevenCellSample = 5;
 // Margins in distances between nodes. A circumscribed cap of random nodes seldom has a diameter of more.
 constexpr double kMarginSpacings = 2.2;
-// Places that differ by rounding only, by less than 2^-49, are known to the same patches: nodes that
-// coincide.
-constexpr double kLeastMargin = 0x1p-48;
+// Levels of the tree in a patch. With those between 2^31 patches they fit a stack.
+constexpr int kMostLevels = 90, kStack = 128;
 
 double longitude(const Point& p) {
   const double phi = std::atan2(p.y, p.x);
@@ -141,10 +142,13 @@ class Partition::Builder {
       region.is_box = true;
       for (const Plane& p : box.planes) {
         const int axis = axis_of(p);
-        if (p.x + p.y + p.z > 0)
+        if (p.x + p.y + p.z > 0) {
           region.low[axis] = p.d;
-        else
+          region.rounded_low[axis] = p.d - rounding_at(p);
+        } else {
           region.high[axis] = -p.d;
+          region.rounded_high[axis] = -p.d + rounding_at(p);
+        }
       }
       return cells_of_patch(p, n, first_patch, margin, false);
     }
@@ -160,18 +164,21 @@ class Partition::Builder {
   }
 
   /// The cells of one patch. Stripes are bisected along their length only.
-  std::int32_t cells_of_patch(Point* p, std::size_t n, int patch, double margin, bool along_z) {
+  std::int32_t cells_of_patch(Point* p, std::size_t n, int patch, double margin, bool along_z,
+                              int level = 0) {
     const Extent extent(p, n);
     margin = margin_of(extent, n, margin);
     const int axis = along_z ? 2 : extent.longest();
-    if (n > kCellSample && extent.length(axis) > 0) {
-      const Plane split = across(axis, middle_height(p, n, axis, extent));
+    std::optional<double> height;
+    if (extent.length(axis) > 0 && level < kMostLevels) height = split_height(p, n, axis, extent);
+    if (height) {
+      const Plane split = across(axis, *height);
       Point* const middle = separate(p, p + n, split);
       const auto m = static_cast<std::size_t>(middle - p);
       if (m > 0 && m < n) {
         const std::int32_t cell = new_cell(split);
-        link(cell, 0, cells_of_patch(p, m, patch, margin, along_z));
-        link(cell, 1, cells_of_patch(middle, n - m, patch, margin, along_z));
+        link(cell, 0, cells_of_patch(p, m, patch, margin, along_z, level + 1));
+        link(cell, 1, cells_of_patch(middle, n - m, patch, margin, along_z, level + 1));
         return finish(cell);
       }
     }
@@ -188,18 +195,32 @@ class Partition::Builder {
   /// sample is too small to tell.
   double margin_of(const Extent& extent, std::size_t n, double of_parent) const {
     if (n < 4) return of_parent;
-    const double spacing = extent.diagonal() / std::sqrt(static_cast<double>(n) * nodes_a_sample_);
-    return std::max(kMarginSpacings * spacing, kLeastMargin);
+    return kMarginSpacings * extent.diagonal() / std::sqrt(static_cast<double>(n) * nodes_a_sample_);
   }
 
   static Plane across(int axis, double height) {
     return {axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0, height};
   }
 
-  /// Between the lower and the upper half of n > 1 points, if no two are at the same height.
-  double middle_height(const Point* p, std::size_t n, int axis, const Extent& extent) {
-    const std::vector<double> height = halves_.heights(p, n, n / 2 - 1, n / 2 + 1, axis, extent);
-    return 0.5 * (height[0] + height[1]);
+  /// Where to cut a cell, if at all: between the lower and the upper half. Where the density varies much, so
+  /// that the middle of the cell leaves few on one side, some of these are cut off: sparse parts and dense
+  /// ones are to have margins of their own.
+  std::optional<double> split_height(const Point* p, std::size_t n, int axis, const Extent& extent) {
+    const double middle = extent.low[axis] + 0.5 * extent.length(axis);
+    std::size_t below = 0;
+    for (std::size_t i = 0; i < n; ++i) below += component(p[i], axis) < middle;
+    const std::size_t few = std::min(below, n - below);
+    const bool is_even = n > kCellSample ? 4 * few >= n : few > n / 8 && few > 1;
+    if (n <= kCellSample && (is_even || n < kUnevenCellSample)) return std::nullopt;
+    below = is_even ? n / 2 : std::clamp(below, n / 8 + 1, n - n / 8 - 1);
+    const std::vector<double> height = halves_.heights(p, n, below - 1, below + 1, axis, extent);
+    const double half_gap = 0.5 * (height[1] - height[0]);
+    if (is_even) return height[0] + half_gap;
+    // Nodes between the sampled ones of both sides belong to the sparse side, if not close to the others.
+    const bool is_dense_below = 2 * below > n;
+    const double dense = is_dense_below ? height[0] - extent.low[axis] : extent.high[axis] - height[1];
+    const double beside = dense > 0 ? std::min(half_gap, dense) : half_gap;
+    return is_dense_below ? height[0] + beside : height[1] - beside;
   }
 
   Point* separate(Point* first, Point* last, const Plane& plane) {
@@ -274,14 +295,14 @@ void Partition::owners(const Point* x, std::size_t n, std::uint32_t* owner, doub
   for (std::size_t i = 0; i < n; ++i) {
     const double height = product(root.split, x[i]) - root.split.d;
     owner[i] = static_cast<std::uint32_t>(height >= 0 ? root.child[1] : root.child[0]);
-    nearest_plane[i] = std::fabs(height);
+    nearest_plane[i] = std::fabs(height) - root.rounding;
   }
   for (int level = 1; level < top_depth_; ++level)
     for (std::size_t i = 0; i < n; ++i) {
       const Top& t = top_[owner[i]];
       const double height = product(t.split, x[i]) - t.split.d;
       owner[i] = static_cast<std::uint32_t>(t.child[height >= 0]);
-      nearest_plane[i] = std::min(nearest_plane[i], std::fabs(height));
+      nearest_plane[i] = std::min(nearest_plane[i], std::fabs(height) - t.rounding);
     }
   for (std::size_t i = 0; i < n; ++i) owner[i] = static_cast<std::uint32_t>(top_[owner[i]].patch);
 }
@@ -292,7 +313,7 @@ std::size_t Partition::not_deep(int patch, const Point* x, std::size_t n, std::u
     std::iota(which, which + n, 0);
     return n;
   }
-  const double deep = largest_margin_[patch];
+  const double deep = largest_margin_[patch] + kRounding;
   std::size_t count = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const double depth = std::min({x[i].x - region.low[0], region.high[0] - x[i].x, x[i].y - region.low[1],
@@ -307,7 +328,8 @@ std::size_t Partition::not_deep(int patch, const Point* x, std::size_t n, std::u
 void Partition::copy_top(std::int32_t cell, int depth) {
   const auto k = static_cast<std::int32_t>(top_.size());
   const Cell& c = cells_[cell];
-  top_.push_back({c.patch >= 0 ? Plane{0, 0, 0, 2 * kEverything} : c.split, {k, k}, c.patch});
+  const Plane split = c.patch >= 0 ? Plane{0, 0, 0, 2 * kEverything} : c.split;
+  top_.push_back({split, rounding_at(split), {k, k}, c.patch});
   top_depth_ = std::max(top_depth_, depth);
   if (c.patch >= 0) return;
   for (const int side : {0, 1}) {
@@ -383,13 +405,14 @@ void Partition::find_beside(int patch) {
       continue;
     }
     const int axis = axis_of(c.split);
-    if (region.high[axis] + margin >= c.split.d) stack.push_back(c.child[1]);
-    if (region.low[axis] - margin <= c.split.d) stack.push_back(c.child[0]);
+    const double reach = margin + rounding_at(c.split);
+    if (region.high[axis] + reach >= c.split.d) stack.push_back(c.child[1]);
+    if (region.low[axis] - reach <= c.split.d) stack.push_back(c.child[0]);
   }
 }
 
 void Partition::near(const Point& x, double radius, std::vector<int>& patches) const {
-  std::int32_t stack[128];
+  std::int32_t stack[kStack];
   int top = 0;
   stack[top++] = 0;
   while (top > 0) {
@@ -398,9 +421,9 @@ void Partition::near(const Point& x, double radius, std::vector<int>& patches) c
       if (std::find(patches.begin(), patches.end(), c.patch) == patches.end()) patches.push_back(c.patch);
       continue;
     }
-    const double s = product(c.split, x) - c.split.d;
-    if (s >= -radius) stack[top++] = c.child[1];
-    if (s <= radius) stack[top++] = c.child[0];
+    const double s = product(c.split, x) - c.split.d, reach = radius + rounding_at(c.split);
+    if (s >= -reach) stack[top++] = c.child[1];
+    if (s <= reach) stack[top++] = c.child[0];
   }
 }
 
@@ -408,7 +431,7 @@ void Partition::strangers(int q, const Ball& ball, std::vector<int>& patches) co
   patches.clear();
   const double reach = distance(q, ball.centre) + ball.radius;  // how far the ball goes beyond the border
   if (reach <= smallest_margin_) return;
-  std::int32_t stack[128];
+  std::int32_t stack[kStack];
   int top = 0;
   stack[top++] = 0;
   while (top > 0) {
@@ -420,8 +443,9 @@ void Partition::strangers(int q, const Ball& ball, std::vector<int>& patches) co
       continue;
     }
     const double s = product(c.split, ball.centre) - c.split.d;
-    if (s >= -ball.radius) stack[top++] = c.child[1];
-    if (s <= ball.radius) stack[top++] = c.child[0];
+    const double radius = ball.radius + rounding_at(c.split);
+    if (s >= -radius) stack[top++] = c.child[1];
+    if (s <= radius) stack[top++] = c.child[0];
   }
 }
 

@@ -11,6 +11,8 @@
 //     |   :   |   :   |      So the halo is thin where nodes are dense.
 //     +-------+-------+
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -41,8 +43,8 @@ class Partition {
 
   int patches() const { return static_cast<int>(regions_.size()); }
 
-  /// The patches that n places belong to, and how far they are from the nearest plane that decided so: a
-  /// lower bound of the distance from any other patch.
+  /// The patches that n places belong to, and how far they are from the nearest plane that decided so, but
+  /// for rounding: a lower bound of the distance from any other patch.
   void owners(const Point* x, std::size_t n, std::uint32_t* owner, double* nearest_plane) const;
   /// The patch that x belongs to.
   int owner(const Point& x) const {
@@ -76,7 +78,7 @@ class Partition {
           near(x[i], margin[j], patches);
         }
         for (const int q : region.is_box ? region.beside : patches)
-          if (q != static_cast<int>(owner[i]) && distance(q, x[i]) <= margin[j]) visit(i, q);
+          if (q != static_cast<int>(owner[i]) && is_within(margin[j], q, x[i])) visit(i, q);
       }
     };
     const double* const largest_margin = largest_margin_.data();
@@ -91,9 +93,10 @@ class Partition {
   }
 
   /// True if x is patch q's own or in its halo.
-  bool knows(int q, const Point& x) const { return owner(x) == q || distance(q, x) <= margin_at(x); }
+  bool knows(int q, const Point& x) const { return owner(x) == q || is_within(margin_at(x), q, x); }
 
-  /// The patches that may have nodes in the ball which q does not know; none: q knows all of them.
+  /// The patches that may have nodes in the ball which q does not know; none: q knows all of them. The
+  /// components of the centre may be wrong by 2^-49 of themselves or of the radius.
   void strangers(int q, const Ball& ball, std::vector<int>& patches) const;
 
   /// The smallest margin of all cells.
@@ -117,6 +120,7 @@ class Partition {
     std::int32_t root = 0;  // of the tree, or of all its cells
     bool is_box = false;    // between these heights across x, y and z
     double low[3] = {-8, -8, -8}, high[3] = {8, 8, 8};
+    double rounded_low[3] = {-8, -8, -8}, rounded_high[3] = {8, 8, 8};  // so far off by rounding
     std::vector<int> beside;  // of a box: patches that may have nodes of this one in their halo
     bool is_cone = false;     // convex, and a set of directions
   };
@@ -131,10 +135,22 @@ class Partition {
   /// So many descents in the tree at a time, level by level: one would wait for each of its comparisons.
   static constexpr std::size_t kTogether = 16;
 
+  /// Rounding of places: of each component, if planes are across an axis.
+  static constexpr double kRounding = 0x1p-48;
+  static double rounding_at(const Plane& p) { return kRounding * (p.d != 0 ? std::fabs(p.d) : 1); }
+
   static double product(const Plane& p, const Point& x) { return p.x * x.x + p.y * x.y + p.z * x.z; }
   /// Of a plane across one of them.
   static int axis_of(const Plane& p) { return p.x != 0 ? 0 : p.y != 0 ? 1 : 2; }
   static bool is_beyond(const Cell& cell, const Point& x) { return product(cell.split, x) >= cell.split.d; }
+
+  /// True if x is no farther from the patch than the margin, up to rounding.
+  bool is_within(double margin, int patch, const Point& x) const {
+    const Region& r = regions_[patch];
+    if (!r.is_box) return distance(patch, x) <= margin + kRounding;
+    return std::max({r.rounded_low[0] - x.x, x.x - r.rounded_high[0], r.rounded_low[1] - x.y,
+                     x.y - r.rounded_high[1], r.rounded_low[2] - x.z, x.z - r.rounded_high[2]}) <= margin;
+  }
 
   /// The margin of the cell of x.
   double margin_at(const Point& x) const {
@@ -151,6 +167,7 @@ class Partition {
   /// A node of the top of the tree: down to cells of one patch, which lead to themselves.
   struct Top {
     Plane split;
+    double rounding;
     std::int32_t child[2];
     std::int32_t patch;
   };

@@ -41,6 +41,58 @@ Ball ball_beyond(const Point& normal, double height, double error, double deviat
   return {normal, std::sqrt(std::max(square, 0.0)) + error + 1e-12};
 }
 
+/// The component of the largest of a, where |a| = |a + e| = 1, follows from the others: (2a + e).e = 0. Where
+/// these are small it is known as well as they are, whatever the rounding of the directions.
+void follow_others(const Point& a, Point& e) {
+  double Point::*const axis[] = {&Point::x, &Point::y, &Point::z};
+  const auto size = [&](int k) { return std::fabs(a.*axis[k]); };
+  const int k = size(0) >= size(1) ? (size(0) >= size(2) ? 0 : 2) : (size(1) >= size(2) ? 1 : 2);
+  const auto x = axis[k], y = axis[(k + 1) % 3], z = axis[(k + 2) % 3];
+  e.*x = -(e.*y * (a.*y + 0.5 * e.*y) + e.*z * (a.*z + 0.5 * e.*z)) / (a.*x + 0.5 * e.*x);
+}
+
+/// A ball around all directions above the triangle a, a + e, a + f of directions, the longest edge of which
+/// is the third, with the centre below it: that of its circle. The cap above a plane at height d >= 0 is no
+/// farther from the point where the plane is nearest to the centre than the circle, sqrt(1 - d^2).
+Ball ball_around(const Point& a, Point e, Point f) {
+  // An edge as far as it is known: its components to 2.1u and 2^-98 of those of its ends. If it is short,
+  // that along the axis follows from the others, to 45u of the edge and 2^-96 of the others of a.
+  const double longest = std::max(
+      {std::fabs(e.x), std::fabs(e.y), std::fabs(e.z), std::fabs(f.x), std::fabs(f.y), std::fabs(f.z)});
+  if (!(longest > 0x1p-900)) return kEverywhere;
+  double relative = 8 * u, absolute = 0x1p-95;
+  if (longest < 0x1p-40) {
+    follow_others(a, e);
+    follow_others(a, f);
+    relative = 48 * u;
+    const double across = std::fabs(a.x) + std::fabs(a.y) + std::fabs(a.z) -
+                          std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)});
+    absolute *= across + longest;
+  }
+  int exponent;
+  std::frexp(longest, &exponent);
+  const auto scaled = [](const Point& p, int by) {
+    return Point{std::ldexp(p.x, by), std::ldexp(p.y, by), std::ldexp(p.z, by)};
+  };
+  e = scaled(e, -exponent), f = scaled(f, -exponent);
+  absolute = std::ldexp(absolute, -exponent);
+  const Point n = cross(e, f), g = minus(f, e);
+  const double ee = dot(e, e), ff = dot(f, f), nn = dot(n, n), edges = std::sqrt(ee * ff);
+  const double length = std::sqrt(nn);
+  // Of n, relative: that of the factors, and 4u |e||f| of the product.
+  const double error =
+      ((2 * relative + 4 * u) * edges + 2 * absolute * (std::sqrt(ee) + std::sqrt(ff))) / length;
+  if (!(error < 0.01 && nn > 0x1p-900)) return kEverywhere;
+  // From a to the centre of the circle: (|e|^2 f - |f|^2 e) x n / (2 |n|^2). The first factor is |e||f||g|
+  // long and known to 6 errors of its terms, no longer than 2 of that; n and |n|^2 to 3.
+  const Point v{ee * f.x - ff * e.x, ee * f.y - ff * e.y, ee * f.z - ff * e.z};
+  const Point to_centre = cross(v, n);
+  const double half = 0.5 / nn;
+  const double radius = edges * std::sqrt(dot(g, g)) / (2 * length) * (1 + 32 * error);
+  const Point c = scaled({to_centre.x * half, to_centre.y * half, to_centre.z * half}, exponent);
+  return {{a.x + c.x, a.y + c.y, a.z + c.z}, std::ldexp(radius, exponent)};
+}
+
 }  // namespace
 
 // ---- triangulate ------------------------------------------------------------------------------------
@@ -120,7 +172,9 @@ Ball Patch<Int>::ball_above(std::uint32_t ia, std::uint32_t ib, std::uint32_t ic
     if (bc >= square(growing_->difference(ib, ia)) && bc >= square(growing_->difference(ic, ia))) break;
     std::tie(ia, ib, ic) = std::make_tuple(ib, ic, ia);
   }
-  const Point a = place(ia), e = growing_->difference(ib, ia), f = growing_->difference(ic, ia);
+  const Point a = place(ia);
+  const Point e = growing_->difference(ib, ia), f = growing_->difference(ic, ia);
+  if (places_.lengths() != Lengths::as_given) return ball_around(a, e, f);
   const Point n = cross(e, f);
   const double length = std::sqrt(dot(n, n)), edge_e = std::sqrt(dot(e, e)), edge_f = std::sqrt(dot(f, f));
   // Rounding of the differences and of their product: 12u |e||f| and 2^-95 (|e| + |f|), as of a plane in
@@ -128,15 +182,7 @@ Ball Patch<Int>::ball_above(std::uint32_t ia, std::uint32_t ib, std::uint32_t ic
   const double error = (16 * u * edge_e * edge_f + 0x1p-94 * (edge_e + edge_f)) / length;
   if (!(error < 0.1)) return kEverywhere;
   const Point normal{n.x / length, n.y / length, n.z / length};
-  const Ball ball = ball_beyond(normal, dot(normal, a), error, places_.deviation());
-  if (places_.lengths() == Lengths::as_given) return ball;
-  // Of directions no place has another length than 1, but by rounding, 5u. The centre is below the plane, so
-  // no place above it is farther from a than twice the radius of the circle through a, b, c: the smaller ball
-  // where the height drowns in the rounding of the other one.
-  const double edge_g = std::sqrt(square(growing_->difference(ic, ib)));
-  const double diameter = edge_e * edge_f * edge_g / (length * (1 - error));
-  const double radius = diameter * (1 + 64 * u) + 32 * u;
-  return radius < ball.radius ? Ball{a, radius} : ball;
+  return ball_beyond(normal, dot(normal, a), error, places_.deviation());
 }
 
 template <class Int>
@@ -328,6 +374,18 @@ double most_stretch(const std::vector<Record>& nodes, const Places& places) {
     most = std::numeric_limits<double>::infinity();
   }
   return most;
+}
+
+void look_for_hidden_nodes(const std::vector<Record>& nodes, const Places& places) {
+  if (places.lengths() != Lengths::as_given) return;
+  // A node of length 1 - d among others of length 1 is hidden if they are no farther off than sqrt(2 d).
+  double least = 4;
+  for (std::size_t k = 1; k < nodes.size(); ++k) {
+    const Point d = minus(nodes[k].point, nodes[k - 1].point);
+    least = std::min(least, dot(d, d));
+  }
+  if (least > 4 * places.deviation()) return;
+  SmallHull(nodes, places.lengths()).growing->finish();
 }
 
 bool patches_know_most(const std::vector<Record>& nodes, const Partition& partition, const Places& places) {

@@ -41,6 +41,11 @@ struct Doubts {
 /// the centre. Throws std::bad_alloc.
 double most_stretch(const std::vector<Record>& nodes, const Places& places);
 
+/// Throws HiddenNode if lengths hide one of some nodes, and so in every set that has them. Looks closely only
+/// if neighbours in their order, which should follow a curve, are close. Not all on one great circle. Throws
+/// std::bad_alloc.
+void look_for_hidden_nodes(const std::vector<Record>& nodes, const Places& places);
+
 /// What nodes from everywhere tell of the triangulation: false if so many of them lie on the boundary, or so
 /// many triangles have corners in different patches, as along lines that cross, that the patches would ask
 /// each other about nearly everything.
