@@ -97,7 +97,9 @@ class Patches {
   }
 
   IntPatch& operator[](std::size_t q) { return patches_[q]; }
-  Doubts doubts(std::size_t q) { return patches_[q].ask(corners_, std::numeric_limits<double>::infinity()); }
+  Doubts doubts(std::size_t q) {
+    return patches_[q].ask(corners_, std::numeric_limits<double>::infinity(), SIZE_MAX);
+  }
 
   /// Questions and answers until none is left, about arcs only if triangles do not matter. Returns the
   /// rounds.

@@ -730,6 +730,33 @@ TEST(GivingUp, NodesThatAreCloseTogetherAreNoReasonToAsk) {
   }
 }
 
+TEST(GivingUp, OneRankTriangulatesAllWhereOthersWouldAskAboutAll) {
+  for (const char* family : {"ring", "crossing:1e-3", "moment:6"}) {
+    const Set set(point_sets::make(family, 4000, 1));
+    constexpr std::size_t kRanks = 8;
+    std::vector<std::size_t> rank_of_node;
+    for (std::size_t i = 0; i < set.nodes.size(); ++i) rank_of_node.push_back(i % kRanks);
+    ParallelOptions options;
+    options.with_neighbours = true;
+    std::vector<std::unique_ptr<Homes>> homes(kRanks);
+    std::vector<bool> is_home(kRanks);
+    for (int call = 0; call < 2; ++call) {
+      const Outcome out = run<std::int32_t>(set.nodes, rank_of_node, options, homes);
+      EXPECT_TRUE(is_serial(set, out)) << family;
+      for (const ParallelCost& cost : out.cost) {
+        EXPECT_EQ(cost.rounds, 0) << family;
+        EXPECT_LT(cost.bytes_sent, 1000 * 1000) << family;
+      }
+      ASSERT_NE(homes[0], nullptr);
+      for (std::size_t i = 0; i < set.nodes.size(); ++i) {
+        rank_of_node[i] = static_cast<std::size_t>(homes[0]->rank(set.nodes[i]));
+        is_home[rank_of_node[i]] = true;
+      }
+    }
+    EXPECT_EQ(std::count(is_home.begin(), is_home.end(), true), kRanks) << family;
+  }
+}
+
 TEST(Halo, IsThinWhereDensityVaries) {
   const std::pair<const char*, int> most[] = {
       {"random", 8500}, {"clusters:1e-7", 8500}, {"falling:14", 40000}, {"axis-cap", 14000}};

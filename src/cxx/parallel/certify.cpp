@@ -29,6 +29,7 @@ struct Questions {
   // Here, or on any rank once these have agreed:
   OnAny about_triangles, about_arcs;
   OnAny have_grown;  ///< patches have taken in nodes since they asked last
+  OnAny too_many;    ///< one hull of all nodes would take less time
 
   /// If not, every star is final; questions about arcs alone end where nobody learns from them.
   bool must_be_asked() const { return about_triangles.value || (about_arcs.value && have_grown.value); }
@@ -36,12 +37,12 @@ struct Questions {
 
 template <class Int>
 Questions ask(Patches<Int>& patches, const Corners& corners, const Division& division, std::size_t ranks,
-              int threads) {
+              std::size_t most, int threads) {
   Questions questions;
   questions.to_rank.resize(ranks);
   std::vector<Doubts> of_patch(patches.of_rank.size());
   patches.for_each(threads, [&](Patch<Int>& patch, std::size_t k) {
-    of_patch[k] = patch.ask(corners, division.most_stretch);
+    of_patch[k] = patch.ask(corners, division.most_stretch, most);
   });
   for (const Doubts& doubts : of_patch) {
     for (const Question& q : doubts.questions) questions.to_rank[division.patches.rank_of(q.to)].push_back(q);
@@ -50,7 +51,18 @@ Questions ask(Patches<Int>& patches, const Corners& corners, const Division& div
     questions.about_arcs.value |= doubts.arcs > 0;
     questions.have_grown.value |= doubts.has_grown;
   }
+  questions.too_many.value = questions.count > most;
   return questions;
+}
+
+/// A question takes both ranks as long as a node or two in a hull, and those who answer take in its corners.
+template <class Int>
+std::size_t most_of_a_rank(const Patches<Int>& patches, const Division& division) {
+  constexpr std::size_t kMostInAPatch = std::size_t{1} << 28, kFew = 1000;
+  if (division.nodes > kMostInAPatch) return SIZE_MAX;
+  std::size_t own = 0;
+  for (const Patch<Int>& patch : patches.of_rank) own += patch.own();
+  return 4 * own + kFew;
 }
 
 /// The answers to the questions of each rank, in their order: a count, then nodes.
@@ -113,16 +125,18 @@ Certified<Int> certify(Patches<Int> found, const Division& division, const Corne
                        Communicator& ranks, const ParallelOptions& options) {
   Certified<Int> certified(std::move(found));
   Patches<Int>& patches = certified.patches;
-  const bool is_single = ranks.size() == 1;
+  const std::size_t most = ranks.size() == 1 ? options.most_questions : most_of_a_rank(patches, division);
   certified.coincident = all_coincident(patches, ranks);
   if (!certified.coincident.empty()) return certified;
 
   Questions questions;
   const auto ask_all = [&] {
-    questions = ask(patches, corners, division, static_cast<std::size_t>(ranks.size()), options.threads);
-    certified.gave_up = is_single && questions.count > options.most_questions;
+    questions =
+        ask(patches, corners, division, static_cast<std::size_t>(ranks.size()), most, options.threads);
   };
-  in_agreement(ranks, ask_all, questions.about_triangles, questions.about_arcs, questions.have_grown);
+  in_agreement(ranks, ask_all, questions.about_triangles, questions.about_arcs, questions.have_grown,
+               questions.too_many);
+  certified.gave_up = questions.too_many.value;
   while (certified.is_done() && questions.must_be_asked()) {
     ++certified.rounds;
     const Parcels incoming = exchange_in_agreement(ranks, [&] { return packed(questions.to_rank); });
@@ -136,7 +150,9 @@ Certified<Int> certify(Patches<Int> found, const Division& division, const Corne
           // Patches that came upon nodes which coincide have no more questions.
           if (!patches.see_coincidence.value) ask_all();
         },
-        patches.see_coincidence, questions.about_triangles, questions.about_arcs, questions.have_grown);
+        patches.see_coincidence, questions.about_triangles, questions.about_arcs, questions.have_grown,
+        questions.too_many);
+    certified.gave_up = questions.too_many.value;
     certified.coincident = all_coincident(patches, ranks);
   }
   return certified;

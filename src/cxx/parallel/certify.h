@@ -18,7 +18,7 @@ struct Certified {
   explicit Certified(Patches<Int> p) : patches(std::move(p)) {}
   Patches<Int> patches;
   CoincidentPairs coincident;  ///< that any patch came upon; on every rank the same
-  bool gave_up = false;        ///< a single rank with more than most_questions
+  bool gave_up = false;        ///< more questions than are worth while; on every rank the same
   int rounds = 0;              ///< exchanges of questions that were needed
   bool is_done() const { return coincident.empty() && !gave_up; }
 };

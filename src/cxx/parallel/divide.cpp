@@ -149,6 +149,7 @@ Division divide(const LocalNodes& nodes, const Corners& corners, const Places& p
       division.patches.add(heads.back().patches);
     }
     supply = take_stock(nodes, division.patches, heads, division, me, options);
+    division.nodes = supply.nodes;
   });
   ranks.all_gather_in_place(supply.sample.data(), supply.begin);
   Outcome outcome = Outcome::of([&] {

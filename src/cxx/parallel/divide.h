@@ -22,7 +22,7 @@ class Homes;
 
 struct ParallelOptions {
   PartitionKind partition = PartitionKind::bisection;
-  int patches = 1;  ///< of this rank; may differ from rank to rank
+  int patches = 1;  ///< of this rank; may differ from rank to rank, and be none
   int threads = 1;  ///< of this rank
   /// Fill Stars::outside, and let the stars hold little memory beside their own.
   bool with_neighbours = false;
@@ -63,6 +63,7 @@ class PatchRanges {
 struct Division {
   explicit Division(const Places& p) : places(p) {}
   Places places;
+  std::size_t nodes = 0;  ///< of all ranks
   PatchRanges patches;
   std::shared_ptr<const Partition> partition;
   std::vector<Record> closing;                                    ///< nodes from everywhere

@@ -284,7 +284,7 @@ void Patch<Int>::ask_about_arcs(const std::array<Record, 3>& corners, Doubts& do
 }
 
 template <class Int>
-Doubts Patch<Int>::ask(const std::array<Record, 3>& corners, double stretch) {
+Doubts Patch<Int>::ask(const std::array<Record, 3>& corners, double stretch, std::size_t most) {
   Doubts doubts;
   if (own_ == 0 || partition_->patches() == 1) return doubts;
   doubts.has_grown = growing_->node_count() != asked_with_;
@@ -296,7 +296,7 @@ Doubts Patch<Int>::ask(const std::array<Record, 3>& corners, double stretch) {
   const auto corner = [&](std::uint32_t t, int i) { return arrays_.faces[t].vertex[i]; };
   is_around_.resize(growing_->node_count());
   for_each_face_at_border(asked_with_, [&](std::uint32_t t, int own) {
-    if (own == 0) return;
+    if (own == 0 || doubts.questions.size() > most) return;
     for (const std::uint32_t v : {corner(t, 0), corner(t, 1), corner(t, 2)})
       if (!is_own(v) && !is_around_[v]) {
         is_around_[v] = true;
@@ -305,7 +305,7 @@ Doubts Patch<Int>::ask(const std::array<Record, 3>& corners, double stretch) {
     ask_about_triangle(t, doubts.questions);
   });
   asked_with_ = growing_->node_count();
-  if (!first_time || partition_->holds_all(id_, stretch)) return doubts;
+  if (!first_time || doubts.questions.size() > most || partition_->holds_all(id_, stretch)) return doubts;
   // What lies in the direction of a point y of a triangle is at most 1 + deviation times as long as 1 / |y|.
   const double margin = partition_->smallest_margin(), farthest = 1 + places_.deviation();
   const double lowest = std::max(0.0, farthest - margin + 1e-12);
@@ -319,9 +319,10 @@ Doubts Patch<Int>::ask(const std::array<Record, 3>& corners, double stretch) {
     const auto& v = arrays_.faces[t].vertex;
     if (is_flat(t) || !(is_own(v[0]) && is_own(v[1]) && is_own(v[2]))) return;
     const Point a = place(v[0]), b = place(v[1]), c = place(v[2]);
-    const double most =
+    const double most_stretch =
         std::min(stretch_of(arrays_.planes[t], farthest), stretch_of(a, b, c, places_.deviation()));
-    if (!partition_->holds(id_, a, b, c, most) && growing_->front(t)) ask_about_triangle(t, doubts.questions);
+    if (!partition_->holds(id_, a, b, c, most_stretch) && growing_->front(t))
+      ask_about_triangle(t, doubts.questions);
   };
   constexpr std::uint32_t kTogether = 8;
   const auto faces = static_cast<std::uint32_t>(growing_->face_count());

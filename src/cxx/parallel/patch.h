@@ -74,9 +74,9 @@ class Patch {
   /// What is not certain yet of the stars of its own nodes, as questions to the patches that may know better.
   /// Every star is the star in the triangulation of all nodes when no patch has a question about triangles
   /// and, if any has one about arcs, none has grown. `corners`: three nodes that every patch knows, not on
-  /// one great circle. `stretch`: most_stretch of nodes that it has taken in, or infinity. Throws HiddenNode,
-  /// std::bad_alloc.
-  Doubts ask(const std::array<Record, 3>& corners, double stretch);
+  /// one great circle. `stretch`: most_stretch of nodes that it has taken in, or infinity. With more than
+  /// `most` questions it stops: nobody will answer them. Throws HiddenNode, std::bad_alloc.
+  Doubts ask(const std::array<Record, 3>& corners, double stretch, std::size_t most);
 
   /// The answer of this patch to another's question: nodes that lie above, or that show that the arc is none
   /// of the boundary; none if there are none. A patch that answers takes in the corners of the question.
@@ -156,6 +156,7 @@ class Patch {
   }
 
   int id() const { return id_; }
+  std::size_t own() const { return own_; }
   std::size_t halo() const { return count_ - own_; }
   /// Different nodes in the same direction that it came upon: their numbers.
   const std::vector<std::pair<std::int64_t, std::int64_t>>& coincident() const { return coincident_; }

@@ -27,7 +27,7 @@ struct Stars {
   std::vector<Buffer<Int>> more_memory;
   Parcels received;
   Lengths lengths = Lengths::as_given;
-  bool gave_up = false;        ///< more than options.most_questions: there is nothing else
+  bool gave_up = false;        ///< too many questions: there is nothing else, but perhaps homes
   CoincidentPairs coincident;  ///< on every rank the same; empty if there are none
   /// With options.with_neighbours: the nodes that the stars name and this rank did not bring, by number.
   std::vector<Record> outside;

@@ -11,7 +11,7 @@
 //        v
 //   Patches
 //        |  certify              every patch asks the others about what it cannot know, until nothing is left
-//        v                       to ask
+//        v                       to ask; or there is too much to ask, and one patch has to do
 //   Certified
 //        |  return_rings         the stars of the nodes go back to the ranks that brought them
 //        v
@@ -67,6 +67,8 @@ Stars<Int> triangulate_places(const LocalNodes& nodes, const Corners& corners, c
   if (!certified.is_done()) {
     unfinished.gave_up = certified.gave_up;
     unfinished.coincident = std::move(certified.coincident);
+    if (unfinished.gave_up)
+      in_agreement(ranks, [&] { unfinished.homes = std::make_unique<Homes>(division, options.partition); });
     return unfinished;
   }
 
@@ -86,8 +88,17 @@ Stars<Int> triangulate(const LocalNodes& nodes, const Look& look, const Point (&
   ParallelCost& c = cost != nullptr ? *cost : own_cost;
   const Corners records{Record{corners[0], numbers[0]}, {corners[1], numbers[1]}, {corners[2], numbers[2]}};
   const auto run = [&](Lengths lengths) {
-    Stars<Int> stars =
-        triangulate_places<Int>(nodes, records, Places(lengths, look.deviation.value), ranks, options, c);
+    const Places places(lengths, look.deviation.value);
+    Stars<Int> stars = triangulate_places<Int>(nodes, records, places, ranks, options, c);
+    if (stars.gave_up && ranks.size() > 1) {
+      // One rank triangulates all. Where nodes are at home stays what it was: others may be worth while.
+      ParallelOptions one_patch = options;
+      one_patch.patches = ranks.rank() == 0 ? 1 : 0;
+      one_patch.last = nullptr;
+      std::unique_ptr<Homes> homes = std::move(stars.homes);
+      stars = triangulate_places<Int>(nodes, records, places, ranks, one_patch, c);
+      if (stars.homes != nullptr) stars.homes = std::move(homes);
+    }
     c.bytes_sent = ranks.bytes_sent;
     return stars;
   };
