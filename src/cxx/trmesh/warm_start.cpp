@@ -109,7 +109,7 @@ class Stay {
 /// LIST and LEND of a mesh, and the mesh itself from the first call on that begins with it.
 struct KeptMesh {
   KeptMesh(std::size_t n, std::size_t slots)
-      : stay((slots + n) * sizeof(std::int32_t) + MovingMesh::bytes(n)), list(slots), lend(n) {}
+      : stay((slots + n) * sizeof(std::int32_t) + MovingMesh::bytes(n, slots, n)), list(slots), lend(n) {}
   std::int32_t begin(std::size_t k) const { return k == 0 ? 0 : lend[k - 1]; }
 
   const Stay stay;
@@ -288,7 +288,7 @@ bool WarmStart::write_lists(const ListArrays& lists, ParallelCost* cost) noexcep
     if (changes.count() > n_ / 16) {
       copy(list, kept.list.size(), kept.list.data());
       copy(lend, n_, kept.lend.data());
-      kept.mesh->set_lists(kept.list.data(), kept.lend.data());
+      kept.mesh->forget_changes();
     }
     last_->patience = 1;
     if (cost != nullptr) {
