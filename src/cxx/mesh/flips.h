@@ -33,6 +33,7 @@ class MovingMesh {
   std::size_t size() const { return n_; }
   /// Where node k is, the caller's number from 0: to be moved before repair().
   Point& node(std::size_t k) { return nodes_[inside_[k]]; }
+  const Point& node(std::size_t k) const { return nodes_[inside_[k]]; }
   void prefetch(std::size_t k) const { __builtin_prefetch(&nodes_[inside_[k]], 1); }
 
   /// Makes the mesh the Delaunay triangulation of its nodes as they are now, by the predicates on coordinates
@@ -81,7 +82,8 @@ class MovingMesh {
   /// In increasing order of the nodes. Throws std::bad_alloc.
   std::vector<Change> changes() const;
   std::size_t change_count() const { return changed_.size(); }
-  /// Writes the neighbours of node k as they stand in LIST.
+  /// Writes the neighbours of node k as they stand in LIST: so many.
+  std::size_t degree(std::size_t k) const { return stars_[inside_[k]].count; }
   void write_ring(std::size_t k, std::int32_t* list) const;
 
   /// From now on the lists of the mesh are those given last. Parallel. Throws std::bad_alloc.
