@@ -6,9 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <memory>
-#include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -126,9 +127,10 @@ class OneRank {
 /// first set.
 template <class Int = std::int32_t>
 Tally follow(const std::vector<Nodes>& sets, int size, std::vector<int> owner = {}) {
-  const Partition home(PartitionKind::bisection, size, sets[0], sets[0].size());
-  if (owner.empty())
+  if (owner.empty()) {
+    const Partition home(PartitionKind::bisection, size, sets[0], sets[0].size());
     for (const Point& p : sets[0]) owner.push_back(home.owner(p));
+  }
   std::vector<std::vector<std::size_t>> mine(static_cast<std::size_t>(size));
   for (std::size_t i = 0; i < owner.size(); ++i) mine[static_cast<std::size_t>(owner[i])].push_back(i);
   std::vector<std::optional<Rings>> right;
@@ -158,33 +160,176 @@ std::vector<Nodes> sets_of(Nodes nodes, int steps, const std::function<void(Node
   return sets;
 }
 
-/// The same moves of the mesh as one part: as many flips.
-std::size_t flips_of_one_rank(const std::vector<Nodes>& sets) { return follow(sets, 1).flips; }
-
 constexpr int kSizes[] = {1, 2, 3, 5, 8};
+
+/// The same on every number of ranks: how many calls began with the last stars. `expect`: what else to
+/// expect.
+int follow_on_all(
+    const std::vector<Nodes>& sets, const std::function<void(const Tally&)>& expect = [](const Tally&) {}) {
+  int warm = 0;
+  for (const int size : kSizes) {
+    SCOPED_TRACE(std::to_string(size) + " ranks");
+    const Tally tally = follow(sets, size);
+    expect(tally);
+    warm += tally.warm;
+    if (::testing::Test::HasFailure()) break;
+  }
+  return warm;
+}
 
 TEST(MovingStars, FollowNodesThatMoveALittle) {
   Random random(1);
   int rounds = 0;
-  for (const std::size_t n : {500, 2000})
-    for (const double fraction : {1e-16, 1e-9, 1e-3, 0.01, 0.03}) {
-      const auto sets = sets_of(make("random", n, n), 12, [&](Nodes& nodes, int) {
-        move_all(nodes, fraction * spacing(n), random);
-      });
-      const std::size_t flips = flips_of_one_rank(sets);
-      for (const int size : kSizes) {
-        SCOPED_TRACE(std::to_string(size) + " ranks, " + std::to_string(n) + " nodes, " +
-                     std::to_string(fraction));
-        const Tally tally = follow(sets, size);
-        rounds = std::max(rounds, tally.rounds);
-        if (fraction < 0.01) {
-          EXPECT_EQ(tally.refused, 0);
-          EXPECT_EQ(tally.warm, 11);
-          EXPECT_EQ(tally.flips, flips);
-        }
-      }
+  for (const double fraction : {1e-16, 1e-9, 1e-3, 0.03}) {
+    SCOPED_TRACE(fraction);
+    const auto sets = sets_of(make("random", 1000, 1), cases(8),
+                              [&](Nodes& nodes, int) { move_all(nodes, fraction * spacing(1000), random); });
+    const std::size_t flips = follow(sets, 1).flips;
+    follow_on_all(sets, [&](const Tally& tally) {
+      rounds = std::max(rounds, tally.rounds);
+      if (fraction > 0.01) return;
+      EXPECT_EQ(tally.refused, 0);
+      EXPECT_EQ(tally.warm, cases(8) - 1);
+      EXPECT_EQ(tally.flips, flips);
+    });
+  }
+  EXPECT_GT(rounds, 1) << "no flips next to each other across ranks";
+}
+
+TEST(MovingStars, FollowOrRefuseLargeMoves) {
+  Random random(2);
+  for (const double fraction : {0.1, 0.3, 1.0}) {
+    SCOPED_TRACE(fraction);
+    const int warm = follow_on_all(sets_of(make("fibonacci", 500, 1), cases(6), [&](Nodes& nodes, int) {
+      move_all(nodes, fraction * spacing(500), random);
+    }));
+    if (fraction == 0.1) {
+      EXPECT_GT(warm, 0);
     }
-  EXPECT_GT(rounds, 1) << "no flip in the neighbourhood of another, across ranks";
+    if (fraction == 1) {
+      EXPECT_EQ(warm, 0);
+    }
+  }
+}
+
+TEST(MovingStars, FollowLloydStepsOfEveryFamily) {
+  int warm = 0;
+  for (const std::string& family : point_sets::families()) {
+    SCOPED_TRACE(family);
+    std::vector<Nodes> sets{make(family, 300, 1)};
+    for (std::uint64_t seed = 1; left(sets[0][0], sets[0][1], sets[0][2]) == 0; ++seed)
+      point_sets::shuffle(sets[0], seed);
+    while (static_cast<int>(sets.size()) < cases(6)) {
+      const auto rings = rings_of_one_hull(sets.back());
+      if (!rings) break;
+      const Lists lists = canonical_lists(*rings);
+      sets.push_back(sets.back());
+      lloyd_step(sets.back(), lists.list, lists.lend);
+    }
+    warm += follow(sets, 3).warm;
+  }
+  EXPECT_GT(warm, 20);
+}
+
+/// Nodes of a lattice move by a rounding and come back: nearly all arcs are ties then.
+TEST(MovingStars, FollowTiesThatAppearAndVanish) {
+  Random random(3);
+  for (const std::string family : {"icosahedral", "cubed-sphere"}) {
+    SCOPED_TRACE(family);
+    Nodes first = make(family, 600, 1);
+    for (std::uint64_t seed = 1; left(first[0], first[1], first[2]) == 0; ++seed)
+      point_sets::shuffle(first, seed);
+    const int warm = follow_on_all(sets_of(first, cases(8), [&](Nodes& nodes, int step) {
+      if (step % 2 == 0)
+        nodes = first;
+      else
+        move_all(nodes, 1e-15, random);
+    }));
+    EXPECT_GT(warm, 0);
+  }
+}
+
+/// All nodes go round, so that most come from where no node of their rank was; the arcs stay.
+TEST(MovingStars, FollowNodesThatLeaveTheirPatches) {
+  const Nodes nodes = make("random", 500, 1);
+  follow_on_all(sets_of(nodes, cases(6),
+                        [](Nodes& p, int) {
+                          rotate(p, {0.6, 0, 0.8}, 0.7);
+                        }),
+                [](const Tally& tally) { EXPECT_EQ(tally.refused, 0); });
+}
+
+TEST(MovingStars, GoTheColdWayWhereANodeJumpsMeetsAnotherOrLeavesTheSphere) {
+  Random random(4);
+  const Nodes nodes = make("random", 500, 1);
+  follow_on_all(sets_of(nodes, 10,
+                        [&](Nodes& p, int step) {
+                          p = nodes;
+                          if (step == 2) p[77] = {-p[77].x, -p[77].y, -p[77].z};
+                          if (step == 4) p[78] = p[79];
+                          if (step == 6) p[80] = {0.5 * p[80].x, 0.5 * p[80].y, 0.5 * p[80].z};
+                          if (step == 8)
+                            for (Point& q : p) q.z = std::fabs(q.z);  // a hemisphere
+                        }),
+                [](const Tally& tally) {
+                  EXPECT_EQ(tally.refused, 5);  // the jump back, too
+                  EXPECT_GT(tally.warm, 0);
+                });
+}
+
+/// Whoever brings the nodes: ranks without a node, with one, with every other one.
+TEST(MovingStars, FollowHoweverNodesAreDistributed) {
+  Random random(5);
+  const auto sets = sets_of(make("random", 400, 1), cases(6),
+                            [&](Nodes& nodes, int) { move_all(nodes, 0.01 * spacing(400), random); });
+  std::vector<int> owner(400, 2);
+  EXPECT_GT(follow(sets, 4, owner).warm, 0) << "ranks without nodes";
+  owner[17] = 3;
+  EXPECT_GT(follow(sets, 4, owner).warm, 0) << "a rank with one node";
+  for (std::size_t i = 0; i < owner.size(); ++i) owner[i] = static_cast<int>(i) % 2;
+  EXPECT_GT(follow(sets, 2, owner).warm, 0) << "every other node";
+  for (std::size_t i = 0; i < owner.size(); ++i) owner[i] = static_cast<int>(i) % 5;
+  EXPECT_EQ(follow(sets, 5, owner).warm, 0) << "every rank would have nearly all nodes";
+}
+
+TEST(MovingStars, HaveNumbersOf64Bits) {
+  Random random(6);
+  const auto sets = sets_of(make("random", 500, 1), cases(6),
+                            [&](Nodes& nodes, int) { move_all(nodes, 0.01 * spacing(500), random); });
+  const Tally tally = follow<std::int64_t>(sets, 3);
+  EXPECT_GT(tally.warm, 0);
+  EXPECT_GT(tally.flips, 0u);
+}
+
+/// So many calls that rings which have been written anew are written together, and those that have become
+/// longer are laid out anew.
+TEST(MovingStars, FollowForALongTime) {
+  Random random(7);
+  const auto sets = sets_of(make("fibonacci", 200, 1), cases(150),
+                            [&](Nodes& nodes, int) { move_all(nodes, 0.03 * spacing(200), random); });
+  EXPECT_GT(follow(sets, 2).warm, cases(150) / 2);
+}
+
+/// The sample of stars fits nodes that move a little, and no others.
+TEST(MovingStars, AreKnownByASample) {
+  Random random(8);
+  Nodes nodes = make("random", 2000, 1);
+  std::vector<std::int64_t> numbers;
+  for (std::size_t i = 0; i < nodes.size(); ++i) numbers.push_back(static_cast<std::int64_t>(7 * i + 3));
+  SingleProcess process;
+  ParallelOptions options;
+  options.with_neighbours = true;
+  const LocalNodes local{nodes.data(), nodes.size(), numbers.data()};
+  const Point corners[3] = {nodes[0], nodes[1], nodes[2]};
+  const auto stars = triangulate<std::int32_t>(local, look_at(local.points, local.count), corners,
+                                               {3, 10, 17}, process, options);
+  const SampleOfStars sample = sample_of(local, stars);
+  EXPECT_TRUE(sample.fits(nodes.data()));
+  Nodes moved = nodes;
+  move_all(moved, 0.01 * spacing(2000), random);
+  EXPECT_TRUE(sample.fits(moved.data()));
+  move_all(moved, 2 * spacing(2000), random);
+  EXPECT_FALSE(sample.fits(moved.data()));
 }
 
 }  // namespace

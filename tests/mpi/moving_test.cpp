@@ -1,0 +1,213 @@
+// Distributed meshes whose calls begin with the stars of the last one: when they do, and that nobody can tell
+// from the stars.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "geometry/predicates.h"
+#include "mpi/distributed_mesh.h"
+#include "mpi_test.h"
+#include "point_sets.h"
+#include "support/failing_allocation.h"
+#include "support/lists.h"
+#include "support/moves.h"
+
+namespace {
+
+using namespace pstripack;
+using point_sets::Random;
+
+constexpr std::size_t kN = 2000;
+
+struct Result {
+  std::int32_t code = 0;
+  std::vector<std::int64_t> begin, neighbour, halo;
+  std::vector<double> xyz;
+};
+bool operator==(const Result& a, const Result& b) {
+  return a.code == b.code && a.begin == b.begin && a.neighbour == b.neighbour && a.halo == b.halo &&
+         a.xyz == b.xyz;
+}
+
+/// This rank's part of the nodes: numbers from 1.
+struct Part {
+  std::vector<std::int64_t> numbers;
+  Nodes points;
+  void place(const Nodes& nodes) {
+    points.clear();
+    for (const std::int64_t k : numbers) points.push_back(nodes[static_cast<std::size_t>(k) - 1]);
+  }
+};
+
+/// The nodes by longitude: stripes.
+Part part_of(const Nodes& nodes) {
+  Part part;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const double turn = std::atan2(nodes[i].y, nodes[i].x) / 6.2831853071796 + 0.5;
+    if (std::min(static_cast<int>(turn * size_of()), size_of() - 1) == rank_of())
+      part.numbers.push_back(static_cast<std::int64_t>(i) + 1);
+  }
+  return part;
+}
+
+Result result_of(const DistributedMesh& mesh, std::int32_t code) {
+  Result r;
+  r.code = code;
+  if (code != 0) return r;
+  r.begin.resize(static_cast<std::size_t>(mesh.points()) + 1);
+  r.neighbour.resize(static_cast<std::size_t>(mesh.arcs()));
+  r.halo.resize(static_cast<std::size_t>(mesh.halo()));
+  r.xyz.resize(3 * r.halo.size());
+  mesh.stars(r.begin.data(), r.neighbour.data());
+  mesh.halo(r.halo.data(), r.xyz.data());
+  EXPECT_EQ(static_cast<std::size_t>(r.begin.back()), r.neighbour.size());
+  return r;
+}
+
+std::int32_t triangulate(DistributedMesh& mesh, const Part& part, DistributedMesh::Report* report = nullptr) {
+  try {
+    return mesh.triangulate(static_cast<std::int64_t>(part.numbers.size()), &part.points.data()->x,
+                            part.numbers.data(), report);
+  } catch (const AgreedFailure& failure) {
+    return failure.code;
+  }
+}
+
+/// A mesh, beside one that begins anew.
+class Beside {
+ public:
+  /// Whether the call began with the stars of the last one.
+  bool call(const Nodes& nodes, Part& part) {
+    part.place(nodes);
+    DistributedMesh::Report report;
+    const std::int32_t code = triangulate(mesh_, part, &report);
+    DistributedMesh anew(MPI_COMM_WORLD);
+    const Result right = result_of(anew, triangulate(anew, part));
+    EXPECT_TRUE(result_of(mesh_, code) == right) << (report.cost.mine.flips >= 0 ? "warm" : "cold");
+    EXPECT_EQ(report.points, static_cast<std::int64_t>(nodes.size()));
+    return report.cost.mine.flips >= 0;
+  }
+
+ private:
+  DistributedMesh mesh_{MPI_COMM_WORLD};
+};
+
+TEST(Moving, CallsBeginWithTheLastStarsFromTheThirdOn) {
+  Random random(1);
+  for (const std::size_t n : {kN, std::size_t{60000}}) {  // the latter on threads, if there are any
+    Nodes nodes = point_sets::make("random", n, 1);
+    Part part = part_of(nodes);
+    Beside mesh;
+    for (int step = 0; step < 5; ++step) {
+      EXPECT_EQ(mesh.call(nodes, part), step >= 2) << step;
+      move_all(nodes, 1e-3 * spacing(n), random);
+    }
+  }
+}
+
+using Starts = std::vector<bool>;
+
+/// With other nodes, or the same from other ranks or in another order, a call begins anew.
+TEST(Moving, CallsBeginAnewWhereTheNumbersAreNotTheSame) {
+  Random random(2);
+  Nodes nodes = point_sets::make("random", kN, 1);
+  Part part = part_of(nodes);
+  Beside mesh;
+  const auto calls = [&](int count) {
+    Starts warm;
+    for (int i = 0; i < count; ++i) {
+      move_all(nodes, 1e-4 * spacing(kN), random);
+      warm.push_back(mesh.call(nodes, part));
+    }
+    return warm;
+  };
+  EXPECT_EQ(calls(3), (Starts{false, false, true}));
+  if (rank_of() == size_of() - 1) std::swap(part.numbers.front(), part.numbers.back());
+  EXPECT_EQ(calls(3), (Starts{false, false, true})) << "another order on one rank";
+  nodes.push_back({0, 0, -1});
+  if (rank_of() == 0) part.numbers.push_back(static_cast<std::int64_t>(nodes.size()));
+  EXPECT_EQ(calls(3), (Starts{false, false, true})) << "one node more";
+  nodes.pop_back();
+  if (rank_of() == 0) part.numbers.pop_back();
+  rotate(nodes, {0, 0, 1}, 1);
+  part = part_of(nodes);
+  EXPECT_EQ(calls(3), (Starts{false, false, true})) << "from other ranks";
+}
+
+/// Far moves are noticed by a look at a few stars; a mesh that does not fit after all is tried ever more
+/// seldom.
+TEST(Moving, CallsBeginAnewWhereTheStarsDoNotFit) {
+  Random random(3);
+  const Nodes nodes = point_sets::make("random", kN, 1);
+  Part part = part_of(nodes);
+  Beside mesh;
+  for (int step = 0; step < 4; ++step) {
+    Nodes other = nodes;
+    move_all(other, 10 * spacing(kN), random);
+    EXPECT_FALSE(mesh.call(other, part));
+  }
+  Starts warm;
+  for (int step = 0; step < 6; ++step) {
+    Nodes other = nodes;
+    other[7] = {-nodes[7].x, -nodes[7].y, -nodes[7].z};
+    if (step % 2 == 1) other[7] = nodes[7];
+    warm.push_back(mesh.call(other, part));
+  }
+  EXPECT_EQ(warm, Starts(6));
+  Nodes meet = nodes, bad = nodes;
+  meet[3] = meet[4];
+  bad[5].z = std::numeric_limits<double>::quiet_NaN();
+  DistributedMesh lenient(MPI_COMM_WORLD);
+  for (const auto& [set, code] : std::vector<std::pair<const Nodes*, int>>{{&nodes, 0},
+                                                                           {&nodes, 0},
+                                                                           {&nodes, 0},
+                                                                           {&meet, -9},
+                                                                           {&nodes, 0},
+                                                                           {&nodes, 0},
+                                                                           {&nodes, 0},
+                                                                           {&bad, -5}}) {
+    part.place(*set);
+    EXPECT_EQ(triangulate(lenient, part), code);
+  }
+}
+
+/// Wherever memory runs out on a rank in a call that would begin with the last stars, for a moment or for
+/// good: the same stars, or code -6 on every rank; and the next call is right.
+TEST(Moving, SurviveMemoryThatRunsOut) {
+  const Nodes nodes = point_sets::make("random", 1000, 1);
+  Part part = part_of(nodes);
+  part.place(nodes);
+  DistributedMesh anew(MPI_COMM_WORLD);
+  const Result right = result_of(anew, triangulate(anew, part));
+  for (const int calls_before : {2, 3})  // the first call that begins so, and a later one
+    for (const bool for_good : {false, true}) {
+      int last = 1;
+      for (long which = 1; last != 0; which += 1 + which / 4) {
+        DistributedMesh mesh(MPI_COMM_WORLD);
+        for (int i = 0; i < calls_before; ++i) EXPECT_EQ(triangulate(mesh, part), 0);
+        int happened = 0;
+        std::int32_t code;
+        {
+          const FailingAllocation failing(rank_of() == size_of() - 1 ? which : 0, for_good);
+          code = triangulate(mesh, part);
+          happened = FailingAllocation::happened();
+        }
+        EXPECT_TRUE(code == 0 || code == -6) << code;
+        if (code == 0) {
+          EXPECT_TRUE(result_of(mesh, code) == right) << which;
+        }
+        EXPECT_TRUE(result_of(mesh, triangulate(mesh, part)) == right) << which;
+        MPI_Allreduce(&happened, &last, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+        ASSERT_LT(which, 100000);
+      }
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_on_every_rank(argc, argv, [] {});
+}
