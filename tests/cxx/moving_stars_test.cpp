@@ -180,17 +180,21 @@ int follow_on_all(
 TEST(MovingStars, FollowNodesThatMoveALittle) {
   Random random(1);
   int rounds = 0;
-  for (const double fraction : {1e-16, 1e-9, 1e-3, 0.03}) {
+  for (const double fraction : {1e-16, 1e-3, 0.02, 0.05}) {
     SCOPED_TRACE(fraction);
-    const auto sets = sets_of(make("random", 1000, 1), cases(8),
-                              [&](Nodes& nodes, int) { move_all(nodes, fraction * spacing(1000), random); });
-    const std::size_t flips = follow(sets, 1).flips;
+    const int calls = cases(fraction < 1e-3 ? 4 : 16);
+    const auto sets = sets_of(make("fibonacci", 800, 1), calls,
+                              [&](Nodes& nodes, int) { move_all(nodes, fraction * spacing(800), random); });
+    const Tally alone = follow(sets, 1);
+    if (fraction < 0.05) {
+      EXPECT_EQ(alone.warm, calls - 1);
+    }
     follow_on_all(sets, [&](const Tally& tally) {
+      EXPECT_EQ(tally.warm, alone.warm);
+      if (fraction < 0.05) {
+        EXPECT_EQ(tally.flips, alone.flips);
+      }
       rounds = std::max(rounds, tally.rounds);
-      if (fraction > 0.01) return;
-      EXPECT_EQ(tally.refused, 0);
-      EXPECT_EQ(tally.warm, cases(8) - 1);
-      EXPECT_EQ(tally.flips, flips);
     });
   }
   EXPECT_GT(rounds, 1) << "no flips next to each other across ranks";
@@ -275,6 +279,53 @@ TEST(MovingStars, GoTheColdWayWhereANodeJumpsMeetsAnotherOrLeavesTheSphere) {
                   EXPECT_EQ(tally.refused, 5);  // the jump back, too
                   EXPECT_GT(tally.warm, 0);
                 });
+}
+
+/// The predicates on directions decide then.
+TEST(MovingStars, GoTheColdWayWhereLengthsAreNotOne) {
+  Random random(9);
+  const Nodes nodes = make("random", 500, 1);
+  follow_on_all(sets_of(nodes, 5,
+                        [&](Nodes& p, int step) {
+                          p = nodes;
+                          if (step != 2) return;
+                          for (Point& q : p) {
+                            const double length = 1 + 1e-4 * random.uniform();
+                            q = {length * q.x, length * q.y, length * q.z};
+                          }
+                        }),
+                [](const Tally& tally) { EXPECT_EQ(tally.refused, 1); });
+}
+
+/// The neighbours of a node come so close that rounded lengths hide it, or nearly. They are on several ranks.
+TEST(MovingStars, FollowOrRefuseNodesThatAreNearlyHidden) {
+  const Nodes nodes = make("random", 300, 1);
+  const Rings rings = *rings_of_one_hull(nodes);
+  const Partition home(PartitionKind::bisection, 5, nodes, nodes.size());
+  Tally all;
+  int tried = 0;
+  for (std::size_t k = 0; k < nodes.size() && tried < cases(60); ++k) {
+    const auto& ring = rings.neighbours[k];
+    if (std::all_of(ring.begin(), ring.end(), [&](std::int32_t b) {
+          return home.owner(nodes[static_cast<std::size_t>(b)]) == home.owner(nodes[k]);
+        }))
+      continue;
+    ++tried;
+    SCOPED_TRACE(k);
+    const auto sets = sets_of(nodes, 3, [&](Nodes& p, int step) {
+      p = nodes;
+      if (step == 2) return;
+      const double scale = 1e-8 * (1 + tried % 5);
+      for (const std::int32_t b : ring) {
+        Point& q = p[static_cast<std::size_t>(b)];
+        const Point from = p[k], d = minus(q, from);
+        q = point_sets::normalized({from.x + scale * d.x, from.y + scale * d.y, from.z + scale * d.z});
+      }
+    });
+    const Tally tally = follow(sets, 5);
+    all.warm += tally.warm, all.refused += tally.refused;
+  }
+  EXPECT_GT(all.refused, 0);
 }
 
 /// Whoever brings the nodes: ranks without a node, with one, with every other one.

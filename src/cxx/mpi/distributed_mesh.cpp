@@ -255,6 +255,7 @@ std::int32_t DistributedMesh::triangulate_into(Stars<Int>& stars, const Point* p
   number_ = own_number;
   std::copy(number, number + n, number_);
   homes_ = std::move(stars.homes);
+  were_at_home_ = homes_->are_home_to_most(nodes, ranks_.rank());
   count_ = n;
   arcs_ = static_cast<std::int64_t>(stars.of_node.arcs());
   if (!wants_sample_) return 0;
@@ -289,7 +290,9 @@ bool DistributedMesh::begin_with_last(std::int64_t n, const Point* points, const
   const LocalNodes nodes{points, count_, number_};
   OnAll same{n >= 0 && static_cast<std::size_t>(n) == count_ && std::equal(number, number + n, number_) &&
              warm_start_is_allowed()};
-  OnAll fits{same.value && sample_ && sample_->fits(points)};
+  // Points that leave their homes get new ones, which the cold way finds.
+  OnAll fits{same.value && sample_ && sample_->fits(points) &&
+             (!were_at_home_ || homes_->are_home_to_most(nodes, ranks_.rank()))};
   OnAny reported{ranks_.rank() == 0 && report != nullptr};
   agree(ranks_, same, fits, reported);
   wants_sample_ = same.value;

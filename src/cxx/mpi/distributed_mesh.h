@@ -112,6 +112,7 @@ class DistributedMesh {
   /// How many calls must find that the stars of the call before fit before one begins with them. More, where
   /// such stars turned out not to fit in the end. The same on every rank, as is how many have found it.
   int patience_ = 1, patient_ = 0;
+  bool were_at_home_ = false;     ///< nearly all points here, when homes_ were made
   bool wants_sample_ = false;     ///< the last call had the same numbers as the one before
   std::unique_ptr<Homes> homes_;  ///< of the last triangulation, which the next may keep; null: it failed
 };

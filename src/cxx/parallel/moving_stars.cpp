@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
+#include <numeric>
 #include <unordered_set>
 #include <utility>
 
@@ -30,8 +31,7 @@ struct Found {
 
 }  // namespace
 
-// ---- the stars of the last call
-// -----------------------------------------------------------------------------
+// ---- the stars of the last call ------------------------------------------------------------------------
 
 template <class Int>
 std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes& nodes, const Stars<Int>& stars,
@@ -130,8 +130,7 @@ void MovingStars::sort_outside() {
   outside_has_changed_ = false;
 }
 
-// ---- 1, 2 and 3
-// -----------------------------------------------------------------------------------------------
+// ---- 1, 2 and 3 ----------------------------------------------------------------------------------------
 
 bool MovingStars::repair(const LocalNodes& nodes, Communicator& ranks) {
   constexpr int kMostRounds = 64;
@@ -209,13 +208,12 @@ std::optional<MovingMesh::Mark> MovingStars::agree_on_mark(Communicator& ranks) 
   return mine;
 }
 
-/// Flips what this rank can flip alone. Of two ranks that have an end of another arc, the lower one proposes
-/// it.
+/// Flips what this rank can flip alone, and proposes the others. Where two ranks propose the same, one of
+/// them comes too late.
 bool MovingStars::propose(const LocalNodes& nodes, std::vector<Flip>& flips) {
   std::vector<MovingMesh::Quadrangle> across;
   if (!mesh_->flip_inside(across)) return false;
   for (const auto& q : across) {
-    if (address_of(q.b).rank < me_) continue;
     if (!mesh_->is_convex(q)) return false;
     const auto corner = [&](std::uint32_t v) {
       const std::int64_t number = v < nodes.count ? nodes.number(v) : outside_[v - nodes.count].number;
@@ -284,55 +282,51 @@ std::uint32_t MovingStars::find(const Address& address) const {
   return static_cast<std::uint32_t>(mesh_->size() + static_cast<std::size_t>(found - outside_.begin()));
 }
 
-// ---- what has changed
-// -----------------------------------------------------------------------------------------
+// ---- what has changed ----------------------------------------------------------------------------------
 
 template <class Int>
-void MovingStars::update(const LocalNodes& nodes, Stars<Int>& stars) {
+std::vector<std::uint32_t> MovingStars::update(const LocalNodes& nodes, Stars<Int>& stars) {
   const std::size_t n = nodes.count;
   const auto number_of = [&](std::int32_t node) {
     const auto k = static_cast<std::size_t>(node) - 1;
     return static_cast<Int>(k < n ? nodes.number(k) : outside_[k - n].number);
   };
-  std::vector<MovingMesh::Change> changes = mesh_->changes();
-  std::size_t entries = 0;
-  for (const auto& change : changes) entries += 1 + change.count;
-  replaced_ += entries;
-  const bool all = replaced_ > 8 * n;  // then rings that are not used any more go
-  if (all) {
-    changes.clear();
-    entries = 0;
-    for (std::size_t k = 0; k < n; ++k) {
-      changes.push_back({static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(mesh_->degree(k))});
-      entries += 1 + changes.back().count;
-    }
+  std::vector<std::uint32_t> changed, all;
+  for (const auto& change : mesh_->changes()) changed.push_back(change.node);
+  if (replaced_ > 8 * n) {  // then rings that are not used any more go
+    all.resize(n);
+    std::iota(all.begin(), all.end(), 0u);
     replaced_ = 0;
   }
+  const std::vector<std::uint32_t>& rewritten = all.empty() ? changed : all;
+  std::size_t entries = 0;
+  for (const std::uint32_t k : rewritten) entries += 1 + mesh_->degree(k);
   Buffer<Int> rings(entries + kBlock);  // see copy_kept_ring
-  std::vector<std::int32_t> ring;
   stars.more_memory.reserve(stars.more_memory.size() + 1);
+  std::vector<std::int32_t> ring;
   Int* at = rings.data();
-  for (const auto& [k, count] : changes) {
-    ring.resize(count);
+  for (const std::uint32_t k : rewritten) {
+    ring.resize(mesh_->degree(k));
     mesh_->write_ring(k, ring.data());
     Int* const place = at;
-    *at++ = static_cast<Int>(count);
+    *at++ = static_cast<Int>(ring.size());
     at = std::transform(ring.begin(), ring.end(), at, number_of);
     std::rotate(place + 1, std::min_element(place + 1, at), at);
     stars.of_node.replace(k, place);
   }
-  if (all) stars.more_memory.clear();
+  if (!all.empty()) stars.more_memory.clear();
   stars.more_memory.push_back(std::move(rings));
+  if (all.empty()) replaced_ += entries;
   mesh_->forget_changes();
 
   if (outside_has_changed_) sort_outside();
   stars.outside.clear();
   for (const std::uint32_t j : by_number_) stars.outside.push_back({mesh_->node(n + j), outside_[j].number});
   stars.lengths = Lengths::as_given;
+  return changed;
 }
 
-// ---- samples
-// --------------------------------------------------------------------------------------------------
+// ---- samples -------------------------------------------------------------------------------------------
 
 SampleOfStars MovingStars::sample() const {
   SampleOfStars sample;
@@ -393,7 +387,7 @@ template std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes&, const
                                                         Communicator&);
 template std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes&, const Stars<std::int64_t>&,
                                                         Communicator&);
-template void MovingStars::update(const LocalNodes&, Stars<std::int32_t>&);
-template void MovingStars::update(const LocalNodes&, Stars<std::int64_t>&);
+template std::vector<std::uint32_t> MovingStars::update(const LocalNodes&, Stars<std::int32_t>&);
+template std::vector<std::uint32_t> MovingStars::update(const LocalNodes&, Stars<std::int64_t>&);
 
 }  // namespace pstripack

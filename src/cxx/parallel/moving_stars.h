@@ -39,9 +39,10 @@ class MovingStars {
   int rounds() const { return rounds_; }                                   ///< exchanges of flips
   std::size_t halo() const { return outside_.size(); }
 
-  /// After repair(): brings the stars up to date that were given to make(). Throws std::bad_alloc.
+  /// After repair(): brings the stars up to date that were given to make(), and returns the nodes (from 0)
+  /// whose rings have changed. Throws std::bad_alloc.
   template <class Int>
-  void update(const LocalNodes& nodes, Stars<Int>& stars);
+  std::vector<std::uint32_t> update(const LocalNodes& nodes, Stars<Int>& stars);
 
   SampleOfStars sample() const;  ///< as sample_of()
 
