@@ -8,10 +8,15 @@
 #include <vector>
 
 #include "geometry/predicates.h"
+#include "mpi/area_of_all.h"
+#include "mpi/collective_trmesh.h"
 #include "mpi/distributed_mesh.h"
 #include "mpi_test.h"
 #include "point_sets.h"
+#include "pool/area_layout.h"
+#include "support/columns.h"
 #include "support/failing_allocation.h"
+#include "support/follower.h"
 #include "support/lists.h"
 #include "support/moves.h"
 
@@ -204,6 +209,109 @@ TEST(Moving, SurviveMemoryThatRunsOut) {
         ASSERT_LT(which, 100000);
       }
     }
+}
+
+// ---- comm mode, and the pool on one machine
+// ------------------------------------------------------------------
+
+/// TRMESH by all ranks, in arrays of their own or in memory that they share.
+class Caller {
+ public:
+  explicit Caller(bool shared) : shared_(shared) {}
+
+  /// Whether the call began with the rings of the last one.
+  bool call(const Nodes& nodes, int ier = 0) {
+    const std::size_t n = nodes.size();
+    const Columns<double> c(nodes);
+    Lists lists;
+    lists.list.assign(6 * n - 12, 0);
+    lists.lptr = lists.list;
+    lists.lend.assign(n, 0);
+    TrmeshCall call{static_cast<std::int32_t>(n), {c.x.data(), c.y.data(), c.z.data()}, {}};
+    const AreaLayout layout(call.n, sizeof(double));
+    SharedArea area;
+    if (shared_) {
+      area = area_of_all(ranks_.handle(), layout.size());
+      call = layout.call(area.data(), &lists.lnew);
+      call.n = static_cast<std::int32_t>(n);
+      const std::vector<double>* const columns[] = {&c.x, &c.y, &c.z};
+      for (int i = 0; i < 3 && ranks_.rank() == 0; ++i)
+        std::copy(columns[i]->begin(), columns[i]->end(),
+                  static_cast<double*>(layout.coordinate(area.data(), i)));
+      meet();
+    } else {
+      call.lists = {lists.list.data(), lists.lptr.data(), lists.lend.data(), &lists.lnew};
+    }
+    GroupCost cost;
+    const TrmeshResult result =
+        collective_trmesh(ranks_, shared_ ? Arrays::shared : Arrays::on_every_rank, call, &cost, &last_);
+    EXPECT_EQ(result.ier, ier);
+    if (shared_) {
+      std::copy_n(call.lists.list, lists.list.size(), lists.list.data());
+      std::copy_n(call.lists.lptr, lists.lptr.size(), lists.lptr.data());
+      std::copy_n(call.lists.lend, lists.lend.size(), lists.lend.data());
+      ranks_.broadcast(&lists.lnew, sizeof lists.lnew, 0);
+      meet();
+    }
+    if (const auto right = made_anew(nodes)) {
+      EXPECT_TRUE(lists == *right) << (cost.mine.flips >= 0 ? "warm" : "cold");
+    }
+    return cost.mine.flips >= 0;
+  }
+
+ private:
+  void meet() {
+    std::int64_t here = 0;
+    ranks_.all_min(&here, 1);
+  }
+  const bool shared_;
+  MpiCommunicator ranks_{MPI_COMM_WORLD};
+  LastCall last_;
+};
+
+/// In random order, so that nearly all neighbours of a node are in the slices of others.
+TEST(Moving, CallsOfTrmeshBeginWithTheLastRings) {
+  for (const bool shared : {false, true}) {
+    SCOPED_TRACE(shared ? "shared memory" : "own arrays");
+    Random random(4);
+    Caller caller(shared);
+    Nodes nodes = point_sets::make("random", kN, 1);
+    for (int step = 0; step < 5; ++step) {
+      EXPECT_EQ(caller.call(nodes), step >= 2) << step;
+      move_all(nodes, 1e-3 * spacing(kN), random);
+    }
+    nodes.pop_back();
+    for (int step = 0; step < 4; ++step) {
+      EXPECT_EQ(caller.call(nodes), step >= 2) << "another number, " << step;
+      move_all(nodes, 1e-9, random);
+    }
+    Nodes far = nodes;
+    move_all(far, 10 * spacing(kN), random);
+    EXPECT_FALSE(caller.call(far)) << "other nodes";
+    EXPECT_FALSE(caller.call(nodes)) << "others again";
+    EXPECT_FALSE(caller.call(nodes));
+    EXPECT_TRUE(caller.call(nodes));
+    Nodes meet = nodes;
+    meet[9] = meet[5];
+    EXPECT_FALSE(caller.call(meet, 6)) << "two nodes coincide";
+    for (int step = 0; step < 6; ++step) caller.call(nodes);
+    Nodes half = nodes;
+    for (Point& p : half) p.z = std::fabs(p.z);
+    for (int step = 0; step < 5; ++step) EXPECT_FALSE(caller.call(half)) << "a boundary";
+  }
+}
+
+/// So many flips that rings which are not used any more go.
+TEST(Moving, CallsOfTrmeshGoOnForLong) {
+  Random random(5);
+  Caller caller(false);
+  Nodes nodes = point_sets::make("fibonacci", 1000, 1);
+  int warm = 0;
+  for (int step = 0; step < 100; ++step) {
+    warm += caller.call(nodes);
+    move_all(nodes, 0.03 * spacing(1000), random);
+  }
+  EXPECT_GT(warm, 50);
 }
 
 }  // namespace
