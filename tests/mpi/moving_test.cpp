@@ -220,7 +220,7 @@ class Caller {
   explicit Caller(bool shared) : shared_(shared) {}
 
   /// Whether the call began with the rings of the last one.
-  bool call(const Nodes& nodes, int ier = 0) {
+  bool call(const Nodes& nodes, int ier = 0, long failing = 0, bool for_good = false) {
     const std::size_t n = nodes.size();
     const Columns<double> c(nodes);
     Lists lists;
@@ -243,8 +243,18 @@ class Caller {
       call.lists = {lists.list.data(), lists.lptr.data(), lists.lend.data(), &lists.lnew};
     }
     GroupCost cost;
-    const TrmeshResult result =
-        collective_trmesh(ranks_, shared_ ? Arrays::shared : Arrays::on_every_rank, call, &cost, &last_);
+    TrmeshResult result{0};
+    try {
+      const FailingAllocation memory(ranks_.rank() == ranks_.size() - 1 ? failing : 0, for_good);
+      result =
+          collective_trmesh(ranks_, shared_ ? Arrays::shared : Arrays::on_every_rank, call, &cost, &last_);
+      has_failed = FailingAllocation::happened();
+    } catch (const AgreedFailure& failure) {
+      has_failed = true;
+      EXPECT_EQ(failure.code, -6);
+      EXPECT_GT(failing, 0);
+      return false;
+    }
     EXPECT_EQ(result.ier, ier);
     if (shared_) {
       std::copy_n(call.lists.list, lists.list.size(), lists.list.data());
@@ -258,6 +268,7 @@ class Caller {
     }
     return cost.mine.flips >= 0;
   }
+  bool has_failed = false;  ///< memory, in the last call
 
  private:
   void meet() {
@@ -301,17 +312,35 @@ TEST(Moving, CallsOfTrmeshBeginWithTheLastRings) {
   }
 }
 
+TEST(Moving, CallsOfTrmeshSurviveMemoryThatRunsOut) {
+  const Nodes nodes = point_sets::make("random", 1000, 1);
+  for (const int calls_before :
+       {1, 2, 3})  // the one that keeps rings, the first that begins with them, another
+    for (const bool for_good : {false, true}) {
+      int any = 1;
+      for (long which = 1; any != 0; which += 1 + which / 2) {
+        Caller caller(false);
+        for (int i = 0; i < calls_before; ++i) caller.call(nodes);
+        caller.call(nodes, 0, which, for_good);
+        const int happened = caller.has_failed;
+        caller.call(nodes);
+        MPI_Allreduce(&happened, &any, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+        ASSERT_LT(which, 100000);
+      }
+    }
+}
+
 /// So many flips that rings which are not used any more go.
 TEST(Moving, CallsOfTrmeshGoOnForLong) {
   Random random(5);
   Caller caller(false);
   Nodes nodes = point_sets::make("fibonacci", 1000, 1);
   int warm = 0;
-  for (int step = 0; step < 100; ++step) {
+  for (int step = 0; step < 50; ++step) {
     warm += caller.call(nodes);
     move_all(nodes, 0.03 * spacing(1000), random);
   }
-  EXPECT_GT(warm, 50);
+  EXPECT_GT(warm, 25);
 }
 
 }  // namespace

@@ -116,7 +116,8 @@ class ByRanks {
   // What has been triangulated:
   ParallelOptions options_;
   std::vector<std::size_t> begin_;  ///< of each rank, and the end
-  bool wants_rings_ = false;        ///< the nodes fit the last call's stars: keep those of this one
+  bool knows_slices_ = false;
+  bool wants_rings_ = false;  ///< the nodes fit the last call's stars: keep those of this one
   Stars<std::int32_t> stars_;
 };
 
@@ -206,11 +207,12 @@ TrmeshResult ByRanks::prepare(bool wants_cost) {
 
 /// Of the first n nodes. Collective.
 void ByRanks::find_slices(std::size_t n) {
-  if (begin_.empty()) {
+  if (!knows_slices_) {
     in_agreement(ranks_, [&] {
       begin_.resize(static_cast<std::size_t>(ranks_.size()) + 1);
       options_ = options_from_environment(count_);
     });
+    knows_slices_ = true;  // all ranks do, or none
     options_.partition = headline_.partition;
     cost_.threads = options_.threads;
   }
