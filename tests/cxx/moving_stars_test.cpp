@@ -343,6 +343,25 @@ TEST(MovingStars, FollowHoweverNodesAreDistributed) {
   EXPECT_EQ(follow(sets, 5, owner).warm, 0) << "every rank would have nearly all nodes";
 }
 
+/// A node that loses every other neighbour of 200: these flips share it, so that ranks can make one a round.
+TEST(MovingStars, GoTheColdWayWhereManyFlipsWaitForEachOther) {
+  const auto wheel = [](double out) {
+    Nodes nodes{{0, 0, 1}};
+    for (int k = 0; k < 200; ++k) {
+      const double turn = 6.2831853071796 * k / 200, distance = k % 2 == 0 ? 0.5 + out : 0.5;
+      nodes.push_back(point_sets::normalized({distance * std::cos(turn), distance * std::sin(turn), 1}));
+    }
+    for (const Point& p : make("random", 4000, 1)) nodes.push_back({p.x, p.y, -std::fabs(p.z)});
+    return nodes;
+  };
+  const std::vector<Nodes> sets{wheel(-1e-5), wheel(1e-3), wheel(1e-3)};
+  std::vector<int> owner;
+  for (std::size_t i = 0; i < sets[0].size(); ++i)
+    owner.push_back(i <= 200 ? static_cast<int>(i % 2) : sets[0][i].x > 0);
+  EXPECT_EQ(follow(sets, 1).warm, 2);
+  EXPECT_EQ(follow(sets, 2, owner).refused, 1);
+}
+
 TEST(MovingStars, HaveNumbersOf64Bits) {
   Random random(6);
   const auto sets = sets_of(make("random", 500, 1), cases(6),

@@ -275,7 +275,15 @@ bool MovingMesh::flip_inside(std::vector<Quadrangle>& across) {
     else if (!is_convex_inside(q) || !flip_here(q))
       return false;
   }
-  // What has been flipped since may have changed one of the two triangles, but not the one outside.
+  // Each once. What has been flipped since may have changed one of the two triangles, but not the one
+  // outside.
+  for (Arc& arc : across_)
+    if (arc.b < arc.a) std::swap(arc.a, arc.b);  // nodes outside come behind the others
+  std::sort(across_.begin(), across_.end(),
+            [](const Arc& s, const Arc& t) { return s.a != t.a ? s.a < t.a : s.b < t.b; });
+  across_.erase(std::unique(across_.begin(), across_.end(),
+                            [](const Arc& s, const Arc& t) { return s.a == t.a && s.b == t.b; }),
+                across_.end());
   for (const Arc& arc : across_)
     if (find(arc, q)) across.push_back({order_[q.a], order_[q.b], order_[q.c], order_[q.d]});
   across_.clear();

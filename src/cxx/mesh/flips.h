@@ -61,8 +61,8 @@ class MovingMesh {
   /// Tests every star; the mark is that of all parts. Parallel. Throws std::bad_alloc.
   bool test(const Mark& mark);
   /// Flips arcs until all are locally Delaunay whose quadrangle has no node outside. Those of the others that
-  /// are not locally Delaunay are added to `across`: each part with an end of such an arc finds it. They are
-  /// tested again after suspect() or flip() only. Throws std::bad_alloc.
+  /// are not locally Delaunay are added to `across`, each once: each part with an end of such an arc finds
+  /// it. They are tested again after suspect() or flip() only. Throws std::bad_alloc.
   bool flip_inside(std::vector<Quadrangle>& across);
   /// Whether the arc can be flipped.
   bool is_convex(const Quadrangle& q) const;
