@@ -52,7 +52,7 @@ class MovingMesh {
     std::uint32_t corner[3];
     Point towards;
   };
-  /// The arc a-b with c on its right and d on its left, as drawn at flip().
+  /// The arc a-b with c on its right and d on its left, as drawn at flip_here().
   struct Quadrangle {
     std::uint32_t a, b, c, d;
   };

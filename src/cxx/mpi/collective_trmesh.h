@@ -8,7 +8,7 @@
 
 namespace pstripack {
 
-/// What ranks keep of a call for the next one. Which members are set is the same on every rank.
+/// What ranks keep of a call for the next one. The numbers are the same on every rank.
 struct LastCall {
   std::size_t n = 0;  ///< 0: there was none with stars
   SampleOfStars sample;
