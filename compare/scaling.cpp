@@ -14,6 +14,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <optional>
@@ -43,6 +44,7 @@ struct Settings {
   std::string mode, family = "random", owners;
   std::size_t n = 1000000;
   int repeats = 5;
+  bool warm = false;  ///< calls may begin with the mesh of the last one
 };
 
 double seconds() { return clock_seconds(CLOCK_MONOTONIC); }
@@ -223,6 +225,88 @@ class PoolCall {
   TrmeshCall call_;
 };
 
+/// A step of Lloyd's method: each point by `part` of the way to the centroid of its Voronoi cell.
+void lloyd_step(const DistributedMesh& mesh, std::vector<Point>& points, double part) {
+  std::vector<Point> known = points;
+  std::vector<std::int64_t> begin(points.size() + 1), halo(static_cast<std::size_t>(mesh.halo()));
+  std::vector<std::int32_t> neighbour(static_cast<std::size_t>(mesh.arcs()));
+  known.resize(points.size() + halo.size());
+  mesh.halo(halo.data(), &known[points.size()].x);
+  mesh.local_stars(begin.data(), neighbour.data());
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Point p = known[k];
+    const std::int64_t count = begin[k + 1] - begin[k];
+    const auto place = [&](std::int64_t i) {
+      const auto slot = static_cast<std::size_t>(begin[k] + i % count);
+      return known[static_cast<std::size_t>(neighbour[slot]) - 1];
+    };
+    const auto corner = [&](std::int64_t i) {
+      return point_sets::normalized(cross(minus(place(i), p), minus(place(i + 1), p)));
+    };
+    Point sum{0, 0, 0}, q = corner(0);
+    for (std::int64_t i = 1; i <= count; ++i) {
+      const Point r = corner(i), n = cross(minus(q, p), minus(r, p));
+      const double area = std::sqrt(dot(n, n));
+      sum = {sum.x + area * (p.x + q.x + r.x), sum.y + area * (p.y + q.y + r.y),
+             sum.z + area * (p.z + q.z + r.z)};
+      q = r;
+    }
+    const Point middle = point_sets::normalized(sum);
+    points[k] = point_sets::normalized(
+        {p.x + part * (middle.x - p.x), p.y + part * (middle.y - p.y), p.z + part * (middle.z - p.z)});
+  }
+}
+
+/// A distributed mesh whose points follow Lloyd's method, a small part of each step: prints the least time of
+/// the calls, and how many arcs were flipped.
+void run_moving(const Settings& s) {
+  constexpr int kStepsBefore = 12, kCallsBefore = 3;
+  constexpr double kPart = 0.06;
+  MPI_Init(nullptr, nullptr);
+  {
+    DistributedMesh mesh(MPI_COMM_WORLD);
+    MpiCommunicator& ranks = mesh.ranks();
+    std::vector<Point> points;
+    if (ranks.rank() == 0) points = point_sets::make(s.family, s.n, 1);
+    std::vector<std::int64_t> numbers;
+    for (std::size_t i = 0; i < points.size(); ++i) numbers.push_back(static_cast<std::int64_t>(i) + 1);
+    DistributedMesh::Report report;
+    double spent = 0;
+    const auto call = [&] {
+      std::int64_t ready = 0;
+      ranks.all_min(&ready, 1);
+      report = {};
+      const double start = seconds();
+      if (mesh.triangulate(static_cast<std::int64_t>(points.size()), &points.data()->x, numbers.data(),
+                           &report) != 0)
+        throw std::runtime_error("these nodes cannot be triangulated");
+      ranks.all_min(&ready, 1);
+      spent = seconds() - start;
+    };
+    for (int step = 0; step < kStepsBefore; ++step) {
+      call();
+      lloyd_step(mesh, points, 1);
+    }
+    for (int k = 0; k < 2; ++k) {
+      call();
+      move_home(ranks, mesh, points, numbers);
+    }
+    double least = 1e9, flips = 0;
+    int warm = 0;
+    for (int k = 0; k < kCallsBefore + s.repeats; ++k) {
+      call();
+      lloyd_step(mesh, points, kPart);
+      if (k < kCallsBefore) continue;
+      least = std::min(least, spent);
+      if (report.cost.maximum.flips >= 0) ++warm, flips += static_cast<double>(report.cost.total.flips);
+    }
+    if (ranks.rank() == 0)
+      fmt::print("row n {} ranks {} wall {} warm {} flips {} halo {} bytes {}\n", s.n, ranks.size(), least,
+                 warm, flips / std::max(warm, 1), report.cost.total.halo, report.cost.total.bytes_sent);
+  }
+  MPI_Finalize();
+}
+
 void run_on_ranks(const Settings& s) {
   MPI_Init(nullptr, nullptr);
   {
@@ -281,10 +365,10 @@ using Row = std::map<std::string, double>;
 
 Row measure(const std::string& self, const Settings& s, int ranks) {
   const std::string command = fmt::format(
-      "{}OMP_NUM_THREADS=1 {} -n {} '{}' --mode {} --family {} --n {} "
+      "{}OMP_NUM_THREADS=1 PSTRIPACK_WARM_START={} {} -n {} '{}' --mode {} --family {} --n {} "
       "--repeats {}",
-      geteuid() == 0 ? "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 " : "", MPIRUN, ranks, self,
-      s.mode, s.family, s.n, s.repeats);
+      geteuid() == 0 ? "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 " : "", s.warm ? 1 : 0,
+      MPIRUN, ranks, self, s.mode, s.family, s.n, s.repeats);
   FILE* const out = popen(command.c_str(), "r");
   if (out == nullptr) throw std::runtime_error("cannot start " + command);
   Row row;
@@ -328,6 +412,12 @@ void show(const Row& r, bool of_pool) {
 
 const std::vector<std::string> kModes{"distributed", "pool", "messages"};
 const std::vector<std::string> kKinds{"constant-n", "constant-work"};
+const std::string kMoving = "moving";  ///< a table and a mode of its own
+
+std::vector<std::string> with_moving(std::vector<std::string> names) {
+  names.push_back(kMoving);
+  return names;
+}
 
 struct Tables {
   std::vector<int> ranks{1, 2, 4, 8, 16, 32, 64};
@@ -335,6 +425,37 @@ struct Tables {
   std::vector<std::string> modes = kModes, kinds = kKinds;
   std::string csv;
 };
+
+/// Warm and cold runs alternate, so that disturbances affect both; the least time of all calls.
+void print_moving(const std::string& self, Settings s, const Tables& t) {
+  constexpr int kRuns = 3;
+  s.mode = kMoving;
+  fmt::print(
+      "\ndistributed, points at home, {}, small steps of Lloyd's method: a call that may begin with the "
+      "stars "
+      "of the last one\nbeside the same call with PSTRIPACK_WARM_START=0; the clock\n\n"
+      "{:>9} {:>5} {:>9} {:>9} {:>11} {:>9} {:>10} {:>9} {:>10}\n",
+      s.family, "N", "ranks", "cold us/N", "warm us/N", "cold / warm", "flips/N", "warm calls", "halo",
+      "bytes");
+  for (const std::size_t n : t.sizes)
+    for (const int p : t.ranks) {
+      s.n = n;
+      double least[2] = {1e9, 1e9};
+      Row warm;
+      for (int run = 0; run < kRuns; ++run)
+        for (const bool is_warm : {false, true}) {
+          s.warm = is_warm;
+          const Row r = measure(self, s, p);
+          least[is_warm] = std::min(least[is_warm], r.at("wall"));
+          if (is_warm) warm = r;
+        }
+      const double us = 1e6 / static_cast<double>(n);
+      fmt::print("{:>9} {:>5} {:>9.4f} {:>9.4f} {:>11.2f} {:>9.5f} {:>10} {:>9} {:>10}\n", n, p,
+                 us * least[0], us * least[1], least[0] / least[1], warm.at("flips") / static_cast<double>(n),
+                 fmt::format("{}/{}", warm.at("warm"), s.repeats), warm.at("halo"), warm.at("bytes"));
+      std::fflush(stdout);
+    }
+}
 
 void print_tables(const std::string& self, Settings s, const Tables& t) {
   std::optional<CsvFile> csv;
@@ -361,7 +482,11 @@ void print_tables(const std::string& self, Settings s, const Tables& t) {
       "over "
       "the mean, triangulate.\nhalo, bytes: of all ranks.\n",
       sysconf(_SC_NPROCESSORS_ONLN));
-  for (const std::string& kind : t.kinds)
+  for (const std::string& kind : t.kinds) {
+    if (kind == kMoving) {
+      print_moving(self, s, t);
+      continue;
+    }
     for (const std::string& mode : t.modes) {
       s.mode = mode;
       const bool has_constant_n = kind == "constant-n";
@@ -378,6 +503,7 @@ void print_tables(const std::string& self, Settings s, const Tables& t) {
         for (const int p : t.ranks) add(t.sizes.front() * static_cast<std::size_t>(p), p);
       }
     }
+  }
 }
 
 }  // namespace
@@ -401,11 +527,11 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--tables", t.kinds, "only tables of these kinds")
       ->delimiter(',')
-      ->check(CLI::IsMember(kKinds))
+      ->check(CLI::IsMember(with_moving(kKinds)))
       ->capture_default_str();
   app.add_option("--csv", t.csv, "also add rows, in seconds, to this file");
   app.add_option("--mode", s.mode, "no tables: one run of this mode on the ranks of this mpirun")
-      ->check(CLI::IsMember(kModes));
+      ->check(CLI::IsMember(with_moving(kModes)));
   app.add_option("--n", s.n, "nodes of that run")->capture_default_str();
   app.add_option("--owners", s.owners,
                  "with --mode distributed: write the corners of each triangle and its rank to this new file");
@@ -414,8 +540,10 @@ int main(int argc, char** argv) {
     if (!s.owners.empty() && s.mode != "distributed")
       throw CLI::ValidationError("--owners", "only with --mode distributed");
     // Calls with the same nodes again and again are to take the time of a first one.
-    setenv("PSTRIPACK_WARM_START", "0", 1);
-    if (!s.mode.empty())
+    if (s.mode != kMoving) setenv("PSTRIPACK_WARM_START", "0", 1);
+    if (s.mode == kMoving)
+      run_moving(s);
+    else if (!s.mode.empty())
       run_on_ranks(s);
     else
       print_tables(argv[0], s, t);

@@ -38,7 +38,10 @@ phases="seconds=$second"
 for phase in divide triangulate merge lists gather; do phases="$phases $phase=$second$ratio"; done
 phases="$phases rounds=[0-9]+ halo=[0-9]+ bytes=[0-9]+"
 # line NUMBER TEXT: that line of the report, TEXT before the phases
-line() { sed -n "$1p" report | grep -qE "^pstripack: $2 $phases\$" || fail "line $1 is not: $2"; }
+line() {
+  case $2 in distributed-gather*) end= ;; *) end=" start=cold" ;; esac
+  sed -n "$1p" report | grep -qE "^pstripack: $2 $phases$end\$" || fail "line $1 is not: $2"
+}
 row() { sed -n "$1p" report | grep -qE "^pstripack: $2 +$3( +$second){7}\$" || fail "line $1 is not: row $2"; }
 
 # start ARGUMENT...: in the background, as $job

@@ -44,6 +44,20 @@ bool free_kept_blocks() noexcept;
 /// they are counted until they have left.
 bool may_stay(std::size_t bytes) noexcept;
 void has_left(std::size_t bytes) noexcept;
+/// Such bytes.
+class Stay {
+ public:
+  /// Throws std::bad_alloc if they may not stay.
+  explicit Stay(std::size_t bytes) : bytes_(bytes) {
+    if (!may_stay(bytes)) throw std::bad_alloc();
+  }
+  ~Stay() { has_left(bytes_); }
+  Stay(const Stay&) = delete;
+  Stay& operator=(const Stay&) = delete;
+
+ private:
+  const std::size_t bytes_;
+};
 /// What gives it up where memory is out; true if there was any.
 void set_give_up_more(bool (*give_up)() noexcept) noexcept;
 

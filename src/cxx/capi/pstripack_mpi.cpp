@@ -66,6 +66,7 @@ std::int32_t guarded(MpiCommunicator& ranks, const Body& body) noexcept {
 struct CommMode {
   std::mutex one_call_at_a_time;
   std::unique_ptr<MpiCommunicator> ranks;
+  LastCall last;
   pstripack_trmesh_engine engine_before = nullptr;
   pid_t process = 0;
 };
@@ -87,7 +88,8 @@ bool must_decline(const CommMode& mode) {
   return !is_main;
 }
 
-TrmeshResult collective_call(MpiCommunicator& ranks, const pstripack_trmesh_arguments& call) {
+TrmeshResult collective_call(CommMode& mode, const pstripack_trmesh_arguments& call) {
+  MpiCommunicator& ranks = *mode.ranks;
   GroupCost* cost = nullptr;
   if (call.report != nullptr) {
     call.report->mode = CallReport::by_comm;
@@ -96,7 +98,7 @@ TrmeshResult collective_call(MpiCommunicator& ranks, const pstripack_trmesh_argu
   }
   const NodeArrays nodes(static_cast<std::size_t>(call.real_bytes), call.x, call.y, call.z);
   return collective_trmesh(ranks, Arrays::on_every_rank,
-                           {call.n, nodes, {call.list, call.lptr, call.lend, call.lnew}}, cost);
+                           {call.n, nodes, {call.list, call.lptr, call.lend, call.lnew}}, cost, &mode.last);
 }
 
 int comm_mode_engine(const pstripack_trmesh_arguments* call, std::int32_t* ier, std::int64_t* node,
@@ -107,7 +109,7 @@ int comm_mode_engine(const pstripack_trmesh_arguments* call, std::int32_t* ier, 
   if (mode.ranks == nullptr) return PSTRIPACK_ENGINE_DECLINES;
   TrmeshResult result{0};
   *ier = guarded(*mode.ranks, [&] {
-    result = collective_call(*mode.ranks, *call);
+    result = collective_call(mode, *call);
     return result.ier;
   });
   *node = result.node;
@@ -130,6 +132,7 @@ void end_comm_mode(CommMode& mode) {
   pstripack_set_trmesh_engine(mode.engine_before);
   pstripack_leave_check_to_another_rank(0);
   mode.ranks.reset();
+  mode.last = {};
 }
 
 int at_mpi_finalize(MPI_Comm, int, void*, void*) {
@@ -201,6 +204,7 @@ int32_t pstripack_set_comm(MPI_Comm comm) {
     end_comm_mode_at_mpi_finalize();
     const bool is_replaced = mode.ranks != nullptr;
     mode.ranks = std::move(ranks);
+    mode.last = {};
     mode.process = getpid();
     pstripack_leave_check_to_another_rank(mode.ranks->rank() != 0);
     if (!is_replaced) mode.engine_before = pstripack_set_trmesh_engine(comm_mode_engine);

@@ -17,55 +17,79 @@
 
 namespace pstripack {
 
-MovingMesh::MovingMesh(const Point* p, std::size_t n, const std::int32_t* list, const std::int32_t* lend)
-    : n_(n), workspace_(workspace_bytes(n)) {
-  order_ = workspace_.keep<std::uint32_t>(n);
-  insertion_order(p, n, order_, workspace_);
+MovingMesh::MovingMesh(const Point* p, std::size_t n, const std::int32_t* list, const std::int32_t* lend,
+                       std::size_t outside, std::size_t room)
+    : n_(n),
+      all_(n + outside),
+      most_(all_ + room),
+      arcs_(n == 0 ? 0 : static_cast<std::size_t>(lend[n - 1])),
+      slots_(slots(n, arcs_)),
+      workspace_(workspace_bytes(n, arcs_, most_)) {
+  order_ = workspace_.keep<std::uint32_t>(most_);
+  if (n > 0) insertion_order(p, n, order_, workspace_);
   workspace_.next_phase();
-  inside_ = workspace_.keep<std::uint32_t>(n);
-  nodes_ = workspace_.keep<Point>(n);
+  inside_ = workspace_.keep<std::uint32_t>(most_);
+  nodes_ = workspace_.keep<Point>(most_);
   stars_ = workspace_.keep<Star>(n);
-  rings_ = workspace_.keep<std::uint32_t>(kSlots * n);
+  rings_ = workspace_.keep<std::uint32_t>(slots_);
   is_changed_ = workspace_.keep<std::uint8_t>(n);
   parallel_pieces(n, threads_for(n), [&](std::size_t first, std::size_t last, int) {
     for (std::size_t v = first; v < last; ++v) inside_[order_[v]] = static_cast<std::uint32_t>(v);
   });
+  for (std::size_t v = n; v < most_; ++v) order_[v] = inside_[v] = static_cast<std::uint32_t>(v);
+  std::copy(p + n, p + all_, nodes_ + n);
   std::fill_n(is_changed_, n, std::uint8_t{0});
-  lay_rings(list, lend);
+  const auto slot = [&](std::size_t k) { return static_cast<std::size_t>(k == 0 ? 0 : lend[k - 1]); };
+  constexpr std::size_t kAhead = 16;
+  lay_rings(
+      [&](std::size_t v) {
+        if (v + kAhead < n_) __builtin_prefetch(lend + order_[v + kAhead]);
+        return slot(order_[v] + std::size_t{1}) - slot(order_[v]);
+      },
+      [&](std::size_t v, std::uint32_t* ring) {
+        if (v + 2 * kAhead < n_) __builtin_prefetch(lend + order_[v + 2 * kAhead]);
+        if (v + kAhead < n_) __builtin_prefetch(list + slot(order_[v + kAhead]));
+        std::transform(list + slot(order_[v]), list + lend[order_[v]], ring,
+                       [&](std::int32_t k) { return inside_[k - 1]; });
+      });
 }
 
-void MovingMesh::set_lists(const std::int32_t* list, const std::int32_t* lend) {
+void MovingMesh::forget_changes() {
   for (const std::uint32_t v : changed_) is_changed_[v] = 0;
   changed_.clear();
   // As many flips as there may be in one call can need some room for longer rings.
-  if (end_ + n_ / 2 > kSlots * n_) lay_rings(list, lend);
+  if (end_ + n_ / 2 <= slots_) return;
+  try {
+    BlockArray<std::uint32_t> before(end_);
+    BlockArray<Star> stars(n_);
+    std::copy_n(rings_, end_, before.data());
+    std::copy_n(stars_, n_, stars.data());
+    lay_rings([&](std::size_t v) { return std::size_t{stars[v].count}; },
+              [&](std::size_t v, std::uint32_t* ring) {
+                std::copy_n(before.data() + stars[v].begin, stars[v].count, ring);
+              });
+  } catch (const std::bad_alloc&) {
+    // Then they stay where they are.
+  }
 }
 
-/// Every ring with one free slot behind it.
-void MovingMesh::lay_rings(const std::int32_t* list, const std::int32_t* lend) {
-  constexpr std::size_t kAhead = 16;
+/// Every ring with one free slot behind it: write(v, ring) writes the count(v) neighbours of node v.
+template <class Count, class Write>
+void MovingMesh::lay_rings(const Count& count, const Write& write) {
   const int threads = threads_for(n_);
   std::vector<std::size_t> begin(static_cast<std::size_t>(threads) + 1);
-  const auto slot = [&](std::size_t k) { return static_cast<std::size_t>(k == 0 ? 0 : lend[k - 1]); };
   parallel_pieces(n_, threads, [&](std::size_t first, std::size_t last, int piece) {
     std::size_t sum = 0;
-    for (std::size_t v = first; v < last; ++v) {
-      if (v + kAhead < last) __builtin_prefetch(lend + order_[v + kAhead]);
-      const std::size_t k = order_[v], count = slot(k + 1) - slot(k);
-      stars_[v].count = static_cast<std::uint32_t>(count);
-      sum += count + 1;
-    }
+    for (std::size_t v = first; v < last; ++v) sum += count(v) + 1;
     begin[static_cast<std::size_t>(piece) + 1] = sum;
   });
   for (std::size_t t = 1; t < begin.size(); ++t) begin[t] += begin[t - 1];
   parallel_pieces(n_, threads, [&](std::size_t first, std::size_t last, int piece) {
     std::size_t at = begin[static_cast<std::size_t>(piece)];
     for (std::size_t v = first; v < last; ++v) {
-      if (v + 2 * kAhead < last) __builtin_prefetch(lend + order_[v + 2 * kAhead]);
-      if (v + kAhead < last) __builtin_prefetch(list + slot(order_[v + kAhead]));
-      const std::int32_t* const ring = list + slot(order_[v]);
-      stars_[v].begin = static_cast<std::uint32_t>(at);
-      for (std::uint32_t i = 0; i < stars_[v].count; ++i) rings_[at++] = inside_[ring[i] - 1];
+      stars_[v] = {static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(count(v))};
+      write(v, rings_ + at);
+      at += stars_[v].count;
       rings_[at++] = kFree;
     }
   });
@@ -142,7 +166,7 @@ bool MovingMesh::choose_mark(Mark& mark) const {
   constexpr std::uint32_t kTries = 16;
   for (std::uint32_t v = 0; v < std::min<std::size_t>(n_, kTries); ++v) {
     const std::uint32_t* const ring = rings_ + stars_[v].begin;
-    mark = {{v, ring[0], ring[1]}, {}};
+    mark = {{order_[v], order_[ring[0]], order_[ring[1]]}, {}};
     const Point &a = nodes_[v], &b = nodes_[ring[0]], &c = nodes_[ring[1]];
     const Point sum{a.x + b.x + c.x, a.y + b.y + c.y, a.z + b.z + c.z};
     const double length = std::sqrt(dot(sum, sum));
@@ -184,7 +208,7 @@ bool MovingMesh::test(std::size_t first, std::size_t last, const Mark& mark, con
 /// The same of one star, exactly: each triangle at the first of its corners, each arc at the first of its
 /// ends. The other end may have found it certain.
 bool MovingMesh::examine(std::uint32_t v, const Mark& mark, std::vector<Arc>& suspects) const {
-  const Coordinates predicates(nodes_, n_);
+  const Coordinates predicates(nodes_, all_);
   const auto id = [](std::uint32_t w) { return static_cast<index_t>(w); };
   const auto is_corner_of_mark = [&](std::uint32_t w) {
     return w == mark.corner[0] || w == mark.corner[1] || w == mark.corner[2];
@@ -208,9 +232,16 @@ bool MovingMesh::examine(std::uint32_t v, const Mark& mark, std::vector<Arc>& su
 }
 
 bool MovingMesh::repair() {
-  flips_ = 0;
   Mark mark;
-  if (!choose_mark(mark)) return false;
+  std::vector<Quadrangle> across;
+  return choose_mark(mark) && test(mark) && flip_inside(across);
+}
+
+bool MovingMesh::test(const Mark& given) {
+  flips_ = 0;
+  work_ = 8 * n_ + 1000;  // beyond, a new triangulation is faster
+  Mark mark = given;
+  for (std::uint32_t& corner : mark.corner) corner = corner == kNobody ? kNobody : inside_[corner];
   const int threads = threads_for(n_);
   std::atomic<bool> stopped{false};
   std::vector<std::vector<Arc>> suspects(static_cast<std::size_t>(threads));
@@ -223,47 +254,104 @@ bool MovingMesh::repair() {
   });
   errors.rethrow();
   if (stopped) return false;
-  for (std::size_t t = 1; t < suspects.size(); ++t)
-    suspects[0].insert(suspects[0].end(), suspects[t].begin(), suspects[t].end());
-  return flip(suspects[0]);
+  suspects_.clear();
+  across_.clear();
+  for (const auto& some : suspects) suspects_.insert(suspects_.end(), some.begin(), some.end());
+  return true;
 }
 
 // ---- 2: flips -------------------------------------------------------------------------------------------
 
-/// Flips arcs until all are locally Delaunay. `suspects`: those that may not be. Every flip pushes the
-/// surface outwards, so it ends; false if it would take long, or an arc cannot be flipped.
-///
+/// Every flip pushes the surface outwards, so it ends; false if it would take long, or an arc cannot be
+/// flipped.
+bool MovingMesh::flip_inside(std::vector<Quadrangle>& across) {
+  Quadrangle q;
+  while (!suspects_.empty()) {
+    const Arc arc = suspects_.back();
+    suspects_.pop_back();
+    if (!find(arc, q)) continue;
+    if (is_outside(q.b) || is_outside(q.c) || is_outside(q.d))
+      across_.push_back(arc);
+    else if (!is_convex_inside(q) || !flip_here(q))
+      return false;
+  }
+  // Each once. What has been flipped since may have changed one of the two triangles, but not the one
+  // outside.
+  for (Arc& arc : across_)
+    if (arc.b < arc.a) std::swap(arc.a, arc.b);  // nodes outside come behind the others
+  std::sort(across_.begin(), across_.end(),
+            [](const Arc& s, const Arc& t) { return s.a != t.a ? s.a < t.a : s.b < t.b; });
+  across_.erase(std::unique(across_.begin(), across_.end(),
+                            [](const Arc& s, const Arc& t) { return s.a == t.a && s.b == t.b; }),
+                across_.end());
+  for (const Arc& arc : across_)
+    if (find(arc, q)) across.push_back({order_[q.a], order_[q.b], order_[q.c], order_[q.d]});
+  across_.clear();
+  return true;
+}
+
+/// False: the arc has gone, or is locally Delaunay.
+bool MovingMesh::find(const Arc& arc, Quadrangle& q) const {
+  const Star star = stars_[arc.a];
+  const std::uint32_t* const ring = rings_ + star.begin;
+  const std::uint32_t at = place_of(arc.b, star);
+  if (at == star.count) return false;
+  q = {arc.a, arc.b, ring[at == 0 ? star.count - 1 : at - 1], ring[at + 1 == star.count ? 0 : at + 1]};
+  const auto id = [](std::uint32_t w) { return static_cast<index_t>(w); };
+  return Coordinates(nodes_, all_).above(id(q.a), id(q.c), id(q.b), id(q.d));
+}
+
+bool MovingMesh::is_convex_inside(const Quadrangle& q) const {
+  const Point &a = nodes_[q.a], &b = nodes_[q.b], &c = nodes_[q.c], &d = nodes_[q.d];
+  return left(a, c, d) > 0 && left(b, d, c) > 0;
+}
+
+bool MovingMesh::is_convex(const Quadrangle& q) const {
+  return is_convex_inside({inside_[q.a], inside_[q.b], inside_[q.c], inside_[q.d]});
+}
+
+bool MovingMesh::flip(const Quadrangle& q) {
+  const auto inside = [&](std::uint32_t k) { return k == kNobody ? kNobody : inside_[k]; };
+  return flip_here({inside(q.a), inside(q.b), inside(q.c), inside(q.d)});
+}
+
 ///          b                   b
 ///        / | \               /   \        The arc a-b goes if d is above the triangle a,c,b. Then c-d
 ///      d   |   c    ->     d ----- c      comes, if the triangles a,c,d and b,d,c are counterclockwise:
 ///        \ | /               \   /        both lie in the quadrangle, which is covered once as before.
 ///          a                   a
-bool MovingMesh::flip(std::vector<Arc>& suspects) {
-  const Coordinates predicates(nodes_, n_);
-  const auto id = [](std::uint32_t w) { return static_cast<index_t>(w); };
-  std::size_t work = 8 * n_ + 1000;  // in slots of rings: beyond, a new triangulation is faster
-  while (!suspects.empty()) {
-    const auto [a, b] = suspects.back();
-    suspects.pop_back();
-    const Star star = stars_[a];
-    const std::uint32_t* const ring = rings_ + star.begin;
-    const std::uint32_t at = place_of(b, star);
-    if (at == star.count) continue;  // it has gone
-    const std::uint32_t c = ring[at == 0 ? star.count - 1 : at - 1],
-                        d = ring[at + 1 == star.count ? 0 : at + 1];
-    if (!predicates.above(id(a), id(c), id(b), id(d))) continue;
-    if (predicates.left(id(a), id(c), id(d)) <= 0 || predicates.left(id(b), id(d), id(c)) <= 0) return false;
-    const std::size_t cost = 8 + stars_[a].count + stars_[b].count + stars_[c].count + stars_[d].count;
-    if (cost > work) return false;
-    work -= cost;
-    remove(a, at);
-    remove(b, place_of(a, stars_[b]));
-    if (!insert(c, place_of(a, stars_[c]), d) || !insert(d, place_of(b, stars_[d]), c)) return false;
-    for (const std::uint32_t v : {a, b, c, d}) note_change(v);
-    for (const Arc& arc : {Arc{a, c}, Arc{c, b}, Arc{b, d}, Arc{d, a}}) suspects.push_back(arc);
-    ++flips_;
-  }
+bool MovingMesh::flip_here(const Quadrangle& q) {
+  const auto [a, b, c, d] = q;
+  const auto has_star = [&](std::uint32_t v) { return !is_outside(v); };
+  std::size_t cost = 8;
+  for (const std::uint32_t v : {a, b, c, d}) cost += has_star(v) ? stars_[v].count : 0;
+  if (cost > work_) return false;
+  work_ -= cost;
+  if (has_star(a)) remove(a, place_of(b, stars_[a]));
+  if (has_star(b)) remove(b, place_of(a, stars_[b]));
+  if (has_star(c) && !insert(c, place_of(a, stars_[c]), d)) return false;
+  if (has_star(d) && !insert(d, place_of(b, stars_[d]), c)) return false;
+  for (const std::uint32_t v : {a, b, c, d})
+    if (has_star(v)) note_change(v);
+  for (const Arc& arc : {Arc{a, c}, Arc{c, b}, Arc{b, d}, Arc{d, a}}) suspect_inside(arc.a, arc.b);
+  ++flips_;
   return true;
+}
+
+void MovingMesh::suspect_inside(std::uint32_t a, std::uint32_t b) {
+  if (is_outside(a)) std::swap(a, b);
+  if (!is_outside(a)) suspects_.push_back({a, b});
+}
+
+void MovingMesh::suspect(std::uint32_t a, std::uint32_t b) {
+  const auto inside = [&](std::uint32_t k) { return k == kNobody ? kNobody : inside_[k]; };
+  suspect_inside(inside(a), inside(b));
+}
+
+std::uint32_t MovingMesh::add_outside(const Point& p) {
+  if (all_ == most_) return kNobody;
+  nodes_[all_] = p;
+  return static_cast<std::uint32_t>(all_++);
 }
 
 std::uint32_t MovingMesh::place_of(std::uint32_t b, const Star& star) const {
@@ -276,7 +364,7 @@ bool MovingMesh::insert(std::uint32_t v, std::uint32_t place, std::uint32_t neig
   Star& star = stars_[v];
   if (rings_[star.begin + star.count] != kFree) {
     const std::size_t room = 2 * std::size_t{star.count};
-    if (end_ + room + 1 > kSlots * n_) return false;
+    if (end_ + room + 1 > slots_) return false;
     std::copy_n(rings_ + star.begin, star.count, rings_ + end_);
     std::fill_n(rings_ + end_ + star.count, room - star.count, kFree);
     star.begin = static_cast<std::uint32_t>(end_);

@@ -102,8 +102,7 @@ class RingTable {
  public:
   RingTable() = default;
   /// The ring of node i is stored at place[position[i]]; size_class[position[i]] is its size_class_of(count).
-  RingTable(std::size_t size, const std::uint32_t* position, const Int* const* place,
-            const std::uint8_t* size_class)
+  RingTable(std::size_t size, const std::uint32_t* position, const Int** place, std::uint8_t* size_class)
       : size_(size), position_(position), place_(place), size_class_(size_class) {}
 
   static constexpr std::uint8_t kMany = 255;
@@ -117,6 +116,11 @@ class RingTable {
 
   std::size_t size() const { return size_; }
   Ring<Int> operator[](std::size_t i) const { return ring_at(place_[position_[i]]); }
+  /// From now on ring i is the one that is stored there.
+  void replace(std::size_t i, const Int* place) {
+    place_[position_[i]] = place;
+    size_class_[position_[i]] = size_class_of(static_cast<std::uint32_t>(*place));
+  }
   /// Prefetches ring i before it is read.
   void prefetch(std::size_t i) const {
     const Int* const place = place_[position_[i]];
@@ -137,8 +141,8 @@ class RingTable {
  private:
   std::size_t size_ = 0;
   const std::uint32_t* position_ = nullptr;
-  const Int* const* place_ = nullptr;
-  const std::uint8_t* size_class_ = nullptr;  ///< small, so that sums need not touch the rings
+  const Int** place_ = nullptr;
+  std::uint8_t* size_class_ = nullptr;  ///< small, so that sums need not touch the rings
 };
 
 /// Appends the stored rings of those hull nodes first..last-1 that are wanted(v). Calls visit(v, place,

@@ -85,9 +85,17 @@ class ByRanks {
   std::optional<Coincidence> triangulate(std::size_t n);
   void deliver();
 
+  /// Collective. True: the call is done, beginning with the rings of the last one.
+  bool begin_with(LastCall& last);
+  /// After the cold way: what the next call may need.
+  void remember(LastCall& last) noexcept;
+
  private:
   TrmeshResult take_slice(bool wants_cost);
   TrmeshResult receive_slice(bool wants_cost);
+  void find_slices(std::size_t n);
+  void deliver(const RingTable<std::int32_t>& rings);
+  void take_sample(LastCall& last, const RingTable<std::int32_t>& rings) noexcept;
   /// Looks at this rank's slice, the nodes first.. of the call, and says which has no direction.
   void look(std::size_t first, Smallest& bad) {
     look_ = look_at(nodes_, count_);
@@ -108,6 +116,8 @@ class ByRanks {
   // What has been triangulated:
   ParallelOptions options_;
   std::vector<std::size_t> begin_;  ///< of each rank, and the end
+  bool knows_slices_ = false;
+  bool wants_rings_ = false;  ///< the nodes fit the last call's stars: keep those of this one
   Stars<std::int32_t> stars_;
 };
 
@@ -195,21 +205,26 @@ TrmeshResult ByRanks::prepare(bool wants_cost) {
   return {0};
 }
 
-std::optional<Coincidence> ByRanks::triangulate(std::size_t n) {
-  const auto me = static_cast<std::size_t>(ranks_.rank());
-  const bool is_first = begin_.empty();
-  if (is_first) {
+/// Of the first n nodes. Collective.
+void ByRanks::find_slices(std::size_t n) {
+  if (!knows_slices_) {
     in_agreement(ranks_, [&] {
       begin_.resize(static_cast<std::size_t>(ranks_.size()) + 1);
       options_ = options_from_environment(count_);
     });
+    knows_slices_ = true;  // all ranks do, or none
     options_.partition = headline_.partition;
     cost_.threads = options_.threads;
   }
   for (std::size_t r = 0; r < begin_.size(); ++r)
     begin_[r] = std::min(n, headline_.slice(static_cast<int>(r), ranks_));
+}
+
+std::optional<Coincidence> ByRanks::triangulate(std::size_t n) {
+  const auto me = static_cast<std::size_t>(ranks_.rank());
+  find_slices(n);
   const std::size_t count = begin_[me + 1] - begin_[me];
-  if (!is_first) {
+  if (n < static_cast<std::size_t>(headline_.n)) {  // again, without a node that coincides
     look_ = look_at(nodes_, count);
     agree_on(look_, ranks_);
     stars_ = {};
@@ -224,21 +239,97 @@ std::optional<Coincidence> ByRanks::triangulate(std::size_t n) {
   return first;
 }
 
-void ByRanks::deliver() {
+void ByRanks::deliver() { deliver(stars_.of_node); }
+
+void ByRanks::deliver(const RingTable<std::int32_t>& rings) {
   ranks_.set_phase("gather the lists");
   const PhaseTimer timer(&cost_, ParallelCost::gather, &ranks_);
-  gather_lists(ranks_, stars_.of_node, begin_, arrays_, 0, call_.lists);
+  gather_lists(ranks_, rings, begin_, arrays_, 0, call_.lists);
+}
+
+bool ByRanks::begin_with(LastCall& last) {
+  constexpr int kMostPatience = 64;
+  if (last.n != static_cast<std::size_t>(n()) || arrays_ == Arrays::on_one_rank) {
+    last = {};
+    return false;
+  }
+  OnAll fits{last.has_sample && warm_start_is_allowed() && last.sample.fits(*of_all_ranks_)},
+      have_rings{last.rings != nullptr};
+  agree(ranks_, fits, have_rings);
+  last.has_sample = false;
+  wants_rings_ = fits.value && ++last.patient >= last.patience;
+  if (!fits.value || !have_rings.value) {
+    last.rings.reset();
+    return false;
+  }
+  bool is_done = false;
+  try {
+    const PhaseTimer timer(&cost_, ParallelCost::triangulate, &ranks_);
+    ranks_.set_phase("move the stars");
+    find_slices(last.n);
+    is_done = last.rings->move(*of_all_ranks_, begin_, ranks_);
+  } catch (const AgreedFailure&) {
+    // No memory for it: the cold way has more, without the rings.
+  }
+  last.patience = is_done ? 1 : std::min(2 * last.patience, kMostPatience);
+  last.patient = 0;
+  if (!is_done) {
+    wants_rings_ = false;
+    last.rings.reset();
+    return false;
+  }
+  const MovingStars& stars = last.rings->stars();
+  cost_.threads = options_.threads;
+  cost_.rounds = stars.rounds();
+  cost_.halo = static_cast<std::int64_t>(stars.halo());
+  cost_.flips = static_cast<std::int64_t>(stars.flips());
+  deliver(last.rings->rings());
+  take_sample(last, last.rings->rings());
+  return true;
+}
+
+void ByRanks::remember(LastCall& last) noexcept {
+  constexpr std::size_t kFewest = 1000;  // below, a cold call takes less time than it would be worth
+  const auto n = static_cast<std::size_t>(headline_.n);
+  if (n < kFewest || arrays_ == Arrays::on_one_rank) return;
+  last.n = n;
+  take_sample(last, stars_.of_node);
+  if (!wants_rings_) return;
+  try {
+    const std::size_t first = begin_[static_cast<std::size_t>(ranks_.rank())];
+    last.rings = std::make_unique<LastRings>(stars_.of_node, first, std::move(stars_.homes));
+  } catch (const std::bad_alloc&) {
+    // Then the next call goes the cold way as well.
+  }
+}
+
+/// If there is no memory for it, the next call goes the cold way.
+void ByRanks::take_sample(LastCall& last, const RingTable<std::int32_t>& rings) noexcept {
+  last.has_sample = false;
+  try {
+    last.sample = {};
+    SampleOfStars::for_each_node(rings.size(), [&](std::size_t k) {
+      const Ring<std::int32_t> ring = rings[k];
+      if (ring.begin[ring.count - 1] > 0)
+        last.sample.add(begin_[static_cast<std::size_t>(ranks_.rank())] + k, ring.begin, ring.count);
+    });
+    last.has_sample = true;
+  } catch (const std::bad_alloc&) {
+  }
 }
 
 }  // namespace
 
-TrmeshResult collective_trmesh(MpiCommunicator& ranks, Arrays arrays, const TrmeshCall& call,
-                               GroupCost* cost) {
+TrmeshResult collective_trmesh(MpiCommunicator& ranks, Arrays arrays, const TrmeshCall& call, GroupCost* cost,
+                               LastCall* last) {
   ParallelCost mine;
   const std::int64_t sent_before = ranks.bytes_sent;
   ByRanks way(ranks, arrays, call, mine);
   TrmeshResult result = way.prepare(cost != nullptr);
-  if (result.ier == 0) result = triangulate_and_deliver(way.n(), way);
+  if (result.ier == 0 && (last == nullptr || !way.begin_with(*last))) {
+    result = triangulate_and_deliver(way.n(), way);
+    if (last != nullptr && result.ier == 0) way.remember(*last);
+  }
   if (way.wants_cost()) {
     mine.bytes_sent = ranks.bytes_sent - sent_before;
     const GroupCost all = group_cost(ranks, mine);

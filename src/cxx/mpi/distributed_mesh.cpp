@@ -7,12 +7,13 @@
 #include <numeric>
 #include <utility>
 
+#include "base/parallel_for.h"
 #include "geometry/predicates.h"
 #include "lists/limits.h"
 #include "mpi/gather_lists.h"
-#include "mpi/number_table.h"
 #include "parallel/agreement.h"
 #include "parallel/coincidence.h"
+#include "parallel/number_table.h"
 #include "parallel/options.h"
 #include "parallel/scattered.h"
 #include "trmesh/trmesh.h"
@@ -20,6 +21,8 @@
 namespace pstripack {
 namespace {
 
+/// Points: below, a cold call takes less time than it would be worth.
+constexpr std::int64_t kFewestToBeginWith = 1000;
 constexpr std::int64_t kNone = Smallest::kNone;
 constexpr std::int64_t kMostPoints = std::int64_t{1} << 29;
 constexpr std::int32_t kTooFew = -1, kCollinear = -2, kEmpty = -3, kTooMany = -4, kBadCoordinate = -5,
@@ -77,6 +80,8 @@ void DistributedMesh::clear() {
   memory_.reset();
   short_stars_ = {};
   long_stars_ = {};
+  moving_.reset();
+  sample_.reset();
 }
 
 /// Counts, and the codes that a look at each point tells.
@@ -250,8 +255,15 @@ std::int32_t DistributedMesh::triangulate_into(Stars<Int>& stars, const Point* p
   number_ = own_number;
   std::copy(number, number + n, number_);
   homes_ = std::move(stars.homes);
+  were_at_home_ = homes_->are_home_to_most(nodes, ranks_.rank());
   count_ = n;
   arcs_ = static_cast<std::int64_t>(stars.of_node.arcs());
+  if (!wants_sample_) return 0;
+  try {
+    sample_ = sample_of(nodes, stars);
+  } catch (const std::bad_alloc&) {
+    // Then the next call goes the cold way as well.
+  }
   return 0;
 }
 
@@ -268,17 +280,76 @@ void DistributedMesh::report_on(ParallelCost& mine, std::int64_t sent_before, Re
   report->boundary_points = std::accumulate(of_rank, of_rank + ranks_.size(), std::int64_t{0});
 }
 
+/// The stars of the last call, if they fit these points: true, and they are theirs. False: the call has to go
+/// the cold way, on every rank. Collective.
+bool DistributedMesh::begin_with_last(std::int64_t n, const Point* points, const std::int64_t* number,
+                                      Report* report, ParallelCost& cost) {
+  constexpr int kMostPatience = 64;
+  wants_sample_ = false;
+  if (total_ < kFewestToBeginWith) return false;
+  const LocalNodes nodes{points, count_, number_};
+  OnAll same{n >= 0 && static_cast<std::size_t>(n) == count_ && std::equal(number, number + n, number_) &&
+             warm_start_is_allowed()};
+  // Points that leave their homes get new ones, which the cold way finds.
+  OnAll fits{same.value && sample_ && sample_->fits(points) &&
+             (!were_at_home_ || homes_->are_home_to_most(nodes, ranks_.rank()))};
+  OnAny reported{ranks_.rank() == 0 && report != nullptr};
+  agree(ranks_, same, fits, reported);
+  wants_sample_ = same.value;
+  if (!fits.value || ++patient_ < patience_) return false;
+  bool is_done = false;
+  try {
+    is_done =
+        numbers_are_short_ ? move_stars(nodes, short_stars_, cost) : move_stars(nodes, long_stars_, cost);
+  } catch (const AgreedFailure&) {
+    // No memory for it: the cold way has more, without the mesh.
+  }
+  patience_ = is_done ? 1 : std::min(2 * patience_, kMostPatience);
+  patient_ = 0;
+  if (!is_done) return false;
+  is_reported_ = reported.value;
+  if (report != nullptr) report->points = total_;
+  return true;
+}
+
+template <class Int>
+bool DistributedMesh::move_stars(const LocalNodes& nodes, Stars<Int>& stars, ParallelCost& cost) {
+  ranks_.set_phase("move the stars");
+  {
+    const PhaseTimer timer(&cost, ParallelCost::divide, &ranks_);
+    if (moving_ == nullptr) moving_ = MovingStars::make(nodes, stars, ranks_);
+    if (moving_ == nullptr) return false;
+  }
+  {
+    const PhaseTimer timer(&cost, ParallelCost::triangulate, &ranks_);
+    if (!moving_->repair(nodes, ranks_)) return false;
+  }
+  const PhaseTimer timer(&cost, ParallelCost::lists, &ranks_);
+  in_agreement(ranks_, [&] {
+    moving_->update(nodes, stars);
+    sample_ = moving_->sample();
+  });
+  arcs_ = static_cast<std::int64_t>(stars.of_node.arcs());
+  cost.threads = threads_for(nodes.count);
+  cost.halo = static_cast<std::int64_t>(stars.outside.size());
+  cost.rounds = moving_->rounds();
+  cost.flips = static_cast<std::int64_t>(moving_->flips());
+  return true;
+}
+
 std::int32_t DistributedMesh::triangulate(std::int64_t n, const double* xyz, const std::int64_t* number,
                                           Report* report) {
-  clear();
   // The caller's coordinates are used where they are: they may be most of the memory of the machine.
   static_assert(sizeof(Point) == 3 * sizeof(double));
   const auto* const points = reinterpret_cast<const Point*>(xyz);
   const std::int64_t sent_before = ranks_.bytes_sent;
   ParallelCost mine;
-  std::int32_t code;
+  std::int32_t code = 0;
   try {
-    code = triangulate_points(n, points, number, report, mine);
+    if (!begin_with_last(n, points, number, report, mine)) {
+      clear();
+      code = triangulate_points(n, points, number, report, mine);
+    }
   } catch (...) {
     clear();  // or what there was memory for would pass for a mesh
     homes_.reset();

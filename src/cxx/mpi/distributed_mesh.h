@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "mpi/mpi_communicator.h"
+#include "parallel/moving_stars.h"
 #include "parallel/triangulate.h"
 #include "trmesh/call.h"
 
@@ -58,6 +60,10 @@ class DistributedMesh {
   struct ThreeOfEach;
   std::int32_t triangulate_points(std::int64_t n, const Point* points, const std::int64_t* number,
                                   Report* report, ParallelCost& cost);
+  bool begin_with_last(std::int64_t n, const Point* points, const std::int64_t* number, Report* report,
+                       ParallelCost& cost);
+  template <class Int>
+  bool move_stars(const LocalNodes& nodes, Stars<Int>& stars, ParallelCost& cost);
   std::int32_t gather_stars(std::int32_t root, const ListArrays& lists);
   Numbering look_at(std::int64_t n, const Point* points, const std::int64_t* number, bool wants_report);
   std::int64_t first_repeated(const std::int64_t* number, std::size_t n, const Numbering& numbering);
@@ -100,6 +106,14 @@ class DistributedMesh {
   std::int64_t* number_ = nullptr;  ///< of the own points
   Stars<std::int32_t> short_stars_;
   Stars<std::int64_t> long_stars_;
+  // For the next call, if it has the same numbers on each rank:
+  std::unique_ptr<MovingStars> moving_;  ///< of the last call, if that began with them, too
+  std::optional<SampleOfStars> sample_;  ///< on this rank, if there is memory for it
+  /// How many calls must find that the stars of the call before fit before one begins with them. More, where
+  /// such stars turned out not to fit in the end. The same on every rank, as is how many have found it.
+  int patience_ = 1, patient_ = 0;
+  bool were_at_home_ = false;     ///< nearly all points here, when homes_ were made
+  bool wants_sample_ = false;     ///< the last call had the same numbers as the one before
   std::unique_ptr<Homes> homes_;  ///< of the last triangulation, which the next may keep; null: it failed
 };
 

@@ -98,10 +98,10 @@ class Report {
     line.add(" rounds=%d halo=%lld bytes=%lld", call.cost.maximum.rounds,
              static_cast<long long>(call.cost.total.halo),
              static_cast<long long>(call.cost.total.bytes_sent));
-    if (call.mode == CallReport::on_threads) {
+    if (call.mode != CallReport::distributed_gather) {
       line.add(" start=%s", call.cost.maximum.flips >= 0 ? "warm" : "cold");
       if (call.cost.maximum.flips >= 0)
-        line.add(" flips=%lld", static_cast<long long>(call.cost.maximum.flips));
+        line.add(" flips=%lld", static_cast<long long>(call.cost.total.flips));
     }
     add_order(line, call);
     line.add("\n");

@@ -33,13 +33,6 @@ struct Headcount {
   }
 };
 
-bool most_are_at_home(const LocalNodes& nodes, const Homes& homes, int me) {
-  const std::size_t step = nodes.count / kLookedAt + 1;
-  std::size_t looked_at = 0, away = 0;
-  for (std::size_t i = 0; i < nodes.count; i += step, ++looked_at) away += homes.rank(nodes.points[i]) != me;
-  return 16 * away <= looked_at;
-}
-
 /// What the ranks bring, and the sample to which each has written its share.
 struct Supply {
   std::size_t nodes = 0;      ///< of all ranks
@@ -133,13 +126,19 @@ std::vector<Record> along_curve(BlockArray<Record>& sample, std::size_t most, co
 
 }  // namespace
 
+bool Homes::are_home_to_most(const LocalNodes& nodes, int me) const {
+  const std::size_t step = nodes.count / kLookedAt + 1;
+  std::size_t looked_at = 0, away = 0;
+  for (std::size_t i = 0; i < nodes.count; i += step, ++looked_at) away += rank(nodes.points[i]) != me;
+  return 16 * away <= looked_at;
+}
+
 Division divide(const LocalNodes& nodes, const Corners& corners, const Places& places, Communicator& ranks,
                 const ParallelOptions& options) {
   const auto me = static_cast<std::size_t>(ranks.rank()), size = static_cast<std::size_t>(ranks.size());
   Division division(places);
   Supply supply;
-  const bool at_home =
-      options.last != nullptr && most_are_at_home(nodes, *options.last, static_cast<int>(me));
+  const bool at_home = options.last != nullptr && options.last->are_home_to_most(nodes, static_cast<int>(me));
   const std::int64_t* const encoded =
       ranks.all_gather_one(Headcount{nodes.count, options.patches, at_home}.encode());
   in_agreement(ranks, [&] {

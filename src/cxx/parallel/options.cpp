@@ -20,15 +20,28 @@ PartitionKind partition_from_environment() {
   return PartitionKind::bisection;
 }
 
+/// What read() returns, once. Threads that wait here for each other may find another errno: the program's
+/// must stay.
+template <class Read>
+auto read_once(const Read& read) {
+  const int error = errno;
+  static const auto value = read();
+  errno = error;
+  return value;
+}
+
 }  // namespace
 
+bool warm_start_is_allowed() {
+  return read_once([] {
+    const char* const value = environment_variable("PSTRIPACK_WARM_START");
+    return value == nullptr || std::strcmp(value, "0") != 0;
+  });
+}
+
 ParallelOptions options_from_environment(std::size_t local_nodes) {
-  // Threads that wait here for each other may find another errno: the program's must stay.
-  const int error = errno;
-  static const PartitionKind partition = partition_from_environment();
-  errno = error;
   ParallelOptions options;
-  options.partition = partition;
+  options.partition = read_once([] { return partition_from_environment(); });
   options.threads = threads_for(local_nodes);
   options.patches = options.threads;
   return options;

@@ -49,12 +49,12 @@ bool all_share(MpiCommunicator& ranks, const SharedArea& area, const Order& orde
 }
 
 /// One call, on any rank; `area` is null where there is none.
-TrmeshResult carry_out(MpiCommunicator& ranks, Arrays arrays, const Order& order, void* area,
+TrmeshResult carry_out(MpiCommunicator& ranks, Arrays arrays, const Order& order, void* area, LastCall& last,
                        std::int32_t* lnew = nullptr, GroupCost* cost = nullptr) {
   TrmeshCall call;
   call.nodes = NodeArrays(static_cast<std::size_t>(order.real_bytes), nullptr, nullptr, nullptr);
   if (area != nullptr) call = AreaLayout(order.n, order.real_bytes).call(area, lnew);
-  return collective_trmesh(ranks, arrays, call, cost);
+  return collective_trmesh(ranks, arrays, call, cost, &last);
 }
 
 /// The environment of pstripack-run, as it was passed on: NAME=VALUE, each closed by a zero. MPI's variables
@@ -187,7 +187,7 @@ bool Steward::serve(Client& client, MpiCommunicator& ranks) {
   try {
     const Arrays arrays = all_share(ranks, client.area, order) ? Arrays::shared : Arrays::on_one_rank;
     client.area.close_file();  // who can share it has it by now
-    result = carry_out(ranks, arrays, order, client.area.data(), &reply.lnew,
+    result = carry_out(ranks, arrays, order, client.area.data(), last_call_, &reply.lnew,
                        request.wants_cost != 0 ? &reply.cost : nullptr);
   } catch (const AgreedFailure& failure) {
     result = {failure.code};
@@ -204,6 +204,7 @@ bool Steward::serve(Client& client, MpiCommunicator& ranks) {
 void serve_as_worker(MpiCommunicator& ranks, bool beside_rank_0) {
   SharedArea area;
   std::int64_t area_number = 0;
+  LastCall last_call;
   for (;;) {
     ranks.set_phase("its wait for a call");
     Order order;
@@ -217,7 +218,8 @@ void serve_as_worker(MpiCommunicator& ranks, bool beside_rank_0) {
     }
     try {
       const bool shared = all_share(ranks, area, order);
-      carry_out(ranks, shared ? Arrays::shared : Arrays::on_one_rank, order, shared ? area.data() : nullptr);
+      carry_out(ranks, shared ? Arrays::shared : Arrays::on_one_rank, order, shared ? area.data() : nullptr,
+                last_call);
     } catch (const AgreedFailure&) {
       // Rank 0 tells the model; the next call may succeed.
     }

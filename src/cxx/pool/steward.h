@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "base/shared_area.h"
+#include "mpi/collective_trmesh.h"
 #include "mpi/world.h"
 #include "pool/channel.h"
 #include "pool/messages.h"
@@ -61,6 +62,7 @@ class Steward {
   Descriptor listener_, child_signals_;
   std::vector<Client> clients_;
   std::int64_t areas_ = 0;  ///< that there have been
+  LastCall last_call_;
   pid_t model_ = -1;
   int status_ = 0;  ///< the model's, as wait() tells it
   bool told_ = false;

@@ -4,112 +4,38 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cerrno>
-#include <cmath>
-#include <cstring>
 #include <new>
 #include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
 
-#include "base/environment.h"
 #include "base/parallel_for.h"
 #include "lists/list_pieces.h"
 #include "mesh/flips.h"
+#include "mesh/sample_of_stars.h"
+#include "parallel/options.h"
 
 namespace pstripack {
 namespace {
 
 constexpr std::size_t kFewest = 1000;  ///< nodes: below, a cold call takes less time than it would be worth
 
-bool is_allowed() {
-  // Threads that wait here for each other may find another errno: the program's must stay.
-  const int error = errno;
-  static const bool allowed = [] {
-    const char* const value = environment_variable("PSTRIPACK_WARM_START");
-    return value == nullptr || std::strcmp(value, "0") != 0;
-  }();
-  errno = error;
-  return allowed;
+SampleOfStars sample_of(std::size_t n, const std::int32_t* list, const std::int32_t* lend) {
+  SampleOfStars sample;
+  SampleOfStars::for_each_node(n, [&](std::size_t k) {
+    const std::int32_t begin = k == 0 ? 0 : lend[k - 1];
+    sample.add(k, list + begin, static_cast<std::size_t>(lend[k] - begin));
+  });
+  return sample;
 }
-
-// ---- does a mesh fit the nodes? ---------------------------------------------------------------------------
-
-/// Some stars of a mesh, for a look whether it fits other nodes. Small: every call can afford one.
-class SampleOfStars {
- public:
-  SampleOfStars(std::size_t n, const std::int32_t* list, const std::int32_t* lend) {
-    const std::size_t wanted = std::min<std::size_t>(kStars, n / 64);
-    for (std::size_t j = 0; j < wanted; ++j) {
-      const std::size_t k = n / wanted * j + n / (2 * wanted);
-      const std::int32_t begin = lend[k - 1], end = lend[k];
-      if (static_cast<std::size_t>(end - begin) > kMost) continue;
-      stars_.push_back({static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(end - begin)});
-      rings_.insert(rings_.end(), list + begin, list + end);
-    }
-  }
-
-  /// True if all triangles of these stars are counterclockwise and few of their arcs are not locally
-  /// Delaunay, as far as rounded arithmetic can tell.
-  bool fits(const NodeArrays& nodes) const {
-    constexpr std::size_t kFew = 16;  // one arc of so many
-    std::size_t arcs = 0, bad = 0;
-    const std::int32_t* ring = rings_.data();
-    for (const auto& [k, count] : stars_) {
-      const Point p = nodes[k];
-      Point spoke[kMost + 2];
-      for (std::size_t i = 0; i < count; ++i) {
-        const Point q = nodes[static_cast<std::size_t>(ring[i]) - 1];
-        if (!length_is_one(q)) return false;
-        spoke[i] = minus(q, p);
-      }
-      spoke[count] = spoke[0], spoke[count + 1] = spoke[1];
-      for (std::size_t i = 0; i < count; ++i) {
-        const Point n = cross(spoke[i], spoke[i + 1]);
-        const Point &e = spoke[i], &f = spoke[i + 1], &g = spoke[i + 2];
-        const double size = dot(n, n), length = dot(e, e) * dot(f, f);
-        if (dot(n, p) < 0 && size > 0x1p-40 * length) return false;
-        const double height = dot(n, g);
-        bad += height > 0 && height * height > 0x1p-80 * length * dot(g, g);
-      }
-      arcs += count;
-      if (bad * kFew > std::max<std::size_t>(arcs, 256)) return false;
-      ring += count;
-    }
-    return bad * kFew <= arcs;
-  }
-
- private:
-  static constexpr std::size_t kStars = 128, kMost = 30;
-  struct Star {
-    std::uint32_t node, count;
-  };
-  std::vector<Star> stars_;
-  std::vector<std::int32_t> rings_;
-};
-
-/// Bytes that stay with the process: given back when it dies.
-class Stay {
- public:
-  /// Throws std::bad_alloc if there are too many already.
-  explicit Stay(std::size_t bytes) : bytes_(bytes) {
-    if (!may_stay(bytes)) throw std::bad_alloc();
-  }
-  ~Stay() { has_left(bytes_); }
-  Stay(const Stay&) = delete;
-  Stay& operator=(const Stay&) = delete;
-
- private:
-  const std::size_t bytes_;
-};
 
 }  // namespace
 
 /// LIST and LEND of a mesh, and the mesh itself from the first call on that begins with it.
 struct KeptMesh {
   KeptMesh(std::size_t n, std::size_t slots)
-      : stay((slots + n) * sizeof(std::int32_t) + MovingMesh::bytes(n)), list(slots), lend(n) {}
+      : stay((slots + n) * sizeof(std::int32_t) + MovingMesh::bytes(n, slots, n)), list(slots), lend(n) {}
   std::int32_t begin(std::size_t k) const { return k == 0 ? 0 : lend[k - 1]; }
 
   const Stay stay;
@@ -222,7 +148,7 @@ void copy(const std::int32_t* from, std::size_t count, std::int32_t* to) {
 }  // namespace
 
 WarmStart::WarmStart(const NodeArrays& nodes, std::size_t n) : nodes_(nodes), n_(n) {
-  if (n >= kFewest && is_allowed()) last_ = take_last_mesh(nodes, n, patience_);
+  if (n >= kFewest && warm_start_is_allowed()) last_ = take_last_mesh(nodes, n, patience_);
 }
 
 WarmStart::~WarmStart() {
@@ -288,7 +214,7 @@ bool WarmStart::write_lists(const ListArrays& lists, ParallelCost* cost) noexcep
     if (changes.count() > n_ / 16) {
       copy(list, kept.list.size(), kept.list.data());
       copy(lend, n_, kept.lend.data());
-      kept.mesh->set_lists(kept.list.data(), kept.lend.data());
+      kept.mesh->forget_changes();
     }
     last_->patience = 1;
     if (cost != nullptr) {
@@ -306,7 +232,7 @@ bool WarmStart::write_lists(const ListArrays& lists, ParallelCost* cost) noexcep
 /// If there is no memory for it, the next call finds nothing.
 void WarmStart::take_sample(const std::int32_t* list, const std::int32_t* lend) noexcept {
   try {
-    last_->sample = SampleOfStars(n_, list, lend);
+    last_->sample = sample_of(n_, list, lend);
   } catch (const std::bad_alloc&) {
     last_.reset();
   }
@@ -315,10 +241,11 @@ void WarmStart::take_sample(const std::int32_t* list, const std::int32_t* lend) 
 void WarmStart::remember(const ListArrays& lists) noexcept {
   const auto& [list, lptr, lend, lnew] = lists;
   const auto slots = static_cast<std::size_t>(*lnew) - 1;
-  if (n_ < kFewest || !is_allowed() || slots != 6 * n_ - 12) return;  // a boundary: not for a warm start
+  if (n_ < kFewest || !warm_start_is_allowed() || slots != 6 * n_ - 12)
+    return;  // a boundary: not for a warm start
   try {
     if (last_ == nullptr) {
-      last_.reset(new LastMesh{n_, getpid(), SampleOfStars(n_, list, lend), patience_});
+      last_.reset(new LastMesh{n_, getpid(), sample_of(n_, list, lend), patience_});
       return;
     }
     if (++last_->patient >= last_->patience) {

@@ -30,6 +30,11 @@ class NumberTable {
   }
   /// The number must be in the table.
   Value at(std::int64_t number) const { return place_[find(number)].value; }
+  /// Null if the number is not in the table.
+  const Value* find_value(std::int64_t number) const {
+    const Place& place = place_[find(number)];
+    return place.number == number ? &place.value : nullptr;
+  }
   /// A hint that the number will be asked for soon.
   void prefetch(std::int64_t number) const { __builtin_prefetch(&place_[home(number)], 1); }
 

@@ -1,0 +1,43 @@
+#pragma once
+// Rings of an earlier call in which every rank can read all nodes: docs/parallel.md, "Warm start".
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "base/workspace.h"
+#include "parallel/moving_stars.h"
+
+namespace pstripack {
+
+/// The rings of a slice of the nodes, first_node.. (from 0) on this rank. A rank moves and repairs the stars
+/// of the nodes that are at home with it, and those who have the slices hear of the rings that have changed.
+class LastRings {
+ public:
+  /// Throws std::bad_alloc.
+  LastRings(const RingTable<std::int32_t>& rings, std::size_t first_node, std::unique_ptr<Homes> homes);
+
+  /// Makes them the rings of the nodes where they are now, and returns true; or returns false on every rank,
+  /// and they are of no more use. `begin`: of each rank's slice, and the end. Collective. Throws
+  /// AgreedFailure.
+  bool move(const NodeArrays& nodes, const std::vector<std::size_t>& begin, Communicator& ranks);
+  const RingTable<std::int32_t>& rings() const { return of_slice_.of_node; }
+  const MovingStars& stars() const { return *moving_; }
+
+ private:
+  void send_home(const NodeArrays& nodes, std::size_t nodes_of_all, Communicator& ranks);
+  void replace(const Parcels& changed);
+
+  const Stay stay_;
+  const std::size_t first_node_;
+  const std::unique_ptr<Homes> homes_;
+  Stars<std::int32_t> of_slice_, at_home_;
+  std::size_t replaced_ = 0;  ///< entries of rings of the slice that have come anew
+  // At home here:
+  std::vector<std::int64_t> numbers_;
+  BlockArray<Point> points_;
+  std::unique_ptr<MovingStars> moving_;
+};
+
+}  // namespace pstripack

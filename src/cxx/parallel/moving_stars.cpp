@@ -1,0 +1,393 @@
+// A call that begins with the stars of the last one, in order:
+//   1  every rank learns where the nodes are that its stars name and other ranks bring
+//   2  every rank tests its own stars
+//   3  arcs are flipped: by one rank alone where it brings all four nodes; else one rank proposes the flip,
+//   all
+//      hear of it, and each changes the stars that it has
+//
+// After each exchange the stars of all ranks together are one mesh again. Why the tests suffice:
+// docs/parallel.md, "Warm start".
+
+#include "parallel/moving_stars.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <numeric>
+#include <unordered_set>
+#include <utility>
+
+#include "base/parallel_for.h"
+#include "parallel/agreement.h"
+#include "parallel/number_table.h"
+
+namespace pstripack {
+namespace {
+
+/// Node `outside` of those outside a rank, and which node it is of the rank that brings it.
+struct Found {
+  std::uint32_t outside, node;
+};
+
+}  // namespace
+
+// ---- the stars of the last call ------------------------------------------------------------------------
+
+template <class Int>
+std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes& nodes, const Stars<Int>& stars,
+                                               Communicator& ranks) {
+  const auto size = static_cast<std::size_t>(ranks.size()), me = static_cast<std::size_t>(ranks.rank());
+  std::int64_t sums[] = {static_cast<std::int64_t>(nodes.count),
+                         static_cast<std::int64_t>(stars.of_node.arcs()),
+                         static_cast<std::int64_t>(stars.outside.size())};
+  ranks.all_sum(sums, 3);
+  if (sums[1] != 6 * sums[0] - 12 || sums[2] > sums[0]) return nullptr;
+
+  std::unique_ptr<MovingStars> moving;
+  std::vector<std::int64_t> numbers;
+  Smallest first_with_nodes;
+  if (nodes.count > 0) first_with_nodes.value = static_cast<std::int64_t>(me);
+  in_agreement(
+      ranks,
+      [&] {
+        moving.reset(new MovingStars(size, me));
+        for (const Record& r : stars.outside) numbers.push_back(r.number);
+      },
+      first_with_nodes);
+  moving->first_with_nodes_ = static_cast<std::size_t>(first_with_nodes.value);
+  const Parcels wanted = ranks.all_gather(numbers.data(), numbers.size() * sizeof(std::int64_t));
+  const Parcels found = exchange_in_agreement(ranks, [&] { return moving->begin(nodes, stars, wanted); });
+  in_agreement(ranks, [&] {
+    for (std::size_t r = 0; r < size; ++r)
+      for (const Found& f : Items<Found>(found, r)) {
+        moving->outside_[f.outside].address = {static_cast<std::uint32_t>(r), f.node};
+        moving->receive_[r].push_back(f.outside);
+      }
+  });
+  return moving;
+}
+
+/// Lays out the stars. `wanted`: the numbers of the nodes outside each rank, of which those are found that
+/// are brought here.
+template <class Int>
+Parcels MovingStars::begin(const LocalNodes& nodes, const Stars<Int>& stars, const Parcels& wanted) {
+  constexpr std::size_t kAhead = 16;
+  const std::size_t n = nodes.count, arcs = stars.of_node.arcs(), outside = stars.outside.size();
+  const std::size_t room = outside + 1000;
+  stay_.emplace(MovingMesh::bytes(n, arcs, n + outside + room));
+  NumberTable<std::uint32_t> local(n + outside);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (i + kAhead < n) local.prefetch(nodes.number(i + kAhead));
+    local.insert(nodes.number(i), static_cast<std::uint32_t>(i));
+  }
+  std::vector<std::vector<Found>> found(send_.size());
+  for (std::size_t r = 0; r < found.size(); ++r) {
+    std::uint32_t place = 0;
+    for (const std::int64_t number : Items<std::int64_t>(wanted, r)) {
+      if (const std::uint32_t* const i = local.find_value(number); i != nullptr) {
+        found[r].push_back({place, *i});
+        send_[r].push_back(*i);
+      }
+      ++place;
+    }
+  }
+
+  outside_.reserve(outside + room);
+  for (const Record& r : stars.outside) {
+    local.insert(r.number, static_cast<std::uint32_t>(n + outside_.size()));
+    outside_.push_back({{}, r.number, 0});
+  }
+  BlockArray<std::int32_t> list(arcs), lend(n);
+  std::int32_t* at = list.data();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (i + 2 * kAhead < n) stars.of_node.prefetch(i + 2 * kAhead);
+    if (i + kAhead < n) {
+      const Ring<Int> soon = stars.of_node[i + kAhead];
+      for (std::uint32_t k = 0; k < soon.count; ++k) local.prefetch(soon.begin[k]);
+    }
+    const Ring<Int> ring = stars.of_node[i];
+    for (std::uint32_t k = 0; k < ring.count; ++k) {
+      const std::uint32_t node = local.at(ring.begin[k]);
+      if (node >= n) ++outside_[node - n].arcs;
+      *at++ = static_cast<std::int32_t>(node) + 1;
+    }
+    lend[i] = static_cast<std::int32_t>(at - list.data());
+  }
+  BlockArray<Point> points(n + outside);
+  nodes.points.copy(0, n, points.data());
+  std::fill(points.data() + n, points.data() + n + outside, Point{});
+  mesh_.emplace(points.data(), n, list.data(), lend.data(), outside, room);
+  sort_outside();
+  return packed(found);
+}
+
+void MovingStars::sort_outside() {
+  by_number_.clear();
+  for (std::uint32_t j = 0; j < outside_.size(); ++j)
+    if (outside_[j].arcs > 0) by_number_.push_back(j);
+  std::sort(by_number_.begin(), by_number_.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return outside_[a].number < outside_[b].number; });
+  outside_has_changed_ = false;
+}
+
+// ---- 1, 2 and 3 ----------------------------------------------------------------------------------------
+
+bool MovingStars::repair(const LocalNodes& nodes, Communicator& ranks) {
+  constexpr int kMostRounds = 64;
+  OnAll fits{move_nodes(nodes, ranks)};
+  const std::optional<MovingMesh::Mark> mark = agree_on_mark(ranks);
+  Parcels flips;
+  flips_of_others_ = 0;
+  OnAny any{true};
+  for (rounds_ = 0; any.value && rounds_ < kMostRounds; ++rounds_) {
+    std::vector<Flip> mine;
+    in_agreement(
+        ranks,
+        [&] {
+          if (rounds_ == 0)
+            fits.value = fits.value && mark && mesh_->test(*mark);
+          else
+            fits.value = flip_all(flips);
+          fits.value = fits.value && propose(nodes, mine);
+          any.value = !mine.empty();
+        },
+        fits, any);
+    if (!fits.value) return false;
+    if (any.value) flips = ranks.all_gather(mine.data(), mine.size() * sizeof(Flip));
+  }
+  --rounds_;
+  return !any.value;
+}
+
+/// Whether all nodes here have length one.
+bool MovingStars::move_nodes(const LocalNodes& nodes, Communicator& ranks) {
+  constexpr std::size_t kAhead = 16;
+  MovingMesh& mesh = *mesh_;
+  std::atomic<bool> all_have_length_one{true};
+  const Parcels arrived = exchange_in_agreement(ranks, [&] {
+    nodes.points.visit([&](const auto& node) {
+      parallel_pieces(nodes.count, threads_for(nodes.count), [&](std::size_t first, std::size_t last, int) {
+        bool have_length_one = true;
+        for (std::size_t k = first; k < last; ++k) {
+          if (k + kAhead < last) mesh.prefetch(k + kAhead);
+          const Point p = node(k);
+          have_length_one = have_length_one & length_is_one(p);
+          mesh.node(k) = p;
+        }
+        if (!have_length_one) all_have_length_one = false;
+      });
+    });
+    ParcelWriter writer(send_.size());
+    for (std::size_t r = 0; r < send_.size(); ++r) writer.expect<Point>(r, send_[r].size());
+    writer.make_room();
+    for (std::size_t r = 0; r < send_.size(); ++r)
+      for (const std::uint32_t k : send_[r]) writer.put(r, mesh.node(k));
+    return writer.finish();
+  });
+  for (std::size_t r = 0; r < receive_.size(); ++r) {
+    const Point* p = Items<Point>(arrived, r).begin();
+    for (const std::uint32_t j : receive_[r]) mesh.node(nodes.count + j) = *p++;
+  }
+  return all_have_length_one;
+}
+
+/// That of the first rank with nodes; none if it finds none.
+std::optional<MovingMesh::Mark> MovingStars::agree_on_mark(Communicator& ranks) {
+  MovingMesh::Mark mine;
+  Mark mark;
+  const bool have_one = me_ == first_with_nodes_ && mesh_->choose_mark(mine);
+  if (have_one) {
+    for (int i = 0; i < 3; ++i) mark.corner[i] = address_of(mine.corner[i]);
+    mark.towards = mine.towards;
+  }
+  const Parcels all = ranks.all_gather(&mark, have_one ? sizeof mark : 0);
+  const Items<Mark> marks(all);
+  if (marks.size() == 0) return std::nullopt;
+  for (int i = 0; i < 3; ++i) mine.corner[i] = find(marks.begin()->corner[i]);
+  mine.towards = marks.begin()->towards;
+  return mine;
+}
+
+/// Flips what this rank can flip alone, and proposes the others. Where two ranks propose the same, one of
+/// them comes too late.
+bool MovingStars::propose(const LocalNodes& nodes, std::vector<Flip>& flips) {
+  std::vector<MovingMesh::Quadrangle> across;
+  if (!mesh_->flip_inside(across)) return false;
+  for (const auto& q : across) {
+    if (!mesh_->is_convex(q)) return false;
+    const auto corner = [&](std::uint32_t v) {
+      const std::int64_t number = v < nodes.count ? nodes.number(v) : outside_[v - nodes.count].number;
+      return Corner{address_of(v), number, mesh_->node(v)};
+    };
+    flips.push_back({{corner(q.a), corner(q.b), corner(q.c), corner(q.d)}});
+  }
+  return true;
+}
+
+/// The same on every rank: flips that share no node, in their order. The arcs of the others are looked at
+/// again.
+bool MovingStars::flip_all(const Parcels& flips) {
+  std::unordered_set<std::uint64_t> taken;
+  for (const Flip& flip : Items<Flip>(flips)) {
+    const auto is_taken = [&](const Corner& c) { return taken.count(c.address.key()) > 0; };
+    if (std::any_of(std::begin(flip.corner), std::end(flip.corner), is_taken)) {
+      mesh_->suspect(find(flip.corner[0].address), find(flip.corner[1].address));
+      continue;
+    }
+    for (const Corner& c : flip.corner) taken.insert(c.address.key());
+    if (!flip_one(flip)) return false;
+  }
+  return true;
+}
+
+bool MovingStars::flip_one(const Flip& flip) {
+  const auto& [a, b, c, d] = flip.corner;
+  const auto is_here = [&](const Corner& corner) { return corner.address.rank == me_; };
+  if (std::none_of(std::begin(flip.corner), std::end(flip.corner), is_here)) return true;
+  if (!meet(c, d) || !meet(d, c)) return false;
+  const MovingMesh::Quadrangle q{find(a.address), find(b.address), find(c.address), find(d.address)};
+  const auto count_arc = [&](const Corner& at, std::uint32_t other, std::uint32_t change) {
+    if (is_here(at) && other >= mesh_->size()) {
+      outside_[other - mesh_->size()].arcs += change;
+      outside_has_changed_ = true;
+    }
+  };
+  count_arc(a, q.b, -1u);
+  count_arc(b, q.a, -1u);
+  count_arc(c, q.d, 1);
+  count_arc(d, q.c, 1);
+  flips_of_others_ += !is_here(a);
+  return mesh_->flip(q);
+}
+
+/// Two nodes that become neighbours. If one is here and the other is not, their ranks tell each other from
+/// now on where they are, unless they do already: each can see that.
+bool MovingStars::meet(const Corner& one, const Corner& other) {
+  if (one.address.rank != me_ || other.address.rank == me_) return true;
+  Nodes& send = send_[other.address.rank];
+  if (std::find(send.begin(), send.end(), one.address.node) == send.end()) send.push_back(one.address.node);
+  if (find(other.address) != MovingMesh::kNobody) return true;
+  if (mesh_->add_outside(other.point) == MovingMesh::kNobody) return false;
+  receive_[other.address.rank].push_back(static_cast<std::uint32_t>(outside_.size()));
+  outside_.push_back({other.address, other.number, 0});
+  return true;
+}
+
+/// The node in the mesh here; kNobody if it is none that this rank knows.
+std::uint32_t MovingStars::find(const Address& address) const {
+  if (address.rank == me_) return address.node;
+  const auto found = std::find_if(outside_.begin(), outside_.end(),
+                                  [&](const Outside& node) { return node.address == address; });
+  if (found == outside_.end()) return MovingMesh::kNobody;
+  return static_cast<std::uint32_t>(mesh_->size() + static_cast<std::size_t>(found - outside_.begin()));
+}
+
+// ---- what has changed ----------------------------------------------------------------------------------
+
+template <class Int>
+std::vector<std::uint32_t> MovingStars::update(const LocalNodes& nodes, Stars<Int>& stars) {
+  const std::size_t n = nodes.count;
+  const auto number_of = [&](std::int32_t node) {
+    const auto k = static_cast<std::size_t>(node) - 1;
+    return static_cast<Int>(k < n ? nodes.number(k) : outside_[k - n].number);
+  };
+  std::vector<std::uint32_t> changed, all;
+  for (const auto& change : mesh_->changes()) changed.push_back(change.node);
+  if (replaced_ > 8 * n) {  // then rings that are not used any more go
+    all.resize(n);
+    std::iota(all.begin(), all.end(), 0u);
+    replaced_ = 0;
+  }
+  const std::vector<std::uint32_t>& rewritten = all.empty() ? changed : all;
+  std::size_t entries = 0;
+  for (const std::uint32_t k : rewritten) entries += 1 + mesh_->degree(k);
+  Buffer<Int> rings(entries + kBlock);  // see copy_kept_ring
+  stars.more_memory.reserve(stars.more_memory.size() + 1);
+  std::vector<std::int32_t> ring;
+  Int* at = rings.data();
+  for (const std::uint32_t k : rewritten) {
+    ring.resize(mesh_->degree(k));
+    mesh_->write_ring(k, ring.data());
+    Int* const place = at;
+    *at++ = static_cast<Int>(ring.size());
+    at = std::transform(ring.begin(), ring.end(), at, number_of);
+    std::rotate(place + 1, std::min_element(place + 1, at), at);
+    stars.of_node.replace(k, place);
+  }
+  if (!all.empty()) stars.more_memory.clear();
+  stars.more_memory.push_back(std::move(rings));
+  if (all.empty()) replaced_ += entries;
+  mesh_->forget_changes();
+
+  if (outside_has_changed_) sort_outside();
+  stars.outside.clear();
+  for (const std::uint32_t j : by_number_) stars.outside.push_back({mesh_->node(n + j), outside_[j].number});
+  stars.lengths = Lengths::as_given;
+  return changed;
+}
+
+// ---- samples -------------------------------------------------------------------------------------------
+
+SampleOfStars MovingStars::sample() const {
+  SampleOfStars sample;
+  std::vector<std::int32_t> ring;
+  SampleOfStars::for_each_node(mesh_->size(), [&](std::size_t k) {
+    ring.resize(mesh_->degree(k));
+    mesh_->write_ring(k, ring.data());
+    if (static_cast<std::size_t>(*std::max_element(ring.begin(), ring.end())) <= mesh_->size())
+      sample.add(k, ring.data(), ring.size());
+  });
+  return sample;
+}
+
+/// The few nodes that the stars name are searched among all: those that may be among them are marked in a
+/// table of some bits of the number first.
+template <class Int>
+SampleOfStars sample_of(const LocalNodes& nodes, const Stars<Int>& stars) {
+  constexpr unsigned kBits = 15;
+  const auto slot = [](std::int64_t number) {
+    return static_cast<std::uint64_t>(number) * 0x9e3779b97f4a7c15u >> (64 - kBits);
+  };
+  std::vector<std::uint64_t> maybe((std::size_t{1} << kBits) / 64);
+  std::size_t wanted = 0;
+  const auto for_each_star = [&](const auto& visit) {
+    SampleOfStars::for_each_node(nodes.count, [&](std::size_t k) { visit(k, stars.of_node[k]); });
+  };
+  for_each_star([&](std::size_t, const Ring<Int>& ring) {
+    wanted += ring.count;
+    for (std::uint32_t i = 0; i < ring.count; ++i) {
+      const std::uint64_t s = slot(std::abs(ring.begin[i]));
+      maybe[s / 64] |= std::uint64_t{1} << s % 64;
+    }
+  });
+  std::vector<std::pair<std::int64_t, std::int32_t>> known;
+  for (std::size_t i = 0; i < nodes.count; ++i) {
+    const std::uint64_t s = slot(nodes.number(i));
+    if ((maybe[s / 64] >> s % 64 & 1) != 0)
+      known.emplace_back(nodes.number(i), static_cast<std::int32_t>(i) + 1);
+  }
+  std::sort(known.begin(), known.end());
+  SampleOfStars sample;
+  std::vector<std::int32_t> local;
+  for_each_star([&](std::size_t k, const Ring<Int>& ring) {
+    local.clear();
+    for (std::uint32_t i = 0; i < ring.count; ++i) {
+      const std::pair<std::int64_t, std::int32_t> least(ring.begin[i], 0);
+      const auto found = std::lower_bound(known.begin(), known.end(), least);
+      if (found != known.end() && found->first == ring.begin[i]) local.push_back(found->second);
+    }
+    if (local.size() == ring.count) sample.add(k, local.data(), local.size());
+  });
+  return sample;
+}
+
+template SampleOfStars sample_of(const LocalNodes&, const Stars<std::int32_t>&);
+template SampleOfStars sample_of(const LocalNodes&, const Stars<std::int64_t>&);
+template std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes&, const Stars<std::int32_t>&,
+                                                        Communicator&);
+template std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes&, const Stars<std::int64_t>&,
+                                                        Communicator&);
+template std::vector<std::uint32_t> MovingStars::update(const LocalNodes&, Stars<std::int32_t>&);
+template std::vector<std::uint32_t> MovingStars::update(const LocalNodes&, Stars<std::int64_t>&);
+
+}  // namespace pstripack

@@ -1,0 +1,108 @@
+#pragma once
+// A triangulation whose nodes stay on the ranks that bring them and move a little: docs/parallel.md, "Warm
+// start".
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "base/workspace.h"
+#include "mesh/flips.h"
+#include "mesh/sample_of_stars.h"
+#include "parallel/communicator.h"
+#include "parallel/local_nodes.h"
+#include "parallel/return_rings.h"
+
+namespace pstripack {
+
+/// Some of these stars, none with a neighbour that another rank brings. Throws std::bad_alloc.
+template <class Int>
+SampleOfStars sample_of(const LocalNodes& nodes, const Stars<Int>& stars);
+
+/// The stars of the nodes that this rank brings, and where the nodes are; with those of the other ranks, a
+/// mesh without a boundary.
+class MovingStars {
+ public:
+  /// Of the nodes whose stars these are, on every rank, where they are now. Null on every rank if the mesh
+  /// has a boundary or nearly all nodes have neighbours on other ranks. Collective. Throws AgreedFailure.
+  template <class Int>
+  static std::unique_ptr<MovingStars> make(const LocalNodes& nodes, const Stars<Int>& stars,
+                                           Communicator& ranks);
+
+  /// Makes them the stars in the Delaunay triangulation of the same nodes where they are now, and returns
+  /// true. Or returns false, and they are of no more use: as MovingMesh::repair(). The same on every rank.
+  /// Collective. Throws AgreedFailure; then they are of no more use either.
+  bool repair(const LocalNodes& nodes, Communicator& ranks);
+  std::size_t flips() const { return mesh_->flips() - flips_of_others_; }  ///< the sum of all ranks' counts
+  int rounds() const { return rounds_; }                                   ///< exchanges of flips
+  std::size_t halo() const { return outside_.size(); }
+
+  /// After repair(): brings the stars up to date that were given to make(), and returns the nodes (from 0)
+  /// whose rings have changed. Throws std::bad_alloc.
+  template <class Int>
+  std::vector<std::uint32_t> update(const LocalNodes& nodes, Stars<Int>& stars);
+
+  SampleOfStars sample() const;  ///< as sample_of()
+
+ private:
+  /// A node of any rank: there it is node `node`.
+  struct Address {
+    std::uint32_t rank, node;
+    bool operator==(const Address& other) const { return rank == other.rank && node == other.node; }
+    std::uint64_t key() const { return std::uint64_t{rank} << 32 | node; }
+  };
+  struct Corner {
+    Address address;
+    std::int64_t number;
+    Point point;
+  };
+  /// The corners a, b, c, d of MovingMesh::Quadrangle. It is proposed by a rank that has a.
+  struct Flip {
+    Corner corner[4];
+  };
+  /// A triangle, and a direction inside it.
+  struct Mark {
+    Address corner[3];
+    Point towards;
+  };
+  /// A node that is a neighbour of nodes here, or was one.
+  struct Outside {
+    Address address;
+    std::int64_t number;
+    std::uint32_t arcs;  ///< to nodes here
+  };
+  using Nodes = std::vector<std::uint32_t>;
+
+  MovingStars(std::size_t ranks, std::size_t me)
+      : me_(static_cast<std::uint32_t>(me)), send_(ranks), receive_(ranks) {}
+  template <class Int>
+  Parcels begin(const LocalNodes& nodes, const Stars<Int>& stars, const Parcels& wanted);
+  void sort_outside();
+  bool move_nodes(const LocalNodes& nodes, Communicator& ranks);
+  std::optional<MovingMesh::Mark> agree_on_mark(Communicator& ranks);
+  bool propose(const LocalNodes& nodes, std::vector<Flip>& flips);
+  bool flip_all(const Parcels& flips);
+  bool flip_one(const Flip& flip);
+  bool meet(const Corner& one, const Corner& other);
+  std::uint32_t find(const Address& address) const;
+  Address address_of(std::uint32_t v) const {
+    return v < mesh_->size() ? Address{me_, v} : outside_[v - mesh_->size()].address;
+  }
+
+  const std::uint32_t me_;
+  std::size_t first_with_nodes_ = 0;  ///< rank
+  std::optional<Stay> stay_;
+  std::optional<MovingMesh> mesh_;
+  std::vector<Outside> outside_;          ///< node size() + j of the mesh is outside_[j]
+  std::vector<std::uint32_t> by_number_;  ///< those of outside_ that are neighbours, in the order of numbers
+  bool outside_has_changed_ = false;      ///< since then
+  /// Of each rank: the nodes here whose places it is told, and the nodes outside whose places it tells.
+  std::vector<Nodes> send_, receive_;
+  std::size_t replaced_ = 0;         ///< entries of rings that update() has written
+  std::size_t flips_of_others_ = 0;  ///< flips that another rank counts
+  int rounds_ = 0;
+};
+
+}  // namespace pstripack

@@ -1,0 +1,405 @@
+// Stars that stay on their ranks while the nodes move, on ranks that are threads of this process: the same
+// stars as those of the triangulation made anew, or false on every rank.
+
+#include "parallel/moving_stars.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "base/workspace.h"
+#include "parallel/partition.h"
+#include "parallel/triangulate.h"
+#include "point_sets.h"
+#include "support/cases.h"
+#include "support/lists.h"
+#include "support/moves.h"
+#include "support/thread_ranks.h"
+
+namespace {
+
+using namespace pstripack;
+using point_sets::make;
+using point_sets::Random;
+
+/// What one hull says of the nodes. No rings where nodes coincide.
+std::optional<Rings> rings_of_one_hull(const Nodes& nodes) {
+  Workspace workspace(workspace_bytes(nodes.size()));
+  const Hull hull = delaunay(nodes.data(), nodes.size(), workspace);
+  if (!hull.coincident.empty()) return {};
+  Faces faces;
+  for (std::size_t t = 0; t < hull.face_count; ++t) {
+    const auto& v = hull.faces[t].vertex;
+    const auto node = [&](int i) { return static_cast<std::int32_t>(hull.order[v[i]]); };
+    if (hull.front(t)) faces.push_back({node(0), node(1), node(2)});
+  }
+  return rings_of(nodes.size(), faces);
+}
+
+/// Numbers that do not fit 32 bits, or nodes from 1.
+template <class Int>
+std::int64_t number_of(std::size_t node) {
+  return static_cast<std::int64_t>(node) * (sizeof(Int) == 8 ? std::int64_t{1} << 33 : 1) + 1;
+}
+
+struct Tally {
+  int warm = 0, refused = 0, cold = 0, rounds = 0;
+  std::size_t flips = 0;
+};
+
+/// One rank: its nodes, their stars, and those of the last call.
+template <class Int>
+class OneRank {
+ public:
+  OneRank(Communicator& ranks, const std::vector<std::size_t>& mine) : ranks_(ranks), mine_(mine) {
+    for (const std::size_t i : mine) numbers_.push_back(number_of<Int>(i));
+  }
+
+  void call(const Nodes& nodes, const std::optional<Rings>& right, Tally& tally) {
+    Nodes here;
+    for (const std::size_t i : mine_) here.push_back(nodes[i]);
+    const LocalNodes local{here.data(), here.size(), numbers_.data()};
+    if (moving_ != nullptr) {
+      if (moving_->repair(local, ranks_)) {
+        moving_->update(local, stars_);
+        ++tally.warm;
+        tally.flips += moving_->flips();
+        tally.rounds = std::max(tally.rounds, moving_->rounds());
+        EXPECT_TRUE(right) << "stars of nodes that have none";
+        EXPECT_TRUE(moving_->sample().fits(local.points));
+        if (right) compare(nodes, *right);
+        return;
+      }
+      ++tally.refused;
+    }
+    ++tally.cold;
+    moving_.reset();
+    stars_ = {};
+    Look look = look_at(local.points, local.count);
+    agree_on(look, ranks_);
+    const Point corners[3] = {nodes[0], nodes[1], nodes[2]};
+    ParallelOptions options;
+    options.with_neighbours = true;
+    stars_ = triangulate<Int>(local, look, corners, {number_of<Int>(0), number_of<Int>(1), number_of<Int>(2)},
+                              ranks_, options);
+    if (!stars_.coincident.empty()) return;
+    if (look.lengths_are_one.value) moving_ = MovingStars::make(local, stars_, ranks_);
+    if (right) compare(nodes, *right);
+  }
+
+ private:
+  void compare(const Nodes& nodes, const Rings& right) {
+    std::set<std::int64_t> outside;
+    const std::set<std::int64_t> own(numbers_.begin(), numbers_.end());
+    ASSERT_EQ(stars_.of_node.size(), mine_.size());
+    for (std::size_t i = 0; i < mine_.size(); ++i) {
+      std::vector<Int> expected;
+      for (const std::int32_t b : right.neighbours[mine_[i]]) {
+        expected.push_back(static_cast<Int>(number_of<Int>(static_cast<std::size_t>(b))));
+        if (own.count(expected.back()) == 0) outside.insert(expected.back());
+      }
+      if (right.boundary[mine_[i]]) expected.back() = -expected.back();
+      const Ring<Int> ring = stars_.of_node[i];
+      ASSERT_EQ(std::vector<Int>(ring.begin, ring.begin + ring.count), expected) << "node " << mine_[i];
+    }
+    ASSERT_EQ(stars_.outside.size(), outside.size());
+    auto number = outside.begin();
+    for (const Record& r : stars_.outside) {
+      ASSERT_EQ(r.number, *number++);
+      ASSERT_EQ(r.point, nodes[static_cast<std::size_t>((r.number - 1) / (number_of<Int>(1) - 1))]);
+    }
+  }
+
+  Communicator& ranks_;
+  const std::vector<std::size_t>& mine_;
+  std::vector<std::int64_t> numbers_;
+  Stars<Int> stars_;
+  std::unique_ptr<MovingStars> moving_;
+};
+
+/// Calls with these sets, one after another, on so many ranks. `owner`: by node; empty: by patches of the
+/// first set.
+template <class Int = std::int32_t>
+Tally follow(const std::vector<Nodes>& sets, int size, std::vector<int> owner = {}) {
+  if (owner.empty()) {
+    const Partition home(PartitionKind::bisection, size, sets[0], sets[0].size());
+    for (const Point& p : sets[0]) owner.push_back(home.owner(p));
+  }
+  std::vector<std::vector<std::size_t>> mine(static_cast<std::size_t>(size));
+  for (std::size_t i = 0; i < owner.size(); ++i) mine[static_cast<std::size_t>(owner[i])].push_back(i);
+  std::vector<std::optional<Rings>> right;
+  for (const Nodes& nodes : sets) right.push_back(rings_of_one_hull(nodes));
+  std::vector<Tally> tally(static_cast<std::size_t>(size));
+  ThreadRanks::run(size, [&](Communicator& ranks) {
+    const auto r = static_cast<std::size_t>(ranks.rank());
+    OneRank<Int> rank(ranks, mine[r]);
+    for (std::size_t s = 0; s < sets.size(); ++s) rank.call(sets[s], right[s], tally[r]);
+  });
+  for (const Tally& t : tally) {
+    EXPECT_EQ(t.warm, tally[0].warm);
+    EXPECT_EQ(t.refused, tally[0].refused);
+    EXPECT_EQ(t.rounds, tally[0].rounds);
+  }
+  for (std::size_t r = 1; r < tally.size(); ++r) tally[0].flips += tally[r].flips;
+  return tally[0];
+}
+
+/// `steps` sets, each of which `move(nodes, step)` makes of the one before.
+std::vector<Nodes> sets_of(Nodes nodes, int steps, const std::function<void(Nodes&, int)>& move) {
+  std::vector<Nodes> sets;
+  for (int step = 0; step < steps; ++step) {
+    if (step > 0) move(nodes, step);
+    sets.push_back(nodes);
+  }
+  return sets;
+}
+
+constexpr int kSizes[] = {1, 2, 3, 5, 8};
+
+/// The same on every number of ranks: how many calls began with the last stars. `expect`: what else to
+/// expect.
+int follow_on_all(
+    const std::vector<Nodes>& sets, const std::function<void(const Tally&)>& expect = [](const Tally&) {}) {
+  int warm = 0;
+  for (const int size : kSizes) {
+    SCOPED_TRACE(std::to_string(size) + " ranks");
+    const Tally tally = follow(sets, size);
+    expect(tally);
+    warm += tally.warm;
+    if (::testing::Test::HasFailure()) break;
+  }
+  return warm;
+}
+
+TEST(MovingStars, FollowNodesThatMoveALittle) {
+  Random random(1);
+  int rounds = 0;
+  for (const double fraction : {1e-16, 1e-3, 0.02, 0.05}) {
+    SCOPED_TRACE(fraction);
+    const int calls = cases(fraction < 1e-3 ? 4 : 16);
+    const auto sets = sets_of(make("fibonacci", 800, 1), calls,
+                              [&](Nodes& nodes, int) { move_all(nodes, fraction * spacing(800), random); });
+    const Tally alone = follow(sets, 1);
+    if (fraction < 0.05) {
+      EXPECT_EQ(alone.warm, calls - 1);
+    }
+    follow_on_all(sets, [&](const Tally& tally) {
+      EXPECT_EQ(tally.warm, alone.warm);
+      if (fraction < 0.05) {
+        EXPECT_EQ(tally.flips, alone.flips);
+      }
+      rounds = std::max(rounds, tally.rounds);
+    });
+  }
+  EXPECT_GT(rounds, 1) << "no flips next to each other across ranks";
+}
+
+TEST(MovingStars, FollowOrRefuseLargeMoves) {
+  Random random(2);
+  for (const double fraction : {0.1, 0.3, 1.0}) {
+    SCOPED_TRACE(fraction);
+    const int warm = follow_on_all(sets_of(make("fibonacci", 500, 1), cases(6), [&](Nodes& nodes, int) {
+      move_all(nodes, fraction * spacing(500), random);
+    }));
+    if (fraction == 0.1) {
+      EXPECT_GT(warm, 0);
+    }
+    if (fraction == 1) {
+      EXPECT_EQ(warm, 0);
+    }
+  }
+}
+
+TEST(MovingStars, FollowLloydStepsOfEveryFamily) {
+  int warm = 0;
+  for (const std::string& family : point_sets::families()) {
+    SCOPED_TRACE(family);
+    std::vector<Nodes> sets{make(family, 300, 1)};
+    for (std::uint64_t seed = 1; left(sets[0][0], sets[0][1], sets[0][2]) == 0; ++seed)
+      point_sets::shuffle(sets[0], seed);
+    while (static_cast<int>(sets.size()) < cases(6)) {
+      const auto rings = rings_of_one_hull(sets.back());
+      if (!rings) break;
+      const Lists lists = canonical_lists(*rings);
+      sets.push_back(sets.back());
+      lloyd_step(sets.back(), lists.list, lists.lend);
+    }
+    warm += follow(sets, 3).warm;
+  }
+  EXPECT_GT(warm, 20);
+}
+
+/// Nodes of a lattice move by a rounding and come back: nearly all arcs are ties then.
+TEST(MovingStars, FollowTiesThatAppearAndVanish) {
+  Random random(3);
+  for (const std::string family : {"icosahedral", "cubed-sphere"}) {
+    SCOPED_TRACE(family);
+    Nodes first = make(family, 600, 1);
+    for (std::uint64_t seed = 1; left(first[0], first[1], first[2]) == 0; ++seed)
+      point_sets::shuffle(first, seed);
+    const int warm = follow_on_all(sets_of(first, cases(8), [&](Nodes& nodes, int step) {
+      if (step % 2 == 0)
+        nodes = first;
+      else
+        move_all(nodes, 1e-15, random);
+    }));
+    EXPECT_GT(warm, 0);
+  }
+}
+
+/// All nodes go round, so that most come from where no node of their rank was; the arcs stay.
+TEST(MovingStars, FollowNodesThatLeaveTheirPatches) {
+  const Nodes nodes = make("random", 500, 1);
+  follow_on_all(sets_of(nodes, cases(6),
+                        [](Nodes& p, int) {
+                          rotate(p, {0.6, 0, 0.8}, 0.7);
+                        }),
+                [](const Tally& tally) { EXPECT_EQ(tally.refused, 0); });
+}
+
+TEST(MovingStars, GoTheColdWayWhereANodeJumpsMeetsAnotherOrLeavesTheSphere) {
+  Random random(4);
+  const Nodes nodes = make("random", 500, 1);
+  follow_on_all(sets_of(nodes, 10,
+                        [&](Nodes& p, int step) {
+                          p = nodes;
+                          if (step == 2) p[77] = {-p[77].x, -p[77].y, -p[77].z};
+                          if (step == 4) p[78] = p[79];
+                          if (step == 6) p[80] = {0.5 * p[80].x, 0.5 * p[80].y, 0.5 * p[80].z};
+                          if (step == 8)
+                            for (Point& q : p) q.z = std::fabs(q.z);  // a hemisphere
+                        }),
+                [](const Tally& tally) {
+                  EXPECT_EQ(tally.refused, 5);  // the jump back, too
+                  EXPECT_GT(tally.warm, 0);
+                });
+}
+
+/// The predicates on directions decide then.
+TEST(MovingStars, GoTheColdWayWhereLengthsAreNotOne) {
+  Random random(9);
+  const Nodes nodes = make("random", 500, 1);
+  follow_on_all(sets_of(nodes, 5,
+                        [&](Nodes& p, int step) {
+                          p = nodes;
+                          if (step != 2) return;
+                          for (Point& q : p) {
+                            const double length = 1 + 1e-4 * random.uniform();
+                            q = {length * q.x, length * q.y, length * q.z};
+                          }
+                        }),
+                [](const Tally& tally) { EXPECT_EQ(tally.refused, 1); });
+}
+
+/// The neighbours of a node come so close that rounded lengths hide it, or nearly. They are on several ranks.
+TEST(MovingStars, FollowOrRefuseNodesThatAreNearlyHidden) {
+  const Nodes nodes = make("random", 300, 1);
+  const Rings rings = *rings_of_one_hull(nodes);
+  const Partition home(PartitionKind::bisection, 5, nodes, nodes.size());
+  Tally all;
+  int tried = 0;
+  for (std::size_t k = 0; k < nodes.size() && tried < cases(60); ++k) {
+    const auto& ring = rings.neighbours[k];
+    if (std::all_of(ring.begin(), ring.end(), [&](std::int32_t b) {
+          return home.owner(nodes[static_cast<std::size_t>(b)]) == home.owner(nodes[k]);
+        }))
+      continue;
+    ++tried;
+    SCOPED_TRACE(k);
+    const auto sets = sets_of(nodes, 3, [&](Nodes& p, int step) {
+      p = nodes;
+      if (step == 2) return;
+      const double scale = 1e-8 * (1 + tried % 5);
+      for (const std::int32_t b : ring) {
+        Point& q = p[static_cast<std::size_t>(b)];
+        const Point from = p[k], d = minus(q, from);
+        q = point_sets::normalized({from.x + scale * d.x, from.y + scale * d.y, from.z + scale * d.z});
+      }
+    });
+    const Tally tally = follow(sets, 5);
+    all.warm += tally.warm, all.refused += tally.refused;
+  }
+  EXPECT_GT(all.refused, 0);
+}
+
+/// Whoever brings the nodes: ranks without a node, with one, with every other one.
+TEST(MovingStars, FollowHoweverNodesAreDistributed) {
+  Random random(5);
+  const auto sets = sets_of(make("random", 400, 1), cases(6),
+                            [&](Nodes& nodes, int) { move_all(nodes, 0.01 * spacing(400), random); });
+  std::vector<int> owner(400, 2);
+  EXPECT_GT(follow(sets, 4, owner).warm, 0) << "ranks without nodes";
+  owner[17] = 3;
+  EXPECT_GT(follow(sets, 4, owner).warm, 0) << "a rank with one node";
+  for (std::size_t i = 0; i < owner.size(); ++i) owner[i] = static_cast<int>(i) % 2;
+  EXPECT_GT(follow(sets, 2, owner).warm, 0) << "every other node";
+  for (std::size_t i = 0; i < owner.size(); ++i) owner[i] = static_cast<int>(i) % 5;
+  EXPECT_EQ(follow(sets, 5, owner).warm, 0) << "every rank would have nearly all nodes";
+}
+
+/// A node that loses every other neighbour of 200: these flips share it, so that ranks can make one a round.
+TEST(MovingStars, GoTheColdWayWhereManyFlipsWaitForEachOther) {
+  const auto wheel = [](double out) {
+    Nodes nodes{{0, 0, 1}};
+    for (int k = 0; k < 200; ++k) {
+      const double turn = 6.2831853071796 * k / 200, distance = k % 2 == 0 ? 0.5 + out : 0.5;
+      nodes.push_back(point_sets::normalized({distance * std::cos(turn), distance * std::sin(turn), 1}));
+    }
+    for (const Point& p : make("random", 4000, 1)) nodes.push_back({p.x, p.y, -std::fabs(p.z)});
+    return nodes;
+  };
+  const std::vector<Nodes> sets{wheel(-1e-5), wheel(1e-3), wheel(1e-3)};
+  std::vector<int> owner;
+  for (std::size_t i = 0; i < sets[0].size(); ++i)
+    owner.push_back(i <= 200 ? static_cast<int>(i % 2) : sets[0][i].x > 0);
+  EXPECT_EQ(follow(sets, 1).warm, 2);
+  EXPECT_EQ(follow(sets, 2, owner).refused, 1);
+}
+
+TEST(MovingStars, HaveNumbersOf64Bits) {
+  Random random(6);
+  const auto sets = sets_of(make("random", 500, 1), cases(6),
+                            [&](Nodes& nodes, int) { move_all(nodes, 0.01 * spacing(500), random); });
+  const Tally tally = follow<std::int64_t>(sets, 3);
+  EXPECT_GT(tally.warm, 0);
+  EXPECT_GT(tally.flips, 0u);
+}
+
+/// So many calls that rings which have been written anew are written together, and those that have become
+/// longer are laid out anew.
+TEST(MovingStars, FollowForALongTime) {
+  Random random(7);
+  const auto sets = sets_of(make("fibonacci", 200, 1), cases(150),
+                            [&](Nodes& nodes, int) { move_all(nodes, 0.03 * spacing(200), random); });
+  EXPECT_GT(follow(sets, 2).warm, cases(150) / 2);
+}
+
+/// The sample of stars fits nodes that move a little, and no others.
+TEST(MovingStars, AreKnownByASample) {
+  Random random(8);
+  Nodes nodes = make("random", 2000, 1);
+  std::vector<std::int64_t> numbers;
+  for (std::size_t i = 0; i < nodes.size(); ++i) numbers.push_back(static_cast<std::int64_t>(7 * i + 3));
+  SingleProcess process;
+  ParallelOptions options;
+  options.with_neighbours = true;
+  const LocalNodes local{nodes.data(), nodes.size(), numbers.data()};
+  const Point corners[3] = {nodes[0], nodes[1], nodes[2]};
+  const auto stars = triangulate<std::int32_t>(local, look_at(local.points, local.count), corners,
+                                               {3, 10, 17}, process, options);
+  const SampleOfStars sample = sample_of(local, stars);
+  EXPECT_TRUE(sample.fits(nodes.data()));
+  Nodes moved = nodes;
+  move_all(moved, 0.01 * spacing(2000), random);
+  EXPECT_TRUE(sample.fits(moved.data()));
+  move_all(moved, 2 * spacing(2000), random);
+  EXPECT_FALSE(sample.fits(moved.data()));
+}
+
+}  // namespace
