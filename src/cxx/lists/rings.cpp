@@ -9,17 +9,16 @@
 namespace pstripack {
 namespace {
 
+/// The number of 0..n-1 that fail the test. Without branches, so that compilers can take several at once.
 template <class Int, class Test>
-bool all_of(Int n, int threads, const Test& test) {
-  std::atomic<bool> all{true};
+Int failures(Int n, int threads, const Test& fails) {
+  std::atomic<Int> sum{0};
   parallel_pieces(static_cast<std::size_t>(n), threads, [&](std::size_t first, std::size_t last, int) {
-    for (std::size_t i = first; i < last; ++i)
-      if (!test(static_cast<Int>(i))) {
-        all = false;
-        return;
-      }
+    Int failed = 0;
+    for (Int i = static_cast<Int>(first); i < static_cast<Int>(last); ++i) failed += fails(i) ? 1 : 0;
+    sum += failed;
   });
-  return all;
+  return sum;
 }
 
 }  // namespace
@@ -31,12 +30,12 @@ bool Rings<Int>::read(const ListsView<Int>& lists, int threads) {
   end_ = lists.lend;
   if (!are_rings(lists, threads) && !copy(lists)) return false;
 
-  const auto in_range = [this](Int arc) {
-    const Int node = entry(arc);
-    return node >= -n_ && node <= n_ && node != 0;
+  last_of_eight_ = arcs() - eight;
+  const auto out_of_range = [n = n_, entry = entry_](Int arc) {
+    return (entry[arc] < -n) | (entry[arc] > n) | (entry[arc] == 0);
   };
-  if (!all_of(arcs(), threads, in_range)) return false;
-  if (!all_of(n_, threads, [this](Int i) { return degree(i + 1) <= few_neighbours; })) tabulate_hubs();
+  if (failures(arcs(), threads, out_of_range) > 0) return false;
+  if (failures(n_, threads, [this](Int i) { return degree(i + 1) > few_neighbours; }) > 0) tabulate_hubs();
   return true;
 }
 
@@ -44,13 +43,14 @@ bool Rings<Int>::read(const ListsView<Int>& lists, int threads) {
 template <class Int>
 bool Rings<Int>::are_rings(const ListsView<Int>& lists, int threads) const {
   const Int most = 6 * n_ - 12;
-  return all_of(n_, threads, [&lists, most](Int i) {
-    const Int before = i > 0 ? lists.lend[i - 1] : 0, last = lists.lend[i];
-    if (before < 0 || before >= last || last > most) return false;
-    bool linked = lists.lptr[last - 1] == before + 1;
-    for (Int slot = before + 1; slot < last; ++slot) linked &= lists.lptr[slot - 1] == slot + 1;
-    return linked;
-  });
+  const Int* const lend = lists.lend;
+  const Int* const lptr = lists.lptr;
+  const auto no_ring = [lend](Int i) { return lend[i] <= (i > 0 ? lend[i - 1] : 0); };
+  if (failures(n_, threads, no_ring) > 0 || lend[n_ - 1] > most) return false;
+  const auto open = [lend, lptr](Int i) { return lptr[lend[i] - 1] != (i > 0 ? lend[i - 1] : 0) + 1; };
+  if (failures(n_, threads, open) > 0) return false;
+  const auto not_upwards = [lptr](Int i) { return lptr[i] != i + 2; };
+  return failures(lend[n_ - 1], threads, not_upwards) == n_;  // the last slots, which close the rings
 }
 
 template <class Int>
@@ -97,6 +97,20 @@ void Rings<Int>::tabulate_hubs() {
       hub_back_[static_cast<std::size_t>(opposite)] = arc;
     }
   }
+}
+
+template <class Int>
+Int Rings<Int>::arc_back_far(Int a, Int b) const {
+  if (degree(b) <= few_neighbours || degree(b) <= degree(a)) return find(a, begin(b), end(b));
+  const Int arc = find(b, begin(a), end(a));
+  return arc == none ? none : hub_back_[static_cast<std::size_t>(arc)];
+}
+
+template <class Int>
+Int Rings<Int>::find(Int a, Int begin, Int end) const {
+  for (; begin < end; ++begin)
+    if (target(begin) == a) return begin;
+  return none;
 }
 
 template class Rings<std::int32_t>;

@@ -1,148 +1,154 @@
 #include "stripack/triangle_list.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cstdint>
 #include <type_traits>
-#include <vector>
 
-#include "base/buffer.h"
 #include "base/parallel_for.h"
+#include "base/workspace.h"
 #include "lists/rings.h"
+#include "lists/triangle_numbers.h"
 #include "stripack/list_queries.h"
 
 namespace pstripack {
 namespace {
 
-// Method. Let a be the smallest corner of triangle (a,b,c):
+// Method. Let a be the smallest corner of triangle t = (a,b,c), and p and q the arcs from a to b and to c:
 //
-//               c             Its sides, by the corner opposite:
-//              / \              a: b->c, the arc before b->a in the ring of b
-//             /   \             b: c->a, back from c
-//            a-----b            c: a->b
+//               c             Its sides, by the corner opposite, and the triangles beyond them:
+//              / \              a: b-c, left of the arc before b->c in the ring of b
+//           q /   \             b: c-a, left of q
+//            a-----b            c: a-b, left of the arc before p
+//               p
 //
-// `face` keeps for every arc the triangle on its left and which side of it the arc is, so that the neighbour
-// beyond a side is the face of the reversed side. No search through the triangles is needed.
+// The ring of a knows the last two. The first is noted when the numbers in the ring of b are known.
 template <class Int>
 class TriangleList {
  public:
   TriangleList(const ListsView<Int>& lists, int rows)
-      : rows_(static_cast<std::size_t>(rows)),
-        threads_(threads_for(lists.n)),
-        face_(rows > 3 ? 6 * lists.n - 12 : 0),
-        first_(static_cast<std::size_t>(threads_) + 1),
-        readable_(rings_.read(lists, threads_)) {}
+      : rows_(rows), threads_(threads_for(lists.n)), readable_(rings_.read(lists, threads_)) {}
 
   TriangleListStatus write(Int& nt, Int* ltri) {
     if (!readable_) return TriangleListStatus::broken_lists;
-    // Pieces of the nodes, one per thread: count, sum up, number.
-    const std::size_t nodes = static_cast<std::size_t>(rings_.size()) - 2;
-    parallel_pieces(nodes, threads_, [this](std::size_t begin, std::size_t end, int piece) {
-      Int count = 0;
-      rings_.template for_each_triangle<pairs>(begin, end, [&count](Int, Int, Int, Int, Int) { ++count; });
-      first_[static_cast<std::size_t>(piece) + 1] = count;
-    });
-    add_up();
-    const Int total = first_.back();
+    TriangleNumbers<Int, pairs> numbers(rings_, threads_);
+    const Int total = numbers.count();
     if (total > 2 * rings_.size() - 4) return TriangleListStatus::broken_lists;  // would overrun LTRI
+    left_ = BlockArray<Int>(index(rings_.arcs()));
+    beyond_ = BlockArray<Side>(index(total) + 1);
+    std::fill(beyond_.begin(), beyond_.end(), Side{0});
+    if (rows_ == 9) arcs_ = BlockArray<Number>(index(total) + 1);
 
-    std::atomic<bool> complete{true};
-    if (rows_ > 3) std::fill(face_.begin(), face_.end(), Face{0});
-    parallel_pieces(nodes, threads_, [&](std::size_t begin, std::size_t end, int piece) {
-      if (!write_corners(begin, end, first_[static_cast<std::size_t>(piece)], ltri)) complete = false;
+    const bool complete = numbers.write(0, left_.data(), [&](std::size_t begin, std::size_t end, Int t) {
+      if (rows_ > 3) note_beyond(begin, end);
+      if (rows_ == 3) write_corners<3>(begin, end, t, ltri);
+      if (rows_ == 6) write_corners<6>(begin, end, t, ltri);
+      if (rows_ == 9) write_corners<9>(begin, end, t, ltri);
     });
     if (!complete) return TriangleListStatus::broken_lists;
-    if (rows_ > 3)
-      parallel_pieces(static_cast<std::size_t>(total), threads_,
-                      [&](std::size_t begin, std::size_t end, int piece) {
-                        first_[static_cast<std::size_t>(piece) + 1] = write_neighbours(begin, end, ltri);
-                      });
-    if (rows_ > 6) {
-      add_up();
-      parallel_pieces(static_cast<std::size_t>(total), threads_,
-                      [&](std::size_t begin, std::size_t end, int piece) {
-                        write_arcs(begin, end, first_[static_cast<std::size_t>(piece)], ltri);
-                      });
-    }
+    if (rows_ == 9) count_arcs(total);
+    parallel_pieces(index(total), threads_, [&](std::size_t begin, std::size_t end, int) {
+      if (rows_ == 6)
+        for (std::size_t t = begin; t < end; ++t) ltri[6 * t + 3] = triangle(beyond_[t + 1]);
+      if (rows_ == 9) write_arcs(begin, end, ltri);
+    });
     nt = total;
     return TriangleListStatus::done;
   }
 
  private:
   static constexpr FirstPair pairs = FirstPair::first_and_second;
-  using Face = std::make_unsigned_t<Int>;  // 4 * triangle + side; 0 = none
+  using Number = std::make_unsigned_t<Int>;
+  /// A side of a triangle: 4 * triangle + 0, 1 or 2; 0 = none.
+  using Side = Number;
+  static Int triangle(Side side) { return static_cast<Int>(side / 4); }
 
-  /// first_[piece] = the sum of the counts of all pieces before it.
-  void add_up() {
-    first_[0] = 0;
-    for (std::size_t piece = 1; piece < first_.size(); ++piece) first_[piece] += first_[piece - 1];
+  /// For every triangle (a,b,c), b = first+1..last, the side b-c as one of the triangle beyond it.
+  void note_beyond(std::size_t first, std::size_t last) {
+    const Int* const left = left_.data();
+    for (Int b = static_cast<Int>(first) + 1; b <= static_cast<Int>(last); ++b) {
+      const auto note = [&](Int to_a) {
+        // In the ring of b: d, c, a. Beyond the side is (b,d,c), smallest corner first.
+        const Int to_c = rings_.before(b, to_a), to_d = rings_.before(b, to_c);
+        const Int c = rings_.target(to_c), d = rings_.target(to_d);
+        const Side opposite_d = (b < d) & (b < c) ? 1 : d < c ? 0 : 2;
+        const Int t = left[to_c], beyond = left[to_d];
+        if (t != 0) beyond_[index(t)] = 4 * static_cast<Side>(beyond) + opposite_d;
+      };
+      if (rings_.is_small(b)) {
+        for (unsigned arcs = rings_.arcs_to_smallest(b); arcs != 0; arcs &= arcs - 1)
+          note(rings_.begin(b) + __builtin_ctz(arcs));
+      } else {
+        for (Int arc = rings_.begin(b); arc < rings_.end(b); ++arc)
+          if (rings_.leads_to_smallest(b, arc)) note(arc);
+      }
+    }
   }
 
-  /// Rows 1-3 and the faces; t triangles come before. False if the reverse of a side is not in its list.
-  bool write_corners(std::size_t begin, std::size_t end, Int t, Int* ltri) {
-    bool complete = true;
-    rings_.template for_each_triangle<pairs>(begin, end, [&](Int a, Int b, Int c, Int ab, Int ac) {
-      Int* column = ltri + static_cast<std::size_t>(t) * rows_;
+  /// Rows 1-3, 5 and 6 of the triangles of nodes first+1..last, t before them. For count_arcs: in arcs_ a bit
+  /// for each of rows 5 and 6 whose triangle comes earlier.
+  template <int rows>
+  void write_corners(std::size_t first, std::size_t last, Int t, Int* ltri) {
+    const Int* const left = left_.data();
+    Number* const arcs = arcs_.data();
+    Int* column = ltri + index(t) * rows;
+    rings_.template for_each_triangle<pairs>(first, last, [&](Int a, Int b, Int c, Int p, Int q) {
       ++t;
       column[0] = a;
       column[1] = b;
       column[2] = c;
-      const auto ba = rings_.back(a, ab), ca = rings_.back(a, ac);
-      if (!ba.exists() || !ca.exists() || rings_.target(ca.next()) != b) {
-        complete = false;
-        return;
+      if (rows > 3) {
+        const Int opposite_b = left[q], opposite_c = left[rings_.before(a, p)];
+        column[4] = opposite_b;
+        column[5] = opposite_c;
+        if (rows > 6) arcs[t] = Number{opposite_b < t} + 2 * Number{opposite_c < t};
       }
-      if (rows_ == 3) return;
-      const Face code = 4 * static_cast<Face>(t);
-      face(ba.previous()) = code;  // b->c
-      face(ca.arc) = code + 1;
-      face(ab) = code + 2;
-      // Until all faces are known, rows 4-6 hold the reversed sides.
-      column[3] = ca.next();  // c->b
-      column[4] = ac;
-      column[5] = ba.arc;
+      column += rows;
     });
-    return complete;
   }
 
-  /// Rows 4-6, and in rows 7-9 the side of the neighbour that is shared. Returns the number of arcs that
-  /// the triangles begin+1..end number.
-  Int write_neighbours(std::size_t begin, std::size_t end, Int* ltri) const {
-    Int arcs = 0;
-    for (std::size_t t = begin; t < end; ++t) {
-      Int* column = ltri + t * rows_;
-      for (int row = 3; row < 6; ++row) {
-        const Int reversed = column[row];
-        const Face face = rings_.entry(reversed) < 0 ? Face{0} : face_[static_cast<std::size_t>(reversed)];
-        column[row] = static_cast<Int>(face / 4);
-        if (rows_ > 6) column[row + 3] = static_cast<Int>(face % 4);
-        if (face / 4 <= t) ++arcs;
-      }
-    }
-    return arcs;
-  }
-
-  /// Rows 7-9: an arc gets its number from the later of its two triangles, or from its only one.
-  void write_arcs(std::size_t begin, std::size_t end, Int arc, Int* ltri) const {
-    for (std::size_t t = begin; t < end; ++t) {
-      Int* column = ltri + t * 9;
-      for (int row = 3; row < 6; ++row) {
-        const std::size_t neighbour = static_cast<std::size_t>(column[row]);
-        if (neighbour > t) continue;
-        ++arc;
-        if (neighbour > 0) ltri[(neighbour - 1) * 9 + 6 + static_cast<std::size_t>(column[row + 3])] = arc;
-        column[row + 3] = arc;
-      }
+  /// An arc gets its number from the later of its two triangles, or from its only one. arcs_[t] = 4 * the
+  /// number of arcs before those of triangle t, and a bit for each of its sides 0 and 1 whose arc is among
+  /// those.
+  void count_arcs(Int triangles) {
+    Number arcs = 0;
+    for (Number t = 1; t <= static_cast<Number>(triangles); ++t) {
+      const Number others = arcs_[t], first = beyond_[t] / 4 < t;
+      arcs_[t] = 4 * arcs + first + 2 * (others & 1);
+      arcs += first + (others & 1) + (others >> 1);
     }
   }
 
-  Face& face(Int arc) { return face_[static_cast<std::size_t>(arc)]; }
+  /// Rows 4 and 7-9 of the triangles begin+1..end.
+  void write_arcs(std::size_t begin, std::size_t end, Int* ltri) const {
+    for (std::size_t i = begin; i < end; ++i) {
+      constexpr std::size_t ahead = 16;
+      __builtin_prefetch(&arcs_[beyond_[std::min(i + ahead, end)] / 4]);
+      const Int t = static_cast<Int>(i) + 1;
+      Int* const column = ltri + i * 9;
+      const Side beyond = beyond_[i + 1];
+      column[3] = triangle(beyond);
+      column[6] = arc_number(t, 0, column[3], beyond % 4);
+      column[7] =
+          arc_number(t, 1, column[4], 2);  // that triangle is later only if its smallest corner is a, too
+      column[8] = arc_number(t, 2, column[5], 1);
+    }
+  }
 
-  std::size_t rows_;
+  /// The number of the arc at a side of triangle t that is side `other` of the triangle `beyond`.
+  Int arc_number(Int t, Number side, Int beyond, Number other) const {
+    const bool later = beyond > t;
+    const Number arcs = arcs_[index(later ? beyond : t)], s = later ? other : side;
+    return static_cast<Int>(arcs / 4 + 1 + (s > 0 ? arcs & 1 : 0) + (s > 1 ? arcs >> 1 & 1 : 0));
+  }
+
+  static std::size_t index(Int i) { return static_cast<std::size_t>(i); }
+
+  int rows_;
   int threads_;
   Rings<Int> rings_;
-  Buffer<Face> face_;
-  std::vector<Int> first_;  // counts of the pieces, then their sums
+  BlockArray<Int> left_;     // by arc: the triangle left of it
+  BlockArray<Side> beyond_;  // by triangle (a,b,c): what is beyond b-c
+  BlockArray<Number> arcs_;  // by triangle: see count_arcs; if rows = 9
   bool readable_;
 };
 

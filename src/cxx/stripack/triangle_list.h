@@ -9,8 +9,8 @@ namespace pstripack {
 enum class TriangleListStatus {
   done = 0,
   bad_argument = 1,  ///< n < 3, or NROW neither 6 nor 9; LTRI untouched
-  broken_lists =
-      2  ///< a neighbour does not list the node, or the lists are not closed; columns may be written
+  broken_lists = 2   ///< a neighbour does not list the node, or lists it between others, or lists are not
+                    ///< closed; columns may be written
 };
 
 /// TRLIST: column t (t = 1..nt) of LTRI(rows, nt):
@@ -19,7 +19,8 @@ enum class TriangleListStatus {
 ///   rows 7-9  (rows = 9) the arc opposite the corner, arcs numbered from 1.
 /// Triangles are numbered by their smallest corner, then in the order of its list; an arc is numbered
 /// when its second triangle is. `rows` = 3 is TRLIST2. O(n), with OpenMP threads for large n; the same
-/// bytes for any number of them. Throws std::bad_alloc before anything is written.
+/// bytes for any number of them. Takes up to 88 bytes per node during the call (Int = int32_t). Throws
+/// std::bad_alloc before anything is written.
 template <class Int>
 TriangleListStatus triangle_list(const ListsView<Int>& lists, int rows, Int& nt, Int* ltri);
 

@@ -1,18 +1,21 @@
 #include "stripack/voronoi.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
+#include <limits>
+#include <optional>
 #include <vector>
 
-#include "base/buffer.h"
 #include "base/parallel_for.h"
 #include "base/workspace.h"
 #include "geometry/predicates.h"
 #include "lists/rings.h"
+#include "lists/triangle_numbers.h"
 #include "stripack/list_queries.h"
 
 namespace pstripack {
@@ -207,15 +210,17 @@ class Voronoi {
         if (status != VoronoiStatus::done) return status;
       }
     }
-    std::atomic<bool> coincident{false}, not_finite{false}, broken{false};
-    parallel_pieces(low_nodes(), threads_, [&](std::size_t begin, std::size_t end, int piece) {
-      const VoronoiStatus status = write_triangles(begin, end, first_[static_cast<std::size_t>(piece)]);
-      if (status == VoronoiStatus::coincident_nodes) coincident = true;
-      if (status == VoronoiStatus::not_finite) not_finite = true;
-      if (status == VoronoiStatus::broken_lists) broken = true;
-    });
-    if (broken) return VoronoiStatus::broken_lists;
-    write_listc();
+    std::atomic<bool> coincident{false}, not_finite{false};
+    const bool in_slot_order = rings_.in_slot_order();
+    const bool complete = numbers_->write(far_triangles(), in_slot_order ? out_.listc : left_.data(),
+                                          [&](std::size_t begin, std::size_t end, Int t) {
+                                            const VoronoiStatus status = write_centres(begin, end, t);
+                                            if (status == VoronoiStatus::coincident_nodes) coincident = true;
+                                            if (status == VoronoiStatus::not_finite) not_finite = true;
+                                          });
+    if (!complete) return VoronoiStatus::broken_lists;
+    if (!in_slot_order)
+      for (Int arc = 0; arc < rings_.arcs(); ++arc) listc(rings_.slot(arc)) = left_[index(arc)];
     if (not_finite) return VoronoiStatus::not_finite;
     if (coincident) return VoronoiStatus::coincident_nodes;
     if (nb_ > 0) enter(far_side);
@@ -224,17 +229,16 @@ class Voronoi {
 
  private:
   static constexpr FirstPair pairs = FirstPair::last_and_first;
-  static constexpr Int none = -1;
 
-  // A triangle reads about a dozen places of the caller's arrays, in small pages. Here one place per node and
-  // one for its arcs are read, in huge pages.
-  struct Corner {
-    Vector<Real> position;
-    Int begin, end;  // its arcs
+  /// Triangles whose centres are computed together: without branches, and while the next ones are fetched.
+  static constexpr std::size_t together = 64;
+  struct Batch {
+    std::array<std::array<Int, together>, 3> corner;
+    std::size_t size = 0;
   };
-  struct Arc {
-    Int entry;     // of LIST
-    Int triangle;  // on its left, 0 = none yet
+  // One line of memory per node, in huge pages; the caller's three arrays would take three.
+  struct alignas(4 * sizeof(Real)) Position {
+    Vector<Real> of;
   };
 
   /// Does all allocation; true if the lists have the counts of a triangulation, which also means that no
@@ -255,93 +259,83 @@ class Voronoi {
     }
     if (rings_.arcs() != (nb_ > 0 ? 6 * n - 6 - 2 * nb_ : 6 * n - 12)) return false;
 
-    first_.resize(static_cast<std::size_t>(threads_) + 1);
-    parallel_pieces(low_nodes(), threads_, [this](std::size_t begin, std::size_t end, int piece) {
-      Int count = 0;
-      rings_.template for_each_triangle<pairs>(begin, end, [&count](Int, Int, Int, Int, Int) { ++count; });
-      first_[static_cast<std::size_t>(piece) + 1] = count;
+    numbers_.emplace(rings_, threads_);
+    if (numbers_->count() != 2 * n - 4 - far_triangles()) return false;
+    if (!rings_.in_slot_order()) left_ = BlockArray<Int>(index(rings_.arcs()));
+    position_ = BlockArray<Position>(lists_.view().n);
+    parallel_pieces(lists_.view().n, threads_, [this](std::size_t begin, std::size_t end, int) {
+      for (std::size_t i = begin; i < end; ++i) position_[i].of = nodes_[static_cast<Int>(i) + 1];
     });
-    first_[0] = nb_ > 0 ? nb_ - 2 : 0;
-    for (std::size_t piece = 1; piece < first_.size(); ++piece) first_[piece] += first_[piece - 1];
-    if (first_.back() != 2 * n - 4) return false;
-    gather();
     return true;
   }
 
-  void gather() {
-    const auto arcs = static_cast<std::size_t>(rings_.arcs());
-    corner_ = BlockArray<Corner>(lists_.view().n);
-    arc_ = BlockArray<Arc>(arcs + kTogether);
-    std::fill(arc_.begin() + arcs, arc_.end(), Arc{0, 0});
-    parallel_pieces(lists_.view().n, threads_, [this](std::size_t begin, std::size_t end, int) {
-      for (std::size_t i = begin; i < end; ++i) {
-        const Int node = static_cast<Int>(i) + 1;
-        const Corner corner{nodes_[node], rings_.begin(node), rings_.end(node)};
-        corner_[i] = corner;
-        for (Int arc = corner.begin; arc < corner.end; ++arc) arc_[index(arc)] = {rings_.entry(arc), 0};
-      }
-    });
-  }
+  /// The number of triangles that close the sphere.
+  Int far_triangles() const { return nb_ > 0 ? nb_ - 2 : 0; }
 
-  /// The nodes that can be the smallest corner of a triangle.
-  std::size_t low_nodes() const { return static_cast<std::size_t>(lists_.size()) - 2; }
-
-  /// The triangles of a piece of the nodes, t triangles before them.
-  VoronoiStatus write_triangles(std::size_t begin, std::size_t end, Int t) {
+  /// The centres of the triangles of the nodes begin+1..end, t triangles before them.
+  VoronoiStatus write_centres(std::size_t begin, std::size_t end, Int t) {
     VoronoiStatus status = VoronoiStatus::done;
-    const auto write = [&](Int a, Int b, Int c, Int ab, Int ac) {
-      ++t;
-      const Corner &at_b = corner(b), &at_c = corner(c);
-      const Int ba = back(a, at_b, ab), ca = back(a, at_c, ac);
-      if (ba == none || ca == none) {
-        status = VoronoiStatus::broken_lists;
-        return;
-      }
-      const Int bc = ba == at_b.begin ? at_b.end - 1 : ba - 1;
-      for (const Int arc : {ab, bc, ca}) arc_[index(arc)].triangle = t;
-      const VoronoiStatus centre = write_centre(t, corner(a).position, at_b.position, at_c.position);
-      if (status == VoronoiStatus::done || centre == VoronoiStatus::not_finite) status = centre;
+    Batch batch;
+    const auto flush = [&] {
+      const VoronoiStatus of_batch = write_batch(t, batch);
+      if (status == VoronoiStatus::done || of_batch == VoronoiStatus::not_finite) status = of_batch;
+      t += static_cast<Int>(batch.size);
+      batch.size = 0;
     };
-    for (std::size_t i = begin; i < end; ++i) {
-      prefetch_after(i, end);
-      rings_.template for_each_triangle<pairs>(i, i + 1, write);
-    }
+    rings_.template for_each_triangle<pairs>(begin, end, [&](Int a, Int b, Int c, Int, Int) {
+      __builtin_prefetch(&position_[index(b - 1)]);
+      __builtin_prefetch(&position_[index(c - 1)]);
+      batch.corner[0][batch.size] = a;
+      batch.corner[1][batch.size] = b;
+      batch.corner[2][batch.size] = c;
+      if (++batch.size == together) flush();
+    });
+    flush();
     return status;
   }
 
-  /// Prefetches the corners, then the arcs, of the triangles of nodes soon after i+1. Inlined, since GCC 12
-  /// otherwise takes it for free of effects and drops the calls.
-  [[gnu::always_inline]] void prefetch_after(std::size_t i, std::size_t end) const {
-    constexpr std::size_t far = 16, near = 8;
-    if (i + far >= end) return;
-    const Int a = static_cast<Int>(i + far) + 1, soon = static_cast<Int>(i + near) + 1;
-    for (Int arc = rings_.begin(a); arc < rings_.end(a); ++arc)
-      if (const Int b = rings_.target(arc); b > a) __builtin_prefetch(&corner(b));
-    for (Int arc = rings_.begin(soon); arc < rings_.end(soon); ++arc)
-      if (const Int b = rings_.target(arc); b > soon) __builtin_prefetch(&arc_[index(corner(b).begin)], 1);
-  }
-
-  /// The arc of b that leads to a, where `arc` leads from a to b; `none` if there is none.
-  Int back(Int a, const Corner& b, Int arc) const {
-    if (b.end - b.begin > Rings<Int>::few_neighbours) return rings_.back(a, arc).arc;
-    for (Int begin = b.begin; begin < b.end; begin += kTogether) {
-      // Without branches: the position of the match is unpredictable.
-      const Arc* const arcs = arc_.data() + begin;
-      Int match = kTogether;
-      for (Int i = kTogether - 1; i >= 0; --i)
-        match = (arcs[i].entry == a) | (arcs[i].entry == -a) ? i : match;
-      if (match < kTogether) return begin + match < b.end ? begin + match : none;
+  /// The same values as write_centre, by loops that compilers vectorise.
+  VoronoiStatus write_batch(Int t, const Batch& batch) {
+    using Numbers = std::array<Real, together>;
+    Numbers ax, ay, az, ex, ey, ez, fx, fy, fz, square, x, y, z, cosine;
+    for (std::size_t i = 0; i < batch.size; ++i) {
+      const Vector<Real> a = position_[index(batch.corner[0][i] - 1)].of;
+      const Vector<Real> b = position_[index(batch.corner[1][i] - 1)].of;
+      const Vector<Real> c = position_[index(batch.corner[2][i] - 1)].of;
+      ax[i] = a.x, ay[i] = a.y, az[i] = a.z;
+      ex[i] = b.x - a.x, ey[i] = b.y - a.y, ez[i] = b.z - a.z;
+      fx[i] = c.x - a.x, fy[i] = c.y - a.y, fz[i] = c.z - a.z;
     }
-    return none;
+    for (std::size_t i = 0; i < batch.size; ++i) {
+      const Vector<Real> normal = cross(Vector<Real>{ex[i], ey[i], ez[i]}, Vector<Real>{fx[i], fy[i], fz[i]});
+      square[i] = dot(normal, normal);
+      const Real length = std::sqrt(square[i]);
+      x[i] = normal.x / length, y[i] = normal.y / length, z[i] = normal.z / length;
+      cosine[i] = dot(Vector<Real>{ax[i], ay[i], az[i]}, Vector<Real>{x[i], y[i], z[i]});
+    }
+    bool usual = true;
+    for (std::size_t i = 0; i < batch.size; ++i)
+      usual &= (square[i] > 0) & (square[i] <= std::numeric_limits<Real>::max());
+    if (!usual) return write_one_by_one(t, batch);
+    const std::size_t first = index(t);
+    for (std::size_t i = 0; i < batch.size; ++i) {
+      out_.xc[first + i] = x[i];
+      out_.yc[first + i] = y[i];
+      out_.zc[first + i] = z[i];
+      out_.rc[first + i] = clamped_acos(cosine[i]);
+    }
+    return VoronoiStatus::done;
   }
 
-  void write_listc() {
-    parallel_pieces(static_cast<std::size_t>(rings_.arcs()), threads_,
-                    [this](std::size_t begin, std::size_t end, int) {
-                      for (std::size_t arc = begin; arc < end; ++arc)
-                        if (arc_[arc].triangle != 0)
-                          listc(rings_.slot(static_cast<Int>(arc))) = arc_[arc].triangle;
-                    });
+  /// Where nodes coincide or are not finite.
+  VoronoiStatus write_one_by_one(Int t, const Batch& batch) {
+    VoronoiStatus status = VoronoiStatus::done;
+    for (std::size_t i = 0; i < batch.size; ++i) {
+      const auto corner = [&](std::size_t k) { return nodes_[batch.corner[k][i]]; };
+      const VoronoiStatus centre = write_centre(++t, corner(0), corner(1), corner(2));
+      if (status == VoronoiStatus::done || centre == VoronoiStatus::not_finite) status = centre;
+    }
+    return status;
   }
 
   VoronoiStatus write_centre(Int t, const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c) {
@@ -388,9 +382,7 @@ class Voronoi {
     *out_.lnew = unused;
   }
 
-  static constexpr Int kTogether = 8;  // arcs that are compared at once
   static std::size_t index(Int i) { return static_cast<std::size_t>(i); }
-  const Corner& corner(Int node) const { return corner_[index(node - 1)]; }
   Int& listc(Int slot) const { return out_.listc[slot - 1]; }
   Int& lptr(Int slot) const { return out_.lptr[slot - 1]; }
 
@@ -400,9 +392,9 @@ class Voronoi {
   int threads_;
   Int start_ = 0, nb_ = 0;  // the first boundary node and their number
   Rings<Int> rings_;
-  BlockArray<Corner> corner_;
-  BlockArray<Arc> arc_;
-  std::vector<Int> first_;  // the number of triangles before each piece of the nodes
+  std::optional<TriangleNumbers<Int, pairs>> numbers_;
+  BlockArray<Int> left_;  // by arc; empty if that is LISTC
+  BlockArray<Position> position_;
   Agenda<Int> agenda_{0};
 };
 

@@ -1,0 +1,249 @@
+// TRLIST, TRLIST2 and the numbers in CRLIST's LISTC compared with their definitions, programmed here by a
+// search of all triangles. For all kinds of numbers, on canonical lists and in another order of the slots,
+// with and without a boundary, on rings of 2 to 3000 arcs. LIST, LPTR and LEND lie in memory that cannot be
+// written to, between pages that cannot be read.
+
+#include "stripack/triangle_list.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "point_sets.h"
+#include "stripack/voronoi.h"
+#include "support/guarded.h"
+#include "trmesh/trmesh.h"
+
+using namespace pstripack;
+
+namespace {
+
+/// Canonical lists; or others: slots in random order, and each list begins with any neighbour, as after
+/// edits.
+enum class Slots { canonical, shuffled };
+
+struct Plain {
+  std::vector<std::int32_t> list, lptr, lend;
+  std::size_t slots;
+};
+
+Plain plain_lists(const std::vector<Point>& points, Slots order) {
+  const std::size_t n = points.size();
+  std::vector<double> x, y, z;
+  for (const Point& p : points) x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
+  std::vector<std::int32_t> list(6 * n - 12), lptr(list.size()), lend(n);
+  std::int32_t end = 0;
+  EXPECT_EQ(trmesh({static_cast<std::int32_t>(n),
+                    {x.data(), y.data(), z.data()},
+                    {list.data(), lptr.data(), lend.data(), &end}})
+                .ier,
+            0);
+  const auto slots = static_cast<std::size_t>(end - 1);
+  if (order == Slots::canonical) return {list, lptr, lend, slots};
+  std::vector<std::size_t> place(slots);
+  std::iota(place.begin(), place.end(), std::size_t{0});
+  point_sets::Random random(1);
+  for (std::size_t i = slots; i > 1; --i) std::swap(place[i - 1], place[random.below(i)]);
+  const auto placed = [&](std::int32_t slot) {
+    return static_cast<std::int32_t>(place[static_cast<std::size_t>(slot - 1)] + 1);
+  };
+  Plain other{list, lptr, lend, slots};
+  for (std::size_t s = 0; s < slots; ++s) {
+    other.list[place[s]] = list[s];
+    other.lptr[place[s]] = placed(lptr[s]);
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool boundary = list[static_cast<std::size_t>(lend[i] - 1)] < 0;
+    const auto last = static_cast<std::size_t>(lend[i] - 1);
+    other.lend[i] = placed(boundary || i % 2 == 0 ? lend[i] : lptr[last]);
+  }
+  return other;
+}
+
+/// What TRLIST and CRLIST give, by definition.
+struct Expected {
+  std::vector<std::array<int, 9>> columns;
+  std::vector<int> listc;  ///< by slot; 0 = no triangle on the left
+};
+
+Expected by_definition(const Plain& lists, std::size_t first_pair) {
+  std::map<std::pair<int, int>, std::pair<int, int>> left;  // of an arc: triangle and side
+  std::map<std::pair<int, int>, std::size_t> slot_of;
+  Expected expected;
+  const int n = static_cast<int>(lists.lend.size());
+  for (int a = 1; a <= n; ++a) {
+    std::vector<std::size_t> ring;
+    auto slot = static_cast<std::size_t>(lists.lend[static_cast<std::size_t>(a - 1)]);
+    const std::size_t last = slot;
+    do {
+      slot = static_cast<std::size_t>(lists.lptr[slot - 1]);
+      ring.push_back(slot);
+      slot_of[{a, std::abs(lists.list[slot - 1])}] = slot;
+    } while (slot != last);
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const int b = lists.list[ring[(i + first_pair) % ring.size()] - 1];
+      const int c = std::abs(lists.list[ring[(i + first_pair + 1) % ring.size()] - 1]);
+      if (b < a || c < a) continue;
+      expected.columns.push_back({a, b, c, 0, 0, 0, 0, 0, 0});
+      const int t = static_cast<int>(expected.columns.size());
+      left[{b, c}] = {t, 0}, left[{c, a}] = {t, 1}, left[{a, b}] = {t, 2};
+    }
+  }
+  int arcs = 0;
+  for (std::size_t t = 0; t < expected.columns.size(); ++t)
+    for (std::size_t side = 0; side < 3; ++side) {
+      auto& column = expected.columns[t];
+      const auto beyond = left.find({column[(side + 2) % 3], column[(side + 1) % 3]});
+      const int neighbour = beyond == left.end() ? 0 : beyond->second.first;
+      column[3 + side] = neighbour;
+      if (neighbour > static_cast<int>(t) + 1) continue;
+      column[6 + side] = ++arcs;
+      if (neighbour > 0)
+        expected.columns[static_cast<std::size_t>(neighbour - 1)]
+                        [static_cast<std::size_t>(6 + beyond->second.second)] = arcs;
+    }
+  expected.listc.resize(lists.slots, 0);
+  for (const auto& [arc, triangle] : left) expected.listc[slot_of.at(arc) - 1] = triangle.first;
+  return expected;
+}
+
+template <class Int>
+struct Arrays {
+  explicit Arrays(const Plain& lists)
+      : list(converted(lists.list), Edge::end),
+        lptr(converted(lists.lptr), Edge::end),
+        lend(converted(lists.lend), Edge::end) {
+    for (Guarded<Int>* array : {&list, &lptr, &lend}) array->make_read_only();
+  }
+  static std::vector<Int> converted(const std::vector<std::int32_t>& values) {
+    return {values.begin(), values.end()};
+  }
+  ListsView<Int> view() { return {lend.size(), list.data(), lptr.data(), lend.data(), 0}; }
+  Guarded<Int> list, lptr, lend;
+};
+
+template <class Int>
+void expect_columns(const Plain& lists) {
+  const Expected expected = by_definition(lists, 0);
+  Arrays<Int> arrays(lists);
+  for (const int rows : {3, 6, 9}) {
+    Guarded<Int> ltri(static_cast<std::size_t>(rows) * expected.columns.size(), Edge::end);
+    Int nt = -1;
+    ASSERT_EQ(triangle_list(arrays.view(), rows, nt, ltri.data()), TriangleListStatus::done);
+    ASSERT_EQ(nt, static_cast<Int>(expected.columns.size()));
+    for (std::size_t i = 0; i < ltri.size(); ++i)
+      ASSERT_EQ(ltri[i],
+                expected.columns[i / static_cast<std::size_t>(rows)][i % static_cast<std::size_t>(rows)])
+          << rows << " rows, triangle " << i / static_cast<std::size_t>(rows) + 1;
+  }
+}
+
+/// The triangles of the set, without those that close the sphere, and their circumcentres.
+template <class Real, class Int>
+void expect_voronoi(const Plain& lists, const std::vector<Point>& points) {
+  const Expected expected = by_definition(lists, 0);
+  Arrays<Int> arrays(lists);
+  const std::size_t n = points.size();
+  std::vector<Real> x, y, z, xc(2 * n - 4), yc(xc), zc(xc), rc(xc);
+  for (const Point& p : points) {
+    x.push_back(static_cast<Real>(p.x));
+    y.push_back(static_cast<Real>(p.y));
+    z.push_back(static_cast<Real>(p.z));
+  }
+  std::vector<Int> lptr(Arrays<Int>::converted(lists.lptr)), ltri(6 * n), listc(lptr.size());
+  Int lnew = static_cast<Int>(lists.slots) + 1, nb = -1;
+  const Nodes<Real> nodes{x.data(), y.data(), z.data()};
+  ListsView<Int> view = arrays.view();
+  view.lptr = lptr.data();
+  ASSERT_EQ(voronoi(view, nodes,
+                    VoronoiArrays<Real, Int>{static_cast<Int>(n), lptr.data(), &lnew, ltri.data(),
+                                             listc.data(), &nb, xc.data(), yc.data(), zc.data(), rc.data()}),
+            VoronoiStatus::done);
+  // Triangles have other numbers than in TRLIST: compared by their corners, with the number as a name.
+  const int far = nb > 0 ? static_cast<int>(nb) - 2 : 0;
+  std::map<int, int> number;
+  int largest = 0;
+  for (std::size_t s = 0; s < lists.slots; ++s)
+    if (expected.listc[s] != 0) {
+      ASSERT_GT(listc[s], far);
+      const auto known = number.emplace(expected.listc[s], static_cast<int>(listc[s])).first;
+      ASSERT_EQ(known->second, static_cast<int>(listc[s])) << "slot " << s + 1;
+      largest = std::max(largest, static_cast<int>(listc[s]));
+    }
+  ASSERT_EQ(largest, static_cast<int>(2 * n - 4));
+  for (const auto& [t, name] : number) {
+    const auto& column = expected.columns[static_cast<std::size_t>(t - 1)];
+    Vector<Real> centre;
+    ASSERT_TRUE(circumcentre(nodes[column[0]], nodes[column[1]], nodes[column[2]], centre));
+    const auto i = static_cast<std::size_t>(name - 1);
+    ASSERT_EQ(xc[i], centre.x) << name;
+    ASSERT_EQ(yc[i], centre.y);
+    ASSERT_EQ(zc[i], centre.z);
+    ASSERT_EQ(rc[i], clamped_acos(dot(nodes[column[0]], centre)));
+  }
+}
+
+std::vector<std::vector<Point>> sets() {
+  std::vector<std::vector<Point>> all;
+  for (const std::size_t n : {4, 5, 6, 7, 8, 9, 12, 16, 17, 33, 500})
+    for (const char* const set : {"random", "cap"}) all.push_back(point_sets::make(set, n));
+  all.push_back(point_sets::make("random", 20000));  // several threads, if there are any
+  // Two hubs that see all other nodes, first and last in the order of nodes, or in the middle.
+  for (const std::size_t between : {20u, 70u, 3000u}) {
+    std::vector<Point> nodes;
+    point_sets::Random random(2);
+    for (std::size_t k = 0; k < between; ++k) {
+      const Point p = random.direction();
+      nodes.push_back(point_sets::normalized({p.x, p.y, p.z * 1e-3}));
+    }
+    nodes.insert(nodes.begin() + 5, Point{0, 0, 1});
+    nodes.push_back({0, 0, -1});
+    all.push_back(nodes);
+  }
+  return all;
+}
+
+}  // namespace
+
+TEST(TriangleList, IsAsDefined) {
+  for (const auto& set : sets())
+    for (const Slots order : {Slots::canonical, Slots::shuffled}) {
+      SCOPED_TRACE(set.size());
+      const Plain lists = plain_lists(set, order);
+      expect_columns<std::int32_t>(lists);
+      expect_columns<std::int64_t>(lists);
+    }
+}
+
+TEST(TriangleList, NumbersTrianglesOfTheVoronoiDiagram) {
+  for (const auto& set : sets())
+    for (const Slots order : {Slots::canonical, Slots::shuffled}) {
+      SCOPED_TRACE(set.size());
+      const Plain lists = plain_lists(set, order);
+      expect_voronoi<float, std::int32_t>(lists, set);
+      expect_voronoi<double, std::int32_t>(lists, set);
+      expect_voronoi<double, std::int64_t>(lists, set);
+    }
+}
+
+/// Neighbours of one node in a wrong order: every node still lists every neighbour.
+TEST(TriangleList, RefusesRingsThatContradictEachOther) {
+  const std::vector<Point> set = point_sets::make("random", 200);
+  for (std::int32_t node = 1; node <= 200; ++node) {
+    Plain lists = plain_lists(set, Slots::canonical);
+    const auto last = static_cast<std::size_t>(lists.lend[static_cast<std::size_t>(node - 1)] - 1);
+    if (last - (node > 1 ? static_cast<std::size_t>(lists.lend[static_cast<std::size_t>(node - 2)]) : 0) < 3)
+      continue;
+    std::swap(lists.list[last], lists.list[last - 1]);
+    Arrays<std::int32_t> arrays(lists);
+    std::vector<std::int32_t> ltri(9 * 2 * 200);
+    std::int32_t nt = -1;
+    EXPECT_EQ(triangle_list(arrays.view(), 9, nt, ltri.data()), TriangleListStatus::broken_lists) << node;
+    EXPECT_EQ(nt, 0);
+  }
+}
