@@ -110,7 +110,7 @@ void plot(Options& options) {
     throw CLI::ValidationError("--colour", "degree is a property of nodes: say --what cells");
   pictures::expect_converter(kind);
 
-  options.input.read.with_triangles = !options.input.drop_duplicates;  // their numbers would be others
+  options.input.read.with_triangles = !options.input.drops();  // their numbers would be others
   files::OutputFile file(options.file);
   Progress progress;
   const files::Nodes nodes = progress.step("reading", [&] { return read_nodes(options.input); });
@@ -139,7 +139,8 @@ void plot(Options& options) {
     file.commit();
   });
   progress.finish(
-      fmt::format("{} nodes ({}), {} triangles", nodes.points.size(), nodes.kind, mesh.triangles()));
+      fmt::format("{} ({}), {}", counted(nodes.points.size(), "node"), nodes.kind,
+                  counted(mesh.triangles(), "triangle")));
 }
 
 }  // namespace

@@ -66,7 +66,9 @@ TEST(duplicates, are_all_nodes_but_the_first_in_each_place) {
   Points points = point_sets::make("random", 100);
   points[50] = points[90] = points[7] = points[60];
   points[3] = points[2];
-  EXPECT_EQ(duplicates(points), (std::vector<std::size_t>{3, 50, 60, 90}));
+  std::vector<std::pair<std::size_t, std::size_t>> found;
+  for (const Duplicate& d : duplicates(points)) found.emplace_back(d.node, d.first);
+  EXPECT_EQ(found, (std::vector<std::pair<std::size_t, std::size_t>>{{3, 2}, {50, 7}, {60, 7}, {90, 7}}));
   EXPECT_TRUE(duplicates(point_sets::make("random", 100)).empty());
 }
 

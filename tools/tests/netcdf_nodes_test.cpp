@@ -194,19 +194,19 @@ TEST(netcdf, values_have_the_dimensions_of_the_nodes) {
   file.with("packed", {ny, nx}, {1, 2, 3, 4, -999, -5});
   file.attribute("packed", "scale_factor", 10).attribute("packed", "add_offset", 100);
   file.attribute("packed", "missing_value", -5);
-  file.note("scvt_density", "bump").note("title", "not a note");
+  file.note("scvt_density", "bump").note("title", "a title").note("creator", "not a note");
   const std::string name = file.closed();
   const Nodes nodes = read(name, values_of("t"));
-  ASSERT_EQ(nodes.values.size(), 6u);
-  EXPECT_EQ(nodes.values[3], 4);  // the first of the second row
+  ASSERT_EQ(nodes.value.numbers.size(), 6u);
+  EXPECT_EQ(nodes.value.numbers[3], 4);  // the first of the second row
   EXPECT_NEAR(nodes.points[3].z, 0.5, 1e-15);
-  EXPECT_TRUE(std::isnan(nodes.values[4]));
-  EXPECT_EQ(nodes.value_name, "t");
-  EXPECT_EQ(nodes.value_units, "K");
-  EXPECT_EQ(nodes.notes, (Notes{{"scvt_density", "bump"}}));
+  EXPECT_TRUE(std::isnan(nodes.value.numbers[4]));
+  EXPECT_EQ(nodes.value.name, "t");
+  EXPECT_EQ(nodes.value.units, "K");
+  EXPECT_EQ(nodes.notes, (Notes{{"scvt_density", "bump"}, {"title", "a title"}}));
   const Nodes packed = read(name, values_of("packed"));
-  EXPECT_EQ(packed.values[2], 130);
-  EXPECT_TRUE(std::isnan(packed.values[4]) && std::isnan(packed.values[5]));
+  EXPECT_EQ(packed.value.numbers[2], 130);
+  EXPECT_TRUE(std::isnan(packed.value.numbers[4]) && std::isnan(packed.value.numbers[5]));
   for (const char* const variable : {"turned", "elsewhere", "deep", "none", ""}) {
     try {
       read(name, values_of(variable));

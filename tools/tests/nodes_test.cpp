@@ -102,16 +102,16 @@ TEST(text, values_follow_the_place) {
   options.with_values = true;
   const Nodes lonlat = read_bytes("90 0 7\n200 10 NaN\n", options);
   EXPECT_EQ(lonlat.points[0], (Point{0, 1, 0}));
-  EXPECT_EQ(lonlat.values[0], 7);
-  EXPECT_TRUE(std::isnan(lonlat.values[1]));
+  EXPECT_EQ(lonlat.value.numbers[0], 7);
+  EXPECT_TRUE(std::isnan(lonlat.value.numbers[1]));
   const Nodes xyz = read_bytes("0 1 0 7\n1 0 0 8\n", options);
   EXPECT_EQ(xyz.points, (Points{{0, 1, 0}, {1, 0, 0}}));
-  EXPECT_EQ(xyz.values, (std::vector<double>{7, 8}));
+  EXPECT_EQ(xyz.value.numbers, (std::vector<double>{7, 8}));
   expect_error("90 0 inf\n", "'inf' is not a finite number", options);
   expect_error("nan 0 1\n", "node 1 (line 1): its place is 'nan'", options);
   options.coordinates = Coordinates::lonlat;
   options.variable = "4";
-  EXPECT_EQ(read_bytes("90 0 7 8\n", options).values[0], 8);
+  EXPECT_EQ(read_bytes("90 0 7 8\n", options).value.numbers[0], 8);
   for (const char* const column : {"2", "5", "3.5", "-1"}) {
     options.variable = column;
     expect_error("90 0 7 8\n", "there is no value in column", options);
