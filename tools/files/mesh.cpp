@@ -224,12 +224,35 @@ std::size_t Mesh::triangles() const {
 }
 
 std::vector<std::int32_t> triangles_of(const Mesh& mesh) {
-  std::vector<std::int32_t> triangles(3 * (2 * mesh.points.size() - 4));
-  std::int32_t count = 0;
-  if (pstripack::triangle_list(mesh.lists(), 3, count, triangles.data()) !=
-      pstripack::TriangleListStatus::done)
-    throw NoMesh("the lists are broken");
-  triangles.resize(3 * static_cast<std::size_t>(count));
+  const pstripack::ListReader<std::int32_t> reader(mesh.lists());
+  const std::size_t n = mesh.points.size();
+  // A triangle is two neighbours in a row in the list of its smallest corner.
+  const auto for_each = [&](std::size_t first, std::size_t last, const auto& take) {
+    for (auto node = static_cast<std::int32_t>(first + 1); node <= static_cast<std::int32_t>(last); ++node) {
+      const std::int32_t end = reader.last_slot(node), begin = reader.next(end);
+      for (std::int32_t slot = begin, next = 0;; slot = next) {
+        next = reader.next(slot);
+        if (slot == end && reader.entry(end) < 0) break;  // beyond the boundary
+        const std::int32_t b = reader.neighbour(slot), c = reader.neighbour(next);
+        if (node < b && node < c) take(node, b, c);
+        if (slot == end) break;
+      }
+    }
+  };
+  const int threads = pstripack::threads_for(n);
+  std::vector<std::size_t> before(static_cast<std::size_t>(threads) + 1);
+  pstripack::parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int piece) {
+    std::size_t count = 0;
+    for_each(first, last, [&](std::int32_t, std::int32_t, std::int32_t) { ++count; });
+    before[static_cast<std::size_t>(piece) + 1] = count;
+  });
+  std::partial_sum(before.begin(), before.end(), before.begin());
+  if (before.back() != mesh.triangles()) throw NoMesh("the lists are broken");
+  std::vector<std::int32_t> triangles(3 * before.back());
+  pstripack::parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int piece) {
+    std::int32_t* to = triangles.data() + 3 * before[static_cast<std::size_t>(piece)];
+    for_each(first, last, [&](std::int32_t a, std::int32_t b, std::int32_t c) { *to++ = a, *to++ = b, *to++ = c; });
+  });
   return triangles;
 }
 
