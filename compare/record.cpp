@@ -28,7 +28,8 @@ namespace {
 
 constexpr int kNotFound = 127;  // as in a shell
 
-/// Why the command cannot be started, as exec searches it; 0: it can. Known before an older recording is lost.
+/// Why the command cannot be started, as exec searches it; 0: it can. Known before an older recording is
+/// lost.
 int error_of(const std::string& command) {
   if (command.find('/') != command.npos) return access(command.c_str(), X_OK) == 0 ? 0 : errno;
   const char* const path = std::getenv("PATH");

@@ -179,7 +179,8 @@ std::vector<Duplicate> duplicates(const std::vector<Point>& points) {
     for (const std::size_t node : group)
       if (node != first) later.push_back({node, first});
   }
-  std::sort(later.begin(), later.end(), [](const Duplicate& a, const Duplicate& b) { return a.node < b.node; });
+  std::sort(later.begin(), later.end(),
+            [](const Duplicate& a, const Duplicate& b) { return a.node < b.node; });
   return later;
 }
 
@@ -251,7 +252,8 @@ std::vector<std::int32_t> triangles_of(const Mesh& mesh) {
   std::vector<std::int32_t> triangles(3 * before.back());
   pstripack::parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int piece) {
     std::int32_t* to = triangles.data() + 3 * before[static_cast<std::size_t>(piece)];
-    for_each(first, last, [&](std::int32_t a, std::int32_t b, std::int32_t c) { *to++ = a, *to++ = b, *to++ = c; });
+    for_each(first, last,
+             [&](std::int32_t a, std::int32_t b, std::int32_t c) { *to++ = a, *to++ = b, *to++ = c; });
   });
   return triangles;
 }
@@ -363,21 +365,22 @@ Faces voronoi_faces(const Mesh& mesh) {
 
 std::vector<double> areas(const Faces& faces) {
   std::vector<double> all(faces.size());
-  const auto point = [&](std::size_t k) { return faces.points[static_cast<std::size_t>(faces.corner[k]) - 1]; };
-  pstripack::parallel_pieces(all.size(), pstripack::threads_for(8 * all.size()),
-                             [&](std::size_t first, std::size_t last, int) {
-                               for (std::size_t f = first; f < last; ++f) {
-                                 const std::size_t begin = faces.begin[f], end = faces.begin[f + 1];
-                                 if (faces.centres.empty()) {
-                                   for (std::size_t k = begin + 1; k + 1 < end; ++k)
-                                     all[f] += triangle_area(point(begin), point(k), point(k + 1));
-                                 } else {
-                                   for (std::size_t k = begin; k < end; ++k)
-                                     all[f] += triangle_area(faces.centres[f], point(k),
-                                                             point(k + 1 < end ? k + 1 : begin));
-                                 }
-                               }
-                             });
+  const auto point = [&](std::size_t k) {
+    return faces.points[static_cast<std::size_t>(faces.corner[k]) - 1];
+  };
+  pstripack::parallel_pieces(
+      all.size(), pstripack::threads_for(8 * all.size()), [&](std::size_t first, std::size_t last, int) {
+        for (std::size_t f = first; f < last; ++f) {
+          const std::size_t begin = faces.begin[f], end = faces.begin[f + 1];
+          if (faces.centres.empty()) {
+            for (std::size_t k = begin + 1; k + 1 < end; ++k)
+              all[f] += triangle_area(point(begin), point(k), point(k + 1));
+          } else {
+            for (std::size_t k = begin; k < end; ++k)
+              all[f] += triangle_area(faces.centres[f], point(k), point(k + 1 < end ? k + 1 : begin));
+          }
+        }
+      });
   return all;
 }
 
@@ -405,7 +408,9 @@ void add_columns(Faces& faces, const Mesh& mesh) {
   Columns& of_nodes = are_cells ? faces.columns_of_faces : faces.columns_of_points;
   of_nodes = mesh.columns;
   const auto make_room = [&](const Column& ours) {
-    const auto is_ours = [&](const Column& c) { return c.name == ours.name && c.long_name == ours.long_name; };
+    const auto is_ours = [&](const Column& c) {
+      return c.name == ours.name && c.long_name == ours.long_name;
+    };
     of_nodes.erase(std::remove_if(of_nodes.begin(), of_nodes.end(), is_ours), of_nodes.end());
     for (Column& c : of_nodes)
       if (c.name == ours.name) c.name += "_given";

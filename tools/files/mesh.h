@@ -76,7 +76,7 @@ struct Faces {
   std::vector<Point> centres;  ///< the node that each face belongs to; empty: none
   std::vector<std::size_t> begin;
   std::vector<std::int32_t> corner;
-  LonLat given_points, given_centres;       ///< their angles, if they were given
+  LonLat given_points, given_centres;  ///< their angles, if they were given
   Columns columns_of_points, columns_of_faces;
 
   std::size_t size() const { return begin.size() - 1; }
@@ -97,8 +97,9 @@ Faces triangle_faces(const Mesh& mesh);
 /// share the rest of the sphere (STRIPACK's CRLIST).
 Faces voronoi_faces(const Mesh& mesh);
 
-/// Adds what files of faces can hold: the given angles and columns of the nodes, the number of neighbours of each, and
-/// the areas of the faces in sr and km2. Columns that are named like these get `_given` behind their names.
+/// Adds what files of faces can hold: the given angles and columns of the nodes, the number of neighbours of
+/// each, and the areas of the faces in sr and km2. Columns that are named like these get `_given` behind
+/// their names.
 void add_columns(Faces& faces, const Mesh& mesh);
 
 }  // namespace files

@@ -47,8 +47,8 @@ class Writer {
   int density(const std::vector<double>& values, int nodes) {
     return values.empty() ? -1 : variable("meshDensity", NC_DOUBLE, {nodes});
   }
-  /// A variable for each column, with these dimensions: numbers, or texts of equal length. Names of other variables
-  /// and dimensions are taken; `of_mesh` are attributes of each.
+  /// A variable for each column, with these dimensions: numbers, or texts of equal length. Names of other
+  /// variables and dimensions are taken; `of_mesh` are attributes of each.
   std::vector<int> columns(const Columns& all, const std::vector<int>& dimensions, const Notes& of_mesh) {
     std::vector<int> ids;
     for (const Column& c : all) {
@@ -142,7 +142,8 @@ class Writer {
       if (!is_plain(c)) c = '_';
     if (name.empty() || (name[0] >= '0' && name[0] <= '9')) name = "_" + name;
     int id;
-    while (nc_inq_varid(id_, name.c_str(), &id) == NC_NOERR || nc_inq_dimid(id_, name.c_str(), &id) == NC_NOERR)
+    while (nc_inq_varid(id_, name.c_str(), &id) == NC_NOERR ||
+           nc_inq_dimid(id_, name.c_str(), &id) == NC_NOERR)
       name += "_given";
     return name;
   }
@@ -196,7 +197,8 @@ void write_ugrid(const OutputFile& file, const Faces& faces, const std::vector<P
   for (const int component : {x, y, z})
     out.attribute(component, "long_name", "Cartesian coordinate of the node as it was given");
   const int of_density = out.density(density, nodes);
-  const Notes of_nodes{{"mesh", "mesh"}, {"location", "node"}, {"coordinates", "mesh_node_lon mesh_node_lat"}};
+  const Notes of_nodes{
+      {"mesh", "mesh"}, {"location", "node"}, {"coordinates", "mesh_node_lon mesh_node_lat"}};
   Notes of_faces{{"mesh", "mesh"}, {"location", "face"}};
   if (has_centres) of_faces["coordinates"] = "mesh_face_lon mesh_face_lat";
   if (!density.empty())

@@ -190,12 +190,14 @@ Column read_column(const File& file, const std::string& name, std::size_t nodes)
   const double offset = number_attribute(file, id, "add_offset", 0);
   for (double& v : column.numbers)
     v = v == fill || v == missing || !std::isfinite(v) ? std::nan("") : v * scale + offset;
-  column.whole = (type == NC_INT || type == NC_SHORT || type == NC_BYTE) && scale == 1 && offset == 0 &&
-                 std::none_of(column.numbers.begin(), column.numbers.end(), [](double v) { return std::isnan(v); });
+  column.whole =
+      (type == NC_INT || type == NC_SHORT || type == NC_BYTE) && scale == 1 && offset == 0 &&
+      std::none_of(column.numbers.begin(), column.numbers.end(), [](double v) { return std::isnan(v); });
   return column;
 }
 
-Column read_value(const File& file, const std::string& name, std::size_t nodes, const std::vector<int>& of_nodes) {
+Column read_value(const File& file, const std::string& name, std::size_t nodes,
+                  const std::vector<int>& of_nodes) {
   if (name.empty() || !has(file, name))
     file.fail(fmt::format("{}say --variable NAME; variables with one value per node: {}",
                           name.empty() ? "" : "there is no variable " + name + "; ",
@@ -236,7 +238,8 @@ Columns read_columns(const File& file, std::size_t nodes, const std::vector<int>
     std::vector<int> dimensions;
     const std::vector<std::size_t> lengths = shape_of(file, name, dimensions).second;
     const bool is_wanted = std::find(wanted.begin(), wanted.end(), name) != wanted.end();
-    if (std::find(coordinates.begin(), coordinates.end(), v) != coordinates.end() || name == "meshDensity") continue;
+    if (std::find(coordinates.begin(), coordinates.end(), v) != coordinates.end() || name == "meshDensity")
+      continue;
     if (!wanted.empty() && !is_wanted) continue;
     if (type == NC_CHAR && dimensions.size() == of_nodes.size() + 1 &&
         std::equal(of_nodes.begin(), of_nodes.end(), dimensions.begin()))
@@ -244,8 +247,8 @@ Columns read_columns(const File& file, std::size_t nodes, const std::vector<int>
     else if (type != NC_CHAR && type <= NC_UINT64 && is_of_nodes(file, name, of_nodes))
       columns.push_back(read_column(file, name, nodes));
     else if (is_wanted)
-      file.fail(fmt::format("variable {}: expected one value per node, {}", shape_text(file, name, dimensions),
-                            shape_text(file, name, of_nodes)));
+      file.fail(fmt::format("variable {}: expected one value per node, {}",
+                            shape_text(file, name, dimensions), shape_text(file, name, of_nodes)));
   }
   return columns;
 }
@@ -272,11 +275,12 @@ Places from_angles(const File& file, const Variable& lon, const Variable& lat, c
   units = lat_in_degrees ? "degrees" : "radians";
   Angles angles{lon.values.data(), lat.values.data(), 1, lon_in_degrees, lat_in_degrees};
   if (const std::size_t bad = first_beyond_pole(angles, lat.values.size()); bad < lat.values.size())
-    file.fail(fmt::format("variable {}, value {}: {} is beyond the pole{}", lat.name, bad + 1, lat.values[bad],
-                          !lat_in_degrees ? ": are they degrees, and the units wrong?"
-                          : lon.values.size() == lat.values.size()
-                              ? hint_beyond_pole(angles, lat.values.size(), (lat.name + "," + lon.name).c_str())
-                              : ""));
+    file.fail(
+        fmt::format("variable {}, value {}: {} is beyond the pole{}", lat.name, bad + 1, lat.values[bad],
+                    !lat_in_degrees ? ": are they degrees, and the units wrong?"
+                    : lon.values.size() == lat.values.size()
+                        ? hint_beyond_pole(angles, lat.values.size(), (lat.name + "," + lon.name).c_str())
+                        : ""));
   Places places;
   places.variables = {lon.id, lat.id};
   if (lon.dimensions == lat.dimensions) {
@@ -317,7 +321,8 @@ Places from_coordinates(const File& file, const std::string& x_name, const std::
   return places;
 }
 
-/// The angles beside the vectors, if the file has them. Those of the vectors are as good where they cannot be used.
+/// The angles beside the vectors, if the file has them. Those of the vectors are as good where they cannot be
+/// used.
 void add_angles(const File& file, Places& places, const std::string& lon_name, const std::string& lat_name) {
   if (!places.given.empty() || !has(file, lon_name) || !has(file, lat_name)) return;
   const char* units = "";
@@ -425,14 +430,16 @@ Places read_chosen(const File& file, Nodes& nodes, std::vector<std::string>& nam
   const std::vector<std::string> variables = variables_in(file);
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (!has(file, names[i]))
-      file.fail(fmt::format("there is no variable '{}'{}; the file has {}", names[i], did_you_mean(names[i], variables),
-                            fmt::join(variables, ", ")));
-    if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) != names.begin() + static_cast<std::ptrdiff_t>(i))
+      file.fail(fmt::format("there is no variable '{}'{}; the file has {}", names[i],
+                            did_you_mean(names[i], variables), fmt::join(variables, ", ")));
+    if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
+        names.begin() + static_cast<std::ptrdiff_t>(i))
       file.fail(fmt::format("variable '{}' is chosen twice", names[i]));
   }
   const std::size_t count = coordinates == Coordinates::xyz ? 3 : 2;
   if (names.size() < count)
-    file.fail(fmt::format("--columns names {} variable{}: expected {}", names.size(), names.size() == 1 ? "" : "s",
+    file.fail(fmt::format("--columns names {} variable{}: expected {}", names.size(),
+                          names.size() == 1 ? "" : "s",
                           count == 3 ? "those of x, y and z" : "longitude and latitude"));
   Places places;
   if (count == 3) {
@@ -470,7 +477,8 @@ Nodes read_netcdf(const std::string& name, const ReadOptions& options, const std
          {std::pair("lonCell", "latCell"), std::pair("lon", "lat"), std::pair("longitude", "latitude"),
           std::pair("grid_center_lon", "grid_center_lat")}) {
       if (!has(file, lon)) continue;
-      if (!has(file, lat)) file.fail(fmt::format("there is no variable {} beside {}: name both by --columns LON,LAT", lat, lon));
+      if (!has(file, lat))
+        file.fail(fmt::format("there is no variable {} beside {}: name both by --columns LON,LAT", lat, lon));
       const char* units = "";
       places = from_angles(file, read(file, lon), read(file, lat), units);
       nodes.kind += fmt::format(", {} {} in {}", lon, lat, units);
@@ -478,7 +486,8 @@ Nodes read_netcdf(const std::string& name, const ReadOptions& options, const std
     }
     if (nodes.kind == "NetCDF")
       file.fail(
-          "no nodes: expected variables xCell, yCell, zCell, or lonCell, latCell, or lon, lat; or name them by "
+          "no nodes: expected variables xCell, yCell, zCell, or lonCell, latCell, or lon, lat; or name them "
+          "by "
           "--columns LON,LAT");
   }
   nodes.points = std::move(places.points);

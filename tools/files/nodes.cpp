@@ -47,7 +47,8 @@ void set_angles(Nodes& nodes, LonLat given, Units units) {
     const double lon = largest(given.lon), lat = largest(given.lat);
     if (lon <= 4 * kRightAngle * kSlack && lat <= kRightAngle * kSlack)
       throw std::runtime_error(fmt::format(
-          "{}: the angles may be degrees or radians: say --units degrees or --units radians (longitudes reach {:.4g}, "
+          "{}: the angles may be degrees or radians: say --units degrees or --units radians (longitudes "
+          "reach {:.4g}, "
           "latitudes {:.4g}{})",
           nodes.file, lon, lat, lon > kRightAngle && lat > 0.8 * kRightAngle ? ", as radians do" : ""));
     units = Units::degrees;
@@ -59,6 +60,11 @@ void set_angles(Nodes& nodes, LonLat given, Units units) {
         fmt::format("{}: {}: latitude {} is beyond the pole: the columns are 'lon lat', in {}{}", nodes.file,
                     nodes.place(bad), given.lat[bad], given.degrees ? "degrees" : "radians",
                     hint_beyond_pole(angles, n, "2,1")));
+  for (std::size_t i = 0; !given.degrees && i < n; ++i)
+    if (std::fabs(given.lon[i]) > 8 * kRightAngle)
+      throw std::runtime_error(
+          fmt::format("{}: {}: longitude {} is more than two turns in radians; --units degrees?", nodes.file,
+                      nodes.place(i), given.lon[i]));
   nodes.points = points_of(angles, n);
   nodes.kind += given.degrees ? ", lon lat in degrees" : ", lon lat in radians";
   nodes.given = std::move(given);
@@ -79,8 +85,9 @@ std::optional<std::size_t> axis_among(const std::vector<std::size_t>& candidates
   for (const std::size_t c : candidates) {
     if (axis_of(layout.name(c)) != axis) continue;
     if (found)
-      throw std::runtime_error(fmt::format("{}: the header names '{}' and '{}', columns {} and {}: choose by --columns",
-                                           where, layout.name(*found), layout.name(c), *found + 1, c + 1));
+      throw std::runtime_error(
+          fmt::format("{}: the header names column '{}' twice, {} and {}: choose columns by number", where,
+                      layout.name(c), *found + 1, c + 1));
     found = c;
   }
   return found;
@@ -100,9 +107,9 @@ std::vector<std::size_t> place_by_names(const std::vector<std::size_t>& candidat
     if (found.size() == 2) return found;
     if (found.size() == 1) {
       const bool has_lon = axis_of(layout.name(found[0])) == 'o';
-      throw std::runtime_error(fmt::format("{}: a column '{}' without a {}: name both by --columns LON,LAT; the header has {}",
-                                           where, layout.name(found[0]), has_lon ? "latitude" : "longitude",
-                                           fmt::join(layout.names, ", ")));
+      throw std::runtime_error(fmt::format(
+          "{}: a column '{}' without a {}: name both by --columns LON,LAT; the header has {}", where,
+          layout.name(found[0]), has_lon ? "latitude" : "longitude", fmt::join(layout.names, ", ")));
     }
   }
   if (coordinates == Coordinates::lonlat) return {};
@@ -112,7 +119,9 @@ std::vector<std::size_t> place_by_names(const std::vector<std::size_t>& candidat
 
 Choice choose(const TextLayout& layout, const ReadOptions& options, const std::string& file) {
   const std::string where = layout.header_line > 0 ? fmt::format("{}:{}", file, layout.header_line) : file;
-  const auto fail = [&](const std::string& what) { throw std::runtime_error(fmt::format("{}: {}", where, what)); };
+  const auto fail = [&](const std::string& what) {
+    throw std::runtime_error(fmt::format("{}: {}", where, what));
+  };
   const bool chosen = !options.columns.empty(), detected = options.coordinates == Coordinates::detected;
   std::vector<std::size_t> candidates(layout.columns);
   std::iota(candidates.begin(), candidates.end(), std::size_t{0});
@@ -123,12 +132,14 @@ Choice choose(const TextLayout& layout, const ReadOptions& options, const std::s
     std::size_t columns = options.coordinates == Coordinates::xyz ? 3 : 2;
     if (!chosen && detected) {
       if (!layout.names.empty())
-        fail(fmt::format("no columns named lon and lat, or x, y and z: name them by --columns; the header has {}",
-                         fmt::join(layout.names, ", ")));
+        fail(fmt::format(
+            "no columns named lon and lat, or x, y and z: name them by --columns; the header has {}",
+            fmt::join(layout.names, ", ")));
       if (options.with_values && layout.columns != 3 && layout.columns != 4)
-        fail(fmt::format("has {} columns; expected 'lon lat value' or 'x y z value'; of more columns say --coordinates "
-                         "and --variable, or --columns",
-                         layout.columns));
+        fail(fmt::format(
+            "has {} columns; expected 'lon lat value' or 'x y z value'; of more columns say --coordinates "
+            "and --variable, or --columns",
+            layout.columns));
       if (!options.with_values && layout.columns != 2 && layout.columns != 3)
         throw std::runtime_error(fmt::format(
             "{}:{}: expected 'lon lat' or 'x y z', found {} number{}{}", file, layout.line, layout.columns,
@@ -152,20 +163,21 @@ Choice choose(const TextLayout& layout, const ReadOptions& options, const std::s
     double number = 0;
     const bool is_number = point_sets::parse(options.variable, number);
     if (layout.names.empty() && !is_number)
-      fail(fmt::format("has {} columns; --variable of text is the number of a column, not '{}'", layout.columns,
-                       options.variable));
+      fail(fmt::format("has {} columns; --variable of text is the number of a column, not '{}'",
+                       layout.columns, options.variable));
     const bool exists = !is_number || (number == std::floor(number) && number >= 1 &&
                                        number <= static_cast<double>(layout.columns));
     if (exists) choice.value = columns_named(options.variable, layout, file).at(0);
     if (!exists || is_place(*choice.value))
-      fail(fmt::format("has {} columns; the first {} are the place: there is no value in column {}", layout.columns,
-                       choice.place.size(), options.variable));
+      fail(fmt::format("has {} columns; the first {} are the place: there is no value in column {}",
+                       layout.columns, choice.place.size(), options.variable));
   } else if (choice.columns.size() == 1 || (!choice.columns.empty() && (chosen || layout.names.empty()))) {
     choice.value = choice.columns[0];
   } else if (choice.columns.empty()) {
     fail(fmt::format("has {} columns; expected 'lon lat value' or 'x y z value'", layout.columns));
   } else {
-    fail(fmt::format("which column is the value? Say --variable; the header has {}", fmt::join(layout.names, ", ")));
+    fail(fmt::format("which column is the value? Say --variable; the header has {}",
+                     fmt::join(layout.names, ", ")));
   }
   return choice;
 }
@@ -175,7 +187,8 @@ Units units_of(const TextLayout& layout, const Choice& choice, Units otherwise) 
   if (layout.names.empty()) return otherwise;
   const std::string& unit = layout.units[choice.place[0]];
   const std::string& name = layout.names[choice.place[0]];
-  if (unit.rfind("deg", 0) == 0 || unit == "\xC2\xB0" || name.find("_deg") != name.npos) return Units::degrees;
+  if (unit.rfind("deg", 0) == 0 || unit == "\xC2\xB0" || name.find("_deg") != name.npos)
+    return Units::degrees;
   if (unit.rfind("rad", 0) == 0 || name.find("_rad") != name.npos) return Units::radians;
   return otherwise;
 }
@@ -210,7 +223,8 @@ void read_text(Nodes& nodes, std::string_view text, const ReadOptions& options) 
   if (options.with_columns) {
     if (!rows.segments.empty()) {
       for (double& s : rows.segments) ++s;
-      nodes.columns.push_back(whole_numbers("segment", "number of the segment in the input", std::move(rows.segments)));
+      nodes.columns.push_back(
+          whole_numbers("segment", "number of the segment in the input", std::move(rows.segments)));
     }
     for (const std::size_t c : choice.columns)
       if (c != choice.value) nodes.columns.push_back(column_of(rows, layout, c));
@@ -224,7 +238,8 @@ void read_text(Nodes& nodes, std::string_view text, const ReadOptions& options) 
     return;
   }
   nodes.points.resize(nodes.lines.size());
-  for (std::size_t i = 0; i < nodes.points.size(); ++i) nodes.points[i] = {axis(0)[i], axis(1)[i], axis(2)[i]};
+  for (std::size_t i = 0; i < nodes.points.size(); ++i)
+    nodes.points[i] = {axis(0)[i], axis(1)[i], axis(2)[i]};
   nodes.kind += ", x y z";
 }
 
@@ -245,7 +260,8 @@ void read_raw(Nodes& nodes, std::string_view bytes, const ReadOptions& options) 
                                            nodes.place(i / columns), i % columns + 1));
   if (columns == 2) {
     LonLat given;
-    for (std::size_t i = 0; i < values.size(); i += 2) given.lon.push_back(values[i]), given.lat.push_back(values[i + 1]);
+    for (std::size_t i = 0; i < values.size(); i += 2)
+      given.lon.push_back(values[i]), given.lat.push_back(values[i + 1]);
     return set_angles(nodes, std::move(given), options.units);
   }
   for (std::size_t i = 0; i < values.size(); i += 3)
@@ -305,7 +321,9 @@ std::string hint_beyond_pole(const Angles& a, std::size_t n, const char* to_exch
     return most;
   };
   if (!a.lat_in_degrees) return "; --units degrees?";
-  return largest(a.lon) <= 90 && largest(a.lat) <= 360 ? fmt::format("; is latitude first? Then say --columns {}", to_exchange) : "";
+  return largest(a.lon) <= 90 && largest(a.lat) <= 360
+             ? fmt::format("; is latitude first? Then say --columns {}", to_exchange)
+             : "";
 }
 
 std::vector<Point> points_of(const Angles& a, std::size_t n) {
@@ -373,6 +391,8 @@ Nodes read(const std::string& file, const ReadOptions& options) {
     read_raw(nodes, contents, options);
     return nodes;
   }
+  if (contents.compare(0, 2, "\xFF\xFE") == 0 || contents.compare(0, 2, "\xFE\xFF") == 0)
+    throw std::runtime_error(nodes.file + ":1: UTF-16: save the file as UTF-8");
   if (std::string_view(contents).substr(0, 4096).find('\0') != std::string::npos)
     throw std::runtime_error(nodes.file +
                              ": binary, but not NetCDF; raw doubles need --from raw and --coordinates");

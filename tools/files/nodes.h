@@ -25,13 +25,13 @@ struct ReadOptions {
   bool with_columns = false;                  ///< of text and NetCDF: also read the other columns
   bool with_values = false;                   ///< of text and NetCDF: also read one value per node,
   std::string variable;  ///< its name, or in text its number; empty: the column after the coordinates
-  /// Names or (text) numbers, with commas between them: lon,lat or x,y,z, then the columns to read. Empty: by the
-  /// names in the file, or the first ones.
+  /// Names or (text) numbers, with commas between them: lon,lat or x,y,z, then the columns to read. Empty: by
+  /// the names in the file, or the first ones.
   std::string columns;
 };
 
-/// Global attributes of a NetCDF file: title, history, source, institution, references, comment, and those whose names
-/// begin with "scvt_".
+/// Global attributes of a NetCDF file: title, history, source, institution, references, comment, and those
+/// whose names begin with "scvt_".
 using Notes = std::map<std::string, std::string>;
 
 struct Nodes {
@@ -71,7 +71,8 @@ struct Angles {
 std::vector<Point> points_of(const Angles& angles, std::size_t n);
 /// The first latitude beyond a pole, allowing for single precision; n if there is none.
 std::size_t first_beyond_pole(const Angles& angles, std::size_t n);
-/// What may be wrong with latitudes beyond the pole: "; ..." or nothing. `to_exchange`: what --columns is told then.
+/// What may be wrong with latitudes beyond the pole: "; ..." or nothing. `to_exchange`: what --columns is
+/// told then.
 std::string hint_beyond_pole(const Angles& angles, std::size_t n, const char* to_exchange);
 
 /// `contents`: bytes that came through a pipe; empty: read the file.

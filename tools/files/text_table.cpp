@@ -87,15 +87,15 @@ class Lines {
     if (at_ == text_.size()) return false;
     begin_ = at_;
     const void* const end = std::memchr(text_.data() + at_, '\n', text_.size() - at_);
-    const std::size_t stop =
-        end == nullptr ? text_.size()
-                       : static_cast<std::size_t>(static_cast<const char*>(end) - text_.data());
+    const std::size_t stop = end == nullptr
+                                 ? text_.size()
+                                 : static_cast<std::size_t>(static_cast<const char*>(end) - text_.data());
     line = text_.substr(at_, stop - at_);
     at_ = std::min(stop + 1, text_.size());
     ++next_;
     return true;
   }
-  std::size_t begin() const { return begin_; }       ///< offset of the line
+  std::size_t begin() const { return begin_; }      ///< offset of the line
   std::size_t number() const { return next_ - 1; }  ///< of the line
 
  private:
@@ -106,7 +106,8 @@ class Lines {
 /// The columns of a line, one after the other.
 class Cells {
  public:
-  Cells(std::string_view line, char separator) : at_(line.data()), end_(at_ + line.size()), separator_(separator) {
+  Cells(std::string_view line, char separator)
+      : at_(line.data()), end_(at_ + line.size()), separator_(separator) {
     if (separator_ == ' ') skip_blanks();
     more_ = separator_ == ' ' ? begins_cell() : true;
   }
@@ -192,7 +193,8 @@ std::string without_doubled_quotes(std::string_view text) {
 /// Without a comment at the end, which numbers can have in a text without header.
 std::string_view without_comment(std::string_view line) { return line.substr(0, line.find_first_of("#!")); }
 
-/// Tabs separate columns only if there is one between any two of the first line; often they are blanks like others.
+/// Tabs separate columns only if there is one between any two of the first line; often they are blanks like
+/// others.
 bool is_separated_by_tabs(std::string_view line) {
   if (line.find('\t') == line.npos) return false;
   double value;
@@ -259,13 +261,17 @@ bool has_place(const std::vector<std::string>& names) {
 }
 
 const char* name_of(char separator) {
-  return separator == ',' ? "commas" : separator == ';' ? "semicolons" : separator == '\t' ? "tabs" : "blanks";
+  return separator == ','    ? "commas"
+         : separator == ';'  ? "semicolons"
+         : separator == '\t' ? "tabs"
+                             : "blanks";
 }
 
 /// Why a line has another number of columns.
 std::string of_other_count(std::string_view line, std::size_t found, const TextLayout& layout) {
+  const bool has_none = layout.separator == ' ' || line.find(layout.separator) == line.npos;
   for (const char other : {';', '\t', ',', ' '})
-    if (other != layout.separator && split(line, other).size() == layout.columns)
+    if (has_none && other != layout.separator && split(line, other).size() == layout.columns)
       return fmt::format("separated by {}, the lines before by {}: use one separator", name_of(other),
                          name_of(layout.separator));
   return fmt::format("found {} where the {} {}", counted(found, layout.names.empty() ? "number" : "column"),
@@ -375,8 +381,11 @@ class Reader {
     if (role == Role::carried) return "";
     const std::string l = lower(word);
     if (role == Role::value ? is_missing(word) : nan_in_places_ && l == "nan") return "";
-    const std::string name = layout_.names.empty() ? "" : fmt::format(" in column '{}'", layout_.name(column));
-    if (word.empty()) return fmt::format("nothing{}: remove the row, or choose --columns", name.empty() ? " between separators" : name);
+    const std::string name =
+        layout_.names.empty() ? "" : fmt::format(" in column '{}'", layout_.name(column));
+    if (word.empty())
+      return fmt::format("nothing{}: remove the row, or choose --columns",
+                         name.empty() ? " between separators" : name);
     if (!name.empty() && l == lower(layout_.names[column])) return "the header line again: remove it";
     return fmt::format("'{}'{} is not a finite number{}", word, name, remedy_for(word));
   }
@@ -407,8 +416,6 @@ char axis_of(const std::string& name) {
 
 TextLayout layout_of(std::string_view text, const std::string& file) {
   TextLayout layout;
-  if (text.substr(0, 2) == "\xFF\xFE" || text.substr(0, 2) == "\xFE\xFF")
-    fail(file, 1, "UTF-16: save the file as UTF-8");
   const std::size_t mark = text.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0;
   Lines lines(text.substr(mark), 1);
   std::string_view line, comment;
@@ -425,8 +432,10 @@ TextLayout layout_of(std::string_view text, const std::string& file) {
     const std::vector<std::string> cells = split(plain, layout.separator);
     if (is_header(cells)) {
       if (layout.header_line > 0)
-        fail(file, lines.number(), fmt::format("a second header line, after that in line {}: remove one of them, or put # before it",
-                                               layout.header_line));
+        fail(
+            file, lines.number(),
+            fmt::format("a second header line, after that in line {}: remove one of them, or put # before it",
+                        layout.header_line));
       layout.header_line = lines.number();
       // A header can have # in its names.
       layout.separator = separator_of(content);
@@ -445,15 +454,18 @@ TextLayout layout_of(std::string_view text, const std::string& file) {
     layout.columns = layout.header_line > 0 ? layout.names.size() : cells.size();
   }
   if (!has_row) {
-    if (layout.header_line > 0) fail(file, layout.header_line, "a header line, and no row of numbers after it: add the nodes");
+    if (layout.header_line > 0)
+      fail(file, layout.header_line, "a header line, and no row of numbers after it: add the nodes");
     throw std::runtime_error(file + ": no points: expected lines 'lon lat' or 'x y z'");
   }
   if (layout.header_line == 0 && !comment.empty()) {
     const char separator = layout.separator;
-    if (layout.separator == ' ' || split(comment, layout.separator).size() != layout.columns) layout.separator = ' ';
+    if (layout.separator == ' ' || split(comment, layout.separator).size() != layout.columns)
+      layout.separator = ' ';
     set_names(layout, split(comment, layout.separator));
     layout.separator = separator;
-    if (layout.names.size() != layout.columns || !has_place(layout.names)) layout.names.clear(), layout.units.clear();
+    if (layout.names.size() != layout.columns || !has_place(layout.names))
+      layout.names.clear(), layout.units.clear();
   }
   return layout;
 }
@@ -530,8 +542,8 @@ std::vector<std::size_t> columns_named(const std::string& wanted, const TextLayo
     find_all([&](const std::string& name) { return name == word; });
     if (found.empty()) find_all([&](const std::string& name) { return lower(name) == lower(word); });
     if (found.size() > 1)
-      refuse(fmt::format("the header names column '{}' twice, {} and {}: choose columns by number", word, found[0] + 1,
-                         found[1] + 1));
+      refuse(fmt::format("the header names column '{}' twice, {} and {}: choose columns by number", word,
+                         found[0] + 1, found[1] + 1));
     if (double number = 0; found.empty() && is_number(word, number)) {
       if (number != std::floor(number) || number < 1 || number > static_cast<double>(layout.columns))
         refuse(fmt::format("there is no column {}: there are {}", word, layout.columns));

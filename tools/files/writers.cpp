@@ -5,7 +5,6 @@
 #include <sstream>
 #include <stdexcept>
 
-
 namespace files {
 namespace {
 

@@ -46,9 +46,8 @@ void convert(Options& options) {
     }
     file.commit();
   });
-  progress.finish(
-      fmt::format("{} ({}), {}", counted(nodes.points.size(), "node"), nodes.kind,
-                  counted(nodes.triangles.size(), "triangle")));
+  progress.finish(fmt::format("{} ({}), {}", counted(nodes.points.size(), "node"), nodes.kind,
+                              counted(nodes.triangles.size(), "triangle")));
 }
 
 }  // namespace

@@ -142,8 +142,7 @@ void info(const Options& options) {
                                                       duplicates.size(), nodes.place(duplicates[0].node)));
   line("triangles", fmt::format("{}", f.triangles));
   line("arcs", fmt::format("{}", f.arcs));
-  line("boundary",
-       f.boundary == 0 ? "none: the triangles cover the sphere" : counted(f.boundary, "node"));
+  line("boundary", f.boundary == 0 ? "none: the triangles cover the sphere" : counted(f.boundary, "node"));
   line("neighbours",
        fmt::format("{} ({}) to {} ({})", f.fewest.value, nodes.place(given_number(f.fewest.first) - 1),
                    f.most.value, nodes.place(given_number(f.most.first) - 1)));

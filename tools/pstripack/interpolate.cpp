@@ -122,7 +122,8 @@ files::Nodes read_points(const Options& options) {
   read.with_columns = true;
   files::Nodes places = read_places(options.points, read);
   if (!places.given.empty()) return places;
-  for (const auto& [name, component] : {std::pair("x", &files::Point::x), std::pair("y", &files::Point::y), std::pair("z", &files::Point::z)}) {
+  for (const auto& [name, component] : {std::pair("x", &files::Point::x), std::pair("y", &files::Point::y),
+                                        std::pair("z", &files::Point::z)}) {
     if (find(places.columns, name) != nullptr) continue;
     places.columns.push_back({name, "Cartesian coordinate of the place as it was given"});
     for (const files::Point& p : places.points) places.columns.back().numbers.push_back(p.*component);
@@ -146,7 +147,8 @@ void interpolate(Options& options) {
     if (!options.points.empty()) return read_points(options);
     files::Nodes all;
     all.given = grid.places();
-    all.points = files::points_of({all.given.lon.data(), all.given.lat.data(), 1, true, true}, all.given.lon.size());
+    all.points =
+        files::points_of({all.given.lon.data(), all.given.lat.data(), 1, true, true}, all.given.lon.size());
     return all;
   });
   const Interpolation interpolation = progress.step("triangulating", [&] {

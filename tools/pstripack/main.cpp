@@ -43,7 +43,8 @@ std::string history_of(int argc, char** argv) {
     const std::string word = argv[i];
     if (word == "--threads") ++i;
     if (word == "-q" || word == "--quiet" || word.rfind("--threads", 0) == 0) continue;
-    text += word.empty() || word.find_first_of(" \t\n'\"") != word.npos ? fmt::format(" '{}'", word) : " " + word;
+    text +=
+        word.empty() || word.find_first_of(" \t\n'\"") != word.npos ? fmt::format(" '{}'", word) : " " + word;
   }
   return text + " (pstripack " PSTRIPACK_VERSION ")";
 }

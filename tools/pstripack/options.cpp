@@ -86,17 +86,19 @@ void add_reading(CLI::App& app, files::ReadOptions& read) {
   add_choice(app, "--coordinates", read.coordinates,
              {{"xyz", Coordinates::xyz}, {"lonlat", Coordinates::lonlat}},
              "xyz: three columns, any lengths; lonlat: two columns [by their names or number]");
-  app.add_option("--columns", read.columns,
-                 "lon,lat or x,y,z, then the columns to keep: names, or numbers of text [all that the file has]")
+  app.add_option(
+         "--columns", read.columns,
+         "lon,lat or x,y,z, then the columns to keep: names, or numbers of text [all that the file has]")
       ->type_name("NAMES");
   add_choice(app, "--units", read.units, {{"degrees", Units::degrees}, {"radians", Units::radians}},
              "degrees or radians, where the file does not say");
 }
 
 void add_duplicates(CLI::App& app, Input& input) {
-  add_choice(app, "--duplicates", input.duplicates,
-             {{"error", Duplicates::error}, {"first", Duplicates::first}, {"mean", Duplicates::mean}},
-             "nodes in the same place: error, first (keep it) or mean (of their values, at the first) [error]");
+  add_choice(
+      app, "--duplicates", input.duplicates,
+      {{"error", Duplicates::error}, {"first", Duplicates::first}, {"mean", Duplicates::mean}},
+      "nodes in the same place: error, first (keep it) or mean (of their values, at the first) [error]");
   app.add_flag("--drop-duplicates", input.drop_duplicates, "the same as --duplicates first");
 }
 
@@ -150,7 +152,8 @@ void take_means(Column& column, const std::vector<files::Duplicate>& duplicates)
     group.push_back(column.numbers[d.node]);
   }
   for (auto& [first, group] : groups) {
-    group.erase(std::remove_if(group.begin(), group.end(), [](double v) { return std::isnan(v); }), group.end());
+    group.erase(std::remove_if(group.begin(), group.end(), [](double v) { return std::isnan(v); }),
+                group.end());
     if (group.empty()) continue;
     double sum = 0;
     for (const double v : group) sum += v;

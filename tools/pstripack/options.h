@@ -33,7 +33,8 @@ std::string counted(std::size_t n, const std::string& thing);
 /// For options that are whole numbers: takes 1e6, too.
 CLI::Validator whole_number();
 
-/// What becomes of nodes in the same place: an error; the first one stays; or it gets the mean of their values.
+/// What becomes of nodes in the same place: an error; the first one stays; or it gets the mean of their
+/// values.
 enum class Duplicates { error, first, mean };
 
 /// IN and how to read it.
@@ -95,8 +96,8 @@ void add_plot(CLI::App& app, Command& chosen);
 /// Options of the whole program: --quiet, --threads, ranks.
 struct Global {
   bool quiet = false;
-  int threads = 0;  ///< 0: as OpenMP says
-  int ranks = 1;    ///< number of ranks that triangulated
+  int threads = 0;      ///< 0: as OpenMP says
+  int ranks = 1;        ///< number of ranks that triangulated
   std::string command;  ///< the command line, for the history of files
 };
 Global& global();

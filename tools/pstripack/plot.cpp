@@ -138,9 +138,8 @@ void plot(Options& options) {
     write(file, kind, svg);
     file.commit();
   });
-  progress.finish(
-      fmt::format("{} ({}), {}", counted(nodes.points.size(), "node"), nodes.kind,
-                  counted(mesh.triangles(), "triangle")));
+  progress.finish(fmt::format("{} ({}), {}", counted(nodes.points.size(), "node"), nodes.kind,
+                              counted(mesh.triangles(), "triangle")));
 }
 
 }  // namespace

@@ -52,8 +52,8 @@ std::unique_ptr<methods::Density> density_in_file(const Options& options) {
   drop_duplicates(nodes, options.start);
   for (std::size_t i = 0; i < nodes.value.numbers.size(); ++i)
     if (!(nodes.value.numbers[i] > 0))
-      throw std::runtime_error(
-          fmt::format("{}: {}: density {}: must be positive", nodes.file, nodes.place(i), nodes.value.numbers[i]));
+      throw std::runtime_error(fmt::format("{}: {}: density {}: must be positive", nodes.file, nodes.place(i),
+                                           nodes.value.numbers[i]));
   try {
     return methods::density_between(nodes.points, nodes.value.numbers);
   } catch (const files::NoMesh& e) {

@@ -166,7 +166,7 @@ duplicates)
   { octahedron; echo "1 1e-7 0"; } > near.txt
   "$PSTRIPACK" -q info near.txt > info.txt
   grep -q "^tightest pair *1e-07 rad, .*: node 1 (line 1) and node 7 (line 7)$" info.txt || fail "$(cat info.txt)"
-  grep -q "^near duplicates *1 pairs" info.txt || fail "$(cat info.txt)"
+  grep -q "^near duplicates *1 pair closer" info.txt || fail "$(cat info.txt)"
   ;;
 
 pictures)
@@ -309,8 +309,8 @@ interpolate)
   { sed -n 1p region.txt; sed '5s/[^ ]*$/nan/' region.txt; } > odd.txt
   "$PSTRIPACK" -q points cap:0.3 100 -o places.txt
   "$PSTRIPACK" interpolate odd.txt --skip-missing --drop-duplicates --to-points places.txt -o out.txt 2> err
-  grep -q "odd.txt: 1 nodes without value left out" err || fail "$(cat err)"
-  grep -q "odd.txt: 1 nodes dropped that coincide" err || fail "$(cat err)"
+  grep -q "odd.txt: 1 node without value left out" err || fail "$(cat err)"
+  grep -q "odd.txt: 1 node dropped that coincides with earlier ones" err || fail "$(cat err)"
   awk '!/#/ && NR != 6 && $3 != NR - 1' out.txt > wrong  # all but the fifth, which had none
   [ ! -s wrong ] || fail "$(cat wrong)"
   ;;
