@@ -193,17 +193,28 @@ std::string without_doubled_quotes(std::string_view text) {
 /// Without a comment at the end, which numbers can have in a text without header.
 std::string_view without_comment(std::string_view line) { return line.substr(0, line.find_first_of("#!")); }
 
-/// Tabs separate columns only if there is one between any two of the first line; often they are blanks like
-/// others.
+bool is_header(const std::vector<std::string>& cells) {
+  bool has_word = false;
+  double value;
+  for (const std::string& cell : cells) {
+    if (is_number(cell, value) || has_hemisphere(cell) || lower(cell) == "nan") return false;
+    has_word = has_word || (!cell.empty() && std::strchr("+-.0123456789", cell[0]) == nullptr);
+  }
+  return has_word;
+}
+
+/// Tabs separate columns only if there is one between any two of the first line, which are not all numbers;
+/// else they are blanks like others.
 bool is_separated_by_tabs(std::string_view line) {
   if (line.find('\t') == line.npos) return false;
+  const std::vector<std::string> cells = split(line, '\t');
   double value;
-  for (const std::string& cell : split(line, '\t')) {
+  for (const std::string& cell : cells) {
     if (cell.empty()) return false;
     const std::vector<std::string> words = split(cell, ' ');
     if (words.size() > 1 && is_number(words[0], value) && is_number(words[1], value)) return false;
   }
-  return true;
+  return is_header(cells) || split(line, ' ').size() != cells.size();
 }
 
 char separator_of(std::string_view line) {
@@ -217,16 +228,6 @@ char separator_of(std::string_view line) {
   }
   if (is_separated_by_tabs(line)) return '\t';
   return comma ? ',' : ' ';
-}
-
-bool is_header(const std::vector<std::string>& cells) {
-  bool has_word = false;
-  double value;
-  for (const std::string& cell : cells) {
-    if (is_number(cell, value) || has_hemisphere(cell) || lower(cell) == "nan") return false;
-    has_word = has_word || (!cell.empty() && std::strchr("+-.0123456789", cell[0]) == nullptr);
-  }
-  return has_word;
 }
 
 /// Names and units. In text separated by blanks, the unit is a word of its own.
