@@ -19,6 +19,13 @@ const Column* find(const Columns& columns, const std::string& name) {
   return found == columns.end() ? nullptr : &*found;
 }
 
+void make_names_differ(Columns& columns, std::vector<std::string> taken) {
+  for (Column& c : columns) {
+    while (std::find(taken.begin(), taken.end(), c.name) != taken.end()) c.name += "_given";
+    taken.push_back(c.name);
+  }
+}
+
 Column whole_numbers(std::string name, std::string long_name, std::vector<double> numbers) {
   Column column{std::move(name), std::move(long_name)};
   column.numbers = std::move(numbers);

@@ -23,6 +23,9 @@ using Columns = std::vector<Column>;
 
 const Column* find(const Columns& columns, const std::string& name);
 
+/// Puts `_given` behind names, of these columns, that others before them or the words in `taken` have.
+void make_names_differ(Columns& columns, std::vector<std::string> taken);
+
 /// A column of whole numbers.
 Column whole_numbers(std::string name, std::string long_name, std::vector<double> numbers);
 

@@ -407,21 +407,17 @@ void add_columns(Faces& faces, const Mesh& mesh) {
                              });
   Columns& of_nodes = are_cells ? faces.columns_of_faces : faces.columns_of_points;
   of_nodes = mesh.columns;
-  const auto make_room = [&](const Column& ours) {
-    const auto is_ours = [&](const Column& c) {
-      return c.name == ours.name && c.long_name == ours.long_name;
-    };
-    of_nodes.erase(std::remove_if(of_nodes.begin(), of_nodes.end(), is_ours), of_nodes.end());
-    for (Column& c : of_nodes)
-      if (c.name == ours.name) c.name += "_given";
+  Column degree = whole_numbers("degree", "number of neighbours of the node", std::move(degrees));
+  const auto is_ours = [&](const Column& c) {
+    return (c.name == degree.name && c.long_name == degree.long_name) ||
+           (c.name == area.name && c.long_name == area.long_name) ||
+           (c.name == area_km2.name && c.long_name == area_km2.long_name);
   };
-  const auto add = [&](Columns& to, Column column) {
-    make_room(column);
-    to.push_back(std::move(column));
-  };
-  add(of_nodes, whole_numbers("degree", "number of neighbours of the node", std::move(degrees)));
-  add(faces.columns_of_faces, std::move(area));
-  add(faces.columns_of_faces, std::move(area_km2));
+  of_nodes.erase(std::remove_if(of_nodes.begin(), of_nodes.end(), is_ours), of_nodes.end());
+  make_names_differ(of_nodes, {degree.name, area.name, area_km2.name});
+  of_nodes.push_back(std::move(degree));
+  faces.columns_of_faces.push_back(std::move(area));
+  faces.columns_of_faces.push_back(std::move(area_km2));
 }
 
 }  // namespace files

@@ -191,7 +191,14 @@ std::string without_doubled_quotes(std::string_view text) {
 }
 
 /// Without a comment at the end, which numbers can have in a text without header.
-std::string_view without_comment(std::string_view line) { return line.substr(0, line.find_first_of("#!")); }
+std::string_view without_comment(std::string_view line) {
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"') quoted = !quoted;
+    if (!quoted && (line[i] == '#' || line[i] == '!')) return line.substr(0, i);
+  }
+  return line;
+}
 
 bool is_header(const std::vector<std::string>& cells) {
   bool has_word = false;

@@ -215,6 +215,20 @@ void write_nodes(const OutputFile& file, Format format, const std::vector<Point>
   out.close();
 }
 
+namespace {
+
+/// As text_table.h reads it.
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"') result += c;
+    result += c == '\n' ? ' ' : c;
+  }
+  return result + '"';
+}
+
+}  // namespace
+
 void write_field(const OutputFile& file, const LonLat& places, const Field& field) {
   TextWriter out(file);
   const auto name = [](const Column& c) {
@@ -227,7 +241,7 @@ void write_field(const OutputFile& file, const LonLat& places, const Field& fiel
     out.print("{} {} {}", places.lon[i], places.lat[i], field.value.numbers[i]);
     for (const Column& c : field.columns)
       if (c.is_text())
-        out.print(" \"{}\"", c.texts[i]);
+        out.print(" {}", quoted(c.texts[i]));
       else
         out.print(" {}", c.numbers[i]);
     out.print("\n");

@@ -178,6 +178,7 @@ void interpolate(Options& options) {
     if (field.value.name.empty()) field.value.name = "value";
     field.value.numbers = std::move(result.values);
     field.value.whole = false;
+    make_names_differ(field.columns, {"lon", "lat", field.value.name});
     add_history(field.notes);
     if (netcdf && options.points.empty())
       write_netcdf_grid(file, grid, field);
