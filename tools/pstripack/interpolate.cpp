@@ -201,7 +201,7 @@ void add_interpolate(CLI::App& app, Command& chosen) {
       ->required()
       ->type_name("");
   sub->add_option("--variable", options->input.read.variable,
-                  "name (NetCDF) or column (text, from 1) [the column after the coordinates]")
+                  "of the value: name, or in text column from 1 [the column after the coordinates]")
       ->type_name("NAME");
   sub->add_option("--to-points", options->points, "file of points")->type_name("FILE");
   sub->add_option("--to-grid", options->grid, "cell centres of a grid, for example 180x360")
@@ -227,8 +227,9 @@ void add_interpolate(CLI::App& app, Command& chosen) {
       ->type_name("WORD")
       ->check(CLI::IsMember({"text", "netcdf"}).description(""));
   sub->footer(
-      R"(VALUES is text with `lon lat value` or `x y z value` on each line, or NetCDF. `nan` and _FillValue are missing
-values, in input and output. --from and --coordinates apply to VALUES, --units to VALUES and the points.)");
+      R"(VALUES is text with `lon lat value` or `x y z value` on each line, a table with a header line, or NetCDF. `nan` and
+_FillValue are missing values, in input and output. --from, --columns and --coordinates apply to VALUES, --units to
+VALUES and the points. The columns of the points follow the value.)");
   sub->callback([=, &chosen] { chosen = [=] { interpolate(*options); }; });
 }
 

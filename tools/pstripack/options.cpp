@@ -88,7 +88,7 @@ void add_reading(CLI::App& app, files::ReadOptions& read) {
              "xyz: three columns, any lengths; lonlat: two columns [by their names or number]");
   app.add_option(
          "--columns", read.columns,
-         "lon,lat or x,y,z, then the columns to keep: names, or numbers of text [all that the file has]")
+         "lon,lat or x,y,z, then other columns to keep: names, or in text numbers [all]")
       ->type_name("NAMES");
   add_choice(app, "--units", read.units, {{"degrees", Units::degrees}, {"radians", Units::radians}},
              "degrees or radians, where the file does not say");
@@ -98,7 +98,7 @@ void add_duplicates(CLI::App& app, Input& input) {
   add_choice(
       app, "--duplicates", input.duplicates,
       {{"error", Duplicates::error}, {"first", Duplicates::first}, {"mean", Duplicates::mean}},
-      "nodes in the same place: error, first (keep it) or mean (of their values, at the first) [error]");
+      "nodes in the same place: error, first (keep it) or mean (of their values) [error]");
   app.add_flag("--drop-duplicates", input.drop_duplicates, "the same as --duplicates first");
 }
 
