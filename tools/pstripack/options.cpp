@@ -86,19 +86,17 @@ void add_reading(CLI::App& app, files::ReadOptions& read) {
   add_choice(app, "--coordinates", read.coordinates,
              {{"xyz", Coordinates::xyz}, {"lonlat", Coordinates::lonlat}},
              "xyz: three columns, any lengths; lonlat: two columns [by their names or number]");
-  app.add_option(
-         "--columns", read.columns,
-         "lon,lat or x,y,z, then other columns to keep: names, or in text numbers [all]")
+  app.add_option("--columns", read.columns,
+                 "lon,lat or x,y,z, then other columns to keep: names, or in text numbers [all]")
       ->type_name("NAMES");
   add_choice(app, "--units", read.units, {{"degrees", Units::degrees}, {"radians", Units::radians}},
              "degrees or radians, where the file does not say");
 }
 
 void add_duplicates(CLI::App& app, Input& input) {
-  add_choice(
-      app, "--duplicates", input.duplicates,
-      {{"error", Duplicates::error}, {"first", Duplicates::first}, {"mean", Duplicates::mean}},
-      "nodes in the same place: error, first (keep it) or mean (of their values) [error]");
+  add_choice(app, "--duplicates", input.duplicates,
+             {{"error", Duplicates::error}, {"first", Duplicates::first}, {"mean", Duplicates::mean}},
+             "nodes in the same place: error, first (keep it) or mean (of their values) [error]");
   app.add_flag("--drop-duplicates", input.drop_duplicates, "the same as --duplicates first");
 }
 
@@ -218,13 +216,13 @@ std::runtime_error no_mesh_of(const Nodes& nodes, const files::NoMesh& why) {
   return std::runtime_error(nodes.file + ": " + why.what());
 }
 
-files::Mesh triangulate(const Nodes& nodes) {
+files::Mesh triangulate(Nodes& nodes) {
   try {
     files::Mesh mesh = files::triangulate(nodes.points);
-    mesh.given = nodes.given;
-    mesh.density = nodes.density;
-    mesh.columns = nodes.columns;
-    mesh.notes = nodes.notes;
+    mesh.given = std::move(nodes.given);
+    mesh.density = std::move(nodes.density);
+    mesh.columns = std::move(nodes.columns);
+    mesh.notes = std::move(nodes.notes);
     return mesh;
   } catch (const files::NoMesh& e) {
     throw no_mesh_of(nodes, e);

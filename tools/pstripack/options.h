@@ -81,8 +81,8 @@ void add_history(files::Notes& notes);
 /// The error for nodes without a triangulation: file, nodes and remedy.
 std::runtime_error no_mesh_of(const files::Nodes& nodes, const files::NoMesh& why);
 
-/// Their triangulation; errors name file and nodes.
-files::Mesh triangulate(const files::Nodes& nodes);
+/// Their triangulation, which takes over their columns and notes; errors name file and nodes.
+files::Mesh triangulate(files::Nodes& nodes);
 
 void add_triangulate(CLI::App& app, Command& chosen);
 void add_voronoi(CLI::App& app, Command& chosen);

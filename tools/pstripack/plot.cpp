@@ -113,7 +113,7 @@ void plot(Options& options) {
   options.input.read.with_triangles = !options.input.drops();  // their numbers would be others
   files::OutputFile file(options.file);
   Progress progress;
-  const files::Nodes nodes = progress.step("reading", [&] { return read_nodes(options.input); });
+  files::Nodes nodes = progress.step("reading", [&] { return read_nodes(options.input); });
   const files::Mesh mesh = progress.step("triangulating", [&] {
     if (nodes.triangles.empty()) return triangulate(nodes);
     try {
