@@ -20,7 +20,8 @@ function __pstripack_words
     if test $name = pstripack-config; and test "$previous" = --abi
         $program --abi 2>/dev/null | cut -d ' ' -f 1
     else if string match -q -- '-*' "$current"; or test $name = pstripack-config
-        $program $command --help 2>/dev/null | grep -oE -e '(^|[][ ,"])--?[a-z][a-z0-9-]*' | grep -oE -e '--?[a-z][a-z0-9-]*' | sort -u
+        $program $command --help 2>/dev/null | grep -oE -e '(^|[][ ,"])--?[a-z][a-z0-9-]*' |
+            grep -oE -e '--?[a-z][a-z0-9-]*' | sort -u
     else if test -z "$command"
         printf '%s\n' $commands
     end
