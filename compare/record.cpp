@@ -14,8 +14,10 @@
 #include <cstring>
 #include <exception>
 #include <filesystem>
+#include <sstream>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "calls.h"
@@ -26,16 +28,30 @@ namespace {
 
 constexpr int kNotFound = 127;  // as in a shell
 
+/// Why the command cannot be started, as exec searches it; 0: it can. Known before an older recording is
+/// lost.
+int error_of(const std::string& command) {
+  if (command.find('/') != command.npos) return access(command.c_str(), X_OK) == 0 ? 0 : errno;
+  const char* const path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr ? "/bin:/usr/bin" : path);
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (access(((folder.empty() ? "." : folder) + "/" + command).c_str(), X_OK) == 0) return 0;
+  return ENOENT;
+}
+
+int cannot_start(const std::string& command, int error) {
+  fmt::print(stderr, "stripack-compare: {}: {}\n", command, std::strerror(error));
+  return kNotFound;
+}
+
 /// The exit code, 128 + signal if a signal ended the model. ^C goes to the model only.
 int run(std::vector<std::string> command) {
   std::vector<char*> arguments;
   for (std::string& word : command) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   pid_t process;
-  if (const int error = posix_spawnp(&process, arguments[0], nullptr, nullptr, arguments.data(), environ)) {
-    fmt::print(stderr, "stripack-compare: {}: {}\n", command[0], std::strerror(error));
-    return kNotFound;
-  }
+  if (const int error = posix_spawnp(&process, arguments[0], nullptr, nullptr, arguments.data(), environ))
+    return cannot_start(command[0], error);
   signal(SIGINT, SIG_IGN);
   signal(SIGQUIT, SIG_IGN);
   int status = 0;
@@ -69,13 +85,18 @@ void tell_what_is_in(const std::string& file) {
 int record(const RecordOptions& options) {
   if (!CallReader::looks_like_recording(options.file))
     throw std::runtime_error(options.file + " exists and is no recording: give another --output");
+  if (const int error = error_of(options.command[0])) return cannot_start(options.command[0], error);
   const int file = open(options.file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (file < 0)
     throw std::runtime_error(fmt::format("cannot write {}: {}", options.file, std::strerror(errno)));
   close(file);
   setenv("PSTRIPACK_CHECK", std::filesystem::absolute(options.file).c_str(), 1);
   const int code = run(options.command);
-  if (code == kNotFound) return code;
+  if (code == kNotFound) {
+    std::error_code ignored;
+    if (std::filesystem::is_empty(options.file, ignored)) std::filesystem::remove(options.file, ignored);
+    return code;
+  }
   try {
     tell_what_is_in(options.file);
   } catch (const std::exception& e) {

@@ -206,7 +206,7 @@ int main(int argc, char** argv) {
   comparison::ReplayOptions replay_options;
   CLI::App app(kDescription, "stripack-compare");
   app.footer(footer);
-  app.set_version_flag("--version", pstripack_version());
+  app.set_version_flag("--version", std::string("stripack-compare ") + pstripack_version());
   add_run_options(app, options);
   CLI::App* const run = app.add_subcommand("run", "compare the libraries");
   add_run_options(*run, options);

@@ -52,7 +52,17 @@ record_refuses)
   expect 2 "$COMPARE" record
   expect 2 "$COMPARE" record -o /no/such/folder/calls.rec -- true
   says err "cannot write /no/such/folder/calls.rec"
-  expect 127 "$COMPARE" record -- ./missing
+  # A command that cannot be started leaves no file, and an older recording as it was.
+  expect 127 "$COMPARE" record -o new.rec -- ./missing
+  expect 127 "$COMPARE" record -o new.rec -- no-such-program
+  printf '#!/no/such/interpreter\n' > script
+  chmod +x script
+  expect 127 "$COMPARE" record -o new.rec -- ./script
+  [ ! -e new.rec ] || fail "new.rec was left"
+  recorded old.rec random 100
+  cp old.rec copy.rec
+  expect 127 "$COMPARE" record -o old.rec -- ./missing
+  cmp old.rec copy.rec
   says err "./missing: No such file"
   ;;
 lists)

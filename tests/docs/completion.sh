@@ -1,26 +1,35 @@
 #!/bin/bash
-# In bash every command and option on a tool's man page is offered, and no other.
-# Usage: completion.sh COMPLETION MAN1_DIR TOOL...
+# In a shell (bash, zsh or fish) every command and option on a tool's man page is offered, and no other.
+# Usage: completion.sh SHELL COMPLETION MAN1_DIR TOOL...
 set -eu
+shell=$1 completion=$2 pages=$3
+shift 3
+kind=$(basename "$shell")
 # shellcheck disable=SC1090
-source "$1"
-pages=$2
-shift 2
+[ "$kind" != bash ] || source "$completion"
 
 # offered WORD...: what completes the last of the words of a command line
 offered() {
-  COMP_WORDS=("$@")
-  COMP_CWORD=$(($# - 1))
-  COMPREPLY=()
-  _pstripack_completion "$1" "${!#}" "${@:$#-1:1}"
-  printf '%s\n' "${COMPREPLY[@]}" | sort -u
+  case $kind in
+    bash)
+      COMP_WORDS=("$@")
+      COMP_CWORD=$(($# - 1))
+      COMPREPLY=()
+      _pstripack_completion "$1" "${!#}" "${@:$#-1:1}"
+      printf '%s\n' "${COMPREPLY[@]}" ;;
+    # These shells take those that begin with the word themselves.
+    zsh) "$shell" -f -c 'source "$1"; shift; _pstripack_words "$@"' zsh "$completion" "$@" | beginning_with "${!#}" ;;
+    fish) "$shell" --no-config -c 'source $argv[1]; __pstripack_words $argv[2..-1]' "$completion" "$@" |
+      beginning_with "${!#}" ;;
+  esac | sort -u
 }
+beginning_with() { awk -v begin="$1" 'index($0, begin) == 1'; }
 # is EXPECTED WORD...
 is() {
   expected=$1
   shift
-  found=$(offered "$@" | tr '\n' ' ')
-  [ "$found" = "$expected " ] || { echo "$*: offered '$found', expected '$expected '" >&2; exit 1; }
+  found=$(offered "$@" | grep . | paste -s -d ' ' || true)
+  [ "$found" = "$expected" ] || { echo "$*: offered '$found', expected '$expected'" >&2; exit 1; }
 }
 
 for tool in "$@"; do
@@ -29,16 +38,20 @@ for tool in "$@"; do
   for command in "" $commands; do
     # shellcheck disable=SC2086  # none, or a word
     offered "$tool" $command -
-  done | sort -u | grep . > "offered_by_$name"
+  done | sort -u | grep . > "offered_by_${kind}_$name"
   sed 's/\\-/-/g; s/\\f[A-Z]//g' "$pages/$name.1" | grep -oE -e '(^|[][ ,"])--?[a-z][a-z0-9-]*' |
-    grep -oE -e '--?[a-z][a-z0-9-]*' | sort -u > "on_the_page_of_$name"
-  diff "offered_by_$name" "on_the_page_of_$name"
+    grep -oE -e '--?[a-z][a-z0-9-]*' | sort -u > "on_the_page_of_${kind}_$name"
+  diff "offered_by_${kind}_$name" "on_the_page_of_${kind}_$name"
 
   case $name in
     pstripack)
       is 'plot points' "$tool" p
       is '--density --density-file' "$tool" scvt -o mesh.nc --dens
-      is '' "$tool" plot mesh ;;
+      is '' "$tool" plot mesh
+      if [ "$kind" = fish ]; then  # asks it as the prompt does
+        found=$("$shell" --no-config -c 'source $argv[1]; complete -C $argv[2]' "$completion" "$tool triang")
+        [ "$found" = triangulate ] || { echo "fish completes '$found'" >&2; exit 1; }
+      fi ;;
     stripack-compare)
       is 'record replay run' "$tool" r
       is '--original --original-abi' "$tool" replay calls.rec --orig ;;
@@ -46,5 +59,5 @@ for tool in "$@"; do
       is 'i8' "$tool" --abi i
       is '--static --switch-dir' "$tool" --s ;;
   esac
-  echo "$name: $(wc -l < "offered_by_$name") options, commands: ${commands//$'\n'/ }"
+  echo "$name: $(wc -l < "offered_by_${kind}_$name") options, commands: ${commands//$'\n'/ }"
 done

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "files/nodes.h"
 #include "input.h"
 #include "list_files.h"
 #include "mesh_files.h"
@@ -52,6 +53,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     read([&] {
       for (const auto& p : point_sets::read(file))
         require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z), "a node that is not finite");
+    });
+    read([&] {
+      files::ReadOptions options;
+      options.container = files::Container::text;
+      options.units = files::Units::degrees;
+      options.with_columns = true;
+      const files::Nodes nodes = files::read(file, options);
+      for (const files::Column& column : nodes.columns)
+        require(column.size() == nodes.points.size(), "a column of another length than the nodes");
     });
   } else if (reader == 1) {
     const std::string file = folder.write("calls", text);

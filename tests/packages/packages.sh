@@ -64,8 +64,9 @@ has pstripack "libpstripack$soname \(= $version" mpi bin/pstripack bin/stripack-
 has pstripack-doc '^$' . share/doc/pstripack/README.md share/doc/pstripack/docs/relink.md \
   share/doc/pstripack/docs/clients/mpas.md share/doc/pstripack/examples/fortran77/mesh.f
 completions=share/bash-completion/completions
-has libpstripack-dev . mpi "$completions/pstripack-config"
-has pstripack . mpi "$completions/pstripack" "$completions/stripack-compare"
+fish=share/fish/vendor_completions.d zsh=share/zsh/vendor-completions
+has libpstripack-dev . mpi "$completions/pstripack-config" "$fish/pstripack-config.fish" "$zsh/_pstripack-config"
+has pstripack . mpi "$completions/pstripack" "$completions/stripack-compare" "$fish/pstripack.fish" "$zsh/_pstripack"
 
 # Every file of `cmake --install` but the modulefile, once.
 for file in ./*.deb; do

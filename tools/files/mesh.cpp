@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/parallel_for.h"
+#include "files/measures.h"
 #include "lists/limits.h"
 #include "mesh/delaunay.h"
 #include "stripack/list_queries.h"
@@ -26,8 +27,8 @@ Trmesh& the_trmesh() {
   return trmesh;
 }
 
-struct Columns {
-  explicit Columns(const std::vector<Point>& points) : x(points.size()), y(x.size()), z(x.size()) {
+struct Components {
+  explicit Components(const std::vector<Point>& points) : x(points.size()), y(x.size()), z(x.size()) {
     for (std::size_t i = 0; i < points.size(); ++i)
       x[i] = points[i].x, y[i] = points[i].y, z[i] = points[i].z;
   }
@@ -148,7 +149,7 @@ Mesh triangulate(std::vector<Point> points) {
   check_count(n);
   if (pstripack::left(points[0], points[1], points[2]) == 0)
     return triangulate_in_order(points, order_with_corners_first(points));
-  const Columns c(points);
+  const Components c(points);
   Mesh mesh = empty_mesh(std::move(points));
   const pstripack::TrmeshResult result =
       the_trmesh()({static_cast<std::int32_t>(n),
@@ -161,20 +162,25 @@ Mesh triangulate(std::vector<Point> points) {
   return mesh;
 }
 
-std::vector<std::size_t> duplicates(const std::vector<Point>& points) {
+std::vector<Duplicate> duplicates(const std::vector<Point>& points) {
   check_count(points.size());
   three_corners(points);
   pstripack::Workspace workspace(pstripack::workspace_bytes(points.size()));
   const pstripack::Hull hull = pstripack::delaunay(points.data(), points.size(), workspace);
-  std::map<std::size_t, std::size_t> earliest;  // for each inserted node the first node in its direction
-  std::vector<std::size_t> later;
+  std::map<std::size_t, std::vector<std::size_t>> groups;  // by their inserted node
   for (const auto& [in, out] : hull.coincident) {
-    const auto i = static_cast<std::size_t>(in), o = static_cast<std::size_t>(out);
-    std::size_t& first = earliest.emplace(i, i).first->second;
-    later.push_back(std::max(first, o));
-    first = std::min(first, o);
+    std::vector<std::size_t>& group = groups[static_cast<std::size_t>(in)];
+    if (group.empty()) group.push_back(static_cast<std::size_t>(in));
+    group.push_back(static_cast<std::size_t>(out));
   }
-  std::sort(later.begin(), later.end());
+  std::vector<Duplicate> later;
+  for (const auto& [inserted, group] : groups) {
+    const std::size_t first = *std::min_element(group.begin(), group.end());
+    for (const std::size_t node : group)
+      if (node != first) later.push_back({node, first});
+  }
+  std::sort(later.begin(), later.end(),
+            [](const Duplicate& a, const Duplicate& b) { return a.node < b.node; });
   return later;
 }
 
@@ -219,12 +225,36 @@ std::size_t Mesh::triangles() const {
 }
 
 std::vector<std::int32_t> triangles_of(const Mesh& mesh) {
-  std::vector<std::int32_t> triangles(3 * (2 * mesh.points.size() - 4));
-  std::int32_t count = 0;
-  if (pstripack::triangle_list(mesh.lists(), 3, count, triangles.data()) !=
-      pstripack::TriangleListStatus::done)
-    throw NoMesh("the lists are broken");
-  triangles.resize(3 * static_cast<std::size_t>(count));
+  const pstripack::ListReader<std::int32_t> reader(mesh.lists());
+  const std::size_t n = mesh.points.size();
+  // A triangle is two neighbours in a row in the list of its smallest corner.
+  const auto for_each = [&](std::size_t first, std::size_t last, const auto& take) {
+    for (auto node = static_cast<std::int32_t>(first + 1); node <= static_cast<std::int32_t>(last); ++node) {
+      const std::int32_t end = reader.last_slot(node), begin = reader.next(end);
+      for (std::int32_t slot = begin, next = 0;; slot = next) {
+        next = reader.next(slot);
+        if (slot == end && reader.entry(end) < 0) break;  // beyond the boundary
+        const std::int32_t b = reader.neighbour(slot), c = reader.neighbour(next);
+        if (node < b && node < c) take(node, b, c);
+        if (slot == end) break;
+      }
+    }
+  };
+  const int threads = pstripack::threads_for(n);
+  std::vector<std::size_t> before(static_cast<std::size_t>(threads) + 1);
+  pstripack::parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int piece) {
+    std::size_t count = 0;
+    for_each(first, last, [&](std::int32_t, std::int32_t, std::int32_t) { ++count; });
+    before[static_cast<std::size_t>(piece) + 1] = count;
+  });
+  std::partial_sum(before.begin(), before.end(), before.begin());
+  if (before.back() != mesh.triangles()) throw NoMesh("the lists are broken");
+  std::vector<std::int32_t> triangles(3 * before.back());
+  pstripack::parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int piece) {
+    std::int32_t* to = triangles.data() + 3 * before[static_cast<std::size_t>(piece)];
+    for_each(first, last,
+             [&](std::int32_t a, std::int32_t b, std::int32_t c) { *to++ = a, *to++ = b, *to++ = c; });
+  });
   return triangles;
 }
 
@@ -291,7 +321,7 @@ std::vector<Point> centroids(const Faces& faces) {
 
 Faces voronoi_faces(const Mesh& mesh) {
   const std::size_t n = mesh.points.size();
-  const Columns c(unit(mesh.points));
+  const Components c(unit(mesh.points));
   std::vector<std::int32_t> lptr = mesh.lptr, listc(6 * n - 12);
   std::int32_t lnew = mesh.lnew, nb = 0;
   std::vector<std::int32_t> boundary(n);
@@ -331,6 +361,68 @@ Faces voronoi_faces(const Mesh& mesh) {
     faces.begin.push_back(faces.corner.size());
   }
   return faces;
+}
+
+std::vector<double> areas(const Faces& faces) {
+  constexpr std::size_t kAhead = 30;  // corners lie anywhere in memory
+  const std::size_t corners = faces.corner.size();
+  std::vector<double> all(faces.size());
+  const auto point = [&](std::size_t k) {
+    return faces.points[static_cast<std::size_t>(faces.corner[k]) - 1];
+  };
+  pstripack::parallel_pieces(
+      all.size(), pstripack::threads_for(8 * all.size()), [&](std::size_t first, std::size_t last, int) {
+        for (std::size_t f = first; f < last; ++f) {
+          const std::size_t begin = faces.begin[f], end = faces.begin[f + 1];
+          for (std::size_t k = begin + kAhead; k < std::min(end + kAhead, corners); ++k)
+            __builtin_prefetch(&faces.points[static_cast<std::size_t>(faces.corner[k]) - 1]);
+          if (faces.centres.empty()) {
+            for (std::size_t k = begin + 1; k + 1 < end; ++k)
+              all[f] += triangle_area(point(begin), point(k), point(k + 1));
+          } else {
+            for (std::size_t k = begin; k < end; ++k)
+              all[f] += triangle_area(faces.centres[f], point(k), point(k + 1 < end ? k + 1 : begin));
+          }
+        }
+      });
+  return all;
+}
+
+void add_columns(Faces& faces, const Mesh& mesh) {
+  constexpr double kEarthRadius = 6371;  // km
+  const bool are_cells = !faces.centres.empty();
+  (are_cells ? faces.given_centres : faces.given_points) = mesh.given;
+  Column area{"area", "area of the face on the unit sphere", "sr"};
+  area.numbers = areas(faces);
+  Column area_km2{"area_km2", "area of the face on a sphere of radius 6371 km", "km2"};
+  area_km2.numbers.reserve(area.numbers.size());
+  for (const double a : area.numbers) area_km2.numbers.push_back(a * kEarthRadius * kEarthRadius);
+  std::vector<double> degrees(mesh.points.size());
+  const pstripack::ListReader<std::int32_t> reader(mesh.lists());
+  pstripack::parallel_pieces(degrees.size(), pstripack::threads_for(degrees.size()),
+                             [&](std::size_t first, std::size_t last, int) {
+                               for (std::size_t i = first; i < last; ++i) {
+                                 const std::int32_t end = reader.last_slot(static_cast<std::int32_t>(i + 1));
+                                 std::int32_t slot = end;
+                                 do {
+                                   ++degrees[i];
+                                   slot = reader.next(slot);
+                                 } while (slot != end);
+                               }
+                             });
+  Columns& of_nodes = are_cells ? faces.columns_of_faces : faces.columns_of_points;
+  of_nodes = mesh.columns;
+  Column degree = whole_numbers("degree", "number of neighbours of the node", std::move(degrees));
+  const auto is_ours = [&](const Column& c) {
+    return (c.name == degree.name && c.long_name == degree.long_name) ||
+           (c.name == area.name && c.long_name == area.long_name) ||
+           (c.name == area_km2.name && c.long_name == area_km2.long_name);
+  };
+  of_nodes.erase(std::remove_if(of_nodes.begin(), of_nodes.end(), is_ours), of_nodes.end());
+  make_names_differ(of_nodes, {degree.name, area.name, area_km2.name});
+  of_nodes.push_back(std::move(degree));
+  faces.columns_of_faces.push_back(std::move(area));
+  faces.columns_of_faces.push_back(std::move(area_km2));
 }
 
 }  // namespace files

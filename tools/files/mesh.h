@@ -16,7 +16,9 @@ namespace files {
 /// Nodes and the canonical lists of their triangulation.
 struct Mesh {
   std::vector<Point> points;    ///< as given
+  LonLat given;                 ///< their longitudes and latitudes, if they were given
   std::vector<double> density;  ///< of each node; empty: unknown
+  Columns columns;              ///< values of each node
   Notes notes;
   std::vector<std::int32_t> list, lptr, lend;
   std::int32_t lnew = 0;
@@ -45,8 +47,13 @@ void set_trmesh(Trmesh trmesh);
 /// lie on one great circle, two coincide, or there are too many.
 Mesh triangulate(std::vector<Point> points);
 
+/// A node, and the first one in its direction.
+struct Duplicate {
+  std::size_t node, first;
+};
+
 /// All but the first of the nodes in each direction, in increasing order. Throws as triangulate.
-std::vector<std::size_t> duplicates(const std::vector<Point>& points);
+std::vector<Duplicate> duplicates(const std::vector<Point>& points);
 
 /// The mesh of these triangles (counterclockwise, from 0). Throws NoMesh unless every node is a corner and
 /// the triangles around each node form one cycle or one fan.
@@ -69,6 +76,8 @@ struct Faces {
   std::vector<Point> centres;  ///< the node that each face belongs to; empty: none
   std::vector<std::size_t> begin;
   std::vector<std::int32_t> corner;
+  LonLat given_points, given_centres;  ///< their angles, if they were given
+  Columns columns_of_points, columns_of_faces;
 
   std::size_t size() const { return begin.size() - 1; }
   std::size_t corners(std::size_t f) const { return begin[f + 1] - begin[f]; }
@@ -78,11 +87,19 @@ struct Faces {
 /// The direction of the sum of each face's corners.
 std::vector<Point> centroids(const Faces& faces);
 
+/// In steradians.
+std::vector<double> areas(const Faces& faces);
+
 /// The triangles as faces.
 Faces triangle_faces(const Mesh& mesh);
 
 /// The Voronoi diagram: one face per node. If the nodes lie in a hemisphere, the cells of boundary nodes
 /// share the rest of the sphere (STRIPACK's CRLIST).
 Faces voronoi_faces(const Mesh& mesh);
+
+/// Adds what files of faces can hold: the given angles and columns of the nodes, the number of neighbours of
+/// each, and the areas of the faces in sr and km2. Columns that are named like these get `_given` behind
+/// their names.
+void add_columns(Faces& faces, const Mesh& mesh);
 
 }  // namespace files

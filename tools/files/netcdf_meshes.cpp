@@ -47,6 +47,44 @@ class Writer {
   int density(const std::vector<double>& values, int nodes) {
     return values.empty() ? -1 : variable("meshDensity", NC_DOUBLE, {nodes});
   }
+  /// A variable for each column, with these dimensions: numbers, or texts of equal length. Names of other
+  /// variables and dimensions are taken; `of_mesh` are attributes of each.
+  std::vector<int> columns(const Columns& all, const std::vector<int>& dimensions, const Notes& of_mesh) {
+    std::vector<int> ids;
+    for (const Column& c : all) {
+      const std::string name = free_name(c.name);
+      std::vector<int> shape = dimensions;
+      if (c.is_text()) shape.push_back(dimension((name + "_length").c_str(), longest(c)));
+      const int id = variable(name.c_str(), c.is_text() ? NC_CHAR : c.whole ? NC_INT : NC_DOUBLE, shape);
+      const bool renamed = name != c.name && c.long_name.empty();
+      if (renamed || !c.long_name.empty()) attribute(id, "long_name", renamed ? c.name : c.long_name);
+      if (!c.units.empty()) attribute(id, "units", c.units);
+      if (!c.is_text() && !c.whole) attribute(id, "_FillValue", NC_FILL_DOUBLE);
+      for (const auto& [attribute_name, text] : of_mesh) attribute(id, attribute_name.c_str(), text);
+      ids.push_back(id);
+    }
+    return ids;
+  }
+  void put(const std::vector<int>& ids, const Columns& all) {
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+      const Column& c = all[k];
+      if (c.is_text()) {
+        const std::size_t length = longest(c);
+        std::string bytes;
+        for (std::size_t i = 0; i < c.size(); ++i) (bytes += c.texts[i]).resize((i + 1) * length);
+        check(nc_put_var_text(id_, ids[k], bytes.data()));
+      } else if (c.whole) {
+        put(ids[k], std::vector<std::int32_t>(c.numbers.begin(), c.numbers.end()));
+      } else if (std::any_of(c.numbers.begin(), c.numbers.end(), [](double v) { return std::isnan(v); })) {
+        std::vector<double> filled = c.numbers;
+        for (double& v : filled)
+          if (std::isnan(v)) v = NC_FILL_DOUBLE;
+        put(ids[k], filled);
+      } else {
+        put(ids[k], c.numbers);
+      }
+    }
+  }
   void attributes(const Notes& notes) {
     for (const auto& [name, text] : notes) attribute(NC_GLOBAL, name.c_str(), text);
   }
@@ -89,6 +127,25 @@ class Writer {
  private:
   void check(int status) const {
     if (status != NC_NOERR) throw std::runtime_error(name_ + ": cannot be written: " + nc_strerror(status));
+  }
+  static std::size_t longest(const Column& texts) {
+    std::size_t most = 1;
+    for (const std::string& text : texts.texts) most = std::max(most, text.size());
+    return most;
+  }
+  /// NetCDF's names begin with a letter, a digit or _, and have no blanks for the sake of other programs.
+  std::string free_name(std::string name) {
+    const auto is_plain = [](char c) {
+      return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+    };
+    for (char& c : name)
+      if (!is_plain(c)) c = '_';
+    if (name.empty() || (name[0] >= '0' && name[0] <= '9')) name = "_" + name;
+    int id;
+    while (nc_inq_varid(id_, name.c_str(), &id) == NC_NOERR ||
+           nc_inq_dimid(id_, name.c_str(), &id) == NC_NOERR)
+      name += "_given";
+    return name;
   }
   std::string name_;
   int id_ = -1;
@@ -140,23 +197,29 @@ void write_ugrid(const OutputFile& file, const Faces& faces, const std::vector<P
   for (const int component : {x, y, z})
     out.attribute(component, "long_name", "Cartesian coordinate of the node as it was given");
   const int of_density = out.density(density, nodes);
-  if (!density.empty()) {
-    out.attribute(of_density, "mesh", "mesh");
-    out.attribute(of_density, "location", "node");
-    out.attribute(of_density, "coordinates", "mesh_node_lon mesh_node_lat");
-  }
+  const Notes of_nodes{
+      {"mesh", "mesh"}, {"location", "node"}, {"coordinates", "mesh_node_lon mesh_node_lat"}};
+  Notes of_faces{{"mesh", "mesh"}, {"location", "face"}};
+  if (has_centres) of_faces["coordinates"] = "mesh_face_lon mesh_face_lat";
+  if (!density.empty())
+    for (const auto& [name, text] : of_nodes) out.attribute(of_density, name.c_str(), text);
+  const std::vector<int> node_columns = out.columns(faces.columns_of_points, {nodes}, of_nodes),
+                         face_columns = out.columns(faces.columns_of_faces, {n_faces}, of_faces);
   out.end_definitions();
 
-  const LonLat of_nodes(faces.points, true);
-  out.put(node_lon, of_nodes.lon);
-  out.put(node_lat, of_nodes.lat);
+  out.put(mesh, std::vector<std::int32_t>{0});
+  const LonLat node_angles = angles_of(faces.points, faces.given_points, true);
+  out.put(node_lon, node_angles.lon);
+  out.put(node_lat, node_angles.lat);
   if (has_centres) {
-    const LonLat of_faces(faces.centres, true);
-    out.put(face_lon, of_faces.lon);
-    out.put(face_lat, of_faces.lat);
+    const LonLat face_angles = angles_of(faces.centres, faces.given_centres, true);
+    out.put(face_lon, face_angles.lon);
+    out.put(face_lat, face_angles.lat);
   }
   out.put(x, y, z, vectors);
   if (!density.empty()) out.put(of_density, density);
+  out.put(node_columns, faces.columns_of_points);
+  out.put(face_columns, faces.columns_of_faces);
   if (faces.corner.size() == faces.size() * width)
     out.put(connectivity, faces.corner);
   else
@@ -166,7 +229,7 @@ void write_ugrid(const OutputFile& file, const Faces& faces, const std::vector<P
   out.close();
 }
 
-void write_scrip(const OutputFile& file, const Faces& faces) {
+void write_scrip(const OutputFile& file, const Faces& faces, const Notes& notes) {
   const std::size_t width = faces.most_corners();
   Writer out(file);
   const int size = out.dimension("grid_size", faces.size());
@@ -179,10 +242,16 @@ void write_scrip(const OutputFile& file, const Faces& faces) {
   out.attribute(imask, "units", "unitless");
   const int corner_lat = out.angle("grid_corner_lat", {size, corners}, "degrees");
   const int corner_lon = out.angle("grid_corner_lon", {size, corners}, "degrees");
+  const int area = out.variable("grid_area", NC_DOUBLE, {size});
+  out.attribute(area, "units", "radians^2");
+  out.attribute(area, "long_name", "area of the cell on the unit sphere");
+  out.attributes(notes);
   out.end_definitions();
 
-  const LonLat of_centres(faces.centres.empty() ? centroids(faces) : faces.centres, true);
-  const LonLat of_points(faces.points, true);
+  const LonLat of_centres = faces.centres.empty() ? LonLat(centroids(faces), true)
+                                                  : angles_of(faces.centres, faces.given_centres, true);
+  const LonLat of_points = angles_of(faces.points, faces.given_points, true);
+  out.put(area, areas(faces));
   out.put(dims, std::vector<std::int32_t>{static_cast<std::int32_t>(faces.size())});
   out.put(centre_lat, of_centres.lat);
   out.put(centre_lon, of_centres.lon);
@@ -229,68 +298,54 @@ void write_mpas(const OutputFile& file, const Mesh& mesh) {
   const int density = out.variable("meshDensity", NC_DOUBLE, {n_cells});
   out.end_definitions();
 
-  const auto put = [&](const Variables& to, const std::vector<Point>& points) {
+  const auto put = [&](const Variables& to, const std::vector<Point>& points, const LonLat& given) {
     out.put(to.x, to.y, to.z, points);
-    LonLat angles(points, false);
+    LonLat angles = angles_of(points, given, false);
     for (double& lon : angles.lon)
       if (lon < 0) lon += 6.2831853071795865;  // MPAS: 0 to 2 pi
     out.put(to.lon, angles.lon);
     out.put(to.lat, angles.lat);
   };
-  put(of_cells, cells);
-  put(of_vertices, vertices);
+  put(of_cells, cells, mesh.given);
+  put(of_vertices, vertices, {});
   out.put(cells_on_vertex, triangles);
   out.put(density, mesh.density.empty() ? std::vector<double>(cells.size(), 1) : mesh.density);
   out.close();
 }
 
-void write_netcdf_nodes(const OutputFile& file, const std::vector<Point>& points,
-                        const std::vector<double>& density, const Notes& notes) {
+void write_netcdf_nodes(const OutputFile& file, const std::vector<Point>& points, const NodeValues& values) {
   Writer out(file);
+  const bool degrees = values.given.empty() || values.given.degrees;
   const int n = out.dimension("nCells", points.size());
-  const int lon = out.angle("lon", {n}, "degrees_east"), lat = out.angle("lat", {n}, "degrees_north");
+  const int lon = out.angle("lon", {n}, degrees ? "degrees_east" : "radians"),
+            lat = out.angle("lat", {n}, degrees ? "degrees_north" : "radians");
   const int x = out.variable("xCell", NC_DOUBLE, {n}), y = out.variable("yCell", NC_DOUBLE, {n}),
-            z = out.variable("zCell", NC_DOUBLE, {n}), of_density = out.density(density, n);
-  out.attributes(notes);
+            z = out.variable("zCell", NC_DOUBLE, {n}), of_density = out.density(values.density, n);
+  const std::vector<int> columns = out.columns(values.columns, {n}, {{"coordinates", "lon lat"}});
+  out.attributes(values.notes);
   out.end_definitions();
-  const LonLat angles(points, true);
+  const LonLat angles = angles_of(points, values.given, degrees);
   out.put(lon, angles.lon);
   out.put(lat, angles.lat);
   out.put(x, y, z, points);
-  if (!density.empty()) out.put(of_density, density);
+  if (!values.density.empty()) out.put(of_density, values.density);
+  out.put(columns, values.columns);
   out.close();
 }
-
-namespace {
-
-/// The variable of a field, named unlike the coordinates.
-int field_variable(Writer& out, const Field& field, const std::vector<int>& dimensions) {
-  const bool is_taken = field.name == "lon" || field.name == "lat" || field.name == "point";
-  const int id = out.variable((field.name + (is_taken ? "_value" : "")).c_str(), NC_DOUBLE, dimensions);
-  if (!field.units.empty()) out.attribute(id, "units", field.units);
-  out.attribute(id, "_FillValue", NC_FILL_DOUBLE);
-  out.attribute(NC_GLOBAL, "Conventions", "CF-1.8");
-  return id;
-}
-
-std::vector<double> filled(std::vector<double> values) {
-  for (double& v : values)
-    if (std::isnan(v)) v = NC_FILL_DOUBLE;
-  return values;
-}
-
-}  // namespace
 
 void write_netcdf_field(const OutputFile& file, const LonLat& places, const Field& field) {
   Writer out(file);
   const int n = out.dimension("point", places.lon.size());
   const auto [lon, lat] = out.lon_lat("lon", "lat", {n}, {n});
-  const int values = field_variable(out, field, {n});
-  out.attribute(values, "coordinates", "lon lat");
+  out.attribute(NC_GLOBAL, "Conventions", "CF-1.8");
+  out.attributes(field.notes);
+  Columns all{field.value};
+  all.insert(all.end(), field.columns.begin(), field.columns.end());
+  const std::vector<int> columns = out.columns(all, {n}, {{"coordinates", "lon lat"}});
   out.end_definitions();
   out.put(lon, places.lon);
   out.put(lat, places.lat);
-  out.put(values, filled(field.values));
+  out.put(columns, all);
   out.close();
 }
 
@@ -298,11 +353,13 @@ void write_netcdf_grid(const OutputFile& file, const Grid& grid, const Field& fi
   Writer out(file);
   const int n_lat = out.dimension("lat", grid.lat.size()), n_lon = out.dimension("lon", grid.lon.size());
   const auto [lon, lat] = out.lon_lat("lon", "lat", {n_lon}, {n_lat});
-  const int values = field_variable(out, field, {n_lat, n_lon});
+  out.attribute(NC_GLOBAL, "Conventions", "CF-1.8");
+  out.attributes(field.notes);
+  const std::vector<int> columns = out.columns({field.value}, {n_lat, n_lon}, {});
   out.end_definitions();
   out.put(lon, grid.lon);
   out.put(lat, grid.lat);
-  out.put(values, filled(field.values));
+  out.put(columns, {field.value});
   out.close();
 }
 

@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "files/nearest.h"
 #include "files/nodes.h"
 #include "lists/limits.h"
 
@@ -52,6 +53,7 @@ struct Variable {
   std::vector<int> dimensions;
   std::vector<double> values;
   std::string units;  ///< empty: not in the file
+  int id = -1;
 };
 
 bool has(const File& file, const std::string& name) {
@@ -106,6 +108,7 @@ Variable read(const File& file, const std::string& name) {
   v.values.resize(count);
   check(nc_get_var_double(file.id(), id, v.values.data()));
   v.units = text_attribute(file, id, "units");
+  v.id = id;
   if (nc_inq_attid(file.id(), id, "scale_factor", nullptr) == NC_NOERR)
     file.fail("variable " + name + ": packed (scale_factor); expected plain numbers");
   double fill = 0;
@@ -166,28 +169,88 @@ std::string names_of_values(const File& file, const std::vector<int>& of_nodes) 
   return names.empty() ? "none" : names;
 }
 
+std::string name_of(const File& file, int variable) {
+  char name[NC_MAX_NAME + 1];
+  file.check(nc_inq_varname(file.id(), variable, name), "");
+  return name;
+}
+
 /// The value of each node, NaN where it is missing.
-void read_values(const File& file, Nodes& nodes, const std::string& name, const std::vector<int>& of_nodes) {
+Column read_column(const File& file, const std::string& name, std::size_t nodes) {
+  int id = -1;
+  nc_type type = NC_CHAR;
+  file.check(nc_inq_varid(file.id(), name.c_str(), &id), name);
+  file.check(nc_inq_vartype(file.id(), id, &type), name);
+  Column column{name, text_attribute(file, id, "long_name"), text_attribute(file, id, "units")};
+  column.numbers.resize(nodes);
+  file.check(nc_get_var_double(file.id(), id, column.numbers.data()), name);
+  const double fill = number_attribute(file, id, "_FillValue", NC_FILL_DOUBLE);
+  const double missing = number_attribute(file, id, "missing_value", fill);
+  const double scale = number_attribute(file, id, "scale_factor", 1);
+  const double offset = number_attribute(file, id, "add_offset", 0);
+  for (double& v : column.numbers)
+    v = v == fill || v == missing || !std::isfinite(v) ? std::nan("") : v * scale + offset;
+  column.whole =
+      (type == NC_INT || type == NC_SHORT || type == NC_BYTE) && scale == 1 && offset == 0 &&
+      std::none_of(column.numbers.begin(), column.numbers.end(), [](double v) { return std::isnan(v); });
+  return column;
+}
+
+Column read_value(const File& file, const std::string& name, std::size_t nodes,
+                  const std::vector<int>& of_nodes) {
   if (name.empty() || !has(file, name))
     file.fail(fmt::format("{}say --variable NAME; variables with one value per node: {}",
                           name.empty() ? "" : "there is no variable " + name + "; ",
                           names_of_values(file, of_nodes)));
   std::vector<int> dimensions;
-  const int id = shape_of(file, name, dimensions).first;
+  shape_of(file, name, dimensions);
   if (!is_of_nodes(file, name, of_nodes))
     file.fail(fmt::format("variable {}: expected {}; take one layer out, say by ncks -d time,0",
                           shape_text(file, name, dimensions), shape_text(file, name, of_nodes)));
-  std::vector<double> values(nodes.points.size());
-  file.check(nc_get_var_double(file.id(), id, values.data()), name);
-  const double fill = number_attribute(file, id, "_FillValue", NC_FILL_DOUBLE);
-  const double missing = number_attribute(file, id, "missing_value", fill);
-  const double scale = number_attribute(file, id, "scale_factor", 1);
-  const double offset = number_attribute(file, id, "add_offset", 0);
-  for (double& v : values)
-    v = v == fill || v == missing || !std::isfinite(v) ? std::nan("") : v * scale + offset;
-  nodes.values = std::move(values);
-  nodes.value_name = name;
-  nodes.value_units = text_attribute(file, id, "units");
+  return read_column(file, name, nodes);
+}
+
+/// Texts of equal length, filled with zeros or blanks.
+Column read_texts(const File& file, int id, const std::string& name, std::size_t nodes, std::size_t length) {
+  require_few(file, name, nodes, length);
+  std::string bytes(nodes * length, '\0');
+  file.check(nc_get_var_text(file.id(), id, bytes.data()), name);
+  Column column{name, text_attribute(file, id, "long_name")};
+  for (std::size_t i = 0; i < nodes; ++i) {
+    std::string text = bytes.substr(i * length, length);
+    text.resize(std::min(text.size(), text.find('\0')));
+    text.resize(text.find_last_not_of(' ') + 1);
+    column.texts.push_back(std::move(text));
+  }
+  return column;
+}
+
+/// The variables with a number or a text for each node, without its coordinates; or those that are wanted.
+Columns read_columns(const File& file, std::size_t nodes, const std::vector<int>& of_nodes,
+                     const std::vector<int>& coordinates, const std::vector<std::string>& wanted) {
+  Columns columns;
+  int count = 0;
+  file.check(nc_inq_nvars(file.id(), &count), "");
+  for (int v = 0; v < count; ++v) {
+    const std::string name = name_of(file, v);
+    nc_type type = NC_CHAR;
+    file.check(nc_inq_vartype(file.id(), v, &type), name);
+    std::vector<int> dimensions;
+    const std::vector<std::size_t> lengths = shape_of(file, name, dimensions).second;
+    const bool is_wanted = std::find(wanted.begin(), wanted.end(), name) != wanted.end();
+    if (std::find(coordinates.begin(), coordinates.end(), v) != coordinates.end() || name == "meshDensity")
+      continue;
+    if (!wanted.empty() && !is_wanted) continue;
+    if (type == NC_CHAR && dimensions.size() == of_nodes.size() + 1 &&
+        std::equal(of_nodes.begin(), of_nodes.end(), dimensions.begin()))
+      columns.push_back(read_texts(file, v, name, nodes, lengths.back()));
+    else if (type != NC_CHAR && type <= NC_UINT64 && is_of_nodes(file, name, of_nodes))
+      columns.push_back(read_column(file, name, nodes));
+    else if (is_wanted)
+      file.fail(fmt::format("variable {}: expected one value per node, {}",
+                            shape_text(file, name, dimensions), shape_text(file, name, of_nodes)));
+  }
+  return columns;
 }
 
 /// True: degrees, false: radians.
@@ -199,10 +262,12 @@ bool in_degrees(const File& file, const Variable& v) {
   file.fail(fmt::format("variable {}: units '{}'; expected degrees or radians", v.name, v.units));
 }
 
-/// Points, and their dimensions in the file.
+/// Points, and what the file has of them.
 struct Places {
   std::vector<Point> points;
+  LonLat given;
   std::vector<int> dimensions;
+  std::vector<int> variables;
 };
 
 Places from_angles(const File& file, const Variable& lon, const Variable& lat, const char*& units) {
@@ -211,17 +276,35 @@ Places from_angles(const File& file, const Variable& lon, const Variable& lat, c
   Angles angles{lon.values.data(), lat.values.data(), 1, lon_in_degrees, lat_in_degrees};
   if (const std::size_t bad = first_beyond_pole(angles, lat.values.size()); bad < lat.values.size())
     file.fail(
-        fmt::format("variable {}, value {}: {} is beyond the pole", lat.name, bad + 1, lat.values[bad]));
-  if (lon.dimensions == lat.dimensions) return {points_of(angles, lon.values.size()), lon.dimensions};
-  if (lon.dimensions.size() != 1 || lat.dimensions.size() != 1)
-    file.fail(fmt::format("variables {} and {}: expected one shape, or two axes of one dimension each",
-                          lon.name, lat.name));
-  require_few(file, lat.name, lat.values.size(), lon.values.size());
-  std::vector<double> grid;
-  for (const double y : lat.values)
-    for (const double x : lon.values) grid.insert(grid.end(), {x, y});
-  return {points_of({grid.data(), grid.data() + 1, 2, lon_in_degrees, lat_in_degrees}, grid.size() / 2),
-          {lat.dimensions[0], lon.dimensions[0]}};
+        fmt::format("variable {}, value {}: {} is beyond the pole{}", lat.name, bad + 1, lat.values[bad],
+                    !lat_in_degrees ? ": are they degrees, and the units wrong?"
+                    : lon.values.size() == lat.values.size()
+                        ? hint_beyond_pole(angles, lat.values.size(), (lat.name + "," + lon.name).c_str())
+                        : ""));
+  Places places;
+  places.variables = {lon.id, lat.id};
+  if (lon.dimensions == lat.dimensions) {
+    places.dimensions = lon.dimensions;
+    places.given.lon = lon.values;
+    places.given.lat = lat.values;
+  } else {
+    if (lon.dimensions.size() != 1 || lat.dimensions.size() != 1)
+      file.fail(fmt::format("variables {} and {}: expected one shape, or two axes of one dimension each",
+                            lon.name, lat.name));
+    require_few(file, lat.name, lat.values.size(), lon.values.size());
+    places.dimensions = {lat.dimensions[0], lon.dimensions[0]};
+    for (const double y : lat.values)
+      for (const double x : lon.values) {
+        places.given.lon.push_back(x);
+        places.given.lat.push_back(y);
+      }
+  }
+  angles.lon = places.given.lon.data();
+  angles.lat = places.given.lat.data();
+  places.points = points_of(angles, places.given.lon.size());
+  places.given.degrees = lat_in_degrees;
+  if (lon_in_degrees != lat_in_degrees) places.given = {};  // there is no one unit to give them back in
+  return places;
 }
 
 Places from_coordinates(const File& file, const std::string& x_name, const std::string& y_name,
@@ -229,9 +312,32 @@ Places from_coordinates(const File& file, const std::string& x_name, const std::
   const Variable x = read(file, x_name), y = read(file, y_name), z = read(file, z_name);
   if (x.dimensions != y.dimensions || x.dimensions != z.dimensions)
     file.fail("variables " + x_name + ", " + y_name + ", " + z_name + ": expected one shape");
-  std::vector<Point> points(x.values.size());
-  for (std::size_t i = 0; i < points.size(); ++i) points[i] = {x.values[i], y.values[i], z.values[i]};
-  return {points, x.dimensions};
+  Places places;
+  places.points.resize(x.values.size());
+  for (std::size_t i = 0; i < places.points.size(); ++i)
+    places.points[i] = {x.values[i], y.values[i], z.values[i]};
+  places.dimensions = x.dimensions;
+  places.variables = {x.id, y.id, z.id};
+  return places;
+}
+
+/// The angles beside the vectors, if the file has them. Those of the vectors are as good where they cannot be
+/// used.
+void add_angles(const File& file, Places& places, const std::string& lon_name, const std::string& lat_name) {
+  if (!places.given.empty() || !has(file, lon_name) || !has(file, lat_name)) return;
+  const char* units = "";
+  try {
+    Places angles = from_angles(file, read(file, lon_name), read(file, lat_name), units);
+    if (angles.dimensions != places.dimensions) return;
+    for (std::size_t i = 0; i < places.points.size(); ++i) {
+      const Point &p = places.points[i], &q = angles.points[i];
+      const double length = dot(p, p), c = dot(p, q);
+      if (!(c > 0 && length - c * c <= 1e-10 * length)) return;  // they are of other nodes
+    }
+    places.given = std::move(angles.given);
+    places.variables.insert(places.variables.end(), angles.variables.begin(), angles.variables.end());
+  } catch (const std::runtime_error&) {
+  }
 }
 
 /// Corners of triangles, row after row, counted from `first`.
@@ -259,32 +365,34 @@ std::string ugrid_mesh(const File& file) {
   return "";
 }
 
-/// Sets the nodes and their kind; returns their dimensions.
-std::vector<int> read_ugrid(const File& file, Nodes& nodes, const std::string& mesh, bool with_triangles) {
+/// The nodes; sets their kind and triangles.
+Places read_ugrid(const File& file, Nodes& nodes, const std::string& mesh, bool with_triangles) {
   int id = 0;
   Places places;
   file.check(nc_inq_varid(file.id(), mesh.c_str(), &id), mesh);
+  std::istringstream names(text_attribute(file, id, "node_coordinates"));
+  std::string lon, lat;
+  names >> lon >> lat;
   // Our own files also have the vectors, which angles would round.
   if (has(file, mesh + "_node_x")) {
     places = from_coordinates(file, mesh + "_node_x", mesh + "_node_y", mesh + "_node_z");
+    add_angles(file, places, lon, lat);
     nodes.kind += ", UGRID, x y z";
   } else {
-    std::istringstream names(text_attribute(file, id, "node_coordinates"));
-    std::string lon, lat;
-    if (!(names >> lon >> lat)) file.fail("variable " + mesh + ": expected node_coordinates 'lon lat'");
+    if (lat.empty()) file.fail("variable " + mesh + ": expected node_coordinates 'lon lat'");
     const char* units = "";
     places = from_angles(file, read(file, lon), read(file, lat), units);
     nodes.kind += fmt::format(", UGRID, lon lat in {}", units);
   }
-  nodes.points = std::move(places.points);
+  nodes.points = places.points;
   const std::string faces = text_attribute(file, id, "face_node_connectivity");
-  if (!with_triangles || faces.empty()) return places.dimensions;
+  if (!with_triangles || faces.empty()) return places;
   int faces_id = 0;
   file.check(nc_inq_varid(file.id(), faces.c_str(), &faces_id), faces);
   long long first = 0;
   nc_get_att_longlong(file.id(), faces_id, "start_index", &first);  // UGRID's default is 0
   read_triangles(file, nodes, faces, first);
-  return places.dimensions;
+  return places;
 }
 
 void read_notes(const File& file, Notes& notes) {
@@ -293,8 +401,57 @@ void read_notes(const File& file, Notes& notes) {
   for (int a = 0; a < count; ++a) {
     char name[NC_MAX_NAME + 1];
     file.check(nc_inq_attname(file.id(), NC_GLOBAL, a, name), "");
-    if (std::string(name).rfind("scvt_", 0) == 0) notes[name] = text_attribute(file, NC_GLOBAL, name);
+    const std::string word = name;
+    const auto is = [&](const char* other) { return word == other; };
+    constexpr const char* kKept[] = {"title", "history", "source", "institution", "references", "comment"};
+    if (word.rfind("scvt_", 0) == 0 || std::any_of(std::begin(kKept), std::end(kKept), is))
+      notes[name] = text_attribute(file, NC_GLOBAL, name);
   }
+}
+
+/// The names in --columns.
+std::vector<std::string> words_of(const std::string& columns) {
+  std::vector<std::string> words;
+  std::istringstream in(columns);
+  for (std::string word; std::getline(in, word, ',');) words.push_back(word);
+  return words;
+}
+
+std::vector<std::string> variables_in(const File& file) {
+  int count = 0;
+  file.check(nc_inq_nvars(file.id(), &count), "");
+  std::vector<std::string> names;
+  for (int v = 0; v < count; ++v) names.push_back(name_of(file, v));
+  return names;
+}
+
+/// The nodes of the variables that --columns names; takes their names off.
+Places read_chosen(const File& file, Nodes& nodes, std::vector<std::string>& names, Coordinates coordinates) {
+  const std::vector<std::string> variables = variables_in(file);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!has(file, names[i]))
+      file.fail(fmt::format("there is no variable '{}'{}; the file has {}", names[i],
+                            did_you_mean(names[i], variables), fmt::join(variables, ", ")));
+    if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
+        names.begin() + static_cast<std::ptrdiff_t>(i))
+      file.fail(fmt::format("variable '{}' is chosen twice", names[i]));
+  }
+  const std::size_t count = coordinates == Coordinates::xyz ? 3 : 2;
+  if (names.size() < count)
+    file.fail(fmt::format("--columns names {} variable{}: expected {}", names.size(),
+                          names.size() == 1 ? "" : "s",
+                          count == 3 ? "those of x, y and z" : "longitude and latitude"));
+  Places places;
+  if (count == 3) {
+    places = from_coordinates(file, names[0], names[1], names[2]);
+    nodes.kind += fmt::format(", {} {} {}", names[0], names[1], names[2]);
+  } else {
+    const char* units = "";
+    places = from_angles(file, read(file, names[0]), read(file, names[1]), units);
+    nodes.kind += fmt::format(", {} {} in {}", names[0], names[1], units);
+  }
+  names.erase(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(count));
+  return places;
 }
 
 }  // namespace
@@ -305,28 +462,45 @@ Nodes read_netcdf(const std::string& name, const ReadOptions& options, const std
   nodes.file = name;
   nodes.kind = "NetCDF";
   Places places;
-  if (const std::string mesh = ugrid_mesh(file); !mesh.empty()) {
-    places.dimensions = read_ugrid(file, nodes, mesh, options.with_triangles);
+  std::vector<std::string> wanted = words_of(options.columns);
+  if (!wanted.empty()) {
+    places = read_chosen(file, nodes, wanted, options.coordinates);
+  } else if (const std::string mesh = ugrid_mesh(file); !mesh.empty()) {
+    places = read_ugrid(file, nodes, mesh, options.with_triangles);
   } else if (has(file, "xCell") && options.coordinates != Coordinates::lonlat) {
     places = from_coordinates(file, "xCell", "yCell", "zCell");
-    nodes.points = std::move(places.points);
+    add_angles(file, places, "lonCell", "latCell");
+    add_angles(file, places, "lon", "lat");
     nodes.kind += ", xCell yCell zCell";
   } else {
     for (const auto& [lon, lat] :
          {std::pair("lonCell", "latCell"), std::pair("lon", "lat"), std::pair("longitude", "latitude"),
           std::pair("grid_center_lon", "grid_center_lat")}) {
       if (!has(file, lon)) continue;
+      if (!has(file, lat))
+        file.fail(fmt::format("there is no variable {} beside {}: name both by --columns LON,LAT", lat, lon));
       const char* units = "";
       places = from_angles(file, read(file, lon), read(file, lat), units);
-      nodes.points = std::move(places.points);
       nodes.kind += fmt::format(", {} {} in {}", lon, lat, units);
       break;
     }
     if (nodes.kind == "NetCDF")
-      file.fail("no nodes: expected variables xCell, yCell, zCell, or lonCell, latCell, or lon, lat");
+      file.fail(
+          "no nodes: expected variables xCell, yCell, zCell, or lonCell, latCell, or lon, lat; or name them "
+          "by "
+          "--columns LON,LAT");
   }
+  nodes.points = std::move(places.points);
+  nodes.given = std::move(places.given);
   if (nodes.points.empty()) file.fail("no nodes: the variables are empty");
-  if (options.with_values) read_values(file, nodes, options.variable, places.dimensions);
+  if (options.with_values) {
+    std::string variable = options.variable;
+    if (variable.empty() && !wanted.empty()) variable = wanted[0];
+    nodes.value = read_value(file, variable, nodes.points.size(), places.dimensions);
+    wanted.erase(std::remove(wanted.begin(), wanted.end(), variable), wanted.end());
+  }
+  if (options.with_columns && (options.columns.empty() || !wanted.empty()))
+    nodes.columns = read_columns(file, nodes.points.size(), places.dimensions, places.variables, wanted);
   read_notes(file, nodes.notes);
   if (has(file, "meshDensity")) nodes.density = read(file, "meshDensity").values;
   if (nodes.density.size() != nodes.points.size()) nodes.density.clear();

@@ -6,12 +6,15 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <numeric>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
 
 #include "base/parallel_for.h"
+#include "files/text_table.h"
 #include "numbers.h"
 #include "point_sets.h"
 #include "text_file.h"
@@ -32,95 +35,212 @@ std::string_view first_word(std::string_view text) {
   return text.substr(0, text.find_first_of(" \t\r\n"));
 }
 
-Angles angles_in(const double* values, std::size_t stride, bool degrees) {
-  return {values, values + 1, stride, degrees, degrees};
-}
-
-/// Rows `lon lat`, possibly with more columns. Angles that cannot be radians are degrees.
-void set_angles(Nodes& nodes, const double* values, std::size_t columns, std::size_t n, Units units) {
+/// Sets the nodes by the angles they were given. Those that cannot be radians are degrees.
+void set_angles(Nodes& nodes, LonLat given, Units units) {
+  const std::size_t n = given.lon.size();
   if (units == Units::said_or_unmistakable) {
-    bool may_be_radians = true;
-    for (std::size_t i = 0; i < n && may_be_radians; ++i)
-      may_be_radians = std::fabs(values[columns * i]) <= 4 * kRightAngle * kSlack &&
-                       std::fabs(values[columns * i + 1]) <= kRightAngle * kSlack;
-    if (may_be_radians)
-      throw std::runtime_error(
-          nodes.file + ": the angles may be degrees or radians: say --units degrees or --units radians");
+    const auto largest = [](const std::vector<double>& values) {
+      double most = 0;
+      for (const double v : values) most = std::max(most, std::fabs(v));
+      return most;
+    };
+    const double lon = largest(given.lon), lat = largest(given.lat);
+    if (lon <= 4 * kRightAngle * kSlack && lat <= kRightAngle * kSlack)
+      throw std::runtime_error(fmt::format(
+          "{}: the angles may be degrees or radians: say --units degrees or --units radians (longitudes "
+          "reach {:.4g}, "
+          "latitudes {:.4g}{})",
+          nodes.file, lon, lat, lon > kRightAngle && lat > 0.8 * kRightAngle ? ", as radians do" : ""));
     units = Units::degrees;
   }
-  const bool degrees = units == Units::degrees;
-  const Angles angles = angles_in(values, columns, degrees);
+  given.degrees = units == Units::degrees;
+  const Angles angles{given.lon.data(), given.lat.data(), 1, given.degrees, given.degrees};
   if (const std::size_t bad = first_beyond_pole(angles, n); bad < n)
     throw std::runtime_error(
         fmt::format("{}: {}: latitude {} is beyond the pole: the columns are 'lon lat', in {}{}", nodes.file,
-                    nodes.place(bad), values[columns * bad + 1], degrees ? "degrees" : "radians",
-                    degrees ? "" : "; --units degrees?"));
+                    nodes.place(bad), given.lat[bad], given.degrees ? "degrees" : "radians",
+                    hint_beyond_pole(angles, n, "2,1")));
+  for (std::size_t i = 0; !given.degrees && i < n; ++i)
+    if (std::fabs(given.lon[i]) > 8 * kRightAngle)
+      throw std::runtime_error(
+          fmt::format("{}: {}: longitude {} is more than two turns in radians; --units degrees?", nodes.file,
+                      nodes.place(i), given.lon[i]));
   nodes.points = points_of(angles, n);
-  nodes.kind += degrees ? ", lon lat in degrees" : ", lon lat in radians";
+  nodes.kind += given.degrees ? ", lon lat in degrees" : ", lon lat in radians";
+  nodes.given = std::move(given);
 }
 
-void set_coordinates(Nodes& nodes, const double* values, std::size_t columns, std::size_t n) {
-  nodes.points.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double* const v = values + columns * i;
-    nodes.points[i] = {v[0], v[1], v[2]};
-  }
-  nodes.kind += ", x y z";
-}
-
-/// The columns of a value and its place.
-struct ValueColumns {
-  std::size_t place, value;
+/// The columns of text that are read.
+struct Choice {
+  std::vector<std::size_t> place;    ///< lon and lat, or x, y, z
+  std::vector<std::size_t> columns;  ///< the other ones to read
+  std::optional<std::size_t> value;
+  bool is_lonlat() const { return place.size() == 2; }
 };
 
-ValueColumns value_columns(const Nodes& nodes, std::size_t columns, const ReadOptions& options) {
-  const auto fail = [&](const std::string& what) {
-    throw std::runtime_error(fmt::format("{}: has {} columns; {}", nodes.file, columns, what));
-  };
-  const bool detected = options.coordinates == Coordinates::detected;
-  if (detected && columns != 3 && columns != 4)
-    fail("expected 'lon lat value' or 'x y z value'; of more columns say --coordinates and --variable");
-  const std::size_t place = options.coordinates == Coordinates::lonlat || (detected && columns == 3) ? 2 : 3;
-  double column = static_cast<double>(place + 1);
-  if (!options.variable.empty() && !point_sets::parse(options.variable, column))
-    fail("--variable of text is the number of a column, not '" + options.variable + "'");
-  if (column != std::floor(column) || column <= static_cast<double>(place) ||
-      column > static_cast<double>(columns))
-    fail(fmt::format("the first {} are the place: there is no value in column {}", place, column));
-  return {place, static_cast<std::size_t>(column) - 1};
+/// The column with this axis among the candidates. Throws if there are two.
+std::optional<std::size_t> axis_among(const std::vector<std::size_t>& candidates, char axis,
+                                      const TextLayout& layout, const std::string& where) {
+  std::optional<std::size_t> found;
+  for (const std::size_t c : candidates) {
+    if (axis_of(layout.name(c)) != axis) continue;
+    if (found)
+      throw std::runtime_error(
+          fmt::format("{}: the header names column '{}' twice, {} and {}: choose columns by number", where,
+                      layout.name(c), *found + 1, c + 1));
+    found = c;
+  }
+  return found;
 }
 
-/// Rows of coordinates and values, of which some may be missing.
-void read_text_with_values(Nodes& nodes, std::string_view text, const ReadOptions& options) {
-  point_sets::Table table = point_sets::table_of(text, nodes.file, text.size(), true);
-  const ValueColumns columns = value_columns(nodes, table.columns, options);
-  nodes.lines = std::move(table.lines);
-  for (std::size_t i = 0; i < nodes.lines.size(); ++i) {
-    const double* const row = &table.values[table.columns * i];
-    for (std::size_t k = 0; k < columns.place; ++k)
-      if (std::isnan(row[k]))
-        throw std::runtime_error(
-            fmt::format("{}: {}: its place is 'nan': remove the row", nodes.file, nodes.place(i)));
-    nodes.values.push_back(row[columns.value]);
+/// The columns of the place by their names; empty if they have none.
+std::vector<std::size_t> place_by_names(const std::vector<std::size_t>& candidates, const TextLayout& layout,
+                                        Coordinates coordinates, const std::string& where) {
+  const auto axes = [&](std::string_view names) {
+    std::vector<std::size_t> found;
+    for (const char axis : names)
+      if (const auto c = axis_among(candidates, axis, layout, where)) found.push_back(*c);
+    return found;
+  };
+  if (coordinates != Coordinates::xyz) {
+    const std::vector<std::size_t> found = axes("oa");
+    if (found.size() == 2) return found;
+    if (found.size() == 1) {
+      const bool has_lon = axis_of(layout.name(found[0])) == 'o';
+      throw std::runtime_error(fmt::format(
+          "{}: a column '{}' without a {}: name both by --columns LON,LAT; the header has {}", where,
+          layout.name(found[0]), has_lon ? "latitude" : "longitude", fmt::join(layout.names, ", ")));
+    }
   }
-  if (columns.place == 2)
-    set_angles(nodes, table.values.data(), table.columns, nodes.lines.size(), options.units);
-  else
-    set_coordinates(nodes, table.values.data(), table.columns, nodes.lines.size());
+  if (coordinates == Coordinates::lonlat) return {};
+  const std::vector<std::size_t> found = axes("xyz");
+  return found.size() == 3 ? found : std::vector<std::size_t>{};
+}
+
+Choice choose(const TextLayout& layout, const ReadOptions& options, const std::string& file) {
+  const std::string where = layout.header_line > 0 ? fmt::format("{}:{}", file, layout.header_line) : file;
+  const auto fail = [&](const std::string& what) {
+    throw std::runtime_error(fmt::format("{}: {}", where, what));
+  };
+  const bool chosen = !options.columns.empty(), detected = options.coordinates == Coordinates::detected;
+  std::vector<std::size_t> candidates(layout.columns);
+  std::iota(candidates.begin(), candidates.end(), std::size_t{0});
+  if (chosen) candidates = columns_named(options.columns, layout, file);
+  Choice choice;
+  if (!layout.names.empty()) choice.place = place_by_names(candidates, layout, options.coordinates, where);
+  if (choice.place.empty()) {
+    std::size_t columns = options.coordinates == Coordinates::xyz ? 3 : 2;
+    if (!chosen && detected) {
+      if (!layout.names.empty())
+        fail(fmt::format(
+            "no columns named lon and lat, or x, y and z: name them by --columns; the header has {}",
+            fmt::join(layout.names, ", ")));
+      if (options.with_values && layout.columns != 3 && layout.columns != 4)
+        fail(fmt::format(
+            "has {} columns; expected 'lon lat value' or 'x y z value'; of more columns say --coordinates "
+            "and --variable, or --columns",
+            layout.columns));
+      if (!options.with_values && layout.columns != 2 && layout.columns != 3)
+        throw std::runtime_error(fmt::format(
+            "{}:{}: expected 'lon lat' or 'x y z', found {} number{}{}", file, layout.line, layout.columns,
+            layout.columns == 1 ? "" : "s",
+            layout.columns == 1 ? "" : ": say --coordinates lonlat or xyz, or choose --columns 1,2"));
+      columns = layout.columns - (options.with_values ? 1 : 0);
+    }
+    if (candidates.size() < columns)
+      fail(fmt::format("has {} columns; --coordinates {} needs {}{}", candidates.size(),
+                       columns == 3 ? "xyz" : "lonlat", columns, options.with_values ? " and a value" : ""));
+    choice.place.assign(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(columns));
+  }
+  const auto is_place = [&](std::size_t c) {
+    return std::find(choice.place.begin(), choice.place.end(), c) != choice.place.end();
+  };
+  for (const std::size_t c : candidates)
+    if (!is_place(c)) choice.columns.push_back(c);
+  if (!options.with_values) return choice;
+
+  if (!options.variable.empty()) {
+    double number = 0;
+    const bool is_number = point_sets::parse(options.variable, number);
+    if (layout.names.empty() && !is_number)
+      fail(fmt::format("has {} columns; --variable of text is the number of a column, not '{}'",
+                       layout.columns, options.variable));
+    const bool exists = !is_number || (number == std::floor(number) && number >= 1 &&
+                                       number <= static_cast<double>(layout.columns));
+    if (exists) choice.value = columns_named(options.variable, layout, file).at(0);
+    if (!exists || is_place(*choice.value))
+      fail(fmt::format("has {} columns; the first {} are the place: there is no value in column {}",
+                       layout.columns, choice.place.size(), options.variable));
+  } else if (choice.columns.size() == 1 || (!choice.columns.empty() && (chosen || layout.names.empty()))) {
+    choice.value = choice.columns[0];
+  } else if (choice.columns.empty()) {
+    fail(fmt::format("has {} columns; expected 'lon lat value' or 'x y z value'", layout.columns));
+  } else {
+    fail(fmt::format("which column is the value? Say --variable; the header has {}",
+                     fmt::join(layout.names, ", ")));
+  }
+  return choice;
+}
+
+/// Degrees or radians, if the header says so.
+Units units_of(const TextLayout& layout, const Choice& choice, Units otherwise) {
+  if (layout.names.empty()) return otherwise;
+  const std::string& unit = layout.units[choice.place[0]];
+  const std::string& name = layout.names[choice.place[0]];
+  if (unit.rfind("deg", 0) == 0 || unit == "\xC2\xB0" || name.find("_deg") != name.npos)
+    return Units::degrees;
+  if (unit.rfind("rad", 0) == 0 || name.find("_rad") != name.npos) return Units::radians;
+  return otherwise;
+}
+
+Column column_of(TextRows& rows, const TextLayout& layout, std::size_t c) {
+  Column column{layout.name(c), "", layout.units.empty() ? "" : layout.units[c]};
+  column.numbers = std::move(rows.numbers[c]);
+  column.texts = std::move(rows.texts[c]);
+  return column;
 }
 
 void read_text(Nodes& nodes, std::string_view text, const ReadOptions& options) {
   nodes.kind = "text";
-  if (options.with_values) return read_text_with_values(nodes, text, options);
-  const bool lonlat = options.coordinates == Coordinates::lonlat;
-  point_sets::Table table = point_sets::table_of(text, nodes.file, lonlat ? text.size() : 3);
-  if (options.coordinates == Coordinates::xyz && table.columns != 3)
-    throw std::runtime_error(nodes.file + ": has 2 columns; --coordinates xyz needs 3");
-  nodes.lines = std::move(table.lines);
-  if (lonlat || table.columns == 2)
-    set_angles(nodes, table.values.data(), table.columns, nodes.lines.size(), options.units);
-  else
-    set_coordinates(nodes, table.values.data(), 3, nodes.lines.size());
+  const TextLayout layout = layout_of(text, nodes.file);
+  const Choice choice = choose(layout, options, nodes.file);
+  std::vector<Role> roles(layout.columns, Role::skipped);
+  if (options.with_columns)
+    for (const std::size_t c : choice.columns) roles[c] = Role::carried;
+  for (const std::size_t c : choice.place) roles[c] = Role::place;
+  if (choice.value) roles[*choice.value] = Role::value;
+  TextRows rows = rows_of(text, nodes.file, layout, roles);
+  nodes.lines = std::move(rows.lines);
+  if (choice.value) {
+    for (const std::size_t c : choice.place)
+      for (std::size_t i = 0; i < nodes.lines.size(); ++i)
+        if (std::isnan(rows.numbers[c][i]))
+          throw std::runtime_error(
+              fmt::format("{}: {}: its place is 'nan': remove the row", nodes.file, nodes.place(i)));
+    nodes.value = column_of(rows, layout, *choice.value);
+    if (layout.names.empty()) nodes.value.name.clear();
+  }
+  if (options.with_columns) {
+    if (!rows.segments.empty()) {
+      for (double& s : rows.segments) ++s;
+      nodes.columns.push_back(
+          whole_numbers("segment", "number of the segment in the input", std::move(rows.segments)));
+    }
+    for (const std::size_t c : choice.columns)
+      if (c != choice.value) nodes.columns.push_back(column_of(rows, layout, c));
+  }
+  const auto axis = [&](std::size_t k) -> std::vector<double>& { return rows.numbers[choice.place[k]]; };
+  if (choice.is_lonlat()) {
+    LonLat given;
+    given.lon = std::move(axis(0));
+    given.lat = std::move(axis(1));
+    set_angles(nodes, std::move(given), units_of(layout, choice, options.units));
+    return;
+  }
+  nodes.points.resize(nodes.lines.size());
+  for (std::size_t i = 0; i < nodes.points.size(); ++i)
+    nodes.points[i] = {axis(0)[i], axis(1)[i], axis(2)[i]};
+  nodes.kind += ", x y z";
 }
 
 void read_raw(Nodes& nodes, std::string_view bytes, const ReadOptions& options) {
@@ -138,10 +258,15 @@ void read_raw(Nodes& nodes, std::string_view bytes, const ReadOptions& options) 
     if (!std::isfinite(values[i]))
       throw std::runtime_error(fmt::format("{}: {}: column {} is not finite: remove the row", nodes.file,
                                            nodes.place(i / columns), i % columns + 1));
-  if (columns == 2)
-    set_angles(nodes, values.data(), 2, values.size() / 2, options.units);
-  else
-    set_coordinates(nodes, values.data(), 3, values.size() / 3);
+  if (columns == 2) {
+    LonLat given;
+    for (std::size_t i = 0; i < values.size(); i += 2)
+      given.lon.push_back(values[i]), given.lat.push_back(values[i + 1]);
+    return set_angles(nodes, std::move(given), options.units);
+  }
+  for (std::size_t i = 0; i < values.size(); i += 3)
+    nodes.points.push_back({values[i], values[i + 1], values[i + 2]});
+  nodes.kind += ", x y z";
 }
 
 /// OFF: the word, counts of vertices, faces and edges, vertices `x y z`, faces `count corner...` from 0.
@@ -172,6 +297,33 @@ void read_off(Nodes& nodes, const std::string& text, const ReadOptions& options)
 
 std::string Nodes::place(std::size_t i) const {
   return i < lines.size() ? fmt::format("node {} (line {})", i + 1, lines[i]) : fmt::format("node {}", i + 1);
+}
+
+void Nodes::keep(const std::vector<std::size_t>& indices) {
+  files::keep(points, indices);
+  files::keep(given.lon, indices);
+  files::keep(given.lat, indices);
+  files::keep(lines, indices);
+  files::keep(density, indices);
+  const auto keep_column = [&](Column& column) {
+    files::keep(column.numbers, indices);
+    files::keep(column.texts, indices);
+  };
+  keep_column(value);
+  for (Column& column : columns) keep_column(column);
+  triangles.clear();
+}
+
+std::string hint_beyond_pole(const Angles& a, std::size_t n, const char* to_exchange) {
+  const auto largest = [&](const double* values) {
+    double most = 0;
+    for (std::size_t i = 0; i < n; ++i) most = std::max(most, std::fabs(values[a.stride * i]));
+    return most;
+  };
+  if (!a.lat_in_degrees) return "; --units degrees?";
+  return largest(a.lon) <= 90 && largest(a.lat) <= 360
+             ? fmt::format("; is latitude first? Then say --columns {}", to_exchange)
+             : "";
 }
 
 std::vector<Point> points_of(const Angles& a, std::size_t n) {
@@ -239,6 +391,8 @@ Nodes read(const std::string& file, const ReadOptions& options) {
     read_raw(nodes, contents, options);
     return nodes;
   }
+  if (contents.compare(0, 2, "\xFF\xFE") == 0 || contents.compare(0, 2, "\xFE\xFF") == 0)
+    throw std::runtime_error(nodes.file + ":1: UTF-16: save the file as UTF-8");
   if (std::string_view(contents).substr(0, 4096).find('\0') != std::string::npos)
     throw std::runtime_error(nodes.file +
                              ": binary, but not NetCDF; raw doubles need --from raw and --coordinates");

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "files/columns.h"
 #include "mesh/triangulation.h"
 
 namespace files {
@@ -21,29 +22,37 @@ struct ReadOptions {
   Coordinates coordinates = Coordinates::detected;
   Units units = Units::said_or_unmistakable;  ///< of angles, if the file does not say
   bool with_triangles = false;                ///< read those of UGRID, MPAS and OFF as well
+  bool with_columns = false;                  ///< of text and NetCDF: also read the other columns
   bool with_values = false;                   ///< of text and NetCDF: also read one value per node,
-  std::string variable;  ///< name (NetCDF) or column (text; empty: the one after the coordinates)
+  std::string variable;  ///< its name, or in text its number; empty: the column after the coordinates
+  /// Names or (text) numbers, with commas between them: lon,lat or x,y,z, then the columns to read. Empty: by
+  /// the names in the file, or the first ones.
+  std::string columns;
 };
 
-/// Attributes of a NetCDF file about its creation: global attributes whose names begin with "scvt_".
+/// Global attributes of a NetCDF file: title, history, source, institution, references, comment, and those
+/// whose names begin with "scvt_".
 using Notes = std::map<std::string, std::string>;
 
 struct Nodes {
   std::string file;  ///< name in messages
   std::string kind;  ///< "text, lon lat in degrees"
   std::vector<Point> points;
-  std::vector<std::size_t> lines;       ///< of text: of each node, from 1
-  std::vector<double> density;          ///< meshDensity of MPAS, if in the file
-  std::vector<double> values;           ///< if requested; NaN: missing
-  std::string value_name, value_units;  ///< if in the file
+  LonLat given;                    ///< longitudes and latitudes as they are in the file; empty: it has none
+  std::vector<std::size_t> lines;  ///< of text: of each node, from 1
+  std::vector<double> density;     ///< meshDensity of MPAS, if in the file
+  Column value;                    ///< if requested; its name is empty if the file has none
+  Columns columns;                 ///< if requested: the other columns of the file
   Notes notes;
   pstripack::Triangles triangles;  ///< counterclockwise; empty unless requested and present
 
   /// "node 17", with its line if it has one.
   std::string place(std::size_t i) const;
+  /// Leaves out all nodes but those with these indices, which increase; and triangles.
+  void keep(const std::vector<std::size_t>& indices);
 };
 
-/// Reads nodes: text `lon lat` or `x y z` (point_sets/text_file.h), OFF, NetCDF (netcdf_nodes.cpp), raw
+/// Reads nodes: text `lon lat` or `x y z` (text_table.h), OFF, NetCDF (netcdf_nodes.cpp), raw
 /// doubles in the byte order of the machine; `-` is stdin. Vectors keep their lengths. Throws
 /// std::runtime_error: one line with file, line or index, and remedy.
 Nodes read(const std::string& file, const ReadOptions& options = {});
@@ -62,6 +71,9 @@ struct Angles {
 std::vector<Point> points_of(const Angles& angles, std::size_t n);
 /// The first latitude beyond a pole, allowing for single precision; n if there is none.
 std::size_t first_beyond_pole(const Angles& angles, std::size_t n);
+/// What may be wrong with latitudes beyond the pole: "; ..." or nothing. `to_exchange`: what --columns is
+/// told then.
+std::string hint_beyond_pole(const Angles& angles, std::size_t n, const char* to_exchange);
 
 /// `contents`: bytes that came through a pipe; empty: read the file.
 Nodes read_netcdf(const std::string& file, const ReadOptions& options, const std::string& contents = "");

@@ -18,10 +18,9 @@ void write_ugrid(const OutputFile& file, const Faces&, const std::vector<Point>&
                  const Notes&) {
   refuse(file.name());
 }
-void write_scrip(const OutputFile& file, const Faces&) { refuse(file.name()); }
+void write_scrip(const OutputFile& file, const Faces&, const Notes&) { refuse(file.name()); }
 void write_mpas(const OutputFile& file, const Mesh&) { refuse(file.name()); }
-void write_netcdf_nodes(const OutputFile& file, const std::vector<Point>&, const std::vector<double>&,
-                        const Notes&) {
+void write_netcdf_nodes(const OutputFile& file, const std::vector<Point>&, const NodeValues&) {
   refuse(file.name());
 }
 void write_netcdf_field(const OutputFile& file, const LonLat&, const Field&) { refuse(file.name()); }

@@ -1,12 +1,9 @@
 #include "files/writers.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <sstream>
 #include <stdexcept>
-
-#include "base/parallel_for.h"
 
 namespace files {
 namespace {
@@ -33,6 +30,26 @@ void write_off(const OutputFile& file, const Faces& faces) {
   out.close();
 }
 
+/// The columns, and before them the angles as they were given.
+Columns with_angles(const Columns& columns, const LonLat& given) {
+  Columns all;
+  if (!given.empty()) {
+    const char* const units = given.degrees ? "degrees" : "radians";
+    all.push_back({"lon", "longitude as it was given", units, given.lon});
+    all.push_back({"lat", "latitude as it was given", units, given.lat});
+  }
+  for (const Column& c : columns)
+    if (find(all, c.name) == nullptr) all.push_back(c);
+  return all;
+}
+
+/// Without characters that have a meaning in XML or end a string of gmsh.
+std::string plain_name(std::string name) {
+  for (char& c : name)
+    if (std::strchr("<>&\"'\n", c) != nullptr) c = '_';
+  return name;
+}
+
 void write_gmsh(const OutputFile& file, const Faces& faces) {
   TextWriter out(file);
   out.print("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{}\n", faces.points.size());
@@ -44,6 +61,16 @@ void write_gmsh(const OutputFile& file, const Faces& faces) {
     out.print("{} 2 2 1 1 {} {} {}\n", f + 1, c[0], c[1], c[2]);  // a triangle with two tags
   }
   out.print("$EndElements\n");
+  const auto write_data = [&](const char* section, const Columns& columns) {
+    for (const Column& c : columns) {
+      if (c.is_text()) continue;  // gmsh has numbers only
+      out.print("${}\n1\n\"{}\"\n1\n0\n3\n0\n1\n{}\n", section, plain_name(c.name), c.size());
+      for (std::size_t i = 0; i < c.size(); ++i) out.print("{} {}\n", i + 1, c.numbers[i]);
+      out.print("$End{}\n", section);
+    }
+  };
+  write_data("NodeData", with_angles(faces.columns_of_points, faces.given_points));
+  write_data("ElementData", faces.columns_of_faces);
   out.close();
 }
 
@@ -76,7 +103,20 @@ void write_vtu(const OutputFile& file, const Faces& faces) {
   begin("UInt8", "types");
   for (std::size_t f = 0; f < faces.size(); ++f) out.print("{}\n", triangles ? 5 : 7);
   end();
-  out.print("</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
+  out.print("</Cells>\n");
+  const auto write_data = [&](const char* section, const Columns& columns) {
+    out.print("<{}>\n", section);
+    for (const Column& c : columns) {
+      if (c.is_text()) continue;  // many readers of VTK know numbers only
+      begin(c.whole ? "Int32" : "Float64", plain_name(c.name).c_str());
+      for (const double v : c.numbers) out.print("{}\n", v);
+      end();
+    }
+    out.print("</{}>\n", section);
+  };
+  write_data("PointData", with_angles(faces.columns_of_points, faces.given_points));
+  write_data("CellData", with_angles(faces.columns_of_faces, faces.given_centres));
+  out.print("</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
   out.close();
 }
 
@@ -127,12 +167,12 @@ std::optional<Format> format_of(const std::string& to, const std::string& file) 
   return found;
 }
 
-void write_faces(const OutputFile& file, Format format, const Faces& faces) {
+void write_faces(const OutputFile& file, Format format, const Faces& faces, const Notes& notes) {
   switch (format) {
     case Format::ugrid:
-      return write_ugrid(file, faces, faces.points);
+      return write_ugrid(file, faces, faces.points, {}, notes);
     case Format::scrip:
-      return write_scrip(file, faces);
+      return write_scrip(file, faces, notes);
     case Format::vtu:
       return write_vtu(file, faces);
     case Format::off:
@@ -147,15 +187,21 @@ void write_mesh(const OutputFile& file, Format format, const Mesh& mesh) {
   if (format == Format::lists) return write_lists(file, mesh);
   if (!holds_a_mesh(format))
     refuse(file, format, "holds nodes, not a mesh: `pstripack convert` writes nodes");
-  const Faces faces = triangle_faces(mesh);
+  Faces faces = triangle_faces(mesh);
+  if (format == Format::ugrid || format == Format::vtu || format == Format::gmsh) add_columns(faces, mesh);
   if (format == Format::ugrid) return write_ugrid(file, faces, mesh.points, mesh.density, mesh.notes);
   if (format == Format::gmsh) return write_gmsh(file, faces);
-  write_faces(file, format, faces);
+  write_faces(file, format, faces, mesh.notes);
 }
 
 void write_nodes(const OutputFile& file, Format format, const std::vector<Point>& points,
                  const std::vector<double>& density, const Notes& notes) {
-  if (format == Format::netcdf) return write_netcdf_nodes(file, points, density, notes);
+  write_nodes(file, format, points, {{}, density, {}, notes});
+}
+
+void write_nodes(const OutputFile& file, Format format, const std::vector<Point>& points,
+                 const NodeValues& values) {
+  if (format == Format::netcdf) return write_netcdf_nodes(file, points, values);
   if (holds_a_mesh(format)) refuse(file, format, "holds a mesh, and here are nodes only: use `triangulate`");
   TextWriter out(file);
   if (format == Format::raw) {
@@ -163,17 +209,43 @@ void write_nodes(const OutputFile& file, Format format, const std::vector<Point>
   } else if (format == Format::xyz) {
     for (const Point& p : points) out.print("{} {} {}\n", p.x, p.y, p.z);
   } else {
-    const LonLat angles(points, true);
+    const LonLat angles = angles_of(points, values.given, true);
     for (std::size_t i = 0; i < points.size(); ++i) out.print("{} {}\n", angles.lon[i], angles.lat[i]);
   }
   out.close();
 }
 
+namespace {
+
+/// As text_table.h reads it.
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"') result += c;
+    result += c == '\n' ? ' ' : c;
+  }
+  return result + '"';
+}
+
+}  // namespace
+
 void write_field(const OutputFile& file, const LonLat& places, const Field& field) {
   TextWriter out(file);
-  out.print("# lon lat {}{}{}\n", field.name, field.units.empty() ? "" : ", ", field.units);
-  for (std::size_t i = 0; i < field.values.size(); ++i)
-    out.print("{} {} {}\n", places.lon[i], places.lat[i], field.values[i]);
+  const auto name = [](const Column& c) {
+    return c.units.empty() ? c.name : fmt::format("{} [{}]", c.name, c.units);
+  };
+  out.print("# lon lat {}", name(field.value));
+  for (const Column& c : field.columns) out.print(" {}", name(c));
+  out.print("\n");
+  for (std::size_t i = 0; i < field.value.size(); ++i) {
+    out.print("{} {} {}", places.lon[i], places.lat[i], field.value.numbers[i]);
+    for (const Column& c : field.columns)
+      if (c.is_text())
+        out.print(" {}", quoted(c.texts[i]));
+      else
+        out.print(" {}", c.numbers[i]);
+    out.print("\n");
+  }
   out.close();
 }
 
@@ -185,18 +257,6 @@ LonLat Grid::places() const {
       all.lat.push_back(y);
     }
   return all;
-}
-
-LonLat::LonLat(const std::vector<Point>& points, bool degrees) : lon(points.size()), lat(points.size()) {
-  const double scale = degrees ? 57.295779513082321 : 1;
-  pstripack::parallel_pieces(points.size(), pstripack::threads_for(points.size()),
-                             [&](std::size_t first, std::size_t last, int) {
-                               for (std::size_t i = first; i < last; ++i) {
-                                 const Point& p = points[i];
-                                 lon[i] = std::atan2(p.y, p.x) * scale;
-                                 lat[i] = std::atan2(p.z, std::sqrt(p.x * p.x + p.y * p.y)) * scale;
-                               }
-                             });
 }
 
 }  // namespace files

@@ -26,20 +26,22 @@ bool holds_a_mesh(Format format);
 /// The format named by --to, else that of the longest suffix of `file` in the table.
 std::optional<Format> format_of(const std::string& to, const std::string& file);
 
-/// Writes a triangulation.
+/// Writes a triangulation. UGRID, VTU and gmsh hold its columns.
 void write_mesh(const OutputFile& file, Format format, const Mesh& mesh);
 /// The same for any polygons: ugrid, scrip, vtu, off. Other formats throw std::runtime_error.
-void write_faces(const OutputFile& file, Format format, const Faces& faces);
-/// Writes nodes alone: xyz, lonlat, netcdf, raw. NetCDF also holds density and notes.
+void write_faces(const OutputFile& file, Format format, const Faces& faces, const Notes& notes = {});
+/// What is known of nodes without a mesh.
+struct NodeValues {
+  LonLat given;
+  std::vector<double> density;
+  Columns columns;
+  Notes notes;
+};
+/// Writes nodes alone: xyz, lonlat, netcdf, raw. NetCDF also holds density, columns and notes.
+void write_nodes(const OutputFile& file, Format format, const std::vector<Point>& points,
+                 const NodeValues& values);
 void write_nodes(const OutputFile& file, Format format, const std::vector<Point>& points,
                  const std::vector<double>& density = {}, const Notes& notes = {});
-
-/// Longitudes and latitudes: of unit vectors, -180 to 180 and -90 to 90 degrees, or in radians.
-struct LonLat {
-  LonLat() = default;
-  LonLat(const std::vector<Point>& points, bool degrees);
-  std::vector<double> lon, lat;
-};
 
 /// A grid of longitudes and latitudes, in degrees.
 struct Grid {
@@ -47,24 +49,25 @@ struct Grid {
   LonLat places() const;  ///< of all its points, row after row of latitude
 };
 
-/// A value at each place; NaN: missing.
+/// A value at each place, and the other columns that the places have; NaN: missing.
 struct Field {
-  std::string name = "value", units;
-  std::vector<double> values;
+  Column value;
+  Columns columns;
+  Notes notes;
 };
 
-/// Text: lines of lon lat (degrees) value, `nan` where it is missing.
+/// Text: lines of lon lat (degrees), value and columns, `nan` where a number is missing.
 void write_field(const OutputFile& file, const LonLat& places, const Field& field);
 /// NetCDF, CF conventions: _FillValue where it is missing.
 void write_netcdf_field(const OutputFile& file, const LonLat& places, const Field& field);
 void write_netcdf_grid(const OutputFile& file, const Grid& grid, const Field& field);
 
 // In netcdf_meshes.cpp.
+/// `vectors`: the corners as they were given.
 void write_ugrid(const OutputFile& file, const Faces& faces, const std::vector<Point>& vectors,
                  const std::vector<double>& density = {}, const Notes& notes = {});
-void write_scrip(const OutputFile& file, const Faces& faces);
+void write_scrip(const OutputFile& file, const Faces& faces, const Notes& notes = {});
 void write_mpas(const OutputFile& file, const Mesh& mesh);
-void write_netcdf_nodes(const OutputFile& file, const std::vector<Point>& points,
-                        const std::vector<double>& density, const Notes& notes);
+void write_netcdf_nodes(const OutputFile& file, const std::vector<Point>& points, const NodeValues& values);
 
 }  // namespace files

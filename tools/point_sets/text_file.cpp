@@ -1,5 +1,7 @@
 #include "text_file.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
@@ -9,6 +11,8 @@
 #include <cstring>
 #include <memory>
 #include <stdexcept>
+#include <string_view>
+#include <vector>
 
 #include "numbers.h"
 #include "point_sets.h"
@@ -33,10 +37,15 @@ bool parse_word(std::string_view word, double& value) {
   return parse(std::string(word), value);
 }
 
-bool is_nan(std::string_view word) {
-  const auto is = [&](std::size_t i, char c) { return (word[i] | 0x20) == c; };
-  return word.size() == 3 && is(0, 'n') && is(1, 'a') && is(2, 'n');
-}
+/// Rows with equal numbers of finite values.
+struct Table {
+  std::size_t columns = 0;
+  std::vector<double> values;      // row after row
+  std::vector<std::size_t> lines;  // of each row, from 1
+
+  std::size_t rows() const { return lines.size(); }
+  const double* row(std::size_t i) const { return &values[columns * i]; }
+};
 
 }  // namespace
 
@@ -58,17 +67,25 @@ std::string contents_of(const std::string& file) {
   const std::string name = is_stdin ? "stdin" : file;
   if (in == nullptr) throw std::runtime_error(name + ": cannot be opened: " + std::strerror(errno));
   std::string text;
-  for (std::size_t got = 1; got > 0;) {
-    const std::size_t before = text.size(), more = std::max<std::size_t>(before, std::size_t{1} << 16);
+  struct stat status {};
+  const bool is_file = fstat(fileno(in), &status) == 0 && S_ISREG(status.st_mode);
+  // A byte more than the file has, so that its end is seen.
+  std::size_t more = is_file ? static_cast<std::size_t>(status.st_size) + 1 : std::size_t{1} << 16;
+  for (bool ends = false; !ends;) {
+    const std::size_t before = text.size();
     text.resize(before + more);
-    got = std::fread(&text[before], 1, more, in);
+    const std::size_t got = std::fread(&text[before], 1, more, in);
     text.resize(before + got);
+    ends = got < more;
+    more = std::max<std::size_t>(text.size(), std::size_t{1} << 16);
   }
   if (std::ferror(in)) throw std::runtime_error(name + ": read error: " + std::strerror(errno));
   return text;
 }
 
-Table table_of(std::string_view text, const std::string& name, std::size_t most_columns, bool with_nan) {
+namespace {
+
+Table table_of(std::string_view text, const std::string& name) {
   Table table;
   std::size_t number = 0, line_of_count = 0;
   double count = 0;
@@ -86,10 +103,7 @@ Table table_of(std::string_view text, const std::string& name, std::size_t most_
       for (end = begin; end < line.size() && !is_blank(line[end]);) ++end;
       const std::string_view word = line.substr(begin, end - begin);
       double value = 0;
-      if (with_nan && is_nan(word))
-        value = std::nan("");
-      else if (!parse_word(word, value))
-        fail(name, number, "'" + std::string(word) + "' is not a finite number");
+      if (!parse_word(word, value)) fail(name, number, "'" + std::string(word) + "' is not a finite number");
       table.values.push_back(value);
     }
     const std::size_t columns = table.values.size() - before;
@@ -102,7 +116,7 @@ Table table_of(std::string_view text, const std::string& name, std::size_t most_
       continue;
     }
     if (table.columns == 0) table.columns = columns;
-    if (table.columns < 2 || table.columns > most_columns)
+    if (table.columns < 2 || table.columns > 3)
       fail(name, number, "expected 'lon lat' or 'x y z', found " + numbers(columns));
     if (columns != table.columns)
       fail(name, number,
@@ -115,6 +129,8 @@ Table table_of(std::string_view text, const std::string& name, std::size_t most_
          "a single number is the count of the points that follow; there are " + std::to_string(table.rows()));
   return table;
 }
+
+}  // namespace
 
 std::vector<pstripack::Point> read(const std::string& file) {
   const std::string name = file == "-" ? "stdin" : file;

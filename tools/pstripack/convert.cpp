@@ -15,7 +15,7 @@ struct Options {
 
 void convert(Options& options) {
   options.output.choose();
-  options.input.read.with_triangles = true;
+  options.input.read.with_triangles = options.input.read.with_columns = true;
   files::OutputFile file(options.output.file);
   Progress progress;
   files::Nodes nodes =
@@ -28,23 +28,26 @@ void convert(Options& options) {
   if (files::holds_a_mesh(format) && !has_mesh)
     throw std::runtime_error(nodes.file +
                              ": holds nodes, no triangles: `pstripack triangulate` makes a mesh of them");
+  add_history(nodes.notes);
   progress.step("writing", [&] {
     if (files::holds_a_mesh(format)) {
       try {
         files::Mesh mesh = files::mesh_of(nodes.points, nodes.triangles);
+        mesh.given = nodes.given;
         mesh.density = nodes.density;
+        mesh.columns = nodes.columns;
         mesh.notes = nodes.notes;
         write_mesh(file, format, mesh);
       } catch (const files::NoMesh& e) {
         throw std::runtime_error(nodes.file + ": " + e.what());
       }
     } else {
-      write_nodes(file, format, nodes.points, nodes.density, nodes.notes);
+      write_nodes(file, format, nodes.points, {nodes.given, nodes.density, nodes.columns, nodes.notes});
     }
     file.commit();
   });
-  progress.finish(
-      fmt::format("{} nodes ({}), {} triangles", nodes.points.size(), nodes.kind, nodes.triangles.size()));
+  progress.finish(fmt::format("{} ({}), {}", counted(nodes.points.size(), "node"), nodes.kind,
+                              counted(nodes.triangles.size(), "triangle")));
 }
 
 }  // namespace

@@ -83,14 +83,15 @@ void info(const Options& options) {
   Progress progress;
   files::Nodes nodes = progress.step("reading", [&] { return read_nodes(options.input); });
   const std::size_t given = nodes.points.size();
-  std::vector<std::size_t> duplicates;
+  std::vector<files::Duplicate> duplicates;
   std::vector<std::size_t> number(given);  // in the input, of each node left
   for (std::size_t i = 0; i < given; ++i) number[i] = i + 1;
   const Mesh mesh = progress.step("triangulating", [&] {
     try {
       duplicates = files::duplicates(nodes.points);
       const auto is_left = [&](std::size_t n) {
-        return !std::binary_search(duplicates.begin(), duplicates.end(), n - 1);
+        return !std::binary_search(duplicates.begin(), duplicates.end(), files::Duplicate{n - 1, 0},
+                                   [](const auto& a, const auto& b) { return a.node < b.node; });
       };
       number.erase(std::stable_partition(number.begin(), number.end(), is_left), number.end());
       std::vector<Point> left;
@@ -109,10 +110,13 @@ void info(const Options& options) {
       if (e.second > 0) j["nodes"].push_back(given_number(e.second));
       return j;
     };
+    nlohmann::ordered_json pairs = nlohmann::ordered_json::array();
+    for (const files::Duplicate& d : duplicates) pairs.push_back({d.first + 1, d.node + 1});
     const nlohmann::ordered_json j{{"file", nodes.file},
                                    {"kind", nodes.kind},
                                    {"nodes", given},
                                    {"duplicates", duplicates.size()},
+                                   {"duplicate_pairs", pairs},
                                    {"triangles", f.triangles},
                                    {"arcs", f.arcs},
                                    {"boundary_nodes", f.boundary},
@@ -135,20 +139,21 @@ void info(const Options& options) {
   line("nodes", fmt::format("{}", given));
   line("duplicates", duplicates.empty() ? "none"
                                         : fmt::format("{}, the first is {}; left out below",
-                                                      duplicates.size(), nodes.place(duplicates[0])));
+                                                      duplicates.size(), nodes.place(duplicates[0].node)));
   line("triangles", fmt::format("{}", f.triangles));
   line("arcs", fmt::format("{}", f.arcs));
-  line("boundary",
-       f.boundary == 0 ? "none: the triangles cover the sphere" : fmt::format("{} nodes", f.boundary));
+  line("boundary", f.boundary == 0 ? "none: the triangles cover the sphere" : counted(f.boundary, "node"));
   line("neighbours",
        fmt::format("{} ({}) to {} ({})", f.fewest.value, nodes.place(given_number(f.fewest.first) - 1),
                    f.most.value, nodes.place(given_number(f.most.first) - 1)));
   line("tightest pair", pair(f.shortest));
   line("mean arc", fmt::format("{:.6g} rad, {:.6g} degrees", f.mean, f.mean * 57.295779513082321));
   line("longest arc", pair(f.longest));
-  line("near duplicates", fmt::format("{} pairs closer than {} of the mean arc", f.near, kNear));
+  line("near duplicates", fmt::format("{} closer than {} of the mean arc", counted(f.near, "pair"), kNear));
   line("smallest angle", fmt::format("{:.6g} degrees, at {}", f.sharpest.value,
                                      nodes.place(given_number(f.sharpest.first) - 1)));
+  for (const files::Duplicate& d : duplicates)
+    line("duplicate", fmt::format("{} and {}", nodes.place(d.first), nodes.place(d.node)));
 }
 
 }  // namespace

@@ -93,32 +93,42 @@ bool is_netcdf(const Options& options) {
 
 /// Leaves out nodes without value, or throws.
 void see_to_missing(files::Nodes& nodes, bool skip) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < nodes.values.size(); ++i) {
-    if (std::isnan(nodes.values[i])) {
-      if (!skip)
-        throw std::runtime_error(
-            fmt::format("{}: {} has no value: remove it, or say --skip-missing", nodes.file, nodes.place(i)));
-      continue;
-    }
-    nodes.points[kept] = nodes.points[i];
-    nodes.values[kept] = nodes.values[i];
-    if (!nodes.lines.empty()) nodes.lines[kept] = nodes.lines[i];
-    ++kept;
+  std::vector<std::size_t> kept;
+  const std::vector<double>& values = nodes.value.numbers;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!std::isnan(values[i]))
+      kept.push_back(i);
+    else if (!skip)
+      throw std::runtime_error(
+          fmt::format("{}: {} has no value: remove it, or say --skip-missing", nodes.file, nodes.place(i)));
   }
-  if (kept < nodes.values.size())
-    say(fmt::format("{}: {} nodes without value left out", nodes.file, nodes.values.size() - kept));
-  nodes.points.resize(kept);
-  nodes.values.resize(kept);
-  if (!nodes.lines.empty()) nodes.lines.resize(kept);
+  if (kept.size() == values.size()) return;
+  say(fmt::format("{}: {} without value left out", nodes.file, counted(values.size() - kept.size(), "node")));
+  nodes.keep(kept);
 }
 
 files::Nodes read_values(Options& options) {
   options.input.read.with_values = true;
   files::Nodes nodes = read_places(options.input.file, options.input.read);
   see_to_missing(nodes, options.skip_missing);
-  if (options.input.drop_duplicates) drop_duplicates(nodes);
+  drop_duplicates(nodes, options.input);
   return nodes;
+}
+
+/// The places, with the columns of their file and, if they were given by vectors, x y z.
+files::Nodes read_points(const Options& options) {
+  files::ReadOptions read;
+  read.units = options.input.read.units;
+  read.with_columns = true;
+  files::Nodes places = read_places(options.points, read);
+  if (!places.given.empty()) return places;
+  for (const auto& [name, component] : {std::pair("x", &files::Point::x), std::pair("y", &files::Point::y),
+                                        std::pair("z", &files::Point::z)}) {
+    if (find(places.columns, name) != nullptr) continue;
+    places.columns.push_back({name, "Cartesian coordinate of the place as it was given"});
+    for (const files::Point& p : places.points) places.columns.back().numbers.push_back(p.*component);
+  }
+  return places;
 }
 
 void interpolate(Options& options) {
@@ -132,15 +142,14 @@ void interpolate(Options& options) {
   files::OutputFile file(options.output);
 
   Progress progress;
-  const files::Nodes nodes = progress.step("reading", [&] { return read_values(options); });
-  const std::vector<files::Point> places = progress.step("reading the places", [&] {
-    if (options.points.empty()) {
-      const files::LonLat all = grid.places();
-      return files::points_of({all.lon.data(), all.lat.data(), 1, true, true}, all.lon.size());
-    }
-    files::ReadOptions read;
-    read.units = options.input.read.units;
-    return read_places(options.points, read).points;
+  files::Nodes nodes = progress.step("reading", [&] { return read_values(options); });
+  files::Nodes places = progress.step("reading the places", [&] {
+    if (!options.points.empty()) return read_points(options);
+    files::Nodes all;
+    all.given = grid.places();
+    all.points =
+        files::points_of({all.given.lon.data(), all.given.lat.data(), 1, true, true}, all.given.lon.size());
+    return all;
   });
   const Interpolation interpolation = progress.step("triangulating", [&] {
     try {
@@ -149,34 +158,37 @@ void interpolate(Options& options) {
       throw no_mesh_of(nodes, e);
     }
   });
-  const Interpolation::Result result = progress.step("interpolating", [&] {
-    return interpolation.values_at(places, nodes.values, options.method,
+  Interpolation::Result result = progress.step("interpolating", [&] {
+    return interpolation.values_at(places.points, nodes.value.numbers, options.method,
                                    options.outside == Outside::nearest ? Interpolation::Outside::nearest
                                                                        : Interpolation::Outside::missing);
   });
   if (options.outside == Outside::error && result.outside > 0) {
     std::size_t first = 0;
     while (!std::isnan(result.values[first])) ++first;
-    const files::LonLat where({places[first]}, true);
+    const files::LonLat where({places.points[first]}, true);
     throw std::runtime_error(
         fmt::format("{} of {} places lie outside the nodes of {}, the first is place {}, lon {:.6g} lat "
                     "{:.6g}: --outside missing "
                     "or nearest",
-                    result.outside, places.size(), nodes.file, first + 1, where.lon[0], where.lat[0]));
+                    result.outside, places.points.size(), nodes.file, first + 1, where.lon[0], where.lat[0]));
   }
   progress.step("writing", [&] {
-    const files::Field field{nodes.value_name.empty() ? "value" : nodes.value_name, nodes.value_units,
-                             result.values};
-    const bool is_grid = options.points.empty();
-    if (netcdf && is_grid)
+    files::Field field{std::move(nodes.value), std::move(places.columns), std::move(nodes.notes)};
+    if (field.value.name.empty()) field.value.name = "value";
+    field.value.numbers = std::move(result.values);
+    field.value.whole = false;
+    make_names_differ(field.columns, {"lon", "lat", field.value.name});
+    add_history(field.notes);
+    if (netcdf && options.points.empty())
       write_netcdf_grid(file, grid, field);
     else
       (netcdf ? files::write_netcdf_field : files::write_field)(
-          file, is_grid ? grid.places() : files::LonLat(places, true), field);
+          file, angles_of(places.points, places.given, true), field);
     file.commit();
   });
-  progress.finish(fmt::format("{} nodes ({}), {} places, {} outside the nodes", nodes.points.size(),
-                              nodes.kind, places.size(), result.outside));
+  progress.finish(fmt::format("{} ({}), {}, {} outside the nodes", counted(nodes.points.size(), "node"),
+                              nodes.kind, counted(places.points.size(), "place"), result.outside));
 }
 
 }  // namespace
@@ -189,7 +201,7 @@ void add_interpolate(CLI::App& app, Command& chosen) {
       ->required()
       ->type_name("");
   sub->add_option("--variable", options->input.read.variable,
-                  "name (NetCDF) or column (text, from 1) [the column after the coordinates]")
+                  "of the value: name, or in text column from 1 [the column after the coordinates]")
       ->type_name("NAME");
   sub->add_option("--to-points", options->points, "file of points")->type_name("FILE");
   sub->add_option("--to-grid", options->grid, "cell centres of a grid, for example 180x360")
@@ -215,8 +227,9 @@ void add_interpolate(CLI::App& app, Command& chosen) {
       ->type_name("WORD")
       ->check(CLI::IsMember({"text", "netcdf"}).description(""));
   sub->footer(
-      R"(VALUES is text with `lon lat value` or `x y z value` on each line, or NetCDF. `nan` and _FillValue are missing
-values, in input and output. --from and --coordinates apply to VALUES, --units to VALUES and the points.)");
+      R"(VALUES is text with `lon lat value` or `x y z value` on each line, a table with a header line, or NetCDF. `nan` and
+_FillValue are missing values, in input and output. --from, --columns and --coordinates apply to VALUES, --units to
+VALUES and the points. The columns of the points follow the value.)");
   sub->callback([=, &chosen] { chosen = [=] { interpolate(*options); }; });
 }
 

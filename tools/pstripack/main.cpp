@@ -7,6 +7,7 @@
 
 #include <new>
 
+#include "files/nearest.h"
 #include "pstripack/options.h"
 #include "pstripack/ranks.h"
 
@@ -26,20 +27,60 @@ constexpr auto kDescription = R"(Exact Delaunay triangulations and Voronoi diagr
 `pstripack COMMAND --help` describes a command.)";
 
 constexpr auto kFooter =
-    R"(Input: text with `lon lat` or `x y z` on each line (commas count as blanks, # and ! start comments, the
-first line may hold the number of nodes alone), OFF, raw doubles, or NetCDF (UGRID; xCell, yCell, zCell; lonCell,
-latCell; lon, lat). Angles that could be degrees or radians are refused unless --units says which.
+    R"(Input: text with `lon lat` or `x y z` on each line or a header line that names the columns (separated by blanks,
+commas, semicolons or tabs; #, % and ! start comments, > a segment), OFF, raw doubles, or NetCDF (UGRID; xCell, yCell,
+zCell; lonCell, latCell; lon, lat). Angles that could be degrees or radians are refused unless --units says which.
 
 Output: a file, written completely or not at all, or stdout. Everything else goes to stderr. OMP_NUM_THREADS and
 the affinity mask are honoured.
 
 Exit code: 0 success; 1 the input cannot be used or the output cannot be written; 2 wrong command line.)";
 
+/// The command line as history: without options that do not change the result.
+std::string history_of(int argc, char** argv) {
+  std::string text = "pstripack";
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--threads") ++i;
+    if (word == "-q" || word == "--quiet" || word.rfind("--threads", 0) == 0) continue;
+    text +=
+        word.empty() || word.find_first_of(" \t\n'\"") != word.npos ? fmt::format(" '{}'", word) : " " + word;
+  }
+  return text + " (pstripack " PSTRIPACK_VERSION ")";
+}
+
+/// A subcommand or option that does not exist, and the one that was meant; empty: all exist.
+std::string unknown_word(const CLI::App& app) {
+  const std::vector<CLI::App*> chosen = app.get_subcommands();
+  for (const std::string& word : app.remaining(true)) {
+    std::vector<std::string> known;
+    if (word.size() > 1 && word[0] == '-') {
+      const std::string name = word.substr(0, word.find('='));
+      std::vector<const CLI::App*> apps(chosen.begin(), chosen.end());
+      apps.push_back(&app);
+      for (const CLI::App* const a : apps)
+        for (const CLI::Option* const option : a->get_options()) {
+          for (const std::string& n : option->get_lnames()) known.push_back("--" + n);
+          for (const std::string& n : option->get_snames()) known.push_back("-" + n);
+        }
+      return fmt::format("there is no option {}{}", name, files::did_you_mean(name, known));
+    }
+    if (!chosen.empty()) continue;
+    for (const CLI::App* const sub : app.get_subcommands([](const CLI::App*) { return true; }))
+      known.push_back(sub->get_name());
+    const std::string meant = files::did_you_mean(word, known);
+    return fmt::format("there is no subcommand '{}'{}", word,
+                       meant.empty() ? fmt::format(": expected {}", fmt::join(known, ", ")) : meant);
+  }
+  return "";
+}
+
 int run(int argc, char** argv) {
   using namespace program;
+  global().command = history_of(argc, argv);
   CLI::App app(kDescription, "pstripack");
   app.footer(kFooter);
-  app.set_version_flag("--version", PSTRIPACK_VERSION);
+  app.set_version_flag("--version", "pstripack " PSTRIPACK_VERSION);
   app.require_subcommand(1);
   app.fallthrough();
   app.add_flag("-q,--quiet", global().quiet, "print only errors on stderr");
@@ -64,7 +105,8 @@ int run(int argc, char** argv) {
     return kDone;
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
-    fmt::print(stderr, "pstripack: {}\n", e.what());
+    const std::string unknown = unknown_word(app);
+    fmt::print(stderr, "pstripack: {}\n", unknown.empty() ? e.what() : unknown);
     return kUsage;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "pstripack: out of memory\n");

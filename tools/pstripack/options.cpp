@@ -4,15 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
+#include "numbers.h"
 #include "pstripack/progress.h"
 
 namespace program {
 namespace {
 
+using files::Column;
 using files::Nodes;
+
+constexpr auto kNode = "node", kLine = "line";  // columns
 
 void check_directions(const Nodes& nodes) {
   for (std::size_t i = 0; i < nodes.points.size(); ++i)
@@ -52,6 +57,22 @@ Global& global() {
   return options;
 }
 
+std::string counted(std::size_t n, const std::string& thing) {
+  return fmt::format("{} {}{}", n, thing, n == 1 ? "" : "s");
+}
+
+CLI::Validator whole_number() {
+  const auto check = [](std::string& text) -> std::string {
+    double value = 0;
+    constexpr double kMost = 9007199254740992;  // 2^53: up to here a double is exact
+    if (!point_sets::parse(text, value) || value != std::floor(value) || !(value >= 0 && value <= kMost))
+      return "'" + text + "' is not a whole number";
+    text = fmt::format("{:.0f}", value);
+    return "";
+  };
+  return CLI::Validator(check, "");
+}
+
 void add_input(CLI::App& app, Input& input) {
   app.add_option("IN", input.file, "file of nodes; - is stdin")->required()->type_name("");
   add_reading(app, input.read);
@@ -64,14 +85,19 @@ void add_reading(CLI::App& app, files::ReadOptions& read) {
              "text, netcdf or raw (doubles in this machine's byte order) [text and netcdf are detected]");
   add_choice(app, "--coordinates", read.coordinates,
              {{"xyz", Coordinates::xyz}, {"lonlat", Coordinates::lonlat}},
-             "xyz: three columns, any lengths; lonlat: the first two columns [by the number of columns]");
+             "xyz: three columns, any lengths; lonlat: two columns [by their names or number]");
+  app.add_option("--columns", read.columns,
+                 "lon,lat or x,y,z, then other columns to keep: names, or in text numbers [all]")
+      ->type_name("NAMES");
   add_choice(app, "--units", read.units, {{"degrees", Units::degrees}, {"radians", Units::radians}},
              "degrees or radians, where the file does not say");
 }
 
 void add_duplicates(CLI::App& app, Input& input) {
-  app.add_flag("--drop-duplicates", input.drop_duplicates,
-               "keep the first of nodes in the same place [an error]");
+  add_choice(app, "--duplicates", input.duplicates,
+             {{"error", Duplicates::error}, {"first", Duplicates::first}, {"mean", Duplicates::mean}},
+             "nodes in the same place: error, first (keep it) or mean (of their values) [error]");
+  app.add_flag("--drop-duplicates", input.drop_duplicates, "the same as --duplicates first");
 }
 
 void add_output(CLI::App& app, Output& output, bool required) {
@@ -108,33 +134,78 @@ Nodes read_nodes(const Input& input) {
   if (nodes.points.size() < 3)
     throw std::runtime_error(fmt::format("{}: a triangulation needs at least 3 nodes, here are {}",
                                          nodes.file, nodes.points.size()));
-  if (input.drop_duplicates) drop_duplicates(nodes);
+  if (input.read.with_columns) number_nodes(nodes);
+  drop_duplicates(nodes, input);
   return nodes;
 }
 
-void drop_duplicates(Nodes& nodes) {
-  std::vector<std::size_t> dropped;
+namespace {
+
+/// Each first node gets the mean of its and its duplicates' numbers, but those that are missing.
+void take_means(Column& column, const std::vector<files::Duplicate>& duplicates) {
+  if (column.numbers.empty()) return;
+  std::map<std::size_t, std::vector<double>> groups;
+  for (const files::Duplicate& d : duplicates) {
+    std::vector<double>& group = groups.try_emplace(d.first, 1, column.numbers[d.first]).first->second;
+    group.push_back(column.numbers[d.node]);
+  }
+  for (auto& [first, group] : groups) {
+    group.erase(std::remove_if(group.begin(), group.end(), [](double v) { return std::isnan(v); }),
+                group.end());
+    if (group.empty()) continue;
+    double sum = 0;
+    for (const double v : group) sum += v;
+    column.numbers[first] = sum / static_cast<double>(group.size());
+    if (column.numbers[first] != std::floor(column.numbers[first])) column.whole = false;
+  }
+}
+
+void drop(Nodes& nodes, bool means) {
+  std::vector<files::Duplicate> duplicates;
   try {
-    dropped = files::duplicates(nodes.points);
+    duplicates = files::duplicates(nodes.points);
   } catch (const files::NoMesh& e) {
     throw no_mesh_of(nodes, e);
   }
-  const auto drop = [&](auto& values) {
-    if (values.empty()) return;
-    std::size_t kept = 0, next = 0;
-    for (std::size_t i = 0; i < values.size(); ++i)
-      if (next < dropped.size() && dropped[next] == i)
-        ++next;
-      else
-        values[kept++] = values[i];
-    values.resize(kept);
+  if (duplicates.empty()) return;
+  if (means) {
+    take_means(nodes.value, duplicates);
+    for (Column& column : nodes.columns)
+      if (column.name != kNode && column.name != kLine) take_means(column, duplicates);
+  }
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0, next = 0; i < nodes.points.size(); ++i)
+    if (next < duplicates.size() && duplicates[next].node == i)
+      ++next;
+    else
+      kept.push_back(i);
+  nodes.keep(kept);
+  say(fmt::format("{}: {} dropped that coincide{} with earlier ones{}", nodes.file,
+                  counted(duplicates.size(), "node"), duplicates.size() == 1 ? "s" : "",
+                  means ? "; the mean of their values is kept" : ""));
+}
+
+}  // namespace
+
+void drop_duplicates(Nodes& nodes, const Input& input) {
+  if (input.drops()) drop(nodes, input.duplicates == Duplicates::mean);
+}
+
+void number_nodes(Nodes& nodes) {
+  const auto add = [&](const char* name, const char* long_name, const auto& number) {
+    if (find(nodes.columns, name) != nullptr) return;
+    std::vector<double> numbers(nodes.points.size());
+    for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<double>(number(i));
+    nodes.columns.insert(nodes.columns.begin(), files::whole_numbers(name, long_name, std::move(numbers)));
   };
-  drop(nodes.points);
-  drop(nodes.lines);
-  drop(nodes.density);
-  drop(nodes.values);
-  if (!dropped.empty())
-    say(fmt::format("{}: {} nodes dropped that coincide with earlier ones", nodes.file, dropped.size()));
+  if (!nodes.lines.empty())
+    add(kLine, "line of the node in the input", [&](std::size_t i) { return nodes.lines[i]; });
+  add(kNode, "number of the node in the input, from 1", [](std::size_t i) { return i + 1; });
+}
+
+void add_history(files::Notes& notes) {
+  std::string& history = notes["history"];
+  history = global().command + (history.empty() ? "" : "\n") + history;
 }
 
 std::runtime_error no_mesh_of(const Nodes& nodes, const files::NoMesh& why) {
@@ -145,11 +216,13 @@ std::runtime_error no_mesh_of(const Nodes& nodes, const files::NoMesh& why) {
   return std::runtime_error(nodes.file + ": " + why.what());
 }
 
-files::Mesh triangulate(const Nodes& nodes) {
+files::Mesh triangulate(Nodes& nodes) {
   try {
     files::Mesh mesh = files::triangulate(nodes.points);
-    mesh.density = nodes.density;
-    mesh.notes = nodes.notes;
+    mesh.given = std::move(nodes.given);
+    mesh.density = std::move(nodes.density);
+    mesh.columns = std::move(nodes.columns);
+    mesh.notes = std::move(nodes.notes);
     return mesh;
   } catch (const files::NoMesh& e) {
     throw no_mesh_of(nodes, e);

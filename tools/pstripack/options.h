@@ -27,16 +27,29 @@ void add_choice(CLI::App& app, const char* name, Enum& value, const std::map<std
       ->transform(CLI::CheckedTransformer(choices).description(""));
 }
 
+/// "1 node", "2 nodes".
+std::string counted(std::size_t n, const std::string& thing);
+
+/// For options that are whole numbers: takes 1e6, too.
+CLI::Validator whole_number();
+
+/// What becomes of nodes in the same place: an error; the first one stays; or it gets the mean of their
+/// values.
+enum class Duplicates { error, first, mean };
+
 /// IN and how to read it.
 struct Input {
   std::string file;
   files::ReadOptions read;
-  bool drop_duplicates = false;
+  Duplicates duplicates = Duplicates::error;
+  bool drop_duplicates = false;  ///< the same as Duplicates::first
+
+  bool drops() const { return drop_duplicates || duplicates != Duplicates::error; }
 };
 void add_input(CLI::App& app, Input& input);
-/// --from, --coordinates, --units.
+/// --from, --columns, --coordinates, --units.
 void add_reading(CLI::App& app, files::ReadOptions& read);
-/// --drop-duplicates.
+/// --duplicates, --drop-duplicates.
 void add_duplicates(CLI::App& app, Input& input);
 
 /// OUT and its format.
@@ -56,14 +69,20 @@ files::Nodes read_places(const std::string& file, const files::ReadOptions& opti
 /// Nodes that can be triangulated: read_places, at least three; without duplicates if requested.
 files::Nodes read_nodes(const Input& input);
 
-/// Leaves out all but the first of coincident nodes.
-void drop_duplicates(files::Nodes& nodes);
+/// Leaves out all but the first of coincident nodes, if the input says so.
+void drop_duplicates(files::Nodes& nodes, const Input& input);
+
+/// Adds columns `node` and `line`, the number and line of each node in the input, unless the file has them.
+void number_nodes(files::Nodes& nodes);
+
+/// Adds the command to the notes' history.
+void add_history(files::Notes& notes);
 
 /// The error for nodes without a triangulation: file, nodes and remedy.
 std::runtime_error no_mesh_of(const files::Nodes& nodes, const files::NoMesh& why);
 
-/// Their triangulation; errors name file and nodes.
-files::Mesh triangulate(const files::Nodes& nodes);
+/// Their triangulation, which takes over their columns and notes; errors name file and nodes.
+files::Mesh triangulate(files::Nodes& nodes);
 
 void add_triangulate(CLI::App& app, Command& chosen);
 void add_voronoi(CLI::App& app, Command& chosen);
@@ -77,8 +96,9 @@ void add_plot(CLI::App& app, Command& chosen);
 /// Options of the whole program: --quiet, --threads, ranks.
 struct Global {
   bool quiet = false;
-  int threads = 0;  ///< 0: as OpenMP says
-  int ranks = 1;    ///< number of ranks that triangulated
+  int threads = 0;      ///< 0: as OpenMP says
+  int ranks = 1;        ///< number of ranks that triangulated
+  std::string command;  ///< the command line, for the history of files
 };
 Global& global();
 

@@ -110,10 +110,10 @@ void plot(Options& options) {
     throw CLI::ValidationError("--colour", "degree is a property of nodes: say --what cells");
   pictures::expect_converter(kind);
 
-  options.input.read.with_triangles = !options.input.drop_duplicates;  // their numbers would be others
+  options.input.read.with_triangles = !options.input.drops();  // their numbers would be others
   files::OutputFile file(options.file);
   Progress progress;
-  const files::Nodes nodes = progress.step("reading", [&] { return read_nodes(options.input); });
+  files::Nodes nodes = progress.step("reading", [&] { return read_nodes(options.input); });
   const files::Mesh mesh = progress.step("triangulating", [&] {
     if (nodes.triangles.empty()) return triangulate(nodes);
     try {
@@ -138,8 +138,8 @@ void plot(Options& options) {
     write(file, kind, svg);
     file.commit();
   });
-  progress.finish(
-      fmt::format("{} nodes ({}), {} triangles", nodes.points.size(), nodes.kind, mesh.triangles()));
+  progress.finish(fmt::format("{} ({}), {}", counted(nodes.points.size(), "node"), nodes.kind,
+                              counted(mesh.triangles(), "triangle")));
 }
 
 }  // namespace

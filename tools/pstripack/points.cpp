@@ -58,6 +58,7 @@ void add_points(CLI::App& app, Command& chosen) {
   sub->add_option("N", options->n, "number of nodes; grids take the nearest number they can have")
       ->required()
       ->type_name("")
+      ->transform(whole_number())
       ->check(CLI::Range(std::size_t{3}, std::size_t{357913943}).description(""));
   sub->add_option("--seed", options->seed, "seed of random families")
       ->type_name("NUMBER")

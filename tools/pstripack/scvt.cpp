@@ -49,13 +49,13 @@ std::unique_ptr<methods::Density> density_in_file(const Options& options) {
   read.with_values = true;
   read.variable = options.variable;
   files::Nodes nodes = read_places(options.density_file, read);
-  if (options.start.drop_duplicates) drop_duplicates(nodes);
-  for (std::size_t i = 0; i < nodes.values.size(); ++i)
-    if (!(nodes.values[i] > 0))
-      throw std::runtime_error(
-          fmt::format("{}: {}: density {}: must be positive", nodes.file, nodes.place(i), nodes.values[i]));
+  drop_duplicates(nodes, options.start);
+  for (std::size_t i = 0; i < nodes.value.numbers.size(); ++i)
+    if (!(nodes.value.numbers[i] > 0))
+      throw std::runtime_error(fmt::format("{}: {}: density {}: must be positive", nodes.file, nodes.place(i),
+                                           nodes.value.numbers[i]));
   try {
-    return methods::density_between(nodes.points, nodes.values);
+    return methods::density_between(nodes.points, nodes.value.numbers);
   } catch (const files::NoMesh& e) {
     throw no_mesh_of(nodes, e);
   }

@@ -19,28 +19,31 @@ void run(Options& options, const Write& write) {
   options.output.choose();
   files::OutputFile file(options.output.file);
   Progress progress;
-  const files::Nodes nodes = progress.step("reading", [&] { return read_nodes(options.input); });
+  options.input.read.with_columns = true;
+  files::Nodes nodes = progress.step("reading", [&] { return read_nodes(options.input); });
+  add_history(nodes.notes);
   const files::Mesh mesh = progress.step("triangulating", [&] { return triangulate(nodes); });
   const std::string what = progress.step("writing", [&] {
     const std::string written = write(file, mesh);
     file.commit();
     return written;
   });
-  progress.finish(fmt::format("{} nodes ({}), {}", nodes.points.size(), nodes.kind, what));
+  progress.finish(fmt::format("{} ({}), {}", counted(nodes.points.size(), "node"), nodes.kind, what));
 }
 
 void triangulate(Options& options) {
   run(options, [&](const files::OutputFile& file, const files::Mesh& mesh) {
     write_mesh(file, options.output.format, mesh);
-    return fmt::format("{} triangles", mesh.triangles());
+    return counted(mesh.triangles(), "triangle");
   });
 }
 
 void voronoi(Options& options) {
   run(options, [&](const files::OutputFile& file, const files::Mesh& mesh) {
-    const files::Faces faces = files::voronoi_faces(mesh);
-    write_faces(file, options.output.format, faces);
-    return fmt::format("{} cells, {} corners", faces.size(), faces.points.size());
+    files::Faces faces = files::voronoi_faces(mesh);
+    files::add_columns(faces, mesh);
+    write_faces(file, options.output.format, faces, mesh.notes);
+    return counted(faces.size(), "cell") + ", " + counted(faces.points.size(), "corner");
   });
 }
 

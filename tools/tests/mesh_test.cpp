@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "lists/adjacency_lists.h"
 #include "point_sets.h"
@@ -66,7 +67,9 @@ TEST(duplicates, are_all_nodes_but_the_first_in_each_place) {
   Points points = point_sets::make("random", 100);
   points[50] = points[90] = points[7] = points[60];
   points[3] = points[2];
-  EXPECT_EQ(duplicates(points), (std::vector<std::size_t>{3, 50, 60, 90}));
+  std::vector<std::pair<std::size_t, std::size_t>> found;
+  for (const Duplicate& d : duplicates(points)) found.emplace_back(d.node, d.first);
+  EXPECT_EQ(found, (std::vector<std::pair<std::size_t, std::size_t>>{{3, 2}, {50, 7}, {60, 7}, {90, 7}}));
   EXPECT_TRUE(duplicates(point_sets::make("random", 100)).empty());
 }
 
@@ -99,6 +102,36 @@ TEST(faces, cover_the_sphere_once) {
     const Mesh mesh = triangulate(point_sets::make(family, 600));
     EXPECT_NEAR(area(triangle_faces(mesh)), 4 * std::acos(-1), 1e-11) << family;
     EXPECT_NEAR(area(voronoi_faces(mesh)), 4 * std::acos(-1), 1e-11) << family;
+  }
+}
+
+TEST(areas, are_those_of_the_sphere_and_columns_go_with_nodes_and_faces) {
+  const Points points = point_sets::make("random", 300);
+  Mesh mesh = triangulate(points);
+  mesh.given = LonLat(points, true);
+  mesh.columns = {whole_numbers("degree", "of education", std::vector<double>(300, 1))};
+  for (const bool cells : {false, true}) {
+    Faces faces = cells ? voronoi_faces(mesh) : triangle_faces(mesh);
+    const std::vector<double> all = areas(faces);
+    EXPECT_NEAR(std::accumulate(all.begin(), all.end(), 0.0), 4 * std::acos(-1), 1e-11);
+    EXPECT_GT(*std::min_element(all.begin(), all.end()), 0);
+    add_columns(faces, mesh);
+    const Columns& of_nodes = cells ? faces.columns_of_faces : faces.columns_of_points;
+    ASSERT_NE(find(of_nodes, "degree_given"), nullptr);
+    EXPECT_EQ(find(of_nodes, "degree_given")->long_name, "of education");
+    const std::vector<double>& degrees = find(of_nodes, "degree")->numbers;
+    EXPECT_EQ(std::accumulate(degrees.begin(), degrees.end(), 0.0), 2.0 * (3 * 300 - 6));
+    if (cells) {
+      EXPECT_EQ(degrees[7], static_cast<double>(faces.corners(7)));
+    }
+    EXPECT_NEAR(find(faces.columns_of_faces, "area_km2")->numbers[5], all[5] * 6371 * 6371, 1e-6);
+    EXPECT_EQ((cells ? faces.given_centres : faces.given_points).lon, mesh.given.lon);
+    mesh.columns = of_nodes;  // as read back from a file: ours is not kept beside itself
+    add_columns(faces, mesh);
+    EXPECT_EQ(
+        std::count_if(of_nodes.begin(), of_nodes.end(), [](const Column& c) { return c.name == "degree"; }),
+        1);
+    mesh.columns = {whole_numbers("degree", "of education", std::vector<double>(300, 1))};
   }
 }
 

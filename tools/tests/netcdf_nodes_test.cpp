@@ -194,19 +194,19 @@ TEST(netcdf, values_have_the_dimensions_of_the_nodes) {
   file.with("packed", {ny, nx}, {1, 2, 3, 4, -999, -5});
   file.attribute("packed", "scale_factor", 10).attribute("packed", "add_offset", 100);
   file.attribute("packed", "missing_value", -5);
-  file.note("scvt_density", "bump").note("title", "not a note");
+  file.note("scvt_density", "bump").note("title", "a title").note("creator", "not a note");
   const std::string name = file.closed();
   const Nodes nodes = read(name, values_of("t"));
-  ASSERT_EQ(nodes.values.size(), 6u);
-  EXPECT_EQ(nodes.values[3], 4);  // the first of the second row
+  ASSERT_EQ(nodes.value.numbers.size(), 6u);
+  EXPECT_EQ(nodes.value.numbers[3], 4);  // the first of the second row
   EXPECT_NEAR(nodes.points[3].z, 0.5, 1e-15);
-  EXPECT_TRUE(std::isnan(nodes.values[4]));
-  EXPECT_EQ(nodes.value_name, "t");
-  EXPECT_EQ(nodes.value_units, "K");
-  EXPECT_EQ(nodes.notes, (Notes{{"scvt_density", "bump"}}));
+  EXPECT_TRUE(std::isnan(nodes.value.numbers[4]));
+  EXPECT_EQ(nodes.value.name, "t");
+  EXPECT_EQ(nodes.value.units, "K");
+  EXPECT_EQ(nodes.notes, (Notes{{"scvt_density", "bump"}, {"title", "a title"}}));
   const Nodes packed = read(name, values_of("packed"));
-  EXPECT_EQ(packed.values[2], 130);
-  EXPECT_TRUE(std::isnan(packed.values[4]) && std::isnan(packed.values[5]));
+  EXPECT_EQ(packed.value.numbers[2], 130);
+  EXPECT_TRUE(std::isnan(packed.value.numbers[4]) && std::isnan(packed.value.numbers[5]));
   for (const char* const variable : {"turned", "elsewhere", "deep", "none", ""}) {
     try {
       read(name, values_of(variable));
@@ -215,6 +215,52 @@ TEST(netcdf, values_have_the_dimensions_of_the_nodes) {
       const std::string words = *variable == '\0' || variable == std::string("none")
                                     ? "variables with one value per node: t, packed"
                                     : "expected " + std::string(variable) + "(lat=2, lon=3)";
+      EXPECT_NE(std::string(e.what()).find(words), std::string::npos) << e.what();
+    }
+  }
+}
+
+TEST(netcdf, angles_stay_beside_the_vectors_unless_they_are_of_other_nodes) {
+  for (const bool same : {true, false}) {
+    NetcdfFile file;
+    const int n = file.dimension("nCells", 2);
+    file.with("lon", {n}, {-270, same ? 180.0 : 170.0}, "degrees").with("lat", {n}, {0, 0}, "degrees");
+    file.with("xCell", {n}, {0, -2}).with("yCell", {n}, {3, 0}).with("zCell", {n}, {0, 0});
+    const Nodes nodes = read(file.closed());
+    EXPECT_EQ(nodes.points, (Points{{0, 3, 0}, {-2, 0, 0}}));
+    EXPECT_EQ(nodes.given.lon, same ? (std::vector<double>{-270, 180}) : std::vector<double>{});
+  }
+}
+
+TEST(netcdf, columns_are_the_variables_of_the_nodes) {
+  NetcdfFile file;
+  const int n = file.dimension("n", 2), m = file.dimension("m", 3);
+  file.with("lon", {n}, {0, 90}, "degrees").with("lat", {n}, {90, 0}, "degrees");
+  file.with("east", {n}, {90, 0}, "degrees").with("north", {n}, {0, 90}, "degrees");
+  file.with("t", {n}, {5, -999}, "K").with("other", {m}, {1, 2, 3});
+  const std::string name = file.closed();
+  ReadOptions options;
+  options.with_columns = true;
+  const Nodes nodes = read(name, options);
+  ASSERT_EQ(nodes.columns.size(), 3u);
+  EXPECT_EQ(nodes.columns[2].name, "t");
+  EXPECT_EQ(nodes.columns[2].units, "K");
+  EXPECT_EQ(nodes.columns[2].numbers[0], 5);
+  EXPECT_TRUE(std::isnan(nodes.columns[2].numbers[1]));
+  options.columns = "east,north,t";
+  const Nodes chosen = read(name, options);
+  EXPECT_EQ(chosen.points, (Points{{0, 1, 0}, {0, 0, 1}}));
+  EXPECT_EQ(chosen.columns.size(), 1u);
+  for (const auto& [columns, words] :
+       {std::pair("east,nroth", "there is no variable 'nroth'; did you mean north?"),
+        std::pair("east", "--columns names 1 variable: expected longitude and latitude"),
+        std::pair("east,north,east", "variable 'east' is chosen twice"),
+        std::pair("east,north,other", "variable other(m=3): expected one value per node, other(n=2)")}) {
+    options.columns = columns;
+    try {
+      read(name, options);
+      ADD_FAILURE() << columns << " was read";
+    } catch (const std::runtime_error& e) {
       EXPECT_NE(std::string(e.what()).find(words), std::string::npos) << e.what();
     }
   }

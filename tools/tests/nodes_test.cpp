@@ -2,6 +2,7 @@
 
 #include "files/nodes.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -102,22 +103,167 @@ TEST(text, values_follow_the_place) {
   options.with_values = true;
   const Nodes lonlat = read_bytes("90 0 7\n200 10 NaN\n", options);
   EXPECT_EQ(lonlat.points[0], (Point{0, 1, 0}));
-  EXPECT_EQ(lonlat.values[0], 7);
-  EXPECT_TRUE(std::isnan(lonlat.values[1]));
+  EXPECT_EQ(lonlat.value.numbers[0], 7);
+  EXPECT_TRUE(std::isnan(lonlat.value.numbers[1]));
   const Nodes xyz = read_bytes("0 1 0 7\n1 0 0 8\n", options);
   EXPECT_EQ(xyz.points, (Points{{0, 1, 0}, {1, 0, 0}}));
-  EXPECT_EQ(xyz.values, (std::vector<double>{7, 8}));
+  EXPECT_EQ(xyz.value.numbers, (std::vector<double>{7, 8}));
   expect_error("90 0 inf\n", "'inf' is not a finite number", options);
   expect_error("nan 0 1\n", "node 1 (line 1): its place is 'nan'", options);
   options.coordinates = Coordinates::lonlat;
   options.variable = "4";
-  EXPECT_EQ(read_bytes("90 0 7 8\n", options).values[0], 8);
+  EXPECT_EQ(read_bytes("90 0 7 8\n", options).value.numbers[0], 8);
   for (const char* const column : {"2", "5", "3.5", "-1"}) {
     options.variable = column;
     expect_error("90 0 7 8\n", "there is no value in column", options);
   }
   options.container = Container::raw;
   expect_error("x", "values are read from text and NetCDF only", options);
+}
+
+ReadOptions with_columns(const std::string& columns = "") {
+  ReadOptions options;
+  options.units = Units::degrees;
+  options.with_columns = true;
+  options.columns = columns;
+  return options;
+}
+
+std::string names_of(const Columns& columns) {
+  std::string names;
+  for (const Column& c : columns) names += (names.empty() ? "" : " ") + c.name;
+  return names;
+}
+
+TEST(tables, longitudes_and_latitudes_stay_as_they_are_given) {
+  // Of none of these is the direction's longitude the one that was given.
+  const std::string rows = "30 40\n-179.99999999999997 89.9\n359.7 -0.1\n";
+  const Nodes nodes = read_bytes(rows, kDegrees);
+  EXPECT_EQ(nodes.given.lon, (std::vector<double>{30, -179.99999999999997, 359.7}));
+  EXPECT_EQ(nodes.given.lat, (std::vector<double>{40, 89.9, -0.1}));
+  const LonLat back = angles_of(nodes.points, nodes.given, true);
+  EXPECT_EQ(back.lon, nodes.given.lon);
+  EXPECT_NE(LonLat(nodes.points, true).lon, nodes.given.lon);
+  const LonLat radians = angles_of(nodes.points, nodes.given, false);
+  EXPECT_NEAR(radians.lon[2], 359.7 * std::acos(0.0) / 90, 1e-15);
+  EXPECT_TRUE(read_bytes("1 0 0\n0 1 0\n").given.empty());
+}
+
+TEST(tables, have_columns_by_the_names_in_their_header) {
+  const std::string mark = "\xEF\xBB\xBF", header = "mag,Latitude,LONGITUDE,depth (km)\n";
+  const Nodes nodes = read_bytes(mark + header + "1,0,90,\n 2 ,90, 0 ,nan\n", with_columns());
+  EXPECT_EQ(nodes.points, (Points{{0, 1, 0}, {0, 0, 1}}));
+  EXPECT_EQ(nodes.lines, (std::vector<std::size_t>{2, 3}));
+  ASSERT_EQ(names_of(nodes.columns), "mag depth");
+  EXPECT_EQ(nodes.columns[0].numbers, (std::vector<double>{1, 2}));
+  EXPECT_EQ(nodes.columns[1].units, "km");
+  EXPECT_TRUE(std::isnan(nodes.columns[1].numbers[0]) && std::isnan(nodes.columns[1].numbers[1]));
+  EXPECT_EQ(read_bytes("a b z y x\n7 8 3 2 1\n").points, (Points{{1, 2, 3}}));
+  EXPECT_EQ(read_bytes("lon [rad] lat [rad]\n0 1.5\n").kind, "text, lon lat in radians");
+  EXPECT_EQ(read_bytes("lon_deg lat_deg\n0 1.5\n").kind, "text, lon lat in degrees");
+  EXPECT_EQ(
+      names_of(read_bytes("# text of many years\n# lon lat value [K]\n100 20 3\n", with_columns()).columns),
+      "value");
+}
+
+TEST(tables, are_separated_by_commas_semicolons_tabs_or_blanks) {
+  for (const std::string rows : {"90,0,a b\n0,90,\n", "90; 0; a b\n0;90;\n", "90\t0\ta b\n0\t90\t\n"}) {
+    ReadOptions options = with_columns();
+    options.coordinates = Coordinates::lonlat;
+    const Nodes nodes = read_bytes(rows, options);
+    EXPECT_EQ(nodes.points, (Points{{0, 1, 0}, {0, 0, 1}})) << rows;
+    EXPECT_EQ(nodes.columns.at(0).texts, (std::vector<std::string>{"a b", ""})) << rows;
+  }
+  EXPECT_EQ(read_bytes("90 \t0\n0\t\t90\n").points.size(), 2u);
+  const Nodes quoted = read_bytes("lon,lat,place\n90,0,\"5 km S of \"\"A\"\", #2\"\r\n", with_columns());
+  EXPECT_EQ(quoted.columns.at(0).texts.at(0), "5 km S of \"A\", #2");
+}
+
+TEST(tables, have_comments_and_segments) {
+  const Nodes nodes =
+      read_bytes("% by GMT\n> first\n100 0 # here\n  ! none\n101 0\n> second\n102 0\n", with_columns());
+  EXPECT_EQ(nodes.lines, (std::vector<std::size_t>{3, 5, 7}));
+  ASSERT_EQ(names_of(nodes.columns), "segment");
+  EXPECT_EQ(nodes.columns[0].numbers, (std::vector<double>{1, 1, 2}));
+}
+
+TEST(tables, have_columns_that_are_chosen) {
+  const std::string rows = "7 8 90 0 9\n", named = "a,b,x_lon,x_lat,lon,lat\n7,8,90,0,1,1\n";
+  EXPECT_EQ(read_bytes(rows, with_columns("3,4,1")).points, (Points{{0, 1, 0}}));
+  EXPECT_EQ(names_of(read_bytes(rows, with_columns("3,4,1")).columns), "column1");
+  EXPECT_EQ(read_bytes(named, with_columns("x_lon,x_lat,b")).points, (Points{{0, 1, 0}}));
+  EXPECT_EQ(names_of(read_bytes(named, with_columns("X_LON,x_lat,2")).columns), "b");
+  EXPECT_EQ(read_bytes("lat,lon,mag\n0,90,1\n", with_columns("mag,lat,lon")).points, (Points{{0, 1, 0}}));
+  ReadOptions value = with_columns("3,4,5");
+  value.with_values = true;
+  EXPECT_EQ(read_bytes(rows, value).value.numbers.at(0), 9);
+  value.columns.clear();
+  value.variable = "b";
+  EXPECT_EQ(read_bytes(named, value).value.numbers.at(0), 8);
+}
+
+TEST(tables, that_cannot_be_used_are_refused_with_line_reason_and_remedy) {
+  const auto refused = [](const std::string& bytes, const std::string& words,
+                          const std::string& columns = "") {
+    expect_error(bytes, words, with_columns(columns));
+  };
+  refused("lon,lat\n", ":1: a header line, and no row of numbers after it: add the nodes");
+  refused("lon lat\ndegrees degrees\n1 2\n",
+          ":2: a second header line, after that in line 1: remove one of them");
+  refused("lon,lat\n1,2\nlon,lat\n", ":3: the header line again: remove it");
+  refused("lon,lat,mag\n1,2,3\n1 2 3\n",
+          ":3: separated by blanks, the lines before by commas: use one separator");
+  refused("lon;lat\n1,2\n", ":2: separated by commas, the lines before by semicolons: use one separator");
+  refused("1 2\n3;4\n", ":2: separated by semicolons, the lines before by blanks: use one separator");
+  refused("1;2\n3;4,5\n", ":2: '4,5' is not a finite number: write a decimal comma as a point");
+  refused("lon,lat,mag\n1,2,3\n1,2\n", ":3: found 2 columns where the header has 3");
+  refused("lon,lat,mag\n1,,3\n", ":2: nothing in column 'lat': remove the row");
+  refused("lon,lat,a\n1,2,\"x\n", ":2: a double quote without an end");
+  refused("lon,mag\n1,2\n", ":1: a column 'lon' without a latitude: name both by --columns LON,LAT");
+  refused("a,b\n1,2\n",
+          ":1: no columns named lon and lat, or x, y and z: name them by --columns; the header has a, b");
+  refused("lon,lat,lon\n1,2,3\n",
+          ":1: the header names column 'lon' twice, 1 and 3: choose columns by number");
+  refused("lon,lat,mag,mag\n1,2,3,4\n", ":1: the header names column 'mag' twice, 3 and 4", "lon,lat,mag");
+  EXPECT_EQ(read_bytes("lon,lat,lon\n1,2,3\n", with_columns("3,2")).given.lon.at(0), 3);
+  refused("lon,lat,mag\n1,2,3\n", ":1: there is no column 'magg'; did you mean mag?", "lon,lat,magg");
+  refused("lon,lat,mag\n1,2,3\n", ":1: there is no column 4: there are 3", "1,2,4");
+  refused("lon,lat,mag\n1,2,3\n", ":1: column 'lon' is chosen twice", "lon,lat,lon");
+  refused("1 2 3\n", "the columns have no names: choose them by number, not 'lon'", "lon,lat");
+  refused("45N 120W\n", ":1: '45N' is not a finite number: write 45N as 45, 45S as -45, 120W as -120");
+  refused("1 2\n45:30 2\n", ":2: '45:30' is not a finite number: write degrees as one decimal number");
+  refused("80 100\n20 10\n", "is latitude first? Then say --columns 2,1");
+  refused(std::string("\xFF\xFE") + "1\0 \0", ":1: UTF-16: save the file as UTF-8");
+  expect_error("3.1 1.5\n-3 -1.5\n", "latitudes 1.5, as radians do)");
+  expect_error("350 1\n", "more than two turns in radians; --units degrees?", kRadians);
+}
+
+TEST(tables, are_the_same_read_by_any_number_of_threads) {
+  std::string text = "lon,lat,name,n\n";
+  for (int i = 0; i < 40000; ++i)
+    text += fmt::format("{},{},n{},{}\n", i * 0.0090001, i * 0.002 - 40, i, i % 7 == 0 ? "" : "5");
+  const Nodes nodes = read_bytes(text, with_columns());
+  ASSERT_EQ(nodes.points.size(), 40000u);
+  for (std::size_t i : {0u, 19999u, 20000u, 39999u}) {
+    EXPECT_EQ(nodes.lines[i], i + 2);
+    EXPECT_EQ(nodes.given.lon[i], static_cast<double>(i) * 0.0090001);
+    EXPECT_EQ(nodes.columns.at(0).texts[i], fmt::format("n{}", i));
+  }
+  EXPECT_EQ(
+      error_of(text + "1,2,3\n", with_columns()).substr(error_of(text + "1,2,3\n", with_columns()).find(':')),
+      ":40002: found 3 columns where the header has 4");
+}
+
+TEST(nodes, are_kept_with_all_that_belongs_to_them) {
+  Nodes nodes = read_bytes("lon,lat,a,b\n10,1,x,1\n20,2,y,2\n30,3,z,3\n", with_columns());
+  nodes.density = {7, 8, 9};
+  nodes.keep({0, 2});
+  EXPECT_EQ(nodes.given.lon, (std::vector<double>{10, 30}));
+  EXPECT_EQ(nodes.lines, (std::vector<std::size_t>{2, 4}));
+  EXPECT_EQ(nodes.density, (std::vector<double>{7, 9}));
+  EXPECT_EQ(nodes.columns.at(0).texts, (std::vector<std::string>{"x", "z"}));
+  EXPECT_EQ(nodes.columns.at(1).numbers, (std::vector<double>{1, 3}));
+  EXPECT_EQ(nodes.points.at(1), point_sets::from_degrees(30, 3));
 }
 
 TEST(raw_doubles, are_read_when_said_and_checked) {

@@ -76,7 +76,53 @@ def check_scrip(nodes, file):
         assert np.allclose(centres, nodes, rtol=0, atol=1e-14)
         lon, lat = grid["grid_corner_lon"][:], grid["grid_corner_lat"][:]
         assert lon.shape == (N, 6)
+        area = grid["grid_area"]
+        assert area.units == "radians^2" and abs(area[:].sum() - 4 * math.pi) < 1e-10 and area[:].min() > 0.01
         assert ((lon[:, 5] == lon[:, 4]) & (lat[:, 5] == lat[:, 4])).sum() == 12  # pentagons: padded
+
+
+def check_columns(nodes):
+    """Numbers, texts, areas and attributes of a table, by netCDF4, xarray and meshio."""
+    lon = np.round(np.degrees(np.arctan2(nodes[:, 1], nodes[:, 0])) % 360, 3)
+    lat = np.round(np.degrees(np.arcsin(nodes[:, 2])), 3)
+    with open(FOLDER / "table.csv", "w") as table:
+        table.write("name,lat,lon,depth (km)\n")
+        for k in range(N):
+            table.write(f"n{k},{lat[k]},{lon[k]},{'' if k == 7 else k / 8}\n")
+        table.write(f"again,{lat[0]},{lon[0]},1000\n")
+    depth = np.arange(N) / 8
+    depth[0], depth[7] = 500, np.nan
+    run("triangulate", FOLDER / "table.csv", "--duplicates", "mean", "-o", FOLDER / "table.nc")
+    run("voronoi", FOLDER / "table.csv", "--duplicates", "mean", "-o", FOLDER / "table_cells.nc")
+    for file, where, location in (("table.nc", "mesh_node", "node"), ("table_cells.nc", "mesh_face", "face")):
+        with xarray.open_dataset(FOLDER / file) as mesh:
+            assert (mesh[f"{where}_lon"].values == lon).all() and (mesh[f"{where}_lat"].values == lat).all()
+            assert np.array_equal(mesh["depth"].values, depth, equal_nan=True)
+            assert (mesh["depth"].units, mesh["depth"].location, mesh["depth"].mesh) == ("km", location, "mesh")
+            assert mesh["name"].values[3] == b"n3" and (mesh["line"].values == np.arange(N) + 2).all()
+            assert (mesh["degree"].values == 5).sum() == 12 and (mesh["node"].values == np.arange(N) + 1).all()
+            assert abs(mesh["area"].values.sum() - 4 * math.pi) < 1e-10
+            assert np.allclose(mesh["area_km2"].values, mesh["area"].values * 6371**2, rtol=1e-15)
+            assert mesh.history.startswith("pstripack ") and "--duplicates mean" in mesh.history
+    with netCDF4.Dataset(FOLDER / "table.nc", "a") as mesh:
+        mesh.title = "a title"
+        mesh["depth"].long_name = "depth of the focus"
+    run("convert", FOLDER / "table.nc", "-o", FOLDER / "again.nc")
+    with xarray.open_dataset(FOLDER / "again.nc") as again, xarray.open_dataset(FOLDER / "table.nc") as mesh:
+        assert set(again) == set(mesh) and all((again[v].values == mesh[v].values).all() or v == "depth" for v in mesh)
+        assert again.title == "a title" and again["depth"].long_name == "depth of the focus"
+        first, second = again.history.split("\n")
+        assert first.startswith("pstripack convert ") and second == mesh.history
+    run("interpolate", FOLDER / "table.nc", "--variable", "depth", "--skip-missing", "--grid-step", 30, "-o",
+        FOLDER / "depth.nc")
+    with xarray.open_dataset(FOLDER / "depth.nc") as field:
+        assert field["depth"].long_name == "depth of the focus" and field.title == "a title"
+    for suffix in ("vtu", "msh"):
+        run("convert", FOLDER / "table.nc", "-o", FOLDER / f"table.{suffix}")
+        mesh = meshio.read(FOLDER / f"table.{suffix}")
+        assert (mesh.point_data["lon"].ravel() == lon).all(), suffix
+        assert np.array_equal(mesh.point_data["depth"].ravel(), depth, equal_nan=True), suffix
+        assert abs(mesh.cell_data["area"][0].sum() - 4 * math.pi) < 1e-10, suffix
 
 
 def check_by_meshio(nodes, file, cells, count):
@@ -134,5 +180,6 @@ run("points", "cubed-sphere", 96, "-o", FOLDER / "cube.txt")
 run("voronoi", FOLDER / "cube.txt", "-o", FOLDER / "cube.vtu")
 assert sum(len(block) for block in meshio.read(FOLDER / "cube.vtu").cells) == 96
 check_field(nodes)
+check_columns(nodes)
 check_scvt()
 print("all files are as they should be")

@@ -129,7 +129,21 @@ bad_command_lines)
   refuses 2 "unknown point set 'potato'" points potato 10
   refuses 2 "points are nodes, not a mesh" points random 10 -o mesh.off
   refuses 2 "degrees" triangulate nodes.txt -o mesh.off --units gradians
-  refuses 2 "subcommand" polygons
+  refuses 2 "there is no subcommand 'polygons': expected triangulate, voronoi, info" polygons
+  refuses 2 "there is no subcommand 'triangluate'; did you mean triangulate?" triangluate nodes.txt -o mesh.off
+  refuses 2 "there is no option --outptu; did you mean --output?" triangulate nodes.txt --outptu mesh.off
+  refuses 2 "there is no option --unit; did you mean --units?" triangulate nodes.txt --unit=degrees -o mesh.off
+  refuses 2 "there is no option --qiet; did you mean --quiet?" --qiet info nodes.txt
+  refuses 2 "there is no option --potato" info nodes.txt --potato
+  ! grep -q "did you mean" err || fail "$(cat err)"
+  refuses 2 "expected" info nodes.txt more.txt
+  refuses 2 "'1.5' is not a whole number" points random 1.5
+  refuses 2 "'1e400' is not a whole number" points random 1e400
+  [ "$("$PSTRIPACK" points random 1e3 | wc -l)" = 1000 ] || fail "1e3 is a number"
+  "$PSTRIPACK" --version > version
+  grep -q '^pstripack [0-9]*\.[0-9]*\.[0-9]*$' version || fail "$(cat version)"
+  printf '1 0 0\n0 1 0\n0 0 1\n' | "$PSTRIPACK" triangulate - -o - --to lists > out 2> err
+  grep -q '^pstripack: 3 nodes (text, x y z), 1 triangle; ' err || fail "$(cat err)"
   [ ! -e mesh.off ] || fail "mesh.off was written"
   ;;
 
@@ -166,7 +180,7 @@ duplicates)
   { octahedron; echo "1 1e-7 0"; } > near.txt
   "$PSTRIPACK" -q info near.txt > info.txt
   grep -q "^tightest pair *1e-07 rad, .*: node 1 (line 1) and node 7 (line 7)$" info.txt || fail "$(cat info.txt)"
-  grep -q "^near duplicates *1 pairs" info.txt || fail "$(cat info.txt)"
+  grep -q "^near duplicates *1 pair closer" info.txt || fail "$(cat info.txt)"
   ;;
 
 pictures)
@@ -309,8 +323,8 @@ interpolate)
   { sed -n 1p region.txt; sed '5s/[^ ]*$/nan/' region.txt; } > odd.txt
   "$PSTRIPACK" -q points cap:0.3 100 -o places.txt
   "$PSTRIPACK" interpolate odd.txt --skip-missing --drop-duplicates --to-points places.txt -o out.txt 2> err
-  grep -q "odd.txt: 1 nodes without value left out" err || fail "$(cat err)"
-  grep -q "odd.txt: 1 nodes dropped that coincide" err || fail "$(cat err)"
+  grep -q "odd.txt: 1 node without value left out" err || fail "$(cat err)"
+  grep -q "odd.txt: 1 node dropped that coincides with earlier ones" err || fail "$(cat err)"
   awk '!/#/ && NR != 6 && $3 != NR - 1' out.txt > wrong  # all but the fifth, which had none
   [ ! -s wrong ] || fail "$(cat wrong)"
   ;;
@@ -369,6 +383,123 @@ netcdf_values)
   refuses 1 "there is no variable depth; say" interpolate region.nc --variable depth --grid-step 30 -o failed.nc
   refuses 1 "variable lon(lon=36): expected lon(lat=18, lon=36); take one layer out" interpolate region.nc --variable lon --grid-step 30 -o failed.nc
   [ ! -e failed.nc ] || fail "failed.nc was written"
+  ;;
+
+as_given)
+  # Longitudes and latitudes of no exact vectors, beyond 180 degrees and in odd words: back as they were.
+  awk 'BEGIN { srand(7); for (i = 0; i < 200; ++i) printf "%.14g %.14g\n", 360 * rand(), 180 * rand() - 90 }' > nodes.lonlat
+  printf '30 40\n-179.99999999999997 1e-300\n' >> nodes.lonlat
+  "$PSTRIPACK" -q convert nodes.lonlat -o back.lonlat
+  "$PSTRIPACK" -q convert back.lonlat -o again.lonlat
+  cmp back.lonlat again.lonlat
+  [ "$(tail -n 2 back.lonlat)" = "$(tail -n 2 nodes.lonlat)" ] || fail "$(tail -n 2 back.lonlat)"
+  paste -d ' ' nodes.lonlat back.lonlat | awk '$1 + 0 != $3 + 0 || $2 + 0 != $4 + 0' > wrong
+  [ ! -s wrong ] || fail "$(cat wrong)"
+  # As places of interpolate; x y z, too, and the places' own columns.
+  "$PSTRIPACK" -q points random 50 | sed 's/$/ 1/' > values.txt
+  "$PSTRIPACK" -q interpolate values.txt --to-points back.lonlat -o places.txt
+  sed 1d places.txt | cut -d ' ' -f 1,2 | cmp back.lonlat -
+  { echo "x y z name"; "$PSTRIPACK" -q points random 20 --seed 3 | sed 's/$/ "a b"/'; } > places.xyz
+  "$PSTRIPACK" -q interpolate values.txt --to-points places.xyz -o places.txt
+  [ "$(head -n 1 places.txt)" = "# lon lat value name x y z" ] || fail "$(head -n 1 places.txt)"
+  sed 1d places.txt | awk '{ print $6, $7, $8, $4, $5 }' > got
+  sed 1d places.xyz | cmp got -
+  # Radians come back where radians are written, and only there.
+  sed 's/.*/1.1 -0.3/; 2s/.*/3 1.5/; 3s/.*/6.2 0.1/; 4,$d' nodes.lonlat > radians.txt
+  "$PSTRIPACK" -q convert radians.txt --units radians -o - --to lonlat > degrees.txt
+  [ "$(head -n 1 degrees.txt | cut -c 1-8)" = 63.02535 ] || fail "$(cat degrees.txt)"
+  # Values through VTU and gmsh.
+  printf 'lon,lat,depth,place\n30,40,7.25,a\n100,40,,b\n70,-20,-1,c\n' > table.csv
+  "$PSTRIPACK" -q triangulate table.csv -o mesh.vtu
+  for array in lon lat node line depth degree area area_km2; do
+    grep -q "<DataArray type=\"[A-Za-z0-9]*\" Name=\"$array\" format=\"ascii\">" mesh.vtu || fail "mesh.vtu has no $array"
+  done
+  tr '\n' ' ' < mesh.vtu | grep -q 'Name="lon" format="ascii"> 30 100 70 <' || fail "lon: $(cat mesh.vtu)"
+  tr '\n' ' ' < mesh.vtu | grep -q 'Name="depth" format="ascii"> 7.25 nan -1 <' || fail "depth: $(cat mesh.vtu)"
+  "$PSTRIPACK" -q triangulate table.csv -o mesh.msh
+  tr '\n' ' ' < mesh.msh | grep -q '$NodeData 1 "lat" 1 0 3 0 1 3 1 40 2 40 3 -20 $EndNodeData' || fail "$(cat mesh.msh)"
+  tr '\n' ' ' < mesh.msh | grep -q '$ElementData 1 "area" ' || fail "$(cat mesh.msh)"
+  ;;
+
+tables)
+  # A catalogue as it comes: a byte order mark, quotes, gaps, latitude first, a node twice.
+  printf '\357\273\277time,latitude,longitude,mag,place\r\n' > quakes.csv
+  printf '2020-01-01,61.2,-150.1,4.5,"10 km S of ""A"", #2"\r\n2020-01-02,40,30,3,\r\n,-10.3,170.7,,Fiji\r\n' >> quakes.csv
+  printf '2020-01-04,40,30,5,"again"\r\n2020-01-05,50.1,20.3,1,e\r\n' >> quakes.csv
+  refuses 1 "node 2 (line 3) and node 4 (line 5) are in the same place: remove one, or say --drop-duplicates" triangulate quakes.csv -o mesh.vtu
+  refuses 1 "are in the same place" triangulate quakes.csv --duplicates error -o mesh.vtu
+  values_of() { tr '\n' ' ' < mesh.vtu | sed "s/.*Name=\"$1\" format=\"ascii\"> \([^<]*\) <.*/\1/"; }
+  for rule in first mean; do
+    "$PSTRIPACK" triangulate quakes.csv --duplicates $rule -o mesh.vtu 2> err
+    grep -q "quakes.csv: 1 node dropped that coincides with earlier ones" err || fail "$(cat err)"
+    [ "$(values_of node)" = "1 2 3 5" ] || fail "node: $(values_of node)"
+    [ "$(values_of line)" = "2 3 4 6" ] || fail "line: $(values_of line)"
+    [ "$(values_of lon)" = "-150.1 30 170.7 20.3" ] || fail "lon: $(values_of lon)"
+    expected="4.5 3 nan 1"
+    [ $rule = first ] || expected="4.5 4 nan 1"
+    [ "$(values_of mag)" = "$expected" ] || fail "mag: $(values_of mag)"
+  done
+  "$PSTRIPACK" -q info quakes.csv > info.txt
+  [ "$(tail -n 1 info.txt)" = "duplicate        node 2 (line 3) and node 4 (line 5)" ] || fail "$(cat info.txt)"
+  "$PSTRIPACK" -q info quakes.csv --json | tr -d ' \n' > info.json
+  grep -qF '"duplicate_pairs":[[2,4]]' info.json || fail "$(cat info.json)"
+  # Columns by name and number; the value of interpolate.
+  for columns in longitude,latitude,mag 3,2,4; do
+    "$PSTRIPACK" -q interpolate quakes.csv --columns $columns --skip-missing --duplicates mean --to-points quakes.csv -o out.txt
+    [ "$(head -n 1 out.txt)" = "# lon lat mag time mag_given place" ] || fail "$(head -n 1 out.txt)"
+    [ "$(sed -n 3p out.txt)" = '30 40 4 "2020-01-02" 3 ""' ] || fail "$(sed -n 3p out.txt)"
+  done
+  "$PSTRIPACK" -q interpolate quakes.csv --variable mag --skip-missing --duplicates first --to-points quakes.csv -o named.txt
+  [ "$(sed -n 3p named.txt | cut -d ' ' -f 3)" = 3 ] || fail "$(cat named.txt)"
+  # What interpolate writes is read again.
+  "$PSTRIPACK" -q interpolate out.txt --variable mag --skip-missing --duplicates first --to-points quakes.csv -o again.txt
+  cut -d ' ' -f 1-3 out.txt > a
+  cut -d ' ' -f 1-3 again.txt | cmp a -
+  # Segments of GMT.
+  printf '> -Z1\n100\t0\n110\t5\n> -Z2\n100\t50\n' > lines.gmt
+  "$PSTRIPACK" -q triangulate lines.gmt -o mesh.vtu
+  [ "$(values_of segment)" = "1 1 2" ] || fail "segment: $(values_of segment)"
+  ;;
+
+bad_tables)
+  # refused STATUS WORDS ARGUMENTS < a table: it makes no mesh
+  refused() {
+    status=$1 expected_words=$2
+    shift 2
+    cat > table.txt
+    refuses "$status" "table.txt:$expected_words" triangulate table.txt -o mesh.off "$@"
+    [ ! -e mesh.off ] || fail "mesh.off was written"
+  }
+  printf 'lon,lat\n' | refused 1 "1: a header line, and no row of numbers after it: add the nodes"
+  printf 'lon,lat\nlon,lat\n1,2\n' | refused 1 "2: a second header line, after that in line 1: remove one of them"
+  printf 'lon,lat\n1,2\n3;4\n' | refused 1 "3: separated by semicolons, the lines before by commas: use one separator"
+  printf 'lon,lat,mag\n1,2,3\n' | refused 1 "1: there is no column 'mga'; did you mean mag?" --columns lon,lat,mga
+  printf 'lon,lat,lat\n1,2,3\n' | refused 1 "1: the header names column 'lat' twice, 2 and 3: choose columns by number"
+  printf 'lon,mag\n1,2\n' | refused 1 "1: a column 'lon' without a latitude: name both by --columns LON,LAT"
+  printf '45N 120W\n' | refused 1 "1: '45N' is not a finite number: write 45N as 45, 45S as -45, 120W as -120"
+  printf '80 100\n20 10\n30 40\n' | refused 1 " node 1 (line 1): latitude 100 is beyond the pole: the columns are 'lon lat', in degrees; is latitude first? Then say --columns 2,1"
+  refuses 2 "--duplicates" triangulate table.txt --duplicates last -o mesh.off
+  ;;
+
+netcdf_columns)
+  # Values, numbers, texts and attributes through files, with longitudes beyond 180 as they are.
+  printf 'lon,lat,depth (km),place\n300.1,40,7.25,a\n100,40,,b c\n70,-20.7,-1,\n300.1,40,9,d\n' > table.csv
+  "$PSTRIPACK" -q convert table.csv -o nodes.nc
+  "$PSTRIPACK" -q convert nodes.nc -o - --to lonlat > got
+  printf '300.1 40\n100 40\n70 -20.7\n300.1 40\n' | cmp got -
+  "$PSTRIPACK" -q triangulate nodes.nc --duplicates first -o mesh.nc
+  "$PSTRIPACK" -q convert mesh.nc -o again.nc
+  "$PSTRIPACK" -q convert again.nc -o - --to lonlat > got
+  printf '300.1 40\n100 40\n70 -20.7\n' | cmp got -
+  "$PSTRIPACK" -q convert again.nc -o mesh.vtu
+  values_of() { tr '\n' ' ' < mesh.vtu | sed "s/.*Name=\"$1\" format=\"ascii\"> \([^<]*\) <.*/\1/"; }
+  [ "$(values_of depth)" = "7.25 nan -1" ] || fail "depth: $(values_of depth)"
+  [ "$(values_of lon)" = "300.1 100 70" ] || fail "lon: $(values_of lon)"
+  [ "$(grep -c 'Name="degree' mesh.vtu)" = 1 ] || fail "degree is there twice"
+  printf 'lon,lat,depth (km),place\n300,40,7,a\n100,40,8,b\n70,-20.7,-1,\n' > table.csv
+  "$PSTRIPACK" -q interpolate table.csv --variable depth --to-points table.csv -o points.nc
+  "$PSTRIPACK" -q interpolate points.nc --variable depth --to-points points.nc -o out.txt
+  [ "$(sed -n 1,2p out.txt | tr '\n' ' ')" = '# lon lat depth [km] depth_given [km] depth_given_given [km] place 300 40 7 7 7 "a" ' ] || fail "$(cat out.txt)"
   ;;
 
 ranks)

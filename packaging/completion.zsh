@@ -1,0 +1,39 @@
+#compdef pstripack stripack-compare pstripack-config pstripack-run
+# Completion in zsh for pstripack, stripack-compare, pstripack-config and pstripack-run: commands and options come from
+# the program's own --help, so they always fit its version.
+
+# What can be the last word: _pstripack_words PROGRAM WORD...
+_pstripack_words() {
+  local program=$1 current=${@[-1]} previous=${@[-2]} command="" word
+  local -a commands
+  commands=(${(f)"$("$program" --help 2>/dev/null | sed -n '/^Subcommands:/,/^$/s/^  \([a-z]*\) .*/\1/p')"})
+  for word in "${@[2,-2]}"; do
+    if (( ${commands[(Ie)$word]} )); then
+      command=$word
+      break
+    fi
+  done
+  if [[ ${program:t} == pstripack-config && $previous == --abi ]]; then
+    "$program" --abi 2>/dev/null | cut -d ' ' -f 1
+  elif [[ $current == -* || ${program:t} == pstripack-config ]]; then
+    "$program" ${command:+$command} --help 2>/dev/null | grep -oE -e '(^|[][ ,"])--?[a-z][a-z0-9-]*' |
+      grep -oE -e '--?[a-z][a-z0-9-]*' | sort -u
+  elif [[ -z $command ]]; then
+    print -l -- $commands
+  fi
+}
+
+_pstripack() {
+  local -a offered
+  offered=(${(f)"$(_pstripack_words "${(@)words[1,CURRENT]}")"})
+  if (( $#offered )); then
+    compadd -- $offered
+  else
+    _files
+  fi
+}
+
+# The file is the function that zsh loads when it completes; it may have the name of any of the programs.
+if [[ $funcstack[1] == _(pstripack|stripack-compare)* ]]; then
+  _pstripack "$@"
+fi

@@ -1,0 +1,59 @@
+#include "files/columns.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/parallel_for.h"
+
+namespace files {
+namespace {
+
+constexpr double kDegreesPerRadian = 57.295779513082321;
+
+}  // namespace
+
+const Column* find(const Columns& columns, const std::string& name) {
+  const auto found =
+      std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; });
+  return found == columns.end() ? nullptr : &*found;
+}
+
+void make_names_differ(Columns& columns, std::vector<std::string> taken) {
+  for (Column& c : columns) {
+    while (std::find(taken.begin(), taken.end(), c.name) != taken.end()) c.name += "_given";
+    taken.push_back(c.name);
+  }
+}
+
+Column whole_numbers(std::string name, std::string long_name, std::vector<double> numbers) {
+  Column column{std::move(name), std::move(long_name)};
+  column.numbers = std::move(numbers);
+  column.whole = true;
+  return column;
+}
+
+LonLat::LonLat(const std::vector<pstripack::Point>& points, bool in_degrees)
+    : lon(points.size()), lat(points.size()), degrees(in_degrees) {
+  const double scale = degrees ? kDegreesPerRadian : 1;
+  pstripack::parallel_pieces(points.size(), pstripack::threads_for(points.size()),
+                             [&](std::size_t first, std::size_t last, int) {
+                               for (std::size_t i = first; i < last; ++i) {
+                                 const pstripack::Point& p = points[i];
+                                 lon[i] = std::atan2(p.y, p.x) * scale;
+                                 lat[i] = std::atan2(p.z, std::sqrt(p.x * p.x + p.y * p.y)) * scale;
+                               }
+                             });
+}
+
+LonLat angles_of(const std::vector<pstripack::Point>& points, const LonLat& given, bool degrees) {
+  if (given.empty()) return {points, degrees};
+  LonLat angles = given;
+  if (given.degrees == degrees) return angles;
+  for (auto* const values : {&angles.lon, &angles.lat})
+    for (double& v : *values) v = degrees ? v * kDegreesPerRadian : v / kDegreesPerRadian;
+  angles.degrees = degrees;
+  return angles;
+}
+
+}  // namespace files

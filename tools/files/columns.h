@@ -1,0 +1,56 @@
+#pragma once
+// Values that travel with nodes from the file that has them to the files that are written.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "geometry/point.h"
+
+namespace files {
+
+/// One value for each node, or for each face.
+struct Column {
+  std::string name, long_name = "", units = "";
+  std::vector<double> numbers = {};     ///< NaN: missing
+  std::vector<std::string> texts = {};  ///< instead of numbers; empty: missing
+  bool whole = false;                   ///< all numbers are integers of 32 bits, none is missing
+
+  bool is_text() const { return !texts.empty(); }
+  std::size_t size() const { return is_text() ? texts.size() : numbers.size(); }
+};
+using Columns = std::vector<Column>;
+
+const Column* find(const Columns& columns, const std::string& name);
+
+/// Puts `_given` behind names, of these columns, that others before them or the words in `taken` have.
+void make_names_differ(Columns& columns, std::vector<std::string> taken);
+
+/// A column of whole numbers.
+Column whole_numbers(std::string name, std::string long_name, std::vector<double> numbers);
+
+/// Longitudes and latitudes, in one unit.
+struct LonLat {
+  LonLat() = default;
+  /// Of vectors: -180 to 180 and -90 to 90 degrees, or in radians.
+  LonLat(const std::vector<pstripack::Point>& points, bool in_degrees);
+
+  std::vector<double> lon, lat;
+  bool degrees = true;
+
+  bool empty() const { return lon.empty(); }
+};
+
+/// The angles as they were given, in another unit if they must be, or those of the vectors where none are.
+LonLat angles_of(const std::vector<pstripack::Point>& points, const LonLat& given, bool degrees);
+
+/// Keeps the values with these indices, which increase.
+template <class Value>
+void keep(std::vector<Value>& values, const std::vector<std::size_t>& indices) {
+  if (values.empty()) return;
+  for (std::size_t k = 0; k < indices.size(); ++k)
+    if (indices[k] != k) values[k] = std::move(values[indices[k]]);
+  values.resize(indices.size());
+}
+
+}  // namespace files

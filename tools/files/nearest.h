@@ -1,0 +1,44 @@
+#pragma once
+// "Did you mean": the word that was most likely meant.
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace files {
+
+/// The fewest insertions, deletions, replacements and exchanges of neighbours that make `a` of `b`.
+inline std::size_t edits_between(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] != b[j - 1])});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+    before.swap(last);
+    last.swap(row);
+  }
+  return last[b.size()];
+}
+
+/// The closest of `words`; empty if none is close.
+inline std::string nearest(const std::string& word, const std::vector<std::string>& words) {
+  std::string best;
+  std::size_t fewest = std::max<std::size_t>(word.size() / 3, 1) + 1;
+  for (const std::string& w : words)
+    if (const std::size_t edits = edits_between(word, w); edits < fewest && edits < w.size())
+      best = w, fewest = edits;
+  return best;
+}
+
+/// "; did you mean WORD?", or nothing.
+inline std::string did_you_mean(const std::string& word, const std::vector<std::string>& words) {
+  const std::string best = nearest(word, words);
+  return best.empty() ? "" : "; did you mean " + best + "?";
+}
+
+}  // namespace files

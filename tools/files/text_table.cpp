@@ -1,0 +1,572 @@
+#include "files/text_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "base/parallel_for.h"
+#include "files/nearest.h"
+#include "numbers.h"
+
+namespace files {
+namespace {
+
+constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+constexpr std::string_view kBlanks = " \t\r\f\v";
+
+[[noreturn]] void fail(const std::string& file, std::size_t line, const std::string& what) {
+  throw std::runtime_error(fmt::format("{}:{}: {}", file, line, what));
+}
+
+std::string counted(std::size_t n, const char* what) {
+  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+}
+
+bool is_space(char c) { return kBlanks.find(c) != kBlanks.npos; }
+bool is_blank(char c) { return c == ' ' || c == ',' || is_space(c); }
+bool begins_comment(char c) { return c == '#' || c == '!' || c == '%'; }
+bool ends_word(char c) { return is_blank(c) || c == '#' || c == '!'; }
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return result;
+}
+
+bool is_missing(std::string_view word) {
+  if (word.size() > 4) return false;
+  const std::string l = lower(word);
+  return l.empty() || l == "nan" || l == "na" || l == "n/a" || l == "null";
+}
+
+bool is_number(std::string_view word, double& value) {
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error == std::errc() && end == word.data() + word.size()) return std::isfinite(value);
+  // Words are common in columns that are carried, and strtod is slow.
+  return !word.empty() && std::strchr("0123456789+-.", word[0]) != nullptr &&
+         point_sets::parse(std::string(word), value);
+}
+
+bool has_hemisphere(std::string_view word) {
+  const auto is_letter = [](char c) { return std::strchr("NSEWnsew", c) != nullptr && c != '\0'; };
+  double value;
+  return word.size() > 1 && ((is_letter(word.back()) && is_number(word.substr(0, word.size() - 1), value)) ||
+                             (is_letter(word.front()) && is_number(word.substr(1), value)));
+}
+
+/// What to do about a word that is no number.
+std::string remedy_for(std::string_view word) {
+  if (has_hemisphere(word)) return ": write 45N as 45, 45S as -45, 120W as -120";
+  if (word.find("\xC2\xB0") != word.npos || word.find('\xB0') != word.npos || word.find(':') != word.npos)
+    return ": write degrees as one decimal number, 45.5";
+  if (word.find(';') != word.npos) return ": separate all columns by semicolons, or none";
+  if (const std::size_t comma = word.find(','); comma != word.npos && word.find(',', comma + 1) == word.npos)
+    return ": write a decimal comma as a point";
+  return "";
+}
+
+/// Takes lines off a text.
+class Lines {
+ public:
+  Lines(std::string_view text, std::size_t first_line) : text_(text), next_(first_line) {}
+
+  bool next(std::string_view& line) {
+    if (at_ == text_.size()) return false;
+    begin_ = at_;
+    const void* const end = std::memchr(text_.data() + at_, '\n', text_.size() - at_);
+    const std::size_t stop = end == nullptr
+                                 ? text_.size()
+                                 : static_cast<std::size_t>(static_cast<const char*>(end) - text_.data());
+    line = text_.substr(at_, stop - at_);
+    at_ = std::min(stop + 1, text_.size());
+    ++next_;
+    return true;
+  }
+  std::size_t begin() const { return begin_; }      ///< offset of the line
+  std::size_t number() const { return next_ - 1; }  ///< of the line
+
+ private:
+  std::string_view text_;
+  std::size_t at_ = 0, begin_ = 0, next_;
+};
+
+/// The columns of a line, one after the other.
+class Cells {
+ public:
+  Cells(std::string_view line, char separator)
+      : at_(line.data()), end_(at_ + line.size()), separator_(separator) {
+    if (separator_ == ' ') skip_blanks();
+    more_ = separator_ == ' ' ? begins_cell() : true;
+  }
+  bool more() const { return more_; }
+
+  /// Reads the cell if it is a plain number: the fast way for nearly all of them.
+  bool number(double& value) {
+    skip_spaces();
+    const auto [stop, error] = std::from_chars(at_, end_, value);
+    if (error != std::errc() || !std::isfinite(value)) return false;
+    const char* p = stop;
+    if (separator_ == ' ') {
+      if (p != end_ && !ends_word(*p)) return false;
+    } else {
+      while (p != end_ && *p != separator_ && is_space(*p)) ++p;
+      if (p != end_ && *p != separator_) return false;
+    }
+    leave(p);
+    return true;
+  }
+
+  /// Reads the cell, without quotes around it. False: its quotes have no end.
+  bool word(std::string_view& word) {
+    skip_spaces();
+    if (at_ != end_ && *at_ == '"') {
+      const char* p = at_ + 1;
+      while (p != end_ && (*p != '"' || (p + 1 != end_ && p[1] == '"'))) p += *p == '"' ? 2 : 1;
+      if (p == end_) return false;
+      word = {at_ + 1, static_cast<std::size_t>(p - at_ - 1)};
+      ++p;
+      while (p != end_ && separator_ != ' ' && *p != separator_) ++p;
+      leave(p);
+      return true;
+    }
+    const char* p = at_;
+    while (p != end_ && (separator_ == ' ' ? !ends_word(*p) : *p != separator_)) ++p;
+    word = {at_, static_cast<std::size_t>(p - at_)};
+    while (!word.empty() && is_space(word.back())) word.remove_suffix(1);
+    leave(p);
+    return true;
+  }
+
+ private:
+  bool begins_cell() const { return at_ != end_ && !begins_comment(*at_); }
+  void skip_blanks() {
+    while (at_ != end_ && is_blank(*at_)) ++at_;
+  }
+  void skip_spaces() {
+    while (at_ != end_ && *at_ != separator_ && is_space(*at_)) ++at_;
+  }
+  void leave(const char* p) {
+    at_ = p;
+    if (separator_ == ' ') {
+      skip_blanks();
+      more_ = begins_cell();
+    } else {
+      more_ = at_ != end_;
+      if (more_) ++at_;
+    }
+  }
+  const char *at_, *end_;
+  char separator_;
+  bool more_ = false;
+};
+
+std::vector<std::string> split(std::string_view line, char separator) {
+  std::vector<std::string> words;
+  std::string_view word;
+  for (Cells cells(line, separator); cells.more() && cells.word(word);) words.emplace_back(word);
+  return words;
+}
+
+/// `text` with "" for each quote in it, as in a quoted cell.
+std::string without_doubled_quotes(std::string_view text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    result += text[i];
+    if (text[i] == '"' && i + 1 < text.size() && text[i + 1] == '"') ++i;
+  }
+  return result;
+}
+
+/// Without a comment at the end, which numbers can have in a text without header.
+std::string_view without_comment(std::string_view line) {
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"') quoted = !quoted;
+    if (!quoted && (line[i] == '#' || line[i] == '!')) return line.substr(0, i);
+  }
+  return line;
+}
+
+bool is_header(const std::vector<std::string>& cells) {
+  bool has_word = false;
+  double value;
+  for (const std::string& cell : cells) {
+    if (is_number(cell, value) || has_hemisphere(cell) || lower(cell) == "nan") return false;
+    has_word = has_word || (!cell.empty() && std::strchr("+-.0123456789", cell[0]) == nullptr);
+  }
+  return has_word;
+}
+
+/// Tabs separate columns only if there is one between any two of the first line, which are not all numbers;
+/// else they are blanks like others.
+bool is_separated_by_tabs(std::string_view line) {
+  if (line.find('\t') == line.npos) return false;
+  const std::vector<std::string> cells = split(line, '\t');
+  double value;
+  for (const std::string& cell : cells) {
+    if (cell.empty()) return false;
+    const std::vector<std::string> words = split(cell, ' ');
+    if (words.size() > 1 && is_number(words[0], value) && is_number(words[1], value)) return false;
+  }
+  return is_header(cells) || split(line, ' ').size() != cells.size();
+}
+
+char separator_of(std::string_view line) {
+  bool quoted = false;
+  bool comma = false;
+  for (const char c : line) {
+    if (c == '"') quoted = !quoted;
+    if (quoted) continue;
+    if (c == ';') return ';';
+    comma = comma || c == ',';
+  }
+  if (is_separated_by_tabs(line)) return '\t';
+  return comma ? ',' : ' ';
+}
+
+/// Names and units. In text separated by blanks, the unit is a word of its own.
+void set_names(TextLayout& layout, const std::vector<std::string>& cells) {
+  layout.names.clear();
+  layout.units.clear();
+  const auto is_unit = [](std::string_view w) {
+    return w.size() > 1 && ((w.front() == '[' && w.back() == ']') || (w.front() == '(' && w.back() == ')'));
+  };
+  for (const std::string& cell : cells) {
+    if (layout.separator == ' ' && is_unit(cell) && !layout.names.empty()) {
+      layout.units.back() = cell.substr(1, cell.size() - 2);
+      continue;
+    }
+    const std::string_view text = trimmed(cell);
+    const std::size_t begin = text.find_last_of("[(");
+    if (begin != text.npos && begin > 0 && is_unit(text.substr(begin))) {
+      layout.names.emplace_back(trimmed(text.substr(0, begin)));
+      layout.units.emplace_back(text.substr(begin + 1, text.size() - begin - 2));
+    } else {
+      layout.names.emplace_back(text);
+      layout.units.emplace_back();
+    }
+  }
+}
+
+bool has_place(const std::vector<std::string>& names) {
+  const auto has = [&](char axis) {
+    return std::any_of(names.begin(), names.end(), [&](const auto& name) { return axis_of(name) == axis; });
+  };
+  return (has('o') && has('a')) || (has('x') && has('y') && has('z'));
+}
+
+const char* name_of(char separator) {
+  return separator == ','    ? "commas"
+         : separator == ';'  ? "semicolons"
+         : separator == '\t' ? "tabs"
+                             : "blanks";
+}
+
+/// Why a line has another number of columns.
+std::string of_other_count(std::string_view line, std::size_t found, const TextLayout& layout) {
+  const bool has_none = layout.separator == ' ' || line.find(layout.separator) == line.npos;
+  for (const char other : {';', '\t', ',', ' '})
+    if (has_none && other != layout.separator && split(line, other).size() == layout.columns)
+      return fmt::format("separated by {}, the lines before by {}: use one separator", name_of(other),
+                         name_of(layout.separator));
+  return fmt::format("found {} where the {} {}", counted(found, layout.names.empty() ? "number" : "column"),
+                     layout.header_line > 0 ? "header has" : "lines before have", layout.columns);
+}
+
+/// What one thread reads.
+struct Piece {
+  TextRows rows;
+  std::vector<char> has_words;  ///< of each column: a word that is no number
+  std::size_t newlines = 0, segments = 0, error_line = 0;
+  std::string error;
+};
+
+class Reader {
+ public:
+  Reader(const TextLayout& layout, const std::vector<Role>& roles)
+      : layout_(layout),
+        roles_(roles),
+        nan_in_places_(std::find(roles.begin(), roles.end(), Role::value) != roles.end()) {}
+
+  void read(std::string_view text, Piece& piece) const {
+    const std::size_t columns = layout_.columns;
+    piece.rows.numbers.resize(columns);
+    piece.has_words.resize(columns);
+    Lines lines(text, 1);
+    std::string_view line;
+    while (lines.next(line)) {
+      ++piece.newlines;
+      if (!is_row(line, piece)) continue;
+      const std::size_t found = read_row(line, lines.number(), piece);
+      if (piece.error_line > 0) return;
+      if (found == 0) continue;
+      if (found != columns) return error(piece, lines.number(), of_other_count(line, found, layout_));
+      piece.rows.lines.push_back(lines.number());
+      piece.rows.segments.push_back(static_cast<double>(piece.segments));
+    }
+  }
+
+  /// The cells of these columns as texts, in all rows.
+  void read_texts(std::string_view text, const std::vector<std::size_t>& columns, TextRows& rows) const {
+    Lines lines(text, 1);
+    std::string_view line, word;
+    Piece ignored;
+    while (lines.next(line)) {
+      if (!is_row(line, ignored)) continue;
+      Cells cells(line, layout_.separator);
+      auto wanted = columns.begin();
+      for (std::size_t c = 0; wanted != columns.end() && cells.more() && cells.word(word); ++c)
+        if (c == *wanted) {
+          rows.texts[c].push_back(without_doubled_quotes(word));
+          ++wanted;
+        }
+    }
+  }
+
+ private:
+  static void error(Piece& piece, std::size_t line, std::string what) {
+    piece.error_line = line;
+    piece.error = std::move(what);
+  }
+
+  /// False for what is no row. Takes comments off.
+  bool is_row(std::string_view& line, Piece& piece) const {
+    std::size_t begin = 0;
+    while (begin < line.size() && is_space(line[begin])) ++begin;
+    if (begin == line.size() || begins_comment(line[begin])) return false;
+    if (line[begin] == '>') {
+      ++piece.segments;
+      return false;
+    }
+    if (layout_.header_line == 0 && layout_.separator != ' ') line = without_comment(line);
+    return true;
+  }
+
+  /// The number of columns.
+  std::size_t read_row(std::string_view line, std::size_t number, Piece& piece) const {
+    Cells cells(line, layout_.separator);
+    std::size_t c = 0;
+    std::string_view word;
+    for (; cells.more(); ++c) {
+      const Role role = c < roles_.size() ? roles_[c] : Role::skipped;
+      double value = kMissing;
+      if (role == Role::skipped || (role == Role::carried && piece.has_words[c]) || !cells.number(value)) {
+        if (!cells.word(word)) {
+          error(piece, number, "a double quote without an end");
+          return 0;
+        }
+        if (role != Role::skipped && !is_number(word, value)) {
+          value = kMissing;
+          if (const std::string wrong = why_not(word, c, role); !wrong.empty()) {
+            // A row that is separated otherwise is no word.
+            const std::string other = of_other_count(line, 0, layout_);
+            error(piece, number, other.rfind("separated", 0) == 0 && layout_.columns > 1 ? other : wrong);
+            return 0;
+          }
+          if (role == Role::carried && !is_missing(word)) piece.has_words[c] = 1;
+        }
+      }
+      if (role != Role::skipped) piece.rows.numbers[c].push_back(value);
+    }
+    return c;
+  }
+
+  /// Why the word cannot be in the column; empty: it can.
+  std::string why_not(std::string_view word, std::size_t column, Role role) const {
+    if (role == Role::carried) return "";
+    const std::string l = lower(word);
+    if (role == Role::value ? is_missing(word) : nan_in_places_ && l == "nan") return "";
+    const std::string name =
+        layout_.names.empty() ? "" : fmt::format(" in column '{}'", layout_.name(column));
+    if (word.empty())
+      return fmt::format("nothing{}: remove the row, or choose --columns",
+                         name.empty() ? " between separators" : name);
+    if (!name.empty() && l == lower(layout_.names[column])) return "the header line again: remove it";
+    return fmt::format("'{}'{} is not a finite number{}", word, name, remedy_for(word));
+  }
+
+  const TextLayout& layout_;
+  const std::vector<Role>& roles_;
+  const bool nan_in_places_;
+};
+
+}  // namespace
+
+std::string TextLayout::name(std::size_t column) const {
+  return column < names.size() ? names[column] : fmt::format("column{}", column + 1);
+}
+
+char axis_of(const std::string& name) {
+  std::string l = lower(name);
+  for (const char* const unit : {"_degrees", "_degree", "_deg", "_radians", "_rad"})
+    if (const std::size_t length = std::strlen(unit);
+        l.size() > length && l.compare(l.size() - length, length, unit) == 0)
+      l.resize(l.size() - length);
+  for (const char* const w : {"lon", "long", "lng", "longitude", "decimallongitude"})
+    if (l == w) return 'o';
+  for (const char* const w : {"lat", "latitude", "decimallatitude"})
+    if (l == w) return 'a';
+  return l == "x" || l == "y" || l == "z" ? l[0] : '\0';
+}
+
+TextLayout layout_of(std::string_view text, const std::string& file) {
+  TextLayout layout;
+  const std::size_t mark = text.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0;
+  Lines lines(text.substr(mark), 1);
+  std::string_view line, comment;
+  bool has_row = false;
+  while (!has_row && lines.next(line)) {
+    const std::string_view content = trimmed(line);
+    if (content.empty() || content[0] == '>') continue;
+    if (begins_comment(content[0])) {
+      comment = content.substr(1);
+      continue;
+    }
+    const std::string_view plain = layout.header_line > 0 ? content : trimmed(without_comment(content));
+    if (layout.header_line == 0) layout.separator = separator_of(plain);
+    const std::vector<std::string> cells = split(plain, layout.separator);
+    if (is_header(cells)) {
+      if (layout.header_line > 0)
+        fail(
+            file, lines.number(),
+            fmt::format("a second header line, after that in line {}: remove one of them, or put # before it",
+                        layout.header_line));
+      layout.header_line = lines.number();
+      // A header can have # in its names.
+      layout.separator = separator_of(content);
+      set_names(layout, split(content, layout.separator));
+      continue;
+    }
+    if (double n = 0; layout.header_line == 0 && layout.line_of_count == 0 && cells.size() == 1 &&
+                      is_number(cells[0], n) && n >= 1 && n == std::floor(n)) {
+      layout.line_of_count = lines.number();
+      layout.count = static_cast<std::size_t>(std::min(n, 1e18));
+      continue;
+    }
+    has_row = true;
+    layout.begin = mark + lines.begin();
+    layout.line = lines.number();
+    layout.columns = layout.header_line > 0 ? layout.names.size() : cells.size();
+  }
+  if (!has_row) {
+    if (layout.header_line > 0)
+      fail(file, layout.header_line, "a header line, and no row of numbers after it: add the nodes");
+    throw std::runtime_error(file + ": no points: expected lines 'lon lat' or 'x y z'");
+  }
+  if (layout.header_line == 0 && !comment.empty()) {
+    const char separator = layout.separator;
+    if (layout.separator == ' ' || split(comment, layout.separator).size() != layout.columns)
+      layout.separator = ' ';
+    set_names(layout, split(comment, layout.separator));
+    layout.separator = separator;
+    if (layout.names.size() != layout.columns || !has_place(layout.names))
+      layout.names.clear(), layout.units.clear();
+  }
+  return layout;
+}
+
+TextRows rows_of(std::string_view text, const std::string& file, const TextLayout& layout,
+                 const std::vector<Role>& roles) {
+  const std::string_view rows = text.substr(layout.begin);
+  const Reader reader(layout, roles);
+  const int threads = pstripack::threads_for(rows.size() / 16);
+  std::vector<Piece> pieces(static_cast<std::size_t>(threads));
+  pstripack::ErrorsOfThreads errors(pieces.size());
+  const auto begin_of_line = [&](std::size_t offset) {
+    const std::size_t newline = offset == 0 ? 0 : rows.find('\n', offset - 1);
+    return offset == 0 ? 0 : newline == rows.npos ? rows.size() : newline + 1;
+  };
+  pstripack::parallel_pieces(rows.size(), threads, [&](std::size_t first, std::size_t last, int piece) {
+    const auto k = static_cast<std::size_t>(piece);
+    errors.keep(k, [&] {
+      const std::size_t begin = begin_of_line(first), end = begin_of_line(last);
+      reader.read(rows.substr(begin, end - begin), pieces[k]);
+    });
+  });
+  errors.rethrow();
+
+  std::size_t count = 0, line = layout.line - 1;
+  double segments = 0;
+  std::vector<char> has_words(layout.columns);
+  for (Piece& piece : pieces) {
+    if (piece.error_line > 0) fail(file, line + piece.error_line, piece.error);
+    for (std::size_t& l : piece.rows.lines) l += line;
+    for (double& s : piece.rows.segments) s += segments;
+    count += piece.rows.lines.size();
+    line += piece.newlines;
+    segments += static_cast<double>(piece.segments);
+    for (std::size_t c = 0; c < layout.columns; ++c) has_words[c] = has_words[c] || piece.has_words[c];
+  }
+  if (layout.line_of_count > 0 && layout.count != count)
+    fail(file, layout.line_of_count,
+         fmt::format("a single number is the count of the points that follow; there are {}", count));
+
+  TextRows all = std::move(pieces[0].rows);
+  const auto append = [&](auto& to, const auto& from) {
+    to.reserve(count);
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  for (std::size_t k = 1; k < pieces.size(); ++k) {
+    append(all.lines, pieces[k].rows.lines);
+    append(all.segments, pieces[k].rows.segments);
+    for (std::size_t c = 0; c < layout.columns; ++c) append(all.numbers[c], pieces[k].rows.numbers[c]);
+  }
+  if (segments == 0) all.segments.clear();
+  all.texts.resize(layout.columns);
+  std::vector<std::size_t> of_texts;
+  for (std::size_t c = 0; c < layout.columns; ++c)
+    if (has_words[c]) of_texts.push_back(c), all.numbers[c].clear();
+  if (!of_texts.empty()) reader.read_texts(rows, of_texts, all);
+  return all;
+}
+
+std::vector<std::size_t> columns_named(const std::string& wanted, const TextLayout& layout,
+                                       const std::string& file) {
+  const std::string where = layout.header_line > 0 ? fmt::format("{}:{}", file, layout.header_line) : file;
+  const auto refuse = [&](const std::string& what) { throw std::runtime_error(where + ": " + what); };
+  std::vector<std::size_t> columns;
+  for (std::size_t begin = 0; begin <= wanted.size();) {
+    const std::size_t end = std::min(wanted.find(',', begin), wanted.size());
+    const std::string word(trimmed(std::string_view(wanted).substr(begin, end - begin)));
+    begin = end + 1;
+    std::vector<std::size_t> found;
+    const auto find_all = [&](const auto& is_it) {
+      for (std::size_t c = 0; c < layout.names.size() && found.size() < 2; ++c)
+        if (is_it(layout.names[c])) found.push_back(c);
+    };
+    find_all([&](const std::string& name) { return name == word; });
+    if (found.empty()) find_all([&](const std::string& name) { return lower(name) == lower(word); });
+    if (found.size() > 1)
+      refuse(fmt::format("the header names column '{}' twice, {} and {}: choose columns by number", word,
+                         found[0] + 1, found[1] + 1));
+    if (double number = 0; found.empty() && is_number(word, number)) {
+      if (number != std::floor(number) || number < 1 || number > static_cast<double>(layout.columns))
+        refuse(fmt::format("there is no column {}: there are {}", word, layout.columns));
+      found.push_back(static_cast<std::size_t>(number) - 1);
+    }
+    if (found.empty())
+      refuse(layout.names.empty()
+                 ? fmt::format("the columns have no names: choose them by number, not '{}'", word)
+                 : fmt::format("there is no column '{}'{}; the header has {}", word,
+                               did_you_mean(word, layout.names), fmt::join(layout.names, ", ")));
+    if (std::find(columns.begin(), columns.end(), found[0]) != columns.end())
+      refuse(fmt::format("column '{}' is chosen twice", word));
+    columns.push_back(found[0]);
+  }
+  return columns;
+}
+
+}  // namespace files
