@@ -198,8 +198,14 @@ void integrate_tiny(Entries& e) {
 /// Some consecutive cells at a time.
 class SmallCells {
  public:
+  static constexpr std::size_t kCells = 64;  ///< their arrays fit the first cache
   SmallCells(const Point* points, const Stars& stars, const Density& density, Cells& cells)
-      : points_(points), stars_(stars), density_(density), cells_(cells), large_(density) {
+      : points_(points),
+        stars_(stars),
+        slots_(stars.end_of(stars.count - 1)),
+        density_(density),
+        cells_(cells),
+        large_(density) {
     if (density.is_constant()) {
       constant_ = density.at({1, 0, 0});
       if (!is_good(constant_)) throw BadDensity({1, 0, 0}, constant_);
@@ -232,6 +238,8 @@ class SmallCells {
   }
 
  private:
+  static constexpr std::size_t kAhead = 6 * kCells;  ///< neighbours: those that the next cells ask for
+
   enum class Size : char { tiny, small, large };
 
   /// body(i, k, count): cell i has the neighbours, corners and triangles k..k+count-1.
@@ -264,8 +272,10 @@ class SmallCells {
     for_each_cell([&](std::size_t i, std::size_t k, std::size_t count) {
       const Point g = points_[i];
       const Axes axes(g);
-      const std::int32_t* const ring = stars_.neighbour + stars_.begin_of(i);
+      const std::size_t begin = stars_.begin_of(i), ahead = begin + count + kAhead <= slots_ ? kAhead : 0;
+      const std::int32_t* const ring = stars_.neighbour + begin;
       for (std::size_t j = 0; j < count; ++j) {
+        __builtin_prefetch(points_ + (ring[j + ahead] - 1));
         const Point d = minus(points_[static_cast<std::size_t>(ring[j]) - 1], g);
         u[k + j] = dot(d, axes.e1);
         v[k + j] = dot(d, axes.e2);
@@ -397,6 +407,7 @@ class SmallCells {
 
   const Point* const points_;
   const Stars& stars_;
+  const std::size_t slots_;  ///< of the neighbours of all cells
   const Density& density_;
   Cells& cells_;
   LargeCell large_;
@@ -417,14 +428,15 @@ Point centroid(const Cells& cells, std::size_t i, const Point& g) {
 }
 
 void integrate(const Point* points, const Stars& stars, const Density& density, Cells& cells) {
-  constexpr std::size_t kCells = 64;  // their arrays fit the first cache
   cells.resize(stars.count);
+  if (stars.count == 0) return;  // a rank without generators
   const int threads = threads_for(10 * stars.count);
   ErrorsOfThreads errors(static_cast<std::size_t>(threads));
   parallel_pieces(stars.count, threads, [&](std::size_t first, std::size_t last, int piece) {
     errors.keep(static_cast<std::size_t>(piece), [&] {
       SmallCells block(points, stars, density, cells);
-      for (std::size_t i = first; i < last; i += kCells) block.integrate(i, std::min(i + kCells, last));
+      for (std::size_t i = first; i < last; i += SmallCells::kCells)
+        block.integrate(i, std::min(i + SmallCells::kCells, last));
     });
   });
   errors.rethrow();
