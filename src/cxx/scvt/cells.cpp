@@ -161,7 +161,9 @@ struct Entries {
 void find_corners(Entries& e) {
   const double *const u = e.u.data(), *const v = e.v.data(), *const half = e.half.data();
   double *const x = e.x.data(), *const y = e.y.data(), *const s = e.s.data();
-#pragma GCC ivdep
+#ifndef __clang__
+#pragma GCC ivdep  // the arrays do not overlap; Clang tests that itself
+#endif
   for (std::size_t k = 0; k + 1 < e.count; ++k) {
     const double det = u[k] * v[k + 1] - v[k] * u[k + 1], inverse = 1 / det;
     x[k] = (half[k] * v[k + 1] - v[k] * half[k + 1]) * inverse;
@@ -180,7 +182,9 @@ void integrate_tiny(Entries& e) {
   const double *const x = e.x.data(), *const y = e.y.data(), *const s = e.s.data();
   double *const mass = e.mass.data(), *const energy = e.energy.data();
   double *const pull_x = e.pull_x.data(), *const pull_y = e.pull_y.data();
-#pragma GCC ivdep
+#ifndef __clang__
+#pragma GCC ivdep  // the arrays do not overlap; Clang tests that itself
+#endif
   for (std::size_t k = 0; k + 1 < e.count; ++k) {
     const double det = x[k] * y[k + 1] - y[k] * x[k + 1];
     const double a = s[k], b = x[k] * x[k + 1] + y[k] * y[k + 1], c = s[k + 1], t = a + c, g = a * c;

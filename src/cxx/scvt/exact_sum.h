@@ -62,7 +62,7 @@ class ExactSum {
 
   /// The same sum for messages: the sum of the words of several ranks, each added up as a 64-bit integer, is
   /// the words of the sum, for up to 2^30 ranks.
-  static constexpr std::size_t kDigits = 68;
+  static constexpr std::size_t kDigits = 67;
   using Words = std::array<std::int64_t, kDigits + 1>;
   Words words() const noexcept {
     Words w{};
