@@ -178,22 +178,20 @@ class Minimizer {
 
   /// The step and the change of the gradient, if the energy is convex along it.
   void keep_pair() {
-    State::Pair pair;
-    if (state_.pairs.size() == kPairs) {
-      pair = std::move(state_.pairs.front());
-      state_.pairs.erase(state_.pairs.begin());
-      products_.erase(products_.begin());
-    }
-    pair.step.resize(n_);
-    pair.change.resize(n_);
+    spare_.step.resize(n_);
+    spare_.change.resize(n_);
     for_each(n_, [&](std::size_t i) {
-      pair.step[i] = minus(there_.generators[i], here_.generators[i]);
-      pair.change[i] = scaled(-2, minus(there_.cells.pull[i], here_.cells.pull[i]));
+      spare_.step[i] = minus(there_.generators[i], here_.generators[i]);
+      spare_.change[i] = scaled(-2, minus(there_.cells.pull[i], here_.cells.pull[i]));
     });
-    const double product = product_of(pair);
+    const double product = product_of(spare_);
     if (!(product > 0)) return;
-    state_.pairs.push_back(std::move(pair));
+    state_.pairs.push_back(std::move(spare_));
     products_.push_back(product);
+    if (state_.pairs.size() <= kPairs) return;
+    spare_ = std::move(state_.pairs.front());
+    state_.pairs.erase(state_.pairs.begin());
+    products_.erase(products_.begin());
   }
   double product_of(const State::Pair& pair) {
     return sum_of(evaluator_, n_, [&](std::size_t i) { return dot(pair.step[i], pair.change[i]); });
@@ -266,6 +264,7 @@ class Minimizer {
   double total_ = 0;     ///< generators of all ranks
   Place here_, there_;
   Vectors direction_;
+  State::Pair spare_;             ///< room for the next pair
   std::vector<double> products_;  ///< step times change of each pair
 };
 
