@@ -1,0 +1,449 @@
+// Quadrature.
+//
+// A cell is integrated in the plane that touches the sphere at its generator g, with coordinates x, y along
+// two axes e1, e2 at right angles to g and to each other. The place x, y is seen from the centre in the
+// direction p = (g + x e1 + y e2)/sqrt(1+s), s = x^2 + y^2, and dxdy in the plane is dxdy/(1+s)^(3/2) on the
+// sphere. Great circles are straight lines there: a cell is a convex polygon around 0. With u = neighbour - g
+// the points as far from the neighbour as from g are x u.e1 + y u.e2 = u.u/2, so a corner, the circumcentre
+// of g and two neighbours, solves two linear equations: no square root, no cancellation.
+//
+// A triangle of 0 and two consecutive corners P, Q has the points r (P + t (Q-P)), 0 < r < 1, 0 < t < 1, and
+// dxdy = det(P,Q) r dr dt. On a ray (t fixed) with z = r^2 s(t) the three integrands are
+//     mass      density (1+z)^(-3/2)                       = density (1 - 3/2 z + 15/8 z^2 - ...)
+//     energy    density 2 ((1+z)^(-3/2) - (1+z)^(-2))      = density (z - 9/4 z^2 + 29/8 z^3 - ...)
+//     pull      density (x,y) (1+z)^(-2)                   = density (x,y) (1 - 2 z + 3 z^2 - ...)
+// Power series in z times a polynomial in r: integrated over r term by term. Over t: three points of
+// Gauss, exact for z^2. In a cell with s <= kSmall at all corners what is left is below 5e-7, and falls with
+// s^2. Where the density is constant and s <= kTiny, three terms are enough: the next are below 2e-7, and
+// fall with s^3; the integrals over t then have closed forms.
+//
+// The density is taken as a polynomial of degree 2 in each triangle, from its values at 0, P, Q and the
+// midpoints of the three sides: on a ray density = a + b(t) r + c(t) r^2. Its products with the weights above
+// are integrated as well as those of a constant density.
+//
+// Larger cells, and those where the density differs by more than kRough, are cut into small spherical
+// triangles, each with a rule of seven points (Radon 1948): positive weights, so that mass and energy are
+// positive whatever the density is.
+
+#include "scvt/cells.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel_for.h"
+#include "scvt/errors.h"
+#include "scvt/vectors.h"
+
+namespace pstripack::scvt {
+namespace {
+
+constexpr double kTiny = 4e-3, kSmall = 0.02;  ///< s of the farthest corner
+constexpr double kRough = 4;                   ///< largest density in a cell over the smallest
+
+bool is_good(double density) { return density > 0 && std::isfinite(density); }
+
+/// Two axes at right angles to the unit vector g and to each other (Duff et al. 2017).
+struct Axes {
+  Axes() = default;
+  explicit Axes(const Point& g) {
+    const double sign = std::copysign(1.0, g.z), a = -1 / (sign + g.z), b = g.x * g.y * a;
+    e1 = {1 + sign * g.x * g.x * a, sign * b, -sign * g.x};
+    e2 = {b, sign + g.y * g.y * a, -g.y};
+  }
+  Point e1, e2;
+};
+
+struct Sums {
+  double mass = 0, energy = 0;
+  Point pull{0, 0, 0};  ///< integral of density times p-g, not yet at right angles to g
+};
+
+// ---- cells that are large, or rough
+// ------------------------------------------------------------------------
+
+class LargeCell {
+ public:
+  explicit LargeCell(const Density& density) : density_(density) {}
+
+  /// The cell of g between the neighbours of points[] in ring[0..count-1].
+  Sums integrate(const Point* points, const Point& g, const std::int32_t* ring, std::size_t count) {
+    const auto spoke = [&](std::size_t k) { return minus(points[static_cast<std::size_t>(ring[k]) - 1], g); };
+    points_.clear();
+    weights_.clear();
+    Point before = spoke(count - 1), first{0, 0, 0}, last{0, 0, 0};
+    for (std::size_t k = 0; k < count; ++k) {
+      const Point next = spoke(k), corner = normalized(cross(before, next));
+      if (k == 0)
+        first = corner;
+      else
+        cut(g, last, corner, kMostCuts);
+      last = corner;
+      before = next;
+    }
+    cut(g, last, first, kMostCuts);
+
+    values_.resize(points_.size());
+    density_.at(points_.size(), points_.data(), values_.data());
+    Sums sums;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if (!is_good(values_[i])) throw BadDensity(points_[i], values_[i]);
+      const Point d = minus(points_[i], g);
+      const double mass = weights_[i] * values_[i];
+      sums.mass += mass;
+      sums.energy += mass * dot(d, d);
+      sums.pull = plus(sums.pull, scaled(mass, d));
+    }
+    return sums;
+  }
+
+ private:
+  static constexpr int kMostCuts = 8;
+  static constexpr double kLongest = 0.1;  ///< side of a triangle that is not cut
+
+  void cut(const Point& a, const Point& b, const Point& c, int cuts) {
+    const Point ab = minus(b, a), bc = minus(c, b), ca = minus(a, c);
+    if (cuts == 0 || std::max({dot(ab, ab), dot(bc, bc), dot(ca, ca)}) <= kLongest * kLongest) {
+      add(a, b, c);
+      return;
+    }
+    const Point p = normalized(plus(a, b)), q = normalized(plus(b, c)), r = normalized(plus(c, a));
+    cut(a, p, r, cuts - 1);
+    cut(p, b, q, cuts - 1);
+    cut(r, q, c, cuts - 1);
+    cut(p, q, r, cuts - 1);
+  }
+
+  /// With the points q of the plane triangle the integral over the spherical one is det(a,b,c)/2 times the
+  /// mean of the integrand at q/|q| over |q|^3.
+  void add(const Point& a, const Point& b, const Point& c) {
+    // (6 -+ sqrt(15))/21 and weights (155 -+ sqrt(15))/1200.
+    constexpr double kNear = 0.10128650732345634, kFar = 0.47014206410511509;
+    constexpr double kWeight[3] = {0.225, 0.12593918054482715, 0.13239415278850618};
+    const double half = dot(a, cross(minus(b, a), minus(c, a))) / 2;
+    const auto put = [&](double u, double v, double w, double weight) {
+      const Point q = plus(plus(scaled(u, a), scaled(v, b)), scaled(w, c));
+      const double square = dot(q, q), length = std::sqrt(square);
+      points_.push_back(scaled(1 / length, q));
+      weights_.push_back(half * weight / (square * length));
+    };
+    put(1.0 / 3, 1.0 / 3, 1.0 / 3, kWeight[0]);
+    for (const auto& [s, weight] : {std::pair(kNear, kWeight[1]), std::pair(kFar, kWeight[2])}) {
+      put(1 - 2 * s, s, s, weight);
+      put(s, 1 - 2 * s, s, weight);
+      put(s, s, 1 - 2 * s, weight);
+    }
+  }
+
+  const Density& density_;
+  std::vector<Point> points_;
+  std::vector<double> weights_, values_;
+};
+
+// ---- small cells, many at a time
+// ---------------------------------------------------------------------------
+
+/// Arrays over the entries of some consecutive cells. A cell has an entry for each neighbour, and its first
+/// corner once more: entry k+1 is then always the next one, and loops over entries have no branches.
+struct Entries {
+  std::size_t count = 0;
+  std::vector<double> u, v, half;  ///< neighbour: its components along the axes, half its distance squared
+  std::vector<double> x, y, s;     ///< corner between neighbours k and k+1
+  std::vector<double> mass, energy, pull_x, pull_y;  ///< triangle between corners k and k+1
+
+  void resize(std::size_t n) {
+    count = n;
+    if (u.size() >= n) return;
+    for (auto* array : {&u, &v, &half, &x, &y, &s, &mass, &energy, &pull_x, &pull_y}) array->resize(n);
+  }
+};
+
+/// All corners; those behind the last of a cell are of no use.
+void find_corners(Entries& e) {
+  const double *const u = e.u.data(), *const v = e.v.data(), *const half = e.half.data();
+  double *const x = e.x.data(), *const y = e.y.data(), *const s = e.s.data();
+#ifndef __clang__
+#pragma GCC ivdep  // the arrays do not overlap; Clang tests that itself
+#endif
+  for (std::size_t k = 0; k + 1 < e.count; ++k) {
+    const double det = u[k] * v[k + 1] - v[k] * u[k + 1], inverse = 1 / det;
+    x[k] = (half[k] * v[k + 1] - v[k] * half[k + 1]) * inverse;
+    y[k] = (u[k] * half[k + 1] - half[k] * u[k + 1]) * inverse;
+    s[k] = std::copysign(x[k] * x[k] + y[k] * y[k], det);  // not >= 0: the plane does not show the corner
+  }
+}
+
+/// Density 1, three terms of the series. With A = P.P, B = P.Q, C = Q.Q, T = A+C, G = AC the means over t of
+/// s, s^2, s^3 are
+///     (T+B)/3,  (3 T (T+B) + 2 B^2 - 5 G)/15,  (5 T^2 (T+B) + (2T+B) (2 B^2 - 7 G))/35,
+/// and (x,y) = (1-t) P + t Q needs those of (1-t) s and (1-t) s^2 for P,
+///     (3A+2B+C)/12,  (M + 2A (2A+B))/30  with  M = T (T+2B) + 2 B^2 - G,
+/// and the same for Q with A and C exchanged.
+void integrate_tiny(Entries& e) {
+  const double *const x = e.x.data(), *const y = e.y.data(), *const s = e.s.data();
+  double *const mass = e.mass.data(), *const energy = e.energy.data();
+  double *const pull_x = e.pull_x.data(), *const pull_y = e.pull_y.data();
+#ifndef __clang__
+#pragma GCC ivdep  // the arrays do not overlap; Clang tests that itself
+#endif
+  for (std::size_t k = 0; k + 1 < e.count; ++k) {
+    const double det = x[k] * y[k + 1] - y[k] * x[k + 1];
+    const double a = s[k], b = x[k] * x[k + 1] + y[k] * y[k + 1], c = s[k + 1], t = a + c, g = a * c;
+    const double b2 = 2 * b * b, one = t + b, two = 3 * t * one + (b2 - 5 * g);
+    const double three = 5 * t * t * one + (2 * t + b) * (b2 - 7 * g), m = t * (t + 2 * b) + (b2 - g);
+    const double p = 1.0 / 6 - (one + b + 2 * a) * (1.0 / 30) + (m + 2 * a * (2 * a + b)) * (1.0 / 70);
+    const double q = 1.0 / 6 - (one + b + 2 * c) * (1.0 / 30) + (m + 2 * c * (2 * c + b)) * (1.0 / 70);
+    mass[k] = det * (0.5 - one * (1.0 / 8) + two * (1.0 / 48) - three * (1.0 / 128));
+    energy[k] = det * (one * (1.0 / 12) - two * (1.0 / 40) + three * (29.0 / 2240));
+    pull_x[k] = det * (p * x[k] + q * x[k + 1]);
+    pull_y[k] = det * (p * y[k] + q * y[k + 1]);
+  }
+}
+
+/// Some consecutive cells at a time.
+class SmallCells {
+ public:
+  static constexpr std::size_t kCells = 64;  ///< their arrays fit the first cache
+  SmallCells(const Point* points, const Stars& stars, const Density& density, Cells& cells)
+      : points_(points),
+        stars_(stars),
+        slots_(stars.end_of(stars.count - 1)),
+        density_(density),
+        cells_(cells),
+        large_(density) {
+    if (density.is_constant()) {
+      constant_ = density.at({1, 0, 0});
+      if (!is_good(constant_)) throw BadDensity({1, 0, 0}, constant_);
+    }
+  }
+
+  void integrate(std::size_t first, std::size_t last) {
+    first_ = first;
+    last_ = last;
+    order_cells();
+    read_neighbours();
+    find_corners(e_);
+    close_cells();
+    if (density_.is_constant()) {
+      if (std::find(size_.begin(), size_.end(), Size::tiny) != size_.end()) integrate_tiny(e_);
+      for_each_cell([&](std::size_t i, std::size_t k, std::size_t count) {
+        if (size_[i - first_] == Size::tiny) write(i, k, count, constant_);
+        if (size_[i - first_] != Size::small) return;
+        const double value[3] = {constant_, constant_, constant_};
+        for (std::size_t j = k; j < k + count; ++j) integrate_triangle(j, constant_, value, value);
+        write(i, k, count, 1);
+      });
+    } else {
+      take_samples();
+      integrate_samples();
+    }
+    for_each_cell([&](std::size_t i, std::size_t, std::size_t) {
+      if (size_[i - first_] == Size::large) integrate_large(i);
+    });
+  }
+
+ private:
+  static constexpr std::size_t kAhead = 6 * kCells;  ///< neighbours: those that the next cells ask for
+
+  enum class Size : char { tiny, small, large };
+
+  /// body(i, k, count): cell i has the neighbours, corners and triangles k..k+count-1.
+  template <class Body>
+  void for_each_cell(const Body& body) const {
+    std::size_t k = 0;
+    for (const std::uint32_t cell : order_) {
+      const std::size_t i = first_ + cell, count = stars_.end_of(i) - stars_.begin_of(i);
+      body(i, k, count);
+      k += count + 1;
+    }
+  }
+
+  /// By number of neighbours: loops over a cell then end where the processor expects it.
+  void order_cells() {
+    constexpr std::size_t kMost = 15;
+    const auto key = [&](std::size_t i) { return std::min(stars_.end_of(i) - stars_.begin_of(i), kMost); };
+    std::uint32_t begin[kMost + 2] = {};
+    for (std::size_t i = first_; i < last_; ++i) ++begin[key(i) + 1];
+    for (std::size_t k = 0; k < kMost; ++k) begin[k + 1] += begin[k];
+    order_.resize(last_ - first_);
+    for (std::size_t i = first_; i < last_; ++i)
+      order_[begin[key(i)]++] = static_cast<std::uint32_t>(i - first_);
+  }
+
+  void read_neighbours() {
+    e_.resize(stars_.end_of(last_ - 1) - stars_.begin_of(first_) + (last_ - first_));
+    axes_.resize(last_ - first_);
+    double *const u = e_.u.data(), *const v = e_.v.data(), *const half = e_.half.data();
+    for_each_cell([&](std::size_t i, std::size_t k, std::size_t count) {
+      const Point g = points_[i];
+      const Axes axes(g);
+      const std::size_t begin = stars_.begin_of(i), ahead = begin + count + kAhead <= slots_ ? kAhead : 0;
+      const std::int32_t* const ring = stars_.neighbour + begin;
+      for (std::size_t j = 0; j < count; ++j) {
+        __builtin_prefetch(points_ + (ring[j + ahead] - 1));
+        const Point d = minus(points_[static_cast<std::size_t>(ring[j]) - 1], g);
+        u[k + j] = dot(d, axes.e1);
+        v[k + j] = dot(d, axes.e2);
+        half[k + j] = dot(d, d) / 2;
+      }
+      u[k + count] = u[k], v[k + count] = v[k], half[k + count] = half[k];
+      axes_[i - first_] = axes;
+    });
+  }
+
+  void close_cells() {
+    double *const x = e_.x.data(), *const y = e_.y.data(), *const s = e_.s.data();
+    const bool density_is_constant = density_.is_constant();
+    size_.resize(last_ - first_);
+    for_each_cell([&](std::size_t i, std::size_t k, std::size_t count) {
+      bool is_tiny = density_is_constant, is_small = true;
+      for (std::size_t j = k; j < k + count; ++j) {
+        is_tiny &= s[j] <= kTiny;
+        is_small &= s[j] >= 0 && s[j] <= kSmall;
+      }
+      size_[i - first_] = !is_small ? Size::large : is_tiny ? Size::tiny : Size::small;
+      x[k + count] = x[k], y[k + count] = y[k], s[k + count] = s[k];
+    });
+  }
+
+  /// Adds up the triangles of cell i.
+  void write(std::size_t i, std::size_t k, std::size_t count, double factor) {
+    double mass = 0, energy = 0, x = 0, y = 0;
+    for (std::size_t j = k; j < k + count; ++j) {
+      mass += e_.mass[j];
+      energy += e_.energy[j];
+      x += e_.pull_x[j];
+      y += e_.pull_y[j];
+    }
+    const Axes& axes = axes_[i - first_];
+    cells_.mass[i] = factor * mass;
+    cells_.energy[i] = factor * energy;
+    cells_.pull[i] = plus(scaled(factor * x, axes.e1), scaled(factor * y, axes.e2));
+  }
+
+  void integrate_large(std::size_t i) {
+    const std::size_t begin = stars_.begin_of(i);
+    const Point& g = points_[i];
+    const Sums sums = large_.integrate(points_, g, stars_.neighbour + begin, stars_.end_of(i) - begin);
+    cells_.mass[i] = sums.mass;
+    cells_.energy[i] = sums.energy;
+    cells_.pull[i] = minus(sums.pull, scaled(dot(sums.pull, g), g));
+  }
+
+  /// For each cell its generator, and for each of its entries the corner, the middle between the generator
+  /// and the corner, and the middle between this corner and the next.
+  void take_samples() {
+    samples_.clear();
+    for_each_cell([&](std::size_t i, std::size_t k, std::size_t count) {
+      if (size_[i - first_] == Size::large) return;
+      const Point& g = points_[i];
+      const Axes& axes = axes_[i - first_];
+      const auto sample = [&](double x, double y) {
+        const Point q = plus(g, plus(scaled(x, axes.e1), scaled(y, axes.e2)));
+        samples_.push_back(scaled(1 / std::sqrt(1 + (x * x + y * y)), q));
+      };
+      samples_.push_back(g);
+      for (std::size_t j = k; j < k + count; ++j) {
+        sample(e_.x[j], e_.y[j]);
+        sample(e_.x[j] / 2, e_.y[j] / 2);
+        sample((e_.x[j] + e_.x[j + 1]) / 2, (e_.y[j] + e_.y[j + 1]) / 2);
+      }
+    });
+    values_.resize(samples_.size());
+    density_.at(samples_.size(), samples_.data(), values_.data());
+    for (std::size_t j = 0; j < values_.size(); ++j)
+      if (!is_good(values_[j])) throw BadDensity(samples_[j], values_[j]);
+  }
+
+  void integrate_samples() {
+    const double* value = values_.data();
+    for_each_cell([&](std::size_t i, std::size_t k, std::size_t count) {
+      if (size_[i - first_] == Size::large) return;
+      const double* const end = value + 1 + 3 * count;
+      const auto [least, most] = std::minmax_element(value, end);
+      if (*most > kRough * *least) size_[i - first_] = Size::large;
+      const double centre = *value++;
+      for (std::size_t j = 0; j < count; ++j)
+        integrate_triangle(k + j, centre, value + 3 * j, value + 3 * (j + 1 < count ? j + 1 : 0));
+      write(i, k, count, 1);
+      value = end;
+    });
+  }
+
+  /// here, next: the density at a corner and midway to it; here[2]: midway between the corners.
+  void integrate_triangle(std::size_t k, double centre, const double* here, const double* next) {
+    // Gauss's points 1/2 -+ sqrt(15)/10, 1/2.
+    constexpr double kPoint[3] = {0.1127016653792583, 0.5, 0.8872983346207417};
+    constexpr double kWeight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+    const double dx = e_.x[k + 1] - e_.x[k], dy = e_.y[k + 1] - e_.y[k];
+    const double det = e_.x[k] * dy - e_.y[k] * dx;
+    double mass = 0, energy = 0, pull_x = 0, pull_y = 0;
+    for (int i = 0; i < 3; ++i) {
+      const double t = kPoint[i], x = e_.x[k] + t * dx, y = e_.y[k] + t * dy, s = x * x + y * y;
+      // The polynomial of degree 2 with these values, on the ray: a + b r + c r^2.
+      const double a = centre;
+      const double b = (1 - t) * (4 * here[1] - here[0] - 3 * a) + t * (4 * next[1] - next[0] - 3 * a);
+      const double c = 2 * a + 2 * (1 - t) * (1 - t) * here[0] + 2 * t * t * next[0] - 4 * (1 - t) * here[1] -
+                       4 * t * next[1] + 4 * t * (1 - t) * here[2];
+      // Its integral times r^(power-1).
+      const auto mean = [&](int power) {
+        return a * (1.0 / power) + b * (1.0 / (power + 1)) + c * (1.0 / (power + 2));
+      };
+      const double w = kWeight[i] * det;
+      mass +=
+          w * (mean(2) +
+               s * (-3.0 / 2 * mean(4) +
+                    s * (15.0 / 8 * mean(6) + s * (-35.0 / 16 * mean(8) + s * (315.0 / 128 * mean(10))))));
+      energy +=
+          w * s *
+          (mean(4) +
+           s * (-9.0 / 4 * mean(6) +
+                s * (29.0 / 8 * mean(8) + s * (-325.0 / 64 * mean(10) + s * (843.0 / 128 * mean(12))))));
+      const double p =
+          w * (mean(3) + s * (-2 * mean(5) + s * (3 * mean(7) + s * (-4 * mean(9) + s * (5 * mean(11))))));
+      pull_x += p * x;
+      pull_y += p * y;
+    }
+    e_.mass[k] = mass;
+    e_.energy[k] = energy;
+    e_.pull_x[k] = pull_x;
+    e_.pull_y[k] = pull_y;
+  }
+
+  const Point* const points_;
+  const Stars& stars_;
+  const std::size_t slots_;  ///< of the neighbours of all cells
+  const Density& density_;
+  Cells& cells_;
+  LargeCell large_;
+  double constant_ = 0;
+  std::size_t first_ = 0, last_ = 0;  ///< cells
+  Entries e_;
+  std::vector<std::uint32_t> order_;  ///< of the cells
+  std::vector<Axes> axes_;            ///< of each cell
+  std::vector<Size> size_;            ///< of each cell
+  std::vector<Point> samples_;
+  std::vector<double> values_;
+};
+
+}  // namespace
+
+Point centroid(const Cells& cells, std::size_t i, const Point& g) {
+  return normalized(plus(cells.pull[i], scaled(cells.mass[i] - cells.energy[i] / 2, g)));
+}
+
+void integrate(const Point* points, const Stars& stars, const Density& density, Cells& cells) {
+  cells.resize(stars.count);
+  if (stars.count == 0) return;  // a rank without generators
+  const int threads = threads_for(10 * stars.count);
+  ErrorsOfThreads errors(static_cast<std::size_t>(threads));
+  parallel_pieces(stars.count, threads, [&](std::size_t first, std::size_t last, int piece) {
+    errors.keep(static_cast<std::size_t>(piece), [&] {
+      SmallCells block(points, stars, density, cells);
+      for (std::size_t i = first; i < last; i += SmallCells::kCells)
+        block.integrate(i, std::min(i + SmallCells::kCells, last));
+    });
+  });
+  errors.rethrow();
+}
+
+}  // namespace pstripack::scvt
