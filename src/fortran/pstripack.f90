@@ -278,7 +278,7 @@ contains
   !>   options   default: a pstripack_scvt_options() as declared
   !>   progress  default: none
   !>   message   on an error: what is wrong, and where
-  ! On an error nothing else is written. Same bits for any number of threads.
+  !> On an error nothing else is written. Same bits for any number of threads.
   subroutine pstripack_scvt(x, y, z, result, ier, density, options, progress, message)
     real(c_double), intent(inout), contiguous :: x(:), y(:), z(:)
     type(pstripack_scvt_result), intent(inout) :: result
@@ -326,7 +326,7 @@ contains
   !>   ier               pstripack_ok or a negative code above
   !>   density           default: 1 everywhere
   !>   density_on_threads, message: as of pstripack_scvt
-  ! On an error nothing else is written. Same bits for any number of threads.
+  !> On an error nothing else is written. Same bits for any number of threads.
   subroutine pstripack_scvt_step(x, y, z, list, lptr, lend, xc, yc, zc, mass, energy, ier, density, &
                                  density_on_threads, message)
     real(c_double), intent(in), contiguous :: x(:), y(:), z(:)

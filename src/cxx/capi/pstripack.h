@@ -37,8 +37,8 @@ enum {
   /* Of the functions pstripack_scvt*. */
   PSTRIPACK_BAD_DENSITY = -11, /* the density is not positive, or not finite, at some place */
   PSTRIPACK_HEMISPHERE = -12,  /* the generators lie in one hemisphere */
-  PSTRIPACK_BAD_LISTS = -13,   /* the lists are not those of a triangulation of the sphere by the generators */
-  PSTRIPACK_BAD_OPTION = -14   /* an option has no such value */
+  PSTRIPACK_BAD_LISTS = -13, /* the lists are not those of a triangulation of the sphere by the generators */
+  PSTRIPACK_BAD_OPTION = -14 /* an option has no such value */
 };
 
 /* "major.minor.patch" of the library that is loaded. */
@@ -76,14 +76,14 @@ PSTRIPACK_API uint64_t pstripack_fingerprint(int32_t n, const int32_t* list, con
 
 /* ---- Centroidal Voronoi tessellations of the sphere (SCVT) ----
  *
- * Generators, each at the centroid of its Voronoi cell with respect to a density. Their energy is the sum over
- * the cells of the integral of density times |p - generator|^2. The results have the same bits for any number
- * of threads. On an error nothing is written but `message` (may be NULL), which then holds at most `length`
- * bytes, the closing zero included: what is wrong, with node numbers or places, and what to do. */
+ * Generators, each at the centroid of its Voronoi cell with respect to a density. Their energy is the sum
+ * over the cells of the integral of density times |p - generator|^2. The results have the same bits for any
+ * number of threads. On an error nothing is written but `message` (may be NULL), which then holds at most
+ * `length` bytes, the closing zero included: what is wrong, with node numbers or places, and what to do. */
 
 /* values[i] = the density at the unit vector xyz[3i], xyz[3i+1], xyz[3i+2], for i = 0..n-1, 1 <= n <= 65536.
  * It must be positive and finite, and depend on the place alone: not on n, nor on earlier calls. Cells are
- * about density^(-1/4) wide. In C++: exceptions end the run with PSTRIPACK_BAD_DENSITY. */
+ * about density^(-1/4) wide. In C++: an exception ends the run with PSTRIPACK_BAD_DENSITY. */
 typedef void (*pstripack_density_procedure)(int32_t n, const double* xyz, double* values, void* user);
 
 /* A density. Where functions take a pointer to it, NULL stands for 1 everywhere. */
@@ -126,12 +126,12 @@ enum {
 
 /* 0 in a field, and all fields by NULL, stands for the default. */
 typedef struct {
-  int64_t bytes;            /* sizeof(pstripack_scvt_options) */
-  int32_t start;            /* default: PSTRIPACK_SCVT_LEVELS */
-  int32_t method;           /* default: PSTRIPACK_SCVT_NEWTON */
-  double tolerance;         /* of the gradient; default: 1e-5 */
-  int64_t most_evaluations; /* on each level; default: 100000 */
-  int64_t seed;             /* of the random generators; default: 1 */
+  int64_t bytes;                              /* sizeof(pstripack_scvt_options) */
+  int32_t start;                              /* default: PSTRIPACK_SCVT_LEVELS */
+  int32_t method;                             /* default: PSTRIPACK_SCVT_NEWTON */
+  double tolerance;                           /* of the gradient; default: 1e-5 */
+  int64_t most_evaluations;                   /* on each level; default: 100000 */
+  int64_t seed;                               /* of the random generators; default: 1 */
   pstripack_scvt_progress_procedure progress; /* default: none */
   void* user;                                 /* passed on to `progress` */
 } pstripack_scvt_options;
@@ -148,20 +148,21 @@ typedef struct {
  * PSTRIPACK_SCVT_GIVEN the run starts from (x,y,z), vectors of any length. Parallel (OpenMP) outside parallel
  * regions. result: may be NULL.
  * Returns 0, for every reason to end; -1 (n < 4), -4, -5, -6, -9, -11, -12 or -14. */
-PSTRIPACK_API int32_t pstripack_scvt(int32_t n, double* x, double* y, double* z, const pstripack_density* density,
-                                     const pstripack_scvt_options* options, pstripack_scvt_result* result,
-                                     char* message, int32_t length);
+PSTRIPACK_API int32_t pstripack_scvt(int32_t n, double* x, double* y, double* z,
+                                     const pstripack_density* density, const pstripack_scvt_options* options,
+                                     pstripack_scvt_result* result, char* message, int32_t length);
 
 /* One step, for programs with a loop of their own: the cells of n generators (vectors of any length), whose
  * triangulation `list`, `lptr`, `lend` are, as of TRMESH, in any order.
- *   xc, yc, zc  centroids of the cells, unit vectors: where Lloyd's method moves the generators. May be x, y, z
+ *   xc, yc, zc  centroids of the cells, unit vectors: where Lloyd's method moves the generators; or x, y, z
  *   mass        integral of the density over each cell; may be NULL
  *   energy      of all cells; may be NULL
  * Returns 0, -1 (n < 4), -4, -5, -6, -11, -12 or -13. */
 PSTRIPACK_API int32_t pstripack_scvt_step(int32_t n, const double* x, const double* y, const double* z,
                                           const int32_t* list, const int32_t* lptr, const int32_t* lend,
-                                          const pstripack_density* density, double* xc, double* yc, double* zc,
-                                          double* mass, double* energy, char* message, int32_t length);
+                                          const pstripack_density* density, double* xc, double* yc,
+                                          double* zc, double* mass, double* energy, char* message,
+                                          int32_t length);
 
 #ifdef __cplusplus
 }
