@@ -168,9 +168,19 @@
           zb = zb*r - zg
           wb = density(xg + 0.5_dp*xb, yg + 0.5_dp*yb, zg + 0.5_dp*zb)
           if (i == 0) cycle
-          wab = density(xg + 0.5_dp*(xa+xb), yg + 0.5_dp*(ya+yb), zg + 0.5_dp*(za+zb))
 ! A third of the triangle's area.
           third = sixth * sqrt((ya*zb - za*yb)**2 + (za*xb - xa*zb)**2 + (xa*yb - ya*xb)**2)
+! The same as below, shorter, where all weights are 1.
+          if (uniform) then
+            mass = mass + 3*third
+            xs = xs + 2*third * (xa+xb)
+            ys = ys + 2*third * (ya+yb)
+            zs = zs + 2*third * (za+zb)
+            energy = energy + 0.5_dp * third * (xa**2 + ya**2 + za**2 + xb**2 + yb**2 + zb**2 &
+                   + xa*xb + ya*yb + za*zb)
+            cycle
+          end if
+          wab = density(xg + 0.5_dp*(xa+xb), yg + 0.5_dp*(ya+yb), zg + 0.5_dp*(za+zb))
           mass = mass + third * (wa + wab + wb)
           xs = xs + third * (wa*xa + wab*(xa+xb) + wb*xb)
           ys = ys + third * (wa*ya + wab*(ya+yb) + wb*yb)
