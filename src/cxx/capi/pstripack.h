@@ -83,7 +83,8 @@ PSTRIPACK_API uint64_t pstripack_fingerprint(int32_t n, const int32_t* list, con
 
 /* values[i] = the density at the unit vector xyz[3i], xyz[3i+1], xyz[3i+2], for i = 0..n-1, 1 <= n <= 65536.
  * It must be positive and finite, and depend on the place alone: not on n, nor on earlier calls. Cells are
- * about density^(-1/4) wide. In C++: an exception ends the run with PSTRIPACK_BAD_DENSITY. */
+ * about density^(-1/4) wide. Called in the default floating-point environment. In C++: an exception ends the
+ * run with PSTRIPACK_BAD_DENSITY. */
 typedef void (*pstripack_density_procedure)(int32_t n, const double* xyz, double* values, void* user);
 
 /* A density. Where functions take a pointer to it, NULL stands for 1 everywhere. */
@@ -146,7 +147,7 @@ typedef struct {
 
 /* A whole run: n generators for the density, as unit vectors, in (x,y,z)[0..result->generators-1]. With
  * PSTRIPACK_SCVT_GIVEN the run starts from (x,y,z), vectors of any length. Parallel (OpenMP) outside parallel
- * regions. result: may be NULL.
+ * regions; on this process alone, also in comm mode and under pstripack-run. result: may be NULL.
  * Returns 0, for every reason to end; -1 (n < 4), -4, -5, -6, -9, -11, -12 or -14. */
 PSTRIPACK_API int32_t pstripack_scvt(int32_t n, double* x, double* y, double* z,
                                      const pstripack_density* density, const pstripack_scvt_options* options,

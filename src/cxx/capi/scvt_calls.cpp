@@ -44,7 +44,7 @@ class DensityOfCaller final : public scvt::Density {
       density_.at(static_cast<std::int32_t>(std::min(kMost, n - i)), &p[i].x, value + i, density_.user);
   }
   bool is_constant() const override { return density_.at == nullptr; }
-  bool is_serial() const override { return density_.any_thread == 0; }
+  bool is_serial() const override { return !is_constant() && density_.any_thread == 0; }
 
  private:
   pstripack_density density_;
