@@ -9,13 +9,11 @@
 #include "base/workspace.h"
 #include "geometry/insertion_order.h"
 #include "scvt/errors.h"
+#include "scvt/evaluator.h"
+#include "scvt/vectors.h"
 
 namespace pstripack::scvt {
 namespace {
-
-Point scaled(double f, const Point& p) { return {f * p.x, f * p.y, f * p.z}; }
-Point plus(const Point& a, const Point& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-Point normalized(const Point& p) { return scaled(1 / std::sqrt(dot(p, p)), p); }
 
 /// SplitMix64 (Steele, Lea, Flood 2014).
 class Random {
@@ -82,9 +80,7 @@ std::vector<Patch> octahedron(int cuts) {
   return patches;
 }
 
-}  // namespace
-
-std::vector<Point> random_generators(std::size_t n, const Density& density, std::uint64_t seed) {
+std::vector<Point> draw(std::size_t n, const Density& density, Random& random) {
   // A patch is chosen by its area and the largest density seen in it; a point in it is then taken with the
   // chance that its density has. Where the density hides a higher peak there are too few points: good enough
   // to begin.
@@ -103,7 +99,6 @@ std::vector<Point> random_generators(std::size_t n, const Density& density, std:
                                           values.begin() + static_cast<std::ptrdiff_t>(6 * i + 6)));
     until[i] = all += patches[i].area() * most[i];
   }
-  Random random(seed);
   std::vector<Point> points;
   points.reserve(n);
   while (points.size() < n) {
@@ -123,10 +118,34 @@ std::vector<Point> random_generators(std::size_t n, const Density& density, std:
   return along_a_curve(points);
 }
 
-std::vector<std::size_t> level_sizes(std::size_t n, std::size_t coarsest) {
-  // N generators and their 3N-6 midpoints are 4 (N-2) + 2.
+}  // namespace
+
+std::vector<Point> random_generators(std::size_t n, const Density& density, std::uint64_t seed) {
+  constexpr int kTrials = 100;  // seven in eight sets of four points lie in a hemisphere
+  Random random(seed);
+  for (int trial = 1;; ++trial) {
+    // Where nearly all of the density lies in a hemisphere, few points hardly ever surround the sphere.
+    std::vector<Point> points =
+        trial < kTrials ? draw(n, density, random) : draw(n, ConstantDensity(), random);
+    try {
+      std::vector<std::int32_t> list, lptr, lend;
+      triangulate(points, list, lptr, lend);
+      return points;
+    } catch (const BadGenerators&) {
+      if (n < 4 || trial == 2 * kTrials) throw;
+    }
+  }
+}
+
+std::vector<std::size_t> level_sizes(std::size_t n) {
+  constexpr std::size_t kCoarsest = 12;
   std::vector<std::size_t> sizes{n};
-  while (sizes.front() / 4 >= coarsest) sizes.insert(sizes.begin(), (sizes.front() - 2 + 3) / 4 + 2);
+  for (;;) {
+    const std::size_t coarser = (sizes.back() - 2 + 3) / 4 + 2;  // 4 (N-2) + 2 are N and their midpoints
+    if (coarser < kCoarsest) break;
+    sizes.push_back(coarser);
+  }
+  std::reverse(sizes.begin(), sizes.end());
   return sizes;
 }
 
