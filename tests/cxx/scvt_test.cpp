@@ -170,15 +170,11 @@ struct Tessellated {
 
 /// Random generators after some steps of Lloyd's method.
 Tessellated relaxed(std::size_t n, const Density& density, int steps = 5) {
-  Tessellated t(random_generators(n, density, 1));
-  Cells cells;
-  for (; steps > 0; --steps) {
-    integrate(t.points.data(), t.stars, density, cells);
-    for (std::size_t i = 0; i < n; ++i) t.points[i] = centroid(cells, i, t.points[i]);
-    t = Tessellated(t.points);
-    t.stars = {n, t.lend.data(), t.list.data()};
-  }
-  return t;
+  RunOptions options;
+  options.method = Method::lloyd;
+  options.tolerance = 0;
+  options.most_evaluations = steps + 1;
+  return Tessellated(run(random_generators(n, density, 1), density, options).state.generators);
 }
 
 /// The largest relative errors of the first cells: mass, energy; centroid, relative to the radius.
@@ -333,7 +329,7 @@ TEST(Run, FewGeneratorsFindTheKnownOptima) {
 }
 
 TEST(Run, AnyNumberConverges) {
-  for (const std::size_t n : {5, 7, 13, 47, 48, 49, 50, 51, 200, 1001}) {
+  for (const std::size_t n : {5, 7, 13, 47, 48, 49, 50, 51, 200, 801}) {
     const Tessellation found = run(n, kConstant, options_of(1e-5));
     EXPECT_EQ(found.state.generators.size(), n);
     EXPECT_EQ(found.result.end, End::converged) << n;
@@ -366,7 +362,7 @@ TEST(Run, EnergyNeverRises) {
     for (const Method method : {Method::newton, Method::lloyd}) {
       RunOptions options = options_of(1e-6);
       options.method = method;
-      options.most_evaluations = 60;
+      options.most_evaluations = 40;
       double before = std::numeric_limits<double>::infinity();
       double first = 0;
       options.progress = [&](const Progress& p) {
@@ -375,7 +371,7 @@ TEST(Run, EnergyNeverRises) {
         before = p.energy;
         return true;
       };
-      const Tessellation found = run(random_generators(400, *density, 1), *density, options);
+      const Tessellation found = run(random_generators(200, *density, 1), *density, options);
       EXPECT_EQ(found.result.progress.energy, before);
       EXPECT_LT(before, 0.95 * first);
     }
@@ -388,7 +384,8 @@ TEST(Run, HasTheSameBitsForAnyNumberOfThreads) {
   const auto result = [](int threads, const Density& density) {
     omp_set_num_threads(threads);
     RunOptions options = options_of(1e-9);
-    options.most_evaluations = 20;
+    options.levels = false;
+    options.most_evaluations = 6;
     return run(21000, density, options);
   };
   const int threads = omp_get_max_threads();
@@ -473,7 +470,7 @@ TEST(Safeguards, ADirectionThatDoesNotDescendGivesWayToLloyd) {
 TEST(Safeguards, ASearchWithoutDecreaseGivesWayToLloyd) {
   Meddler evaluator(kConstant, [](int evaluation, Cells& cells) {
     if (evaluation >= 10 && evaluation < 16)
-      for (double& energy : cells.energy) energy *= 1.001;
+      for (double& energy : cells.energy) energy *= 2;
   });
   State state(random_generators(300, kConstant, 1));
   EXPECT_EQ(minimize(evaluator, state, newton_at_once(1e-5)).end, End::converged);
@@ -527,6 +524,12 @@ TEST(BadInput, GeneratorsInAHemisphere) {
   for (Point& p : generators) p.z = std::fabs(p.z);
   EXPECT_THROW(run(generators, kConstant, {}), GeneratorsInHemisphere);
   for (Point& p : generators) p.z = 0;
+  EXPECT_THROW(run(generators, kConstant, {}), GeneratorsInHemisphere);
+}
+
+/// Three nodes on the boundary leave as many arcs as a mesh of the whole sphere has.
+TEST(BadInput, GeneratorsInATriangle) {
+  const std::vector<Point> generators{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, point_sets::normalized({1, 1, 1})};
   EXPECT_THROW(run(generators, kConstant, {}), GeneratorsInHemisphere);
 }
 

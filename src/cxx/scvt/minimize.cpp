@@ -124,15 +124,22 @@ class Minimizer {
     return lloyd_step();
   }
 
-  /// False if the energy does not fall.
+  /// Towards the centroids, less far if the energy does not fall. False if it does not fall at all.
   bool lloyd_step() {
     there_.generators.resize(n_);
-    for_each(n_,
-             [&](std::size_t i) { there_.generators[i] = centroid(here_.cells, i, here_.generators[i]); });
-    try_place(there_);
-    if (!(there_.energy < here_.energy)) return false;
-    std::swap(here_, there_);
-    return true;
+    double part = 1;
+    for (int trial = 0; trial < kTrials; ++trial, part /= 2) {
+      for_each(n_, [&](std::size_t i) {
+        const Point &g = here_.generators[i], c = centroid(here_.cells, i, g);
+        there_.generators[i] = part == 1 ? c : normalized(plus(g, scaled(part, minus(c, g))));
+      });
+      try_place(there_);
+      if (there_.energy < here_.energy) {
+        std::swap(here_, there_);
+        return true;
+      }
+    }
+    return false;
   }
 
   bool newton_step() {
