@@ -288,8 +288,8 @@
       call system_clock(now, clock_rate)
       if (now - clock_progress < 10 * clock_rate) return
       clock_progress = now
-      write (0, '(a,i0,a,i0,a,f8.1,a)') 'scvt: ', iteration, ' of ', iterations, ' iterations done,', seconds(in_trmesh), &
-            ' s in trmesh'
+      write (0, '(a,i0,a,i0,a,f8.1,a)') 'scvt: ', iteration, ' of ', iterations, ' iterations done,', &
+            seconds(in_trmesh), ' s in trmesh'
       end subroutine progress
 
       subroutine read_arguments

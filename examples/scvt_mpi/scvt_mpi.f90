@@ -459,8 +459,8 @@ contains
     now = MPI_Wtime()
     if (rank /= 0 .or. now - last_progress < 10) return
     last_progress = now
-    write (0, '(a,i0,a,i0,a,f8.1,a)') 'scvt_mpi: ', iteration, ' of ', iterations, ' iterations done,', seconds(in_triangulate), &
-      ' s in triangulate'
+    write (0, '(a,i0,a,i0,a,f8.1,a)') 'scvt_mpi: ', iteration, ' of ', iterations, ' iterations done,', &
+      seconds(in_triangulate), ' s in triangulate'
   end subroutine progress
 
   ! Every rank sees the same arguments.

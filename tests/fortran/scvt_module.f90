@@ -151,8 +151,8 @@ program scvt_module
   call pstripack_scvt(x, y, z, found, ier, bump_for_fortran, options, progress)
   call expect(ier == 0 .and. same_generators() .and. same(found, expected), "from generators")
   call expect(found%reason == pstripack_scvt_evaluations .and. found%evaluations == 7, "from generators: 7 evaluations")
-  call expect(steps == 6 .and. last%generators == n .and. last%evaluations == 7 .and. last%energy == found%energy .and. &
-              last%gradient == found%gradient, "progress")
+  call expect(steps == 6 .and. last%generators == n .and. last%evaluations == 7, "progress")
+  call expect(last%energy == found%energy .and. last%gradient == found%gradient, "progress: the result's")
   c_options%start = pstripack_scvt_random
   options%start = pstripack_scvt_random
   ier = c_scvt(n, x_of_c, y_of_c, z_of_c, density, c_options, expected, c_null_ptr, 0)
@@ -173,7 +173,8 @@ program scvt_module
   call pstripack_scvt_step(x, y, z, list, lptr, lend, xc, yc, zc, mass, energy, ier, bump_on_threads, .true.)
   call expect(ier == 0 .and. same_step(), "step, density on threads")
   call pstripack_scvt_step(x, y, z, list, lptr, lend, xc, yc, zc, mass, energy, ier)
-  call expect(ier == 0 .and. abs(sum(mass) - 16*atan(1._c_double)) < 1e-5_c_double, "the masses of density 1 are the sphere")
+  call expect(ier == 0, "step, density 1")
+  call expect(abs(sum(mass) - 16*atan(1._c_double)) < 1e-5_c_double, "the masses of density 1 are the sphere's area")
 
   ! Errors write nothing but the message.
   x_of_c = x
