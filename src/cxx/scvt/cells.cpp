@@ -14,8 +14,8 @@
 //     pull      density (x,y) (1+z)^(-2)                   = density (x,y) (1 - 2 z + 3 z^2 - ...)
 // Power series in z times a polynomial in r: integrated over r term by term. Over t: three points of
 // Gauss, exact for z^2. In a cell with s <= kSmall at all corners what is left is below 5e-7, and falls with
-// s^2. Where the density is constant and s <= kTiny, two terms are enough: the next are below 2e-8, and the
-// integrals over t have closed forms.
+// s^2. Where the density is constant and s <= kTiny, three terms are enough: the next are below 2e-7, and
+// fall with s^3; the integrals over t then have closed forms.
 //
 // The density is taken as a polynomial of degree 2 in each triangle, from its values at 0, P, Q and the
 // midpoints of the three sides: on a ray density = a + b(t) r + c(t) r^2. Its products with the weights above
@@ -37,7 +37,7 @@
 namespace pstripack::scvt {
 namespace {
 
-constexpr double kTiny = 1e-4, kSmall = 0.02;  ///< s of the farthest corner
+constexpr double kTiny = 4e-3, kSmall = 0.02;  ///< s of the farthest corner
 constexpr double kRough = 4;                   ///< largest density in a cell over the smallest
 
 bool is_good(double density) { return density > 0 && std::isfinite(density); }
@@ -170,9 +170,12 @@ void find_corners(Entries& e) {
   }
 }
 
-/// Constant density 1, tiny cells. With A = P.P, B = P.Q, C = Q.Q the means over t of s and s^2 are
-///     (A+B+C)/3    and    (3 (A^2+C^2) + 2 B^2 + A C + 3 B (A+C))/15,
-/// those of s (1-t) and s t, which (x,y) = (1-t) P + t Q needs, (3A+2B+C)/12 and (A+2B+3C)/12.
+/// Density 1, three terms of the series. With A = P.P, B = P.Q, C = Q.Q, T = A+C, G = AC the means over t of
+/// s, s^2, s^3 are
+///     (T+B)/3,  (3 T (T+B) + 2 B^2 - 5 G)/15,  (5 T^2 (T+B) + (2T+B) (2 B^2 - 7 G))/35,
+/// and (x,y) = (1-t) P + t Q needs those of (1-t) s and (1-t) s^2 for P,
+///     (3A+2B+C)/12,  (M + 2A (2A+B))/30  with  M = T (T+2B) + 2 B^2 - G,
+/// and the same for Q with A and C exchanged.
 void integrate_tiny(Entries& e) {
   const double *const x = e.x.data(), *const y = e.y.data(), *const s = e.s.data();
   double *const mass = e.mass.data(), *const energy = e.energy.data();
@@ -180,22 +183,29 @@ void integrate_tiny(Entries& e) {
 #pragma GCC ivdep
   for (std::size_t k = 0; k + 1 < e.count; ++k) {
     const double det = x[k] * y[k + 1] - y[k] * x[k + 1];
-    const double a = s[k], b = x[k] * x[k + 1] + y[k] * y[k + 1], c = s[k + 1];
-    const double first = a + b + c, second = 3 * (a + c) * first + (2 * b * b - 5 * a * c);
-    mass[k] = det * (0.5 - first * (1.0 / 8) + second * (1.0 / 48));
-    energy[k] = det * (first * (1.0 / 12) - second * (1.0 / 40));
-    const double p = det * (1.0 / 6 - (first + b + 2 * a) * (1.0 / 30));
-    const double q = det * (1.0 / 6 - (first + b + 2 * c) * (1.0 / 30));
-    pull_x[k] = p * x[k] + q * x[k + 1];
-    pull_y[k] = p * y[k] + q * y[k + 1];
+    const double a = s[k], b = x[k] * x[k + 1] + y[k] * y[k + 1], c = s[k + 1], t = a + c, g = a * c;
+    const double b2 = 2 * b * b, one = t + b, two = 3 * t * one + (b2 - 5 * g);
+    const double three = 5 * t * t * one + (2 * t + b) * (b2 - 7 * g), m = t * (t + 2 * b) + (b2 - g);
+    const double p = 1.0 / 6 - (one + b + 2 * a) * (1.0 / 30) + (m + 2 * a * (2 * a + b)) * (1.0 / 70);
+    const double q = 1.0 / 6 - (one + b + 2 * c) * (1.0 / 30) + (m + 2 * c * (2 * c + b)) * (1.0 / 70);
+    mass[k] = det * (0.5 - one * (1.0 / 8) + two * (1.0 / 48) - three * (1.0 / 128));
+    energy[k] = det * (one * (1.0 / 12) - two * (1.0 / 40) + three * (29.0 / 2240));
+    pull_x[k] = det * (p * x[k] + q * x[k + 1]);
+    pull_y[k] = det * (p * y[k] + q * y[k + 1]);
   }
 }
 
 /// Some consecutive cells at a time.
 class SmallCells {
  public:
+  static constexpr std::size_t kCells = 64;  ///< their arrays fit the first cache
   SmallCells(const Point* points, const Stars& stars, const Density& density, Cells& cells)
-      : points_(points), stars_(stars), density_(density), cells_(cells), large_(density) {
+      : points_(points),
+        stars_(stars),
+        slots_(stars.end_of(stars.count - 1)),
+        density_(density),
+        cells_(cells),
+        large_(density) {
     if (density.is_constant()) {
       constant_ = density.at({1, 0, 0});
       if (!is_good(constant_)) throw BadDensity({1, 0, 0}, constant_);
@@ -210,7 +220,7 @@ class SmallCells {
     find_corners(e_);
     close_cells();
     if (density_.is_constant()) {
-      integrate_tiny(e_);
+      if (std::find(size_.begin(), size_.end(), Size::tiny) != size_.end()) integrate_tiny(e_);
       for_each_cell([&](std::size_t i, std::size_t k, std::size_t count) {
         if (size_[i - first_] == Size::tiny) write(i, k, count, constant_);
         if (size_[i - first_] != Size::small) return;
@@ -228,6 +238,8 @@ class SmallCells {
   }
 
  private:
+  static constexpr std::size_t kAhead = 6 * kCells;  ///< neighbours: those that the next cells ask for
+
   enum class Size : char { tiny, small, large };
 
   /// body(i, k, count): cell i has the neighbours, corners and triangles k..k+count-1.
@@ -260,8 +272,10 @@ class SmallCells {
     for_each_cell([&](std::size_t i, std::size_t k, std::size_t count) {
       const Point g = points_[i];
       const Axes axes(g);
-      const std::int32_t* const ring = stars_.neighbour + stars_.begin_of(i);
+      const std::size_t begin = stars_.begin_of(i), ahead = begin + count + kAhead <= slots_ ? kAhead : 0;
+      const std::int32_t* const ring = stars_.neighbour + begin;
       for (std::size_t j = 0; j < count; ++j) {
+        __builtin_prefetch(points_ + (ring[j + ahead] - 1));
         const Point d = minus(points_[static_cast<std::size_t>(ring[j]) - 1], g);
         u[k + j] = dot(d, axes.e1);
         v[k + j] = dot(d, axes.e2);
@@ -393,6 +407,7 @@ class SmallCells {
 
   const Point* const points_;
   const Stars& stars_;
+  const std::size_t slots_;  ///< of the neighbours of all cells
   const Density& density_;
   Cells& cells_;
   LargeCell large_;
@@ -413,14 +428,15 @@ Point centroid(const Cells& cells, std::size_t i, const Point& g) {
 }
 
 void integrate(const Point* points, const Stars& stars, const Density& density, Cells& cells) {
-  constexpr std::size_t kCells = 64;  // their arrays fit the first cache
   cells.resize(stars.count);
+  if (stars.count == 0) return;  // a rank without generators
   const int threads = density.is_serial() ? 1 : threads_for(10 * stars.count);
   ErrorsOfThreads errors(static_cast<std::size_t>(threads));
   parallel_pieces(stars.count, threads, [&](std::size_t first, std::size_t last, int piece) {
     errors.keep(static_cast<std::size_t>(piece), [&] {
       SmallCells block(points, stars, density, cells);
-      for (std::size_t i = first; i < last; i += kCells) block.integrate(i, std::min(i + kCells, last));
+      for (std::size_t i = first; i < last; i += SmallCells::kCells)
+        block.integrate(i, std::min(i + SmallCells::kCells, last));
     });
   });
   errors.rethrow();

@@ -64,6 +64,7 @@ class Minimizer {
   Minimizer(Evaluator& evaluator, State& state, const Options& options)
       : evaluator_(evaluator), state_(state), options_(options), n_(state.generators.size()) {
     total_ = sum_of(evaluator_, n_, [](std::size_t) { return 1.0; });
+    for (const State::Pair& pair : state_.pairs) products_.push_back(product_of(pair));
   }
 
   Result run() {
@@ -119,7 +120,7 @@ class Minimizer {
   bool step() {
     if (options_.method == Method::newton && state_.steps >= options_.first_lloyd_steps) {
       if (newton_step()) return true;
-      state_.pairs.clear();
+      forget_pairs();
     }
     return lloyd_step();
   }
@@ -183,46 +184,79 @@ class Minimizer {
     if (state_.pairs.size() == kPairs) {
       pair = std::move(state_.pairs.front());
       state_.pairs.erase(state_.pairs.begin());
+      products_.erase(products_.begin());
     }
     pair.step.resize(n_);
     pair.change.resize(n_);
-    const double product = sum_of(evaluator_, n_, [&](std::size_t i) {
+    for_each(n_, [&](std::size_t i) {
       pair.step[i] = minus(there_.generators[i], here_.generators[i]);
       pair.change[i] = scaled(-2, minus(there_.cells.pull[i], here_.cells.pull[i]));
-      return dot(pair.step[i], pair.change[i]);
     });
-    if (product > 0) state_.pairs.push_back(std::move(pair));
+    const double product = product_of(pair);
+    if (!(product > 0)) return;
+    state_.pairs.push_back(std::move(pair));
+    products_.push_back(product);
+  }
+  double product_of(const State::Pair& pair) {
+    return sum_of(evaluator_, n_, [&](std::size_t i) { return dot(pair.step[i], pair.change[i]); });
+  }
+  void forget_pairs() {
+    state_.pairs.clear();
+    products_.clear();
   }
 
-  /// -H gradient, at right angles to the generators (Nocedal 1980). The last pair scales the initial metric.
+  /// -H gradient, at right angles to the generators (Nocedal 1980, his two loops). Each pass over the
+  /// generators ends the work for one pair and begins that for the next.
   void set_direction() {
-    direction_.resize(n_);
-    for_each(n_, [&](std::size_t i) { direction_[i] = scaled(2, here_.cells.pull[i]); });
     const std::size_t count = state_.pairs.size();
-    std::vector<double> product(count), share(count);
-    double scale = 1;
+    direction_.resize(n_);
+    if (count == 0) {
+      for_each(n_,
+               [&](std::size_t i) { direction_[i] = scaled(1 / here_.cells.mass[i], here_.cells.pull[i]); });
+      return;
+    }
+    std::vector<double> share(count);
     for (std::size_t k = count; k-- > 0;) {
-      const Point *const step = state_.pairs[k].step.data(), *const change = state_.pairs[k].change.data();
-      const auto sums = sum<3>(evaluator_, n_, [&](std::size_t i) {
-        return std::array<double, 3>{dot(step[i], change[i]), dot(step[i], direction_[i]),
-                                     dot(change[i], change[i]) / (2 * here_.cells.mass[i])};
-      });
-      product[k] = sums[0].value();
-      share[k] = sums[1].value() / product[k];
-      if (k + 1 == count) scale = product[k] / sums[2].value();
-      for_each(n_, [&](std::size_t i) { direction_[i] = minus(direction_[i], scaled(share[k], change[i])); });
+      const Point *const step = state_.pairs[k].step.data(), *const later =
+                                                                 k + 1 < count
+                                                                     ? state_.pairs[k + 1].change.data()
+                                                                     : nullptr;
+      share[k] = sum_of(evaluator_, n_,
+                        [&](std::size_t i) {
+                          direction_[i] = later == nullptr
+                                              ? scaled(2, here_.cells.pull[i])
+                                              : minus(direction_[i], scaled(share[k + 1], later[i]));
+                          return dot(step[i], direction_[i]);
+                        }) /
+                 products_[k];
     }
-    for_each(
-        n_, [&](std::size_t i) { direction_[i] = scaled(scale / (2 * here_.cells.mass[i]), direction_[i]); });
+    // The initial metric 1/(2 mass), scaled by what the last pair says of it.
+    const Point* const last = state_.pairs[count - 1].change.data();
+    const double scale = products_[count - 1] / sum_of(evaluator_, n_, [&](std::size_t i) {
+                           return dot(last[i], last[i]) / (2 * here_.cells.mass[i]);
+                         });
+    double add = 0;  // of the step before
     for (std::size_t k = 0; k < count; ++k) {
-      const Point *const step = state_.pairs[k].step.data(), *const change = state_.pairs[k].change.data();
-      const double other =
-          sum_of(evaluator_, n_, [&](std::size_t i) { return dot(change[i], direction_[i]); }) / product[k];
-      for_each(
-          n_, [&](std::size_t i) { direction_[i] = plus(direction_[i], scaled(share[k] - other, step[i])); });
+      const Point *const change = state_.pairs[k].change.data(), *const before =
+                                                                     k > 0 ? state_.pairs[k - 1].step.data()
+                                                                           : nullptr;
+      const Point* const first = state_.pairs[0].change.data();
+      const double other = sum_of(evaluator_, n_,
+                                  [&](std::size_t i) {
+                                    direction_[i] =
+                                        before == nullptr
+                                            ? scaled(scale / (2 * here_.cells.mass[i]),
+                                                     minus(direction_[i], scaled(share[0], first[i])))
+                                            : plus(direction_[i], scaled(add, before[i]));
+                                    return dot(change[i], direction_[i]);
+                                  }) /
+                           products_[k];
+      add = share[k] - other;
     }
+    const Point* const step = state_.pairs[count - 1].step.data();
     for_each(n_, [&](std::size_t i) {
       const Point& g = here_.generators[i];
+      direction_[i] = plus(direction_[i], scaled(add, step[i]));
       direction_[i] = minus(direction_[i], scaled(dot(direction_[i], g), g));
     });
   }
@@ -234,6 +268,7 @@ class Minimizer {
   double total_ = 0;     ///< generators of all ranks
   Place here_, there_;
   Vectors direction_;
+  std::vector<double> products_;  ///< step times change of each pair
 };
 
 }  // namespace
