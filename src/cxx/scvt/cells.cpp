@@ -434,7 +434,7 @@ Point centroid(const Cells& cells, std::size_t i, const Point& g) {
 void integrate(const Point* points, const Stars& stars, const Density& density, Cells& cells) {
   cells.resize(stars.count);
   if (stars.count == 0) return;  // a rank without generators
-  const int threads = threads_for(10 * stars.count);
+  const int threads = density.is_serial() ? 1 : threads_for(10 * stars.count);
   ErrorsOfThreads errors(static_cast<std::size_t>(threads));
   parallel_pieces(stars.count, threads, [&](std::size_t first, std::size_t last, int piece) {
     errors.keep(static_cast<std::size_t>(piece), [&] {

@@ -11,11 +11,14 @@ namespace pstripack::scvt {
 class Density {
  public:
   virtual ~Density() = default;
-  /// value[i] at the unit vector p[i]. Any number of threads call it at once. The value depends on p[i]
-  /// alone, never on an earlier call: results then have the same bits for any number of threads and ranks.
+  /// value[i] at the unit vector p[i]. Any number of threads call it at once, unless is_serial(). The value
+  /// depends on p[i] alone, never on an earlier call: results then have the same bits for any number of
+  /// threads and ranks.
   virtual void at(std::size_t n, const Point* p, double* value) const = 0;
   /// True if the value is the same everywhere: it is then asked for once, and cells are integrated faster.
   virtual bool is_constant() const { return false; }
+  /// True if only the thread that called the library may ask for values.
+  virtual bool is_serial() const { return false; }
 
   double at(const Point& p) const {
     double value = 0;

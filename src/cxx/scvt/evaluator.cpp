@@ -34,9 +34,9 @@ TrmeshResult call_trmesh(const std::vector<Point>& nodes, std::vector<std::int32
   lptr.resize(6 * n - 12);
   lend.resize(n);
   std::int32_t lnew = 0;
-  return trmesh({static_cast<std::int32_t>(n),
-                 NodeArrays(nodes.data()),
-                 {list.data(), lptr.data(), lend.data(), &lnew}});
+  return canonical_trmesh({static_cast<std::int32_t>(n),
+                           NodeArrays(nodes.data()),
+                           {list.data(), lptr.data(), lend.data(), &lnew}});
 }
 
 /// Lists of the generators from those of the generators in another order: list'[...] of order[i].

@@ -92,7 +92,9 @@ class Minimizer {
   }
 
  private:
-  Progress progress() const { return {state_.evaluations, here_.gradient, here_.energy}; }
+  Progress progress() const {
+    return {static_cast<std::int64_t>(total_), state_.evaluations, here_.gradient, here_.energy};
+  }
 
   void evaluate(Place& place) {
     evaluator_.evaluate(place.generators, place.cells);

@@ -14,6 +14,7 @@ namespace pstripack::scvt {
 enum class Method { newton, lloyd };
 
 struct Progress {
+  std::int64_t generators = 0;   ///< of all ranks
   std::int64_t evaluations = 0;  ///< triangulations with integrals
   double gradient = 0;           ///< see Options::tolerance
   double energy = 0;

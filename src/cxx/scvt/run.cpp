@@ -35,14 +35,21 @@ Tessellation run(std::size_t n, const Density& density, const RunOptions& option
   }
 }
 
-Tessellation run(std::vector<Point> generators, const Density& density, const RunOptions& options) {
-  check_count(generators.size());
+std::vector<Point> unit_vectors(std::vector<Point> generators) {
+  constexpr double kRounding = 1e-15;  ///< of the square of a length that was divided by itself
   for (std::size_t i = 0; i < generators.size(); ++i) {
     Point& g = generators[i];
     if (!has_direction(g)) throw BadGenerators("generator " + std::to_string(i + 1) + " has no direction");
+    if (std::fabs(dot(g, g) - 1) <= kRounding) continue;
     const double length = std::hypot(g.x, g.y, g.z);
     g = {g.x / length, g.y / length, g.z / length};
   }
+  return generators;
+}
+
+Tessellation run(std::vector<Point> generators, const Density& density, const RunOptions& options) {
+  check_count(generators.size());
+  generators = unit_vectors(std::move(generators));
   LocalEvaluator evaluator(density);
   Tessellation done;
   done.state = State(std::move(generators));

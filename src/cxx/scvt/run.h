@@ -22,6 +22,9 @@ struct Tessellation {
   double evaluations = 0;
 };
 
+/// Generators of any length as unit vectors; those that are, within rounding, stay. Throws BadGenerators.
+std::vector<Point> unit_vectors(std::vector<Point> generators);
+
 /// n generators, at least 4, for the density. Throws as minimize.
 Tessellation run(std::size_t n, const Density& density, const RunOptions& options);
 
