@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <queue>
+#include <utility>
 
 #include "scvt/errors.h"
 #include "scvt/evaluator.h"
@@ -13,7 +14,8 @@
 namespace pstripack::scvt {
 namespace {
 
-constexpr std::size_t kFewest = 100;  ///< generators for a front
+constexpr std::size_t kFewest = 100;             ///< generators for a front
+constexpr double kInCircle = 0.934172358962716;  ///< cosine of the circle in a face of an icosahedron
 constexpr double kSqrt3 = 1.7320508075688772;
 
 // Distances in units of the size; of two sizes the smaller one.
@@ -60,33 +62,32 @@ Samples::Samples(std::size_t about) {
       }
 }
 
-/// The 20 face centres of an icosahedron, and of each face a corner.
+/// The 20 face centres of an icosahedron, of each face a corner, and the 12 corners.
 struct Icosahedron {
   Icosahedron();
-  /// Grows with the distance of p to the nearest face centre.
-  double distance(const Point& p) const {
-    double nearest = -1;
-    for (const Point& c : centre) nearest = std::max(nearest, dot(c, p));
-    return -nearest;
-  }
-  std::vector<Point> centre, corner;
+  std::vector<Point> centre, corner_of, corner;
 };
 
 Icosahedron::Icosahedron() {
   const double golden = (1 + std::sqrt(5.0)) / 2;
-  std::vector<Point> corners;
   for (const double a : {1.0, -1.0})
     for (const double b : {golden, -golden})
-      for (const Point& p : {Point{0, a, b}, Point{a, b, 0}, Point{b, 0, a}})
-        corners.push_back(normalized(p));
-  const auto neighbours = [&](std::size_t i, std::size_t j) { return dot(corners[i], corners[j]) > 0.4; };
+      for (const Point& p : {Point{0, a, b}, Point{a, b, 0}, Point{b, 0, a}}) corner.push_back(normalized(p));
+  const auto neighbours = [&](std::size_t i, std::size_t j) { return dot(corner[i], corner[j]) > 0.4; };
   for (std::size_t i = 0; i < 12; ++i)
     for (std::size_t j = 0; j < i; ++j)
       for (std::size_t k = 0; k < j; ++k)
         if (neighbours(i, j) && neighbours(j, k) && neighbours(k, i)) {
-          centre.push_back(normalized(along(along(corners[i], 1, corners[j]), 1, corners[k])));
-          corner.push_back(corners[i]);
+          centre.push_back(normalized(along(along(corner[i], 1, corner[j]), 1, corner[k])));
+          corner_of.push_back(corner[i]);
         }
+}
+
+std::pair<std::size_t, double> nearest(const std::vector<Point>& places, const Point& p) {
+  std::pair<std::size_t, double> best{0, -2};
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (const double cosine = dot(places[i], p); cosine > best.second) best = {i, cosine};
+  return best;
 }
 
 struct Node {
@@ -207,10 +208,10 @@ class Front {
  private:
   struct Candidate {
     Node node;
-    double distance;
+    double cosine;  ///< of the distance to the nearest face centre
     std::uint64_t number;
-    bool operator<(const Candidate& other) const {  // the first in the queue is the largest
-      return distance != other.distance ? distance > other.distance : number > other.number;
+    bool operator<(const Candidate& other) const {  // the first in a queue is the largest
+      return cosine != other.cosine ? cosine < other.cosine : number > other.number;
     }
   };
 
@@ -245,7 +246,7 @@ class Front {
   const std::size_t limit_;
   const Icosahedron icosahedron_;
   Grid grid_;
-  std::priority_queue<Candidate> queue_;
+  std::array<std::priority_queue<Candidate>, 32> queues_;  ///< of circles in the faces; round the corners
   std::uint64_t candidates_ = 0;
   std::vector<Node> near_;  ///< nodes around the place of interest
   std::vector<Point> apexes_;
@@ -288,18 +289,27 @@ void Front::add(const Node& node) {
   for (std::size_t i = 0; i < apexes_.size(); ++i) {
     if (!(values_[i] > 0 && std::isfinite(values_[i]))) throw BadDensity(apexes_[i], values_[i]);
     const Node apex{apexes_[i], size_of(values_[i])};
-    if (is_free(apex)) queue_.push({apex, icosahedron_.distance(apex.p), candidates_++});
+    if (!is_free(apex)) continue;
+    const auto [face, cosine] = nearest(icosahedron_.centre, apex.p);
+    const std::size_t queue = cosine > kInCircle ? face : 20 + nearest(icosahedron_.corner, apex.p).first;
+    queues_[queue].push({apex, cosine, candidates_++});
   }
 }
 
 void Front::grow() {
-  while (!queue_.empty() && grid_.nodes.size() < limit_) {
-    Node node = queue_.top().node;
-    queue_.pop();
-    if (grid_.has_near(node, kTooNear)) continue;
-    look_around(node, kLinked + kTooNear);
-    node.p = fitted(node);
-    if (!grid_.has_near(node, kTooNear)) add(node);
+  // Queue by queue: what is near on the sphere is then near in memory.
+  for (;;) {
+    const auto queue = std::find_if(queues_.begin(), queues_.end(), [](const auto& q) { return !q.empty(); });
+    if (queue == queues_.end()) return;
+    while (!queue->empty()) {
+      if (grid_.nodes.size() >= limit_) return;
+      Node node = queue->top().node;
+      queue->pop();
+      if (grid_.has_near(node, kTooNear)) continue;
+      look_around(node, kLinked + kTooNear);
+      node.p = fitted(node);
+      if (!grid_.has_near(node, kTooNear)) add(node);
+    }
   }
 }
 
@@ -336,7 +346,7 @@ std::vector<Point> advance(std::size_t limit, const Icosahedron& icosahedron, co
   const double highest = seeds.density[faces];
   Front front(density, scale, scale / std::sqrt(std::sqrt(highest)), limit);
   for (std::size_t i = 0; i < faces; ++i)
-    front.begin(seeds.place[i], seeds.density[i], icosahedron.corner[i]);
+    front.begin(seeds.place[i], seeds.density[i], icosahedron.corner_of[i]);
   front.grow();
   for (std::size_t i = faces; i < seeds.place.size(); ++i) {
     front.begin(seeds.place[i], seeds.density[i], icosahedron.corner[0]);
@@ -384,21 +394,26 @@ std::vector<Point> thinned(std::vector<Point> points, std::size_t n) {
 std::vector<Point> front_generators(std::size_t n, const Density& density) {
   if (n < kFewest) return random_generators(n, density, 1);
   const Icosahedron icosahedron;
-  Seeds seeds(n, icosahedron, density);
-  // So many nodes would do; what the front makes of a scale is known when it is done.
-  const std::size_t most = n + n / 80 + 3;
-  double scale = std::sqrt(2 / kSqrt3 * seeds.integral / (1.004 * static_cast<double>(n)));
-  double too_fine = 0, too_coarse = 0;
+  const Seeds seeds(n, icosahedron, density);
+  // How many nodes a scale leads to is known within a percent until the front has come everywhere. There are
+  // about 1.2 sqrt(n) ends of rows.
+  const double count = static_cast<double>(n), wanted = count + std::sqrt(count),
+               most = wanted + std::sqrt(count);
+  const std::size_t limit = n + n / 4;
+  double scale = std::sqrt(2 / kSqrt3 * seeds.integral / wanted), too_fine = 0, too_coarse = 0;
+  std::vector<Point> best;
   for (int trial = 0; trial < 8; ++trial) {
-    std::vector<Point> points = advance(n + n / 4, icosahedron, seeds, density, scale);
-    const std::size_t count = points.size();
-    if (count >= n && count <= most) return thinned(along_a_curve(points), n);
-    (count < n ? too_coarse : too_fine) = scale;
-    scale *= std::sqrt(static_cast<double>(count) / (1.004 * static_cast<double>(n)));
+    std::vector<Point> points = advance(limit, icosahedron, seeds, density, scale);
+    const std::size_t found = points.size();
+    (found < n ? too_coarse : too_fine) = scale;
+    scale *= std::sqrt(static_cast<double>(found) / wanted);
     if (too_fine != 0 && too_coarse != 0 && !(scale > too_fine && scale < too_coarse))
       scale = (too_fine + too_coarse) / 2;
+    if (found >= n && found < limit && (best.empty() || found < best.size())) best = std::move(points);
+    if (!best.empty() && static_cast<double>(best.size()) <= most) break;
   }
-  return random_generators(n, density, 1);
+  if (best.empty()) return random_generators(n, density, 1);
+  return thinned(along_a_curve(best), n);
 }
 
 }  // namespace pstripack::scvt
