@@ -14,7 +14,7 @@
 namespace pstripack::scvt {
 namespace {
 
-constexpr std::size_t kFewest = 100;             ///< generators for a front
+constexpr std::size_t kFewest = 1000;  ///< generators; for fewer a front is no better than chance
 constexpr double kInCircle = 0.934172358962716;  ///< cosine of the circle in a face of an icosahedron
 constexpr double kSqrt3 = 1.7320508075688772;
 
