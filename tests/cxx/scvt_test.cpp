@@ -1,13 +1,22 @@
 // Centroidal Voronoi tessellations: integrals over cells, and how their energy is minimized.
 
 #include <gtest/gtest.h>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "point_sets.h"
 #include "scvt/errors.h"
 #include "scvt/exact_sum.h"
+#include "scvt/first_generators.h"
 #include "scvt/run.h"
 
 namespace {
@@ -15,18 +24,49 @@ namespace {
 using namespace pstripack;
 using namespace pstripack::scvt;
 
+constexpr double kPi = 3.14159265358979323846;
+
+class Formula final : public Density {
+ public:
+  explicit Formula(std::function<double(const Point&)> f) : f_(std::move(f)) {}
+  using Density::at;
+  void at(std::size_t n, const Point* p, double* value) const override {
+    for (std::size_t i = 0; i < n; ++i) value[i] = f_(p[i]);
+  }
+
+ private:
+  std::function<double(const Point&)> f_;
+};
+
+const ConstantDensity kConstant;
+const BumpDensity kBump(point_sets::from_degrees(30, 20), 0.5, 0.2, 3);
+
+Point plus(const Point& a, const Point& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+Point times(double f, const Point& p) { return {f * p.x, f * p.y, f * p.z}; }
+double length(const Point& p) { return std::sqrt(dot(p, p)); }
+
+// ---- sums
+// ----------------------------------------------------------------------------------------------------
+
 TEST(ExactSum, DoesNotDependOnTheOrder) {
   point_sets::Random random(1);
   std::vector<double> terms;
   for (int k = 0; k < 1000; ++k)
     terms.push_back(std::ldexp(random.uniform(-1, 1), static_cast<int>(random.below(2000)) - 1000));
-  ExactSum forward, backward;
+  ExactSum forward, backward, even, odd;
   for (std::size_t k = 0; k < terms.size(); ++k) {
     forward.add(terms[k]);
     backward.add(terms[terms.size() - 1 - k]);
+    (k % 2 == 0 ? even : odd).add(terms[k]);
   }
   EXPECT_EQ(forward.words(), backward.words());
   EXPECT_EQ(forward.value(), backward.value());
+  ExactSum::Words words = even.words();
+  for (std::size_t i = 0; i < words.size(); ++i) words[i] += odd.words()[i];
+  EXPECT_EQ(ExactSum::of(words).words(), forward.words());
+  even += odd;
+  even -= backward;
+  EXPECT_EQ(even.value(), 0);
 }
 
 TEST(ExactSum, OfTermsThatCancelIsExact) {
@@ -40,22 +80,557 @@ TEST(ExactSum, OfTermsThatCancelIsExact) {
   EXPECT_TRUE(std::isnan(sum.value()));
 }
 
-TEST(Scvt, TwelveRandomGeneratorsFindTheIcosahedron) {
-  RunOptions options;
-  options.tolerance = 1e-8;
-  const Tessellation found = run(12, ConstantDensity(), options);
-  EXPECT_EQ(found.result.end, End::converged);
-  double least = 4;
-  for (const Point& p : found.state.generators)
-    for (const Point& q : found.state.generators)
-      if (p != q) least = std::min(least, dot(minus(p, q), minus(p, q)));
-  EXPECT_NEAR(least, 2 - 2 / std::sqrt(5), 1e-6);
+TEST(ExactSum, IsRoundedToTheNearestDouble) {
+  const auto sum = [](std::initializer_list<double> terms) {
+    ExactSum s;
+    for (const double x : terms) s.add(x);
+    return s.value();
+  };
+  EXPECT_EQ(sum({1, 0x1p-53}), 1);  // a tie, to even
+  EXPECT_EQ(sum({1, 0x1p-53, 0x1p-1000}), 1 + 0x1p-52);
+  EXPECT_EQ(sum({-1, -0x1p-53, -0x1p-1000}), -1 - 0x1p-52);
+  EXPECT_EQ(sum({0x1p1023, 0x1p1023}), std::numeric_limits<double>::infinity());
 }
 
-TEST(Scvt, GeneratorsInAHemisphereHaveNoTessellation) {
+// ---- integrals
+// -------------------------------------------------------------------------------------------------
+
+struct Integrals {
+  double mass = 0, energy = 0;
+  Point moment{0, 0, 0};
+};
+
+/// Points and weights of Gauss on [0,1], exact up to degree 19.
+std::vector<std::pair<double, double>> gauss() {
+  constexpr int n = 10;
+  std::vector<std::pair<double, double>> rule;
+  for (int k = 0; k < n; ++k) {
+    double x = std::cos(kPi * (k + 0.75) / (n + 0.5)), slope = 0;
+    for (int step = 0; step < 20; ++step) {  // Newton's method on the polynomial of Legendre
+      double p = 1, before = 0;
+      for (int j = 0; j < n; ++j) before = std::exchange(p, ((2 * j + 1) * x * p - j * before) / (j + 1));
+      slope = n * (x * p - before) / (x * x - 1);
+      x -= p / slope;
+    }
+    rule.emplace_back((1 + x) / 2, 1 / ((1 - x * x) * slope * slope));
+  }
+  return rule;
+}
+
+/// Over the spherical triangle, cut into 4^cuts: with the points q of the plane triangle the integral of f is
+/// det(a,b,c) times that of f(q/|q|)/|q|^3 over the unit triangle.
+void add_triangle(Integrals& sum, const Point& g, const Point& a, const Point& b, const Point& c, int cuts,
+                  const Density& density) {
+  static const auto rule = gauss();
+  if (cuts > 0) {
+    const Point p = point_sets::normalized(plus(a, b)), q = point_sets::normalized(plus(b, c)),
+                r = point_sets::normalized(plus(c, a));
+    add_triangle(sum, g, a, p, r, cuts - 1, density);
+    add_triangle(sum, g, p, b, q, cuts - 1, density);
+    add_triangle(sum, g, r, q, c, cuts - 1, density);
+    add_triangle(sum, g, p, q, r, cuts - 1, density);
+    return;
+  }
+  const double volume = dot(a, cross(minus(b, a), minus(c, a)));
+  for (const auto& [u, weight_u] : rule)
+    for (const auto& [v, weight_v] : rule) {
+      const Point q = plus(a, times(u, plus(minus(b, a), times(v, minus(c, b)))));
+      const double size = length(q);
+      const Point p = times(1 / size, q), d = minus(p, g);
+      const double mass = volume * weight_u * weight_v * u / (size * size * size) * density.at(p);
+      sum.mass += mass;
+      sum.energy += mass * dot(d, d);
+      sum.moment = plus(sum.moment, times(mass, p));
+    }
+}
+
+Integrals reference(const std::vector<Point>& points, const Stars& stars, std::size_t i, int cuts,
+                    const Density& density) {
+  const Point& g = points[i];
+  std::vector<Point> ring, corners;
+  for (std::size_t j = stars.begin_of(i); j < stars.end_of(i); ++j)
+    ring.push_back(points[static_cast<std::size_t>(stars.neighbour[j]) - 1]);
+  for (std::size_t j = 0; j < ring.size(); ++j)
+    corners.push_back(
+        point_sets::normalized(cross(minus(ring[j], g), minus(ring[(j + 1) % ring.size()], g))));
+  Integrals sum;
+  for (std::size_t j = 0; j < corners.size(); ++j)
+    add_triangle(sum, g, g, corners[j], corners[(j + 1) % corners.size()], cuts, density);
+  return sum;
+}
+
+struct Tessellated {
+  explicit Tessellated(std::vector<Point> p) : points(std::move(p)) {
+    stars = triangulate(points, list, lptr, lend);
+  }
+  std::vector<Point> points;
+  std::vector<std::int32_t> list, lptr, lend;
+  Stars stars;
+};
+
+/// Random generators after some steps of Lloyd's method.
+Tessellated relaxed(std::size_t n, const Density& density, int steps = 5) {
+  RunOptions options;
+  options.method = Method::lloyd;
+  options.tolerance = 0;
+  options.most_evaluations = steps + 1;
+  return Tessellated(run(random_generators(n, density, 1), density, options).state.generators);
+}
+
+/// The largest relative errors of the first cells: mass, energy; centroid, relative to the radius.
+void expect_accurate(std::size_t n, int cuts, const Density& density, double tolerance) {
+  SCOPED_TRACE(n);
+  const Tessellated t = relaxed(n, density);
+  Stars some{std::min<std::size_t>(n, 20), t.lend.data(), t.list.data()};
+  Cells cells;
+  integrate(t.points.data(), some, density, cells);
+  for (std::size_t i = 0; i < some.count; ++i) {
+    const Integrals right = reference(t.points, some, i, cuts, density);
+    const double radius = std::sqrt(right.energy / right.mass);
+    EXPECT_NEAR(cells.mass[i] / right.mass, 1, tolerance);
+    EXPECT_NEAR(cells.energy[i] / right.energy, 1, tolerance);
+    EXPECT_LE(length(minus(centroid(cells, i, t.points[i]), point_sets::normalized(right.moment))),
+              tolerance * radius);
+    EXPECT_NEAR(dot(cells.pull[i], t.points[i]), 0, 1e-15 * right.mass);
+  }
+}
+
+TEST(Cells, OfAConstantDensityAgreeWithAFineQuadrature) {
+  const ConstantDensity density(3);
+  for (const std::size_t n : {5, 12, 50, 200}) expect_accurate(n, 2, density, 1e-7);  // large cells
+  expect_accurate(1000, 0, density, 5e-7);                                            // small
+  expect_accurate(5000, 0, density, 2e-8);
+  expect_accurate(20000, 0, density, 2e-9);
+  expect_accurate(50000, 0, density, 2e-8);  // tiny
+}
+
+TEST(Cells, OfASmoothDensityAgreeWithAFineQuadrature) {
+  const Formula density([](const Point& p) { return std::exp(p.x + 0.5 * p.y * p.z); });
+  for (const std::size_t n : {5, 12, 50}) expect_accurate(n, 2, density, 1e-6);
+  expect_accurate(500, 0, density, 2e-4);  // width^3: an eighth for four times as many
+  expect_accurate(2000, 0, density, 2.5e-5);
+  expect_accurate(32000, 0, density, 4e-7);
+}
+
+TEST(Cells, CoverTheSphereOnce) {
+  for (const std::size_t n : {4, 12, 100, 3000, 50000}) {
+    const Tessellated t = relaxed(n, kConstant, 1);
+    Cells cells;
+    integrate(t.points.data(), t.stars, kConstant, cells);
+    ExactSum area;
+    for (const double mass : cells.mass) area.add(mass);
+    EXPECT_NEAR(area.value(), 4 * kPi, 1e-8) << n;
+  }
+}
+
+TEST(Cells, OfARoughDensityHaveMassAndEnergy) {
+  for (const std::size_t n : {100, 5000}) {
+    const Tessellated t = relaxed(n, kConstant, 1);
+    for (const double contrast : {10.0, 1e8}) {
+      const Formula jump([=](const Point& p) { return p.x + 0.3 * p.y > 0.1 ? contrast : 1.0; });
+      const Formula spikes(
+          [=](const Point& p) { return std::fmod(std::fabs(p.z) * 1e4, 1) < 0.01 ? contrast : 1.0; });
+      for (const Density* density :
+           {static_cast<const Density*>(&jump), static_cast<const Density*>(&spikes)}) {
+        Cells cells;
+        integrate(t.points.data(), t.stars, *density, cells);
+        EXPECT_GT(*std::min_element(cells.mass.begin(), cells.mass.end()), 0);
+        EXPECT_GT(*std::min_element(cells.energy.begin(), cells.energy.end()), 0);
+      }
+    }
+  }
+}
+
+/// The derivative of the energy of all cells to a generator is -2 pull.
+TEST(Cells, PullIsTheGradientOfTheEnergy) {
+  for (const Density* density :
+       {static_cast<const Density*>(&kBump), static_cast<const Density*>(&kConstant)})
+    for (const std::size_t n : {12, 3000}) {
+      SCOPED_TRACE(n);
+      const Tessellated t = relaxed(n, *density, 1);
+      const auto energy = [&](const std::vector<Point>& points) {
+        Cells cells;
+        LocalEvaluator(*density).evaluate(points, cells);
+        ExactSum sum;
+        for (const double e : cells.energy) sum.add(e);
+        return sum;
+      };
+      Cells cells;
+      integrate(t.points.data(), t.stars, *density, cells);
+      for (std::size_t i = 0; i < n; i += n / 4) {
+        const double width = std::sqrt(cells.energy[i] / cells.mass[i]), step = 1e-4 * width;
+        for (const Point& axis : {Point{0, 0, 1}, Point{1, 0, 0}}) {
+          const Point g = t.points[i], direction = point_sets::normalized(cross(axis, g));
+          std::vector<Point> points = t.points;
+          points[i] = point_sets::normalized(plus(g, times(step, direction)));
+          ExactSum difference = energy(points);
+          points[i] = point_sets::normalized(plus(g, times(-step, direction)));
+          difference -= energy(points);
+          EXPECT_NEAR(difference.value() / (2 * step), -2 * dot(cells.pull[i], direction),
+                      2e-4 * cells.mass[i] * width);
+        }
+      }
+    }
+}
+
+// ---- runs
+// ------------------------------------------------------------------------------------------------------
+
+std::vector<Point> octahedron() {
+  return {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+}
+std::vector<Point> tetrahedron() {
+  const double a = 1 / std::sqrt(3);
+  return {{a, a, a}, {a, -a, -a}, {-a, a, -a}, {-a, -a, a}};
+}
+std::vector<Point> icosahedron() {
+  const double golden = (1 + std::sqrt(5)) / 2;
+  std::vector<Point> points;
+  for (const double s : {1.0, -1.0})
+    for (const double t : {golden, -golden})
+      for (const Point& p : {Point{0, s, t}, Point{s, t, 0}, Point{t, 0, s}})
+        points.push_back(point_sets::normalized(p));
+  return points;
+}
+
+RunOptions options_of(double tolerance) {
+  RunOptions options;
+  options.tolerance = tolerance;
+  return options;
+}
+
+double least_distance(const std::vector<Point>& points) {
+  double least = 4;
+  for (const Point& p : points)
+    for (const Point& q : points)
+      if (p != q) least = std::min(least, length(minus(p, q)));
+  return least;
+}
+
+TEST(Run, KnownOptimaStay) {
+  for (const auto& optimum : {tetrahedron(), octahedron(), icosahedron()}) {
+    const Tessellation found = run(optimum, kConstant, options_of(1e-12));
+    EXPECT_EQ(found.result.end, End::converged);
+    EXPECT_EQ(found.state.steps, 0);
+    for (std::size_t i = 0; i < optimum.size(); ++i)
+      EXPECT_LE(length(minus(found.state.generators[i], optimum[i])), 1e-15);
+  }
+}
+
+TEST(Run, FewGeneratorsFindTheKnownOptima) {
+  for (const auto& optimum : {tetrahedron(), octahedron(), icosahedron()})
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      RunOptions options = options_of(1e-7);
+      options.seed = seed;
+      const Tessellation found = run(optimum.size(), kConstant, options);
+      EXPECT_EQ(found.result.end, End::converged) << optimum.size();
+      EXPECT_NEAR(least_distance(found.state.generators), least_distance(optimum), 1e-5) << optimum.size();
+    }
+}
+
+TEST(Run, AnyNumberConverges) {
+  for (const std::size_t n : {5, 7, 13, 47, 48, 49, 50, 51, 200, 801}) {
+    const Tessellation found = run(n, kConstant, options_of(1e-5));
+    EXPECT_EQ(found.state.generators.size(), n);
+    EXPECT_EQ(found.result.end, End::converged) << n;
+    EXPECT_LE(found.result.progress.gradient, 1e-5);
+    EXPECT_LT(found.result.progress.energy * static_cast<double>(n), 27) << n;
+  }
+  EXPECT_EQ(run(500, kBump, options_of(1e-4)).result.end, End::converged);
+}
+
+/// The figure that is asked for is 250.
+TEST(Run, TakesFewEvaluations) {
+  const Tessellation uniform = run(10242, kConstant, options_of(1e-5));
+  EXPECT_EQ(uniform.result.end, End::converged);
+  EXPECT_LE(uniform.evaluations, 50);
+  EXPECT_LE(uniform.result.progress.energy * 10242, 25.45);
+  RunOptions options = options_of(1e-5);
+  options.levels = false;
+  options.most_evaluations = 150;
+  const Tessellation random = run(2562, kConstant, options);
+  options.method = Method::lloyd;
+  const Tessellation lloyd = run(2562, kConstant, options);
+  EXPECT_LT(random.result.progress.energy, lloyd.result.progress.energy);
+}
+
+TEST(Run, EnergyNeverRises) {
+  const Formula jump([](const Point& p) { return p.x + 0.3 * p.y > 0.1 ? 100.0 : 1.0; });
+  const Formula contrast([](const Point& p) { return std::pow(10, 8 * p.z * p.z); });
+  for (const Density* density : {static_cast<const Density*>(&kConstant), static_cast<const Density*>(&kBump),
+                                 static_cast<const Density*>(&jump), static_cast<const Density*>(&contrast)})
+    for (const Method method : {Method::newton, Method::lloyd}) {
+      RunOptions options = options_of(1e-6);
+      options.method = method;
+      options.most_evaluations = 40;
+      double before = std::numeric_limits<double>::infinity();
+      double first = 0;
+      options.progress = [&](const Progress& p) {
+        if (first == 0) first = p.energy;
+        EXPECT_LT(p.energy, before);
+        before = p.energy;
+        return true;
+      };
+      const Tessellation found = run(random_generators(200, *density, 1), *density, options);
+      EXPECT_EQ(found.result.progress.energy, before);
+      EXPECT_LT(before, 0.95 * first);
+    }
+}
+
+TEST(Run, HasTheSameBitsForAnyNumberOfThreads) {
+#ifndef _OPENMP
+  GTEST_SKIP() << "without OpenMP";
+#else
+  const auto result = [](int threads, const Density& density) {
+    omp_set_num_threads(threads);
+    RunOptions options = options_of(1e-9);
+    options.levels = false;
+    options.most_evaluations = 6;
+    return run(21000, density, options);
+  };
+  const int threads = omp_get_max_threads();
+  for (const Density* density :
+       {static_cast<const Density*>(&kConstant), static_cast<const Density*>(&kBump)}) {
+    const Tessellation one = result(1, *density), two = result(2, *density);
+    EXPECT_EQ(one.state.generators, two.state.generators);
+    EXPECT_EQ(one.result.progress.energy, two.result.progress.energy);
+    EXPECT_EQ(one.result.progress.gradient, two.result.progress.gradient);
+  }
+  omp_set_num_threads(threads);
+#endif
+}
+
+TEST(Run, GoesOnFromACopyOfTheStateWithTheSameBits) {
+  const std::vector<Point> first = random_generators(1500, kBump, 1);
+  Options options = options_of(1e-9);
+  options.most_evaluations = 40;
+  LocalEvaluator evaluator(kBump);
+  State whole(first);
+  const Result all = minimize(evaluator, whole, options);
+  for (const std::int64_t steps :
+       {1, 3, 4, 20}) {  // among the first steps, at their end, without and with old pairs
+    State state(first);
+    options.progress = [&](const Progress&) { return state.steps < steps; };
+    EXPECT_EQ(minimize(evaluator, state, options).end, End::stopped);
+    State copy = state;
+    state = State();
+    options.progress = nullptr;
+    LocalEvaluator another(kBump);
+    const Result rest = minimize(another, copy, options);
+    EXPECT_EQ(copy.generators, whole.generators) << steps;
+    EXPECT_EQ(copy.evaluations, whole.evaluations) << steps;
+    EXPECT_EQ(rest.progress.energy, all.progress.energy);
+  }
+}
+
+// ---- safeguards
+// --------------------------------------------------------------------------------------------------
+
+/// Evaluates, and then changes what is told of an evaluation.
+class Meddler final : public Evaluator {
+ public:
+  using Meddle = std::function<void(int evaluation, Cells& cells)>;
+  Meddler(const Density& density, Meddle meddle) : evaluator_(density), meddle_(std::move(meddle)) {}
+  void evaluate(const std::vector<Point>& generators, Cells& cells) override {
+    evaluator_.evaluate(generators, cells);
+    meddle_(++evaluations_, cells);
+  }
+  void add_up(ExactSum*, std::size_t) override {}
+  double largest(double value) override { return value; }
+
+ private:
+  LocalEvaluator evaluator_;
+  Meddle meddle_;
+  int evaluations_ = 0;
+};
+
+/// Without first steps of Lloyd's method.
+Options newton_at_once(double tolerance) {
+  Options options;
+  options.tolerance = tolerance;
+  options.first_lloyd_steps = 0;
+  return options;
+}
+
+TEST(Safeguards, ADirectionThatDoesNotDescendGivesWayToLloyd) {
+  State state(random_generators(300, kConstant, 1));
+  State::Pair pair;  // of a concave energy, as no run keeps one
+  for (const Point& g : state.generators) {
+    const Point step = cross(g, {0.1, 0.2, 0.3});
+    pair.step.push_back(step);
+    pair.change.push_back(times(-1e-3, step));
+  }
+  state.pairs.push_back(pair);
+  state.steps = state.evaluations = 1;
+  LocalEvaluator evaluator(kConstant);
+  EXPECT_EQ(minimize(evaluator, state, newton_at_once(1e-5)).end, End::converged);
+  EXPECT_EQ(state.no_descent, 1);
+}
+
+TEST(Safeguards, ASearchWithoutDecreaseGivesWayToLloyd) {
+  Meddler evaluator(kConstant, [](int evaluation, Cells& cells) {
+    if (evaluation >= 10 && evaluation < 16)
+      for (double& energy : cells.energy) energy *= 2;
+  });
+  State state(random_generators(300, kConstant, 1));
+  EXPECT_EQ(minimize(evaluator, state, newton_at_once(1e-5)).end, End::converged);
+  EXPECT_EQ(state.no_decrease, 1);
+}
+
+TEST(Safeguards, GeneratorsThatMeetOnATrialAreATrialTooFar) {
+  int thrown = 0;
+  Meddler evaluator(kConstant, [&](int evaluation, Cells&) {
+    if (evaluation == 10 || evaluation == 11) {
+      ++thrown;
+      throw CoincidentGenerators(1, 2);
+    }
+  });
+  State state(random_generators(300, kConstant, 1));
+  EXPECT_EQ(minimize(evaluator, state, newton_at_once(1e-5)).end, End::converged);
+  EXPECT_EQ(thrown, 2);
+  EXPECT_EQ(state.no_decrease, 0);
+}
+
+TEST(Safeguards, WithoutAnyDecreaseTheRunEnds) {
+  Meddler evaluator(kConstant, [](int evaluation, Cells& cells) {
+    for (double& energy : cells.energy) energy *= evaluation < 10 ? 1 : 2;
+  });
+  State state(random_generators(300, kConstant, 1));
+  const Result result = minimize(evaluator, state, newton_at_once(1e-5));
+  EXPECT_EQ(result.end, End::stalled);
+  EXPECT_EQ(state.no_decrease, 1);
+  EXPECT_GT(result.progress.gradient, 1e-5);
+  Cells cells;  // those of the generators in the state
+  LocalEvaluator(kConstant).evaluate(state.generators, cells);
+  EXPECT_EQ(result.cells.mass, cells.mass);
+}
+
+// ---- bad input
+// ---------------------------------------------------------------------------------------------------
+
+template <class Error>
+Error error_of(const std::vector<Point>& generators, const Density& density) {
+  try {
+    run(generators, density, {});
+  } catch (const Error& e) {
+    return e;
+  }
+  ADD_FAILURE() << "no error";
+  throw;
+}
+
+TEST(BadInput, GeneratorsInAHemisphere) {
   std::vector<Point> generators = point_sets::make("random", 100, 1);
   for (Point& p : generators) p.z = std::fabs(p.z);
-  EXPECT_THROW(run(generators, ConstantDensity(), {}), GeneratorsInHemisphere);
+  EXPECT_THROW(run(generators, kConstant, {}), GeneratorsInHemisphere);
+  for (Point& p : generators) p.z = 0;
+  EXPECT_THROW(run(generators, kConstant, {}), GeneratorsInHemisphere);
+}
+
+/// Three nodes on the boundary leave as many arcs as a mesh of the whole sphere has.
+TEST(BadInput, GeneratorsInATriangle) {
+  const std::vector<Point> generators{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, point_sets::normalized({1, 1, 1})};
+  EXPECT_THROW(run(generators, kConstant, {}), GeneratorsInHemisphere);
+}
+
+TEST(BadInput, CoincidentGenerators) {
+  std::vector<Point> generators = point_sets::make("random", 100, 1);
+  generators[76] = generators[12];
+  const auto error = error_of<CoincidentGenerators>(generators, kConstant);
+  EXPECT_EQ(error.first, 13);
+  EXPECT_EQ(error.second, 77);
+  EXPECT_STREQ(error.what(), "generators 13 and 77 coincide: remove one of them");
+}
+
+TEST(BadInput, TooFewGenerators) {
+  EXPECT_THROW(run(3, kConstant, {}), BadGenerators);
+  EXPECT_THROW(run({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, kConstant, {}), BadGenerators);
+  std::vector<Point> generators = tetrahedron();
+  generators[2] = {0, 0, 0};
+  EXPECT_THROW(run(generators, kConstant, {}), BadGenerators);
+}
+
+TEST(BadInput, Densities) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double bad : {0.0, -1.0, static_cast<double>(NAN), infinity}) {
+    for (const std::size_t n : {20, 5000}) {  // large and small cells
+      const Formula density([=](const Point& p) { return p.z > 0.9 ? bad : 1.0; });
+      const auto error = error_of<BadDensity>(point_sets::make("random", n, 1), density);
+      EXPECT_GT(error.place.z, 0.9);
+      EXPECT_FALSE(error.value > 0 && error.value < infinity);
+      EXPECT_THROW(run(n, density, {}), BadDensity);
+    }
+    EXPECT_THROW(run(100, ConstantDensity(bad), {}), BadDensity);
+  }
+  const Formula density([](const Point& p) { return p.x > 0 ? -2.0 : 1.0; });
+  EXPECT_NE(std::string(error_of<BadDensity>(octahedron(), density).what()).find("the density is -2 at lon "),
+            std::string::npos);
+}
+
+// ---- first generators, levels, lists
+// -----------------------------------------------------------------------------
+
+TEST(Triangulate, GeneratorsWhoseFirstThreeAreOnAGreatCircle) {
+  std::vector<Point> points = point_sets::make("random", 200, 1);
+  for (const Point& p : octahedron()) points.insert(points.begin(), p);
+  ASSERT_EQ(points[2].x, 0);
+  ASSERT_EQ(points[3].x, 0);
+  std::swap(points[4], points[60]);
+  points[4] = {0, 0.6, 0.8};
+  std::rotate(points.begin(), points.begin() + 2, points.begin() + 6);
+  const Tessellated t(points);
+  std::vector<Point> mirrored = points;  // another order, another way to the same stars
+  std::swap(mirrored[1], mirrored[100]);
+  const Tessellated u(mirrored);
+  const auto renamed = [](std::int32_t node) { return node == 2 ? 101 : node == 101 ? 2 : node; };
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto j = static_cast<std::size_t>(renamed(static_cast<std::int32_t>(i) + 1)) - 1;
+    std::vector<std::int32_t> star, other;
+    for (std::size_t k = t.stars.begin_of(i); k < t.stars.end_of(i); ++k)
+      star.push_back(t.stars.neighbour[k]);
+    for (std::size_t k = u.stars.begin_of(j); k < u.stars.end_of(j); ++k)
+      other.push_back(renamed(u.stars.neighbour[k]));
+    EXPECT_EQ(star[0], *std::min_element(star.begin(), star.end()));
+    std::rotate(other.begin(), std::min_element(other.begin(), other.end()), other.end());
+    EXPECT_EQ(star, other);
+  }
+}
+
+TEST(Levels, LeadFromFewGeneratorsToAnyNumber) {
+  for (const std::size_t n : {4u, 11u, 12u, 42u, 43u, 100u, 10242u, 123457u}) {
+    const std::vector<std::size_t> sizes = level_sizes(n);
+    EXPECT_EQ(sizes.back(), n);
+    EXPECT_LE(sizes.front(), 42u);
+    for (std::size_t k = 0; k + 1 < sizes.size(); ++k) {
+      EXPECT_LE(sizes[k + 1], 4 * sizes[k] - 6);
+      EXPECT_GE(sizes[k + 1] + 3, 4 * sizes[k] - 6);
+    }
+  }
+  EXPECT_EQ(level_sizes(642), (std::vector<std::size_t>{12, 42, 162, 642}));
+}
+
+TEST(Levels, RefinedGeneratorsAreTheOldOnesAndMidpoints) {
+  const Tessellated t(icosahedron());
+  for (const std::size_t n : {12, 30, 42}) {
+    const std::vector<Point> fine = refined(t.points, t.stars, kConstant, n);
+    EXPECT_EQ(fine.size(), n);
+    for (const Point& p : t.points) EXPECT_EQ(std::count(fine.begin(), fine.end(), p), 1);
+    EXPECT_NEAR(least_distance(fine), n == 12 ? least_distance(t.points) : 0.5465, 1e-3);
+  }
+}
+
+TEST(RandomGenerators, HaveTheSquareRootOfTheDensity) {
+  const Formula density([](const Point& p) { return p.z > 0.5 ? 16.0 : 1.0; });  // a quarter of the sphere
+  const std::vector<Point> points = random_generators(20000, density, 1);
+  const auto inside = std::count_if(points.begin(), points.end(), [](const Point& p) { return p.z > 0.5; });
+  EXPECT_NEAR(static_cast<double>(inside), 20000 * 4.0 / 7, 400);
+  EXPECT_EQ(points, random_generators(20000, density, 1));
+  EXPECT_NE(points, random_generators(20000, density, 2));
+}
+
+TEST(RandomGenerators, SurroundTheSphereThoughTheDensityIsInACap) {
+  const Formula density([](const Point& p) { return p.z > 0.9 ? 1e16 : 1.0; });
+  for (const std::size_t n : {4, 12}) EXPECT_NO_THROW(Tessellated(random_generators(n, density, 1)));
 }
 
 }  // namespace

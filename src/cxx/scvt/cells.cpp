@@ -12,9 +12,10 @@
 //     mass      density (1+z)^(-3/2)                       = density (1 - 3/2 z + 15/8 z^2 - ...)
 //     energy    density 2 ((1+z)^(-3/2) - (1+z)^(-2))      = density (z - 9/4 z^2 + 29/8 z^3 - ...)
 //     pull      density (x,y) (1+z)^(-2)                   = density (x,y) (1 - 2 z + 3 z^2 - ...)
-// Power series in z times a polynomial in r: integrated over r term by term. Over t: three points of Gauss,
-// exact up to degree 5. In a cell with s <= kSmall at all corners the first neglected terms are below 2e-12
-// of the leading ones.
+// Power series in z times a polynomial in r: integrated over r term by term. Over t: three points of
+// Gauss, exact for z^2. In a cell with s <= kSmall at all corners what is left is below 5e-7, and falls with
+// s^2. Where the density is constant and s <= kTiny, two terms are enough: the next are below 2e-8, and the
+// integrals over t have closed forms.
 //
 // The density is taken as a polynomial of degree 2 in each triangle, from its values at 0, P, Q and the
 // midpoints of the three sides: on a ray density = a + b(t) r + c(t) r^2. Its products with the weights above
@@ -31,21 +32,19 @@
 
 #include "base/parallel_for.h"
 #include "scvt/errors.h"
+#include "scvt/vectors.h"
 
 namespace pstripack::scvt {
 namespace {
 
-constexpr double kSmall = 0.004;
-constexpr double kRough = 4;  ///< largest density in a cell over the smallest
-
-Point scaled(double f, const Point& p) { return {f * p.x, f * p.y, f * p.z}; }
-Point plus(const Point& a, const Point& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-Point normalized(const Point& p) { return scaled(1 / std::sqrt(dot(p, p)), p); }
+constexpr double kTiny = 1e-4, kSmall = 0.02;  ///< s of the farthest corner
+constexpr double kRough = 4;                   ///< largest density in a cell over the smallest
 
 bool is_good(double density) { return density > 0 && std::isfinite(density); }
 
 /// Two axes at right angles to the unit vector g and to each other (Duff et al. 2017).
 struct Axes {
+  Axes() = default;
   explicit Axes(const Point& g) {
     const double sign = std::copysign(1.0, g.z), a = -1 / (sign + g.z), b = g.x * g.y * a;
     e1 = {1 + sign * g.x * g.x * a, sign * b, -sign * g.x};
@@ -99,7 +98,7 @@ class LargeCell {
 
  private:
   static constexpr int kMostCuts = 8;
-  static constexpr double kLongest = 0.05;  ///< side of a triangle that is not cut
+  static constexpr double kLongest = 0.1;  ///< side of a triangle that is not cut
 
   void cut(const Point& a, const Point& b, const Point& c, int cuts) {
     const Point ab = minus(b, a), bc = minus(c, b), ca = minus(a, c);
@@ -143,12 +142,59 @@ class LargeCell {
 // ---- small cells, many at a time
 // ---------------------------------------------------------------------------
 
-/// Some consecutive cells. Cell i has the entries begin(i)..begin(i)+d+1 of the arrays for its d neighbours,
-/// of which the last two are its first once more: entry k+1 is then always the next corner, and loops over
-/// entries need no branch.
-class Block {
+/// Arrays over the entries of some consecutive cells. A cell has an entry for each neighbour, and its first
+/// corner once more: entry k+1 is then always the next one, and loops over entries have no branches.
+struct Entries {
+  std::size_t count = 0;
+  std::vector<double> u, v, half;  ///< neighbour: its components along the axes, half its distance squared
+  std::vector<double> x, y, s;     ///< corner between neighbours k and k+1
+  std::vector<double> mass, energy, pull_x, pull_y;  ///< triangle between corners k and k+1
+
+  void resize(std::size_t n) {
+    count = n;
+    if (u.size() >= n) return;
+    for (auto* array : {&u, &v, &half, &x, &y, &s, &mass, &energy, &pull_x, &pull_y}) array->resize(n);
+  }
+};
+
+/// All corners; those behind the last of a cell are of no use.
+void find_corners(Entries& e) {
+  const double *const u = e.u.data(), *const v = e.v.data(), *const half = e.half.data();
+  double *const x = e.x.data(), *const y = e.y.data(), *const s = e.s.data();
+#pragma GCC ivdep
+  for (std::size_t k = 0; k + 1 < e.count; ++k) {
+    const double det = u[k] * v[k + 1] - v[k] * u[k + 1], inverse = 1 / det;
+    x[k] = (half[k] * v[k + 1] - v[k] * half[k + 1]) * inverse;
+    y[k] = (u[k] * half[k + 1] - half[k] * u[k + 1]) * inverse;
+    s[k] = std::copysign(x[k] * x[k] + y[k] * y[k], det);  // not >= 0: the plane does not show the corner
+  }
+}
+
+/// Constant density 1, tiny cells. With A = P.P, B = P.Q, C = Q.Q the means over t of s and s^2 are
+///     (A+B+C)/3    and    (3 (A^2+C^2) + 2 B^2 + A C + 3 B (A+C))/15,
+/// those of s (1-t) and s t, which (x,y) = (1-t) P + t Q needs, (3A+2B+C)/12 and (A+2B+3C)/12.
+void integrate_tiny(Entries& e) {
+  const double *const x = e.x.data(), *const y = e.y.data(), *const s = e.s.data();
+  double *const mass = e.mass.data(), *const energy = e.energy.data();
+  double *const pull_x = e.pull_x.data(), *const pull_y = e.pull_y.data();
+#pragma GCC ivdep
+  for (std::size_t k = 0; k + 1 < e.count; ++k) {
+    const double det = x[k] * y[k + 1] - y[k] * x[k + 1];
+    const double a = s[k], b = x[k] * x[k + 1] + y[k] * y[k + 1], c = s[k + 1];
+    const double first = a + b + c, second = 3 * (a + c) * first + (2 * b * b - 5 * a * c);
+    mass[k] = det * (0.5 - first * (1.0 / 8) + second * (1.0 / 48));
+    energy[k] = det * (first * (1.0 / 12) - second * (1.0 / 40));
+    const double p = det * (1.0 / 6 - (first + b + 2 * a) * (1.0 / 30));
+    const double q = det * (1.0 / 6 - (first + b + 2 * c) * (1.0 / 30));
+    pull_x[k] = p * x[k] + q * x[k + 1];
+    pull_y[k] = p * y[k] + q * y[k + 1];
+  }
+}
+
+/// Some consecutive cells at a time.
+class SmallCells {
  public:
-  Block(const Point* points, const Stars& stars, const Density& density, Cells& cells)
+  SmallCells(const Point* points, const Stars& stars, const Density& density, Cells& cells)
       : points_(points), stars_(stars), density_(density), cells_(cells), large_(density) {
     if (density.is_constant()) {
       constant_ = density.at({1, 0, 0});
@@ -157,166 +203,174 @@ class Block {
   }
 
   void integrate(std::size_t first, std::size_t last) {
-    find_corners(first, last);
-    if (density_.is_constant())
-      integrate_constant();
-    else
-      integrate_varying(first, last);
-    std::size_t k = 0;
-    for (std::size_t i = first; i < last; ++i) {
-      const std::size_t count = stars_.end_of(i) - stars_.begin_of(i);
-      const Point& g = points_[i];
-      double mass = 0, energy = 0, x = 0, y = 0;
-      for (std::size_t j = k; j < k + count; ++j) {
-        mass += mass_[j];
-        energy += energy_[j];
-        x += pull_x_[j];
-        y += pull_y_[j];
-      }
-      if (is_small(k, count) && is_smooth_[i - first]) {
-        const Axes axes(g);
-        cells_.mass[i] = mass;
-        cells_.energy[i] = energy;
-        cells_.pull[i] = plus(scaled(x, axes.e1), scaled(y, axes.e2));
-      } else {
-        const Sums sums = large_.integrate(points_, g, stars_.neighbour + stars_.begin_of(i), count);
-        cells_.mass[i] = sums.mass;
-        cells_.energy[i] = sums.energy;
-        cells_.pull[i] = minus(sums.pull, scaled(dot(sums.pull, g), g));
-      }
-      k += count + 2;
+    first_ = first;
+    last_ = last;
+    order_cells();
+    read_neighbours();
+    find_corners(e_);
+    close_cells();
+    if (density_.is_constant()) {
+      integrate_tiny(e_);
+      for_each_cell([&](std::size_t i, std::size_t k, std::size_t count) {
+        if (size_[i - first_] == Size::tiny) write(i, k, count, constant_);
+        if (size_[i - first_] != Size::small) return;
+        const double value[3] = {constant_, constant_, constant_};
+        for (std::size_t j = k; j < k + count; ++j) integrate_triangle(j, constant_, value, value);
+        write(i, k, count, 1);
+      });
+    } else {
+      take_samples();
+      integrate_samples();
     }
+    for_each_cell([&](std::size_t i, std::size_t, std::size_t) {
+      if (size_[i - first_] == Size::large) integrate_large(i);
+    });
   }
 
  private:
-  void resize(std::size_t entries) {
-    entries_ = entries;
-    for (auto* v : {&u_, &v_, &half_, &x_, &y_, &s_, &mass_, &energy_, &pull_x_, &pull_y_})
-      if (v->size() < entries) v->resize(entries);
-  }
+  enum class Size : char { tiny, small, large };
 
-  /// Corner k lies between the neighbours k and k+1.
-  void find_corners(std::size_t first, std::size_t last) {
-    resize(stars_.end_of(last - 1) - stars_.begin_of(first) + 2 * (last - first));
-    is_smooth_.assign(last - first, true);
+  /// body(i, k, count): cell i has the neighbours, corners and triangles k..k+count-1.
+  template <class Body>
+  void for_each_cell(const Body& body) const {
     std::size_t k = 0;
-    for (std::size_t i = first; i < last; ++i) {
-      const Point& g = points_[i];
+    for (const std::uint32_t cell : order_) {
+      const std::size_t i = first_ + cell, count = stars_.end_of(i) - stars_.begin_of(i);
+      body(i, k, count);
+      k += count + 1;
+    }
+  }
+
+  /// By number of neighbours: loops over a cell then end where the processor expects it.
+  void order_cells() {
+    constexpr std::size_t kMost = 15;
+    const auto key = [&](std::size_t i) { return std::min(stars_.end_of(i) - stars_.begin_of(i), kMost); };
+    std::uint32_t begin[kMost + 2] = {};
+    for (std::size_t i = first_; i < last_; ++i) ++begin[key(i) + 1];
+    for (std::size_t k = 0; k < kMost; ++k) begin[k + 1] += begin[k];
+    order_.resize(last_ - first_);
+    for (std::size_t i = first_; i < last_; ++i)
+      order_[begin[key(i)]++] = static_cast<std::uint32_t>(i - first_);
+  }
+
+  void read_neighbours() {
+    e_.resize(stars_.end_of(last_ - 1) - stars_.begin_of(first_) + (last_ - first_));
+    axes_.resize(last_ - first_);
+    double *const u = e_.u.data(), *const v = e_.v.data(), *const half = e_.half.data();
+    for_each_cell([&](std::size_t i, std::size_t k, std::size_t count) {
+      const Point g = points_[i];
       const Axes axes(g);
-      const std::size_t begin = k;
-      for (std::size_t j = stars_.begin_of(i); j < stars_.end_of(i); ++j, ++k) {
-        const Point d = minus(points_[static_cast<std::size_t>(stars_.neighbour[j]) - 1], g);
-        u_[k] = dot(d, axes.e1);
-        v_[k] = dot(d, axes.e2);
-        half_[k] = dot(d, d) / 2;
+      const std::int32_t* const ring = stars_.neighbour + stars_.begin_of(i);
+      for (std::size_t j = 0; j < count; ++j) {
+        const Point d = minus(points_[static_cast<std::size_t>(ring[j]) - 1], g);
+        u[k + j] = dot(d, axes.e1);
+        v[k + j] = dot(d, axes.e2);
+        half[k + j] = dot(d, d) / 2;
       }
-      for (std::size_t j = begin; j < begin + 2; ++j, ++k) u_[k] = u_[j], v_[k] = v_[j], half_[k] = half_[j];
-    }
-    for (std::size_t j = 0; j + 1 < entries_; ++j) {
-      const double det = u_[j] * v_[j + 1] - v_[j] * u_[j + 1], inverse = 1 / det;
-      x_[j] = (half_[j] * v_[j + 1] - v_[j] * half_[j + 1]) * inverse;
-      y_[j] = (u_[j] * half_[j + 1] - half_[j] * u_[j + 1]) * inverse;
-      // Where det is not positive the corner is not in front of the plane's centre: a large cell.
-      s_[j] = det > 0 ? x_[j] * x_[j] + y_[j] * y_[j] : 1;
-    }
+      u[k + count] = u[k], v[k + count] = v[k], half[k + count] = half[k];
+      axes_[i - first_] = axes;
+    });
   }
 
-  bool is_small(std::size_t k, std::size_t count) const {
-    double most = 0;
-    for (std::size_t j = k; j < k + count; ++j) most = s_[j] > most ? s_[j] : most;
-    return most <= kSmall;
-  }
-
-  /// Weights of Gauss's points t = 1/2 - sqrt(15)/10, 1/2, 1/2 + sqrt(15)/10.
-  static constexpr double kGauss[3] = {0.1127016653792583, 0.5, 0.8872983346207417};
-  static constexpr double kWeight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
-
-  /// Triangle k has the corners k and k+1.
-  void integrate_constant() {
-    for (std::size_t k = 0; k + 2 < entries_; ++k) {
-      const double dx = x_[k + 1] - x_[k], dy = y_[k + 1] - y_[k];
-      const double det = constant_ * (x_[k] * dy - y_[k] * dx);
-      double mass = 0, energy = 0, pull_x = 0, pull_y = 0;
-      for (int i = 0; i < 3; ++i) {
-        const double x = x_[k] + kGauss[i] * dx, y = y_[k] + kGauss[i] * dy, s = x * x + y * y;
-        const double w = kWeight[i] * det;
-        mass += w * (1.0 / 2 + s * (-3.0 / 8 + s * (5.0 / 16 + s * (-35.0 / 128 + s * (63.0 / 256)))));
-        energy +=
-            w * (s * (1.0 / 4 + s * (-3.0 / 8 + s * (29.0 / 64 + s * (-65.0 / 128 + s * (281.0 / 512))))));
-        const double p = w * (1.0 / 3 + s * (-2.0 / 5 + s * (3.0 / 7 + s * (-4.0 / 9 + s * (5.0 / 11)))));
-        pull_x += p * x;
-        pull_y += p * y;
+  void close_cells() {
+    double *const x = e_.x.data(), *const y = e_.y.data(), *const s = e_.s.data();
+    const bool density_is_constant = density_.is_constant();
+    size_.resize(last_ - first_);
+    for_each_cell([&](std::size_t i, std::size_t k, std::size_t count) {
+      bool is_tiny = density_is_constant, is_small = true;
+      for (std::size_t j = k; j < k + count; ++j) {
+        is_tiny &= s[j] <= kTiny;
+        is_small &= s[j] >= 0 && s[j] <= kSmall;
       }
-      mass_[k] = mass;
-      energy_[k] = energy;
-      pull_x_[k] = pull_x;
-      pull_y_[k] = pull_y;
-    }
+      size_[i - first_] = !is_small ? Size::large : is_tiny ? Size::tiny : Size::small;
+      x[k + count] = x[k], y[k + count] = y[k], s[k + count] = s[k];
+    });
   }
 
-  /// Samples: for each cell its generator, and for each entry k its corner, the middle between the generator
+  /// Adds up the triangles of cell i.
+  void write(std::size_t i, std::size_t k, std::size_t count, double factor) {
+    double mass = 0, energy = 0, x = 0, y = 0;
+    for (std::size_t j = k; j < k + count; ++j) {
+      mass += e_.mass[j];
+      energy += e_.energy[j];
+      x += e_.pull_x[j];
+      y += e_.pull_y[j];
+    }
+    const Axes& axes = axes_[i - first_];
+    cells_.mass[i] = factor * mass;
+    cells_.energy[i] = factor * energy;
+    cells_.pull[i] = plus(scaled(factor * x, axes.e1), scaled(factor * y, axes.e2));
+  }
+
+  void integrate_large(std::size_t i) {
+    const std::size_t begin = stars_.begin_of(i);
+    const Point& g = points_[i];
+    const Sums sums = large_.integrate(points_, g, stars_.neighbour + begin, stars_.end_of(i) - begin);
+    cells_.mass[i] = sums.mass;
+    cells_.energy[i] = sums.energy;
+    cells_.pull[i] = minus(sums.pull, scaled(dot(sums.pull, g), g));
+  }
+
+  /// For each cell its generator, and for each of its entries the corner, the middle between the generator
   /// and the corner, and the middle between this corner and the next.
-  void integrate_varying(std::size_t first, std::size_t last) {
-    samples_.resize(last - first + 3 * entries_);
+  void take_samples() {
+    samples_.clear();
+    for_each_cell([&](std::size_t i, std::size_t k, std::size_t count) {
+      if (size_[i - first_] == Size::large) return;
+      const Point& g = points_[i];
+      const Axes& axes = axes_[i - first_];
+      const auto sample = [&](double x, double y) {
+        const Point q = plus(g, plus(scaled(x, axes.e1), scaled(y, axes.e2)));
+        samples_.push_back(scaled(1 / std::sqrt(1 + (x * x + y * y)), q));
+      };
+      samples_.push_back(g);
+      for (std::size_t j = k; j < k + count; ++j) {
+        sample(e_.x[j], e_.y[j]);
+        sample(e_.x[j] / 2, e_.y[j] / 2);
+        sample((e_.x[j] + e_.x[j + 1]) / 2, (e_.y[j] + e_.y[j + 1]) / 2);
+      }
+    });
     values_.resize(samples_.size());
-    std::size_t k = 0, count = 0;
-    for (std::size_t i = first; i < last; ++i) {
-      const std::size_t degree = stars_.end_of(i) - stars_.begin_of(i);
-      if (is_small(k, degree)) {
-        const Point& g = points_[i];
-        const Axes axes(g);
-        const auto sample = [&](double x, double y) {
-          const Point q = plus(g, plus(scaled(x, axes.e1), scaled(y, axes.e2)));
-          samples_[count++] = scaled(1 / std::sqrt(1 + x * x + y * y), q);
-        };
-        samples_[count++] = g;
-        for (std::size_t j = k; j < k + degree; ++j) {
-          sample(x_[j], y_[j]);
-          sample(x_[j] / 2, y_[j] / 2);
-          sample((x_[j] + x_[j + 1]) / 2, (y_[j] + y_[j + 1]) / 2);
-        }
-      }
-      k += degree + 2;
-    }
-    density_.at(count, samples_.data(), values_.data());
-    for (std::size_t i = 0; i < count; ++i)
-      if (!is_good(values_[i])) throw BadDensity(samples_[i], values_[i]);
+    density_.at(samples_.size(), samples_.data(), values_.data());
+    for (std::size_t j = 0; j < values_.size(); ++j)
+      if (!is_good(values_[j])) throw BadDensity(samples_[j], values_[j]);
+  }
 
+  void integrate_samples() {
     const double* value = values_.data();
-    k = 0;
-    for (std::size_t i = first; i < last; ++i) {
-      const std::size_t degree = stars_.end_of(i) - stars_.begin_of(i);
-      if (is_small(k, degree)) {
-        const double* const end = value + 1 + 3 * degree;
-        const auto [least, most] = std::minmax_element(value, end);
-        is_smooth_[i - first] = *most <= kRough * *least;
-        const double centre = *value++;
-        for (std::size_t j = 0; j < degree; ++j) {
-          const double* const here = value + 3 * j;
-          const double* const next = value + 3 * (j + 1 < degree ? j + 1 : 0);
-          integrate_triangle(k + j, centre, here, next);
-        }
-        value = end;
-      }
-      k += degree + 2;
-    }
+    for_each_cell([&](std::size_t i, std::size_t k, std::size_t count) {
+      if (size_[i - first_] == Size::large) return;
+      const double* const end = value + 1 + 3 * count;
+      const auto [least, most] = std::minmax_element(value, end);
+      if (*most > kRough * *least) size_[i - first_] = Size::large;
+      const double centre = *value++;
+      for (std::size_t j = 0; j < count; ++j)
+        integrate_triangle(k + j, centre, value + 3 * j, value + 3 * (j + 1 < count ? j + 1 : 0));
+      write(i, k, count, 1);
+      value = end;
+    });
   }
 
   /// here, next: the density at a corner and midway to it; here[2]: midway between the corners.
   void integrate_triangle(std::size_t k, double centre, const double* here, const double* next) {
-    const double dx = x_[k + 1] - x_[k], dy = y_[k + 1] - y_[k];
-    const double det = x_[k] * dy - y_[k] * dx;
+    // Gauss's points 1/2 -+ sqrt(15)/10, 1/2.
+    constexpr double kPoint[3] = {0.1127016653792583, 0.5, 0.8872983346207417};
+    constexpr double kWeight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+    const double dx = e_.x[k + 1] - e_.x[k], dy = e_.y[k + 1] - e_.y[k];
+    const double det = e_.x[k] * dy - e_.y[k] * dx;
     double mass = 0, energy = 0, pull_x = 0, pull_y = 0;
     for (int i = 0; i < 3; ++i) {
-      const double t = kGauss[i], x = x_[k] + t * dx, y = y_[k] + t * dy, s = x * x + y * y,
-                   w = kWeight[i] * det;
+      const double t = kPoint[i], x = e_.x[k] + t * dx, y = e_.y[k] + t * dy, s = x * x + y * y;
       // The polynomial of degree 2 with these values, on the ray: a + b r + c r^2.
       const double a = centre;
-      const double b =
-          (1 - t) * (4 * here[1] - here[0] - 3 * centre) + t * (4 * next[1] - next[0] - 3 * centre);
-      const double c = 2 * centre + 2 * (1 - t) * (1 - t) * here[0] + 2 * t * t * next[0] -
-                       4 * (1 - t) * here[1] - 4 * t * next[1] + 4 * t * (1 - t) * here[2];
-      const auto mean = [&](int power) { return a / power + b / (power + 1) + c / (power + 2); };
+      const double b = (1 - t) * (4 * here[1] - here[0] - 3 * a) + t * (4 * next[1] - next[0] - 3 * a);
+      const double c = 2 * a + 2 * (1 - t) * (1 - t) * here[0] + 2 * t * t * next[0] - 4 * (1 - t) * here[1] -
+                       4 * t * next[1] + 4 * t * (1 - t) * here[2];
+      // Its integral times r^(power-1).
+      const auto mean = [&](int power) {
+        return a * (1.0 / power) + b * (1.0 / (power + 1)) + c * (1.0 / (power + 2));
+      };
+      const double w = kWeight[i] * det;
       mass +=
           w * (mean(2) +
                s * (-3.0 / 2 * mean(4) +
@@ -331,10 +385,10 @@ class Block {
       pull_x += p * x;
       pull_y += p * y;
     }
-    mass_[k] = mass;
-    energy_[k] = energy;
-    pull_x_[k] = pull_x;
-    pull_y_[k] = pull_y;
+    e_.mass[k] = mass;
+    e_.energy[k] = energy;
+    e_.pull_x[k] = pull_x;
+    e_.pull_y[k] = pull_y;
   }
 
   const Point* const points_;
@@ -343,14 +397,13 @@ class Block {
   Cells& cells_;
   LargeCell large_;
   double constant_ = 0;
-  std::size_t entries_ = 0;
-  std::vector<double> u_, v_,
-      half_;  ///< neighbours: their components along the axes, half their distance squared
-  std::vector<double> x_, y_, s_;                        ///< corners
-  std::vector<double> mass_, energy_, pull_x_, pull_y_;  ///< triangles
+  std::size_t first_ = 0, last_ = 0;  ///< cells
+  Entries e_;
+  std::vector<std::uint32_t> order_;  ///< of the cells
+  std::vector<Axes> axes_;            ///< of each cell
+  std::vector<Size> size_;            ///< of each cell
   std::vector<Point> samples_;
   std::vector<double> values_;
-  std::vector<char> is_smooth_;  ///< of each cell
 };
 
 }  // namespace
@@ -366,7 +419,7 @@ void integrate(const Point* points, const Stars& stars, const Density& density, 
   ErrorsOfThreads errors(static_cast<std::size_t>(threads));
   parallel_pieces(stars.count, threads, [&](std::size_t first, std::size_t last, int piece) {
     errors.keep(static_cast<std::size_t>(piece), [&] {
-      Block block(points, stars, density, cells);
+      SmallCells block(points, stars, density, cells);
       for (std::size_t i = first; i < last; i += kCells) block.integrate(i, std::min(i + kCells, last));
     });
   });

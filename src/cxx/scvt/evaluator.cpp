@@ -87,7 +87,10 @@ Stars triangulate(const std::vector<Point>& generators, std::vector<std::int32_t
   }
   if (result.ier == -5)
     throw BadGenerators("generator " + std::to_string(number(result.node)) + " has no direction");
-  if (static_cast<std::size_t>(lend[n - 1]) != 6 * n - 12) throw GeneratorsInHemisphere();
+  const auto ends_at_boundary = [&](std::int32_t slot) {
+    return list[static_cast<std::size_t>(slot) - 1] < 0;
+  };
+  if (std::any_of(lend.begin(), lend.end(), ends_at_boundary)) throw GeneratorsInHemisphere();
   if (!order.empty()) renumber(order, list, lend);
   return {n, lend.data(), list.data()};
 }

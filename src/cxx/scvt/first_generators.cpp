@@ -4,18 +4,16 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <tuple>
+#include <string>
 
 #include "base/workspace.h"
 #include "geometry/insertion_order.h"
 #include "scvt/errors.h"
+#include "scvt/evaluator.h"
+#include "scvt/vectors.h"
 
 namespace pstripack::scvt {
 namespace {
-
-Point scaled(double f, const Point& p) { return {f * p.x, f * p.y, f * p.z}; }
-Point plus(const Point& a, const Point& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-Point normalized(const Point& p) { return scaled(1 / std::sqrt(dot(p, p)), p); }
 
 /// SplitMix64 (Steele, Lea, Flood 2014).
 class Random {
@@ -63,6 +61,64 @@ std::vector<Patch> octahedron(int cuts) {
   return patches;
 }
 
+/// Draws points with the square root of a density. A patch is chosen by its area and the largest density seen
+/// in it; a point in it is then taken with the chance that its density has. Where the density hides a higher
+/// peak there are too few points: good enough to begin.
+class Sampler {
+ public:
+  explicit Sampler(const Density& density)
+      : density_(density), patches_(octahedron(density.is_constant() ? 3 : 6)) {
+    std::vector<Point> places;
+    for (const auto& [corner] : patches_)
+      for (std::size_t k = 0; k < 3; ++k) {
+        places.push_back(corner[k]);
+        places.push_back(normalized(plus(corner[k], corner[(k + 1) % 3])));
+      }
+    const std::vector<double> values = values_at(places, density);
+    double all = 0;
+    for (std::size_t i = 0; i < patches_.size(); ++i) {
+      const double* const value = values.data() + 6 * i;
+      most_.push_back(std::sqrt(*std::max_element(value, value + 6)));
+      until_.push_back(all += patches_[i].area() * most_[i]);
+    }
+  }
+
+  std::vector<Point> draw(std::size_t n, Random& random) const {
+    std::vector<Point> points;
+    points.reserve(n);
+    while (points.size() < n) {
+      const auto place = std::upper_bound(until_.begin(), until_.end(), random.uniform() * until_.back());
+      const auto i = std::min(static_cast<std::size_t>(place - until_.begin()), patches_.size() - 1);
+      double u = random.uniform(), v = random.uniform();
+      const double chance = random.uniform();
+      if (u + v > 1) u = 1 - u, v = 1 - v;
+      const auto& c = patches_[i].corner;
+      const Point p = normalized(plus(scaled(1 - u - v, c[0]), plus(scaled(u, c[1]), scaled(v, c[2]))));
+      const double value = density_.at(p);
+      if (!(value > 0 && std::isfinite(value))) throw BadDensity(p, value);
+      if (chance * most_[i] <= std::sqrt(value)) points.push_back(p);
+    }
+    return along_a_curve(points);
+  }
+
+ private:
+  const Density& density_;
+  const std::vector<Patch> patches_;
+  std::vector<double> most_, until_;
+};
+
+bool surround_the_sphere(const std::vector<Point>& points) {
+  try {
+    std::vector<std::int32_t> list, lptr, lend;
+    triangulate(points, list, lptr, lend);
+    return true;
+  } catch (const GeneratorsInHemisphere&) {
+    return false;
+  } catch (const CoincidentGenerators&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 std::vector<double> values_at(const std::vector<Point>& points, const Density& density) {
@@ -84,48 +140,31 @@ std::vector<Point> along_a_curve(const std::vector<Point>& points) {
 }
 
 std::vector<Point> random_generators(std::size_t n, const Density& density, std::uint64_t seed) {
-  // A patch is chosen by its area and the largest density seen in it; a point in it is then taken with the
-  // chance that its density has. Where the density hides a higher peak there are too few points: good enough
-  // to begin.
-  const std::vector<Patch> patches = octahedron(density.is_constant() ? 3 : 6);
-  std::vector<Point> places;
-  for (const Patch& patch : patches)
-    for (std::size_t k = 0; k < 3; ++k) {
-      places.push_back(patch.corner[k]);
-      places.push_back(normalized(plus(patch.corner[k], patch.corner[(k + 1) % 3])));
-    }
-  const std::vector<double> values = values_at(places, density);
-  std::vector<double> most(patches.size()), until(patches.size());
-  double all = 0;
-  for (std::size_t i = 0; i < patches.size(); ++i) {
-    most[i] = std::sqrt(*std::max_element(values.begin() + static_cast<std::ptrdiff_t>(6 * i),
-                                          values.begin() + static_cast<std::ptrdiff_t>(6 * i + 6)));
-    until[i] = all += patches[i].area() * most[i];
-  }
+  if (n < 4) throw BadGenerators("a tessellation needs at least 4 generators, here are " + std::to_string(n));
+  // Seven in eight sets of four points lie in a hemisphere, and nearly all sets of few points where most of
+  // the density does: then the points are uniform.
+  constexpr int kTrials = 20;
+  const ConstantDensity uniform;
   Random random(seed);
-  std::vector<Point> points;
-  points.reserve(n);
-  while (points.size() < n) {
-    const double place = random.uniform() * all;
-    const auto i = std::min(
-        static_cast<std::size_t>(std::upper_bound(until.begin(), until.end(), place) - until.begin()),
-        patches.size() - 1);
-    double u = random.uniform(), v = random.uniform();
-    const double chance = random.uniform();
-    if (u + v > 1) u = 1 - u, v = 1 - v;
-    const auto& c = patches[i].corner;
-    const Point p = normalized(plus(scaled(1 - u - v, c[0]), plus(scaled(u, c[1]), scaled(v, c[2]))));
-    const double value = density.at(p);
-    if (!(value > 0 && std::isfinite(value))) throw BadDensity(p, value);
-    if (chance * most[i] <= std::sqrt(value)) points.push_back(p);
+  for (const Density* of : {&density, static_cast<const Density*>(&uniform)}) {
+    const Sampler sampler(*of);
+    for (int trial = 0; trial < kTrials || of == &uniform; ++trial) {
+      std::vector<Point> points = sampler.draw(n, random);
+      if (surround_the_sphere(points)) return points;
+    }
   }
-  return along_a_curve(points);
+  return {};  // never reached
 }
 
-std::vector<std::size_t> level_sizes(std::size_t n, std::size_t coarsest) {
-  // N generators and their 3N-6 midpoints are 4 (N-2) + 2.
+std::vector<std::size_t> level_sizes(std::size_t n) {
+  constexpr std::size_t kCoarsest = 12;
   std::vector<std::size_t> sizes{n};
-  while (sizes.front() / 4 >= coarsest) sizes.insert(sizes.begin(), (sizes.front() - 2 + 3) / 4 + 2);
+  for (;;) {
+    const std::size_t coarser = (sizes.back() - 2 + 3) / 4 + 2;  // 4 (N-2) + 2 are N and their midpoints
+    if (coarser < kCoarsest) break;
+    sizes.push_back(coarser);
+  }
+  std::reverse(sizes.begin(), sizes.end());
   return sizes;
 }
 

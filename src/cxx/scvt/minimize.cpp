@@ -9,6 +9,7 @@
 
 #include "base/parallel_for.h"
 #include "scvt/errors.h"
+#include "scvt/vectors.h"
 
 namespace pstripack::scvt {
 namespace {
@@ -19,10 +20,6 @@ constexpr std::size_t kPairs = 8;
 constexpr int kTrials = 6;            ///< steps along one direction
 constexpr double kSufficient = 1e-4;  ///< of the decrease that the slope promises (Armijo)
 constexpr double kLongest = 1;        ///< step, in root mean square radii of the cell
-
-Point scaled(double f, const Point& p) { return {f * p.x, f * p.y, f * p.z}; }
-Point plus(const Point& a, const Point& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-Point normalized(const Point& p) { return scaled(1 / std::sqrt(dot(p, p)), p); }
 
 template <class Body>
 void for_each(std::size_t n, const Body& body) {
@@ -125,15 +122,22 @@ class Minimizer {
     return lloyd_step();
   }
 
-  /// False if the energy does not fall.
+  /// Towards the centroids, less far if the energy does not fall. False if it does not fall at all.
   bool lloyd_step() {
     there_.generators.resize(n_);
-    for_each(n_,
-             [&](std::size_t i) { there_.generators[i] = centroid(here_.cells, i, here_.generators[i]); });
-    try_place(there_);
-    if (!(there_.energy < here_.energy)) return false;
-    std::swap(here_, there_);
-    return true;
+    double part = 1;
+    for (int trial = 0; trial < kTrials; ++trial, part /= 2) {
+      for_each(n_, [&](std::size_t i) {
+        const Point &g = here_.generators[i], c = centroid(here_.cells, i, g);
+        there_.generators[i] = part == 1 ? c : normalized(plus(g, scaled(part, minus(c, g))));
+      });
+      try_place(there_);
+      if (there_.energy < here_.energy) {
+        std::swap(here_, there_);
+        return true;
+      }
+    }
+    return false;
   }
 
   bool newton_step() {
@@ -188,33 +192,32 @@ class Minimizer {
     if (product > 0) state_.pairs.push_back(std::move(pair));
   }
 
-  /// -H gradient, at right angles to the generators (Nocedal 1980).
+  /// -H gradient, at right angles to the generators (Nocedal 1980). The last pair scales the initial metric.
   void set_direction() {
     direction_.resize(n_);
     for_each(n_, [&](std::size_t i) { direction_[i] = scaled(2, here_.cells.pull[i]); });
     const std::size_t count = state_.pairs.size();
     std::vector<double> product(count), share(count);
+    double scale = 1;
     for (std::size_t k = count; k-- > 0;) {
-      const auto& [step, change] = state_.pairs[k];
-      const auto sums = sum<2>(evaluator_, n_, [&, s = step.data(), c = change.data()](std::size_t i) {
-        return std::array<double, 2>{dot(s[i], c[i]), dot(s[i], direction_[i])};
+      const Point *const step = state_.pairs[k].step.data(), *const change = state_.pairs[k].change.data();
+      const auto sums = sum<3>(evaluator_, n_, [&](std::size_t i) {
+        return std::array<double, 3>{dot(step[i], change[i]), dot(step[i], direction_[i]),
+                                     dot(change[i], change[i]) / (2 * here_.cells.mass[i])};
       });
       product[k] = sums[0].value();
       share[k] = sums[1].value() / product[k];
-      for_each(n_, [&, c = change.data()](std::size_t i) {
-        direction_[i] = minus(direction_[i], scaled(share[k], c[i]));
-      });
+      if (k + 1 == count) scale = product[k] / sums[2].value();
+      for_each(n_, [&](std::size_t i) { direction_[i] = minus(direction_[i], scaled(share[k], change[i])); });
     }
-    for_each(n_,
-             [&](std::size_t i) { direction_[i] = scaled(1 / (2 * here_.cells.mass[i]), direction_[i]); });
+    for_each(
+        n_, [&](std::size_t i) { direction_[i] = scaled(scale / (2 * here_.cells.mass[i]), direction_[i]); });
     for (std::size_t k = 0; k < count; ++k) {
-      const auto& [step, change] = state_.pairs[k];
+      const Point *const step = state_.pairs[k].step.data(), *const change = state_.pairs[k].change.data();
       const double other =
-          sum_of(evaluator_, n_, [&, c = change.data()](std::size_t i) { return dot(c[i], direction_[i]); }) /
-          product[k];
-      for_each(n_, [&, s = step.data()](std::size_t i) {
-        direction_[i] = plus(direction_[i], scaled(share[k] - other, s[i]));
-      });
+          sum_of(evaluator_, n_, [&](std::size_t i) { return dot(change[i], direction_[i]); }) / product[k];
+      for_each(
+          n_, [&](std::size_t i) { direction_[i] = plus(direction_[i], scaled(share[k] - other, step[i])); });
     }
     for_each(n_, [&](std::size_t i) {
       const Point& g = here_.generators[i];
