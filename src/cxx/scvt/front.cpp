@@ -10,29 +10,21 @@
 #include "scvt/errors.h"
 #include "scvt/evaluator.h"
 #include "scvt/first_generators.h"
+#include "scvt/vectors.h"
 
 namespace pstripack::scvt {
 namespace {
 
-constexpr std::size_t kFewest = 1000;  ///< generators; for fewer a front is no better than chance
+constexpr std::size_t kFewest = 1000;            ///< generators; for fewer a front is no better than chance
 constexpr double kInCircle = 0.934172358962716;  ///< cosine of the circle in a face of an icosahedron
 constexpr double kSqrt3 = 1.7320508075688772;
 
 // Distances in units of the size; of two sizes the smaller one.
 constexpr double kTooNear = 0.75;  ///< no node so close to another
-constexpr double kLinked = 1.4;    ///< two nodes so close have an edge
+constexpr double kLinked = 1.3;    ///< two nodes so close have an edge
 constexpr double kCovered = 0.9;   ///< a place so close to a node needs no other
 
 constexpr double kSmallest = 4e-6, kLargest = 1;  ///< size
-
-/// y + f x
-Point along(const Point& y, double f, const Point& x) {
-  return {y.x + f * x.x, y.y + f * x.y, y.z + f * x.z};
-}
-Point normalized(const Point& p) {
-  const double f = 1 / std::sqrt(dot(p, p));
-  return {f * p.x, f * p.y, f * p.z};
-}
 
 /// Random places, about as many everywhere, and the areas they stand for.
 struct Samples {
@@ -78,7 +70,7 @@ Icosahedron::Icosahedron() {
     for (std::size_t j = 0; j < i; ++j)
       for (std::size_t k = 0; k < j; ++k)
         if (neighbours(i, j) && neighbours(j, k) && neighbours(k, i)) {
-          centre.push_back(normalized(along(along(corner[i], 1, corner[j]), 1, corner[k])));
+          centre.push_back(normalized(plus(plus(corner[i], corner[j]), corner[k])));
           corner_of.push_back(corner[i]);
         }
 }
@@ -198,8 +190,8 @@ class Front {
     const Node first{p, size_of(density)};
     if (grid_.has_near(first, kCovered)) return;
     add(first);
-    const Point d = normalized(along(q, -dot(p, q), p));
-    const Node second{normalized(along(p, first.size, d)), first.size};
+    const Point d = normalized(minus(q, scaled(dot(p, q), p)));
+    const Node second{normalized(plus(p, scaled(first.size, d))), first.size};
     if (!grid_.has_near(second, kTooNear)) add(second);
   }
 
@@ -262,11 +254,11 @@ Point Front::fitted(Node node) const {
       if (!are_linked(node, other)) continue;
       const Point d = minus(other.p, node.p);
       const double distance = std::sqrt(dot(d, d)), wanted = (node.size + other.size) / 2;
-      sum = along(sum, 1 - wanted / distance, d);
+      sum = plus(sum, scaled(1 - wanted / distance, d));
       ++count;
     }
     if (count < 3) break;  // the apex of an equilateral triangle fits
-    node.p = normalized(along(node.p, 2.0 / count, sum));
+    node.p = normalized(plus(node.p, scaled(2.0 / count, sum)));
   }
   return node.p;
 }
@@ -277,12 +269,12 @@ void Front::add(const Node& node) {
   apexes_.clear();
   for (const Node& other : near_) {
     if (!are_linked(node, other)) continue;
-    const Point middle = normalized(along(node.p, 1, other.p)), across = normalized(cross(node.p, other.p));
+    const Point middle = normalized(plus(node.p, other.p)), across = normalized(cross(node.p, other.p));
     const Point d = minus(node.p, other.p);
     const double size = (node.size + other.size) / 2, square = size * size;
     const double height = std::sqrt(std::max(square - dot(d, d) / 4, square / 4));
-    apexes_.push_back(normalized(along(middle, height, across)));
-    apexes_.push_back(normalized(along(middle, -height, across)));
+    apexes_.push_back(normalized(plus(middle, scaled(height, across))));
+    apexes_.push_back(normalized(minus(middle, scaled(height, across))));
   }
   values_.resize(apexes_.size());
   density_.at(apexes_.size(), apexes_.data(), values_.data());

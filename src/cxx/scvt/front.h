@@ -14,7 +14,7 @@
 //           moved to
 //      h  .        .  h        where the distances to all nodes around it differ least from h, and becomes a
 //      node:
-//       .            .         its edges to nodes up to 1.4 h away have new apexes.
+//       .            .         its edges to nodes up to 1.3 h away have new apexes.
 //     p ----- h ----- q
 //
 // So each face gets one crystal; crystals of neighbouring faces have the same orientation and meet along the
