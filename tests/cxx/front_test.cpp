@@ -43,26 +43,24 @@ const BumpDensity kBump(kCentre, 0.5, 0.17, 3);
 /// Of a tessellation's generators: what they and their neighbours say about it.
 struct Measures {
   double hexagons = 0;   ///< share of cells with six sides
-  double most_even = 0;  ///< least distance of neighbours, times density^(1/4), over the average of these
+  double most_even = 0;  ///< least distance of neighbours, times density^(1/4), over the median of these
 };
 
 Measures measures_of(const std::vector<Point>& generators, const Density& density) {
   std::vector<std::int32_t> list, lptr, lend;
   const Stars stars = triangulate(generators, list, lptr, lend);
   Measures m;
-  double sum = 0, least = 100, count = 0;
+  std::vector<double> lengths;
   for (std::size_t i = 0; i < stars.count; ++i) {
     m.hexagons += stars.end_of(i) - stars.begin_of(i) == 6;
     for (std::size_t j = stars.begin_of(i); j < stars.end_of(i); ++j) {
       const Point &p = generators[i], &q = generators[static_cast<std::size_t>(stars.neighbour[j]) - 1];
-      const double length = distance(p, q) * std::pow(std::max(density.at(p), density.at(q)), 0.25);
-      least = std::min(least, length);
-      sum += length;
-      ++count;
+      lengths.push_back(distance(p, q) * std::pow(std::max(density.at(p), density.at(q)), 0.25));
     }
   }
   m.hexagons /= static_cast<double>(stars.count);
-  m.most_even = least / (sum / count);
+  std::sort(lengths.begin(), lengths.end());
+  m.most_even = lengths.front() / lengths[lengths.size() / 2];
   return m;
 }
 
@@ -148,6 +146,9 @@ TEST(Front, FindsASmallFinePlace) {
   const auto found =
       std::count_if(points.begin(), points.end(), [](const Point& p) { return distance(p, kCentre) < 0.02; });
   EXPECT_NEAR(static_cast<double>(found) / n, inside / (inside + outside), 0.05);
+  const Measures measures = measures_of(points, spot);
+  EXPECT_GT(measures.hexagons, 0.85);
+  EXPECT_GT(measures.most_even, 0.5 / 100);  // along the jump either size is right
 }
 
 TEST(Front, EndsWhateverTheDensity) {
@@ -178,6 +179,17 @@ TEST(Front, TellsWhereTheDensityIsBad) {
       EXPECT_LT(distance(error.place, kCentre), 0.1);
     }
   }
+}
+
+TEST(Front, TellsOfABadDensityThatItMeetsOnItsWay) {
+  // A density breaks its promise: it is bad wherever few places are asked for at once.
+  class Deceptive final : public Density {
+   public:
+    void at(std::size_t n, const Point*, double* value) const override {
+      std::fill_n(value, n, n < 20 ? -1 : 1);
+    }
+  };
+  EXPECT_THROW(front_generators(1000, Deceptive()), BadDensity);
 }
 
 }  // namespace
