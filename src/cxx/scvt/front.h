@@ -8,27 +8,24 @@
 // The size h(p) = s density(p)^(-1/4) is the wanted distance of neighbours. The front begins with an edge at
 // each of the 20 face centres of an icosahedron and grows by apexes of equilateral triangles on edges:
 //
-//            apex              An apex nearer than 0.75 h to a node is no candidate (any more). Candidates
-//            come
-//           .    .             in the order of their distance to the nearest face centre. The next one is
-//           moved to
-//      h  .        .  h        where the distances to all nodes around it differ least from h, and becomes a
-//      node:
-//       .            .         its edges to nodes up to 1.3 h away have new apexes.
-//     p ----- h ----- q
+//            apex              An apex nearer than 0.75 h to a node is dropped.
+//           .    .             The apex nearest to a face centre comes next: it is
+//      h  .        .  h        moved to where the distances to the nodes around it
+//       .            .         differ least from h, and becomes a node. Its edges to
+//     p ----- h ----- q        nodes up to 1.3 h away have new apexes.
 //
 // So each face gets one crystal; crystals of neighbouring faces have the same orientation and meet along the
-// edges of the icosahedron with hardly a fault. The sphere's curvature has to be paid by at least 12 cells of
-// 5 sides, and for many generators by chains of 5-7 pairs (dislocations) that begin at these ("scars": Bausch
-// et al. 2003, Grain boundary scars and spherical crystallography). The order puts all of that round the 12
-// corners, which come last.
+// edges of the icosahedron with hardly a fault. On a sphere at least 12 cells have 5 sides, and for many
+// generators chains of 5-7 pairs (dislocations) begin at these ("scars": Bausch et al. 2003, Grain boundary
+// scars and spherical crystallography). The order puts them round the 12 corners, which come last. Where the
+// density has a small fine place that the front jumped over, another front begins.
 //
-//     6   6   6   6   6        There come a few more nodes than wanted. A dislocation is the end of a row of
-//     nodes
-//       6   6   6   6          (the cell of 5 sides): a node is taken from some of these rows, and nothing
-//       else
-//     6   6   5---7   6        changes. Removing any other node would leave a hole.
-//       6   6   6   6
+// How many nodes a front has is known within a percent beforehand, so it gets about sqrt(n) too many:
+//
+//     6   6   6   6   6        A row of nodes ends at a dislocation, in the cell of
+//       6   6   6   6          5 sides. That node is taken away from some rows: the
+//     6   6   5---7   6        row gets shorter, and there is no new defect. Any other
+//       6   6   6   6          node would leave a hole.
 
 #include <cstddef>
 #include <vector>
