@@ -31,25 +31,6 @@ class Random {
   std::uint64_t state_;
 };
 
-std::vector<double> values_at(const std::vector<Point>& points, const Density& density) {
-  std::vector<double> values(points.size());
-  density.at(points.size(), points.data(), values.data());
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (!(values[i] > 0 && std::isfinite(values[i]))) throw BadDensity(points[i], values[i]);
-  return values;
-}
-
-/// The points in the order of a space-filling curve.
-std::vector<Point> along_a_curve(const std::vector<Point>& points) {
-  Workspace workspace(16 * points.size() + (std::size_t{1} << 20));
-  std::vector<std::uint32_t> order(points.size());
-  insertion_order(points.data(), points.size(), order.data(), workspace);
-  std::vector<Point> sorted;
-  sorted.reserve(points.size());
-  for (const std::uint32_t i : order) sorted.push_back(points[i]);
-  return sorted;
-}
-
 /// A triangle of the sphere, small enough that its area is about that of the plane triangle.
 struct Patch {
   std::array<Point, 3> corner;
@@ -139,6 +120,24 @@ bool surround_the_sphere(const std::vector<Point>& points) {
 }
 
 }  // namespace
+
+std::vector<double> values_at(const std::vector<Point>& points, const Density& density) {
+  std::vector<double> values(points.size());
+  density.at(points.size(), points.data(), values.data());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!(values[i] > 0 && std::isfinite(values[i]))) throw BadDensity(points[i], values[i]);
+  return values;
+}
+
+std::vector<Point> along_a_curve(const std::vector<Point>& points) {
+  Workspace workspace(16 * points.size() + (std::size_t{1} << 20));
+  std::vector<std::uint32_t> order(points.size());
+  insertion_order(points.data(), points.size(), order.data(), workspace);
+  std::vector<Point> sorted;
+  sorted.reserve(points.size());
+  for (const std::uint32_t i : order) sorted.push_back(points[i]);
+  return sorted;
+}
 
 std::vector<Point> random_generators(std::size_t n, const Density& density, std::uint64_t seed) {
   if (n < 4) throw BadGenerators("a tessellation needs at least 4 generators, here are " + std::to_string(n));

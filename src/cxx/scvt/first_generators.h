@@ -27,4 +27,10 @@ std::vector<std::size_t> level_sizes(std::size_t n);
 std::vector<Point> refined(const std::vector<Point>& generators, const Stars& stars, const Density& density,
                            std::size_t n);
 
+/// The density at the points. Throws BadDensity.
+std::vector<double> values_at(const std::vector<Point>& points, const Density& density);
+
+/// The points in the order of a space-filling curve.
+std::vector<Point> along_a_curve(const std::vector<Point>& points);
+
 }  // namespace pstripack::scvt
