@@ -12,10 +12,6 @@ import time
 
 import numpy as np
 
-os.environ["PSTRIPACK_WARM_START"] = "0"  # read at the first call: equal nodes again and again would be too easy
-
-import pstripack  # noqa: E402
-
 
 class OwnCall:
     """pstripack_trmesh on columns and lists that are there already."""
@@ -51,6 +47,8 @@ def main():
     options.add_argument("--no-scipy", action="store_true", help="SciPy's diagram of 200,000 nodes takes long")
     given = options.parse_args()
     os.environ["OMP_NUM_THREADS"] = str(given.threads)
+    os.environ["PSTRIPACK_WARM_START"] = "0"  # equal nodes again and again would be too easy
+    import pstripack  # reads the environment
 
     points = np.random.default_rng(1).normal(size=(given.nodes, 3))
     points /= np.linalg.norm(points, axis=1)[:, np.newaxis]

@@ -1,6 +1,7 @@
 #pragma once
 // The triangulation behind the Python package, without Python. Nodes and triangles count from 0 except in the lists.
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <stdexcept>
@@ -16,6 +17,17 @@ namespace bindings {
 
 using pstripack::Buffer;
 using pstripack::Point;
+
+inline Point unit(const Point& p) {
+  const double length = std::hypot(p.x, p.y, p.z);
+  return {p.x / length, p.y / length, p.z / length};
+}
+
+/// Up to rounding.
+inline bool has_unit_length(const Point& p) { return std::fabs(dot(p, p) - 1) <= 1e-15; }
+
+/// The unit vector in the direction of p: p itself if it is one, so that a node's place is that node's.
+inline Point direction(const Point& p) { return has_unit_length(p) ? p : unit(p); }
 
 /// Why nodes have no triangulation, and which nodes are to blame.
 struct NoTriangulation : std::runtime_error {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/parallel_for.h"
+#include "files/measures.h"
 #include "geometry/insertion_order.h"
 #include "stripack/list_queries.h"
 #include "stripack/search.h"
@@ -18,13 +19,6 @@ using Reader = pstripack::ListReader<std::int32_t>;
 
 constexpr double kOnBorder = 1e-12;
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
-
-Point unit(const Point& p) {
-  const double length = std::hypot(p.x, p.y, p.z);
-  return {p.x / length, p.y / length, p.z / length};
-}
-
-double volume(const Point& a, const Point& b, const Point& c) { return dot(a, cross(minus(b, a), minus(c, a))); }
 
 }  // namespace
 
@@ -44,7 +38,7 @@ void Triangulation::visit_places(const Point* places, std::size_t count, const V
     Buffer<Point> known(part);
     for (std::size_t i = 0; i < part; ++i) {
       const Point& p = places[first + i];
-      known[i] = has_direction(p) ? unit(p) : Point{0, 0, 1};
+      known[i] = has_direction(p) ? direction(p) : Point{0, 0, 1};
     }
     Buffer<std::uint32_t> order(part);
     pstripack::Workspace workspace(16 * part);
@@ -154,7 +148,8 @@ Buffer<double> Triangulation::linear(const Point* places, std::size_t count, con
     Corners corners;
     if (!locate(place, near, corners)) return;
     const auto& [a, b, c] = corners.node;
-    double weight[3] = {volume(place, at(b), at(c)), volume(place, at(c), at(a)), volume(place, at(a), at(b))};
+    double weight[3] = {files::volume(place, at(b), at(c)), files::volume(place, at(c), at(a)),
+                        files::volume(place, at(a), at(b))};
     double sum = 0;
     for (double& w : weight) sum += w = std::max(w, 0.0);  // rounding may lead across an arc
     for (std::size_t k = 0; k < 3; ++k)  // a node, or a triangle that is hardly more than an arc

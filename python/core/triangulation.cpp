@@ -8,6 +8,7 @@
 
 #include "base/parallel_for.h"
 #include "capi/pstripack.h"
+#include "files/measures.h"
 #include "geometry/predicates.h"
 #include "lists/limits.h"
 #include "lists/rings.h"
@@ -22,11 +23,6 @@ using pstripack::parallel_pieces;
 using pstripack::threads_for;
 using Cause = NoTriangulation::Cause;
 using Reader = pstripack::ListReader<std::int32_t>;
-
-Point unit(const Point& p) {
-  const double length = std::hypot(p.x, p.y, p.z);
-  return {p.x / length, p.y / length, p.z / length};
-}
 
 /// Three nodes that are not on one great circle, chosen far from each other.
 template <class Node>
@@ -54,7 +50,7 @@ std::vector<std::size_t> three_corners(std::size_t n, const Node& node) {
 }
 
 NoTriangulation coincidence(std::size_t a, std::size_t b) {
-  const auto [first, second] = std::minmax(static_cast<std::int64_t>(a), static_cast<std::int64_t>(b));
+  const auto first = static_cast<std::int64_t>(std::min(a, b)), second = static_cast<std::int64_t>(std::max(a, b));
   return {Cause::coincident,
           "nodes " + std::to_string(first) + " and " + std::to_string(second) +
               " (counted from 0) point in the same direction: remove one of them",
@@ -195,26 +191,21 @@ void Triangulation::triangulate_in_another_order() {
   lnew_ = slot + 1;
 }
 
-/// The nodes as given where their lengths are 1 up to rounding.
 void Triangulation::make_directions() {
-  constexpr double rounding = 1e-15;
-  std::atomic<bool> are_unit{true};
+  std::atomic<bool> are_given{true};
   const int threads = threads_for(n_);
   parallel_pieces(n_, threads, [&](std::size_t begin, std::size_t end, int) {
     bool all = true;
-    for (std::size_t i = begin; i < end; ++i) {
-      const Point p = given(i);
-      all &= std::fabs(dot(p, p) - 1) <= rounding;
-    }
-    if (!all) are_unit = false;
+    for (std::size_t i = begin; i < end; ++i) all &= has_unit_length(given(i));
+    if (!all) are_given = false;
   });
   std::copy(given_, given_ + 3, direction_);
-  if (are_unit) return;
+  if (are_given) return;
   own_directions_ = Buffer<double>(3 * n_);
   for (std::size_t axis = 0; axis < 3; ++axis) direction_[axis] = own_directions_.data() + axis * n_;
   parallel_pieces(n_, threads, [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Point p = unit(given(i));
+      const Point p = direction(given(i));
       double* const column = own_directions_.data() + i;
       column[0] = p.x, column[n_] = p.y, column[2 * n_] = p.z;
     }
@@ -321,24 +312,11 @@ Buffer<Point> Triangulation::circumcentres(const std::int32_t* corners, std::siz
   return centres;
 }
 
-namespace {
-
-/// det(a,b,c), accurate for close vectors.
-double volume(const Point& a, const Point& b, const Point& c) { return dot(a, cross(minus(b, a), minus(c, a))); }
-
-/// Area of the spherical triangle; positive if it is counterclockwise (van Oosterom & Strackee 1983, with
-/// differences, which keep the digits of small triangles).
-double triangle_area(const Point& a, const Point& b, const Point& c) {
-  return 2 * std::atan2(volume(a, b, c), 1 + dot(a, b) + dot(b, c) + dot(c, a));
-}
-
-}  // namespace
-
 Buffer<double> Triangulation::triangle_areas(const std::int32_t* corners, std::size_t count) const {
   Buffer<double> areas(count);
   parallel_pieces(count, threads_for(count), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t t = begin; t < end; ++t)
-      areas[t] = triangle_area(at(corners[3 * t]), at(corners[3 * t + 1]), at(corners[3 * t + 2]));
+      areas[t] = files::triangle_area(at(corners[3 * t]), at(corners[3 * t + 1]), at(corners[3 * t + 2]));
   });
   return areas;
 }
@@ -428,7 +406,7 @@ Buffer<double> Triangulation::cell_areas(const Point* vertices, const std::int32
       } while (slot != lend_[k]);
       for (; i <= last; ++i) {  // of the far side, where neighbours are not listed
         const Point here = vertex(i);
-        area += triangle_area(p, before, here);
+        area += files::triangle_area(p, before, here);
         before = here;
       }
       areas[k] = area;
