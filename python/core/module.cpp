@@ -1,4 +1,5 @@
-// The module pstripack._core: NumPy arrays in and out. The package's documentation is that of the Python files.
+// The module pstripack._core: NumPy arrays in and out. The package's documentation is that of the Python
+// files.
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -102,7 +103,8 @@ struct Mesh {
   Mesh(py::array_t<double> nodes, int threads) : points(std::move(nodes)) {
     const std::size_t n = rows_of(points);
     constexpr auto size = static_cast<py::ssize_t>(sizeof(double));
-    if (n > 1 && points.strides(0) % size != 0) throw py::value_error("the rows of the array are not aligned");
+    if (n > 1 && points.strides(0) % size != 0)
+      throw py::value_error("the rows of the array are not aligned");
     bindings::Coordinates given{n, {}, points.strides(0) / size};
     for (py::ssize_t axis = 0; n > 0 && axis < 3; ++axis) given.axis[axis] = points.data(0, axis);
     triangulation = compute(threads, [&] { return std::make_unique<const Triangulation>(given); });
@@ -126,7 +128,8 @@ py::tuple lists(const Mesh& mesh) {
                         Array<std::int32_t>(n, view.lend), view.lnew);
 }
 
-/// While it lives, Python does not look for cycles: among many new lists there are none, and the search takes long.
+/// While it lives, Python does not look for cycles: among many new lists there are none, and the search takes
+/// long.
 class NoSearchForCycles {
  public:
   NoSearchForCycles() : gc_(py::module_::import("gc")), was_on_(gc_.attr("isenabled")().cast<bool>()) {
@@ -191,12 +194,12 @@ py::array boundary(const Mesh& mesh) {
 }
 
 py::tuple closest_pair(const Mesh& mesh, int threads) {
-  std::int64_t first = -1, second = -1;
-  const double distance = compute(threads, [&] { return mesh->closest_pair(first, second); });
-  return py::make_tuple(distance, first, second);
+  const bindings::ClosestPair pair = compute(threads, [&] { return mesh->closest_pair(); });
+  return py::make_tuple(pair.distance, pair.first, pair.second);
 }
 
-py::array find(const Mesh& mesh, const Array<double>& places, const Array<std::int32_t>& corners, int threads) {
+py::array find(const Mesh& mesh, const Array<double>& places, const Array<std::int32_t>& corners,
+               int threads) {
   const std::size_t count = rows_of(places), triangles = rows_of(corners);
   return array_of(
       compute(threads, [&] { return mesh->find(places_in(places), count, corners.data(), triangles); }));
@@ -224,15 +227,16 @@ py::array vectors(const Array<double>& lon, const Array<double>& lat, bool degre
   const auto n = static_cast<std::size_t>(lon.size());
   return array_of(compute(0, [&] {
     Buffer<Point> points(n);
-    pstripack::parallel_pieces(n, pstripack::threads_for(4 * n), [&](std::size_t begin, std::size_t end, int) {
-      for (std::size_t i = begin; i < end; ++i) {
-        const double x = lon.data()[i], y = lat.data()[i];
-        if (degrees && std::isfinite(x) && std::isfinite(y))
-          points[i] = point_sets::from_degrees(x, y);
-        else
-          points[i] = {std::cos(y) * std::cos(x), std::cos(y) * std::sin(x), std::sin(y)};
-      }
-    });
+    pstripack::parallel_pieces(
+        n, pstripack::threads_for(4 * n), [&](std::size_t begin, std::size_t end, int) {
+          for (std::size_t i = begin; i < end; ++i) {
+            const double x = lon.data()[i], y = lat.data()[i];
+            if (degrees && std::isfinite(x) && std::isfinite(y))
+              points[i] = point_sets::from_degrees(x, y);
+            else
+              points[i] = {std::cos(y) * std::cos(x), std::cos(y) * std::sin(x), std::sin(y)};
+          }
+        });
     return points;
   }));
 }
@@ -265,9 +269,10 @@ PYBIND11_MODULE(_core, m) {
       .def("triangles", &triangles)
       .def("opposite_triangles", &opposite_triangles)
       .def("lists", &lists)
-      .def("neighbours", [](const Mesh& mesh, int threads) {
-        return arrays_of(compute(threads, [&] { return mesh->neighbours(); }));
-      })
+      .def("neighbours",
+           [](const Mesh& mesh, int threads) {
+             return arrays_of(compute(threads, [&] { return mesh->neighbours(); }));
+           })
       .def("boundary", &boundary)
       .def("circumcentres", &circumcentres)
       .def("triangle_areas", &triangle_areas)

@@ -27,9 +27,9 @@ struct Triangulation::Corners {
   std::int32_t node[3];
 };
 
-/// Calls visit(i, place, near) for each place that has a direction: a unit vector, and a node near it, from 1, which
-/// visit may update. Places are visited along a curve on which neighbours are near each other. Searches start
-/// anew in each block of them, so results do not depend on the threads.
+/// Calls visit(i, place, near) for each place that has a direction: a unit vector, and a node near it, from
+/// 1, which visit may update. Places are visited along a curve on which neighbours are near each other.
+/// Searches start anew in each block of them, so results do not depend on the threads.
 template <class Visit>
 void Triangulation::visit_places(const Point* places, std::size_t count, const Visit& visit) const {
   constexpr std::size_t kBlock = 512, kMost = std::size_t{1} << 28;
@@ -44,15 +44,16 @@ void Triangulation::visit_places(const Point* places, std::size_t count, const V
     pstripack::Workspace workspace(16 * part);
     pstripack::insertion_order(known.data(), part, order.data(), workspace);
     const std::size_t blocks = (part + kBlock - 1) / kBlock;
-    pstripack::parallel_pieces(blocks, pstripack::threads_for(20 * part), [&](std::size_t begin, std::size_t end, int) {
-      for (std::size_t block = begin; block < end; ++block) {
-        std::int32_t near = 1;
-        for (std::size_t k = block * kBlock; k < std::min((block + 1) * kBlock, part); ++k) {
-          const std::size_t i = order[k];
-          if (has_direction(places[first + i])) visit(first + i, known[i], near);
-        }
-      }
-    });
+    pstripack::parallel_pieces(
+        blocks, pstripack::threads_for(20 * part), [&](std::size_t begin, std::size_t end, int) {
+          for (std::size_t block = begin; block < end; ++block) {
+            std::int32_t near = 1;
+            for (std::size_t k = block * kBlock; k < std::min((block + 1) * kBlock, part); ++k) {
+              const std::size_t i = order[k];
+              if (has_direction(places[first + i])) visit(first + i, known[i], near);
+            }
+          }
+        });
   }
 }
 
@@ -86,7 +87,8 @@ Buffer<std::int32_t> Triangulation::find(const Point* places, std::size_t count,
     Corners found;
     if (!locate(p, near, found)) return;
     const auto& [a, b, c] = found.node;
-    const Row* row = std::lower_bound(rows, rows + triangles, a, [](const Row& r, std::int32_t node) { return r.node[0] < node; });
+    const Row* row = std::lower_bound(rows, rows + triangles, a,
+                                      [](const Row& r, std::int32_t node) { return r.node[0] < node; });
     while (row < rows + triangles && row->node[0] == a && row->node[1] != b) ++row;
     if (row < rows + triangles && row->node[2] == c) result[i] = static_cast<std::int32_t>(row - rows);
   });
@@ -112,11 +114,12 @@ std::int32_t Triangulation::descend(const Point& p, std::int32_t node) const {
   }
 }
 
-// The segment from a node to p passes through the cells of nearer and nearer nodes, each a neighbour of the previous
-// one. Only if the nodes lie in a hemisphere can such neighbours, two nodes of the border, be missing from the lists;
-// their cells meet more than 90 degrees away from both. So the descent ends in the nearest node if it begins less than
-// 90 degrees away. If there is such a node, there is one on the border, since a node is a sum of positive multiples of
-// border nodes. For the same reason, if there is none, the nearest node is on the border.
+// The segment from a node to p passes through the cells of nearer and nearer nodes, each a neighbour of the
+// previous one. Only if the nodes lie in a hemisphere can such neighbours, two nodes of the border, be
+// missing from the lists; their cells meet more than 90 degrees away from both. So the descent ends in the
+// nearest node if it begins less than 90 degrees away. If there is such a node, there is one on the border,
+// since a node is a sum of positive multiples of border nodes. For the same reason, if there is none, the
+// nearest node is on the border.
 std::int32_t Triangulation::nearest(const Point& p, std::int32_t near) const {
   const std::int32_t node = descend(p, near);
   if (first_boundary_node_ == 0 || dot(at(node - 1), p) > 0) return node;
@@ -153,7 +156,8 @@ Buffer<double> Triangulation::linear(const Point* places, std::size_t count, con
     double sum = 0;
     for (double& w : weight) sum += w = std::max(w, 0.0);  // rounding may lead across an arc
     for (std::size_t k = 0; k < 3; ++k)  // a node, or a triangle that is hardly more than an arc
-      if (const std::int32_t node = corners.node[k]; at(node) == p || (sum == 0 && nearest(p, near) == node + 1)) {
+      if (const std::int32_t node = corners.node[k];
+          at(node) == p || (sum == 0 && nearest(p, near) == node + 1)) {
         std::fill(weight, weight + 3, 0.0);
         weight[k] = sum = 1;
       }

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <new>
 #include <numeric>
+#include <sstream>
 
 #include "base/parallel_for.h"
 #include "capi/pstripack.h"
@@ -50,7 +52,8 @@ std::vector<std::size_t> three_corners(std::size_t n, const Node& node) {
 }
 
 NoTriangulation coincidence(std::size_t a, std::size_t b) {
-  const auto first = static_cast<std::int64_t>(std::min(a, b)), second = static_cast<std::int64_t>(std::max(a, b));
+  const auto first = static_cast<std::int64_t>(std::min(a, b)),
+             second = static_cast<std::int64_t>(std::max(a, b));
   return {Cause::coincident,
           "nodes " + std::to_string(first) + " and " + std::to_string(second) +
               " (counted from 0) point in the same direction: remove one of them",
@@ -87,7 +90,8 @@ Triangulation::Triangulation(const Coordinates& given) : n_(given.n) {
     throw NoTriangulation(Cause::too_few, "a triangulation needs three nodes, not " + std::to_string(n_));
   constexpr auto most = static_cast<std::size_t>(pstripack::most_nodes<std::int32_t>());
   if (n_ > most)
-    throw NoTriangulation(Cause::too_many, std::to_string(n_) + " nodes are too many: at most " + std::to_string(most));
+    throw NoTriangulation(Cause::too_many,
+                          std::to_string(n_) + " nodes are too many: at most " + std::to_string(most));
   read(given);
   triangulate();
   make_directions();
@@ -123,11 +127,10 @@ void Triangulation::read(const Coordinates& given) {
   });
   if (const std::size_t bad = first_bad; bad < n_) {
     const Point p = this->given(bad);
-    throw NoTriangulation(Cause::bad_coordinate,
-                          "node " + std::to_string(bad) + " (counted from 0) is (" + std::to_string(p.x) + ", " +
-                              std::to_string(p.y) + ", " + std::to_string(p.z) +
-                              "): coordinates must be finite and not all zero",
-                          {static_cast<std::int64_t>(bad)});
+    std::ostringstream message;
+    message << "node " << bad << " (counted from 0) is (" << p.x << ", " << p.y << ", " << p.z
+            << "): coordinates must be finite and not all zero";
+    throw NoTriangulation(Cause::bad_coordinate, message.str(), {static_cast<std::int64_t>(bad)});
   }
 }
 
@@ -138,8 +141,8 @@ void Triangulation::triangulate() {
   lnew_ = lists.lnew;
 }
 
-/// Where the first three nodes lie on one great circle, which TRMESH refuses: with other nodes in front. The canonical
-/// lists, from those of the other order.
+/// Where the first three nodes lie on one great circle, which TRMESH refuses: with other nodes in front. The
+/// canonical lists, from those of the other order.
 void Triangulation::triangulate_in_another_order() {
   std::vector<std::int32_t> order(n_), place(n_);  // order[i]: the node in place i, and place its inverse
   std::iota(order.begin(), order.end(), 0);
@@ -230,10 +233,11 @@ Buffer<std::int32_t> Triangulation::triangles() const {
   Buffer<std::int32_t> corners(3 * (boundary_nodes > 0 ? 2 * n_ - 2 - boundary_nodes : 2 * n_ - 4));
   parallel_pieces(n_, threads, [&](std::size_t begin, std::size_t end, int piece) {
     std::int32_t* to = corners.data() + 3 * first[static_cast<std::size_t>(piece)];
-    rings.for_each_triangle<pairs>(begin, end, [&](std::int32_t a, std::int32_t b, std::int32_t c, auto, auto) {
-      to[0] = a - 1, to[1] = b - 1, to[2] = c - 1;
-      to += 3;
-    });
+    rings.for_each_triangle<pairs>(begin, end,
+                                   [&](std::int32_t a, std::int32_t b, std::int32_t c, auto, auto) {
+                                     to[0] = a - 1, to[1] = b - 1, to[2] = c - 1;
+                                     to += 3;
+                                   });
   });
   return corners;
 }
@@ -330,11 +334,12 @@ Cells Triangulation::cells() const {
   std::int32_t lnew = lnew_, nb = 0;
   const pstripack::VoronoiStatus status = pstripack::voronoi<double, std::int32_t>(
       {n_, list_.data(), lptr.data(), lend_.data(), lnew_}, nodes(),
-      {static_cast<std::int32_t>(boundary_nodes), lptr.data(), &lnew, far_side.data(), corner_of_slot.data(), &nb,
-       x.data(), y.data(), z.data(), radius.data()});
+      {static_cast<std::int32_t>(boundary_nodes), lptr.data(), &lnew, far_side.data(), corner_of_slot.data(),
+       &nb, x.data(), y.data(), z.data(), radius.data()});
   if (status == pstripack::VoronoiStatus::coincident_nodes)
     throw std::runtime_error("nodes are so close that a triangle has no circumcentre");
-  if (status != pstripack::VoronoiStatus::done) throw std::runtime_error("the nodes have changed since they were triangulated");
+  if (status != pstripack::VoronoiStatus::done)
+    throw std::runtime_error("the nodes have changed since they were triangulated");
 
   Cells cells;
   cells.vertices = Buffer<Point>(vertices);
@@ -357,8 +362,10 @@ namespace {
 
 /// The border between the cells of node p and its neighbour q: the area between p and a part of it.
 ///
-///        v        m is the middle of p and q. The border passes through it, and v lies on it at a signed angle t from
-///       /|        m. The angle at m is right, so tan(area of p m v / 2) = tan(pm/2) tan(t/2). Unlike by the triangle
+///        v        m is the middle of p and q. The border passes through it, and v lies on it at a signed
+///        angle t from
+///       /|        m. The angle at m is right, so tan(area of p m v / 2) = tan(pm/2) tan(t/2). Unlike by the
+///       triangle
 ///      p-m-q      of p and two vertices, areas are right also where these are opposite points of the sphere.
 ///
 class BesideBorder {
@@ -380,7 +387,7 @@ class BesideBorder {
 
  private:
   Point middle_, along_;  // m; along the border, to the left of p->q
-  double tangent_;     // of half the angle from p to m
+  double tangent_;        // of half the angle from p to m
 };
 
 }  // namespace
@@ -415,33 +422,30 @@ Buffer<double> Triangulation::cell_areas(const Point* vertices, const std::int32
   return areas;
 }
 
-double Triangulation::closest_pair(std::int64_t& first, std::int64_t& second) const {
-  double least = 4;
+ClosestPair Triangulation::closest_pair() const {
   const Reader reader(lists());
   const int threads = threads_for(n_);
-  struct Pair {
-    double square = 4;
-    std::int64_t a = -1, b = -1;
-  };
-  std::vector<Pair> found(static_cast<std::size_t>(threads));
+  std::vector<ClosestPair> closest(
+      static_cast<std::size_t>(threads));  // of each piece, by squares of distances
   parallel_pieces(n_, threads, [&](std::size_t begin, std::size_t end, int piece) {
-    Pair best;
+    ClosestPair best{std::numeric_limits<double>::infinity(), 0, 0};
     for (std::size_t k = begin; k < end; ++k) {
-      const Point p = at(static_cast<std::int32_t>(k));
+      const auto node = static_cast<std::int32_t>(k);
       std::int32_t slot = lend_[k];
       do {
         slot = reader.next(slot);
         const std::int32_t other = reader.neighbour(slot) - 1;
-        const Point d = minus(at(other), p);
-        if (const double square = dot(d, d); square < best.square)
-          best = {square, static_cast<std::int64_t>(k), other};
+        const Point d = minus(at(other), at(node));
+        if (dot(d, d) < best.distance) best = {dot(d, d), node, other};
       } while (slot != lend_[k]);
     }
-    found[static_cast<std::size_t>(piece)] = best;
+    closest[static_cast<std::size_t>(piece)] = best;
   });
-  for (const Pair& pair : found)
-    if (pair.a >= 0 && (pair.square < least || first < 0)) least = pair.square, first = pair.a, second = pair.b;
-  return std::sqrt(least);
+  ClosestPair best =
+      *std::min_element(closest.begin(), closest.end(),
+                        [](const ClosestPair& a, const ClosestPair& b) { return a.distance < b.distance; });
+  best.distance = std::sqrt(best.distance);
+  return best;
 }
 
 }  // namespace bindings

@@ -1,5 +1,6 @@
 #pragma once
-// The triangulation behind the Python package, without Python. Nodes and triangles count from 0 except in the lists.
+// The triangulation behind the Python package, without Python. Nodes and triangles count from 0 except in the
+// lists.
 
 #include <cmath>
 #include <cstddef>
@@ -49,6 +50,12 @@ struct Cells {
   Runs corners;            ///< of each cell, counterclockwise: vertices
 };
 
+/// The two nodes nearest to each other, and how far they are on the unit sphere, in a straight line.
+struct ClosestPair {
+  double distance;
+  std::int64_t first, second;
+};
+
 /// Coordinates of n nodes: x, y, z of node i are axis[0][i*stride], axis[1][i*stride], axis[2][i*stride].
 struct Coordinates {
   std::size_t n;
@@ -56,8 +63,8 @@ struct Coordinates {
   std::ptrdiff_t stride;
 };
 
-/// Members may be called by any number of threads at a time. They use OpenMP's number of threads of the calling
-/// thread, and throw std::bad_alloc.
+/// Members may be called by any number of threads at a time. They use OpenMP's number of threads of the
+/// calling thread, and throw std::bad_alloc.
 class Triangulation {
  public:
   /// Throws NoTriangulation. With stride 1 the coordinates are read in place and must outlive this.
@@ -84,21 +91,24 @@ class Triangulation {
   /// Where nodes lie in a hemisphere, the cells of boundary nodes share the rest of the sphere.
   Cells cells() const;
   /// Of cells() or a copy of its arrays.
-  Buffer<double> cell_areas(const Point* vertices, const std::int32_t* begin, const std::int32_t* corners) const;
-  /// The smallest distance between two nodes, scaled to the unit sphere, and which nodes these are.
-  double closest_pair(std::int64_t& first, std::int64_t& second) const;
+  Buffer<double> cell_areas(const Point* vertices, const std::int32_t* begin,
+                            const std::int32_t* corners) const;
+  ClosestPair closest_pair() const;
 
-  // Places are vectors of any length, results in their order. Places up to 1e-12 outside the triangles count as on
-  // their border.
+  // Places are vectors of any length, results in their order. Places up to 1e-12 outside the triangles count
+  // as on their border.
 
-  /// The triangle that contains each place, by its row in triangles(), which `corners` is; -1: none, or the place has no direction.
+  /// The triangle that contains each place, by its row in triangles(), which `corners` is; -1: none, or the
+  /// place has no direction.
   Buffer<std::int32_t> find(const Point* places, std::size_t count, const std::int32_t* corners,
                             std::size_t triangles) const;
   /// The nearest node; -1: the place has no direction.
   Buffer<std::int32_t> nearest(const Point* places, std::size_t count) const;
-  /// Values at the places, linear on triangles: barycentric coordinates of the point where the ray to the place meets
-  /// the plane of the corners. `values`: `columns` of each node, side by side; so are the results. NaN outside.
-  Buffer<double> linear(const Point* places, std::size_t count, const double* values, std::size_t columns) const;
+  /// Values at the places, linear on triangles: barycentric coordinates of the point where the ray to the
+  /// place meets the plane of the corners. `values`: `columns` of each node, side by side; so are the
+  /// results. NaN outside.
+  Buffer<double> linear(const Point* places, std::size_t count, const double* values,
+                        std::size_t columns) const;
 
  private:
   struct Corners;

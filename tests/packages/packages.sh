@@ -61,6 +61,10 @@ if grep -q '^PSTRIPACK_WITH_MPI:BOOL=ON' "$build/CMakeCache.txt"; then
     share/man/man1/pstripack-run.1.gz share/bash-completion/completions/pstripack-run
 fi
 has pstripack "libpstripack$soname \(= $version" mpi bin/pstripack bin/stripack-compare share/man/man1/pstripack.1.gz
+if [ -e "$build/python/pstripack" ]; then
+  has python3-pstripack "libpstripack$soname \(= $version.*python3-numpy" 'mpi|scipy' \
+    'lib/python3[^/]*/(dist|site)-packages/pstripack/_core\..*\.so' 'lib/python3[^/]*/(dist|site)-packages/pstripack/py\.typed'
+fi
 has pstripack-doc '^$' . share/doc/pstripack/README.md share/doc/pstripack/docs/relink.md \
   share/doc/pstripack/docs/clients/mpas.md share/doc/pstripack/examples/fortran77/mesh.f
 completions=share/bash-completion/completions
