@@ -1,29 +1,35 @@
 ! SCVT: generators of a spherical centroidal Voronoi tessellation by Lloyd's method.
 !
 ! Each iteration triangulates the generators (TRMESH), takes the circumcentres of the triangles as the
-! corners of the Voronoi cells (CRLIST), and moves every generator to the centroid of its cell. At the end
-! TRLIST lists the triangles.
+! corners of the Voronoi cells, and moves every generator to the centroid of its cell. At the end TRLIST
+! lists the triangles.
 !
 !   scvt [-n GENERATORS | -f FILE] [-i ITERATIONS] [-d uniform|bump] [-o PREFIX]
 !
-! Writes PREFIX_points.txt (x y z a line) and PREFIX_triangles.txt (three node numbers a line).
+! Writes PREFIX_points.txt (x y z a line) and PREFIX_triangles.txt (three node numbers a line), and prints
+! where the time went.
 
       program scvt
       implicit none
       integer, parameter :: dp = selected_real_kind(15), long = selected_int_kind(18)
       integer, parameter :: nrow = 9
+      real(dp), parameter :: pi = 3.14159265358979323846_dp
 
-      integer :: n, iterations, iteration, k, nt, nb, ier, lnew, lun, istat
-      integer :: ltri_of_crlist(6)
+! The parts of the program whose time is taken.
+      integer, parameter :: in_trmesh = 1, in_lists = 2, in_centroids = 3, in_output = 4
+      character(len=9), parameter :: part(4) = (/ 'trmesh   ', 'lists    ', 'centroids', 'output   ' /)
+
+      integer :: n, iterations, iteration, k, nt, ier, lnew, lun, istat
       character(len=256) :: generator_file, density_name, prefix
-      real(dp) :: energy, move, seconds
-      integer(long) :: clock_start, clock_end, clock_rate, clock_progress
+      logical :: uniform
+      real(dp) :: energy, move, seconds(4)
+      integer(long) :: clock, clock_rate, clock_progress
 
       real(dp), allocatable :: x(:), y(:), z(:), xnew(:), ynew(:), znew(:)
-      real(dp), allocatable :: xc(:), yc(:), zc(:), rc(:), dist(:)
-      integer, allocatable :: list(:), lptr(:), lend(:), listc(:), iwk(:), ltri(:,:)
+      real(dp), allocatable :: dist(:)
+      integer, allocatable :: list(:), lptr(:), lend(:), iwk(:), ltri(:,:)
 
-      external trmesh, trlist, crlist
+      external trmesh, trlist
 
       call read_arguments
       if (generator_file /= ' ') then
@@ -35,116 +41,161 @@
       if (n < 4) call fail('an SCVT needs at least 4 generators')
 
       allocate (xnew(n), ynew(n), znew(n), dist(n), iwk(2*n), lend(n))
-      allocate (list(6*n-12), lptr(6*n-12), listc(6*n-12))
-      allocate (xc(2*n-4), yc(2*n-4), zc(2*n-4), rc(2*n-4), ltri(nrow,2*n-4), stat=istat)
+      allocate (list(6*n-12), lptr(6*n-12), ltri(nrow,2*n-4), stat=istat)
       if (istat /= 0) call fail('out of memory')
 
       print '(a,i0,3a,i0)', 'SCVT: generators ', n, ', density ', trim(density_name), ', iterations ', iterations
       print '(a10,2a24)', 'iteration', 'energy', 'largest move'
 
       seconds = 0
-      call system_clock(clock_progress, clock_rate)
+      call system_clock(clock, clock_rate)
+      clock_progress = clock
       do iteration = 1, iterations
         call triangulate
-        call crlist(n, 1, x, y, z, list, lend, lptr, lnew, ltri_of_crlist, listc, nb, xc, yc, zc, rc, ier)
-        if (nb > 0) call fail('the generators lie in one hemisphere; an SCVT needs the whole sphere')
-        if (ier /= 0) call fail_with_code('crlist', ier)
-
-        energy = 0
+        call centroids(n, x, y, z, list, lptr, lend, xnew, ynew, znew, energy)
         move = 0
         do k = 1, n
-          call centroid_of_cell(k, xnew(k), ynew(k), znew(k), energy)
-          move = max(move, sqrt((xnew(k)-x(k))**2 + (ynew(k)-y(k))**2 + (znew(k)-z(k))**2))
+          move = max(move, (xnew(k)-x(k))**2 + (ynew(k)-y(k))**2 + (znew(k)-z(k))**2)
         end do
+        move = sqrt(move)
         x = xnew
         y = ynew
         z = znew
+        call time_goes_to(in_centroids)
         print '(i10,2es24.15)', iteration, energy, move
         call progress
+        call time_goes_to(in_output)
       end do
 
       call triangulate
       call trlist(n, list, lptr, lend, nrow, nt, ltri, ier)
       if (ier /= 0) call fail_with_code('trlist', ier)
+      call time_goes_to(in_lists)
       call write_mesh
-      print '(a,f12.6)', 'seconds in trmesh', seconds
+      call time_goes_to(in_output)
+      do k = 1, 4
+        print '(a,f12.6)', 'seconds in ' // part(k), seconds(k)
+      end do
       print '(a,i0,5a)', 'wrote ', nt, ' triangles: ', trim(prefix), '_points.txt and ', trim(prefix), '_triangles.txt'
 
       contains
 
 ! TRMESH with its workspace as legacy codes pass it: NEAR and NEXT are halves of one array.
       subroutine triangulate
-      call system_clock(clock_start, clock_rate)
       call trmesh(n, x, y, z, list, lptr, lend, lnew, iwk, iwk(n+1), dist, ier)
-      call system_clock(clock_end)
-      seconds = seconds + real(clock_end - clock_start, dp) / real(clock_rate, dp)
       if (ier == -2) call fail('the first three generators lie on one great circle; change their order')
       if (ier > 0) then
         write (0, '(a,i0,a)') 'scvt: generator ', ier, ' occurs twice'
         stop 1
       end if
       if (ier /= 0) call fail_with_code('trmesh', ier)
+      call time_goes_to(in_trmesh)
       end subroutine triangulate
 
-! The mass centroid of the Voronoi cell of generator k, back on the sphere; adds the cell's energy.
-! The cell is cut into triangles (generator, corner, next corner), each integrated by the midpoints of
-! its sides. The walk starts at the neighbour with the smallest number, so that the sums do not depend
-! on where the list of k happens to start.
-      subroutine centroid_of_cell(k, cx, cy, cz, energy)
-      integer, intent(in) :: k
-      real(dp), intent(out) :: cx, cy, cz
-      real(dp), intent(inout) :: energy
-      integer :: lp, lp_first, this, next, side
-      real(dp) :: g(3), a(3), b(3), c(3), p(3), s(3), mass, area, r
-      lp = lend(k)
-      lp_first = lp
-      do
-        lp = lptr(lp)
-        if (list(lp) < list(lp_first)) lp_first = lp
-        if (lp == lend(k)) exit
-      end do
+! Adds the time since the last call to that of a part of the program.
+      subroutine time_goes_to(i)
+      integer, intent(in) :: i
+      integer(long) :: now
+      call system_clock(now)
+      seconds(i) = seconds(i) + real(now - clock, dp) / real(clock_rate, dp)
+      clock = now
+      end subroutine time_goes_to
 
-      g = (/ x(k), y(k), z(k) /)
-      s = 0
-      lp = lp_first
-      do
-        this = listc(lp)
-        lp = lptr(lp)
-        next = listc(lp)
-        a = (/ xc(this), yc(this), zc(this) /)
-        b = (/ xc(next), yc(next), zc(next) /)
-        c = cross(a - g, b - g)
-        area = 0.5_dp * sqrt(c(1)**2 + c(2)**2 + c(3)**2)
-        do side = 1, 3
-          if (side == 1) p = 0.5_dp * (g + a)
-          if (side == 2) p = 0.5_dp * (a + b)
-          if (side == 3) p = 0.5_dp * (b + g)
-          mass = density(p) * area / 3
-          s = s + mass * p
-          energy = energy + mass * ((p(1)-g(1))**2 + (p(2)-g(2))**2 + (p(3)-g(3))**2)
+! The mass centroids of the Voronoi cells, back on the sphere, and the energy of all cells.
+!
+! The corners of the cell of generator g are the circumcentres of the triangles (g, neighbour e, next
+! neighbour f). The cell is cut into triangles (g, corner a, next corner b), each integrated by the midpoints
+! of its sides. e, f, a and b are seen from g, and s is the moment of the cell about g. The walk starts at
+! the neighbour with the smallest number, so that the sums do not depend on where the list of g happens to
+! start. Each circumcentre is computed at its three generators: CRLIST, which finds it again, takes longer.
+      subroutine centroids(n, x, y, z, list, lptr, lend, xnew, ynew, znew, energy)
+      integer, intent(in) :: n, list(*), lptr(*), lend(n)
+      real(dp), intent(in) :: x(n), y(n), z(n)
+      real(dp), intent(out) :: xnew(n), ynew(n), znew(n), energy
+      real(dp), parameter :: sixth = 1.0_dp / 6
+      integer :: i, j, k, lp, lp_first, corners
+      real(dp) :: xg, yg, zg, xe, ye, ze, xf, yf, zf, xa, ya, za, xb, yb, zb, xs, ys, zs
+      real(dp) :: mass, third, wa, wab, wb, r
+      energy = 0
+      do k = 1, n
+        lp = lend(k)
+        if (list(lp) < 0) call fail('the generators lie in one hemisphere; an SCVT needs the whole sphere')
+        lp_first = lp
+        corners = 1
+        do
+          lp = lptr(lp)
+          if (lp == lend(k)) exit
+          if (list(lp) < list(lp_first)) lp_first = lp
+          corners = corners + 1
         end do
-        if (lp == lp_first) exit
-      end do
-      r = sqrt(s(1)**2 + s(2)**2 + s(3)**2)
-      cx = s(1) / r
-      cy = s(2) / r
-      cz = s(3) / r
-      end subroutine centroid_of_cell
 
-      function cross(a, b) result(c)
-      real(dp), intent(in) :: a(3), b(3)
-      real(dp) :: c(3)
-      c = (/ a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1) /)
-      end function cross
+        xg = x(k)
+        yg = y(k)
+        zg = z(k)
+        lp = lp_first
+        j = list(lp)
+        xf = x(j) - xg
+        yf = y(j) - yg
+        zf = z(j) - zg
+        xb = 0
+        yb = 0
+        zb = 0
+        wb = 0
+        xs = 0
+        ys = 0
+        zs = 0
+        mass = 0
+! The first step (i = 0) has the first corner as b, and no triangle yet.
+        do i = 0, corners
+          xa = xb
+          ya = yb
+          za = zb
+          wa = wb
+          xe = xf
+          ye = yf
+          ze = zf
+          lp = lptr(lp)
+          j = list(lp)
+          xf = x(j) - xg
+          yf = y(j) - yg
+          zf = z(j) - zg
+          xb = ye*zf - ze*yf
+          yb = ze*xf - xe*zf
+          zb = xe*yf - ye*xf
+          r = 1 / sqrt(xb**2 + yb**2 + zb**2)
+          xb = xb*r - xg
+          yb = yb*r - yg
+          zb = zb*r - zg
+          wb = density(xg + 0.5_dp*xb, yg + 0.5_dp*yb, zg + 0.5_dp*zb)
+          if (i == 0) cycle
+          wab = density(xg + 0.5_dp*(xa+xb), yg + 0.5_dp*(ya+yb), zg + 0.5_dp*(za+zb))
+! A third of the triangle's area.
+          third = sixth * sqrt((ya*zb - za*yb)**2 + (za*xb - xa*zb)**2 + (xa*yb - ya*xb)**2)
+          mass = mass + third * (wa + wab + wb)
+          xs = xs + third * (wa*xa + wab*(xa+xb) + wb*xb)
+          ys = ys + third * (wa*ya + wab*(ya+yb) + wb*yb)
+          zs = zs + third * (wa*za + wab*(za+zb) + wb*zb)
+          energy = energy + 0.25_dp * third * (wa * (xa**2 + ya**2 + za**2) + wb * (xb**2 + yb**2 + zb**2) &
+                 + wab * ((xa+xb)**2 + (ya+yb)**2 + (za+zb)**2))
+        end do
+        xs = mass*xg + 0.5_dp*xs
+        ys = mass*yg + 0.5_dp*ys
+        zs = mass*zg + 0.5_dp*zs
+        r = 1 / sqrt(xs**2 + ys**2 + zs**2)
+        xnew(k) = xs*r
+        ynew(k) = ys*r
+        znew(k) = zs*r
+      end do
+      end subroutine centroids
 
 ! uniform: 1. bump: fine around longitude 0, latitude 30 degrees (mesh width 1/3 of that elsewhere).
-      function density(p) result(rho)
-      real(dp), intent(in) :: p(3)
-      real(dp) :: rho, distance, pi
+      function density(x, y, z) result(rho)
+      real(dp), intent(in) :: x, y, z
+      real(dp), parameter :: cos_latitude = 0.86602540378443864676_dp, sin_latitude = 0.5_dp
+      real(dp) :: rho, distance
       rho = 1
-      if (density_name == 'uniform') return
-      pi = acos(-1.0_dp)
-      distance = acos(min(1.0_dp, (p(1)*cos(pi/6) + p(3)*sin(pi/6)) / sqrt(p(1)**2 + p(2)**2 + p(3)**2)))
+      if (uniform) return
+      distance = acos(min(1.0_dp, (x*cos_latitude + z*sin_latitude) / sqrt(x**2 + y**2 + z**2)))
       rho = (1 + 2 * 0.5_dp * (1 + tanh((pi/6 - distance) / (pi/18))))**4
       end function density
 
@@ -155,8 +206,8 @@
       real(dp) :: longitude, r
       seed = 42
       do k = 1, n
-        z(k) = 2 * uniform(seed) - 1
-        longitude = 2 * acos(-1.0_dp) * uniform(seed)
+        z(k) = 2 * random(seed) - 1
+        longitude = 2 * pi * random(seed)
         r = sqrt((1 - z(k)) * (1 + z(k)))
         x(k) = r * cos(longitude)
         y(k) = r * sin(longitude)
@@ -164,12 +215,12 @@
       end subroutine make_generators
 
 ! Park and Miller: seed = 16807 seed mod 2**31-1.
-      function uniform(seed) result(u)
+      function random(seed) result(u)
       integer(long), intent(inout) :: seed
       real(dp) :: u
       seed = mod(16807_long * seed, 2147483647_long)
       u = real(seed, dp) / 2147483647.0_dp
-      end function uniform
+      end function random
 
       subroutine read_generators
       character(len=512) :: line
@@ -227,7 +278,7 @@
       call system_clock(now, clock_rate)
       if (now - clock_progress < 10 * clock_rate) return
       clock_progress = now
-      write (0, '(a,i0,a,i0,a,f8.1,a)') 'scvt: ', iteration, ' of ', iterations, ' iterations done,', seconds, &
+      write (0, '(a,i0,a,i0,a,f8.1,a)') 'scvt: ', iteration, ' of ', iterations, ' iterations done,', seconds(in_trmesh), &
             ' s in trmesh'
       end subroutine progress
 
@@ -262,7 +313,8 @@
       end do
       if (n < 4) call fail('-n must be at least 4')
       if (iterations < 0) call fail('-i must not be negative')
-      if (density_name /= 'uniform' .and. density_name /= 'bump') &
+      uniform = density_name == 'uniform'
+      if (.not. uniform .and. density_name /= 'bump') &
         call fail('unknown density ' // trim(density_name) // ': uniform or bump')
       end subroutine read_arguments
 

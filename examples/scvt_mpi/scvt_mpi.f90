@@ -8,12 +8,12 @@
 !   mpirun -n RANKS scvt_mpi [-n GENERATORS | -f FILE] [-i ITERATIONS] [-d uniform|bump] [-o PREFIX]
 !
 ! Writes PREFIX_points.txt (x y z a line) and PREFIX_triangles.txt (three node numbers a line): the mesh of
-! scvt_legacy, and the same digits for any number of ranks.
+! scvt_legacy, and the same digits for any number of ranks. Prints where the time of the slowest rank went.
 program scvt_mpi
   use, intrinsic :: iso_fortran_env, only: dp => real64, int32, int64
   use mpi_f08
   use pstripack_mpi, only: pstripack_mesh, pstripack_coincident
-  use stripack, only: circum, trlist2
+  use stripack, only: trlist2
   implicit none
 
   integer, parameter :: most_generators = 357913943  ! the lists that rank 0 gathers have 32-bit integers
@@ -22,8 +22,15 @@ program scvt_mpi
   integer :: rank, ranks, n, iterations, iteration
   character(len=256) :: generator_file, density_name, prefix
   character(len=512) :: problem = ' '  ! what rank 0 found wrong
-  real(dp) :: energy, move, seconds = 0, last_progress
+  logical :: uniform  ! the density
+  real(dp) :: energy, move, last_progress
   integer(int64) :: migrated
+
+  ! The parts of the program whose time is taken. A rank that waits for another one spends the time in its own part.
+  integer, parameter :: in_triangulate = 1, in_lists = 2, in_centroids = 3, in_migration = 4, in_output = 5
+  character(len=*), parameter :: part(5) = [character(len=11) :: 'triangulate', 'lists', 'centroids', 'migration', &
+                                            'output']
+  real(dp) :: seconds(5) = 0, clock
 
   ! This rank's generators: global number and place. They change as generators come and go.
   integer(int64), allocatable :: number(:)
@@ -40,7 +47,6 @@ program scvt_mpi
   call MPI_Comm_size(comm, ranks)
   call MPI_Type_contiguous(3, MPI_DOUBLE_PRECISION, point)
   call MPI_Type_commit(point)
-  last_progress = MPI_Wtime()
 
   call read_arguments
   if (generator_file /= ' ') then
@@ -55,6 +61,8 @@ program scvt_mpi
   end if
 
   call create_mesh
+  clock = MPI_Wtime()
+  last_progress = clock
   call triangulate
   call migrate(migrated)  ! from blocks of numbers to neighbourhoods
   do iteration = 1, iterations
@@ -64,6 +72,7 @@ program scvt_mpi
     ! The order in which the ranks' energies are added is MPI's business: fewer digits.
     if (rank == 0) print '(i10,es24.11,es24.15,i24)', iteration, energy, move, migrated
     call progress
+    call time_goes_to(in_output)
   end do
   call triangulate
   call write_mesh
@@ -84,11 +93,9 @@ contains
   subroutine triangulate
     integer(int32) :: ier
     integer(int64) :: first, second
-    real(dp) :: start
     character(len=80) :: message
-    start = MPI_Wtime()
     call mesh%triangulate(xyz, number, ier)
-    seconds = seconds + MPI_Wtime() - start
+    call time_goes_to(in_triangulate)
     if (ier == -2) call fail('the generators lie on one great circle')
     if (ier == pstripack_coincident) then
       call mesh%error_points(first, second)
@@ -97,6 +104,15 @@ contains
     end if
     if (ier /= 0) call fail_with_code('triangulate', ier)
   end subroutine triangulate
+
+  ! Adds the time since the last call to that of a part of the program.
+  subroutine time_goes_to(i)
+    integer, intent(in) :: i
+    real(dp) :: now
+    now = MPI_Wtime()
+    seconds(i) = seconds(i) + now - clock
+    clock = now
+  end subroutine time_goes_to
 
   ! Moves each generator of this rank to the mass centroid of its cell.
   subroutine move_to_centroids(energy, move)
@@ -117,6 +133,7 @@ contains
     call check(ier == 0, 'out of memory')
     ! A neighbour with a minus sign is the last one of a node of the boundary.
     call check(all(neighbour > 0), 'the generators lie in one hemisphere; an SCVT needs the whole sphere')
+    call time_goes_to(in_lists)
 
     energy = 0
     move = 0
@@ -128,57 +145,61 @@ contains
     end do
     call MPI_Allreduce(MPI_IN_PLACE, energy, 1, MPI_DOUBLE_PRECISION, MPI_SUM, comm)
     call MPI_Allreduce(MPI_IN_PLACE, move, 1, MPI_DOUBLE_PRECISION, MPI_MAX, comm)
+    call time_goes_to(in_centroids)
   end subroutine move_to_centroids
 
   ! The mass centroid of the Voronoi cell of generator k (a local number), back on the sphere; adds the cell's
-  ! energy. `ring` are the neighbours, counterclockwise. The cell is cut into triangles (generator, corner,
-  ! next corner), each integrated by the midpoints of its sides. The walk starts at the neighbour with the
-  ! smallest global number: local ones depend on the number of ranks, and the rounding of the sums would, too.
+  ! energy. `ring` are the neighbours, counterclockwise. The corners of the cell are the circumcentres of the
+  ! triangles (k, neighbour, next neighbour). The cell is cut into triangles (k, corner a, next corner b), each
+  ! integrated by the midpoints of its sides; e, f, a, b and the moment s are seen from k. The walk starts at the
+  ! neighbour with the smallest global number: local ones depend on the number of ranks, and the rounding of the
+  ! sums would, too.
   subroutine centroid_of_cell(k, ring, centroid, energy)
     integer(int32), intent(in) :: k, ring(0:)
     real(dp), intent(out) :: centroid(3)
     real(dp), intent(inout) :: energy
-    integer :: first, step, side, degree
-    real(dp) :: g(3), a(3), b(3), c(3), p(3), s(3), mass, area
+    real(dp), parameter :: sixth = 1.0_dp/6
+    integer :: first, step, degree
+    real(dp) :: g(3), e(3), f(3), a(3), b(3), s(3), mass, third, wa, wab, wb
     degree = size(ring)
     first = minloc(local_number(ring), dim=1) - 1
 
     g = local_xyz(:, k)
+    e = local_xyz(:, ring(first)) - g
+    f = local_xyz(:, ring(modulo(first + 1, degree))) - g
+    b = circumcentre(e, f) - g
+    wb = density(g + 0.5_dp*b)
+    mass = 0
     s = 0
-    b = circumcentre(k, ring(first), ring(modulo(first + 1, degree)))
     do step = first + 1, first + degree
       a = b
-      b = circumcentre(k, ring(modulo(step, degree)), ring(modulo(step + 1, degree)))
-      c = cross(a - g, b - g)
-      area = 0.5_dp*sqrt(c(1)**2 + c(2)**2 + c(3)**2)
-      do side = 1, 3
-        if (side == 1) p = 0.5_dp*(g + a)
-        if (side == 2) p = 0.5_dp*(a + b)
-        if (side == 3) p = 0.5_dp*(b + g)
-        mass = density(p)*area/3
-        s = s + mass*p
-        energy = energy + mass*((p(1) - g(1))**2 + (p(2) - g(2))**2 + (p(3) - g(3))**2)
-      end do
+      wa = wb
+      e = f
+      f = local_xyz(:, ring(modulo(step + 1, degree))) - g
+      b = circumcentre(e, f) - g
+      wb = density(g + 0.5_dp*b)
+      wab = density(g + 0.5_dp*(a + b))
+      third = sixth*sqrt(square(cross(a, b)))  ! of the triangle's area
+      mass = mass + third*(wa + wab + wb)
+      s = s + third*(wa*a + wab*(a + b) + wb*b)
+      energy = energy + 0.25_dp*third*(wa*square(a) + wab*square(a + b) + wb*square(b))
     end do
-    centroid = s/sqrt(s(1)**2 + s(2)**2 + s(3)**2)
+    s = mass*g + 0.5_dp*s
+    centroid = s*(1/sqrt(square(s)))
   end subroutine centroid_of_cell
 
-  ! Of the counterclockwise triangle (i, j, k). The corner with the smallest global number goes first, as in
-  ! CRLIST: all ranks that need this triangle get the same digits.
-  function circumcentre(i, j, k) result(centre)
-    integer(int32), intent(in) :: i, j, k
+  ! Of the counterclockwise triangle (g, g + e, g + f).
+  pure function circumcentre(e, f) result(centre)
+    real(dp), intent(in) :: e(3), f(3)
     real(dp) :: centre(3)
-    integer(int32) :: t(0:2)
-    integer :: smallest, ier
-    character(len=120) :: message
-    t = [i, j, k]
-    smallest = minloc(local_number(t), dim=1) - 1
-    t = [t(smallest), t(modulo(smallest + 1, 3)), t(modulo(smallest + 2, 3))]
-    call circum(local_xyz(:, t(0)), local_xyz(:, t(1)), local_xyz(:, t(2)), centre, ier)
-    if (ier == 0) return
-    write (message, '(a,3(1x,i0))') 'generators too close together:', local_number(t)
-    call stop_at_once(message)
+    centre = cross(e, f)
+    centre = centre*(1/sqrt(square(centre)))
   end function circumcentre
+
+  pure real(dp) function square(a)
+    real(dp), intent(in) :: a(3)
+    square = a(1)**2 + a(2)**2 + a(3)**2
+  end function square
 
   pure function cross(a, b) result(c)
     real(dp), intent(in) :: a(3), b(3)
@@ -187,13 +208,13 @@ contains
   end function cross
 
   ! uniform: 1. bump: fine around longitude 0, latitude 30 degrees (mesh width 1/3 of that elsewhere).
-  function density(p) result(rho)
+  pure function density(p) result(rho)
     real(dp), intent(in) :: p(3)
-    real(dp) :: rho, distance, pi
+    real(dp), parameter :: pi = 3.14159265358979323846_dp, centre(3) = [0.86602540378443864676_dp, 0.0_dp, 0.5_dp]
+    real(dp) :: rho, distance
     rho = 1
-    if (density_name == 'uniform') return
-    pi = acos(-1.0_dp)
-    distance = acos(min(1.0_dp, (p(1)*cos(pi/6) + p(3)*sin(pi/6))/sqrt(p(1)**2 + p(2)**2 + p(3)**2)))
+    if (uniform) return
+    distance = acos(min(1.0_dp, (p(1)*centre(1) + p(3)*centre(3))/sqrt(p(1)**2 + p(2)**2 + p(3)**2)))
     rho = (1 + 2*0.5_dp*(1 + tanh((pi/6 - distance)/(pi/18))))**4
   end function density
 
@@ -217,7 +238,10 @@ contains
     end do
     migrated = sum(send_count)
     call MPI_Allreduce(MPI_IN_PLACE, migrated, 1, MPI_INTEGER8, MPI_SUM, comm)
-    if (migrated == 0) return
+    if (migrated == 0) then
+      call time_goes_to(in_migration)
+      return
+    end if
     call MPI_Alltoall(send_count, 1, MPI_INTEGER, count, 1, MPI_INTEGER, comm)
     send_start = starts(send_count)
     start = starts(count)
@@ -246,6 +270,7 @@ contains
     call MPI_Alltoallv(xyz_out, send_count, send_start, point, xyz_in, count, start + stay, point, comm)
     call move_alloc(number_in, number)
     call move_alloc(xyz_in, xyz)
+    call time_goes_to(in_migration)
   end subroutine migrate
 
   ! Where each rank's items start, from 0, if those of all ranks follow each other.
@@ -281,8 +306,8 @@ contains
     call allocate_block
     seed = 42
     do k = 1, first_of_block(rank + 1) - 1
-      z = 2*uniform(seed) - 1
-      longitude = 2*acos(-1.0_dp)*uniform(seed)
+      z = 2*random(seed) - 1
+      longitude = 2*acos(-1.0_dp)*random(seed)
       own = k - first_of_block(rank) + 1
       if (own < 1) cycle
       r = sqrt((1 - z)*(1 + z))
@@ -291,12 +316,12 @@ contains
   end subroutine make_generators
 
   ! Park and Miller: seed = 16807 seed mod 2**31-1. Not pure: it must be called once for each draw.
-  function uniform(seed) result(u)
+  function random(seed) result(u)
     integer(int64), intent(inout) :: seed
     real(dp) :: u
     seed = mod(16807_int64*seed, 2147483647_int64)
     u = real(seed, dp)/2147483647.0_dp
-  end function uniform
+  end function random
 
   ! Rank 0 reads the file twice: to check and count it, and to send each rank its block.
   subroutine read_generators
@@ -366,7 +391,7 @@ contains
     integer, allocatable :: list(:), lptr(:), lend(:), ltri(:, :)
     real(dp), allocatable :: all_xyz(:, :)
     integer :: lnew, nt, ier, status, file, k, room
-    real(dp) :: longest
+    real(dp) :: longest(size(seconds))
 
     room = merge(n, 0, rank == 0)
     allocate (list(6*room), lptr(6*room), lend(room), ltri(3, 2*room), all_xyz(3, room), stat=status)
@@ -374,10 +399,11 @@ contains
     call gather_points(all_xyz)
     call mesh%gather(0, list, lptr, lend, lnew, ier)
     if (ier /= 0) call fail_with_code('gather', ier)
-    call MPI_Reduce(seconds, longest, 1, MPI_DOUBLE_PRECISION, MPI_MAX, 0, comm)
+    call time_goes_to(in_lists)
     if (rank == 0) then
       call trlist2(n, list, lptr, lend, nt, ltri, ier)
       if (ier /= 0) write (problem, '(a,i0)') 'trlist2 returned IER = ', ier
+      call time_goes_to(in_lists)
       if (problem == ' ') call create('_points.txt', file)
       if (problem == ' ') then
         do k = 1, n
@@ -391,12 +417,18 @@ contains
           write (file, '(3(1x,i0))') ltri(:, k)
         end do
         close (file)
-        print '(a,f12.6)', 'seconds in triangulate', longest
-        print '(a,i0,5a)', 'wrote ', nt, ' triangles: ', trim(prefix), '_points.txt and ', trim(prefix), &
-          '_triangles.txt'
       end if
     end if
     call fail_if_problem
+    call time_goes_to(in_output)
+    call MPI_Reduce(seconds, longest, size(seconds), MPI_DOUBLE_PRECISION, MPI_MAX, 0, comm)
+    if (rank == 0) then
+      do k = 1, size(part)
+        print '(a,f12.6)', 'seconds in '//part(k), longest(k)
+      end do
+      print '(a,i0,5a)', 'wrote ', nt, ' triangles: ', trim(prefix), '_points.txt and ', trim(prefix), &
+        '_triangles.txt'
+    end if
   end subroutine write_mesh
 
   ! All generators on rank 0, by number.
@@ -427,7 +459,7 @@ contains
     now = MPI_Wtime()
     if (rank /= 0 .or. now - last_progress < 10) return
     last_progress = now
-    write (0, '(a,i0,a,i0,a,f8.1,a)') 'scvt_mpi: ', iteration, ' of ', iterations, ' iterations done,', seconds, &
+    write (0, '(a,i0,a,i0,a,f8.1,a)') 'scvt_mpi: ', iteration, ' of ', iterations, ' iterations done,', seconds(in_triangulate), &
       ' s in triangulate'
   end subroutine progress
 
@@ -464,7 +496,8 @@ contains
     if (n < 4) call fail('-n must be at least 4')
     if (n > most_generators) call fail('too many generators for the lists of one rank')
     if (iterations < 0) call fail('-i must not be negative')
-    if (density_name /= 'uniform' .and. density_name /= 'bump') &
+    uniform = density_name == 'uniform'
+    if (.not. uniform .and. density_name /= 'bump') &
       call fail('unknown density '//trim(density_name)//': uniform or bump')
   end subroutine read_arguments
 

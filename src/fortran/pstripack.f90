@@ -2,12 +2,21 @@
 !>
 !> Nodes count from 1. Nothing here is collective; any number of threads may call at once.
 module pstripack
-  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_float, c_int32_t, c_int64_t, c_null_char, c_ptr, c_size_t
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_f_pointer, c_float, c_funloc, c_funptr, c_int32_t, &
+    c_int64_t, c_loc, c_null_char, c_null_funptr, c_null_ptr, c_ptr, c_size_t, c_sizeof
   implicit none
   private
   public :: pstripack_version, pstripack_strerror, pstripack_trmesh, pstripack_validate, pstripack_fingerprint
   public :: pstripack_ok, pstripack_too_few_nodes, pstripack_collinear, pstripack_too_many_nodes, &
             pstripack_bad_coordinate, pstripack_out_of_memory, pstripack_bad_size
+  ! Centroidal tessellations.
+  public :: pstripack_scvt, pstripack_scvt_step, pstripack_density, pstripack_progress
+  public :: pstripack_scvt_options, pstripack_scvt_result, pstripack_scvt_progress
+  public :: pstripack_scvt_levels, pstripack_scvt_random, pstripack_scvt_given, pstripack_scvt_newton, &
+            pstripack_scvt_lloyd, pstripack_scvt_converged, pstripack_scvt_evaluations, pstripack_scvt_stopped, &
+            pstripack_scvt_stalled
+  public :: pstripack_scvt_coincident, pstripack_bad_density, pstripack_hemisphere, pstripack_bad_lists, &
+            pstripack_bad_option
 
   ! !> Results of pstripack_trmesh. Any other is L > 0: nodes L and M > L coincide, M the smallest such.
   integer(c_int32_t), parameter :: pstripack_ok = 0, &
@@ -17,6 +26,98 @@ module pstripack
     pstripack_bad_coordinate = -5, &  !< a coordinate is not finite, or a vector is zero
     pstripack_out_of_memory = -6, &
     pstripack_bad_size = -100         !< arrays of different sizes, or too short; of this module alone
+
+  ! !> Further results of pstripack_scvt and pstripack_scvt_step.
+  integer(c_int32_t), parameter :: &
+    pstripack_scvt_coincident = -9, &  !< two generators in the same direction
+    pstripack_bad_density = -11, &     !< the density is not positive, or not finite, at some place
+    pstripack_hemisphere = -12, &      !< the generators lie in one hemisphere
+    pstripack_bad_lists = -13, &       !< not the lists of a triangulation of the sphere by the generators
+    pstripack_bad_option = -14         !< an option has no such value
+
+  !> Components of pstripack_scvt_options and pstripack_scvt_result.
+  integer(c_int32_t), parameter :: &
+    pstripack_scvt_levels = 0, &       !< start: few random generators, refined level by level
+    pstripack_scvt_random = 1, &       !< start: as many random generators as wanted
+    pstripack_scvt_given = 2, &        !< start: the generators passed in
+    pstripack_scvt_newton = 0, &       !< method: quasi-Newton (L-BFGS)
+    pstripack_scvt_lloyd = 1, &        !< method: each generator moves to the centroid of its cell
+    pstripack_scvt_converged = 0, &    !< reason
+    pstripack_scvt_evaluations = 1, &  !< reason: as many evaluations as allowed
+    pstripack_scvt_stopped = 2, &      !< reason: by the progress procedure
+    pstripack_scvt_stalled = 3         !< reason: the energy falls no further: rounding, or a density with jumps
+
+  !> How pstripack_scvt works.
+  type :: pstripack_scvt_options
+    integer(c_int32_t) :: start = pstripack_scvt_levels
+    integer(c_int32_t) :: method = pstripack_scvt_newton
+    real(c_double) :: tolerance = 1e-5_c_double        !< of the gradient
+    integer(c_int64_t) :: most_evaluations = 100000    !< on each level
+    integer(c_int64_t) :: seed = 1                     !< of the random generators
+    !> False: the density is called by the calling thread alone, which does the integrals. True: by any number
+    !> of the library's threads at once.
+    logical :: density_on_threads = .false.
+  end type
+
+  type, bind(c) :: pstripack_scvt_result
+    real(c_double) :: energy
+    real(c_double) :: gradient        !< as of pstripack_scvt_progress
+    real(c_double) :: evaluations     !< of all levels, each counted by its share of the generators
+    integer(c_int32_t) :: generators  !< size(x); fewer if the run was stopped before the last level
+    integer(c_int32_t) :: reason      !< why it ended
+  end type
+
+  !> Where a run stands.
+  type, bind(c) :: pstripack_scvt_progress
+    integer(c_int64_t) :: generators   !< of the level
+    integer(c_int64_t) :: evaluations  !< triangulations with integrals, on this level
+    !> Root mean square over generators of the distance to the centroid of the cell, in units of
+    !> sqrt(4 pi/generators).
+    real(c_double) :: gradient
+    real(c_double) :: energy
+  end type
+
+  abstract interface
+    !> values(i) = the density at the unit vector xyz(:, i), i = 1..n, n <= 65536: positive, and the same
+    !> whenever it is asked for at this place. Best a procedure of a module; an internal one sees the data of
+    !> its host, but for that some compilers need an executable stack.
+    subroutine pstripack_density(n, xyz, values)
+      import :: c_double, c_int32_t
+      integer(c_int32_t), intent(in) :: n
+      real(c_double), intent(in) :: xyz(3, n)
+      real(c_double), intent(out) :: values(n)
+    end subroutine
+
+    !> After each step, by the thread that called. stop = .true. ends the run.
+    subroutine pstripack_progress(progress, stop)
+      import :: pstripack_scvt_progress
+      type(pstripack_scvt_progress), intent(in) :: progress
+      logical, intent(inout) :: stop
+    end subroutine
+  end interface
+
+  ! typedef struct { pstripack_density_procedure at; void* user; int32_t any_thread; } pstripack_density;
+  type, bind(c) :: c_density
+    type(c_funptr) :: at = c_null_funptr
+    type(c_ptr) :: user = c_null_ptr
+    integer(c_int32_t) :: any_thread = 0
+  end type
+
+  ! pstripack_scvt_options of pstripack.h.
+  type, bind(c) :: c_options
+    integer(c_int64_t) :: bytes
+    integer(c_int32_t) :: start, method
+    real(c_double) :: tolerance
+    integer(c_int64_t) :: most_evaluations, seed
+    type(c_funptr) :: progress = c_null_funptr
+    type(c_ptr) :: user = c_null_ptr
+  end type
+
+  ! What the C API gets as `user`.
+  type :: callbacks
+    procedure(pstripack_density), pointer, nopass :: density => null()
+    procedure(pstripack_progress), pointer, nopass :: progress => null()
+  end type
 
   !> call pstripack_trmesh(x, y, z, list, lptr, lend, lnew, ier)
   !>
@@ -73,6 +174,36 @@ module pstripack
       integer(c_int64_t) :: bits
     end function
 
+    ! int32_t pstripack_scvt(int32_t n, double* x, double* y, double* z, const pstripack_density* density,
+    !                        const pstripack_scvt_options* options, pstripack_scvt_result* result,
+    !                        char* message, int32_t length);
+    function c_scvt(n, x, y, z, density, options, result, message, length) result(ier) bind(c, name="pstripack_scvt")
+      import :: c_char, c_density, c_double, c_int32_t, c_options, pstripack_scvt_result
+      integer(c_int32_t), value, intent(in) :: n, length
+      real(c_double), intent(inout) :: x(*), y(*), z(*)
+      type(c_density), intent(in) :: density
+      type(c_options), intent(in) :: options
+      type(pstripack_scvt_result), intent(inout) :: result
+      character(kind=c_char), intent(inout) :: message(*)
+      integer(c_int32_t) :: ier
+    end function
+
+    ! int32_t pstripack_scvt_step(int32_t n, const double* x, const double* y, const double* z,
+    !                             const int32_t* list, const int32_t* lptr, const int32_t* lend,
+    !                             const pstripack_density* density, double* xc, double* yc, double* zc,
+    !                             double* mass, double* energy, char* message, int32_t length);
+    function c_scvt_step(n, x, y, z, list, lptr, lend, density, xc, yc, zc, mass, energy, message, length) &
+        result(ier) bind(c, name="pstripack_scvt_step")
+      import :: c_char, c_density, c_double, c_int32_t
+      integer(c_int32_t), value, intent(in) :: n, length
+      real(c_double), intent(in) :: x(*), y(*), z(*)
+      integer(c_int32_t), intent(in) :: list(*), lptr(*), lend(*)
+      type(c_density), intent(in) :: density
+      real(c_double), intent(inout) :: xc(*), yc(*), zc(*), mass(*), energy
+      character(kind=c_char), intent(inout) :: message(*)
+      integer(c_int32_t) :: ier
+    end function
+
     ! const char* pstripack_version(void);
     function c_version() result(text) bind(c, name="pstripack_version")
       import :: c_ptr
@@ -123,19 +254,13 @@ contains
     character(len=*), intent(out), optional :: message
     integer(c_int32_t) :: defect
     character(kind=c_char) :: line(400)
-    integer :: i
     line = c_null_char
     if (sizes_fit(size(x), size(y), size(z), size(list), size(lptr), size(lend))) then
       defect = c_validate(size(x, kind=c_int32_t), x, y, z, list, lptr, lend, lnew, line, size(line, kind=c_int32_t))
     else
       defect = pstripack_bad_size
     end if
-    if (.not. present(message)) return
-    message = ""
-    do i = 1, min(len(message), size(line))
-      if (line(i) == c_null_char) exit
-      message(i:i) = line(i)
-    end do
+    call tell(line, message)
   end function
 
   !> 64 bits that depend on the set of triangles alone. n = size(lend); the lists must be well formed.
@@ -144,6 +269,131 @@ contains
     integer(c_int64_t) :: bits
     bits = c_fingerprint(size(lend, kind=c_int32_t), list, lptr, lend)
   end function
+
+  !> A centroidal Voronoi tessellation: n = size(x) generators for the density, unit vectors in x, y, z.
+  !>   x, y, z   (n) in: with options%start = pstripack_scvt_given, the generators to start from, of any length
+  !>   result    energy, gradient, evaluations, and why the run ended
+  !>   ier       pstripack_ok, whatever the reason to end, or a negative code above
+  !>   density   default: 1 everywhere
+  !>   options   default: a pstripack_scvt_options() as declared
+  !>   progress  default: none
+  !>   message   on an error: what is wrong, and where
+  !> On an error nothing else is written. Same bits for any number of threads.
+  subroutine pstripack_scvt(x, y, z, result, ier, density, options, progress, message)
+    real(c_double), intent(inout), contiguous :: x(:), y(:), z(:)
+    type(pstripack_scvt_result), intent(inout) :: result
+    integer(c_int32_t), intent(out) :: ier
+    procedure(pstripack_density), optional :: density
+    type(pstripack_scvt_options), intent(in), optional :: options
+    procedure(pstripack_progress), optional :: progress
+    character(len=*), intent(out), optional :: message
+    type(callbacks), target :: caller
+    type(pstripack_scvt_options) :: how
+    type(c_density) :: rho
+    type(c_options) :: options_c
+    character(kind=c_char) :: line(400)
+
+    line = c_null_char
+    if (present(options)) how = options
+    if (present(density)) then
+      caller%density => density
+      rho = c_density(c_funloc(call_density), c_loc(caller), merge(1_c_int32_t, 0_c_int32_t, how%density_on_threads))
+    end if
+    options_c%bytes = int(c_sizeof(options_c), c_int64_t)
+    options_c%start = how%start
+    options_c%method = how%method
+    options_c%tolerance = how%tolerance
+    options_c%most_evaluations = how%most_evaluations
+    options_c%seed = how%seed
+    if (present(progress)) then
+      caller%progress => progress
+      options_c%progress = c_funloc(call_progress)
+      options_c%user = c_loc(caller)
+    end if
+    ier = pstripack_bad_size
+    if (size(y) == size(x) .and. size(z) == size(x)) &
+      ier = c_scvt(size(x, kind=c_int32_t), x, y, z, rho, options_c, result, line, size(line, kind=c_int32_t))
+    call tell(line, message)
+    if (present(message) .and. ier == pstripack_bad_size) message = pstripack_strerror(ier)
+  end subroutine
+
+  !> One step, for programs with a loop of their own: the cells of n = size(x) generators.
+  !>   x, y, z           (n) generators, vectors of any length
+  !>   list, lptr, lend  (at least 6n-12, 6n-12, n) their triangulation, from TRMESH
+  !>   xc, yc, zc        (n) centroids of the cells, unit vectors: where Lloyd's method moves the generators
+  !>   mass              (n) integral of the density over each cell
+  !>   energy            of all cells
+  !>   ier               pstripack_ok or a negative code above
+  !>   density           default: 1 everywhere
+  !>   density_on_threads, message: as of pstripack_scvt
+  !> On an error nothing else is written. Same bits for any number of threads.
+  subroutine pstripack_scvt_step(x, y, z, list, lptr, lend, xc, yc, zc, mass, energy, ier, density, &
+                                 density_on_threads, message)
+    real(c_double), intent(in), contiguous :: x(:), y(:), z(:)
+    integer(c_int32_t), intent(in), contiguous :: list(:), lptr(:), lend(:)
+    real(c_double), intent(inout), contiguous :: xc(:), yc(:), zc(:), mass(:)
+    real(c_double), intent(inout) :: energy
+    integer(c_int32_t), intent(out) :: ier
+    procedure(pstripack_density), optional :: density
+    logical, intent(in), optional :: density_on_threads
+    character(len=*), intent(out), optional :: message
+    type(callbacks), target :: caller
+    type(c_density) :: rho
+    character(kind=c_char) :: line(400)
+    logical :: fit
+
+    line = c_null_char
+    if (present(density)) then
+      caller%density => density
+      rho%at = c_funloc(call_density)
+      rho%user = c_loc(caller)
+      if (present(density_on_threads)) rho%any_thread = merge(1_c_int32_t, 0_c_int32_t, density_on_threads)
+    end if
+    ier = pstripack_bad_size
+    fit = sizes_fit(size(x), size(y), size(z), size(list), size(lptr), size(lend))
+    if (fit .and. all([size(xc), size(yc), size(zc), size(mass)] == size(x))) &
+      ier = c_scvt_step(size(x, kind=c_int32_t), x, y, z, list, lptr, lend, rho, xc, yc, zc, mass, energy, line, &
+                        size(line, kind=c_int32_t))
+    call tell(line, message)
+    if (present(message) .and. ier == pstripack_bad_size) message = pstripack_strerror(ier)
+  end subroutine
+
+  ! void (*pstripack_density_procedure)(int32_t n, const double* xyz, double* values, void* user);
+  subroutine call_density(n, xyz, values, user) bind(c, name="")
+    integer(c_int32_t), value, intent(in) :: n
+    real(c_double), intent(in) :: xyz(3, n)
+    real(c_double), intent(inout) :: values(n)
+    type(c_ptr), value, intent(in) :: user
+    type(callbacks), pointer :: caller
+    call c_f_pointer(user, caller)
+    call caller%density(n, xyz, values)
+  end subroutine
+
+  ! int32_t (*pstripack_scvt_progress_procedure)(const pstripack_scvt_progress* progress, void* user);
+  function call_progress(progress, user) result(stop) bind(c, name="")
+    type(pstripack_scvt_progress), intent(in) :: progress
+    type(c_ptr), value, intent(in) :: user
+    integer(c_int32_t) :: stop
+    type(callbacks), pointer :: caller
+    logical :: wanted
+    call c_f_pointer(user, caller)
+    wanted = .false.
+    call caller%progress(progress, wanted)
+    stop = merge(1_c_int32_t, 0_c_int32_t, wanted)
+  end function
+
+  ! The text of a message of the C API; empty if there is none.
+  subroutine tell(line, message)
+    character(kind=c_char), intent(in) :: line(:)
+    character(len=*), intent(out), optional :: message
+    integer :: i
+    if (.not. present(message)) return
+    message = ""
+    do i = 1, min(len(message), size(line))
+      if (line(i) == c_null_char) exit
+      message(i:i) = line(i)
+    end do
+  end subroutine
 
   subroutine trmesh_real64(x, y, z, list, lptr, lend, lnew, ier)
     real(c_double), intent(in), contiguous :: x(:), y(:), z(:)
@@ -171,7 +421,6 @@ contains
   end function
 
   function fortran_text(text) result(copy)
-    use, intrinsic :: iso_c_binding, only: c_f_pointer
     type(c_ptr), intent(in) :: text
     character(len=:), allocatable :: copy
     character(kind=c_char), pointer :: bytes(:)

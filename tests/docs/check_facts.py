@@ -23,24 +23,31 @@ def compare(what, expected, found):
 
 
 def codes():
-    """(name, value) of each code in the header and the modules, and in the tables of docs/ier.md."""
-    header = re.search(r"enum \{(.*?)\}", read("src/cxx/capi/pstripack.h"), re.DOTALL)[1]
+    """(name, value) of each code in the header and the modules, and in the tables of docs/ier.md; of options and reasons
+    to end of centroidal tessellations in docs/scvt-interface.md."""
+    header = " ".join(re.findall(r"enum \{(.*?)\}", read("src/cxx/capi/pstripack.h"), re.DOTALL))
     declared = re.findall(r"(PSTRIPACK_\w+) = (-?\d+)", header)
     for module in "pstripack", "pstripack_mpi":
         constants = re.findall(r"(?s)integer\(c_int32_t\), parameter :: .*?(?=\n\n)", read(f"src/fortran/{module}.f90"))
         declared += [(name.upper(), value) for text in constants
                      for name, value in re.findall(r"(pstripack_\w+) = (-?\d+)", text)]
     declared = {pair for pair in declared if pair[0] != "PSTRIPACK_EVERY_RANK"}  # a rank, no code
-    tables = re.findall(r"(?m)^\| (-?\d+) \| (PSTRIPACK_\w+) \|", read("docs/ier.md"))
-    compare("docs/ier.md", declared, {(name, value) for value, name in tables})
+    of_scvt = {(name, value) for name, value in declared if name.startswith("PSTRIPACK_SCVT_") and int(value) >= 0}
+    for document, expected in ("docs/ier.md", declared - of_scvt), ("docs/scvt-interface.md", of_scvt):
+        tables = re.findall(r"(?m)^\| (-?\d+) \| (PSTRIPACK_\w+) \|", read(document))
+        compare(document, expected, {(name, value) for value, name in tables})
 
 
 def functions():
     """Of the C headers, on their man pages; those for Fortran's calls, whose names end in an underscore, are no API."""
     for name in "pstripack", "pstripack_mpi":
         declared = set(re.findall(r"(?m)^PSTRIPACK_API .*?(\w*[^_\W])\(", read(f"src/cxx/capi/{name}.h")))
-        synopsis = re.search(r"(?s)\.SH SYNOPSIS\n.*?#include(.*?)\.SH", read(f"docs/man/man3/{name}.3"))[1]
-        compare(f"docs/man/man3/{name}.3", declared, set(re.findall(r"\w+ \*?(pstripack_\w+)\(", synopsis)))
+        of_scvt = {function for function in declared if function.startswith("pstripack_scvt")}
+        for page, expected in (name, declared - of_scvt), ("pstripack_scvt", of_scvt):
+            if not expected:
+                continue
+            synopsis = re.search(r"(?s)\.SH SYNOPSIS\n.*?#include(.*?)\.SH", read(f"docs/man/man3/{page}.3"))[1]
+            compare(f"docs/man/man3/{page}.3", expected, set(re.findall(r"\w+ \*?(pstripack_\w+)\(", synopsis)))
 
 
 def environment():

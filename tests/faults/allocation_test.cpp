@@ -367,6 +367,36 @@ TEST_F(EachAllocationOf, TheFingerprint) {
          0});
 }
 
+/// A run and one step.
+TEST_F(EachAllocationOf, CentroidalTessellations) {
+  const pstripack_density density{[](std::int32_t n, const double* xyz, double* values, void*) {
+                                    for (std::int32_t i = 0; i < n; ++i) values[i] = 2 + xyz[3 * i];
+                                  },
+                                  nullptr, 0};
+  pstripack_scvt_options options{};
+  options.bytes = sizeof options;
+  options.start = PSTRIPACK_SCVT_GIVEN;
+  options.most_evaluations = 6;  // three of them by Lloyd's method
+  Arrays<R8> a = triangulated<R8>(point_sets::make("fibonacci", 1600));
+  std::vector<double> x = a.x, y = a.y, z = a.z, mass(1600, 7), energy(1, 7);
+  fails({[&] {
+           return pstripack_scvt(a.n, x.data(), y.data(), z.data(), nullptr, &options, nullptr, nullptr, 0);
+         },
+         {Result(x), Result(y), Result(z)},
+         -6,
+         0,
+         100});
+  fails({[&] {
+           char message[200];
+           return pstripack_scvt_step(a.n, a.x.data(), a.y.data(), a.z.data(), a.list.data(), a.lptr.data(),
+                                      a.lend.data(), &density, x.data(), y.data(), z.data(), mass.data(),
+                                      energy.data(), message, sizeof message);
+         },
+         {Result(x), Result(y), Result(z), Result(mass), Result(energy)},
+         -6,
+         0});
+}
+
 TEST(Blocks, ALargeCallFindsItsOwnAgain) {
   const auto pages = static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES));
   const std::size_t large = (std::size_t{1} << 30) + (std::size_t{1} << 28);

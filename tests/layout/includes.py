@@ -13,8 +13,9 @@ ENGINE = {
     "stripack": ["lists"],
     "parallel": ["mesh"],
     "trmesh": ["stripack", "parallel"],
+    "scvt": ["trmesh"],
     "observe": ["trmesh"],
-    "mpi": ["trmesh"],
+    "mpi": ["scvt"],
     "pool": ["observe", "mpi"],
     "capi": ["pool"],
 }

@@ -185,6 +185,14 @@ const char* pstripack_strerror(int ier) {
       return "two points lie in the same direction";
     case PSTRIPACK_BAD_NUMBER:
       return "a global number is below 1, occurs twice, or is too large for what was asked";
+    case PSTRIPACK_BAD_DENSITY:
+      return "the density is not positive, or not finite, at some place";
+    case PSTRIPACK_HEMISPHERE:
+      return "the generators lie in one hemisphere";
+    case PSTRIPACK_BAD_LISTS:
+      return "the lists are not those of a triangulation of the sphere by the generators";
+    case PSTRIPACK_BAD_OPTION:
+      return "an option has no such value";
   }
   return "unknown code";
 }

@@ -157,26 +157,24 @@ TrmeshResult lists_in_original_order(const TrmeshCall& call, ParallelCost* cost)
   return result;
 }
 
-}  // namespace
-
-TrmeshResult trmesh(const TrmeshCall& call, ParallelCost* cost) {
+/// follow: the original's order of insertion, as original_rules() say.
+TrmeshResult carry_out(const TrmeshCall& call, bool follow, ParallelCost* cost) {
   if (call.n < 3) return {-1};
   if (call.n > most_nodes<std::int32_t>()) return {-4};
 
   const auto n = static_cast<std::size_t>(call.n);
-  const OriginalRules& rules = original_rules();
   std::optional<WarmStart> warm_start;
-  if (!rules.follow) {
+  if (!follow) {
     warm_start.emplace(call.nodes, n);
     if (warm_start->write_lists(call.lists, cost)) return {0};
   }
-  OnThreads way(call, rules.follow, cost);
+  OnThreads way(call, follow, cost);
   const std::size_t first_bad = way.look(n);
   if (first_bad < n) return {-5, static_cast<std::int64_t>(first_bad) + 1};
   const bool are_collinear = left(call.nodes[0], call.nodes[1], call.nodes[2]) == 0;
 
   TrmeshResult original{0};
-  if (rules.follow && (!are_collinear || rules.bitwise)) {
+  if (follow && (!are_collinear || original_rules().bitwise)) {
     original = lists_in_original_order(call, cost);
     if (original.order == OriginalOrder::made || original.order == OriginalOrder::inexact) return original;
   }
@@ -186,6 +184,16 @@ TrmeshResult trmesh(const TrmeshCall& call, ParallelCost* cost) {
   result.order = original.order;
   result.order_node = original.order_node;
   return result;
+}
+
+}  // namespace
+
+TrmeshResult trmesh(const TrmeshCall& call, ParallelCost* cost) {
+  return carry_out(call, original_rules().follow, cost);
+}
+
+TrmeshResult canonical_trmesh(const TrmeshCall& call, ParallelCost* cost) {
+  return carry_out(call, false, cost);
 }
 
 }  // namespace pstripack

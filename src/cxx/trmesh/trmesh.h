@@ -34,6 +34,8 @@ struct TrmeshResult {
 /// are a triangulation, right or not. Throws std::bad_alloc, having written nothing. `cost`, if given,
 /// is added to.
 TrmeshResult trmesh(const TrmeshCall& call, ParallelCost* cost = nullptr);
+/// The same, whatever PSTRIPACK_ORDER asks for.
+TrmeshResult canonical_trmesh(const TrmeshCall& call, ParallelCost* cost = nullptr);
 
 /// The common end of every way to carry out a call: by one hull, on threads, by ranks. Way:
 ///   std::optional<Coincidence> triangulate(std::size_t n)   the first n nodes; what coincides, if any does

@@ -1,0 +1,42 @@
+#include "scvt/errors.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace pstripack::scvt {
+namespace {
+
+/// "lon 10.5 lat -30", in degrees.
+std::string lon_lat(const Point& p) {
+  constexpr double kDegrees = 57.295779513082321;
+  char text[64];
+  std::snprintf(text, sizeof text, "lon %.6g lat %.6g", std::atan2(p.y, p.x) * kDegrees,
+                std::atan2(p.z, std::hypot(p.x, p.y)) * kDegrees);
+  return text;
+}
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
+
+}  // namespace
+
+BadDensity::BadDensity(const Point& p, double v)
+    : Failure("the density is " + number(v) + " at " + lon_lat(p) +
+              ": it must be positive and finite everywhere"),
+      place(p),
+      value(v) {}
+
+CoincidentGenerators::CoincidentGenerators(std::int64_t f, std::int64_t s)
+    : BadGenerators("generators " + std::to_string(f) + " and " + std::to_string(s) +
+                    " coincide: remove one of them"),
+      first(f),
+      second(s) {}
+
+GeneratorsInHemisphere::GeneratorsInHemisphere()
+    : BadGenerators(
+          "the generators lie in one hemisphere: a tessellation needs generators all around the sphere") {}
+
+}  // namespace pstripack::scvt

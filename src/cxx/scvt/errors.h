@@ -1,0 +1,37 @@
+#pragma once
+// Why generators have no centroidal tessellation.
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+#include "geometry/point.h"
+
+namespace pstripack::scvt {
+
+struct Failure : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The density is not positive, or not finite, at a place.
+struct BadDensity : Failure {
+  BadDensity(const Point& p, double v);
+  Point place;
+  double value;
+};
+
+/// The generators themselves are at fault.
+struct BadGenerators : Failure {
+  using Failure::Failure;
+};
+/// Two generators coincide; numbers from 1.
+struct CoincidentGenerators : BadGenerators {
+  CoincidentGenerators(std::int64_t f, std::int64_t s);
+  std::int64_t first, second;
+};
+/// The generators lie in a hemisphere: some cell has no end.
+struct GeneratorsInHemisphere : BadGenerators {
+  GeneratorsInHemisphere();
+};
+
+}  // namespace pstripack::scvt

@@ -1,0 +1,99 @@
+#include "scvt/evaluator.h"
+
+#include <algorithm>
+#include <string>
+
+#include "geometry/predicates.h"
+#include "lists/limits.h"
+#include "scvt/errors.h"
+#include "trmesh/trmesh.h"
+
+namespace pstripack::scvt {
+namespace {
+
+/// Three of the generators that are not on one great circle, in front; false if there are none.
+bool put_corners_in_front(std::vector<std::size_t>& order, const std::vector<Point>& generators) {
+  for (std::size_t second = 1; second < order.size(); ++second) {
+    const Point &a = generators[0], &b = generators[second];
+    for (std::size_t third = 0; third < order.size(); ++third)
+      if (left(a, b, generators[third]) != 0) {
+        std::swap(order[1], order[second]);
+        std::swap(order[2], *std::find(order.begin(), order.end(), third));
+        return true;
+      }
+    // All generators lie on the great circle through a and b, or a and b are parallel.
+    if (cross(a, minus(b, a)) != Point{0, 0, 0}) return false;
+  }
+  return false;
+}
+
+TrmeshResult call_trmesh(const std::vector<Point>& nodes, std::vector<std::int32_t>& list,
+                         std::vector<std::int32_t>& lptr, std::vector<std::int32_t>& lend) {
+  const std::size_t n = nodes.size();
+  list.resize(6 * n - 12);
+  lptr.resize(6 * n - 12);
+  lend.resize(n);
+  std::int32_t lnew = 0;
+  return canonical_trmesh({static_cast<std::int32_t>(n),
+                           NodeArrays(nodes.data()),
+                           {list.data(), lptr.data(), lend.data(), &lnew}});
+}
+
+/// Lists of the generators from those of the generators in another order: list'[...] of order[i].
+void renumber(const std::vector<std::size_t>& order, std::vector<std::int32_t>& list,
+              std::vector<std::int32_t>& lend) {
+  const std::size_t n = order.size();
+  std::vector<std::size_t> place(n);
+  for (std::size_t i = 0; i < n; ++i) place[order[i]] = i;
+  std::vector<std::int32_t> new_list, new_lend;
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t i = place[k], begin = new_list.size();
+    for (auto j = static_cast<std::size_t>(i == 0 ? 0 : lend[i - 1]); j < static_cast<std::size_t>(lend[i]);
+         ++j)
+      new_list.push_back(static_cast<std::int32_t>(order[static_cast<std::size_t>(list[j]) - 1]) + 1);
+    const auto ring = new_list.begin() + static_cast<std::ptrdiff_t>(begin);
+    std::rotate(ring, std::min_element(ring, new_list.end()), new_list.end());
+    new_lend.push_back(static_cast<std::int32_t>(new_list.size()));
+  }
+  list = std::move(new_list);
+  lend = std::move(new_lend);
+}
+
+}  // namespace
+
+Stars triangulate(const std::vector<Point>& generators, std::vector<std::int32_t>& list,
+                  std::vector<std::int32_t>& lptr, std::vector<std::int32_t>& lend) {
+  const std::size_t n = generators.size();
+  if (n < 4) throw BadGenerators("a tessellation needs at least 4 generators, here are " + std::to_string(n));
+  if (n > static_cast<std::size_t>(most_nodes<std::int32_t>()))
+    throw BadGenerators("at most " + std::to_string(most_nodes<std::int32_t>()) + " generators, here are " +
+                        std::to_string(n) + ": more need MPI ranks");
+  std::vector<std::size_t> order;  // empty: as given
+  TrmeshResult result = call_trmesh(generators, list, lptr, lend);
+  if (result.ier == -2) {
+    order.resize(n);
+    for (std::size_t i = 0; i < n; ++i) order[i] = i;
+    if (!put_corners_in_front(order, generators)) throw GeneratorsInHemisphere();
+    std::vector<Point> nodes;
+    for (const std::size_t i : order) nodes.push_back(generators[i]);
+    result = call_trmesh(nodes, list, lptr, lend);
+  }
+  const auto number = [&](std::int64_t node) {
+    return order.empty() ? node : static_cast<std::int64_t>(order[static_cast<std::size_t>(node) - 1]) + 1;
+  };
+  if (result.ier > 0) {
+    const auto [first, second] = std::minmax({number(result.node), number(result.other)});
+    throw CoincidentGenerators(first, second);
+  }
+  if (result.ier == -5)
+    throw BadGenerators("generator " + std::to_string(number(result.node)) + " has no direction");
+  if (static_cast<std::size_t>(lend[n - 1]) != 6 * n - 12) throw GeneratorsInHemisphere();
+  if (!order.empty()) renumber(order, list, lend);
+  return {n, lend.data(), list.data()};
+}
+
+void LocalEvaluator::evaluate(const std::vector<Point>& generators, Cells& cells) {
+  integrate(generators.data(), triangulate(generators, list_, lptr_, lend_), density_, cells);
+}
+
+}  // namespace pstripack::scvt

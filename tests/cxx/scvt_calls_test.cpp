@@ -1,0 +1,409 @@
+// Centroidal tessellations by the C interface: bit for bit what the C++ layer makes; errors write nothing.
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "capi/pstripack.h"
+#include "point_sets.h"
+#include "scvt/evaluator.h"
+#include "scvt/run.h"
+#include "support/lists.h"
+
+namespace {
+
+using namespace pstripack;
+
+const scvt::BumpDensity bump({0, 0.6, 0.8}, 0.5, 0.2, 3);
+
+/// What a density is passed on to, and what it notices.
+struct Watch {
+  double factor = 1;
+  std::thread::id caller = std::this_thread::get_id();
+  std::atomic<bool> other_thread{false};
+  std::int32_t most = 0;
+  std::int64_t calls = 0;
+};
+
+void bump_at(std::int32_t n, const double* xyz, double* values, void* user) {
+  auto& watch = *static_cast<Watch*>(user);
+  std::vector<Point> p(static_cast<std::size_t>(n));
+  std::memcpy(p.data(), xyz, p.size() * sizeof(Point));
+  bump.at(p.size(), p.data(), values);
+  for (std::int32_t i = 0; i < n; ++i) values[i] *= watch.factor;
+  if (omp_get_thread_num() == 0) watch.most = std::max(watch.most, n);
+  if (std::this_thread::get_id() != watch.caller) watch.other_thread = true;
+  if (omp_get_thread_num() == 0) ++watch.calls;
+}
+
+pstripack_density density_of(Watch& watch, bool any_thread = false) { return {bump_at, &watch, any_thread}; }
+
+pstripack_scvt_options defaults() {
+  pstripack_scvt_options options{};
+  options.bytes = sizeof options;
+  return options;
+}
+
+struct Generators {
+  explicit Generators(std::size_t n) : x(n, 7), y(n, 8), z(n, 9) {}
+  explicit Generators(const std::vector<Point>& points) {
+    for (const Point& p : points) x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
+  }
+  std::int32_t count() const { return static_cast<std::int32_t>(x.size()); }
+  std::int32_t run(const pstripack_density* density, const pstripack_scvt_options* options) {
+    message.assign(200, '\0');
+    return pstripack_scvt(count(), x.data(), y.data(), z.data(), density, options, &result, message.data(),
+                          200);
+  }
+  /// What was said, up to its closing zero.
+  std::string said() const { return message.c_str(); }
+
+  std::vector<double> x, y, z;
+  pstripack_scvt_result result{-1, -1, -1, -1, -1};
+  std::string message;
+};
+
+void expect_same(const Generators& found, const scvt::Tessellation& expected) {
+  const Generators points(expected.state.generators);
+  ASSERT_EQ(found.result.generators, points.count());
+  for (std::size_t i = 0; i < points.x.size(); ++i) {
+    ASSERT_EQ(found.x[i], points.x[i]) << i;
+    ASSERT_EQ(found.y[i], points.y[i]) << i;
+    ASSERT_EQ(found.z[i], points.z[i]) << i;
+  }
+  EXPECT_EQ(found.result.energy, expected.result.progress.energy);
+  EXPECT_EQ(found.result.gradient, expected.result.progress.gradient);
+  EXPECT_EQ(found.result.evaluations, expected.evaluations);
+}
+
+class ScvtRun : public ::testing::TestWithParam<int> {};
+
+TEST_P(ScvtRun, HasTheBitsOfTheLayerBelow) {
+  omp_set_num_threads(3);
+  Watch watch;
+  const pstripack_density density = density_of(watch, GetParam() != 0);
+  pstripack_scvt_options options = defaults();
+  scvt::RunOptions expected;
+  expected.tolerance = options.tolerance = 1e-2;
+
+  Generators found(3000);
+  ASSERT_EQ(found.run(&density, &options), PSTRIPACK_OK) << found.said();
+  EXPECT_EQ(found.result.reason, PSTRIPACK_SCVT_CONVERGED);
+  EXPECT_LE(found.result.gradient, 1e-2);
+  EXPECT_GT(watch.calls, 20);
+  EXPECT_LE(watch.most, 65536);
+  EXPECT_EQ(watch.other_thread, GetParam() != 0);
+  expect_same(found, scvt::run(3000, bump, expected));
+}
+INSTANTIATE_TEST_SUITE_P(Threads, ScvtRun, ::testing::Values(0, 1));
+
+TEST(Scvt, OptionsArePassedOn) {
+  pstripack_scvt_options options = defaults();
+  options.start = PSTRIPACK_SCVT_RANDOM;
+  options.method = PSTRIPACK_SCVT_LLOYD;
+  options.most_evaluations = 9;
+  options.seed = 5;
+  scvt::RunOptions expected;
+  expected.levels = false;
+  expected.method = scvt::Method::lloyd;
+  expected.most_evaluations = 9;
+  expected.seed = 5;
+  Generators found(400);
+  ASSERT_EQ(found.run(nullptr, &options), PSTRIPACK_OK) << found.said();
+  EXPECT_EQ(found.result.reason, PSTRIPACK_SCVT_EVALUATIONS);
+  expect_same(found, scvt::run(400, scvt::ConstantDensity(), expected));
+
+  // From the generators passed in, of any length.
+  std::vector<Point> start = point_sets::make("random", 300, 2);
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    const double length = 1 + static_cast<double>(i % 5);
+    start[i] = {length * start[i].x, length * start[i].y, length * start[i].z};
+  }
+  options.start = PSTRIPACK_SCVT_GIVEN;
+  Generators given(start);
+  ASSERT_EQ(given.run(nullptr, &options), PSTRIPACK_OK) << given.said();
+  expect_same(given, scvt::run(start, scvt::ConstantDensity(), expected));
+
+  // Without options, nor a result.
+  Generators plain(12);
+  ASSERT_EQ(pstripack_scvt(12, plain.x.data(), plain.y.data(), plain.z.data(), nullptr, nullptr, nullptr,
+                           nullptr, 0),
+            PSTRIPACK_OK);
+  EXPECT_EQ(plain.x[3], scvt::run(12, scvt::ConstantDensity(), {}).state.generators[3].x);
+}
+
+TEST(Scvt, OptionsOfAnOlderLibraryAreTheFirstOfThem) {
+  pstripack_scvt_options options = defaults();
+  options.start = PSTRIPACK_SCVT_RANDOM;
+  options.tolerance = -1;  // not looked at
+  options.bytes = offsetof(pstripack_scvt_options, tolerance);
+  scvt::RunOptions expected;
+  expected.levels = false;
+  Generators found(12);
+  ASSERT_EQ(found.run(nullptr, &options), PSTRIPACK_OK) << found.said();
+  expect_same(found, scvt::run(12, scvt::ConstantDensity(), expected));
+}
+
+TEST(Scvt, ProgressMayStopTheRun) {
+  struct Told {
+    std::vector<pstripack_scvt_progress> steps;
+    std::size_t most;
+  };
+  const auto note = [](const pstripack_scvt_progress* progress, void* user) -> std::int32_t {
+    auto& told = *static_cast<Told*>(user);
+    told.steps.push_back(*progress);
+    return told.steps.size() == told.most;
+  };
+  pstripack_scvt_options options = defaults();
+  options.progress = note;
+  options.tolerance = 1e-2;
+  for (const std::size_t most : {std::size_t{0}, std::size_t{3}}) {
+    Told told{{}, most};
+    options.user = &told;
+    Generators found(2000);
+    ASSERT_EQ(found.run(nullptr, &options), PSTRIPACK_OK) << found.said();
+    EXPECT_EQ(told.steps.back().energy, found.result.energy);
+    EXPECT_EQ(told.steps.back().gradient, found.result.gradient);
+    EXPECT_EQ(told.steps.back().generators, found.result.generators);
+    if (most == 0) {
+      EXPECT_EQ(found.result.reason, PSTRIPACK_SCVT_CONVERGED);
+      EXPECT_LT(told.steps.front().generators, 2000);
+      EXPECT_EQ(told.steps.back().generators, 2000);
+    } else {  // on a coarser level, whose generators come first
+      EXPECT_EQ(found.result.reason, PSTRIPACK_SCVT_STOPPED);
+      EXPECT_EQ(told.steps.size(), most);
+      const auto count = static_cast<std::size_t>(found.result.generators);
+      ASSERT_LT(count, 2000U);
+      EXPECT_NEAR(std::hypot(found.x[count - 1], found.y[count - 1], found.z[count - 1]), 1, 1e-15);
+      EXPECT_EQ(found.x[count], 7);
+    }
+  }
+}
+
+// ---- errors
+
+/// The bytes of arrays, NaNs included.
+template <class... Arrays>
+std::string bytes_of(const Arrays&... arrays) {
+  std::string bytes;
+  (bytes.append(reinterpret_cast<const char*>(arrays.data()), arrays.size() * sizeof arrays[0]), ...);
+  return bytes;
+}
+
+TEST(Scvt, ErrorsOfARunSayWhyAndWriteNothing) {
+  const auto refuses = [](Generators generators, std::int32_t code, const std::string& why,
+                          const pstripack_density* density = nullptr,
+                          pstripack_scvt_options options = defaults()) {
+    const auto before = bytes_of(generators.x, generators.y, generators.z);
+    EXPECT_EQ(generators.run(density, &options), code) << why;
+    EXPECT_NE(generators.said().find(why), std::string::npos) << generators.said() << "\n" << why;
+    EXPECT_EQ(bytes_of(generators.x, generators.y, generators.z), before) << why;
+    EXPECT_EQ(generators.result.generators, -1) << why;
+    EXPECT_EQ(generators.result.energy, -1) << why;
+  };
+  pstripack_scvt_options given = defaults();
+  given.start = PSTRIPACK_SCVT_GIVEN;
+  refuses(Generators(3), PSTRIPACK_TOO_FEW_NODES, "at least 4 generators, here are 3");
+  std::vector<Point> points = point_sets::make("random", 50, 1);
+  points[20] = points[30];
+  refuses(Generators(points), PSTRIPACK_COINCIDENT, "generators 21 and 31 coincide", nullptr, given);
+  points[20] = {0, 0, 0};
+  refuses(Generators(points), PSTRIPACK_BAD_COORDINATE, "generator 21 has no direction", nullptr, given);
+  points[20] = {1, NAN, 0};
+  refuses(Generators(points), PSTRIPACK_BAD_COORDINATE, "generator 21 has no direction", nullptr, given);
+  points[20] = points[21];
+  for (Point& p : points) p.z = std::fabs(p.z);
+  points[20].x += 0.1;
+  refuses(Generators(points), PSTRIPACK_HEMISPHERE, "one hemisphere", nullptr, given);
+
+  Watch watch;
+  for (const double factor : {0.0, -1.0, double{INFINITY}, double{NAN}}) {
+    watch.factor = factor;
+    const pstripack_density density = density_of(watch);
+    refuses(Generators(50), PSTRIPACK_BAD_DENSITY, "lon ", &density);
+  }
+  const pstripack_density unset{[](std::int32_t, const double*, double*, void*) {}, nullptr, 0};
+  refuses(Generators(50), PSTRIPACK_BAD_DENSITY, "the density is nan at lon", &unset);
+  for (const std::int32_t any_thread : {0, 1}) {
+    const pstripack_density throwing{
+        [](std::int32_t, const double*, double*, void*) { throw std::runtime_error("no such file"); },
+        nullptr, any_thread};
+    refuses(Generators(3000), PSTRIPACK_BAD_DENSITY, "no such file", &throwing);
+  }
+
+  const auto refuses_option = [&](const std::string& why, auto change) {
+    pstripack_scvt_options options = defaults();
+    change(options);
+    refuses(Generators(50), PSTRIPACK_BAD_OPTION, why, nullptr, options);
+  };
+  refuses_option("bytes", [](auto& o) { o.bytes = 0; });
+  refuses_option("newer library", [](auto& o) { o.bytes += 8; });
+  refuses_option("start", [](auto& o) { o.start = 3; });
+  refuses_option("start", [](auto& o) { o.start = -1; });
+  refuses_option("method", [](auto& o) { o.method = 2; });
+  refuses_option("tolerance", [](auto& o) { o.tolerance = -1e-3; });
+  refuses_option("tolerance", [](auto& o) { o.tolerance = NAN; });
+  refuses_option("most_evaluations", [](auto& o) { o.most_evaluations = -1; });
+}
+
+TEST(Scvt, MessagesFitTheirRoom) {
+  char room[] = "123456789";
+  double x = 7;
+  EXPECT_EQ(pstripack_scvt(-1, &x, &x, &x, nullptr, nullptr, nullptr, room, 5), PSTRIPACK_TOO_FEW_NODES);
+  EXPECT_STREQ(room, "a te");
+  EXPECT_STREQ(room + 5, "6789");
+  EXPECT_EQ(pstripack_scvt(3, &x, &x, &x, nullptr, nullptr, nullptr, room, 0), PSTRIPACK_TOO_FEW_NODES);
+  EXPECT_STREQ(room, "a te");
+  EXPECT_EQ(pstripack_scvt(400000000, &x, &x, &x, nullptr, nullptr, nullptr, nullptr, 5),
+            PSTRIPACK_TOO_MANY_NODES);
+}
+
+// ---- one step
+
+struct Step {
+  explicit Step(const std::vector<Point>& points) : generators(points), lists{} {
+    const std::size_t n = points.size();
+    lists.list.resize(6 * n - 12);
+    lists.lptr.resize(6 * n - 12);
+    lists.lend.resize(n);
+    const Generators& g = generators;
+    EXPECT_EQ(pstripack_trmesh(g.count(), g.x.data(), g.y.data(), g.z.data(), lists.list.data(),
+                               lists.lptr.data(), lists.lend.data(), &lists.lnew),
+              0);
+    for (auto* v : {&xc, &yc, &zc, &mass}) v->assign(n, 7);
+  }
+  std::int32_t run(const pstripack_density* density) {
+    return pstripack_scvt_step(generators.count(), generators.x.data(), generators.y.data(),
+                               generators.z.data(), lists.list.data(), lists.lptr.data(), lists.lend.data(),
+                               density, xc.data(), yc.data(), zc.data(), mass.data(), &energy, message, 200);
+  }
+  Generators generators;
+  Lists lists;
+  std::vector<double> xc, yc, zc, mass;
+  double energy = -1;
+  char message[200] = "";
+};
+
+TEST(ScvtStep, HasTheBitsOfTheLayerBelow) {
+  omp_set_num_threads(3);
+  for (const std::size_t n : {std::size_t{50}, std::size_t{3000}}) {
+    const std::vector<Point> points = scvt::unit_vectors(point_sets::make("random", n, 3));
+    scvt::LocalEvaluator evaluator(bump);
+    scvt::Cells cells;
+    evaluator.evaluate(points, cells);
+    scvt::ExactSum energy;
+    for (const double e : cells.energy) energy.add(e);
+    for (const bool any_thread : {false, true}) {
+      Watch watch;
+      const pstripack_density density = density_of(watch, any_thread);
+      Step step(points);
+      ASSERT_EQ(step.run(&density), PSTRIPACK_OK) << step.message;
+      EXPECT_EQ(step.mass, cells.mass);
+      EXPECT_EQ(step.energy, energy.value());
+      for (std::size_t i = 0; i < n; ++i) {
+        const Point c = scvt::centroid(cells, i, points[i]);
+        ASSERT_EQ((Point{step.xc[i], step.yc[i], step.zc[i]}), c) << i;
+      }
+      EXPECT_EQ(watch.other_thread, any_thread && n > 100);
+    }
+  }
+}
+
+TEST(ScvtStep, TakesListsInAnyOrder) {
+  Step step(point_sets::make("random", 200, 4));
+  ASSERT_EQ(step.run(nullptr), PSTRIPACK_OK) << step.message;
+  // Slot s becomes 6n-11-s, and each ring begins one neighbour later.
+  Step other = step;
+  const auto slots = static_cast<std::int32_t>(step.lists.list.size());
+  for (std::int32_t s = 1; s <= slots; ++s) {
+    const auto from = static_cast<std::size_t>(s - 1), to = static_cast<std::size_t>(slots - s);
+    other.lists.list[to] = step.lists.list[from];
+    other.lists.lptr[to] = slots + 1 - step.lists.lptr[from];
+  }
+  for (std::size_t k = 0; k < step.lists.nodes(); ++k)
+    other.lists.lend[k] = other.lists.lptr[static_cast<std::size_t>(slots - step.lists.lend[k])];
+  for (auto* v : {&other.xc, &other.yc, &other.zc, &other.mass}) v->assign(200, 7);
+  ASSERT_EQ(other.run(nullptr), PSTRIPACK_OK) << other.message;
+  EXPECT_EQ(bytes_of(other.xc, other.yc, other.zc, other.mass),
+            bytes_of(step.xc, step.yc, step.zc, step.mass));
+  EXPECT_EQ(other.energy, step.energy);
+
+  // In place, and without masses and energy.
+  Generators& g = other.generators;
+  ASSERT_EQ(pstripack_scvt_step(g.count(), g.x.data(), g.y.data(), g.z.data(), other.lists.list.data(),
+                                other.lists.lptr.data(), other.lists.lend.data(), nullptr, g.x.data(),
+                                g.y.data(), g.z.data(), nullptr, nullptr, nullptr, 0),
+            PSTRIPACK_OK);
+  EXPECT_EQ(bytes_of(g.x, g.y, g.z), bytes_of(step.xc, step.yc, step.zc));
+}
+
+/// The loop that a program of its own would have ends where the run by Lloyd's method does.
+TEST(ScvtStep, ManyAreLloydsMethod) {
+  const std::vector<Point> start = scvt::unit_vectors(point_sets::make("random", 100, 5));
+  scvt::RunOptions options;
+  options.method = scvt::Method::lloyd;
+  options.most_evaluations = 11;
+  options.tolerance = 1e-12;
+  const scvt::Tessellation expected = scvt::run(start, scvt::ConstantDensity(), options);
+  std::vector<Point> points = start;
+  for (int k = 0; k < 10; ++k) {
+    Step step(points);
+    ASSERT_EQ(step.run(nullptr), PSTRIPACK_OK) << step.message;
+    for (std::size_t i = 0; i < points.size(); ++i) points[i] = {step.xc[i], step.yc[i], step.zc[i]};
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) ASSERT_TRUE(points[i] == expected.state.generators[i]) << i;
+}
+
+TEST(ScvtStep, ErrorsSayWhyAndWriteNothing) {
+  const Step good(point_sets::make("random", 100, 6));
+  const auto refuses = [](Step step, std::int32_t code, const std::string& why,
+                          const pstripack_density* density = nullptr) {
+    const auto before = bytes_of(step.xc, step.yc, step.zc, step.mass);
+    EXPECT_EQ(step.run(density), code) << why;
+    EXPECT_NE(std::string(step.message).find(why), std::string::npos) << step.message << "\n" << why;
+    EXPECT_EQ(bytes_of(step.xc, step.yc, step.zc, step.mass), before) << why;
+    EXPECT_EQ(step.energy, -1) << why;
+  };
+  std::vector<Point> half = point_sets::make("random", 100, 6);
+  for (Point& p : half) p.z = std::fabs(p.z);
+  refuses(Step(half), PSTRIPACK_HEMISPHERE, "one hemisphere");
+
+  Step step = good;
+  step.lists.lptr[17] = 9999;
+  refuses(step, PSTRIPACK_BAD_LISTS, "not those of a triangulation");
+  step = good;
+  step.lists.list[3] = 101;
+  refuses(step, PSTRIPACK_BAD_LISTS, "not those of a triangulation");
+  step = good;
+  step.lists.lptr[static_cast<std::size_t>(step.lists.lend[50]) - 2] =
+      step.lists.lptr[static_cast<std::size_t>(step.lists.lend[50]) - 1];
+  step.lists.lend[50] -= 1;
+  refuses(step, PSTRIPACK_BAD_LISTS, "the lists have 587 neighbours, a triangulation of the sphere has 588");
+  step = good;
+  step.generators.y[7] = INFINITY;
+  refuses(step, PSTRIPACK_BAD_COORDINATE, "generator 8 has no direction");
+  step = good;  // of other generators
+  for (std::size_t i = 0; i < 100; ++i) step.generators.x[i] = -step.generators.x[i];
+  refuses(step, PSTRIPACK_BAD_LISTS, "is clockwise");
+  step = good;  // a generator in the place of its neighbour
+  const auto neighbour = static_cast<std::size_t>(step.lists.list[0]) - 1;
+  for (auto* v : {&step.generators.x, &step.generators.y, &step.generators.z}) (*v)[0] = (*v)[neighbour];
+  refuses(step, PSTRIPACK_BAD_LISTS, "the lists are not those of the generators");
+  Watch watch;
+  watch.factor = -1;
+  const pstripack_density density = density_of(watch);
+  refuses(good, PSTRIPACK_BAD_DENSITY, "it must be positive", &density);
+  EXPECT_EQ(pstripack_scvt_step(3, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,
+                                nullptr, nullptr, nullptr, nullptr, nullptr, 0),
+            PSTRIPACK_TOO_FEW_NODES);
+}
+
+}  // namespace
