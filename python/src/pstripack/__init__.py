@@ -16,7 +16,8 @@ from ._arrays import to_lonlat, to_xyz
 from ._core import version as __version__
 from ._delaunay import Delaunay
 from ._errors import BadCoordinateError, CoincidentNodesError, CollinearNodesError, TriangulationError
+from ._scvt import Progress, Tessellation, scvt
 from ._voronoi import SphericalVoronoi
 
-__all__ = ["BadCoordinateError", "CoincidentNodesError", "CollinearNodesError", "Delaunay", "SphericalVoronoi",
-           "TriangulationError", "__version__", "to_lonlat", "to_xyz"]
+__all__ = ["BadCoordinateError", "CoincidentNodesError", "CollinearNodesError", "Delaunay", "Progress",
+           "SphericalVoronoi", "Tessellation", "TriangulationError", "__version__", "scvt", "to_lonlat", "to_xyz"]

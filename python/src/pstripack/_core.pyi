@@ -1,4 +1,4 @@
-from typing import List, Tuple
+from typing import Any, Callable, List, Optional, Tuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,4 +23,8 @@ class Mesh:
     def linear(self, places: NDArray[np.float64], values: NDArray[np.float64], threads: int) -> NDArray[np.float64]: ...
 
 def lists_of(begin: NDArray[np.int32], values: NDArray[np.int32], count: int) -> List[List[int]]: ...
+def scvt(start: Union[int, NDArray[np.float64]], density: Optional[Callable[[NDArray[np.float64]], Any]],
+         tolerance: float, lloyd: bool, most_evaluations: int, seed: int,
+         progress: Optional[Callable[[int, int, float, float], bool]],
+         threads: int) -> Tuple[int, str, NDArray[np.float64], float, float, float, int]: ...
 def vectors(lon: NDArray[np.float64], lat: NDArray[np.float64], degrees: bool) -> NDArray[np.float64]: ...
