@@ -360,13 +360,17 @@ Cells Triangulation::cells() const {
 
 namespace {
 
-/// The border between the cells of node p and its neighbour q: the area between p and a part of it.
+/// 1 + a.b for unit vectors, accurate also where they are nearly opposite.
+double one_plus_dot(const Point& a, const Point& b) {
+  const Point sum{a.x + b.x, a.y + b.y, a.z + b.z};
+  return dot(sum, sum) / 2;
+}
+
+/// The border between the cells of node p and its neighbour q, and the area between p and a part of it.
 ///
-///        v        m is the middle of p and q. The border passes through it, and v lies on it at a signed
-///        angle t from
-///       /|        m. The angle at m is right, so tan(area of p m v / 2) = tan(pm/2) tan(t/2). Unlike by the
-///       triangle
-///      p-m-q      of p and two vertices, areas are right also where these are opposite points of the sphere.
+///        v      The border passes through m, the middle of p and q; v lies on it at a signed angle t from m.
+///       /|      The angle at m is right, so tan(area of p m v / 2) = tan(pm / 2) tan(t / 2). Unlike that of
+///      p-m-q    p and two vertices this area is right also where these are opposite points of the sphere.
 ///
 class BesideBorder {
  public:
@@ -378,17 +382,30 @@ class BesideBorder {
     along_ = {along_.x / area, along_.y / area, along_.z / area};
     tangent_ = chord / (2 + length);
   }
-  /// From vertex u to vertex v.
+  /// From vertex u to vertex v, counterclockwise round p: t grows, by less than a half turn.
   double area(const Point& u, const Point& v) const {
-    const double sin_u = tangent_ * dot(u, along_), cos_u = 1 + dot(u, middle_);
-    const double sin_v = tangent_ * dot(v, along_), cos_v = 1 + dot(v, middle_);
-    return 2 * std::atan2(sin_v * cos_u - sin_u * cos_v, cos_u * cos_v + sin_u * sin_v);
+    const double sin_u = dot(u, along_), sin_v = dot(v, along_);
+    const double cos_u = one_plus_dot(u, middle_), cos_v = one_plus_dot(v, middle_);  // 1 + cos t
+    const double half = std::atan2(tangent_ * (sin_v * cos_u - sin_u * cos_v),
+                                   cos_u * cos_v + tangent_ * tangent_ * sin_u * sin_v);
+    // Where t passes the point opposite to m; not where u and v are both m up to rounding.
+    const bool is_round = sin_u > 0 && sin_v < 0 && cos_u + cos_v < 3;
+    return 2 * (is_round ? half + pi : half);
   }
 
  private:
+  static constexpr double pi = 3.14159265358979323846;
   Point middle_, along_;  // m; along the border, to the left of p->q
   double tangent_;        // of half the angle from p to m
 };
+
+/// Area of the triangle p, u, v where u and v are more than 90 degrees from p: the lune from p through u and
+/// v to the opposite point, without the triangle beyond them, which may be small.
+double far_triangle_area(const Point& p, const Point& u, const Point& v) {
+  const Point opposite{-p.x, -p.y, -p.z}, a = minus(u, opposite), b = minus(v, opposite);
+  const double angle = std::atan2(dot(p, cross(a, b)), dot(a, b) - dot(p, a) * dot(p, b));
+  return 2 * angle - files::triangle_area(opposite, v, u);
+}
 
 }  // namespace
 
@@ -413,7 +430,7 @@ Buffer<double> Triangulation::cell_areas(const Point* vertices, const std::int32
       } while (slot != lend_[k]);
       for (; i <= last; ++i) {  // of the far side, where neighbours are not listed
         const Point here = vertex(i);
-        area += files::triangle_area(p, before, here);
+        area += far_triangle_area(p, before, here);
         before = here;
       }
       areas[k] = area;

@@ -87,13 +87,21 @@ def test_areas_add_up_to_the_sphere_s():
     assert octants.cell_areas == pytest.approx(np.full(6, 2 * np.pi / 3), rel=1e-15)
 
 
+def shrunk(points, scale):
+    """Nodes with z > 0, drawn together at the pole."""
+    near = points * [scale, scale, 1]
+    return near / np.linalg.norm(near, axis=1)[:, np.newaxis]
+
+
 @pytest.mark.parametrize("points", [
-    in_cap(300), in_cap(3),
+    in_cap(300), in_cap(3), shrunk(in_cap(300), 1e-3), shrunk(in_cap(300), 1e-5),
+    to_xyz([0, 1, 3], [0, 0.1, 0]), to_xyz([0, 1, 3, 2], [0, 0.1, 0, -0.1]),
     to_xyz([0, 120, 240], [80, 80, 80]), to_xyz(np.arange(0, 360, 15), np.full(24, 60)),
-    to_xyz([0, 90, 0], [0, 0, 90])], ids=["cap", "three", "symmetric_three", "small_circle", "octant"])
+    to_xyz([0, 90, 0], [0, 0, 90])], ids=["cap", "three", "small_cap", "tiny_cap",
+                                                            "obtuse", "flat", "symmetric_three", "small_circle", "octant"])
 def test_cells_of_nodes_in_a_hemisphere_cover_the_sphere(points):
     areas = Delaunay(points).cell_areas
-    assert areas.sum() == pytest.approx(4 * np.pi, rel=1e-12) and areas.min() > 0
+    assert areas.sum() == pytest.approx(4 * np.pi, rel=1e-9) and areas.min() > 0
 
 
 def test_cells_of_nodes_on_a_small_circle_are_lunes():
