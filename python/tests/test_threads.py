@@ -1,7 +1,10 @@
 import concurrent.futures
 import multiprocessing
+import os
+import re
+import subprocess
+import sys
 import threading
-import time
 
 import numpy as np
 import pytest
@@ -48,24 +51,20 @@ def test_one_triangulation_is_asked_by_several_threads():
 
 def test_python_goes_on_during_a_call():
     points = random_nodes(200000)
-    for _ in range(30):  # the other thread may have to wait for a processor
-        times = []
-
-        def work():
-            times.append(time.perf_counter())
-            Delaunay(points, threads=1)
-            times.append(time.perf_counter())
-
-        worker = threading.Thread(target=work)
-        stamps = []
-        worker.start()
-        while worker.is_alive():
-            stamps.append(time.perf_counter())
-        begin, end = times
-        tenth = (end - begin) / 10
-        if any(begin + 2 * tenth < stamp < end - 2 * tenth for stamp in stamps):
-            return
-    pytest.fail("no Python ran during the calls")
+    before = sys.getswitchinterval()
+    sys.setswitchinterval(1000)  # from now on others run only while a thread has given Python's lock back
+    try:
+        for _ in range(20):  # this thread may have to wait for a processor
+            done = []
+            worker = threading.Thread(target=lambda: done.append(Delaunay(points, threads=1)))
+            worker.start()  # returns when the worker gives the lock back
+            was_running = not done
+            worker.join()
+            if was_running:
+                return
+        pytest.fail("Delaunay keeps Python's lock")
+    finally:
+        sys.setswitchinterval(before)
 
 
 def in_child():
@@ -76,3 +75,11 @@ def test_a_forked_child_may_triangulate():
     expected = in_child()  # OpenMP's threads run in this process, and not in the child
     with multiprocessing.get_context("fork").Pool(1) as pool:
         assert pool.apply_async(in_child).get(60) == expected
+
+
+def test_threads_is_the_number_of_one_call_only():
+    script = ("import numpy, pstripack; points = numpy.random.default_rng(1).normal(size=(60000, 3));"
+              "pstripack.Delaunay(points, threads=3); pstripack.Delaunay(points[:50000])")
+    report = subprocess.run([sys.executable, "-c", script], check=True, stderr=subprocess.PIPE, text=True,
+                            env={**os.environ, "PSTRIPACK_REPORT": "1", "OMP_NUM_THREADS": "2"}).stderr
+    assert re.findall(r"n=(\d+) .*?threads=(\d+)", report) == [("60000", "3"), ("50000", "2")]
