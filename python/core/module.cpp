@@ -46,18 +46,17 @@ const Point* places_in(const Array<double>& places) {
   return reinterpret_cast<const Point*>(places.data());
 }
 
-/// A triangulation, and the array that has its nodes.
+/// A triangulation, and the array that has its nodes if they are read in place.
 struct Mesh {
-  py::array_t<double> points;
+  py::object points;
   std::unique_ptr<const Triangulation> triangulation;
 
-  Mesh(py::array_t<double> nodes, int threads) : points(std::move(nodes)) {
-    const std::size_t n = rows_of(points);
+  Mesh(const py::array_t<double>& nodes, int threads) {
+    const std::size_t n = rows_of(nodes);
     constexpr auto size = static_cast<py::ssize_t>(sizeof(double));
-    if (n > 1 && points.strides(0) % size != 0)
-      throw py::value_error("the rows of the array are not aligned");
-    bindings::Coordinates given{n, {}, points.strides(0) / size};
-    for (py::ssize_t axis = 0; n > 0 && axis < 3; ++axis) given.axis[axis] = points.data(0, axis);
+    bindings::Coordinates given{n, {}, nodes.strides(0) / size};
+    for (py::ssize_t axis = 0; n > 0 && axis < 3; ++axis) given.axis[axis] = nodes.data(0, axis);
+    if (given.stride == 1) points = nodes;
     triangulation = compute(threads, [&] { return std::make_unique<const Triangulation>(given); });
   }
   const Triangulation* operator->() const { return triangulation.get(); }
@@ -124,19 +123,16 @@ py::tuple cells(const Mesh& mesh, int threads) {
   return py::make_tuple(array_of(std::move(c.vertices)), runs[0], runs[1]);
 }
 
-/// Of what `cells` has returned.
-py::array cell_areas(const Mesh& mesh, const Array<double>& vertices, const Array<std::int32_t>& begin,
-                     const Array<std::int32_t>& corners, int threads) {
-  return array_of(
-      compute(threads, [&] { return mesh->cell_areas(places_in(vertices), begin.data(), corners.data()); }));
+py::array cell_areas(const Mesh& mesh, int threads) {
+  return array_of(compute(threads, [&] { return mesh->cell_areas(); }));
 }
 
-py::array circumcentres(const Mesh& mesh, const Array<std::int32_t>& corners, int threads) {
-  return array_of(compute(threads, [&] { return mesh->circumcentres(corners.data(), rows_of(corners)); }));
+py::array circumcentres(const Mesh& mesh, int threads) {
+  return array_of(compute(threads, [&] { return mesh->circumcentres(); }));
 }
 
-py::array triangle_areas(const Mesh& mesh, const Array<std::int32_t>& corners, int threads) {
-  return array_of(compute(threads, [&] { return mesh->triangle_areas(corners.data(), rows_of(corners)); }));
+py::array triangle_areas(const Mesh& mesh, int threads) {
+  return array_of(compute(threads, [&] { return mesh->triangle_areas(); }));
 }
 
 py::array boundary(const Mesh& mesh) {

@@ -302,12 +302,13 @@ std::vector<std::int32_t> Triangulation::boundary() const {
   return nodes;
 }
 
-Buffer<Point> Triangulation::circumcentres(const std::int32_t* corners, std::size_t count) const {
-  Buffer<Point> centres(count);
+Buffer<Point> Triangulation::circumcentres() const {
+  const Buffer<std::int32_t> corners = triangles();
+  Buffer<Point> centres(corners.size() / 3);
   const pstripack::Nodes<double> node = nodes();
-  parallel_pieces(count, threads_for(count), [&](std::size_t begin, std::size_t end, int) {
+  parallel_pieces(centres.size(), threads_for(centres.size()), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t t = begin; t < end; ++t) {
-      const std::int32_t* const c = corners + 3 * t;
+      const std::int32_t* const c = corners.data() + 3 * t;
       pstripack::Vector<double> centre = node[c[0] + 1];
       pstripack::circumcentre(node[c[0] + 1], node[c[1] + 1], node[c[2] + 1], centre);
       centres[t] = as_point(centre);
@@ -316,11 +317,14 @@ Buffer<Point> Triangulation::circumcentres(const std::int32_t* corners, std::siz
   return centres;
 }
 
-Buffer<double> Triangulation::triangle_areas(const std::int32_t* corners, std::size_t count) const {
-  Buffer<double> areas(count);
-  parallel_pieces(count, threads_for(count), [&](std::size_t begin, std::size_t end, int) {
-    for (std::size_t t = begin; t < end; ++t)
-      areas[t] = files::triangle_area(at(corners[3 * t]), at(corners[3 * t + 1]), at(corners[3 * t + 2]));
+Buffer<double> Triangulation::triangle_areas() const {
+  const Buffer<std::int32_t> corners = triangles();
+  Buffer<double> areas(corners.size() / 3);
+  parallel_pieces(areas.size(), threads_for(areas.size()), [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t t = begin; t < end; ++t) {
+      const std::int32_t* const c = corners.data() + 3 * t;
+      areas[t] = files::triangle_area(at(c[0]), at(c[1]), at(c[2]));
+    }
   });
   return areas;
 }
@@ -409,18 +413,20 @@ double far_triangle_area(const Point& p, const Point& u, const Point& v) {
 
 }  // namespace
 
-Buffer<double> Triangulation::cell_areas(const Point* vertices, const std::int32_t* begin_of,
-                                         const std::int32_t* corners) const {
+Buffer<double> Triangulation::cell_areas() const {
+  const Cells cells = this->cells();
   Buffer<double> areas(n_);
   const Reader reader(lists());
   parallel_pieces(n_, threads_for(4 * n_), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t k = begin; k < end; ++k) {
       const Point p = at(static_cast<std::int32_t>(k));
-      const std::int32_t last = begin_of[k + 1] - 1;
-      const auto vertex = [&](std::int32_t i) { return vertices[corners[i]]; };
+      const std::int32_t last = cells.corners.begin[k + 1] - 1;
+      const auto vertex = [&](std::int32_t i) {
+        return cells.vertices[static_cast<std::size_t>(cells.corners.values[static_cast<std::size_t>(i)])];
+      };
       Point before = vertex(last);
       double area = 0;
-      std::int32_t i = begin_of[k], slot = lend_[k];
+      std::int32_t i = cells.corners.begin[k], slot = lend_[k];
       do {  // corner i comes after the border with the neighbour in the slot
         slot = reader.next(slot);
         const BesideBorder border(p, at(reader.neighbour(slot) - 1));

@@ -84,15 +84,13 @@ class Triangulation {
   Runs neighbours() const;
   /// Counterclockwise round the triangles; empty if they cover the sphere.
   std::vector<std::int32_t> boundary() const;
-  /// Of `count` triangles: centres of their circumscribed caps, and areas.
-  Buffer<Point> circumcentres(const std::int32_t* corners, std::size_t count) const;
-  Buffer<double> triangle_areas(const std::int32_t* corners, std::size_t count) const;
+  /// In the same order the centres of their circumscribed caps, and their areas.
+  Buffer<Point> circumcentres() const;
+  Buffer<double> triangle_areas() const;
 
   /// Where nodes lie in a hemisphere, the cells of boundary nodes share the rest of the sphere.
   Cells cells() const;
-  /// Of cells() or a copy of its arrays.
-  Buffer<double> cell_areas(const Point* vertices, const std::int32_t* begin,
-                            const std::int32_t* corners) const;
+  Buffer<double> cell_areas() const;
   ClosestPair closest_pair() const;
 
   // Places are vectors of any length, results in their order. Places up to 1e-12 outside the triangles count

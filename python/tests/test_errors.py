@@ -3,8 +3,8 @@ import pickle
 import numpy as np
 import pytest
 from nodes import random_nodes
-from pstripack import (BadCoordinateError, CoincidentNodesError, CollinearNodesError, Delaunay, TriangulationError,
-                       to_xyz)
+from pstripack import (BadCoordinateError, CoincidentNodesError, CollinearNodesError, Delaunay, SphericalVoronoi,
+                       TriangulationError, to_xyz)
 
 POINTS = random_nodes(50)
 
@@ -76,3 +76,21 @@ def test_nodes_that_change_afterwards_do_no_harm():
             mesh.cell_areas
         except RuntimeError:
             pass
+
+
+def test_arrays_that_are_returned_may_be_changed():
+    mesh = Delaunay(POINTS)
+    expected = mesh.areas, mesh.circumcenters
+    mesh.simplices[:] = 2**30
+    assert np.array_equal(mesh.areas, expected[0]) and np.array_equal(mesh.circumcenters, expected[1])
+    assert mesh.find_simplex(POINTS).max() == -1
+    diagram = SphericalVoronoi(POINTS)
+    areas = diagram.calculate_areas()
+    diagram.vertices[:] = np.nan
+    diagram.points[:] = 0
+    assert np.array_equal(diagram.calculate_areas(), areas)
+    for part in diagram.region_vertices:
+        with pytest.raises(ValueError):
+            part[:] = 2**30
+    diagram.regions[0].clear()
+    assert len(diagram.regions[0]) == 0

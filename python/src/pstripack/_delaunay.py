@@ -107,18 +107,18 @@ class Delaunay:
     @property
     def circumcenters(self) -> Floats:
         """Centres of the triangles' circumscribed circles, on the unit sphere, shape (t, 3)."""
-        return self._mesh.circumcentres(self.simplices, self._threads)
+        return self._mesh.circumcentres(self._threads)
 
     @property
     def areas(self) -> Floats:
         """Areas of the triangles in steradians."""
-        return self._mesh.triangle_areas(self.simplices, self._threads)
+        return self._mesh.triangle_areas(self._threads)
 
     @property
     def cell_areas(self) -> Floats:
         """Areas of the nodes' Voronoi cells in steradians; they add up to 4 pi. Where the nodes lie in a hemisphere,
         the cells of those on the boundary share the rest of the sphere."""
-        return self._mesh.cell_areas(*self._mesh.cells(self._threads), self._threads)
+        return self._mesh.cell_areas(self._threads)
 
     @property
     def lists(self) -> Tuple[Ints, Ints, Ints, int]:

@@ -5,7 +5,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arrays import Floats, Ints, node_array, thread_count
+from ._arrays import Floats, Ints, node_array, read_only, thread_count
 from ._errors import CoincidentNodesError, TriangulationError
 
 
@@ -59,7 +59,7 @@ class SphericalVoronoi:
         self.radius = float(radius)
         if not (np.isfinite(self.radius) and self.radius > 0):
             raise ValueError(f"radius is {radius}: a positive number is needed")
-        self.points: Floats = np.array(node_array(points))
+        self.points: Floats = np.array(node_array(points), order="C")
         self.center: Floats = np.zeros(3) if center is None else np.array(center, dtype=np.float64)
         if self.center.shape != (3,):
             raise ValueError(f"center must have three coordinates; its shape is {self.center.shape}")
@@ -79,15 +79,17 @@ class SphericalVoronoi:
         if distance <= threshold:
             raise _duplicates((first, second))
         self._mesh, self._threads = mesh, number
-        self._unit_vertices, begin, indices = mesh.cells(number)
-        self.vertices: Floats = self.radius * self._unit_vertices + self.center
-        self.region_vertices: Tuple[Ints, Ints] = (begin, indices)
+        vertices, begin, indices = mesh.cells(number)
+        if self.radius != 1 or self.center.any():
+            vertices = self.radius * vertices + self.center
+        self.vertices: Floats = vertices
+        self.region_vertices: Tuple[Ints, Ints] = (read_only(begin), read_only(indices))
         self._regions: Optional[List[List[int]]] = None
 
     @property
     def regions(self) -> List[List[int]]:
         if self._regions is None:
-            self._regions = _core.lists_of(*self.region_vertices, len(self.vertices))
+            self._regions = _core.lists_of(*self.region_vertices, 2 * len(self.points) - 4)
         return self._regions
 
     def sort_vertices_of_regions(self) -> None:
@@ -95,8 +97,7 @@ class SphericalVoronoi:
 
     def calculate_areas(self) -> Floats:
         """Areas of the regions; their sum is 4 pi radius**2."""
-        areas = self._mesh.cell_areas(self._unit_vertices, *self.region_vertices, self._threads)
-        return areas * self.radius**2
+        return self._mesh.cell_areas(self._threads) * self.radius**2
 
     def _check_on_sphere(self, vectors: Floats, threshold: float) -> None:
         with np.errstate(over="ignore", invalid="ignore"):
