@@ -15,8 +15,9 @@ class Delaunay:
     Parameters
     ----------
     points : array_like, shape (n, 3)
-        Vectors from the centre of the sphere to the nodes. Only their directions count. An array of float64 is kept
-        and not copied: do not change it while this object is in use.
+        Vectors from the centre of the sphere to the nodes. Only their directions count. An array of float64 is kept:
+        do not change it while this object is in use. The library reads columns: in place where they are contiguous
+        (Fortran order), else from a copy.
     threads : int, optional
         Threads for the triangulation, and for what is computed from it.
 
