@@ -7,7 +7,7 @@
 
 #include <cmath>
 #include <memory>
-#include <optional>
+#include <vector>
 
 #include "arrays.h"
 #include "base/parallel_for.h"
