@@ -97,6 +97,24 @@ if(PSTRIPACK_TOOLS)
 stripack-compare, which runs an original STRIPACK beside this one and
 explains every difference.")
 endif()
+if(TARGET pstripack_python)
+  string(REGEX MATCH "^([0-9]+)\\.([0-9]+)" this_python ${PSTRIPACK_PYTHON_VERSION})
+  math(EXPR next_minor "${CMAKE_MATCH_2} + 1")
+  debian_package(python NAME python3-pstripack SECTION python
+    DEPENDS libpstripack${soversion} "python3 (>= ${this_python})"
+            "python3 (<< ${CMAKE_MATCH_1}.${next_minor})" python3-numpy
+    SUGGESTS python3-scipy
+    SUMMARY "Delaunay triangulation on the sphere: Python package"
+    DESCRIPTION "${about}This package has the Python package pstripack: triangulations, Voronoi
+diagrams, searches and interpolation of NumPy arrays.")
+  # Debian compiles the Python files when the package is installed.
+  file(WRITE ${PROJECT_BINARY_DIR}/packaging/postinst "#!/bin/sh\nset -e\n"
+    "if command -v py3compile >/dev/null; then py3compile -p python3-pstripack; fi\n")
+  file(WRITE ${PROJECT_BINARY_DIR}/packaging/prerm "#!/bin/sh\nset -e\n"
+    "if command -v py3clean >/dev/null; then py3clean -p python3-pstripack; fi\n")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/packaging/postinst
+                                                ${PROJECT_BINARY_DIR}/packaging/prerm)
+endif()
 debian_package(documents NAME pstripack-doc SECTION doc
   SUMMARY "Delaunay triangulation on the sphere: documents and examples"
   DESCRIPTION "${about}This package has the documents, among them how to relink a program, and

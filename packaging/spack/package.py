@@ -37,4 +37,5 @@ class Pstripack(CMakePackage):
             self.define_from_variant("PSTRIPACK_TOOLS", "tools"),
             self.define("PSTRIPACK_TESTS", False),
             self.define("PSTRIPACK_EXAMPLES", False),
+            self.define("PSTRIPACK_PYTHON", False),
         ]

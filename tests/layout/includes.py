@@ -24,6 +24,7 @@ OUTSIDE = {
     "tools": list(ENGINE),
     "compare": ["tools", "legacy_stripack"],
     "legacy_stripack": [],
+    "python": ["tools"],
 }
 ALLOWED = {**ENGINE, **OUTSIDE}
 # Outside the engine, and by its public header pstripack_mpi.h, MPI may be called; in the engine by src/cxx/mpi only.

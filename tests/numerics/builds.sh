@@ -20,7 +20,7 @@ check() {
   result=same
   if ! { cmake -S "$source" -B "$folder/build" -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_COMPILER="$compiler" \
            -DCMAKE_CXX_FLAGS="$flags" -DCMAKE_Fortran_FLAGS="$flags" -DPSTRIPACK_WITH_MPI=OFF \
-           -DPSTRIPACK_TOOLS=OFF -DPSTRIPACK_EXAMPLES=OFF "$@" &&
+           -DPSTRIPACK_TOOLS=OFF -DPSTRIPACK_EXAMPLES=OFF -DPSTRIPACK_PYTHON=OFF "$@" &&
          cmake --build "$folder/build" --parallel "$(nproc)" \
            --target fingerprint_plain stripack_environment_test; } >"$folder/log" 2>&1; then
     result="DOES NOT BUILD"

@@ -83,6 +83,8 @@ output_has "$answer"
 inside "pstripack points random 100 > nodes.txt && pstripack info nodes.txt | tr -s ' '"
 output_has 'triangles 196'
 inside "stripack-compare --version && stripack-compare --help > /dev/null"
+inside "python3 -c 'import pstripack as p; print(p.Delaunay([[1, 0, 0], [0, 1, 0], [0, 0, 1]]).simplices)'"
+output_has '[[0 1 2]]'
 inside "apt-get purge -y -q '*pstripack*' && ! find / -xdev -path /work -prune -o -name '*stripack*' -print | grep ."
 echo
 echo "bare root: all ran"

@@ -16,11 +16,11 @@ done
 cd "$work/packages"
 rm -rf _CPack_Packages
 
-# A build that is not for /usr has no multiarch folders, which the MPI part's paths offend.
+# A build that is not for /usr has no multiarch folders, which the MPI part's paths offend, nor Debian's for Python.
 multiarch=$(dpkg-architecture -q DEB_HOST_MULTIARCH)
 suppressed=running-as-root
 dpkg-deb -c libpstripack-dev_*.deb | grep -q "/usr/lib/$multiarch/pkgconfig/" ||
-  suppressed=pkg-config-multi-arch-wrong-dir,pkg-config-unavailable-for-cross-compilation
+  suppressed=pkg-config-multi-arch-wrong-dir,pkg-config-unavailable-for-cross-compilation,python-module-in-wrong-location
 lintian --allow-root --fail-on error,warning --suppress-tags "$suppressed" ./*.deb
 
 # has PACKAGE DEPENDS_ON NOT_ON PATH...
@@ -61,6 +61,10 @@ if grep -q '^PSTRIPACK_WITH_MPI:BOOL=ON' "$build/CMakeCache.txt"; then
     share/man/man1/pstripack-run.1.gz share/bash-completion/completions/pstripack-run
 fi
 has pstripack "libpstripack$soname \(= $version" mpi bin/pstripack bin/stripack-compare share/man/man1/pstripack.1.gz
+if [ -e "$build/python/pstripack" ]; then
+  has python3-pstripack "libpstripack$soname \(= $version.*python3-numpy" 'mpi|scipy' \
+    'lib/python3[^/]*/(dist|site)-packages/pstripack/_core\..*\.so' 'lib/python3[^/]*/(dist|site)-packages/pstripack/py\.typed'
+fi
 has pstripack-doc '^$' . share/doc/pstripack/README.md share/doc/pstripack/docs/relink.md \
   share/doc/pstripack/docs/clients/mpas.md share/doc/pstripack/examples/fortran77/mesh.f
 completions=share/bash-completion/completions

@@ -1,0 +1,82 @@
+#!/usr/bin/env python3
+"""Times the package against the library's own call and against SciPy, on random nodes: the least of several runs, which
+take turns, in seconds of processor time.
+
+  benchmark.py [--nodes N] [--repeats K] [--threads T] [--library libpstripack.so.0]
+"""
+import argparse
+import ctypes
+import os
+import sys
+import time
+
+import numpy as np
+
+
+class OwnCall:
+    """pstripack_trmesh on columns and lists that are there already."""
+
+    def __init__(self, library, points):
+        self.call = ctypes.CDLL(library).pstripack_trmesh
+        n = len(points)
+        self.columns = np.array(points.T, order="C")
+        self.lists = [np.zeros(size, np.int32) for size in (6 * n - 12, 6 * n - 12, n, 1)]
+
+    def __call__(self):
+        arrays = [*self.columns, *self.lists]
+        if self.call(self.columns.shape[1], *(ctypes.c_void_p(a.ctypes.data) for a in arrays)) != 0:
+            sys.exit("benchmark: pstripack_trmesh failed")
+
+
+def least(calls, repeats):
+    seconds = dict.fromkeys(calls, float("inf"))
+    for _ in range(repeats):
+        for name, call in calls.items():
+            start = time.process_time()
+            call()
+            seconds[name] = min(seconds[name], time.process_time() - start)
+    return seconds
+
+
+def main():
+    options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    options.add_argument("--nodes", type=int, default=200_000)
+    options.add_argument("--repeats", type=int, default=9)
+    options.add_argument("--threads", type=int, default=1)
+    options.add_argument("--library", default=os.environ.get("PSTRIPACK_LIBRARY", "libpstripack.so.0"))
+    options.add_argument("--no-scipy", action="store_true", help="skips SciPy's diagrams, which take long")
+    given = options.parse_args()
+    os.environ["OMP_NUM_THREADS"] = str(given.threads)
+    os.environ["PSTRIPACK_WARM_START"] = "0"  # equal nodes again and again would be too easy
+    import pstripack  # reads the environment
+
+    points = np.random.default_rng(1).normal(size=(given.nodes, 3))
+    points /= np.linalg.norm(points, axis=1)[:, np.newaxis]
+    places = np.random.default_rng(2).normal(size=(given.nodes, 3))
+    mesh = pstripack.Delaunay(points, threads=given.threads)
+    diagram = pstripack.SphericalVoronoi(points, threads=given.threads)
+    seconds = least({
+        "pstripack_trmesh, the library's call": OwnCall(given.library, points),
+        "Delaunay(points).simplices": lambda: pstripack.Delaunay(points, threads=given.threads).simplices,
+        "SphericalVoronoi(points)": lambda: pstripack.SphericalVoronoi(points, threads=given.threads),
+        "SphericalVoronoi(points).regions": lambda: pstripack.SphericalVoronoi(points, threads=given.threads).regions,
+        "calculate_areas() alone": diagram.calculate_areas,
+        "find_simplex, as many places": lambda: mesh.find_simplex(places),
+        "nearest": lambda: mesh.nearest(places),
+        "interpolate, linear": lambda: mesh.interpolate(points[:, 0], places),
+    }, given.repeats)
+    if not given.no_scipy:
+        import scipy.spatial
+        theirs = scipy.spatial.SphericalVoronoi
+        seconds |= least({"scipy's SphericalVoronoi(points).regions": lambda: theirs(points).regions,
+                          "scipy's, sorted, and calculate_areas()": lambda: theirs(points).calculate_areas()}, 1)
+
+    print(f"{given.nodes} random nodes, {given.threads} thread(s), pstripack {pstripack.__version__}")
+    for name, time_taken in seconds.items():
+        print(f"{time_taken:10.4f} s  {name}")
+    own, simplices = list(seconds.values())[:2]
+    print(f"{simplices / own:10.2f}    times the library's call from array to triangles")
+
+
+if __name__ == "__main__":
+    main()

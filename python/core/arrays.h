@@ -1,0 +1,73 @@
+#pragma once
+// NumPy arrays of what is computed, and the calls without Python's lock that compute it.
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "base/buffer.h"
+#include "base/floating_point.h"
+#include "geometry/point.h"
+
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+namespace bindings {
+
+namespace py = pybind11;
+using pstripack::Buffer;
+
+template <class T>
+using Array = py::array_t<T, py::array::c_style>;
+
+/// While it lives, OpenMP's number of threads of the calling thread; 0: as it was.
+class Threads {
+ public:
+#ifdef _OPENMP
+  explicit Threads(int threads) : saved_(omp_get_max_threads()) {
+    if (threads > 0) omp_set_num_threads(threads);
+  }
+  ~Threads() { omp_set_num_threads(saved_); }
+#else
+  explicit Threads(int) {}
+#endif
+  Threads(const Threads&) = delete;
+  Threads& operator=(const Threads&) = delete;
+
+ private:
+#ifdef _OPENMP
+  int saved_;
+#endif
+};
+
+/// body(), on so many threads and without Python's lock.
+template <class Body>
+auto compute(int threads, const Body& body) {
+  const py::gil_scoped_release unlocked;
+  const Threads limit(threads);
+  return pstripack::in_default_floating_point(body);
+}
+
+/// The array of a buffer, which moves into it.
+template <class T, class Item>
+py::array array_of(Buffer<Item>&& buffer, std::vector<py::ssize_t> shape) {
+  auto owner = std::make_unique<Buffer<Item>>(std::move(buffer));
+  T* const data = reinterpret_cast<T*>(owner->data());
+  const py::capsule base(owner.release(), [](void* p) { delete static_cast<Buffer<Item>*>(p); });
+  return Array<T>(std::move(shape), data, base);
+}
+inline py::array array_of(Buffer<pstripack::Point>&& points) {
+  const auto n = static_cast<py::ssize_t>(points.size());
+  return array_of<double>(std::move(points), {n, 3});
+}
+template <class T>
+py::array array_of(Buffer<T>&& values) {
+  const auto n = static_cast<py::ssize_t>(values.size());
+  return array_of<T>(std::move(values), {n});
+}
+
+}  // namespace bindings

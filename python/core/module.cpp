@@ -1,0 +1,235 @@
+// The module pstripack._core: NumPy arrays in and out. The package's documentation is that of the Python
+// files.
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "arrays.h"
+#include "base/parallel_for.h"
+#include "capi/pstripack.h"
+#include "scvt_run.h"
+#include "shapes.h"
+#include "triangulation.h"
+
+namespace {
+
+namespace py = pybind11;
+using bindings::Array;
+using bindings::array_of;
+using bindings::Buffer;
+using bindings::Cells;
+using bindings::compute;
+using bindings::NoTriangulation;
+using bindings::Runs;
+using bindings::Triangulation;
+using pstripack::Point;
+
+py::array rows_of_three(Buffer<std::int32_t>&& values) {
+  const auto rows = static_cast<py::ssize_t>(values.size() / 3);
+  return array_of<std::int32_t>(std::move(values), {rows, 3});
+}
+py::tuple arrays_of(Runs&& runs) {
+  return py::make_tuple(array_of(std::move(runs.begin)), array_of(std::move(runs.values)));
+}
+
+std::size_t rows_of(const py::array& array) {
+  if (array.ndim() != 2 || array.shape(1) != 3) throw py::value_error("an array of shape (n, 3) is needed");
+  return static_cast<std::size_t>(array.shape(0));
+}
+const Point* places_in(const Array<double>& places) {
+  static_assert(sizeof(Point) == 3 * sizeof(double));
+  return reinterpret_cast<const Point*>(places.data());
+}
+
+/// A triangulation, and the array that has its nodes if they are read in place.
+struct Mesh {
+  py::object points;
+  std::unique_ptr<const Triangulation> triangulation;
+
+  Mesh(const py::array_t<double>& nodes, int threads) {
+    const std::size_t n = rows_of(nodes);
+    constexpr auto size = static_cast<py::ssize_t>(sizeof(double));
+    bindings::Coordinates given{n, {}, nodes.strides(0) / size};
+    for (py::ssize_t axis = 0; n > 0 && axis < 3; ++axis) given.axis[axis] = nodes.data(0, axis);
+    if (given.stride == 1) points = nodes;
+    triangulation = compute(threads, [&] { return std::make_unique<const Triangulation>(given); });
+  }
+  const Triangulation* operator->() const { return triangulation.get(); }
+};
+
+py::array triangles(const Mesh& mesh, int threads) {
+  return rows_of_three(compute(threads, [&] { return mesh->triangles(); }));
+}
+
+py::array opposite_triangles(const Mesh& mesh, int threads) {
+  return rows_of_three(compute(threads, [&] { return mesh->opposite_triangles(); }));
+}
+
+/// LIST, LPTR, LEND, copied, and LNEW.
+py::tuple lists(const Mesh& mesh) {
+  const auto view = mesh->lists();
+  const py::ssize_t slots = view.lnew - 1, n = static_cast<py::ssize_t>(view.n);
+  return py::make_tuple(Array<std::int32_t>(slots, view.list), Array<std::int32_t>(slots, view.lptr),
+                        Array<std::int32_t>(n, view.lend), view.lnew);
+}
+
+/// While it lives, Python does not look for cycles: among many new lists there are none, and the search takes
+/// long.
+class NoSearchForCycles {
+ public:
+  NoSearchForCycles() : gc_(py::module_::import("gc")), was_on_(gc_.attr("isenabled")().cast<bool>()) {
+    gc_.attr("disable")();
+  }
+  ~NoSearchForCycles() {
+    if (was_on_) gc_.attr("enable")();
+  }
+  NoSearchForCycles(const NoSearchForCycles&) = delete;
+  NoSearchForCycles& operator=(const NoSearchForCycles&) = delete;
+
+ private:
+  const py::object gc_;
+  const bool was_on_;
+};
+
+/// Lists of integers, one for each run. An integer below `count` is one object, in however many lists it is.
+py::list lists_of(const Array<std::int32_t>& begin, const Array<std::int32_t>& values, std::size_t count) {
+  const NoSearchForCycles paused;
+  const std::int32_t* const first = begin.data();
+  const std::int32_t* const value = values.data();
+  const py::ssize_t runs = begin.size() - 1;
+  std::vector<py::object> integers(count);
+  py::list result(runs);
+  for (py::ssize_t k = 0; k < runs; ++k) {
+    py::list run(first[k + 1] - first[k]);
+    for (std::int32_t i = first[k]; i < first[k + 1]; ++i) {
+      py::object& integer = integers[static_cast<std::size_t>(value[i])];
+      if (!integer) integer = py::int_(value[i]);
+      PyList_SET_ITEM(run.ptr(), i - first[k], py::object(integer).release().ptr());
+    }
+    PyList_SET_ITEM(result.ptr(), k, run.release().ptr());
+  }
+  return result;
+}
+
+/// The Voronoi diagram: vertices, and those of each cell.
+py::tuple cells(const Mesh& mesh, int threads) {
+  Cells c = compute(threads, [&] { return mesh->cells(); });
+  const py::tuple runs = arrays_of(std::move(c.corners));
+  return py::make_tuple(array_of(std::move(c.vertices)), runs[0], runs[1]);
+}
+
+py::array cell_areas(const Mesh& mesh, int threads) {
+  return array_of(compute(threads, [&] { return mesh->cell_areas(); }));
+}
+
+py::array circumcentres(const Mesh& mesh, int threads) {
+  return array_of(compute(threads, [&] { return mesh->circumcentres(); }));
+}
+
+py::array triangle_areas(const Mesh& mesh, int threads) {
+  return array_of(compute(threads, [&] { return mesh->triangle_areas(); }));
+}
+
+py::array boundary(const Mesh& mesh) {
+  const std::vector<std::int32_t> nodes = compute(0, [&] { return mesh->boundary(); });
+  return Array<std::int32_t>(static_cast<py::ssize_t>(nodes.size()), nodes.data());
+}
+
+py::tuple closest_pair(const Mesh& mesh, int threads) {
+  const bindings::ClosestPair pair = compute(threads, [&] { return mesh->closest_pair(); });
+  return py::make_tuple(pair.distance, pair.first, pair.second);
+}
+
+py::array find(const Mesh& mesh, const Array<double>& places, const Array<std::int32_t>& corners,
+               int threads) {
+  const std::size_t count = rows_of(places), triangles = rows_of(corners);
+  return array_of(
+      compute(threads, [&] { return mesh->find(places_in(places), count, corners.data(), triangles); }));
+}
+
+py::array nearest(const Mesh& mesh, const Array<double>& places, int threads) {
+  const std::size_t count = rows_of(places);
+  return array_of(compute(threads, [&] { return mesh->nearest(places_in(places), count); }));
+}
+
+py::array linear(const Mesh& mesh, const Array<double>& places, const Array<double>& values, int threads) {
+  const std::size_t count = rows_of(places);
+  if (values.ndim() != 2 || static_cast<std::size_t>(values.shape(0)) != mesh->size())
+    throw py::value_error("a row of values for each node is needed");
+  const auto columns = static_cast<std::size_t>(values.shape(1));
+  return array_of<double>(
+      compute(threads, [&] { return mesh->linear(places_in(places), count, values.data(), columns); }),
+      {places.shape(0), values.shape(1)});
+}
+
+/// Unit vectors of longitudes and latitudes, by the formulas of the command `pstripack`.
+py::array vectors(const Array<double>& lon, const Array<double>& lat, bool degrees) {
+  if (lon.ndim() != 1 || lat.ndim() != 1 || lon.size() != lat.size())
+    throw py::value_error("longitudes and latitudes differ in number");
+  const auto n = static_cast<std::size_t>(lon.size());
+  return array_of(compute(0, [&] {
+    Buffer<Point> points(n);
+    pstripack::parallel_pieces(
+        n, pstripack::threads_for(4 * n), [&](std::size_t begin, std::size_t end, int) {
+          for (std::size_t i = begin; i < end; ++i) {
+            const double x = lon.data()[i], y = lat.data()[i];
+            if (degrees && std::isfinite(x) && std::isfinite(y))
+              points[i] = point_sets::from_degrees(x, y);
+            else
+              points[i] = {std::cos(y) * std::cos(x), std::cos(y) * std::sin(x), std::sin(y)};
+          }
+        });
+    return points;
+  }));
+}
+
+/// An exception of the package, with the nodes that it is about.
+void raise(const NoTriangulation& e) {
+  using Cause = NoTriangulation::Cause;
+  const char* name = "TriangulationError";
+  if (e.cause == Cause::bad_coordinate) name = "BadCoordinateError";
+  if (e.cause == Cause::coincident) name = "CoincidentNodesError";
+  if (e.cause == Cause::collinear) name = "CollinearNodesError";
+  const py::object type = py::module_::import("pstripack._errors").attr(name);
+  const py::object error = type(e.what(), py::tuple(py::cast(e.nodes)));
+  PyErr_SetObject(type.ptr(), error.ptr());
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_core, m) {
+  py::register_exception_translator([](std::exception_ptr p) {
+    try {
+      if (p) std::rethrow_exception(p);
+    } catch (const NoTriangulation& e) {
+      raise(e);
+    }
+  });
+  m.attr("version") = pstripack_version();
+  py::class_<Mesh>(m, "Mesh")
+      .def(py::init<py::array_t<double>, int>(), py::arg("points").noconvert(), py::arg("threads"))
+      .def("triangles", &triangles)
+      .def("opposite_triangles", &opposite_triangles)
+      .def("lists", &lists)
+      .def("neighbours",
+           [](const Mesh& mesh, int threads) {
+             return arrays_of(compute(threads, [&] { return mesh->neighbours(); }));
+           })
+      .def("boundary", &boundary)
+      .def("circumcentres", &circumcentres)
+      .def("triangle_areas", &triangle_areas)
+      .def("cells", &cells)
+      .def("cell_areas", &cell_areas)
+      .def("closest_pair", &closest_pair)
+      .def("find", &find)
+      .def("nearest", &nearest)
+      .def("linear", &linear);
+  m.def("lists_of", &lists_of);
+  m.def("vectors", &vectors);
+  m.def("scvt", &bindings::scvt);
+}

@@ -1,0 +1,474 @@
+#include "triangulation.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <numeric>
+#include <sstream>
+
+#include "base/parallel_for.h"
+#include "capi/pstripack.h"
+#include "files/measures.h"
+#include "geometry/predicates.h"
+#include "lists/limits.h"
+#include "lists/rings.h"
+#include "stripack/list_queries.h"
+#include "stripack/triangle_list.h"
+#include "stripack/voronoi.h"
+
+namespace bindings {
+namespace {
+
+using pstripack::parallel_pieces;
+using pstripack::threads_for;
+using Cause = NoTriangulation::Cause;
+using Reader = pstripack::ListReader<std::int32_t>;
+
+/// Three nodes that are not on one great circle, chosen far from each other.
+template <class Node>
+std::vector<std::size_t> three_corners(std::size_t n, const Node& node) {
+  const auto farthest = [&](const auto& measure) {
+    std::size_t best = 0;
+    double most = -1;
+    for (std::size_t i = 0; i < n; ++i)
+      if (const double m = measure(unit(node(i))); m > most) best = i, most = m;
+    return best;
+  };
+  const Point a = unit(node(0));
+  const std::size_t second = farthest([&](const Point& p) {
+    const Point c = cross(a, p);
+    return dot(c, c);
+  });
+  const Point normal = cross(a, unit(node(second)));
+  std::size_t third = farthest([&](const Point& p) { return std::fabs(dot(normal, p)); });
+  const auto spans = [&](std::size_t i) { return pstripack::left(node(0), node(second), node(i)) != 0; };
+  for (std::size_t i = 0; i < n && !spans(third); ++i)
+    if (spans(i)) third = i;
+  if (!spans(third))
+    throw NoTriangulation(Cause::collinear, "all nodes lie on one great circle: they have no triangulation");
+  return {0, second, third};
+}
+
+NoTriangulation coincidence(std::size_t a, std::size_t b) {
+  const auto first = static_cast<std::int64_t>(std::min(a, b)),
+             second = static_cast<std::int64_t>(std::max(a, b));
+  return {Cause::coincident,
+          "nodes " + std::to_string(first) + " and " + std::to_string(second) +
+              " (counted from 0) point in the same direction: remove one of them",
+          {first, second}};
+}
+
+/// Lists of `count` nodes in `capacity` slots, none written.
+struct Lists {
+  Buffer<std::int32_t> list, lptr, lend;
+  std::int32_t lnew = 0;
+
+  explicit Lists(std::size_t n) : list(6 * n - 12), lptr(6 * n - 12), lend(n) {}
+
+  /// TRMESH; false for its code -2. Throws NoTriangulation and std::bad_alloc.
+  bool triangulate(const double* x, const double* y, const double* z) {
+    std::fill(lend.begin(), lend.end(), 0);
+    const auto n = static_cast<std::int32_t>(lend.size());
+    const std::int32_t ier = pstripack_trmesh(n, x, y, z, list.data(), lptr.data(), lend.data(), &lnew);
+    if (ier == PSTRIPACK_COLLINEAR) return false;
+    if (ier == PSTRIPACK_OUT_OF_MEMORY) throw std::bad_alloc();
+    if (ier < 0) throw std::runtime_error(pstripack_strerror(ier));
+    if (ier > 0) {  // the lists are those of the nodes before the second of the two
+      const auto second = std::find(lend.begin(), lend.end(), 0) - lend.begin();
+      throw coincidence(static_cast<std::size_t>(ier) - 1, static_cast<std::size_t>(second));
+    }
+    return true;
+  }
+};
+
+}  // namespace
+
+Triangulation::Triangulation(const Coordinates& given) : n_(given.n) {
+  if (n_ < 3)
+    throw NoTriangulation(Cause::too_few, "a triangulation needs three nodes, not " + std::to_string(n_));
+  constexpr auto most = static_cast<std::size_t>(pstripack::most_nodes<std::int32_t>());
+  if (n_ > most)
+    throw NoTriangulation(Cause::too_many,
+                          std::to_string(n_) + " nodes are too many: at most " + std::to_string(most));
+  read(given);
+  triangulate();
+  make_directions();
+  first_boundary_node_ = Reader(lists()).first_boundary_node();
+  Point sum{0, 0, 0};
+  for (std::size_t i = 0; first_boundary_node_ != 0 && i < n_; ++i) {
+    const Point p = at(static_cast<std::int32_t>(i));
+    sum = {sum.x + p.x, sum.y + p.y, sum.z + p.z};
+  }
+  middle_ = unit(sum);
+}
+
+/// Sets given_, with a copy if the coordinates are not in columns, and looks at each node.
+void Triangulation::read(const Coordinates& given) {
+  const bool in_place = given.stride == 1;
+  if (!in_place) own_columns_ = Buffer<double>(3 * n_);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    given_[axis] = in_place ? given.axis[axis] : own_columns_.data() + axis * n_;
+  std::atomic<std::size_t> first_bad{n_};
+  parallel_pieces(n_, threads_for(n_), [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto from = static_cast<std::ptrdiff_t>(i) * given.stride;
+      const Point p{given.axis[0][from], given.axis[1][from], given.axis[2][from]};
+      if (!in_place) {
+        double* const column = own_columns_.data() + i;
+        column[0] = p.x, column[n_] = p.y, column[2 * n_] = p.z;
+      }
+      if (has_direction(p)) continue;
+      std::size_t before = first_bad;
+      while (i < before && !first_bad.compare_exchange_weak(before, i)) {
+      }
+    }
+  });
+  if (const std::size_t bad = first_bad; bad < n_) {
+    const Point p = this->given(bad);
+    std::ostringstream message;
+    message << "node " << bad << " (counted from 0) is (" << p.x << ", " << p.y << ", " << p.z
+            << "): coordinates must be finite and not all zero";
+    throw NoTriangulation(Cause::bad_coordinate, message.str(), {static_cast<std::int64_t>(bad)});
+  }
+}
+
+void Triangulation::triangulate() {
+  Lists lists(n_);
+  if (!lists.triangulate(given_[0], given_[1], given_[2])) return triangulate_in_another_order();
+  list_ = std::move(lists.list), lptr_ = std::move(lists.lptr), lend_ = std::move(lists.lend);
+  lnew_ = lists.lnew;
+}
+
+/// Where the first three nodes lie on one great circle, which TRMESH refuses: with other nodes in front. The
+/// canonical lists, from those of the other order.
+void Triangulation::triangulate_in_another_order() {
+  std::vector<std::int32_t> order(n_), place(n_);  // order[i]: the node in place i, and place its inverse
+  std::iota(order.begin(), order.end(), 0);
+  const std::vector<std::size_t> corners = three_corners(n_, [this](std::size_t i) { return given(i); });
+  for (std::size_t k = 0; k < 3; ++k)
+    std::swap(order[k], *std::find(order.begin(), order.end(), static_cast<std::int32_t>(corners[k])));
+  Buffer<double> columns(3 * n_);
+  for (std::size_t i = 0; i < n_; ++i) {
+    const auto node = static_cast<std::size_t>(order[i]);
+    place[node] = static_cast<std::int32_t>(i);
+    for (std::size_t axis = 0; axis < 3; ++axis) columns[axis * n_ + i] = given_[axis][node];
+  }
+  Lists other(n_);
+  try {
+    if (!other.triangulate(columns.data(), columns.data() + n_, columns.data() + 2 * n_))
+      throw std::runtime_error(pstripack_strerror(PSTRIPACK_COLLINEAR));
+  } catch (const NoTriangulation& e) {
+    if (e.cause != Cause::coincident) throw;
+    throw coincidence(static_cast<std::size_t>(order[static_cast<std::size_t>(e.nodes[0])]),
+                      static_cast<std::size_t>(order[static_cast<std::size_t>(e.nodes[1])]));
+  }
+
+  const Reader reader({n_, other.list.data(), other.lptr.data(), other.lend.data(), other.lnew});
+  Lists lists(n_);
+  std::vector<std::int32_t> ring;
+  std::int32_t slot = 0;  // slots written
+  for (std::size_t node = 0; node < n_; ++node) {
+    const std::int32_t there = place[node] + 1, last = reader.last_slot(there);
+    ring.clear();
+    std::int32_t from = last;
+    do {
+      from = reader.next(from);
+      ring.push_back(order[static_cast<std::size_t>(reader.neighbour(from)) - 1] + 1);
+    } while (from != last);
+    if (reader.on_boundary(there))
+      ring.back() = -ring.back();
+    else
+      std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end()), ring.end());
+    const std::int32_t first = slot + 1;
+    for (const std::int32_t neighbour : ring) {
+      lists.list[static_cast<std::size_t>(slot)] = neighbour;
+      lists.lptr[static_cast<std::size_t>(slot)] = slot + 2;
+      ++slot;
+    }
+    lists.lptr[static_cast<std::size_t>(slot) - 1] = first;
+    lists.lend[node] = slot;
+  }
+  list_ = std::move(lists.list), lptr_ = std::move(lists.lptr), lend_ = std::move(lists.lend);
+  lnew_ = slot + 1;
+}
+
+void Triangulation::make_directions() {
+  std::atomic<bool> are_given{true};
+  const int threads = threads_for(n_);
+  parallel_pieces(n_, threads, [&](std::size_t begin, std::size_t end, int) {
+    bool all = true;
+    for (std::size_t i = begin; i < end; ++i) all &= has_unit_length(given(i));
+    if (!all) are_given = false;
+  });
+  std::copy(given_, given_ + 3, direction_);
+  if (are_given) return;
+  own_directions_ = Buffer<double>(3 * n_);
+  for (std::size_t axis = 0; axis < 3; ++axis) direction_[axis] = own_directions_.data() + axis * n_;
+  parallel_pieces(n_, threads, [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Point p = direction(given(i));
+      double* const column = own_directions_.data() + i;
+      column[0] = p.x, column[n_] = p.y, column[2 * n_] = p.z;
+    }
+  });
+}
+
+Buffer<std::int32_t> Triangulation::triangles() const {
+  constexpr auto pairs = pstripack::FirstPair::first_and_second;
+  const int threads = threads_for(n_);
+  pstripack::Rings<std::int32_t> rings;
+  if (!rings.read(lists(), threads)) throw std::logic_error("the lists are not those of a triangulation");
+  // The first triangle of each piece of the nodes; of all pieces together the number is known.
+  std::vector<std::size_t> first(static_cast<std::size_t>(threads));
+  if (threads > 1)
+    parallel_pieces(n_, threads, [&](std::size_t begin, std::size_t end, int piece) {
+      std::size_t count = 0;
+      rings.for_each_triangle<pairs>(begin, end, [&](auto...) { ++count; });
+      first[static_cast<std::size_t>(piece)] = count;
+    });
+  std::exclusive_scan(first.begin(), first.end(), first.begin(), std::size_t{0});
+  const std::size_t boundary_nodes = boundary().size();
+  Buffer<std::int32_t> corners(3 * (boundary_nodes > 0 ? 2 * n_ - 2 - boundary_nodes : 2 * n_ - 4));
+  parallel_pieces(n_, threads, [&](std::size_t begin, std::size_t end, int piece) {
+    std::int32_t* to = corners.data() + 3 * first[static_cast<std::size_t>(piece)];
+    rings.for_each_triangle<pairs>(begin, end,
+                                   [&](std::int32_t a, std::int32_t b, std::int32_t c, auto, auto) {
+                                     to[0] = a - 1, to[1] = b - 1, to[2] = c - 1;
+                                     to += 3;
+                                   });
+  });
+  return corners;
+}
+
+Buffer<std::int32_t> Triangulation::opposite_triangles() const {
+  Buffer<std::int32_t> columns(6 * (2 * n_ - 4));
+  std::int32_t count = 0;
+  if (pstripack::triangle_list(lists(), 6, count, columns.data()) != pstripack::TriangleListStatus::done)
+    throw std::logic_error("the lists are not those of a triangulation");
+  const auto triangles = static_cast<std::size_t>(count);
+  Buffer<std::int32_t> opposite(3 * triangles);
+  parallel_pieces(triangles, threads_for(triangles), [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t t = begin; t < end; ++t)
+      for (std::size_t k = 0; k < 3; ++k) opposite[3 * t + k] = columns[6 * t + 3 + k] - 1;
+  });
+  return opposite;
+}
+
+namespace {
+
+/// Runs of which run k has count(k) values, which write(k, to) writes.
+template <class Count, class Write>
+Runs make_runs(std::size_t n, const Count& count, const Write& write) {
+  Runs runs;
+  runs.begin = Buffer<std::int32_t>(n + 1);
+  const int threads = threads_for(n);
+  parallel_pieces(n, threads, [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t k = begin; k < end; ++k) runs.begin[k + 1] = count(k);
+  });
+  runs.begin[0] = 0;
+  std::partial_sum(runs.begin.begin(), runs.begin.end(), runs.begin.begin());
+  runs.values = Buffer<std::int32_t>(static_cast<std::size_t>(runs.begin[n]));
+  parallel_pieces(n, threads, [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t k = begin; k < end; ++k) write(k, runs.values.data() + runs.begin[k]);
+  });
+  return runs;
+}
+
+}  // namespace
+
+Runs Triangulation::neighbours() const {
+  const Reader reader(lists());
+  return make_runs(
+      n_, [&](std::size_t k) { return pstripack::nbcnt(lend_[k], lptr_.data()); },
+      [&](std::size_t k, std::int32_t* to) {
+        std::int32_t slot = lend_[k];
+        do {
+          slot = reader.next(slot);
+          *to++ = reader.neighbour(slot) - 1;
+        } while (slot != lend_[k]);
+      });
+}
+
+std::vector<std::int32_t> Triangulation::boundary() const {
+  std::vector<std::int32_t> nodes;
+  const Reader reader(lists());
+  for (std::int32_t node = first_boundary_node_; node != 0;) {
+    nodes.push_back(node - 1);
+    node = reader.first_neighbour(node);
+    if (node == first_boundary_node_) break;
+  }
+  return nodes;
+}
+
+Buffer<Point> Triangulation::circumcentres() const {
+  const Buffer<std::int32_t> corners = triangles();
+  Buffer<Point> centres(corners.size() / 3);
+  const pstripack::Nodes<double> node = nodes();
+  parallel_pieces(centres.size(), threads_for(centres.size()), [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t t = begin; t < end; ++t) {
+      const std::int32_t* const c = corners.data() + 3 * t;
+      pstripack::Vector<double> centre = node[c[0] + 1];
+      pstripack::circumcentre(node[c[0] + 1], node[c[1] + 1], node[c[2] + 1], centre);
+      centres[t] = as_point(centre);
+    }
+  });
+  return centres;
+}
+
+Buffer<double> Triangulation::triangle_areas() const {
+  const Buffer<std::int32_t> corners = triangles();
+  Buffer<double> areas(corners.size() / 3);
+  parallel_pieces(areas.size(), threads_for(areas.size()), [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t t = begin; t < end; ++t) {
+      const std::int32_t* const c = corners.data() + 3 * t;
+      areas[t] = files::triangle_area(at(c[0]), at(c[1]), at(c[2]));
+    }
+  });
+  return areas;
+}
+
+Cells Triangulation::cells() const {
+  const std::size_t vertices = 2 * n_ - 4, slots = 6 * n_ - 12, boundary_nodes = boundary().size();
+  Buffer<std::int32_t> lptr(slots), corner_of_slot(slots);
+  std::copy(lptr_.begin(), lptr_.begin() + (lnew_ - 1), lptr.begin());
+  std::vector<std::int32_t> far_side(6 * boundary_nodes);
+  Buffer<double> x(vertices), y(vertices), z(vertices), radius(vertices);
+  std::int32_t lnew = lnew_, nb = 0;
+  const pstripack::VoronoiStatus status = pstripack::voronoi<double, std::int32_t>(
+      {n_, list_.data(), lptr.data(), lend_.data(), lnew_}, nodes(),
+      {static_cast<std::int32_t>(boundary_nodes), lptr.data(), &lnew, far_side.data(), corner_of_slot.data(),
+       &nb, x.data(), y.data(), z.data(), radius.data()});
+  if (status == pstripack::VoronoiStatus::coincident_nodes)
+    throw std::runtime_error("nodes are so close that a triangle has no circumcentre");
+  if (status != pstripack::VoronoiStatus::done)
+    throw std::runtime_error("the nodes have changed since they were triangulated");
+
+  Cells cells;
+  cells.vertices = Buffer<Point>(vertices);
+  for (std::size_t v = 0; v < vertices; ++v) cells.vertices[v] = {x[v], y[v], z[v]};
+  const auto next = [&](std::int32_t slot) { return lptr[static_cast<std::size_t>(slot) - 1]; };
+  cells.corners = make_runs(
+      n_, [&](std::size_t k) { return pstripack::nbcnt(lend_[k], lptr.data()); },
+      [&](std::size_t k, std::int32_t* to) {
+        const std::int32_t first = lptr_[static_cast<std::size_t>(lend_[k]) - 1];
+        std::int32_t slot = first;
+        do {
+          *to++ = corner_of_slot[static_cast<std::size_t>(slot) - 1] - 1;
+          slot = next(slot);
+        } while (slot != first);
+      });
+  return cells;
+}
+
+namespace {
+
+/// 1 + a.b for unit vectors, accurate also where they are nearly opposite.
+double one_plus_dot(const Point& a, const Point& b) {
+  const Point sum{a.x + b.x, a.y + b.y, a.z + b.z};
+  return dot(sum, sum) / 2;
+}
+
+/// The border between the cells of node p and its neighbour q, and the area between p and a part of it.
+///
+///        v      The border passes through m, the middle of p and q; v lies on it at a signed angle t from m.
+///       /|      The angle at m is right, so tan(area of p m v / 2) = tan(pm / 2) tan(t / 2). Unlike that of
+///      p-m-q    p and two vertices this area is right also where these are opposite points of the sphere.
+///
+class BesideBorder {
+ public:
+  BesideBorder(const Point& p, const Point& q)
+      : middle_{p.x + q.x, p.y + q.y, p.z + q.z}, along_(cross(p, minus(q, p))) {
+    const double length = std::sqrt(dot(middle_, middle_)), chord = std::sqrt(dot(minus(q, p), minus(q, p)));
+    const double area = std::sqrt(dot(along_, along_));
+    middle_ = {middle_.x / length, middle_.y / length, middle_.z / length};
+    along_ = {along_.x / area, along_.y / area, along_.z / area};
+    tangent_ = chord / (2 + length);
+  }
+  /// From vertex u to vertex v, counterclockwise round p: t grows, by less than a half turn.
+  double area(const Point& u, const Point& v) const {
+    const double sin_u = dot(u, along_), sin_v = dot(v, along_);
+    const double cos_u = one_plus_dot(u, middle_), cos_v = one_plus_dot(v, middle_);  // 1 + cos t
+    const double half = std::atan2(tangent_ * (sin_v * cos_u - sin_u * cos_v),
+                                   cos_u * cos_v + tangent_ * tangent_ * sin_u * sin_v);
+    // Where t passes the point opposite to m; not where u and v are both m up to rounding.
+    const bool is_round = sin_u > 0 && sin_v < 0 && cos_u + cos_v < 3;
+    return 2 * (is_round ? half + pi : half);
+  }
+
+ private:
+  static constexpr double pi = 3.14159265358979323846;
+  Point middle_, along_;  // m; along the border, to the left of p->q
+  double tangent_;        // of half the angle from p to m
+};
+
+/// Area of the triangle p, u, v where u and v are more than 90 degrees from p: the lune from p through u and
+/// v to the opposite point, without the triangle beyond them, which may be small.
+double far_triangle_area(const Point& p, const Point& u, const Point& v) {
+  const Point opposite{-p.x, -p.y, -p.z}, a = minus(u, opposite), b = minus(v, opposite);
+  const double angle = std::atan2(dot(p, cross(a, b)), dot(a, b) - dot(p, a) * dot(p, b));
+  return 2 * angle - files::triangle_area(opposite, v, u);
+}
+
+}  // namespace
+
+Buffer<double> Triangulation::cell_areas() const {
+  const Cells cells = this->cells();
+  Buffer<double> areas(n_);
+  const Reader reader(lists());
+  parallel_pieces(n_, threads_for(4 * n_), [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const Point p = at(static_cast<std::int32_t>(k));
+      const std::int32_t last = cells.corners.begin[k + 1] - 1;
+      const auto vertex = [&](std::int32_t i) {
+        return cells.vertices[static_cast<std::size_t>(cells.corners.values[static_cast<std::size_t>(i)])];
+      };
+      Point before = vertex(last);
+      double area = 0;
+      std::int32_t i = cells.corners.begin[k], slot = lend_[k];
+      do {  // corner i comes after the border with the neighbour in the slot
+        slot = reader.next(slot);
+        const BesideBorder border(p, at(reader.neighbour(slot) - 1));
+        const Point here = vertex(i++);
+        area += border.area(before, here);
+        before = here;
+      } while (slot != lend_[k]);
+      for (; i <= last; ++i) {  // of the far side, where neighbours are not listed
+        const Point here = vertex(i);
+        area += far_triangle_area(p, before, here);
+        before = here;
+      }
+      areas[k] = area;
+    }
+  });
+  return areas;
+}
+
+ClosestPair Triangulation::closest_pair() const {
+  const Reader reader(lists());
+  const int threads = threads_for(n_);
+  std::vector<ClosestPair> closest(
+      static_cast<std::size_t>(threads));  // of each piece, by squares of distances
+  parallel_pieces(n_, threads, [&](std::size_t begin, std::size_t end, int piece) {
+    ClosestPair best{std::numeric_limits<double>::infinity(), 0, 0};
+    for (std::size_t k = begin; k < end; ++k) {
+      const auto node = static_cast<std::int32_t>(k);
+      std::int32_t slot = lend_[k];
+      do {
+        slot = reader.next(slot);
+        const std::int32_t other = reader.neighbour(slot) - 1;
+        const Point d = minus(at(other), at(node));
+        if (dot(d, d) < best.distance) best = {dot(d, d), node, other};
+      } while (slot != lend_[k]);
+    }
+    closest[static_cast<std::size_t>(piece)] = best;
+  });
+  ClosestPair best =
+      *std::min_element(closest.begin(), closest.end(),
+                        [](const ClosestPair& a, const ClosestPair& b) { return a.distance < b.distance; });
+  best.distance = std::sqrt(best.distance);
+  return best;
+}
+
+}  // namespace bindings

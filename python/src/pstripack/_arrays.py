@@ -1,0 +1,75 @@
+"""What the package takes for nodes, places and numbers of threads."""
+from typing import Any, Optional
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _core
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int32]
+
+
+def node_array(points: ArrayLike) -> Floats:
+    """An array of shape (n, 3), not copied if it is one of float64."""
+    array = np.require(points, np.float64, ["A"])
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise ValueError(f"nodes must be an array of shape (n, 3): x, y, z of each; not {array.shape}")
+    return array
+
+
+def place_array(places: ArrayLike) -> Floats:
+    """Places as a C-contiguous array of shape (..., 3)."""
+    array = np.require(places, np.float64, ["A", "C"])
+    if array.ndim < 1 or array.shape[-1] != 3:
+        raise ValueError(f"places must be an array of shape (..., 3): x, y, z of each; not {array.shape}")
+    return array
+
+
+def thread_count(threads: Optional[int]) -> int:
+    """0 for the default, which is that of OpenMP."""
+    if threads is None:
+        return 0
+    if threads < 1:
+        raise ValueError(f"threads must be at least 1, not {threads}")
+    return int(threads)
+
+
+def read_only(array: NDArray[Any]) -> NDArray[Any]:
+    view = array.view()
+    view.flags.writeable = False
+    return view
+
+
+def to_xyz(lon: ArrayLike, lat: ArrayLike, degrees: bool = True) -> Floats:
+    """Unit vectors, of shape (..., 3), of longitudes and latitudes.
+
+    In degrees the poles, and longitudes that differ by 360, have exactly one vector each.
+
+    >>> to_xyz([0, 90, 12], [0, 0, 90])
+    array([[1., 0., 0.],
+           [0., 1., 0.],
+           [0., 0., 1.]])
+    """
+    lon, lat = np.broadcast_arrays(np.asarray(lon, np.float64), np.asarray(lat, np.float64))
+    limit = 90.0 if degrees else np.pi / 2 * (1 + 1e-15)
+    beyond = np.abs(lat) > limit
+    if np.any(beyond):
+        index = int(np.argmax(beyond))
+        raise ValueError(f"latitude {lat.flat[index]:g} of node {index} (counted from 0) is beyond the pole: "
+                         "the arguments are longitudes, then latitudes"
+                         + ("" if degrees else ", in radians unless degrees=True"))
+    vectors = _core.vectors(np.ascontiguousarray(lon.ravel()), np.ascontiguousarray(lat.ravel()), degrees)
+    return vectors.reshape(lon.shape + (3,)) + 0.0  # no -0.0
+
+
+def to_lonlat(xyz: ArrayLike, degrees: bool = True) -> "tuple[Floats, Floats]":
+    """Longitudes from -180 to 180 and latitudes of vectors of any length.
+
+    >>> to_lonlat([[0, 2, 0], [0, 0, -1]])
+    (array([90.,  0.]), array([  0., -90.]))
+    """
+    array = place_array(xyz)
+    x, y, z = array[..., 0], array[..., 1], array[..., 2]
+    lon, lat = np.arctan2(y, x), np.arctan2(z, np.hypot(x, y))
+    return (np.degrees(lon), np.degrees(lat)) if degrees else (lon, lat)

@@ -1,0 +1,178 @@
+"""Delaunay triangulations on the sphere."""
+from typing import Any, Optional, Tuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _core
+from ._arrays import Floats, Ints, node_array, place_array, read_only, thread_count, to_xyz
+
+
+class Delaunay:
+    """The Delaunay triangulation of nodes on the sphere: of the whole sphere, or of their convex hull where they lie
+    in a hemisphere.
+
+    Parameters
+    ----------
+    points : array_like, shape (n, 3)
+        Vectors from the centre of the sphere to the nodes. Only their directions count. An array of float64 is kept:
+        do not change it while this object is in use. The library reads columns: in place where they are contiguous
+        (Fortran order), else from a copy.
+    threads : int, optional
+        Threads for the triangulation, and for what is computed from it.
+
+    Raises
+    ------
+    BadCoordinateError, CoincidentNodesError, CollinearNodesError, TriangulationError
+        All are ValueError; their attribute ``nodes`` has the indices of the nodes to blame, counted from 0.
+
+    Names and conventions are those of scipy.spatial.Delaunay. Arrays are computed when they are first asked for.
+
+    >>> mesh = Delaunay.from_lonlat([0, 90, 180, 270, 0, 0], [0, 0, 0, 0, 90, -90])
+    >>> mesh.simplices[:2]
+    array([[0, 1, 4],
+           [0, 4, 3]], dtype=int32)
+    >>> mesh.neighbors[0]
+    array([5, 1, 3], dtype=int32)
+    >>> mesh.find_simplex([1, 1, 1]).item(), mesh.nearest([1, 2, 1]).item()
+    (0, 1)
+    >>> mesh.interpolate([0, 1, 2, 3, 4, 5], [[1, 1, 0], [0, 0, 2]])
+    array([0.5, 4. ])
+    """
+
+    def __init__(self, points: ArrayLike, *, threads: Optional[int] = None) -> None:
+        array = node_array(points)
+        self._threads = thread_count(threads)
+        self._mesh = _core.Mesh(array, self._threads)
+        #: The nodes as given, read only.
+        self.points: Floats = read_only(array)
+        self._simplices: Optional[Ints] = None
+        self._neighbors: Optional[Ints] = None
+        self._vertex_neighbors: Optional[Tuple[Ints, Ints]] = None
+
+    @classmethod
+    def from_lonlat(cls, lon: ArrayLike, lat: ArrayLike, *, degrees: bool = True,
+                    threads: Optional[int] = None) -> "Delaunay":
+        """The triangulation of nodes given by longitudes and latitudes."""
+        return cls(to_xyz(np.ravel(lon), np.ravel(lat), degrees), threads=threads)
+
+    def __repr__(self) -> str:
+        return f"<pstripack.Delaunay of {self.npoints} nodes>"
+
+    @property
+    def npoints(self) -> int:
+        """Number of nodes."""
+        return len(self.points)
+
+    @property
+    def simplices(self) -> Ints:
+        """Corners of the triangles, shape (t, 3): counterclockwise seen from outside, the smallest first."""
+        if self._simplices is None:
+            self._simplices = self._mesh.triangles(self._threads)
+        return self._simplices
+
+    @property
+    def nsimplex(self) -> int:
+        """Number of triangles."""
+        return len(self.simplices)
+
+    @property
+    def neighbors(self) -> Ints:
+        """Shape (t, 3): the triangle opposite each corner, -1 for none."""
+        if self._neighbors is None:
+            self._neighbors = self._mesh.opposite_triangles(self._threads)
+        return self._neighbors
+
+    @property
+    def vertex_neighbor_vertices(self) -> Tuple[Ints, Ints]:
+        """(indptr, indices): the neighbours of node k are indices[indptr[k]:indptr[k+1]], counterclockwise. Those of a
+        node on the boundary begin and end with its neighbours on the boundary."""
+        if self._vertex_neighbors is None:
+            self._vertex_neighbors = self._mesh.neighbours(self._threads)
+        return self._vertex_neighbors
+
+    @property
+    def vertex_to_simplex(self) -> Ints:
+        """Of each node one triangle."""
+        result = np.empty(self.npoints, np.int32)
+        result[self.simplices] = np.arange(self.nsimplex, dtype=np.int32)[:, np.newaxis]
+        return result
+
+    @property
+    def convex_hull(self) -> Ints:
+        """Boundary arcs, shape (b, 2), counterclockwise round the triangles, each where the last one ends. None if the
+        triangles cover the sphere."""
+        nodes = self._mesh.boundary()
+        return np.stack([nodes, np.roll(nodes, -1)], axis=1)
+
+    @property
+    def circumcenters(self) -> Floats:
+        """Centres of the triangles' circumscribed circles, on the unit sphere, shape (t, 3)."""
+        return self._mesh.circumcentres(self._threads)
+
+    @property
+    def areas(self) -> Floats:
+        """Areas of the triangles in steradians."""
+        return self._mesh.triangle_areas(self._threads)
+
+    @property
+    def cell_areas(self) -> Floats:
+        """Areas of the nodes' Voronoi cells in steradians; they add up to 4 pi. Where the nodes lie in a hemisphere,
+        the cells of those on the boundary share the rest of the sphere."""
+        return self._mesh.cell_areas(self._threads)
+
+    @property
+    def lists(self) -> Tuple[Ints, Ints, Ints, int]:
+        """LIST, LPTR, LEND and LNEW as STRIPACK's TRMESH returns them: nodes and slots count from 1."""
+        return self._mesh.lists()
+
+    def find_simplex(self, xi: ArrayLike, *, threads: Optional[int] = None) -> Ints:
+        """The triangle that contains each place, -1 for none. ``xi``: vectors, shape (..., 3). Places up to 1e-12
+        outside the triangles count as on their border."""
+        places = place_array(xi)
+        found = self._mesh.find(places.reshape(-1, 3), self.simplices, self._number(threads))
+        return found.reshape(places.shape[:-1])
+
+    def nearest(self, xi: ArrayLike, *, threads: Optional[int] = None) -> Ints:
+        """The node nearest to each place, -1 for vectors that are zero or not finite. ``xi``: shape (..., 3)."""
+        places = place_array(xi)
+        return self._mesh.nearest(places.reshape(-1, 3), self._number(threads)).reshape(places.shape[:-1])
+
+    def interpolate(self, values: ArrayLike, xi: ArrayLike, method: str = "linear", *, outside: str = "nan",
+                    threads: Optional[int] = None) -> NDArray[Any]:
+        """Values at places.
+
+        Parameters
+        ----------
+        values : array_like, shape (n,) or (n, ...)
+            Of each node, one or several.
+        xi : array_like, shape (..., 3)
+            Vectors to the places.
+        method : {"linear", "nearest"}
+            Linear on triangles, or the value of the nearest node.
+        outside : {"nan", "nearest"}
+            What "linear" gives outside the triangles.
+        """
+        if method not in ("linear", "nearest"):
+            raise ValueError(f"method must be 'linear' or 'nearest', not {method!r}")
+        if outside not in ("nan", "nearest"):
+            raise ValueError(f"outside must be 'nan' or 'nearest', not {outside!r}")
+        given = np.asarray(values)
+        if given.ndim < 1 or len(given) != self.npoints:
+            raise ValueError(f"values must be one for each of {self.npoints} nodes; their shape is {given.shape}")
+        places = place_array(xi)
+        if method == "nearest":
+            near = self.nearest(places, threads=threads)
+            if np.any(near < 0):
+                raise ValueError(f"place {int(np.argmax(near.ravel() < 0))} (counted from 0) has no direction")
+            return np.asarray(given[near])
+        table = np.require(given.reshape(self.npoints, -1), np.float64, ["A", "C"])
+        result = self._mesh.linear(places.reshape(-1, 3), table, self._number(threads))
+        if outside == "nearest":
+            missing = np.flatnonzero(self.find_simplex(places, threads=threads).ravel() < 0)
+            near = self.nearest(places.reshape(-1, 3)[missing], threads=threads)
+            result[missing[near >= 0]] = table[near[near >= 0]]
+        return result.reshape(places.shape[:-1] + given.shape[1:])
+
+    def _number(self, threads: Optional[int]) -> int:
+        return self._threads if threads is None else thread_count(threads)

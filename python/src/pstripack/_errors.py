@@ -1,0 +1,25 @@
+"""Why nodes have no triangulation."""
+from typing import Tuple
+
+
+class TriangulationError(ValueError):
+    """The nodes have no triangulation. ``nodes``: the indices, counted from 0, of those to blame; may be empty."""
+
+    def __init__(self, message: str, nodes: Tuple[int, ...] = ()) -> None:
+        super().__init__(message, nodes)
+        self.nodes = nodes
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
+class BadCoordinateError(TriangulationError):
+    """``nodes[0]`` is the first node with a coordinate that is not finite, or whose coordinates are all zero."""
+
+
+class CoincidentNodesError(TriangulationError):
+    """Nodes ``nodes[0]`` and ``nodes[1]`` point in the same direction."""
+
+
+class CollinearNodesError(TriangulationError):
+    """All nodes lie on one great circle."""

@@ -1,0 +1,99 @@
+"""Centroidal Voronoi tessellations of the sphere."""
+import operator
+from typing import Callable, NamedTuple, Optional, Union
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _core
+from ._arrays import Floats, node_array, thread_count
+from ._errors import TriangulationError
+
+_REASONS = ("converged", "evaluations", "stopped", "stalled")
+_OUT_OF_MEMORY = -6
+
+
+class Progress(NamedTuple):
+    """After each step of a run: where it stands."""
+
+    generators: int  #: of the level
+    evaluations: int  #: triangulations with integrals, on this level
+    gradient: float  #: root mean square of the distances to the centroids, in units of sqrt(4 pi / generators)
+    energy: float
+
+
+class Tessellation(NamedTuple):
+    """What :func:`scvt` returns."""
+
+    points: Floats  #: the generators, unit vectors, shape (n, 3)
+    energy: float  #: sum over the cells of the integral of density times the squared distance to the generator
+    gradient: float  #: as of Progress
+    evaluations: float  #: of all levels, each counted by its share of n
+    reason: str  #: "converged", "evaluations", "stopped" or "stalled" (the energy falls no further)
+
+
+def scvt(generators: Union[int, ArrayLike], density: Optional[Callable[[Floats], ArrayLike]] = None, *,
+         tolerance: float = 1e-5, method: str = "newton", seed: int = 1, max_evaluations: Optional[int] = None,
+         progress: Optional[Callable[[Progress], object]] = None, threads: Optional[int] = None) -> Tessellation:
+    """Generators at the centroids of their Voronoi cells with respect to a density.
+
+    Parameters
+    ----------
+    generators : int or array_like, shape (n, 3)
+        How many, from random ones level by level; or vectors to start from.
+    density : callable, optional
+        Of unit vectors, shape (m, 3), values of shape (m,): positive, finite, and depending on the place alone. Cells
+        are about density**(-1/4) wide. 1 everywhere if not given, and then the integrals, too, are on threads.
+    tolerance : float
+        Of the gradient, at which the run ends.
+    method : {"newton", "lloyd"}
+        Quasi-Newton, or Lloyd's method.
+    seed : int
+        Of the random generators; at least 1.
+    max_evaluations : int, optional
+        On each level.
+    progress : callable, optional
+        Called after each step; the run ends if it returns something true.
+    threads : int, optional
+
+    Raises
+    ------
+    ValueError
+        For arguments and densities that are wrong. What ``density`` and ``progress`` raise comes out as it is.
+
+    >>> mesh = scvt(200, lambda xyz: 1 + 10 * np.exp(xyz[:, 2]), tolerance=1e-3)
+    >>> mesh.reason, mesh.points.shape
+    ('converged', (200, 3))
+    """
+    if method not in ("newton", "lloyd"):
+        raise ValueError(f"method must be 'newton' or 'lloyd', not {method!r}")
+    if not (np.isfinite(tolerance) and tolerance > 0):
+        raise ValueError(f"tolerance must be positive, not {tolerance}")
+    if seed < 1:
+        raise ValueError(f"seed must be at least 1, not {seed}")
+    if max_evaluations is not None and max_evaluations < 1:
+        raise ValueError(f"max_evaluations must be at least 1, not {max_evaluations}")
+    number = thread_count(threads)
+    start: Union[int, Floats]
+    if np.ndim(generators) == 0:
+        start = operator.index(generators)  # type: ignore[arg-type]
+        count = start
+    else:
+        start = np.array(node_array(generators), order="C")
+        count = len(start)
+        if count >= 4:
+            _core.Mesh(start, number)  # raises what nodes may have, with indices
+    if count < 4 or count > 2**31 // 6:
+        raise TriangulationError(f"a tessellation needs at least 4 generators, and {2**31 // 6} at most; not {count}")
+
+    def told(n: int, evaluations: int, gradient: float, energy: float) -> bool:
+        return progress is not None and bool(progress(Progress(n, evaluations, gradient, energy)))
+
+    code, message, points, energy, gradient, evaluations, reason = _core.scvt(
+        start, density, float(tolerance), method == "lloyd", max_evaluations or 0, seed,
+        None if progress is None else told, number)
+    if code == _OUT_OF_MEMORY:
+        raise MemoryError(message)
+    if code != 0:
+        raise TriangulationError(message)
+    return Tessellation(points, energy, gradient, evaluations, _REASONS[reason])

@@ -1,0 +1,128 @@
+"""Voronoi diagrams on the sphere, in place of scipy's."""
+from typing import List, Optional, Tuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _core
+from ._arrays import Floats, Ints, node_array, read_only, thread_count
+from ._errors import CoincidentNodesError, TriangulationError
+
+
+class SphericalVoronoi:
+    """The Voronoi diagram of points on a sphere: attributes, arguments and exceptions of
+    scipy.spatial.SphericalVoronoi, for points in three dimensions.
+
+    Parameters
+    ----------
+    points : array_like, shape (n, 3)
+        Generators.
+    radius : float, optional
+        Of the sphere.
+    center : array_like, shape (3,), optional
+        Of the sphere; the origin if not given.
+    threshold : float, optional
+        Points nearer to each other than this, or this far off the sphere, are refused: both times the radius.
+    threads : int, optional
+        Threads to compute with.
+
+    Attributes
+    ----------
+    points, radius, center
+        As given; ``points`` is a copy.
+    vertices : array, shape (2n - 4, 3)
+        Corners of the regions. Where more than three regions meet, several are at one place, up to rounding.
+    regions : list of lists of int
+        The vertices of each region. Unlike scipy's they are in counterclockwise order (seen from outside) from the
+        beginning. Made when they are first asked for.
+    region_vertices : tuple of arrays (indptr, indices)
+        The same without lists: those of region k are indices[indptr[k]:indptr[k+1]].
+
+    Raises
+    ------
+    ValueError
+        For fewer than four points and points in one plane, points that coincide, or are not on the sphere.
+        Points are counted from 0; of a TriangulationError the attribute ``nodes`` has them.
+
+    >>> corners = np.array([[1, 1, 1], [-1, -1, 1], [-1, 1, -1], [1, -1, -1]]) / np.sqrt(3)
+    >>> diagram = SphericalVoronoi(corners)
+    >>> diagram.regions
+    [[1, 2, 0], [0, 3, 1], [2, 3, 0], [1, 3, 2]]
+    >>> diagram.calculate_areas() / np.pi
+    array([1., 1., 1., 1.])
+    """
+
+    def __init__(self, points: ArrayLike, radius: float = 1, center: Optional[ArrayLike] = None,
+                 threshold: float = 1e-06, *, threads: Optional[int] = None) -> None:
+        if radius is None:
+            raise ValueError("radius is None: a number is needed")
+        self.radius = float(radius)
+        if not (np.isfinite(self.radius) and self.radius > 0):
+            raise ValueError(f"radius is {radius}: a positive number is needed")
+        self.points: Floats = np.array(node_array(points), order="C")
+        self.center: Floats = np.zeros(3) if center is None else np.array(center, dtype=np.float64)
+        if self.center.shape != (3,):
+            raise ValueError(f"center must have three coordinates; its shape is {self.center.shape}")
+        number = thread_count(threads)
+
+        vectors = self.points
+        if self.center.any() or self.radius != 1:
+            vectors = (self.points - self.center) / self.radius
+        self._check_on_sphere(vectors, threshold)
+        if _rank(vectors, threshold) < 3:
+            raise ValueError("Rank of input points must be at least 3: they lie in one plane")
+        try:
+            mesh = _core.Mesh(vectors, number)
+        except CoincidentNodesError as error:
+            raise _duplicates(error.nodes) from None
+        distance, first, second = mesh.closest_pair(number)
+        if distance <= threshold:
+            raise _duplicates((first, second))
+        self._mesh, self._threads = mesh, number
+        vertices, begin, indices = mesh.cells(number)
+        if self.radius != 1 or self.center.any():
+            vertices = self.radius * vertices + self.center
+        self.vertices: Floats = vertices
+        self.region_vertices: Tuple[Ints, Ints] = (read_only(begin), read_only(indices))
+        self._regions: Optional[List[List[int]]] = None
+
+    @property
+    def regions(self) -> List[List[int]]:
+        if self._regions is None:
+            self._regions = _core.lists_of(*self.region_vertices, 2 * len(self.points) - 4)
+        return self._regions
+
+    def sort_vertices_of_regions(self) -> None:
+        """Does nothing: the vertices of each region are in order from the beginning."""
+
+    def calculate_areas(self) -> Floats:
+        """Areas of the regions; their sum is 4 pi radius**2."""
+        return self._mesh.cell_areas(self._threads) * self.radius**2
+
+    def _check_on_sphere(self, vectors: Floats, threshold: float) -> None:
+        with np.errstate(over="ignore", invalid="ignore"):
+            off = np.abs(np.sqrt(np.einsum("ij,ij->i", vectors, vectors)) - 1)
+            wrong = np.flatnonzero(~(off < threshold))
+        if len(wrong) == 0:
+            return
+        first = int(wrong[0])
+        raise TriangulationError(
+            f"Radius inconsistent with generators: point {first} (counted from 0) of {len(wrong)} is "
+            f"{off[first] * self.radius:g} off the sphere; give radius and center, or a larger threshold", (first,))
+
+
+def _duplicates(nodes: Tuple[int, ...]) -> CoincidentNodesError:
+    first, second = sorted(nodes)
+    return CoincidentNodesError(
+        f"Duplicate generators present: points {first} and {second} (counted from 0)", (first, second))
+
+
+def _rank(points: Floats, threshold: float) -> int:
+    """Of the differences of the points."""
+    if len(points) < 4:
+        return len(points) - 1
+    differences = points - points[0]
+    squares = np.linalg.eigvalsh(differences.T @ differences)
+    if squares[0] > max(1e-6 * squares[2], 4 * threshold**2):  # certain also with rounding errors
+        return 3
+    return int(np.linalg.matrix_rank(differences, tol=threshold))

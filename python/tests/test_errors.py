@@ -1,0 +1,96 @@
+import pickle
+
+import numpy as np
+import pytest
+from nodes import random_nodes
+from pstripack import (BadCoordinateError, CoincidentNodesError, CollinearNodesError, Delaunay, SphericalVoronoi,
+                       TriangulationError, to_xyz)
+
+POINTS = random_nodes(50)
+
+
+def changed(index, value):
+    points = POINTS.copy()
+    points[index] = value
+    return points
+
+
+@pytest.mark.parametrize("points, kind, nodes, message", [
+    (changed(17, np.nan), BadCoordinateError, (17,), "node 17 (counted from 0) is (nan, nan, nan)"),
+    (changed((31, 1), np.inf), BadCoordinateError, (31,), "node 31"),
+    (changed([40, 9, 22], 0), BadCoordinateError, (9,), "node 9 (counted from 0) is (0, 0, 0)"),
+    (changed(30, POINTS[12]), CoincidentNodesError, (12, 30), "nodes 12 and 30 (counted from 0)"),
+    (changed(30, 2 * POINTS[12]), CoincidentNodesError, (12, 30), "same direction"),
+    (changed(1, POINTS[0]), CoincidentNodesError, (0, 1), "nodes 0 and 1"),
+    (changed(2, POINTS[0]), CoincidentNodesError, (0, 2), "nodes 0 and 2"),
+    (changed([0, 1, 2], [POINTS[40], -POINTS[40], POINTS[41]]), CoincidentNodesError, None, "counted from 0"),
+    (to_xyz(np.arange(0, 360, 10), np.zeros(36)), CollinearNodesError, (), "one great circle"),
+    (np.array([[1.0, 2, 3]] * 5), CollinearNodesError, (), "one great circle"),
+    (POINTS[:2], TriangulationError, (), "three nodes, not 2"),
+    (POINTS[:0], TriangulationError, (), "three nodes, not 0"),
+], ids=["nan", "infinite", "zero", "coincident", "one_direction", "second", "third", "front", "great_circle",
+        "all_equal", "two", "none"])
+def test_why_there_is_no_triangulation(points, kind, nodes, message, capfd):
+    with pytest.raises(kind) as caught:
+        Delaunay(points)
+    assert isinstance(caught.value, ValueError) and message in str(caught.value)
+    if nodes is not None:
+        assert caught.value.nodes == nodes
+    assert capfd.readouterr() == ("", "")  # the library prints nothing on its own
+    copy = pickle.loads(pickle.dumps(caught.value))
+    assert copy.nodes == caught.value.nodes and str(copy) == str(caught.value)
+
+
+def test_every_pair_that_coincides_is_found_among_many_nodes():
+    points = random_nodes(40000)
+    points[34321] = points[12345]
+    with pytest.raises(CoincidentNodesError) as caught:
+        Delaunay(points)
+    assert caught.value.nodes == (12345, 34321)
+
+
+@pytest.mark.parametrize("points", [np.zeros(3), np.zeros((4, 2)), np.zeros((3, 4)), np.zeros((2, 2, 3)), "nodes",
+                                    [[1, 2, 3], [4, 5]], None, 5])
+def test_what_is_no_array_of_nodes(points):
+    with pytest.raises((ValueError, TypeError)):
+        Delaunay(points)
+
+
+@pytest.mark.parametrize("threads", [0, -3])
+def test_numbers_of_threads_below_one(threads):
+    with pytest.raises(ValueError, match="threads must be at least 1"):
+        Delaunay(POINTS, threads=threads)
+
+
+def test_nodes_that_change_afterwards_do_no_harm():
+    """The array is the caller's: results may be wrong then, but every call returns."""
+    points = np.asfortranarray(random_nodes(500))
+    mesh = Delaunay(points)
+    mesh.simplices
+    for value in np.nan, 0.0, 1e308, -1.0:
+        points[::2] = value
+        for call in (lambda: mesh.find_simplex(POINTS), lambda: mesh.nearest(POINTS), lambda: mesh.areas,
+                     lambda: mesh.interpolate(np.zeros(500), POINTS), lambda: mesh.circumcenters):
+            call()
+        try:
+            mesh.cell_areas
+        except RuntimeError:
+            pass
+
+
+def test_arrays_that_are_returned_may_be_changed():
+    mesh = Delaunay(POINTS)
+    expected = mesh.areas, mesh.circumcenters
+    mesh.simplices[:] = 2**30
+    assert np.array_equal(mesh.areas, expected[0]) and np.array_equal(mesh.circumcenters, expected[1])
+    assert mesh.find_simplex(POINTS).max() == -1
+    diagram = SphericalVoronoi(POINTS)
+    areas = diagram.calculate_areas()
+    diagram.vertices[:] = np.nan
+    diagram.points[:] = 0
+    assert np.array_equal(diagram.calculate_areas(), areas)
+    for part in diagram.region_vertices:
+        with pytest.raises(ValueError):
+            part[:] = 2**30
+    diagram.regions[0].clear()
+    assert len(diagram.regions[0]) == 0
