@@ -68,7 +68,7 @@ fi
 has pstripack-doc '^$' . share/doc/pstripack/README.md share/doc/pstripack/docs/relink.md \
   share/doc/pstripack/docs/clients/mpas.md share/doc/pstripack/examples/fortran77/mesh.f
 completions=share/bash-completion/completions
-fish=share/fish/vendor_completions.d zsh=share/zsh/vendor-completions
+fish=share/fish/vendor_completions.d zsh='share/zsh/(vendor-completions|site-functions)'  # a build for /usr, any other
 has libpstripack-dev . mpi "$completions/pstripack-config" "$fish/pstripack-config.fish" "$zsh/_pstripack-config"
 has pstripack . mpi "$completions/pstripack" "$completions/stripack-compare" "$fish/pstripack.fish" "$zsh/_pstripack"
 
