@@ -269,7 +269,7 @@ kill_during_call)
     [ $code -ne 0 ] || fail "exit code 0"
     says_once "pstripack: rank [0-9]* was lost"
     # All that a rank does for a call, and what is between two calls.
-    says "rank $lost was lost during \(scatter the nodes\|divide\|triangulate\|merge\|lists\|gather the lists\|idle\|its wait\)"
+    says "rank $lost was lost during \(scatter the nodes\|move the stars\|divide\|triangulate\|merge\|lists\|gather the lists\|idle\|its wait\)"
     grep "was lost" job.err
   done
   ;;
