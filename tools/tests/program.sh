@@ -238,14 +238,13 @@ scvt)
     fail "$(cat err)"
   # A run that is cut short and goes on, by its checkpoint, comes to the same bytes: within the first steps, with some
   # and with all pairs of the quasi-Newton method, from two formats.
-  for every in 2 5 11; do
-    for checkpoint in checkpoint.nc checkpoint.ugrid.nc; do
-      "$PSTRIPACK" -q scvt 300 --density bump --iterations 14 --tolerance 1e-6 --checkpoint $checkpoint --every $every -o short.mpas.nc
-      "$PSTRIPACK" scvt --start $checkpoint --evaluations 30 --tolerance 1e-6 -o resumed.nodes.nc 2> err
-      grep -q " 3[0-9] evaluations, " err || fail "$(cat err)"
-      cmp direct.nodes.nc resumed.nodes.nc
-    done
-    [ "$("$PSTRIPACK" -q convert checkpoint.nc -o - --to xyz | wc -l)" = 300 ] || fail "checkpoint.nc is not whole"
+  for run in 2:checkpoint.nc 5:checkpoint.ugrid.nc 11:checkpoint.nc; do
+    checkpoint=${run#*:}
+    "$PSTRIPACK" -q scvt 300 --density bump --iterations 14 --tolerance 1e-6 --checkpoint $checkpoint --every ${run%:*} -o short.mpas.nc
+    "$PSTRIPACK" scvt --start $checkpoint --evaluations 30 --tolerance 1e-6 -o resumed.nodes.nc 2> err
+    grep -q " 3[0-9] evaluations, " err || fail "$(cat err)"
+    cmp direct.nodes.nc resumed.nodes.nc
+    [ "$("$PSTRIPACK" -q convert $checkpoint -o - --to xyz | wc -l)" = 300 ] || fail "$checkpoint is not whole"
   done
   # Without the pairs it goes on with new ones: not worse, and counted from where the other run ended.
   "$PSTRIPACK" scvt --start short.mpas.nc --iterations 200 --tolerance 1e-4 -o resumed.nodes.nc 2> err
