@@ -189,7 +189,10 @@ Column read_column(const File& file, const std::string& name, std::size_t nodes)
   const double scale = number_attribute(file, id, "scale_factor", 1);
   const double offset = number_attribute(file, id, "add_offset", 0);
   for (double& v : column.numbers)
-    v = v == fill || v == missing || !std::isfinite(v) ? std::nan("") : v * scale + offset;
+    if (v == fill || v == missing || !std::isfinite(v))
+      v = std::nan("");
+    else if (scale != 1 || offset != 0)  // else -0 stays
+      v = v * scale + offset;
   column.whole =
       (type == NC_INT || type == NC_SHORT || type == NC_BYTE) && scale == 1 && offset == 0 &&
       std::none_of(column.numbers.begin(), column.numbers.end(), [](double v) { return std::isnan(v); });
@@ -268,6 +271,7 @@ struct Places {
   LonLat given;
   std::vector<int> dimensions;
   std::vector<int> variables;
+  Grid grid = {};
 };
 
 Places from_angles(const File& file, const Variable& lon, const Variable& lat, const char*& units) {
@@ -293,6 +297,11 @@ Places from_angles(const File& file, const Variable& lon, const Variable& lat, c
                             lon.name, lat.name));
     require_few(file, lat.name, lat.values.size(), lon.values.size());
     places.dimensions = {lat.dimensions[0], lon.dimensions[0]};
+    const auto degrees_of = [](std::vector<double> angles, bool are_degrees) {
+      for (double& angle : angles) angle *= are_degrees ? 1 : 57.29577951308232;
+      return angles;
+    };
+    places.grid = {degrees_of(lon.values, lon_in_degrees), degrees_of(lat.values, lat_in_degrees)};
     for (const double y : lat.values)
       for (const double x : lon.values) {
         places.given.lon.push_back(x);
@@ -492,6 +501,7 @@ Nodes read_netcdf(const std::string& name, const ReadOptions& options, const std
   }
   nodes.points = std::move(places.points);
   nodes.given = std::move(places.given);
+  nodes.grid = std::move(places.grid);
   if (nodes.points.empty()) file.fail("no nodes: the variables are empty");
   if (options.with_values) {
     std::string variable = options.variable;

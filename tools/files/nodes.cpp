@@ -311,6 +311,7 @@ void Nodes::keep(const std::vector<std::size_t>& indices) {
   };
   keep_column(value);
   for (Column& column : columns) keep_column(column);
+  grid = {};
   triangles.clear();
 }
 

@@ -34,11 +34,18 @@ struct ReadOptions {
 /// whose names begin with "scvt_".
 using Notes = std::map<std::string, std::string>;
 
+/// A grid of longitudes and latitudes, in degrees.
+struct Grid {
+  std::vector<double> lon, lat;
+  LonLat places() const;  ///< of all its points, row after row of latitude
+};
+
 struct Nodes {
   std::string file;  ///< name in messages
   std::string kind;  ///< "text, lon lat in degrees"
   std::vector<Point> points;
   LonLat given;                    ///< longitudes and latitudes as they are in the file; empty: it has none
+  Grid grid;                       ///< of nodes that are one; else empty
   std::vector<std::size_t> lines;  ///< of text: of each node, from 1
   std::vector<double> density;     ///< meshDensity of MPAS, if in the file
   Column value;                    ///< if requested; its name is empty if the file has none

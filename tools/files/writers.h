@@ -43,12 +43,6 @@ void write_nodes(const OutputFile& file, Format format, const std::vector<Point>
 void write_nodes(const OutputFile& file, Format format, const std::vector<Point>& points,
                  const std::vector<double>& density = {}, const Notes& notes = {});
 
-/// A grid of longitudes and latitudes, in degrees.
-struct Grid {
-  std::vector<double> lon, lat;
-  LonLat places() const;  ///< of all its points, row after row of latitude
-};
-
 /// A value at each place, and the other columns that the places have; NaN: missing.
 struct Field {
   Column value;

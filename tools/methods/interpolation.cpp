@@ -1,11 +1,13 @@
 #include "methods/interpolation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "base/parallel_for.h"
 #include "geometry/predicates.h"
+#include "methods/gradients.h"
 #include "methods/sphere.h"
 #include "stripack/list_queries.h"
 #include "stripack/search.h"
@@ -49,6 +51,26 @@ Interpolation::Interpolation(const std::vector<Point>& nodes) : mesh_(files::tri
   middle_ = files::unit(sum);  // used only if nodes lie in a hemisphere: not zero then
 }
 
+/// From a triangle beside p, by exact signs, to the one that contains it: the same whatever search led here.
+/// Rounding may have led it across an arc.
+void Interpolation::cross_arcs(const Point& p, Corners& corners) const {
+  const Reader reader(mesh_.lists());
+  for (int k = 0; k < 3;) {
+    auto& [a, b, c] = corners.node;
+    if (pstripack::left(at(a), at(b), p) < 0) {
+      const std::int32_t slot = reader.slot_of(b, a);  // the triangle on the other side is b, a, w
+      if (reader.entry(slot) > 0) {
+        c = a;
+        a = reader.neighbour(reader.next(slot));
+        k = 0;
+        continue;
+      }
+    }
+    std::rotate(corners.node, corners.node + 1, corners.node + 3);
+    ++k;
+  }
+}
+
 /// False if p is outside; p just outside is moved inside.
 bool Interpolation::find(Point& p, std::int32_t& near, Corners& corners) const {
   const auto locate = [&] {
@@ -57,9 +79,11 @@ bool Interpolation::find(Point& p, std::int32_t& near, Corners& corners) const {
         pstripack::trfind(near, pstripack::Vector<double>{p.x, p.y, p.z}, mesh_.lists(),
                           pstripack::Nodes<double>{x_.data(), y_.data(), z_.data()}, b1, b2, b3);
     near = found.i1;
+    if (found.i3 == 0) return false;
     corners = {{found.i1, found.i2, found.i3}};
+    cross_arcs(p, corners);
     std::rotate(corners.node, std::min_element(corners.node, corners.node + 3), corners.node + 3);
-    return found.i3 != 0;
+    return true;
   };
   if (locate()) return true;
   const Point inwards = minus(middle_, p);
@@ -78,9 +102,18 @@ bool Interpolation::linear(const Point& p, std::int32_t& near, std::vector<Share
       shares = {{node, 1}};
       return true;
     }
+  for (const auto& [node, from, to] : {std::array{a, b, c}, {b, c, a}, {c, a, b}}) {
+    if (pstripack::left(at(from), at(to), place) != 0) continue;
+    // On the arc, whose other triangle might as well have been found.
+    const auto [low, high] = std::minmax(from, to);
+    const Point l = cross(place, at(high)), h = cross(place, at(low));
+    shares = {{low, std::sqrt(dot(l, l))}, {high, std::sqrt(dot(h, h))}};
+    make_shares(shares);
+    return true;
+  }
   for (const Share& s : {Share{a, volume(place, at(b), at(c))}, Share{b, volume(place, at(c), at(a))},
                          Share{c, volume(place, at(a), at(b))}})
-    if (s.part > 0) shares.push_back(s);              // rounding may lead across an arc
+    if (s.part > 0) shares.push_back(s);              // at most a rounding beside an arc
   if (shares.empty()) shares = {{nearest(p, a), 1}};  // of a triangle that is hardly more than an arc
   make_shares(shares);
   return true;
@@ -205,6 +238,33 @@ std::int32_t Interpolation::nearest(const Point& p, std::int32_t near) const {
   return descend(p, node);
 }
 
+/// Natural neighbours with gradients (Sibson, A brief description of natural neighbour interpolation, in
+/// Interpreting Multivariate Data, Wiley 1981): with the shares w, the distances d and the values v + g.(p-x)
+/// that the tangent planes at the neighbours x have at p,
+///
+///     zeta = sum w/d (v + g.(p-x)) / sum w/d,   alpha = sum w d / sum w/d,   beta = sum w d^2,
+///     value = (alpha sum w v + beta zeta) / (alpha + beta).
+///
+/// Its gradient is continuous, and is that of the node at each node. It may leave the range of the values.
+double Interpolation::cubic_value(const Point& p, const std::vector<Share>& shares,
+                                  const std::vector<double>& values,
+                                  const std::vector<Point>& gradients) const {
+  double mean = 0, inverse = 0, tangent = 0, first = 0, second = 0;
+  for (const auto& [node, part] : shares) {
+    const auto i = static_cast<std::size_t>(node) - 1;
+    const Point d = minus(p, at(node));
+    const double distance_2 = dot(d, d), distance = std::sqrt(distance_2);
+    if (distance == 0) return values[i];
+    mean += part * values[i];
+    inverse += part / distance;
+    tangent += part / distance * (values[i] + dot(gradients[i], d));
+    first += part * distance;
+    second += part * distance_2;
+  }
+  const double alpha = first / inverse;
+  return (alpha * mean + second * (tangent / inverse)) / (alpha + second);
+}
+
 Interpolation::Result Interpolation::values_at(const std::vector<Point>& places,
                                                const std::vector<double>& values, Method method,
                                                Outside outside) const {
@@ -213,6 +273,7 @@ Interpolation::Result Interpolation::values_at(const std::vector<Point>& places,
   result.values.resize(places.size());
   const std::size_t blocks = (places.size() + kBlock - 1) / kBlock;
   std::vector<std::size_t> count_outside(blocks);
+  const std::vector<Point> slopes = method == Method::cubic ? gradients(mesh_, values) : std::vector<Point>();
   const auto value_of = [&](std::int32_t node) { return values[static_cast<std::size_t>(node) - 1]; };
   const auto block = [&](std::size_t b) {
     std::int32_t near = 1;
@@ -223,6 +284,10 @@ Interpolation::Result Interpolation::values_at(const std::vector<Point>& places,
         ++count_outside[b];
         result.values[i] = outside == Outside::missing ? std::numeric_limits<double>::quiet_NaN()
                                                        : value_of(near = nearest(p, near));
+        continue;
+      }
+      if (method == Method::cubic) {
+        result.values[i] = cubic_value(p, shares, values, slopes);
         continue;
       }
       double sum = 0, low = value_of(shares[0].node), high = low;

@@ -1,5 +1,6 @@
 #pragma once
-// Interpolation between scattered nodes: linear on triangles, and by natural neighbours.
+// Interpolation between scattered nodes: linear on triangles, by natural neighbours, and by these and
+// gradients.
 
 #include <cstdint>
 #include <vector>
@@ -19,8 +20,8 @@ struct Share {
 /// A triangulation for interpolation. Any number of threads may call its members at a time.
 ///
 /// `near` is the node, from 1, at which a search starts; it becomes one near the place, so keep it between
-/// successive places. Places are unit vectors. Those up to 1e-12 outside the triangles count as on their
-/// border.
+/// successive places; the shares do not depend on it. Places are unit vectors. Those up to 1e-12 outside the
+/// triangles count as on their border.
 ///
 /// The shares of a place are positive with sum 1; at a node, that node has the whole share.
 class Interpolation {
@@ -42,24 +43,27 @@ class Interpolation {
   /// The node nearest to p, wherever p is.
   std::int32_t nearest(const Point& p, std::int32_t near) const;
 
-  enum class Method { linear, natural };
+  enum class Method { linear, natural, cubic };
   enum class Outside { missing, nearest };
   struct Result {
     std::vector<double> values;  ///< NaN: missing
     std::size_t outside = 0;
   };
-  /// The value at each place, within the range of the contributing nodes. The same bits for any number of
-  /// threads.
+  /// The value at each place. The same bits for any number of threads. Linear and natural: within the range
+  /// of the contributing nodes. Cubic: see cubic_value.
   Result values_at(const std::vector<Point>& places, const std::vector<double>& values, Method method,
                    Outside outside) const;
 
  private:
   struct Corners;
   bool find(Point& p, std::int32_t& near, Corners& corners) const;
+  void cross_arcs(const Point& p, Corners& corners) const;
   bool is_above(std::int32_t a, std::int32_t b, std::int32_t c, const Point& p) const;
   bool natural_ring(const Point& p, const Corners& corners, std::vector<std::int32_t>& ring) const;
   double lost_area(const Point& p, std::int32_t before, std::int32_t node, std::int32_t after) const;
   std::int32_t descend(const Point& p, std::int32_t node) const;
+  double cubic_value(const Point& p, const std::vector<Share>& shares, const std::vector<double>& values,
+                     const std::vector<Point>& gradients) const;
   const Point& at(std::int32_t node) const { return mesh_.points[static_cast<std::size_t>(node) - 1]; }
 
   files::Mesh mesh_;

@@ -212,8 +212,10 @@ void add_interpolate(CLI::App& app, Command& chosen) {
   sub->add_option("--region", options->region, "edges of the grid: WEST,EAST,SOUTH,NORTH [-180,180,-90,90]")
       ->type_name("DEGREES");
   add_choice(*sub, "--method", options->method,
-             {{"linear", Interpolation::Method::linear}, {"natural", Interpolation::Method::natural}},
-             "linear (on triangles) or natural (neighbours) [linear]");
+             {{"linear", Interpolation::Method::linear},
+              {"natural", Interpolation::Method::natural},
+              {"cubic", Interpolation::Method::cubic}},
+             "linear (on triangles), natural (neighbours) or cubic (these and gradients) [linear]");
   add_choice(*sub, "--outside", options->outside,
              {{"missing", Outside::missing}, {"nearest", Outside::nearest}, {"error", Outside::error}},
              "beyond regional nodes: missing (values), nearest (node's value) or error [missing]");

@@ -3,65 +3,91 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
-#include "methods/lloyd.h"
+#include "methods/densities.h"
+#include "methods/quality.h"
+#include "methods/time_left.h"
 #include "numbers.h"
 #include "pstripack/options.h"
 #include "pstripack/progress.h"
+#include "scvt/errors.h"
+#include "scvt/first_generators.h"
+#include "scvt/front.h"
+#include "scvt/run.h"
 
 namespace program {
 namespace {
 
+namespace engine = pstripack::scvt;
+using engine::Method;
+using engine::State;
+using files::Point;
+
+enum class First { by_number, front, levels, random };
+
 struct Options {
   std::size_t n = 0;
   std::uint64_t seed = 1;
+  First first = First::by_number;
   Input start;
   std::string density, density_file, variable;
-  double tolerance = 1e-3;
-  std::size_t iterations = 10000, every = 100;
+  Method method = Method::newton;
+  double tolerance = 1e-4;
+  std::int64_t evaluations = 10000, every = 100;
   Output output, checkpoint{"", "", files::Format::netcdf};
 };
 
 // Attributes of the output with which another run continues this one.
-constexpr auto kIterations = "scvt_iterations", kDensity = "scvt_density", kDensityFile = "scvt_density_file",
-               kVariable = "scvt_density_variable";
+constexpr auto kEvaluations = "scvt_iterations", kDensity = "scvt_density",
+               kDensityFile = "scvt_density_file", kVariable = "scvt_density_variable", kSteps = "scvt_steps",
+               kPairs = "scvt_pairs";
 
 std::string note(const files::Notes& notes, const char* name) {
   const auto found = notes.find(name);
   return found == notes.end() ? "" : found->second;
 }
 
-std::size_t iterations_of(const files::Nodes& start) {
-  double iterations = 0;
-  const std::string text = note(start.notes, kIterations);
-  if (text.empty()) return 0;
-  if (!point_sets::parse(text, iterations) || !(iterations >= 0 && iterations < 1e15))
-    throw std::runtime_error(
-        fmt::format("{}: attribute {}: '{}' is no number of iterations", start.file, kIterations, text));
-  return static_cast<std::size_t>(iterations);
+std::int64_t count_in(const files::Nodes& start, const char* name, std::int64_t otherwise) {
+  double count = 0;
+  const std::string text = note(start.notes, name);
+  if (text.empty()) return otherwise;
+  if (!point_sets::parse(text, count) || !(count >= 0 && count < 1e15))
+    throw std::runtime_error(fmt::format("{}: attribute {}: '{}' is no number of {}", start.file, name, text,
+                                         name == kEvaluations ? "iterations" : name + sizeof "scvt"));
+  return static_cast<std::int64_t>(count);
 }
 
-std::unique_ptr<methods::Density> density_in_file(const Options& options) {
+std::unique_ptr<engine::Density> density_in_file(const Options& options) {
   files::ReadOptions read = options.start.read;
   read.with_values = true;
   read.variable = options.variable;
   files::Nodes nodes = read_places(options.density_file, read);
+  const std::vector<double>& values = nodes.value.numbers;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!(values[i] > 0))
+      throw std::runtime_error(
+          fmt::format("{}: {}: density {}: must be positive", nodes.file, nodes.place(i), values[i]));
+  if (!nodes.grid.lon.empty()) {
+    try {
+      return methods::density_on_grid(nodes.grid, values);
+    } catch (const std::runtime_error& e) {
+      throw std::runtime_error(nodes.file + ": " + e.what());
+    }
+  }
   drop_duplicates(nodes, options.start);
-  for (std::size_t i = 0; i < nodes.value.numbers.size(); ++i)
-    if (!(nodes.value.numbers[i] > 0))
-      throw std::runtime_error(fmt::format("{}: {}: density {}: must be positive", nodes.file, nodes.place(i),
-                                           nodes.value.numbers[i]));
   try {
-    return methods::density_between(nodes.points, nodes.value.numbers);
+    return methods::density_between(nodes.points, values);
   } catch (const files::NoMesh& e) {
     throw no_mesh_of(nodes, e);
   }
 }
 
-std::unique_ptr<methods::Density> make_density(const Options& options) {
+std::unique_ptr<engine::Density> make_density(const Options& options) {
   if (!options.density_file.empty()) return density_in_file(options);
   try {
     return methods::density_of(options.density);
@@ -80,30 +106,172 @@ void choose_density(Options& options, const files::Notes& notes) {
   if (options.density.empty() && options.density_file.empty()) options.density = "constant";
 }
 
-files::Notes notes_of(const Options& options, std::size_t iterations) {
-  files::Notes notes{{kIterations, std::to_string(iterations)}};
+files::Notes notes_of_density(const Options& options) {
+  files::Notes notes;
   if (options.density_file.empty()) notes[kDensity] = options.density;
   if (!options.density_file.empty()) notes[kDensityFile] = options.density_file;
   if (!options.density_file.empty() && !options.variable.empty()) notes[kVariable] = options.variable;
   return notes;
 }
 
-void write(const Output& output, const methods::Lloyd& lloyd, const files::Notes& notes) {
-  files::OutputFile file(output.file);
-  if (files::holds_a_mesh(output.format)) {
-    files::Mesh mesh = files::triangulate(lloyd.generators());
-    mesh.density = lloyd.densities();
-    mesh.notes = notes;
-    write_mesh(file, output.format, mesh);
-  } else {
-    write_nodes(file, output.format, lloyd.generators(), lloyd.densities(), notes);
+files::Notes notes_of(const Options& options, const State& state, const engine::Progress& reached) {
+  files::Notes notes = notes_of_density(options);
+  notes[kEvaluations] = std::to_string(state.evaluations);
+  notes[kSteps] = std::to_string(state.steps);
+  notes["scvt_gradient"] = fmt::format("{}", reached.gradient);
+  notes["scvt_energy"] = fmt::format("{}", reached.energy);
+  return notes;
+}
+
+// Steps and changes of the gradient are columns scvt_step_1_x ... scvt_change_8_z, the oldest first.
+constexpr std::pair<const char*, std::vector<Point> State::Pair::*> kHalves[] = {
+    {"step", &State::Pair::step}, {"change", &State::Pair::change}};
+constexpr std::pair<const char*, double Point::*> kComponents[] = {
+    {"x", &Point::x}, {"y", &Point::y}, {"z", &Point::z}};
+
+files::Columns columns_of(const std::vector<State::Pair>& pairs) {
+  files::Columns columns;
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    for (const auto& [half, vectors] : kHalves)
+      for (const auto& [letter, component] : kComponents) {
+        files::Column column{fmt::format("scvt_{}_{}_{}", half, k + 1, letter)};
+        for (const Point& v : pairs[k].*vectors) column.numbers.push_back(v.*component);
+        columns.push_back(std::move(column));
+      }
+  return columns;
+}
+
+/// None if the file has not all of them.
+std::vector<State::Pair> pairs_in(const files::Nodes& start) {
+  std::vector<State::Pair> pairs;
+  for (std::int64_t k = 1; k <= count_in(start, kPairs, 0); ++k) {
+    State::Pair& pair = pairs.emplace_back();
+    for (const auto& [half, vectors] : kHalves) {
+      (pair.*vectors).resize(start.points.size());
+      for (const auto& [letter, component] : kComponents) {
+        const files::Column* const column =
+            find(start.columns, fmt::format("scvt_{}_{}_{}", half, k, letter));
+        if (column == nullptr || column->is_text()) return {};
+        for (std::size_t i = 0; i < column->numbers.size(); ++i) {
+          if (!std::isfinite(column->numbers[i])) return {};
+          (pair.*vectors)[i].*component = column->numbers[i];
+        }
+      }
+    }
   }
+  return pairs;
+}
+
+/// What the file has of a run. Pairs of another density would say nothing, and Lloyd's method needs none.
+State state_of(files::Nodes& start, const Options& options) {
+  State state;
+  state.evaluations = count_in(start, kEvaluations, 0);
+  state.steps = count_in(start, kSteps, state.evaluations);
+  bool has_same_density = true;
+  for (const char* const name : {kDensity, kDensityFile, kVariable})
+    has_same_density &= note(start.notes, name) == note(notes_of_density(options), name);
+  if (options.method == Method::newton && has_same_density) state.pairs = pairs_in(start);
+  triangulate(start);  // what is wrong with them is said by their lines
+  state.generators = engine::unit_vectors(std::move(start.points));
+  return state;
+}
+
+void write(const Output& output, files::Mesh&& mesh) {
+  files::OutputFile file(output.file);
+  if (files::holds_a_mesh(output.format))
+    write_mesh(file, output.format, mesh);
+  else
+    write_nodes(file, output.format, mesh.points, {{}, mesh.density, mesh.columns, mesh.notes});
   file.commit();
+}
+
+void write_checkpoint(const Options& options, const State& state, const engine::Density& density,
+                      const engine::Progress& reached) {
+  files::Mesh mesh;
+  if (files::holds_a_mesh(options.checkpoint.format))
+    mesh = files::triangulate(state.generators);
+  else
+    mesh.points = state.generators;
+  mesh.density = engine::values_at(state.generators, density);
+  mesh.columns = columns_of(state.pairs);
+  mesh.notes = notes_of(options, state, reached);
+  mesh.notes[kPairs] = std::to_string(state.pairs.size());
+  write(options.checkpoint, std::move(mesh));
+}
+
+std::string duration(double seconds) {
+  if (seconds < 100) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 6000) return fmt::format("{:.0f} min", seconds / 60);
+  return fmt::format("{:.1f} h", seconds / 3600);
+}
+
+/// The generators of a new run: of the last level, where there are levels.
+State first_state(const Options& options, const engine::Density& density, engine::Evaluator& evaluator,
+                  Progress& progress) {
+  constexpr std::size_t kFewest = 3000;  ///< that a front puts in better order than levels do
+  const First first = options.first != First::by_number ? options.first
+                      : options.n >= kFewest            ? First::front
+                                                        : First::levels;
+  if (first == First::front) return State(engine::front_generators(options.n, density));
+  std::vector<std::size_t> sizes{options.n};
+  if (first == First::levels) sizes = engine::level_sizes(options.n);
+  State state(engine::random_generators(sizes[0], density, options.seed));
+  engine::Options on_levels;
+  on_levels.method = options.method;
+  on_levels.tolerance = options.tolerance;
+  on_levels.most_evaluations = Options().evaluations;  // a run that is cut short has the same levels
+  on_levels.progress = [&](const engine::Progress& p) {
+    progress.now(fmt::format("level of {} generators, {} evaluations, gradient {:.3g}", p.generators,
+                             p.evaluations, p.gradient));
+    return true;
+  };
+  for (std::size_t level = 1; level < sizes.size(); ++level) {
+    minimize(evaluator, state, on_levels);
+    std::vector<std::int32_t> list, lptr, lend;
+    const engine::Stars stars = engine::triangulate(state.generators, list, lptr, lend);
+    state = State(engine::refined(state.generators, stars, density, sizes[level]));
+  }
+  return state;
+}
+
+engine::Result iterate(const Options& options, const engine::Density& density, engine::Evaluator& evaluator,
+                       State& state, Progress& progress) {
+  engine::Options of_run;
+  of_run.method = options.method;
+  of_run.tolerance = options.tolerance;
+  of_run.most_evaluations = options.evaluations;
+  methods::TimeLeft time_left(options.tolerance);
+  const auto start = std::chrono::steady_clock::now();
+  of_run.progress = [&](const engine::Progress& p) {
+    time_left.add(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+                  p.gradient);
+    const std::optional<double> left = time_left.seconds();
+    progress.now(fmt::format("{} evaluations, gradient {:.3g}, energy {:.9g}{}", p.evaluations, p.gradient,
+                             p.energy, left ? ", perhaps " + duration(*left) + " left" : ""));
+    if (!options.checkpoint.file.empty() && state.steps % options.every == 0)
+      write_checkpoint(options, state, density, p);
+    return true;
+  };
+  return minimize(evaluator, state, of_run);
+}
+
+std::string end_of(const Options& options, const engine::Result& result, bool has_moved) {
+  switch (result.end) {
+    case engine::End::converged:
+      return fmt::format("converged to {:g}", options.tolerance);
+    case engine::End::stalled:
+      return fmt::format(
+          "stalled, NOT converged to {:g}: the energy falls no more (rounding, or a rough "
+          "density)",
+          options.tolerance);
+    default:
+      return has_moved ? fmt::format("NOT converged to {:g}", options.tolerance) : "none was left to do";
+  }
 }
 
 void scvt(Options& options) {
   if ((options.n > 0) == !options.start.file.empty())
-    throw CLI::ValidationError("N", "give either N, for random generators, or --start FILE");
+    throw CLI::ValidationError("N", "give either N, for new generators, or --start FILE");
   options.output.choose();
   for (const Output* const output : {&options.output, &options.checkpoint})
     if (!output->file.empty()) files::OutputFile can_be_written(output->file);  // said now, not after hours
@@ -111,43 +279,43 @@ void scvt(Options& options) {
 
   Progress progress;
   files::Nodes start;
-  if (!options.start.file.empty())
+  if (!options.start.file.empty()) {
+    options.start.read.with_columns = true;
     start = progress.step("reading", [&] { return read_nodes(options.start); });
+    options.start.read.with_columns = false;
+  }
   choose_density(options, start.notes);
-  const std::unique_ptr<methods::Density> density =
+  const std::unique_ptr<engine::Density> density =
       progress.step("reading the density", [&] { return make_density(options); });
-  const std::size_t before = iterations_of(start);
-  const std::string from = options.start.file.empty() ? "the random generators" : start.file;
+  engine::LocalEvaluator evaluator(*density);
   try {
-    if (options.start.file.empty()) {
-      start.points = methods::random_generators(options.n, *density, options.seed);
-    } else {
-      triangulate(start);  // what is wrong with them is said by their lines
-      start.points = files::unit(start.points);
-    }
-    methods::Lloyd lloyd(std::move(start.points), *density);
-    methods::Lloyd::Step step;
-    std::size_t iteration = before;
-    bool has_converged = false;
-    progress.step("iterating", [&] {
-      while (iteration < options.iterations && !has_converged) {
-        step = lloyd.step();
-        ++iteration;
-        has_converged = step.move <= options.tolerance;
-        progress.now(fmt::format("iteration {}, largest move {:.3g}, energy {:.9g}", iteration, step.move,
-                                 step.energy));
-        if (!options.checkpoint.file.empty() && (iteration - before) % options.every == 0)
-          write(options.checkpoint, lloyd, notes_of(options, iteration));
-      }
+    State state = progress.step("placing generators", [&] {
+      return options.start.file.empty() ? first_state(options, *density, evaluator, progress)
+                                        : state_of(start, options);
     });
-    progress.step("writing", [&] { write(options.output, lloyd, notes_of(options, iteration)); });
-    const std::string reached = iteration == before ? "none was left to do"
-                                : has_converged     ? fmt::format("converged to {:g}", options.tolerance)
-                                                    : fmt::format("NOT converged to {:g}", options.tolerance);
-    progress.finish(fmt::format("{} generators, {} iterations, {}: largest move {:.3g}, energy {:.9g}",
-                                lloyd.generators().size(), iteration, reached, step.move, step.energy));
-  } catch (const files::NoMesh& e) {
-    throw std::runtime_error(from + ": " + e.what());
+    const std::int64_t steps_before = state.steps;
+    const engine::Result result =
+        progress.step("iterating", [&] { return iterate(options, *density, evaluator, state, progress); });
+    files::Mesh mesh = progress.step("triangulating", [&] { return files::triangulate(state.generators); });
+    const std::string quality = methods::quality_of(mesh).text();
+    progress.step("writing", [&] {
+      mesh.density = engine::values_at(state.generators, *density);
+      mesh.notes = notes_of(options, state, result.progress);
+      write(options.output, std::move(mesh));
+    });
+    progress.finish(fmt::format("{} generators, {} evaluations, {}: gradient {:.3g}, energy {:.9g}",
+                                state.generators.size(), state.evaluations,
+                                end_of(options, result, state.steps > steps_before), result.progress.gradient,
+                                result.progress.energy));
+    say(quality);
+  } catch (const engine::BadDensity& e) {
+    if (options.density_file.empty() || !std::isnan(e.value)) throw;
+    const files::LonLat where({e.place}, true);
+    throw std::runtime_error(fmt::format(
+        "{}: the density is not known on the whole sphere: the nodes leave out lon {:.6g} lat {:.6g}",
+        options.density_file, where.lon[0], where.lat[0]));
+  } catch (const engine::BadGenerators& e) {
+    throw std::runtime_error((start.file.empty() ? "" : start.file + ": ") + e.what());
   }
 }
 
@@ -157,12 +325,19 @@ void add_scvt(CLI::App& app, Command& chosen) {
   CLI::App* const sub = app.add_subcommand(
       "scvt", "spherical centroidal Voronoi tessellation: moves generators to the centroids of their cells");
   const auto options = std::make_shared<Options>();
-  sub->add_option("N", options->n, "number of random generators, unless --start is given")
+  sub->add_option("N", options->n, "number of generators, unless --start is given")
       ->type_name("")
+      ->transform(whole_number())
       ->check(CLI::Range(std::size_t{4}, std::size_t{357913943}).description(""));
-  sub->add_option("--seed", options->seed, "seed of the random generators")
+  sub->add_option("--seed", options->seed, "seed of random generators")
       ->type_name("NUMBER")
       ->capture_default_str();
+  add_choice(*sub, "--first", options->first,
+             {{"front", First::front}, {"levels", First::levels}, {"random", First::random}},
+             "where N generators begin, see below [front from 3000 on, else levels]");
+  sub->add_flag_callback(
+         "--levels", [=] { options->first = First::levels; }, "the same as --first levels")
+      ->excludes("--first");
   sub->add_option("--start", options->start.file,
                   "initial generators, or the output or checkpoint of a run to continue")
       ->type_name("FILE");
@@ -176,31 +351,42 @@ void add_scvt(CLI::App& app, Command& chosen) {
   sub->add_option("--variable", options->variable,
                   "in the density file: name (NetCDF) or column (text, from 1)")
       ->type_name("NAME");
+  add_choice(*sub, "--method", options->method, {{"newton", Method::newton}, {"lloyd", Method::lloyd}},
+             "newton (L-BFGS) or lloyd [newton]");
   sub->add_option("--tolerance", options->tolerance,
-                  "stop when no generator moves further than this fraction of the width of its cell")
+                  "stop at this gradient: root mean square distance to the centroid over sqrt(4 pi/N)")
       ->type_name("NUMBER")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1e300).description(""));
-  sub->add_option("--iterations", options->iterations,
-                  "largest number of iterations, those of the continued run included")
+  sub->add_option("--evaluations,--iterations", options->evaluations,
+                  "most evaluations of all N cells, those of the continued run included")
       ->type_name("NUMBER")
+      ->transform(whole_number())
       ->capture_default_str();
-  sub->add_option("--checkpoint", options->checkpoint.file, "file to write every --every iterations")
+  sub->add_option("--checkpoint", options->checkpoint.file, "file to write every --every steps")
       ->type_name("FILE");
-  sub->add_option("--every", options->every, "iterations between checkpoints")
+  sub->add_option("--every", options->every, "steps between checkpoints")
       ->type_name("NUMBER")
       ->capture_default_str()
-      ->check(CLI::Range(std::size_t{1}, std::size_t{1000000000}).description(""));
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1000000000}).description(""));
   add_reading(*sub, options->start.read);
   add_duplicates(*sub, options->start);
   add_output(*sub, options->output, true);
-  sub->footer(R"(Densities:
+  sub->footer(R"(First generators:
+  front                               an advancing front, which is nearly centroidal already; --seed has no effect
+  levels                              few random generators, made centroidal and refined, again and again
+  random                              with about the final density
+
+Densities:
   constant                            1
   bump                                bump:0,30,30,10,3
   bump:LON,LAT,RADIUS,WIDTH,RATIO     (1 + (RATIO-1) (1 + tanh((RADIUS-d)/WIDTH))/2)^4, d the distance from LON,LAT,
                                       all in degrees: cells within RADIUS are RATIO times narrower than far away
+A NetCDF density on the two axes of a global longitude-latitude grid is bilinear between its values.
 
-To continue a run, repeat its command with --start CHECKPOINT: NetCDF files hold their iterations and density.
+To continue a run, repeat its command with --start CHECKPOINT instead of N: it goes on with the same bits. NetCDF
+files hold evaluations and density; only checkpoints in NetCDF, but not mpas, hold the memory of --method newton,
+which begins anew from other files. A step takes one or more evaluations; the last one is finished.
 --from, --coordinates and --units apply to both input files.
 
 )" + sub->get_footer());

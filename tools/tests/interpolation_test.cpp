@@ -11,6 +11,7 @@
 #include <cmath>
 #include <utility>
 
+#include "methods/gradients.h"
 #include "methods/sphere.h"
 #include "point_sets.h"
 #include "stripack/list_queries.h"
@@ -87,6 +88,99 @@ TEST(linear, is_linear_in_the_plane_of_the_corners) {
     EXPECT_LT(dot(off, off), 1e-28);
     EXPECT_GT(dot(p, q), 0);
   }
+}
+
+TEST(linear, does_not_depend_on_where_the_search_begins) {
+  for (const char* const family : {"random", "latlon", "healpix"}) {
+    const Points nodes = point_sets::make(family, 400);
+    const Interpolation in(nodes);
+    Points on_arcs;  // as nearly as rounding lets them, many exactly
+    const std::vector<std::int32_t> triangles = files::triangles_of(files::triangulate(nodes));
+    for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
+      const Point a = nodes[static_cast<std::size_t>(triangles[t]) - 1],
+                  b = nodes[static_cast<std::size_t>(triangles[t + 1]) - 1];
+      on_arcs.push_back(files::unit({a.x + b.x, a.y + b.y, a.z + b.z}));
+    }
+    for (const Point& p : on_arcs) {
+      std::vector<Share> first, other;
+      for (const std::int32_t start : {1, 77, 200, 399}) {
+        std::int32_t near = start;
+        std::vector<Share>& shares = start == 1 ? first : other;
+        ASSERT_TRUE(in.linear(p, near, shares));
+        if (start == 1) continue;
+        ASSERT_EQ(first.size(), other.size()) << family;
+        for (std::size_t i = 0; i < first.size(); ++i) {
+          EXPECT_EQ(first[i].node, other[i].node);
+          EXPECT_EQ(first[i].part, other[i].part);
+        }
+      }
+    }
+  }
+}
+
+double smooth(const Point& p) { return std::exp(p.x) * (1 + 0.3 * p.y * p.z); }
+
+double largest_error(const char* family, std::size_t n, Method method) {
+  const Points nodes = point_sets::make(family, n), at = places(3000, 11);
+  std::vector<double> values;
+  for (const Point& p : nodes) values.push_back(smooth(p));
+  const std::vector<double> found =
+      Interpolation(nodes).values_at(at, values, method, Interpolation::Outside::missing).values;
+  double largest = 0;
+  for (std::size_t i = 0; i < at.size(); ++i)
+    largest = std::max(largest, std::fabs(found[i] - smooth(at[i])));
+  return largest;
+}
+
+TEST(cubic, is_of_higher_order_than_linear_and_natural) {
+  for (const char* const family : {"fibonacci", "random", "latlon"}) {
+    const double coarse = largest_error(family, 500, Method::cubic),
+                 fine = largest_error(family, 8000, Method::cubic);
+    EXPECT_LT(fine, coarse / 24) << family;  // a quarter of the spacing: 16 of second order, 64 of third
+    EXPECT_LT(fine, largest_error(family, 8000, Method::natural) / 3) << family;
+  }
+}
+
+TEST(cubic, meets_the_values_with_the_gradients_of_the_nodes) {
+  const Points nodes = point_sets::make("random", 200);
+  const std::vector<double> values = random_values(nodes.size());
+  const Interpolation in(nodes);
+  const std::vector<Point> slopes = gradients(files::triangulate(nodes), values);
+  constexpr double kStep = 1e-6;
+  Points beside, ways;  // a step away from each node, on each way
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (const Point& away : places(4, 1000 + i)) {
+      const Point& p = nodes[i];
+      const Point t = files::unit(cross(p, away));
+      ways.push_back(t);
+      beside.push_back(files::unit({p.x + kStep * t.x, p.y + kStep * t.y, p.z + kStep * t.z}));
+    }
+  const auto cubic = [&](const Points& at) {
+    return in.values_at(at, values, Method::cubic, Interpolation::Outside::missing).values;
+  };
+  EXPECT_EQ(cubic(nodes), values);
+  const std::vector<double> found = cubic(beside);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const std::size_t i = k / 4;
+    const double slope = std::sqrt(dot(slopes[i], slopes[i]));
+    EXPECT_LT(std::fabs(dot(slopes[i], nodes[i])), 1e-12 * slope + 1e-300);
+    EXPECT_NEAR((found[k] - values[i]) / kStep, dot(slopes[i], ways[k]), 1e-2 * (1 + slope));
+  }
+}
+
+TEST(gradients, are_those_of_a_quadratic_and_zero_where_nodes_determine_none) {
+  const Points nodes = point_sets::make("random", 2000);
+  std::vector<double> values;
+  for (const Point& p : nodes) values.push_back(3 + p.z);
+  const std::vector<Point> slopes = gradients(files::triangulate(nodes), values);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Point& p = nodes[i];
+    const Point error = minus(slopes[i], {-p.z * p.x, -p.z * p.y, 1 - p.z * p.z});
+    EXPECT_LT(std::sqrt(dot(error, error)), 0.02);
+  }
+  const Points three{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (const Point& slope : gradients(files::triangulate(three), {5, 5, 5}))
+    EXPECT_EQ(slope, (Point{0, 0, 0}));
 }
 
 /// The area of each Voronoi cell.

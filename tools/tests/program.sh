@@ -231,57 +231,97 @@ pictures)
   ;;
 
 scvt)
-  "$PSTRIPACK" scvt 300 --density bump --iterations 12 -o direct.nodes.nc 2> err
-  grep -q '^pstripack: 300 generators, 12 iterations, NOT converged to 0.001: largest move .*, energy .*; iterating .* s; writing .* s$' err ||
+  "$PSTRIPACK" scvt 300 --density bump --evaluations 30 --tolerance 1e-6 -o direct.nodes.nc 2> err
+  grep -q '^pstripack: 300 generators, 3[0-9] evaluations, NOT converged to 1e-06: gradient .*, energy .*; iterating .* s; .*writing .* s$' err ||
     fail "$(cat err)"
-  # A run that is cut short and goes on, by its checkpoint and by its output, comes to the same bytes.
-  "$PSTRIPACK" -q scvt 300 --density bump --iterations 9 --checkpoint checkpoint.nc --every 4 -o short.mpas.nc
-  [ "$("$PSTRIPACK" -q convert checkpoint.nc -o - --to xyz | wc -l)" = 300 ] || fail "checkpoint.nc is not whole"
-  for start in checkpoint.nc short.mpas.nc; do
-    "$PSTRIPACK" scvt --start $start --iterations 12 -o resumed.nodes.nc 2> err
-    grep -q " 12 iterations, " err || fail "$(cat err)"
+  grep -q '^pstripack: cells by sides: .*; smallest angle .*; neighbouring areas up to .* : 1; .* % of the triangles hold their circumcentre$' err ||
+    fail "$(cat err)"
+  # A run that is cut short and goes on, by its checkpoint, comes to the same bytes: within the first steps, with some
+  # and with all pairs of the quasi-Newton method, from two formats.
+  for run in 2:checkpoint.nc 5:checkpoint.ugrid.nc 11:checkpoint.nc; do
+    checkpoint=${run#*:}
+    "$PSTRIPACK" -q scvt 300 --density bump --iterations 14 --tolerance 1e-6 --checkpoint $checkpoint --every ${run%:*} -o short.mpas.nc
+    "$PSTRIPACK" scvt --start $checkpoint --evaluations 30 --tolerance 1e-6 -o resumed.nodes.nc 2> err
+    grep -q " 3[0-9] evaluations, " err || fail "$(cat err)"
     cmp direct.nodes.nc resumed.nodes.nc
+    [ "$("$PSTRIPACK" -q convert $checkpoint -o - --to xyz | wc -l)" = 300 ] || fail "$checkpoint is not whole"
   done
-  "$PSTRIPACK" scvt --start direct.nodes.nc --iterations 12 -o again.nodes.nc 2> err
+  # Without the pairs it goes on with new ones: not worse, and counted from where the other run ended.
+  "$PSTRIPACK" scvt --start short.mpas.nc --iterations 200 --tolerance 1e-4 -o resumed.nodes.nc 2> err
+  grep -q " evaluations, converged to 0.0001: " err || fail "$(cat err)"
+  "$PSTRIPACK" scvt --start direct.nodes.nc --evaluations 12 --tolerance 1e-6 -o again.nodes.nc 2> err
   grep -q "none was left to do" err || fail "$(cat err)"
   cmp direct.nodes.nc again.nodes.nc
+  # Another density makes the pairs worthless; the run converges all the same.
+  "$PSTRIPACK" scvt --start checkpoint.nc --density bump:0,0,30,10,2 --evaluations 1e3 -o other.off 2> err
+  grep -q " evaluations, converged to 0.0001: " err || fail "$(cat err)"
+  # Lloyd's method has no memory: it also continues from its output.
+  "$PSTRIPACK" -q scvt 300 --method lloyd --first random --iterations 12 -o lloyd.nodes.nc
+  "$PSTRIPACK" -q scvt 300 --method lloyd --first random --iterations 9 --checkpoint checkpoint.nc --every 4 -o short.mpas.nc
+  for start in checkpoint.nc short.mpas.nc; do
+    "$PSTRIPACK" scvt --start $start --method lloyd --iterations 12 -o resumed.nodes.nc 2> err
+    grep -q " 12 evaluations, " err || fail "$(cat err)"
+    cmp lloyd.nodes.nc resumed.nodes.nc
+  done
   # Formats without density, other threads, a tolerance that is reached.
-  "$PSTRIPACK" -q --threads 3 scvt 300 --density bump --iterations 12 -o threads.txt
+  "$PSTRIPACK" -q --threads 3 scvt 300 --density bump --iterations 30 --tolerance 1e-6 -o threads.txt
   "$PSTRIPACK" -q convert direct.nodes.nc -o direct.txt
   cmp direct.txt threads.txt
   "$PSTRIPACK" scvt 50 --tolerance 0.1 -o loose.off 2> err
-  grep -q " iterations, converged to 0.1: " err || fail "$(cat err)"
+  grep -q " evaluations, converged to 0.1: " err || fail "$(cat err)"
+  # First generators, by option and by number.
+  for first in front levels random; do "$PSTRIPACK" -q scvt 3e3 --first $first --evaluations 1 --tolerance 0.01 -o $first.txt; done
+  "$PSTRIPACK" -q scvt 3000 --evaluations 1 --tolerance 0.01 -o by_number.txt
+  cmp by_number.txt front.txt
+  "$PSTRIPACK" -q scvt 3000 --levels --evaluations 1 --tolerance 0.01 -o flag.txt
+  cmp flag.txt levels.txt
+  if cmp -s front.txt levels.txt || cmp -s levels.txt random.txt; then fail "--first has no effect"; fi
   # A density in a file, here constant; it goes along with the file by name.
   "$PSTRIPACK" -q points latlon 100 | sed 's/$/ 2/' > two.txt
-  "$PSTRIPACK" -q scvt 300 --density-file two.txt --iterations 5 -o file.nodes.nc
-  "$PSTRIPACK" -q scvt 300 --iterations 5 -o constant.nodes.nc
+  "$PSTRIPACK" -q points random 300 -o start.txt
+  "$PSTRIPACK" -q scvt --start start.txt --density-file two.txt --iterations 5 -o file.nodes.nc
+  "$PSTRIPACK" -q scvt --start start.txt --iterations 5 -o constant.nodes.nc
   for run in file constant; do "$PSTRIPACK" -q convert $run.nodes.nc -o - --to lonlat | cut -c 1-9 > $run.txt; done
   cmp file.txt constant.txt
-  "$PSTRIPACK" -q scvt --start file.nodes.nc --iterations 6 -o more.nodes.nc
-  "$PSTRIPACK" -q scvt 300 --density-file two.txt --iterations 6 -o six.nodes.nc
-  cmp more.nodes.nc six.nodes.nc
+  "$PSTRIPACK" -q scvt 300 --density-file two.txt --first random --iterations 6 --checkpoint checkpoint.nc --every 1 -o six.nodes.nc
+  "$PSTRIPACK" -q scvt --start checkpoint.nc --iterations 8 -o more.nodes.nc
+  "$PSTRIPACK" -q scvt 300 --density-file two.txt --first random --iterations 8 -o eight.nodes.nc
+  cmp more.nodes.nc eight.nodes.nc
   rm two.txt
   refuses 1 "two.txt: cannot be opened" scvt --start file.nodes.nc --iterations 7 -o failed.nc
+  # A density on a grid: that of its formula, nearly.
+  "$PSTRIPACK" -q points latlon 3000 -o - --to lonlat | awk '{ print $0, 2 + sin($2 / 57.29577951308232) }' > values.txt
+  "$PSTRIPACK" -q interpolate values.txt --to-grid 36x72 -o grid.nc
+  "$PSTRIPACK" scvt 300 --density-file grid.nc --variable value -o grid.mpas.nc 2> err
+  grep -q " converged to 0.0001: " err || fail "$(cat err)"
   ;;
 
 bad_scvt)
-  refuses 2 "give either N, for random generators, or --start FILE" scvt -o failed.off
+  refuses 2 "give either N, for new generators, or --start FILE" scvt -o failed.off
   octahedron > start.txt
   refuses 2 "give either N" scvt 10 --start start.txt -o failed.off
   refuses 2 "density 'potato': expected constant, bump or bump:LON,LAT" scvt 10 --density potato -o failed.off
   refuses 2 "excludes" scvt 10 --density bump --density-file start.txt -o failed.off
   refuses 2 "no format has this suffix" scvt 10 -o failed.xxx
+  refuses 2 "excludes" scvt 10 --levels --first front -o failed.off
+  refuses 2 "--first: " scvt 10 --first middle -o failed.off
+  refuses 2 "--method: " scvt 10 --method steepest -o failed.off
+  refuses 2 "'1.5' is not a whole number" scvt 1.5 -o failed.off
   refuses 1 "no/folder/failed.off: cannot be written" scvt 10 -o no/folder/failed.off
   refuses 1 "no/checkpoint.nc: cannot be written" scvt 10 --checkpoint no/checkpoint.nc -o failed.off
   "$PSTRIPACK" -q points hemisphere 30 -o half.txt
   refuses 1 "half.txt: the generators lie in one hemisphere" scvt --start half.txt -o failed.off
   sed 's/$/ 1/' half.txt > half_density.txt
-  refuses 1 "the density is not known on the whole sphere" scvt 10 --density-file half_density.txt -o failed.off
+  refuses 1 "half_density.txt: the density is not known on the whole sphere: the nodes leave out lon " scvt 10 --density-file half_density.txt -o failed.off
   { octahedron; octahedron; } > twice.txt
   refuses 1 "twice.txt: node 1 (line 1) and node 7 (line 7) are in the same place" scvt --start twice.txt -o failed.off
   "$PSTRIPACK" -q scvt --start twice.txt --drop-duplicates -o once.off
   octahedron | sed '4s/$/ 0/; 4!s/$/ 1/' > zero.txt
   refuses 1 "zero.txt: node 4 (line 4): density 0: must be positive" scvt 10 --density-file zero.txt -o failed.off
+  octahedron | sed 's/$/ 1/' > one.txt
+  "$PSTRIPACK" -q interpolate one.txt --to-grid 9x9 --region 0,90,0,90 -o regional.nc
+  refuses 1 "regional.nc: the grid leaves out 280 degrees of longitude: a density must cover the sphere" \
+    scvt 10 --density-file regional.nc --variable value -o failed.off
   [ ! -e failed.off ] || fail "failed.off was written"
   ;;
 
@@ -510,7 +550,7 @@ ranks)
   "$PSTRIPACK" -q triangulate nodes.txt -o serial.lists
   "$PSTRIPACK" -q triangulate few.txt -o few.lists
   "$PSTRIPACK" -q voronoi nodes.txt -o serial.off
-  "$PSTRIPACK" -q scvt 500 --density bump --iterations 3 -o serial.txt
+  "$PSTRIPACK" -q scvt 500 --density bump --iterations 5 --checkpoint checkpoint.off --every 2 -o serial.txt
   for n in 1 2 3; do
     run $n triangulate nodes.txt -o ranks.lists 2> err
     [ "$(grep -c ^pstripack: err)" = 1 ] || fail "$n ranks: $(cat err)"
@@ -518,8 +558,9 @@ ranks)
     cmp serial.lists ranks.lists
     run $n -q voronoi nodes.txt -o ranks.off
     cmp serial.off ranks.off
-    run $n -q scvt 500 --density bump --iterations 3 -o ranks.txt
+    run $n -q scvt 500 --density bump --iterations 5 --checkpoint ranks.off --every 2 -o ranks.txt
     cmp serial.txt ranks.txt
+    cmp checkpoint.off ranks.off
     [ "$(run $n -q points random 10 | wc -l)" = 10 ] || fail "points, by $n ranks"
     # mpirun of Open MPI 4.1 crashes at times in its own mca_iof_hnp while it hands on a file: once more, then.
     for _ in 1 2 3 4 5 6; do

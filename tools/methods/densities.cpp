@@ -1,0 +1,194 @@
+#include "methods/densities.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+#include "methods/interpolation.h"
+#include "numbers.h"
+#include "point_sets.h"
+
+namespace methods {
+namespace {
+
+using files::Point;
+
+constexpr double kDegree = 3.14159265358979323846 / 180;
+
+class SampledDensity : public Density {
+ public:
+  SampledDensity(const std::vector<Point>& nodes, std::vector<double> values)
+      : interpolation_(nodes), values_(std::move(values)) {}
+
+  void at(std::size_t n, const Point* p, double* value) const override {
+    thread_local std::vector<Share> shares;
+    thread_local std::int32_t near = 1;  // a short walk from the place before; its end is always the same
+    if (static_cast<std::size_t>(near) > values_.size()) near = 1;  // of another density
+    for (std::size_t i = 0; i < n; ++i) {
+      value[i] = std::numeric_limits<double>::quiet_NaN();
+      if (!interpolation_.linear(p[i], near, shares)) continue;
+      value[i] = 0;
+      for (const Share& s : shares) value[i] += s.part * values_[static_cast<std::size_t>(s.node) - 1];
+    }
+  }
+
+ private:
+  Interpolation interpolation_;
+  std::vector<double> values_;
+};
+
+/// Increasing numbers, and the interval that contains one.
+class Axis {
+ public:
+  explicit Axis(std::vector<double> ticks) : ticks_(std::move(ticks)) {
+    ticks_per_unit_ = static_cast<double>(ticks_.size() - 1) / (ticks_.back() - ticks_.front());
+  }
+
+  struct Place {
+    std::size_t before;
+    double part;  ///< of the way to the next tick
+  };
+  /// Of x between the first and the last tick.
+  Place place(double x) const {
+    const double guess = (x - ticks_.front()) * ticks_per_unit_;  // right where ticks are equidistant
+    std::size_t i = std::min(static_cast<std::size_t>(std::max(guess, 0.0)), ticks_.size() - 2);
+    if (!(ticks_[i] <= x && x <= ticks_[i + 1])) {
+      const auto after = std::upper_bound(ticks_.begin() + 1, ticks_.end() - 1, x);
+      i = static_cast<std::size_t>(after - ticks_.begin()) - 1;
+    }
+    return {i, (x - ticks_[i]) / (ticks_[i + 1] - ticks_[i])};
+  }
+  double first() const { return ticks_.front(); }
+
+ private:
+  std::vector<double> ticks_;
+  double ticks_per_unit_;
+};
+
+/// Values on rows from pole to pole and on columns once around, the first one again at the end.
+class GridDensity : public Density {
+ public:
+  GridDensity(std::vector<double> lon, std::vector<double> lat, std::vector<double> values)
+      : columns_(lon.size()), lon_(std::move(lon)), lat_(std::move(lat)), values_(std::move(values)) {}
+
+  void at(std::size_t n, const Point* p, double* value) const override {
+    for (std::size_t i = 0; i < n; ++i) {
+      const double angle = std::atan2(p[i].y, p[i].x) / kDegree;
+      const double turns = std::floor((angle - lon_.first()) / 360);
+      const double lon = std::clamp(angle - 360 * turns, lon_.first(), lon_.first() + 360);
+      const double lat = std::atan2(p[i].z, std::hypot(p[i].x, p[i].y)) / kDegree;
+      const auto [column, east] = lon_.place(lon);
+      const auto [row, north] = lat_.place(std::clamp(lat, -90.0, 90.0));
+      const auto in_row = [&, column = column, east = east](std::size_t r) {
+        const double* const v = &values_[r * columns_ + column];
+        return (1 - east) * v[0] + east * v[1];
+      };
+      value[i] = (1 - north) * in_row(row) + north * in_row(row + 1);
+    }
+  }
+
+ private:
+  std::size_t columns_;
+  Axis lon_, lat_;
+  std::vector<double> values_;
+};
+
+/// The order that makes the numbers increase, after `key`.
+template <class Key>
+std::vector<std::size_t> sorted(std::size_t n, const Key& key) {
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  return order;
+}
+
+void require_distinct(const std::vector<double>& ticks, const char* name) {
+  if (ticks.size() < 2) throw std::runtime_error(fmt::format("the axis {} has a single value", name));
+  for (std::size_t i = 1; i < ticks.size(); ++i)
+    if (!(ticks[i - 1] < ticks[i]))
+      throw std::runtime_error(fmt::format("the axis {} holds {} twice", name, ticks[i]));
+}
+
+}  // namespace
+
+std::unique_ptr<Density> density_of(const std::string& formula) {
+  if (formula == "constant") return std::make_unique<pstripack::scvt::ConstantDensity>();
+  std::vector<double> v{0, 30, 30, 10, 3};
+  const auto fail = [&](const char* what) {
+    throw std::invalid_argument("density '" + formula + "': " + what);
+  };
+  if (formula.rfind("bump", 0) != 0 || (formula.size() > 4 && formula[4] != ':'))
+    fail("expected constant, bump or bump:LON,LAT,RADIUS,WIDTH,RATIO");
+  if (formula.size() > 4) {
+    v.clear();
+    for (std::size_t begin = 5; begin <= formula.size();) {
+      const std::size_t end = std::min(formula.find(',', begin), formula.size());
+      double value = 0;
+      if (!point_sets::parse(formula.substr(begin, end - begin), value)) fail("expected numbers");
+      v.push_back(value);
+      begin = end + 1;
+    }
+    if (v.size() != 5) fail("expected five numbers: LON,LAT,RADIUS,WIDTH,RATIO");
+    if (!(std::fabs(v[1]) <= 90)) fail("LAT is beyond the pole");
+    if (!(v[3] > 0)) fail("WIDTH must be positive");
+    if (!(v[4] > 0 && v[4] <= 1000)) fail("RATIO must be above 0, and at most 1000");
+  }
+  return std::make_unique<pstripack::scvt::BumpDensity>(point_sets::from_degrees(v[0], v[1]), v[2] * kDegree,
+                                                        v[3] * kDegree, v[4]);
+}
+
+std::unique_ptr<Density> density_between(const std::vector<Point>& nodes, std::vector<double> values) {
+  return std::make_unique<SampledDensity>(nodes, std::move(values));
+}
+
+std::unique_ptr<Density> density_on_grid(const files::Grid& grid, const std::vector<double>& values) {
+  // Columns from the first one eastwards; a last one that is the first one again, 360 degrees on, is left
+  // out.
+  const double west = grid.lon.front();
+  const auto east_of_first = [&](std::size_t i) {
+    return grid.lon[i] - west - 360 * std::floor((grid.lon[i] - west) / 360);
+  };
+  std::vector<std::size_t> columns = sorted(grid.lon.size(), east_of_first);
+  std::vector<double> lon, lat;
+  if (columns.size() > 1 && east_of_first(columns[1]) == 0) columns.erase(columns.begin() + 1);
+  for (const std::size_t i : columns) lon.push_back(east_of_first(i) + west);
+  require_distinct(lon, "of longitudes");
+  double widest = 0;
+  lon.push_back(west + 360);
+  for (std::size_t i = 1; i < lon.size(); ++i) widest = std::max(widest, lon[i] - lon[i - 1]);
+  if (widest > 2.5 * 360 / static_cast<double>(columns.size()))
+    throw std::runtime_error(
+        fmt::format("the grid leaves out {} degrees of longitude: a density must cover the sphere", widest));
+  const std::vector<std::size_t> rows = sorted(grid.lat.size(), [&](std::size_t i) { return grid.lat[i]; });
+  for (const std::size_t i : rows) lat.push_back(grid.lat[i]);
+  require_distinct(lat, "of latitudes");
+  const double spacing = (lat.back() - lat.front()) / static_cast<double>(lat.size() - 1);
+  if (std::max(90 - lat.back(), lat.front() + 90) > 2.5 * spacing)
+    throw std::runtime_error(fmt::format(
+        "the grid ends at latitudes {} and {}: a density must cover the sphere", lat.front(), lat.back()));
+
+  std::vector<double> table;
+  const auto add_row = [&](std::size_t row) {
+    const double* const v = &values[row * grid.lon.size()];
+    for (const std::size_t c : columns) table.push_back(v[c]);
+    table.push_back(v[columns[0]]);
+  };
+  const auto add_pole = [&](std::size_t row) {
+    double sum = 0;
+    for (const std::size_t c : columns) sum += values[row * grid.lon.size() + c];
+    table.insert(table.end(), columns.size() + 1, sum / static_cast<double>(columns.size()));
+  };
+  if (lat.front() > -90) add_pole(rows.front());
+  for (const std::size_t row : rows) add_row(row);
+  if (lat.back() < 90) add_pole(rows.back());
+  if (lat.front() > -90) lat.insert(lat.begin(), -90);
+  if (lat.back() < 90) lat.push_back(90);
+  return std::make_unique<GridDensity>(std::move(lon), std::move(lat), std::move(table));
+}
+
+}  // namespace methods

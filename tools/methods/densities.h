@@ -1,0 +1,28 @@
+#pragma once
+// Densities of centroidal Voronoi tessellations: formulas, values at nodes, values on a grid.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "files/nodes.h"
+#include "scvt/density.h"
+
+namespace methods {
+
+using pstripack::scvt::Density;
+
+/// "constant", or "bump" with or without ":LON,LAT,RADIUS,WIDTH,RATIO" in degrees:
+///     (1 + (RATIO-1) (1 + tanh((RADIUS-d)/WIDTH))/2)^4
+/// at the distance d from LON, LAT; cells are RATIO times narrower there. Throws std::invalid_argument.
+std::unique_ptr<Density> density_of(const std::string& formula);
+
+/// Linear interpolation between values at nodes. Throws files::NoMesh.
+std::unique_ptr<Density> density_between(const std::vector<files::Point>& nodes, std::vector<double> values);
+
+/// Bilinear interpolation in longitude and latitude between values on a grid, row after row of latitude.
+/// Longitudes go once around the globe. Beyond the last row the value goes to the mean of that row at the
+/// pole. Throws std::runtime_error: why the axes are no such grid.
+std::unique_ptr<Density> density_on_grid(const files::Grid& grid, const std::vector<double>& values);
+
+}  // namespace methods

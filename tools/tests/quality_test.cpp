@@ -1,0 +1,55 @@
+// Reports of a run: how regular its mesh is, how long it will last.
+
+#include "methods/quality.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "methods/sphere.h"
+#include "methods/time_left.h"
+#include "point_sets.h"
+
+namespace methods {
+namespace {
+
+TEST(quality, of_an_icosahedron_and_of_a_prolate_octahedron) {
+  const double pi = std::acos(-1);
+  const Quality regular = quality_of(files::triangulate(point_sets::make("icosahedral", 12)));
+  EXPECT_EQ(regular.cells[5], 12U);
+  EXPECT_NEAR(regular.smallest_angle, 60, 1e-9);
+  EXPECT_NEAR(regular.largest_ratio, 1, 1e-9);
+  EXPECT_EQ(regular.well_centred, 1);
+  EXPECT_EQ(regular.text(),
+            "cells by sides: 5: 12; smallest angle 60.0 degrees; neighbouring areas up to 1.00 : 1; 100.00 % "
+            "of the triangles hold their circumcentre");
+
+  // Poles and three nodes on the equator. A corner that is equally far from the pole and two of the others
+  // has tan(latitude) = cos(60 degrees).
+  const double h = std::sqrt(3) / 2;
+  const Quality bipyramid =
+      quality_of(files::triangulate({{0, 0, 1}, {1, 0, 0}, {-0.5, h, 0}, {-0.5, -h, 0}, {0, 0, -1}}));
+  EXPECT_EQ(bipyramid.cells[3], 2U);
+  EXPECT_EQ(bipyramid.cells[4], 3U);
+  const double lat = std::atan(0.5);
+  const Point a{std::cos(lat), 0, std::sin(lat)}, b{-0.5 * std::cos(lat), h * std::cos(lat), std::sin(lat)},
+      c{-0.5 * std::cos(lat), -h * std::cos(lat), std::sin(lat)};
+  const double pole = triangle_area(a, b, c), lune = (4 * pi - 2 * pole) / 3;
+  EXPECT_NEAR(bipyramid.largest_ratio, std::max(pole / lune, lune / pole), 1e-9);
+  EXPECT_THROW(quality_of(files::triangulate({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}})), files::NoMesh);
+}
+
+TEST(time_left, is_said_only_where_the_gradient_falls_evenly) {
+  TimeLeft even(1e-6), slowing(1e-6), rising(1e-6);
+  for (int i = 0; i < 40; ++i) even.add(2 * i, std::pow(10, -i / 20.0));
+  EXPECT_FALSE(even.seconds());  // too few
+  even.add(80, 1e-2);
+  ASSERT_TRUE(even.seconds());
+  EXPECT_NEAR(*even.seconds(), 160, 1e-6);  // a digit in 40 s, four to go
+  for (int i = 0; i < 60; ++i) slowing.add(i, 1e-3 + std::exp(-i)), rising.add(i, 1 + i);
+  EXPECT_FALSE(slowing.seconds());
+  EXPECT_FALSE(rising.seconds());
+}
+
+}  // namespace
+}  // namespace methods
