@@ -250,7 +250,7 @@ struct StartOfRun {
   scvt::State state;
 };
 
-/// Of one rank only, which the others cannot know.
+/// Memory for the text of an error, on one rank only: the others cannot know. All else is agreed on.
 template <class Body>
 void abort_without_memory(MpiCommunicator& ranks, const Body& body) {
   try {

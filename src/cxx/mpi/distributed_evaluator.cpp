@@ -74,4 +74,6 @@ double DistributedEvaluator::largest(double value) {
   return vote.value;
 }
 
+void DistributedEvaluator::allocate(const std::function<void()>& body) { in_agreement(mesh_.ranks(), body); }
+
 }  // namespace pstripack::scvt

@@ -2,6 +2,7 @@
 // Energy and gradient of generators that stay on their ranks.
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "mpi/distributed_mesh.h"
@@ -22,6 +23,7 @@ class DistributedEvaluator final : public Evaluator {
   void evaluate(const std::vector<Point>& generators, Cells& cells) override;
   void add_up(ExactSum* sums, std::size_t count) override;
   double largest(double value) override;
+  void allocate(const std::function<void()>& body) override;
 
   /// The mesh becomes that of the generators. Collective. Throws BadGenerators, AgreedFailure.
   void triangulate(const std::vector<Point>& generators);
