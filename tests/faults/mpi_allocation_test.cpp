@@ -155,34 +155,6 @@ TEST(EachAllocation, OfDistributedMeshes) {
   free_it();
 }
 
-TEST(EachAllocation, OfCentroidalTessellations) {
-  pstripack_mesh* mesh = nullptr;
-  ASSERT_EQ(pstripack_mesh_create(MPI_COMM_WORLD, &mesh), 0);
-  pstripack_scvt_options options{};
-  options.bytes = sizeof options;
-  options.most_evaluations = 7;  // some are quasi-Newton's
-  const pstripack_density bump{[](std::int32_t n, const double* p, double* values, void*) {
-                                 for (std::int32_t i = 0; i < n; ++i) values[i] = 2 + p[3 * i];
-                               },
-                               nullptr, 0};
-  Part part, found, expected;
-  const auto run = [&](Part& generators) {
-    return pstripack_mesh_scvt(mesh, static_cast<std::int64_t>(generators.number.size()),
-                               generators.xyz.data(), generators.number.data(), &bump, &options, nullptr,
-                               nullptr, 0);
-  };
-  ASSERT_EQ(run(expected), 0);
-  const auto clear = [&] {
-    found.xyz = part.xyz;
-    // An empty mesh has no memory.
-    EXPECT_EQ(pstripack_mesh_triangulate(mesh, -1, nullptr, nullptr), PSTRIPACK_TOO_MANY_NODES);
-  };
-  clear();
-  fail_each_allocation([&] { return run(found); },
-                       [&](int code) { return found.xyz == (code == 0 ? expected : part).xyz; }, clear);
-  pstripack_mesh_free(mesh);
-}
-
 // Not collective: each rank has its own code.
 TEST(EachAllocation, OfTheCallsOfOneRank) {
   pstripack_mesh* mesh = nullptr;

@@ -383,7 +383,7 @@ int32_t pstripack_mesh_scvt(pstripack_mesh* handle, int64_t n, double* xyz, cons
   });
   if (code == PSTRIPACK_OK) return code;
   ranks.set_phase("idle");
-  if (!mesh.empty()) mesh.clear();  // an empty one knows the points of the error
+  if (!mesh.empty()) mesh.make_empty();  // an empty one knows the points of the error
   return code;
 }
 

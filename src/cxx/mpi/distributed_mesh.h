@@ -36,7 +36,11 @@ class DistributedMesh {
 
   /// Empty: no triangulation yet, or the last one failed.
   bool empty() const { return total_ == 0; }
-  void clear();  ///< then it is
+  /// As after a triangulation that failed. Collective.
+  void make_empty() {
+    clear();
+    homes_.reset();
+  }
   std::int64_t error_point(int i) const { return error_point_[i]; }
   std::int64_t points() const { return static_cast<std::int64_t>(count_); }
   std::int64_t arcs() const { return arcs_; }
@@ -75,6 +79,7 @@ class DistributedMesh {
   std::int32_t triangulate_into(Stars<Int>& stars, const Point* points, std::size_t n,
                                 const std::int64_t* number, const Numbering& numbering, ParallelCost& cost);
   void report_on(ParallelCost& mine, std::int64_t sent_before, Report* report);
+  void clear();
   /// Calls visit(i, count, first) for each own point: its neighbours are first[0..count-1].
   template <class Visit>
   void for_each_star(const Visit& visit) const {
