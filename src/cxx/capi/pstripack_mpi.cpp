@@ -4,17 +4,25 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <memory>
 #include <mutex>
 #include <new>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "base/floating_point.h"
 #include "capi/hooks.h"
+#include "capi/scvt_calls.h"
 #include "mpi/collective_trmesh.h"
+#include "mpi/distributed_evaluator.h"
 #include "mpi/distributed_mesh.h"
+#include "scvt/agreement.h"
+#include "scvt/minimize.h"
 #include "stripack/original/original_rules.h"
 
 using namespace pstripack;
@@ -184,6 +192,74 @@ std::int32_t reported(MpiCommunicator& ranks, CallReport::Mode mode, const Body&
   });
 }
 
+// ---- centroidal tessellations
+
+/// Those of rank 0, looked at by every rank: all refuse the same. Collective.
+pstripack_scvt_options checked_by_all(MpiCommunicator& ranks, const pstripack_scvt_options* given) {
+  constexpr auto kSize = static_cast<std::int64_t>(sizeof(pstripack_scvt_options));
+  pstripack_scvt_options mine{};
+  const bool has_some = ranks.rank() == 0 && given != nullptr;
+  if (has_some) {
+    mine.bytes = given->bytes;
+    const auto least = static_cast<std::int64_t>(sizeof mine.bytes);
+    if (mine.bytes >= least) std::memcpy(&mine, given, static_cast<std::size_t>(std::min(mine.bytes, kSize)));
+  }
+  const Parcels all = ranks.all_gather(&mine, has_some ? sizeof mine : 0);
+  const Items<pstripack_scvt_options> of_rank_0(all, 0);
+  return checked(of_rank_0.size() == 0 ? nullptr : of_rank_0.begin());
+}
+
+/// The progress procedure of rank 0 decides for all ranks.
+void let_rank_0_decide(scvt::RunOptions& how, MpiCommunicator& ranks) {
+  if (!how.progress) return;
+  how.progress = [&ranks, tell = std::move(how.progress)](const scvt::Progress& progress) {
+    OfRank0 goes_on(ranks, true);
+    scvt::in_agreement_with_caller(
+        ranks,
+        [&] {
+          if (ranks.rank() == 0) goes_on.value = tell(progress);
+        },
+        goes_on);
+    return goes_on.value;
+  };
+}
+
+/// What runs of the ranks begin with. Collective.
+struct StartOfRun {
+  StartOfRun(MpiCommunicator& ranks, std::int64_t n, const double* xyz, const std::int64_t* number,
+             const pstripack_scvt_options& options) {
+    in_agreement(ranks, [&] {
+      constexpr std::int64_t kMost = (std::int64_t{1} << 29) - 1;
+      if (n < 0 || n > kMost) throw Failure(PSTRIPACK_TOO_MANY_NODES);
+      how = run_options(options);
+      let_rank_0_decide(how, ranks);
+      if (n == 0) return;
+      numbers.assign(number, number + n);
+      state.generators.resize(numbers.size());
+      for (std::size_t i = 0; i < numbers.size(); ++i)
+        state.generators[i] = scvt::unit_vector({xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]});
+    });
+    std::int64_t total = n;
+    ranks.all_sum(&total, 1);
+    if (total < 4)
+      throw Refusal{PSTRIPACK_TOO_FEW_NODES,
+                    "a tessellation needs at least 4 generators, here are " + std::to_string(total)};
+  }
+  scvt::RunOptions how;
+  std::vector<std::int64_t> numbers;
+  scvt::State state;
+};
+
+/// Memory for the text of an error, on one rank only: the others cannot know. All else is agreed on.
+template <class Body>
+void abort_without_memory(MpiCommunicator& ranks, const Body& body) {
+  try {
+    body();
+  } catch (const std::bad_alloc&) {
+    ranks.abort("error", pstripack_strerror(PSTRIPACK_OUT_OF_MEMORY));
+  }
+}
+
 MPI_Comm communicator_of(MPI_Fint comm) { return mpi_is_running() ? MPI_Comm_f2c(comm) : MPI_COMM_NULL; }
 
 }  // namespace
@@ -283,6 +359,32 @@ int32_t pstripack_mesh_gather(pstripack_mesh* mesh, int32_t root, int32_t* list,
   return reported(mesh->mesh.ranks(), CallReport::distributed_gather, [&](DistributedMesh::Report* report) {
     return mesh->mesh.gather(root, {list, lptr, lend, lnew}, report);
   });
+}
+
+int32_t pstripack_mesh_scvt(pstripack_mesh* handle, int64_t n, double* xyz, const int64_t* number,
+                            const pstripack_density* density, const pstripack_scvt_options* options,
+                            pstripack_scvt_result* result, char* message, int32_t length) {
+  DistributedMesh& mesh = handle->mesh;
+  MpiCommunicator& ranks = mesh.ranks();
+  const std::int32_t code = guarded_scvt(message, length, [&] {
+    abort_without_memory(ranks, [&] {
+      const pstripack_scvt_options chosen = checked_by_all(ranks, options);
+      StartOfRun start(ranks, n, xyz, number, chosen);
+      const DensityOfCaller values(density);
+      scvt::DistributedEvaluator evaluator(mesh, start.numbers, values);
+      const scvt::Result found = scvt::minimize(evaluator, start.state, start.how);
+      evaluator.triangulate(start.state.generators);
+      if (n > 0) std::memcpy(xyz, start.state.generators.data(), start.numbers.size() * sizeof(Point));
+      if (result != nullptr)
+        *result = {found.progress.energy, found.progress.gradient,
+                   static_cast<double>(start.state.evaluations), static_cast<std::int32_t>(n),
+                   reason_of(found.end)};
+    });
+  });
+  if (code == PSTRIPACK_OK) return code;
+  ranks.set_phase("idle");
+  if (!mesh.empty()) mesh.make_empty();  // an empty one knows the points of the error
+  return code;
 }
 
 }  // extern "C"

@@ -72,8 +72,8 @@ PSTRIPACK_API void pstripack_mesh_error_points(const pstripack_mesh* mesh, int64
 
 /* The rank that would be home to each of n points, so that each rank's points lie close together and all
  * ranks have about as many; from the points of the last pstripack_mesh_triangulate. Not collective. 0, -3
- * if the mesh is empty, or -5, having written nothing. rank: n entries, from 0. Points that have been sent there
- * stay at home in later calls, until some rank has an eighth more than its share. */
+ * if the mesh is empty, or -5, having written nothing. rank: n entries, from 0. Points that have been sent
+ * there stay at home in later calls, until some rank has an eighth more than its share. */
 PSTRIPACK_API int32_t pstripack_mesh_home(const pstripack_mesh* mesh, int64_t n, const double* xyz,
                                           int32_t* rank);
 
@@ -110,6 +110,22 @@ PSTRIPACK_API int32_t pstripack_mesh_local_stars(const pstripack_mesh* mesh, int
  * `root`), -10 (numbers are not 1..N); then nothing is written. */
 PSTRIPACK_API int32_t pstripack_mesh_gather(pstripack_mesh* mesh, int32_t root, int32_t* list, int32_t* lptr,
                                             int32_t* lend, int32_t* lnew);
+
+/* A centroidal tessellation of the generators of all ranks, which stay on their ranks: no rank holds them
+ * all. Collective. As pstripack_scvt with PSTRIPACK_SCVT_GIVEN, and the same bits, whatever the distribution.
+ *   n, xyz, number  as of pstripack_mesh_triangulate: the generators to start from, vectors of any length;
+ *                   xyz becomes the generators found, unit vectors. Points that are close together should be
+ * on one rank (pstripack_mesh_home) density   the same on every rank; called for places near the rank's
+ * generators options   rank 0's, for all (NULL on others); `start` and `seed` are not used; rank 0 calls
+ * `progress` result    may be NULL; the same on every rank but for `generators`, which is n message   may be
+ * NULL Then the mesh is that of the generators. Returns the same on every rank: 0, for every reason to end;
+ * -1 (fewer than 4 in all), -4, -5, -6, -9, -10, -11, -12 or -14; after an error the mesh is empty, and
+ * nothing is written but `message`. What the density or `progress` throws in C++ is PSTRIPACK_BAD_DENSITY. A
+ * rank that runs out of memory between two triangulations aborts the job, with a line on stderr. */
+PSTRIPACK_API int32_t pstripack_mesh_scvt(pstripack_mesh* mesh, int64_t n, double* xyz, const int64_t* number,
+                                          const pstripack_density* density,
+                                          const pstripack_scvt_options* options,
+                                          pstripack_scvt_result* result, char* message, int32_t length);
 
 #ifdef __cplusplus
 }

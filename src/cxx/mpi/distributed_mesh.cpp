@@ -351,8 +351,7 @@ std::int32_t DistributedMesh::triangulate(std::int64_t n, const double* xyz, con
       code = triangulate_points(n, points, number, report, mine);
     }
   } catch (...) {
-    clear();  // or what there was memory for would pass for a mesh
-    homes_.reset();
+    make_empty();  // or what there was memory for would pass for a mesh
     throw;
   }
   if (code != 0) homes_.reset();

@@ -36,6 +36,11 @@ class DistributedMesh {
 
   /// Empty: no triangulation yet, or the last one failed.
   bool empty() const { return total_ == 0; }
+  /// As after a triangulation that failed. Collective.
+  void make_empty() {
+    clear();
+    homes_.reset();
+  }
   std::int64_t error_point(int i) const { return error_point_[i]; }
   std::int64_t points() const { return static_cast<std::int64_t>(count_); }
   std::int64_t arcs() const { return arcs_; }

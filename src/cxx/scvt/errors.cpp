@@ -35,6 +35,10 @@ CoincidentGenerators::CoincidentGenerators(std::int64_t f, std::int64_t s)
       first(f),
       second(s) {}
 
+BadNumber::BadNumber(std::int64_t number)
+    : BadGenerators("the generators' number " + std::to_string(number) +
+                    (number < 1 ? " is below 1" : " occurs twice")) {}
+
 GeneratorsInHemisphere::GeneratorsInHemisphere()
     : BadGenerators(
           "the generators lie in one hemisphere: a tessellation needs generators all around the sphere") {}

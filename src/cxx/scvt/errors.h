@@ -29,6 +29,10 @@ struct CoincidentGenerators : BadGenerators {
   CoincidentGenerators(std::int64_t f, std::int64_t s);
   std::int64_t first, second;
 };
+/// A global number of a generator is below 1, or occurs twice.
+struct BadNumber : BadGenerators {
+  explicit BadNumber(std::int64_t number);
+};
 /// The generators lie in a hemisphere: some cell has no end.
 struct GeneratorsInHemisphere : BadGenerators {
   GeneratorsInHemisphere();

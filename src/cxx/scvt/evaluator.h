@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "geometry/point.h"
@@ -24,6 +25,8 @@ class Evaluator {
   virtual void add_up(ExactSum* sums, std::size_t count) = 0;
   /// The largest value of all ranks.
   virtual double largest(double value) = 0;
+  /// Runs body() on every rank, where memory may run out: then all ranks throw.
+  virtual void allocate(const std::function<void()>& body) { body(); }
 };
 
 /// All generators are here. The triangulation is that of TRMESH, on threads, with its warm start.

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
+#include <tuple>
 #include <utility>
 
 #include "base/parallel_for.h"
@@ -28,29 +28,6 @@ void for_each(std::size_t n, const Body& body) {
   });
 }
 
-/// Sums of terms(i), an array of doubles, over the generators of all ranks; terms(i) may also write what is
-/// i's.
-template <std::size_t kSums, class Terms>
-std::array<ExactSum, kSums> sum(Evaluator& evaluator, std::size_t n, const Terms& terms) {
-  const int threads = threads_for(n);
-  std::vector<std::array<ExactSum, kSums>> parts(static_cast<std::size_t>(threads));
-  parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int piece) {
-    auto& part = parts[static_cast<std::size_t>(piece)];
-    for (std::size_t i = first; i < last; ++i) {
-      const std::array<double, kSums> t = terms(i);
-      for (std::size_t k = 0; k < kSums; ++k) part[k].add(t[k]);
-    }
-  });
-  for (std::size_t piece = 1; piece < parts.size(); ++piece)
-    for (std::size_t k = 0; k < kSums; ++k) parts[0][k] += parts[piece][k];
-  evaluator.add_up(parts[0].data(), kSums);
-  return parts[0];
-}
-template <class Term>
-double sum_of(Evaluator& evaluator, std::size_t n, const Term& term) {
-  return sum<1>(evaluator, n, [&](std::size_t i) { return std::array<double, 1>{term(i)}; })[0].value();
-}
-
 /// Generators, and what an evaluation says of them.
 struct Place {
   Vectors generators;
@@ -63,12 +40,20 @@ class Minimizer {
  public:
   Minimizer(Evaluator& evaluator, State& state, const Options& options)
       : evaluator_(evaluator), state_(state), options_(options), n_(state.generators.size()) {
-    total_ = sum_of(evaluator_, n_, [](std::size_t) { return 1.0; });
+    // All memory that each step needs, here: the ranks must agree that they have it.
+    evaluator_.allocate([this] {
+      parts_.resize(static_cast<std::size_t>(threads_for(n_)));
+      here_.generators = state_.generators;
+      there_.generators.resize(n_);
+      direction_.resize(n_);
+      state_.pairs.reserve(kPairs + 1);
+      products_.reserve(kPairs + 1);
+    });
+    total_ = sum_of([](std::size_t) { return 1.0; });
     for (const State::Pair& pair : state_.pairs) products_.push_back(product_of(pair));
   }
 
   Result run() {
-    here_.generators = state_.generators;
     evaluate(here_);
     if (state_.steps == 0) state_.evaluations = 1;  // else they were evaluated before
     End end = End::converged;
@@ -96,16 +81,43 @@ class Minimizer {
     return {static_cast<std::int64_t>(total_), state_.evaluations, here_.gradient, here_.energy};
   }
 
+  /// Sums of terms(i), an array of doubles, over the generators of all ranks; terms(i) may also write what is
+  /// i's.
+  template <class Terms>
+  auto sum(const Terms& terms) {
+    constexpr std::size_t kSums = std::tuple_size_v<decltype(terms(0))>;
+    static_assert(kSums <= kMostSums);
+    for (auto& part : parts_) part = {};
+    const int threads = std::min(threads_for(n_), static_cast<int>(parts_.size()));
+    parallel_pieces(n_, threads, [&](std::size_t first, std::size_t last, int piece) {
+      auto& part = parts_[static_cast<std::size_t>(piece)];
+      for (std::size_t i = first; i < last; ++i) {
+        const std::array<double, kSums> t = terms(i);
+        for (std::size_t k = 0; k < kSums; ++k) part[k].add(t[k]);
+      }
+    });
+    for (std::size_t piece = 1; piece < parts_.size(); ++piece)
+      for (std::size_t k = 0; k < kSums; ++k) parts_[0][k] += parts_[piece][k];
+    evaluator_.add_up(parts_[0].data(), kSums);
+    std::array<double, kSums> values;
+    for (std::size_t k = 0; k < kSums; ++k) values[k] = parts_[0][k].value();
+    return values;
+  }
+  template <class Term>
+  double sum_of(const Term& term) {
+    return sum([&](std::size_t i) { return std::array<double, 1>{term(i)}; })[0];
+  }
+
   void evaluate(Place& place) {
     evaluator_.evaluate(place.generators, place.cells);
-    const auto sums = sum<2>(evaluator_, n_, [&](std::size_t i) {
+    const auto sums = sum([&](std::size_t i) {
       const Point& g = place.generators[i];
       const Point move = minus(centroid(place.cells, i, g), g);
       return std::array<double, 2>{place.cells.energy[i], dot(move, move)};
     });
-    place.energy = sums[0].value();
+    place.energy = sums[0];
     constexpr double kSphere = 12.566370614359172;
-    place.gradient = std::sqrt(sums[1].value() / total_ / (kSphere / total_));
+    place.gradient = std::sqrt(sums[1] / total_ / (kSphere / total_));
   }
   /// As a trial: generators without a tessellation have an infinite energy.
   void try_place(Place& place) {
@@ -127,7 +139,6 @@ class Minimizer {
 
   /// Towards the centroids, less far if the energy does not fall. False if it does not fall at all.
   bool lloyd_step() {
-    there_.generators.resize(n_);
     double part = 1;
     for (int trial = 0; trial < kTrials; ++trial, part /= 2) {
       for_each(n_, [&](std::size_t i) {
@@ -145,10 +156,7 @@ class Minimizer {
 
   bool newton_step() {
     set_direction();
-    const auto sums = sum<1>(evaluator_, n_, [&](std::size_t i) {
-      return std::array<double, 1>{-2 * dot(here_.cells.pull[i], direction_[i])};
-    });
-    const double slope = sums[0].value();
+    const double slope = sum_of([&](std::size_t i) { return -2 * dot(here_.cells.pull[i], direction_[i]); });
     if (!(slope < 0)) {
       ++state_.no_descent;
       return false;
@@ -158,7 +166,6 @@ class Minimizer {
       most = std::max(most, dot(direction_[i], direction_[i]) * here_.cells.mass[i] / here_.cells.energy[i]);
     most = std::sqrt(evaluator_.largest(most));
     double length = most > kLongest ? kLongest / most : 1;
-    there_.generators.resize(n_);
     for (int trial = 0; trial < kTrials; ++trial) {
       for_each(n_, [&](std::size_t i) {
         there_.generators[i] = normalized(plus(here_.generators[i], scaled(length, direction_[i])));
@@ -180,8 +187,10 @@ class Minimizer {
 
   /// The step and the change of the gradient, if the energy is convex along it.
   void keep_pair() {
-    spare_.step.resize(n_);
-    spare_.change.resize(n_);
+    evaluator_.allocate([this] {
+      spare_.step.resize(n_);
+      spare_.change.resize(n_);
+    });
     for_each(n_, [&](std::size_t i) {
       spare_.step[i] = minus(there_.generators[i], here_.generators[i]);
       spare_.change[i] = scaled(-2, minus(there_.cells.pull[i], here_.cells.pull[i]));
@@ -196,7 +205,7 @@ class Minimizer {
     products_.erase(products_.begin());
   }
   double product_of(const State::Pair& pair) {
-    return sum_of(evaluator_, n_, [&](std::size_t i) { return dot(pair.step[i], pair.change[i]); });
+    return sum_of([&](std::size_t i) { return dot(pair.step[i], pair.change[i]); });
   }
   void forget_pairs() {
     state_.pairs.clear();
@@ -207,30 +216,27 @@ class Minimizer {
   /// generators ends the work for one pair and begins that for the next.
   void set_direction() {
     const std::size_t count = state_.pairs.size();
-    direction_.resize(n_);
     if (count == 0) {
       for_each(n_,
                [&](std::size_t i) { direction_[i] = scaled(1 / here_.cells.mass[i], here_.cells.pull[i]); });
       return;
     }
-    std::vector<double> share(count);
+    std::array<double, kPairs> share;
     for (std::size_t k = count; k-- > 0;) {
       const Point *const step = state_.pairs[k].step.data(), *const later =
                                                                  k + 1 < count
                                                                      ? state_.pairs[k + 1].change.data()
                                                                      : nullptr;
-      share[k] = sum_of(evaluator_, n_,
-                        [&](std::size_t i) {
-                          direction_[i] = later == nullptr
-                                              ? scaled(2, here_.cells.pull[i])
-                                              : minus(direction_[i], scaled(share[k + 1], later[i]));
-                          return dot(step[i], direction_[i]);
-                        }) /
+      share[k] = sum_of([&](std::size_t i) {
+                   direction_[i] = later == nullptr ? scaled(2, here_.cells.pull[i])
+                                                    : minus(direction_[i], scaled(share[k + 1], later[i]));
+                   return dot(step[i], direction_[i]);
+                 }) /
                  products_[k];
     }
     // The initial metric 1/(2 mass), scaled by what the last pair says of it.
     const Point* const last = state_.pairs[count - 1].change.data();
-    const double scale = products_[count - 1] / sum_of(evaluator_, n_, [&](std::size_t i) {
+    const double scale = products_[count - 1] / sum_of([&](std::size_t i) {
                            return dot(last[i], last[i]) / (2 * here_.cells.mass[i]);
                          });
     double add = 0;  // of the step before
@@ -239,15 +245,13 @@ class Minimizer {
                                                                      k > 0 ? state_.pairs[k - 1].step.data()
                                                                            : nullptr;
       const Point* const first = state_.pairs[0].change.data();
-      const double other = sum_of(evaluator_, n_,
-                                  [&](std::size_t i) {
-                                    direction_[i] =
-                                        before == nullptr
-                                            ? scaled(scale / (2 * here_.cells.mass[i]),
-                                                     minus(direction_[i], scaled(share[0], first[i])))
-                                            : plus(direction_[i], scaled(add, before[i]));
-                                    return dot(change[i], direction_[i]);
-                                  }) /
+      const double other = sum_of([&](std::size_t i) {
+                             direction_[i] = before == nullptr
+                                                 ? scaled(scale / (2 * here_.cells.mass[i]),
+                                                          minus(direction_[i], scaled(share[0], first[i])))
+                                                 : plus(direction_[i], scaled(add, before[i]));
+                             return dot(change[i], direction_[i]);
+                           }) /
                            products_[k];
       add = share[k] - other;
     }
@@ -264,6 +268,8 @@ class Minimizer {
   const Options& options_;
   const std::size_t n_;  ///< generators of this rank
   double total_ = 0;     ///< generators of all ranks
+  static constexpr std::size_t kMostSums = 2;
+  std::vector<std::array<ExactSum, kMostSums>> parts_;  ///< of each thread
   Place here_, there_;
   Vectors direction_;
   State::Pair spare_;             ///< room for the next pair

@@ -35,14 +35,18 @@ Tessellation run(std::size_t n, const Density& density, const RunOptions& option
   }
 }
 
-std::vector<Point> unit_vectors(std::vector<Point> generators) {
+Point unit_vector(const Point& g) {
   constexpr double kRounding = 1e-15;  ///< of the square of a length that was divided by itself
+  if (std::fabs(dot(g, g) - 1) <= kRounding) return g;
+  const double length = std::hypot(g.x, g.y, g.z);
+  return {g.x / length, g.y / length, g.z / length};
+}
+
+std::vector<Point> unit_vectors(std::vector<Point> generators) {
   for (std::size_t i = 0; i < generators.size(); ++i) {
-    Point& g = generators[i];
-    if (!has_direction(g)) throw BadGenerators("generator " + std::to_string(i + 1) + " has no direction");
-    if (std::fabs(dot(g, g) - 1) <= kRounding) continue;
-    const double length = std::hypot(g.x, g.y, g.z);
-    g = {g.x / length, g.y / length, g.z / length};
+    if (!has_direction(generators[i]))
+      throw BadGenerators("generator " + std::to_string(i + 1) + " has no direction");
+    generators[i] = unit_vector(generators[i]);
   }
   return generators;
 }

@@ -22,7 +22,9 @@ struct Tessellation {
   double evaluations = 0;
 };
 
-/// Generators of any length as unit vectors; those that are, within rounding, stay. Throws BadGenerators.
+/// A vector of any length as a unit vector; one that is, within rounding, stays.
+Point unit_vector(const Point& generator);
+/// All of them. Throws BadGenerators.
 std::vector<Point> unit_vectors(std::vector<Point> generators);
 
 /// n generators, at least 4, for the density. Throws as minimize.

@@ -1,0 +1,353 @@
+// Centroidal tessellations of generators that stay on their ranks: whatever their distribution, the bits of
+// pstripack_scvt; errors are the same on every rank and write nothing.
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "capi/pstripack_mpi.h"
+#include "mpi_test.h"
+#include "point_sets.h"
+#include "support/trmesh.h"
+
+namespace {
+
+/// Which rank has a generator.
+struct Distribution {
+  const char* name;
+  std::function<int(std::size_t generator, std::size_t generators)> rank;
+  bool reversed = false;
+};
+const std::vector<Distribution>& distributions() {
+  static const std::vector<Distribution> all = {
+      {"slices", [](std::size_t i, std::size_t n) { return int(i * std::size_t(size_of()) / n); }, true},
+      {"round robin", [](std::size_t i, std::size_t) { return int(i % std::size_t(size_of())); }},
+      {"all on the last rank", [](std::size_t, std::size_t) { return size_of() - 1; }},
+      {"none on even ranks", [](std::size_t i, std::size_t) {
+         const std::size_t odd = std::size_t(size_of()) / 2;
+         return odd == 0 ? 0 : int(2 * (i % odd) + 1);
+       }}};
+  return all;
+}
+
+pstripack_scvt_options of_evaluations(std::int64_t most) {
+  pstripack_scvt_options options{};
+  options.bytes = sizeof options;
+  options.start = PSTRIPACK_SCVT_GIVEN;
+  options.tolerance = 1e-12;
+  options.most_evaluations = most;
+  return options;
+}
+
+void bump_at(std::int32_t n, const double* xyz, double* values, void*) {
+  for (std::int32_t i = 0; i < n; ++i)
+    values[i] = 1 + 20 * std::exp(-4 * (1 - 0.6 * xyz[3 * i + 1] - 0.8 * xyz[3 * i + 2]));
+}
+const pstripack_density bump{bump_at, nullptr, 0};
+
+/// Generators of lengths other than 1.
+Nodes start_of(std::size_t n) {
+  Nodes nodes = point_sets::make("random", n, 2);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double length = 1 + static_cast<double>(i % 3);
+    nodes[i] = {length * nodes[i].x, length * nodes[i].y, length * nodes[i].z};
+  }
+  return nodes;
+}
+
+/// This rank's generators, and a run of all.
+struct RunOfRanks {
+  RunOfRanks(const Nodes& nodes, const Distribution& distribution) {
+    EXPECT_EQ(pstripack_mesh_create(MPI_COMM_WORLD, &mesh), 0);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      if (distribution.rank(i, nodes.size()) == rank_of()) mine.push_back(i);
+    if (distribution.reversed) std::reverse(mine.begin(), mine.end());
+    for (const std::size_t i : mine) {
+      xyz.insert(xyz.end(), {nodes[i].x, nodes[i].y, nodes[i].z});
+      number.push_back(static_cast<std::int64_t>(i) + 1);
+    }
+  }
+  ~RunOfRanks() { pstripack_mesh_free(mesh); }
+  RunOfRanks(const RunOfRanks&) = delete;
+  RunOfRanks& operator=(const RunOfRanks&) = delete;
+
+  std::int32_t operator()(const pstripack_density* density, const pstripack_scvt_options* options) {
+    return pstripack_mesh_scvt(mesh, static_cast<std::int64_t>(number.size()), xyz.data(), number.data(),
+                               density, rank_of() == 0 ? options : nullptr, &result, message, sizeof message);
+  }
+  std::int64_t points_of_mesh() const {
+    std::int64_t points, arcs, triangles, halo;
+    pstripack_mesh_sizes(mesh, &points, &arcs, &triangles, &halo);
+    return points;
+  }
+
+  pstripack_mesh* mesh = nullptr;
+  std::vector<std::size_t> mine;  // from 0
+  std::vector<double> xyz;
+  std::vector<std::int64_t> number;
+  pstripack_scvt_result result{-1, -1, -1, -1, -1};
+  char message[300] = "";
+};
+
+/// pstripack_scvt from the same start.
+struct Serial {
+  Serial(const Nodes& nodes, const pstripack_density* density, const pstripack_scvt_options& options) {
+    for (const auto& p : nodes) x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
+    code = pstripack_scvt(static_cast<std::int32_t>(x.size()), x.data(), y.data(), z.data(), density,
+                          &options, &result, message, sizeof message);
+  }
+  std::vector<double> x, y, z;
+  pstripack_scvt_result result{-1, -1, -1, -1, -1};
+  char message[300] = "";
+  std::int32_t code;
+};
+
+void expect_same(const RunOfRanks& found, const Serial& expected) {
+  for (std::size_t i = 0; i < found.mine.size(); ++i) {
+    const std::size_t k = found.mine[i];
+    ASSERT_EQ(found.xyz[3 * i], expected.x[k]) << k;
+    ASSERT_EQ(found.xyz[3 * i + 1], expected.y[k]) << k;
+    ASSERT_EQ(found.xyz[3 * i + 2], expected.z[k]) << k;
+  }
+  EXPECT_EQ(found.result.energy, expected.result.energy);
+  EXPECT_EQ(found.result.gradient, expected.result.gradient);
+  EXPECT_EQ(found.result.evaluations, expected.result.evaluations);
+  EXPECT_EQ(found.result.generators, static_cast<std::int32_t>(found.mine.size()));
+  EXPECT_EQ(found.result.reason, expected.result.reason);
+}
+
+TEST(DistributedScvt, HasTheBitsOfTheSerialRun) {
+  const Nodes start = start_of(500);
+  const pstripack_scvt_options options = of_evaluations(30);
+  for (const pstripack_density* density : {static_cast<const pstripack_density*>(nullptr), &bump}) {
+    const Serial expected(start, density, options);
+    ASSERT_EQ(expected.code, 0) << expected.message;
+    ASSERT_EQ(expected.result.evaluations, 30);
+    ASSERT_EQ(expected.result.reason, PSTRIPACK_SCVT_EVALUATIONS);
+    for (const Distribution& distribution : distributions()) {
+      if (density == nullptr && &distribution != &distributions()[1]) continue;
+      SCOPED_TRACE(distribution.name);
+      RunOfRanks run(start, distribution);
+      ASSERT_EQ(run(density, &options), 0) << run.message;
+      expect_same(run, expected);
+    }
+  }
+}
+
+TEST(DistributedScvt, TakesRank0sOptionsAndDefaults) {
+  const Nodes start = start_of(24);
+  pstripack_scvt_options options = of_evaluations(7);
+  options.method = PSTRIPACK_SCVT_LLOYD;
+  RunOfRanks lloyd(start, distributions()[0]);
+  ASSERT_EQ(lloyd(nullptr, &options), 0) << lloyd.message;
+  expect_same(lloyd, Serial(start, nullptr, options));
+
+  pstripack_scvt_options defaults{};
+  defaults.bytes = sizeof defaults;
+  defaults.start = PSTRIPACK_SCVT_GIVEN;
+  RunOfRanks plain(start, distributions()[1]);
+  ASSERT_EQ(plain(nullptr, nullptr), 0) << plain.message;
+  expect_same(plain, Serial(start, nullptr, defaults));
+  EXPECT_EQ(plain.result.reason, PSTRIPACK_SCVT_CONVERGED);
+}
+
+TEST(DistributedScvt, LeavesTheMeshOfWhatItReturns) {
+  const Nodes start = start_of(200);
+  const pstripack_scvt_options options = of_evaluations(10);
+  RunOfRanks run(start, distributions()[0]);
+  ASSERT_EQ(run(&bump, &options), 0) << run.message;
+  const Serial expected(start, &bump, options);
+  std::vector<std::int32_t> list(6 * 200 - 12), lptr(list.size()), lend(200), list_of_serial(list.size()),
+      lptr_of_serial(list.size()), lend_of_serial(200);
+  std::int32_t lnew, lnew_of_serial;
+  ASSERT_EQ(pstripack_mesh_gather(run.mesh, -1, list.data(), lptr.data(), lend.data(), &lnew), 0);
+  ASSERT_EQ(
+      pstripack_trmesh(200, expected.x.data(), expected.y.data(), expected.z.data(), list_of_serial.data(),
+                       lptr_of_serial.data(), lend_of_serial.data(), &lnew_of_serial),
+      0);
+  EXPECT_EQ(list, list_of_serial);
+  EXPECT_EQ(lend, lend_of_serial);
+}
+
+TEST(DistributedScvt, ProgressOnRank0StopsAllRanks) {
+  struct Told {
+    std::int64_t calls = 0, generators = 0;
+  };
+  pstripack_scvt_options options = of_evaluations(30);
+  options.progress = [](const pstripack_scvt_progress* progress, void* user) -> std::int32_t {
+    auto& told = *static_cast<Told*>(user);
+    told.generators = progress->generators;
+    return ++told.calls == 5;
+  };
+  const Nodes start = start_of(200);
+  Told told, told_serial;
+  options.user = &told_serial;
+  const Serial expected(start, &bump, options);
+  options.user = &told;
+  for (const Distribution& distribution : distributions()) {
+    told = {};
+    RunOfRanks run(start, distribution);
+    ASSERT_EQ(run(&bump, &options), 0) << run.message;
+    EXPECT_EQ(run.result.reason, PSTRIPACK_SCVT_STOPPED);
+    expect_same(run, expected);
+    EXPECT_EQ(told.calls, rank_of() == 0 ? 5 : 0);
+    EXPECT_EQ(told.generators, rank_of() == 0 ? 200 : 0);
+  }
+}
+
+// ---- errors
+
+/// What rank 0 says.
+std::string of_rank_0(const char* text) {
+  char copy[300] = "";
+  std::strncpy(copy, text, sizeof copy - 1);
+  MPI_Bcast(copy, sizeof copy, MPI_CHAR, 0, MPI_COMM_WORLD);
+  return copy;
+}
+
+/// A run that fails: the same code and message on every rank, and nothing else is written.
+void expect_refusal(RunOfRanks& run, std::int32_t code, const std::string& why,
+                    const pstripack_density* density = nullptr,
+                    const pstripack_scvt_options& options = of_evaluations(5)) {
+  const std::vector<double> before = run.xyz;
+  EXPECT_EQ(run(density, &options), code) << run.message;
+  EXPECT_NE(std::string(run.message).find(why), std::string::npos) << run.message << "\n" << why;
+  EXPECT_EQ(of_rank_0(run.message), run.message);
+  EXPECT_TRUE(before.empty() ||
+              std::memcmp(before.data(), run.xyz.data(), before.size() * sizeof before[0]) == 0);
+  EXPECT_EQ(run.result.energy, -1);
+  EXPECT_EQ(run.result.reason, -1);
+  EXPECT_EQ(run.points_of_mesh(), 0);
+}
+
+TEST(DistributedScvt, BadDensitiesAreToldOnEveryRank) {
+  const Nodes start = start_of(200);
+  const auto is_near = [](const double* p) { return p[2] > 0.95; };
+  static const auto near = is_near;
+  const pstripack_density negative{[](std::int32_t n, const double* p, double* values, void*) {
+                                     for (std::int32_t i = 0; i < n; ++i)
+                                       values[i] = near(p + 3 * i) ? -2 : 1;
+                                   },
+                                   nullptr, 0};
+  const pstripack_density throwing{[](std::int32_t n, const double* p, double* values, void*) {
+                                     for (std::int32_t i = 0; i < n; ++i) {
+                                       if (near(p + 3 * i)) throw std::runtime_error("no such file");
+                                       values[i] = 1;
+                                     }
+                                   },
+                                   nullptr, 0};
+  const pstripack_density odd{[](std::int32_t, const double*, double*, void*) { throw 5; }, nullptr, 0};
+  for (const Distribution& distribution : distributions()) {
+    SCOPED_TRACE(distribution.name);
+    RunOfRanks run(start, distribution);
+    expect_refusal(run, PSTRIPACK_BAD_DENSITY, "the density is -2 at lon ", &negative);
+    expect_refusal(run, PSTRIPACK_BAD_DENSITY, "no such file", &throwing);
+    expect_refusal(run, PSTRIPACK_BAD_DENSITY, "threw an exception", &odd);
+    // And then goes on.
+    const pstripack_scvt_options options = of_evaluations(4);
+    ASSERT_EQ(run(nullptr, &options), 0) << run.message;
+    expect_same(run, Serial(start, nullptr, options));
+  }
+  // Of a rank alone, which is bad where the others are good.
+  const pstripack_density of_one_rank = rank_of() == size_of() - 1 ? throwing : bump;
+  const pstripack_density anywhere{
+      [](std::int32_t, const double*, double*, void*) { throw std::runtime_error("the last rank"); }, nullptr,
+      0};
+  RunOfRanks run(start, distributions()[0]);
+  expect_refusal(run, PSTRIPACK_BAD_DENSITY, "the last rank",
+                 rank_of() == size_of() - 1 ? &anywhere : &of_one_rank);
+}
+
+TEST(DistributedScvt, AProgressProcedureMayThrow) {
+  pstripack_scvt_options options = of_evaluations(5);
+  options.progress = [](const pstripack_scvt_progress*, void*) -> std::int32_t {
+    throw std::runtime_error("the disk is full");
+  };
+  RunOfRanks run(start_of(60), distributions()[1]);
+  expect_refusal(run, PSTRIPACK_BAD_DENSITY, "the disk is full", nullptr, options);
+}
+
+TEST(DistributedScvt, BadGeneratorsAreToldOnEveryRank) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  const Nodes good = start_of(100);
+  for (const Distribution& distribution : distributions()) {
+    SCOPED_TRACE(distribution.name);
+    const auto refuses = [&](const Nodes& nodes, std::int32_t code, const std::string& why) {
+      RunOfRanks run(nodes, distribution);
+      expect_refusal(run, code, why);
+    };
+    Nodes nodes = good;
+    nodes[20] = {2 * nodes[70].x, 2 * nodes[70].y, 2 * nodes[70].z};
+    refuses(nodes, PSTRIPACK_COINCIDENT, "generators 21 and 71 coincide");
+    nodes[20] = {0, 0, 0};
+    refuses(nodes, PSTRIPACK_BAD_COORDINATE, "generator 21 has no direction");
+    nodes[20] = {1, kNan, 0};
+    refuses(nodes, PSTRIPACK_BAD_COORDINATE, "generator 21 has no direction");
+    nodes = good;
+    for (auto& p : nodes) p.z = std::fabs(p.z);
+    refuses(nodes, PSTRIPACK_HEMISPHERE, "one hemisphere");
+    for (auto& p : nodes) p.z = 0;
+    refuses({{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}, PSTRIPACK_HEMISPHERE, "one hemisphere");
+    refuses(Nodes(good.begin(), good.begin() + 3), PSTRIPACK_TOO_FEW_NODES,
+            "at least 4 generators, here are 3");
+    refuses({}, PSTRIPACK_TOO_FEW_NODES, "at least 4 generators, here are 0");
+
+    RunOfRanks twice(good, distribution);
+    for (std::int64_t& number : twice.number)
+      if (number == 9) number = 8;
+    expect_refusal(twice, PSTRIPACK_BAD_NUMBER, "number 8 occurs twice");
+    RunOfRanks zero(good, distribution);
+    for (std::int64_t& number : zero.number) --number;
+    expect_refusal(zero, PSTRIPACK_BAD_NUMBER, "number 0 is below 1");
+  }
+}
+
+TEST(DistributedScvt, ErrorPointsAreThoseOfTheMesh) {
+  Nodes nodes = start_of(50);
+  nodes[4] = nodes[31];
+  RunOfRanks run(nodes, distributions()[1]);
+  expect_refusal(run, PSTRIPACK_COINCIDENT, "generators 5 and 32 coincide");
+  std::int64_t first, second;
+  pstripack_mesh_error_points(run.mesh, &first, &second);
+  EXPECT_EQ(first, 5);
+  EXPECT_EQ(second, 32);
+}
+
+TEST(DistributedScvt, ACountOfOneRankIsRefusedOnAll) {
+  RunOfRanks run(start_of(50), distributions()[0]);
+  for (const std::int64_t count : {std::int64_t{-1}, std::int64_t{1} << 29}) {
+    const std::int64_t n = rank_of() == size_of() - 1 ? count : static_cast<std::int64_t>(run.number.size());
+    const std::vector<double> before = run.xyz;
+    EXPECT_EQ(pstripack_mesh_scvt(run.mesh, n, run.xyz.data(), run.number.data(), nullptr, nullptr,
+                                  &run.result, run.message, sizeof run.message),
+              PSTRIPACK_TOO_MANY_NODES);
+    EXPECT_EQ(std::string(run.message), pstripack_strerror(PSTRIPACK_TOO_MANY_NODES));
+    EXPECT_EQ(run.xyz, before);
+  }
+}
+
+TEST(DistributedScvt, OptionsOfRank0AreRefusedOnAll) {
+  const auto refuses = [](const std::string& why, auto change) {
+    pstripack_scvt_options options = of_evaluations(5);
+    change(options);
+    RunOfRanks run(start_of(50), distributions()[0]);
+    expect_refusal(run, PSTRIPACK_BAD_OPTION, why, nullptr, options);
+  };
+  refuses("bytes", [](auto& o) { o.bytes = 0; });
+  refuses("bytes", [](auto& o) { o.bytes = -1; });
+  refuses("newer library", [](auto& o) { o.bytes += 8; });
+  refuses("method", [](auto& o) { o.method = 2; });
+  refuses("tolerance", [](auto& o) { o.tolerance = -1; });
+  refuses("most_evaluations", [](auto& o) { o.most_evaluations = -1; });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_on_every_rank(argc, argv, [] {});
+}
