@@ -237,8 +237,9 @@ class Voronoi {
     std::size_t size = 0;
   };
   // One line of memory per node, in huge pages; the caller's three arrays would take three.
-  struct alignas(4 * sizeof(Real)) Position {
+  struct Position {
     Vector<Real> of;
+    Real fills_the_line;
   };
 
   /// Does all allocation; true if the lists have the counts of a triangulation, which also means that no
