@@ -113,15 +113,17 @@ PSTRIPACK_API int32_t pstripack_mesh_gather(pstripack_mesh* mesh, int32_t root, 
 
 /* A centroidal tessellation of the generators of all ranks, which stay on their ranks: no rank holds them
  * all. Collective. As pstripack_scvt with PSTRIPACK_SCVT_GIVEN, and the same bits, whatever the distribution.
- *   n, xyz, number  as of pstripack_mesh_triangulate: the generators to start from, vectors of any length;
- *                   xyz becomes the generators found, unit vectors. Points that are close together should be
- * on one rank (pstripack_mesh_home) density   the same on every rank; called for places near the rank's
- * generators options   rank 0's, for all (NULL on others); `start` and `seed` are not used; rank 0 calls
- * `progress` result    may be NULL; the same on every rank but for `generators`, which is n message   may be
- * NULL Then the mesh is that of the generators. Returns the same on every rank: 0, for every reason to end;
- * -1 (fewer than 4 in all), -4, -5, -6, -9, -10, -11, -12 or -14; after an error the mesh is empty, and
- * nothing is written but `message`. What the density or `progress` throws in C++ is PSTRIPACK_BAD_DENSITY. A
- * rank that runs out of memory between two triangulations aborts the job, with a line on stderr. */
+ *   n, xyz, number    as of pstripack_mesh_triangulate: the generators to start from, vectors of any length;
+ *                     xyz becomes the generators found, unit vectors
+ *   density           the same on every rank; called for places near the rank's generators
+ *   options           rank 0's, for all (NULL on others), but for `start` and `seed`; it calls `progress`
+ *   result            may be NULL; the same on every rank but for `generators`, which is n
+ *   message, length   as of pstripack_scvt
+ * Points that are close together should be on one rank (pstripack_mesh_home). Afterwards the mesh is that of
+ * the generators. Returns the same on every rank: 0, for every reason to end; -1 (fewer than 4 in all), -4,
+ * -5, -6, -9, -10, -11, -12 or -14; after an error the mesh is empty, and nothing is written but `message`.
+ * What the density or `progress` throws in C++ is PSTRIPACK_BAD_DENSITY. A rank that runs out of memory
+ * between two triangulations aborts the job, with a line on stderr. */
 PSTRIPACK_API int32_t pstripack_mesh_scvt(pstripack_mesh* mesh, int64_t n, double* xyz, const int64_t* number,
                                           const pstripack_density* density,
                                           const pstripack_scvt_options* options,
