@@ -34,6 +34,7 @@
 #include "pool/area_layout.h"
 #include "printed.h"
 #include "trmesh/trmesh.h"
+#include "voronoi_cell.h"
 
 namespace {
 
@@ -237,23 +238,10 @@ void lloyd_step(const DistributedMesh& mesh, std::vector<Point>& points, double 
     const Point p = known[k];
     const std::int64_t count = begin[k + 1] - begin[k];
     const auto place = [&](std::int64_t i) {
-      const auto slot = static_cast<std::size_t>(begin[k] + i % count);
+      const auto slot = static_cast<std::size_t>(begin[k] + i);
       return known[static_cast<std::size_t>(neighbour[slot]) - 1];
     };
-    const auto corner = [&](std::int64_t i) {
-      return point_sets::normalized(cross(minus(place(i), p), minus(place(i + 1), p)));
-    };
-    Point sum{0, 0, 0}, q = corner(0);
-    for (std::int64_t i = 1; i <= count; ++i) {
-      const Point r = corner(i), n = cross(minus(q, p), minus(r, p));
-      const double area = std::sqrt(dot(n, n));
-      sum = {sum.x + area * (p.x + q.x + r.x), sum.y + area * (p.y + q.y + r.y),
-             sum.z + area * (p.z + q.z + r.z)};
-      q = r;
-    }
-    const Point middle = point_sets::normalized(sum);
-    points[k] = point_sets::normalized(
-        {p.x + part * (middle.x - p.x), p.y + part * (middle.y - p.y), p.z + part * (middle.z - p.z)});
+    points[k] = point_sets::part_of_the_way(p, point_sets::middle_of_cell(p, count, place), part);
   }
 }
 

@@ -11,6 +11,7 @@
 
 #include "contenders.h"
 #include "point_sets.h"
+#include "voronoi_cell.h"
 
 namespace benchmark {
 namespace {
@@ -62,23 +63,10 @@ std::vector<Point> lloyd_step(const Nodes& nodes, const Lists& lists, double par
     const int begin = k == 0 ? 0 : lists.lend[k - 1], count = lists.lend[k] - begin;
     const Point p = nodes.all[k];
     const auto neighbour = [&](int i) {
-      const auto slot = static_cast<std::size_t>(begin + i % count);
+      const auto slot = static_cast<std::size_t>(begin + i);
       return nodes.all[static_cast<std::size_t>(lists.list[slot]) - 1];
     };
-    const auto corner = [&](int i) {
-      return point_sets::normalized(cross(minus(neighbour(i), p), minus(neighbour(i + 1), p)));
-    };
-    Point sum{0, 0, 0}, q = corner(0);
-    for (int i = 1; i <= count; ++i) {
-      const Point r = corner(i), n = cross(minus(q, p), minus(r, p));
-      const double area = std::sqrt(dot(n, n));
-      sum = {sum.x + area * (p.x + q.x + r.x), sum.y + area * (p.y + q.y + r.y),
-             sum.z + area * (p.z + q.z + r.z)};
-      q = r;
-    }
-    const Point middle = point_sets::normalized(sum);
-    moved[k] = point_sets::normalized(
-        {p.x + part * (middle.x - p.x), p.y + part * (middle.y - p.y), p.z + part * (middle.z - p.z)});
+    moved[k] = point_sets::part_of_the_way(p, point_sets::middle_of_cell(p, count, neighbour), part);
   }
   return moved;
 }

@@ -150,16 +150,6 @@ Tally follow(const std::vector<Nodes>& sets, int size, std::vector<int> owner = 
   return tally[0];
 }
 
-/// `steps` sets, each of which `move(nodes, step)` makes of the one before.
-std::vector<Nodes> sets_of(Nodes nodes, int steps, const std::function<void(Nodes&, int)>& move) {
-  std::vector<Nodes> sets;
-  for (int step = 0; step < steps; ++step) {
-    if (step > 0) move(nodes, step);
-    sets.push_back(nodes);
-  }
-  return sets;
-}
-
 constexpr int kSizes[] = {1, 2, 3, 5, 8};
 
 /// The same on every number of ranks: how many calls began with the last stars. `expect`: what else to

@@ -91,16 +91,6 @@ Tally compare(const std::vector<Nodes>& sets) {
   return tally;
 }
 
-/// `steps` sets, each of which `move(nodes, step)` makes of the one before.
-std::vector<Nodes> sets_of(Nodes nodes, int steps, const std::function<void(Nodes&, int)>& move) {
-  std::vector<Nodes> sets;
-  for (int step = 0; step < steps; ++step) {
-    if (step > 0) move(nodes, step);
-    sets.push_back(nodes);
-  }
-  return sets;
-}
-
 /// How many bytes more may stay with the process.
 std::size_t room() {
   std::size_t bytes = 0;

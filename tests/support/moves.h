@@ -2,9 +2,22 @@
 // Ways in which the nodes of a mesh move from one call to the next.
 
 #include <cmath>
+#include <functional>
+#include <vector>
 
 #include "lists.h"
 #include "point_sets.h"
+#include "voronoi_cell.h"
+
+/// `steps` sets, each of which `move(nodes, step)` makes of the one before.
+inline std::vector<Nodes> sets_of(Nodes nodes, int steps, const std::function<void(Nodes&, int)>& move) {
+  std::vector<Nodes> sets;
+  for (int step = 0; step < steps; ++step) {
+    if (step > 0) move(nodes, step);
+    sets.push_back(nodes);
+  }
+  return sets;
+}
 
 /// The mean distance of neighbours among n nodes.
 inline double spacing(std::size_t n) { return std::sqrt(4 * 3.14159265358979 / static_cast<double>(n)); }
@@ -39,20 +52,8 @@ inline void lloyd_step(Nodes& nodes, const std::vector<std::int32_t>& list,
     const std::int32_t begin = k == 0 ? 0 : lend[k - 1], count = lend[k] - begin;
     const Point p = before[k];
     const auto neighbour = [&](std::int32_t i) {
-      return before[static_cast<std::size_t>(std::abs(list[static_cast<std::size_t>(begin + i % count)])) -
-                    1];
+      return before[static_cast<std::size_t>(std::abs(list[static_cast<std::size_t>(begin + i)])) - 1];
     };
-    const auto corner = [&](std::int32_t i) {
-      return point_sets::normalized(cross(minus(neighbour(i), p), minus(neighbour(i + 1), p)));
-    };
-    Point sum{0, 0, 0}, q = corner(0);
-    for (std::int32_t i = 1; i <= count; ++i) {
-      const Point r = corner(i), n = cross(minus(q, p), minus(r, p));
-      const double area = std::sqrt(dot(n, n));
-      sum = {sum.x + area * (p.x + q.x + r.x), sum.y + area * (p.y + q.y + r.y),
-             sum.z + area * (p.z + q.z + r.z)};
-      q = r;
-    }
-    if (dot(sum, sum) > 0) nodes[k] = point_sets::normalized(sum);
+    nodes[k] = point_sets::middle_of_cell(p, count, neighbour);
   }
 }

@@ -15,7 +15,7 @@ namespace pstripack::scvt {
 
 /// Runs body(), which may call a density or another procedure of the caller, on every rank and agrees on how
 /// it ended, and on the votes as they are after it. All ranks throw the same: AgreedFailure if memory ran
-/// out; else what the caller's procedure threw on the lowest rank, as a Failure with its text; else
+/// out; else what the caller's procedure threw on the lowest rank, as a NoTessellation with its text; else
 /// BadDensity at the least place. Collective.
 template <class Body, class... Votes>
 void in_agreement_with_caller(Communicator& ranks, const Body& body, Votes&... votes) {
@@ -57,7 +57,7 @@ void in_agreement_with_caller(Communicator& ranks, const Body& body, Votes&... v
                std::tie(b.is_of_density, b.place.x, b.place.y, b.place.z);
       });
   if (first.is_of_density) throw BadDensity(first.place, first.value);
-  throw Failure(first.text);
+  throw NoTessellation(first.text);
 }
 
 }  // namespace pstripack::scvt

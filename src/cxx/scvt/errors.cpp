@@ -24,8 +24,8 @@ std::string number(double value) {
 }  // namespace
 
 BadDensity::BadDensity(const Point& p, double v)
-    : Failure("the density is " + number(v) + " at " + lon_lat(p) +
-              ": it must be positive and finite everywhere"),
+    : NoTessellation("the density is " + number(v) + " at " + lon_lat(p) +
+                     ": it must be positive and finite everywhere"),
       place(p),
       value(v) {}
 

@@ -9,20 +9,20 @@
 
 namespace pstripack::scvt {
 
-struct Failure : std::runtime_error {
+struct NoTessellation : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
 /// The density is not positive, or not finite, at a place.
-struct BadDensity : Failure {
+struct BadDensity : NoTessellation {
   BadDensity(const Point& p, double v);
   Point place;
   double value;
 };
 
 /// The generators themselves are at fault.
-struct BadGenerators : Failure {
-  using Failure::Failure;
+struct BadGenerators : NoTessellation {
+  using NoTessellation::NoTessellation;
 };
 /// Two generators coincide; numbers from 1.
 struct CoincidentGenerators : BadGenerators {
