@@ -163,8 +163,8 @@ void move_home(MpiCommunicator& ranks, const DistributedMesh& mesh, std::vector<
 
 /// Rank 0 writes each triangle and the rank that lists it: x1,y1,z1,x2,y2,z2,x3,y3,z3,owner.
 void write_owners(DistributedMesh& mesh, const Settings& s) {
-  std::vector<std::int64_t> corners(3 * static_cast<std::size_t>(mesh.triangles()));
-  mesh.triangles(corners.data());
+  std::vector<std::int64_t> corners(3 * static_cast<std::size_t>(mesh.own().triangles()));
+  mesh.own().triangles(corners.data());
   MpiCommunicator& ranks = mesh.ranks();
   const Parcels all = ranks.all_gather(corners.data(), corners.size() * sizeof corners[0]);
   if (ranks.rank() != 0) return;
@@ -229,11 +229,11 @@ class PoolCall {
 /// A step of Lloyd's method: each point by `part` of the way to the centroid of its Voronoi cell.
 void lloyd_step(const DistributedMesh& mesh, std::vector<Point>& points, double part) {
   std::vector<Point> known = points;
-  std::vector<std::int64_t> begin(points.size() + 1), halo(static_cast<std::size_t>(mesh.halo()));
-  std::vector<std::int32_t> neighbour(static_cast<std::size_t>(mesh.arcs()));
+  std::vector<std::int64_t> begin(points.size() + 1), halo(mesh.own().outside().size());
+  std::vector<std::int32_t> neighbour(mesh.own().arcs());
   known.resize(points.size() + halo.size());
-  mesh.halo(halo.data(), &known[points.size()].x);
-  mesh.local_stars(begin.data(), neighbour.data());
+  mesh.own().halo(halo.data(), &known[points.size()].x);
+  mesh.own().local_stars(begin.data(), neighbour.data());
   for (std::size_t k = 0; k < points.size(); ++k) {
     const Point p = known[k];
     const std::int64_t count = begin[k + 1] - begin[k];

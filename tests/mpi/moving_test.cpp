@@ -62,12 +62,13 @@ Result result_of(const DistributedMesh& mesh, std::int32_t code) {
   Result r;
   r.code = code;
   if (code != 0) return r;
-  r.begin.resize(static_cast<std::size_t>(mesh.points()) + 1);
-  r.neighbour.resize(static_cast<std::size_t>(mesh.arcs()));
-  r.halo.resize(static_cast<std::size_t>(mesh.halo()));
+  const OwnStars& own = mesh.own();
+  r.begin.resize(own.count() + 1);
+  r.neighbour.resize(own.arcs());
+  r.halo.resize(own.outside().size());
   r.xyz.resize(3 * r.halo.size());
-  mesh.stars(r.begin.data(), r.neighbour.data());
-  mesh.halo(r.halo.data(), r.xyz.data());
+  own.stars(r.begin.data(), r.neighbour.data());
+  own.halo(r.halo.data(), r.xyz.data());
   EXPECT_EQ(static_cast<std::size_t>(r.begin.back()), r.neighbour.size());
   return r;
 }

@@ -331,25 +331,28 @@ int32_t pstripack_mesh_home(const pstripack_mesh* mesh, int64_t n, const double*
 
 void pstripack_mesh_sizes(const pstripack_mesh* mesh, int64_t* points, int64_t* arcs, int64_t* triangles,
                           int64_t* halo) {
-  *points = mesh->mesh.points();
-  *arcs = mesh->mesh.arcs();
-  *triangles = mesh->mesh.triangles();
-  *halo = mesh->mesh.halo();
+  const OwnStars& own = mesh->mesh.own();
+  *points = static_cast<int64_t>(own.count());
+  *arcs = static_cast<int64_t>(own.arcs());
+  *triangles = own.triangles();
+  *halo = static_cast<int64_t>(own.outside().size());
 }
 
 void pstripack_mesh_stars(const pstripack_mesh* mesh, int64_t* begin, int64_t* neighbour) {
-  mesh->mesh.stars(begin, neighbour);
+  mesh->mesh.own().stars(begin, neighbour);
 }
 
-void pstripack_mesh_triangles(const pstripack_mesh* mesh, int64_t* corner) { mesh->mesh.triangles(corner); }
+void pstripack_mesh_triangles(const pstripack_mesh* mesh, int64_t* corner) {
+  mesh->mesh.own().triangles(corner);
+}
 
 void pstripack_mesh_halo(const pstripack_mesh* mesh, int64_t* number, double* xyz) {
-  mesh->mesh.halo(number, xyz);
+  mesh->mesh.own().halo(number, xyz);
 }
 
 int32_t pstripack_mesh_local_stars(const pstripack_mesh* mesh, int64_t* begin, int32_t* neighbour) {
   return guarded([&] {
-    mesh->mesh.local_stars(begin, neighbour);
+    mesh->mesh.own().local_stars(begin, neighbour);
     return 0;
   });
 }

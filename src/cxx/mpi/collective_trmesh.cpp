@@ -12,14 +12,13 @@
 #include "geometry/predicates.h"
 #include "lists/limits.h"
 #include "mpi/gather_lists.h"
+#include "mpi/numbering.h"
 #include "parallel/agreement.h"
 #include "parallel/coincidence.h"
 #include "parallel/options.h"
 
 namespace pstripack {
 namespace {
-
-constexpr std::int32_t kTooFew = -1, kCollinear = -2, kTooMany = -4, kBadCoordinate = -5, kRanksDisagree = -7;
 
 std::uint64_t mixed(std::uint64_t bits) {
   bits = (bits ^ (bits >> 32)) * 0xd6e8feb86659fd93u;
@@ -71,19 +70,130 @@ struct Headline {
   }
 };
 
+/// A call, and the slice of its nodes that this rank has: first.. (from 0).
+struct Share {
+  TrmeshResult result{0};  ///< so far: 0 if the slices can be triangulated
+  Headline headline;
+  NodeArrays nodes;
+  std::size_t first = 0, count = 0;
+  Look look;
+  std::optional<NodeArrays> of_all_ranks;  ///< where this rank can read them
+  Block received[3];                       ///< x, y, z, where they had to be sent
+
+  void set_slice(const Communicator& ranks) {
+    first = headline.slice(ranks.rank(), ranks);
+    count = headline.slice(ranks.rank() + 1, ranks) - first;
+  }
+  /// Looks at the slice, and says which node of the call (from 0) has no direction.
+  void look_at_nodes(Smallest& bad) {
+    look = look_at(nodes, count);
+    if (look.first_bad < count) bad.value = static_cast<std::int64_t>(first + look.first_bad);
+  }
+};
+
+/// Every rank has all nodes. Collective.
+Share take_slice(const TrmeshCall& call, bool wants_cost, MpiCommunicator& ranks) {
+  ranks.set_phase("agree on the arguments");
+  Share share;
+  Headline& headline = share.headline;
+  const std::int32_t n = headline.n = call.n, count_code = code_of_count(n);
+  // All pass the same where the smallest is the largest.
+  Smallest least_n{n}, least_hash{0}, bad;
+  Largest most_n{n}, most_hash;
+  OfRank0 partition(ranks, options_from_environment(0).partition);
+  OnAny reported{ranks.rank() == 0 && wants_cost};
+  in_agreement(
+      ranks,
+      [&] {
+        if (count_code != 0) return;
+        const std::size_t bytes = static_cast<std::size_t>(n) * call.nodes.real_bytes();
+        std::uint64_t hash = call.nodes.real_bytes();
+        for (int axis = 0; axis < 3; ++axis) hash = hash_of(call.nodes.array(axis), bytes, hash);
+        least_hash.value = most_hash.value = static_cast<std::int64_t>(hash);
+        share.set_slice(ranks);
+        share.nodes = call.nodes.from(share.first);
+        share.look_at_nodes(bad);
+        share.of_all_ranks = call.nodes;
+        call.nodes.copy(0, 3, headline.corners);
+      },
+      least_n, most_n, least_hash, most_hash, bad, partition, reported, share.look.lengths_are_one,
+      share.look.deviation);
+  headline.wants_cost = reported.value;
+  headline.partition = partition.value;
+  if (least_n.value != most_n.value || least_hash.value != most_hash.value)
+    share.result = {kRanksDisagree};
+  else if (count_code != 0)
+    share.result = {count_code};
+  else if (bad.exists())
+    share.result = {kBadCoordinate, bad.value + 1};
+  return share;
+}
+
+/// The nodes are rank 0's, or in memory that all share. Collective.
+Share receive_slice(const TrmeshCall& call, Arrays arrays, bool wants_cost, MpiCommunicator& ranks) {
+  ranks.set_phase("scatter the nodes");
+  const bool is_root = ranks.rank() == 0;
+  Share share;
+  Headline& headline = share.headline;
+  if (is_root) {
+    headline.n = call.n;
+    headline.partition = options_from_environment(0).partition;
+    headline.wants_cost = wants_cost;
+    if (code_of_count(call.n) == 0) call.nodes.copy(0, 3, headline.corners);
+  }
+  ranks.broadcast(&headline, sizeof headline, 0);
+  share.result = {code_of_count(headline.n)};
+  if (share.result.ier != 0) return share;
+
+  share.set_slice(ranks);
+  const std::size_t real = call.nodes.real_bytes();
+  const bool by_message = arrays == Arrays::on_one_rank, receives = by_message && !is_root;
+  std::vector<std::size_t> bytes;
+  in_agreement(ranks, [&] {
+    if (receives)
+      for (Block& block : share.received) block = Block(share.count * real);
+    for (int r = 0; r <= ranks.size(); ++r) bytes.push_back(headline.slice(r, ranks) * real);
+  });
+  for (int axis = 0; axis < 3 && by_message; ++axis)
+    ranks.start_scatter(call.nodes.array(axis), bytes, share.received[axis].data(),
+                        receives ? share.count * real : 0, 0);
+  if (!is_root) ranks.finish();
+  Smallest bad;
+  Outcome outcome = Outcome::of([&] {
+    if (!by_message) share.of_all_ranks = call.nodes;
+    share.nodes = receives ? NodeArrays(real, share.received[0].data(), share.received[1].data(),
+                                        share.received[2].data())
+                           : call.nodes.from(share.first);
+    share.look_at_nodes(bad);
+  });
+  if (is_root) ranks.finish();
+  agree(ranks, outcome, bad, share.look.lengths_are_one, share.look.deviation);
+  outcome.accept();
+  if (bad.exists()) share.result = {kBadCoordinate, bad.value + 1};
+  return share;
+}
+
+/// Collective. Throws AgreedFailure.
+Share share_of(const TrmeshCall& call, Arrays arrays, bool wants_cost, MpiCommunicator& ranks,
+               ParallelCost& cost) {
+  const PhaseTimer timer(&cost, ParallelCost::divide, &ranks);
+  Share share = arrays == Arrays::on_every_rank ? take_slice(call, wants_cost, ranks)
+                                                : receive_slice(call, arrays, wants_cost, ranks);
+  const Point(&corners)[3] = share.headline.corners;
+  if (share.result.ier == 0 && left(corners[0], corners[1], corners[2]) == 0) share.result = {kCollinear};
+  return share;
+}
+
 /// A call by ranks, each of which has a slice of the nodes.
 class ByRanks {
  public:
-  ByRanks(MpiCommunicator& ranks, Arrays arrays, const TrmeshCall& call, ParallelCost& cost)
-      : ranks_(ranks), arrays_(arrays), call_(call), cost_(cost) {}
+  /// `share`: as share_of(), with result 0.
+  ByRanks(MpiCommunicator& ranks, Arrays arrays, const ListArrays& lists, Share& share, ParallelCost& cost)
+      : ranks_(ranks), arrays_(arrays), lists_(lists), share_(share), cost_(cost) {}
 
-  /// Collective. The code so far: 0 if the slices can be triangulated.
-  TrmeshResult prepare(bool wants_cost);
-  std::int32_t n() const { return headline_.n; }
-  bool wants_cost() const { return headline_.wants_cost; }
   /// Collective, as triangulate_and_deliver() asks for.
   std::optional<Coincidence> triangulate(std::size_t n);
-  void deliver();
+  void deliver() { deliver(stars_.of_node); }
 
   /// Collective. True: the call is done, beginning with the rings of the last one.
   bool begin_with(LastCall& last);
@@ -91,28 +201,16 @@ class ByRanks {
   void remember(LastCall& last) noexcept;
 
  private:
-  TrmeshResult take_slice(bool wants_cost);
-  TrmeshResult receive_slice(bool wants_cost);
+  std::size_t n() const { return static_cast<std::size_t>(share_.headline.n); }
   void find_slices(std::size_t n);
   void deliver(const RingTable<std::int32_t>& rings);
   void take_sample(LastCall& last, const RingTable<std::int32_t>& rings) noexcept;
-  /// Looks at this rank's slice, the nodes first.. of the call, and says which has no direction.
-  void look(std::size_t first, Smallest& bad) {
-    look_ = look_at(nodes_, count_);
-    if (look_.first_bad < count_) bad.value = static_cast<std::int64_t>(first + look_.first_bad);
-  }
 
   MpiCommunicator& ranks_;
   const Arrays arrays_;
-  const TrmeshCall& call_;
+  const ListArrays& lists_;
+  Share& share_;
   ParallelCost& cost_;
-  Headline headline_;
-  // This rank's slice:
-  NodeArrays nodes_;
-  std::size_t count_ = 0;
-  Look look_;
-  std::optional<NodeArrays> of_all_ranks_;  ///< where this rank can read them
-  Block received_[3];                       ///< x, y, z, where they had to be sent
   // What has been triangulated:
   ParallelOptions options_;
   std::vector<std::size_t> begin_;  ///< of each rank, and the end
@@ -121,143 +219,56 @@ class ByRanks {
   Stars<std::int32_t> stars_;
 };
 
-/// Every rank has all nodes.
-TrmeshResult ByRanks::take_slice(bool wants_cost) {
-  ranks_.set_phase("agree on the arguments");
-  const std::int32_t n = headline_.n = call_.n, count_code = code_of_count(n);
-  // All pass the same where the smallest is the largest.
-  Smallest least_n{n}, least_hash{0}, bad;
-  Largest most_n{n}, most_hash;
-  OfRank0 partition(ranks_, options_from_environment(0).partition);
-  OnAny reported{ranks_.rank() == 0 && wants_cost};
-  in_agreement(
-      ranks_,
-      [&] {
-        if (count_code != 0) return;
-        const std::size_t bytes = static_cast<std::size_t>(n) * call_.nodes.real_bytes();
-        std::uint64_t hash = call_.nodes.real_bytes();
-        for (int axis = 0; axis < 3; ++axis) hash = hash_of(call_.nodes.array(axis), bytes, hash);
-        least_hash.value = most_hash.value = static_cast<std::int64_t>(hash);
-        const std::size_t first = headline_.slice(ranks_.rank(), ranks_);
-        nodes_ = call_.nodes.from(first);
-        count_ = headline_.slice(ranks_.rank() + 1, ranks_) - first;
-        look(first, bad);
-        of_all_ranks_ = call_.nodes;
-        call_.nodes.copy(0, 3, headline_.corners);
-      },
-      least_n, most_n, least_hash, most_hash, bad, partition, reported, look_.lengths_are_one,
-      look_.deviation);
-  headline_.wants_cost = reported.value;
-  if (least_n.value != most_n.value || least_hash.value != most_hash.value) return {kRanksDisagree};
-  if (count_code != 0) return {count_code};
-  headline_.partition = partition.value;
-  if (bad.exists()) return {kBadCoordinate, bad.value + 1};
-  return {0};
-}
-
-/// The nodes are rank 0's, or in memory that all share.
-TrmeshResult ByRanks::receive_slice(bool wants_cost) {
-  ranks_.set_phase("scatter the nodes");
-  const bool is_root = ranks_.rank() == 0;
-  if (is_root) {
-    headline_.n = call_.n;
-    headline_.partition = options_from_environment(0).partition;
-    headline_.wants_cost = wants_cost;
-    if (code_of_count(call_.n) == 0) call_.nodes.copy(0, 3, headline_.corners);
-  }
-  ranks_.broadcast(&headline_, sizeof headline_, 0);
-  if (const std::int32_t code = code_of_count(headline_.n); code != 0) return {code};
-
-  const std::size_t first = headline_.slice(ranks_.rank(), ranks_), real = call_.nodes.real_bytes();
-  count_ = headline_.slice(ranks_.rank() + 1, ranks_) - first;
-  const bool by_message = arrays_ == Arrays::on_one_rank, receives = by_message && !is_root;
-  std::vector<std::size_t> bytes;
-  in_agreement(ranks_, [&] {
-    if (receives)
-      for (Block& block : received_) block = Block(count_ * real);
-    for (int r = 0; r <= ranks_.size(); ++r) bytes.push_back(headline_.slice(r, ranks_) * real);
-  });
-  for (int axis = 0; axis < 3 && by_message; ++axis)
-    ranks_.start_scatter(call_.nodes.array(axis), bytes, received_[axis].data(), receives ? count_ * real : 0,
-                         0);
-  if (!is_root) ranks_.finish();
-  Smallest bad;
-  Outcome outcome = Outcome::of([&] {
-    if (!by_message) of_all_ranks_ = call_.nodes;
-    nodes_ = receives ? NodeArrays(real, received_[0].data(), received_[1].data(), received_[2].data())
-                      : call_.nodes.from(first);
-    look(first, bad);
-  });
-  if (is_root) ranks_.finish();
-  agree(ranks_, outcome, bad, look_.lengths_are_one, look_.deviation);
-  outcome.accept();
-  if (bad.exists()) return {kBadCoordinate, bad.value + 1};
-  return {0};
-}
-
-TrmeshResult ByRanks::prepare(bool wants_cost) {
-  const PhaseTimer timer(&cost_, ParallelCost::divide, &ranks_);
-  const TrmeshResult result =
-      arrays_ == Arrays::on_every_rank ? take_slice(wants_cost) : receive_slice(wants_cost);
-  if (result.ier != 0) return result;
-  const Point(&corners)[3] = headline_.corners;
-  if (left(corners[0], corners[1], corners[2]) == 0) return {kCollinear};
-  return {0};
-}
-
 /// Of the first n nodes. Collective.
 void ByRanks::find_slices(std::size_t n) {
   if (!knows_slices_) {
     in_agreement(ranks_, [&] {
       begin_.resize(static_cast<std::size_t>(ranks_.size()) + 1);
-      options_ = options_from_environment(count_);
+      options_ = options_from_environment(share_.count);
     });
     knows_slices_ = true;  // all ranks do, or none
-    options_.partition = headline_.partition;
+    options_.partition = share_.headline.partition;
     cost_.threads = options_.threads;
   }
   for (std::size_t r = 0; r < begin_.size(); ++r)
-    begin_[r] = std::min(n, headline_.slice(static_cast<int>(r), ranks_));
+    begin_[r] = std::min(n, share_.headline.slice(static_cast<int>(r), ranks_));
 }
 
 std::optional<Coincidence> ByRanks::triangulate(std::size_t n) {
   const auto me = static_cast<std::size_t>(ranks_.rank());
   find_slices(n);
   const std::size_t count = begin_[me + 1] - begin_[me];
-  if (n < static_cast<std::size_t>(headline_.n)) {  // again, without a node that coincides
-    look_ = look_at(nodes_, count);
-    agree_on(look_, ranks_);
+  if (n < this->n()) {  // again, without a node that coincides
+    share_.look = look_at(share_.nodes, count);
+    agree_on(share_.look, ranks_);
     stars_ = {};
   }
-  const LocalNodes mine{nodes_, count, nullptr, static_cast<std::int64_t>(begin_[me]) + 1,
-                        of_all_ranks_ ? &*of_all_ranks_ : nullptr};
-  stars_ = pstripack::triangulate<std::int32_t>(mine, look_, headline_.corners, {1, 2, 3}, ranks_, options_,
-                                                &cost_);
+  const LocalNodes mine{share_.nodes, count, nullptr, static_cast<std::int64_t>(begin_[me]) + 1,
+                        share_.of_all_ranks ? &*share_.of_all_ranks : nullptr};
+  stars_ = pstripack::triangulate<std::int32_t>(mine, share_.look, share_.headline.corners, {1, 2, 3}, ranks_,
+                                                options_, &cost_);
   if (stars_.coincident.empty()) return std::nullopt;
   std::optional<Coincidence> first;
   in_agreement(ranks_, [&] { first = first_coincidence(stars_.coincident); });
   return first;
 }
 
-void ByRanks::deliver() { deliver(stars_.of_node); }
-
 void ByRanks::deliver(const RingTable<std::int32_t>& rings) {
   ranks_.set_phase("gather the lists");
   const PhaseTimer timer(&cost_, ParallelCost::gather, &ranks_);
-  gather_lists(ranks_, rings, begin_, arrays_, 0, call_.lists);
+  gather_lists(ranks_, rings, begin_, arrays_, 0, lists_);
 }
 
 bool ByRanks::begin_with(LastCall& last) {
-  constexpr int kMostPatience = 64;
-  if (last.n != static_cast<std::size_t>(n()) || arrays_ == Arrays::on_one_rank) {
+  if (last.n != n() || arrays_ == Arrays::on_one_rank) {
     last = {};
     return false;
   }
-  OnAll fits{last.has_sample && warm_start_is_allowed() && last.sample.fits(*of_all_ranks_)},
+  OnAll fits{last.has_sample && warm_start_is_allowed() && last.sample.fits(*share_.of_all_ranks)},
       have_rings{last.rings != nullptr};
   agree(ranks_, fits, have_rings);
   last.has_sample = false;
-  wants_rings_ = fits.value && ++last.patient >= last.patience;
+  wants_rings_ = fits.value && last.patience.is_enough();
   if (!fits.value || !have_rings.value) {
     last.rings.reset();
     return false;
@@ -267,12 +278,11 @@ bool ByRanks::begin_with(LastCall& last) {
     const PhaseTimer timer(&cost_, ParallelCost::triangulate, &ranks_);
     ranks_.set_phase("move the stars");
     find_slices(last.n);
-    is_done = last.rings->move(*of_all_ranks_, begin_, ranks_);
+    is_done = last.rings->move(*share_.of_all_ranks, begin_, ranks_);
   } catch (const AgreedFailure&) {
     // No memory for it: the cold way has more, without the rings.
   }
-  last.patience = is_done ? 1 : std::min(2 * last.patience, kMostPatience);
-  last.patient = 0;
+  is_done ? last.patience.succeed() : last.patience.fail();
   if (!is_done) {
     wants_rings_ = false;
     last.rings.reset();
@@ -289,10 +299,8 @@ bool ByRanks::begin_with(LastCall& last) {
 }
 
 void ByRanks::remember(LastCall& last) noexcept {
-  constexpr std::size_t kFewest = 1000;  // below, a cold call takes less time than it would be worth
-  const auto n = static_cast<std::size_t>(headline_.n);
-  if (n < kFewest || arrays_ == Arrays::on_one_rank) return;
-  last.n = n;
+  if (n() < kFewestForWarmStart || arrays_ == Arrays::on_one_rank) return;
+  last.n = n();
   take_sample(last, stars_.of_node);
   if (!wants_rings_) return;
   try {
@@ -324,13 +332,16 @@ TrmeshResult collective_trmesh(MpiCommunicator& ranks, Arrays arrays, const Trme
                                LastCall* last) {
   ParallelCost mine;
   const std::int64_t sent_before = ranks.bytes_sent;
-  ByRanks way(ranks, arrays, call, mine);
-  TrmeshResult result = way.prepare(cost != nullptr);
-  if (result.ier == 0 && (last == nullptr || !way.begin_with(*last))) {
-    result = triangulate_and_deliver(way.n(), way);
-    if (last != nullptr && result.ier == 0) way.remember(*last);
+  Share share = share_of(call, arrays, cost != nullptr, ranks, mine);
+  TrmeshResult result = share.result;
+  if (result.ier == 0) {
+    ByRanks way(ranks, arrays, call.lists, share, mine);
+    if (last == nullptr || !way.begin_with(*last)) {
+      result = triangulate_and_deliver(share.headline.n, way);
+      if (last != nullptr && result.ier == 0) way.remember(*last);
+    }
   }
-  if (way.wants_cost()) {
+  if (share.headline.wants_cost) {
     mine.bytes_sent = ranks.bytes_sent - sent_before;
     const GroupCost all = group_cost(ranks, mine);
     if (cost != nullptr) *cost = all;

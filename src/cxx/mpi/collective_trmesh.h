@@ -4,6 +4,7 @@
 #include "mpi/mpi_communicator.h"
 #include "parallel/last_rings.h"
 #include "parallel/triangulate.h"
+#include "trmesh/patience.h"
 #include "trmesh/trmesh.h"
 
 namespace pstripack {
@@ -14,8 +15,7 @@ struct LastCall {
   SampleOfStars sample;
   bool has_sample = false;           ///< on this rank
   std::unique_ptr<LastRings> rings;  ///< on this rank, of calls whose nodes fitted
-  /// As of LastMesh (trmesh/warm_start.cpp).
-  int patience = 1, patient = 0;
+  Patience patience;
 };
 
 /// TRMESH (trmesh/trmesh.h) by all ranks together: the same bytes, the same codes, on every rank. Collective.

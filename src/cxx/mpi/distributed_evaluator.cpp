@@ -37,14 +37,15 @@ void DistributedEvaluator::evaluate(const std::vector<Point>& generators, Cells&
   in_agreement(
       mesh_.ranks(),
       [&] {
-        numbers_of_halo_.resize(static_cast<std::size_t>(mesh_.halo()));
+        const OwnStars& stars = mesh_.own();
+        numbers_of_halo_.resize(stars.outside().size());
         points_.resize(own + numbers_of_halo_.size());
         begin_.resize(own + 1);
         end_.resize(own);
-        neighbour_.resize(static_cast<std::size_t>(mesh_.arcs()));
+        neighbour_.resize(stars.arcs());
         std::copy(generators.begin(), generators.end(), points_.begin());
-        if (!numbers_of_halo_.empty()) mesh_.halo(numbers_of_halo_.data(), &points_[own].x);
-        mesh_.local_stars(begin_.data(), neighbour_.data());
+        if (!numbers_of_halo_.empty()) stars.halo(numbers_of_halo_.data(), &points_[own].x);
+        stars.local_stars(begin_.data(), neighbour_.data());
         std::transform(begin_.begin() + 1, begin_.end(), end_.begin(),
                        [](std::int64_t end) { return static_cast<std::int32_t>(end); });
         have_boundary.value =

@@ -19,8 +19,6 @@
 namespace pstripack {
 namespace {
 
-constexpr std::size_t kFewest = 1000;  ///< nodes: below, a cold call takes less time than it would be worth
-
 SampleOfStars sample_of(std::size_t n, const std::int32_t* list, const std::int32_t* lend) {
   SampleOfStars sample;
   SampleOfStars::for_each_node(n, [&](std::size_t k) {
@@ -48,15 +46,11 @@ struct LastMesh {
   std::size_t n;
   pid_t process;
   SampleOfStars sample;
-  /// How many calls must find that the mesh of the call before fits before one is kept as a whole. More,
-  /// where such meshes turned out not to fit in the end.
-  int patience = 1, patient = 0;
+  Patience patience;
   std::unique_ptr<KeptMesh> kept = nullptr;
 
   void lose_patience() {
-    constexpr int kMost = 64;
-    patience = std::min(2 * patience, kMost);
-    patient = 0;
+    patience.fail();
     kept.reset();
   }
 };
@@ -69,13 +63,13 @@ std::atomic<unsigned> next_to_go{0};
 
 /// The mesh of an earlier call that fits these nodes, if there is one. `patience` becomes that of others with
 /// as many nodes, if it is more.
-std::unique_ptr<LastMesh> take_last_mesh(const NodeArrays& nodes, std::size_t n, int& patience) {
+std::unique_ptr<LastMesh> take_last_mesh(const NodeArrays& nodes, std::size_t n, Patience& patience) {
   for (auto& place : last_meshes) {
     std::unique_ptr<LastMesh> last(place.exchange(nullptr, std::memory_order_acq_rel));
     if (last == nullptr || last->process != getpid()) continue;  // a forked child begins anew
     if (last->n == n) {
       if (last->sample.fits(nodes)) return last;
-      patience = std::max(patience, last->patience);
+      patience = longest(patience, last->patience);
     }
     LastMesh* none = nullptr;
     if (place.compare_exchange_strong(none, last.get(), std::memory_order_acq_rel)) last.release();
@@ -148,7 +142,7 @@ void copy(const std::int32_t* from, std::size_t count, std::int32_t* to) {
 }  // namespace
 
 WarmStart::WarmStart(const NodeArrays& nodes, std::size_t n) : nodes_(nodes), n_(n) {
-  if (n >= kFewest && warm_start_is_allowed()) last_ = take_last_mesh(nodes, n, patience_);
+  if (n >= kFewestForWarmStart && warm_start_is_allowed()) last_ = take_last_mesh(nodes, n, patience_);
 }
 
 WarmStart::~WarmStart() {
@@ -216,7 +210,7 @@ bool WarmStart::write_lists(const ListArrays& lists, ParallelCost* cost) noexcep
       copy(lend, n_, kept.lend.data());
       kept.mesh->forget_changes();
     }
-    last_->patience = 1;
+    last_->patience.succeed();
     if (cost != nullptr) {
       cost->threads = threads_for(n_);
       cost->flips = has_moved ? static_cast<std::int64_t>(kept.mesh->flips()) : 0;
@@ -241,14 +235,14 @@ void WarmStart::take_sample(const std::int32_t* list, const std::int32_t* lend) 
 void WarmStart::remember(const ListArrays& lists) noexcept {
   const auto& [list, lptr, lend, lnew] = lists;
   const auto slots = static_cast<std::size_t>(*lnew) - 1;
-  if (n_ < kFewest || !warm_start_is_allowed() || slots != 6 * n_ - 12)
+  if (n_ < kFewestForWarmStart || !warm_start_is_allowed() || slots != 6 * n_ - 12)
     return;  // a boundary: not for a warm start
   try {
     if (last_ == nullptr) {
       last_.reset(new LastMesh{n_, getpid(), sample_of(n_, list, lend), patience_});
       return;
     }
-    if (++last_->patient >= last_->patience) {
+    if (last_->patience.is_enough()) {
       set_give_up_more(forget_last_meshes);
       last_->kept = std::make_unique<KeptMesh>(n_, slots);
       copy(list, slots, last_->kept->list.data());

@@ -8,6 +8,7 @@
 
 #include "parallel/cost.h"
 #include "trmesh/call.h"
+#include "trmesh/patience.h"
 
 namespace pstripack {
 
@@ -40,7 +41,7 @@ class WarmStart {
   const NodeArrays nodes_;
   const std::size_t n_;
   std::unique_ptr<LastMesh> last_;
-  int patience_ = 1;  ///< of a mesh that begins with this call: LastMesh::patience
+  Patience patience_;  ///< of a mesh that begins with this call
 };
 
 /// Those of this process that no call has for itself. True if there were any.

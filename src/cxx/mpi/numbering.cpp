@@ -1,0 +1,146 @@
+#include "mpi/numbering.h"
+
+#include <algorithm>
+
+#include "geometry/predicates.h"
+#include "parallel/agreement.h"
+#include "parallel/number_table.h"
+#include "parallel/options.h"
+#include "parallel/parcels.h"
+#include "parallel/scattered.h"
+
+namespace pstripack {
+namespace {
+
+constexpr std::int64_t kNone = Smallest::kNone;
+
+/// Every number goes to a rank that its hash names; there all that are equal meet.
+std::int64_t search_repeated(const LocalNodes& points, MpiCommunicator& ranks) {
+  const auto size = static_cast<std::size_t>(ranks.size());
+  const auto rank_of = [size](std::int64_t x) {  // by the upper bits: a table takes the lower ones
+    return static_cast<std::size_t>((scattered(static_cast<std::uint64_t>(x)) >> 32) * size >> 32);
+  };
+  const Parcels here = exchange_in_agreement(ranks, [&] {
+    ParcelWriter writer(size);
+    for (std::size_t i = 0; i < points.count; ++i) writer.expect<std::int64_t>(rank_of(points.number(i)));
+    writer.make_room();
+    for (std::size_t i = 0; i < points.count; ++i) writer.put(rank_of(points.number(i)), points.number(i));
+    return writer.finish();
+  });
+  Smallest repeated;
+  in_agreement(
+      ranks,
+      [&] {
+        const Items<std::int64_t> met(here);
+        NumberTable<char> table(met.size());
+        constexpr std::ptrdiff_t kAhead = 16;
+        for (const std::int64_t* at = met.begin(); at < met.end(); ++at) {
+          if (met.end() - at > kAhead) table.prefetch(at[kAhead]);
+          if (!table.insert(*at, 0).second) repeated.value = std::min(repeated.value, *at);
+        }
+      },
+      repeated);
+  return repeated.value;
+}
+
+/// The smallest number that occurs twice; kNone if there is none. As many numbers as low..high has are all of
+/// them exactly if each occurs once: then sums of a hash tell, and nothing is sent. A false "none" needs sums
+/// of 64 bits that are equal by chance.
+std::int64_t first_repeated(const LocalNodes& points, const Numbering& numbering, MpiCommunicator& ranks) {
+  if (numbering.high - numbering.low != numbering.total - 1) return search_repeated(points, ranks);
+  const auto all = static_cast<std::size_t>(numbering.total), size = static_cast<std::size_t>(ranks.size()),
+             me = static_cast<std::size_t>(ranks.rank());
+  std::uint64_t difference = 0;
+  for (std::size_t i = 0; i < points.count; ++i)
+    difference += scattered(static_cast<std::uint64_t>(points.number(i)));
+  for (std::size_t i = slice_begin(all, me, size); i < slice_begin(all, me + 1, size); ++i)
+    difference -= scattered(static_cast<std::uint64_t>(numbering.low) + i);
+  const std::int64_t* const differences = ranks.all_gather_one(static_cast<std::int64_t>(difference));
+  std::uint64_t sum = 0;
+  for (std::size_t r = 0; r < size; ++r) sum += static_cast<std::uint64_t>(differences[r]);
+  return sum == 0 ? kNone : search_repeated(points, ranks);
+}
+
+bool on_one_line(const Point& a, const Point& b) {
+  return same_direction(a, b) || same_direction(a, {-b.x, -b.y, -b.z});
+}
+
+}  // namespace
+
+Numbering look_at_all(const LocalNodes& points, bool wants_report, MpiCommunicator& ranks) {
+  Numbering numbering;
+  const auto failed = [&](std::int32_t code, std::int64_t point) {
+    numbering.code = code;
+    numbering.error_point = point;
+    return numbering;
+  };
+  const bool fits = points.count < kMostPoints;
+  const std::int64_t* const counts =
+      ranks.all_gather_one(fits ? static_cast<std::int64_t>(points.count) : -1);
+  for (int r = 0; r < ranks.size(); ++r) {
+    if (counts[r] < 0) return failed(kTooMany, 0);
+    numbering.total += counts[r];
+  }
+  if (numbering.total < 3) return failed(kTooFew, 0);
+
+  Smallest low, bad;
+  Largest high;
+  for (std::size_t i = 0; i < points.count; ++i) {
+    low.value = std::min(low.value, points.number(i));
+    high.value = std::max(high.value, points.number(i));
+  }
+  numbering.look = look_at(points.points, points.count);
+  for (std::size_t i = numbering.look.first_bad; i < points.count; ++i)
+    if (!has_direction(points.points[i])) bad.value = std::min(bad.value, points.number(i));
+  OfRank0 partition(ranks, options_from_environment(0).partition);
+  OnAny reported{ranks.rank() == 0 && wants_report};
+  agree(ranks, low, high, bad, partition, reported, numbering.look.lengths_are_one, numbering.look.deviation);
+  numbering.is_reported = reported.value;
+  numbering.low = low.value;
+  numbering.high = high.value;
+  numbering.partition = partition.value;
+  if (numbering.low < 1) return failed(kBadNumber, numbering.low);
+  if (bad.exists()) return failed(kBadCoordinate, bad.value);
+  const std::int64_t repeated = first_repeated(points, numbering, ranks);
+  return repeated == kNone ? numbering : failed(kBadNumber, repeated);
+}
+
+CornerSearch::CornerSearch(int ranks) : sample_(3 * static_cast<std::size_t>(ranks), Record{{}, 0}) {
+  for (std::size_t r = 0; 3 * r <= sample_.size(); ++r) begin_.push_back(3 * r * sizeof(Record));
+}
+
+/// Three points from each rank are tried first; only where all of those are on one great circle all points
+/// are looked at.
+std::optional<std::array<Record, 3>> CornerSearch::run(const LocalNodes& points, MpiCommunicator& ranks) {
+  std::array<Record, 3> corners{};
+  std::size_t found = 0;
+  const auto fits = [&](const Point& p) {
+    if (found == 1) return !on_one_line(corners[0].point, p);
+    return found == 0 || left(corners[0].point, corners[1].point, p) != 0;
+  };
+
+  const std::size_t n = points.count, sampled = std::min<std::size_t>(n, 3);
+  Record* const share = sample_.data() + 3 * ranks.rank();
+  for (std::size_t i = 0; i < sampled; ++i) {
+    const std::size_t at = sampled > 1 ? (n - 1) * i / (sampled - 1) : 0;
+    share[i] = {points.points[at], points.number(at)};
+  }
+  ranks.all_gather_in_place(sample_.data(), begin_);
+  for (const Record& r : sample_)
+    if (r.number != 0 && found < 3 && fits(r.point)) corners[found++] = r;
+
+  for (; found < 3; ++found) {
+    Record mine{{}, kNone};
+    for (std::size_t i = 0; i < n; ++i)
+      if (points.number(i) < mine.number && fits(points.points[i]))
+        mine = {points.points[i], points.number(i)};
+    Smallest first{mine.number};
+    agree(ranks, first);
+    if (!first.exists()) return std::nullopt;
+    const Parcels owner = ranks.all_gather(&mine, mine.number == first.value ? sizeof mine : 0);
+    corners[found] = *Items<Record>(owner).begin();
+  }
+  return corners;
+}
+
+}  // namespace pstripack
