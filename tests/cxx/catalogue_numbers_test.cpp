@@ -238,20 +238,24 @@ TEST(Components, DenormalOnesAreCorrect) {
   EXPECT_TRUE(is_as_promised(nodes));
 }
 
-TEST(SinglePrecision, NodesAreCorrectAndAsInDouble) {
-  for (const std::size_t n : {4, 1000, 100000, 1000000}) {
-    const Nodes nodes = make("single", n);
-    const Columns c(nodes);
-    const std::vector<float> x(c.x.begin(), c.x.end()), y(c.y.begin(), c.y.end()), z(c.z.begin(), c.z.end());
-    const Mesh expected = trmesh(nodes);
-    EXPECT_TRUE(is_as_promised(nodes, expected)) << n;
-    Mesh m;
-    m.list.assign(6 * n - 12, untouched), m.lptr.assign(6 * n - 12, untouched), m.lend.assign(n, untouched);
-    m.ier = pstripack_trmesh_r4(static_cast<std::int32_t>(n), x.data(), y.data(), z.data(), m.list.data(),
-                                m.lptr.data(), m.lend.data(), &m.lnew);
-    EXPECT_EQ(m.ier, expected.ier);
-    EXPECT_TRUE(m == expected) << n;
-  }
+class SinglePrecision : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(SinglePrecision, NodesAreCorrectAndAsInDouble) {
+  const std::size_t n = GetParam();
+  const Nodes nodes = make("single", n);
+  const Columns c(nodes);
+  const std::vector<float> x(c.x.begin(), c.x.end()), y(c.y.begin(), c.y.end()), z(c.z.begin(), c.z.end());
+  const Mesh expected = trmesh(nodes);
+  EXPECT_TRUE(is_as_promised(nodes, expected));
+  Mesh m;
+  m.list.assign(6 * n - 12, untouched), m.lptr.assign(6 * n - 12, untouched), m.lend.assign(n, untouched);
+  m.ier = pstripack_trmesh_r4(static_cast<std::int32_t>(n), x.data(), y.data(), z.data(), m.list.data(),
+                              m.lptr.data(), m.lend.data(), &m.lnew);
+  EXPECT_EQ(m.ier, expected.ier);
+  EXPECT_TRUE(m == expected);
 }
+
+INSTANTIATE_TEST_SUITE_P(Of, SinglePrecision, testing::Values(4, 1000, 100000, 1000000),
+                         testing::PrintToStringParamName());
 
 }  // namespace
