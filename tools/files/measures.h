@@ -8,6 +8,8 @@
 
 namespace files {
 
+constexpr double kEarthRadius = 6371;  ///< km
+
 /// Angle between two vectors in radians; accurate for small ones.
 inline double angle_between(const pstripack::Point& a, const pstripack::Point& b) {
   const pstripack::Point d = minus(a, b);

@@ -389,7 +389,6 @@ std::vector<double> areas(const Faces& faces) {
 }
 
 void add_columns(Faces& faces, const Mesh& mesh) {
-  constexpr double kEarthRadius = 6371;  // km
   const bool are_cells = !faces.centres.empty();
   (are_cells ? faces.given_centres : faces.given_points) = mesh.given;
   Column area{"area", "area of the face on the unit sphere", "sr"};
