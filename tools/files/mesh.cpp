@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "base/parallel_for.h"
-#include "files/measures.h"
 #include "lists/limits.h"
 #include "mesh/delaunay.h"
 #include "stripack/list_queries.h"
@@ -256,11 +255,6 @@ std::vector<std::int32_t> triangles_of(const Mesh& mesh) {
              [&](std::int32_t a, std::int32_t b, std::int32_t c) { *to++ = a, *to++ = b, *to++ = c; });
   });
   return triangles;
-}
-
-Point unit(const Point& p) {
-  const double length = std::hypot(p.x, p.y, p.z);
-  return {p.x / length, p.y / length, p.z / length};
 }
 
 std::vector<Point> unit(const std::vector<Point>& points) {
