@@ -5,10 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
+#include "pictures/font.h"
+#include "pictures/sheet.h"
+#include "pictures/view.h"
 #include "point_sets.h"
 
 namespace comparison {
@@ -22,7 +27,7 @@ using pstripack::minus;
 using pstripack::Point;
 using pstripack::Triangles;
 
-constexpr double kPanel = 360, kMargin = 12, kCaption = 66, kRow = kPanel + kCaption;
+constexpr double kPanel = 360, kMargin = 12, kTitle = 22, kCaption = 66, kRow = kTitle + kPanel + kCaption;
 constexpr double kWidth = 2 * kPanel + 3 * kMargin;
 constexpr std::size_t kMostRows = 60, kMostArcs = 4000, kMostNumbers = 80;
 
@@ -138,6 +143,41 @@ std::string deciding_circle(const std::vector<index_t>& nodes, const View& view)
                      a.y + y, radius);
 }
 
+/// Places for the numbers of nodes: apart from each other, and on as few arcs as possible.
+class Labels {
+ public:
+  Labels(const std::vector<Arc>& arcs, const View& view) {
+    for (const Arc& arc : arcs) segments_.push_back({view(arc.first), view(arc.second)});
+  }
+
+  /// Where a text begins that names the node at p; none: no place is free.
+  std::optional<Place> place(const Place& p, const std::string& text, double size) {
+    const double width = pictures::text_width(text, size), gap = 4, ascent = 0.73 * size;
+    std::optional<Place> best;
+    pictures::Box box_of_best{};
+    std::size_t fewest = SIZE_MAX;
+    for (const double x : {p.x + gap, p.x - gap - width, p.x - width / 2})
+      for (const double y : {p.y - gap, p.y + gap + ascent, p.y + ascent / 2}) {
+        const pictures::Box box{x - 1, y - ascent - 1, x + width + 1, y + 1};
+        const bool on_node = box.left < p.x && p.x < box.right && box.top < p.y && p.y < box.bottom;
+        if (on_node || box.left < 0 || box.top < 0 || box.right > kPanel || box.bottom > kPanel ||
+            std::any_of(taken_.begin(), taken_.end(), [&](const auto& t) { return overlap(t, box); }))
+          continue;
+        const auto crossed = static_cast<std::size_t>(
+            std::count_if(segments_.begin(), segments_.end(), [&](const pictures::Outline& segment) {
+              return !clipped_line(segment, {box.left, box.top, box.right, box.bottom}).empty();
+            }));
+        if (crossed < fewest) fewest = crossed, best = Place{x, y}, box_of_best = box;
+      }
+    if (best) taken_.push_back(box_of_best);
+    return best;
+  }
+
+ private:
+  std::vector<pictures::Outline> segments_;
+  std::vector<pictures::Box> taken_;
+};
+
 std::string numbers(const std::vector<Arc>& arcs, const std::vector<index_t>& deciding, const View& view) {
   std::vector<index_t> nodes;
   for (const Arc& arc : arcs) nodes.insert(nodes.end(), {arc.first, arc.second});
@@ -149,38 +189,46 @@ std::string numbers(const std::vector<Arc>& arcs, const std::vector<index_t>& de
   nodes.erase(std::remove_if(nodes.begin(), nodes.end(), outside), nodes.end());
   if (nodes.size() > kMostNumbers) nodes.clear();
 
+  Labels labels(arcs, view);
   std::string text;
-  const auto write = [&](index_t node, const char* kind, double radius) {
+  const auto write = [&](index_t node, const char* kind, double radius, double size) {
     const Place p = view(node);
-    text += fmt::format(
-        "<circle class=\"{0}\" cx=\"{1:.2f}\" cy=\"{2:.2f}\" r=\"{3}\"/>\n<text class=\"{0}\" x=\"{4:.2f}\" "
-        "y=\"{5:.2f}\">{6}</text>\n",
-        kind, p.x, p.y, radius, p.x + 4, p.y - 4, node + 1);
+    const std::string number = std::to_string(node + 1);
+    text +=
+        fmt::format("<circle class=\"{}\" cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{}\"/>\n", kind, p.x, p.y, radius);
+    if (const auto at = labels.place(p, number, size))
+      text +=
+          fmt::format("<text class=\"{}\" x=\"{:.2f}\" y=\"{:.2f}\">{}</text>\n", kind, at->x, at->y, number);
   };
-  for (const index_t node : nodes) write(node, "node", 1.5);
-  for (const index_t node : deciding) write(node, "decided", 3);
+  constexpr double kBold = 1.15;  // wider
+  for (const index_t node : deciding) write(node, "decided", 3, 12 * kBold);
+  for (const index_t node : nodes) write(node, "node", 1.5, 9);
   return text;
 }
 
 std::string panel(double x, double y, const std::string& title, const std::string& content) {
   return fmt::format(
-      "<svg x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{2}\">\n<rect class=\"panel\" width=\"{2}\" "
-      "height=\"{2}\"/>\n{3}<text class=\"title\" x=\"8\" y=\"18\">{4}</text>\n</svg>\n",
-      x, y, kPanel, content, title);
+      "<text class=\"title\" x=\"{0}\" y=\"{1}\">{2}</text>\n<svg x=\"{0}\" y=\"{3}\" width=\"{4}\" "
+      "height=\"{4}\">\n<rect class=\"panel\" width=\"{4}\" height=\"{4}\"/>\n{5}</svg>\n",
+      x, y + 14, title, y + kTitle, kPanel, content);
 }
 
 std::string caption(double y, const std::string& text) {
-  constexpr std::size_t kColumns = 112, kLines = 3;
+  constexpr std::size_t kLines = 3;
+  constexpr double kSize = 12, kWidest = kWidth - 2 * kMargin;
   std::string result;
   std::size_t begin = 0;
   for (std::size_t line = 0; line < kLines && begin < text.size(); ++line) {
-    std::size_t end = std::min(begin + kColumns, text.size());
-    if (const std::size_t blank = text.rfind(' ', end);
-        end < text.size() && blank != text.npos && blank > begin)
+    std::size_t end = text.size();
+    while (pictures::text_width(text.substr(begin, end - begin), kSize) > kWidest) {
+      const std::size_t blank = text.rfind(' ', end - 1);
+      if (blank == text.npos || blank <= begin) break;
       end = blank;
-    result += fmt::format("<text class=\"caption\" x=\"{}\" y=\"{}\">{}</text>\n", kMargin,
-                          y + 16 * static_cast<double>(line + 1),
-                          pictures::escaped_for_xml(text.substr(begin, end - begin)));
+    }
+    result += fmt::format(
+        "<text class=\"caption\" x=\"{}\" y=\"{}\">{}</text>\n", kMargin,
+        y + 16 * static_cast<double>(line + 1),
+        pictures::escaped_for_xml(pictures::shortened(text.substr(begin, end - begin), kSize, kWidest)));
     begin = text.find_first_not_of(' ', end);
     if (begin == text.npos) break;
   }
@@ -210,7 +258,7 @@ void Plot::add(const Result& result, const std::vector<Point>& points) {
     const double y = kMargin + static_cast<double>(rows_) * kRow;
     body_ += panel(kMargin, y, "original", content(theirs, ours, "theirs"));
     body_ += panel(2 * kMargin + kPanel, y, "PSTRIPACK", content(ours, theirs, "ours"));
-    body_ += caption(y + kPanel,
+    body_ += caption(y + kTitle + kPanel,
                      fmt::format("{}: {}: {}", result.points_name, name(decision.cause), decision.text));
     ++rows_;
   }
@@ -219,7 +267,7 @@ void Plot::add(const Result& result, const std::vector<Point>& points) {
 std::string Plot::svg() const {
   const double height = kMargin + static_cast<double>(rows_) * kRow;
   return fmt::format(
-      R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="{1}" font-family="sans-serif">
+      R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="{1}" font-family="DejaVu Sans, Verdana, sans-serif">
 <style>
 .panel {{ fill: white; stroke: #888 }}
 path {{ fill: none; stroke-linejoin: round }}
@@ -228,6 +276,7 @@ path {{ fill: none; stroke-linejoin: round }}
 .ours {{ stroke: #1e50c8; stroke-width: 2.5 }}
 .many {{ stroke-width: 1 }}
 .deciding {{ fill: none; stroke: #555; stroke-dasharray: 5 4 }}
+text {{ paint-order: stroke; stroke: white; stroke-width: 2.5px }}
 .node {{ fill: #777; font-size: 9px }}
 .decided {{ fill: black; font-size: 12px; font-weight: bold }}
 .title {{ fill: black; font-size: 14px }}

@@ -1,10 +1,12 @@
 """Charts drawn by gnuplot, as SVG and PNG."""
+import math
 import subprocess
 from dataclasses import dataclass, field
 
 # Okabe and Ito: told apart by colour-blind readers, too.
 BLACK, GREY, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILION, PURPLE = (
     "#000000", "#999999", "#e69f00", "#56b4e9", "#009e73", "#f0e442", "#0072b2", "#d55e00", "#cc79a7")
+KEY_ROW, TITLE_ROW = 14, 20  # pixels: the height of a line
 PALETTE = [BLUE, ORANGE, GREEN, VERMILION, SKY, PURPLE, YELLOW]
 
 
@@ -32,20 +34,21 @@ def _quoted(text):
 
 
 def _ranges(panels):
-    """The same for all panels of a figure, with room for the key above the curves."""
+    """The same for all panels of a figure; the first and last tick of y are its ends."""
     xs, ys = zip(*(point for panel in panels for curve in panel.curves for point in curve.points))
     x_range = f"set xrange [{min(xs) / 1.15:g}:{max(xs) * 1.15:g}]"
     if not panels[0].log_y:
-        return [x_range, f"set yrange [0:{max(ys) * 1.5:g}]"]
-    height = max(max(ys) / min(ys), 10)
-    return [x_range, f"set yrange [{min(ys) / height ** 0.05:g}:{max(ys) * height ** 0.45:g}]"]
+        return [x_range, f"set yrange [0:{math.ceil(2 * max(ys)) / 2:g}]"]
+    low, high = math.floor(math.log10(min(ys))), math.ceil(math.log10(max(ys)))
+    return [x_range, f"set yrange [1e{low}:1e{max(high, low + 1)}]"]
 
 
 def _commands(panel, number):
     curves = [curve for curve in panel.curves if curve.points]
     if not curves:
         return ["set multiplot next"]
-    lines = [f"set title {_quoted(panel.title)}", f"set xlabel {_quoted(panel.x)}", f"set ylabel {_quoted(panel.y)}",
+    lines = [f"set title {_quoted(panel.title)} offset 0,{len(curves) * KEY_ROW / TITLE_ROW:.2f}",
+             f"set xlabel {_quoted(panel.x)}", f"set ylabel {_quoted(panel.y)}",
              "unset logscale", "set logscale x", "set xtics auto", "set format x '10^{%L}'", "set format y '%g'"]
     if panel.ticks:
         lines += ["set format x '%g'", "set xtics (" + ", ".join(f"'{t}' {t}" for t in panel.ticks) + ")"]
@@ -62,9 +65,10 @@ def draw(path, title, rows, note):
     """Writes path.svg and path.png: rows of panels, the title above, the note below."""
     panels = [panel for row in rows for panel in row]
     columns = max(map(len, rows))
-    width, height = max(460 * columns, 820) + 40, 340 * len(rows) + 70
-    margins = f"{80 / width:.4f},{1 - 20 / width:.4f},{80 / height:.4f},{1 - 75 / height:.4f}"
-    gaps = f"{85 / width:.4f},{100 / height:.4f}"
+    keys = KEY_ROW * max(len(panel.curves) for panel in panels)  # between a title and its panel
+    width, height = max(460 * columns, 820) + 40, (300 + keys) * len(rows) + 70
+    margins = f"{80 / width:.4f},{1 - 20 / width:.4f},{80 / height:.4f},{1 - (75 + keys) / height:.4f}"
+    gaps = f"{85 / width:.4f},{(100 + keys) / height:.4f}"
     commands = []
     for terminal, suffix in (("svg", "svg"), ("pngcairo", "png")):
         commands += ["reset session",
@@ -73,7 +77,7 @@ def draw(path, title, rows, note):
                      f"set multiplot layout {len(rows)},{columns} title {_quoted(title)} "
                      f"margins screen {margins} spacing screen {gaps}",
                      f"set label 1 {_quoted(note)} at screen 0.5,{14 / height:.4f} center font ',8.5'",
-                     "set key top left Left reverse samplen 2.5 font ',9'",
+                     "set key at graph 0,graph 1.02 bottom left vertical maxcols 1 Left reverse samplen 2.5 font ',9'",
                      "set grid xtics ytics linetype 1 linecolor rgb '#dddddd'", "set border linecolor rgb '#666666'",
                      *_ranges(panels)]
         for number, panel in enumerate(panels):

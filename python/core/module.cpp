@@ -157,13 +157,19 @@ py::array nearest(const Mesh& mesh, const Array<double>& places, int threads) {
   return array_of(compute(threads, [&] { return mesh->nearest(places_in(places), count); }));
 }
 
-py::array linear(const Mesh& mesh, const Array<double>& places, const Array<double>& values, int threads) {
+py::array interpolate(const Mesh& mesh, const std::string& method, const Array<double>& places,
+                      const Array<double>& values, int threads) {
+  using Method = Triangulation::Method;
+  const Method by = method == "cubic"     ? Method::cubic
+                    : method == "natural" ? Method::natural
+                                          : Method::linear;
   const std::size_t count = rows_of(places);
   if (values.ndim() != 2 || static_cast<std::size_t>(values.shape(0)) != mesh->size())
     throw py::value_error("a row of values for each node is needed");
   const auto columns = static_cast<std::size_t>(values.shape(1));
   return array_of<double>(
-      compute(threads, [&] { return mesh->linear(places_in(places), count, values.data(), columns); }),
+      compute(threads,
+              [&] { return mesh->interpolate(by, places_in(places), count, values.data(), columns); }),
       {places.shape(0), values.shape(1)});
 }
 
@@ -228,7 +234,7 @@ PYBIND11_MODULE(_core, m) {
       .def("closest_pair", &closest_pair)
       .def("find", &find)
       .def("nearest", &nearest)
-      .def("linear", &linear);
+      .def("interpolate", &interpolate);
   m.def("lists_of", &lists_of);
   m.def("vectors", &vectors);
   m.def("scvt", &bindings::scvt);

@@ -10,7 +10,6 @@
 
 #include "base/parallel_for.h"
 #include "capi/pstripack.h"
-#include "files/measures.h"
 #include "geometry/predicates.h"
 #include "lists/limits.h"
 #include "lists/rings.h"
@@ -21,6 +20,7 @@
 namespace bindings {
 namespace {
 
+using files::unit;
 using pstripack::parallel_pieces;
 using pstripack::threads_for;
 using Cause = NoTriangulation::Cause;
@@ -95,13 +95,7 @@ Triangulation::Triangulation(const Coordinates& given) : n_(given.n) {
   read(given);
   triangulate();
   make_directions();
-  first_boundary_node_ = Reader(lists()).first_boundary_node();
-  Point sum{0, 0, 0};
-  for (std::size_t i = 0; first_boundary_node_ != 0 && i < n_; ++i) {
-    const Point p = at(static_cast<std::int32_t>(i));
-    sum = {sum.x + p.x, sum.y + p.y, sum.z + p.z};
-  }
-  middle_ = unit(sum);
+  interpolation_.emplace(methods::Triangulated{lists(), nodes()});
 }
 
 /// Sets given_, with a copy if the coordinates are not in columns, and looks at each node.
@@ -294,10 +288,11 @@ Runs Triangulation::neighbours() const {
 std::vector<std::int32_t> Triangulation::boundary() const {
   std::vector<std::int32_t> nodes;
   const Reader reader(lists());
-  for (std::int32_t node = first_boundary_node_; node != 0;) {
+  const std::int32_t first = interpolation_->first_boundary_node();
+  for (std::int32_t node = first; node != 0;) {
     nodes.push_back(node - 1);
     node = reader.first_neighbour(node);
-    if (node == first_boundary_node_) break;
+    if (node == first) break;
   }
   return nodes;
 }

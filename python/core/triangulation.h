@@ -5,13 +5,16 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/buffer.h"
+#include "files/measures.h"
 #include "lists/adjacency_lists.h"
+#include "methods/interpolation.h"
 #include "stripack/expressions.h"
 
 namespace bindings {
@@ -19,16 +22,11 @@ namespace bindings {
 using pstripack::Buffer;
 using pstripack::Point;
 
-inline Point unit(const Point& p) {
-  const double length = std::hypot(p.x, p.y, p.z);
-  return {p.x / length, p.y / length, p.z / length};
-}
-
 /// Up to rounding.
 inline bool has_unit_length(const Point& p) { return std::fabs(dot(p, p) - 1) <= 1e-15; }
 
 /// The unit vector in the direction of p: p itself if it is one, so that a node's place is that node's.
-inline Point direction(const Point& p) { return has_unit_length(p) ? p : unit(p); }
+inline Point direction(const Point& p) { return has_unit_length(p) ? p : files::unit(p); }
 
 /// Why nodes have no triangulation, and which nodes are to blame.
 struct NoTriangulation : std::runtime_error {
@@ -102,14 +100,13 @@ class Triangulation {
                             std::size_t triangles) const;
   /// The nearest node; -1: the place has no direction.
   Buffer<std::int32_t> nearest(const Point* places, std::size_t count) const;
-  /// Values at the places, linear on triangles: barycentric coordinates of the point where the ray to the
-  /// place meets the plane of the corners. `values`: `columns` of each node, side by side; so are the
-  /// results. NaN outside.
-  Buffer<double> linear(const Point* places, std::size_t count, const double* values,
-                        std::size_t columns) const;
+  /// Values at the places by the methods of methods/interpolation.h. `values`: `columns` of each node, side
+  /// by side; so are the results. NaN outside.
+  using Method = methods::Interpolation::Method;
+  Buffer<double> interpolate(Method method, const Point* places, std::size_t count, const double* values,
+                             std::size_t columns) const;
 
  private:
-  struct Corners;
   void read(const Coordinates& given);
   void triangulate();
   void triangulate_in_another_order();
@@ -120,9 +117,6 @@ class Triangulation {
     return {direction_[0][i], direction_[1][i], direction_[2][i]};
   }
   pstripack::Nodes<double> nodes() const { return {direction_[0], direction_[1], direction_[2]}; }
-  bool locate(Point& p, std::int32_t& near, Corners& corners) const;
-  std::int32_t descend(const Point& p, std::int32_t node) const;
-  std::int32_t nearest(const Point& p, std::int32_t near) const;
   template <class Visit>
   void visit_places(const Point* places, std::size_t count, const Visit& visit) const;
 
@@ -132,8 +126,7 @@ class Triangulation {
   const double* direction_[3];  ///< of unit length
   Buffer<std::int32_t> list_, lptr_, lend_;
   std::int32_t lnew_ = 0;
-  std::int32_t first_boundary_node_ = 0;  ///< from 1; 0: none
-  Point middle_{};                        ///< of the nodes; used where they lie in a hemisphere
+  std::optional<methods::Interpolation> interpolation_;  ///< on these lists and directions
 };
 
 }  // namespace bindings

@@ -20,7 +20,8 @@ def everything(points, threads):
     diagram = SphericalVoronoi(points, threads=threads, threshold=1e-12)
     return [*mesh.lists[:3], mesh.simplices, mesh.neighbors, *mesh.vertex_neighbor_vertices, mesh.circumcenters,
             mesh.areas, mesh.cell_areas, diagram.vertices, *diagram.region_vertices, diagram.calculate_areas(),
-            mesh.find_simplex(PLACES), mesh.nearest(PLACES), mesh.interpolate(points[:, 0], PLACES)]
+            mesh.find_simplex(PLACES), mesh.nearest(PLACES),
+            *(mesh.interpolate(points[:, 0], PLACES, method) for method in ("linear", "natural", "cubic"))]
 
 
 def same(one, other):

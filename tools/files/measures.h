@@ -8,6 +8,14 @@
 
 namespace files {
 
+constexpr double kEarthRadius = 6371;  ///< km
+
+/// The unit vector in the direction of p.
+inline pstripack::Point unit(const pstripack::Point& p) {
+  const double length = std::hypot(p.x, p.y, p.z);
+  return {p.x / length, p.y / length, p.z / length};
+}
+
 /// Angle between two vectors in radians; accurate for small ones.
 inline double angle_between(const pstripack::Point& a, const pstripack::Point& b) {
   const pstripack::Point d = minus(a, b);

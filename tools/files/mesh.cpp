@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "base/parallel_for.h"
-#include "files/measures.h"
 #include "lists/limits.h"
 #include "mesh/delaunay.h"
 #include "stripack/list_queries.h"
@@ -258,11 +257,6 @@ std::vector<std::int32_t> triangles_of(const Mesh& mesh) {
   return triangles;
 }
 
-Point unit(const Point& p) {
-  const double length = std::hypot(p.x, p.y, p.z);
-  return {p.x / length, p.y / length, p.z / length};
-}
-
 std::vector<Point> unit(const std::vector<Point>& points) {
   std::vector<Point> result(points.size());
   pstripack::parallel_pieces(
@@ -389,7 +383,6 @@ std::vector<double> areas(const Faces& faces) {
 }
 
 void add_columns(Faces& faces, const Mesh& mesh) {
-  constexpr double kEarthRadius = 6371;  // km
   const bool are_cells = !faces.centres.empty();
   (are_cells ? faces.given_centres : faces.given_points) = mesh.given;
   Column area{"area", "area of the face on the unit sphere", "sr"};

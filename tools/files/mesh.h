@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "files/measures.h"
 #include "files/nodes.h"
 #include "lists/adjacency_lists.h"
 #include "trmesh/trmesh.h"
@@ -62,7 +63,6 @@ Mesh mesh_of(std::vector<Point> points, const pstripack::Triangles& triangles);
 /// Three corners per triangle, counterclockwise, the smallest first.
 std::vector<std::int32_t> triangles_of(const Mesh& mesh);
 
-Point unit(const Point& p);
 std::vector<Point> unit(const std::vector<Point>& points);
 
 /// The centre of the circumscribed cap of each triangle.

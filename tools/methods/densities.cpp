@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "methods/interpolation.h"
+#include "methods/triangulated_nodes.h"
 #include "numbers.h"
 #include "point_sets.h"
 
@@ -23,7 +23,7 @@ constexpr double kDegree = 3.14159265358979323846 / 180;
 class SampledDensity : public Density {
  public:
   SampledDensity(const std::vector<Point>& nodes, std::vector<double> values)
-      : interpolation_(nodes), values_(std::move(values)) {}
+      : interpolation_(interpolation_between(nodes)), values_(std::move(values)) {}
 
   void at(std::size_t n, const Point* p, double* value) const override {
     thread_local std::vector<Share> shares;

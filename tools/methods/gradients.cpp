@@ -6,12 +6,11 @@
 #include <cstdint>
 
 #include "base/parallel_for.h"
+#include "methods/sphere.h"
 #include "stripack/list_queries.h"
 
 namespace methods {
 namespace {
-
-using files::Point;
 
 /// Sums of weighted products of K functions at the nodes, and with their values: the normal equations.
 template <int K>
@@ -60,7 +59,7 @@ class LeastSquares {
 std::array<Point, 2> tangents(const Point& p) {
   const double x = std::fabs(p.x), y = std::fabs(p.y), z = std::fabs(p.z);
   const Point least = x <= y && x <= z ? Point{1, 0, 0} : y <= z ? Point{0, 1, 0} : Point{0, 0, 1};
-  const Point first = files::unit(cross(p, least));
+  const Point first = unit(cross(p, least));
   return {first, cross(p, first)};
 }
 
@@ -85,22 +84,22 @@ void two_rings(const pstripack::ListReader<std::int32_t>& reader, std::int32_t n
 
 }  // namespace
 
-std::vector<Point> gradients(const files::Mesh& mesh, const std::vector<double>& values) {
-  const pstripack::ListReader<std::int32_t> reader(mesh.lists());
+std::vector<Point> gradients(const Triangulated& mesh, const std::vector<double>& values) {
+  const pstripack::ListReader<std::int32_t> reader(mesh.lists);
   const auto index = [](std::int32_t node) { return static_cast<std::size_t>(node) - 1; };
   const auto gradient = [&](std::int32_t node, std::vector<std::int32_t>& rings) {
-    const Point& p = mesh.points[index(node)];
+    const Point p = mesh.at(node);
     const std::array<Point, 2> tangent = tangents(p);
     two_rings(reader, node, rings);
     double scale = 0;
     for (const std::int32_t other : rings) {
-      const Point d = minus(mesh.points[index(other)], p);
+      const Point d = minus(mesh.at(other), p);
       scale = std::max(scale, std::sqrt(dot(d, d)));
     }
     LeastSquares<5> quadratic;
     LeastSquares<2> linear;
     for (const std::int32_t other : rings) {
-      const Point d = minus(mesh.points[index(other)], p);
+      const Point d = minus(mesh.at(other), p);
       const double u = dot(d, tangent[0]) / scale, v = dot(d, tangent[1]) / scale;
       const double weight = scale * scale / dot(d, d);
       const double value = values[index(other)] - values[index(node)];

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "files/mesh.h"
+#include "methods/triangulated.h"
 
 namespace methods {
 
@@ -12,6 +12,6 @@ namespace methods {
 /// distance (Renka, Interpolation of data on the surface of a sphere, ACM TOMS 10, 1984, section 3); of the
 /// linear function where the nodes do not determine a quadratic, and zero where not even that. Unit vectors;
 /// the gradient is tangential. The same bits for any number of threads.
-std::vector<files::Point> gradients(const files::Mesh& mesh, const std::vector<double>& values);
+std::vector<Point> gradients(const Triangulated& mesh, const std::vector<double>& values);
 
 }  // namespace methods

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/parallel_for.h"
 #include "geometry/predicates.h"
@@ -19,12 +20,6 @@ using Reader = pstripack::ListReader<std::int32_t>;
 
 constexpr double kOnBorder = 1e-12;
 
-std::vector<Point> directions(const std::vector<Point>& points) {
-  std::vector<Point> result(points.size());
-  std::transform(points.begin(), points.end(), result.begin(), [](const Point& p) { return files::unit(p); });
-  return result;
-}
-
 double square(const Point& d) { return dot(d, d); }
 
 /// Normalises the weights to sum 1.
@@ -36,58 +31,57 @@ void make_shares(std::vector<Share>& shares) {
 
 }  // namespace
 
-/// The triangle that contains a place, counterclockwise, the smallest number first: the same for every
-/// search.
-struct Interpolation::Corners {
-  std::int32_t node[3];
-};
-
-Interpolation::Interpolation(const std::vector<Point>& nodes) : mesh_(files::triangulate(directions(nodes))) {
+Interpolation::Interpolation(const Triangulated& mesh, std::shared_ptr<const void> owner)
+    : owner_(std::move(owner)), mesh_(mesh), first_boundary_node_(Reader(mesh.lists).first_boundary_node()) {
+  if (first_boundary_node_ == 0) return;
   Point sum{0, 0, 0};
-  for (const Point& p : mesh_.points) {
-    x_.push_back(p.x), y_.push_back(p.y), z_.push_back(p.z);
+  for (std::int32_t node = 1; node <= Reader(mesh.lists).size(); ++node) {
+    const Point p = at(node);
     sum = {sum.x + p.x, sum.y + p.y, sum.z + p.z};
   }
-  middle_ = files::unit(sum);  // used only if nodes lie in a hemisphere: not zero then
+  middle_ = unit(sum);
 }
 
 /// From a triangle beside p, by exact signs, to the one that contains it: the same whatever search led here.
-/// Rounding may have led it across an arc.
+/// Rounding may have led it across an arc. Where rounding has turned triangles the walk may not end: it is
+/// then ended.
 void Interpolation::cross_arcs(const Point& p, Corners& corners) const {
-  const Reader reader(mesh_.lists());
-  for (int k = 0; k < 3;) {
-    auto& [a, b, c] = corners.node;
+  const Reader reader(mesh_.lists);
+  std::int64_t steps = 0;
+  for (int k = 0; k < 3 && steps < 2 * std::int64_t{reader.size()};) {
+    auto& [a, b, c] = corners;
     if (pstripack::left(at(a), at(b), p) < 0) {
       const std::int32_t slot = reader.slot_of(b, a);  // the triangle on the other side is b, a, w
       if (reader.entry(slot) > 0) {
         c = a;
         a = reader.neighbour(reader.next(slot));
         k = 0;
+        ++steps;
         continue;
       }
     }
-    std::rotate(corners.node, corners.node + 1, corners.node + 3);
+    std::rotate(corners.begin(), corners.begin() + 1, corners.end());
     ++k;
   }
 }
 
-/// False if p is outside; p just outside is moved inside.
+/// False if p is outside; p just outside is moved inside. The triangle is the same for every search.
 bool Interpolation::find(Point& p, std::int32_t& near, Corners& corners) const {
   const auto locate = [&] {
     double b1, b2, b3;
-    const pstripack::Location<std::int32_t> found =
-        pstripack::trfind(near, pstripack::Vector<double>{p.x, p.y, p.z}, mesh_.lists(),
-                          pstripack::Nodes<double>{x_.data(), y_.data(), z_.data()}, b1, b2, b3);
-    near = found.i1;
+    const pstripack::Location<std::int32_t> found = pstripack::trfind(
+        near, pstripack::Vector<double>{p.x, p.y, p.z}, mesh_.lists, mesh_.nodes, b1, b2, b3);
+    if (found.i1 != 0) near = found.i1;
     if (found.i3 == 0) return false;
-    corners = {{found.i1, found.i2, found.i3}};
+    corners = {found.i1, found.i2, found.i3};
     cross_arcs(p, corners);
-    std::rotate(corners.node, std::min_element(corners.node, corners.node + 3), corners.node + 3);
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
     return true;
   };
   if (locate()) return true;
+  if (first_boundary_node_ == 0) return false;
   const Point inwards = minus(middle_, p);
-  p = files::unit({p.x + kOnBorder * inwards.x, p.y + kOnBorder * inwards.y, p.z + kOnBorder * inwards.z});
+  p = unit({p.x + kOnBorder * inwards.x, p.y + kOnBorder * inwards.y, p.z + kOnBorder * inwards.z});
   return locate();
 }
 
@@ -96,7 +90,7 @@ bool Interpolation::linear(const Point& p, std::int32_t& near, std::vector<Share
   Point place = p;
   Corners corners;
   if (!find(place, near, corners)) return false;
-  const auto& [a, b, c] = corners.node;
+  const auto& [a, b, c] = corners;
   for (const std::int32_t node : {a, b, c})
     if (at(node) == p) {
       shares = {{node, 1}};
@@ -135,8 +129,8 @@ bool Interpolation::is_above(std::int32_t a, std::int32_t b, std::int32_t c, con
 ///
 bool Interpolation::natural_ring(const Point& p, const Corners& corners,
                                  std::vector<std::int32_t>& ring) const {
-  const Reader reader(mesh_.lists());
-  ring.assign(corners.node, corners.node + 3);
+  const Reader reader(mesh_.lists);
+  ring.assign(corners.begin(), corners.end());
   for (std::size_t i = 0; i < ring.size();) {
     const std::int32_t u = ring[i], v = ring[i + 1 < ring.size() ? i + 1 : 0];
     const std::int32_t slot = reader.slot_of(v, u);
@@ -146,7 +140,7 @@ bool Interpolation::natural_ring(const Point& p, const Corners& corners,
       ring.insert(ring.begin() + static_cast<std::ptrdiff_t>(i) + 1, w);
     else
       ++i;
-    if (ring.size() > mesh_.points.size()) return false;
+    if (ring.size() > static_cast<std::size_t>(reader.size())) return false;
   }
   std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end()), ring.end());
   return true;
@@ -163,7 +157,7 @@ bool Interpolation::natural_ring(const Point& p, const Corners& corners,
 ///
 double Interpolation::lost_area(const Point& p, std::int32_t before, std::int32_t node,
                                 std::int32_t after) const {
-  const Reader reader(mesh_.lists());
+  const Reader reader(mesh_.lists);
   const Point first = circumcentre(p, at(node), at(after));
   Point last{};
   double area = 0;
@@ -190,7 +184,7 @@ bool Interpolation::natural(const Point& p, std::int32_t& near, std::vector<Shar
   Corners corners;
   if (!find(place, near, corners)) return false;
   // Not above its own triangle: p is so close to a corner that the height is lost in rounding.
-  const std::int32_t* const c = corners.node;
+  const Corners& c = corners;
   const bool is_corner = at(c[0]) == p || at(c[1]) == p || at(c[2]) == p;
   std::vector<std::int32_t> ring;
   if (is_corner || !is_above(c[0], c[1], c[2], place) || !natural_ring(place, corners, ring))
@@ -206,7 +200,7 @@ bool Interpolation::natural(const Point& p, std::int32_t& near, std::vector<Shar
 
 /// Steps to nearer neighbours, as long as there are any.
 std::int32_t Interpolation::descend(const Point& p, std::int32_t node) const {
-  const Reader reader(mesh_.lists());
+  const Reader reader(mesh_.lists);
   for (double best = square(minus(at(node), p));;) {
     const std::int32_t here = node, last = reader.last_slot(here);
     std::int32_t slot = last;
@@ -226,9 +220,9 @@ std::int32_t Interpolation::descend(const Point& p, std::int32_t node) const {
 // since a node is a sum of positive multiples of border nodes. For the same reason, if there is none, the
 // nearest node is on the border.
 std::int32_t Interpolation::nearest(const Point& p, std::int32_t near) const {
-  const Reader reader(mesh_.lists());
+  const Reader reader(mesh_.lists);
   std::int32_t node = descend(p, near >= 1 && near <= reader.size() ? near : 1);
-  const std::int32_t border = reader.first_boundary_node();
+  const std::int32_t border = first_boundary_node_;
   if (dot(at(node), p) > 0 || border == 0) return node;
   std::int32_t round = border;
   do {
@@ -238,14 +232,6 @@ std::int32_t Interpolation::nearest(const Point& p, std::int32_t near) const {
   return descend(p, node);
 }
 
-/// Natural neighbours with gradients (Sibson, A brief description of natural neighbour interpolation, in
-/// Interpreting Multivariate Data, Wiley 1981): with the shares w, the distances d and the values v + g.(p-x)
-/// that the tangent planes at the neighbours x have at p,
-///
-///     zeta = sum w/d (v + g.(p-x)) / sum w/d,   alpha = sum w d / sum w/d,   beta = sum w d^2,
-///     value = (alpha sum w v + beta zeta) / (alpha + beta).
-///
-/// Its gradient is continuous, and is that of the node at each node. It may leave the range of the values.
 double Interpolation::cubic_value(const Point& p, const std::vector<Share>& shares,
                                   const std::vector<double>& values,
                                   const std::vector<Point>& gradients) const {
@@ -279,7 +265,7 @@ Interpolation::Result Interpolation::values_at(const std::vector<Point>& places,
     std::int32_t near = 1;
     std::vector<Share> shares;
     for (std::size_t i = b * kBlock; i < std::min((b + 1) * kBlock, places.size()); ++i) {
-      const Point p = files::unit(places[i]);
+      const Point p = unit(places[i]);
       if (!(method == Method::linear ? linear(p, near, shares) : natural(p, near, shares))) {
         ++count_outside[b];
         result.values[i] = outside == Outside::missing ? std::numeric_limits<double>::quiet_NaN()

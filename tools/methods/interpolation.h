@@ -2,14 +2,14 @@
 // Interpolation between scattered nodes: linear on triangles, by natural neighbours, and by these and
 // gradients.
 
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
-#include "files/mesh.h"
+#include "methods/triangulated.h"
 
 namespace methods {
-
-using files::Point;
 
 /// The weight of a node's value in the value at a place.
 struct Share {
@@ -26,8 +26,13 @@ struct Share {
 /// The shares of a place are positive with sum 1; at a node, that node has the whole share.
 class Interpolation {
  public:
-  /// Throws files::NoMesh, with indices into `nodes`. Only the directions of the nodes count.
-  explicit Interpolation(const std::vector<Point>& nodes);
+  /// `owner`: keeps the triangulation alive; otherwise it must outlive this.
+  explicit Interpolation(const Triangulated& mesh, std::shared_ptr<const void> owner = nullptr);
+
+  /// Of a triangle, counterclockwise, the smallest first.
+  using Corners = std::array<std::int32_t, 3>;
+  /// The triangle that contains p. False outside the triangles.
+  bool triangle(Point p, std::int32_t& near, Corners& corners) const { return find(p, near, corners); }
 
   /// The corners of the triangle a, b, c that contains p, with the barycentric coordinates of the point where
   /// the ray to p meets the plane of the corners: det(p,b,c), det(a,p,c), det(a,b,p) over their sum. (Renka,
@@ -40,8 +45,22 @@ class Interpolation {
   /// shares, outside the triangles.
   bool natural(const Point& p, std::int32_t& near, std::vector<Share>& shares) const;
 
+  /// Of the border of nodes that lie in a hemisphere; 0: there is none.
+  std::int32_t first_boundary_node() const { return first_boundary_node_; }
+
   /// The node nearest to p, wherever p is.
   std::int32_t nearest(const Point& p, std::int32_t near) const;
+
+  /// Natural neighbours with gradients (Sibson, A brief description of natural neighbour interpolation, in
+  /// Interpreting Multivariate Data, Wiley 1981): with the shares w of natural(), the distances d and the
+  /// values v + g.(p-x) that the tangent planes at the neighbours x have at p,
+  ///
+  ///     zeta = sum w/d (v + g.(p-x)) / sum w/d,   alpha = sum w d / sum w/d,   beta = sum w d^2,
+  ///     value = (alpha sum w v + beta zeta) / (alpha + beta).
+  ///
+  /// Its gradient is continuous, and is that of the node at each node. It may leave the range of the values.
+  double cubic_value(const Point& p, const std::vector<Share>& shares, const std::vector<double>& values,
+                     const std::vector<Point>& gradients) const;
 
   enum class Method { linear, natural, cubic };
   enum class Outside { missing, nearest };
@@ -55,20 +74,18 @@ class Interpolation {
                    Outside outside) const;
 
  private:
-  struct Corners;
   bool find(Point& p, std::int32_t& near, Corners& corners) const;
   void cross_arcs(const Point& p, Corners& corners) const;
   bool is_above(std::int32_t a, std::int32_t b, std::int32_t c, const Point& p) const;
   bool natural_ring(const Point& p, const Corners& corners, std::vector<std::int32_t>& ring) const;
   double lost_area(const Point& p, std::int32_t before, std::int32_t node, std::int32_t after) const;
   std::int32_t descend(const Point& p, std::int32_t node) const;
-  double cubic_value(const Point& p, const std::vector<Share>& shares, const std::vector<double>& values,
-                     const std::vector<Point>& gradients) const;
-  const Point& at(std::int32_t node) const { return mesh_.points[static_cast<std::size_t>(node) - 1]; }
+  Point at(std::int32_t node) const { return mesh_.at(node); }
 
-  files::Mesh mesh_;
-  std::vector<double> x_, y_, z_;
-  Point middle_;
+  std::shared_ptr<const void> owner_;
+  Triangulated mesh_;
+  std::int32_t first_boundary_node_;  ///< 0: none
+  Point middle_{0, 0, 0};             ///< of the nodes, where they lie in a hemisphere
 };
 
 }  // namespace methods

@@ -8,6 +8,7 @@
 namespace methods {
 
 using files::triangle_area;
+using files::unit;
 using files::volume;
 using pstripack::Point;
 

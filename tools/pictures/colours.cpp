@@ -37,9 +37,9 @@ std::string colour_of_degree(int degree) {
 }
 
 std::vector<std::string> distinct_colours(const std::vector<std::vector<std::size_t>>& beside) {
-  // Those of Okabe & Ito without black, and lighter, so that lines and numbers stay visible.
-  constexpr std::array<const char*, 8> kColours{"#5aa5d6", "#f0b849", "#4cbf99", "#e58a4f",
-                                                "#d9a6c2", "#f2e86d", "#a8d4f0", "#c4c4c4"};
+  std::array<const char*, kCategories.size() + 1> kColours{};
+  std::copy(kCategories.begin(), kCategories.end(), kColours.begin());
+  kColours.back() = kOtherWords;
   // Colour those with the fewest remaining neighbours last (Matula & Beck 1983): on a sphere each then has at
   // most five coloured neighbours, so eight colours suffice.
   const std::size_t n = beside.size();

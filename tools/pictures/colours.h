@@ -1,6 +1,7 @@
 #pragma once
 // Colours, as "#rrggbb".
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -15,6 +16,11 @@ std::string colour_of_degree(int degree);
 
 /// Colours of Okabe & Ito, which colour-blind readers can distinguish.
 constexpr const char* kVermilion = "#d55e00";
+
+/// For categories: lighter than those of Okabe & Ito, so that lines and numbers on them stay visible.
+constexpr std::array<const char*, 7> kCategories{"#5aa5d6", "#f0b849", "#4cbf99", "#e58a4f",
+                                                 "#d9a6c2", "#f2e86d", "#a8d4f0"};
+constexpr const char* kOtherWords = "#c4c4c4";  ///< for all others
 
 /// A colour for each of n things, different from those of its neighbours if possible.
 std::vector<std::string> distinct_colours(const std::vector<std::vector<std::size_t>>& beside);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "files/measures.h"
+#include "pictures/legend.h"
 #include "pictures/scale.h"
 #include "pictures/sheet.h"
 #include "stripack/list_queries.h"
@@ -37,15 +38,17 @@ class Panel {
   /// Bars of equal width, with gaps of this fraction of it.
   void bars(const std::vector<std::size_t>& counts, double gap) {
     const double most = static_cast<double>(*std::max_element(counts.begin(), counts.end()));
-    const double bar = kWide / static_cast<double>(counts.size());
-    for (const double tick : round_values(0, most, 4)) {
-      if (tick != std::floor(tick)) continue;
-      const double y = bottom() - kHigh * tick / most;
+    const double step = std::max(1.0, round_step(most, 4)), steps = std::ceil(most / step - 1e-9);
+    const double per_count = kHigh / (step * steps), bar = kWide / static_cast<double>(counts.size());
+    sheet_.rectangle(left_, bottom() - kHigh, kWide, kHigh, "none", "none", Sheet::kDrawing);
+    for (double k = 0; k <= steps; ++k) {
+      const double y = bottom() - per_count * k * step;
       sheet_.rectangle(left_, y - 0.4, kWide, 0.8, "#dddddd");
-      sheet_.text({left_ - 6, y + 4}, 12, Anchor::end, grouped(static_cast<std::size_t>(tick)));
+      sheet_.text({left_ - 6, y + 4}, kTickLabels, Anchor::end,
+                  grouped(static_cast<std::size_t>(std::lround(k * step))));
     }
     for (std::size_t i = 0; i < counts.size(); ++i) {
-      const double height = kHigh * static_cast<double>(counts[i]) / most;
+      const double height = per_count * static_cast<double>(counts[i]);
       if (counts[i] > 0)
         sheet_.rectangle(left_ + bar * (static_cast<double>(i) + gap / 2), bottom() - height, bar * (1 - gap),
                          height, kBars);
@@ -56,7 +59,7 @@ class Panel {
   void tick(double t, const std::string& label) {
     const double x = left_ + t * kWide;
     sheet_.rectangle(x - 0.5, bottom(), 1, 5, kGrey);
-    sheet_.text({x, bottom() + 18}, 12, Anchor::middle, label);
+    sheet_.text({x, bottom() + 18}, kTickLabels, Anchor::middle, label);
   }
 
   static constexpr double kWide = 310, kHigh = 170, kAll = kHigh + 90;
@@ -71,13 +74,13 @@ class Panel {
 void draw(Panel panel, const std::string& title, const std::string& unit, const std::vector<double>& values,
           bool linear = false) {
   constexpr std::size_t kBins = 40;
-  const Scale scale(values, linear);
+  const Scale scale = Scale::fitting(values, 5, Panel::kWide, kTickLabels, linear);
   std::vector<std::size_t> counts(kBins);
   for (const double value : values)
     ++counts[std::min(kBins - 1, static_cast<std::size_t>(scale(value) * kBins))];
   panel.titles(fmt::format("{}, {}{}", title, scale.name_of_factor(), unit), values, scale.factor());
   panel.bars(counts, 0.08);
-  for (const Scale::Tick& tick : scale.ticks(5)) panel.tick(scale(tick.value), tick.label);
+  for (const Scale::Tick& tick : scale.ticks()) panel.tick(scale(tick.value), tick.label);
 }
 
 void draw_degrees(Panel panel, const std::vector<double>& degrees) {
@@ -104,7 +107,7 @@ std::string histograms(const files::Mesh& mesh, const std::string& title, double
     const files::Point a = at(triangles[t]), b = at(triangles[t + 1]), c = at(triangles[t + 2]);
     angles.push_back(
         std::min({files::corner_angle(a, b, c), files::corner_angle(b, c, a), files::corner_angle(c, a, b)}));
-    areas.push_back(files::triangle_area(a, b, c));
+    areas.push_back(files::triangle_area(a, b, c) * files::kEarthRadius * files::kEarthRadius);
   }
   const pstripack::ListReader<std::int32_t> reader(mesh.lists());
   for (std::int32_t node = 1; node <= reader.size(); ++node) {
@@ -123,7 +126,7 @@ std::string histograms(const files::Mesh& mesh, const std::string& title, double
   const double top = sheet.title(title) + 6, left = 72, right = 462;
   draw({sheet, left, top}, "smallest angle of a triangle", "degrees", angles, true);
   draw({sheet, right, top}, "length of an arc", "degrees", lengths);
-  draw({sheet, left, top + Panel::kAll}, "area of a triangle", "sr", areas);
+  draw({sheet, left, top + Panel::kAll}, "area of a triangle", "km²", areas);
   draw_degrees({sheet, right, top + Panel::kAll}, degrees);
   return sheet.svg(top + 2 * Panel::kAll, width);
 }

@@ -4,13 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <set>
 #include <stdexcept>
 
 #include "files/measures.h"
 #include "parallel/sample.h"
+#include "pictures/coasts.h"
 #include "pictures/colours.h"
+#include "pictures/font.h"
+#include "pictures/legend.h"
 #include "pictures/scale.h"
 #include "pictures/sheet.h"
 #include "stripack/list_queries.h"
@@ -32,11 +36,8 @@ constexpr const char* kNoColour = "#e6e6e6";
 
 std::size_t index(std::int32_t number) { return static_cast<std::size_t>(number) - 1; }
 
-/// Faces of one colour.
-struct Shade {
-  std::string colour, label;
-  std::size_t count = 0;
-};
+constexpr std::size_t kShades = 64;  ///< of a colour bar
+constexpr double kLabel = 12;        ///< size of texts around the drawing
 
 class MeshPicture {
  public:
@@ -56,8 +57,11 @@ class MeshPicture {
     draw_ground();
     draw_faces();
     draw_lines();
+    draw_coasts();
     draw_boundary();
     draw_border();
+    draw_labels();
+    draw_footer();
     draw_ranks();
     draw_legend();
     return sheet_.svg(top_ + 8, options_.width);
@@ -69,12 +73,19 @@ class MeshPicture {
   void choose_view() {
     const Spot centre = options_.centre ? *options_.centre : default_centre();
     radius_ = std::min(90.0, options_.radius ? *options_.radius : radius_of_nodes(centre));
+    zoomed_ = radius_ < 90;
+    decimals_ = std::max(2, 1 - static_cast<int>(std::floor(std::log10(radius_))));
+    // The longest label beside the drawing.
+    const double margin = std::max(options_.lonlat ? 56.0 : 60.0,
+                                   10 + text_width(name_of_latitude(-88.88888888, decimals_), kLabel));
     if (options_.lonlat) {
-      auto map = std::make_unique<LonLat>(centre, radius_, Frame{56, top_, kWidth - 24, top_ + 620});
+      auto map = std::make_unique<LonLat>(centre, radius_, Frame{margin, top_, kWidth - 24, top_ + 620});
       lonlat_ = map.get();
       view_ = std::move(map);
     } else {
-      auto sphere = std::make_unique<Orthographic>(centre, radius_, Frame{60, top_, kWidth - 60, top_ + 680});
+      if (zoomed_) top_ += 16;  // labels above it
+      auto sphere =
+          std::make_unique<Orthographic>(centre, radius_, Frame{margin, top_, kWidth - margin, top_ + 680});
       orthographic_ = sphere.get();
       view_ = std::move(sphere);
     }
@@ -140,13 +151,12 @@ class MeshPicture {
     for (const double s : kSteps)
       if (span / s <= lines) step = s;
     if (span / step >= lines / 2.5) return step;
-    return round_values(0, span, static_cast<int>(lines)).at(1);
+    return round_step(span, static_cast<int>(lines));
   }
 
   /// Paper, and the lines of longitude and latitude on it.
   void draw_ground() {
     Path path;
-    const auto line = [&](const Point& a, const Point& b) { add(view_->arc(a, b), false, path); };
     const auto at = [](double lon, double lat) {
       lon /= kDegree, lat /= kDegree;
       return Point{std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
@@ -163,7 +173,7 @@ class MeshPicture {
         path.line(lonlat_->on_paper({lonlat_->east(), lat}));
       }
     } else {
-      if (orthographic_->shows_limb())
+      if (!zoomed_)
         sheet_.add(circle("#fbfcfd", "none"));
       else
         sheet_.rectangle(frame.left, frame.top, frame.width(), frame.height(), "#fbfcfd");
@@ -176,16 +186,28 @@ class MeshPicture {
       const double step = graticule_step(2 * radius_, 6);
       const double across = pole ? std::max(30.0, step) : graticule_step(2 * half, 9);
       constexpr int kPieces = 60;
-      for (const double lon : multiples(centre_.lon - half, centre_.lon + half - 1e-9, across))
+      for (const double lon : multiples(centre_.lon - half, centre_.lon + half - 1e-9, across)) {
+        graticule_.push_back({true, name_of_longitude(lon, decimals_), {}});
         for (int k = 0; k < kPieces; ++k)
-          line(at(lon, south + (north - south) * k / kPieces),
-               at(lon, south + (north - south) * (k + 1) / kPieces));
-      for (const double lat : multiples(south, north, step))
+          add_graticule(at(lon, south + (north - south) * k / kPieces),
+                        at(lon, south + (north - south) * (k + 1) / kPieces), path);
+      }
+      for (const double lat : multiples(south, north, step)) {
+        graticule_.push_back({false, name_of_latitude(lat, decimals_), {}});
         for (int k = 0; k < kPieces && std::fabs(lat) < 90; ++k)
-          line(at(centre_.lon - half + 2 * half * k / kPieces, lat),
-               at(centre_.lon - half + 2 * half * (k + 1) / kPieces, lat));
+          add_graticule(at(centre_.lon - half + 2 * half * k / kPieces, lat),
+                        at(centre_.lon - half + 2 * half * (k + 1) / kPieces, lat), path);
+      }
     }
     sheet_.path(path, fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"0.8\"", kGraticule));
+  }
+
+  /// Draws a piece of the last line of the graticule and remembers its ends.
+  void add_graticule(const Point& a, const Point& b, Path& path) {
+    const std::vector<Outline> parts = view_->arc(a, b);
+    add(parts, false, path);
+    for (const Outline& part : parts)
+      for (const Place& end : {part.front(), part.back()}) graticule_.back().ends.push_back(end);
   }
 
   double lon_step() const { return graticule_step(lonlat_->east() - lonlat_->west(), 9); }
@@ -198,9 +220,10 @@ class MeshPicture {
   }
 
   std::string circle(const char* fill, const char* stroke) const {
-    return fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\" fill=\"{}\" stroke=\"{}\"/>\n",
-                       orthographic_->middle().x, orthographic_->middle().y, orthographic_->scale(), fill,
-                       stroke);
+    return fmt::format(
+        "<circle class=\"{}\" cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\" fill=\"{}\" stroke=\"{}\"/>\n",
+        Sheet::kDrawing, orthographic_->middle().x, orthographic_->middle().y, orthographic_->scale(), fill,
+        stroke);
   }
 
   // ---- what is in it ----
@@ -240,6 +263,8 @@ class MeshPicture {
         return shades_of_size();
       case Colour::degree:
         return shades_of_degree();
+      case Colour::value:
+        return shades_of_value();
       default:
         return shades_of_owner();
     }
@@ -247,30 +272,78 @@ class MeshPicture {
 
   /// Cells of boundary nodes have no size.
   std::vector<std::size_t> shades_of_size() {
-    std::vector<double> area(faces_.size());
-    for (std::size_t f = 0; f < area.size(); ++f) {
-      const auto corner = [&](std::size_t k) { return faces_.points[index(faces_.corner[k])]; };
-      const std::size_t begin = faces_.begin[f], end = faces_.begin[f + 1];
-      for (std::size_t k = begin; k < end; ++k)
-        area[f] +=
-            faces_.centres.empty()
-                ? (k == begin ? files::triangle_area(corner(k), corner(k + 1), corner(k + 2)) : 0)
-                : files::triangle_area(faces_.centres[f], corner(k), corner(k + 1 < end ? k + 1 : begin));
-    }
-    std::vector<bool> unbounded(faces_.size(), false);
+    std::vector<double> area = files::areas(faces_);
+    for (double& a : area) a *= files::kEarthRadius * files::kEarthRadius;
     if (options_.what == What::cells)
-      for (const std::size_t node : boundary_) unbounded[node] = true;
+      for (const std::size_t node : boundary_) area[node] = NAN;
+    return shades_of_numbers(area, fmt::format("area of a {}", what()), "km²");
+  }
+
+  const char* what() const { return options_.what == What::cells ? "cell" : "triangle"; }
+
+  /// A colour bar; NaN: grey. `title` and `unit` go to the legend.
+  std::vector<std::size_t> shades_of_numbers(const std::vector<double>& values, const std::string& title,
+                                             const std::string& unit) {
     std::vector<double> known;
-    for (std::size_t f = 0; f < area.size(); ++f)
-      if (!unbounded[f]) known.push_back(area[f]);
-    constexpr std::size_t kShades = 64;
-    if (!known.empty()) scale_.emplace(known);
+    std::copy_if(values.begin(), values.end(), std::back_inserter(known),
+                 [](double v) { return std::isfinite(v); });
     for (std::size_t s = 0; s < kShades; ++s)
       shades_.push_back({viridis(static_cast<double>(s) / (kShades - 1)), ""});
-    shades_.push_back({kNoColour, ""});
-    std::vector<std::size_t> shade(faces_.size(), kShades);
-    for (std::size_t f = 0; f < area.size(); ++f)
-      if (!unbounded[f]) shade[f] = static_cast<std::size_t>(std::lround((*scale_)(area[f]) * (kShades - 1)));
+    shades_.push_back({kNoColour, "no value", values.size() - known.size()});
+    std::vector<std::size_t> shade(values.size(), kShades);
+    if (known.empty()) return shade;
+    scale_.emplace(Scale::fitting(known, kSteps, kBarWidth, kTickLabels));
+    legend_ = title;
+    if (const std::string unit_there = scale_->name_of_factor() + unit; !unit_there.empty())
+      legend_ += ", " + unit_there;
+    for (std::size_t f = 0; f < values.size(); ++f)
+      if (std::isfinite(values[f]))
+        shade[f] = static_cast<std::size_t>(std::lround((*scale_)(values[f]) * (kShades - 1)));
+    return shade;
+  }
+
+  /// Of a column of the nodes. A triangle has the mean of its corners.
+  std::vector<std::size_t> shades_of_value() {
+    const files::Column* const column = files::find(mesh_.columns, options_.value);
+    if (column == nullptr) throw std::runtime_error("no column is named " + options_.value);
+    legend_ = column->long_name.empty() ? column->name : column->long_name;
+    if (column->is_text()) return shades_of_words(column->texts);
+    if (options_.what == What::cells) return shades_of_numbers(column->numbers, legend_, column->units);
+    std::vector<double> means(faces_.size());
+    for (std::size_t f = 0; f < means.size(); ++f)
+      for (std::size_t k = faces_.begin[f]; k < faces_.begin[f + 1]; ++k)
+        means[f] += column->numbers[index(faces_.corner[k])] / 3;
+    return shades_of_numbers(means, legend_, column->units);
+  }
+
+  /// The words of most nodes have a colour each; the others share one.
+  std::vector<std::size_t> shades_of_words(const std::vector<std::string>& words) {
+    if (options_.what != What::cells)
+      throw std::runtime_error(fmt::format("{} is a column of words: say --what cells", options_.value));
+    std::map<std::string, std::size_t> counts;
+    for (const std::string& word : words) ++counts[word];
+    const auto missing = counts.find("");
+    const std::size_t without = missing == counts.end() ? 0 : missing->second;
+    if (missing != counts.end()) counts.erase(missing);
+    std::vector<std::pair<std::string, std::size_t>> sorted(counts.begin(), counts.end());
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [](const auto& a, const auto& b) { return a.second > b.second; });
+    const std::size_t coloured = std::min(sorted.size(), kCategories.size());
+    std::map<std::string, std::size_t> shade_of;
+    Shade others{kOtherWords, fmt::format("{} others", grouped(sorted.size() - coloured))};
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+      const auto& [word, count] = sorted[i];
+      shade_of[word] = std::min(i, coloured);
+      if (i < coloured)
+        shades_.push_back({kCategories[i], word, count});
+      else
+        others.count += count;
+    }
+    shades_.push_back(others);
+    shade_of[""] = shades_.size();
+    shades_.push_back({kNoColour, "no value", without});
+    std::vector<std::size_t> shade;
+    for (const std::string& word : words) shade.push_back(shade_of[word]);
     return shade;
   }
 
@@ -351,9 +424,7 @@ class MeshPicture {
         }
     }
     spacing_ = count == 0 ? 10 : length / static_cast<double>(count);
-    const char* const colour = options_.colour == Colour::none   ? kLine
-                               : options_.colour == Colour::size ? "#ffffff"
-                                                                 : "#555555";
+    const char* const colour = options_.colour == Colour::none ? kLine : scale_ ? "#ffffff" : "#555555";
     sheet_.add(fmt::format(
         "<g fill=\"none\" stroke=\"{}\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n", colour));
     const double usual = std::clamp(0.045 * spacing_, 0.1, 0.9);
@@ -375,6 +446,38 @@ class MeshPicture {
                             colour, diameter));
   }
 
+  void draw_coasts() {
+    if (!options_.coasts && options_.coast_file.empty()) return;
+    constexpr double kShort = 0.4;  // pixels: steps that are not worth their bytes
+    const auto distance = [](const Place& p, const Place& q) { return std::hypot(p.x - q.x, p.y - q.y); };
+    Path path;
+    for (const auto& line :
+         read_shapefile(options_.coast_file.empty() ? natural_earth(radius_) : options_.coast_file)) {
+      std::optional<Place> drawn, end;  // of the path so far, and of the arc before
+      const auto finish = [&] {
+        if (end && distance(*drawn, *end) > 0) path.line(*end);
+      };
+      for (std::size_t i = 0; i + 1 < line.size(); ++i)
+        for (const Outline& part : view_->arc(line[i], line[i + 1])) {
+          if (!end || distance(*end, part.front()) > 0.01) {
+            finish();
+            path.move(part.front());
+            drawn = part.front();
+          }
+          for (const Place& p : part)
+            if (distance(*drawn, p) > kShort) path.line(p), drawn = p;
+          end = part.back();
+        }
+      finish();
+    }
+    sheet_.add("<defs><g id=\"coasts\">");
+    sheet_.path(path, "fill=\"none\" stroke-linejoin=\"round\"");
+    sheet_.add(
+        "</g></defs>\n<use href=\"#coasts\" stroke=\"#ffffff\" stroke-opacity=\"0.6\" "
+        "stroke-width=\"2.4\"/>\n"
+        "<use href=\"#coasts\" stroke=\"#1c1c1c\" stroke-width=\"0.9\"/>\n");
+  }
+
   void draw_boundary() {
     if (boundary_.empty()) return;
     Path path;
@@ -393,32 +496,102 @@ class MeshPicture {
 
   void draw_border() {
     const Frame& frame = view_->frame();
-    if (orthographic_ != nullptr && orthographic_->shows_limb())
+    if (lonlat_ == nullptr && !zoomed_)
       sheet_.add(circle("none", "#8a949e"));
     else
-      sheet_.rectangle(frame.left, frame.top, frame.width(), frame.height(), "none", "#8a949e");
-    if (lonlat_ == nullptr) {
-      const bool zoomed = !orthographic_->shows_limb();
-      sheet_.text({zoomed ? frame.right : kWidth - 14, frame.bottom + (zoomed ? 16 : -4)}, 12, Anchor::end,
-                  "above " + name_of(centre_), kGrey);
-      if (zoomed) top_ += 14;
-      return;
-    }
-    for (const double lon : multiples(lonlat_->west(), lonlat_->east(), lon_step()))
-      sheet_.text({lonlat_->on_paper({lon, 0}).x, frame.bottom + 16}, 12, Anchor::middle,
-                  name_of_longitude(lon), kGrey);
-    for (const double lat : multiples(lonlat_->south(), lonlat_->north(), lat_step()))
-      sheet_.text({frame.left - 6, lonlat_->on_paper({0, lat}).y + 4}, 12, Anchor::end, name_of_latitude(lat),
-                  kGrey);
-    top_ += 14;
+      sheet_.rectangle(frame.left, frame.top, frame.width(), frame.height(), "none", "#8a949e",
+                       Sheet::kDrawing);
   }
 
-  /// The number of each rank in the middle of its nodes.
+  /// Longitudes and latitudes around a map, and where the graticule meets the border of a part of the sphere.
+  void draw_labels() {
+    const Frame& frame = view_->frame();
+    constexpr double kTick = 4;
+    const auto below = [&](double x, const std::string& name) {
+      if (!sheet_.text_if_free({x, frame.bottom + 17}, kLabel, Anchor::middle, name, kGrey)) return false;
+      sheet_.rectangle(x - 0.5, frame.bottom, 1, kTick, kGrey);
+      return true;
+    };
+    const auto above = [&](double x, const std::string& name) {
+      if (!sheet_.text_if_free({x, frame.top - 6}, kLabel, Anchor::middle, name, kGrey)) return false;
+      sheet_.rectangle(x - 0.5, frame.top - kTick, 1, kTick, kGrey);
+      return true;
+    };
+    const auto left_of = [&](double y, const std::string& name) {
+      if (!sheet_.text_if_free({frame.left - 7, y + 4}, kLabel, Anchor::end, name, kGrey)) return false;
+      sheet_.rectangle(frame.left - kTick, y - 0.5, kTick, 1, kGrey);
+      return true;
+    };
+    const auto right_of = [&](double y, const std::string& name) {
+      if (!sheet_.text_if_free({frame.right + 7, y + 4}, kLabel, Anchor::start, name, kGrey)) return false;
+      sheet_.rectangle(frame.right, y - 0.5, kTick, 1, kGrey);
+      return true;
+    };
+    if (lonlat_ != nullptr) {
+      for (const double lon : multiples(lonlat_->west(), lonlat_->east(), lon_step()))
+        below(lonlat_->on_paper({lon, 0}).x, name_of_longitude(lon, decimals_));
+      for (const double lat : multiples(lonlat_->south(), lonlat_->north(), lat_step()))
+        left_of(lonlat_->on_paper({0, lat}).y, name_of_latitude(lat, decimals_));
+      top_ += 17;
+      return;
+    }
+    if (!zoomed_) return;
+    constexpr double kNear = 1e-6;
+    for (const GraticuleLine& line : graticule_) {
+      const auto label_end = [&](const auto& at_border, const auto& draw) {
+        const auto end = std::find_if(line.ends.begin(), line.ends.end(), at_border);
+        return end != line.ends.end() && draw(*end);
+      };
+      if (line.is_meridian) {
+        label_end([&](const Place& p) { return p.y > frame.bottom - kNear; },
+                  [&](const Place& p) { return below(p.x, line.name); }) ||
+            label_end([&](const Place& p) { return p.y < frame.top + kNear; },
+                      [&](const Place& p) { return above(p.x, line.name); });
+      } else {
+        label_end([&](const Place& p) { return p.x < frame.left + kNear; },
+                  [&](const Place& p) { return left_of(p.y, line.name); }) ||
+            label_end([&](const Place& p) { return p.x > frame.right - kNear; },
+                      [&](const Place& p) { return right_of(p.y, line.name); });
+      }
+    }
+    top_ += 17;
+  }
+
+  /// The point below the eye, and a scale of lengths.
+  void draw_footer() {
+    const Frame& frame = view_->frame();
+    const std::string eye = "above " + name_of(centre_, decimals_);
+    if (!zoomed_) {
+      if (lonlat_ == nullptr) sheet_.text({kWidth - 14, frame.bottom - 4}, kLabel, Anchor::end, eye, kGrey);
+      return;
+    }
+    // The longest length of 1, 2 or 5 times a power of ten that takes at most a quarter of the width.
+    const double pixels_per_km = view_->scale() / files::kEarthRadius;
+    const double longest = frame.width() / 4 / pixels_per_km;
+    const double power = std::pow(10, std::floor(std::log10(longest)));
+    const double km = power * (longest >= 5 * power ? 5 : longest >= 2 * power ? 2 : 1);
+    const double left = frame.left, right = left + km * pixels_per_km, y = top_ + 14;
+    sheet_.rectangle(left, y - 1, right - left, 2, kBlack);
+    for (const double x : {left, right}) sheet_.rectangle(x - 0.75, y - 5, 1.5, 10, kBlack);
+    const std::string length = km < 1 ? fmt::format("{:g} m", 1000 * km)
+                                      : grouped(static_cast<std::size_t>(std::lround(km))) + " km";
+    sheet_.text({right + 8, y + 4}, kLabel, Anchor::start,
+                lonlat_ != nullptr ? length + " at " + name_of_latitude(centre_.lat, decimals_)
+                                   : length + " in the middle");
+    if (lonlat_ == nullptr) sheet_.text_if_free({frame.right, y + 4}, kLabel, Anchor::end, eye, kGrey);
+    top_ += 24;
+  }
+
+  /// The number of each rank in the middle of its visible nodes, where there is space for it.
   void draw_ranks() {
     constexpr int kMostNumbers = 100;
+    constexpr double kNumber = 15;
+    const Frame& frame = view_->frame();
+    const Place middle{(frame.left + frame.right) / 2, (frame.top + frame.bottom) / 2};
     if (options_.colour != Colour::owner || options_.ranks > kMostNumbers) return;
     std::vector<Point> sum(static_cast<std::size_t>(options_.ranks), Point{0, 0, 0});
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      if (!view_->place(nodes_[i])) continue;
       Point& s = sum[owner_[i]];
       s = {s.x + nodes_[i].x, s.y + nodes_[i].y, s.z + nodes_[i].z};
     }
@@ -427,83 +600,84 @@ class MeshPicture {
       if (dot(sum[rank], sum[rank]) == 0) continue;
       const auto place = view_->place(files::unit(sum[rank]));
       if (!place) continue;
-      const double x = std::clamp(place->x, view_->frame().left + 14, view_->frame().right - 14);
-      sheet_.text({x, place->y + 5}, 15, Anchor::middle, std::to_string(rank));
+      const std::string number = std::to_string(rank);
+      const Place at{place->x, place->y + 5};
+      for (const double towards_the_middle : {0.0, 0.02, 0.04, 0.06, 0.08}) {
+        const Place moved{at.x + towards_the_middle * (middle.x - at.x),
+                          at.y + towards_the_middle * (middle.y - at.y)};
+        if (is_inside(box_of(moved, kNumber, Anchor::middle, number)) && owner_at(moved) == rank &&
+            sheet_.text_if_free(moved, kNumber, Anchor::middle, number))
+          break;
+      }
     }
     sheet_.add("</g>\n");
+  }
+
+  /// The owner of the node that is drawn nearest to there.
+  std::size_t owner_at(const Place& at) const {
+    double least = INFINITY;
+    std::size_t owner = 0;
+    for (std::size_t i = 0; i < nodes_.size(); ++i)
+      if (const auto place = view_->place(nodes_[i]))
+        if (const double distance = std::hypot(place->x - at.x, place->y - at.y); distance < least)
+          least = distance, owner = owner_[i];
+    return owner;
+  }
+
+  /// Of the drawing, by more than a line's width.
+  bool is_inside(const Box& box) const {
+    const Frame& frame = view_->frame();
+    constexpr double kLine = 2;
+    if (lonlat_ != nullptr || zoomed_)
+      return box.left > frame.left + kLine && box.right < frame.right - kLine &&
+             box.top > frame.top + kLine && box.bottom < frame.bottom - kLine;
+    const Place middle = orthographic_->middle();
+    const double x = std::max(middle.x - box.left, box.right - middle.x),
+                 y = std::max(middle.y - box.top, box.bottom - middle.y);
+    return std::hypot(x, y) < orthographic_->scale() - kLine;
   }
 
   // ---- legend ----
 
   void draw_legend() {
-    switch (options_.colour) {
-      case Colour::none:
-        break;
-      case Colour::size:
-        if (scale_) legend_of_sizes();
-        break;
-      case Colour::degree:
-        legend_of_degrees();
-        break;
-      case Colour::owner:
-        legend_of_owners();
-        break;
+    if (scale_) {
+      top_ = draw_colour_bar(sheet_, top_, legend_, *scale_);
+      if (options_.colour == Colour::value && shades_.back().count > 0)
+        top_ = draw_note(sheet_, top_ + 2, kNoColour,
+                         fmt::format("no value ({})", grouped(shades_.back().count)));
+    } else if (options_.colour == Colour::degree) {
+      top_ = draw_shades(sheet_, top_, "neighbours of a node (how many nodes)", shades_);
+    } else if (options_.colour == Colour::value) {
+      top_ = draw_shades(sheet_, top_, legend_ + " (how many nodes)", shades_);
+    } else if (options_.colour == Colour::owner) {
+      draw_legend_of_owners();
     }
     if (boundary_.empty()) return;
     const bool grey = options_.what == What::cells && options_.colour == Colour::size;
-    top_ += 20;
-    sheet_.add(
-        fmt::format("<text x=\"{}\" y=\"{:.2f}\" font-size=\"13\" text-anchor=\"middle\" fill=\"{}\"><tspan "
-                    "fill=\"{}\">●</tspan> {} boundary nodes{}</text>\n",
-                    kWidth / 2, top_, kBlack, kVermilion, grouped(boundary_.size()),
-                    grey ? "; grey: their cells, which share the rest of the sphere" : ""));
-    top_ += 4;
+    top_ = draw_note(sheet_, top_, kVermilion,
+                     fmt::format("{} boundary nodes{}", grouped(boundary_.size()),
+                                 grey ? "; grey: their cells, which share the rest of the sphere" : ""));
   }
 
-  void legend_of_sizes() {
-    constexpr double kBar = 400, kLeft = (kWidth - kBar) / 2;
-    constexpr int kStops = 20;
-    sheet_.text({kWidth / 2, top_ + 14}, 14, Anchor::middle,
-                fmt::format("area of a {}, {}sr", options_.what == What::cells ? "cell" : "triangle",
-                            scale_->name_of_factor()));
-    sheet_.add("<defs><linearGradient id=\"viridis\">");
-    for (int k = 0; k <= kStops; ++k)
-      sheet_.add(fmt::format("<stop offset=\"{}\" stop-color=\"{}\"/>", k / double{kStops},
-                             viridis(k / double{kStops})));
-    sheet_.add("</linearGradient></defs>\n");
-    sheet_.rectangle(kLeft, top_ + 22, kBar, 12, "url(#viridis)");
-    for (const Scale::Tick& tick : scale_->ticks(6)) {
-      const double x = kLeft + kBar * (*scale_)(tick.value);
-      sheet_.rectangle(x - 0.5, top_ + 34, 1, 4, kGrey);
-      sheet_.text({x, top_ + 50}, 12, Anchor::middle, tick.label);
-    }
-    top_ += 54;
-  }
-
-  void legend_of_degrees() {
-    sheet_.text({kWidth / 2, top_ + 14}, 14, Anchor::middle, "neighbours of a node (how many nodes)");
-    double x = 90;
-    for (const Shade& shade : shades_) {
-      sheet_.rectangle(x, top_ + 24, 14, 14, shade.colour, kGrey);
-      sheet_.text({x + 20, top_ + 36}, 13, Anchor::start,
-                  fmt::format("{} ({})", shade.label, grouped(shade.count)));
-      x += 130;
-    }
-    top_ += 40;
-  }
-
-  void legend_of_owners() {
+  void draw_legend_of_owners() {
     const auto [fewest, most] = std::minmax_element(
         shades_.begin(), shades_.end(), [](const Shade& a, const Shade& b) { return a.count < b.count; });
     const char* const kind =
         options_.partition == pstripack::PartitionKind::stripes ? "stripes" : "bisection";
-    sheet_.text({kWidth / 2, top_ + 14}, 14, Anchor::middle,
-                fmt::format("{}: which of {} {} owns a {}; {} to {} nodes each", kind, options_.ranks,
-                            options_.ranks == 1 ? "rank" : "ranks",
-                            options_.what == What::cells ? "node" : "triangle", grouped(fewest->count),
-                            grouped(most->count)));
+    sheet_.centred(top_ + 14, 14,
+                   fmt::format("{}: which of {} {} owns a {}; {} to {} nodes each", kind, options_.ranks,
+                               options_.ranks == 1 ? "rank" : "ranks",
+                               options_.what == What::cells ? "node" : "triangle", grouped(fewest->count),
+                               grouped(most->count)));
     top_ += 18;
   }
+
+  /// A meridian or parallel, and where it, or a piece of it, begins and ends on the paper.
+  struct GraticuleLine {
+    bool is_meridian;
+    std::string name;
+    std::vector<Place> ends;
+  };
 
   const Mesh& mesh_;
   const MeshOptions& options_;
@@ -517,10 +691,14 @@ class MeshPicture {
   const LonLat* lonlat_ = nullptr;
   Spot centre_{0, 0};
   double radius_ = 90;
+  bool zoomed_ = false;  ///< a part of the sphere
+  int decimals_ = 2;     ///< of degrees in labels
+  std::vector<GraticuleLine> graticule_;
   Faces faces_;
   std::vector<Shade> shades_;
   std::vector<std::size_t> owner_;  ///< of each node
   std::optional<Scale> scale_;
+  std::string legend_;  ///< title of the colours
   double spacing_ = 0;  ///< of lines, in pixels
 };
 

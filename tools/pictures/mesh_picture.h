@@ -17,10 +17,14 @@ struct MeshOptions {
   std::optional<Spot> centre;    ///< none: the middle of the nodes, where they do not cover the sphere
   std::optional<double> radius;  ///< degrees; none: all nodes
 
-  enum class Colour { none, size, degree, owner } colour = Colour::none;
+  enum class Colour { none, size, degree, owner, value } colour = Colour::none;
   int ranks = 1;  ///< of Colour::owner
   pstripack::PartitionKind partition = pstripack::PartitionKind::bisection;
 
+  std::string value;  ///< of Colour::value: the name of a column of the mesh
+
+  bool coasts = false;     ///< those of Natural Earth
+  std::string coast_file;  ///< or of this shapefile
   std::string title;
   double width = 800;  ///< pixels
 };
@@ -28,7 +32,8 @@ struct MeshOptions {
 /// More nodes than this are refused: lines would be closer than pixels, and files too large for viewers.
 constexpr std::size_t kMostNodesInView = 200000;
 
-/// As SVG. Throws std::runtime_error where too many nodes are in view.
+/// As SVG. Throws std::runtime_error where too many nodes are in view, or coast lines or a column are
+/// missing.
 std::string mesh_picture(const files::Mesh& mesh, const MeshOptions& options);
 
 }  // namespace pictures

@@ -5,76 +5,103 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pictures/font.h"
+
 namespace pictures {
 namespace {
 
 /// Values whose largest ratio exceeds this are shown on a logarithmic scale.
 constexpr double kMuch = 20;
+/// Of larger ratios only powers of ten are labelled.
+constexpr double kDecades = 300;
+/// Beyond these, differences and powers of ten might overflow.
+constexpr double kLeast = 1e-300, kLargest = 1e300;
+/// Of a step: rounding.
+constexpr double kRounding = 1e-6;
 
 int exponent_of(double value) { return static_cast<int>(std::floor(std::log10(value))); }
 
 }  // namespace
 
-Scale::Scale(const std::vector<double>& values, bool always_linear) {
+Scale::Scale(const std::vector<double>& values, int about, bool always_linear) {
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  low_ = *least, high_ = *most;
-  logarithmic_ = !always_linear && low_ > 0 && high_ > kMuch * low_;
-  if (high_ - low_ <= 1e-9 * std::fabs(high_)) {  // all the same but for rounding
-    const double around = high_ == 0 ? 1 : 0.1 * std::fabs(high_);
-    low_ -= around, high_ += around;
+  double low = std::clamp(*least, -kLargest, kLargest), high = std::clamp(*most, -kLargest, kLargest);
+  logarithmic_ = !always_linear && low >= kLeast && high > kMuch * low;
+  if (high - low <= 1e-9 * std::fabs(high)) {  // all the same but for rounding
+    const double around = high == 0 ? 1 : 0.1 * std::fabs(high);
+    low -= around, high += around;
   }
-  if (high_ <= 0 || decades_only()) return;
-  const double typical = logarithmic_ ? std::sqrt(low_ * high_) : high_;
-  if (typical < 0.01 || typical >= 1e5) exponent_ = exponent_of(typical);
+  if (!logarithmic_ || high <= kDecades * low) {
+    const double largest = std::max(std::fabs(low), std::fabs(high));
+    if (largest < 0.01 || largest >= 1e5)
+      exponent_ = exponent_of(logarithmic_ ? std::sqrt(low * high) : largest);
+  }
+  if (logarithmic_)
+    add_logarithmic_ticks(low, high, about);
+  else
+    add_linear_ticks(low, high, about);
 }
 
-bool Scale::decades_only() const { return logarithmic_ && high_ > 300 * low_; }
+void Scale::add_linear_ticks(double low, double high, int about) {
+  const double unit = factor(), step = round_step((high - low) / unit, about);
+  const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + kRounding)));
+  const double first = std::floor(low / unit / step + kRounding),
+               last = std::ceil(high / unit / step - kRounding);
+  for (double k = first; k <= last; ++k)
+    ticks_.push_back({k == 0 ? 0 : k * step * unit, fmt::format("{:.{}f}", k == 0 ? 0 : k * step, decimals)});
+}
+
+void Scale::add_logarithmic_ticks(double low, double high, int about) {
+  const int first = static_cast<int>(std::floor(std::log10(low) + kRounding)),
+            last = static_cast<int>(std::ceil(std::log10(high) - kRounding));
+  if (high > kDecades * low) {
+    const int step = (last - first + about - 1) / about;
+    for (int e = first; e < last + step; e += step) ticks_.push_back({std::pow(10, e), power_of_ten(e)});
+    return;
+  }
+  const bool close = about > 3;  // ticks
+  for (int e = first; e <= last; ++e)
+    for (const int digit : {1, 2, 5}) {
+      if (digit > 1 && !close) continue;
+      const double value = digit * std::pow(10, e);
+      if (value < low * (1 + kRounding)) ticks_.clear();  // a later one is nearer to the least value
+      if (ticks_.empty() || ticks_.back().value < high * (1 - kRounding))
+        ticks_.push_back({value, fmt::format("{:g}", digit * std::pow(10, e - exponent_))});
+    }
+}
+
+bool Scale::fits(double pixels, double size) const {
+  constexpr double kGap = 6;
+  for (std::size_t i = 1; i < ticks_.size(); ++i) {
+    const double widths = text_width(ticks_[i - 1].label, size) + text_width(ticks_[i].label, size);
+    if (pixels * ((*this)(ticks_[i].value) - (*this)(ticks_[i - 1].value)) < widths / 2 + kGap) return false;
+  }
+  return true;
+}
+
+Scale Scale::fitting(const std::vector<double>& values, int about, double pixels, double size,
+                     bool always_linear) {
+  for (; about > 1; --about)
+    if (Scale scale(values, about, always_linear); scale.fits(pixels, size)) return scale;
+  return {values, 1, always_linear};
+}
 
 double Scale::operator()(double value) const {
-  return logarithmic_ ? std::log(value / low_) / std::log(high_ / low_) : (value - low_) / (high_ - low_);
-}
-
-double Scale::value_at(double t) const {
-  return logarithmic_ ? low_ * std::pow(high_ / low_, t) : low_ + t * (high_ - low_);
-}
-
-std::vector<Scale::Tick> Scale::ticks(int about) const {
-  std::vector<Tick> result;
-  if (!logarithmic_) {
-    const double unit = factor();
-    const std::vector<double> values = round_values(low_ / unit, high_ / unit, about);
-    const double step = values.size() < 2 ? 1 : values[1] - values[0];
-    const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-6)));
-    for (const double value : values)
-      result.push_back({value * unit, fmt::format("{:.{}f}", value, decimals)});
-    return result;
-  }
-  const int first = exponent_of(low_), last = exponent_of(high_);
-  const int step = decades_only() ? 1 + (last - first) / (about + 1) : 1;
-  for (int e = first; e <= last; e += step)
-    for (const int digit : {1, 2, 5}) {
-      const double value = digit * std::pow(10, e);
-      if (value < low_ * (1 - 1e-9) || value > high_ * (1 + 1e-9) || (decades_only() && digit > 1)) continue;
-      result.push_back({value, decades_only() ? power_of_ten(e)
-                                              : fmt::format("{:g}", digit * std::pow(10, e - exponent_))});
-    }
-  return result;
+  const double low = ticks_.front().value, high = ticks_.back().value;
+  return std::clamp(
+      logarithmic_ ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low), 0.0, 1.0);
 }
 
 double Scale::factor() const { return std::pow(10, exponent_); }
 
 std::string Scale::name_of_factor() const { return exponent_ == 0 ? "" : power_of_ten(exponent_) + " "; }
 
-std::vector<double> round_values(double low, double high, int about) {
-  const double rough = (high - low) / about;
-  double step = std::pow(10, exponent_of(rough));
+double round_step(double length, int about) {
+  const double rough = length / about, power = std::pow(10, exponent_of(rough));
+  double step = power;
   for (const int factor : {2, 5, 10})
-    if (step < rough && factor * std::pow(10, exponent_of(rough)) <= rough * 1.5)
-      step = factor * std::pow(10, exponent_of(rough));
-  std::vector<double> values;
-  for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k)
-    values.push_back(k == 0 ? 0 : k * step);
-  return values;
+    if (step < rough && factor * power <= rough * 1.5) step = factor * power;
+  return step;
 }
 
 std::string grouped(std::size_t number) {

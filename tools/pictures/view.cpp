@@ -35,6 +35,17 @@ double distance_from_line(const Place& p, const Place& a, const Place& b) {
   return std::fabs(x * (p.y - a.y) - y * (p.x - a.x)) / length;
 }
 
+/// Whether a bent piece from a to b over its middle m lies beyond one side of the frame as a whole: how it is
+/// bent there does not matter. `turn`: pixels after which the frame repeats itself to the right, or 0.
+bool misses(const Place& a, const Place& m, const Place& b, const Frame& frame, double turn) {
+  const double bend = 2 * distance_from_line(m, a, b);
+  if (std::max({a.y, m.y, b.y}) + bend < frame.top || std::min({a.y, m.y, b.y}) - bend > frame.bottom)
+    return true;
+  const double left = std::min({a.x, m.x, b.x}) - bend, right = std::max({a.x, m.x, b.x}) + bend;
+  if (turn == 0) return right < frame.left || left > frame.right;
+  return std::ceil((frame.left - right) / turn) > std::floor((frame.right - left) / turn);
+}
+
 /// The part of the outline where inside(p) >= 0; inside is linear.
 template <class Item, class Inside, class Between>
 std::vector<Item> cut(const std::vector<Item>& outline, const Inside& inside, const Between& between) {
@@ -52,7 +63,11 @@ Place between(const Place& a, const Place& b, double t) {
   return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
 }
 
-std::string number(double degrees) { return fmt::format("{:g}", std::round(std::fabs(degrees) * 100) / 100); }
+/// Without zeros at the end.
+std::string number(double degrees, int decimals) {
+  const double factor = std::pow(10, decimals);
+  return fmt::format("{:.10g}", std::round(std::fabs(degrees) * factor) / factor);
+}
 
 /// Of all equal longitudes the one nearest to `near`.
 double turned_to(double lon, double near) { return lon + 360 * std::round((near - lon) / 360); }
@@ -100,19 +115,19 @@ Spot spot_of(const Point& p) {
   return {std::atan2(p.y, p.x) * kDegree, std::atan2(p.z, std::hypot(p.x, p.y)) * kDegree};
 }
 
-std::string name_of_longitude(double lon) {
+std::string name_of_longitude(double lon, int decimals) {
   lon = turned_to(lon, 0);
-  const std::string size = number(lon);
+  const std::string size = number(lon, decimals);
   return size + "°" + (size == "0" || size == "180" ? "" : lon < 0 ? "W" : "E");
 }
 
-std::string name_of_latitude(double lat) {
-  const std::string size = number(lat);
+std::string name_of_latitude(double lat, int decimals) {
+  const std::string size = number(lat, decimals);
   return size + "°" + (size == "0" ? "" : lat < 0 ? "S" : "N");
 }
 
-std::string name_of(const Spot& spot) {
-  return name_of_longitude(spot.lon) + " " + name_of_latitude(spot.lat);
+std::string name_of(const Spot& spot, int decimals) {
+  return name_of_longitude(spot.lon, decimals) + " " + name_of_latitude(spot.lat, decimals);
 }
 
 // ---- orthographic -----------------------------------------------------------------------------------------
@@ -139,13 +154,15 @@ std::optional<Place> Orthographic::place(const Point& p) const {
 /// All of the arc but its first point; turned.
 void Orthographic::add_arc(const Point& a, const Point& b, Outline& outline, int depth) const {
   const Point m = middle_of(a, b);
-  const bool halve = depth < kDeepest && (dot(a, b) < kLong || distance_from_line(on_paper(m), on_paper(a),
-                                                                                  on_paper(b)) > kStraight);
+  const Place from = on_paper(a), middle = on_paper(m), to = on_paper(b);
+  const bool halve =
+      depth < kDeepest && (dot(a, b) < kLong || (distance_from_line(middle, from, to) > kStraight &&
+                                                 (shows_limb_ || !misses(from, middle, to, frame_, 0))));
   if (halve) {
     add_arc(a, m, outline, depth + 1);
     add_arc(m, b, outline, depth + 1);
   } else {
-    outline.push_back(on_paper(b));
+    outline.push_back(to);
   }
 }
 
@@ -254,8 +271,9 @@ class LonLat::Unrolled {
     Spot middle = spot_of(m);
     middle.lon = turned_to(middle.lon, (from.lon + to.lon) / 2);
     const auto paper = [&](const Spot& s) { return view_.on_paper(s); };
-    if (depth < kDeepest && (dot(p, q) < kLong || std::fabs(to.lon - from.lon) > 10 ||
-                             distance_from_line(paper(middle), paper(from), paper(to)) > kStraight)) {
+    const bool bent = distance_from_line(paper(middle), paper(from), paper(to)) > kStraight &&
+                      !misses(paper(from), paper(middle), paper(to), view_.frame(), 360 * view_.per_lon_);
+    if (depth < kDeepest && (dot(p, q) < kLong || std::fabs(to.lon - from.lon) > 10 || bent)) {
       add(p, m, middle, depth + 1);
       add(m, q, to, depth + 1);
     } else {
@@ -285,6 +303,8 @@ std::optional<Point> pole_between(const Point& a, const Point& b) {
 }
 
 }  // namespace
+
+double LonLat::scale() const { return per_lat_ * kDegree; }
 
 std::optional<Place> LonLat::place(const Point& p) const {
   Spot s = spot_of(p);

@@ -32,9 +32,9 @@ struct Spot {
 };
 Spot spot_of(const Point& p);
 /// "12.5°W 40°N"
-std::string name_of(const Spot& spot);
-std::string name_of_longitude(double lon);
-std::string name_of_latitude(double lat);
+std::string name_of(const Spot& spot, int decimals = 2);
+std::string name_of_longitude(double lon, int decimals = 2);
+std::string name_of_latitude(double lat, int decimals = 2);
 
 /// A map of directions: unit vectors.
 class View {
@@ -44,6 +44,8 @@ class View {
   /// The paper that it fills, or a circle in that.
   const Frame& frame() const { return frame_; }
 
+  /// In the middle of the picture: pixels per radian of the sphere, to the north.
+  virtual double scale() const = 0;
   /// The position of a point, if visible.
   virtual std::optional<Place> place(const Point& p) const = 0;
   /// The visible part of a convex polygon, corners counterclockwise: closed outlines.
@@ -63,7 +65,7 @@ class Orthographic : public View {
 
   bool shows_limb() const { return shows_limb_; }
   Place middle() const { return middle_; }
-  double scale() const { return scale_; }  ///< pixels, of the sphere's radius
+  double scale() const override { return scale_; }
 
   std::optional<Place> place(const Point& p) const override;
   std::vector<Outline> polygon(const std::vector<Point>& corners) const override;
@@ -91,6 +93,7 @@ class LonLat : public View {
   double east() const { return east_; }
   double south() const { return south_; }
   double north() const { return north_; }
+  double scale() const override;
   Place on_paper(const Spot& s) const {
     return {frame_.left + (s.lon - west_) * per_lon_, frame_.bottom - (s.lat - south_) * per_lat_};
   }

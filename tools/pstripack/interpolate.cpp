@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "methods/interpolation.h"
+#include "methods/triangulated_nodes.h"
 #include "numbers.h"
 #include "pstripack/options.h"
 #include "pstripack/progress.h"
@@ -153,7 +153,7 @@ void interpolate(Options& options) {
   });
   const Interpolation interpolation = progress.step("triangulating", [&] {
     try {
-      return Interpolation(nodes.points);
+      return methods::interpolation_between(nodes.points);
     } catch (const files::NoMesh& e) {
       throw no_mesh_of(nodes, e);
     }

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "files/nearest.h"
 #include "pictures/histograms.h"
 #include "pictures/mesh_picture.h"
 #include "pictures/scale.h"
@@ -22,6 +23,8 @@ struct Options {
   Input input;
   std::string file, to, what = "triangles", view, colour = "none";
   std::optional<double> radius;
+  bool coasts = false;
+  std::string coast_file;
   std::optional<std::string> title;
   double width = 800;
 };
@@ -61,14 +64,19 @@ void set_view(const std::string& text, MeshOptions& mesh) {
   if (!(std::fabs(mesh.centre->lon) <= 360 && std::fabs(mesh.centre->lat) <= 90)) refuse();
 }
 
-/// none, size, degree or owner:P[:bisection|stripes]
+/// none, size, degree, owner:P[:bisection|stripes], or the name of a column
 void set_colour(const std::string& text, MeshOptions& mesh) {
   using Colour = MeshOptions::Colour;
   const std::vector<std::string> parts = parts_of(text, ':');
   const std::map<std::string, Colour> words{
-      {"none", Colour::none}, {"size", Colour::size}, {"degree", Colour::degree}};
+      {"none", Colour::none}, {"size", Colour::size}, {"area", Colour::size}, {"degree", Colour::degree}};
   if (const auto word = words.find(text); word != words.end()) {
     mesh.colour = word->second;
+    return;
+  }
+  if (parts[0] != "owner") {
+    mesh.colour = Colour::value;
+    mesh.value = text;
     return;
   }
   const std::map<std::string, pstripack::PartitionKind> kinds{
@@ -76,10 +84,10 @@ void set_colour(const std::string& text, MeshOptions& mesh) {
   const double ranks = parts.size() < 2 ? NAN : number_of(parts[1]);
   const auto kind = kinds.find(parts.size() == 3 ? parts[2] : "bisection");
   constexpr double kMost = 4096;
-  if (parts[0] != "owner" || parts.size() > 3 || !(ranks >= 1 && ranks <= kMost) ||
-      ranks != std::floor(ranks) || kind == kinds.end())
-    throw CLI::ValidationError(
-        "--colour", text + ": expected none, size, degree, or owner:P, owner:P:stripes for 1 to 4096 ranks");
+  if (parts.size() > 3 || !(ranks >= 1 && ranks <= kMost) || ranks != std::floor(ranks) ||
+      kind == kinds.end())
+    throw CLI::ValidationError("--colour",
+                               text + ": expected owner:P or owner:P:stripes for 1 to 4096 ranks");
   mesh.colour = Colour::owner;
   mesh.ranks = static_cast<int>(ranks);
   mesh.partition = kind->second;
@@ -95,6 +103,14 @@ pictures::Kind kind_of(const Options& options) {
   return *kind;
 }
 
+void expect_column(const files::Nodes& nodes, const std::string& name) {
+  if (files::find(nodes.columns, name) != nullptr) return;
+  std::vector<std::string> names{"none", "area", "degree", "owner:P"};
+  for (const files::Column& column : nodes.columns) names.push_back(column.name);
+  throw std::runtime_error(fmt::format("{}: --colour {}: no column has this name{} (here are {})", nodes.file,
+                                       name, files::did_you_mean(name, names), fmt::join(names, ", ")));
+}
+
 void plot(Options& options) {
   const pictures::Kind kind = kind_of(options);
   const bool histograms = options.what == "histograms";
@@ -108,16 +124,24 @@ void plot(Options& options) {
     throw CLI::ValidationError("--what", "histograms have no --view, --radius or --colour");
   if (mesh_options.colour == MeshOptions::Colour::degree && mesh_options.what != MeshOptions::What::cells)
     throw CLI::ValidationError("--colour", "degree is a property of nodes: say --what cells");
+  if (histograms && (options.coasts || !options.coast_file.empty()))
+    throw CLI::ValidationError("--what", "histograms have no coasts");
+  mesh_options.coasts = options.coasts;
+  mesh_options.coast_file = options.coast_file;
   pictures::expect_converter(kind);
 
+  options.input.read.with_columns = mesh_options.colour == MeshOptions::Colour::value;
   options.input.read.with_triangles = !options.input.drops();  // their numbers would be others
   files::OutputFile file(options.file);
   Progress progress;
   files::Nodes nodes = progress.step("reading", [&] { return read_nodes(options.input); });
+  if (mesh_options.colour == MeshOptions::Colour::value) expect_column(nodes, mesh_options.value);
   const files::Mesh mesh = progress.step("triangulating", [&] {
     if (nodes.triangles.empty()) return triangulate(nodes);
     try {
-      return files::mesh_of(nodes.points, nodes.triangles);
+      files::Mesh drawn = files::mesh_of(nodes.points, nodes.triangles);
+      drawn.columns = std::move(nodes.columns);
+      return drawn;
     } catch (const files::NoMesh& e) {
       throw std::runtime_error(nodes.file + ": " + e.what());
     }
@@ -167,9 +191,12 @@ void add_plot(CLI::App& app, Command& chosen) {
       ->type_name("DEGREES")
       ->check(CLI::Range(1e-6, 180.0).description(""));
   sub->add_option("--colour,--color", options->colour,
-                  "none, size, degree, owner:P or owner:P:stripes, see below")
+                  "none, area, degree, owner:P, owner:P:stripes or a column of IN, see below")
       ->type_name("BY")
       ->capture_default_str();
+  sub->add_flag("--coasts", options->coasts, "coast lines: Natural Earth, of Debian's libmagics++-data");
+  sub->add_option("--coast-file", options->coast_file, "coast lines of this shapefile instead")
+      ->type_name("FILE");
   sub->add_option("--title", options->title, "[file and counts]")->type_name("TEXT");
   sub->add_option("--width", options->width, "width of the picture")
       ->type_name("PIXELS")
@@ -177,13 +204,15 @@ void add_plot(CLI::App& app, Command& chosen) {
       ->check(CLI::Range(100.0, 20000.0).description(""));
   sub->footer(R"(  pstripack plot mesh.nc -o mesh.svg
   pstripack plot nodes.txt --view orthographic:10,45 --radius 5 -o zoom.png --width 1600
-  pstripack plot nodes.txt --what cells --colour size -o cells.svg
+  pstripack plot nodes.txt --what cells --colour area -o cells.svg
+  pstripack plot quakes.csv --what cells --colour mag --coasts --view lonlat -o quakes.svg
 
 Colours:
-  size             area of the triangle or cell
+  area             of the triangle or cell, on a sphere of radius 6371 km (also called size)
   degree           number of neighbours of the node; with --what cells only
   owner:P          rank that owns the node if P ranks divide the sphere by recursive bisection
   owner:P:stripes  the same, by stripes of longitude
+  NAME             the column of this name; a triangle has the mean of its corners. node and line: numbers in IN.
 
 Triangles of UGRID, MPAS and OFF files are drawn as they are; other nodes are triangulated first. Nodes that do not
 cover the sphere are shown as close as possible, their boundary in orange. At most 200,000 nodes may be in view:

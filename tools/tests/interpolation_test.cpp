@@ -13,6 +13,7 @@
 
 #include "methods/gradients.h"
 #include "methods/sphere.h"
+#include "methods/triangulated_nodes.h"
 #include "point_sets.h"
 #include "stripack/list_queries.h"
 
@@ -43,7 +44,7 @@ std::vector<double> random_values(std::size_t n) {
 TEST(shares, are_positive_and_add_up_to_one) {
   for (const char* const family : kFamilies)
     for (const Method method : {Method::linear, Method::natural}) {
-      const Interpolation in(point_sets::make(family, 400));
+      const Interpolation in = interpolation_between(point_sets::make(family, 400));
       std::vector<Share> shares;
       std::size_t inside = 0;
       for (const Point& p : places(2000, 3)) {
@@ -66,7 +67,7 @@ TEST(shares, of_a_node_are_its_own_alone) {
       const Points nodes = point_sets::make(family, 300);
       const std::vector<double> values = random_values(nodes.size());
       const Interpolation::Result result =
-          Interpolation(nodes).values_at(nodes, values, method, Interpolation::Outside::missing);
+          interpolation_between(nodes).values_at(nodes, values, method, Interpolation::Outside::missing);
       EXPECT_EQ(result.values, values) << family;
       EXPECT_EQ(result.outside, 0u);
     }
@@ -74,7 +75,7 @@ TEST(shares, of_a_node_are_its_own_alone) {
 
 TEST(linear, is_linear_in_the_plane_of_the_corners) {
   const Points nodes = point_sets::make("random", 300);
-  const Interpolation in(nodes);
+  const Interpolation in = interpolation_between(nodes);
   std::vector<Share> shares;
   for (const Point& p : places(1000, 4)) {
     ASSERT_TRUE(shares_at(in, Method::linear, p, shares));
@@ -93,7 +94,7 @@ TEST(linear, is_linear_in_the_plane_of_the_corners) {
 TEST(linear, does_not_depend_on_where_the_search_begins) {
   for (const char* const family : {"random", "latlon", "healpix"}) {
     const Points nodes = point_sets::make(family, 400);
-    const Interpolation in(nodes);
+    const Interpolation in = interpolation_between(nodes);
     Points on_arcs;  // as nearly as rounding lets them, many exactly
     const std::vector<std::int32_t> triangles = files::triangles_of(files::triangulate(nodes));
     for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
@@ -125,7 +126,7 @@ double largest_error(const char* family, std::size_t n, Method method) {
   std::vector<double> values;
   for (const Point& p : nodes) values.push_back(smooth(p));
   const std::vector<double> found =
-      Interpolation(nodes).values_at(at, values, method, Interpolation::Outside::missing).values;
+      interpolation_between(nodes).values_at(at, values, method, Interpolation::Outside::missing).values;
   double largest = 0;
   for (std::size_t i = 0; i < at.size(); ++i)
     largest = std::max(largest, std::fabs(found[i] - smooth(at[i])));
@@ -144,8 +145,8 @@ TEST(cubic, is_of_higher_order_than_linear_and_natural) {
 TEST(cubic, meets_the_values_with_the_gradients_of_the_nodes) {
   const Points nodes = point_sets::make("random", 200);
   const std::vector<double> values = random_values(nodes.size());
-  const Interpolation in(nodes);
-  const std::vector<Point> slopes = gradients(files::triangulate(nodes), values);
+  const Interpolation in = interpolation_between(nodes);
+  const std::vector<Point> slopes = gradients(TriangulatedNodes(nodes).view(), values);
   constexpr double kStep = 1e-6;
   Points beside, ways;  // a step away from each node, on each way
   for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -172,14 +173,14 @@ TEST(gradients, are_those_of_a_quadratic_and_zero_where_nodes_determine_none) {
   const Points nodes = point_sets::make("random", 2000);
   std::vector<double> values;
   for (const Point& p : nodes) values.push_back(3 + p.z);
-  const std::vector<Point> slopes = gradients(files::triangulate(nodes), values);
+  const std::vector<Point> slopes = gradients(TriangulatedNodes(nodes).view(), values);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const Point& p = nodes[i];
     const Point error = minus(slopes[i], {-p.z * p.x, -p.z * p.y, 1 - p.z * p.z});
     EXPECT_LT(std::sqrt(dot(error, error)), 0.02);
   }
   const Points three{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  for (const Point& slope : gradients(files::triangulate(three), {5, 5, 5}))
+  for (const Point& slope : gradients(TriangulatedNodes(three).view(), {5, 5, 5}))
     EXPECT_EQ(slope, (Point{0, 0, 0}));
 }
 
@@ -204,7 +205,7 @@ TEST(natural, shares_are_what_the_cells_lose_to_a_new_node) {
   for (const char* const family : {"random", "latlon", "variable", "hemisphere"}) {
     Points nodes = point_sets::make(family, 150);
     const std::vector<double> before = cell_areas(nodes);
-    const Interpolation in(nodes);
+    const Interpolation in = interpolation_between(nodes);
     for (const Point& p : places(60, 8)) {
       std::vector<Share> shares;
       if (!shares_at(in, Method::natural, p, shares)) continue;
@@ -224,7 +225,7 @@ TEST(natural, has_no_kinks_at_arcs) {
   const Points nodes = point_sets::make("fibonacci", 500);
   std::vector<double> values;
   for (const Point& p : nodes) values.push_back(p.x * p.y + p.z);
-  const Interpolation in(nodes);
+  const Interpolation in = interpolation_between(nodes);
   double largest[2] = {0, 0};
   for (const Method method : {Method::linear, Method::natural}) {
     Points way;
@@ -267,8 +268,9 @@ TEST(values, are_continuous) {
               centre);
         }
       }
-      const std::vector<double> v =
-          Interpolation(nodes).values_at(pairs, values, method, Interpolation::Outside::missing).values;
+      const std::vector<double> v = interpolation_between(nodes)
+                                        .values_at(pairs, values, method, Interpolation::Outside::missing)
+                                        .values;
       for (std::size_t i = 0; i < v.size(); i += 2) EXPECT_NEAR(v[i], v[i + 1], 2e-4) << family;
     }
 }
@@ -276,7 +278,7 @@ TEST(values, are_continuous) {
 TEST(values, lie_between_those_of_the_nodes_with_a_share) {
   const Points nodes = point_sets::make("random", 300);
   const std::vector<double> values = random_values(nodes.size());
-  const Interpolation in(nodes);
+  const Interpolation in = interpolation_between(nodes);
   const Points at = places(3000, 6);
   for (const Method method : {Method::linear, Method::natural}) {
     const std::vector<double> v = in.values_at(at, values, method, Interpolation::Outside::missing).values;
@@ -301,7 +303,7 @@ TEST(outside, is_what_lies_beyond_the_border_but_not_the_border) {
   const Points nodes = point_sets::make("hemisphere", 200);
   const files::Mesh mesh = files::triangulate(nodes);
   const pstripack::ListReader<std::int32_t> reader(mesh.lists());
-  const Interpolation in(nodes);
+  const Interpolation in = interpolation_between(nodes);
   std::vector<Share> shares;
   const std::int32_t first = reader.first_boundary_node();
   std::int32_t node = first;
@@ -329,7 +331,7 @@ TEST(nearest, is_the_nearest_of_all_nodes_wherever_the_place) {
   for (const char* const family :
        {"random", "hemisphere", "cap", "cap:0.8", "cap:1.4", "strip:1e-9", "box"}) {
     const Points nodes = point_sets::make(family, 200);
-    const Interpolation in(nodes);
+    const Interpolation in = interpolation_between(nodes);
     for (const Point& p : places(500, 9)) {
       const auto distance = [&](const Point& node) { return dot(minus(node, p), minus(node, p)); };
       double least = 9;
@@ -349,7 +351,7 @@ TEST(nearest, is_found_across_the_far_side_of_a_region) {
        {std::pair(-10.0, 10.0), std::pair(10.0, 10.0), std::pair(0.0, 10.2), std::pair(90.0, 50.0),
         std::pair(180.0, 10.0), std::pair(270.0, 50.0), std::pair(30.0, 80.0)})
     nodes.push_back(point_sets::from_degrees(lon, lat));
-  const Interpolation in(nodes);
+  const Interpolation in = interpolation_between(nodes);
   for (std::int32_t near = 1; near <= 7; ++near)
     EXPECT_EQ(in.nearest(point_sets::from_degrees(0, -60), near), 3);
 }
@@ -358,7 +360,7 @@ TEST(nearest, is_found_across_the_far_side_of_a_region) {
 TEST(values, are_the_same_bits_on_any_number_of_threads) {
   const Points nodes = point_sets::make("healpix", 1000);
   const std::vector<double> values = random_values(nodes.size());
-  const Interpolation in(nodes);
+  const Interpolation in = interpolation_between(nodes);
   const Points at = point_sets::make("latlon", 20000);  // many on arcs
   for (const Method method : {Method::linear, Method::natural}) {
     std::vector<std::vector<double>> all;

@@ -5,13 +5,16 @@
 #include <algorithm>
 #include <boost/property_tree/xml_parser.hpp>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <sstream>
 
 #include "files/measures.h"
+#include "pictures/coasts.h"
 #include "pictures/colours.h"
+#include "pictures/font.h"
 #include "pictures/histograms.h"
 #include "pictures/mesh_picture.h"
 #include "pictures/scale.h"
@@ -254,27 +257,60 @@ TEST(scale, has_round_ticks_in_its_range_that_are_labelled_with_their_values) {
                                                              {0, 0},
                                                              {-3, 5},
                                                              {1e8, 3e8}}) {
-    const Scale scale(values);
-    const auto ticks = scale.ticks(5);
+    const Scale scale(values, 5);
+    const auto ticks = scale.ticks();
     EXPECT_GE(ticks.size(), 2u) << values[0];
     EXPECT_LE(ticks.size(), 11u) << values[0];
-    for (const Scale::Tick& tick : ticks) {
-      EXPECT_GE(scale(tick.value), -1e-6) << values[0];
-      EXPECT_LE(scale(tick.value), 1 + 1e-6) << values[0];
+    // The ends of the range are ticks, beyond which no value lies.
+    const double step = ticks.size() == 2 ? 1 : 1e-6;
+    EXPECT_EQ(scale(ticks.front().value), 0) << values[0];
+    EXPECT_EQ(scale(ticks.back().value), 1) << values[0];
+    EXPECT_LE(ticks.front().value, values.front() + step * std::fabs(values.front()));
+    EXPECT_GE(ticks.back().value, values.back() - step * std::fabs(values.back()));
+    // No more than one step beyond the values.
+    if (values.front() < values.back() && ticks.size() > 2) {
+      EXPECT_GT(ticks[1].value, values.front()) << values[0];
+      EXPECT_LT(ticks[ticks.size() - 2].value, values.back()) << values[0];
     }
     for (std::size_t i = 1; i < ticks.size(); ++i) {
       EXPECT_LT(ticks[i - 1].value, ticks[i].value);
       EXPECT_NE(ticks[i - 1].label, ticks[i].label);
     }
   }
-  const Scale small({2e-5, 4e-5});
+  const Scale small({2e-5, 4e-5}, 2);
   EXPECT_EQ(small.name_of_factor(), "10⁻⁵ ");
   EXPECT_DOUBLE_EQ(small.factor(), 1e-5);
-  EXPECT_EQ(small.ticks(2)[0].label, "2");
-  EXPECT_NEAR(small.ticks(2)[0].value, 2e-5, 1e-18);
-  EXPECT_EQ(Scale({1e-9, 3}).ticks(4).front().label, "10⁻⁹");
+  EXPECT_EQ(small.ticks()[0].label, "2");
+  EXPECT_NEAR(small.ticks()[0].value, 2e-5, 1e-18);
+  EXPECT_EQ(Scale({1e-9, 3}, 4).ticks().front().label, "10⁻⁹");
   EXPECT_EQ(grouped(1234567), "1,234,567");
   EXPECT_EQ(grouped(999), "999");
+}
+
+TEST(scale, has_fewer_ticks_where_labels_are_wide) {
+  const std::vector<double> wide{1.6e9, 1.6e9 + 300};
+  const std::size_t all = Scale(wide, 6).ticks().size();
+  const Scale fitting = Scale::fitting(wide, 6, 200, 12);
+  EXPECT_LT(fitting.ticks().size(), all);
+  double widths = 0;
+  for (const Scale::Tick& tick : fitting.ticks()) widths += text_width(tick.label, 12);
+  EXPECT_LT(widths, 2 * 200);
+  // Of numbers that no double can hold the sum or difference of.
+  for (const auto& values :
+       std::vector<std::vector<double>>{{-1.7e308, 1.7e308}, {5e-324, 1.7e308}, {0, 5e-324}}) {
+    const Scale scale(values, 6);
+    for (const Scale::Tick& tick : scale.ticks()) EXPECT_TRUE(std::isfinite(tick.value)) << values[0];
+  }
+}
+
+TEST(fonts, text_is_shortened_in_its_middle) {
+  EXPECT_NEAR(text_width("Ab°", 2048), 1401 + 1300 + 1024, 1e-9);
+  EXPECT_EQ(shortened("short", 12, 100), "short");
+  const std::string text = "123456789·abcdefghi", cut = shortened(text, 10, 80);
+  EXPECT_LE(text_width(cut, 10), 80);
+  EXPECT_EQ(cut.substr(0, 3), "123");
+  EXPECT_EQ(cut.substr(cut.size() - 3), "ghi");
+  EXPECT_NE(cut.find("…"), std::string::npos);
 }
 
 TEST(colours, of_neighbours_differ) {
@@ -350,6 +386,69 @@ TEST(mesh_picture, counts_neighbours_and_nodes_of_ranks_in_its_legend) {
   EXPECT_EQ(count(mesh_picture(mesh, options), "stripes: which of 2 ranks owns a node"), 1u);
 }
 
+/// The colours of the faces, and how many paths are drawn in each.
+std::vector<std::string> fills(const std::string& svg) {
+  std::vector<std::string> found;
+  const std::string begin = "<path fill=\"#";
+  for (std::size_t at = svg.find(begin); at != svg.npos; at = svg.find(begin, at + 1))
+    found.push_back(svg.substr(at + begin.size() - 1, 7));
+  return found;
+}
+
+TEST(mesh_picture, has_the_colours_of_a_column) {
+  Mesh mesh = mesh_of_family("icosahedral", 162);
+  files::Column depth{"depth", "depth of the sea", "km"}, kind{"kind"};
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    depth.numbers.push_back(i < 12 ? NAN : i < 80 ? 10 : 20);
+    kind.texts.push_back(i < 12 ? "" : i < 80 ? "a" : "b");
+  }
+  mesh.columns = {depth, kind};
+  MeshOptions options;
+  options.what = MeshOptions::What::cells;
+  options.colour = MeshOptions::Colour::value;
+  options.value = "depth";
+  const std::string numbers = mesh_picture(mesh, options);
+  EXPECT_EQ(count(numbers, ">depth of the sea, km<"), 1u);
+  EXPECT_EQ(count(numbers, ">no value (12)<"), 1u);
+  EXPECT_EQ(fills(numbers), (std::vector<std::string>{viridis(0), viridis(1), "#e6e6e6"}));
+  options.value = "kind";
+  const std::string words = mesh_picture(mesh, options);
+  for (const char* label : {">a (68)<", ">b (82)<", ">no value (12)<"}) EXPECT_EQ(count(words, label), 1u);
+  options.what = MeshOptions::What::triangles;
+  EXPECT_THROW(mesh_picture(mesh, options), std::runtime_error);
+  // A triangle has the mean of its corners: 10, 20 or two in between.
+  mesh.columns[0].numbers.assign(162, 10);
+  for (std::size_t i = 80; i < 162; ++i) mesh.columns[0].numbers[i] = 20;
+  options.value = "depth";
+  EXPECT_EQ(fills(mesh_picture(mesh, options)).size(), 4u);
+  options.value = "none";
+  EXPECT_THROW(mesh_picture(mesh, options), std::runtime_error);
+}
+
+TEST(mesh_picture, has_areas_in_km2_and_when_zoomed_a_scale_and_coordinates) {
+  const Mesh mesh = mesh_of_family("icosahedral", 642);
+  MeshOptions options;
+  options.what = MeshOptions::What::cells;
+  options.colour = MeshOptions::Colour::size;
+  const std::string whole = mesh_picture(mesh, options);
+  EXPECT_EQ(count(whole, ">area of a cell, 10⁵ km²<"), 1u);  // 5.1e8 km2 in 642 parts
+  EXPECT_EQ(count(whole, " in the middle<"), 0u);
+  options.centre = Spot{10, 50};
+  options.radius = 20;
+  const std::string part = mesh_picture(mesh, options);
+  // 40 degrees are 680 pixels: 1,000 km, 9 degrees, fit into a quarter, 2,000 km do not.
+  EXPECT_EQ(count(part, ">1,000 km in the middle<"), 1u);
+  for (const char* label : {">0°<", ">15°E<", ">40°N<", ">50°N<", ">60°N<"})
+    EXPECT_EQ(count(part, label), 1u) << label;
+  options.radius = 0.0002;
+  const std::string tiny = mesh_picture(mesh, options);
+  EXPECT_EQ(count(tiny, ">10 m in the middle<"), 1u);
+  EXPECT_EQ(count(tiny, ">50.0001°N<"), 1u);
+  options.radius = 20;
+  options.lonlat = true;
+  EXPECT_EQ(count(mesh_picture(mesh, options), ">1,000 km at 50°N<"), 1u);
+}
+
 TEST(mesh_picture, marks_the_boundary_of_a_part_of_the_sphere) {
   MeshOptions options;
   EXPECT_EQ(count(mesh_picture(mesh_of_family("random", 100), options), "boundary"), 0u);
@@ -389,8 +488,99 @@ TEST(histograms, count_what_is_in_the_mesh) {
       files::triangulate({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}), "", 800);
   EXPECT_EQ(count(same, "min 60, median 60, max 60"), 1u);
   EXPECT_EQ(count(same, "min 90, median 90, max 90"), 1u);
-  EXPECT_EQ(count(same, "min 1.571, median 1.571, max 1.571"), 1u);
+  EXPECT_EQ(count(same, "area of a triangle, 10⁷ km²"), 1u);  // pi/2 times 6371^2
+  EXPECT_EQ(count(same, "min 6.376, median 6.376, max 6.376"), 1u);
   EXPECT_EQ(count(same, "nan"), 0u);
+}
+
+// ---- coasts
+// ---------------------------------------------------------------------------------------------------
+
+/// A shapefile of polygons, each one part.
+class Shapefile {
+ public:
+  explicit Shapefile(const std::vector<std::vector<Spot>>& polygons) {
+    std::string records;
+    for (const auto& polygon : polygons) {
+      std::string shape = little(std::int32_t{5}) + std::string(32, '\0') + little(std::int32_t{1}) +
+                          little(static_cast<std::int32_t>(polygon.size())) + little(std::int32_t{0});
+      for (const Spot& s : polygon) shape += little(s.lon) + little(s.lat);
+      records += big(1) + big(static_cast<std::int32_t>(shape.size() / 2)) + shape;
+    }
+    bytes = big(9994) + std::string(96, '\0') + records;
+  }
+  Lines read(std::size_t size = SIZE_MAX) const {
+    const std::string name = testing::TempDir() + "coast.shp";
+    std::ofstream(name, std::ios::binary) << bytes.substr(0, size);
+    return read_shapefile(name);
+  }
+  std::string bytes;
+
+ private:
+  template <class T>
+  static std::string little(T value) {
+    std::string text(sizeof value, '\0');
+    std::memcpy(text.data(), &value, sizeof value);
+    return text;
+  }
+  static std::string big(std::int32_t value) {
+    std::string text = little(value);
+    std::reverse(text.begin(), text.end());
+    return text;
+  }
+};
+
+TEST(coasts, are_those_of_the_shapefile_without_its_cuts) {
+  // An island; and a land that is cut at the antimeridian and continued to the pole.
+  const Shapefile file({{{10, 40}, {12, 40}, {12, 42}, {10, 40}},
+                        {{180, -80}, {0, -70}, {-180, -80}, {-180, -90}, {180, -90}, {180, -80}}});
+  std::vector<std::size_t> lengths;
+  for (const auto& line : file.read())
+    if (line.size() > 1) lengths.push_back(line.size());
+  EXPECT_EQ(lengths, (std::vector<std::size_t>{4, 3}));
+  EXPECT_EQ(file.read()[0][0], point_sets::from_degrees(10, 40));
+  MeshOptions options;
+  options.coast_file = testing::TempDir() + "coast.shp";
+  const Mesh mesh = mesh_of_family("random", 50);
+  EXPECT_EQ(count(mesh_picture(mesh, options), "#1c1c1c"), 1u);
+  options.coast_file.clear();
+  EXPECT_EQ(count(mesh_picture(mesh, options), "#1c1c1c"), 0u);
+}
+
+TEST(coasts, of_a_file_that_is_damaged_are_refused) {
+  const Shapefile file({{{10, 40}, {12, 40}, {12, 42}, {10, 40}}});
+  EXPECT_TRUE(file.read(100).empty());  // a header alone
+  for (std::size_t size = 0; size < file.bytes.size(); size += size == 99 ? 2 : 1)
+    EXPECT_THROW(file.read(size), std::runtime_error) << size;
+  for (std::size_t at = 100; at < file.bytes.size(); ++at)
+    for (const int value : {0x7f, 0xff}) {
+      Shapefile changed = file;
+      changed.bytes[at] = static_cast<char>(value);
+      try {
+        for (const auto& line : changed.read()) EXPECT_LE(line.size(), 4u);
+      } catch (const std::runtime_error& e) {
+        EXPECT_NE(std::string(e.what()).find("coast.shp: no shapefile (.shp) of"), std::string::npos);
+      }
+    }
+}
+
+TEST(coasts, of_natural_earth_are_as_fine_as_needed_or_there_is_a_remedy) {
+  const std::filesystem::path folder = testing::TempDir() + "natural_earth";
+  std::filesystem::remove_all(folder);
+  try {
+    natural_earth(90, folder);
+    FAIL();
+  } catch (const std::runtime_error& e) {
+    EXPECT_NE(std::string(e.what()).find(
+                  "install them (Debian: libmagics++-data), or name a shapefile by --coast-file"),
+              std::string::npos);
+  }
+  for (const char* scale : {"110m", "10m"}) {
+    std::filesystem::create_directories(folder / scale);
+    std::ofstream(folder / scale / ("ne_" + std::string(scale) + "_land.shp"));
+  }
+  EXPECT_EQ(natural_earth(1, folder), folder / "10m/ne_10m_land.shp");
+  EXPECT_EQ(natural_earth(20, folder), folder / "110m/ne_110m_land.shp");  // 50m is missing
 }
 
 // ---- files

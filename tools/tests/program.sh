@@ -204,9 +204,9 @@ pictures)
   if cmp -s one.svg other.svg; then fail "the triangles of a file are not drawn"; fi
   if command -v rsvg-convert > /dev/null; then
     "$PSTRIPACK" -q plot nodes.txt --view lonlat --width 1000 -o a.png
-    # The signature and, in the header, 1000 (0x3e8) by 548 (0x224) pixels.
-    [ "$(od -A n -t x1 -N 24 a.png | tr -d ' \n')" = 89504e470d0a1a0a0000000d49484452000003e800000224 ] ||
-      fail "a.png is no PNG of 1000 x 548 pixels: $(od -A n -t x1 -N 24 a.png)"
+    # The signature and, in the header, 1000 (0x3e8) by 551 (0x227) pixels.
+    [ "$(od -A n -t x1 -N 24 a.png | tr -d ' \n')" = 89504e470d0a1a0a0000000d49484452000003e800000227 ] ||
+      fail "a.png is no PNG of 1000 x 551 pixels: $(od -A n -t x1 -N 24 a.png)"
   fi
   # PNG without the program that makes it.
   code=0
@@ -216,8 +216,19 @@ pictures)
   refuses 2 "--view: mercator: expected orthographic, lonlat" plot nodes.txt -o c.svg --view mercator
   refuses 2 "--view: lonlat:10: expected" plot nodes.txt -o c.svg --view lonlat:10
   refuses 2 "--view: orthographic:0,91: expected" plot nodes.txt -o c.svg --view orthographic:0,91
-  refuses 2 "--colour: owner:0: expected none, size, degree" plot nodes.txt -o c.svg --colour owner:0
+  refuses 2 "--colour: owner:0: expected owner:P or owner:P:stripes for 1 to 4096 ranks" plot nodes.txt -o c.svg --colour owner:0
   refuses 2 "--colour: owner:4:boxes: expected" plot nodes.txt -o c.svg --colour owner:4:boxes
+  refuses 1 "nodes.txt: --colour aera: no column has this name; did you mean area? (here are none, area, degree, owner:P, node, line)" \
+    plot nodes.txt -o c.svg --colour aera
+  refuses 1 "no.shp: cannot be opened: No such file" plot nodes.txt -o c.svg --coast-file no.shp
+  refuses 1 "nodes.txt: no shapefile (.shp) of lines or polygons" plot nodes.txt -o c.svg --coast-file nodes.txt
+  refuses 2 "histograms have no coasts" plot nodes.txt -o c.svg --what histograms --coasts
+  printf 'lon,lat,mag,place\n0,0,1,a\n90,0,2,b\n180,0,3,a\n270,0,4,b\n0,90,5,a\n0,-90,,\n' > quakes.csv
+  "$PSTRIPACK" -q plot quakes.csv --what cells --colour mag -o mag.svg
+  grep -q '>mag<' mag.svg && grep -q '>no value (1)<' mag.svg || fail "no legend of mag"
+  "$PSTRIPACK" -q plot quakes.csv --what cells --colour place -o place.svg
+  grep -q '>a (3)<' place.svg && grep -q '>b (2)<' place.svg || fail "no legend of place"
+  refuses 1 "place is a column of words: say --what cells" plot quakes.csv -o c.svg --colour place
   refuses 2 "degree is a property of nodes: say --what cells" plot nodes.txt -o c.svg --colour degree
   refuses 2 "histograms have no --view" plot nodes.txt -o c.svg --what histograms --view lonlat
   refuses 1 "no/such/folder/c.svg: cannot be written: No such file" plot nodes.txt -o no/such/folder/c.svg

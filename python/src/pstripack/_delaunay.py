@@ -148,13 +148,16 @@ class Delaunay:
             Of each node, one or several.
         xi : array_like, shape (..., 3)
             Vectors to the places.
-        method : {"linear", "nearest"}
-            Linear on triangles, or the value of the nearest node.
+        method : {"linear", "natural", "cubic", "nearest"}
+            Linear on triangles: continuous. By natural neighbours (Sibson), the parts of their Voronoi cells that a
+            node at the place would take: smooth except at the nodes. Cubic: by natural neighbours and gradients, which
+            are estimated from neighbours and their neighbours; smooth, also beyond the range of the values; a value
+            that is not finite spoils those around it. Or the value of the nearest node.
         outside : {"nan", "nearest"}
-            What "linear" gives outside the triangles.
+            What all but "nearest" give outside the triangles.
         """
-        if method not in ("linear", "nearest"):
-            raise ValueError(f"method must be 'linear' or 'nearest', not {method!r}")
+        if method not in ("linear", "natural", "cubic", "nearest"):
+            raise ValueError(f"method must be 'linear', 'natural', 'cubic' or 'nearest', not {method!r}")
         if outside not in ("nan", "nearest"):
             raise ValueError(f"outside must be 'nan' or 'nearest', not {outside!r}")
         given = np.asarray(values)
@@ -167,7 +170,7 @@ class Delaunay:
                 raise ValueError(f"place {int(np.argmax(near.ravel() < 0))} (counted from 0) has no direction")
             return np.asarray(given[near])
         table = np.require(given.reshape(self.npoints, -1), np.float64, ["A", "C"])
-        result = self._mesh.linear(places.reshape(-1, 3), table, self._number(threads))
+        result = self._mesh.interpolate(method, places.reshape(-1, 3), table, self._number(threads))
         if outside == "nearest":
             missing = np.flatnonzero(self.find_simplex(places, threads=threads).ravel() < 0)
             near = self.nearest(places.reshape(-1, 3)[missing], threads=threads)
