@@ -421,6 +421,14 @@ void add_columns(Faces& faces, const Mesh& mesh) {
   of_nodes.erase(std::remove_if(of_nodes.begin(), of_nodes.end(), is_ours), of_nodes.end());
   make_names_differ(of_nodes, {degree.name, area.name, area_km2.name});
   of_nodes.push_back(std::move(degree));
+  if (are_cells && !faces.nodes.empty()) {
+    for (Column& column : of_nodes) {
+      column.numbers = values_at(column.numbers, faces.nodes);
+      column.texts = values_at(column.texts, faces.nodes);
+    }
+    for (auto* const angles : {&faces.given_centres.lon, &faces.given_centres.lat})
+      *angles = values_at(*angles, faces.nodes);
+  }
   faces.columns_of_faces.push_back(std::move(area));
   faces.columns_of_faces.push_back(std::move(area_km2));
 }
