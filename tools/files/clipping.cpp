@@ -1,7 +1,5 @@
 #include "files/clipping.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -92,7 +90,7 @@ bool cut(MapRing& ring, const Side& side) {
     const double t = at_p == at_q ? 0.5 : std::clamp(at_p / (at_p - at_q), 0.0, 1.0);
     const Point x = unit({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y), p.z + t * (q.z - p.z)});
     // Two sides of the hull meet in a node.
-    const auto is_at = [&](const MapCorner& node) { return angle_between(x, node.p) < 4e-16; };
+    const auto is_at = [&](const MapCorner& node) { return angle_between(x, node.p) < 1e-14; };
     if (is_at(side.from) || is_at(side.to)) {
       kept.push_back(is_at(side.from) ? side.from : side.to);
     } else {
@@ -121,13 +119,17 @@ void divide_half_turns(Faces& cells, const Mesh& mesh) {
       const Point &a = cells.points[static_cast<std::size_t>(from) - 1],
                   &b = cells.points[static_cast<std::size_t>(to) - 1];
       if (dot(a, b) >= -1 + 1e-12 || reader.entry(last) >= 0) continue;
-      // The side divides the cells of two nodes that are neighbours on the boundary, and leads through the
-      // middle of their arc: away from the nodes on the side of the last neighbour, towards them on that of
-      // the first one.
-      const Point& c = cells.centres[f];
-      const std::int32_t slot = dot(a, c) > 0 ? last : reader.next(last);
-      const Point& other = cells.centres[static_cast<std::size_t>(reader.neighbour(slot)) - 1];
-      divided.points.push_back(unit({c.x + other.x, c.y + other.y, c.z + other.z}));
+      // The side divides the cells of two nodes that are neighbours on the boundary, and leads across the
+      // boundary: outwards on the side of the last neighbour, inwards on that of the first one.
+      const bool outwards = dot(a, cells.centres[f]) > 0;
+      const Point& near = outwards ? a : b;
+      const std::int32_t slot = outwards ? last : reader.next(last);
+      const Point &c = cells.centres[f],
+                  &other = cells.centres[static_cast<std::size_t>(reader.neighbour(slot)) - 1];
+      const Point outside = outwards ? cross(c, other) : cross(other, c);
+      const Point middle = unit(cross(near, minus(c, other)));
+      const double sign = dot(middle, outside) > 0 ? 1 : -1;
+      divided.points.push_back({sign * middle.x, sign * middle.y, sign * middle.z});
       divided.corner.push_back(static_cast<std::int32_t>(divided.points.size()));
     }
   }
@@ -136,10 +138,10 @@ void divide_half_turns(Faces& cells, const Mesh& mesh) {
 }
 
 Faces clipped_to_hull(const Faces& cells, const Mesh& mesh) {
+  if (!mesh.has_boundary()) return cells;
   std::vector<std::int32_t> boundary(mesh.points.size());
   boundary.resize(
       static_cast<std::size_t>(pstripack::boundary_nodes(mesh.lists(), boundary.data()).boundary_nodes));
-  if (boundary.empty()) return cells;
   const LonLat of_nodes = angles_of(mesh.points, mesh.given, true), of_points(cells.points, true);
   const auto corner_of = [&](std::int32_t node) -> MapCorner {
     const auto i = static_cast<std::size_t>(node) - 1;
@@ -182,9 +184,7 @@ Faces clipped_to_region(const Faces& cells, const Region& region) {
   Pieces pieces(cells);
   for (std::size_t f = 0; f < cells.size(); ++f) {
     const MapRing polygon = ring_of(cells, f, angles);
-    if (has_half_turn(polygon))
-      throw NoMesh(fmt::format("the cell of node {} reaches halfway around the sphere: add nodes elsewhere",
-                               cells.node_of(f) + 1));
+    expect_no_half_turn(polygon, cells.node_of(f));
     MapRing ring = unrolled(polygon, region.west);
     const bool around_pole = std::any_of(ring.begin(), ring.end(), [](const MapCorner& c) { return c.seam; });
     const bool hole = around_pole && (ring.back().lat > 0 ? region.north < 90 : region.south > -90);

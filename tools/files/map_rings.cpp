@@ -1,5 +1,7 @@
 #include "files/map_rings.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -199,7 +201,8 @@ MapRing closed_at_pole(const MapRing& ring, double west, int around) {
   MapCorner end = closed.front(), at_pole = pole(around);
   end.straight = end.seam = at_pole.straight = at_pole.seam = true;
   at_pole.lon = west;
-  end.turn = at_pole.turn = turn + around;
+  end.turn += around;
+  at_pole.turn = turn + around;
   closed.push_back(end);
   closed.push_back(at_pole);
   at_pole.turn = turn;
@@ -232,10 +235,11 @@ MapRing ring_of(const Faces& faces, std::size_t face, const LonLat& angles) {
   return ring;
 }
 
-bool has_half_turn(const MapRing& ring) {
+void expect_no_half_turn(const MapRing& ring, std::size_t node) {
   for (std::size_t i = 0; i < ring.size(); ++i)
-    if (dot(ring[i].p, ring[(i + 1) % ring.size()].p) < -1 + 1e-12) return true;
-  return false;
+    if (dot(ring[i].p, ring[(i + 1) % ring.size()].p) < -1 + 1e-12)
+      throw NoMesh(fmt::format(
+          "the polygon of node {} reaches halfway around the sphere: add nodes elsewhere", node + 1));
 }
 
 MapRing unrolled(const MapRing& polygon, double west) {

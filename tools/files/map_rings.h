@@ -30,8 +30,8 @@ using MapRing = std::vector<MapCorner>;
 /// The corners of a face; longitudes from -180 to 180.
 MapRing ring_of(const Faces& faces, std::size_t face, const LonLat& angles);
 
-/// True if a side of the ring is a half turn, so that its ends do not tell where it is.
-bool has_half_turn(const MapRing& ring);
+/// Throws NoMesh, which names the node, if a side is a half turn, so that its ends do not tell where it is.
+void expect_no_half_turn(const MapRing& ring, std::size_t node);
 
 /// The map of a convex polygon, whose sides are arcs (turns and flags of `ring` are ignored). A pole that is
 /// a corner, or lies on a side, becomes a line of the map. With a pole inside, the ring reaches from `west`

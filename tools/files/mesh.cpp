@@ -219,9 +219,12 @@ Mesh mesh_of(std::vector<Point> points, const Triangles& triangles) {
 }
 
 std::size_t Mesh::triangles() const {
-  const bool has_boundary = pstripack::ListReader<std::int32_t>(lists()).first_boundary_node() > 0;
   const std::size_t arcs = (static_cast<std::size_t>(lnew) - 1) / 2;
-  return arcs + (has_boundary ? 1 : 2) - points.size();  // Euler
+  return arcs + (has_boundary() ? 1 : 2) - points.size();  // Euler
+}
+
+bool Mesh::has_boundary() const {
+  return pstripack::ListReader<std::int32_t>(lists()).first_boundary_node() > 0;
 }
 
 std::vector<std::int32_t> triangles_of(const Mesh& mesh) {

@@ -24,6 +24,7 @@ struct Mesh {
   std::int32_t lnew = 0;
 
   std::size_t triangles() const;
+  bool has_boundary() const;  ///< a hemisphere holds all nodes
   pstripack::ListsView<std::int32_t> lists() const {
     return {points.size(), list.data(), lptr.data(), lend.data(), lnew};
   }

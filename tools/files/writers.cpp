@@ -236,12 +236,6 @@ void write_features(const OutputFile& file, const Columns& table, const Notes& n
   out.close();
 }
 
-[[noreturn]] void refuse_half_turn(const OutputFile& file, const Faces& faces, std::size_t f) {
-  throw std::runtime_error(
-      fmt::format("{}: the cell of node {} reaches halfway around the sphere: add nodes elsewhere",
-                  file.name(), faces.node_of(f) + 1));
-}
-
 /// Polygons, cut at the dateline, counterclockwise; null where the corners are one place.
 void write_geojson(const OutputFile& file, const Faces& faces, const Notes& notes) {
   const LonLat angles = angles_of(faces.points, faces.given_points, true);
@@ -252,7 +246,7 @@ void write_geojson(const OutputFile& file, const Faces& faces, const Notes& note
   };
   write_features(file, table_of(faces), notes, [&](TextWriter& out, std::size_t f) {
     const MapRing ring = ring_of(faces, f, angles);
-    if (has_half_turn(ring)) refuse_half_turn(file, faces, f);
+    expect_no_half_turn(ring, faces.node_of(f));
     std::vector<MapRing> parts;
     for (const MapRing& part : between_meridians(unrolled(ring, -180), -180, 360))
       if (MapRing lines = with_straight_lines(part); !lines.empty()) parts.push_back(std::move(lines));

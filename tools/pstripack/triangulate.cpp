@@ -28,9 +28,13 @@ void run(Options& options, const Write& write) {
   add_history(nodes.notes);
   const files::Mesh mesh = progress.step("triangulating", [&] { return triangulate(nodes); });
   const std::string what = progress.step("writing", [&] {
-    const std::string written = write(file, mesh);
-    file.commit();
-    return written;
+    try {
+      const std::string written = write(file, mesh);
+      file.commit();
+      return written;
+    } catch (const files::NoMesh& e) {
+      throw no_mesh_of(nodes, e);
+    }
   });
   progress.finish(fmt::format("{} ({}), {}", counted(nodes.points.size(), "node"), nodes.kind, what));
 }
@@ -46,11 +50,11 @@ void voronoi(Options& options) {
   run(options, [&](const files::OutputFile& file, const files::Mesh& mesh) {
     files::Faces faces = files::voronoi_faces(mesh);
     files::divide_half_turns(faces, mesh);
+    if (options.clip_to_hull && !mesh.has_boundary())
+      say(options.input.file + ": the nodes surround the sphere: --clip-to-hull cuts nothing");
     if (options.clip_to_hull) faces = clipped_to_hull(faces, mesh);
     if (!options.region.empty()) faces = clipped_to_region(faces, region_of(options.region));
-    if (faces.size() == 0)
-      throw std::runtime_error(fmt::format("{}: no part of the hull of the nodes lies in --region {}",
-                                           options.input.file, options.region));
+    if (faces.size() == 0) throw files::NoMesh("no part of the hull of the nodes lies in the region");
     files::add_columns(faces, mesh);
     write_faces(file, options.output.format, faces, mesh.notes);
     return counted(faces.size(), "cell") + ", " + counted(faces.points.size(), "corner");
