@@ -213,12 +213,11 @@ void add_interpolate(CLI::App& app, Command& chosen) {
       ->type_name("DEGREES")
       ->check(CLI::PositiveNumber.description(""));
   sub->add_option("--region", options->region,
-                  "edges of the grid: WEST,EAST,SOUTH,NORTH; 170,-170 crosses the dateline [-180,180,-90,90]")
+                  "edges: WEST,EAST,SOUTH,NORTH; 170,-170 crosses the dateline [-180,180,-90,90]")
       ->type_name("DEGREES");
-  add_choice(
-      *sub, "--registration", options->registration,
-      {{"cell", Registration::cell}, {"node", Registration::node}},
-      "points of the grid: cell (centres of equal cells) or node (the region's edges and between) [cell]");
+  add_choice(*sub, "--registration", options->registration,
+             {{"cell", Registration::cell}, {"node", Registration::node}},
+             "cell: centres of equal cells; node: on the edges of the region and between [cell]");
   add_choice(*sub, "--method", options->method,
              {{"linear", Interpolation::Method::linear},
               {"natural", Interpolation::Method::natural},
