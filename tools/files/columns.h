@@ -44,6 +44,16 @@ struct LonLat {
 /// The angles as they were given, in another unit if they must be, or those of the vectors where none are.
 LonLat angles_of(const std::vector<pstripack::Point>& points, const LonLat& given, bool degrees);
 
+/// The values with these indices.
+template <class Value>
+std::vector<Value> values_at(const std::vector<Value>& values, const std::vector<std::size_t>& indices) {
+  std::vector<Value> found;
+  if (values.empty()) return found;
+  found.reserve(indices.size());
+  for (const std::size_t i : indices) found.push_back(values[i]);
+  return found;
+}
+
 /// Keeps the values with these indices, which increase.
 template <class Value>
 void keep(std::vector<Value>& values, const std::vector<std::size_t>& indices) {

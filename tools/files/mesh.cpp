@@ -218,9 +218,12 @@ Mesh mesh_of(std::vector<Point> points, const Triangles& triangles) {
 }
 
 std::size_t Mesh::triangles() const {
-  const bool has_boundary = pstripack::ListReader<std::int32_t>(lists()).first_boundary_node() > 0;
   const std::size_t arcs = (static_cast<std::size_t>(lnew) - 1) / 2;
-  return arcs + (has_boundary ? 1 : 2) - points.size();  // Euler
+  return arcs + (has_boundary() ? 1 : 2) - points.size();  // Euler
+}
+
+bool Mesh::has_boundary() const {
+  return pstripack::ListReader<std::int32_t>(lists()).first_boundary_node() > 0;
 }
 
 std::vector<std::int32_t> triangles_of(const Mesh& mesh) {
@@ -414,6 +417,14 @@ void add_columns(Faces& faces, const Mesh& mesh) {
   of_nodes.erase(std::remove_if(of_nodes.begin(), of_nodes.end(), is_ours), of_nodes.end());
   make_names_differ(of_nodes, {degree.name, area.name, area_km2.name});
   of_nodes.push_back(std::move(degree));
+  if (are_cells && !faces.nodes.empty()) {
+    for (Column& column : of_nodes) {
+      column.numbers = values_at(column.numbers, faces.nodes);
+      column.texts = values_at(column.texts, faces.nodes);
+    }
+    for (auto* const angles : {&faces.given_centres.lon, &faces.given_centres.lat})
+      *angles = values_at(*angles, faces.nodes);
+  }
   faces.columns_of_faces.push_back(std::move(area));
   faces.columns_of_faces.push_back(std::move(area_km2));
 }

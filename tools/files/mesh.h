@@ -25,6 +25,7 @@ struct Mesh {
   std::int32_t lnew = 0;
 
   std::size_t triangles() const;
+  bool has_boundary() const;  ///< a hemisphere holds all nodes
   pstripack::ListsView<std::int32_t> lists() const {
     return {points.size(), list.data(), lptr.data(), lend.data(), lnew};
   }
@@ -73,13 +74,15 @@ std::vector<Point> circumcentres(const std::vector<Point>& unit_points,
 /// counterclockwise.
 struct Faces {
   std::vector<Point> points;
-  std::vector<Point> centres;  ///< the node that each face belongs to; empty: none
+  std::vector<Point> centres;      ///< the node that each face belongs to; empty: none
+  std::vector<std::size_t> nodes;  ///< its index; empty: that of the face
   std::vector<std::size_t> begin;
   std::vector<std::int32_t> corner;
   LonLat given_points, given_centres;  ///< their angles, if they were given
   Columns columns_of_points, columns_of_faces;
 
   std::size_t size() const { return begin.size() - 1; }
+  std::size_t node_of(std::size_t f) const { return nodes.empty() ? f : nodes[f]; }
   std::size_t corners(std::size_t f) const { return begin[f + 1] - begin[f]; }
   std::size_t most_corners() const;
 };

@@ -1,9 +1,13 @@
 #include "files/writers.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
+
+#include "files/map_rings.h"
 
 namespace files {
 namespace {
@@ -135,6 +139,178 @@ void write_lists(const OutputFile& file, const Mesh& mesh) {
   out.close();
 }
 
+/// For each cell its node's place and columns; for each triangle the numbers of its corners and its columns.
+Columns table_of(const Faces& faces) {
+  if (!faces.centres.empty())
+    return with_angles(faces.columns_of_faces, angles_of(faces.centres, faces.given_centres, true));
+  Columns table;
+  const Column* const numbers = find(faces.columns_of_points, "node");
+  for (std::size_t k = 0; k < 3; ++k) {
+    Column corner = whole_numbers(fmt::format("node{}", k + 1), "", {});
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      const auto i = static_cast<std::size_t>(faces.corner[faces.begin[f] + k]);
+      corner.numbers.push_back(numbers == nullptr ? static_cast<double>(i) : numbers->numbers[i - 1]);
+    }
+    table.push_back(std::move(corner));
+  }
+  table.insert(table.end(), faces.columns_of_faces.begin(), faces.columns_of_faces.end());
+  return table;
+}
+
+Columns table_of(const std::vector<Point>& points, const NodeValues& values) {
+  Columns columns = values.columns;
+  if (values.given.empty())
+    for (const auto& [name, component] :
+         {std::pair("x", &Point::x), std::pair("y", &Point::y), std::pair("z", &Point::z)}) {
+      Column column{name};
+      for (const Point& p : points) column.numbers.push_back(p.*component);
+      columns.push_back(std::move(column));
+    }
+  return with_angles(columns, angles_of(points, values.given, true));
+}
+
+/// In quotes where CSV needs them (RFC 4180).
+std::string csv_text(const std::string& text) {
+  if (text.find_first_of(",;\"\n\r\t#") == text.npos &&
+      text == text.substr(0, text.find_last_not_of(' ') + 1) && text.find(' ') != 0)
+    return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
+  return quoted + '"';
+}
+
+/// A header line, with units as text_table.h reads them; empty where a value is missing.
+void write_csv(const OutputFile& file, const Columns& table) {
+  TextWriter out(file);
+  for (std::size_t k = 0; k < table.size(); ++k) {
+    const Column& c = table[k];
+    const bool has_units = !c.units.empty() && !ends_with(c.name, "_" + c.units) && c.units != "degrees";
+    out.print("{}{}", k == 0 ? "" : ",", csv_text(has_units ? c.name + " [" + c.units + "]" : c.name));
+  }
+  out.print("\n");
+  for (std::size_t i = 0; i < table[0].size(); ++i) {
+    for (std::size_t k = 0; k < table.size(); ++k) {
+      if (k > 0) out.print(",");
+      if (table[k].is_text())
+        out.print("{}", csv_text(table[k].texts[i]));
+      else if (!std::isnan(table[k].numbers[i]))
+        out.print("{}", table[k].numbers[i]);
+    }
+    out.print("\n");
+  }
+  out.close();
+}
+
+std::string json_text(const std::string& text) {
+  using nlohmann::json;
+  return json(text).dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+/// RFC 7946: one line for each feature; `write_geometry(out, i)`.
+template <class WriteGeometry>
+void write_features(const OutputFile& file, const Columns& table, const Notes& notes,
+                    const WriteGeometry& write_geometry) {
+  std::vector<std::string> names;
+  for (const Column& c : table) names.push_back(json_text(c.name));
+  TextWriter out(file);
+  out.print("{{\"type\":\"FeatureCollection\",");
+  for (const auto& [name, text] : notes) out.print("{}:{},", json_text(name), json_text(text));
+  out.print("\"features\":[");
+  for (std::size_t i = 0; i < table[0].size(); ++i) {
+    out.print("{}\n{{\"type\":\"Feature\",\"properties\":{{", i == 0 ? "" : ",");
+    for (std::size_t k = 0; k < table.size(); ++k) {
+      out.print("{}{}:", k == 0 ? "" : ",", names[k]);
+      const Column& c = table[k];
+      if (c.is_text())
+        out.print("{}", json_text(c.texts[i]));
+      else if (std::isfinite(c.numbers[i]))
+        out.print("{}", c.numbers[i]);
+      else
+        out.print("null");
+    }
+    out.print("}},\"geometry\":");
+    write_geometry(out, i);
+    out.print("}}");
+  }
+  out.print("\n]}}\n");
+  out.close();
+}
+
+/// Polygons, cut at the dateline, counterclockwise; null where the corners are one place.
+void write_geojson(const OutputFile& file, const Faces& faces, const Notes& notes) {
+  const LonLat angles = angles_of(faces.points, faces.given_points, true);
+  const auto print_ring = [](TextWriter& out, const MapRing& ring) {
+    out.print("[[");
+    for (const MapCorner& c : ring) out.print("[{},{}],", c.x(), c.lat);
+    out.print("[{},{}]]]", ring[0].x(), ring[0].lat);
+  };
+  write_features(file, table_of(faces), notes, [&](TextWriter& out, std::size_t f) {
+    const MapRing ring = ring_of(faces, f, angles);
+    expect_no_half_turn(ring, faces.node_of(f));
+    std::vector<MapRing> parts;
+    for (const MapRing& part : between_meridians(unrolled(ring, -180), -180, 360))
+      if (MapRing lines = with_straight_lines(part); !lines.empty()) parts.push_back(std::move(lines));
+    if (parts.empty()) return out.print("null");
+    out.print("{{\"type\":\"{}\",\"coordinates\":{}", parts.size() == 1 ? "Polygon" : "MultiPolygon",
+              parts.size() == 1 ? "" : "[");
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      if (k > 0) out.print(",");
+      print_ring(out, parts[k]);
+    }
+    out.print(parts.size() == 1 ? "}}" : "]}}");
+  });
+}
+
+/// As @D lines have it: texts in quotes.
+std::string gmt_text(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '|' || c == '\\') quoted += '\\';
+    quoted += c == '\n' || c == '\r' ? ' ' : c;
+  }
+  return quoted + '"';
+}
+
+/// GMT's multi-segment files with values as in its OGR/GMT format: a segment for each polygon.
+void write_gmt(const OutputFile& file, const Faces& faces) {
+  const Columns table = table_of(faces);
+  const LonLat angles = angles_of(faces.points, faces.given_points, true);
+  TextWriter out(file);
+  out.print("# @VGMT1.0 @GPOLYGON @Je4326\n");
+  for (const bool types : {false, true}) {
+    out.print(types ? "# @T" : "# @N");
+    for (std::size_t k = 0; k < table.size(); ++k) {
+      const Column& c = table[k];
+      out.print("{}{}", k == 0 ? "" : "|",
+                !types        ? plain_name(c.name)
+                : c.is_text() ? "string"
+                : c.whole     ? "integer"
+                              : "double");
+    }
+    out.print("\n");
+  }
+  out.print("# FEATURE_DATA\n");
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    out.print(">\n# @D");
+    for (std::size_t k = 0; k < table.size(); ++k) {
+      if (k > 0) out.print("|");
+      if (table[k].is_text())
+        out.print("{}", gmt_text(table[k].texts[f]));
+      else if (std::isnan(table[k].numbers[f]))
+        out.print("NaN");
+      else
+        out.print("{}", table[k].numbers[f]);
+    }
+    out.print("\n# @P\n");
+    for (std::size_t k = faces.begin[f]; k <= faces.begin[f + 1]; ++k) {
+      const std::size_t slot = k < faces.begin[f + 1] ? k : faces.begin[f];
+      const auto i = static_cast<std::size_t>(faces.corner[slot]) - 1;
+      out.print("{}\t{}\n", angles.lon[i], angles.lat[i]);
+    }
+  }
+  out.close();
+}
+
 }  // namespace
 
 const std::vector<FormatEntry>& formats() {
@@ -146,6 +322,10 @@ const std::vector<FormatEntry>& formats() {
       {Format::off, "off", ".off", "Object File Format"},
       {Format::gmsh, "gmsh", ".msh", "gmsh 2.2, text (triangles only)"},
       {Format::lists, "lists", ".lists", "N LNEW, LIST, LPTR, LEND as text (triangles only)"},
+      {Format::gmt, "gmt", ".gmt", "GMT multi-segment polygons, values as in OGR/GMT"},
+      {Format::geojson, "geojson", ".geojson .json",
+       "GeoJSON (RFC 7946): polygons cut at the dateline; or nodes"},
+      {Format::csv, "csv", ".csv", "table with a row for each triangle, cell or node"},
       {Format::xyz, "xyz", ".xyz .txt", "nodes: text, lines of x y z"},
       {Format::lonlat, "lonlat", ".lonlat", "nodes: text, lines of lon lat in degrees"},
       {Format::netcdf, "nodes", ".nodes.nc", "nodes: NetCDF, lon, lat and xCell, yCell, zCell"},
@@ -154,6 +334,7 @@ const std::vector<FormatEntry>& formats() {
 }
 
 bool holds_a_mesh(Format format) { return format < Format::xyz; }
+bool holds_nodes(Format format) { return format >= Format::geojson; }
 
 std::optional<Format> format_of(const std::string& to, const std::string& file) {
   std::optional<Format> found;
@@ -177,8 +358,14 @@ void write_faces(const OutputFile& file, Format format, const Faces& faces, cons
       return write_vtu(file, faces);
     case Format::off:
       return write_off(file, faces);
+    case Format::gmt:
+      return write_gmt(file, faces);
+    case Format::geojson:
+      return write_geojson(file, faces, notes);
+    case Format::csv:
+      return write_csv(file, table_of(faces));
     default:
-      refuse(file, format, "cannot hold polygons: --to ugrid, scrip, vtu or off can");
+      refuse(file, format, "cannot hold polygons: --to ugrid, scrip, vtu, off, gmt, geojson or csv can");
   }
 }
 
@@ -188,7 +375,7 @@ void write_mesh(const OutputFile& file, Format format, const Mesh& mesh) {
   if (!holds_a_mesh(format))
     refuse(file, format, "holds nodes, not a mesh: `pstripack convert` writes nodes");
   Faces faces = triangle_faces(mesh);
-  if (format == Format::ugrid || format == Format::vtu || format == Format::gmsh) add_columns(faces, mesh);
+  if (format != Format::off && format != Format::scrip) add_columns(faces, mesh);
   if (format == Format::ugrid) return write_ugrid(file, faces, mesh.points, mesh.density, mesh.notes);
   if (format == Format::gmsh) return write_gmsh(file, faces);
   write_faces(file, format, faces, mesh.notes);
@@ -202,6 +389,13 @@ void write_nodes(const OutputFile& file, Format format, const std::vector<Point>
 void write_nodes(const OutputFile& file, Format format, const std::vector<Point>& points,
                  const NodeValues& values) {
   if (format == Format::netcdf) return write_netcdf_nodes(file, points, values);
+  if (format == Format::csv) return write_csv(file, table_of(points, values));
+  if (format == Format::geojson) {
+    const LonLat angles = angles_of(points, values.given, true);
+    return write_features(file, table_of(points, values), values.notes, [&](TextWriter& out, std::size_t i) {
+      out.print("{{\"type\":\"Point\",\"coordinates\":[{},{}]}}", wrapped(angles.lon[i]), angles.lat[i]);
+    });
+  }
   if (holds_a_mesh(format)) refuse(file, format, "holds a mesh, and here are nodes only: use `triangulate`");
   TextWriter out(file);
   if (format == Format::raw) {
@@ -247,6 +441,12 @@ void write_field(const OutputFile& file, const LonLat& places, const Field& fiel
     out.print("\n");
   }
   out.close();
+}
+
+void write_csv_field(const OutputFile& file, const LonLat& places, const Field& field) {
+  Columns columns{field.value};
+  columns.insert(columns.end(), field.columns.begin(), field.columns.end());
+  write_csv(file, with_angles(columns, places));
 }
 
 LonLat Grid::places() const {

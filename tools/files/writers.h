@@ -10,7 +10,8 @@
 
 namespace files {
 
-enum class Format { ugrid, mpas, scrip, vtu, off, gmsh, lists, xyz, lonlat, netcdf, raw };
+/// Of meshes, of both, of nodes.
+enum class Format { ugrid, mpas, scrip, vtu, off, gmsh, lists, gmt, geojson, csv, xyz, lonlat, netcdf, raw };
 
 struct FormatEntry {
   Format format;
@@ -22,13 +23,15 @@ struct FormatEntry {
 /// All formats: for --help, --to and the choice by suffix.
 const std::vector<FormatEntry>& formats();
 bool holds_a_mesh(Format format);
+bool holds_nodes(Format format);
 
 /// The format named by --to, else that of the longest suffix of `file` in the table.
 std::optional<Format> format_of(const std::string& to, const std::string& file);
 
-/// Writes a triangulation. UGRID, VTU and gmsh hold its columns.
+/// Writes a triangulation. UGRID, VTU, gmsh, GMT, GeoJSON and CSV hold its columns.
 void write_mesh(const OutputFile& file, Format format, const Mesh& mesh);
-/// The same for any polygons: ugrid, scrip, vtu, off. Other formats throw std::runtime_error.
+/// The same for any polygons: ugrid, scrip, vtu, off, gmt, geojson, csv. Other formats throw
+/// std::runtime_error.
 void write_faces(const OutputFile& file, Format format, const Faces& faces, const Notes& notes = {});
 /// What is known of nodes without a mesh.
 struct NodeValues {
@@ -37,7 +40,8 @@ struct NodeValues {
   Columns columns;
   Notes notes;
 };
-/// Writes nodes alone: xyz, lonlat, netcdf, raw. NetCDF also holds density, columns and notes.
+/// Writes nodes alone: geojson, csv, xyz, lonlat, netcdf, raw. NetCDF also holds density, columns and notes,
+/// GeoJSON columns and notes, CSV columns.
 void write_nodes(const OutputFile& file, Format format, const std::vector<Point>& points,
                  const NodeValues& values);
 void write_nodes(const OutputFile& file, Format format, const std::vector<Point>& points,
@@ -50,8 +54,9 @@ struct Field {
   Notes notes;
 };
 
-/// Text: lines of lon lat (degrees), value and columns, `nan` where a number is missing.
+/// Text: lines of lon lat (degrees), value and columns, `nan` where a number is missing. CSV: the same.
 void write_field(const OutputFile& file, const LonLat& places, const Field& field);
+void write_csv_field(const OutputFile& file, const LonLat& places, const Field& field);
 /// NetCDF, CF conventions: _FillValue where it is missing.
 void write_netcdf_field(const OutputFile& file, const LonLat& places, const Field& field);
 void write_netcdf_grid(const OutputFile& file, const Grid& grid, const Field& field);

@@ -25,12 +25,12 @@ void convert(Options& options) {
   // The suffix .nc stands for meshes and for nodes.
   if (format == files::Format::ugrid && !has_mesh && options.output.to.empty())
     format = files::Format::netcdf;
-  if (files::holds_a_mesh(format) && !has_mesh)
+  if (!files::holds_nodes(format) && !has_mesh)
     throw std::runtime_error(nodes.file +
                              ": holds nodes, no triangles: `pstripack triangulate` makes a mesh of them");
   add_history(nodes.notes);
   progress.step("writing", [&] {
-    if (files::holds_a_mesh(format)) {
+    if (files::holds_a_mesh(format) && has_mesh) {
       try {
         files::Mesh mesh = files::mesh_of(nodes.points, nodes.triangles);
         mesh.given = nodes.given;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <map>
 #include <stdexcept>
 
 #include "methods/triangulated_nodes.h"
@@ -17,39 +19,30 @@ namespace {
 using methods::Interpolation;
 
 enum class Outside { missing, nearest, error };
+/// Whether grids are of cells or, with points on the edges of the region, of nodes.
+enum class Registration { cell, node };
+enum class To { text, csv, netcdf };
 
 struct Options {
   Input input;
   bool skip_missing = false;
   std::string points, grid, region;
   double step = 0;
+  Registration registration = Registration::cell;
   Interpolation::Method method = Interpolation::Method::linear;
   Outside outside = Outside::missing;
   std::string output, to;
 };
 
-std::vector<double> numbers_in(const std::string& option, const std::string& text, char separator,
-                               std::size_t count) {
-  std::vector<double> numbers;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(separator, begin), text.size());
-    double value = 0;
-    if (!point_sets::parse(text.substr(begin, end - begin), value))
-      throw CLI::ValidationError(option, "'" + text + "' is not " + std::to_string(count) + " numbers");
-    numbers.push_back(value);
-    begin = end + 1;
+/// `count` longitudes or latitudes from low to high: the centres of equal parts; or, at nodes, their ends.
+std::vector<double> axis(double low, double high, std::size_t count, bool at_nodes) {
+  std::vector<double> values(count);
+  const auto parts = static_cast<double>(2 * (at_nodes && count > 1 ? count - 1 : count));
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto k = static_cast<double>(2 * i + (at_nodes ? 0 : 1));
+    values[i] = low + (high - low) * k / parts;
   }
-  if (numbers.size() != count)
-    throw CLI::ValidationError(option, "'" + text + "' is not " + std::to_string(count) + " numbers");
-  return numbers;
-}
-
-/// The centres of `count` equal parts of low to high.
-std::vector<double> centres(double low, double high, std::size_t count) {
-  std::vector<double> c(count);
-  for (std::size_t i = 0; i < count; ++i)
-    c[i] = low + (high - low) * (2 * static_cast<double>(i) + 1) / (2 * static_cast<double>(count));
-  return c;
+  return values;
 }
 
 /// How many of --grid-step fit.
@@ -61,34 +54,41 @@ double parts(double extent, double step) {
 }
 
 files::Grid grid_of(const Options& options) {
-  const std::vector<double> r = options.region.empty() ? std::vector<double>{-180, 180, -90, 90}
-                                                       : numbers_in("--region", options.region, ',', 4);
-  if (!(r[0] < r[1] && r[1] - r[0] <= 360 && r[2] < r[3] && r[2] >= -90 && r[3] <= 90))
-    throw CLI::ValidationError("--region", "expected WEST,EAST,SOUTH,NORTH in degrees, in this order");
-  std::vector<double> counts;
-  if (!options.grid.empty())
+  const files::Region r = options.region.empty() ? files::Region{} : region_of(options.region);
+  const double width = r.east - r.west, height = r.north - r.south;
+  const bool at_nodes = options.registration == Registration::node, all_around = width == 360;
+  std::vector<double> counts;  // of latitudes and longitudes
+  if (!options.grid.empty()) {
     counts = numbers_in("--to-grid", options.grid, 'x', 2);
-  else
-    counts = {parts(r[3] - r[2], options.step), parts(r[1] - r[0], options.step)};
+  } else {
+    counts = {parts(height, options.step), parts(width, options.step)};
+    if (at_nodes) counts = {counts[0] + 1, counts[1] + (all_around ? 0 : 1)};
+  }
   for (const double count : counts)
-    if (!(count >= 1 && count == std::floor(count)) || counts[0] * counts[1] > 1e10)
+    if (!(count >= (at_nodes ? 2 : 1) && count == std::floor(count)) || counts[0] * counts[1] > 1e10)
       throw CLI::ValidationError("--to-grid", "expected NLATxNLON, for example 180x360");
-  return {centres(r[0], r[1], static_cast<std::size_t>(counts[1])),
-          centres(r[2], r[3], static_cast<std::size_t>(counts[0]))};
+  // All around the globe the last meridian would be the first one again.
+  const auto n_lat = static_cast<std::size_t>(counts[0]), n_lon = static_cast<std::size_t>(counts[1]);
+  files::Grid grid{axis(r.west, r.east, n_lon + (at_nodes && all_around ? 1 : 0), at_nodes),
+                   axis(r.south, r.north, n_lat, at_nodes)};
+  grid.lon.resize(n_lon);
+  return grid;
 }
 
-bool is_netcdf(const Options& options) {
-  const auto ends_with = [&](const std::string& suffix) {
-    const std::string& file = options.output;
-    return file.size() > suffix.size() &&
-           file.compare(file.size() - suffix.size(), suffix.size(), suffix) == 0;
-  };
-  if (!options.to.empty()) return options.to == "netcdf";
-  if (ends_with(".nc")) return true;
-  if (options.output != "-" && !ends_with(".txt"))
-    throw CLI::ValidationError("--output",
-                               options.output + ": neither .nc nor .txt: give --to netcdf or --to text");
-  return false;
+To format_of(const Options& options) {
+  const std::map<std::string, To> names{{"text", To::text}, {"csv", To::csv}, {"netcdf", To::netcdf}};
+  if (!options.to.empty()) return names.at(options.to);
+  for (const auto& [suffix, to] :
+       {std::pair(".nc", To::netcdf), std::pair(".txt", To::text), std::pair(".csv", To::csv)}) {
+    const std::size_t length = std::strlen(suffix);
+    if (options.output.size() > length &&
+        options.output.compare(options.output.size() - length, length, suffix) == 0)
+      return to;
+  }
+  if (options.output != "-")
+    throw CLI::ValidationError(
+        "--output", options.output + ": neither .nc nor .txt nor .csv: give --to netcdf, text or csv");
+  return To::text;
 }
 
 /// Leaves out nodes without value, or throws.
@@ -136,7 +136,9 @@ void interpolate(Options& options) {
     throw CLI::ValidationError("--to-points", "give one of --to-points, --to-grid, --grid-step");
   if (!options.region.empty() && !options.points.empty())
     throw CLI::ValidationError("--region", "is of a grid, not of --to-points");
-  const bool netcdf = is_netcdf(options);
+  if (options.registration == Registration::node && !options.points.empty())
+    throw CLI::ValidationError("--registration", "is of a grid, not of --to-points");
+  const To to = format_of(options);
   files::Grid grid;
   if (options.points.empty()) grid = grid_of(options);
   files::OutputFile file(options.output);
@@ -180,11 +182,12 @@ void interpolate(Options& options) {
     field.value.whole = false;
     make_names_differ(field.columns, {"lon", "lat", field.value.name});
     add_history(field.notes);
-    if (netcdf && options.points.empty())
+    if (to == To::netcdf && options.points.empty())
       write_netcdf_grid(file, grid, field);
     else
-      (netcdf ? files::write_netcdf_field : files::write_field)(
-          file, angles_of(places.points, places.given, true), field);
+      (to == To::netcdf ? files::write_netcdf_field
+       : to == To::csv  ? files::write_csv_field
+                        : files::write_field)(file, angles_of(places.points, places.given, true), field);
     file.commit();
   });
   progress.finish(fmt::format("{} ({}), {}, {} outside the nodes", counted(nodes.points.size(), "node"),
@@ -204,13 +207,17 @@ void add_interpolate(CLI::App& app, Command& chosen) {
                   "of the value: name, or in text column from 1 [the column after the coordinates]")
       ->type_name("NAME");
   sub->add_option("--to-points", options->points, "file of points")->type_name("FILE");
-  sub->add_option("--to-grid", options->grid, "cell centres of a grid, for example 180x360")
+  sub->add_option("--to-grid", options->grid, "points of a grid, for example 180x360")
       ->type_name("NLATxNLON");
-  sub->add_option("--grid-step", options->step, "the same grid, by the width of a cell")
+  sub->add_option("--grid-step", options->step, "the same grid, by the distance of its points")
       ->type_name("DEGREES")
       ->check(CLI::PositiveNumber.description(""));
-  sub->add_option("--region", options->region, "edges of the grid: WEST,EAST,SOUTH,NORTH [-180,180,-90,90]")
+  sub->add_option("--region", options->region,
+                  "edges: WEST,EAST,SOUTH,NORTH; 170,-170 crosses the dateline [-180,180,-90,90]")
       ->type_name("DEGREES");
+  add_choice(*sub, "--registration", options->registration,
+             {{"cell", Registration::cell}, {"node", Registration::node}},
+             "cell: centres of equal cells; node: on the edges of the region and between [cell]");
   add_choice(*sub, "--method", options->method,
              {{"linear", Interpolation::Method::linear},
               {"natural", Interpolation::Method::natural},
@@ -225,9 +232,10 @@ void add_interpolate(CLI::App& app, Command& chosen) {
   sub->add_option("-o,--output", options->output, "file to write; - is stdout")
       ->required()
       ->type_name("FILE");
-  sub->add_option("--to", options->to, "text (lines of lon lat value) or netcdf [by the suffix: .txt, .nc]")
+  sub->add_option("--to", options->to,
+                  "text (lines of lon lat value), csv or netcdf [by the suffix: .txt, .csv, .nc]")
       ->type_name("WORD")
-      ->check(CLI::IsMember({"text", "netcdf"}).description(""));
+      ->check(CLI::IsMember({"text", "csv", "netcdf"}).description(""));
   sub->footer(
       R"(VALUES is text with `lon lat value` or `x y z value` on each line, a table with a header line, or NetCDF. `nan` and
 _FillValue are missing values, in input and output. --from, --columns and --coordinates apply to VALUES, --units to

@@ -73,6 +73,35 @@ CLI::Validator whole_number() {
   return CLI::Validator(check, "");
 }
 
+std::vector<double> numbers_in(const std::string& option, const std::string& text, char separator,
+                               std::size_t count) {
+  std::vector<double> numbers;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(separator, begin), text.size());
+    double value = 0;
+    if (!point_sets::parse(text.substr(begin, end - begin), value))
+      throw CLI::ValidationError(option, "'" + text + "' is not " + std::to_string(count) + " numbers");
+    numbers.push_back(value);
+    begin = end + 1;
+  }
+  if (numbers.size() != count)
+    throw CLI::ValidationError(option, "'" + text + "' is not " + std::to_string(count) + " numbers");
+  return numbers;
+}
+
+files::Region region_of(const std::string& text) {
+  const std::vector<double> r = numbers_in("--region", text, ',', 4);
+  files::Region region{r[0], r[1] < r[0] ? r[1] + 360 : r[1], r[2], r[3]};
+  const double width = region.east - region.west;
+  if (!(std::fabs(r[0]) <= 360 && std::fabs(r[1]) <= 360 && width > 0 && width <= 360 && r[2] >= -90 &&
+        r[2] < r[3] && r[3] <= 90))
+    throw CLI::ValidationError(
+        "--region", "'" + text +
+                        "': expected WEST,EAST,SOUTH,NORTH in degrees, longitudes from -360 to 360, "
+                        "latitudes from -90 to 90, the south first; 170,-170 crosses the dateline");
+  return region;
+}
+
 void add_input(CLI::App& app, Input& input) {
   app.add_option("IN", input.file, "file of nodes; - is stdin")->required()->type_name("");
   add_reading(app, input.read);

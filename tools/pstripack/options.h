@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "files/clipping.h"
 #include "files/mesh.h"
 #include "files/nodes.h"
 #include "files/writers.h"
@@ -36,6 +37,13 @@ CLI::Validator whole_number();
 /// What becomes of nodes in the same place: an error; the first one stays; or it gets the mean of their
 /// values.
 enum class Duplicates { error, first, mean };
+
+/// Numbers between separators; `option` for messages.
+std::vector<double> numbers_in(const std::string& option, const std::string& text, char separator,
+                               std::size_t count);
+
+/// --region: WEST,EAST,SOUTH,NORTH; east is beyond 180 where it is less than west on the command line.
+files::Region region_of(const std::string& text);
 
 /// IN and how to read it.
 struct Input {

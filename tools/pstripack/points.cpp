@@ -31,11 +31,11 @@ std::string families() {
 
 void write(Options& options) {
   options.output.choose(files::Format::xyz);
-  if (files::holds_a_mesh(options.output.format)) {
+  if (!files::holds_nodes(options.output.format)) {
     // By its suffix, .nc is a UGRID mesh.
     if (options.output.format != files::Format::ugrid || !options.output.to.empty())
-      throw CLI::ValidationError("--output",
-                                 "points are nodes, not a mesh: give --to xyz, lonlat, nodes or raw");
+      throw CLI::ValidationError(
+          "--output", "points are nodes, not a mesh: give --to xyz, lonlat, nodes, csv, geojson or raw");
     options.output.format = files::Format::netcdf;
   }
   std::vector<files::Point> points;

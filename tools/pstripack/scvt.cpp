@@ -178,7 +178,7 @@ State state_of(files::Nodes& start, const Options& options) {
 
 void write(const Output& output, files::Mesh&& mesh) {
   files::OutputFile file(output.file);
-  if (files::holds_a_mesh(output.format))
+  if (!files::holds_nodes(output.format))
     write_mesh(file, output.format, mesh);
   else
     write_nodes(file, output.format, mesh.points, {{}, mesh.density, mesh.columns, mesh.notes});
@@ -188,7 +188,7 @@ void write(const Output& output, files::Mesh&& mesh) {
 void write_checkpoint(const Options& options, const State& state, const engine::Density& density,
                       const engine::Progress& reached) {
   files::Mesh mesh;
-  if (files::holds_a_mesh(options.checkpoint.format))
+  if (!files::holds_nodes(options.checkpoint.format))
     mesh = files::triangulate(state.generators);
   else
     mesh.points = state.generators;

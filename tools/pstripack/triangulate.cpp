@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "files/clipping.h"
 #include "pstripack/options.h"
 #include "pstripack/progress.h"
 
@@ -11,12 +12,15 @@ namespace {
 struct Options {
   Input input;
   Output output;
+  std::string region;  ///< of `voronoi`
+  bool clip_to_hull = false;
 };
 
 /// `write(file, mesh)` writes the result and returns what is in it, for the last line.
 template <class Write>
 void run(Options& options, const Write& write) {
   options.output.choose();
+  if (!options.region.empty()) region_of(options.region);  // refused before anything else is done
   files::OutputFile file(options.output.file);
   Progress progress;
   options.input.read.with_columns = true;
@@ -24,9 +28,13 @@ void run(Options& options, const Write& write) {
   add_history(nodes.notes);
   const files::Mesh mesh = progress.step("triangulating", [&] { return triangulate(nodes); });
   const std::string what = progress.step("writing", [&] {
-    const std::string written = write(file, mesh);
-    file.commit();
-    return written;
+    try {
+      const std::string written = write(file, mesh);
+      file.commit();
+      return written;
+    } catch (const files::NoMesh& e) {
+      throw no_mesh_of(nodes, e);
+    }
   });
   progress.finish(fmt::format("{} ({}), {}", counted(nodes.points.size(), "node"), nodes.kind, what));
 }
@@ -41,19 +49,27 @@ void triangulate(Options& options) {
 void voronoi(Options& options) {
   run(options, [&](const files::OutputFile& file, const files::Mesh& mesh) {
     files::Faces faces = files::voronoi_faces(mesh);
+    files::divide_half_turns(faces, mesh);
+    if (options.clip_to_hull && !mesh.has_boundary())
+      say(options.input.file + ": the nodes surround the sphere: --clip-to-hull cuts nothing");
+    if (options.clip_to_hull) faces = clipped_to_hull(faces, mesh);
+    if (!options.region.empty()) faces = clipped_to_region(faces, region_of(options.region));
+    if (faces.size() == 0) throw files::NoMesh("no part of the hull of the nodes lies in the region");
     files::add_columns(faces, mesh);
     write_faces(file, options.output.format, faces, mesh.notes);
     return counted(faces.size(), "cell") + ", " + counted(faces.points.size(), "corner");
   });
 }
 
-void add(CLI::App& app, const char* name, const char* text, void (*command)(Options&), Command& chosen) {
+std::shared_ptr<Options> add(CLI::App& app, const char* name, const char* text, void (*command)(Options&),
+                             Command& chosen) {
   CLI::App* const sub = app.add_subcommand(name, text);
   const auto options = std::make_shared<Options>();
   add_input(*sub, options->input);
   add_duplicates(*sub, options->input);
   add_output(*sub, options->output, true);
   sub->callback([=, &chosen] { chosen = [=] { command(*options); }; });
+  return options;
 }
 
 }  // namespace
@@ -64,9 +80,15 @@ void add_triangulate(CLI::App& app, Command& chosen) {
 }
 
 void add_voronoi(CLI::App& app, Command& chosen) {
-  add(app, "voronoi",
-      "Voronoi diagram of the nodes: a mesh with one polygon per node, in the order of the nodes", voronoi,
-      chosen);
+  const auto options =
+      add(app, "voronoi",
+          "Voronoi diagram of the nodes: a mesh with one polygon per node, in the order of the nodes",
+          voronoi, chosen);
+  CLI::App* const sub = app.get_subcommand("voronoi");
+  sub->add_option("--region", options->region,
+                  "cut the cells at WEST,EAST,SOUTH,NORTH; 170,-170 crosses the dateline")
+      ->type_name("DEGREES");
+  sub->add_flag("--clip-to-hull", options->clip_to_hull, "cut the cells at the convex hull of the nodes");
 }
 
 }  // namespace program

@@ -389,7 +389,7 @@ bad_values)
   refuses 2 "'180' is not 2 numbers" interpolate values.txt --to-grid 180 -o failed.txt
   refuses 2 "expected NLATxNLON" interpolate values.txt --to-grid 0x10 -o failed.txt
   refuses 2 "expected WEST,EAST,SOUTH,NORTH" interpolate values.txt --grid-step 1 --region 0,10,20,10 -o failed.txt
-  refuses 2 "neither .nc nor .txt: give --to" interpolate values.txt --grid-step 30 -o failed.xxx
+  refuses 2 "neither .nc nor .txt nor .csv: give --to" interpolate values.txt --grid-step 30 -o failed.xxx
   octahedron > bare.txt
   refuses 1 "may be degrees or radians" interpolate bare.txt --grid-step 30 -o failed.txt
   printf '10 20\n30 40\n' > two.txt
@@ -530,6 +530,95 @@ bad_tables)
   printf '45N 120W\n' | refused 1 "1: '45N' is not a finite number: write 45N as 45, 45S as -45, 120W as -120"
   printf '80 100\n20 10\n30 40\n' | refused 1 " node 1 (line 1): latitude 100 is beyond the pole: the columns are 'lon lat', in degrees; is latitude first? Then say --columns 2,1"
   refuses 2 "--duplicates" triangulate table.txt --duplicates last -o mesh.off
+  ;;
+
+maps)
+  printf 'lon,lat,depth (km),place\n170,-10,7.25,"a, ""b"""\n-170,-10,,c\n180,10,-1,"d # e"\n' > table.csv
+  # A row for each triangle, cell and node; what was given comes back.
+  "$PSTRIPACK" -q triangulate table.csv -o mesh.csv
+  [ "$(cut -d , -f 1-3 mesh.csv | tr '\n' ' ')" = "node1,node2,node3 1,2,3 " ] || fail "$(cat mesh.csv)"
+  "$PSTRIPACK" -q voronoi table.csv --clip-to-hull -o cells.csv
+  [ "$(head -n 1 cells.csv)" = "lon,lat,node,line,depth [km],place,degree,area [sr],area_km2" ] || fail "$(cat cells.csv)"
+  grep -q '^170,-10,1,2,7.25,"a, ""b""",2,0.0' cells.csv || fail "$(cat cells.csv)"
+  grep -q '^-170,-10,2,3,,c,2,0.0' cells.csv || fail "$(cat cells.csv)"
+  "$PSTRIPACK" -q convert table.csv -o nodes.csv
+  sed 's/depth (km)/depth [km]/' table.csv | cmp nodes.csv -
+  "$PSTRIPACK" -q points random 20 -o nodes.txt
+  "$PSTRIPACK" -q points random 20 -o nodes.csv
+  "$PSTRIPACK" -q convert nodes.csv --coordinates xyz -o back.txt
+  cmp nodes.txt back.txt
+  # The triangle crosses the dateline: two polygons, with the nodes to the last bit.
+  "$PSTRIPACK" -q triangulate table.csv -o mesh.geojson
+  grep -q '"MultiPolygon"' mesh.geojson || fail "$(cat mesh.geojson)"
+  for corner in 170,-10 180,10 -180,10 -170,-10; do
+    grep -qF "[$corner]" mesh.geojson || fail "no $corner: $(cat mesh.geojson)"
+  done
+  # A region within one cell.
+  "$PSTRIPACK" -q voronoi table.csv --region 0,0.1,10,10.1 -o one.geojson
+  [ "$(grep -c '"Feature"' one.geojson)" = 1 ] || fail "$(cat one.geojson)"
+  for corner in 0,10 0.1,10 0.1,10.1 0,10.1; do grep -qF "[$corner]" one.geojson || fail "no $corner: $(cat one.geojson)"; done
+  # Other formats get the cut cells, too. Where nodes surround the sphere there is no hull to cut at.
+  for suffix in vtu off gmt; do "$PSTRIPACK" -q voronoi table.csv --region 170,-170,-20,20 -o part.$suffix; done
+  [ "$(head -n 2 part.off | tail -n 1 | cut -d ' ' -f 2)" = 3 ] || fail "$(head -n 2 part.off)"
+  "$PSTRIPACK" -q voronoi nodes.txt -o whole.off
+  "$PSTRIPACK" voronoi nodes.txt --clip-to-hull -o hull.off 2> err
+  grep -q "^pstripack: nodes.txt: the nodes surround the sphere: --clip-to-hull cuts nothing$" err || fail "$(cat err)"
+  cmp whole.off hull.off
+  "$PSTRIPACK" -q --threads 1 voronoi nodes.txt -o one.geojson
+  "$PSTRIPACK" -q --threads 3 voronoi nodes.txt -o three.geojson
+  sed 1d one.geojson > a
+  sed 1d three.geojson | cmp a -
+  ;;
+
+bad_maps)
+  octahedron > nodes.txt
+  printf '0 0\n10 0\n0 10\n3 3\n' > cap.lonlat
+  for region in 1,2,3 a,b,c,d 10,10,0,1 0,10,20,20 0,10,5,-5 0,10,-91,0 0,10,0,91 0,361,0,1 -200,170,0,1 nan,1,0,1 0,1,0,1,2; do
+    refuses 2 "--region: '$region'" voronoi nodes.txt --region=$region -o failed.geojson
+  done
+  grep -q "is not 4 numbers" err || fail "$(cat err)"
+  refuses 2 "170,-170 crosses the dateline" voronoi nodes.txt --region 0,10,5,-5 -o failed.geojson
+  refuses 2 "there is no option --region" triangulate nodes.txt --region 0,10,0,10 -o failed.geojson
+  refuses 1 "cap.lonlat: no part of the hull of the nodes lies in the region" \
+    voronoi cap.lonlat --units degrees --clip-to-hull --region 100,110,0,10 -o failed.geojson
+  refuses 1 "/dev/full: cannot be written: No space left" voronoi nodes.txt -o /dev/full --to geojson
+  refuses 1 "holds nodes, no triangles" convert nodes.txt -o failed.gmt
+  refuses 2 "points are nodes, not a mesh: give --to xyz, lonlat, nodes, csv, geojson or raw" points random 10 -o failed.gmt
+  [ -z "$(find . -name 'failed*')" ] || fail "files of failed runs: $(echo ./failed*)"
+  ;;
+
+grids)
+  # Of nodes: the region's edges, and all around the globe no meridian twice; of cells: between them.
+  "$PSTRIPACK" -q points random 300 | awk '{ printf "%s %.17g\n", $0, 1 + $1 + 2 * $3 }' > values.txt
+  columns_of() { sed 1d "$2" | cut -d ' ' -f "$1" | sort -n | uniq | tr '\n' ' '; }
+  "$PSTRIPACK" -q interpolate values.txt --registration node --region 170,-170,-30,-10 --grid-step 10 -o part.txt
+  [ "$(columns_of 1 part.txt)|$(columns_of 2 part.txt)" = "170 180 190 |-30 -20 -10 " ] || fail "$(cat part.txt)"
+  "$PSTRIPACK" -q interpolate values.txt --region 170,-170,-30,-10 --grid-step 10 -o cells.txt
+  [ "$(columns_of 1 cells.txt)|$(columns_of 2 cells.txt)" = "175 185 |-25 -15 " ] || fail "$(cat cells.txt)"
+  "$PSTRIPACK" -q interpolate values.txt --registration node --to-grid 3x3 --region 170,-170,-30,-10 -o same.txt
+  cmp part.txt same.txt
+  # The same values by other names of the meridians.
+  "$PSTRIPACK" -q interpolate values.txt --registration node --region=-190,-170,-30,-10 --grid-step 10 -o west.txt
+  cut -d ' ' -f 3 part.txt > a
+  cut -d ' ' -f 3 west.txt | cmp a -
+  for method in linear natural cubic; do
+    "$PSTRIPACK" -q interpolate values.txt --method $method --registration node --region 0,360,-90,90 --grid-step 30 -o all.txt
+    [ "$(columns_of 1 all.txt)" = "0 30 60 90 120 150 180 210 240 270 300 330 " ] || fail "$(columns_of 1 all.txt)"
+    [ "$(columns_of 2 all.txt)" = "-90 -60 -30 0 30 60 90 " ] || fail "$(columns_of 2 all.txt)"
+    for pole in -90 90; do  # one place, one value
+      [ "$(awk -v pole=$pole '$2 == pole { print $3 }' all.txt | uniq | wc -l)" = 1 ] || fail "$method: $(cat all.txt)"
+    done
+  done
+  "$PSTRIPACK" -q interpolate values.txt --method cubic --registration node --region 0,360,-90,90 --to-grid 7x12 -o same.txt
+  cmp all.txt same.txt
+  # CSV: a header, and nothing where a value is missing.
+  "$PSTRIPACK" -q points cap:0.3 50 | sed 's/$/ 7/' > region.txt
+  "$PSTRIPACK" -q interpolate region.txt --grid-step 30 -o region.csv
+  [ "$(head -n 2 region.csv | tr '\n' ' ')" = "lon,lat,value -165,-75, " ] || fail "$(cat region.csv)"
+  refuses 2 "--registration: is of a grid" interpolate values.txt --to-points values.txt --registration node -o failed.txt
+  refuses 2 "expected NLATxNLON" interpolate values.txt --to-grid 1x5 --registration node -o failed.txt
+  refuses 2 "--region: '5,5,0,1': expected WEST,EAST,SOUTH,NORTH" interpolate values.txt --grid-step 1 --region 5,5,0,1 -o failed.txt
+  refuses 2 "neither .nc nor .txt nor .csv" interpolate values.txt --grid-step 30 -o failed.xxx
   ;;
 
 netcdf_columns)

@@ -1,0 +1,214 @@
+#include "files/clipping.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
+
+#include "files/map_rings.h"
+#include "files/measures.h"
+#include "geometry/predicates.h"
+#include "point_sets.h"
+#include "stripack/list_queries.h"
+#include "stripack/triangle_list.h"
+
+namespace files {
+namespace {
+
+struct HashOfBits {
+  std::size_t operator()(const Point& p) const {
+    std::uint64_t hash = 0;
+    for (const double v : {p.x + 0.0, p.y + 0.0, p.z + 0.0}) {  // -0 equals 0
+      std::uint64_t bits;
+      std::memcpy(&bits, &v, sizeof bits);
+      hash = (hash ^ bits) * 0x9E3779B97F4A7C15u;
+      hash ^= hash >> 29;
+    }
+    return hash;
+  }
+};
+
+/// Faces made of rings; equal corners become one.
+class Pieces {
+ public:
+  explicit Pieces(const Faces& cells) : cells_(cells) { faces_.begin.push_back(0); }
+
+  void add(const MapRing& ring, std::size_t cell) {
+    std::vector<std::int32_t> corners;
+    for (const MapCorner& c : ring) {
+      const auto [known, is_new] =
+          number_.try_emplace(c.p, static_cast<std::int32_t>(faces_.points.size() + 1));
+      if (is_new) {
+        faces_.points.push_back(c.p);
+        faces_.given_points.lon.push_back(wrapped(c.lon));
+        faces_.given_points.lat.push_back(c.lat);
+      }
+      if (corners.empty() || corners.back() != known->second) corners.push_back(known->second);
+    }
+    while (corners.size() > 1 && corners.back() == corners.front()) corners.pop_back();
+    if (corners.size() < 3) return;
+    faces_.corner.insert(faces_.corner.end(), corners.begin(), corners.end());
+    faces_.begin.push_back(faces_.corner.size());
+    faces_.centres.push_back(cells_.centres[cell]);
+    faces_.nodes.push_back(cells_.node_of(cell));
+  }
+  Faces take() { return std::move(faces_); }
+
+ private:
+  const Faces& cells_;
+  Faces faces_;
+  std::unordered_map<Point, std::int32_t, HashOfBits> number_;
+};
+
+/// A side of the hull, counterclockwise.
+struct Side {
+  MapCorner from, to;
+};
+
+/// The part of a convex polygon left of the great circle of a side; true if that is not all of it.
+bool cut(MapRing& ring, const Side& side) {
+  const Point &a = side.from.p, &b = side.to.p;
+  std::vector<int> at(ring.size());
+  bool all = true;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    at[i] = pstripack::left(a, b, ring[i].p);
+    all = all && at[i] >= 0;
+  }
+  if (all) return false;
+  MapRing kept;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const std::size_t next = (i + 1) % ring.size();
+    if (at[i] >= 0) kept.push_back(ring[i]);
+    if (at[i] * at[next] >= 0) continue;
+    // The same bits from both sides of the arc.
+    const bool swap = std::tie(ring[next].p.x, ring[next].p.y, ring[next].p.z) <
+                      std::tie(ring[i].p.x, ring[i].p.y, ring[i].p.z);
+    const Point &p = ring[swap ? next : i].p, &q = ring[swap ? i : next].p;
+    const double at_p = volume(a, b, p), at_q = volume(a, b, q);
+    const double t = at_p == at_q ? 0.5 : std::clamp(at_p / (at_p - at_q), 0.0, 1.0);
+    const Point x = unit({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y), p.z + t * (q.z - p.z)});
+    // Two sides of the hull meet in a node.
+    const auto is_at = [&](const MapCorner& node) { return angle_between(x, node.p) < 1e-14; };
+    if (is_at(side.from) || is_at(side.to)) {
+      kept.push_back(is_at(side.from) ? side.from : side.to);
+    } else {
+      const LonLat angles({x}, true);
+      kept.push_back({x, angles.lon[0], angles.lat[0]});
+    }
+  }
+  ring = std::move(kept);
+  return true;
+}
+
+}  // namespace
+
+void divide_half_turns(Faces& cells, const Mesh& mesh) {
+  const pstripack::ListReader<std::int32_t> reader(mesh.lists());
+  Faces divided = cells;
+  divided.corner.clear();
+  for (std::size_t f = 0; f < cells.size(); ++f) {
+    divided.begin[f] = divided.corner.size();
+    const auto node = static_cast<std::int32_t>(f + 1);
+    const std::int32_t last = reader.last_slot(node);
+    for (std::size_t k = cells.begin[f]; k < cells.begin[f + 1]; ++k) {
+      const std::int32_t from = cells.corner[k];
+      const std::int32_t to = cells.corner[k + 1 < cells.begin[f + 1] ? k + 1 : cells.begin[f]];
+      divided.corner.push_back(from);
+      const Point &a = cells.points[static_cast<std::size_t>(from) - 1],
+                  &b = cells.points[static_cast<std::size_t>(to) - 1];
+      if (dot(a, b) >= -1 + 1e-12 || reader.entry(last) >= 0) continue;
+      // The side divides the cells of two nodes that are neighbours on the boundary, and leads across the
+      // boundary: outwards on the side of the last neighbour, inwards on that of the first one.
+      const bool outwards = dot(a, cells.centres[f]) > 0;
+      const Point& near = outwards ? a : b;
+      const std::int32_t slot = outwards ? last : reader.next(last);
+      const Point &c = cells.centres[f],
+                  &other = cells.centres[static_cast<std::size_t>(reader.neighbour(slot)) - 1];
+      const Point outside = outwards ? cross(c, other) : cross(other, c);
+      const Point middle = unit(cross(near, minus(c, other)));
+      const double sign = dot(middle, outside) > 0 ? 1 : -1;
+      divided.points.push_back({sign * middle.x, sign * middle.y, sign * middle.z});
+      divided.corner.push_back(static_cast<std::int32_t>(divided.points.size()));
+    }
+  }
+  divided.begin.back() = divided.corner.size();
+  if (divided.points.size() > cells.points.size()) cells = std::move(divided);
+}
+
+Faces clipped_to_hull(const Faces& cells, const Mesh& mesh) {
+  if (!mesh.has_boundary()) return cells;
+  std::vector<std::int32_t> boundary(mesh.points.size());
+  boundary.resize(
+      static_cast<std::size_t>(pstripack::boundary_nodes(mesh.lists(), boundary.data()).boundary_nodes));
+  const LonLat of_nodes = angles_of(mesh.points, mesh.given, true), of_points(cells.points, true);
+  const auto corner_of = [&](std::int32_t node) -> MapCorner {
+    const auto i = static_cast<std::size_t>(node) - 1;
+    return {cells.centres[i], of_nodes.lon[i], of_nodes.lat[i]};
+  };
+  std::vector<Side> sides;
+  for (std::size_t k = 0; k < boundary.size(); ++k)
+    sides.push_back({corner_of(boundary[k]), corner_of(boundary[(k + 1) % boundary.size()])});
+
+  // Cells that are cut are neighbours of each other, from the boundary on.
+  const pstripack::ListReader<std::int32_t> reader(mesh.lists());
+  std::vector<MapRing> rings(cells.size());
+  std::vector<bool> is_done(cells.size());
+  std::vector<std::int32_t> queue = boundary;
+  for (std::size_t k = 0; k < queue.size(); ++k) {
+    const auto f = static_cast<std::size_t>(queue[k]) - 1;
+    if (is_done[f]) continue;
+    is_done[f] = true;
+    MapRing& ring = rings[f];
+    ring = ring_of(cells, f, of_points);
+    bool is_cut = false;
+    for (const Side& side : sides) is_cut = cut(ring, side) || is_cut;
+    if (!is_cut) continue;
+    const std::int32_t last = reader.last_slot(queue[k]);
+    std::int32_t slot = last;
+    do {
+      slot = reader.next(slot);
+      queue.push_back(reader.neighbour(slot));
+    } while (slot != last);
+  }
+  Pieces pieces(cells);
+  for (std::size_t f = 0; f < cells.size(); ++f)
+    pieces.add(is_done[f] ? rings[f] : ring_of(cells, f, of_points), f);
+  return pieces.take();
+}
+
+Faces clipped_to_region(const Faces& cells, const Region& region) {
+  const double width = region.east - region.west;
+  const LonLat angles = angles_of(cells.points, cells.given_points, true);
+  Pieces pieces(cells);
+  for (std::size_t f = 0; f < cells.size(); ++f) {
+    const MapRing polygon = ring_of(cells, f, angles);
+    expect_no_half_turn(polygon, cells.node_of(f));
+    MapRing ring = unrolled(polygon, region.west);
+    const bool around_pole = std::any_of(ring.begin(), ring.end(), [](const MapCorner& c) { return c.seam; });
+    const bool hole = around_pole && (ring.back().lat > 0 ? region.north < 90 : region.south > -90);
+    // All around the globe there is no western and no eastern edge. But a cell around a pole that the region
+    // leaves out has a hole there: it is halved. Others begin at a corner, so that they get no new one.
+    if (width == 360 && around_pole && !hole) ring = unrolled(polygon, polygon[0].lon);
+    std::vector<MapRing> parts;
+    if (width < 360)
+      parts = between_meridians(ring, region.west, width);
+    else if (!hole)
+      parts = {ring};
+    else
+      for (const double west : {region.west, region.west + 180})
+        for (MapRing& half : between_meridians(ring, west, 180)) parts.push_back(std::move(half));
+    for (const MapRing& part : parts)
+      for (const MapRing& piece : between_parallels(part, region.south, region.north)) {
+        MapRing arcs = with_arcs(piece);
+        if (width == 360 && !hole)
+          arcs.erase(std::remove_if(arcs.begin(), arcs.end(), [](const MapCorner& c) { return c.seam; }),
+                     arcs.end());
+        pieces.add(arcs, f);
+      }
+  }
+  return pieces.take();
+}
+
+}  // namespace files
