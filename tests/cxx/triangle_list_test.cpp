@@ -11,6 +11,7 @@
 #include <array>
 #include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -246,4 +247,97 @@ TEST(TriangleList, RefusesRingsThatContradictEachOther) {
     EXPECT_EQ(triangle_list(arrays.view(), 9, nt, ltri.data()), TriangleListStatus::broken_lists) << node;
     EXPECT_EQ(nt, 0);
   }
+}
+
+namespace {
+
+using Rings = std::vector<std::vector<std::int32_t>>;  ///< as in LIST: negative where no triangle follows
+
+/// Whether a triangle in one ring is in those of its other two corners, and a node that is listed by a
+/// smaller one lists it, too.
+bool agree(const Rings& rings) {
+  std::set<std::array<int, 3>> triangles;
+  std::set<std::pair<int, int>> arcs;
+  const int n = static_cast<int>(rings.size());
+  for (int x = 1; x <= n; ++x) {
+    const auto& ring = rings[static_cast<std::size_t>(x - 1)];
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      arcs.insert({x, std::abs(ring[i])});
+      if (ring[i] > 0 && !triangles.insert({x, ring[i], std::abs(ring[(i + 1) % ring.size()])}).second)
+        return false;
+    }
+  }
+  for (const auto& [x, y, z] : triangles)
+    if (triangles.count({y, z, x}) == 0 || x == y || y == z) return false;
+  for (const auto& [x, y] : arcs)
+    if (x <= y && (x == y || arcs.count({y, x}) == 0)) return false;
+  return triangles.size() <= 3 * (2 * rings.size() - 4);
+}
+
+/// Something wrong with a ring or two, or only another neighbour first.
+void change(Rings& rings, point_sets::Random& random) {
+  const auto any_of = [&](std::size_t n) { return static_cast<std::size_t>(random.below(n)); };
+  auto &ring = rings[any_of(rings.size())], &other = rings[any_of(rings.size())];
+  auto &entry = ring[any_of(ring.size())], &second = ring[any_of(ring.size())];
+  switch (any_of(6)) {
+    case 0:
+      return std::swap(entry, second);
+    case 1:
+      return std::swap(entry, other[any_of(other.size())]);
+    case 2:
+      entry = -entry;
+      return;
+    case 3:
+      std::reverse(ring.begin(), ring.end());
+      return;
+    case 4:
+      std::rotate(ring.begin(), ring.begin() + 1, ring.end());
+      return;
+    case 5: {  // two nodes change their names in all rings
+      const auto a = std::abs(entry), b = std::abs(second);
+      for (auto& r : rings)
+        for (auto& e : r) {
+          const auto name = std::abs(e) == a ? b : std::abs(e) == b ? a : std::abs(e);
+          e = e < 0 ? -name : name;
+        }
+    }
+  }
+}
+
+}  // namespace
+
+/// Also where so few small numbers are summed that wrong ones have the right sum.
+TEST(TriangleList, RefusesTheListsWhoseRingsDisagreeAndNoOthers) {
+  point_sets::Random random(3);
+  int accepted = 0, refused = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const std::size_t n = 4 + random.below(5);
+    const Plain whole = plain_lists(point_sets::make(i % 2 == 0 ? "random" : "cap", n), Slots::canonical);
+    Rings rings(n);
+    for (std::size_t k = 0, slot = 0; k < n; ++k)
+      while (slot < static_cast<std::size_t>(whole.lend[k])) rings[k].push_back(whole.list[slot++]);
+    for (std::size_t changes = 1 + random.below(3); changes > 0; --changes) change(rings, random);
+
+    Plain lists = whole;
+    std::size_t slot = 0;
+    for (const auto& ring : rings)
+      for (const auto entry : ring) lists.list[slot++] = entry;
+    const bool right = agree(rings);
+    ++(right ? accepted : refused);
+    std::vector<std::int32_t> ltri(9 * (2 * n - 4));
+    for (const int rows : {3, 6, 9}) {
+      std::int32_t nt = -1;
+      const auto status = triangle_list(
+          ListsView<std::int32_t>{n, lists.list.data(), lists.lptr.data(), lists.lend.data(), 0}, rows, nt,
+          ltri.data());
+      ASSERT_EQ(status, right ? TriangleListStatus::done : TriangleListStatus::broken_lists) << i;
+      if (!right) continue;
+      const Expected expected = by_definition(lists, 0);
+      for (std::size_t t = 0; t < expected.columns.size(); ++t)
+        for (std::size_t row = 0; row < static_cast<std::size_t>(rows); ++row)
+          ASSERT_EQ(ltri[t * static_cast<std::size_t>(rows) + row], expected.columns[t][row]) << i;
+    }
+  }
+  EXPECT_GT(accepted, 1000);
+  EXPECT_GT(refused, 1000);
 }

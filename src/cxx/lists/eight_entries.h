@@ -3,6 +3,8 @@
 // good as random, and a branch would be predicted wrong. The answers are bits, entry[0] first. An entry is
 // negative where nothing is on the left of the arc; |entry| is the neighbour.
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #if defined(__SSE2__)
@@ -43,14 +45,66 @@ Greater greater_of_eight(const Int* entry, Int a) {
           bits_of_eight([=](int i) { return neighbour_in(entry[i]) > a; })};
 }
 
-/// |entry[i]| < |entry[i-1]|; bit 0 is 0.
 template <class Int>
-unsigned descents_of_eight(const Int* entry) {
-  return bits_of_eight([=](int i) { return i > 0 && neighbour_in(entry[i]) < neighbour_in(entry[i - 1]); });
+unsigned negative_of_eight(const Int* entry) {
+  return bits_of_eight([=](int i) { return entry[i] < 0; });
+}
+
+/// By byte: the number of its bits that are 1, and which they are, in order.
+constexpr auto ones_of_bits = [] {
+  std::array<unsigned char, 256> ones{};
+  for (unsigned byte = 1; byte < 256; ++byte)
+    ones[byte] = static_cast<unsigned char>(ones[byte / 2] + byte % 2);
+  return ones;
+}();
+constexpr auto positions_of_bits = [] {
+  std::array<std::array<unsigned char, eight>, 256> positions{};
+  for (unsigned byte = 0; byte < 256; ++byte) {
+    std::size_t count = 0;
+    for (unsigned i = 0; i < eight; ++i)
+      if ((byte >> i & 1) != 0) positions[byte][count++] = static_cast<unsigned char>(i);
+  }
+  return positions;
+}();
+/// By byte: of each bit that is 1, how many are up to it; 0 of the others.
+constexpr auto ranks_of_bits = [] {
+  std::array<std::array<unsigned char, eight>, 256> ranks{};
+  for (unsigned byte = 0; byte < 256; ++byte) {
+    unsigned char rank = 0;
+    for (unsigned i = 0; i < eight; ++i)
+      if ((byte >> i & 1) != 0) ranks[byte][i] = ++rank;
+  }
+  return ranks;
+}();
+template <class Int>
+Int ones(unsigned byte) {
+  return ones_of_bits[byte];
+}
+
+using EightBytes = std::array<unsigned char, eight>;
+
+/// to[i] = base + bytes[i]
+template <class Int>
+void put_sums(Int base, const EightBytes& bytes, Int* to) {
+  for (std::size_t i = 0; i < eight; ++i) to[i] = base + bytes[i];
+}
+/// to[i] = base + 2 * bytes[i]; 0 where bytes[i] = 0.
+template <class Int>
+void put_twice(Int base, const EightBytes& bytes, Int* to) {
+  for (std::size_t i = 0; i < eight; ++i) to[i] = bytes[i] > 0 ? base + 2 * Int{bytes[i]} : 0;
 }
 
 #if defined(__SSE2__)
 namespace sse2 {
+template <class Of>
+void put_eight(const EightBytes& bytes, const Of& of, void* to) {
+  const __m128i zero = _mm_setzero_si128();
+  const __m128i words =
+      _mm_unpacklo_epi8(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(bytes.data())), zero);
+  _mm_storeu_si128(static_cast<__m128i*>(to), of(_mm_unpacklo_epi16(words, zero)));
+  _mm_storeu_si128(static_cast<__m128i*>(to) + 1, of(_mm_unpackhi_epi16(words, zero)));
+}
+
 inline __m128i four(const std::int32_t* entry) {
   return _mm_loadu_si128(reinterpret_cast<const __m128i*>(entry));
 }
@@ -64,6 +118,18 @@ inline unsigned bits(__m128i a, __m128i b, __m128i c, __m128i d) {
       _mm_movemask_epi8(_mm_packs_epi16(_mm_packs_epi32(a, b), _mm_packs_epi32(c, d))));
 }
 }  // namespace sse2
+
+inline void put_sums(std::int32_t base, const EightBytes& bytes, std::int32_t* to) {
+  sse2::put_eight(
+      bytes, [b = _mm_set1_epi32(base)](__m128i i) { return _mm_add_epi32(b, i); }, to);
+}
+inline void put_twice(std::uint32_t base, const EightBytes& bytes, std::uint32_t* to) {
+  const __m128i b = _mm_set1_epi32(static_cast<std::int32_t>(base)), zero = _mm_setzero_si128();
+  const auto of = [b, zero](__m128i i) {
+    return _mm_and_si128(_mm_cmpgt_epi32(i, zero), _mm_add_epi32(b, _mm_add_epi32(i, i)));
+  };
+  sse2::put_eight(bytes, of, to);
+}
 
 inline unsigned equal_of_eight(const std::int32_t* entry, std::int32_t a) {
   const __m128i plus = _mm_set1_epi32(a), minus = _mm_set1_epi32(-a);
@@ -82,11 +148,8 @@ inline Greater greater_of_eight(const std::int32_t* entry, std::int32_t a) {
   return {bits & 255, bits >> 8};
 }
 
-inline unsigned descents_of_eight(const std::int32_t* entry) {
-  const __m128i none = _mm_setzero_si128();
-  const __m128i e = sse2::absolute(sse2::four(entry)), f = sse2::absolute(sse2::four(entry + 4));
-  const __m128i before_f = sse2::absolute(sse2::four(entry + 3));
-  return sse2::bits(_mm_cmplt_epi32(e, _mm_slli_si128(e, 4)), _mm_cmplt_epi32(f, before_f), none, none) & ~1u;
+inline unsigned negative_of_eight(const std::int32_t* entry) {
+  return sse2::bits(sse2::four(entry), sse2::four(entry + 4), _mm_setzero_si128(), _mm_setzero_si128());
 }
 #endif
 

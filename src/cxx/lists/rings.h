@@ -2,6 +2,8 @@
 // The lists of a triangulation as rings: for every node its neighbours side by side, nodes in order.
 // That is what canonical lists are already; of other lists a copy is made.
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 
 #include "base/buffer.h"
@@ -12,6 +14,14 @@ namespace pstripack {
 
 /// With which pair of consecutive neighbours a routine starts round a node.
 enum class FirstPair { first_and_second, last_and_first };
+
+/// A number as good as random; 0 for 0. For sums over the triangles of rings, which show whether the rings
+/// agree: sums of small numbers agree by chance.
+template <class Number>
+std::uint64_t scattered(Number t) {
+  const std::uint64_t product = static_cast<std::uint64_t>(t) * 0x9e3779b97f4a7c15u;
+  return product ^ product >> 32;
+}
 
 /// An arc is the position, from 0, of b in the ring of a, and stands for the directed arc from a to b.
 /// Nodes count from 1. Views the lists, which must outlive it.
@@ -69,45 +79,72 @@ class Rings {
     const unsigned neighbours = greater.neighbours & whole(last);
     return {neighbours, greater.entries & (neighbours >> 1 | (neighbours & 1) << last)};
   }
-  /// The arcs of node b that lead to the smallest corner a of a triangle (a,b,c) on their right. Needs
-  /// is_small(b).
-  unsigned arcs_to_smallest(Int b) const {
-    const Int* const entries = entry_ + begin(b);
-    const Int last = degree(b) - 1;
-    const unsigned smaller = ~greater_of_eight(entries, b).neighbours & whole(last);
-    return smaller & (descents_of_eight(entries) | unsigned{entries[last] > neighbour_in(entries[0])});
-  }
-  /// The same for one arc of any ring.
-  bool leads_to_smallest(Int b, Int arc) const {
-    return (target(arc) < b) & (target(arc) < entry(before(b, arc)));
+  /// The arcs of a small ring with a triangle on the left of which the ring's node is the smallest corner,
+  /// and those where it is the largest.
+  struct Claims {
+    unsigned char smallest, largest;
+  };
+  /// Needs is_small(a).
+  Claims claims_of(Int a) const {
+    const Int* const entries = entry_ + begin(a);
+    const Greater greater = greater_of_eight(entries, a);
+    const Int last = degree(a) - 1;
+    const unsigned neighbours = greater.neighbours & whole(last), smaller = neighbours ^ whole(last);
+    const auto followed = [last](unsigned bits) { return bits >> 1 | (bits & 1) << last; };
+    return {static_cast<unsigned char>(greater.entries & followed(neighbours)),
+            static_cast<unsigned char>(smaller & followed(smaller) & ~negative_of_eight(entries))};
   }
   /// True if there is a triangle left of the arc of a, and a is its smallest corner.
   bool is_smallest(Int a, Int arc) const {
     return (entry(arc) > a) & (target(after(a, arc)) > a);  // entry: nothing is left of a boundary's last arc
   }
 
+  bool is_largest(Int a, Int arc) const {
+    return (entry(arc) > 0) & (entry(arc) < a) & (target(after(a, arc)) < a);
+  }
+
   /// Calls visit(a, b, c, p, q) for all triangles (a,b,c), counterclockwise, with smallest corner
   /// a = first+1..last, in the order of a and of its ring; p and q are the arcs from a to b and to c.
   template <FirstPair pairs, class Visit>
   void for_each_triangle(std::size_t first, std::size_t last, const Visit& visit) const {
-    for (Int a = static_cast<Int>(first) + 1; a <= static_cast<Int>(last); ++a) {
-      const Int ring = begin(a), end_of_ring = end(a);
-      const auto triangle = [&](Int p) {
-        const Int q = p + 1 == end_of_ring ? ring : p + 1;
-        visit(a, entry(p), target(q), p, q);
-      };
-      Int p = ring, stop = end_of_ring;
-      const bool last_first = pairs == FirstPair::last_and_first && is_smallest(a, end_of_ring - 1);
-      if (last_first) triangle(end_of_ring - 1);
-      if (pairs == FirstPair::last_and_first) --stop;
-      if (is_small(a)) {
-        unsigned arcs = arcs_of(a).triangles;
-        if (last_first) arcs ^= 1u << (stop - ring);
-        for (; arcs != 0; arcs &= arcs - 1) triangle(ring + __builtin_ctz(arcs));
-      } else {
-        for (; p < stop; ++p)
-          if (is_smallest(a, p)) triangle(p);
+    const auto triangle = [&](Int a, Int p, Int q) { visit(a, entry(p), target(q), p, q); };
+    for_each_arc<pairs>(
+        first, last, [this](Int a) { return arcs_of(a).triangles; },
+        [this](Int a, Int p) { return is_smallest(a, p); }, triangle);
+  }
+
+  /// Calls visit(a, p, q) for some arcs p of the nodes a = first+1..last, in the order of a and of its ring;
+  /// q is the arc after p. For a small ring bits(a) says which, for another is_chosen(a, p). The arcs of
+  /// several small rings are found before the first is visited, so that no number of rounds is unpredictable.
+  template <FirstPair pairs, class Bits, class IsChosen, class Visit>
+  [[gnu::always_inline]] void for_each_arc(std::size_t first, std::size_t last, const Bits& bits,
+                                           const IsChosen& is_chosen, const Visit& visit) const {
+    constexpr Int together = 32;
+    constexpr bool last_first = pairs == FirstPair::last_and_first;
+    std::array<Int, eight*(together + 1)> node, arc;
+    const auto end_of_all = static_cast<Int>(last);
+    for (Int a = static_cast<Int>(first) + 1; a <= end_of_all;) {
+      std::size_t found = 0;
+      for (const Int stop = std::min(a + together - 1, end_of_all); a <= stop && is_small(a); ++a) {
+        const Int ring = begin(a), last_arc = end(a) - 1;
+        unsigned chosen = bits(a);
+        if (last_first) {
+          const unsigned is_last = chosen >> (last_arc - ring) & 1;
+          arc[found] = last_arc, node[found] = a;
+          found += is_last;
+          chosen ^= is_last << (last_arc - ring);
+        }
+        std::fill_n(node.data() + found, eight, a);
+        put_sums(ring, positions_of_bits[chosen], arc.data() + found);
+        found += ones<std::size_t>(chosen);
       }
+      for (std::size_t i = 0; i < found; ++i) visit(node[i], arc[i], after(node[i], arc[i]));
+      if (found > 0 || a > end_of_all || is_small(a)) continue;
+      Int stop = end(a);
+      if (last_first && is_chosen(a, --stop)) visit(a, stop, begin(a));
+      for (Int p = begin(a); p < stop; ++p)
+        if (is_chosen(a, p)) visit(a, p, after(a, p));
+      ++a;
     }
   }
 

@@ -2,14 +2,14 @@
 // The numbers of the triangles of a triangulation, and the triangle on the left of each arc.
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "base/parallel_for.h"
-#include "base/workspace.h"
+#include "lists/block_mail.h"
 #include "lists/rings.h"
 
 namespace pstripack {
@@ -25,33 +25,21 @@ namespace pstripack {
 ///            \ | /
 ///              a
 ///
-/// Messages are collected by blocks of nodes. A block, its rings and its numbers fit into the second cache
-/// while its messages are read.
 template <class Int, FirstPair pairs>
 class TriangleNumbers {
  public:
   /// Counts the triangles. Does all allocation: 48 bytes per node (Int = int32_t) and 4 KB per block of
   /// nodes. Throws std::bad_alloc.
-  TriangleNumbers(const Rings<Int>& rings, int threads) : rings_(rings), threads_(threads) {
-    constexpr int most_bits = 12;
-    const std::size_t enough_blocks = 8 * static_cast<std::size_t>(threads);
-    while (block_bits_ < most_bits && nodes() >> block_bits_ > enough_blocks) ++block_bits_;
-    blocks_ = block_of(rings.size()) + 1;
-
-    before_.resize(blocks_ + 1, 0);
+  TriangleNumbers(const Rings<Int>& rings, int threads)
+      : rings_(rings), threads_(threads), blocks_(static_cast<std::size_t>(rings.size()), threads) {
+    before_.resize(blocks_.count() + 1, 0);
     std::vector<std::size_t> messages(static_cast<std::size_t>(threads), 0);
-    parallel_pieces(blocks_, threads_, [&](std::size_t begin, std::size_t end, int piece) {
+    parallel_pieces(blocks_.count(), threads_, [&](std::size_t begin, std::size_t end, int piece) {
       for (std::size_t block = begin; block < end; ++block)
         messages[static_cast<std::size_t>(piece)] += count(block);
     });
-    for (std::size_t block = 0; block < blocks_; ++block) before_[block + 1] += before_[block];
-    std::size_t chunks = 0;
-    for (const std::size_t of_thread : messages) {
-      outboxes_.push_back({std::vector<std::size_t>(blocks_, 0), chunks, 0});
-      chunks += of_thread / in_a_chunk + blocks_;
-    }
-    message_ = BlockArray<Message>(chunks * in_a_chunk);
-    older_ = BlockArray<std::size_t>(chunks);
+    for (std::size_t block = 0; block < blocks_.count(); ++block) before_[block + 1] += before_[block];
+    mail_.emplace(blocks_.count(), messages);
   }
 
   Int count() const { return before_.back(); }
@@ -63,54 +51,36 @@ class TriangleNumbers {
   /// triangles.
   template <class Numbered>
   bool write(Int offset, Int* left, const Numbered& numbered) {
-    parallel_pieces(blocks_, threads_, [&](std::size_t begin, std::size_t end, int piece) {
+    std::atomic<std::uint64_t> sent{0};
+    parallel_pieces(blocks_.count(), threads_, [&](std::size_t begin, std::size_t end, int piece) {
+      typename Mail::Outbox outbox(*mail_, static_cast<std::size_t>(piece));
       for (std::size_t block = begin; block < end; ++block)
-        send(block, offset + before_[block], left, outboxes_[static_cast<std::size_t>(piece)]);
+        sent += send(block, offset + before_[block], left, outbox);
     });
     std::atomic<bool> complete{true};
     std::atomic<std::uint64_t> seen{0};
     std::atomic<Int> arcs{0};  // with a triangle on the left
-    parallel_pieces(blocks_, threads_, [&](std::size_t begin, std::size_t end, int) {
+    parallel_pieces(blocks_.count(), threads_, [&](std::size_t begin, std::size_t end, int) {
       for (std::size_t block = begin; block < end; ++block) {
-        const std::size_t first = first_node(block), last = first_node(block + 1);
-        for (const Outbox& outbox : outboxes_)
-          if (!receive(outbox.newest[block], left, seen)) complete = false;
+        const std::size_t first = blocks_.first(block), last = blocks_.first(block + 1);
+        mail_->for_each_chunk(block, [&](const Message* message, const Message* last_message) {
+          if (!receive(message, last_message, left, seen)) complete = false;
+        });
         if (!agree(first_arc(first), first_arc(last), left, arcs)) complete = false;
         numbered(first, last, offset + before_[block]);
       }
     });
-    std::uint64_t sent = 0;
-    for (const Outbox& outbox : outboxes_) sent += outbox.corners;
     return complete && arcs == 3 * count() && seen == sent;
   }
 
  private:
-  static constexpr std::size_t in_a_chunk = 256;
   struct Message {
     Int to, from, left, right;
   };
-  /// What one thread sends. The messages to one block are in a chain of chunks, all full but the newest.
-  struct Outbox {
-    std::vector<std::size_t> newest;  ///< by block: one after its newest message; 0 if there is none
-    std::size_t unused;               ///< the next chunk
-    std::uint64_t corners;            ///< sum of t (d + 3 b) over the triangles t = (a,d,b) sent, modulo 2^64
-  };
+  using Mail = BlockMail<Message>;
 
-  std::size_t nodes() const { return static_cast<std::size_t>(rings_.size()); }
-  std::size_t block_of(Int node) const { return (static_cast<std::size_t>(node) - 1) >> block_bits_; }
-  /// The number of nodes before the block.
-  std::size_t first_node(std::size_t block) const { return std::min(block << block_bits_, nodes()); }
   /// The number of arcs of that many nodes.
   Int first_arc(std::size_t nodes) const { return nodes > 0 ? rings_.end(static_cast<Int>(nodes)) : 0; }
-
-  static Int ones(unsigned byte) {
-    static constexpr auto counts = [] {
-      std::array<unsigned char, 256> bits{};
-      for (unsigned i = 1; i < 256; ++i) bits[i] = static_cast<unsigned char>(bits[i / 2] + i % 2);
-      return bits;
-    }();
-    return counts[byte];
-  }
 
   /// The number of triangles whose smallest corner is a.
   Int triangles_at(Int a) const {
@@ -122,12 +92,12 @@ class TriangleNumbers {
   /// Counts the triangles of a block; returns the number of messages that it sends.
   std::size_t count(std::size_t block) {
     Int triangles = 0, messages = 0;
-    const auto last = static_cast<Int>(first_node(block + 1));
-    for (Int a = static_cast<Int>(first_node(block)) + 1; a <= last; ++a) {
+    const auto last = static_cast<Int>(blocks_.first(block + 1));
+    for (Int a = static_cast<Int>(blocks_.first(block)) + 1; a <= last; ++a) {
       if (rings_.is_small(a)) {
         const auto arcs = rings_.arcs_of(a);
-        triangles += ones(arcs.triangles);
-        messages += ones(arcs.greater);
+        triangles += ones<Int>(arcs.triangles);
+        messages += ones<Int>(arcs.greater);
       } else {
         triangles += triangles_at(a);
         for (Int arc = rings_.begin(a); arc < rings_.end(a); ++arc) messages += rings_.target(arc) > a;
@@ -138,14 +108,16 @@ class TriangleNumbers {
   }
 
   /// Enters the triangles of a block, t before them, at their smallest corners and sends them to the others.
-  void send(std::size_t block, Int t, Int* left, Outbox& outbox) {
-    const std::size_t first = first_node(block), last = first_node(block + 1);
+  /// Returns the sum of scattered(t) (d + 3 b) over the triangles t = (a,d,b) sent, modulo 2^64.
+  std::uint64_t send(std::size_t block, Int t, Int* left, typename Mail::Outbox& outbox) {
+    std::uint64_t corners = 0;
+    const std::size_t first = blocks_.first(block), last = blocks_.first(block + 1);
     std::fill(left + first_arc(first), left + first_arc(last), Int{0});
     for (Int a = static_cast<Int>(first) + 1; a <= static_cast<Int>(last); ++a) {
       const Int begin = rings_.begin(a), end = rings_.end(a);
       const bool small = rings_.is_small(a);
       const auto arcs = small ? rings_.arcs_of(a) : typename Rings<Int>::Arcs{};
-      const Int count = small ? ones(arcs.triangles) : triangles_at(a);
+      const Int count = small ? ones<Int>(arcs.triangles) : triangles_at(a);
       constexpr bool last_first = pairs == FirstPair::last_and_first;
       const bool closes = rings_.is_smallest(a, end - 1);
       const Int at_last = closes ? t + (last_first ? 1 : count) : 0;
@@ -155,8 +127,8 @@ class TriangleNumbers {
         const Int b = rings_.target(arc);
         const Int on_left = arc == end - 1 ? at_last : smallest ? number : 0;
         left[arc] = on_left;
-        put({b, a, on_left, right}, outbox);
-        outbox.corners += product(right, d) + 3 * product(right, b);
+        outbox.put(blocks_.of(static_cast<std::size_t>(b)), {b, a, on_left, right});
+        corners += scattered(right) * static_cast<std::uint64_t>(d + 3 * std::int64_t{b});
         right = on_left;
         d = b;
       };
@@ -171,46 +143,31 @@ class TriangleNumbers {
       }
       t += count;
     }
+    return corners;
   }
 
-  static std::uint64_t product(Int i, Int j) {
-    return static_cast<std::uint64_t>(i) * static_cast<std::uint64_t>(j);
-  }
-
-  void put(const Message& message, Outbox& outbox) {
-    std::size_t& newest = outbox.newest[block_of(message.to)];
-    if (newest % in_a_chunk == 0) {
-      older_[outbox.unused] = newest;
-      newest = outbox.unused++ * in_a_chunk;
-    }
-    message_[newest++] = message;
-  }
-
-  /// Reads a chain of messages.
-  bool receive(std::size_t newest, Int* left, std::atomic<std::uint64_t>& seen) const {
+  /// Reads messages begin..end-1.
+  bool receive(const Message* begin, const Message* end, Int* left, std::atomic<std::uint64_t>& seen) const {
     bool complete = true;
-    std::uint64_t corners = 0;  // as in Outbox: t d as the ring of b has it, 3 t b as the ring of d has it
-    for (std::size_t end = newest, chunk; end != 0; end = older_[chunk]) {
-      chunk = (end - 1) / in_a_chunk;
-      for (std::size_t i = chunk * in_a_chunk; i < end; ++i) {
-        constexpr std::size_t ahead = 8;
-        const Int soon = rings_.begin(message_[std::min(i + ahead, end - 1)].to);
-        rings_.prefetch(soon);
-        __builtin_prefetch(left + soon, 1);
+    std::uint64_t corners = 0;  // as in send: d as the ring of b has it, 3 b as the ring of d has it
+    for (const Message* message = begin; message < end; ++message) {
+      constexpr std::ptrdiff_t ahead = 8;
+      const Int soon = rings_.begin(message[std::min(ahead, end - message - 1)].to);
+      rings_.prefetch(soon);
+      __builtin_prefetch(left + soon, 1);
 
-        const Message& m = message_[i];
-        const Int arc = rings_.arc_back(m.from, m.to);
-        if (arc == Rings<Int>::none) {
-          complete = false;
-          continue;
-        }
-        const Int before = rings_.before(m.to, arc);
-        Int &of_right = left[arc], &of_left = left[before];
-        of_left = std::max(of_left, m.left);
-        of_right = std::max(of_right, m.right);
-        corners += product(m.right, rings_.target(rings_.after(m.to, arc))) +
-                   3 * product(m.left, rings_.target(before));
+      const Message& m = *message;
+      const Int arc = rings_.arc_back(m.from, m.to);
+      if (arc == Rings<Int>::none) {
+        complete = false;
+        continue;
       }
+      const Int before = rings_.before(m.to, arc);
+      Int &of_right = left[arc], &of_left = left[before];
+      of_left = std::max(of_left, m.left);
+      of_right = std::max(of_right, m.right);
+      corners += scattered(m.right) * static_cast<std::uint64_t>(rings_.target(rings_.after(m.to, arc))) +
+                 scattered(m.left) * static_cast<std::uint64_t>(3 * std::int64_t{rings_.target(before)});
     }
     seen += corners;
     return complete;
@@ -231,12 +188,9 @@ class TriangleNumbers {
 
   const Rings<Int>& rings_;
   int threads_;
-  int block_bits_ = 4;  // a block has 2^block_bits_ nodes
-  std::size_t blocks_;
+  const NodeBlocks blocks_;
   std::vector<Int> before_;  // the number of triangles before each block
-  std::vector<Outbox> outboxes_;
-  BlockArray<Message> message_;
-  BlockArray<std::size_t> older_;  // by chunk: one after the last message of the chunk before it in its chain
+  std::optional<Mail> mail_;
 };
 
 }  // namespace pstripack

@@ -1,56 +1,97 @@
 #include "stripack/triangle_list.h"
 
 #include <algorithm>
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
+#include <vector>
 
 #include "base/parallel_for.h"
 #include "base/workspace.h"
+#include "lists/block_mail.h"
 #include "lists/rings.h"
-#include "lists/triangle_numbers.h"
 #include "stripack/list_queries.h"
 
 namespace pstripack {
 namespace {
 
-// Method. Let a be the smallest corner of triangle t = (a,b,c), and p and q the arcs from a to b and to c:
+// Method. Triangles are numbered by their smallest corner, then in the order of its ring. Of the triangle
+// t = (a,b,c), a smallest, let m be the smaller and M the larger of b and c. Sides have the numbers of the
+// corners opposite: 0 is b-c, 1 is c-a, 2 is a-b.
 //
-//               c             Its sides, by the corner opposite, and the triangles beyond them:
-//              / \              a: b-c, left of the arc before b->c in the ring of b
-//           q /   \             b: c-a, left of q
-//            a-----b            c: a-b, left of the arc before p
-//               p
+//          M              Every arc is looked at from its smaller end. The ring of a knows the numbers of its
+//        / | \            own triangles on both sides of a-b and of a-c. Where a node smaller than a has the
+//       a  |  d           triangle, a has had a message. In the same way t sends a message to m: it is left
+//       (or
+//        \ | /            right) of the arc from m to M. As soon as the ring of m knows what is on the other
+//          m              side of that arc, it is noted for t.
 //
-// The ring of a knows the last two. The first is noted when the numbers in the ring of b are known.
+// All this is noted by nodes greater than a. So the blocks of nodes read their messages from the last block
+// to the first, and write the columns of their triangles at once; where several threads read blocks, they
+// complete the columns when all are read.
+//
+// The rings must have the same triangles. Of a message, m compares the third corner; the largest corner gets
+// no message. Both are compared by sums of hashes, modulo 2^64: over the rings of the smallest corners, and
+// over those of the others.
 template <class Int>
 class TriangleList {
  public:
   TriangleList(const ListsView<Int>& lists, int rows)
-      : rows_(rows), threads_(threads_for(lists.n)), readable_(rings_.read(lists, threads_)) {}
+      : rows_(rows),
+        threads_(threads_for(lists.n)),
+        blocks_(lists.n, threads_),
+        readable_(rings_.read(lists, threads_)) {}
 
   TriangleListStatus write(Int& nt, Int* ltri) {
     if (!readable_) return TriangleListStatus::broken_lists;
-    TriangleNumbers<Int, pairs> numbers(rings_, threads_);
-    const Int total = numbers.count();
-    if (total > 2 * rings_.size() - 4) return TriangleListStatus::broken_lists;  // would overrun LTRI
-    left_ = BlockArray<Int>(index(rings_.arcs()));
-    beyond_ = BlockArray<Side>(index(total) + 1);
-    std::fill(beyond_.begin(), beyond_.end(), Side{0});
-    if (rows_ == 9) arcs_ = BlockArray<Number>(index(total) + 1);
+    Workspace space(bytes());
+    lay_out(space);
+    // Several threads count first; one thread knows enough when it comes to a block.
+    std::vector<std::size_t> messages(index(threads_), threads_ == 1 ? index(most_triangles()) : 0);
+    before_[0] = 0;
+    if (threads_ > 1) {
+      for_blocks([&](std::size_t block, int piece) {
+        before_[block + 1] = look_at(block);
+        messages[index(piece)] += index(before_[block + 1]);
+      });
+      for (std::size_t block = 0; block < blocks_.count(); ++block) before_[block + 1] += before_[block];
+      if (before_[blocks_.count()] > most_triangles()) return TriangleListStatus::broken_lists;
+    }
+    BlockMail<Message> mail(blocks_.count(), messages);
+    parallel_pieces(blocks_.count(), threads_, [&](std::size_t begin, std::size_t end, int piece) {
+      typename BlockMail<Message>::Outbox outbox(mail, index(piece));
+      for (std::size_t block = begin; block < end && complete_; ++block) {
+        if (threads_ == 1) before_[block + 1] = before_[block] + look_at(block);
+        if (before_[block + 1] > most_triangles())
+          complete_ = false;  // LTRI would be overrun
+        else
+          send(block, outbox);
+      }
+    });
+    if (!complete_) return TriangleListStatus::broken_lists;
+    const Int total = before_[blocks_.count()];
+    if (entries_ != 3 * total || !count_numbered_arcs()) return TriangleListStatus::broken_lists;
 
-    const bool complete = numbers.write(0, left_.data(), [&](std::size_t begin, std::size_t end, Int t) {
-      if (rows_ > 3) note_beyond(begin, end);
-      if (rows_ == 3) write_corners<3>(begin, end, t, ltri);
-      if (rows_ == 6) write_corners<6>(begin, end, t, ltri);
-      if (rows_ == 9) write_corners<9>(begin, end, t, ltri);
+    for_blocks([&](std::size_t block, int) {
+      if (!complete_) return;
+      number(block);
+      mail.for_each_chunk(block, [&](Message* begin, Message* end) { receive(block, begin, end); });
+      if (!complete_) return;
+      mail.for_each_chunk(block,
+                          [&](const Message* begin, const Message* end) { note_beyond(block, begin, end); });
+      if (rows_ == 3) write_columns<3>(block, ltri);
+      if (rows_ == 6) write_columns<6>(block, ltri);
+      if (rows_ == 9) write_columns<9>(block, ltri);
+      if (threads_ > 1) return;
+      if (rows_ == 9) count_arcs(block);
+      complete_columns(block, ltri);
     });
-    if (!complete) return TriangleListStatus::broken_lists;
-    if (rows_ == 9) count_arcs(total);
-    parallel_pieces(index(total), threads_, [&](std::size_t begin, std::size_t end, int) {
-      if (rows_ == 6)
-        for (std::size_t t = begin; t < end; ++t) ltri[6 * t + 3] = triangle(beyond_[t + 1]);
-      if (rows_ == 9) write_arcs(begin, end, ltri);
-    });
+    if (!complete_ || difference_ != 0) return TriangleListStatus::broken_lists;
+    if (threads_ > 1) {
+      for (std::size_t block = blocks_.count(); rows_ == 9 && block-- > 0;) count_arcs(block);
+      for_blocks([&](std::size_t block, int) { complete_columns(block, ltri); });
+    }
     nt = total;
     return TriangleListStatus::done;
   }
@@ -60,73 +101,226 @@ class TriangleList {
   using Number = std::make_unsigned_t<Int>;
   /// A side of a triangle: 4 * triangle + 0, 1 or 2; 0 = none.
   using Side = Number;
-  static Int triangle(Side side) { return static_cast<Int>(side / 4); }
+  struct Message {
+    Int to, larger;
+    Number half;  ///< 2 * triangle + 1 if it is right of the arc between them
+  };
+  using Claims = typename Rings<Int>::Claims;
 
-  /// For every triangle (a,b,c), b = first+1..last, the side b-c as one of the triangle beyond it.
-  void note_beyond(std::size_t first, std::size_t last) {
-    const Int* const left = left_.data();
-    for (Int b = static_cast<Int>(first) + 1; b <= static_cast<Int>(last); ++b) {
-      const auto note = [&](Int to_a) {
-        // In the ring of b: d, c, a. Beyond the side is (b,d,c), smallest corner first.
-        const Int to_c = rings_.before(b, to_a), to_d = rings_.before(b, to_c);
-        const Int c = rings_.target(to_c), d = rings_.target(to_d);
-        const Side opposite_d = (b < d) & (b < c) ? 1 : d < c ? 0 : 2;
-        const Int t = left[to_c], beyond = left[to_d];
-        if (t != 0) beyond_[index(t)] = 4 * static_cast<Side>(beyond) + opposite_d;
-      };
-      if (rings_.is_small(b)) {
-        for (unsigned arcs = rings_.arcs_to_smallest(b); arcs != 0; arcs &= arcs - 1)
-          note(rings_.begin(b) + __builtin_ctz(arcs));
+  Int most_triangles() const { return 2 * rings_.size() - 4; }
+  std::size_t nodes() const { return index(rings_.size()); }
+  Int first_arc(std::size_t block) const {
+    const std::size_t nodes = blocks_.first(block);
+    return nodes > 0 ? rings_.end(static_cast<Int>(nodes)) : 0;
+  }
+  /// The place of the first arc of a block in left_: one thread has one block at a time there.
+  Int offset(std::size_t block) const { return threads_ == 1 ? first_arc(block) : 0; }
+
+  /// All arrays but the messages: 40 bytes a node (Int = int32_t, 9 rows).
+  std::size_t left_size() const {
+    Int most = 0;
+    for (std::size_t block = 0; block < blocks_.count(); ++block)
+      most = std::max(most, first_arc(block + 1) - first_arc(block));
+    return index(threads_ == 1 ? most : rings_.arcs()) + eight;
+  }
+  std::size_t bytes() const {
+    const std::size_t triangles = index(most_triangles()) + 1;
+    return left_size() * sizeof(Number) + nodes() * sizeof(Claims) + (blocks_.count() + 1) * sizeof(Int) +
+           triangles * (sizeof(Side) + (rows_ == 9 ? sizeof(Number) : 0));
+  }
+  void lay_out(Workspace& space) {
+    const std::size_t triangles = index(most_triangles()) + 1;
+    left_ = space.keep<Number>(left_size());
+    claims_ = space.keep<Claims>(nodes());
+    before_ = space.keep<Int>(blocks_.count() + 1);
+    beyond_ = space.keep<Side>(triangles);
+    if (rows_ == 9) arcs_ = space.keep<Number>(triangles);
+  }
+
+  /// Calls work(block, thread) for all blocks, each thread's from the last to the first.
+  template <class Work>
+  void for_blocks(const Work& work) const {
+    parallel_pieces(blocks_.count(), threads_, [&](std::size_t begin, std::size_t end, int piece) {
+      for (std::size_t block = end; block-- > begin;) work(block, piece);
+    });
+  }
+  template <class Visit>
+  void for_each_triangle(std::size_t block, const Visit& visit) const {
+    rings_.template for_each_arc<pairs>(
+        blocks_.first(block), blocks_.first(block + 1), [this](Int a) { return claims_[a - 1].smallest; },
+        [this](Int a, Int p) { return rings_.is_smallest(a, p); }, visit);
+  }
+
+  /// Notes which triangles the rings of a block have, and returns the number of those whose smallest corner
+  /// is in it.
+  Int look_at(std::size_t block) {
+    Int triangles = 0, entries = 0, last_negative = 0;
+    const Int begin = first_arc(block), end = first_arc(block + 1);
+    for (Int arc = begin; arc < end; ++arc) entries += rings_.entry(arc) > 0;
+    const auto last = static_cast<Int>(blocks_.first(block + 1));
+    for (Int a = static_cast<Int>(blocks_.first(block)) + 1; a <= last; ++a) {
+      last_negative += (rings_.entry(rings_.end(a) - 1) < 0) & (rings_.degree(a) > 1);
+      if (rings_.is_small(a)) {
+        claims_[a - 1] = rings_.claims_of(a);
+        triangles += ones<Int>(claims_[a - 1].smallest);
       } else {
-        for (Int arc = rings_.begin(b); arc < rings_.end(b); ++arc)
-          if (rings_.leads_to_smallest(b, arc)) note(arc);
+        for (Int arc = rings_.begin(a); arc < rings_.end(a); ++arc) triangles += rings_.is_smallest(a, arc);
+      }
+    }
+    entries_ += entries;
+    if (end - begin - entries != last_negative) has_bare_arcs_ = true;
+    return triangles;
+  }
+
+  /// Sets arcs_left_. False if an arc without triangles leads to a larger node that does not list its node.
+  bool count_numbered_arcs() {
+    Int bare = 0;
+    for (Int a = 1; has_bare_arcs_ && a <= rings_.size(); ++a)
+      for (Int arc = rings_.begin(a); arc < rings_.end(a); ++arc) {
+        if (rings_.entry(arc) > 0 || rings_.entry(rings_.before(a, arc)) > 0) continue;
+        const Int b = rings_.target(arc);
+        if (b > a && rings_.arc_back(a, b) == Rings<Int>::none) return false;
+        ++bare;
+      }
+    arcs_left_ = static_cast<Number>(rings_.arcs() - bare) / 2;
+    return true;
+  }
+
+  /// Of the triangle (x,y,z), counterclockwise, x largest.
+  static std::uint64_t hash(Int x, Int y, Int z) {
+    const std::uint64_t sum = static_cast<std::uint64_t>(x) * 0x9e3779b97f4a7c15u +
+                              static_cast<std::uint64_t>(y) * 0xc2b2ae3d27d4eb4fu +
+                              static_cast<std::uint64_t>(z) * 0x165667b19e3779f9u;
+    return sum * (sum >> 32);
+  }
+
+  /// Sends the messages of the triangles of a block. Without branches, as below: they would be unpredictable.
+  void send(std::size_t block, typename BlockMail<Message>::Outbox& outbox) {
+    std::uint64_t sum = 0;
+    auto t = static_cast<Number>(before_[block]);
+    for_each_triangle(block, [&](Int a, Int p, Int q) {
+      ++t;
+      const Int b = rings_.entry(p), c = rings_.target(q);
+      const Int is_right = c < b, m = std::min(b, c), larger = std::max(b, c);
+      const Int after_larger = either(is_right, m, a), before_larger = m ^ a ^ after_larger;
+      outbox.put(blocks_.of(index(m)), {m, larger, 2 * t + static_cast<Number>(is_right)});
+      sum += hash(larger, after_larger, before_larger) + scattered(t) * static_cast<std::uint64_t>(a);
+    });
+    rings_.template for_each_arc<pairs>(
+        blocks_.first(block), blocks_.first(block + 1), [this](Int x) { return claims_[x - 1].largest; },
+        [this](Int x, Int p) { return rings_.is_largest(x, p); },
+        [&](Int x, Int p, Int q) { sum -= hash(x, rings_.entry(p), rings_.target(q)); });
+    difference_ += sum;
+  }
+
+  /// By arc, left_: 2 * the triangle left of it + 1 if the arc's node is its smallest corner; 0 = none. Here
+  /// those of which that is so.
+  void number(std::size_t block) {
+    auto t = static_cast<Number>(before_[block]);
+    const Int skip = offset(block);
+    const auto last = static_cast<Int>(blocks_.first(block + 1));
+    for (Int a = static_cast<Int>(blocks_.first(block)) + 1; a <= last; ++a) {
+      const Int ring = rings_.begin(a);
+      Number* const left = left_ + (ring - skip);
+      if (rings_.is_small(a)) {
+        const unsigned bits = claims_[a - 1].smallest;
+        put_twice(2 * t + 1, ranks_of_bits[bits],
+                  left);  // what is too much is of the next node, and comes later
+        t += ones<Number>(bits);
+      } else {
+        for (Int arc = ring; arc < rings_.end(a); ++arc) {
+          const bool smallest = rings_.is_smallest(a, arc);
+          t += smallest;
+          left[arc - ring] = smallest ? 2 * t + 1 : 0;
+        }
       }
     }
   }
 
-  /// Rows 1-3, 5 and 6 of the triangles of nodes first+1..last, t before them. For count_arcs: in arcs_ a bit
-  /// for each of rows 5 and 6 whose triangle comes earlier.
+  /// Enters the triangles of messages in left_, and replaces the nodes of a message by the arc on the other
+  /// side.
+  void receive(std::size_t block, Message* begin, Message* end) {
+    bool complete = true;
+    std::uint64_t sum = 0;
+    Number* const left = left_;
+    const Int skip = offset(block);
+    for (Message* message = begin; message < end; ++message) {
+      constexpr std::ptrdiff_t ahead = 16;
+      rings_.prefetch(rings_.begin(std::min(message + ahead, end - 1)->to));
+      Message& m = *message;
+      const Int arc = rings_.arc_back(m.larger, m.to);
+      if (arc == Rings<Int>::none) {
+        complete = false;
+        break;
+      }
+      const Int before = rings_.before(m.to, arc), after = rings_.after(m.to, arc);
+      const Int is_right = static_cast<Int>(m.half & 1);
+      const Int at = either(is_right, before, arc), third = either(is_right, before, after);
+      Number& here = left[at - skip];
+      complete = complete & (here == 0) & (rings_.entry(at) > 0);
+      here = m.half & ~Number{1};
+      sum -= scattered(m.half / 2) * static_cast<std::uint64_t>(rings_.target(third));
+      m.to = either(is_right, arc, before);
+    }
+    if (!complete) complete_ = false;
+    difference_ += sum;
+  }
+
+  void note_beyond(std::size_t block, const Message* begin, const Message* end) {
+    const Number* const left = left_;
+    const Int skip = offset(block);
+    for (const Message* m = begin; m < end; ++m) {
+      const Number beyond = left[m->to - skip];
+      // Of a triangle of m's own node, the arc is side 2 as seen from the right, and side 1 from the left.
+      beyond_[m->half / 2] = 2 * (beyond & ~Number{1}) + ((beyond & 1) << (m->half & 1));
+    }
+  }
+
+  /// Rows 1-3, 5 and 6 of the triangles of a block. For count_arcs: in arcs_ a bit for each of rows 5 and 6
+  /// whose triangle comes earlier.
   template <int rows>
-  void write_corners(std::size_t first, std::size_t last, Int t, Int* ltri) {
-    const Int* const left = left_.data();
-    Number* const arcs = arcs_.data();
+  void write_columns(std::size_t block, Int* ltri) {
+    const Number* const left = left_;
+    const Int skip = offset(block);
+    Int t = before_[block];
     Int* column = ltri + index(t) * rows;
-    rings_.template for_each_triangle<pairs>(first, last, [&](Int a, Int b, Int c, Int p, Int q) {
+    for_each_triangle(block, [&](Int a, Int p, Int q) {
       ++t;
       column[0] = a;
-      column[1] = b;
-      column[2] = c;
+      column[1] = rings_.entry(p);
+      column[2] = rings_.target(q);
       if (rows > 3) {
-        const Int opposite_b = left[q], opposite_c = left[rings_.before(a, p)];
+        const auto opposite_b = static_cast<Int>(left[q - skip] / 2);
+        const auto opposite_c = static_cast<Int>(left[rings_.before(a, p) - skip] / 2);
         column[4] = opposite_b;
         column[5] = opposite_c;
-        if (rows > 6) arcs[t] = Number{opposite_b < t} + 2 * Number{opposite_c < t};
+        if (rows > 6) arcs_[t] = Number{opposite_b < t} + 2 * Number{opposite_c < t};
       }
       column += rows;
     });
   }
 
-  /// An arc gets its number from the later of its two triangles, or from its only one. arcs_[t] = 4 * the
-  /// number of arcs before those of triangle t, and a bit for each of its sides 0 and 1 whose arc is among
-  /// those.
-  void count_arcs(Int triangles) {
-    Number arcs = 0;
-    for (Number t = 1; t <= static_cast<Number>(triangles); ++t) {
-      const Number others = arcs_[t], first = beyond_[t] / 4 < t;
-      arcs_[t] = 4 * arcs + first + 2 * (others & 1);
-      arcs += first + (others & 1) + (others >> 1);
+  /// An arc gets its number from the later of its two triangles, or from its only one. Then arcs_[t] = 4 *
+  /// the number of arcs before those of triangle t, and a bit for each of its sides 0 and 1 whose arc is
+  /// among those. Needs the blocks from the last to the first.
+  void count_arcs(std::size_t block) {
+    for (Int t = before_[block + 1]; t > before_[block]; --t) {
+      const Number others = arcs_[t], first = beyond_[t] / 4 < static_cast<Number>(t);
+      arcs_left_ -= first + (others & 1) + (others >> 1);
+      arcs_[t] = 4 * arcs_left_ + first + 2 * (others & 1);
     }
   }
 
-  /// Rows 4 and 7-9 of the triangles begin+1..end.
-  void write_arcs(std::size_t begin, std::size_t end, Int* ltri) const {
-    for (std::size_t i = begin; i < end; ++i) {
-      constexpr std::size_t ahead = 16;
-      __builtin_prefetch(&arcs_[beyond_[std::min(i + ahead, end)] / 4]);
-      const Int t = static_cast<Int>(i) + 1;
-      Int* const column = ltri + i * 9;
-      const Side beyond = beyond_[i + 1];
-      column[3] = triangle(beyond);
+  /// Row 4 and rows 7-9.
+  void complete_columns(std::size_t block, Int* ltri) const {
+    for (Int t = before_[block] + 1; t <= before_[block + 1]; ++t) {
+      const Side beyond = beyond_[t];
+      if (rows_ == 6) ltri[6 * index(t) - 3] = static_cast<Int>(beyond / 4);
+      if (rows_ < 9) continue;
+      constexpr Int ahead = 16;
+      __builtin_prefetch(&arcs_[beyond_[std::min(t + ahead, before_[block + 1])] / 4]);
+      Int* const column = ltri + 9 * (index(t) - 1);
+      column[3] = static_cast<Int>(beyond / 4);
       column[6] = arc_number(t, 0, column[3], beyond % 4);
       column[7] =
           arc_number(t, 1, column[4], 2);  // that triangle is later only if its smallest corner is a, too
@@ -136,19 +330,32 @@ class TriangleList {
 
   /// The number of the arc at a side of triangle t that is side `other` of the triangle `beyond`.
   Int arc_number(Int t, Number side, Int beyond, Number other) const {
-    const bool later = beyond > t;
-    const Number arcs = arcs_[index(later ? beyond : t)], s = later ? other : side;
-    return static_cast<Int>(arcs / 4 + 1 + (s > 0 ? arcs & 1 : 0) + (s > 1 ? arcs >> 1 & 1 : 0));
+    const bool is_later = beyond > t;
+    const Number arcs = arcs_[either<Int>(is_later, beyond, t)], s = either<Number>(is_later, other, side);
+    const Number before = arcs & ((Number{1} << s) - 1);  // two bits; how many are 1:
+    return static_cast<Int>(arcs / 4 + 1 + before - before / 2);
   }
 
+  /// first ? yes : no, without a branch.
+  template <class T>
+  static T either(T first, T yes, T no) {
+    return no ^ ((T{0} - first) & (no ^ yes));
+  }
   static std::size_t index(Int i) { return static_cast<std::size_t>(i); }
 
   int rows_;
   int threads_;
+  NodeBlocks blocks_;
   Rings<Int> rings_;
-  BlockArray<Int> left_;     // by arc: the triangle left of it
-  BlockArray<Side> beyond_;  // by triangle (a,b,c): what is beyond b-c
-  BlockArray<Number> arcs_;  // by triangle: see count_arcs; if rows = 9
+  Claims* claims_ = nullptr;                  // by node, if its ring is small
+  Int* before_ = nullptr;                     // by block: the number of triangles before it; and of all
+  Number* left_ = nullptr;                    // by arc: see number()
+  Side* beyond_ = nullptr;                    // by triangle: what is beyond its side 0
+  Number* arcs_ = nullptr;                    // by triangle: see count_arcs; if rows = 9
+  Number arcs_left_ = 0;                      // to be numbered
+  std::atomic<Int> entries_{0};               // of LIST that have a triangle on the left
+  std::atomic<std::uint64_t> difference_{0};  // of the sums over smallest corners and over the others
+  std::atomic<bool> complete_{true}, has_bare_arcs_{false};
   bool readable_;
 };
 

@@ -1,0 +1,104 @@
+#pragma once
+// Messages between the nodes of a triangulation, collected by blocks of nodes: neighbours are anywhere in
+// memory, and to look each of them up takes longer than all else. A block, its rings and what is known of its
+// arcs fit into the second cache while its messages are read.
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "base/workspace.h"
+
+namespace pstripack {
+
+/// The nodes 1..n in blocks, several for each thread.
+class NodeBlocks {
+ public:
+  NodeBlocks(std::size_t nodes, int threads) : nodes_(nodes) {
+    constexpr int most_bits = 12;
+    const std::size_t enough = 8 * static_cast<std::size_t>(threads);
+    while (bits_ < most_bits && nodes >> bits_ > enough) ++bits_;
+  }
+  std::size_t count() const { return of(nodes_) + 1; }
+  std::size_t of(std::size_t node) const { return (node - 1) >> bits_; }
+  /// The number of nodes before the block.
+  std::size_t first(std::size_t block) const { return std::min(block << bits_, nodes_); }
+
+ private:
+  std::size_t nodes_;
+  int bits_ = 4;  // a block has 2^bits_ nodes
+};
+
+/// Messages of several senders, one a thread. Those of a sender to a block are in a chain of chunks, all full
+/// but the newest.
+template <class Message>
+class BlockMail {
+ public:
+  /// Room for messages[s] messages of sender s to that many blocks. Throws std::bad_alloc.
+  BlockMail(std::size_t blocks, const std::vector<std::size_t>& messages)
+      : blocks_(blocks), senders_(messages.size()), space_(bytes(blocks, messages)) {
+    first_chunk_ = space_.keep<std::size_t>(senders_ + 1);
+    first_chunk_[0] = 0;
+    for (std::size_t s = 0; s < senders_; ++s)
+      first_chunk_[s + 1] = first_chunk_[s] + chunks(blocks, messages[s]);
+    newest_ = space_.keep<std::size_t>(senders_ * blocks);
+    std::fill(newest_, newest_ + senders_ * blocks, std::size_t{0});
+    older_ = space_.keep<std::size_t>(first_chunk_[senders_]);
+    message_ = space_.keep<Message>(first_chunk_[senders_] * in_a_chunk);
+  }
+
+  /// What one sender sends; it has only one.
+  class Outbox {
+   public:
+    Outbox(BlockMail& mail, std::size_t sender)
+        : newest_(mail.newest_ + sender * mail.blocks_),
+          older_(mail.older_),
+          message_(mail.message_),
+          unused_(mail.first_chunk_[sender]) {}
+    void put(std::size_t block, const Message& message) {
+      std::size_t& newest = newest_[block];
+      if (newest % in_a_chunk == 0) {
+        older_[unused_] = newest;
+        newest = unused_++ * in_a_chunk;
+      }
+      message_[newest++] = message;
+    }
+
+   private:
+    std::size_t* const newest_;
+    std::size_t* const older_;
+    Message* const message_;
+    std::size_t unused_;  // the next chunk
+  };
+
+  /// Calls read(begin, end) for the messages to the block, chunk by chunk.
+  template <class Read>
+  void for_each_chunk(std::size_t block, const Read& read) {
+    for (std::size_t s = 0; s < senders_; ++s)
+      for (std::size_t end = newest_[s * blocks_ + block], chunk; end != 0; end = older_[chunk]) {
+        chunk = (end - 1) / in_a_chunk;
+        read(message_ + chunk * in_a_chunk, message_ + end);
+      }
+  }
+
+ private:
+  static constexpr std::size_t in_a_chunk = 256;
+  static std::size_t chunks(std::size_t blocks, std::size_t messages) {
+    return messages / in_a_chunk + blocks;
+  }
+  static std::size_t bytes(std::size_t blocks, const std::vector<std::size_t>& messages) {
+    std::size_t all = 0;
+    for (const std::size_t of_sender : messages) all += chunks(blocks, of_sender);
+    return all * (in_a_chunk * sizeof(Message) + sizeof(std::size_t)) +
+           (messages.size() * (blocks + 1) + 1) * sizeof(std::size_t);
+  }
+
+  std::size_t blocks_, senders_;
+  Workspace space_;
+  std::size_t* first_chunk_;  // by sender, and the end
+  std::size_t* newest_;       // by sender and block: one after the newest message; 0 if there is none
+  std::size_t* older_;        // by chunk: one after the last message of the chunk before it in its chain
+  Message* message_;
+};
+
+}  // namespace pstripack
