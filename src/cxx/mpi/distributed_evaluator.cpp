@@ -13,7 +13,7 @@ namespace pstripack::scvt {
 void DistributedEvaluator::triangulate(const std::vector<Point>& generators) {
   const double* const xyz = generators.empty() ? nullptr : &generators[0].x;
   const std::int32_t code =
-      mesh_.triangulate(static_cast<std::int64_t>(generators.size()), xyz, numbers_.data());
+      mesh_.triangulate(static_cast<std::int64_t>(generators.size()), xyz, numbers_.data(), report_);
   switch (code) {
     case 0:
       return;

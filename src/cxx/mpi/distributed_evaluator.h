@@ -25,6 +25,9 @@ class DistributedEvaluator final : public Evaluator {
   double largest(double value) override;
   void allocate(const std::function<void()>& body) override;
 
+  /// Each triangulation fills the report, as DistributedMesh::triangulate does. Null: none.
+  void report_to(DistributedMesh::Report* report) { report_ = report; }
+
   /// The mesh becomes that of the generators. Collective. Throws BadGenerators, AgreedFailure.
   void triangulate(const std::vector<Point>& generators);
 
@@ -32,6 +35,7 @@ class DistributedEvaluator final : public Evaluator {
   DistributedMesh& mesh_;
   const std::vector<std::int64_t>& numbers_;
   const Density& density_;
+  DistributedMesh::Report* report_ = nullptr;
   // In local numbers: own generators, then neighbours that other ranks have.
   std::vector<Point> points_;
   std::vector<std::int64_t> begin_, numbers_of_halo_;
