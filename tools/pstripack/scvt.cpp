@@ -208,10 +208,9 @@ std::string duration(double seconds) {
 /// The generators of a new run: of the last level, where there are levels.
 State first_state(const Options& options, const engine::Density& density, engine::Evaluator& evaluator,
                   Progress& progress) {
-  constexpr std::size_t kFewest = 3000;  ///< that a front puts in better order than levels do
-  const First first = options.first != First::by_number ? options.first
-                      : options.n >= kFewest            ? First::front
-                                                        : First::levels;
+  const First first = options.first != First::by_number      ? options.first
+                      : options.n >= engine::kFewestOfAFront ? First::front
+                                                             : First::levels;
   if (first == First::front) return State(engine::front_generators(options.n, density));
   std::vector<std::size_t> sizes{options.n};
   if (first == First::levels) sizes = engine::level_sizes(options.n);
