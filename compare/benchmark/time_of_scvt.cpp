@@ -316,9 +316,13 @@ void run_descents(const DescentSettings& settings) {
                d.method == Method::lloyd ? "lloyd" : "newton", name_of(d.first), last.evaluations,
                last.seconds, last.gradient, last.energy);
     std::fflush(stdout);
-    for (std::size_t k = 0; csv && k < count[0]; ++k)
-      csv->row(fmt::format("{},{},{:.6g},{:.6g},{:.6g},{:.9g}", d.name, n, steps[k].evaluations,
-                           steps[k].seconds, steps[k].gradient, steps[k].energy));
+    double shown = 0;  // evaluations; steps close to each other would look like one
+    for (std::size_t k = 0; csv && k < count[0]; ++k) {
+      if (steps[k].evaluations < 1.1 * shown && k + 1 < count[0]) continue;
+      shown = steps[k].evaluations;
+      csv->row(fmt::format("{},{},{:.6g},{:.6g},{:.6g},{:.9g}", d.name, n, shown, steps[k].seconds,
+                           steps[k].gradient, steps[k].energy));
+    }
   }
 }
 

@@ -15,7 +15,7 @@ struct DescentSettings {
   std::string csv;
 };
 
-/// Gradient and energy after each evaluation, of Lloyd's method and of ours, from several first generators.
+/// Gradient and energy on the way, of Lloyd's method and of ours, from several first generators.
 void run_descents(const DescentSettings& settings);
 
 }  // namespace benchmark
