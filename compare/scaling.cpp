@@ -17,6 +17,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -29,10 +30,13 @@
 #include "median.h"
 #include "mpi/area_of_all.h"
 #include "mpi/collective_trmesh.h"
+#include "mpi/distributed_evaluator.h"
 #include "mpi/distributed_mesh.h"
 #include "point_sets.h"
 #include "pool/area_layout.h"
 #include "printed.h"
+#include "scvt/evaluator.h"
+#include "scvt/front.h"
 #include "trmesh/trmesh.h"
 #include "voronoi_cell.h"
 
@@ -40,6 +44,11 @@ namespace {
 
 using namespace pstripack;
 using Phase = ParallelCost::Phase;
+
+const std::string kMoving = "moving";  ///< a table and a mode of its own
+const std::string kScvt = "scvt";      ///< a mode: an evaluation of centroidal tessellations
+/// What it does after the triangulation, in the column of what it does not do.
+constexpr Phase kIntegrate = Phase::gather;
 
 struct Settings {
   std::string mode, family = "random", owners;
@@ -53,37 +62,40 @@ double cpu_seconds() { return clock_seconds(CLOCK_PROCESS_CPUTIME_ID); }
 
 // ---- one run on some ranks: prints one line of names and values on rank 0 -----------------------------
 
-/// TRMESH on one thread of rank 0, while the other ranks sleep.
+/// The processor seconds of work() on rank 0, while the other ranks sleep; 0 on these. Collective.
+template <class Work>
+double on_rank_0(MpiCommunicator& ranks, const Work& work) {
+  double spent = 0;
+  if (ranks.rank() == 0) {
+    const double start = cpu_seconds();
+    work();
+    spent = cpu_seconds() - start;
+  }
+  MPI_Request all_are_here;
+  MPI_Ibarrier(ranks.handle(), &all_are_here);
+  for (int done = 0; MPI_Test(&all_are_here, &done, MPI_STATUS_IGNORE), !done;) usleep(1000);
+  return spent;
+}
+
+/// TRMESH on one thread.
 class SerialCall {
  public:
-  SerialCall(MpiCommunicator& ranks, const std::vector<Point>& points_on_root)
-      : ranks_(ranks), n_(points_on_root.size()) {
-    if (ranks.rank() != 0) return;
+  explicit SerialCall(const std::vector<Point>& points_on_root) : n_(points_on_root.size()) {
+    if (n_ == 0) return;  // another rank
     for (const Point& p : points_on_root) x_.push_back(p.x), y_.push_back(p.y), z_.push_back(p.z);
     list_.resize(6 * n_ - 12);
     lptr_.resize(6 * n_ - 12);
     lend_.resize(n_);
   }
-  /// Processor seconds; 0 on the other ranks. Collective.
-  double operator()() {
-    double spent = 0;
-    if (ranks_.rank() == 0) {
-      const double start = cpu_seconds();
-      std::int32_t lnew = 0;
-      const TrmeshCall call{static_cast<std::int32_t>(n_),
-                            {x_.data(), y_.data(), z_.data()},
-                            {list_.data(), lptr_.data(), lend_.data(), &lnew}};
-      if (trmesh(call).ier != 0) throw std::runtime_error("these nodes cannot be triangulated");
-      spent = cpu_seconds() - start;
-    }
-    MPI_Request all_are_here;
-    MPI_Ibarrier(ranks_.handle(), &all_are_here);
-    for (int done = 0; MPI_Test(&all_are_here, &done, MPI_STATUS_IGNORE), !done;) usleep(1000);
-    return spent;
+  void operator()() {
+    std::int32_t lnew = 0;
+    const TrmeshCall call{static_cast<std::int32_t>(n_),
+                          {x_.data(), y_.data(), z_.data()},
+                          {list_.data(), lptr_.data(), lend_.data(), &lnew}};
+    if (trmesh(call).ier != 0) throw std::runtime_error("these nodes cannot be triangulated");
   }
 
  private:
-  MpiCommunicator& ranks_;
   std::size_t n_;
   std::vector<double> x_, y_, z_;
   std::vector<std::int32_t> list_, lptr_, lend_;
@@ -295,52 +307,121 @@ void run_moving(const Settings& s) {
   MPI_Finalize();
 }
 
+/// An evaluation of generators that follow Lloyd's method: their cells, energy and gradient.
+class Evaluation {
+ public:
+  Evaluation(scvt::Evaluator& evaluator, std::vector<Point> generators)
+      : evaluator_(evaluator), generators_(std::move(generators)) {}
+  void operator()() {
+    evaluator_.evaluate(generators_, cells_);
+    scvt::ExactSum sums[2];
+    for (std::size_t i = 0; i < generators_.size(); ++i) {
+      const Point move = minus(centroid(cells_, i, generators_[i]), generators_[i]);
+      sums[0].add(cells_.energy[i]);
+      sums[1].add(dot(move, move));
+    }
+    evaluator_.add_up(sums, 2);
+  }
+  void step() {
+    for (std::size_t i = 0; i < generators_.size(); ++i) generators_[i] = centroid(cells_, i, generators_[i]);
+  }
+
+ private:
+  scvt::Evaluator& evaluator_;
+  std::vector<Point> generators_;
+  scvt::Cells cells_;
+};
+
 void run_on_ranks(const Settings& s) {
   MPI_Init(nullptr, nullptr);
   {
+    const scvt::ConstantDensity density;
     DistributedMesh mesh(MPI_COMM_WORLD);
     MpiCommunicator& ranks = mesh.ranks();
     std::vector<Point> points;
-    if (ranks.rank() == 0) points = point_sets::make(s.family, s.n, 1);
+    if (ranks.rank() == 0)
+      points = s.mode == kScvt ? scvt::front_generators(s.n, density) : point_sets::make(s.family, s.n, 1);
     const std::size_t n = points.size();
-    SerialCall serial(ranks, points);
     std::vector<double> alone;
     std::vector<Call> calls;
-    // Alternate, so that disturbances affect both.
-    const auto measure = [&](const auto& call) {
+    // Alternate, so that disturbances affect both. Before each call of the ranks: prepare().
+    const auto measure = [&](const auto& serial, const auto& call, const auto& prepare) {
       while (calls.size() < static_cast<std::size_t>(s.repeats)) {
         in_a_row([&](bool counts) {
-          const double spent = serial();
+          const double spent = on_rank_0(ranks, serial);
           if (counts) alone.push_back(spent);
         });
         in_a_row([&](bool counts) {
+          prepare();
           const double start = seconds(), spent = cpu_seconds();
           const GroupCost cost = call();
           if (counts) calls.push_back({seconds() - start, cpu_seconds() - spent, cost});
         });
       }
     };
-    if (s.mode == "distributed") {
-      std::vector<std::int64_t> numbers(n);
-      for (std::size_t i = 0; i < n; ++i) numbers[i] = static_cast<std::int64_t>(i) + 1;
+    const auto nothing = [] {};
+    std::vector<std::int64_t> numbers(n);
+    for (std::size_t i = 0; i < n; ++i) numbers[i] = static_cast<std::int64_t>(i) + 1;
+    const auto go_home = [&] {
       for (int k = 0; k < 2; ++k) {  // the second time from where the first has moved them
         mesh.triangulate(static_cast<std::int64_t>(points.size()), &points.data()->x, numbers.data());
         move_home(ranks, mesh, points, numbers);
       }
-      measure([&] {
-        DistributedMesh::Report report;
-        mesh.triangulate(static_cast<std::int64_t>(points.size()), &points.data()->x, numbers.data(),
-                         &report);
-        return report.cost;
-      });
+    };
+    if (s.mode == "distributed") {
+      SerialCall serial(points);
+      go_home();
+      measure([&] { serial(); },
+              [&] {
+                DistributedMesh::Report report;
+                mesh.triangulate(static_cast<std::int64_t>(points.size()), &points.data()->x, numbers.data(),
+                                 &report);
+                return report.cost;
+              },
+              nothing);
       if (!s.owners.empty()) write_owners(mesh, s);
+    } else if (s.mode == kScvt) {
+      scvt::LocalEvaluator local(density);
+      Evaluation serial(local, points);
+      go_home();
+      scvt::DistributedEvaluator distributed(mesh, density);
+      distributed.begin_with(numbers);
+      Evaluation call(distributed, points);
+      for (int k = 0; k < 3; ++k) {  // then triangulations begin with the last ones
+        on_rank_0(ranks, [&] { serial(); });
+        call();
+      }
+      measure(
+          [&] {
+            serial();
+            serial.step();
+          },
+          [&] {
+            DistributedMesh::Report report;
+            distributed.report_to(&report);
+            const double start = cpu_seconds() - ranks.idle_cpu_seconds;
+            call();
+            distributed.report_to(nullptr);
+            double* const spent = report.cost.mine.cpu_seconds;
+            const double all = cpu_seconds() - ranks.idle_cpu_seconds - start;
+            spent[kIntegrate] = all - std::accumulate(spent, spent + Phase::phases, 0.0);
+            return report.cost;
+          },
+          [&] {
+            call.step();
+            std::int64_t ready = 0;
+            ranks.all_min(&ready, 1);
+          });
     } else {
+      SerialCall serial(points);
       const PoolCall call(ranks, points, s.mode == "pool");
-      measure([&] {
-        GroupCost cost;
-        call(&cost);
-        return cost;
-      });
+      measure([&] { serial(); },
+              [&] {
+                GroupCost cost;
+                call(&cost);
+                return cost;
+              },
+              nothing);
     }
     print(ranks, n, alone, calls);
   }
@@ -376,12 +457,12 @@ double path(const Row& r) {
   return r.at("divide") + r.at("triangulate") + r.at("merge") + r.at("lists") + r.at("gather");
 }
 
-void head() {
+void head(bool of_scvt) {
   fmt::print(
       "{:>9} {:>5} {:>8} | {:>7} {:>11} {:>7} {:>7} {:>7} | {:>8} {:>9} {:>10} {:>9} | {:>9} {:>10} {:>6} "
       "{:>9}\n",
-      "N", "ranks", "clock", "divide", "triangulate", "merge", "lists", "gather", "path", "speed-up",
-      "efficiency", "imbalance", "halo", "bytes", "rounds", "root ns/N");
+      "N", "ranks", "clock", "divide", "triangulate", "merge", "lists", of_scvt ? "cells" : "gather", "path",
+      "speed-up", "efficiency", "imbalance", "halo", "bytes", "rounds", "root ns/N");
 }
 
 void show(const Row& r, bool of_pool) {
@@ -399,8 +480,8 @@ void show(const Row& r, bool of_pool) {
 }
 
 const std::vector<std::string> kModes{"distributed", "pool", "messages"};
+const std::vector<std::string> kAllModes{"distributed", "pool", "messages", kScvt};
 const std::vector<std::string> kKinds{"constant-n", "constant-work"};
-const std::string kMoving = "moving";  ///< a table and a mode of its own
 
 std::vector<std::string> with_moving(std::vector<std::string> names) {
   names.push_back(kMoving);
@@ -455,20 +536,22 @@ void print_tables(const std::string& self, Settings s, const Tables& t) {
   const auto add = [&](std::size_t n, int ranks) {
     s.n = n;
     const Row r = measure(self, s, ranks);
-    show(r, s.mode != "distributed");
+    show(r, s.mode != "distributed" && s.mode != kScvt);
     if (csv)
       csv->row(
           fmt::format("{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{},{}",
                       s.mode, s.family, r.at("n"), ranks, r.at("serial"), r.at("wall"), r.at("divide"),
                       r.at("triangulate"), r.at("merge"), r.at("lists"), r.at("gather"), path(r),
                       r.at("mean"), r.at("halo"), r.at("bytes"), r.at("rounds")));
+    return r;
   };
   fmt::print(
       "Milliseconds. clock: of a call, {} processors shared by all ranks. divide ... gather: processor time "
       "of the "
       "slowest rank.\npath: their sum. Speed-up: PROJECTED, serial TRMESH over path. imbalance: slowest rank "
       "over "
-      "the mean, triangulate.\nhalo, bytes: of all ranks.\n",
+      "the mean, triangulate.\nhalo, bytes: of all ranks. scvt: an evaluation of generators that move by "
+      "Lloyd's method, after\nthose of a front; serial: the same on one thread; cells: integrals and sums.\n",
       sysconf(_SC_NPROCESSORS_ONLN));
   for (const std::string& kind : t.kinds) {
     if (kind == kMoving) {
@@ -477,16 +560,24 @@ void print_tables(const std::string& self, Settings s, const Tables& t) {
     }
     for (const std::string& mode : t.modes) {
       s.mode = mode;
+      s.warm = mode == kScvt;
       const bool has_constant_n = kind == "constant-n";
       fmt::print("\n{}, {}, constant {}\n",
                  mode == "pool"       ? "pool on one machine, arrays and lists in rank 0's memory"
                  : mode == "messages" ? "pool on several machines, arrays and lists sent from and to rank 0"
+                 : mode == kScvt      ? "scvt, generators at home"
                                       : "distributed, points at home",
-                 s.family, has_constant_n ? "N" : fmt::format("N/P = {}", t.sizes.front()));
-      head();
+                 mode == kScvt ? "density 1" : s.family,
+                 has_constant_n ? "N" : fmt::format("N/P = {}", t.sizes.front()));
+      head(mode == kScvt);
       if (has_constant_n) {
-        for (const std::size_t n : t.sizes)
-          for (const int p : t.ranks) add(n, p);
+        for (const std::size_t n : t.sizes) {
+          std::map<int, double> clock;
+          for (const int p : t.ranks) clock[p] = add(n, p).at("wall");
+          if (mode == kScvt && clock.count(1) > 0 && clock.count(2) > 0)
+            fmt::print("2 ranks over 1, N = {}, by the clock: {:.2f} times as fast\n", n,
+                       clock[1] / clock[2]);
+        }
       } else {
         for (const int p : t.ranks) add(t.sizes.front() * static_cast<std::size_t>(p), p);
       }
@@ -509,9 +600,9 @@ int main(int argc, char** argv) {
   app.add_option("--repeats", s.repeats, "calls of each kind, three in a row, of which the median is shown")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
-  app.add_option("--modes", t.modes, "only tables of these modes")
+  app.add_option("--modes", t.modes, "only tables of these modes; `scvt` runs only if named")
       ->delimiter(',')
-      ->check(CLI::IsMember(kModes))
+      ->check(CLI::IsMember(kAllModes))
       ->capture_default_str();
   app.add_option("--tables", t.kinds, "only tables of these kinds")
       ->delimiter(',')
@@ -519,7 +610,7 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--csv", t.csv, "also add rows, in seconds, to this file");
   app.add_option("--mode", s.mode, "no tables: one run of this mode on the ranks of this mpirun")
-      ->check(CLI::IsMember(with_moving(kModes)));
+      ->check(CLI::IsMember(with_moving(kAllModes)));
   app.add_option("--n", s.n, "nodes of that run")->capture_default_str();
   app.add_option("--owners", s.owners,
                  "with --mode distributed: write the corners of each triangle and its rank to this new file");
@@ -528,7 +619,7 @@ int main(int argc, char** argv) {
     if (!s.owners.empty() && s.mode != "distributed")
       throw CLI::ValidationError("--owners", "only with --mode distributed");
     // Calls with the same nodes again and again are to take the time of a first one.
-    if (s.mode != kMoving) setenv("PSTRIPACK_WARM_START", "0", 1);
+    if (s.mode != kMoving && s.mode != kScvt) setenv("PSTRIPACK_WARM_START", "0", 1);
     if (s.mode == kMoving)
       run_moving(s);
     else if (!s.mode.empty())

@@ -29,6 +29,7 @@
 #include "point_sets.h"
 #include "printed.h"
 #include "pstripack.h"
+#include "time_of_scvt.h"
 #include "time_of_warm_starts.h"
 
 using namespace benchmark;
@@ -68,8 +69,8 @@ int main(int argc, char** argv) {
   CaseSettings cases;
   app.add_flag("--quick", cases.quick, "only cases with less than 10^6 nodes, three repeats");
   app.add_option("--only", cases.only,
-                 "only these cases, for example random-1e4,latlon-1e5; `distributions`, `warm-start` and "
-                 "`queries-...` run only if named")
+                 "only these cases, for example random-1e4,latlon-1e5; `distributions`, `scvt`, "
+                 "`warm-start` and `queries-...` run only if named")
       ->delimiter(',')
       ->check(CLI::IsMember(case_names()));
   app.add_option("--sets", cases.sets, "only these point sets in the case `distributions`")
@@ -108,6 +109,17 @@ int main(int argc, char** argv) {
   curves_app.add_option("--repeats", curves.repeats, repeats_help)->check(CLI::Range(1, 1000));
   curves_app.add_option("--csv", curves.csv, "also add rows to this file");
 
+  DescentSettings descents;
+  CLI::App& descents_app = *app.add_subcommand(
+      "descents", "Centroidal tessellations: gradient and energy against evaluations and time.");
+  descents_app.add_option("--n", descents.n, "generators")
+      ->check(CLI::Range(4, 10000000))
+      ->capture_default_str();
+  descents_app.add_option("--evaluations", descents.evaluations, "at most so many for each method")
+      ->check(CLI::Range(1, 10000000))
+      ->capture_default_str();
+  descents_app.add_option("--csv", descents.csv, "also add rows to this file");
+
   Model model;  // see as_model
   app.add_option("--be-the-model", model.calls)->group("");
   app.add_option("--model-points", model.points)->group("");
@@ -132,6 +144,8 @@ int main(int argc, char** argv) {
     print_head(where, curves_app.parsed() ? curves.repeats : cases.repeats);
     if (curves_app.parsed())
       run_curves(argv[0], curves, original_library);
+    else if (descents_app.parsed())
+      run_descents(descents);
     else
       run_cases(argv[0], cases, original_library);
     expect_printed();

@@ -11,8 +11,8 @@ namespace benchmark {
 
 struct CaseSettings {
   bool quick = false;
-  std::vector<std::string>
-      only;  ///< none: all of case_names() except distributions, queries and warm-start, or the quick ones
+  std::vector<std::string> only;  ///< none: all of case_names() except distributions, queries, scvt and
+                                  ///< warm-start, or the quick ones
   std::vector<std::string> sets;  ///< of distributions; none: all
   int repeats = 0;
 };

@@ -34,7 +34,7 @@ def _quoted(text):
 
 
 def _ranges(panels):
-    """The same for all panels of a figure; the first and last tick of y are its ends."""
+    """The same for all these panels; the first and last tick of y are its ends."""
     xs, ys = zip(*(point for panel in panels for curve in panel.curves for point in curve.points))
     x_range = f"set xrange [{min(xs) / 1.15:g}:{max(xs) * 1.15:g}]"
     if not panels[0].log_y:
@@ -61,8 +61,9 @@ def _commands(panel, number):
     return lines + ["plot " + ", ".join(plots)]
 
 
-def draw(path, title, rows, note):
-    """Writes path.svg and path.png: rows of panels, the title above, the note below."""
+def draw(path, title, rows, note, own_ranges=False):
+    """Writes path.svg and path.png: rows of panels, the title above, the note below. Each panel has the same
+    ranges as the others, or its own."""
     panels = [panel for row in rows for panel in row]
     columns = max(map(len, rows))
     keys = KEY_ROW * max(len(panel.curves) for panel in panels)  # between a title and its panel
@@ -81,6 +82,6 @@ def draw(path, title, rows, note):
                      "set grid xtics ytics linetype 1 linecolor rgb '#dddddd'", "set border linecolor rgb '#666666'",
                      *_ranges(panels)]
         for number, panel in enumerate(panels):
-            commands += _commands(panel, number) + ["unset label 1"]
+            commands += (_ranges([panel]) if own_ranges else []) + _commands(panel, number) + ["unset label 1"]
         commands += ["unset multiplot", "set output"]
     subprocess.run(["gnuplot"], input="\n".join(commands), text=True, check=True)

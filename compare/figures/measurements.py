@@ -20,15 +20,17 @@ class Plan:
     repeats: int
     curve_time_limit: float  # seconds of one measurement
     time_limit: float        # the same, of numbers of processes and of the original beside them
+    generators: int          # of centroidal tessellations
+    evaluations: int         # of them, at most
 
 
 FULL = Plan(curve_sizes=(100, 1000, 10_000, 100_000, 1_000_000, 10_000_000),
             sizes=(10_000, 30_000, 100_000, 300_000, 1_000_000), constant_n=(100_000, 1_000_000), work=10_000,
             ranks=(1, 2, 4, 8, 16, 32, 64), pictures=((10_000, 8), (10_000, 16), (20_000, 32)), repeats=3,
-            curve_time_limit=30, time_limit=60)
+            curve_time_limit=30, time_limit=60, generators=40_000, evaluations=3000)
 QUICK = Plan(curve_sizes=(100, 300), sizes=(2000,), constant_n=(2000,), work=500, ranks=(1, 4),
              pictures=((1000, 8), (1000, 16), (2000, 32)), repeats=1,
-             curve_time_limit=5, time_limit=20)
+             curve_time_limit=5, time_limit=20, generators=3000, evaluations=50)
 
 
 def benchmark(build):
@@ -74,6 +76,11 @@ def _run_curves(plan, program, data):
         _must_run([program, "curves", "--points", family, "--orders", "given,shuffled", "--sizes", _list(sizes),
                    "--contenders", "pstripack,original", "--repeats", plan.repeats,
                    "--time-limit", plan.time_limit, "--csv", data / "serial.csv"], stdout=sys.stderr)
+
+
+def _run_descents(plan, program, data):
+    _must_run([program, "descents", "--n", plan.generators, "--evaluations", plan.evaluations,
+               "--csv", data / "descents.csv"], stdout=sys.stderr)
 
 
 def _run_ours(plan, program, data):
@@ -122,6 +129,7 @@ def measure(plan, build, data):
     for old in data.glob("*.csv"):
         old.unlink()
     _run_curves(plan, benchmark(build), data)
+    _run_descents(plan, benchmark(build), data)
     _run_ours(plan, scaling(build), data)
     baseline = next(filter(Path.is_file, build.rglob("stripe-baseline")), None)
     if baseline is None:

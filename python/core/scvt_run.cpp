@@ -73,7 +73,7 @@ py::tuple scvt(const py::object& start, const py::object& density, double tolera
   const pstripack_density by_python{density_at, &procedures, 0};
   pstripack_scvt_options options{};
   options.bytes = sizeof options;
-  options.start = given ? PSTRIPACK_SCVT_GIVEN : PSTRIPACK_SCVT_LEVELS;
+  options.start = given ? PSTRIPACK_SCVT_GIVEN : PSTRIPACK_SCVT_BY_NUMBER;
   options.method = lloyd ? PSTRIPACK_SCVT_LLOYD : PSTRIPACK_SCVT_NEWTON;
   options.tolerance = tolerance;
   options.most_evaluations = most_evaluations;

@@ -12,8 +12,9 @@ module pstripack
   ! Centroidal tessellations.
   public :: pstripack_scvt, pstripack_scvt_step, pstripack_density, pstripack_progress
   public :: pstripack_scvt_options, pstripack_scvt_result, pstripack_scvt_progress
-  public :: pstripack_scvt_levels, pstripack_scvt_random, pstripack_scvt_given, pstripack_scvt_newton, &
-            pstripack_scvt_lloyd, pstripack_scvt_converged, pstripack_scvt_evaluations, pstripack_scvt_stopped, &
+  public :: pstripack_scvt_by_number, pstripack_scvt_random, pstripack_scvt_given, pstripack_scvt_levels, &
+            pstripack_scvt_front, pstripack_scvt_newton, pstripack_scvt_lloyd, &
+            pstripack_scvt_converged, pstripack_scvt_evaluations, pstripack_scvt_stopped, &
             pstripack_scvt_stalled
   public :: pstripack_scvt_coincident, pstripack_bad_density, pstripack_hemisphere, pstripack_bad_lists, &
             pstripack_bad_option
@@ -37,9 +38,11 @@ module pstripack
 
   !> Components of pstripack_scvt_options and pstripack_scvt_result.
   integer(c_int32_t), parameter :: &
-    pstripack_scvt_levels = 0, &       !< start: few random generators, refined level by level
+    pstripack_scvt_by_number = 0, &    !< start: the front from 3000 generators on, else levels
     pstripack_scvt_random = 1, &       !< start: as many random generators as wanted
     pstripack_scvt_given = 2, &        !< start: the generators passed in
+    pstripack_scvt_levels = 3, &       !< start: few random generators, refined level by level
+    pstripack_scvt_front = 4, &        !< start: an advancing front, which is nearly centroidal already; without a seed
     pstripack_scvt_newton = 0, &       !< method: quasi-Newton (L-BFGS)
     pstripack_scvt_lloyd = 1, &        !< method: each generator moves to the centroid of its cell
     pstripack_scvt_converged = 0, &    !< reason
@@ -49,7 +52,7 @@ module pstripack
 
   !> How pstripack_scvt works.
   type :: pstripack_scvt_options
-    integer(c_int32_t) :: start = pstripack_scvt_levels
+    integer(c_int32_t) :: start = pstripack_scvt_by_number
     integer(c_int32_t) :: method = pstripack_scvt_newton
     real(c_double) :: tolerance = 1e-5_c_double        !< of the gradient
     integer(c_int64_t) :: most_evaluations = 100000    !< on each level

@@ -15,6 +15,7 @@
 #include "capi/pstripack.h"
 #include "point_sets.h"
 #include "scvt/evaluator.h"
+#include "scvt/front.h"
 #include "scvt/run.h"
 #include "support/lists.h"
 
@@ -94,6 +95,7 @@ TEST_P(ScvtRun, HasTheBitsOfTheLayerBelow) {
   scvt::RunOptions expected;
   expected.tolerance = options.tolerance = 1e-2;
 
+  options.start = PSTRIPACK_SCVT_LEVELS;
   Generators found(3000);
   ASSERT_EQ(found.run(&density, &options), PSTRIPACK_OK) << found.said();
   EXPECT_EQ(found.result.reason, PSTRIPACK_SCVT_CONVERGED);
@@ -104,6 +106,26 @@ TEST_P(ScvtRun, HasTheBitsOfTheLayerBelow) {
   expect_same(found, scvt::run(3000, bump, expected));
 }
 INSTANTIATE_TEST_SUITE_P(Threads, ScvtRun, ::testing::Values(0, 1));
+
+TEST(Scvt, BeginsWithAFrontOrWithLevels) {
+  pstripack_scvt_options options = defaults();
+  scvt::RunOptions expected;
+  expected.tolerance = options.tolerance = 1e-2;
+  const auto run = [&](std::int32_t start, std::size_t n) {
+    options.start = start;
+    Generators found(n);
+    EXPECT_EQ(found.run(nullptr, &options), PSTRIPACK_OK) << found.said();
+    return found;
+  };
+  const scvt::ConstantDensity one;
+  const auto from_front = [&](std::size_t n) {
+    return scvt::run(scvt::front_generators(n, one), one, expected);
+  };
+  expect_same(run(PSTRIPACK_SCVT_BY_NUMBER, 3000), from_front(3000));
+  expect_same(run(PSTRIPACK_SCVT_BY_NUMBER, 2999), scvt::run(2999, one, expected));
+  expect_same(run(PSTRIPACK_SCVT_LEVELS, 3000), scvt::run(3000, one, expected));
+  expect_same(run(PSTRIPACK_SCVT_FRONT, 2999), from_front(2999));
+}
 
 TEST(Scvt, OptionsArePassedOn) {
   pstripack_scvt_options options = defaults();
@@ -246,7 +268,7 @@ TEST(Scvt, ErrorsOfARunSayWhyAndWriteNothing) {
   };
   refuses_option("bytes", [](auto& o) { o.bytes = 0; });
   refuses_option("newer library", [](auto& o) { o.bytes += 8; });
-  refuses_option("start", [](auto& o) { o.start = 3; });
+  refuses_option("start", [](auto& o) { o.start = 5; });
   refuses_option("start", [](auto& o) { o.start = -1; });
   refuses_option("method", [](auto& o) { o.method = 2; });
   refuses_option("tolerance", [](auto& o) { o.tolerance = -1e-3; });

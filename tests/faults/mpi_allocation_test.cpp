@@ -2,6 +2,7 @@
 // code on all ranks, results unchanged, no leak, and the next call is correct.
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "base/workspace.h"
@@ -29,14 +30,15 @@ enum Ranks { only_first, only_last, every };
 bool is_hit(Ranks which) { return which == every || rank_of() == (which == only_first ? 0 : size_of() - 1); }
 
 /// call() returns its code, check(code) the defect after it, if any; clear() undoes a call without an error.
+/// Every stride-th allocation fails.
 void fail_each_allocation(
     const std::function<int()>& call, const std::function<bool(int)>& is_right,
-    const std::function<void()>& clear = [] {}) {
+    const std::function<void()>& clear = [] {}, long stride = 1) {
   long failures = 0;
   for (const Ranks hit : {only_first, only_last, every})
     for (const bool for_good : {false, true}) {
       bool failed = true;
-      for (long which = 1; failed; ++which, failures += failed) {
+      for (long which = 1; failed; which += stride, failures += failed) {
         int code;
         pstripack::free_kept_blocks();
         {
@@ -153,6 +155,44 @@ TEST(EachAllocation, OfDistributedMeshes) {
         });
   }
   free_it();
+}
+
+TEST(EachAllocation, OfCentroidalTessellations) {
+  pstripack_mesh* mesh = nullptr;
+  ASSERT_EQ(pstripack_mesh_create(MPI_COMM_WORLD, &mesh), 0);
+  pstripack_scvt_options options{};
+  options.bytes = sizeof options;
+  options.start = PSTRIPACK_SCVT_GIVEN;
+  options.most_evaluations = 5;  // three steps of Lloyd's method, and one that makes the first pair
+  const Part given;
+  Part part = given;
+  pstripack_scvt_result result;
+  char message[200];
+  const auto scvt = [&] {
+    part.xyz = given.xyz;
+    message[0] = '\0';
+    result.evaluations = untouched;
+    return pstripack_mesh_scvt(mesh, static_cast<std::int64_t>(part.number.size()), part.xyz.data(),
+                               part.number.data(), nullptr, &options, &result, message, sizeof message);
+  };
+  ASSERT_EQ(scvt(), 0);
+  const std::vector<double> moved = part.xyz;
+  ASSERT_NE(moved, given.xyz);
+  const auto all = static_cast<std::int64_t>(part.number.size());
+  const auto empty_mesh = [&] {
+    EXPECT_EQ(pstripack_mesh_triangulate(mesh, -1, nullptr, nullptr), PSTRIPACK_TOO_MANY_NODES);
+  };
+  empty_mesh();
+  fail_each_allocation(
+      scvt,
+      [&](int code) {
+        const bool is_done = code == 0;
+        return part.xyz == (is_done ? moved : given.xyz) && points_of(mesh) == (is_done ? all : 0) &&
+               result.evaluations == (is_done ? 5 : untouched) &&
+               message == std::string(is_done ? "" : pstripack_strerror(code));
+      },
+      empty_mesh, 151);
+  pstripack_mesh_free(mesh);
 }
 
 // Not collective: each rank has its own code.

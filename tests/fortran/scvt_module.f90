@@ -158,6 +158,12 @@ program scvt_module
   ier = c_scvt(n, x_of_c, y_of_c, z_of_c, density, c_options, expected, c_null_ptr, 0)
   call pstripack_scvt(x, y, z, found, ier, bump_for_fortran, options, progress)
   call expect(ier == 0 .and. same_generators() .and. same(found, expected), "random generators")
+  c_options%start = pstripack_scvt_front
+  options%start = pstripack_scvt_front
+  ier = c_scvt(n, x_of_c, y_of_c, z_of_c, density, c_options, expected, c_null_ptr, 0)
+  call pstripack_scvt(x, y, z, found, ier, bump_for_fortran, options, progress)
+  call expect(ier == 0 .and. same_generators() .and. same(found, expected), "a front")
+  options%start = pstripack_scvt_random
   steps = -2
   call pstripack_scvt(x, y, z, found, ier, options=options, progress=progress)
   call expect(ier == 0 .and. found%reason == pstripack_scvt_stopped .and. last%evaluations == 3, "stopped")
@@ -182,7 +188,7 @@ program scvt_module
   options%start = 9
   call pstripack_scvt(x, y, z, found, ier, options=options, message=message)
   call expect(ier == pstripack_bad_option .and. index(message, "start") > 0, "a bad option")
-  options%start = pstripack_scvt_levels
+  options%start = pstripack_scvt_by_number
   call pstripack_scvt(x, y, z, found, ier, negative, options, message=message)
   call expect(ier == pstripack_bad_density .and. index(message, "lon ") > 0, "a bad density: "//message)
   call pstripack_scvt(x(:3), y(:3), z(:3), found, ier, message=message)

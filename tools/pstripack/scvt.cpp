@@ -254,10 +254,9 @@ std::string duration(double seconds) {
 
 /// The generators of a new run: of the last level, where there are levels. Collective.
 Tessellation first_tessellation(const Options& options, engine::Evaluator& evaluator, Progress& progress) {
-  constexpr std::size_t kFewest = 3000;  ///< that a front puts in better order than levels do
   const bool is_alone = evaluator.ranks().size() == 1;
   const First first = options.first != First::by_number  ? options.first
-                      : options.n >= kFewest && is_alone ? First::front
+                      : options.n >= engine::kFewestOfAFront && is_alone ? First::front
                                                          : First::levels;
   if (first == First::front) {
     if (!is_alone)

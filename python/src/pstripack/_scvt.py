@@ -40,7 +40,8 @@ def scvt(generators: Union[int, ArrayLike], density: Optional[Callable[[Floats],
     Parameters
     ----------
     generators : int or array_like, shape (n, 3)
-        How many, from random ones level by level; or vectors to start from.
+        How many, placed by an advancing front or, below 3000, from random ones level by level; or vectors to
+        start from.
     density : callable, optional
         Of unit vectors, shape (m, 3), values of shape (m,): positive, finite, and depending on the place alone. Cells
         are about density**(-1/4) wide. 1 everywhere if not given, and then the integrals, too, are on threads.

@@ -108,9 +108,11 @@ typedef int32_t (*pstripack_scvt_progress_procedure)(const pstripack_scvt_progre
 
 /* pstripack_scvt_options.start */
 enum {
-  PSTRIPACK_SCVT_LEVELS = 0, /* few random generators, refined level by level to n */
-  PSTRIPACK_SCVT_RANDOM = 1, /* n random generators */
-  PSTRIPACK_SCVT_GIVEN = 2   /* the generators passed in */
+  PSTRIPACK_SCVT_BY_NUMBER = 0, /* the front from 3000 generators on, else levels */
+  PSTRIPACK_SCVT_RANDOM = 1,    /* n random generators */
+  PSTRIPACK_SCVT_GIVEN = 2,     /* the generators passed in */
+  PSTRIPACK_SCVT_LEVELS = 3,    /* few random generators, refined level by level to n */
+  PSTRIPACK_SCVT_FRONT = 4      /* an advancing front, which is nearly centroidal already; without a seed */
 };
 /* pstripack_scvt_options.method */
 enum {
@@ -128,7 +130,7 @@ enum {
 /* 0 in a field, and all fields by NULL, stands for the default. */
 typedef struct {
   int64_t bytes;                              /* sizeof(pstripack_scvt_options) */
-  int32_t start;                              /* default: PSTRIPACK_SCVT_LEVELS */
+  int32_t start;                              /* default: PSTRIPACK_SCVT_BY_NUMBER */
   int32_t method;                             /* default: PSTRIPACK_SCVT_NEWTON */
   double tolerance;                           /* of the gradient; default: 1e-5 */
   int64_t most_evaluations;                   /* on each level; default: 100000 */

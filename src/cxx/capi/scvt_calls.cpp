@@ -13,6 +13,7 @@
 #include "lists/rings.h"
 #include "scvt/errors.h"
 #include "scvt/exact_sum.h"
+#include "scvt/front.h"
 #include "scvt/run.h"
 
 namespace {
@@ -34,6 +35,19 @@ std::vector<Point> points_of(std::int32_t n, const double* x, const double* y, c
   std::vector<Point> points(static_cast<std::size_t>(n));
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = {x[i], y[i], z[i]};
   return points;
+}
+
+// ---- a run
+
+scvt::Tessellation run(std::int32_t n, const double* x, const double* y, const double* z,
+                       const scvt::Density& density, const pstripack_scvt_options& options) {
+  const scvt::RunOptions how = run_options(options);
+  const auto count = static_cast<std::size_t>(n);
+  if (options.start == PSTRIPACK_SCVT_GIVEN) return scvt::run(points_of(n, x, y, z), density, how);
+  if (options.start == PSTRIPACK_SCVT_FRONT ||
+      (options.start == PSTRIPACK_SCVT_BY_NUMBER && count >= scvt::kFewestOfAFront))
+    return scvt::run(scvt::front_generators(count, density), density, how);
+  return scvt::run(count, density, how);
 }
 
 // ---- one step
@@ -98,11 +112,7 @@ int32_t pstripack_scvt(int32_t n, double* x, double* y, double* z, const pstripa
   return guarded_scvt(message, length, [&] {
     check_count(n);
     const pstripack_scvt_options chosen = checked(options);
-    const scvt::RunOptions how = run_options(chosen);
-    const DensityOfCaller values(density);
-    const scvt::Tessellation found = chosen.start == PSTRIPACK_SCVT_GIVEN
-                                         ? scvt::run(points_of(n, x, y, z), values, how)
-                                         : scvt::run(static_cast<std::size_t>(n), values, how);
+    const scvt::Tessellation found = run(n, x, y, z, DensityOfCaller(density), chosen);
     const std::vector<Point>& generators = found.state.generators;
     for (std::size_t i = 0; i < generators.size(); ++i) {
       x[i] = generators[i].x;

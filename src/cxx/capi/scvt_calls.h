@@ -90,8 +90,8 @@ inline pstripack_scvt_options checked(const pstripack_scvt_options* given) {
             "bytes: the options of a newer library than the one that is loaded");
     std::memcpy(&options, given, static_cast<std::size_t>(given->bytes));
   }
-  require(options.start >= PSTRIPACK_SCVT_LEVELS && options.start <= PSTRIPACK_SCVT_GIVEN,
-          "start: 0, 1 or 2");
+  require(options.start >= PSTRIPACK_SCVT_BY_NUMBER && options.start <= PSTRIPACK_SCVT_FRONT,
+          "start: 0, 1, 2, 3 or 4");
   require(options.method == PSTRIPACK_SCVT_NEWTON || options.method == PSTRIPACK_SCVT_LLOYD,
           "method: 0 or 1");
   require(options.tolerance >= 0 && std::isfinite(options.tolerance), "tolerance: positive");
@@ -101,7 +101,7 @@ inline pstripack_scvt_options checked(const pstripack_scvt_options* given) {
 
 inline scvt::RunOptions run_options(const pstripack_scvt_options& options) {
   scvt::RunOptions run;
-  run.levels = options.start == PSTRIPACK_SCVT_LEVELS;
+  run.levels = options.start != PSTRIPACK_SCVT_RANDOM;
   run.method = options.method == PSTRIPACK_SCVT_LLOYD ? scvt::Method::lloyd : scvt::Method::newton;
   if (options.tolerance != 0) run.tolerance = options.tolerance;
   if (options.most_evaluations != 0) run.most_evaluations = options.most_evaluations;

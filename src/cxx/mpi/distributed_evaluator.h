@@ -22,10 +22,14 @@ class DistributedEvaluator final : public Evaluator {
   /// The mesh becomes that of the generators.
   Neighbourhood triangulate(const std::vector<Point>& generators) override;
 
+  /// Each triangulation fills the report, as DistributedMesh::triangulate does. Null: none.
+  void report_to(DistributedMesh::Report* report) { report_ = report; }
+
  private:
   void triangulate_mesh(const std::vector<Point>& generators);
 
   DistributedMesh& mesh_;
+  DistributedMesh::Report* report_ = nullptr;
   std::size_t own_ = 0;  ///< generators of this rank
   // Own generators, then neighbours that other ranks have.
   std::vector<std::int64_t> numbers_;

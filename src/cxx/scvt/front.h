@@ -35,6 +35,9 @@
 
 namespace pstripack::scvt {
 
+/// That a front puts in better order than levels do.
+constexpr std::size_t kFewestOfAFront = 3000;
+
 /// n distinct unit vectors that lie as the generators of a centroidal tessellation of this density would. In
 /// O(n log n), on one thread; random ones for small n, and for densities that vary too much within a cell.
 /// Neighbours on the sphere have close numbers. Same bits on every machine, if the density has. Throws
