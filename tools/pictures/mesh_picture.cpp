@@ -84,8 +84,8 @@ class MeshPicture {
       view_ = std::move(map);
     } else {
       if (zoomed_) top_ += 16;  // labels above it
-      auto sphere =
-          std::make_unique<Orthographic>(centre, radius_, Frame{margin, top_, kWidth - margin, top_ + 680});
+      auto sphere = std::make_unique<Orthographic>(
+          centre, radius_, Frame{margin, top_, kWidth - margin, top_ + kWidth - 2 * margin});
       orthographic_ = sphere.get();
       view_ = std::move(sphere);
     }
@@ -184,7 +184,7 @@ class MeshPicture {
       const double half =
           pole ? 180 : kDegree * std::asin(std::sin(reach / kDegree) / std::cos(centre_.lat / kDegree));
       const double step = graticule_step(2 * radius_, 6);
-      const double across = pole ? std::max(30.0, step) : graticule_step(2 * half, 9);
+      const double across = pole ? std::max(30.0, step) : graticule_step(2 * half, meridians());
       constexpr int kPieces = 60;
       for (const double lon : multiples(centre_.lon - half, centre_.lon + half - 1e-9, across)) {
         graticule_.push_back({true, name_of_longitude(lon, decimals_), {}});
@@ -210,7 +210,13 @@ class MeshPicture {
       for (const Place& end : {part.front(), part.back()}) graticule_.back().ends.push_back(end);
   }
 
-  double lon_step() const { return graticule_step(lonlat_->east() - lonlat_->west(), 9); }
+  /// About as many as have space for their labels.
+  double meridians() const {
+    constexpr double kGap = 10;
+    return std::min(9.0, view_->frame().width() /
+                             (text_width(name_of_longitude(-88.88888888, decimals_), kLabel) + kGap));
+  }
+  double lon_step() const { return graticule_step(lonlat_->east() - lonlat_->west(), meridians()); }
   double lat_step() const { return graticule_step(lonlat_->north() - lonlat_->south(), 7); }
 
   static std::vector<double> multiples(double low, double high, double step) {
@@ -644,7 +650,8 @@ class MeshPicture {
       top_ = draw_colour_bar(sheet_, top_, legend_, *scale_);
       if (options_.colour == Colour::value && shades_.back().count > 0)
         top_ = draw_note(sheet_, top_ + 2, kNoColour,
-                         fmt::format("no value ({})", grouped(shades_.back().count)));
+                         fmt::format("no value: {} {}{}", grouped(shades_.back().count), what(),
+                                     shades_.back().count == 1 ? "" : "s"));
     } else if (options_.colour == Colour::degree) {
       top_ = draw_shades(sheet_, top_, "neighbours of a node (how many nodes)", shades_);
     } else if (options_.colour == Colour::value) {

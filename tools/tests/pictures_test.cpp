@@ -409,7 +409,7 @@ TEST(mesh_picture, has_the_colours_of_a_column) {
   options.value = "depth";
   const std::string numbers = mesh_picture(mesh, options);
   EXPECT_EQ(count(numbers, ">depth of the sea, km<"), 1u);
-  EXPECT_EQ(count(numbers, ">no value (12)<"), 1u);
+  EXPECT_EQ(count(numbers, ">no value: 12 cells<"), 1u);
   EXPECT_EQ(fills(numbers), (std::vector<std::string>{viridis(0), viridis(1), "#e6e6e6"}));
   options.value = "kind";
   const std::string words = mesh_picture(mesh, options);

@@ -225,7 +225,7 @@ pictures)
   refuses 2 "histograms have no coasts" plot nodes.txt -o c.svg --what histograms --coasts
   printf 'lon,lat,mag,place\n0,0,1,a\n90,0,2,b\n180,0,3,a\n270,0,4,b\n0,90,5,a\n0,-90,,\n' > quakes.csv
   "$PSTRIPACK" -q plot quakes.csv --what cells --colour mag -o mag.svg
-  grep -q '>mag<' mag.svg && grep -q '>no value (1)<' mag.svg || fail "no legend of mag"
+  grep -q '>mag<' mag.svg && grep -q '>no value: 1 cell<' mag.svg || fail "no legend of mag"
   "$PSTRIPACK" -q plot quakes.csv --what cells --colour place -o place.svg
   grep -q '>a (3)<' place.svg && grep -q '>b (2)<' place.svg || fail "no legend of place"
   refuses 1 "place is a column of words: say --what cells" plot quakes.csv -o c.svg --colour place
