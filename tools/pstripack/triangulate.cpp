@@ -54,7 +54,9 @@ void voronoi(Options& options) {
       say(options.input.file + ": the nodes surround the sphere: --clip-to-hull cuts nothing");
     if (options.clip_to_hull) faces = clipped_to_hull(faces, mesh);
     if (!options.region.empty()) faces = clipped_to_region(faces, region_of(options.region));
-    if (faces.size() == 0) throw files::NoMesh("no part of the hull of the nodes lies in the region");
+    if (faces.size() == 0)
+      throw files::NoMesh(options.clip_to_hull ? "no part of the hull of the nodes lies in the region"
+                                               : "the region is smaller than 1e-10 degrees: make it larger");
     files::add_columns(faces, mesh);
     write_faces(file, options.output.format, faces, mesh.notes);
     return counted(faces.size(), "cell") + ", " + counted(faces.points.size(), "corner");
