@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <numeric>
+
 #include "files/clipping.h"
 #include "pstripack/options.h"
 #include "pstripack/progress.h"
@@ -50,6 +53,10 @@ void voronoi(Options& options) {
   run(options, [&](const files::OutputFile& file, const files::Mesh& mesh) {
     files::Faces faces = files::voronoi_faces(mesh);
     files::divide_half_turns(faces, mesh);
+    const std::vector<double> all = files::areas(faces);
+    constexpr double kSphere = 12.566370614359172;
+    if (std::fabs(std::accumulate(all.begin(), all.end(), 0.0) - kSphere) > 1e-6)
+      throw files::NoMesh("all nodes lie on one great circle up to rounding: their cells are not known");
     if (options.clip_to_hull && !mesh.has_boundary())
       say(options.input.file + ": the nodes surround the sphere: --clip-to-hull cuts nothing");
     if (options.clip_to_hull) faces = clipped_to_hull(faces, mesh);
