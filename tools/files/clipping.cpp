@@ -184,7 +184,7 @@ Faces clipped_to_region(const Faces& cells, const Region& region) {
   Pieces pieces(cells);
   for (std::size_t f = 0; f < cells.size(); ++f) {
     const MapRing polygon = ring_of(cells, f, angles);
-    expect_no_half_turn(polygon, cells.node_of(f));
+    expect_no_half_turn(polygon, cells, f);
     MapRing ring = unrolled(polygon, region.west);
     const bool around_pole = std::any_of(ring.begin(), ring.end(), [](const MapCorner& c) { return c.seam; });
     const bool hole = around_pole && (ring.back().lat > 0 ? region.north < 90 : region.south > -90);

@@ -210,6 +210,21 @@ MapRing closed_at_pole(const MapRing& ring, double west, int around) {
   return without_repeats(closed);
 }
 
+/// Area over the sum of the sides, in radians.
+double width_of(const MapRing& ring) {
+  Point sum{0, 0, 0};
+  for (const MapCorner& c : ring) sum = {sum.x + c.p.x, sum.y + c.p.y, sum.z + c.p.z};
+  if (dot(sum, sum) < 1e-12) return 1;  // half of the sphere
+  const Point centre = unit(sum);
+  double area = 0, length = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point &p = ring[i].p, &q = ring[(i + 1) % ring.size()].p;
+    area += triangle_area(centre, p, q);
+    length += angle_between(p, q);
+  }
+  return std::fabs(area) / length;
+}
+
 /// The highest or lowest point of an arc, if it is not an end.
 bool has_apex(const Point& a, const Point& b, Point& apex) {
   const double cosine = dot(a, b);
@@ -235,18 +250,21 @@ MapRing ring_of(const Faces& faces, std::size_t face, const LonLat& angles) {
   return ring;
 }
 
-void expect_no_half_turn(const MapRing& ring, std::size_t node) {
+void expect_no_half_turn(const MapRing& ring, const Faces& faces, std::size_t face) {
   for (std::size_t i = 0; i < ring.size(); ++i)
     if (dot(ring[i].p, ring[(i + 1) % ring.size()].p) < -1 + 1e-12)
-      throw NoMesh(fmt::format(
-          "the polygon of node {} reaches halfway around the sphere: add nodes elsewhere", node + 1));
+      throw NoMesh(
+          faces.centres.empty()
+              ? fmt::format("two corners of triangle {} are opposite each other: remove one", face + 1)
+              : fmt::format("the cell of node {} reaches halfway around the sphere: add nodes elsewhere",
+                            faces.node_of(face) + 1));
 }
 
 MapRing unrolled(const MapRing& polygon, double west) {
   MapRing corners = with_poles(polygon);
   const auto first =
       std::find_if(corners.begin(), corners.end(), [](const MapCorner& c) { return !is_pole(c); });
-  if (corners.size() < 3 || first == corners.end()) return {};
+  if (corners.size() < 3 || first == corners.end() || width_of(corners) < kSamePlace) return {};
   std::rotate(corners.begin(), first, corners.end());
   corners.push_back(corners.front());
   MapRing ring{corners[0]};
@@ -327,8 +345,10 @@ std::vector<MapRing> between_parallels(const MapRing& ring, double south, double
     if (p.straight || !has_apex(p.p, q.p, apex)) continue;
     // An arc that touches a parallel is cut there: what it bounds falls into two parts that touch.
     const bool above = latitude(apex) > north - kThin, below = latitude(apex) < south + kThin;
-    const auto differs = [](bool at_apex, bool at_p, bool at_q) { return at_apex != at_p && at_p == at_q; };
-    if (!differs(above, p.lat > north, q.lat > north) && !differs(below, p.lat < south, q.lat < south))
+    const auto crosses = [](bool at_apex, bool at_p, bool at_q) {
+      return at_apex != at_p || at_apex != at_q;
+    };
+    if (!crosses(above, p.lat > north, q.lat > north) && !crosses(below, p.lat < south, q.lat < south))
       continue;
     const double lon = longitude(apex);
     const double lat = above   ? std::max(latitude(apex), north + kThin)
@@ -382,13 +402,7 @@ double area_on_map(const MapRing& ring) {
 MapRing with_straight_lines(const MapRing& ring) {
   // Sides of slivers must not cross: lines are closer to arcs than a fraction of the width.
   constexpr double kClosest = 1e-8, kOfWidth = 0.1;
-  double area = 0, length = 0;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Point &p = ring[i].p, &q = ring[(i + 1) % ring.size()].p;
-    area += triangle_area(ring[0].p, p, q);
-    length += angle_between(p, q);
-  }
-  const double tolerance = std::clamp(kOfWidth * std::fabs(area) / length, kClosest, kStraight);
+  const double tolerance = std::clamp(kOfWidth * width_of(ring), kClosest, kStraight);
   MapRing all;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     all.push_back(ring[i]);

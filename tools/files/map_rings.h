@@ -30,12 +30,13 @@ using MapRing = std::vector<MapCorner>;
 /// The corners of a face; longitudes from -180 to 180.
 MapRing ring_of(const Faces& faces, std::size_t face, const LonLat& angles);
 
-/// Throws NoMesh, which names the node, if a side is a half turn, so that its ends do not tell where it is.
-void expect_no_half_turn(const MapRing& ring, std::size_t node);
+/// Throws NoMesh, which names the cell or triangle, if a side is a half turn: its ends do not tell where it
+/// is.
+void expect_no_half_turn(const MapRing& ring, const Faces& faces, std::size_t face);
 
 /// The map of a convex polygon, whose sides are arcs (turns and flags of `ring` are ignored). A pole that is
 /// a corner, or lies on a side, becomes a line of the map. With a pole inside, the ring reaches from `west`
-/// to `west` + 360 and is closed along the pole. Empty if fewer than three corners differ.
+/// to `west` + 360 and is closed along the pole. Empty if all corners are one place or lie on one arc.
 MapRing unrolled(const MapRing& ring, double west);
 
 /// What lies between the meridians `west` and `west` + width <= 360, in one piece or several; the turns of

@@ -256,7 +256,7 @@ void write_geojson(const OutputFile& file, const Faces& faces, const Notes& note
   };
   write_features(file, table_of(faces), notes, [&](TextWriter& out, std::size_t f) {
     const MapRing ring = ring_of(faces, f, angles);
-    expect_no_half_turn(ring, faces.node_of(f));
+    expect_no_half_turn(ring, faces, f);
     std::vector<MapRing> parts;
     for (const MapRing& part : between_meridians(unrolled(ring, -180), -180, 360))
       if (MapRing lines = with_straight_lines(part); !lines.empty()) parts.push_back(std::move(lines));

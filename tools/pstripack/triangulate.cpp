@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <numeric>
+
 #include "files/clipping.h"
 #include "pstripack/options.h"
 #include "pstripack/progress.h"
@@ -50,11 +53,17 @@ void voronoi(Options& options) {
   run(options, [&](const files::OutputFile& file, const files::Mesh& mesh) {
     files::Faces faces = files::voronoi_faces(mesh);
     files::divide_half_turns(faces, mesh);
+    const std::vector<double> all = files::areas(faces);
+    constexpr double kSphere = 12.566370614359172;
+    if (std::fabs(std::accumulate(all.begin(), all.end(), 0.0) - kSphere) > 1e-6)
+      throw files::NoMesh("all nodes lie on one great circle up to rounding: their cells are not known");
     if (options.clip_to_hull && !mesh.has_boundary())
       say(options.input.file + ": the nodes surround the sphere: --clip-to-hull cuts nothing");
     if (options.clip_to_hull) faces = clipped_to_hull(faces, mesh);
     if (!options.region.empty()) faces = clipped_to_region(faces, region_of(options.region));
-    if (faces.size() == 0) throw files::NoMesh("no part of the hull of the nodes lies in the region");
+    if (faces.size() == 0)
+      throw files::NoMesh(options.clip_to_hull ? "no part of the hull of the nodes lies in the region"
+                                               : "the region is smaller than 1e-10 degrees: make it larger");
     files::add_columns(faces, mesh);
     write_faces(file, options.output.format, faces, mesh.notes);
     return counted(faces.size(), "cell") + ", " + counted(faces.points.size(), "corner");

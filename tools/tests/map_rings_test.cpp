@@ -103,6 +103,9 @@ TEST(map, has_a_pole_where_it_is_inside_a_corner_or_on_a_side) {
   rounded[2].p = {-1e-16, 2e-17, 1}, rounded[3].p = {3e-17, 1e-16, 1};
   EXPECT_NEAR(area(rounded), 90 * 90, 1e-10);
   EXPECT_TRUE(unrolled(ring({{10, 0}, {10, 1e-12}, {10, 2e-12}}), -180).empty());
+  // What lies on one arc, also across a pole, has no map.
+  EXPECT_TRUE(unrolled(ring({{30, -60}, {30, -75}, {0, -90}}), -180).empty());
+  EXPECT_TRUE(unrolled(ring({{85, 45}, {0, 90}, {-95, 0}}), -180).empty());
 }
 
 TEST(map, has_straight_lines_close_to_arcs_and_the_same_on_both_sides_of_an_arc) {
@@ -172,6 +175,15 @@ TEST(cells, fill_a_region_once) {
         }
       }
     }
+}
+
+// Past failures: a cell whose part is bounded by one arc and the parallel, from a corner on the parallel.
+TEST(cells, fill_a_region_whose_parallel_leads_through_a_corner) {
+  Points points;
+  for (const auto& [lon, lat] : {std::pair(130, 0), {0, 90}, {175, 45}, {40, -45}, {-140, 45}})
+    points.push_back(point_sets::from_degrees(lon, lat));
+  const Faces cells = clipped_to_region(cells_of(triangulate(points)), {-90, 270, -90, -45});
+  EXPECT_NEAR(sum(areas(cells)), 360 / kDegree * (1 - std::sqrt(0.5)), 2e-5);
 }
 
 TEST(cells, of_a_region_are_those_of_the_nearest_nodes) {
@@ -246,7 +258,7 @@ TEST(cells, of_nodes_on_one_circle_are_lunes_with_corners_in_the_middle_of_their
       {point_sets::from_degrees(0, 10), point_sets::from_degrees(20, 10), point_sets::from_degrees(10, 30)});
   const Faces cells = cells_of(mesh);
   for (std::size_t f = 0; f < 3; ++f) {
-    EXPECT_NO_THROW(expect_no_half_turn(ring_of(cells, f, LonLat(cells.points, true)), f));
+    EXPECT_NO_THROW(expect_no_half_turn(ring_of(cells, f, LonLat(cells.points, true)), cells, f));
     for (const MapRing& ring : map_of(cells, f)) EXPECT_GT(area_on_map(ring), 0);
   }
   EXPECT_THROW(clipped_to_region(voronoi_faces(mesh), {}), NoMesh);

@@ -117,6 +117,11 @@ def check_columns(nodes):
         FOLDER / "depth.nc")
     with xarray.open_dataset(FOLDER / "depth.nc") as field:
         assert field["depth"].long_name == "depth of the focus" and field.title == "a title"
+    run("interpolate", FOLDER / "table.nc", "--variable", "depth", "--skip-missing", "--to-points", FOLDER / "table.csv",
+        "-o", FOLDER / "depth.nc")
+    with xarray.open_dataset(FOLDER / "depth.nc") as field:
+        assert (field["depth"].long_name, field["depth"].units) == ("depth of the focus", "km")
+        assert (field["lon"].values[:N] == lon).all() and field["depth_given"].units == "km"
     for suffix in ("vtu", "msh"):
         run("convert", FOLDER / "table.nc", "-o", FOLDER / f"table.{suffix}")
         mesh = meshio.read(FOLDER / f"table.{suffix}")
@@ -154,6 +159,28 @@ def check_field(nodes):
         assert (points["value"].values[nodes[:, 2] > 0.1] == 280 + north[:, 2]).all()
 
 
+def check_regions():
+    """Cells of a region across the dateline, and grids of nodes there and around the globe."""
+    run("voronoi", FOLDER / "nodes.txt", "--region", "170,-170,25,50", "-o", FOLDER / "region.nc")
+    area = math.radians(20) * (math.sin(math.radians(50)) - math.sin(math.radians(25)))
+    with xarray.open_dataset(FOLDER / "region.nc") as cells:
+        assert abs(cells["area"].values.sum() - area) < 1e-6
+        assert abs(np.abs(cells["mesh_node_lon"].values) - 175).max() <= 5
+        assert (cells["mesh_node_lat"].values.min(), cells["mesh_node_lat"].values.max()) == (25, 50)
+    run("voronoi", FOLDER / "nodes.txt", "--region", "170,-170,25,50", "-o", FOLDER / "region.scrip.nc")
+    with netCDF4.Dataset(FOLDER / "region.scrip.nc") as grid:
+        assert abs(grid["grid_area"][:].sum() - area) < 1e-6
+    for region, lon, lat in (("0,360,-90,90", np.arange(0, 360, 5), np.arange(-90, 91, 5)),
+                             ("170,-170,25,50", np.arange(170, 191, 5), np.arange(25, 51, 5))):
+        run("interpolate", FOLDER / "values.txt", "--registration", "node", "--grid-step", 5, "--region", region, "-o",
+            FOLDER / "grid.nc")
+        with xarray.open_dataset(FOLDER / "grid.nc") as grid:
+            assert (grid.lon.values == lon).all() and (grid.lat.values == lat).all()
+            known = grid["value"].sel(lat=lat[lat > 10])
+            assert np.abs(known.values - 280 - np.sin(np.radians(known.lat.values))[:, None]).max() < 0.01
+            assert len(np.unique(grid["value"].sel(lat=90))) == 1 if 90 in lat else True
+
+
 def check_scvt():
     run("scvt", 100, "--density", "bump", "--iterations", 5, "-o", FOLDER / "scvt.mpas.nc")
     run("scvt", 100, "--density", "bump", "--iterations", 5, "-o", FOLDER / "scvt.nc")
@@ -181,5 +208,6 @@ run("voronoi", FOLDER / "cube.txt", "-o", FOLDER / "cube.vtu")
 assert sum(len(block) for block in meshio.read(FOLDER / "cube.vtu").cells) == 96
 check_field(nodes)
 check_columns(nodes)
+check_regions()
 check_scvt()
 print("all files are as they should be")

@@ -581,6 +581,8 @@ bad_maps)
   refuses 2 "there is no option --region" triangulate nodes.txt --region 0,10,0,10 -o failed.geojson
   refuses 1 "cap.lonlat: no part of the hull of the nodes lies in the region" \
     voronoi cap.lonlat --units degrees --clip-to-hull --region 100,110,0,10 -o failed.geojson
+  refuses 1 "nodes.txt: the region is smaller than 1e-10 degrees: make it larger" \
+    voronoi nodes.txt --region 0,1e-13,0,1e-13 -o failed.geojson
   refuses 1 "/dev/full: cannot be written: No space left" voronoi nodes.txt -o /dev/full --to geojson
   refuses 1 "holds nodes, no triangles" convert nodes.txt -o failed.gmt
   refuses 2 "points are nodes, not a mesh: give --to xyz, lonlat, nodes, csv, geojson or raw" points random 10 -o failed.gmt
