@@ -80,7 +80,7 @@ void DistributedMesh::clear() {
   memory_.reset();
   short_stars_ = {};
   long_stars_ = {};
-  moving_.reset();
+  moving_.take();
   sample_.reset();
 }
 
@@ -294,13 +294,16 @@ bool DistributedMesh::begin_with_last(std::int64_t n, const Point* points, const
   OnAll fits{same.value && sample_ && sample_->fits(points) &&
              (!were_at_home_ || homes_->are_home_to_most(nodes, ranks_.rank()))};
   OnAny reported{ranks_.rank() == 0 && report != nullptr};
-  agree(ranks_, same, fits, reported);
+  std::unique_ptr<MovingStars> moving = moving_.take();
+  OnAll have_moving{moving != nullptr};  // or all make them anew
+  agree(ranks_, same, fits, reported, have_moving);
+  if (!have_moving.value) moving.reset();
   wants_sample_ = same.value;
   if (!fits.value || ++patient_ < patience_) return false;
   bool is_done = false;
   try {
-    is_done =
-        numbers_are_short_ ? move_stars(nodes, short_stars_, cost) : move_stars(nodes, long_stars_, cost);
+    is_done = numbers_are_short_ ? move_stars(nodes, short_stars_, std::move(moving), cost)
+                                 : move_stars(nodes, long_stars_, std::move(moving), cost);
   } catch (const AgreedFailure&) {
     // No memory for it: the cold way has more, without the mesh.
   }
@@ -313,27 +316,29 @@ bool DistributedMesh::begin_with_last(std::int64_t n, const Point* points, const
 }
 
 template <class Int>
-bool DistributedMesh::move_stars(const LocalNodes& nodes, Stars<Int>& stars, ParallelCost& cost) {
+bool DistributedMesh::move_stars(const LocalNodes& nodes, Stars<Int>& stars,
+                                 std::unique_ptr<MovingStars> moving, ParallelCost& cost) {
   ranks_.set_phase("move the stars");
   {
     const PhaseTimer timer(&cost, ParallelCost::divide, &ranks_);
-    if (moving_ == nullptr) moving_ = MovingStars::make(nodes, stars, ranks_);
-    if (moving_ == nullptr) return false;
+    if (moving == nullptr) moving = MovingStars::make(nodes, stars, ranks_);
+    if (moving == nullptr) return false;
   }
   {
     const PhaseTimer timer(&cost, ParallelCost::triangulate, &ranks_);
-    if (!moving_->repair(nodes, ranks_)) return false;
+    if (!moving->repair(nodes, ranks_)) return false;
   }
   const PhaseTimer timer(&cost, ParallelCost::lists, &ranks_);
   in_agreement(ranks_, [&] {
-    moving_->update(nodes, stars);
-    sample_ = moving_->sample();
+    moving->update(nodes, stars);
+    sample_ = moving->sample();
   });
   arcs_ = static_cast<std::int64_t>(stars.of_node.arcs());
   cost.threads = threads_for(nodes.count);
   cost.halo = static_cast<std::int64_t>(stars.outside.size());
-  cost.rounds = moving_->rounds();
-  cost.flips = static_cast<std::int64_t>(moving_->flips());
+  cost.rounds = moving->rounds();
+  cost.flips = static_cast<std::int64_t>(moving->flips());
+  moving_.put(std::move(moving));
   return true;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/kept.h"
 #include "mpi/mpi_communicator.h"
 #include "parallel/moving_stars.h"
 #include "parallel/triangulate.h"
@@ -68,7 +69,8 @@ class DistributedMesh {
   bool begin_with_last(std::int64_t n, const Point* points, const std::int64_t* number, Report* report,
                        ParallelCost& cost);
   template <class Int>
-  bool move_stars(const LocalNodes& nodes, Stars<Int>& stars, ParallelCost& cost);
+  bool move_stars(const LocalNodes& nodes, Stars<Int>& stars, std::unique_ptr<MovingStars> moving,
+                  ParallelCost& cost);
   std::int32_t gather_stars(std::int32_t root, const ListArrays& lists);
   Numbering look_at(std::int64_t n, const Point* points, const std::int64_t* number, bool wants_report);
   std::int64_t first_repeated(const std::int64_t* number, std::size_t n, const Numbering& numbering);
@@ -112,7 +114,7 @@ class DistributedMesh {
   Stars<std::int32_t> short_stars_;
   Stars<std::int64_t> long_stars_;
   // For the next call, if it has the same numbers on each rank:
-  std::unique_ptr<MovingStars> moving_;  ///< of the last call, if that began with them, too
+  Kept<MovingStars> moving_;             ///< of the last call, if that began with them, too
   std::optional<SampleOfStars> sample_;  ///< on this rank, if there is memory for it
   /// How many calls must find that the stars of the call before fit before one begins with them. More, where
   /// such stars turned out not to fit in the end. The same on every rank, as is how many have found it.
