@@ -344,7 +344,7 @@ TEST(Moving, StarsAreGivenUpWhereMemoryIsOut) {
 TEST(Moving, MeshesMayBeMany) {
   const Nodes nodes = point_sets::make("random", 1000, 1);
   Part part = part_of(nodes);
-  std::vector<Beside> meshes(40);
+  std::vector<Beside> meshes(34);
   for (int step = 0; step < 4; ++step)
     for (Beside& mesh : meshes) EXPECT_EQ(mesh.call(nodes, part), step >= 2);
 }
