@@ -37,10 +37,9 @@ Stripack stripack(Trmesh trmesh, Trlist trlist, Crlist crlist) {
            l.near.data(), l.next.data(), l.dist.data(), &l.ier);
     if (l.ier != 0) throw std::runtime_error(fmt::format("TRMESH returned IER = {}", l.ier));
   };
-  s.trlist = [=](int n, const Lists& l, std::vector<int>& ltri) {
-    const int nrow = 9;
+  s.trlist = [=](int n, const Lists& l, int rows, std::vector<int>& ltri) {
     int nt, ier;
-    trlist(&n, l.list.data(), l.lptr.data(), l.lend.data(), &nrow, &nt, ltri.data(), &ier);
+    trlist(&n, l.list.data(), l.lptr.data(), l.lend.data(), &rows, &nt, ltri.data(), &ier);
     if (ier != 0) throw std::runtime_error(fmt::format("TRLIST returned IER = {}", ier));
   };
   s.crlist = [=](const Nodes& p, Lists& l, std::vector<int>& listc, std::vector<double>& centres) {

@@ -32,7 +32,7 @@ struct Lists {
 /// STRIPACK's routines of one of the two libraries. They throw std::runtime_error where IER is not 0.
 struct Stripack {
   std::function<void(const Nodes&, Lists&)> trmesh;
-  std::function<void(int n, const Lists&, std::vector<int>& ltri)> trlist;  // NROW = 9
+  std::function<void(int n, const Lists&, int rows, std::vector<int>& ltri)> trlist;
   std::function<void(const Nodes&, Lists&, std::vector<int>& listc, std::vector<double>& centres)> crlist;
 };
 

@@ -10,6 +10,7 @@
 #endif
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <string>
@@ -323,6 +324,71 @@ TEST(WarmStart, IsInvisibleWhereNChanges) {
   EXPECT_GT(tally.warm, 4);
 }
 
+/// Remeshing: as many nodes as before, some with each other's numbers: two, neighbours or anywhere, a run,
+/// all.
+TEST(WarmStart, IsInvisibleWhereNodesAreRenumbered) {
+  Random random(17);
+  const auto tally = compare(sets_of(nodes_of("random", kN), 60, [&](Nodes& p, int step) {
+    const std::size_t a = 3 + random.below(kN - 103);
+    const auto at = p.begin() + static_cast<std::ptrdiff_t>(a);
+    if (step % 10 < 9) return move_all(p, 1e-3 * spacing(kN), random);
+    switch (step / 10 % 5) {
+      case 0:
+        return std::swap(*at, p[3 + random.below(kN - 3)]);
+      case 1:  // its nearest
+        return std::swap(*at, *std::min_element(at + 1, p.end(), [at](const Point& c, const Point& d) {
+          return dot(c, *at) > dot(d, *at);
+        }));
+      case 2:
+        return std::reverse(at, at + 100);
+      case 3:
+        return std::iter_swap(at, at + 1);
+      case 4:
+        return point_sets::shuffle(p, 5);
+    }
+  }));
+  EXPECT_GT(tally.warm, 10);
+  EXPECT_GT(tally.cold, 10);
+}
+
+/// The whole mesh turns, or is seen in a mirror: then no triangle is the right way round any more.
+TEST(WarmStart, IsInvisibleWhereTheWholeMeshTurns) {
+  Nodes nodes = nodes_of("random", kN), mirrored = nodes;
+  std::vector<Nodes> sets(4, nodes);
+  for (const double angle : {1e-6, 0.1, 1.5, 3.0}) {
+    for (Point& p : nodes)
+      p = {std::cos(angle) * p.x - std::sin(angle) * p.y, std::sin(angle) * p.x + std::cos(angle) * p.y, p.z};
+    sets.push_back(nodes);
+  }
+  for (Point& p : mirrored) std::swap(p.x, p.y);
+  for (const Nodes& after : {mirrored, mirrored, nodes, mirrored, mirrored, mirrored}) sets.push_back(after);
+  EXPECT_GT(compare(sets).warm, 2);
+}
+
+/// A call with a bad node, once: those after it are right, and soon begin with the last mesh again.
+TEST(WarmStart, GoesOnAfterACallThatFailed) {
+  Random random(18);
+  Nodes nodes = nodes_of("random", kN);
+  std::vector<Nodes> sets;
+  for (int step = 0; step < 24; ++step) {
+    move_all(nodes, 1e-3 * spacing(kN), random);
+    sets.push_back(nodes);
+    Point& p = sets.back()[static_cast<std::size_t>(100 * step) % kN];
+    if (step % 8 == 4) p.x = std::nan("");
+    if (step % 8 == 5) p = {HUGE_VAL, 0, 0};
+    if (step % 8 == 6) p = {0, 0, 0};
+  }
+  EXPECT_GT(compare(sets).warm, 6);
+}
+
+TEST(WarmStart, IsInvisibleWhereNGoesUpAndDownByMuch) {
+  std::vector<Nodes> sets;
+  for (int round = 0; round < 4; ++round)
+    for (const std::size_t n : {std::size_t{40000}, kN, std::size_t{1000}, std::size_t{999}, std::size_t{7}})
+      sets.push_back(nodes_of("random", n));
+  EXPECT_EQ(compare(sets).warm, 2 * 3);
+}
+
 TEST(WarmStart, KeepsSeveralMeshes) {
   Random random(8);
   std::vector<Nodes> sets,
@@ -377,6 +443,28 @@ TEST(WarmStart, IsInvisibleToThreadsThatCallAtOnce) {
     for (std::size_t i = 0; i < sets[t].size(); ++i)
       EXPECT_TRUE(same(results[t][i], cold_call(sets[t][i]))) << t << " " << i;
 }
+
+#ifdef _OPENMP
+/// Each thread of the host's own parallel region with a mesh of its own, or all with one.
+TEST(WarmStart, IsInvisibleInsideAParallelRegion) {
+  constexpr int kThreads = 4, kSteps = 8;
+  std::vector<std::vector<Nodes>> sets;
+  for (int t = 0; t < kThreads; ++t) {
+    Random random(static_cast<std::uint64_t>(t / 2));
+    sets.push_back(sets_of(make("random", kN, static_cast<std::uint64_t>(t / 2)), kSteps,
+                           [&](Nodes& p, int) { move_all(p, 1e-3 * spacing(kN), random); }));
+  }
+  std::vector<std::vector<Result>> results(kThreads);
+  forget_last_meshes();
+#pragma omp parallel for num_threads(kThreads) schedule(static, 1)
+  for (int t = 0; t < kThreads; ++t)
+    for (const Nodes& nodes : sets[static_cast<std::size_t>(t)])
+      results[static_cast<std::size_t>(t)].push_back(call(nodes));
+  for (std::size_t t = 0; t < kThreads; ++t)
+    for (std::size_t i = 0; i < kSteps; ++i)
+      EXPECT_TRUE(same(results[t][i], cold_call(sets[t][i]))) << t << " " << i;
+}
+#endif
 
 TEST(WarmStart, BeginsAnewInAForkedChild) {
   const Nodes nodes = nodes_of("random", kN);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/kept.h"
 #include "geometry/predicates.h"
 #include "mpi/area_of_all.h"
 #include "mpi/collective_trmesh.h"
@@ -311,6 +312,42 @@ TEST(Moving, CallsOfTrmeshBeginWithTheLastRings) {
     for (Point& p : half) p.z = std::fabs(p.z);
     for (int step = 0; step < 5; ++step) EXPECT_FALSE(caller.call(half)) << "a boundary";
   }
+}
+
+/// As if an allocation had failed between two calls, on the last rank.
+void let_memory_run_out() {
+  if (rank_of() == size_of() - 1) {
+    EXPECT_TRUE(give_up_kept_things());
+    EXPECT_FALSE(give_up_kept_things());
+  }
+}
+
+/// What one rank gave up is no more use to the others. What they keep is their own: another mesh lives on.
+TEST(Moving, StarsAreGivenUpWhereMemoryIsOut) {
+  const Nodes nodes = point_sets::make("random", kN, 1);
+  Caller caller(false);
+  for (int step = 0; step < 4; ++step) EXPECT_EQ(caller.call(nodes), step >= 2);
+  let_memory_run_out();
+  EXPECT_FALSE(caller.call(nodes)) << "rings that were given up";
+  EXPECT_TRUE(caller.call(nodes)) << "they have come again";
+
+  Part part = part_of(nodes);
+  Beside mesh, other;
+  for (int step = 0; step < 4; ++step) EXPECT_EQ(mesh.call(nodes, part), step >= 2);
+  let_memory_run_out();
+  EXPECT_TRUE(mesh.call(nodes, part)) << "begins with the stars that the caller has";
+  for (int step = 0; step < 4; ++step) EXPECT_EQ(other.call(nodes, part), step >= 2);
+  EXPECT_TRUE(mesh.call(nodes, part));
+}
+
+/// Where more meshes live than there are places, calls of the others begin with the stars that their callers
+/// have.
+TEST(Moving, MeshesMayBeMany) {
+  const Nodes nodes = point_sets::make("random", 1000, 1);
+  Part part = part_of(nodes);
+  std::vector<Beside> meshes(34);
+  for (int step = 0; step < 4; ++step)
+    for (Beside& mesh : meshes) EXPECT_EQ(mesh.call(nodes, part), step >= 2);
 }
 
 TEST(Moving, CallsOfTrmeshSurviveMemoryThatRunsOut) {

@@ -28,6 +28,8 @@ QUICK = ("predicates_test", "-Exact.*:Filter.IsMeasured*", 0.01)
 LONGER = ("predicates_test", "-Exact.*:Filter.IsMeasured*", 0.05)
 KERNEL = ("parallel_test", "Nasty.*:Coincident.*", 1)
 FLIPS = ("flips_test", "*", 0.5)
+WARM = ("warm_start_test", "*", 1)
+STARS = ("moving_stars_test", "*", 1)
 VALIDATOR = ("validator_test", "-*Mutants*:*RandomTriangles*:*ReadsNothing*", 1)
 LISTS = ("validator_test", "*Mutants*:*RandomTriangles*:*ReadsNothing*", 0.1)
 SUBJECTS = {
@@ -36,6 +38,8 @@ SUBJECTS = {
     "src/cxx/geometry/exact.h": ("constexpr int kSmallBits", "}  // namespace pstripack::exact", [QUICK, LONGER]),
     "src/cxx/geometry/predicates.h": ("inline bool length_is_one", "/// Counts since", [QUICK, KERNEL]),
     "src/cxx/mesh/flips.cpp": ("struct Spokes {", "}  // namespace pstripack", [FLIPS]),
+    "src/cxx/trmesh/warm_start.cpp": ("constexpr std::size_t kFewest", "}  // namespace pstripack", [WARM]),
+    "src/cxx/parallel/moving_stars.cpp": ("// ---- 1, 2 and 3", "// ---- samples", [STARS]),
     "src/cxx/mesh/validate.cpp": ("Verdict defect(", "const char* name(", [VALIDATOR, LISTS]),
     "src/cxx/lists/adjacency_lists.cpp": ("Verdict malformed(", "#define PSTRIPACK", [VALIDATOR, LISTS]),
 }

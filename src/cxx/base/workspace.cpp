@@ -7,6 +7,8 @@
 #include <mutex>
 #include <utility>
 
+#include "base/kept.h"
+
 namespace pstripack {
 namespace {
 
@@ -54,7 +56,8 @@ void set_give_up_more(bool (*give_up)() noexcept) noexcept { give_up_more = give
 
 bool free_kept_blocks() noexcept {
   bool (*const give_up)() noexcept = give_up_more;
-  bool any = give_up != nullptr && give_up();
+  bool any = give_up_kept_things();
+  if (give_up != nullptr && give_up()) any = true;
   const std::unique_lock lock(mutex, std::try_to_lock);
   if (!lock) return any;
   for (auto& block : kept) {

@@ -36,7 +36,8 @@ class Block {
   Buffer<unsigned char> memory_;
 };
 
-/// Gives all kept blocks back to the system, and what give_up_more() gives up; false if there is nothing, or
+/// Gives all kept blocks back to the system, what is kept in places (base/kept.h), and what give_up_more()
+/// gives up; false if there is nothing, or
 /// another thread holds the lock.
 bool free_kept_blocks() noexcept;
 

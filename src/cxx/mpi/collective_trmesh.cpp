@@ -264,37 +264,35 @@ bool ByRanks::begin_with(LastCall& last) {
     last = {};
     return false;
   }
+  std::unique_ptr<LastRings> rings = last.rings.take();
   OnAll fits{last.has_sample && warm_start_is_allowed() && last.sample.fits(*share_.of_all_ranks)},
-      have_rings{last.rings != nullptr};
+      have_rings{rings != nullptr};
   agree(ranks_, fits, have_rings);
   last.has_sample = false;
   wants_rings_ = fits.value && last.patience.is_enough();
-  if (!fits.value || !have_rings.value) {
-    last.rings.reset();
-    return false;
-  }
+  if (!fits.value || !have_rings.value) return false;
   bool is_done = false;
   try {
     const PhaseTimer timer(&cost_, ParallelCost::triangulate, &ranks_);
     ranks_.set_phase("move the stars");
     find_slices(last.n);
-    is_done = last.rings->move(*share_.of_all_ranks, begin_, ranks_);
+    is_done = rings->move(*share_.of_all_ranks, begin_, ranks_);
   } catch (const AgreedFailure&) {
     // No memory for it: the cold way has more, without the rings.
   }
   is_done ? last.patience.succeed() : last.patience.fail();
   if (!is_done) {
     wants_rings_ = false;
-    last.rings.reset();
     return false;
   }
-  const MovingStars& stars = last.rings->stars();
+  const MovingStars& stars = rings->stars();
   cost_.threads = options_.threads;
   cost_.rounds = stars.rounds();
   cost_.halo = static_cast<std::int64_t>(stars.halo());
   cost_.flips = static_cast<std::int64_t>(stars.flips());
-  deliver(last.rings->rings());
-  take_sample(last, last.rings->rings());
+  deliver(rings->rings());
+  take_sample(last, rings->rings());
+  last.rings.put(std::move(rings));
   return true;
 }
 
@@ -305,7 +303,7 @@ void ByRanks::remember(LastCall& last) noexcept {
   if (!wants_rings_) return;
   try {
     const std::size_t first = begin_[static_cast<std::size_t>(ranks_.rank())];
-    last.rings = std::make_unique<LastRings>(stars_.of_node, first, std::move(stars_.homes));
+    last.rings.put(std::make_unique<LastRings>(stars_.of_node, first, std::move(stars_.homes)));
   } catch (const std::bad_alloc&) {
     // Then the next call goes the cold way as well.
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/kept.h"
 #include "mpi/gather_lists.h"
 #include "mpi/mpi_communicator.h"
 #include "parallel/last_rings.h"
@@ -13,8 +14,8 @@ namespace pstripack {
 struct LastCall {
   std::size_t n = 0;  ///< 0: there was none with stars
   SampleOfStars sample;
-  bool has_sample = false;           ///< on this rank
-  std::unique_ptr<LastRings> rings;  ///< on this rank, of calls whose nodes fitted
+  bool has_sample = false;  ///< on this rank
+  Kept<LastRings> rings;    ///< on this rank, of calls whose nodes fitted
   Patience patience;
 };
 

@@ -19,7 +19,7 @@ void DistributedMesh::clear() {
   total_ = 0;
   is_reported_ = false;
   own_ = {};
-  next_.moving.reset();
+  next_.moving.take();
   next_.sample.reset();
 }
 
@@ -130,12 +130,15 @@ bool DistributedMesh::begin_with_last(const LocalNodes& points, Report* report, 
   OnAll fits{same.value && next_.sample && next_.sample->fits(points.points) &&
              (!next_.were_at_home || homes_->are_home_to_most(points, ranks_.rank()))};
   OnAny reported{ranks_.rank() == 0 && report != nullptr};
-  agree(ranks_, same, fits, reported);
+  std::unique_ptr<MovingStars> moving = next_.moving.take();
+  OnAll have_moving{moving != nullptr};  // or all make them anew
+  agree(ranks_, same, fits, reported, have_moving);
+  if (!have_moving.value) moving.reset();
   next_.wants_sample = same.value;
   if (!fits.value || !patience_.is_enough()) return false;
   bool is_done = false;
   try {
-    is_done = move_stars(points, cost);
+    is_done = move_stars(std::move(moving), points, cost);
   } catch (const AgreedFailure&) {
     // No memory for it: the cold way has more, without the mesh.
   }
@@ -146,9 +149,9 @@ bool DistributedMesh::begin_with_last(const LocalNodes& points, Report* report, 
   return true;
 }
 
-bool DistributedMesh::move_stars(const LocalNodes& points, ParallelCost& cost) {
+bool DistributedMesh::move_stars(std::unique_ptr<MovingStars> moving, const LocalNodes& points,
+                                 ParallelCost& cost) {
   ranks_.set_phase("move the stars");
-  std::unique_ptr<MovingStars>& moving = next_.moving;
   {
     const PhaseTimer timer(&cost, ParallelCost::divide, &ranks_);
     if (moving == nullptr)
@@ -168,6 +171,7 @@ bool DistributedMesh::move_stars(const LocalNodes& points, ParallelCost& cost) {
   cost.halo = static_cast<std::int64_t>(own_.outside().size());
   cost.rounds = moving->rounds();
   cost.flips = static_cast<std::int64_t>(moving->flips());
+  next_.moving.put(std::move(moving));
   return true;
 }
 

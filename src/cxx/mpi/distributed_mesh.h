@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "base/kept.h"
 #include "mpi/mpi_communicator.h"
 #include "mpi/numbering.h"
 #include "mpi/own_stars.h"
@@ -59,7 +60,7 @@ class DistributedMesh {
   template <class Int>
   std::int32_t triangulate_into(const LocalNodes& points, const Numbering& numbering, ParallelCost& cost);
   bool begin_with_last(const LocalNodes& points, Report* report, ParallelCost& cost);
-  bool move_stars(const LocalNodes& points, ParallelCost& cost);
+  bool move_stars(std::unique_ptr<MovingStars> moving, const LocalNodes& points, ParallelCost& cost);
   std::int32_t gather_stars(std::int32_t root, const ListArrays& lists);
   void report_on(ParallelCost& mine, std::int64_t sent_before, Report* report);
   void clear();
@@ -74,7 +75,7 @@ class DistributedMesh {
 
   /// For the next call, if it has the same numbers on each rank.
   struct ForNext {
-    std::unique_ptr<MovingStars> moving;  ///< of the last call, if that began with them, too
+    Kept<MovingStars> moving;             ///< of the last call, if that began with them, too
     std::optional<SampleOfStars> sample;  ///< on this rank, if there is memory for it
     bool wants_sample = false;            ///< the last call had the same numbers as the one before
     bool were_at_home = false;            ///< nearly all points here, when homes_ were made
