@@ -388,15 +388,34 @@ std::vector<double> areas(const Faces& faces) {
   return all;
 }
 
-void add_columns(Faces& faces, const Mesh& mesh) {
+namespace {
+
+void add_columns(Faces& faces, const Columns& of_mesh, std::vector<double>&& degrees) {
   constexpr double kEarthRadius = 6371;  // km
-  const bool are_cells = !faces.centres.empty();
-  (are_cells ? faces.given_centres : faces.given_points) = mesh.given;
   Column area{"area", "area of the face on the unit sphere", "sr"};
   area.numbers = areas(faces);
   Column area_km2{"area_km2", "area of the face on a sphere of radius 6371 km", "km2"};
   area_km2.numbers.reserve(area.numbers.size());
   for (const double a : area.numbers) area_km2.numbers.push_back(a * kEarthRadius * kEarthRadius);
+  Columns& of_nodes = faces.centres.empty() ? faces.columns_of_points : faces.columns_of_faces;
+  of_nodes = of_mesh;
+  Column degree = whole_numbers("degree", "number of neighbours of the node", std::move(degrees));
+  const auto is_ours = [&](const Column& c) {
+    return (c.name == degree.name && c.long_name == degree.long_name) ||
+           (c.name == area.name && c.long_name == area.long_name) ||
+           (c.name == area_km2.name && c.long_name == area_km2.long_name);
+  };
+  of_nodes.erase(std::remove_if(of_nodes.begin(), of_nodes.end(), is_ours), of_nodes.end());
+  make_names_differ(of_nodes, {degree.name, area.name, area_km2.name});
+  of_nodes.push_back(std::move(degree));
+  faces.columns_of_faces.push_back(std::move(area));
+  faces.columns_of_faces.push_back(std::move(area_km2));
+}
+
+}  // namespace
+
+void add_columns(Faces& faces, const Mesh& mesh) {
+  (faces.centres.empty() ? faces.given_points : faces.given_centres) = mesh.given;
   std::vector<double> degrees(mesh.points.size());
   const pstripack::ListReader<std::int32_t> reader(mesh.lists());
   pstripack::parallel_pieces(degrees.size(), pstripack::threads_for(degrees.size()),
@@ -410,19 +429,28 @@ void add_columns(Faces& faces, const Mesh& mesh) {
                                  } while (slot != end);
                                }
                              });
-  Columns& of_nodes = are_cells ? faces.columns_of_faces : faces.columns_of_points;
-  of_nodes = mesh.columns;
-  Column degree = whole_numbers("degree", "number of neighbours of the node", std::move(degrees));
-  const auto is_ours = [&](const Column& c) {
-    return (c.name == degree.name && c.long_name == degree.long_name) ||
-           (c.name == area.name && c.long_name == area.long_name) ||
-           (c.name == area_km2.name && c.long_name == area_km2.long_name);
-  };
-  of_nodes.erase(std::remove_if(of_nodes.begin(), of_nodes.end(), is_ours), of_nodes.end());
-  make_names_differ(of_nodes, {degree.name, area.name, area_km2.name});
-  of_nodes.push_back(std::move(degree));
-  faces.columns_of_faces.push_back(std::move(area));
-  faces.columns_of_faces.push_back(std::move(area_km2));
+  add_columns(faces, mesh.columns, std::move(degrees));
+}
+
+std::vector<std::int32_t> MeshPart::corners_by_number() const {
+  std::vector<std::int32_t> result;
+  result.reserve(corner.size());
+  for (const std::int32_t c : corner) result.push_back(numbers[static_cast<std::size_t>(c) - 1]);
+  return result;
+}
+
+Faces triangle_faces(const MeshPart& part) {
+  Faces faces;
+  faces.points = unit(part.points);
+  faces.corner = part.corner;
+  faces.begin.resize(faces.corner.size() / 3 + 1);
+  for (std::size_t f = 0; f < faces.begin.size(); ++f) faces.begin[f] = 3 * f;
+  add_columns(faces, part.columns, std::vector<double>(part.degrees));
+  faces.points.resize(part.nodes);
+  faces.corner = part.corners_by_number();
+  faces.share_of_points = part.share_of_nodes;
+  faces.share_of_faces = part.share_of_triangles;
+  return faces;
 }
 
 }  // namespace files

@@ -13,6 +13,15 @@
 
 namespace files {
 
+/// Where the rows of a table that are here are among those of all processes, which write it one after the
+/// other.
+struct Share {
+  std::size_t before = 0;  ///< rows of the processes before
+  std::size_t all = 0;     ///< of all processes; 0: there is only this one
+
+  std::size_t total(std::size_t here) const { return all == 0 ? here : all; }
+};
+
 /// Nodes and the canonical lists of their triangulation.
 struct Mesh {
   std::vector<Point> points;    ///< as given
@@ -78,6 +87,7 @@ struct Faces {
   std::vector<std::int32_t> corner;
   LonLat given_points, given_centres;  ///< their angles, if they were given
   Columns columns_of_points, columns_of_faces;
+  Share share_of_points, share_of_faces;
 
   std::size_t size() const { return begin.size() - 1; }
   std::size_t corners(std::size_t f) const { return begin[f + 1] - begin[f]; }
@@ -101,5 +111,29 @@ Faces voronoi_faces(const Mesh& mesh);
 /// each, and the areas of the faces in sr and km2. Columns that are named like these get `_given` behind
 /// their names.
 void add_columns(Faces& faces, const Mesh& mesh);
+
+/// What a process has of a mesh that covers the sphere: some nodes in a row, and the triangles of which such
+/// a node is the smallest corner. Parts one after the other are the mesh.
+struct MeshPart {
+  Share share_of_nodes, share_of_triangles;
+  std::size_t nodes = 0;              ///< here
+  std::vector<Point> points;          ///< the nodes here, then their neighbours elsewhere; unit vectors
+  std::vector<std::int32_t> numbers;  ///< of the points in the whole mesh
+  std::vector<std::int32_t> corner;   ///< three for each triangle, the smallest number first: places in
+                                      ///< points, from 1
+  std::vector<double> degrees;        ///< of the nodes here: number of neighbours
+  std::vector<double> density;        ///< of the nodes here
+  Columns columns;                    ///< of the nodes here
+  Notes notes;
+
+  std::vector<Point> nodes_here() const {
+    return {points.begin(), points.begin() + static_cast<std::ptrdiff_t>(nodes)};
+  }
+  /// The corners as nodes of the whole mesh.
+  std::vector<std::int32_t> corners_by_number() const;
+};
+
+/// Its triangles as faces, whose points are those here; with the columns that files of faces can hold.
+Faces triangle_faces(const MeshPart& part);
 
 }  // namespace files

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -12,12 +14,17 @@
 namespace files {
 namespace {
 
-/// A NetCDF file being written: first definitions, then values.
+/// A NetCDF file being written: first definitions, then values. In a file that another process has begun the
+/// definitions are found, and the rows of this process are added.
 class Writer {
  public:
-  explicit Writer(const OutputFile& file) : name_(file.name()) {
-    check(nc_create(file.path().c_str(), NC_CLOBBER | NC_NETCDF4 | NC_CLASSIC_MODEL, &id_));
-    check(nc_set_fill(id_, NC_NOFILL, nullptr));
+  explicit Writer(const OutputFile& file) : name_(file.name()), is_begun_(file.is_begun()) {
+    if (is_begun_) {
+      check(nc_open(file.path().c_str(), NC_WRITE, &id_));
+    } else {
+      check(nc_create(file.path().c_str(), NC_CLOBBER | NC_NETCDF4 | NC_CLASSIC_MODEL, &id_));
+      check(nc_set_fill(id_, NC_NOFILL, nullptr));
+    }
   }
   ~Writer() {
     if (id_ >= 0) nc_abort(id_);
@@ -25,14 +32,22 @@ class Writer {
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
 
-  int dimension(const char* name, std::size_t length) {
+  /// `length` rows are here.
+  int dimension(const char* name, std::size_t length, const Share& share = {}) {
     int dimension = 0;
-    check(nc_def_dim(id_, name, length, &dimension));
+    check(is_begun_ ? nc_inq_dimid(id_, name, &dimension)
+                    : nc_def_dim(id_, name, share.total(length), &dimension));
+    rows_[dimension] = {share.before, length};
+    names_.insert(name);
     return dimension;
   }
   int variable(const char* name, nc_type type, const std::vector<int>& dimensions) {
     int variable = 0;
-    check(nc_def_var(id_, name, type, static_cast<int>(dimensions.size()), dimensions.data(), &variable));
+    check(is_begun_ ? nc_inq_varid(id_, name, &variable)
+                    : nc_def_var(id_, name, type, static_cast<int>(dimensions.size()), dimensions.data(),
+                                 &variable));
+    dimensions_[variable] = dimensions;
+    names_.insert(name);
     return variable;
   }
   /// "degrees_east" and "degrees_north", as CF requires.
@@ -72,7 +87,8 @@ class Writer {
         const std::size_t length = longest(c);
         std::string bytes;
         for (std::size_t i = 0; i < c.size(); ++i) (bytes += c.texts[i]).resize((i + 1) * length);
-        check(nc_put_var_text(id_, ids[k], bytes.data()));
+        const Slab slab = slab_of(ids[k]);
+        check(nc_put_vara_text(id_, ids[k], slab.start.data(), slab.count.data(), bytes.data()));
       } else if (c.whole) {
         put(ids[k], std::vector<std::int32_t>(c.numbers.begin(), c.numbers.end()));
       } else if (std::any_of(c.numbers.begin(), c.numbers.end(), [](double v) { return std::isnan(v); })) {
@@ -95,20 +111,24 @@ class Writer {
     return id;
   }
   void attribute(int variable, const char* name, const std::string& text) {
-    check(nc_put_att_text(id_, variable, name, text.size(), text.data()));
+    if (!is_begun_) check(nc_put_att_text(id_, variable, name, text.size(), text.data()));
   }
   void attribute(int variable, const char* name, int value) {
-    check(nc_put_att_int(id_, variable, name, NC_INT, 1, &value));
+    if (!is_begun_) check(nc_put_att_int(id_, variable, name, NC_INT, 1, &value));
   }
   void attribute(int variable, const char* name, double value) {
-    check(nc_put_att_double(id_, variable, name, NC_DOUBLE, 1, &value));
+    if (!is_begun_) check(nc_put_att_double(id_, variable, name, NC_DOUBLE, 1, &value));
   }
-  void end_definitions() { check(nc_enddef(id_)); }
+  void end_definitions() {
+    if (!is_begun_) check(nc_enddef(id_));
+  }
   void put(int variable, const std::vector<double>& values) {
-    check(nc_put_var_double(id_, variable, values.data()));
+    const Slab slab = slab_of(variable);
+    check(nc_put_vara_double(id_, variable, slab.start.data(), slab.count.data(), values.data()));
   }
   void put(int variable, const std::vector<std::int32_t>& values) {
-    check(nc_put_var_int(id_, variable, values.data()));
+    const Slab slab = slab_of(variable);
+    check(nc_put_vara_int(id_, variable, slab.start.data(), slab.count.data(), values.data()));
   }
   void put(int x, int y, int z, const std::vector<Point>& points) {
     std::vector<double> values(points.size());
@@ -128,6 +148,19 @@ class Writer {
   void check(int status) const {
     if (status != NC_NOERR) throw std::runtime_error(name_ + ": cannot be written: " + nc_strerror(status));
   }
+  /// The part of a variable that is here.
+  struct Slab {
+    std::vector<std::size_t> start, count;
+  };
+  Slab slab_of(int variable) const {
+    Slab slab;
+    for (const int dimension : dimensions_.at(variable)) {
+      const auto [before, here] = rows_.at(dimension);
+      slab.start.push_back(before);
+      slab.count.push_back(here);
+    }
+    return slab;
+  }
   static std::size_t longest(const Column& texts) {
     std::size_t most = 1;
     for (const std::string& text : texts.texts) most = std::max(most, text.size());
@@ -141,14 +174,15 @@ class Writer {
     for (char& c : name)
       if (!is_plain(c)) c = '_';
     if (name.empty() || (name[0] >= '0' && name[0] <= '9')) name = "_" + name;
-    int id;
-    while (nc_inq_varid(id_, name.c_str(), &id) == NC_NOERR ||
-           nc_inq_dimid(id_, name.c_str(), &id) == NC_NOERR)
-      name += "_given";
+    while (names_.count(name) > 0) name += "_given";
     return name;
   }
   std::string name_;
+  bool is_begun_;
   int id_ = -1;
+  std::map<int, std::pair<std::size_t, std::size_t>> rows_;  ///< of each dimension: before, and here
+  std::map<int, std::vector<int>> dimensions_;               ///< of each variable
+  std::set<std::string> names_;                              ///< of dimensions and variables
 };
 
 /// A table with one row per face, as wide as the face with most corners: entry(slot of faces.corner), and
@@ -172,8 +206,8 @@ void write_ugrid(const OutputFile& file, const Faces& faces, const std::vector<P
   const std::size_t width = faces.most_corners();
   const bool has_centres = !faces.centres.empty();
   Writer out(file);
-  const int nodes = out.dimension("mesh_nodes", faces.points.size());
-  const int n_faces = out.dimension("mesh_faces", faces.size());
+  const int nodes = out.dimension("mesh_nodes", faces.points.size(), faces.share_of_points);
+  const int n_faces = out.dimension("mesh_faces", faces.size(), faces.share_of_faces);
   const int corners = out.dimension("mesh_face_corners", width);
   const int mesh = out.variable("mesh", NC_INT, {});
   out.attribute(NC_GLOBAL, "Conventions", "CF-1.8 UGRID-1.0");
@@ -268,13 +302,21 @@ void write_scrip(const OutputFile& file, const Faces& faces, const Notes& notes)
   out.close();
 }
 
-void write_mpas(const OutputFile& file, const Mesh& mesh) {
-  const std::vector<Point> cells = unit(mesh.points);
-  const std::vector<std::int32_t> triangles = triangles_of(mesh);
-  const std::vector<Point> vertices = circumcentres(cells, triangles);
+namespace {
+
+struct Mpas {
+  std::vector<Point> cells, vertices;
+  LonLat given;                                 ///< of the cells
+  std::vector<std::int32_t> cells_of_vertices;  ///< three for each
+  std::vector<double> density;
+  const Notes& notes;
+  Share share_of_cells = {}, share_of_vertices = {};
+};
+
+void write(const OutputFile& file, const Mpas& mesh) {
   Writer out(file);
-  const int n_cells = out.dimension("nCells", cells.size());
-  const int n_vertices = out.dimension("nVertices", vertices.size());
+  const int n_cells = out.dimension("nCells", mesh.cells.size(), mesh.share_of_cells);
+  const int n_vertices = out.dimension("nVertices", mesh.vertices.size(), mesh.share_of_vertices);
   const int degree = out.dimension("vertexDegree", 3);
   out.attribute(NC_GLOBAL, "on_a_sphere", "YES");
   out.attribute(NC_GLOBAL, "sphere_radius", 1.0);
@@ -306,17 +348,41 @@ void write_mpas(const OutputFile& file, const Mesh& mesh) {
     out.put(to.lon, angles.lon);
     out.put(to.lat, angles.lat);
   };
-  put(of_cells, cells, mesh.given);
-  put(of_vertices, vertices, {});
-  out.put(cells_on_vertex, triangles);
-  out.put(density, mesh.density.empty() ? std::vector<double>(cells.size(), 1) : mesh.density);
+  put(of_cells, mesh.cells, mesh.given);
+  put(of_vertices, mesh.vertices, {});
+  out.put(cells_on_vertex, mesh.cells_of_vertices);
+  out.put(density, mesh.density.empty() ? std::vector<double>(mesh.cells.size(), 1) : mesh.density);
   out.close();
+}
+
+}  // namespace
+
+void write_mpas(const OutputFile& file, const Mesh& mesh) {
+  std::vector<Point> cells = unit(mesh.points);
+  std::vector<std::int32_t> triangles = triangles_of(mesh);
+  std::vector<Point> vertices = circumcentres(cells, triangles);
+  write(file,
+        {std::move(cells), std::move(vertices), mesh.given, std::move(triangles), mesh.density, mesh.notes});
+}
+
+void write_mpas(const OutputFile& file, const MeshPart& part) {
+  std::vector<Point> points = unit(part.points);
+  std::vector<Point> vertices = circumcentres(points, part.corner);
+  points.resize(part.nodes);
+  write(file, {std::move(points),
+               std::move(vertices),
+               {},
+               part.corners_by_number(),
+               part.density,
+               part.notes,
+               part.share_of_nodes,
+               part.share_of_triangles});
 }
 
 void write_netcdf_nodes(const OutputFile& file, const std::vector<Point>& points, const NodeValues& values) {
   Writer out(file);
   const bool degrees = values.given.empty() || values.given.degrees;
-  const int n = out.dimension("nCells", points.size());
+  const int n = out.dimension("nCells", points.size(), values.share);
   const int lon = out.angle("lon", {n}, degrees ? "degrees_east" : "radians"),
             lat = out.angle("lat", {n}, degrees ? "degrees_north" : "radians");
   const int x = out.variable("xCell", NC_DOUBLE, {n}), y = out.variable("yCell", NC_DOUBLE, {n}),

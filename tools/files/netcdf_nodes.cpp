@@ -11,11 +11,13 @@
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "files/nearest.h"
 #include "files/nodes.h"
 #include "lists/limits.h"
+#include "parallel/local_nodes.h"
 
 namespace files {
 namespace {
@@ -23,7 +25,8 @@ namespace {
 /// A NetCDF file open for reading.
 class File {
  public:
-  File(const std::string& name, const std::string& contents, Units units) : name_(name), units_(units) {
+  File(const std::string& name, const std::string& contents, const ReadOptions& options)
+      : name_(name), options_(options) {
     // NetCDF takes bytes to read as void*, and does not change them without NC_WRITE.
     check(contents.empty() ? nc_open(name.c_str(), NC_NOWRITE, &id_)
                            : nc_open_mem(name.c_str(), NC_NOWRITE, contents.size(),
@@ -40,17 +43,24 @@ class File {
       fail((variable.empty() ? "" : "variable " + variable + ": ") + nc_strerror(status));
   }
   int id() const { return id_; }
-  Units units() const { return units_; }  ///< of angles without units
+  Units units() const { return options_.units; }  ///< of angles without units
+  bool is_read_in_parts() const { return options_.parts > 1; }
+  /// What is read of n nodes: the first one, and how many.
+  std::pair<std::size_t, std::size_t> part_of(std::size_t n) const {
+    const std::size_t first = pstripack::slice_begin(n, options_.part, options_.parts);
+    return {first, pstripack::slice_begin(n, options_.part + 1, options_.parts) - first};
+  }
 
  private:
   std::string name_;
-  Units units_;
+  const ReadOptions& options_;
   int id_ = -1;
 };
 
 struct Variable {
   std::string name;
   std::vector<int> dimensions;
+  std::size_t before = 0;  ///< values of the parts before
   std::vector<double> values;
   std::string units;  ///< empty: not in the file
   int id = -1;
@@ -95,27 +105,45 @@ void require_few(const File& file, const std::string& name, std::size_t rows, st
         fmt::format("variable {}: {} times {} values; there can be {} nodes at most", name, rows, row, most));
 }
 
+/// The numbers of a variable whose last dimension is that of the nodes; others come before it.
+std::vector<double> read_numbers(const File& file, const std::string& name) {
+  std::vector<int> dimensions;
+  auto [id, lengths] = shape_of(file, name, dimensions);
+  std::vector<std::size_t> start(lengths.size());
+  if (file.is_read_in_parts() && !lengths.empty())
+    std::tie(start.back(), lengths.back()) = file.part_of(lengths.back());
+  std::size_t count = 1;
+  for (const std::size_t length : lengths) count *= length;
+  std::vector<double> values(count);
+  file.check(nc_get_vara_double(file.id(), id, start.data(), lengths.data(), values.data()), name);
+  return values;
+}
+
 Variable read(const File& file, const std::string& name) {
   Variable v;
   v.name = name;
-  const auto check = [&](int status) { file.check(status, name); };
   const auto [id, lengths] = shape_of(file, name, v.dimensions);
   std::size_t count = 1;
   for (const std::size_t length : lengths) {
     require_few(file, name, length, count);
     count *= length;
   }
-  v.values.resize(count);
-  check(nc_get_var_double(file.id(), id, v.values.data()));
+  if (file.is_read_in_parts()) {
+    if (lengths.size() != 1)
+      file.fail("variable " + name + ": several ranks read variables of one dimension, each its part");
+    v.before = file.part_of(lengths[0]).first;
+  }
+  v.values = read_numbers(file, name);
   v.units = text_attribute(file, id, "units");
   v.id = id;
   if (nc_inq_attid(file.id(), id, "scale_factor", nullptr) == NC_NOERR)
     file.fail("variable " + name + ": packed (scale_factor); expected plain numbers");
   double fill = 0;
   const bool has_fill = nc_get_att_double(file.id(), id, "_FillValue", &fill) == NC_NOERR;
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < v.values.size(); ++i)
     if (!std::isfinite(v.values[i]) || (has_fill && v.values[i] == fill))
-      file.fail(fmt::format("variable {}, value {}: missing or not finite: remove the node", name, i + 1));
+      file.fail(fmt::format("variable {}, value {}: missing or not finite: remove the node", name,
+                            v.before + i + 1));
   return v;
 }
 
@@ -176,14 +204,13 @@ std::string name_of(const File& file, int variable) {
 }
 
 /// The value of each node, NaN where it is missing.
-Column read_column(const File& file, const std::string& name, std::size_t nodes) {
+Column read_column(const File& file, const std::string& name) {
   int id = -1;
   nc_type type = NC_CHAR;
   file.check(nc_inq_varid(file.id(), name.c_str(), &id), name);
   file.check(nc_inq_vartype(file.id(), id, &type), name);
   Column column{name, text_attribute(file, id, "long_name"), text_attribute(file, id, "units")};
-  column.numbers.resize(nodes);
-  file.check(nc_get_var_double(file.id(), id, column.numbers.data()), name);
+  column.numbers = read_numbers(file, name);
   const double fill = number_attribute(file, id, "_FillValue", NC_FILL_DOUBLE);
   const double missing = number_attribute(file, id, "missing_value", fill);
   const double scale = number_attribute(file, id, "scale_factor", 1);
@@ -199,8 +226,7 @@ Column read_column(const File& file, const std::string& name, std::size_t nodes)
   return column;
 }
 
-Column read_value(const File& file, const std::string& name, std::size_t nodes,
-                  const std::vector<int>& of_nodes) {
+Column read_value(const File& file, const std::string& name, const std::vector<int>& of_nodes) {
   if (name.empty() || !has(file, name))
     file.fail(fmt::format("{}say --variable NAME; variables with one value per node: {}",
                           name.empty() ? "" : "there is no variable " + name + "; ",
@@ -210,7 +236,7 @@ Column read_value(const File& file, const std::string& name, std::size_t nodes,
   if (!is_of_nodes(file, name, of_nodes))
     file.fail(fmt::format("variable {}: expected {}; take one layer out, say by ncks -d time,0",
                           shape_text(file, name, dimensions), shape_text(file, name, of_nodes)));
-  return read_column(file, name, nodes);
+  return read_column(file, name);
 }
 
 /// Texts of equal length, filled with zeros or blanks.
@@ -228,7 +254,8 @@ Column read_texts(const File& file, int id, const std::string& name, std::size_t
   return column;
 }
 
-/// The variables with a number or a text for each node, without its coordinates; or those that are wanted.
+/// The variables with a number or a text for each node, without its coordinates; or those that are wanted. No
+/// texts where parts are read.
 Columns read_columns(const File& file, std::size_t nodes, const std::vector<int>& of_nodes,
                      const std::vector<int>& coordinates, const std::vector<std::string>& wanted) {
   Columns columns;
@@ -244,11 +271,11 @@ Columns read_columns(const File& file, std::size_t nodes, const std::vector<int>
     if (std::find(coordinates.begin(), coordinates.end(), v) != coordinates.end() || name == "meshDensity")
       continue;
     if (!wanted.empty() && !is_wanted) continue;
-    if (type == NC_CHAR && dimensions.size() == of_nodes.size() + 1 &&
+    if (type == NC_CHAR && !file.is_read_in_parts() && dimensions.size() == of_nodes.size() + 1 &&
         std::equal(of_nodes.begin(), of_nodes.end(), dimensions.begin()))
       columns.push_back(read_texts(file, v, name, nodes, lengths.back()));
     else if (type != NC_CHAR && type <= NC_UINT64 && is_of_nodes(file, name, of_nodes))
-      columns.push_back(read_column(file, name, nodes));
+      columns.push_back(read_column(file, name));
     else if (is_wanted)
       file.fail(fmt::format("variable {}: expected one value per node, {}",
                             shape_text(file, name, dimensions), shape_text(file, name, of_nodes)));
@@ -271,6 +298,7 @@ struct Places {
   LonLat given;
   std::vector<int> dimensions;
   std::vector<int> variables;
+  std::size_t before = 0;  ///< nodes of the parts before
   Grid grid = {};
 };
 
@@ -279,14 +307,15 @@ Places from_angles(const File& file, const Variable& lon, const Variable& lat, c
   units = lat_in_degrees ? "degrees" : "radians";
   Angles angles{lon.values.data(), lat.values.data(), 1, lon_in_degrees, lat_in_degrees};
   if (const std::size_t bad = first_beyond_pole(angles, lat.values.size()); bad < lat.values.size())
-    file.fail(
-        fmt::format("variable {}, value {}: {} is beyond the pole{}", lat.name, bad + 1, lat.values[bad],
-                    !lat_in_degrees ? ": are they degrees, and the units wrong?"
-                    : lon.values.size() == lat.values.size()
-                        ? hint_beyond_pole(angles, lat.values.size(), (lat.name + "," + lon.name).c_str())
-                        : ""));
+    file.fail(fmt::format(
+        "variable {}, value {}: {} is beyond the pole{}", lat.name, lat.before + bad + 1, lat.values[bad],
+        !lat_in_degrees ? ": are they degrees, and the units wrong?"
+        : lon.values.size() == lat.values.size()
+            ? hint_beyond_pole(angles, lat.values.size(), (lat.name + "," + lon.name).c_str())
+            : ""));
   Places places;
   places.variables = {lon.id, lat.id};
+  places.before = lat.before;
   if (lon.dimensions == lat.dimensions) {
     places.dimensions = lon.dimensions;
     places.given.lon = lon.values;
@@ -296,6 +325,8 @@ Places from_angles(const File& file, const Variable& lon, const Variable& lat, c
       file.fail(fmt::format("variables {} and {}: expected one shape, or two axes of one dimension each",
                             lon.name, lat.name));
     require_few(file, lat.name, lat.values.size(), lon.values.size());
+    if (file.is_read_in_parts())
+      file.fail("a grid: several ranks read a list of nodes, each its part: use `pstripack convert`");
     places.dimensions = {lat.dimensions[0], lon.dimensions[0]};
     const auto degrees_of = [](std::vector<double> angles, bool are_degrees) {
       for (double& angle : angles) angle *= are_degrees ? 1 : 57.29577951308232;
@@ -327,6 +358,7 @@ Places from_coordinates(const File& file, const std::string& x_name, const std::
     places.points[i] = {x.values[i], y.values[i], z.values[i]};
   places.dimensions = x.dimensions;
   places.variables = {x.id, y.id, z.id};
+  places.before = x.before;
   return places;
 }
 
@@ -466,7 +498,7 @@ Places read_chosen(const File& file, Nodes& nodes, std::vector<std::string>& nam
 }  // namespace
 
 Nodes read_netcdf(const std::string& name, const ReadOptions& options, const std::string& contents) {
-  const File file(name, contents, options.units);
+  const File file(name, contents, options);
   Nodes nodes;
   nodes.file = name;
   nodes.kind = "NetCDF";
@@ -500,13 +532,14 @@ Nodes read_netcdf(const std::string& name, const ReadOptions& options, const std
           "--columns LON,LAT");
   }
   nodes.points = std::move(places.points);
+  nodes.before = places.before;
   nodes.given = std::move(places.given);
   nodes.grid = std::move(places.grid);
-  if (nodes.points.empty()) file.fail("no nodes: the variables are empty");
+  if (nodes.points.empty() && !file.is_read_in_parts()) file.fail("no nodes: the variables are empty");
   if (options.with_values) {
     std::string variable = options.variable;
     if (variable.empty() && !wanted.empty()) variable = wanted[0];
-    nodes.value = read_value(file, variable, nodes.points.size(), places.dimensions);
+    nodes.value = read_value(file, variable, places.dimensions);
     wanted.erase(std::remove(wanted.begin(), wanted.end(), variable), wanted.end());
   }
   if (options.with_columns && (options.columns.empty() || !wanted.empty()))

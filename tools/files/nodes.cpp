@@ -296,7 +296,8 @@ void read_off(Nodes& nodes, const std::string& text, const ReadOptions& options)
 }  // namespace
 
 std::string Nodes::place(std::size_t i) const {
-  return i < lines.size() ? fmt::format("node {} (line {})", i + 1, lines[i]) : fmt::format("node {}", i + 1);
+  return i < lines.size() ? fmt::format("node {} (line {})", i + 1, lines[i])
+                          : fmt::format("node {}", before + i + 1);
 }
 
 void Nodes::keep(const std::vector<std::size_t>& indices) {

@@ -28,6 +28,8 @@ struct ReadOptions {
   /// Names or (text) numbers, with commas between them: lon,lat or x,y,z, then the columns to read. Empty: by
   /// the names in the file, or the first ones.
   std::string columns;
+  /// Of NetCDF: read only this one of so many equal slices of the nodes, which must be no grid.
+  std::size_t part = 0, parts = 1;
 };
 
 /// Global attributes of a NetCDF file: title, history, source, institution, references, comment, and those
@@ -44,6 +46,7 @@ struct Nodes {
   std::string file;  ///< name in messages
   std::string kind;  ///< "text, lon lat in degrees"
   std::vector<Point> points;
+  std::size_t before = 0;          ///< nodes of the parts before this one
   LonLat given;                    ///< longitudes and latitudes as they are in the file; empty: it has none
   Grid grid;                       ///< of nodes that are one; else empty
   std::vector<std::size_t> lines;  ///< of text: of each node, from 1

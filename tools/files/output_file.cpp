@@ -54,6 +54,7 @@ OutputFile::OutputFile(const std::string& name) : name_(name == "-" ? "stdout" :
 }
 
 OutputFile::~OutputFile() {
+  if (is_shared_) return;
   if (!temporary_.empty()) unlink(temporary_.c_str());
   name_to_remove[0] = '\0';
 }
@@ -80,7 +81,7 @@ void OutputFile::copy_to_target() const {
 }
 
 TextWriter::TextWriter(const OutputFile& file)
-    : name_(file.name()), out_(std::fopen(file.path().c_str(), "wb"), std::fclose) {
+    : name_(file.name()), out_(std::fopen(file.path().c_str(), file.is_begun() ? "ab" : "wb"), std::fclose) {
   if (out_ == nullptr) fail_to_write(name_, errno);
 }
 

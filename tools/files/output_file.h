@@ -16,18 +16,24 @@ namespace files {
 class OutputFile {
  public:
   explicit OutputFile(const std::string& name);
+  /// The same file in another process, or again: nothing is removed or committed here. `is_begun`: what is
+  /// written goes on where another process has ended.
+  OutputFile(const std::string& name, const std::string& path, bool is_begun)
+      : name_(name), temporary_(path), copies_(false), is_shared_(true), is_begun_(is_begun) {}
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
   const std::string& path() const { return temporary_; }  ///< where to write until commit()
   const std::string& name() const { return name_; }       ///< for messages
+  bool is_begun() const { return is_begun_; }
   void commit();
 
  private:
   void copy_to_target() const;
   std::string name_, target_, temporary_;
   bool copies_;  ///< the target cannot be replaced: copy to it
+  bool is_shared_ = false, is_begun_ = false;
 };
 
 [[noreturn]] void fail_to_write(const std::string& name, int error);
