@@ -426,19 +426,16 @@ TEST(Run, GoesOnFromACopyOfTheStateWithTheSameBits) {
 // --------------------------------------------------------------------------------------------------
 
 /// Evaluates, and then changes what is told of an evaluation.
-class Meddler final : public Evaluator {
+class Meddler final : public LocalEvaluator {
  public:
   using Meddle = std::function<void(int evaluation, Cells& cells)>;
-  Meddler(const Density& density, Meddle meddle) : evaluator_(density), meddle_(std::move(meddle)) {}
+  Meddler(const Density& density, Meddle meddle) : LocalEvaluator(density), meddle_(std::move(meddle)) {}
   void evaluate(const std::vector<Point>& generators, Cells& cells) override {
-    evaluator_.evaluate(generators, cells);
+    LocalEvaluator::evaluate(generators, cells);
     meddle_(++evaluations_, cells);
   }
-  void add_up(ExactSum*, std::size_t) override {}
-  double largest(double value) override { return value; }
 
  private:
-  LocalEvaluator evaluator_;
   Meddle meddle_;
   int evaluations_ = 0;
 };
@@ -611,7 +608,9 @@ TEST(Levels, LeadFromFewGeneratorsToAnyNumber) {
 TEST(Levels, RefinedGeneratorsAreTheOldOnesAndMidpoints) {
   const Tessellated t(icosahedron());
   for (const std::size_t n : {12, 30, 42}) {
-    const std::vector<Point> fine = refined(t.points, t.stars, kConstant, n);
+    LocalEvaluator evaluator(kConstant);
+    const std::vector<Point> fine =
+        refined(evaluator.ranks(), evaluator.triangulate(t.points), kConstant, n).points;
     EXPECT_EQ(fine.size(), n);
     for (const Point& p : t.points) EXPECT_EQ(std::count(fine.begin(), fine.end(), p), 1);
     EXPECT_NEAR(least_distance(fine), n == 12 ? least_distance(t.points) : 0.5465, 1e-3);

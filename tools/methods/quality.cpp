@@ -4,67 +4,136 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <vector>
 
+#include "base/parallel_for.h"
+#include "lists/rings.h"
 #include "methods/sphere.h"
-#include "stripack/list_queries.h"
+#include "parallel/agreement.h"
 
 namespace methods {
 namespace {
 
-using Reader = pstripack::ListReader<std::int32_t>;
+using pstripack::scvt::Neighbourhood;
 
-/// The area of the part of each cell that lies in one triangle is two right-angled triangles at each corner;
-/// negative where the circumcentre is beyond a side.
-std::vector<double> areas_of_cells(const files::Mesh& mesh, const std::vector<std::int32_t>& triangles) {
-  const auto at = [&](std::int32_t node) { return mesh.points[static_cast<std::size_t>(node) - 1]; };
-  std::vector<double> areas(mesh.points.size());
-  for (std::size_t t = 0; t < triangles.size(); t += 3) {
-    const std::int32_t* const corner = &triangles[t];
-    const Point centre = circumcentre(at(corner[0]), at(corner[1]), at(corner[2]));
-    for (const auto& [from, to] :
-         {std::pair(corner[0], corner[1]), {corner[1], corner[2]}, {corner[2], corner[0]}}) {
-      const double half =
-          triangle_area(at(from), at(to), centre) / 2;  // both are equally far from the centre
-      areas[static_cast<std::size_t>(from) - 1] += half;
-      areas[static_cast<std::size_t>(to) - 1] += half;
-    }
+/// The triangles at node i: visit(from, to), places of its neighbours one after the other.
+template <class Visit>
+void around(const Neighbourhood& nodes, std::size_t i, const Visit& visit) {
+  const std::size_t begin = nodes.stars.begin_of(i), end = nodes.stars.end_of(i);
+  auto from = static_cast<std::size_t>(nodes.stars.neighbour[end - 1]) - 1;
+  for (std::size_t k = begin; k < end; ++k) {
+    const auto to = static_cast<std::size_t>(nodes.stars.neighbour[k]) - 1;
+    visit(from, to);
+    from = to;
   }
+}
+
+/// The part of a cell in one of its triangles is two right-angled triangles; negative where the circumcentre
+/// is beyond a side.
+double area_of_cell(const Neighbourhood& nodes, std::size_t i) {
+  double area = 0;
+  around(nodes, i, [&](std::size_t from, std::size_t to) {
+    const Point &p = nodes.points[i], &q = nodes.points[from], &r = nodes.points[to];
+    const Point centre = circumcentre(p, q, r);
+    // Both halves of the triangle over a side are equally large: the centre is as far from either end.
+    area += (triangle_area(p, q, centre) + triangle_area(r, p, centre)) / 2;
+  });
+  return area;
+}
+
+/// A value of a node, for the ranks that have neighbours of it.
+struct ValueOfNode {
+  std::int64_t number;
+  double value;
+};
+
+/// Those of the nodes here, then of their neighbours on other ranks. Collective.
+std::vector<double> areas_of_cells(pstripack::Communicator& ranks, const Neighbourhood& nodes) {
+  const std::size_t own = nodes.stars.count;
+  std::size_t known = own;  // nodes here and neighbours elsewhere
+  std::vector<double> areas;
+  std::vector<std::vector<ValueOfNode>> told;
+  const std::int64_t all = pstripack::scvt::sum_of_all(ranks, own);
+  const pstripack::Parcels parcels = pstripack::exchange_in_agreement(ranks, [&] {
+    areas.resize(own);
+    pstripack::parallel_pieces(own, pstripack::threads_for(10 * own),
+                               [&](std::size_t first, std::size_t last, int) {
+                                 for (std::size_t i = first; i < last; ++i) areas[i] = area_of_cell(nodes, i);
+                               });
+    for (std::size_t s = 0; own > 0 && s < nodes.stars.end_of(own - 1); ++s)
+      known = std::max(known, static_cast<std::size_t>(nodes.stars.neighbour[s]));
+    const std::vector<std::int32_t> ranks_of_others =
+        pstripack::scvt::ranks_of_slices(ranks, all, {nodes.numbers + own, nodes.numbers + known});
+    told.resize(static_cast<std::size_t>(ranks.size()));
+    for (std::size_t i = 0; i < own; ++i)
+      around(nodes, i, [&](std::size_t, std::size_t to) {
+        if (to < own) return;
+        auto& values = told[static_cast<std::size_t>(ranks_of_others[to - own])];
+        if (values.empty() || values.back().number != nodes.numbers[i])
+          values.push_back({nodes.numbers[i], areas[i]});
+      });
+    return pstripack::packed(told);
+  });
+  pstripack::in_agreement(ranks, [&] {
+    areas.resize(known);
+    const std::int64_t* const others = nodes.numbers + own;  // by increasing number
+    for (const ValueOfNode& node : pstripack::Items<ValueOfNode>(parcels)) {
+      const std::int64_t* const place = std::lower_bound(others, nodes.numbers + known, node.number);
+      areas[own + static_cast<std::size_t>(place - others)] = node.value;
+    }
+  });
   return areas;
 }
 
 }  // namespace
 
-Quality quality_of(const files::Mesh& mesh) {
-  const Reader reader(mesh.lists());
-  if (reader.first_boundary_node() != 0) throw files::NoMesh("the nodes lie in one hemisphere");
-  const std::vector<std::int32_t> triangles = files::triangles_of(mesh);
-  const std::vector<double> areas = areas_of_cells(mesh, triangles);
+Quality quality_of(pstripack::Communicator& ranks, const Neighbourhood& nodes) {
+  const std::vector<double> areas = areas_of_cells(ranks, nodes);
   Quality quality;
-  for (std::int32_t node = 1; node <= reader.size(); ++node) {
-    int sides = 0;
-    std::int32_t slot = reader.last_slot(node);
-    do {
-      slot = reader.next(slot);
-      ++sides;
-      const double ratio = areas[static_cast<std::size_t>(node) - 1] /
-                           areas[static_cast<std::size_t>(reader.neighbour(slot)) - 1];
-      quality.largest_ratio = std::max(quality.largest_ratio, ratio);
-    } while (slot != reader.last_slot(node));
-    ++quality.cells[static_cast<std::size_t>(std::min(sides, Quality::kMostSides))];
+  pstripack::SmallestReal smallest_angle;
+  pstripack::LargestReal largest_ratio;
+  std::int64_t counts[Quality::kMostSides + 3] = {};  // cells by sides; triangles; those well centred
+  std::int64_t &triangles = counts[Quality::kMostSides + 1], &well_centred = counts[Quality::kMostSides + 2];
+  for (std::size_t i = 0; i < nodes.stars.count; ++i) {
+    const auto sides = static_cast<int>(nodes.stars.end_of(i) - nodes.stars.begin_of(i));
+    ++counts[std::min(sides, Quality::kMostSides)];
+    around(nodes, i, [&](std::size_t from, std::size_t to) {
+      largest_ratio.value = std::max(largest_ratio.value, areas[i] / areas[to]);
+      if (nodes.numbers[from] < nodes.numbers[i] || nodes.numbers[to] < nodes.numbers[i]) return;
+      const Point &a = nodes.points[i], &b = nodes.points[from], &c = nodes.points[to];
+      const double angles[] = {files::corner_angle(a, b, c), files::corner_angle(b, c, a),
+                               files::corner_angle(c, a, b)};
+      smallest_angle.value = std::min({smallest_angle.value, angles[0], angles[1], angles[2]});
+      ++triangles;
+      if (std::max({angles[0], angles[1], angles[2]}) < 90) ++well_centred;
+    });
   }
-  const auto at = [&](std::int32_t node) { return mesh.points[static_cast<std::size_t>(node) - 1]; };
-  quality.smallest_angle = 180;
-  std::size_t well_centred = 0;
-  for (std::size_t t = 0; t < triangles.size(); t += 3) {
-    const Point a = at(triangles[t]), b = at(triangles[t + 1]), c = at(triangles[t + 2]);
-    const double angles[] = {files::corner_angle(a, b, c), files::corner_angle(b, c, a),
-                             files::corner_angle(c, a, b)};
-    quality.smallest_angle = std::min({quality.smallest_angle, angles[0], angles[1], angles[2]});
-    if (std::max({angles[0], angles[1], angles[2]}) < 90) ++well_centred;
-  }
-  quality.well_centred = 3 * static_cast<double>(well_centred) / static_cast<double>(triangles.size());
+  agree(ranks, smallest_angle, largest_ratio);
+  ranks.all_sum(counts, std::size(counts));
+  std::copy_n(counts, quality.cells.size(), quality.cells.begin());
+  quality.smallest_angle = smallest_angle.value;
+  quality.largest_ratio = largest_ratio.value;
+  quality.well_centred = static_cast<double>(well_centred) / static_cast<double>(triangles);
   return quality;
+}
+
+Quality quality_of(const files::Mesh& mesh) {
+  const std::size_t n = mesh.points.size();
+  pstripack::Rings<std::int32_t> rings;
+  if (!rings.read(mesh.lists(), pstripack::threads_for(n))) throw files::NoMesh("the lists are broken");
+  std::vector<std::int32_t> end, neighbour;
+  std::vector<std::int64_t> numbers;
+  for (std::int32_t node = 1; node <= rings.size(); ++node) {
+    for (std::int32_t arc = rings.begin(node); arc < rings.end(node); ++arc) {
+      if (rings.entry(arc) < 0) throw files::NoMesh("the nodes lie in one hemisphere");
+      neighbour.push_back(rings.entry(arc));
+    }
+    end.push_back(rings.end(node));
+    numbers.push_back(node);
+  }
+  pstripack::SingleProcess alone;
+  return quality_of(alone, {mesh.points.data(), numbers.data(), {n, end.data(), neighbour.data()}});
 }
 
 std::string Quality::text() const {

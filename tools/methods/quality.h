@@ -6,6 +6,7 @@
 #include <string>
 
 #include "files/mesh.h"
+#include "scvt/spread.h"
 
 namespace methods {
 
@@ -22,5 +23,9 @@ struct Quality {
 
 /// Throws files::NoMesh if the nodes lie in a hemisphere. Nodes are unit vectors.
 Quality quality_of(const files::Mesh& mesh);
+
+/// Of the nodes of all ranks, of which each has one of equal slices (scvt/run.h, slice_of). Same bits for any
+/// number of ranks. Collective. Throws AgreedFailure.
+Quality quality_of(pstripack::Communicator& ranks, const pstripack::scvt::Neighbourhood& nodes);
 
 }  // namespace methods

@@ -75,6 +75,11 @@ std::string unknown_word(const CLI::App& app) {
   return "";
 }
 
+/// Rank 0 says what is wrong for all ranks.
+void complain(const char* what) {
+  if (!program::global().is_led) fmt::print(stderr, "pstripack: {}\n", what);
+}
+
 int run(int argc, char** argv) {
   using namespace program;
   global().command = history_of(argc, argv);
@@ -109,9 +114,9 @@ int run(int argc, char** argv) {
     fmt::print(stderr, "pstripack: {}\n", unknown.empty() ? e.what() : unknown);
     return kUsage;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "pstripack: out of memory\n");
+    complain("out of memory");
   } catch (const std::exception& e) {
-    fmt::print(stderr, "pstripack: {}\n", e.what());
+    complain(e.what());
   }
   return kFailed;
 }

@@ -96,6 +96,7 @@ void add_plot(CLI::App& app, Command& chosen);
 /// Options of the whole program: --quiet, --threads, ranks.
 struct Global {
   bool quiet = false;
+  bool is_led = false;  ///< a rank that does the same as rank 0, and says nothing
   int threads = 0;      ///< 0: as OpenMP says
   int ranks = 1;        ///< number of ranks that triangulated
   std::string command;  ///< the command line, for the history of files

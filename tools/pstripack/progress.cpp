@@ -9,12 +9,18 @@
 
 namespace program {
 
+namespace {
+
+bool is_silent() { return global().quiet || global().is_led; }
+
+}  // namespace
+
 void say(const std::string& text) {
-  if (!global().quiet) fmt::print(stderr, "pstripack: {}\n", text);
+  if (!is_silent()) fmt::print(stderr, "pstripack: {}\n", text);
 }
 
 Progress::Progress() : on_terminal_(isatty(STDERR_FILENO)) {
-  if (!global().quiet) reporter_ = std::thread([this] { report(); });
+  if (!is_silent()) reporter_ = std::thread([this] { report(); });
 }
 
 Progress::~Progress() {
@@ -36,7 +42,7 @@ void Progress::end() {
   const std::lock_guard<std::mutex> lock(mutex_);
   steps_.emplace_back(step_, seconds());
   doing_.clear();
-  if (on_terminal_ && !global().quiet) fmt::print(stderr, "\r\033[K");
+  if (on_terminal_ && !is_silent()) fmt::print(stderr, "\r\033[K");
 }
 
 void Progress::now(std::string doing) {

@@ -18,6 +18,17 @@ struct Launched {
   int size = 1, rank = 0;
 };
 
+class Alone final : public Ranks {
+ public:
+  pstripack::Communicator& communicator() override { return process_; }
+  std::shared_ptr<pstripack::scvt::Evaluator> evaluator(const pstripack::scvt::Density& density) override {
+    return std::make_shared<pstripack::scvt::LocalEvaluator>(density);
+  }
+
+ private:
+  pstripack::SingleProcess process_;
+};
+
 Launched launched() {
   using pstripack::environment_variable;
   constexpr const char* kVariables[][2] = {{"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"},
@@ -43,6 +54,11 @@ int on_rank_0(int, char** argv, const std::function<int()>& work) {
     fmt::print(stderr, "pstripack: no pstripack-mpi is installed: rank 0 works alone, on its threads\n");
   }
   return work();
+}
+
+void on_all_ranks(const std::function<void(Ranks&)>& body) {
+  Alone alone;
+  body(alone);
 }
 
 }  // namespace program

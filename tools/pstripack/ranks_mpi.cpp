@@ -1,4 +1,5 @@
-// Of pstripack-mpi. The ranks but 0 wait for its word: to triangulate with it, or to end with its exit code.
+// Of pstripack-mpi. The ranks but 0 wait for its word: to triangulate with it, to do all of the command with
+// it, or to end with its exit code.
 
 #include <fmt/format.h>
 
@@ -9,22 +10,50 @@
 
 #include "files/mesh.h"
 #include "mpi/collective_trmesh.h"
+#include "mpi/distributed_evaluator.h"
 #include "mpi/mpi_communicator.h"
 #include "pstripack/options.h"
 #include "pstripack/ranks.h"
+#include "scvt/errors.h"
 #include "stripack/original/original_rules.h"
 
 namespace program {
 namespace {
 
+namespace engine = pstripack::scvt;
 using pstripack::MpiCommunicator;
 
-/// What rank 0 sends: this, or an exit code.
-constexpr std::int32_t kTriangulate = -1;
+/// What rank 0 sends: one of these, or an exit code.
+constexpr std::int32_t kTriangulate = -1, kTogether = -2;
 
 std::int32_t word_of_rank_0(MpiCommunicator& ranks, std::int32_t word = 0) {
   ranks.broadcast(&word, sizeof word, 0);
   return word;
+}
+
+class AllRanks final : public Ranks {
+ public:
+  explicit AllRanks(MpiCommunicator& ranks) : ranks_(ranks) {}
+  pstripack::Communicator& communicator() override { return ranks_; }
+  std::shared_ptr<engine::Evaluator> evaluator(const engine::Density& density) override {
+    if (ranks_.size() == 1) return std::make_shared<engine::LocalEvaluator>(density);
+    struct WithMesh {
+      WithMesh(MPI_Comm comm, const engine::Density& density) : mesh(comm), evaluator(mesh, density) {}
+      pstripack::DistributedMesh mesh;
+      engine::DistributedEvaluator evaluator;
+    };
+    const auto both = std::make_shared<WithMesh>(ranks_.handle(), density);
+    return {both, &both->evaluator};
+  }
+
+ private:
+  MpiCommunicator& ranks_;
+};
+
+/// Those of on_rank_0; null outside.
+MpiCommunicator*& ranks_of_program() {
+  static MpiCommunicator* ranks = nullptr;
+  return ranks;
 }
 
 int lead(MpiCommunicator& ranks, const std::function<int()>& work) {
@@ -42,10 +71,15 @@ int lead(MpiCommunicator& ranks, const std::function<int()>& work) {
   return word_of_rank_0(ranks, work());
 }
 
-int follow(MpiCommunicator& ranks) {
+int follow(MpiCommunicator& ranks, const std::function<int()>& work) {
+  global().is_led = true;
   for (;;) {
     const std::int32_t word = word_of_rank_0(ranks);
-    if (word != kTriangulate) return word;
+    if (word >= 0) return word;
+    if (word == kTogether) {
+      work();
+      continue;
+    }
     try {
       pstripack::collective_trmesh(ranks, pstripack::Arrays::on_one_rank, {});
     } catch (const pstripack::AgreedFailure&) {  // rank 0 says so
@@ -71,8 +105,9 @@ int on_rank_0(int argc, char** argv, const std::function<int()>& work) {
   try {
     MpiCommunicator ranks(MPI_COMM_WORLD);
     ranks.call_roll();
+    ranks_of_program() = &ranks;
     if (have_one_command_line(ranks, argc, argv)) {
-      code = ranks.rank() == 0 ? lead(ranks, work) : follow(ranks);
+      code = ranks.rank() == 0 ? lead(ranks, work) : follow(ranks, work);
     } else {
       code = kUsage;
       if (ranks.rank() == 0)
@@ -86,6 +121,25 @@ int on_rank_0(int argc, char** argv, const std::function<int()>& work) {
   }
   MPI_Finalize();
   return code;
+}
+
+void on_all_ranks(const std::function<void(Ranks&)>& body) {
+  MpiCommunicator& ranks = *ranks_of_program();
+  // From here on a rank that triangulates without the others does it alone.
+  files::set_trmesh([](const pstripack::TrmeshCall& call) { return pstripack::trmesh(call); });
+  if (ranks.rank() == 0) word_of_rank_0(ranks, kTogether);
+  global().ranks = ranks.size();
+  AllRanks all(ranks);
+  try {
+    body(all);
+  } catch (const engine::NoTessellation&) {
+    throw;
+  } catch (const pstripack::AgreedFailure&) {
+    throw;
+  } catch (const std::exception& e) {
+    if (ranks.size() > 1) ranks.abort("error", e.what());
+    throw;
+  }
 }
 
 }  // namespace program

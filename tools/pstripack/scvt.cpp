@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <memory>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -14,7 +16,10 @@
 #include "methods/time_left.h"
 #include "numbers.h"
 #include "pstripack/options.h"
+#include "pstripack/parts.h"
 #include "pstripack/progress.h"
+#include "pstripack/ranks.h"
+#include "scvt/agreement.h"
 #include "scvt/errors.h"
 #include "scvt/first_generators.h"
 #include "scvt/front.h"
@@ -24,9 +29,12 @@ namespace program {
 namespace {
 
 namespace engine = pstripack::scvt;
+using engine::in_agreement_with_caller;
 using engine::Method;
 using engine::State;
+using engine::Tessellation;
 using files::Point;
+using pstripack::Communicator;
 
 enum class First { by_number, front, levels, random };
 
@@ -162,21 +170,32 @@ std::vector<State::Pair> pairs_in(const files::Nodes& start) {
   return pairs;
 }
 
-/// What the file has of a run. Pairs of another density would say nothing, and Lloyd's method needs none.
-State state_of(files::Nodes& start, const Options& options) {
-  State state;
-  state.evaluations = count_in(start, kEvaluations, 0);
-  state.steps = count_in(start, kSteps, state.evaluations);
-  bool has_same_density = true;
-  for (const char* const name : {kDensity, kDensityFile, kVariable})
-    has_same_density &= note(start.notes, name) == note(notes_of_density(options), name);
-  if (options.method == Method::newton && has_same_density) state.pairs = pairs_in(start);
-  triangulate(start);  // what is wrong with them is said by their lines
-  state.generators = engine::unit_vectors(std::move(start.points));
-  return state;
+/// What the file has of a run, or the part of it that this rank has read. Pairs of another density would say
+/// nothing, and Lloyd's method needs none. Collective.
+Tessellation tessellation_of(Communicator& ranks, files::Nodes& start, const Options& options) {
+  Tessellation t;
+  pstripack::OnAll have_pairs;
+  in_agreement_with_caller(
+      ranks,
+      [&] {
+        t.state.evaluations = count_in(start, kEvaluations, 0);
+        t.state.steps = count_in(start, kSteps, t.state.evaluations);
+        bool has_same_density = true;
+        for (const char* const name : {kDensity, kDensityFile, kVariable})
+          has_same_density &= note(start.notes, name) == note(notes_of_density(options), name);
+        if (options.method == Method::newton && has_same_density) t.state.pairs = pairs_in(start);
+        have_pairs.value = !t.state.pairs.empty();
+        if (ranks.size() == 1) triangulate(start);  // what is wrong with them is said by their lines
+        t.state.generators = engine::unit_vectors(std::move(start.points));
+        t.numbers.resize(t.state.generators.size());
+        std::iota(t.numbers.begin(), t.numbers.end(), static_cast<std::int64_t>(start.before) + 1);
+      },
+      have_pairs);
+  if (!have_pairs.value) t.state.pairs.clear();
+  return t;
 }
 
-void write(const Output& output, files::Mesh&& mesh) {
+void write(const Output& output, const files::Mesh& mesh) {
   files::OutputFile file(output.file);
   if (files::holds_a_mesh(output.format))
     write_mesh(file, output.format, mesh);
@@ -185,18 +204,44 @@ void write(const Output& output, files::Mesh&& mesh) {
   file.commit();
 }
 
-void write_checkpoint(const Options& options, const State& state, const engine::Density& density,
-                      const engine::Progress& reached) {
-  files::Mesh mesh;
-  if (files::holds_a_mesh(options.checkpoint.format))
-    mesh = files::triangulate(state.generators);
-  else
-    mesh.points = state.generators;
-  mesh.density = engine::values_at(state.generators, density);
-  mesh.columns = columns_of(state.pairs);
-  mesh.notes = notes_of(options, state, reached);
-  mesh.notes[kPairs] = std::to_string(state.pairs.size());
-  write(options.checkpoint, std::move(mesh));
+/// Writes the generators. A checkpoint also has the pairs; of others the quality of the mesh is returned.
+/// Collective.
+std::string write(Ranks& ranks, const Output& output, bool is_checkpoint, const Tessellation& t,
+                  const engine::Density& density, files::Notes&& notes) {
+  Communicator& communicator = ranks.communicator();
+  const bool needs_mesh = !is_checkpoint || files::holds_a_mesh(output.format);
+  if (is_checkpoint) notes[kPairs] = std::to_string(t.state.pairs.size());
+  const auto complete = [&](auto& mesh, const State& state) {
+    mesh.density = engine::values_at(state.generators, density);
+    if (is_checkpoint) mesh.columns = columns_of(state.pairs);
+    mesh.notes = std::move(notes);
+  };
+  if (communicator.size() == 1) {
+    files::Mesh mesh;
+    if (needs_mesh)
+      mesh = files::triangulate(t.state.generators);
+    else
+      mesh.points = t.state.generators;
+    complete(mesh, t.state);
+    write(output, mesh);
+    return is_checkpoint ? "" : methods::quality_of(mesh).text();
+  }
+  const Tessellation slice = slice_of(communicator, t);
+  files::MeshPart part;
+  std::string quality;
+  if (needs_mesh) {
+    const std::shared_ptr<engine::Evaluator> evaluator =
+        ranks.evaluator(density);  // the run's keeps its mesh
+    evaluator->begin_with(slice.numbers);
+    const engine::Neighbourhood nodes = evaluator->triangulate(slice.state.generators);
+    if (!is_checkpoint) quality = methods::quality_of(communicator, nodes).text();
+    part = part_of(communicator, nodes);
+  } else {
+    part = part_of(communicator, slice.state.generators);
+  }
+  in_agreement_with_caller(communicator, [&] { complete(part, slice.state); });
+  write_parts(communicator, output.file, output.format, part);
+  return quality;
 }
 
 std::string duration(double seconds) {
@@ -205,18 +250,26 @@ std::string duration(double seconds) {
   return fmt::format("{:.1f} h", seconds / 3600);
 }
 
-/// The generators of a new run: of the last level, where there are levels.
-State first_state(const Options& options, const engine::Density& density, engine::Evaluator& evaluator,
-                  Progress& progress) {
+/// The generators of a new run: of the last level, where there are levels. Collective.
+Tessellation first_tessellation(const Options& options, engine::Evaluator& evaluator, Progress& progress) {
   constexpr std::size_t kFewest = 3000;  ///< that a front puts in better order than levels do
-  const First first = options.first != First::by_number ? options.first
-                      : options.n >= kFewest            ? First::front
-                                                        : First::levels;
-  if (first == First::front) return State(engine::front_generators(options.n, density));
-  std::vector<std::size_t> sizes{options.n};
-  if (first == First::levels) sizes = engine::level_sizes(options.n);
-  State state(engine::random_generators(sizes[0], density, options.seed));
-  engine::Options on_levels;
+  const bool is_alone = evaluator.ranks().size() == 1;
+  const First first = options.first != First::by_number  ? options.first
+                      : options.n >= kFewest && is_alone ? First::front
+                                                         : First::levels;
+  if (first == First::front) {
+    if (!is_alone)
+      throw engine::NoTessellation(
+          "--first front: a front is made by one process: leave mpirun out, or say --first levels");
+    Tessellation t;
+    t.state.generators = engine::front_generators(options.n, evaluator.density());
+    t.numbers.resize(options.n);
+    std::iota(t.numbers.begin(), t.numbers.end(), std::int64_t{1});
+    return t;
+  }
+  engine::RunOptions on_levels;
+  on_levels.levels = first == First::levels;
+  on_levels.seed = options.seed;
   on_levels.method = options.method;
   on_levels.tolerance = options.tolerance;
   on_levels.most_evaluations = Options().evaluations;  // a run that is cut short has the same levels
@@ -225,17 +278,12 @@ State first_state(const Options& options, const engine::Density& density, engine
                              p.evaluations, p.gradient));
     return true;
   };
-  for (std::size_t level = 1; level < sizes.size(); ++level) {
-    minimize(evaluator, state, on_levels);
-    std::vector<std::int32_t> list, lptr, lend;
-    const engine::Stars stars = engine::triangulate(state.generators, list, lptr, lend);
-    state = State(engine::refined(state.generators, stars, density, sizes[level]));
-  }
-  return state;
+  return engine::first_generators(evaluator, options.n, on_levels);
 }
 
-engine::Result iterate(const Options& options, const engine::Density& density, engine::Evaluator& evaluator,
-                       State& state, Progress& progress) {
+/// Collective.
+void iterate(const Options& options, Ranks& ranks, engine::Evaluator& evaluator, Tessellation& t,
+             Progress& progress) {
   engine::Options of_run;
   of_run.method = options.method;
   of_run.tolerance = options.tolerance;
@@ -248,11 +296,11 @@ engine::Result iterate(const Options& options, const engine::Density& density, e
     const std::optional<double> left = time_left.seconds();
     progress.now(fmt::format("{} evaluations, gradient {:.3g}, energy {:.9g}{}", p.evaluations, p.gradient,
                              p.energy, left ? ", perhaps " + duration(*left) + " left" : ""));
-    if (!options.checkpoint.file.empty() && state.steps % options.every == 0)
-      write_checkpoint(options, state, density, p);
+    if (!options.checkpoint.file.empty() && t.state.steps % options.every == 0)
+      write(ranks, options.checkpoint, true, t, evaluator.density(), notes_of(options, t.state, p));
     return true;
   };
-  return minimize(evaluator, state, of_run);
+  engine::iterate(evaluator, t, of_run);
 }
 
 std::string end_of(const Options& options, const engine::Result& result, bool has_moved) {
@@ -269,54 +317,96 @@ std::string end_of(const Options& options, const engine::Result& result, bool ha
   }
 }
 
-void scvt(Options& options) {
-  if ((options.n > 0) == !options.start.file.empty())
-    throw CLI::ValidationError("N", "give either N, for new generators, or --start FILE");
-  options.output.choose();
-  for (const Output* const output : {&options.output, &options.checkpoint})
-    if (!output->file.empty()) files::OutputFile can_be_written(output->file);  // said now, not after hours
-  if (!options.checkpoint.file.empty()) options.checkpoint.choose(files::Format::netcdf);
+/// The nodes to start from; on several ranks a part of them. Collective.
+files::Nodes read_start(Communicator& ranks, const Options& options) {
+  files::Nodes start;
+  in_agreement_with_caller(ranks, [&] {
+    Input input = options.start;
+    input.read.with_columns = true;
+    if (ranks.size() == 1) {
+      start = read_nodes(input);
+      return;
+    }
+    if (input.drops())
+      throw std::runtime_error(
+          "--drop-duplicates, --duplicates: several ranks cannot: use `pstripack convert`");
+    if (input.file == "-" || (std::filesystem::exists(input.file) && !files::is_netcdf(input.file)))
+      throw std::runtime_error(fmt::format(
+          "{}: several ranks read NetCDF, each its part: `pstripack convert {} -o start.nodes.nc` writes it",
+          input.file, input.file));
+    input.read.part = static_cast<std::size_t>(ranks.rank());
+    input.read.parts = static_cast<std::size_t>(ranks.size());
+    start = read_places(input.file, input.read);
+  });
+  return start;
+}
 
+/// What several ranks cannot do.
+void check_files_of_ranks(const Options& options) {
+  for (const Output* const output : {&options.output, &options.checkpoint})
+    if (!output->file.empty() && !files::holds_parts(output->format))
+      throw std::runtime_error(
+          fmt::format("{}: several ranks write ugrid, mpas, off, xyz, lonlat, nodes and raw, each its part: "
+                      "choose one of these, and `pstripack convert` afterwards",
+                      output->file));
+  if (options.density_file == "-")
+    throw std::runtime_error("--density-file -: several ranks read a file, not stdin");
+}
+
+/// What all ranks do together.
+void scvt(Options& options, Ranks& ranks) {
+  Communicator& communicator = ranks.communicator();
+  in_agreement_with_caller(communicator, [&] {
+    if (communicator.size() > 1) check_files_of_ranks(options);
+    if (communicator.rank() > 0) return;
+    for (const Output* const output : {&options.output, &options.checkpoint})
+      if (!output->file.empty()) files::OutputFile can_be_written(output->file);  // said now, not after hours
+  });
   Progress progress;
   files::Nodes start;
-  if (!options.start.file.empty()) {
-    options.start.read.with_columns = true;
-    start = progress.step("reading", [&] { return read_nodes(options.start); });
-    options.start.read.with_columns = false;
-  }
+  if (!options.start.file.empty())
+    start = progress.step("reading", [&] { return read_start(communicator, options); });
   choose_density(options, start.notes);
-  const std::unique_ptr<engine::Density> density =
-      progress.step("reading the density", [&] { return make_density(options); });
-  engine::LocalEvaluator evaluator(*density);
+  std::unique_ptr<engine::Density> density;
+  progress.step("reading the density",
+                [&] { in_agreement_with_caller(communicator, [&] { density = make_density(options); }); });
   try {
-    State state = progress.step("placing generators", [&] {
-      return options.start.file.empty() ? first_state(options, *density, evaluator, progress)
-                                        : state_of(start, options);
+    const std::shared_ptr<engine::Evaluator> evaluator = ranks.evaluator(*density);
+    Tessellation t = progress.step("placing generators", [&] {
+      return options.start.file.empty() ? first_tessellation(options, *evaluator, progress)
+                                        : tessellation_of(communicator, start, options);
     });
-    const std::int64_t steps_before = state.steps;
-    const engine::Result result =
-        progress.step("iterating", [&] { return iterate(options, *density, evaluator, state, progress); });
-    files::Mesh mesh = progress.step("triangulating", [&] { return files::triangulate(state.generators); });
-    const std::string quality = methods::quality_of(mesh).text();
-    progress.step("writing", [&] {
-      mesh.density = engine::values_at(state.generators, *density);
-      mesh.notes = notes_of(options, state, result.progress);
-      write(options.output, std::move(mesh));
+    const std::int64_t steps_before = t.state.steps;
+    progress.step("iterating", [&] { iterate(options, ranks, *evaluator, t, progress); });
+    const engine::Progress& reached = t.result.progress;
+    const std::string quality = progress.step("writing", [&] {
+      return write(ranks, options.output, false, t, *density, notes_of(options, t.state, reached));
     });
     progress.finish(fmt::format("{} generators, {} evaluations, {}: gradient {:.3g}, energy {:.9g}",
-                                state.generators.size(), state.evaluations,
-                                end_of(options, result, state.steps > steps_before), result.progress.gradient,
-                                result.progress.energy));
+                                reached.generators, t.state.evaluations,
+                                end_of(options, t.result, t.state.steps > steps_before), reached.gradient,
+                                reached.energy));
     say(quality);
   } catch (const engine::BadDensity& e) {
     if (options.density_file.empty() || !std::isnan(e.value)) throw;
     const files::LonLat where({e.place}, true);
-    throw std::runtime_error(fmt::format(
+    throw engine::NoTessellation(fmt::format(
         "{}: the density is not known on the whole sphere: the nodes leave out lon {:.6g} lat {:.6g}",
         options.density_file, where.lon[0], where.lat[0]));
   } catch (const engine::BadGenerators& e) {
-    throw std::runtime_error((start.file.empty() ? "" : start.file + ": ") + e.what());
+    throw engine::NoTessellation((start.file.empty() ? "" : start.file + ": ") + e.what());
+  } catch (const pstripack::AgreedFailure&) {
+    throw engine::NoTessellation("out of memory");
   }
+}
+
+void scvt(Options& options) {
+  if ((options.n > 0) == !options.start.file.empty())
+    throw CLI::ValidationError("N", "give either N, for new generators, or --start FILE");
+  options.output.choose();
+  if (!options.checkpoint.file.empty()) options.checkpoint.choose(files::Format::netcdf);
+  if (!options.density.empty()) make_density(options);
+  on_all_ranks([&](Ranks& ranks) { scvt(options, ranks); });
 }
 
 }  // namespace

@@ -592,6 +592,69 @@ ranks)
   cmp serial.lists alone.lists
   ;;
 
+scvt_ranks)
+  # shellcheck disable=SC2086  # lists of words on purpose
+  run() { ranks=$1; shift; $MPIRUN -n "$ranks" "$PSTRIPACK" -q "$@"; }
+  fourteen="--density bump --tolerance 1e-9 --evaluations 14 --every 4 --checkpoint"
+  thirty="--density bump --tolerance 1e-9 --evaluations 30"
+  # The same bytes for any number of ranks and threads, output and checkpoint, in each kind of file.
+  for run in 2:1:nc 3:2:mpas.nc; do
+    suffix=${run##*:} threads=${run%:*}
+    # shellcheck disable=SC2086
+    "$PSTRIPACK" -q scvt 300 $fourteen one.nc -o one.$suffix
+    # shellcheck disable=SC2086
+    run ${run%%:*} --threads ${threads#*:} scvt 300 $fourteen ranks.nc -o ranks.$suffix
+    cmp one.$suffix ranks.$suffix
+    cmp one.nc ranks.nc
+  done
+  # More ranks than generators, and the same levels where a process alone would begin with a front.
+  "$PSTRIPACK" -q scvt 4 -o one.nodes.nc
+  run 5 scvt 4 -o ranks.nodes.nc
+  cmp one.nodes.nc ranks.nodes.nc
+  "$PSTRIPACK" -q scvt 3000 --first levels --evaluations 1 --tolerance 0.01 -o one.off
+  run 2 scvt 3000 --evaluations 1 --tolerance 0.01 -o ranks.off
+  cmp one.off ranks.off
+  # The checkpoint of three ranks goes on to the same bytes on two and on one.
+  # shellcheck disable=SC2086
+  "$PSTRIPACK" -q scvt 300 $thirty -o direct.nodes.nc
+  # shellcheck disable=SC2086
+  run 2 scvt --start ranks.nc $thirty -o resumed.nodes.nc
+  cmp direct.nodes.nc resumed.nodes.nc
+  # shellcheck disable=SC2086
+  "$PSTRIPACK" -q scvt --start ranks.nc $thirty -o resumed.nodes.nc
+  cmp direct.nodes.nc resumed.nodes.nc
+  # So does that of a run that was killed.
+  rm ranks.nc
+  $MPIRUN -n 3 "$PSTRIPACK" -q scvt 300 --density bump --tolerance 1e-12 --evaluations 1e5 --every 1 --checkpoint ranks.nc -o killed.nc 2> err &
+  job=$!
+  for _ in $(seq 600); do [ -e ranks.nc ] && break; sleep 0.1; done
+  kill -TERM $job
+  wait $job || true
+  [ -e ranks.nc ] || fail "no checkpoint in a minute: $(cat err)"
+  [ ! -e killed.nc ] || fail "killed.nc was written by a killed run"
+  "$PSTRIPACK" -q scvt 300 --density bump --tolerance 1e-12 --evaluations 1000 -o direct.nodes.nc
+  run 2 scvt --start ranks.nc --tolerance 1e-12 --evaluations 1000 -o resumed.nodes.nc
+  cmp direct.nodes.nc resumed.nodes.nc
+  # What ranks cannot do: one message, exit code 1, nothing written.
+  octahedron > start.txt
+  "$PSTRIPACK" -q points hemisphere 30 -o half.nodes.nc
+  while IFS='|' read -r arguments words; do
+    code=0
+    # shellcheck disable=SC2086
+    run 2 scvt $arguments > out 2> err < /dev/null || code=$?
+    [ $code = 1 ] || fail "$arguments: exit code $code: $(cat err)"
+    [ "$(grep -c ^pstripack: err)" = 1 ] && grep -qF -- "$words" err || fail "$arguments: $(cat err)"
+    [ ! -e failed.nc ] && [ ! -e failed.vtu ] || fail "$arguments: wrote a file"
+  done <<END
+10 --first front -o failed.nc|--first front: a front is made by one process
+10 -o failed.vtu|failed.vtu: several ranks write ugrid, mpas,
+10 -o no/failed.nc|no/failed.nc: cannot be written: No such file
+--start start.txt -o failed.nc|start.txt: several ranks read NetCDF, each its part: \`pstripack convert start.txt
+--start half.nodes.nc -o failed.nc|half.nodes.nc: the generators lie in one hemisphere
+10 --density-file start.txt -o failed.nc|start.txt
+END
+  ;;
+
 *)
   fail "unknown case $1"
   ;;

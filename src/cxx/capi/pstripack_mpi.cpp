@@ -374,7 +374,8 @@ int32_t pstripack_mesh_scvt(pstripack_mesh* handle, int64_t n, double* xyz, cons
       const pstripack_scvt_options chosen = checked_by_all(ranks, options);
       StartOfRun start(ranks, n, xyz, number, chosen);
       const DensityOfCaller values(density);
-      scvt::DistributedEvaluator evaluator(mesh, start.numbers, values);
+      scvt::DistributedEvaluator evaluator(mesh, values);
+      evaluator.begin_with(start.numbers);
       const scvt::Result found = scvt::minimize(evaluator, start.state, start.how);
       evaluator.triangulate(start.state.generators);
       if (n > 0) std::memcpy(xyz, start.state.generators.data(), start.numbers.size() * sizeof(Point));

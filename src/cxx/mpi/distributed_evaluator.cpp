@@ -1,16 +1,29 @@
 #include "mpi/distributed_evaluator.h"
 
 #include <algorithm>
-#include <array>
 #include <string>
 
 #include "parallel/agreement.h"
-#include "scvt/agreement.h"
 #include "scvt/errors.h"
 
 namespace pstripack::scvt {
 
-void DistributedEvaluator::triangulate(const std::vector<Point>& generators) {
+void DistributedEvaluator::begin_with(const std::vector<std::int64_t>& numbers) {
+  in_agreement(ranks(), [&] { numbers_ = numbers; });
+  own_ = numbers.size();
+}
+
+std::vector<std::int32_t> DistributedEvaluator::homes(const std::vector<Point>& generators) {
+  triangulate_mesh(generators);
+  std::vector<std::int32_t> homes;
+  in_agreement(ranks(), [&] {
+    homes.resize(generators.size());
+    if (!homes.empty()) mesh_.home(static_cast<std::int64_t>(homes.size()), &generators[0].x, homes.data());
+  });
+  return homes;
+}
+
+void DistributedEvaluator::triangulate_mesh(const std::vector<Point>& generators) {
   const double* const xyz = generators.empty() ? nullptr : &generators[0].x;
   const std::int32_t code =
       mesh_.triangulate(static_cast<std::int64_t>(generators.size()), xyz, numbers_.data());
@@ -30,21 +43,21 @@ void DistributedEvaluator::triangulate(const std::vector<Point>& generators) {
   }
 }
 
-void DistributedEvaluator::evaluate(const std::vector<Point>& generators, Cells& cells) {
-  triangulate(generators);
-  const std::size_t own = generators.size();
+Neighbourhood DistributedEvaluator::triangulate(const std::vector<Point>& generators) {
+  triangulate_mesh(generators);
   OnAny have_boundary;
   in_agreement(
-      mesh_.ranks(),
+      ranks(),
       [&] {
         const OwnStars& stars = mesh_.own();
-        numbers_of_halo_.resize(stars.outside().size());
-        points_.resize(own + numbers_of_halo_.size());
-        begin_.resize(own + 1);
-        end_.resize(own);
+        const std::size_t halo = stars.outside().size();
+        numbers_.resize(own_ + halo);
+        points_.resize(own_ + halo);
+        begin_.resize(own_ + 1);
+        end_.resize(own_);
         neighbour_.resize(stars.arcs());
         std::copy(generators.begin(), generators.end(), points_.begin());
-        if (!numbers_of_halo_.empty()) stars.halo(numbers_of_halo_.data(), &points_[own].x);
+        if (halo > 0) stars.halo(&numbers_[own_], &points_[own_].x);
         stars.local_stars(begin_.data(), neighbour_.data());
         std::transform(begin_.begin() + 1, begin_.end(), end_.begin(),
                        [](std::int64_t end) { return static_cast<std::int32_t>(end); });
@@ -53,28 +66,7 @@ void DistributedEvaluator::evaluate(const std::vector<Point>& generators, Cells&
       },
       have_boundary);
   if (have_boundary.value) throw GeneratorsInHemisphere();
-  in_agreement_with_caller(mesh_.ranks(), [&] {
-    integrate(points_.data(), {own, end_.data(), neighbour_.data()}, density_, cells);
-  });
+  return {points_.data(), numbers_.data(), {own_, end_.data(), neighbour_.data()}};
 }
-
-void DistributedEvaluator::add_up(ExactSum* sums, std::size_t count) {
-  constexpr std::size_t kTogether = 4;
-  std::array<ExactSum::Words, kTogether> words;
-  for (std::size_t at = 0; at < count; at += kTogether) {
-    const std::size_t n = std::min(kTogether, count - at);
-    for (std::size_t i = 0; i < n; ++i) words[i] = sums[at + i].words();
-    mesh_.ranks().all_sum(words[0].data(), n * words[0].size());
-    for (std::size_t i = 0; i < n; ++i) sums[at + i] = ExactSum::of(words[i]);
-  }
-}
-
-double DistributedEvaluator::largest(double value) {
-  LargestReal vote{value};
-  agree(mesh_.ranks(), vote);
-  return vote.value;
-}
-
-void DistributedEvaluator::allocate(const std::function<void()>& body) { in_agreement(mesh_.ranks(), body); }
 
 }  // namespace pstripack::scvt

@@ -2,7 +2,6 @@
 // Energy and gradient of generators that stay on their ranks.
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "mpi/distributed_mesh.h"
@@ -14,27 +13,24 @@ namespace pstripack::scvt {
 /// the generators in the order of their numbers.
 class DistributedEvaluator final : public Evaluator {
  public:
-  /// Of generators with these global numbers, in each call. All must outlive this.
-  DistributedEvaluator(DistributedMesh& mesh, const std::vector<std::int64_t>& numbers,
-                       const Density& density)
-      : mesh_(mesh), numbers_(numbers), density_(density) {}
+  /// Both must outlive this.
+  DistributedEvaluator(DistributedMesh& mesh, const Density& density) : Evaluator(density), mesh_(mesh) {}
 
-  /// Throws AgreedFailure, too, and what the density throws as a Failure.
-  void evaluate(const std::vector<Point>& generators, Cells& cells) override;
-  void add_up(ExactSum* sums, std::size_t count) override;
-  double largest(double value) override;
-  void allocate(const std::function<void()>& body) override;
-
-  /// The mesh becomes that of the generators. Collective. Throws BadGenerators, AgreedFailure.
-  void triangulate(const std::vector<Point>& generators);
+  Communicator& ranks() override { return mesh_.ranks(); }
+  void begin_with(const std::vector<std::int64_t>& numbers) override;
+  std::vector<std::int32_t> homes(const std::vector<Point>& generators) override;
+  /// The mesh becomes that of the generators.
+  Neighbourhood triangulate(const std::vector<Point>& generators) override;
 
  private:
+  void triangulate_mesh(const std::vector<Point>& generators);
+
   DistributedMesh& mesh_;
-  const std::vector<std::int64_t>& numbers_;
-  const Density& density_;
-  // In local numbers: own generators, then neighbours that other ranks have.
+  std::size_t own_ = 0;  ///< generators of this rank
+  // Own generators, then neighbours that other ranks have.
+  std::vector<std::int64_t> numbers_;
   std::vector<Point> points_;
-  std::vector<std::int64_t> begin_, numbers_of_halo_;
+  std::vector<std::int64_t> begin_;
   std::vector<std::int32_t> end_, neighbour_;
 };
 

@@ -16,14 +16,21 @@ namespace pstripack::scvt {
 /// Runs body(), which may call a density or another procedure of the caller, on every rank and agrees on how
 /// it ended, and on the votes as they are after it. All ranks throw the same: AgreedFailure if memory ran
 /// out; else what the caller's procedure threw on the lowest rank, as a NoTessellation with its text; else
-/// BadDensity at the least place. Collective.
+/// BadDensity at the least place. A rank alone throws what body() throws, but for std::bad_alloc. Collective.
 template <class Body, class... Votes>
 void in_agreement_with_caller(Communicator& ranks, const Body& body, Votes&... votes) {
+  if (ranks.size() == 1) {
+    try {
+      return body();
+    } catch (const std::bad_alloc&) {
+      throw AgreedFailure(code_of(std::current_exception()));
+    }
+  }
   struct Complaint {
     bool is_of_density;
     Point place;
     double value;
-    char text[200];
+    char text[1000];
   };
   std::optional<Complaint> mine;
   const auto complain = [&](const char* text) {

@@ -1,10 +1,13 @@
 #include "scvt/evaluator.h"
 
 #include <algorithm>
+#include <array>
+#include <numeric>
 #include <string>
 
 #include "geometry/predicates.h"
 #include "lists/limits.h"
+#include "scvt/agreement.h"
 #include "scvt/errors.h"
 #include "trmesh/trmesh.h"
 
@@ -95,8 +98,38 @@ Stars triangulate(const std::vector<Point>& generators, std::vector<std::int32_t
   return {n, lend.data(), list.data()};
 }
 
-void LocalEvaluator::evaluate(const std::vector<Point>& generators, Cells& cells) {
-  integrate(generators.data(), triangulate(generators, list_, lptr_, lend_), density_, cells);
+void Evaluator::evaluate(const std::vector<Point>& generators, Cells& cells) {
+  const Neighbourhood here = triangulate(generators);
+  in_agreement_with_caller(ranks(), [&] { integrate(here.points, here.stars, density_, cells); });
+}
+
+void Evaluator::add_up(ExactSum* sums, std::size_t count) {
+  if (ranks().size() == 1) return;
+  constexpr std::size_t kTogether = 4;
+  std::array<ExactSum::Words, kTogether> words;
+  for (std::size_t at = 0; at < count; at += kTogether) {
+    const std::size_t n = std::min(kTogether, count - at);
+    for (std::size_t i = 0; i < n; ++i) words[i] = sums[at + i].words();
+    ranks().all_sum(words[0].data(), n * words[0].size());
+    for (std::size_t i = 0; i < n; ++i) sums[at + i] = ExactSum::of(words[i]);
+  }
+}
+
+double Evaluator::largest(double value) {
+  LargestReal vote{value};
+  agree(ranks(), vote);
+  return vote.value;
+}
+
+void Evaluator::allocate(const std::function<void()>& body) { in_agreement_with_caller(ranks(), body); }
+
+Neighbourhood LocalEvaluator::triangulate(const std::vector<Point>& generators) {
+  const Stars stars = scvt::triangulate(generators, list_, lptr_, lend_);
+  if (numbers_.size() != stars.count) {
+    numbers_.resize(stars.count);
+    std::iota(numbers_.begin(), numbers_.end(), std::int64_t{1});
+  }
+  return {generators.data(), numbers_.data(), stars};
 }
 
 }  // namespace pstripack::scvt

@@ -10,40 +10,61 @@
 #include "scvt/cells.h"
 #include "scvt/density.h"
 #include "scvt/exact_sum.h"
+#include "scvt/spread.h"
 
 namespace pstripack::scvt {
 
-/// Generators that are spread over ranks, or all here. All members are collective, and all ranks get the same
-/// results and throw the same exceptions.
+/// Where generators are evaluated: here, or on ranks that have some of them each. All members but ranks() and
+/// density() are collective, and all ranks get the same results and throw the same exceptions.
 class Evaluator {
  public:
-  virtual ~Evaluator() = default;
-  /// The cells of this rank's generators (unit vectors). Each rank has the same number in every call. Throws
-  /// BadDensity, BadGenerators, std::bad_alloc.
-  virtual void evaluate(const std::vector<Point>& generators, Cells& cells) = 0;
-  /// Sums over all ranks: each of the `count` sums becomes that of all ranks.
-  virtual void add_up(ExactSum* sums, std::size_t count) = 0;
-  /// The largest value of all ranks.
-  virtual double largest(double value) = 0;
-  /// Runs body() on every rank, where memory may run out: then all ranks throw.
-  virtual void allocate(const std::function<void()>& body) { body(); }
-};
-
-/// All generators are here. The triangulation is that of TRMESH, on threads, with its warm start.
-class LocalEvaluator final : public Evaluator {
- public:
   /// The density must outlive this.
-  explicit LocalEvaluator(const Density& density) : density_(density) {}
+  explicit Evaluator(const Density& density) : density_(density) {}
+  virtual ~Evaluator() = default;
+  Evaluator(const Evaluator&) = delete;
+  Evaluator& operator=(const Evaluator&) = delete;
 
-  void evaluate(const std::vector<Point>& generators, Cells& cells) override;
-  void add_up(ExactSum*, std::size_t) override {}
-  double largest(double value) override { return value; }
+  virtual Communicator& ranks() = 0;
+  const Density& density() const { return density_; }
 
-  /// Of the last call of evaluate: LIST and LEND, canonical.
-  Stars stars() const { return {lend_.size(), lend_.data(), list_.data()}; }
+  /// From now on this rank has the generators with these numbers.
+  virtual void begin_with(const std::vector<std::int64_t>& numbers) = 0;
+  /// The rank where each of this rank's generators should be, so that neighbours are together. Throws as
+  /// triangulate().
+  virtual std::vector<std::int32_t> homes(const std::vector<Point>& generators) = 0;
+  /// This rank's generators (unit vectors), which may have moved, and their stars, until the next call.
+  /// Throws BadGenerators, std::bad_alloc, AgreedFailure.
+  virtual Neighbourhood triangulate(const std::vector<Point>& generators) = 0;
+
+  /// Their cells. Throws BadDensity, what the density throws, and as triangulate().
+  virtual void evaluate(const std::vector<Point>& generators, Cells& cells);
+  /// Sums over all ranks: each of the `count` sums becomes that of all ranks.
+  void add_up(ExactSum* sums, std::size_t count);
+  /// The largest value of all ranks, of values that are not negative.
+  double largest(double value);
+  /// Runs body() on every rank, where memory may run out: then all ranks throw.
+  void allocate(const std::function<void()>& body);
 
  private:
   const Density& density_;
+};
+
+/// All generators are here, with the numbers 1, 2, ... The triangulation is that of TRMESH, on threads, with
+/// its warm start.
+class LocalEvaluator : public Evaluator {
+ public:
+  using Evaluator::Evaluator;
+
+  Communicator& ranks() override { return alone_; }
+  void begin_with(const std::vector<std::int64_t>&) override {}
+  std::vector<std::int32_t> homes(const std::vector<Point>& generators) override {
+    return std::vector<std::int32_t>(generators.size());
+  }
+  Neighbourhood triangulate(const std::vector<Point>& generators) override;
+
+ private:
+  SingleProcess alone_;
+  std::vector<std::int64_t> numbers_;
   std::vector<std::int32_t> list_, lptr_, lend_;
 };
 

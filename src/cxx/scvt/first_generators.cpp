@@ -3,31 +3,34 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
+#include <cstring>
+#include <optional>
 #include <string>
+#include <tuple>
+#include <utility>
 
-#include "base/workspace.h"
-#include "geometry/insertion_order.h"
+#include "parallel/local_nodes.h"
+#include "scvt/agreement.h"
 #include "scvt/errors.h"
-#include "scvt/evaluator.h"
 #include "scvt/vectors.h"
 
 namespace pstripack::scvt {
 namespace {
 
-/// SplitMix64 (Steele, Lea, Flood 2014).
+/// SplitMix64 (Steele, Lea, Flood 2014), which can begin anywhere.
 class Random {
  public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
+  Random(std::uint64_t seed, std::uint64_t numbers_before) : state_(seed + numbers_before * kStep) {}
   /// In [0,1).
   double uniform() {
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15);
+    std::uint64_t z = (state_ += kStep);
     z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9;
     z = (z ^ z >> 27) * 0x94d049bb133111eb;
     return static_cast<double>((z ^ z >> 31) >> 11) * 0x1p-53;
   }
 
  private:
+  static constexpr std::uint64_t kStep = 0x9e3779b97f4a7c15;
   std::uint64_t state_;
 };
 
@@ -61,6 +64,12 @@ std::vector<Patch> octahedron(int cuts) {
   return patches;
 }
 
+/// A random point, and its number among the candidates of which some are taken.
+struct Drawn {
+  std::size_t candidate;
+  Point point;
+};
+
 /// Draws points with the square root of a density. A patch is chosen by its area and the largest density seen
 /// in it; a point in it is then taken with the chance that its density has. Where the density hides a higher
 /// peak there are too few points: good enough to begin.
@@ -83,22 +92,26 @@ class Sampler {
     }
   }
 
-  std::vector<Point> draw(std::size_t n, Random& random) const {
+  /// Of the candidates first..last-1 those that are taken.
+  std::vector<Drawn> draw(std::size_t first, std::size_t last, std::uint64_t seed) const {
+    constexpr std::uint64_t kNumbers = 4;  // of each candidate
     std::vector<Point> points;
-    points.reserve(n);
-    while (points.size() < n) {
+    std::vector<double> chances;
+    Random random(seed, kNumbers * first);
+    for (std::size_t k = first; k < last; ++k) {
       const auto place = std::upper_bound(until_.begin(), until_.end(), random.uniform() * until_.back());
       const auto i = std::min(static_cast<std::size_t>(place - until_.begin()), patches_.size() - 1);
       double u = random.uniform(), v = random.uniform();
-      const double chance = random.uniform();
+      chances.push_back(random.uniform() * most_[i]);
       if (u + v > 1) u = 1 - u, v = 1 - v;
       const auto& c = patches_[i].corner;
-      const Point p = normalized(plus(scaled(1 - u - v, c[0]), plus(scaled(u, c[1]), scaled(v, c[2]))));
-      const double value = density_.at(p);
-      if (!(value > 0 && std::isfinite(value))) throw BadDensity(p, value);
-      if (chance * most_[i] <= std::sqrt(value)) points.push_back(p);
+      points.push_back(normalized(plus(scaled(1 - u - v, c[0]), plus(scaled(u, c[1]), scaled(v, c[2])))));
     }
-    return along_a_curve(points);
+    const std::vector<double> values = values_at(points, density_);
+    std::vector<Drawn> taken;
+    for (std::size_t k = 0; k < points.size(); ++k)
+      if (chances[k] <= std::sqrt(values[k])) taken.push_back({first + k, points[k]});
+    return taken;
   }
 
  private:
@@ -107,16 +120,84 @@ class Sampler {
   std::vector<double> most_, until_;
 };
 
-bool surround_the_sphere(const std::vector<Point>& points) {
+/// The first n of all ranks that are taken, from a candidate on, which becomes the next one. Collective.
+Spread draw(Communicator& ranks, const Sampler& sampler, std::size_t n, std::uint64_t seed,
+            std::size_t& candidate) {
+  const auto size = static_cast<std::size_t>(ranks.size()), me = static_cast<std::size_t>(ranks.rank());
+  const auto wanted = static_cast<std::int64_t>(n);
+  std::vector<Point> points;
+  std::int64_t found = 0;
+  while (found < wanted) {
+    std::vector<Drawn> taken;
+    in_agreement_with_caller(ranks, [&] {
+      taken =
+          sampler.draw(candidate + slice_begin(n, me, size), candidate + slice_begin(n, me + 1, size), seed);
+    });
+    const std::int64_t before = found + sum_before(ranks, taken.size());
+    found += sum_of_all(ranks, taken.size());
+    Smallest next;
+    in_agreement(
+        ranks,
+        [&] {
+          const std::int64_t left = std::max(wanted - before, std::int64_t{0});
+          const std::size_t count = std::min(taken.size(), static_cast<std::size_t>(left));
+          for (std::size_t k = 0; k < count; ++k) points.push_back(taken[k].point);
+          if (count > 0 && before + static_cast<std::int64_t>(count) == wanted)
+            next.value = static_cast<std::int64_t>(taken[count - 1].candidate) + 1;
+        },
+        next);
+    candidate = next.exists() ? static_cast<std::size_t>(next.value) : candidate + n;
+  }
+  return along_a_curve(ranks, points);
+}
+
+bool surround_the_sphere(Evaluator& evaluator, const Spread& generators) {
+  evaluator.begin_with(generators.numbers);
   try {
-    std::vector<std::int32_t> list, lptr, lend;
-    triangulate(points, list, lptr, lend);
+    evaluator.triangulate(generators.points);
     return true;
   } catch (const GeneratorsInHemisphere&) {
     return false;
   } catch (const CoincidentGenerators&) {
     return false;
   }
+}
+
+/// The middle of the arc between two generators.
+struct Middle {
+  std::uint64_t key;      ///< the smaller the longer the arc, measured in local cells
+  std::int64_t from, to;  ///< numbers
+  Point point;
+};
+
+/// A number that is larger where the length is smaller; below 2^63.
+std::uint64_t key_of(double length) {
+  std::uint64_t bits = 0;  // those of positive numbers are in their order
+  std::memcpy(&bits, &length, sizeof bits);
+  return (std::uint64_t{1} << 63) - 1 - bits;
+}
+
+/// Of the arcs to neighbours with larger numbers, the longest first.
+std::vector<Middle> middles_of(const Neighbourhood& generators, const Density& density) {
+  const Stars& stars = generators.stars;
+  std::vector<Middle> middles;
+  std::vector<Point> places;
+  std::vector<double> squares;
+  for (std::size_t i = 0; i < stars.count; ++i)
+    for (std::size_t s = stars.begin_of(i); s < stars.end_of(i); ++s) {
+      const auto j = static_cast<std::size_t>(stars.neighbour[s]) - 1;
+      if (generators.numbers[j] < generators.numbers[i]) continue;
+      places.push_back(normalized(plus(generators.points[i], generators.points[j])));
+      const Point d = minus(generators.points[i], generators.points[j]);
+      squares.push_back(dot(d, d));
+      middles.push_back({0, generators.numbers[i], generators.numbers[j], places.back()});
+    }
+  const std::vector<double> values = values_at(places, density);
+  for (std::size_t k = 0; k < middles.size(); ++k) middles[k].key = key_of(squares[k] * std::sqrt(values[k]));
+  std::sort(middles.begin(), middles.end(), [](const Middle& a, const Middle& b) {
+    return std::tie(a.key, a.from, a.to) < std::tie(b.key, b.from, b.to);
+  });
+  return middles;
 }
 
 }  // namespace
@@ -129,31 +210,27 @@ std::vector<double> values_at(const std::vector<Point>& points, const Density& d
   return values;
 }
 
-std::vector<Point> along_a_curve(const std::vector<Point>& points) {
-  Workspace workspace(16 * points.size() + (std::size_t{1} << 20));
-  std::vector<std::uint32_t> order(points.size());
-  insertion_order(points.data(), points.size(), order.data(), workspace);
-  std::vector<Point> sorted;
-  sorted.reserve(points.size());
-  for (const std::uint32_t i : order) sorted.push_back(points[i]);
-  return sorted;
-}
-
-std::vector<Point> random_generators(std::size_t n, const Density& density, std::uint64_t seed) {
+Spread random_generators(Evaluator& evaluator, std::size_t n, std::uint64_t seed) {
   if (n < 4) throw BadGenerators("a tessellation needs at least 4 generators, here are " + std::to_string(n));
   // Seven in eight sets of four points lie in a hemisphere, and nearly all sets of few points where most of
   // the density does: then the points are uniform.
   constexpr int kTrials = 20;
   const ConstantDensity uniform;
-  Random random(seed);
-  for (const Density* of : {&density, static_cast<const Density*>(&uniform)}) {
-    const Sampler sampler(*of);
+  std::size_t candidate = 0;
+  for (const Density* of : {&evaluator.density(), static_cast<const Density*>(&uniform)}) {
+    std::optional<Sampler> sampler;
+    in_agreement_with_caller(evaluator.ranks(), [&] { sampler.emplace(*of); });
     for (int trial = 0; trial < kTrials || of == &uniform; ++trial) {
-      std::vector<Point> points = sampler.draw(n, random);
-      if (surround_the_sphere(points)) return points;
+      Spread points = draw(evaluator.ranks(), *sampler, n, seed, candidate);
+      if (surround_the_sphere(evaluator, points)) return points;
     }
   }
   return {};  // never reached
+}
+
+std::vector<Point> random_generators(std::size_t n, const Density& density, std::uint64_t seed) {
+  LocalEvaluator evaluator(density);
+  return random_generators(evaluator, n, seed).points;
 }
 
 std::vector<std::size_t> level_sizes(std::size_t n) {
@@ -168,26 +245,34 @@ std::vector<std::size_t> level_sizes(std::size_t n) {
   return sizes;
 }
 
-std::vector<Point> refined(const std::vector<Point>& generators, const Stars& stars, const Density& density,
-                           std::size_t n) {
-  std::vector<Point> points = generators, middles;
-  std::vector<double> length;
-  for (std::size_t i = 0; i < stars.count; ++i)
-    for (std::size_t j = stars.begin_of(i); j < stars.end_of(i); ++j) {
-      const auto other = static_cast<std::size_t>(stars.neighbour[j]) - 1;
-      if (other < i) continue;
-      middles.push_back(normalized(plus(generators[i], generators[other])));
-      const Point d = minus(generators[i], generators[other]);
-      length.push_back(dot(d, d));
-    }
-  const std::vector<double> values = values_at(middles, density);
-  for (std::size_t k = 0; k < length.size(); ++k) length[k] *= std::sqrt(values[k]);
-  std::vector<std::size_t> order(middles.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return length[a] > length[b]; });
-  for (std::size_t k = 0; points.size() < n && k < order.size(); ++k) points.push_back(middles[order[k]]);
-  return along_a_curve(points);
+Spread refined(Communicator& ranks, const Neighbourhood& generators, const Density& density, std::size_t n) {
+  constexpr std::uint64_t kNobody = std::uint64_t{1} << 62;  // above all numbers
+  std::vector<Middle> middles;
+  in_agreement_with_caller(ranks, [&] { middles = middles_of(generators, density); });
+  // The first so many of all ranks: those of smaller keys, of the next key those from smaller generators, and
+  // what is left from the next generator, which is on one rank.
+  const std::int64_t wanted = static_cast<std::int64_t>(n) - sum_of_all(ranks, generators.stars.count);
+  const auto before = [&](std::uint64_t key, std::int64_t from) {
+    return static_cast<std::size_t>(std::lower_bound(middles.begin(), middles.end(), std::pair(key, from),
+                                                     [](const Middle& m, const auto& bound) {
+                                                       return std::tie(m.key, m.from) <
+                                                              std::tie(bound.first, bound.second);
+                                                     }) -
+                                    middles.begin());
+  };
+  const std::uint64_t key = bounds(ranks, {wanted}, [&](std::uint64_t k) { return before(k, 0); })[0];
+  const auto from = static_cast<std::int64_t>(std::min(kNobody, bounds(ranks, {wanted}, [&](std::uint64_t f) {
+                                                         return before(key, static_cast<std::int64_t>(f));
+                                                       })[0]));
+  const std::size_t whole = before(key, from);
+  const std::int64_t left = wanted - sum_of_all(ranks, whole);
+  const std::size_t taken = std::min(whole + static_cast<std::size_t>(left), before(key, from + 1));
+  std::vector<Point> points;
+  in_agreement(ranks, [&] {
+    points.assign(generators.points, generators.points + generators.stars.count);
+    for (std::size_t k = 0; k < taken; ++k) points.push_back(middles[k].point);
+  });
+  return along_a_curve(ranks, points);
 }
 
 }  // namespace pstripack::scvt

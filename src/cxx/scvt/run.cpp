@@ -1,9 +1,11 @@
 #include "scvt/run.h"
 
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <utility>
 
+#include "parallel/agreement.h"
 #include "scvt/errors.h"
 #include "scvt/evaluator.h"
 #include "scvt/first_generators.h"
@@ -15,24 +17,89 @@ void check_count(std::size_t n) {
   if (n < 4) throw BadGenerators("a tessellation needs at least 4 generators, here are " + std::to_string(n));
 }
 
+/// Of each generator its place, and step and change of each pair.
+Rows rows_of(const Tessellation& t) {
+  Rows rows{3 + 6 * t.state.pairs.size(), {}, t.numbers};
+  rows.values.reserve(rows.width * t.numbers.size());
+  const auto add = [&](const Point& p) { rows.values.insert(rows.values.end(), {p.x, p.y, p.z}); };
+  for (std::size_t i = 0; i < t.numbers.size(); ++i) {
+    add(t.state.generators[i]);
+    for (const State::Pair& pair : t.state.pairs) add(pair.step[i]), add(pair.change[i]);
+  }
+  return rows;
+}
+
+void take_rows(Tessellation& t, Rows&& rows) {
+  const std::size_t n = rows.numbers.size();
+  t.numbers = std::move(rows.numbers);
+  t.state.generators.resize(n);
+  for (State::Pair& pair : t.state.pairs) pair.step.resize(n), pair.change.resize(n);
+  const double* value = rows.values.data();
+  const auto take = [&](Point& p) {
+    p = {value[0], value[1], value[2]};
+    value += 3;
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    take(t.state.generators[i]);
+    for (State::Pair& pair : t.state.pairs) take(pair.step[i]), take(pair.change[i]);
+  }
+}
+
+/// Generator i and what belongs to it go to the rank to[i].
+void move(Communicator& ranks, Tessellation& t, const std::vector<std::int32_t>& to) {
+  Rows rows;
+  in_agreement(ranks, [&] { rows = rows_of(t); });
+  rows = moved(ranks, rows, to);
+  in_agreement(ranks, [&] { take_rows(t, std::move(rows)); });
+}
+
+Tessellation begun_with(Spread&& generators) {
+  Tessellation t;
+  t.numbers = std::move(generators.numbers);
+  t.state.generators = std::move(generators.points);
+  return t;
+}
+
 }  // namespace
 
-Tessellation run(std::size_t n, const Density& density, const RunOptions& options) {
+Tessellation first_generators(Evaluator& evaluator, std::size_t n, const RunOptions& options) {
   check_count(n);
   const std::vector<std::size_t> sizes = options.levels ? level_sizes(n) : std::vector<std::size_t>{n};
-  LocalEvaluator evaluator(density);
-  Tessellation done;
-  done.state = State(random_generators(sizes[0], density, options.seed));
-  for (std::size_t level = 0;; ++level) {
-    done.result = minimize(evaluator, done.state, options);
-    done.evaluations +=
-        static_cast<double>(done.state.evaluations * static_cast<std::int64_t>(sizes[level])) /
-        static_cast<double>(n);
-    if (level + 1 == sizes.size() || done.result.end == End::stopped) return done;
-    std::vector<std::int32_t> list, lptr, lend;
-    const Stars stars = triangulate(done.state.generators, list, lptr, lend);
-    done.state = State(refined(done.state.generators, stars, density, sizes[level + 1]));
+  Tessellation t = begun_with(random_generators(evaluator, sizes[0], options.seed));
+  for (std::size_t level = 0; level + 1 < sizes.size(); ++level) {
+    iterate(evaluator, t, options);
+    const double evaluations =
+        t.evaluations + static_cast<double>(t.state.evaluations * static_cast<std::int64_t>(sizes[level])) /
+                            static_cast<double>(n);
+    if (t.result.end != End::stopped) {
+      const Neighbourhood coarse = evaluator.triangulate(t.state.generators);
+      t = begun_with(refined(evaluator.ranks(), coarse, evaluator.density(), sizes[level + 1]));
+    }
+    t.evaluations = evaluations;
+    if (t.result.end == End::stopped) break;
   }
+  return t;
+}
+
+void iterate(Evaluator& evaluator, Tessellation& t, const Options& options) {
+  evaluator.begin_with(t.numbers);
+  if (evaluator.ranks().size() > 1) {
+    move(evaluator.ranks(), t, evaluator.homes(t.state.generators));
+    evaluator.begin_with(t.numbers);
+  }
+  t.result = minimize(evaluator, t.state, options);
+}
+
+Tessellation slice_of(Communicator& ranks, const Tessellation& t) {
+  Tessellation slice;
+  std::vector<std::int32_t> to;
+  const std::int64_t n = sum_of_all(ranks, t.numbers.size());
+  in_agreement(ranks, [&] {
+    slice = t;
+    to = ranks_of_slices(ranks, n, t.numbers);
+  });
+  if (ranks.size() > 1) move(ranks, slice, to);
+  return slice;
 }
 
 Point unit_vector(const Point& g) {
@@ -51,15 +118,25 @@ std::vector<Point> unit_vectors(std::vector<Point> generators) {
   return generators;
 }
 
+Tessellation run(std::size_t n, const Density& density, const RunOptions& options) {
+  LocalEvaluator evaluator(density);
+  Tessellation t = first_generators(evaluator, n, options);
+  if (t.result.end == End::stopped) return t;
+  iterate(evaluator, t, options);
+  t.evaluations += static_cast<double>(t.state.evaluations);
+  return t;
+}
+
 Tessellation run(std::vector<Point> generators, const Density& density, const RunOptions& options) {
   check_count(generators.size());
-  generators = unit_vectors(std::move(generators));
   LocalEvaluator evaluator(density);
-  Tessellation done;
-  done.state = State(std::move(generators));
-  done.result = minimize(evaluator, done.state, options);
-  done.evaluations = static_cast<double>(done.state.evaluations);
-  return done;
+  Tessellation t;
+  t.state.generators = unit_vectors(std::move(generators));
+  t.numbers.resize(t.state.generators.size());
+  std::iota(t.numbers.begin(), t.numbers.end(), std::int64_t{1});
+  iterate(evaluator, t, options);
+  t.evaluations = static_cast<double>(t.state.evaluations);
+  return t;
 }
 
 }  // namespace pstripack::scvt

@@ -1,0 +1,300 @@
+// Centroidal Voronoi tessellations on ranks: the same bits for any number of them.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "parallel/agreement.h"
+#include "point_sets.h"
+#include "scvt/errors.h"
+#include "scvt/evaluator.h"
+#include "scvt/first_generators.h"
+#include "scvt/run.h"
+#include "scvt/spread.h"
+#include "support/thread_ranks.h"
+
+namespace {
+
+using namespace pstripack;
+using namespace pstripack::scvt;
+
+constexpr int kRanks[] = {1, 2, 3, 5, 8};
+
+const BumpDensity kBump({0, 0.6, 0.8}, 0.6, 0.1, 3);
+const ConstantDensity kConstant;
+
+/// What the ranks have, in the order of their numbers.
+class Gathered {
+ public:
+  void add(const std::vector<std::int64_t>& numbers, const std::vector<Point>& points) {
+    const std::lock_guard lock(mutex_);
+    for (std::size_t i = 0; i < numbers.size(); ++i) all_.emplace_back(numbers[i], points[i]);
+    most_on_a_rank = std::max(most_on_a_rank, numbers.size());
+  }
+  std::vector<Point> points() {
+    std::sort(all_.begin(), all_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<Point> points;
+    for (const auto& [number, point] : all_) {
+      points.push_back(point);
+      EXPECT_EQ(number, static_cast<std::int64_t>(points.size()));
+    }
+    return points;
+  }
+  std::size_t most_on_a_rank = 0;
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::pair<std::int64_t, Point>> all_;
+};
+
+/// Each rank triangulates all generators, and keeps its stars: slow, and without MPI.
+class GatheringEvaluator final : public Evaluator {
+ public:
+  GatheringEvaluator(Communicator& ranks, const Density& density) : Evaluator(density), ranks_(ranks) {}
+  Communicator& ranks() override { return ranks_; }
+  void begin_with(const std::vector<std::int64_t>& numbers) override { numbers_ = numbers; }
+  std::vector<std::int32_t> homes(const std::vector<Point>& generators) override {  // somewhere else
+    std::vector<std::int32_t> homes;
+    for (std::size_t i = 0; i < generators.size(); ++i)
+      homes.push_back(static_cast<std::int32_t>(numbers_[i] * 7 % ranks_.size()));
+    return homes;
+  }
+
+  Neighbourhood triangulate(const std::vector<Point>& generators) override {
+    const Parcels numbers = ranks_.all_gather(numbers_.data(), generators.size() * sizeof(std::int64_t));
+    const Parcels points = ranks_.all_gather(generators.data(), generators.size() * sizeof(Point));
+    const Items<std::int64_t> number(numbers);
+    const Items<Point> point(points);
+    std::vector<Point> all(number.size());
+    for (std::size_t i = 0; i < number.size(); ++i)
+      all[static_cast<std::size_t>(number.begin()[i]) - 1] = point.begin()[i];
+    std::vector<std::int32_t> list, lptr, lend;
+    const Stars stars = scvt::triangulate(all, list, lptr, lend);
+    // Own generators first, all the others behind them.
+    numbers_.resize(generators.size());
+    std::vector<std::int32_t> local(all.size());
+    for (std::size_t i = 0; i < numbers_.size(); ++i)
+      local[static_cast<std::size_t>(numbers_[i]) - 1] = static_cast<std::int32_t>(i) + 1;
+    points_ = generators;
+    end_.clear();
+    neighbour_.clear();
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (local[i] == 0) {
+        points_.push_back(all[i]);
+        numbers_.push_back(static_cast<std::int64_t>(i) + 1);
+        local[i] = static_cast<std::int32_t>(points_.size());
+      }
+    for (std::size_t i = 0; i < generators.size(); ++i) {
+      const auto node = static_cast<std::size_t>(numbers_[i]) - 1;
+      for (std::size_t s = stars.begin_of(node); s < stars.end_of(node); ++s)
+        neighbour_.push_back(local[static_cast<std::size_t>(stars.neighbour[s]) - 1]);
+      end_.push_back(static_cast<std::int32_t>(neighbour_.size()));
+    }
+    return {points_.data(), numbers_.data(), {generators.size(), end_.data(), neighbour_.data()}};
+  }
+
+ private:
+  Communicator& ranks_;
+  std::vector<std::int64_t> numbers_;
+  std::vector<Point> points_;
+  std::vector<std::int32_t> end_, neighbour_;
+};
+
+TEST(Spread, RandomGeneratorsAreTheSameOnAnyNumberOfRanks) {
+  constexpr std::size_t kCount = 1001;
+  const std::vector<Point> alone = random_generators(kCount, kBump, 5);
+  ASSERT_EQ(alone.size(), kCount);
+  // Neighbours on the curve are close.
+  double length = 0;
+  for (std::size_t i = 1; i < kCount; ++i) {
+    const Point step = minus(alone[i], alone[i - 1]);
+    length += std::sqrt(dot(step, step));
+  }
+  EXPECT_LT(length, 2.5 * std::sqrt(12.6 * kCount));
+  for (const int size : kRanks) {
+    Gathered gathered;
+    ThreadRanks::run(size, [&](Communicator& ranks) {
+      GatheringEvaluator evaluator(ranks, kBump);
+      const Spread spread = random_generators(evaluator, kCount, 5);
+      gathered.add(spread.numbers, spread.points);
+    });
+    EXPECT_LE(gathered.most_on_a_rank, kCount / static_cast<unsigned>(size) + 2);
+    EXPECT_EQ(gathered.points(), alone) << size;
+  }
+  // So few that some trials lie in a hemisphere, and the next ones must begin at the same candidate.
+  const std::vector<Point> few = random_generators(4, kConstant, 1);
+  for (const int size : kRanks) {
+    Gathered gathered;
+    ThreadRanks::run(size, [&](Communicator& ranks) {
+      GatheringEvaluator evaluator(ranks, kConstant);
+      const Spread spread = random_generators(evaluator, 4, 1);
+      gathered.add(spread.numbers, spread.points);
+    });
+    EXPECT_EQ(gathered.points(), few) << size;
+  }
+}
+
+TEST(Spread, RefinedGeneratorsAreTheSameOnAnyNumberOfRanks) {
+  // Of the icosahedron's refinements many arcs are equally long: the choice is by numbers.
+  for (const auto& [density, points] :
+       {std::pair<const Density*, std::vector<Point>>(&kBump, point_sets::make("random", 500, 1)),
+        {&kConstant, point_sets::make("icosahedral", 642, 1)}})
+    for (const std::size_t n : {points.size(), std::size_t{1000}, 4 * points.size() - 6}) {
+      std::vector<Point> first;
+      for (const int size : kRanks) {
+        Gathered gathered;
+        ThreadRanks::run(size, [&, &points = points, density = density](Communicator& ranks) {
+          GatheringEvaluator evaluator(ranks, *density);
+          Spread mine;
+          for (std::size_t i = 0; i < points.size(); ++i)
+            if (static_cast<int>(i % static_cast<std::size_t>(size)) == ranks.rank()) {
+              mine.points.push_back(points[i]);
+              mine.numbers.push_back(static_cast<std::int64_t>(i) + 1);
+            }
+          evaluator.begin_with(mine.numbers);
+          const Spread finer = refined(ranks, evaluator.triangulate(mine.points), *density, n);
+          gathered.add(finer.numbers, finer.points);
+        });
+        const std::vector<Point> all = gathered.points();
+        EXPECT_EQ(all.size(), n);
+        if (first.empty()) first = all;
+        EXPECT_EQ(all, first) << size;
+      }
+    }
+}
+
+TEST(Spread, RowsGoWhereTheyAreSentAndSlicesAreEqual) {
+  ThreadRanks::run(3, [&](Communicator& ranks) {
+    Rows rows{2, {}, {}};
+    for (std::int64_t number = 1; number <= 100; ++number)
+      if (number * number % 3 == ranks.rank()) {
+        rows.numbers.push_back(number);
+        rows.values.insert(rows.values.end(), {1.0 / static_cast<double>(number), -0.0});
+      }
+    const Rows slice = moved(ranks, rows, ranks_of_slices(ranks, 100, rows.numbers));
+    const std::size_t sizes[] = {33, 33, 34};
+    ASSERT_EQ(slice.numbers.size(), sizes[ranks.rank()]);
+    for (std::size_t i = 0; i < slice.numbers.size(); ++i) {
+      EXPECT_EQ(slice.numbers[i], static_cast<std::int64_t>(i) + 1 + 33 * ranks.rank());
+      EXPECT_EQ(slice.values[2 * i], 1.0 / static_cast<double>(slice.numbers[i]));
+      EXPECT_TRUE(std::signbit(slice.values[2 * i + 1]));
+    }
+  });
+}
+
+RunOptions few_evaluations() {
+  RunOptions options;
+  options.tolerance = 1e-9;
+  options.most_evaluations = 16;
+  return options;
+}
+
+TEST(Run, HasTheSameBitsOnAnyNumberOfRanks) {
+  for (const bool levels : {true, false}) {
+    RunOptions options = few_evaluations();
+    options.levels = levels;
+    if (levels) options.most_evaluations = 6;  // on each
+    const Tessellation alone = run(200, kBump, options);
+    EXPECT_EQ(alone.result.end, End::evaluations);
+    for (const int size : kRanks) {
+      Gathered gathered;
+      ThreadRanks::run(size, [&](Communicator& ranks) {
+        GatheringEvaluator evaluator(ranks, kBump);
+        Tessellation found = first_generators(evaluator, 200, options);
+        iterate(evaluator, found, options);
+        EXPECT_EQ(found.result.progress.energy, alone.result.progress.energy);
+        EXPECT_EQ(found.evaluations + static_cast<double>(found.state.evaluations), alone.evaluations);
+        gathered.add(found.numbers, found.state.generators);
+      });
+      EXPECT_EQ(gathered.points(), alone.state.generators) << size;
+    }
+  }
+}
+
+/// All slices together, as a process alone reads them in a file.
+Tessellation joined(const std::vector<Tessellation>& slices) {
+  Tessellation all = slices[0];
+  for (std::size_t r = 1; r < slices.size(); ++r) {
+    const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+    append(all.numbers, slices[r].numbers);
+    append(all.state.generators, slices[r].state.generators);
+    for (std::size_t k = 0; k < all.state.pairs.size(); ++k) {
+      append(all.state.pairs[k].step, slices[r].state.pairs[k].step);
+      append(all.state.pairs[k].change, slices[r].state.pairs[k].change);
+    }
+  }
+  return all;
+}
+
+TEST(Run, GoesOnWithTheSameBitsOnAnotherNumberOfRanks) {
+  RunOptions options = few_evaluations();
+  options.levels = false;
+  const Tessellation alone = run(200, kBump, options);
+  for (const std::int64_t steps : {2, 6, 13})  // Lloyd's; some pairs; all pairs
+    for (const int size : {1, 2, 8}) {
+      std::vector<Tessellation> slices(static_cast<std::size_t>(size));
+      ThreadRanks::run(size, [&](Communicator& ranks) {
+        GatheringEvaluator evaluator(ranks, kBump);
+        Tessellation t = first_generators(evaluator, 200, options);
+        Options until = options;
+        until.progress = [&](const Progress&) { return t.state.steps < steps; };
+        iterate(evaluator, t, until);
+        EXPECT_EQ(t.result.end, End::stopped);
+        slices[static_cast<std::size_t>(ranks.rank())] = slice_of(ranks, t);
+      });
+      const Tessellation checkpoint = joined(slices);
+      for (std::size_t i = 0; i < 200; ++i)
+        ASSERT_EQ(checkpoint.numbers[i], static_cast<std::int64_t>(i) + 1);
+      Gathered gathered;
+      ThreadRanks::run(size == 2 ? 3 : 2, [&](Communicator& ranks) {
+        Tessellation t = checkpoint;
+        if (ranks.rank() > 0) {  // all on one rank
+          t.numbers.clear();
+          t.state.generators.clear();
+          for (State::Pair& pair : t.state.pairs) pair = {};
+        }
+        GatheringEvaluator evaluator(ranks, kBump);
+        iterate(evaluator, t, options);
+        EXPECT_EQ(t.state.evaluations, alone.state.evaluations);
+        gathered.add(t.numbers, t.state.generators);
+      });
+      EXPECT_EQ(gathered.points(), alone.state.generators) << size << " ranks, " << steps << " steps";
+    }
+}
+
+/// Bad in a small place.
+class Hole final : public Density {
+ public:
+  using Density::at;
+  void at(std::size_t n, const Point* p, double* value) const override {
+    for (std::size_t i = 0; i < n; ++i) value[i] = p[i].x > 0.99 ? -1 : 1;
+  }
+};
+
+TEST(Run, TellsAllRanksOfTheSameBadPlace) {
+  std::string first;
+  for (const int size : kRanks) {
+    std::mutex mutex;
+    std::vector<std::string> told;
+    ThreadRanks::run(size, [&](Communicator& ranks) {
+      try {
+        const Hole hole;
+        GatheringEvaluator evaluator(ranks, hole);
+        first_generators(evaluator, 300, {});
+      } catch (const BadDensity& e) {
+        const std::lock_guard lock(mutex);
+        told.push_back(e.what());
+      }
+    });
+    ASSERT_EQ(told.size(), static_cast<std::size_t>(size));
+    EXPECT_NE(told[0].find("the density is -1 at lon "), std::string::npos);
+    for (const std::string& text : told) EXPECT_EQ(text, told[0]);
+  }
+}
+
+}  // namespace
