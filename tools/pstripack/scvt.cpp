@@ -424,7 +424,7 @@ void add_scvt(CLI::App& app, Command& chosen) {
       ->capture_default_str();
   add_choice(*sub, "--first", options->first,
              {{"front", First::front}, {"levels", First::levels}, {"random", First::random}},
-             "where N generators begin, see below [front from 3000 on, else levels]");
+             "where N generators begin, see below [front from 3000 on, else levels; on ranks levels]");
   sub->add_flag_callback(
          "--levels", [=] { options->first = First::levels; }, "the same as --first levels")
       ->excludes("--first");
@@ -463,7 +463,8 @@ void add_scvt(CLI::App& app, Command& chosen) {
   add_duplicates(*sub, options->start);
   add_output(*sub, options->output, true);
   sub->footer(R"(First generators:
-  front                               an advancing front, which is nearly centroidal already; --seed has no effect
+  front                               an advancing front, which is nearly centroidal already; --seed has no effect; not on
+                                      several ranks
   levels                              few random generators, made centroidal and refined, again and again
   random                              with about the final density
 

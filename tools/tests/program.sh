@@ -611,9 +611,11 @@ scvt_ranks)
   "$PSTRIPACK" -q scvt 4 -o one.nodes.nc
   run 5 scvt 4 -o ranks.nodes.nc
   cmp one.nodes.nc ranks.nodes.nc
-  "$PSTRIPACK" -q scvt 3000 --first levels --evaluations 1 --tolerance 0.01 -o one.off
-  run 2 scvt 3000 --evaluations 1 --tolerance 0.01 -o ranks.off
+  "$PSTRIPACK" scvt 3000 --first levels --evaluations 1 --tolerance 0.01 -o one.off 2> one.err
+  $MPIRUN -n 2 "$PSTRIPACK" scvt 3000 --evaluations 1 --tolerance 0.01 -o ranks.off 2> err
   cmp one.off ranks.off
+  grep -q "^pstripack: 3000 generators, 1 evaluations, .*; on 2 ranks$" err || fail "$(cat err)"
+  [ "$(grep "cells by sides" err)" = "$(grep "cells by sides" one.err)" ] || fail "another quality: $(cat err)"
   # The checkpoint of three ranks goes on to the same bytes on two and on one.
   # shellcheck disable=SC2086
   "$PSTRIPACK" -q scvt 300 $thirty -o direct.nodes.nc
