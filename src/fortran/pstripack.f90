@@ -96,28 +96,7 @@ module pstripack
     end subroutine
   end interface
 
-  ! typedef struct { pstripack_density_procedure at; void* user; int32_t any_thread; } pstripack_density;
-  type, bind(c) :: c_density
-    type(c_funptr) :: at = c_null_funptr
-    type(c_ptr) :: user = c_null_ptr
-    integer(c_int32_t) :: any_thread = 0
-  end type
-
-  ! pstripack_scvt_options of pstripack.h.
-  type, bind(c) :: c_options
-    integer(c_int64_t) :: bytes
-    integer(c_int32_t) :: start, method
-    real(c_double) :: tolerance
-    integer(c_int64_t) :: most_evaluations, seed
-    type(c_funptr) :: progress = c_null_funptr
-    type(c_ptr) :: user = c_null_ptr
-  end type
-
-  ! What the C API gets as `user`.
-  type :: callbacks
-    procedure(pstripack_density), pointer, nopass :: density => null()
-    procedure(pstripack_progress), pointer, nopass :: progress => null()
-  end type
+  include "scvt_types.inc"
 
   !> call pstripack_trmesh(x, y, z, list, lptr, lend, lnew, ier)
   !>
@@ -288,28 +267,12 @@ contains
     procedure(pstripack_progress), optional :: progress
     character(len=*), intent(out), optional :: message
     type(callbacks), target :: caller
-    type(pstripack_scvt_options) :: how
     type(c_density) :: rho
     type(c_options) :: options_c
     character(kind=c_char) :: line(400)
 
     line = c_null_char
-    if (present(options)) how = options
-    if (present(density)) then
-      caller%density => density
-      rho = c_density(c_funloc(call_density), c_loc(caller), merge(1_c_int32_t, 0_c_int32_t, how%density_on_threads))
-    end if
-    options_c%bytes = int(c_sizeof(options_c), c_int64_t)
-    options_c%start = how%start
-    options_c%method = how%method
-    options_c%tolerance = how%tolerance
-    options_c%most_evaluations = how%most_evaluations
-    options_c%seed = how%seed
-    if (present(progress)) then
-      caller%progress => progress
-      options_c%progress = c_funloc(call_progress)
-      options_c%user = c_loc(caller)
-    end if
+    call pass_on(caller, rho, options_c, density, options, progress)
     ier = pstripack_bad_size
     if (size(y) == size(x) .and. size(z) == size(x)) &
       ier = c_scvt(size(x, kind=c_int32_t), x, y, z, rho, options_c, result, line, size(line, kind=c_int32_t))
@@ -358,42 +321,7 @@ contains
     if (present(message) .and. ier == pstripack_bad_size) message = pstripack_strerror(ier)
   end subroutine
 
-  ! void (*pstripack_density_procedure)(int32_t n, const double* xyz, double* values, void* user);
-  subroutine call_density(n, xyz, values, user) bind(c, name="")
-    integer(c_int32_t), value, intent(in) :: n
-    real(c_double), intent(in) :: xyz(3, n)
-    real(c_double), intent(inout) :: values(n)
-    type(c_ptr), value, intent(in) :: user
-    type(callbacks), pointer :: caller
-    call c_f_pointer(user, caller)
-    call caller%density(n, xyz, values)
-  end subroutine
-
-  ! int32_t (*pstripack_scvt_progress_procedure)(const pstripack_scvt_progress* progress, void* user);
-  function call_progress(progress, user) result(stop) bind(c, name="")
-    type(pstripack_scvt_progress), intent(in) :: progress
-    type(c_ptr), value, intent(in) :: user
-    integer(c_int32_t) :: stop
-    type(callbacks), pointer :: caller
-    logical :: wanted
-    call c_f_pointer(user, caller)
-    wanted = .false.
-    call caller%progress(progress, wanted)
-    stop = merge(1_c_int32_t, 0_c_int32_t, wanted)
-  end function
-
-  ! The text of a message of the C API; empty if there is none.
-  subroutine tell(line, message)
-    character(kind=c_char), intent(in) :: line(:)
-    character(len=*), intent(out), optional :: message
-    integer :: i
-    if (.not. present(message)) return
-    message = ""
-    do i = 1, min(len(message), size(line))
-      if (line(i) == c_null_char) exit
-      message(i:i) = line(i)
-    end do
-  end subroutine
+  include "scvt_procedures.inc"
 
   subroutine trmesh_real64(x, y, z, list, lptr, lend, lnew, ier)
     real(c_double), intent(in), contiguous :: x(:), y(:), z(:)

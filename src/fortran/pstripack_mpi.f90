@@ -6,8 +6,11 @@
 !> "Collective": every rank of the communicator calls it, in the same order. Communicators may be integers
 !> (mpif.h, module mpi) or of type(MPI_Comm) (module mpi_f08).
 module pstripack_mpi
-  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_int, c_int32_t, c_int64_t, c_null_ptr, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_pointer, c_funloc, c_funptr, c_int, &
+    c_int32_t, c_int64_t, c_loc, c_null_char, c_null_funptr, c_null_ptr, c_ptr, c_sizeof
   use mpi_f08, only: MPI_Comm
+  use pstripack, only: pstripack_density, pstripack_progress, pstripack_scvt_options, pstripack_scvt_progress, &
+    pstripack_scvt_result
   implicit none
   private
   public :: pstripack_set_comm, pstripack_mesh
@@ -34,7 +37,7 @@ module pstripack_mpi
   end interface
 
   !> A distributed mesh. It cannot be copied by assignment.
-  !> Collective: create, triangulate, gather, free; so is the end of its scope, which frees it.
+  !> Collective: create, triangulate, gather, scvt, free; so is the end of its scope, which frees it.
   type :: pstripack_mesh
     private
     type(c_ptr) :: handle = c_null_ptr
@@ -51,11 +54,14 @@ module pstripack_mpi
     procedure, public :: halo
     procedure, public :: local_stars
     procedure, public :: gather
+    procedure, public :: scvt
     procedure, public :: free => free_mesh
     generic, public :: assignment(=) => do_not_copy
     procedure, private :: do_not_copy
     final :: finalise
   end type
+
+  include "scvt_types.inc"
 
   interface
     ! int32_t pstripack_set_comm_f(MPI_Fint comm);
@@ -153,6 +159,24 @@ module pstripack_mpi
       type(c_ptr), value, intent(in) :: mesh
       integer(c_int32_t), value, intent(in) :: root
       integer(c_int32_t), intent(inout) :: list(*), lptr(*), lend(*), lnew
+      integer(c_int32_t) :: ier
+    end function
+
+    ! int32_t pstripack_mesh_scvt(pstripack_mesh* mesh, int64_t n, double* xyz, const int64_t* number,
+    !                             const pstripack_density* density, const pstripack_scvt_options* options,
+    !                             pstripack_scvt_result* result, char* message, int32_t length);
+    function c_scvt(mesh, n, xyz, number, density, options, result, message, length) result(ier) &
+        bind(c, name="pstripack_mesh_scvt")
+      import :: c_char, c_density, c_double, c_int32_t, c_int64_t, c_options, c_ptr, pstripack_scvt_result
+      type(c_ptr), value, intent(in) :: mesh
+      integer(c_int64_t), value, intent(in) :: n
+      real(c_double), intent(inout) :: xyz(*)
+      integer(c_int64_t), intent(in) :: number(*)
+      type(c_density), intent(in) :: density
+      type(c_options), intent(in) :: options
+      type(pstripack_scvt_result), intent(inout) :: result
+      character(kind=c_char), intent(inout) :: message(*)
+      integer(c_int32_t), value, intent(in) :: length
       integer(c_int32_t) :: ier
     end function
   end interface
@@ -302,6 +326,44 @@ contains
     if (c_associated(mesh%handle)) ier = c_gather(mesh%handle, root, list, lptr, lend, lnew)
   end subroutine
 
+  !> A centroidal tessellation of the generators of all ranks, which stay on their ranks. Module pstripack has
+  !> the types, and pstripack_scvt says more.
+  !>   xyz, number  as of triangulate: the generators to start from, of any length; xyz becomes those found
+  !>   result       the same on every rank but for generators, which is size(number)
+  !>   ier          0, whatever the reason to end; -1 (fewer than four generators in all), -4 (too many, or arrays
+  !>                of different sizes), -5, -6, pstripack_coincident, pstripack_bad_number, or those of
+  !>                pstripack_scvt; the same on every rank, as is the message. Then nothing else is written
+  !>   density      the same on every rank, called for places near the rank's generators; default: 1 everywhere
+  !>   options      those of rank 0 count, but for density_on_threads; start and seed have no meaning
+  !>   progress     called on rank 0; on others it has no effect
+  !> Afterwards the mesh is that of the generators, and empty after an error.
+  subroutine scvt(mesh, xyz, number, result, ier, density, options, progress, message)
+    class(pstripack_mesh), intent(inout) :: mesh
+    real(c_double), intent(inout), contiguous :: xyz(:, :)
+    integer(c_int64_t), intent(in), contiguous :: number(:)
+    type(pstripack_scvt_result), intent(inout) :: result
+    integer(c_int32_t), intent(out) :: ier
+    procedure(pstripack_density), optional :: density
+    type(pstripack_scvt_options), intent(in), optional :: options
+    procedure(pstripack_progress), optional :: progress
+    character(len=*), intent(out), optional :: message
+    type(callbacks), target :: caller
+    type(c_density) :: rho
+    type(c_options) :: options_c
+    character(kind=c_char) :: line(400)
+    integer(c_int64_t) :: n
+
+    line = c_null_char
+    ier = pstripack_empty_mesh
+    if (c_associated(mesh%handle)) then
+      call pass_on(caller, rho, options_c, density, options, progress)
+      n = size(number, kind=c_int64_t)
+      if (size(xyz, 2, kind=c_int64_t) /= n .or. (n > 0 .and. size(xyz, 1) /= 3)) n = -1  ! as in triangulate
+      ier = c_scvt(mesh%handle, n, xyz, number, rho, options_c, result, line, size(line, kind=c_int32_t))
+    end if
+    call tell(line, message)
+  end subroutine
+
   !> Collective, unless MPI is finalised already. May be called twice.
   subroutine free_mesh(mesh)
     class(pstripack_mesh), intent(inout) :: mesh
@@ -330,5 +392,7 @@ contains
     call mesh%sizes(points, arcs, triangles, halo)
     if (begin < points + 1 .or. neighbour < arcs) error stop "pstripack_mesh: stars: an array is too short"
   end function
+
+  include "scvt_procedures.inc"
 
 end module

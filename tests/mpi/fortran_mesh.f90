@@ -1,9 +1,43 @@
-! A distributed mesh from Fortran: its gathered lists are those of pstripack_trmesh, its stars those of LIST.
+! A distributed mesh from Fortran: its gathered lists are those of pstripack_trmesh, its stars those of LIST, its
+! centroidal tessellation that of pstripack_scvt.
+module procedures
+  use, intrinsic :: iso_fortran_env, only: int32, real64
+  use pstripack, only: pstripack_scvt_progress
+  implicit none
+  integer :: steps = 0, last_step = huge(1)
+
+contains
+
+  ! Without exp: GFortran's vectors of exp have other last bits than its scalar exp.
+  subroutine bump(n, xyz, values)
+    integer(int32), intent(in) :: n
+    real(real64), intent(in) :: xyz(3, n)
+    real(real64), intent(out) :: values(n)
+    values = 1 + 5*(1 + 0.6_real64*xyz(2, :) + 0.8_real64*xyz(3, :))**4
+  end subroutine
+
+  subroutine negative(n, xyz, values)
+    integer(int32), intent(in) :: n
+    real(real64), intent(in) :: xyz(3, n)
+    real(real64), intent(out) :: values(n)
+    values = xyz(1, :)
+  end subroutine
+
+  subroutine progress(where, stop)
+    type(pstripack_scvt_progress), intent(in) :: where
+    logical, intent(inout) :: stop
+    if (where%generators /= 300) error stop "progress: generators"
+    steps = steps + 1
+    stop = steps == last_step
+  end subroutine
+end module
+
 program fortran_mesh
   use, intrinsic :: iso_fortran_env, only: int32, int64, real64
   use mpi
   use pstripack
   use pstripack_mpi
+  use procedures
   implicit none
   integer, parameter :: n = 300
   real(real64) :: all(3, n)
@@ -21,6 +55,7 @@ program fortran_mesh
   call pstripack_trmesh(all(1, :), all(2, :), all(3, :), list, lptr, lend, lnew, ier)
   if (ier /= pstripack_ok) error stop "pstripack_trmesh"
   call use_mesh
+  call use_scvt
   call MPI_Finalize(error)
 
 contains
@@ -76,5 +111,47 @@ contains
     call mesh%free()
     call mesh%triangulate(all(:, :0), number(:0), ier)
     if (ier /= pstripack_empty_mesh) error stop "a freed mesh"
+  end subroutine
+
+  subroutine use_scvt
+    type(pstripack_mesh) :: mesh
+    type(pstripack_scvt_options) :: options
+    type(pstripack_scvt_result) :: found, expected
+    integer(int64), allocatable :: number(:)
+    real(real64), allocatable :: xyz(:, :)
+    real(real64) :: x(n), y(n), z(n)
+    character(len=100) :: message
+    integer :: k
+
+    options%start = pstripack_scvt_given
+    options%tolerance = 1e-9_real64
+    options%most_evaluations = 20
+    x = all(1, :)
+    y = all(2, :)
+    z = all(3, :)
+    call pstripack_scvt(x, y, z, expected, ier, bump, options)
+    if (ier /= 0 .or. expected%reason /= pstripack_scvt_evaluations) error stop "pstripack_scvt"
+
+    call mesh%scvt(all, [(int(k, int64), k=1, n)], found, ier)
+    if (ier /= pstripack_empty_mesh) error stop "a mesh that was not created"
+    call mesh%create(MPI_COMM_WORLD, ier)
+    number = [(int(k, int64), k=rank + 1, n, size_of_world)]
+    xyz = all(:, int(number))
+    call mesh%scvt(xyz, number, found, ier, bump, options, progress, message)
+    if (ier /= 0 .or. message /= "") error stop "scvt"
+    if (any(xyz(1, :) /= x(number)) .or. any(xyz(2, :) /= y(number)) .or. any(xyz(3, :) /= z(number))) &
+      error stop "other generators"
+    if (found%energy /= expected%energy .or. found%gradient /= expected%gradient) error stop "another energy"
+    if (found%generators /= size(number) .or. found%reason /= expected%reason) error stop "another result"
+    if ((steps > 0) .neqv. (rank == 0)) error stop "progress is told to rank 0"
+
+    steps = 0
+    last_step = 2
+    call mesh%scvt(xyz, number, found, ier, options=options, progress=progress)
+    if (ier /= 0 .or. found%reason /= pstripack_scvt_stopped) error stop "stopped"
+    call mesh%scvt(xyz, number, found, ier, negative, options, message=message)
+    if (ier /= pstripack_bad_density .or. index(message, "the density is -") /= 1) error stop "a bad density"
+    call mesh%scvt(xyz, number(2:), found, ier)
+    if (ier /= pstripack_too_many_nodes) error stop "arrays of different sizes"
   end subroutine
 end program
