@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <new>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -192,6 +193,7 @@ Tessellation tessellation_of(Communicator& ranks, files::Nodes& start, const Opt
       },
       have_pairs);
   if (!have_pairs.value) t.state.pairs.clear();
+  start.columns.clear();
   return t;
 }
 
@@ -230,8 +232,8 @@ std::string write(Ranks& ranks, const Output& output, bool is_checkpoint, const 
   files::MeshPart part;
   std::string quality;
   if (needs_mesh) {
-    const std::shared_ptr<engine::Evaluator> evaluator =
-        ranks.evaluator(density);  // the run's keeps its mesh
+    // Not that of the run, which keeps its mesh for the next step.
+    const std::shared_ptr<engine::Evaluator> evaluator = ranks.evaluator(density);
     evaluator->begin_with(slice.numbers);
     const engine::Neighbourhood nodes = evaluator->triangulate(slice.state.generators);
     if (!is_checkpoint) quality = methods::quality_of(communicator, nodes).text();
@@ -395,8 +397,6 @@ void scvt(Options& options, Ranks& ranks) {
         options.density_file, where.lon[0], where.lat[0]));
   } catch (const engine::BadGenerators& e) {
     throw engine::NoTessellation((start.file.empty() ? "" : start.file + ": ") + e.what());
-  } catch (const pstripack::AgreedFailure&) {
-    throw engine::NoTessellation("out of memory");
   }
 }
 
@@ -406,7 +406,11 @@ void scvt(Options& options) {
   options.output.choose();
   if (!options.checkpoint.file.empty()) options.checkpoint.choose(files::Format::netcdf);
   if (!options.density.empty()) make_density(options);
-  on_all_ranks([&](Ranks& ranks) { scvt(options, ranks); });
+  try {
+    on_all_ranks([&](Ranks& ranks) { scvt(options, ranks); });
+  } catch (const pstripack::AgreedFailure&) {
+    throw std::bad_alloc();  // on any rank
+  }
 }
 
 }  // namespace

@@ -33,6 +33,7 @@ void take_rows(Tessellation& t, Rows&& rows) {
   const std::size_t n = rows.numbers.size();
   t.numbers = std::move(rows.numbers);
   t.state.generators.resize(n);
+  t.state.pairs.resize((rows.width - 3) / 6);
   for (State::Pair& pair : t.state.pairs) pair.step.resize(n), pair.change.resize(n);
   const double* value = rows.values.data();
   const auto take = [&](Point& p) {
@@ -45,12 +46,13 @@ void take_rows(Tessellation& t, Rows&& rows) {
   }
 }
 
-/// Generator i and what belongs to it go to the rank to[i].
-void move(Communicator& ranks, Tessellation& t, const std::vector<std::int32_t>& to) {
+/// Generator i of `from` and what belongs to it go to `to` of the rank ranks_of[i].
+void move(Communicator& ranks, const Tessellation& from, const std::vector<std::int32_t>& ranks_of,
+          Tessellation& to) {
   Rows rows;
-  in_agreement(ranks, [&] { rows = rows_of(t); });
-  rows = moved(ranks, rows, to);
-  in_agreement(ranks, [&] { take_rows(t, std::move(rows)); });
+  in_agreement(ranks, [&] { rows = rows_of(from); });
+  rows = moved(ranks, std::move(rows), ranks_of);
+  in_agreement(ranks, [&] { take_rows(to, std::move(rows)); });
 }
 
 Tessellation begun_with(Spread&& generators) {
@@ -84,7 +86,7 @@ Tessellation first_generators(Evaluator& evaluator, std::size_t n, const RunOpti
 void iterate(Evaluator& evaluator, Tessellation& t, const Options& options) {
   evaluator.begin_with(t.numbers);
   if (evaluator.ranks().size() > 1) {
-    move(evaluator.ranks(), t, evaluator.homes(t.state.generators));
+    move(evaluator.ranks(), t, evaluator.homes(t.state.generators), t);
     evaluator.begin_with(t.numbers);
   }
   t.result = minimize(evaluator, t.state, options);
@@ -92,13 +94,14 @@ void iterate(Evaluator& evaluator, Tessellation& t, const Options& options) {
 
 Tessellation slice_of(Communicator& ranks, const Tessellation& t) {
   Tessellation slice;
-  std::vector<std::int32_t> to;
+  slice.state.evaluations = t.state.evaluations;
+  slice.state.steps = t.state.steps;
+  slice.state.no_descent = t.state.no_descent;
+  slice.state.no_decrease = t.state.no_decrease;
+  std::vector<std::int32_t> ranks_of;
   const std::int64_t n = sum_of_all(ranks, t.numbers.size());
-  in_agreement(ranks, [&] {
-    slice = t;
-    to = ranks_of_slices(ranks, n, t.numbers);
-  });
-  if (ranks.size() > 1) move(ranks, slice, to);
+  in_agreement(ranks, [&] { ranks_of = ranks_of_slices(ranks, n, t.numbers); });
+  move(ranks, t, ranks_of, slice);
   return slice;
 }
 

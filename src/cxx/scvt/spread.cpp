@@ -144,7 +144,7 @@ std::vector<Point> along_a_curve(const std::vector<Point>& points) {
   return along_a_curve(alone, points).points;
 }
 
-Rows moved(Communicator& ranks, const Rows& rows, const std::vector<std::int32_t>& to) {
+Rows moved(Communicator& ranks, Rows rows, const std::vector<std::int32_t>& to) {
   const std::size_t width = rows.width;
   const Parcels parcels = exchange_in_agreement(ranks, [&] {
     ParcelWriter writer(static_cast<std::size_t>(ranks.size()));
@@ -155,6 +155,7 @@ Rows moved(Communicator& ranks, const Rows& rows, const std::vector<std::int32_t
       room[0] = static_cast<double>(rows.numbers[i]);  // below 2^53
       std::copy_n(rows.values.data() + i * width, width, room + 1);
     }
+    rows = {};
     return writer.finish();
   });
   Rows here{width, {}, {}};

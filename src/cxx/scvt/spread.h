@@ -42,8 +42,9 @@ struct Rows {
   std::vector<std::int64_t> numbers;
 };
 
-/// Row i goes to the rank to[i], which gets its rows by increasing number. Collective.
-Rows moved(Communicator& ranks, const Rows& rows, const std::vector<std::int32_t>& to);
+/// Row i goes to the rank to[i], which gets its rows by increasing number. Frees `rows` on the way.
+/// Collective.
+Rows moved(Communicator& ranks, Rows rows, const std::vector<std::int32_t>& to);
 
 /// The rank of each of these numbers, if rank r has the r-th of equal slices of 1..n.
 std::vector<std::int32_t> ranks_of_slices(const Communicator& ranks, std::int64_t n,
