@@ -127,11 +127,11 @@ TEST(Spread, RandomGeneratorsAreTheSameOnAnyNumberOfRanks) {
     EXPECT_EQ(gathered.points(), alone) << size;
   }
   // So few that some trials lie in a hemisphere, and the next ones must begin at the same candidate.
-  const std::vector<Point> few = random_generators(4, kBump, 1);
+  const std::vector<Point> few = random_generators(4, kConstant, 1);
   for (const int size : kRanks) {
     Gathered gathered;
     ThreadRanks::run(size, [&](Communicator& ranks) {
-      GatheringEvaluator evaluator(ranks, kBump);
+      GatheringEvaluator evaluator(ranks, kConstant);
       const Spread spread = random_generators(evaluator, 4, 1);
       gathered.add(spread.numbers, spread.points);
     });
@@ -198,6 +198,7 @@ TEST(Run, HasTheSameBitsOnAnyNumberOfRanks) {
   for (const bool levels : {true, false}) {
     RunOptions options = few_evaluations();
     options.levels = levels;
+    if (levels) options.most_evaluations = 6;  // on each
     const Tessellation alone = run(200, kBump, options);
     EXPECT_EQ(alone.result.end, End::evaluations);
     for (const int size : kRanks) {
