@@ -431,9 +431,14 @@ Directions::Unit Directions::unit(const Point& p) {
     std::frexp(most, &e);
     for (double& v : c) v = std::ldexp(v, -e);
   }
-  DoubleDouble s = two_product(c[0], c[0]);
+  // A square that would underflow, far below the error of s, would take a processor many times as long.
+  const auto square = [](double v) {
+    const double not_tiny = std::fabs(v) < 0x1p-440 ? 0 : v;
+    return two_product(not_tiny, not_tiny);
+  };
+  DoubleDouble s = square(c[0]);
   for (int k = 1; k < 3; ++k) {
-    const DoubleDouble q = two_product(c[k], c[k]);
+    const DoubleDouble q = square(c[k]);
     const DoubleDouble t = two_sum(s.high, q.high);
     s = two_sum_of_ordered(t.high, t.low + (s.low + q.low));
   }
@@ -572,8 +577,14 @@ bool Directions::View::above(index_t a, index_t b, index_t c) {
   const auto signed_for_axes = [&](int s) { return m.axes.negative ? -s : s; };
   // c, b, a seen from v: an even permutation of a, b, c, v.
   const index_t node[3] = {c, b, a};
-  const Seen seen[3] = {m.see(c), m.see(b), m.see(a)};
-  if (const int s = signed_for_axes(filter_height(seen[0], seen[1], seen[2]))) return s > 0;
+  const Seen* seen[3];
+  Seen kept[2];  // of two nodes that share a place in the cache
+  seen[0] = &m.see(c);
+  if (m.seen.share_slot(c, b) || m.seen.share_slot(c, a)) seen[0] = &(kept[0] = *seen[0]);
+  seen[1] = &m.see(b);
+  if (m.seen.share_slot(b, a)) seen[1] = &(kept[1] = *seen[1]);
+  seen[2] = &m.see(a);
+  if (const int s = signed_for_axes(filter_height(*seen[0], *seen[1], *seen[2]))) return s > 0;
   // Two that are close to each other, as v may be to the third.
   std::size_t pair = 0;
   double least = 4;
@@ -581,10 +592,10 @@ bool Directions::View::above(index_t a, index_t b, index_t c) {
     const Point f = nodes_.difference(node[(k + 1) % 3], node[k]);
     if (const double square = dot(f, f); square < least) pair = k, least = square;
   }
-  if (const Seen& first = seen[pair]; least < 0x1p-10 * first.q) {
+  if (const Seen& first = *seen[pair]; least < 0x1p-10 * first.q) {
     const index_t from = node[pair], to = node[(pair + 1) % 3];
     const Seen s = step(m.apex, m.axes(nodes_.position(from)), m.axes(nodes_.difference(to, from)));
-    if (const int sign = signed_for_axes(filter_height_of_pair(seen[(pair + 2) % 3], first, s)))
+    if (const int sign = signed_for_axes(filter_height_of_pair(*seen[(pair + 2) % 3], first, s)))
       return sign > 0;
   }
   bool v_will_do;
@@ -592,8 +603,8 @@ bool Directions::View::above(index_t a, index_t b, index_t c) {
   if (!v_will_do)
     if (const int s = nodes_.filter_seen_from_first(best)) return s > 0;
   const Point &pa = nodes_.given(a), &pb = nodes_.given(b), &pc = nodes_.given(c), &pv = nodes_.given(m.v);
-  const bool maybe_in_line = filter_left(seen[0], seen[1]) == 0 && filter_left(seen[1], seen[2]) == 0 &&
-                             filter_left(seen[2], seen[0]) == 0;
+  const bool maybe_in_line = filter_left(*seen[0], *seen[1]) == 0 && filter_left(*seen[1], *seen[2]) == 0 &&
+                             filter_left(*seen[2], *seen[0]) == 0;
   if (maybe_in_line && on_great_circle(pa, pb, pc, pv)) {
     tied_ = true;
     return false;
