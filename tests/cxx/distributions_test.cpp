@@ -103,6 +103,14 @@ TEST_P(Distribution, EntersNoStageMoreOftenThanItMay) {
   EXPECT_LE(a_node(counts.tie_rule), bound->tie_rule);
 }
 
+// Products of such coordinates underflow; big integers take hundreds of times as long.
+TEST(NodesNearUnderflow, HardlyEverTakeBigIntegers) {
+  for (const char* cap : {"axis-cap:1e-200", "axis-cap:1e-300"}) {
+    const auto nodes = point_sets::make(cap, 3000);
+    EXPECT_LE(stage_counts(nodes).big_integers, nodes.size() / 50) << cap;
+  }
+}
+
 std::vector<std::string> names() {
   std::vector<std::string> all;
   for (const point_sets::Distribution& d : point_sets::distributions()) all.push_back(d.name);

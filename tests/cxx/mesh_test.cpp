@@ -1,10 +1,12 @@
-// Canonical form and fingerprint of sets of triangles.
+// Canonical form and fingerprint of sets of triangles; the planes of a hull.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
+#include "mesh/delaunay.h"
 #include "mesh/triangulation.h"
 #include "point_sets.h"
 
@@ -94,6 +96,71 @@ TEST(Fingerprint, HasNoCollisionAmongAMillionTriangles) {
   const std::size_t count = prints.size();
   std::sort(prints.begin(), prints.end());
   EXPECT_EQ(static_cast<std::size_t>(std::unique(prints.begin(), prints.end()) - prints.begin()), count);
+}
+
+// ---- The plane of a face: see mesh/delaunay.cpp ----
+
+struct Planes {
+  std::size_t faces = 0, decide = 0;  ///< all; those that place the centre for certain
+};
+
+/// A plane that places a node or the centre for certain must agree with the predicates.
+Planes expect_right_planes(const char* family, pstripack::Lengths lengths) {
+  constexpr std::size_t n = 120;
+  std::vector<pstripack::Point> nodes = point_sets::make(family, n);
+  std::vector<pstripack::Face> faces(2 * n);
+  std::vector<pstripack::Plane> planes(2 * n);
+  std::vector<std::uint32_t> corner(n);
+  const auto hull =
+      pstripack::GrowingHull::make({n, nodes.data(), faces.data(), planes.data(), corner.data()}, n, lengths);
+  try {
+    hull->build(0);
+  } catch (const pstripack::HiddenNode&) {
+    return {};
+  }
+  Planes all;
+  for (std::size_t t = 0; t < hull->face_count(); ++t) {
+    const pstripack::Plane& p = planes[t];
+    const auto& v = faces[t].vertex;
+    const int side = (p.w > 1) - (p.w < -1);
+    ++all.faces, all.decide += side != 0;
+    if (side != 0) {
+      EXPECT_EQ(hull->left(v[0], v[1], v[2]), side) << family << ", face " << t;
+    }
+    for (std::uint32_t d = 0; d < n; ++d) {
+      const double height = p.x * nodes[d].x + p.y * nodes[d].y + (p.z * nodes[d].z - p.w);
+      const bool above = hull->above(v[0], v[1], v[2], d);
+      const bool unit = lengths == pstripack::Lengths::as_given;  // else `nodes` are not what is triangulated
+      if (unit && std::fabs(height) > 1) {
+        EXPECT_EQ(height > 0, above) << family << ", face " << t << ", " << d;
+      }
+      for (int k = 0; k < 3; ++k) {
+        const pstripack::Point g = hull->difference(v[k], d);
+        const double drop = p.x * g.x + p.y * g.y + p.z * g.z;
+        if (std::fabs(drop) > 0.5 * (std::fabs(g.x) + std::fabs(g.y) + std::fabs(g.z)) + 0x1p-45) {
+          EXPECT_EQ(drop < 0, above) << family << ", face " << t << ", " << d;
+        }
+      }
+    }
+  }
+  return all;
+}
+
+TEST(Planes, AreRightWhereTheyAreCertain) {
+  for (const auto lengths : {pstripack::Lengths::as_given, pstripack::Lengths::directions})
+    for (const char* family :
+         {"random", "latlon", "small-circle:1", "small-circle:1e-3", "two-curves:1e-9", "crossing:1e-3",
+          "strip:1e-15", "cap:1e-6", "cap:1e-10", "cap:1e-12", "cap:1e-14", "pairs:1e-10", "ulp-groups:2",
+          "ulp-groups:8", "falling:14", "nest:30", "rays:40", "axis-cap:1e-20", "axis-cap:1e-150"})
+      expect_right_planes(family, lengths);
+}
+
+TEST(Planes, AreCertainOfTheCentreWhereEdgesAreFarShorterThanOthers) {
+  for (const char* family : {"ulp-groups:8", "pairs:1e-10", "cap:1e-11"}) {
+    const Planes planes = expect_right_planes(family, pstripack::Lengths::directions);
+    EXPECT_GT(planes.faces, 200) << family;
+    EXPECT_GT(planes.decide, planes.faces * 4 / 5) << family;
+  }
 }
 
 }  // namespace

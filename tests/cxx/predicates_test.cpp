@@ -773,13 +773,13 @@ TEST(Directions, PositionsAndDifferencesAreAsAccurateAsPromised) {
   }
 }
 
-// ---- From 1 down to 1e-300: the predicates on directions, and as a node that is inserted sees them ----
+// ---- From 1 down to denormals: the predicates on directions, and as a node that is inserted sees them ----
 
 /// Around (1,0,0), where doubles are that fine: each node at a scale of its own, some a few ulps from
 /// another, some on the circle through the others, as far as doubles go; with lengths of their own.
 Four nested(Random& random) {
-  const double decades[] = {1, 10, 75, 150, 290};
-  const double deepest = decades[random.below(5)];
+  const double decades[] = {1, 10, 75, 150, 290, 304, 322};
+  const double deepest = decades[random.below(7)];
   const auto scale = [&] { return std::pow(10, -deepest * random.uniform()); };
   const double common = scale();
   const bool has_one_scale = random.below(2) == 0;

@@ -63,8 +63,8 @@ int exponent_of(double value) {
   return static_cast<int>(bits >> 52);
 }
 
-/// A power of two and its inverse, so that value * by is in [1,2). For a positive value from 2^-1000 to
-/// 2^1000.
+/// A power of two and its inverse, so that value * by is in [1,2). For a positive value from 2^-1020 to
+/// 2^1020.
 struct Scale {
   double by, inverse;
   explicit Scale(double value) {
@@ -80,12 +80,12 @@ struct Scale {
 //
 // u = 2^-53. From the differences e = p - a of the directions, N_p = a x e. Errors, relative to sums of
 // absolute values, which are computed alongside (py of N.y, and so on):
-//   e        a component k is known to 2.1u of itself and t_k = 2^-99 m_k + 2^-760, m_k the larger of |a_k|
+//   e        a component k is known to 2.1u of itself and t_k = 2^-99 m_k + 2^-1068, m_k the larger of |a_k|
 //            and |p_k|: high - high adds u unless it is exact (Sterbenz), then the last sum another u; the
 //            directions are known to 2^-101 m_k each, and the difference of the low parts rounds by 2^-105
 //            m_k
 //   N        2.1u, the rounding of a, of the product, of the difference: 5.2u py, and |a_z| t_x + |a_x| t_z,
-//            which is less than 5.2u (2^-47 m_z + 2^-700): that is added to py. For N.x: 2^-47 m_y m_z
+//            which is less than 5.2u 2^-47 (m_z + 2^-963): that is added to py. For N.x: 2^-47 m_y m_z
 //   D        twice 5.2u, product, difference: 13u of r = py qz + pz qy
 //   G        near a (|e|^2 < 1): |N|^2 / (2 - |e|^2 / 2) with q = px^2 + py^2 + pz^2: |N|^2 15u q, the
 //            denominator, above 1.5, and the division 7u, so 15u q, and G <= 0.67 q
@@ -96,6 +96,7 @@ struct Scale {
 constexpr double u = 0x1p-53;
 constexpr double kFactor = 28 * u;
 constexpr double kNegligible = 0x1p-900;
+constexpr double kLost = 0x1p-963;  ///< 2^47 of what a component of N loses by underflow
 
 /// A node seen from the apex. All is multiplied by 1 / `weight` per order in N.
 struct Seen {
@@ -113,9 +114,9 @@ struct Seen {
   const double x = ae_yz - ae_zy;
   s.y = ae_zx - ae_xz;
   s.z = ae_xy - ae_yx;
-  const double px = std::fabs(ae_yz) + std::fabs(ae_zy) + 0x1p-47 * (my * mz + 0x1p-650);
-  s.py = std::fabs(ae_zx) + std::fabs(ae_xz) + (0x1p-47 * mz + 0x1p-700);
-  s.pz = std::fabs(ae_xy) + std::fabs(ae_yx) + (0x1p-47 * my + 0x1p-700);
+  const double px = std::fabs(ae_yz) + std::fabs(ae_zy) + 0x1p-47 * (my * mz + kLost);
+  s.py = std::fabs(ae_zx) + std::fabs(ae_xz) + 0x1p-47 * (mz + kLost);
+  s.pz = std::fabs(ae_xy) + std::fabs(ae_yx) + 0x1p-47 * (my + kLost);
   const double square = dot(e, e);
   if (!(square < 1)) {
     s.g = 0.5 * square;
@@ -424,16 +425,21 @@ Directions::Unit Directions::unit(const Point& p) {
   //        of the root, of the quotient, and s.low;
   //   8.5  half the error of `residual`: 16 for its five roundings, 1 for s.low * rr.low, which is left out;
   //   8.5  the roundings of r1, of c * r1 and of its sum with q.low, 2.5 + 2.5 + 3.5:
-  // together less than 2^-101.
+  // together less than 2^-101. Where products underflow a component is wrong by 2^-1071 more.
   double c[3] = {p.x, p.y, p.z};
   if (const double most = largest(p); !(most > 0x1p-300 && most < 0x1p300)) {
     int e;
     std::frexp(most, &e);
     for (double& v : c) v = std::ldexp(v, -e);
   }
-  DoubleDouble s = two_product(c[0], c[0]);
+  // A square that would underflow, far below the error of s, would take a processor many times as long.
+  const auto square = [](double v) {
+    const double not_tiny = std::fabs(v) < 0x1p-440 ? 0 : v;
+    return two_product(not_tiny, not_tiny);
+  };
+  DoubleDouble s = square(c[0]);
   for (int k = 1; k < 3; ++k) {
-    const DoubleDouble q = two_product(c[k], c[k]);
+    const DoubleDouble q = square(c[k]);
     const DoubleDouble t = two_sum(s.high, q.high);
     s = two_sum_of_ordered(t.high, t.low + (s.low + q.low));
   }
@@ -572,8 +578,14 @@ bool Directions::View::above(index_t a, index_t b, index_t c) {
   const auto signed_for_axes = [&](int s) { return m.axes.negative ? -s : s; };
   // c, b, a seen from v: an even permutation of a, b, c, v.
   const index_t node[3] = {c, b, a};
-  const Seen seen[3] = {m.see(c), m.see(b), m.see(a)};
-  if (const int s = signed_for_axes(filter_height(seen[0], seen[1], seen[2]))) return s > 0;
+  const Seen* seen[3];
+  Seen kept[2];  // of two nodes that share a place in the cache
+  seen[0] = &m.see(c);
+  if (m.seen.share_slot(c, b) || m.seen.share_slot(c, a)) seen[0] = &(kept[0] = *seen[0]);
+  seen[1] = &m.see(b);
+  if (m.seen.share_slot(b, a)) seen[1] = &(kept[1] = *seen[1]);
+  seen[2] = &m.see(a);
+  if (const int s = signed_for_axes(filter_height(*seen[0], *seen[1], *seen[2]))) return s > 0;
   // Two that are close to each other, as v may be to the third.
   std::size_t pair = 0;
   double least = 4;
@@ -581,10 +593,10 @@ bool Directions::View::above(index_t a, index_t b, index_t c) {
     const Point f = nodes_.difference(node[(k + 1) % 3], node[k]);
     if (const double square = dot(f, f); square < least) pair = k, least = square;
   }
-  if (const Seen& first = seen[pair]; least < 0x1p-10 * first.q) {
+  if (const Seen& first = *seen[pair]; least < 0x1p-10 * first.q) {
     const index_t from = node[pair], to = node[(pair + 1) % 3];
     const Seen s = step(m.apex, m.axes(nodes_.position(from)), m.axes(nodes_.difference(to, from)));
-    if (const int sign = signed_for_axes(filter_height_of_pair(seen[(pair + 2) % 3], first, s)))
+    if (const int sign = signed_for_axes(filter_height_of_pair(*seen[(pair + 2) % 3], first, s)))
       return sign > 0;
   }
   bool v_will_do;
@@ -592,8 +604,8 @@ bool Directions::View::above(index_t a, index_t b, index_t c) {
   if (!v_will_do)
     if (const int s = nodes_.filter_seen_from_first(best)) return s > 0;
   const Point &pa = nodes_.given(a), &pb = nodes_.given(b), &pc = nodes_.given(c), &pv = nodes_.given(m.v);
-  const bool maybe_in_line = filter_left(seen[0], seen[1]) == 0 && filter_left(seen[1], seen[2]) == 0 &&
-                             filter_left(seen[2], seen[0]) == 0;
+  const bool maybe_in_line = filter_left(*seen[0], *seen[1]) == 0 && filter_left(*seen[1], *seen[2]) == 0 &&
+                             filter_left(*seen[2], *seen[0]) == 0;
   if (maybe_in_line && on_great_circle(pa, pb, pc, pv)) {
     tied_ = true;
     return false;

@@ -183,7 +183,16 @@ int sign_of_sum(const Integer& E, const Integer& F, const Integer& f, const Inte
 
 /// sign of A sqrt(a) + B sqrt(b) + C sqrt(c) + D sqrt(d)
 template <class Integer>
-int sign_of_sum(const std::array<Integer, 4>& factor, const std::array<Integer, 4>& root) {
+int sign_of_sum(std::array<Integer, 4> factor, const std::array<Integer, 4>& root) {
+  // Vectors of one length, as mirror images are, share a root: fewer squares, and none for their ties. A
+  // factor may be two bits longer then, but what is squared last is zero.
+  for (std::size_t i = 1; i < 4; ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (root[i] == root[j]) {
+        factor[j] += factor[i];
+        factor[i] = 0;
+        break;
+      }
   const auto& [A, B, C, D] = factor;
   const auto& [a, b, c, d] = root;
   const int s = sign_of_sum(A, a, B, b), t = sign_of_sum(C, c, D, d);

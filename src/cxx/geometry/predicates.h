@@ -157,10 +157,12 @@ template <class Item>
 class Remembered {
  public:
   void forget() { ++time_; }
+  /// True if only one of the two can be in the cache.
+  static bool share_slot(index_t i, index_t j) { return slot(i) == slot(j); }
   /// The entry of node i; `make` computes it if it is not in the cache.
   template <class Make>
   Item& operator()(index_t i, const Make& make) {
-    const auto k = static_cast<std::size_t>(i) % kSlots;
+    const std::size_t k = slot(i);
     const std::uint64_t key = time_ << 32 | static_cast<std::uint32_t>(i);
     if (key_[k] != key) {
       make(item_[k]);
@@ -171,6 +173,7 @@ class Remembered {
 
  private:
   static constexpr std::size_t kSlots = 32;
+  static std::size_t slot(index_t i) { return static_cast<std::size_t>(i) % kSlots; }
   std::uint64_t time_ = 1;  // fits 32 bits: one view per inserted node
   std::uint64_t key_[kSlots] = {};
   Item item_[kSlots];

@@ -35,20 +35,18 @@ struct Spoke {
 // ---- the plane of a face: the filter in front of `above` -----------------------------------------
 //
 // For a face a,b,c let e = b-a, f = c-a, n = e x f, w = n.a. Node d sees it if n.d - w > 0. Errors, with
-// u = 2^-53 and M = (|e|^2 + |f|^2)/2 >= |e||f|:
-//   components of e, f       3u of themselves and 2^-96 (Directions; one u for Coordinates)
-//   n = e x f                |E(n)| <= sqrt(2) (2*3u + 2u) |e||f| < 12u M, and 2^-96 (|e|+|f|) < u M as
-//                            long as M >= 2^-80
-//   n.d, n.a                 3u |n| each for the sums (|d| < 1 + 2^-19); E(n).(d-a) < 2.1 (12u + u) M;
-//                            positions of directions are rounded: 2u |n|
-// Together less than 40u M, and less than 40u M for w alone. The plane is scaled by the power of two
-// 2^k with 2^-k in [64u M, 128u M]: then |n.d - w| > 1 is a certain sign, and so is |w| > 1 for
-// det(a,b,c) = n.a.
+// u = 2^-53, S = |e||f| and M = u S + 2^-98 (|e| + |f|):
+//   components of e, f       3u of themselves and 2^-99 (Directions; one u for Coordinates)
+//   n = e x f                |E(n)| <= sqrt(2) (2*3u + 2u) S + sqrt(3) 2^-99 (|e| + |f|) < 12 M
+//   n.d, n.a                 4u |n| each for the sums and the scale (|d| < 1 + 2^-19);
+//                            E(n).(d-a) < 2.1 * 12 M; positions of directions are rounded: 2u |n|
+// Together less than 40 M, and less than 40 M for w alone. The plane is multiplied by less than 1 / (50 M):
+// then |n.d - w| > 1 is a certain sign, and so is |w| > 1 for det(a,b,c) = n.a.
 //
 // Where all is close together n.d drowns in the rounding of w. Then, and wherever it is at hand, the
 // difference g = a - d to any corner a of the face takes the place of d: small and accurate. n.g has an error
-// of 13u M |g| from n, 6u |n| |g| from the product, and 2^-95 M; in the scale of the plane, where 64u M < 1,
-// that is less than |g| / 2 + 2^-45.
+// of 12 M |g| from n, 7u |n| |g| from the product and the scale, and 2^-98 |n|; in the scale of the plane,
+// where 50u |n| < 1, that is less than |g| / 2 + 2^-45.
 
 double above_plane(const Plane& f, const Point& p) { return (f.x * p.x + f.y * p.y) + (f.z * p.z - f.w); }
 
@@ -71,20 +69,42 @@ template <class Predicates>
   return {d, dot(d, d)};
 }
 
-/// The plane of the face a,b,c from the position of a and the spokes a->b and a->c.
-[[gnu::always_inline]] inline Plane make_plane(const Point& a, const Spoke& b, const Spoke& c) {
-  const Point &e = b.d, &f = c.d;
-  const Point n = cross(e, f);
-  const double m2 = b.square + c.square;      // 2 M
-  if (!(m2 >= 0x1p-79)) return {0, 0, 0, 0};  // no sign is certain: the predicates decide
-  // 2^47 / 2^q, q the exponent of 2M, by arithmetic on its bits: 64u M = 2^-48 (2M) is in [2^(q-48),
-  // 2^(q-47)).
+[[gnu::always_inline]] inline Plane scaled_plane(const Point& a, const Spoke& b, const Spoke& c,
+                                                 double scale) {
+  const Point n = cross(b.d, c.d);
+  return {n.x * scale, n.y * scale, n.z * scale, dot(n, a) * scale};
+}
+
+std::uint64_t bits_of(double value) {
   std::uint64_t bits;
-  std::memcpy(&bits, &m2, sizeof bits);
-  bits = (std::uint64_t{1023 + 47 + 1023} << 52) - (bits & 0x7ff0000000000000u);
+  std::memcpy(&bits, &value, sizeof bits);
+  return bits;
+}
+
+/// make_plane where an edge is so short that 2^-98 (|e| + |f|) counts.
+[[gnu::always_inline]] inline Plane make_small_plane(const Point& a, const Spoke& b, const Spoke& c) {
+  // Of |e| < 2^-70 too little is known; its square may underflow.
+  if (!(std::min(b.square, c.square) >= 0x1p-140)) return {0, 0, 0, 0};
+  const double e = std::sqrt(b.square), f = std::sqrt(c.square);
+  return scaled_plane(a, b, c, 1 / (0x1.1p-47 * (e * f) + 0x1.1p-92 * (e + f)));
+}
+
+/// The plane of the face a,b,c from the position of a and the spokes a->b and a->c.
+///
+/// The scale is about 2^46.9 / S, by arithmetic on the bits of the squares of e and f: as an integer, those
+/// of 2^k (1 + m), 0 <= m < 1, are 2^52 (1023 + k + m), and k + m is less than the logarithm by 0.0861 at
+/// most. So S times the scale is from 2^46.8 to 2^(46.8 + 2 * 0.0861) < 2^47 = 1 / (64u), and where neither
+/// |e| nor |f| is below 2^-42, as where S^2 >= 2^-80, M <= 1.25u S.
+[[gnu::always_inline]] inline Plane make_plane(const Point& a, const Spoke& b, const Spoke& c) {
+  constexpr double kOne = 0x1p52;
+  const std::uint64_t squares = bits_of(b.square) + bits_of(c.square);
+  if (squares < static_cast<std::uint64_t>((2 * 1023 - 80) * kOne) &&
+      !(std::min(b.square, c.square) >= 0x1p-84))
+    return make_small_plane(a, b, c);
+  const std::uint64_t bits = static_cast<std::uint64_t>((2 * 1023 + 46.8) * kOne) - squares / 2;
   double scale;
   std::memcpy(&scale, &bits, sizeof scale);
-  return {n.x * scale, n.y * scale, n.z * scale, dot(n, a) * scale};
+  return scaled_plane(a, b, c, scale);
 }
 
 // ---- the hull under construction ------------------------------------------------------------------
@@ -216,11 +236,22 @@ class Builder final : public GrowingHull {
     if (surrounds_centre_) return hull;
     hull.back.assign(count_, false);
     hull.at_back.assign(n_, false);
-    hull.surrounds_centre = true;
-    for (std::uint32_t t = 0; t < count_; ++t) {
-      if (front(t)) continue;
-      hull.back[t] = true, hull.surrounds_centre = false;
-      for (int i = 0; i < 3; ++i) hull.at_back[faces_[t].vertex[i]] = true;
+    const std::uint32_t one = some_back_face();
+    hull.surrounds_centre = one == kNone;
+    if (hull.surrounds_centre) return hull;
+    // The faces at the back make one region: those that the centre sees, since the hull is convex; and those
+    // in whose plane it lies, which have one that it sees across their near edge, or contain it and are all.
+    hull.back[one] = true;
+    for (std::vector<std::uint32_t> region{one}; !region.empty();) {
+      const Face& f = faces_[region.back()];
+      region.pop_back();
+      for (int i = 0; i < 3; ++i) {
+        hull.at_back[f.vertex[i]] = true;
+        const std::uint32_t next = face_of(f.neighbour[i]);
+        if (hull.back[next] || front(next)) continue;
+        hull.back[next] = true;
+        region.push_back(next);
+      }
     }
     for (std::uint32_t v = 0; v < n_; ++v)
       if (hull.at_back[v] && !turn_to_first_front_face(hull, v)) throw HiddenNode{};
@@ -242,6 +273,26 @@ class Builder final : public GrowingHull {
     words_ = reinterpret_cast<std::uint32_t*>(arrays.faces);
     planes_ = arrays.planes;
     corner_ = arrays.corner;
+  }
+
+  /// A face that is no front face; kNone if there is none.
+  std::uint32_t some_back_face() const {
+    // Away from a node, across edges that have it on the side of the face: no walk over triangles of Delaunay
+    // comes back (De Floriani et al. 1991), but this one may be long, or end opposite the node.
+    std::uint32_t t = last_;
+    const std::uint32_t from = faces_[t].vertex[0];
+    for (std::size_t steps = count_ / 8; steps > 0; --steps) {
+      const Face& f = faces_[t];
+      std::uint32_t out = 0;
+      while (out < 3 && predicates_.left(f.vertex[next_edge(out)], f.vertex[previous_edge(out)], from) <= 0)
+        ++out;
+      if (out == 3) break;
+      t = face_of(f.neighbour[out]);
+      if (!front(t)) return t;
+    }
+    for (t = 0; t < count_; ++t)
+      if (!front(t)) return t;
+    return kNone;
   }
 
   /// Makes the corner of v, which has a face at the back, that of the first front face counterclockwise after
