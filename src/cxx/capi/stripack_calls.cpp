@@ -60,15 +60,15 @@ const char* meaning(NextNearestStatus status) {
   }
 }
 
-/// The one catch-all: runs call() in the default floating-point environment and returns its code, or -6 for
-/// an exception: nothing below throws but the allocator. Codes that STRIPACK does not have say why on stderr.
-/// n = 0: the routine knows no N.
+/// The one catch-all: runs call() and returns its code, or -6 for an exception: nothing below throws but the
+/// allocator. Codes that STRIPACK does not have say why on stderr. n = 0: the routine knows no N. call() sets
+/// the floating-point environment that it needs.
 template <class Call>
-int code_of(const char* routine, long long n, const Call& call) {
+int caught(const char* routine, long long n, const Call& call) {
   int code;
   const char* why;
   try {
-    const auto status = in_default_floating_point(call);
+    const auto status = call();
     code = static_cast<int>(status);
     why = meaning(status);
   } catch (const std::exception& error) {
@@ -82,6 +82,12 @@ int code_of(const char* routine, long long n, const Call& call) {
     std::fprintf(stderr, "pstripack: %s: IER = %d, N = %lld: %s\n", routine, code, n, why);
   if (code < 0 && n == 0) std::fprintf(stderr, "pstripack: %s: IER = %d: %s\n", routine, code, why);
   return code;
+}
+
+/// The same for a call that needs the default floating-point environment throughout.
+template <class Call>
+int code_of(const char* routine, long long n, const Call& call) {
+  return caught(routine, n, [&] { return in_default_floating_point(call); });
 }
 
 template <class Int>
@@ -201,7 +207,7 @@ MESH_CALLS(double, int64_t, i8)
                                 const Int* lptr, const Int* lend, Int l, Int* npts, Real* df,             \
                                 Int* ier) noexcept {                                                      \
     const ListsView<Int> lists = view(Int{0}, list, lptr, lend);                                          \
-    *ier = code_of("GETNP", 0, [&] { return next_nearest(lists, Nodes<Real>{x, y, z}, l, npts, *df); });  \
+    *ier = caught("GETNP", 0, [&] { return next_nearest(lists, Nodes<Real>{x, y, z}, l, npts, *df); });   \
   }                                                                                                       \
   Int pstripack_inside_##suffix(const Real* p, Int lv, const Real* xv, const Real* yv, const Real* zv,    \
                                 Int nv, const Int* listv, Int* ier) noexcept {                            \

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/floating_point.h"
 #include "geometry/predicates.h"
 #include "stripack/list_queries.h"
 #include "stripack/original/original_rules.h"
@@ -278,6 +279,29 @@ class NodeTable {
   int shift_;
 };
 
+/// The nodes that GETNP is given where they are few: compared one by one.
+template <class Int, int most>
+class FewNodes {
+ public:
+  explicit FewNodes(const Int* npts) : npts_(npts) { std::fill_n(node_, most, npts[0]); }
+
+  /// npts[place]; false if it is there already.
+  bool insert(Int place) {
+    if (contains(npts_[place])) return false;
+    node_[place] = npts_[place];
+    return true;
+  }
+  bool contains(Int node) const {
+    bool found = false;
+    for (const Int one : node_) found |= node == one;
+    return found;
+  }
+
+ private:
+  const Int* npts_;
+  Int node_[most];
+};
+
 /// Calls visit(neighbour) for the neighbours of a node, the last one first. False if their list is not closed
 /// but runs into a loop. The next slot is foreseen as in canonical lists and compared with LPTR: the
 /// processor predicts that branch, but to follow LPTR it would have to wait for memory.
@@ -319,6 +343,26 @@ class Nearest {
     nearest_ = cosine > cosine_ ? node : nearest_;
     cosine_ = cosine > cosine_ ? cosine : cosine_;
   }
+  /// Takes the default floating-point environment for itself: to save another one the processor waits for all
+  /// that has begun, so by then these nodes should be on their way from memory.
+  void compare(const Int* begin, const Int* end) {
+    in_default_floating_point([=] {
+      Int nearest = nearest_;
+      Real greatest = cosine_, not_finite = not_finite_;
+      for (const Int* node = begin; node != end; ++node) {
+        const Real cosine = dot(nodes_[*node], centre_);
+        not_finite += 0 * cosine;
+        if (cosine > greatest) {
+          nearest = *node;
+          greatest = cosine;
+          asm("" : "+r"(nearest));  // a branch, which the processor predicts: it need not wait for positions
+        }
+      }
+      nearest_ = nearest;
+      cosine_ = greatest;
+      not_finite_ = not_finite;
+    });
+  }
   NextNearestStatus write(Int& node, Real& distance) const {
     if (not_finite_ != 0) return NextNearestStatus::not_finite;
     if (nearest_ == 0) return NextNearestStatus::none_left;
@@ -335,7 +379,7 @@ class Nearest {
   Real not_finite_ = 0;  ///< 0, or NaN
 };
 
-/// GETNP for l = 2.
+/// GETNP for l = 2, in the default floating-point environment.
 template <class Real, class Int>
 NextNearestStatus nearest_neighbour(const ListsView<Int>& lists, const Nodes<Real>& nodes, Int* npts,
                                     Real& distance) {
@@ -350,14 +394,12 @@ NextNearestStatus nearest_neighbour(const ListsView<Int>& lists, const Nodes<Rea
   return nearest.write(npts[1], distance);
 }
 
-/// GETNP for more. `cells`: 2^bits of them, all 0, which can hold a number below `given`. A function of its
-/// own for few and for many, since compilers run out of registers where both are one.
-template <bool few, class Real, class Int, class Cell>
+/// GETNP for more. `taken`: empty, with room for the given nodes. A function of its own for few and for many,
+/// since compilers run out of registers where both are one.
+template <bool few, class Real, class Int, class Taken>
 [[gnu::noinline]] NextNearestStatus nearest_of_others(const ListsView<Int>& lists, const Nodes<Real>& nodes,
-                                                      Int given, Int* npts, Real& distance, Cell* cells,
-                                                      int bits) {
+                                                      Int given, Int* npts, Real& distance, Taken taken) {
   const ListReader<Int> reader(lists);
-  NodeTable<Int, Cell> taken(npts, cells, bits);
   for (Int i = 1; i < given; ++i)
     if (npts[i] < 1 || !taken.insert(i)) return NextNearestStatus::bad_nodes;
   for (Int i = 0; i < given; ++i) reader.prefetch_list(npts[i]);
@@ -366,17 +408,15 @@ template <bool few, class Real, class Int, class Cell>
   constexpr int most = 64;
   Int others[most];  // nodes that are not taken, to be compared
   int count = 0;
-  const auto compare = [&]() __attribute__((always_inline)) {
-    for (int i = 0; i < count; ++i) {
-      if (!few) reader.prefetch_last_slot(others[i]);
-      nearest.compare(others[i]);
-    }
-    count = 0;
-  };
   // Of the slots one is what the next call needs: callers ask for l = 2, 3, 4...
   const auto prefetch = [&](Int node) {
-    nodes.prefetch(node);
+    if (few) nodes.prefetch(node);
     reader.prefetch_last_slot(node);
+  };
+  const auto compare = [&]() __attribute__((always_inline)) {
+    if (!few) std::for_each(others, others + count, prefetch);
+    nearest.compare(others, others + count);
+    count = 0;
   };
   const auto visit = [&](Int node) __attribute__((always_inline)) {
     if (few) prefetch(node);  // of many, most are taken
@@ -480,23 +520,29 @@ NextNearestStatus next_nearest(const ListsView<Int>& lists, const Nodes<Real>& n
   if (l < 2) return NextNearestStatus::too_short;
   const Int given = l - 1;
   if (npts[0] < 1) return NextNearestStatus::bad_nodes;
-  if (given == 1) return nearest_neighbour(lists, nodes, npts, distance);
+  if (given == 1)
+    return in_default_floating_point([&] { return nearest_neighbour(lists, nodes, npts, distance); });
+  const auto of_few = [&](const auto& taken) {
+    return nearest_of_others<true>(lists, nodes, given, npts, distance, taken);
+  };
+  if (given == 2) return of_few(FewNodes<Int, 2>(npts));
+  if (given <= 4) return of_few(FewNodes<Int, 4>(npts));
   constexpr int cells_a_node = 16;  // so that few nodes meet another one's cell
   constexpr int few = 8;
   int bits = 7;
   static_assert(cells_a_node * few == 1 << 7);
   if (given <= few) {
     std::uint8_t cells[cells_a_node * few] = {};
-    return nearest_of_others<true>(lists, nodes, given, npts, distance, cells, bits);
+    return of_few(NodeTable(npts, cells, bits));
   }
   while ((std::int64_t{1} << bits) < cells_a_node * std::int64_t{given}) ++bits;
   if (given <= most_without_memory) {
     std::uint8_t cells[cells_a_node * most_without_memory];
     std::memset(cells, 0, std::size_t{1} << bits);
-    return nearest_of_others<false>(lists, nodes, given, npts, distance, cells, bits);
+    return nearest_of_others<false>(lists, nodes, given, npts, distance, NodeTable(npts, cells, bits));
   }
   std::vector<Int> cells(std::size_t{1} << bits);
-  return nearest_of_others<false>(lists, nodes, given, npts, distance, cells.data(), bits);
+  return nearest_of_others<false>(lists, nodes, given, npts, distance, NodeTable(npts, cells.data(), bits));
 }
 
 #define PSTRIPACK_SEARCH(Real, Int)                                                                         \
