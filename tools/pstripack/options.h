@@ -23,9 +23,16 @@ using Command = std::function<void()>;
 template <class Enum>
 void add_choice(CLI::App& app, const char* name, Enum& value, const std::map<std::string, Enum>& choices,
                 const char* text) {
-  app.add_option(name, value, text)
-      ->type_name("WORD")
-      ->transform(CLI::CheckedTransformer(choices).description(""));
+  const auto number_of = [choices](std::string& word) -> std::string {
+    if (const auto found = choices.find(word); found != choices.end()) {
+      word = std::to_string(static_cast<int>(found->second));
+      return "";
+    }
+    std::string words;
+    for (const auto& [choice, number] : choices) words += (words.empty() ? "" : ", ") + choice;
+    return "'" + word + "' is none of " + words;
+  };
+  app.add_option(name, value, text)->type_name("WORD")->transform(CLI::Validator(number_of, ""));
 }
 
 /// "1 node", "2 nodes".

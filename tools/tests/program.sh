@@ -315,8 +315,8 @@ bad_scvt)
   refuses 2 "excludes" scvt 10 --density bump --density-file start.txt -o failed.off
   refuses 2 "no format has this suffix" scvt 10 -o failed.xxx
   refuses 2 "excludes" scvt 10 --levels --first front -o failed.off
-  refuses 2 "--first: " scvt 10 --first middle -o failed.off
-  refuses 2 "--method: " scvt 10 --method steepest -o failed.off
+  refuses 2 "--first: 'middle' is none of front, levels, random" scvt 10 --first middle -o failed.off
+  refuses 2 "--method: 'steepest' is none of lloyd, newton" scvt 10 --method steepest -o failed.off
   refuses 2 "'1.5' is not a whole number" scvt 1.5 -o failed.off
   refuses 1 "no/folder/failed.off: cannot be written" scvt 10 -o no/folder/failed.off
   refuses 1 "no/checkpoint.nc: cannot be written" scvt 10 --checkpoint no/checkpoint.nc -o failed.off
