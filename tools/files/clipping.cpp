@@ -106,30 +106,49 @@ bool cut(MapRing& ring, const Side& side) {
 
 void divide_half_turns(Faces& cells, const Mesh& mesh) {
   const pstripack::ListReader<std::int32_t> reader(mesh.lists());
+  const auto corner = [&](std::size_t f, std::size_t k) {  // cyclic
+    return cells.corner[cells.begin[f] + k % cells.corners(f)];
+  };
+  const auto has_side = [&](std::size_t f, std::int32_t from, std::int32_t to) {
+    for (std::size_t k = 0; k < cells.corners(f); ++k)
+      if (corner(f, k) == from && corner(f, k + 1) == to) return true;
+    return false;
+  };
   Faces divided = cells;
   divided.corner.clear();
   for (std::size_t f = 0; f < cells.size(); ++f) {
     divided.begin[f] = divided.corner.size();
-    const auto node = static_cast<std::int32_t>(f + 1);
-    const std::int32_t last = reader.last_slot(node);
-    for (std::size_t k = cells.begin[f]; k < cells.begin[f + 1]; ++k) {
-      const std::int32_t from = cells.corner[k];
-      const std::int32_t to = cells.corner[k + 1 < cells.begin[f + 1] ? k + 1 : cells.begin[f]];
+    for (std::size_t k = 0; k < cells.corners(f); ++k) {
+      const std::int32_t from = corner(f, k), to = corner(f, k + 1);
       divided.corner.push_back(from);
       const Point &a = cells.points[static_cast<std::size_t>(from) - 1],
-                  &b = cells.points[static_cast<std::size_t>(to) - 1];
-      if (dot(a, b) >= -1 + 1e-12 || reader.entry(last) >= 0) continue;
-      // The side divides the cells of two nodes that are neighbours on the boundary, and leads across the
-      // boundary: outwards on the side of the last neighbour, inwards on that of the first one.
-      const bool outwards = dot(a, cells.centres[f]) > 0;
-      const Point& near = outwards ? a : b;
-      const std::int32_t slot = outwards ? last : reader.next(last);
-      const Point &c = cells.centres[f],
-                  &other = cells.centres[static_cast<std::size_t>(reader.neighbour(slot)) - 1];
-      const Point outside = outwards ? cross(c, other) : cross(other, c);
-      const Point middle = unit(cross(near, minus(c, other)));
-      const double sign = dot(middle, outside) > 0 ? 1 : -1;
-      divided.points.push_back({sign * middle.x, sign * middle.y, sign * middle.z});
+                  &b = cells.points[static_cast<std::size_t>(to) - 1], &node = cells.centres[f];
+      if (dot(a, b) >= -1 + 1e-12) continue;
+      // The middle is a right angle from both ends and as far from the node as from the neighbour beyond the
+      // side, and has the node on its left. The cells of three nodes have all sides in common: there no other
+      // neighbour is as close.
+      const auto last = reader.last_slot(static_cast<std::int32_t>(f + 1));
+      const auto for_each_neighbour = [&](const auto& visit) {
+        std::int32_t slot = last;
+        do {
+          slot = reader.next(slot);
+          visit(static_cast<std::size_t>(reader.neighbour(slot)) - 1);
+        } while (slot != last);
+      };
+      Point best{0, 0, 0};
+      double most = -3;
+      for_each_neighbour([&](std::size_t beyond) {
+        if (!has_side(beyond, to, from)) return;
+        Point middle = unit(cross(a, minus(node, cells.centres[beyond])));
+        if (dot(a, cross(middle, node)) < 0) middle = {-middle.x, -middle.y, -middle.z};
+        double room = 2;
+        for_each_neighbour([&](std::size_t other) {
+          if (other != beyond) room = std::min(room, dot(middle, minus(node, cells.centres[other])));
+        });
+        if (room > most) most = room, best = middle;
+      });
+      if (most == -3) continue;
+      divided.points.push_back(best);
       divided.corner.push_back(static_cast<std::int32_t>(divided.points.size()));
     }
   }

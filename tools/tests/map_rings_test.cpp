@@ -262,6 +262,11 @@ TEST(cells, of_nodes_on_one_circle_are_lunes_with_corners_in_the_middle_of_their
     for (const MapRing& ring : map_of(cells, f)) EXPECT_GT(area_on_map(ring), 0);
   }
   EXPECT_THROW(clipped_to_region(voronoi_faces(mesh), {}), NoMesh);
+  // Close to a great circle: sides between neighbours anywhere are half turns.
+  for (const char* const family : {"strip", "ellipse"})
+    EXPECT_NEAR(sum(areas(cells_of(triangulate(point_sets::make(family, 10))))) / (16 * std::atan(1.0)), 1,
+                1e-9)
+        << family;
 }
 
 }  // namespace

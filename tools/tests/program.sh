@@ -583,6 +583,9 @@ bad_maps)
     voronoi cap.lonlat --units degrees --clip-to-hull --region 100,110,0,10 -o failed.geojson
   refuses 1 "nodes.txt: the region is smaller than 1e-10 degrees: make it larger" \
     voronoi nodes.txt --region 0,1e-13,0,1e-13 -o failed.geojson
+  printf '85 45\n-95 0\n-95 -45\n0 90\n' > circle.lonlat
+  refuses 1 "circle.lonlat: all nodes lie on one great circle up to rounding: their cells are not known" \
+    voronoi circle.lonlat --units degrees -o failed.geojson
   refuses 1 "/dev/full: cannot be written: No space left" voronoi nodes.txt -o /dev/full --to geojson
   refuses 1 "holds nodes, no triangles" convert nodes.txt -o failed.gmt
   refuses 2 "points are nodes, not a mesh: give --to xyz, lonlat, nodes, csv, geojson or raw" points random 10 -o failed.gmt
