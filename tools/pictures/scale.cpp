@@ -14,10 +14,14 @@ namespace {
 constexpr double kMuch = 20;
 /// Of larger ratios only powers of ten are labelled.
 constexpr double kDecades = 300;
-/// Beyond these, differences and powers of ten might overflow.
+/// Smaller values count as 0 and larger ones as these: differences and powers of ten might overflow.
 constexpr double kLeast = 1e-300, kLargest = 1e300;
 /// Of a step: rounding.
 constexpr double kRounding = 1e-6;
+
+double within_range(double value) {
+  return std::fabs(value) < kLeast ? 0 : std::clamp(value, -kLargest, kLargest);
+}
 
 int exponent_of(double value) { return static_cast<int>(std::floor(std::log10(value))); }
 
@@ -25,8 +29,8 @@ int exponent_of(double value) { return static_cast<int>(std::floor(std::log10(va
 
 Scale::Scale(const std::vector<double>& values, int about, bool always_linear) {
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  double low = std::clamp(*least, -kLargest, kLargest), high = std::clamp(*most, -kLargest, kLargest);
-  logarithmic_ = !always_linear && low >= kLeast && high > kMuch * low;
+  double low = within_range(*least), high = within_range(*most);
+  logarithmic_ = !always_linear && low > 0 && high > kMuch * low;
   if (high - low <= 1e-9 * std::fabs(high)) {  // all the same but for rounding
     const double around = high == 0 ? 1 : 0.1 * std::fabs(high);
     low -= around, high += around;
