@@ -228,7 +228,7 @@ State first_state(const Options& options, const engine::Density& density, engine
   for (std::size_t level = 1; level < sizes.size(); ++level) {
     minimize(evaluator, state, on_levels);
     std::vector<std::int32_t> list, lptr, lend;
-    const engine::Stars stars = engine::triangulate(state.generators, list, lptr, lend);
+    const engine::NeighbourLists stars = engine::triangulate(state.generators, list, lptr, lend);
     state = State(engine::refined(state.generators, stars, density, sizes[level]));
   }
   return state;

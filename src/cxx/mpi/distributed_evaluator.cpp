@@ -5,7 +5,7 @@
 #include <string>
 
 #include "parallel/agreement.h"
-#include "scvt/agreement.h"
+#include "scvt/caller_agreement.h"
 #include "scvt/errors.h"
 
 namespace pstripack::scvt {

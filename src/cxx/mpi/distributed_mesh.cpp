@@ -13,8 +13,8 @@
 #include "mpi/gather_lists.h"
 #include "parallel/agreement.h"
 #include "parallel/coincidence.h"
+#include "parallel/environment_options.h"
 #include "parallel/number_table.h"
-#include "parallel/options.h"
 #include "parallel/scattered.h"
 #include "trmesh/trmesh.h"
 

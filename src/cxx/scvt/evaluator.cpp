@@ -61,8 +61,8 @@ void renumber(const std::vector<std::size_t>& order, std::vector<std::int32_t>& 
 
 }  // namespace
 
-Stars triangulate(const std::vector<Point>& generators, std::vector<std::int32_t>& list,
-                  std::vector<std::int32_t>& lptr, std::vector<std::int32_t>& lend) {
+NeighbourLists triangulate(const std::vector<Point>& generators, std::vector<std::int32_t>& list,
+                           std::vector<std::int32_t>& lptr, std::vector<std::int32_t>& lend) {
   const std::size_t n = generators.size();
   if (n < 4) throw BadGenerators("a tessellation needs at least 4 generators, here are " + std::to_string(n));
   if (n > static_cast<std::size_t>(most_nodes<std::int32_t>()))

@@ -40,7 +40,7 @@ class LocalEvaluator final : public Evaluator {
   double largest(double value) override { return value; }
 
   /// Of the last call of evaluate: LIST and LEND, canonical.
-  Stars stars() const { return {lend_.size(), lend_.data(), list_.data()}; }
+  NeighbourLists stars() const { return {lend_.size(), lend_.data(), list_.data()}; }
 
  private:
   const Density& density_;
@@ -48,7 +48,7 @@ class LocalEvaluator final : public Evaluator {
 };
 
 /// Stars of generators that cover the sphere; lptr: room. Throws BadGenerators, std::bad_alloc.
-Stars triangulate(const std::vector<Point>& generators, std::vector<std::int32_t>& list,
-                  std::vector<std::int32_t>& lptr, std::vector<std::int32_t>& lend);
+NeighbourLists triangulate(const std::vector<Point>& generators, std::vector<std::int32_t>& list,
+                           std::vector<std::int32_t>& lptr, std::vector<std::int32_t>& lend);
 
 }  // namespace pstripack::scvt

@@ -32,7 +32,7 @@ class Random {
 };
 
 /// A triangle of the sphere, small enough that its area is about that of the plane triangle.
-struct Patch {
+struct OctahedronPart {
   std::array<Point, 3> corner;
 
   double area() const {
@@ -41,19 +41,19 @@ struct Patch {
   }
 };
 
-std::vector<Patch> octahedron(int cuts) {
-  std::vector<Patch> patches;
+std::vector<OctahedronPart> octahedron(int cuts) {
+  std::vector<OctahedronPart> patches;
   for (const double x : {1.0, -1.0})
     for (const double y : {1.0, -1.0})
       for (const double z : {1.0, -1.0})
         patches.push_back({{Point{x, 0, 0}, Point{0, y, 0}, Point{0, 0, z}}});
   for (; cuts > 0; --cuts) {
-    std::vector<Patch> parts;
+    std::vector<OctahedronPart> parts;
     for (const auto& [c] : patches) {
       const Point p = normalized(plus(c[0], c[1])), q = normalized(plus(c[1], c[2])),
                   r = normalized(plus(c[2], c[0]));
-      for (const Patch& part :
-           {Patch{{c[0], p, r}}, Patch{{p, c[1], q}}, Patch{{r, q, c[2]}}, Patch{{p, q, r}}})
+      for (const OctahedronPart& part : {OctahedronPart{{c[0], p, r}}, OctahedronPart{{p, c[1], q}},
+                                         OctahedronPart{{r, q, c[2]}}, OctahedronPart{{p, q, r}}})
         parts.push_back(part);
     }
     patches = std::move(parts);
@@ -103,7 +103,7 @@ class Sampler {
 
  private:
   const Density& density_;
-  const std::vector<Patch> patches_;
+  const std::vector<OctahedronPart> patches_;
   std::vector<double> most_, until_;
 };
 
@@ -168,8 +168,8 @@ std::vector<std::size_t> level_sizes(std::size_t n) {
   return sizes;
 }
 
-std::vector<Point> refined(const std::vector<Point>& generators, const Stars& stars, const Density& density,
-                           std::size_t n) {
+std::vector<Point> refined(const std::vector<Point>& generators, const NeighbourLists& stars,
+                           const Density& density, std::size_t n) {
   std::vector<Point> points = generators, middles;
   std::vector<double> length;
   for (std::size_t i = 0; i < stars.count; ++i)

@@ -24,8 +24,8 @@ std::vector<std::size_t> level_sizes(std::size_t n);
 /// The generators and midpoints of the arcs between neighbours, n in all, at most 4 N - 6 for N generators.
 /// Of more midpoints than wanted those of the shortest arcs, measured in local cells, are left out.
 /// Neighbours on the sphere have close numbers. Throws BadDensity.
-std::vector<Point> refined(const std::vector<Point>& generators, const Stars& stars, const Density& density,
-                           std::size_t n);
+std::vector<Point> refined(const std::vector<Point>& generators, const NeighbourLists& stars,
+                           const Density& density, std::size_t n);
 
 /// The density at the points. Throws BadDensity.
 std::vector<double> values_at(const std::vector<Point>& points, const Density& density);

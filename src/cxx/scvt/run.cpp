@@ -30,7 +30,7 @@ Tessellation run(std::size_t n, const Density& density, const RunOptions& option
         static_cast<double>(n);
     if (level + 1 == sizes.size() || done.result.end == End::stopped) return done;
     std::vector<std::int32_t> list, lptr, lend;
-    const Stars stars = triangulate(done.state.generators, list, lptr, lend);
+    const NeighbourLists stars = triangulate(done.state.generators, list, lptr, lend);
     done.state = State(refined(done.state.generators, stars, density, sizes[level + 1]));
   }
 }
