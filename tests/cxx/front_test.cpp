@@ -48,7 +48,7 @@ struct Measures {
 
 Measures measures_of(const std::vector<Point>& generators, const Density& density) {
   std::vector<std::int32_t> list, lptr, lend;
-  const Stars stars = triangulate(generators, list, lptr, lend);
+  const NeighbourLists stars = triangulate(generators, list, lptr, lend);
   Measures m;
   std::vector<double> lengths;
   for (std::size_t i = 0; i < stars.count; ++i) {

@@ -144,7 +144,7 @@ void add_triangle(Integrals& sum, const Point& g, const Point& a, const Point& b
     }
 }
 
-Integrals reference(const std::vector<Point>& points, const Stars& stars, std::size_t i, int cuts,
+Integrals reference(const std::vector<Point>& points, const NeighbourLists& stars, std::size_t i, int cuts,
                     const Density& density) {
   const Point& g = points[i];
   std::vector<Point> ring, corners;
@@ -165,7 +165,7 @@ struct Tessellated {
   }
   std::vector<Point> points;
   std::vector<std::int32_t> list, lptr, lend;
-  Stars stars;
+  NeighbourLists stars;
 };
 
 /// Random generators after some steps of Lloyd's method.
@@ -181,7 +181,7 @@ Tessellated relaxed(std::size_t n, const Density& density, int steps = 5) {
 void expect_accurate(std::size_t n, int cuts, const Density& density, double tolerance) {
   SCOPED_TRACE(n);
   const Tessellated t = relaxed(n, density);
-  Stars some{std::min<std::size_t>(n, 20), t.lend.data(), t.list.data()};
+  NeighbourLists some{std::min<std::size_t>(n, 20), t.lend.data(), t.list.data()};
   Cells cells;
   integrate(t.points.data(), some, density, cells);
   for (std::size_t i = 0; i < some.count; ++i) {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "scvt/agreement.h"
+#include "scvt/caller_agreement.h"
 
 namespace program {
 

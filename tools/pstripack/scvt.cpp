@@ -20,7 +20,7 @@
 #include "pstripack/parts.h"
 #include "pstripack/progress.h"
 #include "pstripack/ranks.h"
-#include "scvt/agreement.h"
+#include "scvt/caller_agreement.h"
 #include "scvt/errors.h"
 #include "scvt/first_generators.h"
 #include "scvt/front.h"
@@ -255,9 +255,9 @@ std::string duration(double seconds) {
 /// The generators of a new run: of the last level, where there are levels. Collective.
 Tessellation first_tessellation(const Options& options, engine::Evaluator& evaluator, Progress& progress) {
   const bool is_alone = evaluator.ranks().size() == 1;
-  const First first = options.first != First::by_number  ? options.first
+  const First first = options.first != First::by_number                  ? options.first
                       : options.n >= engine::kFewestOfAFront && is_alone ? First::front
-                                                         : First::levels;
+                                                                         : First::levels;
   if (first == First::front) {
     if (!is_alone)
       throw engine::NoTessellation(

@@ -21,7 +21,7 @@
 #include "mpi/collective_trmesh.h"
 #include "mpi/distributed_evaluator.h"
 #include "mpi/distributed_mesh.h"
-#include "scvt/agreement.h"
+#include "scvt/caller_agreement.h"
 #include "scvt/minimize.h"
 #include "stripack/original/original_rules.h"
 

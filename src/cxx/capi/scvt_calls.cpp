@@ -77,14 +77,14 @@ class StarsOfLists {
                                              " neighbours, a triangulation of the sphere has " +
                                              std::to_string(6 * n - 12)};
   }
-  scvt::Stars stars() const { return {end_.size(), end_.data(), neighbour_.data()}; }
+  scvt::NeighbourLists stars() const { return {end_.size(), end_.data(), neighbour_.data()}; }
 
  private:
   std::vector<std::int32_t> end_, neighbour_;
 };
 
 /// A triangle that turns the wrong way, by more than rounding, tells lists of other generators.
-void check_triangles(const std::vector<Point>& generators, const scvt::Stars& stars) {
+void check_triangles(const std::vector<Point>& generators, const scvt::NeighbourLists& stars) {
   constexpr double kRounding = 1e-12;
   const auto point = [&](std::int32_t node) { return generators[static_cast<std::size_t>(node) - 1]; };
   for (std::size_t i = 0; i < stars.count; ++i) {

@@ -23,7 +23,7 @@ using namespace pstripack;
 
 /// What a handle points to.
 struct Text {
-  Records records;
+  FormattedText records;
   std::size_t taken = 0;  ///< characters
 };
 
@@ -49,7 +49,7 @@ void* composed(const char* routine, const Compose& compose) {
 template <class Int, class Compose>
 void* picture(const char* routine, Int& ier, const Compose& compose) {
   PlotStatus status = PlotStatus::done;
-  void* text = composed(routine, [&](Records& out) { status = compose(out); });
+  void* text = composed(routine, [&](FormattedText& out) { status = compose(out); });
   ier = text != nullptr ? static_cast<Int>(status) : Int{-6};
   if (status == PlotStatus::bad_node)
     complain(routine, "IER = -5: a point is not finite, or far from the unit sphere");
@@ -99,14 +99,14 @@ void pstripack_free_text(void* text) noexcept { delete static_cast<Text*>(text);
 #define PRINT_CALLS(Real, Int, suffix)                                                                      \
   void* pstripack_trprnt_##suffix(Int n, const Real* x, const Real* y, const Real* z, Int iflag,            \
                                   const Int* list, const Int* lptr, const Int* lend, Int f90) noexcept {    \
-    return composed("TRPRNT", [&](Records& out) {                                                           \
+    return composed("TRPRNT", [&](FormattedText& out) {                                                     \
       const ListsView<Int> lists{static_cast<std::size_t>(n), list, lptr, lend, 0};                         \
       list_neighbours(form(f90 != 0), iflag, lists, Nodes<Real>{x, y, z}, out);                             \
     });                                                                                                     \
   }                                                                                                         \
   void* pstripack_trlprt_##suffix(Int n, const Real* x, const Real* y, const Real* z, Int iflag, Int nrow,  \
                                   Int nt, const Int* ltri, Int f90) noexcept {                              \
-    return composed("TRLPRT", [&](Records& out) {                                                           \
+    return composed("TRLPRT", [&](FormattedText& out) {                                                     \
       list_triangles(form(f90 != 0), n, iflag, Nodes<Real>{x, y, z}, nrow, nt, ltri, out);                  \
     });                                                                                                     \
   }                                                                                                         \
@@ -116,7 +116,7 @@ void pstripack_free_text(void* text) noexcept { delete static_cast<Text*>(text);
                                   Int* ier) noexcept {                                                      \
     const PlotFrame<Real, Int> frame{                                                                       \
         lun, pltsiz, elat, elon, a, {title, static_cast<std::size_t>(title_length)}, numbr != 0};           \
-    return picture("TRPLOT", *ier, [&](Records& out) {                                                      \
+    return picture("TRPLOT", *ier, [&](FormattedText& out) {                                                \
       const ListsView<Int> lists{static_cast<std::size_t>(n), list, lptr, lend, 0};                         \
       return plot_triangulation(frame, lists, Nodes<Real>{x, y, z}, out);                                   \
     });                                                                                                     \
@@ -127,20 +127,21 @@ void pstripack_free_text(void* text) noexcept { delete static_cast<Text*>(text);
                                   const char* title, Int title_length, Int numbr, Int* ier) noexcept {      \
     const PlotFrame<Real, Int> frame{                                                                       \
         lun, pltsiz, elat, elon, a, {title, static_cast<std::size_t>(title_length)}, numbr != 0};           \
-    return picture("VRPLOT", *ier, [&](Records& out) {                                                      \
+    return picture("VRPLOT", *ier, [&](FormattedText& out) {                                                \
       return plot_voronoi(frame, n, Nodes<Real>{x, y, z}, nt, listc, lptr, lend, Nodes<Real>{xc, yc, zc},   \
                           out);                                                                             \
     });                                                                                                     \
   }
 
-#define COUNT_CALLS(Int, suffix)                                                                             \
-  Int pstripack_number_at_##suffix(const Int* address, const Int* n, const Int* fifth, const Int* sixth,     \
-                                   const Int* seventh, const Int* eighth) noexcept {                         \
-    return number_at(address, {n, fifth, sixth, seventh, eighth});                                           \
-  }                                                                                                          \
-  void* pstripack_voronoi_poly_count_##suffix(Int n, const Int* lend, const Int* lptr,                       \
-                                              const Int* listc) noexcept {                                   \
-    return composed("VORONOI_POLY_COUNT", [&](Records& out) { count_polygons(n, lend, lptr, listc, out); }); \
+#define COUNT_CALLS(Int, suffix)                                                                         \
+  Int pstripack_number_at_##suffix(const Int* address, const Int* n, const Int* fifth, const Int* sixth, \
+                                   const Int* seventh, const Int* eighth) noexcept {                     \
+    return number_at(address, {n, fifth, sixth, seventh, eighth});                                       \
+  }                                                                                                      \
+  void* pstripack_voronoi_poly_count_##suffix(Int n, const Int* lend, const Int* lptr,                   \
+                                              const Int* listc) noexcept {                               \
+    return composed("VORONOI_POLY_COUNT",                                                                \
+                    [&](FormattedText& out) { count_polygons(n, lend, lptr, listc, out); });             \
   }
 
 PRINT_CALLS(float, int32_t, r4)

@@ -72,32 +72,32 @@ Int scaled(double v, int low) {
 }
 
 template <class Int>
-struct Vector {
+struct IntegerVector {
   Int x, y, z;
 };
 
 template <class Int>
-Vector<Int> scaled(const Point& p, int low) {
+IntegerVector<Int> scaled(const Point& p, int low) {
   return {scaled<Int>(p.x, low), scaled<Int>(p.y, low), scaled<Int>(p.z, low)};
 }
 
 template <class Int>
-Vector<Int> operator-(const Vector<Int>& a, const Vector<Int>& b) {
+IntegerVector<Int> operator-(const IntegerVector<Int>& a, const IntegerVector<Int>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 
 template <class Int>
-Vector<Int> cross(const Vector<Int>& a, const Vector<Int>& b) {
+IntegerVector<Int> cross(const IntegerVector<Int>& a, const IntegerVector<Int>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
 template <class Int>
-Int dot(const Vector<Int>& a, const Vector<Int>& b) {
+Int dot(const IntegerVector<Int>& a, const IntegerVector<Int>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
 template <class Int>
-Int det(const Vector<Int>& a, const Vector<Int>& b, const Vector<Int>& c) {
+Int det(const IntegerVector<Int>& a, const IntegerVector<Int>& b, const IntegerVector<Int>& c) {
   return dot(cross(a, b), c);
 }
 

@@ -179,19 +179,19 @@ bool spans_scales(double low, double high) {
 }
 
 /// How the cells divide a square: into equal parts, or by exponent if most nodes lie in one of these.
-enum class Division { equal, by_scale };
+enum class Halving { equal, by_scale };
 
 /// Orders the nodes of one cell, entries [first,last), along a curve through their bounding box.
 ///
 /// Equal parts divide the side of a cell by at least 2^5 at each level. Nodes that approach one point over as
 /// many decades as a double's exponent allows would need one level for each few of them: if that point has a
 /// coordinate 0, dividing by exponent separates all scales at once.
-void refine(const Points& points, Entry* first, Entry* last, int depth, Division division) {
+void refine(const Points& points, Entry* first, Entry* last, int depth, Halving division) {
   const std::size_t n = static_cast<std::size_t>(last - first);
   Buffer<OnCube> place(n);
   Box box;
   for (std::size_t k = 0; k < n; ++k) box.include(place[k] = on_cube(points[node_of(first[k])]));
-  if (division == Division::by_scale) {
+  if (division == Halving::by_scale) {
     const bool s = spans_scales(box.s0, box.s1), t = spans_scales(box.t0, box.t1);
     const auto part = [](bool by_scale, double v, double low, double high) {
       if (!(high > low)) return 0.0;
@@ -219,7 +219,7 @@ void refine(const Points& points, Entry* first, Entry* last, int depth, Division
   for (std::size_t i = 0, j; i < n; i = j) {
     for (j = i + 1; j < n && key_of(first[j]) == key_of(first[i]);) ++j;
     if (j - i > kCrowd)
-      refine(points, first + i, first + j, depth - 1, 2 * (j - i) > n ? Division::by_scale : Division::equal);
+      refine(points, first + i, first + j, depth - 1, 2 * (j - i) > n ? Halving::by_scale : Halving::equal);
   }
 }
 
@@ -278,7 +278,7 @@ std::size_t insertion_order(const Point* first_point, std::size_t n, std::uint32
       alone.push_back(i);
     before = key;
     // Three levels by exponent and eleven in equal parts reach adjacent doubles.
-    if (j - i > kCrowd) refine(points, entries + i, entries + j, 20, Division::equal);
+    if (j - i > kCrowd) refine(points, entries + i, entries + j, 20, Halving::equal);
   }
   parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int) {
     auto next = std::lower_bound(alone.begin(), alone.end(), first);

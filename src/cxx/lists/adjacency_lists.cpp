@@ -124,9 +124,9 @@ void for_each_triangle_at(const ListsView<Int>& lists, std::size_t k, const Visi
 }
 
 /// Finds a neighbour's position in a star: by search in short stars, else by a sorted table.
-class Places {
+class StarPlaces {
  public:
-  explicit Places(const StarTable& stars) : stars_(stars) {
+  explicit StarPlaces(const StarTable& stars) : stars_(stars) {
     for (std::size_t v = 0; v < stars.size(); ++v) {
       const std::uint32_t begin = stars.begin[v], end = stars.begin[v + 1];
       if (end - begin <= kFew) continue;
@@ -228,7 +228,7 @@ Verdict read_stars(const ListsView<Int>& lists, StarTable& stars) {
 /// True if the stars agree with each other.
 Verdict check_stars(const StarTable& stars) {
   constexpr std::size_t kAhead = 8;
-  const Places places(stars);
+  const StarPlaces places(stars);
   for (std::size_t k = 0; k < stars.size(); ++k) {
     if (k + kAhead < stars.size())
       for (std::uint32_t i = stars.begin[k + kAhead]; i < stars.begin[k + kAhead + 1]; ++i)

@@ -24,13 +24,14 @@ Verdict defect(Defect d, const std::string& what, std::initializer_list<index_t>
 }
 
 /// The star of every node: for each triangle (v,b,c) at v the pair b -> c, sorted by b.
-class Corners {
+class CornersOfNodes {
  public:
   struct Pair {
     index_t b, c;
   };
 
-  Corners(std::size_t n, const Triangle* triangles, std::size_t count) : begin_(n + 1, 0), pairs_(3 * count) {
+  CornersOfNodes(std::size_t n, const Triangle* triangles, std::size_t count)
+      : begin_(n + 1, 0), pairs_(3 * count) {
     for (std::size_t t = 0; t < count; ++t)
       for (const index_t v : triangles[t]) ++begin_[static_cast<std::size_t>(v) + 1];
     std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
@@ -64,7 +65,7 @@ class Corners {
 
 /// The neighbours of v counterclockwise into `ring`; `closed` if the star has no gap. False if the star is
 /// not one cycle or one fan.
-bool ring_of(Corners& stars, index_t v, std::vector<index_t>& ring, bool& closed) {
+bool ring_of(CornersOfNodes& stars, index_t v, std::vector<index_t>& ring, bool& closed) {
   const auto s = static_cast<std::size_t>(v);
   // A fan starts at the neighbour that no triangle of the star ends at.
   std::vector<index_t>& ends = ring;
@@ -185,7 +186,7 @@ Verdict check_geometry(const Predicates& predicates, const StarTable& stars, Tie
 }
 
 /// True if the triangles at every node form one cycle or one fan; they are then its star.
-Verdict find_stars(Corners& corners, StarTable& stars) {
+Verdict find_stars(CornersOfNodes& corners, StarTable& stars) {
   std::vector<index_t> ring;
   std::size_t end = 0;
   stars.begin[0] = 0;
@@ -278,7 +279,7 @@ Verdict is_valid(const Point* p, std::size_t n, const Triangle* triangles, std::
     if (a == b || b == c || c == a)
       return defect(Defect::malformed, "triangle with one node twice", {a, b, c});
   }
-  Corners corners(n, triangles, count);
+  CornersOfNodes corners(n, triangles, count);
   StarTable stars(n, 6 * count);  // each triangle has three corners and brings at most as many gaps
   if (Verdict v = find_stars(corners, stars); !v) return v;
   return is_valid(p, stars, lengths, ties);

@@ -15,7 +15,7 @@
 #include "mpi/numbering.h"
 #include "parallel/agreement.h"
 #include "parallel/coincidence.h"
-#include "parallel/options.h"
+#include "parallel/environment_options.h"
 
 namespace pstripack {
 namespace {

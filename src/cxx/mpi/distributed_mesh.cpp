@@ -10,7 +10,7 @@
 #include "mpi/gather_lists.h"
 #include "parallel/agreement.h"
 #include "parallel/coincidence.h"
-#include "parallel/options.h"
+#include "parallel/environment_options.h"
 
 namespace pstripack {
 

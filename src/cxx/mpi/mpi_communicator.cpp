@@ -62,9 +62,9 @@ double processor_seconds() { return clock_seconds(CLOCK_THREAD_CPUTIME_ID); }
 /// How to pass the time until the next look: spin first, because most waits are short; then let others run;
 /// then sleep, an eighth of the time waited so far at most, so that a wait is hardly prolonged. Where ranks
 /// share processors there is no spinning, but more of letting others run: the one waited for is among them.
-class Patience {
+class BackOff {
  public:
-  explicit Patience(bool crowded) : spin_(crowded ? 0 : 50e-6), yield_(crowded ? 1e-3 : 200e-6) {}
+  explicit BackOff(bool crowded) : spin_(crowded ? 0 : 50e-6), yield_(crowded ? 1e-3 : 200e-6) {}
 
   void pause() {
     const double waited = std::chrono::duration<double>(Clock::now() - start_).count();
@@ -156,12 +156,12 @@ void MpiCommunicator::check(int code) const {
 /// what is more was spent looking whether they are there.
 void MpiCommunicator::wait(MPI_Request* requests, int count, std::size_t bytes) {
   const double start = processor_seconds();
-  Patience patience(crowded_);
+  BackOff back_off(crowded_);
   for (;;) {
     int done = 0;
     check(MPI_Testall(count, requests, &done, MPI_STATUSES_IGNORE));
     if (done) break;
-    patience.pause();
+    back_off.pause();
   }
   idle_cpu_seconds += std::max(0.0, processor_seconds() - start - 1e-9 * static_cast<double>(bytes));
 }

@@ -4,8 +4,8 @@
 
 #include "geometry/predicates.h"
 #include "parallel/agreement.h"
+#include "parallel/environment_options.h"
 #include "parallel/number_table.h"
-#include "parallel/options.h"
 #include "parallel/parcels.h"
 #include "parallel/scattered.h"
 

@@ -26,7 +26,7 @@ double Extent::diagonal() const { return std::hypot(length(0), length(1), length
 
 /// Counts in bins, so that only those of a few bins are compared with each other: no branch of a selection
 /// can be guessed.
-std::vector<double> Halves::heights(const Point* p, std::size_t n, std::size_t first, std::size_t last,
+std::vector<double> Halver::heights(const Point* p, std::size_t n, std::size_t first, std::size_t last,
                                     int axis, const Extent& extent) {
   constexpr int kBins = 64;
   constexpr double kTiny = 1e-300;  // its inverse is finite; below, one bin has them all

@@ -30,9 +30,9 @@ struct Extent {
 };
 
 /// Cuts points in two, again and again, in place.
-class Halves {
+class Halver {
  public:
-  explicit Halves(std::size_t most_points) : others_(most_points) {}
+  explicit Halver(std::size_t most_points) : others_(most_points) {}
 
   /// The heights across `axis` of the points of ranks [first, last) from below, sorted; first < last <= n.
   std::vector<double> heights(const Point* p, std::size_t n, std::size_t first, std::size_t last, int axis,
@@ -105,7 +105,7 @@ class Cuts {
 
   const int patches_;
   std::vector<Point> sample_, counted_;
-  Halves halves_;
+  Halver halves_;
   std::vector<Cut> cuts_;
   std::vector<Box> boxes_;  ///< of this level
 };

@@ -240,7 +240,7 @@ class Partition::Builder {
 
   Partition& partition_;
   std::vector<Point>& sample_;
-  Halves halves_;
+  Halver halves_;
   double nodes_a_sample_;
 };
 

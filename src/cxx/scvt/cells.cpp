@@ -203,7 +203,7 @@ void integrate_tiny(Entries& e) {
 class SmallCells {
  public:
   static constexpr std::size_t kCells = 64;  ///< their arrays fit the first cache
-  SmallCells(const Point* points, const Stars& stars, const Density& density, Cells& cells)
+  SmallCells(const Point* points, const NeighbourLists& stars, const Density& density, Cells& cells)
       : points_(points),
         stars_(stars),
         slots_(stars.end_of(stars.count - 1)),
@@ -410,7 +410,7 @@ class SmallCells {
   }
 
   const Point* const points_;
-  const Stars& stars_;
+  const NeighbourLists& stars_;
   const std::size_t slots_;  ///< of the neighbours of all cells
   const Density& density_;
   Cells& cells_;
@@ -431,7 +431,7 @@ Point centroid(const Cells& cells, std::size_t i, const Point& g) {
   return normalized(plus(cells.pull[i], scaled(cells.mass[i] - cells.energy[i] / 2, g)));
 }
 
-void integrate(const Point* points, const Stars& stars, const Density& density, Cells& cells) {
+void integrate(const Point* points, const NeighbourLists& stars, const Density& density, Cells& cells) {
   cells.resize(stars.count);
   if (stars.count == 0) return;  // a rank without generators
   const int threads = density.is_serial() ? 1 : threads_for(10 * stars.count);

@@ -13,7 +13,7 @@ namespace pstripack::scvt {
 /// The neighbours of the first `count` of some points: those of point i (from 0) are neighbour[end[i-1]] ...
 /// neighbour[end[i]-1], numbers from 1, counterclockwise, beginning with the one of smallest number in the
 /// whole tessellation. LEND and LIST of TRMESH's canonical lists are such arrays.
-struct Stars {
+struct NeighbourLists {
   std::size_t count = 0;
   const std::int32_t* end = nullptr;
   const std::int32_t* neighbour = nullptr;
@@ -47,6 +47,6 @@ Point centroid(const Cells& cells, std::size_t i, const Point& g);
 /// whoever integrates it, if its star begins with the same neighbour. Relative errors are below 5e-7 for a
 /// constant density, and grow with the third power of the width of the cell where a smooth density varies.
 /// Throws BadDensity, std::bad_alloc, and what the density throws.
-void integrate(const Point* points, const Stars& stars, const Density& density, Cells& cells);
+void integrate(const Point* points, const NeighbourLists& stars, const Density& density, Cells& cells);
 
 }  // namespace pstripack::scvt

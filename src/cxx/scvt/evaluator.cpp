@@ -7,7 +7,7 @@
 
 #include "geometry/predicates.h"
 #include "lists/limits.h"
-#include "scvt/agreement.h"
+#include "scvt/caller_agreement.h"
 #include "scvt/errors.h"
 #include "trmesh/trmesh.h"
 
@@ -64,8 +64,8 @@ void renumber(const std::vector<std::size_t>& order, std::vector<std::int32_t>& 
 
 }  // namespace
 
-Stars triangulate(const std::vector<Point>& generators, std::vector<std::int32_t>& list,
-                  std::vector<std::int32_t>& lptr, std::vector<std::int32_t>& lend) {
+NeighbourLists triangulate(const std::vector<Point>& generators, std::vector<std::int32_t>& list,
+                           std::vector<std::int32_t>& lptr, std::vector<std::int32_t>& lend) {
   const std::size_t n = generators.size();
   if (n < 4) throw BadGenerators("a tessellation needs at least 4 generators, here are " + std::to_string(n));
   if (n > static_cast<std::size_t>(most_nodes<std::int32_t>()))
@@ -124,7 +124,7 @@ double Evaluator::largest(double value) {
 void Evaluator::allocate(const std::function<void()>& body) { in_agreement_with_caller(ranks(), body); }
 
 Neighbourhood LocalEvaluator::triangulate(const std::vector<Point>& generators) {
-  const Stars stars = scvt::triangulate(generators, list_, lptr_, lend_);
+  const NeighbourLists stars = scvt::triangulate(generators, list_, lptr_, lend_);
   if (numbers_.size() != stars.count) {
     numbers_.resize(stars.count);
     std::iota(numbers_.begin(), numbers_.end(), std::int64_t{1});

@@ -69,7 +69,7 @@ class LocalEvaluator : public Evaluator {
 };
 
 /// Stars of generators that cover the sphere; lptr: room. Throws BadGenerators, std::bad_alloc.
-Stars triangulate(const std::vector<Point>& generators, std::vector<std::int32_t>& list,
-                  std::vector<std::int32_t>& lptr, std::vector<std::int32_t>& lend);
+NeighbourLists triangulate(const std::vector<Point>& generators, std::vector<std::int32_t>& list,
+                           std::vector<std::int32_t>& lptr, std::vector<std::int32_t>& lend);
 
 }  // namespace pstripack::scvt

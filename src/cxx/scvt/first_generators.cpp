@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "parallel/local_nodes.h"
-#include "scvt/agreement.h"
+#include "scvt/caller_agreement.h"
 #include "scvt/errors.h"
 #include "scvt/vectors.h"
 
@@ -35,7 +35,7 @@ class Random {
 };
 
 /// A triangle of the sphere, small enough that its area is about that of the plane triangle.
-struct Patch {
+struct OctahedronPart {
   std::array<Point, 3> corner;
 
   double area() const {
@@ -44,19 +44,19 @@ struct Patch {
   }
 };
 
-std::vector<Patch> octahedron(int cuts) {
-  std::vector<Patch> patches;
+std::vector<OctahedronPart> octahedron(int cuts) {
+  std::vector<OctahedronPart> patches;
   for (const double x : {1.0, -1.0})
     for (const double y : {1.0, -1.0})
       for (const double z : {1.0, -1.0})
         patches.push_back({{Point{x, 0, 0}, Point{0, y, 0}, Point{0, 0, z}}});
   for (; cuts > 0; --cuts) {
-    std::vector<Patch> parts;
+    std::vector<OctahedronPart> parts;
     for (const auto& [c] : patches) {
       const Point p = normalized(plus(c[0], c[1])), q = normalized(plus(c[1], c[2])),
                   r = normalized(plus(c[2], c[0]));
-      for (const Patch& part :
-           {Patch{{c[0], p, r}}, Patch{{p, c[1], q}}, Patch{{r, q, c[2]}}, Patch{{p, q, r}}})
+      for (const OctahedronPart& part : {OctahedronPart{{c[0], p, r}}, OctahedronPart{{p, c[1], q}},
+                                         OctahedronPart{{r, q, c[2]}}, OctahedronPart{{p, q, r}}})
         parts.push_back(part);
     }
     patches = std::move(parts);
@@ -116,7 +116,7 @@ class Sampler {
 
  private:
   const Density& density_;
-  const std::vector<Patch> patches_;
+  const std::vector<OctahedronPart> patches_;
   std::vector<double> most_, until_;
 };
 
@@ -179,7 +179,7 @@ std::uint64_t key_of(double length) {
 
 /// Of the arcs to neighbours with larger numbers, the longest first.
 std::vector<Middle> middles_of(const Neighbourhood& generators, const Density& density) {
-  const Stars& stars = generators.stars;
+  const NeighbourLists& stars = generators.stars;
   std::vector<Middle> middles;
   std::vector<Point> places;
   std::vector<double> squares;

@@ -88,10 +88,10 @@ struct Node {
 };
 
 /// Nodes in cubes, which are as wide as the nodes' sizes are, to powers of two.
-class Grid {
+class PointGrid {
  public:
   /// For about n nodes, many with this size.
-  Grid(double size, std::size_t n) : unit_(size) {
+  PointGrid(double size, std::size_t n) : unit_(size) {
     std::size_t buckets = 64;
     while (buckets < n / 2) buckets *= 2;
     first_.assign(buckets, kNone);
@@ -237,7 +237,7 @@ class Front {
   const double scale_;
   const std::size_t limit_;
   const Icosahedron icosahedron_;
-  Grid grid_;
+  PointGrid grid_;
   std::array<std::priority_queue<Candidate>, 32> queues_;  ///< of circles in the faces; round the corners
   std::uint64_t candidates_ = 0;
   std::vector<Node> near_;  ///< nodes around the place of interest
@@ -306,14 +306,14 @@ void Front::grow() {
 }
 
 /// Where a front may begin: at the face centres, then wherever it has not come, the finest places first.
-struct Seeds {
-  Seeds(std::size_t n, const Icosahedron& icosahedron, const Density& density);
+struct FrontSeeds {
+  FrontSeeds(std::size_t n, const Icosahedron& icosahedron, const Density& density);
   std::vector<Point> place;
   std::vector<double> density;
   double integral = 0;  ///< of the square root of the density
 };
 
-Seeds::Seeds(std::size_t n, const Icosahedron& icosahedron, const Density& rho) {
+FrontSeeds::FrontSeeds(std::size_t n, const Icosahedron& icosahedron, const Density& rho) {
   const Samples samples(n / 2 + 10000);
   const std::vector<double> values = values_at(samples.place, rho);
   std::vector<std::size_t> order(values.size());
@@ -332,7 +332,7 @@ Seeds::Seeds(std::size_t n, const Icosahedron& icosahedron, const Density& rho) 
 }
 
 /// The nodes of a front that has come everywhere, or has `limit` nodes.
-std::vector<Point> advance(std::size_t limit, const Icosahedron& icosahedron, const Seeds& seeds,
+std::vector<Point> advance(std::size_t limit, const Icosahedron& icosahedron, const FrontSeeds& seeds,
                            const Density& density, double scale) {
   const std::size_t faces = icosahedron.centre.size();
   const double highest = seeds.density[faces];
@@ -354,7 +354,7 @@ std::vector<Point> advance(std::size_t limit, const Icosahedron& icosahedron, co
 std::vector<Point> thinned(std::vector<Point> points, std::size_t n) {
   std::vector<std::int32_t> list, lptr, lend;
   while (points.size() > n) {
-    const Stars stars = triangulate(points, list, lptr, lend);
+    const NeighbourLists stars = triangulate(points, list, lptr, lend);
     const auto sides = [&](std::size_t i) { return stars.end_of(i) - stars.begin_of(i); };
     std::vector<std::size_t> ends;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -386,7 +386,7 @@ std::vector<Point> thinned(std::vector<Point> points, std::size_t n) {
 std::vector<Point> front_generators(std::size_t n, const Density& density) {
   if (n < kFewest) return random_generators(n, density, 1);
   const Icosahedron icosahedron;
-  const Seeds seeds(n, icosahedron, density);
+  const FrontSeeds seeds(n, icosahedron, density);
   // How many nodes a scale leads to is known within a percent until the front has come everywhere. There are
   // about 1.2 sqrt(n) ends of rows.
   const double count = static_cast<double>(n), wanted = count + std::sqrt(count),

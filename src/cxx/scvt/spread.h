@@ -25,7 +25,7 @@ struct Spread {
 struct Neighbourhood {
   const Point* points = nullptr;
   const std::int64_t* numbers = nullptr;
-  Stars stars;  ///< of those of this rank; neighbours are places in these arrays, from 1
+  NeighbourLists stars;  ///< of those of this rank; neighbours are places in these arrays, from 1
 };
 
 /// Numbers the points of all ranks along a curve that fills the sphere; each rank gets a part of the curve

@@ -22,7 +22,7 @@ constexpr Layout layout_of(ListingForm form) {
   return form == ListingForm::f77 ? Layout{"", 4, false} : Layout{" ", 3, true};
 }
 
-void blank(const Layout& layout, int count, Records& out) {
+void blank(const Layout& layout, int count, FormattedText& out) {
   for (int i = 0; i < count; ++i) out.add(layout.blank).end();
 }
 
@@ -33,14 +33,14 @@ int shown_coordinates(Int iflag) {
 }
 
 template <class Real, class Int>
-void coordinates(const Nodes<Real>& nodes, Int node, int shown, int width, Records& out) {
+void coordinates(const Nodes<Real>& nodes, Int node, int shown, int width, FormattedText& out) {
   const Real* const of_axis[] = {nodes.x, nodes.y, nodes.z};
   for (int axis = 0; axis < shown; ++axis)
     out.exponential(static_cast<double>(of_axis[axis][node - 1]), width);
 }
 
 template <class Int>
-void totals(const Layout& layout, Int boundary_nodes, Int arcs, Int triangles, Records& out) {
+void totals(const Layout& layout, Int boundary_nodes, Int arcs, Int triangles, FormattedText& out) {
   blank(layout, 1, out);
   if (layout.totals_in_rows) {
     out.add("NB = ").integer(boundary_nodes, 8).add(" boundary nodes").end();
@@ -57,7 +57,7 @@ void totals(const Layout& layout, Int boundary_nodes, Int arcs, Int triangles, R
 
 template <class Real, class Int>
 void list_neighbours(ListingForm form, Int iflag, const ListsView<Int>& lists, const Nodes<Real>& nodes,
-                     Records& out) {
+                     FormattedText& out) {
   const Layout layout = layout_of(form);
   const Int n = static_cast<Int>(lists.n);
   const int shown = shown_coordinates(iflag);
@@ -120,7 +120,7 @@ void list_neighbours(ListingForm form, Int iflag, const ListsView<Int>& lists, c
 
 template <class Real, class Int>
 void list_triangles(ListingForm form, Int n, Int iflag, const Nodes<Real>& nodes, Int nrow, Int nt,
-                    const Int* ltri, Records& out) {
+                    const Int* ltri, FormattedText& out) {
   const Layout layout = layout_of(form);
   out.empty(3).skip(18).add("PSTRIPACK: triangles as of TRLIST,  N = ").integer(n, 4).end();
   if (n < 3 || n > most_listed || (nrow != 6 && nrow != 9) || nt < 1 || nt > most_listed) {
@@ -178,7 +178,7 @@ void list_triangles(ListingForm form, Int n, Int iflag, const Nodes<Real>& nodes
 }
 
 template <class Int>
-void count_polygons(Int n, const Int* lend, const Int* lptr, const Int* listc, Records& out) {
+void count_polygons(Int n, const Int* lend, const Int* lptr, const Int* listc, FormattedText& out) {
   constexpr std::size_t many = 20;
   std::array<Int, many + 1> cells{};  // by number of sides; `many` and more in the last
   Int vertices = 0, entries = 0;
@@ -210,13 +210,16 @@ void count_polygons(Int n, const Int* lend, const Int* lptr, const Int* listc, R
     if (cells[sides] != 0) out.integer(sides, 8).integer(cells[sides], 8).end();
 }
 
-#define PSTRIPACK_COUNT(Int) template void count_polygons(Int, const Int*, const Int*, const Int*, Records&);
+#define PSTRIPACK_COUNT(Int) \
+  template void count_polygons(Int, const Int*, const Int*, const Int*, FormattedText&);
 PSTRIPACK_COUNT(std::int32_t)
 PSTRIPACK_COUNT(std::int64_t)
 
-#define PSTRIPACK_LISTING(Real, Int)                                                                    \
-  template void list_neighbours(ListingForm, Int, const ListsView<Int>&, const Nodes<Real>&, Records&); \
-  template void list_triangles(ListingForm, Int, Int, const Nodes<Real>&, Int, Int, const Int*, Records&);
+#define PSTRIPACK_LISTING(Real, Int)                                                            \
+  template void list_neighbours(ListingForm, Int, const ListsView<Int>&, const Nodes<Real>&,    \
+                                FormattedText&);                                                \
+  template void list_triangles(ListingForm, Int, Int, const Nodes<Real>&, Int, Int, const Int*, \
+                               FormattedText&);
 PSTRIPACK_LISTING(float, std::int32_t)
 PSTRIPACK_LISTING(double, std::int32_t)
 PSTRIPACK_LISTING(double, std::int64_t)

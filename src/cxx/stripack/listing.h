@@ -5,7 +5,7 @@
 
 #include "lists/adjacency_lists.h"
 #include "stripack/expressions.h"
-#include "stripack/records.h"
+#include "stripack/formatted_text.h"
 
 namespace pstripack {
 
@@ -22,18 +22,18 @@ constexpr int most_listed = 9999;
 /// of neighbours. Lists that are not closed are shown as far as they go, and end the table with a remark.
 template <class Real, class Int>
 void list_neighbours(ListingForm form, Int iflag, const ListsView<Int>& lists, const Nodes<Real>& nodes,
-                     Records& out);
+                     FormattedText& out);
 
 /// TRLPRT: the nodes, with coordinates as in list_neighbours (no nodes at all if iflag < 0), then the nt
 /// columns of ltri(nrow, nt) as TRLIST gives them, then the totals.
 template <class Real, class Int>
 void list_triangles(ListingForm form, Int n, Int iflag, const Nodes<Real>& nodes, Int nrow, Int nt,
-                    const Int* ltri, Records& out);
+                    const Int* ltri, FormattedText& out);
 
 /// VORONOI_POLY_COUNT: for the Voronoi diagram from CRLIST, the numbers of cells, vertices and edges, Euler's
 /// sum F + V - E - 2, which is 0, and the non-zero numbers of cells with 1, 2, ..., 19, 20 or more sides.
 /// listc, lptr: 6n-12 slots. Reports lists that are not closed.
 template <class Int>
-void count_polygons(Int n, const Int* lend, const Int* lptr, const Int* listc, Records& out);
+void count_polygons(Int n, const Int* lend, const Int* lptr, const Int* listc, FormattedText& out);
 
 }  // namespace pstripack

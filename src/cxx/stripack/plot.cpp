@@ -110,7 +110,7 @@ std::string postscript_string(std::string_view title, std::size_t most) {
 template <class Real, class Int>
 class Picture {
  public:
-  Picture(const PlotFrame<Real, Int>& frame, Records& out) : view(frame), frame_(frame), out_(out) {}
+  Picture(const PlotFrame<Real, Int>& frame, FormattedText& out) : view(frame), frame_(frame), out_(out) {}
 
   const View<Real> view;
 
@@ -199,13 +199,13 @@ class Picture {
 
   /// Six decimals in twelve columns; more in a window so small that they would show as steps. The scale,
   /// which is the largest number of all, leaves one column blank.
-  Records& number(Real value) {
+  FormattedText& number(Real value) {
     int decimals = 6;
     for (Real s = scale(); s >= Real(1e4); s /= 10) ++decimals;
     return out_.fixed(static_cast<double>(value), 2 * decimals, decimals);
   }
-  Records& on_paper(int points) { return number(length(points)); }
-  Records& position(const Seen<Real>& p) {
+  FormattedText& on_paper(int points) { return number(length(points)); }
+  FormattedText& position(const Seen<Real>& p) {
     number(p.x);
     return number(p.y);
   }
@@ -215,14 +215,14 @@ class Picture {
   }
 
   const PlotFrame<Real, Int>& frame_;
-  Records& out_;
+  FormattedText& out_;
 };
 
 }  // namespace
 
 template <class Real, class Int>
 PlotStatus plot_triangulation(const PlotFrame<Real, Int>& frame, const ListsView<Int>& lists,
-                              const Nodes<Real>& nodes, Records& out) {
+                              const Nodes<Real>& nodes, FormattedText& out) {
   const Int n = static_cast<Int>(lists.n);
   Picture<Real, Int> picture(frame, out);
   if (const PlotStatus status = picture.check(n >= 3); status != PlotStatus::done) return status;
@@ -253,7 +253,7 @@ PlotStatus plot_triangulation(const PlotFrame<Real, Int>& frame, const ListsView
 template <class Real, class Int>
 PlotStatus plot_voronoi(const PlotFrame<Real, Int>& frame, Int n, const Nodes<Real>& nodes, Int nt,
                         const Int* listc, const Int* lptr, const Int* lend, const Nodes<Real>& vertices,
-                        Records& out) {
+                        FormattedText& out) {
   Picture<Real, Int> picture(frame, out);
   const bool counts_are_good = n >= 3 && nt % 2 == 0 && nt / 2 == n - 2;
   if (const PlotStatus status = picture.check(counts_are_good); status != PlotStatus::done) return status;
@@ -282,9 +282,9 @@ PlotStatus plot_voronoi(const PlotFrame<Real, Int>& frame, Int n, const Nodes<Re
 
 #define PSTRIPACK_PLOT(Real, Int)                                                                         \
   template PlotStatus plot_triangulation(const PlotFrame<Real, Int>&, const ListsView<Int>&,              \
-                                         const Nodes<Real>&, Records&);                                   \
+                                         const Nodes<Real>&, FormattedText&);                             \
   template PlotStatus plot_voronoi(const PlotFrame<Real, Int>&, Int, const Nodes<Real>&, Int, const Int*, \
-                                   const Int*, const Int*, const Nodes<Real>&, Records&);
+                                   const Int*, const Int*, const Nodes<Real>&, FormattedText&);
 PSTRIPACK_PLOT(float, std::int32_t)
 PSTRIPACK_PLOT(double, std::int32_t)
 PSTRIPACK_PLOT(double, std::int64_t)

@@ -6,7 +6,7 @@
 
 #include "lists/adjacency_lists.h"
 #include "stripack/expressions.h"
-#include "stripack/records.h"
+#include "stripack/formatted_text.h"
 
 namespace pstripack {
 
@@ -33,13 +33,13 @@ struct PlotFrame {
 /// TRPLOT: the arcs with at least one end in the window, as straight lines, cut at the horizon and the rim.
 template <class Real, class Int>
 PlotStatus plot_triangulation(const PlotFrame<Real, Int>& frame, const ListsView<Int>& lists,
-                              const Nodes<Real>& nodes, Records& out);
+                              const Nodes<Real>& nodes, FormattedText& out);
 
 /// VRPLOT: the edges of the Voronoi cells with at least one end in the window, likewise. listc, lptr, lend,
 /// vertices: as CRLIST gives them, nt vertices.
 template <class Real, class Int>
 PlotStatus plot_voronoi(const PlotFrame<Real, Int>& frame, Int n, const Nodes<Real>& nodes, Int nt,
                         const Int* listc, const Int* lptr, const Int* lend, const Nodes<Real>& vertices,
-                        Records& out);
+                        FormattedText& out);
 
 }  // namespace pstripack

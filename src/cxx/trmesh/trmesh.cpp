@@ -11,7 +11,7 @@
 #include "lists/list_pieces.h"
 #include "mesh/delaunay.h"
 #include "parallel/coincidence.h"
-#include "parallel/options.h"
+#include "parallel/environment_options.h"
 #include "parallel/triangulate.h"
 #include "stripack/original/original_order.h"
 #include "stripack/original/original_rules.h"

@@ -14,7 +14,7 @@
 #include "lists/list_pieces.h"
 #include "mesh/flips.h"
 #include "mesh/sample_of_stars.h"
-#include "parallel/options.h"
+#include "parallel/environment_options.h"
 
 namespace pstripack {
 namespace {

@@ -1,4 +1,4 @@
-#include "parallel/options.h"
+#include "parallel/environment_options.h"
 
 #include <cerrno>
 #include <cstdio>

@@ -14,36 +14,36 @@ namespace pstripack {
 /// A text of records, each ended by '\n'. Fields are right-justified. A value too wide for its field is
 /// written in full, after a blank, where Fortran writes asterisks: the value matters more than the column.
 /// Independent of the locale. Throws std::bad_alloc.
-class Records {
+class FormattedText {
  public:
   const std::string& text() const { return text_; }
 
-  Records& add(std::string_view words) {
+  FormattedText& add(std::string_view words) {
     text_ += words;
     return *this;
   }
-  Records& skip(int blanks) {
+  FormattedText& skip(int blanks) {
     text_.append(static_cast<std::size_t>(blanks), ' ');
     return *this;
   }
-  Records& end() {
+  FormattedText& end() {
     text_ += '\n';
     return *this;
   }
   /// So many empty records.
-  Records& empty(int count) {
+  FormattedText& empty(int count) {
     text_.append(static_cast<std::size_t>(count), '\n');
     return *this;
   }
   /// Iw
   template <class Int>
-  Records& integer(Int value, int width) {
+  FormattedText& integer(Int value, int width) {
     std::array<char, 24> digits;
     return justified(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr,
                      width);
   }
   /// Fw.d
-  Records& fixed(double value, int width, int decimals) {
+  FormattedText& fixed(double value, int width, int decimals) {
     std::array<char, 400> digits;
     return justified(
         digits.data(),
@@ -52,7 +52,7 @@ class Records {
         width);
   }
   /// Ew.6: 0.123456E+00, with three digits in the exponent 0.123456+100.
-  Records& exponential(double value, int width) {
+  FormattedText& exponential(double value, int width) {
     if (!std::isfinite(value))
       return justified(std::isnan(value) ? "NaN" : value < 0 ? "-Infinity" : "Infinity", width);
     std::array<char, 16> digits;  // -d.ddddde+xxx
@@ -75,13 +75,13 @@ class Records {
   }
 
  private:
-  Records& justified(std::string_view field, int width) {
+  FormattedText& justified(std::string_view field, int width) {
     const auto columns = static_cast<std::size_t>(width);
     text_.append(field.size() > columns ? 1 : columns - field.size(), ' ');
     text_ += field;
     return *this;
   }
-  Records& justified(const char* begin, const char* end, int width) {
+  FormattedText& justified(const char* begin, const char* end, int width) {
     return justified({begin, static_cast<std::size_t>(end - begin)}, width);
   }
 
