@@ -74,7 +74,7 @@ class GatheringEvaluator final : public Evaluator {
     for (std::size_t i = 0; i < number.size(); ++i)
       all[static_cast<std::size_t>(number.begin()[i]) - 1] = point.begin()[i];
     std::vector<std::int32_t> list, lptr, lend;
-    const Stars stars = scvt::triangulate(all, list, lptr, lend);
+    const NeighbourLists stars = scvt::triangulate(all, list, lptr, lend);
     // Own generators first, all the others behind them.
     numbers_.resize(generators.size());
     std::vector<std::int32_t> local(all.size());

@@ -25,7 +25,7 @@ files::Share share_of(Communicator& ranks, std::size_t here) {
 
 files::MeshPart part_of(Communicator& ranks, const pstripack::scvt::Neighbourhood& nodes) {
   files::MeshPart part;
-  const pstripack::scvt::Stars& stars = nodes.stars;
+  const pstripack::scvt::NeighbourLists& stars = nodes.stars;
   const auto number = [&](std::int32_t place) { return nodes.numbers[place - 1]; };
   in_agreement_with_caller(ranks, [&] {
     part.nodes = stars.count;
