@@ -16,6 +16,7 @@
 #include <string>
 #include <thread>
 
+#include "base/parallel_for.h"
 #include "base/workspace.h"
 #include "geometry/predicates.h"
 #include "lists/adjacency_lists.h"
@@ -57,6 +58,9 @@ Result call(const Nodes& nodes) {
                                      &cost);
   r.ier = result.ier;
   r.is_warm = cost.flips >= 0;
+  if (r.is_warm) {
+    EXPECT_EQ(cost.threads, threads_for(nodes.size()));
+  }
   r.flips = std::max<std::int64_t>(cost.flips, 0);
   return r;
 }
