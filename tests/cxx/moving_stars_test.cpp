@@ -331,6 +331,23 @@ TEST(MovingStars, FollowHoweverNodesAreDistributed) {
   EXPECT_GT(follow(sets, 2, owner).warm, 0) << "every other node";
   for (std::size_t i = 0; i < owner.size(); ++i) owner[i] = static_cast<int>(i) % 5;
   EXPECT_EQ(follow(sets, 5, owner).warm, 0) << "every rank would have nearly all nodes";
+
+  // Nodes of ranks 0 and 1 next to each other, among those of rank 2: flips of three ranks count once.
+  std::fill(owner.begin(), owner.end(), 2);
+  const Nodes& first = sets[0];
+  for (std::size_t i = 0; i < 22; ++i) {
+    owner[i] = 0;
+    const auto nearest =
+        std::max_element(first.begin() + 22, first.end(),
+                         [&](const Point& p, const Point& q) { return dot(p, first[i]) < dot(q, first[i]); });
+    owner[static_cast<std::size_t>(nearest - first.begin())] = 1;
+  }
+  const auto more =
+      sets_of(first, 12, [&](Nodes& nodes, int) { move_all(nodes, 0.03 * spacing(400), random); });
+  const Tally three = follow(more, 3, owner), alone = follow(more, 1);
+  EXPECT_GT(three.warm, 5);
+  EXPECT_EQ(three.warm, alone.warm);
+  EXPECT_EQ(three.flips, alone.flips);
 }
 
 /// A node that loses every other neighbour of 200: these flips share it, so that ranks can make one a round.

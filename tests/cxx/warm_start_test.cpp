@@ -16,6 +16,7 @@
 #include <string>
 #include <thread>
 
+#include "base/parallel_for.h"
 #include "base/workspace.h"
 #include "geometry/predicates.h"
 #include "lists/adjacency_lists.h"
@@ -57,6 +58,9 @@ Result call(const Nodes& nodes) {
                                      &cost);
   r.ier = result.ier;
   r.is_warm = cost.flips >= 0;
+  if (r.is_warm) {
+    EXPECT_EQ(cost.threads, threads_for(nodes.size()));
+  }
   r.flips = std::max<std::int64_t>(cost.flips, 0);
   return r;
 }
@@ -667,6 +671,32 @@ TEST(WarmStart, WaitsOneCallMoreAfterAMeshThatDidNotFit) {
   for (int round = 0; round < 3; ++round)
     for (const Nodes& nodes : {there, here})
       for (int i = 0; i < 3; ++i) EXPECT_EQ(call(nodes).is_warm, i == 2) << round << " " << i;
+  forget_last_meshes();
+}
+
+/// What it has written is not done again the cold way.
+TEST(WarmStart, SaysThatItHasWrittenTheLists) {
+  const Nodes nodes = nodes_of("random", kN);
+  const Result right = cold_call(nodes);
+  for (int i = 0; i < 2; ++i) call(nodes);
+  const Columns<> c(nodes);
+  Result r = right;
+  std::fill(r.list.begin(), r.list.end(), untouched);
+  WarmStart start({c.x.data(), c.y.data(), c.z.data()}, kN);
+  EXPECT_TRUE(start.is_prepared());
+  EXPECT_TRUE(start.write_lists({r.list.data(), r.lptr.data(), r.lend.data(), &r.lnew}, nullptr));
+  EXPECT_TRUE(same(r, right));
+}
+
+/// As many nodes as a mesh that did not fit, elsewhere: a mesh of theirs is kept one call later, too.
+TEST(WarmStart, IsAsPatientWithOtherNodesOfTheSameNumber) {
+  const Nodes here = nodes_of("random", kN), elsewhere = nodes_of("fibonacci", kN);
+  Nodes there = here;
+  there[0] = {-here[0].x, -here[0].y, -here[0].z};
+  forget_last_meshes();
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(call(here).is_warm, i == 2);
+  EXPECT_FALSE(call(there).is_warm);
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(call(elsewhere).is_warm, i >= 3) << i;
   forget_last_meshes();
 }
 

@@ -29,6 +29,7 @@ LONGER = ("predicates_test", "-Exact.*:Filter.IsMeasured*", 0.05)
 KERNEL = ("parallel_test", "Nasty.*:Coincident.*", 1)
 FLIPS = ("flips_test", "*", 0.5)
 WARM = ("warm_start_test", "*", 1)
+MEMORY = ("allocation_test", "*LastMesh*", 1)
 STARS = ("moving_stars_test", "*", 1)
 VALIDATOR = ("validator_test", "-*Mutants*:*RandomTriangles*:*ReadsNothing*", 1)
 LISTS = ("validator_test", "*Mutants*:*RandomTriangles*:*ReadsNothing*", 0.1)
@@ -38,8 +39,8 @@ SUBJECTS = {
     "src/cxx/geometry/exact.h": ("constexpr int kSmallBits", "}  // namespace pstripack::exact", [QUICK, LONGER]),
     "src/cxx/geometry/predicates.h": ("inline bool length_is_one", "/// Counts since", [QUICK, KERNEL]),
     "src/cxx/mesh/flips.cpp": ("struct Spokes {", "}  // namespace pstripack", [FLIPS]),
-    "src/cxx/trmesh/warm_start.cpp": ("constexpr std::size_t kFewest", "}  // namespace pstripack", [WARM]),
-    "src/cxx/parallel/moving_stars.cpp": ("// ---- 1, 2 and 3", "// ---- samples", [STARS]),
+    "src/cxx/trmesh/warm_start.cpp": ("constexpr std::size_t kFewest", "}  // namespace pstripack", [WARM, MEMORY]),
+    "src/cxx/parallel/moving_stars.cpp": ("bool MovingStars::propose(", "/// The node in the mesh here", [STARS]),
     "src/cxx/mesh/validate.cpp": ("Verdict defect(", "const char* name(", [VALIDATOR, LISTS]),
     "src/cxx/lists/adjacency_lists.cpp": ("Verdict malformed(", "#define PSTRIPACK", [VALIDATOR, LISTS]),
 }
@@ -133,7 +134,8 @@ class Mutation:
             if test != "parallel_test":  # many threads, each with its share of addresses
                 resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
 
-        done = subprocess.run([self.build / "build/tests/cxx" / test, f"--gtest_filter={pattern}", "--gtest_brief=1"],
+        folder = "faults" if test == "allocation_test" else "cxx"
+        done = subprocess.run([self.build / "build/tests" / folder / test, f"--gtest_filter={pattern}", "--gtest_brief=1"],
                               env={"GTEST_FAIL_FAST": "1", "PSTRIPACK_CASES": str(share), "OMP_NUM_THREADS": "2"},
                               preexec_fn=limits, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         return done.returncode == 0

@@ -24,7 +24,6 @@ namespace pstripack {
 ///           c  |  d              right = (a,d,b), 0 if d < a
 ///            \ | /
 ///              a
-///
 template <class Int, FirstPair pairs>
 class TriangleNumbers {
  public:

@@ -121,7 +121,7 @@ class TriangleList {
     Int most = 0;
     for (std::size_t block = 0; block < blocks_.count(); ++block)
       most = std::max(most, first_arc(block + 1) - first_arc(block));
-    return index(threads_ == 1 ? most : rings_.arcs()) + eight;
+    return index(threads_ == 1 ? most : rings_.arcs());
   }
   std::size_t bytes() const {
     const std::size_t triangles = index(most_triangles()) + 1;
@@ -217,15 +217,14 @@ class TriangleList {
   /// those of which that is so.
   void number(std::size_t block) {
     auto t = static_cast<Number>(before_[block]);
-    const Int skip = offset(block);
+    const Int skip = offset(block), end = first_arc(block + 1);  // after it are nodes of another thread
     const auto last = static_cast<Int>(blocks_.first(block + 1));
     for (Int a = static_cast<Int>(blocks_.first(block)) + 1; a <= last; ++a) {
       const Int ring = rings_.begin(a);
       Number* const left = left_ + (ring - skip);
-      if (rings_.is_small(a)) {
+      if (rings_.is_small(a) && ring + eight <= end) {  // what is too much is of nodes that come later
         const unsigned bits = claims_[a - 1].smallest;
-        put_twice(2 * t + 1, ranks_of_bits[bits],
-                  left);  // what is too much is of the next node, and comes later
+        put_twice(2 * t + 1, ranks_of_bits[bits], left);
         t += ones<Number>(bits);
       } else {
         for (Int arc = ring; arc < rings_.end(a); ++arc) {
