@@ -67,24 +67,33 @@ void OwnStars::halo(std::int64_t* number, double* xyz) const {
 
 void OwnStars::local_stars(std::int64_t* begin, std::int32_t* neighbour) const {
   constexpr std::size_t kAhead = 16;
-  NumberTable<std::int32_t> local(count() + outside().size());
-  std::int32_t next = 0;
-  for (std::size_t i = 0; i < count(); ++i) {
-    if (i + kAhead < count()) local.prefetch(numbers_[i + kAhead]);
-    local.insert(numbers_[i], ++next);
+  const std::int64_t *const own = numbers(), *const end_of_own = own + count();
+  const bool is_sorted = std::is_sorted(own, end_of_own);  // then a search needs no table
+  NumberTable<std::int32_t> local((is_sorted ? 0 : count()) + outside().size());
+  for (std::size_t i = 0; i < count() && !is_sorted; ++i) {
+    if (i + kAhead < count()) local.prefetch(own[i + kAhead]);
+    local.insert(own[i], static_cast<std::int32_t>(i) + 1);
   }
+  auto next = static_cast<std::int32_t>(count());
   for (const Record& point : outside()) local.insert(point.number, ++next);
+  const auto find = [&](std::int64_t wanted) {
+    if (is_sorted) {
+      const std::int64_t* const at = std::lower_bound(own, end_of_own, wanted);
+      if (at != end_of_own && *at == wanted) return static_cast<std::int32_t>(at - own) + 1;
+    }
+    return local.at(wanted);
+  };
   begin[0] = 0;
   for_each([&](std::size_t i, std::size_t count, const auto* ring) {
     begin[i + 1] = begin[i] + static_cast<std::int64_t>(count);
-    // Numbers mostly follow one another, as those of points along a curve do: no look into the table then.
-    const std::int64_t number_of_first = numbers_[i] - static_cast<std::int64_t>(i);
+    // Numbers mostly follow one another, as those of points along a curve do: no search then.
+    const std::int64_t number_of_first = own[i] - static_cast<std::int64_t>(i);
     for (std::size_t k = 0; k < count; ++k) {
       const std::int64_t wanted = absolute(ring[k]);
       const auto guess = static_cast<std::size_t>(wanted - number_of_first);
-      const std::int32_t found = guess < numbers_.size() && numbers_[guess] == wanted
+      const std::int32_t found = guess < numbers_.size() && own[guess] == wanted
                                      ? static_cast<std::int32_t>(guess) + 1
-                                     : local.at(wanted);
+                                     : find(wanted);
       *neighbour++ = ring[k] < 0 ? -found : found;
     }
   });
