@@ -91,7 +91,8 @@ with MPI ranks behind its calls, and what the command pstripack becomes under
 mpirun.")
 endif()
 if(PSTRIPACK_TOOLS)
-  debian_package(tools NAME pstripack SECTION science DEPENDS libpstripack${soversion} SUGGESTS pstripack-mpi libmagics++-data
+  debian_package(tools NAME pstripack SECTION science
+    DEPENDS libpstripack${soversion} librsvg2-bin SUGGESTS pstripack-mpi libmagics++-data
     SUMMARY "Delaunay triangulation on the sphere: commands"
     DESCRIPTION "${about}This package has pstripack, which makes meshes of files of nodes, and
 stripack-compare, which runs an original STRIPACK beside this one and
