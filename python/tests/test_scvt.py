@@ -98,7 +98,7 @@ def test_the_keyboard_interrupts_a_run():
     try:
         timer.start()
         with pytest.raises(KeyboardInterrupt):
-            scvt(3000, tolerance=1e-300)
+            scvt(random_nodes(20000), method="lloyd", tolerance=1e-300)  # many seconds, if let
             pytest.fail("the run ended before the interrupt")
     finally:
         timer.join()
