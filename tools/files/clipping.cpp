@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "base/scattered.h"
 #include "files/map_rings.h"
 #include "files/measures.h"
 #include "geometry/predicates.h"
@@ -23,8 +24,7 @@ struct HashOfBits {
     for (const double v : {p.x + 0.0, p.y + 0.0, p.z + 0.0}) {  // -0 equals 0
       std::uint64_t bits;
       std::memcpy(&bits, &v, sizeof bits);
-      hash = (hash ^ bits) * 0x9E3779B97F4A7C15u;
-      hash ^= hash >> 29;
+      hash = pstripack::scattered(hash ^ bits);
     }
     return hash;
   }

@@ -14,18 +14,14 @@
 namespace files {
 namespace {
 
-constexpr double kDegree = 57.295779513082321;
 constexpr Point kNorthPole{0, 0, 1};
 /// How far straight lines may be from arcs, and arcs from parallels, in radians: 0.001 and 0.0001 degrees.
-constexpr double kStraight = 0.001 / kDegree, kBent = 0.0001 / kDegree;
+constexpr double kStraight = 0.001 / kRadian, kBent = 0.0001 / kRadian;
 /// Longer arcs are always halved: one that crosses the equator is bent like an S. Cosine of 5 degrees.
 constexpr double kLong = 0.99619469809174555;
 constexpr int kDeepest = 16;
 /// Pieces of this width are rounding, degrees.
-constexpr double kThin = kSamePlace * kDegree;
-
-double longitude(const Point& p) { return std::atan2(p.y, p.x) * kDegree; }
-double latitude(const Point& p) { return std::atan2(p.z, std::hypot(p.x, p.y)) * kDegree; }
+constexpr double kThin = kSamePlace * kRadian;
 
 bool is_pole(const MapCorner& c) { return c.p.x == 0 && c.p.y == 0; }
 MapCorner pole(double z) { return {{0, 0, std::copysign(1.0, z)}, 0, std::copysign(90.0, z)}; }
@@ -420,7 +416,7 @@ MapRing with_arcs(const MapRing& ring) {
     const double width = q.x() - p.x(), height = q.lat - p.lat;
     // The middle of an arc of w radians between equal latitudes is w^2 sin(2 lat)/16 from the parallel.
     const double bend = std::fabs(point_sets::sin_degrees(2 * p.lat));
-    const double step = std::min(90.0, kDegree * 4 * std::sqrt(kBent / std::max(bend, 1e-9)));
+    const double step = std::min(90.0, kRadian * 4 * std::sqrt(kBent / std::max(bend, 1e-9)));
     const double pieces = std::ceil(std::max(std::fabs(width) / step, std::fabs(height) / 90));
     for (double k = 1; k < pieces; ++k) {
       const double lon = wrapped(p.x() + width * (k / pieces)), lat = p.lat + height * (k / pieces);

@@ -8,7 +8,12 @@
 
 namespace files {
 
-constexpr double kEarthRadius = 6371;  ///< km
+constexpr double kEarthRadius = 6371;           ///< km
+constexpr double kRadian = 57.295779513082321;  ///< degrees
+
+/// Of a vector of any length, in degrees.
+inline double longitude(const pstripack::Point& p) { return std::atan2(p.y, p.x) * kRadian; }
+inline double latitude(const pstripack::Point& p) { return std::atan2(p.z, std::hypot(p.x, p.y)) * kRadian; }
 
 /// The unit vector in the direction of p.
 inline pstripack::Point unit(const pstripack::Point& p) {
@@ -25,7 +30,7 @@ inline double angle_between(const pstripack::Point& a, const pstripack::Point& b
 /// The angle at b of the plane triangle a, b, c, in degrees.
 inline double corner_angle(const pstripack::Point& a, const pstripack::Point& b, const pstripack::Point& c) {
   const pstripack::Point u = minus(a, b), v = minus(c, b), w = cross(u, v);
-  return std::atan2(std::sqrt(dot(w, w)), dot(u, v)) * 57.295779513082321;
+  return std::atan2(std::sqrt(dot(w, w)), dot(u, v)) * kRadian;
 }
 
 /// det(a,b,c), accurate for close vectors.

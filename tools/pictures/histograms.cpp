@@ -15,7 +15,6 @@
 namespace pictures {
 namespace {
 
-constexpr double kDegree = 57.295779513082321;
 constexpr const char* kBars = "#31688e";
 
 /// Counts of values, in bars across the whole width.
@@ -116,7 +115,7 @@ std::string histograms(const files::Mesh& mesh, const std::string& title, double
     do {
       ++degree;
       if (const std::int32_t neighbour = reader.neighbour(slot); neighbour > node)
-        lengths.push_back(files::angle_between(at(node), at(neighbour)) * kDegree);
+        lengths.push_back(files::angle_between(at(node), at(neighbour)) * files::kRadian);
       slot = reader.next(slot);
     } while (slot != reader.last_slot(node));
     degrees.push_back(degree);

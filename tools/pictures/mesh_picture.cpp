@@ -29,7 +29,6 @@ using files::Mesh;
 using pstripack::cross;
 using pstripack::dot;
 
-constexpr double kDegree = 57.295779513082321;
 constexpr const char* kLine = "#1f5f8b";
 constexpr const char* kGraticule = "#d5dce3";
 constexpr const char* kNoColour = "#e6e6e6";
@@ -108,11 +107,11 @@ class MeshPicture {
   /// 90 unless all nodes are well inside a hemisphere.
   double radius_of_nodes(const Spot& centre) const {
     if (boundary_.empty()) return 90;
-    const double lon = centre.lon / kDegree, lat = centre.lat / kDegree;
+    const double lon = centre.lon / files::kRadian, lat = centre.lat / files::kRadian;
     const Point eye{std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
     double farthest = 0;
     for (const Point& p : nodes_) farthest = std::max(farthest, files::angle_between(eye, p));
-    const double radius = 1.06 * farthest * kDegree;
+    const double radius = 1.06 * farthest * files::kRadian;
     return radius < 70 ? radius : 90;
   }
 
@@ -158,7 +157,7 @@ class MeshPicture {
   void draw_ground() {
     Path path;
     const auto at = [](double lon, double lat) {
-      lon /= kDegree, lat /= kDegree;
+      lon /= files::kRadian, lat /= files::kRadian;
       return Point{std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
     };
     const Frame& frame = view_->frame();
@@ -178,11 +177,13 @@ class MeshPicture {
       else
         sheet_.rectangle(frame.left, frame.top, frame.width(), frame.height(), "#fbfcfd");
       // The corners of the square are farther away than its sides.
-      const double reach = kDegree * std::asin(std::min(1.0, std::sqrt(2.0) * std::sin(radius_ / kDegree)));
+      const double reach =
+          files::kRadian * std::asin(std::min(1.0, std::sqrt(2.0) * std::sin(radius_ / files::kRadian)));
       const double south = std::max(-90.0, centre_.lat - reach), north = std::min(90.0, centre_.lat + reach);
       const bool pole = std::fabs(centre_.lat) + reach > 85;
-      const double half =
-          pole ? 180 : kDegree * std::asin(std::sin(reach / kDegree) / std::cos(centre_.lat / kDegree));
+      const double half = pole ? 180
+                               : files::kRadian * std::asin(std::sin(reach / files::kRadian) /
+                                                            std::cos(centre_.lat / files::kRadian));
       const double step = graticule_step(2 * radius_, 6);
       const double across = pole ? std::max(30.0, step) : graticule_step(2 * half, meridians());
       constexpr int kPieces = 60;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "files/measures.h"
 #include "point_sets.h"
 
 namespace pictures {
@@ -14,12 +15,10 @@ namespace {
 using pstripack::cross;
 using pstripack::dot;
 
-constexpr double kDegree = 57.295779513082321;
-
 /// A piece looks straight if its middle is at most this many pixels off.
 constexpr double kStraight = 0.05;
 /// Longer pieces are always cut: a piece may be bent like an S. Cosine of the angle.
-const double kLong = std::cos(10 / kDegree);
+const double kLong = std::cos(10 / files::kRadian);
 constexpr int kDeepest = 16;
 
 Point middle_of(const Point& a, const Point& b) {
@@ -111,9 +110,7 @@ std::vector<Outline> clipped_line(const Outline& line, const Frame& frame) {
   return parts;
 }
 
-Spot spot_of(const Point& p) {
-  return {std::atan2(p.y, p.x) * kDegree, std::atan2(p.z, std::hypot(p.x, p.y)) * kDegree};
-}
+Spot spot_of(const Point& p) { return {files::longitude(p), files::latitude(p)}; }
 
 std::string name_of_longitude(double lon, int decimals) {
   lon = turned_to(lon, 0);
@@ -220,9 +217,10 @@ LonLat::LonLat(const Spot& centre, double radius, const Frame& frame) {
   const double squeezed = all ? 1 : std::max(0.05, point_sets::cos_degrees(centre.lat));
   // As far to the east and west as a cap of that radius extends.
   const bool pole = all || std::fabs(centre.lat) + radius >= 90;
-  const double half = pole ? 180
-                           : kDegree * std::asin(std::min(1.0, point_sets::sin_degrees(radius) /
-                                                                   point_sets::cos_degrees(centre.lat)));
+  const double half =
+      pole ? 180
+           : files::kRadian * std::asin(std::min(1.0, point_sets::sin_degrees(radius) /
+                                                          point_sets::cos_degrees(centre.lat)));
   west_ = centre.lon - half, east_ = centre.lon + half;
   south_ = all ? -90 : std::max(-90.0, centre.lat - radius);
   north_ = all ? 90 : std::min(90.0, centre.lat + radius);
@@ -304,7 +302,7 @@ std::optional<Point> pole_between(const Point& a, const Point& b) {
 
 }  // namespace
 
-double LonLat::scale() const { return per_lat_ * kDegree; }
+double LonLat::scale() const { return per_lat_ * files::kRadian; }
 
 std::optional<Place> LonLat::place(const Point& p) const {
   Spot s = spot_of(p);

@@ -37,8 +37,7 @@ class Block {
 };
 
 /// Gives all kept blocks back to the system, what is kept in places (base/kept.h), and what give_up_more()
-/// gives up; false if there is nothing, or
-/// another thread holds the lock.
+/// gives up; false if there is nothing, or another thread holds the lock.
 bool free_kept_blocks() noexcept;
 
 /// Of memory that somebody else keeps from one call to the next: whether so many bytes more may stay. If so,

@@ -18,7 +18,7 @@ enum class FirstPair { first_and_second, last_and_first };
 /// A number as good as random; 0 for 0. For sums over the triangles of rings, which show whether the rings
 /// agree: sums of small numbers agree by chance.
 template <class Number>
-std::uint64_t scattered(Number t) {
+std::uint64_t randomised(Number t) {
   const std::uint64_t product = static_cast<std::uint64_t>(t) * 0x9e3779b97f4a7c15u;
   return product ^ product >> 32;
 }

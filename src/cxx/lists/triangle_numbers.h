@@ -107,7 +107,7 @@ class TriangleNumbers {
   }
 
   /// Enters the triangles of a block, t before them, at their smallest corners and sends them to the others.
-  /// Returns the sum of scattered(t) (d + 3 b) over the triangles t = (a,d,b) sent, modulo 2^64.
+  /// Returns the sum of randomised(t) (d + 3 b) over the triangles t = (a,d,b) sent, modulo 2^64.
   std::uint64_t send(std::size_t block, Int t, Int* left, typename Mail::Outbox& outbox) {
     std::uint64_t corners = 0;
     const std::size_t first = blocks_.first(block), last = blocks_.first(block + 1);
@@ -127,7 +127,7 @@ class TriangleNumbers {
         const Int on_left = arc == end - 1 ? at_last : smallest ? number : 0;
         left[arc] = on_left;
         outbox.put(blocks_.of(static_cast<std::size_t>(b)), {b, a, on_left, right});
-        corners += scattered(right) * static_cast<std::uint64_t>(d + 3 * std::int64_t{b});
+        corners += randomised(right) * static_cast<std::uint64_t>(d + 3 * std::int64_t{b});
         right = on_left;
         d = b;
       };
@@ -165,8 +165,8 @@ class TriangleNumbers {
       Int &of_right = left[arc], &of_left = left[before];
       of_left = std::max(of_left, m.left);
       of_right = std::max(of_right, m.right);
-      corners += scattered(m.right) * static_cast<std::uint64_t>(rings_.target(rings_.after(m.to, arc))) +
-                 scattered(m.left) * static_cast<std::uint64_t>(3 * std::int64_t{rings_.target(before)});
+      corners += randomised(m.right) * static_cast<std::uint64_t>(rings_.target(rings_.after(m.to, arc))) +
+                 randomised(m.left) * static_cast<std::uint64_t>(3 * std::int64_t{rings_.target(before)});
     }
     seen += corners;
     return complete;

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
+#include "base/scattered.h"
 #include "geometry/predicates.h"
 #include "parallel/agreement.h"
 #include "parallel/environment_options.h"
 #include "parallel/number_table.h"
 #include "parallel/parcels.h"
-#include "parallel/scattered.h"
 
 namespace pstripack {
 namespace {

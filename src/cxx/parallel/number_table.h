@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "base/scattered.h"
 #include "base/workspace.h"
-#include "parallel/scattered.h"
 
 namespace pstripack {
 

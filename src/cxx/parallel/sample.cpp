@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "parallel/scattered.h"
+#include "base/scattered.h"
 
 namespace pstripack {
 

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/scattered.h"
 #include "parallel/local_nodes.h"
 #include "scvt/caller_agreement.h"
 #include "scvt/errors.h"
@@ -22,12 +23,7 @@ class Random {
  public:
   Random(std::uint64_t seed, std::uint64_t numbers_before) : state_(seed + numbers_before * kStep) {}
   /// In [0,1).
-  double uniform() {
-    std::uint64_t z = (state_ += kStep);
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9;
-    z = (z ^ z >> 27) * 0x94d049bb133111eb;
-    return static_cast<double>((z ^ z >> 31) >> 11) * 0x1p-53;
-  }
+  double uniform() { return static_cast<double>(scattered(state_ += kStep) >> 11) * 0x1p-53; }
 
  private:
   static constexpr std::uint64_t kStep = 0x9e3779b97f4a7c15;

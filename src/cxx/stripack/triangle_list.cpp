@@ -204,7 +204,7 @@ class TriangleList {
       const Int is_right = c < b, m = std::min(b, c), larger = std::max(b, c);
       const Int after_larger = either(is_right, m, a), before_larger = m ^ a ^ after_larger;
       outbox.put(blocks_.of(index(m)), {m, larger, 2 * t + static_cast<Number>(is_right)});
-      sum += hash(larger, after_larger, before_larger) + scattered(t) * static_cast<std::uint64_t>(a);
+      sum += hash(larger, after_larger, before_larger) + randomised(t) * static_cast<std::uint64_t>(a);
     });
     rings_.template for_each_arc<pairs>(
         blocks_.first(block), blocks_.first(block + 1), [this](Int x) { return claims_[x - 1].largest; },
@@ -258,7 +258,7 @@ class TriangleList {
       Number& here = left[at - skip];
       complete = complete & (here == 0) & (rings_.entry(at) > 0);
       here = m.half & ~Number{1};
-      sum -= scattered(m.half / 2) * static_cast<std::uint64_t>(rings_.target(third));
+      sum -= randomised(m.half / 2) * static_cast<std::uint64_t>(rings_.target(third));
       m.to = either(is_right, arc, before);
     }
     if (!complete) complete_ = false;
