@@ -17,7 +17,7 @@
 #include "distributions.h"
 #include "parallel/coincidence.h"
 #include "parallel/partition.h"
-#include "parallel/patch.h"
+#include "parallel/sample_hull.h"
 #include "parallel/sample.h"
 #include "parallel/triangulate.h"
 #include "point_sets.h"

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -12,6 +13,13 @@ namespace pstripack {
 struct Record {
   Point point;
   std::int64_t number;  ///< global, from 1
+};
+
+/// The nodes that a patch is given: its own ones, then its halo.
+struct PatchNodes {
+  const Record* first;
+  std::size_t own, halo;
+  std::size_t count() const { return own + halo; }
 };
 
 /// Sorts by number and leaves out what is there twice.
