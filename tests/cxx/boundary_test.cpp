@@ -72,7 +72,8 @@ class Patches {
  public:
   Patches(const Nodes& nodes, Lengths lengths, const Partition& partition)
       : nodes_(nodes.size()), places_(lengths, deviation(nodes)), partition_(partition) {
-    for (std::size_t k = 0; k < 3; ++k) corners_[k] = {nodes[k], static_cast<std::int64_t>(k) + 1};
+    for (std::size_t k = 0; k < 3; ++k)
+      corners_[k] = {nodes[k], GlobalNumber{static_cast<std::int64_t>(k) + 1}};
     const auto count = static_cast<std::size_t>(partition.patches());
     records_.resize(count);
     patches_.reserve(count);
@@ -82,7 +83,7 @@ class Patches {
         for (std::size_t k = 0; k < nodes.size(); ++k) {
           const Point place = places_(nodes[k]);
           if ((partition.owner(place) == id) == own && partition.knows(id, place))
-            records_[q].push_back({nodes[k], static_cast<std::int64_t>(k) + 1});
+            records_[q].push_back({nodes[k], GlobalNumber{static_cast<std::int64_t>(k) + 1}});
         }
       };
       add(true);
@@ -132,8 +133,8 @@ class Patches {
           entries.data(),
           [&](std::size_t i, const std::int32_t* place, std::uint32_t) {
             const Ring<std::int32_t> ring = ring_at(place);
-            stars[static_cast<std::size_t>(records_[q][i].number) - 1].assign(ring.begin,
-                                                                              ring.begin + ring.count);
+            stars[static_cast<std::size_t>(value_of(records_[q][i].number)) - 1].assign(
+                ring.begin, ring.begin + ring.count);
           },
           [](std::size_t) {});
     }

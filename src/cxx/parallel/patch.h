@@ -88,7 +88,7 @@ class Patch {
   std::size_t own() const { return nodes_.own; }
   std::size_t halo() const { return nodes_.halo; }
   /// Different nodes in the same direction that it came upon: their numbers.
-  const std::vector<std::pair<std::int64_t, std::int64_t>>& coincident() const { return hull_.coincident(); }
+  const CoincidentPairs& coincident() const { return hull_.coincident(); }
 
  private:
   int id_;

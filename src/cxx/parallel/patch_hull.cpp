@@ -55,7 +55,7 @@ void PatchHull<Int>::set_up(const PatchNodes& nodes, const std::vector<Record>& 
 template <class Int>
 void PatchHull<Int>::build() {
   growing_->build(leading_);
-  for (const auto& [in, out] : growing_->coincident()) coincident_.emplace_back(number_[in], number_[out]);
+  for (const auto& [in, out] : growing_->coincident()) coincident_.emplace_back(number(in), number(out));
 }
 
 template <class Int>
@@ -91,8 +91,8 @@ std::uint32_t PatchHull<Int>::take_in(const Record& node) {
   const std::uint32_t v = growing_->add(node.point);
   if (v == before)
     number_[v] = static_cast<Int>(node.number);
-  else if (number_[v] != node.number)
-    coincident_.emplace_back(number_[v], node.number);
+  else if (number(v) != node.number)
+    coincident_.emplace_back(number(v), node.number);
   taken->second = v;
   return v;
 }

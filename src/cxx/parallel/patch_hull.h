@@ -12,6 +12,7 @@
 #include "base/workspace.h"
 #include "mesh/delaunay.h"
 #include "mesh/ring_table.h"
+#include "parallel/coincidence.h"
 #include "parallel/places.h"
 #include "parallel/record.h"
 
@@ -46,7 +47,7 @@ class PatchHull {
   const Face& face(std::uint32_t t) const { return arrays_.faces[t]; }
   const Plane& plane(std::uint32_t t) const { return arrays_.planes[t]; }
   /// Different nodes in the same direction that it came upon: their numbers.
-  const std::vector<std::pair<std::int64_t, std::int64_t>>& coincident() const { return coincident_; }
+  const CoincidentPairs& coincident() const { return coincident_; }
 
   /// Hull nodes without those taken in.
   std::size_t built() const { return built_; }
@@ -55,8 +56,8 @@ class PatchHull {
   bool is_own(std::uint32_t v) const { return v < built_ && order_[v] < own_; }
   const Point& point(std::uint32_t v) const { return arrays_.nodes[v]; }
   Point place(std::uint32_t v) const { return places_(arrays_.nodes[v]); }
-  std::int64_t number(std::uint32_t v) const { return number_[v]; }
-  Record node(std::uint32_t v) const { return {arrays_.nodes[v], number_[v]}; }
+  GlobalNumber number(std::uint32_t v) const { return GlobalNumber{number_[v]}; }
+  Record node(std::uint32_t v) const { return {arrays_.nodes[v], number(v)}; }
 
   /// A corner of a face at node v, as 4*t + i.
   std::uint32_t corner(std::uint32_t v) const { return arrays_.corner[v]; }
@@ -108,8 +109,8 @@ class PatchHull {
   HullArrays arrays_;
   std::unique_ptr<GrowingHull> growing_;
   Plane* first_planes_ = nullptr;  ///< those in the workspace, for built_ nodes at least
-  std::vector<std::pair<std::int64_t, std::int64_t>> coincident_;
-  std::unordered_map<std::int64_t, std::uint32_t> taken_in_;  ///< hull nodes by number
+  CoincidentPairs coincident_;
+  std::unordered_map<GlobalNumber, std::uint32_t> taken_in_;  ///< hull nodes by number
   struct {  // where the workspace was too small for what was taken in
     Buffer<Point> nodes;
     Buffer<Int> number;

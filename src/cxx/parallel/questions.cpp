@@ -107,7 +107,7 @@ void Asker<Int>::ask_about_arcs(const std::array<Record, 3>& corners, Asked& ask
     const bool owns_a = hull_.is_own(a), owns_b = hull_.is_own(b);
     if (!owns_a && !owns_b) continue;
     const auto ask = [&](int to) {
-      doubts.questions.push_back({{hull_.node(a), hull_.node(b), {{0, 0, 0}, 0}}, patch_, to});
+      doubts.questions.push_back({{hull_.node(a), hull_.node(b), {{0, 0, 0}, kNoNumber}}, patch_, to});
       ++doubts.arcs;
       if (asked.arcs.empty() || asked.arcs.back().a != a) asked.arcs.push_back({a, b});
     };

@@ -2,17 +2,17 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include "geometry/point.h"
+#include "parallel/global_number.h"
 
 namespace pstripack {
 
 /// A node on its way between patches or ranks.
 struct Record {
   Point point;
-  std::int64_t number;  ///< global, from 1
+  GlobalNumber number;
 };
 
 /// The nodes that a patch is given: its own ones, then its halo.

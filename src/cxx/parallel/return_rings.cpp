@@ -128,11 +128,11 @@ std::vector<Record> find_outside(const Patches<Int>& patches, const ReturnAddres
     keep_one_of_each(all);
     // A patch does not know which nodes this rank brought for other patches; where there are none, it knows
     // all. Those that may be among `all` are marked in a table of some bits of the number first.
-    std::vector<std::int64_t> own;
+    std::vector<GlobalNumber> own;
     if (addresses.away_begin.back() > 0 || patches.of_rank.size() > 1) {
       std::vector<bool> maybe(std::size_t{1} << 10);
       while (maybe.size() < 16 * all.size()) maybe.resize(2 * maybe.size());
-      const auto slot = [&](std::int64_t number) {
+      const auto slot = [&](GlobalNumber number) {
         return static_cast<std::uint64_t>(number) * 0x9e3779b97f4a7c15u >> 40 & (maybe.size() - 1);
       };
       for (const Record& r : all) maybe[slot(r.number)] = true;
