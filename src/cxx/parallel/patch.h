@@ -12,8 +12,8 @@
 #include "base/workspace.h"
 #include "parallel/partition.h"
 #include "parallel/patch_hull.h"
+#include "parallel/patch_questions.h"
 #include "parallel/places.h"
-#include "parallel/questions.h"
 #include "parallel/record.h"
 
 namespace pstripack {

@@ -1,4 +1,4 @@
-#include "parallel/questions.h"
+#include "parallel/patch_questions.h"
 
 #include <algorithm>
 #include <cmath>
