@@ -1,5 +1,6 @@
 // Stars that stay on their ranks while the nodes move, on ranks that are threads of this process: the same
-// stars as those of the triangulation made anew, or false on every rank.
+// stars as those of the triangulation made anew, or false on every rank. And the rings of slices that follow
+// such stars.
 
 #include "parallel/moving_stars.h"
 
@@ -9,17 +10,20 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <string>
 
 #include "base/workspace.h"
+#include "parallel/last_rings.h"
 #include "parallel/partition.h"
 #include "parallel/triangulate.h"
 #include "point_sets.h"
 #include "support/cases.h"
 #include "support/lists.h"
 #include "support/moves.h"
+#include "support/room_to_stay.h"
 #include "support/thread_ranks.h"
 
 namespace {
@@ -50,6 +54,7 @@ std::int64_t number_of(std::size_t node) {
 
 struct Tally {
   int warm = 0, refused = 0, cold = 0, rounds = 0;
+  int laid_out_anew = 0;  ///< calls that wrote all rings, not only those that changed
   std::size_t flips = 0;
 };
 
@@ -67,7 +72,7 @@ class OneRank {
     const LocalNodes local{here.data(), here.size(), numbers_.data()};
     if (moving_ != nullptr) {
       if (moving_->repair(local, ranks_)) {
-        moving_->update(local, stars_);
+        update(local, tally);
         ++tally.warm;
         tally.flips += moving_->flips();
         tally.rounds = std::max(tally.rounds, moving_->rounds());
@@ -94,6 +99,21 @@ class OneRank {
   }
 
  private:
+  void update(const LocalNodes& local, Tally& tally) {
+    std::vector<const Int*> before;
+    for (std::size_t i = 0; i < mine_.size(); ++i) before.push_back(stars_.of_node[i].begin);
+    stars_.lengths = Lengths::directions;  // as after a call that needed them
+    const std::size_t changed = moving_->update(local, stars_).size();
+    EXPECT_EQ(stars_.lengths, Lengths::as_given);
+    if (moving_->rounds() == 0 && moving_->flips() == 0) {
+      EXPECT_EQ(changed, 0u);
+    }
+    std::size_t written = 0;
+    for (std::size_t i = 0; i < mine_.size(); ++i) written += stars_.of_node[i].begin != before[i];
+    if (written == changed) return;
+    EXPECT_EQ(stars_.more_memory.size(), 1u) << "rings that are not used any more";
+    ++tally.laid_out_anew;
+  }
   void compare(const Nodes& nodes, const Rings& right) {
     std::set<std::int64_t> outside;
     const std::set<std::int64_t> own(numbers_.begin(), numbers_.end());
@@ -176,6 +196,7 @@ TEST(MovingStars, FollowNodesThatMoveALittle) {
     const auto sets = sets_of(make("fibonacci", 800, 1), calls,
                               [&](Nodes& nodes, int) { move_all(nodes, fraction * spacing(800), random); });
     const Tally alone = follow(sets, 1);
+    EXPECT_EQ(alone.rounds, 0);
     if (fraction < 0.05) {
       EXPECT_EQ(alone.warm, calls - 1);
     }
@@ -271,6 +292,16 @@ TEST(MovingStars, GoTheColdWayWhereANodeJumpsMeetsAnotherOrLeavesTheSphere) {
                 });
 }
 
+/// No triangle is counterclockwise, so that there is no direction that one of them alone must hold.
+TEST(MovingStars, GoTheColdWayWhereTheSphereIsMirrored) {
+  const Nodes nodes = make("random", 500, 1);
+  follow_on_all(sets_of(nodes, 2,
+                        [](Nodes& p, int) {
+                          for (Point& q : p) q.z = -q.z;
+                        }),
+                [](const Tally& tally) { EXPECT_EQ(tally.refused, 1); });
+}
+
 /// The predicates on directions decide then.
 TEST(MovingStars, GoTheColdWayWhereLengthsAreNotOne) {
   Random random(9);
@@ -350,23 +381,32 @@ TEST(MovingStars, FollowHoweverNodesAreDistributed) {
   EXPECT_EQ(three.flips, alone.flips);
 }
 
-/// A node that loses every other neighbour of 200: these flips share it, so that ranks can make one a round.
+/// A node that loses every other neighbour of its ring: these flips share it, so that ranks can make one a
+/// round.
 TEST(MovingStars, GoTheColdWayWhereManyFlipsWaitForEachOther) {
-  const auto wheel = [](double out) {
+  const auto wheel = [](int spokes, double out) {
     Nodes nodes{{0, 0, 1}};
-    for (int k = 0; k < 200; ++k) {
-      const double turn = 6.2831853071796 * k / 200, distance = k % 2 == 0 ? 0.5 + out : 0.5;
+    for (int k = 0; k < spokes; ++k) {
+      const double turn = 6.2831853071796 * k / spokes, distance = k % 2 == 0 ? 0.5 + out : 0.5;
       nodes.push_back(point_sets::normalized({distance * std::cos(turn), distance * std::sin(turn), 1}));
     }
     for (const Point& p : make("random", 4000, 1)) nodes.push_back({p.x, p.y, -std::fabs(p.z)});
     return nodes;
   };
-  const std::vector<Nodes> sets{wheel(-1e-5), wheel(1e-3), wheel(1e-3)};
-  std::vector<int> owner;
-  for (std::size_t i = 0; i < sets[0].size(); ++i)
-    owner.push_back(i <= 200 ? static_cast<int>(i % 2) : sets[0][i].x > 0);
-  EXPECT_EQ(follow(sets, 1).warm, 2);
-  EXPECT_EQ(follow(sets, 2, owner).refused, 1);
+  for (const int spokes : {40, 200}) {
+    SCOPED_TRACE(spokes);
+    const double out = spokes == 40 ? 2e-2 : 1e-3;
+    const std::vector<Nodes> sets{wheel(spokes, -1e-5), wheel(spokes, out), wheel(spokes, out)};
+    std::vector<int> owner;
+    for (std::size_t i = 0; i < sets[0].size(); ++i)
+      owner.push_back(i <= static_cast<std::size_t>(spokes) ? static_cast<int>(i % 2) : sets[0][i].x > 0);
+    EXPECT_EQ(follow(sets, 1).warm, 2);
+    const Tally tally = follow(sets, 2, owner);
+    EXPECT_EQ(tally.refused, spokes == 40 ? 0 : 1);
+    if (spokes == 40) {
+      EXPECT_GT(tally.rounds, 10);
+    }
+  }
 }
 
 TEST(MovingStars, HaveNumbersOf64Bits) {
@@ -384,7 +424,73 @@ TEST(MovingStars, FollowForALongTime) {
   Random random(7);
   const auto sets = sets_of(make("fibonacci", 200, 1), cases(150),
                             [&](Nodes& nodes, int) { move_all(nodes, 0.03 * spacing(200), random); });
-  EXPECT_GT(follow(sets, 2).warm, cases(150) / 2);
+  const Tally tally = follow(sets, 2);
+  EXPECT_GT(tally.warm, cases(150) / 2);
+  EXPECT_GE(tally.laid_out_anew, cases(150) / 30);
+  EXPECT_LE(tally.laid_out_anew, 1 + cases(150) / 10);
+}
+
+/// The rings of slices, whose nodes are at home anywhere.
+TEST(LastRings, FollowForALongTime) {
+  Random random(10);
+  const int size = 2;
+  const std::size_t slice = 100;
+  const auto sets = sets_of(make("fibonacci", size * slice, 1), cases(150),
+                            [&](Nodes& nodes, int) { move_all(nodes, 0.03 * spacing(200), random); });
+  const std::vector<std::size_t> begin{0, slice, 2 * slice};
+  ThreadRanks::run(size, [&](Communicator& ranks) {
+    const std::size_t first = begin[static_cast<std::size_t>(ranks.rank())];
+    std::vector<std::int64_t> numbers(slice);
+    std::iota(numbers.begin(), numbers.end(), static_cast<std::int64_t>(first) + 1);
+    std::unique_ptr<LastRings> last;
+    const MovingStars* stars_at_home = nullptr;
+    int warm = 0, laid_out_anew = 0;
+    for (const Nodes& nodes : sets) {
+      std::vector<const std::int32_t*> before(slice);
+      for (std::size_t i = 0; last != nullptr && i < slice; ++i) before[i] = last->rings()[i].begin;
+      if (last == nullptr || !last->move(NodeArrays(nodes.data()), begin, ranks)) {
+        const LocalNodes local{nodes.data() + first, slice, numbers.data()};
+        Look look = look_at(local.points, local.count);
+        agree_on(look, ranks);
+        const Point corners[3] = {nodes[0], nodes[1], nodes[2]};
+        Stars<std::int32_t> stars = triangulate<std::int32_t>(local, look, corners, {1, 2, 3}, ranks, {});
+        last = std::make_unique<LastRings>(stars.of_node, first, std::move(stars.homes));
+        stars_at_home = nullptr;
+        continue;
+      }
+      ++warm;
+      if (stars_at_home == nullptr) stars_at_home = &last->stars();
+      ASSERT_EQ(&last->stars(), stars_at_home) << "made once";
+      const Rings right = *rings_of_one_hull(nodes);
+      std::size_t written = 0;
+      for (std::size_t i = 0; i < slice; ++i) {
+        const Ring<std::int32_t> ring = last->rings()[i];
+        std::vector<std::int32_t> expected = right.neighbours[first + i];
+        for (std::int32_t& b : expected) ++b;
+        ASSERT_EQ(std::vector<std::int32_t>(ring.begin, ring.begin + ring.count), expected) << first + i;
+        written += ring.begin != before[i];
+      }
+      laid_out_anew += written == slice;
+    }
+    EXPECT_GT(warm, cases(150) / 2);
+    EXPECT_GE(laid_out_anew, cases(150) / 30);
+    EXPECT_LE(laid_out_anew, 1 + cases(150) / 10);
+  });
+}
+
+TEST(MovingStars, CountAmongWhatStays) {
+  const Nodes nodes = make("random", 500, 1);
+  std::vector<std::size_t> mine(nodes.size());
+  std::iota(mine.begin(), mine.end(), std::size_t{0});
+  SingleProcess process;
+  const std::size_t before = room_to_stay();
+  {
+    OneRank<std::int32_t> rank(process, mine);
+    Tally tally;
+    rank.call(nodes, rings_of_one_hull(nodes), tally);
+    EXPECT_LT(room_to_stay(), before - 50 * nodes.size());
+  }
+  EXPECT_EQ(room_to_stay(), before);
 }
 
 /// The sample of stars fits nodes that move a little, and no others.

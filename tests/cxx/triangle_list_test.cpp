@@ -195,7 +195,7 @@ std::vector<std::vector<Point>> sets() {
     for (const char* const set : {"random", "cap"}) all.push_back(point_sets::make(set, n));
   all.push_back(point_sets::make("random", 20000));  // several threads, if there are any
   // Two hubs that see all other nodes, first and last in the order of nodes, or in the middle.
-  for (const std::size_t between : {20u, 70u, 3000u}) {
+  for (const std::size_t between : {15u, 16u, 17u, 20u, 70u, 3000u}) {
     std::vector<Point> nodes;
     point_sets::Random random(2);
     for (std::size_t k = 0; k < between; ++k) {

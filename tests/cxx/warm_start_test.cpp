@@ -26,6 +26,7 @@
 #include "support/columns.h"
 #include "support/lists.h"
 #include "support/moves.h"
+#include "support/room_to_stay.h"
 #include "trmesh/trmesh.h"
 
 namespace {
@@ -94,14 +95,6 @@ Tally compare(const std::vector<Nodes>& sets) {
         << "call " << i + 1 << (results[i].is_warm ? ", warm" : ", cold");
   forget_last_meshes();
   return tally;
-}
-
-/// How many bytes more may stay with the process.
-std::size_t room() {
-  std::size_t bytes = 0;
-  for (std::size_t step = std::size_t{1} << 50; step > 0; step /= 2)
-    if (may_stay(bytes + step)) has_left(bytes += step);
-  return bytes;
 }
 
 /// With the first three nodes not on one great circle.
@@ -651,14 +644,14 @@ TEST(WarmStart, KeepsNothingWhereItIsOff) {
 TEST(WarmStart, ForgetsTheMeshesOfOthersInTurn) {
   const auto set = [](std::uint64_t seed) { return make("random", 1000, seed); };
   forget_last_meshes();
-  const std::size_t before = room();
+  const std::size_t before = room_to_stay();
   for (std::uint64_t seed = 1; seed <= 4; ++seed)
     for (int i = 0; i < 2; ++i) call(set(seed));
   for (int round = 0; round < 3; ++round)
     for (std::uint64_t seed = 5; seed <= 8; ++seed) EXPECT_EQ(call(set(seed)).is_warm, round == 2);
   EXPECT_TRUE(forget_last_meshes());
   EXPECT_FALSE(forget_last_meshes());
-  EXPECT_EQ(room(), before);
+  EXPECT_EQ(room_to_stay(), before);
 }
 
 /// After a mesh that did not fit, a mesh is kept one call later than else; once one fits, as before.
@@ -725,11 +718,11 @@ TEST(WarmStart, IsTriedAgainAfterAtMost64Calls) {
 TEST(WarmStart, CountsWhatItKeeps) {
   const Nodes nodes = nodes_of("random", kN);
   forget_last_meshes();
-  const std::size_t before = room();
+  const std::size_t before = room_to_stay();
   for (int i = 0; i < 2; ++i) call(nodes);
-  EXPECT_LT(room(), before - 50 * kN);
+  EXPECT_LT(room_to_stay(), before - 50 * kN);
   forget_last_meshes();
-  EXPECT_EQ(room(), before);
+  EXPECT_EQ(room_to_stay(), before);
   ASSERT_TRUE(may_stay(before));
   for (int i = 0; i < 4; ++i) EXPECT_FALSE(call(nodes).is_warm);
   has_left(before);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@
 #include "support/follower.h"
 #include "support/lists.h"
 #include "support/moves.h"
+#include "support/room_to_stay.h"
 
 namespace {
 
@@ -312,6 +314,15 @@ TEST(Moving, CallsOfTrmeshBeginWithTheLastRings) {
     for (Point& p : half) p.z = std::fabs(p.z);
     for (int step = 0; step < 5; ++step) EXPECT_FALSE(caller.call(half)) << "a boundary";
   }
+}
+
+TEST(Moving, RingsOfTheLastCallCountAmongWhatStays) {
+  const Nodes nodes = point_sets::make("random", kN, 1);
+  auto caller = std::make_unique<Caller>(false);
+  for (int i = 0; i < 2; ++i) EXPECT_FALSE(caller->call(nodes));
+  const std::size_t room = room_to_stay();
+  caller.reset();
+  EXPECT_GT(room_to_stay(), room + 50 * kN / static_cast<std::size_t>(size_of()));
 }
 
 /// As if an allocation had failed between two calls, on the last rank.

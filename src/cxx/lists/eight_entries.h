@@ -76,9 +76,10 @@ constexpr auto ranks_of_bits = [] {
   }
   return ranks;
 }();
+/// How many of 16 bits are 1.
 template <class Int>
-Int ones(unsigned byte) {
-  return ones_of_bits[byte];
+Int ones(unsigned bits) {
+  return static_cast<Int>(ones_of_bits[bits & 255] + ones_of_bits[bits >> eight]);
 }
 
 using EightBytes = std::array<unsigned char, eight>;

@@ -70,29 +70,31 @@ class Rings {
     unsigned greater;    ///< those that lead to a greater node
     unsigned triangles;  ///< those with a triangle on the left whose smallest corner is the ring's node
   };
-  /// True if the ring is so small that all its arcs are looked at together.
-  bool is_small(Int node) const { return (degree(node) <= eight) & (begin(node) <= last_of_eight_); }
+  /// True if the ring has at most 16 arcs, which are looked at together.
+  bool is_small(Int node) const {
+    return (degree(node) <= 2 * eight) & (begin(node) <= last_of_eight_ - eight);
+  }
   /// Needs is_small(a).
   Arcs arcs_of(Int a) const {
-    const Greater greater = greater_of_eight(entry_ + begin(a), a);
     const Int last = degree(a) - 1;
+    const Greater greater = greater_of(entry_ + begin(a), a, last);
     const unsigned neighbours = greater.neighbours & whole(last);
     return {neighbours, greater.entries & (neighbours >> 1 | (neighbours & 1) << last)};
   }
   /// The arcs of a small ring with a triangle on the left of which the ring's node is the smallest corner,
   /// and those where it is the largest.
   struct Claims {
-    unsigned char smallest, largest;
+    std::uint16_t smallest, largest;
   };
   /// Needs is_small(a).
   Claims claims_of(Int a) const {
     const Int* const entries = entry_ + begin(a);
-    const Greater greater = greater_of_eight(entries, a);
     const Int last = degree(a) - 1;
+    const Greater greater = greater_of(entries, a, last);
     const unsigned neighbours = greater.neighbours & whole(last), smaller = neighbours ^ whole(last);
     const auto followed = [last](unsigned bits) { return bits >> 1 | (bits & 1) << last; };
-    return {static_cast<unsigned char>(greater.entries & followed(neighbours)),
-            static_cast<unsigned char>(smaller & followed(smaller) & ~negative_of_eight(entries))};
+    return {static_cast<std::uint16_t>(greater.entries & followed(neighbours)),
+            static_cast<std::uint16_t>(smaller & followed(smaller) & ~negative_of(entries, last))};
   }
   /// True if there is a triangle left of the arc of a, and a is its smallest corner.
   bool is_smallest(Int a, Int arc) const {
@@ -121,7 +123,7 @@ class Rings {
                                            const IsChosen& is_chosen, const Visit& visit) const {
     constexpr Int together = 32;
     constexpr bool last_first = pairs == FirstPair::last_and_first;
-    std::array<Int, eight*(together + 1)> node, arc;
+    std::array<Int, 2 * eight*(together + 1)> node, arc;
     const auto end_of_all = static_cast<Int>(last);
     for (Int a = static_cast<Int>(first) + 1; a <= end_of_all;) {
       std::size_t found = 0;
@@ -134,9 +136,13 @@ class Rings {
           found += is_last;
           chosen ^= is_last << (last_arc - ring);
         }
-        std::fill_n(node.data() + found, eight, a);
-        put_sums(ring, positions_of_bits[chosen], arc.data() + found);
-        found += ones<std::size_t>(chosen);
+        Int from = ring;
+        do {
+          std::fill_n(node.data() + found, eight, a);
+          put_sums(from, positions_of_bits[chosen & 255], arc.data() + found);
+          found += ones_of_bits[chosen & 255];
+          from += eight;
+        } while ((chosen >>= eight) != 0);
       }
       for (std::size_t i = 0; i < found; ++i) visit(node[i], arc[i], after(node[i], arc[i]));
       if (found > 0 || a > end_of_all || is_small(a)) continue;
@@ -156,6 +162,17 @@ class Rings {
   Int arc_back_far(Int a, Int b) const;
   /// The arc in [begin, end) that leads to node a; `none` if there is none.
   Int find(Int a, Int begin, Int end) const;
+  /// Of a ring of at most 16 arcs, as arcs_of; bits after the last are of what follows in memory.
+  static Greater greater_of(const Int* entry, Int a, Int last) {
+    const Greater first = greater_of_eight(entry, a);
+    if (last < eight) return first;
+    const Greater second = greater_of_eight(entry + eight, a);
+    return {first.entries | second.entries << eight, first.neighbours | second.neighbours << eight};
+  }
+  static unsigned negative_of(const Int* entry, Int last) {
+    const unsigned first = negative_of_eight(entry);
+    return last < eight ? first : first | negative_of_eight(entry + eight) << eight;
+  }
   static unsigned whole(Int last) { return (2u << last) - 1; }
 
   Int n_ = 0;

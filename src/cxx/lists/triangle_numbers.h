@@ -27,8 +27,8 @@ namespace pstripack {
 template <class Int, FirstPair pairs>
 class TriangleNumbers {
  public:
-  /// Counts the triangles. Does all allocation: 48 bytes per node (Int = int32_t) and 4 KB per block of
-  /// nodes. Throws std::bad_alloc.
+  /// Counts the triangles. Does all allocation: 60 bytes per node (Int = int32_t) at most. Throws
+  /// std::bad_alloc.
   TriangleNumbers(const Rings<Int>& rings, int threads)
       : rings_(rings), threads_(threads), blocks_(static_cast<std::size_t>(rings.size()), threads) {
     before_.resize(blocks_.count() + 1, 0);

@@ -98,6 +98,7 @@ class TriangleList {
 
  private:
   static constexpr FirstPair pairs = FirstPair::first_and_second;
+  static constexpr Int far_ahead = 64;  ///< arcs or triangles, in what is read in order
   using Number = std::make_unsigned_t<Int>;
   /// A side of a triangle: 4 * triangle + 0, 1 or 2; 0 = none.
   using Side = Number;
@@ -116,7 +117,7 @@ class TriangleList {
   /// The place of the first arc of a block in left_: one thread has one block at a time there.
   Int offset(std::size_t block) const { return threads_ == 1 ? first_arc(block) : 0; }
 
-  /// All arrays but the messages: 40 bytes a node (Int = int32_t, 9 rows).
+  /// All arrays but the messages: 44 bytes a node (Int = int32_t, 9 rows).
   std::size_t left_size() const {
     Int most = 0;
     for (std::size_t block = 0; block < blocks_.count(); ++block)
@@ -221,11 +222,15 @@ class TriangleList {
     const auto last = static_cast<Int>(blocks_.first(block + 1));
     for (Int a = static_cast<Int>(blocks_.first(block)) + 1; a <= last; ++a) {
       const Int ring = rings_.begin(a);
+      rings_.prefetch(ring + far_ahead);  // for receive(), which needs the rings in any order
       Number* const left = left_ + (ring - skip);
-      if (rings_.is_small(a) && ring + eight <= end) {  // what is too much is of nodes that come later
-        const unsigned bits = claims_[a - 1].smallest;
-        put_twice(2 * t + 1, ranks_of_bits[bits], left);
-        t += ones<Number>(bits);
+      if (rings_.is_small(a) && ring + 2 * eight <= end) {  // what is too much is of nodes that come later
+        Number* eight_of_ring = left;
+        unsigned bits = claims_[a - 1].smallest;
+        for (Int arcs = rings_.degree(a); arcs > 0; arcs -= eight, bits >>= eight, eight_of_ring += eight) {
+          put_twice(2 * t + 1, ranks_of_bits[bits & 255], eight_of_ring);
+          t += ones_of_bits[bits & 255];
+        }
       } else {
         for (Int arc = ring; arc < rings_.end(a); ++arc) {
           const bool smallest = rings_.is_smallest(a, arc);
@@ -316,8 +321,7 @@ class TriangleList {
       const Side beyond = beyond_[t];
       if (rows_ == 6) ltri[6 * index(t) - 3] = static_cast<Int>(beyond / 4);
       if (rows_ < 9) continue;
-      constexpr Int ahead = 16;
-      __builtin_prefetch(&arcs_[beyond_[std::min(t + ahead, before_[block + 1])] / 4]);
+      __builtin_prefetch(&arcs_[beyond_[std::min(t + far_ahead, before_[block + 1])] / 4]);
       Int* const column = ltri + 9 * (index(t) - 1);
       column[3] = static_cast<Int>(beyond / 4);
       column[6] = arc_number(t, 0, column[3], beyond % 4);

@@ -38,7 +38,7 @@ struct VoronoiArrays {
 /// the nodes lie in a hemisphere, nb-2 triangles of boundary nodes close the sphere on the far side; they
 /// come first, and the slots of their arcs are added to LPTR. O(n) plus the swaps among those, with OpenMP
 /// threads for large n; the same bytes for any number of them. Always returns: where rounded swap tests of
-/// cocircular boundary nodes would cycle, exact ones take over. Takes 80 bytes per node during the call
+/// cocircular boundary nodes would cycle, exact ones take over. Takes up to 92 bytes per node during the call
 /// (Real = double, Int = int32_t; 24 more where the lists are not canonical). Throws std::bad_alloc before
 /// anything is written.
 template <class Real, class Int>

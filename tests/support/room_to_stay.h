@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstddef>
+
+#include "base/workspace.h"
+
+namespace pstripack {
+
+/// How many bytes more may stay with the process.
+inline std::size_t room_to_stay() {
+  std::size_t bytes = 0;
+  for (std::size_t step = std::size_t{1} << 50; step > 0; step /= 2)
+    if (may_stay(bytes + step)) has_left(bytes += step);
+  return bytes;
+}
+
+}  // namespace pstripack
