@@ -442,11 +442,7 @@ void read_notes(const File& file, Notes& notes) {
   for (int a = 0; a < count; ++a) {
     char name[NC_MAX_NAME + 1];
     file.check(nc_inq_attname(file.id(), NC_GLOBAL, a, name), "");
-    const std::string word = name;
-    const auto is = [&](const char* other) { return word == other; };
-    constexpr const char* kKept[] = {"title", "history", "source", "institution", "references", "comment"};
-    if (word.rfind("scvt_", 0) == 0 || std::any_of(std::begin(kKept), std::end(kKept), is))
-      notes[name] = text_attribute(file, NC_GLOBAL, name);
+    if (is_note(name)) notes[name] = text_attribute(file, NC_GLOBAL, name);
   }
 }
 

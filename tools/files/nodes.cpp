@@ -296,7 +296,7 @@ void read_off(Nodes& nodes, const std::string& text, const ReadOptions& options)
 }  // namespace
 
 std::string Nodes::place(std::size_t i) const {
-  return i < lines.size() ? fmt::format("node {} (line {})", i + 1, lines[i])
+  return i < lines.size() ? fmt::format("node {} ({} {})", i + 1, lines_are, lines[i])
                           : fmt::format("node {}", before + i + 1);
 }
 
@@ -372,6 +372,12 @@ void set_triangles(Nodes& nodes, const std::vector<long long>& corners, long lon
   }
 }
 
+bool is_note(const std::string& name) {
+  constexpr const char* kNames[] = {"title", "history", "source", "institution", "references", "comment"};
+  return name.rfind("scvt_", 0) == 0 ||
+         std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
+}
+
 bool is_netcdf(const std::string& file) {
   char begin[4] = "";
   std::ifstream(file, std::ios::binary).read(begin, sizeof begin);
@@ -381,7 +387,8 @@ bool is_netcdf(const std::string& file) {
 Nodes read(const std::string& file, const ReadOptions& options) {
   Nodes nodes;
   nodes.file = file == "-" ? "stdin" : file;
-  const bool may_be_netcdf = options.container != Container::text && options.container != Container::raw;
+  const bool may_be_netcdf =
+      options.container == Container::detected || options.container == Container::netcdf;
   if (may_be_netcdf && file != "-" && is_netcdf(file)) return read_netcdf(file, options);
 
   const std::string contents = point_sets::contents_of(file);
@@ -389,7 +396,7 @@ Nodes read(const std::string& file, const ReadOptions& options) {
   if (options.container == Container::netcdf) throw std::runtime_error(nodes.file + ": not a NetCDF file");
   if (options.container == Container::raw) {
     if (options.with_values)
-      throw std::runtime_error(nodes.file + ": values are read from text and NetCDF only");
+      throw std::runtime_error(nodes.file + ": values are read from text, NetCDF and GeoJSON only");
     read_raw(nodes, contents, options);
     return nodes;
   }
@@ -398,6 +405,9 @@ Nodes read(const std::string& file, const ReadOptions& options) {
   if (std::string_view(contents).substr(0, 4096).find('\0') != std::string::npos)
     throw std::runtime_error(nodes.file +
                              ": binary, but not NetCDF; raw doubles need --from raw and --coordinates");
+  if (options.container == Container::geojson ||
+      (options.container == Container::detected && is_geojson(contents)))
+    return read_geojson(nodes.file, options, contents);
   if (first_word(contents) == "OFF" && !options.with_values)
     read_off(nodes, contents, options);
   else

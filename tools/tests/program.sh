@@ -570,6 +570,67 @@ maps)
   sed 1d three.geojson | cmp a -
   ;;
 
+geojson)
+  # What was written comes back: longitudes beyond 180 degrees, gaps, texts, history; vectors.
+  printf 'lon,lat,depth,place\n300.1,40,7.25,a\n100,40,,"b ""c"""\n-70,-20.7,-1,\n180,89.99,3,d\n' > table.csv
+  "$PSTRIPACK" -q convert table.csv -o nodes.geojson
+  "$PSTRIPACK" -q convert nodes.geojson -o back.csv
+  cmp table.csv back.csv
+  "$PSTRIPACK" -q convert nodes.geojson -o again.geojson
+  sed 1d nodes.geojson > features
+  sed 1d again.geojson | cmp features -
+  head -n 1 again.geojson | grep -q 'nodes.geojson -o again.geojson .*\\npstripack .*table.csv' || fail "$(head -n 1 again.geojson)"
+  "$PSTRIPACK" -q points random 50 -o nodes.txt
+  "$PSTRIPACK" -q convert nodes.txt -o nodes.json
+  "$PSTRIPACK" -q convert - --coordinates xyz -o back.txt < nodes.json
+  cmp nodes.txt back.txt
+  # A value, by name and as the first behind the place; as places.
+  for option in "--variable depth" "--columns lon,lat,depth"; do
+    # shellcheck disable=SC2086
+    "$PSTRIPACK" -q interpolate nodes.geojson $option --skip-missing --to-points nodes.geojson -o values.txt
+    [ "$(sed -n 1,2p values.txt | tr '\n' ' ')" = '# lon lat depth depth_given place 300.1 40 7.25 7.25 "a" ' ] || fail "$(cat values.txt)"
+  done
+  # As others write it: a byte order mark, several points of a feature, altitudes, nested properties.
+  printf '\357\273\277{"type": "FeatureCollection", "name": "x", "features": [\n' > other.geojson
+  printf '{"geometry": {"coordinates": [[0, 0, 5], [10, 50]], "type": "MultiPoint"}, "type": "Feature", "properties": {"mag": 1, "features": {"a": [1]}}},\n' >> other.geojson
+  printf '{"type": "Feature", "properties": null, "geometry": {"type": "Point", "coordinates": [-1e1, 3]}}], "title": "T"}\n' >> other.geojson
+  "$PSTRIPACK" -q convert other.geojson -o other.csv
+  printf 'lon,lat,altitude,mag,features\n0,0,5,1,"{""a"":[1]}"\n10,50,,1,"{""a"":[1]}"\n-10,3,,,\n' | cmp other.csv -
+  "$PSTRIPACK" -q voronoi other.geojson -o cells.csv
+  [ "$(cut -d , -f 1-4 cells.csv | tr '\n' ' ')" = "lon,lat,node,feature 0,0,1,1 10,50,2,1 -10,3,3,2 " ] || fail "$(cat cells.csv)"
+  # Refused, with the feature or the line.
+  features='{"type": "FeatureCollection", "features": [
+{"type": "Feature", "properties": {"mag": 1}, "geometry": {"type": "Point", "coordinates": [10, 20]}},'
+  refused() {
+    words=$1
+    cat > bad.geojson
+    shift
+    refuses 1 "bad.geojson:$words" triangulate bad.geojson -o failed.off "$@"
+  }
+  point() { printf '%s\n{"type": "Feature", "geometry": {"type": "%s", "coordinates": %s}}]}' "$features" "$1" "$2"; }
+  point Point '[1, NaN]' | refused "3: no JSON: "
+  point Point '[1, 2' | refused "3: no JSON: "
+  printf '{"type": ' | refused "1: no JSON: "
+  point Point '[1, 1e400]' | refused " feature 2: a number is larger than 1e308"
+  point Point '[1, "2"]' | refused " feature 2: expected coordinates [longitude, latitude]"
+  point Point '[1]' | refused " feature 2: expected coordinates"
+  point Point '[30, 95]' | refused " node 2 (feature 2): latitude 95 is beyond the pole: GeoJSON has [longitude, latitude] in degrees; exchange"
+  point MultiPoint '[[10, 20], [30, 40], [50, 10]]' | refused " node 1 (feature 1) and node 2 (feature 2) are in the same place" --columns lon,lat
+  point Polygon '[[[1, 2]]]' | refused " feature 2: 'Polygon' is no Point or MultiPoint: nodes are points; meshes are read from UGRID"
+  printf '%s null]}' "$features" | refused ' "features" must be an array of features'
+  printf '%s {"type": "Feature", "geometry": null}]}' "$features" | refused " feature 2: has no geometry: remove it"
+  printf '{"type": "FeatureCollection", "features": []}' | refused " no points"
+  printf '{"type": "Topology"}' | refused " no GeoJSON of points: the type is 'Topology', expected FeatureCollection"
+  point Point '[1, 2]' | sed 's/"features"/"crs": {"type": "name", "properties": {"name": "EPSG:3857"}}, &/' |
+    refused " coordinates are in EPSG:3857: write the file in longitudes and latitudes, EPSG:4326"
+  point Point '[1, 2]' | refused " there is no property 'mga'; did you mean mag?; the features have mag" --columns lon,lat,mga
+  point Point '[1, 2]' | refused " the place is that of the geometry: say --columns lon,lat,NAME" --columns mag
+  point Point '[1, 2]' | refused " --coordinates xyz needs the property 'x'" --coordinates xyz
+  printf '1 2\n' | refused "1: no JSON" --from geojson
+  refuses 1 "no property 'place' is a number; properties that are numbers: depth" interpolate nodes.geojson --variable place --to-grid 2x2 -o failed.txt
+  [ -z "$(find . -name 'failed*')" ] || fail "files of failed runs: $(echo ./failed*)"
+  ;;
+
 bad_maps)
   octahedron > nodes.txt
   printf '0 0\n10 0\n0 10\n3 3\n' > cap.lonlat
@@ -586,6 +647,16 @@ bad_maps)
   printf '85 45\n-95 0\n-95 -45\n0 90\n' > circle.lonlat
   refuses 1 "circle.lonlat: all nodes lie on one great circle up to rounding: their cells are not known" \
     voronoi circle.lonlat --units degrees -o failed.geojson
+  # Nodes spread over a circle, over a half and over less: rounding decides whether their hull is a sphere.
+  awk 'BEGIN { for (part = 1; part <= 3; ++part) for (k = 0; k < 12; ++k) { a = 6.283185307179586 / part * (k + 0.1) / 12
+    printf "%.17g %.17g %.17g\n", cos(a), sin(a) * 0.6, sin(a) * 0.8 > "circle" part ".txt" } }'
+  for part in 1 2 3; do
+    for option in "" --clip-to-hull; do
+      # shellcheck disable=SC2086
+      refuses 1 "circle$part.txt: all nodes lie on one great circle" voronoi circle$part.txt $option -o failed.geojson
+    done
+  done
+  "$PSTRIPACK" -q points strip:1e-12 50 | "$PSTRIPACK" -q voronoi - -o strip.off
   refuses 1 "/dev/full: cannot be written: No space left" voronoi nodes.txt -o /dev/full --to geojson
   refuses 1 "holds nodes, no triangles" convert nodes.txt -o failed.gmt
   refuses 2 "points are nodes, not a mesh: give --to xyz, lonlat, nodes, csv, geojson or raw" points random 10 -o failed.gmt
