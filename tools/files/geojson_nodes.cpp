@@ -253,8 +253,7 @@ Nodes read_geojson(const std::string& file, const ReadOptions& options, const st
   if (const std::size_t bad = first_beyond_pole(angles, n); bad < n)
     throw std::runtime_error(
         fmt::format("{}: {}: latitude {} is beyond the pole: GeoJSON has [longitude, latitude] in degrees{}",
-                    file, nodes.place(bad), nodes.given.lat[bad],
-                    hint_beyond_pole(angles, n, "").empty() ? "" : "; exchange the two numbers"));
+                    file, nodes.place(bad), nodes.given.lat[bad], hint_beyond_pole(angles, n, "")));
   if (options.coordinates == Coordinates::xyz) {
     const std::vector<double>* axes[3];
     for (std::size_t k = 0; k < 3; ++k) {

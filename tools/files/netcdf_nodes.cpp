@@ -307,12 +307,12 @@ Places from_angles(const File& file, const Variable& lon, const Variable& lat, c
   units = lat_in_degrees ? "degrees" : "radians";
   Angles angles{lon.values.data(), lat.values.data(), 1, lon_in_degrees, lat_in_degrees};
   if (const std::size_t bad = first_beyond_pole(angles, lat.values.size()); bad < lat.values.size())
-    file.fail(fmt::format(
-        "variable {}, value {}: {} is beyond the pole{}", lat.name, lat.before + bad + 1, lat.values[bad],
-        !lat_in_degrees ? ": are they degrees, and the units wrong?"
-        : lon.values.size() == lat.values.size()
-            ? hint_beyond_pole(angles, lat.values.size(), (lat.name + "," + lon.name).c_str())
-            : ""));
+    file.fail(fmt::format("variable {}, value {}: {} is beyond the pole{}", lat.name, lat.before + bad + 1,
+                          lat.values[bad],
+                          !lat_in_degrees ? ": are they degrees, and the units wrong?"
+                          : lon.values.size() == lat.values.size()
+                              ? hint_beyond_pole(angles, lat.values.size(), lat.name + "," + lon.name)
+                              : ""));
   Places places;
   places.variables = {lon.id, lat.id};
   places.before = lat.before;

@@ -29,6 +29,15 @@ bool has_magic_of_netcdf(std::string_view bytes) {
   return bytes.substr(0, 3) == "CDF" || bytes.substr(0, 4) == "\x89HDF";
 }
 
+/// Has control characters, other than those that move to another column or line, near its beginning.
+bool is_binary(std::string_view bytes) {
+  const std::string_view begin = bytes.substr(0, 4096);
+  return std::any_of(begin.begin(), begin.end(), [](char c) {
+    return static_cast<unsigned char>(c) < ' ' &&
+           std::string_view("\t\n\v\f\r").find(c) == std::string_view::npos;
+  });
+}
+
 std::string_view first_word(std::string_view text) {
   const std::size_t begin = std::min(text.size(), text.find_first_not_of(" \t\r\n"));
   text.remove_prefix(begin);
@@ -36,7 +45,8 @@ std::string_view first_word(std::string_view text) {
 }
 
 /// Sets the nodes by the angles they were given. Those that cannot be radians are degrees.
-void set_angles(Nodes& nodes, LonLat given, Units units) {
+/// `to_exchange`: what --columns is told if they should be exchanged.
+void set_angles(Nodes& nodes, LonLat given, Units units, const std::string& to_exchange) {
   const std::size_t n = given.lon.size();
   if (units == Units::said_or_unmistakable) {
     const auto largest = [](const std::vector<double>& values) {
@@ -59,7 +69,7 @@ void set_angles(Nodes& nodes, LonLat given, Units units) {
     throw std::runtime_error(
         fmt::format("{}: {}: latitude {} is beyond the pole: the columns are 'lon lat', in {}{}", nodes.file,
                     nodes.place(bad), given.lat[bad], given.degrees ? "degrees" : "radians",
-                    hint_beyond_pole(angles, n, "2,1")));
+                    hint_beyond_pole(angles, n, to_exchange)));
   for (std::size_t i = 0; !given.degrees && i < n; ++i)
     if (std::fabs(given.lon[i]) > 8 * kRightAngle)
       throw std::runtime_error(
@@ -234,7 +244,8 @@ void read_text(Nodes& nodes, std::string_view text, const ReadOptions& options) 
     LonLat given;
     given.lon = std::move(axis(0));
     given.lat = std::move(axis(1));
-    set_angles(nodes, std::move(given), units_of(layout, choice, options.units));
+    set_angles(nodes, std::move(given), units_of(layout, choice, options.units),
+               fmt::format("{},{}", choice.place[1] + 1, choice.place[0] + 1));
     return;
   }
   nodes.points.resize(nodes.lines.size());
@@ -262,7 +273,7 @@ void read_raw(Nodes& nodes, std::string_view bytes, const ReadOptions& options) 
     LonLat given;
     for (std::size_t i = 0; i < values.size(); i += 2)
       given.lon.push_back(values[i]), given.lat.push_back(values[i + 1]);
-    return set_angles(nodes, std::move(given), options.units);
+    return set_angles(nodes, std::move(given), options.units, "");
   }
   for (std::size_t i = 0; i < values.size(); i += 3)
     nodes.points.push_back({values[i], values[i + 1], values[i + 2]});
@@ -316,16 +327,15 @@ void Nodes::keep(const std::vector<std::size_t>& indices) {
   triangles.clear();
 }
 
-std::string hint_beyond_pole(const Angles& a, std::size_t n, const char* to_exchange) {
+std::string hint_beyond_pole(const Angles& a, std::size_t n, const std::string& to_exchange) {
   const auto largest = [&](const double* values) {
     double most = 0;
     for (std::size_t i = 0; i < n; ++i) most = std::max(most, std::fabs(values[a.stride * i]));
     return most;
   };
   if (!a.lat_in_degrees) return "; --units degrees?";
-  return largest(a.lon) <= 90 && largest(a.lat) <= 360
-             ? fmt::format("; is latitude first? Then say --columns {}", to_exchange)
-             : "";
+  if (largest(a.lon) > 90 || largest(a.lat) > 360) return "";
+  return "; are they exchanged?" + (to_exchange.empty() ? "" : " Then say --columns " + to_exchange);
 }
 
 std::vector<Point> points_of(const Angles& a, std::size_t n) {
@@ -402,7 +412,9 @@ Nodes read(const std::string& file, const ReadOptions& options) {
   }
   if (contents.compare(0, 2, "\xFF\xFE") == 0 || contents.compare(0, 2, "\xFE\xFF") == 0)
     throw std::runtime_error(nodes.file + ":1: UTF-16: save the file as UTF-8");
-  if (std::string_view(contents).substr(0, 4096).find('\0') != std::string::npos)
+  if (contents.compare(0, 2, "\x1F\x8B") == 0)
+    throw std::runtime_error(nodes.file + ": compressed by gzip: use `gunzip` first");
+  if (is_binary(contents))
     throw std::runtime_error(nodes.file +
                              ": binary, but not NetCDF; raw doubles need --from raw and --coordinates");
   if (options.container == Container::geojson ||

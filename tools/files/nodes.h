@@ -84,8 +84,8 @@ std::vector<Point> points_of(const Angles& angles, std::size_t n);
 /// The first latitude beyond a pole, allowing for single precision; n if there is none.
 std::size_t first_beyond_pole(const Angles& angles, std::size_t n);
 /// What may be wrong with latitudes beyond the pole: "; ..." or nothing. `to_exchange`: what --columns is
-/// told then.
-std::string hint_beyond_pole(const Angles& angles, std::size_t n, const char* to_exchange);
+/// told then; empty: it cannot help.
+std::string hint_beyond_pole(const Angles& angles, std::size_t n, const std::string& to_exchange);
 
 /// `contents`: bytes that came through a pipe; empty: read the file.
 Nodes read_netcdf(const std::string& file, const ReadOptions& options, const std::string& contents = "");

@@ -235,7 +235,7 @@ void add_interpolate(CLI::App& app, Command& chosen) {
   sub->add_option("--to", options->to,
                   "text (lines of lon lat value), csv or netcdf [by the suffix: .txt, .csv, .nc]")
       ->type_name("WORD")
-      ->check(CLI::IsMember({"text", "csv", "netcdf"}).description(""));
+      ->check(one_of({"text", "csv", "netcdf"}));
   sub->footer(
       R"(VALUES is text with `lon lat value` or `x y z value` on each line, a table with a header line, or NetCDF. `nan` and
 _FillValue are missing values, in input and output. --from, --columns and --coordinates apply to VALUES, --units to

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "files/nearest.h"
 #include "numbers.h"
 #include "pstripack/progress.h"
 
@@ -59,6 +60,17 @@ Global& global() {
 
 std::string counted(std::size_t n, const std::string& thing) {
   return fmt::format("{} {}{}", n, thing, n == 1 ? "" : "s");
+}
+
+std::string is_none_of(const std::string& word, const std::vector<std::string>& words) {
+  return fmt::format("'{}' is none of {}{}", word, fmt::join(words, ", "), files::did_you_mean(word, words));
+}
+
+CLI::Validator one_of(std::vector<std::string> words) {
+  const auto check = [words = std::move(words)](const std::string& word) {
+    return std::find(words.begin(), words.end(), word) == words.end() ? is_none_of(word, words) : "";
+  };
+  return CLI::Validator(check, "");
 }
 
 CLI::Validator whole_number() {
@@ -143,7 +155,7 @@ void add_output(CLI::App& app, Output& output, bool required) {
   for (const files::FormatEntry& f : files::formats()) names.emplace_back(f.name);
   app.add_option("--to", output.to, "format, see below [by the suffix of the file]")
       ->type_name("FORMAT")
-      ->check(CLI::IsMember(names).description(""));
+      ->check(one_of(names));
   app.footer("Formats and their suffixes:" + suffixes());
 }
 

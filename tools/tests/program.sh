@@ -125,7 +125,11 @@ bad_command_lines)
   octahedron > nodes.txt
   refuses 2 "required" triangulate nodes.txt
   refuses 2 "mesh.xxx: no format has this suffix: give --to" triangulate nodes.txt -o mesh.xxx
-  refuses 2 "--to: potato not in" triangulate nodes.txt -o mesh.off --to potato
+  refuses 2 "--to: 'potato' is none of ugrid, mpas" triangulate nodes.txt -o mesh.off --to potato
+  refuses 2 "--to: 'ugird' is none of ugrid, mpas, scrip, vtu, off, gmsh, lists, gmt, geojson, csv, xyz, lonlat, nodes, raw; did you mean ugrid?" \
+    triangulate nodes.txt -o mesh.off --to ugird
+  refuses 2 "--duplicates: 'frist' is none of error, first, mean; did you mean first?" triangulate nodes.txt -o mesh.off --duplicates frist
+  refuses 2 "earthquakes; did you mean random?" points rndom 10
   refuses 2 "unknown point set 'potato'" points potato 10
   refuses 2 "points are nodes, not a mesh" points random 10 -o mesh.off
   refuses 2 "degrees" triangulate nodes.txt -o mesh.off --units gradians
@@ -528,7 +532,16 @@ bad_tables)
   printf 'lon,lat,lat\n1,2,3\n' | refused 1 "1: the header names column 'lat' twice, 2 and 3: choose columns by number"
   printf 'lon,mag\n1,2\n' | refused 1 "1: a column 'lon' without a latitude: name both by --columns LON,LAT"
   printf '45N 120W\n' | refused 1 "1: '45N' is not a finite number: write 45N as 45, 45S as -45, 120W as -120"
-  printf '80 100\n20 10\n30 40\n' | refused 1 " node 1 (line 1): latitude 100 is beyond the pole: the columns are 'lon lat', in degrees; is latitude first? Then say --columns 2,1"
+  printf '80 100\n20 10\n30 40\n' | refused 1 " node 1 (line 1): latitude 100 is beyond the pole: the columns are 'lon lat', in degrees; are they exchanged? Then say --columns 2,1"
+  printf 'lat,mag,lon\n95,1,10\n20,1,30\n' | refused 1 " node 1 (line 2): latitude 95 is beyond the pole: the columns are 'lon lat', in degrees; are they exchanged? Then say --columns 1,3"
+  printf '10 20\n30 x\n' | refused 1 "2: 'x' is not a finite number: correct it, remove the row, or choose other --columns"
+  printf '10,5\t20,1\n30,1\t40,2\n' | refused 1 "1: '5	20' is not a finite number: write a decimal comma as a point"
+  printf 'lon lat\n10,5 20,1\n' | refused 1 "2: found 4 columns where the header has 2: write a decimal comma as a point"
+  printf 'lon,lat,mag\n1,2,3\n4,5\n' | refused 1 "3: found 2 columns where the header has 3: complete the row, or remove it"
+  printf '5\n1 2\n3 4\n' | refused 1 "1: a single number is the count of the points that follow; there are 2: correct or remove it"
+  printf 'lon,lat\r10,20\r30,40\r' | refused 1 "1: lines end with CR alone: end them with LF, for example by \`tr '\\r' '\\n'\`"
+  printf '\037\213\010abc' | refused 1 " compressed by gzip: use \`gunzip\` first"
+  printf 'PK\003\004xx' | refused 1 " binary, but not NetCDF"
   refuses 2 "--duplicates" triangulate table.txt --duplicates last -o mesh.off
   ;;
 
@@ -614,7 +627,7 @@ geojson)
   point Point '[1, 1e400]' | refused " feature 2: a number is larger than 1e308"
   point Point '[1, "2"]' | refused " feature 2: expected coordinates [longitude, latitude]"
   point Point '[1]' | refused " feature 2: expected coordinates"
-  point Point '[30, 95]' | refused " node 2 (feature 2): latitude 95 is beyond the pole: GeoJSON has [longitude, latitude] in degrees; exchange"
+  point Point '[30, 95]' | refused " node 2 (feature 2): latitude 95 is beyond the pole: GeoJSON has [longitude, latitude] in degrees; are they exchanged?"
   point MultiPoint '[[10, 20], [30, 40], [50, 10]]' | refused " node 1 (feature 1) and node 2 (feature 2) are in the same place" --columns lon,lat
   point Polygon '[[[1, 2]]]' | refused " feature 2: 'Polygon' is no Point or MultiPoint: nodes are points; meshes are read from UGRID"
   printf '%s null]}' "$features" | refused ' "features" must be an array of features'
