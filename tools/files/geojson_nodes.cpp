@@ -185,10 +185,9 @@ std::vector<std::string> chosen(const ReadOptions& options, const Columns& colum
   words.erase(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(axes.size()));
   for (const std::string& word : words)
     if (find(columns, word) == nullptr)
-      throw std::runtime_error(
-          fmt::format("{}: there is no property '{}'{}; the features have {}", file, word,
-                      did_you_mean(word, names_of(columns)),
-                      columns.empty() ? "none" : fmt::format("{}", fmt::join(names_of(columns), ", "))));
+      throw std::runtime_error(fmt::format("{}: there is no property '{}'{}; the features have {}", file,
+                                           word, did_you_mean(word, names_of(columns)),
+                                           listed(names_of(columns))));
   return words;
 }
 
@@ -199,12 +198,10 @@ Column value_of(Columns& columns, std::string name, const std::string& file) {
     if (!c.is_text()) numbers.push_back({c.name});
   if (name.empty() && numbers.size() == 1) name = numbers[0].name;
   if (find(numbers, name) == nullptr)
-    throw std::runtime_error(
-        fmt::format("{}: {}{}; properties that are numbers: {}", file,
-                    name.empty() ? "which property is the value? Say --variable"
-                                 : fmt::format("no property '{}' is a number", name),
-                    did_you_mean(name, names_of(numbers)),
-                    numbers.empty() ? "none" : fmt::format("{}", fmt::join(names_of(numbers), ", "))));
+    throw std::runtime_error(fmt::format("{}: {}{}; properties that are numbers: {}", file,
+                                         name.empty() ? "which property is the value? Say --variable"
+                                                      : fmt::format("no property '{}' is a number", name),
+                                         did_you_mean(name, names_of(numbers)), listed(names_of(numbers))));
   const Column value = *find(columns, name);
   remove(columns, name);
   return value;

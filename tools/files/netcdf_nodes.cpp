@@ -468,7 +468,7 @@ Places read_chosen(const File& file, Nodes& nodes, std::vector<std::string>& nam
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (!has(file, names[i]))
       file.fail(fmt::format("there is no variable '{}'{}; the file has {}", names[i],
-                            did_you_mean(names[i], variables), fmt::join(variables, ", ")));
+                            did_you_mean(names[i], variables), listed(variables)));
     if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
         names.begin() + static_cast<std::ptrdiff_t>(i))
       file.fail(fmt::format("variable '{}' is chosen twice", names[i]));

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "base/parallel_for.h"
+#include "files/nearest.h"
 #include "files/text_table.h"
 #include "numbers.h"
 #include "point_sets.h"
@@ -119,7 +120,7 @@ std::vector<std::size_t> place_by_names(const std::vector<std::size_t>& candidat
       const bool has_lon = axis_of(layout.name(found[0])) == 'o';
       throw std::runtime_error(fmt::format(
           "{}: a column '{}' without a {}: name both by --columns LON,LAT; the header has {}", where,
-          layout.name(found[0]), has_lon ? "latitude" : "longitude", fmt::join(layout.names, ", ")));
+          layout.name(found[0]), has_lon ? "latitude" : "longitude", listed(layout.names)));
     }
   }
   if (coordinates == Coordinates::lonlat) return {};
@@ -144,7 +145,7 @@ Choice choose(const TextLayout& layout, const ReadOptions& options, const std::s
       if (!layout.names.empty())
         fail(fmt::format(
             "no columns named lon and lat, or x, y and z: name them by --columns; the header has {}",
-            fmt::join(layout.names, ", ")));
+            listed(layout.names)));
       if (options.with_values && layout.columns != 3 && layout.columns != 4)
         fail(fmt::format(
             "has {} columns; expected 'lon lat value' or 'x y z value'; of more columns say --coordinates "
@@ -186,8 +187,7 @@ Choice choose(const TextLayout& layout, const ReadOptions& options, const std::s
   } else if (choice.columns.empty()) {
     fail(fmt::format("has {} columns; expected 'lon lat value' or 'x y z value'", layout.columns));
   } else {
-    fail(fmt::format("which column is the value? Say --variable; the header has {}",
-                     fmt::join(layout.names, ", ")));
+    fail(fmt::format("which column is the value? Say --variable; the header has {}", listed(layout.names)));
   }
   return choice;
 }

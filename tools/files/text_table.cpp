@@ -572,7 +572,7 @@ std::vector<std::size_t> columns_named(const std::string& wanted, const TextLayo
       refuse(layout.names.empty()
                  ? fmt::format("the columns have no names: choose them by number, not '{}'", word)
                  : fmt::format("there is no column '{}'{}; the header has {}", word,
-                               did_you_mean(word, layout.names), fmt::join(layout.names, ", ")));
+                               did_you_mean(word, layout.names), listed(layout.names)));
     if (std::find(columns.begin(), columns.end(), found[0]) != columns.end())
       refuse(fmt::format("column '{}' is chosen twice", word));
     columns.push_back(found[0]);

@@ -390,6 +390,7 @@ bad_values)
   refuses 2 "give one of --to-points, --to-grid, --grid-step" interpolate values.txt -o failed.txt
   refuses 2 "give one of --to-points, --to-grid, --grid-step" interpolate values.txt --grid-step 30 --to-grid 2x2 -o failed.txt
   refuses 2 "180 degrees are no multiple of 7" interpolate values.txt --grid-step 7 -o failed.txt
+  refuses 2 "--grid-step: -1 is no number of degrees above 0" interpolate values.txt --grid-step -1 -o failed.txt
   refuses 2 "'180' is not 2 numbers" interpolate values.txt --to-grid 180 -o failed.txt
   refuses 2 "expected NLATxNLON" interpolate values.txt --to-grid 0x10 -o failed.txt
   refuses 2 "expected WEST,EAST,SOUTH,NORTH" interpolate values.txt --grid-step 1 --region 0,10,20,10 -o failed.txt
@@ -542,6 +543,9 @@ bad_tables)
   printf 'lon,lat\r10,20\r30,40\r' | refused 1 "1: lines end with CR alone: end them with LF, for example by \`tr '\\r' '\\n'\`"
   printf '\037\213\010abc' | refused 1 " compressed by gzip: use \`gunzip\` first"
   printf 'PK\003\004xx' | refused 1 " binary, but not NetCDF"
+  awk 'BEGIN { for (k = 1; k < 50; ++k) printf "c%d,", k; print "c50"; for (k = 1; k < 50; ++k) printf "1,"; print 1 }' |
+    refused 1 "1: no columns named lon and lat, or x, y and z: name them by --columns; the header has c1, c2, "
+  grep -q ", c29, c30 and 20 more$" err || fail "$(cat err)"
   refuses 2 "--duplicates" triangulate table.txt --duplicates last -o mesh.off
   ;;
 
