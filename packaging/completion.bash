@@ -1,5 +1,5 @@
 # Completion in bash for pstripack, stripack-compare, pstripack-config and pstripack-run: commands and options
-# come from the program's own --help, so they always fit its version.
+# come from the program's own --help, without its examples, so they always fit its version.
 
 _pstripack_completion() {
   local program=$1 current=$2 previous=$3 command="" commands word
@@ -15,8 +15,8 @@ _pstripack_completion() {
     words=$("$program" --abi 2>/dev/null | cut -d ' ' -f 1)
   elif [[ $current == -* || ${program##*/} == pstripack-config ]]; then
     # shellcheck disable=SC2086  # none, or a word
-    words=$("$program" $command --help 2>/dev/null | grep -oE -e '(^|[][ ,"])--?[a-z][a-z0-9-]*' |
-      grep -oE -e '--?[a-z][a-z0-9-]*' | sort -u)
+    words=$("$program" $command --help 2>/dev/null | sed '/^ *\(example: \)*p*stripack[a-z-]* /d' |
+      grep -oE -e '(^|[][ ,"])--?[a-z][a-z0-9-]*' | grep -oE -e '--?[a-z][a-z0-9-]*' | sort -u)
   elif [[ -z $command ]]; then
     words=$commands
   fi

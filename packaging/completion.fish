@@ -1,5 +1,5 @@
 # Completion in fish for pstripack, stripack-compare, pstripack-config and pstripack-run: commands and options come from
-# the program's own --help, so they always fit its version.
+# the program's own --help, without its examples, so they always fit its version.
 
 # What can be the last word: __pstripack_words PROGRAM WORD...
 function __pstripack_words
@@ -20,8 +20,8 @@ function __pstripack_words
     if test $name = pstripack-config; and test "$previous" = --abi
         $program --abi 2>/dev/null | cut -d ' ' -f 1
     else if string match -q -- '-*' "$current"; or test $name = pstripack-config
-        $program $command --help 2>/dev/null | grep -oE -e '(^|[][ ,"])--?[a-z][a-z0-9-]*' |
-            grep -oE -e '--?[a-z][a-z0-9-]*' | sort -u
+        $program $command --help 2>/dev/null | sed '/^ *\(example: \)*p*stripack[a-z-]* /d' |
+            grep -oE -e '(^|[][ ,"])--?[a-z][a-z0-9-]*' | grep -oE -e '--?[a-z][a-z0-9-]*' | sort -u
     else if test -z "$command"
         printf '%s\n' $commands
     end

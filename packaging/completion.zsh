@@ -1,6 +1,6 @@
 #compdef pstripack stripack-compare pstripack-config pstripack-run
 # Completion in zsh for pstripack, stripack-compare, pstripack-config and pstripack-run: commands and options come from
-# the program's own --help, so they always fit its version.
+# the program's own --help, without its examples, so they always fit its version.
 
 # What can be the last word: _pstripack_words PROGRAM WORD...
 _pstripack_words() {
@@ -16,8 +16,8 @@ _pstripack_words() {
   if [[ ${program:t} == pstripack-config && $previous == --abi ]]; then
     "$program" --abi 2>/dev/null | cut -d ' ' -f 1
   elif [[ $current == -* || ${program:t} == pstripack-config ]]; then
-    "$program" ${command:+$command} --help 2>/dev/null | grep -oE -e '(^|[][ ,"])--?[a-z][a-z0-9-]*' |
-      grep -oE -e '--?[a-z][a-z0-9-]*' | sort -u
+    "$program" ${command:+$command} --help 2>/dev/null | sed '/^ *\(example: \)*p*stripack[a-z-]* /d' |
+      grep -oE -e '(^|[][ ,"])--?[a-z][a-z0-9-]*' | grep -oE -e '--?[a-z][a-z0-9-]*' | sort -u
   elif [[ -z $command ]]; then
     print -l -- $commands
   fi

@@ -1,8 +1,11 @@
+import copy
+import pickle
+
 import numpy as np
 import pytest
 import scipy.spatial
 from nodes import in_cap, random_nodes
-from pstripack import SphericalVoronoi, to_xyz
+from pstripack import Delaunay, SphericalVoronoi, to_xyz
 
 RANDOM, CAP = random_nodes(500), in_cap(200)
 CASES = {
@@ -74,6 +77,21 @@ def test_where_many_regions_meet():
     ours, theirs = SphericalVoronoi(points), scipy.spatial.SphericalVoronoi(points)
     assert ours.vertices.shape == theirs.vertices.shape
     assert ours.calculate_areas() == pytest.approx(theirs.calculate_areas(), rel=1e-9)
+
+
+@pytest.mark.parametrize("again", [copy.copy, copy.deepcopy, lambda diagram: pickle.loads(pickle.dumps(diagram))])
+def test_copies_and_pickles_are_the_same(again):
+    points = 2 * random_nodes(100) + [1, 2, 3]
+    diagram = SphericalVoronoi(points, radius=2, center=[1, 2, 3], threads=2)
+    other = again(diagram)
+    assert other is not diagram and other.regions == diagram.regions
+    assert np.array_equal(other.vertices, diagram.vertices)
+    assert np.array_equal(other.calculate_areas(), diagram.calculate_areas())
+    mesh = Delaunay(points)
+    mesh.simplices
+    other_mesh = again(mesh)
+    assert np.array_equal(other_mesh.simplices, mesh.simplices) and np.array_equal(other_mesh.points, points)
+    assert np.array_equal(other_mesh.nearest(points), np.arange(100))
 
 
 def test_the_points_are_a_copy():

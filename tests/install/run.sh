@@ -35,6 +35,8 @@ gfortran -fdefault-integer-8 $(pkg-config --cflags stripack_i8) "$consumer/legac
 cc $(pkg-config --cflags pstripack) "$consumer/c_api.c" -o "$work/pc_c" $(pkg-config --libs pstripack)
 for program in pc_r8 pc_r4 pc_8arg pc_i8 pc_c; do "$work/$program"; done
 "$work/pc_c" | grep "^c_api: pstripack $version,"
+# The command of docs/plots.md needs no build folder.
+if command -v gs > /dev/null; then (cd "$work" && sh "$prefix/share/doc/pstripack/examples/plots/make-plots" && head -c 8 trplot.png vrplot.png | grep -c PNG | grep -x 2); fi
 for package in stripack stripack_r4 stripack_8arg stripack_i8 stripack_f90 pstripack pstripack_fortran; do
   pkg-config --exact-version="$version" $package
 done

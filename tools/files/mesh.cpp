@@ -51,22 +51,30 @@ void check_count(std::size_t n) {
         fmt::format("at most {} nodes: 6N-12 must fit 32 bits", pstripack::most_nodes<std::int32_t>()));
 }
 
-/// Three nodes that are not on one great circle, chosen far from each other.
-std::vector<std::size_t> three_corners(const std::vector<Point>& points) {
-  const auto farthest = [&](const auto& measure) {
-    std::size_t best = 0;
-    double most = -1;
-    for (std::size_t i = 0; i < points.size(); ++i)
-      if (const double m = measure(unit(points[i])); m > most) best = i, most = m;
-    return best;
-  };
+/// The node for which `measure` of its direction is largest.
+template <class Measure>
+std::size_t farthest(const std::vector<Point>& points, const Measure& measure) {
+  std::size_t best = 0;
+  double most = -1;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (const double m = measure(unit(points[i])); m > most) best = i, most = m;
+  return best;
+}
+
+/// The node farthest from the line through the first node and the centre.
+std::size_t farthest_from_first(const std::vector<Point>& points) {
   const Point a = unit(points[0]);
-  const std::size_t second = farthest([&](const Point& p) {
+  return farthest(points, [&](const Point& p) {
     const Point c = cross(a, p);
     return dot(c, c);
   });
-  const Point normal = cross(a, unit(points[second]));
-  std::size_t third = farthest([&](const Point& p) { return std::fabs(dot(normal, p)); });
+}
+
+/// Three nodes that are not on one great circle, chosen far from each other.
+std::vector<std::size_t> three_corners(const std::vector<Point>& points) {
+  const std::size_t second = farthest_from_first(points);
+  const Point normal = cross(unit(points[0]), unit(points[second]));
+  std::size_t third = farthest(points, [&](const Point& p) { return std::fabs(dot(normal, p)); });
   const auto spans = [&](std::size_t i) {
     return pstripack::left(points[0], points[second], points[i]) != 0;
   };
@@ -159,6 +167,13 @@ Mesh triangulate(std::vector<Point> points) {
                           static_cast<std::size_t>(result.other) - 1);
   if (result.ier < 0) throw NoMesh(fmt::format("the triangulation failed with code {}", result.ier));
   return mesh;
+}
+
+bool are_on_one_great_circle_up_to_rounding(const std::vector<Point>& points) {
+  constexpr double kRounding = 1e-14;  // of places computed by a few operations in degrees
+  const Point normal = unit(cross(unit(points[0]), unit(points[farthest_from_first(points)])));
+  return std::all_of(points.begin(), points.end(),
+                     [&](const Point& p) { return std::fabs(dot(normal, unit(p))) <= kRounding; });
 }
 
 std::vector<Duplicate> duplicates(const std::vector<Point>& points) {

@@ -58,6 +58,10 @@ void set_trmesh(Trmesh trmesh);
 /// lie on one great circle, two coincide, or there are too many.
 Mesh triangulate(std::vector<Point> points);
 
+/// Whether all nodes are within 1e-14 radians of one great circle: rounding of their coordinates decides
+/// which triangles and cells they have.
+bool are_on_one_great_circle_up_to_rounding(const std::vector<Point>& points);
+
 /// A node, and the first one in its direction.
 struct Duplicate {
   std::size_t node, first;

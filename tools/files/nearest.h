@@ -1,5 +1,5 @@
 #pragma once
-// "Did you mean": the word that was most likely meant.
+// Words in messages: that which was most likely meant, and lists.
 
 #include <algorithm>
 #include <cstddef>
@@ -39,6 +39,15 @@ inline std::string nearest(const std::string& word, const std::vector<std::strin
 inline std::string did_you_mean(const std::string& word, const std::vector<std::string>& words) {
   const std::string best = nearest(word, words);
   return best.empty() ? "" : "; did you mean " + best + "?";
+}
+
+/// The words with commas between them; of many the first.
+inline std::string listed(const std::vector<std::string>& words) {
+  constexpr std::size_t kMost = 30;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(words.size(), kMost); ++i) text += (i == 0 ? "" : ", ") + words[i];
+  if (words.size() > kMost) text += " and " + std::to_string(words.size() - kMost) + " more";
+  return words.empty() ? "none" : text;
 }
 
 }  // namespace files

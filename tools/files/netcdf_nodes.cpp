@@ -307,12 +307,12 @@ Places from_angles(const File& file, const Variable& lon, const Variable& lat, c
   units = lat_in_degrees ? "degrees" : "radians";
   Angles angles{lon.values.data(), lat.values.data(), 1, lon_in_degrees, lat_in_degrees};
   if (const std::size_t bad = first_beyond_pole(angles, lat.values.size()); bad < lat.values.size())
-    file.fail(fmt::format(
-        "variable {}, value {}: {} is beyond the pole{}", lat.name, lat.before + bad + 1, lat.values[bad],
-        !lat_in_degrees ? ": are they degrees, and the units wrong?"
-        : lon.values.size() == lat.values.size()
-            ? hint_beyond_pole(angles, lat.values.size(), (lat.name + "," + lon.name).c_str())
-            : ""));
+    file.fail(fmt::format("variable {}, value {}: {} is beyond the pole{}", lat.name, lat.before + bad + 1,
+                          lat.values[bad],
+                          !lat_in_degrees ? ": are they degrees, and the units wrong?"
+                          : lon.values.size() == lat.values.size()
+                              ? hint_beyond_pole(angles, lat.values.size(), lat.name + "," + lon.name)
+                              : ""));
   Places places;
   places.variables = {lon.id, lat.id};
   places.before = lat.before;
@@ -442,11 +442,7 @@ void read_notes(const File& file, Notes& notes) {
   for (int a = 0; a < count; ++a) {
     char name[NC_MAX_NAME + 1];
     file.check(nc_inq_attname(file.id(), NC_GLOBAL, a, name), "");
-    const std::string word = name;
-    const auto is = [&](const char* other) { return word == other; };
-    constexpr const char* kKept[] = {"title", "history", "source", "institution", "references", "comment"};
-    if (word.rfind("scvt_", 0) == 0 || std::any_of(std::begin(kKept), std::end(kKept), is))
-      notes[name] = text_attribute(file, NC_GLOBAL, name);
+    if (is_note(name)) notes[name] = text_attribute(file, NC_GLOBAL, name);
   }
 }
 
@@ -472,7 +468,7 @@ Places read_chosen(const File& file, Nodes& nodes, std::vector<std::string>& nam
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (!has(file, names[i]))
       file.fail(fmt::format("there is no variable '{}'{}; the file has {}", names[i],
-                            did_you_mean(names[i], variables), fmt::join(variables, ", ")));
+                            did_you_mean(names[i], variables), listed(variables)));
     if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
         names.begin() + static_cast<std::ptrdiff_t>(i))
       file.fail(fmt::format("variable '{}' is chosen twice", names[i]));

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "base/parallel_for.h"
+#include "files/nearest.h"
 #include "files/text_table.h"
 #include "numbers.h"
 #include "point_sets.h"
@@ -29,6 +30,15 @@ bool has_magic_of_netcdf(std::string_view bytes) {
   return bytes.substr(0, 3) == "CDF" || bytes.substr(0, 4) == "\x89HDF";
 }
 
+/// Has control characters, other than those that move to another column or line, near its beginning.
+bool is_binary(std::string_view bytes) {
+  const std::string_view begin = bytes.substr(0, 4096);
+  return std::any_of(begin.begin(), begin.end(), [](char c) {
+    return static_cast<unsigned char>(c) < ' ' &&
+           std::string_view("\t\n\v\f\r").find(c) == std::string_view::npos;
+  });
+}
+
 std::string_view first_word(std::string_view text) {
   const std::size_t begin = std::min(text.size(), text.find_first_not_of(" \t\r\n"));
   text.remove_prefix(begin);
@@ -36,7 +46,8 @@ std::string_view first_word(std::string_view text) {
 }
 
 /// Sets the nodes by the angles they were given. Those that cannot be radians are degrees.
-void set_angles(Nodes& nodes, LonLat given, Units units) {
+/// `to_exchange`: what --columns is told if they should be exchanged.
+void set_angles(Nodes& nodes, LonLat given, Units units, const std::string& to_exchange) {
   const std::size_t n = given.lon.size();
   if (units == Units::said_or_unmistakable) {
     const auto largest = [](const std::vector<double>& values) {
@@ -59,7 +70,7 @@ void set_angles(Nodes& nodes, LonLat given, Units units) {
     throw std::runtime_error(
         fmt::format("{}: {}: latitude {} is beyond the pole: the columns are 'lon lat', in {}{}", nodes.file,
                     nodes.place(bad), given.lat[bad], given.degrees ? "degrees" : "radians",
-                    hint_beyond_pole(angles, n, "2,1")));
+                    hint_beyond_pole(angles, n, to_exchange)));
   for (std::size_t i = 0; !given.degrees && i < n; ++i)
     if (std::fabs(given.lon[i]) > 8 * kRightAngle)
       throw std::runtime_error(
@@ -109,7 +120,7 @@ std::vector<std::size_t> place_by_names(const std::vector<std::size_t>& candidat
       const bool has_lon = axis_of(layout.name(found[0])) == 'o';
       throw std::runtime_error(fmt::format(
           "{}: a column '{}' without a {}: name both by --columns LON,LAT; the header has {}", where,
-          layout.name(found[0]), has_lon ? "latitude" : "longitude", fmt::join(layout.names, ", ")));
+          layout.name(found[0]), has_lon ? "latitude" : "longitude", listed(layout.names)));
     }
   }
   if (coordinates == Coordinates::lonlat) return {};
@@ -134,7 +145,7 @@ Choice choose(const TextLayout& layout, const ReadOptions& options, const std::s
       if (!layout.names.empty())
         fail(fmt::format(
             "no columns named lon and lat, or x, y and z: name them by --columns; the header has {}",
-            fmt::join(layout.names, ", ")));
+            listed(layout.names)));
       if (options.with_values && layout.columns != 3 && layout.columns != 4)
         fail(fmt::format(
             "has {} columns; expected 'lon lat value' or 'x y z value'; of more columns say --coordinates "
@@ -176,8 +187,7 @@ Choice choose(const TextLayout& layout, const ReadOptions& options, const std::s
   } else if (choice.columns.empty()) {
     fail(fmt::format("has {} columns; expected 'lon lat value' or 'x y z value'", layout.columns));
   } else {
-    fail(fmt::format("which column is the value? Say --variable; the header has {}",
-                     fmt::join(layout.names, ", ")));
+    fail(fmt::format("which column is the value? Say --variable; the header has {}", listed(layout.names)));
   }
   return choice;
 }
@@ -234,7 +244,8 @@ void read_text(Nodes& nodes, std::string_view text, const ReadOptions& options) 
     LonLat given;
     given.lon = std::move(axis(0));
     given.lat = std::move(axis(1));
-    set_angles(nodes, std::move(given), units_of(layout, choice, options.units));
+    set_angles(nodes, std::move(given), units_of(layout, choice, options.units),
+               fmt::format("{},{}", choice.place[1] + 1, choice.place[0] + 1));
     return;
   }
   nodes.points.resize(nodes.lines.size());
@@ -262,7 +273,7 @@ void read_raw(Nodes& nodes, std::string_view bytes, const ReadOptions& options) 
     LonLat given;
     for (std::size_t i = 0; i < values.size(); i += 2)
       given.lon.push_back(values[i]), given.lat.push_back(values[i + 1]);
-    return set_angles(nodes, std::move(given), options.units);
+    return set_angles(nodes, std::move(given), options.units, "");
   }
   for (std::size_t i = 0; i < values.size(); i += 3)
     nodes.points.push_back({values[i], values[i + 1], values[i + 2]});
@@ -296,7 +307,7 @@ void read_off(Nodes& nodes, const std::string& text, const ReadOptions& options)
 }  // namespace
 
 std::string Nodes::place(std::size_t i) const {
-  return i < lines.size() ? fmt::format("node {} (line {})", i + 1, lines[i])
+  return i < lines.size() ? fmt::format("node {} ({} {})", i + 1, lines_are, lines[i])
                           : fmt::format("node {}", before + i + 1);
 }
 
@@ -316,16 +327,15 @@ void Nodes::keep(const std::vector<std::size_t>& indices) {
   triangles.clear();
 }
 
-std::string hint_beyond_pole(const Angles& a, std::size_t n, const char* to_exchange) {
+std::string hint_beyond_pole(const Angles& a, std::size_t n, const std::string& to_exchange) {
   const auto largest = [&](const double* values) {
     double most = 0;
     for (std::size_t i = 0; i < n; ++i) most = std::max(most, std::fabs(values[a.stride * i]));
     return most;
   };
   if (!a.lat_in_degrees) return "; --units degrees?";
-  return largest(a.lon) <= 90 && largest(a.lat) <= 360
-             ? fmt::format("; is latitude first? Then say --columns {}", to_exchange)
-             : "";
+  if (largest(a.lon) > 90 || largest(a.lat) > 360) return "";
+  return "; are they exchanged?" + (to_exchange.empty() ? "" : " Then say --columns " + to_exchange);
 }
 
 std::vector<Point> points_of(const Angles& a, std::size_t n) {
@@ -372,6 +382,12 @@ void set_triangles(Nodes& nodes, const std::vector<long long>& corners, long lon
   }
 }
 
+bool is_note(const std::string& name) {
+  constexpr const char* kNames[] = {"title", "history", "source", "institution", "references", "comment"};
+  return name.rfind("scvt_", 0) == 0 ||
+         std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
+}
+
 bool is_netcdf(const std::string& file) {
   char begin[4] = "";
   std::ifstream(file, std::ios::binary).read(begin, sizeof begin);
@@ -381,7 +397,8 @@ bool is_netcdf(const std::string& file) {
 Nodes read(const std::string& file, const ReadOptions& options) {
   Nodes nodes;
   nodes.file = file == "-" ? "stdin" : file;
-  const bool may_be_netcdf = options.container != Container::text && options.container != Container::raw;
+  const bool may_be_netcdf =
+      options.container == Container::detected || options.container == Container::netcdf;
   if (may_be_netcdf && file != "-" && is_netcdf(file)) return read_netcdf(file, options);
 
   const std::string contents = point_sets::contents_of(file);
@@ -389,15 +406,20 @@ Nodes read(const std::string& file, const ReadOptions& options) {
   if (options.container == Container::netcdf) throw std::runtime_error(nodes.file + ": not a NetCDF file");
   if (options.container == Container::raw) {
     if (options.with_values)
-      throw std::runtime_error(nodes.file + ": values are read from text and NetCDF only");
+      throw std::runtime_error(nodes.file + ": values are read from text, NetCDF and GeoJSON only");
     read_raw(nodes, contents, options);
     return nodes;
   }
   if (contents.compare(0, 2, "\xFF\xFE") == 0 || contents.compare(0, 2, "\xFE\xFF") == 0)
     throw std::runtime_error(nodes.file + ":1: UTF-16: save the file as UTF-8");
-  if (std::string_view(contents).substr(0, 4096).find('\0') != std::string::npos)
+  if (contents.compare(0, 2, "\x1F\x8B") == 0)
+    throw std::runtime_error(nodes.file + ": compressed by gzip: use `gunzip` first");
+  if (is_binary(contents))
     throw std::runtime_error(nodes.file +
                              ": binary, but not NetCDF; raw doubles need --from raw and --coordinates");
+  if (options.container == Container::geojson ||
+      (options.container == Container::detected && is_geojson(contents)))
+    return read_geojson(nodes.file, options, contents);
   if (first_word(contents) == "OFF" && !options.with_values)
     read_off(nodes, contents, options);
   else

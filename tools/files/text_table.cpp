@@ -75,7 +75,9 @@ std::string remedy_for(std::string_view word) {
   if (word.find(';') != word.npos) return ": separate all columns by semicolons, or none";
   if (const std::size_t comma = word.find(','); comma != word.npos && word.find(',', comma + 1) == word.npos)
     return ": write a decimal comma as a point";
-  return "";
+  if (word.find_first_of(" \t") != word.npos)
+    return ": write a decimal comma as a point, or use one separator";
+  return ": correct it, remove the row, or choose other --columns";
 }
 
 /// Takes lines off a text.
@@ -282,8 +284,13 @@ std::string of_other_count(std::string_view line, std::size_t found, const TextL
     if (has_none && other != layout.separator && split(line, other).size() == layout.columns)
       return fmt::format("separated by {}, the lines before by {}: use one separator", name_of(other),
                          name_of(layout.separator));
-  return fmt::format("found {} where the {} {}", counted(found, layout.names.empty() ? "number" : "column"),
-                     layout.header_line > 0 ? "header has" : "lines before have", layout.columns);
+  const bool commas_split_numbers =
+      layout.separator == ' ' && found == 2 * layout.columns &&
+      static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) == layout.columns;
+  return fmt::format(
+      "found {} where the {} {}: {}", counted(found, layout.names.empty() ? "number" : "column"),
+      layout.header_line > 0 ? "header has" : "lines before have", layout.columns,
+      commas_split_numbers ? "write a decimal comma as a point" : "complete the row, or remove it");
 }
 
 /// What one thread reads.
@@ -425,6 +432,8 @@ char axis_of(const std::string& name) {
 TextLayout layout_of(std::string_view text, const std::string& file) {
   TextLayout layout;
   const std::size_t mark = text.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0;
+  if (text.find('\n') == text.npos && trimmed(text).find('\r') != text.npos)
+    fail(file, 1, "lines end with CR alone: end them with LF, for example by `tr '\\r' '\\n'`");
   Lines lines(text.substr(mark), 1);
   std::string_view line, comment;
   bool has_row = false;
@@ -512,7 +521,9 @@ TextRows rows_of(std::string_view text, const std::string& file, const TextLayou
   }
   if (layout.line_of_count > 0 && layout.count != count)
     fail(file, layout.line_of_count,
-         fmt::format("a single number is the count of the points that follow; there are {}", count));
+         fmt::format(
+             "a single number is the count of the points that follow; there are {}: correct or remove it",
+             count));
 
   TextRows all = std::move(pieces[0].rows);
   const auto append = [&](auto& to, const auto& from) {
@@ -561,7 +572,7 @@ std::vector<std::size_t> columns_named(const std::string& wanted, const TextLayo
       refuse(layout.names.empty()
                  ? fmt::format("the columns have no names: choose them by number, not '{}'", word)
                  : fmt::format("there is no column '{}'{}; the header has {}", word,
-                               did_you_mean(word, layout.names), fmt::join(layout.names, ", ")));
+                               did_you_mean(word, layout.names), listed(layout.names)));
     if (std::find(columns.begin(), columns.end(), found[0]) != columns.end())
       refuse(fmt::format("column '{}' is chosen twice", word));
     columns.push_back(found[0]);

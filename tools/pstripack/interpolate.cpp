@@ -134,6 +134,9 @@ files::Nodes read_points(const Options& options) {
 void interpolate(Options& options) {
   if (options.points.empty() + options.grid.empty() + (options.step == 0) != 2)
     throw CLI::ValidationError("--to-points", "give one of --to-points, --to-grid, --grid-step");
+  if (!(options.step >= 0 && options.step <= 360))
+    throw CLI::ValidationError("--grid-step",
+                               fmt::format("{} is no number of degrees above 0", options.step));
   if (!options.region.empty() && !options.points.empty())
     throw CLI::ValidationError("--region", "is of a grid, not of --to-points");
   if (options.registration == Registration::node && !options.points.empty())
@@ -210,8 +213,7 @@ void add_interpolate(CLI::App& app, Command& chosen) {
   sub->add_option("--to-grid", options->grid, "points of a grid, for example 180x360")
       ->type_name("NLATxNLON");
   sub->add_option("--grid-step", options->step, "the same grid, by the distance of its points")
-      ->type_name("DEGREES")
-      ->check(CLI::PositiveNumber.description(""));
+      ->type_name("DEGREES");
   sub->add_option("--region", options->region,
                   "edges: WEST,EAST,SOUTH,NORTH; 170,-170 crosses the dateline [-180,180,-90,90]")
       ->type_name("DEGREES");
@@ -235,7 +237,7 @@ void add_interpolate(CLI::App& app, Command& chosen) {
   sub->add_option("--to", options->to,
                   "text (lines of lon lat value), csv or netcdf [by the suffix: .txt, .csv, .nc]")
       ->type_name("WORD")
-      ->check(CLI::IsMember({"text", "csv", "netcdf"}).description(""));
+      ->check(one_of({"text", "csv", "netcdf"}));
   sub->footer(
       R"(VALUES is text with `lon lat value` or `x y z value` on each line, a table with a header line, or NetCDF. `nan` and
 _FillValue are missing values, in input and output. --from, --columns and --coordinates apply to VALUES, --units to

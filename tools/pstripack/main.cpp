@@ -28,8 +28,9 @@ constexpr auto kDescription = R"(Exact Delaunay triangulations and Voronoi diagr
 
 constexpr auto kFooter =
     R"(Input: text with `lon lat` or `x y z` on each line or a header line that names the columns (separated by blanks,
-commas, semicolons or tabs; #, % and ! start comments, > a segment), OFF, raw doubles, or NetCDF (UGRID; xCell, yCell,
-zCell; lonCell, latCell; lon, lat). Angles that could be degrees or radians are refused unless --units says which.
+commas, semicolons or tabs; #, % and ! start comments, > a segment), OFF, GeoJSON of points, raw doubles, or NetCDF
+(UGRID; xCell, yCell, zCell; lonCell, latCell; lon, lat). Angles that could be degrees or radians are refused unless
+--units says which.
 
 Output: a file, written completely or not at all, or stdout. Everything else goes to stderr. OMP_NUM_THREADS and
 the affinity mask are honoured.

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "files/nearest.h"
 #include "numbers.h"
 #include "pstripack/progress.h"
 
@@ -17,7 +18,7 @@ namespace {
 using files::Column;
 using files::Nodes;
 
-constexpr auto kNode = "node", kLine = "line";  // columns
+constexpr auto kNode = "node", kLine = "line", kFeature = "feature";  // columns
 
 void check_directions(const Nodes& nodes) {
   for (std::size_t i = 0; i < nodes.points.size(); ++i)
@@ -59,6 +60,17 @@ Global& global() {
 
 std::string counted(std::size_t n, const std::string& thing) {
   return fmt::format("{} {}{}", n, thing, n == 1 ? "" : "s");
+}
+
+std::string is_none_of(const std::string& word, const std::vector<std::string>& words) {
+  return fmt::format("'{}' is none of {}{}", word, fmt::join(words, ", "), files::did_you_mean(word, words));
+}
+
+CLI::Validator one_of(std::vector<std::string> words) {
+  const auto check = [words = std::move(words)](const std::string& word) {
+    return std::find(words.begin(), words.end(), word) == words.end() ? is_none_of(word, words) : "";
+  };
+  return CLI::Validator(check, "");
 }
 
 CLI::Validator whole_number() {
@@ -110,8 +122,11 @@ void add_input(CLI::App& app, Input& input) {
 void add_reading(CLI::App& app, files::ReadOptions& read) {
   using namespace files;
   add_choice(app, "--from", read.container,
-             {{"text", Container::text}, {"netcdf", Container::netcdf}, {"raw", Container::raw}},
-             "text, netcdf or raw (doubles in this machine's byte order) [text and netcdf are detected]");
+             {{"text", Container::text},
+              {"netcdf", Container::netcdf},
+              {"geojson", Container::geojson},
+              {"raw", Container::raw}},
+             "text, netcdf, geojson or raw (doubles in this machine's byte order) [detected, but for raw]");
   add_choice(app, "--coordinates", read.coordinates,
              {{"xyz", Coordinates::xyz}, {"lonlat", Coordinates::lonlat}},
              "xyz: three columns, any lengths; lonlat: two columns [by their names or number]");
@@ -140,7 +155,7 @@ void add_output(CLI::App& app, Output& output, bool required) {
   for (const files::FormatEntry& f : files::formats()) names.emplace_back(f.name);
   app.add_option("--to", output.to, "format, see below [by the suffix of the file]")
       ->type_name("FORMAT")
-      ->check(CLI::IsMember(names).description(""));
+      ->check(one_of(names));
   app.footer("Formats and their suffixes:" + suffixes());
 }
 
@@ -200,7 +215,8 @@ void drop(Nodes& nodes, bool means) {
   if (means) {
     take_means(nodes.value, duplicates);
     for (Column& column : nodes.columns)
-      if (column.name != kNode && column.name != kLine) take_means(column, duplicates);
+      if (column.name != kNode && column.name != kLine && column.name != kFeature)
+        take_means(column, duplicates);
   }
   std::vector<std::size_t> kept;
   for (std::size_t i = 0, next = 0; i < nodes.points.size(); ++i)
@@ -221,14 +237,15 @@ void drop_duplicates(Nodes& nodes, const Input& input) {
 }
 
 void number_nodes(Nodes& nodes) {
-  const auto add = [&](const char* name, const char* long_name, const auto& number) {
+  const auto add = [&](const char* name, const std::string& long_name, const auto& number) {
     if (find(nodes.columns, name) != nullptr) return;
     std::vector<double> numbers(nodes.points.size());
     for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<double>(number(i));
     nodes.columns.insert(nodes.columns.begin(), files::whole_numbers(name, long_name, std::move(numbers)));
   };
   if (!nodes.lines.empty())
-    add(kLine, "line of the node in the input", [&](std::size_t i) { return nodes.lines[i]; });
+    add(nodes.lines_are, fmt::format("{} of the node in the input", nodes.lines_are),
+        [&](std::size_t i) { return nodes.lines[i]; });
   add(kNode, "number of the node in the input, from 1", [](std::size_t i) { return i + 1; });
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "files/clipping.h"
 #include "files/mesh.h"
@@ -19,7 +20,13 @@ enum ExitCode { kDone = 0, kFailed = 1, kUsage = 2 };
 /// The command chosen on the command line.
 using Command = std::function<void()>;
 
-/// An option that takes one of some words.
+/// "'word' is none of these; did you mean that?"
+std::string is_none_of(const std::string& word, const std::vector<std::string>& words);
+
+/// For options that are one of some words.
+CLI::Validator one_of(std::vector<std::string> words);
+
+/// The same, for options that become a value.
 template <class Enum>
 void add_choice(CLI::App& app, const char* name, Enum& value, const std::map<std::string, Enum>& choices,
                 const char* text) {
@@ -28,9 +35,9 @@ void add_choice(CLI::App& app, const char* name, Enum& value, const std::map<std
       word = std::to_string(static_cast<int>(found->second));
       return "";
     }
-    std::string words;
-    for (const auto& [choice, number] : choices) words += (words.empty() ? "" : ", ") + choice;
-    return "'" + word + "' is none of " + words;
+    std::vector<std::string> words;
+    for (const auto& [choice, number] : choices) words.push_back(choice);
+    return is_none_of(word, words);
   };
   app.add_option(name, value, text)->type_name("WORD")->transform(CLI::Validator(number_of, ""));
 }

@@ -108,7 +108,7 @@ void expect_column(const files::Nodes& nodes, const std::string& name) {
   std::vector<std::string> names{"none", "area", "degree", "owner:P"};
   for (const files::Column& column : nodes.columns) names.push_back(column.name);
   throw std::runtime_error(fmt::format("{}: --colour {}: no column has this name{} (here are {})", nodes.file,
-                                       name, files::did_you_mean(name, names), fmt::join(names, ", ")));
+                                       name, files::did_you_mean(name, names), files::listed(names)));
 }
 
 void plot(Options& options) {
@@ -179,11 +179,11 @@ void add_plot(CLI::App& app, Command& chosen) {
       ->type_name("FILE");
   sub->add_option("--to", options->to, "svg or png [by the suffix of the file]")
       ->type_name("FORMAT")
-      ->check(CLI::IsMember({"svg", "png"}).description(""));
+      ->check(one_of({"svg", "png"}));
   sub->add_option("--what", options->what, "triangles, cells (of the Voronoi diagram) or histograms")
       ->type_name("WORD")
       ->capture_default_str()
-      ->check(CLI::IsMember({"triangles", "cells", "histograms"}).description(""));
+      ->check(one_of({"triangles", "cells", "histograms"}));
   sub->add_option("--view", options->view,
                   "orthographic or lonlat, or with a centre orthographic:LON,LAT [the middle of the nodes]")
       ->type_name("VIEW");

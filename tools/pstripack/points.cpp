@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <stdexcept>
 
 #include "families.h"
+#include "files/nearest.h"
 #include "point_sets.h"
 #include "pstripack/options.h"
 
@@ -42,7 +44,11 @@ void write(Options& options) {
   try {
     points = point_sets::make(options.name, options.n, options.seed);
   } catch (const std::invalid_argument& e) {
-    throw CLI::ValidationError("NAME", e.what());
+    const std::string name = options.name.substr(0, options.name.find(':'));
+    std::vector<std::string> names;
+    for (const point_sets::Family& f : point_sets::registry()) names.push_back(f.name);
+    const bool is_known = std::find(names.begin(), names.end(), name) != names.end();
+    throw CLI::ValidationError("NAME", e.what() + (is_known ? "" : files::did_you_mean(name, names)));
   }
   files::OutputFile file(options.output.file);
   write_nodes(file, options.output.format, points);

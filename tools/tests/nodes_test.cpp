@@ -118,7 +118,7 @@ TEST(text, values_follow_the_place) {
     expect_error("90 0 7 8\n", "there is no value in column", options);
   }
   options.container = Container::raw;
-  expect_error("x", "values are read from text and NetCDF only", options);
+  expect_error("x", "values are read from text, NetCDF and GeoJSON only", options);
 }
 
 ReadOptions with_columns(const std::string& columns = "") {
@@ -232,7 +232,7 @@ TEST(tables, that_cannot_be_used_are_refused_with_line_reason_and_remedy) {
   refused("1 2 3\n", "the columns have no names: choose them by number, not 'lon'", "lon,lat");
   refused("45N 120W\n", ":1: '45N' is not a finite number: write 45N as 45, 45S as -45, 120W as -120");
   refused("1 2\n45:30 2\n", ":2: '45:30' is not a finite number: write degrees as one decimal number");
-  refused("80 100\n20 10\n", "is latitude first? Then say --columns 2,1");
+  refused("80 100\n20 10\n", "are they exchanged? Then say --columns 2,1");
   refused(std::string("\xFF\xFE") + "1\0 \0", ":1: UTF-16: save the file as UTF-8");
   expect_error("3.1 1.5\n-3 -1.5\n", "latitudes 1.5, as radians do)");
   expect_error("350 1\n", "more than two turns in radians; --units degrees?", kRadians);
@@ -251,7 +251,7 @@ TEST(tables, are_the_same_read_by_any_number_of_threads) {
   }
   EXPECT_EQ(
       error_of(text + "1,2,3\n", with_columns()).substr(error_of(text + "1,2,3\n", with_columns()).find(':')),
-      ":40002: found 3 columns where the header has 4");
+      ":40002: found 3 columns where the header has 4: complete the row, or remove it");
 }
 
 TEST(nodes, are_kept_with_all_that_belongs_to_them) {

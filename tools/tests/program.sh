@@ -116,7 +116,11 @@ bad_command_lines)
   octahedron > nodes.txt
   refuses 2 "required" triangulate nodes.txt
   refuses 2 "mesh.xxx: no format has this suffix: give --to" triangulate nodes.txt -o mesh.xxx
-  refuses 2 "--to: potato not in" triangulate nodes.txt -o mesh.off --to potato
+  refuses 2 "--to: 'potato' is none of ugrid, mpas" triangulate nodes.txt -o mesh.off --to potato
+  refuses 2 "--to: 'ugird' is none of ugrid, mpas, scrip, vtu, off, gmsh, lists, gmt, geojson, csv, xyz, lonlat, nodes, raw; did you mean ugrid?" \
+    triangulate nodes.txt -o mesh.off --to ugird
+  refuses 2 "--duplicates: 'frist' is none of error, first, mean; did you mean first?" triangulate nodes.txt -o mesh.off --duplicates frist
+  refuses 2 "earthquakes; did you mean random?" points rndom 10
   refuses 2 "unknown point set 'potato'" points potato 10
   refuses 2 "points are nodes, not a mesh" points random 10 -o mesh.off
   refuses 2 "degrees" triangulate nodes.txt -o mesh.off --units gradians
@@ -377,6 +381,7 @@ bad_values)
   refuses 2 "give one of --to-points, --to-grid, --grid-step" interpolate values.txt -o failed.txt
   refuses 2 "give one of --to-points, --to-grid, --grid-step" interpolate values.txt --grid-step 30 --to-grid 2x2 -o failed.txt
   refuses 2 "180 degrees are no multiple of 7" interpolate values.txt --grid-step 7 -o failed.txt
+  refuses 2 "--grid-step: -1 is no number of degrees above 0" interpolate values.txt --grid-step -1 -o failed.txt
   refuses 2 "'180' is not 2 numbers" interpolate values.txt --to-grid 180 -o failed.txt
   refuses 2 "expected NLATxNLON" interpolate values.txt --to-grid 0x10 -o failed.txt
   refuses 2 "expected WEST,EAST,SOUTH,NORTH" interpolate values.txt --grid-step 1 --region 0,10,20,10 -o failed.txt
@@ -519,7 +524,19 @@ bad_tables)
   printf 'lon,lat,lat\n1,2,3\n' | refused 1 "1: the header names column 'lat' twice, 2 and 3: choose columns by number"
   printf 'lon,mag\n1,2\n' | refused 1 "1: a column 'lon' without a latitude: name both by --columns LON,LAT"
   printf '45N 120W\n' | refused 1 "1: '45N' is not a finite number: write 45N as 45, 45S as -45, 120W as -120"
-  printf '80 100\n20 10\n30 40\n' | refused 1 " node 1 (line 1): latitude 100 is beyond the pole: the columns are 'lon lat', in degrees; is latitude first? Then say --columns 2,1"
+  printf '80 100\n20 10\n30 40\n' | refused 1 " node 1 (line 1): latitude 100 is beyond the pole: the columns are 'lon lat', in degrees; are they exchanged? Then say --columns 2,1"
+  printf 'lat,mag,lon\n95,1,10\n20,1,30\n' | refused 1 " node 1 (line 2): latitude 95 is beyond the pole: the columns are 'lon lat', in degrees; are they exchanged? Then say --columns 1,3"
+  printf '10 20\n30 x\n' | refused 1 "2: 'x' is not a finite number: correct it, remove the row, or choose other --columns"
+  printf '10,5\t20,1\n30,1\t40,2\n' | refused 1 "1: '5	20' is not a finite number: write a decimal comma as a point"
+  printf 'lon lat\n10,5 20,1\n' | refused 1 "2: found 4 columns where the header has 2: write a decimal comma as a point"
+  printf 'lon,lat,mag\n1,2,3\n4,5\n' | refused 1 "3: found 2 columns where the header has 3: complete the row, or remove it"
+  printf '5\n1 2\n3 4\n' | refused 1 "1: a single number is the count of the points that follow; there are 2: correct or remove it"
+  printf 'lon,lat\r10,20\r30,40\r' | refused 1 "1: lines end with CR alone: end them with LF, for example by \`tr '\\r' '\\n'\`"
+  printf '\037\213\010abc' | refused 1 " compressed by gzip: use \`gunzip\` first"
+  printf 'PK\003\004xx' | refused 1 " binary, but not NetCDF"
+  awk 'BEGIN { for (k = 1; k < 50; ++k) printf "c%d,", k; print "c50"; for (k = 1; k < 50; ++k) printf "1,"; print 1 }' |
+    refused 1 "1: no columns named lon and lat, or x, y and z: name them by --columns; the header has c1, c2, "
+  grep -q ", c29, c30 and 20 more$" err || fail "$(cat err)"
   refuses 2 "--duplicates" triangulate table.txt --duplicates last -o mesh.off
   ;;
 
@@ -561,6 +578,67 @@ maps)
   sed 1d three.geojson | cmp a -
   ;;
 
+geojson)
+  # What was written comes back: longitudes beyond 180 degrees, gaps, texts, history; vectors.
+  printf 'lon,lat,depth,place\n300.1,40,7.25,a\n100,40,,"b ""c"""\n-70,-20.7,-1,\n180,89.99,3,d\n' > table.csv
+  "$PSTRIPACK" -q convert table.csv -o nodes.geojson
+  "$PSTRIPACK" -q convert nodes.geojson -o back.csv
+  cmp table.csv back.csv
+  "$PSTRIPACK" -q convert nodes.geojson -o again.geojson
+  sed 1d nodes.geojson > features
+  sed 1d again.geojson | cmp features -
+  head -n 1 again.geojson | grep -q 'nodes.geojson -o again.geojson .*\\npstripack .*table.csv' || fail "$(head -n 1 again.geojson)"
+  "$PSTRIPACK" -q points random 50 -o nodes.txt
+  "$PSTRIPACK" -q convert nodes.txt -o nodes.json
+  "$PSTRIPACK" -q convert - --coordinates xyz -o back.txt < nodes.json
+  cmp nodes.txt back.txt
+  # A value, by name and as the first behind the place; as places.
+  for option in "--variable depth" "--columns lon,lat,depth"; do
+    # shellcheck disable=SC2086
+    "$PSTRIPACK" -q interpolate nodes.geojson $option --skip-missing --to-points nodes.geojson -o values.txt
+    [ "$(sed -n 1,2p values.txt | tr '\n' ' ')" = '# lon lat depth depth_given place 300.1 40 7.25 7.25 "a" ' ] || fail "$(cat values.txt)"
+  done
+  # As others write it: a byte order mark, several points of a feature, altitudes, nested properties.
+  printf '\357\273\277{"type": "FeatureCollection", "name": "x", "features": [\n' > other.geojson
+  printf '{"geometry": {"coordinates": [[0, 0, 5], [10, 50]], "type": "MultiPoint"}, "type": "Feature", "properties": {"mag": 1, "features": {"a": [1]}}},\n' >> other.geojson
+  printf '{"type": "Feature", "properties": null, "geometry": {"type": "Point", "coordinates": [-1e1, 3]}}], "title": "T"}\n' >> other.geojson
+  "$PSTRIPACK" -q convert other.geojson -o other.csv
+  printf 'lon,lat,altitude,mag,features\n0,0,5,1,"{""a"":[1]}"\n10,50,,1,"{""a"":[1]}"\n-10,3,,,\n' | cmp other.csv -
+  "$PSTRIPACK" -q voronoi other.geojson -o cells.csv
+  [ "$(cut -d , -f 1-4 cells.csv | tr '\n' ' ')" = "lon,lat,node,feature 0,0,1,1 10,50,2,1 -10,3,3,2 " ] || fail "$(cat cells.csv)"
+  # Refused, with the feature or the line.
+  features='{"type": "FeatureCollection", "features": [
+{"type": "Feature", "properties": {"mag": 1}, "geometry": {"type": "Point", "coordinates": [10, 20]}},'
+  refused() {
+    words=$1
+    cat > bad.geojson
+    shift
+    refuses 1 "bad.geojson:$words" triangulate bad.geojson -o failed.off "$@"
+  }
+  point() { printf '%s\n{"type": "Feature", "geometry": {"type": "%s", "coordinates": %s}}]}' "$features" "$1" "$2"; }
+  point Point '[1, NaN]' | refused "3: no JSON: "
+  point Point '[1, 2' | refused "3: no JSON: "
+  printf '{"type": ' | refused "1: no JSON: "
+  point Point '[1, 1e400]' | refused " feature 2: a number is larger than 1e308"
+  point Point '[1, "2"]' | refused " feature 2: expected coordinates [longitude, latitude]"
+  point Point '[1]' | refused " feature 2: expected coordinates"
+  point Point '[30, 95]' | refused " node 2 (feature 2): latitude 95 is beyond the pole: GeoJSON has [longitude, latitude] in degrees; are they exchanged?"
+  point MultiPoint '[[10, 20], [30, 40], [50, 10]]' | refused " node 1 (feature 1) and node 2 (feature 2) are in the same place" --columns lon,lat
+  point Polygon '[[[1, 2]]]' | refused " feature 2: 'Polygon' is no Point or MultiPoint: nodes are points; meshes are read from UGRID"
+  printf '%s null]}' "$features" | refused ' "features" must be an array of features'
+  printf '%s {"type": "Feature", "geometry": null}]}' "$features" | refused " feature 2: has no geometry: remove it"
+  printf '{"type": "FeatureCollection", "features": []}' | refused " no points"
+  printf '{"type": "Topology"}' | refused " no GeoJSON of points: the type is 'Topology', expected FeatureCollection"
+  point Point '[1, 2]' | sed 's/"features"/"crs": {"type": "name", "properties": {"name": "EPSG:3857"}}, &/' |
+    refused " coordinates are in EPSG:3857: write the file in longitudes and latitudes, EPSG:4326"
+  point Point '[1, 2]' | refused " there is no property 'mga'; did you mean mag?; the features have mag" --columns lon,lat,mga
+  point Point '[1, 2]' | refused " the place is that of the geometry: say --columns lon,lat,NAME" --columns mag
+  point Point '[1, 2]' | refused " --coordinates xyz needs the property 'x'" --coordinates xyz
+  printf '1 2\n' | refused "1: no JSON" --from geojson
+  refuses 1 "no property 'place' is a number; properties that are numbers: depth" interpolate nodes.geojson --variable place --to-grid 2x2 -o failed.txt
+  [ -z "$(find . -name 'failed*')" ] || fail "files of failed runs: $(echo ./failed*)"
+  ;;
+
 bad_maps)
   octahedron > nodes.txt
   printf '0 0\n10 0\n0 10\n3 3\n' > cap.lonlat
@@ -577,6 +655,16 @@ bad_maps)
   printf '85 45\n-95 0\n-95 -45\n0 90\n' > circle.lonlat
   refuses 1 "circle.lonlat: all nodes lie on one great circle up to rounding: their cells are not known" \
     voronoi circle.lonlat --units degrees -o failed.geojson
+  # Nodes spread over a circle, over a half and over less: rounding decides whether their hull is a sphere.
+  awk 'BEGIN { for (part = 1; part <= 3; ++part) for (k = 0; k < 12; ++k) { a = 6.283185307179586 / part * (k + 0.1) / 12
+    printf "%.17g %.17g %.17g\n", cos(a), sin(a) * 0.6, sin(a) * 0.8 > "circle" part ".txt" } }'
+  for part in 1 2 3; do
+    for option in "" --clip-to-hull; do
+      # shellcheck disable=SC2086
+      refuses 1 "circle$part.txt: all nodes lie on one great circle" voronoi circle$part.txt $option -o failed.geojson
+    done
+  done
+  "$PSTRIPACK" -q points strip:1e-12 50 | "$PSTRIPACK" -q voronoi - -o strip.off
   refuses 1 "/dev/full: cannot be written: No space left" voronoi nodes.txt -o /dev/full --to geojson
   refuses 1 "holds nodes, no triangles" convert nodes.txt -o failed.gmt
   refuses 2 "points are nodes, not a mesh: give --to xyz, lonlat, nodes, csv, geojson or raw" points random 10 -o failed.gmt

@@ -1,5 +1,5 @@
 """Delaunay triangulations on the sphere."""
-from typing import Any, Optional, Tuple
+from typing import Any, Dict, Optional, Tuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -55,6 +55,15 @@ class Delaunay:
                     threads: Optional[int] = None) -> "Delaunay":
         """The triangulation of nodes given by longitudes and latitudes."""
         return cls(to_xyz(np.ravel(lon), np.ravel(lat), degrees), threads=threads)
+
+    def __getstate__(self) -> Dict[str, Any]:
+        return {**self.__dict__, "_mesh": None}
+
+    def __setstate__(self, state: Dict[str, Any]) -> None:
+        """Of a pickle or a copy: triangulates again, to the same mesh."""
+        self.__dict__.update(state)
+        self.points = read_only(self.points)
+        self._mesh = _core.Mesh(self.points, self._threads)
 
     def __repr__(self) -> str:
         return f"<pstripack.Delaunay of {self.npoints} nodes>"

@@ -1,5 +1,5 @@
 """Voronoi diagrams on the sphere, in place of scipy's."""
-from typing import List, Optional, Tuple
+from typing import Any, Dict, List, Optional, Tuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -65,9 +65,7 @@ class SphericalVoronoi:
             raise ValueError(f"center must have three coordinates; its shape is {self.center.shape}")
         number = thread_count(threads)
 
-        vectors = self.points
-        if self.center.any() or self.radius != 1:
-            vectors = (self.points - self.center) / self.radius
+        vectors = self._vectors()
         self._check_on_sphere(vectors, threshold)
         if _rank(vectors, threshold) < 3:
             raise ValueError("Rank of input points must be at least 3: they lie in one plane")
@@ -85,6 +83,21 @@ class SphericalVoronoi:
         self.vertices: Floats = vertices
         self.region_vertices: Tuple[Ints, Ints] = (read_only(begin), read_only(indices))
         self._regions: Optional[List[List[int]]] = None
+
+    def __getstate__(self) -> Dict[str, Any]:
+        return {**self.__dict__, "_mesh": None}
+
+    def __setstate__(self, state: Dict[str, Any]) -> None:
+        """Of a pickle or a copy: triangulates again, to the same mesh."""
+        self.__dict__.update(state)
+        self._mesh = _core.Mesh(self._vectors(), self._threads)
+
+    def _vectors(self) -> Floats:
+        """The points on the unit sphere."""
+        if self.radius == 1 and not self.center.any():
+            return self.points
+        vectors: Floats = (self.points - self.center) / self.radius
+        return vectors
 
     @property
     def regions(self) -> List[List[int]]:

@@ -1,0 +1,285 @@
+// Nodes of GeoJSON (RFC 7946): features with a Point or MultiPoint; their properties are columns.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <utility>
+
+#include "files/nearest.h"
+#include "files/nodes.h"
+#include "files/text_table.h"
+
+namespace files {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<std::string> names_of(const Columns& columns) {
+  std::vector<std::string> names;
+  for (const Column& c : columns) names.push_back(c.name);
+  return names;
+}
+
+std::string text_of(const json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+/// Collects the points of features, one after the other.
+class Features {
+ public:
+  explicit Features(Nodes& nodes) : nodes_(nodes) {}
+
+  std::size_t count() const { return count_; }
+
+  /// Throws, also on geometries that are no points.
+  void add(const json& feature) {
+    ++count_;
+    const auto geometry = feature.find("geometry"), properties = feature.find("properties");
+    if (geometry == feature.end() || !geometry->is_object())
+      fail("has no geometry: remove it, or give it a Point");
+    const std::string type = text_of(*geometry, "type");
+    if (type != "Point" && type != "MultiPoint")
+      fail(
+          fmt::format("'{}' is no Point or MultiPoint: nodes are points{}", type,
+                      type.find("Polygon") != type.npos ? "; meshes are read from UGRID, MPAS and OFF" : ""));
+    const auto coordinates = geometry->find("coordinates");
+    if (coordinates == geometry->end() || !coordinates->is_array()) fail("its geometry has no coordinates");
+    const std::size_t first = nodes_.lines.size();
+    if (type == "Point")
+      add_point(*coordinates);
+    else
+      for (const json& point : *coordinates) add_point(point);
+    if (properties == feature.end() || !properties->is_object()) return;
+    for (const auto& [name, value] : properties->items())
+      for (std::size_t i = first; i < nodes_.lines.size(); ++i) set(name, i, value);
+  }
+
+  /// All columns, with a value for each node.
+  Columns take_columns() {
+    for (Column& c : columns_)
+      if (c.is_text())
+        c.texts.resize(nodes_.lines.size());
+      else
+        c.numbers.resize(nodes_.lines.size(), kMissing);
+    return std::move(columns_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw std::runtime_error(fmt::format("{}: feature {}: {}", nodes_.file, count_, what));
+  }
+
+  void add_point(const json& point) {
+    const auto is_number = [](const json& value) { return value.is_number(); };
+    if (!point.is_array() || point.size() < 2 || !std::all_of(point.begin(), point.end(), is_number))
+      fail("expected coordinates [longitude, latitude] or [longitude, latitude, altitude]");
+    nodes_.given.lon.push_back(point[0].get<double>());
+    nodes_.given.lat.push_back(point[1].get<double>());
+    if (point.size() > 2) set("altitude", nodes_.lines.size(), point[2]);
+    nodes_.lines.push_back(count_);
+  }
+
+  void set(const std::string& name, std::size_t i, const json& value) {
+    auto c = std::find_if(columns_.begin(), columns_.end(), [&](const Column& k) { return k.name == name; });
+    if (c == columns_.end()) c = columns_.insert(c, Column{name});
+    if (value.is_null()) return;
+    if (value.is_number() && !c->is_text()) {
+      c->numbers.resize(i, kMissing);
+      return c->numbers.push_back(value.get<double>());
+    }
+    if (!c->is_text())
+      for (const double v : std::exchange(c->numbers, {}))
+        c->texts.push_back(std::isnan(v) ? "" : fmt::format("{}", v));
+    c->texts.resize(i);
+    c->texts.push_back(value.is_string() ? value.get<std::string>() : value.dump());
+  }
+
+  Nodes& nodes_;
+  Columns columns_;
+  std::size_t count_ = 0;
+};
+
+/// Features are read as they come, and not kept. Returns what is around them.
+json parse(const std::string& text, const std::string& file, Features& features) {
+  bool in_features = false;
+  const auto see = [&](int depth, json::parse_event_t event, json& value) {
+    if (depth == 1 && event == json::parse_event_t::key) in_features = value == "features";
+    if (depth != 2 || event != json::parse_event_t::object_end || !in_features) return true;
+    features.add(value);
+    return false;
+  };
+  try {
+    return json::parse(text, see);
+  } catch (const json::parse_error& e) {
+    const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(e.byte, text.size()));
+    const std::string what = e.what();
+    const std::size_t column = what.find(", column ");
+    throw std::runtime_error(fmt::format("{}:{}: no JSON: {}", file, 1 + std::count(text.begin(), end, '\n'),
+                                         what.substr(column == what.npos ? 0 : what.find(": ", column) + 2)));
+  } catch (const json::out_of_range&) {
+    throw std::runtime_error(
+        fmt::format("{}: feature {}: a number is larger than 1e308", file, features.count() + 1));
+  }
+}
+
+/// Throws unless coordinates are longitudes and latitudes of WGS 84: files from before RFC 7946 can have
+/// others.
+void check_reference_system(const json& root, const std::string& file) {
+  const auto crs = root.find("crs");
+  if (crs == root.end() || !crs->is_object() || !crs->contains("properties")) return;
+  const std::string name = text_of((*crs)["properties"], "name");
+  const auto has = [&](const char* word) { return name.find(word) != name.npos; };
+  if (!name.empty() && !has("CRS84") && !has("4326"))
+    throw std::runtime_error(fmt::format(
+        "{}: coordinates are in {}: write the file in longitudes and latitudes, EPSG:4326", file, name));
+}
+
+const std::vector<double>* numbers_of_all(const Columns& columns, const char* name) {
+  const Column* const c = find(columns, name);
+  const auto is_missing = [](double v) { return std::isnan(v); };
+  return c == nullptr || c->is_text() || std::any_of(c->numbers.begin(), c->numbers.end(), is_missing)
+             ? nullptr
+             : &c->numbers;
+}
+
+void remove(Columns& columns, const std::string& name) {
+  columns.erase(
+      std::remove_if(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; }),
+      columns.end());
+}
+
+/// Coordinates are from -180 to 180. Properties lon and lat of the same places are what had been given.
+void take_given_angles(Nodes& nodes, Columns& columns) {
+  const auto* const lon = numbers_of_all(columns, "lon");
+  const auto* const lat = numbers_of_all(columns, "lat");
+  bool same = lon != nullptr && lat != nullptr;
+  for (std::size_t i = 0; same && i < nodes.given.lon.size(); ++i)
+    same = std::fabs(std::remainder((*lon)[i] - nodes.given.lon[i], 360)) < 1e-9 &&
+           (*lat)[i] == nodes.given.lat[i];
+  if (same) {
+    nodes.given.lon = *lon;
+    for (const char* const name : {"lon", "lat"}) remove(columns, name);
+  }
+}
+
+/// The other columns that --columns names: behind the place.
+std::vector<std::string> chosen(const ReadOptions& options, const Columns& columns, const std::string& file) {
+  std::vector<std::string> words;
+  for (std::size_t begin = 0; begin <= options.columns.size();) {
+    const std::size_t end = std::min(options.columns.find(',', begin), options.columns.size());
+    words.push_back(options.columns.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  const std::string axes = options.coordinates == Coordinates::xyz ? "xyz" : "oa";
+  for (std::size_t k = 0; k < axes.size(); ++k)
+    if (k >= words.size() || axis_of(words[k]) != axes[k])
+      throw std::runtime_error(fmt::format("{}: the place is that of the geometry: say --columns {},NAME",
+                                           file, axes == "oa" ? "lon,lat" : "x,y,z"));
+  words.erase(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(axes.size()));
+  for (const std::string& word : words)
+    if (find(columns, word) == nullptr)
+      throw std::runtime_error(fmt::format("{}: there is no property '{}'{}; the features have {}", file,
+                                           word, did_you_mean(word, names_of(columns)),
+                                           listed(names_of(columns))));
+  return words;
+}
+
+/// The value, by name or as the only property that is a number; taken out of the columns.
+Column value_of(Columns& columns, std::string name, const std::string& file) {
+  Columns numbers;
+  for (const Column& c : columns)
+    if (!c.is_text()) numbers.push_back({c.name});
+  if (name.empty() && numbers.size() == 1) name = numbers[0].name;
+  if (find(numbers, name) == nullptr)
+    throw std::runtime_error(fmt::format("{}: {}{}; properties that are numbers: {}", file,
+                                         name.empty() ? "which property is the value? Say --variable"
+                                                      : fmt::format("no property '{}' is a number", name),
+                                         did_you_mean(name, names_of(numbers)), listed(names_of(numbers))));
+  const Column value = *find(columns, name);
+  remove(columns, name);
+  return value;
+}
+
+}  // namespace
+
+bool is_geojson(const std::string& contents) {
+  const std::size_t mark = contents.compare(0, 3, "\xEF\xBB\xBF") == 0 ? 3 : 0;
+  const std::size_t begin = contents.find_first_not_of(" \t\r\n", mark);
+  return begin != contents.npos && contents[begin] == '{';
+}
+
+Nodes read_geojson(const std::string& file, const ReadOptions& options, const std::string& contents) {
+  Nodes nodes;
+  nodes.file = file;
+  nodes.kind = "GeoJSON, lon lat in degrees";
+  nodes.lines_are = "feature";
+  Features features(nodes);
+  const json root = parse(contents, file, features);
+  const std::string type = root.is_object() ? text_of(root, "type") : "";
+  if (type == "FeatureCollection") {
+    const auto rest = root.find("features");
+    if (rest == root.end() || !rest->is_array() || !rest->empty())
+      throw std::runtime_error(file + ": \"features\" must be an array of features");
+  } else if (type == "Feature") {
+    features.add(root);
+  } else if (type == "Point" || type == "MultiPoint") {
+    features.add({{"type", "Feature"}, {"geometry", root}});
+  } else {
+    throw std::runtime_error(
+        fmt::format("{}: no GeoJSON of points: the type is '{}', expected FeatureCollection, Feature, Point "
+                    "or MultiPoint",
+                    file, type));
+  }
+  check_reference_system(root, file);
+  const std::size_t n = nodes.given.lon.size();
+  if (n == 0) throw std::runtime_error(file + ": no points: there are no features");
+  for (const auto& [name, text] : root.items())
+    if (is_note(name) && text.is_string()) nodes.notes[name] = text.get<std::string>();
+
+  Columns columns = features.take_columns();
+  std::vector<std::string> wanted;
+  if (!options.columns.empty()) wanted = chosen(options, columns, file);
+  const Angles angles{nodes.given.lon.data(), nodes.given.lat.data(), 1, true, true};
+  if (const std::size_t bad = first_beyond_pole(angles, n); bad < n)
+    throw std::runtime_error(
+        fmt::format("{}: {}: latitude {} is beyond the pole: GeoJSON has [longitude, latitude] in degrees{}",
+                    file, nodes.place(bad), nodes.given.lat[bad], hint_beyond_pole(angles, n, "")));
+  if (options.coordinates == Coordinates::xyz) {
+    const std::vector<double>* axes[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      constexpr const char* kNames[] = {"x", "y", "z"};
+      axes[k] = numbers_of_all(columns, kNames[k]);
+      if (axes[k] == nullptr)
+        throw std::runtime_error(fmt::format(
+            "{}: --coordinates xyz needs the property '{}', a number, of all features", file, kNames[k]));
+    }
+    for (std::size_t i = 0; i < n; ++i) nodes.points.push_back({(*axes[0])[i], (*axes[1])[i], (*axes[2])[i]});
+    nodes.given = {};
+    nodes.kind = "GeoJSON, x y z";
+    for (const char* const name : {"x", "y", "z", "lon", "lat"}) remove(columns, name);
+  } else {
+    take_given_angles(nodes, columns);
+    nodes.points = points_of({nodes.given.lon.data(), nodes.given.lat.data(), 1, true, true}, n);
+    make_names_differ(columns, {"lon", "lat"});
+  }
+
+  if (options.with_values) {
+    std::string variable = options.variable;
+    if (variable.empty() && !wanted.empty()) variable = wanted[0];
+    nodes.value = value_of(columns, variable, file);
+  }
+  if (!options.with_columns) return nodes;
+  for (Column& c : columns)
+    if (options.columns.empty() || std::find(wanted.begin(), wanted.end(), c.name) != wanted.end())
+      nodes.columns.push_back(std::move(c));
+  return nodes;
+}
+
+}  // namespace files
