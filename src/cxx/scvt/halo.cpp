@@ -20,37 +20,14 @@ void Halo::make_directory(const Neighbourhood& here) {
   });
 }
 
-std::vector<std::int32_t> Halo::owners_of(const std::vector<std::int64_t>& numbers) {
-  const auto size = static_cast<std::size_t>(ranks_.size());
-  const Parcels questions = exchange_in_agreement(ranks_, [&] {
-    std::vector<std::vector<std::int64_t>> asked(size);
-    for (const std::int64_t number : numbers) asked[directory_of(number)].push_back(number);
-    return packed(asked);
-  });
-  const Parcels answers = exchange_in_agreement(ranks_, [&] {
-    std::vector<std::vector<std::int32_t>> owners(size);
-    for (std::size_t r = 0; r < size; ++r)
-      for (const std::int64_t number : Items<std::int64_t>(questions, r))
-        owners[r].push_back(directory_->at(number));
-    return packed(owners);
-  });
-  std::vector<std::int32_t> owners;
-  in_agreement(ranks_, [&] {
-    std::vector<const std::int32_t*> next;
-    for (std::size_t r = 0; r < size; ++r) next.push_back(Items<std::int32_t>(answers, r).begin());
-    for (const std::int64_t number : numbers) owners.push_back(*next[directory_of(number)]++);
-  });
-  return owners;
-}
-
 void Halo::connect(const Neighbourhood& here) {
   const NeighbourLists& stars = here.stars;
   size_ = stars.count;
   if (ranks_.size() == 1) return;
   if (!directory_) make_directory(here);
-  std::vector<std::size_t> places;
-  std::vector<std::int64_t> numbers;
-  in_agreement(ranks_, [&] {
+  const auto size = static_cast<std::size_t>(ranks_.size());
+  std::vector<std::size_t> places;  // of the halo
+  const Parcels questions = exchange_in_agreement(ranks_, [&] {
     const std::size_t slots = stars.count == 0 ? 0 : stars.end_of(stars.count - 1);
     for (std::size_t s = 0; s < slots; ++s) {
       const auto place = static_cast<std::size_t>(stars.neighbour[s]) - 1;
@@ -58,17 +35,28 @@ void Halo::connect(const Neighbourhood& here) {
     }
     std::sort(places.begin(), places.end());
     places.erase(std::unique(places.begin(), places.end()), places.end());
-    for (const std::size_t place : places) numbers.push_back(here.numbers[place]);
-    if (!places.empty()) size_ = places.back() + 1;
+    std::vector<std::vector<std::int64_t>> asked(size);
+    for (const std::size_t place : places)
+      asked[directory_of(here.numbers[place])].push_back(here.numbers[place]);
+    return packed(asked);
   });
-  const std::vector<std::int32_t> owners = owners_of(numbers);
+  const Parcels answers = exchange_in_agreement(ranks_, [&] {
+    std::vector<std::vector<std::size_t>> owners(size);
+    for (std::size_t r = 0; r < size; ++r)
+      for (const std::int64_t number : Items<std::int64_t>(questions, r))
+        owners[r].push_back(static_cast<std::size_t>(directory_->at(number)));
+    return packed(owners);
+  });
   in_agreement(ranks_, [&] {
-    to_.assign(static_cast<std::size_t>(ranks_.size()), {});
-    from_ = to_;
+    to_.assign(size, {});
+    from_.assign(size, {});
+    if (!places.empty()) size_ = places.back() + 1;
+    std::vector<const std::size_t*> answer;
+    for (std::size_t r = 0; r < size; ++r) answer.push_back(Items<std::size_t>(answers, r).begin());
     std::vector<std::size_t> owner(size_ - stars.count);
-    for (std::size_t k = 0; k < places.size(); ++k) {
-      owner[places[k] - stars.count] = static_cast<std::size_t>(owners[k]);
-      from_[static_cast<std::size_t>(owners[k])].push_back(places[k]);
+    for (const std::size_t place : places) {
+      owner[place - stars.count] = *answer[directory_of(here.numbers[place])]++;
+      from_[owner[place - stars.count]].push_back(place);
     }
     for (std::size_t i = 0; i < stars.count; ++i)
       for (std::size_t s = stars.begin_of(i); s < stars.end_of(i); ++s) {

@@ -50,7 +50,6 @@ class Halo {
     return static_cast<std::size_t>(number % ranks_.size());
   }
   void make_directory(const Neighbourhood& here);
-  std::vector<std::int32_t> owners_of(const std::vector<std::int64_t>& numbers);
 
   Communicator& ranks_;
   std::optional<NumberTable<std::int32_t>> directory_;
