@@ -19,7 +19,7 @@
 //
 // A z = v is solved by kPasses steps of Chebyshev's semi-iteration (Golub and Varga 1961) with the diagonal
 // D, D_i the largest eigenvalue of i's springs, sum of k n n^T. The eigenvalues of A/D are at most 2, since
-// (n.(u_i-u_j))^2 <= 2 (n.u_i)^2 + 2 (n.u_j)^2, and those above 2/kPasses^2 are solved within a fourth. So
+// (n.(u_i-u_j))^2 <= 2 (n.u_i)^2 + 2 (n.u_j)^2, and those above 2/kPasses^2 are solved within 27 %. So
 // z = P v, P is symmetric and positive definite, and the condition number is smaller by about kPasses^2. All
 // of it needs sums over neighbours only: same bits for any number of threads and ranks.
 
