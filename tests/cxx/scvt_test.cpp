@@ -17,6 +17,8 @@
 #include "scvt/errors.h"
 #include "scvt/exact_sum.h"
 #include "scvt/first_generators.h"
+#include "scvt/front.h"
+#include "scvt/metric.h"
 #include "scvt/run.h"
 
 namespace {
@@ -422,6 +424,112 @@ TEST(Run, GoesOnFromACopyOfTheStateWithTheSameBits) {
   }
 }
 
+// ---- the metric of the quasi-Newton method
+// --------------------------------------------------------------------------------------------------
+
+double product(const std::vector<Point>& a, const std::vector<Point>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += dot(a[i], b[i]);
+  return sum;
+}
+
+std::vector<Point> solved(Metric& metric, std::vector<Point> v) {
+  metric.solve(v);
+  return v;
+}
+
+/// What the metric knows of generators, and vectors at right angles to them.
+struct Measured {
+  Measured(const Density& d, std::vector<Point> g)
+      : density(d), generators(std::move(g)), evaluator(d), metric(evaluator.ranks()) {
+    metric.set(evaluator.evaluate(generators, cells), cells);
+  }
+  std::vector<Point> field(const std::function<Point(const Point&)>& f) const {
+    std::vector<Point> v;
+    for (const Point& g : generators) {
+      const Point at = f(g);
+      v.push_back(minus(at, times(dot(at, g), g)));
+    }
+    return v;
+  }
+  std::vector<Point> random_field(unsigned seed) const {
+    point_sets::Random random(seed);
+    return field([&](const Point&) {
+      const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
+      return Point{x, y, random.uniform(-1, 1)};
+    });
+  }
+  /// The Hessian times u, by differences of the gradient.
+  std::vector<Point> hessian(const std::vector<Point>& u) const {
+    constexpr double kStep = 1e-5;
+    std::vector<Point> gradient[2];
+    for (const int side : {0, 1}) {
+      std::vector<Point> moved;
+      for (std::size_t i = 0; i < u.size(); ++i)
+        moved.push_back(point_sets::normalized(plus(generators[i], times(side == 0 ? -kStep : kStep, u[i]))));
+      Cells at;
+      LocalEvaluator(density).evaluate(moved, at);
+      for (const Point& pull : at.pull) gradient[side].push_back(times(-2, pull));
+    }
+    std::vector<Point> change;
+    for (std::size_t i = 0; i < u.size(); ++i)
+      change.push_back(times(1 / (2 * kStep), minus(gradient[1][i], gradient[0][i])));
+    return change;
+  }
+
+  const Density& density;
+  std::vector<Point> generators;
+  LocalEvaluator evaluator;
+  Cells cells;
+  Metric metric;
+};
+
+TEST(Metric, IsSymmetricAndPositive) {
+  const Formula contrast([](const Point& p) { return std::exp(9 * p.x); });
+  for (const Density* const density : std::initializer_list<const Density*>{&kConstant, &kBump, &contrast})
+    for (const std::size_t n : {4, 5, 12, 13, 1000})
+      for (unsigned seed = 1; seed < 3; ++seed) {
+        Measured m(*density, random_generators(n, *density, seed));
+        const std::vector<Point> a = m.random_field(seed), b = m.random_field(seed + 100);
+        const std::vector<Point> of_a = solved(m.metric, a), of_b = solved(m.metric, b);
+        const double ab = product(a, of_b), aa = product(a, of_a), bb = product(b, of_b);
+        EXPECT_GT(aa, 0);
+        EXPECT_GT(bb, 0);
+        EXPECT_NEAR(ab, product(b, of_a), 1e-5 * std::sqrt(aa * bb)) << n;
+      }
+}
+
+/// Where Lloyd's metric is wrong by the square of the wave length over the width of a cell.
+TEST(Metric, IsAboutTheInverseOfTheHessian) {
+  for (const Density* const density : std::initializer_list<const Density*>{&kConstant, &kBump}) {
+    RunOptions options;
+    options.tolerance = 1e-4;
+    Measured m(*density, run(1000, *density, options).state.generators);
+    const std::vector<Point> fields[] = {m.field([](const Point& p) {
+                                           return Point{p.x * p.y, p.y * p.z, p.z * p.z * p.z};
+                                         }),
+                                         m.field([](const Point& p) {
+                                           return cross(p, {p.x * p.y, 0, p.z * p.x});
+                                         }),
+                                         m.random_field(1)};
+    double of_lloyd = 0;
+    for (const std::vector<Point>& u : fields) {
+      const std::vector<Point> h = m.hessian(u);
+      const double ratio = product(u, h) / product(h, solved(m.metric, h));
+      EXPECT_GT(ratio, 0.3);
+      EXPECT_LT(ratio, 5);
+      double lloyd = 0;
+      for (std::size_t i = 0; i < h.size(); ++i) lloyd += dot(h[i], h[i]) / (2 * m.cells.mass[i]);
+      of_lloyd = std::max(of_lloyd, product(u, h) / lloyd);
+    }
+    EXPECT_GT(of_lloyd, 30);
+  }
+}
+
+TEST(Metric, MakesRunsShort) {  // in Lloyd's metric 83 evaluations
+  EXPECT_LT(run(front_generators(4000, kConstant), kConstant, {}).evaluations, 50);
+}
+
 // ---- safeguards
 // --------------------------------------------------------------------------------------------------
 
@@ -430,9 +538,10 @@ class Meddler final : public LocalEvaluator {
  public:
   using Meddle = std::function<void(int evaluation, Cells& cells)>;
   Meddler(const Density& density, Meddle meddle) : LocalEvaluator(density), meddle_(std::move(meddle)) {}
-  void evaluate(const std::vector<Point>& generators, Cells& cells) override {
-    LocalEvaluator::evaluate(generators, cells);
+  Neighbourhood evaluate(const std::vector<Point>& generators, Cells& cells) override {
+    const Neighbourhood here = LocalEvaluator::evaluate(generators, cells);
     meddle_(++evaluations_, cells);
+    return here;
   }
 
  private:
@@ -450,15 +559,16 @@ Options newton_at_once(double tolerance) {
 
 TEST(Safeguards, ADirectionThatDoesNotDescendGivesWayToLloyd) {
   State state(random_generators(300, kConstant, 1));
+  LocalEvaluator evaluator(kConstant);
+  Cells cells;
+  evaluator.evaluate(state.generators, cells);
   State::Pair pair;  // of a concave energy, as no run keeps one
-  for (const Point& g : state.generators) {
-    const Point step = cross(g, {0.1, 0.2, 0.3});
-    pair.step.push_back(step);
-    pair.change.push_back(times(-1e-3, step));
+  for (const Point& pull : cells.pull) {
+    pair.step.push_back(pull);
+    pair.change.push_back(times(-1e-6, pull));
   }
   state.pairs.push_back(pair);
   state.steps = state.evaluations = 1;
-  LocalEvaluator evaluator(kConstant);
   EXPECT_EQ(minimize(evaluator, state, newton_at_once(1e-5)).end, End::converged);
   EXPECT_EQ(state.no_descent, 1);
 }

@@ -261,7 +261,10 @@ Tessellation first_tessellation(const Options& options, engine::Evaluator& evalu
   if (first == First::front) {
     if (!is_alone)
       throw engine::NoTessellation(
-          "--first front: a front is made by one process: leave mpirun out, or say --first levels");
+          fmt::format("--first front: a front is made by one process: `pstripack scvt {} --first front "
+                      "--evaluations 0 -o "
+                      "start.nodes.nc`, with the same density; then ranks begin with --start start.nodes.nc",
+                      options.n));
     Tessellation t;
     t.state.generators = engine::front_generators(options.n, evaluator.density());
     t.numbers.resize(options.n);
@@ -329,8 +332,10 @@ files::Nodes read_start(Communicator& ranks, const Options& options) {
       return;
     }
     if (input.drops())
-      throw std::runtime_error(
-          "--drop-duplicates, --duplicates: several ranks cannot: use `pstripack convert`");
+      throw std::runtime_error(fmt::format(
+          "--drop-duplicates, --duplicates: several ranks cannot: `pstripack convert {} --drop-duplicates -o "
+          "start.nodes.nc` writes what they can read",
+          input.file));
     if (input.file == "-" || (std::filesystem::exists(input.file) && !files::is_netcdf(input.file)))
       throw std::runtime_error(fmt::format(
           "{}: several ranks read NetCDF, each its part: `pstripack convert {} -o start.nodes.nc` writes it",

@@ -800,6 +800,11 @@ scvt_ranks)
   cmp one.off ranks.off
   grep -q "^pstripack: 3000 generators, 1 evaluations, .*; on 2 ranks$" err || fail "$(cat err)"
   [ "$(grep "cells by sides" err)" = "$(grep "cells by sides" one.err)" ] || fail "another quality: $(cat err)"
+  # A front that one process has made is a start for ranks.
+  "$PSTRIPACK" -q scvt 3000 --first front --evaluations 0 -o front.nodes.nc
+  "$PSTRIPACK" -q scvt 3000 --first front --evaluations 6 --tolerance 1e-9 -o one.nodes.nc
+  run 2 scvt --start front.nodes.nc --evaluations 6 --tolerance 1e-9 -o ranks.nodes.nc
+  cmp one.nodes.nc ranks.nodes.nc
   # The checkpoint of three ranks goes on to the same bytes on two and on one.
   # shellcheck disable=SC2086
   "$PSTRIPACK" -q scvt 300 $thirty -o direct.nodes.nc
@@ -832,7 +837,8 @@ scvt_ranks)
     [ "$(grep -c ^pstripack: err)" = 1 ] && grep -qF -- "$words" err || fail "$arguments: $(cat err)"
     [ ! -e failed.nc ] && [ ! -e failed.vtu ] || fail "$arguments: wrote a file"
   done <<END
-10 --first front -o failed.nc|--first front: a front is made by one process
+10 --first front -o failed.nc|--first front: a front is made by one process: \`pstripack scvt 10 --first front
+--start start.txt --drop-duplicates -o failed.nc|several ranks cannot: \`pstripack convert start.txt --drop-duplicates
 10 -o failed.vtu|failed.vtu: several ranks write ugrid, mpas,
 10 -o no/failed.nc|no/failed.nc: cannot be written: No such file
 --start start.txt -o failed.nc|start.txt: several ranks read NetCDF, each its part: \`pstripack convert start.txt

@@ -98,9 +98,10 @@ NeighbourLists triangulate(const std::vector<Point>& generators, std::vector<std
   return {n, lend.data(), list.data()};
 }
 
-void Evaluator::evaluate(const std::vector<Point>& generators, Cells& cells) {
+Neighbourhood Evaluator::evaluate(const std::vector<Point>& generators, Cells& cells) {
   const Neighbourhood here = triangulate(generators);
   in_agreement_with_caller(ranks(), [&] { integrate(here.points, here.stars, density_, cells); });
+  return here;
 }
 
 void Evaluator::add_up(ExactSum* sums, std::size_t count) {

@@ -36,8 +36,8 @@ class Evaluator {
   /// Throws BadGenerators, std::bad_alloc, AgreedFailure.
   virtual Neighbourhood triangulate(const std::vector<Point>& generators) = 0;
 
-  /// Their cells. Throws BadDensity, what the density throws, and as triangulate().
-  virtual void evaluate(const std::vector<Point>& generators, Cells& cells);
+  /// The same, and their cells. Throws BadDensity, what the density throws, and as triangulate().
+  virtual Neighbourhood evaluate(const std::vector<Point>& generators, Cells& cells);
   /// Sums over all ranks: each of the `count` sums becomes that of all ranks.
   void add_up(ExactSum* sums, std::size_t count);
   /// The largest value of all ranks, of values that are not negative.

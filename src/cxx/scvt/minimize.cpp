@@ -9,6 +9,7 @@
 
 #include "base/parallel_for.h"
 #include "scvt/errors.h"
+#include "scvt/metric.h"
 #include "scvt/vectors.h"
 
 namespace pstripack::scvt {
@@ -39,7 +40,11 @@ struct Place {
 class Minimizer {
  public:
   Minimizer(Evaluator& evaluator, State& state, const Options& options)
-      : evaluator_(evaluator), state_(state), options_(options), n_(state.generators.size()) {
+      : evaluator_(evaluator),
+        state_(state),
+        options_(options),
+        n_(state.generators.size()),
+        metric_(evaluator.ranks()) {
     // All memory that each step needs, here: the ranks must agree that they have it.
     evaluator_.allocate([this] {
       parts_.resize(static_cast<std::size_t>(threads_for(n_)));
@@ -109,7 +114,7 @@ class Minimizer {
   }
 
   void evaluate(Place& place) {
-    evaluator_.evaluate(place.generators, place.cells);
+    last_ = evaluator_.evaluate(place.generators, place.cells);
     const auto sums = sum([&](std::size_t i) {
       const Point& g = place.generators[i];
       const Point move = minus(centroid(place.cells, i, g), g);
@@ -213,52 +218,46 @@ class Minimizer {
   }
 
   /// -H gradient, at right angles to the generators (Nocedal 1980, his two loops). Each pass over the
-  /// generators ends the work for one pair and begins that for the next.
+  /// generators ends the work for one pair and begins that for the next. The last evaluation was that of
+  /// here_: a trial that fails is followed by a step of Lloyd's method.
   void set_direction() {
     const std::size_t count = state_.pairs.size();
-    if (count == 0) {
-      for_each(n_,
-               [&](std::size_t i) { direction_[i] = scaled(1 / here_.cells.mass[i], here_.cells.pull[i]); });
-      return;
-    }
     std::array<double, kPairs> share;
+    for_each(n_, [&](std::size_t i) { direction_[i] = scaled(2, here_.cells.pull[i]); });
     for (std::size_t k = count; k-- > 0;) {
       const Point *const step = state_.pairs[k].step.data(), *const later =
                                                                  k + 1 < count
                                                                      ? state_.pairs[k + 1].change.data()
                                                                      : nullptr;
       share[k] = sum_of([&](std::size_t i) {
-                   direction_[i] = later == nullptr ? scaled(2, here_.cells.pull[i])
-                                                    : minus(direction_[i], scaled(share[k + 1], later[i]));
+                   if (later != nullptr) direction_[i] = minus(direction_[i], scaled(share[k + 1], later[i]));
                    return dot(step[i], direction_[i]);
                  }) /
                  products_[k];
     }
-    // The initial metric 1/(2 mass), scaled by what the last pair says of it.
-    const Point* const last = state_.pairs[count - 1].change.data();
-    const double scale = products_[count - 1] / sum_of([&](std::size_t i) {
-                           return dot(last[i], last[i]) / (2 * here_.cells.mass[i]);
-                         });
+    if (count > 0) {
+      const Point* const first = state_.pairs[0].change.data();
+      for_each(n_, [&](std::size_t i) { direction_[i] = minus(direction_[i], scaled(share[0], first[i])); });
+    }
+    metric_.set(last_, here_.cells);
+    metric_.solve(direction_);
     double add = 0;  // of the step before
     for (std::size_t k = 0; k < count; ++k) {
       const Point *const change = state_.pairs[k].change.data(), *const before =
                                                                      k > 0 ? state_.pairs[k - 1].step.data()
                                                                            : nullptr;
-      const Point* const first = state_.pairs[0].change.data();
       const double other = sum_of([&](std::size_t i) {
-                             direction_[i] = before == nullptr
-                                                 ? scaled(scale / (2 * here_.cells.mass[i]),
-                                                          minus(direction_[i], scaled(share[0], first[i])))
-                                                 : plus(direction_[i], scaled(add, before[i]));
+                             if (before != nullptr)
+                               direction_[i] = plus(direction_[i], scaled(add, before[i]));
                              return dot(change[i], direction_[i]);
                            }) /
                            products_[k];
       add = share[k] - other;
     }
-    const Point* const step = state_.pairs[count - 1].step.data();
+    const Point* const last = count > 0 ? state_.pairs[count - 1].step.data() : nullptr;
     for_each(n_, [&](std::size_t i) {
       const Point& g = here_.generators[i];
-      direction_[i] = plus(direction_[i], scaled(add, step[i]));
+      if (last != nullptr) direction_[i] = plus(direction_[i], scaled(add, last[i]));
       direction_[i] = minus(direction_[i], scaled(dot(direction_[i], g), g));
     });
   }
@@ -271,6 +270,8 @@ class Minimizer {
   static constexpr std::size_t kMostSums = 2;
   std::vector<std::array<ExactSum, kMostSums>> parts_;  ///< of each thread
   Place here_, there_;
+  Neighbourhood last_;  ///< of the last evaluation
+  Metric metric_;
   Vectors direction_;
   State::Pair spare_;             ///< room for the next pair
   std::vector<double> products_;  ///< step times change of each pair

@@ -66,7 +66,7 @@ struct Result {
 /// Moves the generators in the state until the gradient is at most the tolerance. The energy never rises.
 ///
 /// Newton: L-BFGS (Nocedal 1980; Liu et al. 2009 for this energy) with 8 pairs. The initial metric is
-/// 1/(2 mass), scaled by the last pair; without pairs a step is Lloyd's. In space the energy is a function of
+/// that of metric.h. In space the energy is a function of
 /// the directions of the generators, its gradient is at right angles to them, and a step ends at unit length
 /// again. Same bits for any number of threads and ranks. Collective. Throws as Evaluator::evaluate.
 Result minimize(Evaluator& evaluator, State& state, const Options& options);

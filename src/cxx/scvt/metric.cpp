@@ -1,0 +1,108 @@
+#include "scvt/metric.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/parallel_for.h"
+#include "parallel/agreement.h"
+#include "scvt/vectors.h"
+
+namespace pstripack::scvt {
+namespace {
+
+constexpr int kPasses = 8;
+constexpr double kMost = 2, kLeast = kMost / (kPasses * kPasses);  ///< eigenvalues of A/D
+
+template <class Body>
+void for_each(std::size_t n, const Body& body) {
+  parallel_pieces(n, threads_for(10 * n), [&](std::size_t first, std::size_t last, int) {
+    for (std::size_t i = first; i < last; ++i) body(i);
+  });
+}
+
+Point at_right_angles(const Point& v, const Point& g) { return minus(v, scaled(dot(v, g), g)); }
+
+using Four = float __attribute__((vector_size(16)));
+Four four(const Point& p) {
+  return Four{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z), 0};
+}
+Four times(float f, const Four& v) { return Four{f, f, f, f} * v; }
+float dot(const Four& a, const Four& b) {
+  const Four product = a * b;
+  return product[0] + product[1] + product[2];
+}
+
+}  // namespace
+
+void Metric::set(const Neighbourhood& here, const Cells& cells) {
+  halo_.connect(here);
+  stars_ = here.stars;
+  const std::size_t n = stars_.count, all = halo_.size();
+  in_agreement(ranks_, [&] {
+    spring_.resize(n == 0 ? 0 : stars_.end_of(n - 1));
+    for (auto* const array : {&share_, &diagonal_}) array->resize(all);
+    for (auto* const array : {&points_, &rest_, &step_, &next_, &sum_}) array->resize(all);
+  });
+  for_each(n, [&](std::size_t i) {
+    share_[i] = cells.mass[i] / static_cast<double>(stars_.end_of(i) - stars_.begin_of(i));
+  });
+  halo_.fill(share_);
+  for_each(all, [&](std::size_t i) { points_[i].f = four(here.points[i]); });
+  for_each(n, [&](std::size_t i) {
+    const Point& g = here.points[i];
+    Point squares{0, 0, 0}, products{0, 0, 0};  // of i's springs: xx, yy, zz and xy, yz, zx
+    for (std::size_t s = stars_.begin_of(i); s < stars_.end_of(i); ++s) {
+      const auto j = static_cast<std::size_t>(stars_.neighbour[s]) - 1;
+      const Point e = minus(here.points[j], g), t = at_right_angles(e, g);
+      const double k = (share_[i] + share_[j]) / (share_[i] * pstripack::dot(e, e));
+      squares = plus(squares, scaled(k, {t.x * t.x, t.y * t.y, t.z * t.z}));
+      products = plus(products, scaled(k, {t.x * t.y, t.y * t.z, t.z * t.x}));
+      spring_[s] = static_cast<float>(k);
+    }
+    // Two eigenvalues are not 0. Their sum is the trace; the sum of their squares that of all entries'
+    // squares.
+    const double half = (squares.x + squares.y + squares.z) / 2;
+    const double entries = pstripack::dot(squares, squares) + 2 * pstripack::dot(products, products);
+    const double largest = half + std::sqrt(std::max(0.0, entries / 2 - half * half));
+    diagonal_[i] = share_[i] * largest;
+    const auto inverse = static_cast<float>(1 / largest);
+    for (std::size_t s = stars_.begin_of(i); s < stars_.end_of(i); ++s) spring_[s] *= inverse;
+  });
+}
+
+void Metric::solve(std::vector<Point>& v) {
+  constexpr double kMiddle = (kMost + kLeast) / 2, kRadius = (kMost - kLeast) / 2;
+  for_each(v.size(), [&](std::size_t i) {
+    const Four r = four(scaled(1 / diagonal_[i], v[i])), g = points_[i].f;
+    rest_[i].f = r - times(dot(r, g), g);
+    sum_[i].f = step_[i].f = times(static_cast<float>(1 / kMiddle), rest_[i].f);
+  });
+  double ratio = kRadius / kMiddle;  // of Chebyshev's polynomials of two degrees
+  for (int pass = 1; pass < kPasses; ++pass) {
+    const double before = ratio;
+    ratio = 1 / (2 * kMiddle / kRadius - before);
+    const auto of_step = static_cast<float>(ratio * before),
+               of_rest = static_cast<float>(2 * ratio / kRadius);
+    halo_.fill(step_);
+    for_each(v.size(), [&](std::size_t i) {
+      const Four g = points_[i].f, u = step_[i].f;
+      Four force{0, 0, 0, 0};
+      for (std::size_t s = stars_.begin_of(i); s < stars_.end_of(i); ++s) {
+        const auto j = static_cast<std::size_t>(stars_.neighbour[s]) - 1;
+        const Four e = points_[j].f - g;
+        force += times(spring_[s] * dot(e, u - step_[j].f), e);
+      }
+      rest_[i].f -= force - times(dot(force, g), g);
+      next_[i].f = times(of_step, u) + times(of_rest, rest_[i].f);
+      sum_[i].f += next_[i].f;
+    });
+    std::swap(step_, next_);
+  }
+  for_each(v.size(), [&](std::size_t i) {
+    const Four z = sum_[i].f;
+    v[i] = {z[0], z[1], z[2]};
+  });
+}
+
+}  // namespace pstripack::scvt
