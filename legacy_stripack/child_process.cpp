@@ -5,6 +5,7 @@
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -35,17 +36,30 @@ using Clock = std::chrono::steady_clock;
   _exit(1);
 }
 
-// Waits until the pipe is readable, or closed by the end of the child. False if the time is over.
-bool wait_for(int pipe, double time_limit) {
-  const auto end = Clock::now() + std::chrono::duration<double>(time_limit);
+// For a child that neither ends nor computes, such as one that waits for input.
+double longest_wait(double time_limit) { return time_limit + 30 * std::fmin(time_limit, 2); }
+
+// 0 if the child is over.
+double processor_seconds(pid_t pid) {
+  clockid_t clock;
+  timespec t;
+  if (clock_getcpuclockid(pid, &clock) != 0 || clock_gettime(clock, &t) != 0) return 0;
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+// Waits until the pipe is readable, or closed by the end of the child. False if the child's time is over.
+bool wait_for(int pipe, pid_t pid, double time_limit) {
+  const auto start = Clock::now();
   for (;;) {
-    const double left = std::chrono::duration<double>(end - Clock::now()).count();
-    if (left <= 0) return false;
+    const double waited = std::chrono::duration<double>(Clock::now() - start).count();
+    const double left = std::fmin(time_limit - processor_seconds(pid), longest_wait(time_limit) - waited);
     pollfd poll_one{pipe, POLLIN, 0};
     // An hour at a time: poll counts milliseconds in an int.
-    const int ready = poll(&poll_one, 1, static_cast<int>(std::ceil(std::fmin(left, 3600) * 1000)));
+    const int ready =
+        poll(&poll_one, 1, static_cast<int>(std::ceil(std::fmin(std::fmax(left, 0), 3600) * 1000)));
     if (ready > 0) return true;
     if (ready < 0 && errno != EINTR) throw std::system_error(errno, std::generic_category(), "poll");
+    if (left <= 0) return false;
   }
 }
 
@@ -68,7 +82,7 @@ Ended run_in_child(const std::function<void()>& work, double time_limit_seconds)
   }
   close(ends[1]);
 
-  const bool in_time = wait_for(ends[0], time_limit_seconds);
+  const bool in_time = wait_for(ends[0], pid, time_limit_seconds);
   char byte;
   const bool finished = in_time && read(ends[0], &byte, 1) == 1;
   close(ends[0]);

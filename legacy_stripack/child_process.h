@@ -23,7 +23,9 @@ struct Ended {
 };
 
 /// Runs `work` in a child process; what it writes to stdout appears on stderr. Results come back in Shared
-/// memory. Do not use OpenMP on more than one thread in both the parent and `work`.
+/// memory. Do not use OpenMP on more than one thread in both the parent and `work`. The limit is one of
+/// processor time, of all threads together, so that a busy machine does not look like a hang. Work that
+/// sleeps is killed, too: at most a minute later.
 Ended run_in_child(const std::function<void()>& work, double time_limit_seconds);
 
 /// `count` objects of a trivial type, zero at first, seen by this process and its later children.

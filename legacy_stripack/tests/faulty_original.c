@@ -1,7 +1,6 @@
 /* A trmesh_ that hangs, crashes or stops the program where N > 3; for N = 3 it returns IER = 42. */
 #include <signal.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 __attribute__((visibility("default"))) void trmesh_(const int* n, const double* x, const double* y,
                                                     const double* z, int* list, int* lptr, int* lend,
@@ -11,7 +10,7 @@ __attribute__((visibility("default"))) void trmesh_(const int* n, const double* 
   *lnew = 1;
   if (*n == 3) return;
 #if defined(ORIGINAL_hangs)
-  for (;;) pause();
+  for (volatile int turn = 0;;) turn = 1; /* computes for ever, as the original does */
 #elif defined(ORIGINAL_crashes)
   raise(SIGSEGV);
 #else

@@ -67,6 +67,12 @@ for kind in "" --static; do
   head -n 1 output | grep -qxE '[ 1-3][0-9] [A-Z][a-z]+ [0-9]{4}  [ 1][0-9]:[0-5][0-9]:[0-5][0-9]\.[0-9]{3} (AM|PM|Noon|Midnight)' ||
     fail "timestamp: $(head -n 1 output)"
 done
+# Without any shared library: as docs/relink.md says.
+gfortran -static-pie "$consumer/fortran90.f90" -o static_pie $($config --abi f90,r8 --static --libs) \
+  -Wl,-u,pthread_mutex_destroy
+./static_pie > output || fail "static_pie ends with status $?"
+tail -n 1 output | grep -qx 'fortran90: right' || fail "static_pie"
+check 0 "$(each TRMESH "ours (libstripack): in the program itself")" static_pie
 gfortran "$consumer/fortran90.f90" -o fortran90 $(PKG_CONFIG_PATH="$libdir/pkgconfig" pkg-config --libs stripack_f90 stripack)
 for half in AM PM; do  # in a time zone where it is now 0:30, or 12:30
   if [ $half = AM ]; then local_minute=30; else local_minute=750; fi

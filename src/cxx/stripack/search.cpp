@@ -337,14 +337,18 @@ class Nearest {
  public:
   Nearest(const Nodes<Real>& nodes, Int centre) : nodes_(nodes), centre_(nodes[centre]) {}
 
-  [[gnu::always_inline]] void compare(Int node) {
-    const Real cosine = dot(nodes_[node], centre_);
+  /// Without a branch on distances, which no processor foresees: the next call begins before they are there.
+  [[gnu::always_inline]] void compare(Int node, bool is_other = true) {
+    const Real cosine = is_other ? dot(nodes_[node], centre_) : Real(-2);
     not_finite_ += 0 * cosine;
     nearest_ = cosine > cosine_ ? node : nearest_;
     cosine_ = cosine > cosine_ ? cosine : cosine_;
   }
   /// Takes the default floating-point environment for itself: to save another one the processor waits for all
   /// that has begun, so by then these nodes should be on their way from memory.
+  /// `few`: without a branch. Among many a branch is foreseen, as they come roughly by distance: then the
+  /// processor need not wait for positions.
+  template <bool few>
   void compare(const Int* begin, const Int* end) {
     in_default_floating_point([=] {
       Int nearest = nearest_;
@@ -352,10 +356,14 @@ class Nearest {
       for (const Int* node = begin; node != end; ++node) {
         const Real cosine = dot(nodes_[*node], centre_);
         not_finite += 0 * cosine;
-        if (cosine > greatest) {
+        const bool is_nearer = cosine > greatest;
+        if (few) {
+          nearest = is_nearer ? *node : nearest;
+          greatest = is_nearer ? cosine : greatest;
+        } else if (is_nearer) {
           nearest = *node;
           greatest = cosine;
-          asm("" : "+r"(nearest));  // a branch, which the processor predicts: it need not wait for positions
+          asm("" : "+r"(nearest));  // or the compiler makes it one without a branch
         }
       }
       nearest_ = nearest;
@@ -379,19 +387,27 @@ class Nearest {
   Real not_finite_ = 0;  ///< 0, or NaN
 };
 
-/// GETNP for l = 2, in the default floating-point environment.
-template <class Real, class Int>
-NextNearestStatus nearest_neighbour(const ListsView<Int>& lists, const Nodes<Real>& nodes, Int* npts,
-                                    Real& distance) {
+/// GETNP for one or two given nodes: most of their neighbours are not given, so each is compared when it is
+/// met. In the default floating-point environment.
+template <int given, class Real, class Int>
+NextNearestStatus nearest_when_met(const ListsView<Int>& lists, const Nodes<Real>& nodes, Int* npts,
+                                   Real& distance) {
   const ListReader<Int> reader(lists);
-  const Int centre = npts[0];
-  Nearest<Real, Int> nearest(nodes, centre);
+  FewNodes<Int, given> taken(npts);
+  for (Int i = 1; i < given; ++i)
+    if (npts[i] < 1 || !taken.insert(i)) return NextNearestStatus::bad_nodes;
+  for (Int i = 0; i < given; ++i) reader.prefetch_list(npts[i]);
+
+  Nearest<Real, Int> nearest(nodes, npts[0]);
   const auto visit = [&](Int node) __attribute__((always_inline)) {
-    reader.prefetch_last_slot(node);
-    if (node != centre) nearest.compare(node);
+    // One of the slots is what the call for l = 3 needs. For two nodes this costs a call more than the next
+    // saves.
+    if (given == 1) reader.prefetch_last_slot(node);
+    nearest.compare(node, !taken.contains(node));
   };
-  if (!each_neighbour(reader, centre, visit)) return NextNearestStatus::broken_lists;
-  return nearest.write(npts[1], distance);
+  for (Int i = 0; i < given; ++i)
+    if (!each_neighbour(reader, npts[i], visit)) return NextNearestStatus::broken_lists;
+  return nearest.write(npts[given], distance);
 }
 
 /// GETNP for more. `taken`: empty, with room for the given nodes. A function of its own for few and for many,
@@ -415,7 +431,7 @@ template <bool few, class Real, class Int, class Taken>
   };
   const auto compare = [&]() __attribute__((always_inline)) {
     if (!few) std::for_each(others, others + count, prefetch);
-    nearest.compare(others, others + count);
+    nearest.template compare<few>(others, others + count);
     count = 0;
   };
   const auto visit = [&](Int node) __attribute__((always_inline)) {
@@ -521,11 +537,12 @@ NextNearestStatus next_nearest(const ListsView<Int>& lists, const Nodes<Real>& n
   const Int given = l - 1;
   if (npts[0] < 1) return NextNearestStatus::bad_nodes;
   if (given == 1)
-    return in_default_floating_point([&] { return nearest_neighbour(lists, nodes, npts, distance); });
+    return in_default_floating_point([&] { return nearest_when_met<1>(lists, nodes, npts, distance); });
+  if (given == 2)
+    return in_default_floating_point([&] { return nearest_when_met<2>(lists, nodes, npts, distance); });
   const auto of_few = [&](const auto& taken) {
     return nearest_of_others<true>(lists, nodes, given, npts, distance, taken);
   };
-  if (given == 2) return of_few(FewNodes<Int, 2>(npts));
   if (given <= 4) return of_few(FewNodes<Int, 4>(npts));
   constexpr int cells_a_node = 16;  // so that few nodes meet another one's cell
   constexpr int few = 8;
