@@ -10,6 +10,11 @@
 
 namespace pstripack {
 
+/// The rank where all that is said of a number meets: by other bits of its hash than a table there takes.
+inline std::size_t meeting_rank(std::int64_t number, std::size_t ranks) {
+  return static_cast<std::size_t>((scattered(static_cast<std::uint64_t>(number)) >> 32) * ranks >> 32);
+}
+
 /// Finds by number; numbers are positive. Throws std::bad_alloc when made, never later.
 template <class Value>
 class NumberTable {
