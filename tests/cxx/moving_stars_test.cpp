@@ -74,11 +74,11 @@ class OneRank {
     OnAll same{mine == mine_};
     agree(ranks_, same);
     if (moving_ != nullptr && !same.value) {
-      moving_.reset();
+      auto last = std::move(moving_);
       const auto found = Relocation::find(numbers_.data(), numbers_.size(), local, ranks_);
       if (found) {
-        stars_ = found->stars(stars_, ranks_);
-        moving_ = MovingStars::make(local, stars_, ranks_);
+        stars_ = found->stars(stars_, local, ranks_);
+        moving_ = MovingStars::make(local, stars_, ranks_, std::move(last), *found);
         EXPECT_TRUE(moving_ != nullptr);
         ++tally.relocations;
       }

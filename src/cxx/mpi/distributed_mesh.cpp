@@ -133,7 +133,7 @@ bool DistributedMesh::begin_with_last(const LocalNodes& points, Report* report, 
   OnAll have_moving{moving != nullptr};  // or all make them anew
   agree(ranks_, allowed, same, fits, were_at_home, are_at_home, reported, have_moving);
   if (!allowed.value) return false;
-  if (!have_moving.value || !same.value) moving.reset();
+  if (!have_moving.value && same.value) moving.reset();
   std::optional<Relocation> relocation;
   if (!same.value) {
     try {
@@ -187,7 +187,7 @@ void DistributedMesh::relocate(const Relocation& relocation, const LocalNodes& p
   });
   next_.are_at_home = are_at_home(points, total_);
   own_ = own_.visit(
-      [&](const auto& last) { return OwnStars(std::move(numbers), relocation.stars(last, ranks_)); });
+      [&](const auto& last) { return OwnStars(std::move(numbers), relocation.stars(last, points, ranks_)); });
 }
 
 bool DistributedMesh::move_stars(std::unique_ptr<MovingStars> moving, std::optional<Relocation> relocation,
@@ -196,9 +196,12 @@ bool DistributedMesh::move_stars(std::unique_ptr<MovingStars> moving, std::optio
   {
     const PhaseTimer timer(&cost, ParallelCost::divide, &ranks_);
     if (relocation) relocate(*relocation, points);
-    relocation.reset();  // it may have most of the memory that there is
-    if (moving == nullptr)
-      moving = own_.visit([&](const auto& stars) { return MovingStars::make(points, stars, ranks_); });
+    if (relocation || moving == nullptr)
+      moving = own_.visit([&](const auto& stars) {
+        return relocation ? MovingStars::make(points, stars, ranks_, std::move(moving), *relocation)
+                          : MovingStars::make(points, stars, ranks_);
+      });
+    relocation.reset();
     if (moving == nullptr) return false;
   }
   {

@@ -2,34 +2,50 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 #include "parallel/agreement.h"
+#include "parallel/number_table.h"
 #include "parallel/ring_parcels.h"
 
 namespace pstripack {
 
 Relocation::Relocation(const std::int64_t* before, std::size_t had, const LocalNodes& nodes)
-    : had_(had), here_(nodes.count), from_(nodes.count), to_(had) {
-  constexpr std::size_t kAhead = 16;
-  for (std::size_t i = 0; i < nodes.count && are_distinct_; ++i) {
-    if (i + kAhead < nodes.count) here_.prefetch(nodes.number(i + kAhead));
-    const std::int64_t number = nodes.number(i);
-    are_distinct_ = number > 0 && here_.insert(number, static_cast<std::uint32_t>(i)).second;
-  }
-  if (!are_distinct_) return;
+    : had_(had), from_(nodes.count), to_(had) {
   constexpr std::uint32_t kNotHere = UINT32_MAX;
   std::fill(from_.begin(), from_.end(), kNotHere);
-  for (std::size_t k = 0; k < had; ++k) {
-    if (k + kAhead < had) here_.prefetch(before[k + kAhead]);
-    const std::uint32_t* const i = here_.find_value(before[k]);
-    to_[k] = i != nullptr ? *i : SampleOfStars::kGone;
-    if (i != nullptr)
-      from_[*i] = static_cast<std::uint32_t>(k);
-    else
-      gone_.push_back({before[k], static_cast<std::uint32_t>(k), 0});
+  std::fill(to_.begin(), to_.end(), kGone);
+  const auto are_the_same = [&](std::size_t k, std::size_t i) {
+    from_[i] = static_cast<std::uint32_t>(k);
+    to_[k] = static_cast<std::uint32_t>(i);
+  };
+  // Mostly they are in the order of the last call; those that are far from their places there are searched.
+  constexpr std::size_t kNear = 16;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < nodes.count; ++i) {
+    const std::int64_t number = nodes.number(i);
+    const std::size_t end = std::min(had, next + kNear);
+    std::size_t k = next;
+    while (k < end && before[k] != number) ++k;
+    if (k == end) continue;
+    are_the_same(k, i);
+    next = k + 1;
   }
-  for (std::uint32_t& k : from_)
-    if (k == kNotHere) k = static_cast<std::uint32_t>(had_ + come_++);
+  const auto left = static_cast<std::size_t>(std::count(to_.begin(), to_.end(), kGone));
+  NumberTable<std::uint32_t> others(left);
+  for (std::size_t k = 0; k < had; ++k)
+    if (to_[k] == kGone) others.insert(before[k], static_cast<std::uint32_t>(k));
+  for (std::size_t i = 0; i < nodes.count; ++i) {
+    if (from_[i] != kNotHere) continue;
+    are_positive_ = are_positive_ && nodes.number(i) > 0;
+    const std::uint32_t* const k = others.find_value(nodes.number(i));
+    if (are_positive_ && k != nullptr && to_[*k] == kGone)
+      are_the_same(*k, i);
+    else
+      from_[i] = static_cast<std::uint32_t>(had_ + come_++);
+  }
+  for (std::size_t k = 0; k < had; ++k)
+    if (to_[k] == kGone) gone_.push_back({before[k], static_cast<std::uint32_t>(k), 0});
 }
 
 std::optional<Relocation> Relocation::find(const std::int64_t* before, std::size_t had,
@@ -39,15 +55,15 @@ std::optional<Relocation> Relocation::find(const std::int64_t* before, std::size
   ranks.all_sum(counts, 2);
   if (counts[0] != counts[1]) return std::nullopt;
   std::optional<Relocation> found;
-  OnAll are_distinct;
+  OnAll are_positive;
   in_agreement(
       ranks,
       [&] {
         found.emplace(before, had, nodes);
-        are_distinct.value = found->are_distinct_;
+        are_positive.value = found->are_positive_;
       },
-      are_distinct);
-  if (!are_distinct.value) return std::nullopt;
+      are_positive);
+  if (!are_positive.value) return std::nullopt;
   auto gone = static_cast<std::int64_t>(found->gone_.size());
   ranks.all_sum(&gone, 1);  // as many have come
   if (gone > counts[0] / kFew || (gone > 0 && !found->find_ranks(nodes, ranks))) return std::nullopt;
@@ -60,7 +76,7 @@ bool Relocation::find_ranks(const LocalNodes& nodes, Communicator& ranks) {
   const auto size = static_cast<std::size_t>(ranks.size());
   const auto for_each_that_has_come = [&](const auto& visit) {
     for (std::size_t i = 0; i < nodes.count; ++i)
-      if (from_[i] >= had_) visit(nodes.number(i));
+      if (has_come(i)) visit(nodes.number(i));
   };
   const Parcels told = exchange_in_agreement(ranks, [&] {  // numbers; negative: has gone
     ParcelWriter writer(size);
@@ -103,7 +119,7 @@ bool Relocation::find_ranks(const LocalNodes& nodes, Communicator& ranks) {
 }
 
 template <class Int>
-Stars<Int> Relocation::stars(const Stars<Int>& last, Communicator& ranks) const {
+Stars<Int> Relocation::stars(const Stars<Int>& last, const LocalNodes& nodes, Communicator& ranks) const {
   const Parcels arrived = exchange_in_agreement(ranks, [&] {
     return packed_rings<Int>(static_cast<std::size_t>(ranks.size()), [&](const auto& visit) {
       for (const Gone& g : gone_) visit(g.rank, static_cast<Int>(g.number), last.of_node[g.node]);
@@ -111,30 +127,42 @@ Stars<Int> Relocation::stars(const Stars<Int>& last, Communicator& ranks) const 
   });
   Stars<Int> stars;
   in_agreement(ranks, [&] {
-    std::vector<Ring<Int>> come(come_);
-    // What these name, what the last stars named, and what has gone: of that the nodes that are not here.
-    std::vector<Record> outside;
-    const auto add = [&](std::int64_t number) {
-      if (here_.find_value(number) == nullptr) outside.push_back({{}, number});
-    };
-    for (const Record& r : last.outside) add(r.number);
-    for (const Gone& g : gone_) add(g.number);
-    for_each_ring<Int>(arrived, [&](Int number, const Ring<Int>& ring) {
-      come[from_[here_.at(number)] - had_] = ring;
-      for (std::uint32_t k = 0; k < ring.count; ++k) add(std::abs(ring.begin[k]));
+    // What the arrived stars name, what the last ones named, and what has gone: of that what is not here.
+    std::vector<std::int64_t> named;
+    for (const Record& r : last.outside) named.push_back(r.number);
+    for (const Gone& g : gone_) named.push_back(g.number);
+    for_each_ring<Int>(arrived, [&](Int, const Ring<Int>& ring) {
+      for (std::uint32_t k = 0; k < ring.count; ++k) named.push_back(std::abs(ring.begin[k]));
     });
-    keep_one_of_each(outside);
+    NumberFilter filter(named.size());
+    for (const std::int64_t number : named) filter.add(number);
+    std::vector<std::pair<std::int64_t, std::uint32_t>> found;
+    for (std::size_t i = 0; i < nodes.count; ++i)
+      if (const std::int64_t number = nodes.number(i); has_come(i) || filter.may_have(number))
+        found.emplace_back(number, from_[i]);
+    NumberTable<std::uint32_t> here(found.size());
+    for (const auto& [number, from] : found) here.insert(number, from);
+    for (const std::int64_t number : named)
+      if (here.find_value(number) == nullptr) stars.outside.push_back({{}, number});
+    keep_one_of_each(stars.outside);
+
+    std::vector<Ring<Int>> come(come_);
+    for_each_ring<Int>(arrived,
+                       [&](Int number, const Ring<Int>& ring) { come[here.at(number) - had_] = ring; });
     constexpr std::size_t kAhead = 16;
-    stars = copied_stars<Int>(from_.size(), [&](std::size_t i) {
-      if (i + kAhead < from_.size() && from_[i + kAhead] < had_) last.of_node.prefetch(from_[i + kAhead]);
-      return from_[i] < had_ ? last.of_node[from_[i]] : come[from_[i] - had_];
+    auto outside = std::move(stars.outside);
+    stars = copied_stars<Int>(nodes.count, [&](std::size_t i) {
+      if (i + kAhead < nodes.count && !has_come(i + kAhead)) last.of_node.prefetch(from_[i + kAhead]);
+      return has_come(i) ? come[from_[i] - had_] : last.of_node[from_[i]];
     });
     stars.outside = std::move(outside);
   });
   return stars;
 }
 
-template Stars<std::int32_t> Relocation::stars(const Stars<std::int32_t>&, Communicator&) const;
-template Stars<std::int64_t> Relocation::stars(const Stars<std::int64_t>&, Communicator&) const;
+template Stars<std::int32_t> Relocation::stars(const Stars<std::int32_t>&, const LocalNodes&,
+                                               Communicator&) const;
+template Stars<std::int64_t> Relocation::stars(const Stars<std::int64_t>&, const LocalNodes&,
+                                               Communicator&) const;
 
 }  // namespace pstripack

@@ -11,7 +11,6 @@
 #include "mesh/sample_of_stars.h"
 #include "parallel/communicator.h"
 #include "parallel/local_nodes.h"
-#include "parallel/number_table.h"
 #include "parallel/return_rings.h"
 
 namespace pstripack {
@@ -33,7 +32,20 @@ class Relocation {
   /// The last call's stars, on the ranks that bring their nodes now. `outside` has numbers without places,
   /// those that the stars name and perhaps some more. Collective. Throws AgreedFailure.
   template <class Int>
-  Stars<Int> stars(const Stars<Int>& last, Communicator& ranks) const;
+  Stars<Int> stars(const Stars<Int>& last, const LocalNodes& nodes, Communicator& ranks) const;
+
+  static constexpr std::uint32_t kGone = SampleOfStars::kGone;
+  /// Which node here was node k of the last call here; kGone if another rank brings it.
+  std::uint32_t to(std::size_t k) const { return to_[k]; }
+  std::size_t had() const { return had_; }
+  /// Calls visit(k, number) for each node k of the last call here that another rank brings.
+  template <class Visit>
+  void for_each_that_has_gone(const Visit& visit) const {
+    for (const Gone& g : gone_) visit(std::size_t{g.node}, g.number);
+  }
+  /// Node i was not here.
+  bool has_come(std::size_t i) const { return from_[i] >= had_; }
+  std::size_t come() const { return come_; }
 
  private:
   /// A node that was here.
@@ -44,11 +56,10 @@ class Relocation {
   bool find_ranks(const LocalNodes& nodes, Communicator& ranks);
 
   std::size_t had_;
-  bool are_distinct_ = true;         ///< the numbers now, and positive
-  NumberTable<std::uint32_t> here_;  ///< the nodes by number
-  BlockArray<std::uint32_t> from_;   ///< of each: which it was here; had_, had_ + 1, ... if it was not
-  BlockArray<std::uint32_t> to_;     ///< of each that was here: which it is; SampleOfStars::kGone
-  std::size_t come_ = 0;             ///< nodes that were not here
+  bool are_positive_ = true;        ///< the numbers of nodes that were not here
+  BlockArray<std::uint32_t> from_;  ///< of each: which it was here; had_, had_ + 1, ... if it was not
+  BlockArray<std::uint32_t> to_;    ///< of each that was here: which it is; kGone
+  std::size_t come_ = 0;            ///< nodes that were not here
   std::vector<Gone> gone_;
 };
 
