@@ -487,6 +487,10 @@ TEST(Moving, StarsAreGivenUpWhereMemoryIsOut) {
   for (int step = 0; step < 4; ++step) EXPECT_EQ(mesh.call(nodes, part), step >= 2);
   let_memory_run_out();
   EXPECT_TRUE(mesh.call(nodes, part)) << "begins with the stars that the caller has";
+  let_memory_run_out();
+  Part other_ranks = part_of(stripes(nodes, 0.02 / size_of()));
+  EXPECT_TRUE(mesh.call(nodes, other_ranks)) << "those of the other ranks are of use";
+  EXPECT_TRUE(mesh.call(nodes, part));
   for (int step = 0; step < 4; ++step) EXPECT_EQ(other.call(nodes, part), step >= 2);
   EXPECT_TRUE(mesh.call(nodes, part));
 }
