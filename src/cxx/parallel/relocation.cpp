@@ -19,17 +19,22 @@ Relocation::Relocation(const std::int64_t* before, std::size_t had, const LocalN
     from_[i] = static_cast<std::uint32_t>(k);
     to_[k] = static_cast<std::uint32_t>(i);
   };
-  // Mostly they are in the order of the last call; those that are far from their places there are searched.
+  // Mostly they are in the order of the last call, with some more or less between them. Where a row of 16,
+  // 32, 64 ... are not, the next one may be anywhere. Those that are left are searched in a table.
   constexpr std::size_t kNear = 16;
-  std::size_t next = 0;
+  std::size_t next = 0, missed = 0;
   for (std::size_t i = 0; i < nodes.count; ++i) {
-    const std::int64_t number = nodes.number(i);
-    const std::size_t end = std::min(had, next + kNear);
-    std::size_t k = next;
-    while (k < end && before[k] != number) ++k;
-    if (k == end) continue;
+    const bool may_be_far = missed >= kNear && (missed & (missed - 1)) == 0;
+    const std::size_t end = may_be_far ? had : std::min(had, next + kNear);
+    const std::size_t k =
+        static_cast<std::size_t>(std::find(before + next, before + end, nodes.number(i)) - before);
+    if (k == end) {
+      ++missed;
+      continue;
+    }
     are_the_same(k, i);
     next = k + 1;
+    missed = 0;
   }
   const auto left = static_cast<std::size_t>(std::count(to_.begin(), to_.end(), kGone));
   NumberTable<std::uint32_t> others(left);
