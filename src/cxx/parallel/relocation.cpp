@@ -102,8 +102,7 @@ bool Relocation::find_ranks(const LocalNodes& nodes, Communicator& ranks) {
         NumberTable<std::uint32_t> now(Items<std::int64_t>(told).size());
         for (std::size_t r = 0; r < size; ++r)
           for (const std::int64_t number : Items<std::int64_t>(told, r))
-            if (number > 0 && !now.insert(number, static_cast<std::uint32_t>(r)).second)
-              are_the_same.value = false;
+            if (number > 0) now.insert(number, static_cast<std::uint32_t>(r));
         std::vector<std::vector<std::uint32_t>> rank_now(size);
         for (std::size_t r = 0; r < size; ++r)
           for (const std::int64_t number : Items<std::int64_t>(told, r)) {
