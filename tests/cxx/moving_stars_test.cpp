@@ -131,8 +131,8 @@ class OneRank {
     ASSERT_EQ(stars_.outside.size(), outside.size());
     auto number = outside.begin();
     for (const Record& r : stars_.outside) {
-      ASSERT_EQ(r.number, *number++);
-      ASSERT_EQ(r.point, nodes[static_cast<std::size_t>((r.number - 1) / (number_of<Int>(1) - 1))]);
+      ASSERT_EQ(value_of(r.number), *number++);
+      ASSERT_EQ(r.point, nodes[static_cast<std::size_t>((value_of(r.number) - 1) / (number_of<Int>(1) - 1))]);
     }
   }
 
@@ -433,7 +433,8 @@ void follow_nodes_that_change_ranks(std::size_t change) {
   Random random(10);
   const auto sets = sets_of(make("fibonacci", kNodes, 1), cases(6),
                             [&](Nodes& nodes, int) { move_all(nodes, 0.02 * spacing(kNodes), random); });
-  for (const int size : kSizes) {
+  const Tally alone = follow<Int>(sets, 1);
+  for (const int size : {1, 2, 3, 5}) {
     SCOPED_TRACE(std::to_string(change) + " nodes, " + std::to_string(size) + " ranks");
     const std::vector<int> home = patches_of(sets[0], size);
     std::vector<NodesOfRank> mine;
@@ -446,7 +447,7 @@ void follow_nodes_that_change_ranks(std::size_t change) {
         for (std::size_t i = nodes.size(); i > 1; --i)
           std::swap(nodes[i - 1], nodes[static_cast<std::size_t>(random.uniform() * static_cast<double>(i))]);
     }
-    const Tally tally = follow<Int>(sets, size, mine), alone = follow<Int>(sets, 1);
+    const Tally tally = follow<Int>(sets, size, mine);
     EXPECT_EQ(tally.warm, static_cast<int>(sets.size()) - 1);
     EXPECT_EQ(tally.relocations, tally.warm);
     EXPECT_EQ(tally.flips, alone.flips);

@@ -73,7 +73,7 @@ Parcels answers(Patches<Int>& patches, const Parcels& incoming, int threads) {
   patches.for_each(threads, [&](Patch<Int>& patch, std::size_t) {
     std::size_t k = 0;
     for (const Question& question : questions) {
-      if (question.to == patch.id()) patch.answer(question, answer[k]);
+      if (question.to == patch.id()) answer[k] = patch.answer(question);
       ++k;
     }
   });

@@ -46,7 +46,7 @@ std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes& nodes, const St
   if (sums[1] != 6 * sums[0] - 12 || sums[2] > sums[0]) return nullptr;
 
   std::unique_ptr<MovingStars> moving;
-  std::vector<std::int64_t> numbers;
+  std::vector<GlobalNumber> numbers;
   Smallest first_with_nodes;
   if (nodes.count > 0) first_with_nodes.value = static_cast<std::int64_t>(me);
   in_agreement(
@@ -57,7 +57,7 @@ std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes& nodes, const St
       },
       first_with_nodes);
   moving->first_with_nodes_ = static_cast<std::size_t>(first_with_nodes.value);
-  const Parcels wanted = ranks.all_gather(numbers.data(), numbers.size() * sizeof(std::int64_t));
+  const Parcels wanted = ranks.all_gather(numbers.data(), numbers.size() * sizeof(GlobalNumber));
   const Parcels found = exchange_in_agreement(ranks, [&] { return begin(*moving, wanted); });
   in_agreement(ranks, [&] {
     moving->mesh_->for_each_arc_outside([&](std::size_t j) { ++moving->outside_[j].arcs; });
@@ -95,7 +95,7 @@ Parcels MovingStars::find_wanted(const Parcels& wanted, const NumberTable<std::u
   std::vector<std::vector<Found>> found(send_.size());
   for (std::size_t r = 0; r < found.size(); ++r) {
     std::uint32_t place = 0;
-    for (const std::int64_t number : Items<std::int64_t>(wanted, r)) {
+    for (const GlobalNumber number : Items<GlobalNumber>(wanted, r)) {
       if (const std::uint32_t* const i = local.find_value(number); i != nullptr) {
         found[r].push_back({place, *i});
         send_[r].push_back(*i);
@@ -135,11 +135,11 @@ Parcels MovingStars::begin(const LocalNodes& nodes, const Stars<Int>& stars, con
     if (i + 2 * kAhead < n) stars.of_node.prefetch(i + 2 * kAhead);
     if (i + kAhead < n) {
       const Ring<Int> soon = stars.of_node[i + kAhead];
-      for (std::uint32_t k = 0; k < soon.count; ++k) local.prefetch(soon.begin[k]);
+      for (std::uint32_t k = 0; k < soon.count; ++k) local.prefetch(GlobalNumber{soon.begin[k]});
     }
     const Ring<Int> ring = stars.of_node[i];
     for (std::uint32_t k = 0; k < ring.count; ++k)
-      *at++ = static_cast<std::int32_t>(local.at(ring.begin[k])) + 1;
+      *at++ = static_cast<std::int32_t>(local.at(GlobalNumber{ring.begin[k]})) + 1;
     lend[i] = static_cast<std::int32_t>(at - list.data());
   }
   BlockArray<Point> points(n + outside);
@@ -169,11 +169,11 @@ Parcels MovingStars::begin_with(MovingStars& last, const Relocation& way, const 
       end();
     }
   };
-  std::size_t named = Items<std::int64_t>(wanted).size();
+  std::size_t named = Items<GlobalNumber>(wanted).size();
   for_each_neighbour([&](Int) { ++named; }, [] {});
   NumberFilter filter(named);
-  for (const std::int64_t number : Items<std::int64_t>(wanted)) filter.add(number);
-  for_each_neighbour([&](Int number) { filter.add(number); }, [] {});
+  for (const GlobalNumber number : Items<GlobalNumber>(wanted)) filter.add(number);
+  for_each_neighbour([&](Int number) { filter.add(GlobalNumber{number}); }, [] {});
   std::vector<std::uint32_t> here;
   for (std::size_t i = 0; i < n; ++i)
     if (way.has_come(i) || filter.may_have(nodes.number(i))) here.push_back(static_cast<std::uint32_t>(i));
@@ -186,13 +186,13 @@ Parcels MovingStars::begin_with(MovingStars& last, const Relocation& way, const 
   BlockArray<std::uint32_t> to(had + last.outside_.size());
   for (std::size_t k = 0; k < had; ++k)
     to[k] = way.to(k) != Relocation::kGone ? way.to(k) : MovingMesh::kNobody;
-  way.for_each_that_has_gone([&](std::size_t k, std::int64_t number) { to[k] = local.at(number); });
+  way.for_each_that_has_gone([&](std::size_t k, GlobalNumber number) { to[k] = local.at(number); });
   for (std::size_t j = 0; j < last.outside_.size(); ++j) {
     const std::uint32_t* const node = local.find_value(last.outside_[j].number);
     to[had + j] = node != nullptr ? *node : MovingMesh::kNobody;
   }
   more.node = come;
-  for_each_neighbour([&](Int number) { more.ring.push_back(local.at(number)); },
+  for_each_neighbour([&](Int number) { more.ring.push_back(local.at(GlobalNumber{number})); },
                      [&] { more.end.push_back(static_cast<std::uint32_t>(more.ring.size())); });
   mesh_.emplace(*last.mesh_, n, arcs, outside, room, to.data(), more);
   last.mesh_.reset();
@@ -295,7 +295,7 @@ bool MovingStars::propose(const LocalNodes& nodes, std::vector<Flip>& flips) {
   for (const auto& q : across) {
     if (!mesh_->is_convex(q)) return false;
     const auto corner = [&](std::uint32_t v) {
-      const std::int64_t number = v < nodes.count ? nodes.number(v) : outside_[v - nodes.count].number;
+      const GlobalNumber number = v < nodes.count ? nodes.number(v) : outside_[v - nodes.count].number;
       return Corner{address_of(v), number, mesh_->node(v)};
     };
     flips.push_back({{corner(q.a), corner(q.b), corner(q.c), corner(q.d)}});
@@ -424,7 +424,7 @@ SampleOfStars MovingStars::sample() const {
 template <class Int>
 SampleOfStars sample_of(const LocalNodes& nodes, const Stars<Int>& stars) {
   constexpr unsigned kBits = 15;
-  const auto slot = [](std::int64_t number) {
+  const auto slot = [](GlobalNumber number) {
     return static_cast<std::uint64_t>(number) * 0x9e3779b97f4a7c15u >> (64 - kBits);
   };
   std::vector<std::uint64_t> maybe((std::size_t{1} << kBits) / 64);
@@ -435,11 +435,11 @@ SampleOfStars sample_of(const LocalNodes& nodes, const Stars<Int>& stars) {
   for_each_star([&](std::size_t, const Ring<Int>& ring) {
     wanted += ring.count;
     for (std::uint32_t i = 0; i < ring.count; ++i) {
-      const std::uint64_t s = slot(std::abs(ring.begin[i]));
+      const std::uint64_t s = slot(named_by(ring.begin[i]));
       maybe[s / 64] |= std::uint64_t{1} << s % 64;
     }
   });
-  std::vector<std::pair<std::int64_t, std::int32_t>> known;
+  std::vector<std::pair<GlobalNumber, std::int32_t>> known;
   for (std::size_t i = 0; i < nodes.count; ++i) {
     const std::uint64_t s = slot(nodes.number(i));
     if ((maybe[s / 64] >> s % 64 & 1) != 0)
@@ -451,9 +451,9 @@ SampleOfStars sample_of(const LocalNodes& nodes, const Stars<Int>& stars) {
   for_each_star([&](std::size_t k, const Ring<Int>& ring) {
     local.clear();
     for (std::uint32_t i = 0; i < ring.count; ++i) {
-      const std::pair<std::int64_t, std::int32_t> least(ring.begin[i], 0);
+      const std::pair<GlobalNumber, std::int32_t> least(GlobalNumber{ring.begin[i]}, 0);
       const auto found = std::lower_bound(known.begin(), known.end(), least);
-      if (found != known.end() && found->first == ring.begin[i]) local.push_back(found->second);
+      if (found != known.end() && found->first == GlobalNumber{ring.begin[i]}) local.push_back(found->second);
     }
     if (local.size() == ring.count) sample.add(k, local.data(), local.size());
   });

@@ -8,11 +8,12 @@
 
 #include "base/scattered.h"
 #include "base/workspace.h"
+#include "parallel/global_number.h"
 
 namespace pstripack {
 
 /// The rank where all that is said of a number meets: by other bits of its hash than a table there takes.
-inline std::size_t meeting_rank(std::int64_t number, std::size_t ranks) {
+inline std::size_t meeting_rank(GlobalNumber number, std::size_t ranks) {
   return static_cast<std::size_t>((scattered(static_cast<std::uint64_t>(number)) >> 32) * ranks >> 32);
 }
 
@@ -24,17 +25,17 @@ class NumberFilter {
     while (bits < 16 * most) bits *= 2;
     maybe_.resize(bits);
   }
-  void add(std::int64_t number) { maybe_[slot(number)] = true; }
-  bool may_have(std::int64_t number) const { return maybe_[slot(number)]; }
+  void add(GlobalNumber number) { maybe_[slot(number)] = true; }
+  bool may_have(GlobalNumber number) const { return maybe_[slot(number)]; }
 
  private:
-  std::size_t slot(std::int64_t number) const {
+  std::size_t slot(GlobalNumber number) const {
     return static_cast<std::uint64_t>(number) * 0x9e3779b97f4a7c15u >> 24 & (maybe_.size() - 1);
   }
   std::vector<bool> maybe_;
 };
 
-/// Finds by number; numbers are positive. Throws std::bad_alloc when made, never later.
+/// Finds by number. Throws std::bad_alloc when made, never later.
 template <class Value>
 class NumberTable {
  public:
@@ -46,33 +47,33 @@ class NumberTable {
   }
 
   /// The value of the number, and whether it is new; then it gets this one.
-  std::pair<Value, bool> insert(std::int64_t number, Value value) {
+  std::pair<Value, bool> insert(GlobalNumber number, Value value) {
     Place& place = place_[find(number)];
     if (place.number == number) return {place.value, false};
     place = {number, value};
     return {value, true};
   }
   /// The number must be in the table.
-  Value at(std::int64_t number) const { return place_[find(number)].value; }
+  Value at(GlobalNumber number) const { return place_[find(number)].value; }
   /// Null if the number is not in the table.
-  const Value* find_value(std::int64_t number) const {
+  const Value* find_value(GlobalNumber number) const {
     const Place& place = place_[find(number)];
     return place.number == number ? &place.value : nullptr;
   }
   /// A hint that the number will be asked for soon.
-  void prefetch(std::int64_t number) const { __builtin_prefetch(&place_[home(number)], 1); }
+  void prefetch(GlobalNumber number) const { __builtin_prefetch(&place_[home(number)], 1); }
 
  private:
   struct Place {
-    std::int64_t number;  // 0: empty
+    GlobalNumber number;  // kNoNumber: empty
     Value value;
   };
-  std::size_t home(std::int64_t number) const {
+  std::size_t home(GlobalNumber number) const {
     return scattered(static_cast<std::uint64_t>(number)) & (place_.size() - 1);
   }
-  std::size_t find(std::int64_t number) const {
+  std::size_t find(GlobalNumber number) const {
     std::size_t at = home(number);
-    while (place_[at].number != number && place_[at].number != 0) at = (at + 1) & (place_.size() - 1);
+    while (place_[at].number != number && place_[at].number != kNoNumber) at = (at + 1) & (place_.size() - 1);
     return at;
   }
   BlockArray<Place> place_;

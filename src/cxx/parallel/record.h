@@ -1,17 +1,25 @@
 #pragma once
 
 #include <algorithm>
-#include <cstdint>
+#include <cstddef>
 #include <vector>
 
 #include "geometry/point.h"
+#include "parallel/global_number.h"
 
 namespace pstripack {
 
 /// A node on its way between patches or ranks.
 struct Record {
   Point point;
-  std::int64_t number;  ///< global, from 1
+  GlobalNumber number;
+};
+
+/// The nodes that a patch is given: its own ones, then its halo.
+struct PatchNodes {
+  const Record* first;
+  std::size_t own, halo;
+  std::size_t count() const { return own + halo; }
 };
 
 /// Sorts by number and leaves out what is there twice.

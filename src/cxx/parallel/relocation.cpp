@@ -1,7 +1,6 @@
 #include "parallel/relocation.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <utility>
 
 #include "parallel/agreement.h"
@@ -27,7 +26,7 @@ Relocation::Relocation(const std::int64_t* before, std::size_t had, const LocalN
     const bool may_be_far = missed >= kNear && (missed & (missed - 1)) == 0;
     const std::size_t end = may_be_far ? had : std::min(had, next + kNear);
     const std::size_t k =
-        static_cast<std::size_t>(std::find(before + next, before + end, nodes.number(i)) - before);
+        static_cast<std::size_t>(std::find(before + next, before + end, value_of(nodes.number(i))) - before);
     if (k == end) {
       ++missed;
       continue;
@@ -39,10 +38,10 @@ Relocation::Relocation(const std::int64_t* before, std::size_t had, const LocalN
   const auto left = static_cast<std::size_t>(std::count(to_.begin(), to_.end(), kGone));
   NumberTable<std::uint32_t> others(left);
   for (std::size_t k = 0; k < had; ++k)
-    if (to_[k] == kGone) others.insert(before[k], static_cast<std::uint32_t>(k));
+    if (to_[k] == kGone) others.insert(GlobalNumber{before[k]}, static_cast<std::uint32_t>(k));
   for (std::size_t i = 0; i < nodes.count; ++i) {
     if (from_[i] != kNotHere) continue;
-    are_positive_ = are_positive_ && nodes.number(i) > 0;
+    are_positive_ = are_positive_ && value_of(nodes.number(i)) > 0;
     const std::uint32_t* const k = others.find_value(nodes.number(i));
     if (are_positive_ && k != nullptr && to_[*k] == kGone)
       are_the_same(*k, i);
@@ -50,7 +49,7 @@ Relocation::Relocation(const std::int64_t* before, std::size_t had, const LocalN
       from_[i] = static_cast<std::uint32_t>(had_ + come_++);
   }
   for (std::size_t k = 0; k < had; ++k)
-    if (to_[k] == kGone) gone_.push_back({before[k], static_cast<std::uint32_t>(k), 0});
+    if (to_[k] == kGone) gone_.push_back({GlobalNumber{before[k]}, static_cast<std::uint32_t>(k), 0});
 }
 
 std::optional<Relocation> Relocation::find(const std::int64_t* before, std::size_t had,
@@ -85,12 +84,13 @@ bool Relocation::find_ranks(const LocalNodes& nodes, Communicator& ranks) {
   };
   const Parcels told = exchange_in_agreement(ranks, [&] {  // numbers; negative: has gone
     ParcelWriter writer(size);
-    const auto expect = [&](std::int64_t number) { writer.expect<std::int64_t>(meeting_rank(number, size)); };
+    const auto expect = [&](GlobalNumber number) { writer.expect<std::int64_t>(meeting_rank(number, size)); };
     for_each_that_has_come(expect);
     for (const Gone& g : gone_) expect(g.number);
     writer.make_room();
-    for_each_that_has_come([&](std::int64_t number) { writer.put(meeting_rank(number, size), number); });
-    for (const Gone& g : gone_) writer.put(meeting_rank(g.number, size), -g.number);
+    for_each_that_has_come(
+        [&](GlobalNumber number) { writer.put(meeting_rank(number, size), value_of(number)); });
+    for (const Gone& g : gone_) writer.put(meeting_rank(g.number, size), -value_of(g.number));
     return writer.finish();
   });
   OnAll are_the_same;
@@ -102,12 +102,12 @@ bool Relocation::find_ranks(const LocalNodes& nodes, Communicator& ranks) {
         NumberTable<std::uint32_t> now(Items<std::int64_t>(told).size());
         for (std::size_t r = 0; r < size; ++r)
           for (const std::int64_t number : Items<std::int64_t>(told, r))
-            if (number > 0) now.insert(number, static_cast<std::uint32_t>(r));
+            if (number > 0) now.insert(GlobalNumber{number}, static_cast<std::uint32_t>(r));
         std::vector<std::vector<std::uint32_t>> rank_now(size);
         for (std::size_t r = 0; r < size; ++r)
           for (const std::int64_t number : Items<std::int64_t>(told, r)) {
             if (number > 0) continue;
-            const std::uint32_t* const at = now.find_value(-number);
+            const std::uint32_t* const at = now.find_value(GlobalNumber{-number});
             are_the_same.value = are_the_same.value && at != nullptr;
             rank_now[r].push_back(at != nullptr ? *at : 0);
           }
@@ -126,33 +126,34 @@ template <class Int>
 Stars<Int> Relocation::stars(const Stars<Int>& last, const LocalNodes& nodes, Communicator& ranks) const {
   const Parcels arrived = exchange_in_agreement(ranks, [&] {
     return packed_rings<Int>(static_cast<std::size_t>(ranks.size()), [&](const auto& visit) {
-      for (const Gone& g : gone_) visit(g.rank, static_cast<Int>(g.number), last.of_node[g.node]);
+      for (const Gone& g : gone_) visit(g.rank, static_cast<Int>(value_of(g.number)), last.of_node[g.node]);
     });
   });
   Stars<Int> stars;
   in_agreement(ranks, [&] {
     // What the arrived stars name, what the last ones named, and what has gone: of that what is not here.
-    std::vector<std::int64_t> named;
+    std::vector<GlobalNumber> named;
     for (const Record& r : last.outside) named.push_back(r.number);
     for (const Gone& g : gone_) named.push_back(g.number);
     for_each_ring<Int>(arrived, [&](Int, const Ring<Int>& ring) {
-      for (std::uint32_t k = 0; k < ring.count; ++k) named.push_back(std::abs(ring.begin[k]));
+      for (std::uint32_t k = 0; k < ring.count; ++k) named.push_back(named_by(ring.begin[k]));
     });
     NumberFilter filter(named.size());
-    for (const std::int64_t number : named) filter.add(number);
-    std::vector<std::pair<std::int64_t, std::uint32_t>> found;
+    for (const GlobalNumber number : named) filter.add(number);
+    std::vector<std::pair<GlobalNumber, std::uint32_t>> found;
     for (std::size_t i = 0; i < nodes.count; ++i)
-      if (const std::int64_t number = nodes.number(i); has_come(i) || filter.may_have(number))
+      if (const GlobalNumber number = nodes.number(i); has_come(i) || filter.may_have(number))
         found.emplace_back(number, from_[i]);
     NumberTable<std::uint32_t> here(found.size());
     for (const auto& [number, from] : found) here.insert(number, from);
-    for (const std::int64_t number : named)
+    for (const GlobalNumber number : named)
       if (here.find_value(number) == nullptr) stars.outside.push_back({{}, number});
     keep_one_of_each(stars.outside);
 
     std::vector<Ring<Int>> come(come_);
-    for_each_ring<Int>(arrived,
-                       [&](Int number, const Ring<Int>& ring) { come[here.at(number) - had_] = ring; });
+    for_each_ring<Int>(arrived, [&](Int number, const Ring<Int>& ring) {
+      come[here.at(GlobalNumber{number}) - had_] = ring;
+    });
     constexpr std::size_t kAhead = 16;
     auto outside = std::move(stars.outside);
     stars = copied_stars<Int>(nodes.count, [&](std::size_t i) {

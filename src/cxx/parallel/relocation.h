@@ -50,7 +50,7 @@ class Relocation {
  private:
   /// A node that was here.
   struct Gone {
-    std::int64_t number;
+    GlobalNumber number;
     std::uint32_t node, rank;  ///< which it was here; which rank brings it now
   };
   bool find_ranks(const LocalNodes& nodes, Communicator& ranks);

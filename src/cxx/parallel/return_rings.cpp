@@ -130,7 +130,7 @@ std::vector<Record> find_outside(const Patches<Int>& patches, const ReturnAddres
     keep_one_of_each(all);
     // A patch does not know which nodes this rank brought for other patches; where there are none, it knows
     // all.
-    std::vector<std::int64_t> own;
+    std::vector<GlobalNumber> own;
     if (addresses.away_begin.back() > 0 || patches.of_rank.size() > 1) {
       NumberFilter filter(all.size());
       for (const Record& r : all) filter.add(r.number);
