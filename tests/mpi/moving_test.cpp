@@ -364,13 +364,12 @@ TEST(Moving, SurviveMemoryThatRunsOut) {
     }
 }
 
-// ---- comm mode, and the pool on one machine
-// ------------------------------------------------------------------
+// ---- comm mode and the pool ---------------------------------------------------------------------------
 
-/// TRMESH by all ranks, in arrays of their own or in memory that they share.
+/// TRMESH by all ranks, in arrays of their own, in memory that they share, or in those of rank 0.
 class Caller {
  public:
-  explicit Caller(bool shared) : shared_(shared) {}
+  explicit Caller(Arrays arrays) : arrays_(arrays), shared_(arrays == Arrays::shared) {}
 
   /// Whether the call began with the rings of the last one.
   bool call(const Nodes& nodes, int ier = 0, long failing = 0, bool for_good = false) {
@@ -399,8 +398,7 @@ class Caller {
     TrmeshResult result{0};
     try {
       const FailingAllocation memory(ranks_.rank() == ranks_.size() - 1 ? failing : 0, for_good);
-      result =
-          collective_trmesh(ranks_, shared_ ? Arrays::shared : Arrays::on_every_rank, call, &cost, &last_);
+      result = collective_trmesh(ranks_, arrays_, call, &cost, &last_);
       has_failed = FailingAllocation::happened();
     } catch (const AgreedFailure& failure) {
       has_failed = true;
@@ -416,6 +414,7 @@ class Caller {
       ranks_.broadcast(&lists.lnew, sizeof lists.lnew, 0);
       meet();
     }
+    if (arrays_ == Arrays::on_one_rank && ranks_.rank() != 0) return cost.mine.flips >= 0;
     if (const auto right = made_anew(nodes)) {
       EXPECT_TRUE(lists == *right) << (cost.mine.flips >= 0 ? "warm" : "cold");
     }
@@ -428,6 +427,7 @@ class Caller {
     std::int64_t here = 0;
     ranks_.all_min(&here, 1);
   }
+  const Arrays arrays_;
   const bool shared_;
   MpiCommunicator ranks_{MPI_COMM_WORLD};
   LastCall last_;
@@ -435,10 +435,12 @@ class Caller {
 
 /// In random order, so that nearly all neighbours of a node are in the slices of others.
 TEST(Moving, CallsOfTrmeshBeginWithTheLastRings) {
-  for (const bool shared : {false, true}) {
-    SCOPED_TRACE(shared ? "shared memory" : "own arrays");
+  for (const Arrays arrays : {Arrays::on_every_rank, Arrays::shared, Arrays::on_one_rank}) {
+    SCOPED_TRACE(arrays == Arrays::shared        ? "shared memory"
+                 : arrays == Arrays::on_one_rank ? "messages"
+                                                 : "own arrays");
     Random random(4);
-    Caller caller(shared);
+    Caller caller(arrays);
     Nodes nodes = point_sets::make("random", kN, 1);
     for (int step = 0; step < 5; ++step) {
       EXPECT_EQ(caller.call(nodes), step >= 2) << step;
@@ -476,7 +478,7 @@ void let_memory_run_out() {
 /// What one rank gave up is no more use to the others. What they keep is their own: another mesh lives on.
 TEST(Moving, StarsAreGivenUpWhereMemoryIsOut) {
   const Nodes nodes = point_sets::make("random", kN, 1);
-  Caller caller(false);
+  Caller caller(Arrays::on_every_rank);
   for (int step = 0; step < 4; ++step) EXPECT_EQ(caller.call(nodes), step >= 2);
   let_memory_run_out();
   EXPECT_FALSE(caller.call(nodes)) << "rings that were given up";
@@ -507,33 +509,36 @@ TEST(Moving, MeshesMayBeMany) {
 
 TEST(Moving, CallsOfTrmeshSurviveMemoryThatRunsOut) {
   const Nodes nodes = point_sets::make("random", 1000, 1);
-  for (const int calls_before :
-       {1, 2, 3})  // the one that keeps rings, the first that begins with them, another
-    for (const bool for_good : {false, true}) {
-      int any = 1;
-      for (long which = 1; any != 0; which += 1 + which / 2) {
-        Caller caller(false);
-        for (int i = 0; i < calls_before; ++i) caller.call(nodes);
-        caller.call(nodes, 0, which, for_good);
-        const int happened = caller.has_failed;
-        caller.call(nodes);
-        MPI_Allreduce(&happened, &any, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
-        ASSERT_LT(which, 100000);
+  for (const Arrays arrays : {Arrays::on_every_rank, Arrays::on_one_rank})
+    for (const int calls_before :
+         {1, 2, 3})  // the one that keeps rings, the first that begins with them, another
+      for (const bool for_good : {false, true}) {
+        int any = 1;
+        for (long which = 1; any != 0; which += 1 + which / 2) {
+          Caller caller(arrays);
+          for (int i = 0; i < calls_before; ++i) caller.call(nodes);
+          caller.call(nodes, 0, which, for_good);
+          const int happened = caller.has_failed;
+          caller.call(nodes);
+          MPI_Allreduce(&happened, &any, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+          ASSERT_LT(which, 100000);
+        }
       }
-    }
 }
 
 /// So many flips that rings which are not used any more go.
 TEST(Moving, CallsOfTrmeshGoOnForLong) {
-  Random random(5);
-  Caller caller(false);
-  Nodes nodes = point_sets::make("fibonacci", 1000, 1);
-  int warm = 0;
-  for (int step = 0; step < 50; ++step) {
-    warm += caller.call(nodes);
-    move_all(nodes, 0.03 * spacing(1000), random);
+  for (const Arrays arrays : {Arrays::on_every_rank, Arrays::on_one_rank}) {
+    Random random(5);
+    Caller caller(arrays);
+    Nodes nodes = point_sets::make("fibonacci", 1000, 1);
+    int warm = 0;
+    for (int step = 0; step < 50; ++step) {
+      warm += caller.call(nodes);
+      move_all(nodes, 0.03 * spacing(1000), random);
+    }
+    EXPECT_GT(warm, 25);
   }
-  EXPECT_GT(warm, 25);
 }
 
 }  // namespace

@@ -22,14 +22,15 @@ LastRings::LastRings(const RingTable<Int>& rings, std::size_t first_node, std::u
       of_slice_(copied_stars<Int>(rings.size(), [&](std::size_t i) { return rings[i]; })) {}
 
 /// The rings of the slices go to the homes of their nodes.
-void LastRings::send_home(const NodeArrays& nodes, std::size_t nodes_of_all, Communicator& ranks) {
+void LastRings::send_home(const LocalNodes& slice, std::size_t nodes_of_all, Communicator& ranks) {
   const Parcels arrived = exchange_in_agreement(ranks, [&] {
     const RingTable<Int>& rings = of_slice_.of_node;
-    std::vector<int> home(rings.size());
-    for (std::size_t i = 0; i < home.size(); ++i) home[i] = homes_->rank(nodes[first_node_ + i]);
+    home_.resize(rings.size());
+    for (std::size_t i = 0; i < home_.size(); ++i)
+      home_[i] = static_cast<std::uint32_t>(homes_->rank(slice.points[i]));
     return packed_rings<Int>(static_cast<std::size_t>(ranks.size()), [&](const auto& visit) {
-      for (std::size_t i = 0; i < home.size(); ++i)
-        visit(static_cast<std::size_t>(home[i]), static_cast<Int>(first_node_ + i + 1), rings[i]);
+      for (std::size_t i = 0; i < home_.size(); ++i)
+        visit(home_[i], static_cast<Int>(first_node_ + i + 1), rings[i]);
     });
   });
   in_agreement(ranks, [&] {
@@ -50,16 +51,35 @@ void LastRings::send_home(const NodeArrays& nodes, std::size_t nodes_of_all, Com
   });
 }
 
-bool LastRings::move(const NodeArrays& nodes, const std::vector<std::size_t>& begin, Communicator& ranks) {
+/// In the order in which the rings have come.
+void LastRings::send_places(const LocalNodes& slice, Communicator& ranks) {
+  const Parcels arrived = exchange_in_agreement(ranks, [&] {
+    ParcelWriter writer(static_cast<std::size_t>(ranks.size()));
+    for (const std::uint32_t r : home_) writer.expect<Point>(r);
+    writer.make_room();
+    slice.points.visit([&](const auto& node) {
+      for (std::size_t i = 0; i < home_.size(); ++i) writer.put<Point>(home_[i], node(i));
+    });
+    return writer.finish();
+  });
+  const Items<Point> places(arrived);
+  std::copy(places.begin(), places.end(), points_.data());
+}
+
+bool LastRings::move(const LocalNodes& slice, const std::vector<std::size_t>& begin, Communicator& ranks) {
   const auto size = static_cast<std::size_t>(ranks.size());
   const bool is_first = moving_ == nullptr;
-  if (is_first) send_home(nodes, begin.back(), ranks);
+  if (is_first) send_home(slice, begin.back(), ranks);
   const std::size_t n = numbers_.size();
-  parallel_pieces(n, threads_for(n), [&](std::size_t first, std::size_t last, int) {
-    nodes.visit([&](const auto& node) {
-      for (std::size_t k = first; k < last; ++k) points_[k] = node(static_cast<std::size_t>(numbers_[k]) - 1);
+  if (slice.of_all_ranks == nullptr)
+    send_places(slice, ranks);
+  else
+    parallel_pieces(n, threads_for(n), [&](std::size_t first, std::size_t last, int) {
+      slice.of_all_ranks->visit([&](const auto& node) {
+        for (std::size_t k = first; k < last; ++k)
+          points_[k] = node(static_cast<std::size_t>(numbers_[k]) - 1);
+      });
     });
-  });
   const LocalNodes home{points_.data(), n, numbers_.data()};
   if (is_first) moving_ = MovingStars::make(home, at_home_, ranks);
   if (moving_ == nullptr || !moving_->repair(home, ranks)) return false;
