@@ -202,6 +202,14 @@ class ByRanks {
 
  private:
   std::size_t n() const { return static_cast<std::size_t>(share_.headline.n); }
+  /// Whether this rank can read all nodes, and then these.
+  bool reads_all() const { return share_.of_all_ranks || ranks_.rank() == 0; }
+  const NodeArrays& all_nodes() const { return share_.of_all_ranks ? *share_.of_all_ranks : share_.nodes; }
+  /// So many nodes of this rank's slice.
+  LocalNodes slice(std::size_t count) const {
+    return {share_.nodes, count, nullptr, static_cast<std::int64_t>(share_.first) + 1,
+            share_.of_all_ranks ? &*share_.of_all_ranks : nullptr};
+  }
   void find_slices(std::size_t n);
   void deliver(const RingTable<std::int32_t>& rings);
   void take_sample(LastCall& last, const RingTable<std::int32_t>& rings) noexcept;
@@ -243,10 +251,8 @@ std::optional<Coincidence> ByRanks::triangulate(std::size_t n) {
     agree_on(share_.look, ranks_);
     stars_ = {};
   }
-  const LocalNodes mine{share_.nodes, count, nullptr, static_cast<std::int64_t>(begin_[me]) + 1,
-                        share_.of_all_ranks ? &*share_.of_all_ranks : nullptr};
-  stars_ = pstripack::triangulate<std::int32_t>(mine, share_.look, share_.headline.corners, {1, 2, 3}, ranks_,
-                                                options_, &cost_);
+  stars_ = pstripack::triangulate<std::int32_t>(slice(count), share_.look, share_.headline.corners, {1, 2, 3},
+                                                ranks_, options_, &cost_);
   if (stars_.coincident.empty()) return std::nullopt;
   std::optional<Coincidence> first;
   in_agreement(ranks_, [&] { first = first_coincidence(stars_.coincident); });
@@ -260,12 +266,12 @@ void ByRanks::deliver(const RingTable<std::int32_t>& rings) {
 }
 
 bool ByRanks::begin_with(LastCall& last) {
-  if (last.n != n() || arrays_ == Arrays::on_one_rank) {
+  if (last.n != n()) {
     last = {};
     return false;
   }
   std::unique_ptr<LastRings> rings = last.rings.take();
-  OnAll fits{last.has_sample && warm_start_is_allowed() && last.sample.fits(*share_.of_all_ranks)},
+  OnAll fits{last.has_sample && warm_start_is_allowed() && (!reads_all() || last.sample.fits(all_nodes()))},
       have_rings{rings != nullptr};
   agree(ranks_, fits, have_rings);
   last.has_sample = false;
@@ -276,7 +282,7 @@ bool ByRanks::begin_with(LastCall& last) {
     const PhaseTimer timer(&cost_, ParallelCost::triangulate, &ranks_);
     ranks_.set_phase("move the stars");
     find_slices(last.n);
-    is_done = rings->move(*share_.of_all_ranks, begin_, ranks_);
+    is_done = rings->move(slice(share_.count), begin_, ranks_);
   } catch (const AgreedFailure&) {
     // No memory for it: the cold way has more, without the rings.
   }
@@ -297,7 +303,7 @@ bool ByRanks::begin_with(LastCall& last) {
 }
 
 void ByRanks::remember(LastCall& last) noexcept {
-  if (n() < kFewestForWarmStart || arrays_ == Arrays::on_one_rank) return;
+  if (n() < kFewestForWarmStart) return;
   last.n = n();
   take_sample(last, stars_.of_node);
   if (!wants_rings_) return;
@@ -314,7 +320,8 @@ void ByRanks::take_sample(LastCall& last, const RingTable<std::int32_t>& rings) 
   last.has_sample = false;
   try {
     last.sample = {};
-    SampleOfStars::for_each_node(rings.size(), [&](std::size_t k) {
+    const std::size_t known = reads_all() ? rings.size() : 0;
+    SampleOfStars::for_each_node(known, [&](std::size_t k) {
       const Ring<std::int32_t> ring = rings[k];
       if (ring.begin[ring.count - 1] > 0)
         last.sample.add(begin_[static_cast<std::size_t>(ranks_.rank())] + k, ring.begin, ring.count);

@@ -23,8 +23,7 @@ struct LastCall {
 /// Throws AgreedFailure, having written nothing. `arrays`: of the call; on_every_rank (comm mode): the same
 /// arguments and lists on every rank, -7 if they differ; on_one_rank (pool mode): those of rank 0, the others
 /// pass none, of the same kind of reals, and get the result code only.
-/// Where every rank can read all nodes, a call may begin with the rings of the last one that had this `last`;
-/// on all ranks or none.
+/// A call may begin with the rings of the last one that had this `last`; on all ranks or none.
 /// If rank 0 passes `cost`, it is told there what the call cost all ranks, and so are others that pass one.
 TrmeshResult collective_trmesh(MpiCommunicator& ranks, Arrays arrays, const TrmeshCall& call,
                                GroupCost* cost = nullptr, LastCall* last = nullptr);

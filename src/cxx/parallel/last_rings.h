@@ -1,5 +1,5 @@
 #pragma once
-// Rings of an earlier call in which every rank can read all nodes: docs/parallel.md, "Warm start".
+// Rings of an earlier call in which ranks have slices of the nodes: docs/parallel.md, "Warm start".
 
 #include <cstddef>
 #include <cstdint>
@@ -19,21 +19,23 @@ class LastRings {
   LastRings(const RingTable<std::int32_t>& rings, std::size_t first_node, std::unique_ptr<Homes> homes);
 
   /// Makes them the rings of the nodes where they are now, and returns true; or returns false on every rank,
-  /// and they are of no more use. `begin`: of each rank's slice, and the end. Collective. Throws
-  /// AgreedFailure.
-  bool move(const NodeArrays& nodes, const std::vector<std::size_t>& begin, Communicator& ranks);
+  /// and they are of no more use. `begin`: of each rank's slice, and the end. Where ranks cannot read all
+  /// nodes, these travel to their homes. Collective. Throws AgreedFailure.
+  bool move(const LocalNodes& slice, const std::vector<std::size_t>& begin, Communicator& ranks);
   const RingTable<std::int32_t>& rings() const { return of_slice_.of_node; }
   const MovingStars& stars() const { return *moving_; }
 
  private:
-  void send_home(const NodeArrays& nodes, std::size_t nodes_of_all, Communicator& ranks);
+  void send_home(const LocalNodes& slice, std::size_t nodes_of_all, Communicator& ranks);
+  void send_places(const LocalNodes& slice, Communicator& ranks);
   void replace(const Parcels& changed);
 
   const Stay stay_;
   const std::size_t first_node_;
   const std::unique_ptr<Homes> homes_;
   Stars<std::int32_t> of_slice_, at_home_;
-  std::size_t replaced_ = 0;  ///< entries of rings of the slice that have come anew
+  std::vector<std::uint32_t> home_;  ///< ranks, of the nodes of the slice
+  std::size_t replaced_ = 0;         ///< entries of rings of the slice that have come anew
   // At home here:
   std::vector<std::int64_t> numbers_;
   BlockArray<Point> points_;

@@ -16,7 +16,7 @@ void Halo::make_directory(const Neighbourhood& here) {
     directory_.emplace(Items<std::int64_t>(parcels).size());
     for (std::size_t r = 0; r < size; ++r)
       for (const std::int64_t number : Items<std::int64_t>(parcels, r))
-        directory_->insert(number, static_cast<std::int32_t>(r));
+        directory_->insert(GlobalNumber{number}, static_cast<std::int32_t>(r));
   });
 }
 
@@ -44,7 +44,7 @@ void Halo::connect(const Neighbourhood& here) {
     std::vector<std::vector<std::size_t>> owners(size);
     for (std::size_t r = 0; r < size; ++r)
       for (const std::int64_t number : Items<std::int64_t>(questions, r))
-        owners[r].push_back(static_cast<std::size_t>(directory_->at(number)));
+        owners[r].push_back(static_cast<std::size_t>(directory_->at(GlobalNumber{number})));
     return packed(owners);
   });
   in_agreement(ranks_, [&] {
