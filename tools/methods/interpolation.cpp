@@ -85,11 +85,17 @@ bool Interpolation::find(Point& p, std::int32_t& near, Corners& corners) const {
   return locate();
 }
 
+bool Interpolation::is_node(const Point& p, std::int32_t near, std::vector<Share>& shares) const {
+  const std::int32_t node = descend(p, near);
+  if (at(node) == p) shares = {{node, 1}};
+  return !shares.empty();
+}
+
 bool Interpolation::linear(const Point& p, std::int32_t& near, std::vector<Share>& shares) const {
   shares.clear();
   Point place = p;
   Corners corners;
-  if (!find(place, near, corners)) return false;
+  if (!find(place, near, corners)) return is_node(p, near, shares);
   const auto& [a, b, c] = corners;
   for (const std::int32_t node : {a, b, c})
     if (at(node) == p) {
@@ -182,7 +188,7 @@ bool Interpolation::natural(const Point& p, std::int32_t& near, std::vector<Shar
   shares.clear();
   Point place = p;
   Corners corners;
-  if (!find(place, near, corners)) return false;
+  if (!find(place, near, corners)) return is_node(p, near, shares);
   // Not above its own triangle: p is so close to a corner that the height is lost in rounding.
   const Corners& c = corners;
   const bool is_corner = at(c[0]) == p || at(c[1]) == p || at(c[2]) == p;

@@ -75,6 +75,8 @@ class Interpolation {
 
  private:
   bool find(Point& p, std::int32_t& near, Corners& corners) const;
+  /// Where triangles are no wider than rounding, a node may be found outside all of them.
+  bool is_node(const Point& p, std::int32_t near, std::vector<Share>& shares) const;
   void cross_arcs(const Point& p, Corners& corners) const;
   bool is_above(std::int32_t a, std::int32_t b, std::int32_t c, const Point& p) const;
   bool natural_ring(const Point& p, const Corners& corners, std::vector<std::int32_t>& ring) const;

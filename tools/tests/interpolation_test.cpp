@@ -73,6 +73,24 @@ TEST(shares, of_a_node_are_its_own_alone) {
     }
 }
 
+TEST(shares, of_a_node_are_its_own_alone_where_all_lie_on_half_a_circle_up_to_rounding) {
+  for (const std::size_t n : {12u, 100u, 1000u})
+    for (const Method method : {Method::linear, Method::natural, Method::cubic}) {
+      Points nodes;
+      point_sets::Random random(1);
+      for (std::size_t i = 0; i < n; ++i) {
+        const double a = random.uniform(0, 3.14159);
+        nodes.push_back({std::cos(a), std::sin(a) * std::cos(0.7), std::sin(a) * std::sin(0.7)});
+      }
+      const std::vector<double> values = random_values(n);
+      EXPECT_EQ(interpolation_between(nodes)
+                    .values_at(nodes, values, method, Interpolation::Outside::missing)
+                    .values,
+                values)
+          << n;
+    }
+}
+
 TEST(linear, is_linear_in_the_plane_of_the_corners) {
   const Points nodes = point_sets::make("random", 300);
   const Interpolation in = interpolation_between(nodes);
