@@ -131,6 +131,9 @@ same_bytes)
   cmp alone.bin pool.bin || fail "pool: the lists differ"
   # Open MPI's starter is at times late to put ssh into a group of its own, and says so.
   grep -v 'plm:rsh: Warning: setpgid' job.err | cmp alone.err - || fail "pool: stderr differs"
+  PSTRIPACK_REPORT=report pool "$CALLER" calls 5000 4 > job.out 2> job.err || fail "four calls: exit code"
+  # The caller validates the first one; the others have the same nodes.
+  [ "$(grep -c 'start=warm flips=0$' report)" -eq 2 ] || fail "not two calls that begin with the last rings: $(cat report)"
   for mode in comm distributed; do  # the program checks the lists
     ranks "$JOB_PROGRAM" $mode > job.out 2> job.err || fail "$mode: exit code"
   done
