@@ -471,7 +471,7 @@ TEST(Moving, CallsOfTrmeshBeginWithTheLastRings) {
 
 TEST(Moving, RingsOfTheLastCallCountAmongWhatStays) {
   const Nodes nodes = point_sets::make("random", kN, 1);
-  auto caller = std::make_unique<Caller>(false);
+  auto caller = std::make_unique<Caller>(Arrays::on_every_rank);
   for (int i = 0; i < 2; ++i) EXPECT_FALSE(caller->call(nodes));
   const std::size_t room = room_to_stay();
   caller.reset();
