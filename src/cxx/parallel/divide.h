@@ -27,6 +27,7 @@ struct ParallelOptions {
   /// Fill Stars::outside, and let the stars hold little memory beside their own.
   bool with_neighbours = false;
   /// Of a single rank: give up if the patches have more questions than this, since one patch would be faster.
+  /// Of several: if a rank has more, they agree on stars instead.
   std::size_t most_questions = SIZE_MAX;
   /// Of an earlier call on these ranks, on all of them or none: its patches are kept if nearly all nodes are
   /// where they belong in them, in equal numbers. Then nodes that were sent home are at home.

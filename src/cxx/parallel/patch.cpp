@@ -185,40 +185,29 @@ Ball Patch<Int>::ball_above(std::uint32_t ia, std::uint32_t ib, std::uint32_t ic
   return ball_beyond(normal, dot(normal, a), error, places_.deviation());
 }
 
+/// The smallest number first, so that a triangle has one name.
 template <class Int>
-void Patch<Int>::ask_about_triangle(std::uint32_t t, std::vector<Question>& questions) {
+Question Patch<Int>::question_about(std::uint32_t t) const {
   const Face& f = arrays_.faces[t];
-  partition_->strangers(id_, ball_above(f.vertex[0], f.vertex[1], f.vertex[2]), strangers_);
-  if (strangers_.empty()) return;
-  std::uint32_t first = 0;  // the smallest number first, so that a triangle has one name
+  std::uint32_t first = 0;
   for (const std::uint32_t i : {1, 2})
     if (number_[f.vertex[i]] < number_[f.vertex[first]]) first = i;
   Question question{};
   for (std::uint32_t i = 0, e = first; i < 3; ++i, e = next_edge(e))
     question.corner[i] = {arrays_.nodes[f.vertex[e]], number_[f.vertex[e]]};
   question.from = id_;
-  for (const int q : strangers_) {
-    question.to = q;
-    questions.push_back(question);
-  }
+  return question;
 }
 
 template <class Int>
-template <class Visit>
-void Patch<Int>::for_each_face_at_border(std::size_t first, const Visit& visit) const {
-  const auto n = static_cast<std::uint32_t>(growing_->node_count());
-  const bool all_are_front = growing_->surrounds_centre();
-  for (auto v = static_cast<std::uint32_t>(first); v < n; ++v) {
-    if (is_own(v)) continue;
-    for_each_face_at(v, [&](std::uint32_t t, std::uint32_t) {
-      const auto& corner = arrays_.faces[t].vertex;
-      int own = 0;
-      for (int i = 0; i < 3; ++i) {
-        if (corner[i] < v && corner[i] >= first && !is_own(corner[i])) return;  // met there
-        own += is_own(corner[i]);
-      }
-      if (all_are_front || growing_->front(t)) visit(t, own);
-    });
+void Patch<Int>::ask_about_triangle(std::uint32_t t, std::vector<Question>& questions) {
+  const Face& f = arrays_.faces[t];
+  partition_->strangers(id_, ball_above(f.vertex[0], f.vertex[1], f.vertex[2]), strangers_);
+  if (strangers_.empty()) return;
+  Question question = question_about(t);
+  for (const int q : strangers_) {
+    question.to = q;
+    questions.push_back(question);
   }
 }
 
@@ -293,15 +282,10 @@ Doubts Patch<Int>::ask(const std::array<Record, 3>& corners, double stretch, std
   // well, or its direction is in a triangle of own nodes, which must bulge out of the patch then.
   // After the first time only triangles at nodes that have come in since are new.
   const bool first_time = asked_with_ == 0;
-  const auto corner = [&](std::uint32_t t, int i) { return arrays_.faces[t].vertex[i]; };
   is_around_.resize(growing_->node_count());
   for_each_face_at_border(asked_with_, [&](std::uint32_t t, int own) {
     if (own == 0 || doubts.questions.size() > most) return;
-    for (const std::uint32_t v : {corner(t, 0), corner(t, 1), corner(t, 2)})
-      if (!is_own(v) && !is_around_[v]) {
-        is_around_[v] = true;
-        around_.push_back(v);
-      }
+    for (int i = 0; i < 3; ++i) meet(arrays_.faces[t].vertex[i]);
     ask_about_triangle(t, doubts.questions);
   });
   asked_with_ = growing_->node_count();
@@ -517,7 +501,7 @@ void Patch<Int>::answer_about_arc(std::uint32_t a, std::uint32_t b, std::vector<
 template <class Int>
 void Patch<Int>::answer(const Question& question, std::vector<Record>& nodes) {
   nodes.clear();
-  if (own_ == 0) return;
+  if (own_ == 0 || !coincident_.empty()) return;
   if (question.is_about_arc()) {
     const std::uint32_t a = take_in(question.corner[0]), b = take_in(question.corner[1]);
     answer_about_arc(a, b, nodes);
@@ -559,7 +543,12 @@ void Patch<Int>::answer(const Question& question, std::vector<Record>& nodes) {
 }
 
 template <class Int>
-void Patch<Int>::learn(const Record* nodes, std::size_t count) {
+void Patch<Int>::learn(const Question& question, const Record* nodes, std::size_t count) {
+  if (count > 0 && !asked_about_.empty())
+    for (const Record& r : question.corner)
+      if (const auto found = taken_in_.find(r.number);
+          found != taken_in_.end() && owner_of(found->second) == question.to)
+        asked_about_[found->second].is_refuted = true;
   for (std::size_t k = 0; k < count; ++k) take_in(nodes[k]);
 }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -34,6 +35,7 @@ struct Doubts {
   std::vector<Question> questions;
   std::size_t arcs = 0;    ///< of the boundary: so many of the questions are about them
   bool has_grown = false;  ///< the patch has taken in nodes since it asked last
+  bool left_out = false;   ///< it has more questions than it asks
 };
 
 /// How many times as far from the centre as a triangle of a hull a place in its direction can be, for all
@@ -84,7 +86,51 @@ class Patch {
   void answer(const Question& question, std::vector<Record>& nodes);
 
   /// Takes in the answer to a question of its own. Throws HiddenNode, std::bad_alloc.
-  void learn(const Record* nodes, std::size_t count);
+  void learn(const Question& question, const Record* nodes, std::size_t count);
+
+  // Certification by agreement, where there would be too many questions: docs/parallel.md, "Agreement".
+
+  /// Asks about triangles as ask() does, but only the owners of their corners, who must have them, too: at
+  /// most `most` questions to each patch, and as many about each of its nodes. All arcs as ask() does. Throws
+  /// HiddenNode, std::bad_alloc.
+  Doubts claim(const std::array<Record, 3>& corners, std::size_t most);
+  /// Takes in the corners of another's question. Throws HiddenNode, std::bad_alloc.
+  void take_in_corners(const Question& question);
+  /// After the answers: the numbers of nodes whose owners should not have to take in all their neighbours.
+  std::vector<std::int64_t> look_for_hubs() const;
+  /// All of them, the same for all patches. Throws std::bad_alloc.
+  void set_hubs(const std::unordered_set<std::int64_t>& numbers);
+  /// Calls visit(hub, owner of hub, run): successive neighbours of the hub, counterclockwise; each but the
+  /// last is followed by the next in triangles that this patch keeps. All patches together have each
+  /// neighbour once as one that is not the last. Throws std::bad_alloc.
+  template <class Visit>
+  void for_each_run_at_hubs(const Visit& visit) const {
+    const auto node = [&](std::uint32_t v) { return Record{arrays_.nodes[v], number_[v]}; };
+    std::vector<Record> run;
+    for (std::uint32_t h = 0; h < is_hub_.size(); ++h) {
+      if (!is_hub_[h]) continue;
+      const auto end_run = [&] {
+        if (!run.empty()) visit(node(h), owner_of(h), run);
+        run.clear();
+      };
+      const bool owns_hub = is_own(h);
+      for_each_face_at(h, [&](std::uint32_t t, std::uint32_t i) {
+        const auto& corner = arrays_.faces[t].vertex;
+        const std::uint32_t x = corner[next_edge(i)], y = corner[previous_edge(i)];
+        if (!(is_hub_[x] ? owns_hub : is_own(x)) || !growing_->front(t)) return;
+        if (run.empty() || run.back().number != number_[x]) {
+          end_run();
+          run.push_back(node(x));
+        }
+        run.push_back(node(y));
+      });
+      end_run();
+    }
+  }
+  /// Of an own hub: which of set_nodes it is.
+  std::size_t index_of_hub(std::int64_t number) const { return order_[taken_in_.at(number)]; }
+  /// Of an own hub: where its ring begins if it is on the boundary; 0 inside.
+  std::int64_t first_boundary_neighbour(std::int64_t number) const;
 
   /// After the last answer: the triangulation. Returns room enough for the entries of all rings of its own
   /// nodes. Throws HiddenNode.
@@ -133,6 +179,7 @@ class Patch {
       const std::uint32_t r = brought_by(v);
       bool is_missing = false;
       const auto meet = [&](std::uint32_t w) {
+        if (is_in_doubt(v, w)) return;
         const std::uint32_t other = brought_by(w);
         is_missing = is_missing || other == mine;
         if (r == kNobody || other == r || told[w] == r) return;
@@ -164,17 +211,31 @@ class Patch {
  private:
   static constexpr std::uint32_t kNobody = UINT32_MAX;
 
+  bool is_hub(std::uint32_t v) const { return v < is_hub_.size() && is_hub_[v]; }
+  /// After an agreement: whether they may not be neighbours, one being an own hub, the other not certified
+  /// here. Those of hubs are in for_each_run_at_hubs().
+  bool is_in_doubt(std::uint32_t v, std::uint32_t w) const {
+    return (is_hub(v) && !is_hub(w) && !is_own(w)) || (is_hub(w) && !is_hub(v) && !is_own(v));
+  }
   bool is_own(std::uint32_t v) const { return v < built_ && order_[v] < own_; }
   Point place(std::uint32_t v) const { return places_(arrays_.nodes[v]); }
 
   /// A ball that holds all places above the triangle.
   Ball ball_above(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
 
+  /// Meets node v of another patch at the border.
+  void meet(std::uint32_t v) {
+    if (is_own(v) || is_around_[v]) return;
+    is_around_[v] = true;
+    around_.push_back(v);
+  }
+  Question question_about(std::uint32_t t) const;
   void ask_about_triangle(std::uint32_t t, std::vector<Question>& questions);
   void ask_about_arcs(const std::array<Record, 3>& corners, Doubts& doubts);
   void answer_about_arc(std::uint32_t a, std::uint32_t b, std::vector<Record>& nodes);
   std::uint32_t take_in(const Record& node);
   void make_room();
+  int owner_of(std::uint32_t v) const { return is_own(v) ? id_ : partition_->owner(place(v)); }
 
   /// The corner at the same node in the next face counterclockwise.
   std::uint32_t counterclockwise(std::uint32_t corner) const {
@@ -206,7 +267,22 @@ class Patch {
   /// Calls visit(t, own) for every front face t that has a corner which is not the patch's own and among the
   /// hull nodes from `first` on; `own` of its corners are.
   template <class Visit>
-  void for_each_face_at_border(std::size_t first, const Visit& visit) const;
+  void for_each_face_at_border(std::size_t first, const Visit& visit) const {
+    const auto n = static_cast<std::uint32_t>(growing_->node_count());
+    const bool all_are_front = growing_->surrounds_centre();
+    for (auto v = static_cast<std::uint32_t>(first); v < n; ++v) {
+      if (is_own(v)) continue;
+      for_each_face_at(v, [&](std::uint32_t t, std::uint32_t) {
+        const auto& corner = arrays_.faces[t].vertex;
+        int own = 0;
+        for (int i = 0; i < 3; ++i) {
+          if (corner[i] < v && corner[i] >= first && !is_own(corner[i])) return;  // met there
+          own += is_own(corner[i]);
+        }
+        if (all_are_front || growing_->front(t)) visit(t, own);
+      });
+    }
+  }
 
   int id_;
   const Partition* partition_;
@@ -227,6 +303,14 @@ class Patch {
   std::vector<std::pair<std::int64_t, std::int64_t>> coincident_;
   std::unordered_map<std::int64_t, std::uint32_t> taken_in_;  ///< after the start: hull nodes by number
   std::vector<int> strangers_;
+  // Agreement, by hull node:
+  struct AskedAbout {
+    std::size_t times = 0, left_out = 0;  ///< of this many triangles its owner has been asked, of so many not
+    bool is_refuted = false;              ///< in one of the answers
+  };
+  std::vector<AskedAbout> asked_about_;
+  std::vector<bool> is_hub_;  ///< empty: there are none
+  std::unordered_set<std::int64_t> hubs_;
   struct {  // where the workspace was too small for what was learnt
     Buffer<Point> nodes;
     Buffer<Int> number;

@@ -1,0 +1,99 @@
+#include "parallel/agree_on_stars.h"
+
+#include <algorithm>
+#include <unordered_set>
+#include <vector>
+
+#include "parallel/questions.h"
+
+namespace pstripack {
+namespace {
+
+using Hubs = std::unordered_set<std::int64_t>;
+
+/// The numbers that all ranks have found.
+Hubs all_of(const std::vector<std::int64_t>& found, Communicator& ranks) {
+  const Parcels all = ranks.all_gather(found.data(), found.size() * sizeof found[0]);
+  Hubs numbers;
+  in_agreement(ranks, [&] {
+    const Items<std::int64_t> items(all);
+    numbers.insert(items.begin(), items.end());
+  });
+  return numbers;
+}
+
+/// True if a node that all patches know is no hub, and somebody keeps a triangle at each hub: steps 3 and 4
+/// of the proof.
+template <class Int>
+bool are_few_and_kept(const Hubs& hubs, const Patches<Int>& patches, const Division& division,
+                      Communicator& ranks) {
+  std::vector<std::int64_t> kept;
+  in_agreement(ranks, [&] {
+    for (const Patch<Int>& patch : patches.of_rank)
+      patch.for_each_run_at_hubs([&](const Record& hub, int, const std::vector<Record>&) {
+        if (kept.empty() || kept.back() != hub.number) kept.push_back(hub.number);
+      });
+  });
+  return all_of(kept, ranks).size() == hubs.size() &&
+         std::any_of(division.closing.begin(), division.closing.end(),
+                     [&](const Record& r) { return hubs.count(r.number) == 0; });
+}
+
+}  // namespace
+
+template <class Int>
+void agree_on_stars(Certified<Int>& certified, const Division& division, const Corners& corners,
+                    Communicator& ranks, int threads) {
+  constexpr int kMostRounds = 50;
+  constexpr std::size_t kFewQuestions = 1, kMoreQuestions = 8;
+  Patches<Int>& patches = certified.patches;
+  Questions questions;
+  Hubs hubs;
+  std::size_t most = kFewQuestions;
+  const auto claim = [&] {
+    std::vector<Doubts> of_patch(patches.of_rank.size());
+    patches.for_each(threads,
+                     [&](Patch<Int>& patch, std::size_t k) { of_patch[k] = patch.claim(corners, most); });
+    questions = Questions(of_patch, division.patches, static_cast<std::size_t>(ranks.size()));
+  };
+  in_agreement(ranks, claim, questions.about_triangles, questions.about_arcs, questions.left_out);
+  // The last round: nothing was left out, and nobody has learnt from it.
+  for (bool is_last = !questions.about_triangles.value && !questions.about_arcs.value; !is_last;) {
+    certified.gave_up = ++certified.rounds > kMostRounds;
+    if (certified.gave_up) return;
+    const Parcels answers = answers_to(questions, patches, true, ranks, threads);
+    std::vector<std::int64_t> found;
+    OnAny has_found;
+    in_agreement(
+        ranks,
+        [&] {
+          learn(patches, questions, answers, threads);
+          for (const Patch<Int>& patch : patches.of_rank) {
+            const std::vector<std::int64_t> of_patch = patch.look_for_hubs();
+            found.insert(found.end(), of_patch.begin(), of_patch.end());
+          }
+          has_found.value = !found.empty();
+        },
+        patches.see_coincidence, has_found);
+    // Other patches may know other pairs: which is reported must not depend on patches.
+    certified.gave_up = patches.see_coincidence.value;
+    if (certified.gave_up) return;
+    if (has_found.value) {
+      hubs.merge(all_of(found, ranks));
+      in_agreement(ranks, [&] {
+        for (Patch<Int>& patch : patches.of_rank) patch.set_hubs(hubs);
+      });
+    }
+    const bool was_complete = !questions.left_out.value;
+    most = most > SIZE_MAX / kMoreQuestions ? most : most * kMoreQuestions;
+    in_agreement(ranks, claim, questions.have_grown, questions.left_out);
+    is_last = was_complete && !questions.have_grown.value;
+  }
+  certified.has_hubs = !hubs.empty();
+  certified.gave_up = certified.has_hubs && !are_few_and_kept(hubs, patches, division, ranks);
+}
+
+template void agree_on_stars(Certified<std::int32_t>&, const Division&, const Corners&, Communicator&, int);
+template void agree_on_stars(Certified<std::int64_t>&, const Division&, const Corners&, Communicator&, int);
+
+}  // namespace pstripack

@@ -1,0 +1,112 @@
+// What a patch does to agree with others on the stars of its nodes: docs/parallel.md, "Agreement".
+//
+// A patch keeps a triangle of its hull if it owns a corner. Others keep it that own its other corners: the
+// patch asks each of them about it. A hub is a node with more neighbours than its owner should take in. Its
+// owner need not keep triangles at it, unless these have two hubs.
+
+#include "parallel/patch.h"
+
+namespace pstripack {
+
+template <class Int>
+Doubts Patch<Int>::claim(const std::array<Record, 3>& corners, std::size_t most) {
+  Doubts doubts;
+  if (own_ == 0 || partition_->patches() == 1) return doubts;
+  const std::size_t n = growing_->node_count();
+  doubts.has_grown = n != asked_with_;
+  ask_about_arcs(corners, doubts);
+  asked_with_ = n;
+  around_.clear();
+  is_around_.assign(n, false);
+  asked_about_.assign(n, {});
+  if (!hubs_.empty())
+    for (std::size_t v = is_hub_.size(); v < n; ++v) is_hub_.push_back(hubs_.count(number_[v]) > 0);
+
+  struct Claim {
+    std::uint32_t face, corner;
+    int owner;
+  };
+  std::vector<Claim> claims;
+  std::vector<std::size_t> to_patch(static_cast<std::size_t>(partition_->patches()));
+  for_each_face_at_border(0, [&](std::uint32_t t, int own) {
+    if (own == 0) return;
+    const auto& vertex = arrays_.faces[t].vertex;
+    const std::uint32_t v[] = {vertex[0], vertex[1], vertex[2]};
+    const bool has_one_hub = is_hub(v[0]) + is_hub(v[1]) + is_hub(v[2]) == 1;
+    bool keeps = false;
+    for (const std::uint32_t w : v) {
+      meet(w);
+      taken_in_.try_emplace(number_[w], w);
+      keeps = keeps || (is_own(w) && !(has_one_hub && is_hub(w)));
+    }
+    if (!keeps) return;
+    int asked = id_;
+    for (const std::uint32_t w : v) {
+      if (is_own(w) || (has_one_hub && is_hub(w))) continue;
+      const int owner = owner_of(w);
+      if (owner == asked) continue;
+      asked = owner;
+      claims.push_back({t, w, owner});
+      ++to_patch[static_cast<std::size_t>(owner)];
+    }
+  });
+  // Of too many for one patch, each so and so many-th; few about one node, which may be a hub.
+  std::vector<std::size_t> passed(to_patch.size());
+  for (const Claim& claim : claims) {
+    const auto q = static_cast<std::size_t>(claim.owner);
+    AskedAbout& about = asked_about_[claim.corner];
+    const std::size_t step = (to_patch[q] - 1) / most + 1;
+    if (passed[q]++ % step != 0 || about.times == most) {
+      ++about.left_out;
+      doubts.left_out = true;
+      continue;
+    }
+    ++about.times;
+    doubts.questions.push_back(question_about(claim.face));
+    doubts.questions.back().to = claim.owner;
+  }
+  return doubts;
+}
+
+template <class Int>
+void Patch<Int>::take_in_corners(const Question& question) {
+  for (const Record& r : question.corner)
+    if (own_ > 0 && r.number != 0) take_in(r);  // an arc has two corners
+}
+
+/// Nodes about which much is left to ask, where nobody knew any better than this patch.
+template <class Int>
+std::vector<std::int64_t> Patch<Int>::look_for_hubs() const {
+  constexpr std::size_t kMany = 64, kEnough = 4;
+  std::vector<std::int64_t> numbers;
+  for (std::size_t v = 0; v < asked_about_.size(); ++v) {
+    const AskedAbout& about = asked_about_[v];
+    if (about.left_out > kMany && about.times >= kEnough && !about.is_refuted) numbers.push_back(number_[v]);
+  }
+  return numbers;
+}
+
+template <class Int>
+void Patch<Int>::set_hubs(const std::unordered_set<std::int64_t>& numbers) {
+  hubs_ = numbers;
+  is_hub_.clear();
+}
+
+template <class Int>
+std::int64_t Patch<Int>::first_boundary_neighbour(std::int64_t number) const {
+  const Arc beside = beside_on_boundary(taken_in_.at(number));
+  return beside.b != kNobody ? number_[beside.b] : 0;
+}
+
+template Doubts Patch<std::int32_t>::claim(const std::array<Record, 3>&, std::size_t);
+template void Patch<std::int32_t>::take_in_corners(const Question&);
+template std::vector<std::int64_t> Patch<std::int32_t>::look_for_hubs() const;
+template void Patch<std::int32_t>::set_hubs(const std::unordered_set<std::int64_t>&);
+template std::int64_t Patch<std::int32_t>::first_boundary_neighbour(std::int64_t) const;
+template Doubts Patch<std::int64_t>::claim(const std::array<Record, 3>&, std::size_t);
+template void Patch<std::int64_t>::take_in_corners(const Question&);
+template std::vector<std::int64_t> Patch<std::int64_t>::look_for_hubs() const;
+template void Patch<std::int64_t>::set_hubs(const std::unordered_set<std::int64_t>&);
+template std::int64_t Patch<std::int64_t>::first_boundary_neighbour(std::int64_t) const;
+
+}  // namespace pstripack
