@@ -56,6 +56,12 @@ void agree_on_stars(Certified<Int>& certified, const Division& division, const C
                      [&](Patch<Int>& patch, std::size_t k) { of_patch[k] = patch.claim(corners, most); });
     questions = Questions(of_patch, division.patches, static_cast<std::size_t>(ranks.size()));
   };
+  const auto see_coincidence = [&] {
+    // Other patches may know other pairs: which is reported must not depend on patches.
+    certified.gave_up = patches.see_coincidence.value;
+    return certified.gave_up;
+  };
+  if (see_coincidence()) return;
   in_agreement(ranks, claim, questions.about_triangles, questions.about_arcs, questions.left_out);
   // The last round: nothing was left out, and nobody has learnt from it.
   for (bool is_last = !questions.about_triangles.value && !questions.about_arcs.value; !is_last;) {
@@ -75,9 +81,7 @@ void agree_on_stars(Certified<Int>& certified, const Division& division, const C
           has_found.value = !found.empty();
         },
         patches.see_coincidence, has_found);
-    // Other patches may know other pairs: which is reported must not depend on patches.
-    certified.gave_up = patches.see_coincidence.value;
-    if (certified.gave_up) return;
+    if (see_coincidence()) return;
     if (has_found.value) {
       hubs.merge(all_of(found, ranks));
       in_agreement(ranks, [&] {

@@ -46,6 +46,10 @@ Certified<Int> certify(Patches<Int> found, const Division& division, const Corne
   const std::size_t most = ranks.size() == 1
                                ? options.most_questions
                                : std::min(options.most_questions, most_of_a_rank(patches, division));
+  if (division.by_agreement && ranks.size() > 1) {
+    agree_on_stars(certified, division, corners, ranks, options.threads);
+    return certified;
+  }
   certified.coincident = all_coincident(patches, ranks);
   if (!certified.coincident.empty()) return certified;
 

@@ -36,7 +36,6 @@ Doubts Patch<Int>::claim(const std::array<Record, 3>& corners, std::size_t most)
     bool keeps = false;
     for (const std::uint32_t w : v) {
       meet(w);
-      taken_in_.try_emplace(number_[w], w);
       keeps = keeps || (is_own(w) && !(has_one_hub && is_hub(w)));
     }
     if (!keeps) return;
@@ -62,6 +61,10 @@ Doubts Patch<Int>::claim(const std::array<Record, 3>& corners, std::size_t most)
       continue;
     }
     ++about.times;
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t w = arrays_.faces[claim.face].vertex[i];
+      taken_in_.try_emplace(number_[w], w);
+    }
     doubts.questions.push_back(question_about(claim.face));
     doubts.questions.back().to = claim.owner;
   }
