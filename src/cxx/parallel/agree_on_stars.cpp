@@ -11,6 +11,10 @@ namespace {
 
 using Hubs = std::unordered_set<std::int64_t>;
 
+void append(std::vector<std::int64_t>& numbers, const std::vector<std::int64_t>& more) {
+  numbers.insert(numbers.end(), more.begin(), more.end());
+}
+
 /// The numbers that all ranks have found.
 Hubs all_of(const std::vector<std::int64_t>& found, Communicator& ranks) {
   const Parcels all = ranks.all_gather(found.data(), found.size() * sizeof found[0]);
@@ -29,10 +33,7 @@ bool are_few_and_kept(const Hubs& hubs, const Patches<Int>& patches, const Divis
                       Communicator& ranks) {
   std::vector<std::int64_t> kept;
   in_agreement(ranks, [&] {
-    for (const Patch<Int>& patch : patches.of_rank)
-      patch.for_each_run_at_hubs([&](const Record& hub, int, const std::vector<Record>&) {
-        if (kept.empty() || kept.back() != hub.number) kept.push_back(hub.number);
-      });
+    for (const Patch<Int>& patch : patches.of_rank) append(kept, patch.kept_hubs());
   });
   return all_of(kept, ranks).size() == hubs.size() &&
          std::any_of(division.closing.begin(), division.closing.end(),
@@ -45,7 +46,7 @@ template <class Int>
 void agree_on_stars(Certified<Int>& certified, const Division& division, const Corners& corners,
                     Communicator& ranks, int threads) {
   constexpr int kMostRounds = 50;
-  constexpr std::size_t kFewQuestions = 1, kMoreQuestions = 8;
+  constexpr std::size_t kFewQuestions = 8, kMoreQuestions = 8;
   Patches<Int>& patches = certified.patches;
   Questions questions;
   Hubs hubs;
@@ -74,10 +75,7 @@ void agree_on_stars(Certified<Int>& certified, const Division& division, const C
         ranks,
         [&] {
           learn(patches, questions, answers, threads);
-          for (const Patch<Int>& patch : patches.of_rank) {
-            const std::vector<std::int64_t> of_patch = patch.look_for_hubs();
-            found.insert(found.end(), of_patch.begin(), of_patch.end());
-          }
+          for (const Patch<Int>& patch : patches.of_rank) append(found, patch.look_for_hubs());
           has_found.value = !found.empty();
         },
         patches.see_coincidence, has_found);

@@ -100,6 +100,8 @@ class Patch {
   std::vector<std::int64_t> look_for_hubs() const;
   /// All of them, the same for all patches. Throws std::bad_alloc.
   void set_hubs(const std::unordered_set<std::int64_t>& numbers);
+  /// The hubs at which it keeps triangles. Throws std::bad_alloc.
+  std::vector<std::int64_t> kept_hubs() const;
   /// Calls visit(hub, owner of hub, run): successive neighbours of the hub, counterclockwise; each but the
   /// last is followed by the next in triangles that this patch keeps. All patches together have each
   /// neighbour once as one that is not the last. Throws std::bad_alloc.
@@ -113,11 +115,10 @@ class Patch {
         if (!run.empty()) visit(node(h), owner_of(h), run);
         run.clear();
       };
-      const bool owns_hub = is_own(h);
       for_each_face_at(h, [&](std::uint32_t t, std::uint32_t i) {
+        if (!is_in_run(h, t, i)) return;
         const auto& corner = arrays_.faces[t].vertex;
         const std::uint32_t x = corner[next_edge(i)], y = corner[previous_edge(i)];
-        if (!(is_hub_[x] ? owns_hub : is_own(x)) || !growing_->front(t)) return;
         if (run.empty() || run.back().number != number_[x]) {
           end_run();
           run.push_back(node(x));
@@ -216,6 +217,11 @@ class Patch {
   /// here. Those of hubs are in for_each_run_at_hubs().
   bool is_in_doubt(std::uint32_t v, std::uint32_t w) const {
     return (is_hub(v) && !is_hub(w) && !is_own(w)) || (is_hub(w) && !is_hub(v) && !is_own(v));
+  }
+  /// Of a triangle t, whose corner i is hub h: true if this of all patches that keep it tells of it.
+  bool is_in_run(std::uint32_t h, std::uint32_t t, std::uint32_t i) const {
+    const std::uint32_t x = arrays_.faces[t].vertex[next_edge(i)];
+    return is_own(is_hub_[x] ? h : x) && growing_->front(t);
   }
   bool is_own(std::uint32_t v) const { return v < built_ && order_[v] < own_; }
   Point place(std::uint32_t v) const { return places_(arrays_.nodes[v]); }

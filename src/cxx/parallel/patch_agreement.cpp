@@ -96,6 +96,23 @@ void Patch<Int>::set_hubs(const std::unordered_set<std::int64_t>& numbers) {
 }
 
 template <class Int>
+std::vector<std::int64_t> Patch<Int>::kept_hubs() const {
+  std::vector<std::int64_t> kept;
+  for (std::uint32_t h = 0; h < is_hub_.size(); ++h) {
+    if (!is_hub_[h]) continue;
+    std::uint32_t corner = arrays_.corner[h];
+    do {
+      if (is_in_run(h, face_of(corner), edge_of(corner))) {
+        kept.push_back(number_[h]);
+        break;
+      }
+      corner = counterclockwise(corner);
+    } while (corner != arrays_.corner[h]);
+  }
+  return kept;
+}
+
+template <class Int>
 std::int64_t Patch<Int>::first_boundary_neighbour(std::int64_t number) const {
   const Arc beside = beside_on_boundary(taken_in_.at(number));
   return beside.b != kNobody ? number_[beside.b] : 0;
@@ -104,11 +121,13 @@ std::int64_t Patch<Int>::first_boundary_neighbour(std::int64_t number) const {
 template Doubts Patch<std::int32_t>::claim(const std::array<Record, 3>&, std::size_t);
 template void Patch<std::int32_t>::take_in_corners(const Question&);
 template std::vector<std::int64_t> Patch<std::int32_t>::look_for_hubs() const;
+template std::vector<std::int64_t> Patch<std::int32_t>::kept_hubs() const;
 template void Patch<std::int32_t>::set_hubs(const std::unordered_set<std::int64_t>&);
 template std::int64_t Patch<std::int32_t>::first_boundary_neighbour(std::int64_t) const;
 template Doubts Patch<std::int64_t>::claim(const std::array<Record, 3>&, std::size_t);
 template void Patch<std::int64_t>::take_in_corners(const Question&);
 template std::vector<std::int64_t> Patch<std::int64_t>::look_for_hubs() const;
+template std::vector<std::int64_t> Patch<std::int64_t>::kept_hubs() const;
 template void Patch<std::int64_t>::set_hubs(const std::unordered_set<std::int64_t>&);
 template std::int64_t Patch<std::int64_t>::first_boundary_neighbour(std::int64_t) const;
 
