@@ -72,24 +72,25 @@ class Patches {
  public:
   Patches(const Nodes& nodes, Lengths lengths, const Partition& partition)
       : nodes_(nodes.size()), places_(lengths, deviation(nodes)), partition_(partition) {
-    for (std::size_t k = 0; k < 3; ++k) corners_[k] = {nodes[k], static_cast<std::int64_t>(k) + 1};
+    for (std::size_t k = 0; k < 3; ++k)
+      corners_[k] = {nodes[k], GlobalNumber{static_cast<std::int64_t>(k) + 1}};
     const auto count = static_cast<std::size_t>(partition.patches());
     records_.resize(count);
     patches_.reserve(count);
     for (std::size_t q = 0; q < count; ++q) {
       const int id = static_cast<int>(q);
-      patches_.emplace_back(id, partition_, places_);
       const auto add = [&](bool own) {
         for (std::size_t k = 0; k < nodes.size(); ++k) {
           const Point place = places_(nodes[k]);
           if ((partition.owner(place) == id) == own && partition.knows(id, place))
-            records_[q].push_back({nodes[k], static_cast<std::int64_t>(k) + 1});
+            records_[q].push_back({nodes[k], GlobalNumber{static_cast<std::int64_t>(k) + 1}});
         }
       };
       add(true);
       const std::size_t own = records_[q].size();
       add(false);
-      patches_[q].set_nodes(records_[q].data(), own, records_[q].size());
+      const PatchNodes known{records_[q].data(), own, records_[q].size() - own};
+      patches_.emplace_back(id, partition_, places_, known);
       memory_.push_back(std::make_unique<Workspace>(patches_[q].workspace_bytes(3)));
       patches_[q].set_up({corners_.begin(), corners_.end()}, *memory_[q]);
       patches_[q].triangulate();
@@ -118,9 +119,10 @@ class Patches {
       if (questions.size() == arcs && (arcs == 0 || !has_grown)) return round;
       std::vector<std::vector<Record>> answers(questions.size());
       for (std::size_t k = 0; k < questions.size(); ++k)
-        patches_[static_cast<std::size_t>(questions[k].to)].answer(questions[k], answers[k]);
+        answers[k] = patches_[static_cast<std::size_t>(questions[k].to)].answer(questions[k]);
       for (std::size_t k = 0; k < questions.size(); ++k)
-        patches_[static_cast<std::size_t>(questions[k].from)].learn(questions[k], answers[k].data(), answers[k].size());
+        patches_[static_cast<std::size_t>(questions[k].from)].learn(questions[k], answers[k].data(),
+                                                                    answers[k].size());
     }
   }
 
@@ -132,8 +134,8 @@ class Patches {
           entries.data(),
           [&](std::size_t i, const std::int32_t* place, std::uint32_t) {
             const Ring<std::int32_t> ring = ring_at(place);
-            stars[static_cast<std::size_t>(records_[q][i].number) - 1].assign(ring.begin,
-                                                                              ring.begin + ring.count);
+            stars[static_cast<std::size_t>(value_of(records_[q][i].number)) - 1].assign(
+                ring.begin, ring.begin + ring.count);
           },
           [](std::size_t) {});
     }
@@ -341,8 +343,7 @@ TEST(Boundary, OneArcOfACurveOfOwnNodesIsAskedOfAll) {
   ASSERT_EQ(doubts.arcs, 1u);
   for (const Question& question : doubts.questions) {
     if (!question.is_about_arc()) continue;
-    std::vector<Record> answer;
-    patches[1 - q].answer(question, answer);
+    const std::vector<Record> answer = patches[1 - q].answer(question);
     ASSERT_FALSE(answer.empty());
     for (const Record& r : answer)
       EXPECT_LT(left(question.corner[0].point, question.corner[1].point, r.point), 0);

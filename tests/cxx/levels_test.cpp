@@ -43,7 +43,10 @@ struct Divided {
     }
     for (const Point& p : nodes) places.push_back(division->places(p));
   }
-  Corners corners() const { return {Record{nodes[0], 1}, Record{nodes[1], 2}, Record{nodes[2], 3}}; }
+  Corners corners() const {
+    return {Record{nodes[0], GlobalNumber{1}}, Record{nodes[1], GlobalNumber{2}},
+            Record{nodes[2], GlobalNumber{3}}};
+  }
   const Partition& partition() const { return *division->partition; }
 
   Nodes nodes, places;

@@ -111,8 +111,8 @@ class OneRank {
     ASSERT_EQ(stars_.outside.size(), outside.size());
     auto number = outside.begin();
     for (const Record& r : stars_.outside) {
-      ASSERT_EQ(r.number, *number++);
-      ASSERT_EQ(r.point, nodes[static_cast<std::size_t>((r.number - 1) / (number_of<Int>(1) - 1))]);
+      ASSERT_EQ(value_of(r.number), *number++);
+      ASSERT_EQ(r.point, nodes[static_cast<std::size_t>((value_of(r.number) - 1) / (number_of<Int>(1) - 1))]);
     }
   }
 

@@ -12,13 +12,15 @@
 #include <numeric>
 #include <string>
 #include <tuple>
+#include <type_traits>
 
 #include "base/workspace.h"
 #include "distributions.h"
 #include "parallel/coincidence.h"
+#include "parallel/number_table.h"
 #include "parallel/partition.h"
-#include "parallel/patch.h"
 #include "parallel/sample.h"
+#include "parallel/sample_hull.h"
 #include "parallel/triangulate.h"
 #include "point_sets.h"
 #include "support/columns.h"
@@ -53,7 +55,8 @@ struct Set {
     Workspace workspace(workspace_bytes(nodes.size()));
     const Hull hull = delaunay(nodes.data(), nodes.size(), workspace);
     lengths = hull.lengths;
-    for (const auto& [a, b] : hull.coincident) coincident.emplace_back(a + 1, b + 1);
+    for (const auto& [a, b] : hull.coincident)
+      coincident.emplace_back(GlobalNumber{a + 1}, GlobalNumber{b + 1});
     if (!coincident.empty()) return;
     Faces faces;
     for (std::size_t t = 0; t < hull.face_count; ++t)
@@ -67,7 +70,7 @@ struct Set {
   Nodes nodes;
   Rings rings;
   Lengths lengths;
-  std::vector<std::pair<std::int64_t, std::int64_t>> coincident;
+  CoincidentPairs coincident;
 };
 
 struct Outcome {
@@ -318,7 +321,7 @@ TEST(Stretch, OfSomeNodesBoundsThatOfMore) {
     double before = std::numeric_limits<double>::infinity();
     for (const std::size_t count : {40, 200, 2000}) {
       for (std::size_t i = some.size(); i < std::min(count, set.nodes.size()); ++i)
-        some.push_back({set.nodes[i], static_cast<std::int64_t>(i) + 1});
+        some.push_back({set.nodes[i], GlobalNumber{static_cast<std::int64_t>(i) + 1}});
       const double now = most_stretch(some, places);
       EXPECT_GE(now, 1);
       EXPECT_GE(now * least_height, 1 - 1e-9) << family;
@@ -329,7 +332,7 @@ TEST(Stretch, OfSomeNodesBoundsThatOfMore) {
   }
   const Nodes nodes = point_sets::make("hemisphere", 100, 1);
   std::vector<Record> some;
-  for (const Point& p : nodes) some.push_back({p, static_cast<std::int64_t>(some.size()) + 1});
+  for (const Point& p : nodes) some.push_back({p, GlobalNumber{static_cast<std::int64_t>(some.size()) + 1}});
   EXPECT_EQ(most_stretch(some, Places(Lengths::as_given, 1e-15)), std::numeric_limits<double>::infinity());
 }
 
@@ -479,6 +482,31 @@ TEST(Nasty, RadiusOfTheEarthAndOfAnAtom) {
   }
 }
 
+// ---- numbers and indices ----------------------------------------------------------------------------
+
+// What must not compile: a global number where a local index is wanted, and the other way round.
+template <class From, class To>
+constexpr bool mixes = std::is_convertible_v<From, To> || std::is_convertible_v<To, From>;
+static_assert(!mixes<GlobalNumber, std::int32_t> && !mixes<GlobalNumber, std::int64_t>);
+static_assert(!mixes<GlobalNumber, std::uint32_t> && !mixes<GlobalNumber, std::size_t>);
+template <class Index, class = void>
+constexpr bool indexes_nodes = false;
+template <class Index>
+constexpr bool indexes_nodes<Index, std::void_t<decltype(LocalNodes().number(Index()))>> = true;
+static_assert(indexes_nodes<std::size_t> && !indexes_nodes<GlobalNumber>);
+template <class Number, class = void>
+constexpr bool finds_in_table = false;
+template <class Number>
+constexpr bool finds_in_table<Number, std::void_t<decltype(NumberTable<int>(0).find_value(Number()))>> = true;
+static_assert(finds_in_table<GlobalNumber> && !finds_in_table<std::size_t> && !finds_in_table<std::int64_t>);
+static_assert(sizeof(Record) == sizeof(Point) + sizeof(std::int64_t), "the type costs nothing");
+
+TEST(GlobalNumber, IsThatWhichARingNames) {
+  EXPECT_EQ(named_by(std::int32_t{7}), GlobalNumber{7});
+  EXPECT_EQ(named_by(std::int32_t{-7}), GlobalNumber{7});
+  EXPECT_EQ(named_by(-(std::int64_t{7} << 40)), GlobalNumber{std::int64_t{7} << 40});
+}
+
 // ---- what else comes back ---------------------------------------------------------------------------
 
 TEST(Coincident, EverySetIsFoundOnEveryRank) {
@@ -533,7 +561,8 @@ TEST(Neighbours, OutsideAreExactlyThoseNotBrought) {
             if (!is_mine(static_cast<std::size_t>(b)))
               expected[b + 1] = set.nodes[static_cast<std::size_t>(b)];
       std::map<std::int64_t, Point> found;
-      for (const auto& o : out.stars[static_cast<std::size_t>(r)].outside) found[o.number] = o.point;
+      for (const auto& o : out.stars[static_cast<std::size_t>(r)].outside)
+        found[value_of(o.number)] = o.point;
       EXPECT_EQ(found.size(), out.stars[static_cast<std::size_t>(r)].outside.size());
       EXPECT_EQ(found, expected) << name_of(c) << " rank " << r;
     }
@@ -835,7 +864,8 @@ TEST(Agreement, TellsEachRankTheNeighboursThatItHasNotBrought) {
             for (const std::int32_t b : set.rings.neighbours[i])
               if (!is_mine(static_cast<std::size_t>(b)))
                 expected[b + 1] = set.nodes[static_cast<std::size_t>(b)];
-        for (const auto& o : out.stars[static_cast<std::size_t>(r)].outside) found[o.number] = o.point;
+        for (const auto& o : out.stars[static_cast<std::size_t>(r)].outside)
+          found[value_of(o.number)] = o.point;
         EXPECT_EQ(found.size(), out.stars[static_cast<std::size_t>(r)].outside.size());
         EXPECT_EQ(found, expected) << family << " rank " << r;
       }

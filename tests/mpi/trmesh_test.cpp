@@ -310,7 +310,10 @@ TEST(Pieces, RingsOfEveryLengthAreCopied) {
 }
 
 TEST(Pieces, TheFirstCoincidenceIsFoundFromAnyPairsThatConnectTheSets) {
-  const auto first = [](std::vector<std::pair<std::int64_t, std::int64_t>> pairs) {
+  const auto first = [](const std::vector<std::pair<std::int64_t, std::int64_t>>& numbers) {
+    pstripack::CoincidentPairs pairs;
+    for (const auto& [a, b] : numbers)
+      pairs.emplace_back(pstripack::GlobalNumber{a}, pstripack::GlobalNumber{b});
     const auto [l, m] = pstripack::first_coincidence(pairs);
     return std::make_pair(l, m);
   };

@@ -94,7 +94,8 @@ std::int32_t DistributedMesh::triangulate_into(const LocalNodes& points, const N
   options.last = homes_.get();
   cost.threads = options.threads;
   Stars<Int> stars = pstripack::triangulate<Int>(points, numbering.look, {a.point, b.point, c.point},
-                                                 {a.number, b.number, c.number}, ranks_, options, &cost);
+                                                 {value_of(a.number), value_of(b.number), value_of(c.number)},
+                                                 ranks_, options, &cost);
   if (!stars.coincident.empty()) {
     Coincidence first{};
     in_agreement(ranks_, [&] { first = first_coincidence(stars.coincident); });

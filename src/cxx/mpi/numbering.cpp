@@ -17,12 +17,12 @@ constexpr std::int64_t kNone = Smallest::kNone;
 /// Every number goes to a rank that its hash names; there all that are equal meet.
 std::int64_t search_repeated(const LocalNodes& points, MpiCommunicator& ranks) {
   const auto size = static_cast<std::size_t>(ranks.size());
-  const auto rank_of = [size](std::int64_t x) {  // by the upper bits: a table takes the lower ones
+  const auto rank_of = [size](GlobalNumber x) {  // by the upper bits: a table takes the lower ones
     return static_cast<std::size_t>((scattered(static_cast<std::uint64_t>(x)) >> 32) * size >> 32);
   };
   const Parcels here = exchange_in_agreement(ranks, [&] {
     ParcelWriter writer(size);
-    for (std::size_t i = 0; i < points.count; ++i) writer.expect<std::int64_t>(rank_of(points.number(i)));
+    for (std::size_t i = 0; i < points.count; ++i) writer.expect<GlobalNumber>(rank_of(points.number(i)));
     writer.make_room();
     for (std::size_t i = 0; i < points.count; ++i) writer.put(rank_of(points.number(i)), points.number(i));
     return writer.finish();
@@ -31,12 +31,12 @@ std::int64_t search_repeated(const LocalNodes& points, MpiCommunicator& ranks) {
   in_agreement(
       ranks,
       [&] {
-        const Items<std::int64_t> met(here);
+        const Items<GlobalNumber> met(here);
         NumberTable<char> table(met.size());
         constexpr std::ptrdiff_t kAhead = 16;
-        for (const std::int64_t* at = met.begin(); at < met.end(); ++at) {
+        for (const GlobalNumber* at = met.begin(); at < met.end(); ++at) {
           if (met.end() - at > kAhead) table.prefetch(at[kAhead]);
-          if (!table.insert(*at, 0).second) repeated.value = std::min(repeated.value, *at);
+          if (!table.insert(*at, 0).second) repeated.value = std::min(repeated.value, value_of(*at));
         }
       },
       repeated);
@@ -86,12 +86,12 @@ Numbering look_at_all(const LocalNodes& points, bool wants_report, MpiCommunicat
   Smallest low, bad;
   Largest high;
   for (std::size_t i = 0; i < points.count; ++i) {
-    low.value = std::min(low.value, points.number(i));
-    high.value = std::max(high.value, points.number(i));
+    low.value = std::min(low.value, value_of(points.number(i)));
+    high.value = std::max(high.value, value_of(points.number(i)));
   }
   numbering.look = look_at(points.points, points.count);
   for (std::size_t i = numbering.look.first_bad; i < points.count; ++i)
-    if (!has_direction(points.points[i])) bad.value = std::min(bad.value, points.number(i));
+    if (!has_direction(points.points[i])) bad.value = std::min(bad.value, value_of(points.number(i)));
   OfRank0 partition(ranks, options_from_environment(0).partition);
   OnAny reported{ranks.rank() == 0 && wants_report};
   agree(ranks, low, high, bad, partition, reported, numbering.look.lengths_are_one, numbering.look.deviation);
@@ -105,7 +105,7 @@ Numbering look_at_all(const LocalNodes& points, bool wants_report, MpiCommunicat
   return repeated == kNone ? numbering : failed(kBadNumber, repeated);
 }
 
-CornerSearch::CornerSearch(int ranks) : sample_(3 * static_cast<std::size_t>(ranks), Record{{}, 0}) {
+CornerSearch::CornerSearch(int ranks) : sample_(3 * static_cast<std::size_t>(ranks), Record{{}, kNoNumber}) {
   for (std::size_t r = 0; 3 * r <= sample_.size(); ++r) begin_.push_back(3 * r * sizeof(Record));
 }
 
@@ -127,17 +127,17 @@ std::optional<std::array<Record, 3>> CornerSearch::run(const LocalNodes& points,
   }
   ranks.all_gather_in_place(sample_.data(), begin_);
   for (const Record& r : sample_)
-    if (r.number != 0 && found < 3 && fits(r.point)) corners[found++] = r;
+    if (r.number != kNoNumber && found < 3 && fits(r.point)) corners[found++] = r;
 
   for (; found < 3; ++found) {
-    Record mine{{}, kNone};
+    Record mine{{}, GlobalNumber{kNone}};
     for (std::size_t i = 0; i < n; ++i)
       if (points.number(i) < mine.number && fits(points.points[i]))
         mine = {points.points[i], points.number(i)};
-    Smallest first{mine.number};
+    Smallest first{value_of(mine.number)};
     agree(ranks, first);
     if (!first.exists()) return std::nullopt;
-    const Parcels owner = ranks.all_gather(&mine, mine.number == first.value ? sizeof mine : 0);
+    const Parcels owner = ranks.all_gather(&mine, value_of(mine.number) == first.value ? sizeof mine : 0);
     corners[found] = *Items<Record>(owner).begin();
   }
   return corners;

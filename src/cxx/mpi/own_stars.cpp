@@ -60,7 +60,7 @@ void OwnStars::triangles(std::int64_t* corner) const {
 
 void OwnStars::halo(std::int64_t* number, double* xyz) const {
   for (const auto& [point, name] : outside()) {
-    *number++ = name;
+    *number++ = value_of(name);
     for (const double c : {point.x, point.y, point.z}) *xyz++ = c;
   }
 }
@@ -71,8 +71,8 @@ void OwnStars::local_stars(std::int64_t* begin, std::int32_t* neighbour) const {
   const bool is_sorted = std::is_sorted(own, end_of_own);  // then a search needs no table
   NumberTable<std::int32_t> local((is_sorted ? 0 : count()) + outside().size());
   for (std::size_t i = 0; i < count() && !is_sorted; ++i) {
-    if (i + kAhead < count()) local.prefetch(own[i + kAhead]);
-    local.insert(own[i], static_cast<std::int32_t>(i) + 1);
+    if (i + kAhead < count()) local.prefetch(GlobalNumber{own[i + kAhead]});
+    local.insert(GlobalNumber{own[i]}, static_cast<std::int32_t>(i) + 1);
   }
   auto next = static_cast<std::int32_t>(count());
   for (const Record& point : outside()) local.insert(point.number, ++next);
@@ -81,7 +81,7 @@ void OwnStars::local_stars(std::int64_t* begin, std::int32_t* neighbour) const {
       const std::int64_t* const at = std::lower_bound(own, end_of_own, wanted);
       if (at != end_of_own && *at == wanted) return static_cast<std::int32_t>(at - own) + 1;
     }
-    return local.at(wanted);
+    return local.at(GlobalNumber{wanted});
   };
   begin[0] = 0;
   for_each([&](std::size_t i, std::size_t count, const auto* ring) {

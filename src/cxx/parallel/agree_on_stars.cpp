@@ -9,18 +9,18 @@
 namespace pstripack {
 namespace {
 
-using Hubs = std::unordered_set<std::int64_t>;
+using Hubs = std::unordered_set<GlobalNumber>;
 
-void append(std::vector<std::int64_t>& numbers, const std::vector<std::int64_t>& more) {
+void append(std::vector<GlobalNumber>& numbers, const std::vector<GlobalNumber>& more) {
   numbers.insert(numbers.end(), more.begin(), more.end());
 }
 
 /// The numbers that all ranks have found.
-Hubs all_of(const std::vector<std::int64_t>& found, Communicator& ranks) {
+Hubs all_of(const std::vector<GlobalNumber>& found, Communicator& ranks) {
   const Parcels all = ranks.all_gather(found.data(), found.size() * sizeof found[0]);
   Hubs numbers;
   in_agreement(ranks, [&] {
-    const Items<std::int64_t> items(all);
+    const Items<GlobalNumber> items(all);
     numbers.insert(items.begin(), items.end());
   });
   return numbers;
@@ -31,7 +31,7 @@ Hubs all_of(const std::vector<std::int64_t>& found, Communicator& ranks) {
 template <class Int>
 bool are_few_and_kept(const Hubs& hubs, const Patches<Int>& patches, const Division& division,
                       Communicator& ranks) {
-  std::vector<std::int64_t> kept;
+  std::vector<GlobalNumber> kept;
   in_agreement(ranks, [&] {
     for (const Patch<Int>& patch : patches.of_rank) append(kept, patch.kept_hubs());
   });
@@ -69,7 +69,7 @@ void agree_on_stars(Certified<Int>& certified, const Division& division, const C
     certified.gave_up = ++certified.rounds > kMostRounds;
     if (certified.gave_up) return;
     const Parcels answers = answers_to(questions, patches, true, ranks, threads);
-    std::vector<std::int64_t> found;
+    std::vector<GlobalNumber> found;
     OnAny has_found;
     in_agreement(
         ranks,

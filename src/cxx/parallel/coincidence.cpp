@@ -6,7 +6,7 @@
 namespace pstripack {
 
 Coincidence first_coincidence(const CoincidentPairs& pairs) {
-  std::vector<std::int64_t> node;  // those that coincide with another, by number
+  std::vector<GlobalNumber> node;  // those that coincide with another, by number
   node.reserve(2 * pairs.size());
   for (const auto& [a, b] : pairs) {
     node.push_back(a);
@@ -14,7 +14,7 @@ Coincidence first_coincidence(const CoincidentPairs& pairs) {
   }
   std::sort(node.begin(), node.end());
   node.erase(std::unique(node.begin(), node.end()), node.end());
-  const auto index = [&](std::int64_t number) {
+  const auto index = [&](GlobalNumber number) {
     return static_cast<std::size_t>(std::lower_bound(node.begin(), node.end(), number) - node.begin());
   };
 
@@ -31,7 +31,7 @@ Coincidence first_coincidence(const CoincidentPairs& pairs) {
   }
   // The first node that is not the first of its set.
   for (std::size_t i = 0;; ++i)
-    if (root(i) != i) return {node[root(i)], node[i]};
+    if (root(i) != i) return {value_of(node[root(i)]), value_of(node[i])};
 }
 
 }  // namespace pstripack

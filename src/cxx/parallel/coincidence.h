@@ -4,10 +4,12 @@
 #include <utility>
 #include <vector>
 
+#include "parallel/global_number.h"
+
 namespace pstripack {
 
 /// Numbers of two different nodes in the same direction.
-using CoincidentPairs = std::vector<std::pair<std::int64_t, std::int64_t>>;
+using CoincidentPairs = std::vector<std::pair<GlobalNumber, GlobalNumber>>;
 
 /// Of all pairs of nodes that coincide, the one that TRMESH reports: M is the smallest number of a node that
 /// coincides with an earlier one, L the earliest that it coincides with.

@@ -212,7 +212,7 @@ class Segment {
   void copy(std::size_t first, std::size_t last, Record* to) const {
     if (numbers_ != nullptr)
       all_->visit([&](const auto& node) {
-        for (std::size_t i = first; i < last; ++i) *to++ = {node(numbers_[i] - 1), numbers_[i]};
+        for (std::size_t i = first; i < last; ++i) *to++ = {node(numbers_[i] - 1), GlobalNumber{numbers_[i]}};
       });
     else if (records_ != nullptr)
       std::copy(records_ + first, records_ + last, to);

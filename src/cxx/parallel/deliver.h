@@ -9,6 +9,7 @@
 #include "base/workspace.h"
 #include "parallel/agreement.h"
 #include "parallel/divide.h"
+#include "parallel/record.h"
 
 namespace pstripack {
 
@@ -25,11 +26,7 @@ struct ReturnAddresses {
 
 /// What the patches of this rank know.
 struct Delivery {
-  struct PatchNodes {
-    const Record* first;
-    std::size_t own, halo;  ///< own nodes in the order of the ranks that brought them, then the halo
-  };
-  std::vector<PatchNodes> of_patch;
+  std::vector<PatchNodes> of_patch;  ///< own nodes in the order of the ranks that brought them
   std::unique_ptr<Workspace> memory;
   ReturnAddresses addresses;
   Outcome outcome;       ///< here: the next agreement has to accept it

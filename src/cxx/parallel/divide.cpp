@@ -7,8 +7,8 @@
 #include "geometry/insertion_order.h"
 #include "parallel/agreement.h"
 #include "parallel/levels.h"
-#include "parallel/patch.h"
 #include "parallel/sample.h"
+#include "parallel/sample_hull.h"
 
 namespace pstripack {
 namespace {

@@ -91,7 +91,7 @@ void LastRings::send_home(const NodeArrays& nodes, std::size_t nodes_of_all, Com
     for (const Ring<Int>& ring : here)
       for (std::uint32_t k = 0; k < ring.count; ++k)
         if (const Int b = std::abs(ring.begin[k]); !is_here[static_cast<std::size_t>(b)])
-          at_home_.outside.push_back({{}, b});
+          at_home_.outside.push_back({{}, GlobalNumber{b}});
     keep_one_of_each(at_home_.outside);
     points_ = BlockArray<Point>(here.size());
   });

@@ -11,6 +11,7 @@
 #include "geometry/point.h"
 #include "geometry/predicates.h"
 #include "parallel/agreement.h"
+#include "parallel/global_number.h"
 
 namespace pstripack {
 
@@ -24,8 +25,8 @@ struct LocalNodes {
   /// travel instead of nodes. On all ranks or on none.
   const NodeArrays* of_all_ranks = nullptr;
 
-  std::int64_t number(std::size_t i) const {
-    return numbers != nullptr ? numbers[i] : first_number + static_cast<std::int64_t>(i);
+  GlobalNumber number(std::size_t i) const {
+    return GlobalNumber{numbers != nullptr ? numbers[i] : first_number + static_cast<std::int64_t>(i)};
   }
 };
 

@@ -44,7 +44,7 @@ std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes& nodes, const St
   if (sums[1] != 6 * sums[0] - 12 || sums[2] > sums[0]) return nullptr;
 
   std::unique_ptr<MovingStars> moving;
-  std::vector<std::int64_t> numbers;
+  std::vector<GlobalNumber> numbers;
   Smallest first_with_nodes;
   if (nodes.count > 0) first_with_nodes.value = static_cast<std::int64_t>(me);
   in_agreement(
@@ -55,7 +55,7 @@ std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes& nodes, const St
       },
       first_with_nodes);
   moving->first_with_nodes_ = static_cast<std::size_t>(first_with_nodes.value);
-  const Parcels wanted = ranks.all_gather(numbers.data(), numbers.size() * sizeof(std::int64_t));
+  const Parcels wanted = ranks.all_gather(numbers.data(), numbers.size() * sizeof(GlobalNumber));
   const Parcels found = exchange_in_agreement(ranks, [&] { return moving->begin(nodes, stars, wanted); });
   in_agreement(ranks, [&] {
     for (std::size_t r = 0; r < size; ++r)
@@ -83,7 +83,7 @@ Parcels MovingStars::begin(const LocalNodes& nodes, const Stars<Int>& stars, con
   std::vector<std::vector<Found>> found(send_.size());
   for (std::size_t r = 0; r < found.size(); ++r) {
     std::uint32_t place = 0;
-    for (const std::int64_t number : Items<std::int64_t>(wanted, r)) {
+    for (const GlobalNumber number : Items<GlobalNumber>(wanted, r)) {
       if (const std::uint32_t* const i = local.find_value(number); i != nullptr) {
         found[r].push_back({place, *i});
         send_[r].push_back(*i);
@@ -103,11 +103,11 @@ Parcels MovingStars::begin(const LocalNodes& nodes, const Stars<Int>& stars, con
     if (i + 2 * kAhead < n) stars.of_node.prefetch(i + 2 * kAhead);
     if (i + kAhead < n) {
       const Ring<Int> soon = stars.of_node[i + kAhead];
-      for (std::uint32_t k = 0; k < soon.count; ++k) local.prefetch(soon.begin[k]);
+      for (std::uint32_t k = 0; k < soon.count; ++k) local.prefetch(GlobalNumber{soon.begin[k]});
     }
     const Ring<Int> ring = stars.of_node[i];
     for (std::uint32_t k = 0; k < ring.count; ++k) {
-      const std::uint32_t node = local.at(ring.begin[k]);
+      const std::uint32_t node = local.at(GlobalNumber{ring.begin[k]});
       if (node >= n) ++outside_[node - n].arcs;
       *at++ = static_cast<std::int32_t>(node) + 1;
     }
@@ -216,7 +216,7 @@ bool MovingStars::propose(const LocalNodes& nodes, std::vector<Flip>& flips) {
   for (const auto& q : across) {
     if (!mesh_->is_convex(q)) return false;
     const auto corner = [&](std::uint32_t v) {
-      const std::int64_t number = v < nodes.count ? nodes.number(v) : outside_[v - nodes.count].number;
+      const GlobalNumber number = v < nodes.count ? nodes.number(v) : outside_[v - nodes.count].number;
       return Corner{address_of(v), number, mesh_->node(v)};
     };
     flips.push_back({{corner(q.a), corner(q.b), corner(q.c), corner(q.d)}});
@@ -345,7 +345,7 @@ SampleOfStars MovingStars::sample() const {
 template <class Int>
 SampleOfStars sample_of(const LocalNodes& nodes, const Stars<Int>& stars) {
   constexpr unsigned kBits = 15;
-  const auto slot = [](std::int64_t number) {
+  const auto slot = [](GlobalNumber number) {
     return static_cast<std::uint64_t>(number) * 0x9e3779b97f4a7c15u >> (64 - kBits);
   };
   std::vector<std::uint64_t> maybe((std::size_t{1} << kBits) / 64);
@@ -356,11 +356,11 @@ SampleOfStars sample_of(const LocalNodes& nodes, const Stars<Int>& stars) {
   for_each_star([&](std::size_t, const Ring<Int>& ring) {
     wanted += ring.count;
     for (std::uint32_t i = 0; i < ring.count; ++i) {
-      const std::uint64_t s = slot(std::abs(ring.begin[i]));
+      const std::uint64_t s = slot(named_by(ring.begin[i]));
       maybe[s / 64] |= std::uint64_t{1} << s % 64;
     }
   });
-  std::vector<std::pair<std::int64_t, std::int32_t>> known;
+  std::vector<std::pair<GlobalNumber, std::int32_t>> known;
   for (std::size_t i = 0; i < nodes.count; ++i) {
     const std::uint64_t s = slot(nodes.number(i));
     if ((maybe[s / 64] >> s % 64 & 1) != 0)
@@ -372,9 +372,9 @@ SampleOfStars sample_of(const LocalNodes& nodes, const Stars<Int>& stars) {
   for_each_star([&](std::size_t k, const Ring<Int>& ring) {
     local.clear();
     for (std::uint32_t i = 0; i < ring.count; ++i) {
-      const std::pair<std::int64_t, std::int32_t> least(ring.begin[i], 0);
+      const std::pair<GlobalNumber, std::int32_t> least(GlobalNumber{ring.begin[i]}, 0);
       const auto found = std::lower_bound(known.begin(), known.end(), least);
-      if (found != known.end() && found->first == ring.begin[i]) local.push_back(found->second);
+      if (found != known.end() && found->first == GlobalNumber{ring.begin[i]}) local.push_back(found->second);
     }
     if (local.size() == ring.count) sample.add(k, local.data(), local.size());
   });

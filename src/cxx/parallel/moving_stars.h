@@ -55,7 +55,7 @@ class MovingStars {
   };
   struct Corner {
     Address address;
-    std::int64_t number;
+    GlobalNumber number;
     Point point;
   };
   /// The corners a, b, c, d of MovingMesh::Quadrangle. It is proposed by a rank that has a.
@@ -70,7 +70,7 @@ class MovingStars {
   /// A node that is a neighbour of nodes here, or was one.
   struct Outside {
     Address address;
-    std::int64_t number;
+    GlobalNumber number;
     std::uint32_t arcs;  ///< to nodes here
   };
   using Nodes = std::vector<std::uint32_t>;

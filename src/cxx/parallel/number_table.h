@@ -7,10 +7,11 @@
 
 #include "base/scattered.h"
 #include "base/workspace.h"
+#include "parallel/global_number.h"
 
 namespace pstripack {
 
-/// Finds by number; numbers are positive. Throws std::bad_alloc when made, never later.
+/// Finds by number. Throws std::bad_alloc when made, never later.
 template <class Value>
 class NumberTable {
  public:
@@ -22,33 +23,33 @@ class NumberTable {
   }
 
   /// The value of the number, and whether it is new; then it gets this one.
-  std::pair<Value, bool> insert(std::int64_t number, Value value) {
+  std::pair<Value, bool> insert(GlobalNumber number, Value value) {
     Place& place = place_[find(number)];
     if (place.number == number) return {place.value, false};
     place = {number, value};
     return {value, true};
   }
   /// The number must be in the table.
-  Value at(std::int64_t number) const { return place_[find(number)].value; }
+  Value at(GlobalNumber number) const { return place_[find(number)].value; }
   /// Null if the number is not in the table.
-  const Value* find_value(std::int64_t number) const {
+  const Value* find_value(GlobalNumber number) const {
     const Place& place = place_[find(number)];
     return place.number == number ? &place.value : nullptr;
   }
   /// A hint that the number will be asked for soon.
-  void prefetch(std::int64_t number) const { __builtin_prefetch(&place_[home(number)], 1); }
+  void prefetch(GlobalNumber number) const { __builtin_prefetch(&place_[home(number)], 1); }
 
  private:
   struct Place {
-    std::int64_t number;  // 0: empty
+    GlobalNumber number;  // kNoNumber: empty
     Value value;
   };
-  std::size_t home(std::int64_t number) const {
+  std::size_t home(GlobalNumber number) const {
     return scattered(static_cast<std::uint64_t>(number)) & (place_.size() - 1);
   }
-  std::size_t find(std::int64_t number) const {
+  std::size_t find(GlobalNumber number) const {
     std::size_t at = home(number);
-    while (place_[at].number != number && place_[at].number != 0) at = (at + 1) & (place_.size() - 1);
+    while (place_[at].number != number && place_[at].number != kNoNumber) at = (at + 1) & (place_.size() - 1);
     return at;
   }
   BlockArray<Place> place_;

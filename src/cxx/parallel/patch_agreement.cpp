@@ -1,50 +1,49 @@
-// What a patch does to agree with others on the stars of its nodes: docs/parallel.md, "Agreement".
-//
-// A patch keeps a triangle of its hull if it owns a corner. Others keep it that own its other corners: the
-// patch asks each of them about it. A hub is a node with more neighbours than its owner should take in. Its
-// owner need not keep triangles at it, unless these have two hubs.
-
-#include "parallel/patch.h"
+#include "parallel/patch_agreement.h"
 
 namespace pstripack {
 
 template <class Int>
-Doubts Patch<Int>::claim(const std::array<Record, 3>& corners, std::size_t most) {
+Doubts PatchAgreement<Int>::claim(PatchHull<Int>& hull, const PatchView<Int>& patch,
+                                  const std::array<Record, 3>& corners, std::size_t most, Asked& asked) {
   Doubts doubts;
-  if (own_ == 0 || partition_->patches() == 1) return doubts;
-  const std::size_t n = growing_->node_count();
-  doubts.has_grown = n != asked_with_;
-  ask_about_arcs(corners, doubts);
-  asked_with_ = n;
-  around_.clear();
-  is_around_.assign(n, false);
+  const std::size_t n = hull.growing().node_count();
+  doubts.has_grown = n != asked.nodes;
+  ask_about_arcs(patch, corners, asked, doubts);
+  asked.nodes = n;
+  asked.around.clear();
+  asked.is_around.assign(n, false);
   asked_about_.assign(n, {});
   if (!hubs_.empty())
-    for (std::size_t v = is_hub_.size(); v < n; ++v) is_hub_.push_back(hubs_.count(number_[v]) > 0);
+    for (auto v = static_cast<std::uint32_t>(is_hub_.size()); v < n; ++v)
+      is_hub_.push_back(hubs_.count(hull.number(v)) > 0);
 
   struct Claim {
     std::uint32_t face, corner;
     int owner;
   };
   std::vector<Claim> claims;
-  std::vector<std::size_t> to_patch(static_cast<std::size_t>(partition_->patches()));
-  for_each_face_at_border(0, [&](std::uint32_t t, int own) {
+  std::vector<int> owner_of_node(n, -1);
+  std::vector<std::size_t> to_patch(static_cast<std::size_t>(patch.partition.patches()));
+  hull.for_each_face_at_border(0, [&](std::uint32_t t, int own) {
     if (own == 0) return;
-    const auto& vertex = arrays_.faces[t].vertex;
+    const auto& vertex = hull.face(t).vertex;
     const std::uint32_t v[] = {vertex[0], vertex[1], vertex[2]};
     const bool has_one_hub = is_hub(v[0]) + is_hub(v[1]) + is_hub(v[2]) == 1;
     bool keeps = false;
     for (const std::uint32_t w : v) {
-      meet(w);
-      keeps = keeps || (is_own(w) && !(has_one_hub && is_hub(w)));
+      if (!hull.is_own(w))
+        asked.meet(w);
+      else
+        keeps = keeps || !(has_one_hub && is_hub(w));
     }
     if (!keeps) return;
-    int asked = id_;
+    int last = patch.id;
     for (const std::uint32_t w : v) {
-      if (is_own(w) || (has_one_hub && is_hub(w))) continue;
-      const int owner = owner_of(w);
-      if (owner == asked) continue;
-      asked = owner;
+      if (hull.is_own(w) || (has_one_hub && is_hub(w))) continue;
+      int& owner = owner_of_node[w];
+      if (owner < 0) owner = patch.owner(w);
+      if (owner == last) continue;
+      last = owner;
       claims.push_back({t, w, owner});
       ++to_patch[static_cast<std::size_t>(owner)];
     }
@@ -61,74 +60,53 @@ Doubts Patch<Int>::claim(const std::array<Record, 3>& corners, std::size_t most)
       continue;
     }
     ++about.times;
-    for (int i = 0; i < 3; ++i) {
-      const std::uint32_t w = arrays_.faces[claim.face].vertex[i];
-      taken_in_.try_emplace(number_[w], w);
-    }
-    doubts.questions.push_back(question_about(claim.face));
+    for (int i = 0; i < 3; ++i) hull.remember(hull.face(claim.face).vertex[i]);
+    doubts.questions.push_back(question_about(patch, claim.face));
     doubts.questions.back().to = claim.owner;
   }
   return doubts;
 }
 
 template <class Int>
-void Patch<Int>::take_in_corners(const Question& question) {
-  for (const Record& r : question.corner)
-    if (own_ > 0 && r.number != 0) take_in(r);  // an arc has two corners
+void PatchAgreement<Int>::see_refuted(const PatchView<Int>& patch, const Question& question) {
+  if (asked_about_.empty()) return;
+  for (const Record& r : question.corner) {
+    const std::uint32_t v = patch.hull.find(r.number);
+    if (v != PatchHull<Int>::kNobody && patch.owner(v) == question.to) asked_about_[v].is_refuted = true;
+  }
 }
 
 /// Nodes about which much is left to ask, where nobody knew any better than this patch.
 template <class Int>
-std::vector<std::int64_t> Patch<Int>::look_for_hubs() const {
+std::vector<GlobalNumber> PatchAgreement<Int>::look_for_hubs(const PatchHull<Int>& hull) const {
   constexpr std::size_t kMany = 64, kEnough = 4;
-  std::vector<std::int64_t> numbers;
-  for (std::size_t v = 0; v < asked_about_.size(); ++v) {
+  std::vector<GlobalNumber> numbers;
+  for (std::uint32_t v = 0; v < asked_about_.size(); ++v) {
     const AskedAbout& about = asked_about_[v];
-    if (about.left_out > kMany && about.times >= kEnough && !about.is_refuted) numbers.push_back(number_[v]);
+    if (about.left_out > kMany && about.times >= kEnough && !about.is_refuted)
+      numbers.push_back(hull.number(v));
   }
   return numbers;
 }
 
 template <class Int>
-void Patch<Int>::set_hubs(const std::unordered_set<std::int64_t>& numbers) {
-  hubs_ = numbers;
-  is_hub_.clear();
-}
-
-template <class Int>
-std::vector<std::int64_t> Patch<Int>::kept_hubs() const {
-  std::vector<std::int64_t> kept;
+std::vector<GlobalNumber> PatchAgreement<Int>::kept_hubs(const PatchHull<Int>& hull) const {
+  std::vector<GlobalNumber> kept;
   for (std::uint32_t h = 0; h < is_hub_.size(); ++h) {
     if (!is_hub_[h]) continue;
-    std::uint32_t corner = arrays_.corner[h];
+    std::uint32_t corner = hull.corner(h);
     do {
-      if (is_in_run(h, face_of(corner), edge_of(corner))) {
-        kept.push_back(number_[h]);
+      if (is_in_run(hull, h, face_of(corner), edge_of(corner))) {
+        kept.push_back(hull.number(h));
         break;
       }
-      corner = counterclockwise(corner);
-    } while (corner != arrays_.corner[h]);
+      corner = hull.counterclockwise(corner);
+    } while (corner != hull.corner(h));
   }
   return kept;
 }
 
-template <class Int>
-std::int64_t Patch<Int>::first_boundary_neighbour(std::int64_t number) const {
-  const Arc beside = beside_on_boundary(taken_in_.at(number));
-  return beside.b != kNobody ? number_[beside.b] : 0;
-}
-
-template Doubts Patch<std::int32_t>::claim(const std::array<Record, 3>&, std::size_t);
-template void Patch<std::int32_t>::take_in_corners(const Question&);
-template std::vector<std::int64_t> Patch<std::int32_t>::look_for_hubs() const;
-template std::vector<std::int64_t> Patch<std::int32_t>::kept_hubs() const;
-template void Patch<std::int32_t>::set_hubs(const std::unordered_set<std::int64_t>&);
-template std::int64_t Patch<std::int32_t>::first_boundary_neighbour(std::int64_t) const;
-template Doubts Patch<std::int64_t>::claim(const std::array<Record, 3>&, std::size_t);
-template void Patch<std::int64_t>::take_in_corners(const Question&);
-template std::vector<std::int64_t> Patch<std::int64_t>::look_for_hubs() const;
-template std::vector<std::int64_t> Patch<std::int64_t>::kept_hubs() const;
-template void Patch<std::int64_t>::set_hubs(const std::unordered_set<std::int64_t>&);
-template std::int64_t Patch<std::int64_t>::first_boundary_neighbour(std::int64_t) const;
+template class PatchAgreement<std::int32_t>;
+template class PatchAgreement<std::int64_t>;
 
 }  // namespace pstripack

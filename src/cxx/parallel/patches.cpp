@@ -12,8 +12,8 @@ Patches<Int> triangulate_patches(const Delivery& delivery, const Division& divis
     std::vector<std::size_t> begin{0};
     int id = division.patches.first(static_cast<std::size_t>(ranks.rank()));
     for (const auto& nodes : delivery.of_patch) {
-      Patch<Int>& patch = patches.of_rank.emplace_back(id++, *division.partition, division.places);
-      patch.set_nodes(nodes.first, nodes.own, nodes.own + nodes.halo);
+      const Patch<Int>& patch =
+          patches.of_rank.emplace_back(id++, *division.partition, division.places, nodes);
       begin.push_back(begin.back() +
                       (patch.workspace_bytes(division.closing.size()) + kPage - 1) / kPage * kPage);
     }

@@ -16,7 +16,7 @@ Parcels packed_answers(Patches<Int>& patches, const Parcels& incoming, bool corn
         if (question.to == patch.id()) patch.take_in_corners(question);
     std::size_t k = 0;
     for (const Question& question : questions) {
-      if (question.to == patch.id()) patch.answer(question, answer[k]);
+      if (question.to == patch.id()) answer[k] = patch.answer(question);
       ++k;
     }
   });

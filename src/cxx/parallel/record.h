@@ -8,13 +8,21 @@
 #include <vector>
 
 #include "geometry/point.h"
+#include "parallel/global_number.h"
 
 namespace pstripack {
 
 /// A node on its way between patches or ranks.
 struct Record {
   Point point;
-  std::int64_t number;  ///< global, from 1
+  GlobalNumber number;
+};
+
+/// The nodes that a patch is given: its own ones, then its halo.
+struct PatchNodes {
+  const Record* first;
+  std::size_t own, halo;
+  std::size_t count() const { return own + halo; }
 };
 
 /// Many digit by digit: a hub may have most nodes for neighbours.
@@ -27,10 +35,10 @@ inline void sort_by_number(std::vector<Record>& nodes) {
     return;
   }
   std::int64_t largest = 0;
-  for (const Record& r : nodes) largest = std::max(largest, r.number);
+  for (const Record& r : nodes) largest = std::max(largest, value_of(r.number));
   std::vector<Record> sorted(nodes.size());
   for (int shift = 0; shift < 64 && largest >> shift > 0; shift += kBits) {
-    const auto digit = [&](const Record& r) { return r.number >> shift & ((1 << kBits) - 1); };
+    const auto digit = [&](const Record& r) { return value_of(r.number) >> shift & ((1 << kBits) - 1); };
     std::size_t begin[(1 << kBits) + 1] = {};
     for (const Record& r : nodes) ++begin[digit(r) + 1];
     std::partial_sum(std::begin(begin), std::end(begin), std::begin(begin));

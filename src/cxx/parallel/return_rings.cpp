@@ -65,7 +65,8 @@ std::unique_ptr<Workspace> write_rings(Patches<Int>& patches, const ReturnAddres
 
 /// Some successive neighbours of a hub, that follow.
 struct RunHead {
-  std::int64_t hub, owner, count;  ///< owner: patch
+  GlobalNumber hub;
+  std::int64_t owner, count;  ///< owner: patch
 };
 
 /// The runs that patches here have, for the owners of the hubs: how many, their heads, then their nodes.
@@ -101,7 +102,7 @@ struct HubRing {
     std::size_t count;
   };
   std::size_t patch;
-  std::int64_t hub, first;  ///< the number of the first neighbour
+  GlobalNumber hub, first;  ///< first: neighbour
   bool is_at_boundary;
   std::vector<Part> parts;
 };
@@ -109,7 +110,7 @@ struct HubRing {
 template <class Int>
 std::vector<HubRing> joined_runs(const Patches<Int>& patches, const Parcels& runs) {
   std::vector<HubRing> rings;
-  std::unordered_map<std::int64_t, std::unordered_map<std::int64_t, HubRing::Part>> of_hub;
+  std::unordered_map<GlobalNumber, std::unordered_map<GlobalNumber, HubRing::Part>> of_hub;
   for (std::size_t r = 0; r + 1 < runs.begin.size(); ++r) {
     ParcelReader reader(runs, r);
     const auto count_of_runs = static_cast<std::size_t>(reader.next<std::int64_t>());
@@ -121,8 +122,8 @@ std::vector<HubRing> joined_runs(const Patches<Int>& patches, const Parcels& run
       auto& of_first = of_hub[head.hub];
       if (of_first.empty()) {
         const auto k = static_cast<std::size_t>(head.owner - patches.of_rank[0].id());
-        const std::int64_t begin = patches.of_rank[k].first_boundary_neighbour(head.hub);
-        rings.push_back({k, head.hub, begin != 0 ? begin : first->number, begin != 0, {}});
+        const GlobalNumber begin = patches.of_rank[k].first_boundary_neighbour(head.hub);
+        rings.push_back({k, head.hub, begin != kNoNumber ? begin : first->number, begin != kNoNumber, {}});
       }
       of_first[first->number] = {first, count};
     }
@@ -259,11 +260,11 @@ std::vector<Record> find_outside(const Patches<Int>& patches, const ReturnAddres
     // A patch does not know which nodes this rank brought for other patches, nor does a hub; where there are
     // none, it knows all. Those that may be among `all` are marked in a table of some bits of the number
     // first.
-    std::vector<std::int64_t> own;
+    std::vector<GlobalNumber> own;
     if (addresses.away_begin.back() > 0 || patches.of_rank.size() > 1 || !hub_rings.empty()) {
       std::vector<bool> maybe(std::size_t{1} << 10);
       while (maybe.size() < 16 * all.size()) maybe.resize(2 * maybe.size());
-      const auto slot = [&](std::int64_t number) {
+      const auto slot = [&](GlobalNumber number) {
         return static_cast<std::uint64_t>(number) * 0x9e3779b97f4a7c15u >> 40 & (maybe.size() - 1);
       };
       for (const Record& r : all) maybe[slot(r.number)] = true;

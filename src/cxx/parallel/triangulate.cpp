@@ -85,7 +85,8 @@ Stars<Int> triangulate(const LocalNodes& nodes, const Look& look, const Point (&
                        ParallelCost* cost) {
   ParallelCost own_cost;
   ParallelCost& c = cost != nullptr ? *cost : own_cost;
-  const Corners records{Record{corners[0], numbers[0]}, {corners[1], numbers[1]}, {corners[2], numbers[2]}};
+  Corners records;
+  for (std::size_t k = 0; k < 3; ++k) records[k] = {corners[k], GlobalNumber{numbers[k]}};
   const auto run = [&](Lengths lengths) {
     const Places places(lengths, look.deviation.value);
     Stars<Int> stars = triangulate_places<Int>(nodes, records, places, ranks, options, c);

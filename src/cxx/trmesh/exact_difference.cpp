@@ -138,8 +138,9 @@ ExactDifference exact_difference(const NodeArrays& nodes, const ListsView<Int>& 
   Workspace workspace(workspace_bytes(lists.n));
   const Hull hull = delaunay(p, lists.n, workspace);
   if (!hull.coincident.empty()) {
-    std::vector<std::pair<std::int64_t, std::int64_t>> pairs;
-    for (const auto& [in, out] : hull.coincident) pairs.emplace_back(in + 1, out + 1);
+    CoincidentPairs pairs;
+    for (const auto& [in, out] : hull.coincident)
+      pairs.emplace_back(GlobalNumber{in + 1}, GlobalNumber{out + 1});
     difference.ier = static_cast<std::int32_t>(first_coincidence(pairs).l);
     return difference;
   }

@@ -95,7 +95,8 @@ class OnThreads {
     if (!copied_at_once_) copy();
     const PhaseTimer timer(cost_, ParallelCost::triangulate);
     hull_ = delaunay(copy_, n_, *workspace_);
-    for (const auto& [in, out] : hull_.coincident) pairs.emplace_back(in + 1, out + 1);
+    for (const auto& [in, out] : hull_.coincident)
+      pairs.emplace_back(GlobalNumber{in + 1}, GlobalNumber{out + 1});
   }
 
   const TrmeshCall& call_;

@@ -1,0 +1,133 @@
+#include "parallel/patch_hull.h"
+
+#include <algorithm>
+
+#include "geometry/insertion_order.h"
+
+namespace pstripack {
+namespace {
+
+/// Room for nodes that are taken in later. They are few; where they are not, memory is taken anew.
+std::size_t capacity_for(std::size_t nodes) { return nodes + nodes / 32 + 256; }
+
+}  // namespace
+
+template <class Int>
+std::size_t PatchHull<Int>::workspace_bytes(std::size_t nodes) {
+  return capacity_for(nodes) * (sizeof(std::uint32_t) + sizeof(Point) + sizeof(Int) + 2 * sizeof(Face) +
+                                sizeof(std::uint32_t) + 2 * sizeof(Plane)) +
+         Workspace::kSlack;
+}
+
+template <class Int>
+void PatchHull<Int>::set_up(const PatchNodes& nodes, const std::vector<Record>& leading,
+                            Workspace& workspace) {
+  own_ = nodes.own;
+  const std::size_t first = leading.size();
+  built_ = nodes.count() + first;
+  arrays_.capacity = capacity_for(built_);
+  order_ = workspace.keep<std::uint32_t>(built_);
+  leading_ =
+      first + insertion_order(&nodes.first->point, nodes.count(), order_ + first, workspace, sizeof(Record));
+  workspace.next_phase();
+  arrays_.nodes = workspace.keep<Point>(arrays_.capacity);
+  number_ = workspace.keep<Int>(arrays_.capacity);
+  for (std::size_t v = 0; v < first; ++v) {
+    order_[v] = static_cast<std::uint32_t>(nodes.count() + v);
+    arrays_.nodes[v] = leading[v].point;
+    number_[v] = static_cast<Int>(leading[v].number);
+  }
+  constexpr std::size_t kAhead = 16;
+  for (std::size_t v = first; v < built_; ++v) {
+    if (v + kAhead < built_) __builtin_prefetch(nodes.first + order_[v + kAhead]);
+    const Record& r = nodes.first[order_[v]];
+    arrays_.nodes[v] = r.point;
+    number_[v] = static_cast<Int>(r.number);
+  }
+  arrays_.faces = workspace.keep<Face>(2 * arrays_.capacity);
+  arrays_.corner = workspace.keep<std::uint32_t>(arrays_.capacity);
+  arrays_.planes = workspace.take<Plane>(2 * arrays_.capacity);
+  first_planes_ = arrays_.planes;
+  growing_ = GrowingHull::make(arrays_, built_, places_.lengths());
+  growing_->look_for_hidden_nodes(leading_);
+}
+
+template <class Int>
+void PatchHull<Int>::build() {
+  growing_->build(leading_);
+  for (const auto& [in, out] : growing_->coincident()) coincident_.emplace_back(number(in), number(out));
+}
+
+template <class Int>
+void PatchHull<Int>::make_room() {
+  const std::size_t n = growing_->node_count(), faces = growing_->face_count();
+  if (n < arrays_.capacity) return;
+  HullArrays larger;
+  larger.capacity = 2 * arrays_.capacity;
+  auto memory = decltype(memory_){Buffer<Point>(larger.capacity), Buffer<Int>(larger.capacity),
+                                  Buffer<Face>(2 * larger.capacity), Buffer<Plane>(2 * larger.capacity),
+                                  Buffer<std::uint32_t>(larger.capacity)};
+  std::copy(arrays_.nodes, arrays_.nodes + n, memory.nodes.begin());
+  std::copy(number_, number_ + n, memory.number.begin());
+  std::copy(arrays_.faces, arrays_.faces + faces, memory.faces.begin());
+  std::copy(arrays_.planes, arrays_.planes + faces, memory.planes.begin());
+  std::copy(arrays_.corner, arrays_.corner + n, memory.corner.begin());
+  memory_ = std::move(memory);
+  larger.nodes = memory_.nodes.data();
+  larger.faces = memory_.faces.data();
+  larger.planes = memory_.planes.data();
+  larger.corner = memory_.corner.data();
+  number_ = memory_.number.data();
+  arrays_ = larger;
+  growing_->move_to(arrays_);
+}
+
+template <class Int>
+std::uint32_t PatchHull<Int>::take_in(const Record& node) {
+  const auto [taken, is_new] = taken_in_.try_emplace(node.number, 0);
+  if (!is_new) return taken->second;
+  make_room();
+  const std::size_t before = growing_->node_count();
+  const std::uint32_t v = growing_->add(node.point);
+  if (v == before)
+    number_[v] = static_cast<Int>(node.number);
+  else if (number(v) != node.number)
+    coincident_.emplace_back(number(v), node.number);
+  taken->second = v;
+  return v;
+}
+
+template <class Int>
+BoundaryArc PatchHull<Int>::beside_on_boundary(std::uint32_t v) const {
+  BoundaryArc beside{kNobody, kNobody};
+  if (growing_->surrounds_centre()) return beside;
+  for_each_face_at(v, [&](std::uint32_t t, std::uint32_t i) {
+    if (growing_->front(t)) return;
+    const Face& f = arrays_.faces[t];
+    const std::uint32_t next = next_edge(i), previous = previous_edge(i);
+    if (growing_->front(face_of(f.neighbour[next]))) beside.b = f.vertex[previous];
+    if (growing_->front(face_of(f.neighbour[previous]))) beside.a = f.vertex[next];
+  });
+  return beside;
+}
+
+/// Seen from the front, the edge u -> w of a face at the back is w -> u, with the triangulation on its left.
+template <class Int>
+std::vector<BoundaryArc> PatchHull<Int>::boundary_arcs() const {
+  std::vector<BoundaryArc> arcs;
+  if (growing_->surrounds_centre()) return arcs;
+  const auto faces = static_cast<std::uint32_t>(growing_->face_count());
+  for (std::uint32_t t = 0; t < faces; ++t) {
+    if (arrays_.planes[t].w > 1 || growing_->front(t)) continue;
+    const Face& f = arrays_.faces[t];
+    for (std::uint32_t i = 0; i < 3; ++i)
+      if (growing_->front(face_of(f.neighbour[i])))
+        arcs.push_back({f.vertex[previous_edge(i)], f.vertex[next_edge(i)]});
+  }
+  return arcs;
+}
+
+template class PatchHull<std::int32_t>;
+template class PatchHull<std::int64_t>;
+
+}  // namespace pstripack

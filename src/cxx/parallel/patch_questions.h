@@ -1,0 +1,73 @@
+#pragma once
+// What patches ask each other. Why the stars are final when no question is left: docs/parallel.md.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "parallel/partition.h"
+#include "parallel/patch_hull.h"
+#include "parallel/record.h"
+
+namespace pstripack {
+
+/// "Does any of your nodes lie above this triangle?" Or, of an arc a -> b of the boundary, where the third
+/// corner is the centre: "Is it an arc of your boundary?"
+struct Question {
+  Record corner[3];
+  std::int32_t from, to;  ///< patches
+
+  bool is_about_arc() const { return corner[2].point == Point{0, 0, 0}; }
+};
+
+/// What is not certain yet.
+struct Doubts {
+  std::vector<Question> questions;
+  std::size_t arcs = 0;    ///< of the boundary: so many of the questions are about them
+  bool has_grown = false;  ///< the patch has taken in nodes since it asked last
+  bool left_out = false;   ///< it has more questions than it asks
+};
+
+/// What a patch has asked about. Nodes are hull nodes.
+struct Asked {
+  std::size_t nodes = 0;              ///< that it had when it asked last; 0: it has not asked yet
+  std::vector<BoundaryArc> arcs;      ///< when it asked last
+  std::vector<std::uint32_t> around;  ///< nodes of others that were neighbours of own ones when it asked
+  std::vector<bool> is_around;
+
+  void meet(std::uint32_t v) {
+    if (is_around[v]) return;
+    is_around[v] = true;
+    around.push_back(v);
+  }
+};
+
+/// One of the patches, and what it knows.
+template <class Int>
+struct PatchView {
+  int id;
+  const Partition& partition;
+  const PatchHull<Int>& hull;
+  int owner(std::uint32_t v) const { return hull.is_own(v) ? id : partition.owner(hull.place(v)); }
+};
+
+/// A question about face t of the hull, to nobody yet.
+template <class Int>
+Question question_about(const PatchView<Int>& patch, std::uint32_t t);
+
+/// Asks about the arcs of the boundary. Throws std::bad_alloc.
+template <class Int>
+void ask_about_arcs(const PatchView<Int>& patch, const std::array<Record, 3>& corners, Asked& asked,
+                    Doubts& doubts);
+
+/// See Patch::ask. Throws std::bad_alloc.
+template <class Int>
+Doubts ask(const PatchView<Int>& patch, const std::array<Record, 3>& corners, double stretch,
+           std::size_t most, Asked& asked);
+
+/// See Patch::answer. Throws HiddenNode, std::bad_alloc.
+template <class Int>
+std::vector<Record> answer(PatchHull<Int>& hull, const Question& question);
+
+}  // namespace pstripack
