@@ -510,11 +510,13 @@ void Patch<Int>::answer(const Question& question, std::vector<Record>& nodes) {
   std::uint32_t v[3] = {0, 0, 0};
   for (int i = 0; i < 3; ++i) v[i] = take_in(question.corner[i]);
   std::vector<std::uint32_t> above;
-  const auto add_those_above = [&](std::uint32_t corner) {
-    for_each_face_at(corner, [&](std::uint32_t t, std::uint32_t i) {
-      const std::uint32_t w = arrays_.faces[t].vertex[next_edge(i)];
+  const auto add_those_above = [&](std::uint32_t node, std::size_t faces) {
+    std::uint32_t corner = arrays_.corner[node];
+    do {
+      const std::uint32_t w = arrays_.faces[face_of(corner)].vertex[next_edge(edge_of(corner))];
       if (w != v[0] && w != v[1] && w != v[2] && growing_->above(v[0], v[1], v[2], w)) above.push_back(w);
-    });
+      corner = counterclockwise(corner);
+    } while (--faces > 0 && corner != arrays_.corner[node]);
   };
   // All nodes lie in the cone that the hull makes at a corner, so one of the neighbours of that corner lies
   // above if any node does. The corner with the fewest: its ring closes first.
@@ -523,10 +525,18 @@ void Patch<Int>::answer(const Question& question, std::vector<Record>& nodes) {
     least = least == 2 ? 0 : least + 1;
     at[least] = counterclockwise(at[least]);
   } while (at[least] != arrays_.corner[v[least]]);
-  add_those_above(v[least]);
+  bool is_face = false;
+  for_each_face_at(v[least], [&](std::uint32_t t, std::uint32_t i) {
+    const auto& corner = arrays_.faces[t].vertex;
+    is_face |=
+        corner[next_edge(i)] == v[next_edge(least)] && corner[previous_edge(i)] == v[previous_edge(least)];
+  });
+  if (is_face) return;
+  constexpr std::size_t kManyFaces = 512;  // not all at a node with very many neighbours
+  add_those_above(v[least], SIZE_MAX);
   if (above.empty()) return;
   for (std::uint32_t k = 0; k < 3; ++k)
-    if (k != least) add_those_above(v[k]);
+    if (k != least) add_those_above(v[k], kManyFaces);
   std::sort(above.begin(), above.end());
   above.erase(std::unique(above.begin(), above.end()), above.end());
   // The highest few: they change the asker's triangulation most, and the others may not matter then.

@@ -27,6 +27,7 @@ Doubts Patch<Int>::claim(const std::array<Record, 3>& corners, std::size_t most)
     int owner;
   };
   std::vector<Claim> claims;
+  std::vector<int> owner_of_node(n, -1);
   std::vector<std::size_t> to_patch(static_cast<std::size_t>(partition_->patches()));
   for_each_face_at_border(0, [&](std::uint32_t t, int own) {
     if (own == 0) return;
@@ -42,7 +43,8 @@ Doubts Patch<Int>::claim(const std::array<Record, 3>& corners, std::size_t most)
     int asked = id_;
     for (const std::uint32_t w : v) {
       if (is_own(w) || (has_one_hub && is_hub(w))) continue;
-      const int owner = owner_of(w);
+      int& owner = owner_of_node[w];
+      if (owner < 0) owner = owner_of(w);
       if (owner == asked) continue;
       asked = owner;
       claims.push_back({t, w, owner});
