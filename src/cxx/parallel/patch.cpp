@@ -558,7 +558,7 @@ void Patch<Int>::learn(const Question& question, const Record* nodes, std::size_
     for (const Record& r : question.corner)
       if (const auto found = taken_in_.find(r.number);
           found != taken_in_.end() && owner_of(found->second) == question.to)
-        asked_about_[found->second].is_refuted = true;
+        asked_about_[found->second].refuted += 1;
   for (std::size_t k = 0; k < count; ++k) take_in(nodes[k]);
 }
 

@@ -91,8 +91,8 @@ class Patch {
   // Certification by agreement, where there would be too many questions: docs/parallel.md, "Agreement".
 
   /// Asks about triangles as ask() does, but only the owners of their corners, who must have them, too: at
-  /// most `most` questions to each patch, and as many about each of its nodes. All arcs as ask() does. Throws
-  /// HiddenNode, std::bad_alloc.
+  /// most `most` questions to each patch, and few about nodes that may be hubs. All arcs as ask() does.
+  /// Throws HiddenNode, std::bad_alloc.
   Doubts claim(const std::array<Record, 3>& corners, std::size_t most);
   /// Takes in the corners of another's question. Throws HiddenNode, std::bad_alloc.
   void take_in_corners(const Question& question);
@@ -310,9 +310,8 @@ class Patch {
   std::unordered_map<std::int64_t, std::uint32_t> taken_in_;  ///< after the start: hull nodes by number
   std::vector<int> strangers_;
   // Agreement, by hull node:
-  struct AskedAbout {
-    std::size_t times = 0, left_out = 0;  ///< of this many triangles its owner has been asked, of so many not
-    bool is_refuted = false;              ///< in one of the answers
+  struct AskedAbout {  ///< of a node of another patch
+    std::size_t triangles = 0, asked = 0, refuted = 0;
   };
   std::vector<AskedAbout> asked_about_;
   std::vector<bool> is_hub_;  ///< empty: there are none

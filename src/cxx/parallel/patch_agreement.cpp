@@ -7,6 +7,13 @@
 #include "parallel/patch.h"
 
 namespace pstripack {
+namespace {
+
+/// A node of another patch that has more triangles than this with nodes here may be a hub. It is one where
+/// its owner confirms most of so many of them.
+constexpr std::size_t kManyTriangles = 64, kAFew = 8;
+
+}  // namespace
 
 template <class Int>
 Doubts Patch<Int>::claim(const std::array<Record, 3>& corners, std::size_t most) {
@@ -48,21 +55,20 @@ Doubts Patch<Int>::claim(const std::array<Record, 3>& corners, std::size_t most)
       if (owner == asked) continue;
       asked = owner;
       claims.push_back({t, w, owner});
+      ++asked_about_[w].triangles;
       ++to_patch[static_cast<std::size_t>(owner)];
     }
   });
-  // Of too many for one patch, each so and so many-th; few about one node, which may be a hub.
   std::vector<std::size_t> passed(to_patch.size());
   for (const Claim& claim : claims) {
     const auto q = static_cast<std::size_t>(claim.owner);
     AskedAbout& about = asked_about_[claim.corner];
-    const std::size_t step = (to_patch[q] - 1) / most + 1;
-    if (passed[q]++ % step != 0 || about.times == most) {
-      ++about.left_out;
+    const std::size_t step = (to_patch[q] - 1) / most + 1;  // of too many, each so and so many-th
+    if (passed[q]++ % step != 0 || (about.triangles > kManyTriangles && about.asked == kAFew)) {
       doubts.left_out = true;
       continue;
     }
-    ++about.times;
+    ++about.asked;
     for (int i = 0; i < 3; ++i) {
       const std::uint32_t w = arrays_.faces[claim.face].vertex[i];
       taken_in_.try_emplace(number_[w], w);
@@ -79,14 +85,13 @@ void Patch<Int>::take_in_corners(const Question& question) {
     if (own_ > 0 && r.number != 0) take_in(r);  // an arc has two corners
 }
 
-/// Nodes about which much is left to ask, where nobody knew any better than this patch.
 template <class Int>
 std::vector<std::int64_t> Patch<Int>::look_for_hubs() const {
-  constexpr std::size_t kMany = 64, kEnough = 4;
   std::vector<std::int64_t> numbers;
   for (std::size_t v = 0; v < asked_about_.size(); ++v) {
     const AskedAbout& about = asked_about_[v];
-    if (about.left_out > kMany && about.times >= kEnough && !about.is_refuted) numbers.push_back(number_[v]);
+    if (about.triangles > kManyTriangles && about.asked == kAFew && 2 * about.refuted < kAFew)
+      numbers.push_back(number_[v]);
   }
   return numbers;
 }
