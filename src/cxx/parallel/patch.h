@@ -48,11 +48,6 @@ double most_stretch(const std::vector<Record>& nodes, const Places& places);
 /// std::bad_alloc.
 void look_for_hidden_nodes(const std::vector<Record>& nodes, const Places& places);
 
-/// What nodes from everywhere tell of the triangulation: false if so many of them lie on the boundary, or so
-/// many triangles have corners in different patches, as along lines that cross, that the patches would ask
-/// each other about nearly everything.
-bool patches_know_most(const std::vector<Record>& nodes, const Partition& partition, const Places& places);
-
 /// Int: what node numbers fit into.
 template <class Int>
 class Patch {
