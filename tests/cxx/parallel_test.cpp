@@ -733,7 +733,7 @@ bool gives_up(const std::string& family, int patches, std::size_t most_questions
 }
 
 TEST(GivingUp, BeforeTheTriangulationWherePatchesWouldNotPay) {
-  for (const char* family : {"small-circle:1", "moment:6", "hemisphere-rim", "crossing:1e-3", "nest:150"}) {
+  for (const char* family : {"moment:6", "crossing:1e-3", "nest:150"}) {
     ParallelCost cost;
     EXPECT_TRUE(gives_up(family, 2, 2500, cost)) << family;
     EXPECT_EQ(cost.seconds[ParallelCost::triangulate], 0) << family;
@@ -743,7 +743,8 @@ TEST(GivingUp, BeforeTheTriangulationWherePatchesWouldNotPay) {
 TEST(GivingUp, NotWhereTheyPay) {
   for (const char* family :
        {"random", "latlon", "earth", "variable:1e6", "hemisphere", "box", "cap:0.0175", "strip:1e-15",
-        "comb:1e-9", "ulp-groups:8", "tracks:50", "coast:0.3", "cap:1e-12", "axis-cap:1e-150"}) {
+        "comb:1e-9", "ulp-groups:8", "tracks:50", "coast:0.3", "cap:1e-12", "axis-cap:1e-150",
+        "small-circle:1", "hemisphere-rim", "ellipse:1e-9", "two-curves:1e-3"}) {
     ParallelCost cost;
     EXPECT_FALSE(gives_up(family, 2, 2500, cost)) << family;
   }

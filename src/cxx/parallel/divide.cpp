@@ -149,7 +149,8 @@ void slice(const LocalNodes& nodes, Supply& supply, Communicator& ranks, Divisio
         mesh.mixed([&](std::uint32_t v) { return division.partition->owner(places[v]); });
     const std::size_t triangles = mesh.triangles().size() + mesh.triangles_at_hubs();
     division.by_agreement = 3 * (in_boxes + mesh.triangles_at_hubs()) > triangles;
-    if (2 * in_slices >= in_boxes) {
+    division.gave_up = division.may_give_up && division.by_agreement;
+    if (2 * in_slices >= in_boxes || division.gave_up) {
       levels.reset();
       return;
     }
@@ -231,15 +232,11 @@ Division divide(const LocalNodes& nodes, const Corners& corners, const Places& p
     outcome.accept();
     const auto patches = static_cast<std::size_t>(division.patches.count());
     division.may_give_up = size == 1 && patches > 1 && options.most_questions < nodes.count;
-    division.gave_up = division.may_give_up &&
-                       !patches_know_most(some_of(supply.sample, 256 * patches), *division.partition, places);
-    if (division.gave_up) return;
     // Worth it where it spares a look at more triangles than it takes time for.
     constexpr std::size_t kManyInAPatch = 50000;
     if (supply.nodes / patches > kManyInAPatch)
       division.most_stretch = most_stretch(division.closing, places);
-    is_hard = !division.may_give_up && !supply.keeps_patches &&
-              options.partition == PartitionKind::bisection &&
+    is_hard = !supply.keeps_patches && options.partition == PartitionKind::bisection &&
               may_be_hard(division.closing, *division.partition, places);
   });
   if (is_hard) slice(nodes, supply, ranks, division);

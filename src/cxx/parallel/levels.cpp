@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include "mesh/delaunay.h"
 
@@ -71,6 +72,20 @@ Levels::Levels(const CoarseMesh& mesh, const std::vector<Point>& places, const P
       start = order_.back();
     }
   }
+
+  // Distances are whole numbers. Means of neighbours are not, and their level lines are shorter.
+  constexpr int kSmoothings = 5;
+  std::vector<double> level(count), mean(count);
+  for (std::uint32_t k = 0; k < count; ++k) level[order_[k]] = k;
+  for (int pass = 0; pass < kSmoothings; ++pass, level.swap(mean))
+    for (std::uint32_t c = 0; c < count; ++c) {
+      double sum = level[c];
+      for (std::uint32_t k = begin_[c]; k < begin_[c + 1]; ++k) sum += level[beside_[k]];
+      mean[c] = sum / (1 + begin_[c + 1] - begin_[c]);
+    }
+  std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return std::pair(level[a], a) < std::pair(level[b], b);
+  });
 }
 
 void Levels::reach(std::uint32_t start, std::uint32_t mark, std::vector<std::uint32_t>& marked,

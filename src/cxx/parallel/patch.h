@@ -69,8 +69,8 @@ class Patch {
   // Certification by agreement, where there would be too many questions: docs/parallel.md, "Agreement".
 
   /// Asks about triangles as ask() does, but only the owners of their corners, who must have them, too: at
-  /// most `most` questions to each patch, and as many about each of its nodes. All arcs as ask() does. Throws
-  /// HiddenNode, std::bad_alloc.
+  /// most `most` questions to each patch, and few about nodes that may be hubs. All arcs as ask() does.
+  /// Throws HiddenNode, std::bad_alloc.
   Doubts claim(const std::array<Record, 3>& corners, std::size_t most) {
     if (nodes_.own == 0 || partition_->patches() == 1) return {};
     return agreed_.claim(hull_, view(), corners, most, asked_);

@@ -1,6 +1,13 @@
 #include "parallel/patch_agreement.h"
 
 namespace pstripack {
+namespace {
+
+/// A node of another patch that has more triangles than this with nodes here may be a hub. It is one where
+/// its owner confirms most of so many of them.
+constexpr std::size_t kManyTriangles = 64, kAFew = 8;
+
+}  // namespace
 
 template <class Int>
 Doubts PatchAgreement<Int>::claim(PatchHull<Int>& hull, const PatchView<Int>& patch,
@@ -45,21 +52,20 @@ Doubts PatchAgreement<Int>::claim(PatchHull<Int>& hull, const PatchView<Int>& pa
       if (owner == last) continue;
       last = owner;
       claims.push_back({t, w, owner});
+      ++asked_about_[w].triangles;
       ++to_patch[static_cast<std::size_t>(owner)];
     }
   });
-  // Of too many for one patch, each so and so many-th; few about one node, which may be a hub.
   std::vector<std::size_t> passed(to_patch.size());
   for (const Claim& claim : claims) {
     const auto q = static_cast<std::size_t>(claim.owner);
     AskedAbout& about = asked_about_[claim.corner];
-    const std::size_t step = (to_patch[q] - 1) / most + 1;
-    if (passed[q]++ % step != 0 || about.times == most) {
-      ++about.left_out;
+    const std::size_t step = (to_patch[q] - 1) / most + 1;  // of too many, each so and so many-th
+    if (passed[q]++ % step != 0 || (about.triangles > kManyTriangles && about.asked == kAFew)) {
       doubts.left_out = true;
       continue;
     }
-    ++about.times;
+    ++about.asked;
     for (int i = 0; i < 3; ++i) hull.remember(hull.face(claim.face).vertex[i]);
     doubts.questions.push_back(question_about(patch, claim.face));
     doubts.questions.back().to = claim.owner;
@@ -72,18 +78,16 @@ void PatchAgreement<Int>::see_refuted(const PatchView<Int>& patch, const Questio
   if (asked_about_.empty()) return;
   for (const Record& r : question.corner) {
     const std::uint32_t v = patch.hull.find(r.number);
-    if (v != PatchHull<Int>::kNobody && patch.owner(v) == question.to) asked_about_[v].is_refuted = true;
+    if (v != PatchHull<Int>::kNobody && patch.owner(v) == question.to) ++asked_about_[v].refuted;
   }
 }
 
-/// Nodes about which much is left to ask, where nobody knew any better than this patch.
 template <class Int>
 std::vector<GlobalNumber> PatchAgreement<Int>::look_for_hubs(const PatchHull<Int>& hull) const {
-  constexpr std::size_t kMany = 64, kEnough = 4;
   std::vector<GlobalNumber> numbers;
   for (std::uint32_t v = 0; v < asked_about_.size(); ++v) {
     const AskedAbout& about = asked_about_[v];
-    if (about.left_out > kMany && about.times >= kEnough && !about.is_refuted)
+    if (about.triangles > kManyTriangles && about.asked == kAFew && 2 * about.refuted < kAFew)
       numbers.push_back(hull.number(v));
   }
   return numbers;

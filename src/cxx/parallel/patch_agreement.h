@@ -68,9 +68,8 @@ class PatchAgreement {
     return hull.is_own(is_hub_[x] ? h : x) && hull.growing().front(t);
   }
 
-  struct AskedAbout {
-    std::size_t times = 0, left_out = 0;  ///< of this many triangles its owner has been asked, of so many not
-    bool is_refuted = false;              ///< in one of the answers
+  struct AskedAbout {  ///< of a node of another patch
+    std::size_t triangles = 0, asked = 0, refuted = 0;
   };
   std::vector<AskedAbout> asked_about_;  ///< by hull node
   std::vector<bool> is_hub_;             ///< by hull node; empty: there are none
