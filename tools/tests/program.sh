@@ -25,28 +25,19 @@ refuses() {
 octahedron() { printf '1 0 0\n0 1 0\n0 0 1\n-1 0 0\n0 -1 0\n0 0 -1\n'; }
 
 case $1 in
-documented_help)
-  # $DOCUMENT has the whole help of the program. The help of a command leaves out lines that are there, lines that
-  # several commands share (under `$ pstripack COMMAND --help`), and the families, which another test compares with
-  # docs/point-sets.md.
-  block_of() {
-    awk -v line="\$ pstripack ${1:+$1 }--help" \
-      '$0 == line { on = 1; next } on && /^```/ { found = 1; exit } on { print } END { exit !found }' "$DOCUMENT" ||
-      fail "docs/pstripack.md has no --help of 'pstripack $1'"
+documented_tables)
+  # The tables of --help that $DOCUMENT quotes. docs/point-sets.md has the families; the options are in pstripack.1,
+  # by a test of tests/docs.
+  compare_table() { # TITLE COMMAND: from the line TITLE to one that does not begin with a blank
+    for text in "$DOCUMENT" help; do
+      "$PSTRIPACK" "$2" --help > help
+      awk -v title="$1" '$0 == title { on = 1; print; next } on && !/^ / { exit } on' "$text" > "$(basename "$text").table"
+    done
+    [ -s help.table ] || fail "'pstripack $2 --help' has no '$1'"
+    diff "$(basename "$DOCUMENT").table" help.table || fail "docs/pstripack.md has another table '$1'"
   }
-  block_of COMMAND > shared
-  "$PSTRIPACK" --help > help
-  block_of "" | diff help - || fail "docs/pstripack.md has another --help of 'pstripack'"
-  cat shared help > elsewhere
-  : > used
-  for command in $(sed -n '/^Subcommands:/,/^$/s/^  \([a-z]*\) .*/\1/p' help); do
-    "$PSTRIPACK" "$command" --help | tee -a used |
-      awk 'NR == FNR { elsewhere[$0]; next } /^Families/ { skip = 1 } /^$/ { skip = 0; blank = 1; next }
-           skip || $0 in elsewhere { next } { if (blank && n) print ""; blank = 0; n = 1; print }' elsewhere - > own
-    block_of "$command" | diff own - || fail "docs/pstripack.md has another --help of 'pstripack $command'"
-  done
-  sort used | uniq -d > several
-  grep -vxF -f several shared > stale || [ ! -s stale ] || fail "not in the help of several commands: $(cat stale)"
+  compare_table "Formats and their suffixes:" triangulate
+  compare_table "Densities:" scvt
   ;;
 
 pipes)
