@@ -54,6 +54,7 @@ struct Settings {
   std::string mode, family = "random", owners;
   std::size_t n = 1000000;
   int repeats = 5;
+  double change = 0;  ///< part of the points that change ranks before each call of a moving mesh
   bool warm = false;  ///< calls may begin with the mesh of the last one
 };
 
@@ -141,15 +142,20 @@ void print(MpiCommunicator& ranks, std::size_t n, const std::vector<double>& ser
   std::fflush(stdout);
 }
 
-/// Moves the points to their home ranks.
+constexpr auto nobody = [](std::int64_t) { return false; };
+
+/// Moves the points to their home ranks; those that `are_away(number)`, to the next ranks.
+template <class AreAway>
 void move_home(MpiCommunicator& ranks, const DistributedMesh& mesh, std::vector<Point>& points,
-               std::vector<std::int64_t>& numbers) {
+               std::vector<std::int64_t>& numbers, const AreAway& are_away) {
   struct Item {
     Point point;
     std::int64_t number;
   };
   std::vector<std::int32_t> home(points.size());
   mesh.home(static_cast<std::int64_t>(points.size()), &points.data()->x, home.data());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (are_away(numbers[i])) home[i] = (home[i] + 1) % ranks.size();
   const auto size = static_cast<std::size_t>(ranks.size());
   Parcels parcels;
   parcels.begin.assign(size + 1, 0);
@@ -289,20 +295,28 @@ void run_moving(const Settings& s) {
     }
     for (int k = 0; k < 2; ++k) {
       call();
-      move_home(ranks, mesh, points, numbers);
+      move_home(ranks, mesh, points, numbers, nobody);
     }
-    double least = 1e9, flips = 0;
+    double least = 1e9, least_cpu = 1e9, flips = 0;
     int warm = 0;
     for (int k = 0; k < kCallsBefore + s.repeats; ++k) {
       call();
       lloyd_step(mesh, points, kPart);
+      if (s.change > 0)  // half of it goes away, and half comes back
+        move_home(ranks, mesh, points, numbers, [&](std::int64_t number) {
+          const auto every = static_cast<std::int64_t>(2 / s.change);
+          return number % every == k % every;
+        });
       if (k < kCallsBefore) continue;
       least = std::min(least, spent);
+      const double(&cpu)[Phase::phases] = report.cost.maximum.cpu_seconds;
+      least_cpu = std::min(least_cpu, std::accumulate(std::begin(cpu), std::end(cpu), 0.0));
       if (report.cost.maximum.flips >= 0) ++warm, flips += static_cast<double>(report.cost.total.flips);
     }
     if (ranks.rank() == 0)
-      fmt::print("row n {} ranks {} wall {} warm {} flips {} halo {} bytes {}\n", s.n, ranks.size(), least,
-                 warm, flips / std::max(warm, 1), report.cost.total.halo, report.cost.total.bytes_sent);
+      fmt::print("row n {} ranks {} wall {} cpu {} warm {} flips {} halo {} bytes {}\n", s.n, ranks.size(),
+                 least, least_cpu, warm, flips / std::max(warm, 1), report.cost.total.halo,
+                 report.cost.total.bytes_sent);
   }
   MPI_Finalize();
 }
@@ -365,7 +379,7 @@ void run_on_ranks(const Settings& s) {
     const auto go_home = [&] {
       for (int k = 0; k < 2; ++k) {  // the second time from where the first has moved them
         mesh.triangulate(static_cast<std::int64_t>(points.size()), &points.data()->x, numbers.data());
-        move_home(ranks, mesh, points, numbers);
+        move_home(ranks, mesh, points, numbers, nobody);
       }
     };
     if (s.mode == "distributed") {
@@ -435,9 +449,9 @@ using Row = std::map<std::string, double>;
 Row measure(const std::string& self, const Settings& s, int ranks) {
   const std::string command = fmt::format(
       "{}OMP_NUM_THREADS=1 PSTRIPACK_WARM_START={} {} -n {} '{}' --mode {} --family {} --n {} "
-      "--repeats {}",
+      "--repeats {} --change {}",
       geteuid() == 0 ? "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 " : "", s.warm ? 1 : 0,
-      MPIRUN, ranks, self, s.mode, s.family, s.n, s.repeats);
+      MPIRUN, ranks, self, s.mode, s.family, s.n, s.repeats, s.change);
   FILE* const out = popen(command.c_str(), "r");
   if (out == nullptr) throw std::runtime_error("cannot start " + command);
   Row row;
@@ -500,28 +514,35 @@ void print_moving(const std::string& self, Settings s, const Tables& t) {
   constexpr int kRuns = 3;
   s.mode = kMoving;
   fmt::print(
-      "\ndistributed, points at home, {}, small steps of Lloyd's method: a call that may begin with the "
+      "\ndistributed, points at home{}, {}, small steps of Lloyd's method: a call that may begin with the "
       "stars "
-      "of the last one\nbeside the same call with PSTRIPACK_WARM_START=0; the clock\n\n"
-      "{:>9} {:>5} {:>9} {:>9} {:>11} {:>9} {:>10} {:>9} {:>10}\n",
-      s.family, "N", "ranks", "cold us/N", "warm us/N", "cold / warm", "flips/N", "warm calls", "halo",
-      "bytes");
+      "of the last one\nbeside the same call with PSTRIPACK_WARM_START=0; the clock, and processor time of "
+      "the "
+      "slowest rank\n\n"
+      "{:>9} {:>5} {:>9} {:>9} {:>11} {:>9} {:>9} {:>11} {:>9} {:>10} {:>9} {:>10}\n",
+      s.change > 0 ? fmt::format(", of which {} change ranks before each call", s.change) : "", s.family, "N",
+      "ranks", "cold us/N", "warm us/N", "cold / warm", "cold cpu", "warm cpu", "cold / warm", "flips/N",
+      "warm calls", "halo", "bytes");
   for (const std::size_t n : t.sizes)
     for (const int p : t.ranks) {
       s.n = n;
-      double least[2] = {1e9, 1e9};
+      double least[2] = {1e9, 1e9}, cpu[2] = {1e9, 1e9};
       Row warm;
       for (int run = 0; run < kRuns; ++run)
         for (const bool is_warm : {false, true}) {
           s.warm = is_warm;
           const Row r = measure(self, s, p);
           least[is_warm] = std::min(least[is_warm], r.at("wall"));
+          cpu[is_warm] = std::min(cpu[is_warm], r.at("cpu"));
           if (is_warm) warm = r;
         }
       const double us = 1e6 / static_cast<double>(n);
-      fmt::print("{:>9} {:>5} {:>9.4f} {:>9.4f} {:>11.2f} {:>9.5f} {:>10} {:>9} {:>10}\n", n, p,
-                 us * least[0], us * least[1], least[0] / least[1], warm.at("flips") / static_cast<double>(n),
-                 fmt::format("{}/{}", warm.at("warm"), s.repeats), warm.at("halo"), warm.at("bytes"));
+      fmt::print(
+          "{:>9} {:>5} {:>9.4f} {:>9.4f} {:>11.2f} {:>9.4f} {:>9.4f} {:>11.2f} {:>9.5f} {:>10} {:>9} "
+          "{:>10}\n",
+          n, p, us * least[0], us * least[1], least[0] / least[1], us * cpu[0], us * cpu[1], cpu[0] / cpu[1],
+          warm.at("flips") / static_cast<double>(n), fmt::format("{}/{}", warm.at("warm"), s.repeats),
+          warm.at("halo"), warm.at("bytes"));
       std::fflush(stdout);
     }
 }
@@ -600,6 +621,9 @@ int main(int argc, char** argv) {
   app.add_option("--repeats", s.repeats, "calls of each kind, three in a row, of which the median is shown")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
+  app.add_option("--change", s.change,
+                 "with --tables moving: part of the points that change ranks before each call")
+      ->check(CLI::Range(0.0, 1.0));
   app.add_option("--modes", t.modes, "only tables of these modes; `scvt` runs only if named")
       ->delimiter(',')
       ->check(CLI::IsMember(kAllModes))

@@ -14,7 +14,9 @@
 #include <string>
 
 #include "base/workspace.h"
+#include "parallel/agreement.h"
 #include "parallel/partition.h"
+#include "parallel/relocation.h"
 #include "parallel/triangulate.h"
 #include "point_sets.h"
 #include "support/cases.h"
@@ -49,7 +51,7 @@ std::int64_t number_of(std::size_t node) {
 }
 
 struct Tally {
-  int warm = 0, refused = 0, cold = 0, rounds = 0;
+  int warm = 0, refused = 0, cold = 0, rounds = 0, relocations = 0;
   std::size_t flips = 0;
 };
 
@@ -57,14 +59,32 @@ struct Tally {
 template <class Int>
 class OneRank {
  public:
-  OneRank(Communicator& ranks, const std::vector<std::size_t>& mine) : ranks_(ranks), mine_(mine) {
-    for (const std::size_t i : mine) numbers_.push_back(number_of<Int>(i));
-  }
+  explicit OneRank(Communicator& ranks) : ranks_(ranks) {}
 
-  void call(const Nodes& nodes, const std::optional<Rings>& right, Tally& tally) {
+  /// Nodes that are `mine`; in another call they may be others.
+  void call(const Nodes& nodes, std::vector<std::size_t> mine, const std::optional<Rings>& right,
+            Tally& tally) {
     Nodes here;
-    for (const std::size_t i : mine_) here.push_back(nodes[i]);
-    const LocalNodes local{here.data(), here.size(), numbers_.data()};
+    std::vector<std::int64_t> numbers;
+    for (const std::size_t i : mine) {
+      here.push_back(nodes[i]);
+      numbers.push_back(number_of<Int>(i));
+    }
+    const LocalNodes local{here.data(), here.size(), numbers.data()};
+    OnAll same{mine == mine_};
+    agree(ranks_, same);
+    if (moving_ != nullptr && !same.value) {
+      auto last = std::move(moving_);
+      const auto found = Relocation::find(numbers_.data(), numbers_.size(), local, ranks_);
+      if (found) {
+        stars_ = found->stars(stars_, local, ranks_);
+        moving_ = MovingStars::make(local, stars_, ranks_, std::move(last), *found);
+        EXPECT_TRUE(moving_ != nullptr);
+        ++tally.relocations;
+      }
+    }
+    mine_ = std::move(mine);
+    numbers_ = numbers;
     if (moving_ != nullptr) {
       if (moving_->repair(local, ranks_)) {
         moving_->update(local, stars_);
@@ -117,37 +137,55 @@ class OneRank {
   }
 
   Communicator& ranks_;
-  const std::vector<std::size_t>& mine_;
+  std::vector<std::size_t> mine_;
   std::vector<std::int64_t> numbers_;
   Stars<Int> stars_;
   std::unique_ptr<MovingStars> moving_;
 };
 
-/// Calls with these sets, one after another, on so many ranks. `owner`: by node; empty: by patches of the
-/// first set.
-template <class Int = std::int32_t>
-Tally follow(const std::vector<Nodes>& sets, int size, std::vector<int> owner = {}) {
-  if (owner.empty()) {
-    const Partition home(PartitionKind::bisection, size, sets[0], sets[0].size());
-    for (const Point& p : sets[0]) owner.push_back(home.owner(p));
-  }
-  std::vector<std::vector<std::size_t>> mine(static_cast<std::size_t>(size));
+/// The ranks of nodes by patches.
+std::vector<int> patches_of(const Nodes& nodes, int size) {
+  const Partition home(PartitionKind::bisection, size, nodes, nodes.size());
+  std::vector<int> owner;
+  for (const Point& p : nodes) owner.push_back(home.owner(p));
+  return owner;
+}
+
+using NodesOfRank = std::vector<std::vector<std::size_t>>;
+NodesOfRank nodes_of_ranks(const std::vector<int>& owner, int size) {
+  NodesOfRank mine(static_cast<std::size_t>(size));
   for (std::size_t i = 0; i < owner.size(); ++i) mine[static_cast<std::size_t>(owner[i])].push_back(i);
+  return mine;
+}
+
+/// Calls with these sets, one after another, on so many ranks. mine[s]: who has which nodes of set s; if
+/// there are fewer, the last ones stay.
+template <class Int>
+Tally follow(const std::vector<Nodes>& sets, int size, const std::vector<NodesOfRank>& mine) {
   std::vector<std::optional<Rings>> right;
   for (const Nodes& nodes : sets) right.push_back(rings_of_one_hull(nodes));
   std::vector<Tally> tally(static_cast<std::size_t>(size));
   ThreadRanks::run(size, [&](Communicator& ranks) {
     const auto r = static_cast<std::size_t>(ranks.rank());
-    OneRank<Int> rank(ranks, mine[r]);
-    for (std::size_t s = 0; s < sets.size(); ++s) rank.call(sets[s], right[s], tally[r]);
+    OneRank<Int> rank(ranks);
+    for (std::size_t s = 0; s < sets.size(); ++s)
+      rank.call(sets[s], mine[std::min(s, mine.size() - 1)][r], right[s], tally[r]);
   });
   for (const Tally& t : tally) {
     EXPECT_EQ(t.warm, tally[0].warm);
     EXPECT_EQ(t.refused, tally[0].refused);
     EXPECT_EQ(t.rounds, tally[0].rounds);
+    EXPECT_EQ(t.relocations, tally[0].relocations);
   }
   for (std::size_t r = 1; r < tally.size(); ++r) tally[0].flips += tally[r].flips;
   return tally[0];
+}
+
+/// `owner`: by node; empty: by patches of the first set.
+template <class Int = std::int32_t>
+Tally follow(const std::vector<Nodes>& sets, int size, std::vector<int> owner = {}) {
+  if (owner.empty()) owner = patches_of(sets[0], size);
+  return follow<Int>(sets, size, std::vector<NodesOfRank>{nodes_of_ranks(owner, size)});
 }
 
 constexpr int kSizes[] = {1, 2, 3, 5, 8};
@@ -385,6 +423,75 @@ TEST(MovingStars, FollowForALongTime) {
   const auto sets = sets_of(make("fibonacci", 200, 1), cases(150),
                             [&](Nodes& nodes, int) { move_all(nodes, 0.03 * spacing(200), random); });
   EXPECT_GT(follow(sets, 2).warm, cases(150) / 2);
+}
+
+/// Before each call some nodes go to other ranks, those of the last step come back, and every rank brings its
+/// nodes in another order.
+template <class Int>
+void follow_nodes_that_change_ranks(std::size_t change) {
+  constexpr std::size_t kNodes = 1200;
+  Random random(10);
+  const auto sets = sets_of(make("fibonacci", kNodes, 1), cases(6),
+                            [&](Nodes& nodes, int) { move_all(nodes, 0.02 * spacing(kNodes), random); });
+  const Tally alone = follow<Int>(sets, 1);
+  for (const int size : {1, 2, 3, 5}) {
+    SCOPED_TRACE(std::to_string(change) + " nodes, " + std::to_string(size) + " ranks");
+    const std::vector<int> home = patches_of(sets[0], size);
+    std::vector<NodesOfRank> mine;
+    for (std::size_t s = 0; s < sets.size(); ++s) {
+      std::vector<int> owner = home;
+      for (std::size_t k = 0; k < change / 2; ++k)
+        owner[(97 * s + 41 * k) % kNodes] = static_cast<int>(random.uniform() * size) % size;
+      mine.push_back(nodes_of_ranks(owner, size));
+      for (auto& nodes : mine.back())
+        for (std::size_t i = nodes.size(); i > 1; --i)
+          std::swap(nodes[i - 1], nodes[static_cast<std::size_t>(random.uniform() * static_cast<double>(i))]);
+    }
+    const Tally tally = follow<Int>(sets, size, mine);
+    EXPECT_EQ(tally.warm, static_cast<int>(sets.size()) - 1);
+    EXPECT_EQ(tally.relocations, tally.warm);
+    EXPECT_EQ(tally.flips, alone.flips);
+    if (::testing::Test::HasFailure()) break;
+  }
+}
+
+TEST(MovingStars, FollowNodesThatChangeRanks) {
+  for (const std::size_t change : {0, 2, 10, 80}) follow_nodes_that_change_ranks<std::int32_t>(change);
+  follow_nodes_that_change_ranks<std::int64_t>(20);
+}
+
+/// What is no relocation: on every rank.
+TEST(Relocation, IsOfFewNodesAndTheSame) {
+  using Numbers = std::vector<std::vector<std::int64_t>>;  // of each rank
+  const auto is_found = [](const Numbers& before, const Numbers& now) {
+    std::vector<int> found(before.size());
+    ThreadRanks::run(static_cast<int>(before.size()), [&](Communicator& ranks) {
+      const auto r = static_cast<std::size_t>(ranks.rank());
+      const Nodes nodes(now[r].size());
+      const LocalNodes local{nodes.data(), now[r].size(), now[r].data()};
+      found[r] = Relocation::find(before[r].data(), before[r].size(), local, ranks).has_value();
+    });
+    for (const int f : found) EXPECT_EQ(f, found[0]);
+    return found[0] != 0;
+  };
+  const Numbers last{{1, 2, 3, 4, 5, 6}, {}, {11, 12, 13, 14, 15, 16, 17, 18, 19, 20}};
+  EXPECT_TRUE(is_found(last, last));
+  EXPECT_TRUE(is_found(last, {{6, 1, 5, 2, 3, 4}, {}, {20, 12, 13, 14, 15, 16, 17, 18, 19, 11}}));
+  EXPECT_TRUE(is_found(last, {{1, 2, 3, 4, 5, 20}, {6}, {12, 11, 13, 14, 15, 16, 17, 18, 19}}))
+      << "an eighth";
+  EXPECT_FALSE(is_found(last, {{1, 2, 3, 4, 20}, {5, 6}, {12, 11, 13, 14, 15, 16, 17, 18, 19}})) << "more";
+  EXPECT_FALSE(is_found(last, {{1, 2, 3, 4, 5}, {}, {11, 12, 13, 14, 15, 16, 17, 18, 19, 20}})) << "one less";
+  EXPECT_FALSE(is_found(last, {{1, 2, 3, 4, 5, 7}, {}, last[2]})) << "another one";
+  EXPECT_FALSE(is_found(last, {{1, 2, 3, 4, 5, 5}, {}, last[2]})) << "one twice";
+  EXPECT_FALSE(is_found(last, {{1, 2, 3, 4, 5}, {5}, last[2]})) << "one on two ranks";
+  EXPECT_FALSE(is_found(last, {{1, 2, 3, 4}, {20}, {11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 6}}))
+      << "one stays and comes";
+  EXPECT_FALSE(is_found(last, {{1, 2, 3, 4, 5}, {19}, {11, 12, 13, 14, 15, 16, 17, 18, 20, 19}}));
+  EXPECT_FALSE(is_found(last, {{1, 2, 3, 4, 5, 0}, {}, last[2]})) << "no number";
+  EXPECT_FALSE(is_found(last, {{1, 2, 3, 4, 5, -6}, {}, last[2]}));
+  EXPECT_FALSE(is_found({{1, 2, 3, 4, 5, 6, 7}, {8, 9, 10}, {11, 12, 13, 14, 15, 16}},
+                        {{1, 2, 3, 4, 5, 6, 11}, {8, 9, 11}, {12, 13, 14, 15, 16, 7}}))
+      << "one comes twice, and one nowhere";
 }
 
 /// The sample of stars fits nodes that move a little, and no others.

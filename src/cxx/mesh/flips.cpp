@@ -17,28 +17,36 @@
 
 namespace pstripack {
 
-MovingMesh::MovingMesh(const Point* p, std::size_t n, const std::int32_t* list, const std::int32_t* lend,
-                       std::size_t outside, std::size_t room)
+MovingMesh::MovingMesh(std::size_t n, std::size_t arcs, std::size_t outside, std::size_t room)
     : n_(n),
       all_(n + outside),
       most_(all_ + room),
-      arcs_(n == 0 ? 0 : static_cast<std::size_t>(lend[n - 1])),
+      arcs_(arcs),
       slots_(slots(n, arcs_)),
-      workspace_(workspace_bytes(n, arcs_, most_)) {
-  order_ = workspace_.keep<std::uint32_t>(most_);
-  if (n > 0) insertion_order(p, n, order_, workspace_);
-  workspace_.next_phase();
+      workspace_(workspace_bytes(n, arcs_, most_)),
+      order_(workspace_.keep<std::uint32_t>(most_)) {}
+
+/// Those beside order_, none of which is filled but is_changed_.
+void MovingMesh::keep_arrays() {
   inside_ = workspace_.keep<std::uint32_t>(most_);
   nodes_ = workspace_.keep<Point>(most_);
-  stars_ = workspace_.keep<Star>(n);
+  stars_ = workspace_.keep<Star>(n_);
   rings_ = workspace_.keep<std::uint32_t>(slots_);
-  is_changed_ = workspace_.keep<std::uint8_t>(n);
+  is_changed_ = workspace_.keep<std::uint8_t>(n_);
+  std::fill_n(is_changed_, n_, std::uint8_t{0});
+  for (std::size_t v = n_; v < most_; ++v) order_[v] = inside_[v] = static_cast<std::uint32_t>(v);
+}
+
+MovingMesh::MovingMesh(const Point* p, std::size_t n, const std::int32_t* list, const std::int32_t* lend,
+                       std::size_t outside, std::size_t room)
+    : MovingMesh(n, n == 0 ? 0 : static_cast<std::size_t>(lend[n - 1]), outside, room) {
+  if (n > 0) insertion_order(p, n, order_, workspace_);
+  workspace_.next_phase();
+  keep_arrays();
   parallel_pieces(n, threads_for(n), [&](std::size_t first, std::size_t last, int) {
     for (std::size_t v = first; v < last; ++v) inside_[order_[v]] = static_cast<std::uint32_t>(v);
   });
-  for (std::size_t v = n; v < most_; ++v) order_[v] = inside_[v] = static_cast<std::uint32_t>(v);
   std::copy(p + n, p + all_, nodes_ + n);
-  std::fill_n(is_changed_, n, std::uint8_t{0});
   const auto slot = [&](std::size_t k) { return static_cast<std::size_t>(k == 0 ? 0 : lend[k - 1]); };
   constexpr std::size_t kAhead = 16;
   lay_rings(
@@ -51,6 +59,45 @@ MovingMesh::MovingMesh(const Point* p, std::size_t n, const std::int32_t* list, 
         if (v + kAhead < n_) __builtin_prefetch(list + slot(order_[v + kAhead]));
         std::transform(list + slot(order_[v]), list + lend[order_[v]], ring,
                        [&](std::int32_t k) { return inside_[k - 1]; });
+      });
+}
+
+/// Nodes that had stars keep their order, so that neighbours stay close together; the others come behind
+/// them.
+MovingMesh::MovingMesh(const MovingMesh& last, std::size_t n, std::size_t arcs, std::size_t outside,
+                       std::size_t room, const std::uint32_t* to, const MoreStars& more)
+    : MovingMesh(n, arcs, outside, room) {
+  keep_arrays();
+  std::fill_n(nodes_, all_, Point{});
+  BlockArray<std::uint32_t> now(last.all_), from(n);  // the node now of a node of `last`; and back
+  std::uint32_t stay = 0;
+  for (std::uint32_t v = 0; v < last.n_; ++v) {
+    const std::uint32_t k = to[last.order_[v]];
+    now[v] = k;
+    if (k >= n) continue;
+    order_[stay] = k;
+    inside_[k] = stay;
+    from[stay] = v;
+    now[v] = stay++;
+  }
+  for (std::size_t i = 0; i < more.node.size(); ++i) {
+    order_[stay + i] = more.node[i];
+    inside_[more.node[i]] = static_cast<std::uint32_t>(stay + i);
+  }
+  for (std::size_t v = last.n_; v < last.all_; ++v) now[v] = to[v] < n ? inside_[to[v]] : to[v];
+  lay_rings(
+      [&](std::size_t v) {
+        return v < stay ? std::size_t{last.stars_[from[v]].count} : more.count(v - stay);
+      },
+      [&](std::size_t v, std::uint32_t* ring) {
+        if (v < stay) {
+          const Star& star = last.stars_[from[v]];
+          const std::uint32_t* const old = last.rings_ + star.begin;
+          std::transform(old, old + star.count, ring, [&](std::uint32_t w) { return now[w]; });
+        } else {
+          const std::uint32_t* const end = more.ring.data() + more.end[v - stay];
+          std::transform(end - more.count(v - stay), end, ring, [&](std::uint32_t k) { return inside_[k]; });
+        }
       });
 }
 

@@ -25,6 +25,17 @@ class MovingMesh {
   MovingMesh(const Point* p, std::size_t n, const std::int32_t* list, const std::int32_t* lend,
              std::size_t outside = 0, std::size_t room = 0);
 
+  /// Stars of nodes that had none: node[i] has the neighbours ring[end[i-1]..end[i]-1], counterclockwise.
+  struct MoreStars {
+    std::vector<std::uint32_t> node, end, ring;
+    std::size_t count(std::size_t i) const { return end[i] - (i == 0 ? 0 : end[i - 1]); }
+  };
+  /// The part of the same mesh that has the stars of n nodes, with so many arcs, and so many nodes outside.
+  /// Of the nodes of `last`, outside or not, k has the number to[k], or is kNobody; of those here that had no
+  /// star, `more` has them. Where nodes are is not known yet. Parallel. Throws std::bad_alloc.
+  MovingMesh(const MovingMesh& last, std::size_t n, std::size_t arcs, std::size_t outside, std::size_t room,
+             const std::uint32_t* to, const MoreStars& more);
+
   /// For callers that account for memory.
   static std::size_t bytes(std::size_t n, std::size_t arcs, std::size_t all) {
     return workspace_bytes(n, arcs, all);
@@ -84,6 +95,13 @@ class MovingMesh {
   std::size_t change_count() const { return changed_.size(); }
   /// Writes the neighbours of node k as they stand in LIST: so many.
   std::size_t degree(std::size_t k) const { return stars_[inside_[k]].count; }
+  /// Calls visit(j) for each arc from a node here to the node outside size() + j.
+  template <class Visit>
+  void for_each_arc_outside(const Visit& visit) const {
+    for (std::size_t v = 0; v < n_; ++v)
+      for (std::uint32_t i = 0; i < stars_[v].count; ++i)
+        if (const std::uint32_t w = rings_[stars_[v].begin + i]; is_outside(w)) visit(w - n_);
+  }
   void write_ring(std::size_t k, std::int32_t* list) const;
 
   /// From now on the lists of the mesh are those given last. Parallel. Throws std::bad_alloc.
@@ -105,6 +123,8 @@ class MovingMesh {
            (2 * sizeof(std::uint32_t) + sizeof(Point)) * all;
   }
 
+  MovingMesh(std::size_t n, std::size_t arcs, std::size_t outside, std::size_t room);
+  void keep_arrays();
   template <class Count, class Write>
   void lay_rings(const Count& count, const Write& write);
   bool test(std::size_t first, std::size_t last, const Mark& mark, const std::atomic<bool>& stopped,

@@ -12,6 +12,23 @@ void SampleOfStars::add(std::size_t k, const std::int32_t* ring, std::size_t cou
   rings_.insert(rings_.end(), ring, ring + count);
 }
 
+SampleOfStars SampleOfStars::renumbered(const std::uint32_t* to) const {
+  SampleOfStars sample;
+  std::int32_t there[kMost];
+  const std::int32_t* ring = rings_.data();
+  for (const auto& [k, count] : stars_) {
+    bool is_whole = to[k] != kGone;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t node = to[ring[i] - 1];
+      is_whole = is_whole && node != kGone;
+      there[i] = static_cast<std::int32_t>(node) + 1;
+    }
+    if (is_whole) sample.add(to[k], there, count);
+    ring += count;
+  }
+  return sample;
+}
+
 bool SampleOfStars::fits(const NodeArrays& nodes) const {
   constexpr std::size_t kFew = 16;  // one arc of so many
   std::size_t arcs = 0, bad = 0;

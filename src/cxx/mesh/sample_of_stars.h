@@ -23,6 +23,11 @@ class SampleOfStars {
   /// The star of node k: `count` neighbours, counterclockwise, numbers from 1. Throws std::bad_alloc.
   void add(std::size_t k, const std::int32_t* ring, std::size_t count);
 
+  static constexpr std::uint32_t kGone = UINT32_MAX;
+  /// Those stars all of whose nodes are still there, where node k (from 0) is node to[k] now, or kGone.
+  /// Throws std::bad_alloc.
+  SampleOfStars renumbered(const std::uint32_t* to) const;
+
   /// True if all triangles of these stars are counterclockwise and few of their arcs are not locally
   /// Delaunay, as far as rounded arithmetic can tell.
   bool fits(const NodeArrays& nodes) const;

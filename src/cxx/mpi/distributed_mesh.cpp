@@ -107,7 +107,7 @@ std::int32_t DistributedMesh::triangulate_into(const LocalNodes& points, const N
   const PhaseTimer timer(&cost, ParallelCost::lists, &ranks_);
   std::copy(points.numbers, points.numbers + points.count, numbers.data());
   homes_ = std::move(stars.homes);
-  next_.were_at_home = homes_->are_home_to_most(points, ranks_.rank());
+  next_.are_at_home = are_at_home(points, numbering.total);
   if (next_.wants_sample) {
     try {
       next_.sample = sample_of(points, stars);
@@ -124,22 +124,34 @@ std::int32_t DistributedMesh::triangulate_into(const LocalNodes& points, const N
 bool DistributedMesh::begin_with_last(const LocalNodes& points, Report* report, ParallelCost& cost) {
   next_.wants_sample = false;
   if (total_ < static_cast<std::int64_t>(kFewestForWarmStart)) return false;
+  OnAll allowed{warm_start_is_allowed() && points.count < kMostPoints};
   OnAll same{points.count == own_.count() &&
-             std::equal(own_.numbers(), own_.numbers() + own_.count(), points.numbers) &&
-             warm_start_is_allowed()};
-  // Points that leave their homes get new ones, which the cold way finds.
-  OnAll fits{same.value && next_.sample && next_.sample->fits(points.points) &&
-             (!next_.were_at_home || homes_->are_home_to_most(points, ranks_.rank()))};
+             std::equal(own_.numbers(), own_.numbers() + own_.count(), points.numbers)};
+  OnAll fits{allowed.value && same.value && next_.sample && next_.sample->fits(points.points)};
+  OnAll were_at_home{next_.are_at_home}, are_at_home{allowed.value && this->are_at_home(points, total_)};
   OnAny reported{ranks_.rank() == 0 && report != nullptr};
   std::unique_ptr<MovingStars> moving = next_.moving.take();
   OnAll have_moving{moving != nullptr};  // or all make them anew
-  agree(ranks_, same, fits, reported, have_moving);
-  if (!have_moving.value) moving.reset();
-  next_.wants_sample = same.value;
-  if (!fits.value || !patience_.is_enough()) return false;
+  agree(ranks_, allowed, same, fits, were_at_home, are_at_home, reported, have_moving);
+  if (!allowed.value) return false;
+  if (!have_moving.value && same.value) moving.reset();
+  std::optional<Relocation> relocation;
+  if (!same.value) {
+    try {
+      const PhaseTimer timer(&cost, ParallelCost::divide, &ranks_);
+      relocation = relocation_to(points, fits);
+    } catch (const AgreedFailure&) {
+      // No memory for it.
+    }
+    if (!relocation) return false;
+  }
+  next_.wants_sample = true;
+  // Points that leave their homes, or crowd in some, get new homes, which the cold way finds.
+  const bool stay_at_home = !were_at_home.value || are_at_home.value;
+  if (!fits.value || !stay_at_home || !patience_.is_enough()) return false;
   bool is_done = false;
   try {
-    is_done = move_stars(std::move(moving), points, cost);
+    is_done = move_stars(std::move(moving), std::move(relocation), points, cost);
   } catch (const AgreedFailure&) {
     // No memory for it: the cold way has more, without the mesh.
   }
@@ -150,13 +162,47 @@ bool DistributedMesh::begin_with_last(const LocalNodes& points, Report* report, 
   return true;
 }
 
-bool DistributedMesh::move_stars(std::unique_ptr<MovingStars> moving, const LocalNodes& points,
-                                 ParallelCost& cost) {
+/// Whether nearly all points here are at home, and not too many of all.
+bool DistributedMesh::are_at_home(const LocalNodes& points, std::int64_t all) const {
+  return homes_->are_home_to_most(points, ranks_.rank()) &&
+         homes_->is_share_of(static_cast<std::size_t>(ranks_.rank()), points.count,
+                             static_cast<std::size_t>(all));
+}
+
+/// From the points of the last call to these, if they are the same; and whether its stars fit. Collective.
+std::optional<Relocation> DistributedMesh::relocation_to(const LocalNodes& points, OnAll& fits) {
+  std::optional<Relocation> relocation = Relocation::find(own_.numbers(), own_.count(), points, ranks_);
+  if (!relocation) return relocation;
+  in_agreement(
+      ranks_, [&] { fits.value = next_.sample && relocation->sample(*next_.sample).fits(points.points); },
+      fits);
+  return relocation;
+}
+
+/// The stars of the last call, on the ranks that bring their points now. Collective.
+void DistributedMesh::relocate(const Relocation& relocation, const LocalNodes& points) {
+  BlockArray<std::int64_t> numbers;
+  in_agreement(ranks_, [&] {
+    numbers = BlockArray<std::int64_t>(points.count);
+    std::copy_n(points.numbers, points.count, numbers.data());
+  });
+  next_.are_at_home = are_at_home(points, total_);
+  own_ = own_.visit(
+      [&](const auto& last) { return OwnStars(std::move(numbers), relocation.stars(last, points, ranks_)); });
+}
+
+bool DistributedMesh::move_stars(std::unique_ptr<MovingStars> moving, std::optional<Relocation> relocation,
+                                 const LocalNodes& points, ParallelCost& cost) {
   ranks_.set_phase("move the stars");
   {
     const PhaseTimer timer(&cost, ParallelCost::divide, &ranks_);
-    if (moving == nullptr)
-      moving = own_.visit([&](const auto& stars) { return MovingStars::make(points, stars, ranks_); });
+    if (relocation) relocate(*relocation, points);
+    if (relocation || moving == nullptr)
+      moving = own_.visit([&](const auto& stars) {
+        return relocation ? MovingStars::make(points, stars, ranks_, std::move(moving), *relocation)
+                          : MovingStars::make(points, stars, ranks_);
+      });
+    relocation.reset();
     if (moving == nullptr) return false;
   }
   {

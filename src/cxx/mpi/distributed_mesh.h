@@ -10,6 +10,7 @@
 #include "mpi/numbering.h"
 #include "mpi/own_stars.h"
 #include "parallel/moving_stars.h"
+#include "parallel/relocation.h"
 #include "parallel/triangulate.h"
 #include "trmesh/call.h"
 #include "trmesh/patience.h"
@@ -60,7 +61,11 @@ class DistributedMesh {
   template <class Int>
   std::int32_t triangulate_into(const LocalNodes& points, const Numbering& numbering, ParallelCost& cost);
   bool begin_with_last(const LocalNodes& points, Report* report, ParallelCost& cost);
-  bool move_stars(std::unique_ptr<MovingStars> moving, const LocalNodes& points, ParallelCost& cost);
+  bool are_at_home(const LocalNodes& points, std::int64_t all) const;
+  std::optional<Relocation> relocation_to(const LocalNodes& points, OnAll& fits);
+  void relocate(const Relocation& relocation, const LocalNodes& points);
+  bool move_stars(std::unique_ptr<MovingStars> moving, std::optional<Relocation> relocation,
+                  const LocalNodes& points, ParallelCost& cost);
   std::int32_t gather_stars(std::int32_t root, const ListArrays& lists);
   void report_on(ParallelCost& mine, std::int64_t sent_before, Report* report);
   void clear();
@@ -73,12 +78,12 @@ class DistributedMesh {
   OwnStars own_;
   std::unique_ptr<Homes> homes_;  ///< of the last triangulation, which the next may keep; null: it failed
 
-  /// For the next call, if it has the same numbers on each rank.
+  /// For the next call, if it has the same numbers.
   struct ForNext {
     Kept<MovingStars> moving;             ///< of the last call, if that began with them, too
     std::optional<SampleOfStars> sample;  ///< on this rank, if there is memory for it
-    bool wants_sample = false;            ///< the last call had the same numbers as the one before
-    bool were_at_home = false;            ///< nearly all points here, when homes_ were made
+    bool wants_sample = false;            ///< the last call had the numbers of the one before
+    bool are_at_home = false;             ///< nearly all points here, and not too many
   } next_;
   Patience patience_;  ///< the same on every rank
 };

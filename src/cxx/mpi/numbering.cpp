@@ -17,9 +17,7 @@ constexpr std::int64_t kNone = Smallest::kNone;
 /// Every number goes to a rank that its hash names; there all that are equal meet.
 std::int64_t search_repeated(const LocalNodes& points, MpiCommunicator& ranks) {
   const auto size = static_cast<std::size_t>(ranks.size());
-  const auto rank_of = [size](GlobalNumber x) {  // by the upper bits: a table takes the lower ones
-    return static_cast<std::size_t>((scattered(static_cast<std::uint64_t>(x)) >> 32) * size >> 32);
-  };
+  const auto rank_of = [size](GlobalNumber number) { return meeting_rank(number, size); };
   const Parcels here = exchange_in_agreement(ranks, [&] {
     ParcelWriter writer(size);
     for (std::size_t i = 0; i < points.count; ++i) writer.expect<GlobalNumber>(rank_of(points.number(i)));

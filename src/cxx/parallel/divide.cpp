@@ -52,13 +52,10 @@ Supply take_stock(const LocalNodes& nodes, const PatchRanges& patches, const std
     supply.keeps_patches = supply.keeps_patches && h.are_at_home;
   }
   const auto all_patches = static_cast<std::size_t>(patches.count());
-  const auto has_its_share = [&](const Headcount& h) {
-    const std::size_t share = supply.nodes / all_patches * static_cast<std::size_t>(h.patches);
-    return h.nodes <= share + share / 8 + kCloselyEnough;
-  };
-  supply.keeps_patches = supply.keeps_patches &&
-                         options.last->are_for(options.partition, patches, division.places.lengths()) &&
-                         std::all_of(heads.begin(), heads.end(), has_its_share);
+  supply.keeps_patches =
+      supply.keeps_patches && options.last->are_for(options.partition, patches, division.places.lengths());
+  for (std::size_t r = 0; r < heads.size(); ++r)
+    supply.keeps_patches = supply.keeps_patches && options.last->is_share_of(r, heads[r].nodes, supply.nodes);
   supply.looks_through = !supply.keeps_patches || options.last->lengths() != division.places.lengths();
   const std::size_t enough = supply.looks_through ? kLookedThrough : kClosingNodes;
   const std::size_t wanted =
@@ -190,6 +187,11 @@ std::vector<Record> along_curve(BlockArray<Record>& sample, std::size_t most, co
 }
 
 }  // namespace
+
+bool Homes::is_share_of(std::size_t rank, std::size_t nodes, std::size_t all) const {
+  const std::size_t share = all / static_cast<std::size_t>(patches_.count()) * patches_.count(rank);
+  return nodes <= share + share / 8 + kCloselyEnough;
+}
 
 bool Homes::are_home_to_most(const LocalNodes& nodes, int me) const {
   const std::size_t step = nodes.count / kLookedAt + 1;

@@ -95,6 +95,9 @@ class Homes {
            (lengths == Lengths::as_given || lengths == places_.lengths());
   }
   Lengths lengths() const { return places_.lengths(); }
+  /// False if a rank that brings so many of all nodes has an eighth more than its share: then these patches
+  /// are not kept.
+  bool is_share_of(std::size_t rank, std::size_t nodes, std::size_t all) const;
   /// True if nearly all of these nodes are at home on this rank, as a look at some of them tells.
   bool are_home_to_most(const LocalNodes& nodes, int rank) const;
   int rank(const Point& p) const { return static_cast<int>(patches_.rank_of(partition_->owner(places_(p)))); }

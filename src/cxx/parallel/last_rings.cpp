@@ -6,59 +6,12 @@
 
 #include "base/parallel_for.h"
 #include "parallel/agreement.h"
+#include "parallel/ring_parcels.h"
 
 namespace pstripack {
 namespace {
 
 using Int = std::int32_t;
-
-/// Calls visit(number, ring) for each ring of a parcel: number, count, entries.
-template <class Visit>
-void for_each_ring(const Parcels& parcels, const Visit& visit) {
-  const Items<Int> words(parcels);
-  for (const Int* at = words.begin(); at < words.end(); at += 2 + at[1]) visit(at[0], ring_at(at + 1));
-}
-
-/// Copies of the rings ring(i) of nodes 0..n-1.
-template <class GetRing>
-Stars<Int> copied(std::size_t n, const GetRing& ring) {
-  Stars<Int> stars;
-  std::size_t entries = 0;
-  for (std::size_t i = 0; i < n; ++i) entries += 1 + ring(i).count;
-  auto memory = std::make_unique<Workspace>(n * (sizeof(std::uint32_t) + sizeof(Int*) + 1));
-  auto* const position = memory->keep<std::uint32_t>(n);
-  auto** const place = memory->keep<const Int*>(n);
-  auto* const size_class = memory->keep<std::uint8_t>(n);
-  Buffer<Int> rings(entries + kBlock);  // see copy_kept_ring
-  Int* at = rings.data();
-  for (std::size_t i = 0; i < n; ++i) {
-    const Ring<Int> r = ring(i);
-    position[i] = static_cast<std::uint32_t>(i);
-    place[i] = at;
-    size_class[i] = RingTable<Int>::size_class_of(r.count);
-    *at++ = static_cast<Int>(r.count);
-    at = std::copy(r.begin, r.begin + r.count, at);
-  }
-  stars.of_node = RingTable<Int>(n, position, place, size_class);
-  stars.memory.push_back(std::move(memory));
-  stars.more_memory.push_back(std::move(rings));
-  return stars;
-}
-
-/// Packs rings for_each(visit), visit(rank, number, ring).
-template <class ForEach>
-Parcels packed_rings(std::size_t ranks, const ForEach& for_each) {
-  ParcelWriter writer(ranks);
-  for_each([&](std::size_t r, Int, const Ring<Int>& ring) { writer.expect<Int>(r, 2 + ring.count); });
-  writer.make_room();
-  for_each([&](std::size_t r, Int number, const Ring<Int>& ring) {
-    Int* const to = writer.room<Int>(r, 2 + ring.count);
-    to[0] = number;
-    to[1] = static_cast<Int>(ring.count);
-    std::copy(ring.begin, ring.begin + ring.count, to + 2);
-  });
-  return writer.finish();
-}
 
 }  // namespace
 
@@ -66,7 +19,7 @@ LastRings::LastRings(const RingTable<Int>& rings, std::size_t first_node, std::u
     : stay_(2 * (rings.arcs() + 4 * rings.size()) * sizeof(Int)),
       first_node_(first_node),
       homes_(std::move(homes)),
-      of_slice_(copied(rings.size(), [&](std::size_t i) { return rings[i]; })) {}
+      of_slice_(copied_stars<Int>(rings.size(), [&](std::size_t i) { return rings[i]; })) {}
 
 /// The rings of the slices go to the homes of their nodes.
 void LastRings::send_home(const NodeArrays& nodes, std::size_t nodes_of_all, Communicator& ranks) {
@@ -74,7 +27,7 @@ void LastRings::send_home(const NodeArrays& nodes, std::size_t nodes_of_all, Com
     const RingTable<Int>& rings = of_slice_.of_node;
     std::vector<int> home(rings.size());
     for (std::size_t i = 0; i < home.size(); ++i) home[i] = homes_->rank(nodes[first_node_ + i]);
-    return packed_rings(static_cast<std::size_t>(ranks.size()), [&](const auto& visit) {
+    return packed_rings<Int>(static_cast<std::size_t>(ranks.size()), [&](const auto& visit) {
       for (std::size_t i = 0; i < home.size(); ++i)
         visit(static_cast<std::size_t>(home[i]), static_cast<Int>(first_node_ + i + 1), rings[i]);
     });
@@ -82,12 +35,12 @@ void LastRings::send_home(const NodeArrays& nodes, std::size_t nodes_of_all, Com
   in_agreement(ranks, [&] {
     std::vector<Ring<Int>> here;
     std::vector<bool> is_here(nodes_of_all + 1);
-    for_each_ring(arrived, [&](Int number, const Ring<Int>& ring) {
+    for_each_ring<Int>(arrived, [&](Int number, const Ring<Int>& ring) {
       numbers_.push_back(number);
       here.push_back(ring);
       is_here[static_cast<std::size_t>(number)] = true;
     });
-    at_home_ = copied(here.size(), [&](std::size_t i) { return here[i]; });
+    at_home_ = copied_stars<Int>(here.size(), [&](std::size_t i) { return here[i]; });
     for (const Ring<Int>& ring : here)
       for (std::uint32_t k = 0; k < ring.count; ++k)
         if (const Int b = std::abs(ring.begin[k]); !is_here[static_cast<std::size_t>(b)])
@@ -113,7 +66,7 @@ bool LastRings::move(const NodeArrays& nodes, const std::vector<std::size_t>& be
 
   const Parcels changed = exchange_in_agreement(ranks, [&] {
     const std::vector<std::uint32_t> nodes_here = moving_->update(home, at_home_);
-    return packed_rings(size, [&](const auto& visit) {
+    return packed_rings<Int>(size, [&](const auto& visit) {
       for (const std::uint32_t k : nodes_here) {
         const auto node = static_cast<std::size_t>(numbers_[k]) - 1;
         const auto r = std::upper_bound(begin.begin(), begin.end(), node) - begin.begin() - 1;
@@ -136,7 +89,7 @@ void LastRings::replace(const Parcels& changed) {
   stars.more_memory.push_back(std::move(rings));
   replaced_ += entries;
   if (replaced_ <= 8 * stars.of_node.size()) return;  // then rings that are not used any more go
-  stars = copied(stars.of_node.size(), [&](std::size_t i) { return stars.of_node[i]; });
+  stars = copied_stars<Int>(stars.of_node.size(), [&](std::size_t i) { return stars.of_node[i]; });
   replaced_ = 0;
 }
 

@@ -19,7 +19,6 @@
 
 #include "base/parallel_for.h"
 #include "parallel/agreement.h"
-#include "parallel/number_table.h"
 
 namespace pstripack {
 namespace {
@@ -29,13 +28,16 @@ struct Found {
   std::uint32_t outside, node;
 };
 
+/// For so many nodes more outside there is room at first.
+constexpr std::size_t kRoom = 1000;
+
 }  // namespace
 
 // ---- the stars of the last call ------------------------------------------------------------------------
 
-template <class Int>
+template <class Int, class Begin>
 std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes& nodes, const Stars<Int>& stars,
-                                               Communicator& ranks) {
+                                               Communicator& ranks, const Begin& begin) {
   const auto size = static_cast<std::size_t>(ranks.size()), me = static_cast<std::size_t>(ranks.rank());
   std::int64_t sums[] = {static_cast<std::int64_t>(nodes.count),
                          static_cast<std::int64_t>(stars.of_node.arcs()),
@@ -56,8 +58,10 @@ std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes& nodes, const St
       first_with_nodes);
   moving->first_with_nodes_ = static_cast<std::size_t>(first_with_nodes.value);
   const Parcels wanted = ranks.all_gather(numbers.data(), numbers.size() * sizeof(GlobalNumber));
-  const Parcels found = exchange_in_agreement(ranks, [&] { return moving->begin(nodes, stars, wanted); });
+  const Parcels found = exchange_in_agreement(ranks, [&] { return begin(*moving, wanted); });
   in_agreement(ranks, [&] {
+    moving->mesh_->for_each_arc_outside([&](std::size_t j) { ++moving->outside_[j].arcs; });
+    moving->sort_outside();
     for (std::size_t r = 0; r < size; ++r)
       for (const Found& f : Items<Found>(found, r)) {
         moving->outside_[f.outside].address = {static_cast<std::uint32_t>(r), f.node};
@@ -67,19 +71,27 @@ std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes& nodes, const St
   return moving;
 }
 
-/// Lays out the stars. `wanted`: the numbers of the nodes outside each rank, of which those are found that
-/// are brought here.
 template <class Int>
-Parcels MovingStars::begin(const LocalNodes& nodes, const Stars<Int>& stars, const Parcels& wanted) {
-  constexpr std::size_t kAhead = 16;
-  const std::size_t n = nodes.count, arcs = stars.of_node.arcs(), outside = stars.outside.size();
-  const std::size_t room = outside + 1000;
-  stay_.emplace(MovingMesh::bytes(n, arcs, n + outside + room));
-  NumberTable<std::uint32_t> local(n + outside);
-  for (std::size_t i = 0; i < n; ++i) {
-    if (i + kAhead < n) local.prefetch(nodes.number(i + kAhead));
-    local.insert(nodes.number(i), static_cast<std::uint32_t>(i));
-  }
+std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes& nodes, const Stars<Int>& stars,
+                                               Communicator& ranks) {
+  return make(nodes, stars, ranks,
+              [&](MovingStars& moving, const Parcels& wanted) { return moving.begin(nodes, stars, wanted); });
+}
+
+template <class Int>
+std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes& nodes, const Stars<Int>& stars,
+                                               Communicator& ranks, std::unique_ptr<MovingStars> last,
+                                               const Relocation& way) {
+  constexpr std::size_t kFew = 8;  // one node of so many may lie far from its neighbours
+  const bool is_of_use = last != nullptr && last->come_ + way.come() <= nodes.count / kFew;
+  return make(nodes, stars, ranks, [&](MovingStars& moving, const Parcels& wanted) {
+    return is_of_use ? moving.begin_with(*last, way, nodes, stars, wanted)
+                     : moving.begin(nodes, stars, wanted);
+  });
+}
+
+/// Of the numbers of the nodes outside each rank, those that are brought here: they are in the table.
+Parcels MovingStars::find_wanted(const Parcels& wanted, const NumberTable<std::uint32_t>& local) {
   std::vector<std::vector<Found>> found(send_.size());
   for (std::size_t r = 0; r < found.size(); ++r) {
     std::uint32_t place = 0;
@@ -91,12 +103,32 @@ Parcels MovingStars::begin(const LocalNodes& nodes, const Stars<Int>& stars, con
       ++place;
     }
   }
+  return packed(found);
+}
 
-  outside_.reserve(outside + room);
-  for (const Record& r : stars.outside) {
+void MovingStars::enter_outside(const std::vector<Record>& outside, std::size_t n,
+                                NumberTable<std::uint32_t>& local) {
+  outside_.reserve(outside.size() + kRoom);
+  for (const Record& r : outside) {
     local.insert(r.number, static_cast<std::uint32_t>(n + outside_.size()));
     outside_.push_back({{}, r.number, 0});
   }
+}
+
+/// Lays out the stars.
+template <class Int>
+Parcels MovingStars::begin(const LocalNodes& nodes, const Stars<Int>& stars, const Parcels& wanted) {
+  constexpr std::size_t kAhead = 16;
+  const std::size_t n = nodes.count, arcs = stars.of_node.arcs(), outside = stars.outside.size();
+  const std::size_t room = outside + kRoom;
+  stay_.emplace(MovingMesh::bytes(n, arcs, n + outside + room));
+  NumberTable<std::uint32_t> local(n + outside);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (i + kAhead < n) local.prefetch(nodes.number(i + kAhead));
+    local.insert(nodes.number(i), static_cast<std::uint32_t>(i));
+  }
+  Parcels found = find_wanted(wanted, local);
+  enter_outside(stars.outside, n, local);
   BlockArray<std::int32_t> list(arcs), lend(n);
   std::int32_t* at = list.data();
   for (std::size_t i = 0; i < n; ++i) {
@@ -106,19 +138,66 @@ Parcels MovingStars::begin(const LocalNodes& nodes, const Stars<Int>& stars, con
       for (std::uint32_t k = 0; k < soon.count; ++k) local.prefetch(GlobalNumber{soon.begin[k]});
     }
     const Ring<Int> ring = stars.of_node[i];
-    for (std::uint32_t k = 0; k < ring.count; ++k) {
-      const std::uint32_t node = local.at(GlobalNumber{ring.begin[k]});
-      if (node >= n) ++outside_[node - n].arcs;
-      *at++ = static_cast<std::int32_t>(node) + 1;
-    }
+    for (std::uint32_t k = 0; k < ring.count; ++k)
+      *at++ = static_cast<std::int32_t>(local.at(GlobalNumber{ring.begin[k]})) + 1;
     lend[i] = static_cast<std::int32_t>(at - list.data());
   }
   BlockArray<Point> points(n + outside);
   nodes.points.copy(0, n, points.data());
   std::fill(points.data() + n, points.data() + n + outside, Point{});
   mesh_.emplace(points.data(), n, list.data(), lend.data(), outside, room);
-  sort_outside();
-  return packed(found);
+  return found;
+}
+
+/// The same from those of the last call: only nodes that have come or gone, and neighbours of such, are
+/// searched by their numbers.
+template <class Int>
+Parcels MovingStars::begin_with(MovingStars& last, const Relocation& way, const LocalNodes& nodes,
+                                const Stars<Int>& stars, const Parcels& wanted) {
+  const std::size_t n = nodes.count, arcs = stars.of_node.arcs(), outside = stars.outside.size();
+  const std::size_t room = outside + kRoom;
+  last.stay_.reset();
+  stay_.emplace(MovingMesh::bytes(n, arcs, n + outside + room));
+  std::vector<std::uint32_t> come;
+  for (std::size_t i = 0; i < n; ++i)
+    if (way.has_come(i)) come.push_back(static_cast<std::uint32_t>(i));
+  MovingMesh::MoreStars more;
+  const auto for_each_neighbour = [&](const auto& visit, const auto& end) {
+    for (const std::uint32_t i : come) {
+      const Ring<Int> ring = stars.of_node[i];
+      std::for_each(ring.begin, ring.begin + ring.count, visit);
+      end();
+    }
+  };
+  std::size_t named = Items<GlobalNumber>(wanted).size();
+  for_each_neighbour([&](Int) { ++named; }, [] {});
+  NumberFilter filter(named);
+  for (const GlobalNumber number : Items<GlobalNumber>(wanted)) filter.add(number);
+  for_each_neighbour([&](Int number) { filter.add(GlobalNumber{number}); }, [] {});
+  std::vector<std::uint32_t> here;
+  for (std::size_t i = 0; i < n; ++i)
+    if (way.has_come(i) || filter.may_have(nodes.number(i))) here.push_back(static_cast<std::uint32_t>(i));
+  NumberTable<std::uint32_t> local(here.size() + outside);
+  for (const std::uint32_t i : here) local.insert(nodes.number(i), i);
+  Parcels found = find_wanted(wanted, local);
+  enter_outside(stars.outside, n, local);
+
+  const std::size_t had = way.had();
+  BlockArray<std::uint32_t> to(had + last.outside_.size());
+  for (std::size_t k = 0; k < had; ++k)
+    to[k] = way.to(k) != Relocation::kGone ? way.to(k) : MovingMesh::kNobody;
+  way.for_each_that_has_gone([&](std::size_t k, GlobalNumber number) { to[k] = local.at(number); });
+  for (std::size_t j = 0; j < last.outside_.size(); ++j) {
+    const std::uint32_t* const node = local.find_value(last.outside_[j].number);
+    to[had + j] = node != nullptr ? *node : MovingMesh::kNobody;
+  }
+  more.node = come;
+  for_each_neighbour([&](Int number) { more.ring.push_back(local.at(GlobalNumber{number})); },
+                     [&] { more.end.push_back(static_cast<std::uint32_t>(more.ring.size())); });
+  mesh_.emplace(*last.mesh_, n, arcs, outside, room, to.data(), more);
+  last.mesh_.reset();
+  come_ = last.come_ + come.size();
+  return found;
 }
 
 void MovingStars::sort_outside() {
@@ -385,8 +464,14 @@ template SampleOfStars sample_of(const LocalNodes&, const Stars<std::int32_t>&);
 template SampleOfStars sample_of(const LocalNodes&, const Stars<std::int64_t>&);
 template std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes&, const Stars<std::int32_t>&,
                                                         Communicator&);
+template std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes&, const Stars<std::int32_t>&,
+                                                        Communicator&, std::unique_ptr<MovingStars>,
+                                                        const Relocation&);
 template std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes&, const Stars<std::int64_t>&,
                                                         Communicator&);
+template std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes&, const Stars<std::int64_t>&,
+                                                        Communicator&, std::unique_ptr<MovingStars>,
+                                                        const Relocation&);
 template std::vector<std::uint32_t> MovingStars::update(const LocalNodes&, Stars<std::int32_t>&);
 template std::vector<std::uint32_t> MovingStars::update(const LocalNodes&, Stars<std::int64_t>&);
 

@@ -13,6 +13,8 @@
 #include "mesh/sample_of_stars.h"
 #include "parallel/communicator.h"
 #include "parallel/local_nodes.h"
+#include "parallel/number_table.h"
+#include "parallel/relocation.h"
 #include "parallel/return_rings.h"
 
 namespace pstripack {
@@ -30,6 +32,12 @@ class MovingStars {
   template <class Int>
   static std::unique_ptr<MovingStars> make(const LocalNodes& nodes, const Stars<Int>& stars,
                                            Communicator& ranks);
+  /// The same, where these are way.stars(). It takes less time on a rank that has those of the last call,
+  /// which are of no more use then.
+  template <class Int>
+  static std::unique_ptr<MovingStars> make(const LocalNodes& nodes, const Stars<Int>& stars,
+                                           Communicator& ranks, std::unique_ptr<MovingStars> last,
+                                           const Relocation& way);
 
   /// Makes them the stars in the Delaunay triangulation of the same nodes where they are now, and returns
   /// true. Or returns false, and they are of no more use: as MovingMesh::repair(). The same on every rank.
@@ -77,8 +85,17 @@ class MovingStars {
 
   MovingStars(std::size_t ranks, std::size_t me)
       : me_(static_cast<std::uint32_t>(me)), send_(ranks), receive_(ranks) {}
+  /// begin(moving): what moving.begin() or moving.begin_with() returns.
+  template <class Int, class Begin>
+  static std::unique_ptr<MovingStars> make(const LocalNodes& nodes, const Stars<Int>& stars,
+                                           Communicator& ranks, const Begin& begin);
   template <class Int>
   Parcels begin(const LocalNodes& nodes, const Stars<Int>& stars, const Parcels& wanted);
+  template <class Int>
+  Parcels begin_with(MovingStars& last, const Relocation& way, const LocalNodes& nodes,
+                     const Stars<Int>& stars, const Parcels& wanted);
+  Parcels find_wanted(const Parcels& wanted, const NumberTable<std::uint32_t>& local);
+  void enter_outside(const std::vector<Record>& outside, std::size_t n, NumberTable<std::uint32_t>& local);
   void sort_outside();
   bool move_nodes(const LocalNodes& nodes, Communicator& ranks);
   std::optional<MovingMesh::Mark> agree_on_mark(Communicator& ranks);
@@ -100,6 +117,7 @@ class MovingStars {
   bool outside_has_changed_ = false;      ///< since then
   /// Of each rank: the nodes here whose places it is told, and the nodes outside whose places it tells.
   std::vector<Nodes> send_, receive_;
+  std::size_t come_ = 0;             ///< nodes that have come since the mesh was laid out along its curve
   std::size_t replaced_ = 0;         ///< entries of rings that update() has written
   std::size_t flips_of_others_ = 0;  ///< flips that another rank counts
   int rounds_ = 0;

@@ -4,12 +4,36 @@
 #include <cstddef>
 #include <cstdint>
 #include <utility>
+#include <vector>
 
 #include "base/scattered.h"
 #include "base/workspace.h"
 #include "parallel/global_number.h"
 
 namespace pstripack {
+
+/// The rank where all that is said of a number meets: by other bits of its hash than a table there takes.
+inline std::size_t meeting_rank(GlobalNumber number, std::size_t ranks) {
+  return static_cast<std::size_t>((scattered(static_cast<std::uint64_t>(number)) >> 32) * ranks >> 32);
+}
+
+/// Tells of most numbers that they have not been added. Throws std::bad_alloc when made, never later.
+class NumberFilter {
+ public:
+  explicit NumberFilter(std::size_t most) {
+    std::size_t bits = 1 << 10;
+    while (bits < 16 * most) bits *= 2;
+    maybe_.resize(bits);
+  }
+  void add(GlobalNumber number) { maybe_[slot(number)] = true; }
+  bool may_have(GlobalNumber number) const { return maybe_[slot(number)]; }
+
+ private:
+  std::size_t slot(GlobalNumber number) const {
+    return static_cast<std::uint64_t>(number) * 0x9e3779b97f4a7c15u >> 24 & (maybe_.size() - 1);
+  }
+  std::vector<bool> maybe_;
+};
 
 /// Finds by number. Throws std::bad_alloc when made, never later.
 template <class Value>

@@ -5,6 +5,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "parallel/number_table.h"
+
 namespace pstripack {
 namespace {
 
@@ -258,18 +260,13 @@ std::vector<Record> find_outside(const Patches<Int>& patches, const ReturnAddres
     });
     keep_one_of_each(all);
     // A patch does not know which nodes this rank brought for other patches, nor does a hub; where there are
-    // none, it knows all. Those that may be among `all` are marked in a table of some bits of the number
-    // first.
+    // none, it knows all.
     std::vector<GlobalNumber> own;
     if (addresses.away_begin.back() > 0 || patches.of_rank.size() > 1 || !hub_rings.empty()) {
-      std::vector<bool> maybe(std::size_t{1} << 10);
-      while (maybe.size() < 16 * all.size()) maybe.resize(2 * maybe.size());
-      const auto slot = [&](GlobalNumber number) {
-        return static_cast<std::uint64_t>(number) * 0x9e3779b97f4a7c15u >> 40 & (maybe.size() - 1);
-      };
-      for (const Record& r : all) maybe[slot(r.number)] = true;
+      NumberFilter filter(all.size());
+      for (const Record& r : all) filter.add(r.number);
       for (std::size_t i = 0; i < nodes.count; ++i)
-        if (maybe[slot(nodes.number(i))]) own.push_back(nodes.number(i));
+        if (filter.may_have(nodes.number(i))) own.push_back(nodes.number(i));
     }
     std::sort(own.begin(), own.end());
     auto next = own.begin();  // both are sorted
