@@ -924,16 +924,20 @@ TEST(Agreement, OfNodesThatAnAdversaryHasPlaced) {
   EXPECT_EQ(in_one_patch, 0);
 }
 
+/// Also where no patch knows all of them at first: slices of a mesh are anywhere.
 TEST(Agreement, FindsNodesThatCoincide) {
-  Nodes nodes = point_sets::make("ring", 3000, 4);
-  nodes[1500] = nodes[20];
-  nodes[700] = nodes[20];
-  const Outcome out =
-      run<std::int32_t>(nodes, {4, 2, PartitionKind::bisection, Brings::every_other}, true, 0);
-  for (const auto& stars : out.stars) {
-    EXPECT_EQ(first_coincidence(stars.coincident).l, 21);
-    EXPECT_EQ(first_coincidence(stars.coincident).m, 701);
-  }
+  for (const char* family : {"ring", "crossing:1e-3"})
+    for (const std::size_t most_questions : {std::size_t{0}, SIZE_MAX}) {
+      Nodes nodes = point_sets::make(family, 3000, 4);
+      nodes[1500] = nodes[20];
+      nodes[700] = nodes[20];
+      const Outcome out = run<std::int32_t>(nodes, {4, 2, PartitionKind::bisection, Brings::every_other},
+                                            true, most_questions);
+      for (const auto& stars : out.stars) {
+        EXPECT_EQ(first_coincidence(stars.coincident).l, 21);
+        EXPECT_EQ(first_coincidence(stars.coincident).m, 701);
+      }
+    }
 }
 
 TEST(Halo, IsThinWhereDensityVaries) {

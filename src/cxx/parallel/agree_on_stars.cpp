@@ -81,8 +81,9 @@ void agree_on_stars(Certified<Int>& certified, const Division& division, const C
         patches.see_coincidence, has_found);
     if (see_coincidence()) return;
     if (has_found.value) {
-      hubs.merge(all_of(found, ranks));
+      const Hubs more = all_of(found, ranks);
       in_agreement(ranks, [&] {
+        hubs.insert(more.begin(), more.end());
         for (Patch<Int>& patch : patches.of_rank) patch.set_hubs(hubs);
       });
     }
