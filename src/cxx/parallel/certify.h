@@ -19,6 +19,7 @@ struct Certified {
   Patches<Int> patches;
   CoincidentPairs coincident;  ///< that any patch came upon; on every rank the same
   bool gave_up = false;        ///< more questions than are worth while; on every rank the same
+  bool has_hubs = false;       ///< nodes whose stars lie on several ranks; on every rank the same
   int rounds = 0;              ///< exchanges of questions that were needed
   bool is_done() const { return coincident.empty() && !gave_up; }
 };

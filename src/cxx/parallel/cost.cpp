@@ -14,6 +14,7 @@ void combine_into(ParallelCost& to, const ParallelCost& from, const Combine& com
   }
   combine(to.threads, from.threads);
   combine(to.rounds, from.rounds);
+  combine(to.in_one_patch, from.in_one_patch);
   combine(to.halo, from.halo);
   combine(to.bytes_sent, from.bytes_sent);
   combine(to.flips, from.flips);

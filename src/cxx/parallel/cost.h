@@ -20,7 +20,8 @@ struct ParallelCost {
   enum Phase { divide, triangulate, merge, lists, gather, phases };
   double seconds[phases] = {}, cpu_seconds[phases] = {};
   int threads = 1;
-  int rounds = 0;         ///< exchanges of questions that were needed
+  int rounds = 0;         ///< exchanges of questions or claims that were needed
+  int in_one_patch = 0;   ///< 1: at last one rank had to triangulate all
   std::int64_t halo = 0;  ///< nodes of other patches that the patches of this rank took in
   std::int64_t bytes_sent = 0;
   std::int64_t flips = -1;  ///< of a call that began with an earlier mesh; -1: it did not

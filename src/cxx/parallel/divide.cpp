@@ -6,6 +6,7 @@
 
 #include "geometry/insertion_order.h"
 #include "parallel/agreement.h"
+#include "parallel/levels.h"
 #include "parallel/sample.h"
 #include "parallel/sample_hull.h"
 
@@ -102,6 +103,70 @@ Outcome cut_anew(const LocalNodes& nodes, Supply& supply, PartitionKind kind, Co
   return outcome;
 }
 
+/// True if neighbours in the mesh may be far from each other, as a look at the mesh of few nodes tells: then
+/// a third of its triangles have corners in different quarters of the patches.
+bool may_be_hard(const std::vector<Record>& few, const Partition& partition, const Places& places) {
+  constexpr std::size_t kEnough = 64, kQuarters = 4;
+  const auto patches = static_cast<std::size_t>(partition.patches());
+  if (few.size() < kEnough || patches == 1) return false;
+  std::vector<Point> points;
+  std::vector<std::size_t> quarter;
+  for (const Record& r : few) {
+    points.push_back(r.point);
+    const auto owner = static_cast<std::size_t>(partition.owner(places(r.point)));
+    quarter.push_back(patches > kQuarters ? owner * kQuarters / patches : owner);
+  }
+  const CoarseMesh mesh(points);
+  const std::size_t mixed = mesh.mixed([&](std::uint32_t v) { return quarter[v]; });
+  return 3 * (mixed + mesh.triangles_at_hubs()) > mesh.triangles().size() + mesh.triangles_at_hubs();
+}
+
+/// Slices of the mesh of the sample in place of boxes, if these cut more triangles. Collective. Throws
+/// AgreedFailure.
+void slice(const LocalNodes& nodes, Supply& supply, Communicator& ranks, Division& division) {
+  const int patches = division.patches.count();
+  std::optional<Levels> levels;
+  std::shared_ptr<Partition> cells;
+  std::vector<std::int64_t> weight;
+  in_agreement(ranks, [&] {
+    std::vector<Point> points, places;
+    for (const Record& r : supply.sample) {
+      points.push_back(r.point);
+      places.push_back(division.places(r.point));
+    }
+    const CoarseMesh mesh(points);
+    cells = std::make_shared<Partition>(places);
+    levels.emplace(mesh, places, *cells);
+    const std::vector<std::uint32_t>& cell = levels->cell_of();
+    weight.resize(cells->cells());
+    for (const std::uint32_t c : cell) ++weight[c];
+    const std::vector<int> of_sample = levels->slices(patches, weight);
+    const std::size_t in_slices = mesh.mixed([&](std::uint32_t v) { return of_sample[cell[v]]; });
+    const std::size_t in_boxes =
+        mesh.mixed([&](std::uint32_t v) { return division.partition->owner(places[v]); });
+    const std::size_t triangles = mesh.triangles().size() + mesh.triangles_at_hubs();
+    division.by_agreement = 3 * (in_boxes + mesh.triangles_at_hubs()) > triangles;
+    division.gave_up = division.may_give_up && division.by_agreement;
+    if (2 * in_slices >= in_boxes || division.gave_up) {
+      levels.reset();
+      return;
+    }
+    std::fill(weight.begin(), weight.end(), 0);
+    const std::vector<Point> counted =
+        places_to_count(nodes, supply.nodes, static_cast<std::size_t>(patches), division.places);
+    std::vector<std::uint32_t> cell_of_counted(counted.size());
+    cells->cells_of(counted.data(), counted.size(), cell_of_counted.data());
+    for (const std::uint32_t c : cell_of_counted) ++weight[c];
+  });
+  if (!levels) return;
+  ranks.all_sum(weight.data(), weight.size());
+  in_agreement(ranks, [&] {
+    cells->give_cells(patches, levels->slices(patches, weight), levels->begin(), levels->beside());
+    division.partition = cells;
+    division.by_agreement = true;
+  });
+}
+
 /// About `most` of the sample and those given, each once.
 std::vector<Record> some_of(BlockArray<Record>& sample, std::size_t most, std::vector<Record> some = {}) {
   const std::size_t step = sample.size() / most + 1;
@@ -158,22 +223,25 @@ Division divide(const LocalNodes& nodes, const Corners& corners, const Places& p
       look_for_hidden_nodes(along_curve(supply.sample, kLookedThrough, corners), places);
     division.closing = along_curve(supply.sample, kClosingNodes, corners);
   });
-  if (supply.keeps_patches)
+  if (supply.keeps_patches) {
     division.partition = options.last->partition();
-  else
+    division.by_agreement = options.last->by_agreement();
+  } else {
     outcome = cut_anew(nodes, supply, options.partition, ranks, division, outcome);
+  }
+  bool is_hard = false;
   in_agreement(ranks, [&] {
     outcome.accept();
     const auto patches = static_cast<std::size_t>(division.patches.count());
     division.may_give_up = size == 1 && patches > 1 && options.most_questions < nodes.count;
-    division.gave_up = division.may_give_up &&
-                       !patches_know_most(some_of(supply.sample, 256 * patches), *division.partition, places);
-    if (division.gave_up) return;
     // Worth it where it spares a look at more triangles than it takes time for.
     constexpr std::size_t kManyInAPatch = 50000;
     if (supply.nodes / patches > kManyInAPatch)
       division.most_stretch = most_stretch(division.closing, places);
+    is_hard = !supply.keeps_patches && options.partition == PartitionKind::bisection &&
+              may_be_hard(division.closing, *division.partition, places);
   });
+  if (is_hard) slice(nodes, supply, ranks, division);
   return division;
 }
 

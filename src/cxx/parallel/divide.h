@@ -27,6 +27,7 @@ struct ParallelOptions {
   /// Fill Stars::outside, and let the stars hold little memory beside their own.
   bool with_neighbours = false;
   /// Of a single rank: give up if the patches have more questions than this, since one patch would be faster.
+  /// Of several: if a rank has more, they agree on stars instead.
   std::size_t most_questions = SIZE_MAX;
   /// Of an earlier call on these ranks, on all of them or none: its patches are kept if nearly all nodes are
   /// where they belong in them, in equal numbers. Then nodes that were sent home are at home.
@@ -68,6 +69,8 @@ struct Division {
   std::shared_ptr<const Partition> partition;
   std::vector<Record> closing;                                    ///< nodes from everywhere
   double most_stretch = std::numeric_limits<double>::infinity();  ///< of the closing nodes, if computed
+  /// The patches would ask each other about too much.
+  bool by_agreement = false;
   /// One process, whose caller has another way: questions to itself would only cost.
   bool may_give_up = false;
   bool gave_up = false;  ///< then there is nothing else
@@ -77,9 +80,14 @@ struct Division {
 class Homes {
  public:
   Homes(const Division& division, PartitionKind kind)
-      : partition_(division.partition), kind_(kind), patches_(division.patches), places_(division.places) {}
+      : partition_(division.partition),
+        by_agreement_(division.by_agreement),
+        kind_(kind),
+        patches_(division.patches),
+        places_(division.places) {}
 
   const std::shared_ptr<const Partition>& partition() const { return partition_; }
+  bool by_agreement() const { return by_agreement_; }
   /// True if a call could have these patches, so many on each rank, for nodes in such places. Lengths are as
   /// given where they are about one: then the places are nearly those of directions.
   bool are_for(PartitionKind kind, const PatchRanges& patches, Lengths lengths) const {
@@ -96,6 +104,7 @@ class Homes {
 
  private:
   std::shared_ptr<const Partition> partition_;
+  bool by_agreement_;
   PartitionKind kind_;
   PatchRanges patches_;
   Places places_;

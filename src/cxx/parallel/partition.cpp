@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 namespace pstripack {
 namespace {
@@ -30,10 +31,12 @@ double longitude(const Point& p) {
 
 class Partition::Builder {
  public:
-  /// Sorts the sample into cells.
-  Builder(Partition& partition, std::vector<Point>& sample, std::size_t nodes)
+  /// Sorts the sample into cells of so many of its nodes or fewer.
+  Builder(Partition& partition, std::vector<Point>& sample, std::size_t nodes,
+          std::size_t cell_sample = kCellSample)
       : partition_(partition),
         sample_(sample),
+        cell_sample_(cell_sample),
         halves_(sample.size()),
         nodes_a_sample_(sample.empty() ? 1
                                        : static_cast<double>(nodes) / static_cast<double>(sample.size())) {}
@@ -41,6 +44,8 @@ class Partition::Builder {
   void bisect(const Cuts& cuts) {
     bisect(cuts, cuts.all().empty() ? -1 : 0, sample_.data(), sample_.size(), 0, {}, kEverything);
   }
+
+  void cut_into_cells() { cells_of_patch(sample_.data(), sample_.size(), 0, kEverything, false); }
 
   /// Borders between stripes: stripe k is [border[k], border[k+1]), all in [0, 2 pi), cyclic.
   void stripe(std::vector<double> border) {
@@ -210,8 +215,8 @@ class Partition::Builder {
     std::size_t below = 0;
     for (std::size_t i = 0; i < n; ++i) below += component(p[i], axis) < middle;
     const std::size_t few = std::min(below, n - below);
-    const bool is_even = n > kCellSample ? 4 * few >= n : few > n / 8 && few > 1;
-    if (n <= kCellSample && (is_even || n < kUnevenCellSample)) return std::nullopt;
+    const bool is_even = n > cell_sample_ ? 4 * few >= n : few > n / 8 && few > 1;
+    if (n <= cell_sample_ && (is_even || n < kUnevenCellSample)) return std::nullopt;
     below = is_even ? n / 2 : std::clamp(below, n / 8 + 1, n - n / 8 - 1);
     const std::vector<double> height = halves_.heights(p, n, below - 1, below + 1, axis, extent);
     const double half_gap = 0.5 * (height[1] - height[0]);
@@ -240,6 +245,7 @@ class Partition::Builder {
 
   Partition& partition_;
   std::vector<Point>& sample_;
+  const std::size_t cell_sample_;
   Halver halves_;
   double nodes_a_sample_;
 };
@@ -249,6 +255,38 @@ Partition::Partition(const Cuts& cuts, std::vector<Point> sample, std::size_t no
   Builder(*this, sample, nodes).bisect(cuts);
   copy_top(0, 0);
   for (int q = 0; q < patches(); ++q) find_beside(q);
+}
+
+Partition::Partition(std::vector<Point> sample) : Partition(1) {
+  Builder(*this, sample, sample.size(), 1).cut_into_cells();
+}
+
+void Partition::give_cells(int patches, const std::vector<int>& patch_of_cell,
+                           const std::vector<std::uint32_t>& begin,
+                           const std::vector<std::uint32_t>& beside) {
+  regions_.resize(static_cast<std::size_t>(patches));
+  largest_margin_.assign(regions_.size(), 0);
+  smallest_margin_ = 0;
+  std::vector<std::size_t> told(regions_.size(), cells_.size());  // the last cell that a patch has beside it
+  beside_begin_.assign(1, 0);
+  for (std::size_t k = 0; k < cells_.size(); ++k) {
+    cells_[k].margin = 0;
+    if (cells_[k].child[1] == 0) {
+      cells_[k].patch = patch_of_cell[k];
+      told[static_cast<std::size_t>(patch_of_cell[k])] = k;
+      for (std::uint32_t j = begin[k]; j < begin[k + 1]; ++j) {
+        const auto q = static_cast<std::size_t>(patch_of_cell[beside[j]]);
+        if (std::exchange(told[q], k) != k) beside_.push_back(static_cast<int>(q));
+      }
+    }
+    beside_begin_.push_back(static_cast<std::uint32_t>(beside_.size()));
+  }
+  for (std::size_t k = cells_.size(); k-- > 0;) {  // children come after their parents
+    Cell& c = cells_[k];
+    if (c.child[1] == 0) continue;
+    const std::int32_t below = cells_[c.child[0]].patch, beyond = cells_[c.child[1]].patch;
+    c.patch = below == beyond ? below : -1;
+  }
 }
 
 Partition::Partition(int patches)
@@ -288,7 +326,33 @@ Partition::Partition(PartitionKind kind, int patches, std::vector<Point> sample,
   copy_top(0, 0);
 }
 
+void Partition::cells_of(const Point* x, std::size_t n, std::uint32_t* cell) const {
+  for (std::size_t first = 0; first < n; first += kTogether) {
+    const std::size_t together = std::min(n - first, kTogether);
+    std::int32_t k[kTogether] = {};
+    for (bool is_below = true; is_below;) {
+      is_below = false;
+      for (std::size_t j = 0; j < together; ++j) {
+        const Cell& c = cells_[k[j]];
+        const std::int32_t next = c.child[is_beyond(c, x[first + j])];
+        is_below |= next != 0;
+        k[j] = next != 0 ? next : k[j];
+      }
+    }
+    for (std::size_t j = 0; j < together; ++j) cell[first + j] = static_cast<std::uint32_t>(k[j]);
+  }
+}
+
 void Partition::owners(const Point* x, std::size_t n, std::uint32_t* owner, double* nearest_plane) const {
+  if (!has_convex_patches()) {
+    cells_of(x, n, owner);
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::uint32_t cell = owner[i];
+      owner[i] = static_cast<std::uint32_t>(cells_[cell].patch);
+      nearest_plane[i] = beside_begin_[cell] < beside_begin_[cell + 1] ? 0 : kEverything;
+    }
+    return;
+  }
   // Level by level: one descent would wait for every comparison. On the way down owner[i] is the node
   // reached.
   const Top root = top_[0];  // the same for all
@@ -439,7 +503,8 @@ void Partition::strangers(int q, const Ball& ball, std::vector<int>& patches) co
     if (c.patch == q || reach <= c.margin) continue;
     if (c.patch >= 0 && std::find(patches.begin(), patches.end(), c.patch) != patches.end()) continue;
     if (c.child[1] == 0) {
-      patches.push_back(c.patch);
+      if (has_convex_patches() || !knows_cell(q, static_cast<std::size_t>(&c - cells_.data())))
+        patches.push_back(c.patch);
       continue;
     }
     const double s = product(c.split, ball.centre) - c.split.d;

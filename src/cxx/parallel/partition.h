@@ -41,7 +41,19 @@ class Partition {
   /// Bisection by these cuts.
   Partition(const Cuts& cuts, std::vector<Point> sample, std::size_t nodes);
 
+  /// Cells of about one node of the sample, not given to patches yet: then cells() and cells_of() tell which.
+  explicit Partition(std::vector<Point> sample);
+  std::size_t cells() const { return cells_.size(); }
+  /// The cells that n places lie in, each < cells().
+  void cells_of(const Point* x, std::size_t n, std::uint32_t* cell) const;
+  /// Gives each cell to a patch. The nodes of cells next to its own, beside[begin[c] .. begin[c + 1] - 1] of
+  /// cell c, are the halo of a patch.
+  void give_cells(int patches, const std::vector<int>& patch_of_cell, const std::vector<std::uint32_t>& begin,
+                  const std::vector<std::uint32_t>& beside);
+
   int patches() const { return static_cast<int>(regions_.size()); }
+  /// False if cells have been given to them: any cells, perhaps far from each other.
+  bool has_convex_patches() const { return beside_begin_.empty(); }
 
   /// The patches that n places belong to, and how far they are from the nearest plane that decided so, but
   /// for rounding: a lower bound of the distance from any other patch.
@@ -71,6 +83,11 @@ class Partition {
       margins(x, owner, candidate, candidates, margin);
       for (std::size_t j = 0; j < candidates; ++j) {
         const std::size_t i = candidate[j];
+        if (!has_convex_patches()) {
+          const std::size_t cell = leaf(x[i]);
+          for (std::uint32_t k = beside_begin_[cell]; k < beside_begin_[cell + 1]; ++k) visit(i, beside_[k]);
+          continue;
+        }
         if (nearest_plane[i] > margin[j]) continue;
         const Region& region = regions_[owner[i]];
         if (!region.is_box) {
@@ -93,7 +110,10 @@ class Partition {
   }
 
   /// True if x is patch q's own or in its halo.
-  bool knows(int q, const Point& x) const { return owner(x) == q || is_within(margin_at(x), q, x); }
+  bool knows(int q, const Point& x) const {
+    if (!has_convex_patches()) return knows_cell(q, leaf(x));
+    return owner(x) == q || is_within(margin_at(x), q, x);
+  }
 
   /// The patches that may have nodes in the ball which q does not know; none: q knows all of them. The
   /// components of the centre may be wrong by 2^-49 of themselves or of the radius.
@@ -152,11 +172,19 @@ class Partition {
                      x.y - r.rounded_high[1], r.rounded_low[2] - x.z, x.z - r.rounded_high[2]}) <= margin;
   }
 
-  /// The margin of the cell of x.
-  double margin_at(const Point& x) const {
+  /// The cell of x.
+  std::size_t leaf(const Point& x) const {
     std::int32_t k = 0;
     while (cells_[k].child[1] != 0) k = cells_[k].child[is_beyond(cells_[k], x)];
-    return cells_[k].margin;
+    return static_cast<std::size_t>(k);
+  }
+  double margin_at(const Point& x) const { return cells_[leaf(x)].margin; }
+  /// Of a cell that was given to a patch.
+  bool knows_cell(int q, std::size_t cell) const {
+    const auto beside = beside_.begin();
+    return cells_[cell].patch == q ||
+           std::find(beside + beside_begin_[cell], beside + beside_begin_[cell + 1], q) !=
+               beside + beside_begin_[cell + 1];
   }
   /// The margins of the cells of x[which[0..n-1]], n <= kTogether.
   void margins(const Point* x, const std::uint32_t* owner, const std::size_t* which, std::size_t n,
@@ -182,6 +210,10 @@ class Partition {
   std::vector<Region> regions_;
   std::vector<double> largest_margin_;  // of the cells of each patch
   double smallest_margin_ = 4;
+  /// Of cells that were given to patches: other patches that have cell c in their halo, from beside_begin_[c]
+  /// to beside_begin_[c + 1].
+  std::vector<std::uint32_t> beside_begin_;
+  std::vector<int> beside_;
 };
 
 }  // namespace pstripack

@@ -6,11 +6,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
 #include "base/workspace.h"
 #include "parallel/partition.h"
+#include "parallel/patch_agreement.h"
 #include "parallel/patch_hull.h"
 #include "parallel/patch_questions.h"
 #include "parallel/places.h"
@@ -47,19 +49,56 @@ class Patch {
   /// `most` questions it stops: nobody will answer them. Throws HiddenNode, std::bad_alloc.
   Doubts ask(const std::array<Record, 3>& corners, double stretch, std::size_t most) {
     if (nodes_.own == 0 || partition_->patches() == 1) return {};
-    return pstripack::ask(hull_, id_, *partition_, corners, stretch, most, asked_);
+    return pstripack::ask(view(), corners, stretch, most, asked_);
   }
 
   /// The answer of this patch to another's question: nodes that lie above, or that show that the arc is none
   /// of the boundary; none if there are none. A patch that answers takes in the corners of the question.
   /// Throws HiddenNode, std::bad_alloc.
   std::vector<Record> answer(const Question& question) {
-    return nodes_.own == 0 ? std::vector<Record>() : pstripack::answer(hull_, question);
+    if (nodes_.own == 0 || !hull_.coincident().empty()) return {};
+    return pstripack::answer(hull_, question);
   }
 
   /// Takes in the answer to a question of its own. Throws HiddenNode, std::bad_alloc.
-  void learn(const Record* nodes, std::size_t count) {
+  void learn(const Question& question, const Record* nodes, std::size_t count) {
+    if (count > 0) agreed_.see_refuted(view(), question);
     for (std::size_t k = 0; k < count; ++k) hull_.take_in(nodes[k]);
+  }
+
+  // Certification by agreement, where there would be too many questions: docs/parallel.md, "Agreement".
+
+  /// Asks about triangles as ask() does, but only the owners of their corners, who must have them, too: at
+  /// most `most` questions to each patch, and few about nodes that may be hubs. All arcs as ask() does.
+  /// Throws HiddenNode, std::bad_alloc.
+  Doubts claim(const std::array<Record, 3>& corners, std::size_t most) {
+    if (nodes_.own == 0 || partition_->patches() == 1) return {};
+    return agreed_.claim(hull_, view(), corners, most, asked_);
+  }
+  /// Takes in the corners of another's question. Throws HiddenNode, std::bad_alloc.
+  void take_in_corners(const Question& question) {
+    for (const Record& r : question.corner)
+      if (nodes_.own > 0 && r.number != kNoNumber) hull_.take_in(r);  // an arc has two corners
+  }
+  /// After the answers: nodes whose owners should not have to take in all their neighbours.
+  std::vector<GlobalNumber> look_for_hubs() const { return agreed_.look_for_hubs(hull_); }
+  /// All of them, the same for all patches. Throws std::bad_alloc.
+  void set_hubs(const std::unordered_set<GlobalNumber>& numbers) { agreed_.set_hubs(numbers); }
+  /// The hubs at which it keeps triangles. Throws std::bad_alloc.
+  std::vector<GlobalNumber> kept_hubs() const { return agreed_.kept_hubs(hull_); }
+  /// Calls visit(hub, owner of hub, run): successive neighbours of the hub, counterclockwise; each but the
+  /// last is followed by the next in triangles that this patch keeps. All patches together have each
+  /// neighbour once as one that is not the last. Throws std::bad_alloc.
+  template <class Visit>
+  void for_each_run_at_hubs(const Visit& visit) const {
+    agreed_.for_each_run(view(), visit);
+  }
+  /// Of an own hub: which of the patch's nodes it is.
+  std::size_t index_of_hub(GlobalNumber number) const { return hull_.index(hull_.find(number)); }
+  /// Of an own hub: where its ring begins if it is on the boundary; kNoNumber inside.
+  GlobalNumber first_boundary_neighbour(GlobalNumber number) const {
+    const std::uint32_t first = hull_.beside_on_boundary(hull_.find(number)).b;
+    return first != PatchHull<Int>::kNobody ? hull_.number(first) : kNoNumber;
   }
 
   /// After the last answer: the triangulation. Returns room enough for the entries of all rings of its own
@@ -91,11 +130,14 @@ class Patch {
   const CoincidentPairs& coincident() const { return hull_.coincident(); }
 
  private:
+  PatchView<Int> view() const { return {id_, *partition_, hull_}; }
+
   int id_;
   const Partition* partition_;
   PatchNodes nodes_;
   PatchHull<Int> hull_;
   Asked asked_;
+  PatchAgreement<Int> agreed_;
   Hull finished_;
 };
 
@@ -122,6 +164,7 @@ void Patch<Int>::for_each_missing_neighbour(std::size_t mine, const std::vector<
     const std::uint32_t r = brought_by(v);
     bool is_missing = false;
     const auto meet = [&](std::uint32_t w) {
+      if (agreed_.is_in_doubt(hull_, v, w)) return;
       const std::uint32_t other = brought_by(w);
       is_missing = is_missing || other == mine;
       if (r == kNobody || other == r || told[w] == r) return;

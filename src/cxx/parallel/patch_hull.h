@@ -41,6 +41,13 @@ class PatchHull {
   /// Adds a node that has come from elsewhere, unless it has already. Returns the hull node, or the one with
   /// which it coincides. Throws HiddenNode, std::bad_alloc.
   std::uint32_t take_in(const Record& node);
+  /// From now on find() finds node v, too. Throws std::bad_alloc.
+  void remember(std::uint32_t v) { taken_in_.try_emplace(number(v), v); }
+  /// The node of that number if it was taken in or remembered, or kNobody.
+  std::uint32_t find(GlobalNumber number) const {
+    const auto found = taken_in_.find(number);
+    return found != taken_in_.end() ? found->second : kNobody;
+  }
 
   const Places& places() const { return places_; }
   const GrowingHull& growing() const { return *growing_; }
@@ -77,6 +84,26 @@ class PatchHull {
     } while (corner != first);
   }
 
+  /// Calls visit(t, own) for every front face t that has a corner which is not the patch's own and among the
+  /// nodes from `first` on; `own` of its corners are.
+  template <class Visit>
+  void for_each_face_at_border(std::size_t first, const Visit& visit) const {
+    const auto n = static_cast<std::uint32_t>(growing_->node_count());
+    const bool all_are_front = growing_->surrounds_centre();
+    for (auto v = static_cast<std::uint32_t>(first); v < n; ++v) {
+      if (is_own(v)) continue;
+      for_each_face_at(v, [&](std::uint32_t t, std::uint32_t) {
+        const auto& corner = arrays_.faces[t].vertex;
+        int own = 0;
+        for (int i = 0; i < 3; ++i) {
+          if (corner[i] < v && corner[i] >= first && !is_own(corner[i])) return;  // met there
+          own += is_own(corner[i]);
+        }
+        if (all_are_front || growing_->front(t)) visit(t, own);
+      });
+    }
+  }
+
   std::vector<BoundaryArc> boundary_arcs() const;
   /// The nodes a and b with arcs a -> v -> b of the boundary; kNobody where v is not on it.
   BoundaryArc beside_on_boundary(std::uint32_t v) const;
@@ -110,7 +137,7 @@ class PatchHull {
   std::unique_ptr<GrowingHull> growing_;
   Plane* first_planes_ = nullptr;  ///< those in the workspace, for built_ nodes at least
   CoincidentPairs coincident_;
-  std::unordered_map<GlobalNumber, std::uint32_t> taken_in_;  ///< hull nodes by number
+  std::unordered_map<GlobalNumber, std::uint32_t> taken_in_;  ///< see find()
   struct {  // where the workspace was too small for what was taken in
     Buffer<Point> nodes;
     Buffer<Int> number;

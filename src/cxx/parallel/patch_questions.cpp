@@ -37,110 +37,42 @@ Ball ball_above(const PatchHull<Int>& hull, std::uint32_t ia, std::uint32_t ib, 
   return ball_beyond(normal, dot(normal, a), error, hull.places().deviation());
 }
 
-/// Collects the questions of one patch.
 template <class Int>
-class Asker {
- public:
-  Asker(const PatchHull<Int>& hull, int patch, const Partition& partition)
-      : hull_(hull), patch_(patch), partition_(partition) {}
-
-  void ask_about_arcs(const std::array<Record, 3>& corners, Asked& asked);
-  void ask_about_triangle(std::uint32_t t);
-  /// Of own nodes, in which directions bulge out of the patch. `farthest`: no place is farther.
-  void ask_about_bulges(double farthest);
-
-  Doubts doubts;
-
- private:
-  const PatchHull<Int>& hull_;
-  const int patch_;
-  const Partition& partition_;
-  std::vector<int> strangers_;
-};
-
-template <class Int>
-void Asker<Int>::ask_about_triangle(std::uint32_t t) {
-  const Face& f = hull_.face(t);
-  partition_.strangers(patch_, ball_above(hull_, f.vertex[0], f.vertex[1], f.vertex[2]), strangers_);
-  if (strangers_.empty()) return;
-  std::uint32_t first = 0;  // the smallest number first, so that a triangle has one name
-  for (const std::uint32_t i : {1, 2})
-    if (hull_.number(f.vertex[i]) < hull_.number(f.vertex[first])) first = i;
-  Question question{};
-  for (std::uint32_t i = 0, e = first; i < 3; ++i, e = next_edge(e))
-    question.corner[i] = hull_.node(f.vertex[e]);
-  question.from = patch_;
-  for (const int q : strangers_) {
+void ask_about_triangle(const PatchView<Int>& patch, std::uint32_t t, std::vector<int>& strangers,
+                        std::vector<Question>& questions) {
+  const Face& f = patch.hull.face(t);
+  patch.partition.strangers(patch.id, ball_above(patch.hull, f.vertex[0], f.vertex[1], f.vertex[2]),
+                            strangers);
+  if (strangers.empty()) return;
+  Question question = question_about(patch, t);
+  for (const int q : strangers) {
     question.to = q;
-    doubts.questions.push_back(question);
+    questions.push_back(question);
   }
 }
 
-/// An arc with one end of another patch is asked of that patch. Where all agree, the arcs at own nodes close
-/// to curves that turn left only, around a place z inside the triangle of the corners. Each of them crosses
-/// the great circle through z and a corner; the arc that crosses it is asked of all, so that there is one
-/// curve and no node beyond it. z is infinitely close to the first corner, on the side of the second.
-template <class Int>
-void Asker<Int>::ask_about_arcs(const std::array<Record, 3>& corners, Asked& asked) {
-  const auto is_left = [&](std::uint32_t v) {
-    const Point& x = hull_.point(v);
-    const int side = left(corners[0].point, corners[2].point, x);
-    return (side != 0 ? side : left(corners[1].point, corners[2].point, x)) > 0;
-  };
-  std::vector<BoundaryArc> arcs;
-  if (asked.nodes == 0) {
-    arcs = hull_.boundary_arcs();
-  } else {
-    for (const BoundaryArc& arc : asked.arcs)
-      if (hull_.beside_on_boundary(arc.a).b == arc.b) arcs.push_back(arc);
-    // An arc that was none before ends at a node that has come in since.
-    for (auto v = static_cast<std::uint32_t>(asked.nodes); v < hull_.growing().node_count(); ++v) {
-      const BoundaryArc beside = hull_.beside_on_boundary(v);
-      if (beside.a == kNobody) continue;
-      arcs.push_back({beside.a, v});
-      arcs.push_back({v, beside.b});
-    }
-  }
-  asked.arcs.clear();
-  for (const BoundaryArc& arc : arcs) {
-    const std::uint32_t a = arc.a, b = arc.b;
-    const bool owns_a = hull_.is_own(a), owns_b = hull_.is_own(b);
-    if (!owns_a && !owns_b) continue;
-    const auto ask = [&](int to) {
-      doubts.questions.push_back({{hull_.node(a), hull_.node(b), {{0, 0, 0}, kNoNumber}}, patch_, to});
-      ++doubts.arcs;
-      if (asked.arcs.empty() || asked.arcs.back().a != a) asked.arcs.push_back({a, b});
-    };
-    if (owns_a && is_left(a) && !is_left(b)) {
-      for (int q = 0; q < partition_.patches(); ++q)
-        if (q != patch_) ask(q);
-    } else if (!owns_a || !owns_b) {
-      ask(partition_.owner(hull_.place(owns_a ? b : a)));
-    }
-  }
-}
-
-template <class Int>
-void Asker<Int>::ask_about_bulges(double farthest) {
-  const double deviation = hull_.places().deviation();
+/// Calls visit(t) for the front faces of own nodes that bulge out of the patch.
+template <class Int, class Visit>
+void for_each_bulge(const PatchView<Int>& patch, const Visit& visit) {
+  const PatchHull<Int>& hull = patch.hull;
   // What lies in the direction of a point y of a triangle is at most 1 + deviation times as long as 1 / |y|.
-  const double lowest = std::max(0.0, farthest - partition_.smallest_margin() + 1e-12);
+  const double deviation = hull.places().deviation(), farthest = 1 + deviation;
+  const double lowest = std::max(0.0, farthest - patch.partition.smallest_margin() + 1e-12);
   const double limit = lowest * lowest;
   const auto is_flat = [&](std::uint32_t t) {  // few are not; no branch where it cannot be guessed
-    const Plane& p = hull_.plane(t);           // its product with a unit vector is known to 1
+    const Plane& p = hull.plane(t);            // its product with a unit vector is known to 1
     const double w = p.w - 4;
     return (w > 0) & (w * w >= limit * (p.x * p.x + p.y * p.y + p.z * p.z));
   };
   const auto examine = [&](std::uint32_t t) {
-    const auto& v = hull_.face(t).vertex;
-    if (is_flat(t) || !(hull_.is_own(v[0]) && hull_.is_own(v[1]) && hull_.is_own(v[2]))) return;
-    const Point a = hull_.place(v[0]), b = hull_.place(v[1]), c = hull_.place(v[2]);
-    const double most_stretch =
-        std::min(stretch_of(hull_.plane(t), farthest), stretch_of(a, b, c, deviation));
-    if (!partition_.holds(patch_, a, b, c, most_stretch) && hull_.growing().front(t)) ask_about_triangle(t);
+    const auto& v = hull.face(t).vertex;
+    if (is_flat(t) || !(hull.is_own(v[0]) && hull.is_own(v[1]) && hull.is_own(v[2]))) return;
+    const Point a = hull.place(v[0]), b = hull.place(v[1]), c = hull.place(v[2]);
+    const double most_stretch = std::min(stretch_of(hull.plane(t), farthest), stretch_of(a, b, c, deviation));
+    if (!patch.partition.holds(patch.id, a, b, c, most_stretch) && hull.growing().front(t)) visit(t);
   };
   constexpr std::uint32_t kTogether = 8;
-  const auto faces = static_cast<std::uint32_t>(hull_.growing().face_count());
+  const auto faces = static_cast<std::uint32_t>(hull.growing().face_count());
   std::uint32_t t = 0;
   for (; t + kTogether <= faces; t += kTogether) {
     bool all = true;
@@ -151,55 +83,94 @@ void Asker<Int>::ask_about_bulges(double farthest) {
   for (; t < faces; ++t) examine(t);
 }
 
-/// Calls visit(t, own) for every front face t that has a corner which is not the patch's own and among the
-/// nodes from `first` on; `own` of its corners are.
-template <class Int, class Visit>
-void for_each_face_at_border(const PatchHull<Int>& hull, std::size_t first, const Visit& visit) {
-  const auto n = static_cast<std::uint32_t>(hull.growing().node_count());
-  const bool all_are_front = hull.growing().surrounds_centre();
-  for (auto v = static_cast<std::uint32_t>(first); v < n; ++v) {
-    if (hull.is_own(v)) continue;
-    hull.for_each_face_at(v, [&](std::uint32_t t, std::uint32_t) {
-      const auto& corner = hull.face(t).vertex;
-      int own = 0;
-      for (int i = 0; i < 3; ++i) {
-        if (corner[i] < v && corner[i] >= first && !hull.is_own(corner[i])) return;  // met there
-        own += hull.is_own(corner[i]);
-      }
-      if (all_are_front || hull.growing().front(t)) visit(t, own);
-    });
+}  // namespace
+
+/// The smallest number first, so that a triangle has one name.
+template <class Int>
+Question question_about(const PatchView<Int>& patch, std::uint32_t t) {
+  const auto& vertex = patch.hull.face(t).vertex;
+  std::uint32_t first = 0;
+  for (const std::uint32_t i : {1, 2})
+    if (patch.hull.number(vertex[i]) < patch.hull.number(vertex[first])) first = i;
+  Question question{};
+  for (std::uint32_t i = 0, e = first; i < 3; ++i, e = next_edge(e))
+    question.corner[i] = patch.hull.node(vertex[e]);
+  question.from = patch.id;
+  return question;
+}
+
+/// An arc with one end of another patch is asked of that patch. Where all agree, the arcs at own nodes close
+/// to curves that turn left only, around a place z inside the triangle of the corners. Each of them crosses
+/// the great circle through z and a corner; the arc that crosses it is asked of all, so that there is one
+/// curve and no node beyond it. z is infinitely close to the first corner, on the side of the second.
+template <class Int>
+void ask_about_arcs(const PatchView<Int>& patch, const std::array<Record, 3>& corners, Asked& asked,
+                    Doubts& doubts) {
+  const PatchHull<Int>& hull = patch.hull;
+  const auto is_left = [&](std::uint32_t v) {
+    const Point& x = hull.point(v);
+    const int side = left(corners[0].point, corners[2].point, x);
+    return (side != 0 ? side : left(corners[1].point, corners[2].point, x)) > 0;
+  };
+  std::vector<BoundaryArc> arcs;
+  if (asked.nodes == 0) {
+    arcs = hull.boundary_arcs();
+  } else {
+    for (const BoundaryArc& arc : asked.arcs)
+      if (hull.beside_on_boundary(arc.a).b == arc.b) arcs.push_back(arc);
+    // An arc that was none before ends at a node that has come in since.
+    for (auto v = static_cast<std::uint32_t>(asked.nodes); v < hull.growing().node_count(); ++v) {
+      const BoundaryArc beside = hull.beside_on_boundary(v);
+      if (beside.a == kNobody) continue;
+      arcs.push_back({beside.a, v});
+      arcs.push_back({v, beside.b});
+    }
+  }
+  asked.arcs.clear();
+  for (const BoundaryArc& arc : arcs) {
+    const std::uint32_t a = arc.a, b = arc.b;
+    const bool owns_a = hull.is_own(a), owns_b = hull.is_own(b);
+    if (!owns_a && !owns_b) continue;
+    const auto ask = [&](int to) {
+      doubts.questions.push_back({{hull.node(a), hull.node(b), {{0, 0, 0}, kNoNumber}}, patch.id, to});
+      ++doubts.arcs;
+      if (asked.arcs.empty() || asked.arcs.back().a != a) asked.arcs.push_back({a, b});
+    };
+    if (owns_a && is_left(a) && !is_left(b)) {
+      for (int q = 0; q < patch.partition.patches(); ++q)
+        if (q != patch.id) ask(q);
+    } else if (!owns_a || !owns_b) {
+      ask(patch.owner(owns_a ? b : a));
+    }
   }
 }
 
-}  // namespace
-
 template <class Int>
-Doubts ask(const PatchHull<Int>& hull, int patch, const Partition& partition,
-           const std::array<Record, 3>& corners, double stretch, std::size_t most, Asked& asked) {
-  Asker<Int> asker(hull, patch, partition);
-  Doubts& doubts = asker.doubts;
+Doubts ask(const PatchView<Int>& patch, const std::array<Record, 3>& corners, double stretch,
+           std::size_t most, Asked& asked) {
+  const PatchHull<Int>& hull = patch.hull;
+  Doubts doubts;
   const std::size_t nodes = hull.growing().node_count();
   doubts.has_grown = nodes != asked.nodes;
-  asker.ask_about_arcs(corners, asked);
+  ask_about_arcs(patch, corners, asked, doubts);
   // A node that lies above some triangle of own nodes lies above one that has a corner of another patch as
   // well, or its direction is in a triangle of own nodes, which must bulge out of the patch then.
   // After the first time only triangles at nodes that have come in since are new.
   const bool first_time = asked.nodes == 0;
+  std::vector<int> strangers;
+  const auto ask_about = [&](std::uint32_t t) { ask_about_triangle(patch, t, strangers, doubts.questions); };
   asked.is_around.resize(nodes);
-  for_each_face_at_border(hull, asked.nodes, [&](std::uint32_t t, int own) {
+  hull.for_each_face_at_border(asked.nodes, [&](std::uint32_t t, int own) {
     if (own == 0 || doubts.questions.size() > most) return;
     const Face& f = hull.face(t);
     for (const std::uint32_t v : {f.vertex[0], f.vertex[1], f.vertex[2]})
-      if (!hull.is_own(v) && !asked.is_around[v]) {
-        asked.is_around[v] = true;
-        asked.around.push_back(v);
-      }
-    asker.ask_about_triangle(t);
+      if (!hull.is_own(v)) asked.meet(v);
+    ask_about(t);
   });
   asked.nodes = nodes;
-  if (first_time && doubts.questions.size() <= most && !partition.holds_all(patch, stretch))
-    asker.ask_about_bulges(1 + hull.places().deviation());
-  return std::move(doubts);
+  if (first_time && doubts.questions.size() <= most && !patch.partition.holds_all(patch.id, stretch))
+    for_each_bulge(patch, ask_about);
+  return doubts;
 }
 
 // ---- answer -----------------------------------------------------------------------------------------
@@ -256,12 +227,14 @@ template <class Int>
 std::vector<std::uint32_t> nodes_above(const PatchHull<Int>& hull, const std::uint32_t (&v)[3],
                                        std::size_t most) {
   std::vector<std::uint32_t> above;
-  const auto add_those_above = [&](std::uint32_t corner) {
-    hull.for_each_face_at(corner, [&](std::uint32_t t, std::uint32_t i) {
-      const std::uint32_t w = hull.face(t).vertex[next_edge(i)];
+  const auto add_those_above = [&](std::uint32_t node, std::size_t faces) {
+    std::uint32_t corner = hull.corner(node);
+    do {
+      const std::uint32_t w = hull.face(face_of(corner)).vertex[next_edge(edge_of(corner))];
       if (w != v[0] && w != v[1] && w != v[2] && hull.growing().above(v[0], v[1], v[2], w))
         above.push_back(w);
-    });
+      corner = hull.counterclockwise(corner);
+    } while (--faces > 0 && corner != hull.corner(node));
   };
   // All nodes lie in the cone that the hull makes at a corner, so one of the neighbours of that corner lies
   // above if any node does. The corner with the fewest: its ring closes first.
@@ -270,10 +243,18 @@ std::vector<std::uint32_t> nodes_above(const PatchHull<Int>& hull, const std::ui
     least = least == 2 ? 0 : least + 1;
     at[least] = hull.counterclockwise(at[least]);
   } while (at[least] != hull.corner(v[least]));
-  add_those_above(v[least]);
+  bool is_face = false;
+  hull.for_each_face_at(v[least], [&](std::uint32_t t, std::uint32_t i) {
+    const auto& corner = hull.face(t).vertex;
+    is_face |=
+        corner[next_edge(i)] == v[next_edge(least)] && corner[previous_edge(i)] == v[previous_edge(least)];
+  });
+  if (is_face) return above;
+  constexpr std::size_t kManyFaces = 512;  // not all at a node with very many neighbours
+  add_those_above(v[least], SIZE_MAX);
   if (above.empty()) return above;
   for (std::uint32_t k = 0; k < 3; ++k)
-    if (k != least) add_those_above(v[k]);
+    if (k != least) add_those_above(v[k], kManyFaces);
   std::sort(above.begin(), above.end());
   above.erase(std::unique(above.begin(), above.end()), above.end());
   if (above.size() > most) {
@@ -302,10 +283,14 @@ std::vector<Record> answer(PatchHull<Int>& hull, const Question& question) {
   return nodes;
 }
 
-template Doubts ask(const PatchHull<std::int32_t>&, int, const Partition&, const std::array<Record, 3>&,
-                    double, std::size_t, Asked&);
-template Doubts ask(const PatchHull<std::int64_t>&, int, const Partition&, const std::array<Record, 3>&,
-                    double, std::size_t, Asked&);
+template Question question_about(const PatchView<std::int32_t>&, std::uint32_t);
+template void ask_about_arcs(const PatchView<std::int32_t>&, const std::array<Record, 3>&, Asked&, Doubts&);
+template Doubts ask(const PatchView<std::int32_t>&, const std::array<Record, 3>&, double, std::size_t,
+                    Asked&);
+template Question question_about(const PatchView<std::int64_t>&, std::uint32_t);
+template void ask_about_arcs(const PatchView<std::int64_t>&, const std::array<Record, 3>&, Asked&, Doubts&);
+template Doubts ask(const PatchView<std::int64_t>&, const std::array<Record, 3>&, double, std::size_t,
+                    Asked&);
 template std::vector<Record> answer(PatchHull<std::int32_t>&, const Question&);
 template std::vector<Record> answer(PatchHull<std::int64_t>&, const Question&);
 

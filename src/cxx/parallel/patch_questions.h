@@ -26,6 +26,7 @@ struct Doubts {
   std::vector<Question> questions;
   std::size_t arcs = 0;    ///< of the boundary: so many of the questions are about them
   bool has_grown = false;  ///< the patch has taken in nodes since it asked last
+  bool left_out = false;   ///< it has more questions than it asks
 };
 
 /// What a patch has asked about. Nodes are hull nodes.
@@ -34,12 +35,36 @@ struct Asked {
   std::vector<BoundaryArc> arcs;      ///< when it asked last
   std::vector<std::uint32_t> around;  ///< nodes of others that were neighbours of own ones when it asked
   std::vector<bool> is_around;
+
+  void meet(std::uint32_t v) {
+    if (is_around[v]) return;
+    is_around[v] = true;
+    around.push_back(v);
+  }
 };
+
+/// One of the patches, and what it knows.
+template <class Int>
+struct PatchView {
+  int id;
+  const Partition& partition;
+  const PatchHull<Int>& hull;
+  int owner(std::uint32_t v) const { return hull.is_own(v) ? id : partition.owner(hull.place(v)); }
+};
+
+/// A question about face t of the hull, to nobody yet.
+template <class Int>
+Question question_about(const PatchView<Int>& patch, std::uint32_t t);
+
+/// Asks about the arcs of the boundary. Throws std::bad_alloc.
+template <class Int>
+void ask_about_arcs(const PatchView<Int>& patch, const std::array<Record, 3>& corners, Asked& asked,
+                    Doubts& doubts);
 
 /// See Patch::ask. Throws std::bad_alloc.
 template <class Int>
-Doubts ask(const PatchHull<Int>& hull, int patch, const Partition& partition,
-           const std::array<Record, 3>& corners, double stretch, std::size_t most, Asked& asked);
+Doubts ask(const PatchView<Int>& patch, const std::array<Record, 3>& corners, double stretch,
+           std::size_t most, Asked& asked);
 
 /// See Patch::answer. Throws HiddenNode, std::bad_alloc.
 template <class Int>

@@ -36,7 +36,7 @@ struct Stars {
 
 /// `addresses`: of these nodes. Collective. Throws AgreedFailure or HiddenNode.
 template <class Int>
-Stars<Int> return_rings(Patches<Int> patches, ReturnAddresses addresses, const LocalNodes& nodes,
+Stars<Int> return_rings(Certified<Int> certified, ReturnAddresses addresses, const LocalNodes& nodes,
                         const Division& division, Communicator& ranks, const ParallelOptions& options);
 
 }  // namespace pstripack

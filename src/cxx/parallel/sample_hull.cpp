@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
-#include <stdexcept>
 
 #include "base/workspace.h"
 #include "geometry/insertion_order.h"
@@ -59,33 +58,6 @@ void look_for_hidden_nodes(const std::vector<Record>& nodes, const Places& place
   }
   if (least > 4 * places.deviation()) return;
   SmallHull(nodes, places.lengths()).growing->finish();
-}
-
-bool patches_know_most(const std::vector<Record>& nodes, const Partition& partition, const Places& places) {
-  if (nodes.size() < 64) return true;
-  try {
-    const SmallHull hull(nodes, places.lengths());
-    const GrowingHull& growing = *hull.growing;
-    std::vector<int> owner;
-    for (std::size_t v = 0; v < nodes.size(); ++v)
-      owner.push_back(partition.owner(places(hull.arrays.nodes[v])));
-    std::size_t triangles = 0, shared = 0, outside = 0;
-    for (std::uint32_t t = 0; t < growing.face_count(); ++t) {
-      const Face& f = hull.arrays.faces[t];
-      if (!growing.surrounds_centre() && !growing.front(t)) {
-        for (const std::uint32_t next : {f.neighbour[0], f.neighbour[1], f.neighbour[2]})
-          outside += growing.front(face_of(next));
-        continue;
-      }
-      ++triangles;
-      shared += owner[f.vertex[0]] != owner[f.vertex[1]] || owner[f.vertex[1]] != owner[f.vertex[2]];
-    }
-    // Nodes spread over an area: a tenth of the triangles, and the boundary has hardly any nodes.
-    return 3 * shared <= triangles && 5 * outside <= nodes.size();
-  } catch (const HiddenNode&) {
-  } catch (const std::domain_error&) {
-  }
-  return true;  // the nodes do not tell
 }
 
 }  // namespace pstripack

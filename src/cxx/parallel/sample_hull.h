@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "parallel/partition.h"
 #include "parallel/places.h"
 #include "parallel/record.h"
 
@@ -18,10 +17,5 @@ double most_stretch(const std::vector<Record>& nodes, const Places& places);
 /// if neighbours in their order, which should follow a curve, are close. Not all on one great circle. Throws
 /// std::bad_alloc.
 void look_for_hidden_nodes(const std::vector<Record>& nodes, const Places& places);
-
-/// What nodes from everywhere tell of the triangulation: false if so many of them lie on the boundary, or so
-/// many triangles have corners in different patches, as along lines that cross, that the patches would ask
-/// each other about nearly everything.
-bool patches_know_most(const std::vector<Record>& nodes, const Partition& partition, const Places& places);
 
 }  // namespace pstripack

@@ -11,7 +11,7 @@
 //        v
 //   Patches
 //        |  certify              every patch asks the others about what it cannot know, until nothing is left
-//        v                       to ask; or there is too much to ask, and one patch has to do
+//        v                       to ask, or patches agree on the stars of their nodes
 //   Certified
 //        |  return_rings         the stars of the nodes go back to the ranks that brought them
 //        v
@@ -73,8 +73,7 @@ Stars<Int> triangulate_places(const LocalNodes& nodes, const Corners& corners, c
   }
 
   return phase(ParallelCost::lists, "lists", [&] {
-    return return_rings(std::move(certified.patches), std::move(delivery.addresses), nodes, division, ranks,
-                        options);
+    return return_rings(std::move(certified), std::move(delivery.addresses), nodes, division, ranks, options);
   });
 }
 
@@ -92,7 +91,8 @@ Stars<Int> triangulate(const LocalNodes& nodes, const Look& look, const Point (&
     const Places places(lengths, look.deviation.value);
     Stars<Int> stars = triangulate_places<Int>(nodes, records, places, ranks, options, c);
     if (stars.gave_up && ranks.size() > 1) {
-      // One rank triangulates all. Where nodes are at home stays what it was: others may be worth while.
+      // That of rank 0. Where nodes are at home stays what it was: others may be worth while.
+      c.in_one_patch = 1;
       ParallelOptions one_patch = options;
       one_patch.patches = ranks.rank() == 0 ? 1 : 0;
       one_patch.last = nullptr;

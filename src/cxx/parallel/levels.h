@@ -1,0 +1,77 @@
+#pragma once
+// Slices of a mesh: patches for nodes along lines and curves and in nests. There neighbours in the mesh may
+// be far from each other in space, so borders of boxes cut most triangles. Neighbours are close in
+// Cuthill-McKee order: breadth first through the mesh of a sample, from a node at its end. Slices of that
+// order have borders that are as short as a level is narrow.
+//
+//       boxes                 slices                 Lines that cross: triangles lead from each arm to the
+//         :                                          next. Levels are as far from the middle on all arms.
+//      \  :  /                \     /
+//       \ : /                 1\___/1                 Nodes with very many neighbours, hubs, are left out:
+//     ...\:/...               2 \_/ 2                 through them everything is near to everything.
+//        /:\                  2 / \ 2
+//       / : \                 1/   \1
+//      /  :  \                /     \                                                                   .
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "parallel/partition.h"
+#include "parallel/record.h"
+
+namespace pstripack {
+
+/// The mesh of a few nodes, which stands for that of all.
+class CoarseMesh {
+ public:
+  /// Without a triangle if all are on one great circle. Throws std::bad_alloc.
+  explicit CoarseMesh(const std::vector<Point>& nodes);
+
+  std::size_t nodes() const { return nodes_; }
+  const std::vector<std::uint32_t>& hubs() const { return hubs_; }
+  /// The corners of the triangles without a hub.
+  const std::vector<std::array<std::uint32_t, 3>>& triangles() const { return triangles_; }
+  std::size_t triangles_at_hubs() const { return at_hubs_; }
+
+  /// How many triangles without a hub have corners of different owners.
+  template <class Owner>
+  std::size_t mixed(const Owner& owner) const {
+    std::size_t mixed = 0;
+    for (const auto& [a, b, c] : triangles_) mixed += owner(a) != owner(b) || owner(b) != owner(c);
+    return mixed;
+  }
+
+ private:
+  std::size_t nodes_;
+  std::vector<std::uint32_t> hubs_;
+  std::vector<std::array<std::uint32_t, 3>> triangles_;
+  std::size_t at_hubs_ = 0;
+};
+
+/// Cells of a sample, about one node each, in the order in which they are cut into slices.
+class Levels {
+ public:
+  /// `cells` holds the nodes of the mesh, which lie at these places.
+  Levels(const CoarseMesh& mesh, const std::vector<Point>& places, const Partition& cells);
+
+  /// Of each cell the slice that it belongs to, of slices of equal weight.
+  std::vector<int> slices(int count, const std::vector<std::int64_t>& weight) const;
+
+  /// The cell of each node of the mesh.
+  const std::vector<std::uint32_t>& cell_of() const { return cell_of_; }
+  /// Cells that share edges of the mesh: those next to cell c are beside()[begin()[c] .. begin()[c + 1] - 1],
+  /// perhaps more than once.
+  const std::vector<std::uint32_t>& begin() const { return begin_; }
+  const std::vector<std::uint32_t>& beside() const { return beside_; }
+
+ private:
+  /// Appends all that can be reached from `start`, breadth first. Marks them.
+  void reach(std::uint32_t start, std::uint32_t mark, std::vector<std::uint32_t>& marked,
+             std::vector<std::uint32_t>& order) const;
+
+  std::vector<std::uint32_t> cell_of_, begin_, beside_, order_;
+};
+
+}  // namespace pstripack

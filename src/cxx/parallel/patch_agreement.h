@@ -1,0 +1,79 @@
+#pragma once
+// What a patch does to agree with others on the stars of its nodes: docs/parallel.md, "Agreement".
+//
+// A patch keeps a triangle of its hull if it owns a corner. Others keep it that own its other corners: the
+// patch asks each of them about it. A hub is a node with more neighbours than its owner should take in. Its
+// owner need not keep triangles at it, unless these have two hubs.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <unordered_set>
+#include <vector>
+
+#include "parallel/patch_hull.h"
+#include "parallel/patch_questions.h"
+#include "parallel/record.h"
+
+namespace pstripack {
+
+/// The members are as those of Patch.
+template <class Int>
+class PatchAgreement {
+ public:
+  Doubts claim(PatchHull<Int>& hull, const PatchView<Int>& patch, const std::array<Record, 3>& corners,
+               std::size_t most, Asked& asked);
+  /// The answer to a question has refuted the triangle.
+  void see_refuted(const PatchView<Int>& patch, const Question& question);
+  std::vector<GlobalNumber> look_for_hubs(const PatchHull<Int>& hull) const;
+  void set_hubs(const std::unordered_set<GlobalNumber>& numbers) {
+    hubs_ = numbers;
+    is_hub_.clear();
+  }
+  std::vector<GlobalNumber> kept_hubs(const PatchHull<Int>& hull) const;
+  template <class Visit>
+  void for_each_run(const PatchView<Int>& patch, const Visit& visit) const {
+    const PatchHull<Int>& hull = patch.hull;
+    std::vector<Record> run;
+    for (std::uint32_t h = 0; h < is_hub_.size(); ++h) {
+      if (!is_hub_[h]) continue;
+      const auto end_run = [&] {
+        if (!run.empty()) visit(hull.node(h), patch.owner(h), run);
+        run.clear();
+      };
+      hull.for_each_face_at(h, [&](std::uint32_t t, std::uint32_t i) {
+        if (!is_in_run(hull, h, t, i)) return;
+        const auto& corner = hull.face(t).vertex;
+        const std::uint32_t x = corner[next_edge(i)], y = corner[previous_edge(i)];
+        if (run.empty() || run.back().number != hull.number(x)) {
+          end_run();
+          run.push_back(hull.node(x));
+        }
+        run.push_back(hull.node(y));
+      });
+      end_run();
+    }
+  }
+  /// Whether neighbours v and w may be none, one being an own hub, the other not certified here. Those of
+  /// hubs are in for_each_run().
+  bool is_in_doubt(const PatchHull<Int>& hull, std::uint32_t v, std::uint32_t w) const {
+    return (is_hub(v) && !is_hub(w) && !hull.is_own(w)) || (is_hub(w) && !is_hub(v) && !hull.is_own(v));
+  }
+
+ private:
+  bool is_hub(std::uint32_t v) const { return v < is_hub_.size() && is_hub_[v]; }
+  /// Of a triangle t, whose corner i is hub h: true if this of all patches that keep it tells of it.
+  bool is_in_run(const PatchHull<Int>& hull, std::uint32_t h, std::uint32_t t, std::uint32_t i) const {
+    const std::uint32_t x = hull.face(t).vertex[next_edge(i)];
+    return hull.is_own(is_hub_[x] ? h : x) && hull.growing().front(t);
+  }
+
+  struct AskedAbout {  ///< of a node of another patch
+    std::size_t triangles = 0, asked = 0, refuted = 0;
+  };
+  std::vector<AskedAbout> asked_about_;  ///< by hull node
+  std::vector<bool> is_hub_;             ///< by hull node; empty: there are none
+  std::unordered_set<GlobalNumber> hubs_;
+};
+
+}  // namespace pstripack

@@ -1,0 +1,92 @@
+#include "parallel/questions.h"
+
+#include <algorithm>
+
+namespace pstripack {
+namespace {
+
+/// The answers to the questions of each rank, in their order: a count, then nodes.
+template <class Int>
+Parcels packed_answers(Patches<Int>& patches, const Parcels& incoming, bool corners_first, int threads) {
+  const Items<Question> questions(incoming);
+  std::vector<std::vector<Record>> answer(questions.size());
+  patches.for_each(threads, [&](Patch<Int>& patch, std::size_t) {
+    if (corners_first)
+      for (const Question& question : questions)
+        if (question.to == patch.id()) patch.take_in_corners(question);
+    std::size_t k = 0;
+    for (const Question& question : questions) {
+      if (question.to == patch.id()) answer[k] = patch.answer(question);
+      ++k;
+    }
+  });
+  const std::size_t ranks = incoming.begin.size() - 1;
+  const auto for_each_answer = [&](const auto& visit) {
+    std::size_t k = 0;
+    for (std::size_t r = 0; r < ranks; ++r)
+      for (std::size_t n = Items<Question>(incoming, r).size(); n > 0; --n) visit(r, answer[k++]);
+  };
+  ParcelWriter writer(ranks);
+  for_each_answer([&](std::size_t r, const std::vector<Record>& nodes) {
+    writer.expect<std::int64_t>(r);
+    writer.expect<Record>(r, nodes.size());
+  });
+  writer.make_room();
+  for_each_answer([&](std::size_t r, const std::vector<Record>& nodes) {
+    writer.put(r, static_cast<std::int64_t>(nodes.size()));
+    std::copy(nodes.begin(), nodes.end(), writer.room<Record>(r, nodes.size()));
+  });
+  return writer.finish();
+}
+
+}  // namespace
+
+Questions::Questions(const std::vector<Doubts>& of_patches, const PatchRanges& patches, std::size_t ranks)
+    : to_rank(ranks) {
+  for (const Doubts& doubts : of_patches) {
+    for (const Question& q : doubts.questions) to_rank[patches.rank_of(q.to)].push_back(q);
+    count += doubts.questions.size();
+    about_triangles.value |= doubts.questions.size() > doubts.arcs;
+    about_arcs.value |= doubts.arcs > 0;
+    have_grown.value |= doubts.has_grown;
+    left_out.value |= doubts.left_out;
+  }
+}
+
+template <class Int>
+Parcels answers_to(const Questions& questions, Patches<Int>& patches, bool corners_first, Communicator& ranks,
+                   int threads) {
+  const Parcels incoming = exchange_in_agreement(ranks, [&] { return packed(questions.to_rank); });
+  return exchange_in_agreement(ranks,
+                               [&] { return packed_answers(patches, incoming, corners_first, threads); });
+}
+
+template <class Int>
+void learn(Patches<Int>& patches, const Questions& questions, const Parcels& answers, int threads) {
+  struct Answer {
+    const Question* question;
+    const Record* nodes;
+    std::size_t count;
+  };
+  std::vector<std::vector<Answer>> of_patch(patches.of_rank.size());
+  for (std::size_t r = 0; r < questions.to_rank.size(); ++r) {
+    ParcelReader reader(answers, r);
+    for (const Question& q : questions.to_rank[r]) {
+      const auto n = static_cast<std::size_t>(reader.next<std::int64_t>());
+      of_patch[static_cast<std::size_t>(q.from - patches.of_rank[0].id())].push_back(
+          {&q, reader.array<Record>(n), n});
+    }
+  }
+  patches.for_each(threads, [&](Patch<Int>& patch, std::size_t k) {
+    for (const Answer& a : of_patch[k]) patch.learn(*a.question, a.nodes, a.count);
+  });
+  for (const Patch<Int>& patch : patches.of_rank)
+    if (!patch.coincident().empty()) patches.see_coincidence.value = true;
+}
+
+template Parcels answers_to(const Questions&, Patches<std::int32_t>&, bool, Communicator&, int);
+template Parcels answers_to(const Questions&, Patches<std::int64_t>&, bool, Communicator&, int);
+template void learn(Patches<std::int32_t>&, const Questions&, const Parcels&, int);
+template void learn(Patches<std::int64_t>&, const Questions&, const Parcels&, int);
+
+}  // namespace pstripack
