@@ -135,6 +135,12 @@ void slice(const LocalNodes& nodes, Supply& supply, Communicator& ranks, Divisio
       places.push_back(division.places(r.point));
     }
     const CoarseMesh mesh(points);
+    const std::size_t triangles = mesh.triangles().size() + mesh.triangles_at_hubs();
+    const std::size_t in_boxes =
+        mesh.mixed([&](std::uint32_t v) { return division.partition->owner(places[v]); });
+    division.by_agreement = 3 * (in_boxes + mesh.triangles_at_hubs()) > triangles;
+    division.gave_up = division.may_give_up && division.by_agreement;
+    if (division.gave_up) return;
     cells = std::make_shared<Partition>(places);
     levels.emplace(mesh, places, *cells);
     const std::vector<std::uint32_t>& cell = levels->cell_of();
@@ -142,12 +148,7 @@ void slice(const LocalNodes& nodes, Supply& supply, Communicator& ranks, Divisio
     for (const std::uint32_t c : cell) ++weight[c];
     const std::vector<int> of_sample = levels->slices(patches, weight);
     const std::size_t in_slices = mesh.mixed([&](std::uint32_t v) { return of_sample[cell[v]]; });
-    const std::size_t in_boxes =
-        mesh.mixed([&](std::uint32_t v) { return division.partition->owner(places[v]); });
-    const std::size_t triangles = mesh.triangles().size() + mesh.triangles_at_hubs();
-    division.by_agreement = 3 * (in_boxes + mesh.triangles_at_hubs()) > triangles;
-    division.gave_up = division.may_give_up && division.by_agreement;
-    if (2 * in_slices >= in_boxes || division.gave_up) {
+    if (2 * in_slices >= in_boxes) {
       levels.reset();
       return;
     }

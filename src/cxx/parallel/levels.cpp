@@ -10,13 +10,13 @@
 namespace pstripack {
 namespace {
 
-constexpr std::uint32_t kManyNeighbours = 64;
+constexpr std::uint32_t kManyNeighbours = 64;  // of a hub
 
 }  // namespace
 
 CoarseMesh::CoarseMesh(const std::vector<Point>& nodes) : nodes_(nodes.size()) {
   if (nodes_ < 3) return;
-  Workspace workspace((workspace_bytes(nodes_)) + 48 * nodes_);
+  Workspace workspace(workspace_bytes(nodes_) + 48 * nodes_);
   try {
     const Hull hull = delaunay(nodes.data(), nodes_, workspace);
     std::vector<std::uint32_t> neighbours(nodes_);

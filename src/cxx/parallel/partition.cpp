@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
-#include <utility>
 
 namespace pstripack {
 namespace {
@@ -267,25 +266,32 @@ void Partition::give_cells(int patches, const std::vector<int>& patch_of_cell,
   regions_.resize(static_cast<std::size_t>(patches));
   largest_margin_.assign(regions_.size(), 0);
   smallest_margin_ = 0;
-  std::vector<std::size_t> told(regions_.size(), cells_.size());  // the last cell that a patch has beside it
-  beside_begin_.assign(1, 0);
-  for (std::size_t k = 0; k < cells_.size(); ++k) {
-    cells_[k].margin = 0;
-    if (cells_[k].child[1] == 0) {
-      cells_[k].patch = patch_of_cell[k];
-      told[static_cast<std::size_t>(patch_of_cell[k])] = k;
-      for (std::uint32_t j = begin[k]; j < begin[k + 1]; ++j) {
-        const auto q = static_cast<std::size_t>(patch_of_cell[beside[j]]);
-        if (std::exchange(told[q], k) != k) beside_.push_back(static_cast<int>(q));
-      }
-    }
-    beside_begin_.push_back(static_cast<std::uint32_t>(beside_.size()));
-  }
+  beside_of_.resize(cells_.size());
   for (std::size_t k = cells_.size(); k-- > 0;) {  // children come after their parents
     Cell& c = cells_[k];
-    if (c.child[1] == 0) continue;
-    const std::int32_t below = cells_[c.child[0]].patch, beyond = cells_[c.child[1]].patch;
-    c.patch = below == beyond ? below : -1;
+    c.margin = 0;
+    Range& range = beside_of_[k];
+    if (c.child[1] == 0) {
+      c.patch = patch_of_cell[k];
+      std::vector<int> others;
+      for (std::uint32_t j = begin[k]; j < begin[k + 1]; ++j)
+        if (patch_of_cell[beside[j]] != c.patch) others.push_back(patch_of_cell[beside[j]]);
+      std::sort(others.begin(), others.end());
+      others.erase(std::unique(others.begin(), others.end()), others.end());
+      range.begin = static_cast<std::uint32_t>(beside_.size());
+      beside_.insert(beside_.end(), others.begin(), others.end());
+      range.end = static_cast<std::uint32_t>(beside_.size());
+      continue;
+    }
+    const auto below = static_cast<std::size_t>(c.child[0]), beyond = static_cast<std::size_t>(c.child[1]);
+    c.patch = cells_[below].patch == cells_[beyond].patch ? cells_[below].patch : -1;
+    const bool are_cells = cells_[below].child[1] == 0 && cells_[beyond].child[1] == 0;
+    const Range &a = beside_of_[below], &b = beside_of_[beyond];
+    const auto at = beside_.begin();
+    if (!are_cells || c.patch < 0 || !std::equal(at + a.begin, at + a.end, at + b.begin, at + b.end))
+      continue;
+    c.child[0] = c.child[1] = 0;  // nobody needs to tell them apart
+    range = a;
   }
 }
 
@@ -349,7 +355,7 @@ void Partition::owners(const Point* x, std::size_t n, std::uint32_t* owner, doub
     for (std::size_t i = 0; i < n; ++i) {
       const std::uint32_t cell = owner[i];
       owner[i] = static_cast<std::uint32_t>(cells_[cell].patch);
-      nearest_plane[i] = beside_begin_[cell] < beside_begin_[cell + 1] ? 0 : kEverything;
+      nearest_plane[i] = beside_of_[cell].begin < beside_of_[cell].end ? 0 : kEverything;
     }
     return;
   }

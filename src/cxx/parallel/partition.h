@@ -53,7 +53,7 @@ class Partition {
 
   int patches() const { return static_cast<int>(regions_.size()); }
   /// False if cells have been given to them: any cells, perhaps far from each other.
-  bool has_convex_patches() const { return beside_begin_.empty(); }
+  bool has_convex_patches() const { return beside_of_.empty(); }
 
   /// The patches that n places belong to, and how far they are from the nearest plane that decided so, but
   /// for rounding: a lower bound of the distance from any other patch.
@@ -84,8 +84,8 @@ class Partition {
       for (std::size_t j = 0; j < candidates; ++j) {
         const std::size_t i = candidate[j];
         if (!has_convex_patches()) {
-          const std::size_t cell = leaf(x[i]);
-          for (std::uint32_t k = beside_begin_[cell]; k < beside_begin_[cell + 1]; ++k) visit(i, beside_[k]);
+          const Range beside = beside_of_[leaf(x[i])];
+          for (std::uint32_t k = beside.begin; k < beside.end; ++k) visit(i, beside_[k]);
           continue;
         }
         if (nearest_plane[i] > margin[j]) continue;
@@ -181,10 +181,9 @@ class Partition {
   double margin_at(const Point& x) const { return cells_[leaf(x)].margin; }
   /// Of a cell that was given to a patch.
   bool knows_cell(int q, std::size_t cell) const {
-    const auto beside = beside_.begin();
-    return cells_[cell].patch == q ||
-           std::find(beside + beside_begin_[cell], beside + beside_begin_[cell + 1], q) !=
-               beside + beside_begin_[cell + 1];
+    const auto first = beside_.begin() + beside_of_[cell].begin,
+               last = beside_.begin() + beside_of_[cell].end;
+    return cells_[cell].patch == q || std::find(first, last, q) != last;
   }
   /// The margins of the cells of x[which[0..n-1]], n <= kTogether.
   void margins(const Point* x, const std::uint32_t* owner, const std::size_t* which, std::size_t n,
@@ -210,9 +209,12 @@ class Partition {
   std::vector<Region> regions_;
   std::vector<double> largest_margin_;  // of the cells of each patch
   double smallest_margin_ = 4;
-  /// Of cells that were given to patches: other patches that have cell c in their halo, from beside_begin_[c]
-  /// to beside_begin_[c + 1].
-  std::vector<std::uint32_t> beside_begin_;
+  /// Of each cell, if cells were given to patches: where in beside_ the other patches are that have it in
+  /// their halo.
+  struct Range {
+    std::uint32_t begin = 0, end = 0;
+  };
+  std::vector<Range> beside_of_;
   std::vector<int> beside_;
 };
 
