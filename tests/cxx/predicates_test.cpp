@@ -854,6 +854,23 @@ TEST(Directions, AreExactForTies) {
     }
 }
 
+// Two nodes and their mirror images are the corners of a trapezoid, so they are in one circle. Around an axis
+// the components along it are equal but for some last bits.
+TEST(Directions, AreExactForMirrorImages) {
+  Random random(35);
+  for (int i = 0; i < cases(20000); ++i) {
+    const double size = std::pow(2, -40 * random.uniform());
+    const auto component = [&] { return size * random.uniform(-1, 1); };
+    const double a = component(), b = component(), c = component(), d = component();
+    Four f{Point{1, a, b}, {1, b, a}, {1, c, d}, {1, d, c}};
+    if (!different(f)) continue;
+    std::rotate(f.begin(), f.begin() + i % 4, f.end());
+    for (Point& p : f) p = i % 3 == 0 ? p : i % 3 == 1 ? Point{p.z, p.x, p.y} : Point{-p.y, p.z, -p.x};
+    ASSERT_EQ(pstripack::orientation_of_directions(f[0], f[1], f[2], f[3]), 0) << text(f);
+    ASSERT_NO_FATAL_FAILURE(expect_directions_exact(f));
+  }
+}
+
 TEST(Coordinates, AreSeenFromANodeAsFromOutside) {
   Random random(34);
   for (int i = 0; i < cases(20000); ++i) {

@@ -816,14 +816,14 @@ scvt_ranks)
   cmp direct.nodes.nc resumed.nodes.nc
   # So does that of a run that was killed.
   rm ranks.nc
-  $MPIRUN -n 3 "$PSTRIPACK" -q scvt 300 --density bump --tolerance 1e-12 --evaluations 1e5 --every 1 --checkpoint ranks.nc -o killed.nc 2> err &
+  $MPIRUN -n 3 "$PSTRIPACK" -q scvt 3000 --first levels --density bump --tolerance 1e-12 --evaluations 1e5 --every 1 --checkpoint ranks.nc -o killed.nc 2> err &
   job=$!
-  for _ in $(seq 600); do [ -e ranks.nc ] && break; sleep 0.1; done
+  for _ in $(seq 3000); do [ -e ranks.nc ] && break; sleep 0.02; done
   kill -TERM $job
   wait $job || true
   [ -e ranks.nc ] || fail "no checkpoint in a minute: $(cat err)"
   [ ! -e killed.nc ] || fail "killed.nc was written by a killed run"
-  "$PSTRIPACK" -q scvt 300 --density bump --tolerance 1e-12 --evaluations 1000 -o direct.nodes.nc
+  "$PSTRIPACK" -q scvt 3000 --first levels --density bump --tolerance 1e-12 --evaluations 1000 -o direct.nodes.nc
   run 2 scvt --start ranks.nc --tolerance 1e-12 --evaluations 1000 -o resumed.nodes.nc
   cmp direct.nodes.nc resumed.nodes.nc
   # What ranks cannot do: one message, exit code 1, nothing written.

@@ -199,7 +199,8 @@ constexpr double kFineFactor = 0x1p-76;
 constexpr double kNear = 0x1p-34;  ///< of |e|^2
 
 // Sums and products whose low parts are not brought below half a unit of the high ones: shorter, and wrong by
-// a few u^2 of the absolute values, which is all that is asked for here.
+// a few u^2 of the absolute values, which is all that is asked for here. Where a factor is a difference that
+// cancels, its low part must be brought below first.
 
 [[gnu::always_inline]] inline DoubleDouble loose_sum(const DoubleDouble& x, const DoubleDouble& y) {
   const DoubleDouble s = two_sum(x.high, y.high);
@@ -281,9 +282,11 @@ FineApex fine_apex(const Axes& axes, const Point& high, const Point& low, const 
 }
 
 void see(const FineApex& a, const Point& high, const Point& low, const FinePoint& given, FineSeen& seen) {
+  // The high parts may cancel: the low part is brought below half a unit of what they leave, since
+  // loose_product() leaves out the product of low parts.
   const auto difference = [](double p_high, double p_low, const Factor& apex) {
     const DoubleDouble d = two_sum(p_high, -apex.value());
-    return Factor({d.high, d.low + (p_low - apex.low)});
+    return Factor(two_sum(d.high, d.low + (p_low - apex.low)));
   };
   const Factor x = difference(high.x, low.x, a.x), y = difference(high.y, low.y, a.y),
                z = difference(high.z, low.z, a.z);
