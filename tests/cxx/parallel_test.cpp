@@ -232,6 +232,19 @@ TEST(Distributions, GiveTheSerialRings) {
   }
 }
 
+// A stage of the predicates once found a sign for nodes that lie in one circle with their mirror images:
+// patches and one hull took different diagonals.
+TEST(Distributions, OfMirrorImagesGiveTheSerialRings) {
+  for (const std::uint64_t seed : {1u, 2u, 3u})
+    for (const char* family : {"mirrored-nest:12", "mirrored-nest:5"}) {
+      const Set set(point_sets::make(family, 300, seed));
+      for (const Configuration c : {Configuration{4, 1, PartitionKind::bisection, Brings::home},
+                                    Configuration{16, 1, PartitionKind::bisection, Brings::home},
+                                    Configuration{1, 3, PartitionKind::stripes, Brings::slices}})
+        EXPECT_TRUE(is_serial(set, run<std::int32_t>(set.nodes, c))) << family << ", " << name_of(c);
+    }
+}
+
 // ---- nodes in arrays --------------------------------------------------------------------------------
 
 /// From the node `first` on.
