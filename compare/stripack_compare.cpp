@@ -119,7 +119,7 @@ void add_run_options(CLI::App& app, RunOptions& options) {
       ->check(CLI::Range(1, 4096).description(""));
   choice("--partition", options.partitions, "bisection, stripes [bisection]", {"bisection", "stripes"});
   add_original_options(app, options.original);
-  app.add_option("--timeout", options.timeout, "seconds after which the original is stopped [120]")
+  app.add_option("--timeout", options.timeout, "processor seconds after which the original is stopped [120]")
       ->check(CLI::PositiveNumber.description(""));
   app.add_option("--repeats", options.repeats,
                  "number of calls, of whose times the median is taken (fewer above 10 s) [3]")
@@ -187,7 +187,9 @@ exit code
       ->add_option("--library", options.library,
                    "instead of an original, a libstripack of PSTRIPACK: it must give the recorded bytes")
       ->excludes("--original");
-  replay->add_option("--timeout", options.timeout, "seconds after which the original is stopped, each call")
+  replay
+      ->add_option("--timeout", options.timeout,
+                   "processor seconds after which the original is stopped, each call")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   replay->add_option("--show", options.show, "largest number of differences of each kind printed per call")

@@ -14,12 +14,13 @@ constexpr std::uint32_t kManyNeighbours = 64;  // of a hub
 
 }  // namespace
 
-CoarseMesh::CoarseMesh(const std::vector<Point>& nodes) : nodes_(nodes.size()) {
-  if (nodes_ < 3) return;
-  Workspace workspace(workspace_bytes(nodes_) + 48 * nodes_);
+CoarseMesh::CoarseMesh(const std::vector<Point>& nodes) {
+  const std::size_t n = nodes.size();
+  if (n < 3) return;
+  Workspace workspace(workspace_bytes(n) + 48 * n);
   try {
-    const Hull hull = delaunay(nodes.data(), nodes_, workspace);
-    std::vector<std::uint32_t> neighbours(nodes_);
+    const Hull hull = delaunay(nodes.data(), n, workspace);
+    std::vector<std::uint32_t> neighbours(n);
     const auto for_each_front = [&](const auto& visit) {
       for (std::size_t t = 0; t < hull.face_count; ++t)
         if (hull.front(t)) visit(hull.faces[t].vertex);

@@ -29,7 +29,6 @@ class CoarseMesh {
   /// Without a triangle if all are on one great circle. Throws std::bad_alloc.
   explicit CoarseMesh(const std::vector<Point>& nodes);
 
-  std::size_t nodes() const { return nodes_; }
   const std::vector<std::uint32_t>& hubs() const { return hubs_; }
   /// The corners of the triangles without a hub.
   const std::vector<std::array<std::uint32_t, 3>>& triangles() const { return triangles_; }
@@ -44,7 +43,6 @@ class CoarseMesh {
   }
 
  private:
-  std::size_t nodes_;
   std::vector<std::uint32_t> hubs_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
   std::size_t at_hubs_ = 0;

@@ -423,28 +423,19 @@ SampleOfStars MovingStars::sample() const {
 /// table of some bits of the number first.
 template <class Int>
 SampleOfStars sample_of(const LocalNodes& nodes, const Stars<Int>& stars) {
-  constexpr unsigned kBits = 15;
-  const auto slot = [](GlobalNumber number) {
-    return static_cast<std::uint64_t>(number) * 0x9e3779b97f4a7c15u >> (64 - kBits);
-  };
-  std::vector<std::uint64_t> maybe((std::size_t{1} << kBits) / 64);
-  std::size_t wanted = 0;
   const auto for_each_star = [&](const auto& visit) {
     SampleOfStars::for_each_node(nodes.count, [&](std::size_t k) { visit(k, stars.of_node[k]); });
   };
+  std::size_t named = 0;
+  for_each_star([&](std::size_t, const Ring<Int>& ring) { named += ring.count; });
+  NumberFilter filter(named);
   for_each_star([&](std::size_t, const Ring<Int>& ring) {
-    wanted += ring.count;
-    for (std::uint32_t i = 0; i < ring.count; ++i) {
-      const std::uint64_t s = slot(named_by(ring.begin[i]));
-      maybe[s / 64] |= std::uint64_t{1} << s % 64;
-    }
+    for (std::uint32_t i = 0; i < ring.count; ++i) filter.add(named_by(ring.begin[i]));
   });
   std::vector<std::pair<GlobalNumber, std::int32_t>> known;
-  for (std::size_t i = 0; i < nodes.count; ++i) {
-    const std::uint64_t s = slot(nodes.number(i));
-    if ((maybe[s / 64] >> s % 64 & 1) != 0)
-      known.emplace_back(nodes.number(i), static_cast<std::int32_t>(i) + 1);
-  }
+  for (std::size_t i = 0; i < nodes.count; ++i)
+    if (const GlobalNumber number = nodes.number(i); filter.may_have(number))
+      known.emplace_back(number, static_cast<std::int32_t>(i) + 1);
   std::sort(known.begin(), known.end());
   SampleOfStars sample;
   std::vector<std::int32_t> local;

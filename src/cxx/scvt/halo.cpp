@@ -9,7 +9,7 @@ void Halo::make_directory(const Neighbourhood& here) {
   const Parcels parcels = exchange_in_agreement(ranks_, [&] {
     std::vector<std::vector<std::int64_t>> numbers(size);
     for (std::size_t i = 0; i < here.stars.count; ++i)
-      numbers[directory_of(here.numbers[i])].push_back(here.numbers[i]);
+      numbers[meeting_rank(GlobalNumber{here.numbers[i]}, size)].push_back(here.numbers[i]);
     return packed(numbers);
   });
   in_agreement(ranks_, [&] {
@@ -37,7 +37,7 @@ void Halo::connect(const Neighbourhood& here) {
     places.erase(std::unique(places.begin(), places.end()), places.end());
     std::vector<std::vector<std::int64_t>> asked(size);
     for (const std::size_t place : places)
-      asked[directory_of(here.numbers[place])].push_back(here.numbers[place]);
+      asked[meeting_rank(GlobalNumber{here.numbers[place]}, size)].push_back(here.numbers[place]);
     return packed(asked);
   });
   const Parcels answers = exchange_in_agreement(ranks_, [&] {
@@ -55,7 +55,7 @@ void Halo::connect(const Neighbourhood& here) {
     for (std::size_t r = 0; r < size; ++r) answer.push_back(Items<std::size_t>(answers, r).begin());
     std::vector<std::size_t> owner(size_ - stars.count);
     for (const std::size_t place : places) {
-      owner[place - stars.count] = *answer[directory_of(here.numbers[place])]++;
+      owner[place - stars.count] = *answer[meeting_rank(GlobalNumber{here.numbers[place]}, size)]++;
       from_[owner[place - stars.count]].push_back(place);
     }
     for (std::size_t i = 0; i < stars.count; ++i)

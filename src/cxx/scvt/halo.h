@@ -45,14 +45,11 @@ class Halo {
   }
 
  private:
-  /// Each rank knows the owners of the numbers that this function gives it.
-  std::size_t directory_of(std::int64_t number) const {
-    return static_cast<std::size_t>(number % ranks_.size());
-  }
   void make_directory(const Neighbourhood& here);
 
   Communicator& ranks_;
-  std::optional<NumberTable<std::int32_t>> directory_;
+  std::optional<NumberTable<std::int32_t>>
+      directory_;  ///< owners of the numbers whose meeting_rank() this is
   std::size_t size_ = 0;
   /// For each rank, in the order of the numbers: own points that it asks for, and halo places that it fills.
   std::vector<std::vector<std::size_t>> to_, from_;
