@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/floating_point.h"
+#include "base/static_rounding.h"
 #include "geometry/predicates.h"
 #include "stripack/list_queries.h"
 #include "stripack/original/original_rules.h"
@@ -331,35 +331,36 @@ template <class Int, class Visit>
   return true;
 }
 
-/// The nearest to a centre of the nodes that are compared; of equally near ones the first.
-template <class Real, class Int>
+/// The nearest to a centre of the nodes that are compared; of equally near ones the first. Computes in
+/// Number: a Real, or one that needs no floating-point environment.
+template <class Number, class Real, class Int>
 class Nearest {
  public:
-  Nearest(const Nodes<Real>& nodes, Int centre) : nodes_(nodes), centre_(nodes[centre]) {}
+  Nearest(const Nodes<Real>& nodes, Int centre) : nodes_(nodes), centre_(position(centre)) {}
 
   /// Without a branch on distances, which no processor foresees: the next call begins before they are there.
   [[gnu::always_inline]] void compare(Int node, bool is_other = true) {
-    const Real cosine = is_other ? dot(nodes_[node], centre_) : Real(-2);
-    not_finite_ += 0 * cosine;
-    nearest_ = cosine > cosine_ ? node : nearest_;
-    cosine_ = cosine > cosine_ ? cosine : cosine_;
+    const Number cosine = is_other ? dot(position(node), centre_) : Number(-2);
+    not_finite_ = not_finite_ + Number(0) * cosine;
+    nearest_ = is_larger(cosine, cosine_) ? node : nearest_;
+    cosine_ = larger(cosine, cosine_);
   }
-  /// Takes the default floating-point environment for itself: to save another one the processor waits for all
-  /// that has begun, so by then these nodes should be on their way from memory.
+  /// Takes the environment of Number for itself: to save another one the processor waits for all that has
+  /// begun, so by then these nodes should be on their way from memory.
   /// `few`: without a branch. Among many a branch is foreseen, as they come roughly by distance: then the
   /// processor need not wait for positions.
   template <bool few>
   void compare(const Int* begin, const Int* end) {
-    in_default_floating_point([=] {
+    in_environment_of<Number>([=] {
       Int nearest = nearest_;
-      Real greatest = cosine_, not_finite = not_finite_;
+      Number greatest = cosine_, not_finite = not_finite_;
       for (const Int* node = begin; node != end; ++node) {
-        const Real cosine = dot(nodes_[*node], centre_);
-        not_finite += 0 * cosine;
-        const bool is_nearer = cosine > greatest;
+        const Number cosine = dot(position(*node), centre_);
+        not_finite = not_finite + Number(0) * cosine;
+        const bool is_nearer = is_larger(cosine, greatest);
         if (few) {
           nearest = is_nearer ? *node : nearest;
-          greatest = is_nearer ? cosine : greatest;
+          greatest = larger(cosine, greatest);
         } else if (is_nearer) {
           nearest = *node;
           greatest = cosine;
@@ -372,24 +373,29 @@ class Nearest {
     });
   }
   NextNearestStatus write(Int& node, Real& distance) const {
-    if (not_finite_ != 0) return NextNearestStatus::not_finite;
+    if (Real(not_finite_) != 0) return NextNearestStatus::not_finite;
     if (nearest_ == 0) return NextNearestStatus::none_left;
     node = nearest_;
-    distance = -cosine_;
+    distance = -Real(cosine_);
     return NextNearestStatus::done;
   }
 
  private:
+  Vector<Number> position(Int node) const {
+    const Vector<Real> p = nodes_[node];
+    return {p.x, p.y, p.z};
+  }
+
   const Nodes<Real> nodes_;
-  const Vector<Real> centre_;
+  const Vector<Number> centre_;
   Int nearest_ = 0;
-  Real cosine_ = -2;
-  Real not_finite_ = 0;  ///< 0, or NaN
+  Number cosine_ = Real(-2);
+  Number not_finite_ = Real(0);  ///< 0, or NaN
 };
 
 /// GETNP for one or two given nodes: most of their neighbours are not given, so each is compared when it is
-/// met. In the default floating-point environment.
-template <int given, class Real, class Int>
+/// met. In the environment of Number.
+template <class Number, int given, class Real, class Int>
 NextNearestStatus nearest_when_met(const ListsView<Int>& lists, const Nodes<Real>& nodes, Int* npts,
                                    Real& distance) {
   const ListReader<Int> reader(lists);
@@ -398,7 +404,7 @@ NextNearestStatus nearest_when_met(const ListsView<Int>& lists, const Nodes<Real
     if (npts[i] < 1 || !taken.insert(i)) return NextNearestStatus::bad_nodes;
   for (Int i = 0; i < given; ++i) reader.prefetch_list(npts[i]);
 
-  Nearest<Real, Int> nearest(nodes, npts[0]);
+  Nearest<Number, Real, Int> nearest(nodes, npts[0]);
   const auto visit = [&](Int node) __attribute__((always_inline)) {
     // One of the slots is what the call for l = 3 needs. For two nodes this costs a call more than the next
     // saves.
@@ -412,7 +418,7 @@ NextNearestStatus nearest_when_met(const ListsView<Int>& lists, const Nodes<Real
 
 /// GETNP for more. `taken`: empty, with room for the given nodes. A function of its own for few and for many,
 /// since compilers run out of registers where both are one.
-template <bool few, class Real, class Int, class Taken>
+template <class Number, bool few, class Real, class Int, class Taken>
 [[gnu::noinline]] NextNearestStatus nearest_of_others(const ListsView<Int>& lists, const Nodes<Real>& nodes,
                                                       Int given, Int* npts, Real& distance, Taken taken) {
   const ListReader<Int> reader(lists);
@@ -420,7 +426,7 @@ template <bool few, class Real, class Int, class Taken>
     if (npts[i] < 1 || !taken.insert(i)) return NextNearestStatus::bad_nodes;
   for (Int i = 0; i < given; ++i) reader.prefetch_list(npts[i]);
 
-  Nearest<Real, Int> nearest(nodes, npts[0]);
+  Nearest<Number, Real, Int> nearest(nodes, npts[0]);
   constexpr int most = 64;
   Int others[most];  // nodes that are not taken, to be compared
   int count = 0;
@@ -444,6 +450,29 @@ template <bool few, class Real, class Int, class Taken>
     if (!each_neighbour(reader, npts[i], visit)) return NextNearestStatus::broken_lists;
   compare();
   return nearest.write(npts[given], distance);
+}
+
+/// The cells of a NodeTable per node, so that few nodes meet another one's cell.
+constexpr int cells_a_node = 16;
+/// So many given nodes are few.
+constexpr int few_nodes = 8;
+
+/// GETNP for 1 to few_nodes given nodes.
+template <class Number, class Real, class Int>
+NextNearestStatus nearest_of_few(const ListsView<Int>& lists, const Nodes<Real>& nodes, Int given, Int* npts,
+                                 Real& distance) {
+  if (given == 1)
+    return in_environment_of<Number>(
+        [&] { return nearest_when_met<Number, 1>(lists, nodes, npts, distance); });
+  if (given == 2)
+    return in_environment_of<Number>(
+        [&] { return nearest_when_met<Number, 2>(lists, nodes, npts, distance); });
+  if (given <= 4)
+    return nearest_of_others<Number, true>(lists, nodes, given, npts, distance, FewNodes<Int, 4>(npts));
+  constexpr int bits = 7;
+  static_assert(cells_a_node * few_nodes == 1 << bits);
+  std::uint8_t cells[cells_a_node * few_nodes] = {};
+  return nearest_of_others<Number, true>(lists, nodes, given, npts, distance, NodeTable(npts, cells, bits));
 }
 
 }  // namespace
@@ -536,30 +565,20 @@ NextNearestStatus next_nearest(const ListsView<Int>& lists, const Nodes<Real>& n
   if (l < 2) return NextNearestStatus::too_short;
   const Int given = l - 1;
   if (npts[0] < 1) return NextNearestStatus::bad_nodes;
-  if (given == 1)
-    return in_default_floating_point([&] { return nearest_when_met<1>(lists, nodes, npts, distance); });
-  if (given == 2)
-    return in_default_floating_point([&] { return nearest_when_met<2>(lists, nodes, npts, distance); });
-  const auto of_few = [&](const auto& taken) {
-    return nearest_of_others<true>(lists, nodes, given, npts, distance, taken);
-  };
-  if (given <= 4) return of_few(FewNodes<Int, 4>(npts));
-  constexpr int cells_a_node = 16;  // so that few nodes meet another one's cell
-  constexpr int few = 8;
-  int bits = 7;
-  static_assert(cells_a_node * few == 1 << 7);
-  if (given <= few) {
-    std::uint8_t cells[cells_a_node * few] = {};
-    return of_few(NodeTable(npts, cells, bits));
-  }
+  if (given <= few_nodes)
+    return StaticallyRounded<Real>::is_available()
+               ? nearest_of_few<StaticallyRounded<Real>>(lists, nodes, given, npts, distance)
+               : nearest_of_few<Real>(lists, nodes, given, npts, distance);
+  int bits = 8;
   while ((std::int64_t{1} << bits) < cells_a_node * std::int64_t{given}) ++bits;
   if (given <= most_without_memory) {
     std::uint8_t cells[cells_a_node * most_without_memory];
     std::memset(cells, 0, std::size_t{1} << bits);
-    return nearest_of_others<false>(lists, nodes, given, npts, distance, NodeTable(npts, cells, bits));
+    return nearest_of_others<Real, false>(lists, nodes, given, npts, distance, NodeTable(npts, cells, bits));
   }
   std::vector<Int> cells(std::size_t{1} << bits);
-  return nearest_of_others<false>(lists, nodes, given, npts, distance, NodeTable(npts, cells.data(), bits));
+  return nearest_of_others<Real, false>(lists, nodes, given, npts, distance,
+                                        NodeTable(npts, cells.data(), bits));
 }
 
 #define PSTRIPACK_SEARCH(Real, Int)                                                                         \
