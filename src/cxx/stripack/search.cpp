@@ -232,50 +232,49 @@ class Candidates {
   int count_;
 };
 
-/// So many nodes GETNP is given without a need for memory from the heap: a byte holds their places.
+/// So many nodes GETNP is given without a need for memory from the heap.
 constexpr int most_without_memory = 256;
 
-/// The nodes that GETNP is given, as a hash table of their places in NPTS. An empty cell holds place 0: node
-/// npts[0] is one of them anyway, so that one comparison answers for an empty cell and for the right one.
-template <class Int, class Cell>
+/// The nodes that GETNP is given, as a hash table. An empty cell holds 0, which is no node.
+template <class Int>
 class NodeTable {
  public:
   /// `cells`: 2^bits of them, all 0.
-  NodeTable(const Int* npts, Cell* cells, int bits) : npts_(npts), cells_(cells), shift_(64 - bits) {}
+  NodeTable(const Int* npts, Int* cells, int bits) : npts_(npts), cells_(cells), shift_(64 - bits) {
+    insert(0);
+  }
 
   /// npts[place]; false if it is there already.
   bool insert(Int place) {
     const Int node = npts_[place];
     std::size_t cell = hash(node);
     if (cells_[cell] != 0) cell = find(cell, node);
-    if (is_at(cell, node)) return false;
-    cells_[cell] = static_cast<Cell>(place);
+    if (cells_[cell] == node) return false;
+    cells_[cell] = node;
     return true;
   }
   /// Without a branch on whether it is there, which no processor foresees.
   bool contains(Int node) const {
     const std::size_t cell = hash(node);
-    const std::size_t place = static_cast<std::size_t>(cells_[cell]), is_other = npts_[place] != node;
-    if (__builtin_expect((place & (0 - is_other)) != 0, false)) return is_at(find(cell, node), node);
-    return is_other == 0;
+    const Int found = cells_[cell];
+    const bool is_other = found != node;
+    if (__builtin_expect((found & -Int{is_other}) != 0, false)) return cells_[find(cell, node)] == node;
+    return !is_other;
   }
 
  private:
   std::size_t hash(Int node) const {
     return static_cast<std::size_t>(static_cast<std::uint64_t>(node) * 0x9E3779B97F4A7C15 >> shift_);
   }
-  bool is_at(std::size_t cell, Int node) const {
-    return npts_[static_cast<std::size_t>(cells_[cell])] == node;
-  }
   /// The node's cell, or the empty one where it would go, from this one on.
   [[gnu::noinline]] std::size_t find(std::size_t cell, Int node) const {
     const std::size_t last = (std::size_t{1} << (64 - shift_)) - 1;
-    while (cells_[cell] != 0 && !is_at(cell, node)) cell = cell == last ? 0 : cell + 1;
+    while (cells_[cell] != 0 && cells_[cell] != node) cell = (cell + 1) & last;
     return cell;
   }
 
   const Int* npts_;
-  Cell* cells_;
+  Int* cells_;
   int shift_;
 };
 
@@ -471,7 +470,7 @@ NextNearestStatus nearest_of_few(const ListsView<Int>& lists, const Nodes<Real>&
     return nearest_of_others<Number, true>(lists, nodes, given, npts, distance, FewNodes<Int, 4>(npts));
   constexpr int bits = 7;
   static_assert(cells_a_node * few_nodes == 1 << bits);
-  std::uint8_t cells[cells_a_node * few_nodes] = {};
+  Int cells[1 << bits] = {};
   return nearest_of_others<Number, true>(lists, nodes, given, npts, distance, NodeTable(npts, cells, bits));
 }
 
@@ -570,15 +569,14 @@ NextNearestStatus next_nearest(const ListsView<Int>& lists, const Nodes<Real>& n
                ? nearest_of_few<StaticallyRounded<Real>>(lists, nodes, given, npts, distance)
                : nearest_of_few<Real>(lists, nodes, given, npts, distance);
   int bits = 8;
-  while ((std::int64_t{1} << bits) < cells_a_node * std::int64_t{given}) ++bits;
-  if (given <= most_without_memory) {
-    std::uint8_t cells[cells_a_node * most_without_memory];
-    std::memset(cells, 0, std::size_t{1} << bits);
+  while (std::int64_t{1} << bits < cells_a_node * std::int64_t{given}) ++bits;
+  const auto of_many = [&](Int* cells) {
     return nearest_of_others<Real, false>(lists, nodes, given, npts, distance, NodeTable(npts, cells, bits));
-  }
-  std::vector<Int> cells(std::size_t{1} << bits);
-  return nearest_of_others<Real, false>(lists, nodes, given, npts, distance,
-                                        NodeTable(npts, cells.data(), bits));
+  };
+  if (given > most_without_memory) return of_many(std::vector<Int>(std::size_t{1} << bits).data());
+  Int cells[cells_a_node * most_without_memory];
+  std::memset(cells, 0, sizeof(Int) << bits);
+  return of_many(cells);
 }
 
 #define PSTRIPACK_SEARCH(Real, Int)                                                                         \
