@@ -69,11 +69,11 @@ int main(int argc, char** argv) {
   CaseSettings cases;
   app.add_flag("--quick", cases.quick, "only cases with less than 10^6 nodes, three repeats");
   app.add_option("--only", cases.only,
-                 "only these cases, for example random-1e4,latlon-1e5; `distributions`, `scvt`, "
+                 "only these cases, for example random-1e4,latlon-1e5; `distributions...`, `scvt`, "
                  "`warm-start` and `queries-...` run only if named")
       ->delimiter(',')
       ->check(CLI::IsMember(case_names()));
-  app.add_option("--sets", cases.sets, "only these point sets in the case `distributions`")
+  app.add_option("--sets", cases.sets, "only these point sets in the cases `distributions...`")
       ->delimiter(',')
       ->check(is_point_set);
   const std::string repeats_help =

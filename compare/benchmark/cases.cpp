@@ -323,7 +323,8 @@ const std::vector<std::pair<std::string, int>> kTimesOfOrders{{"orders-1e5", 100
                                                               {"orders-1e6", 1000000}};
 const std::vector<std::pair<std::string, int>> kTimesOfQueries{
     {"queries-1e3", 1000}, {"queries-1e4", 10000}, {"queries-1e5", 100000}, {"queries-1e6", 1000000}};
-const std::string kDistributions = "distributions", kWarmStart = "warm-start", kScvt = "scvt";
+const std::string kDistributions = "distributions", kOnThreads = "distributions-threads",
+                  kWarmStart = "warm-start", kScvt = "scvt";
 
 }  // namespace
 
@@ -335,6 +336,7 @@ std::vector<std::string> case_names() {
   for (const auto& [name, n] : kTimesOfOrders) names.push_back(name);
   for (const auto& [name, n] : kTimesOfQueries) names.push_back(name);
   names.push_back(kDistributions);
+  names.push_back(kOnThreads);
   names.push_back(kWarmStart);
   names.push_back(kScvt);
   return names;
@@ -351,14 +353,15 @@ void run_cases(const std::string& self, const CaseSettings& settings,
   if (is_wanted(kWarmStart, false)) run_time_of_warm_starts(self, repeats);
   if (is_wanted(kScvt, false)) run_time_of_scvt(quick, repeats);
   if (is_wanted(kDistributions, false)) run_time_of_distributions(sets, repeats);
+  if (is_wanted(kOnThreads, false)) run_distributions_on_threads(sets, repeats);
   for (const auto& [name, n] : kTimesOfQueries)
     if (is_wanted(name, false)) {
       if (!original_library) throw std::invalid_argument(name + ": there is no original to compare with");
       run_time_of_queries(n, *original_library, repeats);
     }
   const auto has_its_own_table = [](const std::string& name) {
-    return name == kDistributions || name == kWarmStart || name == kScvt || name.rfind("orders-", 0) == 0 ||
-           name.rfind("queries-", 0) == 0;
+    return name == kDistributions || name == kOnThreads || name == kWarmStart || name == kScvt ||
+           name.rfind("orders-", 0) == 0 || name.rfind("queries-", 0) == 0;
   };
   if (!only.empty() && std::all_of(only.begin(), only.end(), has_its_own_table)) return;
 

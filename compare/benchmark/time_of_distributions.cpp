@@ -8,6 +8,10 @@
 #include <exception>
 #include <optional>
 
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
 #include "beside_random.h"
 #include "distributions.h"
 #include "point_sets.h"
@@ -96,7 +100,54 @@ std::vector<Distribution> chosen(const std::vector<std::string>& only) {
   return some;
 }
 
+#ifdef _OPENMP
+/// The time on so many threads over that on one, alternating; in this process, since a forked child has one
+/// thread.
+double threads_over_one(const Nodes& nodes, int threads, int repeats) {
+  Lists lists(nodes.n());
+  const Stripack library = ours();
+  const auto seconds_on = [&](int wanted) {
+    omp_set_num_threads(wanted);
+    return seconds_a_call([&] { library.trmesh(nodes, lists); }, std::max(1, 50000 / nodes.n()));
+  };
+  Samples one, all;
+  while (!all.enough(repeats)) {
+    one.add(seconds_on(1));
+    all.add(seconds_on(threads));
+  }
+  return all.median() / one.median();
+}
+#endif
+
 }  // namespace
+
+void run_distributions_on_threads([[maybe_unused]] const std::vector<std::string>& only,
+                                  [[maybe_unused]] int repeats) {
+#ifdef _OPENMP
+  const int threads = omp_get_num_procs();
+  fmt::print("\ndistributions: time on {} threads over that on one, in turn; at most 1\n\n{:<19}", threads,
+             "nodes");
+  for (const Size& size : kSizes) fmt::print("{:>8}", size.name);
+  fmt::print("\n");
+  int above = 0;
+  for (const Distribution& d : chosen(only)) {
+    double largest = 0;
+    fmt::print("{:<19}", d.name);
+    for (const Size& size : kSizes) {
+      const std::vector<pstripack::Point> points = point_sets::make(d.name, size.n);
+      if (points.size() < size.n * 9 / 10) break;
+      const double ratio =
+          threads_over_one(with_a_triangle_first(points), threads, std::min(repeats, size.most_repeats));
+      largest = std::max(largest, ratio);
+      fmt::print("{:>8.2f}", ratio);
+      std::fflush(stdout);
+    }
+    above += largest > 1;
+    fmt::print("{}\n", largest > 1 ? " above" : "");
+  }
+  fmt::print("{} rows above 1\n", above);
+#endif
+}
 
 void run_time_of_distributions(const std::vector<std::string>& only, int repeats) {
   std::vector<Nodes> randoms;

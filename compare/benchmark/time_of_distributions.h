@@ -11,4 +11,7 @@ namespace benchmark {
 /// `only`: point sets; none: all of point_sets::distributions().
 void run_time_of_distributions(const std::vector<std::string>& only, int repeats);
 
+/// One row per set: the time on all processors over that on one thread, at several N. Nothing without OpenMP.
+void run_distributions_on_threads(const std::vector<std::string>& only, int repeats);
+
 }  // namespace benchmark

@@ -1,16 +1,12 @@
 #include <cmath>
 #include <utility>
 
+#include "base/scattered.h"
 #include "shapes.h"
 
 namespace point_sets {
 
-std::uint64_t Random::bits() {
-  std::uint64_t z = (state_ += 0x9e3779b97f4a7c15);
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-  return z ^ (z >> 31);
-}
+std::uint64_t Random::bits() { return pstripack::scattered(state_ += 0x9e3779b97f4a7c15); }
 
 Point Random::direction() {
   const auto [u, v] = in_disc(*this);

@@ -14,11 +14,14 @@ namespace pstripack {
 namespace {
 
 constexpr std::size_t kClosingNodes = 256;
-// So many tell in time whether lengths hide a node: later it costs what the patches have cost until then.
+// Nodes of the sample among which hidden ones are looked for before nodes go to patches: one that is found
+// later costs the time of the patches once more.
 constexpr std::size_t kLookedThrough = 500;
-// Whether patches can be kept is judged by so many nodes of a rank; so many more than its share do not
-// matter.
-constexpr std::size_t kLookedAt = 256, kCloselyEnough = 64;
+// A rank's nodes, evenly spaced, of which at most a sixteenth may lie in other ranks' patches if the patches
+// of the last call are kept.
+constexpr std::size_t kLookedAt = 256;
+// Nodes that a rank may have above 9/8 of its share if patches are kept: for small sets, where 1/8 is little.
+constexpr std::size_t kCloselyEnough = 64;
 
 /// What a rank brings, told to all in one number.
 struct Headcount {

@@ -201,12 +201,12 @@ Parcels MovingStars::begin_with(MovingStars& last, const Relocation& way, const 
 }
 
 void MovingStars::sort_outside() {
-  by_number_.clear();
+  Nodes sorted;
   for (std::uint32_t j = 0; j < outside_.size(); ++j)
-    if (outside_[j].arcs > 0) by_number_.push_back(j);
-  std::sort(by_number_.begin(), by_number_.end(),
+    if (outside_[j].arcs > 0) sorted.push_back(j);
+  std::sort(sorted.begin(), sorted.end(),
             [&](std::uint32_t a, std::uint32_t b) { return outside_[a].number < outside_[b].number; });
-  outside_has_changed_ = false;
+  by_number_ = std::move(sorted);
 }
 
 // ---- 1, 2 and 3 ----------------------------------------------------------------------------------------
@@ -328,7 +328,7 @@ bool MovingStars::flip_one(const Flip& flip) {
   const auto count_arc = [&](const Corner& at, std::uint32_t other, std::uint32_t change) {
     if (is_here(at) && other >= mesh_->size()) {
       outside_[other - mesh_->size()].arcs += change;
-      outside_has_changed_ = true;
+      by_number_.reset();
     }
   };
   count_arc(a, q.b, -1u);
@@ -398,9 +398,9 @@ std::vector<std::uint32_t> MovingStars::update(const LocalNodes& nodes, Stars<In
   if (all.empty()) replaced_ += entries;
   mesh_->forget_changes();
 
-  if (outside_has_changed_) sort_outside();
+  if (!by_number_) sort_outside();
   stars.outside.clear();
-  for (const std::uint32_t j : by_number_) stars.outside.push_back({mesh_->node(n + j), outside_[j].number});
+  for (const std::uint32_t j : *by_number_) stars.outside.push_back({mesh_->node(n + j), outside_[j].number});
   stars.lengths = Lengths::as_given;
   return changed;
 }

@@ -112,9 +112,8 @@ class MovingStars {
   std::size_t first_with_nodes_ = 0;  ///< rank
   std::optional<Stay> stay_;
   std::optional<MovingMesh> mesh_;
-  std::vector<Outside> outside_;          ///< node size() + j of the mesh is outside_[j]
-  std::vector<std::uint32_t> by_number_;  ///< those of outside_ that are neighbours, in the order of numbers
-  bool outside_has_changed_ = false;      ///< since then
+  std::vector<Outside> outside_;    ///< node size() + j of the mesh is outside_[j]
+  std::optional<Nodes> by_number_;  ///< neighbours among outside_ by number; none after these have changed
   /// Of each rank: the nodes here whose places it is told, and the nodes outside whose places it tells.
   std::vector<Nodes> send_, receive_;
   std::size_t come_ = 0;             ///< nodes that have come since the mesh was laid out along its curve
