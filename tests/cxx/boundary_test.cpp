@@ -121,8 +121,7 @@ class Patches {
       for (std::size_t k = 0; k < questions.size(); ++k)
         answers[k] = patches_[static_cast<std::size_t>(questions[k].to)].answer(questions[k]);
       for (std::size_t k = 0; k < questions.size(); ++k)
-        patches_[static_cast<std::size_t>(questions[k].from)].learn(questions[k], answers[k].data(),
-                                                                    answers[k].size());
+        patches_[static_cast<std::size_t>(questions[k].from)].take_in(answers[k]);
     }
   }
 

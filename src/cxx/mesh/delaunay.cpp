@@ -492,7 +492,8 @@ class Builder final : public GrowingHull {
     };
     constexpr std::size_t kLookedAt = 64;
     const std::size_t step = n_ / kLookedAt + 1;
-    double least = square_from(faces_[last_].vertex[0]);
+    const auto& last = faces_[last_].vertex;
+    double least = std::min({square_from(last[0]), square_from(last[1]), square_from(last[2])});
     for (std::size_t v = 0; v < n_; v += step) {
       const double square = square_from(static_cast<std::uint32_t>(v));
       if (!(square < least)) continue;
