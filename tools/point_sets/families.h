@@ -16,7 +16,7 @@ struct Family {
   std::string name;
   std::string parameter;  ///< its default, as written; empty: the family takes none
   std::string nodes;      ///< their number if n are requested
-  std::string what;       ///< one line for --help and docs/point-sets.md
+  std::string what;       ///< one line for --help
   std::function<Points(std::size_t n, double parameter, Random& random)> make;
 };
 

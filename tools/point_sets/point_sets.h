@@ -13,7 +13,7 @@ namespace point_sets {
 
 /// The family `name` or `name:parameter` with n nodes; grids take the natural count nearest to n.
 /// Throws std::invalid_argument, naming the families, if there is no such family or the parameter is bad.
-/// docs/point-sets.md lists them.
+/// `pstripack points --help` lists them.
 std::vector<pstripack::Point> make(const std::string& family, std::size_t n, std::uint64_t seed = 1);
 
 /// The names of the families, without parameters: those that every test uses; and those that are hard for

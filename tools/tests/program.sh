@@ -26,8 +26,7 @@ octahedron() { printf '1 0 0\n0 1 0\n0 0 1\n-1 0 0\n0 -1 0\n0 0 -1\n'; }
 
 case $1 in
 documented_tables)
-  # The tables of --help that $DOCUMENT quotes. docs/point-sets.md has the families; the options are in pstripack.1,
-  # by a test of tests/docs.
+  # The tables of --help that $DOCUMENT quotes. The options are in pstripack.1, by a test of tests/docs.
   compare_table() { # TITLE COMMAND: from the line TITLE to one that does not begin with a blank
     for text in "$DOCUMENT" help; do
       "$PSTRIPACK" "$2" --help > help

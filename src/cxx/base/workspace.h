@@ -125,7 +125,8 @@ class Workspace {
   void clear() { front_ = 0, back_ = size_; }
 
  private:
-  /// Alignment to a cache line: faces and planes, half as long, must not straddle two.
+  /// Alignment to a cache line: faces and planes, half as long, must not straddle two. Otherwise, of two
+  /// patches, the badly aligned one kept the other waiting.
   static constexpr std::size_t kAlignment = 64;
   static std::size_t rounded_up(std::size_t bytes) {
     return (bytes + kAlignment - 1) / kAlignment * kAlignment;
