@@ -103,7 +103,8 @@ void list_neighbours(ListingForm form, Int iflag, const ListsView<Int>& lists, c
       out.integer(neighbours[static_cast<std::size_t>(i)], 5);
     }
     out.end();
-    // After one full row the record is empty in either form: Fortran's format ends it, not the program.
+    // After exactly one full row the record is empty in both layouts: in the original Fortran's format
+    // writes it.
     if (entries == in_a_row)
       out.end();
     else
