@@ -33,7 +33,7 @@ struct CoincidentGenerators : BadGenerators {
 struct BadNumber : BadGenerators {
   explicit BadNumber(std::int64_t number);
 };
-/// The generators lie in a hemisphere: some cell has no end.
+/// The generators lie in a hemisphere: some cells are unbounded.
 struct GeneratorsInHemisphere : BadGenerators {
   GeneratorsInHemisphere();
 };
