@@ -24,7 +24,8 @@ class MovingMesh {
   MovingMesh(const Point* p, std::size_t n, const std::int32_t* list, const std::int32_t* lend,
              std::size_t outside = 0, std::size_t room = 0);
 
-  /// Stars to be added: node[i] has the neighbours ring[end[i-1]..end[i]-1], counterclockwise; end[-1] is 0.
+  /// Stars to be added: node[i] has the neighbours ring[end[i-1]..end[i]-1], counterclockwise; end[-1] counts
+  /// as 0.
   struct MoreStars {
     std::vector<std::uint32_t> node, end, ring;
     std::size_t count(std::size_t i) const { return end[i] - (i == 0 ? 0 : end[i - 1]); }

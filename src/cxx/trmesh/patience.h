@@ -14,9 +14,9 @@ class Patience {
  public:
   /// Counts one more call in which the sample fitted. True if that is enough.
   bool is_enough() { return ++found_ >= needed_; }
-  /// A warm start has succeeded.
+  /// A warm start has succeeded: the number is 1 again.
   void succeed() { *this = {}; }
-  /// A warm start has failed.
+  /// A warm start has failed: the number doubles.
   void fail() {
     constexpr int kMost = 64;
     needed_ = std::min(2 * needed_, kMost);
