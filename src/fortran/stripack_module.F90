@@ -20,11 +20,10 @@
 ! INTEGER and LOGICAL are the default kinds. No dummy has an INTENT: programs pass INTENT(IN) arrays of
 ! their own as output, as the original allows. Arrays are explicit-shape or assumed-size.
 !
-! No routine is collective, unless its comment says so: in an MPI program each rank may call it any number
-! of times. Any number of threads may call at once with their own arrays. Nodes and slots count from 1. LIST
-! and LPTR have at least 6N-12 elements, LEND has N. Angles are in radians except in TRPLOT and VRPLOT;
-! lengths are in units of the radius. All arguments are described in the man pages (man 3 trmesh) and in
-! docs/api.
+! No routine is collective, except TRMESH after `call pstripack_set_comm`. Any number of threads may call at
+! once with their own arrays. Nodes and slots count from 1. LIST and LPTR have at least 6N-12 elements, LEND
+! has N. Angles are in radians except in TRPLOT and VRPLOT; lengths are in units of the radius. All
+! arguments: man 3 trmesh etc., or docs/api.
 
 #ifndef STRIPACK_REAL_KIND
 #define STRIPACK_REAL_KIND selected_real_kind(15, 307)
