@@ -19,8 +19,7 @@ module pstripack
   public :: pstripack_scvt_coincident, pstripack_bad_density, pstripack_hemisphere, pstripack_bad_lists, &
             pstripack_bad_option
 
-  !> Results of pstripack_trmesh. Any other result is L > 0: nodes L and M > L coincide; M is the smallest
-  !> such number.
+  !> Results of pstripack_trmesh. Any other result is L > 0: nodes L and M > L coincide; M is the smallest such number.
   integer(c_int32_t), parameter :: pstripack_ok = 0, &
     pstripack_too_few_nodes = -1, &   !< fewer than 3 nodes
     pstripack_collinear = -2, &       !< the first three nodes lie on one great circle
@@ -58,8 +57,8 @@ module pstripack
     real(c_double) :: tolerance = 1e-5_c_double        !< largest gradient of a converged run
     integer(c_int64_t) :: most_evaluations = 100000    !< on each level
     integer(c_int64_t) :: seed = 1                     !< of the random generators
-    !> False: only the thread that called the library calls the density, and does the integrals alone. True:
-    !> any number of the library's threads call it at once.
+    !> False: only the thread that called the library calls the density, and does the integrals alone. True: any
+    !> number of the library's threads call it at once.
     logical :: density_on_threads = .false.
   end type
 
@@ -82,9 +81,9 @@ module pstripack
   end type
 
   abstract interface
-    !> Sets values(i) to the density at the unit vector xyz(:, i), i = 1..n, n <= 65536. The density must be
-    !> positive and finite, and depend on the place alone. Preferably a module procedure: an internal
-    !> procedure can use the data of its host, but some compilers then need an executable stack.
+    !> Sets values(i) to the density at the unit vector xyz(:, i), i = 1..n, n <= 65536. The density must be positive
+    !> and finite, and depend on the place alone. Preferably a module procedure: an internal procedure can use the
+    !> data of its host, but some compilers then need an executable stack.
     subroutine pstripack_density(n, xyz, values)
       import :: c_double, c_int32_t
       integer(c_int32_t), intent(in) :: n
@@ -92,8 +91,7 @@ module pstripack
       real(c_double), intent(out) :: values(n)
     end subroutine
 
-    !> Called after each step, by the thread that called the library. stop is .false. on entry; .true. ends
-    !> the run.
+    !> Called after each step, by the thread that called the library. stop is .false. on entry; .true. ends the run.
     subroutine pstripack_progress(progress, stop)
       import :: pstripack_scvt_progress
       type(pstripack_scvt_progress), intent(in) :: progress
@@ -105,12 +103,13 @@ module pstripack
 
   !> call pstripack_trmesh(x, y, z, list, lptr, lend, lnew, ier)
   !>
-  !> The Delaunay triangulation of n = size(x) nodes, as STRIPACK's lists in canonical form. x, y, z
-  !> (n), in: real32 or real64; vectors from the centre of the sphere to the nodes, of any length list, lptr
-  !> (at least 6n-12), out: neighbours, and the slot of the next neighbour lend        (at least n), out:
-  !> slot of each node's last neighbour lnew        out: one past the last slot in use ier         out:
-  !> pstripack_ok, an error code above, or L > 0 (the lists are then those of nodes 1..M-1) If ier is
-  !> negative nothing else is written.
+  !> The Delaunay triangulation of n = size(x) nodes, as STRIPACK's lists in canonical form.
+  !>   x, y, z     (n), in: real32 or real64; vectors from the centre of the sphere to the nodes, of any length
+  !>   list, lptr  (at least 6n-12), out: neighbours, and the slot of the next neighbour
+  !>   lend        (at least n), out: slot of each node's last neighbour
+  !>   lnew        out: one past the last slot in use
+  !>   ier         out: pstripack_ok, an error code above, or L > 0 (the lists are then those of nodes 1..M-1)
+  !> If ier is negative nothing else is written.
   interface pstripack_trmesh
     module procedure trmesh_real32, trmesh_real64
   end interface
@@ -227,10 +226,11 @@ contains
     end if
   end function
 
-  !> 0 if the lists are a correct triangulation of the n = size(x) nodes, by exact signs; else the number (>
-  !> 0) of the violated property, or an error code (< 0). list, lptr, lend  (at least 6n-12, 6n-12, n), in:
-  !> the lists lnew              in: as from TRMESH, or 0 if not known message           out: the defect and
-  !> the nodes; blank if there is none
+  !> 0 if the lists are a correct triangulation of the n = size(x) nodes, by exact signs; else the number (> 0) of the
+  !> violated property, or an error code (< 0).
+  !>   list, lptr, lend  (at least 6n-12, 6n-12, n), in: the lists
+  !>   lnew              in: as from TRMESH, or 0 if not known
+  !>   message           out: the defect and the nodes; blank if there is none
   function pstripack_validate(x, y, z, list, lptr, lend, lnew, message) result(defect)
     real(c_double), intent(in), contiguous :: x(:), y(:), z(:)
     integer(c_int32_t), intent(in), contiguous :: list(:), lptr(:), lend(:)
@@ -247,21 +247,24 @@ contains
     call tell(line, message)
   end function
 
-  !> A hash of 64 bits that depends on the set of triangles alone; 0 if the lists are not well formed. The
-  !> number of nodes is size(lend).
+  !> A hash of 64 bits that depends on the set of triangles alone; 0 if the lists are not well formed. The number of
+  !> nodes is size(lend).
   function pstripack_fingerprint(list, lptr, lend) result(bits)
     integer(c_int32_t), intent(in), contiguous :: list(:), lptr(:), lend(:)
     integer(c_int64_t) :: bits
     bits = c_fingerprint(size(lend, kind=c_int32_t), list, lptr, lend)
   end function
 
-  !> A centroidal Voronoi tessellation: finds n = size(x) generators for the density. x, y, z   (n), out:
-  !> the generators, unit vectors; in, only with options%start = pstripack_scvt_given: the generators to
-  !> start from, vectors of any length result    out: energy, gradient, evaluations, and why the run ended
-  !> ier       out: pstripack_ok, whatever the reason to end, or a negative code above density   default: 1
-  !> everywhere options   default: the values in the declaration of pstripack_scvt_options progress
-  !> default: none message   out: on an error, what is wrong, where, and what to do On an error nothing else
-  !> is written. The result has the same bits for any number of threads.
+  !> A centroidal Voronoi tessellation: finds n = size(x) generators for the density.
+  !>   x, y, z   (n), out: the generators, unit vectors; in, only with options%start = pstripack_scvt_given: the
+  !>             generators to start from, vectors of any length
+  !>   result    out: energy, gradient, evaluations, and why the run ended
+  !>   ier       out: pstripack_ok, whatever the reason to end, or a negative code above
+  !>   density   default: 1 everywhere
+  !>   options   default: the values in the declaration of pstripack_scvt_options
+  !>   progress  default: none
+  !>   message   out: on an error, what is wrong, where, and what to do
+  !> On an error nothing else is written. The result has the same bits for any number of threads.
   subroutine pstripack_scvt(x, y, z, result, ier, density, options, progress, message)
     real(c_double), intent(inout), contiguous :: x(:), y(:), z(:)
     type(pstripack_scvt_result), intent(inout) :: result
@@ -284,14 +287,17 @@ contains
     if (present(message) .and. ier == pstripack_bad_size) message = pstripack_strerror(ier)
   end subroutine
 
-  !> One step, for programs with a loop of their own: integrals over the cells of n = size(x) generators. x,
-  !> y, z           (n), in: generators, vectors of any length list, lptr, lend  (at least 6n-12, 6n-12, n),
-  !> in: their triangulation, from TRMESH xc, yc, zc        (n), out: centroids of the cells, unit vectors,
-  !> to which Lloyd's method moves the generators mass              (n), out: integral of the density over
-  !> each cell energy            out: the energy of all cells ier               out: pstripack_ok or a
-  !> negative code above density           default: 1 everywhere density_on_threads  as the component of
-  !> pstripack_scvt_options message           as of pstripack_scvt On an error nothing else is written. The
-  !> result has the same bits for any number of threads.
+  !> One step, for programs with a loop of their own: integrals over the cells of n = size(x) generators.
+  !>   x, y, z             (n), in: generators, vectors of any length
+  !>   list, lptr, lend    (at least 6n-12, 6n-12, n), in: their triangulation, from TRMESH
+  !>   xc, yc, zc          (n), out: centroids of the cells, unit vectors, to which Lloyd's method moves the generators
+  !>   mass                (n), out: integral of the density over each cell
+  !>   energy              out: the energy of all cells
+  !>   ier                 out: pstripack_ok or a negative code above
+  !>   density             default: 1 everywhere
+  !>   density_on_threads  as the component of pstripack_scvt_options
+  !>   message             as of pstripack_scvt
+  !> On an error nothing else is written. The result has the same bits for any number of threads.
   subroutine pstripack_scvt_step(x, y, z, list, lptr, lend, xc, yc, zc, mass, energy, ier, density, &
                                  density_on_threads, message)
     real(c_double), intent(in), contiguous :: x(:), y(:), z(:)

@@ -29,9 +29,9 @@ module pstripack_mpi
 
   !> call pstripack_set_comm(comm [, ier])
   !>
-  !> Starts comm mode. Collective over comm. From then on TRMESH, in all its forms, is collective over a
-  !> duplicate of comm, with the same arguments on every rank. MPI_COMM_NULL ends comm mode. ier: 0, -6,
-  !> pstripack_ranks_disagree or pstripack_bad_comm; errors also print a line on stderr.
+  !> Starts comm mode. Collective over comm. From then on TRMESH, in all its forms, is collective over a duplicate of
+  !> comm, with the same arguments on every rank. MPI_COMM_NULL ends comm mode. ier: 0, -6, pstripack_ranks_disagree or
+  !> pstripack_bad_comm; errors also print a line on stderr.
   interface pstripack_set_comm
     module procedure set_comm_integer, set_comm_f08
   end interface
@@ -212,12 +212,13 @@ contains
     call mesh%create_integer(comm%MPI_VAL, ier)
   end subroutine
 
-  !> Triangulates the points of all ranks together. Collective. xyz     (3, n), in: vectors from the centre
-  !> of the sphere to the points of this rank number  (n), in: their global numbers, at least 1, each once
-  !> over all ranks, in any order ier     out: 0, -1 (fewer than three points in all), -2 (all on one great
-  !> circle), -4 (too many, or arrays of different sizes), -5 (not finite, or zero), -6 (out of memory),
-  !> pstripack_coincident, pstripack_bad_number, or pstripack_empty_mesh (not created) After an error the
-  !> mesh is empty.
+  !> Triangulates the points of all ranks together. Collective.
+  !>   xyz     (3, n), in: vectors from the centre of the sphere to the points of this rank
+  !>   number  (n), in: their global numbers, at least 1, each once over all ranks, in any order
+  !>   ier     out: 0, -1 (fewer than three points in all), -2 (all on one great circle), -4 (too many, or arrays of
+  !>           different sizes), -5 (not finite, or zero), -6 (out of memory), pstripack_coincident,
+  !>           pstripack_bad_number, or pstripack_empty_mesh (not created)
+  !> After an error the mesh is empty.
   subroutine triangulate(mesh, xyz, number, ier)
     class(pstripack_mesh), intent(inout) :: mesh
     real(c_double), intent(in), contiguous :: xyz(:, :)
@@ -232,8 +233,7 @@ contains
     ier = c_triangulate(mesh%handle, n, xyz, number)
   end subroutine
 
-  !> After ier = -5, -9, -10: the global numbers of the points that the error is about; 0 for none. Not
-  !> collective.
+  !> After ier = -5, -9, -10: the global numbers of the points that the error is about; 0 for none. Not collective.
   subroutine error_points(mesh, first, second)
     class(pstripack_mesh), intent(in) :: mesh
     integer(c_int64_t), intent(out) :: first, second
@@ -242,8 +242,8 @@ contains
     if (c_associated(mesh%handle)) call c_error_points(mesh%handle, first, second)
   end subroutine
 
-  !> The numbers, on this rank, of own points, entries of all stars, triangles whose smallest corner is an
-  !> own point, and points of other ranks that are neighbours of own points. Not collective.
+  !> The numbers, on this rank, of own points, entries of all stars, triangles whose smallest corner is an own point,
+  !> and points of other ranks that are neighbours of own points. Not collective.
   subroutine sizes(mesh, points, arcs, triangles, halo)
     class(pstripack_mesh), intent(in) :: mesh
     integer(c_int64_t), intent(out) :: points, arcs, triangles, halo
@@ -255,8 +255,8 @@ contains
   end subroutine
 
   !> The stars in global numbers: the neighbours of own point i are neighbour(begin(i) : begin(i+1)-1),
-  !> counterclockwise, as in LIST. begin(points+1), neighbour(arcs). Not collective. Stops the program if an
-  !> array is too short or the mesh was not created.
+  !> counterclockwise, as in LIST. begin(points+1), neighbour(arcs). Not collective. Stops the program if an array is
+  !> too short or the mesh was not created.
   subroutine stars(mesh, begin, neighbour)
     class(pstripack_mesh), intent(in) :: mesh
     integer(c_int64_t), intent(inout), contiguous :: begin(:), neighbour(:)
@@ -266,10 +266,10 @@ contains
     begin(:points + 1) = begin(:points + 1) + 1
   end subroutine
 
-  !> Sets rank(i) to the rank (from 0) that should own the point xyz(:, i), so that each rank's points lie
-  !> close together and all ranks have about the same number. Points that have been moved to these ranks
-  !> keep them in later calls, until some rank has an eighth more points than the average. ier: 0,
-  !> pstripack_empty_mesh, -4 (arrays of wrong sizes) or -5. Not collective.
+  !> Sets rank(i) to the rank (from 0) that should own the point xyz(:, i), so that each rank's points lie close
+  !> together and all ranks have about the same number. Points that have been moved to these ranks keep them in later
+  !> calls, until some rank has an eighth more points than the average. ier: 0, pstripack_empty_mesh, -4 (arrays of
+  !> wrong sizes) or -5. Not collective.
   subroutine home(mesh, xyz, rank, ier)
     class(pstripack_mesh), intent(in) :: mesh
     real(c_double), intent(in), contiguous :: xyz(:, :)
@@ -282,8 +282,7 @@ contains
     ier = c_home(mesh%handle, size(xyz, 2, kind=c_int64_t), xyz, rank)
   end subroutine
 
-  !> The stars in local numbers: own points 1..points, then the points of the halo. Else as `stars`. ier: 0
-  !> or -6.
+  !> The stars in local numbers: own points 1..points, then the points of the halo. Else as `stars`. ier: 0 or -6.
   subroutine local_stars(mesh, begin, neighbour, ier)
     class(pstripack_mesh), intent(in) :: mesh
     integer(c_int64_t), intent(inout), contiguous :: begin(:)
@@ -319,11 +318,10 @@ contains
     if (c_associated(mesh%handle)) call c_halo(mesh%handle, number, xyz)
   end subroutine
 
-  !> Gathers the lists of the whole mesh, as TRMESH returns them, on rank `root` (from 0), or on all ranks
-  !> if root is pstripack_every_rank. The global numbers must be 1..N, N the number of all points. list,
-  !> lptr (6N-12), lend (N) and lnew are written on these ranks only; their sizes are not checked. ier: 0,
-  !> pstripack_empty_mesh, -4 (6N-11 does not fit 32 bits), -6, pstripack_bad_comm (no such rank) or
-  !> pstripack_bad_number. Collective.
+  !> Gathers the lists of the whole mesh, as TRMESH returns them, on rank `root` (from 0), or on all ranks if root is
+  !> pstripack_every_rank. The global numbers must be 1..N, N the number of all points. list, lptr (6N-12), lend (N)
+  !> and lnew are written on these ranks only; their sizes are not checked. ier: 0, pstripack_empty_mesh, -4 (6N-11
+  !> does not fit 32 bits), -6, pstripack_bad_comm (no such rank) or pstripack_bad_number. Collective.
   subroutine gather(mesh, root, list, lptr, lend, lnew, ier)
     class(pstripack_mesh), intent(inout) :: mesh
     integer(c_int32_t), intent(in) :: root
@@ -334,16 +332,18 @@ contains
     if (c_associated(mesh%handle)) ier = c_gather(mesh%handle, root, list, lptr, lend, lnew)
   end subroutine
 
-  !> A centroidal tessellation of the generators of all ranks, which stay on their ranks. The types are
-  !> those of module pstripack; see also pstripack_scvt there. Collective. xyz, number  as in triangulate;
-  !> xyz in: the generators to start from, vectors of any length; out: the generators found, unit vectors
-  !> result       out: the same on every rank, except generators, which is size(number) ier          out: 0,
-  !> whatever the reason to end; -1 (fewer than four generators in all), -4 (too many, or arrays of
-  !> different sizes), -5, -6, pstripack_coincident, pstripack_bad_number, or a code of pstripack_scvt; the
-  !> same on every rank, as is the message. After an error nothing else is written density      the same on
-  !> every rank, called for places near the rank's generators; default: 1 everywhere options      those of
-  !> rank 0 are used on all ranks, except density_on_threads; start and seed have no effect progress
-  !> called on rank 0 only Afterwards the mesh is that of the generators; after an error it is empty.
+  !> A centroidal tessellation of the generators of all ranks, which stay on their ranks. The types are those of module
+  !> pstripack; see also pstripack_scvt there. Collective.
+  !>   xyz, number  as in triangulate; xyz in: the generators to start from, vectors of any length; out: the generators
+  !>                found, unit vectors
+  !>   result       out: the same on every rank, except generators, which is size(number)
+  !>   ier          out: 0, whatever the reason to end; -1 (fewer than four generators in all), -4 (too many, or arrays
+  !>                of different sizes), -5, -6, pstripack_coincident, pstripack_bad_number, or a code of
+  !>                pstripack_scvt; the same on every rank, as is the message. After an error nothing else is written
+  !>   density      the same on every rank, called for places near the rank's generators; default: 1 everywhere
+  !>   options      those of rank 0 are used on all ranks, except density_on_threads; start and seed have no effect
+  !>   progress     called on rank 0 only
+  !> Afterwards the mesh is that of the generators; after an error it is empty.
   subroutine scvt(mesh, xyz, number, result, ier, density, options, progress, message)
     class(pstripack_mesh), intent(inout) :: mesh
     real(c_double), intent(inout), contiguous :: xyz(:, :)

@@ -1,9 +1,9 @@
 ! Module stripack: explicit interfaces to the symbols of libstripack, libstripack_r4, libstripack_8arg and
 ! libstripack_i8. Made by docs/api/make-api.py from stripack_module.F90.in and docs/api/routines: edit those.
 !
-! This file is installed because a module file is valid for one compiler only. Compile it with your code's
-! options, such as -r8, -i8, -fdefault-real-8 or -fdefault-integer-8. Only the module file is needed, not
-! the object file. Options that gfortran needs, by library:
+! This file is installed because a module file is valid for one compiler only. Compile it with your code's options,
+! such as -r8, -i8, -fdefault-real-8 or -fdefault-integer-8. Only the module file is needed, not the object file.
+! Options that gfortran needs, by library:
 !
 !   libstripack        nothing
 !   libstripack_r4     -DSTRIPACK_REAL_KIND=4

@@ -1,10 +1,12 @@
 // The routines of STRIPACK as C functions, called by the libraries libstripack*. They are exported from
 // libpstripack, to which those libraries are linked. TRMESH itself is pstripack_trmesh of pstripack.h.
-//  Arguments and results are those of the routine of the same name, with inputs by value; see docs/api and
+//
+// Arguments and results are those of the routine of the same name, with inputs by value; see docs/api and
 // the headers of src/cxx/stripack. Node and slot numbers count from 1. No function is collective, writes to
 // stdout or throws. None keeps state, except the random seeds of each thread if PSTRIPACK_ORDER is not
 // canonical. A negative ier prints one line on stderr.
-//  The suffix gives the kinds: _r4, _r8 reals of 32 and 64 bits, with integers of 32 bits; _i8 reals and
+//
+// The suffix gives the kinds: _r4, _r8 reals of 32 and 64 bits, with integers of 32 bits; _i8 reals and
 // integers of 64 bits; _i4, _i8 integers, without reals. Further kinds need further instances of the
 // macros. The functions are declared in stripack_abi.F90 for Fortran, and in a header of the tests.
 

@@ -225,7 +225,8 @@ bool MovingMesh::choose_mark(Mark& mark) const {
 /// Tests the stars first..last-1 and appends arcs that are not locally Delaunay to `suspects`; each arc is
 /// tested at one of its ends at least. Returns false if a triangle is not counterclockwise, or if one other
 /// than the mark's contains the direction g of the mark.
-///  Only triangles near g can contain it. Let R be the reach of a star; |g| and the lengths of nodes are 1
+///
+/// Only triangles near g can contain it. Let R be the reach of a star; |g| and the lengths of nodes are 1
 /// within 1e-6. The ray towards g meets a triangle v,a,b in a point q with |q-v| <= max(|a-v|, |b-v|) <=
 /// 1.74 R.
 /// From |q|^2 = sum of l_i |p_i|^2 - sum of l_i l_j |p_i-p_j|^2, l the barycentric coordinates of q, follows

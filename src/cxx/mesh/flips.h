@@ -14,7 +14,8 @@ namespace pstripack {
 /// The stars of the nodes of a mesh without a boundary, and the current positions of the nodes. Internally
 /// nodes are numbered along the insertion curve of their first positions, so that neighbours are close in
 /// memory.
-///  An object may hold a part of such a mesh: the stars of some of its nodes. Neighbours that have no star
+///
+/// An object may hold a part of such a mesh: the stars of some of its nodes. Neighbours that have no star
 /// here are called nodes outside; their numbers, as the caller counts, are size() and above.
 class MovingMesh {
  public:

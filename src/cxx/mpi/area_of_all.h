@@ -8,9 +8,8 @@
 
 namespace pstripack {
 
-/// New memory of `size` bytes that all ranks of the communicator `machine` map. All must be on one machine.
-/// Empty on a rank that fails to map it, and on all ranks if rank 0 fails to create it. Collective. Does
-/// not throw.
+/// New memory that all ranks of a communicator map, all of them on one machine. Empty on a rank that cannot
+/// map it, and on all if rank 0 cannot create it. Collective. Does not throw.
 SharedArea area_of_all(MPI_Comm machine, std::size_t size);
 
 }  // namespace pstripack

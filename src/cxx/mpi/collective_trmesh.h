@@ -19,13 +19,14 @@ struct LastCall {
   Patience patience;
 };
 
-/// TRMESH (trmesh/trmesh.h) by all ranks together: the same lists and codes as on one process, to the last
-/// bit. Collective. Throws AgreedFailure, having written nothing. arrays: on_every_rank (comm mode): every
-/// rank passes the same arguments and gets the lists; -7 if they differ. on_one_rank (pool mode): rank 0
-/// passes the arguments and gets the lists; the others pass no arrays, but the same size of reals, and get
-/// the result code only. shared: all pass the same memory. last: null on all ranks or on none. The call may
-/// start from the rings of the last call with the same `last`. cost: if rank 0 passes it, the cost of the
-/// call is gathered and stored on every rank that passes it.
+/// TRMESH (trmesh/trmesh.h) by all ranks together; lists and codes have the same bits as on one process.
+/// Collective. Throws AgreedFailure, having written nothing.
+///   arrays  on_every_rank (comm mode): every rank passes the same arguments and gets the lists; -7 if they
+///           differ. on_one_rank (pool mode): rank 0 passes the arguments and gets the lists; the others pass
+///           no arrays, but the same size of reals, and get the result code only. shared: all pass the same
+///           memory
+///   cost    if rank 0 passes it, the cost of the call is stored on every rank that passes it
+///   last    null on all ranks or on none; the call may start from the last call with the same `last`
 TrmeshResult collective_trmesh(MpiCommunicator& ranks, Arrays arrays, const TrmeshCall& call,
                                GroupCost* cost = nullptr, LastCall* last = nullptr);
 

@@ -59,10 +59,9 @@ bool is_usable(MPI_Comm comm) {
 
 double processor_seconds() { return clock_seconds(CLOCK_THREAD_CPUTIME_ID); }
 
-/// The pauses between polls of one wait: first none, because most waits are short; then yield the
-/// processor; then sleep for an eighth of the time waited so far, at most 200 us, so that a wait is hardly
-/// prolonged. If ranks share processors there is no spinning and a longer time of yielding, because the
-/// awaited rank may need the processor.
+/// The pauses between polls of one wait: none at first, because most waits are short; then yields; then
+/// sleeps of an eighth of the time waited so far, which hardly prolong the wait. If ranks share processors:
+/// no spinning and more yields, because the awaited rank may need the processor.
 class BackOff {
  public:
   explicit BackOff(bool crowded) : spin_(crowded ? 0 : 50e-6), yield_(crowded ? 1e-3 : 200e-6) {}
@@ -231,9 +230,8 @@ const std::int64_t* MpiCommunicator::all_gather_one(std::int64_t value) {
   return sizes_.data();
 }
 
-/// Rank r has block r of `all`, the bytes [begin(r), begin(r+1)); afterwards every rank has all blocks.
-/// Before each step a rank has the blocks of `distance` ranks, its own first; in the step it gets the next
-/// `distance` blocks.
+/// Rank r has block r of `all`, the bytes [begin(r), begin(r+1)); afterwards every rank has all blocks. In
+/// each step a rank has the blocks of `distance` ranks from its own on, and gets as many that follow.
 template <class Begin>
 void MpiCommunicator::gather_blocks(void* all, const Begin& begin) {
   auto* const bytes = static_cast<unsigned char*>(all);
@@ -344,9 +342,8 @@ void MpiCommunicator::broadcast(void* bytes, std::size_t size, int root) {
   if (rank_ == root) bytes_sent += static_cast<std::int64_t>(size) * (size_ - 1);
 }
 
-/// If the capacity of under_way_ is used up, waits for the messages under way first. That happens in
-/// scatter and gather only, where root and every other rank exchange their messages in the same order, so
-/// there is no deadlock.
+/// If the capacity of under_way_ is used up, waits for the messages under way first. That happens in scatter
+/// and gather only, where both sides have the same order of messages: no deadlock.
 void MpiCommunicator::post_send(const void* bytes, std::size_t size, int to) {
   const auto* const begin = static_cast<const unsigned char*>(bytes);
   bytes_sent += static_cast<std::int64_t>(size);

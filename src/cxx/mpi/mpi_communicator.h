@@ -15,18 +15,18 @@
 
 namespace pstripack {
 
-/// Owns a duplicate of an intra-communicator, with MPI_ERRORS_RETURN. An MPI error that ranks cannot agree on
-/// (a lost process) ends the job: one line on stderr names rank and phase, then MPI_Abort.
-///  Every wait, for a message or a collective, polls with pauses: it takes little processor time while
-/// other ranks compute, also if there are more ranks than processors. For one thread at a time.
+/// Owns a duplicate of an intra-communicator, with MPI_ERRORS_RETURN. An MPI error that ranks cannot agree
+/// on (a lost process) ends the job: one line on stderr names rank and phase, then MPI_Abort.
+///
+/// Every wait, for a message or a collective, polls with pauses: it takes little processor time while other
+/// ranks compute, also if there are more ranks than processors. For one thread at a time.
 class MpiCommunicator : public Communicator {
  public:
   /// Longest message in bytes; longer ones are cut. MPI counts in int, and some networks fail near 2^31.
   static constexpr std::size_t kLongestMessage = std::size_t{1} << 30;
 
-  /// Collective over comm. Throws Failure(-8) if comm is null, freed or an inter-communicator, or MPI is
-  /// not initialised or already finalised. Throws AgreedFailure if memory runs out on any rank, or if any
-  /// rank passes a `code`, that of an earlier failure, other than 0.
+  /// Collective over comm. Throws Failure(-8) if comm is null, freed or an inter-communicator, or MPI is not
+  /// running; AgreedFailure if any rank runs out of memory or passes a code other than 0.
   explicit MpiCommunicator(MPI_Comm comm, std::size_t longest_message = kLongestMessage,
                            std::int32_t code = 0);
   /// Collective, unless MPI is already finalised.
@@ -73,8 +73,7 @@ class MpiCommunicator : public Communicator {
   }
   MPI_Comm handle() const { return comm_; }
 
-  /// Ends the job with one line on stderr, for errors that ranks cannot agree on. kind: such as "MPI
-  /// error"; text: the error itself.
+  /// Ends the job with one line on stderr, for errors that ranks cannot agree on. kind: such as "MPI error".
   [[noreturn]] void abort(const char* kind, const char* text) const;
 
  private:

@@ -42,9 +42,8 @@ std::int64_t search_repeated(const LocalNodes& points, MpiCommunicator& ranks) {
   return repeated.value;
 }
 
-/// The same, without sending the numbers if there are as many as in low..high: then each occurs once if and
-/// only if all of low..high occur, which sums of hashes show. It is wrong only if two sums of 64 bits are
-/// equal by chance.
+/// The same. If there are as many numbers as in low..high, each occurs once if and only if all of low..high
+/// occur. Sums of 64-bit hashes show that, up to chance, and no number is sent.
 std::int64_t first_repeated(const LocalNodes& points, const Numbering& numbering, MpiCommunicator& ranks) {
   if (numbering.high - numbering.low != numbering.total - 1) return search_repeated(points, ranks);
   const auto all = static_cast<std::size_t>(numbering.total), size = static_cast<std::size_t>(ranks.size()),

@@ -73,8 +73,7 @@ void tell(const Entry& lost) {
   if (write(STDERR_FILENO, line, strlen(line)) < 0) return;
 }
 
-/// The handler of SIGTERM: reports a lost rank, if that rank or this one was in a collective call, and ends
-/// this process by the signal.
+/// The handler of SIGTERM: reports a lost rank, then ends this process by the signal.
 void answer(int signal) {
   for (int k = 0; k < kPages; ++k)
     if (pages[k].load() != nullptr) my_entry[k]->ending = 1;

@@ -1,7 +1,6 @@
 #pragma once
-// Reports that a rank was lost. mpirun does not report it, so one of the ranks that mpirun ends with it
-// does. (In pool mode a process beside each rank does it, see pool/watchdog.h; here the ranks are the
-// program's own, and no process is started.)
+// Reports a lost rank by one of the ranks that mpirun ends with it. (In pool mode a process beside each rank
+// reports it, see pool/watchdog.h; here the ranks are the program's own, and no process is started.)
 
 #include <mpi.h>
 
@@ -12,9 +11,8 @@
 namespace pstripack {
 
 /// The phases of the ranks of a communicator, in memory shared by the ranks on one machine. mpirun ends a
-/// job that has lost a rank by SIGTERM. The handler of this class then prints one line that names the lost
-/// rank and its phase, if the lost rank or the one with the handler was in a collective call, and ends the
-/// process by the signal. The handler is set only if the program has none of its own.
+/// job that has lost a rank by SIGTERM. Its handler then prints one line that names the lost rank and its
+/// phase, if that rank or this one was in a collective call. There is no handler if the program has its own.
 class RollCall {
  public:
   /// Collective. Does nothing if the ranks cannot share memory.

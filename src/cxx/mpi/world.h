@@ -31,11 +31,10 @@ struct RanksOfMachine {
 /// Collective.
 RanksOfMachine ranks_of_machine(const World& world);
 
-/// To be called on rank 0: sends `size` bytes to each of the other ranks, which must be in
-/// wait_for_rank_0(). Uses MPI_COMM_WORLD, where nothing else is sent.
+/// On rank 0: sends `size` bytes to each of the other ranks, over MPI_COMM_WORLD, where nothing else is sent.
 void tell_others(const void* message, std::size_t size);
-/// To be called on the other ranks: waits for the message of rank 0. Sleeps grow with the time waited so
-/// far, so that frequent messages are received promptly and a long wait takes hardly any processor time.
+/// On the other ranks: waits for that message. Sleeps grow with the time waited so far, so that frequent
+/// messages are received promptly and a long wait takes hardly any processor time.
 void wait_for_rank_0(void* message, std::size_t size);
 
 }  // namespace pstripack

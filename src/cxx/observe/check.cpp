@@ -30,8 +30,7 @@ namespace pstripack {
 namespace {
 
 /// Appends one block to the file, in one piece even if other processes write to it. The file is opened each
-/// time: a program may close descriptors that it does not know, and the number may then belong to another
-/// file.
+/// time, because a program may close descriptors that it does not know.
 void append(const std::string& path, iovec* parts, int count) {
   struct File {
     int number;

@@ -196,8 +196,8 @@ class Report {
     if (!table.empty()) write(table);
   }
 
-  /// The file is opened each time: a program may close descriptors that it does not know, and the number
-  /// may then belong to another file. Never waits for the reader of a pipe.
+  /// The file is opened each time, because a program may close descriptors that it does not know. Never waits
+  /// for the reader of a pipe.
   void write(const Text& text) {
     if (path_[0] == '\0') {
       text.write_to(STDERR_FILENO);

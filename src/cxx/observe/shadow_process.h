@@ -20,11 +20,11 @@ class ShadowProcess {
   /// or has ended.
   void send(iovec* parts, int count);
 
-  /// To be called after the last block. Waits until the program has ended, but at most for the timeout of
-  /// one call of the original plus 10 seconds. False if the program is still running.
+  /// After the last block: waits until the program has ended, for the timeout of one call plus 10 seconds at
+  /// most. False if it is still running.
   bool finish() noexcept;
 
-  /// To be called in a forked child: the next send() starts a program of its own.
+  /// In a forked child: the next send() starts a program of its own.
   void leave_to_parent() noexcept;
 
  private:

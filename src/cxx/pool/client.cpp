@@ -117,8 +117,7 @@ bool Pool::trmesh(const pstripack_trmesh_arguments& call, PoolReply& reply) {
   request.wants_cost = call.report != nullptr ? 1 : 0;
   if (!send_packet(socket_, &request, sizeof request, &new_area, 1) ||
       !receive_packet(socket_, &reply, sizeof reply) || !fits(reply, call.n)) {
-    // The pool has ended, or the model has closed the descriptor, which it did not open. Do not close it
-    // here: it may belong to another file now.
+    // The pool has ended, or the model has closed the descriptor. Do not close it: it may be another file's.
     socket_.release();
     area_ = SharedArea();
     return false;

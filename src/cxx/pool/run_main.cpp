@@ -102,7 +102,7 @@ Arguments read_arguments(char** argv) {
   return arguments;
 }
 
-/// pstripack-worker is in the same folder as this program, in the build tree and when installed.
+/// pstripack-worker is in the same folder as this program.
 std::string path_of_worker() {
   char self[PATH_MAX];
   const ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
@@ -192,16 +192,16 @@ Descriptor environment_file() {
   return std::fclose(stream) == 0 ? std::move(file) : Descriptor();
 }
 
-/// True if stdin is a file: it is passed to the model directly, so that the model can rewind it and mpirun
-/// does not move its position. Any other stdin is forwarded by Open MPI. Hydra's forwarding is not used,
-/// because Hydra ends the job if the model does not read the input at once.
+/// True if stdin is a file. Then the model gets it directly, so that it can rewind it and mpirun does not
+/// move its position. Open MPI forwards any other stdin; Hydra must not, because it ends the job if the model
+/// does not read at once.
 bool stdin_is_a_file() {
   struct stat status;
   return fstat(STDIN_FILENO, &status) == 0 && S_ISREG(status.st_mode);
 }
 
-/// Open MPI reads all of stdin, to forward it to rank 0. Gives it an open file description of its own, so
-/// that it does not move the position of the model's.
+/// Open MPI reads all of stdin to forward it. With its own file description it does not move the model's
+/// position.
 void give_mpirun_its_own_input() {
   const off_t position = lseek(STDIN_FILENO, 0, SEEK_CUR);
   const Descriptor file(open("/proc/self/fd/0", O_RDONLY));
@@ -210,9 +210,9 @@ void give_mpirun_its_own_input() {
   dup2(file.get(), STDIN_FILENO);
 }
 
-/// Forwards mpirun's stderr to ours. When a rank is lost, Hydra kills all others by SIGKILL, and their
-/// watchdogs report each of them as lost. Only the first of these lines is forwarded, which is nearly
-/// always the right one.
+/// Forwards mpirun's stderr to ours. When a rank is lost, Hydra kills all others by SIGKILL, and the
+/// watchdogs report each as lost. Only the first of these lines is forwarded, which is nearly always the
+/// right one.
 class ErrorLines {
  public:
   bool open() { return pipe2(ends_, O_CLOEXEC) == 0 && fcntl(ends_[0], F_SETFL, O_NONBLOCK) == 0; }
@@ -236,8 +236,7 @@ class ErrorLines {
     return size < 0 && (errno == EAGAIN || errno == EINTR);
   }
 
-  /// To be called when mpirun has ended. Does not wait for the end of the stream: processes that mpirun
-  /// started may still have it open.
+  /// After the end of mpirun. Does not wait for the end of the stream, which other processes may have open.
   void finish() {
     pass_on();
     write_all(text_);

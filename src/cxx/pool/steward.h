@@ -41,8 +41,7 @@ class Steward {
   /// serve_as_worker() on the other ranks.
   int serve(MpiCommunicator& ranks);
 
-  /// To be called in the handler of a signal that the model has received, too: waits until the model has
-  /// ended, and reports how.
+  /// In the handler of a signal that the model got, too: waits until the model has ended, and reports how.
   void see_the_model_end();
 
  private:
@@ -69,8 +68,8 @@ class Steward {
   bool told_ = false;  ///< pstripack-run knows that the model has ended
 };
 
-/// To be called on every other rank: takes part in calls until the pool ends. beside_rank_0: this rank is
-/// on the machine of rank 0. Collective.
+/// Every other rank: takes part in calls until the pool ends. beside_rank_0: on the machine of rank 0.
+/// Collective.
 void serve_as_worker(MpiCommunicator& ranks, bool beside_rank_0);
 
 /// Sets the number of threads of this rank to its share of the processors, unless OMP_NUM_THREADS is set.

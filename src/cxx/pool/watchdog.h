@@ -5,10 +5,9 @@
 
 namespace pstripack {
 
-/// A child process that waits for the end of this process, a rank of the pool. If the rank ends without a
-/// call of dismiss(), the watchdog prints one line that names rank and phase. If the process that started
-/// the rank (mpirun or its daemon) is gone, the watchdog kills the rank. It keeps no descriptor open but
-/// stderr.
+/// A child process that waits for the end of this process, a rank of the pool. If the rank ends without
+/// dismiss(), it prints one line that names rank and phase. If the process that started the rank (mpirun or
+/// its daemon) is gone, it kills the rank. It keeps no descriptor open but stderr.
 class Watchdog {
  public:
   /// To be called before MPI_Init. If the watchdog cannot be started, the rank runs without it.
@@ -16,9 +15,8 @@ class Watchdog {
   Watchdog(const Watchdog&) = delete;
   Watchdog& operator=(const Watchdog&) = delete;
 
-  /// Shared memory for a pointer to the name of the phase. The watchdog reads it when the rank is gone, so
-  /// the text must have existed when the watchdog was started, as a literal has. Null if there is no such
-  /// memory.
+  /// Shared memory for a pointer to the name of the phase, which must be a literal: the watchdog reads it
+  /// when the rank is gone. Null if there is no such memory.
   const char* volatile* phase() { return page_ != nullptr ? &page_->phase : nullptr; }
   /// From now on the end of the rank is not reported.
   void dismiss() {

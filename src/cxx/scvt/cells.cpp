@@ -1,14 +1,14 @@
 // Quadrature.
 //
 // A cell is integrated in the tangent plane at its generator g, with coordinates x, y along two axes e1, e2
-// perpendicular to g and to each other. The point x, y of the plane is projected from the centre to p = (g
-// + x e1 + y e2)/sqrt(1+s), s = x^2 + y^2, and dxdy in the plane is dxdy/(1+s)^(3/2) on the sphere. Great
-// circles are straight lines in the plane: a cell is a convex polygon around 0. With u = neighbour - g the
-// points equidistant from the neighbour and g are x u.e1 + y u.e2 = u.u/2. So a corner, the circumcentre of
-// g and two neighbours, solves two linear equations: no square root, no cancellation.
+// perpendicular to g and to each other. The point x, y of the plane is projected from the centre to
+// p = (g + x e1 + y e2)/sqrt(1+s), s = x^2 + y^2, and dxdy in the plane is dxdy/(1+s)^(3/2) on the sphere.
+// Great circles are straight lines in the plane: a cell is a convex polygon around 0. With u = neighbour - g
+// the points equidistant from the neighbour and g are x u.e1 + y u.e2 = u.u/2. So a corner, the circumcentre
+// of g and two neighbours, solves two linear equations: no square root, no cancellation.
 //
-// A triangle of 0 and two consecutive corners P, Q has the points r (P + t (Q-P)), 0 < r < 1, 0 < t < 1, and
-// dxdy = det(P,Q) r dr dt. On a ray (t fixed) with z = r^2 s(t) the three integrands are
+// A triangle of 0 and two consecutive corners P, Q has the points r (P + t (Q-P)), 0 < r < 1, 0 < t < 1,
+// and dxdy = det(P,Q) r dr dt. On a ray (t fixed) with z = r^2 s(t) the three integrands are
 //     mass      density (1+z)^(-3/2)                       = density (1 - 3/2 z + 15/8 z^2 - ...)
 //     energy    density 2 ((1+z)^(-3/2) - (1+z)^(-2))      = density (z - 9/4 z^2 + 29/8 z^3 - ...)
 //     pull      density (x,y) (1+z)^(-2)                   = density (x,y) (1 - 2 z + 3 z^2 - ...)
@@ -16,10 +16,12 @@
 // Gauss's with three points, exact for z^2. In a cell with s <= kSmall at all corners the error is below
 // 5e-7, and falls with s^2. If the density is constant and s <= kTiny, three terms are enough: the next are
 // below 2e-7, and fall with s^3; the integrals over t then have closed forms.
-//  The density is interpolated by a polynomial of degree 2 in each triangle, from its values at 0, P, Q and
+//
+// The density is interpolated by a polynomial of degree 2 in each triangle, from its values at 0, P, Q and
 // the midpoints of the three sides: on a ray density = a + b(t) r + c(t) r^2. Its products with the weights
 // above are integrated as accurately as those of a constant density.
-//  Larger cells, and cells in which the density varies by more than a factor of kRough, are cut into small
+//
+// Larger cells, and cells in which the density varies by more than a factor of kRough, are cut into small
 // spherical triangles, each with a rule of seven points (Radon 1948). Its weights are positive, so mass and
 // energy are positive for any density.
 

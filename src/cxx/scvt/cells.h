@@ -24,8 +24,10 @@ struct NeighbourLists {
 };
 
 /// Integrals over the cell of each generator g. Since |p-g|^2 = 2 - 2 p.g (chord length), the integral of
-/// density times p is pull + (mass - energy/2) g, and the derivative of the energy of all cells with
-/// respect to g is -2 pull: the moving boundaries of the cells contribute nothing.
+/// density times p is
+///     pull + (mass - energy/2) g,
+/// and the derivative of the energy of all cells with respect to g is -2 pull: the moving boundaries of the
+/// cells contribute nothing.
 struct Cells {
   std::vector<Point> pull;     ///< integral of density times p, the part perpendicular to g
   std::vector<double> mass;    ///< integral of density

@@ -20,7 +20,8 @@
 // for many generators chains of 5-7 pairs (dislocations) begin at these ("scars": Bausch et al. 2003, Grain
 // boundary scars and spherical crystallography). The order of insertion puts them around the 12 corners,
 // which come last. If the front has jumped over a small region of high density, another front begins there.
-//  The number of nodes of a front is known beforehand within one percent only. So the front is given about
+//
+// The number of nodes of a front is known beforehand within one percent only. So the front is given about
 // sqrt(n) too many, and some are removed:
 //
 //     6   6   6   6   6        A row of nodes ends at a dislocation, in the cell with

@@ -1,6 +1,7 @@
 #pragma once
 // Generators that are spread over ranks: no rank ever has all. A single process is a group of one rank.
-//  The generators of all ranks have global numbers from 1, which depend on the generators alone. So the
+//
+// The generators of all ranks have global numbers from 1, which depend on the generators alone. So the
 // results are the same for any number of ranks.
 
 #include <cstddef>

@@ -388,21 +388,19 @@ using CheckedEditor = ListEditor<CheckedArrays<Int>>;
 
 // The routines. Each returns 0 or broken_lists. On broken_lists nothing is changed, except by `delnb`.
 
-/// INSERT: k becomes the neighbour after the one in slot lp.
+/// INSERT: ListEditor::insert.
 template <class Int>
 int insert(Int k, Int lp, const EditedLists<Int>& lists);
 
-/// INTADD: node k = lists.n, which lies in the counterclockwise triangle i1, i2, i3, is linked to its
-/// corners.
+/// INTADD: ListEditor::add_inside for k = lists.n; i1, i2, i3 is counterclockwise.
 template <class Int>
 int intadd(Int i1, Int i2, Int i3, const EditedLists<Int>& lists);
 
-/// BDYADD: node k = lists.n, which lies outside the hull, is linked to the boundary nodes that it sees; i1 is
-/// the rightmost, i2 the leftmost, and they differ.
+/// BDYADD: ListEditor::add_outside for k = lists.n; i1 and i2 differ.
 template <class Int>
 int bdyadd(Int i1, Int i2, const EditedLists<Int>& lists);
 
-/// COVSPH: node k = lists.n is linked to all boundary nodes, of which n0 is one.
+/// COVSPH: ListEditor::cover_sphere for k = lists.n.
 template <class Int>
 int covsph(Int n0, const EditedLists<Int>& lists);
 

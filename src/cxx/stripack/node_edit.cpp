@@ -22,7 +22,8 @@ Int look_through(const Vector<Real>& p, Int k, const Nodes<Real>& nodes) {
 
 /// The same in O(1) steps, for a Delaunay triangulation: descends from a node near p to the node nearest to
 /// p.
-///  Why the descent finds it: the way from any other node v to p leaves v's Voronoi cell at a point c and
+///
+/// Why the descent finds it: the way from any other node v to p leaves v's Voronoi cell at a point c and
 /// enters that of a node j, which v lists. There |c-j| = |c-v|, and p lies on the ray from v through c, so
 /// |p-j| < |p-v|: v has a neighbour nearer to p. This holds whichever diagonal rounding has put into a
 /// quadrilateral with corners on a circle: if v does not list j, c is the centre of that circle. Of the

@@ -21,14 +21,14 @@ namespace {
 // the corner opposite: 0 is b-c, 1 is c-a, 2 is a-b.
 //
 //          M              Every arc is treated at its smaller end. The ring of a determines the numbers of
-//        / | \            those triangles at a-b and a-c whose smallest corner is a. About any other
-//       a  |  d           triangle there, a has received a message from its smallest corner. In the same way
-//        \ | /            a sends m a message that t is left (or right) of the arc from m to M. When m has
-//          m              all its messages, it notes for t which triangle is on the other side of m-M.
+//        / | \            those triangles at a-b and a-c whose smallest corner is a. About any other one
+//       a  |  d           a has received a message from its smallest corner. In the same way a sends m a
+//        \ | /            message that t is left (or right) of the arc from m to M. When m has all its
+//          m              messages, it notes for t which triangle is on the other side of m-M.
 //
-// These notes come from nodes greater than a. So the blocks of nodes read their messages from the last block
-// to the first, and can write the columns of their triangles at once. If several threads read blocks, the
-// columns are completed after all blocks are read.
+// These notes come from nodes greater than a. So the blocks of nodes read their messages from the last
+// block to the first, and can write the columns of their triangles at once. If several threads read blocks,
+// the columns are completed after all blocks are read.
 //
 // All rings must have the same triangles. When m receives a message it checks the third corner; the largest
 // corner gets no message. Both checks compare sums of hashes, modulo 2^64: the sum over the rings of the

@@ -130,8 +130,7 @@ class ListChanges {
 
  private:
   std::vector<MovingMesh::Change> changes_;
-  std::vector<std::int32_t>
-      shift_;  ///< [j]: how many slots the lists have moved up after the first j changes
+  std::vector<std::int32_t> shift_;  ///< [j]: shift, in slots, of the lists after the first j changes
 };
 
 void copy(const std::int32_t* from, std::size_t count, std::int32_t* to) {

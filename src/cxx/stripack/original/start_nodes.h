@@ -206,9 +206,11 @@ class NodeGrid {
 ///        c    k       is therefore empty, and smaller than 90 degrees: k-j is an arc.
 ///       /  ---
 ///      j              .
-///  So NEAR(i) remains the nearest node, whatever is inserted, and can be found by location when i is
+///
+/// So NEAR(i) remains the nearest node, whatever is inserted, and can be found by location when i is
 /// inserted.
-///  All this holds up to rounding. If several nodes are equally near up to kTie, the original's comparisons
+///
+/// All this holds up to rounding. If several nodes are equally near up to kTie, the original's comparisons
 /// decide between them: these are repeated, from the first of these nodes on. That node was clearly nearer
 /// than all before, so NEAR(i) became this node when it was inserted. For a rounding error in an earlier
 /// comparison to last until then, a node j' must be nearer than j = NEAR(i) by less than d = 4e-16, and
