@@ -38,9 +38,8 @@ TrmeshResult trmesh(const TrmeshCall& call, ParallelCost* cost = nullptr);
 TrmeshResult canonical_trmesh(const TrmeshCall& call, ParallelCost* cost = nullptr);
 
 /// The common path of every way to carry out a call: by one hull, on threads, by ranks. A Way has
-///   std::optional<Coincidence> triangulate(std::size_t n)  of the first n nodes; returns the first
-///   coincidence void deliver()                                         writes the lists of the last
-///   triangulation
+///   std::optional<Coincidence> triangulate(std::size_t n)  of the first n nodes; the first coincidence
+///   void deliver()                                         writes the lists of the last triangulation
 /// If nodes L and M > L coincide, M the smallest such, the lists are those of nodes 1..M-1.
 template <class Way>
 TrmeshResult triangulate_and_deliver(std::int32_t n, Way& way) {
