@@ -227,8 +227,7 @@ bool MovingMesh::choose_mark(Mark& mark) const {
 /// than the mark's contains the direction g of the mark.
 ///
 /// Only triangles near g can contain it. Let R be the reach of a star; |g| and the lengths of nodes are 1
-/// within 1e-6. The ray towards g meets a triangle v,a,b in a point q with |q-v| <= max(|a-v|, |b-v|) <=
-/// 1.74 R.
+/// within 1e-6. The ray towards g meets a triangle v,a,b in a point q, |q-v| <= max(|a-v|, |b-v|) <= 1.74 R.
 /// From |q|^2 = sum of l_i |p_i|^2 - sum of l_i l_j |p_i-p_j|^2, l the barycentric coordinates of q, follows
 /// 1 - |q| <= 4 R^2 + 3e-6, so |g-v| <= 2 R + 4e-6 where R <= 1/16.
 bool MovingMesh::test(std::size_t first, std::size_t last, const Mark& mark, const std::atomic<bool>& stopped,

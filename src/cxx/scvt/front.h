@@ -2,9 +2,8 @@
 // First generators from an advancing front. They are nearly a centroidal tessellation already, and one with
 // few defects. That matters because a quasi-Newton method finds the nearest minimum of the energy, so the
 // hexagons that it ends with are those that it began with. (Rebay 1993, Efficient unstructured mesh
-// generation by
-// means of Delaunay triangulation and Bowyer-Watson algorithm; Engwirda and Ivers 2016, Off-centre Steiner
-// points for Delaunay-refinement on curved surfaces.)
+// generation by means of Delaunay triangulation and Bowyer-Watson algorithm; Engwirda and Ivers 2016,
+// Off-centre Steiner points for Delaunay-refinement on curved surfaces.)
 //
 // The size h(p) = s density(p)^(-1/4) is the wanted distance of neighbours. The front begins with an edge at
 // each of the 20 face centres of an icosahedron and grows by apexes of equilateral triangles on edges:
