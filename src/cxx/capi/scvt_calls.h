@@ -88,7 +88,7 @@ inline pstripack_scvt_options checked(const pstripack_scvt_options* given) {
     require(given->bytes >= static_cast<std::int64_t>(sizeof given->bytes),
             "bytes must be sizeof(pstripack_scvt_options)");
     require(given->bytes <= static_cast<std::int64_t>(sizeof options),
-            "bytes is larger than this library knows: the header is newer than the library that is loaded");
+            "bytes: the program was compiled for a newer library than the one that is loaded");
     std::memcpy(&options, given, static_cast<std::size_t>(given->bytes));
   }
   require(options.start >= PSTRIPACK_SCVT_BY_NUMBER && options.start <= PSTRIPACK_SCVT_FRONT,
