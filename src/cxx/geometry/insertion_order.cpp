@@ -157,7 +157,6 @@ struct Square {
   std::uint32_t cell_t(const OnCube& q, std::uint32_t cells) const { return cell((q.t - t0) / side, cells); }
 };
 
-/// Bounding box of positions on one face.
 struct Box {
   double s0 = 2, s1 = -2, t0 = 2, t1 = -2;
   void include(const OnCube& q) {

@@ -52,7 +52,6 @@ class NodeArrays {
     return visit([=](const auto& node) { return node(i); });
   }
 
-  /// Copies the nodes first..first+n-1.
   void copy(std::size_t first, std::size_t n, Point* to) const {
     visit([=](const auto& node) {
       for (std::size_t i = 0; i < n; ++i) to[i] = node(first + i);

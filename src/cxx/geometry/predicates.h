@@ -51,7 +51,6 @@ int orientation(const Point& a, const Point& b, const Point& c, const Point& d);
 /// The same for the directions a/|a|, b/|b|, c/|c|, d/|d|.
 int orientation_of_directions(const Point& a, const Point& b, const Point& c, const Point& d);
 
-/// True if a and b point in exactly the same direction.
 bool same_direction(const Point& a, const Point& b);
 
 /// Which of the two sets decides.

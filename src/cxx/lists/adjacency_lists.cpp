@@ -225,7 +225,6 @@ Verdict read_stars(const ListsView<Int>& lists, StarTable& stars) {
   return {};
 }
 
-/// A defect if the stars do not agree with each other.
 Verdict check_stars(const StarTable& stars) {
   constexpr std::size_t kAhead = 8;
   const StarPlaces places(stars);

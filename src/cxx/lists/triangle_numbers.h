@@ -80,7 +80,6 @@ class TriangleNumbers {
   /// The number of arcs of the first `nodes` nodes.
   Int first_arc(std::size_t nodes) const { return nodes > 0 ? rings_.end(static_cast<Int>(nodes)) : 0; }
 
-  /// The number of triangles whose smallest corner is a.
   Int triangles_at(Int a) const {
     Int count = 0;
     for (Int arc = rings_.begin(a); arc < rings_.end(a); ++arc) count += rings_.is_smallest(a, arc);
@@ -145,7 +144,6 @@ class TriangleNumbers {
     return corners;
   }
 
-  /// Reads messages begin..end-1.
   bool receive(const Message* begin, const Message* end, Int* left, std::atomic<std::uint64_t>& seen) const {
     bool complete = true;
     std::uint64_t corners = 0;  // the sum of send(), with d from the ring of b, and b from the ring of d

@@ -623,8 +623,7 @@ class Builder final : public GrowingHull {
   ///
   /// A tree of m faces has m + 2 edges around it: new faces take two new places, then those of the faces
   /// already visited. A node inside the disc would vanish from the triangulation. The search then circles
-  /// around it until it meets a face of the fan, whose plane contains v, or has met more faces than there
-  /// are.
+  /// around it until it meets a face of the fan, whose plane contains v, or exceeds the number of faces.
   ///
   /// expect(code): called before the search comes to this face, to prefetch it.
   template <class Expect, class Sees>

@@ -80,7 +80,6 @@ class MovingMesh {
   /// an arc finds it. An arc in `across` is tested again only after suspect() or flip(). Throws
   /// std::bad_alloc.
   bool flip_inside(std::vector<Quadrangle>& across);
-  /// True if the arc can be flipped.
   bool is_convex(const Quadrangle& q) const;
   /// Replaces a-b by c-d in the stars of this part. A corner that has no star here and is not a new
   /// neighbour of a star here may be kNobody. Throws std::bad_alloc.

@@ -116,7 +116,6 @@ class RingTable {
 
   std::size_t size() const { return size_; }
   Ring<Int> operator[](std::size_t i) const { return ring_at(place_[position_[i]]); }
-  /// Makes the ring stored at `place` that of node i.
   void replace(std::size_t i, const Int* place) {
     place_[position_[i]] = place;
     size_class_[position_[i]] = size_class_of(static_cast<std::uint32_t>(*place));
@@ -126,7 +125,6 @@ class RingTable {
     __builtin_prefetch(place);
     __builtin_prefetch(place + 6);  // most rings have six entries, which may lie in two lines
   }
-  /// Number of entries of the rings first..last-1.
   std::size_t arcs(std::size_t first, std::size_t last) const {
     std::size_t sum = 0;
     for (std::size_t i = first; i < last; ++i) {

@@ -13,7 +13,6 @@ namespace {
 
 constexpr index_t kNone = -1;
 
-/// A defect that concerns at most four nodes.
 Verdict defect(Defect d, const std::string& what, std::initializer_list<index_t> nodes) {
   Verdict v;
   v.defect = d;
@@ -88,7 +87,6 @@ bool ring_of(CornersOfNodes& stars, index_t v, std::vector<index_t>& ring, bool&
   return closed ? ring.size() == stars.degree(s) : b == kNone && ring.size() == stars.degree(s) + 1;
 }
 
-/// The neighbours of one node.
 class Star {
  public:
   Star(const StarTable& stars, index_t v)

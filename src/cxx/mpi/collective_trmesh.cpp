@@ -57,7 +57,6 @@ std::int32_t code_of_count(std::int32_t n) {
   return n > most_nodes<std::int32_t>() ? kTooMany : 0;
 }
 
-/// What every rank knows of a call.
 struct Headline {
   std::int32_t n = 0;
   Point corners[3] = {};  ///< nodes 1 to 3
@@ -202,7 +201,6 @@ class ByRanks {
 
  private:
   std::size_t n() const { return static_cast<std::size_t>(share_.headline.n); }
-  /// True if this rank can read all nodes.
   bool reads_all() const { return share_.of_all_ranks || ranks_.rank() == 0; }
   /// All nodes; needs reads_all().
   const NodeArrays& all_nodes() const { return share_.of_all_ranks ? *share_.of_all_ranks : share_.nodes; }

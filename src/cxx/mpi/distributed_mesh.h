@@ -27,7 +27,6 @@ class DistributedMesh {
 
   MpiCommunicator& ranks() { return ranks_; }
 
-  /// The size of a call and its cost on all ranks.
   struct Report {
     std::int64_t points = 0, boundary_points = 0;  ///< of all ranks; 0 if not known
     GroupCost cost;
@@ -47,7 +46,6 @@ class DistributedMesh {
   }
   std::int64_t error_point(int i) const { return error_point_[i]; }
 
-  /// The stars of the last triangulation.
   const OwnStars& own() const { return own_; }
   /// Sets rank[i] to the home of each of n points. If one is zero or not finite returns false, having written
   /// nothing. The mesh must not be empty. Not collective.

@@ -39,7 +39,6 @@ struct Numbering {
 /// wants_report: used on rank 0 only. Collective. Throws AgreedFailure.
 Numbering look_at_all(const LocalNodes& points, bool wants_report, MpiCommunicator& ranks);
 
-/// Finds three points that are not on one great circle.
 class CornerSearch {
  public:
   /// Not collective. Throws std::bad_alloc.

@@ -21,7 +21,6 @@ class OwnStars {
   OwnStars(BlockArray<std::int64_t> numbers, Stars<Int> stars)
       : numbers_(std::move(numbers)), stars_(std::move(stars)) {}
 
-  /// Calls body(stars) with the Stars<Int>, and returns its result.
   template <class Body>
   auto visit(const Body& body) const {
     return std::visit(body, stars_);

@@ -23,7 +23,6 @@ Check* check_of_calls() noexcept;
 /// Writes the input block. To be called before the computation, so that a call that crashes or hangs is
 /// recorded.
 CheckedCall check_input(Check& check, const TrmeshCall& call) noexcept;
-/// Writes the output block.
 void check_output(Check& check, const CheckedCall& call, const TrmeshResult& result,
                   const ListArrays& lists) noexcept;
 

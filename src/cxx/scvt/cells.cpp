@@ -303,7 +303,6 @@ class SmallCells {
     });
   }
 
-  /// Adds up the triangles of cell i.
   void write(std::size_t i, std::size_t k, std::size_t count, double factor) {
     double mass = 0, energy = 0, x = 0, y = 0;
     for (std::size_t j = k; j < k + count; ++j) {

@@ -161,7 +161,6 @@ bool surround_the_sphere(Evaluator& evaluator, const Spread& generators) {
   }
 }
 
-/// The midpoint of the arc between two generators.
 struct Middle {
   std::uint64_t key;      ///< the smaller, the longer the arc in units of the local width of a cell
   std::int64_t from, to;  ///< numbers

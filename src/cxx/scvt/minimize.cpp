@@ -29,7 +29,6 @@ void for_each(std::size_t n, const Body& body) {
   });
 }
 
-/// Generators and the results of their evaluation.
 struct Place {
   Vectors generators;
   Cells cells;

@@ -1,5 +1,4 @@
 #pragma once
-// Minimizes the energy of a centroidal Voronoi tessellation.
 
 #include <cstdint>
 #include <functional>

@@ -15,7 +15,6 @@
 
 namespace pstripack::scvt {
 
-/// The points of this rank.
 struct Spread {
   std::vector<Point> points;          ///< unit vectors
   std::vector<std::int64_t> numbers;  ///< their global numbers

@@ -36,7 +36,6 @@ OptimStatus optim(const Nodes<Real>& nodes, Int na, const EditedLists<Int>& list
 template <class Real, class Int>
 OptimStatus optimize(const CheckedEditor<Int>& lists, const Nodes<Real>& nodes, Int na, Int& nit, Int* iwk);
 
-/// Data for the message about a failure of OPTIM.
 template <class Int>
 struct OptimFailure {
   Int nit = 0, ier = 0;

@@ -100,7 +100,6 @@ class LoopGuard {
   std::size_t steps_ = 0, lap_ = 16;
 };
 
-/// Reads and changes lists in any kind of arrays.
 template <class Arrays>
 class ListEditor {
  public:

@@ -51,7 +51,6 @@ class ListReader {
     return lstptr(last_slot(node), wanted, lists_.list, lists_.lptr);
   }
 
-  /// Prefetches for a node whose list will be read soon.
   void prefetch_last_slot(Int node) const { __builtin_prefetch(lists_.lend + (node - 1)); }
   void prefetch_list(Int node) const {
     const auto i = static_cast<std::size_t>(last_slot(node) - 1);

@@ -46,7 +46,6 @@ class View {
     radius_ = std::sin(degree * frame.angle);
   }
 
-  /// Radius of the window.
   Real radius() const { return radius_; }
   Seen<Real> operator()(const Vector<Real>& p) const {
     return {right_.x * p.x + right_.y * p.y, dot(up_, p), dot(eye_, p)};

@@ -217,7 +217,6 @@ class Candidates {
   bool full() const { return count_ == most; }
   Int operator[](int i) const { return node_[i]; }
   int after(int i) const { return next_[i]; }
-  /// Adds a node after position i and returns its position.
   int insert(Int node, int i) {
     const int position = count_++;
     node_[position] = node;

@@ -20,7 +20,6 @@ struct SearchLimits {
   static SearchLimits to_follow(std::int64_t nodes) { return {4 * nodes + 1'000'000, INT64_MAX}; }
 };
 
-/// TRFIND's weights.
 template <class Real>
 struct Weights {
   Real &b1, &b2, &b3;

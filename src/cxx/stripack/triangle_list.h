@@ -24,7 +24,6 @@ enum class TriangleListStatus {
 template <class Int>
 TriangleListStatus triangle_list(const ListsView<Int>& lists, int rows, Int& nt, Int* ltri);
 
-/// The counts that BNODES reports.
 template <class Int>
 struct BoundaryCounts {
   Int boundary_nodes, arcs, triangles;

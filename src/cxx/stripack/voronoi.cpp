@@ -271,7 +271,6 @@ class Voronoi {
     return true;
   }
 
-  /// The number of triangles that close the sphere.
   Int far_triangles() const { return nb_ > 0 ? nb_ - 2 : 0; }
 
   /// Writes the centres of the triangles of the nodes begin+1..end; t is the number of triangles before them.

@@ -18,7 +18,6 @@ struct pstripack_trmesh_arguments {
   pstripack::CallReport* report;  ///< the engine fills in mode, ranks and cost; null: no report is wanted
 };
 
-/// What an engine returns.
 enum {
   PSTRIPACK_ENGINE_DECLINES = 0,         ///< not carried out: do it on threads
   PSTRIPACK_ENGINE_DID_IT = 1,           ///< carried out; the library prints the line of a new error code

@@ -41,7 +41,6 @@ struct KeptMesh {
   std::optional<MovingMesh> mesh;
 };
 
-/// What is kept from one call for a later one.
 struct LastMesh {
   std::size_t n;
   pid_t process;

@@ -60,14 +60,12 @@ class InsertionLists {
     } while (slot != last);
   }
 
-  /// Prefetches the list of a node that will be used soon.
   [[gnu::always_inline]] void prefetch(Int node) const { __builtin_prefetch(&node_[index(node)]); }
   bool is_in_few_slots(Int /*node*/, Int& /*first*/, Int& /*last*/) const { return false; }
   [[gnu::always_inline]] void prefetch_list(Int node) const {
     __builtin_prefetch(&slot_[index(last_slot(node))]);
   }
 
-  /// The triangle of nodes 1, 2 and 3.
   void start(bool is_counterclockwise) {
     const Int corner[3] = {is_counterclockwise ? Int{1} : Int{2}, is_counterclockwise ? Int{2} : Int{1}, 3};
     for (Int i = 0; i < 3; ++i) {
@@ -169,7 +167,6 @@ class InsertionLists {
     return false;
   }
 
-  /// Number of slots in use.
   std::size_t slots() const { return index(end_ - kFirst); }
   /// Writes LIST and LPTR, with slots() entries, and LEND.
   void write(Int* list, Int* lptr, Int* lend) const {
@@ -238,7 +235,6 @@ class InsertionLists {
     unlink(v_of_u, w_of_u, u);
     link(v_of_u, w, u_of_k);
   }
-  /// Takes a slot out of the list of `node`.
   void unlink(Int slot, Int before, Int node) {
     slot_[index(before)].next = next(slot);
     if (last_slot(node) == slot) node_[index(node)].last_slot = before;

@@ -10,7 +10,6 @@
 
 namespace pstripack {
 
-/// How the insertion ended.
 enum class InsertionEnd {
   complete,    ///< all nodes are inserted
   coincident,  ///< `node` coincides with `other`: nodes 1..node-1 are inserted

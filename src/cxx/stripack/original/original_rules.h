@@ -24,7 +24,6 @@ struct OriginalRules {
   bool clear_angle = true;  ///< NEARND in REAL*8 sets AL = 0 if nothing is found, as the Fortran 90 text
   bool bitwise = false;     ///< TRMESH returns any triangulation that the original makes, exact or not
 
-  /// TRFIND's tolerance.
   template <class Real>
   Real tolerance() const {
     return static_cast<Real>(tolerance_in_epsilons) * std::numeric_limits<Real>::epsilon();

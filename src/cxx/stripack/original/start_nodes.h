@@ -53,11 +53,9 @@ class WaitingNodes {
   }
 
   Int near(Int i) const { return near_[index(i)]; }
-  /// Prefetches a node that will be inserted soon.
   [[gnu::always_inline]] void prefetch(Int i) const {
     __builtin_prefetch(item_.data() + range_[index(near(i))].begin);
   }
-  /// Number of comparisons so far.
   std::int64_t comparisons() const { return comparisons_; }
 
   /// To be called after inserting node k, which no longer waits. Waiting nodes of k's neighbours that are
