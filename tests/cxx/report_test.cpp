@@ -214,9 +214,10 @@ TEST(Report, TellsHowFarFromTheExactMeshTheOriginalIs) {
 
 TEST(Report, TellsTheOrdersThatThereAre) {
   const Folder folder;
-  EXPECT_EQ(lines(run(folder, "PSTRIPACK_ORDER=bitwse", "calls random 100 1").err),
-            std::vector<std::string>{"pstripack: PSTRIPACK_ORDER=bitwse: not canonical, original, bitwise, "
-                                     "ngmath or bitwise-ngmath; canonical is used"});
+  EXPECT_EQ(
+      lines(run(folder, "PSTRIPACK_ORDER=bitwse", "calls random 100 1").err),
+      std::vector<std::string>{"pstripack: PSTRIPACK_ORDER=bitwse: no such order, so canonical is used; set "
+                               "it to canonical, original, bitwise, ngmath or bitwise-ngmath"});
 }
 
 /// Four nodes of one meridian; and five of which the fourth is attached by a null triangle.

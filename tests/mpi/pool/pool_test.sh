@@ -371,7 +371,7 @@ options)
     [ $? -eq 2 ] || fail "$*: exit code"
     grep -q -e "$expected" refuse.err || fail "$*: message"
   }
-  refuse 'how many ranks' true
+  refuse 'no number of ranks' true
   refuse 'no program' -n 2
   refuse 'needs a number of ranks' -n two true
   refuse 'needs a number of ranks' -n 0 true
