@@ -22,5 +22,5 @@ run() {  # presets: configure, which is in the name of the build folder; build; 
   stage "$1: tests" run_tests "$3" "build-$1"
 }
 stage "install packages of sanitizers" sh cmake/install-packages.sh clang libclang-rt-dev libomp-dev
-run sanitize sanitize$short sanitize$short
+run sanitize$short sanitize$short sanitize$short
 run threads threads threads$short

@@ -22,6 +22,7 @@
 #include "support/child.h"
 #include "support/composed_text.h"
 #include "support/fortran_unit.h"
+#include "support/sanitizer.h"
 
 namespace {
 
@@ -514,9 +515,8 @@ TEST(Plot, Ier_5) {
 }
 
 TEST(Plot, Ier_6) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "a sanitizer needs the memory that is taken away here";
-#endif
+  if (kAddressSanitizer || kThreadSanitizer)
+    GTEST_SKIP() << "a sanitizer needs the memory that is taken away here";
   const Sphere sphere(200000, 180, 2);
   for (const NamedRoutine& routine : routines)
     EXPECT_EQ(in_child([&] {
