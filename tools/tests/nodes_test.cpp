@@ -209,7 +209,7 @@ TEST(tables, that_cannot_be_used_are_refused_with_line_reason_and_remedy) {
   };
   refused("lon,lat\n", ":1: a header line, and no row of numbers after it: add the nodes");
   refused("lon lat\ndegrees degrees\n1 2\n",
-          ":2: a second header line, after that in line 1: remove one of them");
+          ":2: a second header line, after the one in line 1: remove one of them");
   refused("lon,lat\n1,2\nlon,lat\n", ":3: the header line again: remove it");
   refused("lon,lat,mag\n1,2,3\n1 2 3\n",
           ":3: separated by blanks, the lines before by commas: use one separator");

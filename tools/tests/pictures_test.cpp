@@ -559,7 +559,7 @@ TEST(coasts, of_a_file_that_is_damaged_are_refused) {
       try {
         for (const auto& line : changed.read()) EXPECT_LE(line.size(), 4u);
       } catch (const std::runtime_error& e) {
-        EXPECT_NE(std::string(e.what()).find("coast.shp: no shapefile (.shp) of"), std::string::npos);
+        EXPECT_NE(std::string(e.what()).find("coast.shp: not a shapefile (.shp) of"), std::string::npos);
       }
     }
 }

@@ -96,7 +96,7 @@ bad_nodes)
   refuses 1 "missing.txt: cannot be opened: No such file" triangulate missing.txt -o missing.off
   printf 'a\0b' > binary
   refuses 1 "raw doubles need --from raw" triangulate binary -o binary.off
-  refuses 1 "holds nodes, no triangles" convert two.txt -o two.off
+  refuses 1 "holds nodes without triangles" convert two.txt -o two.off
   [ "$(echo ./*.off)" = ./mesh.off ] || fail "files of failed runs: $(echo ./*.off)"
   ;;
 
@@ -104,7 +104,7 @@ bad_netcdf)
   printf 'CDF, it says' > broken.nc
   refuses 1 "broken.nc: NetCDF" triangulate broken.nc -o mesh.nc
   "$PSTRIPACK" -q points random 50 -o nodes.nc
-  refuses 1 "holds nodes, no triangles" convert nodes.nc -o mesh.mpas.nc
+  refuses 1 "holds nodes without triangles" convert nodes.nc -o mesh.mpas.nc
   refuses 1 "gmsh cannot hold polygons" voronoi nodes.nc -o cells.msh
   refuses 1 "mpas cannot hold polygons" voronoi nodes.nc -o cells.mpas.nc
   "$PSTRIPACK" -q voronoi nodes.nc -o cells.nc
@@ -216,7 +216,7 @@ pictures)
   refuses 1 "nodes.txt: --colour aera: no column has this name; did you mean area? (here are none, area, degree, owner:P, node, line)" \
     plot nodes.txt -o c.svg --colour aera
   refuses 1 "no.shp: cannot be opened: No such file" plot nodes.txt -o c.svg --coast-file no.shp
-  refuses 1 "nodes.txt: no shapefile (.shp) of lines or polygons" plot nodes.txt -o c.svg --coast-file nodes.txt
+  refuses 1 "nodes.txt: not a shapefile (.shp) of lines or polygons" plot nodes.txt -o c.svg --coast-file nodes.txt
   refuses 2 "histograms have no coasts" plot nodes.txt -o c.svg --what histograms --coasts
   printf 'lon,lat,mag,place\n0,0,1,a\n90,0,2,b\n180,0,3,a\n270,0,4,b\n0,90,5,a\n0,-90,,\n' > quakes.csv
   "$PSTRIPACK" -q plot quakes.csv --what cells --colour mag -o mag.svg
@@ -232,7 +232,7 @@ pictures)
   refuses 1 "nodes are in view, at most 200,000 can be drawn: zoom in, for example by --view orthographic:0,30 --radius" \
     plot many.raw --from raw --coordinates xyz -q -o c.svg
   printf '1 0 0\n0 1 0\n0 0 1\n' > three.txt
-  refuses 1 "three.txt: around some nodes, which lie on one circle, cells reach" plot three.txt --what cells -o c.svg
+  refuses 1 "three.txt: some nodes lie on one circle: their cells reach" plot three.txt --what cells -o c.svg
   [ ! -e c.svg ] && [ ! -e b.png ] || fail "a picture of a failed run"
   ;;
 
@@ -380,8 +380,8 @@ bad_values)
   refuses 1 "values.txt: node 2 (line 2) has no value: remove it, or say --skip-missing" interpolate values.txt --grid-step 30 -o failed.txt
   refuses 2 "give one of --to-points, --to-grid, --grid-step" interpolate values.txt -o failed.txt
   refuses 2 "give one of --to-points, --to-grid, --grid-step" interpolate values.txt --grid-step 30 --to-grid 2x2 -o failed.txt
-  refuses 2 "180 degrees are no multiple of 7" interpolate values.txt --grid-step 7 -o failed.txt
-  refuses 2 "--grid-step: -1 is no number of degrees above 0" interpolate values.txt --grid-step -1 -o failed.txt
+  refuses 2 "180 degrees are not a multiple of 7" interpolate values.txt --grid-step 7 -o failed.txt
+  refuses 2 "--grid-step: -1 is not a number of degrees above 0" interpolate values.txt --grid-step -1 -o failed.txt
   refuses 2 "'180' is not 2 numbers" interpolate values.txt --to-grid 180 -o failed.txt
   refuses 2 "expected NLATxNLON" interpolate values.txt --to-grid 0x10 -o failed.txt
   refuses 2 "expected WEST,EAST,SOUTH,NORTH" interpolate values.txt --grid-step 1 --region 0,10,20,10 -o failed.txt
@@ -518,7 +518,7 @@ bad_tables)
     [ ! -e mesh.off ] || fail "mesh.off was written"
   }
   printf 'lon,lat\n' | refused 1 "1: a header line, and no row of numbers after it: add the nodes"
-  printf 'lon,lat\nlon,lat\n1,2\n' | refused 1 "2: a second header line, after that in line 1: remove one of them"
+  printf 'lon,lat\nlon,lat\n1,2\n' | refused 1 "2: a second header line, after the one in line 1: remove one of them"
   printf 'lon,lat\n1,2\n3;4\n' | refused 1 "3: separated by semicolons, the lines before by commas: use one separator"
   printf 'lon,lat,mag\n1,2,3\n' | refused 1 "1: there is no column 'mga'; did you mean mag?" --columns lon,lat,mga
   printf 'lon,lat,lat\n1,2,3\n' | refused 1 "1: the header names column 'lat' twice, 2 and 3: choose columns by number"
@@ -616,25 +616,25 @@ geojson)
     refuses 1 "bad.geojson:$words" triangulate bad.geojson -o failed.off "$@"
   }
   point() { printf '%s\n{"type": "Feature", "geometry": {"type": "%s", "coordinates": %s}}]}' "$features" "$1" "$2"; }
-  point Point '[1, NaN]' | refused "3: no JSON: "
-  point Point '[1, 2' | refused "3: no JSON: "
-  printf '{"type": ' | refused "1: no JSON: "
+  point Point '[1, NaN]' | refused "3: not valid JSON: "
+  point Point '[1, 2' | refused "3: not valid JSON: "
+  printf '{"type": ' | refused "1: not valid JSON: "
   point Point '[1, 1e400]' | refused " feature 2: a number is larger than 1e308"
   point Point '[1, "2"]' | refused " feature 2: expected coordinates [longitude, latitude]"
   point Point '[1]' | refused " feature 2: expected coordinates"
   point Point '[30, 95]' | refused " node 2 (feature 2): latitude 95 is beyond the pole: GeoJSON has [longitude, latitude] in degrees; are they exchanged?"
   point MultiPoint '[[10, 20], [30, 40], [50, 10]]' | refused " node 1 (feature 1) and node 2 (feature 2) are in the same place" --columns lon,lat
-  point Polygon '[[[1, 2]]]' | refused " feature 2: 'Polygon' is no Point or MultiPoint: nodes are points; meshes are read from UGRID"
+  point Polygon '[[[1, 2]]]' | refused " feature 2: 'Polygon' is not a Point or MultiPoint: nodes are points; meshes are read from UGRID"
   printf '%s null]}' "$features" | refused ' "features" must be an array of features'
   printf '%s {"type": "Feature", "geometry": null}]}' "$features" | refused " feature 2: has no geometry: remove it"
   printf '{"type": "FeatureCollection", "features": []}' | refused " no points"
-  printf '{"type": "Topology"}' | refused " no GeoJSON of points: the type is 'Topology', expected FeatureCollection"
+  printf '{"type": "Topology"}' | refused " not GeoJSON of points: the type is 'Topology', expected FeatureCollection"
   point Point '[1, 2]' | sed 's/"features"/"crs": {"type": "name", "properties": {"name": "EPSG:3857"}}, &/' |
     refused " coordinates are in EPSG:3857: write the file in longitudes and latitudes, EPSG:4326"
   point Point '[1, 2]' | refused " there is no property 'mga'; did you mean mag?; the features have mag" --columns lon,lat,mga
-  point Point '[1, 2]' | refused " the place is that of the geometry: say --columns lon,lat,NAME" --columns mag
+  point Point '[1, 2]' | refused " the coordinates are those of the geometry: give --columns lon,lat,NAME" --columns mag
   point Point '[1, 2]' | refused " --coordinates xyz needs the property 'x'" --coordinates xyz
-  printf '1 2\n' | refused "1: no JSON" --from geojson
+  printf '1 2\n' | refused "1: not valid JSON" --from geojson
   refuses 1 "no property 'place' is a number; properties that are numbers: depth" interpolate nodes.geojson --variable place --to-grid 2x2 -o failed.txt
   [ -z "$(find . -name 'failed*')" ] || fail "files of failed runs: $(echo ./failed*)"
   ;;
@@ -666,7 +666,7 @@ bad_maps)
   done
   "$PSTRIPACK" -q points strip:1e-12 50 | "$PSTRIPACK" -q voronoi - -o strip.off
   refuses 1 "/dev/full: cannot be written: No space left" voronoi nodes.txt -o /dev/full --to geojson
-  refuses 1 "holds nodes, no triangles" convert nodes.txt -o failed.gmt
+  refuses 1 "holds nodes without triangles" convert nodes.txt -o failed.gmt
   refuses 2 "points are nodes, not a mesh: give --to xyz, lonlat, nodes, csv, geojson or raw" points random 10 -o failed.gmt
   [ -z "$(find . -name 'failed*')" ] || fail "files of failed runs: $(echo ./failed*)"
   ;;
