@@ -1,4 +1,4 @@
-// Nodes of text, OFF and raw doubles: what is read, and what is refused with which words.
+// Nodes of text, OFF and raw doubles: what is read, what is refused, and the messages.
 
 #include "files/nodes.h"
 
@@ -18,7 +18,7 @@ namespace {
 
 using Points = std::vector<Point>;
 
-/// A file with these bytes, removed in the end.
+/// A temporary file with these bytes.
 class Written {
  public:
   explicit Written(const std::string& bytes) {
@@ -136,7 +136,7 @@ std::string names_of(const Columns& columns) {
 }
 
 TEST(tables, longitudes_and_latitudes_stay_as_they_are_given) {
-  // Of none of these is the direction's longitude the one that was given.
+  // None of these longitudes can be computed back from the direction.
   const std::string rows = "30 40\n-179.99999999999997 89.9\n359.7 -0.1\n";
   const Nodes nodes = read_bytes(rows, kDegrees);
   EXPECT_EQ(nodes.given.lon, (std::vector<double>{30, -179.99999999999997, 359.7}));
