@@ -47,7 +47,7 @@ Nodes with(Nodes nodes, std::size_t k, const Point& node) {
   return nodes;
 }
 
-/// Node m in the place of node l.
+/// The nodes with node m moved to the place of node l.
 Nodes with_duplicate(Nodes nodes, std::size_t l, std::size_t m) {
   nodes[m - 1] = nodes[l - 1];
   return nodes;

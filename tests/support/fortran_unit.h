@@ -18,7 +18,7 @@ void close_unit(int unit);
 void flush_standard_output();
 }
 
-/// A file that is gone with this object.
+/// A temporary file.
 class TemporaryFile {
  public:
   TemporaryFile() : file_(mkstemp(path_)) {
