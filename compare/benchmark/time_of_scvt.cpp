@@ -198,7 +198,6 @@ std::vector<std::string> lines_of(const std::string& command) {
   return lines;
 }
 
-/// A temporary folder.
 class Folder {
  public:
   Folder() {

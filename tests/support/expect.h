@@ -30,7 +30,6 @@ inline ::testing::AssertionResult is_correct(const Nodes& nodes, const Mesh& m) 
   return ::testing::AssertionSuccess();
 }
 
-/// Number of boundary nodes.
 inline std::size_t boundary_nodes(const Mesh& m) {
   std::size_t count = 0;
   for (const std::int32_t last : m.lend) count += m.list[last - 1] < 0;

@@ -31,7 +31,6 @@ inline void move_all(Nodes& nodes, double distance, point_sets::Random& random) 
   }
 }
 
-/// Rotates all nodes around an axis.
 inline void rotate(Nodes& nodes, const pstripack::Point& axis, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   for (auto& p : nodes) {

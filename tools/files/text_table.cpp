@@ -80,7 +80,6 @@ std::string remedy_for(std::string_view word) {
   return ": correct it, remove the row, or choose other --columns";
 }
 
-/// Yields the lines of a text.
 class Lines {
  public:
   Lines(std::string_view text, std::size_t first_line) : text_(text), next_(first_line) {}
@@ -105,7 +104,6 @@ class Lines {
   std::size_t at_ = 0, begin_ = 0, next_;
 };
 
-/// Yields the cells of a line.
 class Cells {
  public:
   Cells(std::string_view line, char separator)

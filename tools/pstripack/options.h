@@ -17,7 +17,6 @@ namespace program {
 
 enum ExitCode { kDone = 0, kFailed = 1, kUsage = 2 };
 
-/// The command to run.
 using Command = std::function<void()>;
 
 /// "'word' is none of A, B; did you mean A?"

@@ -203,7 +203,6 @@ TEST(gradients, are_those_of_a_quadratic_and_zero_where_nodes_determine_none) {
     EXPECT_EQ(slope, (Point{0, 0, 0}));
 }
 
-/// The area of each Voronoi cell.
 std::vector<double> cell_areas(const Points& nodes) {
   const files::Faces cells = files::voronoi_faces(files::triangulate(nodes));
   std::vector<double> areas(cells.size());

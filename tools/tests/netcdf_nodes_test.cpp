@@ -25,7 +25,6 @@ std::string error_of(const std::string& file) {
   return "no error";
 }
 
-/// A temporary NetCDF file.
 class NetcdfFile {
  public:
   NetcdfFile() : name_(testing::TempDir() + "netcdf_nodes_test.nc") {
