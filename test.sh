@@ -1,5 +1,5 @@
 #!/bin/sh
-# Sets up, builds and passes all tests. May be run again and again. Usage: ./test.sh [ctest options]
+# Sets up, builds and passes all tests. May be repeated. Usage: ./test.sh [ctest options]
 set -eu
 cd "$(dirname "$0")"
 build=build

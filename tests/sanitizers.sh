@@ -1,6 +1,6 @@
 #!/bin/sh
 # Builds and runs the tests that have no MPI under AddressSanitizer, LeakSanitizer and UndefinedBehaviorSanitizer,
-# and those with threads under ThreadSanitizer: presets `sanitize` and `threads`. May be run again and again.
+# and those with threads under ThreadSanitizer: presets `sanitize` and `threads`. May be repeated.
 # Usage: tests/sanitizers.sh [short]      short: a choice, presets `sanitize-short` and `threads-short`
 set -eu
 cd "$(dirname "$0")/.."

@@ -140,13 +140,13 @@ TEST(Calls, FitAStackOfOneMegabyte) {
 TEST(Calls, InAForkedChildAreRight) {
   const Nodes nodes = make("random", 50000);
   EXPECT_EQ(in_child([&] { return trmesh(nodes).ier; }), 0);  // before the parent's first call
-  const Mesh expected = trmesh(nodes);                        // has threads now
+  const Mesh expected = trmesh(nodes);                        // starts threads
   EXPECT_EQ(in_child([&] { return trmesh(nodes) == expected ? 0 : 1; }), 0);
   EXPECT_TRUE(trmesh(nodes) == expected);
 }
 
 TEST(Calls, DoNotFollowAddresses) {
-  // The triple identifies nothing: the next call gets other points at the same address.
+  // Meshes are not recognized by address: the next call gets other points at the same address.
   Nodes nodes = make("random", 500);
   const Mesh first = trmesh(nodes);
   const Mesh other = trmesh(make("random", 500, 2));

@@ -1,4 +1,4 @@
-// PSTRIPACK_CHECK, which is read when the library is loaded: every case runs this program again.
+// PSTRIPACK_CHECK. The library reads it when it is loaded, so every case runs this program again.
 
 #include <fcntl.h>
 #include <sys/wait.h>
@@ -318,7 +318,7 @@ TEST(Check, WritesToNoFileThatTheModelHasOpenedInPlaceOfTheSocket) {
   expect_calls(blocks(folder), 1, 1);
 }
 
-/// What the cases run. Exit code 0 if all results are as without a check.
+/// The program that the cases run. Exit code 0 if all results are as without a check.
 int run_as(const std::string& action, const std::string& family, std::size_t n, int count) {
   if (action == "codes") {
     if (!codes_are_right()) return 1;
