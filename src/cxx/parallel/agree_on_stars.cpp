@@ -54,7 +54,7 @@ void agree_on_stars(Certified<Int>& certified, const Division& division, const C
   const auto claim = [&] {
     std::vector<Doubts> of_patch(patches.of_rank.size());
     patches.for_each(threads,
-                     [&](Patch<Int>& patch, std::size_t k) { of_patch[k] = patch.claim(corners, most); });
+                     [&](Patch<Int>& patch, PatchHere k) { of_patch[k] = patch.claim(corners, most); });
     questions = Questions(of_patch, division.patches, static_cast<std::size_t>(ranks.size()));
   };
   const auto see_coincidence = [&] {

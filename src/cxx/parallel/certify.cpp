@@ -57,7 +57,7 @@ Certified<Int> certify(Patches<Int> found, const Division& division, const Corne
   OnAny too_many;  // one hull of all nodes, or agreement, would take less time
   const auto ask = [&] {
     std::vector<Doubts> of_patch(patches.of_rank.size());
-    patches.for_each(options.threads, [&](Patch<Int>& patch, std::size_t k) {
+    patches.for_each(options.threads, [&](Patch<Int>& patch, PatchHere k) {
       of_patch[k] = patch.ask(corners, division.most_stretch, most);
     });
     questions = Questions(of_patch, division.patches, static_cast<std::size_t>(ranks.size()));

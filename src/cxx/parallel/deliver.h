@@ -9,6 +9,7 @@
 #include "base/workspace.h"
 #include "parallel/agreement.h"
 #include "parallel/divide.h"
+#include "parallel/local_numbers.h"
 #include "parallel/record.h"
 
 namespace pstripack {
@@ -16,12 +17,12 @@ namespace pstripack {
 /// Where the rings of nodes belong: in a table, first those of this rank's nodes in the patches of other
 /// ranks, patch by patch, then those of all own nodes of each patch here.
 struct ReturnAddresses {
-  std::vector<std::size_t> away_begin;  ///< of each patch of all
-  std::vector<std::size_t> own_begin;   ///< of each patch here; then the end of the table
-  std::vector<std::vector<std::size_t>>
-      own_from;  ///< [patch here][rank]: its own nodes that the rank brought
+  std::vector<std::size_t> away_begin;  ///< by PatchNumber
+  std::vector<std::size_t> own_begin;   ///< by PatchHere; then the end of the table
+  /// [PatchHere][RankNumber]: the PatchNode of the first own node that the rank brought; then the end.
+  std::vector<std::vector<std::size_t>> own_from;
   std::unique_ptr<Workspace> memory;
-  std::uint32_t* position = nullptr;  ///< of each of this rank's nodes in the table
+  std::uint32_t* position = nullptr;  ///< in the table, by LocalNode
 };
 
 /// What the patches of this rank know.

@@ -48,7 +48,7 @@ struct Supply {
 };
 
 Supply take_stock(const LocalNodes& nodes, const PatchRanges& patches, const std::vector<Headcount>& heads,
-                  const Division& division, std::size_t me, const ParallelOptions& options) {
+                  const Division& division, RankNumber me, const ParallelOptions& options) {
   Supply supply;
   for (const Headcount& h : heads) {
     supply.nodes += h.nodes;
@@ -57,7 +57,7 @@ Supply take_stock(const LocalNodes& nodes, const PatchRanges& patches, const std
   const auto all_patches = static_cast<std::size_t>(patches.count());
   supply.keeps_patches =
       supply.keeps_patches && options.last->are_for(options.partition, patches, division.places.lengths());
-  for (std::size_t r = 0; r < heads.size(); ++r)
+  for (RankNumber r = 0; r < heads.size(); ++r)
     supply.keeps_patches = supply.keeps_patches && options.last->is_share_of(r, heads[r].nodes, supply.nodes);
   supply.looks_through = !supply.keeps_patches || options.last->lengths() != division.places.lengths();
   const std::size_t enough = supply.looks_through ? kLookedThrough : kClosingNodes;
@@ -120,7 +120,7 @@ bool may_be_hard(const std::vector<Record>& few, const Partition& partition, con
     quarter.push_back(patches > kQuarters ? owner * kQuarters / patches : owner);
   }
   const CoarseMesh mesh(points);
-  const std::size_t mixed = mesh.mixed([&](std::uint32_t v) { return quarter[v]; });
+  const std::size_t mixed = mesh.mixed([&](SampleNode v) { return quarter[v]; });
   return 3 * (mixed + mesh.triangles_at_hubs()) > mesh.triangles().size() + mesh.triangles_at_hubs();
 }
 
@@ -140,17 +140,17 @@ void slice(const LocalNodes& nodes, Supply& supply, Communicator& ranks, Divisio
     const CoarseMesh mesh(points);
     const std::size_t triangles = mesh.triangles().size() + mesh.triangles_at_hubs();
     const std::size_t in_boxes =
-        mesh.mixed([&](std::uint32_t v) { return division.partition->owner(places[v]); });
+        mesh.mixed([&](SampleNode v) { return division.partition->owner(places[v]); });
     division.by_agreement = 3 * (in_boxes + mesh.triangles_at_hubs()) > triangles;
     division.gave_up = division.may_give_up && division.by_agreement;
     if (division.gave_up) return;
     cells = std::make_shared<Partition>(places);
     levels.emplace(mesh, places, *cells);
-    const std::vector<std::uint32_t>& cell = levels->cell_of();
+    const std::vector<CellNumber>& cell = levels->cell_of();
     weight.resize(cells->cells());
-    for (const std::uint32_t c : cell) ++weight[c];
-    const std::vector<int> of_sample = levels->slices(patches, weight);
-    const std::size_t in_slices = mesh.mixed([&](std::uint32_t v) { return of_sample[cell[v]]; });
+    for (const CellNumber c : cell) ++weight[c];
+    const std::vector<PatchNumber> of_sample = levels->slices(patches, weight);
+    const std::size_t in_slices = mesh.mixed([&](SampleNode v) { return of_sample[cell[v]]; });
     if (2 * in_slices >= in_boxes) {
       levels.reset();
       return;
@@ -158,9 +158,9 @@ void slice(const LocalNodes& nodes, Supply& supply, Communicator& ranks, Divisio
     std::fill(weight.begin(), weight.end(), 0);
     const std::vector<Point> counted =
         places_to_count(nodes, supply.nodes, static_cast<std::size_t>(patches), division.places);
-    std::vector<std::uint32_t> cell_of_counted(counted.size());
+    std::vector<CellNumber> cell_of_counted(counted.size());
     cells->cells_of(counted.data(), counted.size(), cell_of_counted.data());
-    for (const std::uint32_t c : cell_of_counted) ++weight[c];
+    for (const CellNumber c : cell_of_counted) ++weight[c];
   });
   if (!levels) return;
   ranks.all_sum(weight.data(), weight.size());
@@ -192,7 +192,7 @@ std::vector<Record> along_curve(BlockArray<Record>& sample, std::size_t most, co
 
 }  // namespace
 
-bool Homes::is_share_of(std::size_t rank, std::size_t nodes, std::size_t all) const {
+bool Homes::is_share_of(RankNumber rank, std::size_t nodes, std::size_t all) const {
   const std::size_t share = all / static_cast<std::size_t>(patches_.count()) * patches_.count(rank);
   return nodes <= share + share / 8 + kCloselyEnough;
 }
@@ -206,7 +206,7 @@ bool Homes::are_home_to_most(const LocalNodes& nodes, int me) const {
 
 Division divide(const LocalNodes& nodes, const Corners& corners, const Places& places, Communicator& ranks,
                 const ParallelOptions& options) {
-  const auto me = static_cast<std::size_t>(ranks.rank()), size = static_cast<std::size_t>(ranks.size());
+  const auto me = static_cast<RankNumber>(ranks.rank()), size = static_cast<std::size_t>(ranks.size());
   Division division(places);
   Supply supply;
   const bool at_home = options.last != nullptr && options.last->are_home_to_most(nodes, static_cast<int>(me));
@@ -214,7 +214,7 @@ Division divide(const LocalNodes& nodes, const Corners& corners, const Places& p
       ranks.all_gather_one(Headcount{nodes.count, options.patches, at_home}.encode());
   in_agreement(ranks, [&] {
     std::vector<Headcount> heads;
-    for (std::size_t r = 0; r < size; ++r) {
+    for (RankNumber r = 0; r < size; ++r) {
       heads.push_back(Headcount::decode(encoded[r]));
       division.patches.add(heads.back().patches);
     }

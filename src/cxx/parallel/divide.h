@@ -12,6 +12,7 @@
 
 #include "parallel/communicator.h"
 #include "parallel/local_nodes.h"
+#include "parallel/local_numbers.h"
 #include "parallel/partition.h"
 #include "parallel/places.h"
 #include "parallel/record.h"
@@ -47,17 +48,17 @@ class PatchRanges {
   }
 
   int count() const { return first_.back(); }
-  int first(std::size_t rank) const { return first_[rank]; }
-  int end(std::size_t rank) const { return first_[rank + 1]; }
-  std::size_t count(std::size_t rank) const { return static_cast<std::size_t>(end(rank) - first(rank)); }
-  std::size_t rank_of(int patch) const {
-    return static_cast<std::size_t>(std::upper_bound(first_.begin(), first_.end(), patch) - first_.begin()) -
+  PatchNumber first(RankNumber rank) const { return first_[rank]; }
+  PatchNumber end(RankNumber rank) const { return first_[rank + 1]; }
+  std::size_t count(RankNumber rank) const { return static_cast<std::size_t>(end(rank) - first(rank)); }
+  RankNumber rank_of(PatchNumber patch) const {
+    return static_cast<RankNumber>(std::upper_bound(first_.begin(), first_.end(), patch) - first_.begin()) -
            1;
   }
   bool operator==(const PatchRanges& other) const { return first_ == other.first_; }
 
  private:
-  std::vector<int> first_;  ///< of each rank, and the end; no memory before ranks can agree on it
+  std::vector<PatchNumber> first_;  ///< of each rank, and the end; no memory before ranks can agree on it
 };
 
 /// The sphere cut into patches. The same on every rank.
@@ -97,7 +98,7 @@ class Homes {
   Lengths lengths() const { return places_.lengths(); }
   /// False if a rank that brings so many of all nodes has an eighth more than its share: then these patches
   /// are not kept.
-  bool is_share_of(std::size_t rank, std::size_t nodes, std::size_t all) const;
+  bool is_share_of(RankNumber rank, std::size_t nodes, std::size_t all) const;
   /// True if nearly all of these nodes are at home on this rank, as a look at some of them tells.
   bool are_home_to_most(const LocalNodes& nodes, int rank) const;
   int rank(const Point& p) const { return static_cast<int>(patches_.rank_of(partition_->owner(places_(p)))); }

@@ -27,7 +27,7 @@ void LastRings::send_home(const LocalNodes& slice, std::size_t nodes_of_all, Com
     const RingTable<Int>& rings = of_slice_.of_node;
     home_.resize(rings.size());
     for (std::size_t i = 0; i < home_.size(); ++i)
-      home_[i] = static_cast<std::uint32_t>(homes_->rank(slice.points[i]));
+      home_[i] = static_cast<RankOfNode>(homes_->rank(slice.points[i]));
     return packed_rings<Int>(static_cast<std::size_t>(ranks.size()), [&](const auto& visit) {
       for (std::size_t i = 0; i < home_.size(); ++i)
         visit(home_[i], static_cast<Int>(first_node_ + i + 1), rings[i]);
@@ -55,7 +55,7 @@ void LastRings::send_home(const LocalNodes& slice, std::size_t nodes_of_all, Com
 void LastRings::send_places(const LocalNodes& slice, Communicator& ranks) {
   const Parcels arrived = exchange_in_agreement(ranks, [&] {
     ParcelWriter writer(static_cast<std::size_t>(ranks.size()));
-    for (const std::uint32_t r : home_) writer.expect<Point>(r);
+    for (const RankOfNode r : home_) writer.expect<Point>(r);
     writer.make_room();
     slice.points.visit([&](const auto& node) {
       for (std::size_t i = 0; i < home_.size(); ++i) writer.put<Point>(home_[i], node(i));
@@ -85,12 +85,12 @@ bool LastRings::move(const LocalNodes& slice, const std::vector<std::size_t>& be
   if (moving_ == nullptr || !moving_->repair(home, ranks)) return false;
 
   const Parcels changed = exchange_in_agreement(ranks, [&] {
-    const std::vector<std::uint32_t> nodes_here = moving_->update(home, at_home_);
+    const std::vector<LocalNode> nodes_here = moving_->update(home, at_home_);
     return packed_rings<Int>(size, [&](const auto& visit) {
-      for (const std::uint32_t k : nodes_here) {
+      for (const LocalNode k : nodes_here) {
         const auto node = static_cast<std::size_t>(numbers_[k]) - 1;
         const auto r = std::upper_bound(begin.begin(), begin.end(), node) - begin.begin() - 1;
-        visit(static_cast<std::size_t>(r), static_cast<Int>(numbers_[k]), at_home_.of_node[k]);
+        visit(static_cast<RankNumber>(r), static_cast<Int>(numbers_[k]), at_home_.of_node[k]);
       }
     });
   });

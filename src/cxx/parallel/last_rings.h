@@ -6,8 +6,8 @@
 // patches when the first such call began. It reads where these nodes are now, or is told by the ranks that
 // have their slices (pool on several machines), and sends the rings that have changed to those ranks.
 //
-// As on threads, the first call keeps a sample, the next one whose nodes fit keeps the rings, the third begins
-// with them. One set of rings is kept. Where only rank 0 can read all nodes, its sample decides.
+// As on threads, the first call keeps a sample, the next one whose nodes fit keeps the rings, the third
+// begins with them. One set of rings is kept. Where only rank 0 can read all nodes, its sample decides.
 
 #include <cstddef>
 #include <cstdint>
@@ -42,8 +42,8 @@ class LastRings {
   const std::size_t first_node_;
   const std::unique_ptr<Homes> homes_;
   Stars<std::int32_t> of_slice_, at_home_;
-  std::vector<std::uint32_t> home_;  ///< ranks, of the nodes of the slice
-  std::size_t replaced_ = 0;         ///< entries of rings of the slice that have come anew
+  std::vector<RankOfNode> home_;  ///< of the nodes of the slice
+  std::size_t replaced_ = 0;      ///< entries of rings of the slice that have come anew
   // At home here:
   std::vector<std::int64_t> numbers_;
   BlockArray<Point> points_;

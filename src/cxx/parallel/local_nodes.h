@@ -12,6 +12,7 @@
 #include "geometry/predicates.h"
 #include "parallel/agreement.h"
 #include "parallel/global_number.h"
+#include "parallel/local_numbers.h"
 
 namespace pstripack {
 
@@ -31,7 +32,7 @@ struct LocalNodes {
 };
 
 /// Node numbers 0..n-1 cut into one slice a rank, as equal as they come: rank r has [begin[r], begin[r+1]).
-inline std::size_t slice_begin(std::size_t n, std::size_t rank, std::size_t ranks) {
+inline std::size_t slice_begin(std::size_t n, RankNumber rank, std::size_t ranks) {
   return n / ranks * rank + n % ranks * rank / ranks;
 }
 

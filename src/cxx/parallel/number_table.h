@@ -9,12 +9,13 @@
 #include "base/scattered.h"
 #include "base/workspace.h"
 #include "parallel/global_number.h"
+#include "parallel/local_numbers.h"
 
 namespace pstripack {
 
 /// The rank where all that is said of a number meets: by other bits of its hash than a table there takes.
-inline std::size_t meeting_rank(GlobalNumber number, std::size_t ranks) {
-  return static_cast<std::size_t>((scattered(static_cast<std::uint64_t>(number)) >> 32) * ranks >> 32);
+inline RankNumber meeting_rank(GlobalNumber number, std::size_t ranks) {
+  return static_cast<RankNumber>((scattered(static_cast<std::uint64_t>(number)) >> 32) * ranks >> 32);
 }
 
 /// Tells of most numbers that they have not been added. Throws std::bad_alloc when made, never later.

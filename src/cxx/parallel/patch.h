@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/workspace.h"
+#include "parallel/local_numbers.h"
 #include "parallel/partition.h"
 #include "parallel/patch_agreement.h"
 #include "parallel/patch_hull.h"
@@ -25,7 +26,7 @@ template <class Int>
 class Patch {
  public:
   /// The nodes must outlive set_up().
-  Patch(int id, const Partition& partition, const Places& places, const PatchNodes& nodes)
+  Patch(PatchNumber id, const Partition& partition, const Places& places, const PatchNodes& nodes)
       : id_(id), partition_(&partition), nodes_(nodes), hull_(places) {}
 
   /// Memory for set_up(). `closing`: nodes of the global sample.
@@ -89,11 +90,11 @@ class Patch {
   void for_each_run_at_hubs(const Visit& visit) const {
     agreed_.for_each_run(view(), visit);
   }
-  /// Of an own hub: which of the patch's nodes it is.
+  /// The PatchNode of an own hub.
   std::size_t index_of_hub(GlobalNumber number) const { return hull_.index(hull_.find(number)); }
   /// Of an own hub: where its ring begins if it is on the boundary; kNoNumber inside.
   GlobalNumber first_boundary_neighbour(GlobalNumber number) const {
-    const std::uint32_t first = hull_.beside_on_boundary(hull_.find(number)).b;
+    const HullNode first = hull_.beside_on_boundary(hull_.find(number)).b;
     return first != PatchHull<Int>::kNobody ? hull_.number(first) : kNoNumber;
   }
 
@@ -116,10 +117,10 @@ class Patch {
   /// `mine` is the rank that brought most. Calls visit(r, node) for each node that is a neighbour of one that
   /// r has brought and that r has not, perhaps more than once.
   template <class Visit>
-  void for_each_missing_neighbour(std::size_t mine, const std::vector<std::size_t>& own_from,
+  void for_each_missing_neighbour(RankNumber mine, const std::vector<std::size_t>& own_from,
                                   const Visit& visit) const;
 
-  int id() const { return id_; }
+  PatchNumber id() const { return id_; }
   std::size_t own() const { return nodes_.own; }
   std::size_t halo() const { return nodes_.halo; }
   /// Different nodes in the same direction that it came upon: their numbers.
@@ -128,7 +129,7 @@ class Patch {
  private:
   PatchView<Int> view() const { return {id_, *partition_, hull_}; }
 
-  int id_;
+  PatchNumber id_;
   const Partition* partition_;
   PatchNodes nodes_;
   PatchHull<Int> hull_;
@@ -139,35 +140,35 @@ class Patch {
 
 template <class Int>
 template <class Visit>
-void Patch<Int>::for_each_missing_neighbour(std::size_t mine, const std::vector<std::size_t>& own_from,
+void Patch<Int>::for_each_missing_neighbour(RankNumber mine, const std::vector<std::size_t>& own_from,
                                             const Visit& visit) const {
-  constexpr std::uint32_t kNobody = PatchHull<Int>::kNobody;
+  constexpr RankOfNode kNoRank = UINT32_MAX;
   const std::size_t own = nodes_.own;
   if (own == 0) return;
   const std::size_t first = own_from[mine], count = own_from[mine + 1] - first;
   // Of each own node, by whom it was brought; where one rank brought all, nobody asks.
-  std::vector<std::uint32_t> bringer(count < own ? own : 0);
-  for (std::size_t r = 0; r + 1 < own_from.size() && count < own; ++r)
+  std::vector<RankOfNode> bringer(count < own ? own : 0);
+  for (RankNumber r = 0; r + 1 < own_from.size() && count < own; ++r)
     std::fill(bringer.begin() + static_cast<std::ptrdiff_t>(own_from[r]),
-              bringer.begin() + static_cast<std::ptrdiff_t>(own_from[r + 1]), static_cast<std::uint32_t>(r));
-  const auto brought_by = [&](std::uint32_t v) {
-    if (!hull_.is_own(v)) return kNobody;
-    return count < own ? bringer[hull_.index(v)] : static_cast<std::uint32_t>(mine);
+              bringer.begin() + static_cast<std::ptrdiff_t>(own_from[r + 1]), static_cast<RankOfNode>(r));
+  const auto brought_by = [&](HullNode v) {
+    if (!hull_.is_own(v)) return kNoRank;
+    return count < own ? bringer[hull_.index(v)] : static_cast<RankOfNode>(mine);
   };
   // Of each hull node, who was told of it last: most are missed by one rank, at several of its nodes.
-  std::vector<std::uint32_t> told(count < own ? finished_.node_count : 0, kNobody);
-  const auto look_around = [&](std::uint32_t v) {
-    const std::uint32_t r = brought_by(v);
+  std::vector<RankOfNode> told(count < own ? finished_.node_count : 0, kNoRank);
+  const auto look_around = [&](HullNode v) {
+    const RankOfNode r = brought_by(v);
     bool is_missing = false;
-    const auto meet = [&](std::uint32_t w) {
+    const auto meet = [&](HullNode w) {
       if (agreed_.is_in_doubt(hull_, v, w)) return;
-      const std::uint32_t other = brought_by(w);
+      const RankOfNode other = brought_by(w);
       is_missing = is_missing || other == mine;
-      if (r == kNobody || other == r || told[w] == r) return;
+      if (r == kNoRank || other == r || told[w] == r) return;
       told[w] = r;
-      visit(std::size_t{r}, hull_.node(w));
+      visit(RankNumber{r}, hull_.node(w));
     };
-    hull_.for_each_face_at(v, [&](std::uint32_t t, std::uint32_t i) {
+    hull_.for_each_face_at(v, [&](HullFace t, std::uint32_t i) {
       if (!finished_.front(t)) return;
       const Face& f = hull_.face(t);
       meet(f.vertex[next_edge(i)]);
@@ -177,9 +178,9 @@ void Patch<Int>::for_each_missing_neighbour(std::size_t mine, const std::vector<
     if (is_missing) visit(mine, hull_.node(v));
   };
   // Of two neighbours one is looked at: all but the own nodes of `mine`.
-  for (const std::uint32_t v : asked_.around) look_around(v);
+  for (const HullNode v : asked_.around) look_around(v);
   if (count == own) return;
-  for (std::uint32_t v = 0; v < hull_.built(); ++v)
+  for (HullNode v = 0; v < hull_.built(); ++v)
     if (hull_.is_own(v) && hull_.index(v) - first >= count) look_around(v);
 }
 

@@ -25,7 +25,7 @@ struct Patches {
   void for_each(int threads, const Body& body) {
     ErrorsOfThreads errors(of_rank.size());
     parallel_tasks(static_cast<int>(of_rank.size()), threads, [&](int task) {
-      const auto k = static_cast<std::size_t>(task);
+      const auto k = static_cast<PatchHere>(task);
       errors.keep(k, [&] { body(of_rank[k], k); });
     });
     errors.rethrow();

@@ -17,6 +17,7 @@
 #include "mesh/sample_of_stars.h"
 #include "parallel/communicator.h"
 #include "parallel/local_nodes.h"
+#include "parallel/local_numbers.h"
 #include "parallel/return_rings.h"
 
 namespace pstripack {
@@ -40,9 +41,9 @@ class Relocation {
   template <class Int>
   Stars<Int> stars(const Stars<Int>& last, const LocalNodes& nodes, Communicator& ranks) const;
 
-  static constexpr std::uint32_t kGone = SampleOfStars::kGone;
+  static constexpr LocalNode kGone = SampleOfStars::kGone;
   /// Which node here was node k of the last call here; kGone if another rank brings it.
-  std::uint32_t to(std::size_t k) const { return to_[k]; }
+  LocalNode to(std::size_t k) const { return to_[k]; }
   std::size_t had() const { return had_; }
   /// Calls visit(k, number) for each node k of the last call here that another rank brings.
   template <class Visit>
@@ -57,15 +58,16 @@ class Relocation {
   /// A node that was here.
   struct Gone {
     GlobalNumber number;
-    std::uint32_t node, rank;  ///< which it was here; which rank brings it now
+    LastNode node;
+    RankOfNode rank;  ///< that brings it now
   };
   bool find_ranks(const LocalNodes& nodes, Communicator& ranks);
 
   std::size_t had_;
-  bool are_positive_ = true;        ///< the numbers of nodes that were not here
-  BlockArray<std::uint32_t> from_;  ///< of each: which it was here; had_, had_ + 1, ... if it was not
-  BlockArray<std::uint32_t> to_;    ///< of each that was here: which it is; kGone
-  std::size_t come_ = 0;            ///< nodes that were not here
+  bool are_positive_ = true;   ///< the numbers of nodes that were not here
+  BlockArray<LastNode> from_;  ///< by LocalNode; had_, had_ + 1, ... if it was not here
+  BlockArray<LocalNode> to_;   ///< by LastNode; kGone if another rank brings it
+  std::size_t come_ = 0;       ///< nodes that were not here
   std::vector<Gone> gone_;
 };
 
