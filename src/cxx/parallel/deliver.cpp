@@ -8,7 +8,7 @@
 namespace pstripack {
 namespace {
 
-/// Nodes on their way to one patch.
+/// Numbers of nodes on their way to one patch.
 struct Count {
   std::size_t own = 0, halo = 0;
   std::size_t all() const { return own + halo; }
@@ -52,11 +52,12 @@ void route_some(const Here& here, std::size_t first, std::size_t last, std::size
   const Partition& partition = *division.partition;
   auto& count = routes.count[thread];
   auto& halo = routes.halo[thread];
-  // Several tallies: the next node's would wait for the one before to be written.
+  // Several counters for each patch: with one, each node would wait until the count of the node before is
+  // written.
   constexpr std::size_t kTallies = 4;
   std::vector<std::size_t> own(kTallies * patches);
-  // Nodes are often at home, most of them deep in the first patch here. That is sooner told than their owner;
-  // only the others are looked at closely.
+  // Most nodes are often deep in the first patch of this rank. That test is faster than finding the owner, so
+  // the owner is found for the other nodes only.
   bool most_are_deep = true;
   const auto home = static_cast<PatchOfNode>(division.patches.first(here.me));
   constexpr std::size_t kTogether = 256;
@@ -116,8 +117,8 @@ void find_routes(const Here& here, Routes& routes) {
     for (std::size_t q = 0; q < patches; ++q) routes.sent[q] += count[q];
 }
 
-/// Where items go: those of patch q to base[q], from begin[q] on, and what place in the table of rings the
-/// patch's item 0 would have.
+/// Where items go: those for patch q to base[q], from begin[q] on. table[q] is the place that the patch's
+/// item 0 would have in the table of rings.
 template <class Item>
 struct Destinations {
   explicit Destinations(std::size_t patches) : base(patches), begin(patches), table(patches) {}
@@ -149,7 +150,7 @@ void write_items(std::size_t nodes, const Routes& routes, const Destinations<Ite
   });
 }
 
-/// As what a node travels to a rank that can read it.
+/// What is sent of a node to a rank that can read the nodes of all ranks: its number.
 using Number = std::uint32_t;
 
 /// body(item), where item(i) is the record of node i of this rank.
@@ -201,7 +202,7 @@ Parcels parcels_for_others(const Here& here, const Routes& routes, const ReturnA
       nodes, [&](const auto& record) { return parcels_of<Record>(here, routes, record, addresses); });
 }
 
-/// What has arrived of a patch from one rank: its own nodes, then its halo, as records or as numbers.
+/// What one rank has sent for a patch: its own nodes, then its halo, as records or as numbers.
 class Segment {
  public:
   Segment() = default;
@@ -228,7 +229,7 @@ class Segment {
   const Number* numbers_ = nullptr;
 };
 
-/// Of each patch here what has come from each rank; from this one only counted.
+/// For each patch here, what each rank has sent. Nodes of this rank are only counted.
 std::vector<std::vector<Segment>> segments_of(const Parcels& arrived, const Here& here,
                                               const Routes& routes) {
   const std::size_t patches = here.patches().count(here.me);
@@ -245,8 +246,8 @@ std::vector<std::vector<Segment>> segments_of(const Parcels& arrived, const Here
   return segments;
 }
 
-/// The records of each patch here. Those of this rank's nodes are written into place, between those that have
-/// arrived.
+/// Writes the records of each patch here: those that have arrived and, between them, those of this rank's
+/// nodes.
 void place_nodes(const Here& here, const Routes& routes, Parcels arrived, Delivery& delivery) {
   const auto segments = segments_of(arrived, here, routes);
   ReturnAddresses& addresses = delivery.addresses;

@@ -14,8 +14,8 @@
 
 namespace pstripack {
 
-/// Where the rings of nodes belong: in a table, first those of this rank's nodes in the patches of other
-/// ranks, patch by patch, then those of all own nodes of each patch here.
+/// The places of rings in a table: first come those of this rank's nodes that other ranks' patches own, patch
+/// by patch, then those of all own nodes of each patch here.
 struct ReturnAddresses {
   std::vector<std::size_t> away_begin;  ///< by PatchNumber
   std::vector<std::size_t> own_begin;   ///< by PatchHere; then the end of the table
@@ -30,7 +30,7 @@ struct Delivery {
   std::vector<PatchNodes> of_patch;  ///< own nodes in the order of the ranks that brought them
   std::unique_ptr<Workspace> memory;
   ReturnAddresses addresses;
-  Outcome outcome;       ///< here: the next agreement has to accept it
+  Outcome outcome;       ///< of this rank: the next agreement has to accept it
   bool gave_up = false;  ///< then there is nothing else
 };
 

@@ -14,8 +14,8 @@ namespace pstripack {
 namespace {
 
 constexpr std::size_t kClosingNodes = 256;
-// Nodes of the sample among which hidden ones are looked for before nodes go to patches: one that is found
-// later costs the time of the patches once more.
+// Number of sample nodes that are searched for hidden ones before nodes go to patches. A hidden node that is
+// found later costs the time of the patches once more.
 constexpr std::size_t kLookedThrough = 500;
 // A rank's nodes, evenly spaced, of which at most a sixteenth may lie in other ranks' patches if the patches
 // of the last call are kept.
@@ -23,7 +23,7 @@ constexpr std::size_t kLookedAt = 256;
 // Nodes that a rank may have above 9/8 of its share if patches are kept: for small sets, where 1/8 is little.
 constexpr std::size_t kCloselyEnough = 64;
 
-/// What a rank brings, told to all in one number.
+/// What a rank brings; one number tells all ranks.
 struct Headcount {
   std::size_t nodes;  ///< < 2^29
   int patches;        ///< < 2^30
@@ -44,7 +44,7 @@ struct Supply {
   bool looks_through = true;  ///< for hidden nodes; not where the last call found none
   BlockArray<Record> sample;
   std::vector<std::size_t> begin;     ///< bytes of the sample that the ranks bring
-  std::vector<std::int64_t> counter;  ///< room for those of cut_anew
+  std::vector<std::int64_t> counter;  ///< memory for the counters of cut_anew()
 };
 
 Supply take_stock(const LocalNodes& nodes, const PatchRanges& patches, const std::vector<Headcount>& heads,
@@ -74,8 +74,9 @@ Supply take_stock(const LocalNodes& nodes, const PatchRanges& patches, const std
   return supply;
 }
 
-/// Patches with equal numbers of nodes, as far as a sample and counts can tell: the outcome here, which is
-/// not agreed on yet. A rank that fails, or has failed before, counts nothing from there on.
+/// Cuts the sphere into patches with equal numbers of nodes, as far as a sample and counts can tell. Returns
+/// the outcome on this rank, not agreed on yet. A rank that has failed counts nothing but takes part in all
+/// sums.
 Outcome cut_anew(const LocalNodes& nodes, Supply& supply, PartitionKind kind, Communicator& ranks,
                  Division& division, Outcome outcome) {
   const int patches = division.patches.count();
@@ -106,8 +107,8 @@ Outcome cut_anew(const LocalNodes& nodes, Supply& supply, PartitionKind kind, Co
   return outcome;
 }
 
-/// True if neighbours in the mesh may be far from each other, as a look at the mesh of few nodes tells: then
-/// a third of its triangles have corners in different quarters of the patches.
+/// True if neighbours in the mesh may be far from each other: in the mesh of a few nodes, more than a third
+/// of the triangles have corners in different quarters of the patches.
 bool may_be_hard(const std::vector<Record>& few, const Partition& partition, const Places& places) {
   constexpr std::size_t kEnough = 64, kQuarters = 4;
   const auto patches = static_cast<std::size_t>(partition.patches());
@@ -124,8 +125,8 @@ bool may_be_hard(const std::vector<Record>& few, const Partition& partition, con
   return 3 * (mixed + mesh.triangles_at_hubs()) > mesh.triangles().size() + mesh.triangles_at_hubs();
 }
 
-/// Slices of the mesh of the sample in place of boxes, if these cut more triangles. Collective. Throws
-/// AgreedFailure.
+/// Takes slices of the mesh of the sample in place of boxes if boxes cut more than twice as many triangles.
+/// Collective. Throws AgreedFailure.
 void slice(const LocalNodes& nodes, Supply& supply, Communicator& ranks, Division& division) {
   const int patches = division.patches.count();
   std::optional<Levels> levels;
@@ -171,7 +172,7 @@ void slice(const LocalNodes& nodes, Supply& supply, Communicator& ranks, Divisio
   });
 }
 
-/// About `most` of the sample and those given, each once.
+/// About `most` nodes of the sample and all of `some`, each once.
 std::vector<Record> some_of(BlockArray<Record>& sample, std::size_t most, std::vector<Record> some = {}) {
   const std::size_t step = sample.size() / most + 1;
   for (std::size_t k = 0; k < sample.size(); k += step) some.push_back(sample[k]);
@@ -238,7 +239,7 @@ Division divide(const LocalNodes& nodes, const Corners& corners, const Places& p
     outcome.accept();
     const auto patches = static_cast<std::size_t>(division.patches.count());
     division.may_give_up = size == 1 && patches > 1 && options.most_questions < nodes.count;
-    // Worth it where it spares a look at more triangles than it takes time for.
+    // Worth its time in large patches, where it spares many triangles a closer look.
     constexpr std::size_t kManyInAPatch = 50000;
     if (supply.nodes / patches > kManyInAPatch)
       division.most_stretch = most_stretch(division.closing, places);

@@ -21,7 +21,7 @@ LastRings::LastRings(const RingTable<Int>& rings, std::size_t first_node, std::u
       homes_(std::move(homes)),
       of_slice_(copied_stars<Int>(rings.size(), [&](std::size_t i) { return rings[i]; })) {}
 
-/// The rings of the slices go to the homes of their nodes.
+/// Sends the rings of the slice to the homes of their nodes.
 void LastRings::send_home(const LocalNodes& slice, std::size_t nodes_of_all, Communicator& ranks) {
   const Parcels arrived = exchange_in_agreement(ranks, [&] {
     const RingTable<Int>& rings = of_slice_.of_node;
@@ -51,7 +51,7 @@ void LastRings::send_home(const LocalNodes& slice, std::size_t nodes_of_all, Com
   });
 }
 
-/// In the order in which the rings have come.
+/// Sends the positions of the slice's nodes to their homes, in the order in which their rings were sent.
 void LastRings::send_places(const LocalNodes& slice, Communicator& ranks) {
   const Parcels arrived = exchange_in_agreement(ranks, [&] {
     ParcelWriter writer(static_cast<std::size_t>(ranks.size()));
@@ -98,7 +98,7 @@ bool LastRings::move(const LocalNodes& slice, const std::vector<std::size_t>& be
   return true;
 }
 
-/// Rings of the slice.
+/// Puts the changed rings in place of those of the slice.
 void LastRings::replace(const Parcels& changed) {
   Stars<Int>& stars = of_slice_;
   const std::size_t entries = Items<Int>(changed).size();
@@ -108,7 +108,7 @@ void LastRings::replace(const Parcels& changed) {
     stars.of_node.replace(static_cast<std::size_t>(at[0]) - 1 - first_node_, at + 1);
   stars.more_memory.push_back(std::move(rings));
   replaced_ += entries;
-  if (replaced_ <= 8 * stars.of_node.size()) return;  // then rings that are not used any more go
+  if (replaced_ <= 8 * stars.of_node.size()) return;  // then the rings that are not used any more are freed
   stars = copied_stars<Int>(stars.of_node.size(), [&](std::size_t i) { return stars.of_node[i]; });
   replaced_ = 0;
 }

@@ -59,7 +59,7 @@ Levels::Levels(const CoarseMesh& mesh, const std::vector<Point>& places, const P
       [&](CellNumber a, CellNumber b) { beside_[begin_[a + 1]++] = b, beside_[begin_[b + 1]++] = a; });
   begin_.pop_back();
 
-  // From any cell to one that is farthest off, twice: from there levels are many and narrow.
+  // From any cell to a farthest one, twice: from the cell so found, levels are many and narrow.
   const auto count = static_cast<CellNumber>(cells.cells());
   std::vector<std::uint32_t> marked(count);
   std::uint32_t mark = 0;
@@ -74,7 +74,8 @@ Levels::Levels(const CoarseMesh& mesh, const std::vector<Point>& places, const P
     }
   }
 
-  // Distances are whole numbers. Means of neighbours are not, and their level lines are shorter.
+  // Places in that order jump from cell to cell. Means over neighbours do so less, and their level lines are
+  // shorter.
   constexpr int kSmoothings = 5;
   std::vector<double> level(count), mean(count);
   for (std::uint32_t k = 0; k < count; ++k) level[order_[k]] = k;

@@ -26,7 +26,7 @@ namespace pstripack {
 /// The mesh of a few nodes, which stands for that of all.
 class CoarseMesh {
  public:
-  /// Without a triangle if all are on one great circle. Throws std::bad_alloc.
+  /// Has no triangle if all nodes are on one great circle. Throws std::bad_alloc.
   explicit CoarseMesh(const std::vector<Point>& nodes);
 
   const std::vector<SampleNode>& hubs() const { return hubs_; }
@@ -54,7 +54,7 @@ class Levels {
   /// `cells` holds the nodes of the mesh, which lie at these places.
   Levels(const CoarseMesh& mesh, const std::vector<Point>& places, const Partition& cells);
 
-  /// Of each cell the slice that it belongs to, of slices of equal weight.
+  /// The slice that each cell belongs to; slices have about equal weight.
   std::vector<PatchNumber> slices(int count, const std::vector<std::int64_t>& weight) const;
 
   /// The cell of each node of the mesh.
@@ -65,7 +65,7 @@ class Levels {
   const std::vector<CellNumber>& beside() const { return beside_; }
 
  private:
-  /// Appends all that can be reached from `start`, breadth first. Marks them.
+  /// Appends all cells that can be reached from `start`, breadth first, and marks them.
   void reach(CellNumber start, std::uint32_t mark, std::vector<std::uint32_t>& marked,
              std::vector<CellNumber>& order) const;
 

@@ -29,7 +29,7 @@ struct Found {
   LocalNode node;
 };
 
-/// For so many nodes more outside there is room at first.
+/// Room at first for this many nodes that become nodes outside later.
 constexpr std::size_t kRoom = 1000;
 
 }  // namespace
@@ -83,7 +83,7 @@ template <class Int>
 std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes& nodes, const Stars<Int>& stars,
                                                Communicator& ranks, std::unique_ptr<MovingStars> last,
                                                const Relocation& way) {
-  constexpr std::size_t kFew = 8;  // one node of so many may lie far from its neighbours
+  constexpr std::size_t kFew = 8;  // one node in kFew may lie far from its neighbours in memory
   const bool is_of_use = last != nullptr && last->come_ + way.come() <= nodes.count / kFew;
   return make(nodes, stars, ranks, [&](MovingStars& moving, const Parcels& wanted) {
     return is_of_use ? moving.begin_with(*last, way, nodes, stars, wanted)
@@ -91,7 +91,8 @@ std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes& nodes, const St
   });
 }
 
-/// Of the numbers of the nodes outside each rank, those that are brought here: they are in the table.
+/// Finds which of the numbers that each rank wants are brought here. `local` has the numbers of the nodes
+/// here.
 Parcels MovingStars::find_wanted(const Parcels& wanted, const NumberTable<MeshNode>& local) {
   std::vector<std::vector<Found>> found(send_.size());
   for (RankNumber r = 0; r < found.size(); ++r) {
@@ -150,8 +151,8 @@ Parcels MovingStars::begin(const LocalNodes& nodes, const Stars<Int>& stars, con
   return found;
 }
 
-/// The same from those of the last call: only nodes that have come or gone, and neighbours of such, are
-/// searched by their numbers.
+/// The same from the stars of the last call. Only nodes that have come or gone, and their neighbours, are
+/// searched by number.
 template <class Int>
 Parcels MovingStars::begin_with(MovingStars& last, const Relocation& way, const LocalNodes& nodes,
                                 const Stars<Int>& stars, const Parcels& wanted) {
@@ -240,7 +241,8 @@ bool MovingStars::repair(const LocalNodes& nodes, Communicator& ranks) {
   return !any.value;
 }
 
-/// Whether all nodes here have length one.
+/// Sets the positions of the nodes here and sends them to the ranks that know these nodes. True if all have
+/// length one.
 bool MovingStars::move_nodes(const LocalNodes& nodes, Communicator& ranks) {
   constexpr std::size_t kAhead = 16;
   MovingMesh& mesh = *mesh_;
@@ -272,7 +274,7 @@ bool MovingStars::move_nodes(const LocalNodes& nodes, Communicator& ranks) {
   return all_have_length_one;
 }
 
-/// That of the first rank with nodes; none if it finds none.
+/// The mark that the first rank with nodes chooses; none if it finds none.
 std::optional<MovingMesh::Mark> MovingStars::agree_on_mark(Communicator& ranks) {
   MovingMesh::Mark mine;
   Mark mark;
@@ -289,8 +291,8 @@ std::optional<MovingMesh::Mark> MovingStars::agree_on_mark(Communicator& ranks) 
   return mine;
 }
 
-/// Flips what this rank can flip alone, and proposes the others. Where two ranks propose the same, one of
-/// them comes too late.
+/// Flips the arcs that this rank can flip alone, and proposes to flip the others. If two ranks propose the
+/// same flip, the later proposal is not accepted.
 bool MovingStars::propose(const LocalNodes& nodes, std::vector<Flip>& flips) {
   std::vector<MovingMesh::Quadrangle> across;
   if (!mesh_->flip_inside(across)) return false;
@@ -305,8 +307,8 @@ bool MovingStars::propose(const LocalNodes& nodes, std::vector<Flip>& flips) {
   return true;
 }
 
-/// The same on every rank: flips that share no node, in their order. The arcs of the others are looked at
-/// again.
+/// Goes through the proposals in their order, the same on every rank, and accepts those that share no node
+/// with one accepted before. The arcs of the others will be tested again.
 bool MovingStars::flip_all(const Parcels& flips) {
   std::unordered_set<std::uint64_t> taken;
   for (const Flip& flip : Items<Flip>(flips)) {
@@ -341,8 +343,8 @@ bool MovingStars::flip_one(const Flip& flip) {
   return mesh_->flip(q);
 }
 
-/// Two nodes that become neighbours. If one is here and the other is not, their ranks tell each other from
-/// now on where they are, unless they do already: each can see that.
+/// Two nodes become neighbours. If `one` is here and `other` is not, their ranks send each other the
+/// positions from now on, unless they do so already, which both can see. False if there is no room.
 bool MovingStars::meet(const Corner& one, const Corner& other) {
   if (one.address.rank != me_ || other.address.rank == me_) return true;
   std::vector<LocalNode>& send = send_[other.address.rank];
@@ -354,7 +356,7 @@ bool MovingStars::meet(const Corner& one, const Corner& other) {
   return true;
 }
 
-/// The node in the mesh here; kNobody if it is none that this rank knows.
+/// The node of the mesh here; kNobody if this rank does not know the address.
 MeshNode MovingStars::find(const Address& address) const {
   if (address.rank == me_) return address.node;
   const auto found = std::find_if(outside_.begin(), outside_.end(),
@@ -374,7 +376,7 @@ std::vector<LocalNode> MovingStars::update(const LocalNodes& nodes, Stars<Int>& 
   };
   std::vector<LocalNode> changed, all;
   for (const auto& change : mesh_->changes()) changed.push_back(change.node);
-  if (replaced_ > 8 * n) {  // then rings that are not used any more go
+  if (replaced_ > 8 * n) {  // then rings that are not used any more are freed
     all.resize(n);
     std::iota(all.begin(), all.end(), 0u);
     replaced_ = 0;
@@ -422,8 +424,7 @@ SampleOfStars MovingStars::sample() const {
   return sample;
 }
 
-/// The few nodes that the stars name are searched among all: those that may be among them are marked in a
-/// table of some bits of the number first.
+/// The stars name few of all nodes. A filter, by some bits of the number, spares most other nodes the search.
 template <class Int>
 SampleOfStars sample_of(const LocalNodes& nodes, const Stars<Int>& stars) {
   const auto for_each_star = [&](const auto& visit) {

@@ -20,7 +20,7 @@
 
 namespace pstripack {
 
-/// Some of these stars, none with a neighbour that another rank brings. Throws std::bad_alloc.
+/// A sample of these stars; this rank brings all their neighbours. Throws std::bad_alloc.
 template <class Int>
 SampleOfStars sample_of(const LocalNodes& nodes, const Stars<Int>& stars);
 
@@ -28,28 +28,28 @@ SampleOfStars sample_of(const LocalNodes& nodes, const Stars<Int>& stars);
 /// mesh without a boundary.
 class MovingStars {
  public:
-  /// Of the nodes whose stars these are, on every rank, where they are now. Null on every rank if the mesh
-  /// has a boundary or nearly all nodes have neighbours on other ranks. Collective. Throws AgreedFailure.
+  /// From the stars of these nodes, which may have moved since. Null, on every rank, if the mesh has a
+  /// boundary or all ranks together have more nodes outside than nodes. Collective. Throws AgreedFailure.
   template <class Int>
   static std::unique_ptr<MovingStars> make(const LocalNodes& nodes, const Stars<Int>& stars,
                                            Communicator& ranks);
-  /// The same, where these are way.stars(). It takes less time on a rank that has those of the last call,
-  /// which are of no more use then.
+  /// The same for stars that are way.stars(). It takes less time on a rank that has the MovingStars of the
+  /// last call; these are used up.
   template <class Int>
   static std::unique_ptr<MovingStars> make(const LocalNodes& nodes, const Stars<Int>& stars,
                                            Communicator& ranks, std::unique_ptr<MovingStars> last,
                                            const Relocation& way);
 
-  /// Makes them the stars in the Delaunay triangulation of the same nodes where they are now, and returns
-  /// true. Or returns false, and they are of no more use: as MovingMesh::repair(). The same on every rank.
-  /// Collective. Throws AgreedFailure; then they are of no more use either.
+  /// Makes them the stars in the Delaunay triangulation of the same nodes at their current positions, and
+  /// returns true. Returns false where MovingMesh::repair() would. The result is the same on every rank.
+  /// Collective. Throws AgreedFailure. After false or a throw the stars must be discarded.
   bool repair(const LocalNodes& nodes, Communicator& ranks);
   std::size_t flips() const { return mesh_->flips() - flips_of_others_; }  ///< the sum of all ranks' counts
   int rounds() const { return rounds_; }                                   ///< exchanges of flips
   std::size_t halo() const { return outside_.size(); }
 
-  /// After repair(): brings the stars up to date that were given to make(), and returns the nodes whose rings
-  /// have changed. Throws std::bad_alloc.
+  /// After repair(): updates the stars that were given to make(), and returns the nodes whose rings have
+  /// changed. Throws std::bad_alloc.
   template <class Int>
   std::vector<LocalNode> update(const LocalNodes& nodes, Stars<Int>& stars);
 

@@ -18,8 +18,8 @@ struct Parcels {
   std::vector<std::size_t> begin;
 };
 
-/// Packs parcels in two passes: first how much, then what. Every parcel begins where items of all types that
-/// are packed can.
+/// Packs parcels in two passes: first sizes, then items. The begin of every parcel is aligned for all types
+/// packed.
 class ParcelWriter {
  public:
   explicit ParcelWriter(std::size_t ranks) { parcels_.begin.resize(ranks + 1); }
@@ -31,7 +31,8 @@ class ParcelWriter {
     alignment_ = std::max(alignment_, alignof(Item));
     parcels_.begin[rank + 1] += n * sizeof(Item);
   }
-  /// Then: memory for all that is expected; so many bytes behind may be written, too. Throws std::bad_alloc.
+  /// Then: memory for all that is expected and for `beyond` bytes behind it that may be written. Throws
+  /// std::bad_alloc.
   void make_room(std::size_t beyond = 0);
   /// True if nothing is expected.
   bool empty() const { return parcels_.begin.back() == 0; }

@@ -11,12 +11,14 @@ namespace {
 constexpr double kPi = 3.141592653589793;
 constexpr double kEverything = 4;  // a margin larger than the sphere
 
-// A cell of the sample has this many nodes of it or fewer: enough to tell the distance between nodes.
-// Uneven cells are cut down to fewer.
+// Largest number of sample nodes in a cell: enough to tell the distance between nodes. Cells of uneven
+// density are cut until they have fewer.
 constexpr std::size_t kCellSample = 16, kUnevenCellSample = 5;
-// Margins in distances between nodes. A circumscribed cap of random nodes seldom has a diameter of more.
+// The margin of a cell, in distances between its nodes. The circumscribed cap of a triangle of random nodes
+// seldom has a larger diameter.
 constexpr double kMarginSpacings = 2.2;
-// Levels of the tree in a patch. With those between 2^31 patches they fit a stack.
+// Largest number of levels within a patch. With the 31 levels between 2^31 patches they fit the stack of a
+// search.
 constexpr int kMostLevels = 90, kStack = 128;
 
 double longitude(const Point& p) {
@@ -30,7 +32,7 @@ double longitude(const Point& p) {
 
 class Partition::Builder {
  public:
-  /// Sorts the sample into cells of so many of its nodes or fewer.
+  /// Sorts the sample into cells of at most `cell_sample` nodes.
   Builder(Partition& partition, std::vector<Point>& sample, std::size_t nodes,
           std::size_t cell_sample = kCellSample)
       : partition_(partition),
@@ -102,7 +104,7 @@ class Partition::Builder {
   void link(std::int32_t parent, int side, std::int32_t child) {
     partition_.cells_[parent].child[side] = child;
   }
-  /// What a cell knows of those below.
+  /// Sets what a cell knows of those below, its patch and its margin, and returns the cell.
   std::int32_t finish(std::int32_t k) {
     Cell& c = partition_.cells_[k];
     const Cell &a = partition_.cells_[c.child[0]], &b = partition_.cells_[c.child[1]];
@@ -196,8 +198,8 @@ class Partition::Builder {
     return leaf;
   }
 
-  /// From the size of a cell and the nodes that it stands for; that of the cell around it where its own
-  /// sample is too small to tell.
+  /// The margin of a cell, from its size and the number of nodes that its sample stands for; the margin of
+  /// the cell around it if the sample is too small to tell.
   double margin_of(const Extent& extent, std::size_t n, double of_parent) const {
     if (n < 4) return of_parent;
     return kMarginSpacings * extent.diagonal() / std::sqrt(static_cast<double>(n) * nodes_a_sample_);

@@ -3,8 +3,8 @@
 namespace pstripack {
 namespace {
 
-/// A node of another patch that has more triangles than this with nodes here may be a hub. It is one where
-/// its owner confirms most of so many of them.
+/// A node of another patch may be a hub if this patch has more than kManyTriangles triangles to ask its owner
+/// about. It is one if the owner confirms most of the first kAFew.
 constexpr std::size_t kManyTriangles = 64, kAFew = 8;
 
 }  // namespace
@@ -61,7 +61,7 @@ Doubts PatchAgreement<Int>::claim(PatchHull<Int>& hull, const PatchView<Int>& pa
   for (const Claim& claim : claims) {
     const auto q = static_cast<std::size_t>(claim.owner);
     AskedAbout& about = asked_about_[claim.node];
-    const std::size_t step = (to_patch[q] - 1) / most + 1;  // of too many, each so and so many-th
+    const std::size_t step = (to_patch[q] - 1) / most + 1;  // of too many, every step-th is asked
     if (passed[q]++ % step != 0 || (about.triangles > kManyTriangles && about.asked == kAFew)) {
       doubts.left_out = true;
       continue;

@@ -1,9 +1,9 @@
 #pragma once
 // What a patch does to agree with others on the stars of its nodes: docs/parallel.md, "Agreement".
 //
-// A patch keeps a triangle of its hull if it owns a corner. Others keep it that own its other corners: the
-// patch asks each of them about it. A hub is a node with more neighbours than its owner should take in. Its
-// owner need not keep triangles at it, unless these have two hubs.
+// A patch keeps a triangle of its hull if it owns a corner. The patches that own its other corners must keep
+// it, too: the patch asks each of them about it. A hub is a node with more neighbours than its owner should
+// take in. Its owner need not keep triangles at it, unless these have two hubs.
 
 #include <array>
 #include <cstddef>
@@ -17,7 +17,7 @@
 
 namespace pstripack {
 
-/// The members are as those of Patch.
+/// The members do what those of Patch do.
 template <class Int>
 class PatchAgreement {
  public:
@@ -54,15 +54,15 @@ class PatchAgreement {
       end_run();
     }
   }
-  /// Whether neighbours v and w may be none, one being an own hub, the other not certified here. Those of
-  /// hubs are in for_each_run().
+  /// True if v and w, neighbours in this hull, may be none in the mesh: one is a hub, the other neither a hub
+  /// nor an own node. for_each_run() has the neighbours of hubs.
   bool is_in_doubt(const PatchHull<Int>& hull, HullNode v, HullNode w) const {
     return (is_hub(v) && !is_hub(w) && !hull.is_own(w)) || (is_hub(w) && !is_hub(v) && !hull.is_own(v));
   }
 
  private:
   bool is_hub(HullNode v) const { return v < is_hub_.size() && is_hub_[v]; }
-  /// Of a triangle t, whose corner i is hub h: true if this of all patches that keep it tells of it.
+  /// Corner i of triangle t is hub h. True if this patch, among all that keep t, has it in a run.
   bool is_in_run(const PatchHull<Int>& hull, HullNode h, HullFace t, std::uint32_t i) const {
     const HullNode x = hull.face(t).vertex[next_edge(i)];
     return hull.is_own(is_hub_[x] ? h : x) && hull.growing().front(t);

@@ -7,7 +7,7 @@
 namespace pstripack {
 namespace {
 
-/// Room for nodes that are taken in later. They are few; where they are not, memory is taken anew.
+/// Leaves room for nodes that are taken in later. If they are more, make_room() takes memory anew.
 std::size_t capacity_for(std::size_t nodes) { return nodes + nodes / 8 + 256; }
 
 }  // namespace

@@ -24,7 +24,8 @@ struct BoundaryArc {
   HullNode a, b;
 };
 
-/// Int: what node numbers fit into. "Node v" is a hull node; the hull grows, but no hull node changes.
+/// Int: a type that holds all node numbers. "Node v" is a hull node. The hull grows, but no node changes its
+/// HullNode.
 template <class Int>
 class PatchHull {
  public:
@@ -32,15 +33,15 @@ class PatchHull {
 
   explicit PatchHull(const Places& places) : places_(places) {}
 
-  /// Memory for set_up() with so many nodes.
+  /// Memory for set_up() with `nodes` nodes, the leading ones included.
   static std::size_t workspace_bytes(std::size_t nodes);
-  /// Sorts the nodes; `leading`: others, which come first. The workspace must outlive the hull and its rings,
-  /// `nodes` only this call. Throws HiddenNode where it is easy to see that one is hidden, std::bad_alloc.
+  /// Sorts the nodes; `leading` are others, which come first. The workspace must outlive the hull and its
+  /// rings, `nodes` only this call. Throws HiddenNode if a quick test finds one, std::bad_alloc.
   void set_up(const PatchNodes& nodes, const std::vector<Record>& leading, Workspace& workspace);
   /// Makes their hull. Throws HiddenNode, std::bad_alloc.
   void build();
-  /// Adds a node that has come from elsewhere, unless it has already. Returns the hull node, or the one with
-  /// which it coincides. Throws HiddenNode, std::bad_alloc.
+  /// Adds a node of another patch, unless it was added before. Returns its hull node, or the one with which
+  /// it coincides. Throws HiddenNode, std::bad_alloc.
   HullNode take_in(const Record& node);
   /// From now on find() finds node v, too. Throws std::bad_alloc.
   void remember(HullNode v) { taken_in_.try_emplace(number(v), v); }
@@ -54,12 +55,12 @@ class PatchHull {
   const GrowingHull& growing() const { return *growing_; }
   const Face& face(HullFace t) const { return arrays_.faces[t]; }
   const Plane& plane(HullFace t) const { return arrays_.planes[t]; }
-  /// Different nodes in the same direction that it came upon: their numbers.
+  /// The numbers of different nodes in the same direction, as far as the hull has found them.
   const CoincidentPairs& coincident() const { return coincident_; }
 
   /// Hull nodes without those taken in.
   std::size_t built() const { return built_; }
-  /// Of node v < built(): which of the nodes of set_up(); a number >= their count if it is a leading one.
+  /// Which of the nodes of set_up() node v < built() is; >= their count if it is a leading one.
   PatchNode index(HullNode v) const { return order_[v]; }
   bool is_own(HullNode v) const { return v < built_ && order_[v] < own_; }
   const Point& point(HullNode v) const { return arrays_.nodes[v]; }
@@ -85,8 +86,8 @@ class PatchHull {
     } while (corner != first);
   }
 
-  /// Calls visit(t, own) for every front face t that has a corner which is not the patch's own and among the
-  /// nodes from `first` on; `own` of its corners are.
+  /// Calls visit(t, own) for every front face t that has a corner v >= first which is not an own node; `own`
+  /// is the number of its corners that are own nodes.
   template <class Visit>
   void for_each_face_at_border(std::size_t first, const Visit& visit) const {
     const auto n = static_cast<HullNode>(growing_->node_count());

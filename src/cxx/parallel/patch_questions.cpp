@@ -99,7 +99,7 @@ Question question_about(const PatchView<Int>& patch, HullFace t) {
   return question;
 }
 
-/// An arc with one end of another patch is asked of that patch. Where all agree, the arcs at own nodes close
+/// An arc with one end in another patch is asked of that patch. Where all agree, the arcs at own nodes close
 /// to curves that turn left only, around a place z inside the triangle of the corners. Each of them crosses
 /// the great circle through z and a corner; the arc that crosses it is asked of all, so that there is one
 /// curve and no node beyond it. z is infinitely close to the first corner, on the side of the second.
@@ -177,8 +177,8 @@ Doubts ask(const PatchView<Int>& patch, const std::array<Record, 3>& corners, do
 
 namespace {
 
-/// Of a node strictly right of a -> b: itself, or one farther right that is strictly right, too. Uphill on
-/// the hull, which is convex: rounding can end the way early.
+/// Node v is strictly right of a -> b. Returns v, or a node farther right that is strictly right, too. Walks
+/// uphill on the hull, which is convex; rounding can end the walk early.
 template <class Int>
 HullNode farthest_right(const PatchHull<Int>& hull, HullNode a, HullNode b, HullNode v) {
   const Point normal = cross(hull.place(b), hull.place(a));
@@ -222,7 +222,7 @@ std::vector<HullNode> nodes_beyond(const PatchHull<Int>& hull, HullNode a, HullN
   return nodes;
 }
 
-/// Of the nodes above the triangle of three others, the highest `most`; none only if there is none.
+/// The `most` highest of the nodes above the triangle of three others; empty only if there are none.
 template <class Int>
 std::vector<HullNode> nodes_above(const PatchHull<Int>& hull, const HullNode (&v)[3], std::size_t most) {
   std::vector<HullNode> above;

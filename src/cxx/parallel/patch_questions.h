@@ -22,17 +22,17 @@ struct Question {
   int corners() const { return is_about_arc() ? 2 : 3; }
 };
 
-/// What is not certain yet.
+/// What a patch is not certain of yet.
 struct Doubts {
   std::vector<Question> questions;
-  std::size_t arcs = 0;    ///< of the boundary: so many of the questions are about them
+  std::size_t arcs = 0;    ///< number of the questions that are about arcs of the boundary
   bool has_grown = false;  ///< the patch has taken in nodes since it asked last
   bool left_out = false;   ///< it has more questions than it asks
 };
 
 /// What a patch has asked about.
 struct Asked {
-  std::size_t nodes = 0;          ///< that it had when it asked last; 0: it has not asked yet
+  std::size_t nodes = 0;          ///< number of nodes when it asked last; 0: it has not asked yet
   std::vector<BoundaryArc> arcs;  ///< when it asked last
   std::vector<HullNode> around;   ///< nodes of others that were neighbours of own ones when it asked
   std::vector<bool> is_around;
@@ -53,7 +53,7 @@ struct PatchView {
   PatchNumber owner(HullNode v) const { return hull.is_own(v) ? id : partition.owner(hull.place(v)); }
 };
 
-/// A question about face t of the hull, to nobody yet.
+/// A question about face t of the hull. The caller sets `to`.
 template <class Int>
 Question question_about(const PatchView<Int>& patch, HullFace t);
 

@@ -24,7 +24,7 @@ Patches<Int> triangulate_patches(const Delivery& delivery, const Division& divis
       patch.set_up(division.closing, part);
     });
   });
-  // What one patch has seen to be hidden, no other begins to triangulate for nothing.
+  // Ranks have agreed that no patch has seen a hidden node yet, so none is triangulated for nothing.
   in_agreement(
       ranks,
       [&] {

@@ -18,9 +18,9 @@ template <class Int>
 struct Patches {
   std::vector<Patch<Int>> of_rank;
   std::unique_ptr<Workspace> memory;
-  OnAny see_coincidence;  ///< a patch of any rank: nodes that coincide
+  OnAny see_coincidence;  ///< a patch of any rank has found nodes that coincide
 
-  /// body(patch, k) for every patch of this rank, on so many threads. Throws what a body threw.
+  /// Calls body(patch, k) for every patch of this rank, on `threads` threads. Throws what a body threw.
   template <class Body>
   void for_each(int threads, const Body& body) {
     ErrorsOfThreads errors(of_rank.size());

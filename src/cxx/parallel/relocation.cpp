@@ -18,8 +18,9 @@ Relocation::Relocation(const std::int64_t* before, std::size_t had, const LocalN
     from_[i] = static_cast<LastNode>(k);
     to_[k] = static_cast<LocalNode>(i);
   };
-  // Mostly they are in the order of the last call, with some more or less between them. Where a row of 16,
-  // 32, 64 ... are not, the next one may be anywhere. Those that are left are searched in a table.
+  // Most nodes are in the order of the last call, with a few more or fewer between them, so each is searched
+  // close behind the one before. After 16, 32, 64, ... misses in a row, the next one is searched to the end.
+  // Nodes that are left are searched in a table.
   constexpr std::size_t kNear = 16;
   std::size_t next = 0, missed = 0;
   for (std::size_t i = 0; i < nodes.count; ++i) {
@@ -54,7 +55,7 @@ Relocation::Relocation(const std::int64_t* before, std::size_t had, const LocalN
 
 std::optional<Relocation> Relocation::find(const std::int64_t* before, std::size_t had,
                                            const LocalNodes& nodes, Communicator& ranks) {
-  constexpr std::int64_t kFew = 8;  // one node of so many
+  constexpr std::int64_t kFew = 8;  // one node in kFew may come from another rank
   std::int64_t counts[] = {static_cast<std::int64_t>(had), static_cast<std::int64_t>(nodes.count)};
   ranks.all_sum(counts, 2);
   if (counts[0] != counts[1]) return std::nullopt;

@@ -10,7 +10,7 @@
 namespace pstripack {
 namespace {
 
-/// Where the rings are that belong to the addresses.
+/// The table of ReturnAddresses: where each ring is, and its size.
 template <class Int>
 struct Table {
   std::unique_ptr<Workspace> memory;
@@ -24,8 +24,8 @@ struct Table {
   }
 };
 
-/// Writes the rings of the own nodes of all patches here: where these are, or, if `apart`, into memory of
-/// their own, which is returned: the stars stay, the hulls go.
+/// Writes the rings of the own nodes of all patches here: into the memory of the hulls or, if `apart`, into
+/// memory of their own, which is returned. Then the stars can stay when the hulls are freed.
 template <class Int>
 std::unique_ptr<Workspace> write_rings(Patches<Int>& patches, const ReturnAddresses& addresses, bool apart,
                                        int threads, Table<Int>& table,
@@ -65,7 +65,7 @@ std::unique_ptr<Workspace> write_rings(Patches<Int>& patches, const ReturnAddres
 
 // ---- hubs: the patches have runs of their rings, which their owners join ------------------------------
 
-/// Some successive neighbours of a hub, that follow.
+/// The head of a run, some successive neighbours of a hub; their records follow.
 struct RunHead {
   GlobalNumber hub;
   std::int64_t owner, count;  ///< owner: a PatchNumber
@@ -143,7 +143,7 @@ std::vector<HubRing> joined_runs(const Patches<Int>& patches, const Parcels& run
   return rings;
 }
 
-/// In place of what the hulls of the owners have.
+/// Writes the rings of hubs and enters them in the table, in place of those from the hulls of the owners.
 template <class Int>
 void write_hub_rings(const Patches<Int>& patches, const ReturnAddresses& addresses,
                      const std::vector<HubRing>& rings, Table<Int>& table,
@@ -204,7 +204,7 @@ Parcels rings_for_others(const Table<Int>& table, const ReturnAddresses& address
   return writer.finish();
 }
 
-/// Those of this rank's nodes that were in patches of others.
+/// Enters the received rings in the table: those of this rank's nodes in patches of other ranks.
 template <class Int>
 void enter_received(const Parcels& received, const ReturnAddresses& addresses, const PatchRanges& patches,
                     RankNumber me, Table<Int>& table) {

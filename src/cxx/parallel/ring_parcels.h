@@ -12,7 +12,8 @@
 
 namespace pstripack {
 
-/// Packs the rings for_each(visit), visit(rank, number of the node, ring): number, count, entries.
+/// Packs rings, each as the number of its node, its count and its entries. for_each(visit) calls visit(rank,
+/// number, ring) for every ring.
 template <class Int, class ForEach>
 Parcels packed_rings(std::size_t ranks, const ForEach& for_each) {
   ParcelWriter writer(ranks);

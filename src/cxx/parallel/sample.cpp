@@ -25,7 +25,7 @@ void write_share(const LocalNodes& mine, std::size_t share, Record* sample) {
 
 std::vector<Point> places_to_count(const LocalNodes& mine, std::size_t nodes, std::size_t patches,
                                    const Places& places) {
-  constexpr std::size_t kEnough = 8192;  // of a patch, to share them as equally as one can tell
+  constexpr std::size_t kEnough = 8192;  // counted nodes a patch; more would hardly make patches more equal
   const std::size_t step = nodes / (kEnough * patches) + 1;
   std::vector<Point> counted;
   counted.reserve(mine.count / step + 1);
