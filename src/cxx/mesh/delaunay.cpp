@@ -63,8 +63,7 @@ double certain_height(const Spoke& to_corner) {
 }
 
 template <class Predicates>
-[[gnu::always_inline]] inline Spoke make_spoke(const Predicates& predicates, std::uint32_t to,
-                                               std::uint32_t from) {
+[[gnu::always_inline]] inline Spoke make_spoke(const Predicates& predicates, HullNode to, HullNode from) {
   const Point d = predicates.difference(static_cast<index_t>(to), static_cast<index_t>(from));
   return {d, dot(d, d)};
 }
@@ -133,15 +132,15 @@ class Builder final : public GrowingHull {
         if (done == 0 || ((v - first) & (done - 1)) != 0) insert_unless_started(v);
   }
 
-  std::uint32_t add(const Point& p) override {
-    const auto v = static_cast<std::uint32_t>(n_);
+  HullNode add(const Point& p) override {
+    const auto v = static_cast<HullNode>(n_);
     nodes_[v] = p;
     predicates_.extend(nodes_, n_ + 1);
     const std::size_t before = coincident_.size();
     start_near(predicates_.position(v));
     insert(v);
-    if (coincident_.size() == before) return static_cast<std::uint32_t>(n_++);
-    const std::uint32_t in = coincident_.back().first;
+    if (coincident_.size() == before) return static_cast<HullNode>(n_++);
+    const HullNode in = coincident_.back().first;
     coincident_.pop_back();
     predicates_.extend(nodes_, n_);
     return in;
@@ -154,16 +153,12 @@ class Builder final : public GrowingHull {
 
   std::size_t node_count() const override { return n_; }
   std::size_t face_count() const override { return count_; }
-  const std::vector<std::pair<std::uint32_t, std::uint32_t>>& coincident() const override {
-    return coincident_;
-  }
-  int left(std::uint32_t a, std::uint32_t b, std::uint32_t c) const override {
-    return predicates_.left(a, b, c);
-  }
-  bool above(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const override {
+  const std::vector<std::pair<HullNode, HullNode>>& coincident() const override { return coincident_; }
+  int left(HullNode a, HullNode b, HullNode c) const override { return predicates_.left(a, b, c); }
+  bool above(HullNode a, HullNode b, HullNode c, HullNode d) const override {
     return predicates_.above(a, b, c, d);
   }
-  Point difference(std::uint32_t a, std::uint32_t b) const override {
+  Point difference(HullNode a, HullNode b) const override {
     return predicates_.difference(static_cast<index_t>(a), static_cast<index_t>(b));
   }
 
@@ -197,7 +192,7 @@ class Builder final : public GrowingHull {
         closest);
     if (places == 0) return;
     // The four corners of the whole are added, because the nodes around may lie on one great circle.
-    std::uint32_t corners[4];
+    HullNode corners[4];
     choose_corners(corners, first);
     for (std::size_t k = 0; k < places; ++k) {
       SmallSet around(*this, corners);
@@ -237,30 +232,30 @@ class Builder final : public GrowingHull {
     if (surrounds_centre_) return hull;
     hull.back.assign(count_, false);
     hull.at_back.assign(n_, false);
-    const std::uint32_t one = some_back_face();
+    const HullFace one = some_back_face();
     hull.surrounds_centre = one == kNone;
     if (hull.surrounds_centre) return hull;
     // The back faces form one connected region. Those that the centre sees are connected, since the hull is
     // convex. A face whose plane contains the centre either has such a face across its nearest edge, or
     // contains the centre itself, and then no face is seen.
     hull.back[one] = true;
-    for (std::vector<std::uint32_t> region{one}; !region.empty();) {
+    for (std::vector<HullFace> region{one}; !region.empty();) {
       const Face& f = faces_[region.back()];
       region.pop_back();
       for (int i = 0; i < 3; ++i) {
         hull.at_back[f.vertex[i]] = true;
-        const std::uint32_t next = face_of(f.neighbour[i]);
+        const HullFace next = face_of(f.neighbour[i]);
         if (hull.back[next] || front(next)) continue;
         hull.back[next] = true;
         region.push_back(next);
       }
     }
-    for (std::uint32_t v = 0; v < n_; ++v)
+    for (HullNode v = 0; v < n_; ++v)
       if (hull.at_back[v] && !turn_to_first_front_face(hull, v)) throw HiddenNode{};
     return hull;
   }
 
-  bool front(std::uint32_t t) const override {
+  bool front(HullFace t) const override {
     const double w = planes_[t].w;
     if (w > 1) return true;
     if (w < -1) return false;
@@ -278,12 +273,12 @@ class Builder final : public GrowingHull {
   }
 
   /// Any back face; kNone if there is none.
-  std::uint32_t some_back_face() const {
+  HullFace some_back_face() const {
     // Walk away from a node, always across an edge that has the node on the face's side. A walk over
     // Delaunay triangles never returns to one (De Floriani et al. 1991), but this walk may be long, or end
     // opposite the node. Then all faces are searched.
-    std::uint32_t t = last_;
-    const std::uint32_t from = faces_[t].vertex[0];
+    HullFace t = last_;
+    const HullNode from = faces_[t].vertex[0];
     for (std::size_t steps = count_ / 8; steps > 0; --steps) {
       const Face& f = faces_[t];
       std::uint32_t out = 0;
@@ -300,10 +295,10 @@ class Builder final : public GrowingHull {
 
   /// For a node v with a back face: sets corner_[v] to the first front face counterclockwise after the back
   /// faces, where the ring of v starts. False if v has no front face.
-  bool turn_to_first_front_face(const Hull& hull, std::uint32_t v) const {
-    std::uint32_t corner = corner_[v];
+  bool turn_to_first_front_face(const Hull& hull, HullNode v) const {
+    HullCorner corner = corner_[v];
     do {
-      const std::uint32_t next = clockwise(hull, corner);
+      const HullCorner next = clockwise(hull, corner);
       if (hull.front(face_of(corner)) && !hull.front(face_of(next))) {
         corner_[v] = corner;
         return true;
@@ -316,8 +311,8 @@ class Builder final : public GrowingHull {
   /// A triangulation of at most 64 nodes, four of which are the corners of the whole set.
   class SmallSet {
    public:
-    SmallSet(const Builder& whole, const std::uint32_t (&corners)[4]) {
-      for (const std::uint32_t v : corners) add(whole.nodes_[v]);
+    SmallSet(const Builder& whole, const HullNode (&corners)[4]) {
+      for (const HullNode v : corners) add(whole.nodes_[v]);
     }
     void add(const Point& p) {
       if (count_ < kMost) nodes_[count_++] = p;
@@ -326,7 +321,7 @@ class Builder final : public GrowingHull {
     void triangulate() {
       Face faces[2 * kMost];
       Plane planes[2 * kMost];
-      std::uint32_t corner[kMost];
+      HullCorner corner[kMost];
       Builder some({kMost, nodes_, faces, planes, corner}, count_);
       some.build(0);
       some.finish();
@@ -377,7 +372,7 @@ class Builder final : public GrowingHull {
   /// The hull of three nodes: one triangle, seen from both sides. A fourth node on the opposite side of the
   /// sphere is inserted at once, so that the hull surrounds the centre early if it ever does.
   void start(std::size_t leading) {
-    std::uint32_t corner[4];
+    HullNode corner[4];
     choose_corners(corner, leading);
     const auto [a, b, c, d] = corner;
     // front face 0: a,b,c   back face 1: b,a,c   edges opposite c, then a against b
@@ -395,14 +390,14 @@ class Builder final : public GrowingHull {
     insert(d);
     started_[3] = d;
     surrounds_centre_ = count_ == 4;
-    for (std::uint32_t t = 0; t < count_; ++t) surrounds_centre_ = surrounds_centre_ && planes_[t].w > 1;
+    for (HullFace t = 0; t < count_; ++t) surrounds_centre_ = surrounds_centre_ && planes_[t].w > 1;
   }
 
   /// Chooses four nodes, the first three counterclockwise and not on one great circle: those of the leading
   /// nodes and of a sample of the others that lie farthest towards the corners of a regular tetrahedron. If
   /// these do not work, any. Usually they surround the centre if all nodes do, and then all faces are known
   /// to be front faces.
-  void choose_corners(std::uint32_t (&corner)[4], std::size_t leading) const {
+  void choose_corners(HullNode (&corner)[4], std::size_t leading) const {
     static constexpr double towards[4][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
     const std::size_t stride = n_ / 256 + 1;
     double best[4] = {-4, -4, -4, -4};
@@ -411,7 +406,7 @@ class Builder final : public GrowingHull {
       for (int k = 0; k < 4; ++k) {
         const Point& p = predicates_.position(static_cast<index_t>(v));
         const double d = p.x * towards[k][0] + p.y * towards[k][1] + p.z * towards[k][2];
-        if (d > best[k]) best[k] = d, corner[k] = static_cast<std::uint32_t>(v);
+        if (d > best[k]) best[k] = d, corner[k] = static_cast<HullNode>(v);
       }
     if (!turn_counterclockwise(corner)) choose_any_corners(corner);
     if (n_ > 3 && (corner[3] == corner[0] || corner[3] == corner[1] || corner[3] == corner[2]))
@@ -419,7 +414,7 @@ class Builder final : public GrowingHull {
         ++corner[3];
   }
 
-  bool turn_counterclockwise(std::uint32_t (&corner)[4]) const {
+  bool turn_counterclockwise(HullNode (&corner)[4]) const {
     if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0]) return false;
     const int turn = predicates_.left(corner[0], corner[1], corner[2]);
     if (turn < 0) std::swap(corner[0], corner[1]);
@@ -427,7 +422,7 @@ class Builder final : public GrowingHull {
   }
 
   /// The first node a, the first node b not on the line of a, the first node not on the great circle of a, b.
-  void choose_any_corners(std::uint32_t (&corner)[4]) const {
+  void choose_any_corners(HullNode (&corner)[4]) const {
     const auto n = static_cast<std::uint32_t>(n_);
     corner[0] = 0;
     for (corner[1] = 1; corner[1] < n && on_one_line(corner[0], corner[1]);) ++corner[1];
@@ -437,20 +432,20 @@ class Builder final : public GrowingHull {
   }
 
   /// True if a and b point in the same or in opposite directions, exactly: a x b = 0, component by component.
-  bool on_one_line(std::uint32_t a, std::uint32_t b) const {
+  bool on_one_line(HullNode a, HullNode b) const {
     const Point &p = predicates_.given(a), &q = predicates_.given(b);
     return pstripack::left(p, q, {1, 0, 0}) == 0 && pstripack::left(p, q, {0, 1, 0}) == 0 &&
            pstripack::left(p, q, {0, 0, 1}) == 0;
   }
 
-  void insert_unless_started(std::uint32_t v) {
+  void insert_unless_started(HullNode v) {
     if (v != started_[0] && v != started_[1] && v != started_[2] && v != started_[3]) insert(v);
   }
 
   // -- 3: one node
 
   /// True if node v at p sees face t. to_corner: from v to any corner of t.
-  bool sees(const Point& p, std::uint32_t v, std::uint32_t t, const Spoke& to_corner) {
+  bool sees(const Point& p, HullNode v, HullFace t, const Spoke& to_corner) {
     const double s = above_plane(planes_[t], p);
     if (s > 1) return true;
     if (s < -1) return false;
@@ -458,7 +453,7 @@ class Builder final : public GrowingHull {
   }
 
   /// The same if v is close to the face, so that the plane and p alone would seldom decide.
-  bool sees_closely(std::uint32_t v, std::uint32_t t, const Spoke& to_corner) {
+  bool sees_closely(HullNode v, HullFace t, const Spoke& to_corner) {
     const Face& f = faces_[t];
     if (f.vertex[2] == v) throw HiddenNode{};  // a face of the fan of v itself: see replace_seen_by_fan
     const int side = certain_side(t, to_corner);
@@ -466,31 +461,31 @@ class Builder final : public GrowingHull {
   }
 
   /// The spoke leads from a node to a corner of face t. +1: the node sees t, -1: it does not, 0: not certain.
-  int certain_side(std::uint32_t t, const Spoke& to_corner) const {
+  int certain_side(HullFace t, const Spoke& to_corner) const {
     const double s = above_plane(planes_[t], to_corner), certain = certain_height(to_corner);
     return (s > certain) - (s < -certain);
   }
 
-  void insert(std::uint32_t v) {
+  void insert(HullNode v) {
     const Point& p = predicates_.position(v);
     view_.from(static_cast<index_t>(v));
-    std::uint32_t seen = walk(p);
+    HullFace seen = walk(p);
     if (seen != kNone)
       return replace_seen_by_fan(
-          v, seen, [](std::uint32_t) {},
-          [&](std::uint32_t t, const Spoke& to_corner) { return sees(p, v, t, to_corner); });
+          v, seen, [](HullCorner) {},
+          [&](HullFace t, const Spoke& to_corner) { return sees(p, v, t, to_corner); });
     seen = walk_exactly(v);
     if (seen == kNone) return;  // coincides with a node inserted before
     replace_seen_by_fan(
-        v, seen, [&](std::uint32_t code) { fetch(face_of(code)); },
-        [&](std::uint32_t t, const Spoke& to_corner) { return sees_closely(v, t, to_corner); });
+        v, seen, [&](HullCorner code) { fetch(face_of(code)); },
+        [&](HullFace t, const Spoke& to_corner) { return sees_closely(v, t, to_corner); });
   }
 
   /// Makes the next search start at the nearest of 64 nodes. The last search may have ended far away, and the
   /// faces in between are in no cache (Muecke, Saias & Zhu 1999, jump and walk).
   void start_near(const Point& p) {
     if (!coincident_.empty()) return;  // nodes that were left out have no corner_
-    const auto square_from = [&](std::uint32_t v) {
+    const auto square_from = [&](HullNode v) {
       const Point d = minus(predicates_.position(v), p);
       return dot(d, d);
     };
@@ -499,9 +494,9 @@ class Builder final : public GrowingHull {
     const auto& last = faces_[last_].vertex;
     double least = std::min({square_from(last[0]), square_from(last[1]), square_from(last[2])});
     for (std::size_t v = 0; v < n_; v += step) {
-      const double square = square_from(static_cast<std::uint32_t>(v));
+      const double square = square_from(static_cast<HullNode>(v));
       if (!(square < least)) continue;
-      const std::uint32_t t = face_of(corner_[v]);
+      const HullFace t = face_of(corner_[v]);
       if (planes_[t].w > 1) least = square, last_ = t;
     }
   }
@@ -514,10 +509,10 @@ class Builder final : public GrowingHull {
   ///        / \          or across c-w if p is right of c->w. With X = (c-p) x p these are the signs of
   ///       /   \    p    (u-p).X and -(w-p).X.
   ///      u --- w
-  std::uint32_t walk(const Point& p) {
+  HullFace walk(const Point& p) {
     constexpr int kSteps = 1000;
-    std::uint32_t passed = kNone;  // a face met before: rounding can send the walk in circles
-    std::uint32_t t = last_;
+    HullFace passed = kNone;  // a face met before: rounding can send the walk in circles
+    HullFace t = last_;
     if (above_plane(planes_[t], p) > 1) return t;
     const Face& first = faces_[t];
     Point corner[3];  // relative to p
@@ -529,7 +524,7 @@ class Builder final : public GrowingHull {
     Point* u = &corner[next_edge(out)];
     Point* w = &corner[previous_edge(out)];
     Point* c = &corner[out];
-    std::uint32_t code = first.neighbour[out];
+    HullCorner code = first.neighbour[out];
     for (int step = 0; step < kSteps; ++step) {
       t = face_of(code);
       const Plane& plane = planes_[t];
@@ -564,14 +559,14 @@ class Builder final : public GrowingHull {
   ///     near side, so what neither F nor B has below it lies left of that plane: p sees F or B.
   ///   - A front face below which p lies, its direction inside: p is one of its corners, or hidden. (Another
   ///     direction inside lies strictly above.)
-  std::uint32_t walk_exactly(std::uint32_t v) {
-    std::uint32_t t = last_;
+  HullFace walk_exactly(HullNode v) {
+    HullFace t = last_;
     for (;;) {
       const Face& f = faces_[t];
       for (int i = 0; i < 3; ++i) fetch(face_of(f.neighbour[i]));
       const int side = certain_side(t, make_spoke(predicates_, f.vertex[0], v));
       if (side > 0) return t;
-      for (const std::uint32_t corner : {f.vertex[0], f.vertex[1], f.vertex[2]})
+      for (const HullNode corner : {f.vertex[0], f.vertex[1], f.vertex[2]})
         // Compare positions first: they are in the cache.
         if (predicates_.position(corner) == predicates_.position(v) &&
             predicates_.given(corner) == predicates_.given(v))
@@ -581,18 +576,18 @@ class Builder final : public GrowingHull {
       std::uint32_t out = 0;
       while (out < 3 && view_.left(f.vertex[next_edge(out)], f.vertex[previous_edge(out)]) >= 0) ++out;
       if (out == 3) {
-        for (const std::uint32_t corner : {f.vertex[0], f.vertex[1], f.vertex[2]})
+        for (const HullNode corner : {f.vertex[0], f.vertex[1], f.vertex[2]})
           if (predicates_.coincide(corner, v)) return coincides(v, corner);
         throw HiddenNode{};
       }
-      const std::uint32_t next = face_of(f.neighbour[out]);
+      const HullFace next = face_of(f.neighbour[out]);
       if (!front(next)) return seen ? t : next;
       last_ = t = next;
     }
   }
 
   /// Needed where nodes lie along lines: faces that share an edge are then far apart in memory.
-  void fetch(std::uint32_t t) const {
+  void fetch(HullFace t) const {
     __builtin_prefetch(planes_ + t);
     __builtin_prefetch(faces_ + t);
   }
@@ -604,7 +599,7 @@ class Builder final : public GrowingHull {
     return false;
   }
 
-  std::uint32_t coincides(std::uint32_t v, std::uint32_t corner) {
+  HullFace coincides(HullNode v, HullNode corner) {
     coincident_.emplace_back(corner, v);
     return kNone;
   }
@@ -628,7 +623,7 @@ class Builder final : public GrowingHull {
   ///
   /// expect(code): called before the search comes to this face, to prefetch it.
   template <class Expect, class Sees>
-  [[gnu::always_inline]] void replace_seen_by_fan(std::uint32_t v, std::uint32_t seen, const Expect& expect,
+  [[gnu::always_inline]] void replace_seen_by_fan(HullNode v, HullFace seen, const Expect& expect,
                                                   const Sees& sees) {
     const Point p = predicates_.position(v);
     std::size_t visited = 2, used = 0, top = 3, limit = visit_limit();
@@ -636,12 +631,12 @@ class Builder final : public GrowingHull {
     place_[1] = static_cast<std::uint32_t>(count_ + 1);
     place_[visited++] = seen;
     for (int k = 0; k < 3; ++k) expect(stack_[k] = faces_[seen].neighbour[2 - k]);
-    const std::uint32_t first = place_[0];
-    std::uint32_t previous = first;
-    std::uint32_t u = faces_[seen].vertex[1];  // where edge 0 of `seen` starts
+    const HullFace first = place_[0];
+    HullFace previous = first;
+    HullNode u = faces_[seen].vertex[1];  // where edge 0 of `seen` starts
     Spoke to_u = make_spoke(predicates_, u, v);
     while (top > 0) {
-      const std::uint32_t code = stack_[--top], after = next_code(code);
+      const HullCorner code = stack_[--top], after = next_code(code);
       if (sees(face_of(code), to_u)) {
         expect(stack_[top++] = neighbour(previous_code(code)));
         expect(stack_[top++] = neighbour(after));
@@ -652,7 +647,8 @@ class Builder final : public GrowingHull {
           limit = visit_limit();
         }
       } else {
-        const std::uint32_t t = place_[used++], w = vertex(after);
+        const HullFace t = place_[used++];
+        const HullNode w = vertex(after);
         neighbour(code) = 4 * t + 2;
         neighbour(4 * previous) = 4 * t + 1;
         std::uint32_t* const face = words_ + 8 * std::size_t{t};
@@ -671,7 +667,7 @@ class Builder final : public GrowingHull {
     count_ += 2;
     corner_[v] = 4 * previous + 2;
     const auto end = place_.begin() + used;
-    const auto shown = std::find_if(place_.begin(), end, [&](std::uint32_t t) {
+    const auto shown = std::find_if(place_.begin(), end, [&](HullFace t) {
       const double w = planes_[t].w;
       return w > 1 || (w >= -1 && view_.left(faces_[t].vertex[0], faces_[t].vertex[1]) > 0);
     });
@@ -683,9 +679,9 @@ class Builder final : public GrowingHull {
   std::size_t visit_limit() const { return std::min(count_ + 2, place_.size() - 4); }
 
   // A code addresses the word of its edge, and of the vertex opposite, in the array of faces.
-  static std::size_t word(std::uint32_t code) { return std::size_t{code} + (code & ~std::uint32_t{3}); }
-  std::uint32_t& vertex(std::uint32_t code) { return words_[word(code)]; }
-  std::uint32_t& neighbour(std::uint32_t code) { return words_[word(code) + 4]; }
+  static std::size_t word(HullCorner code) { return std::size_t{code} + (code & ~std::uint32_t{3}); }
+  HullNode& vertex(HullCorner code) { return words_[word(code)]; }
+  HullCorner& neighbour(HullCorner code) { return words_[word(code) + 4]; }
 
   static void grow(Buffer<std::uint32_t>& buffer) {
     Buffer<std::uint32_t> larger(2 * buffer.size());
@@ -693,7 +689,7 @@ class Builder final : public GrowingHull {
     buffer.swap(larger);
   }
 
-  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  static constexpr HullFace kNone = ~std::uint32_t{0};
 
   Predicates predicates_;
   typename Predicates::View view_{predicates_};
@@ -702,14 +698,15 @@ class Builder final : public GrowingHull {
   Face* faces_;
   std::uint32_t* words_;  ///< faces_ as words
   Plane* planes_;
-  std::uint32_t* corner_;  ///< for each node inserted, 4*t + i of a face t with vertex[i] there
+  HullCorner* corner_;  ///< for each node inserted, 4*t + i of a face t with vertex[i] there
   std::size_t count_ = 0;
-  std::uint32_t last_ = 0;  ///< a front face near the last node: where the next search starts
-  std::uint32_t started_[4];
+  HullFace last_ = 0;  ///< a front face near the last node: where the next search starts
+  HullNode started_[4];
   bool surrounds_centre_ = false;
   static constexpr std::size_t kRoom = 128;
-  Buffer<std::uint32_t> stack_{kRoom}, place_{kRoom};
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> coincident_;
+  Buffer<HullCorner> stack_{kRoom};
+  Buffer<HullFace> place_{kRoom};
+  std::vector<std::pair<HullNode, HullNode>> coincident_;
 };
 
 }  // namespace
@@ -738,7 +735,7 @@ Hull delaunay(const Point* p, std::size_t n, Workspace& workspace) {
   });
   workspace.next_phase();
   arrays.faces = workspace.keep<Face>(2 * n);
-  arrays.corner = workspace.keep<std::uint32_t>(n);
+  arrays.corner = workspace.keep<HullCorner>(n);
   arrays.planes = workspace.take<Plane>(2 * n);
   const auto hull_with = [&](Lengths lengths) {
     const auto growing = GrowingHull::make(arrays, n, lengths);

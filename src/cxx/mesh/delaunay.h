@@ -9,6 +9,7 @@
 
 #include "base/workspace.h"
 #include "geometry/predicates.h"
+#include "mesh/hull_numbers.h"
 #include "mesh/triangulation.h"
 
 namespace pstripack {
@@ -26,17 +27,17 @@ namespace pstripack {
 /// The fourth word of each array is unused: it makes a word's address a simple function of the code, see
 /// Hull::word.
 struct Face {
-  std::uint32_t vertex[4];
-  std::uint32_t neighbour[4];
+  HullNode vertex[4];
+  HullCorner neighbour[4];
 };
 
-inline std::uint32_t face_of(std::uint32_t code) { return code >> 2; }
-inline std::uint32_t edge_of(std::uint32_t code) { return code & 3; }
+inline HullFace face_of(HullCorner code) { return code >> 2; }
+inline std::uint32_t edge_of(HullCorner code) { return code & 3; }
 inline std::uint32_t next_edge(std::uint32_t e) { return (0x1021u >> (4 * e)) & 3; }      // 1,2,0
 inline std::uint32_t previous_edge(std::uint32_t e) { return (0x2102u >> (4 * e)) & 3; }  // 2,0,1
 
-inline std::uint32_t next_code(std::uint32_t code) { return (code & 3) == 2 ? code - 2 : code + 1; }
-inline std::uint32_t previous_code(std::uint32_t code) { return (code & 3) == 0 ? code + 2 : code - 1; }
+inline HullCorner next_code(HullCorner code) { return (code & 3) == 2 ? code - 2 : code + 1; }
+inline HullCorner previous_code(HullCorner code) { return (code & 3) == 0 ? code + 2 : code - 1; }
 
 /// The hull of n nodes. Hull nodes are numbered along the insertion curve: hull node v is the caller's node
 /// order[v]. `front` is true for faces of the triangulation, those with det > 0; if the nodes surround the
@@ -47,7 +48,7 @@ struct Hull {
   const Face* faces = nullptr;
   /// For each node, the code 4*t + i of a face t whose vertex[i] is the node. If the node has back faces, t
   /// is the first front face counterclockwise after them.
-  const std::uint32_t* corner = nullptr;
+  const HullCorner* corner = nullptr;
   bool surrounds_centre = false;  ///< every face is a front face
   // Empty if surrounds_centre. Else, by face: it is not part of the triangulation; by node: it has such a
   // face.
@@ -57,7 +58,7 @@ struct Hull {
   std::vector<std::pair<index_t, index_t>> coincident;
 
   /// Address of vertex[i] of face t for the code 4*t + i; neighbour[i] is four words further.
-  const std::uint32_t* word(std::uint32_t code) const {
+  const std::uint32_t* word(HullCorner code) const {
     return reinterpret_cast<const std::uint32_t*>(faces) + (std::size_t{code} + (code & ~std::uint32_t{3}));
   }
 
@@ -67,8 +68,8 @@ struct Hull {
 };
 
 /// The corner at the same node in the next face clockwise.
-inline std::uint32_t clockwise(const Hull& hull, std::uint32_t corner) {
-  const std::uint32_t beyond = hull.faces[face_of(corner)].neighbour[previous_edge(edge_of(corner))];
+inline HullCorner clockwise(const Hull& hull, HullCorner corner) {
+  const HullCorner beyond = hull.faces[face_of(corner)].neighbour[previous_edge(edge_of(corner))];
   return 4 * face_of(beyond) + previous_edge(edge_of(beyond));
 }
 
@@ -88,7 +89,7 @@ struct HullArrays {
   Point* nodes = nullptr;  ///< as given, in the order of insertion
   Face* faces = nullptr;
   Plane* planes = nullptr;
-  std::uint32_t* corner = nullptr;
+  HullCorner* corner = nullptr;
 };
 
 /// A hull to which nodes are added. Nodes are numbered as in HullArrays::nodes.
@@ -110,26 +111,26 @@ class GrowingHull {
   /// Adds a node after build(); node_count() must be below the capacity. Returns the number of the new
   /// node. If it coincides with a node, changes nothing and returns that one's number. Throws HiddenNode,
   /// std::bad_alloc.
-  virtual std::uint32_t add(const Point& p) = 0;
+  virtual HullNode add(const Point& p) = 0;
 
   /// Continues in other arrays, to which the caller has copied the contents.
   virtual void move_to(const HullArrays& arrays) = 0;
 
   virtual std::size_t node_count() const = 0;
   virtual std::size_t face_count() const = 0;
-  virtual const std::vector<std::pair<std::uint32_t, std::uint32_t>>& coincident() const = 0;  ///< (in, out)
+  virtual const std::vector<std::pair<HullNode, HullNode>>& coincident() const = 0;  ///< (in, out)
 
   /// Exact predicates on the nodes added so far.
-  virtual int left(std::uint32_t a, std::uint32_t b, std::uint32_t c) const = 0;
-  virtual bool above(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const = 0;
+  virtual int left(HullNode a, HullNode b, HullNode c) const = 0;
+  virtual bool above(HullNode a, HullNode b, HullNode c, HullNode d) const = 0;
   /// a - b in the predicates' coordinates; every component has 2 roundings and an absolute error of 2^-99.
-  virtual Point difference(std::uint32_t a, std::uint32_t b) const = 0;
+  virtual Point difference(HullNode a, HullNode b) const = 0;
 
   /// True if the centre is known to be inside the hull: then every face is part of the triangulation.
   virtual bool surrounds_centre() const = 0;
 
   /// True if the face is part of the triangulation: det > 0.
-  virtual bool front(std::uint32_t face) const = 0;
+  virtual bool front(HullFace face) const = 0;
 
   /// The current triangulation, except `order`, which the caller sets. Changes `corner` as Hull::corner asks.
   /// Throws HiddenNode, std::bad_alloc.

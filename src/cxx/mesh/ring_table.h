@@ -24,8 +24,8 @@ void copy_block(const Int* from, Int* to) {
 template <class Int, std::int64_t kOffset>
 struct Numbers {
   const Int* table;
-  std::int64_t operator()(std::uint32_t v) const { return table[v] + kOffset; }
-  void prefetch(std::uint32_t v) const { __builtin_prefetch(table + v); }
+  std::int64_t operator()(HullNode v) const { return table[v] + kOffset; }
+  void prefetch(HullNode v) const { __builtin_prefetch(table + v); }
 };
 
 /// Writes the ring of one hull node to `begin` as it will stand in LIST; returns its end. `corner` is 4*t +
@@ -37,13 +37,13 @@ struct Numbers {
 ///             \      |
 ///              v ------ f.vertex[next]
 template <class Int, class Number>
-Int* append_ring(const Hull& hull, std::uint32_t corner, const Number& number, Int* const begin) {
+Int* append_ring(const Hull& hull, HullCorner corner, const Number& number, Int* const begin) {
   Int* out = begin;
-  const std::uint32_t first = next_code(corner);
-  std::uint32_t code = first;
+  const HullCorner first = next_code(corner);
+  HullCorner code = first;
   do {
     *out++ = static_cast<Int>(number(*hull.word(code)));
-    const std::uint32_t beyond = hull.word(code)[4];
+    const HullCorner beyond = hull.word(code)[4];
     if (!hull.front(face_of(beyond))) {  // the boundary: its last node closes the list
       *out++ = -static_cast<Int>(number(*hull.word(next_code(code))));
       return out;
@@ -57,9 +57,10 @@ Int* append_ring(const Hull& hull, std::uint32_t corner, const Number& number, I
 /// The same for an inner node with up to kBlock neighbours; writes kBlock entries. Null if it has more
 /// neighbours.
 template <class Int, class Number>
-Int* append_short_ring(const Hull& hull, std::uint32_t corner, const Number& number, Int* begin) {
-  const std::uint32_t first = next_code(corner);
-  std::uint32_t code = first, count = 0, at = 0;
+Int* append_short_ring(const Hull& hull, HullCorner corner, const Number& number, Int* begin) {
+  const HullCorner first = next_code(corner);
+  HullCorner code = first;
+  std::uint32_t count = 0, at = 0;
   Int ring[kBlock], twice[2 * kBlock], smallest = std::numeric_limits<Int>::max();
   do {
     const std::uint32_t* const word = hull.word(code);

@@ -15,7 +15,7 @@ void append(std::vector<GlobalNumber>& numbers, const std::vector<GlobalNumber>&
   numbers.insert(numbers.end(), more.begin(), more.end());
 }
 
-/// The numbers that all ranks have found.
+/// The union of the numbers that the ranks have found.
 Hubs all_of(const std::vector<GlobalNumber>& found, Communicator& ranks) {
   const Parcels all = ranks.all_gather(found.data(), found.size() * sizeof found[0]);
   Hubs numbers;
@@ -26,8 +26,8 @@ Hubs all_of(const std::vector<GlobalNumber>& found, Communicator& ranks) {
   return numbers;
 }
 
-/// True if a node that all patches know is no hub, and somebody keeps a triangle at each hub: steps 3 and 4
-/// of the proof.
+/// True if some node that all patches know is no hub, and some patch keeps a triangle at each hub: what steps
+/// 3 and 4 of the proof need.
 template <class Int>
 bool are_few_and_kept(const Hubs& hubs, const Patches<Int>& patches, const Division& division,
                       Communicator& ranks) {
@@ -54,17 +54,18 @@ void agree_on_stars(Certified<Int>& certified, const Division& division, const C
   const auto claim = [&] {
     std::vector<Doubts> of_patch(patches.of_rank.size());
     patches.for_each(threads,
-                     [&](Patch<Int>& patch, std::size_t k) { of_patch[k] = patch.claim(corners, most); });
+                     [&](Patch<Int>& patch, PatchHere k) { of_patch[k] = patch.claim(corners, most); });
     questions = Questions(of_patch, division.patches, static_cast<std::size_t>(ranks.size()));
   };
   const auto see_coincidence = [&] {
-    // Other patches may know other pairs: which is reported must not depend on patches.
+    // Patches may know different pairs of coincident nodes; the pair that is reported must not depend on
+    // them.
     certified.gave_up = patches.see_coincidence.value;
     return certified.gave_up;
   };
   if (see_coincidence()) return;
   in_agreement(ranks, claim, questions.about_triangles, questions.about_arcs, questions.left_out);
-  // The last round: nothing was left out, and nobody has learnt from it.
+  // In the last round no question is left out and no patch takes in a node.
   for (bool is_last = !questions.about_triangles.value && !questions.about_arcs.value; !is_last;) {
     certified.gave_up = ++certified.rounds > kMostRounds;
     if (certified.gave_up) return;

@@ -5,7 +5,7 @@
 namespace pstripack {
 namespace {
 
-// Above the codes of all failures that may end where a hidden node may.
+// Greater than the code of any failure that can end the same body: the minimum is then the failure.
 constexpr std::int32_t kHidden = -1;
 
 }  // namespace

@@ -10,7 +10,7 @@
 
 namespace pstripack {
 
-// Votes: what ranks agree on, each as a number of which the smallest of all ranks tells what holds for all.
+// Votes: values that ranks agree on. Each is encoded as a number whose minimum over all ranks is the result.
 
 /// True if it is true on any rank.
 struct OnAny {
@@ -65,7 +65,7 @@ struct SmallestReal {
   void decode(std::int64_t least) { std::memcpy(&value, &least, sizeof value); }
 };
 
-/// Rank 0's.
+/// The value of rank 0.
 template <class Value>
 struct OfRank0 {
   OfRank0(const Communicator& ranks, Value v) : value(v), counts(ranks.rank() == 0) {}
@@ -75,7 +75,8 @@ struct OfRank0 {
   void decode(std::int64_t least) { value = static_cast<Value>(least); }
 };
 
-/// How something ended. Most negative: that of a failure; else a hidden node, which is no failure.
+/// How a body ended. The code is 0 if it returned, -1 if it met a hidden node, which is no failure, and
+/// smaller if it failed.
 class Outcome {
  public:
   template <class Body>
@@ -96,7 +97,7 @@ class Outcome {
     return outcome;
   }
   bool is_good() const { return code_ == 0; }
-  /// Returns if it is good. Throws HiddenNode or AgreedFailure.
+  /// Returns if the body returned. Throws HiddenNode or AgreedFailure.
   void accept() const;
 
   std::int64_t encode() const { return code_; }
@@ -107,7 +108,7 @@ class Outcome {
   std::int32_t code_ = 0;
 };
 
-/// The votes become those of all ranks together. Collective.
+/// Each vote becomes the result over all ranks. Collective.
 template <class... Votes>
 void agree(Communicator& ranks, Votes&... votes) {
   std::int64_t all[] = {votes.encode()...};
@@ -116,9 +117,9 @@ void agree(Communicator& ranks, Votes&... votes) {
   (votes.decode(*least++), ...);
 }
 
-/// Runs body() on every rank and agrees on how it ended: returns if it returned everywhere, else throws the
-/// same on every rank, AgreedFailure or HiddenNode. On the way it agrees on the votes as they are after
-/// body(). Collective.
+/// Runs body() on every rank. Returns if body() returned on all of them; otherwise throws the same exception
+/// on every rank, AgreedFailure or HiddenNode. The same message agrees on the votes, as body() leaves them.
+/// Collective.
 template <class Body, class... Votes>
 void in_agreement(Communicator& ranks, const Body& body, Votes&... votes) {
   Outcome outcome = Outcome::of(body);
@@ -126,7 +127,8 @@ void in_agreement(Communicator& ranks, const Body& body, Votes&... votes) {
   outcome.accept();
 }
 
-/// Exchanges what body() returns, and agrees on how it ended on the way. Collective.
+/// Exchanges the parcels that body() returns. Throws as in_agreement() if body() threw on any rank.
+/// Collective.
 template <class Body>
 Parcels exchange_in_agreement(Communicator& ranks, const Body& body) {
   Parcels outgoing;

@@ -9,8 +9,9 @@ namespace {
 
 constexpr double u = 0x1p-53;
 
-/// The component of the largest of a, where |a| = |a + e| = 1, follows from the others: (2a + e).e = 0. Where
-/// these are small it is known as well as they are, whatever the rounding of the directions.
+/// Computes the component of e along the axis on which |a| is largest from the two others: (2a + e).e = 0,
+/// because |a| = |a + e| = 1. For a short e it is then as accurate as the others, however the directions were
+/// rounded.
 void follow_others(const Point& a, Point& e) {
   double Point::*const axis[] = {&Point::x, &Point::y, &Point::z};
   const auto size = [&](int k) { return std::fabs(a.*axis[k]); };

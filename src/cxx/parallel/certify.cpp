@@ -9,7 +9,7 @@
 namespace pstripack {
 namespace {
 
-/// Of all patches.
+/// The coincident pairs that the patches of all ranks have found.
 template <class Int>
 CoincidentPairs all_coincident(const Patches<Int>& patches, Communicator& ranks) {
   CoincidentPairs pairs;
@@ -26,7 +26,8 @@ CoincidentPairs all_coincident(const Patches<Int>& patches, Communicator& ranks)
   return pairs;
 }
 
-/// A question takes both ranks as long as a node or two in a hull, and those who answer take in its corners.
+/// Largest number of questions of a rank that are worth while. A question costs both ranks the time of
+/// inserting one or two nodes, and the patch that answers takes in its corners.
 template <class Int>
 std::size_t most_of_a_rank(const Patches<Int>& patches, const Division& division) {
   constexpr std::size_t kMostInAPatch = std::size_t{1} << 28, kFew = 1000;
@@ -57,15 +58,15 @@ Certified<Int> certify(Patches<Int> found, const Division& division, const Corne
   OnAny too_many;  // one hull of all nodes, or agreement, would take less time
   const auto ask = [&] {
     std::vector<Doubts> of_patch(patches.of_rank.size());
-    patches.for_each(options.threads, [&](Patch<Int>& patch, std::size_t k) {
+    patches.for_each(options.threads, [&](Patch<Int>& patch, PatchHere k) {
       of_patch[k] = patch.ask(corners, division.most_stretch, most);
     });
     questions = Questions(of_patch, division.patches, static_cast<std::size_t>(ranks.size()));
     too_many.value = questions.count > most;
   };
   in_agreement(ranks, ask, questions.about_triangles, questions.about_arcs, questions.have_grown, too_many);
-  // Every star is final without questions about triangles; those about arcs end where nobody learns from
-  // them.
+  // All stars are final when there is no question about triangles and, if there are questions about arcs, no
+  // patch has grown in the last round.
   while (!too_many.value && certified.coincident.empty() &&
          (questions.about_triangles.value || (questions.about_arcs.value && questions.have_grown.value))) {
     ++certified.rounds;
@@ -75,7 +76,7 @@ Certified<Int> certify(Patches<Int> found, const Division& division, const Corne
         [&] {
           learn(patches, questions, answers, options.threads);
           questions = {};
-          // Patches that came upon nodes which coincide have no more questions.
+          // A patch that has found coincident nodes asks no more questions.
           if (!patches.see_coincidence.value) ask();
         },
         patches.see_coincidence, questions.about_triangles, questions.about_arcs, questions.have_grown,

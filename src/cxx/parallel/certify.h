@@ -17,7 +17,7 @@ template <class Int>
 struct Certified {
   explicit Certified(Patches<Int> p) : patches(std::move(p)) {}
   Patches<Int> patches;
-  CoincidentPairs coincident;  ///< that any patch came upon; on every rank the same
+  CoincidentPairs coincident;  ///< found by any patch; the same on every rank
   bool gave_up = false;        ///< more questions than are worth while; on every rank the same
   bool has_hubs = false;       ///< nodes whose stars lie on several ranks; on every rank the same
   int rounds = 0;              ///< exchanges of questions that were needed

@@ -17,7 +17,7 @@ struct Coincidence {
   std::int64_t l, m;
 };
 
-/// `pairs` name the sets of coincident nodes as the edges of a graph would: any that connect them. Not empty.
+/// `pairs`, not empty, are the edges of a graph; its components are the sets of coincident nodes.
 Coincidence first_coincidence(const CoincidentPairs& pairs);
 
 }  // namespace pstripack

@@ -1,5 +1,5 @@
 #pragma once
-// What the parallel algorithm asks of a group of ranks. It knows nothing else of them: MPI stays in
+// What the parallel algorithm asks of a group of ranks, and all that it knows of them: MPI stays in
 // src/cxx/mpi, a single process is a group of one, and tests run many ranks as threads.
 
 #include <cstddef>
@@ -11,21 +11,21 @@
 
 namespace pstripack {
 
-/// A failure here.
+/// A failure on this rank.
 struct Failure : std::exception {
   explicit Failure(std::int32_t c) : code(c) {}
   std::int32_t code;  ///< less than 0
 };
 
-/// A failure that all ranks have agreed on, of any of them: the most negative code. Thrown by every rank at
-/// the same place.
+/// A failure that all ranks have agreed on: the most negative code of any rank. Every rank throws it at the
+/// same place.
 struct AgreedFailure : std::exception {
   explicit AgreedFailure(std::int32_t c) : code(c) {}
   const char* what() const noexcept override { return "a rank failed"; }
   std::int32_t code;
 };
 
-/// That of either; -6, out of memory, of any other exception.
+/// The code of a Failure or an AgreedFailure; -6, out of memory, for any other exception.
 std::int32_t code_of(const std::exception_ptr& error);
 
 /// A group of ranks. Every member function but rank(), size() and set_phase() is collective: all ranks call
@@ -45,17 +45,19 @@ class Communicator {
 
   /// Every rank gets the bytes of all ranks, in the order of the ranks.
   virtual Parcels all_gather(const void* bytes, std::size_t size) = 0;
-  /// The values of all ranks, in their order, until the next call of any member. Allocates nothing.
+  /// The values of all ranks, in their order; valid until the next call of any member. Allocates nothing.
   virtual const std::int64_t* all_gather_one(std::int64_t value) = 0;
   /// Every rank gets all of `all`, of which rank r brings the bytes [begin[r], begin[r+1]) in place.
   /// Allocates nothing.
   virtual void all_gather_in_place(void* all, const std::vector<std::size_t>& begin) = 0;
 
   /// Every rank r gets the bytes that each rank meant for r. `outgoing.begin` has size()+1 entries. A rank
-  /// that comes with the code of a failure (< 0) has nothing to send: AgreedFailure(the most negative code).
+  /// that passes the code of a failure (< 0) sends nothing; every rank then throws AgreedFailure with the
+  /// most negative code.
   virtual Parcels exchange(const Parcels& outgoing, std::int32_t code = 0) = 0;
 
-  /// What this rank does now, for whoever must say so if it is lost. Not collective; a literal.
+  /// Tells what this rank does now, for the report if the rank is lost. The text must be a literal. Not
+  /// collective.
   virtual void set_phase(const char*) {}
 
   /// Bytes that this rank has handed over for other ranks so far; for reports.

@@ -37,11 +37,11 @@ struct GroupCost {
   ParallelCost mine, maximum, total;
 };
 
-/// Collective. Where memory for it fails: the cost of this rank alone.
+/// Collective. The cost of this rank alone if there is no memory for that of all.
 GroupCost group_cost(Communicator& ranks, const ParallelCost& mine);
 
-/// Adds what has passed while it lives to one phase, of the processors' time without what the rank has spent
-/// waiting. Null: nothing to do.
+/// Adds the time of its life to one phase: clock time, and processor time less what the rank spent waiting.
+/// Does nothing if `cost` is null.
 class PhaseTimer {
  public:
   PhaseTimer(ParallelCost* cost, ParallelCost::Phase phase, const Communicator* ranks = nullptr)

@@ -24,12 +24,12 @@ int Extent::longest() const {
 
 double Extent::diagonal() const { return std::hypot(length(0), length(1), length(2)); }
 
-/// Counts in bins, so that only those of a few bins are compared with each other: no branch of a selection
-/// can be guessed.
+/// Counts the points in bins, so that only those of a few bins must be sorted: a selection among all points
+/// would mispredict its branches.
 std::vector<double> Halver::heights(const Point* p, std::size_t n, std::size_t first, std::size_t last,
                                     int axis, const Extent& extent) {
   constexpr int kBins = 64;
-  constexpr double kTiny = 1e-300;  // its inverse is finite; below, one bin has them all
+  constexpr double kTiny = 1e-300;  // has a finite inverse; a shorter extent has one bin
   const double low = extent.low[axis], length = extent.length(axis);
   const double scale = length > kTiny ? (kBins - 1) / length : 0;
   const auto bin_of = [=](double h) { return static_cast<int>((h - low) * scale); };
@@ -107,8 +107,8 @@ void Cuts::cut(const Points& sample, const Points& counted, int patches) {
   const Extent extent(sample.first, n);
   Cut cut{extent.longest(), 0, {}, patches, patches / 2, {-1, -1}};
   if (n > 0) {
-    // The median of a sample is wrong by sqrt(n) / 2 ranks as a rule, by four times as much once in thousands
-    // of cuts.
+    // The median of a sample is off by about sqrt(n) / 2 places in the sorted order, and by four times as
+    // much once in thousands of cuts.
     const auto reach = static_cast<std::size_t>(2 * std::sqrt(static_cast<double>(n)) + 1);
     const std::size_t middle = n * static_cast<std::size_t>(cut.below) / static_cast<std::size_t>(patches);
     const std::size_t first = std::max(middle, reach) - reach, last = std::min(n, middle + reach);
@@ -125,7 +125,7 @@ void Cuts::count(std::int64_t* counter) const {
     const Cut& c = cuts_[box.cut];
     for (const Point* p = box.counted.first; p < box.counted.last; ++p) {
       const double height = component(*p, c.axis);
-      std::size_t bin = 0;  // so many edges are not above
+      std::size_t bin = 0;  // number of edges that are not above the node
       for (std::size_t half = kBins / 2; half > 0; half /= 2)
         bin += height >= c.edge[bin + half - 1] ? half : 0;
       ++counter[bin];

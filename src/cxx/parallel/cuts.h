@@ -1,7 +1,7 @@
 #pragma once
 // Where recursive bisection cuts the sphere into boxes with equal numbers of nodes. Level by level: each box
-// is cut at the median of a sample, the same on every rank; then the cut moves to where it should be by what
-// all ranks count near it, of many more nodes.
+// is cut at the median of a sample, the same on every rank. Then all ranks count many more nodes near the
+// cut, and it moves to where these counts say.
 //
 //          |    |   | | ||| | |   |    |        Each cut has bins of height around it, between nodes of the
 //     <----+  : | : | | |||:| | | : |  +---->   sample, so that all have about as many nodes. The outermost
@@ -24,7 +24,8 @@ struct Extent {
   Extent(const Point* p, std::size_t n);
   double low[3] = {4, 4, 4}, high[3] = {-4, -4, -4};
   double length(int axis) const { return high[axis] - low[axis]; }
-  /// Of lengths that hardly differ the first, so that the cuts of nodes that move stay where they are.
+  /// The axis along which the box is longest. A later axis must be longer by 10 %, so that cuts stay where
+  /// they are if nodes move a little.
   int longest() const;
   double diagonal() const;
 };
@@ -34,12 +35,13 @@ class Halver {
  public:
   explicit Halver(std::size_t most_points) : others_(most_points) {}
 
-  /// The heights across `axis` of the points of ranks [first, last) from below, sorted; first < last <= n.
+  /// The coordinates along `axis` of the points at places [first, last) of the sorted order, sorted; first <
+  /// last <= n.
   std::vector<double> heights(const Point* p, std::size_t n, std::size_t first, std::size_t last, int axis,
                               const Extent& extent);
 
-  /// Those that are not beyond first, in the order they had; returns the first of the others. Writes both
-  /// ways and goes on in one: no branch.
+  /// Moves the points that are not beyond to the front and returns the first of the others; both keep their
+  /// order. Writes each point to both sides and advances on one: no branch.
   template <class IsBeyond>
   Point* separate(Point* first, Point* last, const IsBeyond& is_beyond) {
     Point *below = first, *others = others_.data();
@@ -71,22 +73,24 @@ class Cuts {
     std::int32_t child[2];  ///< below and beyond; -1: one patch
   };
 
-  /// None yet. Vectors of about length 1: the sample is the same on every rank, `counted` are of this rank.
+  /// No cuts yet. Points have a length of about 1. The sample is the same on every rank; `counted` are nodes
+  /// of this rank.
   Cuts(int patches, std::vector<Point> sample, std::vector<Point> counted);
   Cuts(Cuts&&) = default;  // boxes point into the arrays
-  /// All, at the medians of the sample, moved by what is counted here alone.
+  /// All cuts, at the medians of the sample, moved by the counts of this rank alone.
   static Cuts of_sample(int patches, std::vector<Point> sample, std::vector<Point> counted = {});
 
-  /// How often to cut.
+  /// The number of levels of cuts.
   static int levels(int patches);
   /// Cuts all boxes at the medians of the sample. Throws std::bad_alloc.
   void cut();
-  /// At most so many counters for the cuts of one level.
+  /// Upper bound of the number of counters for the cuts of one level.
   static std::size_t counters(int patches) { return kBins * (static_cast<std::size_t>(patches) + 1) / 2; }
   /// Adds the counted nodes to the counters of the cuts of this level.
   void count(std::int64_t* counter) const;
-  /// Moves them to where there are as many on each side as there should be, by the sums of the counters of
-  /// all ranks; no farther than the outermost edges, and not where nothing was counted.
+  /// Moves the cuts of this level so that each side has its share of the nodes. `counter` are the sums of the
+  /// counters of all ranks. A cut moves no farther than its outermost edges, and stays if nothing was
+  /// counted.
   void move(const std::int64_t* counter);
 
   /// The first cut is the root. Empty if there is one patch.

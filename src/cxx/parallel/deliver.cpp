@@ -8,7 +8,7 @@
 namespace pstripack {
 namespace {
 
-/// Nodes on their way to one patch.
+/// Numbers of nodes on their way to one patch.
 struct Count {
   std::size_t own = 0, halo = 0;
   std::size_t all() const { return own + halo; }
@@ -22,14 +22,16 @@ struct Count {
 struct Here {
   const LocalNodes& nodes;
   const Division& division;
-  std::size_t me, ranks;
+  RankNumber me;
+  std::size_t ranks;
   const PatchRanges& patches() const { return division.patches; }
 };
 
 /// Where the nodes of this rank belong; halo and count for each thread.
 struct Routes {
   struct HaloNode {
-    std::uint32_t node, patch;
+    LocalNode node;
+    PatchOfNode patch;
   };
   Routes(std::size_t nodes, std::size_t patches, std::size_t threads)
       : memory(nodes * sizeof *owner),
@@ -37,7 +39,7 @@ struct Routes {
         count(threads, std::vector<Count>(patches)),
         sent(patches) {}
   Workspace memory;
-  std::uint32_t* owner = nullptr;  ///< of each node; null: there is one patch only
+  PatchOfNode* owner = nullptr;  ///< of each node; null: there is one patch only
   std::vector<std::vector<HaloNode>> halo;
   std::vector<std::vector<Count>> count;  ///< to each patch
   std::vector<Count> sent;                ///< to each patch, by all threads
@@ -50,16 +52,18 @@ void route_some(const Here& here, std::size_t first, std::size_t last, std::size
   const Partition& partition = *division.partition;
   auto& count = routes.count[thread];
   auto& halo = routes.halo[thread];
-  // Several tallies: the next node's would wait for the one before to be written.
+  // Several counters for each patch: with one, each node would wait until the count of the node before is
+  // written.
   constexpr std::size_t kTallies = 4;
   std::vector<std::size_t> own(kTallies * patches);
-  // Nodes are often at home, most of them deep in the first patch here. That is sooner told than their owner;
-  // only the others are looked at closely.
+  // Most nodes are often deep in the first patch of this rank. That test is faster than finding the owner, so
+  // the owner is found for the other nodes only.
   bool most_are_deep = true;
-  const auto home = static_cast<std::uint32_t>(division.patches.first(here.me));
+  const auto home = static_cast<PatchOfNode>(division.patches.first(here.me));
   constexpr std::size_t kTogether = 256;
   Point place[kTogether];
-  std::uint32_t which[kTogether], its_owner[kTogether];
+  std::uint32_t which[kTogether];
+  PatchOfNode its_owner[kTogether];
   double nearest_plane[kTogether];
   for (std::size_t block = first; block < last; block += kTogether) {
     const std::size_t all = std::min(last - block, kTogether);
@@ -68,21 +72,21 @@ void route_some(const Here& here, std::size_t first, std::size_t last, std::size
       for (std::size_t i = 0; i < all; ++i) place[i] = division.places(at[i]);
       at = place;
     }
-    std::uint32_t* const owner = routes.owner + block;
+    PatchOfNode* const owner = routes.owner + block;
     const auto route = [&](std::size_t n, const auto& index) {
       partition.owners(at, n, its_owner, nearest_plane);
       for (std::size_t i = 0; i < n; ++i) {
         ++own[i % kTallies * patches + its_owner[i]];
         owner[index(i)] = its_owner[i];
       }
-      partition.for_each_halo(at, n, its_owner, nearest_plane, [&](std::size_t i, int q) {
+      partition.for_each_halo(at, n, its_owner, nearest_plane, [&](std::size_t i, PatchNumber q) {
         ++count[static_cast<std::size_t>(q)].halo;
-        halo.push_back({static_cast<std::uint32_t>(block + index(i)), static_cast<std::uint32_t>(q)});
+        halo.push_back({static_cast<LocalNode>(block + index(i)), static_cast<PatchOfNode>(q)});
       });
     };
     if (most_are_deep) {
       std::fill(owner, owner + all, home);
-      const std::size_t n = partition.not_deep(static_cast<int>(home), at, all, which);
+      const std::size_t n = partition.not_deep(static_cast<PatchNumber>(home), at, all, which);
       own[home] += all - n;
       for (std::size_t i = 0; i < n; ++i) place[i] = at[which[i]];
       at = place;
@@ -102,7 +106,7 @@ void find_routes(const Here& here, Routes& routes) {
     routes.sent[0].own = routes.count[0][0].own = nodes;
     return;
   }
-  routes.owner = routes.memory.keep<std::uint32_t>(nodes);
+  routes.owner = routes.memory.keep<PatchOfNode>(nodes);
   ErrorsOfThreads errors(threads);
   parallel_pieces(nodes, static_cast<int>(threads), [&](std::size_t first, std::size_t last, int piece) {
     const auto t = static_cast<std::size_t>(piece);
@@ -113,8 +117,8 @@ void find_routes(const Here& here, Routes& routes) {
     for (std::size_t q = 0; q < patches; ++q) routes.sent[q] += count[q];
 }
 
-/// Where items go: those of patch q to base[q], from begin[q] on, and what place in the table of rings the
-/// patch's item 0 would have.
+/// Where items go: those for patch q to base[q], from begin[q] on. table[q] is the place that the patch's
+/// item 0 would have in the table of rings.
 template <class Item>
 struct Destinations {
   explicit Destinations(std::size_t patches) : base(patches), begin(patches), table(patches) {}
@@ -146,7 +150,7 @@ void write_items(std::size_t nodes, const Routes& routes, const Destinations<Ite
   });
 }
 
-/// As what a node travels to a rank that can read it.
+/// What is sent of a node to a rank that can read the nodes of all ranks: its number.
 using Number = std::uint32_t;
 
 /// body(item), where item(i) is the record of node i of this rank.
@@ -165,7 +169,7 @@ Parcels parcels_of(const Here& here, const Routes& routes, const MakeItem& item,
   ParcelWriter writer(here.ranks);
   Destinations<Item> to(routes.sent.size());
   std::vector<std::size_t> items(here.ranks);
-  for (std::size_t r = 0; r < here.ranks; ++r) {
+  for (RankNumber r = 0; r < here.ranks; ++r) {
     if (r == here.me) continue;
     for (auto q = static_cast<std::size_t>(patches.first(r)); q < static_cast<std::size_t>(patches.end(r));
          ++q) {
@@ -179,7 +183,7 @@ Parcels parcels_of(const Here& here, const Routes& routes, const MakeItem& item,
   }
   writer.make_room();
   if (writer.empty()) return writer.finish();
-  for (std::size_t r = 0; r < here.ranks; ++r) {
+  for (RankNumber r = 0; r < here.ranks; ++r) {
     if (items[r] == 0) continue;
     const auto first = static_cast<std::size_t>(patches.first(r));
     std::copy_n(&routes.sent[first], patches.count(r), writer.room<Count>(r, patches.count(r)));
@@ -198,7 +202,7 @@ Parcels parcels_for_others(const Here& here, const Routes& routes, const ReturnA
       nodes, [&](const auto& record) { return parcels_of<Record>(here, routes, record, addresses); });
 }
 
-/// What has arrived of a patch from one rank: its own nodes, then its halo, as records or as numbers.
+/// What one rank has sent for a patch: its own nodes, then its halo, as records or as numbers.
 class Segment {
  public:
   Segment() = default;
@@ -225,25 +229,25 @@ class Segment {
   const Number* numbers_ = nullptr;
 };
 
-/// Of each patch here what has come from each rank; from this one only counted.
+/// For each patch here, what each rank has sent. Nodes of this rank are only counted.
 std::vector<std::vector<Segment>> segments_of(const Parcels& arrived, const Here& here,
                                               const Routes& routes) {
   const std::size_t patches = here.patches().count(here.me);
   std::vector<std::vector<Segment>> segments(patches, std::vector<Segment>(here.ranks));
-  for (std::size_t r = 0; r < here.ranks; ++r) {
+  for (RankNumber r = 0; r < here.ranks; ++r) {
     if (r == here.me || arrived.begin[r + 1] == arrived.begin[r]) continue;
     ParcelReader reader(arrived, r);
     const Count* const counts = reader.array<Count>(patches);
-    for (std::size_t k = 0; k < patches; ++k)
+    for (PatchHere k = 0; k < patches; ++k)
       segments[k][r] = Segment(reader, counts[k], here.nodes.of_all_ranks);
   }
-  for (std::size_t k = 0; k < patches; ++k)
+  for (PatchHere k = 0; k < patches; ++k)
     segments[k][here.me].count = routes.sent[static_cast<std::size_t>(here.patches().first(here.me)) + k];
   return segments;
 }
 
-/// The records of each patch here. Those of this rank's nodes are written into place, between those that have
-/// arrived.
+/// Writes the records of each patch here: those that have arrived and, between them, those of this rank's
+/// nodes.
 void place_nodes(const Here& here, const Routes& routes, Parcels arrived, Delivery& delivery) {
   const auto segments = segments_of(arrived, here, routes);
   ReturnAddresses& addresses = delivery.addresses;
@@ -263,7 +267,7 @@ void place_nodes(const Here& here, const Routes& routes, Parcels arrived, Delive
   delivery.memory = std::make_unique<Workspace>(records * sizeof(Record));
   Record* at = delivery.memory->keep<Record>(records);
   Destinations<Record> to(routes.sent.size());
-  for (std::size_t k = 0; k < segments.size(); ++k) {
+  for (PatchHere k = 0; k < segments.size(); ++k) {
     const std::size_t q = static_cast<std::size_t>(here.patches().first(here.me)) + k;
     delivery.of_patch.push_back({at, total[k].own, total[k].halo});
     to.base[q] = at;
@@ -287,7 +291,7 @@ void place_nodes(const Here& here, const Routes& routes, Parcels arrived, Delive
 }  // namespace
 
 Delivery deliver(const LocalNodes& nodes, const Division& division, Communicator& ranks, int threads) {
-  const Here here{nodes, division, static_cast<std::size_t>(ranks.rank()),
+  const Here here{nodes, division, static_cast<RankNumber>(ranks.rank()),
                   static_cast<std::size_t>(ranks.size())};
   Delivery delivery;
   std::optional<Routes> routes;
@@ -308,7 +312,7 @@ Delivery deliver(const LocalNodes& nodes, const Division& division, Communicator
     for (std::size_t q = 0; q < count; ++q)
       addresses.away_begin.push_back(
           addresses.away_begin.back() +
-          (here.patches().rank_of(static_cast<int>(q)) == here.me ? 0 : routes->sent[q].own));
+          (here.patches().rank_of(static_cast<PatchNumber>(q)) == here.me ? 0 : routes->sent[q].own));
     return parcels_for_others(here, *routes, addresses);
   });
   if (!delivery.gave_up)

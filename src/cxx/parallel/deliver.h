@@ -9,19 +9,20 @@
 #include "base/workspace.h"
 #include "parallel/agreement.h"
 #include "parallel/divide.h"
+#include "parallel/local_numbers.h"
 #include "parallel/record.h"
 
 namespace pstripack {
 
-/// Where the rings of nodes belong: in a table, first those of this rank's nodes in the patches of other
-/// ranks, patch by patch, then those of all own nodes of each patch here.
+/// The places of rings in a table: first come those of this rank's nodes that other ranks' patches own, patch
+/// by patch, then those of all own nodes of each patch here.
 struct ReturnAddresses {
-  std::vector<std::size_t> away_begin;  ///< of each patch of all
-  std::vector<std::size_t> own_begin;   ///< of each patch here; then the end of the table
-  std::vector<std::vector<std::size_t>>
-      own_from;  ///< [patch here][rank]: its own nodes that the rank brought
+  std::vector<std::size_t> away_begin;  ///< by PatchNumber
+  std::vector<std::size_t> own_begin;   ///< by PatchHere; then the end of the table
+  /// [PatchHere][RankNumber]: the PatchNode of the first own node that the rank brought; then the end.
+  std::vector<std::vector<std::size_t>> own_from;
   std::unique_ptr<Workspace> memory;
-  std::uint32_t* position = nullptr;  ///< of each of this rank's nodes in the table
+  std::uint32_t* position = nullptr;  ///< in the table, by LocalNode
 };
 
 /// What the patches of this rank know.
@@ -29,7 +30,7 @@ struct Delivery {
   std::vector<PatchNodes> of_patch;  ///< own nodes in the order of the ranks that brought them
   std::unique_ptr<Workspace> memory;
   ReturnAddresses addresses;
-  Outcome outcome;       ///< here: the next agreement has to accept it
+  Outcome outcome;       ///< of this rank: the next agreement has to accept it
   bool gave_up = false;  ///< then there is nothing else
 };
 

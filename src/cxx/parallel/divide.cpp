@@ -14,8 +14,8 @@ namespace pstripack {
 namespace {
 
 constexpr std::size_t kClosingNodes = 256;
-// Nodes of the sample among which hidden ones are looked for before nodes go to patches: one that is found
-// later costs the time of the patches once more.
+// Number of sample nodes that are searched for hidden ones before nodes go to patches. A hidden node that is
+// found later costs the time of the patches once more.
 constexpr std::size_t kLookedThrough = 500;
 // A rank's nodes, evenly spaced, of which at most a sixteenth may lie in other ranks' patches if the patches
 // of the last call are kept.
@@ -23,7 +23,7 @@ constexpr std::size_t kLookedAt = 256;
 // Nodes that a rank may have above 9/8 of its share if patches are kept: for small sets, where 1/8 is little.
 constexpr std::size_t kCloselyEnough = 64;
 
-/// What a rank brings, told to all in one number.
+/// What a rank brings; one number tells all ranks.
 struct Headcount {
   std::size_t nodes;  ///< < 2^29
   int patches;        ///< < 2^30
@@ -44,11 +44,11 @@ struct Supply {
   bool looks_through = true;  ///< for hidden nodes; not where the last call found none
   BlockArray<Record> sample;
   std::vector<std::size_t> begin;     ///< bytes of the sample that the ranks bring
-  std::vector<std::int64_t> counter;  ///< room for those of cut_anew
+  std::vector<std::int64_t> counter;  ///< memory for the counters of cut_anew()
 };
 
 Supply take_stock(const LocalNodes& nodes, const PatchRanges& patches, const std::vector<Headcount>& heads,
-                  const Division& division, std::size_t me, const ParallelOptions& options) {
+                  const Division& division, RankNumber me, const ParallelOptions& options) {
   Supply supply;
   for (const Headcount& h : heads) {
     supply.nodes += h.nodes;
@@ -57,7 +57,7 @@ Supply take_stock(const LocalNodes& nodes, const PatchRanges& patches, const std
   const auto all_patches = static_cast<std::size_t>(patches.count());
   supply.keeps_patches =
       supply.keeps_patches && options.last->are_for(options.partition, patches, division.places.lengths());
-  for (std::size_t r = 0; r < heads.size(); ++r)
+  for (RankNumber r = 0; r < heads.size(); ++r)
     supply.keeps_patches = supply.keeps_patches && options.last->is_share_of(r, heads[r].nodes, supply.nodes);
   supply.looks_through = !supply.keeps_patches || options.last->lengths() != division.places.lengths();
   const std::size_t enough = supply.looks_through ? kLookedThrough : kClosingNodes;
@@ -74,8 +74,9 @@ Supply take_stock(const LocalNodes& nodes, const PatchRanges& patches, const std
   return supply;
 }
 
-/// Patches with equal numbers of nodes, as far as a sample and counts can tell: the outcome here, which is
-/// not agreed on yet. A rank that fails, or has failed before, counts nothing from there on.
+/// Cuts the sphere into patches with equal numbers of nodes, as far as a sample and counts can tell. Returns
+/// the outcome on this rank, not agreed on yet. A rank that has failed counts nothing but takes part in all
+/// sums.
 Outcome cut_anew(const LocalNodes& nodes, Supply& supply, PartitionKind kind, Communicator& ranks,
                  Division& division, Outcome outcome) {
   const int patches = division.patches.count();
@@ -106,8 +107,8 @@ Outcome cut_anew(const LocalNodes& nodes, Supply& supply, PartitionKind kind, Co
   return outcome;
 }
 
-/// True if neighbours in the mesh may be far from each other, as a look at the mesh of few nodes tells: then
-/// a third of its triangles have corners in different quarters of the patches.
+/// True if neighbours in the mesh may be far from each other: in the mesh of a few nodes, more than a third
+/// of the triangles have corners in different quarters of the patches.
 bool may_be_hard(const std::vector<Record>& few, const Partition& partition, const Places& places) {
   constexpr std::size_t kEnough = 64, kQuarters = 4;
   const auto patches = static_cast<std::size_t>(partition.patches());
@@ -120,12 +121,12 @@ bool may_be_hard(const std::vector<Record>& few, const Partition& partition, con
     quarter.push_back(patches > kQuarters ? owner * kQuarters / patches : owner);
   }
   const CoarseMesh mesh(points);
-  const std::size_t mixed = mesh.mixed([&](std::uint32_t v) { return quarter[v]; });
+  const std::size_t mixed = mesh.mixed([&](SampleNode v) { return quarter[v]; });
   return 3 * (mixed + mesh.triangles_at_hubs()) > mesh.triangles().size() + mesh.triangles_at_hubs();
 }
 
-/// Slices of the mesh of the sample in place of boxes, if these cut more triangles. Collective. Throws
-/// AgreedFailure.
+/// Takes slices of the mesh of the sample in place of boxes if boxes cut more than twice as many triangles.
+/// Collective. Throws AgreedFailure.
 void slice(const LocalNodes& nodes, Supply& supply, Communicator& ranks, Division& division) {
   const int patches = division.patches.count();
   std::optional<Levels> levels;
@@ -140,17 +141,17 @@ void slice(const LocalNodes& nodes, Supply& supply, Communicator& ranks, Divisio
     const CoarseMesh mesh(points);
     const std::size_t triangles = mesh.triangles().size() + mesh.triangles_at_hubs();
     const std::size_t in_boxes =
-        mesh.mixed([&](std::uint32_t v) { return division.partition->owner(places[v]); });
+        mesh.mixed([&](SampleNode v) { return division.partition->owner(places[v]); });
     division.by_agreement = 3 * (in_boxes + mesh.triangles_at_hubs()) > triangles;
     division.gave_up = division.may_give_up && division.by_agreement;
     if (division.gave_up) return;
     cells = std::make_shared<Partition>(places);
     levels.emplace(mesh, places, *cells);
-    const std::vector<std::uint32_t>& cell = levels->cell_of();
+    const std::vector<CellNumber>& cell = levels->cell_of();
     weight.resize(cells->cells());
-    for (const std::uint32_t c : cell) ++weight[c];
-    const std::vector<int> of_sample = levels->slices(patches, weight);
-    const std::size_t in_slices = mesh.mixed([&](std::uint32_t v) { return of_sample[cell[v]]; });
+    for (const CellNumber c : cell) ++weight[c];
+    const std::vector<PatchNumber> of_sample = levels->slices(patches, weight);
+    const std::size_t in_slices = mesh.mixed([&](SampleNode v) { return of_sample[cell[v]]; });
     if (2 * in_slices >= in_boxes) {
       levels.reset();
       return;
@@ -158,9 +159,9 @@ void slice(const LocalNodes& nodes, Supply& supply, Communicator& ranks, Divisio
     std::fill(weight.begin(), weight.end(), 0);
     const std::vector<Point> counted =
         places_to_count(nodes, supply.nodes, static_cast<std::size_t>(patches), division.places);
-    std::vector<std::uint32_t> cell_of_counted(counted.size());
+    std::vector<CellNumber> cell_of_counted(counted.size());
     cells->cells_of(counted.data(), counted.size(), cell_of_counted.data());
-    for (const std::uint32_t c : cell_of_counted) ++weight[c];
+    for (const CellNumber c : cell_of_counted) ++weight[c];
   });
   if (!levels) return;
   ranks.all_sum(weight.data(), weight.size());
@@ -171,7 +172,7 @@ void slice(const LocalNodes& nodes, Supply& supply, Communicator& ranks, Divisio
   });
 }
 
-/// About `most` of the sample and those given, each once.
+/// About `most` nodes of the sample and all of `some`, each once.
 std::vector<Record> some_of(BlockArray<Record>& sample, std::size_t most, std::vector<Record> some = {}) {
   const std::size_t step = sample.size() / most + 1;
   for (std::size_t k = 0; k < sample.size(); k += step) some.push_back(sample[k]);
@@ -192,7 +193,7 @@ std::vector<Record> along_curve(BlockArray<Record>& sample, std::size_t most, co
 
 }  // namespace
 
-bool Homes::is_share_of(std::size_t rank, std::size_t nodes, std::size_t all) const {
+bool Homes::is_share_of(RankNumber rank, std::size_t nodes, std::size_t all) const {
   const std::size_t share = all / static_cast<std::size_t>(patches_.count()) * patches_.count(rank);
   return nodes <= share + share / 8 + kCloselyEnough;
 }
@@ -206,7 +207,7 @@ bool Homes::are_home_to_most(const LocalNodes& nodes, int me) const {
 
 Division divide(const LocalNodes& nodes, const Corners& corners, const Places& places, Communicator& ranks,
                 const ParallelOptions& options) {
-  const auto me = static_cast<std::size_t>(ranks.rank()), size = static_cast<std::size_t>(ranks.size());
+  const auto me = static_cast<RankNumber>(ranks.rank()), size = static_cast<std::size_t>(ranks.size());
   Division division(places);
   Supply supply;
   const bool at_home = options.last != nullptr && options.last->are_home_to_most(nodes, static_cast<int>(me));
@@ -214,7 +215,7 @@ Division divide(const LocalNodes& nodes, const Corners& corners, const Places& p
       ranks.all_gather_one(Headcount{nodes.count, options.patches, at_home}.encode());
   in_agreement(ranks, [&] {
     std::vector<Headcount> heads;
-    for (std::size_t r = 0; r < size; ++r) {
+    for (RankNumber r = 0; r < size; ++r) {
       heads.push_back(Headcount::decode(encoded[r]));
       division.patches.add(heads.back().patches);
     }
@@ -238,7 +239,7 @@ Division divide(const LocalNodes& nodes, const Corners& corners, const Places& p
     outcome.accept();
     const auto patches = static_cast<std::size_t>(division.patches.count());
     division.may_give_up = size == 1 && patches > 1 && options.most_questions < nodes.count;
-    // Worth it where it spares a look at more triangles than it takes time for.
+    // Worth its time in large patches, where it spares many triangles a closer look.
     constexpr std::size_t kManyInAPatch = 50000;
     if (supply.nodes / patches > kManyInAPatch)
       division.most_stretch = most_stretch(division.closing, places);

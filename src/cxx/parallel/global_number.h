@@ -4,8 +4,9 @@
 
 namespace pstripack {
 
-/// The number of a node in the caller's lists, from 1; the same on every rank. Local indices, from 0, are
-/// plain integers: which node of LocalNodes, of a patch, of a hull. Neither converts to the other by itself.
+/// The number of a node in the caller's lists, from 1; the same on every rank. Numbers that mean something on
+/// one rank only, from 0, are in local_numbers.h and mesh/hull_numbers.h. Neither converts to the other by
+/// itself.
 enum class GlobalNumber : std::int64_t {};
 
 /// No node has it.

@@ -21,13 +21,13 @@ LastRings::LastRings(const RingTable<Int>& rings, std::size_t first_node, std::u
       homes_(std::move(homes)),
       of_slice_(copied_stars<Int>(rings.size(), [&](std::size_t i) { return rings[i]; })) {}
 
-/// The rings of the slices go to the homes of their nodes.
+/// Sends the rings of the slice to the homes of their nodes.
 void LastRings::send_home(const LocalNodes& slice, std::size_t nodes_of_all, Communicator& ranks) {
   const Parcels arrived = exchange_in_agreement(ranks, [&] {
     const RingTable<Int>& rings = of_slice_.of_node;
     home_.resize(rings.size());
     for (std::size_t i = 0; i < home_.size(); ++i)
-      home_[i] = static_cast<std::uint32_t>(homes_->rank(slice.points[i]));
+      home_[i] = static_cast<RankOfNode>(homes_->rank(slice.points[i]));
     return packed_rings<Int>(static_cast<std::size_t>(ranks.size()), [&](const auto& visit) {
       for (std::size_t i = 0; i < home_.size(); ++i)
         visit(home_[i], static_cast<Int>(first_node_ + i + 1), rings[i]);
@@ -51,11 +51,11 @@ void LastRings::send_home(const LocalNodes& slice, std::size_t nodes_of_all, Com
   });
 }
 
-/// In the order in which the rings have come.
+/// Sends the positions of the slice's nodes to their homes, in the order in which their rings were sent.
 void LastRings::send_places(const LocalNodes& slice, Communicator& ranks) {
   const Parcels arrived = exchange_in_agreement(ranks, [&] {
     ParcelWriter writer(static_cast<std::size_t>(ranks.size()));
-    for (const std::uint32_t r : home_) writer.expect<Point>(r);
+    for (const RankOfNode r : home_) writer.expect<Point>(r);
     writer.make_room();
     slice.points.visit([&](const auto& node) {
       for (std::size_t i = 0; i < home_.size(); ++i) writer.put<Point>(home_[i], node(i));
@@ -85,12 +85,12 @@ bool LastRings::move(const LocalNodes& slice, const std::vector<std::size_t>& be
   if (moving_ == nullptr || !moving_->repair(home, ranks)) return false;
 
   const Parcels changed = exchange_in_agreement(ranks, [&] {
-    const std::vector<std::uint32_t> nodes_here = moving_->update(home, at_home_);
+    const std::vector<LocalNode> nodes_here = moving_->update(home, at_home_);
     return packed_rings<Int>(size, [&](const auto& visit) {
-      for (const std::uint32_t k : nodes_here) {
+      for (const LocalNode k : nodes_here) {
         const auto node = static_cast<std::size_t>(numbers_[k]) - 1;
         const auto r = std::upper_bound(begin.begin(), begin.end(), node) - begin.begin() - 1;
-        visit(static_cast<std::size_t>(r), static_cast<Int>(numbers_[k]), at_home_.of_node[k]);
+        visit(static_cast<RankNumber>(r), static_cast<Int>(numbers_[k]), at_home_.of_node[k]);
       }
     });
   });
@@ -98,7 +98,7 @@ bool LastRings::move(const LocalNodes& slice, const std::vector<std::size_t>& be
   return true;
 }
 
-/// Rings of the slice.
+/// Puts the changed rings in place of those of the slice.
 void LastRings::replace(const Parcels& changed) {
   Stars<Int>& stars = of_slice_;
   const std::size_t entries = Items<Int>(changed).size();
@@ -108,7 +108,7 @@ void LastRings::replace(const Parcels& changed) {
     stars.of_node.replace(static_cast<std::size_t>(at[0]) - 1 - first_node_, at + 1);
   stars.more_memory.push_back(std::move(rings));
   replaced_ += entries;
-  if (replaced_ <= 8 * stars.of_node.size()) return;  // then rings that are not used any more go
+  if (replaced_ <= 8 * stars.of_node.size()) return;  // then the rings that are not used any more are freed
   stars = copied_stars<Int>(stars.of_node.size(), [&](std::size_t i) { return stars.of_node[i]; });
   replaced_ = 0;
 }

@@ -6,8 +6,8 @@
 // patches when the first such call began. It reads where these nodes are now, or is told by the ranks that
 // have their slices (pool on several machines), and sends the rings that have changed to those ranks.
 //
-// As on threads, the first call keeps a sample, the next one whose nodes fit keeps the rings, the third begins
-// with them. One set of rings is kept. Where only rank 0 can read all nodes, its sample decides.
+// As on threads, the first call keeps a sample, the next one whose nodes fit keeps the rings, the third
+// begins with them. One set of rings is kept. Where only rank 0 can read all nodes, its sample decides.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,16 +19,18 @@
 
 namespace pstripack {
 
-/// The rings of a slice of the nodes, first_node.. (from 0) on this rank. A rank moves and repairs the stars
-/// of the nodes that are at home with it, and those who have the slices hear of the rings that have changed.
+/// The rings of this rank's slice of the nodes: first_node (from 0) and the following ones. Each rank moves
+/// and repairs the stars of the nodes that are at home there, and sends the rings that have changed to the
+/// ranks that have these nodes in their slices.
 class LastRings {
  public:
   /// Throws std::bad_alloc.
   LastRings(const RingTable<std::int32_t>& rings, std::size_t first_node, std::unique_ptr<Homes> homes);
 
-  /// Makes them the rings of the nodes where they are now, and returns true; or returns false on every rank,
-  /// and they are of no more use. `begin`: of each rank's slice, and the end. Where ranks cannot read all
-  /// nodes, these travel to their homes. Collective. Throws AgreedFailure.
+  /// Updates the rings for the nodes' current positions and returns true. Or returns false, on every rank;
+  /// the rings must then be discarded. `begin`: the first node of each rank's slice, then the number of all
+  /// nodes. If ranks cannot read all nodes, positions are sent to the homes. Collective. Throws
+  /// AgreedFailure.
   bool move(const LocalNodes& slice, const std::vector<std::size_t>& begin, Communicator& ranks);
   const RingTable<std::int32_t>& rings() const { return of_slice_.of_node; }
   const MovingStars& stars() const { return *moving_; }
@@ -42,8 +44,8 @@ class LastRings {
   const std::size_t first_node_;
   const std::unique_ptr<Homes> homes_;
   Stars<std::int32_t> of_slice_, at_home_;
-  std::vector<std::uint32_t> home_;  ///< ranks, of the nodes of the slice
-  std::size_t replaced_ = 0;         ///< entries of rings of the slice that have come anew
+  std::vector<RankOfNode> home_;  ///< of the nodes of the slice
+  std::size_t replaced_ = 0;      ///< entries of rings that replace() has stored
   // At home here:
   std::vector<std::int64_t> numbers_;
   BlockArray<Point> points_;

@@ -26,12 +26,12 @@ namespace pstripack {
 /// The mesh of a few nodes, which stands for that of all.
 class CoarseMesh {
  public:
-  /// Without a triangle if all are on one great circle. Throws std::bad_alloc.
+  /// Has no triangle if all nodes are on one great circle. Throws std::bad_alloc.
   explicit CoarseMesh(const std::vector<Point>& nodes);
 
-  const std::vector<std::uint32_t>& hubs() const { return hubs_; }
+  const std::vector<SampleNode>& hubs() const { return hubs_; }
   /// The corners of the triangles without a hub.
-  const std::vector<std::array<std::uint32_t, 3>>& triangles() const { return triangles_; }
+  const std::vector<std::array<SampleNode, 3>>& triangles() const { return triangles_; }
   std::size_t triangles_at_hubs() const { return at_hubs_; }
 
   /// How many triangles without a hub have corners of different owners.
@@ -43,8 +43,8 @@ class CoarseMesh {
   }
 
  private:
-  std::vector<std::uint32_t> hubs_;
-  std::vector<std::array<std::uint32_t, 3>> triangles_;
+  std::vector<SampleNode> hubs_;
+  std::vector<std::array<SampleNode, 3>> triangles_;
   std::size_t at_hubs_ = 0;
 };
 
@@ -54,22 +54,24 @@ class Levels {
   /// `cells` holds the nodes of the mesh, which lie at these places.
   Levels(const CoarseMesh& mesh, const std::vector<Point>& places, const Partition& cells);
 
-  /// Of each cell the slice that it belongs to, of slices of equal weight.
-  std::vector<int> slices(int count, const std::vector<std::int64_t>& weight) const;
+  /// The slice that each cell belongs to; slices have about equal weight.
+  std::vector<PatchNumber> slices(int count, const std::vector<std::int64_t>& weight) const;
 
   /// The cell of each node of the mesh.
-  const std::vector<std::uint32_t>& cell_of() const { return cell_of_; }
+  const std::vector<CellNumber>& cell_of() const { return cell_of_; }
   /// Cells that share edges of the mesh: those next to cell c are beside()[begin()[c] .. begin()[c + 1] - 1],
   /// perhaps more than once.
   const std::vector<std::uint32_t>& begin() const { return begin_; }
-  const std::vector<std::uint32_t>& beside() const { return beside_; }
+  const std::vector<CellNumber>& beside() const { return beside_; }
 
  private:
-  /// Appends all that can be reached from `start`, breadth first. Marks them.
-  void reach(std::uint32_t start, std::uint32_t mark, std::vector<std::uint32_t>& marked,
-             std::vector<std::uint32_t>& order) const;
+  /// Appends all cells that can be reached from `start`, breadth first, and marks them.
+  void reach(CellNumber start, std::uint32_t mark, std::vector<std::uint32_t>& marked,
+             std::vector<CellNumber>& order) const;
 
-  std::vector<std::uint32_t> cell_of_, begin_, beside_, order_;
+  std::vector<CellNumber> cell_of_;
+  std::vector<std::uint32_t> begin_;
+  std::vector<CellNumber> beside_, order_;
 };
 
 }  // namespace pstripack

@@ -12,17 +12,18 @@
 #include "geometry/predicates.h"
 #include "parallel/agreement.h"
 #include "parallel/global_number.h"
+#include "parallel/local_numbers.h"
 
 namespace pstripack {
 
-/// Of a set of nodes, those that this rank brings: any of them, in any order.
+/// The nodes that this rank brings: any of all nodes, in any order.
 struct LocalNodes {
   NodeArrays points;
   std::size_t count = 0;                  ///< < 2^29
   const std::int64_t* numbers = nullptr;  ///< global numbers from 1; null: first_number, first_number+1, ...
   std::int64_t first_number = 1;
-  /// Where every rank can read the nodes of all ranks, in the order of their numbers: these. Then numbers
-  /// travel instead of nodes. On all ranks or on none.
+  /// The nodes of all ranks, in the order of their numbers, if every rank can read them: then numbers travel
+  /// instead of nodes. Set on all ranks or on none.
   const NodeArrays* of_all_ranks = nullptr;
 
   GlobalNumber number(std::size_t i) const {
@@ -30,20 +31,20 @@ struct LocalNodes {
   }
 };
 
-/// Node numbers 0..n-1 cut into one slice a rank, as equal as they come: rank r has [begin[r], begin[r+1]).
-inline std::size_t slice_begin(std::size_t n, std::size_t rank, std::size_t ranks) {
+/// Nodes 0..n-1 are cut into one slice a rank, as equal as possible: the first node of this rank's slice.
+inline std::size_t slice_begin(std::size_t n, RankNumber rank, std::size_t ranks) {
   return n / ranks * rank + n % ranks * rank / ranks;
 }
 
-/// What one look at all coordinates tells. The votes are of the nodes of all ranks once these have agreed.
+/// What one pass over all coordinates finds. After agree_on() the votes hold for the nodes of all ranks.
 struct Look {
   std::size_t first_bad = 0;  ///< the first node (from 0) without a direction; their number if all have one
   OnAll lengths_are_one;
   LargestReal deviation;  ///< difference of the square of a length from 1
 };
 
-/// Looks at the n nodes point(i) on so many threads (see threads_for). Each is asked for once, and those
-/// after one without a length of 1 perhaps again.
+/// Passes over the n nodes point(i) on `threads` threads (see threads_for). Calls point(i) once for each
+/// node, and perhaps once more if some length is not 1.
 template <class GetPoint>
 Look look_at(std::size_t n, int threads, const GetPoint& point) {
   Look all{n, {}, {}};

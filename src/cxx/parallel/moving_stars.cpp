@@ -23,12 +23,13 @@
 namespace pstripack {
 namespace {
 
-/// Node `outside` of those outside a rank, and which node it is of the rank that brings it.
+/// A node outside the rank that asks, and which node it is of the rank that answers.
 struct Found {
-  std::uint32_t outside, node;
+  OutsideNode outside;
+  LocalNode node;
 };
 
-/// For so many nodes more outside there is room at first.
+/// Room at first for this many nodes that become nodes outside later.
 constexpr std::size_t kRoom = 1000;
 
 }  // namespace
@@ -38,7 +39,7 @@ constexpr std::size_t kRoom = 1000;
 template <class Int, class Begin>
 std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes& nodes, const Stars<Int>& stars,
                                                Communicator& ranks, const Begin& begin) {
-  const auto size = static_cast<std::size_t>(ranks.size()), me = static_cast<std::size_t>(ranks.rank());
+  const auto size = static_cast<std::size_t>(ranks.size()), me = static_cast<RankNumber>(ranks.rank());
   std::int64_t sums[] = {static_cast<std::int64_t>(nodes.count),
                          static_cast<std::int64_t>(stars.of_node.arcs()),
                          static_cast<std::int64_t>(stars.outside.size())};
@@ -56,15 +57,15 @@ std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes& nodes, const St
         for (const Record& r : stars.outside) numbers.push_back(r.number);
       },
       first_with_nodes);
-  moving->first_with_nodes_ = static_cast<std::size_t>(first_with_nodes.value);
+  moving->first_with_nodes_ = static_cast<RankNumber>(first_with_nodes.value);
   const Parcels wanted = ranks.all_gather(numbers.data(), numbers.size() * sizeof(GlobalNumber));
   const Parcels found = exchange_in_agreement(ranks, [&] { return begin(*moving, wanted); });
   in_agreement(ranks, [&] {
     moving->mesh_->for_each_arc_outside([&](std::size_t j) { ++moving->outside_[j].arcs; });
     moving->sort_outside();
-    for (std::size_t r = 0; r < size; ++r)
+    for (RankNumber r = 0; r < size; ++r)
       for (const Found& f : Items<Found>(found, r)) {
-        moving->outside_[f.outside].address = {static_cast<std::uint32_t>(r), f.node};
+        moving->outside_[index_of(f.outside)].address = {static_cast<RankOfNode>(r), f.node};
         moving->receive_[r].push_back(f.outside);
       }
   });
@@ -82,7 +83,7 @@ template <class Int>
 std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes& nodes, const Stars<Int>& stars,
                                                Communicator& ranks, std::unique_ptr<MovingStars> last,
                                                const Relocation& way) {
-  constexpr std::size_t kFew = 8;  // one node of so many may lie far from its neighbours
+  constexpr std::size_t kFew = 8;  // one node in kFew may lie far from its neighbours in memory
   const bool is_of_use = last != nullptr && last->come_ + way.come() <= nodes.count / kFew;
   return make(nodes, stars, ranks, [&](MovingStars& moving, const Parcels& wanted) {
     return is_of_use ? moving.begin_with(*last, way, nodes, stars, wanted)
@@ -90,14 +91,15 @@ std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes& nodes, const St
   });
 }
 
-/// Of the numbers of the nodes outside each rank, those that are brought here: they are in the table.
-Parcels MovingStars::find_wanted(const Parcels& wanted, const NumberTable<std::uint32_t>& local) {
+/// Finds which of the numbers that each rank wants are brought here. `local` has the numbers of the nodes
+/// here.
+Parcels MovingStars::find_wanted(const Parcels& wanted, const NumberTable<MeshNode>& local) {
   std::vector<std::vector<Found>> found(send_.size());
-  for (std::size_t r = 0; r < found.size(); ++r) {
+  for (RankNumber r = 0; r < found.size(); ++r) {
     std::uint32_t place = 0;
     for (const GlobalNumber number : Items<GlobalNumber>(wanted, r)) {
-      if (const std::uint32_t* const i = local.find_value(number); i != nullptr) {
-        found[r].push_back({place, *i});
+      if (const MeshNode* const i = local.find_value(number); i != nullptr) {
+        found[r].push_back({OutsideNode{place}, *i});
         send_[r].push_back(*i);
       }
       ++place;
@@ -107,10 +109,10 @@ Parcels MovingStars::find_wanted(const Parcels& wanted, const NumberTable<std::u
 }
 
 void MovingStars::enter_outside(const std::vector<Record>& outside, std::size_t n,
-                                NumberTable<std::uint32_t>& local) {
+                                NumberTable<MeshNode>& local) {
   outside_.reserve(outside.size() + kRoom);
   for (const Record& r : outside) {
-    local.insert(r.number, static_cast<std::uint32_t>(n + outside_.size()));
+    local.insert(r.number, static_cast<MeshNode>(n + outside_.size()));
     outside_.push_back({{}, r.number, 0});
   }
 }
@@ -122,10 +124,10 @@ Parcels MovingStars::begin(const LocalNodes& nodes, const Stars<Int>& stars, con
   const std::size_t n = nodes.count, arcs = stars.of_node.arcs(), outside = stars.outside.size();
   const std::size_t room = outside + kRoom;
   stay_.emplace(MovingMesh::bytes(n, arcs, n + outside + room));
-  NumberTable<std::uint32_t> local(n + outside);
+  NumberTable<MeshNode> local(n + outside);
   for (std::size_t i = 0; i < n; ++i) {
     if (i + kAhead < n) local.prefetch(nodes.number(i + kAhead));
-    local.insert(nodes.number(i), static_cast<std::uint32_t>(i));
+    local.insert(nodes.number(i), static_cast<MeshNode>(i));
   }
   Parcels found = find_wanted(wanted, local);
   enter_outside(stars.outside, n, local);
@@ -149,8 +151,8 @@ Parcels MovingStars::begin(const LocalNodes& nodes, const Stars<Int>& stars, con
   return found;
 }
 
-/// The same from those of the last call: only nodes that have come or gone, and neighbours of such, are
-/// searched by their numbers.
+/// The same from the stars of the last call. Only nodes that have come or gone, and their neighbours, are
+/// searched by number.
 template <class Int>
 Parcels MovingStars::begin_with(MovingStars& last, const Relocation& way, const LocalNodes& nodes,
                                 const Stars<Int>& stars, const Parcels& wanted) {
@@ -158,12 +160,12 @@ Parcels MovingStars::begin_with(MovingStars& last, const Relocation& way, const 
   const std::size_t room = outside + kRoom;
   last.stay_.reset();
   stay_.emplace(MovingMesh::bytes(n, arcs, n + outside + room));
-  std::vector<std::uint32_t> come;
+  std::vector<LocalNode> come;
   for (std::size_t i = 0; i < n; ++i)
-    if (way.has_come(i)) come.push_back(static_cast<std::uint32_t>(i));
+    if (way.has_come(i)) come.push_back(static_cast<LocalNode>(i));
   MovingMesh::MoreStars more;
   const auto for_each_neighbour = [&](const auto& visit, const auto& end) {
-    for (const std::uint32_t i : come) {
+    for (const LocalNode i : come) {
       const Ring<Int> ring = stars.of_node[i];
       std::for_each(ring.begin, ring.begin + ring.count, visit);
       end();
@@ -174,21 +176,21 @@ Parcels MovingStars::begin_with(MovingStars& last, const Relocation& way, const 
   NumberFilter filter(named);
   for (const GlobalNumber number : Items<GlobalNumber>(wanted)) filter.add(number);
   for_each_neighbour([&](Int number) { filter.add(GlobalNumber{number}); }, [] {});
-  std::vector<std::uint32_t> here;
+  std::vector<LocalNode> here;
   for (std::size_t i = 0; i < n; ++i)
-    if (way.has_come(i) || filter.may_have(nodes.number(i))) here.push_back(static_cast<std::uint32_t>(i));
-  NumberTable<std::uint32_t> local(here.size() + outside);
-  for (const std::uint32_t i : here) local.insert(nodes.number(i), i);
+    if (way.has_come(i) || filter.may_have(nodes.number(i))) here.push_back(static_cast<LocalNode>(i));
+  NumberTable<MeshNode> local(here.size() + outside);
+  for (const LocalNode i : here) local.insert(nodes.number(i), i);
   Parcels found = find_wanted(wanted, local);
   enter_outside(stars.outside, n, local);
 
   const std::size_t had = way.had();
-  BlockArray<std::uint32_t> to(had + last.outside_.size());
+  BlockArray<MeshNode> to(had + last.outside_.size());
   for (std::size_t k = 0; k < had; ++k)
     to[k] = way.to(k) != Relocation::kGone ? way.to(k) : MovingMesh::kNobody;
   way.for_each_that_has_gone([&](std::size_t k, GlobalNumber number) { to[k] = local.at(number); });
   for (std::size_t j = 0; j < last.outside_.size(); ++j) {
-    const std::uint32_t* const node = local.find_value(last.outside_[j].number);
+    const MeshNode* const node = local.find_value(last.outside_[j].number);
     to[had + j] = node != nullptr ? *node : MovingMesh::kNobody;
   }
   more.node = come;
@@ -201,11 +203,12 @@ Parcels MovingStars::begin_with(MovingStars& last, const Relocation& way, const 
 }
 
 void MovingStars::sort_outside() {
-  Nodes sorted;
+  std::vector<OutsideNode> sorted;
   for (std::uint32_t j = 0; j < outside_.size(); ++j)
-    if (outside_[j].arcs > 0) sorted.push_back(j);
-  std::sort(sorted.begin(), sorted.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return outside_[a].number < outside_[b].number; });
+    if (outside_[j].arcs > 0) sorted.push_back(OutsideNode{j});
+  std::sort(sorted.begin(), sorted.end(), [&](OutsideNode a, OutsideNode b) {
+    return outside_[index_of(a)].number < outside_[index_of(b)].number;
+  });
   by_number_ = std::move(sorted);
 }
 
@@ -238,7 +241,8 @@ bool MovingStars::repair(const LocalNodes& nodes, Communicator& ranks) {
   return !any.value;
 }
 
-/// Whether all nodes here have length one.
+/// Sets the positions of the nodes here and sends them to the ranks that know these nodes. True if all have
+/// length one.
 bool MovingStars::move_nodes(const LocalNodes& nodes, Communicator& ranks) {
   constexpr std::size_t kAhead = 16;
   MovingMesh& mesh = *mesh_;
@@ -257,20 +261,20 @@ bool MovingStars::move_nodes(const LocalNodes& nodes, Communicator& ranks) {
       });
     });
     ParcelWriter writer(send_.size());
-    for (std::size_t r = 0; r < send_.size(); ++r) writer.expect<Point>(r, send_[r].size());
+    for (RankNumber r = 0; r < send_.size(); ++r) writer.expect<Point>(r, send_[r].size());
     writer.make_room();
-    for (std::size_t r = 0; r < send_.size(); ++r)
-      for (const std::uint32_t k : send_[r]) writer.put(r, mesh.node(k));
+    for (RankNumber r = 0; r < send_.size(); ++r)
+      for (const LocalNode k : send_[r]) writer.put(r, mesh.node(k));
     return writer.finish();
   });
-  for (std::size_t r = 0; r < receive_.size(); ++r) {
+  for (RankNumber r = 0; r < receive_.size(); ++r) {
     const Point* p = Items<Point>(arrived, r).begin();
-    for (const std::uint32_t j : receive_[r]) mesh.node(nodes.count + j) = *p++;
+    for (const OutsideNode j : receive_[r]) mesh.node(nodes.count + index_of(j)) = *p++;
   }
   return all_have_length_one;
 }
 
-/// That of the first rank with nodes; none if it finds none.
+/// The mark that the first rank with nodes chooses; none if it finds none.
 std::optional<MovingMesh::Mark> MovingStars::agree_on_mark(Communicator& ranks) {
   MovingMesh::Mark mine;
   Mark mark;
@@ -287,14 +291,14 @@ std::optional<MovingMesh::Mark> MovingStars::agree_on_mark(Communicator& ranks) 
   return mine;
 }
 
-/// Flips what this rank can flip alone, and proposes the others. Where two ranks propose the same, one of
-/// them comes too late.
+/// Flips the arcs that this rank can flip alone, and proposes to flip the others. If two ranks propose the
+/// same flip, the later proposal is not accepted.
 bool MovingStars::propose(const LocalNodes& nodes, std::vector<Flip>& flips) {
   std::vector<MovingMesh::Quadrangle> across;
   if (!mesh_->flip_inside(across)) return false;
   for (const auto& q : across) {
     if (!mesh_->is_convex(q)) return false;
-    const auto corner = [&](std::uint32_t v) {
+    const auto corner = [&](MeshNode v) {
       const GlobalNumber number = v < nodes.count ? nodes.number(v) : outside_[v - nodes.count].number;
       return Corner{address_of(v), number, mesh_->node(v)};
     };
@@ -303,8 +307,8 @@ bool MovingStars::propose(const LocalNodes& nodes, std::vector<Flip>& flips) {
   return true;
 }
 
-/// The same on every rank: flips that share no node, in their order. The arcs of the others are looked at
-/// again.
+/// Goes through the proposals in their order, the same on every rank, and accepts those that share no node
+/// with one accepted before. The arcs of the others will be tested again.
 bool MovingStars::flip_all(const Parcels& flips) {
   std::unordered_set<std::uint64_t> taken;
   for (const Flip& flip : Items<Flip>(flips)) {
@@ -325,7 +329,7 @@ bool MovingStars::flip_one(const Flip& flip) {
   if (std::none_of(std::begin(flip.corner), std::end(flip.corner), is_here)) return true;
   if (!meet(c, d) || !meet(d, c)) return false;
   const MovingMesh::Quadrangle q{find(a.address), find(b.address), find(c.address), find(d.address)};
-  const auto count_arc = [&](const Corner& at, std::uint32_t other, std::uint32_t change) {
+  const auto count_arc = [&](const Corner& at, MeshNode other, std::uint32_t change) {
     if (is_here(at) && other >= mesh_->size()) {
       outside_[other - mesh_->size()].arcs += change;
       by_number_.reset();
@@ -339,52 +343,52 @@ bool MovingStars::flip_one(const Flip& flip) {
   return mesh_->flip(q);
 }
 
-/// Two nodes that become neighbours. If one is here and the other is not, their ranks tell each other from
-/// now on where they are, unless they do already: each can see that.
+/// Two nodes become neighbours. If `one` is here and `other` is not, their ranks send each other the
+/// positions from now on, unless they do so already, which both can see. False if there is no room.
 bool MovingStars::meet(const Corner& one, const Corner& other) {
   if (one.address.rank != me_ || other.address.rank == me_) return true;
-  Nodes& send = send_[other.address.rank];
+  std::vector<LocalNode>& send = send_[other.address.rank];
   if (std::find(send.begin(), send.end(), one.address.node) == send.end()) send.push_back(one.address.node);
   if (find(other.address) != MovingMesh::kNobody) return true;
   if (mesh_->add_outside(other.point) == MovingMesh::kNobody) return false;
-  receive_[other.address.rank].push_back(static_cast<std::uint32_t>(outside_.size()));
+  receive_[other.address.rank].push_back(OutsideNode{static_cast<std::uint32_t>(outside_.size())});
   outside_.push_back({other.address, other.number, 0});
   return true;
 }
 
-/// The node in the mesh here; kNobody if it is none that this rank knows.
-std::uint32_t MovingStars::find(const Address& address) const {
+/// The node of the mesh here; kNobody if this rank does not know the address.
+MeshNode MovingStars::find(const Address& address) const {
   if (address.rank == me_) return address.node;
   const auto found = std::find_if(outside_.begin(), outside_.end(),
                                   [&](const Outside& node) { return node.address == address; });
   if (found == outside_.end()) return MovingMesh::kNobody;
-  return static_cast<std::uint32_t>(mesh_->size() + static_cast<std::size_t>(found - outside_.begin()));
+  return static_cast<MeshNode>(mesh_->size() + static_cast<std::size_t>(found - outside_.begin()));
 }
 
 // ---- what has changed ----------------------------------------------------------------------------------
 
 template <class Int>
-std::vector<std::uint32_t> MovingStars::update(const LocalNodes& nodes, Stars<Int>& stars) {
+std::vector<LocalNode> MovingStars::update(const LocalNodes& nodes, Stars<Int>& stars) {
   const std::size_t n = nodes.count;
   const auto number_of = [&](std::int32_t node) {
     const auto k = static_cast<std::size_t>(node) - 1;
     return static_cast<Int>(k < n ? nodes.number(k) : outside_[k - n].number);
   };
-  std::vector<std::uint32_t> changed, all;
+  std::vector<LocalNode> changed, all;
   for (const auto& change : mesh_->changes()) changed.push_back(change.node);
-  if (replaced_ > 8 * n) {  // then rings that are not used any more go
+  if (replaced_ > 8 * n) {  // then rings that are not used any more are freed
     all.resize(n);
     std::iota(all.begin(), all.end(), 0u);
     replaced_ = 0;
   }
-  const std::vector<std::uint32_t>& rewritten = all.empty() ? changed : all;
+  const std::vector<LocalNode>& rewritten = all.empty() ? changed : all;
   std::size_t entries = 0;
-  for (const std::uint32_t k : rewritten) entries += 1 + mesh_->degree(k);
+  for (const LocalNode k : rewritten) entries += 1 + mesh_->degree(k);
   Buffer<Int> rings(entries + kBlock);  // see copy_kept_ring
   stars.more_memory.reserve(stars.more_memory.size() + 1);
   std::vector<std::int32_t> ring;
   Int* at = rings.data();
-  for (const std::uint32_t k : rewritten) {
+  for (const LocalNode k : rewritten) {
     ring.resize(mesh_->degree(k));
     mesh_->write_ring(k, ring.data());
     Int* const place = at;
@@ -400,7 +404,8 @@ std::vector<std::uint32_t> MovingStars::update(const LocalNodes& nodes, Stars<In
 
   if (!by_number_) sort_outside();
   stars.outside.clear();
-  for (const std::uint32_t j : *by_number_) stars.outside.push_back({mesh_->node(n + j), outside_[j].number});
+  for (const OutsideNode j : *by_number_)
+    stars.outside.push_back({mesh_->node(n + index_of(j)), outside_[index_of(j)].number});
   stars.lengths = Lengths::as_given;
   return changed;
 }
@@ -419,8 +424,7 @@ SampleOfStars MovingStars::sample() const {
   return sample;
 }
 
-/// The few nodes that the stars name are searched among all: those that may be among them are marked in a
-/// table of some bits of the number first.
+/// The stars name few of all nodes. A filter, by some bits of the number, spares most other nodes the search.
 template <class Int>
 SampleOfStars sample_of(const LocalNodes& nodes, const Stars<Int>& stars) {
   const auto for_each_star = [&](const auto& visit) {
@@ -463,7 +467,7 @@ template std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes&, const
 template std::unique_ptr<MovingStars> MovingStars::make(const LocalNodes&, const Stars<std::int64_t>&,
                                                         Communicator&, std::unique_ptr<MovingStars>,
                                                         const Relocation&);
-template std::vector<std::uint32_t> MovingStars::update(const LocalNodes&, Stars<std::int32_t>&);
-template std::vector<std::uint32_t> MovingStars::update(const LocalNodes&, Stars<std::int64_t>&);
+template std::vector<LocalNode> MovingStars::update(const LocalNodes&, Stars<std::int32_t>&);
+template std::vector<LocalNode> MovingStars::update(const LocalNodes&, Stars<std::int64_t>&);
 
 }  // namespace pstripack

@@ -9,15 +9,18 @@
 #include "base/scattered.h"
 #include "base/workspace.h"
 #include "parallel/global_number.h"
+#include "parallel/local_numbers.h"
 
 namespace pstripack {
 
-/// The rank where all that is said of a number meets: by other bits of its hash than a table there takes.
-inline std::size_t meeting_rank(GlobalNumber number, std::size_t ranks) {
-  return static_cast<std::size_t>((scattered(static_cast<std::uint64_t>(number)) >> 32) * ranks >> 32);
+/// The rank that collects what all ranks say of a number. It depends on other bits of the number's hash than
+/// the places in a NumberTable there.
+inline RankNumber meeting_rank(GlobalNumber number, std::size_t ranks) {
+  return static_cast<RankNumber>((scattered(static_cast<std::uint64_t>(number)) >> 32) * ranks >> 32);
 }
 
-/// Tells of most numbers that they have not been added. Throws std::bad_alloc when made, never later.
+/// A set of numbers that may claim to have a number that was not added, but seldom. Throws std::bad_alloc
+/// when made, never later.
 class NumberFilter {
  public:
   explicit NumberFilter(std::size_t most) {
@@ -35,7 +38,7 @@ class NumberFilter {
   std::vector<bool> maybe_;
 };
 
-/// Finds by number. Throws std::bad_alloc when made, never later.
+/// Finds values by number. Throws std::bad_alloc when made, never later.
 template <class Value>
 class NumberTable {
  public:
@@ -46,7 +49,7 @@ class NumberTable {
     std::fill(place_.begin(), place_.end(), Place{});
   }
 
-  /// The value of the number, and whether it is new; then it gets this one.
+  /// The value of the number, and whether the number is new: a new one gets `value`.
   std::pair<Value, bool> insert(GlobalNumber number, Value value) {
     Place& place = place_[find(number)];
     if (place.number == number) return {place.value, false};

@@ -3,7 +3,7 @@
 namespace pstripack {
 
 void ParcelWriter::make_room(std::size_t beyond) {
-  for (std::size_t r = 1; r < parcels_.begin.size(); ++r)
+  for (RankNumber r = 1; r < parcels_.begin.size(); ++r)
     parcels_.begin[r] =
         parcels_.begin[r - 1] + (parcels_.begin[r] + alignment_ - 1) / alignment_ * alignment_;
   end_ = parcels_.begin;

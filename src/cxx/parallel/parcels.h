@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/workspace.h"
+#include "parallel/local_numbers.h"
 
 namespace pstripack {
 
@@ -17,32 +18,33 @@ struct Parcels {
   std::vector<std::size_t> begin;
 };
 
-/// Packs parcels in two passes: first how much, then what. Every parcel begins where items of all types that
-/// are packed can.
+/// Packs parcels in two passes: first sizes, then items. The begin of every parcel is aligned for all types
+/// packed.
 class ParcelWriter {
  public:
   explicit ParcelWriter(std::size_t ranks) { parcels_.begin.resize(ranks + 1); }
 
   /// First: n items more for this rank.
   template <class Item>
-  void expect(std::size_t rank, std::size_t n = 1) {
+  void expect(RankNumber rank, std::size_t n = 1) {
     static_assert(std::is_trivially_copyable_v<Item>);
     alignment_ = std::max(alignment_, alignof(Item));
     parcels_.begin[rank + 1] += n * sizeof(Item);
   }
-  /// Then: memory for all that is expected; so many bytes behind may be written, too. Throws std::bad_alloc.
+  /// Then: memory for all that is expected and for `beyond` bytes behind it that may be written. Throws
+  /// std::bad_alloc.
   void make_room(std::size_t beyond = 0);
   /// True if nothing is expected.
   bool empty() const { return parcels_.begin.back() == 0; }
   /// Then: room for the next n items for this rank.
   template <class Item>
-  Item* room(std::size_t rank, std::size_t n) {
+  Item* room(RankNumber rank, std::size_t n) {
     auto* const items = reinterpret_cast<Item*>(parcels_.bytes.data() + end_[rank]);
     end_[rank] += n * sizeof(Item);
     return items;
   }
   template <class Item>
-  void put(std::size_t rank, const Item& item) {
+  void put(RankNumber rank, const Item& item) {
     *room<Item>(rank, 1) = item;
   }
   Parcels finish() { return std::move(parcels_); }
@@ -56,7 +58,7 @@ class ParcelWriter {
 /// Unpacks the parcel of one rank, in the order in which it was packed.
 class ParcelReader {
  public:
-  ParcelReader(const Parcels& parcels, std::size_t rank) : at_(parcels.bytes.data() + parcels.begin[rank]) {}
+  ParcelReader(const Parcels& parcels, RankNumber rank) : at_(parcels.bytes.data() + parcels.begin[rank]) {}
   template <class Item>
   const Item* array(std::size_t n) {
     const auto* const items = reinterpret_cast<const Item*>(at_);
@@ -77,13 +79,13 @@ template <class Item>
 class Items {
  public:
   explicit Items(const Parcels& parcels) : Items(parcels, 0, parcels.begin.size() - 1) {}
-  Items(const Parcels& parcels, std::size_t rank) : Items(parcels, rank, rank + 1) {}
+  Items(const Parcels& parcels, RankNumber rank) : Items(parcels, rank, rank + 1) {}
   const Item* begin() const { return first_; }
   const Item* end() const { return last_; }
   std::size_t size() const { return static_cast<std::size_t>(last_ - first_); }
 
  private:
-  Items(const Parcels& parcels, std::size_t first_rank, std::size_t last_rank)
+  Items(const Parcels& parcels, RankNumber first_rank, RankNumber last_rank)
       : first_(reinterpret_cast<const Item*>(parcels.bytes.data() + parcels.begin[first_rank])),
         last_(first_ + (parcels.begin[last_rank] - parcels.begin[first_rank]) / sizeof(Item)) {}
   const Item *first_, *last_;
@@ -93,9 +95,9 @@ class Items {
 template <class Item>
 Parcels packed(const std::vector<std::vector<Item>>& items) {
   ParcelWriter writer(items.size());
-  for (std::size_t r = 0; r < items.size(); ++r) writer.expect<Item>(r, items[r].size());
+  for (RankNumber r = 0; r < items.size(); ++r) writer.expect<Item>(r, items[r].size());
   writer.make_room();
-  for (std::size_t r = 0; r < items.size(); ++r)
+  for (RankNumber r = 0; r < items.size(); ++r)
     std::copy(items[r].begin(), items[r].end(), writer.room<Item>(r, items[r].size()));
   return writer.finish();
 }

@@ -11,12 +11,14 @@ namespace {
 constexpr double kPi = 3.141592653589793;
 constexpr double kEverything = 4;  // a margin larger than the sphere
 
-// A cell of the sample has this many nodes of it or fewer: enough to tell the distance between nodes.
-// Uneven cells are cut down to fewer.
+// Largest number of sample nodes in a cell: enough to tell the distance between nodes. Cells of uneven
+// density are cut until they have fewer.
 constexpr std::size_t kCellSample = 16, kUnevenCellSample = 5;
-// Margins in distances between nodes. A circumscribed cap of random nodes seldom has a diameter of more.
+// The margin of a cell, in distances between its nodes. The circumscribed cap of a triangle of random nodes
+// seldom has a larger diameter.
 constexpr double kMarginSpacings = 2.2;
-// Levels of the tree in a patch. With those between 2^31 patches they fit a stack.
+// Largest number of levels within a patch. With the 31 levels between 2^31 patches they fit the stack of a
+// search.
 constexpr int kMostLevels = 90, kStack = 128;
 
 double longitude(const Point& p) {
@@ -30,7 +32,7 @@ double longitude(const Point& p) {
 
 class Partition::Builder {
  public:
-  /// Sorts the sample into cells of so many of its nodes or fewer.
+  /// Sorts the sample into cells of at most `cell_sample` nodes.
   Builder(Partition& partition, std::vector<Point>& sample, std::size_t nodes,
           std::size_t cell_sample = kCellSample)
       : partition_(partition),
@@ -64,7 +66,7 @@ class Partition::Builder {
     Point* const last = first + sample_.size();
     Point* const middle = separate(first, last, half);
     const std::int32_t root = new_cell(half);
-    const int at_zero = stripe_at(stripes, 0), at_pi = stripe_at(stripes, kPi);
+    const PatchNumber at_zero = stripe_at(stripes, 0), at_pi = stripe_at(stripes, kPi);
     link(root, 1, wedges(middle, last, inside(stripes, 0, kPi, at_zero), kPi, {{half}}));
     link(root, 0, wedges(first, middle, inside(stripes, kPi, 2 * kPi, at_pi), 2 * kPi, {{opposite(half)}}));
     finish(root);
@@ -73,18 +75,19 @@ class Partition::Builder {
  private:
   struct Stripe {
     double from;
-    int patch;
+    PatchNumber patch;
   };
 
   /// The stripe that the meridian `phi` lies in.
-  static int stripe_at(const std::vector<Stripe>& stripes, double phi) {
-    int patch = stripes.back().patch;
+  static PatchNumber stripe_at(const std::vector<Stripe>& stripes, double phi) {
+    PatchNumber patch = stripes.back().patch;
     for (const Stripe& s : stripes)
       if (s.from <= phi) patch = s.patch;
     return patch;
   }
 
-  static std::vector<Stripe> inside(const std::vector<Stripe>& stripes, double from, double to, int first) {
+  static std::vector<Stripe> inside(const std::vector<Stripe>& stripes, double from, double to,
+                                    PatchNumber first) {
     std::vector<Stripe> result{{from, first}};
     for (const Stripe& s : stripes)
       if (s.from > from && s.from < to) result.push_back(s);
@@ -101,7 +104,7 @@ class Partition::Builder {
   void link(std::int32_t parent, int side, std::int32_t child) {
     partition_.cells_[parent].child[side] = child;
   }
-  /// What a cell knows of those below.
+  /// Sets what a cell knows of those below, its patch and its margin, and returns the cell.
   std::int32_t finish(std::int32_t k) {
     Cell& c = partition_.cells_[k];
     const Cell &a = partition_.cells_[c.child[0]], &b = partition_.cells_[c.child[1]];
@@ -137,7 +140,7 @@ class Partition::Builder {
   }
 
   /// Boxes for the patches from `first_patch` on that cut k divides. box: the planes around it.
-  std::int32_t bisect(const Cuts& cuts, std::int32_t k, Point* p, std::size_t n, int first_patch,
+  std::int32_t bisect(const Cuts& cuts, std::int32_t k, Point* p, std::size_t n, PatchNumber first_patch,
                       const Piece& box, double margin) {
     if (k < 0) {
       Region& region = partition_.regions_[first_patch];
@@ -168,7 +171,7 @@ class Partition::Builder {
   }
 
   /// The cells of one patch. Stripes are bisected along their length only.
-  std::int32_t cells_of_patch(Point* p, std::size_t n, int patch, double margin, bool along_z,
+  std::int32_t cells_of_patch(Point* p, std::size_t n, PatchNumber patch, double margin, bool along_z,
                               int level = 0) {
     const Extent extent(p, n);
     margin = margin_of(extent, n, margin);
@@ -195,8 +198,8 @@ class Partition::Builder {
     return leaf;
   }
 
-  /// From the size of a cell and the nodes that it stands for; that of the cell around it where its own
-  /// sample is too small to tell.
+  /// The margin of a cell, from its size and the number of nodes that its sample stands for; the margin of
+  /// the cell around it if the sample is too small to tell.
   double margin_of(const Extent& extent, std::size_t n, double of_parent) const {
     if (n < 4) return of_parent;
     return kMarginSpacings * extent.diagonal() / std::sqrt(static_cast<double>(n) * nodes_a_sample_);
@@ -253,16 +256,15 @@ Partition::Partition(const Cuts& cuts, std::vector<Point> sample, std::size_t no
     : Partition(static_cast<int>(cuts.all().size()) + 1) {
   Builder(*this, sample, nodes).bisect(cuts);
   copy_top(0, 0);
-  for (int q = 0; q < patches(); ++q) find_beside(q);
+  for (PatchNumber q = 0; q < patches(); ++q) find_beside(q);
 }
 
 Partition::Partition(std::vector<Point> sample) : Partition(1) {
   Builder(*this, sample, sample.size(), 1).cut_into_cells();
 }
 
-void Partition::give_cells(int patches, const std::vector<int>& patch_of_cell,
-                           const std::vector<std::uint32_t>& begin,
-                           const std::vector<std::uint32_t>& beside) {
+void Partition::give_cells(int patches, const std::vector<PatchNumber>& patch_of_cell,
+                           const std::vector<std::uint32_t>& begin, const std::vector<CellNumber>& beside) {
   regions_.resize(static_cast<std::size_t>(patches));
   largest_margin_.assign(regions_.size(), 0);
   smallest_margin_ = 0;
@@ -273,7 +275,7 @@ void Partition::give_cells(int patches, const std::vector<int>& patch_of_cell,
     Range& range = beside_of_[k];
     if (c.child[1] == 0) {
       c.patch = patch_of_cell[k];
-      std::vector<int> others;
+      std::vector<PatchNumber> others;
       for (std::uint32_t j = begin[k]; j < begin[k + 1]; ++j)
         if (patch_of_cell[beside[j]] != c.patch) others.push_back(patch_of_cell[beside[j]]);
       std::sort(others.begin(), others.end());
@@ -332,7 +334,7 @@ Partition::Partition(PartitionKind kind, int patches, std::vector<Point> sample,
   copy_top(0, 0);
 }
 
-void Partition::cells_of(const Point* x, std::size_t n, std::uint32_t* cell) const {
+void Partition::cells_of(const Point* x, std::size_t n, CellNumber* cell) const {
   for (std::size_t first = 0; first < n; first += kTogether) {
     const std::size_t together = std::min(n - first, kTogether);
     std::int32_t k[kTogether] = {};
@@ -345,16 +347,16 @@ void Partition::cells_of(const Point* x, std::size_t n, std::uint32_t* cell) con
         k[j] = next != 0 ? next : k[j];
       }
     }
-    for (std::size_t j = 0; j < together; ++j) cell[first + j] = static_cast<std::uint32_t>(k[j]);
+    for (std::size_t j = 0; j < together; ++j) cell[first + j] = static_cast<CellNumber>(k[j]);
   }
 }
 
-void Partition::owners(const Point* x, std::size_t n, std::uint32_t* owner, double* nearest_plane) const {
+void Partition::owners(const Point* x, std::size_t n, PatchOfNode* owner, double* nearest_plane) const {
   if (!has_convex_patches()) {
     cells_of(x, n, owner);
     for (std::size_t i = 0; i < n; ++i) {
-      const std::uint32_t cell = owner[i];
-      owner[i] = static_cast<std::uint32_t>(cells_[cell].patch);
+      const CellNumber cell = owner[i];
+      owner[i] = static_cast<PatchOfNode>(cells_[cell].patch);
       nearest_plane[i] = beside_of_[cell].begin < beside_of_[cell].end ? 0 : kEverything;
     }
     return;
@@ -364,20 +366,21 @@ void Partition::owners(const Point* x, std::size_t n, std::uint32_t* owner, doub
   const Top root = top_[0];  // the same for all
   for (std::size_t i = 0; i < n; ++i) {
     const double height = product(root.split, x[i]) - root.split.d;
-    owner[i] = static_cast<std::uint32_t>(height >= 0 ? root.child[1] : root.child[0]);
+    owner[i] = static_cast<PatchOfNode>(height >= 0 ? root.child[1] : root.child[0]);
     nearest_plane[i] = std::fabs(height) - root.rounding;
   }
   for (int level = 1; level < top_depth_; ++level)
     for (std::size_t i = 0; i < n; ++i) {
       const Top& t = top_[owner[i]];
       const double height = product(t.split, x[i]) - t.split.d;
-      owner[i] = static_cast<std::uint32_t>(t.child[height >= 0]);
+      owner[i] = static_cast<PatchOfNode>(t.child[height >= 0]);
       nearest_plane[i] = std::min(nearest_plane[i], std::fabs(height) - t.rounding);
     }
-  for (std::size_t i = 0; i < n; ++i) owner[i] = static_cast<std::uint32_t>(top_[owner[i]].patch);
+  for (std::size_t i = 0; i < n; ++i) owner[i] = static_cast<PatchOfNode>(top_[owner[i]].patch);
 }
 
-std::size_t Partition::not_deep(int patch, const Point* x, std::size_t n, std::uint32_t* which) const {
+std::size_t Partition::not_deep(PatchNumber patch, const Point* x, std::size_t n,
+                                std::uint32_t* which) const {
   const Region& region = regions_[patch];
   if (!region.is_box) {
     std::iota(which, which + n, 0);
@@ -410,7 +413,7 @@ void Partition::copy_top(std::int32_t cell, int depth) {
 
 // ---- asking it --------------------------------------------------------------------------------------
 
-double Partition::distance(int patch, const Point& x) const {
+double Partition::distance(PatchNumber patch, const Point& x) const {
   const Region& region = regions_[patch];
   if (region.is_box)
     return std::max({-4.0, region.low[0] - x.x, x.x - region.high[0], region.low[1] - x.y,
@@ -424,7 +427,8 @@ double Partition::distance(int patch, const Point& x) const {
   return nearest;
 }
 
-bool Partition::holds(int patch, const Point& a, const Point& b, const Point& c, double stretch) const {
+bool Partition::holds(PatchNumber patch, const Point& a, const Point& b, const Point& c,
+                      double stretch) const {
   const Region& region = regions_[patch];
   if (region.is_cone) return true;
   if (region.pieces.size() != 1 || !std::isfinite(stretch)) return false;
@@ -436,7 +440,7 @@ bool Partition::holds(int patch, const Point& a, const Point& b, const Point& c,
   return true;
 }
 
-void Partition::margins(const Point* x, const std::uint32_t* owner, const std::size_t* which, std::size_t n,
+void Partition::margins(const Point* x, const PatchOfNode* owner, const std::size_t* which, std::size_t n,
                         double* margin) const {
   std::int32_t k[kTogether];
   for (std::size_t j = 0; j < n; ++j) k[j] = regions_[owner[which[j]]].root;
@@ -452,7 +456,7 @@ void Partition::margins(const Point* x, const std::uint32_t* owner, const std::s
   for (std::size_t j = 0; j < n; ++j) margin[j] = cells_[k[j]].margin;
 }
 
-bool Partition::holds_all(int patch, double stretch) const {
+bool Partition::holds_all(PatchNumber patch, double stretch) const {
   const Region& region = regions_[patch];
   if (region.is_cone) return true;
   if (region.pieces.size() != 1 || !std::isfinite(stretch)) return false;
@@ -463,7 +467,7 @@ bool Partition::holds_all(int patch, double stretch) const {
   return true;
 }
 
-void Partition::find_beside(int patch) {
+void Partition::find_beside(PatchNumber patch) {
   Region& region = regions_[patch];
   const double margin = largest_margin_[patch];
   std::vector<std::int32_t> stack{0};
@@ -481,7 +485,7 @@ void Partition::find_beside(int patch) {
   }
 }
 
-void Partition::near(const Point& x, double radius, std::vector<int>& patches) const {
+void Partition::near(const Point& x, double radius, std::vector<PatchNumber>& patches) const {
   std::int32_t stack[kStack];
   int top = 0;
   stack[top++] = 0;
@@ -497,7 +501,7 @@ void Partition::near(const Point& x, double radius, std::vector<int>& patches) c
   }
 }
 
-void Partition::strangers(int q, const Ball& ball, std::vector<int>& patches) const {
+void Partition::strangers(PatchNumber q, const Ball& ball, std::vector<PatchNumber>& patches) const {
   patches.clear();
   const double reach = distance(q, ball.centre) + ball.radius;  // how far the ball goes beyond the border
   if (reach <= smallest_margin_) return;

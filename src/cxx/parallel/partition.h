@@ -19,10 +19,11 @@
 
 #include "geometry/point.h"
 #include "parallel/cuts.h"
+#include "parallel/local_numbers.h"
 
 namespace pstripack {
 
-/// How the sphere is cut into patches. All give the same bits.
+/// How the sphere is cut into patches. All kinds give the same triangulation, bit for bit.
 enum class PartitionKind {
   bisection,         ///< boxes with equal numbers of nodes, by recursive bisection along x, y, z
   stripes,           ///< stripes of longitude with equal numbers of nodes
@@ -41,44 +42,45 @@ class Partition {
   /// Bisection by these cuts.
   Partition(const Cuts& cuts, std::vector<Point> sample, std::size_t nodes);
 
-  /// Cells of about one node of the sample, not given to patches yet: then cells() and cells_of() tell which.
+  /// Cells of about one node of the sample each, not given to patches yet: see cells() and cells_of().
   explicit Partition(std::vector<Point> sample);
   std::size_t cells() const { return cells_.size(); }
   /// The cells that n places lie in, each < cells().
-  void cells_of(const Point* x, std::size_t n, std::uint32_t* cell) const;
+  void cells_of(const Point* x, std::size_t n, CellNumber* cell) const;
   /// Gives each cell to a patch. The nodes of cells next to its own, beside[begin[c] .. begin[c + 1] - 1] of
   /// cell c, are the halo of a patch.
-  void give_cells(int patches, const std::vector<int>& patch_of_cell, const std::vector<std::uint32_t>& begin,
-                  const std::vector<std::uint32_t>& beside);
+  void give_cells(int patches, const std::vector<PatchNumber>& patch_of_cell,
+                  const std::vector<std::uint32_t>& begin, const std::vector<CellNumber>& beside);
 
   int patches() const { return static_cast<int>(regions_.size()); }
-  /// False if cells have been given to them: any cells, perhaps far from each other.
+  /// False after give_cells(): a patch then has any cells, perhaps far from each other.
   bool has_convex_patches() const { return beside_of_.empty(); }
 
-  /// The patches that n places belong to, and how far they are from the nearest plane that decided so, but
-  /// for rounding: a lower bound of the distance from any other patch.
-  void owners(const Point* x, std::size_t n, std::uint32_t* owner, double* nearest_plane) const;
+  /// The patches that n places belong to. nearest_plane[i] is the distance of x[i] from the nearest plane
+  /// that it was compared with, less rounding: a lower bound of its distance from any other patch.
+  void owners(const Point* x, std::size_t n, PatchOfNode* owner, double* nearest_plane) const;
   /// The patch that x belongs to.
-  int owner(const Point& x) const {
+  PatchNumber owner(const Point& x) const {
     std::int32_t k = 0;
     while (cells_[k].patch < 0) k = cells_[k].child[is_beyond(cells_[k], x)];
     return cells_[k].patch;
   }
 
-  /// Which of n places may be another patch's own or in its halo: writes their indices, from the lowest on,
-  /// and returns how many there are. The others are deep in this patch.
-  std::size_t not_deep(int patch, const Point* x, std::size_t n, std::uint32_t* which) const;
+  /// Writes the indices of those of n places that may be another patch's own or in its halo, in increasing
+  /// order, and returns their number. The other places are deep in this patch.
+  std::size_t not_deep(PatchNumber patch, const Point* x, std::size_t n, std::uint32_t* which) const;
 
-  /// A lower bound of the distance of x from the patch; 0 or less inside. Changes by no more than x does.
-  double distance(int patch, const Point& x) const;
+  /// A lower bound of the distance of x from the patch; 0 or less inside. If x moves by d, it changes by at
+  /// most d.
+  double distance(PatchNumber patch, const Point& x) const;
 
   /// Calls visit(i, q) for each of n places and each patch q that has x[i] in its halo. `owner` and
   /// `nearest_plane` are those of owners().
   template <class Visit>
-  void for_each_halo(const Point* x, std::size_t n, const std::uint32_t* owner, const double* nearest_plane,
+  void for_each_halo(const Point* x, std::size_t n, const PatchOfNode* owner, const double* nearest_plane,
                      const Visit& visit) const {
     double margin[kTogether];
-    std::vector<int> patches;
+    std::vector<PatchNumber> patches;
     const auto examine = [&](const std::size_t* candidate, std::size_t candidates) {
       margins(x, owner, candidate, candidates, margin);
       for (std::size_t j = 0; j < candidates; ++j) {
@@ -94,8 +96,8 @@ class Partition {
           patches.clear();
           near(x[i], margin[j], patches);
         }
-        for (const int q : region.is_box ? region.beside : patches)
-          if (q != static_cast<int>(owner[i]) && is_within(margin[j], q, x[i])) visit(i, q);
+        for (const PatchNumber q : region.is_box ? region.beside : patches)
+          if (q != static_cast<PatchNumber>(owner[i]) && is_within(margin[j], q, x[i])) visit(i, q);
       }
     };
     const double* const largest_margin = largest_margin_.data();
@@ -110,23 +112,23 @@ class Partition {
   }
 
   /// True if x is patch q's own or in its halo.
-  bool knows(int q, const Point& x) const {
+  bool knows(PatchNumber q, const Point& x) const {
     if (!has_convex_patches()) return knows_cell(q, leaf(x));
     return owner(x) == q || is_within(margin_at(x), q, x);
   }
 
-  /// The patches that may have nodes in the ball which q does not know; none: q knows all of them. The
-  /// components of the centre may be wrong by 2^-49 of themselves or of the radius.
-  void strangers(int q, const Ball& ball, std::vector<int>& patches) const;
+  /// The patches that may have nodes in the ball which q does not know; empty if q knows all nodes there.
+  /// Each component of the centre may have an error of 2^-49 of itself or of the radius.
+  void strangers(PatchNumber q, const Ball& ball, std::vector<PatchNumber>& patches) const;
 
   /// The smallest margin of all cells.
   double smallest_margin() const { return smallest_margin_; }
 
-  /// True if the patch knows every node whose direction is in the triangle of its own nodes a,b,c and that
-  /// lies up to `stretch` times as far from the centre as the triangle there.
-  bool holds(int patch, const Point& a, const Point& b, const Point& c, double stretch) const;
-  /// True if holds() is for all triangles of the patch's own nodes.
-  bool holds_all(int patch, double stretch) const;
+  /// True if the patch knows every node in the direction of the triangle a,b,c of its own nodes that lies at
+  /// most `stretch` times as far from the centre as the triangle does in that direction.
+  bool holds(PatchNumber patch, const Point& a, const Point& b, const Point& c, double stretch) const;
+  /// True if holds() is true for all triangles of the patch's own nodes.
+  bool holds_all(PatchNumber patch, double stretch) const;
 
  private:
   struct Plane {
@@ -137,35 +139,37 @@ class Partition {
   };
   struct Region {
     std::vector<Piece> pieces;
-    std::int32_t root = 0;  // of the tree, or of all its cells
+    std::int32_t root = 0;  // all its cells are below this one
     bool is_box = false;    // between these heights across x, y and z
     double low[3] = {-8, -8, -8}, high[3] = {8, 8, 8};
-    double rounded_low[3] = {-8, -8, -8}, rounded_high[3] = {8, 8, 8};  // so far off by rounding
-    std::vector<int> beside;  // of a box: patches that may have nodes of this one in their halo
-    bool is_cone = false;     // convex, and a set of directions
+    double rounded_low[3] = {-8, -8, -8}, rounded_high[3] = {8, 8, 8};  // the same, wider by rounding
+    std::vector<PatchNumber> beside;  // of a box: patches that may have nodes of this one in their halo
+    bool is_cone = false;             // convex, and a set of directions
   };
   /// A node of the tree.
   struct Cell {
-    Plane split;              // child[1] has what is inside
-    std::int32_t child[2];    // 0: a leaf
-    std::int32_t patch = -1;  // of all leaves below, if it is one patch
-    double margin = 0;        // of a leaf; otherwise the smallest below
+    Plane split;             // child[1] has what is inside
+    std::int32_t child[2];   // 0: a leaf
+    PatchNumber patch = -1;  // of all leaves below, if it is one patch
+    double margin = 0;       // of a leaf; otherwise the smallest below
   };
 
-  /// So many descents in the tree at a time, level by level: one would wait for each of its comparisons.
+  /// Number of descents in the tree that run side by side, level by level: a single one would wait for each
+  /// of its comparisons.
   static constexpr std::size_t kTogether = 16;
 
-  /// Rounding of places: of each component, if planes are across an axis.
+  /// Rounding of places: relative to the height of a plane across an axis; absolute for planes through the
+  /// centre.
   static constexpr double kRounding = 0x1p-48;
   static double rounding_at(const Plane& p) { return kRounding * (p.d != 0 ? std::fabs(p.d) : 1); }
 
   static double product(const Plane& p, const Point& x) { return p.x * x.x + p.y * x.y + p.z * x.z; }
-  /// Of a plane across one of them.
+  /// The axis that a plane is across.
   static int axis_of(const Plane& p) { return p.x != 0 ? 0 : p.y != 0 ? 1 : 2; }
   static bool is_beyond(const Cell& cell, const Point& x) { return product(cell.split, x) >= cell.split.d; }
 
   /// True if x is no farther from the patch than the margin, up to rounding.
-  bool is_within(double margin, int patch, const Point& x) const {
+  bool is_within(double margin, PatchNumber patch, const Point& x) const {
     const Region& r = regions_[patch];
     if (!r.is_box) return distance(patch, x) <= margin + kRounding;
     return std::max({r.rounded_low[0] - x.x, x.x - r.rounded_high[0], r.rounded_low[1] - x.y,
@@ -179,27 +183,27 @@ class Partition {
     return static_cast<std::size_t>(k);
   }
   double margin_at(const Point& x) const { return cells_[leaf(x)].margin; }
-  /// Of a cell that was given to a patch.
-  bool knows_cell(int q, std::size_t cell) const {
+  /// True if the cell is q's or in its halo. After give_cells() only.
+  bool knows_cell(PatchNumber q, std::size_t cell) const {
     const auto first = beside_.begin() + beside_of_[cell].begin,
                last = beside_.begin() + beside_of_[cell].end;
     return cells_[cell].patch == q || std::find(first, last, q) != last;
   }
   /// The margins of the cells of x[which[0..n-1]], n <= kTogether.
-  void margins(const Point* x, const std::uint32_t* owner, const std::size_t* which, std::size_t n,
+  void margins(const Point* x, const PatchOfNode* owner, const std::size_t* which, std::size_t n,
                double* margin) const;
   /// The patches within `radius` of x, each once.
-  void near(const Point& x, double radius, std::vector<int>& patches) const;
+  void near(const Point& x, double radius, std::vector<PatchNumber>& patches) const;
 
-  /// A node of the top of the tree: down to cells of one patch, which lead to themselves.
+  /// A node of the top of the tree, which ends at cells of one patch. Such a cell is its own child.
   struct Top {
     Plane split;
     double rounding;
     std::int32_t child[2];
-    std::int32_t patch;
+    PatchNumber patch;
   };
   void copy_top(std::int32_t cell, int depth);
-  void find_beside(int patch);
+  void find_beside(PatchNumber patch);
 
   explicit Partition(int patches);
   class Builder;
@@ -209,13 +213,12 @@ class Partition {
   std::vector<Region> regions_;
   std::vector<double> largest_margin_;  // of the cells of each patch
   double smallest_margin_ = 4;
-  /// Of each cell, if cells were given to patches: where in beside_ the other patches are that have it in
-  /// their halo.
+  /// For each cell, after give_cells(): where beside_ has the other patches that have the cell in their halo.
   struct Range {
     std::uint32_t begin = 0, end = 0;
   };
   std::vector<Range> beside_of_;
-  std::vector<int> beside_;
+  std::vector<PatchNumber> beside_;
 };
 
 }  // namespace pstripack

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/workspace.h"
+#include "parallel/local_numbers.h"
 #include "parallel/partition.h"
 #include "parallel/patch_agreement.h"
 #include "parallel/patch_hull.h"
@@ -20,12 +21,12 @@
 
 namespace pstripack {
 
-/// Int: what node numbers fit into. A patch without own nodes has no hull.
+/// Int: a type that holds all node numbers. A patch without own nodes has no hull.
 template <class Int>
 class Patch {
  public:
   /// The nodes must outlive set_up().
-  Patch(int id, const Partition& partition, const Places& places, const PatchNodes& nodes)
+  Patch(PatchNumber id, const Partition& partition, const Places& places, const PatchNodes& nodes)
       : id_(id), partition_(&partition), nodes_(nodes), hull_(places) {}
 
   /// Memory for set_up(). `closing`: nodes of the global sample.
@@ -33,9 +34,9 @@ class Patch {
     return nodes_.own == 0 ? 0 : PatchHull<Int>::workspace_bytes(nodes_.count() + closing);
   }
 
-  /// Sorts the patch's nodes and those of the `closing` that it does not know: some from everywhere, three of
-  /// them not on one great circle, so that the far side is closed. The workspace must outlive the patch and
-  /// its rings. Throws HiddenNode where it is easy to see that one is hidden, std::bad_alloc.
+  /// Sorts the patch's nodes and those of `closing` that it does not know: nodes from everywhere, three of
+  /// them not on one great circle, which close the hull on the far side of the sphere. The workspace must
+  /// outlive the patch and its rings. Throws HiddenNode if a quick test finds one, std::bad_alloc.
   void set_up(const std::vector<Record>& closing, Workspace& workspace);
   /// Triangulates them. Throws HiddenNode, std::bad_alloc.
   void triangulate() {
@@ -57,9 +58,9 @@ class Patch {
   /// of a boundary would each change many faces at the back of the hull. Throws HiddenNode, std::bad_alloc.
   void take_in(std::vector<Record> nodes);
 
-  /// The answer of this patch to another's question: nodes that lie above, or that show that the arc is none
-  /// of the boundary; none if there are none. A patch that answers takes in the corners of the question.
-  /// Throws HiddenNode, std::bad_alloc.
+  /// The answer of this patch to another's question: nodes that lie above the triangle, or that show that the
+  /// arc is not on the boundary. Empty if it knows no such nodes. A patch that answers takes in the corners
+  /// of the question. Throws HiddenNode, std::bad_alloc.
   std::vector<Record> answer(const Question& question) {
     if (nodes_.own == 0 || !hull_.coincident().empty()) return {};
     return pstripack::answer(hull_, question);
@@ -67,9 +68,9 @@ class Patch {
 
   // Certification by agreement, where there would be too many questions: docs/parallel.md, "Agreement".
 
-  /// Asks about triangles as ask() does, but only the owners of their corners, who must have them, too: at
-  /// most `most` questions to each patch, and few about nodes that may be hubs. All arcs as ask() does.
-  /// Throws HiddenNode, std::bad_alloc.
+  /// Asks about triangles as ask() does, but only the owners of the corners, which must have the same
+  /// triangles: at most `most` questions to each patch, and few about nodes that may be hubs. Asks about all
+  /// arcs as ask() does. Throws HiddenNode, std::bad_alloc.
   Doubts claim(const std::array<Record, 3>& corners, std::size_t most) {
     if (nodes_.own == 0 || partition_->patches() == 1) return {};
     return agreed_.claim(hull_, view(), corners, most, asked_);
@@ -78,7 +79,7 @@ class Patch {
   void see_refuted(const Question& question) { agreed_.see_refuted(view(), question); }
   /// After the answers: nodes whose owners should not have to take in all their neighbours.
   std::vector<GlobalNumber> look_for_hubs() const { return agreed_.look_for_hubs(hull_); }
-  /// All of them, the same for all patches. Throws std::bad_alloc.
+  /// Sets all hubs, the same for all patches. Throws std::bad_alloc.
   void set_hubs(const std::unordered_set<GlobalNumber>& numbers) { agreed_.set_hubs(numbers); }
   /// The hubs at which it keeps triangles. Throws std::bad_alloc.
   std::vector<GlobalNumber> kept_hubs() const { return agreed_.kept_hubs(hull_); }
@@ -89,11 +90,12 @@ class Patch {
   void for_each_run_at_hubs(const Visit& visit) const {
     agreed_.for_each_run(view(), visit);
   }
-  /// Of an own hub: which of the patch's nodes it is.
+  /// The PatchNode of an own hub.
   std::size_t index_of_hub(GlobalNumber number) const { return hull_.index(hull_.find(number)); }
-  /// Of an own hub: where its ring begins if it is on the boundary; kNoNumber inside.
+  /// The neighbour with which the ring of an own hub begins if the hub is on the boundary; kNoNumber if it is
+  /// inside.
   GlobalNumber first_boundary_neighbour(GlobalNumber number) const {
-    const std::uint32_t first = hull_.beside_on_boundary(hull_.find(number)).b;
+    const HullNode first = hull_.beside_on_boundary(hull_.find(number)).b;
     return first != PatchHull<Int>::kNobody ? hull_.number(first) : kNoNumber;
   }
 
@@ -112,23 +114,23 @@ class Patch {
     hull_.write_rings(finished_, out, visit, soon);
   }
 
-  /// After finish(): who misses which neighbours. Rank r brought the own nodes [own_from[r], own_from[r+1]),
-  /// `mine` is the rank that brought most. Calls visit(r, node) for each node that is a neighbour of one that
-  /// r has brought and that r has not, perhaps more than once.
+  /// After finish(): calls visit(r, node) for each node that rank r did not bring and that is a neighbour of
+  /// a node that r brought, perhaps more than once. Rank r brought the own nodes [own_from[r],
+  /// own_from[r+1]); `mine` is the rank that brought most of them.
   template <class Visit>
-  void for_each_missing_neighbour(std::size_t mine, const std::vector<std::size_t>& own_from,
+  void for_each_missing_neighbour(RankNumber mine, const std::vector<std::size_t>& own_from,
                                   const Visit& visit) const;
 
-  int id() const { return id_; }
+  PatchNumber id() const { return id_; }
   std::size_t own() const { return nodes_.own; }
   std::size_t halo() const { return nodes_.halo; }
-  /// Different nodes in the same direction that it came upon: their numbers.
+  /// The numbers of different nodes in the same direction, as far as it has found them.
   const CoincidentPairs& coincident() const { return hull_.coincident(); }
 
  private:
   PatchView<Int> view() const { return {id_, *partition_, hull_}; }
 
-  int id_;
+  PatchNumber id_;
   const Partition* partition_;
   PatchNodes nodes_;
   PatchHull<Int> hull_;
@@ -139,47 +141,48 @@ class Patch {
 
 template <class Int>
 template <class Visit>
-void Patch<Int>::for_each_missing_neighbour(std::size_t mine, const std::vector<std::size_t>& own_from,
+void Patch<Int>::for_each_missing_neighbour(RankNumber mine, const std::vector<std::size_t>& own_from,
                                             const Visit& visit) const {
-  constexpr std::uint32_t kNobody = PatchHull<Int>::kNobody;
+  constexpr RankOfNode kNoRank = UINT32_MAX;
   const std::size_t own = nodes_.own;
   if (own == 0) return;
   const std::size_t first = own_from[mine], count = own_from[mine + 1] - first;
-  // Of each own node, by whom it was brought; where one rank brought all, nobody asks.
-  std::vector<std::uint32_t> bringer(count < own ? own : 0);
-  for (std::size_t r = 0; r + 1 < own_from.size() && count < own; ++r)
+  // The rank that brought each own node; empty if `mine` brought all.
+  std::vector<RankOfNode> bringer(count < own ? own : 0);
+  for (RankNumber r = 0; r + 1 < own_from.size() && count < own; ++r)
     std::fill(bringer.begin() + static_cast<std::ptrdiff_t>(own_from[r]),
-              bringer.begin() + static_cast<std::ptrdiff_t>(own_from[r + 1]), static_cast<std::uint32_t>(r));
-  const auto brought_by = [&](std::uint32_t v) {
-    if (!hull_.is_own(v)) return kNobody;
-    return count < own ? bringer[hull_.index(v)] : static_cast<std::uint32_t>(mine);
+              bringer.begin() + static_cast<std::ptrdiff_t>(own_from[r + 1]), static_cast<RankOfNode>(r));
+  const auto brought_by = [&](HullNode v) {
+    if (!hull_.is_own(v)) return kNoRank;
+    return count < own ? bringer[hull_.index(v)] : static_cast<RankOfNode>(mine);
   };
-  // Of each hull node, who was told of it last: most are missed by one rank, at several of its nodes.
-  std::vector<std::uint32_t> told(count < own ? finished_.node_count : 0, kNobody);
-  const auto look_around = [&](std::uint32_t v) {
-    const std::uint32_t r = brought_by(v);
+  // The rank that was told last of each hull node: most are missed by one rank, at several of its nodes.
+  std::vector<RankOfNode> told(count < own ? finished_.node_count : 0, kNoRank);
+  const auto look_around = [&](HullNode v) {
+    const RankOfNode r = brought_by(v);
     bool is_missing = false;
-    const auto meet = [&](std::uint32_t w) {
+    const auto meet = [&](HullNode w) {
       if (agreed_.is_in_doubt(hull_, v, w)) return;
-      const std::uint32_t other = brought_by(w);
+      const RankOfNode other = brought_by(w);
       is_missing = is_missing || other == mine;
-      if (r == kNobody || other == r || told[w] == r) return;
+      if (r == kNoRank || other == r || told[w] == r) return;
       told[w] = r;
-      visit(std::size_t{r}, hull_.node(w));
+      visit(RankNumber{r}, hull_.node(w));
     };
-    hull_.for_each_face_at(v, [&](std::uint32_t t, std::uint32_t i) {
+    hull_.for_each_face_at(v, [&](HullFace t, std::uint32_t i) {
       if (!finished_.front(t)) return;
       const Face& f = hull_.face(t);
       meet(f.vertex[next_edge(i)]);
-      // The last neighbour of a boundary node; of others the next face tells.
+      // The last neighbour of a boundary node; any other is met in the next face.
       if (!finished_.front(face_of(f.neighbour[next_edge(i)]))) meet(f.vertex[previous_edge(i)]);
     });
     if (is_missing) visit(mine, hull_.node(v));
   };
-  // Of two neighbours one is looked at: all but the own nodes of `mine`.
-  for (const std::uint32_t v : asked_.around) look_around(v);
+  // Looks around at all nodes but the own ones that `mine` brought: at one of any two neighbours that concern
+  // two ranks.
+  for (const HullNode v : asked_.around) look_around(v);
   if (count == own) return;
-  for (std::uint32_t v = 0; v < hull_.built(); ++v)
+  for (HullNode v = 0; v < hull_.built(); ++v)
     if (hull_.is_own(v) && hull_.index(v) - first >= count) look_around(v);
 }
 

@@ -3,8 +3,8 @@
 namespace pstripack {
 namespace {
 
-/// A node of another patch that has more triangles than this with nodes here may be a hub. It is one where
-/// its owner confirms most of so many of them.
+/// A node of another patch may be a hub if this patch has more than kManyTriangles triangles to ask its owner
+/// about. It is one if the owner confirms most of the first kAFew.
 constexpr std::size_t kManyTriangles = 64, kAFew = 8;
 
 }  // namespace
@@ -21,33 +21,34 @@ Doubts PatchAgreement<Int>::claim(PatchHull<Int>& hull, const PatchView<Int>& pa
   asked.is_around.assign(n, false);
   asked_about_.assign(n, {});
   if (!hubs_.empty())
-    for (auto v = static_cast<std::uint32_t>(is_hub_.size()); v < n; ++v)
+    for (auto v = static_cast<HullNode>(is_hub_.size()); v < n; ++v)
       is_hub_.push_back(hubs_.count(hull.number(v)) > 0);
 
   struct Claim {
-    std::uint32_t face, corner;
-    int owner;
+    HullFace face;
+    HullNode node;
+    PatchNumber owner;
   };
   std::vector<Claim> claims;
-  std::vector<int> owner_of_node(n, -1);
+  std::vector<PatchNumber> owner_of_node(n, -1);
   std::vector<std::size_t> to_patch(static_cast<std::size_t>(patch.partition.patches()));
-  hull.for_each_face_at_border(0, [&](std::uint32_t t, int own) {
+  hull.for_each_face_at_border(0, [&](HullFace t, int own) {
     if (own == 0) return;
     const auto& vertex = hull.face(t).vertex;
-    const std::uint32_t v[] = {vertex[0], vertex[1], vertex[2]};
+    const HullNode v[] = {vertex[0], vertex[1], vertex[2]};
     const bool has_one_hub = is_hub(v[0]) + is_hub(v[1]) + is_hub(v[2]) == 1;
     bool keeps = false;
-    for (const std::uint32_t w : v) {
+    for (const HullNode w : v) {
       if (!hull.is_own(w))
         asked.meet(w);
       else
         keeps = keeps || !(has_one_hub && is_hub(w));
     }
     if (!keeps) return;
-    int last = patch.id;
-    for (const std::uint32_t w : v) {
+    PatchNumber last = patch.id;
+    for (const HullNode w : v) {
       if (hull.is_own(w) || (has_one_hub && is_hub(w))) continue;
-      int& owner = owner_of_node[w];
+      PatchNumber& owner = owner_of_node[w];
       if (owner < 0) owner = patch.owner(w);
       if (owner == last) continue;
       last = owner;
@@ -59,8 +60,8 @@ Doubts PatchAgreement<Int>::claim(PatchHull<Int>& hull, const PatchView<Int>& pa
   std::vector<std::size_t> passed(to_patch.size());
   for (const Claim& claim : claims) {
     const auto q = static_cast<std::size_t>(claim.owner);
-    AskedAbout& about = asked_about_[claim.corner];
-    const std::size_t step = (to_patch[q] - 1) / most + 1;  // of too many, each so and so many-th
+    AskedAbout& about = asked_about_[claim.node];
+    const std::size_t step = (to_patch[q] - 1) / most + 1;  // of too many, every step-th is asked
     if (passed[q]++ % step != 0 || (about.triangles > kManyTriangles && about.asked == kAFew)) {
       doubts.left_out = true;
       continue;
@@ -77,7 +78,7 @@ template <class Int>
 void PatchAgreement<Int>::see_refuted(const PatchView<Int>& patch, const Question& question) {
   if (asked_about_.empty()) return;
   for (const Record& r : question.corner) {
-    const std::uint32_t v = patch.hull.find(r.number);
+    const HullNode v = patch.hull.find(r.number);
     if (v != PatchHull<Int>::kNobody && patch.owner(v) == question.to) ++asked_about_[v].refuted;
   }
 }
@@ -85,7 +86,7 @@ void PatchAgreement<Int>::see_refuted(const PatchView<Int>& patch, const Questio
 template <class Int>
 std::vector<GlobalNumber> PatchAgreement<Int>::look_for_hubs(const PatchHull<Int>& hull) const {
   std::vector<GlobalNumber> numbers;
-  for (std::uint32_t v = 0; v < asked_about_.size(); ++v) {
+  for (HullNode v = 0; v < asked_about_.size(); ++v) {
     const AskedAbout& about = asked_about_[v];
     if (about.triangles > kManyTriangles && about.asked == kAFew && 2 * about.refuted < kAFew)
       numbers.push_back(hull.number(v));
@@ -96,9 +97,9 @@ std::vector<GlobalNumber> PatchAgreement<Int>::look_for_hubs(const PatchHull<Int
 template <class Int>
 std::vector<GlobalNumber> PatchAgreement<Int>::kept_hubs(const PatchHull<Int>& hull) const {
   std::vector<GlobalNumber> kept;
-  for (std::uint32_t h = 0; h < is_hub_.size(); ++h) {
+  for (HullNode h = 0; h < is_hub_.size(); ++h) {
     if (!is_hub_[h]) continue;
-    std::uint32_t corner = hull.corner(h);
+    HullCorner corner = hull.corner(h);
     do {
       if (is_in_run(hull, h, face_of(corner), edge_of(corner))) {
         kept.push_back(hull.number(h));

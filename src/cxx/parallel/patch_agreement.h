@@ -1,9 +1,9 @@
 #pragma once
 // What a patch does to agree with others on the stars of its nodes: docs/parallel.md, "Agreement".
 //
-// A patch keeps a triangle of its hull if it owns a corner. Others keep it that own its other corners: the
-// patch asks each of them about it. A hub is a node with more neighbours than its owner should take in. Its
-// owner need not keep triangles at it, unless these have two hubs.
+// A patch keeps a triangle of its hull if it owns a corner. The patches that own its other corners must keep
+// it, too: the patch asks each of them about it. A hub is a node with more neighbours than its owner should
+// take in. Its owner need not keep triangles at it, unless these have two hubs.
 
 #include <array>
 #include <cstddef>
@@ -17,7 +17,7 @@
 
 namespace pstripack {
 
-/// The members are as those of Patch.
+/// The members do what those of Patch do.
 template <class Int>
 class PatchAgreement {
  public:
@@ -35,16 +35,16 @@ class PatchAgreement {
   void for_each_run(const PatchView<Int>& patch, const Visit& visit) const {
     const PatchHull<Int>& hull = patch.hull;
     std::vector<Record> run;
-    for (std::uint32_t h = 0; h < is_hub_.size(); ++h) {
+    for (HullNode h = 0; h < is_hub_.size(); ++h) {
       if (!is_hub_[h]) continue;
       const auto end_run = [&] {
         if (!run.empty()) visit(hull.node(h), patch.owner(h), run);
         run.clear();
       };
-      hull.for_each_face_at(h, [&](std::uint32_t t, std::uint32_t i) {
+      hull.for_each_face_at(h, [&](HullFace t, std::uint32_t i) {
         if (!is_in_run(hull, h, t, i)) return;
         const auto& corner = hull.face(t).vertex;
-        const std::uint32_t x = corner[next_edge(i)], y = corner[previous_edge(i)];
+        const HullNode x = corner[next_edge(i)], y = corner[previous_edge(i)];
         if (run.empty() || run.back().number != hull.number(x)) {
           end_run();
           run.push_back(hull.node(x));
@@ -54,17 +54,17 @@ class PatchAgreement {
       end_run();
     }
   }
-  /// Whether neighbours v and w may be none, one being an own hub, the other not certified here. Those of
-  /// hubs are in for_each_run().
-  bool is_in_doubt(const PatchHull<Int>& hull, std::uint32_t v, std::uint32_t w) const {
+  /// True if v and w, neighbours in this hull, may be none in the mesh: one is a hub, the other neither a hub
+  /// nor an own node. for_each_run() has the neighbours of hubs.
+  bool is_in_doubt(const PatchHull<Int>& hull, HullNode v, HullNode w) const {
     return (is_hub(v) && !is_hub(w) && !hull.is_own(w)) || (is_hub(w) && !is_hub(v) && !hull.is_own(v));
   }
 
  private:
-  bool is_hub(std::uint32_t v) const { return v < is_hub_.size() && is_hub_[v]; }
-  /// Of a triangle t, whose corner i is hub h: true if this of all patches that keep it tells of it.
-  bool is_in_run(const PatchHull<Int>& hull, std::uint32_t h, std::uint32_t t, std::uint32_t i) const {
-    const std::uint32_t x = hull.face(t).vertex[next_edge(i)];
+  bool is_hub(HullNode v) const { return v < is_hub_.size() && is_hub_[v]; }
+  /// Corner i of triangle t is hub h. True if this patch, among all that keep t, has it in a run.
+  bool is_in_run(const PatchHull<Int>& hull, HullNode h, HullFace t, std::uint32_t i) const {
+    const HullNode x = hull.face(t).vertex[next_edge(i)];
     return hull.is_own(is_hub_[x] ? h : x) && hull.growing().front(t);
   }
 

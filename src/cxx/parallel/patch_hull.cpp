@@ -7,15 +7,15 @@
 namespace pstripack {
 namespace {
 
-/// Room for nodes that are taken in later. They are few; where they are not, memory is taken anew.
+/// Leaves room for nodes that are taken in later. If they are more, make_room() takes memory anew.
 std::size_t capacity_for(std::size_t nodes) { return nodes + nodes / 8 + 256; }
 
 }  // namespace
 
 template <class Int>
 std::size_t PatchHull<Int>::workspace_bytes(std::size_t nodes) {
-  return capacity_for(nodes) * (sizeof(std::uint32_t) + sizeof(Point) + sizeof(Int) + 2 * sizeof(Face) +
-                                sizeof(std::uint32_t) + 2 * sizeof(Plane)) +
+  return capacity_for(nodes) * (sizeof(PatchNode) + sizeof(Point) + sizeof(Int) + 2 * sizeof(Face) +
+                                sizeof(HullCorner) + 2 * sizeof(Plane)) +
          Workspace::kSlack;
 }
 
@@ -26,14 +26,14 @@ void PatchHull<Int>::set_up(const PatchNodes& nodes, const std::vector<Record>& 
   const std::size_t first = leading.size();
   built_ = nodes.count() + first;
   arrays_.capacity = capacity_for(built_);
-  order_ = workspace.keep<std::uint32_t>(built_);
+  order_ = workspace.keep<PatchNode>(built_);
   leading_ =
       first + insertion_order(&nodes.first->point, nodes.count(), order_ + first, workspace, sizeof(Record));
   workspace.next_phase();
   arrays_.nodes = workspace.keep<Point>(arrays_.capacity);
   number_ = workspace.keep<Int>(arrays_.capacity);
   for (std::size_t v = 0; v < first; ++v) {
-    order_[v] = static_cast<std::uint32_t>(nodes.count() + v);
+    order_[v] = static_cast<PatchNode>(nodes.count() + v);
     arrays_.nodes[v] = leading[v].point;
     number_[v] = static_cast<Int>(leading[v].number);
   }
@@ -45,7 +45,7 @@ void PatchHull<Int>::set_up(const PatchNodes& nodes, const std::vector<Record>& 
     number_[v] = static_cast<Int>(r.number);
   }
   arrays_.faces = workspace.keep<Face>(2 * arrays_.capacity);
-  arrays_.corner = workspace.keep<std::uint32_t>(arrays_.capacity);
+  arrays_.corner = workspace.keep<HullCorner>(arrays_.capacity);
   arrays_.planes = workspace.take<Plane>(2 * arrays_.capacity);
   first_planes_ = arrays_.planes;
   growing_ = GrowingHull::make(arrays_, built_, places_.lengths());
@@ -66,7 +66,7 @@ void PatchHull<Int>::make_room() {
   larger.capacity = 2 * arrays_.capacity;
   auto memory = decltype(memory_){Buffer<Point>(larger.capacity), Buffer<Int>(larger.capacity),
                                   Buffer<Face>(2 * larger.capacity), Buffer<Plane>(2 * larger.capacity),
-                                  Buffer<std::uint32_t>(larger.capacity)};
+                                  Buffer<HullCorner>(larger.capacity)};
   std::copy(arrays_.nodes, arrays_.nodes + n, memory.nodes.begin());
   std::copy(number_, number_ + n, memory.number.begin());
   std::copy(arrays_.faces, arrays_.faces + faces, memory.faces.begin());
@@ -83,12 +83,12 @@ void PatchHull<Int>::make_room() {
 }
 
 template <class Int>
-std::uint32_t PatchHull<Int>::take_in(const Record& node) {
+HullNode PatchHull<Int>::take_in(const Record& node) {
   const auto [taken, is_new] = taken_in_.try_emplace(node.number, 0);
   if (!is_new) return taken->second;
   make_room();
   const std::size_t before = growing_->node_count();
-  const std::uint32_t v = growing_->add(node.point);
+  const HullNode v = growing_->add(node.point);
   if (v == before)
     number_[v] = static_cast<Int>(node.number);
   else if (number(v) != node.number)
@@ -98,10 +98,10 @@ std::uint32_t PatchHull<Int>::take_in(const Record& node) {
 }
 
 template <class Int>
-BoundaryArc PatchHull<Int>::beside_on_boundary(std::uint32_t v) const {
+BoundaryArc PatchHull<Int>::beside_on_boundary(HullNode v) const {
   BoundaryArc beside{kNobody, kNobody};
   if (growing_->surrounds_centre()) return beside;
-  for_each_face_at(v, [&](std::uint32_t t, std::uint32_t i) {
+  for_each_face_at(v, [&](HullFace t, std::uint32_t i) {
     if (growing_->front(t)) return;
     const Face& f = arrays_.faces[t];
     const std::uint32_t next = next_edge(i), previous = previous_edge(i);
@@ -116,8 +116,8 @@ template <class Int>
 std::vector<BoundaryArc> PatchHull<Int>::boundary_arcs() const {
   std::vector<BoundaryArc> arcs;
   if (growing_->surrounds_centre()) return arcs;
-  const auto faces = static_cast<std::uint32_t>(growing_->face_count());
-  for (std::uint32_t t = 0; t < faces; ++t) {
+  const auto faces = static_cast<HullFace>(growing_->face_count());
+  for (HullFace t = 0; t < faces; ++t) {
     if (arrays_.planes[t].w > 1 || growing_->front(t)) continue;
     const Face& f = arrays_.faces[t];
     for (std::uint32_t i = 0; i < 3; ++i)

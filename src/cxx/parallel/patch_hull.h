@@ -13,6 +13,7 @@
 #include "mesh/delaunay.h"
 #include "mesh/ring_table.h"
 #include "parallel/coincidence.h"
+#include "parallel/local_numbers.h"
 #include "parallel/places.h"
 #include "parallel/record.h"
 
@@ -20,79 +21,80 @@ namespace pstripack {
 
 /// An arc a -> b of the boundary, with the triangulation on the left.
 struct BoundaryArc {
-  std::uint32_t a, b;  ///< hull nodes
+  HullNode a, b;
 };
 
-/// Int: what node numbers fit into. "Node v" is a hull node; the hull grows, but no hull node changes.
+/// Int: a type that holds all node numbers. "Node v" is a hull node. The hull grows, but no node changes its
+/// HullNode.
 template <class Int>
 class PatchHull {
  public:
-  static constexpr std::uint32_t kNobody = UINT32_MAX;
+  static constexpr HullNode kNobody = UINT32_MAX;
 
   explicit PatchHull(const Places& places) : places_(places) {}
 
-  /// Memory for set_up() with so many nodes.
+  /// Memory for set_up() with `nodes` nodes, the leading ones included.
   static std::size_t workspace_bytes(std::size_t nodes);
-  /// Sorts the nodes; `leading`: others, which come first. The workspace must outlive the hull and its rings,
-  /// `nodes` only this call. Throws HiddenNode where it is easy to see that one is hidden, std::bad_alloc.
+  /// Sorts the nodes; `leading` are others, which come first. The workspace must outlive the hull and its
+  /// rings, `nodes` only this call. Throws HiddenNode if a quick test finds one, std::bad_alloc.
   void set_up(const PatchNodes& nodes, const std::vector<Record>& leading, Workspace& workspace);
   /// Makes their hull. Throws HiddenNode, std::bad_alloc.
   void build();
-  /// Adds a node that has come from elsewhere, unless it has already. Returns the hull node, or the one with
-  /// which it coincides. Throws HiddenNode, std::bad_alloc.
-  std::uint32_t take_in(const Record& node);
+  /// Adds a node of another patch, unless it was added before. Returns its hull node, or the one with which
+  /// it coincides. Throws HiddenNode, std::bad_alloc.
+  HullNode take_in(const Record& node);
   /// From now on find() finds node v, too. Throws std::bad_alloc.
-  void remember(std::uint32_t v) { taken_in_.try_emplace(number(v), v); }
+  void remember(HullNode v) { taken_in_.try_emplace(number(v), v); }
   /// The node of that number if it was taken in or remembered, or kNobody.
-  std::uint32_t find(GlobalNumber number) const {
+  HullNode find(GlobalNumber number) const {
     const auto found = taken_in_.find(number);
     return found != taken_in_.end() ? found->second : kNobody;
   }
 
   const Places& places() const { return places_; }
   const GrowingHull& growing() const { return *growing_; }
-  const Face& face(std::uint32_t t) const { return arrays_.faces[t]; }
-  const Plane& plane(std::uint32_t t) const { return arrays_.planes[t]; }
-  /// Different nodes in the same direction that it came upon: their numbers.
+  const Face& face(HullFace t) const { return arrays_.faces[t]; }
+  const Plane& plane(HullFace t) const { return arrays_.planes[t]; }
+  /// The numbers of different nodes in the same direction, as far as the hull has found them.
   const CoincidentPairs& coincident() const { return coincident_; }
 
   /// Hull nodes without those taken in.
   std::size_t built() const { return built_; }
-  /// Of node v < built(): which of the nodes of set_up(); a number >= their count if it is a leading one.
-  std::size_t index(std::uint32_t v) const { return order_[v]; }
-  bool is_own(std::uint32_t v) const { return v < built_ && order_[v] < own_; }
-  const Point& point(std::uint32_t v) const { return arrays_.nodes[v]; }
-  Point place(std::uint32_t v) const { return places_(arrays_.nodes[v]); }
-  GlobalNumber number(std::uint32_t v) const { return GlobalNumber{number_[v]}; }
-  Record node(std::uint32_t v) const { return {arrays_.nodes[v], number(v)}; }
+  /// Which of the nodes of set_up() node v < built() is; >= their count if it is a leading one.
+  PatchNode index(HullNode v) const { return order_[v]; }
+  bool is_own(HullNode v) const { return v < built_ && order_[v] < own_; }
+  const Point& point(HullNode v) const { return arrays_.nodes[v]; }
+  Point place(HullNode v) const { return places_(arrays_.nodes[v]); }
+  GlobalNumber number(HullNode v) const { return GlobalNumber{number_[v]}; }
+  Record node(HullNode v) const { return {arrays_.nodes[v], number(v)}; }
 
-  /// A corner of a face at node v, as 4*t + i.
-  std::uint32_t corner(std::uint32_t v) const { return arrays_.corner[v]; }
+  /// A corner of a face at node v.
+  HullCorner corner(HullNode v) const { return arrays_.corner[v]; }
   /// The corner at the same node in the next face counterclockwise.
-  std::uint32_t counterclockwise(std::uint32_t corner) const {
-    const std::uint32_t beyond = arrays_.faces[face_of(corner)].neighbour[next_edge(edge_of(corner))];
+  HullCorner counterclockwise(HullCorner corner) const {
+    const HullCorner beyond = arrays_.faces[face_of(corner)].neighbour[next_edge(edge_of(corner))];
     return 4 * face_of(beyond) + next_edge(edge_of(beyond));
   }
   /// Calls visit(t, i) for every face t around node v, which is its vertex i.
   template <class Visit>
-  void for_each_face_at(std::uint32_t v, const Visit& visit) const {
-    const std::uint32_t first = arrays_.corner[v];
-    std::uint32_t corner = first;
+  void for_each_face_at(HullNode v, const Visit& visit) const {
+    const HullCorner first = arrays_.corner[v];
+    HullCorner corner = first;
     do {
       visit(face_of(corner), edge_of(corner));
       corner = counterclockwise(corner);
     } while (corner != first);
   }
 
-  /// Calls visit(t, own) for every front face t that has a corner which is not the patch's own and among the
-  /// nodes from `first` on; `own` of its corners are.
+  /// Calls visit(t, own) for every front face t that has a corner v >= first which is not an own node; `own`
+  /// is the number of its corners that are own nodes.
   template <class Visit>
   void for_each_face_at_border(std::size_t first, const Visit& visit) const {
-    const auto n = static_cast<std::uint32_t>(growing_->node_count());
+    const auto n = static_cast<HullNode>(growing_->node_count());
     const bool all_are_front = growing_->surrounds_centre();
-    for (auto v = static_cast<std::uint32_t>(first); v < n; ++v) {
+    for (auto v = static_cast<HullNode>(first); v < n; ++v) {
       if (is_own(v)) continue;
-      for_each_face_at(v, [&](std::uint32_t t, std::uint32_t) {
+      for_each_face_at(v, [&](HullFace t, std::uint32_t) {
         const auto& corner = arrays_.faces[t].vertex;
         int own = 0;
         for (int i = 0; i < 3; ++i) {
@@ -106,7 +108,7 @@ class PatchHull {
 
   std::vector<BoundaryArc> boundary_arcs() const;
   /// The nodes a and b with arcs a -> v -> b of the boundary; kNobody where v is not on it.
-  BoundaryArc beside_on_boundary(std::uint32_t v) const;
+  BoundaryArc beside_on_boundary(HullNode v) const;
 
   /// After build() and all that was taken in: memory of set_up() for `bytes` that is not needed after
   /// GrowingHull::finish(); null if there is not enough.
@@ -131,19 +133,19 @@ class PatchHull {
 
   Places places_;
   std::size_t own_ = 0, leading_ = 0, built_ = 0;
-  std::uint32_t* order_ = nullptr;  ///< see index()
-  Int* number_ = nullptr;           ///< of each hull node
+  PatchNode* order_ = nullptr;  ///< see index()
+  Int* number_ = nullptr;       ///< of each hull node
   HullArrays arrays_;
   std::unique_ptr<GrowingHull> growing_;
   Plane* first_planes_ = nullptr;  ///< those in the workspace, for built_ nodes at least
   CoincidentPairs coincident_;
-  std::unordered_map<GlobalNumber, std::uint32_t> taken_in_;  ///< see find()
+  std::unordered_map<GlobalNumber, HullNode> taken_in_;  ///< see find()
   struct {  // where the workspace was too small for what was taken in
     Buffer<Point> nodes;
     Buffer<Int> number;
     Buffer<Face> faces;
     Buffer<Plane> planes;
-    Buffer<std::uint32_t> corner;
+    Buffer<HullCorner> corner;
   } memory_;
 };
 

@@ -9,13 +9,13 @@
 namespace pstripack {
 namespace {
 
-constexpr std::uint32_t kNobody = PatchHull<std::int32_t>::kNobody;
+constexpr HullNode kNobody = PatchHull<std::int32_t>::kNobody;
 
 // ---- ask --------------------------------------------------------------------------------------------
 
 /// A ball that holds all places above the triangle.
 template <class Int>
-Ball ball_above(const PatchHull<Int>& hull, std::uint32_t ia, std::uint32_t ib, std::uint32_t ic) {
+Ball ball_above(const PatchHull<Int>& hull, HullNode ia, HullNode ib, HullNode ic) {
   // From the corner opposite the longest edge: the product of the others is large then, even in a needle.
   const auto square = [](const Point& d) { return dot(d, d); };
   const GrowingHull& growing = hull.growing();
@@ -38,14 +38,14 @@ Ball ball_above(const PatchHull<Int>& hull, std::uint32_t ia, std::uint32_t ib, 
 }
 
 template <class Int>
-void ask_about_triangle(const PatchView<Int>& patch, std::uint32_t t, std::vector<int>& strangers,
+void ask_about_triangle(const PatchView<Int>& patch, HullFace t, std::vector<PatchNumber>& strangers,
                         std::vector<Question>& questions) {
   const Face& f = patch.hull.face(t);
   patch.partition.strangers(patch.id, ball_above(patch.hull, f.vertex[0], f.vertex[1], f.vertex[2]),
                             strangers);
   if (strangers.empty()) return;
   Question question = question_about(patch, t);
-  for (const int q : strangers) {
+  for (const PatchNumber q : strangers) {
     question.to = q;
     questions.push_back(question);
   }
@@ -59,12 +59,12 @@ void for_each_bulge(const PatchView<Int>& patch, const Visit& visit) {
   const double deviation = hull.places().deviation(), farthest = 1 + deviation;
   const double lowest = std::max(0.0, farthest - patch.partition.smallest_margin() + 1e-12);
   const double limit = lowest * lowest;
-  const auto is_flat = [&](std::uint32_t t) {  // few are not; no branch where it cannot be guessed
-    const Plane& p = hull.plane(t);            // its product with a unit vector is known to 1
+  const auto is_flat = [&](HullFace t) {  // few are not; no branch where it cannot be guessed
+    const Plane& p = hull.plane(t);       // its product with a unit vector is known to 1
     const double w = p.w - 4;
     return (w > 0) & (w * w >= limit * (p.x * p.x + p.y * p.y + p.z * p.z));
   };
-  const auto examine = [&](std::uint32_t t) {
+  const auto examine = [&](HullFace t) {
     const auto& v = hull.face(t).vertex;
     if (is_flat(t) || !(hull.is_own(v[0]) && hull.is_own(v[1]) && hull.is_own(v[2]))) return;
     const Point a = hull.place(v[0]), b = hull.place(v[1]), c = hull.place(v[2]);
@@ -72,8 +72,8 @@ void for_each_bulge(const PatchView<Int>& patch, const Visit& visit) {
     if (!patch.partition.holds(patch.id, a, b, c, most_stretch) && hull.growing().front(t)) visit(t);
   };
   constexpr std::uint32_t kTogether = 8;
-  const auto faces = static_cast<std::uint32_t>(hull.growing().face_count());
-  std::uint32_t t = 0;
+  const auto faces = static_cast<HullFace>(hull.growing().face_count());
+  HullFace t = 0;
   for (; t + kTogether <= faces; t += kTogether) {
     bool all = true;
     for (std::uint32_t j = 0; j < kTogether; ++j) all &= is_flat(t + j);
@@ -87,7 +87,7 @@ void for_each_bulge(const PatchView<Int>& patch, const Visit& visit) {
 
 /// The smallest number first, so that a triangle has one name.
 template <class Int>
-Question question_about(const PatchView<Int>& patch, std::uint32_t t) {
+Question question_about(const PatchView<Int>& patch, HullFace t) {
   const auto& vertex = patch.hull.face(t).vertex;
   std::uint32_t first = 0;
   for (const std::uint32_t i : {1, 2})
@@ -99,7 +99,7 @@ Question question_about(const PatchView<Int>& patch, std::uint32_t t) {
   return question;
 }
 
-/// An arc with one end of another patch is asked of that patch. Where all agree, the arcs at own nodes close
+/// An arc with one end in another patch is asked of that patch. Where all agree, the arcs at own nodes close
 /// to curves that turn left only, around a place z inside the triangle of the corners. Each of them crosses
 /// the great circle through z and a corner; the arc that crosses it is asked of all, so that there is one
 /// curve and no node beyond it. z is infinitely close to the first corner, on the side of the second.
@@ -107,7 +107,7 @@ template <class Int>
 void ask_about_arcs(const PatchView<Int>& patch, const std::array<Record, 3>& corners, Asked& asked,
                     Doubts& doubts) {
   const PatchHull<Int>& hull = patch.hull;
-  const auto is_left = [&](std::uint32_t v) {
+  const auto is_left = [&](HullNode v) {
     const Point& x = hull.point(v);
     const int side = left(corners[0].point, corners[2].point, x);
     return (side != 0 ? side : left(corners[1].point, corners[2].point, x)) > 0;
@@ -119,7 +119,7 @@ void ask_about_arcs(const PatchView<Int>& patch, const std::array<Record, 3>& co
     for (const BoundaryArc& arc : asked.arcs)
       if (hull.beside_on_boundary(arc.a).b == arc.b) arcs.push_back(arc);
     // An arc that was none before ends at a node that has come in since.
-    for (auto v = static_cast<std::uint32_t>(asked.nodes); v < hull.growing().node_count(); ++v) {
+    for (auto v = static_cast<HullNode>(asked.nodes); v < hull.growing().node_count(); ++v) {
       const BoundaryArc beside = hull.beside_on_boundary(v);
       if (beside.a == kNobody) continue;
       arcs.push_back({beside.a, v});
@@ -128,16 +128,16 @@ void ask_about_arcs(const PatchView<Int>& patch, const std::array<Record, 3>& co
   }
   asked.arcs.clear();
   for (const BoundaryArc& arc : arcs) {
-    const std::uint32_t a = arc.a, b = arc.b;
+    const HullNode a = arc.a, b = arc.b;
     const bool owns_a = hull.is_own(a), owns_b = hull.is_own(b);
     if (!owns_a && !owns_b) continue;
-    const auto ask = [&](int to) {
+    const auto ask = [&](PatchNumber to) {
       doubts.questions.push_back({{hull.node(a), hull.node(b), {{0, 0, 0}, kNoNumber}}, patch.id, to});
       ++doubts.arcs;
       if (asked.arcs.empty() || asked.arcs.back().a != a) asked.arcs.push_back({a, b});
     };
     if (owns_a && is_left(a) && !is_left(b)) {
-      for (int q = 0; q < patch.partition.patches(); ++q)
+      for (PatchNumber q = 0; q < patch.partition.patches(); ++q)
         if (q != patch.id) ask(q);
     } else if (!owns_a || !owns_b) {
       ask(patch.owner(owns_a ? b : a));
@@ -157,13 +157,13 @@ Doubts ask(const PatchView<Int>& patch, const std::array<Record, 3>& corners, do
   // well, or its direction is in a triangle of own nodes, which must bulge out of the patch then.
   // After the first time only triangles at nodes that have come in since are new.
   const bool first_time = asked.nodes == 0;
-  std::vector<int> strangers;
-  const auto ask_about = [&](std::uint32_t t) { ask_about_triangle(patch, t, strangers, doubts.questions); };
+  std::vector<PatchNumber> strangers;
+  const auto ask_about = [&](HullFace t) { ask_about_triangle(patch, t, strangers, doubts.questions); };
   asked.is_around.resize(nodes);
-  hull.for_each_face_at_border(asked.nodes, [&](std::uint32_t t, int own) {
+  hull.for_each_face_at_border(asked.nodes, [&](HullFace t, int own) {
     if (own == 0 || doubts.questions.size() > most) return;
     const Face& f = hull.face(t);
-    for (const std::uint32_t v : {f.vertex[0], f.vertex[1], f.vertex[2]})
+    for (const HullNode v : {f.vertex[0], f.vertex[1], f.vertex[2]})
       if (!hull.is_own(v)) asked.meet(v);
     ask_about(t);
   });
@@ -177,16 +177,16 @@ Doubts ask(const PatchView<Int>& patch, const std::array<Record, 3>& corners, do
 
 namespace {
 
-/// Of a node strictly right of a -> b: itself, or one farther right that is strictly right, too. Uphill on
-/// the hull, which is convex: rounding can end the way early.
+/// Node v is strictly right of a -> b. Returns v, or a node farther right that is strictly right, too. Walks
+/// uphill on the hull, which is convex; rounding can end the walk early.
 template <class Int>
-std::uint32_t farthest_right(const PatchHull<Int>& hull, std::uint32_t a, std::uint32_t b, std::uint32_t v) {
+HullNode farthest_right(const PatchHull<Int>& hull, HullNode a, HullNode b, HullNode v) {
   const Point normal = cross(hull.place(b), hull.place(a));
   double highest = dot(normal, hull.place(v));
-  for (std::uint32_t from = kNobody, farthest = v; from != farthest;) {
+  for (HullNode from = kNobody, farthest = v; from != farthest;) {
     from = farthest;
-    hull.for_each_face_at(from, [&](std::uint32_t t, std::uint32_t i) {
-      const std::uint32_t w = hull.face(t).vertex[next_edge(i)];
+    hull.for_each_face_at(from, [&](HullFace t, std::uint32_t i) {
+      const HullNode w = hull.face(t).vertex[next_edge(i)];
       const double height = dot(normal, hull.place(w));
       if (height > highest) highest = height, farthest = w;
     });
@@ -198,39 +198,38 @@ std::uint32_t farthest_right(const PatchHull<Int>& hull, std::uint32_t a, std::u
 /// Nodes strictly right of a -> b or on it, if it is not an arc of the boundary. If a is on the boundary, the
 /// next node there is such a node; else a is inside, and one of its neighbours is.
 template <class Int>
-std::vector<std::uint32_t> nodes_beyond(const PatchHull<Int>& hull, std::uint32_t a, std::uint32_t b) {
-  std::vector<std::uint32_t> nodes;
-  const std::uint32_t next = hull.beside_on_boundary(a).b, previous = hull.beside_on_boundary(b).a;
+std::vector<HullNode> nodes_beyond(const PatchHull<Int>& hull, HullNode a, HullNode b) {
+  std::vector<HullNode> nodes;
+  const HullNode next = hull.beside_on_boundary(a).b, previous = hull.beside_on_boundary(b).a;
   if (next == b) return nodes;
-  std::uint32_t right = kNobody;
-  const auto look_at = [&](std::uint32_t v) {
+  HullNode right = kNobody;
+  const auto look_at = [&](HullNode v) {
     if (v != kNobody && v != b && hull.growing().left(a, b, v) < 0) right = v;
   };
   if (next != kNobody) {
     nodes.push_back(next);
     look_at(next);
   } else {
-    hull.for_each_face_at(a, [&](std::uint32_t t, std::uint32_t i) {
+    hull.for_each_face_at(a, [&](HullFace t, std::uint32_t i) {
       if (right == kNobody) look_at(hull.face(t).vertex[next_edge(i)]);
     });
   }
   if (previous != kNobody && previous != next) nodes.push_back(previous);
   if (right == kNobody) return nodes;
   if (right != next) nodes.push_back(right);
-  const std::uint32_t farthest = farthest_right(hull, a, b, right);
+  const HullNode farthest = farthest_right(hull, a, b, right);
   if (farthest != right) nodes.push_back(farthest);
   return nodes;
 }
 
-/// Of the nodes above the triangle of three others, the highest `most`; none only if there is none.
+/// The `most` highest of the nodes above the triangle of three others; empty only if there are none.
 template <class Int>
-std::vector<std::uint32_t> nodes_above(const PatchHull<Int>& hull, const std::uint32_t (&v)[3],
-                                       std::size_t most) {
-  std::vector<std::uint32_t> above;
-  const auto add_those_above = [&](std::uint32_t node, std::size_t faces) {
-    std::uint32_t corner = hull.corner(node);
+std::vector<HullNode> nodes_above(const PatchHull<Int>& hull, const HullNode (&v)[3], std::size_t most) {
+  std::vector<HullNode> above;
+  const auto add_those_above = [&](HullNode node, std::size_t faces) {
+    HullCorner corner = hull.corner(node);
     do {
-      const std::uint32_t w = hull.face(face_of(corner)).vertex[next_edge(edge_of(corner))];
+      const HullNode w = hull.face(face_of(corner)).vertex[next_edge(edge_of(corner))];
       if (w != v[0] && w != v[1] && w != v[2] && hull.growing().above(v[0], v[1], v[2], w))
         above.push_back(w);
       corner = hull.counterclockwise(corner);
@@ -238,13 +237,14 @@ std::vector<std::uint32_t> nodes_above(const PatchHull<Int>& hull, const std::ui
   };
   // All nodes lie in the cone that the hull makes at a corner, so one of the neighbours of that corner lies
   // above if any node does. The corner with the fewest: its ring closes first.
-  std::uint32_t at[3] = {hull.corner(v[0]), hull.corner(v[1]), hull.corner(v[2])}, least = 0;
+  HullCorner at[3] = {hull.corner(v[0]), hull.corner(v[1]), hull.corner(v[2])};
+  std::uint32_t least = 0;
   do {
     least = least == 2 ? 0 : least + 1;
     at[least] = hull.counterclockwise(at[least]);
   } while (at[least] != hull.corner(v[least]));
   bool is_face = false;
-  hull.for_each_face_at(v[least], [&](std::uint32_t t, std::uint32_t i) {
+  hull.for_each_face_at(v[least], [&](HullFace t, std::uint32_t i) {
     const auto& corner = hull.face(t).vertex;
     is_face |=
         corner[next_edge(i)] == v[next_edge(least)] && corner[previous_edge(i)] == v[previous_edge(least)];
@@ -260,9 +260,9 @@ std::vector<std::uint32_t> nodes_above(const PatchHull<Int>& hull, const std::ui
   if (above.size() > most) {
     const Point a = hull.place(v[0]);
     const Point normal = cross(minus(hull.place(v[1]), a), minus(hull.place(v[2]), a));
-    const auto height = [&](std::uint32_t w) { return dot(normal, minus(hull.place(w), a)); };
+    const auto height = [&](HullNode w) { return dot(normal, minus(hull.place(w), a)); };
     std::nth_element(above.begin(), above.begin() + static_cast<std::ptrdiff_t>(most), above.end(),
-                     [&](std::uint32_t s, std::uint32_t t) { return height(s) > height(t); });
+                     [&](HullNode s, HullNode t) { return height(s) > height(t); });
     above.resize(most);
   }
   return above;
@@ -274,20 +274,20 @@ template <class Int>
 std::vector<Record> answer(PatchHull<Int>& hull, const Question& question) {
   // The highest few: they change the asker's triangulation most, and the others may not matter then.
   constexpr std::size_t kFew = 64;
-  std::uint32_t v[3] = {0, 0, 0};
+  HullNode v[3] = {0, 0, 0};
   for (int i = 0; i < question.corners(); ++i) v[i] = hull.take_in(question.corner[i]);
   std::vector<Record> nodes;
-  for (const std::uint32_t w :
+  for (const HullNode w :
        question.is_about_arc() ? nodes_beyond(hull, v[0], v[1]) : nodes_above(hull, v, kFew))
     nodes.push_back(hull.node(w));
   return nodes;
 }
 
-template Question question_about(const PatchView<std::int32_t>&, std::uint32_t);
+template Question question_about(const PatchView<std::int32_t>&, HullFace);
 template void ask_about_arcs(const PatchView<std::int32_t>&, const std::array<Record, 3>&, Asked&, Doubts&);
 template Doubts ask(const PatchView<std::int32_t>&, const std::array<Record, 3>&, double, std::size_t,
                     Asked&);
-template Question question_about(const PatchView<std::int64_t>&, std::uint32_t);
+template Question question_about(const PatchView<std::int64_t>&, HullFace);
 template void ask_about_arcs(const PatchView<std::int64_t>&, const std::array<Record, 3>&, Asked&, Doubts&);
 template Doubts ask(const PatchView<std::int64_t>&, const std::array<Record, 3>&, double, std::size_t,
                     Asked&);

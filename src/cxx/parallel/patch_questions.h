@@ -16,28 +16,28 @@ namespace pstripack {
 /// corner is the centre: "Is it an arc of your boundary?"
 struct Question {
   Record corner[3];
-  std::int32_t from, to;  ///< patches
+  PatchNumber from, to;
 
   bool is_about_arc() const { return corner[2].point == Point{0, 0, 0}; }
   int corners() const { return is_about_arc() ? 2 : 3; }
 };
 
-/// What is not certain yet.
+/// What a patch is not certain of yet.
 struct Doubts {
   std::vector<Question> questions;
-  std::size_t arcs = 0;    ///< of the boundary: so many of the questions are about them
+  std::size_t arcs = 0;    ///< number of the questions that are about arcs of the boundary
   bool has_grown = false;  ///< the patch has taken in nodes since it asked last
   bool left_out = false;   ///< it has more questions than it asks
 };
 
-/// What a patch has asked about. Nodes are hull nodes.
+/// What a patch has asked about.
 struct Asked {
-  std::size_t nodes = 0;              ///< that it had when it asked last; 0: it has not asked yet
-  std::vector<BoundaryArc> arcs;      ///< when it asked last
-  std::vector<std::uint32_t> around;  ///< nodes of others that were neighbours of own ones when it asked
+  std::size_t nodes = 0;          ///< number of nodes when it asked last; 0: it has not asked yet
+  std::vector<BoundaryArc> arcs;  ///< when it asked last
+  std::vector<HullNode> around;   ///< nodes of others that were neighbours of own ones when it asked
   std::vector<bool> is_around;
 
-  void meet(std::uint32_t v) {
+  void meet(HullNode v) {
     if (is_around[v]) return;
     is_around[v] = true;
     around.push_back(v);
@@ -47,15 +47,15 @@ struct Asked {
 /// One of the patches, and what it knows.
 template <class Int>
 struct PatchView {
-  int id;
+  PatchNumber id;
   const Partition& partition;
   const PatchHull<Int>& hull;
-  int owner(std::uint32_t v) const { return hull.is_own(v) ? id : partition.owner(hull.place(v)); }
+  PatchNumber owner(HullNode v) const { return hull.is_own(v) ? id : partition.owner(hull.place(v)); }
 };
 
-/// A question about face t of the hull, to nobody yet.
+/// A question about face t of the hull. The caller sets `to`.
 template <class Int>
-Question question_about(const PatchView<Int>& patch, std::uint32_t t);
+Question question_about(const PatchView<Int>& patch, HullFace t);
 
 /// Asks about the arcs of the boundary. Throws std::bad_alloc.
 template <class Int>

@@ -10,7 +10,7 @@ Patches<Int> triangulate_patches(const Delivery& delivery, const Division& divis
     delivery.outcome.accept();
     constexpr std::size_t kPage = 4096;
     std::vector<std::size_t> begin{0};
-    int id = division.patches.first(static_cast<std::size_t>(ranks.rank()));
+    PatchNumber id = division.patches.first(static_cast<RankNumber>(ranks.rank()));
     for (const auto& nodes : delivery.of_patch) {
       const Patch<Int>& patch =
           patches.of_rank.emplace_back(id++, *division.partition, division.places, nodes);
@@ -19,16 +19,16 @@ Patches<Int> triangulate_patches(const Delivery& delivery, const Division& divis
     }
     patches.memory = std::make_unique<Workspace>(begin.back());
     unsigned char* const memory = patches.memory->template keep<unsigned char>(begin.back());
-    patches.for_each(threads, [&](Patch<Int>& patch, std::size_t k) {
+    patches.for_each(threads, [&](Patch<Int>& patch, PatchHere k) {
       Workspace part(memory + begin[k], begin[k + 1] - begin[k]);
       patch.set_up(division.closing, part);
     });
   });
-  // What one patch has seen to be hidden, no other begins to triangulate for nothing.
+  // Ranks have agreed that no patch has seen a hidden node yet, so none is triangulated for nothing.
   in_agreement(
       ranks,
       [&] {
-        patches.for_each(threads, [](Patch<Int>& patch, std::size_t) { patch.triangulate(); });
+        patches.for_each(threads, [](Patch<Int>& patch, PatchHere) { patch.triangulate(); });
         for (const Patch<Int>& patch : patches.of_rank)
           if (!patch.coincident().empty()) patches.see_coincidence.value = true;
       },

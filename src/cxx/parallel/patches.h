@@ -18,14 +18,14 @@ template <class Int>
 struct Patches {
   std::vector<Patch<Int>> of_rank;
   std::unique_ptr<Workspace> memory;
-  OnAny see_coincidence;  ///< a patch of any rank: nodes that coincide
+  OnAny see_coincidence;  ///< a patch of any rank has found nodes that coincide
 
-  /// body(patch, k) for every patch of this rank, on so many threads. Throws what a body threw.
+  /// Calls body(patch, k) for every patch of this rank, on `threads` threads. Throws what a body threw.
   template <class Body>
   void for_each(int threads, const Body& body) {
     ErrorsOfThreads errors(of_rank.size());
     parallel_tasks(static_cast<int>(of_rank.size()), threads, [&](int task) {
-      const auto k = static_cast<std::size_t>(task);
+      const auto k = static_cast<PatchHere>(task);
       errors.keep(k, [&] { body(of_rank[k], k); });
     });
     errors.rethrow();

@@ -11,7 +11,7 @@ template <class Int>
 Parcels packed_answers(Patches<Int>& patches, const Parcels& incoming, int threads) {
   const Items<Question> questions(incoming);
   std::vector<std::vector<Record>> answer(questions.size());
-  patches.for_each(threads, [&](Patch<Int>& patch, std::size_t) {
+  patches.for_each(threads, [&](Patch<Int>& patch, PatchHere) {
     std::vector<Record> corners;
     for (const Question& question : questions)
       if (question.to == patch.id())
@@ -26,16 +26,16 @@ Parcels packed_answers(Patches<Int>& patches, const Parcels& incoming, int threa
   const std::size_t ranks = incoming.begin.size() - 1;
   const auto for_each_answer = [&](const auto& visit) {
     std::size_t k = 0;
-    for (std::size_t r = 0; r < ranks; ++r)
+    for (RankNumber r = 0; r < ranks; ++r)
       for (std::size_t n = Items<Question>(incoming, r).size(); n > 0; --n) visit(r, answer[k++]);
   };
   ParcelWriter writer(ranks);
-  for_each_answer([&](std::size_t r, const std::vector<Record>& nodes) {
+  for_each_answer([&](RankNumber r, const std::vector<Record>& nodes) {
     writer.expect<std::int64_t>(r);
     writer.expect<Record>(r, nodes.size());
   });
   writer.make_room();
-  for_each_answer([&](std::size_t r, const std::vector<Record>& nodes) {
+  for_each_answer([&](RankNumber r, const std::vector<Record>& nodes) {
     writer.put(r, static_cast<std::int64_t>(nodes.size()));
     std::copy(nodes.begin(), nodes.end(), writer.room<Record>(r, nodes.size()));
   });
@@ -70,15 +70,15 @@ void learn(Patches<Int>& patches, const Questions& questions, const Parcels& ans
     std::size_t count;
   };
   std::vector<std::vector<Answer>> of_patch(patches.of_rank.size());
-  for (std::size_t r = 0; r < questions.to_rank.size(); ++r) {
+  for (RankNumber r = 0; r < questions.to_rank.size(); ++r) {
     ParcelReader reader(answers, r);
     for (const Question& q : questions.to_rank[r]) {
       const auto n = static_cast<std::size_t>(reader.next<std::int64_t>());
-      of_patch[static_cast<std::size_t>(q.from - patches.of_rank[0].id())].push_back(
+      of_patch[static_cast<PatchHere>(q.from - patches.of_rank[0].id())].push_back(
           {&q, reader.array<Record>(n), n});
     }
   }
-  patches.for_each(threads, [&](Patch<Int>& patch, std::size_t k) {
+  patches.for_each(threads, [&](Patch<Int>& patch, PatchHere k) {
     std::vector<Record> nodes;
     for (const Answer& a : of_patch[k]) {
       if (a.count > 0) patch.see_refuted(*a.question);

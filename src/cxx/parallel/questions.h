@@ -1,5 +1,5 @@
 #pragma once
-// How the patches of all ranks ask each other, whatever it is.
+// How the questions and answers of patches travel between ranks.
 
 #include <cstddef>
 #include <vector>

@@ -25,7 +25,7 @@ struct PatchNodes {
   std::size_t count() const { return own + halo; }
 };
 
-/// Many digit by digit: a hub may have most nodes for neighbours.
+/// Many nodes are sorted digit by digit: a hub may have most nodes for neighbours.
 inline void sort_by_number(std::vector<Record>& nodes) {
   constexpr std::size_t kMany = 10000;
   constexpr int kBits = 11;
@@ -47,7 +47,7 @@ inline void sort_by_number(std::vector<Record>& nodes) {
   }
 }
 
-/// Sorts by number and leaves out what is there twice.
+/// Sorts by number and keeps each number once.
 inline void keep_one_of_each(std::vector<Record>& nodes) {
   sort_by_number(nodes);
   nodes.erase(std::unique(nodes.begin(), nodes.end(),

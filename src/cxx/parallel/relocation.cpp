@@ -11,15 +11,16 @@ namespace pstripack {
 
 Relocation::Relocation(const std::int64_t* before, std::size_t had, const LocalNodes& nodes)
     : had_(had), from_(nodes.count), to_(had) {
-  constexpr std::uint32_t kNotHere = UINT32_MAX;
+  constexpr LastNode kNotHere = UINT32_MAX;
   std::fill(from_.begin(), from_.end(), kNotHere);
   std::fill(to_.begin(), to_.end(), kGone);
   const auto are_the_same = [&](std::size_t k, std::size_t i) {
-    from_[i] = static_cast<std::uint32_t>(k);
-    to_[k] = static_cast<std::uint32_t>(i);
+    from_[i] = static_cast<LastNode>(k);
+    to_[k] = static_cast<LocalNode>(i);
   };
-  // Mostly they are in the order of the last call, with some more or less between them. Where a row of 16,
-  // 32, 64 ... are not, the next one may be anywhere. Those that are left are searched in a table.
+  // Most nodes are in the order of the last call, with a few more or fewer between them, so each is searched
+  // close behind the one before. After 16, 32, 64, ... misses in a row, the next one is searched to the end.
+  // Nodes that are left are searched in a table.
   constexpr std::size_t kNear = 16;
   std::size_t next = 0, missed = 0;
   for (std::size_t i = 0; i < nodes.count; ++i) {
@@ -36,25 +37,25 @@ Relocation::Relocation(const std::int64_t* before, std::size_t had, const LocalN
     missed = 0;
   }
   const auto left = static_cast<std::size_t>(std::count(to_.begin(), to_.end(), kGone));
-  NumberTable<std::uint32_t> others(left);
+  NumberTable<LastNode> others(left);
   for (std::size_t k = 0; k < had; ++k)
-    if (to_[k] == kGone) others.insert(GlobalNumber{before[k]}, static_cast<std::uint32_t>(k));
+    if (to_[k] == kGone) others.insert(GlobalNumber{before[k]}, static_cast<LastNode>(k));
   for (std::size_t i = 0; i < nodes.count; ++i) {
     if (from_[i] != kNotHere) continue;
     are_positive_ = are_positive_ && value_of(nodes.number(i)) > 0;
-    const std::uint32_t* const k = others.find_value(nodes.number(i));
+    const LastNode* const k = others.find_value(nodes.number(i));
     if (are_positive_ && k != nullptr && to_[*k] == kGone)
       are_the_same(*k, i);
     else
-      from_[i] = static_cast<std::uint32_t>(had_ + come_++);
+      from_[i] = static_cast<LastNode>(had_ + come_++);
   }
   for (std::size_t k = 0; k < had; ++k)
-    if (to_[k] == kGone) gone_.push_back({GlobalNumber{before[k]}, static_cast<std::uint32_t>(k), 0});
+    if (to_[k] == kGone) gone_.push_back({GlobalNumber{before[k]}, static_cast<LastNode>(k), 0});
 }
 
 std::optional<Relocation> Relocation::find(const std::int64_t* before, std::size_t had,
                                            const LocalNodes& nodes, Communicator& ranks) {
-  constexpr std::int64_t kFew = 8;  // one node of so many
+  constexpr std::int64_t kFew = 8;  // one node in kFew may come from another rank
   std::int64_t counts[] = {static_cast<std::int64_t>(had), static_cast<std::int64_t>(nodes.count)};
   ranks.all_sum(counts, 2);
   if (counts[0] != counts[1]) return std::nullopt;
@@ -95,19 +96,19 @@ bool Relocation::find_ranks(const LocalNodes& nodes, Communicator& ranks) {
   });
   OnAll are_the_same;
   Parcels answers;
-  std::vector<const std::uint32_t*> next;
+  std::vector<const RankOfNode*> next;
   in_agreement(
       ranks,
       [&] {
-        NumberTable<std::uint32_t> now(Items<std::int64_t>(told).size());
-        for (std::size_t r = 0; r < size; ++r)
+        NumberTable<RankOfNode> now(Items<std::int64_t>(told).size());
+        for (RankNumber r = 0; r < size; ++r)
           for (const std::int64_t number : Items<std::int64_t>(told, r))
-            if (number > 0) now.insert(GlobalNumber{number}, static_cast<std::uint32_t>(r));
-        std::vector<std::vector<std::uint32_t>> rank_now(size);
-        for (std::size_t r = 0; r < size; ++r)
+            if (number > 0) now.insert(GlobalNumber{number}, static_cast<RankOfNode>(r));
+        std::vector<std::vector<RankOfNode>> rank_now(size);
+        for (RankNumber r = 0; r < size; ++r)
           for (const std::int64_t number : Items<std::int64_t>(told, r)) {
             if (number > 0) continue;
-            const std::uint32_t* const at = now.find_value(GlobalNumber{-number});
+            const RankOfNode* const at = now.find_value(GlobalNumber{-number});
             are_the_same.value = are_the_same.value && at != nullptr;
             rank_now[r].push_back(at != nullptr ? *at : 0);
           }
@@ -117,7 +118,7 @@ bool Relocation::find_ranks(const LocalNodes& nodes, Communicator& ranks) {
       are_the_same);
   if (!are_the_same.value) return false;
   const Parcels answered = ranks.exchange(answers);
-  for (std::size_t r = 0; r < size; ++r) next[r] = Items<std::uint32_t>(answered, r).begin();
+  for (RankNumber r = 0; r < size; ++r) next[r] = Items<RankOfNode>(answered, r).begin();
   for (Gone& g : gone_) g.rank = *next[meeting_rank(g.number, size)]++;
   return true;
 }
@@ -140,11 +141,11 @@ Stars<Int> Relocation::stars(const Stars<Int>& last, const LocalNodes& nodes, Co
     });
     NumberFilter filter(named.size());
     for (const GlobalNumber number : named) filter.add(number);
-    std::vector<std::pair<GlobalNumber, std::uint32_t>> found;
+    std::vector<std::pair<GlobalNumber, LastNode>> found;
     for (std::size_t i = 0; i < nodes.count; ++i)
       if (const GlobalNumber number = nodes.number(i); has_come(i) || filter.may_have(number))
         found.emplace_back(number, from_[i]);
-    NumberTable<std::uint32_t> here(found.size());
+    NumberTable<LastNode> here(found.size());
     for (const auto& [number, from] : found) here.insert(number, from);
     for (const GlobalNumber number : named)
       if (here.find_value(number) == nullptr) stars.outside.push_back({{}, number});

@@ -10,7 +10,7 @@
 namespace pstripack {
 namespace {
 
-/// Where the rings are that belong to the addresses.
+/// The table of ReturnAddresses: where each ring is, and its size.
 template <class Int>
 struct Table {
   std::unique_ptr<Workspace> memory;
@@ -24,15 +24,15 @@ struct Table {
   }
 };
 
-/// Writes the rings of the own nodes of all patches here: where these are, or, if `apart`, into memory of
-/// their own, which is returned: the stars stay, the hulls go.
+/// Writes the rings of the own nodes of all patches here: into the memory of the hulls or, if `apart`, into
+/// memory of their own, which is returned. Then the stars can stay when the hulls are freed.
 template <class Int>
 std::unique_ptr<Workspace> write_rings(Patches<Int>& patches, const ReturnAddresses& addresses, bool apart,
                                        int threads, Table<Int>& table,
                                        std::vector<Buffer<Int>>& more_memory) {
   std::vector<std::size_t> begin(patches.of_rank.size() + 1, 0);
   patches.for_each(threads,
-                   [&](Patch<Int>& patch, std::size_t k) { begin[k + 1] = patch.finish() + 2 * kBlock; });
+                   [&](Patch<Int>& patch, PatchHere k) { begin[k + 1] = patch.finish() + 2 * kBlock; });
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
   std::unique_ptr<Workspace> memory;
   Int* room = nullptr;
@@ -41,7 +41,7 @@ std::unique_ptr<Workspace> write_rings(Patches<Int>& patches, const ReturnAddres
     room = memory->template keep<Int>(begin.back());
   }
   more_memory.resize(patches.of_rank.size());
-  patches.for_each(threads, [&](Patch<Int>& patch, std::size_t k) {
+  patches.for_each(threads, [&](Patch<Int>& patch, PatchHere k) {
     const std::size_t entries = begin[k + 1] - begin[k];
     Int* out =
         room != nullptr ? room + begin[k] : static_cast<Int*>(patch.room_for_rings(entries * sizeof(Int)));
@@ -65,10 +65,10 @@ std::unique_ptr<Workspace> write_rings(Patches<Int>& patches, const ReturnAddres
 
 // ---- hubs: the patches have runs of their rings, which their owners join ------------------------------
 
-/// Some successive neighbours of a hub, that follow.
+/// The head of a run, some successive neighbours of a hub; their records follow.
 struct RunHead {
   GlobalNumber hub;
-  std::int64_t owner, count;  ///< owner: patch
+  std::int64_t owner, count;  ///< owner: a PatchNumber
 };
 
 /// The runs that patches here have, for the owners of the hubs: how many, their heads, then their nodes.
@@ -77,19 +77,19 @@ Parcels runs_at_hubs(const Patches<Int>& patches, const Division& division, std:
   std::vector<std::vector<RunHead>> heads(size);
   std::vector<std::vector<Record>> nodes(size);
   for (const Patch<Int>& patch : patches.of_rank)
-    patch.for_each_run_at_hubs([&](const Record& hub, int owner, const std::vector<Record>& run) {
-      const std::size_t r = division.patches.rank_of(owner);
+    patch.for_each_run_at_hubs([&](const Record& hub, PatchNumber owner, const std::vector<Record>& run) {
+      const RankNumber r = division.patches.rank_of(owner);
       heads[r].push_back({hub.number, owner, static_cast<std::int64_t>(run.size())});
       nodes[r].insert(nodes[r].end(), run.begin(), run.end());
     });
   ParcelWriter writer(size);
-  for (std::size_t r = 0; r < size; ++r) {
+  for (RankNumber r = 0; r < size; ++r) {
     writer.expect<std::int64_t>(r);
     writer.expect<RunHead>(r, heads[r].size());
     writer.expect<Record>(r, nodes[r].size());
   }
   writer.make_room();
-  for (std::size_t r = 0; r < size; ++r) {
+  for (RankNumber r = 0; r < size; ++r) {
     writer.put(r, static_cast<std::int64_t>(heads[r].size()));
     std::copy(heads[r].begin(), heads[r].end(), writer.room<RunHead>(r, heads[r].size()));
     std::copy(nodes[r].begin(), nodes[r].end(), writer.room<Record>(r, nodes[r].size()));
@@ -103,7 +103,7 @@ struct HubRing {
     const Record* first;
     std::size_t count;
   };
-  std::size_t patch;
+  PatchHere patch;
   GlobalNumber hub, first;  ///< first: neighbour
   bool is_at_boundary;
   std::vector<Part> parts;
@@ -113,7 +113,7 @@ template <class Int>
 std::vector<HubRing> joined_runs(const Patches<Int>& patches, const Parcels& runs) {
   std::vector<HubRing> rings;
   std::unordered_map<GlobalNumber, std::unordered_map<GlobalNumber, HubRing::Part>> of_hub;
-  for (std::size_t r = 0; r + 1 < runs.begin.size(); ++r) {
+  for (RankNumber r = 0; r + 1 < runs.begin.size(); ++r) {
     ParcelReader reader(runs, r);
     const auto count_of_runs = static_cast<std::size_t>(reader.next<std::int64_t>());
     const RunHead* const heads = reader.array<RunHead>(count_of_runs);
@@ -123,7 +123,7 @@ std::vector<HubRing> joined_runs(const Patches<Int>& patches, const Parcels& run
       const Record* const first = reader.array<Record>(count);
       auto& of_first = of_hub[head.hub];
       if (of_first.empty()) {
-        const auto k = static_cast<std::size_t>(head.owner - patches.of_rank[0].id());
+        const auto k = static_cast<PatchHere>(head.owner - patches.of_rank[0].id());
         const GlobalNumber begin = patches.of_rank[k].first_boundary_neighbour(head.hub);
         rings.push_back({k, head.hub, begin != kNoNumber ? begin : first->number, begin != kNoNumber, {}});
       }
@@ -143,7 +143,7 @@ std::vector<HubRing> joined_runs(const Patches<Int>& patches, const Parcels& run
   return rings;
 }
 
-/// In place of what the hulls of the owners have.
+/// Writes the rings of hubs and enters them in the table, in place of those from the hulls of the owners.
 template <class Int>
 void write_hub_rings(const Patches<Int>& patches, const ReturnAddresses& addresses,
                      const std::vector<HubRing>& rings, Table<Int>& table,
@@ -175,14 +175,14 @@ void write_hub_rings(const Patches<Int>& patches, const ReturnAddresses& address
 /// For each rank the rings of the nodes that it brought, patch by patch.
 template <class Int>
 Parcels rings_for_others(const Table<Int>& table, const ReturnAddresses& addresses, std::size_t size,
-                         std::size_t me) {
-  const auto for_each_run_of = [&](std::size_t r, const auto& visit) {
-    for (std::size_t k = 0; k < addresses.own_from.size() && r != me; ++k)
+                         RankNumber me) {
+  const auto for_each_run_of = [&](RankNumber r, const auto& visit) {
+    for (PatchHere k = 0; k < addresses.own_from.size() && r != me; ++k)
       visit(addresses.own_begin[k] + addresses.own_from[k][r],
             addresses.own_begin[k] + addresses.own_from[k][r + 1]);
   };
   ParcelWriter writer(size);
-  for (std::size_t r = 0; r < size; ++r)
+  for (RankNumber r = 0; r < size; ++r)
     for_each_run_of(r, [&](std::size_t first, std::size_t last) {
       std::size_t entries = 0;
       for (std::size_t i = first; i < last; ++i)
@@ -191,7 +191,7 @@ Parcels rings_for_others(const Table<Int>& table, const ReturnAddresses& address
     });
   writer.make_room(kBlock * sizeof(Int));  // see copy_kept_ring
   if (writer.empty()) return writer.finish();
-  for (std::size_t r = 0; r < size; ++r) {
+  for (RankNumber r = 0; r < size; ++r) {
     auto* at = writer.room<Int>(r, 0);
     for_each_run_of(r, [&](std::size_t first, std::size_t last) {
       constexpr std::size_t kAhead = 16;  // they lie in the order of the hulls
@@ -204,11 +204,11 @@ Parcels rings_for_others(const Table<Int>& table, const ReturnAddresses& address
   return writer.finish();
 }
 
-/// Those of this rank's nodes that were in patches of others.
+/// Enters the received rings in the table: those of this rank's nodes in patches of other ranks.
 template <class Int>
 void enter_received(const Parcels& received, const ReturnAddresses& addresses, const PatchRanges& patches,
-                    std::size_t me, Table<Int>& table) {
-  for (std::size_t r = 0; r + 1 < received.begin.size(); ++r) {
+                    RankNumber me, Table<Int>& table) {
+  for (RankNumber r = 0; r + 1 < received.begin.size(); ++r) {
     if (r == me) continue;
     const Int* at = Items<Int>(received, r).begin();
     for (std::size_t k = addresses.away_begin[static_cast<std::size_t>(patches.first(r))];
@@ -225,23 +225,23 @@ template <class Int>
 std::vector<Record> find_outside(const Patches<Int>& patches, const ReturnAddresses& addresses,
                                  const std::vector<HubRing>& hub_rings, const LocalNodes& nodes,
                                  Communicator& ranks) {
-  const auto size = static_cast<std::size_t>(ranks.size()), me = static_cast<std::size_t>(ranks.rank());
+  const auto size = static_cast<std::size_t>(ranks.size()), me = static_cast<RankNumber>(ranks.rank());
   const auto for_each_hub_neighbour = [&](const auto& visit) {
     for (const HubRing& ring : hub_rings) {
       const auto& from = addresses.own_from[ring.patch];
       const std::size_t i = patches.of_rank[ring.patch].index_of_hub(ring.hub);
       const auto r =
-          static_cast<std::size_t>(std::upper_bound(from.begin(), from.end(), i) - from.begin()) - 1;
+          static_cast<RankNumber>(std::upper_bound(from.begin(), from.end(), i) - from.begin()) - 1;
       for (const HubRing::Part& part : ring.parts) visit(r, part);
     }
   };
   const Parcels incoming = exchange_in_agreement(ranks, [&] {
     std::vector<std::vector<Record>> neighbours(size);
-    for (std::size_t k = 0; k < patches.of_rank.size(); ++k)
+    for (PatchHere k = 0; k < patches.of_rank.size(); ++k)
       patches.of_rank[k].for_each_missing_neighbour(
           me, addresses.own_from[k],
-          [&](std::size_t r, const Record& node) { neighbours[r].push_back(node); });
-    for_each_hub_neighbour([&](std::size_t r, const HubRing::Part& part) {
+          [&](RankNumber r, const Record& node) { neighbours[r].push_back(node); });
+    for_each_hub_neighbour([&](RankNumber r, const HubRing::Part& part) {
       if (r != me) neighbours[r].insert(neighbours[r].end(), part.first, part.first + part.count);
     });
     return packed(neighbours);
@@ -251,11 +251,11 @@ std::vector<Record> find_outside(const Patches<Int>& patches, const ReturnAddres
     const Items<Record> items(incoming);
     std::size_t count = items.size();
     for_each_hub_neighbour(
-        [&](std::size_t r, const HubRing::Part& part) { count += r == me ? part.count : 0; });
+        [&](RankNumber r, const HubRing::Part& part) { count += r == me ? part.count : 0; });
     std::vector<Record> all;
     all.reserve(count);
     all.assign(items.begin(), items.end());
-    for_each_hub_neighbour([&](std::size_t r, const HubRing::Part& part) {
+    for_each_hub_neighbour([&](RankNumber r, const HubRing::Part& part) {
       if (r == me) all.insert(all.end(), part.first, part.first + part.count);
     });
     keep_one_of_each(all);
@@ -286,7 +286,7 @@ std::vector<Record> find_outside(const Patches<Int>& patches, const ReturnAddres
 template <class Int>
 Stars<Int> return_rings(Certified<Int> certified, ReturnAddresses addresses, const LocalNodes& nodes,
                         const Division& division, Communicator& ranks, const ParallelOptions& options) {
-  const auto me = static_cast<std::size_t>(ranks.rank());
+  const auto me = static_cast<RankNumber>(ranks.rank());
   Patches<Int>& patches = certified.patches;
   Stars<Int> stars;
   stars.lengths = division.places.lengths();

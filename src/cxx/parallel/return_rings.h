@@ -22,7 +22,7 @@ struct Stars {
   /// interior node from the smallest on; of a boundary node from the first boundary neighbour to the last,
   /// negated. Empty if nodes coincide.
   RingTable<Int> of_node;
-  /// What of_node and the rings lie in.
+  /// The memory of of_node and of the rings.
   std::vector<std::unique_ptr<Workspace>> memory;
   std::vector<Buffer<Int>> more_memory;
   Parcels received;

@@ -12,14 +12,15 @@
 
 namespace pstripack {
 
-/// Packs the rings for_each(visit), visit(rank, number of the node, ring): number, count, entries.
+/// Packs rings, each as the number of its node, its count and its entries. for_each(visit) calls visit(rank,
+/// number, ring) for every ring.
 template <class Int, class ForEach>
 Parcels packed_rings(std::size_t ranks, const ForEach& for_each) {
   ParcelWriter writer(ranks);
   for_each(
-      [&](std::size_t r, Int, const Ring<Int>& ring) { writer.expect<Int>(r, 2 + std::size_t{ring.count}); });
+      [&](RankNumber r, Int, const Ring<Int>& ring) { writer.expect<Int>(r, 2 + std::size_t{ring.count}); });
   writer.make_room();
-  for_each([&](std::size_t r, Int number, const Ring<Int>& ring) {
+  for_each([&](RankNumber r, Int number, const Ring<Int>& ring) {
     Int* const to = writer.room<Int>(r, 2 + std::size_t{ring.count});
     to[0] = number;
     to[1] = static_cast<Int>(ring.count);

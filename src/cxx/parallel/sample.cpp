@@ -25,7 +25,7 @@ void write_share(const LocalNodes& mine, std::size_t share, Record* sample) {
 
 std::vector<Point> places_to_count(const LocalNodes& mine, std::size_t nodes, std::size_t patches,
                                    const Places& places) {
-  constexpr std::size_t kEnough = 8192;  // of a patch, to share them as equally as one can tell
+  constexpr std::size_t kEnough = 8192;  // counted nodes a patch; more would hardly make patches more equal
   const std::size_t step = nodes / (kEnough * patches) + 1;
   std::vector<Point> counted;
   counted.reserve(mine.count / step + 1);
@@ -38,12 +38,12 @@ std::vector<Point> places_to_count(const LocalNodes& mine, std::size_t nodes, st
 
 Partition partition_over_ranks(PartitionKind kind, int ranks, const std::vector<Point>& nodes) {
   const std::size_t n = nodes.size(), size = static_cast<std::size_t>(ranks), wanted = sample_size(n, size);
-  const auto nodes_of = [&](std::size_t r) {
+  const auto nodes_of = [&](RankNumber r) {
     const std::size_t first = slice_begin(n, r, size);
     return LocalNodes{nodes.data() + first, slice_begin(n, r + 1, size) - first};
   };
   std::vector<Record> sample;
-  for (std::size_t r = 0; r < size; ++r) {
+  for (RankNumber r = 0; r < size; ++r) {
     const std::size_t share = share_of_sample(nodes_of(r).count, wanted, n);
     sample.resize(sample.size() + share);
     write_share(nodes_of(r), share, sample.data() + sample.size() - share);
@@ -52,7 +52,7 @@ Partition partition_over_ranks(PartitionKind kind, int ranks, const std::vector<
   for (const Record& record : sample) points.push_back(record.point);
   if (kind != PartitionKind::bisection) return Partition(kind, ranks, points, n);
   std::vector<Point> counted;
-  for (std::size_t r = 0; r < size; ++r) {
+  for (RankNumber r = 0; r < size; ++r) {
     const std::vector<Point> of_rank = places_to_count(nodes_of(r), n, size, Places(Lengths::as_given, 0));
     counted.insert(counted.end(), of_rank.begin(), of_rank.end());
   }

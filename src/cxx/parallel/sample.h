@@ -12,17 +12,17 @@
 
 namespace pstripack {
 
-/// So many nodes a patch, more where that costs little beside the work on all nodes.
+/// The size of the sample: 64 nodes a patch, more where that costs little beside the work on all nodes.
 std::size_t sample_size(std::size_t nodes, std::size_t patches);
 
-/// Of `wanted` out of `nodes` the share of a rank that brings `of_rank` of them.
+/// How many of the `wanted` sample nodes come from a rank that brings `of_rank` of all `nodes` nodes.
 std::size_t share_of_sample(std::size_t of_rank, std::size_t wanted, std::size_t nodes);
 
-/// Writes a node in each of `share` runs of this rank's nodes.
+/// Cuts this rank's nodes into `share` runs and writes one node of each.
 void write_share(const LocalNodes& mine, std::size_t share, Record* sample);
 
-/// The places of those nodes of this rank that the cuts between patches are moved by: on every rank the same
-/// share.
+/// The places of the nodes of this rank that are counted to move the cuts between patches: the same share on
+/// every rank.
 std::vector<Point> places_to_count(const LocalNodes& mine, std::size_t nodes, std::size_t patches,
                                    const Places& places);
 

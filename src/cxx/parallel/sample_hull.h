@@ -1,5 +1,5 @@
 #pragma once
-// What some nodes from everywhere tell of all, by their hull.
+// What the hull of some nodes from everywhere tells of all nodes.
 
 #include <vector>
 
@@ -8,14 +8,14 @@
 
 namespace pstripack {
 
-/// How many times as far from the centre as a triangle of a hull a place in its direction can be, for all
-/// hulls of these nodes and any others: they lie around the hull of these. Infinite if these do not surround
-/// the centre. Throws std::bad_alloc.
+/// Upper bound of |p| / |q|: p any place, q where the ray to p meets the hull of these nodes. Hulls of these
+/// nodes and others lie around it, so the bound holds for them as well. Infinite if these nodes do not
+/// surround the centre. Throws std::bad_alloc.
 double most_stretch(const std::vector<Record>& nodes, const Places& places);
 
-/// Throws HiddenNode if lengths hide one of some nodes, and so in every set that has them. Looks closely only
-/// if neighbours in their order, which should follow a curve, are close. Not all on one great circle. Throws
-/// std::bad_alloc.
+/// Throws HiddenNode if the lengths hide one of these nodes: it is hidden in every larger set, too. Builds
+/// the hull only if two successive nodes are close; so the nodes should follow a curve. They must not all be
+/// on one great circle. Throws std::bad_alloc.
 void look_for_hidden_nodes(const std::vector<Record>& nodes, const Places& places);
 
 }  // namespace pstripack

@@ -1,8 +1,8 @@
 // The parallel triangulation, in order:
 //
 //   nodes of this rank
-//        |  divide               a sample of the nodes, the same on every rank, and counts near the cuts cut
-//        the v                       sphere into patches
+//        |  divide               a sample of the nodes, the same on every rank, and counts near the cuts
+//        v                       cut the sphere into patches
 //   Division
 //        |  deliver              every node goes to its patch and to those that have it in their halo
 //        v
@@ -91,7 +91,7 @@ Stars<Int> triangulate(const LocalNodes& nodes, const Look& look, const Point (&
     const Places places(lengths, look.deviation.value);
     Stars<Int> stars = triangulate_places<Int>(nodes, records, places, ranks, options, c);
     if (stars.gave_up && ranks.size() > 1) {
-      // That of rank 0. Where nodes are at home stays what it was: others may be worth while.
+      // One patch, of rank 0. The homes stay those of the many patches: another call may not give up.
       c.in_one_patch = 1;
       ParallelOptions one_patch = options;
       one_patch.patches = ranks.rank() == 0 ? 1 : 0;
