@@ -117,8 +117,7 @@ bad_command_lines)
   refuses 2 "required" triangulate nodes.txt
   refuses 2 "mesh.xxx: no format has this suffix: give --to" triangulate nodes.txt -o mesh.xxx
   refuses 2 "--to: 'potato' is none of ugrid, mpas" triangulate nodes.txt -o mesh.off --to potato
-  refuses 2 "--to: 'ugird' is none of ugrid, mpas, scrip, vtu, off, gmsh, lists, gmt, geojson, csv, xyz, lonlat, nodes, raw; did you mean ugrid?" \
-    triangulate nodes.txt -o mesh.off --to ugird
+  refuses 2 "; did you mean ugrid?" triangulate nodes.txt -o mesh.off --to ugird
   refuses 2 "--duplicates: 'frist' is none of error, first, mean; did you mean first?" triangulate nodes.txt -o mesh.off --duplicates frist
   refuses 2 "earthquakes; did you mean random?" points rndom 10
   refuses 2 "unknown point set 'potato'" points potato 10
