@@ -6,6 +6,7 @@
   src/fortran/stripack_module.F90   their interfaces, from stripack_module.F90.in
   src/fortran/plain_forwarders.inc  those of its routines that only call their C function: all that
                                     stripack_abi.F90 does not have itself
+  src/cxx/capi/plain_calls.h        the C functions that these call
   src/fortran/symbols.txt           the symbols that each library exports
 
   make-api.py           writes them
@@ -410,10 +411,46 @@ def forwarder(routine):
         fortran_line(statement, "  "), f"end {c_procedure}", "#endif"])
 
 
-def plain_forwarders(routines):
+def declarations_in_c(routine):
+    """Of the C function of each kind, or of integers of 4 and 8 bytes if the routine has no reals."""
+    has_reals = "real" in [a.type for a in routine.arguments]
+    kinds = [("r4", "float", "int32_t"), ("r8", "double", "int32_t"), ("i8", "double", "int64_t")]
+    text = []
+    for suffix, real, integer in kinds if has_reals else [("i4", None, "int32_t"), ("i8", None, "int64_t")]:
+        of_c = {"integer": integer, "logical": integer, "real": real}
+        arguments = [(("const " if a.use == "in" and a.shape else "") + of_c[a.type]
+                      + (" " if a.use == "in" and not a.shape else "* ") + name.lower()).replace(" ", NO_BREAK)
+                     for a in routine.arguments for name in a.names]
+        text.append(textwrap.fill(f"{of_c[routine.result[0]] if routine.result else 'void'} pstripack_"
+                                  f"{routine.name.lower()}_{suffix}({', '.join(arguments)}) noexcept;",
+                                  110, subsequent_indent="    "))
+    return "\n".join(text).replace(NO_BREAK, " ")
+
+
+PLAIN_CALLS = """#pragma once
+// Made by docs/api/make-api.py. The C functions that src/fortran/plain_forwarders.inc calls.
+// clang-format off
+
+#include <cstdint>
+
+#pragma GCC visibility push(default)
+extern "C" {{
+
+{}
+
+}}
+#pragma GCC visibility pop
+"""
+
+
+def plain_files(routines):
+    """Of the routines that stripack_abi.F90 does not have itself."""
     written = set(re.findall(r"^#ifdef STRIPACK_(\w+)$", ABI.read_text(), re.MULTILINE))
-    return "! Made by docs/api/make-api.py. What a forwarder may do: stripack_abi.F90.\n\n" + "\n\n".join(
-        forwarder(routine) for routine in routines if routine.name not in written) + "\n"
+    plain = [routine for routine in routines if routine.name not in written]
+    return {"src/fortran/plain_forwarders.inc":
+            "! Made by docs/api/make-api.py. What a forwarder may do: stripack_abi.F90.\n\n"
+            + "\n\n".join(map(forwarder, plain)) + "\n",
+            "src/cxx/capi/plain_calls.h": PLAIN_CALLS.format("\n\n".join(map(declarations_in_c, plain)))}
 
 
 # ---- all files ----
@@ -424,8 +461,8 @@ def make_all(groups):
     routines = [routine for _, members in groups for routine in members]
     files = {"docs/api/README.md": markdown_index(groups), "docs/api/ier.md": markdown_ier(groups),
              "src/fortran/stripack_module.F90": module_text(groups),
-             "src/fortran/plain_forwarders.inc": plain_forwarders(routines),
-             "src/fortran/symbols.txt": "".join(sorted(f"{routine.name.lower()}_\n" for routine in routines))}
+             "src/fortran/symbols.txt": "".join(sorted(f"{routine.name.lower()}_\n" for routine in routines)),
+             **plain_files(routines)}
     for routine in routines:
         files[f"docs/api/{routine.name.lower()}.md"] = markdown_page(routine)
         files[f"docs/man/man3/{routine.name.lower()}.3"] = man_page(routine)

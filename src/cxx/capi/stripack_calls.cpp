@@ -5,8 +5,8 @@
 // headers of src/cxx/stripack. Node and slot numbers count from 1. None is collective, writes to stdout or
 // throws. None keeps state, but for the random seeds of each thread where PSTRIPACK_ORDER is not canonical.
 // The suffix names the kinds: _r4, _r8 reals of 32 and 64 bits, with integers of 32 bits; _i8 reals and
-// integers of 64 bits; _i4, _i8 without reals. Other kinds are further instances of the macros. No header
-// declares them but that of the tests: Fortran has its own, in stripack_abi.F90. A negative ier prints one
+// integers of 64 bits; _i4, _i8 without reals. Other kinds are further instances of the macros. Their
+// declarations in plain_calls.h and those of Fortran come from docs/api/routines. A negative ier prints one
 // line on stderr.
 
 #include <stdint.h>
@@ -16,6 +16,7 @@
 #include <new>
 
 #include "base/floating_point.h"
+#include "capi/plain_calls.h"
 #include "stripack/list_queries.h"
 #include "stripack/original/original_rules.h"
 #include "stripack/polygon.h"
