@@ -2,7 +2,7 @@
 # From a bare Debian 12 machine to the main job: a legacy SCVT program linked with the original STRIPACK and
 # with PSTRIPACK, the two meshes compared; stripack-compare on 100,000 random points; the same program with
 # four MPI ranks behind it, and the distributed one, against the run without.
-# May be run again and again. Usage: ./quickstart.sh
+# May be repeated. Usage: ./quickstart.sh
 set -eu
 cd "$(dirname "$0")"
 build=build

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Sets up, builds and passes all tests. May be run again and again. Usage: ./test.sh [ctest options]
+# Sets up, builds and passes all tests. May be repeated. Usage: ./test.sh [ctest options]
 set -eu
 cd "$(dirname "$0")"
 build=build
@@ -13,7 +13,7 @@ configure() {
 run_tests() {
   code=0
   # More tests than processors: some wait.
-  ctest --test-dir $build --output-on-failure --parallel $(($(nproc) * 3 / 2)) --output-junit tests.xml "$@" || code=$?
+  ctest --test-dir $build --output-on-failure --parallel $(($(nproc) * 2)) --output-junit tests.xml "$@" || code=$?
   slowest $build/tests.xml
   return $code
 }

@@ -1,7 +1,7 @@
-# Run by cpack between installing and packing (packages.cmake): what Debian's policy requires of each package beside the
-# installed files: copyright and changelog, compressed man pages, archives without debugging symbols.
+# Run by cpack between installing and packing (packages.cmake). Adds what Debian's policy requires beside the installed
+# files: copyright, changelog, compressed man pages, archives without debugging symbols.
 
-# cpack's own lists of installed files name places in the system: remove them, they are not for the target `uninstall`.
+# Remove cpack's own lists of installed files: the target `uninstall` would delete the files that they name.
 foreach(component IN LISTS CPACK_COMPONENTS_ALL)
   file(REMOVE ${CPACK_PSTRIPACK_BINARY_DIR}/install_manifest_${component}.txt)
 endforeach()
@@ -30,7 +30,7 @@ License: BSD-3-Clause
  ${licence}
 ")
 
-# The tools contain these libraries, whose licences require a notice.
+# The licences of these libraries, which are compiled into the tools, require a notice.
 set(copyright_of_tools "${copyright}")
 foreach(library libcli11-dev nlohmann-json3-dev)
   if(EXISTS /usr/share/doc/${library}/copyright)

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Installs the packages with which PSTRIPACK is built, tested and compared, on Debian 12, and those named as arguments.
-# Does nothing, and needs no rights, if all are installed. Called by quickstart.sh and test.sh.
+# Installs on Debian 12 the packages that PSTRIPACK's build, tests and comparisons need, and those named as arguments.
+# Needs no root rights if all are installed. Called by quickstart.sh and test.sh.
 # Usage: install-packages.sh [package...]
 set -eu
 

@@ -1,12 +1,10 @@
 # How tests and measuring programs start ranks, with any MPI:
-#   mpiexec             command and options: more ranks than processors, bound to none
+#   mpiexec             command and options, which allow more ranks than processors and bind no rank
 #   mpiexec_words       the same as words for a shell
-#   mpi_environment     for tests: without it Open MPI refuses to run as root, and ranks that wait take processors from
-#                       those that compute
-#   mpi_is_open_mpi     Hydra, the launcher of MPICH and Intel MPI, has other options, and needs none of these
-#   mpi_patience        factor of the time limits of tests: MPICH's ranks spin while they wait, on processors that
-#                       others need
-#   add_mpi_test, starts_ranks: tests, below
+#   mpi_environment     for tests: lets Open MPI run as root, and lets its waiting ranks yield their processors
+#   mpi_is_open_mpi     false for Hydra, the launcher of MPICH and Intel MPI, which needs no options
+#   mpi_patience        factor of the tests' time limits: waiting ranks of MPICH keep processors busy
+#   add_mpi_test, starts_ranks: see below
 set(mpi_environment OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1)
 if(NOT PSTRIPACK_WITH_MPI)
   return()
@@ -22,9 +20,9 @@ if(mpiexec_version MATCHES "Open MPI|OpenRTE")
 endif()
 list(JOIN mpiexec " " mpiexec_words)
 
-# starts_ranks(test [LIMIT seconds] [PROCESSORS n] [LABELS label...] [ENVIRONMENT variable=value...]): the properties of
-# a test whose command starts ranks itself. PROCESSORS: 1 unless all ranks compute most of the time; other tests wait for
-# launchers and deadlines, and may as well wait beside each other. Those that may take longest are started first.
+# starts_ranks(test [LIMIT seconds] [PROCESSORS n] [LABELS label...] [ENVIRONMENT variable=value...]): sets properties of
+# a test whose command starts ranks. PROCESSORS: 1 unless all ranks compute most of the time: tests that wait for
+# launchers and deadlines may run beside each other. ctest starts tests with the longest limits first.
 function(starts_ranks test)
   cmake_parse_arguments(arg "" "LIMIT;PROCESSORS" "LABELS;ENVIRONMENT" ${ARGN})
   if(NOT arg_LIMIT)

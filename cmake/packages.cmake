@@ -6,7 +6,7 @@ set(PSTRIPACK_PACKAGE_CONTACT "The PSTRIPACK developers <pstripack@no-address.in
 set(CPACK_PACKAGE_NAME pstripack)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 set(CPACK_PACKAGE_CONTACT ${PSTRIPACK_PACKAGE_CONTACT})
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package has its own
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package has its own summary
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
 set(CPACK_GENERATOR DEB)
 set(CPACK_STRIP_FILES ON)
@@ -20,7 +20,7 @@ set(CPACK_PSTRIPACK_BINARY_DIR ${PROJECT_BINARY_DIR})
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-set(CPACK_DEBIAN_PACKAGE_RELEASE 0upstream1)  # Debian's own would begin with 1, and so replace it
+set(CPACK_DEBIAN_PACKAGE_RELEASE 0upstream1)  # sorts before a release 1 of Debian, which would replace it
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
@@ -31,8 +31,8 @@ set(CPACK_COMPONENTS_ALL "")
 # debian_package(component NAME package SECTION section SUMMARY line DESCRIPTION text
 #                [DEPENDS package...] [RECOMMENDS package...] [SUGGESTS package...] [LIBRARIES])
 #
-# LIBRARIES: it has shared libraries for others to link. Of our libraries among the others exactly this version is
-# required.
+# LIBRARIES: the package has shared libraries that other programs link. Relations to libpstripack packages require
+# exactly this version.
 macro(debian_package component)
   cmake_parse_arguments(arg "LIBRARIES" "NAME;SECTION;SUMMARY;DESCRIPTION" "DEPENDS;RECOMMENDS;SUGGESTS" ${ARGN})
   string(TOUPPER ${component} COMPONENT)
@@ -59,8 +59,8 @@ Algorithm 772).
 set(soversion ${PROJECT_VERSION_MAJOR})
 debian_package(runtime NAME libpstripack${soversion} SECTION libs LIBRARIES
   SUMMARY "Delaunay triangulation on the sphere: drop-in replacement of STRIPACK"
-  DESCRIPTION "${about}This package has the shared libraries, and links to them by which a
-program that is linked with another libstripack.so runs with them.")
+  DESCRIPTION "${about}This package has the shared libraries, and links by which a program that is
+linked with another libstripack.so runs with them.")
 debian_package(development NAME libpstripack-dev SECTION libdevel
   DEPENDS libpstripack${soversion} RECOMMENDS gfortran pkg-config SUGGESTS libpstripack-mpi-dev g++
   SUMMARY "Delaunay triangulation on the sphere: to link programs"

@@ -1,9 +1,9 @@
-# The target `uninstall`: removes the files listed in install_manifest*.txt by the last `cmake --install`, and those of
-# their folders that have PSTRIPACK's name and are then empty.
+# The target `uninstall`: removes the files that the last `cmake --install` listed in install_manifest*.txt, and their
+# folders named pstripack if these are empty.
 # Usage: cmake -DBUILD_DIR=build -P uninstall.cmake
 file(GLOB manifests ${BUILD_DIR}/install_manifest*.txt)
 if(NOT manifests)
-  message(FATAL_ERROR "uninstall: nothing was installed from ${BUILD_DIR}")
+  message(FATAL_ERROR "uninstall: nothing was installed from ${BUILD_DIR}: it has no install_manifest*.txt")
 endif()
 
 set(removed 0)

@@ -35,8 +35,8 @@ std::vector<Point> points_of(const std::vector<char>& body) {
 CallReader::CallReader(const std::string& file)
     : name_(file == "-" ? "stdin" : file), file_(file == "-" ? stdin : std::fopen(file.c_str(), "rb")) {
   if (!file_) throw std::runtime_error(fmt::format("cannot read {}: {}", file, std::strerror(errno)));
-  // An original that ends its child process by exit() would reset the position of the file, which both
-  // processes share, to what this process has read from its buffer.
+  // Unbuffered: both processes share the position in the file. An original that ends its child process by
+  // exit() would reset it to what this process has taken out of its buffer.
   std::setvbuf(file_.get(), nullptr, _IONBF, 0);
 }
 
@@ -97,7 +97,7 @@ std::optional<BlockHeader> CallReader::read_header() {
   return header;
 }
 
-/// Detects a wrong length before that much memory is allocated.
+/// Checks the length before allocating that much memory.
 CallReader::Bytes CallReader::read_body(const BlockHeader& header, std::uint64_t expected) {
   if (header.body_bytes < 0 || static_cast<std::uint64_t>(header.body_bytes) != expected)
     fail(block_ + offsetof(BlockHeader, body_bytes),

@@ -1,5 +1,5 @@
 #pragma once
-// Calls of TRMESH that PSTRIPACK_CHECK has recorded (docs/recorded-calls.md), one after another.
+// Calls of TRMESH recorded by PSTRIPACK_CHECK (docs/recorded-calls.md).
 
 #include <cstdint>
 #include <cstdio>
@@ -22,20 +22,21 @@ struct Call {
   std::uint64_t process = 0;
   std::int64_t process_id = 0, number = 0, n = 0;
   std::size_t real_bytes = 8;
-  std::vector<pstripack::Point> points;  ///< empty if TRMESH refuses n without reading them
-  bool has_returned = false;             ///< false: the rest is not recorded
+  std::vector<pstripack::Point> points;  ///< empty: TRMESH refused n without reading them
+  bool has_returned = false;             ///< false: the members below are not recorded
   std::size_t nodes = 0;                 ///< number of nodes in the lists
   OurRun run;
 };
 
-/// The recorded calls in the order in which they returned, then those that did not. Keeps only unfinished
-/// calls in memory. Every error is a std::runtime_error that names the file, the byte and what was expected.
+/// Yields the recorded calls in the order in which they returned, then those that did not return. Only
+/// unfinished calls are kept in memory. Errors are std::runtime_error with file, byte and what was expected.
 class CallReader {
  public:
   explicit CallReader(const std::string& file);  ///< `-`: stdin
   std::optional<Call> next();
 
-  static bool looks_like_recording(const std::string& file);  ///< or is empty, or cannot be read
+  static bool looks_like_recording(
+      const std::string& file);  ///< true if the file is a recording, empty or unreadable
 
  private:
   struct Close {
@@ -54,7 +55,7 @@ class CallReader {
 
   std::string name_;
   std::unique_ptr<std::FILE, Close> file_;
-  std::uint64_t offset_ = 0, block_ = 0;  ///< bytes read; begin of the current block
+  std::uint64_t offset_ = 0, block_ = 0;  ///< bytes read so far; offset of the current block
   std::map<std::pair<std::uint64_t, std::int64_t>, Call> under_way_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Results of many cases: one line per case for people, CSV for plots, JUnit XML for continuous integration.
+// Results of many cases: a line per case on stdout, CSV for plots, JUnit XML for continuous integration.
 
 #include <cstdint>
 #include <fstream>
@@ -19,7 +19,7 @@ struct Case {
   double seconds;  ///< of the whole case
 };
 
-/// How many cases ended in which way.
+/// How many cases ended in each way.
 struct Summary {
   std::size_t cases = 0, equal = 0, explained = 0, no_result = 0, against_us = 0;
 
@@ -32,16 +32,16 @@ struct Summary {
   }
 };
 
-/// The places where the meshes differ, by reason: "none", "12 ties, 3 rounding".
+/// The number of differing places by reason: "none", "12 ties, 3 rounding".
 std::string differences_in_short(const Result& result);
 
 void print_header_of_cases();
 void print_line(const Case& one);
 
-/// One row per call of ours.
+/// A CSV file with one row per call of ours.
 class CsvFile {
  public:
-  /// Throws std::runtime_error if the file cannot be written; so do the other functions.
+  /// Throws std::runtime_error if the file cannot be written; so do all functions.
   explicit CsvFile(const std::string& file);
   void add(const Case& one);
 
@@ -50,7 +50,7 @@ class CsvFile {
   std::ofstream out_;
 };
 
-/// One test case per case; it fails if it counts against us.
+/// A JUnit file with one test per case; the test fails if the case counts against us.
 class JunitFile {
  public:
   explicit JunitFile(const std::string& file);

@@ -9,7 +9,7 @@
 
 namespace comparison {
 namespace {
-constexpr double kLongestProbe = 2;  // seconds per call of TRMESH for six nodes
+constexpr double kLongestProbe = 2;  // limit in seconds of each call of TRMESH for six nodes
 }
 
 ChosenOriginal open_original(const OriginalChoice& choice, double timeout, int real_bytes) {
@@ -26,7 +26,7 @@ ChosenOriginal open_original(const OriginalChoice& choice, double timeout, int r
   if (!probe.abi)
     fmt::print(
         stderr,
-        "stripack-compare: {}: its ABI cannot be found out, for TRMESH does not triangulate six nodes: {}. "
+        "stripack-compare: {}: its ABI cannot be detected, since TRMESH does not triangulate six nodes: {}. "
         "It is called as {}{}\n",
         where->name, probe.why_not, text_of(where->abi),
         choice.abi.empty() ? ", which --original-abi, or abi= in PSTRIPACK_CHECK, overrides" : "");

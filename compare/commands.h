@@ -1,6 +1,5 @@
 #pragma once
-// What stripack_compare.cpp reads from the command line, and the functions that do it. Each returns the exit
-// code.
+// The options and functions of the commands of stripack_compare.cpp. Each function returns the exit code.
 
 #include <string>
 #include <vector>

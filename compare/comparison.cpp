@@ -33,7 +33,8 @@ std::optional<IerDifference> compare_ier(const std::vector<Point>& points, int t
   return IerDifference{Cause::original_wrong, both + "ours passes every exact check"};
 }
 
-// Lengths near 1 are used as given unless that hides a node, which a valid mesh of the original disproves.
+// Lengths near 1 must be used as given unless that hides a node. A valid mesh of the original shows that none
+// is hidden.
 bool used_directions_without_need(const std::vector<Point>& points, const Checked& original,
                                   const Checked& ours) {
   using pstripack::Lengths;

@@ -1,5 +1,5 @@
 #pragma once
-// Results of the original and PSTRIPACK for the same nodes, checked exactly, and the verdict.
+// Compares the original's and PSTRIPACK's results for the same nodes, checked exactly.
 
 #include <cstddef>
 #include <optional>
@@ -12,19 +12,19 @@
 
 namespace comparison {
 
-/// The difference between the two error codes; none if they are equal.
+/// The two error codes and why they differ; none if they are equal.
 struct IerDifference {
   Cause cause;
   std::string text;
 };
 
-/// All results after both have run.
+/// The results of the original and of all our calls.
 struct Result {
   std::string points_name, original_name;
   std::size_t n = 0;
   legacy_stripack::Triangulation original;
   Checked original_checked;
-  std::vector<OurRun> ours;  ///< the first of them returned, if any did
+  std::vector<OurRun> ours;  ///< the first one returned, if any did
   Checked ours_checked;
   std::vector<std::string> broken_promises;
   std::optional<IerDifference> ier;
@@ -40,19 +40,19 @@ struct Result {
   bool equal() const { return original_returned() && !ier && (!meshes_compared || differences.none()); }
 };
 
-/// Checks and compares results for the same nodes, at least one of them ours: `epsilon` is that of the
-/// original's arithmetic, `show` the number of differences described per cause. The caller fills in
-/// points_name and original_name.
+/// Checks and compares results for the same nodes; at least one is ours. `epsilon`: of the original's
+/// arithmetic. `show`: number of differences described per cause. The caller fills in points_name and
+/// original_name.
 Result compare(const std::vector<pstripack::Point>& points, legacy_stripack::Triangulation original,
                double epsilon, std::vector<OurRun> ours, std::size_t show);
 
-/// True if the meshes differ only by tie rule and rounding: no reason to call the original's wrong.
+/// True if the meshes differ only by tie rule and rounding: the original's is then not called wrong.
 bool only_ties_and_rounding(const Result& result);
 
 /// "equal", "explained", "no result", "WE ARE WRONG"
 std::string verdict_in_short(const Result& result);
 
-/// One phrase: "equal", "every difference is explained", "WE ARE WRONG", ...
+/// The verdict as a phrase: "equal", "every difference is explained", "WE ARE WRONG", ...
 std::string verdict_of(const Result& result);
 
 }  // namespace comparison

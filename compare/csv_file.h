@@ -1,5 +1,5 @@
 #pragma once
-// A table of comma-separated values to which successive runs add rows.
+// A CSV file to which successive runs add rows.
 
 #include <filesystem>
 #include <fstream>
@@ -9,8 +9,8 @@
 
 class CsvFile {
  public:
-  /// A new or empty file gets the line of column names first. Throws std::runtime_error if the file cannot
-  /// be written, or has other columns.
+  /// Writes the column names into a new or empty file. Throws std::runtime_error if the file cannot be
+  /// written or has other columns.
   CsvFile(const std::string& file, const std::string& columns) : name_(file) {
     std::string first;
     std::error_code ignored;
@@ -21,7 +21,7 @@ class CsvFile {
     if (first.empty()) out_ << columns << std::endl;
     check();
   }
-  /// Written at once, so that an interrupted run keeps its rows.
+  /// Written at once: an interrupted run keeps its rows.
   void row(const std::string& values) {
     out_ << values << std::endl;
     check();

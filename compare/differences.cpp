@@ -102,14 +102,14 @@ class Classifier {
   }
 
  private:
-  // For a result that is no mesh.
+  // For a result that is not a mesh: everything has this cause.
   void blame_all(Cause cause, const std::string& text) {
     result_.count[static_cast<std::size_t>(cause)].places = 1;
     result_.decisions.push_back({cause, {}, text, "", ""});
   }
 
-  // Two differing triangles belong to one place if they share an arc that only one mesh has, or lie,
-  // one in each mesh, on the same side of an arc of both.
+  // Two differing triangles belong to one place if they share an arc that only one mesh has, or if they lie
+  // in different meshes on the same side of an arc of both.
   void find_places(const Arcs& theirs, const Arcs& own) {
     const std::size_t offset = theirs_only_.size();
     UnionFind set(offset + ours_only_.size());
@@ -129,7 +129,7 @@ class Classifier {
   std::size_t place_of_theirs(std::size_t t) const { return place_[t]; }
   std::size_t place_of_ours(std::size_t t) const { return place_[theirs_only_.size() + t]; }
 
-  // `describe` makes the text, which takes longer than the decision, only if it is to be shown.
+  // `describe` is called only if its text will be shown: making the text takes longer than the decision.
   template <class Describe>
   void blame(std::size_t place, Cause cause, std::vector<index_t> nodes, const Determinant* det,
              Describe describe) {
@@ -139,8 +139,8 @@ class Classifier {
         {cause, std::move(nodes), describe(), det ? det->value() : "", det ? det->bound(epsilon_) : ""});
   }
 
-  // A triangle of the original must be counterclockwise. One of ours that the original lacks at its
-  // boundary was left out by its LEFT.
+  // A clockwise triangle of the original is its error. A triangle of ours at the original's boundary was left
+  // out by its LEFT.
   void judge_triangles() {
     for (std::size_t t = 0; t < theirs_only_.size(); ++t) {
       const auto [a, b, c] = theirs_only_[t];
@@ -168,8 +168,8 @@ class Classifier {
     }
   }
 
-  // An arc that only the original has: the opposite node on one side is in the cap of the other side,
-  // on its rim, or outside.
+  // An arc that only the original has: tests whether the opposite node on one side lies in the circle of the
+  // other side, on it, or outside.
   void judge_arcs_of_the_original(const Arcs& theirs, const Arcs& own) {
     for_each_side(theirs_only_, [&](index_t u, index_t v, std::size_t t) {
       const auto* left = theirs.left_of(u, v);
@@ -182,8 +182,8 @@ class Classifier {
     });
   }
 
-  // The cause of one arc u-v of the original with opposite nodes l and r; none where it is locally Delaunay
-  // and so only a consequence of another arc nearby.
+  // The cause of an arc u-v of the original with opposite nodes l and r. None if the arc is locally Delaunay:
+  // then it differs only because of another arc nearby.
   std::optional<Cause> judge(std::size_t place, index_t u, index_t v, index_t l, index_t r) {
     const Point &pu = points_[u], &pv = points_[v], &pl = points_[l], &pr = points_[r];
     const Determinant det = swap_test(pu, pv, pl, pr);
@@ -207,9 +207,8 @@ class Classifier {
     return cause;
   }
 
-  // Arcs and triangles without a cause have that of their place. If the place has none, although our mesh
-  // passes every exact check, the original's must fail one there; otherwise the contradiction counts against
-  // us.
+  // Arcs and triangles without a cause get that of their place. Our mesh passes every exact check, so the
+  // original's must fail one in each place; if none is found, the contradiction counts against us.
   void judge_the_rest(const Arcs& theirs, const Arcs& own) {
     for (std::size_t t = 0; t < place_.size(); ++t) {
       const std::size_t place = place_[t];
@@ -243,10 +242,10 @@ class Classifier {
   double epsilon_;
   std::size_t show_;
   Triangles theirs_only_, ours_only_;
-  std::vector<std::size_t> place_;   // of theirs_only_, then of ours_only_: a representative
-  std::vector<int> cause_of_place_;  // at the representative: the strongest cause, or kUndecided
+  std::vector<std::size_t> place_;  // per triangle, those of theirs_only_ before ours_only_: a representative
+  std::vector<int> cause_of_place_;  // at representatives: the strongest cause, or kUndecided
   std::vector<std::size_t> undecided_arcs_;
-  std::array<std::size_t, kCauses> described_{};  // decisions of each cause so far, shown or not
+  std::array<std::size_t, kCauses> described_{};  // number of decisions of each cause, shown or not
   Differences result_;
 };
 
@@ -269,8 +268,8 @@ Differences differences(const std::vector<Point>& points, const Mesh& original, 
   return Classifier(points, original, ours, epsilon, show).run();
 }
 
-// Around an inner node every neighbour ends one side and begins another; at a boundary node the first and the
-// last do not.
+// At an inner node each neighbour ends one triangle and begins another. At a boundary node the first
+// neighbour only begins one and the last only ends one.
 std::vector<index_t> boundary_nodes(const Triangles& triangles) {
   index_t n = 0;
   for (const Triangle& t : triangles) n = std::max({n, t[0] + 1, t[1] + 1, t[2] + 1});

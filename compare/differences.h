@@ -11,20 +11,21 @@
 
 namespace comparison {
 
-/// Why the original and ours differ, from harmless to serious.
+/// Causes of a difference, from harmless to serious.
 enum class Cause {
-  exact_tie,       ///< the four nodes lie in one plane exactly: both are Delaunay, the tie rules differ
-  rounding,        ///< the exact value is smaller than the rounding of the original's own test
-  directions,      ///< lengths differ from 1: the original is right for the coordinates, ours for directions
+  exact_tie,   ///< the four nodes lie in one plane exactly: both are Delaunay, the tie rules differ
+  rounding,    ///< the exact value is smaller than the rounding of the original's test
+  directions,  ///< lengths differ from 1: the original uses the coordinates, ours the directions; both are
+               ///< right
   original_wrong,  ///< an exact check fails in the original's result
-  ours_wrong       ///< no exact check decides against the original
+  ours_wrong       ///< no exact check fails in the original's result
 };
 constexpr std::size_t kCauses = 5;
 const char* name(Cause cause);        ///< for tables: "exact tie"
 const char* identifier(Cause cause);  ///< for JSON: "exact_tie"
 
-/// A decision that the original made differently: an arc of its result and the opposite nodes, or three nodes
-/// on its boundary.
+/// A decision that the original made differently: an arc of its result with the opposite nodes, or three
+/// nodes on its boundary.
 struct Decision {
   Cause cause;
   std::vector<pstripack::index_t> nodes;  ///< from 0: u, v, left of u-v, right of u-v; or three nodes
@@ -39,16 +40,16 @@ struct Count {
 };
 
 struct Differences {
-  std::array<Count, kCauses> count;  ///< every differing place and arc is counted once
+  std::array<Count, kCauses> count;  ///< each differing place and arc is counted once
   std::size_t original_triangles = 0, our_triangles = 0;
-  std::vector<Decision> decisions;  ///< at most `show` of each cause, the most serious first
+  std::vector<Decision> decisions;  ///< at most `show` of each cause, the most serious cause first
 
   const Count& of(Cause cause) const { return count[static_cast<std::size_t>(cause)]; }
   bool none() const { return original_triangles == 0 && our_triangles == 0; }
 };
 
 struct Mesh {
-  const pstripack::Triangles& triangles;  ///< canonical; a manifold if anything is known about it
+  const pstripack::Triangles& triangles;  ///< canonical; a manifold unless the verdict says otherwise
   const pstripack::Verdict& verdict;
 };
 
@@ -56,7 +57,7 @@ struct Mesh {
 Differences differences(const std::vector<pstripack::Point>& points, const Mesh& original, const Mesh& ours,
                         double epsilon, std::size_t show);
 
-/// Corners of triangles with an arc that has a triangle on one side only; increasing, from 0.
+/// The nodes of arcs with a triangle on one side only; increasing, from 0.
 std::vector<pstripack::index_t> boundary_nodes(const pstripack::Triangles& triangles);
 
 }  // namespace comparison

@@ -14,7 +14,7 @@ using Vector = std::array<Integer, 3>;
 
 constexpr int kDigits = 53;
 
-// The exponent e of the last bit of a coordinate: value = integer * 2^e.
+// The exponent e for which value = integer * 2^e, with e that of the last bit of the significand.
 int last_bit(double value) { return value == 0 ? 1024 : std::max(std::ilogb(value), -1022) - (kDigits - 1); }
 
 int common_exponent(std::initializer_list<Point> points) {

@@ -1,6 +1,6 @@
 #pragma once
-// The comparison's own exact arithmetic: integers of any length, sharing no code with the predicates it
-// judges.
+// The comparison's own exact arithmetic with integers of any length. It shares no code with the predicates
+// that it judges.
 
 #include <boost/multiprecision/cpp_int.hpp>
 #include <string>
@@ -18,11 +18,11 @@ class Determinant {
 
   int sign() const { return value_.sign(); }
 
-  /// True where the original's floating-point test may give either sign: |exact| <= bound.
+  /// True if the original's floating-point test may give either sign: |exact| <= bound.
   bool within_rounding(double epsilon) const;
 
   std::string value() const;                ///< "-1.27e-19"
-  std::string bound(double epsilon) const;  ///< the bound, same format
+  std::string bound(double epsilon) const;  ///< the bound in the same format
 
  private:
   friend Determinant left_test(const Point&, const Point&, const Point&);
@@ -42,8 +42,8 @@ Determinant left_test(const Point& a, const Point& b, const Point& c);
 
 /// det(b-a, c-a, d-a), positive where d is above the plane of a,b,c. The original computes it in SWPTST as
 ///   S = (d3x (d2y d1z - d1y d2z) - d3y (d2x d1z - d1x d2z)) + d3z (d2x d1y - d1x d2y),  di = pi - p4.
-/// Three more roundings, those of the differences: g = 8u/(1-8u). P depends on which of the four nodes is
-/// p4, that is, on the history of the arc; the bound takes the largest of the four.
+/// The differences add three roundings: g = 8u/(1-8u). P depends on which node is p4, which depends on the
+/// history of the arc: the bound takes the largest of the four values.
 Determinant swap_test(const Point& a, const Point& b, const Point& c, const Point& d);
 
 }  // namespace comparison

@@ -87,7 +87,7 @@ struct JsonFile::Document {
 
   void write(const json& j) {
     const std::string text =
-        j.dump(2, ' ', false, json::error_handler_t::replace);  // names may hold any bytes
+        j.dump(2, ' ', false, json::error_handler_t::replace);  // names may have any bytes
     if (!(out << text << '\n' << std::flush)) throw std::runtime_error("cannot write " + name);
   }
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Results for programs, in JSON.
+// Results in JSON, for programs.
 
 #include <memory>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace comparison {
 
-/// An array of results and what they have in common.
+/// Writes an array of results, and what they have in common.
 class JsonFile {
  public:
   /// Throws std::runtime_error if the file cannot be written; so do the functions that write.
@@ -17,7 +17,7 @@ class JsonFile {
   ~JsonFile();
 
   void add(const Case& one, double timeout);
-  /// `result`: without nodes if nothing was compared.
+  /// `result`: has no nodes if nothing was compared.
   void add(const Call& call, const Result& result, const std::string& kind, const std::string& text,
            double timeout);
 

@@ -37,7 +37,7 @@ class TextReader {
     read(call.run.lists.list, "LIST", lnew - 1);
     read(call.run.lists.lptr, "LPTR", lnew - 1);
     read(call.run.lists.lend, "LEND", n);
-    // Allocate only now: a wrong N has been detected by here.
+    // Allocate only now: a wrong N would have been noticed.
     for (Entries* slots : {&call.run.lists.list, &call.run.lists.lptr})
       slots->resize(6 * static_cast<std::size_t>(n) - 12, kUntouched);
     return call;

@@ -28,7 +28,7 @@ struct Pair {
   std::string text;
 };
 
-/// The triangles of a result, or why there are none.
+/// The triangles of a result, or the reason why there are none.
 struct MeshOfLists {
   Triangles triangles;
   std::string defect;

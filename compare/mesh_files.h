@@ -1,5 +1,5 @@
 #pragma once
-// Points and triangles as scvt_legacy writes them, and the comparison of two such meshes.
+// Points and triangles as scvt_legacy writes them; compares two such meshes.
 
 #include <cstddef>
 #include <string>
@@ -19,7 +19,8 @@ struct MeshFiles {
 MeshFiles read_mesh(const std::string& prefix);
 
 struct MeshComparison {
-  double largest_distance = 0;  ///< between points of equal number; infinite if their counts differ
+  double largest_distance =
+      0;  ///< between points with equal numbers; infinite if the numbers of points differ
   std::size_t only_in_a = 0, only_in_b = 0;
 };
 MeshComparison compare_meshes(const MeshFiles& a, const MeshFiles& b);

@@ -1,5 +1,5 @@
 #pragma once
-// The nodes of a comparison: source, order, precision.
+// The nodes of a comparison: where they come from, their order, their precision.
 
 #include <cstdint>
 #include <string>
@@ -9,15 +9,15 @@
 
 namespace comparison {
 
-/// Nodes from a file: text in the format of point_sets::read, or NetCDF in that of files::read. Throws
-/// std::runtime_error with one line that names what was expected where.
+/// Reads nodes from text in the format of point_sets::read, or from NetCDF in that of files::read. Throws
+/// std::runtime_error with one line that says what was expected where.
 std::vector<pstripack::Point> read_nodes(const std::string& file);
 
-/// "given"; "shuffled"; "sorted": by z (latitude), then by longitude. Of the orders in models this is about
-/// the slowest for a method that inserts node after node.
+/// Orders: "given"; "shuffled"; "sorted" by z (latitude), then by longitude. Of the orders found in models
+/// the last one is about the slowest for a method that inserts nodes one after another.
 void put_in_order(std::vector<pstripack::Point>& points, const std::string& order, std::uint64_t seed);
 
-/// Coordinates rounded to REAL*4.
+/// Rounds the coordinates to REAL*4.
 void round_to_single(std::vector<pstripack::Point>& points);
 
 }  // namespace comparison

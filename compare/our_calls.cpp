@@ -32,7 +32,7 @@ constexpr double kEnoughSeconds = 10;
 
 using pstripack::SharedArea;
 
-/// A file that is removed when this process ends, in whatever way.
+/// A temporary file that disappears when this process ends, however that happens.
 SharedArea new_area(std::size_t size) {
   SharedArea area = SharedArea::create(size);
   if (area.data() == nullptr) throw std::bad_alloc();
@@ -47,14 +47,14 @@ std::string path_of(const SharedArea& area) {
 struct Call {
   char abi[8];
   std::int32_t n, repeats;
-  std::int32_t started, returned;  // false until the other process says so
+  std::int32_t started, returned;  // set to true by the other process
   std::int32_t ier, lnew;
   double seconds;
 };
 
 /// The arrays follow the call in the file.
 struct Arrays {
-  static constexpr std::size_t kFirst = 4096;  // a page, as AreaLayout's
+  static constexpr std::size_t kFirst = 4096;  // a page, as in AreaLayout
   static_assert(sizeof(Call) <= kFirst);
 
   explicit Arrays(Call* call) : n(static_cast<std::size_t>(call->n)), slots(6 * n - 12) {
@@ -82,7 +82,7 @@ std::string beside_this_program(const std::string& name) {
   return name.empty() ? path : path.substr(0, path.rfind('/') + 1) + name;
 }
 
-/// The installed program beside this one, else that of the build.
+/// The program installed beside this one, else that of the build.
 std::string path_of_pstripack_run() {
 #ifdef PSTRIPACK_RUN
   const std::string installed = beside_this_program("pstripack-run");
@@ -94,7 +94,7 @@ std::string path_of_pstripack_run() {
 #endif
 }
 
-/// Removes our variables from the environment of the call, except the location of mpirun and of reports.
+/// Removes PSTRIPACK's variables from the call's environment, except those for mpirun and the report.
 void set_environment(const Setting& setting, const std::string& report) {
   std::vector<std::string> others;
   for (char** at = environ; *at != nullptr; ++at) {
@@ -120,10 +120,10 @@ void set_environment(const Setting& setting, const std::string& report) {
   throw std::system_error(errno, std::generic_category(), words[0]);
 }
 
-/// Reports are appended to their file, which initially has one byte.
+/// Reports are appended to a file that has one byte at first.
 constexpr off_t kReportBegins = 1;
 
-/// True if the report's line says that the pool of `ranks` ranks has executed the call.
+/// True if the report's line says that a pool of `ranks` ranks carried out the call.
 bool done_by_ranks(const SharedArea& report, int ranks) {
   char text[200] = "";
   if (pread(report.file().get(), text, sizeof text - 1, kReportBegins) < 0) return false;
@@ -145,7 +145,7 @@ void* load_trmesh(const std::string& abi) {
   return routine;
 }
 
-/// The arrays in the library's kind of integers.
+/// Copies of the arrays in the library's kind of integers.
 template <class Int>
 struct Output {
   std::vector<Int> list, lptr, lend;
@@ -155,7 +155,7 @@ struct Output {
 template <class Int>
 using CallOfTrmesh = std::function<void(Output<Int>&)>;
 
-/// A call of the 12-argument TRMESH, with the work arrays that Fortran programs pass.
+/// Calls the 12-argument TRMESH with the work arrays that Fortran programs pass.
 template <class Real, class Int>
 CallOfTrmesh<Int> call_of_12(void* routine, const Arrays& arrays) {
   const std::size_t n = arrays.n;
@@ -170,7 +170,8 @@ CallOfTrmesh<Int> call_of_12(void* routine, const Arrays& arrays) {
   };
 }
 
-/// The 8-argument TRMESH keeps LNEW to itself: one past the last slot of the last node, in canonical lists.
+/// LNEW of canonical lists, which the 8-argument TRMESH does not return: the slot after the last one of the
+/// last node.
 std::int32_t lnew_of(const std::vector<std::int32_t>& lend) {
   const auto last =
       std::find_if(lend.rbegin(), lend.rend(), [](std::int32_t slot) { return slot != kUntouched; });
@@ -186,7 +187,7 @@ CallOfTrmesh<std::int32_t> call_of_8(void* routine, const Arrays& arrays) {
   };
 }
 
-/// Calls and measures as often as requested; keeps what the last call wrote.
+/// Calls TRMESH `repeats` times and measures; keeps the output of the last call.
 template <class Int>
 void make_calls(const CallOfTrmesh<Int>& trmesh, Call& call, const Arrays& arrays) {
   using Clock = std::chrono::steady_clock;
@@ -238,7 +239,7 @@ OurRun run_ours(const std::vector<Point>& points, const Setting& setting, int re
   if (setting.ranks > 1)
     words.insert(words.begin(),
                  {path_of_pstripack_run(), "-n", std::to_string(setting.ranks), "--oversubscribe", "--"});
-  const std::string report_path = path_of(report);  // of this process, not of the child
+  const std::string report_path = path_of(report);  // in this process, not in the child
   const auto ended = legacy_stripack::run_in_child(
       [&] {
         set_environment(setting, report_path);

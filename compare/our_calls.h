@@ -1,6 +1,6 @@
 #pragma once
-// Calls of the drop-in libraries as a Fortran program makes them: by their symbol trmesh_, in their own
-// process, on threads, or on MPI ranks behind pstripack-run.
+// Calls the drop-in libraries as a Fortran program does: by their symbol trmesh_, in a process of their own,
+// on threads, or on MPI ranks by pstripack-run.
 
 #include <cstdint>
 #include <string>
@@ -10,17 +10,17 @@
 
 namespace comparison {
 
-/// What one call wrote; slots that it did not write hold kUntouched.
+/// The output of a call; slots that it did not write hold kUntouched.
 struct Lists {
   std::vector<std::int32_t> list, lptr, lend;
   std::int32_t lnew = 0;
 };
 constexpr std::int32_t kUntouched = -987654321;
 
-/// How TRMESH is called. None of this may change a byte of the result.
+/// How TRMESH is called. No setting may change a byte of the result.
 struct Setting {
-  std::string abi = "r8";  ///< of the library: r8, r4, 8arg, i8
-  int threads = 1;         ///< on each rank
+  std::string abi = "r8";  ///< ABI of the library: r8, r4, 8arg, i8
+  int threads = 1;         ///< threads of each rank
   int ranks = 1;
   std::string partition = "bisection";
 };
@@ -29,22 +29,21 @@ struct Setting {
 std::string describe(const Setting& setting);
 
 struct OurRun : Setting {
-  std::string failure;  ///< why the call did not return; the rest is then empty
+  std::string failure;  ///< why the call did not return; the other members are then empty
   int ier = 0;
   double seconds = 0;  ///< median of the repeats
   Lists lists;
 };
 
-/// Calls TRMESH `repeats` times, fewer once they have taken 10 s; at least 3 nodes. The program that calls
-/// this must be stripack-compare. Throws std::runtime_error if such a call cannot be made here: no MPI, no
-/// library.
+/// Calls TRMESH `repeats` times, fewer if the calls have taken 10 s; at least 3 nodes. Only stripack-compare
+/// can call this: it starts itself again. Throws std::runtime_error if there is no MPI or no library.
 OurRun run_ours(const std::vector<pstripack::Point>& points, const Setting& setting, int repeats,
                 double time_limit = 600);
 
-/// Equal codes, LIST, LPTR, LEND, LNEW.
+/// True if IER, LIST, LPTR, LEND and LNEW are equal.
 bool same_bytes(const OurRun& a, const OurRun& b);
 
-/// The program of that process: `stripack-compare call-trmesh FILE`. Returns its exit code.
+/// Runs `stripack-compare call-trmesh FILE` in the started process. Returns the exit code.
 constexpr const char* kCallCommand = "call-trmesh";
 int call_trmesh(const char* file);
 

@@ -17,7 +17,8 @@ using pstripack::Point;
 
 bool finite(const Point& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
-// Code -5 is correct for these: not finite, zero, or so short or long that no exact product fits a double.
+// True if TRMESH may return -5 for the vector: not finite, zero, or so short or long that no exact product
+// fits a double.
 bool bad_vector(const Point& p) {
   const double largest = std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
   return !finite(p) || !(largest > 1e-150) || largest > 1e150;

@@ -1,5 +1,5 @@
 #pragma once
-// The exact checks that a call of ours must pass whatever the original says.
+// The exact checks of our results, independent of the original.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,9 +12,9 @@
 
 namespace comparison {
 
-/// A mesh read from lists that some TRMESH returned with `ier`.
+/// A mesh read from the lists that a TRMESH returned with `ier`.
 struct Checked {
-  std::size_t nodes = 0;           ///< in the lists: n, or M-1 if node M is a duplicate; 0: no lists
+  std::size_t nodes = 0;  ///< nodes in the lists: n, or M-1 if node M is a duplicate; 0: there are no lists
   pstripack::Verdict verdict;      ///< of these nodes
   pstripack::Triangles triangles;  ///< canonical; empty if the lists are broken
 };
@@ -22,11 +22,11 @@ Checked check(const std::vector<pstripack::Point>& points, int ier, const std::v
               const std::vector<std::int32_t>& lptr, const std::vector<std::int32_t>& lend,
               std::int32_t lnew);
 
-/// Number of nodes in the lists of a result with code L > 0: M-1, where M > L is the first node that
-/// coincides with node L; 0 if there is none.
+/// The number of nodes in lists returned with a code L > 0: M-1, where M > L is the first node that coincides
+/// with node L. 0 if there is no such node.
 std::size_t nodes_before_duplicate(const std::vector<pstripack::Point>& points, int ier);
 
-/// What our result breaks of docs/differences.md and docs/ier.md: one line per promise, empty if none.
+/// The promises of docs/differences.md and docs/ier.md that our result breaks, one line each; empty if none.
 std::vector<std::string> broken_promises(const std::vector<pstripack::Point>& points, const OurRun& run,
                                          const Checked& checked);
 

@@ -35,8 +35,8 @@ using Arc = std::pair<index_t, index_t>;
 using pictures::Path;
 using pictures::Place;
 
-/// A stereographic projection around the nodes of a decision: circles on the sphere are circles on paper,
-/// which shows the node inside. In pixels, 0..kPanel in both directions.
+/// A stereographic projection around the nodes of a decision. Circles on the sphere are circles in the
+/// picture, so it shows which node lies inside. In pixels, 0..kPanel in both directions.
 class View {
  public:
   View(const std::vector<Point>& points, const std::vector<index_t>& nodes) : points_(points) {
@@ -70,7 +70,7 @@ class View {
   const Point& point(index_t node) const { return points_[node]; }
 
  private:
-  /// Subtracts the centre first, which keeps the digits of close nodes.
+  /// Subtracts the centre first, so that close nodes keep their digits.
   Place project(const Point& given) const {
     const Point p = normalized(given), d = minus(p, centre_);
     const double factor = 2 / (1 + dot(p, centre_));
@@ -85,7 +85,7 @@ class View {
 
 bool in_panel(const Place& p) { return p.x >= 0 && p.x <= kPanel && p.y >= 0 && p.y <= kPanel; }
 
-/// Arcs whose box intersects the panel; increasing.
+/// The arcs whose bounding box intersects the panel, in increasing order.
 std::vector<Arc> arcs_in_view(const Triangles& triangles, const View& view) {
   std::vector<Arc> arcs;
   for (const auto& t : triangles)
@@ -108,7 +108,7 @@ std::vector<Arc> without(const std::vector<Arc>& a, const std::vector<Arc>& b) {
   return rest;
 }
 
-/// An arc of a great circle, in pieces short enough to show its curvature.
+/// Adds an arc in pieces short enough to show its curvature.
 void add(const Arc& arc, const View& view, Path& path) {
   const Point a = normalized(view.point(arc.first)), b = normalized(view.point(arc.second));
   const int pieces = 1 + static_cast<int>(std::acos(std::clamp(dot(a, b), -1.0, 1.0)) / 0.05);
@@ -130,7 +130,7 @@ std::string drawn(const std::vector<Arc>& arcs, const View& view, const char* ki
                                     arcs.size() > 100 ? " many" : "", path.data());
 }
 
-/// The circle through u, v and the node on their left. Left out where it looks straight.
+/// The circle through u, v and the node on their left; empty if it looks straight.
 std::string deciding_circle(const std::vector<index_t>& nodes, const View& view) {
   if (nodes.size() != 4) return "";
   const Place a = view(nodes[0]), b = view(nodes[1]), c = view(nodes[2]);
@@ -143,14 +143,14 @@ std::string deciding_circle(const std::vector<index_t>& nodes, const View& view)
                      a.y + y, radius);
 }
 
-/// Places for the numbers of nodes: apart from each other, and on as few arcs as possible.
+/// Finds places for node numbers that do not overlap and cover as few arcs as possible.
 class Labels {
  public:
   Labels(const std::vector<Arc>& arcs, const View& view) {
     for (const Arc& arc : arcs) segments_.push_back({view(arc.first), view(arc.second)});
   }
 
-  /// Where a text begins that names the node at p; none: no place is free.
+  /// Where the text for the node at p begins; none if no place is free.
   std::optional<Place> place(const Place& p, const std::string& text, double size) {
     const double width = pictures::text_width(text, size), gap = 4, ascent = 0.73 * size;
     std::optional<Place> best;
@@ -200,7 +200,7 @@ std::string numbers(const std::vector<Arc>& arcs, const std::vector<index_t>& de
       text +=
           fmt::format("<text class=\"{}\" x=\"{:.2f}\" y=\"{:.2f}\">{}</text>\n", kind, at->x, at->y, number);
   };
-  constexpr double kBold = 1.15;  // wider
+  constexpr double kBold = 1.15;  // bold text is wider
   for (const index_t node : deciding) write(node, "decided", 3, 12 * kBold);
   for (const index_t node : nodes) write(node, "node", 1.5, 9);
   return text;

@@ -1,5 +1,5 @@
 #pragma once
-// The meshes around each difference, side by side, as a picture.
+// A picture of the two meshes around each difference, side by side.
 
 #include <string>
 #include <vector>
@@ -9,14 +9,14 @@
 
 namespace comparison {
 
-/// Rows of two panels, the original left and ours right: arcs grey, those that only the original has red,
-/// those that only ours has blue, and dashed the circumscribed circle that decides.
+/// Each row has two panels, the original left and ours right. Arcs of both are grey, arcs of the original
+/// alone red, arcs of ours alone blue; the circumcircle that decides is dashed.
 class Plot {
  public:
-  /// FILE.svg, or FILE.png where rsvg-convert is installed; throws std::invalid_argument for anything else.
+  /// FILE.svg, or FILE.png if rsvg-convert is installed; throws std::invalid_argument for other names.
   explicit Plot(const std::string& file);
 
-  /// Draws the differences that the result describes, as long as there is space.
+  /// Draws the differences that the result describes, up to the space of the picture.
   void add(const Result& result, const std::vector<pstripack::Point>& points);
 
   std::size_t rows() const { return rows_; }

@@ -26,10 +26,9 @@
 namespace comparison {
 namespace {
 
-constexpr int kNotFound = 127;  // as in a shell
+constexpr int kNotFound = 127;  // the shell's exit code for a command that is not found
 
-/// Why the command cannot be started, as exec searches it; 0: it can. Known before an older recording is
-/// lost.
+/// errno if exec cannot start the command; 0: it can. Checked before an older recording is overwritten.
 int error_of(const std::string& command) {
   if (command.find('/') != command.npos) return access(command.c_str(), X_OK) == 0 ? 0 : errno;
   const char* const path = std::getenv("PATH");
@@ -44,7 +43,7 @@ int cannot_start(const std::string& command, int error) {
   return kNotFound;
 }
 
-/// The exit code, 128 + signal if a signal ended the model. ^C goes to the model only.
+/// Returns the exit code, or 128 + signal if a signal ended the model. ^C only interrupts the model.
 int run(std::vector<std::string> command) {
   std::vector<char*> arguments;
   for (std::string& word : command) arguments.push_back(word.data());

@@ -1,5 +1,5 @@
-// stripack-compare replay: recorded calls of TRMESH again, by the original or by another library, and the
-// reason for every difference. Also the process beside a model with PSTRIPACK_CHECK=lib:LIBRARY.
+// stripack-compare replay: repeats recorded calls of TRMESH with the original or another library and explains
+// every difference. Also the process beside a model with PSTRIPACK_CHECK=lib:LIBRARY.
 
 #include <fmt/format.h>
 
@@ -26,13 +26,13 @@
 namespace comparison {
 namespace {
 
-/// Verdicts, from harmless to serious.
+/// Kinds of verdicts, from harmless to serious.
 enum class Kind { equal, explained, no_original, not_compared, against_us };
 constexpr std::size_t kKinds = 5;
 constexpr const char* kKindNames[kKinds] = {"equal", "explained", "no result of the original", "not compared",
                                             "WE ARE WRONG"};
 
-/// The report on one call: on its line, and on separate lines.
+/// The report on one call: the text of its line, and further lines.
 struct Judgement {
   Kind kind = Kind::equal;
   std::string text;
@@ -73,7 +73,8 @@ class Replay {
   }
 
  private:
-  /// Loads the original at the first call; it determines the kinds unless the original's were detected.
+  /// Loads the original at the first call. The recording's kinds are used unless the original's ABI is
+  /// detected.
   void open_other(const Call& call) {
     if (is_beside_model()) prefix_ = fmt::format("pstripack[{}]: ", call.process_id);
     OriginalChoice choice = options_.original;
@@ -112,7 +113,7 @@ class Replay {
     return judgement;
   }
 
-  /// A call whose n TRMESH refuses without reading the nodes.
+  /// Judges a call whose n TRMESH refuses without reading nodes.
   static Judgement judge_refused(const Call& call) {
     const int expected = call.n < 3 ? PSTRIPACK_TOO_FEW_NODES : PSTRIPACK_TOO_MANY_NODES;
     if (!call.has_returned) return {Kind::not_compared, "no result on record", {}, {}};
@@ -120,8 +121,8 @@ class Replay {
     return {Kind::against_us, fmt::format("IER = {}, expected {}", call.run.ier, expected), {}, {}};
   }
 
-  /// Fills in the result of a call that had not returned when the recording ended, or reports that it does
-  /// not return here either.
+  /// Repeats a call that had not returned when the recording ended, and fills in its result. Returns a
+  /// verdict only if the call does not return here either.
   std::optional<Judgement> run_again(Call& call) const {
     Setting setting;
     setting.abi = call.real_bytes == 4 ? "r4" : "r8";
@@ -170,8 +171,8 @@ class Replay {
     return judgement;
   }
 
-  /// Lists under PSTRIPACK_ORDER, which are not canonical. If they are the original's, their mesh is not
-  /// checked.
+  /// True if the lists were made under PSTRIPACK_ORDER: they are not canonical. If they equal the original's,
+  /// their mesh is not checked.
   static bool are_in_another_order(const Call& call) {
     const Lists& lists = call.run.lists;
     if (call.nodes < 3) return false;
@@ -180,7 +181,7 @@ class Replay {
     return pstripack::check_topology(view) && !pstripack::lists_are_canonical(view);
   }
 
-  /// Compares with the recorded bytes, which every version of PSTRIPACK returns: empty if equal.
+  /// Compares with the recorded bytes, which every version of PSTRIPACK must return. Empty if equal.
   std::string difference_in_bytes(const legacy_stripack::Triangulation& theirs, const Call& call) const {
     if (theirs.outcome != legacy_stripack::Outcome::returned)
       return "the library " + describe(theirs, options_.timeout);
@@ -231,7 +232,7 @@ class Replay {
   const ReplayOptions& options_;
   CallReader reader_;
   std::optional<ChosenOriginal> other_;
-  std::string prefix_;  ///< of every line, if the lines appear between those of a model
+  std::string prefix_;  ///< of every line that is printed among those of a model
   std::size_t calls_ = 0;
   std::uint64_t first_process_ = 0;
   std::array<std::size_t, kKinds> kinds_{};

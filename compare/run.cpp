@@ -25,17 +25,17 @@ using pstripack::Point;
 
 constexpr std::size_t kMostNodes = pstripack::most_nodes<std::int32_t>();
 
-/// Nodes of one case: generated when needed, or read beforehand.
+/// The nodes of one case: a family, generated when needed, or a file that has been read.
 struct Source {
   std::string name;
-  std::vector<Point> read;  ///< of a file; empty: a family
+  std::vector<Point> read;  ///< the nodes of a file; empty: a family
 
   std::vector<Point> nodes(const RunOptions& options) const {
     return read.empty() ? point_sets::make(name, options.n, options.seed) : read;
   }
 };
 
-/// All sets of nodes. Unreadable files and unknown families are reported before the first case runs.
+/// All sets of nodes. Throws for unreadable files and unknown families before the first case runs.
 std::vector<Source> sources_of(const RunOptions& options) {
   std::vector<Source> sources;
   const auto add_file = [&](const std::string& file) {
@@ -66,7 +66,8 @@ std::vector<Source> sources_of(const RunOptions& options) {
   return sources;
 }
 
-/// REAL*8 coordinates go through the REAL*8 libraries only; REAL*4 ones through all of them.
+/// The libraries for nodes of this precision: REAL*8 coordinates need a REAL*8 library, REAL*4 coordinates
+/// fit all.
 std::vector<std::string> abis_for(const std::string& precision, const RunOptions& options) {
   if (options.abis.empty()) return {precision};
   std::vector<std::string> abis = options.abis;

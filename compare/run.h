@@ -1,5 +1,5 @@
 #pragma once
-// `stripack-compare run`: the original and PSTRIPACK on many sets of nodes.
+// `stripack-compare run`: compares the original and PSTRIPACK on many sets of nodes.
 
 #include <cstdint>
 #include <optional>
@@ -16,7 +16,7 @@ struct RunOptions {
   std::vector<std::string> files;
   std::size_t n = 10000;
   std::uint64_t seed = 1;
-  std::vector<std::string> orders{"given"}, precisions, abis;  // the last two: empty if not chosen
+  std::vector<std::string> orders{"given"}, precisions, abis;  // precisions, abis: empty if not chosen
   std::vector<int> threads{1}, ranks{1};
   std::vector<std::string> partitions{"bisection"};
   OriginalChoice original;
@@ -26,7 +26,7 @@ struct RunOptions {
   std::string json, csv, junit, plot;
 };
 
-/// Runs all cases and writes the requested files. Throws std::exception for errors with exit code 2.
+/// Runs all cases and writes the requested files. Throws std::exception for errors that end with exit code 2.
 ExitCode run(const RunOptions& options);
 
 }  // namespace comparison

@@ -47,15 +47,15 @@ using Phase = ParallelCost::Phase;
 
 const std::string kMoving = "moving";  ///< a table and a mode of its own
 const std::string kScvt = "scvt";      ///< a mode: an evaluation of centroidal tessellations
-/// What it does after the triangulation, in the column of what it does not do.
+/// This mode has no gathering; the column shows the integrals instead.
 constexpr Phase kIntegrate = Phase::gather;
 
 struct Settings {
   std::string mode, family = "random", owners;
   std::size_t n = 1000000;
   int repeats = 5;
-  double change = 0;  ///< part of the points that change ranks before each call of a moving mesh
-  bool warm = false;  ///< calls may begin with the mesh of the last one
+  double change = 0;  ///< fraction of the points that change ranks before each call of a moving mesh
+  bool warm = false;  ///< calls may reuse the mesh of the last call
 };
 
 double seconds() { return clock_seconds(CLOCK_MONOTONIC); }
@@ -63,7 +63,7 @@ double cpu_seconds() { return clock_seconds(CLOCK_PROCESS_CPUTIME_ID); }
 
 // ---- one run on some ranks: prints one line of names and values on rank 0 -----------------------------
 
-/// The processor seconds of work() on rank 0, while the other ranks sleep; 0 on these. Collective.
+/// Processor seconds of work() on rank 0 while the other ranks sleep; 0 on these. Collective.
 template <class Work>
 double on_rank_0(MpiCommunicator& ranks, const Work& work) {
   double spent = 0;
@@ -107,8 +107,8 @@ struct Call {
   GroupCost cost;
 };
 
-/// Processor time of a rank and phase: the median over the calls, which do the same work, because other ranks
-/// on the same processor disturb single calls.
+/// Prints the processor time of each phase: per rank the median over the calls, since other ranks on the same
+/// processor disturb single calls.
 void print(MpiCommunicator& ranks, std::size_t n, const std::vector<double>& serial,
            const std::vector<Call>& calls) {
   std::vector<ParallelCost> mine;
@@ -144,7 +144,7 @@ void print(MpiCommunicator& ranks, std::size_t n, const std::vector<double>& ser
 
 constexpr auto nobody = [](std::int64_t) { return false; };
 
-/// Moves the points to their home ranks; those that `are_away(number)`, to the next ranks.
+/// Moves the points to their home ranks; points for which are_away(number) is true go to the next rank.
 template <class AreAway>
 void move_home(MpiCommunicator& ranks, const DistributedMesh& mesh, std::vector<Point>& points,
                std::vector<std::int64_t>& numbers, const AreAway& are_away) {
@@ -179,7 +179,7 @@ void move_home(MpiCommunicator& ranks, const DistributedMesh& mesh, std::vector<
   }
 }
 
-/// Rank 0 writes each triangle and the rank that lists it: x1,y1,z1,x2,y2,z2,x3,y3,z3,owner.
+/// Rank 0 writes each triangle with the rank that lists it: x1,y1,z1,x2,y2,z2,x3,y3,z3,owner.
 void write_owners(DistributedMesh& mesh, const Settings& s) {
   std::vector<std::int64_t> corners(3 * static_cast<std::size_t>(mesh.own().triangles()));
   mesh.own().triangles(corners.data());
@@ -202,8 +202,8 @@ void write_owners(DistributedMesh& mesh, const Settings& s) {
   }
 }
 
-/// TRMESH as the ranks of a pool execute it: arrays and lists in memory shared with rank 0, or in messages
-/// from and to rank 0, as between machines.
+/// TRMESH as a pool's ranks execute it: arrays and lists are in memory shared with rank 0, or, as between
+/// machines, sent to and from rank 0.
 class PoolCall {
  public:
   PoolCall(MpiCommunicator& ranks, const std::vector<Point>& points_on_root, bool shared) : ranks_(ranks) {
@@ -244,7 +244,7 @@ class PoolCall {
   TrmeshCall call_;
 };
 
-/// A step of Lloyd's method: each point by `part` of the way to the centroid of its Voronoi cell.
+/// A step of Lloyd's method: moves each point by `part` of the way to the centroid of its Voronoi cell.
 void lloyd_step(const DistributedMesh& mesh, std::vector<Point>& points, double part) {
   std::vector<Point> known = points;
   std::vector<std::int64_t> begin(points.size() + 1), halo(mesh.own().outside().size());
@@ -263,8 +263,8 @@ void lloyd_step(const DistributedMesh& mesh, std::vector<Point>& points, double 
   }
 }
 
-/// A distributed mesh whose points follow Lloyd's method, a small part of each step: prints the least time of
-/// the calls, and how many arcs were flipped.
+/// A distributed mesh whose points make small steps of Lloyd's method. Prints the least time of the calls and
+/// the number of flipped arcs.
 void run_moving(const Settings& s) {
   constexpr int kStepsBefore = 12, kCallsBefore = 3;
   constexpr double kPart = 0.06;
@@ -302,7 +302,7 @@ void run_moving(const Settings& s) {
     for (int k = 0; k < kCallsBefore + s.repeats; ++k) {
       call();
       lloyd_step(mesh, points, kPart);
-      if (s.change > 0)  // half of it goes away, and half comes back
+      if (s.change > 0)  // half of them leave and half return
         move_home(ranks, mesh, points, numbers, [&](std::int64_t number) {
           const auto every = static_cast<std::int64_t>(2 / s.change);
           return number % every == k % every;
@@ -358,7 +358,7 @@ void run_on_ranks(const Settings& s) {
     const std::size_t n = points.size();
     std::vector<double> alone;
     std::vector<Call> calls;
-    // Alternate, so that disturbances affect both. Before each call of the ranks: prepare().
+    // Alternate, so that disturbances affect both. prepare() is called before each call of the ranks.
     const auto measure = [&](const auto& serial, const auto& call, const auto& prepare) {
       while (calls.size() < static_cast<std::size_t>(s.repeats)) {
         in_a_row([&](bool counts) {
@@ -377,7 +377,7 @@ void run_on_ranks(const Settings& s) {
     std::vector<std::int64_t> numbers(n);
     for (std::size_t i = 0; i < n; ++i) numbers[i] = static_cast<std::int64_t>(i) + 1;
     const auto go_home = [&] {
-      for (int k = 0; k < 2; ++k) {  // the second time from where the first has moved them
+      for (int k = 0; k < 2; ++k) {  // the second call starts where the first has moved the generators
         mesh.triangulate(static_cast<std::int64_t>(points.size()), &points.data()->x, numbers.data());
         move_home(ranks, mesh, points, numbers, nobody);
       }
@@ -401,7 +401,7 @@ void run_on_ranks(const Settings& s) {
       scvt::DistributedEvaluator distributed(mesh, density);
       distributed.begin_with(numbers);
       Evaluation call(distributed, points);
-      for (int k = 0; k < 3; ++k) {  // then triangulations begin with the last ones
+      for (int k = 0; k < 3; ++k) {  // from now on triangulations may reuse the last mesh
         on_rank_0(ranks, [&] { serial(); });
         call();
       }
@@ -463,7 +463,7 @@ Row measure(const std::string& self, const Settings& s, int ranks) {
       double value;
       while (words >> name >> value) row[name] = value;
     }
-  if (pclose(out) != 0 || row.empty()) throw std::runtime_error("this did not come to its end: " + command);
+  if (pclose(out) != 0 || row.empty()) throw std::runtime_error("this command failed: " + command);
   return row;
 }
 
@@ -509,7 +509,7 @@ struct Tables {
   std::string csv;
 };
 
-/// Warm and cold runs alternate, so that disturbances affect both; the least time of all calls.
+/// Runs warm and cold calls in turn, so that disturbances affect both. Prints the least time of all calls.
 void print_moving(const std::string& self, Settings s, const Tables& t) {
   constexpr int kRuns = 3;
   s.mode = kMoving;
@@ -618,7 +618,7 @@ int main(int argc, char** argv) {
       ->delimiter(',')
       ->capture_default_str();
   app.add_option("--family", s.family, "point set, as in stripack-compare")->capture_default_str();
-  app.add_option("--repeats", s.repeats, "calls of each kind, three in a row, of which the median is shown")
+  app.add_option("--repeats", s.repeats, "calls of each kind, three in a row; their median is shown")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   app.add_option("--change", s.change,
@@ -642,7 +642,7 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
     if (!s.owners.empty() && s.mode != "distributed")
       throw CLI::ValidationError("--owners", "only with --mode distributed");
-    // Calls with the same nodes again and again are to take the time of a first one.
+    // Calls with the same nodes must not reuse the last mesh: measure first calls.
     if (s.mode != kMoving && s.mode != kScvt) setenv("PSTRIPACK_WARM_START", "0", 1);
     if (s.mode == kMoving)
       run_moving(s);

@@ -1,5 +1,5 @@
 #pragma once
-// A comparison for people.
+// Prints a comparison.
 
 #include <vector>
 
@@ -7,10 +7,10 @@
 
 namespace comparison {
 
-/// The table, the differences that the result describes, and the verdict; to stdout.
+/// Prints the table, the described differences and the verdict to stdout.
 void print(const Result& result, const std::vector<pstripack::Point>& points, double timeout);
 
-/// The part that describes each difference, and what counts against us.
+/// Prints the described differences and what counts against us.
 void print_decisions(const Result& result, const std::vector<pstripack::Point>& points);
 
 }  // namespace comparison

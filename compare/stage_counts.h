@@ -8,8 +8,8 @@
 #include "mesh/delaunay.h"
 
 struct StageCounts {
-  std::uint64_t asked;  ///< calls of `above` that reached the predicates
-  /// How often a stage was entered, also for `left` and for comparing directions.
+  std::uint64_t asked;  ///< calls of `above` that the kernel's floating point left open
+  /// How often each stage was entered, also for `left` and for comparing directions.
   std::uint64_t double_double, integers, big_integers, tie_rule;
 };
 
@@ -17,7 +17,7 @@ inline StageCounts stages_of(const pstripack::PredicateCounts& c) {
   return {c.above, c.double_double, c.integers, c.big_integers, c.symbolic};
 }
 
-/// For the triangulation of the nodes by the kernel, in this thread.
+/// The counts for a triangulation of the nodes by the kernel, in this thread.
 inline StageCounts stage_counts(const std::vector<pstripack::Point>& nodes) {
   pstripack::Workspace workspace(pstripack::workspace_bytes(nodes.size()));
   pstripack::take_predicate_counts();

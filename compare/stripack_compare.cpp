@@ -23,7 +23,7 @@ namespace {
 
 using comparison::RunOptions;
 
-/// The command chosen on the command line; returns the exit code.
+/// The command to run; returns the exit code.
 using Command = std::function<int()>;
 
 const char* const kDescription =
@@ -92,7 +92,7 @@ std::string footer() {
 void add_original_options(CLI::App& app, comparison::OriginalChoice& choice) {
   app.add_option("--original", choice.file, "shared library of your own STRIPACK instead of the one found");
   app.add_option("--original-abi", choice.abi,
-                 "its ABI, where it cannot be found out: r8, r4, i8, 8arg, several as in r4-8arg");
+                 "its ABI, if it cannot be detected: r8, r4, i8, 8arg, or several as in r4-8arg");
 }
 
 void add_run_options(CLI::App& app, RunOptions& options) {
@@ -122,7 +122,7 @@ void add_run_options(CLI::App& app, RunOptions& options) {
   app.add_option("--timeout", options.timeout, "processor seconds after which the original is stopped [120]")
       ->check(CLI::PositiveNumber.description(""));
   app.add_option("--repeats", options.repeats,
-                 "number of calls, of whose times the median is taken (fewer above 10 s) [3]")
+                 "number of calls (fewer above 10 s); their median time is shown [3]")
       ->check(CLI::Range(1, 1000).description(""));
   app.add_option("--show", options.show, "number of differences described per reason [5; several cases: 0]");
   app.add_option("--plot", options.plot, "draw the described differences to FILE.svg or FILE.png");
@@ -166,7 +166,7 @@ void add_record(CLI::App& app, comparison::RecordOptions& options, Command& chos
       "The model runs with PSTRIPACK_CHECK=FILE, and its exit code is that of this program.\n"
       "  stripack-compare record -o calls.rec -- ./model arguments\n"
       "  stripack-compare replay calls.rec");
-  record->add_option("-o,--output", options.file, "the recording; an older one is written over")
+  record->add_option("-o,--output", options.file, "the recording; replaces an older one")
       ->capture_default_str();
   record->add_option("command", options.command, "-- program and its arguments")->required();
   record->callback([&] { chosen = [&] { return comparison::record(options); }; });
@@ -213,7 +213,7 @@ int main(int argc, char** argv) {
   CLI::App* const run = app.add_subcommand("run", "compare the libraries");
   add_run_options(*run, options);
   const Command run_all = [&] { return comparison::run(options); };
-  Command chosen = run_all;  // `run` may be left out
+  Command chosen = run_all;  // `run` is the default command
   run->callback([&] { chosen = run_all; });
   add_mesh(app, mesh_options, chosen);
   add_lists(app, lists_options, chosen);

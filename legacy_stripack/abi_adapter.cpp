@@ -1,5 +1,5 @@
-// stripack_original for an original in another ABI (r4, 8arg, i8): the REAL*8, 12-argument symbols that the
-// example calls, passed on to the user's library.
+// stripack_original if the user's library has another ABI (r4, 8arg, i8): passes calls of the REAL*8,
+// 12-argument symbols on to that library.
 
 #include <cstdio>
 #include <cstdlib>
@@ -11,7 +11,7 @@ namespace {
 
 using legacy_stripack::Library;
 
-// Calls a routine of the user's library. Without that library the program cannot continue.
+// Calls a routine of the user's library; ends the program if the library cannot be loaded.
 template <class Routine, class... Arguments>
 void call(Routine routine, Arguments... arguments) {
   try {

@@ -21,7 +21,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 [[noreturn]] void child(const std::function<void()>& work, int finished) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // nothing is left hanging if the parent is killed
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // the child ends if the parent is killed
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
   dup2(STDERR_FILENO, STDOUT_FILENO);
@@ -29,17 +29,17 @@ using Clock = std::chrono::steady_clock;
     work();
     const char byte = 1;
     if (write(finished, &byte, 1) != 1) _exit(1);
-    _exit(0);  // not exit(): what the parent registered with atexit is the parent's
+    _exit(0);  // not exit(), which would run the parent's atexit functions
   } catch (const std::exception& e) {
     std::fprintf(stderr, "%s\n", e.what());
   }
   _exit(1);
 }
 
-// For a child that neither ends nor computes, such as one that waits for input.
+// Limit in clock seconds for a child that neither ends nor computes, for example because it waits for input.
 double longest_wait(double time_limit) { return time_limit + 30 * std::fmin(time_limit, 2); }
 
-// 0 if the child is over.
+// 0 if the child has ended.
 double processor_seconds(pid_t pid) {
   clockid_t clock;
   timespec t;
@@ -47,14 +47,15 @@ double processor_seconds(pid_t pid) {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-// Waits until the pipe is readable, or closed by the end of the child. False if the child's time is over.
+// Waits until the pipe is readable, or closed because the child has ended. False if the child exceeds its
+// limit.
 bool wait_for(int pipe, pid_t pid, double time_limit) {
   const auto start = Clock::now();
   for (;;) {
     const double waited = std::chrono::duration<double>(Clock::now() - start).count();
     const double left = std::fmin(time_limit - processor_seconds(pid), longest_wait(time_limit) - waited);
     pollfd poll_one{pipe, POLLIN, 0};
-    // An hour at a time: poll counts milliseconds in an int.
+    // At most an hour at a time: poll takes milliseconds in an int.
     const int ready =
         poll(&poll_one, 1, static_cast<int>(std::ceil(std::fmin(std::fmax(left, 0), 3600) * 1000)));
     if (ready > 0) return true;
@@ -68,7 +69,7 @@ bool wait_for(int pipe, pid_t pid, double time_limit) {
 Ended run_in_child(const std::function<void()>& work, double time_limit_seconds) {
   int ends[2];
   if (pipe(ends) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
-  std::fflush(nullptr);  // or a STOP in the child would write our buffers a second time
+  std::fflush(nullptr);  // otherwise a STOP in the child would write these buffers again
   const pid_t pid = fork();
   if (pid < 0) {
     const int error = errno;

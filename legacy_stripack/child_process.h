@@ -1,5 +1,5 @@
 #pragma once
-// Runs work that may hang or crash in its own process, and memory shared with it.
+// Runs work that may hang or crash in a child process; memory shared with that process.
 
 #include <sys/mman.h>
 
@@ -22,13 +22,13 @@ struct Ended {
   int signal;  ///< of a crash, else 0
 };
 
-/// Runs `work` in a child process; what it writes to stdout appears on stderr. Results come back in Shared
-/// memory. Do not use OpenMP on more than one thread in both the parent and `work`. The limit is one of
-/// processor time, of all threads together, so that a busy machine does not look like a hang. Work that
-/// sleeps is killed, too: at most a minute later.
+/// Runs `work` in a child process. Its stdout goes to stderr; results come back in Shared memory. Do not use
+/// several OpenMP threads in both the parent and `work`. The limit is that of the processor time of all
+/// threads, so that a busy machine does not look like a hang. Work that sleeps is killed at most a minute
+/// later.
 Ended run_in_child(const std::function<void()>& work, double time_limit_seconds);
 
-/// `count` objects of a trivial type, zero at first, seen by this process and its later children.
+/// `count` objects of a trivial type, initially zero, shared with children that are started later.
 template <class T>
 class Shared {
  public:

@@ -25,8 +25,8 @@ template <class Real, class Int>
 using Crlist = void(const Int*, const Int*, const Real*, const Real*, const Real*, const Int*, const Int*,
                     Int*, Int*, Int*, Int*, Int*, Real*, Real*, Real*, Real*, Int*);
 
-// The original's own calls must find the original, not a replacement that this program is linked with.
-// (AddressSanitizer refuses RTLD_DEEPBIND.)
+// RTLD_DEEPBIND: the original's own calls must find the original, not a replacement that this program is
+// linked with. AddressSanitizer refuses this flag.
 #if defined(__SANITIZE_ADDRESS__)
 constexpr int kOpenFlags = RTLD_NOW | RTLD_LOCAL;
 #else
@@ -42,8 +42,7 @@ void in_kinds_of(const Abi& abi, const Call& call) {
     abi.integer_bytes == 4 ? call(float{}, std::int32_t{}) : call(float{}, std::int64_t{});
 }
 
-/// A caller's array as the library takes it: the array itself if the kinds are the same, else a copy, which
-/// is copied back at the end unless the array is const.
+/// A caller's array in the library's kind: the array itself if the kinds are the same, else a copy, which is
 /// copied back at the end unless the array is const.
 template <class To, class From>
 class Converted {
@@ -75,7 +74,7 @@ std::size_t nodes_of(int n) { return n < 3 ? 0 : static_cast<std::size_t>(n); }
 std::size_t slots_of(int n) { return n < 3 ? 0 : 6 * nodes_of(n) - 12; }
 std::size_t triangles_of(int n) { return n < 3 ? 0 : 2 * nodes_of(n) - 4; }
 
-// One past the last slot in use. All slots below LNEW are in use, so the largest slot determines it.
+// LNEW: one past the largest slot in use.
 int first_unused_slot(int n, const int* lptr, const int* lend) {
   int largest = 0;
   for (int k = 0; k < n; ++k) {
@@ -165,7 +164,7 @@ void Library::trmesh(const int* n, const double* x, const double* y, const doubl
       reinterpret_cast<Trmesh8<Real, Int>*>(trmesh_)(&count, x_.data(), y_.data(), z_.data(), list_.data(),
                                                      lptr_.data(), lend_.data(), ier_.data());
   });
-  // If nodes coincide, the lists hold fewer than n nodes, and nothing shows how many.
+  // If nodes coincide, the lists have fewer than n nodes; their number is unknown.
   if (abi_.arguments == 8) *lnew = *ier == 0 ? first_unused_slot(*n, lptr, lend) : 0;
 }
 

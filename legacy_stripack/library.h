@@ -1,12 +1,12 @@
 #pragma once
-// The original's routines in this process, whatever its ABI: loaded by path, called as REAL*8 with the
-// 12-argument TRMESH. They can hang or crash: original.h runs them in their own process.
+// The routines of an original with any ABI, loaded by path and called as REAL*8 with the 12-argument TRMESH.
+// They run in this process and can hang or crash: original.h runs them in a process of their own.
 
 #include <string>
 
 namespace legacy_stripack {
 
-/// How an original is called. The default is that of stripack_original.
+/// How an original is called. The default is the ABI of stripack_original.
 struct Abi {
   int real_bytes = 8;
   int integer_bytes = 4;
@@ -18,8 +18,8 @@ struct Abi {
   }
 };
 
-/// The differences from the default, r4, i8, 8arg, joined by `-`; r8 if there are none. Throws
-/// std::invalid_argument for anything else.
+/// The ABI of a name: r8 is the default; r4, i8 and 8arg, joined by `-`, name differences from it. Throws
+/// std::invalid_argument for other names.
 Abi abi_named(const std::string& name);
 std::string name_of(const Abi& abi);
 
@@ -44,12 +44,12 @@ class Library {
   const std::string& file() const { return file_; }
   void* trmesh_address() const { return trmesh_; }
 
-  /// The address of any symbol of the library, null if it has none of that name.
+  /// The address of a symbol of the library; null if there is no such symbol.
   void* symbol(const char* name) const;
 
  private:
   void* routine(const std::string& name) const;
-  void* handle_;  // never closed: Fortran libraries do not like to be unloaded
+  void* handle_;  // never closed: unloading a Fortran library is not safe
   std::string file_;
   Abi abi_;
   void* trmesh_;

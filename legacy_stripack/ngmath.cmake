@@ -1,5 +1,5 @@
-# libstripack_original.so from libngmath.a: the objects of the shared routines, every name without its CS.
-# TRANS and SCOORD are single precision there; the double ones are CSTRANSD and CSSCOORDD.
+# Makes libstripack_original.so from the objects of libngmath.a that STRIPACK also has, with names without CS.
+# In libngmath CSTRANS and CSSCOORD are single precision; the double versions are CSTRANSD and CSSCOORDD.
 # CSCRLIST has other arguments: crlist_ comes from ngmath_crlist.c.
 
 set(routines addnod areas bdyadd bnodes circum covsph delarc delnb delnod edge getnp insert inside intadd
@@ -21,7 +21,7 @@ file(WRITE ${dir}/exported.map "{ global: ${exported} local: *; };\n")
 add_custom_command(
   OUTPUT ${dir}/original.o
   COMMAND ${CMAKE_AR} x ${STRIPACK_NGMATH} ${objects}
-  # CSCRLIST as it is, for the benchmark; and the copy behind crlist_, with another SCOORD (ngmath_crlist.c).
+  # CSCRLIST unchanged, for the benchmark, and a copy for crlist_ with another SCOORD (ngmath_crlist.c).
   COMMAND ${CMAKE_OBJCOPY} --redefine-sym cscrlist_=ngmath_cscrlist_ cscrlist.o cscrlist_as_shipped.o
   COMMAND ${CMAKE_OBJCOPY} --redefine-sym csscoordd_=ngmath_keep_centre_ cscrlist.o
   COMMAND ${CMAKE_LINKER} -r -o original.o ${objects} cscrlist_as_shipped.o
@@ -33,7 +33,7 @@ add_custom_command(
 
 add_library(stripack_original SHARED ngmath_crlist.c ${dir}/original.o)
 set_source_files_properties(${dir}/original.o PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)
-# Symbolic: a routine of the original calls the original, whatever else the program defines.
+# -Bsymbolic: routines of the original call each other even if the program defines the same names.
 target_link_options(stripack_original PRIVATE
   -Wl,-Bsymbolic -Wl,--version-script=${dir}/exported.map -Wl,--no-undefined)
 set_target_properties(stripack_original PROPERTIES LINKER_LANGUAGE Fortran

@@ -1,9 +1,9 @@
 /* STRIPACK's CRLIST (17 arguments) from libngmath's CSCRLIST (16).
  *
- * CSCRLIST passes every circumcentre, just before it forgets it, to CSSCOORDD with the addresses of
- * RLATO(k) and RLONO(k). In our copy of its object that call leads to ngmath_keep_centre_, which stores
- * the Cartesian centre instead: with XC in place of RLATO and YC in place of RLONO, the bits and the time
- * are those of STRIPACK, without a detour over angles.
+ * CSCRLIST passes every circumcentre to CSSCOORDD with the addresses of RLATO(k) and RLONO(k), and does not
+ * keep it. In our copy of its object that call leads to ngmath_keep_centre_, which stores the Cartesian
+ * centre instead. With XC passed as RLATO and YC as RLONO, bits and time are those of STRIPACK, without
+ * conversion to angles.
  */
 #include <stddef.h>
 

@@ -39,7 +39,7 @@ Triangulation Original::triangulate(const std::vector<double>& x, const std::vec
 
   const Ended ended = run_in_child(
       [&] {
-        // Ordinary memory, touched before the clock starts, as in a model that has called before.
+        // Ordinary memory, written before the clock starts, as in a model that has called TRMESH before.
         std::vector<int> list(slots), lptr(slots), lend(x.size()), near(x.size()), next(x.size());
         std::vector<double> dist(x.size());
         const auto first_start = Clock::now();

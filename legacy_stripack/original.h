@@ -1,5 +1,5 @@
 #pragma once
-// Runs the original STRIPACK and always returns: every call is a child process with a time limit.
+// Runs the original STRIPACK and always returns: every call runs in a child process with a time limit.
 
 #include <optional>
 #include <string>
@@ -12,7 +12,7 @@ namespace legacy_stripack {
 
 /// The original that the build found; empty if it found none.
 struct Location {
-  std::string name;  ///< for people
+  std::string name;  ///< name for messages
   std::string file;
   Abi abi;
 };
@@ -33,9 +33,9 @@ class Original {
   Original(const std::string& file, Abi abi) : library_(file, abi) {}
   explicit Original(const Location& where) : Original(where.file, where.abi) {}
 
-  /// Nodes are any type with members x, y, z. Calls TRMESH `calls` times, fewer once they have taken 10 s;
-  /// the lists are those of the first call. The time limit (seconds) is for all calls together; if the first
-  /// has returned, a later one that hangs does not change the result.
+  /// Calls TRMESH `calls` times, fewer if the calls have taken 10 s; returns the lists of the first call.
+  /// Nodes are any type with members x, y, z. The time limit (seconds) is for all calls together. A later
+  /// call that hangs does not change the result of the first.
   template <class Node>
   Triangulation triangulate(const std::vector<Node>& nodes, double time_limit, int calls = 1) const {
     std::vector<double> x, y, z;
@@ -49,7 +49,7 @@ class Original {
   Triangulation triangulate(const std::vector<double>& x, const std::vector<double>& y,
                             const std::vector<double>& z, double time_limit, int calls = 1) const;
 
-  /// The distance from 1 to the next number in the original's arithmetic.
+  /// The distance from 1 to the next larger number in the original's arithmetic.
   double epsilon() const { return library_.abi().real_bytes == 4 ? 0x1p-23 : 0x1p-52; }
 
   /// The routines themselves, for use inside run_in_child.

@@ -21,7 +21,7 @@ constexpr double kCoordinate[3][kNodes] = {{1, 0, 0, -1, 0, 0}, {0, 1, 0, 0, -1,
 constexpr std::size_t kRoom = 1024;  // entries of every array
 constexpr int kUnwritten = 0x55;     // every byte of the integers
 
-/// An array of integers or reals of 4 or 8 bytes.
+/// An array of 4-byte or 8-byte integers or reals.
 struct Array {
   std::int64_t words[kRoom];
 
@@ -37,8 +37,8 @@ struct Array {
   }
 };
 
-/// Arguments in the order of the 12-argument TRMESH, in memory shared by child and parent. The eighth is LNEW
-/// there and IER of the 8-argument one, which ignores the rest.
+/// Arguments in the order of the 12-argument TRMESH, in memory shared by child and parent. The eighth
+/// argument is LNEW of this TRMESH and IER of the 8-argument one, which ignores the rest.
 struct Arguments {
   std::int64_t n;  // read as 4 bytes or as 8
   Array coordinates[3], list, lptr, lend, eighth, near, next, dist, twelfth;
@@ -46,7 +46,7 @@ struct Arguments {
 using Trmesh = void(const void* n, const void* x, const void* y, const void* z, void* list, void* lptr,
                     void* lend, void* eighth, void* near, void* next, void* dist, void* twelfth);
 
-/// Every node has four different neighbours, and they are not the opposite one.
+/// True if every node has four different neighbours, none of them its opposite.
 template <class Int>
 bool is_octahedron(const Arguments& a) {
   const auto is_slot = [](Int slot) { return 1 <= slot && slot <= kSlots; };
@@ -67,7 +67,7 @@ bool is_octahedron(const Arguments& a) {
   return true;
 }
 
-/// The ABI for which the arguments are correct after the call.
+/// The ABI in which the arguments after the call are a correct result.
 template <class Int>
 std::optional<Abi> abi_of_answer(const Arguments& a, int real_bytes) {
   if (!is_octahedron<Int>(a)) return std::nullopt;
@@ -76,7 +76,7 @@ std::optional<Abi> abi_of_answer(const Arguments& a, int real_bytes) {
   return std::nullopt;
 }
 
-/// Adds the outcome if it finds none.
+/// Detects the ABI with reals of this size; if it finds none, adds the outcome to `why_not`.
 std::optional<Abi> answer(const Library& library, int real_bytes, double time_limit, std::string& why_not) {
   const Shared<Arguments> shared;
   Arguments& a = *shared.data();

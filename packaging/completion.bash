@@ -23,5 +23,5 @@ _pstripack_completion() {
   mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current")
 }
 
-# Otherwise: file names.
+# Without a match, complete file names.
 complete -o bashdefault -o default -F _pstripack_completion pstripack stripack-compare pstripack-config pstripack-run

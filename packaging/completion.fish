@@ -1,7 +1,7 @@
 # Completion in fish for pstripack, stripack-compare, pstripack-config and pstripack-run: commands and options come from
 # the program's own --help, without its examples, so they always fit its version.
 
-# What can be the last word: __pstripack_words PROGRAM WORD...
+# __pstripack_words PROGRAM WORD...: the possible last words
 function __pstripack_words
     set -l program $argv[1]
     set -l current $argv[-1]
@@ -27,7 +27,7 @@ function __pstripack_words
     end
 end
 
-# Beside them: file names.
+# fish also offers file names.
 for program in pstripack stripack-compare pstripack-config pstripack-run
     complete -c $program -a '(__pstripack_words (commandline -opc) (commandline -ct))'
 end

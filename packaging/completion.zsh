@@ -2,7 +2,7 @@
 # Completion in zsh for pstripack, stripack-compare, pstripack-config and pstripack-run: commands and options come from
 # the program's own --help, without its examples, so they always fit its version.
 
-# What can be the last word: _pstripack_words PROGRAM WORD...
+# _pstripack_words PROGRAM WORD...: the possible last words
 _pstripack_words() {
   local program=$1 current=${@[-1]} previous=${@[-2]} command="" word
   local -a commands
@@ -33,7 +33,7 @@ _pstripack() {
   fi
 }
 
-# The file is the function that zsh loads when it completes; it may have the name of any of the programs.
+# zsh loads this file as a function; its name may be that of any of the programs.
 if [[ $funcstack[1] == _(pstripack|stripack-compare)* ]]; then
   _pstripack "$@"
 fi

@@ -1,10 +1,10 @@
 # shellcheck shell=sh
-# What `pstripack-config --check PROGRAM|PID` runs: whose TRMESH, TRLIST, CRLIST, TRFIND, GETNP does a program call?
-# Three witnesses, and the program does not run:
-#   nm           what the program defines; of a stripped program it shows only what shared libraries may call
-#   the loader   what it takes from shared libraries: the loader binds all symbols, reports each, and ends, as for ldd
-#   a text       "@(#)PSTRIPACK library ROUTINE" is in every file that has that routine of ours, also after strip
-# Exit status: 0 all that are called are ours; 1 not so, or it cannot be seen; 2 no answer.
+# Run by `pstripack-config --check PROGRAM|PID`: whose TRMESH, TRLIST, CRLIST, TRFIND, GETNP does a program call? The
+# program is not run. Three sources:
+#   nm           symbols that the program defines; if it is stripped, only those that shared libraries may call
+#   the loader   symbols from shared libraries: as for ldd, the loader binds all symbols, reports each, and ends
+#   a text       "@(#)PSTRIPACK library ROUTINE" is in every file that contains this routine of ours, also after strip
+# Exit status: 0 all called routines are ours; 1 they are not, or it cannot be determined; 2 no answer.
 set -eu
 export LC_ALL=C
 subject=$1
@@ -20,30 +20,30 @@ for tool in nm readelf; do
 done
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-: > "$work/found"     # lines: symbol, and the file that has it; "?" if it cannot be seen, "-" if no file has it
-: > "$work/examined"  # the files that have been seen as part of a program or library
+: > "$work/found"     # lines: symbol and defining file; "?": unknown, "-": undefined
+: > "$work/examined"  # files examined as part of a program or library
 
 is_elf() { [ "$(head -c 4 "$1" | tail -c 3)" = ELF ]; }
 symbol_of() { echo "$1_" | tr '[:upper:]' '[:lower:]'; }
 texts_of() { grep -aoE '@\(#\)PSTRIPACK [a-z0-9_]+ [A-Z]+' "$1" || true; }
 interpreter_of() { readelf -lW "$1" | sed -n 's/.*program interpreter: \(.*\)]/\1/p'; }
 
-# has FILE TYPES [nm's option]: lines for $work/found, of the symbols with one of nm's types
+# has FILE TYPES [nm's option]: lines for $work/found, one per symbol whose type in nm is one of TYPES
 has() {
   nm ${3:+"$3"} -P "$1" 2> /dev/null |
     awk -v symbols="$symbols" -v types="^[$2]\$" -v file="$1" '$1 ~ symbols && $2 ~ types { print $1, file }'
 }
 
-# ask_loader FILE: its answer in $work/loader
+# ask_loader FILE: writes the loader's report to $work/loader
 ask_loader() {
   loader=$(interpreter_of "$1")
-  [ -n "$loader" ] || loader=$(interpreter_of "$(readlink -f /bin/sh)")  # of a shared library
+  [ -n "$loader" ] || loader=$(interpreter_of "$(readlink -f /bin/sh)")  # a shared library names no loader
   env -u LD_DEBUG_OUTPUT LD_TRACE_LOADED_OBJECTS=1 LD_WARN=yes LD_BIND_NOW=yes LD_DEBUG=bindings "$loader" "$1" \
     > "$work/loader" 2>&1 || fail "$1 cannot be loaded: $(grep -v 'binding file' "$work/loader" | tail -n 1)"
   grep -q 'binding file' "$work/loader" || fail "$loader does not report bindings; the GNU C library's loader does"
 }
 
-# examine FILE: a program, or a library by itself
+# examine FILE: adds a program, or a library loaded at run time, to $work/found
 examine() {
   readelf -hldSW "$1" > "$work/header" 2> "$work/errors" || true
   if grep -q 'Error:' "$work/errors"; then fail "$1 is damaged: $(head -n 1 "$work/errors")"; fi
@@ -65,7 +65,7 @@ examine() {
       echo "$symbol $file"
     done >> "$work/found"
 
-  # Calls within a file: to what it does not show to others, and of a program to all that it has.
+  # Calls within a file: a library may call its hidden symbols, a program all of its symbols.
   while read -r library; do has "$library" t; done < "$work/loaded" >> "$work/found"
   if ! grep -qE 'program interpreter|Type: *EXEC|Flags:.*PIE' "$work/header"; then
     { has "$1" t; has "$1" TWi -D; } >> "$work/found"
@@ -77,7 +77,7 @@ examine() {
     texts_of "$1" | while read -r _ _ routine; do echo "$(symbol_of "$routine") $1"; done
   } >> "$work/found"
 
-  # A stripped program hides what it has, unless a library that it was linked with has it, too: then the linker shows it.
+  # A stripped program shows only symbols that a library it was linked with defines as well.
   if grep -q ' SYMTAB ' "$work/header"; then return; fi
   while read -r library; do has "$library" TWi -D; done < "$work/loaded" > "$work/shown"
   for routine in $routines; do
@@ -98,7 +98,8 @@ if [ ! -e "$subject" ] && [ -d "/proc/$subject" ] && [ "${subject#*[!0-9]}" = "$
     [ -z "$value" ] || export "$variable=$value"
   done
   examine "$program"
-  # What it has loaded since, as Python does: those that call others first, and so each with the libraries that it needs.
+  # Libraries loaded at run time, as Python does: first those that call others, so that each is examined with those that
+  # it needs.
   for types in U TWi; do
     while read -r file; do
       if [ ! -f "$file" ] || grep -qxF "$file" "$work/examined" || ! is_elf "$file"; then continue; fi
@@ -134,7 +135,7 @@ done | {
       "?")
         if grep -q "^$symbol [/-]" "$work/found"; then continue; fi
         answer="not seen; the program is stripped"
-        # Who has any of them has TRMESH: it is enough to know whose that is.
+        # A program that contains any of the routines contains TRMESH: it suffices to know whose that is.
         grep -q '^trmesh_ /' "$work/found" || status=1 ;;
       -) status=1 answer="nobody's: the symbol is undefined" ;;
       *)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Times the package against the library's own call and against SciPy, on random nodes: the least of several runs, which
-take turns, in seconds of processor time. With --program: instead the command, from a text file to UGRID, against that call.
+"""Compares the time of the package with that of the library's own call and of SciPy, on random nodes: the least processor
+time of several runs in turn. With --program: the time of the command from a text file to UGRID beside that call.
 
   benchmark.py [--nodes N] [--repeats K] [--threads T] [--library libpstripack.so.0] [--program pstripack]
 """
@@ -16,7 +16,7 @@ import numpy as np
 
 
 class OwnCall:
-    """pstripack_trmesh on columns and lists that are there already."""
+    """pstripack_trmesh with columns and lists that are already allocated."""
 
     def __init__(self, library, points):
         self.call = ctypes.CDLL(library).pstripack_trmesh
@@ -41,13 +41,13 @@ def least(calls, repeats):
 
 
 def processor_time():
-    """Of this process and of those that it has waited for."""
+    """Seconds of this process and of the processes that it has waited for."""
     times = os.times()
     return time.process_time() + times.children_user + times.children_system
 
 
 def time_program(given, points):
-    """`pstripack triangulate nodes.txt -o mesh.nc`: all of it, and what it takes beside the library's call."""
+    """Times `pstripack triangulate nodes.txt -o mesh.nc` beside the library's call."""
     with tempfile.TemporaryDirectory() as folder:
         source, mesh = os.path.join(folder, "nodes.txt"), os.path.join(folder, "mesh.nc")
         np.savetxt(source, points, fmt="%.17g")
@@ -70,7 +70,7 @@ def main():
     options.add_argument("--no-scipy", action="store_true", help="skips SciPy's diagrams, which take long")
     given = options.parse_args()
     os.environ["OMP_NUM_THREADS"] = str(given.threads)
-    os.environ["PSTRIPACK_WARM_START"] = "0"  # equal nodes again and again would be too easy
+    os.environ["PSTRIPACK_WARM_START"] = "0"  # repeated calls must not reuse the last mesh
     points = np.random.default_rng(1).normal(size=(given.nodes, 3))
     points /= np.linalg.norm(points, axis=1)[:, np.newaxis]
     if given.program:

@@ -1,4 +1,4 @@
-"""Builds the module with the project's CMake, the library inside: pip install ./python from a checkout. Needs CMake 3.25,
+"""pip install ./python in a checkout: builds the module, with the library inside, by the project's CMake. Needs CMake 3.25,
 g++, gfortran and Boost's headers (Debian: cmake g++ gfortran libboost-dev)."""
 import re
 import subprocess

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Builds with Debian's MPICH in place of Open MPI and runs the tests of MPI: preset `mpich`. May be run again and again.
-# Open MPI stays what mpicc and mpirun are. Slow where ranks share processors, since MPICH's ranks spin while they wait.
+# Builds with Debian's MPICH instead of Open MPI and runs the tests of MPI: preset `mpich`. May be repeated. mpicc and
+# mpirun remain those of Open MPI. Slow if ranks share processors, since MPICH's waiting ranks keep processors busy.
 # Usage: tests/mpich.sh [short]      short: no more than 4 ranks, and no faults
 set -eu
 cd "$(dirname "$0")/.."

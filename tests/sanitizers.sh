@@ -1,6 +1,6 @@
 #!/bin/sh
 # Builds and runs the tests that have no MPI under AddressSanitizer, LeakSanitizer and UndefinedBehaviorSanitizer,
-# and those with threads under ThreadSanitizer: presets `sanitize` and `threads`. May be run again and again.
+# and those with threads under ThreadSanitizer: presets `sanitize` and `threads`. May be repeated.
 # Usage: tests/sanitizers.sh [short]      short: a choice, presets `sanitize-short` and `threads-short`
 set -eu
 cd "$(dirname "$0")/.."
@@ -22,5 +22,5 @@ run() {  # presets: configure, which is in the name of the build folder; build; 
   stage "$1: tests" run_tests "$3" "build-$1"
 }
 stage "install packages of sanitizers" sh cmake/install-packages.sh clang libclang-rt-dev libomp-dev
-run sanitize sanitize$short sanitize$short
+run sanitize$short sanitize$short sanitize$short
 run threads threads threads$short

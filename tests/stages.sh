@@ -1,6 +1,6 @@
 # shellcheck shell=sh
-# For scripts that build and test: where their time goes. Each stage is printed when it ends, and
-# added to the file that STAGES names, if it names one.
+# For scripts that build and test: measures their stages. Each stage is printed when it ends, and appended to the file
+# named by STAGES, if set.
 
 # stage NAME COMMAND...: runs it; the script ends if it fails
 stage() {
@@ -10,7 +10,7 @@ stage() {
   stage_code=0
   "$@" || stage_code=$?
   times >> "${TMPDIR:-/tmp}/times.$$"
-  # The shell's own times, and those of what it started, twice: before and after.
+  # The times of the shell and of its children, before and after.
   stage_line=$(awk -v name="$stage_name" -v seconds=$(($(date +%s) - stage_start)) '
     { for (i = 1; i <= 2; ++i) { split($i, part, /[ms]/); sum[int((NR - 1) / 2)] += 60 * part[1] + part[2] } }
     END { printf "%-32s %6d s, %6d processor seconds", name, seconds, sum[1] - sum[0] }' "${TMPDIR:-/tmp}/times.$$")
@@ -20,7 +20,7 @@ stage() {
   [ $stage_code -eq 0 ] || exit $stage_code
 }
 
-# slowest FILE: the twenty tests of a JUnit file that took longest, in seconds
+# slowest FILE: the twenty slowest tests of a JUnit file, in seconds
 slowest() {
   echo "The slowest tests of $1:"
   sed -n 's/.*<testcase name="\([^"]*\)".* time="\([0-9.e+-]*\)".*/\2 \1/p' "$1" | sort -rg | head -n 20 |

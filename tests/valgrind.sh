@@ -1,7 +1,7 @@
 #!/bin/sh
-# Runs tests of a build under valgrind's memcheck: every routine of every library, the exact stages, the changes of
-# triangulations, what prints, and the corpus of the fuzzing. No error, no memory lost.
-# Usage: tests/valgrind.sh [BUILD]      BUILD: build if it is left out. Some 15 minutes.
+# Runs tests of a build under valgrind's memcheck: every routine of every library, the exact stages, changes of
+# triangulations, printing routines, and the fuzzing corpus. Fails on any error or memory leak.
+# Usage: tests/valgrind.sh [BUILD]      BUILD: default build. Takes some 15 minutes.
 set -eu
 cd "$(dirname "$0")/.."
 sh cmake/install-packages.sh valgrind
@@ -19,7 +19,7 @@ for library in stripack stripack_r4 stripack_8arg stripack_i8; do
 done
 memcheck "$tests/cxx/edit_test"
 memcheck "$tests/cxx/listing_test"
-memcheck "$tests/cxx/plot_test" --gtest_filter='-*Ier_6*'  # runs out of memory, where valgrind ends a program
+memcheck "$tests/cxx/plot_test" --gtest_filter='-*Ier_6*'  # runs out of memory, which ends a program under valgrind
 memcheck "$tests/cxx/mesh_test"
 memcheck "$tests/cxx/delaunay_test" --gtest_filter='Memory*'
 for target in predicates kernel list_routines queries; do

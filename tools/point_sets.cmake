@@ -1,5 +1,5 @@
-# point_sets: the named point sets of the harness, the benchmark and the tests. Needs only the Point type.
-# A further family: a file in point_sets/families, and a line in families.h, point_sets.cpp and here.
+# point_sets: the named point sets of stripack-compare, the benchmark and the tests. It needs only the type Point. To
+# add a family: a file in point_sets/families, and a line in families.h, point_sets.cpp and here.
 include_guard(GLOBAL)
 
 set(point_sets_dir ${CMAKE_CURRENT_LIST_DIR}/point_sets)
@@ -16,5 +16,5 @@ add_library(point_sets STATIC
 target_include_directories(point_sets
   PUBLIC ${point_sets_dir} $<TARGET_PROPERTY:pstripack_geometry,INTERFACE_INCLUDE_DIRECTORIES>)
 target_link_libraries(point_sets PRIVATE pstripack_flags)
-# Some fifty small files with the same headers: fourteen in one call of the compiler take as long as two.
+# Some fifty small files include the same headers: compiling fourteen at once takes as long as two.
 set_target_properties(point_sets PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 14)

@@ -1,8 +1,9 @@
 // pstripack-benchmark: times of PSTRIPACK, the original STRIPACK, CGAL and Qhull, side by side in one run.
 //
-// Every measurement runs in its own process on one thread; the contenders alternate, so that changes in the
-// machine's speed affect all. Arrays are written before the clock starts, and a call of less than a second is
-// preceded by one that does not count. CGAL and Qhull only triangulate; the others also write their lists.
+// Every measurement runs in its own process on one thread. The contenders alternate, so that changes in the
+// machine's speed affect all of them. Arrays are written before the clock starts, and a call of less than a
+// second is preceded by an unmeasured one. CGAL and Qhull only triangulate; the others also write their
+// lists.
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -43,12 +44,12 @@ void print_head(const std::optional<legacy_stripack::Location>& where, int repea
   fmt::print("pstripack  {}\noriginal   {}\nCGAL       {}\nQhull      {}\n", pstripack_version(),
              where ? where->name : "none found", cgal.description, qhull.description);
   fmt::print(
-      "threads    1, where nothing else is said\nrepeats    {}, median; at most 3 above 2 s, 1 above 30 s; "
+      "threads    1, unless stated otherwise\nrepeats    {}, median; at most 3 above 2 s, 1 above 30 s; "
       "on threads by threes\n",
       repeats);
 }
 
-/// For CLI11: the error in the name, or nothing.
+/// For CLI11: the error in a name of a point set, or "".
 std::string is_point_set(const std::string& name) {
   try {
     point_sets::make(name, 12);
@@ -67,7 +68,7 @@ int main(int argc, char** argv) {
       "pstripack-benchmark");
   app.footer("cases: " + CLI::detail::join(case_names(), " "));
   CaseSettings cases;
-  app.add_flag("--quick", cases.quick, "only cases with less than 10^6 nodes, three repeats");
+  app.add_flag("--quick", cases.quick, "only cases with fewer than 10^6 nodes, three repeats");
   app.add_option("--only", cases.only,
                  "only these cases, for example random-1e4,latlon-1e5; `distributions...`, `scvt`, "
                  "`warm-start` and `queries-...` run only if named")
@@ -115,7 +116,8 @@ int main(int argc, char** argv) {
   descents_app.add_option("--n", descents.n, "generators")
       ->check(CLI::Range(4, 10000000))
       ->capture_default_str();
-  descents_app.add_option("--evaluations", descents.evaluations, "at most so many for each method")
+  descents_app
+      .add_option("--evaluations", descents.evaluations, "largest number of evaluations for each method")
       ->check(CLI::Range(1, 10000000))
       ->capture_default_str();
   descents_app.add_option("--csv", descents.csv, "also add rows to this file");
@@ -130,7 +132,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     if (!moving_model.moves.empty()) return be_the_moving_model(moving_model);
-    // Calls with the same nodes again and again are to take the time of a first one.
+    // Calls with the same nodes must not reuse the last mesh: measure first calls.
     setenv("PSTRIPACK_WARM_START", "0", 1);
     if (model.calls > 0) return be_the_model(model);
     for (int* const repeats : {&cases.repeats, &curves.repeats})

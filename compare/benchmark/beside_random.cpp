@@ -25,7 +25,8 @@ Measurement seconds_of_trmesh(const Nodes& nodes, double time_limit) {
 bool add(Samples& samples, const Nodes& nodes, double time_limit) {
   const Measurement m = seconds_of_trmesh(nodes, time_limit);
   if (m.outcome == Outcome::timed_out) return false;
-  if (m.outcome != Outcome::returned) throw std::runtime_error("TRMESH did not come to its end");
+  if (m.outcome != Outcome::returned)
+    throw std::runtime_error("a measurement of TRMESH crashed or exceeded its time limit");
   samples.add(m.seconds / nodes.n());
   return true;
 }

@@ -41,7 +41,7 @@ struct Case {
   int n;
   bool shuffled;
   double original_over_ours, cgal_over_ours;  // smallest ratio required; 0: none
-  bool takes_the_original_minutes = false;    // then only ours is measured
+  bool takes_the_original_minutes = false;    // if so, only ours is measured
   bool has_witnesses() const { return cgal_over_ours > 0; }
 };
 
@@ -68,7 +68,8 @@ Lists lists_from(const Stripack& library, const Nodes& nodes) {
   return lists;
 }
 
-/// Seconds of one call of the case's routine, in its own process. `lists` of TRMESH, if it reads them.
+/// Seconds of one call of the case's routine, in its own process. `lists`: for routines that read a
+/// triangulation.
 double measure_call(const Case& c, const Stripack& library, const Nodes& nodes,
                     const std::shared_ptr<Lists>& lists, int calls) {
   return measured([&] {
@@ -96,7 +97,7 @@ double measure_call(const Case& c, const Stripack& library, const Nodes& nodes,
   });
 }
 
-/// The original's own lists, made in their own process.
+/// The original's lists for these nodes, made in a process of their own.
 std::shared_ptr<Lists> lists_of_original(const legacy_stripack::Original& original, const Nodes& nodes) {
   constexpr double kTimeLimit = 1800;
   const auto result = original.triangulate(nodes.x, nodes.y, nodes.z, kTimeLimit);
@@ -126,8 +127,8 @@ std::string ratio(const Samples& theirs, const Samples& own, double required) {
 
 const Model kModel{"random", "given", 1000000, 5};
 
-/// TRMESH on all processors and on one, alternating; in this process, since a forked child has one thread.
-/// Therefore the last case.
+/// Measures TRMESH on all processors and on one thread in turn. In this process, since a forked child has
+/// only one thread; it must be the last case.
 void run_threads(const std::string& self, int repeats) {
 #ifdef _OPENMP
   constexpr double kRequired = 1.75;  // of two threads
@@ -156,7 +157,8 @@ void run_threads(const std::string& self, int repeats) {
 #endif
 }
 
-/// CRLIST on all processors and the original's, libngmath's if it is that, alternating. Also in this process.
+/// Measures CRLIST on all processors and the original's in turn; libngmath's if the original is libngmath. In
+/// this process.
 void run_crlist_on_threads(const std::optional<legacy_stripack::Original>& original_library, int repeats) {
 #ifdef _OPENMP
   if (!original_library) return;
@@ -189,8 +191,8 @@ void run_crlist_on_threads(const std::optional<legacy_stripack::Original>& origi
 #endif
 }
 
-/// The same model alone and with a pool of two single-threaded ranks, alternating. Measures the whole call,
-/// including the transfer to the ranks and back.
+/// Measures the same model alone and with a pool of two single-threaded ranks in turn. The time is that of
+/// the whole call, with the transfer to the ranks and back.
 void run_pool([[maybe_unused]] const std::string& self, [[maybe_unused]] int repeats) {
 #ifdef PSTRIPACK_RUN
   constexpr double kRequired = 1.5;
@@ -216,7 +218,8 @@ void run_pool([[maybe_unused]] const std::string& self, [[maybe_unused]] int rep
 
 // ---- in the original's order ------------------------------------------------------------------------
 
-/// TRMESH under PSTRIPACK_ORDER, which a process reads once: in its own model.
+/// TRMESH under PSTRIPACK_ORDER. A process reads this variable once, so each order is measured in a model of
+/// its own.
 struct OrderCase {
   std::string name, setting, family, order;
   int n;
@@ -255,8 +258,8 @@ void run_order(const OrderCase& c, const std::string& self,
   std::fflush(stdout);
 }
 
-/// The nodes of a case. Symmetric sets are shuffled until the first three are not on one great circle and the
-/// original returns.
+/// The nodes of a case. Symmetric sets are shuffled until the first three nodes are not on one great circle
+/// and the original returns.
 std::vector<Point> nodes_of(const Case& c, const std::optional<legacy_stripack::Original>& original_library) {
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     std::vector<Point> points = point_sets::make(c.family, c.n, 1);
@@ -385,7 +388,7 @@ void run_cases(const std::string& self, const CaseSettings& settings,
   if (is_wanted("crlist-threads", !quick)) run_crlist_on_threads(original_library, repeats);
   fmt::print(
       "\ncrlist: against CSCRLIST as libngmath ships it, which turns centres into latitudes and longitudes;"
-      "\ncrlist-xyz: against the same without that, as STRIPACK's CRLIST"
+      "\ncrlist-xyz: against the same routine without these angles, as STRIPACK's CRLIST"
       "\norder: lists in the original's order, PSTRIPACK_ORDER=original"
       "\norder-bitwise: PSTRIPACK_ORDER=bitwise"
       "\npeak: memory during TRMESH "

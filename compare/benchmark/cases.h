@@ -1,5 +1,5 @@
 #pragma once
-// The benchmark's standard cases: one table, one row per case, ratios beside the required ones.
+// The benchmark's standard cases: one row per case, with measured and required ratios.
 
 #include <optional>
 #include <string>
@@ -12,14 +12,14 @@ namespace benchmark {
 struct CaseSettings {
   bool quick = false;
   std::vector<std::string> only;  ///< none: all of case_names() except distributions, queries, scvt and
-                                  ///< warm-start, or the quick ones
-  std::vector<std::string> sets;  ///< of distributions; none: all
+                                  ///< warm-start; with `quick` only the quick cases
+  std::vector<std::string> sets;  ///< point sets of the case distributions; none: all
   int repeats = 0;
 };
 
 std::vector<std::string> case_names();
 
-/// Writes to stdout. `self`: this program.
+/// Writes the table to stdout. `self`: path of this program.
 void run_cases(const std::string& self, const CaseSettings& settings,
                const std::optional<legacy_stripack::Original>& original_library);
 

@@ -1,4 +1,4 @@
-// Compiled separately with -O3 -march=native: CGAL at its best, against ours as installed.
+// Compiled separately with -O3 -march=native: CGAL at its best, PSTRIPACK as installed.
 #include "cgal_contender.h"
 
 #include <CGAL/Delaunay_triangulation_on_sphere_2.h>

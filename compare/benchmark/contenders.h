@@ -29,7 +29,7 @@ struct Lists {
   int lnew = 0, ier = 0;
 };
 
-/// STRIPACK's routines of one of the two libraries. They throw std::runtime_error where IER is not 0.
+/// STRIPACK's routines of one library. They throw std::runtime_error if IER is not 0.
 struct Stripack {
   std::function<void(const Nodes&, Lists&)> trmesh;
   std::function<void(int n, const Lists&, int rows, std::vector<int>& ltri)> trlist;
@@ -38,19 +38,20 @@ struct Stripack {
 
 Stripack ours();
 Stripack original(const legacy_stripack::Library& library);
-/// The same with libngmath's CSCRLIST, which returns latitudes and longitudes instead of centres; empty if
+/// The same with libngmath's CSCRLIST, which returns latitudes and longitudes instead of centres. Empty if
 /// the original is not libngmath.
 std::optional<Stripack> original_as_shipped(const legacy_stripack::Library& library);
 
-/// A library that triangulates, and writes no lists.
+/// A library that triangulates without writing lists.
 struct Witness {
   std::string description;  ///< "none found" if the build found none
-  /// Seconds, and the number of points that became vertices; null if the build found none.
+  /// Returns seconds; sets the number of points that became vertices. Null if the build did not find the
+  /// library.
   double (*seconds)(const std::vector<pstripack::Point>& points, std::size_t& vertices);
 };
 extern const Witness cgal, qhull;
 
-/// As seconds_a_call of measuring.h. Throws std::runtime_error if it does not keep all points.
+/// Works like seconds_a_call of measuring.h. Throws std::runtime_error if a point does not become a vertex.
 double seconds_a_call(const Witness& witness, const std::vector<pstripack::Point>& points, int calls);
 
 }  // namespace benchmark

@@ -20,7 +20,7 @@ namespace {
 
 using legacy_stripack::Outcome;
 
-/// A set of nodes, and the number of times that one measurement triangulates it.
+/// A set of nodes, and how often one measurement triangulates it.
 struct Task {
   Task(const std::string& points_, const std::string& order_, int wanted)
       : points(points_),
@@ -36,7 +36,7 @@ struct Task {
 struct Contender {
   std::string name;
   int threads;
-  double bytes_a_node;  ///< memory of its process, arrays and nodes included: measured, and rounded up
+  double bytes_a_node;  ///< memory of its process, including arrays and nodes; measured, then rounded up
   std::function<Measurement(const Task&, double time_limit)> measure;
 };
 
@@ -57,7 +57,7 @@ Contender witness_contender(const std::string& name, double bytes_a_node, const 
           }};
 }
 
-/// The time limit applies to the others: this one always finishes.
+/// The contender on all threads; the time limit does not apply to it.
 Contender threads_contender(const std::string& name, double bytes_a_node, const std::string& self) {
   const int processors = static_cast<int>(std::thread::hardware_concurrency());
   return {name, processors, bytes_a_node, [self, processors](const Task& task, double) {
@@ -67,11 +67,11 @@ Contender threads_contender(const std::string& name, double bytes_a_node, const 
           }};
 }
 
-/// Results of one contender in one order, from size to size.
+/// The results of one contender in one order of the nodes, over increasing sizes.
 struct Course {
   Contender contender;
-  Samples samples;    ///< at this size
-  std::string ended;  ///< why it takes no further part
+  Samples samples;    ///< at the current size
+  std::string ended;  ///< the reason why larger sizes are skipped; empty: none
 };
 
 std::string reason(Outcome outcome, int n, double time_limit) {
@@ -85,7 +85,7 @@ std::string reason(Outcome outcome, int n, double time_limit) {
   }
 }
 
-/// Contenders alternate until each has enough samples or has ended.
+/// Measures the contenders in turn until each has enough samples or is to be skipped.
 void measure_all(std::vector<Course>& courses, const Task& task, const CurveSettings& settings) {
   const auto wants_turn = [&](const Course& c) {
     return c.ended.empty() && !c.samples.enough(settings.repeats);
@@ -154,7 +154,7 @@ void run_order(const std::string& order, const CurveSettings& settings, std::vec
     fmt::print("\n");
   }
   for (const Course& c : courses)
-    if (!c.ended.empty()) fmt::print("{}: {}; not asked for larger ones\n", c.contender.name, c.ended);
+    if (!c.ended.empty()) fmt::print("{}: {}; larger N skipped\n", c.contender.name, c.ended);
 }
 
 }  // namespace

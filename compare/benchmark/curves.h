@@ -1,5 +1,5 @@
 #pragma once
-// Time per node against N: all contenders, all orders of the nodes.
+// Time per node over N, for all contenders and orders of the nodes.
 
 #include <optional>
 #include <string>
@@ -14,14 +14,15 @@ struct CurveSettings {
   std::vector<std::string> orders{"given", "latitude", "rows"};
   std::vector<int> sizes{100, 1000, 10000, 100000, 1000000, 10000000};
   std::vector<std::string> contenders;  ///< none: all of contender_names()
-  double time_limit = 60;               ///< seconds of a measurement
+  double time_limit = 60;               ///< limit of one measurement in seconds
   int repeats = 0;
   std::string csv;
 };
 
 const std::vector<std::string>& contender_names();
 
-/// Writes one table per order to stdout, and the rows to the CSV file, if one is named. `self`: this program.
+/// Writes one table per order to stdout, and the rows to a CSV file if one is named. `self`: path of this
+/// program.
 void run_curves(const std::string& self, const CurveSettings& settings,
                 const std::optional<legacy_stripack::Original>& original_library);
 

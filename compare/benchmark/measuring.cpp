@@ -25,7 +25,8 @@ Measurement measure(const std::function<double()>& work, double time_limit) {
 double measured(const std::function<double()>& work) {
   constexpr double kTimeLimit = 1800;
   const Measurement m = measure(work, kTimeLimit);
-  if (m.outcome != Outcome::returned) throw std::runtime_error("a measurement did not come to its end");
+  if (m.outcome != Outcome::returned)
+    throw std::runtime_error("a measurement crashed or exceeded its time limit");
   return m.seconds;
 }
 

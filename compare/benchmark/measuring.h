@@ -21,11 +21,11 @@ struct Measurement {
 /// The result of `work`, which runs in its own process.
 Measurement measure(const std::function<double()>& work, double time_limit);
 
-/// The same, but throws std::runtime_error if it does not end within half an hour.
+/// The same; throws std::runtime_error if it does not end within half an hour.
 double measured(const std::function<double()>& work);
 
-/// The mean of `calls` calls after the first, for which the system clears pages; if the first takes 4 seconds
-/// or more, its time.
+/// The mean time of `calls` calls after an unmeasured first one, for which the system clears pages. If the
+/// first call takes 4 seconds or more, its time is returned.
 double seconds_a_call(const std::function<void()>& call, int calls);
 
 class Samples {
@@ -41,16 +41,16 @@ class Samples {
   std::vector<double> seconds_;
 };
 
-/// Adds the result of `seconds`, which makes some calls in a row: see in_a_row.h.
+/// Adds the result of `seconds`, which makes some calls one after another: see in_a_row.h.
 void measure_in_a_row(Samples& samples, const std::function<double()>& seconds);
 
-/// "0.2345", "-" without samples.
+/// "0.2345"; "-" if there are no samples.
 std::string microseconds(const Samples& samples, int n);
 
-/// A figure such as `VmHWM:` of /proc/self/status or /proc/meminfo, in bytes.
+/// The value of a key such as `VmHWM:` in /proc/self/status or /proc/meminfo, in bytes.
 double bytes_in(const std::string& file, const std::string& key);
 
-/// As /proc/cpuinfo names it.
+/// The processor's name in /proc/cpuinfo.
 std::string processor();
 
 }  // namespace benchmark

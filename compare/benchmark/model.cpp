@@ -14,7 +14,7 @@
 namespace benchmark {
 
 double peak_of_first_call(const Nodes& nodes, Lists& lists) {
-  malloc_trim(0);                                 // otherwise freed memory would be reused and not counted
+  malloc_trim(0);  // otherwise freed memory would be reused without being counted
   std::ofstream("/proc/self/clear_refs") << "5";  // resets the peak to the current size
   const auto peak = [] { return bytes_in("/proc/self/status", "VmHWM:"); };
   const double before = peak();
@@ -45,7 +45,8 @@ ModelFigures as_model(const std::string& self, const std::string& launcher, cons
   FILE* const out = popen(command.c_str(), "r");
   ModelFigures figures;
   const bool is_told = out != nullptr && std::fscanf(out, "%lf %lf", &figures.seconds, &figures.peak) == 2;
-  if (out == nullptr || pclose(out) != 0 || !is_told) throw std::runtime_error("no figures from " + command);
+  if (out == nullptr || pclose(out) != 0 || !is_told)
+    throw std::runtime_error("the model failed or printed no figures: " + command);
   return figures;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// This program started as a model, for measuring threads and pools of ranks: a forked child has one thread.
+// Runs this program again as a model to measure threads and pools of ranks: a forked child has only one
+// thread.
 
 #include <string>
 
@@ -13,17 +14,17 @@ struct Model {
 };
 
 struct ModelFigures {
-  double seconds = 0, peak = 0;  ///< per call; bytes per node during the first
+  double seconds = 0, peak = 0;  ///< seconds per call; peak memory of the first call in bytes per node
 };
 
 /// Runs this program as the model. Returns the exit code.
 int be_the_model(const Model& model);
 
-/// Starts the model by `launcher`, which may begin with NAME=VALUE.
+/// Runs the model by the command `launcher`, which may begin with NAME=VALUE.
 ModelFigures as_model(const std::string& self, const std::string& launcher, const Model& model);
 
-/// Bytes per node: the peak memory during TRMESH, the first call of this process, minus that held before with
-/// all arrays written.
+/// Peak memory of TRMESH, the first call of this process, in bytes per node. Memory held before the call,
+/// with all arrays written, is subtracted.
 double peak_of_first_call(const Nodes& nodes, Lists& lists);
 
 }  // namespace benchmark

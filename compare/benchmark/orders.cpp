@@ -29,12 +29,12 @@ void sort_by(std::vector<Point>& nodes, Key key) {
 double latitude(const Point& p) { return p.z; }
 double longitude(const Point& p) { return std::atan2(p.y, p.x); }
 
-/// From 0 to `zones` - 1, and zones at the upper end itself.
+/// The zone of a value, from 0 to `zones` - 1; `zones` at the upper end.
 double zone(double value, double low, double high, double zones) {
   return std::floor((value - low) / (high - low) * zones);
 }
 
-/// The cell of the cylinder (longitude, z), whose cells are equal in area: 2^30 x 2^30 of them.
+/// The cell of a point on the cylinder (longitude, z), which has 2^30 x 2^30 cells of equal area.
 std::pair<std::uint64_t, std::uint64_t> cell(const Point& p) {
   constexpr double kSide = 0x1p30;
   const auto within = [](double c) { return static_cast<std::uint64_t>(std::clamp(c, 0.0, kSide - 1)); };
@@ -54,7 +54,7 @@ std::uint64_t along_hilbert(const Point& p) {
   for (int bit = 29; bit >= 0; --bit) {
     const std::uint64_t a = i >> bit & 1, b = j >> bit & 1;
     key = key << 2 | (3 * a ^ b);
-    if (b == 0) {  // the curve enters and leaves these quadrants with the axes swapped
+    if (b == 0) {  // in these quadrants the curve enters and leaves with exchanged axes
       if (a == 1) i = ~i, j = ~j;
       std::swap(i, j);
     }
@@ -108,7 +108,7 @@ std::vector<Point> nodes_in_order(const std::string& family, std::size_t n, cons
     sort_by(nodes, latitude);
     from_both_ends(nodes);
   } else if (order != "given") {
-    throw std::invalid_argument("there is no order " + order);
+    throw std::invalid_argument("unknown order " + order);
   }
   return nodes;
 }

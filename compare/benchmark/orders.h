@@ -1,5 +1,5 @@
 #pragma once
-// Orders of the nodes, to which an incremental construction is sensitive.
+// Orders of the nodes. An incremental construction can be sensitive to them.
 
 #include <string>
 #include <vector>

@@ -31,7 +31,7 @@ struct Size {
 };
 constexpr Size kSizes[] = {{"10^4", 10000, 7}, {"10^5", 100000, 5}, {"10^6", 1000000, 3}};
 
-/// Runs in its own process; empty if that exceeds the limit.
+/// Counts in a process of its own; empty if it exceeds the limit.
 std::optional<StageCounts> counts_of(const Nodes& nodes) {
   const legacy_stripack::Shared<StageCounts> counts;
   const auto ended = legacy_stripack::run_in_child([&] { counts[0] = stage_counts(nodes.all); }, kTimeLimit);
@@ -101,8 +101,8 @@ std::vector<Distribution> chosen(const std::vector<std::string>& only) {
 }
 
 #ifdef _OPENMP
-/// The time on so many threads over that on one, alternating; in this process, since a forked child has one
-/// thread.
+/// The time on `threads` threads over that on one, measured in turn in this process, since a forked child has
+/// only one thread.
 double threads_over_one(const Nodes& nodes, int threads, int repeats) {
   Lists lists(nodes.n());
   const Stripack library = ours();

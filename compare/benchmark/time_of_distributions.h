@@ -6,12 +6,13 @@
 
 namespace benchmark {
 
-/// Writes one row per set to stdout: ratios at several N, and how often the stages of the predicates were
+/// Writes one row per set to stdout: ratios at several N, and how often each stage of the predicates was
 /// entered.
 /// `only`: point sets; none: all of point_sets::distributions().
 void run_time_of_distributions(const std::vector<std::string>& only, int repeats);
 
-/// One row per set: the time on all processors over that on one thread, at several N. Nothing without OpenMP.
+/// Writes one row per set: the time on all processors over that on one thread, at several N. Nothing without
+/// OpenMP.
 void run_distributions_on_threads(const std::vector<std::string>& only, int repeats);
 
 }  // namespace benchmark

@@ -77,7 +77,7 @@ void run_time_of_orders(int n, int repeats) {
     const Nodes nodes =
         with_a_triangle_first(nodes_in_order(row.family, static_cast<std::size_t>(n), row.order));
     const BesideRandom b = measure_beside_random(nodes, random, repeats, kTimeLimit);
-    if (!b.in_time) throw std::runtime_error("a measurement did not come to its end");
+    if (!b.in_time) throw std::runtime_error("a measurement crashed or exceeded its time limit");
     const double ratio = b.ratio();
     largest = std::max(largest, ratio);
     fmt::print("{:<17} {:<10} {:>8} {:>9.4f} {:>10.4f} {:>7.2f}{}\n", row.family, row.order, nodes.n(),

@@ -53,14 +53,14 @@ double thread_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// Both libraries get the same questions about the same lists, alternating, in their own process; the
+/// Both libraries answer the same questions about the same lists in turn, in a process of their own. The
 /// smallest time of each counts.
 class Table {
  public:
   Table(const Queries& own, const Queries& theirs, int repeats)
       : own_(own), theirs_(theirs), repeats_(repeats) {}
 
-  /// `ask` makes so many calls.
+  /// `ask` makes `calls` calls.
   void row(const std::string& what, std::size_t calls, const std::function<void(const Queries&)>& ask) const {
     constexpr double never = std::numeric_limits<double>::infinity(), time_limit = 600;
     const legacy_stripack::Shared<double> least(2);  // ours, theirs
@@ -76,7 +76,7 @@ class Table {
         },
         time_limit);
     if (ended.outcome != Outcome::returned)
-      throw std::runtime_error(what + ": the calls did not come to their end");
+      throw std::runtime_error(what + ": the calls crashed or exceeded their time limit");
     const auto nanoseconds = [&](double seconds) { return 1e9 * seconds / static_cast<double>(calls); };
     fmt::print("{:<38} {:>9.0f} {:>9.0f} {:>9.2f}\n", what, nanoseconds(least[0]), nanoseconds(least[1]),
                least[0] / least[1]);
@@ -102,7 +102,7 @@ void next_nearest(const Table& table, const Nodes& nodes, Lists& lists) {
             lists.lend.data(), &l, npts, &df, &ier);
     if (ier != 0) throw std::runtime_error(fmt::format("GETNP returned IER = {}", ier));
   };
-  // Nodes are numbered at random, so that the first ones lie anywhere.
+  // Nodes are numbered at random, so the first ones lie anywhere.
   const std::size_t centres = static_cast<std::size_t>(std::min(nodes.n(), 10000));
   std::vector<int> near(centres * most);
   for (std::size_t c = 0; c < centres; ++c) {
@@ -138,8 +138,8 @@ void searches(const Table& table, const Nodes& nodes, const Lists& lists) {
                     lists.lptr.data(), lists.lend.data(), &al);
   };
 
-  // Points at a typical distance from any node; and points anywhere, as many as take some tenths of a second
-  // in walks of about sqrt(n) steps.
+  // `many` points at a typical distance from a node, and `few` points anywhere: walks to those take about
+  // sqrt(n) steps, so their number is limited to some tenths of a second.
   const std::size_t many = 20000, few = std::min(many, static_cast<std::size_t>(1e6 / std::sqrt(n)));
   const std::vector<Point> anywhere = point_sets::make("random", many, 2);
   std::vector<Point> beside;

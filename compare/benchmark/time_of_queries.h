@@ -1,11 +1,12 @@
 #pragma once
-// The time of TRFIND, NEARND and GETNP relative to the original's, call by call.
+// The time per call of TRFIND, NEARND and GETNP relative to the original's.
 
 #include "original.h"
 
 namespace benchmark {
 
-/// GETNP for several L, TRFIND and NEARND from several starts, among n random nodes; written to stdout.
+/// Measures GETNP for several L, and TRFIND and NEARND from several starts, among n random nodes. Writes to
+/// stdout.
 void run_time_of_queries(int n, const legacy_stripack::Original& original, int repeats);
 
 }  // namespace benchmark

@@ -41,7 +41,7 @@ std::unique_ptr<Density> density_called(const std::string& name) {
   return std::make_unique<BumpDensity>(centre, 30 * kDegree, 10 * kDegree, 3);  // bump of `pstripack scvt`
 }
 
-/// Of one thread.
+/// Processor seconds of the calling thread.
 double cpu_seconds() {
   timespec t;
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
@@ -54,7 +54,7 @@ Tessellation descend(std::size_t n, const Density& density, First first, RunOpti
                                : run(n, density, options);
 }
 
-/// Runs work() in a process of its own, where triangulations may begin with the last one.
+/// Runs work() in a process of its own, where triangulations may reuse the last mesh.
 void in_its_own_process(const std::function<void()>& work) {
   measured([&] {
     setenv("PSTRIPACK_WARM_START", "1", 1);
@@ -70,7 +70,7 @@ struct Row {
   std::size_t n;
   First first;
   double tolerance;
-  double evaluations;  ///< at most; 0: nothing is required
+  double evaluations;  ///< largest number; 0: not required
 };
 
 constexpr double kEvaluations = 250;
@@ -129,7 +129,7 @@ void print_runs(bool quick) {
 
 // ---- beside TRMESH ------------------------------------------------------------------------------------
 
-/// `calls` calls with random nodes, cold; processor seconds.
+/// Processor seconds of `calls` calls with random nodes that reuse no mesh.
 double seconds_of_trmesh(int n, int calls) {
   return measured([&] {
     const Nodes nodes(point_sets::make("random", static_cast<std::size_t>(n), 1));
@@ -154,8 +154,8 @@ void print_run_beside_trmesh(int n) {
   std::fflush(stdout);
 }
 
-/// An evaluation and the call of TRMESH in it, in turn, each of generators that have made a step of Lloyd's
-/// method since the last call.
+/// Measures an evaluation and the call of TRMESH in it, in turn. Before each of them the generators make a
+/// step of Lloyd's method.
 void print_evaluation_beside_trmesh(int n, int repeats) {
   constexpr double kRatio = 2.5;
   const legacy_stripack::Shared<double> of_evaluation, of_trmesh;
@@ -187,18 +187,17 @@ void print_evaluation_beside_trmesh(int n, int repeats) {
 
 // ---- programs -----------------------------------------------------------------------------------------
 
-/// What the command writes to stdout.
+/// The lines that a command writes to stdout.
 std::vector<std::string> lines_of(const std::string& command) {
   FILE* const out = popen(command.c_str(), "r");
   if (out == nullptr) throw std::runtime_error("cannot start " + command);
   std::vector<std::string> lines;
   char line[4096];
   while (std::fgets(line, sizeof line, out) != nullptr) lines.emplace_back(line);
-  if (pclose(out) != 0) throw std::runtime_error("this did not come to its end: " + command);
+  if (pclose(out) != 0) throw std::runtime_error("this command failed: " + command);
   return lines;
 }
 
-/// A folder that is removed in the end.
 class Folder {
  public:
   Folder() {
@@ -230,7 +229,7 @@ void print_command(int n) {
 }
 
 #ifdef SCVT_LEGACY
-/// The whole example, from its table of where its time went; its last call of TRMESH is for the output.
+/// Runs the example and prints from its table of times. The last call of TRMESH is for the output.
 void print_legacy_example(int n) {
   constexpr double kRatio = 4;
   constexpr int kIterations = 10;
@@ -296,7 +295,7 @@ void run_descents(const DescentSettings& settings) {
       options.method = d.method;
       options.tolerance = settings.tolerance;
       options.most_evaluations = settings.evaluations;
-      std::int64_t before = 0;  // generators of the level
+      std::int64_t before = 0;  // number of generators of the level
       double of_levels = 0, of_this = 0;
       const double start = cpu_seconds();
       options.progress = [&](const Progress& p) {
@@ -316,7 +315,7 @@ void run_descents(const DescentSettings& settings) {
                d.method == Method::lloyd ? "lloyd" : "newton", name_of(d.first), last.evaluations,
                last.seconds, last.gradient, last.energy);
     std::fflush(stdout);
-    double shown = 0;  // evaluations; steps close to each other would look like one
+    double shown = 0;  // leave out steps that would look like one in the picture
     for (std::size_t k = 0; csv && k < count[0]; ++k) {
       if (steps[k].evaluations < 1.1 * shown && k + 1 < count[0]) continue;
       shown = steps[k].evaluations;

@@ -1,11 +1,12 @@
 #pragma once
-// Centroidal Voronoi tessellations: evaluations, energy and time to a gradient, beside the required ones.
+// Centroidal Voronoi tessellations: evaluations, energy and time until the gradient reaches a bound, with
+// required values.
 
 #include <string>
 
 namespace benchmark {
 
-/// Writes to stdout. `quick`: only few generators, none random.
+/// Writes to stdout. `quick`: only cases with few generators, none from random ones.
 void run_time_of_scvt(bool quick, int repeats);
 
 struct DescentSettings {
@@ -15,7 +16,7 @@ struct DescentSettings {
   std::string csv;
 };
 
-/// Gradient and energy on the way, of Lloyd's method and of ours, from several first generators.
+/// Gradient and energy after each evaluation, by Lloyd's method and by ours, from several first generators.
 void run_descents(const DescentSettings& settings);
 
 }  // namespace benchmark

@@ -24,8 +24,8 @@ struct Row {
   std::string name;
   int n, threads;
   Moves moves;
-  double part;        ///< of a step of Lloyd's method
-  int before, calls;  ///< steps of Lloyd's method before; calls that are measured
+  double part;        ///< fraction of a step of Lloyd's method
+  int before, calls;  ///< number of Lloyd steps before; number of measured calls
   double required;    ///< cold over warm
 };
 
@@ -42,11 +42,11 @@ const std::vector<Row> kRows{
 
 const Row& row(const std::string& name) {
   const auto found = std::find_if(kRows.begin(), kRows.end(), [&](const Row& r) { return r.name == name; });
-  if (found == kRows.end()) throw std::invalid_argument(name + ": no way of moving nodes");
+  if (found == kRows.end()) throw std::invalid_argument(name + ": unknown way of moving nodes");
   return *found;
 }
 
-/// The mean distance of neighbours.
+/// The mean distance of neighbouring nodes.
 double spacing(int n) { return std::sqrt(4 * 3.14159265358979 / n); }
 
 void move_all(std::vector<Point>& points, double distance, point_sets::Random& random) {
@@ -56,7 +56,7 @@ void move_all(std::vector<Point>& points, double distance, point_sets::Random& r
   }
 }
 
-/// A step of Lloyd's method: each node by `part` of the way to the centroid of its Voronoi cell.
+/// A step of Lloyd's method: moves each node by `part` of the way to the centroid of its Voronoi cell.
 std::vector<Point> lloyd_step(const Nodes& nodes, const Lists& lists, double part) {
   std::vector<Point> moved = nodes.all;
   for (std::size_t k = 0; k < moved.size(); ++k) {
@@ -73,11 +73,11 @@ std::vector<Point> lloyd_step(const Nodes& nodes, const Lists& lists, double par
 
 struct Times {
   std::vector<double> cold, warm;
-  double flips = 0;  ///< of warm calls, the mean
+  double flips = 0;  ///< mean number of flips of warm calls
   int warm_calls = 0;
 };
 
-/// Adds the times of one run of the row's model. They are the last lines of its report.
+/// Runs the row's model once and adds its times, the last lines of its report.
 void run_model(const std::string& self, const Row& row, bool warm, Times& times) {
   const std::string command = fmt::format(
       "OMP_NUM_THREADS={} PSTRIPACK_WARM_START={} PSTRIPACK_REPORT=/dev/stdout '{}' --be-the-moving-model {}",
@@ -99,7 +99,7 @@ void run_model(const std::string& self, const Row& row, bool warm, Times& times)
     if (value("seconds") >= 0) calls.push_back({value("seconds"), std::lround(value("flips"))});
   }
   if (pclose(out) != 0 || calls.size() < static_cast<std::size_t>(row.calls))
-    throw std::runtime_error("no report from " + command);
+    throw std::runtime_error("the model failed or wrote no report: " + command);
   for (auto c = calls.end() - row.calls; c != calls.end(); ++c) {
     (warm ? times.warm : times.cold).push_back(c->seconds);
     if (c->flips >= 0) ++times.warm_calls, times.flips += static_cast<double>(c->flips);
@@ -121,7 +121,7 @@ int be_the_moving_model(const MovingModel& model) {
     return nodes;
   };
   for (int step = 0; step < r.before; ++step) points = lloyd_step(call(), lists, 1);
-  // Two calls more, after which a mesh is kept.
+  // Two more calls: a mesh is kept only after a call whose nodes fitted.
   for (int step = r.moves == Moves::none ? 2 : 0; step < r.calls + 2; ++step) {
     const Nodes nodes = call();
     switch (r.moves) {
@@ -152,7 +152,7 @@ void run_time_of_warm_starts(const std::string& self, int repeats) {
       "nodes moved by", "N", "threads", "cold us/N", "warm us/N", "cold / warm", "flips/N", "warm calls");
   for (const Row& r : kRows) {
     Times times;
-    // A call that is the only one of its process needs more of them.
+    // A row with a single measured call needs more runs.
     const int runs = std::max(1, r.calls == 1     ? 6 * repeats
                                  : r.n >= 1000000 ? std::min(repeats, 3)
                                                   : repeats);

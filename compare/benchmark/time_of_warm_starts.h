@@ -1,5 +1,5 @@
 #pragma once
-// Calls of TRMESH with nodes that have moved, beside the same calls with PSTRIPACK_WARM_START=0.
+// Calls of TRMESH on moved nodes, with and without PSTRIPACK_WARM_START=0.
 
 #include <string>
 
@@ -7,13 +7,13 @@ namespace benchmark {
 
 /// How the nodes of a model move from call to call.
 struct MovingModel {
-  std::string moves;  ///< the name of one of the rows, empty: none
+  std::string moves;  ///< name of a row; empty: this process is not a model
 };
 
-/// What this program is where it is such a model: the report tells of its calls. The exit code.
+/// Runs this program as such a model; the report has the times. Returns the exit code.
 int be_the_moving_model(const MovingModel& model);
 
-/// A row for each way of moving, written to stdout.
+/// Writes a row for each way of moving to stdout.
 void run_time_of_warm_starts(const std::string& self, int repeats);
 
 }  // namespace benchmark

@@ -3,7 +3,7 @@ import math
 import subprocess
 from dataclasses import dataclass, field
 
-# Okabe and Ito: told apart by colour-blind readers, too.
+# The colours of Okabe and Ito, which colour-blind readers can distinguish.
 BLACK, GREY, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILION, PURPLE = (
     "#000000", "#999999", "#e69f00", "#56b4e9", "#009e73", "#f0e442", "#0072b2", "#d55e00", "#cc79a7")
 KEY_ROW, TITLE_ROW = 14, 20  # pixels: the height of a line
@@ -34,7 +34,7 @@ def _quoted(text):
 
 
 def _ranges(panels):
-    """The same for all these panels; the first and last tick of y are its ends."""
+    """Ranges that fit all these panels; the range of y ends at ticks."""
     xs, ys = zip(*(point for panel in panels for curve in panel.curves for point in curve.points))
     x_range = f"set xrange [{min(xs) / 1.15:g}:{max(xs) * 1.15:g}]"
     if not panels[0].log_y:
@@ -62,8 +62,8 @@ def _commands(panel, number):
 
 
 def draw(path, title, rows, note, own_ranges=False):
-    """Writes path.svg and path.png: rows of panels, the title above, the note below. Each panel has the same
-    ranges as the others, or its own."""
+    """Writes path.svg and path.png: rows of panels, the title above, the note below. With own_ranges each panel
+    has its own ranges, else all have the same."""
     panels = [panel for row in rows for panel in row]
     columns = max(map(len, rows))
     keys = KEY_ROW * max(len(panel.curves) for panel in panels)  # between a title and its panel

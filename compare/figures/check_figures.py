@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """usage: check_figures.py FIGURES_MD FOLDER
 
-Fails unless each picture that the document embeds is in the folder, as SVG and PNG; is well-formed; and says
-what of it is projected, or that it is of one process or as computed. And unless the document embeds them all."""
+Fails unless the document embeds every picture of the folder, and each embedded picture is there as SVG and PNG, is
+well-formed, and says what is projected, or that nothing is, or that it is of one process."""
 import re
 import sys
 import xml.etree.ElementTree as ElementTree
@@ -25,7 +25,7 @@ def main():
             continue
         words = " ".join("".join(ElementTree.parse(svg).getroot().itertext()).split())
         if not any(note in words for note in NOTES):
-            wrong.append(f"{name}.svg does not say what of it is projected")
+            wrong.append(f"{name}.svg does not say what is projected")
         if not png.read_bytes().startswith(b"\x89PNG"):
             wrong.append(f"{name}.png is no PNG")
     if wrong or not embedded:

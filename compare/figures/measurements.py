@@ -11,17 +11,17 @@ FAMILIES = ("latlon", "random")
 
 @dataclass
 class Plan:
-    curve_sizes: tuple  # of one process
-    sizes: tuple        # of numbers of processes
-    constant_n: tuple   # those of `sizes` that are also drawn against the number of processes
-    work: int           # nodes a process, where that is constant
+    curve_sizes: tuple  # numbers of nodes for one process
+    sizes: tuple        # numbers of nodes for several processes
+    constant_n: tuple   # those of `sizes` that are drawn over the number of processes
+    work: int           # nodes per process in the figures of constant work
     ranks: tuple
     pictures: tuple     # of (nodes, processes)
     repeats: int
     curve_time_limit: float  # seconds of one measurement
-    time_limit: float        # the same, of numbers of processes and of the original beside them
-    generators: int          # of centroidal tessellations
-    evaluations: int         # of them, at most
+    time_limit: float        # the same for several processes, and for the original in these figures
+    generators: int          # generators of the centroidal tessellations
+    evaluations: int         # their largest number of evaluations
 
 
 FULL = Plan(curve_sizes=(100, 1000, 10_000, 100_000, 1_000_000, 10_000_000),
@@ -98,7 +98,7 @@ def _run_ours(plan, program, data):
 
 
 def _baseline(program, ranks, family, n, time_limit, *options):
-    """False: it did not come to its end in time. The history of the baseline wants nodes in random order."""
+    """False if it exceeded the time limit. Nodes are in random order, which keeps the baseline's history shallow."""
     command = [*_mpirun(ranks), program, "--points", family, "--n", n, "--shuffle", *options]
     with _run(command, stdout=sys.stderr) as process:
         try:
@@ -124,7 +124,7 @@ def _run_baseline(plan, program, data):
 
 
 def measure(plan, build, data):
-    """All measurements, into the folder `data`, whose CSV files are replaced."""
+    """Makes all measurements and replaces the CSV files in the folder `data`."""
     data.mkdir(parents=True, exist_ok=True)
     for old in data.glob("*.csv"):
         old.unlink()
@@ -133,13 +133,13 @@ def measure(plan, build, data):
     _run_ours(plan, scaling(build), data)
     baseline = next(filter(Path.is_file, build.rglob("stripe-baseline")), None)
     if baseline is None:
-        print("make-figures: no stripe-baseline in this build; the figures go without it", file=sys.stderr)
+        print("make-figures: this build has no stripe-baseline: the figures do not show it", file=sys.stderr)
     else:
         _run_baseline(plan, baseline, data)
 
 
 class Table:
-    """The rows of a CSV file; none where there is no file."""
+    """The rows of a CSV file; none if the file does not exist."""
 
     def __init__(self, path):
         self.rows = list(csv.DictReader(open(path, newline=""))) if path.exists() else []
@@ -148,8 +148,8 @@ class Table:
         return bool(self.rows)
 
     def points(self, x, y, **key):
-        """(x, y) of the rows where each column of the key has its value; y is a function of a row. Rows
-        without a figure are left out; of several with one x the last counts."""
+        """(x, y) of the rows whose columns have the values in key; y is a function of a row. Rows without a
+        figure are left out; of rows with equal x the last one counts."""
         found = {}
         for row in self.rows:
             if all(row[column] == str(value) for column, value in key.items()):
@@ -157,18 +157,18 @@ class Table:
         return [(a, b) for a, b in sorted(found.items()) if b > 0]
 
     def value(self, y, **key):
-        """y of the last row where each column of the key has its value; None without one, or without a figure."""
+        """y of the last row whose columns have the values in key; None if there is no such row or no figure."""
         rows = [row for row in self.rows if all(row[column] == str(value) for column, value in key.items())]
         return (rows and y(rows[-1])) or None
 
     def nearest_n(self, n, **key):
-        """The number of nodes nearest to n: grids have their natural counts."""
+        """The number of nodes nearest to n that was measured: grids have only certain numbers."""
         counts = [int(row["n"]) for row in self.rows if all(row[c] == str(v) for c, v in key.items())]
         return min(counts, key=lambda count: abs(count - n), default=n)
 
 
 def machine(data):
-    """What the benchmark has printed about the machine, by its words."""
+    """The benchmark's lines about the machine, by their first word."""
     with open(data / "machine.txt") as file:
         return dict(line.rstrip("\n").split(maxsplit=1) for line in file if line.strip() and line[0].isalpha()
                     and len(line.split(maxsplit=1)) == 2)

@@ -6,7 +6,7 @@ import subprocess
 from charts import PALETTE
 
 RADIUS, MARGIN, ABOVE, BELOW = 250, 12, 60, 30
-STITCHED, STITCHED_COLOUR = -1, "#333333"  # of no single owner
+STITCHED, STITCHED_COLOUR = -1, "#333333"  # a triangle without a single owner
 LATITUDE, LONGITUDE = math.radians(35), math.radians(20)  # of the eye
 
 
@@ -21,7 +21,7 @@ def read(path):
 
 
 def colours(triangles):
-    """A colour for each owner, if possible another one than those of the owners around it."""
+    """A colour for each owner, if possible different from those of the neighbouring owners."""
     owners_at, around = {}, {owner: set() for owner in triangles}
     for owner in triangles.keys() - {STITCHED}:
         for corner in (corner for corners in triangles[owner] for corner in corners):
@@ -33,7 +33,7 @@ def colours(triangles):
     chosen = {STITCHED: STITCHED_COLOUR}
     for owner in sorted(triangles.keys() - {STITCHED}):
         taken = [chosen.get(other) for other in around[owner]]
-        # As rarely as possible beside itself, else as rarely as possible at all.
+        # Choose the colour that is rarest among the neighbours, then the one that is rarest overall.
         chosen[owner] = min(PALETTE, key=lambda c: (taken.count(c), list(chosen.values()).count(c)))
     return chosen
 
@@ -47,7 +47,7 @@ def _sphere(triangles, centre_x, centre_y):
     eye = (math.cos(LATITUDE) * math.cos(LONGITUDE), math.cos(LATITUDE) * math.sin(LONGITUDE), math.sin(LATITUDE))
     north = tuple(eye[(i + 1) % 3] * east[(i + 2) % 3] - eye[(i + 2) % 3] * east[(i + 1) % 3] for i in range(3))
 
-    def place(p):  # in tenths: integers make a small file
+    def place(p):  # integers, in tenths of a pixel, keep the file small
         return round(10 * (centre_x + RADIUS * _dot(p, east))), round(10 * (centre_y - RADIUS * _dot(p, north)))
 
     def outline(corners):

@@ -1,5 +1,5 @@
 // A program that calls TRMESH, for the tests of record, replay and the check beside it:
-//   caller [r4] FAMILY N [CALLS [EXIT_CODE]]     CALLS times the same nodes; prints the codes
+//   caller [r4] FAMILY N [CALLS [EXIT_CODE]]     calls TRMESH CALLS times for the same nodes; prints IER
 //   caller crash                                 ends by a signal within the second call
 
 #include <cstdint>
@@ -23,8 +23,8 @@ std::int32_t trmesh(std::int32_t n, const float* x, const float* y, const float*
   return pstripack_trmesh_r4(n, x, y, z, list, lptr, lend, lnew);
 }
 
-/// Nodes of a family; or `two`; or random ones of which two coincide, three are collinear, one is not a
-/// number.
+/// Nodes of a family; `two` nodes; or random nodes of which two coincide, the first three are collinear, or
+/// one is not a number.
 std::vector<pstripack::Point> nodes(const std::string& family, std::size_t n) {
   if (family == "two") return {{1, 0, 0}, {0, 1, 0}};
   const bool is_family = family != "duplicate" && family != "collinear" && family != "nan";
@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
   if (words.at(0) == "crash") {
     call<double>(point_sets::make("random", 100));
-    // A program whose LIST is missing: TRMESH ends by a signal, after the input was recorded.
+    // LIST is a null pointer: a signal ends TRMESH after the input has been recorded.
     std::vector<double> x, y, z;
     for (const auto& p : point_sets::make("random", 100))
       x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);

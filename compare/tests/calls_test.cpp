@@ -16,7 +16,7 @@ namespace {
 
 using pstripack::BlockHeader;
 
-/// A file of these bytes, gone at the end.
+/// A temporary file with these bytes.
 class File {
  public:
   explicit File(const std::string& contents) {
@@ -65,7 +65,7 @@ BlockHeader output_header(std::int64_t call = 1) {
 }
 std::string output(std::int64_t call = 1) { return block(output_header(call), kLists); }
 
-/// What is said of a file of these bytes.
+/// The error for a file with these bytes.
 std::string error(const std::string& contents) {
   const File file(contents);
   try {

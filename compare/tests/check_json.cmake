@@ -1,4 +1,4 @@
-# Fails unless JSON parses and says what an explained comparison must say.
+# Fails unless the file JSON parses and reports two runs, the same bytes and no broken promise.
 cmake_minimum_required(VERSION 3.25)
 file(READ ${JSON} text)
 string(JSON exit_code GET "${text}" exit_code)

@@ -12,7 +12,7 @@ namespace {
 
 using pstripack::Point;
 
-/// What a call on the points returns.
+/// The result of a call for these points.
 OurRun called(const std::vector<Point>& points) {
   std::vector<double> x, y, z;
   for (const Point& p : points) x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
@@ -53,7 +53,7 @@ TEST_F(Comparison, OfEqualMeshesIsEqual) {
 TEST_F(Comparison, CountsOtherBytesAgainstUs) {
   OurRun other = run_;
   other.threads = 2;
-  other.lists.lptr.back() = 1;  // not in use: the mesh is the same
+  other.lists.lptr.back() = 1;  // an unused slot: the mesh is the same
   const Result result = compare(points_, original_, 0x1p-52, {run_, other}, 5);
   EXPECT_TRUE(result.against_us());
   ASSERT_EQ(result.broken_promises.size(), 1u);

@@ -31,8 +31,8 @@ Verdict invalid(Defect defect) {
   return verdict;
 }
 
-// A pyramid's top: nodes 0..3 around the north pole, counterclockwise, and node 4 at the south pole. Below
-// them four triangles; above them two, with the diagonal 0-2 or 1-3.
+// Nodes 0..3 counterclockwise around the north pole, node 4 at the south pole. Four triangles meet at node 4;
+// two, with the diagonal 0-2 or 1-3, cover the north pole.
 std::vector<Point> pyramid() {
   const double s = 0.6, c = 0.8;
   return {{s, 0, c}, {0, s, c}, {-s, 0, c}, {0, -s, c}, {0, 0, -1}};
@@ -80,7 +80,7 @@ TEST(differences, where_four_nodes_are_in_one_plane_are_an_exact_tie) {
   EXPECT_EQ(d.decisions[0].nodes, (std::vector<pstripack::index_t>{1, 3, 0, 2}));
 }
 
-// The points, turned into a general position: what was exact is so only up to rounding.
+// The points rotated: exact ties become ties up to rounding.
 std::vector<Point> turned(std::vector<Point> points, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   for (Point& p : points) {
@@ -129,7 +129,7 @@ TEST(differences, count_against_us_whenever_our_mesh_fails_the_validator) {
 
 TEST(differences, that_only_the_lengths_decide_are_named_so) {
   std::vector<Point> points = pyramid();
-  for (double* c : {&points[0].x, &points[0].y, &points[0].z}) *c *= 0.999;  // lower, same direction
+  for (double* c : {&points[0].x, &points[0].y, &points[0].z}) *c *= 0.999;  // shorter, same direction
   points[2].z = std::nextafter(points[2].z, 1);  // on directions 0-2 is right; as given 1-3
   Verdict directions;
   directions.lengths = pstripack::Lengths::directions;

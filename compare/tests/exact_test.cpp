@@ -40,8 +40,8 @@ TEST(swap_test, is_exact_far_below_one_rounding) {
   EXPECT_EQ(left_test({1e300, 0, 0}, {0, 1e300, 0}, {0, 0, 1e300}).value(), "1.0000e+900");
 }
 
-// Where the computed sign is not the exact one, the exact value is within the bound; and the bound is
-// not so large that it would explain everything.
+// If the computed sign is wrong, the exact value is within the bound. The bound must also be small enough not
+// to explain everything.
 template <class Real>
 void rounding_is_bounded() {
   std::mt19937_64 random(7);

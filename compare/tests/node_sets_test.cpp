@@ -43,26 +43,6 @@ TEST(rounding_to_single, gives_the_nearest_numbers) {
   EXPECT_EQ(points[0], (Point{0.1f, -0.25, 1}));
 }
 
-TEST(list_of_families, in_the_documentation_is_that_of_the_program) {
-  std::ifstream document(DOCS_DIR "/point-sets.md");
-  ASSERT_TRUE(document);
-  std::vector<std::string> documented;
-  bool in_table = false;
-  for (std::string line; std::getline(document, line);) {
-    if (line == "| --- | --- | --- | --- |")
-      in_table = true;
-    else if (in_table && line.rfind("| ", 0) == 0)
-      documented.push_back(line);
-    else
-      in_table = false;
-  }
-  std::vector<std::string> expected;
-  for (const point_sets::Family& f : point_sets::registry())
-    expected.push_back("| " + f.name + " | " + f.parameter + (f.parameter.empty() ? "" : " ") + "| " +
-                       f.nodes + " | " + f.what + " |");
-  EXPECT_EQ(documented, expected);
-}
-
 std::string error_of(const std::string& file) {
   try {
     read_nodes(file);

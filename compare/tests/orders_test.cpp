@@ -43,7 +43,8 @@ TEST(Orders, EndsAlternate) {
     EXPECT_EQ(nodes[i].z > nodes[i - 2].z, i % 2 == 0) << i;  // from the south, from the north
 }
 
-// On the cylinder (longitude, z), whose side is 1: Morton's curve jumps, Hilbert's goes from cell to cell.
+// On the cylinder (longitude, z), scaled to a unit square: Hilbert's curve goes from cell to cell, Morton's
+// jumps.
 TEST(Orders, CurvesGoFromNeighbourToNeighbour) {
   constexpr double kPi = 3.14159265358979323846;
   const auto longest_step = [](const std::string& order) {
@@ -61,7 +62,7 @@ TEST(Orders, CurvesGoFromNeighbourToNeighbour) {
   EXPECT_LT(longest_step("morton"), 1);
 }
 
-// 1000 nodes: some 22 rows, so the longitude starts anew some 21 times, and the rows rise.
+// 1000 nodes are some 22 rows: the longitude restarts some 21 times, and the latitude of the rows increases.
 TEST(Orders, RowsRunAlongTheLongitude) {
   const auto nodes = benchmark::nodes_in_order("random", 1000, "rows");
   int rows = 1;

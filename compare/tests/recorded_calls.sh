@@ -15,7 +15,7 @@ fail() {
   for file in out err; do [ -s $file ] && { echo "--- $file"; cat $file; }; done
   exit 1
 }
-# expect CODE COMMAND...: its exit code; its output is then in the files out and err
+# expect CODE COMMAND...: fails unless the command ends with this exit code; its output is in the files out and err
 expect() {
   expected=$1
   shift
@@ -23,7 +23,7 @@ expect() {
   code=$?
   [ $code -eq "$expected" ] || fail "exit code $code of: $*"
 }
-# prints FILE LINE: exactly this line; says FILE TEXT: somewhere
+# prints FILE LINE: the file has exactly this line; says FILE TEXT: it contains the text
 prints() { grep -qxF -- "$2" "$1" || fail "$1 lacks the line: $2"; }
 says() { grep -qF -- "$2" "$1" || fail "$1 does not say: $2"; }
 recorded() {
@@ -129,7 +129,7 @@ replay)
   prints out "call 2: n = 100: no result on record, run again: equal"
   ;;
 original_order)
-  # Lists in the original's order are compared slot by slot; under bitwise their mesh may be wrong.
+  # Lists in the original's order are compared slot by slot. Under bitwise their mesh may be wrong.
   for set in "random 500" "latlon 500" "latlon 1000" "collinear 100"; do
     # shellcheck disable=SC2086
     PSTRIPACK_ORDER=bitwise-ngmath recorded calls.rec $set
@@ -137,14 +137,14 @@ original_order)
   expect 0 "$COMPARE" replay calls.rec
   [ "$(grep -c ': same bytes$' out)" -eq 3 ] || fail "not three of the same bytes"
   prints out "4 calls, 4 equal"
-  # Other lists: LIST(1) changed, byte 104 + 2400 + 104.
+  # LIST(1), at byte 104 + 2400 + 104, is changed.
   PSTRIPACK_ORDER=bitwise-ngmath recorded other.rec random 100
   printf '\377' | dd of=other.rec bs=1 seek=2608 conv=notrunc 2> dd.err
   expect 1 "$COMPARE" replay other.rec
   prints out "1 call, 1 WE ARE WRONG"
   ;;
 against_us)
-  # A recording whose lists were changed: LIST(1) of the first result, byte 104 + 2400 + 104.
+  # LIST(1) of the first result, at byte 104 + 2400 + 104, is changed.
   recorded calls.rec random 100
   printf '\377' | dd of=calls.rec bs=1 seek=2608 conv=notrunc 2> dd.err
   expect 1 "$COMPARE" replay calls.rec
@@ -175,7 +175,7 @@ faulty_originals)
 other_abi)
   recorded r8.rec random 100
   recorded r4.rec r4 random 100
-  # finds RECORDING LIBRARY ABI: without being told
+  # finds RECORDING LIBRARY ABI: replay detects the ABI
   finds() {
     expect 0 "$COMPARE" replay "$1" --original "$2"
     prints out "original: $2 ($3)"
@@ -198,14 +198,14 @@ other_abi)
   done
   expect 0 "$COMPARE" replay r8.rec --library "$LIBRARY_I8"
   prints out "call 1: n = 100: same bytes"
-  # A choice that the library contradicts, and one that there is not.
+  # A chosen ABI that the library does not have, and one that does not exist.
   expect 2 "$COMPARE" replay r8.rec --original "$ORIGINAL_8ARG" --original-abi r8
   prints err "stripack-compare: $ORIGINAL_8ARG: its TRMESH answers to ABI 8arg: REAL*8, INTEGER*4, TRMESH with 8 arguments, not to r8: REAL*8, INTEGER*4, TRMESH with 12 arguments"
   expect 2 "$COMPARE" replay r8.rec --original "$ORIGINAL" --original-abi r16
   says err "unknown ABI 'r16'"
-  # Nothing found: the kinds of the recording, or those chosen.
+  # No ABI detected: that of the recording, or the chosen one, is used.
   expect 0 "$COMPARE" replay r4.rec --original "$CRASHES"
-  says err "$CRASHES: its ABI cannot be found out, for TRMESH does not triangulate six nodes: with REAL*4 it crashed (signal 11"
+  says err "$CRASHES: its ABI cannot be detected, since TRMESH does not triangulate six nodes: with REAL*4 it crashed (signal 11"
   says err "It is called as r4: REAL*4, INTEGER*4, TRMESH with 12 arguments, which --original-abi, or abi= in PSTRIPACK_CHECK, overrides"
   expect 0 "$COMPARE" replay r4.rec --original "$CRASHES" --original-abi i8-8arg
   prints out "original: $CRASHES (i8-8arg: REAL*8, INTEGER*8, TRMESH with 8 arguments)"
@@ -218,7 +218,7 @@ beside)
   says err "]: 2 calls, 2 explained"
   PSTRIPACK_CHECK="lib:$HANGS,timeout=0.2,log=log" expect 0 "$CALLER" random 500 2
   [ ! -s err ] || fail "not to the log"
-  says log "its ABI cannot be found out"
+  says log "its ABI cannot be detected"
   says log "]: 2 calls, 2 no result of the original"
   for library in "$ORIGINAL_8ARG" "$ORIGINAL_CS" "$LIBRARY_I8"; do
     PSTRIPACK_CHECK="lib:$library" expect 0 "$CALLER" random 500 2
@@ -228,7 +228,7 @@ beside)
   PSTRIPACK_CHECK="lib:$ORIGINAL_8ARG,abi=r8" expect 0 "$CALLER" random 50000 3
   says err "its TRMESH answers to ABI 8arg"
   says err "stripack-compare has ended; calls are not checked from here on"
-  # A model that is killed: the check of what it has sent ends by itself.
+  # The model is killed: the check of the calls it has sent still ends.
   PSTRIPACK_CHECK=lib:,log=killed.log "$CALLER" crash > out 2> err
   waited=0
   until grep -q "2 calls, 2 equal" killed.log; do

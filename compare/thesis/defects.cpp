@@ -23,7 +23,7 @@ std::size_t next(std::size_t edge) { return edge % 3 == 2 ? edge - 2 : edge + 1;
 std::size_t previous(std::size_t edge) { return edge % 3 == 0 ? edge + 2 : edge - 1; }
 index_t corner(const Triangles& triangles, std::size_t edge) { return triangles[edge / 3][edge % 3]; }
 
-/// For each edge the same one seen from its other triangle, or kNone.
+/// For each edge the same edge in its other triangle, or kNone.
 struct Twins {
   std::vector<std::size_t> of;
   std::size_t boundary = 0, non_manifold = 0;
@@ -68,10 +68,10 @@ double area(const std::vector<Point>& points, const Triangles& triangles) {
   return static_cast<double>(sum);
 }
 
-/// The rounding of coordinates alone moves a node this far off the plane of cocircular nodes.
+/// Rounding of coordinates can move a node this far off the plane of cocircular nodes.
 constexpr double kTie = 1e-14;
 
-/// Of d above the plane of a, b, c.
+/// The height of d above the plane of a, b, c.
 double height(const std::vector<Point>& points, index_t a, index_t b, index_t c, index_t d) {
   const auto from_a = [&](index_t v) {
     return minus(points[static_cast<std::size_t>(v)], points[static_cast<std::size_t>(a)]);

@@ -12,7 +12,7 @@ DelaunayTree::DelaunayTree(const Point& a, const Point& b, const Point& c) : poi
 }
 
 void DelaunayTree::insert(const Point& p) {
-  // 2.4 GB: it ends here, not in the system's hands.
+  // 2.4 GB: fail here rather than be killed by the system.
   constexpr std::size_t kMostTriangles = std::size_t{1} << 26;
   if (history_.size() > kMostTriangles) throw Failure("the history has grown to 2^26 triangles");
   const index_t t = locate(p);
@@ -22,8 +22,9 @@ void DelaunayTree::insert(const Point& p) {
   legalize(v);
 }
 
-// As printed: down the history, into the child that contains p. On a line of the new edges rounding can deny
-// p to every child; then, which is not in the thesis, into the child that p is least outside of.
+// As printed: go down the history into the child that contains p. If p lies on a new edge, rounding can
+// exclude it from every child; then, which is not in the thesis, go into the child that p is least outside
+// of.
 index_t DelaunayTree::locate(const Point& p) {
   index_t t = depth_inside(0, p) >= 0 ? 0 : 1;
   while (!is_current(t)) {
@@ -61,7 +62,8 @@ void DelaunayTree::split(index_t t, index_t p) {
   const auto [vertex, neighbour] = tri(t);
   const auto first = static_cast<index_t>(history_.size());
   for (index_t i = 0; i < 3; ++i) {
-    // (p, b, c): opposite p what was opposite a, opposite b the next new one (p, c, a), opposite c the third.
+    // Neighbours of (p, b, c): opposite p that of t opposite a, opposite b the new (p, c, a), opposite c (p,
+    // a, b).
     const std::size_t b = (i + 1) % 3, c = (i + 2) % 3;
     add({{p, vertex[b], vertex[c]},
          {neighbour[static_cast<std::size_t>(i)], first + (i + 1) % 3, first + (i + 2) % 3}});
@@ -73,7 +75,7 @@ void DelaunayTree::split(index_t t, index_t p) {
 
 // Flips until no point lies in the circle of a triangle opposite the new point.
 void DelaunayTree::legalize(index_t p) {
-  // Each flip adds an edge at p, and there are no more ends for it than vertices.
+  // Each flip adds an edge from p to another vertex, so there are fewer flips than vertices.
   std::size_t flips_left = points_.size();
   while (!suspects_.empty()) {
     const index_t t = suspects_.back();
@@ -103,7 +105,7 @@ void DelaunayTree::flip(index_t t, index_t opposite) {
   const auto [v, n] = tri(t);
   const Tri o = tri(opposite);
   const index_t p = v[0], b = v[1], c = v[2];
-  const std::size_t k = corner_off(opposite, b, c);  // where the opposite triangle (d, c, b) begins
+  const std::size_t k = corner_off(opposite, b, c);  // index of corner d in the opposite triangle (d, c, b)
   const index_t d = o.vertex[k], across_bd = o.neighbour[(k + 1) % 3], across_dc = o.neighbour[(k + 2) % 3];
   const auto left = static_cast<index_t>(history_.size()), right = left + 1;
   add({{p, b, d}, {across_bd, right, n[2]}});

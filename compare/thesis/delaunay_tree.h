@@ -1,5 +1,5 @@
 #pragma once
-// Lawson's insertion, which finds the triangle of a new point in the history of all splits and flips
+// Lawson's insertion. It finds the triangle of a new point in the history of all splits and flips
 // (Delaunay tree: Boissonnat & Teillaud 1986; Guibas, Knuth & Sharir 1992).
 
 #include <array>
@@ -14,7 +14,7 @@ namespace thesis {
 using pstripack::index_t;
 constexpr index_t kNone = -1;
 
-/// Rounding led to a state that the method does not handle, or a limit was reached.
+/// Rounding led to a state that the method does not handle, or a limit was exceeded.
 struct Failure : std::runtime_error {
   using runtime_error::runtime_error;
 };
@@ -32,8 +32,8 @@ struct Tri {
 };
 
 struct TreeCounts {
-  std::size_t steps = 0;    ///< down the history
-  std::size_t rescued = 0;  ///< of these, where rounding left no child that contains the point
+  std::size_t steps = 0;    ///< steps down the history
+  std::size_t rescued = 0;  ///< steps where rounding left no child that contains the point
   std::size_t flips = 0;
 
   void operator+=(const TreeCounts& c) { steps += c.steps, rescued += c.rescued, flips += c.flips; }
@@ -45,7 +45,7 @@ class DelaunayTree {
   /// first is the one on the left of a -> b -> c. Vertices 0, 1, 2.
   DelaunayTree(const Point& a, const Point& b, const Point& c);
 
-  /// Adds a vertex; the numbers count on from 3. Throws Failure.
+  /// Adds a vertex; the first one has number 3. Throws Failure.
   void insert(const Point& p);
 
   const std::vector<Tri>& history() const { return history_; }
@@ -63,9 +63,9 @@ class DelaunayTree {
   void legalize(index_t p);
   Circle circle_of(index_t t) const;
   index_t add(const Tri& tri);
-  /// Which corner of t is not an end of its edge b c.
+  /// The index of the corner of t that is not an end of its edge b c.
   std::size_t corner_off(index_t t, index_t b, index_t c) const;
-  /// Across edge b c.
+  /// Sets the neighbour of t across its edge b c.
   void set_neighbour(index_t t, index_t b, index_t c, index_t neighbour);
 
   Tri& tri(index_t t) { return history_[static_cast<std::size_t>(t)]; }
@@ -74,8 +74,8 @@ class DelaunayTree {
   const Point& point(index_t v) const { return points_[static_cast<std::size_t>(v)]; }
 
   std::vector<Point> points_;
-  std::vector<Tri> history_;       // all triangles that ever were; a child stands behind its parents
-  std::vector<Children> child_;    // 3 after a split, 2 after a flip, none: a triangle of today
+  std::vector<Tri> history_;       // all triangles so far; a child comes after its parents
+  std::vector<Children> child_;    // 3 after a split, 2 after a flip, 0 for a current triangle
   std::vector<index_t> suspects_;  // triangles (p, b, c) whose edge b c is to be tested
   TreeCounts counts_;
 };

@@ -8,20 +8,21 @@
 //   3  stitch       to the right side of the left neighbour's stripe, Algorithm 5.3         stitch.h, ring.h
 //   4  gather       all triangles at the root                                               ring.h
 //
-// Processes wait at two places: for the left neighbour before 3, the root for everybody in 4.
+// Processes wait twice: for the left neighbour before 3, and the root for all processes in 4.
 //
 // Known weaknesses of the method:
-//   - Stitching keeps every triangle of both stripes, whatever nodes of the other one lie in its circle: the
+//   - Stitching keeps every triangle of both stripes, even if a node of the other stripe lies in its circle:
 //     triangles along borders are not Delaunay.
-//   - Stitching looks at circles only: where sides are ragged, triangles come out inverted.
-//   - Sides run from a stripe's southernmost to its northernmost node. What lies between those nodes of all
-//     stripes, around the poles, is covered by none.
+//   - Stitching tests circles only: where sides are ragged, triangles are inverted.
+//   - Sides run from a stripe's southernmost to its northernmost node. The areas around the poles, between
+//   these
+//     nodes of all stripes, are not covered.
 //   - Tests are floating point. Nodes on common great circles, as on a grid, can end up in a wrong triangle.
-//   - Removing the huge vertices removes the flattest triangles along the sides with them.
+//   - Removing the huge vertices also removes the flattest triangles along the sides.
 //   - Stripes must be narrower than a hemisphere: three or more (the thesis asks for four). From one or two,
 //     the nodes surround the huge vertices, and what remains has holes instead of sides.
-//   - The history is as deep as the order of the nodes makes it; latitude-longitude order is a bad one.
-//   - Near the poles stripes are thinner than the distance of the nodes.
+//   - The depth of the history depends on the order of the nodes; row after row of a grid is a bad order.
+//   - Near the poles stripes are narrower than the distance between nodes.
 //
 // The check and the repair (defects.h) are not part of the method.
 
@@ -61,13 +62,14 @@ struct Options {
 enum Phase { kPick, kTriangulate, kStitch, kGather, kPhases };
 constexpr const char* kPhaseNames[] = {"pick", "triangulate", "stitch", "gather"};
 
-/// One call. Seconds: `cpu` of this rank, with threads of the slowest one; of the clock since all ranks
-/// started together.
+/// The times of one call in seconds. `cpu`: processor time of this rank, or of its slowest thread; the
+/// others: clock time since all ranks started together.
 struct Call {
   double cpu[kPhases] = {}, triangulated = 0, total = 0;
 };
 
-/// What the root has gathered; elsewhere empty. `owner`: the rank that made the triangle, -1: stitched.
+/// The mesh gathered at the root; empty on other ranks. `owner`: the rank that made the triangle; -1:
+/// stitched.
 struct Gathered {
   Triangles triangles;
   std::vector<int> owner;
@@ -85,7 +87,7 @@ std::string status_of(const Stripe& stripe, std::size_t nodes) {
   return "";
 }
 
-/// The method, on every rank. What goes wrong in a stripe is its status; a rank without memory ends the job.
+/// The method, on every rank. The status says what failed in a stripe; a rank without memory ends the job.
 Gathered run(const Ring& ring, const Options& options, const std::vector<Point>& points,
              Call& call) noexcept {
   ring.barrier();
@@ -116,7 +118,7 @@ Gathered run(const Ring& ring, const Options& options, const std::vector<Point>&
     stripe.stitched.insert(stripe.stitched.end(), between.begin(), between.end());
   });
 
-  ring.barrier();  // else the processor time of gathering would be that of waiting
+  ring.barrier();  // keeps waiting out of the processor time of gathering
   Gathered all;
   std::vector<std::size_t> patches, stitches;
   timed(kGather, [&] {
@@ -142,8 +144,8 @@ Gathered run(const Ring& ring, const Options& options, const std::vector<Point>&
   return all;
 }
 
-/// Of every rank and phase the median over the calls; of these the slowest rank, as pstripack-scaling does
-/// it. Collective; counts at the root.
+/// For every phase the time of the slowest rank, each rank's time being the median over the calls, as in
+/// pstripack-scaling. Collective; counts at the root.
 Call slowest(const Ring& ring, const std::vector<Call>& mine) {
   std::vector<std::size_t> begin;
   const std::vector<Call> all = ring.gather(mine, begin);
@@ -219,7 +221,7 @@ void print(const Options& options, const Report& r) {
   row("status", "", r.status.empty() ? "ok" : r.status);
 }
 
-/// An output file that says so if it could not be written.
+/// An output file; reports if it cannot be written.
 class File {
  public:
   File(const std::string& name, std::ios::openmode mode) : name_(name), out_(name, mode) { check(); }
@@ -306,13 +308,13 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--threads", options.threads, "stripes per process, each on its own thread")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  app.add_option("--repeats", options.repeats, "number of calls, of whose times the median is taken")
+  app.add_option("--repeats", options.repeats, "number of calls; their median time is shown")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   app.add_flag("--shuffle", options.shuffle,
                "insert the nodes of a stripe in random order instead of the given one");
   app.add_flag("--check", options.check, "count the defects of the mesh exactly");
-  app.add_flag("--repair", options.repair, "then flip arcs until all are locally Delaunay; holes stay");
+  app.add_flag("--repair", options.repair, "then flip arcs until all are locally Delaunay; holes remain");
   app.add_option("--csv", options.csv, "append one line to this file; a new one gets a header");
   app.add_option("--triangles", options.triangles, "write three node numbers per triangle, after the repair");
   app.add_option(

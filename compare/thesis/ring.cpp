@@ -8,7 +8,7 @@
 namespace thesis {
 namespace {
 
-/// Without keeping the processor busy: ranks share processors, and their processor time is measured.
+/// Waits without using the processor: ranks share processors, and their processor time is measured.
 template <int count>
 void wait(MPI_Request (&requests)[count]) {
   for (int done = 0;;) {

@@ -1,5 +1,5 @@
 #pragma once
-// The processes: the only file of the method that knows MPI.
+// The processes; the method calls MPI only here.
 
 #include <string>
 #include <vector>
@@ -20,10 +20,10 @@ class Ring {
   bool is_root() const { return rank_ == 0; }
 
   void barrier() const;
-  /// Sends `right` to the right neighbour; returns what the left neighbour sent. Waits for no one else.
+  /// Sends `right` to the right neighbour and returns what the left neighbour sent. Waits for no other rank.
   Chain from_left(const Chain& right) const;
-  /// Collective. At the root the items of all ranks, in the order of the ranks, and where each rank's begin;
-  /// elsewhere empty.
+  /// Collective. Returns at the root the items of all ranks, in the order of the ranks, and where each rank's
+  /// items begin; empty on other ranks.
   template <class Item>
   std::vector<Item> gather(const std::vector<Item>& mine, std::vector<std::size_t>& begin) const {
     begin = gather_sizes(mine.size());

@@ -1,5 +1,5 @@
 #pragma once
-// The two tests of the thesis, in floating point as printed: nothing guards them against rounding.
+// The two tests of the thesis, in floating point as printed, without protection against rounding.
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@ struct Circle {
 };
 
 /// The circle through three points, around the left-hand side of pi -> pj -> pk.
-/// Points in one place give not-a-number, and nothing lies inside.
+/// If points coincide it is not-a-number, and no point lies inside.
 inline Circle circumcircle(const Point& pi, const Point& pj, const Point& pk) {
   const Point c = cross(minus(pj, pi), minus(pk, pi));
   const double length = std::sqrt(dot(c, c));

@@ -3,12 +3,11 @@
 namespace thesis {
 
 //    stripe |          | stripe      The base climbs from (l1, r1). If pr lies in the circle through base and
-//          pl ........ pr            pl, the triangle on it is (lbase, rbase, pr) and r goes on to pr; else
-//          it
-//           |  .    .  |             is (lbase, rbase, pl) and l goes on to pl. At the end of one chain the
-//           |    ..    |             rest of the other is joined to its last node.
-//       lbase -------- rbase         Nothing that either stripe holds is ever looked at or changed: its
-//           |   done   |             triangles stay, whatever nodes the other one has in their circles.
+//          pl ........ pr            pl, the next triangle is (lbase, rbase, pr) and r goes on to pr;
+//           |  .    .  |             else it is (lbase, rbase, pl) and l goes on to pl. At the end of one
+//           |    ..    |             chain the rest of the other is joined to its last node.
+//       lbase -------- rbase         The triangles inside the stripes are neither tested nor changed.
+//           |   done   |
 //          l1 -------- r1
 //
 pstripack::Triangles stitch(const std::vector<Point>& points, const Chain& left, const Chain& right) {

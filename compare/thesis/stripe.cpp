@@ -11,16 +11,16 @@ namespace thesis {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr std::size_t kRoot = 3;  // of the vertices of a DelaunayTree the first three are huge
+constexpr std::size_t kRoot = 3;  // the first three vertices of a DelaunayTree are huge
 
 using pstripack::clock_seconds;
 
-/// The vertices around the triangles to be removed, counterclockwise around the rest. A vertex occurs twice
-/// where the rest hangs together by it alone. Empty if the triangles to be removed are not in one piece.
+/// The vertices around the triangles to be removed, counterclockwise around the remaining ones. A vertex that
+/// alone connects two parts of these occurs twice. Empty if the triangles to be removed are not in one piece.
 ///
-///       h ----- h         Triangles with both kinds of corners, h huge, form a ring. Each is left through
-///      / \     / \        the edge from its h to a real corner, corners counterclockwise: from c to b,
-///     /   \   /   \       which the second triangle keeps, to a.
+///       h ----- h         Triangles with both kinds of corners, h huge, form a ring. The walk leaves each
+///      / \     / \        triangle by the edge that leads, counterclockwise, from its h to a real corner:
+///     /   \   /   \       from c to b, in the second triangle still b, then to a.
 ///    a --- b ----- c
 ///
 Chain outline(const DelaunayTree& tree) {

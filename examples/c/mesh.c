@@ -1,4 +1,4 @@
-/* 1000 nodes on the unit sphere, their triangles and the area of these.
+/* Triangulates 1000 nodes on the unit sphere and adds up the areas of the triangles.
  *
  * $ cc mesh.c -o mesh $(pkg-config --cflags --libs pstripack) -lm
  * $ ./mesh
@@ -12,7 +12,7 @@ enum { N = 1000 };
 static double x[N], y[N], z[N];
 static int32_t list[6 * N - 12], lptr[6 * N - 12], lend[N], lnew;
 
-/* Of nodes i, j, k, which count from 1 (Van Oosterom and Strackee). */
+/* Area of the triangle of nodes i, j, k, numbered from 1 (Van Oosterom and Strackee). */
 static double area_of(int32_t i, int32_t j, int32_t k) {
   const double a[] = {x[i - 1], y[i - 1], z[i - 1]};
   const double b[] = {x[j - 1], y[j - 1], z[j - 1]};
@@ -39,9 +39,9 @@ int main(void) {
     return EXIT_FAILURE;
   }
 
-  /* Node k, a neighbour and the next one, counterclockwise, are a triangle. It has three corners: k is the
-   * smallest. (On a hemisphere the last neighbour of a boundary node is negated, and forms none with the
-   * first.) */
+  /* Node k and two consecutive neighbours form a triangle. Count it only at its smallest corner. (If the
+   * nodes lie in a hemisphere, the last neighbour of a boundary node is negative and forms no triangle with
+   * the first.) */
   int triangles = 0;
   double area = 0;
   for (int32_t k = 1; k <= N; ++k) {

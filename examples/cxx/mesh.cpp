@@ -1,4 +1,4 @@
-// 1000 nodes on the unit sphere, their triangles and the area of these; built by CMake.
+// Triangulates 1000 nodes on the unit sphere and adds up the areas of the triangles; built by CMake.
 //
 // $ cmake -B build
 // $ cmake --build build
@@ -28,8 +28,8 @@ std::vector<Triangle> triangulate(const Nodes& nodes) {
                                             lptr.data(), lend.data(), &lnew);
   if (ier != PSTRIPACK_OK) throw std::runtime_error(pstripack_strerror(ier));
 
-  // Node k, a neighbour and the next one, counterclockwise, are a triangle. It has three corners: k is the
-  // smallest. (On a hemisphere the last neighbour of a boundary node is negated, and forms none with the
+  // Node k and two consecutive neighbours form a triangle. List it only at its smallest corner. (If the nodes
+  // lie in a hemisphere, the last neighbour of a boundary node is negative and forms no triangle with the
   // first.)
   std::vector<Triangle> triangles;
   triangles.reserve(2 * n - 4);
@@ -45,7 +45,7 @@ std::vector<Triangle> triangulate(const Nodes& nodes) {
   return triangles;
 }
 
-// On the unit sphere (Van Oosterom and Strackee).
+// Area on the unit sphere (Van Oosterom and Strackee).
 double area(const Nodes& nodes, const Triangle& t) {
   const auto& [x, y, z] = nodes;
   const auto dot = [&](int i, int j) { return x[i] * x[j] + y[i] * y[j] + z[i] * z[j]; };

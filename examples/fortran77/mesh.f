@@ -1,5 +1,5 @@
-C     1000 nodes on the unit sphere, their triangles and the area of
-C     these: a program in FORTRAN 77, as it would call STRIPACK.
+C     Triangulates 1000 nodes on the unit sphere and adds up the areas
+C     of the triangles, in FORTRAN 77 with the calls of STRIPACK.
 C
 C     $ gfortran mesh.f -o mesh $(pkg-config --libs stripack)
 C     $ ./mesh

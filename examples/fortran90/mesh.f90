@@ -1,5 +1,5 @@
-! 1000 nodes on the unit sphere, their triangles and the area of these: Fortran 90 with STRIPACK's calls,
-! whose arguments the module checks.
+! Triangulates 1000 nodes on the unit sphere and adds up the areas of the triangles: Fortran 90 with STRIPACK's
+! calls, whose arguments the module checks.
 !
 ! $ gfortran mesh.f90 -o mesh $(pkg-config --cflags --libs stripack)
 ! $ ./mesh

@@ -1,4 +1,4 @@
-! 1000 nodes on the unit sphere, their triangles and the area of these: the module pstripack.
+! Triangulates 1000 nodes on the unit sphere and adds up the areas of the triangles: the module pstripack.
 !
 ! $ gfortran mesh.f90 -o mesh $(pkg-config --cflags --libs pstripack_fortran)
 ! $ ./mesh
@@ -26,8 +26,8 @@ program mesh
     error stop
   end if
 
-  ! Node k, a neighbour and the next one, counterclockwise, are a triangle. It has three corners: k is the
-  ! smallest. (On a hemisphere the last neighbour of a boundary node is negated: none with the first.)
+  ! Node k and two consecutive neighbours form a triangle. Count it only at its smallest corner. (If the nodes lie in
+  ! a hemisphere, the last neighbour of a boundary node is negative and forms no triangle with the first.)
   triangles = 0
   area = 0
   do k = 1, n
@@ -51,7 +51,7 @@ contains
     node = [x(i), y(i), z(i)]
   end function
 
-  ! Of unit vectors (Van Oosterom and Strackee).
+  ! Area of the triangle of unit vectors (Van Oosterom and Strackee).
   pure real(real64) function spherical_area(a, b, c)
     real(real64), intent(in) :: a(3), b(3), c(3)
     real(real64) :: b_cross_c(3)

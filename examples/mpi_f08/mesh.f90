@@ -1,5 +1,5 @@
-! 1000 nodes on the unit sphere, their triangles and the area of these: each rank has some of the nodes, and
-! gets the neighbours of those. No rank has all.
+! Triangulates 1000 nodes on the unit sphere and adds up the areas of the triangles. Each rank has a part of the
+! nodes and receives their neighbours; no rank has all nodes.
 !
 ! $ mpifort mesh.f90 -o mesh $(pkg-config --cflags --libs pstripack_mpi_fortran)
 ! $ mpirun -n 4 ./mesh
@@ -44,7 +44,7 @@ program mesh
   if (ier /= 0) error stop 'local_stars'
   call take_in_halo
 
-  ! A triangle has three corners: it counts where the smallest one is owned.
+  ! Count a triangle only on the rank that owns its smallest corner.
   area = 0
   do i = 1, own
     do s = begin(i), begin(i + 1) - 1
@@ -70,7 +70,7 @@ contains
     xyz = reshape([xyz, halo_xyz], [3, size(number)])
   end subroutine
 
-  ! Of unit vectors (Van Oosterom and Strackee).
+  ! Area of the triangle of unit vectors (Van Oosterom and Strackee).
   pure real(real64) function spherical_area(a, b, c)
     real(real64), intent(in) :: a(3), b(3), c(3)
     real(real64) :: b_cross_c(3)

@@ -1,9 +1,9 @@
-C     CSTRMESH of NCAR Graphics by PSTRIPACK. A program that is linked
-C     with libngmath, CSTRMESH here before it:
+C     CSTRMESH of NCAR Graphics by PSTRIPACK. For a program linked with
+C     libngmath, put this file before the library:
 C
 C     $ gfortran model.f cstrmesh.f -o model $(pkg-config --libs stripack) -lngmath
 C
-C     and ncl, or any program that loads libNGmath.so, as it is:
+C     For ncl, or any program that loads libNGmath.so, preload it:
 C
 C     $ gfortran -shared -fPIC cstrmesh.f -o cstrmesh.so $(pkg-config --libs stripack)
 C     $ LD_PRELOAD=./cstrmesh.so ncl script.ncl

@@ -29,7 +29,7 @@
       if (ier /= 0) stop 'trplot'
       close (lun)
 
-! CRLIST may change LPTR: where the triangulation is still needed, give it a copy.
+! CRLIST may change LPTR: give it a copy if the triangulation is still needed.
       call crlist(n, n, x, y, z, list, lend, lptr, lnew, ltri, listc, nb, xc, yc, zc, rc, ier)
       if (ier /= 0) stop 'crlist'
       open (lun, file='vrplot.eps', status='replace')

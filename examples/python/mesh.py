@@ -1,4 +1,4 @@
-"""1000 nodes on the unit sphere, their triangles and the area of these: NumPy, and the C library by ctypes.
+"""Triangulates 1000 nodes on the unit sphere and adds up the areas of the triangles, by NumPy and ctypes.
 
 $ python3 mesh.py
 """
@@ -26,8 +26,8 @@ def triangulate(xyz):
     if ier != 0:
         raise ValueError(LIBRARY.pstripack_strerror(ier).decode())
 
-    # The neighbours of a node fill consecutive slots, the last is lend. A node, a neighbour and the next one
-    # are a triangle; a negated neighbour is the last one of a boundary node, and forms none with the first.
+    # The neighbours of a node fill consecutive slots up to lend. A node and two consecutive neighbours form a
+    # triangle. A negative neighbour is the last one of a boundary node and forms no triangle with the first.
     used = lnew.value - 1
     node = np.repeat(np.arange(1, n + 1), np.diff(lend, prepend=0))
     neighbour, following = list_[:used], np.abs(list_[lptr[:used] - 1])
@@ -36,7 +36,7 @@ def triangulate(xyz):
 
 
 def areas(a, b, c):
-    """Of triangles of unit vectors (Van Oosterom and Strackee)."""
+    """Areas of triangles of unit vectors (Van Oosterom and Strackee)."""
     def dot(u, v):
         return np.sum(u * v, axis=-1)
 
@@ -44,7 +44,7 @@ def areas(a, b, c):
 
 
 def spiral(n):
-    """From pole to pole, a golden angle from node to node."""
+    """A spiral of n nodes from pole to pole, a golden angle from node to node."""
     k = np.arange(n)
     z, longitude = 1 - (2 * k + 1) / n, k * np.pi * (3 - np.sqrt(5))
     radius = np.sqrt(1 - z**2)

@@ -1,4 +1,4 @@
-! SCVT_DENSITY: a centroidal mesh that is finer along a storm's track, by pstripack_scvt with a density of our own.
+! SCVT_DENSITY: a centroidal mesh that is finer along a storm's track, by pstripack_scvt with a density procedure.
 !
 !   scvt_density [GENERATORS [TOLERANCE]]
 !
@@ -21,8 +21,8 @@ module storm
 
 contains
 
-  ! Cells are about density**(-1/4) wide: `finer` times as fine within the radius of the track. Called from the
-  ! thread that calls pstripack_scvt (see pstripack_scvt_options, density_on_threads), for many places at once.
+  ! The density at many places. Cells are about density**(-1/4) wide: `finer` times narrower within the radius of the
+  ! track. Called in the thread that calls pstripack_scvt, unless pstripack_scvt_options sets density_on_threads.
   subroutine density(n, xyz, values)
     integer(c_int32_t), intent(in) :: n
     real(c_double), intent(in) :: xyz(3, n)
@@ -48,7 +48,7 @@ contains
              sin(degree*lon_lat(2))]
   end function
 
-  ! After each step. stop = .true. would end the run.
+  ! Called after each step. stop = .true. would end the run.
   subroutine progress(where, stop)
     type(pstripack_scvt_progress), intent(in) :: where
     logical, intent(inout) :: stop
@@ -90,7 +90,7 @@ program scvt_density
   print '(a, i0, a, f0.1, a, es9.2, a, es22.15)', 'ended for reason ', run%reason, ' after ', run%evaluations, &
     ' evaluations: gradient', run%gradient, ', energy', run%energy
 
-  ! The areas of the cells: their masses with density 1.
+  ! The areas of the cells are their masses with density 1.
   allocate (list(6*n - 12), lptr(6*n - 12), lend(n), xc(n), yc(n), zc(n), mass(n))
   call pstripack_trmesh(x, y, z, list, lptr, lend, lnew, ier)
   message = pstripack_strerror(ier)

@@ -15,7 +15,7 @@
       integer, parameter :: nrow = 9
       real(dp), parameter :: pi = 3.14159265358979323846_dp
 
-! The parts of the program whose time is taken.
+! The parts of the program that are timed.
       integer, parameter :: in_trmesh = 1, in_lists = 2, in_centroids = 3, in_output = 4
       character(len=9), parameter :: part(4) = (/ 'trmesh   ', 'lists    ', 'centroids', 'output   ' /)
 
@@ -80,7 +80,7 @@
 
       contains
 
-! TRMESH with its workspace as legacy codes pass it: NEAR and NEXT are halves of one array.
+! TRMESH with the workspace of legacy codes: NEAR and NEXT are halves of one array.
       subroutine triangulate
       call trmesh(n, x, y, z, list, lptr, lend, lnew, iwk, iwk(n+1), dist, ier)
       if (ier == -2) call fail('the first three generators lie on one great circle; change their order')
@@ -92,7 +92,7 @@
       call time_goes_to(in_trmesh)
       end subroutine triangulate
 
-! Adds the time since the last call to that of a part of the program.
+! Adds the time since the last call to the time of a part of the program.
       subroutine time_goes_to(i)
       integer, intent(in) :: i
       integer(long) :: now
@@ -105,9 +105,9 @@
 !
 ! The corners of the cell of generator g are the circumcentres of the triangles (g, neighbour e, next
 ! neighbour f). The cell is cut into triangles (g, corner a, next corner b), each integrated by the midpoints
-! of its sides. e, f, a and b are seen from g, and s is the moment of the cell about g. The walk starts at
-! the neighbour with the smallest number, so that the sums do not depend on where the list of g happens to
-! start. Each circumcentre is computed at its three generators: CRLIST, which finds it again, takes longer.
+! of its sides. e, f, a and b are relative to g; s is the moment of the cell about g. The walk starts at the
+! neighbour with the smallest number, so that the sums do not depend on where the list of g starts. Each
+! circumcentre is computed three times, once per generator; CRLIST takes longer.
       subroutine centroids(n, x, y, z, list, lptr, lend, xnew, ynew, znew, energy)
       integer, intent(in) :: n, list(*), lptr(*), lend(n)
       real(dp), intent(in) :: x(n), y(n), z(n)
@@ -145,7 +145,7 @@
         ys = 0
         zs = 0
         mass = 0
-! The first step (i = 0) has the first corner as b, and no triangle yet.
+! Step i = 0 only computes the first corner, b.
         do i = 0, corners
           xa = xb
           ya = yb
@@ -170,7 +170,7 @@
           if (i == 0) cycle
 ! A third of the triangle's area.
           third = sixth * sqrt((ya*zb - za*yb)**2 + (za*xb - xa*zb)**2 + (xa*yb - ya*xb)**2)
-! The same as below, shorter, where all weights are 1.
+! The sums below, simplified for weights of 1.
           if (uniform) then
             mass = mass + 3*third
             xs = xs + 2*third * (xa+xb)
@@ -209,7 +209,7 @@
       rho = (1 + 2 * 0.5_dp * (1 + tanh((pi/6 - distance) / (pi/18))))**4
       end function density
 
-! Random points, uniform on the sphere, from a generator of our own: the same on every machine.
+! Random points, uniform on the sphere, the same on every machine.
       subroutine make_generators
       integer(long) :: seed
       integer :: k
@@ -282,7 +282,7 @@
       if (istat /= 0) call fail('cannot write ' // trim(prefix) // suffix)
       end subroutine create
 
-! A line on stderr every ten seconds.
+! Prints a line on stderr every ten seconds.
       subroutine progress
       integer(long) :: now
       call system_clock(now, clock_rate)

@@ -1,14 +1,14 @@
-! SCVT on MPI ranks: the iteration of scvt_legacy, with no rank holding more than its own generators.
+! SCVT on MPI ranks: the iteration of scvt_legacy on distributed generators.
 !
-! Each rank keeps generators that lie close together, with their global numbers. An iteration triangulates
-! the generators of all ranks (mesh%triangulate), moves each one to the centroid of its Voronoi cell, for which
-! its neighbours (mesh%local_stars, mesh%halo) are enough, and sends those that have crossed a border
-! to the rank that is now their home (mesh%home). At the end rank 0 gathers the mesh and writes it.
+! Each rank has generators that lie close together, with their global numbers. An iteration triangulates the
+! generators of all ranks (mesh%triangulate), moves each one to the centroid of its Voronoi cell, which needs only
+! its neighbours (mesh%local_stars, mesh%halo), and sends generators that have crossed a border to their new rank
+! (mesh%home). At the end rank 0 gathers the mesh and writes it.
 !
 !   mpirun -n RANKS scvt_mpi [-n GENERATORS | -f FILE] [-i ITERATIONS] [-d uniform|bump] [-o PREFIX]
 !
-! Writes PREFIX_points.txt (x y z a line) and PREFIX_triangles.txt (three node numbers a line): the mesh of
-! scvt_legacy, and the same digits for any number of ranks. Prints where the time of the slowest rank went.
+! Writes PREFIX_points.txt (x y z per line) and PREFIX_triangles.txt (three node numbers per line): the mesh of
+! scvt_legacy, with the same digits for any number of ranks. Prints the times of the slowest rank.
 program scvt_mpi
   use, intrinsic :: iso_fortran_env, only: dp => real64, int32, int64
   use mpi_f08
@@ -21,25 +21,25 @@ program scvt_mpi
   type(MPI_Comm) :: comm
   integer :: rank, ranks, n, iterations, iteration
   character(len=256) :: generator_file, density_name, prefix
-  character(len=512) :: problem = ' '  ! what rank 0 found wrong
+  character(len=512) :: problem = ' '  ! the error that rank 0 found
   logical :: uniform  ! the density
   real(dp) :: energy, move, last_progress
   integer(int64) :: migrated
 
-  ! The parts of the program whose time is taken. A rank that waits for another one spends the time in its own part.
+  ! The parts of the program that are timed. Waiting for another rank counts in the part that waits.
   integer, parameter :: in_triangulate = 1, in_lists = 2, in_centroids = 3, in_migration = 4, in_output = 5
   character(len=*), parameter :: part(5) = [character(len=11) :: 'triangulate', 'lists', 'centroids', 'migration', &
                                             'output']
   real(dp) :: seconds(5) = 0, clock
 
-  ! This rank's generators: global number and place. They change as generators come and go.
+  ! This rank's generators: global numbers and places.
   integer(int64), allocatable :: number(:)
   real(dp), allocatable :: xyz(:, :)
-  ! The same, and after them the halo: their neighbours on other ranks. Local numbers count these.
+  ! The same, followed by the halo: their neighbours on other ranks. Local numbers are indices into these arrays.
   integer(int64), allocatable :: local_number(:)
   real(dp), allocatable :: local_xyz(:, :)
   type(pstripack_mesh) :: mesh
-  type(MPI_Datatype) :: point  ! three coordinates as one item, so that items are counted as numbers are
+  type(MPI_Datatype) :: point  ! three coordinates as one item: counts are those of generators
 
   call MPI_Init()
   comm = MPI_COMM_WORLD
@@ -64,12 +64,12 @@ program scvt_mpi
   clock = MPI_Wtime()
   last_progress = clock
   call triangulate
-  call migrate(migrated)  ! from blocks of numbers to neighbourhoods
+  call migrate(migrated)  ! from blocks of consecutive numbers to blocks of neighbours
   do iteration = 1, iterations
     call triangulate
     call move_to_centroids(energy, move)
     call migrate(migrated)
-    ! The order in which the ranks' energies are added is MPI's business: fewer digits.
+    ! Print fewer digits: MPI may add the ranks' energies in any order.
     if (rank == 0) print '(i10,es24.11,es24.15,i24)', iteration, energy, move, migrated
     call progress
     call time_goes_to(in_output)
@@ -105,7 +105,7 @@ contains
     if (ier /= 0) call fail_with_code('triangulate', ier)
   end subroutine triangulate
 
-  ! Adds the time since the last call to that of a part of the program.
+  ! Adds the time since the last call to the time of a part of the program.
   subroutine time_goes_to(i)
     integer, intent(in) :: i
     real(dp) :: now
@@ -131,7 +131,7 @@ contains
     call mesh%halo(local_number(points + 1:), local_xyz(:, points + 1:))
     call mesh%local_stars(begin, neighbour, ier)
     call check(ier == 0, 'out of memory')
-    ! A neighbour with a minus sign is the last one of a node of the boundary.
+    ! A negative neighbour is the last one of a boundary node.
     call check(all(neighbour > 0), 'the generators lie in one hemisphere; an SCVT needs the whole sphere')
     call time_goes_to(in_lists)
 
@@ -151,9 +151,9 @@ contains
   ! The mass centroid of the Voronoi cell of generator k (a local number), back on the sphere; adds the cell's
   ! energy. `ring` are the neighbours, counterclockwise. The corners of the cell are the circumcentres of the
   ! triangles (k, neighbour, next neighbour). The cell is cut into triangles (k, corner a, next corner b), each
-  ! integrated by the midpoints of its sides; e, f, a, b and the moment s are seen from k. The walk starts at the
-  ! neighbour with the smallest global number: local ones depend on the number of ranks, and the rounding of the
-  ! sums would, too.
+  ! integrated by the midpoints of its sides; e, f, a, b and the moment s are relative to k. The walk starts at the
+  ! neighbour with the smallest global number, so that the rounding of the sums does not depend on the number of
+  ! ranks.
   subroutine centroid_of_cell(k, ring, centroid, energy)
     integer(int32), intent(in) :: k, ring(0:)
     real(dp), intent(out) :: centroid(3)
@@ -179,7 +179,7 @@ contains
       b = circumcentre(e, f) - g
       wb = density(g + 0.5_dp*b)
       wab = density(g + 0.5_dp*(a + b))
-      third = sixth*sqrt(square(cross(a, b)))  ! of the triangle's area
+      third = sixth*sqrt(square(cross(a, b)))  ! a third of the triangle's area
       mass = mass + third*(wa + wab + wb)
       s = s + third*(wa*a + wab*(a + b) + wb*b)
       energy = energy + 0.25_dp*third*(wa*square(a) + wab*square(a + b) + wb*square(b))
@@ -188,7 +188,7 @@ contains
     centroid = s*(1/sqrt(square(s)))
   end subroutine centroid_of_cell
 
-  ! Of the counterclockwise triangle (g, g + e, g + f).
+  ! The circumcentre of the counterclockwise triangle (g, g + e, g + f).
   pure function circumcentre(e, f) result(centre)
     real(dp), intent(in) :: e(3), f(3)
     real(dp) :: centre(3)
@@ -218,7 +218,7 @@ contains
     rho = (1 + 2*0.5_dp*(1 + tanh((pi/6 - distance)/(pi/18))))**4
   end function density
 
-  ! Sends those generators to another rank that have crossed a border, or whose border has moved.
+  ! Sends generators to their new ranks.
   subroutine migrate(migrated)
     integer(int64), intent(out) :: migrated  ! on all ranks together
     integer(int32), allocatable :: home(:)
@@ -230,7 +230,7 @@ contains
 
     allocate (home(size(number)))
     call mesh%home(xyz, home, ier)
-    if (ier /= 0) call stop_at_once('a generator is nowhere')
+    if (ier /= 0) call stop_at_once('a generator has no home rank')
 
     send_count = 0
     do k = 1, size(number)
@@ -246,7 +246,7 @@ contains
     send_start = starts(send_count)
     start = starts(count)
 
-    ! Those that stay move up; the others are sorted by their new rank.
+    ! Generators that stay move up; the others are sorted by their new rank.
     allocate (number_out(sum(send_count)), xyz_out(3, sum(send_count)))
     next = send_start
     stay = 0
@@ -273,7 +273,7 @@ contains
     call time_goes_to(in_migration)
   end subroutine migrate
 
-  ! Where each rank's items start, from 0, if those of all ranks follow each other.
+  ! The offset of each rank's items, from 0, in the items of all ranks.
   pure function starts(count) result(start)
     integer, intent(in) :: count(0:)
     integer :: start(0:size(count) - 1), r
@@ -283,7 +283,7 @@ contains
     end do
   end function starts
 
-  ! The first number of rank r's block, before the first migration; of r = ranks: n + 1.
+  ! The first number of rank r's block before the first migration; n + 1 for r = ranks.
   pure integer function first_of_block(r)
     integer, intent(in) :: r
     first_of_block = int(int(n, int64)*r/ranks) + 1
@@ -297,8 +297,8 @@ contains
     number = [(int(k, int64), k=first_of_block(rank), first_of_block(rank + 1) - 1)]
   end subroutine allocate_block
 
-  ! Random points, uniform on the sphere, from a generator of our own: the same on every machine, and for any
-  ! number of ranks. Every rank draws all of them and keeps those of its block.
+  ! Random points, uniform on the sphere, the same on every machine and for any number of ranks: every rank draws
+  ! all points and keeps those of its block.
   subroutine make_generators
     integer(int64) :: seed
     integer :: k, own
@@ -315,7 +315,7 @@ contains
     end do
   end subroutine make_generators
 
-  ! Park and Miller: seed = 16807 seed mod 2**31-1. Not pure: it must be called once for each draw.
+  ! Park and Miller: seed = 16807 seed mod 2**31-1. Not pure: every call is a draw.
   function random(seed) result(u)
     integer(int64), intent(inout) :: seed
     real(dp) :: u
@@ -323,7 +323,7 @@ contains
     u = real(seed, dp)/2147483647.0_dp
   end function random
 
-  ! Rank 0 reads the file twice: to check and count it, and to send each rank its block.
+  ! Rank 0 reads the file twice: to check and count the generators, then to send each rank its block.
   subroutine read_generators
     integer :: file, status, r, k
     real(dp), allocatable :: block(:, :)
@@ -360,7 +360,7 @@ contains
     close (file)
   end subroutine read_generators
 
-  ! The next generator of the file, put on the sphere; false at its end, and with a `problem` to tell.
+  ! Reads the next generator and scales it to length 1. False at the end of the file, or if `problem` has been set.
   logical function read_generator(file, p)
     integer, intent(in) :: file
     real(dp), intent(out) :: p(3)
@@ -386,7 +386,7 @@ contains
     read_generator = .true.
   end function read_generator
 
-  ! Rank 0 gathers the mesh, which only this part needs in one place, and writes it.
+  ! Rank 0 gathers the mesh and writes it.
   subroutine write_mesh
     integer, allocatable :: list(:), lptr(:), lend(:), ltri(:, :)
     real(dp), allocatable :: all_xyz(:, :)
@@ -431,7 +431,7 @@ contains
     end if
   end subroutine write_mesh
 
-  ! All generators on rank 0, by number.
+  ! Gathers all generators on rank 0, in the order of their numbers.
   subroutine gather_points(all_xyz)
     real(dp), intent(inout) :: all_xyz(:, :)
     integer(int64), allocatable :: all_number(:)
@@ -453,7 +453,7 @@ contains
     if (status /= 0) problem = 'cannot write '//trim(prefix)//suffix
   end subroutine create
 
-  ! A line on stderr every ten seconds.
+  ! Prints a line on stderr every ten seconds.
   subroutine progress
     real(dp) :: now
     now = MPI_Wtime()
@@ -505,7 +505,7 @@ contains
     call fail('usage: scvt_mpi [-n GENERATORS | -f FILE] [-i ITERATIONS] [-d uniform|bump] [-o PREFIX]')
   end subroutine usage
 
-  ! To give up, all ranks must come to one of these four, so that none waits for a rank that is gone.
+  ! Collective error exits: all ranks must call the same one of these four, so that none waits for a rank that has ended.
 
   subroutine fail_if_problem
     call MPI_Bcast(problem, len(problem), MPI_CHARACTER, 0, comm)
@@ -531,12 +531,12 @@ contains
   subroutine fail(message)
     character(len=*), intent(in) :: message
     if (rank == 0) write (0, '(2a)') 'scvt_mpi: ', trim(message)
-    call MPI_Type_free(point)  ! MPICH complains of what is left
+    call MPI_Type_free(point)  ! MPICH reports types that are not freed
     call MPI_Finalize()
     stop 1, quiet=.true.
   end subroutine fail
 
-  ! For what cannot happen: one rank alone gives up and has the others killed.
+  ! For errors that should not happen: one rank alone ends the program on all ranks.
   subroutine stop_at_once(message)
     character(len=*), intent(in) :: message
     write (0, '(2a)') 'scvt_mpi: ', trim(message)

@@ -42,7 +42,7 @@ TEST(faulty_original, that_hangs_is_killed_at_the_time_limit) {
   const double before = processor_seconds_of_children();
   EXPECT_EQ(original.triangulate(kOctahedron, 0.2).outcome, Outcome::timed_out);
   const double seconds = processor_seconds_of_children() - before;
-  EXPECT_GE(seconds, 0.19);  // scheduler and rusage need not count alike
+  EXPECT_GE(seconds, 0.19);  // scheduler and rusage may count differently
   EXPECT_LT(seconds, 5);
 }
 
@@ -149,7 +149,7 @@ TEST(original, gives_the_golden_lists_of_the_octahedron) {
 }
 
 TEST(original, that_never_returns_does_not_stop_us) {
-  // Four nodes of one meridian, for which the original does not return.
+  // Four nodes on a meridian for which the original does not return.
   const Nodes meridian{{0.452695204446832, 0.5590320207484465, 0.6946583704589973},
                        {0.4602557974987226, 0.5683685756099448, 0.6819983600624985},
                        {0.467676192176097, 0.5775319998974023, 0.6691306063588582},
@@ -174,7 +174,7 @@ TEST(original, is_the_same_through_every_abi) {
 }
 
 TEST(library, of_64_bit_integers_is_the_same_as_of_32) {
-  // Our library, since there is no original of that ABI; the order of slots is our own.
+  // Our library, since no original has this ABI.
   const Nodes nodes = random_nodes(500);
   const Triangulation r8 = Original(STRIPACK, kR8).triangulate(nodes, 10);
   const Triangulation i8 = Original(STRIPACK_I8, kI8).triangulate(nodes, 10);

@@ -1,4 +1,4 @@
-# A recipe for Spack, to be used in a copy of the sources:
+# A recipe for Spack; to use it in a copy of the sources:
 #
 #   spack repo create ~/pstripack-repo
 #   mkdir -p ~/pstripack-repo/packages/pstripack

@@ -1,5 +1,5 @@
 #pragma once
-// NumPy arrays of what is computed, and the calls without Python's lock that compute it.
+// NumPy arrays of results, and calls that release Python's lock.
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -24,7 +24,7 @@ using pstripack::Buffer;
 template <class T>
 using Array = py::array_t<T, py::array::c_style>;
 
-/// While it lives, OpenMP's number of threads of the calling thread; 0: as it was.
+/// Sets OpenMP's number of threads for its lifetime; 0: does not change it.
 class Threads {
  public:
 #ifdef _OPENMP
@@ -44,7 +44,7 @@ class Threads {
 #endif
 };
 
-/// body(), on so many threads and without Python's lock.
+/// Runs body() on this number of threads without Python's lock.
 template <class Body>
 auto compute(int threads, const Body& body) {
   const py::gil_scoped_release unlocked;
@@ -52,7 +52,7 @@ auto compute(int threads, const Body& body) {
   return pstripack::in_default_floating_point(body);
 }
 
-/// The array of a buffer, which moves into it.
+/// An array that takes over the buffer.
 template <class T, class Item>
 py::array array_of(Buffer<Item>&& buffer, std::vector<py::ssize_t> shape) {
   auto owner = std::make_unique<Buffer<Item>>(std::move(buffer));

@@ -1,5 +1,4 @@
-// The module pstripack._core: NumPy arrays in and out. The package's documentation is that of the Python
-// files.
+// The module pstripack._core, which takes and returns NumPy arrays. The Python files document the package.
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -46,7 +45,7 @@ const Point* places_in(const Array<double>& places) {
   return reinterpret_cast<const Point*>(places.data());
 }
 
-/// A triangulation, and the array that has its nodes if they are read in place.
+/// A triangulation, and the array of its nodes if they are read in place.
 struct Mesh {
   py::object points;
   std::unique_ptr<const Triangulation> triangulation;
@@ -70,7 +69,7 @@ py::array opposite_triangles(const Mesh& mesh, int threads) {
   return rows_of_three(compute(threads, [&] { return mesh->opposite_triangles(); }));
 }
 
-/// LIST, LPTR, LEND, copied, and LNEW.
+/// Copies of LIST, LPTR, LEND, and LNEW.
 py::tuple lists(const Mesh& mesh) {
   const auto view = mesh->lists();
   const py::ssize_t slots = view.lnew - 1, n = static_cast<py::ssize_t>(view.n);
@@ -78,8 +77,8 @@ py::tuple lists(const Mesh& mesh) {
                         Array<std::int32_t>(n, view.lend), view.lnew);
 }
 
-/// While it lives, Python does not look for cycles: among many new lists there are none, and the search takes
-/// long.
+/// Disables Python's search for reference cycles during its lifetime: it takes long if there are many new
+/// lists, which have no cycles.
 class NoSearchForCycles {
  public:
   NoSearchForCycles() : gc_(py::module_::import("gc")), was_on_(gc_.attr("isenabled")().cast<bool>()) {
@@ -96,7 +95,7 @@ class NoSearchForCycles {
   const bool was_on_;
 };
 
-/// Lists of integers, one for each run. An integer below `count` is one object, in however many lists it is.
+/// A list of integers for each run. Equal integers below `count` are the same object in all lists.
 py::list lists_of(const Array<std::int32_t>& begin, const Array<std::int32_t>& values, std::size_t count) {
   const NoSearchForCycles paused;
   const std::int32_t* const first = begin.data();
@@ -116,7 +115,7 @@ py::list lists_of(const Array<std::int32_t>& begin, const Array<std::int32_t>& v
   return result;
 }
 
-/// The Voronoi diagram: vertices, and those of each cell.
+/// The Voronoi diagram: all vertices, and the vertices of each cell.
 py::tuple cells(const Mesh& mesh, int threads) {
   Cells c = compute(threads, [&] { return mesh->cells(); });
   const py::tuple runs = arrays_of(std::move(c.corners));
@@ -194,7 +193,7 @@ py::array vectors(const Array<double>& lon, const Array<double>& lat, bool degre
   }));
 }
 
-/// An exception of the package, with the nodes that it is about.
+/// Raises an exception of the package with the indices of the nodes in question.
 void raise(const NoTriangulation& e) {
   using Cause = NoTriangulation::Cause;
   const char* name = "TriangulationError";

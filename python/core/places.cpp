@@ -1,4 +1,4 @@
-// Places in a triangulation: the triangle, the nearest node, a value.
+// Queries at places: the triangle, the nearest node, an interpolated value.
 
 #include <algorithm>
 #include <cmath>
@@ -17,9 +17,9 @@ constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-/// Calls visit(i, place, near) for each place that has a direction: a unit vector, and a node near it, from
-/// 1, which visit may update. Places are visited along a curve on which neighbours are near each other.
-/// Searches start anew in each block of them, so results do not depend on the threads.
+/// Calls visit(i, place, near) for each place that has a direction. `place` is a unit vector; `near` is a
+/// node near it, from 1, which visit may update. Places are visited along a space-filling curve. Searches
+/// restart in each block of places, so results do not depend on the number of threads.
 template <class Visit>
 void Triangulation::visit_places(const Point* places, std::size_t count, const Visit& visit) const {
   constexpr std::size_t kBlock = 512, kMost = std::size_t{1} << 28;

@@ -9,12 +9,12 @@
 namespace bindings {
 namespace {
 
-/// The caller's procedures, and the first exception that came out of one of them: the run then ends.
+/// The caller's procedures, and the first exception that one of them raised; it ends the run.
 struct Procedures {
   const py::object &density, &progress;
   std::exception_ptr error;
 
-  /// body() with Python's lock.
+  /// Runs body() with Python's lock.
   template <class Body>
   void call(const Body& body) {
     if (error) return;
@@ -27,7 +27,8 @@ struct Procedures {
   }
 };
 
-/// pstripack_density_procedure. The library takes what is not written for a wrong density.
+/// A pstripack_density_procedure. If it fails, it writes no values, which the library refuses as a wrong
+/// density.
 void density_at(std::int32_t n, const double* xyz, double* values, void* user) {
   auto& procedures = *static_cast<Procedures*>(user);
   procedures.call([&] {
@@ -40,7 +41,7 @@ void density_at(std::int32_t n, const double* xyz, double* values, void* user) {
   });
 }
 
-/// pstripack_scvt_progress_procedure
+/// A pstripack_scvt_progress_procedure.
 std::int32_t progress_to(const pstripack_scvt_progress* at, void* user) {
   auto& procedures = *static_cast<Procedures*>(user);
   bool stop = false;

@@ -6,10 +6,10 @@
 
 namespace bindings {
 
-/// pstripack_scvt: `start` generators, or as many as it has rows to start from. `density`: of an array (m,
-/// 3), or None; `progress`: of (generators, evaluations, gradient, energy), or None; true ends the run.
-/// Returns (code, message, generators, energy, gradient, evaluations, reason), of which all after the message
-/// hold only for code 0. What the procedures raise comes out, and so does an interrupt from the keyboard.
+/// Runs pstripack_scvt. `start`: the number of generators, or an array of generators. `density`: a function
+/// of an array (m, 3), or None. `progress`: a function of (generators, evaluations, gradient, energy), or
+/// None; true ends the run. Returns (code, message, generators, energy, gradient, evaluations, reason); the
+/// last five are valid only if code is 0. Exceptions of the procedures and keyboard interrupts are passed on.
 py::tuple scvt(const py::object& start, const py::object& density, double tolerance, bool lloyd,
                std::int64_t most_evaluations, std::int64_t seed, const py::object& progress, int threads);
 

@@ -60,14 +60,14 @@ NoTriangulation coincidence(std::size_t a, std::size_t b) {
           {first, second}};
 }
 
-/// Lists of `count` nodes in `capacity` slots, none written.
+/// Unwritten lists for `count` nodes with `capacity` slots.
 struct Lists {
   Buffer<std::int32_t> list, lptr, lend;
   std::int32_t lnew = 0;
 
   explicit Lists(std::size_t n) : list(6 * n - 12), lptr(6 * n - 12), lend(n) {}
 
-  /// TRMESH; false for its code -2. Throws NoTriangulation and std::bad_alloc.
+  /// Calls TRMESH. False if it returns -2. Throws NoTriangulation and std::bad_alloc.
   bool triangulate(const double* x, const double* y, const double* z) {
     std::fill(lend.begin(), lend.end(), 0);
     const auto n = static_cast<std::int32_t>(lend.size());
@@ -75,7 +75,7 @@ struct Lists {
     if (ier == PSTRIPACK_COLLINEAR) return false;
     if (ier == PSTRIPACK_OUT_OF_MEMORY) throw std::bad_alloc();
     if (ier < 0) throw std::runtime_error(pstripack_strerror(ier));
-    if (ier > 0) {  // the lists are those of the nodes before the second of the two
+    if (ier > 0) {  // the lists have the nodes before the second of the two
       const auto second = std::find(lend.begin(), lend.end(), 0) - lend.begin();
       throw coincidence(static_cast<std::size_t>(ier) - 1, static_cast<std::size_t>(second));
     }
@@ -98,7 +98,7 @@ Triangulation::Triangulation(const Coordinates& given) : n_(given.n) {
   interpolation_.emplace(methods::Triangulated{lists(), nodes()});
 }
 
-/// Sets given_, with a copy if the coordinates are not in columns, and looks at each node.
+/// Sets given_, copying coordinates that are not in columns, and checks each node.
 void Triangulation::read(const Coordinates& given) {
   const bool in_place = given.stride == 1;
   if (!in_place) own_columns_ = Buffer<double>(3 * n_);
@@ -135,10 +135,11 @@ void Triangulation::triangulate() {
   lnew_ = lists.lnew;
 }
 
-/// Where the first three nodes lie on one great circle, which TRMESH refuses: with other nodes in front. The
-/// canonical lists, from those of the other order.
+/// TRMESH refuses nodes whose first three lie on one great circle: triangulates with other nodes in front and
+/// converts the lists to the canonical ones of the given order.
 void Triangulation::triangulate_in_another_order() {
-  std::vector<std::int32_t> order(n_), place(n_);  // order[i]: the node in place i, and place its inverse
+  std::vector<std::int32_t> order(n_),
+      place(n_);  // order[i]: the node at place i; place: the inverse of order
   std::iota(order.begin(), order.end(), 0);
   const std::vector<std::size_t> corners = three_corners(n_, [this](std::size_t i) { return given(i); });
   for (std::size_t k = 0; k < 3; ++k)
@@ -162,7 +163,7 @@ void Triangulation::triangulate_in_another_order() {
   const Reader reader({n_, other.list.data(), other.lptr.data(), other.lend.data(), other.lnew});
   Lists lists(n_);
   std::vector<std::int32_t> ring;
-  std::int32_t slot = 0;  // slots written
+  std::int32_t slot = 0;  // number of written slots
   for (std::size_t node = 0; node < n_; ++node) {
     const std::int32_t there = place[node] + 1, last = reader.last_slot(there);
     ring.clear();
@@ -214,7 +215,7 @@ Buffer<std::int32_t> Triangulation::triangles() const {
   const int threads = threads_for(n_);
   pstripack::Rings<std::int32_t> rings;
   if (!rings.read(lists(), threads)) throw std::logic_error("the lists are not those of a triangulation");
-  // The first triangle of each piece of the nodes; of all pieces together the number is known.
+  // The index of the first triangle of each piece of the nodes.
   std::vector<std::size_t> first(static_cast<std::size_t>(threads));
   if (threads > 1)
     parallel_pieces(n_, threads, [&](std::size_t begin, std::size_t end, int piece) {
@@ -252,7 +253,7 @@ Buffer<std::int32_t> Triangulation::opposite_triangles() const {
 
 namespace {
 
-/// Runs of which run k has count(k) values, which write(k, to) writes.
+/// Makes runs: run k has count(k) values, written by write(k, to).
 template <class Count, class Write>
 Runs make_runs(std::size_t n, const Count& count, const Write& write) {
   Runs runs;
@@ -359,7 +360,7 @@ Cells Triangulation::cells() const {
 
 namespace {
 
-/// 1 + a.b for unit vectors, accurate also where they are nearly opposite.
+/// 1 + a.b for unit vectors, accurate also if they are nearly opposite.
 double one_plus_dot(const Point& a, const Point& b) {
   const Point sum{a.x + b.x, a.y + b.y, a.z + b.z};
   return dot(sum, sum) / 2;
@@ -368,8 +369,8 @@ double one_plus_dot(const Point& a, const Point& b) {
 /// The border between the cells of node p and its neighbour q, and the area between p and a part of it.
 ///
 ///        v      The border passes through m, the middle of p and q; v lies on it at a signed angle t from m.
-///       /|      The angle at m is right, so tan(area of p m v / 2) = tan(pm / 2) tan(t / 2). Unlike that of
-///      p-m-q    p and two vertices this area is right also where these are opposite points of the sphere.
+///       /|      The angle at m is right, so tan(area of p m v / 2) = tan(pm / 2) tan(t / 2). The sum of two
+///      p-m-q    such areas is also correct for a border whose two vertices are opposite points.
 ///
 class BesideBorder {
  public:
@@ -381,13 +382,13 @@ class BesideBorder {
     along_ = {along_.x / area, along_.y / area, along_.z / area};
     tangent_ = chord / (2 + length);
   }
-  /// From vertex u to vertex v, counterclockwise round p: t grows, by less than a half turn.
+  /// The area from vertex u to vertex v, counterclockwise around p: t increases by less than a half turn.
   double area(const Point& u, const Point& v) const {
     const double sin_u = dot(u, along_), sin_v = dot(v, along_);
     const double cos_u = one_plus_dot(u, middle_), cos_v = one_plus_dot(v, middle_);  // 1 + cos t
     const double half = std::atan2(tangent_ * (sin_v * cos_u - sin_u * cos_v),
                                    cos_u * cos_v + tangent_ * tangent_ * sin_u * sin_v);
-    // Where t passes the point opposite to m; not where u and v are both m up to rounding.
+    // True if t passes the point opposite m; false if u and v are both m up to rounding.
     const bool is_round = sin_u > 0 && sin_v < 0 && cos_u + cos_v < 3;
     return 2 * (is_round ? half + pi : half);
   }
@@ -395,11 +396,11 @@ class BesideBorder {
  private:
   static constexpr double pi = 3.14159265358979323846;
   Point middle_, along_;  // m; along the border, to the left of p->q
-  double tangent_;        // of half the angle from p to m
+  double tangent_;        // tangent of half the angle from p to m
 };
 
-/// Area of the triangle p, u, v where u and v are more than 90 degrees from p: the lune from p through u and
-/// v to the opposite point, without the triangle beyond them, which may be small.
+/// Area of the triangle p, u, v if u and v are more than 90 degrees from p: the area of the lune from p
+/// through u and v to the point opposite p, minus that of the triangle beyond u and v, which may be small.
 double far_triangle_area(const Point& p, const Point& u, const Point& v) {
   const Point opposite{-p.x, -p.y, -p.z}, a = minus(u, opposite), b = minus(v, opposite);
   const double angle = std::atan2(dot(p, cross(a, b)), dot(a, b) - dot(p, a) * dot(p, b));
@@ -422,14 +423,14 @@ Buffer<double> Triangulation::cell_areas() const {
       Point before = vertex(last);
       double area = 0;
       std::int32_t i = cells.corners.begin[k], slot = lend_[k];
-      do {  // corner i comes after the border with the neighbour in the slot
+      do {  // corner i ends the border with the neighbour in the slot
         slot = reader.next(slot);
         const BesideBorder border(p, at(reader.neighbour(slot) - 1));
         const Point here = vertex(i++);
         area += border.area(before, here);
         before = here;
       } while (slot != lend_[k]);
-      for (; i <= last; ++i) {  // of the far side, where neighbours are not listed
+      for (; i <= last; ++i) {  // corners on the far side, without listed neighbours
         const Point here = vertex(i);
         area += far_triangle_area(p, before, here);
         before = here;
@@ -444,7 +445,7 @@ ClosestPair Triangulation::closest_pair() const {
   const Reader reader(lists());
   const int threads = threads_for(n_);
   std::vector<ClosestPair> closest(
-      static_cast<std::size_t>(threads));  // of each piece, by squares of distances
+      static_cast<std::size_t>(threads));  // closest pair of each piece, with squared distance
   parallel_pieces(n_, threads, [&](std::size_t begin, std::size_t end, int piece) {
     ClosestPair best{std::numeric_limits<double>::infinity(), 0, 0};
     for (std::size_t k = begin; k < end; ++k) {

@@ -1,4 +1,4 @@
-"""Nodes for the tests, and the library's own call."""
+"""Nodes for the tests, and calls of the C library."""
 import ctypes
 import os
 
@@ -35,7 +35,7 @@ def trmesh(points):
 
 
 def defect(points, lists):
-    """What pstripack_validate says about lists; empty: they are right."""
+    """The message of pstripack_validate about lists; empty: they are correct."""
     n = len(points)
     columns = np.array(np.asarray(points, np.float64).T, order="C")
     slots = [np.zeros(6 * n - 12, np.int32) for _ in range(2)]

@@ -1,5 +1,5 @@
 #!/bin/sh
-# pip installs the package of a checkout, without network, into a new environment; the module has the library inside.
+# pip installs the package of a checkout, without network, into a new environment. The module must need no libpstripack.
 # Usage: pip.sh SOURCE_DIR WORK_DIR PYTHON
 set -eu
 source=$1 work=$2 python=$3

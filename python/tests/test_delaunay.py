@@ -6,7 +6,7 @@ from pstripack import Delaunay, to_lonlat, to_xyz
 
 
 def outward_facets(points):
-    """Of the convex hull, those that have the centre of the sphere beneath them."""
+    """The facets of the convex hull that have the centre of the sphere below them."""
     hull = scipy.spatial.ConvexHull(points)
     return hull.simplices[hull.equations[:, 3] < 0]
 
@@ -88,7 +88,7 @@ def test_areas_add_up_to_the_sphere_s():
 
 
 def shrunk(points, scale):
-    """Nodes with z > 0, drawn together at the pole."""
+    """Nodes with z > 0, moved towards the pole."""
     near = points * [scale, scale, 1]
     return near / np.linalg.norm(near, axis=1)[:, np.newaxis]
 
@@ -168,7 +168,7 @@ def test_the_first_three_nodes_may_lie_on_one_great_circle(front, rest):
     mesh = Delaunay(points)
     assert defect(points, mesh.lists) == ""
     list_, lptr, lend, lnew = mesh.lists
-    assert lnew == lend[-1] + 1  # canonical: the lists of the nodes one after the other
+    assert lnew == lend[-1] + 1  # canonical: the lists of the nodes follow each other
     begin = np.concatenate([[0], lend[:-1]])
     for first, last in zip(begin, lend):
         ring = list_[first:last]

@@ -63,7 +63,7 @@ def test_numbers_of_threads_below_one(threads):
 
 
 def test_nodes_that_change_afterwards_do_no_harm():
-    """The array is the caller's: results may be wrong then, but every call returns."""
+    """The caller may change the array: results may then be wrong, but every call returns."""
     points = np.asfortranarray(random_nodes(500))
     mesh = Delaunay(points)
     mesh.simplices

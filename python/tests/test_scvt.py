@@ -98,7 +98,7 @@ def test_the_keyboard_interrupts_a_run():
     try:
         timer.start()
         with pytest.raises(KeyboardInterrupt):
-            scvt(random_nodes(20000), method="lloyd", tolerance=1e-300)  # many seconds, if let
+            scvt(random_nodes(20000), method="lloyd", tolerance=1e-300)  # would take many seconds
             pytest.fail("the run ended before the interrupt")
     finally:
         timer.join()

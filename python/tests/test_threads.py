@@ -53,12 +53,12 @@ def test_one_triangulation_is_asked_by_several_threads():
 def test_python_goes_on_during_a_call():
     points = random_nodes(200000)
     before = sys.getswitchinterval()
-    sys.setswitchinterval(1000)  # from now on others run only while a thread has given Python's lock back
+    sys.setswitchinterval(1000)  # from now on another thread runs only while this one has released Python's lock
     try:
         for _ in range(20):  # this thread may have to wait for a processor
             done = []
             worker = threading.Thread(target=lambda: done.append(Delaunay(points, threads=1)))
-            worker.start()  # returns when the worker gives the lock back
+            worker.start()  # returns when the worker releases the lock
             was_running = not done
             worker.join()
             if was_running:
@@ -73,7 +73,7 @@ def in_child():
 
 
 def test_a_forked_child_may_triangulate():
-    expected = in_child()  # OpenMP's threads run in this process, and not in the child
+    expected = in_child()  # OpenMP's threads run in this process, not in the child
     with multiprocessing.get_context("fork").Pool(1) as pool:
         assert pool.apply_async(in_child).get(60) == expected
 

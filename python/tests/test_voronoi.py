@@ -19,7 +19,7 @@ CASES = {
 
 
 def canonical(cycle):
-    """The same for a cycle in either direction, from wherever it starts."""
+    """A form that does not depend on the direction or the start of the cycle."""
     start = cycle.index(min(cycle))
     forth = cycle[start:] + cycle[:start]
     return min(forth, forth[:1] + forth[:0:-1])
@@ -71,7 +71,7 @@ def test_regions_as_arrays_are_those_of_the_lists():
 
 
 def test_where_many_regions_meet():
-    """A longitude-latitude grid, where each vertex is that of four regions: twice, and so are scipy's."""
+    """A longitude-latitude grid: each vertex belongs to four regions and occurs twice, as in scipy."""
     lon, lat = np.meshgrid(np.arange(0, 360, 30), np.arange(-75, 90, 30))
     points = to_xyz(lon.ravel(), lat.ravel())
     ours, theirs = SphericalVoronoi(points), scipy.spatial.SphericalVoronoi(points)

@@ -1,6 +1,6 @@
 !> PSTRIPACK for Fortran: the C API of libpstripack (pstripack.h).
 !>
-!> Nodes count from 1. Nothing here is collective; any number of threads may call at once.
+!> Nodes count from 1. No procedure is collective; any number of threads may call them at once.
 module pstripack
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_f_pointer, c_float, c_funloc, c_funptr, c_int32_t, &
     c_int64_t, c_loc, c_null_char, c_null_funptr, c_null_ptr, c_ptr, c_size_t, c_sizeof
@@ -19,7 +19,7 @@ module pstripack
   public :: pstripack_scvt_coincident, pstripack_bad_density, pstripack_hemisphere, pstripack_bad_lists, &
             pstripack_bad_option
 
-  ! !> Results of pstripack_trmesh. Any other is L > 0: nodes L and M > L coincide, M the smallest such.
+  !> Results of pstripack_trmesh. Any other result is L > 0: nodes L and M > L coincide; M is the smallest such number.
   integer(c_int32_t), parameter :: pstripack_ok = 0, &
     pstripack_too_few_nodes = -1, &   !< fewer than 3 nodes
     pstripack_collinear = -2, &       !< the first three nodes lie on one great circle
@@ -28,52 +28,52 @@ module pstripack
     pstripack_out_of_memory = -6, &
     pstripack_bad_size = -100         !< arrays of different sizes, or too short; of this module alone
 
-  ! !> Further results of pstripack_scvt and pstripack_scvt_step.
+  !> Further results of pstripack_scvt and pstripack_scvt_step.
   integer(c_int32_t), parameter :: &
     pstripack_scvt_coincident = -9, &  !< two generators in the same direction
     pstripack_bad_density = -11, &     !< the density is not positive, or not finite, at some place
     pstripack_hemisphere = -12, &      !< the generators lie in one hemisphere
     pstripack_bad_lists = -13, &       !< not the lists of a triangulation of the sphere by the generators
-    pstripack_bad_option = -14         !< an option has no such value
+    pstripack_bad_option = -14         !< an option has a value that is not allowed
 
-  !> Components of pstripack_scvt_options and pstripack_scvt_result.
+  !> Values of the components start and method of pstripack_scvt_options, and reason of pstripack_scvt_result.
   integer(c_int32_t), parameter :: &
     pstripack_scvt_by_number = 0, &    !< start: the front from 3000 generators on, else levels
-    pstripack_scvt_random = 1, &       !< start: as many random generators as wanted
+    pstripack_scvt_random = 1, &       !< start: size(x) random generators
     pstripack_scvt_given = 2, &        !< start: the generators passed in
     pstripack_scvt_levels = 3, &       !< start: few random generators, refined level by level
-    pstripack_scvt_front = 4, &        !< start: an advancing front, which is nearly centroidal already; without a seed
+    pstripack_scvt_front = 4, &        !< start: an advancing front, which is nearly centroidal already; uses no seed
     pstripack_scvt_newton = 0, &       !< method: quasi-Newton (L-BFGS)
     pstripack_scvt_lloyd = 1, &        !< method: each generator moves to the centroid of its cell
-    pstripack_scvt_converged = 0, &    !< reason
-    pstripack_scvt_evaluations = 1, &  !< reason: as many evaluations as allowed
-    pstripack_scvt_stopped = 2, &      !< reason: by the progress procedure
+    pstripack_scvt_converged = 0, &    !< reason: the gradient is at most the tolerance
+    pstripack_scvt_evaluations = 1, &  !< reason: most_evaluations were made
+    pstripack_scvt_stopped = 2, &      !< reason: the progress procedure stopped the run
     pstripack_scvt_stalled = 3         !< reason: the energy falls no further: rounding, or a density with jumps
 
-  !> How pstripack_scvt works.
+  !> Options of pstripack_scvt.
   type :: pstripack_scvt_options
     integer(c_int32_t) :: start = pstripack_scvt_by_number
     integer(c_int32_t) :: method = pstripack_scvt_newton
-    real(c_double) :: tolerance = 1e-5_c_double        !< of the gradient
+    real(c_double) :: tolerance = 1e-5_c_double        !< largest gradient of a converged run
     integer(c_int64_t) :: most_evaluations = 100000    !< on each level
     integer(c_int64_t) :: seed = 1                     !< of the random generators
-    !> False: the density is called by the calling thread alone, which does the integrals. True: by any number
-    !> of the library's threads at once.
+    !> False: only the thread that called the library calls the density, and does the integrals alone. True: any
+    !> number of the library's threads call it at once.
     logical :: density_on_threads = .false.
   end type
 
   type, bind(c) :: pstripack_scvt_result
     real(c_double) :: energy
-    real(c_double) :: gradient        !< as of pstripack_scvt_progress
-    real(c_double) :: evaluations     !< of all levels, each counted by its share of the generators
+    real(c_double) :: gradient        !< as in pstripack_scvt_progress
+    real(c_double) :: evaluations     !< of all levels, each weighted by its share of the generators
     integer(c_int32_t) :: generators  !< size(x); fewer if the run was stopped before the last level
-    integer(c_int32_t) :: reason      !< why it ended
+    integer(c_int32_t) :: reason      !< why the run ended: pstripack_scvt_converged, ...
   end type
 
-  !> Where a run stands.
+  !> The progress of a run.
   type, bind(c) :: pstripack_scvt_progress
-    integer(c_int64_t) :: generators   !< of the level
-    integer(c_int64_t) :: evaluations  !< triangulations with integrals, on this level
+    integer(c_int64_t) :: generators   !< number of generators of the level
+    integer(c_int64_t) :: evaluations  !< number of triangulations with integrals, on this level
     !> Root mean square over generators of the distance to the centroid of the cell, in units of
     !> sqrt(4 pi/generators).
     real(c_double) :: gradient
@@ -81,9 +81,9 @@ module pstripack
   end type
 
   abstract interface
-    !> values(i) = the density at the unit vector xyz(:, i), i = 1..n, n <= 65536: positive, and the same
-    !> whenever it is asked for at this place. Best a procedure of a module; an internal one sees the data of
-    !> its host, but for that some compilers need an executable stack.
+    !> Sets values(i) to the density at the unit vector xyz(:, i), i = 1..n, n <= 65536. The density must be positive
+    !> and finite, and depend on the place alone. Preferably a module procedure: an internal procedure can use the
+    !> data of its host, but some compilers then need an executable stack.
     subroutine pstripack_density(n, xyz, values)
       import :: c_double, c_int32_t
       integer(c_int32_t), intent(in) :: n
@@ -91,7 +91,7 @@ module pstripack
       real(c_double), intent(out) :: values(n)
     end subroutine
 
-    !> After each step, by the thread that called. stop = .true. ends the run.
+    !> Called after each step, by the thread that called the library. stop is .false. on entry; .true. ends the run.
     subroutine pstripack_progress(progress, stop)
       import :: pstripack_scvt_progress
       type(pstripack_scvt_progress), intent(in) :: progress
@@ -104,12 +104,12 @@ module pstripack
   !> call pstripack_trmesh(x, y, z, list, lptr, lend, lnew, ier)
   !>
   !> The Delaunay triangulation of n = size(x) nodes, as STRIPACK's lists in canonical form.
-  !>   x, y, z     (n) real32 or real64: vectors from the centre of the sphere to the nodes, unit length
-  !>   list, lptr  (at least 6n-12) neighbours, and the slot of the next neighbour
-  !>   lend        (at least n) slot of each node's last neighbour
-  !>   lnew        one past the last slot used
-  !>   ier         pstripack_ok, an error code above, or L > 0 (the lists then hold nodes 1..M-1)
-  !> On a negative ier nothing else is written.
+  !>   x, y, z     (n), in: real32 or real64; vectors from the centre of the sphere to the nodes, of any length
+  !>   list, lptr  (at least 6n-12), out: neighbours, and the slot of the next neighbour
+  !>   lend        (at least n), out: slot of each node's last neighbour
+  !>   lnew        out: one past the last slot in use
+  !>   ier         out: pstripack_ok, an error code above, or L > 0 (the lists are then those of nodes 1..M-1)
+  !> If ier is negative nothing else is written.
   interface pstripack_trmesh
     module procedure trmesh_real32, trmesh_real64
   end interface
@@ -209,7 +209,7 @@ module pstripack
 
 contains
 
-  !> "major.minor.patch" of the library that is loaded.
+  !> The version "major.minor.patch" of the library that is loaded.
   function pstripack_version() result(text)
     character(len=:), allocatable :: text
     text = fortran_text(c_version())
@@ -226,9 +226,11 @@ contains
     end if
   end function
 
-  ! !> The number of the violated property if the lists are not a correct triangulation of the n = size(x)
-  ! nodes (exact signs), 0 if they are, an error code if this could not be determined; `message` names the
-  ! nodes. list, lptr (at least 6n-12), lend (at least n); lnew from TRMESH, or 0.
+  !> 0 if the lists are a correct triangulation of the n = size(x) nodes, by exact signs; else the number (> 0) of the
+  !> violated property, or an error code (< 0).
+  !>   list, lptr, lend  (at least 6n-12, 6n-12, n), in: the lists
+  !>   lnew              in: as from TRMESH, or 0 if not known
+  !>   message           out: the defect and the nodes; blank if there is none
   function pstripack_validate(x, y, z, list, lptr, lend, lnew, message) result(defect)
     real(c_double), intent(in), contiguous :: x(:), y(:), z(:)
     integer(c_int32_t), intent(in), contiguous :: list(:), lptr(:), lend(:)
@@ -245,22 +247,24 @@ contains
     call tell(line, message)
   end function
 
-  !> 64 bits that depend on the set of triangles alone. n = size(lend); the lists must be well formed.
+  !> A hash of 64 bits that depends on the set of triangles alone; 0 if the lists are not well formed. The number of
+  !> nodes is size(lend).
   function pstripack_fingerprint(list, lptr, lend) result(bits)
     integer(c_int32_t), intent(in), contiguous :: list(:), lptr(:), lend(:)
     integer(c_int64_t) :: bits
     bits = c_fingerprint(size(lend, kind=c_int32_t), list, lptr, lend)
   end function
 
-  !> A centroidal Voronoi tessellation: n = size(x) generators for the density, unit vectors in x, y, z.
-  !>   x, y, z   (n) in: with options%start = pstripack_scvt_given, the generators to start from, of any length
-  !>   result    energy, gradient, evaluations, and why the run ended
-  !>   ier       pstripack_ok, whatever the reason to end, or a negative code above
+  !> A centroidal Voronoi tessellation: finds n = size(x) generators for the density.
+  !>   x, y, z   (n), out: the generators, unit vectors; in, only with options%start = pstripack_scvt_given: the
+  !>             generators to start from, vectors of any length
+  !>   result    out: energy, gradient, evaluations, and why the run ended
+  !>   ier       out: pstripack_ok, whatever the reason to end, or a negative code above
   !>   density   default: 1 everywhere
-  !>   options   default: a pstripack_scvt_options() as declared
+  !>   options   default: the values in the declaration of pstripack_scvt_options
   !>   progress  default: none
-  !>   message   on an error: what is wrong, and where
-  !> On an error nothing else is written. Same bits for any number of threads.
+  !>   message   out: on an error, what is wrong, where, and what to do
+  !> On an error nothing else is written. The result has the same bits for any number of threads.
   subroutine pstripack_scvt(x, y, z, result, ier, density, options, progress, message)
     real(c_double), intent(inout), contiguous :: x(:), y(:), z(:)
     type(pstripack_scvt_result), intent(inout) :: result
@@ -283,16 +287,17 @@ contains
     if (present(message) .and. ier == pstripack_bad_size) message = pstripack_strerror(ier)
   end subroutine
 
-  !> One step, for programs with a loop of their own: the cells of n = size(x) generators.
-  !>   x, y, z           (n) generators, vectors of any length
-  !>   list, lptr, lend  (at least 6n-12, 6n-12, n) their triangulation, from TRMESH
-  !>   xc, yc, zc        (n) centroids of the cells, unit vectors: where Lloyd's method moves the generators
-  !>   mass              (n) integral of the density over each cell
-  !>   energy            of all cells
-  !>   ier               pstripack_ok or a negative code above
-  !>   density           default: 1 everywhere
-  !>   density_on_threads, message: as of pstripack_scvt
-  !> On an error nothing else is written. Same bits for any number of threads.
+  !> One step, for programs with a loop of their own: integrals over the cells of n = size(x) generators.
+  !>   x, y, z             (n), in: generators, vectors of any length
+  !>   list, lptr, lend    (at least 6n-12, 6n-12, n), in: their triangulation, from TRMESH
+  !>   xc, yc, zc          (n), out: centroids of the cells, unit vectors, to which Lloyd's method moves the generators
+  !>   mass                (n), out: integral of the density over each cell
+  !>   energy              out: the energy of all cells
+  !>   ier                 out: pstripack_ok or a negative code above
+  !>   density             default: 1 everywhere
+  !>   density_on_threads  as the component of pstripack_scvt_options
+  !>   message             as of pstripack_scvt
+  !> On an error nothing else is written. The result has the same bits for any number of threads.
   subroutine pstripack_scvt_step(x, y, z, list, lptr, lend, xc, yc, zc, mass, energy, ier, density, &
                                  density_on_threads, message)
     real(c_double), intent(in), contiguous :: x(:), y(:), z(:)

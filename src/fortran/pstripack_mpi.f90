@@ -1,9 +1,9 @@
-!> PSTRIPACK over MPI for Fortran: the C API of libpstripack_mpi (pstripack_mpi.h, which says more).
+!> PSTRIPACK over MPI for Fortran: the C API of libpstripack_mpi. pstripack_mpi.h has more details.
 !>
 !> comm mode:    call pstripack_set_comm(comm) makes every TRMESH of the program collective over comm.
 !> distributed:  a type(pstripack_mesh): each rank brings its own points and gets their stars.
 !>
-!> "Collective": every rank of the communicator calls it, in the same order. Communicators may be integers
+!> "Collective": every rank of the communicator must call it, in the same order. Communicators may be integers
 !> (mpif.h, module mpi) or of type(MPI_Comm) (module mpi_f08).
 module pstripack_mpi
   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_pointer, c_funloc, c_funptr, c_int, &
@@ -17,10 +17,10 @@ module pstripack_mpi
   public :: pstripack_ranks_disagree, pstripack_bad_comm, pstripack_coincident, pstripack_bad_number, &
             pstripack_empty_mesh, pstripack_every_rank
 
-  ! !> Results in addition to those of module pstripack.
+  !> Results in addition to those of module pstripack.
   integer(c_int32_t), parameter :: &
-    pstripack_empty_mesh = -3, &      !< nothing triangulated yet, or without success
-    pstripack_ranks_disagree = -7, &  !< the ranks of a collective TRMESH disagree in N or data
+    pstripack_empty_mesh = -3, &      !< the mesh has no triangulation, or was not created
+    pstripack_ranks_disagree = -7, &  !< the ranks of a collective call disagree in N, data or PSTRIPACK_ORDER
     pstripack_bad_comm = -8, &        !< null, freed, an inter-communicator; no such rank; MPI not running
     pstripack_coincident = -9, &      !< two points in the same direction
     pstripack_bad_number = -10        !< a global number is below 1, occurs twice, or is not one of 1..N
@@ -29,20 +29,20 @@ module pstripack_mpi
 
   !> call pstripack_set_comm(comm [, ier])
   !>
-  ! !> Collective over comm. From then on TRMESH, in all its forms, is collective over a duplicate of comm,
-  ! with the same arguments on every rank; MPI_COMM_NULL ends that. ier: 0, -6 or pstripack_bad_comm; errors
-  ! also print a line.
+  !> Starts comm mode. Collective over comm. From then on TRMESH, in all its forms, is collective over a duplicate of
+  !> comm, with the same arguments on every rank. MPI_COMM_NULL ends comm mode. ier: 0, -6, pstripack_ranks_disagree or
+  !> pstripack_bad_comm; errors also print a line on stderr.
   interface pstripack_set_comm
     module procedure set_comm_integer, set_comm_f08
   end interface
 
-  !> A distributed mesh. It cannot be copied by assignment.
-  !> Collective: create, triangulate, gather, scvt, free; so is the end of its scope, which frees it.
+  !> A distributed mesh. It cannot be copied by assignment. The end of its scope frees it.
+  !> Collective are create, triangulate, gather, scvt, free, and the end of its scope.
   type :: pstripack_mesh
     private
     type(c_ptr) :: handle = c_null_ptr
   contains
-    !> create(comm, ier): over a duplicate of comm. ier: 0, -6 or pstripack_bad_comm.
+    !> create(comm, ier): makes an empty mesh over a duplicate of comm. ier: 0, -6 or pstripack_bad_comm.
     generic, public :: create => create_integer, create_f08
     procedure, private :: create_integer, create_f08
     procedure, public :: triangulate
@@ -212,10 +212,13 @@ contains
     call mesh%create_integer(comm%MPI_VAL, ier)
   end subroutine
 
-  !> Triangulates the points of all ranks together: n = size(number) of this rank, xyz(3,n), number their
-  !> global numbers from 1, each once over all ranks, in any order. ier: 0, -1 (fewer than three points in all),
-  !> -2 (all on one great circle), -4 (too many, or arrays of different sizes), -5 (not finite, or zero), -6
-  !> (out of memory), pstripack_coincident, pstripack_bad_number; then the mesh is empty.
+  !> Triangulates the points of all ranks together. Collective.
+  !>   xyz     (3, n), in: vectors from the centre of the sphere to the points of this rank
+  !>   number  (n), in: their global numbers, at least 1, each once over all ranks, in any order
+  !>   ier     out: 0, -1 (fewer than three points in all), -2 (all on one great circle), -4 (too many, or arrays of
+  !>           different sizes), -5 (not finite, or zero), -6 (out of memory), pstripack_coincident,
+  !>           pstripack_bad_number, or pstripack_empty_mesh (not created)
+  !> After an error the mesh is empty.
   subroutine triangulate(mesh, xyz, number, ier)
     class(pstripack_mesh), intent(inout) :: mesh
     real(c_double), intent(in), contiguous :: xyz(:, :)
@@ -225,12 +228,12 @@ contains
     ier = pstripack_empty_mesh
     if (.not. c_associated(mesh%handle)) return
     n = size(number, kind=c_int64_t)
-    ! A count that the library refuses, so that all ranks return the error.
+    ! The library rejects this count on all ranks, so that all return the error.
     if (size(xyz, 2, kind=c_int64_t) /= n .or. (n > 0 .and. size(xyz, 1) /= 3)) n = -1
     ier = c_triangulate(mesh%handle, n, xyz, number)
   end subroutine
 
-  ! !> After ier = -5, -9, -10: the numbers of the points concerned, 0 for none.
+  !> After ier = -5, -9, -10: the global numbers of the points that the error is about; 0 for none. Not collective.
   subroutine error_points(mesh, first, second)
     class(pstripack_mesh), intent(in) :: mesh
     integer(c_int64_t), intent(out) :: first, second
@@ -239,8 +242,8 @@ contains
     if (c_associated(mesh%handle)) call c_error_points(mesh%handle, first, second)
   end subroutine
 
-  ! !> For this rank: own points, entries of all stars, triangles, and points of other ranks that are
-  ! neighbours.
+  !> The numbers, on this rank, of own points, entries of all stars, triangles whose smallest corner is an own point,
+  !> and points of other ranks that are neighbours of own points. Not collective.
   subroutine sizes(mesh, points, arcs, triangles, halo)
     class(pstripack_mesh), intent(in) :: mesh
     integer(c_int64_t), intent(out) :: points, arcs, triangles, halo
@@ -251,8 +254,9 @@ contains
     if (c_associated(mesh%handle)) call c_sizes(mesh%handle, points, arcs, triangles, halo)
   end subroutine
 
-  !> The neighbours of own point i, in global numbers, are neighbour(begin(i) : begin(i+1)-1), counterclockwise,
-  !> as in LIST. begin(points+1), neighbour(arcs).
+  !> The stars in global numbers: the neighbours of own point i are neighbour(begin(i) : begin(i+1)-1),
+  !> counterclockwise, as in LIST. begin(points+1), neighbour(arcs). Not collective. Stops the program if an array is
+  !> too short or the mesh was not created.
   subroutine stars(mesh, begin, neighbour)
     class(pstripack_mesh), intent(in) :: mesh
     integer(c_int64_t), intent(inout), contiguous :: begin(:), neighbour(:)
@@ -262,9 +266,10 @@ contains
     begin(:points + 1) = begin(:points + 1) + 1
   end subroutine
 
-  ! !> The rank (from 0) that should own each of the points xyz(3, n), so that each rank's points lie close
-  ! together and all ranks have about as many. Points sent there stay at home in later calls, until some rank
-  ! has an eighth more than its share.
+  !> Sets rank(i) to the rank (from 0) that should own the point xyz(:, i), so that each rank's points lie close
+  !> together and all ranks have about the same number. Points that have been moved to these ranks keep them in later
+  !> calls, until some rank has an eighth more points than the average. ier: 0, pstripack_empty_mesh, -4 (arrays of
+  !> wrong sizes) or -5. Not collective.
   subroutine home(mesh, xyz, rank, ier)
     class(pstripack_mesh), intent(in) :: mesh
     real(c_double), intent(in), contiguous :: xyz(:, :)
@@ -277,7 +282,7 @@ contains
     ier = c_home(mesh%handle, size(xyz, 2, kind=c_int64_t), xyz, rank)
   end subroutine
 
-  !> The same in local numbers: own points 1..points, then those of the halo. ier: 0 or -6.
+  !> The stars in local numbers: own points 1..points, then the points of the halo. Else as `stars`. ier: 0 or -6.
   subroutine local_stars(mesh, begin, neighbour, ier)
     class(pstripack_mesh), intent(in) :: mesh
     integer(c_int64_t), intent(inout), contiguous :: begin(:)
@@ -290,7 +295,7 @@ contains
   end subroutine
 
   !> The triangles whose smallest corner is a point of this rank: corner(3, triangles), global numbers,
-  !> counterclockwise, the smallest first.
+  !> counterclockwise, the smallest first. Not collective. Stops the program if the array is too short.
   subroutine triangles(mesh, corner)
     class(pstripack_mesh), intent(in) :: mesh
     integer(c_int64_t), intent(inout), contiguous :: corner(:, :)
@@ -300,7 +305,8 @@ contains
     if (c_associated(mesh%handle)) call c_triangles(mesh%handle, corner)
   end subroutine
 
-  !> Points of other ranks that are neighbours of own ones, by increasing number: number(halo), xyz(3, halo).
+  !> The halo: points of other ranks that are neighbours of own points, by increasing number: number(halo),
+  !> xyz(3, halo). Not collective. Stops the program if an array is too short.
   subroutine halo(mesh, number, xyz)
     class(pstripack_mesh), intent(in) :: mesh
     integer(c_int64_t), intent(inout), contiguous :: number(:)
@@ -312,10 +318,10 @@ contains
     if (c_associated(mesh%handle)) call c_halo(mesh%handle, number, xyz)
   end subroutine
 
-  !> The lists of the whole mesh, as TRMESH gives them, on rank `root` (from 0) or on pstripack_every_rank;
-  !> the numbers must be 1..N. list, lptr (6N-12), lend (N) count on those ranks only. ier: 0,
-  !> pstripack_empty_mesh, -4 (6N-11 does not fit 32 bits), -6, pstripack_bad_comm (no such rank),
-  !> pstripack_bad_number.
+  !> Gathers the lists of the whole mesh, as TRMESH returns them, on rank `root` (from 0), or on all ranks if root is
+  !> pstripack_every_rank. The global numbers must be 1..N, N the number of all points. list, lptr (6N-12), lend (N)
+  !> and lnew are written on these ranks only; their sizes are not checked. ier: 0, pstripack_empty_mesh, -4 (6N-11
+  !> does not fit 32 bits), -6, pstripack_bad_comm (no such rank) or pstripack_bad_number. Collective.
   subroutine gather(mesh, root, list, lptr, lend, lnew, ier)
     class(pstripack_mesh), intent(inout) :: mesh
     integer(c_int32_t), intent(in) :: root
@@ -326,17 +332,18 @@ contains
     if (c_associated(mesh%handle)) ier = c_gather(mesh%handle, root, list, lptr, lend, lnew)
   end subroutine
 
-  !> A centroidal tessellation of the generators of all ranks, which stay on their ranks. Module pstripack has
-  !> the types, and pstripack_scvt says more.
-  !>   xyz, number  as of triangulate: the generators to start from, of any length; xyz becomes those found
-  !>   result       the same on every rank but for generators, which is size(number)
-  !>   ier          0, whatever the reason to end; -1 (fewer than four generators in all), -4 (too many, or arrays
-  !>                of different sizes), -5, -6, pstripack_coincident, pstripack_bad_number, or those of
-  !>                pstripack_scvt; the same on every rank, as is the message. Then nothing else is written
+  !> A centroidal tessellation of the generators of all ranks, which stay on their ranks. The types are those of module
+  !> pstripack; see also pstripack_scvt there. Collective.
+  !>   xyz, number  as in triangulate; xyz in: the generators to start from, vectors of any length; out: the generators
+  !>                found, unit vectors
+  !>   result       out: the same on every rank, except generators, which is size(number)
+  !>   ier          out: 0, whatever the reason to end; -1 (fewer than four generators in all), -4 (too many, or arrays
+  !>                of different sizes), -5, -6, pstripack_coincident, pstripack_bad_number, or a code of
+  !>                pstripack_scvt; the same on every rank, as is the message. After an error nothing else is written
   !>   density      the same on every rank, called for places near the rank's generators; default: 1 everywhere
-  !>   options      those of rank 0 count, but for density_on_threads; start and seed have no meaning
-  !>   progress     called on rank 0; on others it has no effect
-  !> Afterwards the mesh is that of the generators, and empty after an error.
+  !>   options      those of rank 0 are used on all ranks, except density_on_threads; start and seed have no effect
+  !>   progress     called on rank 0 only
+  !> Afterwards the mesh is that of the generators; after an error it is empty.
   subroutine scvt(mesh, xyz, number, result, ier, density, options, progress, message)
     class(pstripack_mesh), intent(inout) :: mesh
     real(c_double), intent(inout), contiguous :: xyz(:, :)
@@ -364,7 +371,7 @@ contains
     call tell(line, message)
   end subroutine
 
-  !> Collective, unless MPI is finalised already. May be called twice.
+  !> Frees the mesh. Collective, unless MPI is finalised already. May be called again.
   subroutine free_mesh(mesh)
     class(pstripack_mesh), intent(inout) :: mesh
     if (c_associated(mesh%handle)) call c_free(mesh%handle)

@@ -1,20 +1,22 @@
 ! The symbols of libstripack*: STRIPACK's external procedures, as calls of libpstripack.
 !
-! One text for all libraries and all routines; plain_forwarders.inc, made from the table in docs/api/routines, has
-! those that only call their C function. It is compiled once for each routine of each library, so
-! that a static archive has one object a public routine; CMakeLists.txt generates the sources, which define
+! One source for all libraries and all routines; plain_forwarders.inc, generated from the table in docs/api/routines, has
+! those that only call their C function. It is compiled once for each routine of each library, so that a static
+! archive has one object per public routine. CMakeLists.txt generates the source files, which define
 !   STRIPACK_<NAME>          the routine to compile, e.g. STRIPACK_TRLIST
 ! and include this file; the library's compile definitions are
 !   STRIPACK_REAL_BYTES      4 or 8
 !   STRIPACK_INTEGER_BYTES   4, or 8 with reals of 8
 !   STRIPACK_8_ARGUMENTS     if TRMESH has the arguments N,X,Y,Z,LIST,LPTR,LEND,IER
 !
-! Rules of this text: arrays are assumed-size, so that nothing is ever copied; a routine calls nothing but
-! one function of libpstripack, never a public symbol, since programs define a SWAP, INSERT, LEFT or STORE
-! of their own; there is no STOP, no saved variable but IDENT, no output but by routines that print, and the messages on
-! standard output that EDGE and DELNOD have always printed; all are recursive, since threads may call at once.
-! What the routines do:
-! the headers in src/cxx/stripack and the interfaces in stripack_module.F90.
+! Rules of this file:
+! - Arrays are assumed-size, so that none is ever copied.
+! - A routine calls only functions of libpstripack, never a public symbol, since programs define a SWAP, INSERT, LEFT or
+!   STORE of their own.
+! - There is no STOP and no saved variable except IDENT. There is no output except by routines that print, and the
+!   messages on standard output that EDGE and DELNOD have in the original.
+! - All routines are recursive, since threads may call them at once.
+! The routines are described in the headers in src/cxx/stripack and the interfaces in stripack_module.F90.
 
 #if STRIPACK_INTEGER_BYTES == 8
 #define INTEGER_KIND c_int64_t
@@ -38,8 +40,8 @@
 #endif
 #endif
 
-! By this text in a program or library, stripped or not, `pstripack-config --check` knows our routines from others of
-! the same names. It is volatile and decides something, so that no compiler or linker leaves it out.
+! By this text in a program or library, stripped or not, `pstripack-config --check` distinguishes our routines from
+! others of the same names. It is volatile and decides a branch, so that no compiler or linker removes it.
 #define IDENT(ROUTINE) character(len=40), save, volatile :: ident = "@(#)PSTRIPACK "//STRIPACK_LIBRARY//" "//ROUTINE
 #define KEEP_IDENT if (ident(1:1) /= "@") return
 
@@ -135,8 +137,8 @@ end function
 #endif
 
 #ifdef STRIPACK_STORE
-! The original stores X in a common block, to round it to its kind on processors with wider registers. An
-! argument comes through memory anyway.
+! The original stores X in a common block, to round it to its kind on processors with wider registers. That is not
+! needed here, because an argument is read from memory anyway.
 recursive real(REAL_KIND) function store(x)
   use, intrinsic :: iso_c_binding
   implicit none
@@ -146,9 +148,9 @@ end function
 #endif
 
 ! The routines that print: libpstripack composes the text, write_records.inc writes it.
-! TRPRNT, TRLPRT: Algorithm 772 has a last argument LOUT, the Fortran 90 texts have not and print to standard
-! output. Those texts are REAL*8: libstripack and libstripack_8arg never look at LOUT. The others serve mostly callers
-! that pass it: listing_unit.inc says when it counts.
+! TRPRNT, TRLPRT: Algorithm 772 has a last argument LOUT. The Fortran 90 texts, which are REAL*8, have none and print on
+! standard output, so libstripack and libstripack_8arg never read LOUT. Most callers of the other two libraries pass it:
+! listing_unit.inc decides whether it is used.
 #if STRIPACK_REAL_BYTES == 8 && STRIPACK_INTEGER_BYTES == 4
 #define F90_LISTING 1
 #define AND_LOUT

@@ -1,9 +1,9 @@
 ! Module stripack: explicit interfaces to the symbols of libstripack, libstripack_r4, libstripack_8arg and
 ! libstripack_i8. Made by docs/api/make-api.py from stripack_module.F90.in and docs/api/routines: edit those.
 !
-! This file is installed because module files are for one compiler. Compile it with your code's options, such as
-! -r8, -i8, -fdefault-real-8 or -fdefault-integer-8; only the module file is needed, no object. Options that
-! gfortran needs, by library:
+! This file is installed because a module file is valid for one compiler only. Compile it with your code's options,
+! such as -r8, -i8, -fdefault-real-8 or -fdefault-integer-8. Only the module file is needed, not the object file.
+! Options that gfortran needs, by library:
 !
 !   libstripack        nothing
 !   libstripack_r4     -DSTRIPACK_REAL_KIND=4
@@ -20,10 +20,10 @@
 ! INTEGER and LOGICAL are the default kinds. No dummy has an INTENT: programs pass INTENT(IN) arrays of
 ! their own as output, as the original allows. Arrays are explicit-shape or assumed-size.
 !
-! All routines: none is collective (in an MPI program any number of ranks may call any number of times), any
-! number of threads may call at once with their own arrays. Nodes and slots count from 1. LIST and LPTR have
-! at least 6N-12 elements, LEND has N. Angles are in radians except in TRPLOT and VRPLOT, lengths in units of the
-! radius. All arguments: man 3 trmesh etc., or docs/api.
+! No routine is collective, except TRMESH after `call pstripack_set_comm`. Any number of threads may call at
+! once with their own arrays. Nodes and slots count from 1. LIST and LPTR have at least 6N-12 elements, LEND
+! has N. Angles are in radians except in TRPLOT and VRPLOT; lengths are in units of the radius. All
+! arguments: man 3 trmesh etc., or docs/api.
 
 #ifndef STRIPACK_REAL_KIND
 #define STRIPACK_REAL_KIND selected_real_kind(15, 307)

@@ -28,7 +28,7 @@ Counts count(const Nodes& nodes, const Rings& rings, exact::On on) {
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const auto& ring = rings.neighbours[k];
     const bool open = rings.boundary[k];
-    c.arcs += ring.size();  // both ways
+    c.arcs += ring.size();  // each arc counts twice
     c.boundary += open;
     c.not_convex += open && exact::left(nodes[k], nodes[ring.front()], nodes[ring.back()]) < 0;
     for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -65,7 +65,7 @@ std::string behaviour(const Nodes& nodes, int ier, const Lists& lists) {
   const auto rings = rings_of(lists);
   if (!rings || !symmetric(*rings)) return code + ": broken lists";
   Counts c = count(nodes, *rings, lengths_call_for(nodes));
-  if (c.not_delaunay > 0)  // a node may be hidden by lengths near 1: then directions decide
+  if (c.not_delaunay > 0)  // lengths near 1 may hide a node: then directions decide
     c.not_delaunay = std::min(c.not_delaunay, count(nodes, *rings, exact::On::directions).not_delaunay);
   std::string text = code + ": " + some(c.triangles, "triangle", "triangles") + ", " +
                      some(c.boundary, "boundary node", "boundary nodes");

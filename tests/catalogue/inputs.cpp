@@ -41,13 +41,13 @@ Nodes sorted(Nodes nodes, double Point::*by) {
   return nodes;
 }
 
-/// `node` at the place k, from 1.
+/// The nodes with node number k, from 1, replaced by `node`.
 Nodes with(Nodes nodes, std::size_t k, const Point& node) {
   nodes[k - 1] = node;
   return nodes;
 }
 
-/// Node m in the place of node l.
+/// The nodes with node m moved to the place of node l.
 Nodes with_duplicate(Nodes nodes, std::size_t l, std::size_t m) {
   nodes[m - 1] = nodes[l - 1];
   return nodes;
@@ -206,7 +206,7 @@ const std::vector<Input>& generated_inputs() {
       {"duplicate_50_99", [] { return with_duplicate(family("random", 120), 50, 99); }},
       {"duplicate_2_5", [] { return with_duplicate(family("random", 120), 2, 5); }},
       {"duplicate_1_4", [] { return with_duplicate(family("random", 120), 1, 4); }},
-      {"duplicate_of_a_boundary_node",  // the easternmost of 60 in the north
+      {"duplicate_of_a_boundary_node",  // the easternmost of 60 northern nodes
        [] { return with_duplicate(sorted(family("hemisphere", 60), &Point::z), 1, 50); }},
       {"duplicates_the_whole_set_twice", [] { return joined(family("random", 500), family("random", 500)); }},
       {"duplicate_1_2", [] { return with_duplicate(family("random", 50), 1, 2); }},

@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue's sets of nodes by name, for the record of results.
+// The catalogue's sets of nodes, by name.
 
 #include <functional>
 #include <string>
@@ -12,5 +12,5 @@ struct Input {
   std::function<Nodes()> nodes;
 };
 
-/// All generated sets; those of tests/data are files with their own record.
+/// All generated sets. The files of tests/data are further sets; each holds its own record.
 const std::vector<Input>& generated_inputs();

@@ -1,8 +1,8 @@
-// Compares the original's and our result for every input of the catalogue with the record: in record.txt, and
-// for the point files of tests/data in the comments at their beginning. The original runs in its own process
-// with a time limit.
+// Compares the original's and our result for every input of the catalogue with the record: record.txt, or for
+// the point files of tests/data the comments at their beginning. The original runs in its own process with a
+// time limit.
 //
-// `record_test --print SECONDS` writes the lines of record.txt and tests/data again, with that time limit.
+// `record_test --print SECONDS` prints the lines of record.txt and tests/data anew, with that time limit.
 
 #include <gtest/gtest.h>
 
@@ -20,11 +20,11 @@ namespace {
 
 struct Recorded {
   Input input;
-  std::string original, ours;  ///< empty if nothing is on record
+  std::string original, ours;  ///< empty: not recorded
 };
 void PrintTo(const Recorded& r, std::ostream* out) { *out << r.input.name; }
 
-/// What stands behind `key` in the first line of the file that begins so.
+/// The rest of the first line of the file that begins with `key`.
 std::string line_of(const std::string& file, const std::string& key) {
   std::ifstream in(file);
   for (std::string line; std::getline(in, line);)
@@ -64,7 +64,7 @@ TEST_P(Catalogue, OursIsAsRecorded) {
 
 #ifdef HAVE_NGMATH
 TEST_P(Catalogue, OriginalIsAsRecorded) {
-  // If it should return, it gets all the time that a loaded machine may need.
+  // If it should return, give it the time that a loaded machine may need.
   const bool hangs = GetParam().original == "does not return";
   EXPECT_EQ(original_behaviour(GetParam().input.nodes(), hangs ? 1 : 100), GetParam().original);
 }

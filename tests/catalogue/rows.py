@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """The catalogue's rows (rows.toml).
 
-rows.py check CTEST BUILD   every row has tests, all that it names exist, and no record is without a row
-rows.py print               the table, with what is on record, as Markdown
+rows.py check CTEST BUILD   fails unless every row has tests, all names in it exist, and every record has a row
+rows.py print               prints the table with the records as Markdown
 """
 
 import fnmatch
@@ -22,7 +22,7 @@ def catalogue():
 
 
 def tests_of(ctest, build):
-    # -C long: a row may name a test that runs with this label only.
+    # -C long: a row may name a test that only runs in this configuration.
     out = subprocess.run([ctest, "--test-dir", build, "-C", "long", "--show-only=json-v1"],
                          check=True, capture_output=True)
     # GoogleTest's names may end with a comment that shows the parameter.
@@ -42,14 +42,14 @@ def faults(rows, tests):
                 found = fnmatch.filter(tests, recorded_as.format(who) + pattern)
                 covered.update(found)
                 if not found:
-                    yield f"nothing of {who.lower()} is on record for {pattern}: {row['input']}"
+                    yield f"no record of {who.lower()} for {pattern}: {row['input']}"
     for test in tests:
         if test.startswith("record_test.") and test not in covered:
             yield f"in no row: {test}"
 
 
 def record():
-    """What the original does, by name of the input."""
+    """The original's behaviour, by name of the input."""
     found = {}
     for line in (here / "record.txt").read_text().splitlines():
         name, separator, text = line.partition(" original: ")

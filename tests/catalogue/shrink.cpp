@@ -1,7 +1,7 @@
-// shrink INPUT PATTERN [SECONDS]: leaves out nodes as long as what the original does still matches PATTERN (a
-// regular expression, see behaviour.h) and what ours does begins as it did; prints a point file for
-// tests/data. INPUT is a name of inputs.h or a file. This is delta debugging (Zeller, Hildebrandt: ddmin):
-// the result has no node too many, but there may be smaller sets.
+// shrink INPUT PATTERN [SECONDS]: removes nodes as long as the original's behaviour (see behaviour.h) still
+// matches the regular expression PATTERN and the beginning of ours is unchanged. Prints a point file for
+// tests/data. INPUT is a name of inputs.h or a file. This is delta debugging (Zeller, Hildebrandt: ddmin): no
+// single node of the result can be removed, but smaller sets may exist.
 
 #include <cstdio>
 #include <exception>
@@ -27,7 +27,7 @@ Nodes without(const Nodes& nodes, std::size_t begin, std::size_t end) {
   return rest;
 }
 
-/// Smaller and smaller pieces are left out, until no single node can be.
+/// Removes smaller and smaller pieces until no single node can be removed.
 template <class Fails>
 Nodes shrunk(Nodes nodes, const Fails& fails) {
   for (std::size_t piece = nodes.size() / 2; piece > 0;) {

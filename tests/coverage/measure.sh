@@ -3,10 +3,9 @@
 #
 #   tests/coverage/measure.sh [BUILD [CTEST OPTIONS...]]      BUILD: default build-coverage
 #
-# Builds (preset coverage: g++ -O0 --coverage), runs a choice of the tests with a fiftieth of the random cases, or
-# those that the options of ctest say, prints the table of branches per file, and fails where a branch of the
-# predicates, of the validators or of an error path is neither taken nor in left-out.txt (required.py). Some 15
-# minutes on two processors.
+# Builds (preset coverage: g++ -O0 --coverage) and runs a choice of tests, or those of the given ctest options, with a
+# fiftieth of the random cases. Prints the table of branches per file, and fails if a branch of the predicates, of the
+# validators or of an error path is neither taken nor in left-out.txt (required.py). Some 15 minutes on two processors.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 source=$(cd "$here/../.." && pwd)
@@ -17,7 +16,7 @@ if [ $# -eq 0 ]; then
   tests='predicates_test|validator_test|mesh_test|edit_(broken_lists_)?test|listing_test|plot_test|check_test|report_test|wide_integers'
   tests="$tests|catalogue_(numbers|callers|duplicates|beyond)|FewNodes|Nasty|Coincident|GivingUp|fuzz_corpus|faults"
   tests="$tests|fortran\\.|privileges|point_files|dlopen|np(1|3)_patches2_bisection_slices"
-  # Those with the most nodes; a limit of the size of files, which the counts' files have to keep as well.
+  # Leave out tests with the most nodes, and one whose limit on file size would apply to the files of counts.
   set -- -R "$tests" -E 'AMillion|SinglePrecision.Nodes|DiskIsFull|LargePatches'
 fi
 

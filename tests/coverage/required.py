@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
-"""required.py COVERAGE.json: fails where what must be covered is not.
+"""required.py COVERAGE.json: fails if required branches are not covered.
 
-Of gcovr's report, these must be covered with all their branches, but for those of left-out.txt:
+These lines of gcovr's report must be covered with all their branches, except those of left-out.txt:
   - the files of REQUIRED: the predicates and the validators;
   - the error paths of all of src/: every line that raises, catches or returns an error (ERROR), and the
     condition that leads there.
 
-Of a line only as many pairs of branches count as its text has conditions: behind them gcov lists the branches of the
-clean-up after exceptions.
+Only the first pairs of branches of a line count, one pair per condition in its text: after them gcov lists the branches
+of the clean-up after exceptions.
 
-left-out.txt has a line "file | text of the line | reason" each; one that is not needed any more is an error, too.
+left-out.txt has lines "file | text of the line | reason"; a line that is not needed any more is an error, too.
 """
 
 import json
@@ -44,13 +44,13 @@ def code_of(line):
 
 
 def conditions(text):
-    """How many conditions a line of code has: of `a && b` as a value two, of `if (a && b)` as well."""
+    """The number of conditions in a line of code: `a && b` has two, as a value or in `if (a && b)`."""
     operators = len(re.findall(r"&&|\|\||\?", text))
     return 100 if "switch (" in text else operators + bool(operators or re.search(r"\b(if|while|for) \(", text))
 
 
 def condition_of(code, k):
-    """The lines of the condition that stands before line k (from 0), if one does."""
+    """The lines of the condition before line k (from 0), if there is one."""
     above = []
     while k > 0:
         k -= 1

@@ -1,6 +1,6 @@
-// The boundary of the triangulation as patches find it that know little of each other: their own nodes, their
-// halos and the same three nodes from everywhere. Sets whose nodes lie mostly on the boundary, in exact ties
-// too, give the serial rings, boundary nodes included.
+// The boundary of the triangulation, found by patches that know only their own nodes, their halos and three
+// common nodes. The sets have most nodes on the boundary, also in exact ties. Rings and boundary nodes must
+// be the serial ones.
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ using namespace pstripack;
 using IntPatch = Patch<std::int32_t>;
 using Ints = std::vector<std::int64_t>;
 
-/// A node's neighbours as they stand in LIST.
+/// The neighbours of each node as in LIST.
 using StarsOfAll = std::vector<Ints>;
 
 struct Set {
@@ -102,8 +102,8 @@ class Patches {
     return patches_[q].ask(corners_, std::numeric_limits<double>::infinity(), SIZE_MAX);
   }
 
-  /// Questions and answers until none is left, about arcs only if triangles do not matter. Returns the
-  /// rounds.
+  /// Exchanges questions and answers until no question is left, only about arcs unless triangles_matter.
+  /// Returns the number of rounds.
   int ask_and_learn(bool triangles_matter = true) {
     for (int round = 0;; ++round) {
       std::vector<Question> questions;
@@ -121,8 +121,7 @@ class Patches {
       for (std::size_t k = 0; k < questions.size(); ++k)
         answers[k] = patches_[static_cast<std::size_t>(questions[k].to)].answer(questions[k]);
       for (std::size_t k = 0; k < questions.size(); ++k)
-        patches_[static_cast<std::size_t>(questions[k].from)].learn(questions[k], answers[k].data(),
-                                                                    answers[k].size());
+        patches_[static_cast<std::size_t>(questions[k].from)].take_in(answers[k]);
     }
   }
 
@@ -263,7 +262,7 @@ std::vector<Set> sets(std::uint64_t seed) {
 
 // ---- tests ------------------------------------------------------------------------------------------
 
-/// As if there were 10^8 times as many nodes, so close together that hardly any is in a halo.
+/// A partition with halos as narrow as if there were 10^8 times as many nodes.
 Partition partition_of(PartitionKind kind, int patches, const Nodes& nodes, Lengths lengths) {
   const Places places(lengths, 1e-6);
   std::vector<Point> sample;
@@ -316,8 +315,8 @@ TEST(Boundary, IsFoundByQuestionsAboutArcsAlone) {
   });
 }
 
-/// Of two patches one lies around the other, and neither knows of the other: what the inner one takes for the
-/// boundary consists of its own nodes, and only the arc that is asked of all tells it.
+/// One of two patches surrounds the other, and neither knows the other's nodes. The inner patch takes a curve
+/// of its own nodes for the boundary; only the arc that it asks all patches about shows the error.
 TEST(Boundary, OneArcOfACurveOfOwnNodesIsAskedOfAll) {
   Nodes nodes;
   std::vector<Point> sample;

@@ -1,4 +1,4 @@
-// Hard inputs that are in no row of the catalogue.
+// Section "Beyond" of tests/catalogue/rows.toml.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ constexpr double tiny = std::numeric_limits<double>::denorm_min();
 
 Point minus(const Point& p) { return {-p.x, -p.y, -p.z}; }
 
-/// Each component one ulp up, one down, or unchanged.
+/// p with each component increased or decreased by one ulp, or unchanged.
 Point shaken(const Point& p, Random& random) {
   const auto one = [&random](double v) {
     const std::size_t way = random.below(3);
@@ -176,13 +176,13 @@ TEST(Symmetry, OfSignsAndAxesToTheBitIsCorrect) {
   }
 }
 
-/// On coordinates the mesh is wrong: some node is hidden by lengths, and directions decided.
+/// True if lengths hide a node: the mesh is then wrong on coordinates, since directions decided.
 bool is_decided_by_directions(const Nodes& nodes) {
   return !fault(nodes, *rings_of(trmesh(nodes)), exact::On::coordinates).empty();
 }
 
 TEST(HiddenNodes, BehindOneThatIsLongerByLessThanTheToleranceAreCorrect) {
-  // A node longer by e hides one at about that distance, or most of a crowd within the root of 8e.
+  // A node longer by e hides a node at a distance of about e, or most nodes of a cluster within sqrt(8e).
   Random random(5);
   for (const double longer : {1e-9, 1e-7, 0.9e-6})
     for (const auto& [hidden, within] : {std::pair{1, longer}, {100, 0.5 * std::sqrt(longer)}}) {

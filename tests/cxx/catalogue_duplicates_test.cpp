@@ -116,7 +116,7 @@ TEST(Duplicate, TheSameDirectionWithAnotherLengthIsReported) {
   }
 }
 
-TEST(Duplicate, OppositeIsNone) {
+TEST(Duplicate, IsNotReportedForOppositeNodes) {
   Nodes nodes = make("random", 50);
   nodes[30] = {-nodes[10].x, -nodes[10].y, -nodes[10].z};
   EXPECT_TRUE(is_correct(nodes, trmesh(nodes)));

@@ -143,7 +143,7 @@ TEST(Ring, OnEveryParallelIsCorrect) {
   }
 }
 
-/// The generators move to the normalised mean of the centroids of their triangles: Lloyd's method, nearly.
+/// Moves nodes to the normalized mean of the centroids of their triangles: approximately Lloyd's method.
 Nodes lloyd_step(const Nodes& nodes, const Rings& rings) {
   Nodes moved = nodes;
   for (std::size_t k = 0; k < nodes.size(); ++k) {

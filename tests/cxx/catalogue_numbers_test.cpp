@@ -104,8 +104,8 @@ TEST(TooMany, IsRefusedBeforeAnythingIsTouched) {
 }
 
 TEST(TooMany, TheLargestThatFitsIsNot) {
-  // Of 357,913,943 nodes the first page can be read, and holds zero vectors: whoever goes on to read the
-  // coordinates returns -5 there or dies behind it. -6 is right where memory is short. Not -4.
+  // Of the coordinates of 357,913,943 nodes only the first page can be read; it has zero vectors. A call that
+  // accepts N returns -5 or crashes behind this page, or returns -6 if memory is short; but not -4.
   const std::int32_t n = 357913943;
   const std::size_t bytes = std::size_t{8} * static_cast<std::size_t>(n), page = 4096;
   char* memory = static_cast<char*>(mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0));
@@ -135,7 +135,7 @@ Nodes scaled(Nodes nodes, double s) {
   return nodes;
 }
 
-TEST(Lengths, RadiusIsNoMatter) {
+TEST(Lengths, RadiusDoesNotMatter) {
   for (const double radius : {2.0, 0.5, 6371229.0, 1e-3, 1e300, 1e-300, 0x1p-1022})
     for (const char* family : {"random", "hemisphere", "cap:1e-6"}) {
       EXPECT_TRUE(is_as_promised(scaled(make(family, 500), radius))) << radius << " " << family;

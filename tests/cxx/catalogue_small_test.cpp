@@ -91,7 +91,7 @@ TEST(FewNodes, FourOnOneSideHaveABoundary) {
 
 // ---- All small subsets of the 26 directions of a cube ----
 
-/// All signs of fours of the 26 nodes, from tests/support/exact.h.
+/// The signs of all fours of the 26 nodes, from tests/support/exact.h.
 class CubeDirections {
  public:
   explicit CubeDirections(bool unit) {
@@ -180,8 +180,8 @@ class CubeDirections {
   signed char left_[26][26][26] = {}, above_[26][26][26][26] = {};
 };
 
-/// Every subset of `size` of the 26, in every `stride`-th of all the orders of all the subsets, but in one
-/// order at least.
+/// Checks every subset of `size` of the 26 nodes, in every `stride`-th of all orders of all subsets, and each
+/// subset in at least one order.
 void check_subsets(bool unit, int size, std::uint64_t stride) {
   const CubeDirections cube(unit);
   std::uint64_t orders = 0, calls = 0;

@@ -47,8 +47,8 @@ std::vector<Case> cases(const std::vector<std::size_t>& sizes) {
   return all;
 }
 
-/// Of every distribution that the benchmark measures. Nests over more than 100 decades have few nodes here,
-/// as nearly every question about them takes big integers.
+/// Cases of every distribution that the benchmark measures. Nests over more than 100 decades have few nodes,
+/// since nearly every test of them takes big integers.
 std::vector<Case> hard_cases(const std::vector<std::size_t>& sizes) {
   std::vector<Case> all;
   for (const point_sets::Distribution& d : point_sets::distributions())
@@ -57,7 +57,7 @@ std::vector<Case> hard_cases(const std::vector<std::size_t>& sizes) {
   return all;
 }
 
-/// With the first three nodes not on one great circle, so that TRMESH triangulates them.
+/// The nodes, reordered so that the first three are not on one great circle, which TRMESH requires.
 Nodes with_a_triangle_first(Nodes nodes) {
   for (std::uint64_t seed = 1; exact::left(nodes[0], nodes[1], nodes[2]) == 0; ++seed)
     point_sets::shuffle(nodes, seed);
@@ -67,7 +67,7 @@ Nodes with_a_triangle_first(Nodes nodes) {
 const std::vector<std::size_t> small = {3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 20, 50}, medium = {100, 1000},
                                large = {10000, 100000};
 
-/// Threads for the calls in its scope; without OpenMP nothing to do.
+/// Sets the number of threads for its lifetime; nothing without OpenMP.
 class Threads {
  public:
 #ifdef _OPENMP
@@ -103,7 +103,7 @@ TEST_P(HardNodes, AreTriangulatedCorrectly) {
 
 INSTANTIATE_TEST_SUITE_P(Of, HardNodes, ::testing::ValuesIn(hard_cases({12, 300, 2000})), name_of);
 
-/// For so few nodes the result is known by trying all triples.
+/// Few enough nodes to find the result by trying all triples.
 class FewNodes : public ::testing::TestWithParam<std::size_t> {};
 
 void compare_with_all_triples(const std::vector<Case>& cases, std::uint64_t seeds) {
@@ -132,8 +132,8 @@ INSTANTIATE_TEST_SUITE_P(N, FewNodes, ::testing::Range(std::size_t{3}, std::size
 
 #ifdef HAVE_CGAL
 
-/// Empty if the triangles are the same but for exact ties: every arc that only one of them has crosses
-/// triangles whose corners lie in one plane with it.
+/// Empty if the triangles are the same up to exact ties: every arc that only one side has crosses triangles
+/// whose corners lie in one plane with it.
 std::string difference(const Nodes& nodes, const Faces& ours, const Faces& theirs) {
   if (ours.size() != theirs.size())
     return std::to_string(ours.size()) + " triangles, CGAL has " + std::to_string(theirs.size());
@@ -142,7 +142,7 @@ std::string difference(const Nodes& nodes, const Faces& ours, const Faces& their
   const auto rings = rings_of(nodes.size(), ours);
   if (!rings) return "not a surface";
   for (const auto& f : only) {
-    // In one plane with a neighbouring triangle: otherwise it is a face of the hull, and CGAL must have it.
+    // A triangle that is not in one plane with a neighbouring one is a face of the hull: CGAL must have it.
     bool tie = false;
     for (int k = 0; k < 3; ++k) {
       const auto& ring = rings->neighbours[f[k]];
@@ -179,7 +179,7 @@ TEST_P(AgainstCgal, TrianglesAreTheSameUpToExactTies) {
   }
 }
 
-/// All but those with thousands of nodes in one plane, on which CGAL's time is quadratic.
+/// All cases except those with thousands of nodes in one plane, for which CGAL's time is quadratic.
 std::vector<Case> cases_for_cgal(const std::vector<std::size_t>& sizes) {
   std::vector<Case> all = cases(sizes);
   all.erase(std::remove_if(all.begin(), all.end(),

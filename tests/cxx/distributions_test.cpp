@@ -1,5 +1,5 @@
-// Counts how often a distribution's triangulation enters each stage of the predicates, and bounds it. A stage
-// that decides less than it should would otherwise show only as lost time.
+// Counts how often a distribution's triangulation enters each stage of the predicates, and tests bounds on
+// the counts. A stage that decides too little would otherwise only cost time.
 
 #include "distributions.h"
 
@@ -95,7 +95,7 @@ TEST_P(Distribution, EntersNoStageMoreOftenThanItMay) {
       "%-18s %6zu nodes; a node: %8.4f asked, %8.4f double-double, %8.4f integers, %8.4f big, %8.4f ties\n",
       GetParam().c_str(), nodes.size(), a_node(counts.asked), a_node(counts.double_double),
       a_node(counts.integers), a_node(counts.big_integers), a_node(counts.tie_rule));
-  // A search with too many steps makes too many calls: the nests' did, before they were sorted by exponent.
+  // A search with too many steps makes too many calls, as in nests before these were sorted by exponent.
   EXPECT_LE(a_node(counts.asked), 20);
   EXPECT_LE(a_node(counts.double_double), bound->double_double);
   EXPECT_LE(a_node(counts.integers), bound->integers);

@@ -1,11 +1,10 @@
-// The routines that change a triangulation, on lists that are none: each returns, touches nothing outside the
-// arrays, and changes nothing where it says so. For all kinds of numbers.
+// The routines that change a triangulation, on broken lists. Each must return, access nothing outside the
+// arrays, and change nothing if its code promises so. For all kinds of numbers.
 //
-// Arrays have just the length that the documentation asks for and lie between pages that cannot be touched.
-// SWAP, OPTIM and EDGE are told neither N nor LNEW: they cannot detect a slot number that is too large, so
-// they
-// get none that is. Node numbers may be anything, except two that agree (see docs/api/optim.md) and those in
-// the lists of the nodes that EDGE connects.
+// Arrays have exactly the documented length and lie between inaccessible pages. SWAP, OPTIM and EDGE are told
+// neither N nor LNEW and cannot detect a slot number that is too large, so they get none. Node numbers are
+// arbitrary, except equal ones (see docs/api/optim.md) and those in the lists of the nodes that EDGE
+// connects.
 
 #include <gtest/gtest.h>
 
@@ -37,8 +36,8 @@ constexpr Array all_arrays[] = {Array::list, Array::lptr, Array::lend};
 
 constexpr int kNodes = 9;
 
-/// A canonical triangulation of kNodes random nodes in arrays with room for `room`, which can be damaged and
-/// put right again.
+/// A canonical triangulation of kNodes random nodes in arrays for `room` nodes. It can be damaged and
+/// restored.
 template <class K>
 class Arrays {
  public:
@@ -93,7 +92,7 @@ class Arrays {
   }
   void put_right() { put(right_, right_lnew_); }
 
-  /// LIST, LPTR, LEND as they are now, in a row.
+  /// Stores the current LIST, LPTR and LEND.
   const std::vector<Int>& remember() {
     auto to = std::copy(list_.data(), list_.data() + list_.size(), (remembered_ = right_).begin());
     to = std::copy(lptr_.data(), lptr_.data() + lptr_.size(), to);
@@ -108,7 +107,7 @@ class Arrays {
     return lnew == remembered_lnew_ && same(list_, from) && same(lptr_, from + count) &&
            same(lend_, from + 2 * count);
   }
-  /// Of LIST and LPTR: only slots that held one of four nodes differ; of LEND: only those of two nodes.
+  /// True if LIST and LPTR differ only in slots that held one of four nodes, and LEND only for two nodes.
   bool differs_only_at(const Int (&node)[4], Int end1, Int end2) {
     const std::size_t count = list_.size();
     for (std::size_t s = 0; s < count; ++s) {
@@ -165,8 +164,8 @@ class Arrays {
   Int right_lnew_ = 0, remembered_lnew_ = 0;
 };
 
-/// Calls visit(array, number, value) for each entry with each wrong value, having put it there. Numbers of
-/// slots above those of the arrays only if `told`.
+/// Sets each entry to each wrong value and calls visit(array, number, value). Slot numbers beyond the arrays
+/// are used only if `told`.
 template <class K, class Visit>
 void damage_each_entry(Arrays<K>& arrays, bool told, const Visit& visit) {
   using Int = typename K::Int;
@@ -192,7 +191,7 @@ void damage_each_entry(Arrays<K>& arrays, bool told, const Visit& visit) {
   }
 }
 
-/// The routines that are told N or LNEW, with some arguments. Returns the code.
+/// The routines that are told N or LNEW.
 enum Routine { insert_, intadd_, bdyadd_, covsph_, delnb_, delarc_, delnod_, addnod_, routines };
 constexpr const char* names[] = {"INSERT", "INTADD", "BDYADD", "COVSPH",
                                  "DELNB",  "DELARC", "DELNOD", "ADDNOD"};
@@ -245,7 +244,7 @@ using AllKinds =
     testing::Types<Kinds<float, std::int32_t>, Kinds<double, std::int32_t>, Kinds<double, std::int64_t>>;
 TYPED_TEST_SUITE(EditBrokenLists, AllKinds);
 
-/// Does not change the lists if it returns this.
+/// True if EDGE promises not to change the lists when it returns this.
 constexpr bool leaves_lists(EdgeStatus s) {
   return s != EdgeStatus::done && s != EdgeStatus::optim_failed && s != EdgeStatus::not_optimal;
 }
@@ -306,7 +305,7 @@ TYPED_TEST(EditBrokenLists, ManyWrongEntriesForRoutinesThatAreToldN) {
         }
         if (any(0, 9) == 0) arrays.lnew = any(-20, 60);
         const int routine = static_cast<int>(random.below(routines));
-        // INSERT is told LNEW alone: it must be right.
+        // INSERT is told only LNEW, which must be right.
         if (adds(routine) == add && (routine != insert_ || arrays.lnew <= slots + 1))
           broken[static_cast<std::size_t>(routine)] +=
               call(routine, arrays, any(-1, kNodes + 2), any(-1, kNodes + 2), any(-1, kNodes + 2)) ==

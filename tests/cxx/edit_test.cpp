@@ -1,5 +1,5 @@
-// The routines that change a triangulation, on the canonical lists of our trmesh: judged by the validator,
-// not by the original. For all kinds of numbers. Invalid lists: edit_broken_lists_test.cpp.
+// The routines that change a triangulation, on canonical lists, judged by the validator and not by the
+// original. For all kinds of numbers. For invalid lists see edit_broken_lists_test.cpp.
 
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ struct Kinds {
   using Int = IntKind;
 };
 
-/// A mesh in arrays that have room for `most` nodes.
+/// A mesh in arrays for `most` nodes.
 template <class Real, class Int>
 struct Mesh {
   Int n = 0, lnew = 0;

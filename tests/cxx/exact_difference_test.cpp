@@ -1,4 +1,4 @@
-// The distance of lists from the exact mesh: for exact meshes, and after changes with known effect.
+// The difference of lists from the exact mesh: for exact meshes, and after changes with a known effect.
 
 #include "trmesh/exact_difference.h"
 
@@ -43,8 +43,8 @@ struct Mesh {
     return count;
   }
 
-  /// For every `step`-th node k swaps an arc opposite to k, if may_swap(its ends) and none of the four nodes
-  /// had part in another swap. Returns how many.
+  /// Swaps an arc opposite every `step`-th node if may_swap(its ends) is true and none of the four nodes took
+  /// part in another swap. Returns the number of swaps.
   template <class MaySwap>
   int swap_arcs(int step, const MaySwap& may_swap) {
     std::vector<bool> touched(static_cast<std::size_t>(n) + 1, false);
@@ -70,7 +70,7 @@ struct Mesh {
     return swap_arcs(step, [](int, int) { return true; });
   }
 
-  /// Takes away triangles at the boundary. Returns how many, at most `most`.
+  /// Removes at most `most` triangles at the boundary. Returns their number.
   int remove_triangles(int most) {
     int removed = 0;
     for (int k = 1; k <= n && removed < most; ++k)
@@ -124,7 +124,7 @@ TEST(ExactDifference, CountsArcs) {
   }
 }
 
-/// The corners of a cube: the other diagonals of its sides are right as well.
+/// The corners of a cube: both diagonals of its sides are correct.
 TEST(ExactDifference, DoesNotCountDiagonalsOfNodesInOneCircle) {
   std::vector<Point> nodes;
   for (const double x : {-0.5, 0.5})
@@ -156,7 +156,7 @@ TEST(ExactDifference, CountsBoth) {
   expect_difference(mesh, swapped, 3, "");
 }
 
-/// Nodes on the boundary that are pushed outwards while the lists stay: the exact mesh has lost triangles.
+/// Boundary nodes are pushed outwards while the lists stay the same: the exact mesh has fewer triangles.
 TEST(ExactDifference, CountsTrianglesThatTheExactMeshHasNot) {
   const std::vector<Point> disc = point_sets::make("hemisphere", 300);
   Mesh mesh(disc);
@@ -179,7 +179,7 @@ TEST(ExactDifference, CountsTrianglesThatTheExactMeshHasNot) {
   expect_difference(inside, 0, 1, "");
 }
 
-/// One covers the sphere, the other does not.
+/// Only one of the two meshes covers the sphere.
 TEST(ExactDifference, CountsTrianglesOverTheWholeBoundary) {
   const std::vector<Point> cap = point_sets::make("cap", 50);
   Mesh mesh({cap.begin(), cap.end() - 1});
@@ -196,7 +196,7 @@ TEST(ExactDifference, CountsTrianglesOverTheWholeBoundary) {
   EXPECT_EQ(mesh.difference().boundary_triangles, boundary - 2);
 }
 
-/// Nodes that coincide or are collinear, with the lists of other nodes, which hide it.
+/// Coincident or collinear nodes with the lists of other nodes.
 TEST(ExactDifference, TellsTheExactCode) {
   Mesh mesh(point_sets::make("random", 40));
   mesh.nodes[30] = mesh.nodes[10];

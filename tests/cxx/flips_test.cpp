@@ -1,5 +1,4 @@
-// The mesh whose nodes move, beside the triangulation made anew: it is the same, bit for bit, or says that it
-// cannot follow.
+// A mesh whose nodes move must equal the new triangulation bit for bit, or report that it cannot follow.
 
 #include "mesh/flips.h"
 
@@ -27,7 +26,7 @@ struct Outcome {
   std::size_t flips = 0;
 };
 
-/// Moves the nodes again and again: `move(step)` changes them. Where the mesh cannot follow, another begins.
+/// Moves the nodes repeatedly by `move(step)`. If the mesh cannot follow, a new one is made.
 template <class Move>
 Outcome follow(Nodes& nodes, int steps, const Move& move) {
   Outcome outcome;
@@ -94,7 +93,7 @@ TEST(Flips, FollowOfEveryFamily) {
         Nodes nodes = make(family, 150, 1);
         const Nodes first = nodes;
         SCOPED_TRACE(family);
-        // There and back, so that ties come again.
+        // There and back, so that ties reappear.
         followed += follow(nodes, cases(10), [&](int step) {
                       if (step % 2 == 0)
                         move_all(nodes, fraction * spacing(150), random);
@@ -169,8 +168,8 @@ TEST(Flips, FollowLatticesThatRotate) {
   EXPECT_GT(all.flips, 0u);
 }
 
-/// Stars that are small against the sphere are tested in floating point at first. Each square of this lattice
-/// is a tie but for the rounding of its nodes, which changes with every step.
+/// Stars much smaller than the sphere are first tested in floating point. Each square of this lattice is a
+/// tie except for the rounding of its nodes, which changes with every step.
 TEST(Flips, FollowSmallLattices) {
   constexpr int kSide = 16;
   Outcome all;
@@ -188,11 +187,11 @@ TEST(Flips, FollowSmallLattices) {
   EXPECT_GT(all.flips, static_cast<std::size_t>(cases(300)));
 }
 
-/// Nodes that are exactly in one plane, x + y + z constant, so that determinants are zero but for their
-/// rounding. They are far closer to each other than to most nodes: floating point comes first.
+/// Nodes exactly in one plane, x + y + z constant: determinants are zero up to rounding. The nodes are much
+/// closer to each other than to other nodes, so floating point is used first.
 TEST(Flips, FollowTiesInAPlane) {
   Random random(9);
-  constexpr std::size_t kInPlane = 4;  // more, and flips next to a wrong arc would mend it
+  constexpr std::size_t kInPlane = 4;  // with more nodes, flips next to a wrong arc would repair it
   const auto on_ring = [](double radius, double angle, bool is_in_plane) {
     const Point u{0x1.6a09e667f3bcdp-1, -0x1.6a09e667f3bcdp-1, 0}, v = point_sets::normalized({1, 1, -2});
     const double c = radius * std::cos(angle), s = radius * std::sin(angle),
@@ -209,7 +208,7 @@ TEST(Flips, FollowTiesInAPlane) {
   for (int i = 0; i < 24; ++i) nodes.push_back(on_ring(0.03, 0.2618 * (i + 0.2 * random.uniform()), false));
   const std::size_t first = nodes.size();
   nodes.resize(first + kInPlane);
-  // The first node outwards by the tie rule is now this one, now that one.
+  // The node that the tie rule pushes farthest outwards changes.
   double angle = 0;
   const auto turn = [&] {
     angle += 0.1;
@@ -246,8 +245,8 @@ TEST(Flips, RefuseANodeThatJumps) {
   EXPECT_EQ(refused, cases(40));
 }
 
-/// Nodes that meet, and nodes on the way there: at first a pair in the right order, then in one place, then
-/// hidden behind each other by their lengths.
+/// Pairs of nodes that approach each other: first in the right order, then coincident, then one hidden by the
+/// length of the other.
 TEST(Flips, RefuseNodesThatCoincideOrHide) {
   Random random(6);
   Outcome coincide, hide;
@@ -320,12 +319,13 @@ TEST(Flips, FollowHubs) {
   EXPECT_GT(all.flips, static_cast<std::size_t>(cases(100)));
 }
 
-/// A mesh that covers the sphere twice, around two branch points: all triangles are counterclockwise, all
-/// arcs locally Delaunay, and Euler's number is right. Only what lies over one direction tells.
+/// A mesh that covers the sphere twice, around two branch points. All triangles are counterclockwise, all
+/// arcs locally Delaunay, and Euler's number is right. Only counting the triangles over one direction shows
+/// the defect.
 TEST(Flips, RefuseTwoSheets) {
   int meshes = 0;
   for (std::uint64_t seed = 1; meshes < 10; ++seed) {
-    // At last with stars so small that most are not tested exactly.
+    // The last meshes have stars so small that most are not tested exactly.
     const std::size_t n = meshes < 8 ? 60 : 20000;
     const Nodes sheet = make("random", n, seed);
     const auto lists = made_anew(sheet);

@@ -1,4 +1,5 @@
-// First generators from an advancing front: how many, how evenly, and how good a tessellation they lead to.
+// First generators from an advancing front: their number, their evenness, and the tessellation that they lead
+// to.
 
 #include "scvt/front.h"
 
@@ -40,7 +41,7 @@ double distance(const Point& p, const Point& q) {
 const ConstantDensity kConstant;
 const BumpDensity kBump(kCentre, 0.5, 0.17, 3);
 
-/// Of a tessellation's generators: what they and their neighbours say about it.
+/// Measures of a tessellation's generators and their neighbours.
 struct Measures {
   double hexagons = 0;   ///< share of cells with six sides
   double most_even = 0;  ///< least distance of neighbours, times density^(1/4), over the median of these
@@ -73,7 +74,7 @@ void expect_distinct_unit_vectors(std::vector<Point> points, std::size_t n) {
   EXPECT_EQ(std::adjacent_find(points.begin(), points.end()), points.end());
 }
 
-/// Energy times number when nothing is left to gain to this gradient, and evaluations until then.
+/// The energy times the number of generators at this gradient, and the evaluations until then.
 Progress converged(std::vector<Point> generators, double tolerance) {
   LocalEvaluator evaluator(kConstant);
   State state(std::move(generators));

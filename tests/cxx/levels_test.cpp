@@ -23,7 +23,7 @@ constexpr int kPatches = 16;
 constexpr std::size_t kNodes = 20000;
 const char* const kAlongLinesAndNested[] = {"crossing", "crossing:1e-3", "nest:150", "mirrored-nest", "rays"};
 
-/// How one process divides the nodes, with their places.
+/// A division of the nodes by one process.
 struct Divided {
   explicit Divided(const std::string& family) : nodes(point_sets::make(family, kNodes, 1)) {
     for (std::uint64_t seed = 1; left(nodes[0], nodes[1], nodes[2]) == 0; ++seed)
@@ -53,7 +53,7 @@ struct Divided {
   std::unique_ptr<Division> division;
 };
 
-/// Of the mesh of all nodes: how many triangles have corners in different patches, at each patch and in all.
+/// The number of triangles with corners in different patches: at each patch, and in all.
 struct Mixed {
   Mixed(const Nodes& nodes, const std::vector<std::uint32_t>& owner) : of_patch(kPatches) {
     Workspace workspace(workspace_bytes(nodes.size()) + 48 * nodes.size());
@@ -118,7 +118,7 @@ TEST(Levels, EachPatchKnowsItsNodesAndItsHalo) {
       knowing[i].insert(static_cast<int>(owner[i]));
       for (int q = 0; q < kPatches; ++q)
         ASSERT_EQ(partition.knows(q, x[i]), knowing[i].count(q) == 1) << family;
-      // Who has nodes that the patch does not know: at least the owners of those.
+      // Owners of nodes that the patch does not know.
       std::vector<int> strangers;
       const double radius = 1.5 * std::max(std::fabs(x[i].y), std::fabs(x[i].z));
       const int q = static_cast<int>(i % kPatches);
@@ -142,7 +142,7 @@ TEST(Levels, OnlyWhereBoxesCutMostTriangles) {
   }
 }
 
-/// A hub is near to all others: only the triangles without it tell whether borders are short.
+/// A hub is a neighbour of all nodes: only triangles without it show whether borders are short.
 TEST(Levels, NotWhereAHubIsAllThatIsWrong) {
   const Divided set("moment:6");
   EXPECT_TRUE(set.partition().has_convex_patches());

@@ -1,5 +1,5 @@
-// TRPRNT, TRLPRT, VORONOI_POLY_COUNT without the original. The rows and page breaks that they share with it
-// are compared in tests/differential/listing_differential_test.cpp.
+// TRPRNT, TRLPRT, VORONOI_POLY_COUNT. tests/differential/listing_differential_test.cpp compares rows and page
+// breaks with the original.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ struct Octahedron {
   double x[6] = {1, 0, 0, -1, 0, 0}, y[6] = {0, 1, 0, 0, -1, 0}, z[6] = {0, 0, 1, 0, 0, -1};
 };
 
-// The layout of the Fortran 90 texts, on standard output, whatever LOUT is: it may not have been passed.
+// The layout of the Fortran 90 text, on standard output for any LOUT, which may not have been passed.
 TEST(Trprnt, OfLibstripackPrintsAsFortran90Does) {
   const Octahedron half(5);
   const int iflag = -1, unit = 77;
@@ -155,7 +155,7 @@ TEST(Trprnt, BreaksPagesWithThreeBlanksInFortran90AndFourRecordsIn77) {
   }
 }
 
-// After a row that is just full Fortran's format writes the record, and it is empty.
+// After a full row Fortran's format writes the record between two nodes without a blank.
 TEST(Trprnt, RecordsBetweenNodesHaveABlankInFortran90UnlessTheRowIsFull) {
   const std::vector<std::string> records = spiral(60).printed(0, true);
   int full = 0, other = 0;
@@ -186,7 +186,7 @@ TEST(Trprnt, ShowsAnyNumberOfNeighbours) {
   EXPECT_EQ(at, 13u + 400);
 }
 
-// Bad input: a remark instead of an overrun.
+// Bad input: a message instead of an overrun.
 TEST(Trprnt, EndsWhereListsAreNotClosed) {
   const std::string remark = "           LIST, LPTR, LEND are not closed lists at node    2\n";
   for (const int slot : {0, -1, 25, 2147483647, 1}) {

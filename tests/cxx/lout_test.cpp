@@ -19,7 +19,7 @@ using Int = StripackInteger;
 using Real = StripackReal;
 constexpr int some_unit = 20;
 
-/// The octahedron, and the two routines with what lies where they look for the address of LOUT.
+/// The octahedron, and calls of the two routines with a given address in the place of LOUT.
 struct Octahedron {
   Octahedron() {
     Int lnew, near[6], next[6], ier;
@@ -60,7 +60,8 @@ TEST(Lout, IsReadWhereItNamesAnOpenUnit) {
               (mesh.*listing)(&six));
 }
 
-// What gfortran's callers leave there: zero, a number, the address of nothing, of code, of other variables.
+// What callers compiled by gfortran leave there: zero, a number, an invalid address, that of code or of a
+// variable.
 TEST(Lout, NotPassedPrintsOnStandardOutputWhateverIsInItsPlace) {
   Octahedron mesh;
   for (const std::uintptr_t number : {std::uintptr_t{0}, std::uintptr_t{6}, std::uintptr_t{20},
@@ -97,7 +98,7 @@ TEST(Lout, CountsOnlyIfTheUnitIsConnectedForFormattedWriting) {
   EXPECT_EQ(file.text(), "");
 }
 
-// The addresses of a caller's other variables are the likeliest of all.
+// The addresses of a caller's other variables are the most likely ones.
 TEST(Lout, IsNotTheAddressOfAnotherArgument) {
   Octahedron mesh;
   mesh.iflag = some_unit;

@@ -101,10 +101,10 @@ TEST(Fingerprint, HasNoCollisionAmongAMillionTriangles) {
 // ---- The plane of a face: see mesh/delaunay.cpp ----
 
 struct Planes {
-  std::size_t faces = 0, decide = 0;  ///< all; those that place the centre for certain
+  std::size_t faces = 0, decide = 0;  ///< all faces; faces whose plane is certain about the centre
 };
 
-/// A plane that places a node or the centre for certain must agree with the predicates.
+/// If a plane is certain about a node or the centre, it must agree with the predicates.
 Planes expect_right_planes(const char* family, pstripack::Lengths lengths) {
   constexpr std::size_t n = 120;
   std::vector<pstripack::Point> nodes = point_sets::make(family, n);

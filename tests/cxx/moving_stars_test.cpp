@@ -1,6 +1,6 @@
-// Stars that stay on their ranks while the nodes move, on ranks that are threads of this process: the same
-// stars as those of the triangulation made anew, or false on every rank. And the rings of slices that follow
-// such stars.
+// Stars that stay on their ranks while the nodes move; ranks are threads of this process. The stars must be
+// those of a new triangulation, or all ranks must return false. Also the rings of slices that follow such
+// stars.
 
 #include "parallel/moving_stars.h"
 
@@ -34,7 +34,7 @@ using namespace pstripack;
 using point_sets::make;
 using point_sets::Random;
 
-/// What one hull says of the nodes. No rings where nodes coincide.
+/// The rings of one hull of all nodes; none if nodes coincide.
 std::optional<Rings> rings_of_one_hull(const Nodes& nodes) {
   Workspace workspace(workspace_bytes(nodes.size()));
   const Hull hull = delaunay(nodes.data(), nodes.size(), workspace);
@@ -66,7 +66,7 @@ class OneRank {
  public:
   explicit OneRank(Communicator& ranks) : ranks_(ranks) {}
 
-  /// Nodes that are `mine`; in another call they may be others.
+  /// A call with the nodes `mine`, which may differ from call to call.
   void call(const Nodes& nodes, std::vector<std::size_t> mine, const std::optional<Rings>& right,
             Tally& tally) {
     Nodes here;
@@ -178,8 +178,8 @@ NodesOfRank nodes_of_ranks(const std::vector<int>& owner, int size) {
   return mine;
 }
 
-/// Calls with these sets, one after another, on so many ranks. mine[s]: who has which nodes of set s; if
-/// there are fewer, the last ones stay.
+/// Calls with these sets, one after another, on `size` ranks. mine[s]: the nodes of each rank in set s; the
+/// last entry is used for further sets.
 template <class Int>
 Tally follow(const std::vector<Nodes>& sets, int size, const std::vector<NodesOfRank>& mine) {
   std::vector<std::optional<Rings>> right;
@@ -201,7 +201,7 @@ Tally follow(const std::vector<Nodes>& sets, int size, const std::vector<NodesOf
   return tally[0];
 }
 
-/// `owner`: by node; empty: by patches of the first set.
+/// `owner`: the rank of each node; empty: by patches of the first set.
 template <class Int = std::int32_t>
 Tally follow(const std::vector<Nodes>& sets, int size, std::vector<int> owner = {}) {
   if (owner.empty()) owner = patches_of(sets[0], size);
@@ -210,8 +210,8 @@ Tally follow(const std::vector<Nodes>& sets, int size, std::vector<int> owner = 
 
 constexpr int kSizes[] = {1, 2, 3, 5, 8};
 
-/// The same on every number of ranks: how many calls began with the last stars. `expect`: what else to
-/// expect.
+/// The same on every number of ranks. Returns how many calls began with the last stars. `expect`: further
+/// checks.
 int follow_on_all(
     const std::vector<Nodes>& sets, const std::function<void(const Tally&)>& expect = [](const Tally&) {}) {
   int warm = 0;
@@ -302,7 +302,7 @@ TEST(MovingStars, FollowTiesThatAppearAndVanish) {
   }
 }
 
-/// All nodes go round, so that most come from where no node of their rank was; the arcs stay.
+/// All nodes rotate, so that most move to where no node of their rank was; the arcs stay the same.
 TEST(MovingStars, FollowNodesThatLeaveTheirPatches) {
   const Nodes nodes = make("random", 500, 1);
   follow_on_all(sets_of(nodes, cases(6),
@@ -330,7 +330,7 @@ TEST(MovingStars, GoTheColdWayWhereANodeJumpsMeetsAnotherOrLeavesTheSphere) {
                 });
 }
 
-/// No triangle is counterclockwise, so that there is no direction that one of them alone must hold.
+/// No triangle is counterclockwise, so none can be chosen whose interior must be covered only once.
 TEST(MovingStars, GoTheColdWayWhereTheSphereIsMirrored) {
   const Nodes nodes = make("random", 500, 1);
   follow_on_all(sets_of(nodes, 2,
@@ -356,7 +356,7 @@ TEST(MovingStars, GoTheColdWayWhereLengthsAreNotOne) {
                 [](const Tally& tally) { EXPECT_EQ(tally.refused, 1); });
 }
 
-/// The neighbours of a node come so close that rounded lengths hide it, or nearly. They are on several ranks.
+/// The neighbours of a node, on several ranks, come so close that rounded lengths hide it, or nearly.
 TEST(MovingStars, FollowOrRefuseNodesThatAreNearlyHidden) {
   const Nodes nodes = make("random", 300, 1);
   const Rings rings = *rings_of_one_hull(nodes);
@@ -419,8 +419,8 @@ TEST(MovingStars, FollowHoweverNodesAreDistributed) {
   EXPECT_EQ(three.flips, alone.flips);
 }
 
-/// A node that loses every other neighbour of its ring: these flips share it, so that ranks can make one a
-/// round.
+/// A node loses every other neighbour of its ring. All these flips share the node, so the ranks can make only
+/// one per round.
 TEST(MovingStars, GoTheColdWayWhereManyFlipsWaitForEachOther) {
   const auto wheel = [](int spokes, double out) {
     Nodes nodes{{0, 0, 1}};
@@ -456,8 +456,7 @@ TEST(MovingStars, HaveNumbersOf64Bits) {
   EXPECT_GT(tally.flips, 0u);
 }
 
-/// So many calls that rings which have been written anew are written together, and those that have become
-/// longer are laid out anew.
+/// Enough calls that rewritten rings are stored together again, and rings that have grown get a new place.
 TEST(MovingStars, FollowForALongTime) {
   Random random(7);
   const auto sets = sets_of(make("fibonacci", 200, 1), cases(150),
@@ -573,7 +572,7 @@ TEST(MovingStars, FollowNodesThatChangeRanks) {
   follow_nodes_that_change_ranks<std::int64_t>(20);
 }
 
-/// What is no relocation: on every rank.
+/// Every rank must refuse what is not a relocation.
 TEST(Relocation, IsOfFewNodesAndTheSame) {
   using Numbers = std::vector<std::vector<std::int64_t>>;  // of each rank
   const auto is_found = [](const Numbers& before, const Numbers& now) {

@@ -1,6 +1,6 @@
-// The parallel triangulation on ranks that are threads of this process: the same rings as the serial one, for
-// every number of ranks and patches, every partition, every distribution of the nodes. The configuration is
-// in the test's name: ranks, patches a rank, partition, who brings the nodes.
+// The parallel triangulation on ranks that are threads of this process must give the serial rings for every
+// number of ranks and patches, every partition, every distribution of the nodes. The test's name has the
+// configuration: ranks, patches per rank, partition, distribution of the nodes.
 
 #include <gtest/gtest.h>
 
@@ -218,8 +218,8 @@ INSTANTIATE_TEST_SUITE_P(All, Families, ::testing::ValuesIn(kFamilies), [](const
   return name;
 });
 
-/// The same for every distribution that the benchmark measures; nests over more than 100 decades, nearly
-/// every question about which takes big integers, have fewer nodes.
+/// The same for every distribution that the benchmark measures. Nests over more than 100 decades have fewer
+/// nodes, since nearly every test of them takes big integers.
 TEST(Distributions, GiveTheSerialRings) {
   for (const point_sets::Distribution& d : point_sets::distributions()) {
     const Set set(point_sets::make(d.name, d.limit > 4 ? 60 : 600, 5));
@@ -230,7 +230,7 @@ TEST(Distributions, GiveTheSerialRings) {
   }
 }
 
-// A stage of the predicates once found a sign for nodes that lie in one circle with their mirror images:
+// Past failure: a stage of the predicates found a sign for nodes on one circle with their mirror images, and
 // patches and one hull took different diagonals.
 TEST(Distributions, OfMirrorImagesGiveTheSerialRings) {
   for (const std::uint64_t seed : {1u, 2u, 3u})
@@ -305,7 +305,7 @@ TEST(NodesThatAllCanRead, GiveTheSerialRings) {
     }
 }
 
-// Patches this large need not look at triangles of their own nodes, if one bound holds for all.
+// Such large patches need not test triangles of their own nodes if one bound holds for all of these.
 TEST(LargePatches, GiveTheSerialRings) {
   for (const char* family : {"random", "latlon", "variable:1e6", "hemisphere"}) {
     const Set set(point_sets::make(family, 120000, 6));
@@ -410,8 +410,8 @@ TEST(Nasty, LengthsThatHideANodeInOnePatchMakeAllUseDirections) {
       is_serial(set, run<std::int32_t>(set.nodes, {4, 2, PartitionKind::bisection, Brings::every_other})));
 }
 
-/// One node a little below the unit sphere, with companions beside it that hide it, or do not, whichever of
-/// them is inserted first. Where it is the last to go, only the search that goes round it notices.
+/// One node a little below the unit sphere. Nodes beside it hide it, or do not, for every order of insertion.
+/// If it is inserted last, only the search around it notices.
 TEST(Nasty, DirectionsAreUsedExactlyWhereLengthsHideANode) {
   int hidden = 0, shown = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
@@ -449,8 +449,8 @@ TEST(Nasty, DirectionsAreUsedExactlyWhereLengthsHideANode) {
   EXPECT_GT(shown, 50);
 }
 
-/// Clusters closer together than lengths reach: a patch may be the first to see that a node is hidden when it
-/// is asked about another's triangle, or when it is answered.
+/// In clusters narrower than the differences of lengths, a patch may notice that a node is hidden only when
+/// it is asked about a triangle of another patch, or when it gets an answer.
 TEST(Nasty, LengthsThatHideANodeInALaterRoundMakeAllUseDirections) {
   int hidden = 0;
   for (std::uint64_t seed = 1; seed <= 500; ++seed) {
@@ -602,7 +602,7 @@ class KeptPatches : public ::testing::Test {
     EXPECT_TRUE(kept == 0 || kept == kRanks) << kept;
     return kept > 0;
   }
-  /// Nodes are sent home, and the next sample evens out what the patches had too much, until they are kept.
+  /// Sends nodes home repeatedly until the patches are kept: each new sample balances them better.
   bool keeps_soon(const Nodes& nodes) {
     for (int k = 0; k < 5; ++k)
       if (keeps(nodes, at_home(nodes))) return true;
@@ -662,8 +662,8 @@ TEST_F(KeptPatches, NotForOtherPredicatesKindsOrNumbersOfPatches) {
   EXPECT_TRUE(keeps_soon(longer));
 }
 
-/// Where lengths about one hide a node, each call tries them as given first. The patches that the last call
-/// had made for directions are kept by both attempts.
+/// If lengths near 1 hide a node, each call first tries the coordinates as given, then directions. Both
+/// attempts keep the patches that the last call made for directions.
 TEST(Homes, OfDirectionsAreForLengthsAboutOneToo) {
   const auto partition =
       std::make_shared<Partition>(PartitionKind::bisection, 2, point_sets::make("random", 100, 1), 100);
@@ -775,8 +775,8 @@ TEST(GivingUp, NodesThatAreCloseTogetherAreNoReasonToAsk) {
 
 // ---- agreement --------------------------------------------------------------------------------------
 
-/// Stars of which most have corners on most ranks, or most neighbours on others: no rank has to triangulate
-/// all, and nodes are sent to few ranks.
+/// Stars with corners on most ranks, or with most neighbours on other ranks: no rank triangulates all nodes,
+/// and nodes are sent to few ranks.
 TEST(Agreement, WherePatchesWouldAskAboutAll) {
   for (const char* family : {"ring", "crossing:1e-3", "moment:6"}) {
     const Set set(point_sets::make(family, 4000, 1));
@@ -806,7 +806,7 @@ TEST(Agreement, WherePatchesWouldAskAboutAll) {
   }
 }
 
-/// Ranks that may not ask at all agree on whatever they do not know: at first their patches disagree.
+/// Ranks that may not ask questions agree on all that they do not know; at first their patches disagree.
 TEST(Agreement, GivesTheSerialRingsOfEveryFamily) {
   std::vector<std::string> families = kFamilies;
   families.insert(families.end(), {"crossing:1e-3", "moment:6", "nest:150", "falling:14", "rays:12",
@@ -935,7 +935,7 @@ TEST(Agreement, OfNodesThatAnAdversaryHasPlaced) {
   EXPECT_EQ(in_one_patch, 0);
 }
 
-/// Also where no patch knows all of them at first: slices of a mesh are anywhere.
+/// Also if no patch knows all coincident nodes at first: slices of a mesh have nodes anywhere.
 TEST(Agreement, FindsNodesThatCoincide) {
   for (const char* family : {"ring", "crossing:1e-3"})
     for (const std::size_t most_questions : {std::size_t{0}, SIZE_MAX}) {
@@ -1097,8 +1097,8 @@ TEST(Partitions, CutsAreMovedToWhereAllNodesAreShared) {
   }
 }
 
-// All heights the same, fewer places than patches, nothing counted: the cuts stay where they are.
-TEST(Partitions, CutsOfHardlyAnything) {
+// Equal heights, fewer places than patches, or nothing counted: the cuts stay where they are.
+TEST(Partitions, CutsStayWhereThereIsNothingToCount) {
   for (const std::size_t n : {0, 1, 2, 30}) {
     const Nodes places(n, {0.6, 0.8, 0});
     const Cuts at_medians = Cuts::of_sample(5, places);

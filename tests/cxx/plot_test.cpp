@@ -1,5 +1,5 @@
-// TRPLOT, VRPLOT: the file is read back. Its lines are compared with the arcs of the triangulation, or the
-// edges of the cells, that have an end in the window; Ghostscript renders it.
+// TRPLOT, VRPLOT: the test reads the file back and compares its lines with the arcs of the triangulation, or
+// the edges of the cells, that have an end in the window. Ghostscript renders the file.
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -22,6 +22,7 @@
 #include "support/child.h"
 #include "support/composed_text.h"
 #include "support/fortran_unit.h"
+#include "support/sanitizer.h"
 
 namespace {
 
@@ -391,7 +392,7 @@ TEST(Plot, HasMoreDecimalsInSmallWindows) {
   for (const std::string& record : file.records) EXPECT_EQ(record.find('*'), std::string::npos) << record;
 }
 
-// The title is shown as it is, whatever is in it; nothing of it is executed.
+// Any title is shown unchanged; no part of it is executed as PostScript.
 TEST(Plot, TitlesAreStrings) {
   const Sphere sphere(7, 180, 2);
   const Look look{7.5, 0, 0, 90};
@@ -514,9 +515,8 @@ TEST(Plot, Ier_5) {
 }
 
 TEST(Plot, Ier_6) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "a sanitizer needs the memory that is taken away here";
-#endif
+  if (kAddressSanitizer || kThreadSanitizer)
+    GTEST_SKIP() << "a sanitizer needs the memory that is taken away here";
   const Sphere sphere(200000, 180, 2);
   for (const NamedRoutine& routine : routines)
     EXPECT_EQ(in_child([&] {
@@ -536,7 +536,7 @@ TEST(Plot, Ier_6) {
 
 TEST(Plot, Ier_9) {
   for (const int slot : {0, -1, 31, std::numeric_limits<int>::max(), 1}) {
-    Sphere sphere(7, 180, 2);  // all of it: behind the horizon lists are not read
+    Sphere sphere(7, 180, 2);  // the whole sphere: lists behind the horizon are not read
     for (int k = 1; k <= 7; ++k) sphere.x[k - 1] = std::abs(sphere.x[k - 1]);
     sphere.lptr[sphere.lend[3] - 1] = sphere.voronoi_lptr[sphere.lend[3] - 1] = slot;
     for (const NamedRoutine& routine : routines) expect_refused(routine, sphere, -9);

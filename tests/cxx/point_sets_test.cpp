@@ -1,4 +1,4 @@
-// The point sets: their lengths, no node twice, the promised number, readable files.
+// The point sets: lengths, numbers of nodes, no duplicates; files.
 
 #include "point_sets.h"
 
@@ -79,7 +79,7 @@ std::uint64_t fingerprint(const std::vector<std::string>& families) {
   return hash;
 }
 
-/// Bits as printed on x86-64: a change, or another machine that differs, shows here.
+/// The bits on x86-64: fails if they change, or if another machine differs.
 TEST(Families, AreTheSameOnEveryMachine) {
   const std::uint64_t usual = fingerprint(point_sets::families()),
                       hard = fingerprint(point_sets::hard_families());

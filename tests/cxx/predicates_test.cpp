@@ -1,4 +1,4 @@
-// The predicates against tests/support/exact.h, which knows neither filters nor floating point.
+// Compares the predicates with tests/support/exact.h, which uses neither filters nor floating point.
 
 #include "geometry/predicates.h"
 
@@ -97,7 +97,7 @@ Four symmetric(Random& random, double) {
   return f;
 }
 
-/// A lattice in the plane x = 1 or next to it: coplanar and collinear fours in plenty.
+/// A lattice in the plane x = 1 or next to it, with many coplanar and collinear fours.
 Four lattice(Random& random, double size) {
   const double step = std::exp2(std::floor(std::log2(size)) - 13);
   const double next = random.below(2) == 0 ? 0 : 0x1p-52;
@@ -200,7 +200,7 @@ TEST_P(Predicates, AboveOnDirectionsIsTheExactSignWithTheTieRule) {
   int ties = 0;
   Random random(2);
   for_each_four(GetParam(), 0.2, [&](Four f) {
-    // Lengths of their own: by powers of two the direction stays exactly what it is, and ties stay ties.
+    // Different lengths. Powers of two keep the direction exactly, so ties stay ties.
     const bool any_length = random.below(2) == 0;
     for (Point& p : f) {
       const double s =
@@ -427,8 +427,8 @@ double any_double(Random& random, int low, int high) {
   return random.below(12) == 0 ? 0 : std::ldexp(random.uniform(-1, 1), exponent);
 }
 
-/// Exponents of all sizes, or near the ends, or apart by about what integers of 512 bits hold; every other
-/// time made degenerate.
+/// Exponents of all sizes, near the ends of the range, or differing by about as much as integers of 512 bits
+/// can hold; every other time degenerate.
 Four wild(Random& random) {
   const int ranges[6][2] = {{-1080, 1025}, {-1080, -1000}, {1000, 1025}, {-30, 30}, {-60, 60}, {-90, 90}};
   const auto& range = ranges[random.below(6)];
@@ -600,8 +600,8 @@ TEST(Length, CountsAsOneWithinAMillionthOfIt) {
   for (const double bad : {inf, -inf, inf - inf, 1e300}) EXPECT_FALSE(pstripack::length_is_one({bad, 0, 1}));
 }
 
-// Determinants whose computed value has the wrong sign, although it is this many times u of the permanent
-// (found by hill climbing): only a larger bound rejects it.
+// Determinants, found by hill climbing, whose computed value has the wrong sign although it is as large as
+// the given multiple of u times the permanent: only a larger bound rejects it.
 TEST(Filter, GivesUpWhereRoundingTellsTheWrongSign) {
   const Four orientation = {{{-0x1.fe5d5b1d5d464p-2, 0x1.4aeb534d1a5fbp-1, 0x1.27d5cbf981a3ap-1},  // 3.1
                              {-0x1.62dc385b64351p-1, -0x1.8ddd74e2f0dddp-2, 0x1.36e053dbf959bp-1},
@@ -634,8 +634,8 @@ TEST(Filter, GivesUpWhereRoundingTellsTheWrongSign) {
   EXPECT_EQ(exact::orientation(exact::On::coordinates, zero, e, f, g), -1);
 }
 
-/// Vectors far longer than 1 and nearly along one axis, the last beside the plane of the others by rounding:
-/// of the products in the bound those with the large component alone keep it large enough.
+/// Vectors much longer than 1 and nearly along one axis; the last one is off the plane of the others by
+/// rounding. Only the products with the large component make the bound large enough.
 TEST(Filter, GivesUpWhereOneComponentIsLargeAndRoundingDecides) {
   Random random(23);
   double Point::*const axis[] = {&Point::x, &Point::y, &Point::z};
@@ -656,8 +656,8 @@ TEST(Filter, GivesUpWhereOneComponentIsLargeAndRoundingDecides) {
   }
 }
 
-/// Four nodes near the equator, and four near one circle of latitude, off by t and by about t^2: down towards
-/// the least double, and a volume of 1e-647.
+/// Four nodes near the equator and four near a circle of latitude, off by t and by about t^2, for t down to
+/// the least double: volumes down to 1e-647.
 TEST(VanishingVolumes, AreToldFromZero) {
   for (double t = 0.5; t > 0; t /= 1024) {
     const Four equator = {{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, t}}};  // the last is above
@@ -678,9 +678,9 @@ TEST(VanishingVolumes, AreToldFromZero) {
 
 // ---- Around the grid of exact.h ----
 
-/// Integers of three bits, at every scale about 1, at the edge of the grid; the last one collinear or
-/// coplanar with the others but for last bits: undecided by the filter, and must not overflow. Every other
-/// time slightly outside the grid: 2 and 3, the last node the fourth corner of a parallelogram.
+/// Integers of three bits at scales around 1, at the edge of the grid. The last node is collinear or coplanar
+/// with the others up to last bits: the filter does not decide, and nothing may overflow. Every other time
+/// slightly outside the grid.
 TEST(Grid, IsLeftOutBeforeAnythingOverflows) {
   Random random(22);
   for (int i = 0; i < cases(40000); ++i) {
@@ -714,7 +714,8 @@ TEST(Grid, IsLeftOutBeforeAnythingOverflows) {
 
 // ---- Directions as close as doubles can have them ----
 
-/// Neighbouring quotients of Fibonacci numbers differ by 2^-100 and less; the rounded difference is anything.
+/// Neighbouring quotients of Fibonacci numbers differ by 2^-100 or less; their rounded difference is
+/// arbitrary.
 TEST(Directions, ThatDifferLeastOfAllAreToldApart) {
   Random random(21);
   for (int i = 0; i < 3000; ++i) {
@@ -775,8 +776,8 @@ TEST(Directions, PositionsAndDifferencesAreAsAccurateAsPromised) {
 
 // ---- From 1 down to denormals: the predicates on directions, and as a node that is inserted sees them ----
 
-/// Around (1,0,0), where doubles are that fine: each node at a scale of its own, some a few ulps from
-/// another, some on the circle through the others, as far as doubles go; with lengths of their own.
+/// Nodes around (1,0,0), where doubles are fine: each at its own scale, some a few ulps from another, some on
+/// the circle through the others up to rounding; with different lengths.
 Four nested(Random& random) {
   const double decades[] = {1, 10, 75, 150, 290, 304, 322};
   const double deepest = decades[random.below(7)];
@@ -854,8 +855,8 @@ TEST(Directions, AreExactForTies) {
     }
 }
 
-// Two nodes and their mirror images are the corners of a trapezoid, so they are in one circle. Around an axis
-// the components along it are equal but for some last bits.
+// Two nodes and their mirror images are the corners of a trapezoid, so they lie on one circle. Around an axis
+// the components along it are equal except for some last bits.
 TEST(Directions, AreExactForMirrorImages) {
   Random random(35);
   for (int i = 0; i < cases(20000); ++i) {

@@ -17,7 +17,7 @@ namespace {
 
 constexpr uid_t kAnother = 65534;
 
-/// A socket as a pool has: a connection waits here until somebody asks.
+/// A socket like that of a pool; accepts a connection only when asked.
 class Listener {
  public:
   Listener()
@@ -43,8 +43,8 @@ class Listener {
   int socket_;
 };
 
-/// The files that a program of mode `mode`, owned by root, leaves behind when another user starts it with all
-/// variables set.
+/// The effects of a program of mode `mode`, owned by root, when another user starts it with all variables
+/// set.
 struct Effects {
   int code;
   bool is_privileged, has_report, has_recording, has_warned, has_connected, has_started_a_program;

@@ -1,4 +1,4 @@
-// PSTRIPACK_REPORT, which is read when the library is loaded: every case runs this program again.
+// PSTRIPACK_REPORT. The library reads it when it is loaded, so every case runs this program again.
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -181,14 +181,14 @@ TEST(Report, OfAForkedChildIsItsOwn) {
   EXPECT_TRUE(matches(all[7], row_of(2))) << "the parent's: one call before, one after";
 }
 
-/// How the line of the first call ends under PSTRIPACK_ORDER.
+/// The end of the line of the first call under PSTRIPACK_ORDER.
 std::string order_of(const std::string& order, const std::string& arguments) {
   const Folder folder;
   const std::string line = lines(run(folder, kOne + " PSTRIPACK_ORDER=" + order, arguments).err)[0];
   return line.substr(line.find(" order=") + 1);
 }
 
-/// Under PSTRIPACK_ORDER=original; a canonical result is one that is right by our own rules.
+/// Under PSTRIPACK_ORDER=original. A canonical result is correct by our own rules.
 TEST(Report, TellsTheOrder) {
   const auto order_of = [&](const std::string& arguments) { return ::order_of("original", arguments); };
   EXPECT_EQ(order_of("inserted random 1000 1"), "order=original");
@@ -214,9 +214,10 @@ TEST(Report, TellsHowFarFromTheExactMeshTheOriginalIs) {
 
 TEST(Report, TellsTheOrdersThatThereAre) {
   const Folder folder;
-  EXPECT_EQ(lines(run(folder, "PSTRIPACK_ORDER=bitwse", "calls random 100 1").err),
-            std::vector<std::string>{"pstripack: PSTRIPACK_ORDER=bitwse: not canonical, original, bitwise, "
-                                     "ngmath or bitwise-ngmath; canonical is used"});
+  EXPECT_EQ(
+      lines(run(folder, "PSTRIPACK_ORDER=bitwse", "calls random 100 1").err),
+      std::vector<std::string>{"pstripack: PSTRIPACK_ORDER=bitwse: no such order, so canonical is used; set "
+                               "it to canonical, original, bitwise, ngmath or bitwise-ngmath"});
 }
 
 /// Four nodes of one meridian; and five of which the fourth is attached by a null triangle.
@@ -237,7 +238,8 @@ const Nodes kSix{{0.43730985356969798, -0.75744288503322266, -0.4848096202463370
                  {0.5998821115988352, -0.76781408904324377, -0.224951054343865},
                  {0.48718503239261773, -0.843829228791103, -0.224951054343865},
                  {0.53846965924633561, -0.6892097345422058, -0.48480962024633706}};
-/// A copy of a boundary node that the original overlooks; and three nodes that it takes for a triangle.
+/// A copy of a boundary node that the original does not notice; three collinear nodes that it takes for a
+/// triangle.
 const Nodes kCopy{{0.055377944486151971, 0.60915738934767161, 0.79111349265931374},
                   {0.4174990074953337, -0.42552783456255167, 0.80288270672179562},
                   {0.39353301315160438, 0.54203603698239844, 0.7425151191539705},
@@ -248,7 +250,7 @@ const Nodes kCollinear{{0.40453300979666307, 0.50375808767131636, 0.763269829805
                        {0.40453300979666307, 0.50375808767131636, 0.76326982980502467},
                        {0.10629463039294457, -0.45175217917001442, 0.88578858660787141}};
 
-/// What the cases run. Exit code 0 if all results are as without a report.
+/// The program that the cases run. Exit code 0 if all results are as without a report.
 int run_as(const std::string& action, const std::string& family, std::size_t n, int count) {
   if (action == "codes") return codes_are_right() ? 0 : 1;
   if (action == "meridian" || action == "in-line") {

@@ -1,4 +1,4 @@
-// Centroidal tessellations by the C interface: bit for bit what the C++ layer makes; errors write nothing.
+// Centroidal tessellations by the C interface: the bits of the C++ layer; errors write nothing.
 
 #include <gtest/gtest.h>
 #include <omp.h>
@@ -25,7 +25,7 @@ using namespace pstripack;
 
 const scvt::BumpDensity bump({0, 0.6, 0.8}, 0.5, 0.2, 3);
 
-/// What a density is passed on to, and what it notices.
+/// Passes a density on and records its calls.
 struct Watch {
   double factor = 1;
   std::thread::id caller = std::this_thread::get_id();
@@ -367,7 +367,7 @@ TEST(ScvtStep, TakesListsInAnyOrder) {
   EXPECT_EQ(bytes_of(g.x, g.y, g.z), bytes_of(step.xc, step.yc, step.zc));
 }
 
-/// The loop that a program of its own would have ends where the run by Lloyd's method does.
+/// A program's own loop of steps gives the result of a run by Lloyd's method.
 TEST(ScvtStep, ManyAreLloydsMethod) {
   const std::vector<Point> start = scvt::unit_vectors(point_sets::make("random", 100, 5));
   scvt::RunOptions options;

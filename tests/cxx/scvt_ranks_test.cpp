@@ -1,4 +1,4 @@
-// Centroidal Voronoi tessellations on ranks: the same bits for any number of them.
+// Centroidal Voronoi tessellations on ranks: any number of ranks gives the same bits.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ constexpr int kRanks[] = {1, 2, 3, 5, 8};
 const BumpDensity kBump({0, 0.6, 0.8}, 0.6, 0.1, 3);
 const ConstantDensity kConstant;
 
-/// What the ranks have, in the order of their numbers.
+/// The data of all ranks, in the order of ranks.
 class Gathered {
  public:
   void add(const std::vector<std::int64_t>& numbers, const std::vector<Point>& points) {
@@ -52,7 +52,7 @@ class Gathered {
   std::vector<std::pair<std::int64_t, Point>> all_;
 };
 
-/// Each rank triangulates all generators, and keeps its stars: slow, and without MPI.
+/// An evaluator without MPI: each rank triangulates all generators and keeps its own stars. Slow.
 class GatheringEvaluator final : public Evaluator {
  public:
   GatheringEvaluator(Communicator& ranks, const Density& density) : Evaluator(density), ranks_(ranks) {}
@@ -216,7 +216,7 @@ TEST(Run, HasTheSameBitsOnAnyNumberOfRanks) {
   }
 }
 
-/// All slices together, as a process alone reads them in a file.
+/// All slices joined, as a single process reads them from a file.
 Tessellation joined(const std::vector<Tessellation>& slices) {
   Tessellation all = slices[0];
   for (std::size_t r = 1; r < slices.size(); ++r) {
@@ -267,7 +267,7 @@ TEST(Run, GoesOnWithTheSameBitsOnAnotherNumberOfRanks) {
     }
 }
 
-/// Bad in a small place.
+/// A density that is bad in a small place.
 class Hole final : public Density {
  public:
   using Density::at;

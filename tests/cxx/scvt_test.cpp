@@ -47,8 +47,7 @@ Point plus(const Point& a, const Point& b) { return {a.x + b.x, a.y + b.y, a.z +
 Point times(double f, const Point& p) { return {f * p.x, f * p.y, f * p.z}; }
 double length(const Point& p) { return std::sqrt(dot(p, p)); }
 
-// ---- sums
-// ----------------------------------------------------------------------------------------------------
+// ---- sums ----
 
 TEST(ExactSum, DoesNotDependOnTheOrder) {
   point_sets::Random random(1);
@@ -94,8 +93,7 @@ TEST(ExactSum, IsRoundedToTheNearestDouble) {
   EXPECT_EQ(sum({0x1p1023, 0x1p1023}), std::numeric_limits<double>::infinity());
 }
 
-// ---- integrals
-// -------------------------------------------------------------------------------------------------
+// ---- integrals ----
 
 struct Integrals {
   double mass = 0, energy = 0;
@@ -179,7 +177,8 @@ Tessellated relaxed(std::size_t n, const Density& density, int steps = 5) {
   return Tessellated(run(random_generators(n, density, 1), density, options).state.generators);
 }
 
-/// The largest relative errors of the first cells: mass, energy; centroid, relative to the radius.
+/// Expects small errors of the first cells: of mass and energy relative to these, of the centroid relative to
+/// the radius.
 void expect_accurate(std::size_t n, int cuts, const Density& density, double tolerance) {
   SCOPED_TRACE(n);
   const Tessellated t = relaxed(n, density);
@@ -274,8 +273,7 @@ TEST(Cells, PullIsTheGradientOfTheEnergy) {
     }
 }
 
-// ---- runs
-// ------------------------------------------------------------------------------------------------------
+// ---- runs ----
 
 std::vector<Point> octahedron() {
   return {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
@@ -340,7 +338,7 @@ TEST(Run, AnyNumberConverges) {
   EXPECT_EQ(run(500, kBump, options_of(1e-4)).result.end, End::converged);
 }
 
-/// The figure that is asked for is 250.
+/// The required number of evaluations is at most 250.
 TEST(Run, TakesFewEvaluations) {
   const Tessellation uniform = run(10242, kConstant, options_of(1e-5));
   EXPECT_EQ(uniform.result.end, End::converged);
@@ -424,8 +422,7 @@ TEST(Run, GoesOnFromACopyOfTheStateWithTheSameBits) {
   }
 }
 
-// ---- the metric of the quasi-Newton method
-// --------------------------------------------------------------------------------------------------
+// ---- the metric of the quasi-Newton method ----
 
 double product(const std::vector<Point>& a, const std::vector<Point>& b) {
   double sum = 0;
@@ -438,7 +435,7 @@ std::vector<Point> solved(Metric& metric, std::vector<Point> v) {
   return v;
 }
 
-/// What the metric knows of generators, and vectors at right angles to them.
+/// The metric of some generators, and vectors tangential at them.
 struct Measured {
   Measured(const Density& d, std::vector<Point> g)
       : density(d), generators(std::move(g)), evaluator(d), metric(evaluator.ranks()) {
@@ -499,7 +496,7 @@ TEST(Metric, IsSymmetricAndPositive) {
       }
 }
 
-/// Where Lloyd's metric is wrong by the square of the wave length over the width of a cell.
+/// Lloyd's metric is wrong here by the square of the wave length over the width of a cell.
 TEST(Metric, IsAboutTheInverseOfTheHessian) {
   for (const Density* const density : std::initializer_list<const Density*>{&kConstant, &kBump}) {
     RunOptions options;
@@ -530,10 +527,9 @@ TEST(Metric, MakesRunsShort) {  // in Lloyd's metric 83 evaluations
   EXPECT_LT(run(front_generators(4000, kConstant), kConstant, {}).evaluations, 50);
 }
 
-// ---- safeguards
-// --------------------------------------------------------------------------------------------------
+// ---- safeguards ----
 
-/// Evaluates, and then changes what is told of an evaluation.
+/// An evaluator that falsifies the results of evaluations.
 class Meddler final : public LocalEvaluator {
  public:
   using Meddle = std::function<void(int evaluation, Cells& cells)>;
@@ -611,8 +607,7 @@ TEST(Safeguards, WithoutAnyDecreaseTheRunEnds) {
   EXPECT_EQ(result.cells.mass, cells.mass);
 }
 
-// ---- bad input
-// ---------------------------------------------------------------------------------------------------
+// ---- bad input ----
 
 template <class Error>
 Error error_of(const std::vector<Point>& generators, const Density& density) {
@@ -633,7 +628,7 @@ TEST(BadInput, GeneratorsInAHemisphere) {
   EXPECT_THROW(run(generators, kConstant, {}), GeneratorsInHemisphere);
 }
 
-/// Three nodes on the boundary leave as many arcs as a mesh of the whole sphere has.
+/// A mesh with three boundary nodes has as many arcs as a mesh of the whole sphere.
 TEST(BadInput, GeneratorsInATriangle) {
   const std::vector<Point> generators{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, point_sets::normalized({1, 1, 1})};
   EXPECT_THROW(run(generators, kConstant, {}), GeneratorsInHemisphere);
@@ -673,8 +668,7 @@ TEST(BadInput, Densities) {
             std::string::npos);
 }
 
-// ---- first generators, levels, lists
-// -----------------------------------------------------------------------------
+// ---- first generators, levels, lists ----
 
 TEST(Triangulate, GeneratorsWhoseFirstThreeAreOnAGreatCircle) {
   std::vector<Point> points = point_sets::make("random", 200, 1);

@@ -122,8 +122,7 @@ TYPED_TEST(NextNearest, GivesAllNodesByDistance) {
     }
 }
 
-/// Any nodes may be given, in any order: also numbers that collide in the table, as equally spaced ones do in
-/// a table indexed by the last bits.
+/// Any nodes in any order, also equally spaced numbers, which collide in a table indexed by the last bits.
 TYPED_TEST(NextNearest, IsTheNearestNeighbourOfAnyGivenNodes) {
   using Real = typename TypeParam::Real;
   using Int = typename TypeParam::Int;
@@ -161,7 +160,7 @@ TYPED_TEST(NextNearest, IsTheNearestNeighbourOfAnyGivenNodes) {
     }
 }
 
-/// Wherever the wrong number stands; all are checked before any is used.
+/// A wrong number at any position is refused: all numbers are checked before any is used.
 TYPED_TEST(NextNearest, RefusesWrongNodes) {
   using Real = typename TypeParam::Real;
   using Int = typename TypeParam::Int;
@@ -184,7 +183,7 @@ TYPED_TEST(NextNearest, RefusesWrongNodes) {
       }
 }
 
-/// A list that never comes back to its last slot, whether it goes on slot by slot or not.
+/// A list that never returns to its last slot, with consecutive slots or not.
 TYPED_TEST(NextNearest, EndsInListsThatLoop) {
   using Real = typename TypeParam::Real;
   using Int = typename TypeParam::Int;
@@ -207,8 +206,8 @@ TYPED_TEST(NextNearest, EndsInListsThatLoop) {
   }
 }
 
-/// What TRFIND and NEARND answer depends on the lists, not on the slots that hold them: where a node's
-/// neighbours fill consecutive slots they are looked at together.
+/// The answers of TRFIND and NEARND do not depend on the slots that hold the lists, although neighbours in
+/// consecutive slots are read together.
 TYPED_TEST(NextNearest, SearchesAnswerAlikeInAnySlots) {
   using Real = typename TypeParam::Real;
   using Int = typename TypeParam::Int;

@@ -1,5 +1,5 @@
-// StaticallyRounded in every floating-point environment: the sums, products and comparisons of the default
-// one, and the environment as it was.
+// In every floating-point environment StaticallyRounded gives the sums, products and comparisons of the
+// default environment and leaves the environment as it was.
 
 #include "base/static_rounding.h"
 

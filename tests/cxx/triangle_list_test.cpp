@@ -1,7 +1,7 @@
-// TRLIST, TRLIST2 and the numbers in CRLIST's LISTC compared with their definitions, programmed here by a
-// search of all triangles. For all kinds of numbers, on canonical lists and in another order of the slots,
-// with and without a boundary, on rings of 2 to 3000 arcs. LIST, LPTR and LEND lie in memory that cannot be
-// written to, between pages that cannot be read.
+// Compares TRLIST, TRLIST2 and the numbers in CRLIST's LISTC with their definitions, implemented here by a
+// search of all triangles. For all kinds of numbers, canonical lists and other orders of slots, with and
+// without a boundary, rings of 2 to 3000 arcs. LIST, LPTR and LEND lie in read-only memory between
+// inaccessible pages.
 
 #include "stripack/triangle_list.h"
 
@@ -66,7 +66,7 @@ Plain plain_lists(const std::vector<Point>& points, Slots order) {
   return other;
 }
 
-/// What TRLIST and CRLIST give, by definition.
+/// The results of TRLIST and CRLIST by definition.
 struct Expected {
   std::vector<std::array<int, 9>> columns;
   std::vector<int> listc;  ///< by slot; 0 = no triangle on the left
@@ -253,8 +253,8 @@ namespace {
 
 using Rings = std::vector<std::vector<std::int32_t>>;  ///< as in LIST: negative where no triangle follows
 
-/// Whether a triangle in one ring is in those of its other two corners, and a node that is listed by a
-/// smaller one lists it, too.
+/// True if each triangle in a ring is in the rings of its other two corners, and each node that a smaller one
+/// lists also lists that one.
 bool agree(const Rings& rings) {
   std::set<std::array<int, 3>> triangles;
   std::set<std::pair<int, int>> arcs;
@@ -274,7 +274,7 @@ bool agree(const Rings& rings) {
   return triangles.size() <= 3 * (2 * rings.size() - 4);
 }
 
-/// Something wrong with a ring or two, or only another neighbour first.
+/// Breaks one or two rings, or only begins a ring at another neighbour.
 void change(Rings& rings, point_sets::Random& random) {
   const auto any_of = [&](std::size_t n) { return static_cast<std::size_t>(random.below(n)); };
   auto &ring = rings[any_of(rings.size())], &other = rings[any_of(rings.size())];
@@ -306,7 +306,7 @@ void change(Rings& rings, point_sets::Random& random) {
 
 }  // namespace
 
-/// Also where so few small numbers are summed that wrong ones have the right sum.
+/// Also for so few small numbers that wrong ones can have the right sum.
 TEST(TriangleList, RefusesTheListsWhoseRingsDisagreeAndNoOthers) {
   point_sets::Random random(3);
   int accepted = 0, refused = 0;

@@ -1,5 +1,5 @@
-// The validator against meshes that are broken in every way we know, and a million mutated lists, more or
-// fewer with PSTRIPACK_CASES.
+// The validator on meshes broken in every way we know, and on a million mutated lists (PSTRIPACK_CASES
+// changes the number).
 
 #include <gtest/gtest.h>
 
@@ -299,7 +299,7 @@ TEST(Validator, FindsHoles) {
   EXPECT_EQ(judge(octahedron, faces).defect, Defect::not_convex);
 }
 
-/// The torus of seven nodes, and what is left without a node's star: every star is one cycle or one fan.
+/// The torus of seven nodes, and the torus without the star of a node: every star is one cycle or one fan.
 TEST(Validator, FindsSurfacesThatAreNeitherSphereNorDisc) {
   const Nodes nodes = make("random", 7, 1);
   Faces torus;
@@ -316,7 +316,7 @@ TEST(Validator, FindsSurfacesThatAreNeitherSphereNorDisc) {
             "the surface is not one sphere or one disc: 1 component(s), 2(V-E+F) = -2, 6 boundary arcs");
 }
 
-/// Of lists alone: two spheres are none; one sphere or disc is, wherever its nodes lie.
+/// Tests lists without nodes: two spheres are refused; one sphere or disc is accepted.
 TEST(Validator, KnowsTheTopologyOfLists) {
   Faces two = brute_force(octahedron, On::coordinates);
   EXPECT_TRUE(check_topology(view(canonical_lists(*rings_of(6, two)))));
@@ -581,7 +581,7 @@ Lists flip(const Rings& rings, Random& random) {
   return canonical_lists(rings, filler);
 }
 
-/// One random change of the lists. Some leave the triangulation what it is.
+/// Makes one random change of the lists; some changes do not change the triangulation.
 void mutate(Lists& l, Random& random) {
   const std::size_t n = l.nodes(), slots = static_cast<std::size_t>(l.lnew > 1 ? l.lnew - 1 : 1);
   const auto slot = [&] { return random.below(std::min(slots, l.list.size())); };

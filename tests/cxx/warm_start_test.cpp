@@ -1,5 +1,4 @@
-// Calls of TRMESH that may begin with the mesh of an earlier one: the same bytes as those of calls that
-// cannot.
+// Calls of TRMESH that may begin with the mesh of an earlier call give the bytes of calls that cannot.
 
 #include "trmesh/warm_start.h"
 
@@ -43,7 +42,7 @@ struct Result : Lists {
   std::int64_t flips = 0;
 };
 
-/// In arrays of its own, which are freed before the next call.
+/// Calls TRMESH with arrays that are freed before the next call.
 template <class Real = double>
 Result call(const Nodes& nodes) {
   const Columns<Real> c(nodes);
@@ -80,7 +79,7 @@ struct Tally {
   std::int64_t flips = 0;
 };
 
-/// The same bytes for all of these sets, one after another, warm and cold.
+/// Expects the same bytes of warm and of cold calls for these sets, one after another.
 Tally compare(const std::vector<Nodes>& sets) {
   forget_last_meshes();
   std::vector<Result> results;
@@ -167,7 +166,7 @@ TEST(WarmStart, IsInvisibleWhereOneNodeJumps) {
   EXPECT_GE(tally.cold, 2 + 5);
 }
 
-/// What does not fit is tried ever more seldom.
+/// A mesh that does not fit is tried less and less often.
 TEST(WarmStart, IsNotTriedAgainAndAgain) {
   Random random(4);
   forget_last_meshes();
@@ -243,7 +242,7 @@ TEST(WarmStart, ReturnsTheCodesOfColdCalls) {
   EXPECT_EQ(after_warm_calls(bad), -2);
 }
 
-/// Codes of nodes that a mesh could follow: the first three come to lie on one great circle.
+/// A mesh could follow these nodes, but the first three move onto one great circle.
 TEST(WarmStart, ReturnsMinusTwoOfNodesThatHardlyMove) {
   Nodes nodes = nodes_of("random", kN);
   const auto swap_to = [&](std::size_t to, std::size_t from) { std::swap(nodes[to], nodes[from]); };
@@ -321,7 +320,7 @@ TEST(WarmStart, IsInvisibleWhereNChanges) {
   EXPECT_GT(tally.warm, 4);
 }
 
-/// Remeshing: as many nodes as before, some with each other's numbers: two, neighbours or anywhere, a run,
+/// Remeshing: the same number of nodes, some renumbered: two nodes, neighbours or not, a run of nodes, or
 /// all.
 TEST(WarmStart, IsInvisibleWhereNodesAreRenumbered) {
   Random random(17);
@@ -348,7 +347,7 @@ TEST(WarmStart, IsInvisibleWhereNodesAreRenumbered) {
   EXPECT_GT(tally.cold, 10);
 }
 
-/// The whole mesh turns, or is seen in a mirror: then no triangle is the right way round any more.
+/// The whole mesh rotates, or is reflected, so that no triangle is counterclockwise any more.
 TEST(WarmStart, IsInvisibleWhereTheWholeMeshTurns) {
   Nodes nodes = nodes_of("random", kN), mirrored = nodes;
   std::vector<Nodes> sets(4, nodes);
@@ -362,7 +361,7 @@ TEST(WarmStart, IsInvisibleWhereTheWholeMeshTurns) {
   EXPECT_GT(compare(sets).warm, 2);
 }
 
-/// A call with a bad node, once: those after it are right, and soon begin with the last mesh again.
+/// After a single call with a bad node, calls are correct and soon begin with the last mesh again.
 TEST(WarmStart, GoesOnAfterACallThatFailed) {
   Random random(18);
   Nodes nodes = nodes_of("random", kN);
@@ -442,7 +441,7 @@ TEST(WarmStart, IsInvisibleToThreadsThatCallAtOnce) {
 }
 
 #ifdef _OPENMP
-/// Each thread of the host's own parallel region with a mesh of its own, or all with one.
+/// Threads of the program's own parallel region, each with its own mesh, or all with the same.
 TEST(WarmStart, IsInvisibleInsideAParallelRegion) {
   constexpr int kThreads = 4, kSteps = 8;
   std::vector<std::vector<Nodes>> sets;
@@ -566,8 +565,8 @@ TEST(WarmStart, IsInvisibleAroundHubs) {
   EXPECT_EQ(tally.warm, 3);
 }
 
-/// The first look of a kept mesh at its nodes is at the lists of another call, wherever these nodes have
-/// been before: its memory may hold them still.
+/// The first test of a kept mesh uses the lists of another call, even if its memory still holds nodes of an
+/// earlier mesh.
 TEST(WarmStart, TestsAMeshThatIsNew) {
   Random random(13);
   const Nodes nodes = nodes_of("fibonacci", kN);
@@ -613,7 +612,7 @@ TEST(WarmStart, LooksAtTheLastCallOnly) {
   forget_last_meshes();
 }
 
-/// What is of no use is not kept: boundaries, few nodes.
+/// Meshes with a boundary or with few nodes are useless and not kept.
 TEST(WarmStart, KeepsNothingThatNoCallCanBeginWith) {
   forget_last_meshes();
   call(make("cap", kN, 1));
@@ -640,7 +639,7 @@ TEST(WarmStart, KeepsNothingWhereItIsOff) {
             0);
 }
 
-/// Four callers that came first do not keep four others out.
+/// The meshes of four first callers do not prevent those of four others from being kept.
 TEST(WarmStart, ForgetsTheMeshesOfOthersInTurn) {
   const auto set = [](std::uint64_t seed) { return make("random", 1000, seed); };
   forget_last_meshes();
@@ -654,7 +653,7 @@ TEST(WarmStart, ForgetsTheMeshesOfOthersInTurn) {
   EXPECT_EQ(room_to_stay(), before);
 }
 
-/// After a mesh that did not fit, a mesh is kept one call later than else; once one fits, as before.
+/// After a mesh that did not fit, the next one is kept one call later than usual, until a mesh fits.
 TEST(WarmStart, WaitsOneCallMoreAfterAMeshThatDidNotFit) {
   const Nodes here = nodes_of("random", kN);
   Nodes there = here;
@@ -667,7 +666,7 @@ TEST(WarmStart, WaitsOneCallMoreAfterAMeshThatDidNotFit) {
   forget_last_meshes();
 }
 
-/// What it has written is not done again the cold way.
+/// Lists that the warm start has written are not written again by a cold call.
 TEST(WarmStart, SaysThatItHasWrittenTheLists) {
   const Nodes nodes = nodes_of("random", kN);
   const Result right = cold_call(nodes);
@@ -681,7 +680,7 @@ TEST(WarmStart, SaysThatItHasWrittenTheLists) {
   EXPECT_TRUE(same(r, right));
 }
 
-/// As many nodes as a mesh that did not fit, elsewhere: a mesh of theirs is kept one call later, too.
+/// Other nodes, as many as in a mesh that did not fit: their mesh is also kept one call later.
 TEST(WarmStart, IsAsPatientWithOtherNodesOfTheSameNumber) {
   const Nodes here = nodes_of("random", kN), elsewhere = nodes_of("fibonacci", kN);
   Nodes there = here;

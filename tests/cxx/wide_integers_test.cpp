@@ -1,4 +1,4 @@
-// The functions behind libstripack_i8 give what those of 32-bit integers give.
+// The functions of libstripack_i8 give the results of those for 32-bit integers.
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "support/stripack_calls.h"
 #include "point_sets.h"
 #include "support/expect.h"
+#include "support/stripack_calls.h"
 
 namespace {
 

@@ -48,7 +48,7 @@ void shuffle(NodeSet& set, Random& random) {
   }
 }
 
-/// Mostly small sets, a few large ones.
+/// A size: mostly small, seldom large.
 int some_size(Random& random) {
   const int choice = random.below(100);
   if (choice < 60) return 3 + random.below(20);
@@ -193,7 +193,7 @@ Lists triangulated_by_original(const NodeSet& nodes, int& ier) {
 
 Result compare_all(const std::vector<NodeSet>& sets,
                    const std::function<std::string(const NodeSet&)>& compare, double limit) {
-  const legacy_stripack::Shared<char> text(1000);  // what a child found
+  const legacy_stripack::Shared<char> text(1000);  // the differences that a child found
   second_original();                               // loaded once, not in every child
   Result result;
   for (const NodeSet& set : sets) {

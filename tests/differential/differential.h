@@ -1,5 +1,5 @@
 #pragma once
-// Differential tests: the same calls to our routines and to the original's, on many sets of nodes. The
+// Differential tests make the same calls of our routines and of the original's on many sets of nodes. The
 // original may hang or crash, so the calls run in child processes.
 
 #include <functional>
@@ -16,11 +16,11 @@ struct NodeSet {
   int n() const { return static_cast<int>(x.size()); }
 };
 
-/// 2400 sets of 3 to 500 nodes, the same in every run: random on the sphere, in a half-sphere, in a small
+/// 2400 sets of 3 to 500 nodes, the same in every run: random on the sphere, in a hemisphere or in a small
 /// cap, directions of small lattices, global and regional grids, rings with a pole, sets with exact copies.
 const std::vector<NodeSet>& node_sets();
 
-/// A triangulation in arrays of its own, with room for `most` nodes. Filled with a mark before use.
+/// The arrays of a triangulation, with room for `most` nodes, initially filled with a mark.
 struct Lists {
   explicit Lists(int most);
   std::vector<int> list, lptr, lend;
@@ -31,32 +31,32 @@ struct Lists {
   }
 };
 
-/// A second copy of the original in this process, which draws from random seeds of its own. Its CRLIST has
-/// the 17 arguments of STRIPACK.
+/// A second copy of the original in this process, with random seeds of its own. Its CRLIST has the 17
+/// arguments of STRIPACK.
 const legacy_stripack::Library& second_original();
 
-/// The TRMESH of the second copy, so that the seeds of the first are as fresh as ours; the IER in `ier`.
+/// Calls TRMESH of the second copy, so that the seeds of the first copy are as fresh as ours. Sets `ier`.
 Lists triangulated_by_original(const NodeSet& nodes, int& ier);
 
 /// Result of a comparison over many sets.
 struct Result {
   int compared = 0;                       ///< sets on which both sides returned
-  std::vector<std::string> not_returned;  ///< sets on which a call hung or crashed: names
-  std::vector<std::string> differences;   ///< "set: what differs", the first 20
+  std::vector<std::string> not_returned;  ///< names of sets on which a call hung or crashed
+  std::vector<std::string> differences;   ///< the first 20, as "set: what differs"
   int different = 0;
 };
 
-/// Calls compare(set) for each set, each in a child process, which is killed after `limit` seconds. It makes
-/// the calls and returns what differs, "" if nothing does.
+/// Calls compare(set) for each set in a child process, which is killed after `limit` seconds. compare makes
+/// the calls and returns what differs, or "".
 Result compare_all(const std::vector<NodeSet>& sets,
                    const std::function<std::string(const NodeSet&)>& compare, double limit = 2);
 
-/// Google Test's checks of a result: no difference, and at most `most_lost` sets on which something hung.
+/// Expects no difference, and at most `most_lost` sets on which a call hung or crashed.
 void expect_equal(const Result& result, int most_lost = 0);
 
-/// True if the two are the same bits, or both NaN.
+/// True if the bits are equal, or if both are NaN.
 bool same_bits(double a, double b);
-/// Spacings between a and b; large for NaN.
+/// The number of doubles between a and b; large for NaN.
 double ulps(double a, double b);
 
 }  // namespace differential

@@ -41,7 +41,7 @@ constexpr Routines ours{addnod_, bdyadd_, covsph_, delarc_, delnb_, delnod_,
 constexpr Routines original{csaddnod_, csbdyadd_, cscovsph_, csdelarc_, csdelnb_, csdelnod_,
                             csedge_,   csinsert_, csintadd_, csoptim_,  csswap_};
 
-/// All that a call can change: nodes, lists, IWK, and its scalar results.
+/// All that a call can change: nodes, lists, IWK, scalar results.
 struct Mesh {
   int n;
   std::vector<double> x, y, z;
@@ -72,7 +72,7 @@ struct Mesh {
     const auto i = static_cast<std::size_t>(a - 1), j = static_cast<std::size_t>(b - 1);
     return x[i] == x[j] && y[i] == y[j] && z[i] == z[j];
   }
-  /// Neighbours, first to last, without signs.
+  /// The neighbours of a node, from the first to the last, without signs.
   std::vector<int> neighbours(int node) const {
     std::vector<int> result;
     int slot = last(node);
@@ -80,8 +80,8 @@ struct Mesh {
     while (slot != last(node));
     return result;
   }
-  /// True if each slot in use is in one list, all neighbours list each other, and the boundary closes. Edits
-  /// that fail may leave less.
+  /// True if each slot in use is in one list, all neighbours list each other, and the boundary is closed.
+  /// Edits that fail may leave lists for which this is false.
   bool is_linked() const {
     std::vector<int> times(static_cast<std::size_t>(lists.lnew), 0);
     for (int slot = 1; slot < lists.lnew; ++slot) {
@@ -96,7 +96,7 @@ struct Mesh {
       }
     return true;
   }
-  /// True if besides all triangles close, and are as many as Euler's formula says.
+  /// True if, in addition, all triangles are closed and their number satisfies Euler's formula.
   bool is_triangulation() const {
     if (!is_linked()) return false;
     int arcs = 0, corners = 0, boundary = 0;
@@ -109,7 +109,7 @@ struct Mesh {
     }
     return n - arcs / 2 + corners / 3 == (boundary > 0 ? 1 : 2);
   }
-  /// The corners left and right of the arc a-b: a,b,left and b,a,right are triangles. 0 = none.
+  /// The corners left and right of the arc a-b: a,b,left and b,a,right are triangles. 0: none.
   std::array<int, 2> opposite(int a, int b) const {
     const std::vector<int> ring = neighbours(a);
     const auto i = static_cast<std::size_t>(std::find(ring.begin(), ring.end(), b) - ring.begin());
@@ -147,8 +147,8 @@ class Codes {
 sigjmp_buf out_of_call;
 void leave(int) { siglongjmp(out_of_call, 1); }
 
-/// Makes calls that may not return; false if they do not within 0.002 seconds of processor time, a thousand
-/// times what a call of EDGE takes; the clock's ticks make it some 0.005.
+/// Makes calls that may not return. False if they do not return within 0.002 seconds of processor time, a
+/// thousand times that of a call of EDGE; the clock's ticks make it some 0.005 seconds.
 bool returns(const Calls& calls, const Routines& routines, Mesh& mesh) {
   signal(SIGVTALRM, leave);
   const itimerval limit{{0, 0}, {0, 2000}}, none{{0, 0}, {0, 0}};
@@ -181,8 +181,8 @@ std::string difference(const Mesh& a, const Mesh& b) {
   return what;
 }
 
-/// Makes the same calls on both sides, from the same state, which becomes that after the calls.
-/// "" or what differs.
+/// Makes the same calls on both sides from the state `mesh`, which becomes the state after the calls. Returns
+/// what differs, or "".
 std::string compare(Mesh& mesh, const Calls& calls) {
   Mesh theirs = mesh;
   mesh.results.clear();
@@ -213,7 +213,7 @@ std::vector<NodeSet> sets_up_to(int n) {
   return sets;
 }
 
-/// Calls test(mesh, dice) for the original's triangulation of each set, in child processes.
+/// Calls test(mesh, dice) for the original's triangulation of each set in a child process.
 Result compare_meshes(const std::vector<NodeSet>& sets, const std::function<std::string(Mesh&, Dice&)>& test,
                       double limit = 2) {
   return compare_all(
@@ -269,7 +269,8 @@ void keep_three(Mesh& mesh) {
   mesh.n = 3;
 }
 
-/// Builds each set node by node; add(mesh, k, i1, i2, i3) compares a routine where the search has found k.
+/// Builds each set node by node; add(mesh, k, i1, i2, i3) compares a routine at the place where the search
+/// found k.
 using Add = std::function<std::string(const Mesh& mesh, int k, int i1, int i2, int i3)>;
 Result compare_insertions(const Add& add) {
   return compare_meshes(sets_up_to(120), [&](Mesh& mesh, Dice&) -> std::string {
@@ -372,7 +373,7 @@ TEST(Differential, SWAP) {
         r.swap(&in1, &in2, &io1, &io2, m.list(), m.lptr(), m.lend(), m.results.data());
       });
     };
-    // Each interior arc is exchanged, and in most cases exchanged back.
+    // Each interior arc is swapped and, in most cases, swapped back.
     for (int a = 1; a <= mesh.n; ++a)
       for (int b : mesh.neighbours(a)) {
         const std::vector<int> ring = mesh.neighbours(a);
@@ -401,8 +402,8 @@ std::string compare_optim(Mesh& mesh, int na, int nit) {
   });
 }
 
-/// Exchanges an arc for the other diagonal of its quadrilateral, which must be convex: both sides. The new
-/// arc, or {0,0}.
+/// Swaps an arc for the other diagonal of its quadrilateral on both sides. If convex_only, the quadrilateral
+/// must be convex. Returns the new arc, or {0,0}.
 std::array<int, 2> exchange(Mesh& mesh, int a, int b, bool convex_only) {
   auto [l, r] = mesh.opposite(a, b);
   if (l == 0 || r == 0) return {0, 0};
@@ -425,7 +426,7 @@ TEST(Differential, OPTIM) {
     for (const auto& [na, nit] : {std::array<int, 2>{0, 5}, {-1, 5}, {1, 0}, {0, 0}, {-1, -1}})
       if (const std::string d = optim(na, nit); !d.empty()) return d;
     for (int times = 0; times < 12; ++times) {
-      // Arcs exchanged at random, and some that are not; sometimes columns that are no arcs.
+      // Arcs that were swapped at random, others that were not, and sometimes columns that are not arcs.
       const Mesh before = mesh;
       int na = 0;
       const int most = 1 + dice.below(std::min(mesh.n, 40));
@@ -473,7 +474,7 @@ TEST(Differential, DELNB) {
         for (const auto& [n0, nb] : {std::array<int, 2>{a, b}, {b, a}})
           if (const std::string d = delnb(mesh, n0, nb); !d.empty()) return d;
     }
-    // One after another, each time with the reverse entry, on one mesh.
+    // Repeatedly on one mesh, each time also with the reverse entry.
     for (int i = 0; i < 10 && mesh.n > 4; ++i) {
       const int a = dice.node(mesh);
       const std::vector<int> ring = mesh.neighbours(a);
@@ -521,7 +522,7 @@ TEST(Differential, DELARC) {
       const int b = -mesh.entry(mesh.last(a));
       for (const auto& [io1, io2] : {std::array<int, 2>{a, b}, {b, a}})
         if (const std::string d = on_a_copy(mesh, io1, io2); !d.empty()) return d;
-      // Lists in which the second of the two does not list the first, and the other way round.
+      // Lists in which one of the two nodes does not list the other.
       for (const auto& [owner, missing] : {std::array<int, 2>{a, b}, {b, a}}) {
         Mesh damaged = mesh;
         const int first = mesh.next(mesh.last(owner));
@@ -529,7 +530,7 @@ TEST(Differential, DELARC) {
         if (const std::string d = on_a_copy(damaged, a, b); !d.empty()) return "damaged " + d;
       }
     }
-    // All that can go, one after another.
+    // Delete arcs as long as possible.
     for (int i = 0; i < 60; ++i) {
       const int a = dice.node(mesh);
       if (!mesh.on_boundary(a)) continue;
@@ -569,7 +570,7 @@ TEST(Differential, DELNOD) {
       if (const std::string d = delnod(mesh, k, mesh.n); !d.empty()) return d;
     if (const std::string d = delnod(mesh, 1, -1); !d.empty()) return d;
     if (mesh.n > 3) {
-      // A node that a neighbour does not list; a node with one neighbour.
+      // A node that a neighbour does not list, and a node with one neighbour.
       Mesh damaged = mesh;
       const int a = dice.node(mesh), b = mesh.neighbours(a).front();
       int slot = mesh.last(b);
@@ -591,7 +592,7 @@ TEST(Differential, DELNOD) {
     return delnod(mesh, 1, 5);
   };
   expect_equal(compare_meshes(node_sets(), test));
-  // Examples of OPTIM failing in the end.
+  // Deletions in which OPTIM fails in the end.
   const auto deletes = [&](int k) {
     return [&, k](Mesh& mesh, Dice&) {
       const std::string d = compare_delnod(mesh, k, mesh.n);
@@ -631,7 +632,7 @@ bool is_copy(const Mesh& mesh, int k) {
   return false;
 }
 
-/// "" if the call found that node k is a copy, and changed nothing.
+/// "" if the call reported that node k is a copy and changed nothing.
 std::string found_copy(const Mesh& before, Mesh after, int k) {
   const int l = after.results[0];
   if (l < 1 || l >= k || !before.same_place(l, k))
@@ -643,7 +644,8 @@ std::string found_copy(const Mesh& before, Mesh after, int k) {
 }  // namespace
 
 TEST(Differential, ADDNOD) {
-  // From three nodes to all of them, one by one. A copy, which the original may add, is found and left out.
+  // From three nodes to all nodes, one by one. A copy, which the original may add, must be found and is left
+  // out.
   Codes codes;
   const auto test = [&](Mesh& mesh, Dice& dice) -> std::string {
     const int n = mesh.n;
@@ -661,7 +663,7 @@ TEST(Differential, ADDNOD) {
       addnod(start, k)(original, theirs);
       codes.note(mesh.results[0]);
       if (is_copy(before, k)) {
-        if (theirs.results[0] == 0) codes.note(-19);  // not found by the original
+        if (theirs.results[0] == 0) codes.note(-19);  // the original did not find the copy
         if (const std::string d = found_copy(before, mesh, k); !d.empty()) return d;
         continue;
       }
@@ -674,7 +676,8 @@ TEST(Differential, ADDNOD) {
   };
   expect_equal(compare_meshes(node_sets(), test));
 
-  // Node 4 hangs on the hull by a null triangle; the search for node 5 from there sees one great circle only.
+  // Node 4 is attached to the hull by a null triangle; the search for node 5 from there meets only one great
+  // circle.
   const auto add_pole = [&](Mesh& mesh, Dice&) -> std::string {
     mesh.x[4] = mesh.y[4] = 0;
     mesh.z[4] = 1;
@@ -719,8 +722,8 @@ Calls edge(int in1, int in2, int lwk) {
   };
 }
 
-/// The original may not return. Then ours either says so and has changed nothing, or has made the arc. Where
-/// SWAP refuses, the original goes on and returns what is no triangulation, seldom one; ours changes nothing.
+/// The original may not return. Then ours either reports an error and has changed nothing, or has made the
+/// arc. If SWAP refuses, the original continues and seldom returns a triangulation; ours changes nothing.
 constexpr int kRefusedForNothing = -17, kRefused = -16;
 std::string compare_edge(Mesh& mesh, int in1, int in2, int lwk, Codes& codes) {
   Mesh before = mesh, theirs = mesh;
@@ -773,8 +776,7 @@ TEST(Differential, EDGE) {
   };
   expect_equal(compare_meshes(node_sets(), test, 20));
 
-  // Nodes 1, 2, 4 and 5 of the first lie on one meridian; in the others OPTIM has null triangles to deal
-  // with.
+  // Nodes 1, 2, 4 and 5 of the first set lie on one meridian; in the other sets OPTIM meets null triangles.
   NodeSet meridian;
   meridian.name = "meridian";
   meridian.x = {0.617887107815421, 0.5777336766211344, 0.5513570579570638, 0.63097779085165395,
@@ -810,12 +812,12 @@ TEST(Differential, EDGE) {
 
 namespace {
 
-/// Random edits on both sides, each from the state that both have reached.
+/// Random edits on both sides, one after another.
 class Edits {
  public:
   Edits(Mesh& mesh, Dice& dice, Codes& kinds) : mesh_(mesh), dice_(dice), kinds_(kinds) {}
 
-  /// "" or what differs.
+  /// Makes the next edit; returns what differs, or "".
   std::string next() {
     a_ = dice_.node(mesh_);
     b_ = dice_.node(mesh_);
@@ -840,13 +842,14 @@ class Edits {
         return swap();
     }
   }
-  /// False after a search from which the original did not return: its random numbers are then unknown.
+  /// False after a search from which the original did not return: the state of its random numbers is then
+  /// unknown.
   bool go_on() const { return go_on_; }
 
  private:
   double& at(std::vector<double>& axis, int node) { return axis[static_cast<std::size_t>(node - 1)]; }
 
-  /// ADDNOD of a node half-way between two, anywhere, or where a node is already.
+  /// ADDNOD of a node halfway between two nodes, anywhere, or at the place of a node.
   std::string add() {
     const int k = mesh_.n + 1, where = dice_.below(10), start = dice_.below(k + 2);
     if (k > static_cast<int>(mesh_.x.size())) return "";
@@ -881,7 +884,7 @@ class Edits {
     return compare_optim(mesh_, na, 1 + dice_.below(4));
   }
 
-  /// SWAP of an arc whose quadrilateral is convex, which leaves a triangulation.
+  /// SWAP of an arc whose quadrilateral is convex, so that the result is a triangulation.
   std::string swap() {
     const auto [l, r] = mesh_.opposite(a_, neighbour_);
     if (l == 0 || r == 0 || mesh_.left(l, r, a_) == mesh_.left(l, r, neighbour_)) return "";

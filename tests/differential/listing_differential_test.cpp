@@ -1,5 +1,5 @@
-// TRPRNT, TRLPRT: every row, column and page break. Words are our own; of them the numbers behind "=" count,
-// and where they stand.
+// TRPRNT, TRLPRT: every row, column and page break. The wording is our own: of texts only the numbers behind
+// "=" and their positions are compared.
 
 #include <dlfcn.h>
 #include <gtest/gtest.h>
@@ -23,15 +23,15 @@ namespace {
 constexpr int unit = 77;
 
 bool is_wording(const std::string& record) {
-  for (std::size_t i = 0; i + 1 < record.size(); ++i)  // two letters in a row, but not NaN and Infinity
+  for (std::size_t i = 0; i + 1 < record.size(); ++i)  // two consecutive letters, except in NaN and Infinity
     if (std::isalpha(record[i]) && std::isalpha(record[i + 1]) && record.find("NaN") == std::string::npos &&
         record.find("Inf") == std::string::npos)
       return true;
   return false;
 }
 
-/// What counts of a record: of numbers everything, with E for D; of wording the blanks before it and the
-/// fields behind each "=", if there are any.
+/// The part of a record that is compared. Numbers: all, with E for D. Texts: the blanks before them and the
+/// fields behind each "=".
 std::string essence(std::string record) {
   if (!is_wording(record)) {
     for (std::size_t i = 1; i < record.size(); ++i)
@@ -47,7 +47,7 @@ std::string essence(std::string record) {
   return fields.empty() ? "words" : std::to_string(record.find_first_not_of(' ')) + fields;
 }
 
-/// The first record in which two listings differ, "" if there is none.
+/// The first record in which two listings differ; "" if they are equal.
 std::string difference(const std::string& ours, const std::string& original) {
   const std::vector<std::string> a = records_of(ours), b = records_of(original);
   for (std::size_t i = 0; i < a.size() && i < b.size(); ++i)
@@ -57,7 +57,7 @@ std::string difference(const std::string& ours, const std::string& original) {
                               : std::to_string(a.size()) + " records, original " + std::to_string(b.size());
 }
 
-/// The numbers that are hard to print, for the places of some nodes. Their triangulation is not touched.
+/// Replaces coordinates of some nodes by numbers that are hard to print. The triangulation stays as it is.
 NodeSet with_hard_numbers(NodeSet nodes) {
   constexpr double numbers[] = {0.0,
                                 -0.0,
@@ -77,7 +77,7 @@ NodeSet with_hard_numbers(NodeSet nodes) {
   return nodes;
 }
 
-/// The differential sets, sizes up to the limits, and nodes with up to 399 neighbours.
+/// The differential sets, sets of sizes up to the limits, and nodes with up to 399 neighbours.
 std::vector<NodeSet> listed_sets() {
   std::vector<NodeSet> sets = node_sets();
   std::mt19937_64 bits(7);
@@ -109,7 +109,7 @@ std::vector<NodeSet> listed_sets() {
   return sets;
 }
 
-/// The same coordinates in single precision, and in those the original's lists.
+/// The coordinates rounded to single precision, and the original's lists for these.
 struct SingleNodes {
   explicit SingleNodes(NodeSet& nodes) : x(round(nodes.x)), y(round(nodes.y)), z(round(nodes.z)) {}
   static std::vector<float> round(std::vector<double>& values) {
@@ -212,7 +212,8 @@ TEST(Differential, TRLPRT_outOfRange) {
           << n << " " << nrow << " " << nt;
 }
 
-// Through the Fortran of libstripack_r4, which prints to LOUT; the original gets the same numbers in REAL*8.
+// Calls the Fortran routines of libstripack_r4, which print to LOUT; the original gets the same numbers in
+// REAL*8.
 TEST(Differential, TRPRNT_r4) {
   std::vector<NodeSet> sets;
   for (const NodeSet& set : listed_sets())

@@ -1,5 +1,5 @@
-// The routines that query and measure, each test named after its routine. Random seeds: both sides get the
-// same calls in the same order, in processes in which nothing was drawn before.
+// The routines that query and measure; each test is named after its routine. Both sides get the same calls in
+// the same order, in processes that have drawn no random numbers, so their random seeds agree.
 
 #include <gtest/gtest.h>
 
@@ -81,7 +81,7 @@ struct Mesh {
   Lists lists;
 };
 
-/// compare_all over those sets that the original triangulates with IER = 0.
+/// compare_all for the sets that the original triangulates with IER = 0.
 Result compare_meshes(const std::function<std::string(const Mesh&, Random&)>& compare, double limit = 2) {
   return compare_all(
       node_sets(),
@@ -93,7 +93,7 @@ Result compare_meshes(const std::function<std::string(const Mesh&, Random&)>& co
       limit);
 }
 
-/// At most `most` of the numbers 1..n, in order, evenly spread.
+/// At most `most` of the numbers 1..n, increasing and evenly spread.
 std::vector<int> some_of(int n, int most) {
   std::vector<int> numbers;
   const int count = std::min(n, most);
@@ -283,14 +283,14 @@ TEST(Differential, GETNP_is_nearest) {
 
 namespace {
 
-/// The original's INSIDE begins with a crossing that it never set, and uses it where the first edge it
-/// crosses joins opposite points. With zeros on the stack it is zero, as ours.
+/// The original's INSIDE uses an uninitialized crossing if the first edge it crosses joins opposite points.
+/// With zeros on the stack it is zero, as in ours.
 __attribute__((noinline)) void clear_the_stack() {
   volatile char below[4096];
   for (volatile char& byte : below) byte = 0;
 }
 
-/// What INSIDE answers: IER, and 10 more for "true" where IER is 0.
+/// The answer of INSIDE as a number: IER, or 10 if IER is 0 and the value is true.
 template <class Inside>
 int answer(Inside inside, const Vec& p, const Mesh& mesh, int lv, const std::vector<int>& listv, int nv) {
   int ier = Lists::mark;
@@ -364,7 +364,7 @@ TEST(Differential, INSIDE) {
 }
 
 TEST(Differential, INSIDE_opposite_vertices) {
-  // An edge between opposite points has no crossing: the one before it counts again.
+  // An edge between opposite points has no crossing: the previous crossing is used again.
   NodeSet set;
   set.x = {1, 0, 0, 0, -1, 0};
   set.y = {0, 1, 0, -1, 0, 0};
@@ -437,7 +437,7 @@ TEST(Differential, STORE) {
 
 namespace {
 
-/// Three vectors of all kinds that triangle routines treat differently.
+/// Three vectors, of each of the kinds that triangle routines treat differently.
 void triple(Random& random, int trial, Vec& a, Vec& b, Vec& c) {
   a = random.direction(), b = random.direction(), c = random.direction();
   switch (trial % 10) {
@@ -550,7 +550,7 @@ TEST(Differential, NBCNT) {
 
 namespace {
 
-/// TRLIST of both sides; "" if nothing differs.
+/// Compares TRLIST; returns what differs, or "".
 std::string compare_trlist(int n, const Lists& lists, int nrow, int& ier, std::vector<int>& ltri, int& nt) {
   ltri.assign(static_cast<std::size_t>(9 * 2 * std::max(n, 1)), Lists::mark);
   std::vector<int> original_ltri = ltri;
@@ -560,12 +560,12 @@ std::string compare_trlist(int n, const Lists& lists, int nrow, int& ier, std::v
   cstrlist_(&n, lists.list.data(), lists.lptr.data(), lists.lend.data(), &nrow, &original_nt,
             original_ltri.data(), &original_ier);
   if (nt != original_nt || ier != original_ier) return "NT or IER, NROW = " + std::to_string(nrow);
-  // On IER = 2 the original stops at the first missing entry; ours may have written other columns.
+  // If IER = 2, the original stops at the first missing entry; ours may have written further columns.
   return ier == 2 || ltri == original_ltri ? "" : "LTRI, NROW = " + std::to_string(nrow);
 }
 
-/// What must hold of LTRI(9,nt): rows 4-6 are symmetric, each arc has one number, once if it is a boundary
-/// arc, else twice.
+/// True if LTRI(9,nt) is consistent: rows 4-6 are symmetric, and the number of each arc occurs once if it is
+/// a boundary arc, else twice.
 bool is_consistent(const std::vector<int>& ltri, int nt) {
   std::vector<int> seen(static_cast<std::size_t>(3 * nt + 1));
   int boundary_arcs = 0;
@@ -596,7 +596,7 @@ TEST(Differential, TRLIST) {
           for (const int nrow : {6, 9}) {
             const std::string what = compare_trlist(mesh.n, lists, nrow, ier, ltri, nt);
             if (!what.empty()) return what + when;
-            if (ier != 0) return *when == '\0' ? "IER" : "";  // EDGE left what is no triangulation
+            if (ier != 0) return *when == '\0' ? "IER" : "";  // EDGE did not leave a triangulation
           }
           if (!is_consistent(ltri, nt)) return std::string("LTRI is not consistent") + when;
           std::vector<int> corners(ltri.size(), Lists::mark);
@@ -623,7 +623,7 @@ TEST(Differential, TRLIST) {
           if (!what.empty() || ier != 1) return "N = " + std::to_string(n);
         }
 
-        Lists edited = mesh.lists;  // not Delaunay any more, and not convex
+        Lists edited = mesh.lists;  // no longer Delaunay, nor convex
         for (int i = 0; i < 5; ++i) {
           const int in1 = 1 + random.below(mesh.n), in2 = 1 + random.below(mesh.n);
           std::vector<int> iwk(2 * mesh.nodes.x.size());
@@ -650,7 +650,7 @@ TEST(Differential, TRLIST) {
         what = differs(edited, " after DELARC");
         if (!what.empty()) return what;
 
-        // A neighbour that does not know it is one.
+        // A neighbour that does not list the node.
         const int last = mesh.last_slot(1);
         for (int stranger = 2; stranger <= mesh.n; ++stranger) {
           if (mesh.neighbour(cslstptr_(&last, &stranger, mesh.list(), mesh.lptr())) == stranger) continue;
@@ -664,7 +664,7 @@ TEST(Differential, TRLIST) {
         return "";
       },
       0.5);
-  expect_equal(result, 20);  // EDGE of the original can hang
+  expect_equal(result, 20);  // the original's EDGE can hang
   for (std::size_t each = 0; each < 4; ++each) EXPECT_GT(seen[each], 300) << each;
 }
 
@@ -684,8 +684,8 @@ struct Voronoi {
   std::vector<double> real;  // XC, YC, ZC, RC
 };
 
-/// What must hold of a diagram of n nodes: LNEW; every triangle is three times in LISTC; consecutive
-/// triangles round a node share a side.
+/// True if the diagram of n nodes is consistent: LNEW is right, every triangle occurs three times in LISTC,
+/// and consecutive triangles around a node share a side.
 bool is_consistent(const Voronoi& v, const Mesh& mesh) {
   const int nt = 2 * mesh.n - 4;
   if (v.nb > 0 && v.lnew != 6 * mesh.n - 11) return false;
@@ -742,7 +742,7 @@ TEST(Differential, CRLIST) {
         if (ours.ltri != theirs.ltri) return "LTRI";
         ++seen[static_cast<std::size_t>(ours.ier)];
         if (ours.ier == 0 && ours.nb == 0) ++seen[4];
-        if (ours.ier == 3) continue;  // filled "as far as reached": ours goes on
+        if (ours.ier == 3) continue;  // the original stops filling arrays here; ours continues
         if (ours.listc != theirs.listc) return "LISTC";
         for (std::size_t i = 0; i < ours.real.size(); ++i)
           if (!same_bits(ours.real[i], theirs.real[i])) return "XC, YC, ZC or RC";
@@ -750,7 +750,7 @@ TEST(Differential, CRLIST) {
       }
     return "";
   });
-  expect_equal(result, 60);  // rings: the original's swaps undo each other for ever
+  expect_equal(result, 60);  // rings: the original's swaps undo each other forever
   for (std::size_t each = 0; each < 5; ++each) EXPECT_GT(seen[each], 20) << each;
 }
 
@@ -770,7 +770,7 @@ TEST(Differential, TRANS) {
       trans_(&n, rlat, rlon, ours, ours + 4, ours + 8);
       cstransd_(&n, rlat, rlon, theirs, theirs + 4, theirs + 8);
       ASSERT_EQ(std::memcmp(ours, theirs, sizeof ours), 0) << trial;
-      for (const bool crossed : {false, true}) {  // X and Y in place of the angles, either way
+      for (const bool crossed : {false, true}) {  // X and Y overwrite the angles, in either order
         double lat[4], lon[4], z[4];
         std::copy(rlat, rlat + 4, lat);
         std::copy(rlon, rlon + 4, lon);
@@ -840,7 +840,7 @@ NodeSet nodes_at(std::initializer_list<Vec> points) {
 
 }  // namespace
 
-// Points for which the original searches for ever.
+// Points for which the original searches forever.
 TEST(Differential, TRFIND_ends) {
   const NodeSet sliver = nodes_at({{{0.452695204446832, 0.5590320207484465, 0.6946583704589973}},
                                    {{0.4602557974987226, 0.5683685756099448, 0.6819983600624985}},
@@ -872,10 +872,9 @@ TEST(Differential, TRFIND_ends) {
   }
 }
 
-// Enough draws to distinguish JRAND in single precision from JRAND in double: they differ once in 30000 for N
-// = 500.
+// Enough draws to distinguish JRAND in single and in double precision: for N = 500 they differ once in 30000.
 TEST(Differential, TRFIND_random_starts) {
-  const NodeSet* largest = &node_sets()[0];  // that covers the sphere
+  const NodeSet* largest = &node_sets()[0];  // the largest set that covers the sphere
   for (const NodeSet& set : node_sets())
     if (set.name.compare(0, 7, "random ") == 0 && set.n() > largest->n()) largest = &set;
   const Result result = compare_all(
@@ -922,7 +921,7 @@ TEST(Differential, TRFIND_on_threads) {
   one.join();
   two.join();
   std::thread([&] { later = random_starts(); }).join();
-  EXPECT_EQ(at_once[0], later);  // each thread has seeds of its own
+  EXPECT_EQ(at_once[0], later);  // each thread has its own seeds
   EXPECT_EQ(at_once[1], later);
   EXPECT_NE(std::vector<int>(later.begin(), later.begin() + 3000),
             std::vector<int>(later.begin() + 3000, later.end()));

@@ -1,7 +1,7 @@
 #pragma once
-// A plain TRMESH on LIST, LPTR and LEND, without optimisations: the reference for the product's in REAL*4,
-// for which there is no original here. In REAL*8 it is itself compared with libngmath's. Positions in the
-// vectors are those of Fortran: element 0 is not used.
+// A plain TRMESH on LIST, LPTR and LEND, without optimizations. It is the reference for REAL*4, for which
+// there is no original here; in REAL*8 it is compared with libngmath's. Indices are those of Fortran: element
+// 0 is not used.
 
 #include <cmath>
 #include <cstdlib>
@@ -25,7 +25,7 @@ class ReferenceTrmesh {
     lend.assign(static_cast<std::size_t>(n) + 1, 0);
   }
 
-  /// IER; -99 if a search takes more restarts than this.
+  /// Returns IER; -99 if a search takes more than `most_starts` restarts.
   int run(int most_starts = 20000) {
     starts_left_ = most_starts;
     const Real d = side(1, 2, 3);
@@ -59,7 +59,7 @@ class ReferenceTrmesh {
   const int n;
   std::vector<int> list, lptr, lend;
   int lnew = 0;
-  int nodes = 3;  ///< that are in the lists
+  int nodes = 3;  ///< number of nodes in the lists
 
  private:
   struct Point {

@@ -1,4 +1,4 @@
-// TRMESH under PSTRIPACK_ORDER against the original, and parts of it against each other.
+// Compares TRMESH under PSTRIPACK_ORDER with the original, and parts of it with each other.
 
 #include <gtest/gtest.h>
 
@@ -64,7 +64,7 @@ Triangulation by_us(const NodeSet& nodes) {
   return t;
 }
 
-/// The first nodes, up to the one that coincides with node IER.
+/// The number of nodes before the one that coincides with node IER.
 std::size_t nodes_in(const Triangulation& t, std::size_t n) {
   std::size_t count = 0;
   while (count < n && t.lists.lend[count] != Lists::mark) ++count;
@@ -79,18 +79,17 @@ Verdict judged(const NodeSet& nodes, const Triangulation& t) {
       Lengths::automatic, Ties::either_way);
 }
 
-/// As IER and number of nodes before: L and M of the first node M that lies in the direction of an earlier
-/// one.
+/// L and M-1 for the first node M in the direction of an earlier node L.
 std::pair<int, std::size_t> first_copy(const NodeSet& nodes) {
   const std::vector<Point> p = points_of(nodes);
-  const std::size_t most = std::min<std::size_t>(p.size(), 1000);  // the larger sets have none
+  const std::size_t most = std::min<std::size_t>(p.size(), 1000);  // larger sets have no copies
   for (std::size_t m = 0; m < most; ++m)
     for (std::size_t l = 0; l < m; ++l)
       if (same_direction(p[l], p[m])) return {static_cast<int>(l) + 1, m};
   return {0, p.size()};
 }
 
-/// True if our result is correct, regardless of the original's.
+/// The fault of our result, regardless of the original's; "" if it is correct.
 std::string fault_of_ours(const NodeSet& nodes, const Triangulation& ours) {
   const std::vector<Point> p = points_of(nodes);
   if (left(p[0], p[1], p[2]) == 0) return ours.ier == -2 ? "" : "IER of collinear first nodes";
@@ -106,12 +105,12 @@ bool is_right(const NodeSet& nodes, const Triangulation& original) {
   return original.ier == ier && nodes_in(original, nodes.x.size()) == count && judged(nodes, original);
 }
 
-/// True if these lists are a triangulation at all: they close, every arc goes both ways with at most one
-/// triangle on each side, all is connected, with at most one boundary, marked as by STRIPACK, and Euler's
-/// number is right.
+/// True if these lists are a triangulation: they are closed, every arc is listed at both ends and has at most
+/// one triangle on each side, all nodes are connected, there is at most one boundary, marked as in STRIPACK,
+/// and Euler's number is right.
 bool is_a_triangulation(const Lists& lists, std::size_t n) {
   const auto at = [](const std::vector<int>& v, int i) { return v.at(static_cast<std::size_t>(i) - 1); };
-  std::set<std::pair<int, int>> sides, used;  // a->b with a triangle on its left; all arcs
+  std::set<std::pair<int, int>> sides, used;  // a->b with a triangle on its left, and all arcs
   std::set<int> slots;
   std::vector<int> boundary(n + 1, 0);  // the next boundary node counterclockwise
   std::size_t boundary_nodes = 0;
@@ -134,7 +133,7 @@ bool is_a_triangulation(const Lists& lists, std::size_t n) {
     }
   }
   if (slots.size() + 1 != static_cast<std::size_t>(lists.lnew)) return false;
-  std::size_t triangles = 0;  // by their corners
+  std::size_t triangles = 0;  // counted once per corner
   for (int k = 1; k <= static_cast<int>(n); ++k) {
     const int last = at(lists.lend, k);
     int slot = last;
@@ -177,7 +176,7 @@ bool is_a_triangulation(const Lists& lists, std::size_t n) {
          n - used.size() / 2 + triangles / 3 == (boundary_nodes == 0 ? 2 : 1);
 }
 
-/// Nodes for which the original does not end, or gives up with IER = -2.
+/// Nodes for which the original does not return, or returns IER = -2.
 const NodeSet kOneMeridian{"one meridian",
                            {0.452695204446832, 0.4602557974987226, 0.467676192176097, 0.47495412815485366},
                            {0.5590320207484465, 0.5683685756099448, 0.5775319998974023, 0.5865195023430131},
@@ -202,7 +201,7 @@ std::string difference(const Triangulation& a, const Triangulation& b) {
   return a.lists.lnew != b.lists.lnew ? "LNEW" : "";
 }
 
-/// The same of the lists that insert_in_order makes.
+/// The same for the lists that insert_in_order makes.
 template <class Int>
 bool is_prefix(const BlockArray<Int>& ours, const std::vector<int>& theirs, std::size_t first = 0) {
   return theirs.size() >= first + ours.size() &&
@@ -262,7 +261,7 @@ TEST(Differential, TRMESH_large) {
   }
 }
 
-/// Also where the result is wrong: the same steps make the same lists.
+/// The same steps make the same lists, even if the result is wrong.
 TEST(Differential, TRMESH_steps) {
   const Result result = compare_all(node_sets(), [](const NodeSet& nodes) -> std::string {
     const InsertedNodes<int> ours =
@@ -288,7 +287,7 @@ TEST(Differential, TRMESH_steps) {
   expect_equal(result, 60);
 }
 
-/// NEAR by location equals the original's bookkeeping if the triangulation is correct.
+/// NEAR found by location equals the original's bookkeeping if the triangulation is correct.
 TEST(Differential, TRMESH_start_nodes) {
   int compared = 0;
   for (const char* family :
@@ -329,7 +328,7 @@ TEST(Differential, TRMESH_start_nodes) {
   std::printf("%d sets compared\n", compared);
 }
 
-/// If the insertion was given up early, its result would have been wrong. Returns how often that happened.
+/// Checks that insertions which were given up early would have had a wrong result. Returns their number.
 template <class Real>
 int times_given_up() {
   int times = 0;
@@ -432,8 +431,8 @@ TEST(Differential, TRMESH_on_threads) {
       EXPECT_EQ(difference(results[thread][i], results[0][i]), "") << sets[i]->name;
 }
 
-// Under PSTRIPACK_ORDER=bitwise-ngmath: lists and IER are the original's wherever these lists are a
-// triangulation, right or not; where they are not, or the original gives up or does not end, ours are right.
+// PSTRIPACK_ORDER=bitwise-ngmath: if the original's lists are a triangulation, correct or not, our lists and
+// IER equal them. If not, or if the original gives up or does not return, ours are correct.
 
 void expect_bits_of_original(const std::vector<NodeSet>& sets, int least_wrong) {
   const legacy_stripack::Shared<int> wrong;
@@ -473,7 +472,7 @@ TEST(Bitwise, TRMESH_of_grids) {
   expect_bits_of_original(sets, 10);
 }
 
-/// In single precision, for which there is no original here.
+/// In single precision, compared with the reference: there is no original here.
 TEST(Bitwise, TRMESH_r4) {
   int wrong = 0, right = 0;
   for (const NodeSet& nodes : node_sets()) {

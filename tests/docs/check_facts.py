@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""What documents say again is what the sources say: codes and their names, functions, variables of the environment, the
-version.
+"""Fails unless facts that documents repeat are those of the sources: codes and their names, functions, environment
+variables, the version.
 
   check_facts.py ROOT
 """
@@ -23,15 +23,15 @@ def compare(what, expected, found):
 
 
 def codes():
-    """(name, value) of each code in the header and the modules, and in the tables of docs/ier.md; of options and reasons
-    to end of centroidal tessellations in docs/scvt-interface.md."""
+    """Compares (name, value) of each code in the header and the modules with the tables of docs/ier.md, and of options and
+    reasons of centroidal tessellations with docs/scvt-interface.md."""
     header = " ".join(re.findall(r"enum \{(.*?)\}", read("src/cxx/capi/pstripack.h"), re.DOTALL))
     declared = re.findall(r"(PSTRIPACK_\w+) = (-?\d+)", header)
     for module in "pstripack", "pstripack_mpi":
         constants = re.findall(r"(?s)integer\(c_int32_t\), parameter :: .*?(?=\n\n)", read(f"src/fortran/{module}.f90"))
         declared += [(name.upper(), value) for text in constants
                      for name, value in re.findall(r"(pstripack_\w+) = (-?\d+)", text)]
-    declared = {pair for pair in declared if pair[0] != "PSTRIPACK_EVERY_RANK"}  # a rank, no code
+    declared = {pair for pair in declared if pair[0] != "PSTRIPACK_EVERY_RANK"}  # a rank, not a code
     of_scvt = {(name, value) for name, value in declared if name.startswith("PSTRIPACK_SCVT_") and int(value) >= 0}
     for document, expected in ("docs/ier.md", declared - of_scvt), ("docs/scvt-interface.md", of_scvt):
         tables = re.findall(r"(?m)^\| (-?\d+) \| (PSTRIPACK_\w+) \|", read(document))
@@ -39,7 +39,7 @@ def codes():
 
 
 def functions():
-    """Of the C headers, on their man pages; those for Fortran's calls, whose names end in an underscore, are no API."""
+    """Compares the functions of the C headers with their man pages, except names that end in an underscore, for Fortran."""
     for name in "pstripack", "pstripack_mpi":
         declared = set(re.findall(r"(?m)^PSTRIPACK_API .*?(\w*[^_\W])\(", read(f"src/cxx/capi/{name}.h")))
         of_scvt = {function for function in declared if function.startswith("pstripack_scvt")}
@@ -51,7 +51,7 @@ def functions():
 
 
 def environment():
-    """What the engine reads of PSTRIPACK_*; PSTRIPACK_POOL* is between pstripack-run and its ranks."""
+    """Compares the variables PSTRIPACK_* that the engine reads, except PSTRIPACK_POOL*, which is internal."""
     used = {name for path in (ROOT / "src").rglob("*.cpp")
             for name in re.findall(r'environment_variable\("(PSTRIPACK_(?!POOL)\w+)"\)', path.read_text())}
     named = {"docs/modes.md": used - {"PSTRIPACK_COMPARE"},
@@ -69,7 +69,7 @@ def version():
 
 
 def commands():
-    """Options and presets of CMake in the commands of all documents."""
+    """Checks that options and presets of CMake in the commands of all documents exist."""
     options = set(re.findall(r"(?m)^(?:option|set)\((\w*STRIPACK_\w+)", read("CMakeLists.txt")))
     presets = {one["name"] for kind, all_of in json.loads(read("CMakePresets.json")).items() if kind.endswith("Presets")
                for one in all_of}

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every link and picture in the documents is there, every anchor is a heading, and every page can be reached from
+"""Fails unless every linked file and picture exists, every anchor is a heading, and every page can be reached from
 README.md by links.
 
   check_links.py ROOT          the Markdown pages of ROOT, of its docs and its examples
@@ -30,7 +30,7 @@ class HtmlPage(html.parser.HTMLParser):
 
 
 def check(root, pages):
-    """The broken links, as lines, and for each page those that it links."""
+    """The broken links as lines, and for each page the pages that it links."""
     problems, linked = [], {path: set() for path in pages}
     for path, page in pages.items():
         for link in page.links:

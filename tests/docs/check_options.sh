@@ -1,5 +1,5 @@
 #!/bin/sh
-# The man page of a tool has exactly the options in the --help of the tool and its subcommands.
+# Fails unless the man page of a tool has exactly the options in the --help of the tool and its subcommands.
 # Usage: check_options.sh TOOL MAN1_DIR
 set -eu
 tool=$1

@@ -1,6 +1,6 @@
 #!/bin/sh
-# What docs/clients says, with programs that are built as those clients are: the commands of its pages, word for word,
-# and what linkers and nm say. Without libngmath all but NCAR's page.
+# Tests docs/clients with programs built as those clients are: runs the commands of its pages word for word and checks
+# messages of the linker and of nm. Without libngmath NCAR's page is not tested.
 # Usage: clients.sh SOURCE_DIR BUILD_DIR FORTRAN_LIBRARIES_DIR STRIPACK_COMPARE WORK_DIR
 set -eu
 pages=$1/docs/clients source=$1 build=$2 libraries=$3 compare=$4 work=$5
@@ -13,7 +13,7 @@ fail() {
   exit 1
 }
 
-# What the commands need to find, as if all were installed.
+# Stand-ins for the installed commands.
 cat > bin/pkg-config << EOF
 #!/bin/sh
 for word in "\$@"; do
@@ -34,14 +34,14 @@ ln -s "$libraries/libstripack_8arg.so" switch/8arg/libstripack.so
 ln -s "$compare" bin/stripack-compare
 export PATH="$work/bin:$PATH"
 
-# run PAGE TEXT: the block of commands that has this text
+# run PAGE TEXT: runs the block of commands of the page that contains TEXT
 run() {
   awk -v text="$2" '/^```/ { if (inside && index(block, text)) { printf "%s", block; found = 1 }
                              inside = /^```sh/; block = ""; next }
                     inside { block = block $0 "\n" } END { exit !found }' "$pages/$1" > commands || fail "$1 has no $2"
   sh -eu commands > out 2> err || fail "$1: $(cat commands)"
 }
-# has FILE TEXT
+# has FILE TEXT: fails unless the file contains TEXT
 has() { grep -qF -e "$2" "$1" || fail "$1 lacks: $2"; }
 
 cat > main.f90 << 'EOF'
@@ -147,7 +147,7 @@ if command -v ncl > /dev/null; then
   has out '(0)	8'
   has err 'pstripack: threads n=6 '
 fi
-# Every name of the library is on the page: those with d, of C and the splines by their pattern.
+# The page must have every name of the library; names of double versions, of C and of splines are covered by patterns.
 library=$(gfortran -print-file-name=libngmath.a)
 nm -g --defined-only "$library" 2> /dev/null | awk '$2 == "T" && /cs/ { print $3 }' | sed -n 's/_$//; /^cs/p' | sort -u |
   grep -vE '^csa[123]' | sed -E 's/^(csstri|cssgrid|csvoro|css2c|csc2s)d$/\1/' | sort -u > names

@@ -1,5 +1,5 @@
 #!/bin/bash
-# In a shell (bash, zsh or fish) every command and option on a tool's man page is offered, and no other.
+# Fails unless a shell (bash, zsh or fish) offers exactly the commands and options on a tool's man page.
 # Usage: completion.sh SHELL COMPLETION MAN1_DIR TOOL...
 set -eu
 shell=$1 completion=$2 pages=$3
@@ -8,7 +8,7 @@ kind=$(basename "$shell")
 # shellcheck disable=SC1090
 [ "$kind" != bash ] || source "$completion"
 
-# offered WORD...: what completes the last of the words of a command line
+# offered WORD...: the completions of the last word of a command line
 offered() {
   case $kind in
     bash)
@@ -17,14 +17,14 @@ offered() {
       COMPREPLY=()
       _pstripack_completion "$1" "${!#}" "${@:$#-1:1}"
       printf '%s\n' "${COMPREPLY[@]}" ;;
-    # These shells take those that begin with the word themselves.
+    # These shells select the words with the right beginning themselves.
     zsh) "$shell" -f -c 'source "$1"; shift; _pstripack_words "$@"' zsh "$completion" "$@" | beginning_with "${!#}" ;;
     fish) "$shell" --no-config -c 'source $argv[1]; __pstripack_words $argv[2..-1]' "$completion" "$@" |
       beginning_with "${!#}" ;;
   esac | sort -u
 }
 beginning_with() { awk -v begin="$1" 'index($0, begin) == 1'; }
-# is EXPECTED WORD...
+# is EXPECTED WORD...: fails unless these words are offered
 is() {
   expected=$1
   shift
@@ -49,7 +49,7 @@ for tool in "$@"; do
       is '--help --quiet --threads --units --version' "$tool" --  # not those of examples
       is '--density --density-file' "$tool" scvt -o mesh.nc --dens
       is '' "$tool" plot mesh
-      if [ "$kind" = fish ]; then  # asks it as the prompt does
+      if [ "$kind" = fish ]; then  # complete as at the prompt
         found=$("$shell" --no-config -c 'source $argv[1]; complete -C $argv[2]' "$completion" "$tool triang")
         [ "$found" = triangulate ] || { echo "fish completes '$found'" >&2; exit 1; }
       fi ;;

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""The job scripts in docs/modes.md: those of Slurm and of PBS, as many as there are modes. Each is correct bash, has its
-directives where batch systems look for them, and, with --run, does what its mode says: the model runs once, or on every
-rank, with the threads of a rank. mpirun and pstripack-run are real; what the batch system would set is set here.
+"""Tests the job scripts for Slurm and PBS in docs/modes.md, one each per mode. Each must be correct bash and have its
+directives before the first command. With --run, each must do what its mode says: the model runs once, or on every rank,
+with the threads of a rank. mpirun and pstripack-run are real; this program sets the variables of the batch system.
 
   run_job_scripts.py MODES.MD WORK_DIR [--run]
 """
@@ -18,7 +18,7 @@ SETTINGS = {"SBATCH": {"SLURM_NTASKS": str(RANKS), "SLURM_CPUS_PER_TASK": str(TH
 
 
 def check_directives(script, system):
-    """Before the first command: later ones are comments to the batch system."""
+    """Directives must come before the first command; the batch system ignores later ones."""
     first, *rest = script.split("\n")
     assert first == "#!/bin/bash", first
     directives = [line for line in rest if line.startswith(f"#{system} ")]

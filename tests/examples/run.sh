@@ -1,6 +1,6 @@
 #!/bin/sh
-# Runs the commands at the head of an example ("$ command") in a copy of its folder, where the installed package
-# is found, and checks what it prints. Usage: run.sh EXAMPLE_DIR WORK_DIR PREFIX
+# Runs the commands at the head of an example ("$ command") in a copy of its folder, with the package in PREFIX, and
+# checks the output. Usage: run.sh EXAMPLE_DIR WORK_DIR PREFIX
 set -eu
 example=$1 work=$2 prefix=$3
 rm -rf "$work"

@@ -1,5 +1,5 @@
-// The n-th allocation of a call fails, for each n, in every routine that allocates: the documented code,
-// results unchanged, no leak, and the next call is correct.
+// For each n the n-th allocation of a call fails, in every routine that allocates. The routine must return
+// the documented code, change no result and leak nothing, and the next call must be correct.
 
 #include <gtest/gtest.h>
 #include <omp.h>
@@ -45,7 +45,7 @@ KIND(R4, float, std::int32_t, i4, r4, pstripack_trmesh_r4);
 KIND(R8, double, std::int32_t, i4, r8, pstripack_trmesh);
 KIND(I8, double, std::int64_t, i8, i8, pstripack_trmesh_i8);
 
-/// The arrays of a triangulation and what is made of it.
+/// The arrays of a triangulation and of all that is computed from it.
 template <class Kind>
 struct Arrays {
   using Real = typename Kind::Real;
@@ -83,7 +83,7 @@ Arrays<Kind> triangulated(const Nodes& nodes) {
   return a;
 }
 
-/// Sets that take every path: sphere, boundary, a coincidence, predicates on directions.
+/// Sets for all paths: sphere, boundary, coincident nodes, predicates on directions.
 std::vector<Nodes> small_sets() {
   std::vector<Nodes> sets{point_sets::make("random", 200), point_sets::make("cap", 150),
                           point_sets::make("random", 200), point_sets::make("random", 200)};
@@ -112,7 +112,7 @@ TYPED_TEST(EachAllocation, OfTrmesh) {
   }
 }
 
-/// Of which PSTRIPACK_ORDER=bitwise returns the original's lists and reports how they differ from the exact
+/// For a grid PSTRIPACK_ORDER=bitwise returns the original's lists and reports how they differ from the exact
 /// mesh.
 TYPED_TEST(EachAllocation, OfTrmeshOfAGrid) {
   Arrays<TypeParam> a(point_sets::make("latlon", 200));
@@ -142,7 +142,7 @@ TYPED_TEST(EachAllocation, OfTriangleLists) {
   }
 }
 
-/// CRLIST and what prints and draws its result.
+/// CRLIST, and the routines that print and draw its result.
 TYPED_TEST(EachAllocation, OfVoronoiDiagrams) {
   using Real = typename TypeParam::Real;
   using Int = typename TypeParam::Int;
@@ -273,8 +273,8 @@ TEST_F(EachAllocationOf, TrmeshOnThreads) {
   }
 }
 
-/// Calls with nodes that move so little that some arcs flip, of which any may run out of memory, also in the
-/// middle of the flips: the next ones are right.
+/// Calls with slowly moving nodes, where some arcs flip. Any of the calls may run out of memory, also in the
+/// middle of the flips; the next calls must be right.
 TEST_F(EachAllocationOf, TrmeshThatBeginsWithTheLastMesh) {
   constexpr int kCalls = 5;
   constexpr std::size_t n = 6000;
@@ -287,7 +287,7 @@ TEST_F(EachAllocationOf, TrmeshThatBeginsWithTheLastMesh) {
   }
   for (int k = 0; k < 2 * kCalls; ++k) {
     const int failing = k / 2;
-    const bool for_good = k % 2 != 0;  // then there is none for the cold way either
+    const bool for_good = k % 2 != 0;  // then the cold start fails as well
     bool failed = true;
     for (long which = 1; failed; ++which, failures += failed) {
       pstripack::forget_last_meshes();
@@ -316,8 +316,8 @@ TEST_F(EachAllocationOf, TrmeshThatBeginsWithTheLastMesh) {
   EXPECT_GT(failures, 20);
 }
 
-/// As a model under pstripack-run. Each call is the first of its thread, and needs more shared memory than
-/// the one before: what cannot be had sends the call to the model's own threads.
+/// Runs as a model under pstripack-run. Each call is the first of its thread and needs more shared memory
+/// than the previous call. If memory fails, the call runs on the model's own threads.
 TEST_F(EachAllocationOf, ACallThatGoesToThePool) {
   if (std::getenv("PSTRIPACK_POOL") == nullptr) GTEST_SKIP() << "not under pstripack-run";
   std::size_t n = 170000;

@@ -1,8 +1,8 @@
 ! An MPI program that ends in any way: ending_program MODE END WHO
 !
-!   MODE   without, no call of ours; comm, TRMESH in comm mode; distributed, a mesh; never, comm mode without a call
+!   MODE   without: no call of PSTRIPACK; comm: TRMESH in comm mode; distributed: a mesh; never: comm mode, no call
 !   END    finalize, finalize3, stop, stop3, error_stop, exit5, abort, mpi_abort
-!   WHO    all, or the number of the rank that ends so, while the others begin a further call
+!   WHO    all, or the number of the rank that ends so while the others begin another call
 program ending_program
   use mpi
   use pstripack_mpi
@@ -27,8 +27,8 @@ program ending_program
   if (mode == 'distributed') call mesh%create(MPI_COMM_WORLD, ier)
   call work
   if (status /= 0 .or. rank == only) call end_by
-  ! Without a further call the others would be in MPI_Finalize when a rank calls MPI_Abort. There Open MPI 4.1's mpiexec
-  ! crashes or never ends in some 5 of 100 runs, also of a program that does nothing else.
+  ! Without another call these ranks would be in MPI_Finalize when one rank calls MPI_Abort. In this case Open MPI 4.1's
+  ! mpiexec crashes or hangs in some 5 of 100 runs, also for programs that do nothing else.
   if (mode == 'without' .or. (mode == 'never' .and. how == 'mpi_abort')) call MPI_Barrier(MPI_COMM_WORLD, ier)
   call work
   call MPI_Finalize(ier)

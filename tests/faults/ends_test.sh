@@ -1,7 +1,7 @@
 #!/bin/sh
-# MPI programs that end in every way, with comm mode or a mesh and a call behind them: the exit code that they have
-# without any call of ours, no hang, nothing left. ends_test.sh MODE, with MPIEXEC (and its flags), PROGRAM
-# (ending_program) and WORK in the environment. The mode `without`, which comes first, writes down the codes for the others.
+# MPI programs that end in every way after a call in comm mode or of a mesh: the exit code must be that of the program
+# without PSTRIPACK, within 60 s, and no process may be left. Usage: ends_test.sh MODE, with MPIEXEC (and its flags),
+# PROGRAM (ending_program) and WORK in the environment. The mode `without` must run first: it records the codes.
 # shellcheck disable=SC2086,SC2154
 set -u
 . "$(dirname "$0")/../mpi/jobs.sh"
@@ -16,7 +16,7 @@ fail() {
   exit 1
 }
 
-# run MODE END WHO: $code is its exit code
+# run MODE END WHO: runs the program; sets $code to its exit code
 run() {
   : > job.out
   $MPIEXEC -n 3 "$PROGRAM" "$@" > job.out 2> job.err &
@@ -29,11 +29,11 @@ run() {
   fail "processes are left after $*: $(processes)"
 }
 
-# END:CODE, where all ranks end so; 1 is what mpiexec makes of an end without MPI_Finalize.
+# END:CODE if all ranks end so. mpiexec returns 1 if a rank ends without MPI_Finalize.
 for end in finalize:0 finalize3:3 stop:1 stop3:3 error_stop:2 exit5:5 abort:134 mpi_abort:7; do
   how=${end%:*}
   for who in all 1; do
-    # A collective call waits for ever for a rank that has finalised MPI, as any of MPI's own does.
+    # Like MPI's own collective calls, ours wait forever for a rank that has finalized MPI.
     case $who:$how in 1:finalize*) continue ;; esac
     run "$mode" "$how" $who
     if [ "$mode" = without ]; then

@@ -1,7 +1,7 @@
 #!/bin/sh
-# Every tool on a disk that is full, or becomes full: one line on stderr that names the file,
-# an exit code that is not 0. full_disk_test.sh, with COMPARE, BENCHMARK, SCALING ("" where they are not built) and WORK
-# in the environment. (The library's own files, PSTRIPACK_REPORT and PSTRIPACK_CHECK: report_test, check_test.)
+# Every tool on a disk that is full or becomes full: it must print one line on stderr that names the file and end with a
+# nonzero exit code. The environment has COMPARE, BENCHMARK, SCALING ("" if not built) and WORK. (For the library's own
+# files, PSTRIPACK_REPORT and PSTRIPACK_CHECK, see report_test and check_test.)
 # shellcheck disable=SC2015,SC2086,SC2154
 set -u
 dir=$WORK/full_disk
@@ -17,7 +17,7 @@ fail() {
   exit 1
 }
 
-# refuses FILE COMMAND...: it says once, and last, that it cannot write FILE
+# refuses FILE COMMAND...: its only line on stderr says that it cannot write FILE
 refuses() {
   file=$1
   shift
@@ -27,7 +27,7 @@ refuses() {
   grep -E 'cannot write|cannot be written' err | grep -qF "$file" || fail "it does not say that it cannot write $file: $*"
   [ "$(grep -c '' err)" -eq 1 ] || fail "not one line of $*"
 }
-# cannot_print COMMAND...: the same of the standard output
+# cannot_print COMMAND...: the same for standard output
 cannot_print() {
   "$@" > /dev/full 2> err
   code=$?
@@ -39,7 +39,7 @@ if [ -n "$COMPARE" ]; then
   run="$COMPARE run --points latlon --n 300 --repeats 1"
   for output in csv json junit; do refuses /dev/full $run --$output /dev/full; done
   refuses full.svg $run --plot full.svg
-  # One that becomes full: 4 kilobytes.
+  # A disk of 4 kilobytes that becomes full.
   mkdir small
   on_small_disk() { unshare --map-root-user --mount sh -c 'mount -t tmpfs -o size=4k none small && "$@"' sh "$@"; }
   if on_small_disk true 2> /dev/null; then
@@ -47,7 +47,7 @@ if [ -n "$COMPARE" ]; then
     refuses small/junit on_small_disk $run --order given,shuffled,sorted --show 50 --junit small/junit
     refuses small/plot.svg on_small_disk $run --plot small/plot.svg
   else
-    echo "no file system of our own can be mounted here: no disk that becomes full"
+    echo "cannot mount a file system here: a disk that becomes full is not tested"
   fi
   cannot_print $run
 fi

@@ -1,5 +1,5 @@
 #pragma once
-// A call whose allocations fail, one after the other.
+// Makes the allocations of a call fail, one after another.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include "base/workspace.h"
 #include "support/failing_allocation.h"
 
-/// An array that a call writes, with what it holds before.
+/// An array that a call writes, with its contents before the call.
 class Result {
  public:
   template <class T>
@@ -32,14 +32,14 @@ class Result {
 struct Call {
   std::function<std::int64_t()> run;  ///< returns its code
   std::vector<Result> results;
-  std::int64_t out_of_memory = -6;  ///< the code that says so
-  std::ptrdiff_t lines = 1;         ///< on stderr then
+  std::int64_t out_of_memory = -6;  ///< the code for it
+  std::ptrdiff_t lines = 1;         ///< number of lines on stderr in this case
   long every = 1;                   ///< a call without failures is tried after this many failures
 };
 
-/// Runs the call with its first allocation failing, then its second, until no more is made; then with all
-/// allocations failing from the first on, from the second on, ... Each must return the code for it and leave
-/// the results unchanged, or do without the memory; leak nothing; and leave a library whose next call is
+/// Runs the call repeatedly: first its first allocation fails, then its second, until no allocation is left;
+/// then all allocations from the first on fail, from the second on, ... Each run must return the code for it
+/// and leave the results unchanged, or do without the memory. It must leak nothing, and the next call must be
 /// correct. Returns a lower bound of the number of failed allocations.
 inline long fail_each_allocation(const Call& call) {
   const auto restore = [&] {

@@ -1,19 +1,18 @@
-// Stands between a program and MPI (LD_PRELOAD, MPI's profiling interface), and does what a network, a
-// scheduler or an operator may do to a job. What is asked for stands in the environment:
+// Interposes between a program and MPI (LD_PRELOAD, MPI's profiling interface) and causes faults of networks,
+// schedulers or operators, as requested in the environment:
 //
-//   FAULT_SEED=n               messages are late: sends and receives that do not block are held back and
-//   begun
-//                              later, those of other ranks first; what is complete is said later; calls take
-//                              a random time. By a generator with seed n + rank.
-//   FAULT_STOP=rank:k:ms       that rank is stopped (SIGSTOP) at its k-th call for so many milliseconds
-//   FAULT_KILL=rank:k          that rank is killed (SIGKILL) at its k-th call
-//   FAULT_COUNT=prefix         each rank writes how many calls there were to the file prefix.rank
+//   FAULT_SEED=n               messages are late: nonblocking sends and receives begin later and in another
+//                              order, their completion is reported later, and calls take a random time,
+//                              by a generator with seed n + rank
+//   FAULT_STOP=rank:k:ms       stops the rank (SIGSTOP) at its k-th call for this number of milliseconds
+//   FAULT_KILL=rank:k          kills the rank (SIGKILL) at its k-th call
+//   FAULT_COUNT=prefix         each rank writes its number of calls to the file prefix.rank
 //
-// Calls are those that begin something: sends, receives, collectives; not those that look whether something
-// is complete, whose number differs from run to run.
+// Only calls that begin something count: sends, receives, collectives. The number of tests for completion
+// differs from run to run.
 //
-// What MPI promises is kept: messages of one rank to another (in one communicator, with one tag) are matched
-// in the order in which they were sent and received; and what was begun goes on while the program waits in
+// MPI's guarantees are kept. Messages from one rank to another, in one communicator with one tag, match in
+// the order in which they were sent and received. All that has begun progresses while the program waits in
 // any call.
 
 #include <mpi.h>
@@ -39,7 +38,7 @@ struct Fault {
   }
 };
 
-/// A message that is not begun yet.
+/// A message that has not begun yet.
 struct Message {
   bool is_send = false;
   void* data = nullptr;
@@ -47,8 +46,8 @@ struct Message {
   MPI_Datatype type = MPI_BYTE;
   int other = 0, tag = 0;
   MPI_Comm comm = MPI_COMM_NULL;
-  std::intptr_t number = 0;                ///< the program has it as the request: odd, as no handle of MPI is
-  MPI_Request request = MPI_REQUEST_NULL;  ///< MPI's, once it is begun
+  std::intptr_t number = 0;  ///< the request that the program gets: odd, unlike any handle of MPI
+  MPI_Request request = MPI_REQUEST_NULL;  ///< MPI's request, once the message has begun
   bool has_begun = false;
 
   void begin() {
@@ -63,10 +62,10 @@ struct Message {
   }
 };
 
-/// Takes no memory: the program may test what happens where there is none.
+/// Allocates no memory, since the program may test what happens without memory.
 class Interposer {
  public:
-  /// Every call that begins something.
+  /// To be called by every call that begins something.
   void call() {
     ++calls_;
     pause();
@@ -87,11 +86,11 @@ class Interposer {
     return MPI_SUCCESS;
   }
 
-  /// Those that were held back begin, in any order that is allowed: all of them, or some.
+  /// Begins all delayed messages, or some of them, in any allowed order.
   void release(bool all) {
     for (bool more = true; more;) {
       more = false;
-      Message* next[kMost];  // those that nothing must precede
+      Message* next[kMost];  // messages that may begin next
       Message** end = next;
       for (Message* m = begin(); m != this->end(); ++m)
         if (!m->has_begun && is_first(*m)) *end++ = m;
@@ -104,7 +103,7 @@ class Interposer {
     }
   }
 
-  /// True if all of them have begun; then they are replaced by MPI's own.
+  /// True if all requests have begun; they are then replaced by MPI's.
   bool resolve(int count, MPI_Request* requests) {
     for (int i = 0; i < count; ++i)
       if (const Message* const m = message_of(requests[i]); m != nullptr && !m->has_begun) return false;
@@ -117,7 +116,7 @@ class Interposer {
     return true;
   }
 
-  /// Now and then what is complete is not said to be.
+  /// True at random: a completion is then not reported yet.
   bool denies() { return is_late_ && random_() % 2 == 0; }
 
   void at_init() {
@@ -139,7 +138,7 @@ class Interposer {
 
  private:
   static constexpr std::size_t kMost = 4096;
-  /// MPI's type of it is a pointer or an integer.
+  /// MPI_Request is a pointer or an integer, depending on the library.
   static MPI_Request handle(const Message& message) { return (MPI_Request)message.number; }
   Message* begin() { return messages_; }
   Message* end() { return messages_ + count_; }
@@ -160,7 +159,7 @@ class Interposer {
     nanosleep(&nap, nullptr);
   }
 
-  /// A timer of this process sends SIGCONT, which a stopped process gets, too.
+  /// Stops this process. A timer sends SIGCONT, which also reaches a stopped process.
   static void stop_for(long milliseconds) {
     sigevent event{};
     event.sigev_notify = SIGEV_SIGNAL;
@@ -242,8 +241,8 @@ int MPI_Wait(MPI_Request* request, MPI_Status* status) {
   return PMPI_Wait(request, status);
 }
 
-// The other calls of the library, its tests and their programs that begin something. What was held back must
-// go on while they wait.
+// The other calls of the library and its tests that begin something. Delayed messages must progress while
+// they wait.
 #define BEFORE_IT(name, parameters, arguments) \
   int MPI_##name parameters {                  \
     interposer().call();                       \

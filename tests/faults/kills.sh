@@ -1,12 +1,12 @@
 #!/bin/sh
-# Kills a rank of a running job at a random moment, COUNT times: kills.sh COUNT [SIGNAL [SEED]]. With RUN
-# (pstripack-run), MPIEXEC (and its flags), JOB_PROGRAM (mpi_job), CALLER (pool_caller) and WORK in the environment;
-# LIMIT: seconds within which a job must be over [10].
+# Kills a rank of a running job at a random moment, COUNT times. Usage: kills.sh COUNT [SIGNAL [SEED]], with RUN
+# (pstripack-run), MPIEXEC (and its flags), JOB_PROGRAM (mpi_job), CALLER (pool_caller) and WORK in the environment.
+# LIMIT: seconds within which a job must end [10].
 #
-# The modes take turns: pool, comm, distributed. The victim is any of three ranks, of a pool sometimes the model.
-# Prints a line per kill and a table: the phase that the job named, seconds until the job was over, processes left.
-# Fails unless every job was over in time, with an exit code that is not 0, nothing left, and, after kill -9, one line
-# that names the rank that was lost and its phase, where it or another was in a call.
+# The modes pool, comm and distributed alternate. The victim is one of three ranks, in a pool sometimes the model.
+# Prints a line per kill, and a table of the reported phase, the seconds until the job ended and the processes left.
+# Fails unless every job ends in time with a nonzero exit code and leaves no process. After kill -9 one line must name
+# the lost rank and its phase.
 # shellcheck disable=SC2086,SC2154
 set -u
 . "$(dirname "$0")/../mpi/jobs.sh"
@@ -22,8 +22,8 @@ fail() {
 }
 random() { awk -v seed="$seed$1" -v most="$2" 'BEGIN { srand(seed); rand(); printf "%d", most * rand() }'; }
 
-# Waits for the end of the job: $seconds until then. Where this script stands still itself for more than 2 s, on a
-# machine that others use, that does not count.
+# Waits for the end of the job; sets $seconds to the time until then. Pauses of this script of more than 2 s, on a loaded
+# machine, do not count.
 wait_for_end() {
   spent=0 before=$(date +%s%3N)
   while kill -0 $job 2> /dev/null; do
@@ -59,7 +59,7 @@ while [ $i -lt "$count" ]; do
   fi
   [ -n "$victim" ] || fail "no such process"
   sleep "0.$(random "3$i" 1000 | awk '{ printf "%03d", $1 }')"
-  kill "-$signal" $victim || fail "it was gone before"
+  kill "-$signal" $victim || fail "the process had ended before"
   wait_for_end
   wait $job
   code=$?

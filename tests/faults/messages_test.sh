@@ -1,10 +1,10 @@
 #!/bin/sh
-# MPI's faults by the interposer: messages_test.sh CASE MODE, with RUN, MPIEXEC (and its flags), INTERPOSER, JOB_PROGRAM
-# (mpi_job), MODEL (pool_model), OPEN_MPI (TRUE: not Hydra) and WORK in the environment.
-#   late      messages are late and in another order, with $SEEDS seeds: results as ever
-#   stopped   each rank at every $EVERY-th call of MPI stands still for $MILLISECONDS: results as ever
-#   killed    each rank at every $EVERY-th call of MPI is killed: the job is over, one line names rank and phase
-# MODE: pool, comm, distributed. LIMIT: seconds until a job must be over [60: the machine may be loaded].
+# Faults of MPI, caused by the interposer. Usage: messages_test.sh CASE MODE, with RUN, MPIEXEC (and its flags),
+# INTERPOSER, JOB_PROGRAM (mpi_job), MODEL (pool_model), OPEN_MPI (TRUE: not Hydra) and WORK in the environment.
+#   late      messages are late and in another order, with $SEEDS seeds: the results must be the same
+#   stopped   each rank stops at every $EVERY-th call of MPI for $MILLISECONDS: the results must be the same
+#   killed    each rank is killed at every $EVERY-th call of MPI: the job must end, and one line name rank and phase
+# MODE: pool, comm, distributed. LIMIT: seconds within which a job must end [60: the machine may be loaded].
 # shellcheck disable=SC2015,SC2086,SC2154
 set -u
 . "$(dirname "$0")/../mpi/jobs.sh"
@@ -19,7 +19,7 @@ fail() {
   exit 1
 }
 
-# run FAULT...: the job, with these variables for the interposer; $code is its exit code
+# run FAULT...: runs the job with these variables for the interposer; sets $code to its exit code
 run() {
   options=
   for variable in LD_PRELOAD="$INTERPOSER" "$@"; do
@@ -35,14 +35,14 @@ run() {
   has_ended_within "$limit"
 }
 
-# The program itself checks its results; those of the model are compared with the ones that it has alone.
+# The program checks its own results; those of the model are compared with its results without a pool.
 is_right() {
   [ $code -eq 0 ] || fail "exit code $code with $*"
   [ $mode != pool ] || cmp alone.bin pool.bin || fail "the lists differ with $*"
 }
 [ $mode != pool ] || "$MODEL" lists alone.bin 2> /dev/null || fail "alone"
 
-# each_call BODY: for rank and call of MPI, every $EVERY-th
+# each_call BODY: runs BODY for every $EVERY-th call of MPI of each rank
 each_call() {
   run FAULT_COUNT=calls
   is_right FAULT_COUNT
@@ -61,7 +61,7 @@ stop() {
   stops=$((stops + 1))
 }
 
-# Where MPI and comm mode begin and end, the first and last calls, mpiexec alone names the rank.
+# In the first 25 and the last 10 calls, where MPI and comm mode begin and end, only mpiexec may name the rank.
 kill_at() {
   run FAULT_KILL=$rank:$call
   [ $code -ne 0 ] || fail "exit code 0 with FAULT_KILL=$rank:$call"

@@ -1,5 +1,5 @@
-// The n-th allocation fails, for each n, on one rank or on all, in every call of pstripack_mpi.h: the same
-// code on all ranks, results unchanged, no leak, and the next call is correct.
+// For each n the n-th allocation fails, on one rank or on all, in every function of pstripack_mpi.h. All
+// ranks must return the same code, change no result and leak nothing, and the next call must be correct.
 
 #include <functional>
 #include <string>
@@ -15,7 +15,7 @@
 
 namespace {
 
-/// The smallest and the largest of all ranks.
+/// The smallest and the largest value of all ranks.
 struct Extent {
   explicit Extent(int value) {
     const int mine[] = {value, -value};
@@ -29,8 +29,8 @@ struct Extent {
 enum Ranks { only_first, only_last, every };
 bool is_hit(Ranks which) { return which == every || rank_of() == (which == only_first ? 0 : size_of() - 1); }
 
-/// call() returns its code, check(code) the defect after it, if any; clear() undoes a call without an error.
-/// Every stride-th allocation fails.
+/// Makes every stride-th allocation of call() fail in turn. call() returns its code; check(code) returns the
+/// defect after it, if any; clear() undoes a successful call.
 void fail_each_allocation(
     const std::function<int()>& call, const std::function<bool(int)>& is_right,
     const std::function<void()>& clear = [] {}, long stride = 1) {
@@ -88,7 +88,7 @@ std::int64_t points_of(const pstripack_mesh* mesh) {
   return points;
 }
 
-// First: what the first call of the process allocates is hit, too.
+// Must be the first test, so that allocations of the first call of the process also fail.
 TEST(EachAllocation, OfCommMode) {
   Mesh m;
   const Columns c(nodes());
@@ -128,7 +128,7 @@ TEST(EachAllocation, OfDistributedMeshes) {
   fail_each_allocation(
       [&] { return part.triangulate(mesh); },
       [&](int code) { return points_of(mesh) == (code == 0 ? all : 0); },
-      // An empty mesh has no memory.
+      // Empties the mesh, which frees its memory.
       [&] { EXPECT_EQ(pstripack_mesh_triangulate(mesh, -1, nullptr, nullptr), PSTRIPACK_TOO_MANY_NODES); });
 
   ASSERT_EQ(part.triangulate(mesh), 0);
@@ -163,7 +163,7 @@ TEST(EachAllocation, OfCentroidalTessellations) {
   pstripack_scvt_options options{};
   options.bytes = sizeof options;
   options.start = PSTRIPACK_SCVT_GIVEN;
-  options.most_evaluations = 5;  // three steps of Lloyd's method, and one that makes the first pair
+  options.most_evaluations = 5;  // three steps of Lloyd's method and one that makes the first pair
   const Part given;
   Part part = given;
   pstripack_scvt_result result;

@@ -1,7 +1,7 @@
-! Meshes large enough for threads and long walks, against the original (libngmath.a, names that begin with CS)
-! called with the same lists: every integer, and every real that no arccos, arcsin or atan2 went into, must be
-! equal to the last bit. The lists come from the original's TRMESH, so that they are linked in its irregular way.
-! All routines on many small sets: tests/differential.
+! Compares results with those of the original (libngmath.a, names that begin with CS) for the same lists, on meshes
+! large enough for threads and long walks. Integers, and reals computed without arccos, arcsin or atan2, must be equal
+! to the last bit. The lists are those of the original's TRMESH, which links them irregularly. tests/differential
+! compares all routines on many small sets.
 program against_original
   use expectations
   use random_points
@@ -115,7 +115,7 @@ contains
     end do
   end subroutine
 
-  !> Equal, or one unit in the last place apart: results of functions of the mathematical library.
+  !> True if equal or one unit in the last place apart, for results of functions of the mathematical library.
   elemental logical function close(a, b)
     real(rk), intent(in) :: a, b
     close = a == b .or. abs(a - b) <= spacing(max(abs(a), abs(b)))

@@ -1,4 +1,4 @@
-! Input that is refused: on a negative IER nothing but IER is written; a duplicate gives its number.
+! Refused input: if IER is negative, nothing but IER is written; for a duplicate IER is its number.
 ! REAL_KIND: 4 or 8; STRIPACK_8_ARGUMENTS: the short argument list.
 program bad_input
   use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_quiet_nan, ieee_value
@@ -142,7 +142,7 @@ contains
     nodes(3, :) = [0, 0, 1]
     lptr = lptr_before
     lnew = lnew_before
-    do k = 1, lend(n)  ! nobody knows node 1 any more
+    do k = 1, lend(n)  ! no list has node 1 any more
       if (abs(list(k)) == 1) list(k) = sign(n, list(k))
     end do
     call crlist(n, n, nodes(:, 1), nodes(:, 2), nodes(:, 3), list, lend, lptr, lnew, ltri, listc, nb, xc, yc, zc, rc, ier)

@@ -1,6 +1,6 @@
-! Calls every routine of a library once, through implicit interfaces: as programs for Algorithm 772 do (LOUT defined),
-! with a unit for TRPRNT and TRLPRT, or as programs for the Fortran 90 text do, which pass none.
-! REAL_KIND: 4 or 8, that of the library. STRIPACK_8_ARGUMENTS: TRMESH has 8. LOUT_COUNTS: the library looks at LOUT.
+! Calls every routine of a library once through implicit interfaces: with LOUT defined as programs for Algorithm 772 do,
+! which pass a unit to TRPRNT and TRLPRT, else as programs for the Fortran 90 text do, which pass none.
+! REAL_KIND: 4 or 8, as in the library. STRIPACK_8_ARGUMENTS: TRMESH has 8. LOUT_COUNTS: the library uses LOUT.
 #ifdef LOUT
 #define AND_LOUT , lout
 #else
@@ -82,7 +82,7 @@ contains
     close (8)
   end subroutine
 
-  ! A triangle, to which the routines that ADDNOD is made of add nodes.
+  ! A triangle, to which the routines that ADDNOD calls add nodes.
   subroutine changes(x, y, z)
     real(rk) :: x(*), y(*), z(*), xyz(n, 3)
     integer :: list(24), lptr(24), lend(n), lnew, ier, lph, lp, arcs(2, n), lwk, nit, nodes, i(3)
@@ -156,7 +156,7 @@ contains
   end subroutine
 
 #ifdef LOUT
-  ! Unit LOUT has both listings, or nothing where it is not looked at.
+  ! Unit LOUT has both listings, or nothing if the library ignores LOUT.
   subroutine expect_records(listings)
     integer, intent(in) :: listings
     integer :: found, status
@@ -171,7 +171,7 @@ contains
 #ifdef LOUT_COUNTS
     call expect(found == listings, "listings on unit LOUT")
 #else
-    call expect(found == 0, "LOUT is not looked at")
+    call expect(found == 0, "LOUT is ignored")
 #endif
   end subroutine
 #endif

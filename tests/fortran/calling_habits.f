@@ -1,4 +1,4 @@
-C     How Fortran 77 codes call: implicit interfaces, default REAL and INTEGER, LIST and LPTR of exactly
+C     Calls as in Fortran 77 codes: implicit interfaces, default REAL and INTEGER, LIST and LPTR of exactly
 C     6N-12 elements inside one array, NEAR and NEXT inside one work array, columns of a larger array as
 C     X, Y, Z. Compiled with default REAL for libstripack_r4, with -fdefault-real-8 and with
 C     -fsecond-underscore for libstripack.
@@ -47,7 +47,7 @@ C     LIST is IARR(11..), LPTR is IARR(M+21..), with marked elements around both
       DO 60 K = 1, 3
         IF (COL(0,K) .NE. 99.0 .OR. COL(N+1,K) .NE. 99.0) STOP 26
    60 CONTINUE
-C     NEAR and NEXT one and the same array.
+C     NEAR and NEXT are the same array.
       CALL TRMESH (N, COL(1,1), COL(1,2), COL(1,3), IARR(11),
      .             IARR(M+21), LEND, LNEW, IWK, IWK, DS, IER)
       IF (IER .NE. 0) STOP 27

@@ -1,6 +1,6 @@
-! What EDGE and DELNOD print on standard output where the original prints it: two blank records, the text, one
-! blank record; numbers as wide as they are. CMakeLists.txt says what must come out. The triangulations have
-! null triangles and are linked as the original's TRMESH links them.
+! Messages of EDGE and DELNOD on standard output, printed when the original prints them: two blank records, the text, one
+! blank record; numbers without padding. CMakeLists.txt has the expected output. The triangulations have null triangles
+! and are linked as the original's TRMESH links them.
 program edit_messages
   use expectations
   implicit none

@@ -1,5 +1,5 @@
-! The results that every variant of the original gives for changes of a small triangulation: ADDNOD, DELNOD,
-! DELARC, EDGE, through implicit interfaces, as old codes call them. REAL_KIND: 4 or 8, that of the library.
+! ADDNOD, DELNOD, DELARC and EDGE on a small triangulation, through implicit interfaces as in old codes: the results
+! that every variant of the original gives. REAL_KIND: 4 or 8, as in the library.
 program golden_edits
   use expectations
   implicit none

@@ -1,6 +1,5 @@
-! LIST, LPTR, LEND and LNEW that TRMESH of every variant of the original returns for three small sets of nodes. Run
-! with PSTRIPACK_ORDER=original or bitwise.
-! REAL_KIND: 4 or 8, that of the library.
+! TRMESH with PSTRIPACK_ORDER=original or bitwise, on three small sets of nodes: the LIST, LPTR, LEND and LNEW that every
+! variant of the original returns. REAL_KIND: 4 or 8, as in the library.
 program golden_trmesh
   use expectations
   implicit none
@@ -20,7 +19,7 @@ program golden_trmesh
 
 contains
 
-  ! No LPTR: not compared.
+  ! Without an expected LPTR it is not compared.
   subroutine expect_lists(what, px, py, pz, expected_lnew, expected_list, expected_lptr, expected_lend)
     character(len=*), intent(in) :: what
     real(rk), intent(in) :: px(:), py(:), pz(:)

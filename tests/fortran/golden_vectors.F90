@@ -1,7 +1,6 @@
-! The results that every variant of the original gives for two small triangulations: TRLIST, CRLIST,
-! BNODES, TRFIND, NEARND, LSTPTR, NBCNT, GETNP; and INSIDE, INTRSC, JRAND, STORE. Through implicit interfaces, as
-! old codes call them.
-! REAL_KIND: 4 or 8, that of the library.
+! TRLIST, CRLIST, BNODES, TRFIND, NEARND, LSTPTR, NBCNT and GETNP on two small triangulations, and INSIDE, INTRSC, JRAND
+! and STORE, through implicit interfaces as in old codes: the results that every variant of the original gives.
+! REAL_KIND: 4 or 8, as in the library.
 program golden_vectors
   use expectations
   implicit none

@@ -1,5 +1,5 @@
-! Where the original never returns, is quadratic or overruns arrays; and: the same bytes for any number of
-! threads. Runs under a time limit.
+! Cases in which the original never returns, is quadratic or overruns arrays. Also: any number of threads gives the same
+! bytes. Runs under a time limit.
 program hard_cases
   use omp_lib, only: omp_get_max_threads, omp_set_num_threads
   use expectations
@@ -56,7 +56,7 @@ contains
                 d%c(:, 1), d%c(:, 2), d%c(:, 3), d%c(:, 4), d%ier)
   end function
 
-  !> Every triangle is met at three nodes, every node is as far from the centres round it as their radii say.
+  !> Every triangle occurs at three nodes, and the distances of each node from the centres around it are their radii.
   subroutine expect_valid(m, d, what)
     type(mesh), intent(in) :: m
     type(diagram), intent(in) :: d
@@ -83,7 +83,7 @@ contains
     end do
   end subroutine
 
-  !> Four nodes of which CRLIST's rounded swap tests never settle.
+  !> Four nodes for which the rounded swap tests of the original's CRLIST never end.
   subroutine far_side_that_circles
     type(mesh) :: m
     m = triangulated(reshape([ &
@@ -135,9 +135,9 @@ contains
     end do
   end subroutine
 
-  !> Half of the nodes on a great circle, as far as rounding allows, the others on one side of it: the triangles
-  !> beyond are slivers or end at slivers. Points on the circle lie in the triangles that are found, those beyond
-  !> see the boundary arc that is found or lie in the triangle.
+  !> Half of the nodes on a great circle up to rounding, the others on one side of it: the triangles on the other side are
+  !> slivers or adjoin slivers. For points on the circle the triangle that is found must contain the point. Points beyond
+  !> the circle must see the boundary arc that is found, or lie in the triangle.
   subroutine search_on_a_great_circle
     integer, parameter :: n = 60
     real(rk) :: p(3, n), axis(3), u(3), v(3), c(3), b(3), angle, corner(3, 3)
@@ -177,7 +177,7 @@ contains
     side = c(1)*(a(2)*b(3) - b(2)*a(3)) - c(2)*(a(1)*b(3) - b(1)*a(3)) + c(3)*(a(1)*b(2) - b(1)*a(2))
   end function
 
-  !> Global grid with poles, exact and rounded collinearity everywhere.
+  !> A global grid with poles, full of exact and rounded collinearity.
   subroutine search_for_nodes_of_a_grid
     integer, parameter :: rows = 17, columns = 36, n = rows*columns + 2
     real(rk) :: p(3, n), b(3), al
@@ -204,7 +204,7 @@ contains
     end do
   end subroutine
 
-  !> A ring of nodes and its centre, in either order: the original needs N*N steps, which is hours here.
+  !> A ring of nodes and its centre, the centre first or last: the original needs N*N steps, here hours.
   subroutine hub
     integer, parameter :: n = 200001
     real(rk) :: angle
@@ -228,7 +228,7 @@ contains
     end do
   end subroutine
 
-  !> Lists that are none: an error, and no access outside the arrays.
+  !> Broken lists: an error, and no access outside the arrays.
   subroutine broken_lists
     type(mesh) :: m, broken
     type(diagram) :: d

@@ -1,17 +1,17 @@
-! Codes that `use` the module: explicit interfaces; INTENT(IN) arrays passed as output, which the original
-! allows; arrays of another rank, sections, constants. MODULE_NAME: the module's name, REAL_TYPE: the code's
-! real type. LOUT_COUNTS: the library looks at LOUT.
+! Codes that `use` the module, with explicit interfaces. They pass INTENT(IN) arrays as output, which the original allows,
+! arrays of another rank, sections and constants. MODULE_NAME: name of the module. REAL_TYPE: real type of the code.
+! LOUT_COUNTS: the library uses LOUT.
 module helper
   use MODULE_NAME
   implicit none
 contains
-  ! As a grid generator does it: LTRI, which TRLIST writes, is INTENT(IN) here.
+  ! As in a grid generator: LTRI, which TRLIST writes, is INTENT(IN) here.
   subroutine triangles(n, list, lptr, lend, nrow, nt, ltri, ier)
     integer, intent(in) :: n, list(:), lptr(:), lend(:), nrow, nt, ltri(:, :), ier
     call trlist(n, list, lptr, lend, nrow, nt, ltri, ier)
   end subroutine
 
-  ! A constant, rows of an array, which are copied, and parts of work space.
+  ! A constant, rows of an array (which the compiler copies), and parts of work space.
   subroutine mesh(xyz, list, lptr, lend, ier)
     REAL_TYPE, intent(in) :: xyz(:, :)
     integer, intent(inout) :: list(:), lptr(:), lend(:)
@@ -151,7 +151,7 @@ contains
 #endif
     call expect(ier == 0, "TRMESH again")
   end subroutine
-  ! The number of records written so far to a unit, which is then empty again.
+  ! The number of records written so far to a unit; empties the unit.
   subroutine expect_records(unit, least, most, what)
     integer, intent(in) :: unit, least, most
     character(len=*), intent(in) :: what

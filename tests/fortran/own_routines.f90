@@ -1,5 +1,5 @@
-! A program with a SWAP, INSERT, LEFT, STORE, LSTPTR of its own, as user codes have: the library must
-! neither clash with them nor call them. Linked with the shared and with the static library.
+! A program with its own SWAP, INSERT, LEFT, STORE and LSTPTR, as user codes have: the library must neither clash with
+! them nor call them. Linked with the shared and with the static library.
 subroutine swap(a, b)
   real(8) :: a, b, c
   c = a

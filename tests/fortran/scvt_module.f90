@@ -1,4 +1,4 @@
-! Centroidal tessellations by the module pstripack: bit for bit what the C API makes.
+! Centroidal tessellations by the module pstripack: the bits of the C API.
 module procedures
   use, intrinsic :: iso_c_binding
   use pstripack, only: pstripack_scvt_progress
@@ -22,7 +22,7 @@ contains
     if (c_associated(user)) error stop "no user data"
   end subroutine
 
-  ! A procedure with state, as many old ones have: called by one thread.
+  ! A procedure with state, as in many old codes: it must be called by one thread only.
   subroutine bump_for_fortran(n, xyz, values)
     integer(c_int32_t), intent(in) :: n
     real(c_double), intent(in) :: xyz(3, n)
@@ -61,7 +61,7 @@ program scvt_module
   use expectations
   use random_points
   implicit none
-  ! As pstripack.h has them.
+  ! The C functions as in pstripack.h.
   type, bind(c) :: density_of_c
     type(c_funptr) :: at
     type(c_ptr) :: user = c_null_ptr

@@ -1,6 +1,6 @@
-! Programs keep a value for each arc in an array that runs parallel to LIST, as SSRFPACK does with its tension
-! factors: they write it for one direction, look the other one up with LSTPTR, and later read slots 1..LNEW-1
-! in one go. So every slot below LNEW must belong to an arc, also after ADDNOD and DELNOD.
+! Programs keep a value for each arc in an array parallel to LIST, as SSRFPACK does with its tension factors. They write
+! it for both directions, finding the other one with LSTPTR, and later read all slots 1..LNEW-1. So every slot below
+! LNEW must belong to an arc, also after ADDNOD and DELNOD.
 program values_by_slot
   use stripack
   use expectations

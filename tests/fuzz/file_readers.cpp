@@ -1,4 +1,5 @@
-// The readers of the tools on files of any bytes: what they read, or one line that says what is wrong.
+// The readers of the tools on files of any bytes: they must return valid data or report the error in one
+// line.
 
 #include <unistd.h>
 
@@ -14,7 +15,7 @@
 
 namespace {
 
-/// A folder that goes at the end of the program.
+/// A temporary folder.
 class Folder {
  public:
   Folder() : path_(std::filesystem::temp_directory_path() / ("pstripack_fuzz_" + std::to_string(getpid()))) {
@@ -76,7 +77,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       }
     });
   } else {
-    // Triangles of three nodes that are right, or triangles behind whatever nodes there are.
+    // Triangles of three valid nodes; or, behind a zero byte, triangles of the nodes before it.
     const std::size_t end = text.find('\0');
     folder.write("mesh_points.txt", end == text.npos ? "1 0 0\n0 1 0\n0 0 1\n" : text.substr(0, end));
     folder.write("mesh_triangles.txt", end == text.npos ? text : text.substr(end + 1));

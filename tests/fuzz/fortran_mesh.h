@@ -1,5 +1,5 @@
 #pragma once
-// A triangulation as Fortran programs hold it, made and changed by the public symbols of libstripack.
+// A triangulation in the arrays of Fortran programs, made and changed by the public symbols of libstripack.
 
 #include <numeric>
 
@@ -18,7 +18,7 @@ struct FortranMesh {
   void place(int node, const pstripack::Point& p) { x[node - 1] = p.x, y[node - 1] = p.y, z[node - 1] = p.z; }
   pstripack::Point node(int k) const { return {x[k - 1], y[k - 1], z[k - 1]}; }
 
-  /// IER of TRMESH.
+  /// Calls TRMESH; returns IER.
   int triangulate(const Nodes& nodes) {
     n = static_cast<int>(nodes.size());
     for (int k = 1; k <= n; ++k) place(k, nodes[k - 1]);

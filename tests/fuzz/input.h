@@ -1,5 +1,5 @@
 #pragma once
-// Typed values from the bytes of a fuzz input, and how a target fails.
+// Typed values from the bytes of a fuzz input, and the check by which a target fails.
 
 #include <algorithm>
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 #include "support/lists.h"
 
-/// The bytes of an input one after another; zeros behind the last.
+/// Yields the bytes of an input, then zeros.
 class Input {
  public:
   Input(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
@@ -22,7 +22,7 @@ class Input {
   /// Any bits of this type.
   template <class T>
   T bits() {
-    // Not by a memcpy of as many as there are: for a lone byte GCC 12 leaves out the zero.
+    // No memcpy of the remaining bytes: GCC 12 omits the zero after a single byte.
     std::uint8_t bytes[sizeof(T)];
     for (std::uint8_t& byte : bytes) byte = empty() ? 0 : data_[at_++];
     T value;
@@ -47,8 +47,8 @@ class Input {
   std::size_t size_, at_ = 0;
 };
 
-/// A vector of one of several kinds: of a lattice of few coordinates, as integers or of unit length, some
-/// ulps beside that, with any exponents, any bits at all, an earlier node or its opposite.
+/// A vector of one of several kinds: from a small lattice, as integers or scaled to length 1, or some ulps
+/// beside these; with arbitrary exponents; with arbitrary bits; an earlier node or its opposite.
 pstripack::Point any_vector(Input& input, const Nodes& earlier);
 
 /// One of 65536 directions in general position.

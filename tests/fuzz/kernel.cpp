@@ -1,5 +1,5 @@
-// TRMESH on nodes of any bits: the documented code, a correct mesh by the tests' own judge, no access outside
-// the arrays, no result touched on a negative code.
+// TRMESH on nodes of any bits: it must return the documented code and a mesh that the tests' own judge finds
+// correct, must not access memory outside the arrays, and must not change results if the code is negative.
 
 #include <algorithm>
 
@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kMostNodes = 24;
 
-/// The call in arrays between pages that cannot be touched, nodes on pages that cannot be written.
+/// Calls TRMESH with arrays between inaccessible pages and nodes in read-only pages.
 Mesh guarded_trmesh(const Nodes& nodes, Edge edge) {
   const Columns columns(nodes);
   Guarded<double> x(columns.x, edge), y(columns.y, edge), z(columns.z, edge);

@@ -1,8 +1,8 @@
-// Sequences of changes of a triangulation by the public symbols. After each the lists must be well formed:
-// every slot in one closed list, every triangle closed, the Euler number of a sphere or a disc. Where all
-// nodes are in general position and every change so far keeps a Delaunay triangulation, it must be one, by
-// the exact validator. Now and then a routine gets damaged copies of the lists, in arrays between pages that
-// cannot be touched: it must return.
+// Sequences of changes of a triangulation by the public symbols. After each change the lists must be well
+// formed: every slot in one closed list, every triangle closed, the Euler number of a sphere or a disc. If
+// all nodes are in general position and every change so far keeps a Delaunay triangulation, the exact
+// validator must accept it. Now and then a routine gets damaged copies of the lists in arrays between
+// inaccessible pages: it must return.
 
 #include <array>
 
@@ -45,7 +45,7 @@ class Changes {
   int any_node() { return input_.integer(-1, mesh_.n + 2); }
   int some_node() { return 1 + input_.below(mesh_.n); }
 
-  /// What has been changed.
+  /// Makes a change; returns its name.
   std::string change() {
     switch (input_.below(8)) {
       case 0:
@@ -111,7 +111,7 @@ class Changes {
     return "EDGE, IER = " + std::to_string(ier);
   }
 
-  /// DELARC, sometimes for nodes that are no boundary arc.
+  /// DELARC, sometimes for nodes that are not a boundary arc.
   std::string cut() {
     const int a = any_node();
     const int b = a >= 1 && a <= mesh_.n && input_.below(4) > 0 ? -mesh_.last_neighbour(a) : any_node();
@@ -193,8 +193,8 @@ class Changes {
     return "COVSPH";
   }
 
-  /// Calls a routine on copies of the lists in which some entries are arbitrary. SWAP, OPTIM and EDGE, which
-  /// are not told the lengths of the arrays, get numbers within them.
+  /// Calls a routine on copies of the lists with some arbitrary entries. SWAP, OPTIM and EDGE are not told
+  /// the lengths of the arrays, so they get only numbers within these.
   std::string with_damaged_lists() {
     const ::Edge side = input_.below(2) == 0 ? ::Edge::begin : ::Edge::end;
     const int routine = input_.below(10), n = mesh_.n, slots = 6 * n - 12;
@@ -284,7 +284,7 @@ class Changes {
   Input& input_;
   const bool general_;
   bool begun_, delaunay_ = true;
-  bool failed_ = false;  ///< DELNOD and EDGE may, of overlapping triangles, and say so
+  bool failed_ = false;  ///< DELNOD or EDGE has reported a failure, possible if triangles overlap
   FortranMesh mesh_;
 };
 

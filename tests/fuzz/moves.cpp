@@ -1,5 +1,5 @@
-// Sequences of moves of a few nodes: a mesh that follows them is the triangulation made anew, bit for bit, or
-// says that it cannot.
+// Sequences of moves of a few nodes: a mesh that follows them must equal the new triangulation bit for bit,
+// or report that it cannot follow.
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::size_t kMostNodes = 24;
 
-/// TRMESH does not triangulate what has no direction, and the kernel nothing on one great circle.
+/// False for nodes without direction, which TRMESH refuses, and for nodes on one great circle, which the
+/// kernel refuses.
 bool can_be_triangulated(const Nodes& nodes) {
   return std::all_of(nodes.begin(), nodes.end(), pstripack::has_direction) &&
          pstripack::left(nodes[0], nodes[1], nodes[2]) != 0;

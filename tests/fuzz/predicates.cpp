@@ -12,7 +12,8 @@ namespace {
 
 using pstripack::Point;
 
-/// Of Coordinates or Directions: `above` in all orders of the four, each `left`, and who coincides.
+/// Checks Coordinates or Directions: `above` in all orders of the four nodes, each `left`, and which nodes
+/// coincide.
 template <class Predicates>
 void check(exact::On on, const Predicates& predicates, const std::array<Point, 4>& p) {
   bool different = true;

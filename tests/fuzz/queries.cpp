@@ -101,7 +101,7 @@ class Questions {
     require(dot(p, mesh_.node(k)) > most - 1e-12, "NEARND: another node is nearer");
   }
 
-  /// GETNP with any numbers of nodes that are within the arrays.
+  /// GETNP with arbitrary node numbers within the arrays.
   void next_nearest() {
     std::array<int, kMostNodes + 2> npts;
     for (int& k : npts) k = std::min(any_node(), mesh_.n);
@@ -183,7 +183,7 @@ class Questions {
     require(ier == 0 || result == 0, "INSIDE: true and an error");
     const int unwanted = input_.integer(1, 100), x = input_.bits<std::int32_t>();
     int ix = x, iy = input_.bits<std::int32_t>(), iz = input_.bits<std::int32_t>();
-    // Seeds from 1 to 30,000, as the routine wants them.
+    // The routine requires seeds from 1 to 30,000.
     for (int* seed : {&ix, &iy, &iz}) *seed = 1 + static_cast<int>(static_cast<unsigned>(*seed) % 30000);
     if (unwanted >= 1) {
       const int drawn = jrand_(&unwanted, &ix, &iy, &iz);

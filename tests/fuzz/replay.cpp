@@ -1,4 +1,4 @@
-// Runs a fuzz target on the files, and the files in the folders, that are its arguments.
+// Runs a fuzz target on the files that are its arguments, or that lie in folders that are.
 
 #include <cstdint>
 #include <filesystem>
@@ -14,7 +14,7 @@ namespace {
 void run(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   const std::vector<char> bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  std::cout << file.string() << std::endl;  // flushed: the last one named is the one that fails
+  std::cout << file.string() << std::endl;  // flushed, so that the last name is that of a failing file
   LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
 }
 

@@ -1,10 +1,10 @@
 #!/bin/sh
 # Searches for inputs that make a routine fail, with libFuzzer, SECONDS per target: run.sh [SECONDS]
 #
-# Inputs that reach code that none did before are kept in build-fuzz/corpus; one that fails is written to
-# build-fuzz/TARGET-crash-... or -timeout-...: run.sh then ends with code 1, and
+# Inputs that reach new code are kept in build-fuzz/corpus. A failing input is written to build-fuzz/TARGET-crash-... or
+# -timeout-..., and run.sh ends with code 1. To reproduce the failure:
 #   build-fuzz/tests/fuzz/fuzz_TARGET FILE
-# shows what happens. To have what was found tested everywhere:
+# To add the inputs found to the tests:
 #   build-fuzz/tests/fuzz/fuzz_TARGET -merge=1 tests/fuzz/corpus/TARGET build-fuzz/corpus/TARGET
 set -eu
 cd "$(dirname "$0")/../.."

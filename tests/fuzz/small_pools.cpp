@@ -14,7 +14,7 @@ using pstripack::Point;
 
 Point scaled(const Point& p, double factor) { return {p.x * factor, p.y * factor, p.z * factor}; }
 
-/// The integer vectors with components of magnitude `largest` at most, but zero, for which keep(p) is true.
+/// The nonzero integer vectors with components up to +-`largest` for which keep(p) is true.
 template <class Keep>
 Nodes lattice(int largest, const Keep& keep) {
   Nodes nodes;
@@ -31,14 +31,14 @@ Nodes lattice(int largest) {
   return lattice(largest, [](const Point&) { return true; });
 }
 
-/// At most `count` of the nodes, different ones.
+/// At most `count` different nodes of those given.
 Nodes some(Nodes nodes, std::size_t count, Random& random) {
   point_sets::shuffle(nodes, random.bits());
   if (nodes.size() > count) nodes.resize(count);
   return nodes;
 }
 
-/// The nodes, and others of the lattice up to 2 until the pool is full.
+/// The nodes, and nodes of the lattice up to 2 until the pool is full.
 Nodes filled(Nodes nodes, Random& random) {
   for (const Point& p : some(lattice(2), kPoolSize - nodes.size(), random)) nodes.push_back(p);
   return nodes;
@@ -57,8 +57,8 @@ Nodes integers_to_2(Random& random) { return some(lattice(2), kPoolSize, random)
 Nodes unit_of_1(Random& random) { return rounded(integers_to_1(random)); }
 Nodes unit_of_2(Random& random) { return rounded(integers_to_2(random)); }
 
-/// A few places with several nodes each, whose components are some ulps apart; beside 0, ulps of 1 or, in
-/// few pools, the least numbers there are.
+/// A few places with several nodes each, whose components differ by some ulps; near 0 by ulps of 1 or, in few
+/// pools, by the smallest denormals.
 Nodes ulps_apart(Random& random) {
   const Nodes places = rounded(some(lattice(random.below(2) == 0 ? 1 : 2), 3 + random.below(4), random));
   const double beside_zero = random.below(32) == 0 ? 0x1p-1074 : 0x1p-53;
@@ -84,7 +84,7 @@ Nodes great_circle(Random& random) {
 }
 Nodes rounded_great_circle(Random& random) { return rounded(great_circle(random)); }
 
-/// The same directions at several lengths, which powers of two and small integers keep exactly.
+/// The same directions at several lengths: multiples by powers of two and small integers are exact.
 Nodes radial_multiples(Random& random) {
   const Nodes directions = some(lattice(1), 10, random);
   const double lengths[] = {1, 1, 2, 3, 0.5, 0x1p-1074, 0x1p-600, 0x1p1000};
@@ -109,7 +109,7 @@ Nodes hemisphere(Random& random) {
   return random.below(4) == 0 ? nodes : rounded(nodes);
 }
 
-/// A lattice in a cap so small that its nodes lie in one plane, or nearly.
+/// A lattice in a cap so small that its nodes lie nearly in one plane.
 Nodes small_cap(Random& random) {
   const double steps[] = {0x1p-8, 0x1p-20, 0x1p-26, 0x1p-27, 0x1p-40, 0x1p-52};
   const double step = steps[random.below(std::size(steps))];
@@ -117,7 +117,7 @@ Nodes small_cap(Random& random) {
   return changed(places, [&](const Point& p) { return normalized({1, p.x * step, p.y * step}); });
 }
 
-/// Lengths that differ by what is still taken as given, so that nodes hide others; two that differ by more.
+/// Lengths so near 1 that they are taken as given, so that nodes hide others; two lengths differ by more.
 Nodes lengths_near_1(Random& random) {
   const Nodes places = rounded(some(lattice(2), 6 + random.below(10), random));
   Nodes nodes;
@@ -141,7 +141,7 @@ Nodes exponents_apart(Random& random) {
   return nodes;
 }
 
-/// One that has no direction.
+/// A pool with one vector that has no direction.
 Nodes one_without_direction(Random& random) {
   Nodes nodes = unit_of_2(random);
   const double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();

@@ -1,12 +1,12 @@
-// Small sets of nodes by the million: TRMESH against brute force in exact arithmetic, lists and codes bit by
-// bit, and at intervals against CGAL.
+// Millions of small sets of nodes: compares lists and codes of TRMESH bit by bit with those of brute force in
+// exact arithmetic, and at intervals with CGAL.
 //
 //   small_sets [--first A] [--count B] [--threads T] [--cgal-every K]
 //
 // Case number k is the same in every run: 3 to 12 points of a pool of 16 in random order, now and then one of
-// them twice. Some thousand cases with numbers in a row share a pool, whose signs of all triples and fours
-// are worked out once, by tests/support/exact.h. The triangulation is then all triples that no node lies
-// above. Prints the cases that fail with their nodes, and ends with code 1 if there are any.
+// them twice. Some thousand consecutive cases share a pool. The signs of its triples and fours are computed
+// once, by tests/support/exact.h; the triangulation then consists of all triples that no node lies above.
+// Prints failing cases with their nodes, and ends with code 1 if there are any.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -43,7 +43,8 @@ using Triples = std::array<std::array<std::array<T, kPoolSize>, kPoolSize>, kPoo
 
 // ---- A pool and its signs ----
 
-/// For each triple of points a, b, c: the points above their plane, with the tie rule, and the others in it.
+/// For each triple of points a, b, c: the points above their plane, with the tie rule, and further points in
+/// the plane.
 struct Fours {
   Triples<Mask> above{}, in_plane{};
 };
@@ -77,8 +78,7 @@ struct Pool {
 
   Nodes points;
   Mask without_direction = 0, not_unit = 0;
-  std::array<Mask, kPoolSize>
-      coincident{};  ///< with each point: those in the same direction, itself included
+  std::array<Mask, kPoolSize> coincident{};  ///< for each point: all points in its direction, itself included
   Triples<std::int8_t> left{};
 
  private:
@@ -139,7 +139,7 @@ Case make_case(std::uint64_t number) {
   return drawn;
 }
 
-/// All that a call may write, and more behind it that it must not.
+/// The arrays of a call, followed by entries that it must not write.
 struct Outputs {
   std::int32_t list[6 * kMostNodes], lptr[6 * kMostNodes], lend[kMostNodes + 1], lnew, ier, node, other;
   Outputs() { std::fill_n(reinterpret_cast<std::int32_t*>(this), sizeof *this / sizeof lnew, -987654321); }
@@ -151,7 +151,7 @@ struct SmallFaces {
   int count = 0;
 };
 
-/// All triples of `nodes` with a positive determinant and none of the others above; drops those beyond the
+/// All triples of `nodes` with a positive determinant and no other node above; drops triples beyond the
 /// largest possible number.
 SmallFaces brute_force(const Pool& pool, const Fours& fours, Mask nodes) {
   SmallFaces faces;
@@ -183,7 +183,7 @@ struct Expected {
   SmallFaces faces;
 };
 
-/// The canonical lists of these faces, of the first `n` nodes of the case. False if they do not fit together.
+/// Writes the canonical lists of these faces of the first `n` nodes. False if the faces do not fit together.
 bool write_lists(const Case& drawn, int n, const SmallFaces& faces, Outputs& out) {
   std::array<int, kPoolSize> number;
   for (int i = 0; i < n; ++i) number[drawn.point[i]] = i;
@@ -199,7 +199,7 @@ bool write_lists(const Case& drawn, int n, const SmallFaces& faces, Outputs& out
     }
   std::int32_t slot = 0;
   for (int v = 0; v < n; ++v) {
-    unsigned starts = 0, ends = 0;  // neighbours that another follows; that follow another
+    unsigned starts = 0, ends = 0;  // neighbours with a successor; with a predecessor
     for (int a = 0; a < n; ++a)
       if (next[v][a] != none) {
         if (ends & (1u << next[v][a])) return false;
@@ -279,7 +279,7 @@ Outputs call_trmesh(const Pool& pool, const Case& drawn) {
 }
 
 #ifdef HAVE_CGAL
-/// The planes of the faces, each as the nodes that lie in it, sorted: the same for any diagonals of the
+/// The planes of the faces, each as the set of nodes in it, sorted. They do not depend on the diagonals of
 /// facets.
 std::vector<Mask> planes(const SmallFaces& faces, const Fours& fours, Mask nodes) {
   std::vector<Mask> result;
@@ -414,7 +414,7 @@ int main(int argc, char** argv) {
   app.add_option("--first", first, "number of the first case")->capture_default_str();
   app.add_option("--count", count, "number of cases")->capture_default_str();
   app.add_option("--threads", threads)->capture_default_str();
-  app.add_option("--cgal-every", cgal_every, "compare every so many with CGAL, too; 0: none")
+  app.add_option("--cgal-every", cgal_every, "also compare every K-th case with CGAL; 0: none")
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   return Run(first, count, cgal_every).on_threads(threads) ? 0 : 1;

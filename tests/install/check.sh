@@ -1,6 +1,6 @@
 #!/bin/sh
-# Programs for the Fortran 90 text link with libstripack_f90 before the library; and `pstripack-config --check` says
-# whose TRMESH a program or a process calls, linked in every right and wrong way, with an old library made here.
+# Programs for the Fortran 90 text link with libstripack_f90 before the library. `pstripack-config --check` tells whose
+# TRMESH a program or process calls, linked in every right and wrong way; an old library is made here.
 # Usage: check.sh PREFIX CONSUMER_DIR WORK_DIR
 # shellcheck disable=SC2046,SC2086  # lists of words on purpose
 set -eu
@@ -14,7 +14,8 @@ libdir=${switch%/pstripack/switch/r8}
 ours_r8=$(readlink -f "$libdir/libstripack.so")
 fail() { echo "$*" >&2; exit 1; }
 
-# answers STATUS "ROUTINE  answer..." QUESTION: the whole answer, "not called" left out; commands before the question: env
+# answers STATUS "ROUTINE  answer..." COMMAND...: fails unless the command ends with STATUS and prints exactly this answer;
+# lines with "not called" are ignored
 answers() {
   expected_status=$1 expected=$2
   shift 2
@@ -103,7 +104,7 @@ strip right_static
 check 0 "$(each "$some" "ours (libstripack): in the program itself")$(each "CRLIST TRFIND GETNP" "not seen; the program is stripped")" \
   right_static
 
-# The old library behind ours for its timestamp: as an archive it brings its TRMESH with it.
+# The old library linked after ours for its timestamp: as an archive it adds its TRMESH to the program.
 gfortran model.o -o wrong $($config --libs) libold.a -Wl,-rpath,"$libdir"
 check 1 "$(each "$all" "NOT OURS: in the program itself")" wrong
 strip wrong
@@ -113,7 +114,7 @@ check 1 "$(each "$all" "NOT OURS: in the program itself")" wrong_static
 strip wrong_static
 check 1 "$(each "$all" "not seen; the program is stripped")" wrong_static
 
-# As a shared library: what is found first counts; the environment decides.
+# As a shared library: the first one found is used; the environment decides.
 gfortran model.o -o first "$PWD/old/libstripack.so" $($config --libs) -Wl,-rpath,"$libdir"
 old=$PWD/old/libstripack.so
 check 1 "$(each "$some" "NOT OURS: $old")$(each TRFIND "NOT OURS: $old")" first
@@ -128,7 +129,7 @@ check 0 "$(each "$some" "ours (libstripack): $ours_r8")" libmodel.so
 answers 1 "$(each "$some" "nobody's: the symbol is undefined")" env -u LD_LIBRARY_PATH "$config" --check switched
 grep -q 'needs libstripack.so, which is not found' "$work/errors" || fail "the library that is missing is not named"
 
-# A library of the program's that has the old one inside, shown to others or not.
+# A library of the program that contains the old one, with visible or hidden symbols.
 echo 'end' > nothing.f90
 echo '{ global: sub_; local: *; };' > hidden.map
 echo 'subroutine sub
@@ -140,7 +141,7 @@ gfortran -Wl,--no-as-needed nothing.f90 -o inside_hidden "$PWD/libhidden.so"
 check 1 "$(each "$all" "NOT OURS: $PWD/libhidden.so")" inside_hidden
 gfortran -shared -fPIC sub.f90 -o libsub.so $($config --libs) -Wl,-rpath,"$libdir"
 
-# A process: what it has begun with, and what it has loaded since.
+# A process: libraries from its start, and libraries loaded later.
 cat > host.c << 'END'
 #include <dlfcn.h>
 #include <stdio.h>

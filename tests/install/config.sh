@@ -1,6 +1,6 @@
 #!/bin/sh
-# pstripack-config of an installed prefix: programs are built and run by what it says, for every ABI, shared and static,
-# also after the prefix has moved and through a link; wrong questions are refused.
+# pstripack-config of an installed prefix: its flags build programs that run, for every ABI, shared and static, also after
+# the prefix has moved and through a link. Wrong options are refused.
 # Usage: config.sh PREFIX CONSUMER_DIR WORK_DIR VERSION [MPIEXEC]
 # shellcheck disable=SC2046,SC2086  # lists of words on purpose
 set -eu
@@ -18,7 +18,7 @@ fail() { echo "$*" >&2; exit 1; }
 switch=$(config --switch-dir)
 export LD_LIBRARY_PATH="${switch%/pstripack/switch/r8}"
 
-# run ABI SHARED_OR_STATIC COMMAND...: builds $work/program by COMMAND, runs it
+# run ABI shared|--static COMMAND...: builds $work/program by COMMAND and runs it
 run() {
   abi=$1 kind=$2
   shift 2
@@ -53,7 +53,7 @@ for kind in shared --static; do
   fi
 done
 
-# Every ABI that the list names has answers.
+# All ABIs are listed, and each one of libstripack has a folder to switch to.
 [ "$(config --abi | wc -l)" -eq 9 ] || fail "--abi lists $(config --abi | wc -l)"
 for abi in r8 r4 8arg i8; do
   [ -e "$(config --abi $abi --switch-dir)/libstripack.so" ] || fail "$abi: no libstripack.so to switch to"

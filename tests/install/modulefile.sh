@@ -1,6 +1,6 @@
 #!/bin/sh
-# The modulefile, loaded by Environment Modules from its own place and through a link: everything is found; unloaded,
-# everything is as before. Usage: modulefile.sh MODULECMD PREFIX CONSUMER_DIR WORK_DIR VERSION
+# Environment Modules load the modulefile from its own place and through a link: the package must be found. After
+# unloading the environment must be as before. Usage: modulefile.sh MODULECMD PREFIX CONSUMER_DIR WORK_DIR VERSION
 set -eu
 modulecmd=$1 consumer=$3 work=$4 version=$5
 prefix=$(cd "$2" && pwd)

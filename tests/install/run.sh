@@ -1,6 +1,6 @@
 #!/bin/sh
-# Installs a build into an empty prefix and builds strangers' programs against it, by CMake, by pkg-config and
-# by hand, shared and static; with MPIEXEC also those with MPI.
+# Installs a build into an empty prefix and builds programs of other projects with it, by CMake, by pkg-config and by
+# hand, shared and static; with MPIEXEC also programs with MPI.
 # Usage: run.sh BUILD_DIR SOURCE_DIR WORK_DIR CMAKE_GENERATOR VERSION [MPIEXEC]
 # shellcheck disable=SC2046  # lists of words on purpose
 set -eu
@@ -9,7 +9,7 @@ prefix=$work/prefix consumer=$source/tests/install/consumer
 rm -rf "$work"
 mkdir -p "$work"
 
-# The build folder's list of what is installed stays that of the user.
+# Keep the user's list of installed files in the build folder.
 manifest=$build/install_manifest.txt
 if [ -e "$manifest" ]; then cp -p "$manifest" "$work"; fi
 cmake --install "$build" --prefix "$prefix" > "$work/install.log"

@@ -1,7 +1,6 @@
 #!/bin/sh
-# A program that was linked with an original libstripack.so runs with ours, and nothing of it is built again:
-# by LD_LIBRARY_PATH where it looks for libstripack.so, by LD_PRELOAD wherever it looks. PSTRIPACK_REPORT=1 tells which
-# of the two ran.
+# A program linked with an original libstripack.so runs with ours without relinking: by LD_LIBRARY_PATH if it searches
+# for libstripack.so, by LD_PRELOAD always. PSTRIPACK_REPORT=1 shows which library ran.
 # Usage: switch.sh PREFIX CONSUMER_DIR WORK_DIR ABI ORIGINAL     ABI: r8, r4, 8arg; ORIGINAL: a library of that ABI
 set -eu
 prefix=$1 consumer=$2 work=$3 abi=$4 original=$5

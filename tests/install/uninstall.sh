@@ -1,5 +1,5 @@
 #!/bin/sh
-# The target `uninstall`: all that was installed is gone, also our folders, and nothing else; not what cpack had packed.
+# The target `uninstall` must remove all installed files and our folders, and nothing else.
 # Usage: uninstall.sh BUILD_DIR WORK_DIR
 set -eu
 build=$1 work=$2
@@ -8,7 +8,7 @@ mkdir -p "$work/prefix/lib/pkgconfig" "$work/prefix/share/man/man3" "$work/kept"
 prefix=$work/prefix
 fail() { echo "$*" >&2; exit 1; }
 
-# The build folder's own lists of what is installed are put back at the end.
+# Restore the build folder's own lists of installed files at the end.
 find "$build" -maxdepth 1 -name 'install_manifest*.txt' -exec mv {} "$work/kept" \;
 trap 'rm -f "$build"/install_manifest*.txt; find "$work/kept" -name "install_manifest*" -exec mv {} "$build" \;' EXIT
 

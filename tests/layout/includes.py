@@ -4,7 +4,7 @@ import pathlib
 import re
 import sys
 
-# Of each folder of src/cxx what it may include directly; what that may include it may, too.
+# What each folder of src/cxx may include directly; it may also include what these folders may include.
 ENGINE = {
     "base": [],
     "geometry": ["base"],
@@ -19,7 +19,7 @@ ENGINE = {
     "pool": ["observe", "mpi"],
     "capi": ["pool"],
 }
-# What lies beside the engine.
+# Folders outside the engine.
 OUTSIDE = {
     "tools": list(ENGINE),
     "compare": ["tools", "legacy_stripack"],
@@ -27,7 +27,7 @@ OUTSIDE = {
     "python": ["tools"],
 }
 ALLOWED = {**ENGINE, **OUTSIDE}
-# Outside the engine, and by its public header pstripack_mpi.h, MPI may be called; in the engine by src/cxx/mpi only.
+# In the engine only src/cxx/mpi and the public header pstripack_mpi.h may use MPI.
 WITH_MPI = {"src/cxx/mpi", "src/cxx/capi", "tools", "compare"}
 
 
@@ -73,7 +73,7 @@ def main(root):
                      if ("/" + str(other)).endswith("/" + include[1])}
             if found and layer not in found and not found & may:
                 wrong.append(f"{where}:{number}: {layer} must not include {include[1]} of {', '.join(sorted(found))}")
-    # What includes each other would be one layer.
+    # Two folders that include each other would be one layer.
     for layer in ALLOWED:
         if layer in below(layer):
             wrong.append(f"{layer} lies below itself")

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Fails where one name means two things in src/cxx. usage: names.py SOURCE_FOLDER
+"""Fails if a name means two things in src/cxx. usage: names.py SOURCE_FOLDER
 
-No two files have one name, and a type that a header defines for others has a name that no other file gives to
-a type. Types within types, and types that two source files keep to themselves, may share one."""
+No two files may have the same name, and no file may define a type with the name of a type from another file's header.
+Nested types, and types that are local to source files, may share a name."""
 import pathlib
 import re
 import sys

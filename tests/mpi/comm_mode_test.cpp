@@ -28,7 +28,7 @@ Mesh trmesh_r4(const Nodes& nodes) {
   return m;
 }
 
-/// Comm mode for the life of a test.
+/// Sets comm mode for its lifetime.
 class CommMode {
  public:
   explicit CommMode(MPI_Comm comm = MPI_COMM_WORLD) : code_(pstripack_set_comm(comm)) {}
@@ -54,7 +54,7 @@ TEST(CommMode, GivesTheSameBytes) {
     }
 }
 
-/// Under PSTRIPACK_ORDER=bitwise: the original's lists of grids, though they are not the exact mesh.
+/// Under PSTRIPACK_ORDER=bitwise: the original's lists of grids, even if they are not the exact mesh.
 TEST(CommMode, GivesTheSameBytesOfGrids) {
   const char* const order = std::getenv("PSTRIPACK_ORDER");
   const bool is_bitwise = order != nullptr && std::string(order) == "bitwise";

@@ -1,4 +1,4 @@
-// The group of ranks over MPI: every byte arrives, whatever the sizes; failures are the same on every rank.
+// The group of ranks over MPI: every byte arrives for all sizes, and all ranks see the same failures.
 
 #include <algorithm>
 #include <chrono>
@@ -22,7 +22,7 @@ using pstripack::Parcels;
 
 const std::size_t kLimits[] = {1, 7, 64, MpiCommunicator::kLongestMessage};
 
-/// What rank `from` sends to rank `to`, known to both.
+/// The message from rank `from` to rank `to`; both ranks can compute it.
 std::vector<unsigned char> message(int from, int to, int round) {
   const unsigned seed = 7919u * static_cast<unsigned>(from) + 104729u * static_cast<unsigned>(to) +
                         1299709u * static_cast<unsigned>(round);

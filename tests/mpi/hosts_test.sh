@@ -1,10 +1,10 @@
 #!/bin/sh
-# Jobs over three machines, by Open MPI: hosts_test.sh CASE, with RUN, MPIEXEC (and its flags), JOB_PROGRAM (mpi_job),
-# MODEL, CALLER and WORK in the environment.
+# Jobs on three machines, with Open MPI. Usage: hosts_test.sh CASE, with RUN, MPIEXEC (and its flags), JOB_PROGRAM
+# (mpi_job), MODEL, CALLER and WORK in the environment.
 #
-# The machines are made of namespaces, on the machine of the test: h1, where jobs are started, h2 and h3 each have a
-# host name, a network, processes and shared memory of their own; a virtual switch connects them. What takes the place
-# of ssh enters their namespaces. It all is gone with the test. Exit code 77 where namespaces cannot be had.
+# The machines are namespaces: h1, where jobs start, h2 and h3 each have their own host name, network, processes and
+# shared memory; a virtual switch connects them. A stand-in for ssh enters the namespaces, which end with the test. Exit
+# code 77 if namespaces cannot be created.
 # shellcheck disable=SC2015,SC2016,SC2086,SC2153,SC2154
 set -u
 case=$1
@@ -32,7 +32,7 @@ fail() {
 }
 
 # ---- the machines
-# this_machine_is NAME: in its namespaces
+# this_machine_is NAME: sets up a machine, within its namespaces
 cat > this_machine_is << 'EOF'
 hostname "$1"
 mount -t tmpfs none /dev/shm
@@ -45,7 +45,7 @@ mount --bind addresses /etc/hosts
 ip link add switch type bridge
 ip addr add 10.0.0.1/24 dev switch
 ip link set switch up
-# make_machines: h2 and h3, anew
+# make_machines: makes h2 and h3, after killing older ones
 make_machines() {
   for host in h2 h3; do
     [ ! -e $host.pid ] || kill -9 "$(cat $host.pid)" 2> /dev/null
@@ -65,7 +65,7 @@ make_machines() {
 }
 make_machines
 
-# In place of ssh: no variables go with it, and it does not notice that the other machine has lost its power.
+# Stand-in for ssh: passes no variables on, and does not notice if the other machine loses its power.
 cat > ssh << EOF
 #!/bin/sh
 while :; do case \$1 in -*) shift ;; *) break ;; esac; done
@@ -80,15 +80,15 @@ chmod +x ssh
 
 # ---- the jobs
 export OMP_NUM_THREADS=1 PSTRIPACK_POOL_MIN_NODES=100
-export TMPDIR=/dev/shm  # of this machine alone
+export TMPDIR=/dev/shm  # not shared with other machines
 printf 'h1 slots=2\nh2 slots=2\nh3 slots=2\n' > machines
 export OMPI_MCA_plm_rsh_agent="$dir/ssh"
-# Seconds until Open MPI notices that a machine is gone.
+# Lets Open MPI notice within seconds that a machine is gone.
 export OMPI_MCA_oob_tcp_keepalive_time=2 OMPI_MCA_oob_tcp_keepalive_intvl=1 OMPI_MCA_oob_tcp_keepalive_probes=3
 pool() { "$RUN" -n 6 --hostfile machines -- "$@"; }
 ranks() { $MPIEXEC -n 6 --hostfile machines "$@"; }
 
-# All that runs here, but for this script and the machines.
+# All processes except those of this script and of the machines.
 processes() {
   for stat in /proc/[0-9]*/stat; do
     read -r pid name state _ < "$stat" || continue
@@ -97,7 +97,7 @@ processes() {
   done 2> /dev/null
 }
 
-# start MODE: a job that calls for ever, as $job; it is in its calls then
+# start MODE: starts $job, which calls forever; returns when calls have begun
 start() {
   : > job.out
   case $1 in
@@ -109,7 +109,7 @@ start() {
   until_it_says 'call 2\|pid'
 }
 
-# ends MODE SECONDS: within that time, not well, and nothing is left of it anywhere
+# ends MODE SECONDS: the job must end within this time, with an error, and leave no process on any machine
 ends() {
   has_ended_within "$2"
   [ $code -ne 0 ] || fail "$1: exit code 0"
@@ -129,10 +129,10 @@ same_bytes)
   "$MODEL" lists alone.bin 2> alone.err
   pool "$MODEL" lists pool.bin > job.out 2> job.err || fail "pool: exit code"
   cmp alone.bin pool.bin || fail "pool: the lists differ"
-  # Open MPI's starter is at times late to put ssh into a group of its own, and says so.
+  # Open MPI sometimes warns that it is late to move ssh into a process group.
   grep -v 'plm:rsh: Warning: setpgid' job.err | cmp alone.err - || fail "pool: stderr differs"
   PSTRIPACK_REPORT=report pool "$CALLER" calls 5000 4 > job.out 2> job.err || fail "four calls: exit code"
-  # The caller validates the first one; the others have the same nodes.
+  # The caller validates the first call; the others have the same nodes.
   [ "$(grep -c 'start=warm flips=0$' report)" -eq 2 ] || fail "not two calls that begin with the last rings: $(cat report)"
   for mode in comm distributed; do  # the program checks the lists
     ranks "$JOB_PROGRAM" $mode > job.out 2> job.err || fail "$mode: exit code"
@@ -160,7 +160,7 @@ killed)
   done
   ;;
 vanished)
-  # A machine: its network is gone, its power, all its processes.
+  # A machine loses its network, its power or all its processes.
   for how_and_mode in network:meshes power:idle power:calls processes:pool; do
     how=${how_and_mode%:*} mode=${how_and_mode#*:}
     make_machines

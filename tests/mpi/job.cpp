@@ -2,11 +2,10 @@
 //
 //   job comm           two calls of TRMESH in comm mode, one with nodes that coincide
 //   job distributed    a distributed mesh, and its lists on rank 0
-//   job calls N        TRMESH in comm mode, N nodes, for ever; "call 2" on stdout
+//   job calls N        TRMESH in comm mode for N nodes, forever; "call 2" on stdout
 //   job meshes N       the same with a distributed mesh
-//   job ... N error    MPI fails on rank 1 once there is a file "fail": output that is on its way when a rank
-//   aborts
-//                      the job can be lost
+//   job ... N error    MPI fails on rank 1 once a file "fail" exists. (A file, since output can be lost when
+//                      a rank aborts the job.)
 //
 // Exit code 0 if all results are right.
 
@@ -78,7 +77,7 @@ void for_ever(bool with_error, const Call& call) {
 
 }  // namespace
 
-/// In front of MPI's own, or of one that stands before that.
+/// Replaces MPI's function, or that of a library between.
 int MPI_Testall(int count, MPI_Request* requests, int* flag, MPI_Status* statuses) {
   static auto* const next = reinterpret_cast<decltype(&MPI_Testall)>(dlsym(RTLD_NEXT, "MPI_Testall"));
   return mpi_fails ? MPI_ERR_OTHER : next(count, requests, flag, statuses);

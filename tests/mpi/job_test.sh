@@ -1,5 +1,5 @@
 #!/bin/sh
-# Whole MPI jobs, their reports and their ends: job_test.sh CASE RANKS, with MPIEXEC (and its flags), PROGRAM,
+# The reports and the ends of whole MPI jobs. Usage: job_test.sh CASE RANKS, with MPIEXEC (and its flags), PROGRAM,
 # OPEN_MPI (TRUE: not Hydra), COMPARE and WORK in the environment.
 # shellcheck disable=SC2015,SC2016,SC2086,SC2154
 set -u
@@ -18,7 +18,7 @@ fail() {
   exit 1
 }
 
-# run ARGUMENT...: on all ranks; the report is asked for on the rank $asking only, or on "all"
+# run ARGUMENT...: runs the program; PSTRIPACK_REPORT is set on rank $asking only, or on all ranks
 run() {
   $MPIEXEC -n "$ranks" sh -c '
     asking=$1
@@ -37,21 +37,21 @@ second='[0-9]+\.[0-9]{6}' ratio=
 phases="seconds=$second"
 for phase in divide triangulate merge lists gather; do phases="$phases $phase=$second$ratio"; done
 phases="$phases rounds=[0-9]+ halo=[0-9]+ bytes=[0-9]+"
-# line NUMBER TEXT: that line of the report, TEXT before the phases
+# line NUMBER TEXT: fails unless this line of the report has TEXT before the phases
 line() {
   case $2 in distributed-gather*) end= ;; *) end=" start=cold" ;; esac
   sed -n "$1p" report | grep -qE "^pstripack: $2 $phases$end\$" || fail "line $1 is not: $2"
 }
 row() { sed -n "$1p" report | grep -qE "^pstripack: $2 +$3( +$second){7}\$" || fail "line $1 is not: row $2"; }
 
-# start ARGUMENT...: in the background, as $job
+# start ARGUMENT...: starts the program as $job
 start() {
   : > job.out
   $MPIEXEC -n "$ranks" sh -c 'echo $$ > rank.${OMPI_COMM_WORLD_RANK:-$PMI_RANK}; exec "$@"' sh "$PROGRAM" "$@" \
     > job.out 2> job.err &
   job=$!
 }
-# Within 10 s, not well.
+# The job must end within 10 s with an error.
 ends() {
   has_ended_within 10
   [ "$code" -ne 0 ] || fail "exit code 0"
@@ -76,7 +76,7 @@ comm | distributed)
     fi
     [ "$ranks" -eq 1 ] || grep -q 'bytes=[1-9]' report || fail "nothing was sent"
   done
-  # A wish of another rank is none.
+  # PSTRIPACK_REPORT on another rank than 0 has no effect.
   if [ "$ranks" -gt 1 ]; then
     rm -f report
     asking=1
@@ -85,7 +85,7 @@ comm | distributed)
   fi
   ;;
 check)
-  # In comm mode rank 0 writes the calls, which are those of all ranks.
+  # In comm mode rank 0 records the calls of all ranks.
   asking=none
   export PSTRIPACK_CHECK=calls.rec
   run comm
@@ -97,7 +97,7 @@ kill_calls | kill_meshes)
   until_it_says 'call 2'
   kill -9 "$(cat rank.1)"
   ends
-  # Hydra kills all ranks at once: it alone says why.
+  # Hydra kills all ranks at once, so only Hydra reports the end.
   if [ "$OPEN_MPI" != TRUE ]; then
     grep -q 'BAD TERMINATION' job.out || fail "nobody says it"
     exit
@@ -111,7 +111,7 @@ end_calls | end_meshes)
   until_it_says 'call 2'
   kill "$job"
   has_ended_within 10
-  # That of Hydra is at times 0.
+  # Hydra's exit code is sometimes 0.
   [ "$OPEN_MPI" != TRUE ] || [ "$code" -ne 0 ] || fail "exit code 0"
   ! grep -q 'was lost' job.err || fail "a rank is said to be lost"
   ;;

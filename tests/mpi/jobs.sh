@@ -1,8 +1,8 @@
-# For scripts that start a job in the background, as $job, with its output in job.out. They have a function fail, and
-# JOB in the environment of all its processes, by which they are found: a text that no other job has.
+# For scripts that start a job in the background as $job, with its output in job.out. The script must have a function
+# fail, and set JOB, a text that no other job has, in the environment of all processes of the job: it identifies them.
 # shellcheck disable=SC2154
 
-# start_in FOLDER: in this folder, emptied; nothing of a job is left when the script ends, however it ends
+# start_in FOLDER: changes to this folder after emptying it; kills the job when the script ends
 start_in() {
   rm -rf "$1"
   mkdir -p "$1"
@@ -12,7 +12,7 @@ start_in() {
   trap 'status=$?; [ -z "$job" ] || kill -9 $job $(processes) 2> /dev/null; exit $status' EXIT
 }
 
-# The processes of the job, without those that have ended and are not yet buried.
+# The processes of the job, without zombies.
 processes() {
   for environment in $(grep -lzxF "JOB=$JOB" /proc/[0-9]*/environ 2> /dev/null); do
     pid=${environment#/proc/}
@@ -22,21 +22,21 @@ processes() {
   done
 }
 
-# named NAME: those that run this program
+# named NAME: the processes of the job that run this program
 named() {
   for pid in $(processes); do
     [ "$(cat "/proc/$pid/comm" 2> /dev/null)" = "$(echo "$1" | cut -c1-15)" ] && echo "$pid"
   done
 }
 
-# process_of_rank RANK PROGRAM
+# process_of_rank RANK PROGRAM: the process of this rank
 process_of_rank() {
   for pid in $(named "$2"); do
     grep -qzxF -e "OMPI_COMM_WORLD_RANK=$1" -e "PMI_RANK=$1" "/proc/$pid/environ" 2> /dev/null && echo "$pid"
   done
 }
 
-# until_it_says TEXT
+# until_it_says TEXT: waits until job.out contains TEXT, at most 20 s
 until_it_says() {
   waited=0
   until grep -q "$1" job.out; do
@@ -46,7 +46,7 @@ until_it_says() {
   done
 }
 
-# has_ended_within SECONDS: $code is then its exit code
+# has_ended_within SECONDS: waits for the end of the job; sets $code to its exit code
 has_ended_within() {
   waited=0
   while kill -0 "$job" 2> /dev/null; do

@@ -1,4 +1,4 @@
-// Distributed meshes: whatever the distribution of the points, their stars are those of the serial lists.
+// Distributed meshes: for every distribution of the points, the stars are those of the serial lists.
 
 #include <algorithm>
 #include <array>
@@ -144,7 +144,7 @@ void check_part(const pstripack_mesh* mesh, const Nodes& nodes, const std::vecto
   ASSERT_TRUE(std::includes(all.begin(), all.end(), faces.begin(), faces.end()));
 }
 
-/// Collective, whatever fails on this rank.
+/// Collective, even if checks fail on this rank.
 void check(const pstripack_mesh* mesh, const Nodes& nodes, const std::vector<std::size_t>& mine,
            const Number& number, const Rings& rings) {
   check_part(mesh, nodes, mine, number, rings);
@@ -294,7 +294,7 @@ std::ostream& operator<<(std::ostream& out, const Failed& f) {
   return out << f.code << " about " << f.first << ", " << f.second;
 }
 
-/// Of every distribution the same failure; then the mesh is empty.
+/// Expects the same failure for every distribution, and an empty mesh after it.
 void expect_failure(const Nodes& nodes, const Number& number, const Failed& expected) {
   OfMesh mesh;
   for (const auto& d : distributions()) {

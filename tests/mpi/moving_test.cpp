@@ -1,5 +1,5 @@
-// Distributed meshes whose calls begin with the stars of the last one: when they do, and that nobody can tell
-// from the stars.
+// Distributed meshes whose calls begin with the stars of the last call: when this happens, and that the
+// resulting stars are the same.
 
 #include <algorithm>
 #include <cmath>
@@ -51,7 +51,7 @@ struct Part {
   }
 };
 
-/// The ranks of the nodes by longitude: stripes, which begin after such a part of a turn.
+/// The rank of each node: stripes of longitude, the first of which begins at this fraction of a turn.
 std::vector<int> stripes(const Nodes& nodes, double begin = 0) {
   std::vector<int> owner;
   for (const Point& p : nodes) {
@@ -70,7 +70,7 @@ Part part_of(const std::vector<int>& owner) {
 }
 Part part_of(const Nodes& nodes) { return part_of(stripes(nodes)); }
 
-/// The same in another order.
+/// The part in another order.
 Part shuffled(Part part, Random& random) {
   for (std::size_t i = part.numbers.size(); i > 1; --i)
     std::swap(part.numbers[i - 1],
@@ -102,10 +102,10 @@ std::int32_t triangulate(DistributedMesh& mesh, const Part& part, DistributedMes
   }
 }
 
-/// A mesh, beside one that begins anew.
+/// A mesh, compared with a new one at each call.
 class Beside {
  public:
-  /// Whether the call began with the stars of the last one.
+  /// Makes a call. True if it began with the stars of the last call.
   bool call(const Nodes& nodes, Part& part) {
     part.place(nodes);
     DistributedMesh::Report report;
@@ -290,8 +290,8 @@ TEST(Moving, PointsThatDriftAreSentHome) {
   EXPECT_GT(warm, 30);
 }
 
-/// Far moves are noticed by a look at a few stars; a mesh that does not fit after all is tried ever more
-/// seldom.
+/// Far moves are noticed in a sample of stars. A mesh that does not fit although its sample did is tried less
+/// and less often.
 TEST(Moving, CallsBeginAnewWhereTheStarsDoNotFit) {
   Random random(3);
   const Nodes nodes = point_sets::make("random", kN, 1);
@@ -327,8 +327,8 @@ TEST(Moving, CallsBeginAnewWhereTheStarsDoNotFit) {
   }
 }
 
-/// Wherever memory runs out on a rank in a call that would begin with the last stars, for a moment or for
-/// good: the same stars, or code -6 on every rank; and the next call is right.
+/// Any allocation, or all from one on, fail on a rank in a call that would begin with the last stars: all
+/// ranks get the same stars, or code -6, and the next call is correct.
 TEST(Moving, SurviveMemoryThatRunsOut) {
   const Nodes nodes = point_sets::make("random", 1000, 1);
   Random order(static_cast<std::uint64_t>(rank_of()));
@@ -368,7 +368,7 @@ TEST(Moving, SurviveMemoryThatRunsOut) {
 
 // ---- comm mode and the pool ---------------------------------------------------------------------------
 
-/// TRMESH by all ranks, in arrays of their own, in memory that they share, or in those of rank 0.
+/// TRMESH by all ranks: with arrays on every rank, in shared memory, or on rank 0.
 class Caller {
  public:
   explicit Caller(Arrays arrays) : arrays_(arrays), shared_(arrays == Arrays::shared) {}
@@ -486,7 +486,7 @@ void let_memory_run_out() {
   }
 }
 
-/// What one rank gave up is no more use to the others. What they keep is their own: another mesh lives on.
+/// If one rank gave up its stars, those of the other ranks are useless. Other meshes are not affected.
 TEST(Moving, StarsAreGivenUpWhereMemoryIsOut) {
   const Nodes nodes = point_sets::make("random", kN, 1);
   Caller caller(Arrays::on_every_rank);

@@ -1,6 +1,6 @@
 #pragma once
-// GoogleTest on every rank: all ranks run the same tests, in the same order. Ranks other than 0 print
-// failures only.
+// GoogleTest on every rank: all ranks run the same tests in the same order. Ranks other than 0 print only
+// failures.
 
 #include <gtest/gtest.h>
 #include <mpi.h>

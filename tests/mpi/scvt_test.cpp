@@ -1,4 +1,4 @@
-// Centroidal tessellations of generators that stay on their ranks: whatever their distribution, the bits of
+// Centroidal tessellations of generators that stay on their ranks: every distribution gives the bits of
 // pstripack_scvt; errors are the same on every rank and write nothing.
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 namespace {
 
-/// Which rank has a generator.
+/// A distribution: the rank of each generator.
 struct Distribution {
   const char* name;
   std::function<int(std::size_t generator, std::size_t generators)> rank;
@@ -202,7 +202,7 @@ TEST(DistributedScvt, ProgressOnRank0StopsAllRanks) {
 
 // ---- errors
 
-/// What rank 0 says.
+/// The text that rank 0 has.
 std::string of_rank_0(const char* text) {
   char copy[300] = "";
   std::strncpy(copy, text, sizeof copy - 1);
@@ -253,7 +253,7 @@ TEST(DistributedScvt, BadDensitiesAreToldOnEveryRank) {
     ASSERT_EQ(run(nullptr, &options), 0) << run.message;
     expect_same(run, Serial(start, nullptr, options));
   }
-  // Of a rank alone, which is bad where the others are good.
+  // A density that is bad on one rank only.
   const pstripack_density of_one_rank = rank_of() == size_of() - 1 ? throwing : bump;
   const pstripack_density anywhere{
       [](std::int32_t, const double*, double*, void*) { throw std::runtime_error("the last rank"); }, nullptr,

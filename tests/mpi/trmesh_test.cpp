@@ -77,7 +77,7 @@ Outcome by_all(MpiCommunicator& ranks, Arrays arrays, const Columns<Real>& c) {
   return o;
 }
 
-/// In memory that all ranks share: what every rank finds there.
+/// TRMESH in memory that all ranks share; returns what this rank finds there.
 template <class Real>
 Outcome by_all_in_shared_memory(MpiCommunicator& ranks, const Columns<Real>& c) {
   const std::size_t n = c.x.size();
@@ -142,8 +142,8 @@ TEST(CollectiveTrmesh, IsTrmeshOnEveryPointSet) {
 
 TEST(CollectiveTrmesh, IsTrmeshOnHardNodes) {
   MpiCommunicator ranks(MPI_COMM_WORLD);
-  // With this many ranks on two processors a call takes seconds: every sixth family here, all of them on
-  // fewer ranks.
+  // With many ranks on two processors a call takes seconds: use every sixth family, and all families on fewer
+  // ranks.
   const std::size_t step = ranks.size() > 16 ? 6 : 1;
   for (std::size_t k = 0; k < point_sets::hard_families().size(); k += step) {
     const std::string& family = point_sets::hard_families()[k];

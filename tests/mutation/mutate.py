@@ -3,14 +3,14 @@
 
   tests/mutation/mutate.py [--per-line K] [--file PART] BUILD
 
-Plants one bug at a time in a copy of the sources (operators, constants, conditions, arguments, dropped
-statements; of each line K mutants that are not equivalent, drawn the same way every time, 0: all), builds the tests
-that should notice and runs them, the quickest first. A mutant is caught where a test fails, crashes or takes 20 times
-its usual time. Equivalent are those that the compiler turns into the same code, and those that equivalent.txt
-explains: a line "file | text of the line | text of the mutant, or * | reason" each.
+Plants one bug at a time in a copy of the sources: operators, constants, conditions, arguments, dropped statements. Of
+each line it draws K mutants that are not equivalent, the same in every run (0: all). It builds the tests that should
+notice and runs them, the quickest first. A mutant is caught if a test fails, crashes or takes 20 times its usual time.
+A mutant is equivalent if the compiler makes the same code of it, or if equivalent.txt explains it in a line
+"file | text of the line | text of the mutant, or * | reason".
 
-Fails where a mutant survives. Lines of which all mutants are equivalent are listed. What was caught is kept in
-BUILD/caught and not tried again; remove that file to begin anew. Takes about an hour of one processor.
+Fails if a mutant survives. Lists lines of which all mutants are equivalent. Caught mutants are recorded in BUILD/caught
+and not tried again; remove that file to start over. Takes about an hour of one processor.
 """
 
 import argparse
@@ -58,7 +58,7 @@ REPLACEMENTS = [
 
 
 def variants_of_number(text, is_constant):
-    """Bounds are made too small and too large by much, other numbers by one."""
+    """Bounds become much too small or too large; other numbers change by one."""
     if text.startswith("0x1p"):
         exponent = int(text[4:])
         return [f"0x1p{exponent - 2}", f"0x1p{exponent + 2}", "0x0p0"]

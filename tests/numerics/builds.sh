@@ -1,7 +1,6 @@
 #!/bin/sh
-# Builds the libraries with other compilers and options and compares what all routines return with what REFERENCE
-# does, the program fingerprint_plain of a build that is trusted: the same bits, and in a strange floating-point
-# environment, too.
+# Builds the libraries with other compilers and options. All routines must return the bits of REFERENCE, the program
+# fingerprint_plain of a trusted build, also in an unusual floating-point environment.
 # Usage: tests/numerics/builds.sh REFERENCE [short]      short: one build, Clang with FMA
 # Takes some 20 minutes on two cores. Needs clang++ (clang, libclang-rt-dev, libomp-dev); leaves nothing behind.
 set -eu
@@ -48,7 +47,7 @@ fi
 for compiler in g++ clang++; do
   for level in -O0 -O1 -O2 -O3; do check "$compiler" $level; done
   for level in -O1 -O3; do check "$compiler" "$level $wide"; done
-  check "$compiler" "-O3 $wide -ffast-math"  # what a packager might add: our own options win
+  check "$compiler" "-O3 $wide -ffast-math"  # a packager might add this; our own options must override it
   check "$compiler" "-Ofast $wide" -DCMAKE_SHARED_LINKER_FLAGS=-Ofast
   check "$compiler" "-O2 $wide -funsafe-math-optimizations"
 done

@@ -1,5 +1,5 @@
-// Every routine of a library in every floating-point environment: the same bits, no signal, and the
-// environment as it was; and nothing outside its arrays is touched.
+// In every floating-point environment every routine of a library gives the same bits, raises no signal,
+// leaves the environment as it was, and accesses nothing outside its arrays.
 
 #include "support/environment.h"
 
@@ -28,7 +28,7 @@ constexpr Strange environments[] = {{"Upward", [] { fesetround(FE_UPWARD); }},
                                     {"AllTraps", trap_all},
                                     {"AllAtOnce", enter_strange_environment}};
 
-/// On a thread of its own: what the library keeps for a thread, OpenMP's team above all, begins with it.
+/// Runs on a new thread, since the library keeps state per thread, above all OpenMP's team.
 std::uint64_t fingerprint(const NamedNodes& set, Edge edge, const CallRoutine& call_routine) {
   std::uint64_t result = 0;
   std::thread([&] { result = fingerprint_of_every_routine(set.nodes, edge, call_routine); }).join();
@@ -51,7 +51,7 @@ TEST_P(InEnvironment, EveryRoutineGivesTheSameBitsAndLeavesItAsItWas) {
       fesetenv(&usual);
       EXPECT_TRUE(after == before) << routine << " of " << set.name << " changes the environment";
     };
-    // The strange one first: the threads that it starts inherit its environment.
+    // The unusual environment first: threads inherit the environment in which they start.
     const std::uint64_t inside = fingerprint(set, Edge::end, call_inside);
     EXPECT_EQ(inside, fingerprint(set, Edge::end, just_call)) << set.name;
   }

@@ -20,7 +20,7 @@ using point_sets::make;
 using point_sets::Random;
 using pstripack::Point;
 
-constexpr Int mark = -7777;  // what is not written
+constexpr Int mark = -7777;  // fills entries before a call
 
 /// A hash of the bits of values; all NaNs are one.
 class Hash {
@@ -408,7 +408,7 @@ class EveryRoutine {
     hash_.add(t.lnew);
   }
 
-  /// Each on a copy of the triangulation of all nodes.
+  /// Each routine gets a copy of the triangulation of all nodes.
   void changes() {
     for (Int i = 0; i < (n_ <= 300 ? 6 : 1); ++i) {
       const Int a = node(5 * i), b = mesh_.first_neighbour(a);
@@ -451,7 +451,7 @@ class EveryRoutine {
       }
   }
 
-  /// SWAP puts the other diagonal in the place of arc a-b; OPTIM judges that.
+  /// SWAP replaces arc a-b by the other diagonal; OPTIM then tests that diagonal.
   void swap_and_back(Int a, Int b) {
     Edited t(mesh_, n_, side_);
     // The corners left and right of a->b are the neighbours of a behind and before b, its first one.
@@ -493,8 +493,7 @@ class EveryRoutine {
     add(t);
   }
 
-  /// The last node, added to the triangulation of the others: at once, and by the steps of which that is
-  /// made.
+  /// Adds the last node to the triangulation of the others: by ADDNOD, and by the steps of ADDNOD.
   void additions() {
     Edited whole(front_, n_, side_);
     const Int anywhere = 0;

@@ -15,15 +15,14 @@ struct NamedNodes {
   std::vector<pstripack::Point> nodes;
 };
 
-/// Sets that reach every stage of the predicates, both kinds of meshes, all ways to add a node, threads, and
-/// those that TRMESH refuses.
+/// Sets that reach every stage of the predicates, both kinds of meshes, all ways to add a node, and threads;
+/// also sets that TRMESH refuses.
 std::vector<NamedNodes> spread_of_nodes();
 
 /// Calls a routine, given by its name and a function without arguments.
 using CallRoutine = std::function<void(const char* routine, const std::function<void()>& call)>;
 
-/// Calls every routine by `call_routine`, with arrays of exactly the documented sizes beside pages that
-/// cannot be touched, those it only reads on pages that cannot be written. Returns a hash of all that they
-/// return, write and print.
+/// Calls every routine by `call_routine`. Arrays have exactly the documented sizes and lie beside
+/// inaccessible pages; input arrays are read-only. Returns a hash of all results, arrays and printed texts.
 std::uint64_t fingerprint_of_every_routine(const std::vector<pstripack::Point>& nodes, Edge edge,
                                            const CallRoutine& call_routine);

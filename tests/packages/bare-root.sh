@@ -1,11 +1,11 @@
 #!/bin/sh
-# From a bare Debian 12 to running programs, by the packages: a new root folder of nothing but debootstrap's minimum, in
-# which the packages are installed by apt and the examples are built by their own commands. Measures the two commands
-# from the bare root to the first of them. Needs root, debootstrap, network, and some minutes.
+# From a bare Debian 12 to running programs: makes a new root folder by debootstrap, installs the packages in it by apt
+# and builds the examples by their own commands. Measures the time until the first example has run. Needs root rights,
+# debootstrap, network, and some minutes.
 # Usage: tests/packages/bare-root.sh PACKAGES_DIR|--build [ROOT_DIR]
 #        cmake --workflow --preset packages && tests/packages/bare-root.sh build-packages/packages
-#        --build: instead, the first block of docs/relink.md, which builds the packages there, in a copy of what is committed
-#        ROOT_DIR: a bare root that is there already; it is copied
+#        --build: runs the first block of docs/relink.md instead, which builds the packages from a copy of HEAD
+#        ROOT_DIR: an existing bare root, which is copied
 set -eu
 if [ "${1:-}" != --in-namespace ]; then  # mounts end with this script
   exec unshare --mount --propagation private sh "$0" --in-namespace "$@"
@@ -34,7 +34,7 @@ else
   cp -r "$source/examples" "$root/work"
 fi
 
-# inside COMMAND: as a user of the new system would type it
+# inside COMMAND: runs the command in the new system
 inside() {
   echo
   echo "\$ $1"
@@ -44,7 +44,7 @@ inside() {
 }" > "$root/output" 2>&1 || { cat "$root/output"; exit 1; }
   tail -n 3 "$root/output"
 }
-# output_has TEXT: a line of the last command
+# output_has TEXT: fails unless the last command printed this line
 output_has() { grep -qxF -e "$1" "$root/output" || { echo "expected: $1" >&2; exit 1; }; }
 answer='1000 nodes, 1996 triangles, area 12.566371'
 example() {

@@ -1,6 +1,6 @@
 #!/bin/sh
-# The Debian packages that cpack makes of a build: lintian has no errors and no warnings; each has what its name says,
-# depends on what it needs and not on MPI without need; together they have every installed file, once.
+# The Debian packages that cpack makes of a build: lintian must report no errors and no warnings, each package must have
+# its files and dependencies, MPI only if needed, and together they must have every installed file exactly once.
 # Usage: packages.sh BUILD_DIR WORK_DIR VERSION PREFIX CONSUMER_DIR    PREFIX: what `cmake --install` installs
 set -eu
 build=$1 work=$2 version=$3 prefix=$4 consumer=$5
@@ -10,13 +10,13 @@ fail() { echo "$*" >&2; exit 1; }
 
 cp "$build"/install_manifest*.txt "$work" 2>/dev/null || true
 (cd "$build" && cpack -G DEB -B "$work/packages") > "$work/cpack.log" || { cat "$work/cpack.log"; exit 1; }
-for manifest in "$build"/install_manifest_*.txt; do  # the target `uninstall` would take it for an installation
+for manifest in "$build"/install_manifest_*.txt; do  # the target `uninstall` would remove the files in it
   [ ! -e "$manifest" ] || [ -e "$work/${manifest##*/}" ] || fail "cpack has left $manifest"
 done
 cd "$work/packages"
 rm -rf _CPack_Packages
 
-# A build that is not for /usr has no multiarch folders, which the MPI part's paths offend, nor Debian's for Python.
+# A build that is not for /usr has neither multiarch folders nor Debian's folder for Python: suppress these tags.
 multiarch=$(dpkg-architecture -q DEB_HOST_MULTIARCH)
 suppressed=running-as-root
 dpkg-deb -c libpstripack-dev_*.deb | grep -q "/usr/lib/$multiarch/pkgconfig/" ||
@@ -72,7 +72,7 @@ fish=share/fish/vendor_completions.d zsh='share/zsh/(vendor-completions|site-fun
 has libpstripack-dev . mpi "$completions/pstripack-config" "$fish/pstripack-config.fish" "$zsh/_pstripack-config"
 has pstripack librsvg2-bin mpi "$completions/pstripack" "$completions/stripack-compare" "$fish/pstripack.fish" "$zsh/_pstripack"
 
-# Every file of `cmake --install` but the modulefile, once.
+# Every file of `cmake --install` except the modulefile, exactly once.
 for file in ./*.deb; do
   dpkg-deb -x "$file" "$work/all"
   dpkg-deb -c "$file" | awk '$1 !~ /^d/ { print $6 }'

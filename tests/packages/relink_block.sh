@@ -1,7 +1,7 @@
 #!/bin/sh
-# The first block of docs/relink.md, word for word, in a folder that has what a checkout has. Instead of building, cmake
-# hands out packages that are there, and apt-get unpacks them into a folder; what it is to install from Debian must be all
-# that CMake looks for. bare-root.sh --build runs the block as it is.
+# Runs the first block of docs/relink.md word for word, in a folder like a checkout. Stand-ins replace two commands: cmake
+# copies existing packages, and apt-get unpacks them into a folder. The block must install all Debian packages that CMake
+# looks for. bare-root.sh --build runs the block without stand-ins.
 # Usage: relink_block.sh SOURCE_DIR PACKAGES_DIR WORK_DIR
 set -eu
 source=$1 packages=$2 work=$3

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The recipe for Spack, run with what stands in for Spack: it is correct Python, its version is the project's, conditions
-name its variants, and what it hands to CMake are options of the project, and it depends on what CMake looks for.
+"""Runs the recipe for Spack with a stand-in for Spack. It must be correct Python, have the project's version, name existing
+variants in conditions, pass existing options to CMake, and depend on all that CMake looks for.
 
   spack_recipe.py ROOT
 """

@@ -1,6 +1,6 @@
 #pragma once
-// Number of random cases of a test: PSTRIPACK_CASES multiplies the default, up for a long run by hand, down
-// where the tests are run for every mutant of a source file (tests/mutation).
+// Number of random cases of a test. PSTRIPACK_CASES multiplies the default: more for a long run by hand,
+// fewer if the tests run for every mutant (tests/mutation).
 
 #include <cmath>
 #include <cstdlib>

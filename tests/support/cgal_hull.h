@@ -5,7 +5,7 @@
 
 struct Hull {
   Faces faces;             ///< those with a positive determinant, sorted
-  std::size_t hidden = 0;  ///< nodes that are no vertex of the hull
+  std::size_t hidden = 0;  ///< number of nodes that are not vertices of the hull
 };
 
 Hull cgal_hull(const Nodes& nodes);

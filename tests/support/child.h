@@ -6,7 +6,7 @@
 
 #include <cstdlib>
 
-/// Ends a child process. Where branches are counted (tests/coverage) their counts are written at exit.
+/// Ends a child process. If branches are counted (tests/coverage), writes the counts.
 [[noreturn]] inline void end_child(int code) {
 #ifdef PSTRIPACK_COVERAGE
   std::exit(code);

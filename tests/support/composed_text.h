@@ -1,11 +1,11 @@
 #pragma once
-// What the C functions of the routines that print compose.
+// The texts composed by the C functions of the printing routines.
 
 #include <string>
 
 #include "support/text_calls.h"
 
-/// The text behind a handle, which is freed.
+/// The text of a handle; frees the handle.
 inline std::string text_of(void* handle) {
   std::string text;
   char record[400];

@@ -20,7 +20,7 @@ inline bool operator==(const Environment& a, const Environment& b) {
   return a.rounding == b.rounding && a.flags == b.flags && a.traps == b.traps;
 }
 
-/// Flush to zero, denormals are zero; nothing where there is no SSE.
+/// Sets flush-to-zero and denormals-are-zero; nothing without SSE.
 inline void flush_denormals(bool results, bool operands) {
 #if defined(__SSE2__)
   _mm_setcsr(_mm_getcsr() | (results ? 0x8000u : 0u) | (operands ? 0x0040u : 0u));

@@ -1,5 +1,5 @@
 #pragma once
-// Checks that nearly every test of the C API makes.
+// Checks for tests of the C API.
 
 #include <gtest/gtest.h>
 
@@ -16,8 +16,8 @@ inline bool is_untouched(const Mesh& m) {
   return all(m.list) && all(m.lptr) && all(m.lend) && m.lnew == untouched;
 }
 
-/// What tests/catalogue/rows.toml calls V: IER = 0, canonical lists, nothing written behind them, accepted by
-/// the library's validator and by the tests' own judge.
+/// V of tests/catalogue/rows.toml: IER = 0, canonical lists, nothing written behind them, accepted by the
+/// library's validator and by the tests' own judge.
 inline ::testing::AssertionResult is_correct(const Nodes& nodes, const Mesh& m) {
   if (m.ier != 0) return ::testing::AssertionFailure() << "IER = " << m.ier;
   const auto rings = rings_of(m);
@@ -30,7 +30,6 @@ inline ::testing::AssertionResult is_correct(const Nodes& nodes, const Mesh& m) 
   return ::testing::AssertionSuccess();
 }
 
-/// Number of boundary nodes.
 inline std::size_t boundary_nodes(const Mesh& m) {
   std::size_t count = 0;
   for (const std::int32_t last : m.lend) count += m.list[last - 1] < 0;

@@ -21,7 +21,7 @@ bool fails_now() {
   return --left == 0 && !failed.exchange(true);
 }
 
-/// The blocks that are in use. Its memory is its own.
+/// The blocks in use. Its own memory does not come from the wrapped functions.
 class Blocks {
  public:
   void add(void* block) {

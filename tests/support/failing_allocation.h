@@ -4,8 +4,8 @@
 
 #include <cstddef>
 
-/// While it lives, allocation number `which` (from 1) fails, on any thread, and all later ones if `for_good`;
-/// 0: none fails.
+/// During its lifetime allocation number `which` (from 1) fails, on any thread; if `for_good`, all later ones
+/// fail as well. 0: none fails.
 class FailingAllocation {
  public:
   explicit FailingAllocation(long which, bool for_good = false);
@@ -14,7 +14,7 @@ class FailingAllocation {
   FailingAllocation& operator=(const FailingAllocation&) = delete;
   /// True if it failed.
   static bool happened();
-  /// Number of heap blocks that were allocated while one of these lived, the last or an earlier one, and are
-  /// not freed.
+  /// Number of heap blocks that were allocated during the lifetime of any such object and have not been
+  /// freed.
   static std::size_t blocks();
 };

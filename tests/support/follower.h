@@ -1,5 +1,5 @@
 #pragma once
-// A mesh whose nodes move, beside the triangulation made anew.
+// A mesh whose nodes move, and new triangulations to compare with.
 
 #include <algorithm>
 #include <cstdint>
@@ -10,8 +10,8 @@
 #include "mesh/delaunay.h"
 #include "mesh/flips.h"
 
-/// The canonical lists, if the nodes are such as a moving mesh may have: they surround the centre,
-/// coordinates decide, no two coincide.
+/// The canonical lists of a new triangulation. Empty unless a moving mesh may have these nodes: they surround
+/// the centre, the predicates are those on coordinates, and no two coincide.
 inline std::optional<Lists> made_anew(const Nodes& nodes) {
   const bool ones = std::all_of(nodes.begin(), nodes.end(), pstripack::length_is_one);
   using namespace pstripack;
@@ -28,13 +28,14 @@ inline std::optional<Lists> made_anew(const Nodes& nodes) {
   return canonical_lists(*rings_of(nodes.size(), faces));
 }
 
-/// A mesh and its lists, brought along from what has changed.
+/// A mesh, and its lists, which are updated from the changes.
 class Follower {
  public:
   Follower(const Nodes& nodes, const Lists& lists)
       : mesh_(nodes.data(), nodes.size(), lists.list.data(), lists.lend.data()), rings_(*rings_of(lists)) {}
 
-  /// The lists of these nodes, if the mesh can follow. As its users must, it refuses other lengths.
+  /// The lists of these nodes if the mesh can follow. Refuses lengths other than 1, as users of the mesh
+  /// must.
   std::optional<Lists> follow(const Nodes& nodes) {
     if (!std::all_of(nodes.begin(), nodes.end(), pstripack::length_is_one)) return {};
     for (std::size_t k = 0; k < nodes.size(); ++k) mesh_.node(k) = nodes[k];

@@ -18,7 +18,6 @@ void close_unit(int unit);
 void flush_standard_output();
 }
 
-/// A file that is gone with this object.
 class TemporaryFile {
  public:
   TemporaryFile() : file_(mkstemp(path_)) {

@@ -8,7 +8,7 @@
 #include <new>
 #include <vector>
 
-/// `count` entries, in front of a page without access (Edge::end) or behind one (Edge::begin).
+/// `count` entries directly before (Edge::end) or after (Edge::begin) an inaccessible page.
 enum class Edge { begin, end };
 
 template <class T>

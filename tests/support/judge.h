@@ -14,8 +14,7 @@ std::string fault(const Nodes& nodes, const Rings& rings, exact::On on);
 /// The same on coordinates if all lengths are within 1e-6 of 1; otherwise, or if that fails, on directions.
 std::string fault(const Nodes& nodes, const Rings& rings);
 
-/// All triples with a positive determinant and no other node above: O(n^4), by definition, without an
-/// algorithm.
+/// All triples with a positive determinant and no other node above, by trying all: O(n^4).
 Faces brute_force(const Nodes& nodes, exact::On on);
 
 /// The code that trmesh must return: -1, -2, L > 0 for coinciding directions, 0.

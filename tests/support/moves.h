@@ -9,7 +9,7 @@
 #include "point_sets.h"
 #include "voronoi_cell.h"
 
-/// `steps` sets, each of which `move(nodes, step)` makes of the one before.
+/// `steps` sets; `move(nodes, step)` makes each from the previous one.
 inline std::vector<Nodes> sets_of(Nodes nodes, int steps, const std::function<void(Nodes&, int)>& move) {
   std::vector<Nodes> sets;
   for (int step = 0; step < steps; ++step) {
@@ -22,7 +22,7 @@ inline std::vector<Nodes> sets_of(Nodes nodes, int steps, const std::function<vo
 /// The mean distance of neighbours among n nodes.
 inline double spacing(std::size_t n) { return std::sqrt(4 * 3.14159265358979 / static_cast<double>(n)); }
 
-/// Every node by up to `distance` in any direction.
+/// Moves every node by up to `distance` in a random direction.
 inline void move_all(Nodes& nodes, double distance, point_sets::Random& random) {
   for (auto& p : nodes) {
     const auto d = random.direction();
@@ -31,7 +31,6 @@ inline void move_all(Nodes& nodes, double distance, point_sets::Random& random) 
   }
 }
 
-/// All nodes around an axis.
 inline void rotate(Nodes& nodes, const pstripack::Point& axis, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   for (auto& p : nodes) {

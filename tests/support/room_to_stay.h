@@ -6,7 +6,7 @@
 
 namespace pstripack {
 
-/// How many bytes more may stay with the process.
+/// The number of bytes that the process may still keep between calls.
 inline std::size_t room_to_stay() {
   std::size_t bytes = 0;
   for (std::size_t step = std::size_t{1} << 50; step > 0; step /= 2)

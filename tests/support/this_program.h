@@ -16,6 +16,7 @@
 
 #include "point_sets.h"
 #include "support/expect.h"
+#include "support/sanitizer.h"
 #include "support/trmesh.h"
 
 /// A temporary folder, removed at the end.
@@ -74,19 +75,11 @@ inline bool codes_are_right() {
   return trmesh(other).ier == 31;
 }
 
-#if defined(__has_feature)
-#if __has_feature(thread_sanitizer)
-#define ERRNO_IS_THE_SANITIZERS
-#endif
-#endif
-
-/// Ends the program with code 1 unless the mesh is right and errno as before.
+/// Ends the program with code 1 unless the mesh is right and errno as before. ThreadSanitizer changes errno.
 inline void call_trmesh(const Nodes& nodes) {
   errno = ENOTTY;
   const Mesh m = trmesh(nodes);
-#ifndef ERRNO_IS_THE_SANITIZERS
-  if (errno != ENOTTY) std::_Exit(1);
-#endif
+  if (!kThreadSanitizer && errno != ENOTTY) std::_Exit(1);
   if (!is_correct(nodes, m)) std::_Exit(1);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Ranks that are threads of one process, for testing code for ranks without MPI.
+// Ranks that are threads of one process, to test code for ranks without MPI.
 
 #include <algorithm>
 #include <condition_variable>

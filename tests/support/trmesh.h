@@ -9,7 +9,7 @@
 #include "guarded.h"
 #include "lists.h"
 
-constexpr std::int32_t untouched = -987654321;  // what the arrays hold before the call
+constexpr std::int32_t untouched = -987654321;  // value of all entries before the call
 
 struct Mesh : Lists {
   std::int32_t ier = 0;
@@ -29,8 +29,8 @@ inline Mesh trmesh(const Nodes& nodes) {
   return m;
 }
 
-/// The same through the call for 64-bit integers, in arrays of guarded pages; numbers beyond 32 bits, which
-/// no correct call leaves, as 0.
+/// The same by the function for 64-bit integers, with guarded arrays. Numbers beyond 32 bits, which no
+/// correct call returns, become 0.
 inline Mesh trmesh_i8(const Nodes& nodes, Edge edge = Edge::end) {
   const Columns c(nodes);
   const std::size_t n = nodes.size(), slots = n < 3 ? 1 : 6 * n - 12;

@@ -30,7 +30,7 @@ struct HashOfBits {
   }
 };
 
-/// Faces made of rings; equal corners become one.
+/// Collects rings as faces. Corners with the same coordinates are stored once.
 class Pieces {
  public:
   explicit Pieces(const Faces& cells) : cells_(cells) { faces_.begin.push_back(0); }
@@ -67,7 +67,8 @@ struct Side {
   MapCorner from, to;
 };
 
-/// The part of a convex polygon left of the great circle of a side; true if that is not all of it.
+/// Cuts a convex polygon at the great circle of a side and keeps what lies left of it. True if anything was
+/// cut off.
 bool cut(MapRing& ring, const Side& side) {
   const Point &a = side.from.p, &b = side.to.p;
   std::vector<int> at(ring.size());
@@ -82,14 +83,14 @@ bool cut(MapRing& ring, const Side& side) {
     const std::size_t next = (i + 1) % ring.size();
     if (at[i] >= 0) kept.push_back(ring[i]);
     if (at[i] * at[next] >= 0) continue;
-    // The same bits from both sides of the arc.
+    // Start at the smaller end, so that the cells on both sides of the arc compute the same bits.
     const bool swap = std::tie(ring[next].p.x, ring[next].p.y, ring[next].p.z) <
                       std::tie(ring[i].p.x, ring[i].p.y, ring[i].p.z);
     const Point &p = ring[swap ? next : i].p, &q = ring[swap ? i : next].p;
     const double at_p = volume(a, b, p), at_q = volume(a, b, q);
     const double t = at_p == at_q ? 0.5 : std::clamp(at_p / (at_p - at_q), 0.0, 1.0);
     const Point x = unit({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y), p.z + t * (q.z - p.z)});
-    // Two sides of the hull meet in a node.
+    // Where two sides of the hull meet, take the node itself instead of a rounded intersection.
     const auto is_at = [&](const MapCorner& node) { return angle_between(x, node.p) < 1e-14; };
     if (is_at(side.from) || is_at(side.to)) {
       kept.push_back(is_at(side.from) ? side.from : side.to);
@@ -106,7 +107,7 @@ bool cut(MapRing& ring, const Side& side) {
 
 void divide_half_turns(Faces& cells, const Mesh& mesh) {
   const pstripack::ListReader<std::int32_t> reader(mesh.lists());
-  const auto corner = [&](std::size_t f, std::size_t k) {  // cyclic
+  const auto corner = [&](std::size_t f, std::size_t k) {
     return cells.corner[cells.begin[f] + k % cells.corners(f)];
   };
   const auto has_side = [&](std::size_t f, std::int32_t from, std::int32_t to) {
@@ -124,9 +125,9 @@ void divide_half_turns(Faces& cells, const Mesh& mesh) {
       const Point &a = cells.points[static_cast<std::size_t>(from) - 1],
                   &b = cells.points[static_cast<std::size_t>(to) - 1], &node = cells.centres[f];
       if (dot(a, b) >= -1 + 1e-12) continue;
-      // The middle is a right angle from both ends and as far from the node as from the neighbour beyond the
-      // side, and has the node on its left. The cells of three nodes have all sides in common: there no other
-      // neighbour is as close.
+      // The midpoint of the side is at a right angle from both ends, is as far from the node as from the
+      // neighbour across the side, and has the node on its left. Among three nodes all cells share all sides,
+      // so the neighbour is chosen for which no other neighbour is closer.
       const auto last = reader.last_slot(static_cast<std::int32_t>(f + 1));
       const auto for_each_neighbour = [&](const auto& visit) {
         std::int32_t slot = last;
@@ -170,7 +171,7 @@ Faces clipped_to_hull(const Faces& cells, const Mesh& mesh) {
   for (std::size_t k = 0; k < boundary.size(); ++k)
     sides.push_back({corner_of(boundary[k]), corner_of(boundary[(k + 1) % boundary.size()])});
 
-  // Cells that are cut are neighbours of each other, from the boundary on.
+  // The cut cells are connected: search them from the boundary nodes by their neighbours.
   const pstripack::ListReader<std::int32_t> reader(mesh.lists());
   std::vector<MapRing> rings(cells.size());
   std::vector<bool> is_done(cells.size());
@@ -207,8 +208,9 @@ Faces clipped_to_region(const Faces& cells, const Region& region) {
     MapRing ring = unrolled(polygon, region.west);
     const bool around_pole = std::any_of(ring.begin(), ring.end(), [](const MapCorner& c) { return c.seam; });
     const bool hole = around_pole && (ring.back().lat > 0 ? region.north < 90 : region.south > -90);
-    // All around the globe there is no western and no eastern edge. But a cell around a pole that the region
-    // leaves out has a hole there: it is halved. Others begin at a corner, so that they get no new one.
+    // A region of 360 degrees has no western or eastern edge. If it leaves out a pole, the cell around that
+    // pole has a hole and is cut into two halves. Other cells around a pole are opened at one of their
+    // corners, which adds no corner.
     if (width == 360 && around_pole && !hole) ring = unrolled(polygon, polygon[0].lon);
     std::vector<MapRing> parts;
     if (width < 360)

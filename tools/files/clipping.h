@@ -5,20 +5,21 @@
 
 namespace files {
 
-/// Degrees; west < east <= west + 360, south < north.
+/// Bounds in degrees; west < east <= west + 360, south < north.
 struct Region {
   double west = -180, east = 180, south = -90, north = 90;
 };
 
-/// A cell of nodes on one circle is a lune: two sides, each a half turn, whose ends do not tell where they
-/// are. They get corners in their middles.
+/// Inserts the midpoint of each side that is a half turn. The ends of such a side do not determine its great
+/// circle. They occur where nodes lie on one circle: their cells are lunes with two sides.
 void divide_half_turns(Faces& cells, const Mesh& mesh);
 
-/// What lies in the convex hull of the nodes, which is the sphere unless a hemisphere holds them all.
+/// The parts of the cells in the convex hull of the nodes. Without boundary nodes the hull is the whole
+/// sphere.
 Faces clipped_to_hull(const Faces& cells, const Mesh& mesh);
 
-/// What lies in the region: no piece, one or several of each cell. Parallels become arcs of great circles
-/// within 0.0001 degrees. Throws NoMesh if a side is a half turn.
+/// The parts of the cells in the region: none, one or several pieces of each cell. Parallels are approximated
+/// by arcs of great circles within 0.0001 degrees. Throws NoMesh if a side is a half turn.
 Faces clipped_to_region(const Faces& cells, const Region& region);
 
 }  // namespace files

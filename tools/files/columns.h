@@ -1,5 +1,5 @@
 #pragma once
-// Values that travel with nodes from the file that has them to the files that are written.
+// Values of nodes or faces that are carried from the input file to the output file.
 
 #include <cstddef>
 #include <string>
@@ -13,8 +13,8 @@ namespace files {
 struct Column {
   std::string name, long_name = "", units = "";
   std::vector<double> numbers = {};     ///< NaN: missing
-  std::vector<std::string> texts = {};  ///< instead of numbers; empty: missing
-  bool whole = false;                   ///< all numbers are integers of 32 bits, none is missing
+  std::vector<std::string> texts = {};  ///< used instead of numbers; empty: missing
+  bool whole = false;                   ///< every number is a 32-bit integer and none is missing
 
   bool is_text() const { return !texts.empty(); }
   std::size_t size() const { return is_text() ? texts.size() : numbers.size(); }
@@ -23,16 +23,16 @@ using Columns = std::vector<Column>;
 
 const Column* find(const Columns& columns, const std::string& name);
 
-/// Puts `_given` behind names, of these columns, that others before them or the words in `taken` have.
+/// Appends `_given` to names of these columns that repeat an earlier name or a word in `taken`.
 void make_names_differ(Columns& columns, std::vector<std::string> taken);
 
-/// A column of whole numbers.
+/// A column of integers.
 Column whole_numbers(std::string name, std::string long_name, std::vector<double> numbers);
 
-/// Longitudes and latitudes, in one unit.
+/// Longitudes and latitudes, all in degrees or all in radians.
 struct LonLat {
   LonLat() = default;
-  /// Of vectors: -180 to 180 and -90 to 90 degrees, or in radians.
+  /// The angles of vectors: longitudes -180 to 180 and latitudes -90 to 90 degrees, or the same in radians.
   LonLat(const std::vector<pstripack::Point>& points, bool in_degrees);
 
   std::vector<double> lon, lat;
@@ -41,7 +41,7 @@ struct LonLat {
   bool empty() const { return lon.empty(); }
 };
 
-/// The angles as they were given, in another unit if they must be, or those of the vectors where none are.
+/// The given angles, converted to the requested unit; the angles of the vectors if none were given.
 LonLat angles_of(const std::vector<pstripack::Point>& points, const LonLat& given, bool degrees);
 
 /// The values with these indices.

@@ -31,14 +31,14 @@ std::string text_of(const json& object, const char* key) {
   return found != object.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
-/// Collects the points of features, one after the other.
+/// Collects points and properties from one feature after another.
 class Features {
  public:
   explicit Features(Nodes& nodes) : nodes_(nodes) {}
 
   std::size_t count() const { return count_; }
 
-  /// Throws, also on geometries that are no points.
+  /// Throws if the feature has no geometry, or one other than Point or MultiPoint.
   void add(const json& feature) {
     ++count_;
     const auto geometry = feature.find("geometry"), properties = feature.find("properties");
@@ -47,7 +47,7 @@ class Features {
     const std::string type = text_of(*geometry, "type");
     if (type != "Point" && type != "MultiPoint")
       fail(
-          fmt::format("'{}' is no Point or MultiPoint: nodes are points{}", type,
+          fmt::format("'{}' is not a Point or MultiPoint: nodes are points{}", type,
                       type.find("Polygon") != type.npos ? "; meshes are read from UGRID, MPAS and OFF" : ""));
     const auto coordinates = geometry->find("coordinates");
     if (coordinates == geometry->end() || !coordinates->is_array()) fail("its geometry has no coordinates");
@@ -106,7 +106,7 @@ class Features {
   std::size_t count_ = 0;
 };
 
-/// Features are read as they come, and not kept. Returns what is around them.
+/// Parses the file, handing each feature to `features` without keeping it. Returns the JSON without features.
 json parse(const std::string& text, const std::string& file, Features& features) {
   bool in_features = false;
   const auto see = [&](int depth, json::parse_event_t event, json& value) {
@@ -121,7 +121,8 @@ json parse(const std::string& text, const std::string& file, Features& features)
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(e.byte, text.size()));
     const std::string what = e.what();
     const std::size_t column = what.find(", column ");
-    throw std::runtime_error(fmt::format("{}:{}: no JSON: {}", file, 1 + std::count(text.begin(), end, '\n'),
+    throw std::runtime_error(fmt::format("{}:{}: not valid JSON: {}", file,
+                                         1 + std::count(text.begin(), end, '\n'),
                                          what.substr(column == what.npos ? 0 : what.find(": ", column) + 2)));
   } catch (const json::out_of_range&) {
     throw std::runtime_error(
@@ -129,8 +130,8 @@ json parse(const std::string& text, const std::string& file, Features& features)
   }
 }
 
-/// Throws unless coordinates are longitudes and latitudes of WGS 84: files from before RFC 7946 can have
-/// others.
+/// Throws if a member "crs", which RFC 7946 removed, names another system than longitudes and latitudes of
+/// WGS 84.
 void check_reference_system(const json& root, const std::string& file) {
   const auto crs = root.find("crs");
   if (crs == root.end() || !crs->is_object() || !crs->contains("properties")) return;
@@ -155,7 +156,8 @@ void remove(Columns& columns, const std::string& name) {
       columns.end());
 }
 
-/// Coordinates are from -180 to 180. Properties lon and lat of the same places are what had been given.
+/// RFC 7946 wants longitudes from -180 to 180. If the properties lon and lat give the same places, they are
+/// the angles before conversion: use them.
 void take_given_angles(Nodes& nodes, Columns& columns) {
   const auto* const lon = numbers_of_all(columns, "lon");
   const auto* const lat = numbers_of_all(columns, "lat");
@@ -169,7 +171,7 @@ void take_given_angles(Nodes& nodes, Columns& columns) {
   }
 }
 
-/// The other columns that --columns names: behind the place.
+/// The columns that --columns names after those of the place.
 std::vector<std::string> chosen(const ReadOptions& options, const Columns& columns, const std::string& file) {
   std::vector<std::string> words;
   for (std::size_t begin = 0; begin <= options.columns.size();) {
@@ -180,8 +182,9 @@ std::vector<std::string> chosen(const ReadOptions& options, const Columns& colum
   const std::string axes = options.coordinates == Coordinates::xyz ? "xyz" : "oa";
   for (std::size_t k = 0; k < axes.size(); ++k)
     if (k >= words.size() || axis_of(words[k]) != axes[k])
-      throw std::runtime_error(fmt::format("{}: the place is that of the geometry: say --columns {},NAME",
-                                           file, axes == "oa" ? "lon,lat" : "x,y,z"));
+      throw std::runtime_error(
+          fmt::format("{}: the coordinates are those of the geometry: give --columns {},NAME", file,
+                      axes == "oa" ? "lon,lat" : "x,y,z"));
   words.erase(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(axes.size()));
   for (const std::string& word : words)
     if (find(columns, word) == nullptr)
@@ -191,7 +194,7 @@ std::vector<std::string> chosen(const ReadOptions& options, const Columns& colum
   return words;
 }
 
-/// The value, by name or as the only property that is a number; taken out of the columns.
+/// Takes the value out of the columns: the property `name`, or the only numeric property if `name` is empty.
 Column value_of(Columns& columns, std::string name, const std::string& file) {
   Columns numbers;
   for (const Column& c : columns)
@@ -233,7 +236,7 @@ Nodes read_geojson(const std::string& file, const ReadOptions& options, const st
     features.add({{"type", "Feature"}, {"geometry", root}});
   } else {
     throw std::runtime_error(
-        fmt::format("{}: no GeoJSON of points: the type is '{}', expected FeatureCollection, Feature, Point "
+        fmt::format("{}: not GeoJSON of points: the type is '{}', expected FeatureCollection, Feature, Point "
                     "or MultiPoint",
                     file, type));
   }

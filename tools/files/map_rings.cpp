@@ -15,12 +15,14 @@ namespace files {
 namespace {
 
 constexpr Point kNorthPole{0, 0, 1};
-/// How far straight lines may be from arcs, and arcs from parallels, in radians: 0.001 and 0.0001 degrees.
+/// Largest distance of straight lines from arcs, and of arcs from parallels: 0.001 and 0.0001 degrees, in
+/// radians.
 constexpr double kStraight = 0.001 / kRadian, kBent = 0.0001 / kRadian;
-/// Longer arcs are always halved: one that crosses the equator is bent like an S. Cosine of 5 degrees.
+/// Arcs longer than 5 degrees are always halved: across the equator an arc is S-shaped and its middle can lie
+/// on the straight line. Cosine of 5 degrees.
 constexpr double kLong = 0.99619469809174555;
 constexpr int kDeepest = 16;
-/// Pieces of this width are rounding, degrees.
+/// Pieces narrower than this, in degrees, result from rounding and are dropped.
 constexpr double kThin = kSamePlace * kRadian;
 
 bool is_pole(const MapCorner& c) { return c.p.x == 0 && c.p.y == 0; }
@@ -31,10 +33,10 @@ bool same_place(const Point& a, const Point& b) {
   return dot(d, d) < kSamePlace * kSamePlace;
 }
 
-/// Of equal longitudes the one closest to x.
+/// The number of turns to add to `lon` so that it is closest to x.
 int turn_near(double lon, double x) { return static_cast<int>(std::round((x - lon) / 360)); }
 
-/// p + t (q-p) for both orders of p and q to the last bit: cells on both sides of an arc have the same
+/// p + t (q-p), with the same bits if p and q are exchanged: the cells on both sides of an arc get the same
 /// corner.
 template <class Part>
 Point on_chord(const Point& p, const Point& q, const Part& part) {
@@ -60,7 +62,7 @@ MapCorner at_meridian(const MapCorner& p, const MapCorner& q, double lon, int tu
   return {point_sets::from_degrees(lon, lat), lon, lat, turn, p.straight, p.seam};
 }
 
-/// Where the line from p to q, which leads only upwards or only downwards, meets the parallel.
+/// Where the line from p to q meets the parallel. The latitude must increase or decrease all along the line.
 MapCorner at_parallel(const MapCorner& p, const MapCorner& q, double lat) {
   double lon = p.lon;
   if (!p.straight)
@@ -80,7 +82,7 @@ MapCorner at_parallel(const MapCorner& p, const MapCorner& q, double lat) {
   return {point_sets::from_degrees(lon, lat), lon, lat, turn, p.straight, p.seam};
 }
 
-/// Without corners that are where the next one is.
+/// The ring without corners that equal the next corner.
 MapRing without_repeats(const MapRing& ring) {
   MapRing kept;
   for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -206,11 +208,11 @@ MapRing closed_at_pole(const MapRing& ring, double west, int around) {
   return without_repeats(closed);
 }
 
-/// Area over the sum of the sides, in radians.
+/// Width of a polygon: area over perimeter, in radians.
 double width_of(const MapRing& ring) {
   Point sum{0, 0, 0};
   for (const MapCorner& c : ring) sum = {sum.x + c.p.x, sum.y + c.p.y, sum.z + c.p.z};
-  if (dot(sum, sum) < 1e-12) return 1;  // half of the sphere
+  if (dot(sum, sum) < 1e-12) return 1;  // the ring is a great circle
   const Point centre = unit(sum);
   double area = 0, length = 0;
   for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -221,7 +223,7 @@ double width_of(const MapRing& ring) {
   return std::fabs(area) / length;
 }
 
-/// The highest or lowest point of an arc, if it is not an end.
+/// Finds the point of an arc with the largest or smallest latitude. False if that is an end of the arc.
 bool has_apex(const Point& a, const Point& b, Point& apex) {
   const double cosine = dot(a, b);
   const double up_at_a = b.z - cosine * a.z, up_at_b = a.z - cosine * b.z;  // towards the other end
@@ -273,7 +275,8 @@ MapRing unrolled(const MapRing& polygon, double west) {
       to.lon = from.lon;
       to.turn = from.turn;
     } else if (is_pole(from)) {
-      // The interior is on the left: west of who leaves the north pole, by at most 180 degrees.
+      // The interior is on the left: a line that leaves the north pole has it to the west, at most 180
+      // degrees wide.
       to.turn = static_cast<int>(from.lat > 0 ? std::floor((x + 90 - to.lon) / 360)
                                               : std::ceil((x - 90 - to.lon) / 360));
       MapCorner leaving = from;
@@ -281,8 +284,8 @@ MapRing unrolled(const MapRing& polygon, double west) {
       leaving.turn = to.turn;
       ring.push_back(leaving);
     } else {
-      // An arc leads east if the north pole is on its left. Its longitudes tell, too, but for arcs close to a
-      // pole, whose ends are nearly 180 degrees apart.
+      // An arc leads east if the north pole is on its left. The difference of longitudes shows this too,
+      // except for arcs close to a pole, whose ends are nearly 180 degrees apart.
       to.turn = turn_near(to.lon, x);
       const int east = pstripack::left(from.p, to.p, kNorthPole);
       const double step = to.x() - x;
@@ -294,7 +297,8 @@ MapRing unrolled(const MapRing& polygon, double west) {
   const int around = ring.back().turn - ring.front().turn;
   ring.pop_back();
   if (around == 0) return without_repeats(ring);
-  // A pole that is a corner is not inside: its angle is more than 180 degrees.
+  // A polygon with a corner at the pole does not contain the pole, whatever `around` says: the corner is
+  // wider than 180 degrees.
   for (std::size_t k = 0; k + 1 < ring.size(); ++k)
     if (is_pole(ring[k]) && is_pole(ring[k + 1]) && (ring[k].lat > 0) == (around > 0)) {
       for (std::size_t i = k + 1; i < ring.size(); ++i) ring[i].turn -= around;
@@ -339,7 +343,7 @@ std::vector<MapRing> between_parallels(const MapRing& ring, double south, double
     monotone.push_back(p);
     Point apex;
     if (p.straight || !has_apex(p.p, q.p, apex)) continue;
-    // An arc that touches a parallel is cut there: what it bounds falls into two parts that touch.
+    // Cut an arc that touches a parallel there: its polygon falls into two parts that touch.
     const bool above = latitude(apex) > north - kThin, below = latitude(apex) < south + kThin;
     const auto crosses = [](bool at_apex, bool at_p, bool at_q) {
       return at_apex != at_p || at_apex != at_q;
@@ -367,7 +371,7 @@ std::vector<MapRing> between_parallels(const MapRing& ring, double south, double
 
 namespace {
 
-/// All of the arc but its ends.
+/// Appends the arc from a to b in straight pieces, without its two ends.
 void add_straight_lines(const MapCorner& a, const MapCorner& b, double tolerance, MapRing& ring,
                         int depth = 0) {
   if (depth == kDeepest) return;
@@ -383,7 +387,7 @@ void add_straight_lines(const MapCorner& a, const MapCorner& b, double tolerance
   add_straight_lines(m, b, tolerance, ring, depth + 1);
 }
 
-/// Twice the area on the map: positive if it is counterclockwise.
+/// Twice the area of the ring on the map; positive if counterclockwise.
 double area_on_map(const MapRing& ring) {
   double sum = 0;
   for (std::size_t i = 0; i < ring.size(); ++i) {

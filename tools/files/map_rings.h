@@ -7,51 +7,51 @@
 
 namespace files {
 
-/// Corners closer than this, in radians, are one corner, and at a pole if that is so close: 6 micrometres on
-/// the Earth.
+/// Points closer than this, in radians, are one corner; a corner this close to a pole is the pole. 6
+/// micrometres on the Earth.
 constexpr double kSamePlace = 1e-12;
 
-/// Of equal longitudes that from -180 to 180; unchanged if it is one.
+/// The equal longitude from -180 to 180; unchanged if `lon` is in this range.
 double wrapped(double lon);
 
 struct MapCorner {
   Point p;
   double lon, lat;  ///< of p
-  int turn = 0;     ///< on the map it is at lon + 360 turn
+  int turn = 0;     ///< the corner's place on the map is lon + 360 turn
   bool straight =
       false;          ///< the line to the next corner is straight on the map; else an arc of a great circle
-  bool seam = false;  ///< only joins a ring around a pole to the pole
+  bool seam = false;  ///< the line to the next corner only joins a ring around a pole to that pole
 
   double x() const { return lon + 360.0 * turn; }
 };
 /// A polygon, counterclockwise.
 using MapRing = std::vector<MapCorner>;
 
-/// The corners of a face; longitudes from -180 to 180.
+/// The corners of a face, with longitudes from -180 to 180.
 MapRing ring_of(const Faces& faces, std::size_t face, const LonLat& angles);
 
-/// Throws NoMesh, which names the cell or triangle, if a side is a half turn: its ends do not tell where it
-/// is.
+/// Throws NoMesh, naming the cell or triangle, if a side is a half turn: its ends do not determine its great
+/// circle.
 void expect_no_half_turn(const MapRing& ring, const Faces& faces, std::size_t face);
 
-/// The map of a convex polygon, whose sides are arcs (turns and flags of `ring` are ignored). A pole that is
-/// a corner, or lies on a side, becomes a line of the map. With a pole inside, the ring reaches from `west`
-/// to `west` + 360 and is closed along the pole. Empty if all corners are one place or lie on one arc.
+/// The map of a convex polygon whose sides are arcs; turns and flags of `ring` are ignored. A pole at a
+/// corner or on a side becomes a line of the map. If the pole is inside, the ring reaches from `west` to
+/// `west` + 360 and is closed along the pole. Empty if all corners coincide or lie on one arc.
 MapRing unrolled(const MapRing& ring, double west);
 
-/// What lies between the meridians `west` and `west` + width <= 360, in one piece or several; the turns of
-/// the pieces are those of that window. Meridians must cross the ring at most twice.
+/// The pieces of the ring between the meridians `west` and `west` + width, with longitudes of that window.
+/// width <= 360. A meridian must cross the ring at most twice.
 std::vector<MapRing> between_meridians(const MapRing& ring, double west, double width);
 
-/// What lies between two parallels.
+/// The pieces of the ring between two parallels.
 std::vector<MapRing> between_parallels(const MapRing& ring, double south, double north);
 
-/// The ring with further corners, so that straight lines of the map are within 0.001 degrees of the arcs, and
-/// nearer in slivers. Empty where these are too thin to be counterclockwise then, some 1e-7 radians.
+/// Adds corners until straight lines on the map are within 0.001 degrees of the arcs, and closer in slivers.
+/// Empty if the sliver is so thin, some 1e-7 radians, that the result would not be counterclockwise.
 MapRing with_straight_lines(const MapRing& ring);
 
-/// The ring with further corners, so that arcs of great circles are within 0.0001 degrees of straight lines
-/// and no side is longer than 90 degrees.
+/// Adds corners until arcs of great circles are within 0.0001 degrees of the straight lines and no side is
+/// longer than 90 degrees.
 MapRing with_arcs(const MapRing& ring);
 
 }  // namespace files

@@ -11,7 +11,7 @@ namespace files {
 constexpr double kEarthRadius = 6371;           ///< km
 constexpr double kRadian = 57.295779513082321;  ///< degrees
 
-/// Of a vector of any length, in degrees.
+/// The longitude of a vector of any length, in degrees.
 inline double longitude(const pstripack::Point& p) { return std::atan2(p.y, p.x) * kRadian; }
 inline double latitude(const pstripack::Point& p) { return std::atan2(p.z, std::hypot(p.x, p.y)) * kRadian; }
 
@@ -21,7 +21,7 @@ inline pstripack::Point unit(const pstripack::Point& p) {
   return {p.x / length, p.y / length, p.z / length};
 }
 
-/// Angle between two vectors in radians; accurate for small ones.
+/// Angle between two vectors in radians; accurate for small angles.
 inline double angle_between(const pstripack::Point& a, const pstripack::Point& b) {
   const pstripack::Point d = minus(a, b);
   return 2 * std::asin(std::min(1.0, std::sqrt(dot(d, d)) / 2));
@@ -38,8 +38,8 @@ inline double volume(const pstripack::Point& a, const pstripack::Point& b, const
   return dot(a, cross(minus(b, a), minus(c, a)));
 }
 
-/// Area of the spherical triangle, in steradians; positive if it is counterclockwise (van Oosterom & Strackee
-/// 1983, with differences, which keep the digits of small triangles).
+/// Area of the spherical triangle in steradians; positive if counterclockwise (van Oosterom & Strackee 1983).
+/// Computed from differences of the corners, so that small triangles keep their digits.
 inline double triangle_area(const pstripack::Point& a, const pstripack::Point& b, const pstripack::Point& c) {
   return 2 * std::atan2(volume(a, b, c), 1 + dot(a, b) + dot(b, c) + dot(c, a));
 }

@@ -93,12 +93,12 @@ std::vector<std::size_t> order_with_corners_first(const std::vector<Point>& poin
   return order;
 }
 
-/// The arc opposite a node in one of its triangles: from one neighbour to the next.
+/// The arc opposite a node in one of its triangles, from one neighbour to the next.
 struct Step {
   std::int32_t from, to;
 };
 
-/// The neighbours around a node, in the order of its list, by following `steps`, which are sorted.
+/// Writes the neighbours of a node in the order of its list. `steps` must be sorted.
 void write_ring(std::size_t node, const Step* begin, const Step* end, std::vector<std::int32_t>& ring) {
   const auto fail = [&](const char* what) { throw NoMesh(fmt::format("node {}: {}", node + 1, what)); };
   if (begin == end) fail("is the corner of no triangle");
@@ -170,7 +170,7 @@ Mesh triangulate(std::vector<Point> points) {
 }
 
 bool are_on_one_great_circle_up_to_rounding(const std::vector<Point>& points) {
-  constexpr double kRounding = 1e-14;  // of places computed by a few operations in degrees
+  constexpr double kRounding = 1e-14;  // bound on the rounding of coordinates that were computed from degrees
   const Point normal = unit(cross(unit(points[0]), unit(points[farthest_from_first(points)])));
   return std::all_of(points.begin(), points.end(),
                      [&](const Point& p) { return std::fabs(dot(normal, unit(p))) <= kRounding; });
@@ -181,7 +181,7 @@ std::vector<Duplicate> duplicates(const std::vector<Point>& points) {
   three_corners(points);
   pstripack::Workspace workspace(pstripack::workspace_bytes(points.size()));
   const pstripack::Hull hull = pstripack::delaunay(points.data(), points.size(), workspace);
-  std::map<std::size_t, std::vector<std::size_t>> groups;  // by their inserted node
+  std::map<std::size_t, std::vector<std::size_t>> groups;  // key: the node that the kernel inserted
   for (const auto& [in, out] : hull.coincident) {
     std::vector<std::size_t>& group = groups[static_cast<std::size_t>(in)];
     if (group.empty()) group.push_back(static_cast<std::size_t>(in));
@@ -234,7 +234,7 @@ Mesh mesh_of(std::vector<Point> points, const Triangles& triangles) {
 
 std::size_t Mesh::triangles() const {
   const std::size_t arcs = (static_cast<std::size_t>(lnew) - 1) / 2;
-  return arcs + (has_boundary() ? 1 : 2) - points.size();  // Euler
+  return arcs + (has_boundary() ? 1 : 2) - points.size();  // Euler's formula
 }
 
 bool Mesh::has_boundary() const {
@@ -244,13 +244,13 @@ bool Mesh::has_boundary() const {
 std::vector<std::int32_t> triangles_of(const Mesh& mesh) {
   const pstripack::ListReader<std::int32_t> reader(mesh.lists());
   const std::size_t n = mesh.points.size();
-  // A triangle is two neighbours in a row in the list of its smallest corner.
+  // Each triangle is listed once, at its smallest corner, as two consecutive neighbours.
   const auto for_each = [&](std::size_t first, std::size_t last, const auto& take) {
     for (auto node = static_cast<std::int32_t>(first + 1); node <= static_cast<std::int32_t>(last); ++node) {
       const std::int32_t end = reader.last_slot(node), begin = reader.next(end);
       for (std::int32_t slot = begin, next = 0;; slot = next) {
         next = reader.next(slot);
-        if (slot == end && reader.entry(end) < 0) break;  // beyond the boundary
+        if (slot == end && reader.entry(end) < 0) break;  // the last neighbour of a boundary node
         const std::int32_t b = reader.neighbour(slot), c = reader.neighbour(next);
         if (node < b && node < c) take(node, b, c);
         if (slot == end) break;
@@ -376,7 +376,7 @@ Faces voronoi_faces(const Mesh& mesh) {
 }
 
 std::vector<double> areas(const Faces& faces) {
-  constexpr std::size_t kAhead = 30;  // corners lie anywhere in memory
+  constexpr std::size_t kAhead = 30;  // prefetch: corners lie anywhere in memory
   const std::size_t corners = faces.corner.size();
   std::vector<double> all(faces.size());
   const auto point = [&](std::size_t k) {

@@ -1,5 +1,5 @@
 #pragma once
-// Triangulations and Voronoi diagrams for the writers. Nodes, triangles and slots count from 1.
+// Triangulations and Voronoi diagrams for the writers. Node, triangle and slot numbers begin with 1.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,11 +14,11 @@
 
 namespace files {
 
-/// Where the rows of a table that are here are among those of all processes, which write it one after the
-/// other.
+/// Which rows of a table this process holds. The processes write their rows one after another, in the order
+/// of ranks.
 struct Share {
-  std::size_t before = 0;  ///< rows of the processes before
-  std::size_t all = 0;     ///< of all processes; 0: there is only this one
+  std::size_t before = 0;  ///< rows of the processes before this one
+  std::size_t all = 0;     ///< rows of all processes; 0: this process holds all rows
 
   std::size_t total(std::size_t here) const { return all == 0 ? here : all; }
 };
@@ -26,7 +26,7 @@ struct Share {
 /// Nodes and the canonical lists of their triangulation.
 struct Mesh {
   std::vector<Point> points;    ///< as given
-  LonLat given;                 ///< their longitudes and latitudes, if they were given
+  LonLat given;                 ///< longitudes and latitudes, if the input had them
   std::vector<double> density;  ///< of each node; empty: unknown
   Columns columns;              ///< values of each node
   Notes notes;
@@ -34,13 +34,13 @@ struct Mesh {
   std::int32_t lnew = 0;
 
   std::size_t triangles() const;
-  bool has_boundary() const;  ///< a hemisphere holds all nodes
+  bool has_boundary() const;  ///< true if one hemisphere holds all nodes
   pstripack::ListsView<std::int32_t> lists() const {
     return {points.size(), list.data(), lptr.data(), lend.data(), lnew};
   }
 };
 
-/// Why nodes have no triangulation; nodes from 0.
+/// The nodes have no triangulation. Node numbers in `what()` begin with 1, indices in members with 0.
 struct NoMesh : std::runtime_error {
   using runtime_error::runtime_error;
 };
@@ -49,29 +49,29 @@ struct CoincidentNodes : NoMesh {
   std::size_t first, second;
 };
 
-/// What `triangulate` calls. It is TRMESH of this process (trmesh/trmesh.h), unless a program puts that of
-/// many processes in its place.
+/// The function that `triangulate` calls: TRMESH of this process (trmesh/trmesh.h), or, under mpirun, of all
+/// ranks.
 using Trmesh = std::function<pstripack::TrmeshResult(const pstripack::TrmeshCall&)>;
 void set_trmesh(Trmesh trmesh);
 
-/// The Delaunay triangulation of at least three nodes that all have a direction. Throws NoMesh if all of them
-/// lie on one great circle, two coincide, or there are too many.
+/// The Delaunay triangulation of at least three nodes, none of them a zero vector. Throws NoMesh if they lie
+/// on one great circle, if two coincide, or if there are too many.
 Mesh triangulate(std::vector<Point> points);
 
-/// Whether all nodes are within 1e-14 radians of one great circle: rounding of their coordinates decides
-/// which triangles and cells they have.
+/// True if all nodes are within 1e-14 radians of one great circle. Their triangles and cells then depend on
+/// the rounding of the coordinates.
 bool are_on_one_great_circle_up_to_rounding(const std::vector<Point>& points);
 
-/// A node, and the first one in its direction.
+/// A node, and the node with the smallest number in the same direction.
 struct Duplicate {
   std::size_t node, first;
 };
 
-/// All but the first of the nodes in each direction, in increasing order. Throws as triangulate.
+/// All nodes but the first of each direction, in increasing order. Throws as triangulate does.
 std::vector<Duplicate> duplicates(const std::vector<Point>& points);
 
-/// The mesh of these triangles (counterclockwise, from 0). Throws NoMesh unless every node is a corner and
-/// the triangles around each node form one cycle or one fan.
+/// The mesh of these triangles, which are counterclockwise with corners from 0. Throws NoMesh unless every
+/// node is a corner and the triangles around each node form one cycle or one fan.
 Mesh mesh_of(std::vector<Point> points, const pstripack::Triangles& triangles);
 
 /// Three corners per triangle, counterclockwise, the smallest first.
@@ -79,7 +79,7 @@ std::vector<std::int32_t> triangles_of(const Mesh& mesh);
 
 std::vector<Point> unit(const std::vector<Point>& points);
 
-/// The centre of the circumscribed cap of each triangle.
+/// The circumcentres of the triangles, on the sphere.
 std::vector<Point> circumcentres(const std::vector<Point>& unit_points,
                                  const std::vector<std::int32_t>& triangles);
 
@@ -88,10 +88,10 @@ std::vector<Point> circumcentres(const std::vector<Point>& unit_points,
 struct Faces {
   std::vector<Point> points;
   std::vector<Point> centres;      ///< the node that each face belongs to; empty: none
-  std::vector<std::size_t> nodes;  ///< its index; empty: that of the face
+  std::vector<std::size_t> nodes;  ///< its index; empty: face f belongs to node f
   std::vector<std::size_t> begin;
   std::vector<std::int32_t> corner;
-  LonLat given_points, given_centres;  ///< their angles, if they were given
+  LonLat given_points, given_centres;  ///< their longitudes and latitudes, if the input had them
   Columns columns_of_points, columns_of_faces;
   Share share_of_points, share_of_faces;
 
@@ -101,46 +101,46 @@ struct Faces {
   std::size_t most_corners() const;
 };
 
-/// The direction of the sum of each face's corners.
+/// The centroid of each face: the direction of the sum of its corners.
 std::vector<Point> centroids(const Faces& faces);
 
-/// In steradians.
+/// The areas of the faces in steradians.
 std::vector<double> areas(const Faces& faces);
 
 /// The triangles as faces.
 Faces triangle_faces(const Mesh& mesh);
 
-/// The Voronoi diagram: one face per node. If the nodes lie in a hemisphere, the cells of boundary nodes
-/// share the rest of the sphere (STRIPACK's CRLIST).
+/// The Voronoi diagram: one face per node. If the nodes lie in a hemisphere, the cells of the boundary nodes
+/// share the rest of the sphere, as in STRIPACK's CRLIST.
 Faces voronoi_faces(const Mesh& mesh);
 
-/// Adds what files of faces can hold: the given angles and columns of the nodes, the number of neighbours of
-/// each, and the areas of the faces in sr and km2. Columns that are named like these get `_given` behind
-/// their names.
+/// Adds the columns that files of faces can hold: the nodes' own columns and given angles, their numbers of
+/// neighbours, and the areas of the faces in sr and km2. Own columns with one of these names get `_given`
+/// appended.
 void add_columns(Faces& faces, const Mesh& mesh);
 
-/// What a process has of a mesh that covers the sphere: some nodes in a row, and the triangles of which such
-/// a node is the smallest corner. Parts one after the other are the mesh.
+/// One process's part of a mesh that covers the sphere: consecutive nodes, and the triangles whose smallest
+/// corner is one of them. The parts of all processes, one after another, are the mesh.
 struct MeshPart {
   Share share_of_nodes, share_of_triangles;
-  std::size_t nodes = 0;              ///< here
-  std::vector<Point> points;          ///< the nodes here, then their neighbours elsewhere; unit vectors
-  std::vector<std::int32_t> numbers;  ///< of the points in the whole mesh
-  std::vector<std::int32_t> corner;   ///< three for each triangle, the smallest number first: places in
-                                      ///< points, from 1
-  std::vector<double> degrees;        ///< of the nodes here: number of neighbours
-  std::vector<double> density;        ///< of the nodes here
-  Columns columns;                    ///< of the nodes here
+  std::size_t nodes = 0;              ///< number of nodes of this process
+  std::vector<Point> points;          ///< these nodes, then their neighbours on other processes; unit vectors
+  std::vector<std::int32_t> numbers;  ///< numbers of the points in the whole mesh
+  std::vector<std::int32_t>
+      corner;                   ///< three per triangle, smallest number first: indices into points from 1
+  std::vector<double> degrees;  ///< number of neighbours of each node of this process
+  std::vector<double> density;  ///< of the nodes of this process
+  Columns columns;              ///< of the nodes of this process
   Notes notes;
 
   std::vector<Point> nodes_here() const {
     return {points.begin(), points.begin() + static_cast<std::ptrdiff_t>(nodes)};
   }
-  /// The corners as nodes of the whole mesh.
+  /// The corners as node numbers of the whole mesh.
   std::vector<std::int32_t> corners_by_number() const;
 };
 
-/// Its triangles as faces, whose points are those here; with the columns that files of faces can hold.
+/// The triangles of the part as faces, with the columns that files of faces can hold.
 Faces triangle_faces(const MeshPart& part);
 
 }  // namespace files

@@ -1,5 +1,5 @@
 #pragma once
-// Words in messages: that which was most likely meant, and lists.
+// Words for messages: suggestions and lists.
 
 #include <algorithm>
 #include <cstddef>
@@ -8,7 +8,8 @@
 
 namespace files {
 
-/// The fewest insertions, deletions, replacements and exchanges of neighbours that make `a` of `b`.
+/// Edit distance: the fewest insertions, deletions, replacements and exchanges of neighbouring letters that
+/// turn `a` into `b`.
 inline std::size_t edits_between(const std::string& a, const std::string& b) {
   std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
@@ -25,7 +26,7 @@ inline std::size_t edits_between(const std::string& a, const std::string& b) {
   return last[b.size()];
 }
 
-/// The closest of `words`; empty if none is close.
+/// The word with the smallest edit distance; empty if none is close.
 inline std::string nearest(const std::string& word, const std::vector<std::string>& words) {
   std::string best;
   std::size_t fewest = std::max<std::size_t>(word.size() / 3, 1) + 1;
@@ -41,7 +42,7 @@ inline std::string did_you_mean(const std::string& word, const std::vector<std::
   return best.empty() ? "" : "; did you mean " + best + "?";
 }
 
-/// The words with commas between them; of many the first.
+/// The words separated by commas; only the first ones if there are many.
 inline std::string listed(const std::vector<std::string>& words) {
   constexpr std::size_t kMost = 30;
   std::string text;

@@ -1,4 +1,4 @@
-// Writers of NetCDF: UGRID, SCRIP, the input of MPAS' mesh converter, nodes alone.
+// Writers of NetCDF: UGRID, SCRIP, the input of MPAS' mesh converter, and nodes alone.
 
 #include <netcdf.h>
 
@@ -14,8 +14,8 @@
 namespace files {
 namespace {
 
-/// A NetCDF file being written: first definitions, then values. In a file that another process has begun the
-/// definitions are found, and the rows of this process are added.
+/// A NetCDF file being written: first all definitions, then the values. If another process has begun the
+/// file, the definitions are looked up and this process adds its rows.
 class Writer {
  public:
   explicit Writer(const OutputFile& file) : name_(file.name()), is_begun_(file.is_begun()) {
@@ -32,7 +32,7 @@ class Writer {
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
 
-  /// `length` rows are here.
+  /// Defines a dimension. `length`: number of rows of this process.
   int dimension(const char* name, std::size_t length, const Share& share = {}) {
     int dimension = 0;
     check(is_begun_ ? nc_inq_dimid(id_, name, &dimension)
@@ -50,7 +50,7 @@ class Writer {
     names_.insert(name);
     return variable;
   }
-  /// "degrees_east" and "degrees_north", as CF requires.
+  /// Defines longitudes and latitudes with the units degrees_east and degrees_north that CF requires.
   std::pair<int, int> lon_lat(const char* lon_name, const char* lat_name, const std::vector<int>& of_lon,
                               const std::vector<int>& of_lat) {
     const int lon = angle(lon_name, of_lon, "degrees_east"), lat = angle(lat_name, of_lat, "degrees_north");
@@ -58,12 +58,12 @@ class Writer {
     attribute(lat, "standard_name", "latitude");
     return {lon, lat};
   }
-  /// Writes the density of nodes, if it is known.
+  /// Defines the density of the nodes. Nothing if `values` is empty.
   int density(const std::vector<double>& values, int nodes) {
     return values.empty() ? -1 : variable("meshDensity", NC_DOUBLE, {nodes});
   }
-  /// A variable for each column, with these dimensions: numbers, or texts of equal length. Names of other
-  /// variables and dimensions are taken; `of_mesh` are attributes of each.
+  /// Defines a variable with these dimensions for each column, numbers or texts of equal length. Renames
+  /// columns whose names are taken. `of_mesh`: attributes of each variable.
   std::vector<int> columns(const Columns& all, const std::vector<int>& dimensions, const Notes& of_mesh) {
     std::vector<int> ids;
     for (const Column& c : all) {
@@ -104,7 +104,7 @@ class Writer {
   void attributes(const Notes& notes) {
     for (const auto& [name, text] : notes) attribute(NC_GLOBAL, name.c_str(), text);
   }
-  /// Writes angles, in degrees or radians.
+  /// Defines a variable of angles in degrees or radians.
   int angle(const char* name, const std::vector<int>& dimensions, const char* units) {
     const int id = variable(name, NC_DOUBLE, dimensions);
     attribute(id, "units", units);
@@ -148,7 +148,7 @@ class Writer {
   void check(int status) const {
     if (status != NC_NOERR) throw std::runtime_error(name_ + ": cannot be written: " + nc_strerror(status));
   }
-  /// The part of a variable that is here.
+  /// The rows of a variable that this process writes.
   struct Slab {
     std::vector<std::size_t> start, count;
   };
@@ -166,7 +166,8 @@ class Writer {
     for (const std::string& text : texts.texts) most = std::max(most, text.size());
     return most;
   }
-  /// NetCDF's names begin with a letter, a digit or _, and have no blanks for the sake of other programs.
+  /// A name that NetCDF allows and no other variable has. Blanks are replaced, since some readers do not
+  /// accept them.
   std::string free_name(std::string name) {
     const auto is_plain = [](char c) {
       return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
@@ -180,13 +181,14 @@ class Writer {
   std::string name_;
   bool is_begun_;
   int id_ = -1;
-  std::map<int, std::pair<std::size_t, std::size_t>> rows_;  ///< of each dimension: before, and here
-  std::map<int, std::vector<int>> dimensions_;               ///< of each variable
-  std::set<std::string> names_;                              ///< of dimensions and variables
+  std::map<int, std::pair<std::size_t, std::size_t>>
+      rows_;                                    ///< of each dimension: rows of earlier processes, own rows
+  std::map<int, std::vector<int>> dimensions_;  ///< of each variable
+  std::set<std::string> names_;                 ///< of dimensions and variables
 };
 
-/// A table with one row per face, as wide as the face with most corners: entry(slot of faces.corner), and
-/// after the last corner of a face `rest(that entry)`.
+/// A table with one row per face, as wide as the largest face: entry(slot of faces.corner) for its corners,
+/// then `rest(last entry)`.
 template <class T, class Entry, class Rest>
 std::vector<T> padded(const Faces& faces, std::size_t width, const Entry& entry, const Rest& rest) {
   std::vector<T> table;
@@ -307,7 +309,7 @@ namespace {
 struct Mpas {
   std::vector<Point> cells, vertices;
   LonLat given;                                 ///< of the cells
-  std::vector<std::int32_t> cells_of_vertices;  ///< three for each
+  std::vector<std::int32_t> cells_of_vertices;  ///< three cells for each vertex
   std::vector<double> density;
   const Notes& notes;
   Share share_of_cells = {}, share_of_vertices = {};

@@ -1,7 +1,8 @@
-// Nodes of NetCDF files: those of a UGRID mesh; xCell, yCell, zCell; or lonCell and latCell, lon and lat,
-// longitude and latitude, grid_center_lon and grid_center_lat (SCRIP): of one shape, or the two axes of a
-// grid (rows of latitude, one after the other), in the units that the attribute says. Missing units: radians
-// for lonCell and latCell, else those of the options, else an error.
+// Nodes of NetCDF files. They are those of a UGRID mesh, or xCell, yCell, zCell, or one of the pairs lonCell
+// and latCell, lon and lat, longitude and latitude, grid_center_lon and grid_center_lat (SCRIP). The two
+// variables of a pair have one shape, or are the axes of a grid, which is read row by row of latitude. Their
+// units are those of the attribute; without it radians for lonCell and latCell, else those of the options,
+// else it is an error.
 
 #include <fmt/format.h>
 #include <netcdf.h>
@@ -45,7 +46,7 @@ class File {
   int id() const { return id_; }
   Units units() const { return options_.units; }  ///< of angles without units
   bool is_read_in_parts() const { return options_.parts > 1; }
-  /// What is read of n nodes: the first one, and how many.
+  /// The first node that this rank reads, and how many.
   std::pair<std::size_t, std::size_t> part_of(std::size_t n) const {
     const std::size_t first = pstripack::slice_begin(n, options_.part, options_.parts);
     return {first, pstripack::slice_begin(n, options_.part + 1, options_.parts) - first};
@@ -60,7 +61,7 @@ class File {
 struct Variable {
   std::string name;
   std::vector<int> dimensions;
-  std::size_t before = 0;  ///< values of the parts before
+  std::size_t before = 0;  ///< number of values that lower ranks read
   std::vector<double> values;
   std::string units;  ///< empty: not in the file
   int id = -1;
@@ -97,7 +98,7 @@ std::pair<int, std::vector<std::size_t>> shape_of(const File& file, const std::s
   return {id, lengths};
 }
 
-// A header of a few bytes can announce any number: check it before allocating.
+// A damaged header of a few bytes can announce any number of values: check it before allocating memory.
 void require_few(const File& file, const std::string& name, std::size_t rows, std::size_t row) {
   constexpr std::size_t most = pstripack::most_nodes<std::int32_t>();
   if (rows > most / std::max<std::size_t>(row, 1))
@@ -105,7 +106,7 @@ void require_few(const File& file, const std::string& name, std::size_t rows, st
         fmt::format("variable {}: {} times {} values; there can be {} nodes at most", name, rows, row, most));
 }
 
-/// The numbers of a variable whose last dimension is that of the nodes; others come before it.
+/// The numbers of a variable. Its last dimension is that of the nodes; others may come before it.
 std::vector<double> read_numbers(const File& file, const std::string& name) {
   std::vector<int> dimensions;
   auto [id, lengths] = shape_of(file, name, dimensions);
@@ -181,7 +182,7 @@ bool is_of_nodes(const File& file, const std::string& name, const std::vector<in
                     dimensions.begin() + static_cast<std::ptrdiff_t>(extra));
 }
 
-/// The variables that --variable may name.
+/// Names of the variables with one value per node, for messages.
 std::string names_of_values(const File& file, const std::vector<int>& of_nodes) {
   int count = 0;
   file.check(nc_inq_nvars(file.id(), &count), "");
@@ -218,7 +219,7 @@ Column read_column(const File& file, const std::string& name) {
   for (double& v : column.numbers)
     if (v == fill || v == missing || !std::isfinite(v))
       v = std::nan("");
-    else if (scale != 1 || offset != 0)  // else -0 stays
+    else if (scale != 1 || offset != 0)  // scale and offset of 1 and 0 would turn -0 into 0
       v = v * scale + offset;
   column.whole =
       (type == NC_INT || type == NC_SHORT || type == NC_BYTE) && scale == 1 && offset == 0 &&
@@ -239,7 +240,7 @@ Column read_value(const File& file, const std::string& name, const std::vector<i
   return read_column(file, name);
 }
 
-/// Texts of equal length, filled with zeros or blanks.
+/// Texts of equal length, padded with zeros or blanks.
 Column read_texts(const File& file, int id, const std::string& name, std::size_t nodes, std::size_t length) {
   require_few(file, name, nodes, length);
   std::string bytes(nodes * length, '\0');
@@ -254,8 +255,8 @@ Column read_texts(const File& file, int id, const std::string& name, std::size_t
   return column;
 }
 
-/// The variables with a number or a text for each node, without its coordinates; or those that are wanted. No
-/// texts where parts are read.
+/// The variables with a number or a text for each node, except the coordinates; or only those in `wanted`.
+/// Texts are not read if several ranks read parts.
 Columns read_columns(const File& file, std::size_t nodes, const std::vector<int>& of_nodes,
                      const std::vector<int>& coordinates, const std::vector<std::string>& wanted) {
   Columns columns;
@@ -283,7 +284,7 @@ Columns read_columns(const File& file, std::size_t nodes, const std::vector<int>
   return columns;
 }
 
-/// True: degrees, false: radians.
+/// True if the units of the variable are degrees, false if radians.
 bool in_degrees(const File& file, const Variable& v) {
   if (v.units.rfind("degree", 0) == 0) return true;
   if (v.units.rfind("rad", 0) == 0) return false;
@@ -292,13 +293,13 @@ bool in_degrees(const File& file, const Variable& v) {
   file.fail(fmt::format("variable {}: units '{}'; expected degrees or radians", v.name, v.units));
 }
 
-/// Points, and what the file has of them.
+/// Points, and the angles and variables that belong to them.
 struct Places {
   std::vector<Point> points;
   LonLat given;
   std::vector<int> dimensions;
   std::vector<int> variables;
-  std::size_t before = 0;  ///< nodes of the parts before
+  std::size_t before = 0;  ///< number of nodes that lower ranks read
   Grid grid = {};
 };
 
@@ -309,7 +310,7 @@ Places from_angles(const File& file, const Variable& lon, const Variable& lat, c
   if (const std::size_t bad = first_beyond_pole(angles, lat.values.size()); bad < lat.values.size())
     file.fail(fmt::format("variable {}, value {}: {} is beyond the pole{}", lat.name, lat.before + bad + 1,
                           lat.values[bad],
-                          !lat_in_degrees ? ": are they degrees, and the units wrong?"
+                          !lat_in_degrees ? ": is the attribute units wrong, and are these degrees?"
                           : lon.values.size() == lat.values.size()
                               ? hint_beyond_pole(angles, lat.values.size(), lat.name + "," + lon.name)
                               : ""));
@@ -343,7 +344,7 @@ Places from_angles(const File& file, const Variable& lon, const Variable& lat, c
   angles.lat = places.given.lat.data();
   places.points = points_of(angles, places.given.lon.size());
   places.given.degrees = lat_in_degrees;
-  if (lon_in_degrees != lat_in_degrees) places.given = {};  // there is no one unit to give them back in
+  if (lon_in_degrees != lat_in_degrees) places.given = {};  // angles in two units cannot be written back
   return places;
 }
 
@@ -362,8 +363,8 @@ Places from_coordinates(const File& file, const std::string& x_name, const std::
   return places;
 }
 
-/// The angles beside the vectors, if the file has them. Those of the vectors are as good where they cannot be
-/// used.
+/// Adds longitudes and latitudes that the file has beside the vectors. If they cannot be used, those computed
+/// from the vectors serve as well.
 void add_angles(const File& file, Places& places, const std::string& lon_name, const std::string& lat_name) {
   if (!places.given.empty() || !has(file, lon_name) || !has(file, lat_name)) return;
   const char* units = "";
@@ -373,7 +374,7 @@ void add_angles(const File& file, Places& places, const std::string& lon_name, c
     for (std::size_t i = 0; i < places.points.size(); ++i) {
       const Point &p = places.points[i], &q = angles.points[i];
       const double length = dot(p, p), c = dot(p, q);
-      if (!(c > 0 && length - c * c <= 1e-10 * length)) return;  // they are of other nodes
+      if (!(c > 0 && length - c * c <= 1e-10 * length)) return;  // the angles belong to other nodes
     }
     places.given = std::move(angles.given);
     places.variables.insert(places.variables.end(), angles.variables.begin(), angles.variables.end());
@@ -387,13 +388,13 @@ void read_triangles(const File& file, Nodes& nodes, const std::string& name, lon
   const auto [id, lengths] = shape_of(file, name, dimensions);
   if (lengths.size() != 2 || lengths[1] != 3)
     file.fail("variable " + name + ": expected faces of three corners each");
-  require_few(file, name, lengths[0] / 2, 1);  // twice as many triangles as nodes
+  require_few(file, name, lengths[0] / 2, 1);  // a triangulation has at most twice as many triangles as nodes
   std::vector<long long> corners(3 * lengths[0]);
   file.check(nc_get_var_longlong(file.id(), id, corners.data()), name);
   set_triangles(nodes, corners, first);
 }
 
-/// The name of the variable that describes a UGRID mesh of faces; empty if there is none.
+/// The name of the variable that describes a UGRID mesh of faces; empty if the file has none.
 std::string ugrid_mesh(const File& file) {
   int count = 0;
   file.check(nc_inq_nvars(file.id(), &count), "");
@@ -406,7 +407,7 @@ std::string ugrid_mesh(const File& file) {
   return "";
 }
 
-/// The nodes; sets their kind and triangles.
+/// Reads the nodes; sets `kind` and triangles of `nodes`.
 Places read_ugrid(const File& file, Nodes& nodes, const std::string& mesh, bool with_triangles) {
   int id = 0;
   Places places;
@@ -414,7 +415,7 @@ Places read_ugrid(const File& file, Nodes& nodes, const std::string& mesh, bool 
   std::istringstream names(text_attribute(file, id, "node_coordinates"));
   std::string lon, lat;
   names >> lon >> lat;
-  // Our own files also have the vectors, which angles would round.
+  // Files written by pstripack also have the vectors, which need no rounding.
   if (has(file, mesh + "_node_x")) {
     places = from_coordinates(file, mesh + "_node_x", mesh + "_node_y", mesh + "_node_z");
     add_angles(file, places, lon, lat);
@@ -462,7 +463,7 @@ std::vector<std::string> variables_in(const File& file) {
   return names;
 }
 
-/// The nodes of the variables that --columns names; takes their names off.
+/// The nodes whose coordinates --columns names; removes their names from `names`.
 Places read_chosen(const File& file, Nodes& nodes, std::vector<std::string>& names, Coordinates coordinates) {
   const std::vector<std::string> variables = variables_in(file);
   for (std::size_t i = 0; i < names.size(); ++i) {

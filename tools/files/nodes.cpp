@@ -30,7 +30,7 @@ bool has_magic_of_netcdf(std::string_view bytes) {
   return bytes.substr(0, 3) == "CDF" || bytes.substr(0, 4) == "\x89HDF";
 }
 
-/// Has control characters, other than those that move to another column or line, near its beginning.
+/// True if there are control characters other than tabs and line ends near the beginning.
 bool is_binary(std::string_view bytes) {
   const std::string_view begin = bytes.substr(0, 4096);
   return std::any_of(begin.begin(), begin.end(), [](char c) {
@@ -45,8 +45,8 @@ std::string_view first_word(std::string_view text) {
   return text.substr(0, text.find_first_of(" \t\r\n"));
 }
 
-/// Sets the nodes by the angles they were given. Those that cannot be radians are degrees.
-/// `to_exchange`: what --columns is told if they should be exchanged.
+/// Sets the nodes from given angles. Angles too large for radians are degrees. `to_exchange`: value of
+/// --columns for the hint that longitudes and latitudes may be exchanged.
 void set_angles(Nodes& nodes, LonLat given, Units units, const std::string& to_exchange) {
   const std::size_t n = given.lon.size();
   if (units == Units::said_or_unmistakable) {
@@ -81,7 +81,7 @@ void set_angles(Nodes& nodes, LonLat given, Units units, const std::string& to_e
   nodes.given = std::move(given);
 }
 
-/// The columns of text that are read.
+/// Which columns of a text are read.
 struct Choice {
   std::vector<std::size_t> place;    ///< lon and lat, or x, y, z
   std::vector<std::size_t> columns;  ///< the other ones to read
@@ -89,7 +89,7 @@ struct Choice {
   bool is_lonlat() const { return place.size() == 2; }
 };
 
-/// The column with this axis among the candidates. Throws if there are two.
+/// The candidate column that names this axis. Throws if two do.
 std::optional<std::size_t> axis_among(const std::vector<std::size_t>& candidates, char axis,
                                       const TextLayout& layout, const std::string& where) {
   std::optional<std::size_t> found;
@@ -104,7 +104,7 @@ std::optional<std::size_t> axis_among(const std::vector<std::size_t>& candidates
   return found;
 }
 
-/// The columns of the place by their names; empty if they have none.
+/// The columns of the coordinates by name; empty if no names fit.
 std::vector<std::size_t> place_by_names(const std::vector<std::size_t>& candidates, const TextLayout& layout,
                                         Coordinates coordinates, const std::string& where) {
   const auto axes = [&](std::string_view names) {
@@ -192,7 +192,7 @@ Choice choose(const TextLayout& layout, const ReadOptions& options, const std::s
   return choice;
 }
 
-/// Degrees or radians, if the header says so.
+/// The unit of angles in the header; `otherwise` if the header has none.
 Units units_of(const TextLayout& layout, const Choice& choice, Units otherwise) {
   if (layout.names.empty()) return otherwise;
   const std::string& unit = layout.units[choice.place[0]];
@@ -280,7 +280,8 @@ void read_raw(Nodes& nodes, std::string_view bytes, const ReadOptions& options) 
   nodes.kind += ", x y z";
 }
 
-/// OFF: the word, counts of vertices, faces and edges, vertices `x y z`, faces `count corner...` from 0.
+/// OFF: the word OFF, the counts of vertices, faces and edges, vertices `x y z`, faces `count corner...` with
+/// corners from 0.
 void read_off(Nodes& nodes, const std::string& text, const ReadOptions& options) {
   nodes.kind = "OFF";
   std::istringstream in(text);

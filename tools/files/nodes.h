@@ -18,17 +18,17 @@ enum class Coordinates { detected, xyz, lonlat };
 enum class Units { said_or_unmistakable, degrees, radians };
 
 struct ReadOptions {
-  Container container = Container::detected;  ///< raw doubles are never detected
+  Container container = Container::detected;  ///< raw doubles are not detected
   Coordinates coordinates = Coordinates::detected;
-  Units units = Units::said_or_unmistakable;  ///< of angles, if the file does not say
-  bool with_triangles = false;                ///< read those of UGRID, MPAS and OFF as well
-  bool with_columns = false;                  ///< but of raw doubles: also read the other columns
-  bool with_values = false;                   ///< but of raw doubles: also read one value per node,
+  Units units = Units::said_or_unmistakable;  ///< of angles in files that do not say
+  bool with_triangles = false;                ///< also read the triangles of UGRID, MPAS and OFF
+  bool with_columns = false;                  ///< also read the other columns; not of raw doubles
+  bool with_values = false;                   ///< also read one value per node; not of raw doubles
   std::string variable;  ///< its name, or in text its number; empty: the column after the coordinates
-  /// Names or (text) numbers, with commas between them: lon,lat or x,y,z, then the columns to read. Empty: by
-  /// the names in the file, or the first ones.
+  /// Names, or in text column numbers, separated by commas: lon,lat or x,y,z, then the columns to read.
+  /// Empty: the names in the file decide, or else the first columns are read.
   std::string columns;
-  /// Of NetCDF: read only this one of so many equal slices of the nodes, which must be no grid.
+  /// Of NetCDF: read only slice `part` of `parts` equal slices of the nodes, which must not be a grid.
   std::size_t part = 0, parts = 1;
 };
 
@@ -47,55 +47,55 @@ struct Nodes {
   std::string file;  ///< name in messages
   std::string kind;  ///< "text, lon lat in degrees"
   std::vector<Point> points;
-  std::size_t before = 0;          ///< nodes of the parts before this one
-  LonLat given;                    ///< longitudes and latitudes as they are in the file; empty: it has none
-  Grid grid;                       ///< of nodes that are one; else empty
-  std::vector<std::size_t> lines;  ///< of text and GeoJSON: of each node, from 1
+  std::size_t before = 0;          ///< number of nodes in earlier slices
+  LonLat given;                    ///< longitudes and latitudes as in the file; empty: the file has none
+  Grid grid;                       ///< the grid, if the nodes are one; else empty
+  std::vector<std::size_t> lines;  ///< line or feature of each node in text or GeoJSON, from 1
   const char* lines_are = "line";  ///< "line" or "feature"
-  std::vector<double> density;     ///< meshDensity of MPAS, if in the file
+  std::vector<double> density;     ///< meshDensity of MPAS, if the file has it
   Column value;                    ///< if requested; its name is empty if the file has none
   Columns columns;                 ///< if requested: the other columns of the file
   Notes notes;
   pstripack::Triangles triangles;  ///< counterclockwise; empty unless requested and present
 
-  /// "node 17", with its line or feature if it has one.
+  /// "node 17", with its line or feature if known.
   std::string place(std::size_t i) const;
-  /// Leaves out all nodes but those with these indices, which increase; and triangles.
+  /// Removes all triangles, and all nodes except those with these increasing indices.
   void keep(const std::vector<std::size_t>& indices);
 };
 
-/// Reads nodes: text `lon lat` or `x y z` (text_table.h), OFF, NetCDF, GeoJSON, raw
-/// doubles in the byte order of the machine; `-` is stdin. Vectors keep their lengths. Throws
-/// std::runtime_error: one line with file, line or index, and remedy.
+/// Reads nodes from text `lon lat` or `x y z` (text_table.h), OFF, NetCDF, GeoJSON, or raw doubles in the
+/// machine's byte order; `-` is stdin. Vectors keep their lengths. Throws std::runtime_error: one line with
+/// file, line or index, and remedy.
 Nodes read(const std::string& file, const ReadOptions& options = {});
 
-/// NetCDF's own formats, and HDF5's, by the first bytes.
+/// True if the first bytes are those of NetCDF's own formats or of HDF5.
 bool is_netcdf(const std::string& file);
 
 // Below: one reader per container.
 
-/// Longitudes and latitudes in degrees or radians.
+/// Arrays of longitudes and latitudes, each in degrees or radians.
 struct Angles {
   const double *lon, *lat;
-  std::size_t stride;  ///< between one and the next
+  std::size_t stride;  ///< distance from one value to the next, in doubles
   bool lon_in_degrees, lat_in_degrees;
 };
 std::vector<Point> points_of(const Angles& angles, std::size_t n);
-/// The first latitude beyond a pole, allowing for single precision; n if there is none.
+/// The first latitude beyond a pole by more than the rounding of single precision; n if there is none.
 std::size_t first_beyond_pole(const Angles& angles, std::size_t n);
-/// What may be wrong with latitudes beyond the pole: "; ..." or nothing. `to_exchange`: what --columns is
-/// told then; empty: it cannot help.
+/// A guess why latitudes are beyond the pole: "; ..." or nothing. `to_exchange`: the value of --columns that
+/// exchanges longitudes and latitudes; empty: none does.
 std::string hint_beyond_pole(const Angles& angles, std::size_t n, const std::string& to_exchange);
 
-/// `contents`: bytes that came through a pipe; empty: read the file.
+/// `contents`: the file, if it came through a pipe; empty: read `file`.
 Nodes read_netcdf(const std::string& file, const ReadOptions& options, const std::string& contents = "");
 
-/// An object of JSON: its first character is {.
+/// True if the first character, after blanks, is {.
 bool is_geojson(const std::string& contents);
 Nodes read_geojson(const std::string& file, const ReadOptions& options, const std::string& contents);
 
-/// Takes the corners, which count from `first`, and reverses clockwise triangles. Throws std::runtime_error
-/// on corners that are no nodes or lie on one great circle.
+/// Sets the triangles from corners that count from `first`, and reverses clockwise ones. Throws
+/// std::runtime_error if a corner is not a node or the corners lie on one great circle.
 void set_triangles(Nodes& nodes, const std::vector<long long>& corners, long long first);
 
 }  // namespace files

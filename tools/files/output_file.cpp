@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kSignals[] = {SIGHUP, SIGINT, SIGTERM};
-char name_to_remove[4096] = "";  // empty: none; a signal handler may use neither strings nor memory
+char name_to_remove[4096] = "";  // a signal handler must not allocate; empty: no file
 
 void remove_and_end(int signal) {
   if (name_to_remove[0] != '\0') unlink(name_to_remove);

@@ -1,5 +1,5 @@
 #pragma once
-// Files written completely or not at all.
+// Output files that appear complete or not at all.
 
 #include <fmt/format.h>
 
@@ -10,21 +10,21 @@
 
 namespace files {
 
-/// A temporary file beside the final one, renamed by commit(). Without commit(), or after SIGHUP, SIGINT and
-/// SIGTERM, nothing remains. `-` is stdout; commit() copies to it and to targets that are no regular files
-/// (devices, pipes). One at a time. Throws std::runtime_error "NAME: cannot be written: why".
+/// Writes a temporary file beside the final one; commit() renames it. Without commit(), or after SIGHUP,
+/// SIGINT or SIGTERM, nothing remains. `-` is stdout: commit() copies to it, and to devices and pipes. Only
+/// one object may exist at a time. Throws std::runtime_error "NAME: cannot be written: why".
 class OutputFile {
  public:
   explicit OutputFile(const std::string& name);
-  /// The same file in another process, or again: nothing is removed or committed here. `is_begun`: what is
-  /// written goes on where another process has ended.
+  /// A file that another OutputFile, here or in another process, creates and commits. `is_begun`: append to
+  /// what has been written.
   OutputFile(const std::string& name, const std::string& path, bool is_begun)
       : name_(name), temporary_(path), copies_(false), is_shared_(true), is_begun_(is_begun) {}
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  const std::string& path() const { return temporary_; }  ///< where to write until commit()
+  const std::string& path() const { return temporary_; }  ///< where to write before commit()
   const std::string& name() const { return name_; }       ///< for messages
   bool is_begun() const { return is_begun_; }
   void commit();
@@ -32,13 +32,13 @@ class OutputFile {
  private:
   void copy_to_target() const;
   std::string name_, target_, temporary_;
-  bool copies_;  ///< the target cannot be replaced: copy to it
+  bool copies_;  ///< the target is a device, pipe or stdout: commit() copies
   bool is_shared_ = false, is_begun_ = false;
 };
 
 [[noreturn]] void fail_to_write(const std::string& name, int error);
 
-/// Text for an OutputFile, through a buffer.
+/// Buffered text output to an OutputFile.
 class TextWriter {
  public:
   explicit TextWriter(const OutputFile& file);
@@ -49,7 +49,7 @@ class TextWriter {
     if (buffer_.size() > kFull) flush();
   }
   void write(const void* bytes, std::size_t size);
-  /// Must be the last call; without it the file is not complete.
+  /// Writes the buffer. Must be the last call.
   void close();
 
  private:

@@ -55,7 +55,7 @@ bool is_missing(std::string_view word) {
 bool is_number(std::string_view word, double& value) {
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error == std::errc() && end == word.data() + word.size()) return std::isfinite(value);
-  // Words are common in columns that are carried, and strtod is slow.
+  // Test the first character: strtod is slow and carried columns have many words.
   return !word.empty() && std::strchr("0123456789+-.", word[0]) != nullptr &&
          point_sets::parse(std::string(word), value);
 }
@@ -67,7 +67,7 @@ bool has_hemisphere(std::string_view word) {
                              (is_letter(word.front()) && is_number(word.substr(1), value)));
 }
 
-/// What to do about a word that is no number.
+/// What the user can do about a word that is not a number.
 std::string remedy_for(std::string_view word) {
   if (has_hemisphere(word)) return ": write 45N as 45, 45S as -45, 120W as -120";
   if (word.find("\xC2\xB0") != word.npos || word.find('\xB0') != word.npos || word.find(':') != word.npos)
@@ -80,7 +80,6 @@ std::string remedy_for(std::string_view word) {
   return ": correct it, remove the row, or choose other --columns";
 }
 
-/// Takes lines off a text.
 class Lines {
  public:
   Lines(std::string_view text, std::size_t first_line) : text_(text), next_(first_line) {}
@@ -105,7 +104,6 @@ class Lines {
   std::size_t at_ = 0, begin_ = 0, next_;
 };
 
-/// The columns of a line, one after the other.
 class Cells {
  public:
   Cells(std::string_view line, char separator)
@@ -115,7 +113,7 @@ class Cells {
   }
   bool more() const { return more_; }
 
-  /// Reads the cell if it is a plain number: the fast way for nearly all of them.
+  /// Reads a plain decimal number, which most cells are; false for anything else.
   bool number(double& value) {
     skip_spaces();
     const auto [stop, error] = std::from_chars(at_, end_, value);
@@ -131,7 +129,7 @@ class Cells {
     return true;
   }
 
-  /// Reads the cell, without quotes around it. False: its quotes have no end.
+  /// Reads the cell and removes its quotes. False if a closing quote is missing.
   bool word(std::string_view& word) {
     skip_spaces();
     if (at_ != end_ && *at_ == '"') {
@@ -182,7 +180,7 @@ std::vector<std::string> split(std::string_view line, char separator) {
   return words;
 }
 
-/// `text` with "" for each quote in it, as in a quoted cell.
+/// Replaces "" in a quoted cell by ".
 std::string without_doubled_quotes(std::string_view text) {
   std::string result;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -192,7 +190,7 @@ std::string without_doubled_quotes(std::string_view text) {
   return result;
 }
 
-/// Without a comment at the end, which numbers can have in a text without header.
+/// Removes a comment behind the numbers of a row.
 std::string_view without_comment(std::string_view line) {
   bool quoted = false;
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -212,8 +210,8 @@ bool is_header(const std::vector<std::string>& cells) {
   return has_word;
 }
 
-/// Tabs separate columns only if there is one between any two of the first line, which are not all numbers;
-/// else they are blanks like others.
+/// True if tabs separate the columns: the first line has one between any two columns and is not all numbers.
+/// Otherwise a tab counts as a blank.
 bool is_separated_by_tabs(std::string_view line) {
   if (line.find('\t') == line.npos) return false;
   const std::vector<std::string> cells = split(line, '\t');
@@ -239,7 +237,7 @@ char separator_of(std::string_view line) {
   return comma ? ',' : ' ';
 }
 
-/// Names and units. In text separated by blanks, the unit is a word of its own.
+/// Sets names and units from the header. In text separated by blanks a unit is a word of its own.
 void set_names(TextLayout& layout, const std::vector<std::string>& cells) {
   layout.names.clear();
   layout.units.clear();
@@ -277,7 +275,7 @@ const char* name_of(char separator) {
                              : "blanks";
 }
 
-/// Why a line has another number of columns.
+/// The reason why a line has too few or too many columns, for the message.
 std::string of_other_count(std::string_view line, std::size_t found, const TextLayout& layout) {
   const bool has_none = layout.separator == ' ' || line.find(layout.separator) == line.npos;
   for (const char other : {';', '\t', ',', ' '})
@@ -293,10 +291,10 @@ std::string of_other_count(std::string_view line, std::size_t found, const TextL
       commas_split_numbers ? "write a decimal comma as a point" : "complete the row, or remove it");
 }
 
-/// What one thread reads.
+/// The part of a text that one thread reads.
 struct Piece {
   TextRows rows;
-  std::vector<char> has_words;  ///< of each column: a word that is no number
+  std::vector<char> has_words;  ///< of each column: true if a word in it is not a number
   std::size_t newlines = 0, segments = 0, error_line = 0;
   std::string error;
 };
@@ -326,7 +324,7 @@ class Reader {
     }
   }
 
-  /// The cells of these columns as texts, in all rows.
+  /// Reads the cells of these columns as texts.
   void read_texts(std::string_view text, const std::vector<std::size_t>& columns, TextRows& rows) const {
     Lines lines(text, 1);
     std::string_view line, word;
@@ -349,7 +347,7 @@ class Reader {
     piece.error = std::move(what);
   }
 
-  /// False for what is no row. Takes comments off.
+  /// Removes comments. False if nothing remains.
   bool is_row(std::string_view& line, Piece& piece) const {
     std::size_t begin = 0;
     while (begin < line.size() && is_space(line[begin])) ++begin;
@@ -362,7 +360,7 @@ class Reader {
     return true;
   }
 
-  /// The number of columns.
+  /// Reads a row; returns the number of its columns.
   std::size_t read_row(std::string_view line, std::size_t number, Piece& piece) const {
     Cells cells(line, layout_.separator);
     std::size_t c = 0;
@@ -378,7 +376,7 @@ class Reader {
         if (role != Role::skipped && !is_number(word, value)) {
           value = kMissing;
           if (const std::string wrong = why_not(word, c, role); !wrong.empty()) {
-            // A row that is separated otherwise is no word.
+            // Look for another separator before blaming a word.
             const std::string other = of_other_count(line, 0, layout_);
             error(piece, number, other.rfind("separated", 0) == 0 && layout_.columns > 1 ? other : wrong);
             return 0;
@@ -391,7 +389,7 @@ class Reader {
     return c;
   }
 
-  /// Why the word cannot be in the column; empty: it can.
+  /// Why the word is not allowed in the column; empty: it is.
   std::string why_not(std::string_view word, std::size_t column, Role role) const {
     if (role == Role::carried) return "";
     const std::string l = lower(word);
@@ -399,7 +397,7 @@ class Reader {
     const std::string name =
         layout_.names.empty() ? "" : fmt::format(" in column '{}'", layout_.name(column));
     if (word.empty())
-      return fmt::format("nothing{}: remove the row, or choose --columns",
+      return fmt::format("nothing{}: remove the row, or choose other columns by --columns",
                          name.empty() ? " between separators" : name);
     if (!name.empty() && l == lower(layout_.names[column])) return "the header line again: remove it";
     return fmt::format("'{}'{} is not a finite number{}", word, name, remedy_for(word));
@@ -449,12 +447,12 @@ TextLayout layout_of(std::string_view text, const std::string& file) {
     const std::vector<std::string> cells = split(plain, layout.separator);
     if (is_header(cells)) {
       if (layout.header_line > 0)
-        fail(
-            file, lines.number(),
-            fmt::format("a second header line, after that in line {}: remove one of them, or put # before it",
-                        layout.header_line));
+        fail(file, lines.number(),
+             fmt::format(
+                 "a second header line, after the one in line {}: remove one of them, or put # before it",
+                 layout.header_line));
       layout.header_line = lines.number();
-      // A header can have # in its names.
+      // The names in a header may contain #.
       layout.separator = separator_of(content);
       set_names(layout, split(content, layout.separator));
       continue;

@@ -8,7 +8,8 @@ namespace files {
 namespace {
 
 [[noreturn]] void refuse(const std::string& file) {
-  throw std::runtime_error(file + ": NetCDF, but this build has none (Debian: libnetcdf-dev)");
+  throw std::runtime_error(
+      file + ": a NetCDF file, which this build cannot read or write: build with libnetcdf-dev");
 }
 
 }  // namespace

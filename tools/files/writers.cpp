@@ -22,7 +22,7 @@ bool ends_with(const std::string& text, const std::string& end) {
   throw std::logic_error("a format that is not in the table");
 }
 
-/// First the points, then the faces.
+/// Section 0 are the points, section 1 the faces.
 void write_off(TextWriter& out, const Faces& faces, int section) {
   if (section == 0) {
     if (faces.share_of_points.before == 0)
@@ -44,7 +44,7 @@ void write_off(const OutputFile& file, const Faces& faces) {
   out.close();
 }
 
-/// The columns, and before them the angles as they were given.
+/// The columns, preceded by the given longitudes and latitudes.
 Columns with_angles(const Columns& columns, const LonLat& given) {
   Columns all;
   if (!given.empty()) {
@@ -57,7 +57,7 @@ Columns with_angles(const Columns& columns, const LonLat& given) {
   return all;
 }
 
-/// Without characters that have a meaning in XML or end a string of gmsh.
+/// Removes characters that XML reserves or that end a string of gmsh.
 std::string plain_name(std::string name) {
   for (char& c : name)
     if (std::strchr("<>&\"'\n", c) != nullptr) c = '_';
@@ -72,12 +72,12 @@ void write_gmsh(const OutputFile& file, const Faces& faces) {
   out.print("$EndNodes\n$Elements\n{}\n", faces.size());
   for (std::size_t f = 0; f < faces.size(); ++f) {
     const std::int32_t* const c = &faces.corner[3 * f];
-    out.print("{} 2 2 1 1 {} {} {}\n", f + 1, c[0], c[1], c[2]);  // a triangle with two tags
+    out.print("{} 2 2 1 1 {} {} {}\n", f + 1, c[0], c[1], c[2]);  // type 2, a triangle, with two tags
   }
   out.print("$EndElements\n");
   const auto write_data = [&](const char* section, const Columns& columns) {
     for (const Column& c : columns) {
-      if (c.is_text()) continue;  // gmsh has numbers only
+      if (c.is_text()) continue;  // gmsh stores numbers only
       out.print("${}\n1\n\"{}\"\n1\n0\n3\n0\n1\n{}\n", section, plain_name(c.name), c.size());
       for (std::size_t i = 0; i < c.size(); ++i) out.print("{} {}\n", i + 1, c.numbers[i]);
       out.print("$End{}\n", section);
@@ -88,7 +88,7 @@ void write_gmsh(const OutputFile& file, const Faces& faces) {
   out.close();
 }
 
-/// VTK's XML, unstructured, as text.
+/// VTK's XML format for unstructured grids, as text.
 void write_vtu(const OutputFile& file, const Faces& faces) {
   const bool triangles = faces.most_corners() == 3;
   TextWriter out(file);
@@ -121,7 +121,7 @@ void write_vtu(const OutputFile& file, const Faces& faces) {
   const auto write_data = [&](const char* section, const Columns& columns) {
     out.print("<{}>\n", section);
     for (const Column& c : columns) {
-      if (c.is_text()) continue;  // many readers of VTK know numbers only
+      if (c.is_text()) continue;  // many readers of VTK accept numbers only
       begin(c.whole ? "Int32" : "Float64", plain_name(c.name).c_str());
       for (const double v : c.numbers) out.print("{}\n", v);
       end();
@@ -134,7 +134,7 @@ void write_vtu(const OutputFile& file, const Faces& faces) {
   out.close();
 }
 
-/// In the format that `stripack-compare lists` reads.
+/// The format that `stripack-compare lists` reads.
 void write_lists(const OutputFile& file, const Mesh& mesh) {
   TextWriter out(file);
   const auto all = [&](const std::vector<std::int32_t>& values, std::size_t count) {
@@ -149,7 +149,8 @@ void write_lists(const OutputFile& file, const Mesh& mesh) {
   out.close();
 }
 
-/// For each cell its node's place and columns; for each triangle the numbers of its corners and its columns.
+/// The table of a CSV file. A row of a cell: the coordinates and columns of its node. A row of a triangle:
+/// the numbers of its corners and its columns.
 Columns table_of(const Faces& faces) {
   if (!faces.centres.empty())
     return with_angles(faces.columns_of_faces, angles_of(faces.centres, faces.given_centres, true));
@@ -179,7 +180,7 @@ Columns table_of(const std::vector<Point>& points, const NodeValues& values) {
   return with_angles(columns, angles_of(points, values.given, true));
 }
 
-/// In quotes where CSV needs them (RFC 4180).
+/// Quotes the text if RFC 4180 requires it.
 std::string csv_text(const std::string& text) {
   if (text.find_first_of(",;\"\n\r\t#") == text.npos &&
       text == text.substr(0, text.find_last_not_of(' ') + 1) && text.find(' ') != 0)
@@ -189,7 +190,7 @@ std::string csv_text(const std::string& text) {
   return quoted + '"';
 }
 
-/// A header line, with units as text_table.h reads them; empty where a value is missing.
+/// The header line has units in the form that text_table.h reads. A missing value is an empty cell.
 void write_csv(const OutputFile& file, const Columns& table) {
   TextWriter out(file);
   for (std::size_t k = 0; k < table.size(); ++k) {
@@ -216,7 +217,7 @@ std::string json_text(const std::string& text) {
   return json(text).dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
-/// RFC 7946: one line for each feature; `write_geometry(out, i)`.
+/// One line per feature (RFC 7946). `write_geometry(out, i)` writes the geometry of feature i.
 template <class WriteGeometry>
 void write_features(const OutputFile& file, const Columns& table, const Notes& notes,
                     const WriteGeometry& write_geometry) {
@@ -246,7 +247,7 @@ void write_features(const OutputFile& file, const Columns& table, const Notes& n
   out.close();
 }
 
-/// Polygons, cut at the dateline, counterclockwise; null where the corners are one place.
+/// Counterclockwise polygons, cut at the dateline; null if all corners coincide.
 void write_geojson(const OutputFile& file, const Faces& faces, const Notes& notes) {
   const LonLat angles = angles_of(faces.points, faces.given_points, true);
   const auto print_ring = [](TextWriter& out, const MapRing& ring) {
@@ -271,7 +272,7 @@ void write_geojson(const OutputFile& file, const Faces& faces, const Notes& note
   });
 }
 
-/// As @D lines have it: texts in quotes.
+/// A text as an @D line quotes it.
 std::string gmt_text(const std::string& text) {
   std::string quoted = "\"";
   for (const char c : text) {
@@ -281,7 +282,7 @@ std::string gmt_text(const std::string& text) {
   return quoted + '"';
 }
 
-/// GMT's multi-segment files with values as in its OGR/GMT format: a segment for each polygon.
+/// GMT's multi-segment files: one segment per polygon, with values as in its OGR/GMT format.
 void write_gmt(const OutputFile& file, const Faces& faces) {
   const Columns table = table_of(faces);
   const LonLat angles = angles_of(faces.points, faces.given_points, true);
@@ -440,7 +441,7 @@ void write_nodes(const OutputFile& file, Format format, const std::vector<Point>
 
 namespace {
 
-/// As text_table.h reads it.
+/// Quoted so that text_table.h reads it back.
 std::string quoted(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {

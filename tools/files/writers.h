@@ -10,7 +10,7 @@
 
 namespace files {
 
-/// Of meshes, of both, of nodes.
+/// Formats of meshes, of meshes and nodes, and of nodes.
 enum class Format { ugrid, mpas, scrip, vtu, off, gmsh, lists, gmt, geojson, csv, xyz, lonlat, netcdf, raw };
 
 struct FormatEntry {
@@ -20,26 +20,26 @@ struct FormatEntry {
   const char* what;
 };
 
-/// All formats: for --help, --to and the choice by suffix.
+/// All formats, for --help and --to and for the choice by suffix.
 const std::vector<FormatEntry>& formats();
 bool holds_a_mesh(Format format);
 bool holds_nodes(Format format);
-/// True if processes can write it one after the other.
+/// True if several processes can write the format one after another.
 bool holds_parts(Format format);
 
 /// The format named by --to, else that of the longest suffix of `file` in the table.
 std::optional<Format> format_of(const std::string& to, const std::string& file);
 
-/// Writes a triangulation. UGRID, VTU, gmsh, GMT, GeoJSON and CSV hold its columns.
+/// Writes a triangulation. UGRID, VTU, gmsh, GMT, GeoJSON and CSV also hold its columns.
 void write_mesh(const OutputFile& file, Format format, const Mesh& mesh);
-/// A part of a triangulation, behind those before: formats that hold parts. The processes write section 0 one
-/// after the other, then section 1, up to sections_of(format).
+/// Writes one process's part of a triangulation in a format for which holds_parts() is true. All processes
+/// write section 0 one after another, then section 1, up to sections_of(format).
 int sections_of(Format format);
 void write_part(const OutputFile& file, Format format, const MeshPart& part, int section);
-/// The same for any polygons: ugrid, scrip, vtu, off, gmt, geojson, csv. Other formats throw
-/// std::runtime_error.
+/// Writes any polygons: ugrid, scrip, vtu, off, gmt, geojson, csv. Throws std::runtime_error for other
+/// formats.
 void write_faces(const OutputFile& file, Format format, const Faces& faces, const Notes& notes = {});
-/// What is known of nodes without a mesh.
+/// What may be known about nodes without a mesh.
 struct NodeValues {
   LonLat given;
   std::vector<double> density;
@@ -54,22 +54,22 @@ void write_nodes(const OutputFile& file, Format format, const std::vector<Point>
 void write_nodes(const OutputFile& file, Format format, const std::vector<Point>& points,
                  const std::vector<double>& density = {}, const Notes& notes = {});
 
-/// A value at each place, and the other columns that the places have; NaN: missing.
+/// Values at places (NaN: missing), and the columns of the places.
 struct Field {
   Column value;
   Columns columns;
   Notes notes;
 };
 
-/// Text: lines of lon lat (degrees), value and columns, `nan` where a number is missing. CSV: the same.
+/// Text: lines of lon lat (degrees), value and columns, `nan` for a missing number. CSV: the same columns.
 void write_field(const OutputFile& file, const LonLat& places, const Field& field);
 void write_csv_field(const OutputFile& file, const LonLat& places, const Field& field);
-/// NetCDF, CF conventions: _FillValue where it is missing.
+/// NetCDF with CF conventions; a missing value is _FillValue.
 void write_netcdf_field(const OutputFile& file, const LonLat& places, const Field& field);
 void write_netcdf_grid(const OutputFile& file, const Grid& grid, const Field& field);
 
 // In netcdf_meshes.cpp.
-/// `vectors`: the corners as they were given.
+/// `vectors`: the corners with their given lengths.
 void write_ugrid(const OutputFile& file, const Faces& faces, const std::vector<Point>& vectors,
                  const std::vector<double>& density = {}, const Notes& notes = {});
 void write_scrip(const OutputFile& file, const Faces& faces, const Notes& notes = {});

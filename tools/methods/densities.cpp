@@ -27,8 +27,8 @@ class SampledDensity : public Density {
 
   void at(std::size_t n, const Point* p, double* value) const override {
     thread_local std::vector<Share> shares;
-    thread_local std::int32_t near = 1;  // a short walk from the place before; its end is always the same
-    if (static_cast<std::size_t>(near) > values_.size()) near = 1;  // of another density
+    thread_local std::int32_t near = 1;  // start near the last place; the result does not depend on it
+    if (static_cast<std::size_t>(near) > values_.size()) near = 1;  // that density had more nodes
     for (std::size_t i = 0; i < n; ++i) {
       value[i] = std::numeric_limits<double>::quiet_NaN();
       if (!interpolation_.linear(p[i], near, shares)) continue;
@@ -42,7 +42,7 @@ class SampledDensity : public Density {
   std::vector<double> values_;
 };
 
-/// Increasing numbers, and the interval that contains one.
+/// Increasing numbers; finds the interval that contains a number.
 class Axis {
  public:
   explicit Axis(std::vector<double> ticks) : ticks_(std::move(ticks)) {
@@ -51,11 +51,11 @@ class Axis {
 
   struct Place {
     std::size_t before;
-    double part;  ///< of the way to the next tick
+    double part;  ///< fraction of the way to the next tick
   };
-  /// Of x between the first and the last tick.
+  /// The interval of x; x lies between the first and the last tick.
   Place place(double x) const {
-    const double guess = (x - ticks_.front()) * ticks_per_unit_;  // right where ticks are equidistant
+    const double guess = (x - ticks_.front()) * ticks_per_unit_;  // correct if the ticks are equidistant
     std::size_t i = std::min(static_cast<std::size_t>(std::max(guess, 0.0)), ticks_.size() - 2);
     if (!(ticks_[i] <= x && x <= ticks_[i + 1])) {
       const auto after = std::upper_bound(ticks_.begin() + 1, ticks_.end() - 1, x);
@@ -70,7 +70,7 @@ class Axis {
   double ticks_per_unit_;
 };
 
-/// Values on rows from pole to pole and on columns once around, the first one again at the end.
+/// Values on rows from pole to pole. The first column is repeated at the end, 360 degrees on.
 class GridDensity : public Density {
  public:
   GridDensity(std::vector<double> lon, std::vector<double> lat, std::vector<double> values)
@@ -98,7 +98,7 @@ class GridDensity : public Density {
   std::vector<double> values_;
 };
 
-/// The order that makes the numbers increase, after `key`.
+/// The order in which the numbers increase.
 template <class Key>
 std::vector<std::size_t> sorted(std::size_t n, const Key& key) {
   std::vector<std::size_t> order(n);
@@ -147,8 +147,7 @@ std::unique_ptr<Density> density_between(const std::vector<Point>& nodes, std::v
 }
 
 std::unique_ptr<Density> density_on_grid(const files::Grid& grid, const std::vector<double>& values) {
-  // Columns from the first one eastwards; a last one that is the first one again, 360 degrees on, is left
-  // out.
+  // Columns from the first one eastwards, without a last column that repeats the first one 360 degrees on.
   const double west = grid.lon.front();
   const auto east_of_first = [&](std::size_t i) {
     return grid.lon[i] - west - 360 * std::floor((grid.lon[i] - west) / 360);

@@ -21,8 +21,8 @@ std::unique_ptr<Density> density_of(const std::string& formula);
 std::unique_ptr<Density> density_between(const std::vector<files::Point>& nodes, std::vector<double> values);
 
 /// Bilinear interpolation in longitude and latitude between values on a grid, row after row of latitude.
-/// Longitudes go once around the globe. Beyond the last row the value goes to the mean of that row at the
-/// pole. Throws std::runtime_error: why the axes are no such grid.
+/// Longitudes must go once around the globe. Between the last row and the pole the value changes linearly to
+/// the mean of that row. Throws std::runtime_error, saying why, if the axes are no such grid.
 std::unique_ptr<Density> density_on_grid(const files::Grid& grid, const std::vector<double>& values);
 
 }  // namespace methods

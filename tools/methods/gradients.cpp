@@ -12,7 +12,8 @@
 namespace methods {
 namespace {
 
-/// Sums of weighted products of K functions at the nodes, and with their values: the normal equations.
+/// The normal equations of a least-squares fit with K functions: sums of their weighted products with each
+/// other and with the values.
 template <int K>
 class LeastSquares {
  public:
@@ -23,9 +24,9 @@ class LeastSquares {
     }
   }
 
-  /// The coefficients, by Cholesky's method; false if the nodes do not determine them.
+  /// The coefficients, by Cholesky's method. False if the nodes do not determine them.
   bool solve(std::array<double, K>& x) {
-    constexpr double kLeast = 1e-9;  // of a pivot, relative to its diagonal element
+    constexpr double kLeast = 1e-9;  // least pivot, relative to its diagonal element
     for (int i = 0; i < K; ++i) {
       const double diagonal = matrix_[i][i];
       for (int j = 0; j <= i; ++j) {

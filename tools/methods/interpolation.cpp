@@ -22,7 +22,7 @@ constexpr double kOnBorder = 1e-12;
 
 double square(const Point& d) { return dot(d, d); }
 
-/// Normalises the weights to sum 1.
+/// Scales the weights so that their sum is 1.
 void make_shares(std::vector<Share>& shares) {
   double sum = 0;
   for (const Share& s : shares) sum += s.part;
@@ -42,16 +42,16 @@ Interpolation::Interpolation(const Triangulated& mesh, std::shared_ptr<const voi
   middle_ = unit(sum);
 }
 
-/// From a triangle beside p, by exact signs, to the one that contains it: the same whatever search led here.
-/// Rounding may have led it across an arc. Where rounding has turned triangles the walk may not end: it is
-/// then ended.
+/// Walks by exact signs from a triangle near p to the one that contains p, so that the result does not depend
+/// on the search that led here. Rounding of the nodes can invert triangles; the number of steps is bounded
+/// because the walk might then cycle.
 void Interpolation::cross_arcs(const Point& p, Corners& corners) const {
   const Reader reader(mesh_.lists);
   std::int64_t steps = 0;
   for (int k = 0; k < 3 && steps < 2 * std::int64_t{reader.size()};) {
     auto& [a, b, c] = corners;
     if (pstripack::left(at(a), at(b), p) < 0) {
-      const std::int32_t slot = reader.slot_of(b, a);  // the triangle on the other side is b, a, w
+      const std::int32_t slot = reader.slot_of(b, a);  // beyond the arc lies triangle b, a, w
       if (reader.entry(slot) > 0) {
         c = a;
         a = reader.neighbour(reader.next(slot));
@@ -65,7 +65,8 @@ void Interpolation::cross_arcs(const Point& p, Corners& corners) const {
   }
 }
 
-/// False if p is outside; p just outside is moved inside. The triangle is the same for every search.
+/// False if p is outside. A p within kOnBorder of the border is moved inside. Every start of the search finds
+/// the same triangle.
 bool Interpolation::find(Point& p, std::int32_t& near, Corners& corners) const {
   const auto locate = [&] {
     double b1, b2, b3;
@@ -104,7 +105,7 @@ bool Interpolation::linear(const Point& p, std::int32_t& near, std::vector<Share
     }
   for (const auto& [node, from, to] : {std::array{a, b, c}, {b, c, a}, {c, a, b}}) {
     if (pstripack::left(at(from), at(to), place) != 0) continue;
-    // On the arc, whose other triangle might as well have been found.
+    // On an arc: compute the same shares in both of its triangles.
     const auto [low, high] = std::minmax(from, to);
     const Point l = cross(place, at(high)), h = cross(place, at(low));
     shares = {{low, std::sqrt(dot(l, l))}, {high, std::sqrt(dot(h, h))}};
@@ -113,8 +114,8 @@ bool Interpolation::linear(const Point& p, std::int32_t& near, std::vector<Share
   }
   for (const Share& s : {Share{a, volume(place, at(b), at(c))}, Share{b, volume(place, at(c), at(a))},
                          Share{c, volume(place, at(a), at(b))}})
-    if (s.part > 0) shares.push_back(s);              // at most a rounding beside an arc
-  if (shares.empty()) shares = {{nearest(p, a), 1}};  // of a triangle that is hardly more than an arc
+    if (s.part > 0) shares.push_back(s);              // beside an arc a share can be rounded to 0 or below
+  if (shares.empty()) shares = {{nearest(p, a), 1}};  // a triangle that is hardly wider than an arc
   make_shares(shares);
   return true;
 }
@@ -123,10 +124,10 @@ bool Interpolation::is_above(std::int32_t a, std::int32_t b, std::int32_t c, con
   return pstripack::orientation(at(a), at(b), at(c), p) > 0;
 }
 
-/// The natural neighbours of p, counterclockwise: the border of the triangles whose caps contain p, by exact
-/// signs. The triangles bound a convex body, above which p lies, so the visible ones are connected, without a
-/// hole. (Except for nodes so close that rounding has pushed one below its neighbours; then the walk may not
-/// end, and false is returned.)
+/// The natural neighbours of p, counterclockwise: the border of the triangles whose circumscribed caps
+/// contain p, by exact signs. These are the faces of the nodes' hull that p sees, so they are connected and
+/// without a hole. If two nodes are so close that rounding has pushed one below its neighbours, the walk may
+/// not end; then false is returned.
 ///
 ///          w          The triangle beyond the arc u->v, which has p on its left.
 ///        /   \        If p lies above it, w comes in between u and v.
@@ -152,8 +153,9 @@ bool Interpolation::natural_ring(const Point& p, const Corners& corners,
   return true;
 }
 
-/// The area that the cell of `node`, which comes between `before` and `after` in the ring around p, would
-/// lose to p: the polygon of its corners on p's side, between two corners of p's own cell.
+/// The area that the cell of `node` would lose to p. `node` comes between `before` and `after` in the ring
+/// around p. The area is that of the polygon of the cell's corners on p's side, between two corners of p's
+/// own cell.
 ///
 ///        new   after       old: circumcentres of the triangles of `node` from `after` to `before`
 ///     old |
@@ -189,7 +191,7 @@ bool Interpolation::natural(const Point& p, std::int32_t& near, std::vector<Shar
   Point place = p;
   Corners corners;
   if (!find(place, near, corners)) return is_node(p, near, shares);
-  // Not above its own triangle: p is so close to a corner that the height is lost in rounding.
+  // p does not lie above its own triangle: it is so close to a corner that its height is lost in rounding.
   const Corners& c = corners;
   const bool is_corner = at(c[0]) == p || at(c[1]) == p || at(c[2]) == p;
   std::vector<std::int32_t> ring;
@@ -204,7 +206,7 @@ bool Interpolation::natural(const Point& p, std::int32_t& near, std::vector<Shar
   return true;
 }
 
-/// Steps to nearer neighbours, as long as there are any.
+/// Steps to nearer neighbours until there is none.
 std::int32_t Interpolation::descend(const Point& p, std::int32_t node) const {
   const Reader reader(mesh_.lists);
   for (double best = square(minus(at(node), p));;) {
@@ -219,12 +221,12 @@ std::int32_t Interpolation::descend(const Point& p, std::int32_t node) const {
   }
 }
 
-// The segment from a node to p passes through the cells of nearer and nearer nodes, each a neighbour of the
-// previous one. Only if the nodes lie in a hemisphere can such neighbours, two nodes of the border, be
-// missing from the lists; their cells meet more than 90 degrees away from both. So the descent ends in the
-// nearest node if it begins less than 90 degrees away. If there is such a node, there is one on the border,
-// since a node is a sum of positive multiples of border nodes. For the same reason, if there is none, the
-// nearest node is on the border.
+// The segment from a node to p passes through cells of nearer and nearer nodes, each a neighbour of the
+// previous one. Only if the nodes lie in a hemisphere can two boundary nodes be such neighbours without an
+// arc in the lists. Their cells meet more than 90 degrees away from both, so a descent that begins less than
+// 90 degrees from p ends in the nearest node. If any node is that near, a boundary node is, since every node
+// is a sum of positive multiples of boundary nodes. For the same reason, if none is, the nearest node is a
+// boundary node.
 std::int32_t Interpolation::nearest(const Point& p, std::int32_t near) const {
   const Reader reader(mesh_.lists);
   std::int32_t node = descend(p, near >= 1 && near <= reader.size() ? near : 1);
@@ -260,7 +262,7 @@ double Interpolation::cubic_value(const Point& p, const std::vector<Share>& shar
 Interpolation::Result Interpolation::values_at(const std::vector<Point>& places,
                                                const std::vector<double>& values, Method method,
                                                Outside outside) const {
-  constexpr std::size_t kBlock = 512;  // searches restart here, so results do not depend on the threads
+  constexpr std::size_t kBlock = 512;  // searches restart here, so that threads change no bit
   Result result;
   result.values.resize(places.size());
   const std::size_t blocks = (places.size() + kBlock - 1) / kBlock;
@@ -288,7 +290,7 @@ Interpolation::Result Interpolation::values_at(const std::vector<Point>& places,
         sum += s.part * v;
         low = std::min(low, v), high = std::max(high, v);
       }
-      result.values[i] = std::clamp(sum, low, high);  // rounding may leave the range
+      result.values[i] = std::clamp(sum, low, high);  // rounding may exceed the range
     }
   };
   pstripack::parallel_pieces(blocks, pstripack::threads_for(100 * places.size()),

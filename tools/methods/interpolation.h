@@ -1,6 +1,6 @@
 #pragma once
-// Interpolation between scattered nodes: linear on triangles, by natural neighbours, and by these and
-// gradients.
+// Interpolation between scattered nodes: linear on triangles, by natural neighbours, or by natural neighbours
+// and gradients.
 
 #include <array>
 #include <cstdint>
@@ -11,41 +11,41 @@
 
 namespace methods {
 
-/// The weight of a node's value in the value at a place.
+/// The share of a node's value in the value at a place.
 struct Share {
   std::int32_t node;  ///< from 1
   double part;
 };
 
-/// A triangulation for interpolation. Any number of threads may call its members at a time.
+/// A triangulation for interpolation. Several threads may call its members at the same time.
 ///
-/// `near` is the node, from 1, at which a search starts; it becomes one near the place, so keep it between
-/// successive places; the shares do not depend on it. Places are unit vectors. Those up to 1e-12 outside the
-/// triangles count as on their border.
+/// Places are unit vectors. Places up to 1e-12 outside the triangles count as on their border. `near` is the
+/// node, from 1, at which the search starts; it is set to a node near the place. Keep it between successive
+/// places; the shares do not depend on it.
 ///
 /// The shares of a place are positive with sum 1; at a node, that node has the whole share.
 class Interpolation {
  public:
-  /// `owner`: keeps the triangulation alive; otherwise it must outlive this.
+  /// `owner` keeps the triangulation alive; without it the triangulation must outlive this object.
   explicit Interpolation(const Triangulated& mesh, std::shared_ptr<const void> owner = nullptr);
 
-  /// Of a triangle, counterclockwise, the smallest first.
+  /// The corners of a triangle, counterclockwise, the smallest first.
   using Corners = std::array<std::int32_t, 3>;
   /// The triangle that contains p. False outside the triangles.
   bool triangle(Point p, std::int32_t& near, Corners& corners) const { return find(p, near, corners); }
 
   /// The corners of the triangle a, b, c that contains p, with the barycentric coordinates of the point where
-  /// the ray to p meets the plane of the corners: det(p,b,c), det(a,p,c), det(a,b,p) over their sum. (Renka,
-  /// SSRFPACK.) Continuous; linear along arcs as seen from the centre. False, without shares, outside the
-  /// triangles.
+  /// the ray to p meets the plane of the corners: det(p,b,c), det(a,p,c), det(a,b,p) over their sum (Renka,
+  /// SSRFPACK). The values are continuous, and linear along arcs as seen from the centre. False, without
+  /// shares, outside the triangles.
   bool linear(const Point& p, std::int32_t& near, std::vector<Share>& shares) const;
 
-  /// Natural neighbours (Sibson 1981, with areas on the sphere): if p were a node, the part of its Voronoi
-  /// cell that each neighbour would lose to it. Continuous, and smooth except at the nodes. False, without
-  /// shares, outside the triangles.
+  /// Natural neighbours (Sibson 1981, with areas on the sphere). If p were a node, each neighbour would lose
+  /// a part of its Voronoi cell to p; these areas are the shares. The values are continuous, and smooth
+  /// except at the nodes. False, without shares, outside the triangles.
   bool natural(const Point& p, std::int32_t& near, std::vector<Share>& shares) const;
 
-  /// Of the border of nodes that lie in a hemisphere; 0: there is none.
+  /// A boundary node; 0 if the triangles cover the sphere.
   std::int32_t first_boundary_node() const { return first_boundary_node_; }
 
   /// The node nearest to p, wherever p is.
@@ -68,14 +68,14 @@ class Interpolation {
     std::vector<double> values;  ///< NaN: missing
     std::size_t outside = 0;
   };
-  /// The value at each place. The same bits for any number of threads. Linear and natural: within the range
+  /// The value at each place. Any number of threads gives the same bits. Linear and natural: within the range
   /// of the contributing nodes. Cubic: see cubic_value.
   Result values_at(const std::vector<Point>& places, const std::vector<double>& values, Method method,
                    Outside outside) const;
 
  private:
   bool find(Point& p, std::int32_t& near, Corners& corners) const;
-  /// Where triangles are no wider than rounding, a node may be found outside all of them.
+  /// True if p is a node. In triangles no wider than rounding, the search may report a node as outside.
   bool is_node(const Point& p, std::int32_t near, std::vector<Share>& shares) const;
   void cross_arcs(const Point& p, Corners& corners) const;
   bool is_above(std::int32_t a, std::int32_t b, std::int32_t c, const Point& p) const;
@@ -87,7 +87,7 @@ class Interpolation {
   std::shared_ptr<const void> owner_;
   Triangulated mesh_;
   std::int32_t first_boundary_node_;  ///< 0: none
-  Point middle_{0, 0, 0};             ///< of the nodes, where they lie in a hemisphere
+  Point middle_{0, 0, 0};             ///< centre of the nodes, if they lie in a hemisphere
 };
 
 }  // namespace methods

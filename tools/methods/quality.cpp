@@ -17,7 +17,7 @@ namespace {
 
 using pstripack::scvt::Neighbourhood;
 
-/// The triangles at node i: visit(from, to), places of its neighbours one after the other.
+/// Calls visit(from, to) for each triangle at node i, with the indices of its two other corners.
 template <class Visit>
 void around(const Neighbourhood& nodes, std::size_t i, const Visit& visit) {
   const std::size_t begin = nodes.stars.begin_of(i), end = nodes.stars.end_of(i);
@@ -29,29 +29,29 @@ void around(const Neighbourhood& nodes, std::size_t i, const Visit& visit) {
   }
 }
 
-/// The part of a cell in one of its triangles is two right-angled triangles; negative where the circumcentre
-/// is beyond a side.
+/// The area of a Voronoi cell. Its part in each triangle consists of two right-angled triangles, which count
+/// negative if the circumcentre lies beyond a side.
 double area_of_cell(const Neighbourhood& nodes, std::size_t i) {
   double area = 0;
   around(nodes, i, [&](std::size_t from, std::size_t to) {
     const Point &p = nodes.points[i], &q = nodes.points[from], &r = nodes.points[to];
     const Point centre = circumcentre(p, q, r);
-    // Both halves of the triangle over a side are equally large: the centre is as far from either end.
+    // Each is half of the triangle over a side, since the centre is equally far from both ends.
     area += (triangle_area(p, q, centre) + triangle_area(r, p, centre)) / 2;
   });
   return area;
 }
 
-/// A value of a node, for the ranks that have neighbours of it.
+/// A value that a rank sends to the ranks that know the node as a neighbour.
 struct ValueOfNode {
   std::int64_t number;
   double value;
 };
 
-/// Those of the nodes here, then of their neighbours on other ranks. Collective.
+/// Areas of the cells of this rank's nodes, then of their neighbours on other ranks. Collective.
 std::vector<double> areas_of_cells(pstripack::Communicator& ranks, const Neighbourhood& nodes) {
   const std::size_t own = nodes.stars.count;
-  std::size_t known = own;  // nodes here and neighbours elsewhere
+  std::size_t known = own;  // own nodes and neighbours on other ranks
   std::vector<double> areas;
   std::vector<std::vector<ValueOfNode>> told;
   const std::int64_t all = pstripack::scvt::sum_of_all(ranks, own);
@@ -77,7 +77,7 @@ std::vector<double> areas_of_cells(pstripack::Communicator& ranks, const Neighbo
   });
   pstripack::in_agreement(ranks, [&] {
     areas.resize(known);
-    const std::int64_t* const others = nodes.numbers + own;  // by increasing number
+    const std::int64_t* const others = nodes.numbers + own;  // in increasing order
     for (const ValueOfNode& node : pstripack::Items<ValueOfNode>(parcels)) {
       const std::int64_t* const place = std::lower_bound(others, nodes.numbers + known, node.number);
       areas[own + static_cast<std::size_t>(place - others)] = node.value;
@@ -93,7 +93,8 @@ Quality quality_of(pstripack::Communicator& ranks, const Neighbourhood& nodes) {
   Quality quality;
   pstripack::SmallestReal smallest_angle;
   pstripack::LargestReal largest_ratio;
-  std::int64_t counts[Quality::kMostSides + 3] = {};  // cells by sides; triangles; those well centred
+  std::int64_t counts[Quality::kMostSides + 3] =
+      {};  // number of cells by sides, of triangles, and of triangles that hold their circumcentre
   std::int64_t &triangles = counts[Quality::kMostSides + 1], &well_centred = counts[Quality::kMostSides + 2];
   for (std::size_t i = 0; i < nodes.stars.count; ++i) {
     const auto sides = static_cast<int>(nodes.stars.end_of(i) - nodes.stars.begin_of(i));

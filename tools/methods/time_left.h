@@ -1,5 +1,5 @@
 #pragma once
-// How long an iteration will last.
+// Estimate of the remaining time of an iteration.
 
 #include <cstddef>
 #include <deque>
@@ -7,15 +7,15 @@
 
 namespace methods {
 
-/// Of an iteration whose gradient falls to a tolerance. Only where the gradient fell alike in the older and
-/// the newer half of the last steps is there an estimate.
+/// Estimates when the gradient will have fallen to a tolerance. There is an estimate only if the gradient
+/// fell similarly fast in the older and the newer half of the last steps.
 class TimeLeft {
  public:
   explicit TimeLeft(double tolerance) : tolerance_(tolerance) {}
 
-  /// After each step: the time since the beginning.
+  /// To be called after each step. `seconds`: time since the beginning.
   void add(double seconds, double gradient);
-  /// In seconds.
+  /// The remaining seconds.
   std::optional<double> seconds() const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// What methods need of a triangulation: of a file's nodes, or of the arrays of a Python program.
+// The triangulation that interpolation works on: of a file's nodes, or of arrays of a Python program.
 
 #include <cstdint>
 
@@ -11,9 +11,8 @@ namespace methods {
 
 using pstripack::Point;
 
-/// Canonical lists and their nodes, which are unit vectors and count from 1. Both live elsewhere. Where the
-/// nodes were rounded to length 1 after they were triangulated, some triangles may be turned by that
-/// rounding.
+/// Canonical lists and their nodes, which are unit vectors with numbers from 1; not owned. If the nodes were
+/// scaled to length 1 after triangulation, rounding may have inverted some triangles.
 struct Triangulated {
   pstripack::ListsView<std::int32_t> lists;
   pstripack::Nodes<double> nodes;

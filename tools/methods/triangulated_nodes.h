@@ -11,7 +11,7 @@ namespace methods {
 /// The triangulation of the directions of nodes.
 class TriangulatedNodes {
  public:
-  /// Throws files::NoMesh, with indices into `nodes`.
+  /// Throws files::NoMesh with indices into `nodes`.
   explicit TriangulatedNodes(const std::vector<Point>& nodes);
 
   Triangulated view() const { return {mesh_.lists(), {x_.data(), y_.data(), z_.data()}}; }
@@ -21,7 +21,7 @@ class TriangulatedNodes {
   std::vector<double> x_, y_, z_;
 };
 
-/// Throws as TriangulatedNodes.
+/// Throws files::NoMesh with indices into `nodes`.
 Interpolation interpolation_between(const std::vector<Point>& nodes);
 
 }  // namespace methods

@@ -16,21 +16,21 @@
 namespace pictures {
 
 std::string natural_earth(double radius, const std::string& folder) {
-  // From the scale that fits to the coarsest.
+  // From the finest scale that the picture needs to the coarsest.
   constexpr const char* kScales[] = {"10m", "50m", "110m"};
   for (int k = radius < 8 ? 0 : radius < 40 ? 1 : 2; k < 3; ++k)
     if (std::string file = fmt::format("{0}/{1}/ne_{1}_land.shp", folder, kScales[k]);
         std::filesystem::exists(file))
       return file;
-  throw std::runtime_error(
-      fmt::format("{}: no coast lines of Natural Earth: install them (Debian: libmagics++-data), or name a "
-                  "shapefile by --coast-file",
-                  folder));
+  throw std::runtime_error(fmt::format(
+      "{}: Natural Earth's coast lines are not installed: install them (Debian: libmagics++-data), or name a "
+      "shapefile by --coast-file",
+      folder));
 }
 
 namespace {
 
-/// The bytes of a file, which are read where they are known to be.
+/// The bytes of a file; every access is checked against its length.
 class Bytes {
  public:
   explicit Bytes(const std::string& file) : file_(file) {
@@ -54,14 +54,15 @@ class Bytes {
     std::memcpy(&value, &bits, sizeof value);
     return value;
   }
-  /// A number of things of this size, which begin there, in the file as a whole.
+  /// Reads a count at `at`; fails if so many items of `size` bytes cannot fit the file.
   std::size_t count(std::size_t at, std::size_t size) const {
     const std::int32_t n = integer(at);
     if (n < 0 || static_cast<std::size_t>(n) > bytes_.size() / size) fail();
     return static_cast<std::size_t>(n);
   }
   [[noreturn]] void fail() const {
-    throw std::runtime_error(file_ + ": no shapefile (.shp) of lines or polygons in degrees, or cut short");
+    throw std::runtime_error(file_ +
+                             ": not a shapefile (.shp) of lines or polygons in degrees, or cut short");
   }
 
  private:
@@ -78,7 +79,7 @@ struct Degrees {
   bool at_antimeridian() const { return std::fabs(std::fabs(lon) - 180) < 1e-6; }
 };
 
-/// Where a polygon is only cut.
+/// True if the side only results from cutting a polygon at the antimeridian or a pole.
 bool is_cut(const Degrees& a, const Degrees& b) {
   return a.at_pole() || b.at_pole() || (a.at_antimeridian() && b.at_antimeridian());
 }
@@ -100,7 +101,7 @@ Lines read_shapefile(const std::string& file) {
     const std::size_t shape = record + 8;
     record = shape + 2 * static_cast<std::size_t>(words);
     if (kind == kNull) continue;
-    // Lines and polygons, also with heights and measures, which follow the points.
+    // Lines and polygons, also with heights and measures: these follow the points and are ignored.
     if (kind % 10 != 3 && kind % 10 != 5) bytes.fail();
     const std::size_t parts = bytes.count(shape + 36, 4), points = bytes.count(shape + 40, 16);
     const std::size_t first = shape + 44 + 4 * parts;

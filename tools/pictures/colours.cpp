@@ -54,7 +54,7 @@ std::vector<std::string> distinct_colours(const std::vector<std::vector<std::siz
       if (left[other] != kTaken) --left[other];
   }
   std::reverse(order.begin(), order.end());
-  // Of the colours rarest among its neighbours, the rarest overall.
+  // Choose among the colours that are rarest among the neighbours the one that is rarest overall.
   std::vector<std::size_t> chosen(n, kColours.size());
   std::array<std::size_t, kColours.size()> used{};
   for (const std::size_t i : order) {

@@ -11,18 +11,19 @@ namespace pictures {
 /// Viridis (van der Walt & Smith 2015): its lightness grows in equal steps. t: 0 to 1.
 std::string viridis(double t);
 
-/// By number of neighbours: white for six, blue below, red above; those of 4 and 8 for all beyond.
+/// White for six neighbours, blue for fewer, red for more; all below 4 or above 8 look like 4 and 8.
 std::string colour_of_degree(int degree);
 
 /// Colours of Okabe & Ito, which colour-blind readers can distinguish.
 constexpr const char* kVermilion = "#d55e00";
 
-/// For categories: lighter than those of Okabe & Ito, so that lines and numbers on them stay visible.
+/// Colours for categories, lighter than those of Okabe & Ito, so that lines and numbers on them remain
+/// visible.
 constexpr std::array<const char*, 7> kCategories{"#5aa5d6", "#f0b849", "#4cbf99", "#e58a4f",
                                                  "#d9a6c2", "#f2e86d", "#a8d4f0"};
-constexpr const char* kOtherWords = "#c4c4c4";  ///< for all others
+constexpr const char* kOtherWords = "#c4c4c4";  ///< for all further categories
 
-/// A colour for each of n things, different from those of its neighbours if possible.
+/// A colour for each of n things; neighbours get different colours if possible.
 std::vector<std::string> distinct_colours(const std::vector<std::vector<std::size_t>>& beside);
 
 }  // namespace pictures

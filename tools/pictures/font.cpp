@@ -8,7 +8,8 @@
 namespace pictures {
 namespace {
 
-/// Advances of the characters from blank to ~ in units of 1/2048, as in the table `hmtx` of DejaVuSans.ttf.
+/// Advance widths of the characters from blank to ~ in units of 1/2048, from the table `hmtx` of
+/// DejaVuSans.ttf.
 constexpr std::array<short, 95> kAdvances{
     651,  821,  942,  1716, 1303, 1946, 1597, 563,  799,  799,  1024, 1716, 651,  739,  651,  690,
     1303, 1303, 1303, 1303, 1303, 1303, 1303, 1303, 1303, 1303, 690,  690,  1716, 1716, 1716, 1087,
@@ -18,7 +19,7 @@ constexpr std::array<short, 95> kAdvances{
     1300, 1300, 842,  1067, 803,  1298, 1212, 1675, 1212, 1212, 1075, 1303, 690,  1303, 1716};
 constexpr double kUnits = 2048;
 
-/// The characters, each in its bytes.
+/// Splits a text into its characters.
 std::vector<std::string_view> characters(const std::string& utf8) {
   std::vector<std::string_view> result;
   for (std::size_t begin = 0; begin < utf8.size();) {
@@ -38,7 +39,7 @@ double advance(std::string_view character) {
   if (character == "°") return 1024;
   if (character == "·") return 651;
   if (character == "⁻") return 1081;
-  return character.size() < 3 ? 1650 : 2048;  // Latin, Greek and Cyrillic; others
+  return character.size() < 3 ? 1650 : 2048;  // Latin, Greek and Cyrillic; all others
 }
 
 }  // namespace
@@ -54,7 +55,7 @@ std::string shortened(const std::string& utf8, double size, double width) {
   const std::vector<std::string_view> all = characters(utf8);
   std::string begin, end;
   double left = width - text_width("…", size);
-  for (std::size_t i = 0, j = all.size(); i < j;) {  // from both ends
+  for (std::size_t i = 0, j = all.size(); i < j;) {  // keep characters from both ends
     const bool front = begin.size() <= end.size();
     const std::string_view next = front ? all[i] : all[j - 1];
     left -= advance(next) / kUnits * size;

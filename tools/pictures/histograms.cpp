@@ -17,12 +17,12 @@ namespace {
 
 constexpr const char* kBars = "#31688e";
 
-/// Counts of values, in bars across the whole width.
+/// A histogram across the full width of its panel.
 class Panel {
  public:
   Panel(Sheet& sheet, double left, double top) : sheet_(sheet), left_(left), top_(top) {}
 
-  /// `factor` is the unit of the printed values.
+  /// `factor`: unit in which the values are printed.
   void titles(const std::string& title, const std::vector<double>& values, double factor) {
     std::vector<double> sorted = values;
     std::sort(sorted.begin(), sorted.end());
@@ -34,7 +34,7 @@ class Panel {
         kGrey);
   }
 
-  /// Bars of equal width, with gaps of this fraction of it.
+  /// `gap`: space between two bars, as a fraction of their width.
   void bars(const std::vector<std::size_t>& counts, double gap) {
     const double most = static_cast<double>(*std::max_element(counts.begin(), counts.end()));
     const double step = std::max(1.0, round_step(most, 4)), steps = std::ceil(most / step - 1e-9);
@@ -69,7 +69,7 @@ class Panel {
   double left_, top_;
 };
 
-/// `unit` follows the power of ten of the ticks.
+/// `unit` is printed after the power of ten of the ticks.
 void draw(Panel panel, const std::string& title, const std::string& unit, const std::vector<double>& values,
           bool linear = false) {
   constexpr std::size_t kBins = 40;

@@ -1,5 +1,5 @@
 #pragma once
-// Legends: each is drawn below `top` and returns where it ends.
+// Legends. Each is drawn below `top`; its function returns its lower end.
 
 #include <string>
 #include <vector>
@@ -15,17 +15,17 @@ struct Shade {
   std::size_t count = 0;
 };
 
-constexpr int kSteps = 6;           ///< of a colour bar
+constexpr int kSteps = 6;           ///< steps of a colour bar
 constexpr double kBarWidth = 400;   ///< pixels
-constexpr double kTickLabels = 12;  ///< their size
+constexpr double kTickLabels = 12;  ///< font size
 
-/// Viridis with the ticks of the scale.
+/// A Viridis bar with the ticks of the scale.
 double draw_colour_bar(Sheet& sheet, double top, const std::string& title, const Scale& scale);
 
-/// Squares of those shades that have something, each with its label and count, in as many rows as they need.
+/// A square with label and count for each shade whose count is not 0, in as many rows as needed.
 double draw_shades(Sheet& sheet, double top, const std::string& title, const std::vector<Shade>& shades);
 
-/// A remark with a dot of a colour before it.
+/// A remark behind a coloured dot.
 double draw_note(Sheet& sheet, double top, const char* colour, const std::string& words);
 
 }  // namespace pictures

@@ -35,8 +35,8 @@ constexpr const char* kNoColour = "#e6e6e6";
 
 std::size_t index(std::int32_t number) { return static_cast<std::size_t>(number) - 1; }
 
-constexpr std::size_t kShades = 64;  ///< of a colour bar
-constexpr double kLabel = 12;        ///< size of texts around the drawing
+constexpr std::size_t kShades = 64;  ///< number of shades of a colour bar
+constexpr double kLabel = 12;        ///< font size around the drawing
 
 class MeshPicture {
  public:
@@ -74,7 +74,7 @@ class MeshPicture {
     radius_ = std::min(90.0, options_.radius ? *options_.radius : radius_of_nodes(centre));
     zoomed_ = radius_ < 90;
     decimals_ = std::max(2, 1 - static_cast<int>(std::floor(std::log10(radius_))));
-    // The longest label beside the drawing.
+    // Space for the longest label beside the drawing.
     const double margin = std::max(options_.lonlat ? 56.0 : 60.0,
                                    10 + text_width(name_of_latitude(-88.88888888, decimals_), kLabel));
     if (options_.lonlat) {
@@ -82,7 +82,7 @@ class MeshPicture {
       lonlat_ = map.get();
       view_ = std::move(map);
     } else {
-      if (zoomed_) top_ += 16;  // labels above it
+      if (zoomed_) top_ += 16;  // space for labels above it
       auto sphere = std::make_unique<Orthographic>(
           centre, radius_, Frame{margin, top_, kWidth - margin, top_ + kWidth - 2 * margin});
       orthographic_ = sphere.get();
@@ -97,14 +97,14 @@ class MeshPicture {
     Point sum{0, 0, 0};
     for (const Point& p : nodes_) sum = {sum.x + p.x, sum.y + p.y, sum.z + p.z};
     Spot spot = spot_of(dot(sum, sum) > 1e-12 ? sum : nodes_[0]);
-    for (double* angle : {&spot.lon, &spot.lat})  // round numbers, if they fit as well
+    for (double* angle : {&spot.lon, &spot.lat})  // round if that changes less than 1e-9 degrees
       for (const double unit : {1e-4, 1e-3, 1e-2, 0.1, 1.0})
         if (const double rounded = std::round(*angle / unit) * unit; std::fabs(rounded - *angle) < 1e-9)
           *angle = rounded;
     return spot;
   }
 
-  /// 90 unless all nodes are well inside a hemisphere.
+  /// The radius that shows all nodes; 90 if it would exceed 70 degrees.
   double radius_of_nodes(const Spot& centre) const {
     if (boundary_.empty()) return 90;
     const double lon = centre.lon / files::kRadian, lat = centre.lat / files::kRadian;
@@ -128,8 +128,8 @@ class MeshPicture {
                     centre_.lon, centre_.lat, fewer));
   }
 
-  /// Cells of nodes on one small circle, for example of three nodes, are lunes: the ends of a side do not
-  /// determine its direction.
+  /// Nodes on one small circle, for example three nodes, have lunes as cells. The ends of a lune's side are
+  /// antipodal and do not determine the arc.
   void expect_sides_shorter_than_a_half_turn() const {
     for (std::size_t f = 0; f < faces_.size(); ++f)
       for (std::size_t k = faces_.begin[f]; k < faces_.begin[f + 1]; ++k) {
@@ -137,13 +137,13 @@ class MeshPicture {
         if (dot(faces_.points[index(faces_.corner[k])], faces_.points[index(faces_.corner[next])]) <
             -1 + 1e-12)
           throw std::runtime_error(
-              "around some nodes, which lie on one circle, cells reach from its centre to the opposite "
-              "point, "
-              "which is not drawn: say --what triangles");
+              "some nodes lie on one circle: their cells reach from its centre to the opposite point and "
+              "cannot be drawn: say --what triangles");
       }
   }
 
-  /// Spacing in degrees of lines of longitude or latitude, so that about `lines` are visible over `span`.
+  /// Spacing in degrees of meridians or parallels, so that about `lines` of them are visible over `span`
+  /// degrees.
   static double graticule_step(double span, double lines) {
     constexpr double kSteps[] = {90, 60, 30, 15, 10, 5, 2, 1};
     double step = 90;
@@ -153,7 +153,7 @@ class MeshPicture {
     return round_step(span, static_cast<int>(lines));
   }
 
-  /// Paper, and the lines of longitude and latitude on it.
+  /// The background with the graticule.
   void draw_ground() {
     Path path;
     const auto at = [](double lon, double lat) {
@@ -176,7 +176,7 @@ class MeshPicture {
         sheet_.add(circle("#fbfcfd", "none"));
       else
         sheet_.rectangle(frame.left, frame.top, frame.width(), frame.height(), "#fbfcfd");
-      // The corners of the square are farther away than its sides.
+      // The corners of the square are farther from the centre than its sides.
       const double reach =
           files::kRadian * std::asin(std::min(1.0, std::sqrt(2.0) * std::sin(radius_ / files::kRadian)));
       const double south = std::max(-90.0, centre_.lat - reach), north = std::min(90.0, centre_.lat + reach);
@@ -203,7 +203,7 @@ class MeshPicture {
     sheet_.path(path, fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"0.8\"", kGraticule));
   }
 
-  /// Draws a piece of the last line of the graticule and remembers its ends.
+  /// Adds a piece of the current line of the graticule to the path and remembers its ends.
   void add_graticule(const Point& a, const Point& b, Path& path) {
     const std::vector<Outline> parts = view_->arc(a, b);
     add(parts, false, path);
@@ -211,7 +211,7 @@ class MeshPicture {
       for (const Place& end : {part.front(), part.back()}) graticule_.back().ends.push_back(end);
   }
 
-  /// About as many as have space for their labels.
+  /// Number of meridians that leaves space for their labels.
   double meridians() const {
     constexpr double kGap = 10;
     return std::min(9.0, view_->frame().width() /
@@ -257,7 +257,7 @@ class MeshPicture {
       while (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
       add(view_->polygon(corners), true, paths[shade_of[f]]);
     }
-    // Stroke each face in its own colour; otherwise paper shows between neighbours.
+    // Stroke each face in its own colour; otherwise the background shows between neighbours.
     for (std::size_t s = 0; s < shades_.size(); ++s)
       sheet_.path(paths[s],
                   fmt::format("fill=\"{0}\" stroke=\"{0}\" stroke-width=\"0.4\"", shades_[s].colour));
@@ -277,7 +277,7 @@ class MeshPicture {
     }
   }
 
-  /// Cells of boundary nodes have no size.
+  /// Cells of boundary nodes have no area: they are grey.
   std::vector<std::size_t> shades_of_size() {
     std::vector<double> area = files::areas(faces_);
     for (double& a : area) a *= files::kEarthRadius * files::kEarthRadius;
@@ -288,7 +288,7 @@ class MeshPicture {
 
   const char* what() const { return options_.what == What::cells ? "cell" : "triangle"; }
 
-  /// A colour bar; NaN: grey. `title` and `unit` go to the legend.
+  /// Shades of a colour bar; NaN: grey. `title` and `unit` are for the legend.
   std::vector<std::size_t> shades_of_numbers(const std::vector<double>& values, const std::string& title,
                                              const std::string& unit) {
     std::vector<double> known;
@@ -309,7 +309,7 @@ class MeshPicture {
     return shade;
   }
 
-  /// Of a column of the nodes. A triangle has the mean of its corners.
+  /// Shades for the values of a column. A triangle gets the mean of its corners.
   std::vector<std::size_t> shades_of_value() {
     const files::Column* const column = files::find(mesh_.columns, options_.value);
     if (column == nullptr) throw std::runtime_error("no column is named " + options_.value);
@@ -323,7 +323,7 @@ class MeshPicture {
     return shades_of_numbers(means, legend_, column->units);
   }
 
-  /// The words of most nodes have a colour each; the others share one.
+  /// The most frequent words have a colour each; all others share one.
   std::vector<std::size_t> shades_of_words(const std::vector<std::string>& words) {
     if (options_.what != What::cells)
       throw std::runtime_error(fmt::format("{} is a column of words: say --what cells", options_.value));
@@ -402,10 +402,10 @@ class MeshPicture {
     }
   }
 
-  /// Each side of a face once: it has two faces, in one of which it leads to the larger number. Shorter sides
-  /// are finer, so that dense parts do not become blots.
+  /// Draws each side of a face once. Two faces share a side; it is drawn in the one where it leads to the
+  /// larger number. Shorter sides get thinner lines, so that dense parts do not become blots.
   void draw_lines() {
-    constexpr int kClasses = 10;  // each twice as long as the previous one, from 1 pixel on
+    constexpr int kClasses = 10;  // each class is twice as long as the previous one, from 1 pixel on
     std::vector<Path> paths(kClasses);
     double length = 0;
     std::size_t count = 0;
@@ -455,12 +455,12 @@ class MeshPicture {
 
   void draw_coasts() {
     if (!options_.coasts && options_.coast_file.empty()) return;
-    constexpr double kShort = 0.4;  // pixels: steps that are not worth their bytes
+    constexpr double kShort = 0.4;  // shorter steps, in pixels, are left out
     const auto distance = [](const Place& p, const Place& q) { return std::hypot(p.x - q.x, p.y - q.y); };
     Path path;
     for (const auto& line :
          read_shapefile(options_.coast_file.empty() ? natural_earth(radius_) : options_.coast_file)) {
-      std::optional<Place> drawn, end;  // of the path so far, and of the arc before
+      std::optional<Place> drawn, end;  // last point drawn, and end of the previous arc
       const auto finish = [&] {
         if (end && distance(*drawn, *end) > 0) path.line(*end);
       };
@@ -510,7 +510,7 @@ class MeshPicture {
                        Sheet::kDrawing);
   }
 
-  /// Longitudes and latitudes around a map, and where the graticule meets the border of a part of the sphere.
+  /// Draws longitudes and latitudes around a map, or where the graticule meets the border of a zoomed view.
   void draw_labels() {
     const Frame& frame = view_->frame();
     constexpr double kTick = 4;
@@ -564,7 +564,7 @@ class MeshPicture {
     top_ += 17;
   }
 
-  /// The point below the eye, and a scale of lengths.
+  /// Draws the position below the eye and a scale bar.
   void draw_footer() {
     const Frame& frame = view_->frame();
     const std::string eye = "above " + name_of(centre_, decimals_);
@@ -572,7 +572,7 @@ class MeshPicture {
       if (lonlat_ == nullptr) sheet_.text({kWidth - 14, frame.bottom - 4}, kLabel, Anchor::end, eye, kGrey);
       return;
     }
-    // The longest length of 1, 2 or 5 times a power of ten that takes at most a quarter of the width.
+    // The bar's length is 1, 2 or 5 times a power of ten, at most a quarter of the width.
     const double pixels_per_km = view_->scale() / files::kEarthRadius;
     const double longest = frame.width() / 4 / pixels_per_km;
     const double power = std::pow(10, std::floor(std::log10(longest)));
@@ -589,7 +589,7 @@ class MeshPicture {
     top_ += 24;
   }
 
-  /// The number of each rank in the middle of its visible nodes, where there is space for it.
+  /// Draws the number of each rank at the centre of its visible nodes if there is space.
   void draw_ranks() {
     constexpr int kMostNumbers = 100;
     constexpr double kNumber = 15;
@@ -620,7 +620,7 @@ class MeshPicture {
     sheet_.add("</g>\n");
   }
 
-  /// The owner of the node that is drawn nearest to there.
+  /// The owner of the node drawn nearest to this place.
   std::size_t owner_at(const Place& at) const {
     double least = INFINITY;
     std::size_t owner = 0;
@@ -631,7 +631,7 @@ class MeshPicture {
     return owner;
   }
 
-  /// Of the drawing, by more than a line's width.
+  /// True if the box lies in the drawing, at least a line width from its border.
   bool is_inside(const Box& box) const {
     const Frame& frame = view_->frame();
     constexpr double kLine = 2;
@@ -679,7 +679,7 @@ class MeshPicture {
     top_ += 18;
   }
 
-  /// A meridian or parallel, and where it, or a piece of it, begins and ends on the paper.
+  /// A meridian or parallel, and the ends of its drawn pieces.
   struct GraticuleLine {
     bool is_meridian;
     std::string name;
@@ -692,21 +692,21 @@ class MeshPicture {
   const std::vector<Point> nodes_;  ///< of length 1
   std::vector<std::size_t> boundary_;
   Sheet sheet_;
-  double top_ = 0;  ///< where the next thing goes
+  double top_ = 0;  ///< top of the next element
   std::unique_ptr<View> view_;
-  const Orthographic* orthographic_ = nullptr;  ///< view_, if it is one
+  const Orthographic* orthographic_ = nullptr;  ///< view_ if it is orthographic, else null
   const LonLat* lonlat_ = nullptr;
   Spot centre_{0, 0};
   double radius_ = 90;
-  bool zoomed_ = false;  ///< a part of the sphere
-  int decimals_ = 2;     ///< of degrees in labels
+  bool zoomed_ = false;  ///< true if only a part of the sphere is shown
+  int decimals_ = 2;     ///< decimals of degrees in labels
   std::vector<GraticuleLine> graticule_;
   Faces faces_;
   std::vector<Shade> shades_;
   std::vector<std::size_t> owner_;  ///< of each node
   std::optional<Scale> scale_;
-  std::string legend_;  ///< title of the colours
-  double spacing_ = 0;  ///< of lines, in pixels
+  std::string legend_;  ///< title of the legend
+  double spacing_ = 0;  ///< mean distance of the drawn lines in pixels
 };
 
 }  // namespace

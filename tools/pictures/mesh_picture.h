@@ -1,5 +1,5 @@
 #pragma once
-// A triangulation or its Voronoi cells, drawn.
+// Pictures of a triangulation or of its Voronoi cells.
 
 #include <optional>
 #include <string>
@@ -13,27 +13,27 @@ namespace pictures {
 struct MeshOptions {
   enum class What { triangles, cells } what = What::triangles;
 
-  bool lonlat = false;           ///< or else orthographic
-  std::optional<Spot> centre;    ///< none: the middle of the nodes, where they do not cover the sphere
-  std::optional<double> radius;  ///< degrees; none: all nodes
+  bool lonlat = false;           ///< longitude-latitude map; else orthographic
+  std::optional<Spot> centre;    ///< none: the centre of the nodes, or a default if they cover the sphere
+  std::optional<double> radius;  ///< in degrees; none: show all nodes
 
   enum class Colour { none, size, degree, owner, value } colour = Colour::none;
-  int ranks = 1;  ///< of Colour::owner
+  int ranks = 1;  ///< number of ranks, for Colour::owner
   pstripack::PartitionKind partition = pstripack::PartitionKind::bisection;
 
-  std::string value;  ///< of Colour::value: the name of a column of the mesh
+  std::string value;  ///< name of a column of the mesh, for Colour::value
 
-  bool coasts = false;     ///< those of Natural Earth
-  std::string coast_file;  ///< or of this shapefile
+  bool coasts = false;     ///< draw Natural Earth's coast lines
+  std::string coast_file;  ///< draw the lines of this shapefile instead
   std::string title;
-  double width = 800;  ///< pixels
+  double width = 800;  ///< in pixels
 };
 
-/// More nodes than this are refused: lines would be closer than pixels, and files too large for viewers.
+/// More nodes in view are refused: lines would be closer than pixels and files too large for viewers.
 constexpr std::size_t kMostNodesInView = 200000;
 
-/// As SVG. Throws std::runtime_error where too many nodes are in view, or coast lines or a column are
-/// missing.
+/// The picture as SVG. Throws std::runtime_error if too many nodes are in view, or if coast lines or a column
+/// are missing.
 std::string mesh_picture(const files::Mesh& mesh, const MeshOptions& options);
 
 }  // namespace pictures

@@ -12,11 +12,11 @@ namespace {
 
 /// Values whose largest ratio exceeds this are shown on a logarithmic scale.
 constexpr double kMuch = 20;
-/// Of larger ratios only powers of ten are labelled.
+/// Above this ratio only powers of ten are labelled.
 constexpr double kDecades = 300;
-/// Smaller values count as 0 and larger ones as these: differences and powers of ten might overflow.
+/// Values are limited to this range: otherwise differences and powers of ten might overflow.
 constexpr double kLeast = 1e-300, kLargest = 1e300;
-/// Of a step: rounding.
+/// Tolerance for rounding, as a fraction of a step.
 constexpr double kRounding = 1e-6;
 
 double within_range(double value) {
@@ -31,7 +31,7 @@ Scale::Scale(const std::vector<double>& values, int about, bool always_linear) {
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   double low = within_range(*least), high = within_range(*most);
   logarithmic_ = !always_linear && low > 0 && high > kMuch * low;
-  if (high - low <= 1e-9 * std::fabs(high)) {  // all the same but for rounding
+  if (high - low <= 1e-9 * std::fabs(high)) {  // all equal up to rounding
     const double around = high == 0 ? 1 : 0.1 * std::fabs(high);
     low -= around, high += around;
   }
@@ -68,7 +68,7 @@ void Scale::add_logarithmic_ticks(double low, double high, int about) {
     for (const int digit : {1, 2, 5}) {
       if (digit > 1 && !close) continue;
       const double value = digit * std::pow(10, e);
-      if (value < low * (1 + kRounding)) ticks_.clear();  // a later one is nearer to the least value
+      if (value < low * (1 + kRounding)) ticks_.clear();  // a later tick is nearer to the least value
       if (ticks_.empty() || ticks_.back().value < high * (1 - kRounding))
         ticks_.push_back({value, fmt::format("{:g}", digit * std::pow(10, e - exponent_))});
     }

@@ -1,29 +1,29 @@
 #pragma once
-// Axes and colour bars.
+// Scales of axes and colour bars.
 
 #include <string>
 #include <vector>
 
 namespace pictures {
 
-/// The range of some values, linear or, if their ratio is large, logarithmic. It begins and ends at ticks.
+/// A scale for some values, linear, or logarithmic if their ratio is large. Its ends are ticks.
 class Scale {
  public:
-  /// `values`: not empty. About `about` steps between ticks. `always_linear`: for values with a known range,
-  /// such as angles.
+  /// `values`: not empty. `about`: approximate number of steps between ticks. `always_linear`: for values
+  /// with a known range, such as angles.
   Scale(const std::vector<double>& values, int about, bool always_linear = false);
-  /// With at most `about` steps, fewer where labels of this size would overlap on so many pixels.
+  /// At most `about` steps; fewer if labels of font size `size` would overlap on `pixels` pixels.
   static Scale fitting(const std::vector<double>& values, int about, double pixels, double size,
                        bool always_linear = false);
 
-  double operator()(double value) const;  ///< 0 to 1 for those values
+  double operator()(double value) const;  ///< fraction of the range: 0 to 1
 
   struct Tick {
     double value;
     std::string label;
   };
-  /// At round values: the first is the least value of the range, the last the largest. Labels are to be
-  /// multiplied by factor().
+  /// Ticks at round values. The first and the last are the ends of the range. Label times factor() is the
+  /// value.
   const std::vector<Tick>& ticks() const { return ticks_; }
   double factor() const;
   /// "" or "10⁻⁴ ", before the name of the unit.
@@ -38,7 +38,7 @@ class Scale {
   std::vector<Tick> ticks_;
 };
 
-/// The step, 1, 2 or 5 times a power of ten, that divides a range of this length into about so many.
+/// The step, 1, 2 or 5 times a power of ten, that divides `length` into about `about` steps.
 double round_step(double length, int about);
 
 /// "10,242"
@@ -47,7 +47,7 @@ std::string grouped(std::size_t number);
 /// "10⁻⁴"
 std::string power_of_ten(int exponent);
 
-/// With four significant digits, in exponential form only for very small and very large numbers.
+/// Four significant digits; exponential form only for very small or very large numbers.
 std::string short_number(double value);
 
 }  // namespace pictures

@@ -1,5 +1,5 @@
 #pragma once
-// The elements of a picture, 800 units wide and as high as needed.
+// The elements of a picture 800 units wide and as high as needed.
 
 #include <string>
 #include <vector>
@@ -14,7 +14,7 @@ constexpr const char* kGrey = "#777777";
 
 enum class Anchor { start, middle, end };
 
-/// What a text occupies.
+/// The rectangle of a text.
 struct Box {
   double left, top, right, bottom;
 };
@@ -27,23 +27,23 @@ class Sheet {
   void add(const std::string& elements) { body_ += elements; }
   void text(const Place& at, double size, Anchor anchor, const std::string& words,
             const char* colour = kBlack);
-  /// The same, moved into the sheet from its left and right border; nothing, and false, where it would
+  /// Adds a text, moved away from the left and right border of the sheet. False, adding nothing, if it would
   /// overlap another text.
   bool text_if_free(Place at, double size, Anchor anchor, const std::string& words,
                     const char* colour = kBlack);
-  /// A line in the middle: smaller, and at last shortened, if it is too long.
+  /// A centred line. A line that is too long is made smaller, then shortened.
   void centred(double y, double size, const std::string& words, const char* colour = kBlack);
   void rectangle(double x, double y, double width, double height, const std::string& fill,
                  const char* stroke = "none", const char* kind = nullptr);
-  /// Of the class `drawing`, which no text but numbers inside it overlaps.
+  /// Class of the border of a drawing. Only numbers inside the drawing may overlap it.
   static constexpr const char* kDrawing = "drawing";
-  /// `style`: further attributes. Nothing for an empty path.
+  /// Adds a path unless it is empty. `style`: further attributes.
   void path(const Path& path, const std::string& style);
 
-  /// The title, if any; returns where it ends.
+  /// Adds the title, if it is not empty; returns its lower end.
   double title(const std::string& words);
 
-  /// The whole, `width` pixels wide.
+  /// The complete SVG, `width` pixels wide.
   std::string svg(double height, double width) const;
 
  private:

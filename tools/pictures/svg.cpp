@@ -25,7 +25,7 @@ std::string valid_utf8(const std::string& text) {
 
 void write_png(const files::OutputFile& file, const std::string& svg) {
   using Stream = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
-  const Stream picture(std::tmpfile(), std::fclose);  // without a name: it cannot be left behind
+  const Stream picture(std::tmpfile(), std::fclose);  // an unnamed file cannot be left behind
   if (picture == nullptr || std::fwrite(svg.data(), 1, svg.size(), picture.get()) != svg.size() ||
       std::fflush(picture.get()) != 0)
     files::fail_to_write("a temporary file", errno);

@@ -17,24 +17,24 @@ std::optional<Kind> kind_of(const std::string& file);
 /// Throws std::runtime_error if PNG is requested and rsvg-convert, which makes it, is missing.
 void expect_converter(Kind kind);
 
-/// Writes the picture; commit() is the caller's. Throws std::runtime_error if it cannot be written.
+/// Writes the picture; the caller calls commit(). Throws std::runtime_error if it cannot be written.
 void write(const files::OutputFile& file, Kind kind, const std::string& svg);
 
-/// `text` inside an attribute or element of XML, whatever bytes it holds.
+/// The text for an attribute or element of XML; it may contain any bytes.
 std::string escaped_for_xml(const std::string& text);
 
-/// On paper: to the right and down, in pixels.
+/// A place in the picture in pixels, to the right and down.
 struct Place {
   double x, y;
 };
 
-/// The data of a <path>, in hundredths of a pixel. Parts without length are left out.
+/// The data of a <path>, in hundredths of a pixel. Pieces shorter than that are left out.
 class Path {
  public:
   void move(const Place& p);
   void line(const Place& p);
   void close() { data_ += 'Z'; }
-  /// Round, of the width of the line, with stroke-linecap="round".
+  /// A dot: round and as wide as the line if stroke-linecap is "round".
   void dot(const Place& p) {
     move(p);
     data_ += "h0";

@@ -17,7 +17,8 @@ using pstripack::dot;
 
 /// A piece looks straight if its middle is at most this many pixels off.
 constexpr double kStraight = 0.05;
-/// Longer pieces are always cut: a piece may be bent like an S. Cosine of the angle.
+/// Longer pieces are always cut: the middle of an S-shaped piece can lie on the straight line. Cosine of 10
+/// degrees.
 const double kLong = std::cos(10 / files::kRadian);
 constexpr int kDeepest = 16;
 
@@ -34,8 +35,8 @@ double distance_from_line(const Place& p, const Place& a, const Place& b) {
   return std::fabs(x * (p.y - a.y) - y * (p.x - a.x)) / length;
 }
 
-/// Whether a bent piece from a to b over its middle m lies beyond one side of the frame as a whole: how it is
-/// bent there does not matter. `turn`: pixels after which the frame repeats itself to the right, or 0.
+/// True if a piece from a over its middle m to b lies completely outside the frame, so that its curvature
+/// does not matter. `turn`: pixels after which the map repeats to the right; 0: it does not.
 bool misses(const Place& a, const Place& m, const Place& b, const Frame& frame, double turn) {
   const double bend = 2 * distance_from_line(m, a, b);
   if (std::max({a.y, m.y, b.y}) + bend < frame.top || std::min({a.y, m.y, b.y}) - bend > frame.bottom)
@@ -62,13 +63,13 @@ Place between(const Place& a, const Place& b, double t) {
   return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
 }
 
-/// Without zeros at the end.
+/// The number without trailing zeros.
 std::string number(double degrees, int decimals) {
   const double factor = std::pow(10, decimals);
   return fmt::format("{:.10g}", std::round(std::fabs(degrees) * factor) / factor);
 }
 
-/// Of all equal longitudes the one nearest to `near`.
+/// The equal longitude that is nearest to `near`.
 double turned_to(double lon, double near) { return lon + 360 * std::round((near - lon) / 360); }
 
 }  // namespace
@@ -148,7 +149,7 @@ std::optional<Place> Orthographic::place(const Point& p) const {
   return seen ? std::optional(q) : std::nullopt;
 }
 
-/// All of the arc but its first point; turned.
+/// Appends the arc, turned, without its first point.
 void Orthographic::add_arc(const Point& a, const Point& b, Outline& outline, int depth) const {
   const Point m = middle_of(a, b);
   const Place from = on_paper(a), middle = on_paper(m), to = on_paper(b);
@@ -165,7 +166,7 @@ void Orthographic::add_arc(const Point& a, const Point& b, Outline& outline, int
 
 namespace {
 
-/// Of two turned points on both sides of the limb: the point between them on it.
+/// The point where the chord between two turned points on both sides of the limb meets it.
 Point on_limb(const Point& a, const Point& b, double t) {
   Point p = {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), 0};
   const double length = std::hypot(p.x, p.y);
@@ -176,11 +177,10 @@ double in_front(const Point& turned) { return turned.z; }
 
 }  // namespace
 
-// Cut at the limb, where it ends in an arc of the limb:
+// Cut at the limb:
 //
-//        b .---.            a b c is cut to a b p q, and what lies between p and q, both on the limb, is an
-//        arc
-//         /     \ p         of a great circle like any other.
+//        b .---.            a b c is cut to a b p q. The side from p to q runs along the limb,
+//         /     \ p         which is a great circle.
 //      a '--.    '.
 //            '--. :\        A convex polygon whose corners are all behind the limb is behind it.
 //               q'--' c
@@ -215,7 +215,7 @@ std::vector<Outline> Orthographic::arc(const Point& a, const Point& b) const {
 LonLat::LonLat(const Spot& centre, double radius, const Frame& frame) {
   const bool all = radius >= 90;
   const double squeezed = all ? 1 : std::max(0.05, point_sets::cos_degrees(centre.lat));
-  // As far to the east and west as a cap of that radius extends.
+  // Extend as far east and west as a cap of that radius does.
   const bool pole = all || std::fabs(centre.lat) + radius >= 90;
   const double half =
       pole ? 180
@@ -230,28 +230,28 @@ LonLat::LonLat(const Spot& centre, double radius, const Frame& frame) {
   frame_ = {middle - width / 2, frame.top, middle + width / 2, frame.top + per_lat_ * (north_ - south_)};
 }
 
-/// A line on the map with its longitudes unrolled: from one point to the next by less than half a turn.
+/// A line on the map with continuous longitudes: they change by less than 180 degrees from point to point.
 ///
-///        90 N  ------1=======2------     A corner at the pole is the line 1-2. If the polygon is on the left
-///        of
-///                    |       |           its arcs, as ever, it lies below that line, which leads west (at
-///                    the ^       v           south pole, where it lies above, east). b       a
+///        90 N  ------1=======2------     A corner at the north pole becomes the line 2-1, which leads
+///                    |       |           west: the polygon lies on its left. At the south pole the
+///                    v       ^           line leads east.
+///                    b       a
 class LonLat::Unrolled {
  public:
   explicit Unrolled(const LonLat& view) : view_(view) {}
 
-  /// The line restarts at p.
+  /// Starts a new line at p.
   void begin(const Point& p) { begin(p, spot_of(p).lon); }
   void begin(const Point& p, double lon) { line.push_back({lon, spot_of(p).lat}); }
-  /// From the last point, p, to q, neither of them a pole, nor one in between.
+  /// Adds the arc from p, the last point, to q. It must not touch a pole.
   void go(const Point& p, const Point& q, int depth = 0) {
     Spot to = spot_of(q);
     to.lon = turned_to(to.lon, line.back().lon);
     add(p, q, to, depth);
   }
-  /// Due north or south to a pole.
+  /// Adds the meridian to a pole.
   void go_to_pole(double lat) { line.push_back({line.back().lon, lat}); }
-  /// From a pole due south or north to p.
+  /// Adds the meridian from a pole to p.
   void leave_pole(const Point& p) {
     const double pole = line.back().lat, sign = pole > 0 ? -1 : 1;
     double lon = turned_to(spot_of(p).lon, line.back().lon);
@@ -289,12 +289,12 @@ double pole_at(const Point& p) {
   return std::fabs(p.x) < kNear && std::fabs(p.y) < kNear ? std::copysign(90.0, p.z) : 0;
 }
 
-/// The pole that lies between a and b on their arc, as a point.
+/// The pole between a and b on their arc, if any.
 std::optional<Point> pole_between(const Point& a, const Point& b) {
   if (pole_at(a) != 0 || pole_at(b) != 0) return std::nullopt;
   const Point normal = cross(a, b);
   if (std::fabs(normal.z) > 1e-9 * std::sqrt(dot(normal, normal))) return std::nullopt;
-  // Both poles are on the circle, but on other meridians than a or b, or beyond the arc.
+  // The great circle contains both poles, but the arc from a to b need not.
   const double cosine = a.x * b.x + a.y * b.y;
   if (cosine > 0) return std::nullopt;
   return Point{0, 0, a.z + b.z > 0 ? 1.0 : -1.0};
@@ -334,7 +334,7 @@ std::vector<Outline> LonLat::polygon(const std::vector<Point>& corners) const {
     else
       unrolled.go(p, q);
   }
-  // Once round the sphere: the pole on its left is inside.
+  // The line goes once around the sphere: the pole on its left is inside.
   std::vector<Spot>& line = unrolled.line;
   if (const double turn = line.back().lon - line.front().lon; std::fabs(turn) > 180) {
     const double pole = turn > 0 ? 90 : -90, begin = line.front().lon;

@@ -1,5 +1,5 @@
 #pragma once
-// The sphere on paper. Arcs of great circles stay arcs: they are cut into pieces that look straight.
+// Projections of the sphere. Arcs of great circles are cut into pieces that look straight.
 
 #include <memory>
 #include <optional>
@@ -21,7 +21,7 @@ struct Frame {
   double height() const { return bottom - top; }
 };
 
-/// The part of an outline in the frame. Where it leaves and re-enters, it follows the frame's border.
+/// The part of an outline inside the frame. It follows the frame's border where the outline leaves the frame.
 Outline clipped_polygon(const Outline& outline, const Frame& frame);
 /// The parts of a line in the frame.
 std::vector<Outline> clipped_line(const Outline& line, const Frame& frame);
@@ -36,19 +36,19 @@ std::string name_of(const Spot& spot, int decimals = 2);
 std::string name_of_longitude(double lon, int decimals = 2);
 std::string name_of_latitude(double lat, int decimals = 2);
 
-/// A map of directions: unit vectors.
+/// A map of the sphere's directions, given as unit vectors.
 class View {
  public:
   virtual ~View() = default;
 
-  /// The paper that it fills, or a circle in that.
+  /// The rectangle that the view fills, or whose inscribed circle it fills.
   const Frame& frame() const { return frame_; }
 
-  /// In the middle of the picture: pixels per radian of the sphere, to the north.
+  /// Pixels per radian, northwards from the middle of the picture.
   virtual double scale() const = 0;
-  /// The position of a point, if visible.
+  /// The position of a point, if it is visible.
   virtual std::optional<Place> place(const Point& p) const = 0;
-  /// The visible part of a convex polygon, corners counterclockwise: closed outlines.
+  /// The visible part of a convex polygon with counterclockwise corners, as closed outlines.
   virtual std::vector<Outline> polygon(const std::vector<Point>& corners) const = 0;
   /// The visible part of an arc shorter than half a great circle.
   virtual std::vector<Outline> arc(const Point& a, const Point& b) const = 0;
@@ -57,8 +57,8 @@ class View {
   Frame frame_{};
 };
 
-/// From infinitely far above `centre`: as far as `radius` degrees around it, at most 90, which is half the
-/// sphere. `frame`: where it may be; it is the largest square there.
+/// The view from infinitely far above `centre`, up to `radius` degrees around it; at most 90, half of the
+/// sphere. It is the largest square inside `frame`.
 class Orthographic : public View {
  public:
   Orthographic(const Spot& centre, double radius, const Frame& frame);
@@ -82,9 +82,9 @@ class Orthographic : public View {
   bool shows_limb_;
 };
 
-/// Longitude to the right, latitude upwards, in equal steps: what lies within `radius` degrees of `centre`
-/// and the rest of that rectangle; from 90 on the whole sphere, cut opposite the centre. `frame`: its width
-/// is kept, its height follows, but for that the height is not exceeded.
+/// Longitude to the right, latitude upwards, in equal steps. It shows the bounding rectangle of the cap of
+/// `radius` degrees around `centre`; from 90 degrees on the whole sphere, cut opposite the centre. It has the
+/// width of `frame`, or less if its height would exceed that of `frame`.
 class LonLat : public View {
  public:
   LonLat(const Spot& centre, double radius, const Frame& frame);
@@ -105,7 +105,7 @@ class LonLat : public View {
  private:
   class Unrolled;
   double west_, east_, south_, north_;
-  double per_lon_, per_lat_;  ///< pixels a degree
+  double per_lon_, per_lat_;  ///< pixels per degree
 };
 
 }  // namespace pictures

@@ -37,7 +37,7 @@ Point normalized(const Point& p) {
 }
 
 Point rounded_to_single(const Point& p) {
-  // Volatile, since GCC 12 otherwise omits the rounding of two components that it handles at once.
+  // Volatile: GCC 12 otherwise omits the rounding of two components that it vectorizes.
   volatile const float x = static_cast<float>(p.x), y = static_cast<float>(p.y), z = static_cast<float>(p.z);
   return {x, y, z};
 }

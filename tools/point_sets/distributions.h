@@ -1,6 +1,6 @@
 #pragma once
-// The point sets whose time is compared with that of random nodes: pstripack-benchmark --only distributions,
-// and the tests of small ones of them.
+// The point sets of `pstripack-benchmark --only distributions`, which compares their time with that of random
+// nodes. Tests use small ones of them.
 
 #include <string>
 #include <vector>
@@ -9,7 +9,7 @@ namespace point_sets {
 
 struct Distribution {
   std::string name;  ///< name for point_sets::make
-  double limit;      ///< largest time per node, in units of that of as many random nodes
+  double limit;      ///< largest time per node, relative to the same number of random nodes
 };
 
 const std::vector<Distribution>& distributions();

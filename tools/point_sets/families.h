@@ -14,13 +14,13 @@ using Points = std::vector<pstripack::Point>;
 
 struct Family {
   std::string name;
-  std::string parameter;  ///< its default, as written; empty: the family takes none
-  std::string nodes;      ///< their number if n are requested
-  std::string what;       ///< one line for --help and docs/point-sets.md
+  std::string parameter;  ///< default parameter as written; empty: the family has no parameter
+  std::string nodes;      ///< the number of nodes if n are requested
+  std::string what;       ///< one line for --help
   std::function<Points(std::size_t n, double parameter, Random& random)> make;
 };
 
-/// All of them, in the order in which they are listed: families(), then hard_families().
+/// All families in the order of the lists: families(), then hard_families().
 const std::vector<Family>& registry();
 
 Family random_family();

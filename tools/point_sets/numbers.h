@@ -4,7 +4,7 @@
 
 namespace point_sets {
 
-/// The whole of `text` as a finite number, decimal or hexadecimal; also 1.5D-3, as Fortran programs write it.
+/// Parses all of `text` as a finite decimal or hexadecimal number; also Fortran's 1.5D-3.
 bool parse(std::string text, double& value);
 
 }  // namespace point_sets

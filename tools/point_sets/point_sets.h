@@ -1,6 +1,6 @@
 #pragma once
-// Named sets of nodes, of unit length unless otherwise stated, bit for bit the same on every IEEE machine:
-// they use our own generator, sines and cosines, and of the mathematical library only sqrt.
+// Named sets of nodes, of length 1 unless stated otherwise. Every IEEE machine makes the same bits: of the
+// mathematical library only sqrt is used.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,20 +11,19 @@
 
 namespace point_sets {
 
-/// The family `name` or `name:parameter` with n nodes; grids take the natural count nearest to n.
-/// Throws std::invalid_argument, naming the families, if there is no such family or the parameter is bad.
-/// docs/point-sets.md lists them.
+/// The family `name` or `name:parameter` with n nodes; grids have the possible number nearest to n. Throws
+/// std::invalid_argument, listing the families, if the family does not exist or the parameter is wrong.
+/// `pstripack points --help` lists them.
 std::vector<pstripack::Point> make(const std::string& family, std::size_t n, std::uint64_t seed = 1);
 
-/// The names of the families, without parameters: those that every test uses; and those that are hard for
-/// rounded arithmetic, or nodes as instruments deliver them.
+/// Names of families without parameters: those that every test uses, and those that are hard for rounded
+/// arithmetic or imitate measurements.
 const std::vector<std::string>& families();
 const std::vector<std::string>& hard_families();
 
-/// Nodes from a text file, `-` for stdin: lines of `lon lat` (degrees) or of `x y z` (any lengths); decimal
-/// or hexadecimal, also with Fortran's D exponents; commas count as blanks, `#` and `!` start comments. The
-/// first line may hold the number of nodes alone. Throws std::runtime_error with file and line number on
-/// anything else.
+/// Nodes of a text file, `-` for stdin: lines of `lon lat` (degrees) or `x y z` (any lengths), in decimal,
+/// hexadecimal or with Fortran's D exponents. Commas count as blanks; `#` and `!` start comments. The first
+/// line may be the number of nodes. Throws std::runtime_error with file and line number.
 std::vector<pstripack::Point> read(const std::string& file);
 
 /// SplitMix64.
@@ -41,7 +40,7 @@ class Random {
   std::uint64_t state_;
 };
 
-/// A random order of the nodes (Fisher-Yates).
+/// Shuffles the nodes (Fisher-Yates).
 template <class Item>
 void shuffle(std::vector<Item>& items, std::uint64_t seed) {
   Random random(seed);

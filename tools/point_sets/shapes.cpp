@@ -47,14 +47,14 @@ Points distinct(std::size_t n, const std::function<Point()>& draw) {
   std::unordered_set<Point, decltype(hash)> seen(2 * n, hash);
   Points p;
   for (int repeats = 0; p.size() < n && repeats < most_repeats; ++repeats) {
-    const Point q = Point{0, 0, 0} + draw();  // without -0, which is another bit pattern of the same
+    const Point q = Point{0, 0, 0} + draw();  // turns -0 into 0: equal points have equal bits
     if (seen.insert(q).second) p.push_back(q), repeats = 0;
   }
   return p;
 }
 
 Point Orbit::seen_from_earth(double along, double across, double turn) const {
-  // The pole of the orbit is to the left of its motion.
+  // Seen along the motion, the pole of the orbit is to the left.
   const Point below{cos_degrees(along), sin_degrees(along) * cos_degrees(inclination),
                     sin_degrees(along) * sin_degrees(inclination)};
   const Point pole{0, -sin_degrees(inclination), cos_degrees(inclination)};
@@ -68,7 +68,7 @@ Point in_cap(Random& random, const Point& c, double radius) {
   const double half = sin_degrees(0.5 * radius * degrees_per_radian);
   const auto [u, v] = in_disc(random);
   const double s = u * u + v * v;
-  const double drop = s * 2 * half * half;  // 1 - cos of the distance from c
+  const double drop = s * 2 * half * half;  // 1 - cosine of the distance from c
   const double r = std::sqrt(drop * (2 - drop) / s);
   return normalized((1 - drop) * centre + (r * u) * e1 + (r * v) * e2);
 }

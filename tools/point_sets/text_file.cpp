@@ -30,14 +30,14 @@ std::string numbers(std::size_t count) {
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == ',' || c == '\r' || c == '\f' || c == '\v'; }
 
-/// Fast path for nearly all words.
+/// Fast path for plain decimal numbers.
 bool parse_word(std::string_view word, double& value) {
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error == std::errc() && end == word.data() + word.size()) return std::isfinite(value);
   return parse(std::string(word), value);
 }
 
-/// Rows with equal numbers of finite values.
+/// Rows of equally many finite numbers.
 struct Table {
   std::size_t columns = 0;
   std::vector<double> values;      // row after row
@@ -69,7 +69,7 @@ std::string contents_of(const std::string& file) {
   std::string text;
   struct stat status {};
   const bool is_file = fstat(fileno(in), &status) == 0 && S_ISREG(status.st_mode);
-  // A byte more than the file has, so that its end is seen.
+  // One byte more than the file has, so that the end of the file is noticed.
   std::size_t more = is_file ? static_cast<std::size_t>(status.st_size) + 1 : std::size_t{1} << 16;
   for (bool ends = false; !ends;) {
     const std::size_t before = text.size();

@@ -6,9 +6,9 @@
 
 namespace point_sets {
 
-/// The centroid of the Voronoi cell of node p, to where a step of Lloyd's method moves it: of the plane
-/// triangles of p and two consecutive corners. neighbour(0), ..., neighbour(count-1): the neighbours of p,
-/// counterclockwise. p itself if the triangles have no area.
+/// The centroid of node p's Voronoi cell, where a step of Lloyd's method moves p. It is computed from the
+/// plane triangles of p and two consecutive corners; it is p if they have no area. neighbour(0), ...,
+/// neighbour(count-1): the neighbours of p, counterclockwise.
 template <class Count, class Neighbour>
 pstripack::Point middle_of_cell(const pstripack::Point& p, Count count, const Neighbour& neighbour) {
   const auto corner = [&](Count i) {
@@ -25,7 +25,7 @@ pstripack::Point middle_of_cell(const pstripack::Point& p, Count count, const Ne
   return dot(sum, sum) > 0 ? normalized(sum) : p;
 }
 
-/// p moved by `part` of the way to `there`.
+/// p, moved towards `there` by this fraction of the distance.
 inline pstripack::Point part_of_the_way(const pstripack::Point& p, const pstripack::Point& there,
                                         double part) {
   return normalized(

@@ -22,12 +22,11 @@ void convert(Options& options) {
       progress.step("reading", [&] { return files::read(options.input.file, options.input.read); });
   files::Format format = options.output.format;
   const bool has_mesh = !nodes.triangles.empty();
-  // The suffix .nc stands for meshes and for nodes.
+  // .nc is the suffix of meshes and of nodes: choose by what the input has.
   if (format == files::Format::ugrid && !has_mesh && options.output.to.empty())
     format = files::Format::netcdf;
   if (!files::holds_nodes(format) && !has_mesh)
-    throw std::runtime_error(nodes.file +
-                             ": holds nodes, no triangles: `pstripack triangulate` makes a mesh of them");
+    throw std::runtime_error(nodes.file + ": holds nodes without triangles: use `pstripack triangulate`");
   add_history(nodes.notes);
   progress.step("writing", [&] {
     if (files::holds_a_mesh(format) && has_mesh) {

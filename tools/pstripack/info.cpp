@@ -24,7 +24,7 @@ struct Options {
   bool json = false;
 };
 
-/// A value, and the node (from 1, in the input) or nodes that have it.
+/// A value, and the nodes (from 1, in the input) that have it.
 struct Extreme {
   double value;
   std::int32_t first = 0, second = 0;
@@ -36,7 +36,7 @@ struct Facts {
   double mean = 0;  ///< length of an arc
 };
 
-/// Nodes closer than this fraction of the mean arc length count as near duplicates.
+/// Nodes closer than this fraction of the mean arc are near duplicates.
 constexpr double kNear = 1e-3;
 
 Facts facts_of(const Mesh& mesh) {
@@ -84,7 +84,7 @@ void info(const Options& options) {
   files::Nodes nodes = progress.step("reading", [&] { return read_nodes(options.input); });
   const std::size_t given = nodes.points.size();
   std::vector<files::Duplicate> duplicates;
-  std::vector<std::size_t> number(given);  // in the input, of each node left
+  std::vector<std::size_t> number(given);  // number in the input of each remaining node
   for (std::size_t i = 0; i < given; ++i) number[i] = i + 1;
   const Mesh mesh = progress.step("triangulating", [&] {
     try {

@@ -19,7 +19,7 @@ namespace {
 using methods::Interpolation;
 
 enum class Outside { missing, nearest, error };
-/// Whether grids are of cells or, with points on the edges of the region, of nodes.
+/// Places of a grid: centres of cells, or, including the edges of the region, corners of cells.
 enum class Registration { cell, node };
 enum class To { text, csv, netcdf };
 
@@ -34,7 +34,7 @@ struct Options {
   std::string output, to;
 };
 
-/// `count` longitudes or latitudes from low to high: the centres of equal parts; or, at nodes, their ends.
+/// `count` longitudes or latitudes from low to high: centres of equal cells, or, if at_nodes, their corners.
 std::vector<double> axis(double low, double high, std::size_t count, bool at_nodes) {
   std::vector<double> values(count);
   const auto parts = static_cast<double>(2 * (at_nodes && count > 1 ? count - 1 : count));
@@ -45,11 +45,12 @@ std::vector<double> axis(double low, double high, std::size_t count, bool at_nod
   return values;
 }
 
-/// How many of --grid-step fit.
+/// The number of --grid-step in `extent`.
 double parts(double extent, double step) {
   const double count = std::round(extent / step);
   if (count < 1 || std::fabs(count * step - extent) > 1e-6 * extent)
-    throw CLI::ValidationError("--grid-step", fmt::format("{} degrees are no multiple of {}", extent, step));
+    throw CLI::ValidationError("--grid-step",
+                               fmt::format("{} degrees are not a multiple of {}", extent, step));
   return count;
 }
 
@@ -67,7 +68,7 @@ files::Grid grid_of(const Options& options) {
   for (const double count : counts)
     if (!(count >= (at_nodes ? 2 : 1) && count == std::floor(count)) || counts[0] * counts[1] > 1e10)
       throw CLI::ValidationError("--to-grid", "expected NLATxNLON, for example 180x360");
-  // All around the globe the last meridian would be the first one again.
+  // In a grid around the globe the last meridian equals the first one: leave it out.
   const auto n_lat = static_cast<std::size_t>(counts[0]), n_lon = static_cast<std::size_t>(counts[1]);
   files::Grid grid{axis(r.west, r.east, n_lon + (at_nodes && all_around ? 1 : 0), at_nodes),
                    axis(r.south, r.north, n_lat, at_nodes)};
@@ -91,7 +92,7 @@ To format_of(const Options& options) {
   return To::text;
 }
 
-/// Leaves out nodes without value, or throws.
+/// Removes nodes without value if `skip` is true, else throws.
 void see_to_missing(files::Nodes& nodes, bool skip) {
   std::vector<std::size_t> kept;
   const std::vector<double>& values = nodes.value.numbers;
@@ -115,7 +116,7 @@ files::Nodes read_values(Options& options) {
   return nodes;
 }
 
-/// The places, with the columns of their file and, if they were given by vectors, x y z.
+/// Reads the places with the columns of their file, and x y z if these were given.
 files::Nodes read_points(const Options& options) {
   files::ReadOptions read;
   read.units = options.input.read.units;
@@ -136,7 +137,7 @@ void interpolate(Options& options) {
     throw CLI::ValidationError("--to-points", "give one of --to-points, --to-grid, --grid-step");
   if (!(options.step >= 0 && options.step <= 360))
     throw CLI::ValidationError("--grid-step",
-                               fmt::format("{} is no number of degrees above 0", options.step));
+                               fmt::format("{} is not a number of degrees above 0", options.step));
   if (!options.region.empty() && !options.points.empty())
     throw CLI::ValidationError("--region", "is of a grid, not of --to-points");
   if (options.registration == Registration::node && !options.points.empty())
@@ -225,9 +226,10 @@ void add_interpolate(CLI::App& app, Command& chosen) {
               {"natural", Interpolation::Method::natural},
               {"cubic", Interpolation::Method::cubic}},
              "linear (on triangles), natural (neighbours) or cubic (these and gradients) [linear]");
-  add_choice(*sub, "--outside", options->outside,
-             {{"missing", Outside::missing}, {"nearest", Outside::nearest}, {"error", Outside::error}},
-             "beyond regional nodes: missing (values), nearest (node's value) or error [missing]");
+  add_choice(
+      *sub, "--outside", options->outside,
+      {{"missing", Outside::missing}, {"nearest", Outside::nearest}, {"error", Outside::error}},
+      "places outside the nodes: missing (no value), nearest (nearest node's value) or error [missing]");
   sub->add_flag("--skip-missing", options->skip_missing, "leave out nodes without a value [an error]");
   add_reading(*sub, options->input.read);
   add_duplicates(*sub, options->input);

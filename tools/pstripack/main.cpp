@@ -37,7 +37,7 @@ the affinity mask are honoured.
 
 Exit code: 0 success; 1 the input cannot be used or the output cannot be written; 2 wrong command line.)";
 
-/// The command line as history: without options that do not change the result.
+/// The command line for the history of files, without options that do not change the result.
 std::string history_of(int argc, char** argv) {
   std::string text = "pstripack";
   for (int i = 1; i < argc; ++i) {
@@ -50,7 +50,7 @@ std::string history_of(int argc, char** argv) {
   return text + " (pstripack " PSTRIPACK_VERSION ")";
 }
 
-/// A subcommand or option that does not exist, and the one that was meant; empty: all exist.
+/// Names an unknown subcommand or option and the most similar one; empty: all exist.
 std::string unknown_word(const CLI::App& app) {
   const std::vector<CLI::App*> chosen = app.get_subcommands();
   for (const std::string& word : app.remaining(true)) {
@@ -76,7 +76,7 @@ std::string unknown_word(const CLI::App& app) {
   return "";
 }
 
-/// Rank 0 says what is wrong for all ranks.
+/// Prints an error; only rank 0 prints.
 void complain(const char* what) {
   if (!program::global().is_led) fmt::print(stderr, "pstripack: {}\n", what);
 }

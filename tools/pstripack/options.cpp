@@ -27,7 +27,7 @@ void check_directions(const Nodes& nodes) {
           fmt::format("{}: {} is zero or not finite: remove it", nodes.file, nodes.place(i)));
 }
 
-/// Three columns whose vectors differ in length by more than 1 % are most likely not x y z.
+/// If three columns are vectors whose lengths differ by more than 1 %, most likely they are not x y z.
 void check_lengths(const Nodes& nodes) {
   std::size_t shortest = 0, longest = 0;
   std::vector<double> square(nodes.points.size());
@@ -76,7 +76,7 @@ CLI::Validator one_of(std::vector<std::string> words) {
 CLI::Validator whole_number() {
   const auto check = [](std::string& text) -> std::string {
     double value = 0;
-    constexpr double kMost = 9007199254740992;  // 2^53: up to here a double is exact
+    constexpr double kMost = 9007199254740992;  // 2^53: all smaller integers are doubles
     if (!point_sets::parse(text, value) || value != std::floor(value) || !(value >= 0 && value <= kMost))
       return "'" + text + "' is not a whole number";
     text = fmt::format("{:.0f}", value);
@@ -185,7 +185,7 @@ Nodes read_nodes(const Input& input) {
 
 namespace {
 
-/// Each first node gets the mean of its and its duplicates' numbers, but those that are missing.
+/// Sets the numbers of each first node to the mean over its duplicates; missing numbers are ignored.
 void take_means(Column& column, const std::vector<files::Duplicate>& duplicates) {
   if (column.numbers.empty()) return;
   std::map<std::size_t, std::vector<double>> groups;

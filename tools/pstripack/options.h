@@ -17,16 +17,15 @@ namespace program {
 
 enum ExitCode { kDone = 0, kFailed = 1, kUsage = 2 };
 
-/// The command chosen on the command line.
 using Command = std::function<void()>;
 
-/// "'word' is none of these; did you mean that?"
+/// "'word' is none of A, B; did you mean A?"
 std::string is_none_of(const std::string& word, const std::vector<std::string>& words);
 
-/// For options that are one of some words.
+/// Accepts one of these words.
 CLI::Validator one_of(std::vector<std::string> words);
 
-/// The same, for options that become a value.
+/// Accepts one of these words and converts it to an enumerator.
 template <class Enum>
 void add_choice(CLI::App& app, const char* name, Enum& value, const std::map<std::string, Enum>& choices,
                 const char* text) {
@@ -45,18 +44,18 @@ void add_choice(CLI::App& app, const char* name, Enum& value, const std::map<std
 /// "1 node", "2 nodes".
 std::string counted(std::size_t n, const std::string& thing);
 
-/// For options that are whole numbers: takes 1e6, too.
+/// Accepts whole numbers, also in the form 1e6.
 CLI::Validator whole_number();
 
-/// What becomes of nodes in the same place: an error; the first one stays; or it gets the mean of their
+/// What to do with nodes in the same place: an error; keep the first one; or keep it with the mean of their
 /// values.
 enum class Duplicates { error, first, mean };
 
-/// Numbers between separators; `option` for messages.
+/// Numbers between separators. `option`: for messages.
 std::vector<double> numbers_in(const std::string& option, const std::string& text, char separator,
                                std::size_t count);
 
-/// --region: WEST,EAST,SOUTH,NORTH; east is beyond 180 where it is less than west on the command line.
+/// --region: WEST,EAST,SOUTH,NORTH. An east less than west is meant to be beyond 180 degrees.
 files::Region region_of(const std::string& text);
 
 /// IN and how to read it.
@@ -79,31 +78,33 @@ struct Output {
   std::string file = "-", to;
   files::Format format = files::Format::xyz;
 
-  /// Sets `format`: by --to, by the suffix, or else `otherwise`. Throws CLI::ValidationError where there is
-  /// none.
+  /// Sets `format` by --to, else by the suffix, else to `otherwise`. Throws CLI::ValidationError if none
+  /// applies.
   void choose(std::optional<files::Format> otherwise = std::nullopt);
 };
 void add_output(CLI::App& app, Output& output, bool required);
 
-/// Nodes with directions, on one sphere or declared to be directions.
+/// Reads nodes; throws unless they have directions, and lie on one sphere or --coordinates xyz is given.
 files::Nodes read_places(const std::string& file, const files::ReadOptions& options);
 
-/// Nodes that can be triangulated: read_places, at least three; without duplicates if requested.
+/// Reads at least three nodes and removes duplicates if requested.
 files::Nodes read_nodes(const Input& input);
 
-/// Leaves out all but the first of coincident nodes, if the input says so.
+/// Removes all but the first of coincident nodes if the input says so.
 void drop_duplicates(files::Nodes& nodes, const Input& input);
 
-/// Adds columns `node` and `line`, the number and line of each node in the input, unless the file has them.
+/// Adds columns `node` and `line`, number and line of each node in the input, unless the file has such
+/// columns.
 void number_nodes(files::Nodes& nodes);
 
-/// Adds the command to the notes' history.
+/// Puts the command in front of the history in the notes.
 void add_history(files::Notes& notes);
 
-/// The error for nodes without a triangulation: file, nodes and remedy.
+/// The error that names file, nodes and remedy.
 std::runtime_error no_mesh_of(const files::Nodes& nodes, const files::NoMesh& why);
 
-/// Their triangulation, which takes over their columns and notes; errors name file and nodes.
+/// The triangulation of the nodes, which gives up its columns and notes to the mesh. Errors name file and
+/// nodes.
 files::Mesh triangulate(files::Nodes& nodes);
 
 void add_triangulate(CLI::App& app, Command& chosen);
@@ -118,7 +119,7 @@ void add_plot(CLI::App& app, Command& chosen);
 /// Options of the whole program: --quiet, --threads, ranks.
 struct Global {
   bool quiet = false;
-  bool is_led = false;  ///< a rank that does the same as rank 0, and says nothing
+  bool is_led = false;  ///< a rank above 0 that runs the same command and prints nothing
   int threads = 0;      ///< 0: as OpenMP says
   int ranks = 1;        ///< number of ranks that triangulated
   std::string command;  ///< the command line, for the history of files

@@ -15,7 +15,7 @@ using pstripack::scvt::sum_of_all;
 
 namespace {
 
-/// Of so many rows here.
+/// The rows of this rank among those of all ranks. Collective.
 files::Share share_of(Communicator& ranks, std::size_t here) {
   const std::int64_t before = sum_before(ranks, here);
   return {static_cast<std::size_t>(before), static_cast<std::size_t>(sum_of_all(ranks, here))};
@@ -60,7 +60,7 @@ files::MeshPart part_of(Communicator& ranks, const std::vector<files::Point>& no
 void write_parts(Communicator& ranks, const std::string& name, files::Format format,
                  const files::MeshPart& part) {
   std::optional<files::OutputFile> file;  // on rank 0
-  pstripack::Smallest first;              // rank that has a part
+  pstripack::Smallest first;              // the lowest rank with nodes: it begins the sections
   in_agreement_with_caller(
       ranks,
       [&] {

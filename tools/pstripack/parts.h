@@ -1,5 +1,5 @@
 #pragma once
-// Files that ranks write together: each its part, one after the other. No rank has all in memory.
+// Files that the ranks write one after another. No rank has all nodes in memory.
 
 #include <string>
 #include <vector>
@@ -11,15 +11,15 @@
 
 namespace program {
 
-/// The nodes of this rank, which has one of equal slices, and the triangles of which such a node is the
-/// smallest corner. Collective. Throws NoTessellation, AgreedFailure.
+/// The nodes of this rank, one of equal slices, and the triangles whose smallest corner is one of them.
+/// Collective. Throws NoTessellation, AgreedFailure.
 files::MeshPart part_of(pstripack::Communicator& ranks, const pstripack::scvt::Neighbourhood& nodes);
 
 /// The same without triangles.
 files::MeshPart part_of(pstripack::Communicator& ranks, const std::vector<files::Point>& nodes);
 
-/// Writes the parts of all ranks, which see one file system. Formats that hold parts. Collective. Throws
-/// NoTessellation, AgreedFailure.
+/// Writes the parts of all ranks into one file, on a file system that all ranks see. Only for formats that
+/// hold parts. Collective. Throws NoTessellation, AgreedFailure.
 void write_parts(pstripack::Communicator& ranks, const std::string& file, files::Format format,
                  const files::MeshPart& part);
 

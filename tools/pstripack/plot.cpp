@@ -29,7 +29,7 @@ struct Options {
   double width = 800;
 };
 
-/// "a:b:c" in parts.
+/// Splits a text at the separators.
 std::vector<std::string> parts_of(const std::string& text, char separator) {
   std::vector<std::string> parts(1);
   for (const char c : text)
@@ -40,14 +40,14 @@ std::vector<std::string> parts_of(const std::string& text, char separator) {
   return parts;
 }
 
-/// NaN if it is not a number.
+/// The number, or NaN if the text is not one.
 double number_of(const std::string& text) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
   return text.empty() || *end != '\0' ? NAN : value;
 }
 
-/// orthographic[:LON,LAT] or lonlat[:LON,LAT]
+/// Parses orthographic[:LON,LAT] or lonlat[:LON,LAT].
 void set_view(const std::string& text, MeshOptions& mesh) {
   const auto refuse = [&] {
     throw CLI::ValidationError("--view", text +
@@ -64,7 +64,7 @@ void set_view(const std::string& text, MeshOptions& mesh) {
   if (!(std::fabs(mesh.centre->lon) <= 360 && std::fabs(mesh.centre->lat) <= 90)) refuse();
 }
 
-/// none, size, degree, owner:P[:bisection|stripes], or the name of a column
+/// Parses none, size, degree, owner:P[:bisection|stripes], or the name of a column.
 void set_colour(const std::string& text, MeshOptions& mesh) {
   using Colour = MeshOptions::Colour;
   const std::vector<std::string> parts = parts_of(text, ':');
@@ -131,7 +131,7 @@ void plot(Options& options) {
   pictures::expect_converter(kind);
 
   options.input.read.with_columns = mesh_options.colour == MeshOptions::Colour::value;
-  options.input.read.with_triangles = !options.input.drops();  // their numbers would be others
+  options.input.read.with_triangles = !options.input.drops();  // dropping nodes renumbers corners
   files::OutputFile file(options.file);
   Progress progress;
   files::Nodes nodes = progress.step("reading", [&] { return read_nodes(options.input); });
@@ -215,8 +215,8 @@ Colours:
   NAME             the column of this name; a triangle has the mean of its corners. node and line: numbers in IN.
 
 Triangles of UGRID, MPAS and OFF files are drawn as they are; other nodes are triangulated first. Nodes that do not
-cover the sphere are shown as close as possible, their boundary in orange. At most 200,000 nodes may be in view:
-choose a part by --view and --radius. PNG needs rsvg-convert (Debian: librsvg2-bin).)");
+cover the sphere fill the picture; their boundary is orange. At most 200,000 nodes may be in view: choose a part by
+--view and --radius. PNG needs rsvg-convert (Debian: librsvg2-bin).)");
 
   sub->callback([=, &chosen] { chosen = [=] { plot(*options); }; });
 }

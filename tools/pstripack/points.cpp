@@ -34,7 +34,7 @@ std::string families() {
 void write(Options& options) {
   options.output.choose(files::Format::xyz);
   if (!files::holds_nodes(options.output.format)) {
-    // By its suffix, .nc is a UGRID mesh.
+    // By its suffix, .nc is a UGRID mesh, which cannot hold nodes alone.
     if (options.output.format != files::Format::ugrid || !options.output.to.empty())
       throw CLI::ValidationError(
           "--output", "points are nodes, not a mesh: give --to xyz, lonlat, nodes, csv, geojson or raw");

@@ -1,5 +1,5 @@
 #pragma once
-// Progress on stderr: one changing line on a terminal, otherwise a line every ten seconds.
+// Progress on stderr: on a terminal one line that is updated, otherwise one line every ten seconds.
 
 #include <chrono>
 #include <condition_variable>
@@ -11,7 +11,7 @@
 
 namespace program {
 
-/// "pstripack: text" on stderr, unless --quiet.
+/// Prints "pstripack: text" on stderr, unless --quiet.
 void say(const std::string& text);
 
 /// The steps of a command and their times.
@@ -22,7 +22,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Runs work(), reported as `doing` while it lasts.
+  /// Runs work() as a step; meanwhile reports `doing`.
   template <class Work>
   auto step(const char* doing, const Work& work) {
     begin(doing);
@@ -33,10 +33,10 @@ class Progress {
     return work();
   }
 
-  /// Changes the reported text within a step.
+  /// Changes what is reported during the current step.
   void now(std::string doing);
 
-  /// The last line: `what`, and the seconds of each step.
+  /// Prints the last line: `what` and the seconds of each step.
   void finish(const std::string& what);
 
  private:
@@ -47,7 +47,7 @@ class Progress {
   double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
   const bool on_terminal_;
-  std::string step_, doing_;  ///< empty: nothing
+  std::string step_, doing_;  ///< empty: no step is running
   Clock::time_point start_;
   std::vector<std::pair<std::string, double>> steps_;
   bool ends_ = false;

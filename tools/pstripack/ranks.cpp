@@ -12,8 +12,8 @@
 namespace program {
 namespace {
 
-/// The number of ranks and this rank, from the launcher's environment. Under Slurm with PMIx the number is in
-/// Slurm's variable.
+/// The number of ranks and the own rank, from the environment that the launcher sets. Under Slurm with PMIx,
+/// Slurm's variable has the number.
 struct Launched {
   int size = 1, rank = 0;
 };
@@ -49,7 +49,7 @@ int on_rank_0(int, char** argv, const std::function<int()>& work) {
   if (here.size > 1) {
     std::error_code error;
     const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
-    execv((self.parent_path() / "pstripack-mpi").c_str(), argv);  // returns only where there is none
+    execv((self.parent_path() / "pstripack-mpi").c_str(), argv);  // returns only if it failed
     if (here.rank > 0) return 0;
     fmt::print(stderr, "pstripack: no pstripack-mpi is installed: rank 0 works alone, on its threads\n");
   }

@@ -1,6 +1,6 @@
 #pragma once
-// Under mpirun: rank 0 does what the command line says, the others help it triangulate; or all ranks do it
-// together.
+// pstripack under mpirun: rank 0 executes the command and the others help to triangulate, or all ranks
+// execute it together.
 
 #include <functional>
 #include <memory>
@@ -10,12 +10,12 @@
 
 namespace program {
 
-/// The exit code of work(), which runs on rank 0, on every rank. Of `pstripack` (ranks.cpp), which has no
-/// MPI: replaces the program by pstripack-mpi if there is more than one rank, and else is rank 0. Of
+/// Runs work() on rank 0; returns its exit code on every rank. In `pstripack` (ranks.cpp), which has no MPI:
+/// replaces the program by pstripack-mpi if there are several ranks, else this process is rank 0. In
 /// `pstripack-mpi` (ranks_mpi.cpp): collective.
 int on_rank_0(int argc, char** argv, const std::function<int()>& work);
 
-/// All ranks, or this process alone.
+/// All ranks, or this process alone if there is no MPI.
 class Ranks {
  public:
   virtual ~Ranks() = default;
@@ -24,8 +24,8 @@ class Ranks {
   virtual std::shared_ptr<pstripack::scvt::Evaluator> evaluator(const pstripack::scvt::Density& density) = 0;
 };
 
-/// Within work(): runs body(ranks) on all ranks, which go through work() as far as here. What body() throws
-/// the ranks must have agreed on: scvt::NoTessellation or AgreedFailure.
+/// To be called within work(): all ranks run work() up to this call, then body(ranks). body() may throw only
+/// what the ranks have agreed on: scvt::NoTessellation or AgreedFailure.
 void on_all_ranks(const std::function<void(Ranks&)>& body);
 
 }  // namespace program

@@ -1,5 +1,5 @@
-// Of pstripack-mpi. The ranks but 0 wait for its word: to triangulate with it, to do all of the command with
-// it, or to end with its exit code.
+// The ranks of pstripack-mpi. Ranks above 0 wait for a message of rank 0: to triangulate with it, to run the
+// command with it, or to end with its exit code.
 
 #include <fmt/format.h>
 
@@ -23,7 +23,7 @@ namespace {
 namespace engine = pstripack::scvt;
 using pstripack::MpiCommunicator;
 
-/// What rank 0 sends: one of these, or an exit code.
+/// The message of rank 0: one of these, or an exit code.
 constexpr std::int32_t kTriangulate = -1, kTogether = -2;
 
 std::int32_t word_of_rank_0(MpiCommunicator& ranks, std::int32_t word = 0) {
@@ -50,14 +50,14 @@ class AllRanks final : public Ranks {
   MpiCommunicator& ranks_;
 };
 
-/// Those of on_rank_0; null outside.
+/// The communicator of on_rank_0; null outside of it.
 MpiCommunicator*& ranks_of_program() {
   static MpiCommunicator* ranks = nullptr;
   return ranks;
 }
 
 int lead(MpiCommunicator& ranks, const std::function<int()>& work) {
-  // The original's order is that of one insertion after the other: nothing for ranks.
+  // Ranks cannot help: the original's order inserts one node after another.
   if (!pstripack::original_rules().follow)
     files::set_trmesh([&](const pstripack::TrmeshCall& call) {
       global().ranks = ranks.size();
@@ -65,7 +65,7 @@ int lead(MpiCommunicator& ranks, const std::function<int()>& work) {
       try {
         return collective_trmesh(ranks, pstripack::Arrays::on_one_rank, call);
       } catch (const pstripack::AgreedFailure&) {
-        throw std::bad_alloc();  // on any rank
+        throw std::bad_alloc();  // some rank is out of memory
       }
     });
   return word_of_rank_0(ranks, work());
@@ -82,12 +82,13 @@ int follow(MpiCommunicator& ranks, const std::function<int()>& work) {
     }
     try {
       pstripack::collective_trmesh(ranks, pstripack::Arrays::on_one_rank, {});
-    } catch (const pstripack::AgreedFailure&) {  // rank 0 says so
+    } catch (const pstripack::AgreedFailure&) {  // rank 0 reports the error
     }
   }
 }
 
-/// True on every rank or none. Ranks with other arguments would never see theirs obeyed.
+/// True on all ranks or on none. The ranks execute rank 0's arguments, so those of a rank that differ would
+/// be ignored.
 bool have_one_command_line(MpiCommunicator& ranks, int argc, char** argv) {
   std::string all;
   for (int i = 1; i < argc; ++i) all += std::string(argv[i]) + '\0';
@@ -112,8 +113,8 @@ int on_rank_0(int argc, char** argv, const std::function<int()>& work) {
       code = kUsage;
       if (ranks.rank() == 0)
         fmt::print(stderr,
-                   "pstripack: the ranks have different command lines: start each command by an mpirun of "
-                   "its own\n");
+                   "pstripack: the ranks have different command lines: start each command by its own "
+                   "mpirun\n");
     }
   } catch (const std::exception& e) {
     fmt::print(stderr, "pstripack: {}\n", e.what());
@@ -125,7 +126,7 @@ int on_rank_0(int argc, char** argv, const std::function<int()>& work) {
 
 void on_all_ranks(const std::function<void(Ranks&)>& body) {
   MpiCommunicator& ranks = *ranks_of_program();
-  // From here on a rank that triangulates without the others does it alone.
+  // From now on all ranks run the same code: each triangulates by itself unless body() makes them cooperate.
   files::set_trmesh([](const pstripack::TrmeshCall& call) { return pstripack::trmesh(call); });
   if (ranks.rank() == 0) word_of_rank_0(ranks, kTogether);
   global().ranks = ranks.size();

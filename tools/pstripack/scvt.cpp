@@ -51,7 +51,7 @@ struct Options {
   Output output, checkpoint{"", "", files::Format::netcdf};
 };
 
-// Attributes of the output with which another run continues this one.
+// Attributes of the output that let another run continue this one.
 constexpr auto kEvaluations = "scvt_iterations", kDensity = "scvt_density",
                kDensityFile = "scvt_density_file", kVariable = "scvt_density_variable", kSteps = "scvt_steps",
                kPairs = "scvt_pairs";
@@ -66,8 +66,8 @@ std::int64_t count_in(const files::Nodes& start, const char* name, std::int64_t 
   const std::string text = note(start.notes, name);
   if (text.empty()) return otherwise;
   if (!point_sets::parse(text, count) || !(count >= 0 && count < 1e15))
-    throw std::runtime_error(fmt::format("{}: attribute {}: '{}' is no number of {}", start.file, name, text,
-                                         name == kEvaluations ? "iterations" : name + sizeof "scvt"));
+    throw std::runtime_error(fmt::format("{}: attribute {}: '{}' is not a number of {}", start.file, name,
+                                         text, name == kEvaluations ? "iterations" : name + sizeof "scvt"));
   return static_cast<std::int64_t>(count);
 }
 
@@ -105,7 +105,7 @@ std::unique_ptr<engine::Density> make_density(const Options& options) {
   }
 }
 
-/// The density is that of the command line, or else that of the start, or else constant.
+/// Sets the density: that of the command line, else that of the start, else constant.
 void choose_density(Options& options, const files::Notes& notes) {
   if (options.density.empty() && options.density_file.empty()) {
     options.density = note(notes, kDensity);
@@ -132,7 +132,8 @@ files::Notes notes_of(const Options& options, const State& state, const engine::
   return notes;
 }
 
-// Steps and changes of the gradient are columns scvt_step_1_x ... scvt_change_8_z, the oldest first.
+// Steps and changes of the gradient are stored as columns scvt_step_1_x ... scvt_change_8_z, the oldest
+// first.
 constexpr std::pair<const char*, std::vector<Point> State::Pair::*> kHalves[] = {
     {"step", &State::Pair::step}, {"change", &State::Pair::change}};
 constexpr std::pair<const char*, double Point::*> kComponents[] = {
@@ -150,7 +151,7 @@ files::Columns columns_of(const std::vector<State::Pair>& pairs) {
   return columns;
 }
 
-/// None if the file has not all of them.
+/// The pairs in the file; empty if it does not have all of them.
 std::vector<State::Pair> pairs_in(const files::Nodes& start) {
   std::vector<State::Pair> pairs;
   for (std::int64_t k = 1; k <= count_in(start, kPairs, 0); ++k) {
@@ -171,8 +172,8 @@ std::vector<State::Pair> pairs_in(const files::Nodes& start) {
   return pairs;
 }
 
-/// What the file has of a run, or the part of it that this rank has read. Pairs of another density would say
-/// nothing, and Lloyd's method needs none. Collective.
+/// The state of a run from its file, or from this rank's part of it. Pairs are used only if the density is
+/// the same and the method is not Lloyd's, which needs none. Collective.
 Tessellation tessellation_of(Communicator& ranks, files::Nodes& start, const Options& options) {
   Tessellation t;
   pstripack::OnAll have_pairs;
@@ -186,7 +187,7 @@ Tessellation tessellation_of(Communicator& ranks, files::Nodes& start, const Opt
           has_same_density &= note(start.notes, name) == note(notes_of_density(options), name);
         if (options.method == Method::newton && has_same_density) t.state.pairs = pairs_in(start);
         have_pairs.value = !t.state.pairs.empty();
-        if (ranks.size() == 1) triangulate(start);  // what is wrong with them is said by their lines
+        if (ranks.size() == 1) triangulate(start);  // reports wrong nodes with their lines
         t.state.generators = engine::unit_vectors(std::move(start.points));
         t.numbers.resize(t.state.generators.size());
         std::iota(t.numbers.begin(), t.numbers.end(), static_cast<std::int64_t>(start.before) + 1);
@@ -206,8 +207,8 @@ void write(const Output& output, const files::Mesh& mesh) {
   file.commit();
 }
 
-/// Writes the generators. A checkpoint also has the pairs; of others the quality of the mesh is returned.
-/// Collective.
+/// Writes the generators. A checkpoint also gets the pairs; for other files the quality of the mesh is
+/// returned. Collective.
 std::string write(Ranks& ranks, const Output& output, bool is_checkpoint, const Tessellation& t,
                   const engine::Density& density, files::Notes&& notes) {
   Communicator& communicator = ranks.communicator();
@@ -232,7 +233,7 @@ std::string write(Ranks& ranks, const Output& output, bool is_checkpoint, const 
   files::MeshPart part;
   std::string quality;
   if (needs_mesh) {
-    // Not that of the run, which keeps its mesh for the next step.
+    // A new evaluator: that of the run keeps its mesh for the next step.
     const std::shared_ptr<engine::Evaluator> evaluator = ranks.evaluator(density);
     evaluator->begin_with(slice.numbers);
     const engine::Neighbourhood nodes = evaluator->triangulate(slice.state.generators);
@@ -252,7 +253,7 @@ std::string duration(double seconds) {
   return fmt::format("{:.1f} h", seconds / 3600);
 }
 
-/// The generators of a new run: of the last level, where there are levels. Collective.
+/// The generators of a new run, those of the last level if there are levels. Collective.
 Tessellation first_tessellation(const Options& options, engine::Evaluator& evaluator, Progress& progress) {
   const bool is_alone = evaluator.ranks().size() == 1;
   const First first = options.first != First::by_number                  ? options.first
@@ -276,7 +277,8 @@ Tessellation first_tessellation(const Options& options, engine::Evaluator& evalu
   on_levels.seed = options.seed;
   on_levels.method = options.method;
   on_levels.tolerance = options.tolerance;
-  on_levels.most_evaluations = Options().evaluations;  // a run that is cut short has the same levels
+  on_levels.most_evaluations =
+      Options().evaluations;  // the default, so that a run that is cut short has the same levels
   on_levels.progress = [&](const engine::Progress& p) {
     progress.now(fmt::format("level of {} generators, {} evaluations, gradient {:.3g}", p.generators,
                              p.evaluations, p.gradient));
@@ -321,7 +323,7 @@ std::string end_of(const Options& options, const engine::Result& result, bool ha
   }
 }
 
-/// The nodes to start from; on several ranks a part of them. Collective.
+/// Reads the nodes to start from; several ranks read a part each. Collective.
 files::Nodes read_start(Communicator& ranks, const Options& options) {
   files::Nodes start;
   in_agreement_with_caller(ranks, [&] {
@@ -347,7 +349,7 @@ files::Nodes read_start(Communicator& ranks, const Options& options) {
   return start;
 }
 
-/// What several ranks cannot do.
+/// Throws if several ranks cannot read or write the requested files.
 void check_files_of_ranks(const Options& options) {
   for (const Output* const output : {&options.output, &options.checkpoint})
     if (!output->file.empty() && !files::holds_parts(output->format))
@@ -356,17 +358,18 @@ void check_files_of_ranks(const Options& options) {
                       "choose one of these, and `pstripack convert` afterwards",
                       output->file));
   if (options.density_file == "-")
-    throw std::runtime_error("--density-file -: several ranks read a file, not stdin");
+    throw std::runtime_error("--density-file -: several ranks cannot read stdin: name a file");
 }
 
-/// What all ranks do together.
+/// The command, on all ranks.
 void scvt(Options& options, Ranks& ranks) {
   Communicator& communicator = ranks.communicator();
   in_agreement_with_caller(communicator, [&] {
     if (communicator.size() > 1) check_files_of_ranks(options);
     if (communicator.rank() > 0) return;
     for (const Output* const output : {&options.output, &options.checkpoint})
-      if (!output->file.empty()) files::OutputFile can_be_written(output->file);  // said now, not after hours
+      if (!output->file.empty())
+        files::OutputFile can_be_written(output->file);  // report it now, not after hours
   });
   Progress progress;
   files::Nodes start;
@@ -413,7 +416,7 @@ void scvt(Options& options) {
   try {
     on_all_ranks([&](Ranks& ranks) { scvt(options, ranks); });
   } catch (const pstripack::AgreedFailure&) {
-    throw std::bad_alloc();  // on any rank
+    throw std::bad_alloc();  // some rank is out of memory
   }
 }
 
@@ -471,10 +474,9 @@ void add_scvt(CLI::App& app, Command& chosen) {
   add_duplicates(*sub, options->start);
   add_output(*sub, options->output, true);
   sub->footer(R"(First generators:
-  front                               an advancing front, which is nearly centroidal already; --seed has no effect; not on
-                                      several ranks
-  levels                              few random generators, made centroidal and refined, again and again
-  random                              with about the final density
+  front                               an advancing front, nearly centroidal; independent of --seed; not on several ranks
+  levels                              few random generators, alternately made centroidal and refined
+  random                              random generators, distributed by the density
 
 Densities:
   constant                            1
@@ -483,9 +485,9 @@ Densities:
                                       all in degrees: cells within RADIUS are RATIO times narrower than far away
 A NetCDF density on the two axes of a global longitude-latitude grid is bilinear between its values.
 
-To continue a run, repeat its command with --start CHECKPOINT instead of N: it goes on with the same bits. NetCDF
-files hold evaluations and density; only checkpoints in NetCDF, but not mpas, hold the memory of --method newton,
-which begins anew from other files. A step takes one or more evaluations; the last one is finished.
+To continue a run, repeat its command with --start CHECKPOINT instead of N: the result has the same bits as without
+interruption. NetCDF files hold evaluations and density. Only NetCDF checkpoints other than mpas also hold the state
+of --method newton, which restarts from other files. A step takes one or more evaluations; the last step is finished.
 --from, --coordinates and --units apply to both input files.
 
 )" + sub->get_footer());

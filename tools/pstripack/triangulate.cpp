@@ -19,11 +19,11 @@ struct Options {
   bool clip_to_hull = false;
 };
 
-/// `write(file, mesh)` writes the result and returns what is in it, for the last line.
+/// `write(file, mesh)` writes the result and returns its description for the last line.
 template <class Write>
 void run(Options& options, const Write& write) {
   options.output.choose();
-  if (!options.region.empty()) region_of(options.region);  // refused before anything else is done
+  if (!options.region.empty()) region_of(options.region);  // check the option before reading
   files::OutputFile file(options.output.file);
   Progress progress;
   options.input.read.with_columns = true;
@@ -53,7 +53,7 @@ void voronoi(Options& options) {
   run(options, [&](const files::OutputFile& file, const files::Mesh& mesh) {
     files::Faces faces = files::voronoi_faces(mesh);
     files::divide_half_turns(faces, mesh);
-    // Long sides of cells of nodes metres apart have areas wrong by a thousandth.
+    // In cells of nodes metres apart, long sides make areas wrong by a thousandth.
     constexpr double kSphere = 12.566370614359172, kWrong = 0.1;
     const std::vector<double> areas = files::areas(faces);
     if (files::are_on_one_great_circle_up_to_rounding(mesh.points) ||

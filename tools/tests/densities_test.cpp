@@ -29,11 +29,11 @@ TEST(density, is_as_documented) {
   };
   EXPECT_EQ(at("constant", 3, 4), 1);
   for (const char* const formula : {"bump", "bump:0,30,30,10,3"}) {
-    EXPECT_NEAR(at(formula, 0, 0), 16, 1e-12);  // at RADIUS halfway: (1 + 2/2)^4
+    EXPECT_NEAR(at(formula, 0, 0), 16, 1e-12);  // at distance RADIUS tanh is 0: (1 + 2/2)^4
     EXPECT_NEAR(at(formula, 0, 40), std::pow(2 + std::tanh(2), 4), 1e-11);
     EXPECT_NEAR(at(formula, 180, -30), 1, 1e-11);
   }
-  EXPECT_NEAR(at("bump:90,0,10,5,0.5", 90, 10), 0.31640625, 1e-14);  // coarser there
+  EXPECT_NEAR(at("bump:90,0,10,5,0.5", 90, 10), 0.31640625, 1e-14);  // RATIO < 1: coarser there
   for (const char* const formula :
        {"", "potato", "bumpy", "bump:", "bump:1,2,3,4", "bump:1,2,3,4,5,6", "bump:1,2,3,x,5",
         "bump:0,91,3,4,5", "bump:0,0,3,0,5", "bump:0,0,3,4,0", "bump:0,0,3,4,nan"})
@@ -47,7 +47,7 @@ TEST(sampled_density, is_linear_between_its_nodes_and_must_be_known) {
   const std::unique_ptr<Density> density = density_between(nodes, values);
   EXPECT_EQ(density->at(nodes[7]), values[7]);
   EXPECT_NEAR(density->at(point_sets::from_degrees(20, 30)), 2.5, 0.05);
-  // After one of more nodes, on the same thread.
+  // After a density with more nodes on the same thread.
   EXPECT_EQ(density_between(Points(nodes.begin(), nodes.begin() + 50),
                             std::vector<double>(values.begin(), values.begin() + 50))
                 ->at(nodes[7]),
@@ -106,7 +106,7 @@ TEST(density_on_grid, is_bilinear_also_across_the_dateline_whatever_the_order_of
     for (const double lon : {-175, -5, 5, 175, 185, 365})
       for (const double lat : {-85, 5, 85})
         EXPECT_NEAR(at(*density, lon, lat), value_of(lon, lat), 1e-12) << lon << ' ' << lat;
-    for (const double lon : {-180, 180, 0, 60}) {  // halfway between two columns, and rows
+    for (const double lon : {-180, 180, 0, 60}) {  // including places halfway between columns and rows
       const double east = value_of(lon + 5, 0), west = value_of(lon - 5, 0);
       EXPECT_NEAR(at(*density, lon, 0), (east + west) / 2, 1e-12) << lon;
     }

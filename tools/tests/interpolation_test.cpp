@@ -1,4 +1,4 @@
-// Interpolation between scattered nodes: the properties of its shares, and of its values.
+// Interpolation between scattered nodes: properties of shares and values.
 
 #include "methods/interpolation.h"
 
@@ -24,7 +24,7 @@ using Points = std::vector<Point>;
 using Method = Interpolation::Method;
 constexpr double kFullSphere = 12.566370614359173;
 
-/// Cells in one circle, nodes of all densities, and regional ones.
+/// Cocircular nodes, uneven densities, and regional nodes.
 const char* const kFamilies[] = {"random", "latlon", "healpix", "variable", "clusters", "hemisphere", "cap"};
 
 Points places(std::size_t n, std::uint64_t seed) { return point_sets::make("random", n, seed); }
@@ -98,12 +98,12 @@ TEST(linear, is_linear_in_the_plane_of_the_corners) {
   for (const Point& p : places(1000, 4)) {
     ASSERT_TRUE(shares_at(in, Method::linear, p, shares));
     ASSERT_LE(shares.size(), 3u);
-    Point q{0, 0, 0};  // the shares' mean of the corners
+    Point q{0, 0, 0};  // mean of the corners, weighted by the shares
     for (const Share& s : shares) {
       const Point& v = nodes[static_cast<std::size_t>(s.node) - 1];
       q = {q.x + s.part * v.x, q.y + s.part * v.y, q.z + s.part * v.z};
     }
-    const Point off = cross(p, q);  // is on the ray to p
+    const Point off = cross(p, q);  // 0 if q is on the ray to p
     EXPECT_LT(dot(off, off), 1e-28);
     EXPECT_GT(dot(p, q), 0);
   }
@@ -113,7 +113,7 @@ TEST(linear, does_not_depend_on_where_the_search_begins) {
   for (const char* const family : {"random", "latlon", "healpix"}) {
     const Points nodes = point_sets::make(family, 400);
     const Interpolation in = interpolation_between(nodes);
-    Points on_arcs;  // as nearly as rounding lets them, many exactly
+    Points on_arcs;  // up to rounding; many exactly
     const std::vector<std::int32_t> triangles = files::triangles_of(files::triangulate(nodes));
     for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
       const Point a = nodes[static_cast<std::size_t>(triangles[t]) - 1],
@@ -155,7 +155,8 @@ TEST(cubic, is_of_higher_order_than_linear_and_natural) {
   for (const char* const family : {"fibonacci", "random", "latlon"}) {
     const double coarse = largest_error(family, 500, Method::cubic),
                  fine = largest_error(family, 8000, Method::cubic);
-    EXPECT_LT(fine, coarse / 24) << family;  // a quarter of the spacing: 16 of second order, 64 of third
+    EXPECT_LT(fine, coarse / 24)
+        << family;  // at a quarter of the spacing the second order gives 16, the third 64
     EXPECT_LT(fine, largest_error(family, 8000, Method::natural) / 3) << family;
   }
 }
@@ -166,7 +167,7 @@ TEST(cubic, meets_the_values_with_the_gradients_of_the_nodes) {
   const Interpolation in = interpolation_between(nodes);
   const std::vector<Point> slopes = gradients(TriangulatedNodes(nodes).view(), values);
   constexpr double kStep = 1e-6;
-  Points beside, ways;  // a step away from each node, on each way
+  Points beside, ways;  // one step from each node in each direction
   for (std::size_t i = 0; i < nodes.size(); ++i)
     for (const Point& away : places(4, 1000 + i)) {
       const Point& p = nodes[i];
@@ -202,7 +203,6 @@ TEST(gradients, are_those_of_a_quadratic_and_zero_where_nodes_determine_none) {
     EXPECT_EQ(slope, (Point{0, 0, 0}));
 }
 
-/// The area of each Voronoi cell.
 std::vector<double> cell_areas(const Points& nodes) {
   const files::Faces cells = files::voronoi_faces(files::triangulate(nodes));
   std::vector<double> areas(cells.size());
@@ -216,7 +216,7 @@ std::vector<double> cell_areas(const Points& nodes) {
   return areas;
 }
 
-/// Areas of cells that are larger than a hemisphere are known but for whole spheres.
+/// The area of a cell larger than a hemisphere is known only modulo that of the sphere.
 double difference(double a, double b) { return std::remainder(a - b, kFullSphere); }
 
 TEST(natural, shares_are_what_the_cells_lose_to_a_new_node) {
@@ -280,7 +280,7 @@ TEST(values, are_continuous) {
           add(a, towards);
           add({a.x + 2 * b.x, a.y + 2 * b.y, a.z + 2 * b.z}, towards);
           add(centre, towards);
-          // On the circle of the corners, where other neighbours come in.
+          // On the circumcircle of the triangle, where the set of natural neighbours changes.
           add({2 * dot(a, centre) * centre.x - a.x, 2 * dot(a, centre) * centre.y - a.y,
                2 * dot(a, centre) * centre.z - a.z},
               centre);
@@ -362,8 +362,8 @@ TEST(nearest, is_the_nearest_of_all_nodes_wherever_the_place) {
 }
 
 TEST(nearest, is_found_across_the_far_side_of_a_region) {
-  // Its border is high at longitudes 90 and 270: there is no way down from 180, and the nearest is not on the
-  // border.
+  // The region's border is far north at longitudes 90 and 270: a descent from longitude 180 ends there, and
+  // the nearest node is not on the border.
   Points nodes;
   for (const auto& [lon, lat] :
        {std::pair(-10.0, 10.0), std::pair(10.0, 10.0), std::pair(0.0, 10.2), std::pair(90.0, 50.0),

@@ -1,4 +1,4 @@
-"""What pstripack writes for maps, read by Python's own modules: GeoJSON, CSV, GMT.
+"""Reads files that pstripack writes for maps by Python's own modules: GeoJSON, CSV, GMT.
 
 map_readers.py PSTRIPACK FOLDER
 """
@@ -19,7 +19,7 @@ def run(*arguments):
 
 
 def earthquakes(name, west, width, south, height, n, longitude):
-    """A table as catalogues have it: latitude first, gaps, texts with commas and quotes."""
+    """A table like those of catalogues: latitude first, missing values, texts with commas and quotes."""
     numbers = random.Random(name)
     rows = []
     for k in range(n):
@@ -33,7 +33,7 @@ def earthquakes(name, west, width, south, height, n, longitude):
 
 
 def rings_of(geometry):
-    """The rings of a polygon: closed, within the map, by the right-hand rule, without holes."""
+    """The rings of a polygon; checks that they are closed, on the map, counterclockwise and without holes."""
     polygons = {"Polygon": [geometry["coordinates"]], "MultiPolygon": geometry["coordinates"]}[geometry["type"]]
     assert (geometry["type"] == "MultiPolygon") == (len(polygons) > 1)
     for polygon in polygons:
@@ -45,7 +45,7 @@ def rings_of(geometry):
 
 
 def area_on_sphere(ring):
-    """What lies within straight lines of longitude and latitude: the integral of the sine of latitude."""
+    """The area on the sphere of a ring with straight sides on the map: the integral of the sine of latitude."""
     total = 0
     for (x, y), (x1, y1) in zip(ring, ring[1:]):
         south, north = math.radians(y), math.radians(y1)
@@ -125,7 +125,7 @@ def check_csv(name, rows):
         triangles = list(csv.DictReader(file))
     corners = {int(triangle[f"node{k}"]) for triangle in triangles for k in (1, 2, 3)}
     assert corners == set(range(1, len(rows) + 1))
-    # What was written is read again, with the same bits and texts.
+    # pstripack reads the file again, with the same bits and texts.
     run("convert", table, "-o", FOLDER / "once.csv")
     run("convert", FOLDER / "once.csv", "-o", FOLDER / "twice.csv")
     assert (FOLDER / "once.csv").read_bytes() == (FOLDER / "twice.csv").read_bytes()

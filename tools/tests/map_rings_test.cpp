@@ -54,7 +54,7 @@ Faces cells_of(const Mesh& mesh) {
 
 double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
-// Polygons that overlap, leave gaps, are turned, cut at the wrong place or lack a pole have another area.
+// Overlaps, gaps, clockwise polygons, wrong cuts and missing poles would change the area.
 TEST(map, is_covered_once_by_triangles_and_by_cells) {
   for (const char* const family : {"random", "latlon", "icosahedral", "cubed-sphere", "healpix", "fibonacci"})
     for (const std::size_t n : {30u, 200u}) {
@@ -98,12 +98,12 @@ TEST(map, has_a_pole_where_it_is_inside_a_corner_or_on_a_side) {
               1e-10);  // on a side
   EXPECT_NEAR(area(ring({{0, 0}, {150, 0}, {-80, 0}, {-80, 90}})), 280 * 90,
               1e-10);  // a corner of 280 degrees
-  // Corners at the pole up to rounding, at any longitude, are the pole.
+  // Corners that are at the pole up to rounding count as the pole, whatever their longitude.
   MapRing rounded = ring({{100, 0}, {-170, 0}, {20, 90}, {-70, 90}});
   rounded[2].p = {-1e-16, 2e-17, 1}, rounded[3].p = {3e-17, 1e-16, 1};
   EXPECT_NEAR(area(rounded), 90 * 90, 1e-10);
   EXPECT_TRUE(unrolled(ring({{10, 0}, {10, 1e-12}, {10, 2e-12}}), -180).empty());
-  // What lies on one arc, also across a pole, has no map.
+  // A polygon on one arc has an empty map, also if the arc crosses a pole.
   EXPECT_TRUE(unrolled(ring({{30, -60}, {30, -75}, {0, -90}}), -180).empty());
   EXPECT_TRUE(unrolled(ring({{85, 45}, {0, 90}, {-95, 0}}), -180).empty());
 }
@@ -163,7 +163,7 @@ TEST(cells, fill_a_region_once) {
         double on_map = 0;
         for (std::size_t f = 0; f < cells.size(); ++f)
           for (const MapRing& ring : map_of(cells, f)) on_map += area_on_map(ring);
-        // Lines that meet the corner of a neighbour, where a cell was halved, are 0.001 degrees from it.
+        // Where a cell was halved, its lines pass the corner of a neighbour at up to 0.001 degrees.
         EXPECT_NEAR(on_map, width * height, 0.001 * std::min(height, 50.0))
             << family << ' ' << n << ' ' << what;
         for (std::size_t i = 0; i < cells.points.size(); ++i) {
@@ -177,7 +177,7 @@ TEST(cells, fill_a_region_once) {
     }
 }
 
-// Past failures: a cell whose part is bounded by one arc and the parallel, from a corner on the parallel.
+// Past failure: the part of a cell between one arc and the parallel, with a corner on the parallel.
 TEST(cells, fill_a_region_whose_parallel_leads_through_a_corner) {
   Points points;
   for (const auto& [lon, lat] : {std::pair(130, 0), {0, 90}, {175, 45}, {40, -45}, {-140, 45}})
@@ -202,7 +202,8 @@ TEST(cells, of_a_region_are_those_of_the_nearest_nodes) {
       for (const Point& node : mesh.points) near.push_back(dot(node, p));
       std::vector<double> sorted = near;
       std::sort(sorted.rbegin(), sorted.rend());
-      if (sorted[0] - sorted[1] < 1e-4) continue;  // closer to the border than straight lines are to arcs
+      if (sorted[0] - sorted[1] < 1e-4)
+        continue;  // too close to the border: straight lines are not exactly arcs
       std::vector<std::size_t> found;
       for (std::size_t f = 0; f < cells.size(); ++f)
         for (const MapRing& ring : maps[f])

@@ -75,8 +75,9 @@ TEST(duplicates, are_all_nodes_but_the_first_in_each_place) {
 
 TEST(mesh_of_triangles, is_refused_where_they_are_none) {
   const Points points{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, -1, -1}};
-  EXPECT_THROW(mesh_of(points, {{0, 1, 2}}), NoMesh);                        // a node without one
-  EXPECT_THROW(mesh_of(points, {{0, 1, 2}, {0, 1, 3}, {0, 3, 2}}), NoMesh);  // an arc with two on one side
+  EXPECT_THROW(mesh_of(points, {{0, 1, 2}}), NoMesh);  // a node without triangle
+  EXPECT_THROW(mesh_of(points, {{0, 1, 2}, {0, 1, 3}, {0, 3, 2}}),
+               NoMesh);  // an arc with two triangles on one side
   EXPECT_NO_THROW(mesh_of(points, {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}));
 }
 
@@ -126,7 +127,7 @@ TEST(areas, are_those_of_the_sphere_and_columns_go_with_nodes_and_faces) {
     }
     EXPECT_NEAR(find(faces.columns_of_faces, "area_km2")->numbers[5], all[5] * 6371 * 6371, 1e-6);
     EXPECT_EQ((cells ? faces.given_centres : faces.given_points).lon, mesh.given.lon);
-    mesh.columns = of_nodes;  // as read back from a file: ours is not kept beside itself
+    mesh.columns = of_nodes;  // as read back from a file: a column of ours is not kept twice
     add_columns(faces, mesh);
     EXPECT_EQ(
         std::count_if(of_nodes.begin(), of_nodes.end(), [](const Column& c) { return c.name == "degree"; }),

@@ -25,7 +25,6 @@ std::string error_of(const std::string& file) {
   return "no error";
 }
 
-/// A NetCDF file of the variables that a test wants, removed in the end.
 class NetcdfFile {
  public:
   NetcdfFile() : name_(testing::TempDir() + "netcdf_nodes_test.nc") {
@@ -102,7 +101,7 @@ TEST(netcdf, angles_are_in_the_units_of_the_attribute) {
 TEST(netcdf, axes_are_a_grid_and_fields_are_pairs) {
   {
     NetcdfFile file;
-    const int nx = file.dimension("x", 2), ny = file.dimension("y", 2);  // of equal length, but two
+    const int nx = file.dimension("x", 2), ny = file.dimension("y", 2);  // two dimensions of equal length
     file.with("longitude", {nx}, {0, 90}, "degrees").with("latitude", {ny}, {0, 30}, "degrees");
     const Points points = points_of(file.closed());
     ASSERT_EQ(points.size(), 4u);

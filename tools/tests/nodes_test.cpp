@@ -1,4 +1,4 @@
-// Nodes of text, OFF and raw doubles: what is read, and what is refused with which words.
+// Nodes of text, OFF and raw doubles: what is read, what is refused, and the messages.
 
 #include "files/nodes.h"
 
@@ -18,7 +18,7 @@ namespace {
 
 using Points = std::vector<Point>;
 
-/// A file with these bytes, removed in the end.
+/// A temporary file with these bytes.
 class Written {
  public:
   explicit Written(const std::string& bytes) {
@@ -136,7 +136,7 @@ std::string names_of(const Columns& columns) {
 }
 
 TEST(tables, longitudes_and_latitudes_stay_as_they_are_given) {
-  // Of none of these is the direction's longitude the one that was given.
+  // None of these longitudes can be computed back from the direction.
   const std::string rows = "30 40\n-179.99999999999997 89.9\n359.7 -0.1\n";
   const Nodes nodes = read_bytes(rows, kDegrees);
   EXPECT_EQ(nodes.given.lon, (std::vector<double>{30, -179.99999999999997, 359.7}));
@@ -209,7 +209,7 @@ TEST(tables, that_cannot_be_used_are_refused_with_line_reason_and_remedy) {
   };
   refused("lon,lat\n", ":1: a header line, and no row of numbers after it: add the nodes");
   refused("lon lat\ndegrees degrees\n1 2\n",
-          ":2: a second header line, after that in line 1: remove one of them");
+          ":2: a second header line, after the one in line 1: remove one of them");
   refused("lon,lat\n1,2\nlon,lat\n", ":3: the header line again: remove it");
   refused("lon,lat,mag\n1,2,3\n1 2 3\n",
           ":3: separated by blanks, the lines before by commas: use one separator");

@@ -1,4 +1,4 @@
-"""What pstripack writes, read by programs that are not ours: ncdump, netCDF4, xarray, meshio.
+"""Reads files that pstripack writes by other programs: ncdump, netCDF4, xarray, meshio.
 
 other_readers.py PSTRIPACK NCDUMP FOLDER
 """
@@ -45,7 +45,7 @@ def check_ugrid(nodes, mesh_file, cells_file):
         assert np.allclose(points, nodes, rtol=0, atol=1e-14)
         assert (signed_volumes(points, triangles) > 0).all()
 
-    with xarray.open_dataset(cells_file) as cells:  # what is missing becomes NaN
+    with xarray.open_dataset(cells_file) as cells:  # missing values become NaN
         assert cells["mesh_face_nodes"].shape == (N, 6)
         missing = np.isnan(cells["mesh_face_nodes"].values)
         assert missing.sum() == 12 and missing[:, 5].sum() == 12
@@ -138,7 +138,7 @@ def check_by_meshio(nodes, file, cells, count):
 
 
 def check_field(nodes):
-    """A regional field on a grid, and at points."""
+    """A regional field on a grid and at points."""
     north = nodes[nodes[:, 2] > 0.1]
     np.savetxt(FOLDER / "values.txt", np.column_stack([north, 280 + north[:, 2]]), fmt="%.17g")
     run("interpolate", FOLDER / "values.txt", "--grid-step", 5, "-o", FOLDER / "grid.nc")

@@ -1,4 +1,4 @@
-// Files that are written, and read, in parts: the bytes of a file that is written at once.
+// Files written in parts have the bytes of a file written at once; parts that are read are the whole.
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ Mesh mesh_with_columns(std::size_t n) {
   return mesh;
 }
 
-/// The part with the nodes [begin, end), from 0; it knows all others.
+/// The part with the nodes begin, ..., end - 1, which knows all other nodes.
 MeshPart part_of(const Mesh& mesh, std::size_t begin, std::size_t end) {
   const std::size_t n = mesh.points.size();
   MeshPart part;

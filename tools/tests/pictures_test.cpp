@@ -1,4 +1,4 @@
-// Pictures: what is drawn has the area that it must have, on each map, wherever it is cut.
+// Pictures: drawn faces have the right area on each map, wherever they are cut.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ using files::Mesh;
 
 constexpr double kPi = 3.14159265358979324;
 
-/// Positive where the outline goes round counterclockwise as one looks at it; y points down.
+/// The area of an outline; positive if it looks counterclockwise (y points down).
 double area_of(const Outline& outline) {
   double twice = 0;
   for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -48,7 +48,7 @@ std::vector<std::vector<Point>> polygons_of(const Faces& faces) {
   return polygons;
 }
 
-/// The area of all, none of which is drawn inside out (slivers at the limb may be, by less than one sees).
+/// The sum of areas. No polygon may be drawn inside out, except invisibly thin slivers at the limb.
 double area_of_all(const std::vector<std::vector<Point>>& polygons, const View& view) {
   double sum = 0;
   for (const auto& polygon : polygons)
@@ -72,8 +72,8 @@ Mesh mesh_of_family(const std::string& family, std::size_t n) {
   return files::triangulate(point_sets::make(family, n));
 }
 
-/// Of families that cover the sphere. Nodes at the poles, on the antimeridian and on the limb; arcs through
-/// poles and along meridians.
+/// Families that cover the sphere, with nodes at the poles, on the antimeridian and on the limb, and arcs
+/// through poles and along meridians.
 const char* const kFamilies[] = {"random",       "fibonacci",   "latlon",
                                  "cubed-sphere", "icosahedral", "variable:10"};
 
@@ -172,7 +172,7 @@ TEST(orthographic, faces_cover_the_disc_once) {
         const Orthographic sphere(eye, 90, kPaper);
         EXPECT_NEAR(sphere.scale(), 360, 1e-9);
         const Mesh mesh = mesh_of_family(family, n);
-        // Pieces of the limb leave out 2/3 of 0.05 pixels at most, along 2 pi 360 pixels.
+        // Straight pieces of the limb miss at most 2/3 of 0.05 pixels along 2 pi 360 pixels.
         for (const Faces& faces : {files::triangle_faces(mesh), files::voronoi_faces(mesh)})
           EXPECT_NEAR(area_of_all(polygons_of(faces), sphere) / (360 * 360), kPi, 6e-4)
               << family << " " << n << " " << eye.lon << " " << eye.lat;
@@ -233,8 +233,7 @@ TEST(views, name_their_spots) {
   EXPECT_EQ(name_of({540, 0}), "180° 0°");
 }
 
-// ---- measures, scales, colours
-// ------------------------------------------------------------------------------
+// ---- measures, scales, colours ----
 
 TEST(measures, areas_of_triangles_add_up_to_the_sphere_and_small_ones_keep_their_digits) {
   const Mesh mesh = mesh_of_family("variable", 2000);
@@ -295,7 +294,7 @@ TEST(scale, has_fewer_ticks_where_labels_are_wide) {
   double widths = 0;
   for (const Scale::Tick& tick : fitting.ticks()) widths += text_width(tick.label, 12);
   EXPECT_LT(widths, 2 * 200);
-  // Of numbers that no double can hold the sum or difference of.
+  // The sum or difference of these numbers overflows.
   for (const auto& values :
        std::vector<std::vector<double>>{{-1.7e308, 1.7e308}, {5e-324, 1.7e308}, {0, 5e-324}}) {
     const Scale scale(values, 6);
@@ -327,8 +326,7 @@ TEST(colours, of_neighbours_differ) {
   EXPECT_EQ(viridis(1), "#fde725");
 }
 
-// ---- whole pictures
-// -----------------------------------------------------------------------------------------
+// ---- whole pictures ----
 
 boost::property_tree::ptree parsed(const std::string& svg) {
   std::istringstream in(svg);
@@ -493,8 +491,7 @@ TEST(histograms, count_what_is_in_the_mesh) {
   EXPECT_EQ(count(same, "nan"), 0u);
 }
 
-// ---- coasts
-// ---------------------------------------------------------------------------------------------------
+// ---- coasts ----
 
 /// A shapefile of polygons, each one part.
 class Shapefile {
@@ -559,7 +556,7 @@ TEST(coasts, of_a_file_that_is_damaged_are_refused) {
       try {
         for (const auto& line : changed.read()) EXPECT_LE(line.size(), 4u);
       } catch (const std::runtime_error& e) {
-        EXPECT_NE(std::string(e.what()).find("coast.shp: no shapefile (.shp) of"), std::string::npos);
+        EXPECT_NE(std::string(e.what()).find("coast.shp: not a shapefile (.shp) of"), std::string::npos);
       }
     }
 }
@@ -583,8 +580,7 @@ TEST(coasts, of_natural_earth_are_as_fine_as_needed_or_there_is_a_remedy) {
   EXPECT_EQ(natural_earth(20, folder), folder / "110m/ne_110m_land.shp");  // 50m is missing
 }
 
-// ---- files
-// ----------------------------------------------------------------------------------------------------
+// ---- files ----
 
 TEST(xml, is_escaped_and_holds_no_byte_that_xml_forbids) {
   const char* const odd = "a<b>&\"c'd\" \x01\xff\xc3\xa9,.txt";  // one control byte, one that is not UTF-8
@@ -595,7 +591,7 @@ TEST(xml, is_escaped_and_holds_no_byte_that_xml_forbids) {
 TEST(path, is_short_and_exact_to_hundredths) {
   Path path;
   path.move({12.347, -7});
-  path.line({12.349, -7});  // nothing to see
+  path.line({12.349, -7});  // shorter than a hundredth of a pixel
   path.line({13.5, -7.104});
   path.close();
   path.dot({1, 2});

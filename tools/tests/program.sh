@@ -11,7 +11,7 @@ fail() {
   exit 1
 }
 
-# refuses CODE "words" arguments...: the program ends with CODE and one line on stderr that has the words
+# refuses CODE "words" arguments...: pstripack ends with CODE and one line on stderr that contains the words
 refuses() {
   expected=$1 words=$2
   shift 2
@@ -26,8 +26,7 @@ octahedron() { printf '1 0 0\n0 1 0\n0 0 1\n-1 0 0\n0 -1 0\n0 0 -1\n'; }
 
 case $1 in
 documented_tables)
-  # The tables of --help that $DOCUMENT quotes. docs/point-sets.md has the families; the options are in pstripack.1,
-  # by a test of tests/docs.
+  # $DOCUMENT quotes these tables of --help. A test of tests/docs compares the options with pstripack.1.
   compare_table() { # TITLE COMMAND: from the line TITLE to one that does not begin with a blank
     for text in "$DOCUMENT" help; do
       "$PSTRIPACK" "$2" --help > help
@@ -96,7 +95,7 @@ bad_nodes)
   refuses 1 "missing.txt: cannot be opened: No such file" triangulate missing.txt -o missing.off
   printf 'a\0b' > binary
   refuses 1 "raw doubles need --from raw" triangulate binary -o binary.off
-  refuses 1 "holds nodes, no triangles" convert two.txt -o two.off
+  refuses 1 "holds nodes without triangles" convert two.txt -o two.off
   [ "$(echo ./*.off)" = ./mesh.off ] || fail "files of failed runs: $(echo ./*.off)"
   ;;
 
@@ -104,7 +103,7 @@ bad_netcdf)
   printf 'CDF, it says' > broken.nc
   refuses 1 "broken.nc: NetCDF" triangulate broken.nc -o mesh.nc
   "$PSTRIPACK" -q points random 50 -o nodes.nc
-  refuses 1 "holds nodes, no triangles" convert nodes.nc -o mesh.mpas.nc
+  refuses 1 "holds nodes without triangles" convert nodes.nc -o mesh.mpas.nc
   refuses 1 "gmsh cannot hold polygons" voronoi nodes.nc -o cells.msh
   refuses 1 "mpas cannot hold polygons" voronoi nodes.nc -o cells.mpas.nc
   "$PSTRIPACK" -q voronoi nodes.nc -o cells.nc
@@ -148,7 +147,7 @@ no_partial_output)
   refuses 1 "are in the same place" triangulate twice.txt -o mesh.off
   refuses 1 "no/such/folder/mesh.off: cannot be written: No such file" triangulate nodes.txt -o no/such/folder/mesh.off
   refuses 1 "/dev/full: cannot be written: No space left" triangulate nodes.txt -o /dev/full --to off
-  # A limit of the size of files, in blocks of 512 bytes, is a disk that is full.
+  # A limit on file size, in blocks of 512 bytes, acts as a full disk.
   "$PSTRIPACK" -q points random 20000 -o many.txt
   code=0
   (trap '' XFSZ; ulimit -f 100; exec "$PSTRIPACK" -q triangulate many.txt -o mesh.off 2> err_of_full) || code=$?
@@ -215,7 +214,7 @@ pictures)
   refuses 1 "nodes.txt: --colour aera: no column has this name; did you mean area? (here are none, area, degree, owner:P, node, line)" \
     plot nodes.txt -o c.svg --colour aera
   refuses 1 "no.shp: cannot be opened: No such file" plot nodes.txt -o c.svg --coast-file no.shp
-  refuses 1 "nodes.txt: no shapefile (.shp) of lines or polygons" plot nodes.txt -o c.svg --coast-file nodes.txt
+  refuses 1 "nodes.txt: not a shapefile (.shp) of lines or polygons" plot nodes.txt -o c.svg --coast-file nodes.txt
   refuses 2 "histograms have no coasts" plot nodes.txt -o c.svg --what histograms --coasts
   printf 'lon,lat,mag,place\n0,0,1,a\n90,0,2,b\n180,0,3,a\n270,0,4,b\n0,90,5,a\n0,-90,,\n' > quakes.csv
   "$PSTRIPACK" -q plot quakes.csv --what cells --colour mag -o mag.svg
@@ -231,7 +230,7 @@ pictures)
   refuses 1 "nodes are in view, at most 200,000 can be drawn: zoom in, for example by --view orthographic:0,30 --radius" \
     plot many.raw --from raw --coordinates xyz -q -o c.svg
   printf '1 0 0\n0 1 0\n0 0 1\n' > three.txt
-  refuses 1 "three.txt: around some nodes, which lie on one circle, cells reach" plot three.txt --what cells -o c.svg
+  refuses 1 "three.txt: some nodes lie on one circle: their cells reach" plot three.txt --what cells -o c.svg
   [ ! -e c.svg ] && [ ! -e b.png ] || fail "a picture of a failed run"
   ;;
 
@@ -241,8 +240,8 @@ scvt)
     fail "$(cat err)"
   grep -q '^pstripack: cells by sides: .*; smallest angle .*; neighbouring areas up to .* : 1; .* % of the triangles hold their circumcentre$' err ||
     fail "$(cat err)"
-  # A run that is cut short and goes on, by its checkpoint, comes to the same bytes: within the first steps, with some
-  # and with all pairs of the quasi-Newton method, from two formats.
+  # A run that is cut short and continued from its checkpoint gives the same bytes: cut within the first steps, with some
+  # and with all pairs of the quasi-Newton method, and from two formats.
   for run in 2:checkpoint.nc 5:checkpoint.ugrid.nc 11:checkpoint.nc; do
     checkpoint=${run#*:}
     "$PSTRIPACK" -q scvt 300 --density bump --iterations 14 --tolerance 1e-6 --checkpoint $checkpoint --every ${run%:*} -o short.mpas.nc
@@ -251,13 +250,13 @@ scvt)
     cmp direct.nodes.nc resumed.nodes.nc
     [ "$("$PSTRIPACK" -q convert $checkpoint -o - --to xyz | wc -l)" = 300 ] || fail "$checkpoint is not whole"
   done
-  # Without the pairs it goes on with new ones: not worse, and counted from where the other run ended.
+  # Without the pairs the run starts new ones; evaluations are counted from where the other run ended.
   "$PSTRIPACK" scvt --start short.mpas.nc --iterations 200 --tolerance 1e-4 -o resumed.nodes.nc 2> err
   grep -q " evaluations, converged to 0.0001: " err || fail "$(cat err)"
   "$PSTRIPACK" scvt --start direct.nodes.nc --evaluations 12 --tolerance 1e-6 -o again.nodes.nc 2> err
   grep -q "none was left to do" err || fail "$(cat err)"
   cmp direct.nodes.nc again.nodes.nc
-  # Another density makes the pairs worthless; the run converges all the same.
+  # With another density the pairs are useless; the run still converges.
   "$PSTRIPACK" scvt --start checkpoint.nc --density bump:0,0,30,10,2 --evaluations 1e3 -o other.off 2> err
   grep -q " evaluations, converged to 0.0001: " err || fail "$(cat err)"
   # Lloyd's method has no memory: it also continues from its output.
@@ -281,7 +280,7 @@ scvt)
   "$PSTRIPACK" -q scvt 3000 --levels --evaluations 1 --tolerance 0.01 -o flag.txt
   cmp flag.txt levels.txt
   if cmp -s front.txt levels.txt || cmp -s levels.txt random.txt; then fail "--first has no effect"; fi
-  # A density in a file, here constant; it goes along with the file by name.
+  # A density in a file, here constant; the output stores the file's name.
   "$PSTRIPACK" -q points latlon 100 | sed 's/$/ 2/' > two.txt
   "$PSTRIPACK" -q points random 300 -o start.txt
   "$PSTRIPACK" -q scvt --start start.txt --density-file two.txt --iterations 5 -o file.nodes.nc
@@ -294,7 +293,7 @@ scvt)
   cmp more.nodes.nc eight.nodes.nc
   rm two.txt
   refuses 1 "two.txt: cannot be opened" scvt --start file.nodes.nc --iterations 7 -o failed.nc
-  # A density on a grid: that of its formula, nearly.
+  # A density on a grid.
   "$PSTRIPACK" -q points latlon 3000 -o - --to lonlat | awk '{ print $0, 2 + sin($2 / 57.29577951308232) }' > values.txt
   "$PSTRIPACK" -q interpolate values.txt --to-grid 36x72 -o grid.nc
   "$PSTRIPACK" scvt 300 --density-file grid.nc --variable value -o grid.mpas.nc 2> err
@@ -379,8 +378,8 @@ bad_values)
   refuses 1 "values.txt: node 2 (line 2) has no value: remove it, or say --skip-missing" interpolate values.txt --grid-step 30 -o failed.txt
   refuses 2 "give one of --to-points, --to-grid, --grid-step" interpolate values.txt -o failed.txt
   refuses 2 "give one of --to-points, --to-grid, --grid-step" interpolate values.txt --grid-step 30 --to-grid 2x2 -o failed.txt
-  refuses 2 "180 degrees are no multiple of 7" interpolate values.txt --grid-step 7 -o failed.txt
-  refuses 2 "--grid-step: -1 is no number of degrees above 0" interpolate values.txt --grid-step -1 -o failed.txt
+  refuses 2 "180 degrees are not a multiple of 7" interpolate values.txt --grid-step 7 -o failed.txt
+  refuses 2 "--grid-step: -1 is not a number of degrees above 0" interpolate values.txt --grid-step -1 -o failed.txt
   refuses 2 "'180' is not 2 numbers" interpolate values.txt --to-grid 180 -o failed.txt
   refuses 2 "expected NLATxNLON" interpolate values.txt --to-grid 0x10 -o failed.txt
   refuses 2 "expected WEST,EAST,SOUTH,NORTH" interpolate values.txt --grid-step 1 --region 0,10,20,10 -o failed.txt
@@ -407,7 +406,7 @@ bad_values)
 netcdf_values)
   values_of() { awk '!/#/ { print $3 }' "$1"; }
   "$PSTRIPACK" -q points random 200 | awk '{ printf "%s %.17g\n", $0, 280 + $3 }' > values.txt
-  # To a grid, from there to points and to nodes: a grid in NetCDF holds values again.
+  # To a grid, and from the grid in NetCDF to points and nodes.
   "$PSTRIPACK" -q interpolate values.txt --grid-step 2 -o grid.nc
   "$PSTRIPACK" -q interpolate values.txt --grid-step 2 -o grid.txt
   awk '!/#/ { print $1, $2 }' grid.txt > places.txt
@@ -418,7 +417,7 @@ netcdf_values)
   "$PSTRIPACK" -q interpolate points.nc --variable value --to-points places.txt -o back.txt
   paste grid.txt back.txt | awk '!/#/ && ($3 - $6) ^ 2 > 1e-24' > wrong  # the places have been rounded
   [ ! -s wrong ] || fail "$(cat wrong)"
-  # What is missing there is missing here.
+  # Values missing in the input are missing in the output.
   "$PSTRIPACK" -q points cap:0.5 100 | sed 's/$/ 1/' > region.txt
   "$PSTRIPACK" -q interpolate region.txt --grid-step 10 -o region.nc
   refuses 1 "node 1 has no value: remove it, or say --skip-missing" interpolate region.nc --variable value --grid-step 30 -o failed.nc
@@ -432,7 +431,7 @@ netcdf_values)
   ;;
 
 as_given)
-  # Longitudes and latitudes of no exact vectors, beyond 180 degrees and in odd words: back as they were.
+  # Longitudes and latitudes without exact vectors, beyond 180 degrees or in unusual notation are written as given.
   awk 'BEGIN { srand(7); for (i = 0; i < 200; ++i) printf "%.14g %.14g\n", 360 * rand(), 180 * rand() - 90 }' > nodes.lonlat
   printf '30 40\n-179.99999999999997 1e-300\n' >> nodes.lonlat
   "$PSTRIPACK" -q convert nodes.lonlat -o back.lonlat
@@ -441,7 +440,7 @@ as_given)
   [ "$(tail -n 2 back.lonlat)" = "$(tail -n 2 nodes.lonlat)" ] || fail "$(tail -n 2 back.lonlat)"
   paste -d ' ' nodes.lonlat back.lonlat | awk '$1 + 0 != $3 + 0 || $2 + 0 != $4 + 0' > wrong
   [ ! -s wrong ] || fail "$(cat wrong)"
-  # As places of interpolate; x y z, too, and the places' own columns.
+  # Also as places of interpolate, as x y z, and with the places' own columns.
   "$PSTRIPACK" -q points random 50 | sed 's/$/ 1/' > values.txt
   "$PSTRIPACK" -q interpolate values.txt --to-points back.lonlat -o places.txt
   sed 1d places.txt | cut -d ' ' -f 1,2 | cmp back.lonlat -
@@ -450,7 +449,7 @@ as_given)
   [ "$(head -n 1 places.txt)" = "# lon lat value name x y z" ] || fail "$(head -n 1 places.txt)"
   sed 1d places.txt | awk '{ print $6, $7, $8, $4, $5 }' > got
   sed 1d places.xyz | cmp got -
-  # Radians come back where radians are written, and only there.
+  # Given radians are written as degrees.
   sed 's/.*/1.1 -0.3/; 2s/.*/3 1.5/; 3s/.*/6.2 0.1/; 4,$d' nodes.lonlat > radians.txt
   "$PSTRIPACK" -q convert radians.txt --units radians -o - --to lonlat > degrees.txt
   [ "$(head -n 1 degrees.txt | cut -c 1-8)" = 63.02535 ] || fail "$(cat degrees.txt)"
@@ -468,7 +467,7 @@ as_given)
   ;;
 
 tables)
-  # A catalogue as it comes: a byte order mark, quotes, gaps, latitude first, a node twice.
+  # A catalogue with a byte order mark, quotes, missing values, latitude first and a duplicate.
   printf '\357\273\277time,latitude,longitude,mag,place\r\n' > quakes.csv
   printf '2020-01-01,61.2,-150.1,4.5,"10 km S of ""A"", #2"\r\n2020-01-02,40,30,3,\r\n,-10.3,170.7,,Fiji\r\n' >> quakes.csv
   printf '2020-01-04,40,30,5,"again"\r\n2020-01-05,50.1,20.3,1,e\r\n' >> quakes.csv
@@ -508,7 +507,7 @@ tables)
   ;;
 
 bad_tables)
-  # refused STATUS WORDS ARGUMENTS < a table: it makes no mesh
+  # refused STATUS WORDS ARGUMENTS < table: triangulate ends with this status and words and writes no mesh
   refused() {
     status=$1 expected_words=$2
     shift 2
@@ -517,7 +516,7 @@ bad_tables)
     [ ! -e mesh.off ] || fail "mesh.off was written"
   }
   printf 'lon,lat\n' | refused 1 "1: a header line, and no row of numbers after it: add the nodes"
-  printf 'lon,lat\nlon,lat\n1,2\n' | refused 1 "2: a second header line, after that in line 1: remove one of them"
+  printf 'lon,lat\nlon,lat\n1,2\n' | refused 1 "2: a second header line, after the one in line 1: remove one of them"
   printf 'lon,lat\n1,2\n3;4\n' | refused 1 "3: separated by semicolons, the lines before by commas: use one separator"
   printf 'lon,lat,mag\n1,2,3\n' | refused 1 "1: there is no column 'mga'; did you mean mag?" --columns lon,lat,mga
   printf 'lon,lat,lat\n1,2,3\n' | refused 1 "1: the header names column 'lat' twice, 2 and 3: choose columns by number"
@@ -541,7 +540,7 @@ bad_tables)
 
 maps)
   printf 'lon,lat,depth (km),place\n170,-10,7.25,"a, ""b"""\n-170,-10,,c\n180,10,-1,"d # e"\n' > table.csv
-  # A row for each triangle, cell and node; what was given comes back.
+  # A row for each triangle, cell or node, with the given values.
   "$PSTRIPACK" -q triangulate table.csv -o mesh.csv
   [ "$(cut -d , -f 1-3 mesh.csv | tr '\n' ' ')" = "node1,node2,node3 1,2,3 " ] || fail "$(cat mesh.csv)"
   "$PSTRIPACK" -q voronoi table.csv --clip-to-hull -o cells.csv
@@ -564,7 +563,7 @@ maps)
   "$PSTRIPACK" -q voronoi table.csv --region 0,0.1,10,10.1 -o one.geojson
   [ "$(grep -c '"Feature"' one.geojson)" = 1 ] || fail "$(cat one.geojson)"
   for corner in 0,10 0.1,10 0.1,10.1 0,10.1; do grep -qF "[$corner]" one.geojson || fail "no $corner: $(cat one.geojson)"; done
-  # Other formats get the cut cells, too. Where nodes surround the sphere there is no hull to cut at.
+  # Other formats also get the cut cells. If the nodes surround the sphere, the hull cuts nothing.
   for suffix in vtu off gmt; do "$PSTRIPACK" -q voronoi table.csv --region 170,-170,-20,20 -o part.$suffix; done
   [ "$(head -n 2 part.off | tail -n 1 | cut -d ' ' -f 2)" = 3 ] || fail "$(head -n 2 part.off)"
   "$PSTRIPACK" -q voronoi nodes.txt -o whole.off
@@ -578,7 +577,7 @@ maps)
   ;;
 
 geojson)
-  # What was written comes back: longitudes beyond 180 degrees, gaps, texts, history; vectors.
+  # Reading a written file gives the same longitudes beyond 180 degrees, missing values, texts, history and vectors.
   printf 'lon,lat,depth,place\n300.1,40,7.25,a\n100,40,,"b ""c"""\n-70,-20.7,-1,\n180,89.99,3,d\n' > table.csv
   "$PSTRIPACK" -q convert table.csv -o nodes.geojson
   "$PSTRIPACK" -q convert nodes.geojson -o back.csv
@@ -591,13 +590,13 @@ geojson)
   "$PSTRIPACK" -q convert nodes.txt -o nodes.json
   "$PSTRIPACK" -q convert - --coordinates xyz -o back.txt < nodes.json
   cmp nodes.txt back.txt
-  # A value, by name and as the first behind the place; as places.
+  # A value by name or as the first column after the coordinates; also as places.
   for option in "--variable depth" "--columns lon,lat,depth"; do
     # shellcheck disable=SC2086
     "$PSTRIPACK" -q interpolate nodes.geojson $option --skip-missing --to-points nodes.geojson -o values.txt
     [ "$(sed -n 1,2p values.txt | tr '\n' ' ')" = '# lon lat depth depth_given place 300.1 40 7.25 7.25 "a" ' ] || fail "$(cat values.txt)"
   done
-  # As others write it: a byte order mark, several points of a feature, altitudes, nested properties.
+  # Files of other programs: a byte order mark, several points per feature, altitudes, nested properties.
   printf '\357\273\277{"type": "FeatureCollection", "name": "x", "features": [\n' > other.geojson
   printf '{"geometry": {"coordinates": [[0, 0, 5], [10, 50]], "type": "MultiPoint"}, "type": "Feature", "properties": {"mag": 1, "features": {"a": [1]}}},\n' >> other.geojson
   printf '{"type": "Feature", "properties": null, "geometry": {"type": "Point", "coordinates": [-1e1, 3]}}], "title": "T"}\n' >> other.geojson
@@ -615,25 +614,25 @@ geojson)
     refuses 1 "bad.geojson:$words" triangulate bad.geojson -o failed.off "$@"
   }
   point() { printf '%s\n{"type": "Feature", "geometry": {"type": "%s", "coordinates": %s}}]}' "$features" "$1" "$2"; }
-  point Point '[1, NaN]' | refused "3: no JSON: "
-  point Point '[1, 2' | refused "3: no JSON: "
-  printf '{"type": ' | refused "1: no JSON: "
+  point Point '[1, NaN]' | refused "3: not valid JSON: "
+  point Point '[1, 2' | refused "3: not valid JSON: "
+  printf '{"type": ' | refused "1: not valid JSON: "
   point Point '[1, 1e400]' | refused " feature 2: a number is larger than 1e308"
   point Point '[1, "2"]' | refused " feature 2: expected coordinates [longitude, latitude]"
   point Point '[1]' | refused " feature 2: expected coordinates"
   point Point '[30, 95]' | refused " node 2 (feature 2): latitude 95 is beyond the pole: GeoJSON has [longitude, latitude] in degrees; are they exchanged?"
   point MultiPoint '[[10, 20], [30, 40], [50, 10]]' | refused " node 1 (feature 1) and node 2 (feature 2) are in the same place" --columns lon,lat
-  point Polygon '[[[1, 2]]]' | refused " feature 2: 'Polygon' is no Point or MultiPoint: nodes are points; meshes are read from UGRID"
+  point Polygon '[[[1, 2]]]' | refused " feature 2: 'Polygon' is not a Point or MultiPoint: nodes are points; meshes are read from UGRID"
   printf '%s null]}' "$features" | refused ' "features" must be an array of features'
   printf '%s {"type": "Feature", "geometry": null}]}' "$features" | refused " feature 2: has no geometry: remove it"
   printf '{"type": "FeatureCollection", "features": []}' | refused " no points"
-  printf '{"type": "Topology"}' | refused " no GeoJSON of points: the type is 'Topology', expected FeatureCollection"
+  printf '{"type": "Topology"}' | refused " not GeoJSON of points: the type is 'Topology', expected FeatureCollection"
   point Point '[1, 2]' | sed 's/"features"/"crs": {"type": "name", "properties": {"name": "EPSG:3857"}}, &/' |
     refused " coordinates are in EPSG:3857: write the file in longitudes and latitudes, EPSG:4326"
   point Point '[1, 2]' | refused " there is no property 'mga'; did you mean mag?; the features have mag" --columns lon,lat,mga
-  point Point '[1, 2]' | refused " the place is that of the geometry: say --columns lon,lat,NAME" --columns mag
+  point Point '[1, 2]' | refused " the coordinates are those of the geometry: give --columns lon,lat,NAME" --columns mag
   point Point '[1, 2]' | refused " --coordinates xyz needs the property 'x'" --coordinates xyz
-  printf '1 2\n' | refused "1: no JSON" --from geojson
+  printf '1 2\n' | refused "1: not valid JSON" --from geojson
   refuses 1 "no property 'place' is a number; properties that are numbers: depth" interpolate nodes.geojson --variable place --to-grid 2x2 -o failed.txt
   [ -z "$(find . -name 'failed*')" ] || fail "files of failed runs: $(echo ./failed*)"
   ;;
@@ -654,7 +653,7 @@ bad_maps)
   printf '85 45\n-95 0\n-95 -45\n0 90\n' > circle.lonlat
   refuses 1 "circle.lonlat: all nodes lie on one great circle up to rounding: their cells are not known" \
     voronoi circle.lonlat --units degrees -o failed.geojson
-  # Nodes spread over a circle, over a half and over less: rounding decides whether their hull is a sphere.
+  # Nodes on a circle, half a circle or less: rounding decides whether their hull contains the centre.
   awk 'BEGIN { for (part = 1; part <= 3; ++part) for (k = 0; k < 12; ++k) { a = 6.283185307179586 / part * (k + 0.1) / 12
     printf "%.17g %.17g %.17g\n", cos(a), sin(a) * 0.6, sin(a) * 0.8 > "circle" part ".txt" } }'
   for part in 1 2 3; do
@@ -665,13 +664,13 @@ bad_maps)
   done
   "$PSTRIPACK" -q points strip:1e-12 50 | "$PSTRIPACK" -q voronoi - -o strip.off
   refuses 1 "/dev/full: cannot be written: No space left" voronoi nodes.txt -o /dev/full --to geojson
-  refuses 1 "holds nodes, no triangles" convert nodes.txt -o failed.gmt
+  refuses 1 "holds nodes without triangles" convert nodes.txt -o failed.gmt
   refuses 2 "points are nodes, not a mesh: give --to xyz, lonlat, nodes, csv, geojson or raw" points random 10 -o failed.gmt
   [ -z "$(find . -name 'failed*')" ] || fail "files of failed runs: $(echo ./failed*)"
   ;;
 
 grids)
-  # Of nodes: the region's edges, and all around the globe no meridian twice; of cells: between them.
+  # Grids of nodes include the region's edges, but no meridian twice; grids of cells lie between the edges.
   "$PSTRIPACK" -q points random 300 | awk '{ printf "%s %.17g\n", $0, 1 + $1 + 2 * $3 }' > values.txt
   columns_of() { sed 1d "$2" | cut -d ' ' -f "$1" | sort -n | uniq | tr '\n' ' '; }
   "$PSTRIPACK" -q interpolate values.txt --registration node --region 170,-170,-30,-10 --grid-step 10 -o part.txt
@@ -680,7 +679,7 @@ grids)
   [ "$(columns_of 1 cells.txt)|$(columns_of 2 cells.txt)" = "175 185 |-25 -15 " ] || fail "$(cat cells.txt)"
   "$PSTRIPACK" -q interpolate values.txt --registration node --to-grid 3x3 --region 170,-170,-30,-10 -o same.txt
   cmp part.txt same.txt
-  # The same values by other names of the meridians.
+  # The same values for equal meridians with other numbers.
   "$PSTRIPACK" -q interpolate values.txt --registration node --region=-190,-170,-30,-10 --grid-step 10 -o west.txt
   cut -d ' ' -f 3 part.txt > a
   cut -d ' ' -f 3 west.txt | cmp a -
@@ -705,7 +704,7 @@ grids)
   ;;
 
 netcdf_columns)
-  # Values, numbers, texts and attributes through files, with longitudes beyond 180 as they are.
+  # Numbers, texts, attributes and longitudes beyond 180 degrees are the same after writing and reading.
   printf 'lon,lat,depth (km),place\n300.1,40,7.25,a\n100,40,,b c\n70,-20.7,-1,\n300.1,40,9,d\n' > table.csv
   "$PSTRIPACK" -q convert table.csv -o nodes.nc
   "$PSTRIPACK" -q convert nodes.nc -o - --to lonlat > got
@@ -729,7 +728,7 @@ ranks)
   # shellcheck disable=SC2086  # lists of words on purpose
   run() { ranks=$1; shift; $MPIRUN -n "$ranks" "$PSTRIPACK" "$@"; }
   "$PSTRIPACK" -q points random 3000 -o nodes.txt
-  head -n 1000 nodes.txt > few.txt  # Hydra hands on no more than 64 KB before they are read
+  head -n 1000 nodes.txt > few.txt  # Hydra buffers at most 64 KB of stdin
   "$PSTRIPACK" -q triangulate nodes.txt -o serial.lists
   "$PSTRIPACK" -q triangulate few.txt -o few.lists
   "$PSTRIPACK" -q voronoi nodes.txt -o serial.off
@@ -745,7 +744,7 @@ ranks)
     cmp serial.txt ranks.txt
     cmp checkpoint.off ranks.off
     [ "$(run $n -q points random 10 | wc -l)" = 10 ] || fail "points, by $n ranks"
-    # mpirun of Open MPI 4.1 crashes at times in its own mca_iof_hnp while it hands on a file: once more, then.
+    # mpirun of Open MPI 4.1 sometimes crashes in mca_iof_hnp while it forwards stdin: repeat.
     for _ in 1 2 3 4 5 6; do
       code=0
       run $n -q triangulate - -o read.lists < few.txt 2> err || code=$?
@@ -753,7 +752,7 @@ ranks)
     done
     [ $code = 0 ] || fail "$n ranks, -: exit code $code: $(cat err)"
     cmp few.lists read.lists
-    # One message, exit code 1 or 2, nothing left.
+    # Errors: one message, exit code 1 or 2, no output file.
     { cat nodes.txt; head -n 1 nodes.txt; } > twice.txt
     for case in "1 twice.txt" "1 missing.txt" "2 nodes.txt --potato"; do
       code=0
@@ -790,7 +789,7 @@ scvt_ranks)
     cmp one.$suffix ranks.$suffix
     cmp one.nc ranks.nc
   done
-  # More ranks than generators, and the same levels where a process alone would begin with a front.
+  # More ranks than generators. Ranks begin with levels where a single process would begin with a front.
   "$PSTRIPACK" -q scvt 4 -o one.nodes.nc
   run 5 scvt 4 -o ranks.nodes.nc
   cmp one.nodes.nc ranks.nodes.nc
@@ -799,12 +798,12 @@ scvt_ranks)
   cmp one.off ranks.off
   grep -q "^pstripack: 3000 generators, 1 evaluations, .*; on 2 ranks$" err || fail "$(cat err)"
   [ "$(grep "cells by sides" err)" = "$(grep "cells by sides" one.err)" ] || fail "another quality: $(cat err)"
-  # A front that one process has made is a start for ranks.
+  # Ranks can start from a front that one process has made.
   "$PSTRIPACK" -q scvt 3000 --first front --evaluations 0 -o front.nodes.nc
   "$PSTRIPACK" -q scvt 3000 --first front --evaluations 6 --tolerance 1e-9 -o one.nodes.nc
   run 2 scvt --start front.nodes.nc --evaluations 6 --tolerance 1e-9 -o ranks.nodes.nc
   cmp one.nodes.nc ranks.nodes.nc
-  # The checkpoint of three ranks goes on to the same bytes on two and on one.
+  # A checkpoint of three ranks continues to the same bytes on two ranks and on one.
   # shellcheck disable=SC2086
   "$PSTRIPACK" -q scvt 300 $thirty -o direct.nodes.nc
   # shellcheck disable=SC2086
@@ -825,7 +824,7 @@ scvt_ranks)
   "$PSTRIPACK" -q scvt 3000 --first levels --density bump --tolerance 1e-12 --evaluations 1000 -o direct.nodes.nc
   run 2 scvt --start ranks.nc --tolerance 1e-12 --evaluations 1000 -o resumed.nodes.nc
   cmp direct.nodes.nc resumed.nodes.nc
-  # What ranks cannot do: one message, exit code 1, nothing written.
+  # What several ranks cannot do: one message, exit code 1, no output file.
   octahedron > start.txt
   "$PSTRIPACK" -q points hemisphere 30 -o half.nodes.nc
   while IFS='|' read -r arguments words; do

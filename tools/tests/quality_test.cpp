@@ -1,4 +1,4 @@
-// Reports of a run: how regular its mesh is, how long it will last.
+// Reports of a run: the quality of its mesh and the time left.
 
 #include "methods/quality.h"
 
@@ -24,8 +24,8 @@ TEST(quality, of_an_icosahedron_and_of_a_prolate_octahedron) {
             "cells by sides: 5: 12; smallest angle 60.0 degrees; neighbouring areas up to 1.00 : 1; 100.00 % "
             "of the triangles hold their circumcentre");
 
-  // Poles and three nodes on the equator. A corner that is equally far from the pole and two of the others
-  // has tan(latitude) = cos(60 degrees).
+  // Both poles and three nodes on the equator. A cell's corner, equally far from a pole and two nodes on the
+  // equator, has tan(latitude) = cos(60 degrees).
   const double h = std::sqrt(3) / 2;
   const Quality bipyramid =
       quality_of(files::triangulate({{0, 0, 1}, {1, 0, 0}, {-0.5, h, 0}, {-0.5, -h, 0}, {0, 0, -1}}));
@@ -42,7 +42,7 @@ TEST(quality, of_an_icosahedron_and_of_a_prolate_octahedron) {
 TEST(time_left, is_said_only_where_the_gradient_falls_evenly) {
   TimeLeft even(1e-6), slowing(1e-6), rising(1e-6);
   for (int i = 0; i < 40; ++i) even.add(2 * i, std::pow(10, -i / 20.0));
-  EXPECT_FALSE(even.seconds());  // too few
+  EXPECT_FALSE(even.seconds());  // too few steps
   even.add(80, 1e-2);
   ASSERT_TRUE(even.seconds());
   EXPECT_NEAR(*even.seconds(), 160, 1e-6);  // a digit in 40 s, four to go

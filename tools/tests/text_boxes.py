@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""No text of a picture overlaps another, crosses the border of a drawing, colour bar or square, or leaves the page:
-measured with the metrics of the font itself.
+"""Checks with the metrics of the font that no text of a picture overlaps another, crosses the border of a drawing,
+colour bar or square, or leaves the page.
 
   text_boxes.py pstripack work-folder font-folder picture.svg...
 """

@@ -1,6 +1,6 @@
 #!/bin/sh
-# The legacy program with the original beside it: the same mesh and output as without, every difference
-# explained. checked_run.sh SCVT STRIPACK_COMPARE
+# Runs the legacy program with and without a check against the original: mesh and output must be the same, and every
+# difference explained. Usage: checked_run.sh SCVT STRIPACK_COMPARE
 set -u
 scvt=$1
 export PSTRIPACK_COMPARE="$2"
@@ -10,7 +10,7 @@ fail() {
   exit 1
 }
 
-# 20 iterations from a longitude-latitude grid, whose cells are full of ties.
+# 20 iterations from a longitude-latitude grid, which has many exact ties.
 awk 'BEGIN {
   for (row = 1; row < 12; ++row)
     for (column = 0; column < 24; ++column) {

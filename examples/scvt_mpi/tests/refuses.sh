@@ -1,6 +1,6 @@
 #!/bin/sh
-# refuses.sh MESSAGE RANKS PROGRAM ARGUMENT...: every rank ends with exit code 1, and stderr has one line, which
-# says why. MPIEXEC has the command to start ranks with.
+# refuses.sh MESSAGE RANKS PROGRAM ARGUMENT...: every rank must end with exit code 1, and stderr must have one line with
+# MESSAGE. The environment variable MPIEXEC has the command that starts ranks.
 set -u
 message=$1 ranks=$2
 shift 2

@@ -8,9 +8,9 @@
 >>> round(SphericalVoronoi(octahedron).calculate_areas().sum() / np.pi, 12)
 4.0
 
-Nodes, triangles and vertices count from 0, also in messages. Functions release Python's lock and may be called from
-any number of threads; ``threads`` is the number that one call uses, OpenMP's (OMP_NUM_THREADS) if it is None.
-Results are the same bytes for any number.
+Nodes, triangles and vertices count from 0, also in messages. Functions release Python's lock, and several threads may
+call them at the same time. ``threads`` is the number of threads that one call uses; None: OpenMP's (OMP_NUM_THREADS).
+Any number of threads gives the same bytes.
 """
 from ._arrays import to_lonlat, to_xyz
 from ._core import version as __version__

@@ -1,4 +1,4 @@
-"""What the package takes for nodes, places and numbers of threads."""
+"""Conversion of arguments: nodes, places and numbers of threads."""
 from typing import Any, Optional
 
 import numpy as np
@@ -11,7 +11,7 @@ Ints = NDArray[np.int32]
 
 
 def node_array(points: ArrayLike) -> Floats:
-    """An array of shape (n, 3), not copied if it is one of float64."""
+    """The nodes as an array of shape (n, 3); an array of float64 is not copied."""
     array = np.require(points, np.float64, ["A"])
     if array.ndim != 2 or array.shape[1] != 3:
         raise ValueError(f"nodes must be an array of shape (n, 3): x, y, z of each; not {array.shape}")
@@ -19,7 +19,7 @@ def node_array(points: ArrayLike) -> Floats:
 
 
 def place_array(places: ArrayLike) -> Floats:
-    """Places as a C-contiguous array of shape (..., 3)."""
+    """The places as a C-contiguous array of shape (..., 3)."""
     array = np.require(places, np.float64, ["A", "C"])
     if array.ndim < 1 or array.shape[-1] != 3:
         raise ValueError(f"places must be an array of shape (..., 3): x, y, z of each; not {array.shape}")
@@ -27,7 +27,7 @@ def place_array(places: ArrayLike) -> Floats:
 
 
 def thread_count(threads: Optional[int]) -> int:
-    """0 for the default, which is that of OpenMP."""
+    """The number of threads; 0 for None, OpenMP's default."""
     if threads is None:
         return 0
     if threads < 1:
@@ -44,7 +44,7 @@ def read_only(array: NDArray[Any]) -> NDArray[Any]:
 def to_xyz(lon: ArrayLike, lat: ArrayLike, degrees: bool = True) -> Floats:
     """Unit vectors, of shape (..., 3), of longitudes and latitudes.
 
-    In degrees the poles, and longitudes that differ by 360, have exactly one vector each.
+    In degrees each pole has one vector for all longitudes, and longitudes that differ by 360 have equal vectors.
 
     >>> to_xyz([0, 90, 12], [0, 0, 90])
     array([[1., 0., 0.],

@@ -9,24 +9,24 @@ from ._arrays import Floats, Ints, node_array, place_array, read_only, thread_co
 
 
 class Delaunay:
-    """The Delaunay triangulation of nodes on the sphere: of the whole sphere, or of their convex hull where they lie
-    in a hemisphere.
+    """The Delaunay triangulation of nodes on the sphere. It covers the sphere, or the convex hull of nodes that lie in a
+    hemisphere.
 
     Parameters
     ----------
     points : array_like, shape (n, 3)
-        Vectors from the centre of the sphere to the nodes. Only their directions count. An array of float64 is kept:
-        do not change it while this object is in use. The library reads columns: in place where they are contiguous
-        (Fortran order), else from a copy.
+        Vectors from the centre of the sphere to the nodes; only their directions matter. An array of float64 is kept:
+        do not change it while this object is in use. The library reads contiguous columns (Fortran order) in place,
+        others from a copy.
     threads : int, optional
-        Threads for the triangulation, and for what is computed from it.
+        Number of threads for the triangulation and for all that is computed from it.
 
     Raises
     ------
     BadCoordinateError, CoincidentNodesError, CollinearNodesError, TriangulationError
-        All are ValueError; their attribute ``nodes`` has the indices of the nodes to blame, counted from 0.
+        All are ValueError; their attribute ``nodes`` has the indices of the nodes in question, counted from 0.
 
-    Names and conventions are those of scipy.spatial.Delaunay. Arrays are computed when they are first asked for.
+    Names and conventions are those of scipy.spatial.Delaunay. Arrays are computed on first access.
 
     >>> mesh = Delaunay.from_lonlat([0, 90, 180, 270, 0, 0], [0, 0, 0, 0, 90, -90])
     >>> mesh.simplices[:2]
@@ -60,7 +60,7 @@ class Delaunay:
         return {**self.__dict__, "_mesh": None}
 
     def __setstate__(self, state: Dict[str, Any]) -> None:
-        """Of a pickle or a copy: triangulates again, to the same mesh."""
+        """For pickles and copies: triangulates again, which gives the same mesh."""
         self.__dict__.update(state)
         self.points = read_only(self.points)
         self._mesh = _core.Mesh(self.points, self._threads)
@@ -87,30 +87,30 @@ class Delaunay:
 
     @property
     def neighbors(self) -> Ints:
-        """Shape (t, 3): the triangle opposite each corner, -1 for none."""
+        """The triangle opposite each corner, shape (t, 3); -1: none."""
         if self._neighbors is None:
             self._neighbors = self._mesh.opposite_triangles(self._threads)
         return self._neighbors
 
     @property
     def vertex_neighbor_vertices(self) -> Tuple[Ints, Ints]:
-        """(indptr, indices): the neighbours of node k are indices[indptr[k]:indptr[k+1]], counterclockwise. Those of a
-        node on the boundary begin and end with its neighbours on the boundary."""
+        """(indptr, indices): the neighbours of node k are indices[indptr[k]:indptr[k+1]], counterclockwise. For a boundary
+        node the first and the last one are its neighbours on the boundary."""
         if self._vertex_neighbors is None:
             self._vertex_neighbors = self._mesh.neighbours(self._threads)
         return self._vertex_neighbors
 
     @property
     def vertex_to_simplex(self) -> Ints:
-        """Of each node one triangle."""
+        """One triangle of each node."""
         result = np.empty(self.npoints, np.int32)
         result[self.simplices] = np.arange(self.nsimplex, dtype=np.int32)[:, np.newaxis]
         return result
 
     @property
     def convex_hull(self) -> Ints:
-        """Boundary arcs, shape (b, 2), counterclockwise round the triangles, each where the last one ends. None if the
-        triangles cover the sphere."""
+        """Boundary arcs, shape (b, 2), counterclockwise around the triangles; each begins where the previous one ends.
+        b = 0 if the triangles cover the sphere."""
         nodes = self._mesh.boundary()
         return np.stack([nodes, np.roll(nodes, -1)], axis=1)
 
@@ -126,8 +126,8 @@ class Delaunay:
 
     @property
     def cell_areas(self) -> Floats:
-        """Areas of the nodes' Voronoi cells in steradians; they add up to 4 pi. Where the nodes lie in a hemisphere,
-        the cells of those on the boundary share the rest of the sphere."""
+        """Areas of the nodes' Voronoi cells in steradians; their sum is 4 pi. If the nodes lie in a hemisphere, the cells
+        of boundary nodes share the rest of the sphere."""
         return self._mesh.cell_areas(self._threads)
 
     @property
@@ -136,34 +136,35 @@ class Delaunay:
         return self._mesh.lists()
 
     def find_simplex(self, xi: ArrayLike, *, threads: Optional[int] = None) -> Ints:
-        """The triangle that contains each place, -1 for none. ``xi``: vectors, shape (..., 3). Places up to 1e-12
+        """The triangle that contains each place; -1: none. ``xi``: vectors, shape (..., 3). Places up to 1e-12
         outside the triangles count as on their border."""
         places = place_array(xi)
         found = self._mesh.find(places.reshape(-1, 3), self.simplices, self._number(threads))
         return found.reshape(places.shape[:-1])
 
     def nearest(self, xi: ArrayLike, *, threads: Optional[int] = None) -> Ints:
-        """The node nearest to each place, -1 for vectors that are zero or not finite. ``xi``: shape (..., 3)."""
+        """The node nearest to each place; -1 for vectors that are zero or not finite. ``xi``: shape (..., 3)."""
         places = place_array(xi)
         return self._mesh.nearest(places.reshape(-1, 3), self._number(threads)).reshape(places.shape[:-1])
 
     def interpolate(self, values: ArrayLike, xi: ArrayLike, method: str = "linear", *, outside: str = "nan",
                     threads: Optional[int] = None) -> NDArray[Any]:
-        """Values at places.
+        """Values at places, interpolated between the nodes.
 
         Parameters
         ----------
         values : array_like, shape (n,) or (n, ...)
-            Of each node, one or several.
+            One or several values of each node.
         xi : array_like, shape (..., 3)
             Vectors to the places.
         method : {"linear", "natural", "cubic", "nearest"}
-            Linear on triangles: continuous. By natural neighbours (Sibson), the parts of their Voronoi cells that a
-            node at the place would take: smooth except at the nodes. Cubic: by natural neighbours and gradients, which
-            are estimated from neighbours and their neighbours; smooth, also beyond the range of the values; a value
-            that is not finite spoils those around it. Or the value of the nearest node.
+            "linear": linear on triangles; continuous. "natural": natural neighbours (Sibson), weighted by the area that
+            their Voronoi cells would lose to a node at the place; smooth except at the nodes. "cubic": natural
+            neighbours and gradients estimated from neighbours and their neighbours; smooth; results can exceed the
+            range of the values, and a value that is not finite spoils results around it. "nearest": the value of the
+            nearest node.
         outside : {"nan", "nearest"}
-            What all but "nearest" give outside the triangles.
+            Result of the other methods at places outside the triangles.
         """
         if method not in ("linear", "natural", "cubic", "nearest"):
             raise ValueError(f"method must be 'linear', 'natural', 'cubic' or 'nearest', not {method!r}")

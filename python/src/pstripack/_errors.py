@@ -1,9 +1,9 @@
-"""Why nodes have no triangulation."""
+"""Exceptions for nodes without a triangulation."""
 from typing import Tuple
 
 
 class TriangulationError(ValueError):
-    """The nodes have no triangulation. ``nodes``: the indices, counted from 0, of those to blame; may be empty."""
+    """The nodes have no triangulation. ``nodes``: the indices of the nodes in question, counted from 0; may be empty."""
 
     def __init__(self, message: str, nodes: Tuple[int, ...] = ()) -> None:
         super().__init__(message, nodes)

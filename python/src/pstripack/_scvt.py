@@ -14,21 +14,21 @@ _OUT_OF_MEMORY = -6
 
 
 class Progress(NamedTuple):
-    """After each step of a run: where it stands."""
+    """The state of a run after a step."""
 
-    generators: int  #: of the level
-    evaluations: int  #: triangulations with integrals, on this level
+    generators: int  #: number of generators of the level
+    evaluations: int  #: number of evaluations (triangulation and integrals) on this level
     gradient: float  #: root mean square of the distances to the centroids, in units of sqrt(4 pi / generators)
     energy: float
 
 
 class Tessellation(NamedTuple):
-    """What :func:`scvt` returns."""
+    """The result of :func:`scvt`."""
 
     points: Floats  #: the generators, unit vectors, shape (n, 3)
     energy: float  #: sum over the cells of the integral of density times the squared distance to the generator
-    gradient: float  #: as of Progress
-    evaluations: float  #: of all levels, each counted by its share of n
+    gradient: float  #: as in Progress
+    evaluations: float  #: of all levels, each weighted by its generators / n
     reason: str  #: "converged", "evaluations", "stopped" or "stalled" (the energy falls no further)
 
 
@@ -40,19 +40,19 @@ def scvt(generators: Union[int, ArrayLike], density: Optional[Callable[[Floats],
     Parameters
     ----------
     generators : int or array_like, shape (n, 3)
-        How many, placed by an advancing front or, below 3000, from random ones level by level; or vectors to
-        start from.
+        Number of generators, placed by an advancing front or, below 3000, from random ones level by level; or vectors
+        to start from.
     density : callable, optional
-        Of unit vectors, shape (m, 3), values of shape (m,): positive, finite, and depending on the place alone. Cells
-        are about density**(-1/4) wide. 1 everywhere if not given, and then the integrals, too, are on threads.
+        Function of unit vectors, shape (m, 3), that returns values of shape (m,): positive, finite, and depending only
+        on the place. Cells are about density**(-1/4) wide. Default: 1 everywhere; only then integrals use threads.
     tolerance : float
-        Of the gradient, at which the run ends.
+        The run ends when the gradient is at most this.
     method : {"newton", "lloyd"}
-        Quasi-Newton, or Lloyd's method.
+        Quasi-Newton method or Lloyd's method.
     seed : int
-        Of the random generators; at least 1.
+        Seed of random generators; at least 1.
     max_evaluations : int, optional
-        On each level.
+        Largest number of evaluations on each level.
     progress : callable, optional
         Called after each step; the run ends if it returns something true.
     threads : int, optional
@@ -60,7 +60,7 @@ def scvt(generators: Union[int, ArrayLike], density: Optional[Callable[[Floats],
     Raises
     ------
     ValueError
-        For arguments and densities that are wrong. What ``density`` and ``progress`` raise comes out as it is.
+        If an argument or a density is wrong. Exceptions of ``density`` and ``progress`` are passed on.
 
     >>> mesh = scvt(200, lambda xyz: 1 + 10 * np.exp(xyz[:, 2]), tolerance=1e-3)
     >>> mesh.reason, mesh.points.shape
@@ -83,7 +83,7 @@ def scvt(generators: Union[int, ArrayLike], density: Optional[Callable[[Floats],
         start = np.array(node_array(generators), order="C")
         count = len(start)
         if count >= 4:
-            _core.Mesh(start, number)  # raises what nodes may have, with indices
+            _core.Mesh(start, number)  # raises errors of the nodes with their indices
     if count < 4 or count > 2**31 // 6:
         raise TriangulationError(f"a tessellation needs at least 4 generators, and {2**31 // 6} at most; not {count}")
 

@@ -1,4 +1,4 @@
-"""Voronoi diagrams on the sphere, in place of scipy's."""
+"""Voronoi diagrams on the sphere with the interface of SciPy."""
 from typing import Any, Dict, List, Optional, Tuple
 
 import numpy as np
@@ -10,39 +10,39 @@ from ._errors import CoincidentNodesError, TriangulationError
 
 
 class SphericalVoronoi:
-    """The Voronoi diagram of points on a sphere: attributes, arguments and exceptions of
-    scipy.spatial.SphericalVoronoi, for points in three dimensions.
+    """The Voronoi diagram of points on a sphere in three dimensions. Attributes, arguments and exceptions are those of
+    scipy.spatial.SphericalVoronoi.
 
     Parameters
     ----------
     points : array_like, shape (n, 3)
         Generators.
     radius : float, optional
-        Of the sphere.
+        Radius of the sphere.
     center : array_like, shape (3,), optional
-        Of the sphere; the origin if not given.
+        Centre of the sphere; default: the origin.
     threshold : float, optional
-        Points nearer to each other than this, or this far off the sphere, are refused: both times the radius.
+        Points closer to each other than threshold * radius, or farther than that from the sphere, are refused.
     threads : int, optional
-        Threads to compute with.
+        Number of threads.
 
     Attributes
     ----------
     points, radius, center
         As given; ``points`` is a copy.
     vertices : array, shape (2n - 4, 3)
-        Corners of the regions. Where more than three regions meet, several are at one place, up to rounding.
+        Corners of the regions. Where more than three regions meet, several vertices coincide up to rounding.
     regions : list of lists of int
-        The vertices of each region. Unlike scipy's they are in counterclockwise order (seen from outside) from the
-        beginning. Made when they are first asked for.
+        The vertices of each region. Unlike scipy's they are always in counterclockwise order, seen from outside.
+        Computed on first access.
     region_vertices : tuple of arrays (indptr, indices)
-        The same without lists: those of region k are indices[indptr[k]:indptr[k+1]].
+        The same as arrays: the vertices of region k are indices[indptr[k]:indptr[k+1]].
 
     Raises
     ------
     ValueError
-        For fewer than four points and points in one plane, points that coincide, or are not on the sphere.
-        Points are counted from 0; of a TriangulationError the attribute ``nodes`` has them.
+        If there are fewer than four points, all lie in one plane, two coincide, or one is not on the sphere. Messages
+        count points from 0; a TriangulationError has their indices in the attribute ``nodes``.
 
     >>> corners = np.array([[1, 1, 1], [-1, -1, 1], [-1, 1, -1], [1, -1, -1]]) / np.sqrt(3)
     >>> diagram = SphericalVoronoi(corners)
@@ -88,7 +88,7 @@ class SphericalVoronoi:
         return {**self.__dict__, "_mesh": None}
 
     def __setstate__(self, state: Dict[str, Any]) -> None:
-        """Of a pickle or a copy: triangulates again, to the same mesh."""
+        """For pickles and copies: triangulates again, which gives the same mesh."""
         self.__dict__.update(state)
         self._mesh = _core.Mesh(self._vectors(), self._threads)
 
@@ -106,7 +106,7 @@ class SphericalVoronoi:
         return self._regions
 
     def sort_vertices_of_regions(self) -> None:
-        """Does nothing: the vertices of each region are in order from the beginning."""
+        """Does nothing: the vertices of each region are always in order."""
 
     def calculate_areas(self) -> Floats:
         """Areas of the regions; their sum is 4 pi radius**2."""
@@ -131,11 +131,11 @@ def _duplicates(nodes: Tuple[int, ...]) -> CoincidentNodesError:
 
 
 def _rank(points: Floats, threshold: float) -> int:
-    """Of the differences of the points."""
+    """The rank of the differences of the points."""
     if len(points) < 4:
         return len(points) - 1
     differences = points - points[0]
     squares = np.linalg.eigvalsh(differences.T @ differences)
-    if squares[0] > max(1e-6 * squares[2], 4 * threshold**2):  # certain also with rounding errors
+    if squares[0] > max(1e-6 * squares[2], 4 * threshold**2):  # certain despite rounding
         return 3
     return int(np.linalg.matrix_rank(differences, tol=threshold))

@@ -11,8 +11,8 @@
 
 namespace pstripack {
 
-/// An array that is not initialised, from the heap, in huge pages where the system has them: the arrays
-/// of the kernel are large, written once and visited at random. Throws std::bad_alloc.
+/// An uninitialised array on the heap. Large arrays ask for huge pages, because the kernel visits its arrays
+/// at random. The constructor throws std::bad_alloc.
 template <class T>
 class Buffer {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -27,7 +27,7 @@ class Buffer {
     } else {
       data_ = static_cast<T*>(std::aligned_alloc(kHugePage, (bytes / kHugePage + 1) * kHugePage));
 #ifdef MADV_HUGEPAGE
-      if (data_ != nullptr) madvise(data_, bytes, MADV_HUGEPAGE);  // a wish: its failure changes nothing
+      if (data_ != nullptr) madvise(data_, bytes, MADV_HUGEPAGE);  // a hint: failure is harmless
 #endif
     }
     if (data_ == nullptr) throw std::bad_alloc();

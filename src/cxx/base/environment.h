@@ -1,13 +1,13 @@
 #pragma once
-// Every environment variable is read here.
+// The library reads environment variables only through this header.
 
 #include <stdlib.h>
 #include <string.h>
 
 namespace pstripack {
 
-/// Value of an environment variable; null if it is unset, or if the program has rights that its caller lacks
-/// (setuid, setgid, file capabilities): such a caller must not choose files to write or programs to start.
+/// Value of an environment variable. Null if it is unset, or if the program has rights that its caller lacks
+/// (setuid, setgid, file capabilities): that caller must not choose files to write or programs to start.
 inline const char* environment_variable(const char* name) { return secure_getenv(name); }
 
 /// True if NAME=VALUE is a variable that mpirun (Open MPI, Slurm, MPICH, Intel) sets for the ranks it starts.

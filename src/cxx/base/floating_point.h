@@ -18,11 +18,11 @@
 
 namespace pstripack {
 
-/// While it lives, this thread computes in the default floating-point environment: to nearest, with
-/// denormals, without traps. No answer may depend on what the host program has set; its environment,
-/// exception flags included, comes back afterwards. Where doubles are SSE's, only SSE's register counts; it
-/// is read once and written without a look, since reading is what costs. To compute in that environment call
-/// in_default_floating_point.
+/// While an object of this class exists, its thread computes in the default floating-point environment:
+/// rounding to nearest, with denormals, without traps. So no result depends on what the host program has set.
+/// The destructor restores the program's environment, exception flags included. With SSE only the register
+/// MXCSR matters. It is read once and then written unconditionally, because reading it is the slow part.
+/// Use in_default_floating_point to compute in this environment.
 class DefaultFloatingPoint {
  public:
 #if defined(__SSE2__)
@@ -46,15 +46,15 @@ class DefaultFloatingPoint {
 #endif
 };
 
-/// body(), as a call that compilers can neither see through nor move.
+/// Returns body(), through a call that the compiler can neither inline nor move.
 template <class Body>
 [[gnu::noinline]] auto out_of_line(const Body& body) {
   asm volatile("" ::: "memory");
   return body();
 }
 
-/// body(), computed in the default floating-point environment. Compilers know nothing of that environment and
-/// move arithmetic across changes of it, so body stays out of line.
+/// Returns body(), computed in the default floating-point environment. body is called out of line, because
+/// compilers move arithmetic across changes of the environment.
 template <class Body>
 auto in_default_floating_point(const Body& body) {
   const DefaultFloatingPoint environment;

@@ -6,7 +6,7 @@ namespace pstripack {
 namespace {
 
 struct Place {
-  std::atomic<bool> is_taken{false};  // by an owner, also when the thing is given up
+  std::atomic<bool> is_taken{false};  // stays true when the thing is given up, until the owner asks for it
   std::atomic<KeptThing*> thing{nullptr};
 };
 constexpr int places = 32;

@@ -1,5 +1,5 @@
 #pragma once
-// What an owner keeps from one call to the next and can do without: given up where memory is out.
+// A cache from one call to the next. Its contents are destroyed if an allocation fails.
 
 #include <memory>
 #include <new>
@@ -11,15 +11,16 @@ struct KeptThing {
   virtual ~KeptThing() = default;
 };
 
-/// Puts the thing into one of a few places, which is its owner's until the owner takes it out; -1, and it is
-/// destroyed, if all are taken. Safe from any thread, as the others below; nobody waits.
+/// Stores `thing` in one of 32 places of the process and returns the number of the place, which is the
+/// caller's until it calls take_out_of. Destroys `thing` and returns -1 if all places are taken. This
+/// function and the two below may be called from any thread and never wait.
 int put_into_a_place(std::unique_ptr<KeptThing> thing) noexcept;
-/// Null if it was given up.
+/// Frees the place and returns what it held; null if that has been given up.
 std::unique_ptr<KeptThing> take_out_of(int place) noexcept;
-/// Destroys the things in all places; false if there were none.
+/// Destroys what all places hold. False if they were empty.
 bool give_up_kept_things() noexcept;
 
-/// A T that its owner keeps. It is gone after give_up_kept_things().
+/// Holds a T until give_up_kept_things() destroys it.
 template <class T>
 class Kept {
  public:
@@ -31,7 +32,7 @@ class Kept {
   }
   ~Kept() { take(); }
 
-  /// Or destroys it, if there is no place or no memory.
+  /// Keeps `value`, or destroys it if there is no free place or no memory.
   void put(std::unique_ptr<T> value) noexcept {
     take();
     try {
@@ -39,7 +40,7 @@ class Kept {
     } catch (const std::bad_alloc&) {
     }
   }
-  /// Null if there is none any more.
+  /// The value that was kept; null if it has been destroyed.
   std::unique_ptr<T> take() noexcept {
     if (place_ < 0) return nullptr;
     const std::unique_ptr<KeptThing> thing = take_out_of(std::exchange(place_, -1));

@@ -15,12 +15,13 @@ namespace pstripack {
 #ifdef _OPENMP
 namespace {
 
-/// The process that loaded the library. A forked child has one thread, but OpenMP's run-time library
-/// still counts on the team of its parent and would wait for it for ever.
+/// The process that loaded the library. A forked child has one thread only, but OpenMP's run-time library
+/// would wait for ever for the parent's threads.
 const pid_t loaded_in = getpid();
 
-/// True if the system can start `count` threads now. OpenMP's run-time library ends the program if it cannot,
-/// so this is tested first, once per calling thread: its team stays.
+/// True if the system can start `count` more threads now. OpenMP's run-time library ends the program if it
+/// cannot start its threads, so this is tested first. A success is remembered per calling thread, because
+/// OpenMP keeps the threads it has started.
 bool can_start(int count) {
   thread_local int started = 0;
   if (count <= started) return true;

@@ -1,5 +1,5 @@
 #pragma once
-// Number of threads for an amount of work, decided in one place.
+// Loops on threads, and the one function that decides how many threads.
 
 #include <cstddef>
 #include <exception>
@@ -9,12 +9,14 @@
 
 namespace pstripack {
 
-/// Threads for `items` pieces of work of some 10 ns each: one inside a parallel region, for few items, in
-/// a forked child (where OpenMP's threads are gone), and where the system gives no threads.
+/// Number of threads to use for `items` pieces of work of about 10 ns each. It is 1 for fewer than 20,000
+/// items, inside a parallel region, in a forked child (OpenMP's threads are gone), and if the system cannot
+/// start threads.
 int threads_for(std::size_t items) noexcept;
 
-/// Calls body(first, last, piece) for a partition of [0,n) into `threads` contiguous pieces, in the order of
-/// the pieces, one per thread. `threads` must come from threads_for. body must not throw.
+/// Cuts [0,n) into `threads` contiguous pieces and calls body(first, last, piece) for each, every piece on
+/// a thread of its own. Pieces are numbered in order. `threads` must come from threads_for. body must not
+/// throw.
 template <class Body>
 void parallel_pieces(std::size_t n, int threads, const Body& body) {
   if (threads <= 1) {
@@ -31,8 +33,8 @@ void parallel_pieces(std::size_t n, int threads, const Body& body) {
 #endif
 }
 
-/// Calls body(k) for k = 0..tasks-1, each once, on up to `threads` threads, which take the next one as they
-/// become free. `threads` must come from threads_for. body must not throw.
+/// Calls body(k) once for each k = 0..tasks-1, on up to `threads` threads; a thread that becomes free takes
+/// the next k. `threads` must come from threads_for. body must not throw.
 template <class Body>
 void parallel_tasks(int tasks, int threads, const Body& body) {
 #ifdef _OPENMP
@@ -45,13 +47,13 @@ void parallel_tasks(int tasks, int threads, const Body& body) {
   for (int k = 0; k < tasks; ++k) body(k);
 }
 
-/// What bodies of the above throw, one for each piece or task: they must not let it out themselves.
+/// Carries exceptions out of the loops above, whose bodies must not throw: one place for each piece or task.
 class ErrorsOfThreads {
  public:
   /// Throws std::bad_alloc.
   explicit ErrorsOfThreads(std::size_t bodies) : errors_(bodies) {}
 
-  /// In the k-th body: runs part(), and keeps what it throws.
+  /// To be called in body k: runs part() and keeps what it throws.
   template <class Part>
   void keep(std::size_t k, const Part& part) noexcept {
     try {
@@ -60,7 +62,7 @@ class ErrorsOfThreads {
       errors_[k] = std::current_exception();
     }
   }
-  /// After all bodies: throws the first error in their order, if there is any.
+  /// To be called after the loop: throws the exception of the lowest body that threw, if any.
   void rethrow() const {
     for (const auto& e : errors_)
       if (e) std::rethrow_exception(e);

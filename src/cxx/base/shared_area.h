@@ -6,7 +6,7 @@
 
 namespace pstripack {
 
-/// Memory that two processes map. Never throws.
+/// Memory that several processes map. No function throws.
 class SharedArea {
  public:
   SharedArea() = default;
@@ -14,17 +14,19 @@ class SharedArea {
   SharedArea& operator=(SharedArea&& other) noexcept;
   ~SharedArea() { clear(); }
 
-  /// A new area whose pages are allocated, so that using it cannot fail. Empty if memory is out.
+  /// A new area of `size` bytes. All pages are allocated now, so that using them cannot fail. Empty if
+  /// there is not enough memory.
   static SharedArea create(std::size_t size);
-  /// The other process's area. Empty on failure.
+  /// Maps an area that another process created and whose descriptor was passed on. Empty on failure.
   static SharedArea map(Descriptor file);
-  /// The area of a process of this user on this machine, in which it is open as `file`. Empty on failure.
+  /// Maps the area that process `process` of this user on this machine has open as descriptor `file`. Empty
+  /// on failure.
   static SharedArea map_of(int process, int file);
 
   void* data() const { return data_; }
   std::size_t size() const { return size_; }
   const Descriptor& file() const { return file_; }
-  /// Closes the descriptor; the memory stays mapped.
+  /// The memory stays mapped.
   void close_file() { file_.reset(); }
 
  private:

@@ -9,35 +9,35 @@
 
 namespace pstripack {
 
-/// True where a > b. Of numbers as the compiler knows them, in the environment that is set.
+// The same operations for float and double, which follow the floating-point environment.
 template <class Real>
 bool is_larger(Real a, Real b) {
   return a > b;
 }
-/// a where a > b, else b, also where one of them is not a number.
+/// a if a > b, else b; so b if one of them is a NaN.
 template <class Real>
 Real larger(Real a, Real b) {
   return a > b ? a : b;
 }
 
-/// A float or double whose sums and products are rounded to nearest and raise no exception flag, whatever the
-/// caller has set: AVX-512's instructions say so themselves ("embedded rounding", Intel's manual, volume 1,
-/// 15.6.4). For short computations: to set and restore the environment takes longer than these. Where
-/// is_available() says no, compute with a Real in_default_floating_point.
+/// A float or double whose sums and products are rounded to nearest and raise no exception flag, whatever
+/// floating-point environment the caller has set: the AVX-512 instructions contain the rounding mode
+/// ("embedded rounding", Intel's manual, volume 1, 15.6.4). Meant for computations shorter than setting and
+/// restoring the environment. If !is_available(), compute with Real in_default_floating_point instead.
 template <class Real>
 class StaticallyRounded {
  public:
-  StaticallyRounded(Real value) : value_(value) {}  // NOLINT: a Real is one
+  StaticallyRounded(Real value) : value_(value) {}  // NOLINT: implicit on purpose
   explicit operator Real() const { return value_; }
 
 #if defined(__x86_64__)
-  /// True on a processor with AVX-512, while it does not take denormals for 0: that is not in its
-  /// instructions.
+  /// True if the processor has AVX-512 and does not treat denormals as 0. The instructions cannot override
+  /// that setting of the caller, so it is tested.
   static bool is_available() {
     if (!__builtin_cpu_supports("avx512f")) return false;
     Real denormal = std::numeric_limits<Real>::denorm_min();
     asm volatile("" : "+x"(denormal));
-    // Compared as bits: the processor's comparison would take denormals for 0, too.
+    // Compared as bits, because a floating-point comparison could treat denormals as 0, too.
     const Real sum = Real(StaticallyRounded(denormal) + denormal);
     Bits bits;
     std::memcpy(&bits, &sum, sizeof bits);
@@ -83,8 +83,8 @@ class StaticallyRounded {
   Real value_;
 };
 
-/// body(), whose arithmetic is in Number: in the default floating-point environment, if that is not built
-/// into Number.
+/// Returns body(), whose arithmetic is in Number. Sets the default floating-point environment, unless
+/// Number is a StaticallyRounded and does not need it.
 template <class Number, class Body>
 [[gnu::always_inline]] inline auto in_environment_of(const Body& body) {
   if constexpr (std::is_floating_point_v<Number>)

@@ -7,8 +7,9 @@
 
 namespace pstripack {
 
-/// Hands all bytes of the parts to transfer(parts, count), which takes what it can, as writev does. False,
-/// with errno set, if it takes nothing any more. Changes the parts.
+/// Transfers all bytes of the parts by as many calls of transfer(parts, count) as needed; it works as
+/// writev does and returns the number of bytes transferred. Returns false, with errno set, on an error
+/// other than EINTR. Changes the parts.
 template <class Transfer>
 bool transfer_all(iovec* parts, int count, const Transfer& transfer) {
   while (count > 0) {

@@ -12,16 +12,16 @@
 namespace pstripack {
 namespace {
 
-constexpr std::size_t kSmallest = std::size_t{64} << 10;  // below, the allocator keeps blocks itself
+constexpr std::size_t kSmallest = std::size_t{64} << 10;  // malloc itself reuses smaller blocks
 
 std::size_t half_of_memory() {
   const long pages = sysconf(_SC_PHYS_PAGES), bytes = sysconf(_SC_PAGESIZE);
   return pages > 0 && bytes > 0 ? static_cast<std::size_t>(pages) / 2 * static_cast<std::size_t>(bytes) : 0;
 }
 
-/// Upper limit of all kept blocks together: half of the system's memory, of pages that the system can take
-/// back, because fresh pages of a large call take longer to clear than to fill. Computed when the library is
-/// loaded: threads that wait for each other at their first call would change errno.
+/// Upper bound, in bytes, of all kept blocks together: half of the system's memory, because clearing fresh
+/// pages takes longer than filling them, and the system can take kept pages back. Initialised when the
+/// library is loaded: a static local could make the threads of the first call wait, which changes errno.
 #ifdef MADV_FREE
 const std::size_t most_kept = std::max(std::size_t{1} << 30, half_of_memory());
 #else
@@ -29,13 +29,14 @@ const std::size_t most_kept = std::size_t{1} << 30;
 #endif
 
 constexpr std::size_t kCount = 16;   // number of kept blocks; a call on threads uses five
-Buffer<unsigned char> kept[kCount];  // between two calls
-/// What others keep, which counts among those that are kept. Their pages cannot be taken: a quarter of the bound.
+Buffer<unsigned char> kept[kCount];  // between two calls, the newest first
+/// Bytes registered by may_stay(). They count towards most_kept. The system cannot take their pages back,
+/// so at most a quarter of most_kept is allowed.
 std::atomic<std::size_t> staying{0};
 std::atomic<bool (*)() noexcept> give_up_more{nullptr};
-std::mutex mutex;  // only try_lock: another thread may hold it, or held it when we were forked
+std::mutex mutex;  // only try_lock: in a forked child it may stay locked for ever
 
-/// Rounded up by at most a sixteenth, so that calls of similar size share blocks.
+/// Rounds up by at most a sixteenth, so that calls of similar size share blocks.
 std::size_t rounded_up(std::size_t bytes) {
   std::size_t step = 1;
   while (step < bytes / 32) step *= 2;
@@ -71,7 +72,7 @@ Block::Block(std::size_t bytes) {
   if (bytes >= kSmallest) bytes = rounded_up(bytes);
   if (bytes >= kSmallest && bytes <= most_kept) {
     if (const std::unique_lock lock(mutex, std::try_to_lock); lock) {
-      // Take the smallest: a larger one may be needed next.
+      // Take the smallest that fits: a larger one may be needed next.
       Buffer<unsigned char>* best = nullptr;
       for (auto& block : kept)
         if (block.size() >= bytes && block.size() - bytes <= bytes / 16 &&
@@ -100,7 +101,7 @@ Block::~Block() {
 #endif
   const std::unique_lock lock(mutex, std::try_to_lock);
   if (!lock) return;
-  // The newest first; drop the oldest if there are too many or they are too large.
+  // Drop the oldest blocks if there are too many or their sum is too large.
   std::size_t last = 0, total = memory_.size() + staying;
   while (last + 1 < kCount && kept[last].size() > 0) ++last;
   for (; last > 0; --last) kept[last] = std::move(kept[last - 1]);

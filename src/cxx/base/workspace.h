@@ -12,9 +12,10 @@
 
 namespace pstripack {
 
-/// A block of memory: a kept block of an earlier call of this process if one is large enough and not much too
-/// large, else a new one. On destruction a few blocks are kept for the next call and offered to the system,
-/// which takes their pages when it needs them; small and very large blocks are freed.
+/// A block of memory. It reuses a block that an earlier call of this process has kept, if one is large
+/// enough and at most a sixteenth too large; otherwise it is new. The destructor keeps the block for the
+/// next call; the system may take the pages of kept blocks when it needs them. Small and very large blocks
+/// are freed.
 class Block {
  public:
   Block() = default;
@@ -36,15 +37,15 @@ class Block {
   Buffer<unsigned char> memory_;
 };
 
-/// Gives all kept blocks back to the system, what is kept in places (base/kept.h), and what give_up_more()
-/// gives up; false if there is nothing, or another thread holds the lock.
+/// Frees all kept blocks, the things of base/kept.h, and what the function given to set_give_up_more() frees.
+/// False if nothing was freed.
 bool free_kept_blocks() noexcept;
 
-/// Of memory that somebody else keeps from one call to the next: whether so many bytes more may stay. If so,
-/// they are counted until they have left.
+/// Asks whether another `bytes` of memory, other than blocks, may be kept from one call to the next. If true,
+/// they count towards the bound on kept memory until has_left(bytes) is called.
 bool may_stay(std::size_t bytes) noexcept;
 void has_left(std::size_t bytes) noexcept;
-/// Such bytes.
+/// Bytes that may stay, from construction to destruction.
 class Stay {
  public:
   /// Throws std::bad_alloc if they may not stay.
@@ -58,7 +59,7 @@ class Stay {
  private:
   const std::size_t bytes_;
 };
-/// What gives it up where memory is out; true if there was any.
+/// Sets a function that frees such memory when an allocation fails. It returns true if it freed any.
 void set_give_up_more(bool (*give_up)() noexcept) noexcept;
 
 /// An uninitialised array in its own block.
@@ -87,9 +88,9 @@ class BlockArray {
   std::size_t size_ = 0;
 };
 
-/// One block of memory per call: clearing fresh pages costs time, and one block can be reused whole by the
-/// next call. Arrays that live through the call are laid from the front, those of a phase from the back;
-/// next_phase() releases the latter.
+/// One block of memory for all arrays of a call: clearing fresh pages costs time, and the next call can
+/// reuse one block whole. Arrays that live until the end of the call are laid out from the front, those of
+/// one phase from the back; next_phase() releases the latter.
 ///
 ///     | order | sorted nodes | faces ->            <- planes |
 ///     | kept                                   of this phase |
@@ -125,7 +126,8 @@ class Workspace {
   void clear() { front_ = 0, back_ = size_; }
 
  private:
-  /// Alignment to a cache line: faces and planes, half as long, must not straddle two.
+  /// A cache line: faces and planes have half its length and must not straddle two lines. Of two patches, the
+  /// badly aligned one would be slower and keep the other waiting.
   static constexpr std::size_t kAlignment = 64;
   static std::size_t rounded_up(std::size_t bytes) {
     return (bytes + kAlignment - 1) / kAlignment * kAlignment;

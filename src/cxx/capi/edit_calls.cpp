@@ -1,7 +1,7 @@
-// The routines of STRIPACK that change a triangulation, as C functions: as stripack_calls.cpp, but input that
-// the routine changes goes by pointer. Codes that STRIPACK does not have (-4, -5, -9, -10) print one line on
-// stderr. edge, delnod: where optim failed, *nit and *optim_ier are what it returned; else they are not
-// written.
+// The routines of STRIPACK that change a triangulation, as C functions: as in stripack_calls.cpp, but
+// arguments that the routine changes are passed by pointer. Codes that STRIPACK does not have (-4, -5, -9,
+// -10) print one line on stderr. edge, delnod: if optim failed, *nit and *optim_ier are what it returned;
+// else they are not written.
 
 #include <stdint.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 using namespace pstripack;
 
-/// Passes a code on. One that STRIPACK does not have says why on stderr.
+/// Returns the code. If STRIPACK does not have it, prints the reason on stderr.
 template <class Code>
 int said(const char* routine, Code code) {
   const int ier = static_cast<int>(code);

@@ -1,5 +1,5 @@
 #pragma once
-// What libpstripack_mpi asks of libpstripack. Not part of the public interface.
+// Functions of libpstripack for libpstripack_mpi. Not part of the public interface.
 
 #include "capi/pstripack.h"
 #include "observe/report.h"
@@ -7,14 +7,15 @@
 
 extern "C" {
 
-/// Sets the engine that is asked first, null for none; returns the one before.
+/// Sets the engine that is asked before a call runs on threads; null: none. Returns the engine set before.
 PSTRIPACK_API pstripack_trmesh_engine pstripack_set_trmesh_engine(pstripack_trmesh_engine engine);
 
-/// Is a report asked for?
+/// 1 if PSTRIPACK_REPORT asks for a report, else 0.
 PSTRIPACK_API int pstripack_report_is_wanted(void);
-/// Writes the line and adds the call to the table. Changes nothing that the program can see, not even errno.
+/// Writes the line of the call and adds the call to the table. Does not change errno.
 PSTRIPACK_API void pstripack_add_to_report(const pstripack::CallReport* call);
 
-/// In comm mode rank 0 writes the calls, which are the same on all ranks: 1 on the others, 0 to end it.
+/// In comm mode rank 0 writes the calls, which are the same on all ranks. 1 on the other ranks when comm
+/// mode begins, 0 when it ends.
 PSTRIPACK_API void pstripack_leave_check_to_another_rank(int leave);
 }

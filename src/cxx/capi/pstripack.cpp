@@ -1,4 +1,4 @@
-// The thin boundary: default floating-point environment in, no exception out.
+// The C API: sets the default floating-point environment and turns exceptions into codes.
 
 #include "capi/pstripack.h"
 
@@ -30,16 +30,16 @@ TrmeshResult trmesh_on_threads(const TrmeshCall& call, ParallelCost* cost) noexc
   try {
     return trmesh(call, cost);
   } catch (...) {
-    return {PSTRIPACK_OUT_OF_MEMORY};  // only std::bad_alloc can come here, before anything was written
+    return {PSTRIPACK_OUT_OF_MEMORY};  // only std::bad_alloc is possible, before anything is written
   }
 }
 
-/// The call by the engine, or else on threads. False: another rank reports, and prints the line of a new
-/// code.
+/// Carries the call out by the engine, or on threads if it declines. False if another rank writes the
+/// report and the line of a new code.
 bool carry_out(const TrmeshCall& call, TrmeshResult& result, CallReport* report) noexcept {
   int answer = PSTRIPACK_ENGINE_DECLINES;
   const pstripack_trmesh_engine engine = other_engine.load(std::memory_order_acquire);
-  // The original's order is that of one insertion after the other: nothing for ranks.
+  // The original's order means inserting node by node, which ranks cannot share.
   if (engine != nullptr && !original_rules().follow) {
     const NodeArrays& nodes = call.nodes;
     const auto& [list, lptr, lend, lnew] = call.lists;
@@ -63,7 +63,7 @@ bool carry_out(const TrmeshCall& call, TrmeshResult& result, CallReport* report)
   return answer != PSTRIPACK_ENGINE_DID_IT_SILENTLY;
 }
 
-/// The same with its line in the report. Not inlined: a call without a report is not to pay for it.
+/// The same, with a line in the report. Not inlined, so that a call without a report does not pay for it.
 [[gnu::noinline]] bool carry_out_and_report(const TrmeshCall& call, TrmeshResult& result) noexcept {
   const auto& [list, lptr, lend, lnew] = call.lists;
   CallReport report;
@@ -82,15 +82,15 @@ bool carry_out(const TrmeshCall& call, TrmeshResult& result, CallReport* report)
       report.difference =
           exact_difference(call.nodes, ListsView<std::int32_t>{nodes, list, lptr, lend, *lnew});
     } catch (...) {
-      // Only std::bad_alloc can come here: the report says that nothing was compared.
+      // Only std::bad_alloc is possible. The report then says that nothing was compared.
     }
   }
   add_to_report(report);
   return true;
 }
 
-/// TRMESH with its report, its recording and its messages. No number of nodes beyond 32 bits is different
-/// from the largest of them.
+/// TRMESH with its report, its recording and its messages. `nodes` is clamped to 32 bits: all numbers
+/// beyond give the same code.
 TrmeshResult trmesh_with_messages(std::int64_t nodes, const NodeArrays& arrays,
                                   const ListArrays& lists) noexcept {
   using Limits = std::numeric_limits<std::int32_t>;
@@ -110,7 +110,7 @@ TrmeshResult trmesh_with_messages(std::int64_t nodes, const NodeArrays& arrays,
     check_output(*check, checked, result, lists);
   }
   if (!is_ours) return result;
-  // STRIPACK's own codes are silent; a code that no caller knows yet says so once.
+  // STRIPACK's own codes are silent; codes that STRIPACK does not have print a line.
   if (result.ier == PSTRIPACK_BAD_COORDINATE) {
     const Point p = arrays[static_cast<std::size_t>(result.node) - 1];
     std::fprintf(stderr, "pstripack: trmesh: node %lld of %lld is (%g, %g, %g): %s (IER = -5)\n",
@@ -131,11 +131,11 @@ TrmeshResult trmesh_call(std::int64_t n, const Real* x, const Real* y, const Rea
   });
 }
 
-/// Widens the first `count` elements of an array of 64-bit integers that begins with as many of 32 bits.
+/// `array` begins with `count` integers of 32 bits; widens them in place to 64 bits.
 ///
 ///   bytes      0   4   8   12  16  20  24
 ///   narrow     |n0 |n1 |n2 |
-///   wide       |  w0   |  w1   |  w2   |      the last first: what it covers has been read
+///   wide       |  w0   |  w1   |  w2   |      from the last to the first, which overwrites only what is read
 void widen(std::int64_t* array, std::int64_t count) noexcept {
   auto* const bytes = reinterpret_cast<unsigned char*>(array);
   for (std::int64_t i = count - 1; i >= 0; --i) {
@@ -192,7 +192,7 @@ const char* pstripack_strerror(int ier) {
     case PSTRIPACK_BAD_LISTS:
       return "the lists are not those of a triangulation of the sphere by the generators";
     case PSTRIPACK_BAD_OPTION:
-      return "an option has no such value";
+      return "an option has a value that is not allowed";
   }
   return "unknown code";
 }

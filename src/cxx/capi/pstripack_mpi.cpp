@@ -1,4 +1,4 @@
-// The thin boundary of the MPI side: default floating-point environment in, no exception out.
+// The C API over MPI: sets the default floating-point environment and turns exceptions into codes.
 
 #include "capi/pstripack_mpi.h"
 
@@ -41,8 +41,7 @@ bool mpi_is_running() {
   return initialised && !finalised;
 }
 
-/// Calls body() in the default floating-point environment and returns what it returns, or the code of what it
-/// throws.
+/// Calls body() in the default floating-point environment. Returns its result, or the code of its exception.
 template <class Body>
 std::int32_t guarded(const Body& body) noexcept {
   try {
@@ -52,8 +51,8 @@ std::int32_t guarded(const Body& body) noexcept {
   }
 }
 
-/// The same for what the ranks do together: a failure that they have not agreed on would leave the others
-/// waiting for ever. There should be none.
+/// The same for collective work. An exception that the ranks have not agreed on would leave the others
+/// waiting for ever, so it aborts the job. There should be none.
 template <class Body>
 std::int32_t guarded(MpiCommunicator& ranks, const Body& body) noexcept {
   return guarded([&] {
@@ -70,7 +69,8 @@ std::int32_t guarded(MpiCommunicator& ranks, const Body& body) noexcept {
   });
 }
 
-/// What pstripack_set_comm has set. Never destroyed: MPI may be finalised before or after static objects are.
+/// What pstripack_set_comm has set. Never destroyed: MPI may be finalised before or after static objects are
+/// destroyed.
 struct CommMode {
   std::mutex one_call_at_a_time;
   std::unique_ptr<MpiCommunicator> ranks;
@@ -79,14 +79,14 @@ struct CommMode {
   pid_t process = 0;
 };
 CommMode& comm_mode() {
-  // Not from the heap: a rank without memory must still meet the others to say so.
+  // Not on the heap: a rank without memory must still be able to tell the others.
   alignas(CommMode) static unsigned char memory[sizeof(CommMode)];
   static auto* const mode = new (memory) CommMode;
   return *mode;
 }
 
-/// A call that must not be collective: in a forked child, which has no part in MPI; where MPI has ended; in a
-/// thread that may not call it.
+/// True if the call must not be collective: in a forked child, which has no part in MPI, after
+/// MPI_Finalize, or in a thread that must not call MPI.
 bool must_decline(const CommMode& mode) {
   if (mode.process != getpid() || !mpi_is_running()) return true;
   int level = MPI_THREAD_SINGLE, is_main = 0;
@@ -125,7 +125,8 @@ int comm_mode_engine(const pstripack_trmesh_arguments* call, std::int32_t* ier, 
   return mode.ranks->rank() == 0 ? PSTRIPACK_ENGINE_DID_IT : PSTRIPACK_ENGINE_DID_IT_SILENTLY;
 }
 
-/// Where PSTRIPACK_ORDER is not canonical calls are not collective: all ranks must know. Collective.
+/// True if PSTRIPACK_ORDER is the same on all ranks. They must agree, because calls are not collective
+/// unless it is canonical. Collective.
 bool have_one_order(MpiCommunicator& ranks) {
   const OriginalRules& rules = original_rules();
   const std::int64_t order = rules.follow ? 2 * rules.tolerance_in_epsilons + (rules.bitwise ? 1 : 0) : 0;
@@ -156,7 +157,7 @@ void end_comm_mode_at_mpi_finalize() {
   MPI_Comm_set_attr(MPI_COMM_SELF, key, nullptr);
 }
 
-/// A T over comm, collectively. A rank without memory for it says so to the others.
+/// Makes a T over comm. If a rank has no memory for it, all ranks throw. Collective.
 template <class T>
 std::unique_ptr<T> make_over(MPI_Comm comm) {
   void* const memory = ::operator new(sizeof(T), std::nothrow);
@@ -170,7 +171,7 @@ std::unique_ptr<T> make_over(MPI_Comm comm) {
   }
 }
 
-/// body(report), a call of a distributed mesh, with its line in the report of rank 0.
+/// Runs body(report), a call of a distributed mesh, and writes its line to the report of rank 0. Collective.
 template <class Body>
 std::int32_t reported(MpiCommunicator& ranks, CallReport::Mode mode, const Body& body) {
   if (ranks.rank() != 0 || !pstripack_report_is_wanted())
@@ -194,7 +195,7 @@ std::int32_t reported(MpiCommunicator& ranks, CallReport::Mode mode, const Body&
 
 // ---- centroidal tessellations
 
-/// Those of rank 0, looked at by every rank: all refuse the same. Collective.
+/// The options of rank 0. Every rank checks them, so all throw the same. Collective.
 pstripack_scvt_options checked_by_all(MpiCommunicator& ranks, const pstripack_scvt_options* given) {
   constexpr auto kSize = static_cast<std::int64_t>(sizeof(pstripack_scvt_options));
   pstripack_scvt_options mine{};
@@ -209,7 +210,7 @@ pstripack_scvt_options checked_by_all(MpiCommunicator& ranks, const pstripack_sc
   return checked(of_rank_0.size() == 0 ? nullptr : of_rank_0.begin());
 }
 
-/// The progress procedure of rank 0 decides for all ranks.
+/// Makes the progress procedure of rank 0 decide for all ranks.
 void let_rank_0_decide(scvt::RunOptions& how, MpiCommunicator& ranks) {
   if (!how.progress) return;
   how.progress = [&ranks, tell = std::move(how.progress)](const scvt::Progress& progress) {
@@ -224,7 +225,7 @@ void let_rank_0_decide(scvt::RunOptions& how, MpiCommunicator& ranks) {
   };
 }
 
-/// What runs of the ranks begin with. Collective.
+/// The start of a run on all ranks. The constructor is collective.
 struct StartOfRun {
   StartOfRun(MpiCommunicator& ranks, std::int64_t n, const double* xyz, const std::int64_t* number,
              const pstripack_scvt_options& options) {
@@ -250,7 +251,8 @@ struct StartOfRun {
   scvt::State state;
 };
 
-/// Memory for the text of an error, on one rank only: the others cannot know. All else is agreed on.
+/// Runs body(); aborts the job on std::bad_alloc. Only the text of an error is allocated without an
+/// agreement of the ranks, and the others cannot know of that failure.
 template <class Body>
 void abort_without_memory(MpiCommunicator& ranks, const Body& body) {
   try {
@@ -387,7 +389,7 @@ int32_t pstripack_mesh_scvt(pstripack_mesh* handle, int64_t n, double* xyz, cons
   });
   if (code == PSTRIPACK_OK) return code;
   ranks.set_phase("idle");
-  if (!mesh.empty()) mesh.make_empty();  // an empty one knows the points of the error
+  if (!mesh.empty()) mesh.make_empty();  // an empty mesh must keep its error points
   return code;
 }
 

@@ -1,4 +1,5 @@
-// Centroidal Voronoi tessellations as C functions: default floating-point environment in, no exception out.
+// Centroidal Voronoi tessellations as C functions: sets the default floating-point environment and turns
+// exceptions into codes.
 
 #include "capi/scvt_calls.h"
 
@@ -52,8 +53,8 @@ scvt::Tessellation run(std::int32_t n, const double* x, const double* y, const d
 
 // ---- one step
 
-/// The neighbours of each node as Stars: those of canonical lists are where they are, of others there is a
-/// copy.
+/// A copy of the neighbours of each node, in the form of NeighbourLists. Throws Refusal if the lists are
+/// not those of a triangulation of the sphere.
 class StarsOfLists {
  public:
   explicit StarsOfLists(const ListsView<std::int32_t>& lists) {
@@ -83,7 +84,8 @@ class StarsOfLists {
   std::vector<std::int32_t> end_, neighbour_;
 };
 
-/// A triangle that turns the wrong way, by more than rounding, tells lists of other generators.
+/// Throws Refusal if a triangle is clockwise by more than rounding: then the lists are those of other
+/// generators.
 void check_triangles(const std::vector<Point>& generators, const scvt::NeighbourLists& stars) {
   constexpr double kRounding = 1e-12;
   const auto point = [&](std::int32_t node) { return generators[static_cast<std::size_t>(node) - 1]; };

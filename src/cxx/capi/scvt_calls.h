@@ -1,5 +1,5 @@
 #pragma once
-// What the functions for centroidal tessellations have in common, here and over MPI.
+// Shared by the C functions for centroidal tessellations, with and without MPI.
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@
 
 namespace pstripack {
 
-/// What a function returns, and says.
+/// Thrown to return a code with a message.
 struct Refusal {
   std::int32_t code;
   std::string why;
@@ -42,8 +42,8 @@ class DensityOfCaller final : public scvt::Density {
   pstripack_density density_;
 };
 
-/// Runs body() and returns 0, or the code of what it throws. Besides the allocator, and what follows here,
-/// only a density in C++ throws.
+/// Runs body() and returns 0, or the code of its exception, whose text goes to `message`. An exception of a
+/// type that is not listed here comes from a density in C++.
 template <class Body>
 std::int32_t guarded_scvt(char* message, std::int32_t length, const Body& body) noexcept {
   const auto say = [&](std::int32_t code, const char* text) {
@@ -81,21 +81,23 @@ inline void require(bool is_good, const char* option) {
   if (!is_good) throw Refusal{PSTRIPACK_BAD_OPTION, std::string("pstripack_scvt_options: ") + option};
 }
 
-/// With the default in the place of each 0, but for the procedure.
+/// A copy of the options. Throws Refusal if a value is not allowed. Null: all fields are 0.
 inline pstripack_scvt_options checked(const pstripack_scvt_options* given) {
   pstripack_scvt_options options{};
   if (given != nullptr) {
-    require(given->bytes >= static_cast<std::int64_t>(sizeof given->bytes), "bytes: the size of the options");
+    require(given->bytes >= static_cast<std::int64_t>(sizeof given->bytes),
+            "bytes must be sizeof(pstripack_scvt_options)");
     require(given->bytes <= static_cast<std::int64_t>(sizeof options),
-            "bytes: the options of a newer library than the one that is loaded");
+            "bytes: the program was compiled for a newer library than the one that is loaded");
     std::memcpy(&options, given, static_cast<std::size_t>(given->bytes));
   }
   require(options.start >= PSTRIPACK_SCVT_BY_NUMBER && options.start <= PSTRIPACK_SCVT_FRONT,
-          "start: 0, 1, 2, 3 or 4");
+          "start must be 0, 1, 2, 3 or 4");
   require(options.method == PSTRIPACK_SCVT_NEWTON || options.method == PSTRIPACK_SCVT_LLOYD,
-          "method: 0 or 1");
-  require(options.tolerance >= 0 && std::isfinite(options.tolerance), "tolerance: positive");
-  require(options.most_evaluations >= 0, "most_evaluations: positive");
+          "method must be 0 or 1");
+  require(options.tolerance >= 0 && std::isfinite(options.tolerance),
+          "tolerance must be positive, or 0 for the default");
+  require(options.most_evaluations >= 0, "most_evaluations must be positive, or 0 for the default");
   return options;
 }
 

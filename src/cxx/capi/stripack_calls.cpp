@@ -1,13 +1,14 @@
-// The routines of STRIPACK as C functions: what the libraries libstripack* call. Exported from libpstripack
-// since those are linked to it; TRMESH itself is pstripack_trmesh of pstripack.h.
+// The routines of STRIPACK as C functions, called by the libraries libstripack*. They are exported from
+// libpstripack, to which those libraries are linked. TRMESH itself is pstripack_trmesh of pstripack.h.
 //
-// Arguments and results are those of the routine of the same name, inputs by value; see docs/api and the
-// headers of src/cxx/stripack. Node and slot numbers count from 1. None is collective, writes to stdout or
-// throws. None keeps state, but for the random seeds of each thread where PSTRIPACK_ORDER is not canonical.
-// The suffix names the kinds: _r4, _r8 reals of 32 and 64 bits, with integers of 32 bits; _i8 reals and
-// integers of 64 bits; _i4, _i8 without reals. Other kinds are further instances of the macros. Their
-// declarations in plain_calls.h and those of Fortran come from docs/api/routines. A negative ier prints one
-// line on stderr.
+// Arguments and results are those of the routine of the same name, with inputs by value; see docs/api and
+// the headers of src/cxx/stripack. Node and slot numbers count from 1. No function is collective, writes to
+// stdout or throws. None keeps state, except the random seeds of each thread if PSTRIPACK_ORDER is not
+// canonical. A negative ier prints one line on stderr.
+//
+// The suffix gives the kinds: _r4, _r8 reals of 32 and 64 bits, with integers of 32 bits; _i8 reals and
+// integers of 64 bits; _i4, _i8 integers, without reals. Further kinds need further instances of the
+// macros. The declarations in plain_calls.h and those for Fortran are made from docs/api/routines.
 
 #include <stdint.h>
 
@@ -42,7 +43,7 @@ Vector<Real> vector(const Real* v) {
   return {v[0], v[1], v[2]};
 }
 
-/// What a negative code says.
+/// The text for a negative code.
 template <class Status>
 const char* meaning(Status status) {
   return static_cast<int>(status) == not_finite ? "a coordinate is not finite"
@@ -61,9 +62,9 @@ const char* meaning(NextNearestStatus status) {
   }
 }
 
-/// The one catch-all: runs call() and returns its code, or -6 for an exception: nothing below throws but the
-/// allocator. Codes that STRIPACK does not have say why on stderr. n = 0: the routine knows no N. call() sets
-/// the floating-point environment that it needs.
+/// The one catch-all: runs call() and returns its code, or -6 for an exception, since only the allocator
+/// throws. For a negative code prints the reason on stderr. n = 0: the routine is not told N. call() must
+/// set the floating-point environment that it needs.
 template <class Call>
 int caught(const char* routine, long long n, const Call& call) {
   int code;

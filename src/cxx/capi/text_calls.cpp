@@ -1,6 +1,7 @@
-// The routines of STRIPACK that print, as C functions: as stripack_calls.cpp. Only a Fortran procedure can
-// write to a Fortran unit. So each function composes the whole text that its routine prints and returns a
-// handle of it, or NULL; the caller takes it record by record and frees it. A text belongs to one thread.
+// The routines of STRIPACK that print, as C functions; see stripack_calls.cpp. Only a Fortran procedure can
+// write to a Fortran unit. So each function composes the whole text that its routine prints, and returns a
+// handle of the text or NULL. The caller takes the text record by record and frees it. A text may be used
+// by one thread at a time.
 
 #include <fcntl.h>
 #include <stdint.h>
@@ -21,18 +22,18 @@ namespace {
 
 using namespace pstripack;
 
-/// What a handle points to.
+/// A handle points to this.
 struct Text {
   FormattedText records;
-  std::size_t taken = 0;  ///< characters
+  std::size_t taken = 0;  ///< number of characters taken so far
 };
 
 void complain(const char* routine, const char* why) {
   std::fprintf(stderr, "pstripack: %s: %s\n", routine, why);
 }
 
-/// The one catch-all: a handle of what compose(records) makes in the default floating-point environment;
-/// null, and one line on stderr, if it throws, as only the allocator does.
+/// The one catch-all: calls compose(records) in the default floating-point environment and returns a handle
+/// of the text. Null, with one line on stderr, if it throws, which only the allocator does.
 template <class Compose>
 void* composed(const char* routine, const Compose& compose) {
   try {
@@ -45,7 +46,7 @@ void* composed(const char* routine, const Compose& compose) {
   }
 }
 
-/// The same for a picture, which has an IER; null unless that is 0.
+/// The same for a picture, which has an IER; null unless IER is 0.
 template <class Int, class Compose>
 void* picture(const char* routine, Int& ier, const Compose& compose) {
   PlotStatus status = PlotStatus::done;
@@ -60,15 +61,16 @@ void* picture(const char* routine, Int& ier, const Compose& compose) {
   return nullptr;
 }
 
-/// What `address` points to, for an argument that may not have been passed; -1 if it cannot be read, or is
-/// the address of another argument. The system reads it, which fails where a load would end the program.
+/// The number at `address`, for an argument that the caller may not have passed. -1 if the address cannot
+/// be read, or is that of another argument. It is read by a system call, which fails where a load would end
+/// the program.
 template <class Int>
 Int number_at(const Int* address, std::initializer_list<const Int*> other_arguments) {
   Int number = -1;
   int ends[2];
   if (std::count(other_arguments.begin(), other_arguments.end(), address) > 0 || pipe2(ends, O_CLOEXEC) != 0)
     return -1;
-  // Not write(2), whose argument AddressSanitizer checks.
+  // A raw system call, because AddressSanitizer checks the argument of write(2).
   const bool readable = syscall(SYS_write, ends[1], address, sizeof number) == long{sizeof number} &&
                         read(ends[0], &number, sizeof number) == ssize_t{sizeof number};
   for (const int end : ends) close(end);

@@ -15,7 +15,7 @@
 // No norms cancel any more. N_p and G_p = |N_p|^2 / (|a||p| + a.p) are as small as p is close to a, and each
 // is known to a small relative error, so (*) decides nodes that are 1e-150 apart as well as others:
 //
-//                    d                 N_p: p in the plane tangent at a, turned by a right angle
+//                    d                 N_p: p projected to the tangent plane at a, turned by 90 degrees
 //        c        .                    D_pq: twice the area of the triangle a,p,q there
 //           \  .                       G_p: how far p lies below that plane, times lengths
 //            a ---- b
@@ -41,7 +41,7 @@ namespace {
 
 double largest(const Point& a) { return std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)}); }
 
-/// The axes so that x is the one of the largest component; their cyclic order is kept, and with it all signs.
+/// Rotates the axes so that the largest component becomes x. A cyclic permutation: all signs stay.
 struct Axes {
   explicit Axes(const Point& a) {
     const double u = std::fabs(a.x), v = std::fabs(a.y), w = std::fabs(a.z);
@@ -53,18 +53,17 @@ struct Axes {
     return first == 1 ? Point{p.y, p.z, p.x} : Point{p.z, p.x, p.y};
   }
   int first;
-  bool negative;  ///< the sign of D is that of -[apq]
+  bool negative;  ///< a.x < 0: D has the sign of -[apq]
 };
 
-/// Of a number that is not negative: larger for larger ones.
+/// The biased exponent of a number that is not negative.
 int exponent_of(double value) {
   std::uint64_t bits;
   std::memcpy(&bits, &value, sizeof bits);
   return static_cast<int>(bits >> 52);
 }
 
-/// A power of two and its inverse, so that value * by is in [1,2). For a positive value from 2^-1020 to
-/// 2^1020.
+/// A power of two, `by`, and its inverse, such that value * by is in [1,2). 2^-1020 <= value <= 2^1020.
 struct Scale {
   double by, inverse;
   explicit Scale(double value) {
@@ -98,11 +97,11 @@ constexpr double kFactor = 28 * u;
 constexpr double kNegligible = 0x1p-900;
 constexpr double kLost = 0x1p-963;  ///< 2^47 of what a component of N loses by underflow
 
-/// A node seen from the apex. All is multiplied by 1 / `weight` per order in N.
+/// A node seen from the apex. Each factor N is stored multiplied by `by`, so G and q are multiplied by by^2.
 struct Seen {
-  double y, z;                ///< of N
-  double py, pz;              ///< no less than their terms' absolute values
-  double g, q;                ///< G, and what its error is measured by
+  double y, z;                ///< components of N
+  double py, pz;              ///< bounds of the sums of the absolute values of their terms
+  double g, q;                ///< G, and the quantity that its error is relative to
   double weight = 1, by = 1;  ///< powers of two, inverse to each other
 };
 
@@ -161,13 +160,13 @@ int filter_height(const Seen& b, const Seen& c, const Seen& d) {
   return certain_sign((tc - tb) - td, kFactor * ((mc + mb) + md) + kNegligible);
 }
 
-/// The step from c to d, which are close to each other: N_d = N_c + N, G_d = G_c + G, and what is left of
-/// (*),
+/// For two nodes c and d close to each other: the step from c to d. With N_d = N_c + N and G_d = G_c + G
+/// the sum (*) becomes
 ///
 ///     -D(N_c, N) G_b + D(N_b, N) G_c - D_bc G,
 ///
-/// is small with the step in every term. N = a x f and G = -a.f with f = d - c are known as well as for e
-/// above; the error of G is less than 6u of q = |a.x f.x| + ... + 2^-46.
+/// in which every term is as small as the step. N = a x f and G = -a.f with f = d - c are known as well as
+/// for e above; the error of G is less than 6u of q = |a.x f.x| + ... + 2^-46.
 Seen step(const Point& a, const Point& p, const Point& f) {
   Seen s = seen_from(a, p, f);
   s.g = -dot(a, f);
@@ -196,18 +195,18 @@ int filter_height_of_pair(const Seen& b, const Seen& c, const Seen& s) {
 // G, so its length does not matter. All together less than 2^-80 (2 + 1 + ...) < 2^-78 of the sum of the
 // magnitudes of (*), rounded as well.
 constexpr double kFineFactor = 0x1p-76;
-constexpr double kNear = 0x1p-34;  ///< of |e|^2
+constexpr double kNear = 0x1p-34;  ///< |e|^2 below which a node is near
 
-// Sums and products whose low parts are not brought below half a unit of the high ones: shorter, and wrong by
-// a few u^2 of the absolute values, which is all that is asked for here. Where a factor is a difference that
-// cancels, its low part must be brought below first.
+// "Loose" sums and products do not renormalise: the low part may exceed half a unit in the last place of
+// the high part. They are faster, and their error of a few u^2 of the absolute values suffices here. A
+// factor that is a difference with cancellation must be renormalised first.
 
 [[gnu::always_inline]] inline DoubleDouble loose_sum(const DoubleDouble& x, const DoubleDouble& y) {
   const DoubleDouble s = two_sum(x.high, y.high);
   return {s.high, s.low + (x.low + y.low)};
 }
 
-/// A double-double whose high part is ready for products.
+/// A double-double whose high part is already split for products.
 struct Factor {
   Halves high;
   double low;
@@ -221,7 +220,7 @@ struct Factor {
   return {p.high, p.low + (x.high.value * y.low + x.low * y.high.value)};
 }
 
-/// A vector as given, scaled, its axes permuted.
+/// A vector as given, scaled by a power of two, its axes permuted.
 struct FinePoint {
   Halves x, y, z;
   FinePoint() = default;
@@ -248,7 +247,7 @@ struct FineComponent {
                  (4 * u * (std::fabs(a.value * b.value) + std::fabs(c.value * d.value)) + 0x1p-850)};
 }
 
-/// N of given vectors, scaled.
+/// N of the vectors as given, scaled as in Seen.
 struct FineCross {
   FineComponent x, y, z;
   double weight = 1, by = 1;
@@ -263,7 +262,7 @@ struct FineCross {
   }
 };
 
-/// As Seen.
+/// Seen, in double-double.
 struct FineSeen {
   Factor y, z, g;
   double py, pz, q;
@@ -282,8 +281,8 @@ FineApex fine_apex(const Axes& axes, const Point& high, const Point& low, const 
 }
 
 void see(const FineApex& a, const Point& high, const Point& low, const FinePoint& given, FineSeen& seen) {
-  // The high parts may cancel: the low part is brought below half a unit of what they leave, since
-  // loose_product() leaves out the product of low parts.
+  // The high parts may cancel. The difference is renormalised, because loose_product() omits the product of
+  // the low parts.
   const auto difference = [](double p_high, double p_low, const Factor& apex) {
     const DoubleDouble d = two_sum(p_high, -apex.value());
     return Factor(two_sum(d.high, d.low + (p_low - apex.low)));
@@ -365,7 +364,8 @@ int exact_height(const Point& a, const Point& b, const Point& c, const Point& d)
                           {dot(A, A), dot(B, B), dot(C, C), dot(D, D)});
 }
 
-/// All brackets are zero. Three are enough: were a, b, c independent, d would be a sum of them without any.
+/// True if all brackets are zero. Three of them suffice: if a, b, c were linearly independent, d would be a
+/// combination of them with coefficients 0.
 bool on_great_circle(const Point& a, const Point& b, const Point& c, const Point& d) {
   return in_coordinate_plane(a, b, c, d) ||
          (left_of_vectors(a, b, d) == 0 && left_of_vectors(b, c, d) == 0 && left_of_vectors(c, a, d) == 0);
@@ -419,10 +419,10 @@ void Directions::extend(const Point* points, std::size_t n) {
 }
 
 Directions::Unit Directions::unit(const Point& p) {
-  // Where squares could leave the range, scaled to [1/2,1) by a power of two: exact, up to bits below 2^-1074
-  // of the largest component. What underflows below is as small, in a vector of moderate length 2^-400 of it.
-  // Then `two_product` and `two_sum` are exact, and high + low is p/|p| with relative errors
-  // of, in units of u^2,
+  // A vector whose squares could overflow or underflow is scaled by a power of two, its largest component
+  // to [1/2,1). That is exact except for bits below 2^-1074 of the largest component. What underflows later
+  // is as small; in a vector that is not scaled it is below 2^-400 of the length. Then `two_product` and
+  // `two_sum` are exact, and high + low is p/|p| with these relative errors, in units of u^2:
   //   3    half the error of s: two sums of three small terms, 3 each;
   //   9.4  what one Newton step for 1/sqrt(s) leaves: 3/8 h^2 with h = 1 - s r0^2 below 5u, by the rounding
   //        of the root, of the quotient, and s.low;
@@ -435,7 +435,7 @@ Directions::Unit Directions::unit(const Point& p) {
     std::frexp(most, &e);
     for (double& v : c) v = std::ldexp(v, -e);
   }
-  // A square that would underflow, far below the error of s, would take a processor many times as long.
+  // A tiny square is far below the error of s. It is skipped because underflow slows the processor down.
   const auto square = [](double v) {
     const double not_tiny = std::fabs(v) < 0x1p-440 ? 0 : v;
     return two_product(not_tiny, not_tiny);
@@ -456,7 +456,7 @@ Directions::Unit Directions::unit(const Point& p) {
     const DoubleDouble q = two_product(c[k], r0);
     const DoubleDouble v = two_sum_of_ordered(q.high, q.low + c[k] * r1);
     high[k] = v.high;
-    // Smaller than the error, and its square would underflow, which takes a processor many times as long.
+    // Below the error. Set to 0, because its square would underflow, which slows the processor down.
     low[k] = std::fabs(v.low) < 0x1p-110 * std::fabs(v.high) ? 0 : v.low;
   }
   return {{high[0], high[1], high[2]}, {low[0], low[1], low[2]}};
@@ -505,8 +505,8 @@ int Directions::height_seen_from_first(const Four& f) const {
 }
 
 Directions::Four Directions::best_first(const Four& f, bool& first_will_do) const {
-  // Errors grow with the product of the distances from the apex: of a needle, one of the two close nodes.
-  // Exponents add up where the product would underflow.
+  // The error grows with the product of the distances from the apex. In a needle the best apex is one of
+  // the two close nodes. Sums of exponents replace the product, which could underflow.
   const auto distance = [&](std::size_t i, std::size_t j) {
     return exponent_of(largest(difference(f[i], f[j])));
   };
@@ -529,7 +529,7 @@ bool Directions::above(index_t ia, index_t ib, index_t ic, index_t id) const {
   return symbolic_above(a, b, c, d);
 }
 
-// ---- from one node --------------------------------------------------------------------------------------
+// ---- the view from one node -----------------------------------------------------------------------------
 
 struct Directions::View::Memory {
   explicit Memory(const Directions& directions) : nodes(directions) {}
@@ -582,14 +582,14 @@ bool Directions::View::above(index_t a, index_t b, index_t c) {
   // c, b, a seen from v: an even permutation of a, b, c, v.
   const index_t node[3] = {c, b, a};
   const Seen* seen[3];
-  Seen kept[2];  // of two nodes that share a place in the cache
+  Seen kept[2];  // copies, for nodes that share a slot of the cache
   seen[0] = &m.see(c);
   if (m.seen.share_slot(c, b) || m.seen.share_slot(c, a)) seen[0] = &(kept[0] = *seen[0]);
   seen[1] = &m.see(b);
   if (m.seen.share_slot(b, a)) seen[1] = &(kept[1] = *seen[1]);
   seen[2] = &m.see(a);
   if (const int s = signed_for_axes(filter_height(*seen[0], *seen[1], *seen[2]))) return s > 0;
-  // Two that are close to each other, as v may be to the third.
+  // Two of the nodes may be close to each other and far from v.
   std::size_t pair = 0;
   double least = 4;
   for (std::size_t k = 0; k < 3; ++k) {

@@ -3,7 +3,7 @@
 // layer. No FMA is assumed. Relative errors, if nothing overflows or underflows, in units of u^2 (Joldes,
 // Muller & Popescu 2017, Tight and rigorous error bounds for basic building blocks of double-word arithmetic;
 // Lefevre, Louvet, Muller, Picot & Rideau 2023 for the square root; rounded up):
-//   x + y   4, where the signs differ: of |x| + |y|
+//   x + y   4; relative to |x| + |y| if the signs differ
 //   x * y   6
 
 namespace pstripack {
@@ -18,13 +18,13 @@ inline DoubleDouble two_sum(double a, double b) {
   return {s, (a - (s - t)) + (b - t)};
 }
 
-/// The same for |a| >= |b|, or a = 0 (Dekker 1971).
+/// a + b, exactly, for |a| >= |b| or a = 0 (Dekker 1971).
 inline DoubleDouble two_sum_of_ordered(double a, double b) {
   const double s = a + b;
   return {s, b - (s - a)};
 }
 
-/// A double as the sum of two that have 26 bits each: products of those are exact. |value| < 2^996.
+/// A double as the sum of two doubles of 26 bits each, whose products are exact. |value| < 2^996.
 struct Halves {
   double value, high, low;
   Halves() = default;
@@ -59,12 +59,12 @@ inline DoubleDouble operator*(const DoubleDouble& x, const DoubleDouble& y) {
 /// x * scale, exactly: `scale` is a power of two.
 inline DoubleDouble scaled_by(const DoubleDouble& x, double scale) { return {x.high * scale, x.low * scale}; }
 
-/// a * b - c * d. The error is at most 3u^2 of the result and 8u^3 (|a * b| + |c * d|), so it is small also
-/// where the products nearly cancel.
+/// a * b - c * d. The error is at most 3u^2 of the result plus 8u^3 (|a * b| + |c * d|), so it is small even
+/// if the products nearly cancel.
 inline DoubleDouble difference_of_products(const Halves& a, const Halves& b, const Halves& c,
                                            const Halves& d) {
   const DoubleDouble p = two_product(a, b), q = two_product(c, d);
-  const DoubleDouble s = two_sum(p.high, -q.high), t = two_sum(p.low, -q.low);  // all four add up, exactly
+  const DoubleDouble s = two_sum(p.high, -q.high), t = two_sum(p.low, -q.low);  // s + t is exact
   const DoubleDouble v = two_sum(s.high, t.high);
   return two_sum(v.high, v.low + (s.low + t.low));
 }

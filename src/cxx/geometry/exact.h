@@ -4,9 +4,9 @@
 // A finite double is m * 2^e with a 53-bit integer m. Vectors are brought to one exponent (each vector
 // to its own where only its direction counts) and the determinant is evaluated in integers. Three sizes:
 //   grid      coordinates that are multiples of 2^-61: a few machine words. Nearly all nodes on the unit
-//             sphere are of this kind, and meshes with many ties (lattices, icosahedra) live here;
+//             sphere are of this kind, in meshes with many ties (lattices, icosahedra), too;
 //   512 bits  on the stack, for exponents that are not too far apart;
-//   any size  on the heap. The last two are one text.
+//   any size  on the heap. The last two share one template.
 
 #include <algorithm>
 #include <array>
@@ -21,7 +21,7 @@ namespace pstripack::exact {
 namespace mp = boost::multiprecision;
 using Integer512 =
     mp::number<mp::cpp_int_backend<512, 512, mp::signed_magnitude, mp::unchecked, void>, mp::et_off>;
-/// For the directions, whose square roots take 32 times the bits of a coordinate and 64 more.
+/// For directions: removing their square roots takes 32 times the bits of a coordinate, and 64 more.
 using RootInteger =
     mp::number<mp::cpp_int_backend<2688, 2688, mp::signed_magnitude, mp::unchecked, void>, mp::et_off>;
 using Integer = mp::number<mp::cpp_int_backend<>, mp::et_off>;
@@ -41,7 +41,7 @@ int sign(const Int& v) {
 /// The exponents that the components of a vector span, as values m * 2^e with 53-bit m.
 struct Span {
   int low = 1 << 20, high = -(1 << 20);
-  int bits() const { return high - low + 53; }  // negative if there is none
+  int bits() const { return high - low + 53; }  // negative if all components are 0
   void join(double v) {
     if (v == 0) return;
     int e;
@@ -62,7 +62,7 @@ inline Span span_of(const Point& p) {
   return s;
 }
 
-/// v * 2^-low, an integer if low <= exponent of v.
+/// v * 2^-low. `low` must not exceed the exponent e of v = m * 2^e, so that this is an integer.
 template <class Int>
 Int scaled(double v, int low) {
   if (v == 0) return Int(0);
@@ -155,11 +155,11 @@ int orientation(const Point& a, const Point& b, const Point& c, const Point& d, 
   return sign(det(scaled<Int>(b, low) - base, scaled<Int>(c, low) - base, scaled<Int>(d, low) - base));
 }
 
-// Signs of sums of square roots, in integers alone. Where the two halves of a sum have the same sign, that is
-// the sign; where they have opposite signs, the sign is that of the difference of their squares, times that
-// of the first. Squares have fewer roots: of four roots two halves of two each, whose squares differ by an
-// integer and two roots; of these the squares differ by an integer and one root; and of these by an integer.
-// So three steps always suffice, and nothing is rounded. All radicands are positive.
+// Signs of sums of square roots, in integers alone. A sum is split into two halves. If their signs are
+// equal, that is the sign of the sum. If they are opposite, the sign of the sum is the sign of the first
+// half times the sign of the difference of the squares, which contains fewer roots: four roots become two
+// halves of two roots, then an integer and two roots, then an integer and one root, then an integer. So
+// three steps suffice, and nothing is rounded. All radicands are positive.
 
 /// sign of A sqrt(a) + B sqrt(b)
 template <class Integer>
@@ -184,8 +184,8 @@ int sign_of_sum(const Integer& E, const Integer& F, const Integer& f, const Inte
 /// sign of A sqrt(a) + B sqrt(b) + C sqrt(c) + D sqrt(d)
 template <class Integer>
 int sign_of_sum(std::array<Integer, 4> factor, const std::array<Integer, 4>& root) {
-  // Vectors of one length, as mirror images are, share a root: fewer squares, and none for their ties. A
-  // factor may be two bits longer then, but what is squared last is zero.
+  // Vectors of equal length, such as mirror images, share a root: their factors are added, which saves
+  // squares. A factor may become two bits longer, but then the last squares have a zero factor.
   for (std::size_t i = 1; i < 4; ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (root[i] == root[j]) {

@@ -17,7 +17,7 @@ namespace {
 // (i,j) of 32 x 32 along the curve and the state in that cell. A state says whether the axes are swapped
 // (bit 0) and whether the curve runs backwards (bit 1).
 
-constexpr int kLevels = 5;  // per block
+constexpr int kLevels = 5;  // levels of the curve per step ("block")
 constexpr std::uint32_t kSide = 1 << kLevels;
 
 struct Step {
@@ -78,19 +78,19 @@ OnCube on_cube(const Point& p) {
   const int axis = largest > 2 ? 2 : largest;
   const int f = axis + 3 * std::signbit(v[axis]);
   const double inverse = 1 / std::fabs(v[axis]);
-  if (!(inverse < 1e300))  // a denormal length
+  if (!(inverse < 1e300))  // the inverse of a denormal overflows
     return {v[face[f].s_axis] / std::fabs(v[axis]) * face[f].s_sign,
             v[face[f].t_axis] / std::fabs(v[axis]) * face[f].t_sign, f};
   return {v[face[f].s_axis] * inverse * face[f].s_sign, v[face[f].t_axis] * inverse * face[f].t_sign, f};
 }
 
-/// The cell of a fraction in [0,1], up to rounding: the factor keeps 1 in the last one.
+/// The cell 0..cells-1 of a fraction in [0,1]. The factor puts 1 into the last cell.
 std::uint32_t cell(double fraction, std::uint32_t cells) {
   return static_cast<std::uint32_t>(static_cast<int>(fraction * (static_cast<int>(cells) * (1 - 0x1p-40))));
 }
 
 // ---- sorting -----------------------------------------------------------------------------------
-// A key and the number of its node share 64 bits.
+// An entry of 64 bits holds a key and, below it, the number of its node.
 
 using Entry = std::uint64_t;
 constexpr int kNodeBits = 29, kKeyBits = 64 - kNodeBits;  // 3 for the face, 2 x 15 for the cell
@@ -98,9 +98,9 @@ constexpr int kNodeBits = 29, kKeyBits = 64 - kNodeBits;  // 3 for the face, 2 x
 std::uint64_t key_of(Entry e) { return e >> kNodeBits; }
 std::uint32_t node_of(Entry e) { return static_cast<std::uint32_t>(e & ((Entry{1} << kNodeBits) - 1)); }
 
-/// Sorts n entries by their keys of key_bits bits; returns `entries` or `other`, whichever holds the result.
-/// A stable radix sort, least significant digit first, alternating between the two; a comparison sort for few
-/// entries.
+/// Sorts n entries by their keys of key_bits bits. Returns the array that holds the result, `entries` or
+/// `other`. A stable radix sort, least significant digit first, which alternates between the arrays; a
+/// comparison sort for few entries.
 Entry* sort(Entry* entries, Entry* other, std::size_t n, int key_bits) {
   const int passes = (key_bits + 11) / 12, digit_bits = (key_bits + passes - 1) / passes;
   const std::size_t digits = std::size_t{1} << digit_bits;
@@ -132,14 +132,16 @@ Entry* sort(Entry* entries, Entry* other, std::size_t n, int key_bits) {
   return entries;
 }
 
-// ---- nodes alone -------------------------------------------------------------------------------
+// ---- isolated nodes ----------------------------------------------------------------------------
 
-constexpr std::size_t kEvenly = 16;      ///< between neighbours on the curve, so many mean distances are rare
-constexpr std::size_t kMostAlone = 256;  ///< parts of the curve
+// An isolated node has no other node within 1/256 of the used length of the curve (for few nodes: within 16
+// mean distances). In an even distribution no node is isolated.
+constexpr std::size_t kEvenly = 16;
+constexpr std::size_t kMostAlone = 256;
 
 // ---- cells with many nodes ---------------------------------------------------------------------
 
-constexpr std::size_t kCrowd = 16;
+constexpr std::size_t kCrowd = 16;  ///< cells with more nodes are refined
 
 /// Points at equal distances in memory.
 struct Points {
@@ -155,7 +157,6 @@ struct Square {
   std::uint32_t cell_t(const OnCube& q, std::uint32_t cells) const { return cell((q.t - t0) / side, cells); }
 };
 
-/// Grows with the positions added.
 struct Box {
   double s0 = 2, s1 = -2, t0 = 2, t1 = -2;
   void include(const OnCube& q) {
@@ -164,7 +165,7 @@ struct Box {
   Square square() const { return {s0, t0, std::max(s1 - s0, t1 - t0)}; }
 };
 
-/// Grows with v as its exponent does: equal steps for equal ratios, on both sides of zero.
+/// About 2^52 log2|v| plus a constant, with the sign of v: monotonic, with equal steps for equal ratios.
 double logarithmic(double v) {
   std::int64_t bits;
   const double size = std::fabs(v);
@@ -172,20 +173,21 @@ double logarithmic(double v) {
   return static_cast<double>(v < 0 ? -bits : bits);
 }
 
-/// True if the numbers from low to high span many powers of two, so that equal parts hardly separate them.
+/// True if [low, high] spans so many powers of two that equal parts would hardly separate them.
 bool spans_scales(double low, double high) {
   constexpr double kOctave = 0x1p52, kOctaves = 32;
   return logarithmic(high) - logarithmic(low) > kOctaves * kOctave;
 }
 
-/// How the cells divide a square: into equal parts, or by exponent if most nodes lie in one of these.
+/// How the cells divide a square: into equal parts, or by exponent. The latter if most nodes lie in one of
+/// the equal parts.
 enum class Halving { equal, by_scale };
 
 /// Orders the nodes of one cell, entries [first,last), along a curve through their bounding box.
 ///
-/// Equal parts divide the side of a cell by at least 2^5 at each level. Nodes that approach one point over as
-/// many decades as a double's exponent allows would need one level for each few of them: if that point has a
-/// coordinate 0, dividing by exponent separates all scales at once.
+/// Equal parts divide the side of a cell by at least 2^5 per level of recursion. Nodes that approach a
+/// point with a coordinate 0 can span all scales of a double's exponent, and equal parts would need a level
+/// for every few of them. Dividing by exponent separates all scales at once.
 void refine(const Points& points, Entry* first, Entry* last, int depth, Halving division) {
   const std::size_t n = static_cast<std::size_t>(last - first);
   Buffer<OnCube> place(n);
@@ -205,7 +207,7 @@ void refine(const Points& points, Entry* first, Entry* last, int depth, Halving 
   }
   const Square square = box.square();
   if (!(square.side > 0)) return;  // all directions are equal as doubles
-  // As many cells as needed; keys of 10, 20 or 30 bits.
+  // Enough cells for few nodes in each; keys of 10, 20 or 30 bits.
   const int blocks = n < 8000 ? 1 : n < 8000000 ? 2 : 3;
   const std::uint32_t cells = 1u << (kLevels * blocks);
   Buffer<Entry> entries(2 * n);
@@ -223,8 +225,8 @@ void refine(const Points& points, Entry* first, Entry* last, int depth, Halving 
   }
 }
 
-/// The square of each face that the cells divide: the whole face, or the nodes' bounding square if all are on
-/// one.
+/// The square that the cells divide on each face: the bounding square of the nodes if all lie on one face,
+/// else the whole face.
 Square square_of_all(const Points& points, std::size_t n) {
   Box box;
   const int face = on_cube(points[0]).face;
@@ -242,13 +244,13 @@ Square square_of_all(const Points& points, std::size_t n) {
 std::size_t insertion_order(const Point* first_point, std::size_t n, std::uint32_t* order,
                             Workspace& workspace, std::size_t stride) {
   const Points points{reinterpret_cast<const unsigned char*>(first_point), stride};
-  constexpr std::size_t kFew = 24;  // any walk is short
+  constexpr std::size_t kFew = 24;  // walks are short in any order
   if (n <= kFew) {
     std::iota(order, order + n, 0);
     return 0;
   }
-  // As many cells as needed for few nodes per cell if spread evenly: keys of 20, 23 or 33 bits (omitting the
-  // last bits of the first kind), sorted in two, two and three passes.
+  // Enough cells for few nodes in each if they are spread evenly. Keys of 20, 23 or 33 bits (20: the last
+  // three bits dropped), sorted in two, two and three passes.
   const int blocks = n < 20000000 ? 2 : 3;
   const int dropped = n < 50000 ? 3 : 0;
   const std::uint32_t cells = blocks == 2 ? kSide * kSide : kSide * kSide * kSide;
@@ -266,7 +268,6 @@ std::size_t insertion_order(const Point* first_point, std::size_t n, std::uint32
     }
   });
   entries = sort(entries, other, n, 2 * kLevels * blocks + 3 - dropped);
-  // Alone: nobody else within such a part of the curve, on either side. Of nodes spread evenly none is.
   const std::uint64_t apart =
       (key_of(entries[n - 1]) - key_of(entries[0])) / std::min<std::size_t>(n / kEvenly, kMostAlone);
   std::uint64_t before = 0;

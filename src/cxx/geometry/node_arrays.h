@@ -6,7 +6,7 @@
 
 namespace pstripack {
 
-/// The caller's nodes, read where they are: point after point, or x, y and z in arrays of their own.
+/// The caller's nodes, not copied: an array of points, or three arrays x, y and z of float or double.
 class NodeArrays {
   template <class Real, class Body>
   auto visit_reals(const Body& body) const {
@@ -19,25 +19,25 @@ class NodeArrays {
   NodeArrays(const Point* points) : points_(points) {}
   template <class Real>
   NodeArrays(const Real* x, const Real* y, const Real* z) : NodeArrays(sizeof(Real), x, y, z) {}
-  /// Of reals of so many bytes, 4 or 8.
+  /// Arrays of float (real_bytes = 4) or double (8).
   NodeArrays(std::size_t real_bytes, const void* x, const void* y, const void* z)
       : array_{x, y, z}, are_single_(real_bytes == sizeof(float)) {}
 
-  // Of arrays:
+  // Only if constructed from arrays:
   std::size_t real_bytes() const { return are_single_ ? sizeof(float) : sizeof(double); }
   const void* array(int axis) const { return array_[axis]; }
-  /// Those from node `first` on.
+  /// The nodes from `first` on.
   NodeArrays from(std::size_t first) const {
     const auto part = [&](int axis) { return static_cast<const char*>(array_[axis]) + first * real_bytes(); };
     return {real_bytes(), part(0), part(1), part(2)};
   }
-  /// body(x, y, z).
+  /// Calls body(x, y, z) with pointers to float or double.
   template <class Body>
   auto visit_arrays(const Body& body) const {
     return are_single_ ? visit_reals<float>(body) : visit_reals<double>(body);
   }
 
-  /// body(node), where node(i) is node i: for loops that should not ask each time how the nodes lie.
+  /// Calls body(node), where node(i) is node i: for loops that should not test the layout at every node.
   template <class Body>
   auto visit(const Body& body) const {
     if (points_ != nullptr) return body([points = points_](std::size_t i) { return points[i]; });
@@ -52,13 +52,12 @@ class NodeArrays {
     return visit([=](const auto& node) { return node(i); });
   }
 
-  /// Copies the nodes first..first+n-1.
   void copy(std::size_t first, std::size_t n, Point* to) const {
     visit([=](const auto& node) {
       for (std::size_t i = 0; i < n; ++i) to[i] = node(first + i);
     });
   }
-  /// The nodes first..first+n-1 as points: where they are, or copied to `room`.
+  /// The nodes first..first+n-1 as points: the caller's own, or else copied to `room`.
   const Point* points(std::size_t first, std::size_t n, Point* room) const {
     if (points_ != nullptr) return points_ + first;
     copy(first, n, room);

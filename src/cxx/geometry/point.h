@@ -4,8 +4,8 @@
 
 namespace pstripack {
 
-/// A node as the caller gave it: Cartesian coordinates of a vector that points at it from the centre
-/// of the sphere. Its length is 1 up to rounding unless the predicates on directions are used.
+/// A node as the caller gave it: the vector from the centre of the sphere. Its length is 1 up to rounding
+/// unless the predicates on directions are used.
 struct Point {
   double x, y, z;
 };

@@ -7,13 +7,14 @@ namespace pstripack {
 
 extern thread_local PredicateCounts stages;
 
-/// A zero found without arithmetic: nodes on the equator, which are common.
+/// True if the nodes lie on one coordinate plane, so that every determinant is 0. Common: nodes on the
+/// equator.
 template <class... Points>
 bool in_coordinate_plane(const Points&... p) {
   return ((p.x == 0) && ...) || ((p.y == 0) && ...) || ((p.z == 0) && ...);
 }
 
-/// `left` by the stages after the filter in doubles.
+/// `left` without its first stage, the filter in doubles.
 int left_of_vectors(const Point& a, const Point& b, const Point& c);
 
 /// `left` in double-double: 0 if undecided.

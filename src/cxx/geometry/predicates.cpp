@@ -9,8 +9,8 @@
 #include "geometry/predicate_stages.h"
 
 // Error bounds below: u = 2^-53 is the unit roundoff of rounding to nearest, which every entry of the library
-// sets (base/floating_point.h). "Permanent" is the expression of a determinant with every term replaced
-// by its absolute value; it is computed alongside.
+// sets (base/floating_point.h). The "permanent" is a determinant with every term replaced by its absolute
+// value; it is computed alongside.
 
 namespace pstripack {
 
@@ -38,14 +38,14 @@ struct Determinant {
               (std::fabs(xy) + std::fabs(yx)) * std::fabs(g.z)};
 }
 
-/// The sign of d.value if it is certain with this bound, else 0. False for NaN and infinities.
+/// The sign of d.value if its error is certainly below `bound`, else 0. 0 for NaN.
 int certain_sign(const Determinant& d, double bound) {
   if (d.value > bound) return 1;
   if (d.value < -bound) return -1;
   return 0;
 }
 
-// Filter for vectors that are exact or known to one rounding a component.
+// Filter for vectors whose components are exact or have one rounding.
 // e, f, g: differences with one rounding each. A product of three carries 3 roundings of the differences,
 // 2 of the products, 1 of the subtraction, at most 2 of the sums: the error is at most (1-u)^-8 - 1 <
 // 8u + 40u^2 of the permanent of the computed differences. That permanent and the bound come out smaller by
@@ -57,7 +57,7 @@ int filter_orientation(const Point& a, const Point& b, const Point& c, const Poi
   return certain_sign(v, kFactor * v.permanent + kUnderflow);
 }
 
-/// det(a,b,c) = det(b-a, c-a, a): small where the nodes are close, so the bound is small as well.
+/// det(a,b,c) = det(b-a, c-a, a), whose terms, and so the error bound, are small if the nodes are close.
 [[gnu::always_inline]] inline int filter_left(const Point& a, const Point& b, const Point& c) {
   const auto v = determinant(minus(b, a), minus(c, a), a);
   return certain_sign(v, kFactor * v.permanent + kUnderflow);
@@ -67,7 +67,7 @@ inline bool moderate(const Point& a) {
   return std::fabs(a.x) < kLargest && std::fabs(a.y) < kLargest && std::fabs(a.z) < kLargest;
 }
 
-/// A zero found without arithmetic: nodes on one parallel.
+/// True if the nodes lie on a plane perpendicular to an axis, for example on one parallel: the volume is 0.
 template <class... Points>
 bool in_parallel_plane(const Point& a, const Points&... p) {
   return ((p.x == a.x) && ...) || ((p.y == a.y) && ...) || ((p.z == a.z) && ...);
@@ -158,7 +158,7 @@ bool same_direction(const Point& a, const Point& b) {
   if ((a.x < 0) != (b.x < 0) || (a.y < 0) != (b.y < 0) || (a.z < 0) != (b.z < 0)) return false;
   if ((a.x == 0) != (b.x == 0) || (a.y == 0) != (b.y == 0) || (a.z == 0) != (b.z == 0)) return false;
   if (a == b) return true;
-  // Products that are equal are rounded to equal doubles, also where they overflow or underflow.
+  // Equal products are rounded to equal doubles, even if they overflow or underflow.
   if (a.x * b.y != a.y * b.x || a.y * b.z != a.z * b.y || a.z * b.x != a.x * b.z) return false;
   using namespace exact;
   const auto n = exact::cross(scaled<Integer>(a, span_of(a).low), scaled<Integer>(b, span_of(b).low));
@@ -199,12 +199,13 @@ const Coordinates::View::Difference& Coordinates::View::see(index_t i) {
 
 namespace {
 
-/// symbolic_above; false if v coincides with another node. Called by the million on parallels and lattices:
-/// the highest-ranked node is mostly the one with the largest x, found without a branch that would be
-/// mispredicted.
+/// symbolic_above; false if v coincides with another node. Called millions of times on parallels and
+/// lattices. Usually the node with the largest x has the highest rank and decides; it is found without
+/// unpredictable branches.
 bool above_by_tie(const Point& a, const Point& b, const Point& c, const Point& v) {
   const Point* const node[4] = {&v, &c, &b, &a};
-  // By which node is highest: three nodes that turn left if pushing it outwards lifts v above a,b,c.
+  // For each node: the three others, ordered so that they turn left if pushing it outwards puts v above
+  // a,b,c.
   static constexpr std::uint8_t bracket[4][3] = {{3, 2, 1}, {2, 3, 0}, {3, 1, 0}, {1, 2, 0}};
   const int vc = c.x > v.x, ba = 2 + (a.x > b.x);
   const double first = node[vc]->x, second = node[ba]->x;

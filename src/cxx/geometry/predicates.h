@@ -11,8 +11,8 @@
 //   (2) above(a,b,c,d) == above(b,c,a,d)
 //   (3) above(a,b,c,d) != above(b,a,c,d), except where all four lie on one great circle: both false
 //   (4) the sign behind `above` is antisymmetric under every permutation of its four arguments
-//   (5) none depends on the numbering of the nodes, on FMA or on threads; nor on the rounding mode of the
-//       program, which is left at every entry of the library (base/floating_point.h)
+//   (5) the result does not depend on the numbering of the nodes, on FMA or on threads; nor on the rounding
+//       mode of the program, which every entry of the library replaces (base/floating_point.h)
 //
 // Two sets of predicates share this interface; the kernel takes the set as a parameter:
 //   Coordinates  the vectors exactly as given;
@@ -21,13 +21,13 @@
 // Each decision passes three stages: filter (floating point with a proven bound), exact (integers),
 // symbolic (the tie rule). The tie rule: a zero of `above` is decided as if every node were pushed
 // outwards along its own direction by an amount that grows with its rank in the lexicographic order
-// of the given (x,y,z), each infinitely more than all lower ranks together. With t = 1/length the
+// of the given (x,y,z); each push is infinitely larger than all of lower rank. With t = 1/length the
 // volume is linear in each t,
 //     volume ~  t_a [bcd] - t_b [acd] + t_c [abd] - t_d [abc],      [pqr] = det(p,q,r),
 // and pushing outwards lowers t; so the highest-ranked node whose bracket is not zero decides:
 //     d: +[abc]    c: -[abd]    b: +[acd]    a: -[bcd].
-// A radial push changes no LEFT. Four nodes on one great circle have four zero brackets: they stay a
-// zero for every rank and count as "not above".
+// A radial push changes no `left`. Four nodes on one great circle have four zero brackets, so no rank
+// decides: they count as "not above".
 
 #include <array>
 #include <cmath>
@@ -51,7 +51,6 @@ int orientation(const Point& a, const Point& b, const Point& c, const Point& d);
 /// The same for the directions a/|a|, b/|b|, c/|c|, d/|d|.
 int orientation_of_directions(const Point& a, const Point& b, const Point& c, const Point& d);
 
-/// True if a and b point in exactly the same direction.
 bool same_direction(const Point& a, const Point& b);
 
 /// Which of the two sets decides.
@@ -62,8 +61,8 @@ enum class Lengths {
   directions
 };
 
-/// True if |p| is within 1e-6 of 1: Coordinates may be used. False if p is not finite.
-/// (1 +- 1e-6)^2 = 1 + 1e-12 +- 2e-6: exact but for the rounding of the square.
+/// True if |p| is within 1e-6 of 1, so that Coordinates may be used. False if p is not finite. Exact except
+/// for the rounding of the square, since (1 +- 1e-6)^2 = 1 + 1e-12 +- 2e-6.
 inline bool length_is_one(const Point& p) {
   return std::fabs(p.x * p.x + p.y * p.y + p.z * p.z - (1 + 1e-12)) <= 2e-6;
 }
@@ -72,8 +71,8 @@ inline bool length_is_one(const Point& p) {
 struct PredicateCounts {
   std::uint64_t above = 0, left = 0;  ///< calls that the kernel passed to the predicates
   std::uint64_t double_double = 0;    ///< not decided by doubles
-  std::uint64_t integers = 0;         ///< not decided by double-double, or small integers came first
-  std::uint64_t big_integers = 0;     ///< of these, too large for a fixed size
+  std::uint64_t integers = 0;         ///< decided by integers, of machine words or larger
+  std::uint64_t big_integers = 0;     ///< those of `integers` that were too large for a fixed size
   std::uint64_t symbolic = 0;         ///< zeros of `above` that the tie rule decided
 };
 
@@ -84,11 +83,11 @@ class Coordinates {
   Coordinates(const Point* points, std::size_t n) : p_(points), n_(n) {}
 
   std::size_t size() const { return n_; }
-  /// Changes the number of nodes to n and their address; nodes kept before must be unchanged.
+  /// Sets the address and the number of the nodes. Nodes that were there before must be unchanged.
   void extend(const Point* points, std::size_t n) { p_ = points, n_ = n; }
   const Point& given(index_t i) const { return p_[i]; }
   const Point& position(index_t i) const { return p_[i]; }
-  /// p[i] - p[j], every component to one rounding.
+  /// p[i] - p[j]; every component has one rounding.
   Point difference(index_t i, index_t j) const {
     return {p_[i].x - p_[j].x, p_[i].y - p_[j].y, p_[i].z - p_[j].z};
   }
@@ -109,14 +108,16 @@ class Coordinates {
 /// Keeps 48 bytes per node beside the points, which must outlive it.
 class Directions {
  public:
+  /// Throws std::bad_alloc.
   Directions(const Point* points, std::size_t n);
 
   std::size_t size() const { return n_; }
-  /// Changes the number of nodes to n and their address; nodes kept before must be unchanged.
+  /// Sets the address and the number of the nodes. Nodes that were there before must be unchanged. Throws
+  /// std::bad_alloc.
   void extend(const Point* points, std::size_t n);
   const Point& given(index_t i) const { return p_[i]; }
   const Point& position(index_t i) const { return unit_[i].high; }
-  /// p[i]/|p[i]| - p[j]/|p[j]|, every component to 2 roundings and 2^-99.
+  /// p[i]/|p[i]| - p[j]/|p[j]|; every component has 2 roundings and an absolute error of 2^-99.
   Point difference(index_t i, index_t j) const {
     const Unit &a = unit_[i], &b = unit_[j];
     return {(a.high.x - b.high.x) + (a.low.x - b.low.x), (a.high.y - b.high.y) + (a.low.y - b.low.y),
@@ -135,24 +136,24 @@ class Directions {
 
  private:
   using Four = std::array<index_t, 4>;
-  /// The same, seen from f[0]: in doubles, where 0 means not certain; and exactly, from double-double on.
+  /// `orientation` with f[0] as the apex: in doubles (0: not certain), and by the later stages (exact).
   int filter_seen_from_first(const Four& f) const;
   int height_seen_from_first(const Four& f) const;
-  /// An even permutation with the node in front for which the error bound is smallest; whether f[0] is about
-  /// as good.
+  /// An even permutation of f that starts with the apex of smallest error bound. `first_will_do`: f[0] is
+  /// about as good.
   Four best_first(const Four& f, bool& first_will_do) const;
   struct Unit {
     Point high, low;
   };
-  /// high + low = p/|p|, every component to 2^-101; high is the sum rounded.
+  /// high + low = p/|p|, with a relative error of 2^-101 in every component; high is the rounded sum.
   static Unit unit(const Point& p);
   const Point* p_;
   std::size_t n_;
   BlockArray<Unit> unit_;
 };
 
-/// Cache of values per node, used by a view of the predicates: nodes whose numbers end in the same bits share
-/// a slot. Entries are valid until the next call of `forget`.
+/// Cache of one value per node for a view of the predicates. It has 32 slots; nodes whose numbers are equal
+/// modulo 32 share one. Entries are valid until the next call of `forget`.
 template <class Item>
 class Remembered {
  public:
@@ -174,14 +175,14 @@ class Remembered {
  private:
   static constexpr std::size_t kSlots = 32;
   static std::size_t slot(index_t i) { return static_cast<std::size_t>(i) % kSlots; }
-  std::uint64_t time_ = 1;  // fits 32 bits: one view per inserted node
+  std::uint64_t time_ = 1;  // fits 32 bits: forget() is called once per inserted node
   std::uint64_t key_[kSlots] = {};
   Item item_[kSlots];
 };
 
-/// The predicates as seen from one node v, for cases that floating point alone has not decided. A node being
-/// inserted is compared with each of its future neighbours in about three faces: the differences to them are
-/// computed once.
+/// The predicates with one node v fixed, for cases that the kernel's floating-point filter leaves open. An
+/// inserted node meets each of its future neighbours in about three faces; this class computes the difference
+/// to the neighbour once.
 class Coordinates::View {
  public:
   explicit View(const Coordinates& nodes) : nodes_(nodes) {}
@@ -196,7 +197,7 @@ class Coordinates::View {
     std::int64_t x, y, z;
     bool on_grid;
   };
-  void look();  ///< prepares v; few insertions need it
+  void look();  ///< prepares v, when first needed: few insertions do
   const Difference& see(index_t i);
   const Coordinates& nodes_;
   index_t v_ = 0;
@@ -212,7 +213,7 @@ class Directions::View {
   void from(index_t v) { v_ = v, is_ready_ = false; }
   bool above(index_t a, index_t b, index_t c);  ///< Directions::above(a, b, c, v); no two of a, b, c coincide
   int left(index_t a, index_t b);               ///< Directions::left(a, b, v)
-  /// The last answer of `above` came from the tie rule: v lies in the plane.
+  /// True if v lay in the plane in the last call of `above`, which the tie rule decided.
   bool tied() const { return tied_; }
 
  private:

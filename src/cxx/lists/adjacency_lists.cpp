@@ -14,7 +14,7 @@
 namespace pstripack {
 namespace {
 
-/// LPTR from `slot` (counted from 0) on: every slot points to the next.
+/// Writes LPTR for `count` slots from `slot` (counted from 0) on: each points to the next.
 template <class Int>
 inline void number_on(Int* lptr, std::size_t count, std::size_t slot) {
   for (std::size_t j = 0; j < count; ++j) lptr[j] = static_cast<Int>(slot + j) + 2;
@@ -32,7 +32,7 @@ Int write_lists(const Hull& hull, Int* list, Int* lptr, Int* lend, Workspace& wo
   auto* const rings = workspace.take<Int>(7 * n + pieces * (2 * kBlock + 1));
   std::vector<std::size_t> sums(pieces * pieces), begin_of(pieces + 1);
 
-  // Number of neighbours of the nodes of each piece: gives where its rings begin.
+  // Count the neighbours of the nodes of each piece, to know where its rings begin.
   const std::size_t piece_size = n / pieces + 1;
   if (pieces > 1)
     parallel_pieces(hull.face_count, threads, [&](std::size_t first, std::size_t last, int thread) {
@@ -123,7 +123,7 @@ void for_each_triangle_at(const ListsView<Int>& lists, std::size_t k, const Visi
   } while (slot != last);
 }
 
-/// Finds a neighbour's position in a star: by search in short stars, else by a sorted table.
+/// Finds a neighbour's position in a star: by linear search in a short star, in a sorted table for a hub.
 class StarPlaces {
  public:
   explicit StarPlaces(const StarTable& stars) : stars_(stars) {
@@ -184,8 +184,8 @@ class StarPlaces {
   std::vector<Entry> entries_;
 };
 
-/// The neighbours of all nodes in the order of the lists, if these are closed and use exactly the slots
-/// 1..LNEW-1.
+/// Reads the neighbours of all nodes in the order of the lists. A defect if the lists are not closed or do
+/// not use exactly the slots 1..LNEW-1.
 template <class Int>
 Verdict read_stars(const ListsView<Int>& lists, StarTable& stars) {
   const std::size_t n = lists.n;
@@ -217,7 +217,7 @@ Verdict read_stars(const ListsView<Int>& lists, StarTable& stars) {
     stars.begin[k + 1] = end;
     if (end - stars.begin[k] < 2) return malformed("fewer than two neighbours", k);
   }
-  // Exactly the slots 1..LNEW-1; if LNEW is not known, without gaps.
+  // The slots in use must be exactly 1..LNEW-1; if LNEW is not known, they must have no gaps.
   if (lists.lnew != 0 && end != slots)
     return malformed("LNEW does not match the number of neighbours", n - 1);
   for (std::size_t s = 1; s <= end; ++s)
@@ -225,7 +225,6 @@ Verdict read_stars(const ListsView<Int>& lists, StarTable& stars) {
   return {};
 }
 
-/// True if the stars agree with each other.
 Verdict check_stars(const StarTable& stars) {
   constexpr std::size_t kAhead = 8;
   const StarPlaces places(stars);
@@ -243,7 +242,7 @@ Verdict check_stars(const StarTable& stars) {
       const std::uint32_t b_begin = stars.begin[b], b_end = stars.begin[b + 1];
       const std::uint32_t place = places.find(static_cast<index_t>(b), static_cast<index_t>(k));
       if (stars.to[i] < 0) {
-        // The last neighbour of a boundary node follows it on the boundary the other way round.
+        // The last neighbour b of boundary node k precedes k on the boundary, so k is the first of b's list.
         if (stars.to[b_end - 1] >= 0 || place != b_begin)
           return malformed("its last neighbour is not the boundary node before it", k);
         continue;

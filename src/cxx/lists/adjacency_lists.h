@@ -31,8 +31,8 @@ template <class Int>
 Int write_lists(const Hull& hull, Int* list, Int* lptr, Int* lend, Workspace& workspace);
 
 /// Checks the structure only: slots in range, every slot 1..LNEW-1 in exactly one closed list, neighbours in
-/// range and different, symmetric adjacency, signs only at the last neighbour of a boundary node.
-/// Reads no slot outside 1..6n-12, whatever the arrays hold.
+/// range and different, symmetric adjacency, a negative entry only for the last neighbour of a boundary node.
+/// Reads no slot outside 1..6n-12, whatever the arrays hold. Throws std::bad_alloc, as the checks below do.
 template <class Int>
 Verdict check_lists(const ListsView<Int>& lists);
 

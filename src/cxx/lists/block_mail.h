@@ -1,7 +1,7 @@
 #pragma once
-// Messages between the nodes of a triangulation, collected by blocks of nodes: neighbours are anywhere in
-// memory, and to look each of them up takes longer than all else. A block, its rings and what is known of its
-// arcs fit into the second cache while its messages are read.
+// Messages between the nodes of a triangulation, collected by blocks of nodes. The reason: a node's
+// neighbours may be anywhere in memory, and looking each of them up would dominate the time. While the
+// messages of a block are read, its rings and the data of its arcs fit into the second-level cache.
 
 #include <algorithm>
 #include <cstddef>
@@ -30,12 +30,12 @@ class NodeBlocks {
   int bits_ = 4;  // a block has 2^bits_ nodes
 };
 
-/// Messages of several senders, one a thread. Those of a sender to a block are in a chain of chunks, all full
-/// but the newest.
+/// Messages of several senders, one per thread. The messages of one sender to one block form a chain of
+/// chunks, of which only the newest may be partly filled.
 template <class Message>
 class BlockMail {
  public:
-  /// Room for messages[s] messages of sender s to that many blocks. Throws std::bad_alloc.
+  /// Room for messages[s] messages of each sender s, to `blocks` blocks. Throws std::bad_alloc.
   BlockMail(std::size_t blocks, const std::vector<std::size_t>& messages)
       : blocks_(blocks),
         senders_(messages.size()),
@@ -50,7 +50,7 @@ class BlockMail {
     message_ = space_.keep<Message>(first_chunk_[senders_] * in_a_chunk_);
   }
 
-  /// What one sender sends; it has only one.
+  /// The sending end of one sender. Construct it once per sender.
   class Outbox {
    public:
     Outbox(BlockMail& mail, std::size_t sender)
@@ -65,7 +65,8 @@ class BlockMail {
         older_[unused_] = newest;
         newest = unused_++ * in_a_chunk_;
       }
-      constexpr std::size_t two_lines_on = 128 / sizeof(Message);  // the processor foresees only few chains
+      // The hardware prefetcher follows only few chains.
+      constexpr std::size_t two_lines_on = 128 / sizeof(Message);
       __builtin_prefetch(message_ + newest + two_lines_on, 1);
       message_[newest++] = message;
     }
@@ -89,8 +90,9 @@ class BlockMail {
   }
 
  private:
-  /// Messages of a chunk, a power of two. Long chunks are read fastest, but the newest chunk of each chain
-  /// may be nearly empty: all these together have no more room than a quarter of the messages takes.
+  /// Number of messages in a chunk, a power of two. Long chunks are read fastest, but the newest chunk of
+  /// each chain may be nearly empty. So the newest chunks of all chains take at most a quarter of the room
+  /// of all messages.
   static std::size_t chunk_for(std::size_t blocks, const std::vector<std::size_t>& messages) {
     constexpr std::size_t least = 16, most = 1024;
     const std::size_t all = std::accumulate(messages.begin(), messages.end(), std::size_t{0});
@@ -109,8 +111,8 @@ class BlockMail {
   std::size_t blocks_, senders_, in_a_chunk_;
   Workspace space_;
   std::size_t* first_chunk_;  // by sender, and the end
-  std::size_t* newest_;       // by sender and block: one after the newest message; 0 if there is none
-  std::size_t* older_;        // by chunk: one after the last message of the chunk before it in its chain
+  std::size_t* newest_;       // by sender and block: index after the newest message; 0 if there is none
+  std::size_t* older_;        // by chunk: index after the last message of the previous chunk of the chain
   Message* message_;
 };
 

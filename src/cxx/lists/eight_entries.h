@@ -1,7 +1,7 @@
 #pragma once
-// Questions about eight entries of LIST at once, without branches: which of them have the answer yes is as
-// good as random, and a branch would be predicted wrong. The answers are bits, entry[0] first. An entry is
-// negative where nothing is on the left of the arc; |entry| is the neighbour.
+// Tests of eight entries of LIST at once, without branches, because their outcome is unpredictable. The
+// answers are bits, entry[0] in the lowest. |entry| is the neighbour; an entry is negative if there is no
+// triangle left of the arc to it.
 
 #include <array>
 #include <cstddef>
@@ -20,7 +20,7 @@ struct Greater {
   unsigned entries, neighbours;
 };
 
-/// Bit i is test(i). For integers of any size.
+/// Bit i of the result is test(i). For integers of any size.
 template <class Test>
 unsigned bits_of_eight(const Test& test) {
   unsigned bits = 0;
@@ -33,7 +33,7 @@ Int neighbour_in(Int entry) {
   return entry < 0 ? -entry : entry;
 }
 
-/// |entry| == a
+/// Tests |entry| == a.
 template <class Int>
 unsigned equal_of_eight(const Int* entry, Int a) {
   return bits_of_eight([=](int i) { return (entry[i] == a) | (entry[i] == -a); });
@@ -50,7 +50,7 @@ unsigned negative_of_eight(const Int* entry) {
   return bits_of_eight([=](int i) { return entry[i] < 0; });
 }
 
-/// By byte: the number of its bits that are 1, and which they are, in order.
+/// For each byte: the number of its bits that are 1, and their positions in increasing order.
 constexpr auto ones_of_bits = [] {
   std::array<unsigned char, 256> ones{};
   for (unsigned byte = 1; byte < 256; ++byte)
@@ -66,7 +66,7 @@ constexpr auto positions_of_bits = [] {
   }
   return positions;
 }();
-/// By byte: of each bit that is 1, how many are up to it; 0 of the others.
+/// For each byte and each of its bits that is 1: the number of 1s up to and including it. 0 for other bits.
 constexpr auto ranks_of_bits = [] {
   std::array<std::array<unsigned char, eight>, 256> ranks{};
   for (unsigned byte = 0; byte < 256; ++byte) {
@@ -76,7 +76,7 @@ constexpr auto ranks_of_bits = [] {
   }
   return ranks;
 }();
-/// How many of 16 bits are 1.
+/// The number of 1s among the lowest 16 bits.
 template <class Int>
 Int ones(unsigned bits) {
   return static_cast<Int>(ones_of_bits[bits & 255] + ones_of_bits[bits >> eight]);

@@ -4,7 +4,7 @@ namespace pstripack {
 
 void write_lptr(const std::int32_t* lend, std::size_t n, std::size_t first_slot, std::int32_t* lptr,
                 int threads) {
-  constexpr std::size_t kTogether = 512;  // nodes whose slots stay in the cache between the two loops
+  constexpr std::size_t kTogether = 512;  // so few nodes that their slots stay in the cache between the loops
   parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int) {
     for (std::size_t k = first; k < last; k += kTogether) {
       const std::size_t end = std::min(k + kTogether, last);

@@ -16,8 +16,8 @@ inline void copy_some(const Int* from, Entry* to) {
   for (std::size_t i = 0; i < kCount; ++i) to[i] = static_cast<Entry>(from[i]);
 }
 
-/// Copies a ring, touching nothing beside it, as two overlapping blocks of fixed length, because the length
-/// of a loop would be mispredicted. The mean is six neighbours.
+/// Copies a ring without touching memory beside it. A ring of 4 to 16 neighbours is copied as two overlapping
+/// blocks of fixed length, because the end of a loop would be mispredicted. The mean is six neighbours.
 template <class Int, class Entry>
 inline void copy_ring(const Int* from, std::size_t count, Entry* to) {
   if (count - 4 <= 4) {
@@ -31,19 +31,19 @@ inline void copy_ring(const Int* from, std::size_t count, Entry* to) {
   }
 }
 
-/// LPTR of n consecutive nodes, which LEND determines: each slot points to the next one, the last of a node
-/// to its first. lend[0] belongs to the first of these nodes; lptr[0] is the first slot of all; first_slot,
-/// from 0, is theirs. threads: from threads_for.
+/// Writes LPTR of n consecutive nodes, which LEND determines: each slot points to the next one, the last
+/// slot of a node to its first. lend[0] belongs to the first of these nodes, whose first slot is first_slot
+/// (from 0). lptr[0] is slot 0 of the whole LPTR. threads: from threads_for.
 void write_lptr(const std::int32_t* lend, std::size_t n, std::size_t first_slot, std::int32_t* lptr,
                 int threads);
 
-/// LIST and LEND of the nodes of a table: their rings one after another in `list`, the first of which is the
-/// slot first_slot (from 0) of the whole. Writes lend[0..rings.size()-1] and as many entries of `list` as the
-/// rings have. threads: from threads_for.
+/// Writes LIST and LEND of the nodes of a table: their rings one after another. list[0] is the slot
+/// first_slot (from 0) of the whole LIST. Writes lend[0..rings.size()-1] and list[0..rings.arcs()-1].
+/// threads: from threads_for.
 template <class Int>
 void write_piece(const RingTable<Int>& rings, std::size_t first_slot, std::int32_t* list, std::int32_t* lend,
                  int threads) {
-  constexpr std::size_t kAhead = 16;     // rings lie in the order of the patches, not of the nodes
+  constexpr std::size_t kAhead = 16;     // prefetched: rings lie in the order of patches, not of nodes
   std::array<std::size_t, 256> begin{};  // where each thread's part begins
   threads = std::min<int>(threads, begin.size() - 1);
   if (threads > 1)

@@ -4,16 +4,17 @@
 
 namespace pstripack {
 
-/// Walks through the unchecked lists of a triangulation or Voronoi diagram: it touches no slot outside
-/// 1..6n-12 and takes at most 6n-12 steps in all walks together, since each slot is in one list.
+/// Walks through unchecked lists of a triangulation or Voronoi diagram. It touches no slot outside 1..6n-12.
+/// Since each slot is in one list, all walks of one object together take at most 6n-12 steps.
 template <class Int>
 class ListWalk {
  public:
   ListWalk(Int n, const Int* lptr)
       : slots_(6 * static_cast<std::uint64_t>(n) - 12), left_(slots_), lptr_(lptr) {}
 
-  /// Calls visit(slot, next) for all pairs of consecutive slots of the list that `last` belongs to, starting
-  /// with `last` and the first slot. False if that list is not closed; it is then visited up to the defect.
+  /// Calls visit(slot, next) for all pairs of consecutive slots of the list with the last slot `last`,
+  /// starting with `last` and the first slot. False if the list is not closed; it is then visited up to the
+  /// defect.
   template <class Visit>
   bool operator()(Int last, Visit visit) {
     if (!is_slot(last)) return false;

@@ -9,7 +9,7 @@
 namespace pstripack {
 namespace {
 
-/// The number of 0..n-1 that fail the test. Without branches, so that compilers can take several at once.
+/// The number of i in 0..n-1 with fails(i). Without branches, so that compilers can vectorise the loop.
 template <class Int, class Test>
 Int failures(Int n, int threads, const Test& fails) {
   std::atomic<Int> sum{0};
@@ -50,7 +50,7 @@ bool Rings<Int>::are_rings(const ListsView<Int>& lists, int threads) const {
   const auto open = [lend, lptr](Int i) { return lptr[lend[i] - 1] != (i > 0 ? lend[i - 1] : 0) + 1; };
   if (failures(n_, threads, open) > 0) return false;
   const auto not_upwards = [lptr](Int i) { return lptr[i] != i + 2; };
-  return failures(lend[n_ - 1], threads, not_upwards) == n_;  // the last slots, which close the rings
+  return failures(lend[n_ - 1], threads, not_upwards) == n_;  // only the last slot of each ring
 }
 
 template <class Int>
@@ -79,9 +79,9 @@ bool Rings<Int>::copy(const ListsView<Int>& lists) {
   return true;
 }
 
-/// For the arcs between a hub, a node of many neighbours, and any other node: the shorter of the two rings
-/// is searched. The sum over the arcs of a planar graph of the smaller degree is O(n) (Chiba and Nishizeki
-/// 1985), however large the hubs are.
+/// Stores the arcs back for the arcs at hubs, which are nodes of many neighbours. For each such arc the
+/// shorter of the two rings is searched. In a planar graph the sum over all arcs of the smaller degree is
+/// O(n) (Chiba and Nishizeki 1985), however large the hubs are.
 template <class Int>
 void Rings<Int>::tabulate_hubs() {
   hub_back_ = Buffer<Int>(static_cast<std::size_t>(arcs()));

@@ -1,6 +1,6 @@
 #pragma once
-// The lists of a triangulation as rings: for every node its neighbours side by side, nodes in order.
-// That is what canonical lists are already; of other lists a copy is made.
+// The lists of a triangulation as rings: the neighbours of a node side by side, nodes in increasing order.
+// Canonical lists have this form already; other lists are copied.
 
 #include <algorithm>
 #include <array>
@@ -12,28 +12,27 @@
 
 namespace pstripack {
 
-/// With which pair of consecutive neighbours a routine starts round a node.
+/// The pair of consecutive neighbours with which a routine starts at a node.
 enum class FirstPair { first_and_second, last_and_first };
 
-/// A number as good as random; 0 for 0. For sums over the triangles of rings, which show whether the rings
-/// agree: sums of small numbers agree by chance.
+/// A hash of t; 0 for 0. Used in sums over triangles that show whether the rings agree: sums of the numbers
+/// themselves could agree by chance.
 template <class Number>
 std::uint64_t randomised(Number t) {
   const std::uint64_t product = static_cast<std::uint64_t>(t) * 0x9e3779b97f4a7c15u;
   return product ^ product >> 32;
 }
 
-/// An arc is the position, from 0, of b in the ring of a, and stands for the directed arc from a to b.
-/// Nodes count from 1. Views the lists, which must outlive it.
+/// The directed arc from a to b is represented by the position, from 0, of b in the ring of a. Nodes count
+/// from 1. The caller's lists must outlive the object.
 template <class Int>
 class Rings {
  public:
   static constexpr Int few_neighbours = 64;  ///< nodes with more are hubs
   static constexpr Int none = -1;            ///< no arc
 
-  /// Reads the lists of n >= 3 nodes; false if they are not closed lists of neighbours 1..n within
-  /// the slots 1..6n-12. Touches nothing outside those, whatever the arrays hold. May throw
-  /// std::bad_alloc.
+  /// Reads the lists of n >= 3 nodes. False if they are not closed lists of neighbours 1..n within the slots
+  /// 1..6n-12. Touches no other slot, whatever the arrays hold. Throws std::bad_alloc.
   bool read(const ListsView<Int>& lists, int threads);
 
   Int size() const { return n_; }
@@ -45,16 +44,16 @@ class Rings {
   Int entry(Int arc) const { return entry_[arc]; }
   Int target(Int arc) const { return neighbour_in(entry_[arc]); }
   void prefetch(Int arc) const { __builtin_prefetch(entry_ + arc); }
-  /// The arcs after and before an arc of a node, counterclockwise. Without branches, which would be
+  /// The arcs after and before an arc of a node, counterclockwise. Without branches, because these would be
   /// unpredictable.
   Int after(Int node, Int arc) const { return arc + 1 - (-Int{arc + 1 == end(node)} & degree(node)); }
   Int before(Int node, Int arc) const { return arc - 1 + (-Int{arc == begin(node)} & degree(node)); }
-  /// True if the arcs are the slots of LIST from the first on; else slot() gives the slot of an arc, from 1.
+  /// True if arc p is slot p+1 of LIST for all p. slot(p) is the slot of arc p, from 1, in any case.
   bool in_slot_order() const { return slot_.size() == 0; }
   Int slot(Int arc) const { return in_slot_order() ? arc + 1 : slot_[static_cast<std::size_t>(arc)]; }
 
-  /// The arc from b to a, where an arc leads from a to b; `none` if there is none. O(1) on average over all
-  /// arcs, however large the hubs are: see tabulate_hubs.
+  /// The arc from b to a, given that there is an arc from a to b; `none` if b does not list a. O(1) on
+  /// average over all arcs, however large the hubs are: see tabulate_hubs.
   Int arc_back(Int a, Int b) const {
     const Int first = begin(b);
     if (first <= last_of_eight_) {
@@ -65,12 +64,12 @@ class Rings {
     return arc_back_far(a, b);
   }
 
-  /// The arcs of a small ring, bit by bit from its first.
+  /// Two sets of arcs of a small ring, as bits: bit i stands for the arc begin + i.
   struct Arcs {
-    unsigned greater;    ///< those that lead to a greater node
-    unsigned triangles;  ///< those with a triangle on the left whose smallest corner is the ring's node
+    unsigned greater;    ///< arcs that lead to a greater node
+    unsigned triangles;  ///< arcs with a triangle on the left whose smallest corner is the ring's node
   };
-  /// True if the ring has at most 16 arcs, which are looked at together.
+  /// True if the ring has at most 16 arcs, which can be tested together.
   bool is_small(Int node) const {
     return (degree(node) <= 2 * eight) & (begin(node) <= last_of_eight_ - eight);
   }
@@ -81,8 +80,8 @@ class Rings {
     const unsigned neighbours = greater.neighbours & whole(last);
     return {neighbours, greater.entries & (neighbours >> 1 | (neighbours & 1) << last)};
   }
-  /// The arcs of a small ring with a triangle on the left of which the ring's node is the smallest corner,
-  /// and those where it is the largest.
+  /// The arcs of a small ring, as bits, that have a triangle on the left of which the ring's node is the
+  /// smallest or the largest corner.
   struct Claims {
     std::uint16_t smallest, largest;
   };
@@ -96,10 +95,9 @@ class Rings {
     return {static_cast<std::uint16_t>(greater.entries & followed(neighbours)),
             static_cast<std::uint16_t>(smaller & followed(smaller) & ~negative_of(entries, last))};
   }
-  /// True if there is a triangle left of the arc of a, and a is its smallest corner.
-  bool is_smallest(Int a, Int arc) const {
-    return (entry(arc) > a) & (target(after(a, arc)) > a);  // entry: nothing is left of a boundary's last arc
-  }
+  /// True if there is a triangle left of the arc of a, and a is its smallest corner. Uses entry(arc), which
+  /// is negative if there is none.
+  bool is_smallest(Int a, Int arc) const { return (entry(arc) > a) & (target(after(a, arc)) > a); }
 
   bool is_largest(Int a, Int arc) const {
     return (entry(arc) > 0) & (entry(arc) < a) & (target(after(a, arc)) < a);
@@ -115,9 +113,10 @@ class Rings {
         [this](Int a, Int p) { return is_smallest(a, p); }, triangle);
   }
 
-  /// Calls visit(a, p, q) for some arcs p of the nodes a = first+1..last, in the order of a and of its ring;
-  /// q is the arc after p. For a small ring bits(a) says which, for another is_chosen(a, p). The arcs of
-  /// several small rings are found before the first is visited, so that no number of rounds is unpredictable.
+  /// Calls visit(a, p, q) for chosen arcs p of the nodes a = first+1..last, in the order of a and of its
+  /// ring; q is the arc after p. For a small ring the chosen arcs are bits(a), for others those with
+  /// is_chosen(a, p). The arcs of several small rings are collected before the first is visited, because a
+  /// loop over the arcs of one ring would end unpredictably.
   template <FirstPair pairs, class Bits, class IsChosen, class Visit>
   [[gnu::always_inline]] void for_each_arc(std::size_t first, std::size_t last, const Bits& bits,
                                            const IsChosen& is_chosen, const Visit& visit) const {
@@ -162,7 +161,7 @@ class Rings {
   Int arc_back_far(Int a, Int b) const;
   /// The arc in [begin, end) that leads to node a; `none` if there is none.
   Int find(Int a, Int begin, Int end) const;
-  /// Of a ring of at most 16 arcs, as arcs_of; bits after the last are of what follows in memory.
+  /// Compares the entries of a small ring with a. Bits after `last` belong to other memory: ignore them.
   static Greater greater_of(const Int* entry, Int a, Int last) {
     const Greater first = greater_of_eight(entry, a);
     if (last < eight) return first;
@@ -176,11 +175,11 @@ class Rings {
   static unsigned whole(Int last) { return (2u << last) - 1; }
 
   Int n_ = 0;
-  Int last_of_eight_ = -1;  // the last arc that has seven after it in memory
+  Int last_of_eight_ = -1;  // the last arc that is followed by seven more in memory
   const Int* entry_ = nullptr;
   const Int* end_ = nullptr;
   Buffer<Int> slot_, own_entry_, own_end_;  // empty if the lists are rings already
-  Buffer<Int> hub_back_;  // opposites of the arcs to nodes with many neighbours; empty without
+  Buffer<Int> hub_back_;                    // by arc at a hub: the arc back; empty if there are no hubs
 };
 
 }  // namespace pstripack

@@ -14,10 +14,10 @@
 
 namespace pstripack {
 
-/// Triangles are numbered by their smallest corner a, then in the order of its ring. The ring of a is enough
-/// to know these numbers; the rings of the other two corners are anywhere in memory, and looking each of them
-/// up takes most of the time. Instead, for every arc from a to a larger b, a message goes to b with the
-/// numbers on both sides:
+/// Triangles are numbered by their smallest corner a, then in the order of the ring of a, so the ring of a
+/// alone determines these numbers. The rings of the other two corners are anywhere in memory; looking each
+/// of them up would take most of the time. Instead, for every arc from a to a larger b, a sends b a message
+/// with the numbers of the triangles on both sides:
 ///
 ///              b
 ///            / | \               left  = (a,b,c), 0 if c < a
@@ -27,7 +27,7 @@ namespace pstripack {
 template <class Int, FirstPair pairs>
 class TriangleNumbers {
  public:
-  /// Counts the triangles. Does all allocation: 60 bytes per node (Int = int32_t) at most. Throws
+  /// Counts the triangles and allocates all memory: 60 bytes per node (Int = int32_t) at most. Throws
   /// std::bad_alloc.
   TriangleNumbers(const Rings<Int>& rings, int threads)
       : rings_(rings), threads_(threads), blocks_(static_cast<std::size_t>(rings.size()), threads) {
@@ -43,11 +43,10 @@ class TriangleNumbers {
 
   Int count() const { return before_.back(); }
 
-  /// left[arc] = offset + the number, from 1, of the triangle left of the arc; 0 if there is none. Calls
-  /// numbered(begin, end, t) when that is done for the nodes begin+1..end, whose triangles are t+1, ...: for
-  /// all nodes, in blocks, on any thread. False if a neighbour does not list the node, or the neighbours of
-  /// different nodes do not form the same triangles; numbers in left are right or 0 or those of other
-  /// triangles.
+  /// Sets left[arc] = offset + the number, from 1, of the triangle left of the arc; 0 if there is none.
+  /// When the nodes begin+1..end are done, whose triangles are t+1, ..., it calls numbered(begin, end, t)
+  /// on any thread. False if a neighbour of a node does not list the node, or if the rings of different
+  /// nodes do not have the same triangles; entries of `left` may then be 0 or numbers of other triangles.
   template <class Numbered>
   bool write(Int offset, Int* left, const Numbered& numbered) {
     std::atomic<std::uint64_t> sent{0};
@@ -58,7 +57,7 @@ class TriangleNumbers {
     });
     std::atomic<bool> complete{true};
     std::atomic<std::uint64_t> seen{0};
-    std::atomic<Int> arcs{0};  // with a triangle on the left
+    std::atomic<Int> arcs{0};  // arcs with a triangle on the left
     parallel_pieces(blocks_.count(), threads_, [&](std::size_t begin, std::size_t end, int) {
       for (std::size_t block = begin; block < end; ++block) {
         const std::size_t first = blocks_.first(block), last = blocks_.first(block + 1);
@@ -78,10 +77,9 @@ class TriangleNumbers {
   };
   using Mail = BlockMail<Message>;
 
-  /// The number of arcs of that many nodes.
+  /// The number of arcs of the first `nodes` nodes.
   Int first_arc(std::size_t nodes) const { return nodes > 0 ? rings_.end(static_cast<Int>(nodes)) : 0; }
 
-  /// The number of triangles whose smallest corner is a.
   Int triangles_at(Int a) const {
     Int count = 0;
     for (Int arc = rings_.begin(a); arc < rings_.end(a); ++arc) count += rings_.is_smallest(a, arc);
@@ -106,8 +104,9 @@ class TriangleNumbers {
     return static_cast<std::size_t>(messages);
   }
 
-  /// Enters the triangles of a block, t before them, at their smallest corners and sends them to the others.
-  /// Returns the sum of randomised(t) (d + 3 b) over the triangles t = (a,d,b) sent, modulo 2^64.
+  /// Enters the numbers of the triangles of a block (t is the number before the first) at their smallest
+  /// corners, and sends them to the other corners. Returns the sum of randomised(t) (d + 3 b) over the
+  /// triangles t = (a,d,b) sent, modulo 2^64.
   std::uint64_t send(std::size_t block, Int t, Int* left, typename Mail::Outbox& outbox) {
     std::uint64_t corners = 0;
     const std::size_t first = blocks_.first(block), last = blocks_.first(block + 1);
@@ -145,10 +144,9 @@ class TriangleNumbers {
     return corners;
   }
 
-  /// Reads messages begin..end-1.
   bool receive(const Message* begin, const Message* end, Int* left, std::atomic<std::uint64_t>& seen) const {
     bool complete = true;
-    std::uint64_t corners = 0;  // as in send: d as the ring of b has it, 3 b as the ring of d has it
+    std::uint64_t corners = 0;  // the sum of send(), with d from the ring of b, and b from the ring of d
     for (const Message* message = begin; message < end; ++message) {
       constexpr std::ptrdiff_t ahead = 8;
       const Int soon = rings_.begin(message[std::min(ahead, end - message - 1)].to);
@@ -172,9 +170,9 @@ class TriangleNumbers {
     return complete;
   }
 
-  /// True if those of the arcs begin..end-1 have a triangle on the left that LIST gives one; adds their
-  /// number to `arcs`. Every triangle is entered three times, so the sum shows whether two were entered at
-  /// one arc.
+  /// True if, among the arcs begin..end-1, exactly those have a triangle on the left to which LIST gives
+  /// one. Adds their number to `arcs`: every triangle is entered three times, so the sum over all blocks
+  /// shows whether two were entered at one arc.
   bool agree(Int begin, Int end, const Int* left, std::atomic<Int>& arcs) const {
     Int entered = 0, differ = 0;
     for (Int arc = begin; arc < end; ++arc) {
@@ -188,7 +186,7 @@ class TriangleNumbers {
   const Rings<Int>& rings_;
   int threads_;
   const NodeBlocks blocks_;
-  std::vector<Int> before_;  // the number of triangles before each block
+  std::vector<Int> before_;  // by block: the number of triangles before it
   std::optional<Mail> mail_;
 };
 

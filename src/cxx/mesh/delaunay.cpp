@@ -50,13 +50,13 @@ struct Spoke {
 
 double above_plane(const Plane& f, const Point& p) { return (f.x * p.x + f.y * p.y) + (f.z * p.z - f.w); }
 
-/// The same of a node from which the spoke leads to a corner.
+/// The same for the node from which the spoke leads to a corner of the face.
 double above_plane(const Plane& f, const Spoke& to_corner) {
   const Point& g = to_corner.d;
   return -(f.x * g.x + f.y * g.y + f.z * g.z);
 }
 
-/// How far from zero its sign is certain.
+/// The sign of above_plane(f, to_corner) is certain if its magnitude exceeds this.
 double certain_height(const Spoke& to_corner) {
   const Point& g = to_corner.d;
   return 0.5 * (std::fabs(g.x) + std::fabs(g.y) + std::fabs(g.z)) + 0x1p-45;
@@ -83,7 +83,8 @@ std::uint64_t bits_of(double value) {
 
 /// make_plane where an edge is so short that 2^-98 (|e| + |f|) counts.
 [[gnu::always_inline]] inline Plane make_small_plane(const Point& a, const Spoke& b, const Spoke& c) {
-  // Of |e| < 2^-70 too little is known; its square may underflow.
+  // An edge shorter than 2^-70 is known too inaccurately, and its square may underflow: no plane, always
+  // exact.
   if (!(std::min(b.square, c.square) >= 0x1p-140)) return {0, 0, 0, 0};
   const double e = std::sqrt(b.square), f = std::sqrt(c.square);
   return scaled_plane(a, b, c, 1 / (0x1.1p-47 * (e * f) + 0x1.1p-92 * (e + f)));
@@ -120,10 +121,10 @@ class Builder final : public GrowingHull {
     start(leading);
     const auto n = static_cast<std::uint32_t>(n_), first = static_cast<std::uint32_t>(leading);
     for (std::uint32_t v = 0; v < first; ++v) insert_unless_started(v);
-    // In rounds, each with 16 times the nodes of those before: at last all nodes along the curve, before that
-    // every 16th, and so on. A round makes the triangles small everywhere, so that the next replaces few of
-    // them, however the nodes lie. In two rounds, nodes in line towards the middle of an arc of others would
-    // each take the faces at all of those from the node before: quadratic.
+    // Rounds along the curve: ..., every 256th node, every 16th node, then all others. A round makes the
+    // triangles small everywhere, so that each node of the next replaces few of them, however the nodes lie.
+    // Two rounds would not suffice: nodes in line towards the middle of an arc of others would each take over
+    // the faces at all nodes of that arc from the node before, in quadratic time.
     constexpr std::uint32_t kRatio = 16;
     std::uint32_t stride = 1;
     while (stride <= (n - first) / kRatio) stride *= kRatio;
@@ -166,9 +167,9 @@ class Builder final : public GrowingHull {
     return predicates_.difference(static_cast<index_t>(a), static_cast<index_t>(b));
   }
 
-  /// Throws HiddenNode if the nodes around some of the closest show one: if lengths as given hide any, they
-  /// mostly hide one of these, and it need not cost a hull to find out. First those around along the curve;
-  /// then, for the very closest, all that are near.
+  /// Looks for hidden nodes among the closest pairs and their surroundings: if the lengths as given hide any
+  /// node, they usually hide one of these, and a small hull shows it. First the nodes around them along the
+  /// curve; then, for the four closest, all nodes near them.
   void look_for_hidden_nodes(std::size_t first) const override {
     if constexpr (std::is_same_v<Predicates, Directions>) return;  // none can be hidden
     constexpr std::size_t kMany = 4096, kPlaces = 16, kAround = 32;
@@ -195,7 +196,7 @@ class Builder final : public GrowingHull {
         std::find_if(closest, closest + kPlaces, [&](const Place& p) { return p.closeness == close; }) -
         closest);
     if (places == 0) return;
-    // With corners of the whole, for those around may be on one great circle.
+    // The four corners of the whole are added, because the nodes around may lie on one great circle.
     std::uint32_t corners[4];
     choose_corners(corners, first);
     for (std::size_t k = 0; k < places; ++k) {
@@ -206,7 +207,7 @@ class Builder final : public GrowingHull {
     }
     constexpr std::size_t kClosest = 4, kNear = 12;
     const std::size_t looked_at = std::min(places, kClosest);
-    double reach[kClosest];  // squares: there are at least kNear nodes within
+    double reach[kClosest];  // squared radius that contains at least kNear nodes
     std::vector<SmallSet> near(looked_at, SmallSet(*this, corners));
     for (std::size_t k = 0; k < looked_at; ++k) {
       double square[kAround];
@@ -223,7 +224,7 @@ class Builder final : public GrowingHull {
 
   bool surrounds_centre() const override { return surrounds_centre_; }
 
-  // -- 4: what is part of the triangulation
+  // -- 4: which faces are part of the triangulation
 
   Hull finish() const override {
     Hull hull;
@@ -239,8 +240,9 @@ class Builder final : public GrowingHull {
     const std::uint32_t one = some_back_face();
     hull.surrounds_centre = one == kNone;
     if (hull.surrounds_centre) return hull;
-    // The faces at the back make one region: those that the centre sees, since the hull is convex; and those
-    // in whose plane it lies, which have one that it sees across their near edge, or contain it and are all.
+    // The back faces form one connected region. Those that the centre sees are connected, since the hull is
+    // convex. A face whose plane contains the centre either has such a face across its nearest edge, or
+    // contains the centre itself, and then no face is seen.
     hull.back[one] = true;
     for (std::vector<std::uint32_t> region{one}; !region.empty();) {
       const Face& f = faces_[region.back()];
@@ -275,10 +277,11 @@ class Builder final : public GrowingHull {
     corner_ = arrays.corner;
   }
 
-  /// A face that is no front face; kNone if there is none.
+  /// Any back face; kNone if there is none.
   std::uint32_t some_back_face() const {
-    // Away from a node, across edges that have it on the side of the face: no walk over triangles of Delaunay
-    // comes back (De Floriani et al. 1991), but this one may be long, or end opposite the node.
+    // Walk away from a node, always across an edge that has the node on the face's side. A walk over
+    // Delaunay triangles never returns to one (De Floriani et al. 1991), but this walk may be long, or end
+    // opposite the node. Then all faces are searched.
     std::uint32_t t = last_;
     const std::uint32_t from = faces_[t].vertex[0];
     for (std::size_t steps = count_ / 8; steps > 0; --steps) {
@@ -295,8 +298,8 @@ class Builder final : public GrowingHull {
     return kNone;
   }
 
-  /// Makes the corner of v, which has a face at the back, that of the first front face counterclockwise after
-  /// the gap: there its ring starts. False if it has none.
+  /// For a node v with a back face: sets corner_[v] to the first front face counterclockwise after the back
+  /// faces, where the ring of v starts. False if v has no front face.
   bool turn_to_first_front_face(const Hull& hull, std::uint32_t v) const {
     std::uint32_t corner = corner_[v];
     do {
@@ -310,7 +313,7 @@ class Builder final : public GrowingHull {
     return false;
   }
 
-  /// The corners of the whole and some nodes more, up to a few.
+  /// A triangulation of at most 64 nodes, four of which are the corners of the whole set.
   class SmallSet {
    public:
     SmallSet(const Builder& whole, const std::uint32_t (&corners)[4]) {
@@ -339,10 +342,11 @@ class Builder final : public GrowingHull {
     return std::min(std::max(v, first + around / 2) - around / 2, n_ - around);
   }
 
-  // Between neighbours at the distances g and h a node on the sphere rises above them by some g h / 2. Its
-  // closeness is g^2 h^2. Lengths that differ by less than that hide nothing: those of some nodes tell how
-  // much they differ, and rounding is 2^-46 at most. Nodes in one cell of the curve are in any order: the
-  // neighbours are looked for up to kReach places ahead, then up to kAside to both sides.
+  // A node on the sphere between neighbours at the distances g and h rises above them by about g h / 2. Its
+  // closeness is g^2 h^2. Lengths that differ by less than this height hide nothing; how much they differ
+  // is estimated from a sample of nodes, and rounding is 2^-46 at most. Nodes in one cell of the curve are
+  // in any order: neighbours are looked for up to kReach places ahead, then up to kAside places to both
+  // sides.
   static constexpr std::size_t kReach = 3, kAside = 8;
 
   double closeness_that_hides() const {
@@ -370,8 +374,8 @@ class Builder final : public GrowingHull {
 
   // -- 2: the first nodes
 
-  /// The hull of three nodes: one triangle, seen from both sides. A fourth node near the other end of the
-  /// sphere follows at once, so that the hull surrounds the centre early if it ever does.
+  /// The hull of three nodes: one triangle, seen from both sides. A fourth node on the opposite side of the
+  /// sphere is inserted at once, so that the hull surrounds the centre early if it ever does.
   void start(std::size_t leading) {
     std::uint32_t corner[4];
     choose_corners(corner, leading);
@@ -394,10 +398,10 @@ class Builder final : public GrowingHull {
     for (std::uint32_t t = 0; t < count_; ++t) surrounds_centre_ = surrounds_centre_ && planes_[t].w > 1;
   }
 
-  /// Four nodes, the first three counterclockwise and not on one great circle: those of the leading nodes and
-  /// of a sample of the rest that lie farthest towards the corners of a regular tetrahedron if that works,
-  /// else any. They surround the centre if the nodes do more or less, and then all faces are known to be at
-  /// the front.
+  /// Chooses four nodes, the first three counterclockwise and not on one great circle: those of the leading
+  /// nodes and of a sample of the others that lie farthest towards the corners of a regular tetrahedron. If
+  /// these do not work, any. Usually they surround the centre if all nodes do, and then all faces are known
+  /// to be front faces.
   void choose_corners(std::uint32_t (&corner)[4], std::size_t leading) const {
     static constexpr double towards[4][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
     const std::size_t stride = n_ / 256 + 1;
@@ -422,7 +426,7 @@ class Builder final : public GrowingHull {
     return turn != 0;
   }
 
-  /// The first node, the first that is not on its line, the first that is not on their great circle.
+  /// The first node a, the first node b not on the line of a, the first node not on the great circle of a, b.
   void choose_any_corners(std::uint32_t (&corner)[4]) const {
     const auto n = static_cast<std::uint32_t>(n_);
     corner[0] = 0;
@@ -445,7 +449,7 @@ class Builder final : public GrowingHull {
 
   // -- 3: one node
 
-  /// Whether node v at p sees face t. to_corner: from v to any corner of t.
+  /// True if node v at p sees face t. to_corner: from v to any corner of t.
   bool sees(const Point& p, std::uint32_t v, std::uint32_t t, const Spoke& to_corner) {
     const double s = above_plane(planes_[t], p);
     if (s > 1) return true;
@@ -453,7 +457,7 @@ class Builder final : public GrowingHull {
     return sees_closely(v, t, to_corner);
   }
 
-  /// The same where all is close together: the plane and p alone would hardly tell.
+  /// The same if v is close to the face, so that the plane and p alone would seldom decide.
   bool sees_closely(std::uint32_t v, std::uint32_t t, const Spoke& to_corner) {
     const Face& f = faces_[t];
     if (f.vertex[2] == v) throw HiddenNode{};  // a face of the fan of v itself: see replace_seen_by_fan
@@ -461,7 +465,7 @@ class Builder final : public GrowingHull {
     return side != 0 ? side > 0 : view_.above(f.vertex[0], f.vertex[1], f.vertex[2]);
   }
 
-  /// +1: the node from which the spoke leads to a corner of face t sees it, -1: it does not, 0: not certain.
+  /// The spoke leads from a node to a corner of face t. +1: the node sees t, -1: it does not, 0: not certain.
   int certain_side(std::uint32_t t, const Spoke& to_corner) const {
     const double s = above_plane(planes_[t], to_corner), certain = certain_height(to_corner);
     return (s > certain) - (s < -certain);
@@ -476,23 +480,24 @@ class Builder final : public GrowingHull {
           v, seen, [](std::uint32_t) {},
           [&](std::uint32_t t, const Spoke& to_corner) { return sees(p, v, t, to_corner); });
     seen = walk_exactly(v);
-    if (seen == kNone) return;  // coincides with a node that is in
+    if (seen == kNone) return;  // coincides with a node inserted before
     replace_seen_by_fan(
         v, seen, [&](std::uint32_t code) { fetch(face_of(code)); },
         [&](std::uint32_t t, const Spoke& to_corner) { return sees_closely(v, t, to_corner); });
   }
 
-  /// Lets the next search start at the nearest of some nodes: that of the last may have ended far away, and
-  /// each face on the way is one that no cache holds (Muecke, Saias & Zhu 1999, jump and walk).
+  /// Makes the next search start at the nearest of 64 nodes. The last search may have ended far away, and the
+  /// faces in between are in no cache (Muecke, Saias & Zhu 1999, jump and walk).
   void start_near(const Point& p) {
-    if (!coincident_.empty()) return;  // some nodes are not in
+    if (!coincident_.empty()) return;  // nodes that were left out have no corner_
     const auto square_from = [&](std::uint32_t v) {
       const Point d = minus(predicates_.position(v), p);
       return dot(d, d);
     };
     constexpr std::size_t kLookedAt = 64;
     const std::size_t step = n_ / kLookedAt + 1;
-    double least = square_from(faces_[last_].vertex[0]);
+    const auto& last = faces_[last_].vertex;
+    double least = std::min({square_from(last[0]), square_from(last[1]), square_from(last[2])});
     for (std::size_t v = 0; v < n_; v += step) {
       const double square = square_from(static_cast<std::uint32_t>(v));
       if (!(square < least)) continue;
@@ -501,9 +506,9 @@ class Builder final : public GrowingHull {
     }
   }
 
-  /// Walks from the last face towards p by floating-point tests, until a face is certainly seen; kNone
-  /// where that is not so simple. Only front faces, where the tests mean something, are walked on; `last_`
-  /// is the one reached.
+  /// Walks from the last face towards p by floating-point tests until p certainly sees a face; kNone if the
+  /// tests do not suffice. It crosses front faces only, since the tests are meaningless elsewhere. `last_`
+  /// becomes the last face crossed.
   ///
   ///         c           The walk came in across the edge w-u. It leaves across u-c if p is right of u->c,
   ///        / \          or across c-w if p is right of c->w. With X = (c-p) x p these are the signs of
@@ -511,13 +516,13 @@ class Builder final : public GrowingHull {
   ///      u --- w
   std::uint32_t walk(const Point& p) {
     constexpr int kSteps = 1000;
-    std::uint32_t passed = kNone;  // rounding can send the walk in circles: a face it has met, ever later
+    std::uint32_t passed = kNone;  // a face met before: rounding can send the walk in circles
     std::uint32_t t = last_;
     if (above_plane(planes_[t], p) > 1) return t;
     const Face& first = faces_[t];
     Point corner[3];  // relative to p
     for (int k = 0; k < 3; ++k) corner[k] = minus(predicates_.position(first.vertex[k]), p);
-    // The first way out: any edge with p on its right.
+    // Leave the first face across any edge that has p on its right.
     std::uint32_t out = 0;
     while (out < 3 && !(dot(corner[next_edge(out)], cross(corner[previous_edge(out)], p)) < 0)) ++out;
     if (out == 3) return kNone;
@@ -552,8 +557,8 @@ class Builder final : public GrowingHull {
   /// The same walk by exact signs. It ends: seen from the centre, the front faces are a regular
   /// triangulation of the directions, and in those a walk towards a point never returns to a triangle
   /// (Edelsbrunner 1990, acyclicity).
-  ///   - A face that p sees: done; but not by a tie of directions, where p may only outrank a node that it
-  ///     coincides with. That one is a corner of the face below p.
+  ///   - A face that p sees: done. A tie of directions does not count: p may merely outrank a node that it
+  ///     coincides with, which is a corner of the face below p.
   ///   - The silhouette: p is strictly right of an edge u->v between a front face F and a face B that is
   ///     not one. The plane through the centre, u and v is above F on its far side and above B on its
   ///     near side, so what neither F nor B has below it lies left of that plane: p sees F or B.
@@ -567,7 +572,7 @@ class Builder final : public GrowingHull {
       const int side = certain_side(t, make_spoke(predicates_, f.vertex[0], v));
       if (side > 0) return t;
       for (const std::uint32_t corner : {f.vertex[0], f.vertex[1], f.vertex[2]})
-        // Positions first: they are at hand.
+        // Compare positions first: they are in the cache.
         if (predicates_.position(corner) == predicates_.position(v) &&
             predicates_.given(corner) == predicates_.given(v))
           return coincides(v, corner);
@@ -586,14 +591,14 @@ class Builder final : public GrowingHull {
     }
   }
 
-  /// Of nodes along lines the faces next to each other lie far apart in memory.
+  /// Needed where nodes lie along lines: faces that share an edge are then far apart in memory.
   void fetch(std::uint32_t t) const {
     __builtin_prefetch(planes_ + t);
     __builtin_prefetch(faces_ + t);
   }
 
-  /// True if v, which `view_` has just seen above a face, lies in its plane. Not asked of coordinates: there
-  /// nodes that coincide have the same rank, and see the same.
+  /// True if v, which `view_` has just found above a face, lies in its plane. Always false for Coordinates:
+  /// there nodes that coincide have the same rank and see the same faces.
   bool by_tie_of_directions() const {
     if constexpr (std::is_same_v<Predicates, Directions>) return view_.tied();
     return false;
@@ -618,11 +623,10 @@ class Builder final : public GrowingHull {
   ///               v
   ///
   /// A tree of m faces has m + 2 edges around it: new faces take two new places, then those of the faces
-  /// already visited. A node inside the disc would be lost to the triangulation. The search then goes round
-  /// it: until it comes upon a face of the fan, which no plane can place above or below v, or has met more
-  /// faces than there are.
+  /// already visited. A node inside the disc would vanish from the triangulation. The search then circles
+  /// around it until it meets a face of the fan, whose plane contains v, or exceeds the number of faces.
   ///
-  /// expect(code): the search will come to this face.
+  /// expect(code): called before the search comes to this face, to prefetch it.
   template <class Expect, class Sees>
   [[gnu::always_inline]] void replace_seen_by_fan(std::uint32_t v, std::uint32_t seen, const Expect& expect,
                                                   const Sees& sees) {
@@ -675,7 +679,7 @@ class Builder final : public GrowingHull {
     last_ = *shown;
   }
 
-  /// The most visits that the arrays have room for, and that a hull of count_ faces allows.
+  /// Upper bound of the visits: the room in the arrays, and the number of faces plus 2.
   std::size_t visit_limit() const { return std::min(count_ + 2, place_.size() - 4); }
 
   // A code addresses the word of its edge, and of the vertex opposite, in the array of faces.
@@ -696,9 +700,9 @@ class Builder final : public GrowingHull {
   std::size_t n_;
   Point* nodes_;
   Face* faces_;
-  std::uint32_t* words_;  ///< the same, as words
+  std::uint32_t* words_;  ///< faces_ as words
   Plane* planes_;
-  std::uint32_t* corner_;  ///< for each node that is in, the code of a face at its corner
+  std::uint32_t* corner_;  ///< for each node inserted, 4*t + i of a face t with vertex[i] there
   std::size_t count_ = 0;
   std::uint32_t last_ = 0;  ///< a front face near the last node: where the next search starts
   std::uint32_t started_[4];
@@ -750,7 +754,7 @@ Hull delaunay(const Point* p, std::size_t n, Workspace& workspace) {
     try {
       return hull_with(Lengths::as_given);
     } catch (const HiddenNode&) {
-      // The lengths as given hide a node: only directions show all.
+      // The lengths as given hide a node. No node is hidden by directions.
     }
   }
   return hull_with(Lengths::directions);

@@ -13,9 +13,9 @@
 
 namespace pstripack {
 
-/// A triangle of the hull. vertex: three hull nodes, counterclockwise from outside. neighbour[i], across
-/// the edge opposite vertex[i], is the code 4*t + e: edge e of triangle t is the same edge. Both ends of
-/// the code lead back: face[t].neighbour[e] == 4*(this) + i.
+/// A triangle of the hull. vertex: three hull nodes, counterclockwise seen from outside. neighbour[i] is
+/// the triangle t across the edge opposite vertex[i], as the code 4*t + e, where e is the number of that
+/// edge in t. Codes are mutual: face[t].neighbour[e] == 4*(this) + i.
 ///
 ///                    vertex[0]
 ///                     /     \            edge 0 runs from vertex[1] to vertex[2], and so on
@@ -23,7 +23,8 @@ namespace pstripack {
 ///                   /         \                                                                  .
 ///          vertex[1] --------- vertex[2]
 ///                  neighbour[0]
-/// Four words per array, the last unused, so that adding the code gives the address of a word: see `word`.
+/// The fourth word of each array is unused: it makes a word's address a simple function of the code, see
+/// Hull::word.
 struct Face {
   std::uint32_t vertex[4];
   std::uint32_t neighbour[4];
@@ -44,11 +45,12 @@ struct Hull {
   std::size_t node_count = 0, face_count = 0;
   const std::uint32_t* order = nullptr;
   const Face* faces = nullptr;
-  /// For each node, the code 4*t + i of a face with vertex[i] there; of a node with faces at the back, of the
-  /// first front face counterclockwise after them.
+  /// For each node, the code 4*t + i of a face t whose vertex[i] is the node. If the node has back faces, t
+  /// is the first front face counterclockwise after them.
   const std::uint32_t* corner = nullptr;
   bool surrounds_centre = false;  ///< every face is a front face
-  // If not surrounds_centre: true for faces outside the triangulation, and for their corners.
+  // Empty if surrounds_centre. Else, by face: it is not part of the triangulation; by node: it has such a
+  // face.
   std::vector<bool> back, at_back;
   Lengths lengths = Lengths::as_given;  ///< the predicates that decided
   /// Coincident nodes: (inserted, left out), in the caller's numbers.
@@ -70,13 +72,14 @@ inline std::uint32_t clockwise(const Hull& hull, std::uint32_t corner) {
   return 4 * face_of(beyond) + previous_edge(edge_of(beyond));
 }
 
-/// The plane of a face, scaled: see mesh/delaunay.cpp.
+/// The scaled plane of a face: see mesh/delaunay.cpp.
 struct Plane {
   double x, y, z, w;
 };
 
-/// Thrown if a node lies inside the hull of the others and so would be missing from the triangulation: only
-/// with Lengths::as_given. Adding nodes never uncovers it; predicates on directions do.
+/// Thrown, with Lengths::as_given only, if a node lies inside the hull of the others and so would be
+/// missing from the triangulation. More nodes never uncover it; with predicates on directions no node is
+/// hidden.
 struct HiddenNode {};
 
 /// Memory of a growing hull, owned by the caller: arrays for `capacity` nodes and 2 `capacity` faces.
@@ -91,22 +94,22 @@ struct HullArrays {
 /// A hull to which nodes are added. Nodes are numbered as in HullArrays::nodes.
 class GrowingHull {
  public:
-  /// A hull for the nodes that are in arrays.nodes[0..n-1], 3 <= n <= capacity; as_given or directions.
-  /// Throws std::bad_alloc.
+  /// A hull for the nodes arrays.nodes[0..n-1], 3 <= n <= capacity, not built yet. `lengths`: as_given or
+  /// directions. Throws std::bad_alloc.
   static std::unique_ptr<GrowingHull> make(const HullArrays& arrays, std::size_t n, Lengths lengths);
   virtual ~GrowingHull() = default;
 
-  /// Throws HiddenNode if a quick test, without a hull, finds a node inside the hull of the others.
-  /// `leading`: as for build().
+  /// A quick test before build(): throws HiddenNode if it finds a node inside the hull of the others. It need
+  /// not find one. `leading`: as for build().
   virtual void look_for_hidden_nodes(std::size_t leading) const = 0;
 
   /// Inserts the first `leading` nodes in their order, then the others, which should follow a curve, in
-  /// rounds. `leading` = 0: the start nodes are chosen among all. Throws HiddenNode, std::bad_alloc,
-  /// std::domain_error if all nodes lie on one great circle.
+  /// rounds. Throws HiddenNode, std::bad_alloc, and std::domain_error if all nodes lie on one great circle.
   virtual void build(std::size_t leading) = 0;
 
-  /// Adds a node after build(), if there is room. Returns its number, or the number of the node with which it
-  /// coincides, having changed nothing. Throws HiddenNode, std::bad_alloc.
+  /// Adds a node after build(); node_count() must be below the capacity. Returns the number of the new
+  /// node. If it coincides with a node, changes nothing and returns that one's number. Throws HiddenNode,
+  /// std::bad_alloc.
   virtual std::uint32_t add(const Point& p) = 0;
 
   /// Continues in other arrays, to which the caller has copied the contents.
@@ -119,30 +122,29 @@ class GrowingHull {
   /// Exact predicates on the nodes added so far.
   virtual int left(std::uint32_t a, std::uint32_t b, std::uint32_t c) const = 0;
   virtual bool above(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const = 0;
-  /// Difference from node b to node a in the predicates' coordinates: every component to 2 roundings and
-  /// 2^-99.
+  /// a - b in the predicates' coordinates; every component has 2 roundings and an absolute error of 2^-99.
   virtual Point difference(std::uint32_t a, std::uint32_t b) const = 0;
 
-  /// True if the centre is known to be inside: then every face is part of the triangulation.
+  /// True if the centre is known to be inside the hull: then every face is part of the triangulation.
   virtual bool surrounds_centre() const = 0;
 
-  /// det > 0: the face is part of the triangulation.
+  /// True if the face is part of the triangulation: det > 0.
   virtual bool front(std::uint32_t face) const = 0;
 
-  /// The current triangulation, except `order`, which the caller sets. Turns corners to where the rings of
-  /// their nodes start: see Hull. Throws HiddenNode.
+  /// The current triangulation, except `order`, which the caller sets. Changes `corner` as Hull::corner asks.
+  /// Throws HiddenNode, std::bad_alloc.
   virtual Hull finish() const = 0;
 };
 
-/// The hull of the nodes p[0..n-1], 3 <= n < 2^29: finite, non-zero, not all on one great circle. Uses
-/// Coordinates; Directions if a length differs from 1 by more than 1e-6 or the given lengths would hide a
-/// node from the triangulation. Coincident nodes are inserted once. Deterministic up to the numbering of
-/// faces. Throws std::bad_alloc, std::domain_error if all nodes lie on one great circle. The workspace must
-/// have workspace_bytes(n); it may hold p as an array of the current phase, which is then overwritten.
-/// Directions need 48 more bytes per node.
+/// The hull of the nodes p[0..n-1], 3 <= n < 2^29, finite and non-zero. Uses the predicates on coordinates;
+/// those on directions if a length differs from 1 by more than 1e-6 or the given lengths would hide a node.
+/// Coincident nodes are inserted once. Deterministic up to the numbering of faces. Throws std::bad_alloc,
+/// and std::domain_error if all nodes lie on one great circle. The workspace must have workspace_bytes(n);
+/// p may be an array of its current phase and is then overwritten. Directions allocate 48 more bytes per
+/// node.
 Hull delaunay(const Point* p, std::size_t n, Workspace& workspace);
 
-/// Kept arrays: order, sorted nodes, faces, corners. The largest phase is the insertion: the planes of 2n
+/// Kept arrays: order, sorted nodes, faces, corners. The largest phase, the insertion, has the planes of 2n
 /// faces.
 constexpr std::size_t workspace_bytes(std::size_t n) {
   return (4 + 24 + 2 * sizeof(Face) + 4 + 2 * sizeof(Plane)) * n;

@@ -1,6 +1,6 @@
-// Where a call may begin with the mesh of the last one:
-//   1  every star is tested in floating point; those that are not certain, exactly
-//   2  arcs that are not locally Delaunay are flipped, and their surroundings tested again (Lawson 1977)
+// Warm start from the mesh of an earlier call:
+//   1  test every star in floating point, and exactly if the result is not certain
+//   2  flip arcs that are not locally Delaunay, and test the arcs around them again (Lawson 1977)
 //
 // If every triangle is counterclockwise and one direction lies in one triangle only, the mesh covers the
 // sphere once. If then every arc is locally Delaunay, by the exact predicate with its tie rule, it is the
@@ -26,7 +26,7 @@ MovingMesh::MovingMesh(std::size_t n, std::size_t arcs, std::size_t outside, std
       workspace_(workspace_bytes(n, arcs_, most_)),
       order_(workspace_.keep<std::uint32_t>(most_)) {}
 
-/// Those beside order_, none of which is filled but is_changed_.
+/// Allocates the arrays other than order_. Initialises is_changed_ and the numbers of nodes outside only.
 void MovingMesh::keep_arrays() {
   inside_ = workspace_.keep<std::uint32_t>(most_);
   nodes_ = workspace_.keep<Point>(most_);
@@ -62,14 +62,13 @@ MovingMesh::MovingMesh(const Point* p, std::size_t n, const std::int32_t* list, 
       });
 }
 
-/// Nodes that had stars keep their order, so that neighbours stay close together; the others come behind
-/// them.
+/// Nodes that had stars keep their order, so that neighbours stay close in memory; the others follow.
 MovingMesh::MovingMesh(const MovingMesh& last, std::size_t n, std::size_t arcs, std::size_t outside,
                        std::size_t room, const std::uint32_t* to, const MoreStars& more)
     : MovingMesh(n, arcs, outside, room) {
   keep_arrays();
   std::fill_n(nodes_, all_, Point{});
-  BlockArray<std::uint32_t> now(last.all_), from(n);  // the node now of a node of `last`; and back
+  BlockArray<std::uint32_t> now(last.all_), from(n);  // new number of a node of `last`, and the inverse
   std::uint32_t stay = 0;
   for (std::uint32_t v = 0; v < last.n_; ++v) {
     const std::uint32_t k = to[last.order_[v]];
@@ -104,7 +103,7 @@ MovingMesh::MovingMesh(const MovingMesh& last, std::size_t n, std::size_t arcs, 
 void MovingMesh::forget_changes() {
   for (const std::uint32_t v : changed_) is_changed_[v] = 0;
   changed_.clear();
-  // As many flips as there may be in one call can need some room for longer rings.
+  // The rings that one call makes longer need room at the end. If there is little left, lay all anew.
   if (end_ + n_ / 2 <= slots_) return;
   try {
     BlockArray<std::uint32_t> before(end_);
@@ -116,11 +115,11 @@ void MovingMesh::forget_changes() {
                 std::copy_n(before.data() + stars[v].begin, stars[v].count, ring);
               });
   } catch (const std::bad_alloc&) {
-    // Then they stay where they are.
+    // No memory: the rings stay where they are.
   }
 }
 
-/// Every ring with one free slot behind it: write(v, ring) writes the count(v) neighbours of node v.
+/// Lays out all rings, each with one free slot behind it. write(v, ring) writes the count(v) neighbours of v.
 template <class Count, class Write>
 void MovingMesh::lay_rings(const Count& count, const Write& write) {
   const int threads = threads_for(n_);
@@ -148,7 +147,7 @@ void MovingMesh::lay_rings(const Count& count, const Write& write) {
 
 namespace {
 
-/// A star with more neighbours is tested exactly.
+/// Stars with more neighbours are tested exactly.
 constexpr std::uint32_t kMost = 28;
 
 using Two = double __attribute__((vector_size(16)));
@@ -160,11 +159,11 @@ Two two_at(const double* from) {
   return two;
 }
 
-/// The neighbours of a node relative to it, counterclockwise, the first three again at the end: two
-/// neighbours can be tested at a time.
+/// The neighbours of a node relative to it, counterclockwise, with the first three repeated at the end, so
+/// that two neighbours can be tested at a time.
 struct Spokes {
   double x[kMost + 4], y[kMost + 4], z[kMost + 4];
-  double reach;  ///< the largest component of all
+  double reach;  ///< the largest absolute value of a component
 
   void look(const Point* nodes, const Point& p, const std::uint32_t* ring, std::uint32_t count) {
     double most_x = 0, most_y = 0, most_z = 0;
@@ -189,8 +188,8 @@ struct Spokes {
   ///
   /// Every product of three components is at most R^3, or 1.001 R^2 where p is one of the factors, and six of
   /// them make a determinant, which carries 8 roundings (predicates.cpp, kFactor): its error is less than 9u
-  /// 6.01 R^3 < 64u R^3, u = 2^-53, and that is rounded in the two products below. What underflows is less
-  /// than 1e-250.
+  /// 6.01 R^3 < 64u R^3, u = 2^-53, which covers the rounding of the two products below. What underflows is
+  /// less than 1e-250.
   bool are_certain(const Point& p, std::uint32_t count) const {
     const double square = reach * reach, low = 0x1p-47 * square + 1e-250,
                  high = 0x1p-47 * (square * reach) + 1e-250;
@@ -208,7 +207,7 @@ struct Spokes {
 
 }  // namespace
 
-/// A triangle with a direction strictly inside it, by exact signs.
+/// Tries the centroids of a few triangles: the direction must be strictly inside, by exact signs.
 bool MovingMesh::choose_mark(Mark& mark) const {
   constexpr std::uint32_t kTries = 16;
   for (std::uint32_t v = 0; v < std::min<std::size_t>(n_, kTries); ++v) {
@@ -223,11 +222,12 @@ bool MovingMesh::choose_mark(Mark& mark) const {
   return false;
 }
 
-/// Tests the stars first..last-1 and appends arcs that are not locally Delaunay; each is tested at one of its
-/// ends at least. False: a triangle is not counterclockwise, or holds the direction of the mark.
+/// Tests the stars first..last-1 and appends arcs that are not locally Delaunay to `suspects`; each arc is
+/// tested at one of its ends at least. Returns false if a triangle is not counterclockwise, or if one other
+/// than the mark's contains the direction g of the mark.
 ///
-/// Only triangles near the mark can hold it. With R the reach of a star, |g| and the lengths of nodes 1 but
-/// for 1e-6: the ray towards g meets a triangle v,a,b in a point q with |q-v| <= max(|a-v|, |b-v|) <= 1.74 R.
+/// Only triangles near g can contain it. Let R be the reach of a star; |g| and the lengths of nodes are 1
+/// within 1e-6. The ray towards g meets a triangle v,a,b in a point q, |q-v| <= max(|a-v|, |b-v|) <= 1.74 R.
 /// From |q|^2 = sum of l_i |p_i|^2 - sum of l_i l_j |p_i-p_j|^2, l the barycentric coordinates of q, follows
 /// 1 - |q| <= 4 R^2 + 3e-6, so |g-v| <= 2 R + 4e-6 where R <= 1/16.
 bool MovingMesh::test(std::size_t first, std::size_t last, const Mark& mark, const std::atomic<bool>& stopped,
@@ -252,8 +252,8 @@ bool MovingMesh::test(std::size_t first, std::size_t last, const Mark& mark, con
   return true;
 }
 
-/// The same of one star, exactly: each triangle at the first of its corners, each arc at the first of its
-/// ends. The other end may have found it certain.
+/// The same for one star, exactly. It tests each triangle at its lowest corner and each arc at its lower end,
+/// unless the star of that node was certain.
 bool MovingMesh::examine(std::uint32_t v, const Mark& mark, std::vector<Arc>& suspects) const {
   const Coordinates predicates(nodes_, all_);
   const auto id = [](std::uint32_t w) { return static_cast<index_t>(w); };
@@ -286,7 +286,7 @@ bool MovingMesh::repair() {
 
 bool MovingMesh::test(const Mark& given) {
   flips_ = 0;
-  work_ = 8 * n_ + 1000;  // beyond, a new triangulation is faster
+  work_ = 8 * n_ + 1000;  // with more work a new triangulation is faster
   Mark mark = given;
   for (std::uint32_t& corner : mark.corner) corner = corner == kNobody ? kNobody : inside_[corner];
   const int threads = threads_for(n_);
@@ -309,8 +309,8 @@ bool MovingMesh::test(const Mark& given) {
 
 // ---- 2: flips -------------------------------------------------------------------------------------------
 
-/// Every flip pushes the surface outwards, so it ends; false if it would take long, or an arc cannot be
-/// flipped.
+/// The loop ends, because every flip moves the surface outwards. Returns false if the work is too much, or
+/// an arc cannot be flipped.
 bool MovingMesh::flip_inside(std::vector<Quadrangle>& across) {
   Quadrangle q;
   while (!suspects_.empty()) {
@@ -322,8 +322,8 @@ bool MovingMesh::flip_inside(std::vector<Quadrangle>& across) {
     else if (!is_convex_inside(q) || !flip_here(q))
       return false;
   }
-  // Each once. What has been flipped since may have changed one of the two triangles, but not the one
-  // outside.
+  // Remove duplicates. Later flips may have changed the triangle inside, so each arc is tested again; the
+  // triangle outside is unchanged.
   for (Arc& arc : across_)
     if (arc.b < arc.a) std::swap(arc.a, arc.b);  // nodes outside come behind the others
   std::sort(across_.begin(), across_.end(),
@@ -337,7 +337,7 @@ bool MovingMesh::flip_inside(std::vector<Quadrangle>& across) {
   return true;
 }
 
-/// False: the arc has gone, or is locally Delaunay.
+/// Returns false if the arc no longer exists or is locally Delaunay.
 bool MovingMesh::find(const Arc& arc, Quadrangle& q) const {
   const Star star = stars_[arc.a];
   const std::uint32_t* const ring = rings_ + star.begin;
@@ -363,9 +363,9 @@ bool MovingMesh::flip(const Quadrangle& q) {
 }
 
 ///          b                   b
-///        / | \               /   \        The arc a-b goes if d is above the triangle a,c,b. Then c-d
-///      d   |   c    ->     d ----- c      comes, if the triangles a,c,d and b,d,c are counterclockwise:
-///        \ | /               \   /        both lie in the quadrangle, which is covered once as before.
+///        / | \               /   \        The arc a-b is replaced by c-d if d is above the triangle a,c,b.
+///      d   |   c    ->     d ----- c      The triangles a,c,d and b,d,c must be counterclockwise: then they
+///        \ | /               \   /        cover the quadrangle once, as before.
 ///          a                   a
 bool MovingMesh::flip_here(const Quadrangle& q) {
   const auto [a, b, c, d] = q;
@@ -406,7 +406,7 @@ std::uint32_t MovingMesh::place_of(std::uint32_t b, const Star& star) const {
   return static_cast<std::uint32_t>(std::find(ring, ring + star.count, b) - ring);
 }
 
-/// Puts a neighbour in front of the one at `place`. False: there is no room.
+/// Inserts a neighbour of v before the one at `place`. Returns false if there is no room.
 bool MovingMesh::insert(std::uint32_t v, std::uint32_t place, std::uint32_t neighbour) {
   Star& star = stars_[v];
   if (rings_[star.begin + star.count] != kFree) {
@@ -438,7 +438,7 @@ void MovingMesh::note_change(std::uint32_t v) {
   is_changed_[v] = 1;
 }
 
-// ---- what has changed -----------------------------------------------------------------------------------
+// ---- changed rings --------------------------------------------------------------------------------------
 
 std::vector<MovingMesh::Change> MovingMesh::changes() const {
   std::vector<Change> all(changed_.size());

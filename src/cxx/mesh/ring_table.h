@@ -11,8 +11,8 @@
 
 namespace pstripack {
 
-/// Rings of up to this many neighbours are copied as one block of fixed length, because the length of a loop
-/// would be mispredicted. The next ring overwrites the excess. The mean is six neighbours.
+/// Rings of up to this many neighbours are copied as one block of fixed length, because the end of a loop
+/// would be mispredicted. The next ring overwrites the excess. A node has six neighbours on average.
 constexpr std::size_t kBlock = 8;
 
 template <class Int>
@@ -20,7 +20,7 @@ void copy_block(const Int* from, Int* to) {
   std::memcpy(to, from, kBlock * sizeof(Int));
 }
 
-/// Numbers of hull nodes, from a table of numbers minus kOffset.
+/// The number of hull node v is table[v] + kOffset.
 template <class Int, std::int64_t kOffset>
 struct Numbers {
   const Int* table;
@@ -28,8 +28,8 @@ struct Numbers {
   void prefetch(std::uint32_t v) const { __builtin_prefetch(table + v); }
 };
 
-/// Appends the ring of one hull node as it will stand in LIST; returns the new end. `corner` is 4*t + i: the
-/// node is vertex[i] of face t; number(v) is the number of hull node v, from 1.
+/// Writes the ring of one hull node to `begin` as it will stand in LIST; returns its end. `corner` is 4*t +
+/// i: the node is vertex[i] of face t. number(v) is the caller's number of hull node v, from 1.
 ///
 ///            f.vertex[previous]           The face t = (v, next, previous). Its neighbour across the edge
 ///             /      |                    v - previous, which lies opposite `next`, follows
@@ -54,8 +54,8 @@ Int* append_ring(const Hull& hull, std::uint32_t corner, const Number& number, I
   return out;
 }
 
-/// The same for an inner node with up to kBlock neighbours; null if it has more. Otherwise writes kBlock
-/// entries.
+/// The same for an inner node with up to kBlock neighbours; writes kBlock entries. Null if it has more
+/// neighbours.
 template <class Int, class Number>
 Int* append_short_ring(const Hull& hull, std::uint32_t corner, const Number& number, Int* begin) {
   const std::uint32_t first = next_code(corner);
@@ -109,25 +109,22 @@ class RingTable {
   static std::uint8_t size_class_of(std::uint32_t count) {
     return static_cast<std::uint8_t>(std::min<std::uint32_t>(count, kMany));
   }
-  /// The entries of the ring at `place`, usually without reading its count.
+  /// Number of entries of the ring at `place`, usually without reading it there.
   static std::size_t count_of(const Int* place, std::uint8_t size_class) {
     return size_class < kMany ? size_class : ring_at(place).count;
   }
 
   std::size_t size() const { return size_; }
   Ring<Int> operator[](std::size_t i) const { return ring_at(place_[position_[i]]); }
-  /// From now on ring i is the one that is stored there.
   void replace(std::size_t i, const Int* place) {
     place_[position_[i]] = place;
     size_class_[position_[i]] = size_class_of(static_cast<std::uint32_t>(*place));
   }
-  /// Prefetches ring i before it is read.
   void prefetch(std::size_t i) const {
     const Int* const place = place_[position_[i]];
     __builtin_prefetch(place);
     __builtin_prefetch(place + 6);  // most rings have six entries, which may lie in two lines
   }
-  /// Number of entries of the rings first..last-1.
   std::size_t arcs(std::size_t first, std::size_t last) const {
     std::size_t sum = 0;
     for (std::size_t i = first; i < last; ++i) {
@@ -142,11 +139,12 @@ class RingTable {
   std::size_t size_ = 0;
   const std::uint32_t* position_ = nullptr;
   const Int** place_ = nullptr;
-  std::uint8_t* size_class_ = nullptr;  ///< small, so that sums need not touch the rings
+  std::uint8_t* size_class_ = nullptr;  ///< one byte a ring, so that arcs() need not read the rings
 };
 
-/// Appends the stored rings of those hull nodes first..last-1 that are wanted(v). Calls visit(v, place,
-/// count) for each, and ahead(w) for later nodes w to prefetch. Writes up to 2*kBlock entries beyond the end.
+/// Writes to `out` the stored rings (see Ring) of the hull nodes v in first..last-1 with wanted(v). Calls
+/// visit(v, place, count) for each, and ahead(w) some nodes earlier, to prefetch. Writes up to 2*kBlock
+/// entries beyond the end.
 template <class Int, class Wanted, class Number, class Ahead, class Visit>
 void append_rings(const Hull& hull, std::size_t first, std::size_t last, const Wanted& wanted,
                   const Number& number, const Ahead& ahead, Int* out, const Visit& visit) {

@@ -30,7 +30,7 @@ SampleOfStars SampleOfStars::renumbered(const std::uint32_t* to) const {
 }
 
 bool SampleOfStars::fits(const NodeArrays& nodes) const {
-  constexpr std::size_t kFew = 16;  // one arc of so many
+  constexpr std::size_t kFew = 16;  // at most one arc in 16 may be bad
   std::size_t arcs = 0, bad = 0;
   const std::int32_t* ring = rings_.data();
   for (const auto& [k, count] : stars_) {

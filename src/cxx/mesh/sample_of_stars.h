@@ -1,5 +1,5 @@
 #pragma once
-// A look whether a mesh fits other nodes, which every call can afford.
+// A quick test whether an earlier mesh may fit new nodes, from a sample of its stars.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,10 +9,10 @@
 
 namespace pstripack {
 
-/// Some stars of a mesh.
+/// Up to 128 stars of a mesh, each of up to 30 neighbours.
 class SampleOfStars {
  public:
-  /// Calls visit(k) for some of the nodes 0..n-1: those whose stars should be added.
+  /// Calls visit(k) for the nodes k in 0..n-1 whose stars should be added.
   template <class Visit>
   static void for_each_node(std::size_t n, const Visit& visit) {
     constexpr std::size_t kStars = 128;
@@ -20,20 +20,21 @@ class SampleOfStars {
     for (std::size_t j = 0; j < wanted; ++j) visit(n / wanted * j + n / (2 * wanted));
   }
 
-  /// The star of node k: `count` neighbours, counterclockwise, numbers from 1. Throws std::bad_alloc.
+  /// Adds the star of node k (from 0): ring[0..count-1] are its neighbours, counterclockwise, counted from 1.
+  /// Throws std::bad_alloc.
   void add(std::size_t k, const std::int32_t* ring, std::size_t count);
 
   static constexpr std::uint32_t kGone = UINT32_MAX;
-  /// Those stars all of whose nodes are still there, where node k (from 0) is node to[k] now, or kGone.
-  /// Throws std::bad_alloc.
+  /// The same stars in a new numbering: node k (from 0) becomes to[k]. Stars with a node for which to[k] is
+  /// kGone are left out. Throws std::bad_alloc.
   SampleOfStars renumbered(const std::uint32_t* to) const;
 
-  /// True if all triangles of these stars are counterclockwise and few of their arcs are not locally
-  /// Delaunay, as far as rounded arithmetic can tell.
+  /// True if all triangles of these stars are counterclockwise and at most one arc in 16 is not locally
+  /// Delaunay, as far as rounded arithmetic can tell. False if a length is not 1.
   bool fits(const NodeArrays& nodes) const;
 
  private:
-  static constexpr std::size_t kMost = 30;  ///< neighbours of a node
+  static constexpr std::size_t kMost = 30;  ///< stars with more neighbours are left out
   struct Star {
     std::uint32_t node, count;
   };

@@ -1,5 +1,5 @@
 #pragma once
-// Triangles of a mesh, and what a set of triangles has in common with an equal one.
+// Triangles of a mesh; canonical form and fingerprint of a set of triangles.
 
 #include <array>
 #include <cstddef>
@@ -18,8 +18,8 @@ using Triangles = std::vector<Triangle>;
 /// Two triangulations of the same nodes are equal if and only if their canonical forms are.
 void make_canonical(Triangles& triangles);
 
-/// 64 bits that depend on the set of triangles only, not on their order or their first corners.
-/// Equal for equal sets; different for different sets up to a chance of about 2^-64.
+/// A hash of 64 bits that depends on the set of triangles only, not on their order or their first corners.
+/// Different sets have equal fingerprints with a probability of about 2^-64.
 std::uint64_t fingerprint(const Triangle* triangles, std::size_t count);
 inline std::uint64_t fingerprint(const Triangles& t) { return fingerprint(t.data(), t.size()); }
 

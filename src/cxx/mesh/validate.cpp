@@ -13,7 +13,6 @@ namespace {
 
 constexpr index_t kNone = -1;
 
-/// A defect that concerns at most four nodes.
 Verdict defect(Defect d, const std::string& what, std::initializer_list<index_t> nodes) {
   Verdict v;
   v.defect = d;
@@ -88,7 +87,6 @@ bool ring_of(CornersOfNodes& stars, index_t v, std::vector<index_t>& ring, bool&
   return closed ? ring.size() == stars.degree(s) : b == kNone && ring.size() == stars.degree(s) + 1;
 }
 
-/// The neighbours of one node.
 class Star {
  public:
   Star(const StarTable& stars, index_t v)
@@ -124,9 +122,10 @@ Verdict check_triangles(const Predicates& predicates, index_t v, const Star& sta
   return {};
 }
 
-/// All triangles are counterclockwise, so each turns by less than 180 degrees around each of its corners. The
-/// sides of the arc from v to its first neighbour on which the other neighbours lie therefore show how often
-/// the star winds. Winding once: left, at most one exactly opposite, then right, and never left again.
+/// All triangles are counterclockwise, so each has an angle of less than 180 degrees at v. So the side of
+/// the arc from v to its first neighbour on which each other neighbour lies shows how often the star winds.
+/// A star winds once if these sides are: left, at most one exactly opposite, then right, and never left
+/// again.
 template <class Predicates>
 Verdict check_winding(const Predicates& predicates, index_t v, const Star& star) {
   bool on_the_right = false;
@@ -153,8 +152,8 @@ Verdict check_arcs(const Predicates& predicates, index_t v, const Star& star, Ti
   return {};
 }
 
-/// All tests that use the predicates. Of several defects the first in the order of tests is reported: later
-/// tests are meaningful only if earlier ones pass.
+/// All tests that use the predicates. If several fail, the defect of the first test is reported, because
+/// later tests are meaningful only if earlier ones pass.
 template <class Predicates>
 Verdict check_geometry(const Predicates& predicates, const StarTable& stars, Ties ties) {
   constexpr std::size_t kTests = 3, kAhead = 8;
@@ -185,7 +184,8 @@ Verdict check_geometry(const Predicates& predicates, const StarTable& stars, Tie
   return {};
 }
 
-/// True if the triangles at every node form one cycle or one fan; they are then its star.
+/// Writes the star of every node to `stars`. A defect if the triangles at a node are not one cycle or one
+/// fan.
 Verdict find_stars(CornersOfNodes& corners, StarTable& stars) {
   std::vector<index_t> ring;
   std::size_t end = 0;
@@ -264,7 +264,7 @@ Verdict is_valid(const Point* p, const StarTable& stars, Lengths lengths, Ties t
   }
   Verdict directions = check_geometry(Directions(p, n), stars, ties);
   directions.lengths = Lengths::directions;
-  // Invalid with both sets of predicates: report the defect found with those that lengths near 1 select.
+  // Invalid with both sets of predicates: report the defect found with Coordinates if they were used.
   return directions || as_given ? directions : as_given;
 }
 
@@ -280,7 +280,7 @@ Verdict is_valid(const Point* p, std::size_t n, const Triangle* triangles, std::
       return defect(Defect::malformed, "triangle with one node twice", {a, b, c});
   }
   CornersOfNodes corners(n, triangles, count);
-  StarTable stars(n, 6 * count);  // each triangle has three corners and brings at most as many gaps
+  StarTable stars(n, 6 * count);  // per triangle three neighbours, and at most three that end a fan
   if (Verdict v = find_stars(corners, stars); !v) return v;
   return is_valid(p, stars, lengths, ties);
 }

@@ -15,9 +15,9 @@ enum class Defect {
   malformed,         ///< index out of range, a corner twice in a triangle, broken lists
   not_manifold,      ///< an arc with more than two triangles or twice in one direction, a broken star
   missing_node,      ///< a node in no triangle
-  coincident_nodes,  ///< two corners of one triangle in one place
+  coincident_nodes,  ///< two corners of a triangle coincide
   orientation,       ///< a triangle that is not strictly counterclockwise
-  not_delaunay,      ///< an arc whose opposite node lies in the cap (ties by the rule)
+  not_delaunay,      ///< an arc that is not locally Delaunay (ties by the rule)
   not_covered_once,  ///< the star of a node winds not exactly once, wrong Euler number, not connected
   not_convex         ///< a boundary node where the covered region is not convex
 };
@@ -44,13 +44,14 @@ struct Verdict {
 ///  - the sphere, or the convex hull of the nodes in a hemisphere, is covered exactly once: every
 ///    star winds once, the boundary is locally convex (exact signs), the surface is connected and its
 ///    Euler number is that of a sphere or a disc. docs/design.md proves that these local tests suffice.
-/// Accepts any number of triangles and any indices. O(n log n).
+/// p: n >= 3 nodes, finite and non-zero. Accepts any number of triangles and any indices. O(n log n). Throws
+/// std::bad_alloc.
 Verdict is_valid(const Point* p, std::size_t n, const Triangle* triangles, std::size_t count,
                  Lengths lengths = Lengths::automatic, Ties ties = Ties::by_rule);
 
 /// The neighbours of all nodes, indices from 0: those of v are to[begin[v]] to to[begin[v+1]-1],
-/// counterclockwise, all different. The star of v is a cycle; or a fan, and then the last one is negative, as
-/// `~last`.
+/// counterclockwise, all different. If the star of v is a fan, its last neighbour is stored as `~last`,
+/// which is negative.
 struct StarTable {
   explicit StarTable(std::size_t n, std::size_t neighbours) : begin(n + 1), to(neighbours) {}
   std::size_t size() const { return begin.size() - 1; }
@@ -58,7 +59,7 @@ struct StarTable {
   BlockArray<index_t> to;
 };
 
-/// The same for triangles given by the stars of their corners, which must agree: c follows b around a if and
+/// The same for triangles given by the stars of the nodes. The stars must agree: c follows b around a if and
 /// only if a follows c around b. Parallel.
 Verdict is_valid(const Point* p, const StarTable& stars, Lengths lengths = Lengths::automatic,
                  Ties ties = Ties::by_rule);

@@ -11,7 +11,7 @@ SharedArea area_of_all(MPI_Comm machine, std::size_t size) {
   int place[2] = {getpid(), area.file().get()};
   MPI_Bcast(place, 2, MPI_INT, 0, machine);
   if (rank != 0 && place[1] >= 0) area = SharedArea::map_of(place[0], place[1]);
-  MPI_Barrier(machine);  // rank 0 has it open until all have it
+  MPI_Barrier(machine);  // rank 0 must keep the file open until all have mapped it
   area.close_file();
   return area;
 }

@@ -25,8 +25,8 @@ std::uint64_t mixed(std::uint64_t bits) {
   return bits ^ (bits >> 29);
 }
 
-/// 64 bits that depend on every bit of the array. The blocks are hashed one by one and added, so that the
-/// number of threads does not matter.
+/// Hash of the array, 64 bits. The hashes of its blocks are added, so that the number of threads does not
+/// matter.
 std::uint64_t hash_of(const void* array, std::size_t size, std::uint64_t seed) {
   constexpr std::size_t kBlock = 1 << 16, kLanes = 4, kStep = kLanes * sizeof(std::uint64_t);
   const auto* const bytes = static_cast<const unsigned char*>(array);
@@ -57,7 +57,6 @@ std::int32_t code_of_count(std::int32_t n) {
   return n > most_nodes<std::int32_t>() ? kTooMany : 0;
 }
 
-/// What a call is about, on every rank.
 struct Headline {
   std::int32_t n = 0;
   Point corners[3] = {};  ///< nodes 1 to 3
@@ -70,34 +69,34 @@ struct Headline {
   }
 };
 
-/// A call, and the slice of its nodes that this rank has: first.. (from 0).
+/// A call, and the slice of its nodes that this rank has: nodes first..first+count-1 (from 0).
 struct Share {
-  TrmeshResult result{0};  ///< so far: 0 if the slices can be triangulated
+  TrmeshResult result{0};  ///< so far; ier = 0 if the slices can be triangulated
   Headline headline;
   NodeArrays nodes;
   std::size_t first = 0, count = 0;
   Look look;
-  std::optional<NodeArrays> of_all_ranks;  ///< where this rank can read them
-  Block received[3];                       ///< x, y, z, where they had to be sent
+  std::optional<NodeArrays> of_all_ranks;  ///< all nodes, if this rank can read them
+  Block received[3];                       ///< x, y, z, if they were sent to this rank
 
   void set_slice(const Communicator& ranks) {
     first = headline.slice(ranks.rank(), ranks);
     count = headline.slice(ranks.rank() + 1, ranks) - first;
   }
-  /// Looks at the slice, and says which node of the call (from 0) has no direction.
+  /// Checks the slice. `bad`: the first node of the call (from 0) that is zero or not finite.
   void look_at_nodes(Smallest& bad) {
     look = look_at(nodes, count);
     if (look.first_bad < count) bad.value = static_cast<std::int64_t>(first + look.first_bad);
   }
 };
 
-/// Every rank has all nodes. Collective.
+/// For Arrays::on_every_rank, where every rank has all nodes. Collective.
 Share take_slice(const TrmeshCall& call, bool wants_cost, MpiCommunicator& ranks) {
   ranks.set_phase("agree on the arguments");
   Share share;
   Headline& headline = share.headline;
   const std::int32_t n = headline.n = call.n, count_code = code_of_count(n);
-  // All pass the same where the smallest is the largest.
+  // All ranks pass the same arguments if the smallest hash is the largest.
   Smallest least_n{n}, least_hash{0}, bad;
   Largest most_n{n}, most_hash;
   OfRank0 partition(ranks, options_from_environment(0).partition);
@@ -129,7 +128,7 @@ Share take_slice(const TrmeshCall& call, bool wants_cost, MpiCommunicator& ranks
   return share;
 }
 
-/// The nodes are rank 0's, or in memory that all share. Collective.
+/// For Arrays::on_one_rank and shared. Collective.
 Share receive_slice(const TrmeshCall& call, Arrays arrays, bool wants_cost, MpiCommunicator& ranks) {
   ranks.set_phase("scatter the nodes");
   const bool is_root = ranks.rank() == 0;
@@ -173,7 +172,7 @@ Share receive_slice(const TrmeshCall& call, Arrays arrays, bool wants_cost, MpiC
   return share;
 }
 
-/// Collective. Throws AgreedFailure.
+/// This rank's share of the call. Collective. Throws AgreedFailure.
 Share share_of(const TrmeshCall& call, Arrays arrays, bool wants_cost, MpiCommunicator& ranks,
                ParallelCost& cost) {
   const PhaseTimer timer(&cost, ParallelCost::divide, &ranks);
@@ -184,7 +183,7 @@ Share share_of(const TrmeshCall& call, Arrays arrays, bool wants_cost, MpiCommun
   return share;
 }
 
-/// A call by ranks, each of which has a slice of the nodes.
+/// A call carried out by ranks, each of which has a slice of the nodes.
 class ByRanks {
  public:
   /// `share`: as share_of(), with result 0.
@@ -195,17 +194,17 @@ class ByRanks {
   std::optional<Coincidence> triangulate(std::size_t n);
   void deliver() { deliver(stars_.of_node); }
 
-  /// Collective. True: the call is done, beginning with the rings of the last one.
+  /// Warm start from the rings of the last call. True if the call is done. Collective.
   bool begin_with(LastCall& last);
-  /// After the cold way: what the next call may need.
+  /// To be called after a cold call: keeps what the next call may need.
   void remember(LastCall& last) noexcept;
 
  private:
   std::size_t n() const { return static_cast<std::size_t>(share_.headline.n); }
-  /// Whether this rank can read all nodes, and then these.
   bool reads_all() const { return share_.of_all_ranks || ranks_.rank() == 0; }
+  /// All nodes; needs reads_all().
   const NodeArrays& all_nodes() const { return share_.of_all_ranks ? *share_.of_all_ranks : share_.nodes; }
-  /// So many nodes of this rank's slice.
+  /// The first `count` nodes of this rank's slice.
   LocalNodes slice(std::size_t count) const {
     return {share_.nodes, count, nullptr, static_cast<std::int64_t>(share_.first) + 1,
             share_.of_all_ranks ? &*share_.of_all_ranks : nullptr};
@@ -219,22 +218,22 @@ class ByRanks {
   const ListArrays& lists_;
   Share& share_;
   ParallelCost& cost_;
-  // What has been triangulated:
+  // The last triangulation:
   ParallelOptions options_;
-  std::vector<std::size_t> begin_;  ///< of each rank, and the end
+  std::vector<std::size_t> begin_;  ///< by rank: the begin of its slice; then the number of nodes
   bool knows_slices_ = false;
-  bool wants_rings_ = false;  ///< the nodes fit the last call's stars: keep those of this one
+  bool wants_rings_ = false;  ///< the nodes fit the last call's sample: keep the rings of this call
   Stars<std::int32_t> stars_;
 };
 
-/// Of the first n nodes. Collective.
+/// Sets the slices for the first n nodes. Collective.
 void ByRanks::find_slices(std::size_t n) {
   if (!knows_slices_) {
     in_agreement(ranks_, [&] {
       begin_.resize(static_cast<std::size_t>(ranks_.size()) + 1);
       options_ = options_from_environment(share_.count);
     });
-    knows_slices_ = true;  // all ranks do, or none
+    knows_slices_ = true;  // on all ranks or on none
     options_.partition = share_.headline.partition;
     cost_.threads = options_.threads;
   }
@@ -246,7 +245,7 @@ std::optional<Coincidence> ByRanks::triangulate(std::size_t n) {
   const auto me = static_cast<std::size_t>(ranks_.rank());
   find_slices(n);
   const std::size_t count = begin_[me + 1] - begin_[me];
-  if (n < this->n()) {  // again, without a node that coincides
+  if (n < this->n()) {  // the second try, without nodes that coincide
     share_.look = look_at(share_.nodes, count);
     agree_on(share_.look, ranks_);
     stars_ = {};
@@ -284,7 +283,7 @@ bool ByRanks::begin_with(LastCall& last) {
     find_slices(last.n);
     is_done = rings->move(slice(share_.count), begin_, ranks_);
   } catch (const AgreedFailure&) {
-    // No memory for it: the cold way has more, without the rings.
+    // No memory: a cold call has more, without the rings.
   }
   is_done ? last.patience.succeed() : last.patience.fail();
   if (!is_done) {
@@ -311,11 +310,11 @@ void ByRanks::remember(LastCall& last) noexcept {
     const std::size_t first = begin_[static_cast<std::size_t>(ranks_.rank())];
     last.rings.put(std::make_unique<LastRings>(stars_.of_node, first, std::move(stars_.homes)));
   } catch (const std::bad_alloc&) {
-    // Then the next call goes the cold way as well.
+    // No memory: the next call is cold, too.
   }
 }
 
-/// If there is no memory for it, the next call goes the cold way.
+/// If there is no memory for the sample, the next call is cold.
 void ByRanks::take_sample(LastCall& last, const RingTable<std::int32_t>& rings) noexcept {
   last.has_sample = false;
   try {

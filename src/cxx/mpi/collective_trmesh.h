@@ -10,21 +10,23 @@
 
 namespace pstripack {
 
-/// What ranks keep of a call for the next one. The numbers are the same on every rank.
+/// What a rank keeps from one call for the next. n and patience are the same on every rank.
 struct LastCall {
-  std::size_t n = 0;  ///< 0: there was none with stars
+  std::size_t n = 0;  ///< number of nodes; 0: nothing is kept
   SampleOfStars sample;
-  bool has_sample = false;  ///< on this rank
-  Kept<LastRings> rings;    ///< on this rank, of calls whose nodes fitted
+  bool has_sample = false;  ///< false if this rank had no memory for the sample
+  Kept<LastRings> rings;    ///< kept only after calls whose nodes fitted the sample
   Patience patience;
 };
 
-/// TRMESH (trmesh/trmesh.h) by all ranks together: the same bytes, the same codes, on every rank. Collective.
-/// Throws AgreedFailure, having written nothing. `arrays`: of the call; on_every_rank (comm mode): the same
-/// arguments and lists on every rank, -7 if they differ; on_one_rank (pool mode): those of rank 0, the others
-/// pass none, of the same kind of reals, and get the result code only.
-/// A call may begin with the rings of the last one that had this `last`; on all ranks or none.
-/// If rank 0 passes `cost`, it is told there what the call cost all ranks, and so are others that pass one.
+/// TRMESH (trmesh/trmesh.h) by all ranks together; lists and codes have the same bits as on one process.
+/// Collective. Throws AgreedFailure, having written nothing.
+///   arrays  on_every_rank (comm mode): every rank passes the same arguments and gets the lists; -7 if they
+///           differ. on_one_rank (pool mode): rank 0 passes the arguments and gets the lists; the others pass
+///           no arrays, but the same size of reals, and get the result code only. shared: all pass the same
+///           memory
+///   cost    if rank 0 passes it, the cost of the call is stored on every rank that passes it
+///   last    null on all ranks or on none; the call may start from the last call with the same `last`
 TrmeshResult collective_trmesh(MpiCommunicator& ranks, Arrays arrays, const TrmeshCall& call,
                                GroupCost* cost = nullptr, LastCall* last = nullptr);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Energy and gradient of generators that stay on their ranks.
+// Energy and gradient of generators that are distributed over ranks.
 
 #include <cstdint>
 #include <vector>
@@ -9,17 +9,17 @@
 
 namespace pstripack::scvt {
 
-/// The triangulations are those of a distributed mesh. The results have the bits that LocalEvaluator gives
-/// the generators in the order of their numbers.
+/// Triangulates by a distributed mesh. The results have the same bits as those of LocalEvaluator for the
+/// generators in the order of their numbers.
 class DistributedEvaluator final : public Evaluator {
  public:
-  /// Both must outlive this.
+  /// Mesh and density must outlive the evaluator.
   DistributedEvaluator(DistributedMesh& mesh, const Density& density) : Evaluator(density), mesh_(mesh) {}
 
   Communicator& ranks() override { return mesh_.ranks(); }
   void begin_with(const std::vector<std::int64_t>& numbers) override;
   std::vector<std::int32_t> homes(const std::vector<Point>& generators) override;
-  /// The mesh becomes that of the generators.
+  /// Sets the mesh to that of the generators.
   Neighbourhood triangulate(const std::vector<Point>& generators) override;
 
   /// Each triangulation fills the report, as DistributedMesh::triangulate does. Null: none.
@@ -30,7 +30,7 @@ class DistributedEvaluator final : public Evaluator {
 
   DistributedMesh& mesh_;
   DistributedMesh::Report* report_ = nullptr;
-  std::size_t own_ = 0;  ///< generators of this rank
+  std::size_t own_ = 0;  ///< number of generators of this rank
   // Own generators, then neighbours that other ranks have.
   std::vector<std::int64_t> numbers_;
   std::vector<Point> points_;

@@ -25,7 +25,7 @@ void DistributedMesh::clear() {
 
 std::int32_t DistributedMesh::triangulate(std::int64_t n, const double* xyz, const std::int64_t* number,
                                           Report* report) {
-  // The caller's coordinates are used where they are: they may be most of the memory of the machine.
+  // The caller's coordinates are not copied: they may take most of the memory of the machine.
   static_assert(sizeof(Point) == 3 * sizeof(double));
   const bool fits = n >= 0 && n < static_cast<std::int64_t>(kMostPoints);
   const LocalNodes points{reinterpret_cast<const Point*>(xyz),
@@ -39,7 +39,7 @@ std::int32_t DistributedMesh::triangulate(std::int64_t n, const double* xyz, con
       code = triangulate_points(points, report, mine);
     }
   } catch (...) {
-    make_empty();  // or what there was memory for would pass for a mesh
+    make_empty();  // what was made so far is not a mesh
     throw;
   }
   if (code != 0) homes_.reset();
@@ -112,15 +112,15 @@ std::int32_t DistributedMesh::triangulate_into(const LocalNodes& points, const N
     try {
       next_.sample = sample_of(points, stars);
     } catch (const std::bad_alloc&) {
-      // Then the next call goes the cold way as well.
+      // No memory: the next call is cold, too.
     }
   }
   own_ = OwnStars(std::move(numbers), std::move(stars));
   return 0;
 }
 
-/// The stars of the last call, if they fit these points: true, and they are theirs. False: the call has to go
-/// the cold way, on every rank. Collective.
+/// Warm start: repairs the stars of the last call for these points. True if the call is done. False if it
+/// must be cold, on every rank. Collective.
 bool DistributedMesh::begin_with_last(const LocalNodes& points, Report* report, ParallelCost& cost) {
   next_.wants_sample = false;
   if (total_ < static_cast<std::int64_t>(kFewestForWarmStart)) return false;
@@ -131,7 +131,7 @@ bool DistributedMesh::begin_with_last(const LocalNodes& points, Report* report, 
   OnAll were_at_home{next_.are_at_home}, are_at_home{allowed.value && this->are_at_home(points, total_)};
   OnAny reported{ranks_.rank() == 0 && report != nullptr};
   std::unique_ptr<MovingStars> moving = next_.moving.take();
-  OnAll have_moving{moving != nullptr};  // or all make them anew
+  OnAll have_moving{moving != nullptr};  // if not, all ranks make them anew
   agree(ranks_, allowed, same, fits, were_at_home, are_at_home, reported, have_moving);
   if (!allowed.value) return false;
   if (!have_moving.value && same.value) moving.reset();
@@ -141,19 +141,20 @@ bool DistributedMesh::begin_with_last(const LocalNodes& points, Report* report, 
       const PhaseTimer timer(&cost, ParallelCost::divide, &ranks_);
       relocation = relocation_to(points, fits);
     } catch (const AgreedFailure&) {
-      // No memory for it.
+      // No memory: then there is no relocation.
     }
     if (!relocation) return false;
   }
   next_.wants_sample = true;
-  // Points that leave their homes, or crowd in some, get new homes, which the cold way finds.
+  // If many points leave their homes, or some homes become crowded, the points need new homes, which a cold
+  // call finds.
   const bool stay_at_home = !were_at_home.value || are_at_home.value;
   if (!fits.value || !stay_at_home || !patience_.is_enough()) return false;
   bool is_done = false;
   try {
     is_done = move_stars(std::move(moving), std::move(relocation), points, cost);
   } catch (const AgreedFailure&) {
-    // No memory for it: the cold way has more, without the mesh.
+    // No memory: a cold call has more, without the mesh.
   }
   is_done ? patience_.succeed() : patience_.fail();
   if (!is_done) return false;
@@ -162,14 +163,15 @@ bool DistributedMesh::begin_with_last(const LocalNodes& points, Report* report, 
   return true;
 }
 
-/// Whether nearly all points here are at home, and not too many of all.
+/// True if nearly all points of this rank are at home, and they are not too large a part of all points.
 bool DistributedMesh::are_at_home(const LocalNodes& points, std::int64_t all) const {
   return homes_->are_home_to_most(points, ranks_.rank()) &&
          homes_->is_share_of(static_cast<std::size_t>(ranks_.rank()), points.count,
                              static_cast<std::size_t>(all));
 }
 
-/// From the points of the last call to these, if they are the same; and whether its stars fit. Collective.
+/// The relocation from the points of the last call to these, if they have the same numbers. `fits`: the
+/// sample of stars fits. Collective.
 std::optional<Relocation> DistributedMesh::relocation_to(const LocalNodes& points, OnAll& fits) {
   std::optional<Relocation> relocation = Relocation::find(own_.numbers(), own_.count(), points, ranks_);
   if (!relocation) return relocation;
@@ -179,7 +181,7 @@ std::optional<Relocation> DistributedMesh::relocation_to(const LocalNodes& point
   return relocation;
 }
 
-/// The stars of the last call, on the ranks that bring their points now. Collective.
+/// Moves the stars of the last call to the ranks that have their points now. Collective.
 void DistributedMesh::relocate(const Relocation& relocation, const LocalNodes& points) {
   BlockArray<std::int64_t> numbers;
   in_agreement(ranks_, [&] {
@@ -222,7 +224,7 @@ bool DistributedMesh::move_stars(std::unique_ptr<MovingStars> moving, std::optio
   return true;
 }
 
-/// Gathers the costs of all ranks. The report is rank 0's.
+/// Gathers the costs of all ranks into `report`. Collective, if rank 0 wants a report.
 void DistributedMesh::report_on(ParallelCost& mine, std::int64_t sent_before, Report* report) {
   if (!is_reported_) return;
   mine.bytes_sent = ranks_.bytes_sent - sent_before;
@@ -263,7 +265,7 @@ std::int32_t DistributedMesh::gather_stars(std::int32_t root, const ListArrays& 
   const auto n = static_cast<std::size_t>(total_), size = static_cast<std::size_t>(ranks_.size()),
              me = static_cast<std::size_t>(ranks_.rank());
 
-  // Stars go to the rank that has the slice of their number: number, count, neighbours.
+  // Each star goes to the rank whose slice contains its number, as: number, count, neighbours.
   const auto rank_of = [&](std::int64_t number) {  // the r with slice_begin(r) < number <= slice_begin(r+1)
     auto r = static_cast<std::size_t>((number - 1) * static_cast<std::int64_t>(size) / total_);
     while (slice_begin(n, r + 1, size) < static_cast<std::size_t>(number)) ++r;
@@ -281,7 +283,7 @@ std::int32_t DistributedMesh::gather_stars(std::int32_t root, const ListArrays& 
     });
     writer.make_room();
     own_.for_each([&](std::size_t i, std::size_t count, const auto* ring) {
-      auto* to = writer.room<std::int32_t>(rank[i], 2 + count);  // numbers up to the total are short
+      auto* to = writer.room<std::int32_t>(rank[i], 2 + count);  // numbers up to the total fit 32 bits
       *to++ = static_cast<std::int32_t>(own_.numbers()[i]);
       *to++ = static_cast<std::int32_t>(count);
       std::copy(ring, ring + count, to);

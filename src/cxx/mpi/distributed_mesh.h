@@ -1,5 +1,6 @@
 #pragma once
-// A triangulation whose points and stars stay on their ranks: what pstripack_mesh of the C API is.
+// A triangulation whose points and stars are distributed over ranks: the implementation of pstripack_mesh
+// in the C API.
 
 #include <cstdint>
 #include <memory>
@@ -17,42 +18,41 @@
 
 namespace pstripack {
 
-/// See capi/pstripack_mpi.h for what the members mean. "Collective" ones throw AgreedFailure, having left
-/// the caller's arrays as they were.
+/// See capi/pstripack_mpi.h for the meaning of the members. Those marked "Collective" throw AgreedFailure,
+/// having changed none of the caller's arrays.
 class DistributedMesh {
  public:
-  /// Collective; as MpiCommunicator.
+  /// Collective. Throws what MpiCommunicator's constructor throws.
   explicit DistributedMesh(MPI_Comm comm) : ranks_(comm) {}
 
   MpiCommunicator& ranks() { return ranks_; }
 
-  /// What a call was about, and what it cost all ranks.
   struct Report {
-    std::int64_t points = 0, boundary_points = 0;  ///< of all ranks, as far as known
+    std::int64_t points = 0, boundary_points = 0;  ///< of all ranks; 0 if not known
     GroupCost cost;
   };
 
-  /// Collective. The result code; after one that is not 0 the mesh is empty. Throws AgreedFailure, too.
-  /// If rank 0 passes `report`, that is filled, and those of the other ranks that pass one.
+  /// Returns the result code. If it is not 0, and after AgreedFailure, the mesh is empty. report: if rank 0
+  /// passes one, it is filled on every rank that passes one. Collective.
   std::int32_t triangulate(std::int64_t n, const double* xyz, const std::int64_t* number,
                            Report* report = nullptr);
 
-  /// Empty: no triangulation yet, or the last one failed.
+  /// True if there was no triangulation yet, or the last one failed.
   bool empty() const { return total_ == 0; }
-  /// As after a triangulation that failed. Collective.
+  /// Makes the mesh empty, as a triangulation that fails. Collective.
   void make_empty() {
     clear();
     homes_.reset();
   }
   std::int64_t error_point(int i) const { return error_point_[i]; }
 
-  /// Of the last triangulation.
   const OwnStars& own() const { return own_; }
-  /// The rank that is home to each of n points; false if one has no direction, having written nothing.
+  /// Sets rank[i] to the home of each of n points. If one is zero or not finite returns false, having written
+  /// nothing. The mesh must not be empty. Not collective.
   bool home(std::int64_t n, const double* xyz, std::int32_t* rank) const;
 
-  /// Collective. root: the rank that has the arrays, or kEveryRank. `report` is filled if triangulate() has
-  /// filled one.
+  /// Gathers the lists. Returns the result code. root: the rank that has the arrays, or kEveryRank.
+  /// `report` is filled if triangulate() has filled one. Collective.
   static constexpr std::int32_t kEveryRank = -1;
   std::int32_t gather(std::int32_t root, const ListArrays& lists, Report* report = nullptr);
 
@@ -73,17 +73,17 @@ class DistributedMesh {
   MpiCommunicator ranks_;
   std::int64_t error_point_[2] = {0, 0};
   std::int64_t total_ = 0;          ///< points of all ranks
-  bool is_reported_ = false;        ///< rank 0 wants reports, and all know it
-  bool numbers_are_dense_ = false;  ///< they are 1..total
+  bool is_reported_ = false;        ///< rank 0 wants reports; the same on every rank
+  bool numbers_are_dense_ = false;  ///< the global numbers are 1..total
   OwnStars own_;
-  std::unique_ptr<Homes> homes_;  ///< of the last triangulation, which the next may keep; null: it failed
+  std::unique_ptr<Homes> homes_;  ///< of the last triangulation; the next may keep them; null if it failed
 
-  /// For the next call, if it has the same numbers.
+  /// Kept for the next call, in case it has the same numbers.
   struct ForNext {
-    Kept<MovingStars> moving;             ///< of the last call, if that began with them, too
-    std::optional<SampleOfStars> sample;  ///< on this rank, if there is memory for it
-    bool wants_sample = false;            ///< the last call had the numbers of the one before
-    bool are_at_home = false;             ///< nearly all points here, and not too many
+    Kept<MovingStars> moving;             ///< of the last call, if it was a warm start
+    std::optional<SampleOfStars> sample;  ///< of this rank's stars; none if there was no memory
+    bool wants_sample = false;            ///< the last call had the same numbers as the call before it
+    bool are_at_home = false;             ///< as are_at_home() returned in the last call
   } next_;
   Patience patience_;  ///< the same on every rank
 };

@@ -1,5 +1,5 @@
 #pragma once
-// LIST, LPTR and LEND from stars that are spread over ranks, each of which has those of consecutive nodes.
+// LIST, LPTR and LEND from stars that are spread over ranks; each rank has those of consecutive nodes.
 
 #include <algorithm>
 #include <cstddef>
@@ -17,11 +17,12 @@ namespace pstripack {
 enum class Arrays {
   on_every_rank,
   on_one_rank,
-  shared  ///< all have the same memory, on one machine; lnew is rank 0's
+  shared  ///< all ranks, on one machine, have the same memory; only rank 0 writes lnew
 };
 
-/// The lists of all nodes in these arrays; `root`: the one rank. Rank r brings the rings of the nodes
-/// [begin[r], begin[r+1]). Collective. Throws AgreedFailure, having written nothing.
+/// Writes the lists of all nodes. Rank r contributes the rings of the nodes [begin[r], begin[r+1]). root:
+/// the rank that has the arrays, for Arrays::on_one_rank. Collective. Throws AgreedFailure, having written
+/// nothing.
 template <class Int>
 void gather_lists(MpiCommunicator& ranks, const RingTable<Int>& rings, const std::vector<std::size_t>& begin,
                   Arrays arrays, int root, const ListArrays& lists) {
@@ -30,7 +31,7 @@ void gather_lists(MpiCommunicator& ranks, const RingTable<Int>& rings, const std
   const std::size_t n = begin[size], first = begin[me], count = begin[me + 1] - first;
   const bool has_arrays = arrays != Arrays::on_one_rank || root == ranks.rank();
 
-  // All memory first, so that nothing is written if it fails anywhere.
+  // Allocate all memory first, so that nothing is written if a rank runs out of it.
   BlockArray<std::int32_t> list_piece, lend_piece;
   std::vector<std::size_t> slot_bytes, node_bytes;
   auto arcs = static_cast<std::int64_t>(rings.arcs());
@@ -59,7 +60,7 @@ void gather_lists(MpiCommunicator& ranks, const RingTable<Int>& rings, const std
   if (arrays == Arrays::shared) {
     write_piece(rings, slot, list + slot, lend + first, piece_threads);
     write_lptr(lend + first, count, slot, lptr, piece_threads);
-    ranks.all_min(&arcs, 1);  // all pieces are there
+    ranks.all_min(&arcs, 1);  // waits until all ranks have written their pieces
   } else if (arrays == Arrays::on_every_rank) {
     write_piece(rings, slot, list + slot, lend + first, piece_threads);
     ranks.all_gather_in_place(lend, node_bytes);
@@ -70,7 +71,7 @@ void gather_lists(MpiCommunicator& ranks, const RingTable<Int>& rings, const std
     write_piece(rings, slot, list + slot, lend + first, piece_threads);
     ranks.finish();
     ranks.start_gather(nullptr, 0, list, slot_bytes, root);
-    write_lptr(lend, n, 0, lptr, lptr_threads);  // while LIST is under way
+    write_lptr(lend, n, 0, lptr, lptr_threads);  // while LIST is being received
     ranks.finish();
   } else {
     write_piece(rings, slot, list_piece.data(), lend_piece.data(), piece_threads);

@@ -21,8 +21,8 @@ namespace {
 constexpr std::int32_t kOutOfMemory = -6, kBadCommunicator = -8;
 constexpr int kTag = 0;
 
-/// While it lives, MPI returns errors about handles that are no communicators instead of ending the job: it
-/// reports them to MPI_COMM_WORLD, from MPI 4 on to MPI_COMM_SELF.
+/// While an object of this class exists, MPI returns errors about invalid communicators instead of ending
+/// the job. Such errors are raised on MPI_COMM_WORLD, from MPI 4 on on MPI_COMM_SELF.
 class NoAbort {
  public:
   NoAbort() {
@@ -50,7 +50,7 @@ bool is_usable(MPI_Comm comm) {
   MPI_Initialized(&initialised);
   MPI_Finalized(&finalised);
   if (!initialised || finalised || comm == MPI_COMM_NULL) return false;
-  // Where handles are pointers, that of a freed communicator is no longer in the table of handles.
+  // If handles are pointers, a freed communicator is no longer in the table of Fortran handles.
   if (MPI_Comm_f2c(MPI_Comm_c2f(comm)) != comm) return false;
   const NoAbort no_abort;
   int is_inter = 0;
@@ -59,9 +59,9 @@ bool is_usable(MPI_Comm comm) {
 
 double processor_seconds() { return clock_seconds(CLOCK_THREAD_CPUTIME_ID); }
 
-/// How to pass the time until the next look: spin first, because most waits are short; then let others run;
-/// then sleep, an eighth of the time waited so far at most, so that a wait is hardly prolonged. Where ranks
-/// share processors there is no spinning, but more of letting others run: the one waited for is among them.
+/// The pauses between polls of one wait: none at first, because most waits are short; then yields; then
+/// sleeps of an eighth of the time waited so far, which hardly prolong the wait. If ranks share processors:
+/// no spinning and more yields, because the awaited rank may need the processor.
 class BackOff {
  public:
   explicit BackOff(bool crowded) : spin_(crowded ? 0 : 50e-6), yield_(crowded ? 1e-3 : 200e-6) {}
@@ -119,7 +119,7 @@ MpiCommunicator::~MpiCommunicator() {
   if (!finalised) MPI_Comm_free(&comm_);
 }
 
-/// More ranks of this communicator on this machine than processors that any of them may use.
+/// True if this machine has more ranks of the communicator than processors that any of them may use.
 bool MpiCommunicator::ranks_outnumber_processors() {
   MPI_Comm machine;
   check(MPI_Comm_split_type(comm_, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &machine));
@@ -127,7 +127,7 @@ bool MpiCommunicator::ranks_outnumber_processors() {
   check(MPI_Comm_size(machine, &ranks));
   cpu_set_t processors;
   CPU_ZERO(&processors);
-  if (sched_getaffinity(0, sizeof processors, &processors) != 0)  // more processors than the set has bits
+  if (sched_getaffinity(0, sizeof processors, &processors) != 0)  // fails if a cpu_set_t is too small
     for (unsigned i = 0; i < std::thread::hardware_concurrency() && i < CPU_SETSIZE; ++i)
       CPU_SET(i, &processors);
   MPI_Request request;
@@ -152,8 +152,8 @@ void MpiCommunicator::check(int code) const {
   abort("MPI error", text);
 }
 
-/// The processor time of a wait is the messages' as far as they can have needed it, a second for 10^9 bytes;
-/// what is more was spent looking whether they are there.
+/// Of the processor time of a wait, one second per 10^9 bytes is taken to be that of the transfer; the rest
+/// was spent polling and is counted as idle.
 void MpiCommunicator::wait(MPI_Request* requests, int count, std::size_t bytes) {
   const double start = processor_seconds();
   BackOff back_off(crowded_);
@@ -166,7 +166,8 @@ void MpiCommunicator::wait(MPI_Request* requests, int count, std::size_t bytes) 
   idle_cpu_seconds += std::max(0.0, processor_seconds() - start - 1e-9 * static_cast<double>(bytes));
 }
 
-/// Both ways at once, in lengths that MPI can count, cut at the same places on both sides.
+/// Sends and receives at once, in messages of at most longest_message_ bytes. Both sides cut at the same
+/// places.
 void MpiCommunicator::send_and_receive(const void* out, std::size_t out_size, int to, void* in,
                                        std::size_t in_size, int from) {
   const auto* const outgoing = static_cast<const unsigned char*>(out);
@@ -188,9 +189,9 @@ void MpiCommunicator::send_and_receive(const void* out, std::size_t out_size, in
   }
 }
 
-// The collectives take about log2(ranks) steps, in step k with the ranks that are 2^k away (Bruck, Ho,
-// Kipnis, Upfal & Weathersby 1997; the first is Hensgen, Finkel & Manber 1988). MPI's own that do not block
-// send to every rank, and those that block spin.
+// The collectives take about log2(ranks) steps; in step k a rank communicates with those 2^k away (Bruck,
+// Ho, Kipnis, Upfal & Weathersby 1997; all_min: Hensgen, Finkel & Manber 1988). MPI's own collectives are
+// not used: the nonblocking ones send to every rank, and the blocking ones spin.
 
 void MpiCommunicator::all_min(std::int64_t* values, std::size_t count) {
   std::int64_t others[kMostValues];
@@ -202,7 +203,7 @@ void MpiCommunicator::all_min(std::int64_t* values, std::size_t count) {
   }
 }
 
-/// Up a binomial tree to rank 0, which tells all.
+/// Sums up a binomial tree to rank 0, which broadcasts the result.
 void MpiCommunicator::all_sum(std::int64_t* values, std::size_t count) {
   constexpr std::size_t kTogether = 2048;
   std::int64_t others[kTogether];
@@ -229,15 +230,15 @@ const std::int64_t* MpiCommunicator::all_gather_one(std::int64_t value) {
   return sizes_.data();
 }
 
-/// Rank r has block r of `all`, the bytes [begin(r), begin(r+1)); afterwards all have all. In each step a
-/// rank has the blocks of the `distance` ranks from its own on and gets those of as many that follow.
+/// Rank r has block r of `all`, the bytes [begin(r), begin(r+1)); afterwards every rank has all blocks. In
+/// each step a rank has the blocks of `distance` ranks from its own on, and gets as many that follow.
 template <class Begin>
 void MpiCommunicator::gather_blocks(void* all, const Begin& begin) {
   auto* const bytes = static_cast<unsigned char*>(all);
   struct Piece {
     std::size_t begin, end;
   };
-  // Blocks of `count` ranks from `first` on: in two pieces, of which the second begins anew at rank 0.
+  // The blocks of `count` ranks from `first` on are two pieces: up to the last rank, and from rank 0 on.
   const auto piece = [&](int first, int count, bool second) {
     const int last = first + count;
     if (second) return Piece{0, last > size_ ? begin(last - size_) : 0};
@@ -253,8 +254,8 @@ void MpiCommunicator::gather_blocks(void* all, const Begin& begin) {
   }
 }
 
-/// out[r] is for rank r; sizes_[r] becomes what rank r had for this one. Value j of the buffer is on its way
-/// to the rank that is j above the one that has it, by the bits of j.
+/// out[r] is for rank r; sizes_[r] becomes the value that rank r had for this rank. Value j of moving_
+/// travels to the rank j above its sender, in steps of 2^k for the bits k of j.
 void MpiCommunicator::exchange_sizes(const std::int64_t* out) {
   const auto ranks = static_cast<std::size_t>(size_), me = static_cast<std::size_t>(rank_);
   for (std::size_t j = 0; j < ranks; ++j) moving_[j] = out[(me + j) % ranks];
@@ -319,7 +320,7 @@ Parcels MpiCommunicator::exchange(const Parcels& outgoing, std::int32_t code) {
     post_receive(incoming.bytes.data() + incoming.begin[from],
                  incoming.begin[from + 1] - incoming.begin[from], static_cast<int>(from));
   }
-  for (std::size_t step = 1; step < ranks; ++step) {  // each rank begins elsewhere: nobody is asked by all
+  for (std::size_t step = 1; step < ranks; ++step) {  // each rank begins with another one, to spread the load
     const std::size_t to = (me + step) % ranks;
     post_send(outgoing.bytes.data() + outgoing.begin[to], part(to), static_cast<int>(to));
   }
@@ -341,8 +342,8 @@ void MpiCommunicator::broadcast(void* bytes, std::size_t size, int root) {
   if (rank_ == root) bytes_sent += static_cast<std::int64_t>(size) * (size_ - 1);
 }
 
-/// Where no place was reserved for a further message, those under way are waited for first. That happens in
-/// scatter and gather only, where the root and each other rank meet in one order: no deadlock.
+/// If the capacity of under_way_ is used up, waits for the messages under way first. That happens in scatter
+/// and gather only, where both sides have the same order of messages: no deadlock.
 void MpiCommunicator::post_send(const void* bytes, std::size_t size, int to) {
   const auto* const begin = static_cast<const unsigned char*>(bytes);
   bytes_sent += static_cast<std::int64_t>(size);

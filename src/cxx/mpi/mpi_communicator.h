@@ -1,6 +1,6 @@
 #pragma once
-// A group of ranks over MPI: its own duplicate of a communicator, so that no message of ours meets one of
-// the program's, and its own way of waiting.
+// A group of ranks over MPI. It has its own duplicate of a communicator, so that its messages do not meet
+// those of the program, and its own way of waiting.
 
 #include <mpi.h>
 
@@ -15,18 +15,18 @@
 
 namespace pstripack {
 
-/// Owns a duplicate of an intra-communicator, with MPI_ERRORS_RETURN. An MPI error that cannot be agreed on
-/// (a lost process) ends the job: one line on stderr that names rank and phase, then MPI_Abort.
+/// Owns a duplicate of an intra-communicator, with MPI_ERRORS_RETURN. An MPI error that ranks cannot agree
+/// on (a lost process) ends the job: one line on stderr names rank and phase, then MPI_Abort.
 ///
-/// Every wait, for a message or a collective, polls: hardly any processor time is burnt while other ranks
-/// compute, and none is kept from them where there are more ranks than processors. For one thread at a time.
+/// Every wait, for a message or a collective, polls with pauses: it takes little processor time while other
+/// ranks compute, also if there are more ranks than processors. For one thread at a time.
 class MpiCommunicator : public Communicator {
  public:
   /// Longest message in bytes; longer ones are cut. MPI counts in int, and some networks fail near 2^31.
   static constexpr std::size_t kLongestMessage = std::size_t{1} << 30;
 
-  /// Collective over comm. Throws Failure(-8): null, freed, an inter-communicator, MPI not initialised or
-  /// already finalised; AgreedFailure, if memory fails or `code`, a failure of this rank so far, is not 0.
+  /// Collective over comm. Throws Failure(-8) if comm is null, freed or an inter-communicator, or MPI is not
+  /// running; AgreedFailure if any rank runs out of memory or passes a code other than 0.
   explicit MpiCommunicator(MPI_Comm comm, std::size_t longest_message = kLongestMessage,
                            std::int32_t code = 0);
   /// Collective, unless MPI is already finalised.
@@ -43,20 +43,20 @@ class MpiCommunicator : public Communicator {
   void all_gather_in_place(void* all, const std::vector<std::size_t>& begin) override;
   Parcels exchange(const Parcels& outgoing, std::int32_t code = 0) override;
 
-  /// Collective. `bytes` of rank `root` on every rank. Allocates nothing.
+  /// Copies `bytes` of rank `root` to every rank. Collective. Allocates nothing.
   void broadcast(void* bytes, std::size_t size, int root);
 
-  /// Collective. Begin to send from `root` to each rank r its part, the bytes [begin[r], begin[r+1]) of
-  /// `all`, straight from there; all and begin count on `root` only. `mine`: where this rank wants its `size`
-  /// bytes; on `root` it may be null: not at all. The arrays belong to the call until finish(). Allocates
-  /// nothing.
+  /// Starts to send each rank r the bytes [begin[r], begin[r+1]) of `all` on `root`. `all` and `begin` are
+  /// used on `root` only. mine: where this rank's `size` bytes go; null on `root` if it does not want them.
+  /// The arrays must stay valid and unchanged until finish(). Collective. Allocates nothing.
   void start_scatter(const void* all, const std::vector<std::size_t>& begin, void* mine, std::size_t size,
                      int root);
-  /// The reverse: straight into place in `all` on `root`, where `mine` may be null: it is in place already.
+  /// The reverse: starts to collect `mine` of each rank r in the bytes [begin[r], begin[r+1]) of `all` on
+  /// `root`. mine: null on `root` if its bytes are in place already.
   void start_gather(const void* mine, std::size_t size, void* all, const std::vector<std::size_t>& begin,
                     int root);
-  /// Waits for all that was started, on this rank. Between the first start and this, no other member may be
-  /// called.
+  /// Waits until all that this rank has started is done. Between the first start and finish() no other
+  /// member may be called.
   void finish();
 
   void set_phase(const char* phase) override {
@@ -64,15 +64,16 @@ class MpiCommunicator : public Communicator {
     if (phase_place_ != nullptr) *phase_place_ = phase;
     if (roll_call_) roll_call_->set_phase(is_idle(phase) ? "" : phase);
   }
-  /// From now on the phase stands there, too; null: nowhere else.
+  /// From now on the phase is also stored in *place; null: no longer.
   void show_phase_in(const char* volatile* place) { phase_place_ = place; }
-  /// Collective. From now on the other ranks of this machine see the phase, and say so if this one is lost.
+  /// From now on the other ranks of this machine see the phase, and report it if this rank is lost.
+  /// Collective.
   void call_roll() {
     if (size_ > 1) roll_call_.emplace(comm_);
   }
   MPI_Comm handle() const { return comm_; }
 
-  /// Ends the job with one line on stderr, for what cannot be agreed on: `kind` of error, and which.
+  /// Ends the job with one line on stderr, for errors that ranks cannot agree on. kind: such as "MPI error".
   [[noreturn]] void abort(const char* kind, const char* text) const;
 
  private:
@@ -103,7 +104,7 @@ class MpiCommunicator : public Communicator {
   const char* phase_ = "idle";
   const char* volatile* phase_place_ = nullptr;
   std::optional<RollCall> roll_call_;
-  /// A number a rank, so that no agreement needs memory.
+  /// One number per rank, allocated once so that an agreement needs no memory.
   std::vector<std::int64_t> sizes_, other_sizes_, moving_, packed_;
   std::vector<MPI_Request> under_way_;  ///< its capacity is reserved before anything is posted
   std::size_t bytes_under_way_ = 0;

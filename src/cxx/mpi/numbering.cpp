@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::int64_t kNone = Smallest::kNone;
 
-/// Every number goes to a rank that its hash names; there all that are equal meet.
+/// The smallest number that occurs twice; kNone if there is none. Sends every number to the rank given by
+/// its hash, so that equal numbers meet.
 std::int64_t search_repeated(const LocalNodes& points, MpiCommunicator& ranks) {
   const auto size = static_cast<std::size_t>(ranks.size());
   const auto rank_of = [size](GlobalNumber number) { return meeting_rank(number, size); };
@@ -41,9 +42,8 @@ std::int64_t search_repeated(const LocalNodes& points, MpiCommunicator& ranks) {
   return repeated.value;
 }
 
-/// The smallest number that occurs twice; kNone if there is none. As many numbers as low..high has are all of
-/// them exactly if each occurs once: then sums of a hash tell, and nothing is sent. A false "none" needs sums
-/// of 64 bits that are equal by chance.
+/// The same. If there are as many numbers as in low..high, each occurs once if and only if all of low..high
+/// occur. Sums of 64-bit hashes show that, up to chance, and no number is sent.
 std::int64_t first_repeated(const LocalNodes& points, const Numbering& numbering, MpiCommunicator& ranks) {
   if (numbering.high - numbering.low != numbering.total - 1) return search_repeated(points, ranks);
   const auto all = static_cast<std::size_t>(numbering.total), size = static_cast<std::size_t>(ranks.size()),
@@ -107,8 +107,7 @@ CornerSearch::CornerSearch(int ranks) : sample_(3 * static_cast<std::size_t>(ran
   for (std::size_t r = 0; 3 * r <= sample_.size(); ++r) begin_.push_back(3 * r * sizeof(Record));
 }
 
-/// Three points from each rank are tried first; only where all of those are on one great circle all points
-/// are looked at.
+/// Tries three points of each rank first, and all points only if all of those lie on one great circle.
 std::optional<std::array<Record, 3>> CornerSearch::run(const LocalNodes& points, MpiCommunicator& ranks) {
   std::array<Record, 3> corners{};
   std::size_t found = 0;

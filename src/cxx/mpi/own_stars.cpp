@@ -86,7 +86,7 @@ void OwnStars::local_stars(std::int64_t* begin, std::int32_t* neighbour) const {
   begin[0] = 0;
   for_each([&](std::size_t i, std::size_t count, const auto* ring) {
     begin[i + 1] = begin[i] + static_cast<std::int64_t>(count);
-    // Numbers mostly follow one another, as those of points along a curve do: no search then.
+    // Usually own numbers are consecutive, as those of points along a curve are: then no search is needed.
     const std::int64_t number_of_first = own[i] - static_cast<std::int64_t>(i);
     for (std::size_t k = 0; k < count; ++k) {
       const std::int64_t wanted = absolute(ring[k]);

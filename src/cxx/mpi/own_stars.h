@@ -12,16 +12,15 @@
 
 namespace pstripack {
 
-/// With the global numbers of its points, and in these. Rings are as Stars::of_node has them.
+/// The points' global numbers, and their stars in global numbers. Rings are as in Stars::of_node.
 class OwnStars {
  public:
   OwnStars() = default;
-  /// numbers[i] is that of the point whose star is stars.of_node[i].
+  /// numbers[i] is the global number of the point whose star is stars.of_node[i].
   template <class Int>
   OwnStars(BlockArray<std::int64_t> numbers, Stars<Int> stars)
       : numbers_(std::move(numbers)), stars_(std::move(stars)) {}
 
-  /// Calls body(stars) with the Stars<Int>, and returns what it does.
   template <class Body>
   auto visit(const Body& body) const {
     return std::visit(body, stars_);
@@ -44,7 +43,7 @@ class OwnStars {
   template <class Body>
   void for_each(const Body& body) const {
     visit([&](const auto& stars) {
-      constexpr std::size_t kAhead = 16;  // they lie in the order of the patches
+      constexpr std::size_t kAhead = 16;  // prefetched: rings lie in the order of patches
       for (std::size_t i = 0; i < count(); ++i) {
         if (i + kAhead < count()) stars.of_node.prefetch(i + kAhead);
         const auto ring = stars.of_node[i];
@@ -53,7 +52,7 @@ class OwnStars {
     });
   }
 
-  // What capi/pstripack_mpi.h promises of a mesh:
+  // The queries of capi/pstripack_mpi.h. Not collective.
   std::int64_t boundary_points() const;
   std::int64_t triangles() const;
   void stars(std::int64_t* begin, std::int64_t* neighbour) const;
@@ -64,7 +63,7 @@ class OwnStars {
 
  private:
   BlockArray<std::int64_t> numbers_;
-  std::variant<Stars<std::int32_t>, Stars<std::int64_t>> stars_;  ///< long where numbers need it
+  std::variant<Stars<std::int32_t>, Stars<std::int64_t>> stars_;  ///< 64 bits if a number needs them
 };
 
 }  // namespace pstripack

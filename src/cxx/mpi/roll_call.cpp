@@ -18,8 +18,8 @@ namespace {
 struct Entry {
   pid_t process;
   int rank;
-  volatile sig_atomic_t ending;  ///< it has got the signal itself, or may have without saying so: not lost
-  char phase[48];                ///< empty: in no call
+  volatile sig_atomic_t ending;  ///< the rank has got the signal itself, or could not note it: it is not lost
+  char phase[48];                ///< empty: not in a collective call
 };
 
 struct Page {
@@ -29,14 +29,14 @@ struct Page {
   Entry* entry() { return reinterpret_cast<Entry*>(this + 1); }
 };
 
-/// The pages of this process, a communicator each.
+/// The pages of this process, one per communicator.
 constexpr int kPages = 16;
 std::atomic<Page*> pages[kPages];
 Entry* my_entry[kPages];
 
-// What follows runs in a signal handler: system calls and the stack only.
+// The following functions run in a signal handler: they use system calls and the stack only.
 
-/// Gone, or dead and not yet buried by its parent.
+/// True if the process does not exist any more, or is a zombie.
 bool is_lost(pid_t process) {
   if (kill(process, 0) != 0) return errno == ESRCH;
   char name[32] = "/proc/", text[256];
@@ -73,7 +73,7 @@ void tell(const Entry& lost) {
   if (write(STDERR_FILENO, line, strlen(line)) < 0) return;
 }
 
-/// Who is missing where this rank or the lost one was in a call?
+/// The handler of SIGTERM: reports a lost rank, then ends this process by the signal.
 void answer(int signal) {
   for (int k = 0; k < kPages; ++k)
     if (pages[k].load() != nullptr) my_entry[k]->ending = 1;
@@ -82,7 +82,7 @@ void answer(int signal) {
     for (int i = 0; page != nullptr && i < page->count; ++i) {
       const Entry& e = page->entry()[i];
       const bool matters = e.phase[0] != '\0' || my_entry[k]->phase[0] != '\0';
-      // First whether it is there: whoever has got the signal says so before it ends.
+      // Test is_lost before `ending`: a rank that gets the signal sets `ending` before it ends.
       if (matters && e.process > 0 && is_lost(e.process) && !e.ending && page->told.exchange(1) == 0) tell(e);
     }
   }
@@ -127,7 +127,7 @@ void RollCall::take_place(int rank) {
   e.process = getpid();
   e.rank = rank;
   e.ending = 1;
-  if (!is_answered_by(SIG_DFL) && !is_answered_by(answer)) return;  // the program's own answer
+  if (!is_answered_by(SIG_DFL) && !is_answered_by(answer)) return;  // the program has its own handler
   for (slot_ = 0; slot_ < kPages && pages[slot_].load() != nullptr;) ++slot_;
   if (slot_ == kPages) return;
   my_entry[slot_] = &e;

@@ -1,7 +1,6 @@
 #pragma once
-// Somebody must be left to say that a rank was lost: the ranks that are ended with it. (In pool mode a
-// process beside each rank does it, watchdog.h; here the ranks are the program's own, and no process is
-// started.)
+// Reports a lost rank by one of the ranks that mpirun ends with it. (In pool mode a process beside each rank
+// reports it, see pool/watchdog.h; here the ranks are the program's own, and no process is started.)
 
 #include <mpi.h>
 
@@ -11,27 +10,26 @@
 
 namespace pstripack {
 
-/// Which rank of a communicator does what, in memory that the ranks on one machine share. SIGTERM, by which
-/// mpirun ends a job that has lost a rank, is answered with one line that names the lost rank and its phase,
-/// if that or the one who says so was in a collective call, and then as ever. Only where the program has no
-/// answer of its own.
+/// The phases of the ranks of a communicator, in memory shared by the ranks on one machine. mpirun ends a
+/// job that has lost a rank by SIGTERM. Its handler then prints one line that names the lost rank and its
+/// phase, if that rank or this one was in a collective call. There is no handler if the program has its own.
 class RollCall {
  public:
-  /// Collective. Without shared memory it does nothing.
+  /// Collective. Does nothing if the ranks cannot share memory.
   explicit RollCall(MPI_Comm comm);
   ~RollCall();
   RollCall(const RollCall&) = delete;
   RollCall& operator=(const RollCall&) = delete;
 
-  /// What this rank does from now on; "": nothing that is collective.
+  /// Sets the phase of this rank, at most 47 characters; "": not in a collective call.
   void set_phase(const char* phase);
 
  private:
   void take_place(int rank);
 
   SharedArea area_;
-  std::size_t me_ = 0;  ///< among the ranks of this machine
-  int slot_;            ///< among the pages of this process
+  std::size_t me_ = 0;  ///< index of this rank among the ranks of this machine
+  int slot_;            ///< index of the page among those of this process
 };
 
 }  // namespace pstripack

@@ -1,5 +1,5 @@
 #pragma once
-// MPI of a program that is a rank and nothing else: the worker of the pool.
+// MPI for a program that is nothing but a rank: the worker of the pool.
 
 #include <cstddef>
 
@@ -7,12 +7,12 @@
 
 namespace pstripack {
 
-/// All ranks of the job, over MPI_COMM_WORLD. One in a process.
+/// All ranks of the job, over MPI_COMM_WORLD. At most one object per process.
 class World {
  public:
   /// Initialises MPI. Collective.
   World();
-  /// Finalises it. Collective.
+  /// Finalises MPI. Collective.
   ~World();
   World(const World&) = delete;
   World& operator=(const World&) = delete;
@@ -31,12 +31,10 @@ struct RanksOfMachine {
 /// Collective.
 RanksOfMachine ranks_of_machine(const World& world);
 
-/// On rank 0: sends so many bytes to each of the other ranks, which wait for them. Over MPI_COMM_WORLD, where
-/// nobody else sends.
+/// On rank 0: sends `size` bytes to each of the other ranks, over MPI_COMM_WORLD, where nothing else is sent.
 void tell_others(const void* message, std::size_t size);
-/// On another rank: waits for what rank 0 tells, without using the processor that others need: naps grow with
-/// the time waited so far, so that the answer to one message after another is prompt and an idle hour costs
-/// nothing.
+/// On the other ranks: waits for that message. Sleeps grow with the time waited so far, so that frequent
+/// messages are received promptly and a long wait takes hardly any processor time.
 void wait_for_rank_0(void* message, std::size_t size);
 
 }  // namespace pstripack

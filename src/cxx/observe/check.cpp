@@ -29,13 +29,13 @@
 namespace pstripack {
 namespace {
 
-/// Appends one block to the file, in one piece whoever else writes to it. The file is opened each time: a
-/// program may close files that it does not know, and then the number is another file's.
+/// Appends one block to the file, in one piece even if other processes write to it. The file is opened each
+/// time, because a program may close descriptors that it does not know.
 void append(const std::string& path, iovec* parts, int count) {
   struct File {
     int number;
     ~File() {
-      // Unlocked by hand: a process that was forked meanwhile holds the same open file.
+      // close() alone would not unlock the file if a process forked meanwhile has it open, too.
       flock(number, LOCK_UN);
       close(number);
     }
@@ -49,7 +49,7 @@ void append(const std::string& path, iovec* parts, int count) {
   if (transfer_all(parts, count, [&](iovec* some, int number) { return writev(file.number, some, number); }))
     return;
   const std::string why = std::strerror(errno);
-  // Half a block would spoil those that others write behind it.
+  // Half a block would make later blocks of other processes unreadable.
   if (S_ISREG(before.st_mode) && ftruncate(file.number, before.st_size) != 0)
     throw std::runtime_error(why + "; its last block is not complete");
   throw std::runtime_error(why);
@@ -59,11 +59,11 @@ iovec bytes(const void* begin, std::size_t size) { return {const_cast<void*>(beg
 
 }  // namespace
 
-/// Lives until the process has ended.
+/// Exists until the process ends.
 class Check {
  public:
-  /// What the environment asks for where the library is loaded, and where the program is then: it may change
-  /// both later. Null if it asks for nothing.
+  /// Reads the environment and the working directory when the library is loaded, because the program may
+  /// change both later. Null if no check is asked for.
   static Check* from_environment() {
     const char* const value = environment_variable("PSTRIPACK_CHECK");
     if (value == nullptr || *value == '\0') return nullptr;
@@ -90,7 +90,7 @@ class Check {
 
   std::int64_t next_number() { return ++calls_; }
 
-  /// Writes a block; parts[0] is left free for its header.
+  /// Writes a block: `header` goes to parts[0], the body is parts[1..count-1].
   void write(BlockHeader& header, iovec* parts, int count) noexcept {
     if (has_ended_) return;
     const int error = errno;
@@ -148,8 +148,8 @@ class Check {
   friend void leave_check_to_another_rank(bool leave);
   static std::atomic<Check*> writes_here_;
 
-  std::string path_;                       ///< of the file, or
-  std::unique_ptr<ShadowProcess> shadow_;  ///< the program that the blocks go to
+  std::string path_;                       ///< of the file; empty if blocks go to a program
+  std::unique_ptr<ShadowProcess> shadow_;  ///< that program; null if blocks go to a file
   std::uint64_t process_ = 0;
   std::atomic<std::int64_t> calls_{0};
   std::atomic<bool> has_ended_{false};
@@ -177,7 +177,7 @@ CheckedCall check_input(Check& check, const TrmeshCall& trmesh) noexcept {
   const NodeArrays& nodes = trmesh.nodes;
   CheckedCall call{static_cast<std::uint32_t>(nodes.real_bytes()), check.next_number(), trmesh.n, 0};
   BlockHeader header = header_of(BlockHeader::input, call);
-  // Where n is refused, TRMESH does not read the arrays, whose length may be anything.
+  // If n is out of range TRMESH does not read the arrays, which may have any length.
   const bool is_read = trmesh.n >= 3 && trmesh.n <= most_nodes<std::int32_t>();
   const std::size_t size = is_read ? static_cast<std::size_t>(trmesh.n) * nodes.real_bytes() : 0;
   iovec parts[4] = {

@@ -26,7 +26,7 @@ static_assert(sizeof kPhase / sizeof *kPhase == ParallelCost::phases);
 
 std::int64_t microseconds(double seconds) { return std::llround(1e6 * seconds); }
 
-/// Some lines of text, written at once, so that those of other threads and processes stay whole, too.
+/// Lines of text, written by one system call, so that lines of several threads and processes do not mix.
 class Text {
  public:
   __attribute__((format(printf, 2, 3))) void add(const char* format, ...) {
@@ -36,7 +36,7 @@ class Text {
     va_end(arguments);
     if (length > 0) size_ = std::min(size_ + static_cast<std::size_t>(length), sizeof text_ - 1);
   }
-  /// In integers: the program's locale may not have decimal points.
+  /// Formats integers, because the program's locale may have a decimal comma.
   void add_seconds(std::int64_t us, int width = 0) {
     const int before_point = width > 7 ? width - 7 : 0;
     add("%*lld.%06d", before_point, static_cast<long long>(us / 1000000), static_cast<int>(us % 1000000));
@@ -56,11 +56,11 @@ class Text {
   char text_[2048] = "";
 };
 
-/// Lives until the process has ended. No locks: a forked child would inherit one that nobody opens.
+/// Exists until the process ends. Has no locks: a forked child could inherit a lock that nobody releases.
 class Report {
  public:
-  /// What the environment asks for where the library is loaded, and where the program is then: it may change
-  /// both later. Null if it asks for nothing.
+  /// Reads the environment and the working directory when the library is loaded, because the program may
+  /// change both later. Null if no report is asked for.
   static Report* from_environment() {
     const char* const value = environment_variable("PSTRIPACK_REPORT");
     if (value == nullptr || *value == '\0' || std::strcmp(value, "0") == 0) return nullptr;
@@ -113,7 +113,7 @@ class Report {
     std::atomic<std::int64_t> calls{0}, us{0}, phase_us[ParallelCost::phases] = {};
   };
 
-  /// Last in the line, since it may be a sentence.
+  /// The last item of the line, because it may be a sentence.
   static void add_order(Text& line, const CallReport& call) {
     const auto node = static_cast<long long>(call.order_node);
     switch (call.order) {
@@ -157,7 +157,7 @@ class Report {
     }
   }
 
-  /// A name that is cut off would be another file's.
+  /// A path that does not fit is an error: cut off, it would name another file.
   void set_path(const char* path) {
     char folder[PATH_MAX] = "";
     const bool is_relative = *path != '/' && getcwd(folder, sizeof folder) != nullptr;
@@ -196,8 +196,8 @@ class Report {
     if (!table.empty()) write(table);
   }
 
-  /// The file is opened each time: a program may close files that it does not know, and then the number is
-  /// another file's. Never waits for a reader of a pipe.
+  /// The file is opened each time, because a program may close descriptors that it does not know. Never waits
+  /// for the reader of a pipe.
   void write(const Text& text) {
     if (path_[0] == '\0') {
       text.write_to(STDERR_FILENO);

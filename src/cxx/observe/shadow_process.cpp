@@ -23,7 +23,7 @@
 namespace pstripack {
 namespace {
 
-constexpr double kPatience = 10;  // seconds, beyond those of one call of the original
+constexpr double kPatience = 10;  // seconds to wait for the end of the log, beyond one call's timeout
 
 [[noreturn]] void fail(const std::string& what, int error) {
   throw std::runtime_error(what + ": " + std::strerror(error));
@@ -33,8 +33,8 @@ bool starts_with(const char* text, const char* beginning) {
   return std::strncmp(text, beginning, std::strlen(beginning)) == 0;
 }
 
-/// The program: as the environment says, or beside this library (lib/../bin, lib/<machine>/../../bin), or
-/// wherever PATH finds it.
+/// The program to start: PSTRIPACK_COMPARE; else that beside this library (lib/../bin,
+/// lib/<machine>/../../bin); else the name alone, which is looked up in PATH.
 std::string program() {
   const std::string name = "stripack-compare";
   if (const char* const given = environment_variable("PSTRIPACK_COMPARE")) return given;
@@ -50,7 +50,8 @@ std::string program() {
   return name;
 }
 
-/// The model's environment without what speaks to the libraries in it: the program is no rank of its job.
+/// The model's environment without the variables of MPI launchers and of this library, and without
+/// LD_PRELOAD: the program is not a rank of the model's job.
 std::vector<char*> environment_of_program() {
   std::vector<char*> variables;
   for (char** variable = environ; *variable != nullptr; ++variable) {
@@ -62,7 +63,7 @@ std::vector<char*> environment_of_program() {
   return variables;
 }
 
-/// Not one of stdin, stdout, stderr, which the model may have closed.
+/// Moves a descriptor above 0, 1 and 2, which it may be if the model has closed its standard files.
 int away_from_standard_files(int file) {
   if (file < 0 || file > 2) return file;
   const int other = fcntl(file, F_DUPFD_CLOEXEC, 3);
@@ -70,7 +71,7 @@ int away_from_standard_files(int file) {
   return other;
 }
 
-/// posix_spawn's two objects.
+/// Owns the two objects of posix_spawn.
 struct SpawnOptions {
   SpawnOptions() {
     posix_spawn_file_actions_init(&files);
@@ -147,7 +148,7 @@ void ShadowProcess::start() {
   posix_spawn_file_actions_addclosefrom_np(&options.files, 3);  // the model's files and sockets
 #endif
 #endif
-  // A process group of its own: a ^C is for the model, whose end is then the end of the stream.
+  // A process group of its own, so that Ctrl-C reaches the model only. The program ends with the stream.
   sigset_t none, all;
   sigemptyset(&none);
   sigfillset(&all);
@@ -168,7 +169,7 @@ void ShadowProcess::start() {
     return;
   }
   close(ends[0]);
-  fail("cannot run " + path + " (PSTRIPACK_COMPARE may say where it is)", error);
+  fail("cannot run " + path + " (set PSTRIPACK_COMPARE to its path)", error);
 }
 
 bool ShadowProcess::socket_is_open() const noexcept {
@@ -190,7 +191,7 @@ void ShadowProcess::send(iovec* parts, int count) {
 bool ShadowProcess::finish() noexcept {
   if (!socket_is_open()) return true;
   shutdown(socket_, SHUT_WR);
-  // Its end of the socket is closed when it ends.
+  // The program's end of the socket is closed when it ends.
   const double end = clock_seconds(CLOCK_MONOTONIC) + std::strtod(timeout_.c_str(), nullptr) + kPatience;
   bool has_ended = false;
   for (double left = kPatience; !has_ended && left > 0; left = end - clock_seconds(CLOCK_MONOTONIC)) {

@@ -7,23 +7,24 @@
 
 namespace pstripack {
 
-/// stripack-compare, which runs the original beside the model: it reads the recorded calls from a socket and
-/// writes its log to the model's stderr. Used by one thread at a time.
+/// The process stripack-compare, which runs the original beside the model: it reads the recorded calls from a
+/// socket and writes its log to the model's stderr. To be used by one thread at a time.
 class ShadowProcess {
  public:
-  /// What stands behind `lib:` in PSTRIPACK_CHECK:
+  /// settings: PSTRIPACK_CHECK after `lib:`, that is
   /// LIBRARY[,abi=ABI][,timeout=SECONDS][,show=K][,log=FILE]. Relative paths start at `folder`. Throws
   /// std::invalid_argument.
   ShadowProcess(const std::string& settings, const std::string& folder);
 
-  /// Starts the program at the first call. Throws std::runtime_error if it does not run (any more).
+  /// Sends a block; starts the program at the first call. Throws std::runtime_error if it cannot be started
+  /// or has ended.
   void send(iovec* parts, int count);
 
-  /// No more calls. Waits for the end of the log, as long as one call of the original may take and a little
-  /// longer. False: the program goes on after the model.
+  /// After the last block: waits until the program has ended, for the timeout of one call plus 10 seconds at
+  /// most. False if it is still running.
   bool finish() noexcept;
 
-  /// In a forked child, whose calls are for a program of its own.
+  /// In a forked child: the next send() starts a program of its own.
   void leave_to_parent() noexcept;
 
  private:
@@ -32,7 +33,7 @@ class ShadowProcess {
 
   std::string library_, abi_, timeout_ = "60", show_, log_;
   int socket_ = -1;
-  ino_t inode_ = 0;  ///< of the socket: the model may close what it has not opened
+  ino_t inode_ = 0;  ///< of the socket, to notice that the model has closed the descriptor
 };
 
 }  // namespace pstripack

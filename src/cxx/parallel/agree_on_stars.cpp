@@ -68,7 +68,7 @@ void agree_on_stars(Certified<Int>& certified, const Division& division, const C
   for (bool is_last = !questions.about_triangles.value && !questions.about_arcs.value; !is_last;) {
     certified.gave_up = ++certified.rounds > kMostRounds;
     if (certified.gave_up) return;
-    const Parcels answers = answers_to(questions, patches, true, ranks, threads);
+    const Parcels answers = answers_to(questions, patches, ranks, threads);
     std::vector<GlobalNumber> found;
     OnAny has_found;
     in_agreement(

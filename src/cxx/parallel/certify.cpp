@@ -69,7 +69,7 @@ Certified<Int> certify(Patches<Int> found, const Division& division, const Corne
   while (!too_many.value && certified.coincident.empty() &&
          (questions.about_triangles.value || (questions.about_arcs.value && questions.have_grown.value))) {
     ++certified.rounds;
-    const Parcels answers = answers_to(questions, patches, false, ranks, options.threads);
+    const Parcels answers = answers_to(questions, patches, ranks, options.threads);
     in_agreement(
         ranks,
         [&] {

@@ -1,5 +1,13 @@
 #pragma once
-// Rings of an earlier call in which ranks have slices of the nodes: docs/parallel.md, "Warm start".
+// Rings of an earlier call in which ranks have slices of the nodes (pool, comm mode): docs/parallel.md, "Warm
+// start".
+//
+// The slices may lie anywhere on the sphere. So a rank has the stars of the nodes that were at home in its
+// patches when the first such call began. It reads where these nodes are now, or is told by the ranks that
+// have their slices (pool on several machines), and sends the rings that have changed to those ranks.
+//
+// As on threads, the first call keeps a sample, the next one whose nodes fit keeps the rings, the third begins
+// with them. One set of rings is kept. Where only rank 0 can read all nodes, its sample decides.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,5 +1,10 @@
 #include "parallel/patch.h"
 
+#include <algorithm>
+#include <cstdint>
+
+#include "geometry/insertion_order.h"
+
 namespace pstripack {
 
 template <class Int>
@@ -9,6 +14,17 @@ void Patch<Int>::set_up(const std::vector<Record>& closing, Workspace& workspace
   for (const Record& r : closing)
     if (!partition_->knows(id_, hull_.places()(r.point))) leading.push_back(r);
   hull_.set_up(nodes_, leading, workspace);
+}
+
+template <class Int>
+void Patch<Int>::take_in(std::vector<Record> nodes) {
+  if (nodes_.own == 0 || nodes.empty()) return;
+  keep_one_of_each(nodes);
+  Workspace workspace(16 * nodes.size());
+  std::vector<std::uint32_t> order(nodes.size());
+  insertion_order(&nodes[0].point, nodes.size(), order.data(), workspace, sizeof(Record));
+  for (std::size_t step : {64, 8, 1})
+    for (std::size_t k = 0; k < order.size(); k += step) hull_.take_in(nodes[order[k]]);
 }
 
 template <class Int>

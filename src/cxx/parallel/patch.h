@@ -52,18 +52,17 @@ class Patch {
     return pstripack::ask(view(), corners, stretch, most, asked_);
   }
 
+  /// Adds nodes of other patches to the triangulation, unless it has them: along a curve, so that the search
+  /// for each begins near it, and in three rounds, the first of every 64th node. One after another, the nodes
+  /// of a boundary would each change many faces at the back of the hull. Throws HiddenNode, std::bad_alloc.
+  void take_in(std::vector<Record> nodes);
+
   /// The answer of this patch to another's question: nodes that lie above, or that show that the arc is none
   /// of the boundary; none if there are none. A patch that answers takes in the corners of the question.
   /// Throws HiddenNode, std::bad_alloc.
   std::vector<Record> answer(const Question& question) {
     if (nodes_.own == 0 || !hull_.coincident().empty()) return {};
     return pstripack::answer(hull_, question);
-  }
-
-  /// Takes in the answer to a question of its own. Throws HiddenNode, std::bad_alloc.
-  void learn(const Question& question, const Record* nodes, std::size_t count) {
-    if (count > 0) agreed_.see_refuted(view(), question);
-    for (std::size_t k = 0; k < count; ++k) hull_.take_in(nodes[k]);
   }
 
   // Certification by agreement, where there would be too many questions: docs/parallel.md, "Agreement".
@@ -75,11 +74,8 @@ class Patch {
     if (nodes_.own == 0 || partition_->patches() == 1) return {};
     return agreed_.claim(hull_, view(), corners, most, asked_);
   }
-  /// Takes in the corners of another's question. Throws HiddenNode, std::bad_alloc.
-  void take_in_corners(const Question& question) {
-    for (const Record& r : question.corner)
-      if (nodes_.own > 0 && r.number != kNoNumber) hull_.take_in(r);  // an arc has two corners
-  }
+  /// Other patches have answered its question with nodes above the triangle.
+  void see_refuted(const Question& question) { agreed_.see_refuted(view(), question); }
   /// After the answers: nodes whose owners should not have to take in all their neighbours.
   std::vector<GlobalNumber> look_for_hubs() const { return agreed_.look_for_hubs(hull_); }
   /// All of them, the same for all patches. Throws std::bad_alloc.

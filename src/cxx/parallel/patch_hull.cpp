@@ -8,7 +8,7 @@ namespace pstripack {
 namespace {
 
 /// Room for nodes that are taken in later. They are few; where they are not, memory is taken anew.
-std::size_t capacity_for(std::size_t nodes) { return nodes + nodes / 32 + 256; }
+std::size_t capacity_for(std::size_t nodes) { return nodes + nodes / 8 + 256; }
 
 }  // namespace
 

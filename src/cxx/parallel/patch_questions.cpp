@@ -275,10 +275,10 @@ std::vector<Record> answer(PatchHull<Int>& hull, const Question& question) {
   // The highest few: they change the asker's triangulation most, and the others may not matter then.
   constexpr std::size_t kFew = 64;
   std::uint32_t v[3] = {0, 0, 0};
-  const int corners = question.is_about_arc() ? 2 : 3;
-  for (int i = 0; i < corners; ++i) v[i] = hull.take_in(question.corner[i]);
+  for (int i = 0; i < question.corners(); ++i) v[i] = hull.take_in(question.corner[i]);
   std::vector<Record> nodes;
-  for (const std::uint32_t w : corners == 2 ? nodes_beyond(hull, v[0], v[1]) : nodes_above(hull, v, kFew))
+  for (const std::uint32_t w :
+       question.is_about_arc() ? nodes_beyond(hull, v[0], v[1]) : nodes_above(hull, v, kFew))
     nodes.push_back(hull.node(w));
   return nodes;
 }

@@ -19,6 +19,7 @@ struct Question {
   std::int32_t from, to;  ///< patches
 
   bool is_about_arc() const { return corner[2].point == Point{0, 0, 0}; }
+  int corners() const { return is_about_arc() ? 2 : 3; }
 };
 
 /// What is not certain yet.

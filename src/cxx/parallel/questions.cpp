@@ -1,19 +1,22 @@
 #include "parallel/questions.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace pstripack {
 namespace {
 
 /// The answers to the questions of each rank, in their order: a count, then nodes.
 template <class Int>
-Parcels packed_answers(Patches<Int>& patches, const Parcels& incoming, bool corners_first, int threads) {
+Parcels packed_answers(Patches<Int>& patches, const Parcels& incoming, int threads) {
   const Items<Question> questions(incoming);
   std::vector<std::vector<Record>> answer(questions.size());
   patches.for_each(threads, [&](Patch<Int>& patch, std::size_t) {
-    if (corners_first)
-      for (const Question& question : questions)
-        if (question.to == patch.id()) patch.take_in_corners(question);
+    std::vector<Record> corners;
+    for (const Question& question : questions)
+      if (question.to == patch.id())
+        corners.insert(corners.end(), question.corner, question.corner + question.corners());
+    patch.take_in(std::move(corners));
     std::size_t k = 0;
     for (const Question& question : questions) {
       if (question.to == patch.id()) answer[k] = patch.answer(question);
@@ -54,11 +57,9 @@ Questions::Questions(const std::vector<Doubts>& of_patches, const PatchRanges& p
 }
 
 template <class Int>
-Parcels answers_to(const Questions& questions, Patches<Int>& patches, bool corners_first, Communicator& ranks,
-                   int threads) {
+Parcels answers_to(const Questions& questions, Patches<Int>& patches, Communicator& ranks, int threads) {
   const Parcels incoming = exchange_in_agreement(ranks, [&] { return packed(questions.to_rank); });
-  return exchange_in_agreement(ranks,
-                               [&] { return packed_answers(patches, incoming, corners_first, threads); });
+  return exchange_in_agreement(ranks, [&] { return packed_answers(patches, incoming, threads); });
 }
 
 template <class Int>
@@ -78,14 +79,19 @@ void learn(Patches<Int>& patches, const Questions& questions, const Parcels& ans
     }
   }
   patches.for_each(threads, [&](Patch<Int>& patch, std::size_t k) {
-    for (const Answer& a : of_patch[k]) patch.learn(*a.question, a.nodes, a.count);
+    std::vector<Record> nodes;
+    for (const Answer& a : of_patch[k]) {
+      if (a.count > 0) patch.see_refuted(*a.question);
+      nodes.insert(nodes.end(), a.nodes, a.nodes + a.count);
+    }
+    patch.take_in(std::move(nodes));
   });
   for (const Patch<Int>& patch : patches.of_rank)
     if (!patch.coincident().empty()) patches.see_coincidence.value = true;
 }
 
-template Parcels answers_to(const Questions&, Patches<std::int32_t>&, bool, Communicator&, int);
-template Parcels answers_to(const Questions&, Patches<std::int64_t>&, bool, Communicator&, int);
+template Parcels answers_to(const Questions&, Patches<std::int32_t>&, Communicator&, int);
+template Parcels answers_to(const Questions&, Patches<std::int64_t>&, Communicator&, int);
 template void learn(Patches<std::int32_t>&, const Questions&, const Parcels&, int);
 template void learn(Patches<std::int64_t>&, const Questions&, const Parcels&, int);
 

@@ -21,11 +21,10 @@ struct Questions {
   OnAny left_out;    ///< they have more questions than these
 };
 
-/// The answers of all ranks to the questions of this one; `corners_first`: patches take in the corners of all
-/// questions before they answer any. Collective. Throws AgreedFailure or HiddenNode.
+/// The answers of all ranks to the questions of this one. Patches take in the corners of all questions before
+/// they answer any. Collective. Throws AgreedFailure or HiddenNode.
 template <class Int>
-Parcels answers_to(const Questions& questions, Patches<Int>& patches, bool corners_first, Communicator& ranks,
-                   int threads);
+Parcels answers_to(const Questions& questions, Patches<Int>& patches, Communicator& ranks, int threads);
 
 /// The patches here take in the answers. Throws HiddenNode, std::bad_alloc.
 template <class Int>

@@ -1,6 +1,12 @@
 #pragma once
 // The nodes of the last call, of which other ranks bring some now, or in another order: docs/parallel.md,
 // "Warm start".
+//
+// Each rank compares its numbers with those of the last call, and tells those that have come and those that
+// have gone to the rank that their hash names. That rank tells the ranks that had them where they have come,
+// or that one of them has come nowhere: then the numbers are not the same. The stars of nodes that have gone
+// travel to the ranks that bring these nodes now, and every rank asks all others anew which of them bring the
+// neighbours that it does not.
 
 #include <cstddef>
 #include <cstdint>

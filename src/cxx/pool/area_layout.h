@@ -1,5 +1,6 @@
 #pragma once
-// The arrays of one TRMESH call in memory that the model and the ranks of its pool on its machine share.
+// The arrays of one call of TRMESH in memory shared by the model and the ranks of its pool on the same
+// machine.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,7 +9,7 @@
 
 namespace pstripack {
 
-/// Where the arrays lie in an area: x | y | z | list | lptr | lend, each on a page of its own.
+/// The positions of the arrays in an area: x | y | z | list | lptr | lend, each starting on a page.
 class AreaLayout {
  public:
   AreaLayout(std::int32_t n, std::int32_t real_bytes)

@@ -35,7 +35,8 @@ bool is_ours(const Descriptor& socket) {
   return getsockopt(socket.get(), SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0 && peer.uid == geteuid();
 }
 
-/// The descriptors of a packet: a bit map of the places in use, then those that exist.
+/// Room for the descriptors of a packet. Only those that exist are sent; the first byte of the packet is a
+/// bit map of their places.
 struct Ancillary {
   alignas(cmsghdr) char bytes[CMSG_SPACE(kMostDescriptors * sizeof(int))];
 };

@@ -9,25 +9,25 @@
 
 namespace pstripack {
 
-/// A socket that listens under a new name, close-on-exec like every descriptor of this file. None on failure,
-/// with errno set.
+/// A socket that listens under a new name, which is stored in *name. It is close-on-exec, like every
+/// descriptor of this file. None on failure, with errno set.
 Descriptor listen_under_new_name(std::string* name);
 
 /// Connects to a name, waiting until the listener accepts. None on failure, or if the listener belongs to
 /// another user.
 Descriptor connect_to(const char* name);
 
-/// Accepts the next connection; none if it belongs to another user.
+/// Accepts the next connection. None on failure, or if the other side belongs to another user.
 Descriptor accept_from(const Descriptor& listener);
 
-/// Sends one packet, with up to kMostDescriptors descriptors (-1: none in this place). False if the other
-/// side is gone. Raises no signal.
+/// Sends one packet, with `count` <= kMostDescriptors descriptors (-1: no descriptor in this place). False
+/// if the other side is gone. Raises no signal.
 constexpr int kMostDescriptors = 4;
 bool send_packet(const Descriptor& to, const void* bytes, std::size_t size, const int* descriptors = nullptr,
                  int count = 0);
 
 /// Waits for one packet of exactly `size` bytes. False if the other side is gone or sent something else.
-/// descriptors: `count` places; those without a descriptor become none.
+/// descriptors[0..count-1] become the descriptors received; none in places without one.
 bool receive_packet(const Descriptor& from, void* bytes, std::size_t size, Descriptor* descriptors = nullptr,
                     int count = 0);
 

@@ -26,14 +26,15 @@
 namespace pstripack {
 namespace {
 
-/// Below this a call stays on the model's own threads: waking the workers, copying the nodes there and the
-/// lists back takes as long as the triangulation itself.
+/// Calls with fewer nodes stay on the model's own threads: waking the workers and copying nodes and lists
+/// would take as long as the triangulation itself.
 constexpr std::int32_t kFewestNodes = 50000;
 
-/// A forked child is not the process that the pool serves: it shares the connection with its parent.
+/// The process that the pool serves. A forked child must not use the connection, which it shares with its
+/// parent.
 const pid_t loaded_in = getpid();
 
-/// What the environment says, read where the library is loaded: the model may change it later.
+/// Settings from the environment, read when the library is loaded, because the model may change it later.
 struct Settings {
   char pool[100] = "";
   std::int32_t fewest_nodes = kFewestNodes;
@@ -41,24 +42,28 @@ struct Settings {
   Settings() {
     const char* const name = environment_variable("PSTRIPACK_POOL");
     if (name != nullptr && std::strlen(name) < sizeof pool) std::strcpy(pool, name);
-    // For tests, whose calls are small.
+    // Only for tests, whose calls are small.
     if (const char* const fewest = environment_variable("PSTRIPACK_POOL_MIN_NODES"))
       fewest_nodes = std::atoi(fewest) < 3 ? 3 : std::atoi(fewest);
   }
 };
 const Settings settings;
 
-/// A program that has MPI of its own runs on threads: where it wants ranks, it has comm mode.
+/// True, with a message, if the program uses MPI itself: then its calls run on threads, unless it uses comm
+/// mode.
 bool program_uses_mpi() {
   if (dlsym(RTLD_DEFAULT, "MPI_Init") == nullptr && dlsym(RTLD_DEFAULT, "mpi_init_") == nullptr) return false;
-  std::fputs("pstripack: pool: this program uses MPI itself; its trmesh runs on threads\n", stderr);
+  std::fputs(
+      "pstripack: pool: this program uses MPI itself, so its trmesh runs on threads; for ranks call "
+      "pstripack_set_comm\n",
+      stderr);
   return true;
 }
 
-/// The connection to the pool. One call at a time may use it.
+/// The connection to the pool, for one call at a time.
 class Pool {
  public:
-  /// False: not carried out, nothing written.
+  /// False if the call was not carried out; then nothing is written.
   bool trmesh(const pstripack_trmesh_arguments& call, PoolReply& reply);
 
  private:
@@ -72,7 +77,7 @@ class Pool {
 
   bool tried_ = false;
   Descriptor socket_;
-  SharedArea area_;  ///< that of the largest call so far: new pages cost as much as copying
+  SharedArea area_;  ///< kept from the largest call so far, because new pages cost as much as copying
 };
 
 void copy(void* to, const void* from, std::size_t size) {
@@ -83,10 +88,10 @@ void copy(void* to, const void* from, std::size_t size) {
       });
 }
 
-/// The lengths in it are those of n nodes.
+/// True if the lengths in the reply are possible for n nodes.
 bool fits(const PoolReply& reply, std::int32_t n) {
   return reply.done == 0 || reply.ier < 0 ||
-         (1 <= reply.lnew && reply.lnew - 1 <= 6 * (n - 2) &&  // 6n itself may not fit
+         (1 <= reply.lnew && reply.lnew - 1 <= 6 * (n - 2) &&  // 6n itself may overflow
           (reply.ier == 0 || (1 <= reply.other && reply.other <= n)));
 }
 
@@ -112,7 +117,7 @@ bool Pool::trmesh(const pstripack_trmesh_arguments& call, PoolReply& reply) {
   request.wants_cost = call.report != nullptr ? 1 : 0;
   if (!send_packet(socket_, &request, sizeof request, &new_area, 1) ||
       !receive_packet(socket_, &reply, sizeof reply) || !fits(reply, call.n)) {
-    // The pool has ended, or the model has closed what it did not open, and the number may be another file's.
+    // The pool has ended, or the model has closed the descriptor. Do not close it: it may be another file's.
     socket_.release();
     area_ = SharedArea();
     return false;
@@ -135,7 +140,7 @@ bool Pool::trmesh(const pstripack_trmesh_arguments& call, PoolReply& reply) {
   return true;
 }
 
-/// Never freed: the model may call TRMESH from its exit handlers.
+/// Never freed, because the model may call TRMESH from its exit handlers.
 Pool* const pool = settings.pool[0] != '\0' ? new Pool : nullptr;
 std::atomic_flag pool_is_busy = ATOMIC_FLAG_INIT;
 
@@ -148,7 +153,7 @@ int pool_trmesh(const pstripack_trmesh_arguments* call, int32_t* ier, int64_t* n
 #ifdef _OPENMP
   if (omp_in_parallel()) return PSTRIPACK_ENGINE_DECLINES;
 #endif
-  // Another thread's call is under way: this one need not wait for it.
+  // If another thread's call is under way, this one runs on threads instead of waiting.
   if (pool_is_busy.test_and_set(std::memory_order_acquire)) return PSTRIPACK_ENGINE_DECLINES;
   PoolReply reply;
   const bool done = pool->trmesh(*call, reply);

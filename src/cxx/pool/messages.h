@@ -7,7 +7,7 @@
 
 namespace pstripack {
 
-/// The model's request, with the area's descriptor if the area is new.
+/// The model's request. The area's descriptor is sent with it if the area is new.
 struct PoolRequest {
   static constexpr std::uint32_t kFormat = 0x50533033;  ///< changes whenever messages or layout change
   std::uint32_t format = kFormat;
@@ -16,7 +16,7 @@ struct PoolRequest {
   std::int32_t wants_cost = 0;
 };
 
-/// The answer; done == 0: not executed, the model computes it itself.
+/// The reply. If done is 0 the call was not executed, and the model computes it itself.
 struct PoolReply {
   std::int32_t done = 0, ier = 0, lnew = 0;
   std::int64_t node = 0, other = 0;
@@ -24,7 +24,7 @@ struct PoolReply {
   GroupCost cost;  ///< if requested
 };
 
-/// Rank 0 reports to pstripack-run that the model has started or ended.
+/// Sent by rank 0 to pstripack-run when the model has started and when it has ended.
 struct ModelNews {
   std::int32_t process = 0, has_ended = 0;
   std::int32_t status = 0;  ///< as returned by wait()

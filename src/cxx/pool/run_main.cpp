@@ -1,8 +1,8 @@
 // pstripack-run: starts a serial model with a pool of MPI ranks behind it. No MPI in this program.
 //
-// The model is to run as if it had been started here. So its rank 0 gets from here, over a local socket, what
-// mpirun would not hand through as it is: stdout and stderr, a stdin that is a file, and the environment;
-// and hands back how the model ended.
+// The model should run as if it had been started here. So this program sends rank 0, over a local socket,
+// what mpirun would not pass on unchanged: stdout and stderr, stdin if it is a file, and the environment.
+// Rank 0 sends back how the model ended.
 
 #include <errno.h>
 #include <fcntl.h>
@@ -96,13 +96,13 @@ Arguments read_arguments(char** argv) {
     if (*argv == nullptr) fail("options for mpirun end with --, before the program (--help shows how)", 2);
     ++argv;
   }
-  if (arguments.ranks == 0) fail("how many ranks? -n P (--help shows how)", 2);
-  if (*argv == nullptr) fail("no program to run (--help shows how)", 2);
+  if (arguments.ranks == 0) fail("no number of ranks: give -n P before the program (--help shows how)", 2);
+  if (*argv == nullptr) fail("no program to run: give it after the options (--help shows how)", 2);
   arguments.program = argv;
   return arguments;
 }
 
-/// pstripack-worker lies beside this program, in the build tree as when installed.
+/// pstripack-worker is in the same folder as this program.
 std::string path_of_worker() {
   char self[PATH_MAX];
   const ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
@@ -117,8 +117,7 @@ std::string path_of_mpirun() {
   return access(PSTRIPACK_MPIRUN, X_OK) == 0 ? PSTRIPACK_MPIRUN : "mpirun";
 }
 
-/// By the first words of `mpirun --version`. Of the others Hydra is supported, the launcher of MPICH and
-/// Intel MPI.
+/// True if `mpirun --version` names Open MPI. The other supported launcher is Hydra, of MPICH and Intel MPI.
 bool is_open_mpi(const std::string& mpirun) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) fail(std::string("pipe: ") + std::strerror(errno), 1);
@@ -142,16 +141,16 @@ bool is_open_mpi(const std::string& mpirun) {
   return text.find("Open MPI") != std::string::npos || text.find("OpenRTE") != std::string::npos;
 }
 
-/// The seconds after which Open MPI notices that a machine is gone: 20 of silence, then four questions, one
-/// each 5. By itself it waits for 8 minutes. What the user has set counts.
+/// Makes Open MPI notice a lost machine after 40 seconds instead of 8 minutes: after 20 seconds of silence it
+/// probes four times, every 5 seconds. Values set by the user take precedence.
 void let_open_mpi_notice_lost_machines() {
   setenv("OMPI_MCA_oob_tcp_keepalive_time", "20", 0);
   setenv("OMPI_MCA_oob_tcp_keepalive_intvl", "5", 0);
   setenv("OMPI_MCA_oob_tcp_keepalive_probes", "4", 0);
 }
 
-/// What Open MPI must be told, and Hydra does anyway: not to bind a rank to one core, which is all that
-/// OpenMP would have; and to take variables to other machines.
+/// Options that Open MPI needs and Hydra does not: do not bind a rank to one core, to which its OpenMP
+/// threads would be confined; and pass environment variables on to other machines.
 std::vector<std::string> open_mpi_options(const Arguments& arguments) {
   std::vector<std::string> options;
   bool binds = false;
@@ -193,15 +192,16 @@ Descriptor environment_file() {
   return std::fclose(stream) == 0 ? std::move(file) : Descriptor();
 }
 
-/// A stdin that is a file: the model shall be able to rewind it, and mpirun not to move its position. Any
-/// other is handed on by Open MPI; not by Hydra, which ends the job if the model does not read at once what
-/// has come.
+/// True if stdin is a file. Then the model gets it directly, so that it can rewind it and mpirun does not
+/// move its position. Open MPI forwards any other stdin; Hydra must not, because it ends the job if the model
+/// does not read at once.
 bool stdin_is_a_file() {
   struct stat status;
   return fstat(STDIN_FILENO, &status) == 0 && S_ISREG(status.st_mode);
 }
 
-/// Open MPI reads all its input, for a rank 0 on another machine: from a file description of its own.
+/// Open MPI reads all of stdin to forward it. With its own file description it does not move the model's
+/// position.
 void give_mpirun_its_own_input() {
   const off_t position = lseek(STDIN_FILENO, 0, SEEK_CUR);
   const Descriptor file(open("/proc/self/fd/0", O_RDONLY));
@@ -210,19 +210,19 @@ void give_mpirun_its_own_input() {
   dup2(file.get(), STDIN_FILENO);
 }
 
-/// mpirun's stderr on its way to ours. Hydra kills all ranks by SIGKILL when one is lost, and their watchdogs
-/// cannot know which was the first: of the lines that name a lost rank only the first passes, nearly always
-/// the true one.
+/// Forwards mpirun's stderr to ours. When a rank is lost, Hydra kills all others by SIGKILL, and the
+/// watchdogs report each as lost. Only the first of these lines is forwarded, which is nearly always the
+/// right one.
 class ErrorLines {
  public:
   bool open() { return pipe2(ends_, O_CLOEXEC) == 0 && fcntl(ends_[0], F_SETFL, O_NONBLOCK) == 0; }
   int from() const { return ends_[0]; }
   void become_stderr() const { dup2(ends_[1], STDERR_FILENO); }
   void leave_to_mpirun() { close(ends_[1]); }
-  /// A rank has said why the job ends.
+  /// True if a line has named the rank because of which the job ends.
   bool has_named_rank() const { return has_named_rank_; }
 
-  /// What has come so far. False: there will be no more.
+  /// Forwards what has arrived so far. False at the end of the stream.
   bool pass_on() {
     char piece[4096];
     ssize_t size;
@@ -230,13 +230,13 @@ class ErrorLines {
       text_.append(piece, static_cast<std::size_t>(size));
       for (std::size_t end; (end = text_.find('\n')) != std::string::npos; text_.erase(0, end + 1))
         pass_on_line(text_.substr(0, end + 1));
-      // The beginning of a line waits only if it may be one of ours.
+      // Hold back the beginning of a line only if the line may name a rank.
       if (text_.compare(0, kRank.size(), kRank, 0, text_.size()) != 0) write_all(std::exchange(text_, {}));
     }
     return size < 0 && (errno == EAGAIN || errno == EINTR);
   }
 
-  /// mpirun has ended; what it has started may still have its stderr open.
+  /// After the end of mpirun. Does not wait for the end of the stream, which other processes may have open.
   void finish() {
     pass_on();
     write_all(text_);
@@ -258,7 +258,7 @@ class ErrorLines {
   bool has_named_rank_ = false;
 };
 
-/// Ends as the model did, by a signal, too.
+/// Ends this process as the model ended: with the same exit code or by the same signal.
 [[noreturn]] void end_like(int status) {
   if (WIFSIGNALED(status)) {
     const rlimit no_core{0, 0};
@@ -344,22 +344,22 @@ int main(int, char** argv) {
     if (events[0].revents == 0 || read(signal_file.get(), &signal, sizeof signal) < 0) continue;
     const auto number = static_cast<int>(signal.ssi_signo);
     if (number != SIGCHLD && number != SIGUSR1 && number != SIGUSR2) told_to_end = true;
-    // What is sent to this process is meant for the model. A terminal sends its signals to mpirun itself.
+    // A signal sent to this process is meant for the model. A terminal sends its signals to mpirun, too.
     if (number != SIGCHLD && signal.ssi_code <= 0 && !model.has_ended)
       kill(model.process > 0 ? model.process : mpirun, number);
     if (waitpid(mpirun, &mpirun_status, WNOHANG) == mpirun) break;
   }
   errors.finish();
   while (steward && !model.has_ended && pstripack::receive_packet(steward, &news, sizeof news)) model = news;
-  // Where mpirun failed without being told to end, a rank was lost, whatever the model says.
+  // If mpirun failed without being told to end, a rank was lost, whatever the status of the model is.
   if (model.has_ended && (mpirun_status == 0 || told_to_end)) end_like(model.status);
   if (WIFSIGNALED(mpirun_status) && !told_to_end)
-    std::fprintf(stderr, "pstripack-run: mpirun was ended by signal %d; so is the model\n",
+    std::fprintf(stderr, "pstripack-run: mpirun was ended by signal %d, and the model with it\n",
                  WTERMSIG(mpirun_status));
   else if ((model.process > 0 || model.has_ended) && !told_to_end && !errors.has_named_rank())
     std::fprintf(stderr,
-                 "pstripack-run: mpirun has ended the job with exit code %d: a machine is lost, or a rank; "
-                 "so is the model\n",
+                 "pstripack-run: mpirun has ended the job with exit code %d: a machine is lost, or a rank, "
+                 "and the model with it\n",
                  WEXITSTATUS(mpirun_status));
   end_like(mpirun_status);
 }

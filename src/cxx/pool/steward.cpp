@@ -30,25 +30,25 @@
 namespace pstripack {
 namespace {
 
-/// What rank 0 tells the others.
+/// Sent by rank 0 to the workers: a call of TRMESH, or the end.
 struct Order {
-  std::int32_t real_bytes = 0;  ///< a TRMESH of such numbers; 0: the end
+  std::int32_t real_bytes = 0;  ///< 4 or 8, the size of the nodes' reals; 0: the end
   std::int32_t n = 0;
-  std::int64_t area = 0;  ///< where its arrays are: which area, of which process, open as which file
-  std::int32_t process = 0, file = -1;
+  std::int64_t area = 0;                ///< number of the area that holds the arrays
+  std::int32_t process = 0, file = -1;  ///< the process, and its descriptor of the area
 };
 
 void tell_workers(const Order& order) { tell_others(&order, sizeof order); }
 
-/// Collective. True if every rank has memory for the arrays of the order: then all read and write there, and
-/// nothing is sent.
+/// Collective. True if every rank has mapped the area: then all read and write the arrays there, and none
+/// are sent.
 bool all_share(MpiCommunicator& ranks, const SharedArea& area, const Order& order) {
   std::int64_t seen = area.size() >= AreaLayout(order.n, order.real_bytes).size() ? 1 : 0;
   ranks.all_min(&seen, 1);
   return seen != 0;
 }
 
-/// One call, on any rank; `area` is null where there is none.
+/// Carries out one call, on any rank. `area`: null if this rank has not mapped it.
 TrmeshResult carry_out(MpiCommunicator& ranks, Arrays arrays, const Order& order, void* area, LastCall& last,
                        std::int32_t* lnew = nullptr, GroupCost* cost = nullptr) {
   TrmeshCall call;
@@ -57,8 +57,8 @@ TrmeshResult carry_out(MpiCommunicator& ranks, Arrays arrays, const Order& order
   return collective_trmesh(ranks, arrays, call, cost, &last);
 }
 
-/// The environment of pstripack-run, as it was passed on: NAME=VALUE, each closed by a zero. MPI's variables
-/// are not in it, so a model that uses MPI itself is a single process, as it is without the pool.
+/// The environment of pstripack-run, from the file that it sent: NAME=VALUE, each closed by a zero. It has no
+/// variables of MPI, so a model that uses MPI itself is a single process, as without the pool.
 std::vector<char*> environment_in(const Descriptor& file) {
   std::vector<char*> all;
   struct stat status;
@@ -71,7 +71,7 @@ std::vector<char*> environment_in(const Descriptor& file) {
   return all;
 }
 
-/// Where that could not be passed on: this process's environment without what mpirun has added to it.
+/// Used if that file is missing: this process's environment without the variables that mpirun added.
 std::vector<char*> environment_without_mpi() {
   std::vector<char*> all;
   for (char** at = environ; *at != nullptr; ++at)
@@ -186,7 +186,7 @@ bool Steward::serve(Client& client, MpiCommunicator& ranks) {
   TrmeshResult result{0};
   try {
     const Arrays arrays = all_share(ranks, client.area, order) ? Arrays::shared : Arrays::on_one_rank;
-    client.area.close_file();  // who can share it has it by now
+    client.area.close_file();  // every rank that can map it has done so
     result = carry_out(ranks, arrays, order, client.area.data(), last_call_, &reply.lnew,
                        request.wants_cost != 0 ? &reply.cost : nullptr);
   } catch (const AgreedFailure& failure) {

@@ -15,14 +15,14 @@ namespace pstripack {
 
 Watchdog::Watchdog(int rank) : launcher_(getppid()) {
   void* const memory = mmap(nullptr, sizeof(Page), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-  int alive[2];  // a pipe that the rank keeps open as long as it lives
+  int alive[2];  // a pipe whose write end closes when the rank ends
   if (memory == MAP_FAILED) return;
   page_ = new (memory) Page{"the start of MPI", 0};
   if (pipe2(alive, O_CLOEXEC) != 0) return;
   const pid_t rank_process = getpid();
   const pid_t watchdog = fork();
   if (watchdog != 0) {
-    close(alive[0]);  // the other end is the rank's until it ends
+    close(alive[0]);  // the rank keeps the other end open until it ends
     return;
   }
 

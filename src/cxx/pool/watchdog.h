@@ -1,24 +1,24 @@
 #pragma once
-// Somebody must be left to say that a rank was killed.
+// Reports that a rank of the pool was killed.
 
 #include <sys/types.h>
 
 namespace pstripack {
 
-/// A child process that waits for the end of this one, a rank of the pool. If the rank ends without having
-/// said so, it prints one line that names rank and phase; if what started the rank (mpirun or its daemon)
-/// is gone, it ends the rank. It holds nothing open but stderr.
+/// A child process that waits for the end of this process, a rank of the pool. If the rank ends without
+/// dismiss(), it prints one line that names rank and phase. If the process that started the rank (mpirun or
+/// its daemon) is gone, it kills the rank. It keeps no descriptor open but stderr.
 class Watchdog {
  public:
-  /// Before MPI_Init. The watchdog cannot be had: the rank does without.
+  /// To be called before MPI_Init. If the watchdog cannot be started, the rank runs without it.
   explicit Watchdog(int rank);
   Watchdog(const Watchdog&) = delete;
   Watchdog& operator=(const Watchdog&) = delete;
 
-  /// Memory that the watchdog reads when the rank is gone: what it points to then must be text that was
-  /// there before the watchdog was, such as a literal. Null if there is no such memory.
+  /// Shared memory for a pointer to the name of the phase, which must be a literal: the watchdog reads it
+  /// when the rank is gone. Null if there is no such memory.
   const char* volatile* phase() { return page_ != nullptr ? &page_->phase : nullptr; }
-  /// The end of the rank is none to talk about.
+  /// From now on the end of the rank is not reported.
   void dismiss() {
     if (page_ != nullptr) page_->dismissed = 1;
   }

@@ -1,5 +1,5 @@
-// pstripack-worker: a rank of the pool. Started by pstripack-run through mpirun; all ranks get the model's
-// command line, rank 0 starts the model.
+// pstripack-worker: a rank of the pool. pstripack-run starts it through mpirun. All ranks get the model's
+// command line; rank 0 starts the model.
 
 #include <signal.h>
 #include <unistd.h>
@@ -17,8 +17,8 @@ namespace {
 pstripack::Watchdog* watchdog = nullptr;
 pstripack::Steward* steward = nullptr;
 
-/// mpirun ends its job by SIGTERM to all ranks: not a loss to be reported. Rank 0 lets the model, which got
-/// the same signal, end first in its own way; SIGKILL follows if that takes long.
+/// Handles SIGTERM from mpirun, which ends a job in this way; it is not a loss to be reported. Rank 0 lets
+/// the model, which got the same signal, end first; mpirun sends SIGKILL if that takes long.
 void end_on_request(int signal, siginfo_t* sender, void*) {
   if (sender->si_pid != watchdog->launcher()) {
     ::signal(signal, SIG_DFL);
@@ -53,7 +53,7 @@ int main(int argc, char** argv) {
   action.sa_sigaction = end_on_request;
   action.sa_flags = SA_SIGINFO;
   sigaction(SIGTERM, &action, nullptr);
-  // mpirun forwards these to all processes; they are meant for the model.
+  // mpirun forwards these signals to all processes; they are meant for the model.
   signal(SIGUSR1, SIG_IGN);
   signal(SIGUSR2, SIG_IGN);
 

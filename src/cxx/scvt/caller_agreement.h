@@ -1,5 +1,5 @@
 #pragma once
-// How ranks agree on what a procedure of the caller threw.
+// Agreement of ranks on an exception that a procedure of the caller threw.
 
 #include <algorithm>
 #include <cstdio>
@@ -13,10 +13,11 @@
 
 namespace pstripack::scvt {
 
-/// Runs body(), which may call a density or another procedure of the caller, on every rank and agrees on how
-/// it ended, and on the votes as they are after it. All ranks throw the same: AgreedFailure if memory ran
-/// out; else what the caller's procedure threw on the lowest rank, as a NoTessellation with its text; else
-/// BadDensity at the least place. A rank alone throws what body() throws, but for std::bad_alloc. Collective.
+/// Runs body(), which may call a density or another procedure of the caller, on every rank. Then the ranks
+/// agree on how it ended and on the votes. All ranks throw the same: AgreedFailure if memory ran out; else
+/// what the caller's procedure threw on the lowest rank, as a NoTessellation with its text; else BadDensity
+/// at the place that is lexicographically first. A single rank throws what body() throws, but AgreedFailure
+/// for std::bad_alloc. Collective.
 template <class Body, class... Votes>
 void in_agreement_with_caller(Communicator& ranks, const Body& body, Votes&... votes) {
   if (ranks.size() == 1) {

@@ -1,29 +1,29 @@
 // Quadrature.
 //
-// A cell is integrated in the plane that touches the sphere at its generator g, with coordinates x, y along
-// two axes e1, e2 at right angles to g and to each other. The place x, y is seen from the centre in the
-// direction p = (g + x e1 + y e2)/sqrt(1+s), s = x^2 + y^2, and dxdy in the plane is dxdy/(1+s)^(3/2) on the
-// sphere. Great circles are straight lines there: a cell is a convex polygon around 0. With u = neighbour - g
-// the points as far from the neighbour as from g are x u.e1 + y u.e2 = u.u/2, so a corner, the circumcentre
+// A cell is integrated in the tangent plane at its generator g, with coordinates x, y along two axes e1, e2
+// perpendicular to g and to each other. The point x, y of the plane is projected from the centre to
+// p = (g + x e1 + y e2)/sqrt(1+s), s = x^2 + y^2, and dxdy in the plane is dxdy/(1+s)^(3/2) on the sphere.
+// Great circles are straight lines in the plane: a cell is a convex polygon around 0. With u = neighbour - g
+// the points equidistant from the neighbour and g are x u.e1 + y u.e2 = u.u/2. So a corner, the circumcentre
 // of g and two neighbours, solves two linear equations: no square root, no cancellation.
 //
-// A triangle of 0 and two consecutive corners P, Q has the points r (P + t (Q-P)), 0 < r < 1, 0 < t < 1, and
-// dxdy = det(P,Q) r dr dt. On a ray (t fixed) with z = r^2 s(t) the three integrands are
+// A triangle of 0 and two consecutive corners P, Q has the points r (P + t (Q-P)), 0 < r < 1, 0 < t < 1,
+// and dxdy = det(P,Q) r dr dt. On a ray (t fixed) with z = r^2 s(t) the three integrands are
 //     mass      density (1+z)^(-3/2)                       = density (1 - 3/2 z + 15/8 z^2 - ...)
 //     energy    density 2 ((1+z)^(-3/2) - (1+z)^(-2))      = density (z - 9/4 z^2 + 29/8 z^3 - ...)
 //     pull      density (x,y) (1+z)^(-2)                   = density (x,y) (1 - 2 z + 3 z^2 - ...)
-// Power series in z times a polynomial in r: integrated over r term by term. Over t: three points of
-// Gauss, exact for z^2. In a cell with s <= kSmall at all corners what is left is below 5e-7, and falls with
-// s^2. Where the density is constant and s <= kTiny, three terms are enough: the next are below 2e-7, and
-// fall with s^3; the integrals over t then have closed forms.
+// These are power series in z times a polynomial in r, integrated over r term by term. Over t the rule is
+// Gauss's with three points, exact for z^2. In a cell with s <= kSmall at all corners the error is below
+// 5e-7, and falls with s^2. If the density is constant and s <= kTiny, three terms are enough: the next are
+// below 2e-7, and fall with s^3; the integrals over t then have closed forms.
 //
-// The density is taken as a polynomial of degree 2 in each triangle, from its values at 0, P, Q and the
-// midpoints of the three sides: on a ray density = a + b(t) r + c(t) r^2. Its products with the weights above
-// are integrated as well as those of a constant density.
+// The density is interpolated by a polynomial of degree 2 in each triangle, from its values at 0, P, Q and
+// the midpoints of the three sides: on a ray density = a + b(t) r + c(t) r^2. Its products with the weights
+// above are integrated as accurately as those of a constant density.
 //
-// Larger cells, and those where the density differs by more than kRough, are cut into small spherical
-// triangles, each with a rule of seven points (Radon 1948): positive weights, so that mass and energy are
-// positive whatever the density is.
+// Larger cells, and cells in which the density varies by more than a factor of kRough, are cut into small
+// spherical triangles, each with a rule of seven points (Radon 1948). Its weights are positive, so mass and
+// energy are positive for any density.
 
 #include "scvt/cells.h"
 
@@ -42,7 +42,7 @@ constexpr double kRough = 4;                   ///< largest density in a cell ov
 
 bool is_good(double density) { return density > 0 && std::isfinite(density); }
 
-/// Two axes at right angles to the unit vector g and to each other (Duff et al. 2017).
+/// Two axes perpendicular to the unit vector g and to each other (Duff et al. 2017).
 struct Axes {
   Axes() = default;
   explicit Axes(const Point& g) {
@@ -55,17 +55,16 @@ struct Axes {
 
 struct Sums {
   double mass = 0, energy = 0;
-  Point pull{0, 0, 0};  ///< integral of density times p-g, not yet at right angles to g
+  Point pull{0, 0, 0};  ///< integral of density times p-g, including its part along g
 };
 
-// ---- cells that are large, or rough
-// ------------------------------------------------------------------------
+// ---- large or rough cells -----------------------------------------------------------------------------
 
 class LargeCell {
  public:
   explicit LargeCell(const Density& density) : density_(density) {}
 
-  /// The cell of g between the neighbours of points[] in ring[0..count-1].
+  /// Integrates the cell of g. ring[0..count-1] are its neighbours, as indices from 1 into points[].
   Sums integrate(const Point* points, const Point& g, const std::int32_t* ring, std::size_t count) {
     const auto spoke = [&](std::size_t k) { return minus(points[static_cast<std::size_t>(ring[k]) - 1], g); };
     points_.clear();
@@ -98,7 +97,7 @@ class LargeCell {
 
  private:
   static constexpr int kMostCuts = 8;
-  static constexpr double kLongest = 0.1;  ///< side of a triangle that is not cut
+  static constexpr double kLongest = 0.1;  ///< triangles with a longer side are cut
 
   void cut(const Point& a, const Point& b, const Point& c, int cuts) {
     const Point ab = minus(b, a), bc = minus(c, b), ca = minus(a, c);
@@ -113,8 +112,8 @@ class LargeCell {
     cut(p, q, r, cuts - 1);
   }
 
-  /// With the points q of the plane triangle the integral over the spherical one is det(a,b,c)/2 times the
-  /// mean of the integrand at q/|q| over |q|^3.
+  /// The integral over the spherical triangle is det(a,b,c)/2 times the mean, over the points q of the plane
+  /// triangle, of the integrand at q/|q| divided by |q|^3.
   void add(const Point& a, const Point& b, const Point& c) {
     // (6 -+ sqrt(15))/21 and weights (155 -+ sqrt(15))/1200.
     constexpr double kNear = 0.10128650732345634, kFar = 0.47014206410511509;
@@ -139,11 +138,10 @@ class LargeCell {
   std::vector<double> weights_, values_;
 };
 
-// ---- small cells, many at a time
-// ---------------------------------------------------------------------------
+// ---- small cells, many at a time ----------------------------------------------------------------------
 
-/// Arrays over the entries of some consecutive cells. A cell has an entry for each neighbour, and its first
-/// corner once more: entry k+1 is then always the next one, and loops over entries have no branches.
+/// Arrays over the entries of several cells. A cell has an entry for each neighbour, and its first entry
+/// once more at the end: so entry k+1 always follows entry k, and loops over entries have no branches.
 struct Entries {
   std::size_t count = 0;
   std::vector<double> u, v, half;  ///< neighbour: its components along the axes, half its distance squared
@@ -157,7 +155,7 @@ struct Entries {
   }
 };
 
-/// All corners; those behind the last of a cell are of no use.
+/// Computes all corners; the one after the last corner of each cell is meaningless.
 void find_corners(Entries& e) {
   const double *const u = e.u.data(), *const v = e.v.data(), *const half = e.half.data();
   double *const x = e.x.data(), *const y = e.y.data(), *const s = e.s.data();
@@ -168,12 +166,12 @@ void find_corners(Entries& e) {
     const double det = u[k] * v[k + 1] - v[k] * u[k + 1], inverse = 1 / det;
     x[k] = (half[k] * v[k + 1] - v[k] * half[k + 1]) * inverse;
     y[k] = (u[k] * half[k + 1] - half[k] * u[k + 1]) * inverse;
-    s[k] = std::copysign(x[k] * x[k] + y[k] * y[k], det);  // not >= 0: the plane does not show the corner
+    s[k] = std::copysign(x[k] * x[k] + y[k] * y[k], det);  // < 0 or NaN: the corner has no image in the plane
   }
 }
 
-/// Density 1, three terms of the series. With A = P.P, B = P.Q, C = Q.Q, T = A+C, G = AC the means over t of
-/// s, s^2, s^3 are
+/// Integrates with density 1 and three terms of the series. With A = P.P, B = P.Q, C = Q.Q, T = A+C, G = AC
+/// the means over t of s, s^2, s^3 are
 ///     (T+B)/3,  (3 T (T+B) + 2 B^2 - 5 G)/15,  (5 T^2 (T+B) + (2T+B) (2 B^2 - 7 G))/35,
 /// and (x,y) = (1-t) P + t Q needs those of (1-t) s and (1-t) s^2 for P,
 ///     (3A+2B+C)/12,  (M + 2A (2A+B))/30  with  M = T (T+2B) + 2 B^2 - G,
@@ -199,10 +197,10 @@ void integrate_tiny(Entries& e) {
   }
 }
 
-/// Some consecutive cells at a time.
+/// Integrates consecutive cells, up to kCells at a time.
 class SmallCells {
  public:
-  static constexpr std::size_t kCells = 64;  ///< their arrays fit the first cache
+  static constexpr std::size_t kCells = 64;  ///< so few that their arrays fit the first-level cache
   SmallCells(const Point* points, const NeighbourLists& stars, const Density& density, Cells& cells)
       : points_(points),
         stars_(stars),
@@ -242,7 +240,7 @@ class SmallCells {
   }
 
  private:
-  static constexpr std::size_t kAhead = 6 * kCells;  ///< neighbours: those that the next cells ask for
+  static constexpr std::size_t kAhead = 6 * kCells;  ///< distance of prefetching, in neighbours
 
   enum class Size : char { tiny, small, large };
 
@@ -257,7 +255,7 @@ class SmallCells {
     }
   }
 
-  /// By number of neighbours: loops over a cell then end where the processor expects it.
+  /// Orders the cells by their number of neighbours, so that the ends of loops over a cell are predictable.
   void order_cells() {
     constexpr std::size_t kMost = 15;
     const auto key = [&](std::size_t i) { return std::min(stars_.end_of(i) - stars_.begin_of(i), kMost); };
@@ -305,7 +303,6 @@ class SmallCells {
     });
   }
 
-  /// Adds up the triangles of cell i.
   void write(std::size_t i, std::size_t k, std::size_t count, double factor) {
     double mass = 0, energy = 0, x = 0, y = 0;
     for (std::size_t j = k; j < k + count; ++j) {
@@ -329,8 +326,8 @@ class SmallCells {
     cells_.pull[i] = minus(sums.pull, scaled(dot(sums.pull, g), g));
   }
 
-  /// For each cell its generator, and for each of its entries the corner, the middle between the generator
-  /// and the corner, and the middle between this corner and the next.
+  /// Evaluates the density. The places of a cell: its generator; for each entry the corner, the midpoint of
+  /// generator and corner, and the midpoint of this corner and the next.
   void take_samples() {
     samples_.clear();
     for_each_cell([&](std::size_t i, std::size_t k, std::size_t count) {
@@ -369,7 +366,8 @@ class SmallCells {
     });
   }
 
-  /// here, next: the density at a corner and midway to it; here[2]: midway between the corners.
+  /// here[0], next[0]: the density at the two corners; here[1], next[1]: midway between generator and corner;
+  /// here[2]: midway between the corners.
   void integrate_triangle(std::size_t k, double centre, const double* here, const double* next) {
     // Gauss's points 1/2 -+ sqrt(15)/10, 1/2.
     constexpr double kPoint[3] = {0.1127016653792583, 0.5, 0.8872983346207417};
@@ -411,7 +409,7 @@ class SmallCells {
 
   const Point* const points_;
   const NeighbourLists& stars_;
-  const std::size_t slots_;  ///< of the neighbours of all cells
+  const std::size_t slots_;  ///< number of neighbours of all cells
   const Density& density_;
   Cells& cells_;
   LargeCell large_;

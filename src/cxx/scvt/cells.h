@@ -10,9 +10,10 @@
 
 namespace pstripack::scvt {
 
-/// The neighbours of the first `count` of some points: those of point i (from 0) are neighbour[end[i-1]] ...
-/// neighbour[end[i]-1], numbers from 1, counterclockwise, beginning with the one of smallest number in the
-/// whole tessellation. LEND and LIST of TRMESH's canonical lists are such arrays.
+/// The neighbours of points 0..count-1: those of point i are neighbour[end[i-1]] ... neighbour[end[i]-1],
+/// as indices from 1 into the array of points, counterclockwise. The first is the one with the smallest
+/// number in the whole tessellation. end[-1] counts as 0. LEND and LIST of TRMESH's canonical lists are such
+/// arrays.
 struct NeighbourLists {
   std::size_t count = 0;
   const std::int32_t* end = nullptr;
@@ -22,14 +23,15 @@ struct NeighbourLists {
   std::size_t end_of(std::size_t i) const { return static_cast<std::size_t>(end[i]); }
 };
 
-/// Of each generator g, over its cell. With the chord, |p-g|^2 = 2 - 2 p.g, the integral of density times p
-/// is
+/// Integrals over the cell of each generator g. Since |p-g|^2 = 2 - 2 p.g (chord length), the integral of
+/// density times p is
 ///     pull + (mass - energy/2) g,
-/// and the derivative of the energy of all cells to g is -2 pull: the boundaries of the cells add nothing.
+/// and the derivative of the energy of all cells with respect to g is -2 pull: the moving boundaries of the
+/// cells contribute nothing.
 struct Cells {
-  std::vector<Point> pull;     ///< integral of density times p, its part at right angles to g
-  std::vector<double> mass;    ///< of density
-  std::vector<double> energy;  ///< of density times |p-g|^2
+  std::vector<Point> pull;     ///< integral of density times p, the part perpendicular to g
+  std::vector<double> mass;    ///< integral of density
+  std::vector<double> energy;  ///< integral of density times |p-g|^2
 
   void resize(std::size_t n) {
     pull.resize(n);
@@ -38,15 +40,15 @@ struct Cells {
   }
 };
 
-/// The direction of the integral of density times p over cell i of the generator g: where Lloyd's method
-/// moves it.
+/// The centroid of cell i, whose generator is g: the direction of the integral of density times p over the
+/// cell. A unit vector.
 Point centroid(const Cells& cells, std::size_t i, const Point& g);
 
-/// Integrates the cells of the first stars.count points, which have unit length; other points are only
-/// neighbours. On threads, unless the density is serial. A cell has the same bits whatever its number is and
-/// whoever integrates it, if its star begins with the same neighbour. Relative errors are below 5e-7 for a
-/// constant density, and grow with the third power of the width of the cell where a smooth density varies.
-/// Throws BadDensity, std::bad_alloc, and what the density throws.
+/// Integrates the cells of points 0..stars.count-1, which have unit length; other points are only
+/// neighbours. On threads, unless the density is serial. The results of a cell have the same bits whatever
+/// its number is and whichever thread or rank integrates it, if its star begins with the same neighbour.
+/// Relative errors are below 5e-7 for a constant density. For a smooth density they grow with the third
+/// power of the width of the cell. Throws BadDensity, std::bad_alloc, and what the density throws.
 void integrate(const Point* points, const NeighbourLists& stars, const Density& density, Cells& cells);
 
 }  // namespace pstripack::scvt

@@ -11,13 +11,13 @@ namespace pstripack::scvt {
 class Density {
  public:
   virtual ~Density() = default;
-  /// value[i] at the unit vector p[i]. Any number of threads call it at once, unless is_serial(). The value
-  /// depends on p[i] alone, never on an earlier call: results then have the same bits for any number of
-  /// threads and ranks.
+  /// Sets value[i] to the density at the unit vector p[i], i = 0..n-1. Any number of threads call it at
+  /// once, unless is_serial(). The value must depend on p[i] alone, never on earlier calls: so results have
+  /// the same bits for any number of threads and ranks.
   virtual void at(std::size_t n, const Point* p, double* value) const = 0;
-  /// True if the value is the same everywhere: it is then asked for once, and cells are integrated faster.
+  /// True if the value is the same everywhere. Then it is evaluated once, and cells are integrated faster.
   virtual bool is_constant() const { return false; }
-  /// True if only the thread that called the library may ask for values.
+  /// True if only the thread that called the library may call at().
   virtual bool is_serial() const { return false; }
 
   double at(const Point& p) const {
@@ -38,8 +38,8 @@ class ConstantDensity final : public Density {
   double value_;
 };
 
-/// (1 + (ratio-1) (1 + tanh((radius-d)/width))/2)^4 at the distance d from the centre: cells are `ratio`
-/// times narrower there. Lengths in radians.
+/// (1 + (ratio-1) (1 + tanh((radius-d)/width))/2)^4 at the distance d from the centre: cells near the
+/// centre are `ratio` times narrower than far away. Lengths in radians.
 class BumpDensity final : public Density {
  public:
   BumpDensity(const Point& centre, double radius, double width, double ratio)

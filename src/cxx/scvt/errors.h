@@ -13,14 +13,12 @@ struct NoTessellation : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The density is not positive, or not finite, at a place.
 struct BadDensity : NoTessellation {
   BadDensity(const Point& p, double v);
   Point place;
   double value;
 };
 
-/// The generators themselves are at fault.
 struct BadGenerators : NoTessellation {
   using NoTessellation::NoTessellation;
 };
@@ -33,7 +31,7 @@ struct CoincidentGenerators : BadGenerators {
 struct BadNumber : BadGenerators {
   explicit BadNumber(std::int64_t number);
 };
-/// The generators lie in a hemisphere: some cell has no end.
+/// The generators lie in a hemisphere: some cells are unbounded.
 struct GeneratorsInHemisphere : BadGenerators {
   GeneratorsInHemisphere();
 };

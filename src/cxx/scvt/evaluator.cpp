@@ -14,7 +14,7 @@
 namespace pstripack::scvt {
 namespace {
 
-/// Three of the generators that are not on one great circle, in front; false if there are none.
+/// Moves three generators that are not on one great circle to the front of `order`; false if there are none.
 bool put_corners_in_front(std::vector<std::size_t>& order, const std::vector<Point>& generators) {
   for (std::size_t second = 1; second < order.size(); ++second) {
     const Point &a = generators[0], &b = generators[second];
@@ -42,7 +42,8 @@ TrmeshResult call_trmesh(const std::vector<Point>& nodes, std::vector<std::int32
                            {list.data(), lptr.data(), lend.data(), &lnew}});
 }
 
-/// Lists of the generators from those of the generators in another order: list'[...] of order[i].
+/// Turns the lists of the generators in another order, of which generator order[i] is the i-th, into those
+/// in their own order.
 void renumber(const std::vector<std::size_t>& order, std::vector<std::int32_t>& list,
               std::vector<std::int32_t>& lend) {
   const std::size_t n = order.size();

@@ -1,5 +1,5 @@
 #pragma once
-// Energy and gradient of generators, whoever has them.
+// Energy and gradient of generators, on one process or on many ranks.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,11 +14,11 @@
 
 namespace pstripack::scvt {
 
-/// Where generators are evaluated: here, or on ranks that have some of them each. All members but ranks() and
-/// density() are collective, and all ranks get the same results and throw the same exceptions.
+/// Evaluates generators: all on this process, or a part on each rank. All members except ranks() and
+/// density() are collective; they have the same results and throw the same exceptions on all ranks.
 class Evaluator {
  public:
-  /// The density must outlive this.
+  /// The density must outlive the evaluator.
   explicit Evaluator(const Density& density) : density_(density) {}
   virtual ~Evaluator() = default;
   Evaluator(const Evaluator&) = delete;
@@ -27,30 +27,30 @@ class Evaluator {
   virtual Communicator& ranks() = 0;
   const Density& density() const { return density_; }
 
-  /// From now on this rank has the generators with these numbers.
+  /// Sets the global numbers of this rank's generators.
   virtual void begin_with(const std::vector<std::int64_t>& numbers) = 0;
-  /// The rank where each of this rank's generators should be, so that neighbours are together. Throws as
-  /// triangulate().
+  /// The rank to which each of this rank's generators should move, so that neighbours are on one rank.
+  /// Throws what triangulate() throws.
   virtual std::vector<std::int32_t> homes(const std::vector<Point>& generators) = 0;
-  /// This rank's generators (unit vectors), which may have moved, and their stars, until the next call.
-  /// Throws BadGenerators, std::bad_alloc, AgreedFailure.
+  /// The stars of this rank's generators (unit vectors), which may have moved. The result is valid until
+  /// the next call. Throws BadGenerators, std::bad_alloc, AgreedFailure.
   virtual Neighbourhood triangulate(const std::vector<Point>& generators) = 0;
 
-  /// The same, and their cells. Throws BadDensity, what the density throws, and as triangulate().
+  /// The same, and the integrals over their cells. Throws also BadDensity and what the density throws.
   virtual Neighbourhood evaluate(const std::vector<Point>& generators, Cells& cells);
-  /// Sums over all ranks: each of the `count` sums becomes that of all ranks.
+  /// Replaces each of the `count` sums by its sum over all ranks.
   void add_up(ExactSum* sums, std::size_t count);
-  /// The largest value of all ranks, of values that are not negative.
+  /// The largest of the values of all ranks, which must not be negative.
   double largest(double value);
-  /// Runs body() on every rank, where memory may run out: then all ranks throw.
+  /// Runs body() on every rank. If memory runs out on any of them, all ranks throw.
   void allocate(const std::function<void()>& body);
 
  private:
   const Density& density_;
 };
 
-/// All generators are here, with the numbers 1, 2, ... The triangulation is that of TRMESH, on threads, with
-/// its warm start.
+/// All generators are on this process, with the numbers 1, 2, ... They are triangulated by TRMESH, on
+/// threads, with its warm start.
 class LocalEvaluator : public Evaluator {
  public:
   using Evaluator::Evaluator;
@@ -68,7 +68,8 @@ class LocalEvaluator : public Evaluator {
   std::vector<std::int32_t> list_, lptr_, lend_;
 };
 
-/// Stars of generators that cover the sphere; lptr: room. Throws BadGenerators, std::bad_alloc.
+/// The stars of all generators, in `list` and `lend`; lptr is work space. Throws BadGenerators,
+/// std::bad_alloc.
 NeighbourLists triangulate(const std::vector<Point>& generators, std::vector<std::int32_t>& list,
                            std::vector<std::int32_t>& lptr, std::vector<std::int32_t>& lend);
 

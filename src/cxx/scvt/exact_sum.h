@@ -1,5 +1,5 @@
 #pragma once
-// Sums of doubles that have the same bits in any order, so for any number of threads and ranks.
+// Sums of doubles that have the same bits in any order of the terms, so for any number of threads and ranks.
 
 #include <array>
 #include <cmath>
@@ -53,15 +53,15 @@ class ExactSum {
     }
     std::size_t top = kDigits - 1;  // the digits above are 0
     while (top > 2 && w[top] == 0) --top;
-    Unsigned leading = 0;  // of the 96 bits at least 65 count, but where there are no more
+    Unsigned leading = 0;  // 96 bits, of which at least 65 are significant, unless the sum has no more
     for (std::size_t i = top; i + 3 > top; --i) leading = leading << 32 | static_cast<std::uint64_t>(w[i]);
     for (std::size_t i = 0; i + 2 < top; ++i) leading |= w[i] != 0;
     const double size = std::ldexp(static_cast<double>(leading), 32 * (static_cast<int>(top) - 2) - 1074);
     return negative ? -size : size;
   }
 
-  /// The same sum for messages: the sum of the words of several ranks, each added up as a 64-bit integer, is
-  /// the words of the sum, for up to 2^30 ranks.
+  /// The sum as words for messages. Adding the words of several ranks, each as a 64-bit integer, gives
+  /// words of the sum over the ranks, for up to 2^30 ranks.
   static constexpr std::size_t kDigits = 67;
   using Words = std::array<std::int64_t, kDigits + 1>;
   Words words() const noexcept {

@@ -18,7 +18,7 @@
 namespace pstripack::scvt {
 namespace {
 
-/// SplitMix64 (Steele, Lea, Flood 2014), which can begin anywhere.
+/// SplitMix64 (Steele, Lea, Flood 2014), which can start at any place of its sequence.
 class Random {
  public:
   Random(std::uint64_t seed, std::uint64_t numbers_before) : state_(seed + numbers_before * kStep) {}
@@ -30,7 +30,7 @@ class Random {
   std::uint64_t state_;
 };
 
-/// A triangle of the sphere, small enough that its area is about that of the plane triangle.
+/// A spherical triangle, so small that its area is about that of the plane triangle.
 struct OctahedronPart {
   std::array<Point, 3> corner;
 
@@ -60,15 +60,16 @@ std::vector<OctahedronPart> octahedron(int cuts) {
   return patches;
 }
 
-/// A random point, and its number among the candidates of which some are taken.
+/// A random point that was accepted, and its number among the candidates.
 struct Drawn {
   std::size_t candidate;
   Point point;
 };
 
-/// Draws points with the square root of a density. A patch is chosen by its area and the largest density seen
-/// in it; a point in it is then taken with the chance that its density has. Where the density hides a higher
-/// peak there are too few points: good enough to begin.
+/// Draws points distributed as the square root of a density, by rejection sampling. A patch is chosen with
+/// a probability proportional to its area times the root of the largest density sampled in it; a random
+/// point of the patch is then accepted in proportion to the root of its density. At peaks that the samples
+/// miss there are too few points, which is good enough for first generators.
 class Sampler {
  public:
   explicit Sampler(const Density& density)
@@ -88,9 +89,9 @@ class Sampler {
     }
   }
 
-  /// Of the candidates first..last-1 those that are taken.
+  /// Those of the candidates first..last-1 that are accepted.
   std::vector<Drawn> draw(std::size_t first, std::size_t last, std::uint64_t seed) const {
-    constexpr std::uint64_t kNumbers = 4;  // of each candidate
+    constexpr std::uint64_t kNumbers = 4;  // random numbers per candidate
     std::vector<Point> points;
     std::vector<double> chances;
     Random random(seed, kNumbers * first);
@@ -116,7 +117,8 @@ class Sampler {
   std::vector<double> most_, until_;
 };
 
-/// The first n of all ranks that are taken, from a candidate on, which becomes the next one. Collective.
+/// The first n accepted candidates of all ranks, from `candidate` on; `candidate` becomes the next unused
+/// one. Collective.
 Spread draw(Communicator& ranks, const Sampler& sampler, std::size_t n, std::uint64_t seed,
             std::size_t& candidate) {
   const auto size = static_cast<std::size_t>(ranks.size()), me = static_cast<std::size_t>(ranks.rank());
@@ -159,21 +161,20 @@ bool surround_the_sphere(Evaluator& evaluator, const Spread& generators) {
   }
 }
 
-/// The middle of the arc between two generators.
 struct Middle {
-  std::uint64_t key;      ///< the smaller the longer the arc, measured in local cells
+  std::uint64_t key;      ///< the smaller, the longer the arc in units of the local width of a cell
   std::int64_t from, to;  ///< numbers
   Point point;
 };
 
-/// A number that is larger where the length is smaller; below 2^63.
+/// A number below 2^63 that decreases with `length`.
 std::uint64_t key_of(double length) {
-  std::uint64_t bits = 0;  // those of positive numbers are in their order
+  std::uint64_t bits = 0;  // for positive numbers, in the same order as the numbers
   std::memcpy(&bits, &length, sizeof bits);
   return (std::uint64_t{1} << 63) - 1 - bits;
 }
 
-/// Of the arcs to neighbours with larger numbers, the longest first.
+/// The midpoints of the arcs to neighbours with larger numbers, that of the longest arc first.
 std::vector<Middle> middles_of(const Neighbourhood& generators, const Density& density) {
   const NeighbourLists& stars = generators.stars;
   std::vector<Middle> middles;
@@ -208,8 +209,8 @@ std::vector<double> values_at(const std::vector<Point>& points, const Density& d
 
 Spread random_generators(Evaluator& evaluator, std::size_t n, std::uint64_t seed) {
   if (n < 4) throw BadGenerators("a tessellation needs at least 4 generators, here are " + std::to_string(n));
-  // Seven in eight sets of four points lie in a hemisphere, and nearly all sets of few points where most of
-  // the density does: then the points are uniform.
+  // Seven in eight sets of four random points lie in a hemisphere. So do nearly all sets of few points if
+  // most of the density lies in one. After kTrials such sets the points are drawn uniformly.
   constexpr int kTrials = 20;
   const ConstantDensity uniform;
   std::size_t candidate = 0;
@@ -245,8 +246,9 @@ Spread refined(Communicator& ranks, const Neighbourhood& generators, const Densi
   constexpr std::uint64_t kNobody = std::uint64_t{1} << 62;  // above all numbers
   std::vector<Middle> middles;
   in_agreement_with_caller(ranks, [&] { middles = middles_of(generators, density); });
-  // The first so many of all ranks: those of smaller keys, of the next key those from smaller generators, and
-  // what is left from the next generator, which is on one rank.
+  // Take the first `wanted` midpoints of all ranks in the order of (key, from): all with a smaller key than
+  // the bound; of those with the bound's key, all with a smaller `from`; the rest has one `from`, so is on
+  // one rank.
   const std::int64_t wanted = static_cast<std::int64_t>(n) - sum_of_all(ranks, generators.stars.count);
   const auto before = [&](std::uint64_t key, std::int64_t from) {
     return static_cast<std::size_t>(std::lower_bound(middles.begin(), middles.end(), std::pair(key, from),

@@ -1,5 +1,5 @@
 #pragma once
-// Where a run begins.
+// The first generators of a run: random ones, and refinement from level to level.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,21 +12,23 @@
 
 namespace pstripack::scvt {
 
-/// n random directions that no hemisphere holds, with the density of the generators of a centroidal
-/// tessellation: proportional to the square root of the evaluator's density. Neighbours on the sphere have
-/// close numbers. The same for the same seed. Collective. Throws BadDensity, BadGenerators, AgreedFailure.
+/// n random unit vectors that do not lie in one hemisphere. They are distributed as the generators of a
+/// centroidal tessellation: proportional to the square root of the evaluator's density. Neighbours on the
+/// sphere have close numbers. The result depends on n, the density and the seed alone, not on the number of
+/// ranks. Collective. Throws BadDensity, BadGenerators, AgreedFailure.
 Spread random_generators(Evaluator& evaluator, std::size_t n, std::uint64_t seed);
-/// Of this process alone.
+/// The same on this process alone; not collective.
 std::vector<Point> random_generators(std::size_t n, const Density& density, std::uint64_t seed);
 
-/// The numbers of generators from a coarse level to n, each about a quarter of the next: refined() leads from
-/// each to the next, and leaves out three midpoints at most. The coarsest level has 12 to 42 generators, or
-/// n: so few find an arrangement with twelve pentagons and no other defects, which the finer levels keep.
+/// The numbers of generators of all levels, from the coarsest to n. Each is about a quarter of the next, so
+/// that refined() leads from a level to the next and leaves out three midpoints at most. The coarsest level
+/// has 12 to 42 generators, or n. So few generators find an arrangement with twelve pentagons and no other
+/// defects, which the finer levels keep.
 std::vector<std::size_t> level_sizes(std::size_t n);
 
-/// The generators and midpoints of the arcs between neighbours, n in all, at most 4 N - 6 for N generators.
-/// Of more midpoints than wanted those of the shortest arcs, measured in local cells, are left out.
-/// Neighbours on the sphere have close numbers. Collective. Throws BadDensity, AgreedFailure.
+/// The N generators and midpoints of arcs between neighbours, n points in all, n <= 4 N - 6. If there are
+/// more midpoints than needed, those of the shortest arcs, in units of the local width of a cell, are left
+/// out. Neighbours on the sphere have close numbers. Collective. Throws BadDensity, AgreedFailure.
 Spread refined(Communicator& ranks, const Neighbourhood& generators, const Density& density, std::size_t n);
 
 /// The density at the points. Throws BadDensity.

@@ -15,18 +15,18 @@
 namespace pstripack::scvt {
 namespace {
 
-constexpr std::size_t kFewest = 1000;            ///< generators; for fewer a front is no better than chance
-constexpr double kInCircle = 0.934172358962716;  ///< cosine of the circle in a face of an icosahedron
+constexpr std::size_t kFewest = 1000;  ///< for fewer generators a front is no better than random ones
+constexpr double kInCircle = 0.934172358962716;  ///< cosine of the inradius of an icosahedron's face
 constexpr double kSqrt3 = 1.7320508075688772;
 
-// Distances in units of the size; of two sizes the smaller one.
-constexpr double kTooNear = 0.75;  ///< no node so close to another
-constexpr double kLinked = 1.3;    ///< two nodes so close have an edge
-constexpr double kCovered = 0.9;   ///< a place so close to a node needs no other
+// Distances in units of the size h; between two nodes, of the smaller size.
+constexpr double kTooNear = 0.75;  ///< a new node must not be closer to another
+constexpr double kLinked = 1.3;    ///< nodes closer than this have an edge
+constexpr double kCovered = 0.9;   ///< no front begins closer to a node
 
-constexpr double kSmallest = 4e-6, kLargest = 1;  ///< size
+constexpr double kSmallest = 4e-6, kLargest = 1;  ///< bounds of the size h
 
-/// Random places, about as many everywhere, and the areas they stand for.
+/// Random places, evenly distributed, and the area that each represents.
 struct Samples {
   explicit Samples(std::size_t about);
   std::vector<Point> place;
@@ -34,7 +34,7 @@ struct Samples {
 };
 
 Samples::Samples(std::size_t about) {
-  // One in each square of a lattice on the faces of a cube.
+  // One place in each square of a lattice on the faces of a cube.
   const int m = std::max(16, static_cast<int>(std::sqrt(static_cast<double>(about) / 6)));
   std::uint64_t state = 1;
   const auto random = [&] {  // Knuth's MMIX
@@ -54,7 +54,7 @@ Samples::Samples(std::size_t about) {
       }
 }
 
-/// The 20 face centres of an icosahedron, of each face a corner, and the 12 corners.
+/// The 20 face centres of an icosahedron, one corner of each face, and the 12 corners.
 struct Icosahedron {
   Icosahedron();
   std::vector<Point> centre, corner_of, corner;
@@ -87,10 +87,11 @@ struct Node {
   double size;
 };
 
-/// Nodes in cubes, which are as wide as the nodes' sizes are, to powers of two.
+/// A hash grid of nodes. There is a grid of cubes for each power of two of the nodes' sizes; a node is in
+/// the grid of its size.
 class PointGrid {
  public:
-  /// For about n nodes, many with this size.
+  /// For about n nodes. `size`: a usual size.
   PointGrid(double size, std::size_t n) : unit_(size) {
     std::size_t buckets = 64;
     while (buckets < n / 2) buckets *= 2;
@@ -99,7 +100,7 @@ class PointGrid {
     links_.reserve(n);
   }
 
-  std::vector<Node> nodes;  ///< in the order in which they came
+  std::vector<Node> nodes;  ///< in the order in which they were added
 
   void add(const Node& node) {
     const int level = level_of(node.size);
@@ -114,8 +115,8 @@ class PointGrid {
     nodes.push_back(node);
   }
 
-  /// Calls visit(node, squared distance) for nodes nearer to p than `reach` times the smaller of their size
-  /// and this, until it returns false.
+  /// Calls visit(node, squared distance) for the nodes that are nearer to centre.p than `reach` times the
+  /// smaller of the two sizes, until visit returns false.
   template <class Visit>
   void for_each_near(const Node& centre, double reach, Visit visit) const {
     const Point& p = centre.p;
@@ -155,13 +156,13 @@ class PointGrid {
     std::uint32_t next;
   };
 
-  /// Sizes of a level: from unit 2^(level-1) to below unit 2^level.
+  /// The level of a size: unit_ * 2^(level-1) <= size < unit_ * 2^level.
   int level_of(double size) const {
     int level;
     std::frexp(size / unit_, &level);
     return level;
   }
-  double width(int level) const { return std::ldexp(2.5 * unit_, level); }  // found by trial
+  double width(int level) const { return std::ldexp(2.5 * unit_, level); }  // width of a cube, found by trial
   static std::uint64_t cell(double x, double per_length) {
     return static_cast<std::uint64_t>((x + 4) * per_length);
   }
@@ -174,8 +175,8 @@ class PointGrid {
 
   double unit_;
   int lowest_ = 64, highest_ = -64;
-  std::vector<std::uint32_t> first_;  ///< of each bucket the last node that came
-  std::vector<Link> links_;           ///< of each node its cube, and the node before it in its bucket
+  std::vector<std::uint32_t> first_;  ///< by bucket: the node added last
+  std::vector<Link> links_;           ///< by node: its cube, and the node added to its bucket before it
 };
 
 class Front {
@@ -185,7 +186,7 @@ class Front {
 
   const std::vector<Node>& nodes() const { return grid_.nodes; }
 
-  /// Begins with an edge from p in the direction of q, if the place is free.
+  /// Begins a front with an edge from p in the direction of q, unless p is near a node.
   void begin(const Point& p, double density, const Point& q) {
     const Node first{p, size_of(density)};
     if (grid_.has_near(first, kCovered)) return;
@@ -202,7 +203,7 @@ class Front {
     Node node;
     double cosine;  ///< of the distance to the nearest face centre
     std::uint64_t number;
-    bool operator<(const Candidate& other) const {  // the first in a queue is the largest
+    bool operator<(const Candidate& other) const {  // a priority queue returns the largest first
       return cosine != other.cosine ? cosine < other.cosine : number > other.number;
     }
   };
@@ -211,7 +212,7 @@ class Front {
     return std::clamp(scale_ / std::sqrt(std::sqrt(density)), kSmallest, kLargest);
   }
 
-  bool is_free(const Node& node) const {  // as far as near_ knows
+  bool is_free(const Node& node) const {  // considers the nodes in near_ only
     return std::none_of(near_.begin(), near_.end(), [&](const Node& other) {
       const Point d = minus(other.p, node.p);
       const double limit = kTooNear * std::min(node.size, other.size);
@@ -238,14 +239,15 @@ class Front {
   const std::size_t limit_;
   const Icosahedron icosahedron_;
   PointGrid grid_;
-  std::array<std::priority_queue<Candidate>, 32> queues_;  ///< of circles in the faces; round the corners
+  std::array<std::priority_queue<Candidate>, 32> queues_;  ///< of 20 incircles of faces and 12 corners
   std::uint64_t candidates_ = 0;
-  std::vector<Node> near_;  ///< nodes around the place of interest
+  std::vector<Node> near_;  ///< nodes found by look_around()
   std::vector<Point> apexes_;
   std::vector<double> values_;
 };
 
-/// Where the distances to nodes around differ least from what they should be, about.
+/// Two steps towards the place where the distances to the linked nodes differ least from the wanted
+/// distances.
 Point Front::fitted(Node node) const {
   for (int step = 0; step < 2; ++step) {
     Point sum{0, 0, 0};
@@ -289,7 +291,7 @@ void Front::add(const Node& node) {
 }
 
 void Front::grow() {
-  // Queue by queue: what is near on the sphere is then near in memory.
+  // Queue by queue, so that nodes near on the sphere are near in memory.
   for (;;) {
     const auto queue = std::find_if(queues_.begin(), queues_.end(), [](const auto& q) { return !q.empty(); });
     if (queue == queues_.end()) return;
@@ -305,7 +307,7 @@ void Front::grow() {
   }
 }
 
-/// Where a front may begin: at the face centres, then wherever it has not come, the finest places first.
+/// Places where a front may begin: the face centres, then sampled places, those of highest density first.
 struct FrontSeeds {
   FrontSeeds(std::size_t n, const Icosahedron& icosahedron, const Density& density);
   std::vector<Point> place;
@@ -331,7 +333,7 @@ FrontSeeds::FrontSeeds(std::size_t n, const Icosahedron& icosahedron, const Dens
   }
 }
 
-/// The nodes of a front that has come everywhere, or has `limit` nodes.
+/// The nodes of fronts that cover the sphere, or the first `limit` of them.
 std::vector<Point> advance(std::size_t limit, const Icosahedron& icosahedron, const FrontSeeds& seeds,
                            const Density& density, double scale) {
   const std::size_t faces = icosahedron.centre.size();
@@ -350,7 +352,7 @@ std::vector<Point> advance(std::size_t limit, const Icosahedron& icosahedron, co
   return points;
 }
 
-/// n of the points: those left out are ends of rows, from all over the sphere.
+/// n of the points. Those left out are ends of rows, spread evenly over the sphere.
 std::vector<Point> thinned(std::vector<Point> points, std::size_t n) {
   std::vector<std::int32_t> list, lptr, lend;
   while (points.size() > n) {
@@ -387,8 +389,8 @@ std::vector<Point> front_generators(std::size_t n, const Density& density) {
   if (n < kFewest) return random_generators(n, density, 1);
   const Icosahedron icosahedron;
   const FrontSeeds seeds(n, icosahedron, density);
-  // How many nodes a scale leads to is known within a percent until the front has come everywhere. There are
-  // about 1.2 sqrt(n) ends of rows.
+  // The number of nodes that a scale leads to is known beforehand within one percent only. About sqrt(n)
+  // nodes too many are wanted, since there are about 1.2 sqrt(n) ends of rows.
   const double count = static_cast<double>(n), wanted = count + std::sqrt(count),
                most = wanted + std::sqrt(count);
   const std::size_t limit = n + n / 4;

@@ -1,5 +1,5 @@
 #pragma once
-// Values at neighbours that other ranks have.
+// Exchange of values at neighbours that other ranks own.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,19 +13,19 @@
 
 namespace pstripack::scvt {
 
-/// Each rank has the values of its own points, and asks for those of its halo: the neighbours of own points
-/// that other ranks own. A rank alone has none. All members but size() are collective, and throw
+/// Each rank has the values at its own points and gets those at its halo: the neighbours of own points that
+/// other ranks own. A single rank has no halo. All members except size() are collective and throw
 /// AgreedFailure.
 class Halo {
  public:
   explicit Halo(Communicator& ranks) : ranks_(ranks) {}
 
-  /// From now on the halo is that of this neighbourhood. Neighbours are so on both ranks, and each rank has
-  /// the same own points in every call.
+  /// Sets the halo to that of this neighbourhood. Adjacency must be symmetric: if a is a neighbour of b on
+  /// one rank, b is a neighbour of a on the other. Each rank must have the same own points in every call.
   void connect(const Neighbourhood& here);
-  /// Own points and all places of the neighbourhood behind them.
+  /// Length of an array of values: own points, then the places of the halo.
   std::size_t size() const { return size_; }
-  /// Fills the places of the halo behind those of the own points.
+  /// values: size() entries, of which those of own points are set. Sets those of the halo.
   template <class Value>
   void fill(std::vector<Value>& values) {
     if (ranks_.size() == 1) return;
@@ -48,10 +48,10 @@ class Halo {
   void make_directory(const Neighbourhood& here);
 
   Communicator& ranks_;
-  std::optional<NumberTable<std::int32_t>>
-      directory_;  ///< owners of the numbers whose meeting_rank() this is
+  /// Owners of the numbers whose meeting_rank() is this rank.
+  std::optional<NumberTable<std::int32_t>> directory_;
   std::size_t size_ = 0;
-  /// For each rank, in the order of the numbers: own points that it asks for, and halo places that it fills.
+  /// For each rank, in the order of the numbers: own points that it needs; halo places that it fills.
   std::vector<std::vector<std::size_t>> to_, from_;
 };
 

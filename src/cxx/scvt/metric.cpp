@@ -60,8 +60,8 @@ void Metric::set(const Neighbourhood& here, const Cells& cells) {
       products = plus(products, scaled(k, {t.x * t.y, t.y * t.z, t.z * t.x}));
       spring_[s] = static_cast<float>(k);
     }
-    // Two eigenvalues are not 0. Their sum is the trace; the sum of their squares that of all entries'
-    // squares.
+    // The larger of the two non-zero eigenvalues: their sum is the trace, and the sum of their squares is
+    // that of the squares of all entries.
     const double half = (squares.x + squares.y + squares.z) / 2;
     const double entries = pstripack::dot(squares, squares) + 2 * pstripack::dot(products, products);
     const double largest = half + std::sqrt(std::max(0.0, entries / 2 - half * half));
@@ -78,7 +78,7 @@ void Metric::solve(std::vector<Point>& v) {
     rest_[i].f = r - times(dot(r, g), g);
     sum_[i].f = step_[i].f = times(static_cast<float>(1 / kMiddle), rest_[i].f);
   });
-  double ratio = kRadius / kMiddle;  // of Chebyshev's polynomials of two degrees
+  double ratio = kRadius / kMiddle;  // of two consecutive Chebyshev polynomials
   for (int pass = 1; pass < kPasses; ++pass) {
     const double before = ratio;
     ratio = 1 / (2 * kMiddle / kRadius - before);

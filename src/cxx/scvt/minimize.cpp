@@ -19,8 +19,8 @@ using Vectors = std::vector<Point>;
 
 constexpr std::size_t kPairs = 8;
 constexpr int kTrials = 6;            ///< steps along one direction
-constexpr double kSufficient = 1e-4;  ///< of the decrease that the slope promises (Armijo)
-constexpr double kLongest = 1;        ///< step, in root mean square radii of the cell
+constexpr double kSufficient = 1e-4;  ///< required part of the decrease predicted by the slope (Armijo)
+constexpr double kLongest = 1;        ///< longest step, in root mean square radii of the cell
 
 template <class Body>
 void for_each(std::size_t n, const Body& body) {
@@ -29,7 +29,6 @@ void for_each(std::size_t n, const Body& body) {
   });
 }
 
-/// Generators, and what an evaluation says of them.
 struct Place {
   Vectors generators;
   Cells cells;
@@ -45,7 +44,7 @@ class Minimizer {
         options_(options),
         n_(state.generators.size()),
         metric_(evaluator.ranks()) {
-    // All memory that each step needs, here: the ranks must agree that they have it.
+    // Allocate here what every step needs: the ranks must agree that all have the memory.
     evaluator_.allocate([this] {
       parts_.resize(static_cast<std::size_t>(threads_for(n_)));
       here_.generators = state_.generators;
@@ -60,7 +59,7 @@ class Minimizer {
 
   Result run() {
     evaluate(here_);
-    if (state_.steps == 0) state_.evaluations = 1;  // else they were evaluated before
+    if (state_.steps == 0) state_.evaluations = 1;  // of a continued run this evaluation was counted before
     End end = End::converged;
     while (here_.gradient > options_.tolerance) {
       if (state_.evaluations >= options_.most_evaluations) {
@@ -86,8 +85,8 @@ class Minimizer {
     return {static_cast<std::int64_t>(total_), state_.evaluations, here_.gradient, here_.energy};
   }
 
-  /// Sums of terms(i), an array of doubles, over the generators of all ranks; terms(i) may also write what is
-  /// i's.
+  /// Sums of terms(i), which is an array of doubles, over the generators i of all ranks. terms(i) may write
+  /// data that belong to generator i.
   template <class Terms>
   auto sum(const Terms& terms) {
     constexpr std::size_t kSums = std::tuple_size_v<decltype(terms(0))>;
@@ -124,7 +123,7 @@ class Minimizer {
     constexpr double kSphere = 12.566370614359172;
     place.gradient = std::sqrt(sums[1] / total_ / (kSphere / total_));
   }
-  /// As a trial: generators without a tessellation have an infinite energy.
+  /// Evaluates a trial. Generators without a tessellation have an infinite energy.
   void try_place(Place& place) {
     ++state_.evaluations;
     try {
@@ -142,7 +141,7 @@ class Minimizer {
     return lloyd_step();
   }
 
-  /// Towards the centroids, less far if the energy does not fall. False if it does not fall at all.
+  /// A step to the centroids, shortened if the energy does not fall. False if it does not fall at all.
   bool lloyd_step() {
     double part = 1;
     for (int trial = 0; trial < kTrials; ++trial, part /= 2) {
@@ -181,7 +180,7 @@ class Minimizer {
         std::swap(here_, there_);
         return true;
       }
-      // The least of the parabola through both energies with this slope, within bounds.
+      // The minimum of the parabola through both energies with this slope, within bounds.
       const double rise = there_.energy - here_.energy - length * slope;
       const double next = std::isfinite(rise) ? -slope * length * length / (2 * rise) : 0;
       length = std::clamp(next, 0.1 * length, 0.5 * length);
@@ -190,7 +189,7 @@ class Minimizer {
     return false;
   }
 
-  /// The step and the change of the gradient, if the energy is convex along it.
+  /// Keeps the step and the change of the gradient, if the energy is convex along the step.
   void keep_pair() {
     evaluator_.allocate([this] {
       spare_.step.resize(n_);
@@ -217,9 +216,9 @@ class Minimizer {
     products_.clear();
   }
 
-  /// -H gradient, at right angles to the generators (Nocedal 1980, his two loops). Each pass over the
-  /// generators ends the work for one pair and begins that for the next. The last evaluation was that of
-  /// here_: a trial that fails is followed by a step of Lloyd's method.
+  /// Sets direction_ to -H gradient, perpendicular to the generators (the two-loop recursion of Nocedal
+  /// 1980). Each pass over the generators finishes the update of one pair and begins that of the next.
+  /// last_ belongs to here_, because a failed newton_step() is followed by a step of Lloyd's method.
   void set_direction() {
     const std::size_t count = state_.pairs.size();
     std::array<double, kPairs> share;
@@ -241,7 +240,7 @@ class Minimizer {
     }
     metric_.set(last_, here_.cells);
     metric_.solve(direction_);
-    double add = 0;  // of the step before
+    double add = 0;  // coefficient of the step of the pair before
     for (std::size_t k = 0; k < count; ++k) {
       const Point *const change = state_.pairs[k].change.data(), *const before =
                                                                      k > 0 ? state_.pairs[k - 1].step.data()
@@ -268,13 +267,13 @@ class Minimizer {
   const std::size_t n_;  ///< generators of this rank
   double total_ = 0;     ///< generators of all ranks
   static constexpr std::size_t kMostSums = 2;
-  std::vector<std::array<ExactSum, kMostSums>> parts_;  ///< of each thread
-  Place here_, there_;
-  Neighbourhood last_;  ///< of the last evaluation
+  std::vector<std::array<ExactSum, kMostSums>> parts_;  ///< by thread
+  Place here_, there_;                                  ///< the current generators; a trial
+  Neighbourhood last_;                                  ///< of the last evaluation
   Metric metric_;
   Vectors direction_;
   State::Pair spare_;             ///< room for the next pair
-  std::vector<double> products_;  ///< step times change of each pair
+  std::vector<double> products_;  ///< by pair: step times change
 };
 
 }  // namespace

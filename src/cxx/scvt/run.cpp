@@ -17,7 +17,7 @@ void check_count(std::size_t n) {
   if (n < 4) throw BadGenerators("a tessellation needs at least 4 generators, here are " + std::to_string(n));
 }
 
-/// Of each generator its place, and step and change of each pair.
+/// A row per generator: its position, then step and change of each pair.
 Rows rows_of(const Tessellation& t) {
   Rows rows{3 + 6 * t.state.pairs.size(), {}, t.numbers};
   rows.values.reserve(rows.width * t.numbers.size());
@@ -46,7 +46,7 @@ void take_rows(Tessellation& t, Rows&& rows) {
   }
 }
 
-/// Generator i of `from` and what belongs to it go to `to` of the rank ranks_of[i].
+/// Moves generator i of `from`, with all its data, to `to` on rank ranks_of[i].
 void move(Communicator& ranks, const Tessellation& from, const std::vector<std::int32_t>& ranks_of,
           Tessellation& to) {
   Rows rows;

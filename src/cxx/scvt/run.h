@@ -1,5 +1,5 @@
 #pragma once
-// A whole run: from a number of generators, or from generators, to a centroidal tessellation.
+// A whole run: from a number of generators, or from given generators, to a centroidal tessellation.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,37 +15,37 @@ struct RunOptions : Options {
   std::uint64_t seed = 1;
 };
 
-/// Of this rank's generators, all that a run needs to go on, also on another number of ranks.
+/// This rank's generators, and all that a run needs to continue, also on another number of ranks.
 struct Tessellation {
-  std::vector<std::int64_t> numbers;  ///< of the generators: 1, 2, ... over all ranks
+  std::vector<std::int64_t> numbers;  ///< global numbers of the generators: 1, 2, ... over all ranks
   State state;                        ///< of the last level
   Result result;                      ///< of the last level
-  /// Over all levels, each counted by its share of the last level's generators.
+  /// Evaluations of all levels, each weighted by its number of generators over that of the last level.
   double evaluations = 0;
 };
 
-/// A vector of any length as a unit vector; one that is, within rounding, stays.
+/// The vector scaled to length 1; unchanged if its length is 1 up to rounding.
 Point unit_vector(const Point& generator);
-/// All of them. Throws BadGenerators.
+/// unit_vector() of all generators. Throws BadGenerators if one is zero or not finite.
 std::vector<Point> unit_vectors(std::vector<Point> generators);
 
-/// n generators, at least 4, for the last level to begin with. With levels, those before are done; the result
-/// is that of the last of these, and there are fewer generators if End::stopped. Collective. Throws as
-/// minimize.
+/// The n >= 4 generators from which the last level starts. With options.levels, it carries out the levels
+/// before; `result` is then that of the level before the last, and there are fewer generators if it is
+/// End::stopped. Collective. Throws what minimize throws.
 Tessellation first_generators(Evaluator& evaluator, std::size_t n, const RunOptions& options);
 
-/// A level: each generator goes to the rank where its neighbours are, then minimize(). Collective. Throws as
-/// minimize.
+/// One level: moves each generator to the rank where its neighbours are, then calls minimize(). Collective.
+/// Throws what minimize throws.
 void iterate(Evaluator& evaluator, Tessellation& tessellation, const Options& options);
 
-/// The numbers and the state of a part of the generators: rank r gets the r-th of equal slices of 1, 2, ...
-/// Collective. Throws AgreedFailure.
+/// The same numbers and state, redistributed: rank r gets the r-th of equal slices of 1, 2, ... `result` is
+/// not copied. Collective. Throws AgreedFailure.
 Tessellation slice_of(Communicator& ranks, const Tessellation& tessellation);
 
-/// n generators, at least 4, for the density. Throws as minimize.
+/// A tessellation of n >= 4 generators for the density, on this process alone. Throws what minimize throws.
 Tessellation run(std::size_t n, const Density& density, const RunOptions& options);
 
-/// The same from generators, which may have any length.
+/// The same, starting from given generators, which may have any length.
 Tessellation run(std::vector<Point> generators, const Density& density, const RunOptions& options);
 
 }  // namespace pstripack::scvt

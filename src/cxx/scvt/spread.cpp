@@ -12,8 +12,7 @@
 namespace pstripack::scvt {
 namespace {
 
-/// Place along Hilbert's curve of the square of 2^30 x 2^30 cells: four quadrants in a row, each with a curve
-/// that is turned so that the ends meet.
+/// Place of the cell x, y along Hilbert's curve in a square of 2^30 x 2^30 cells.
 std::uint64_t hilbert(std::uint32_t x, std::uint32_t y) {
   std::uint64_t place = 0;
   for (std::uint32_t side = std::uint32_t{1} << 29; side > 0; side /= 2) {
@@ -27,7 +26,7 @@ std::uint64_t hilbert(std::uint32_t x, std::uint32_t y) {
   return place;
 }
 
-/// Of a unit vector: the face of the cube, and the place on that face.
+/// Place of a unit vector along the curve: the face of the cube, then the place on that face.
 std::uint64_t place_on_curve(const Point& p) {
   const double x = std::fabs(p.x), y = std::fabs(p.y), z = std::fabs(p.z);
   const auto cell = [](double u) {
@@ -48,7 +47,7 @@ struct Placed {
   std::uint64_t place;
   Point point;
 };
-/// Points in one cell in the order of their coordinates.
+/// Points in one cell are in the order of their coordinates.
 bool operator<(const Placed& a, const Placed& b) {
   return std::tie(a.place, a.point.x, a.point.y, a.point.z) <
          std::tie(b.place, b.point.x, b.point.y, b.point.z);

@@ -1,8 +1,8 @@
 #pragma once
-// Generators that are spread over ranks: no rank ever has all. A process alone is a group of one rank.
+// Generators that are spread over ranks: no rank ever has all. A single process is a group of one rank.
 //
-// The generators of all ranks have numbers from 1, which follow from the generators alone. So what follows
-// from the generators is the same for any number of ranks.
+// The generators of all ranks have global numbers from 1, which depend on the generators alone. So the
+// results are the same for any number of ranks.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,48 +15,47 @@
 
 namespace pstripack::scvt {
 
-/// Those of this rank.
 struct Spread {
   std::vector<Point> points;          ///< unit vectors
-  std::vector<std::int64_t> numbers;  ///< of each
+  std::vector<std::int64_t> numbers;  ///< their global numbers
 };
 
-/// Those of this rank, then the neighbours that they have on other ranks.
+/// The points of this rank, followed by their neighbours on other ranks (the halo).
 struct Neighbourhood {
   const Point* points = nullptr;
   const std::int64_t* numbers = nullptr;
-  NeighbourLists stars;  ///< of those of this rank; neighbours are places in these arrays, from 1
+  NeighbourLists stars;  ///< of the points of this rank; neighbours are indices into the arrays above, from 1
 };
 
-/// Numbers the points of all ranks along a curve that fills the sphere; each rank gets a part of the curve
-/// with about as many points as the others. Collective.
+/// Numbers the points of all ranks along a space-filling curve on the sphere. Each rank gets a part of the
+/// curve, all with about the same number of points. Collective. Throws AgreedFailure.
 Spread along_a_curve(Communicator& ranks, const std::vector<Point>& points);
 
-/// Of this process alone.
+/// The same on this process alone; not collective.
 std::vector<Point> along_a_curve(const std::vector<Point>& points);
 
-/// `width` values of each generator of this rank.
+/// `width` values for each generator of this rank.
 struct Rows {
   std::size_t width = 0;
   std::vector<double> values;  ///< row after row
   std::vector<std::int64_t> numbers;
 };
 
-/// Row i goes to the rank to[i], which gets its rows by increasing number. Frees `rows` on the way.
-/// Collective.
+/// Sends row i to rank to[i]. The result has the rows received, by increasing number. Frees `rows` before the
+/// exchange. Collective. Throws AgreedFailure.
 Rows moved(Communicator& ranks, Rows rows, const std::vector<std::int32_t>& to);
 
-/// The rank of each of these numbers, if rank r has the r-th of equal slices of 1..n.
+/// The rank of each number, where rank r has the r-th of equal slices of 1..n.
 std::vector<std::int32_t> ranks_of_slices(const Communicator& ranks, std::int64_t n,
                                           const std::vector<std::int64_t>& numbers);
 
-/// How many all ranks have. Collective.
+/// The sum of `mine` over all ranks. Collective.
 std::int64_t sum_of_all(Communicator& ranks, std::size_t mine);
-/// How many the ranks before this one have. Collective.
+/// The sum of `mine` over the ranks below this one. Collective.
 std::int64_t sum_before(Communicator& ranks, std::size_t mine);
 
-/// For each target the largest number, below 2^63, that at most so many items of all ranks are below, where
-/// `below` tells how many of this rank are. Collective.
+/// For each target the largest number b < 2^63 such that at most `target` items of all ranks are below b.
+/// below(b): the number of items of this rank that are below b. Collective. Throws AgreedFailure.
 std::vector<std::uint64_t> bounds(Communicator& ranks, const std::vector<std::int64_t>& targets,
                                   const std::function<std::size_t(std::uint64_t)>& below);
 

@@ -74,7 +74,6 @@ namespace {
 
 /// The arcs that p-q crosses are collected in the columns of IWK, in order from p to q, and swapped until p-q
 /// is one of them. Lists with one wrong entry are detected before the first swap.
-/// exchange.
 ///
 ///           l --- m --- .
 ///         /  \   / \   / \          columns (l,r), (m,r), ...: the end left of p-q, the right one;
@@ -87,14 +86,14 @@ class ArcForcing {
   ArcForcing(Int in1, Int in2, const Nodes<Real>& nodes, const CheckedEditor<Int>& lists, Int* iwk, Int lwk)
       : p_(in1), q_(in2), node_(nodes), lists_(lists), iwk_(iwk), lwk_(lwk) {}
 
-  /// Makes p-q an arc. `crossed`: the number of columns; `made`: that of p-q.
+  /// Makes p-q an arc. `crossed`: the number of columns; `made`: the column of p-q.
   EdgeStatus force(Int& crossed, Int& made) {
     Int l, r;
     if (!find_first(l, r)) {
       std::swap(p_, q_);
       if (!find_first(l, r)) return EdgeStatus::not_found;
     }
-    // p-q may leave p where there is no triangle if the triangles do not cover their convex hull.
+    // If the triangles do not cover their convex hull, there may be no triangle where p-q leaves p.
     const bool outside = lists_.entry(lists_.last_slot(p_)) == -r;
     if (const EdgeStatus status = collect(l, r, outside); status != EdgeStatus::done) return status;
     // The swaps depend on the columns alone: simulate them on the columns first, to see whether all are
@@ -118,7 +117,8 @@ class ArcForcing {
     r_of(column) = r;
   }
 
-  /// The arc opposite p that p-q crosses: of adjacent neighbours r, l the first ones between which q lies.
+  /// Finds the arc r-l opposite p that p-q crosses: the first two adjacent neighbours of p between which q
+  /// lies.
   bool find_first(Int& l, Int& r) const {
     lists_.degree(p_);  // the list closes
     Int slot = lists_.first_slot(p_);
@@ -139,8 +139,8 @@ class ArcForcing {
     return false;
   }
 
-  /// True if l or r lies on q's side of p, and one of them on p's side of q: the arc meets p-q and not the
-  /// rest of its great circle.
+  /// True if l or r lies on q's side of p, and l or r on p's side of q: the arc l-r meets the arc p-q, not
+  /// the rest of its great circle.
   bool between(Int l, Int r) const {
     const auto product = [&](Int a, Int b) { return dot(node_[a], node_[b]); };
     const Real c = product(p_, q_), pl = product(p_, l), ql = product(q_, l), pr = product(p_, r),
@@ -153,9 +153,9 @@ class ArcForcing {
 
   /// Walks from arc l-r through the triangles to q. The lists of all corners must close and agree on each
   /// triangle: a node m is used as an index only after the lists of l and r both contain it. `outside`: p,r,l
-  /// is no triangle.
+  /// is not a triangle.
   EdgeStatus collect(Int l, Int r, bool outside) {
-    Int base = p_, seen = 0;  // seen: the one of l, r that was an end of the previous column
+    Int base = p_, seen = 0;  // seen: l or r, whichever was an end of the previous column
     for (count_ = 0;;) {
       if (count_ == lwk_) return EdgeStatus::too_few_columns;
       set(++count_, l, r);
@@ -199,10 +199,10 @@ class ArcForcing {
     return found;
   }
 
-  /// Called before a simulated swap of l-r for m-base. SWAP refuses it if m-base is already an arc: one of
-  /// the lists that p-q does not cross, or one of the columns. Throws BrokenLists if only one end of m-base
-  /// lists the other, or lists it twice. Overlapping triangles, from rounding or from earlier changes, lead
-  /// here. Algorithm 772 continues with columns that are no longer arcs.
+  /// True if l-r can be swapped for m-base; called before each simulated swap. SWAP refuses if m-base is
+  /// already an arc: an arc of the lists that p-q does not cross, or one of the columns. This happens if
+  /// triangles overlap, by rounding or by earlier changes; Algorithm 772 then continues with columns that
+  /// are no longer arcs. Throws BrokenLists if only one end of m-base lists the other, or lists it twice.
   bool can_join(Int m, Int base, Int l, Int r) const {
     if (columns_of(l, r) != 1 || columns_of(m, base) != 0) return false;
     const Int times = lists_.times(m, base);
@@ -210,7 +210,7 @@ class ArcForcing {
     return times == 0 || was_crossed(m, base);
   }
 
-  /// True if a-b was in a column before the swaps: repeats the walk.
+  /// True if a-b was in a column before the swaps. Repeats the walk to find out.
   bool was_crossed(Int a, Int b) const {
     Int l = first_left_, r = first_right_;
     for (;;) {
@@ -221,12 +221,12 @@ class ArcForcing {
     }
   }
 
-  /// Sweeps over the columns alpha..omega, whose arcs p-q still crosses, until only the one remains that p-q
-  /// replaces; new arcs left of it go before alpha, new ones right of it after omega. `base` is the last
+  /// Sweeps over the columns alpha..omega, whose arcs p-q still crosses, until only one remains, which p-q
+  /// replaces. New arcs left of p-q go before alpha, new arcs right of it after omega. `base` is the last
   /// corner that a sweep could not pass, left of the columns (side < 0) or right; initially p.
   ///
   ///           l --- m
-  ///         /  \   /             where base, r, m, l is convex, as far as one can tell, m-base replaces l-r
+  ///         /  \   /             if base, r, m, l is convex by the rounded tests, m-base replaces l-r
   ///     base    \ /
   ///         \___ r
   ///

@@ -1,20 +1,21 @@
 #pragma once
 // SWPTST, OPTIM, DELARC, EDGE: swap and removal of arcs (Renka, ACM TOMS 23 (1997), Algorithm 772).
-// For (Real, Int) = (float, int32_t), (double, int32_t), (double, int64_t). No allocation; always return.
+// For (Real, Int) = (float, int32_t), (double, int32_t), (double, int64_t). The routines allocate nothing and
+// always return.
 
 #include "stripack/expressions.h"
 #include "stripack/list_edit.h"
 
 namespace pstripack {
 
-/// SWPTST: true if node n4 lies strictly above the plane of the counterclockwise triangle n1, n2, n3, as
-/// rounded, so that the common arc n1-n2 of the two triangles should be swapped. False for NaN.
+/// SWPTST: true if node n4 lies strictly above the plane of the counterclockwise triangle n1, n2, n3 in
+/// rounded arithmetic, so that the common arc n1-n2 of the two triangles should be swapped. False for NaN.
 template <class Real, class Int>
 bool swptst(Int n1, Int n2, Int n3, Int n4, const Nodes<Real>& nodes) {
   return height(nodes[n1], nodes[n2], nodes[n3], nodes[n4]) > 0;
 }
 
-/// IER of OPTIM. Earlier swaps stay.
+/// IER of OPTIM. On an error the swaps made before it stay.
 enum class OptimStatus {
   done = 0,
   not_all = 1,       ///< the last allowed iteration still made swaps
@@ -24,9 +25,10 @@ enum class OptimStatus {
   broken = broken_lists
 };
 
-/// OPTIM: swaps arcs of iwk(2,na), which are pairs of neighbours, until they are locally optimal, in at most
-/// nit iterations through all columns. Updates the columns; nit: iterations made. The routine is not told N:
-/// it uses a node number above all in the columns as an index only if two lists agree on it.
+/// OPTIM: swaps the arcs in the columns of iwk(2,na), each a pair of neighbours, until they are locally
+/// optimal, in at most nit iterations through all columns. Updates the columns. nit: on return, the number
+/// of iterations made. The routine is not told N: a node number above all those in the columns is used as
+/// an index only if two lists agree on it.
 template <class Real, class Int>
 OptimStatus optim(const Nodes<Real>& nodes, Int na, const EditedLists<Int>& lists, Int& nit, Int* iwk);
 
@@ -34,7 +36,6 @@ OptimStatus optim(const Nodes<Real>& nodes, Int na, const EditedLists<Int>& list
 template <class Real, class Int>
 OptimStatus optimize(const CheckedEditor<Int>& lists, const Nodes<Real>& nodes, Int na, Int& nit, Int* iwk);
 
-/// The data of a message about OPTIM's failure.
 template <class Int>
 struct OptimFailure {
   Int nit = 0, ier = 0;
@@ -59,17 +60,17 @@ enum class EdgeStatus {
   done = 0,
   bad_argument = 1,     ///< in1 < 1, in2 < 1, in1 = in2, lwk < 0; nothing is changed
   too_few_columns = 2,  ///< more than lwk arcs are crossed; only iwk is changed
-  not_found = 3,     ///< no arc between the two is found: null triangles or broken lists; only iwk is changed
+  not_found = 3,     ///< the walk from in1 to in2 failed: null triangles or broken lists; only iwk is changed
   optim_failed = 4,  ///< the arc is there; OptimFailure has OPTIM's code
   not_optimal = 5,   ///< the arc is there; OPTIM ran out of iterations
   broken = broken_lists,  ///< only iwk is changed, unless several entries are wrong
   not_possible = -10  ///< nodes on the arc, up to rounding, or triangles that overlap; only iwk is changed
 };
 
-/// EDGE: makes in1-in2 an arc by swapping those that it crosses, and then optimises the others nearby. EDGE
-/// is not told N, so it cannot detect in1 or in2 above N. lwk: in, columns of iwk; out, number of arcs
-/// crossed (unchanged if there are none, and on errors except optim_failed, not_optimal). iwk, on `done`: the
-/// arcs left of in1-in2, a column 0, those right of it; or left and right exchanged.
+/// EDGE: makes in1-in2 an arc by swapping the arcs that it crosses, and then optimises the new arcs beside
+/// it. EDGE is not told N, so it cannot detect in1 or in2 above N. lwk: in, columns of iwk; out, number of
+/// arcs crossed (unchanged if there are none, and on errors except optim_failed, not_optimal). iwk, on
+/// `done`: the arcs left of in1-in2, a column 0, the arcs right of it; or left and right exchanged.
 template <class Real, class Int>
 EdgeStatus edge(Int in1, Int in2, const Nodes<Real>& nodes, Int& lwk, Int* iwk, const EditedLists<Int>& lists,
                 OptimFailure<Int>& failure);

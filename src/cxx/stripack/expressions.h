@@ -40,14 +40,14 @@ Real dot(const Vector<Real>& a, const Vector<Real>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/// <c, a x b> as rounded: > 0 where c is left of the great circle directed from a to b.
+/// <c, a x b> in rounded arithmetic: > 0 if c is left of the great circle directed from a to b.
 /// side(b,a,c) == -side(a,b,c) exactly; side(b,c,a) differs from side(a,b,c) by rounding.
 template <class Real>
 Real side(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c) {
   return c.x * (a.y * b.z - b.y * a.z) - c.y * (a.x * b.z - b.x * a.z) + c.z * (a.x * b.y - b.x * a.y);
 }
 
-/// The determinant behind SWPTST as rounded: > 0 where d is above the plane of the counterclockwise
+/// The determinant of SWPTST in rounded arithmetic: > 0 if d is above the plane of the counterclockwise
 /// triangle a, b, c.
 template <class Real>
 Real height(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c, const Vector<Real>& d) {
@@ -57,7 +57,7 @@ Real height(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c,
   return r.x * (q.y * p.z - p.y * q.z) - r.y * (q.x * p.z - p.x * q.z) + r.z * (q.x * p.y - p.x * q.y);
 }
 
-/// The coordinates as doubles, which represent both kinds exactly: for exact tests.
+/// The coordinates as doubles, without rounding, for exact tests.
 template <class Real>
 Point as_point(const Vector<Real>& a) {
   return {static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(a.z)};
@@ -73,7 +73,7 @@ bool is_finite(const Vector<Real>& a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
 
-/// a x b; every component a difference of two products.
+/// a x b; every component is a difference of two products.
 template <class Real>
 Vector<Real> cross(const Vector<Real>& a, const Vector<Real>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};

@@ -30,7 +30,7 @@ class FormattedText {
     text_ += '\n';
     return *this;
   }
-  /// So many empty records.
+  /// `count` empty records.
   FormattedText& empty(int count) {
     text_.append(static_cast<std::size_t>(count), '\n');
     return *this;

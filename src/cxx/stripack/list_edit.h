@@ -1,7 +1,7 @@
 #pragma once
-// INSERT, INTADD, BDYADD, COVSPH, SWAP, DELNB: the steps of all changes of a triangulation (Renka, ACM TOMS
-// 23 (1997), Algorithm 772). They determine which slot holds which neighbour, and so the lists that the
-// routines above them return.
+// INSERT, INTADD, BDYADD, COVSPH, SWAP, DELNB: the steps of which every change of a triangulation consists
+// (Renka, ACM TOMS 23 (1997), Algorithm 772). They determine which slot holds which neighbour, and so the
+// lists that the other editing routines return.
 //
 // For Int = int32_t, int64_t. Nodes and slots count from 1; k is the node that is added.
 
@@ -28,14 +28,14 @@ struct EditedLists {
   }
 };
 
-/// Code for lists that are not those of a triangulation: a slot or neighbour out of range, a list that does
-/// not close, a boundary that does not.
+/// Code for lists that are not those of a triangulation: a slot or neighbour is out of range, or a list or
+/// the boundary does not close.
 constexpr int broken_lists = -9;
 
-/// Thrown instead of reading or writing outside the arrays, or looping for ever.
+/// Thrown where the routine would otherwise read or write outside the arrays, or loop for ever.
 struct BrokenLists {};
 
-/// Runs edit() and returns its code, or broken_lists.
+/// Runs edit() and returns its code; broken_lists if it throws BrokenLists.
 template <class Edit>
 auto code_or_broken_lists(const Edit& edit) -> decltype(edit()) {
   try {
@@ -52,7 +52,8 @@ class CheckedArrays {
  public:
   using Index = Int;
 
-  /// Counts slots in `lnew`, the caller's or a copy. `nodes`: number of nodes that have lists, if not n.
+  /// Counts slots in `lnew`, which is the caller's LNEW or a copy. `nodes`: number of nodes that have
+  /// lists, if not n.
   CheckedArrays(const EditedLists<Int>& lists, Int& lnew) : CheckedArrays(lists, lnew, lists.n) {}
   CheckedArrays(const EditedLists<Int>& lists, Int& lnew, Int nodes)
       : lists_(lists), lnew_(lnew), nodes_(nodes) {
@@ -81,8 +82,8 @@ class CheckedArrays {
   Int nodes_, most_slots_;
 };
 
-/// Ends walks in lists that do not close: throws after at most three times as many steps as there are
-/// different slots on the way (R. P. Brent, BIT 20, 1980).
+/// Ends walks in lists that do not close: throws BrokenLists after at most three times as many steps as there
+/// are different slots on the way (cycle detection: R. P. Brent, BIT 20, 1980).
 template <class Int>
 class LoopGuard {
  public:
@@ -99,7 +100,6 @@ class LoopGuard {
   std::size_t steps_ = 0, lap_ = 16;
 };
 
-/// Reads and changes lists in any kind of arrays.
 template <class Arrays>
 class ListEditor {
  public:
@@ -150,11 +150,11 @@ class ListEditor {
       throw BrokenLists();
     return place;
   }
-  /// True if a slot holds a and the next one b: a, b and the node whose list this is are a triangle.
+  /// True if a slot holds a and the next slot b: then a, b and the owner of the list form a triangle.
   bool is_side(Int slot, Int a, Int b) const {
     return entry(slot) == a && (entry(next(slot)) == b || entry(next(slot)) == -b);
   }
-  /// Advances from a slot to the last one of a node; throws BrokenLists if it does not occur.
+  /// Advances from a slot to the last slot of a node; throws BrokenLists if it is not reached.
   void go_on_to_last(Int slot, Int node) const {
     const Int last = last_slot(node);
     for (LoopGuard<Int> guard; slot != last; slot = next(slot)) guard.pass(slot);
@@ -309,7 +309,8 @@ class ListEditor {
     if (hole != top) redirect(top);
     arrays_.set_lnew(top);
   }
-  /// Redirects what points to the slot `from`, in the list of the node: false if it is not there.
+  /// Redirects the pointers to slot `from` in a node's list to slot `to`. False if `from` is not in that
+  /// list.
   bool redirect_in(Int node, Int from, Int to) const {
     const auto [slot, before] = find(node, [&](Int s) { return s == from; });
     if (slot != from) return false;
@@ -317,8 +318,9 @@ class ListEditor {
     next(before == from ? to : before) = to;
     return true;
   }
-  /// The same, whichever list it is in. Its neighbour b lists the owner, which is therefore found in O(degree
-  /// squared); if b does not, in the middle of a change, all slots are searched.
+  /// The same, whichever list `from` is in. The neighbour b in that slot lists the owner of the slot, so
+  /// the owner is found in O(degree squared). During a change b may not list the owner: then all slots are
+  /// searched.
   void redirect(Int from, Int to) const {
     const Int b = neighbour(from);
     const Int owner = find(b, [&](Int slot) { return redirect_in(neighbour(slot), from, to); }).slot;
@@ -359,7 +361,7 @@ class ListEditor {
     return of_io1.slot;
   }
 
-  /// Removes a slot from the list of a node; it then holds c, after the slot `before` in another list.
+  /// Moves a slot from the list of `node` to another list, after the slot `before`; it then holds c.
   void move(Int node, const Place& place, Int before, Int c) const {
     const Int slot = place.slot;
     next(place.before) = next(slot);
@@ -383,28 +385,27 @@ class ListEditor {
 template <class Int>
 using CheckedEditor = ListEditor<CheckedArrays<Int>>;
 
-// The routines. Each returns 0, or broken_lists: nothing is changed then, except by `delnb`.
+// The routines. Each returns 0 or broken_lists. On broken_lists nothing is changed, except by `delnb`.
 
-/// INSERT: k becomes the neighbour after the one in slot lp.
+/// INSERT: ListEditor::insert.
 template <class Int>
 int insert(Int k, Int lp, const EditedLists<Int>& lists);
 
-/// INTADD: node k = lists.n, which lies in the counterclockwise triangle i1, i2, i3, is linked to its
-/// corners.
+/// INTADD: ListEditor::add_inside for k = lists.n; i1, i2, i3 is counterclockwise.
 template <class Int>
 int intadd(Int i1, Int i2, Int i3, const EditedLists<Int>& lists);
 
-/// BDYADD: node k = lists.n, which lies outside the hull, is linked to the boundary nodes that it sees; i1 is
-/// the rightmost, i2 the leftmost, and they differ.
+/// BDYADD: ListEditor::add_outside for k = lists.n; i1 and i2 differ.
 template <class Int>
 int bdyadd(Int i1, Int i2, const EditedLists<Int>& lists);
 
-/// COVSPH: node k = lists.n is linked to all boundary nodes, of which n0 is one.
+/// COVSPH: ListEditor::cover_sphere for k = lists.n.
 template <class Int>
 int covsph(Int n0, const EditedLists<Int>& lists);
 
 /// SWAP: replaces arc io1-io2, where io1, io2, in1 and io2, io1, in2 are counterclockwise triangles, by
-/// in1-in2. `slot`: that of in1 in the list of in2; 0, with nothing changed, if they are already neighbours.
+/// in1-in2. `slot`: the slot of in1 in the list of in2; 0, with nothing changed, if they are already
+/// neighbours.
 template <class Int>
 int swap(Int in1, Int in2, Int io1, Int io2, const EditedLists<Int>& lists, Int& slot);
 

@@ -7,9 +7,9 @@
 
 namespace pstripack {
 
-/// LSTPTR: the slot of neighbour `wanted` in the list whose last slot is `last`; `last` itself if the wanted
-/// one is the last neighbour, or none. O(degree) even for canonical lists, where a table of slots would make
-/// it constant: the arguments alone do not show that they belong to such lists.
+/// LSTPTR: the slot of neighbour `wanted` in the list whose last slot is `last`; `last` itself if `wanted`
+/// is the last neighbour or not in the list. O(degree): the arguments do not show whether the lists are
+/// canonical, where a table of slots would make it O(1).
 template <class Int>
 Int lstptr(Int last, Int wanted, const Int* list, const Int* lptr) {
   Int slot = lptr[last - 1];
@@ -29,7 +29,8 @@ Int nbcnt(Int last, const Int* lptr) {
 template <class Int>
 class ListReader {
  public:
-  /// Member by member: what a caller has just written in parts of 8 bytes is slow to read in parts of 16.
+  /// Copies member by member: a caller has just written `lists` in parts of 8 bytes, and reading parts of
+  /// 16 bytes would stall (no store forwarding).
   explicit ListReader(const ListsView<Int>& lists)
       : lists_{lists.n, lists.list, lists.lptr, lists.lend, lists.lnew} {}
 
@@ -41,7 +42,7 @@ class ListReader {
   Int next(Int slot) const { return lists_.lptr[slot - 1]; }
   Int last_slot(Int node) const { return lists_.lend[node - 1]; }
   Int first_slot(Int node) const { return next(last_slot(node)); }
-  /// first_slot in canonical lists, in others any number.
+  /// first_slot(node) if the lists are canonical, else any number.
   Int foreseen_first_slot(Int node) const { return node == 1 ? 1 : last_slot(node - 1) + 1; }
   Int first_neighbour(Int node) const { return neighbour(first_slot(node)); }
   Int last_neighbour(Int node) const { return neighbour(last_slot(node)); }
@@ -50,7 +51,6 @@ class ListReader {
     return lstptr(last_slot(node), wanted, lists_.list, lists_.lptr);
   }
 
-  /// For a node whose list will be asked for soon.
   void prefetch_last_slot(Int node) const { __builtin_prefetch(lists_.lend + (node - 1)); }
   void prefetch_list(Int node) const {
     const auto i = static_cast<std::size_t>(last_slot(node) - 1);

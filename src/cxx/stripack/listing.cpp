@@ -12,7 +12,6 @@ namespace {
 
 constexpr int page_length = 58;
 
-/// The differences between the two layouts.
 struct Layout {
   std::string_view blank;  ///< a blank record between the parts of a table
   int page_break;          ///< number of blank records at a page break
@@ -26,7 +25,6 @@ void blank(const Layout& layout, int count, FormattedText& out) {
   for (int i = 0; i < count; ++i) out.add(layout.blank).end();
 }
 
-/// Number of a node's coordinates that a listing shows.
 template <class Int>
 int shown_coordinates(Int iflag) {
   return iflag < 0 ? 0 : iflag > 0 ? 2 : 3;
@@ -103,7 +101,8 @@ void list_neighbours(ListingForm form, Int iflag, const ListsView<Int>& lists, c
       out.integer(neighbours[static_cast<std::size_t>(i)], 5);
     }
     out.end();
-    // After one full row the record is empty in either form: Fortran's format ends it, not the program.
+    // After exactly one full row the record is empty in both layouts: in the original Fortran's format
+    // writes it.
     if (entries == in_a_row)
       out.end();
     else

@@ -20,14 +20,15 @@ Int look_through(const Vector<Real>& p, Int k, const Nodes<Real>& nodes) {
   return 0;
 }
 
-/// The same in O(1) steps from a node near p, for a Delaunay triangulation: descends to the node nearest to
+/// The same in O(1) steps, for a Delaunay triangulation: descends from a node near p to the node nearest to
 /// p.
 ///
-/// Why that finds it: on the way from any other node v to p one leaves v's Voronoi cell, at a point c, into
-/// that of a node j, which v lists. There |c-j| = |c-v|, and p lies straight on from v through c, so that
-/// |p-j| < |p-v|: v has a neighbour that is nearer. Nor does it matter which diagonal rounding put into a
-/// quadrilateral with its corners on a circle: if v does not list j, c is the centre of that circle, of whose
-/// points v is the farthest from p, so that the ends of the diagonal, which v lists, are nearer as well.
+/// Why the descent finds it: the way from any other node v to p leaves v's Voronoi cell at a point c and
+/// enters that of a node j, which v lists. There |c-j| = |c-v|, and p lies on the ray from v through c, so
+/// |p-j| < |p-v|: v has a neighbour nearer to p. This holds whichever diagonal rounding has put into a
+/// quadrilateral with corners on a circle: if v does not list j, c is the centre of that circle. Of the
+/// points of the circle v is the farthest from p, so the ends of the diagonal, which v lists, are nearer as
+/// well.
 template <class Real, class Int>
 Int descend(const Vector<Real>& p, Int start, const CheckedEditor<Int>& lists, const Nodes<Real>& nodes) {
   const auto distance = [&](Int node) {
@@ -66,8 +67,8 @@ Int copy_of(Int k, const Location<Int>& found, const CheckedEditor<Int>& lists, 
 }
 
 /// Restores the Delaunay property around node k: tests the arcs u-v opposite k, counterclockwise, and swaps
-/// u-v for k-w, with w beyond, if k lies in the cap of that triangle. At most k-1 swaps, since each gives k a
-/// further neighbour.
+/// u-v for k-w if k lies in the circumscribed cap of the triangle u,v,w beyond. At most k-1 swaps, since each
+/// adds a neighbour to k.
 ///
 ///          w
 ///        /   \                         .
@@ -132,7 +133,7 @@ Int addnod(Int start, const Nodes<Real>& nodes, const EditedLists<Int>& arrays) 
 
 namespace {
 
-/// The deletion of node k, step by step.
+/// The deletion of node k. run() has its steps.
 template <class Real, class Int>
 class Deletion {
  public:
@@ -180,7 +181,7 @@ class Deletion {
   ///
   ///           m
   ///         / | \                r, m, l follow each other in the list of k; after an exchange the arc
-  ///        l  |  r               before is looked at again
+  ///        l  |  r               before is tested again
   ///         \ | /
   ///           k
   void exchange_arcs(Int* iwk) {
@@ -215,8 +216,8 @@ class Deletion {
     throw BrokenLists();
   }
 
-  /// True if the triangles covered the sphere and will no longer do so: k does not lie within its last three
-  /// neighbours a, b, c, or has more.
+  /// True if the triangles cover the sphere now but not without k: k has more than three neighbours left, or
+  /// does not lie in the triangle of its three neighbours a, b, c.
   bool opens_the_hull() {
     if (neighbours_ == 3) {
       const Int first = lists_.first_slot(k_);
@@ -253,7 +254,8 @@ class Deletion {
       *entry += (*entry < -k_) - (*entry > k_);
   }
 
-  /// Fills the slots of k's own list from the top, in the order last neighbour, first, second, ...
+  /// Frees the slots of k's own list, in the order last neighbour, first, second, ..., by moving the top slot
+  /// into each.
   void free_own_slots() {
     const CheckedEditor<Int> lists({arrays_, lnew_, n_ - 1});
     Int hole = last_;
@@ -292,10 +294,10 @@ class Deletion {
   Real* const z_;
   const Nodes<Real> node_;
   const EditedLists<Int> arrays_;
-  Int lnew_;  // copied to the caller's when the deletion is certain
+  Int lnew_;  // copied to the caller's LNEW when the deletion can no longer fail
   const CheckedEditor<Int> lists_;
-  bool on_boundary_ = false;  // k is on the boundary, or treated as if
-  Int neighbours_ = 0;        // of k, plus one on the boundary
+  bool on_boundary_ = false;  // k is on the boundary, or treated as if it were
+  Int neighbours_ = 0;        // number of neighbours of k, plus one if k is on the boundary
   Int new_arcs_ = 0;          // columns of IWK
   Int last_ = 0, own_slots_ = 0;
 };

@@ -1,7 +1,7 @@
 #pragma once
 // ADDNOD, DELNOD: nodes are added to and deleted from a triangulation (Renka, ACM TOMS 23 (1997), Algorithm
-// 772). For (Real, Int) = (float, int32_t), (double, int32_t), (double, int64_t). No allocation; always
-// return.
+// 772). For (Real, Int) = (float, int32_t), (double, int32_t), (double, int64_t). The routines allocate
+// nothing and always return.
 
 #include "stripack/arc_edit.h"
 
@@ -13,13 +13,14 @@ enum class AddnodStatus {
   too_few_nodes = -1,   ///< k < 4
   collinear = -2,       ///< all nodes lie on one great circle, or node k is the zero vector
   too_many_nodes = -4,  ///< 6k-12 does not fit an integer
-  not_finite = -5,      ///< a coordinate of node k
+  not_finite = -5,      ///< a coordinate of node k is NaN or infinite
   broken = broken_lists
 };
 
 /// ADDNOD: adds node k = lists.n to the triangulation of nodes 1..k-1, which stays a Delaunay triangulation
-/// if it was one. The search starts at node `start`: k-1 if that is < 1, random if > k-1. Nothing is changed
-/// unless the result is 0 or, in part, broken_lists. Expected O(1) after the search.
+/// if it was one. The search starts at node `start`; at node k-1 if start < 1, at a random node if start >
+/// k-1. The lists are changed only if the result is 0 or, partly, if it is broken_lists. Expected O(1)
+/// after the search.
 ///
 /// A node with the coordinates of node k is always found in a Delaunay triangulation; Algorithm 772 misses
 /// many on the hull.
@@ -33,16 +34,17 @@ enum class DelnodStatus {
   too_few_columns = 2,  ///< only lwk is changed: columns needed
   not_linked = 3,       ///< k has fewer than 3 neighbours; or one of them does not list k, and the lists are
                         ///< changed in part, but not LNEW, n, x, y, z
-  not_reduced = 4,      ///< an interior node kept more than 3 neighbours though there is a boundary already;
-                        ///< arcs were exchanged, LNEW, n, x, y, z not changed
+  not_reduced = 4,      ///< an interior node kept more than 3 neighbours although there is a boundary; arcs
+                        ///< were exchanged, but LNEW, n, x, y, z are unchanged
   optim_failed = 5,     ///< deleted; OptimFailure has OPTIM's code
   not_optimal = 6,      ///< deleted; OPTIM ran out of iterations
   broken = broken_lists
 };
 
-/// DELNOD: deletes node k; those above it move down by one in x, y, z and LEND and in all lists. n = lists.n,
-/// on return one less. lwk: in, columns of iwk; out, columns needed, neighbours of k - 3 (- 2 on the
-/// boundary). iwk: the arcs that replace those of k. Where k = n in O(degree squared), else in O(n).
+/// DELNOD: deletes node k; the numbers of higher nodes drop by one in x, y, z, LEND and all lists. n =
+/// lists.n, on return one less. lwk: in, columns of iwk; out, columns needed: the number of neighbours of k
+/// minus 3 (minus 2 on the boundary). iwk: the arcs that replace those of k. O(degree squared) if k = n,
+/// else O(n).
 template <class Real, class Int>
 DelnodStatus delnod(Int k, Int& n, Real* x, Real* y, Real* z, const EditedLists<Int>& lists, Int& lwk,
                     Int* iwk, OptimFailure<Int>& failure);

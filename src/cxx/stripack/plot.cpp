@@ -24,13 +24,14 @@ namespace {
 //     annotation
 constexpr int page_x = 306, page_y = 396;  // the middle of the page
 
-/// As seen from far away: right and up in the picture, and depth towards the eye.
+/// A point in the orthographic view: x to the right and y up in the picture, depth towards the eye.
 template <class Real>
 struct Seen {
   Real x, y, depth;
 };
 
-/// The orthographic view along the line from a place on the sphere to its centre.
+/// The orthographic view from the direction of the frame's latitude and longitude to the centre of the
+/// sphere.
 template <class Real>
 class View {
  public:
@@ -45,7 +46,6 @@ class View {
     radius_ = std::sin(degree * frame.angle);
   }
 
-  /// Radius of the window.
   Real radius() const { return radius_; }
   Seen<Real> operator()(const Vector<Real>& p) const {
     return {right_.x * p.x + right_.y * p.y, dot(up_, p), dot(eye_, p)};
@@ -59,7 +59,8 @@ class View {
   Real radius_;
 };
 
-/// Where the arc from a, which is in front, to b behind meets the horizon. False if a and b are antipodal.
+/// Moves b to where the arc from a to b meets the horizon. a is in front of it, b behind. False if a and b
+/// are antipodal.
 template <class Real>
 bool meet_horizon(const Seen<Real>& a, Seen<Real>& b) {
   const Real x = a.depth * b.x - b.depth * a.x, y = a.depth * b.y - b.depth * a.y;
@@ -78,8 +79,8 @@ bool can_be_drawn(Int count, const Nodes<Real>& points) {
   return true;
 }
 
-/// TITLE as a PostScript string of at most `most` characters in parentheses. Characters that would end the
-/// string early or never (an unmatched parenthesis, a backslash at the end) become plain text.
+/// TITLE as a PostScript string of at most `most` characters in parentheses. If the string would end early or
+/// never (an unmatched parenthesis, a backslash at the end), all special characters in it are escaped.
 std::string postscript_string(std::string_view title, std::size_t most) {
   const std::size_t begin = std::min(title.find_first_not_of(' '), title.size());
   title = title.substr(begin, title.find_last_not_of(' ') + 1 - begin);
@@ -114,7 +115,7 @@ class Picture {
 
   const View<Real> view;
 
-  /// A NaN is not within any bounds.
+  /// Checks the frame. A NaN is an error.
   PlotStatus check(bool counts_are_good) const {
     const auto within = [](Real value, Real low, Real high) { return value >= low && value <= high; };
     if (frame_.lun < 0 || frame_.lun > 99 || !within(frame_.plot_size, Real(1), Real(8.5)) ||
@@ -147,7 +148,7 @@ class Picture {
     number(view.radius()).add(" 0 360 arc clip newpath").end();
   }
 
-  /// A line from a, in the window, to b.
+  /// A line from a, which is in the window, to b.
   void line(const Seen<Real>& a, Seen<Real> b) {
     if (b.depth < 0 && !meet_horizon(a, b)) return;
     position(a).add(" moveto");
@@ -188,17 +189,17 @@ class Picture {
  private:
   static constexpr Real largest_scale = Real(1e30);  // PostScript's largest number is 1e38
 
-  /// Its radius on paper.
+  /// Radius of the window on paper, in points.
   int rim() const {
     const auto half = static_cast<Real>(std::lround(36 * frame_.plot_size));
     return static_cast<int>(std::lround(Real(0.88) * half));
   }
   Real scale() const { return static_cast<Real>(rim()) / view.radius(); }
-  /// A length on paper in coordinates of the sphere.
+  /// A length on paper, given in points, in units of the sphere's radius.
   Real length(int points) const { return static_cast<Real>(points) / scale(); }
 
-  /// Six decimals in twelve columns; more in a window so small that they would show as steps. The scale,
-  /// which is the largest number of all, leaves one column blank.
+  /// Six decimals in twelve columns; more for a small window, where six would show as steps. The largest
+  /// number written is the scale, which leaves one column blank.
   FormattedText& number(Real value) {
     int decimals = 6;
     for (Real s = scale(); s >= Real(1e4); s /= 10) ++decimals;

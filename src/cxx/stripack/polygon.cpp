@@ -31,7 +31,7 @@ bool is_zero(const Vector<Real>& a) {
   return a.x == 0 && a.y == 0 && a.z == 0;
 }
 
-/// INTRSC of finite arguments.
+/// INTRSC for finite arguments.
 template <class Real>
 IntersectionStatus cross_arc(const Vector<Real>& p1, const Vector<Real>& p2, const Vector<Real>& normal,
                              Vector<Real>& point) {
@@ -66,15 +66,15 @@ IntersectionStatus intersection(const Vector<Real>& p1, const Vector<Real>& p2, 
   return cross_arc(p1, p2, normal, point);
 }
 
-// From q, which is inside next to an edge, along a great circle to p: inside if the number of edges crossed
-// on the way is even. The crossings must agree with that:
+// Start at a point q just inside an edge and follow the great circle to p: p is inside if the number of edges
+// crossed on the way is even. The first and the last crossing must agree with that:
 //
 //              ^
-//     inside   |          The one nearest to q leads out: the edge runs to its positive end, positive
-//         q -->|--> p     being left of q->p. The one nearest to p leads in or out, as the count says.
-//              |
+//     inside   |          The crossing nearest to q leads out: its edge runs to its positive end, where
+//         q -->|--> p     positive means left of q->p. If it does not, q is taken at another edge.
+//              |          The crossing nearest to p leads in or out, according to the parity. If it does
+//                         not, the boundary crosses itself.
 //
-// Otherwise another edge provides q, or the boundary crosses itself.
 template <class Real, class Int>
 PolygonStatus inside(const Vector<Real>& p, Int lv, const Nodes<Real>& vertices, Int nv, const Int* listv,
                      bool& result) {
@@ -87,7 +87,7 @@ PolygonStatus inside(const Vector<Real>& p, Int lv, const Nodes<Real>& vertices,
   for (Int k = 0; k < nv; ++k)
     if (!is_finite(vertex(k))) return PolygonStatus::not_finite;
 
-  Vector<Real> crossing{0, 0, 0};  // keeps its value if an edge joins opposite points
+  Vector<Real> crossing{0, 0, 0};  // keeps its value if an edge joins antipodal points
   for (Int edge = 0; edge < nv; ++edge) {
     Vector<Real> q;
     if (!left_of_middle(vertex(edge), vertex(edge + 1 < nv ? edge + 1 : 0), q)) continue;
@@ -95,7 +95,7 @@ PolygonStatus inside(const Vector<Real>& p, Int lv, const Nodes<Real>& vertices,
     if (is_zero(normal)) continue;
     const Vector<Real> before_p = cross(p, normal), after_q = cross(normal, q);
 
-    Int crossings = 0;  // with the whole great circle
+    Int crossings = 0;  // of the whole great circle
     bool even = true;   // parity of the crossings of the arc from q to p
     bool q_inside = true, p_inside = true;
     Real nearest_q = -2, nearest_p = -2;

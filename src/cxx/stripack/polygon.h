@@ -14,8 +14,8 @@ enum class IntersectionStatus {
   not_finite = -5  ///< NaN or infinity in the arguments
 };
 
-/// INTRSC: the point, of length 1, where the great circle through p1 and p2 crosses the one with the given
-/// normal (of any length): of the two the one nearer to the arc from p1 to p2.
+/// INTRSC: the point, of length 1, where the great circle through p1 and p2 crosses the great circle with the
+/// given normal (of any length). Of the two such points it is the one nearer to the arc from p1 to p2.
 template <class Real>
 IntersectionStatus intersection(const Vector<Real>& p1, const Vector<Real>& p2, const Vector<Real>& normal,
                                 Vector<Real>& point);
@@ -26,13 +26,13 @@ enum class PolygonStatus {
   bad_count = 1,          ///< nv < 3 or nv > lv
   bad_vertex = 2,         ///< an entry of listv outside 1..lv
   self_intersecting = 3,  ///< the crossings contradict each other
-  no_reference = 4,       ///< no edge gives a reference point inside: P is zero, or badly placed for all
+  no_reference = 4,       ///< no edge gives a usable point inside: P is zero, or aligned with all such points
   not_finite = -5         ///< NaN or infinity in P or in a vertex
 };
 
-/// INSIDE: true if p lies in the region left of the polygon listv[0..nv-1], indices 1..lv of `vertices`. The
-/// inside of a clockwise polygon is its complement. `result` is false unless `done`. Within rounding of the
-/// boundary either answer is possible.
+/// INSIDE: `result` is true if p lies in the region left of the polygon with the vertices listv[0..nv-1],
+/// which are indices 1..lv of `vertices`. For a clockwise polygon that region is the outside. `result` is
+/// false unless `done`. Within rounding of the boundary either answer is possible.
 template <class Real, class Int>
 PolygonStatus inside(const Vector<Real>& p, Int lv, const Nodes<Real>& vertices, Int nv, const Int* listv,
                      bool& result);

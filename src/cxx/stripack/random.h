@@ -11,15 +11,15 @@ struct Seeds {
   Int x = 1, y = 2, z = 3;
 };
 
-/// factor * seed modulo `modulus`; seeds far beyond it wrap, as they do in compiled Fortran.
+/// factor * seed modulo `modulus`. A product that overflows wraps, as in compiled Fortran.
 template <class Int>
 Int next_seed(Int factor, Int seed, Int modulus) {
   using Bits = std::make_unsigned_t<Int>;
   return static_cast<Int>(static_cast<Bits>(factor) * static_cast<Bits>(seed)) % modulus;
 }
 
-/// JRAND: a random integer in 1..n, with arithmetic in the kind Real. If n*u+1 rounds up to n+1, about once
-/// in 10^7 draws in single precision, the result is n+1: check it before using it as an index.
+/// JRAND: a random integer in 1..n, computed in Real arithmetic. About once in 10^7 draws in single precision
+/// the sum n*u+1 is rounded up to n+1, which is then the result: check it before using it as an index.
 template <class Real, class Int, class SeedInt>
 Int jrand(Int n, Seeds<SeedInt>& seeds) {
   seeds.x = next_seed<SeedInt>(171, seeds.x, 30269);
@@ -29,7 +29,7 @@ Int jrand(Int n, Seeds<SeedInt>& seeds) {
                    static_cast<Real>(seeds.z) / Real(30323);
   const Real fraction = sum - static_cast<Real>(static_cast<Int>(sum));
   const Real drawn = static_cast<Real>(n) * fraction + Real(1);
-  // The largest integer may round up to a real that is no Int.
+  // The largest Int may round up to a Real that does not fit Int.
   return drawn < static_cast<Real>(std::numeric_limits<Int>::max()) ? static_cast<Int>(drawn) : n;
 }
 

@@ -43,8 +43,8 @@ class PlainLists : public ListReader<Int> {
   Nodes<Real> node_;
 };
 
-/// Arrays of lists that may be none: throws BrokenLists also where there are more steps round a node, or more
-/// nodes on the way, than any search in good lists takes.
+/// Arrays that may not hold valid lists. Throws BrokenLists also if a search takes more steps around one
+/// node, or visits more nodes, than any search in valid lists.
 template <class Int>
 class CountedArrays : public CheckedArrays<Int> {
  public:
@@ -68,7 +68,7 @@ class CountedArrays : public CheckedArrays<Int> {
   mutable std::int64_t steps_ = 0, most_nodes_ = 64 * std::int64_t{this->nodes()} + 1000;
 };
 
-/// Lists that are being edited, and nodes.
+/// Lists that are being edited, and nodes, as TrfindWalk reads them.
 template <class Real, class Int>
 class GuardedLists : public ListEditor<CountedArrays<Int>> {
  public:
@@ -86,7 +86,7 @@ class GuardedLists : public ListEditor<CountedArrays<Int>> {
   Nodes<Real> node_;
 };
 
-/// TRFIND: by rounded tests as the original, and where these do not soon end by exact signs.
+/// TRFIND: by rounded tests, as the original; by exact signs if these do not end soon.
 template <class Real, class Int, class Lists>
 class Search {
  public:
@@ -115,19 +115,19 @@ class Search {
 
   Real side(Int a, Int b) const { return pstripack::side(lists_[a], lists_[b], p_); }
 
-  // ---- the exact search, for what the rounded walk cannot decide ----
+  // ---- the exact search, if the rounded walk fails ----
 
-  /// The exact sign of pstripack::side(a, b, c); 0 where one of them is not finite.
+  /// The exact sign of pstripack::side(a, b, c); 0 if one of them is not finite.
   static int exact_left(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c) {
     return is_finite(a) && is_finite(b) && is_finite(c) ? left(as_point(a), as_point(b), as_point(c)) : 0;
   }
   int exact_side(Int a, Int b) const { return exact_left(lists_[a], lists_[b], p_); }
 
-  /// The visibility walk: out of triangle (u,v,w) through an arc that has p strictly to its right.
+  /// The visibility walk: leaves triangle (u,v,w) through an arc that has p strictly to its right.
   ///
-  ///        w         p lies left of u->v, or on it. The walk ends: in a Delaunay triangulation because
-  ///       / \        the planes of the triangles passed cut the ray to p ever further out, in others
-  ///      u---v       because steps are counted.
+  ///        w         p lies left of u->v, or on it. In a Delaunay triangulation the walk ends because the
+  ///       / \        planes of the triangles passed cut the ray to p ever further out; in others because
+  ///      u---v       the steps are counted.
   ///
   Location<Int> walk_exactly(Int u) {
     Int v = lists_.first_neighbour(u);
@@ -142,7 +142,7 @@ class Search {
         v = w;
       } else {
         if (contains(u, v, w)) return weighed(u, v, w);
-        break;  // a null triangle, with p elsewhere on its circle
+        break;  // a null triangle: p lies elsewhere on its great circle
       }
     }
     return search_all();
@@ -165,8 +165,8 @@ class Search {
     return nowhere;
   }
 
-  /// True of a counterclockwise triangle that p lies in, and of a half-sphere: three nodes all the way round
-  /// a great circle.
+  /// True if p lies in the counterclockwise triangle a, b, c. The triangle may be a hemisphere: three nodes
+  /// that go all the way around a great circle.
   bool contains(Int a, Int b, Int c) const {
     const int ab = exact_side(a, b), bc = exact_side(b, c), ca = exact_side(c, a);
     if (ab < 0 || bc < 0 || ca < 0 || ab + bc + ca == 0) return false;
@@ -174,7 +174,7 @@ class Search {
     return turn > 0 || (turn == 0 && ab + bc + ca == 3);
   }
 
-  /// The triangle, turned so that p is closest to the arc i1-i2, and its weights.
+  /// The triangle, rotated so that p is closest to the arc i1-i2. Sets the weights.
   Location<Int> weighed(Int a, Int b, Int c) {
     Location<Int> t{a, b, c};
     if (side(b, c) < side(t.i1, t.i2)) t = {b, c, a};
@@ -201,8 +201,9 @@ class Search {
   const Weights<Real> weights_;
 };
 
-/// The nodes whose caps would lose ground if p were inserted, as a ring round p, in the order in which
-/// they are met. Entry 0 closes the ring of a point outside.
+/// The natural neighbours of p found so far: the nodes that would become its neighbours if p were inserted.
+/// They form a ring around p, and are stored in the order in which they are found. If p lies outside the
+/// hull, an entry 0 closes the ring.
 template <class Int>
 class Candidates {
  public:
@@ -210,13 +211,12 @@ class Candidates {
 
   explicit Candidates(Int first) : count_(1) { node_[0] = first; }
 
-  Int& beyond(int i) { return beyond_[i]; }  ///< the node on the other side of the arc to the next; 0: none
+  Int& beyond(int i) { return beyond_[i]; }  ///< the node beyond the arc from i to the next; 0: none
 
   int count() const { return count_; }
   bool full() const { return count_ == most; }
   Int operator[](int i) const { return node_[i]; }
   int after(int i) const { return next_[i]; }
-  /// Adds a node after position i and returns its position.
   int insert(Int node, int i) {
     const int position = count_++;
     node_[position] = node;
@@ -232,10 +232,10 @@ class Candidates {
   int count_;
 };
 
-/// So many nodes GETNP is given without a need for memory from the heap.
+/// Up to this many given nodes GETNP needs no memory from the heap.
 constexpr int most_without_memory = 256;
 
-/// The nodes that GETNP is given, as a hash table. An empty cell holds 0, which is no node.
+/// The nodes given to GETNP, as a hash table. An empty cell holds 0, which is no node number.
 template <class Int>
 class NodeTable {
  public:
@@ -244,7 +244,7 @@ class NodeTable {
     insert(0);
   }
 
-  /// npts[place]; false if it is there already.
+  /// Inserts npts[place]; false if it is in the table already.
   bool insert(Int place) {
     const Int node = npts_[place];
     std::size_t cell = hash(node);
@@ -253,7 +253,7 @@ class NodeTable {
     cells_[cell] = node;
     return true;
   }
-  /// Without a branch on whether it is there, which no processor foresees.
+  /// Without a branch on the result, which would be unpredictable.
   bool contains(Int node) const {
     const std::size_t cell = hash(node);
     const Int found = cells_[cell];
@@ -266,7 +266,7 @@ class NodeTable {
   std::size_t hash(Int node) const {
     return static_cast<std::size_t>(static_cast<std::uint64_t>(node) * 0x9E3779B97F4A7C15 >> shift_);
   }
-  /// The node's cell, or the empty one where it would go, from this one on.
+  /// The node's cell, or the empty cell where it would go; searches from `cell` on.
   [[gnu::noinline]] std::size_t find(std::size_t cell, Int node) const {
     const std::size_t last = (std::size_t{1} << (64 - shift_)) - 1;
     while (cells_[cell] != 0 && cells_[cell] != node) cell = (cell + 1) & last;
@@ -278,13 +278,13 @@ class NodeTable {
   int shift_;
 };
 
-/// The nodes that GETNP is given where they are few: compared one by one.
+/// The nodes given to GETNP, if they are few: compared one by one.
 template <class Int, int most>
 class FewNodes {
  public:
   explicit FewNodes(const Int* npts) : npts_(npts) { std::fill_n(node_, most, npts[0]); }
 
-  /// npts[place]; false if it is there already.
+  /// Inserts npts[place]; false if it is in the set already.
   bool insert(Int place) {
     if (contains(npts_[place])) return false;
     node_[place] = npts_[place];
@@ -301,9 +301,9 @@ class FewNodes {
   Int node_[most];
 };
 
-/// Calls visit(neighbour) for the neighbours of a node, the last one first. False if their list is not closed
-/// but runs into a loop. The next slot is foreseen as in canonical lists and compared with LPTR: the
-/// processor predicts that branch, but to follow LPTR it would have to wait for memory.
+/// Calls visit(neighbour) for the neighbours of a node, the last one first. False if the list runs into a
+/// loop instead of closing. The next slot is guessed, as in canonical lists, and compared with LPTR: the
+/// processor predicts that branch, whereas following LPTR would make it wait for memory.
 template <class Int, class Visit>
 [[gnu::always_inline]] inline bool each_neighbour(const ListReader<Int>& reader, Int node,
                                                   const Visit& visit) {
@@ -314,7 +314,7 @@ template <class Int, class Visit>
     visit(reader.neighbour(slot));
     const Int next = reader.next(slot);
     Int onward = foreseen;
-    asm("" : "+r"(onward));  // or the compiler would use `next`, which is equal
+    asm("" : "+r"(onward));  // keeps the compiler from using `next`, which is equal
     if (next == foreseen) {
       slot = onward;
     } else {
@@ -330,24 +330,25 @@ template <class Int, class Visit>
   return true;
 }
 
-/// The nearest to a centre of the nodes that are compared; of equally near ones the first. Computes in
-/// Number: a Real, or one that needs no floating-point environment.
+/// Finds, among the nodes passed to compare(), the one nearest to a centre; among equally near nodes the
+/// first. Computes in Number: Real, or StaticallyRounded<Real>, which needs no floating-point environment.
 template <class Number, class Real, class Int>
 class Nearest {
  public:
   Nearest(const Nodes<Real>& nodes, Int centre) : nodes_(nodes), centre_(position(centre)) {}
 
-  /// Without a branch on distances, which no processor foresees: the next call begins before they are there.
+  /// Without a branch on distances, which would be unpredictable: so the next call can begin before the
+  /// distances have arrived from memory.
   [[gnu::always_inline]] void compare(Int node, bool is_other = true) {
     const Number cosine = is_other ? dot(position(node), centre_) : Number(-2);
     not_finite_ = not_finite_ + Number(0) * cosine;
     nearest_ = is_larger(cosine, cosine_) ? node : nearest_;
     cosine_ = larger(cosine, cosine_);
   }
-  /// Takes the environment of Number for itself: to save another one the processor waits for all that has
-  /// begun, so by then these nodes should be on their way from memory.
-  /// `few`: without a branch. Among many a branch is foreseen, as they come roughly by distance: then the
-  /// processor need not wait for positions.
+  /// Sets the environment of Number itself. To save the old environment the processor waits for all
+  /// instructions in flight, so these nodes should have been prefetched before. `few`: without a branch.
+  /// Many nodes come roughly by distance, so a branch is predictable, and with it the processor need not
+  /// wait for positions.
   template <bool few>
   void compare(const Int* begin, const Int* end) {
     in_environment_of<Number>([=] {
@@ -363,7 +364,7 @@ class Nearest {
         } else if (is_nearer) {
           nearest = *node;
           greatest = cosine;
-          asm("" : "+r"(nearest));  // or the compiler makes it one without a branch
+          asm("" : "+r"(nearest));  // keeps the compiler from removing the branch
         }
       }
       nearest_ = nearest;
@@ -389,11 +390,11 @@ class Nearest {
   const Vector<Number> centre_;
   Int nearest_ = 0;
   Number cosine_ = Real(-2);
-  Number not_finite_ = Real(0);  ///< 0, or NaN
+  Number not_finite_ = Real(0);  ///< 0; NaN if a distance was not finite
 };
 
-/// GETNP for one or two given nodes: most of their neighbours are not given, so each is compared when it is
-/// met. In the environment of Number.
+/// GETNP for one or two given nodes: few of their neighbours are given nodes, so each neighbour is compared
+/// at once. To be called in the environment of Number.
 template <class Number, int given, class Real, class Int>
 NextNearestStatus nearest_when_met(const ListsView<Int>& lists, const Nodes<Real>& nodes, Int* npts,
                                    Real& distance) {
@@ -405,7 +406,7 @@ NextNearestStatus nearest_when_met(const ListsView<Int>& lists, const Nodes<Real
 
   Nearest<Number, Real, Int> nearest(nodes, npts[0]);
   const auto visit = [&](Int node) __attribute__((always_inline)) {
-    // One of the slots is what the call for l = 3 needs. For two nodes this costs a call more than the next
+    // The call for l = 3 will need one of these slots. For two given nodes prefetching costs more than it
     // saves.
     if (given == 1) reader.prefetch_last_slot(node);
     nearest.compare(node, !taken.contains(node));
@@ -415,8 +416,8 @@ NextNearestStatus nearest_when_met(const ListsView<Int>& lists, const Nodes<Real
   return nearest.write(npts[given], distance);
 }
 
-/// GETNP for more. `taken`: empty, with room for the given nodes. A function of its own for few and for many,
-/// since compilers run out of registers where both are one.
+/// GETNP for more given nodes. `taken`: empty, with room for them. Few and many nodes have an instance of
+/// their own, because compilers run out of registers if one instance serves both.
 template <class Number, bool few, class Real, class Int, class Taken>
 [[gnu::noinline]] NextNearestStatus nearest_of_others(const ListsView<Int>& lists, const Nodes<Real>& nodes,
                                                       Int given, Int* npts, Real& distance, Taken taken) {
@@ -427,9 +428,9 @@ template <class Number, bool few, class Real, class Int, class Taken>
 
   Nearest<Number, Real, Int> nearest(nodes, npts[0]);
   constexpr int most = 64;
-  Int others[most];  // nodes that are not taken, to be compared
+  Int others[most];  // neighbours that are not given nodes, to be compared
   int count = 0;
-  // Of the slots one is what the next call needs: callers ask for l = 2, 3, 4...
+  // The next call will need one of these slots: callers ask for l = 2, 3, 4...
   const auto prefetch = [&](Int node) {
     if (few) nodes.prefetch(node);
     reader.prefetch_last_slot(node);
@@ -440,8 +441,8 @@ template <class Number, bool few, class Real, class Int, class Taken>
     count = 0;
   };
   const auto visit = [&](Int node) __attribute__((always_inline)) {
-    if (few) prefetch(node);  // of many, most are taken
-    others[count] = node;     // where the next one goes, too, if this one is taken
+    if (few) prefetch(node);  // if many nodes are given, most neighbours are among them
+    others[count] = node;     // overwritten by the next one if this is a given node
     count += !taken.contains(node);
     if (count == most) compare();
   };
@@ -451,9 +452,9 @@ template <class Number, bool few, class Real, class Int, class Taken>
   return nearest.write(npts[given], distance);
 }
 
-/// The cells of a NodeTable per node, so that few nodes meet another one's cell.
+/// Cells of a NodeTable per node: so many that collisions are rare.
 constexpr int cells_a_node = 16;
-/// So many given nodes are few.
+/// Up to this many given nodes are few.
 constexpr int few_nodes = 8;
 
 /// GETNP for 1 to few_nodes given nodes.
@@ -515,7 +516,7 @@ Int nearnd(const Vector<Real>& p, Int start, const ListsView<Int>& lists, const 
     ring.insert(0, end);
   }
 
-  // Asked for when an arc comes to the ring, so that lists and positions are there when it is its turn.
+  // Called as soon as an arc is in the ring, to prefetch the list and the position of the node beyond.
   const auto look_beyond = [&](int u) {
     const Int slot = reader.slot_of(ring[ring.after(u)], ring[u]);
     ring.beyond(u) = reader.entry(slot) < 0 ? 0 : reader.neighbour(reader.next(slot));
@@ -530,7 +531,7 @@ Int nearnd(const Vector<Real>& p, Int start, const ListsView<Int>& lists, const 
     if (v == 0) break;
   }
 
-  // Between neighbours u and v on the ring goes the node beyond their arc, if p lies in its cap.
+  // Insert the node beyond the arc of neighbours u and v between them if p lies in the cap of that triangle.
   for (int u = 0, v; ring[v = ring.after(u)] != 0;) {
     if (const Int beyond = ring.beyond(u); beyond != 0) {
       if (ring.full()) break;

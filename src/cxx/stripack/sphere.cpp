@@ -37,7 +37,7 @@ SphericalCoordinates<Real> scoord(const Vector<Real>& p) {
 
 template <class Real>
 Real areas(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c) {
-  // Normals of the three sides; the angle at a corner lies between the normals of the sides there.
+  // The angle at a corner is that between the normals of its two sides.
   Vector<double> ab = cross(widen(a), widen(b));
   Vector<double> bc = cross(widen(b), widen(c));
   Vector<double> ca = cross(widen(c), widen(a));

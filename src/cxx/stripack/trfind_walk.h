@@ -11,23 +11,22 @@
 
 namespace pstripack {
 
-/// Limits of a search. The original has none: it ends soon, or after some restarts, or never.
+/// Limits of a search. The original has none: its search ends soon, or after some restarts, or never.
 struct SearchLimits {
-  std::int64_t steps;   ///< a search that makes progress takes at most as many as there are arcs
+  std::int64_t steps;   ///< arcs crossed; a search that makes progress crosses each arc once at most
   std::int64_t starts;  ///< restarts at random nodes
 
-  /// Returns the original's answer if it has one: up to a million steps for restarts.
+  /// Limits within which a search ends wherever the original's does: a million steps for restarts.
   static SearchLimits to_follow(std::int64_t nodes) { return {4 * nodes + 1'000'000, INT64_MAX}; }
 };
 
-/// TRFIND's weights.
 template <class Real>
 struct Weights {
   Real &b1, &b2, &b3;
 };
 
-/// The weights of a and b; b3 = 0 if p is so close to the arc a-b that it counts as lying on it. Requires b3
-/// = side(a,b,p) >= 0. c: the third corner.
+/// Sets b1 and b2, the weights of a and b. Sets b3 = 0 if p is so close to the arc a-b that it counts as
+/// lying on it. Requires b3 = side(a,b,p) >= 0. c: the third corner.
 template <class Real>
 void weigh(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c, const Vector<Real>& p,
            const Weights<Real>& weights) {
@@ -42,10 +41,11 @@ void weigh(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c, 
   }
 }
 
-/// Names: o is the node from which the search looks, r and l the right and left end of the arc through which
-/// it looks; side(a,b) > 0 if p lies left of a->b; l_of_o is the slot of l in the list of o. Lists has the
-/// interface of ListReader and InsertionLists; lists[node] is a position; slot_of_third(o, l_of_o, l, r) is
-/// the slot of r in the list of l if o, r, l is a triangle. draw(n) returns a random node.
+/// TRFIND's search. Names: o is the node from which the search looks; r and l are the right and left end of
+/// the arc through which it looks; l_of_o is the slot of l in the list of o; side(a,b) > 0 if p lies left
+/// of a->b. Lists has the interface of ListReader and InsertionLists; lists[node] is a position;
+/// slot_of_third(o, l_of_o, l, r) is the slot of r in the list of l if o, r, l is a triangle. draw(n)
+/// returns a random node of 1..n.
 template <class Real, class Int, class Lists, class Draw>
 class TrfindWalk {
  public:
@@ -53,8 +53,9 @@ class TrfindWalk {
              const Weights<Real>& weights, Draw draw)
       : p_(p), lists_(lists), tolerance_(tolerance), left_(limits), weights_(weights), draw_(draw) {}
 
-  /// False if it gave up. `found` as TRFIND returns it, all 0 if all nodes are collinear. `o`: the start
-  /// node; on return the last node from which it looked. Writes the same weights as the original.
+  /// False if the limits are reached. `found` as TRFIND returns it, all 0 if all nodes are collinear. `o`:
+  /// the start node; on return the last node from which the search looked. Writes the same weights as the
+  /// original.
   bool find(Int& o, Location<Int>& found) {
     while (affordable()) {
       Int r, l, l_of_o;
@@ -81,8 +82,8 @@ class TrfindWalk {
     }
     return false;
   }
-  /// The slot of i1 in the list of i2 in the found triangle. If no arc was crossed, it is searched only on
-  /// request, because that reads another list.
+  /// The slot of i1 in the list of i2, for the triangle that find() has found. If no arc was crossed the
+  /// slot is not known yet; looking it up reads another list, so this is done on request only.
   Int slot_found() const {
     if (found_.slot != 0) return found_.slot;
     return lists_.slot_of_third(found_.behind, found_.l_of_behind, found_.l, found_.r);
@@ -97,16 +98,16 @@ class TrfindWalk {
   Real side(Int a, Int b) const { return pstripack::side(lists_[a], lists_[b], p_); }
   Real dot_p(Int a) const { return pstripack::dot(p_, lists_[a]); }
 
-  /// The wedge that look_out finds, by tests of all neighbours without a branch between them: positions are
-  /// waited for together, and no branch is predicted wrongly. Before: the list of o is in slots first..last.
-  /// False, where there is no wedge or o is on the boundary: look_out has to look.
+  /// Finds the same wedge as look_out, by testing all neighbours without a branch between them, so that all
+  /// positions are loaded at once and no branch is mispredicted. The list of o must be in slots first..last.
+  /// False if there is no wedge or o is on the boundary: then look_out has to search.
   bool find_wedge(Int o, Int first, Int last, Int& r, Int& l, Int& l_of_o) const {
     if (lists_.entry(last) < 0) return false;
     const int count = static_cast<int>(last - first) + 1;
     unsigned right = 0;  // bit i: p lies right of the arc from o to its i-th neighbour
     for (int i = 0; i < count; ++i)
       right |= static_cast<unsigned>(side(o, lists_.neighbour(first + i)) < 0) << i;
-    const int not_right = __builtin_ctz(~right | 1u << (count - 1));  // or the last one
+    const int not_right = __builtin_ctz(~right | 1u << (count - 1));  // the last one if there is none
     const unsigned right_after = (right & (~1u << not_right)) | (right & 1) << count;
     if (right_after == 0) return false;
     const int i = __builtin_ctz(right_after);
@@ -157,7 +158,7 @@ class TrfindWalk {
     l_of_o = first_slot;
     if (side(o, first) < 0) return View::wedge;
 
-    // p is not strictly right of any arc from o: it is collinear with one, or is o or its antipode.
+    // p is not strictly right of any arc from o: it is collinear with one, or it is o or the antipode of o.
     if (std::abs(dot_p(o)) < 1 - 4 * epsilon) {
       for (slot = last_slot; !(side(r, o) < 0); r = lists_.neighbour(slot)) {
         slot = lists_.next(slot);
@@ -170,8 +171,8 @@ class TrfindWalk {
 
   /// Crosses triangle by triangle away from o, through arcs r-l, until p lies before the arc.
   ///
-  ///        beyond            m_of_l, the slot of `beyond` in the list of l, follows that of r; the next arc
-  ///        is /    \            r-beyond, if that has p on the other side than o-beyond, or else beyond-l
+  ///        beyond            m_of_l, the slot of `beyond` in the list of l, follows that of r. The next arc
+  ///        is /    \            r-beyond if p lies right of o->beyond, else beyond-l
   ///       l ---- r           .
   ///        \    /
   ///        behind
@@ -207,9 +208,10 @@ class TrfindWalk {
     return Walk::arrived;
   }
 
-  /// True if a boundary node is an end of the visible part of the boundary, given that the arc between `end`
-  /// and the node `further` away is not strictly visible. With c the part of `start` perpendicular to `end`,
-  /// p or `further` lies on the side of `start`; otherwise all is nearly collinear and the search continues.
+  /// True if the boundary node `end` is an end of the visible part of the boundary, given that the arc from
+  /// `end` to the next node, `further`, is not strictly visible. Let c be the part of `start` perpendicular
+  /// to `end`: p or `further` must lie on the side of c. Otherwise all are nearly collinear and the search
+  /// continues.
   bool ends_view(Int start, Int end, Int further) const {
     const Vector<Real> s = lists_[start], e = lists_[end];
     const Real cosine = pstripack::dot(s, e);
@@ -217,7 +219,8 @@ class TrfindWalk {
     return pstripack::dot(p_, c) >= 0 || pstripack::dot(lists_[further], c) >= 0;
   }
 
-  /// The ends of the part of the boundary visible from p, given one visible arc r->l. False if it gave up.
+  /// Finds the ends of the part of the boundary visible from p, given one visible arc r->l. False if the
+  /// limits are reached.
   bool see_boundary(const Int first_r, const Int first_l, Location<Int>& found) {
     Int rightmost, far_end = 0;
     for (Int r = first_r, l = first_l;;) {  // counterclockwise

@@ -16,24 +16,23 @@
 namespace pstripack {
 namespace {
 
-// Method. Triangles are numbered by their smallest corner, then in the order of its ring. Of the triangle
-// t = (a,b,c), a smallest, let m be the smaller and M the larger of b and c. Sides have the numbers of the
-// corners opposite: 0 is b-c, 1 is c-a, 2 is a-b.
+// Method. Triangles are numbered by their smallest corner, then in the order of its ring. For a triangle t
+// = (a,b,c) with a smallest, let m be the smaller and M the larger of b and c. Each side has the number of
+// the corner opposite: 0 is b-c, 1 is c-a, 2 is a-b.
 //
-//          M              Every arc is looked at from its smaller end. The ring of a knows the numbers of its
-//        / | \            own triangles on both sides of a-b and of a-c. Where a node smaller than a has the
-//       a  |  d           triangle, a has had a message. In the same way t sends a message to m: it is left
-//       (or
-//        \ | /            right) of the arc from m to M. As soon as the ring of m knows what is on the other
-//          m              side of that arc, it is noted for t.
+//          M              Every arc is treated at its smaller end. The ring of a determines the numbers of
+//        / | \            those triangles at a-b and a-c whose smallest corner is a. About any other one
+//       a  |  d           a has received a message from its smallest corner. In the same way a sends m a
+//        \ | /            message that t is left (or right) of the arc from m to M. When m has all its
+//          m              messages, it notes for t which triangle is on the other side of m-M.
 //
-// All this is noted by nodes greater than a. So the blocks of nodes read their messages from the last block
-// to the first, and write the columns of their triangles at once; where several threads read blocks, they
-// complete the columns when all are read.
+// These notes come from nodes greater than a. So the blocks of nodes read their messages from the last
+// block to the first, and can write the columns of their triangles at once. If several threads read blocks,
+// the columns are completed after all blocks are read.
 //
-// The rings must have the same triangles. Of a message, m compares the third corner; the largest corner gets
-// no message. Both are compared by sums of hashes, modulo 2^64: over the rings of the smallest corners, and
-// over those of the others.
+// All rings must have the same triangles. When m receives a message it checks the third corner; the largest
+// corner gets no message. Both checks compare sums of hashes, modulo 2^64: the sum over the rings of the
+// smallest corners with the sum over the rings of the others.
 template <class Int>
 class TriangleList {
  public:
@@ -47,7 +46,7 @@ class TriangleList {
     if (!readable_) return TriangleListStatus::broken_lists;
     Workspace space(bytes());
     lay_out(space);
-    // Several threads count first; one thread knows enough when it comes to a block.
+    // Several threads must count the messages first; one thread can count while it sends.
     std::vector<std::size_t> messages(index(threads_), threads_ == 1 ? index(most_triangles()) : 0);
     before_[0] = 0;
     if (threads_ > 1) {
@@ -98,13 +97,13 @@ class TriangleList {
 
  private:
   static constexpr FirstPair pairs = FirstPair::first_and_second;
-  static constexpr Int far_ahead = 64;  ///< arcs or triangles, in what is read in order
+  static constexpr Int far_ahead = 64;  ///< distance of prefetching, in arcs or triangles
   using Number = std::make_unsigned_t<Int>;
   /// A side of a triangle: 4 * triangle + 0, 1 or 2; 0 = none.
   using Side = Number;
   struct Message {
     Int to, larger;
-    Number half;  ///< 2 * triangle + 1 if it is right of the arc between them
+    Number half;  ///< 2 * triangle, plus 1 if the triangle is right of the arc from `to` to `larger`
   };
   using Claims = typename Rings<Int>::Claims;
 
@@ -114,10 +113,10 @@ class TriangleList {
     const std::size_t nodes = blocks_.first(block);
     return nodes > 0 ? rings_.end(static_cast<Int>(nodes)) : 0;
   }
-  /// The place of the first arc of a block in left_: one thread has one block at a time there.
+  /// The arc that left_[0] stands for: one thread has only one block at a time in left_.
   Int offset(std::size_t block) const { return threads_ == 1 ? first_arc(block) : 0; }
 
-  /// All arrays but the messages: 44 bytes a node (Int = int32_t, 9 rows).
+  /// Size of left_, in arcs. All arrays except the messages take 44 bytes per node (Int = int32_t, 9 rows).
   std::size_t left_size() const {
     Int most = 0;
     for (std::size_t block = 0; block < blocks_.count(); ++block)
@@ -138,7 +137,7 @@ class TriangleList {
     if (rows_ == 9) arcs_ = space.keep<Number>(triangles);
   }
 
-  /// Calls work(block, thread) for all blocks, each thread's from the last to the first.
+  /// Calls work(block, thread) for all blocks. Each thread takes its blocks from the last to the first.
   template <class Work>
   void for_blocks(const Work& work) const {
     parallel_pieces(blocks_.count(), threads_, [&](std::size_t begin, std::size_t end, int piece) {
@@ -152,8 +151,8 @@ class TriangleList {
         [this](Int a, Int p) { return rings_.is_smallest(a, p); }, visit);
   }
 
-  /// Notes which triangles the rings of a block have, and returns the number of those whose smallest corner
-  /// is in it.
+  /// Notes the triangles in the rings of a block. Returns the number of triangles whose smallest corner is
+  /// in the block.
   Int look_at(std::size_t block) {
     Int triangles = 0, entries = 0, last_negative = 0;
     const Int begin = first_arc(block), end = first_arc(block + 1);
@@ -173,7 +172,8 @@ class TriangleList {
     return triangles;
   }
 
-  /// Sets arcs_left_. False if an arc without triangles leads to a larger node that does not list its node.
+  /// Sets arcs_left_ to the number of arcs that have a triangle. False if an arc a-b without triangles, a <
+  /// b, is not listed by b.
   bool count_numbered_arcs() {
     Int bare = 0;
     for (Int a = 1; has_bare_arcs_ && a <= rings_.size(); ++a)
@@ -187,7 +187,7 @@ class TriangleList {
     return true;
   }
 
-  /// Of the triangle (x,y,z), counterclockwise, x largest.
+  /// Hash of the counterclockwise triangle (x,y,z) with x largest.
   static std::uint64_t hash(Int x, Int y, Int z) {
     const std::uint64_t sum = static_cast<std::uint64_t>(x) * 0x9e3779b97f4a7c15u +
                               static_cast<std::uint64_t>(y) * 0xc2b2ae3d27d4eb4fu +
@@ -195,7 +195,7 @@ class TriangleList {
     return sum * (sum >> 32);
   }
 
-  /// Sends the messages of the triangles of a block. Without branches, as below: they would be unpredictable.
+  /// Sends the messages of the triangles of a block. Without branches, because they would be unpredictable.
   void send(std::size_t block, typename BlockMail<Message>::Outbox& outbox) {
     std::uint64_t sum = 0;
     auto t = static_cast<Number>(before_[block]);
@@ -214,17 +214,18 @@ class TriangleList {
     difference_ += sum;
   }
 
-  /// By arc, left_: 2 * the triangle left of it + 1 if the arc's node is its smallest corner; 0 = none. Here
-  /// those of which that is so.
+  /// Fills left_ for a block. By arc: 2 * the triangle left of the arc, plus 1 if the arc's node is the
+  /// smallest corner of the triangle; 0 = none. This function enters the triangles with the 1, receive()
+  /// the others.
   void number(std::size_t block) {
     auto t = static_cast<Number>(before_[block]);
-    const Int skip = offset(block), end = first_arc(block + 1);  // after it are nodes of another thread
+    const Int skip = offset(block), end = first_arc(block + 1);  // beyond it another thread may write
     const auto last = static_cast<Int>(blocks_.first(block + 1));
     for (Int a = static_cast<Int>(blocks_.first(block)) + 1; a <= last; ++a) {
       const Int ring = rings_.begin(a);
       rings_.prefetch(ring + far_ahead);  // for receive(), which needs the rings in any order
       Number* const left = left_ + (ring - skip);
-      if (rings_.is_small(a) && ring + 2 * eight <= end) {  // what is too much is of nodes that come later
+      if (rings_.is_small(a) && ring + 2 * eight <= end) {  // later nodes overwrite the excess
         Number* eight_of_ring = left;
         unsigned bits = claims_[a - 1].smallest;
         for (Int arcs = rings_.degree(a); arcs > 0; arcs -= eight, bits >>= eight, eight_of_ring += eight) {
@@ -241,8 +242,8 @@ class TriangleList {
     }
   }
 
-  /// Enters the triangles of messages in left_, and replaces the nodes of a message by the arc on the other
-  /// side.
+  /// Enters the triangles of messages in left_. Replaces `to` in each message by the arc with the triangle
+  /// on the other side on its left.
   void receive(std::size_t block, Message* begin, Message* end) {
     bool complete = true;
     std::uint64_t sum = 0;
@@ -275,13 +276,14 @@ class TriangleList {
     const Int skip = offset(block);
     for (const Message* m = begin; m < end; ++m) {
       const Number beyond = left[m->to - skip];
-      // Of a triangle of m's own node, the arc is side 2 as seen from the right, and side 1 from the left.
+      // If the smallest corner of that triangle is the message's node, the arc is side 2 of it if t is
+      // right of the arc, side 1 if t is left.
       beyond_[m->half / 2] = 2 * (beyond & ~Number{1}) + ((beyond & 1) << (m->half & 1));
     }
   }
 
-  /// Rows 1-3, 5 and 6 of the triangles of a block. For count_arcs: in arcs_ a bit for each of rows 5 and 6
-  /// whose triangle comes earlier.
+  /// Writes rows 1-3, 5 and 6 of the triangles of a block. For count_arcs it also sets, in arcs_, a bit for
+  /// each of rows 5 and 6 whose triangle has a smaller number.
   template <int rows>
   void write_columns(std::size_t block, Int* ltri) {
     const Number* const left = left_;
@@ -304,9 +306,9 @@ class TriangleList {
     });
   }
 
-  /// An arc gets its number from the later of its two triangles, or from its only one. Then arcs_[t] = 4 *
-  /// the number of arcs before those of triangle t, and a bit for each of its sides 0 and 1 whose arc is
-  /// among those. Needs the blocks from the last to the first.
+  /// An arc is numbered with the later of its two triangles, or with its only one. On return arcs_[t] is 4
+  /// * the number of arcs numbered before triangle t, plus a bit for each of the sides 0 and 1 of t whose
+  /// arc is numbered with t. To be called for the blocks from the last to the first.
   void count_arcs(std::size_t block) {
     for (Int t = before_[block + 1]; t > before_[block]; --t) {
       const Number others = arcs_[t], first = beyond_[t] / 4 < static_cast<Number>(t);
@@ -315,7 +317,7 @@ class TriangleList {
     }
   }
 
-  /// Row 4 and rows 7-9.
+  /// Writes row 4 and rows 7-9.
   void complete_columns(std::size_t block, Int* ltri) const {
     for (Int t = before_[block] + 1; t <= before_[block + 1]; ++t) {
       const Side beyond = beyond_[t];
@@ -325,17 +327,17 @@ class TriangleList {
       Int* const column = ltri + 9 * (index(t) - 1);
       column[3] = static_cast<Int>(beyond / 4);
       column[6] = arc_number(t, 0, column[3], beyond % 4);
-      column[7] =
-          arc_number(t, 1, column[4], 2);  // that triangle is later only if its smallest corner is a, too
+      // Side 2 and side 1: the triangle beyond has a larger number only if its smallest corner is a, too.
+      column[7] = arc_number(t, 1, column[4], 2);
       column[8] = arc_number(t, 2, column[5], 1);
     }
   }
 
-  /// The number of the arc at a side of triangle t that is side `other` of the triangle `beyond`.
+  /// The number of the arc that is side `side` of triangle t and side `other` of the triangle `beyond`.
   Int arc_number(Int t, Number side, Int beyond, Number other) const {
     const bool is_later = beyond > t;
     const Number arcs = arcs_[either<Int>(is_later, beyond, t)], s = either<Number>(is_later, other, side);
-    const Number before = arcs & ((Number{1} << s) - 1);  // two bits; how many are 1:
+    const Number before = arcs & ((Number{1} << s) - 1);  // two bits; the number of 1s is before - before / 2
     return static_cast<Int>(arcs / 4 + 1 + before - before / 2);
   }
 
@@ -350,14 +352,14 @@ class TriangleList {
   int threads_;
   NodeBlocks blocks_;
   Rings<Int> rings_;
-  Claims* claims_ = nullptr;                  // by node, if its ring is small
-  Int* before_ = nullptr;                     // by block: the number of triangles before it; and of all
+  Claims* claims_ = nullptr;                  // by node with a small ring
+  Int* before_ = nullptr;                     // by block: the number of triangles before it; then their total
   Number* left_ = nullptr;                    // by arc: see number()
-  Side* beyond_ = nullptr;                    // by triangle: what is beyond its side 0
-  Number* arcs_ = nullptr;                    // by triangle: see count_arcs; if rows = 9
-  Number arcs_left_ = 0;                      // to be numbered
-  std::atomic<Int> entries_{0};               // of LIST that have a triangle on the left
-  std::atomic<std::uint64_t> difference_{0};  // of the sums over smallest corners and over the others
+  Side* beyond_ = nullptr;                    // by triangle: the side of another triangle that is its side 0
+  Number* arcs_ = nullptr;                    // by triangle: see count_arcs; only if rows = 9
+  Number arcs_left_ = 0;                      // arcs still to be numbered
+  std::atomic<Int> entries_{0};               // entries of LIST with a triangle on the left
+  std::atomic<std::uint64_t> difference_{0};  // sum over smallest corners minus sum over the others
   std::atomic<bool> complete_{true}, has_bare_arcs_{false};
   bool readable_;
 };

@@ -34,9 +34,9 @@ bool circumcentre(const Vector<Real>& a, const Vector<Real>& b, const Vector<Rea
 
 namespace {
 
-/// The columns that repeated passes over all columns 1..n would test, in the same order, without those that
-/// cannot have changed. The cost is that of the swaps, not of the passes, of which a smooth boundary of n
-/// nodes needs about n/4.
+/// The columns still to be tested, in the order of repeated passes over all columns 1..n, without those
+/// that cannot have changed. So the cost is that of the swaps, not of the passes: a smooth boundary of n
+/// nodes needs about n/4 passes.
 template <class Int>
 class Agenda {
  public:
@@ -74,13 +74,13 @@ class Agenda {
 
  private:
   std::vector<char> due_;
-  std::vector<Int> this_pass_, next_pass_;  // a heap, smallest first; in any order
+  std::vector<Int> this_pass_, next_pass_;  // a heap, smallest first; unordered
   Int now_ = 0;
 };
 
-/// The triangles of boundary nodes that cover the far side: LTRI's columns, kept in the caller's array.
-/// Column g: corners in rows 1-3, clockwise (counterclockwise seen from the far side); in row 3+i the
-/// column opposite corner i, or 0. Rows and columns count from 1.
+/// The triangles of boundary nodes that cover the far side, in the columns of the caller's LTRI. Column g:
+/// corners in rows 1-3, clockwise (counterclockwise seen from the far side); in row 3+i the column of the
+/// triangle opposite corner i, or 0. Rows and columns count from 1.
 template <class Real, class Int>
 class FarSide {
  public:
@@ -108,9 +108,9 @@ class FarSide {
   /// repeated passes over all columns.
   ///
   /// Rounded tests of nearly cocircular nodes may cycle. A swap that is right by the exact sign puts a
-  /// tetrahedron of positive volume under the surface, so every cycle contains a wrong one. After 16 wrong
-  /// swaps per column (at most 1.4 were seen where the rounded test settles) the exact test takes over, which
-  /// always ends.
+  /// tetrahedron of positive volume under the surface, so every cycle contains a swap that is wrong by the
+  /// exact sign. After 16 wrong swaps per column the exact test takes over, which always ends. (At most 1.4
+  /// per column were seen where rounded tests end.)
   void make_delaunay(Agenda<Int>& agenda) {
     std::int64_t wrong_swaps_left = 16 * std::int64_t{count_} + 100;
     const auto rounded = [&](Int a, Int b, Int c, Int d) {
@@ -130,7 +130,7 @@ class FarSide {
         if (cell(3 + i, g) == 0) return;
   }
 
-  /// The row of corner u in column g: 1, 2, else 3.
+  /// The row of corner u in column g; 3 if u is not in rows 1 and 2.
   int row_of(Int u, Int g) const { return cell(1, g) == u ? 1 : cell(2, g) == u ? 2 : 3; }
 
   static int after(int row) { return row % 3 + 1; }
@@ -230,20 +230,21 @@ class Voronoi {
  private:
   static constexpr FirstPair pairs = FirstPair::last_and_first;
 
-  /// Triangles whose centres are computed together: without branches, and while the next ones are fetched.
+  /// Number of triangles whose centres are computed together, without branches, while positions of the next
+  /// are prefetched.
   static constexpr std::size_t together = 64;
   struct Batch {
     std::array<std::array<Int, together>, 3> corner;
     std::size_t size = 0;
   };
-  // One line of memory per node, in huge pages; the caller's three arrays would take three.
+  // A node's position in one cache line, in huge pages; the caller's three arrays would take three lines.
   struct Position {
     Vector<Real> of;
     Real fills_the_line;
   };
 
-  /// Does all allocation; true if the lists have the counts of a triangulation, which also means that no
-  /// array can be overrun.
+  /// Allocates all memory. True if the lists have the numbers of arcs and triangles of a triangulation, so
+  /// that no array can be overrun.
   bool read() {
     const Int n = lists_.size();
     if (!rings_.read(lists_.view(), threads_)) return false;
@@ -270,10 +271,9 @@ class Voronoi {
     return true;
   }
 
-  /// The number of triangles that close the sphere.
   Int far_triangles() const { return nb_ > 0 ? nb_ - 2 : 0; }
 
-  /// The centres of the triangles of the nodes begin+1..end, t triangles before them.
+  /// Writes the centres of the triangles of the nodes begin+1..end; t is the number of triangles before them.
   VoronoiStatus write_centres(std::size_t begin, std::size_t end, Int t) {
     VoronoiStatus status = VoronoiStatus::done;
     Batch batch;
@@ -295,7 +295,7 @@ class Voronoi {
     return status;
   }
 
-  /// The same values as write_centre, by loops that compilers vectorise.
+  /// Writes the same values as write_centre, by loops that compilers can vectorise.
   VoronoiStatus write_batch(Int t, const Batch& batch) {
     using Numbers = std::array<Real, together>;
     Numbers ax, ay, az, ex, ey, ez, fx, fy, fz, square, x, y, z, cosine;
@@ -328,7 +328,7 @@ class Voronoi {
     return VoronoiStatus::done;
   }
 
-  /// Where nodes coincide or are not finite.
+  /// For a batch with nodes that coincide or are not finite.
   VoronoiStatus write_one_by_one(Int t, const Batch& batch) {
     VoronoiStatus status = VoronoiStatus::done;
     for (std::size_t i = 0; i < batch.size; ++i) {
@@ -351,8 +351,9 @@ class Voronoi {
     return finite ? VoronoiStatus::done : VoronoiStatus::not_finite;
   }
 
-  /// Enters the far side into LISTC and LPTR. Round the boundary, counterclockwise: the columns at node
-  /// u, from the one at the arc to its last neighbour, get the slot of that neighbour and new slots after it.
+  /// Enters the far side into LISTC and LPTR, node by node counterclockwise around the boundary. At node u
+  /// the first column, that at the arc to the last neighbour, gets the slot of that neighbour; the others
+  /// get new slots after it.
   void enter(const FarSide<Real, Int>& far_side) {
     Int unused = rings_.arcs() + 1;
     Int g;
@@ -391,10 +392,10 @@ class Voronoi {
   Nodes<Real> nodes_;
   VoronoiArrays<Real, Int> out_;
   int threads_;
-  Int start_ = 0, nb_ = 0;  // the first boundary node and their number
+  Int start_ = 0, nb_ = 0;  // the first boundary node, the number of boundary nodes
   Rings<Int> rings_;
   std::optional<TriangleNumbers<Int, pairs>> numbers_;
-  BlockArray<Int> left_;  // by arc; empty if that is LISTC
+  BlockArray<Int> left_;  // by arc: the triangle on its left; empty if LISTC can hold it
   BlockArray<Position> position_;
   Agenda<Int> agenda_{0};
 };

@@ -7,8 +7,8 @@
 
 namespace pstripack {
 
-/// CIRCUM: the centre of the circumscribed cap of triangle a, b, c, on its counterclockwise side.
-/// False, with `centre` untouched, where two corners coincide.
+/// CIRCUM: the circumcentre of triangle a, b, c on the sphere, on the side from which a, b, c is
+/// counterclockwise. False, with `centre` untouched, if two corners coincide.
 template <class Real>
 bool circumcentre(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c, Vector<Real>& centre);
 
@@ -22,7 +22,7 @@ enum class VoronoiStatus {
   broken_lists = -9  ///< not the lists of a triangulation (the original does not check); LPTR, LNEW unchanged
 };
 
-/// CRLIST's arrays; lengths in brackets.
+/// CRLIST's arrays, with their lengths in brackets.
 template <class Real, class Int>
 struct VoronoiArrays {
   Int ncol;                 ///< columns in ltri
@@ -36,11 +36,11 @@ struct VoronoiArrays {
 
 /// CRLIST: circumcentres and radii of all triangles and, by slots of LIST, their order around each node. If
 /// the nodes lie in a hemisphere, nb-2 triangles of boundary nodes close the sphere on the far side; they
-/// come first, and the slots of their arcs are added to LPTR. O(n) plus the swaps among those, with OpenMP
-/// threads for large n; the same bytes for any number of them. Always returns: where rounded swap tests of
-/// cocircular boundary nodes would cycle, exact ones take over. Takes up to 92 bytes per node during the call
-/// (Real = double, Int = int32_t; 24 more where the lists are not canonical). Throws std::bad_alloc before
-/// anything is written.
+/// come first, and the slots of their arcs are added to LPTR. O(n) plus the swaps among these triangles, on
+/// threads for large n; the result has the same bytes for any number of threads. Always returns: if rounded
+/// swap tests of cocircular boundary nodes would cycle, exact ones take over. Takes up to 92 bytes per node
+/// during the call (Real = double, Int = int32_t; 24 more if the lists are not canonical). Throws
+/// std::bad_alloc before anything is written.
 template <class Real, class Int>
 VoronoiStatus voronoi(const ListsView<Int>& lists, const Nodes<Real>& nodes,
                       const VoronoiArrays<Real, Int>& out);

@@ -6,12 +6,12 @@
 
 namespace pstripack {
 
-/// STRIPACK's lists in the caller's arrays: list, lptr: at least 6n-12 entries; lend: n.
+/// The caller's arrays for STRIPACK's lists. list, lptr: at least 6n-12 entries; lend: n entries.
 struct ListArrays {
   std::int32_t *list = nullptr, *lptr = nullptr, *lend = nullptr, *lnew = nullptr;
 };
 
-/// One call of TRMESH: n nodes of either kind, and where their lists go.
+/// One call of TRMESH: n nodes in either precision, and where their lists go.
 struct TrmeshCall {
   std::int32_t n = 0;
   NodeArrays nodes;

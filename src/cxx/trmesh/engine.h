@@ -1,5 +1,6 @@
 #pragma once
-// What can take over a call of TRMESH in place of this process's threads: the pool, or libpstripack_mpi.
+// The interface of engines, which can carry out a call of TRMESH in place of this process's threads: the
+// pool, and libpstripack_mpi.
 
 #include <cstdint>
 
@@ -9,21 +10,22 @@ struct CallReport;
 
 extern "C" {
 
-/// One TRMESH call. real_bytes: 4 or 8, the kind of x, y, z.
+/// One call of TRMESH. real_bytes: bytes of a real in x, y, z, 4 or 8.
 struct pstripack_trmesh_arguments {
   int32_t real_bytes, n;
   const void *x, *y, *z;
   int32_t *list, *lptr, *lend, *lnew;
-  pstripack::CallReport* report;  ///< the engine fills in mode, ranks and cost; null: nobody asks
+  pstripack::CallReport* report;  ///< the engine fills in mode, ranks and cost; null: no report is wanted
 };
 
 enum {
-  PSTRIPACK_ENGINE_DECLINES = 0,  ///< not mine, do it on threads
-  PSTRIPACK_ENGINE_DID_IT = 1,    ///< and the code, if it is one that callers do not know, wants its line
-  PSTRIPACK_ENGINE_DID_IT_SILENTLY = 2,  ///< another rank prints that line
+  PSTRIPACK_ENGINE_DECLINES = 0,         ///< not carried out: do it on threads
+  PSTRIPACK_ENGINE_DID_IT = 1,           ///< carried out; the library prints the line of a new error code
+  PSTRIPACK_ENGINE_DID_IT_SILENTLY = 2,  ///< carried out; another rank prints that line
 };
 
-/// Carries the call out and sets *ier, *node and *other (see TrmeshResult), or declines. Must not throw.
+/// An engine: carries the call out and sets *ier, *node and *other (see TrmeshResult), or declines. Must
+/// not throw.
 typedef int (*pstripack_trmesh_engine)(const pstripack_trmesh_arguments* call, int32_t* ier, int64_t* node,
                                        int64_t* other);
 }

@@ -12,8 +12,8 @@
 namespace pstripack {
 namespace {
 
-/// The faces of the exact mesh, with cocircular ones merged: any two nodes of the same circle may be joined
-/// by an arc.
+/// The faces of the exact mesh, with neighbours merged that have the same circumcircle: an arc may join any
+/// two nodes of one circle.
 class Circles {
  public:
   Circles(const Hull& hull, const Point* p) : hull_(hull), p_(p), circle_(hull.face_count) {
@@ -80,8 +80,8 @@ std::int64_t wrong_arcs(const ListsView<Int>& lists, Circles& circles) {
   for (const Pair& pair : pairs) ++begin[pair.first + 1];
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
 
-  // Search the node with fewer circles among those of the other: linear in total, since the arcs of a
-  // triangulation form three forests, and in a forest each node has one parent.
+  // Look up the circles of the node that has fewer of them among those of the other. This is linear in
+  // total: the arcs of a triangulation form three forests, and in a forest each node has one parent.
   const auto have_one_in_common = [&](std::size_t a, std::size_t b) {
     const auto count = [&](std::size_t node) { return begin[node + 1] - begin[node]; };
     if (count(a) > count(b)) std::swap(a, b);
@@ -96,8 +96,8 @@ std::int64_t wrong_arcs(const ListsView<Int>& lists, Circles& circles) {
   return wrong;
 }
 
-/// Number of boundary triangles that only one of the two triangulations has, and of our arcs that come with
-/// those that are ours.
+/// Number of boundary triangles that only one of the two triangulations has, and number of our arcs that
+/// belong to such triangles of ours.
 struct BoundaryDifference {
   std::int64_t triangles, our_arcs;
 };

@@ -5,22 +5,24 @@
 
 namespace pstripack {
 
-/// Nodes: below, a cold call takes less time than a warm start would be worth.
+/// With fewer nodes a cold call is so fast that a warm start does not pay.
 constexpr std::size_t kFewestForWarmStart = 1000;
 
-/// How many calls must find that the stars of the call before fit before those of one are kept as a whole:
-/// one, and twice as many each time that such stars turned out not to fit in the end.
+/// Decides when to keep a whole mesh for a warm start: after a number of calls in which the sample of stars
+/// of the call before fitted. The number is 1 at first; each warm start that fails doubles it, up to 64.
 class Patience {
  public:
-  /// One call more has found that they fit. True: so have enough.
+  /// Counts one more call in which the sample fitted. True if that is enough.
   bool is_enough() { return ++found_ >= needed_; }
+  /// A warm start has succeeded: the number is 1 again.
   void succeed() { *this = {}; }
+  /// A warm start has failed: the number doubles.
   void fail() {
     constexpr int kMost = 64;
     needed_ = std::min(2 * needed_, kMost);
     found_ = 0;
   }
-  /// The more patient one, of which no call has found anything yet.
+  /// The larger number of calls of the two, with none of them counted yet.
   friend Patience longest(const Patience& a, const Patience& b) {
     Patience longest;
     longest.needed_ = std::max(a.needed_, b.needed_);

@@ -20,7 +20,7 @@
 namespace pstripack {
 namespace {
 
-/// By patches on the threads of this process, or by one hull.
+/// A call carried out by patches on the threads of this process, or by one hull.
 class OnThreads {
  public:
   OnThreads(const TrmeshCall& call, bool in_original_order, ParallelCost* cost)
@@ -29,7 +29,7 @@ class OnThreads {
         on_threads_(threads_for(static_cast<std::size_t>(call.n)) > 1),
         copied_at_once_(!on_threads_ && !in_original_order) {}
 
-  /// Looks at the first n nodes; the number of the first (from 0) that has no direction, n if all have one.
+  /// Checks the first n nodes. Returns the first (from 0) that is zero or not finite; n if there is none.
   std::size_t look(std::size_t n) {
     n_ = n;
     if (copied_at_once_) {
@@ -63,7 +63,7 @@ class OnThreads {
   }
 
  private:
-  /// One hull has a copy of the nodes. It is made at once, unless they may be triangulated without.
+  /// Copies the nodes, for one hull. Patches need no copy, so with threads this is done only if they fail.
   void copy() {
     const PhaseTimer timer(cost_, ParallelCost::divide);
     if (!workspace_) workspace_.emplace(workspace_bytes(n_));
@@ -74,7 +74,7 @@ class OnThreads {
     });
   }
 
-  /// False if the nodes lie so that patches do not pay.
+  /// False if patches do not pay for this distribution of nodes.
   bool by_patches(CoincidentPairs& pairs) {
     SingleProcess process;
     options_ = options_from_environment(n_);
@@ -102,17 +102,17 @@ class OnThreads {
   const TrmeshCall& call_;
   ParallelCost* const cost_;
   const bool on_threads_, copied_at_once_;
-  std::size_t n_ = 0;  ///< nodes that are looked at
+  std::size_t n_ = 0;  ///< number of nodes checked by look()
   Look look_;
   ParallelOptions options_;
-  std::optional<Stars<std::int32_t>> stars_;  ///< by patches
-  std::optional<Workspace> workspace_;        ///< of one hull
+  std::optional<Stars<std::int32_t>> stars_;  ///< if triangulated by patches
+  std::optional<Workspace> workspace_;        ///< for one hull
   Point* copy_ = nullptr;
   Hull hull_;
 };
 
-/// The lists as the original makes them, if they are right or, under PSTRIPACK_ORDER=bitwise, a triangulation
-/// at all: a result with the order `made` or `inexact`. Otherwise nothing is written.
+/// Writes the lists as the original makes them, if they are the exact mesh (result.order `made`) or, under
+/// PSTRIPACK_ORDER=bitwise, at least a triangulation (`inexact`). Otherwise nothing is written.
 TrmeshResult lists_in_original_order(const TrmeshCall& call, ParallelCost* cost) {
   const OriginalRules& rules = original_rules();
   const Seeds<std::int32_t> seeds = kept_seeds();
@@ -124,7 +124,7 @@ TrmeshResult lists_in_original_order(const TrmeshCall& call, ParallelCost* cost)
       return insert_in_order(call.n, x, y, z, rules, hopeless, start_search);
     });
   };
-  /// What became of the insertion; `good` if the lists are.
+  /// The result of the insertion: its order is `good` if are_good(), else `bad`, collinear or endless.
   const auto outcome = [&](OriginalOrder good, OriginalOrder bad, const auto& are_good) -> TrmeshResult {
     const auto [end, node, other] = inserted.outcome;
     if (end == InsertionEnd::collinear) return {0, 0, 0, OriginalOrder::collinear, node};
@@ -143,8 +143,8 @@ TrmeshResult lists_in_original_order(const TrmeshCall& call, ParallelCost* cost)
            is_valid(nodes.data(), inserted.view(), Lengths::automatic, Ties::either_way);
   });
   if (rules.bitwise && result.order != OriginalOrder::made) {
-    // Again, to the end and by the original's bookkeeping alone: nodes are located only where the
-    // triangulation is right.
+    // Repeat to the end, by the original's bookkeeping alone: locating nodes is valid only while the
+    // triangulation is correct.
     kept_seeds() = seeds;
     insert(Hopeless::goes_on, StartSearch::simulated);
     result = outcome(OriginalOrder::inexact, OriginalOrder::broken,
@@ -158,7 +158,7 @@ TrmeshResult lists_in_original_order(const TrmeshCall& call, ParallelCost* cost)
   return result;
 }
 
-/// follow: the original's order of insertion, as original_rules() say.
+/// follow: first try the original's order of insertion, as original_rules() say.
 TrmeshResult carry_out(const TrmeshCall& call, bool follow, ParallelCost* cost) {
   if (call.n < 3) return {-1};
   if (call.n > most_nodes<std::int32_t>()) return {-4};

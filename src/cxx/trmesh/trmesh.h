@@ -12,13 +12,13 @@ enum class OriginalOrder {
   not_asked,
   made,       ///< the original's lists, of the exact mesh
   inexact,    ///< PSTRIPACK_ORDER=bitwise: the original's lists, possibly not of the exact mesh
-  collinear,  ///< by the original's rounded tests a node is collinear with all that it sees
+  collinear,  ///< by the original's rounded tests a node is collinear with every visible boundary edge
   endless,    ///< the original's search for a node does not end
   wrong,      ///< the original's triangulation is not Delaunay, by exact signs
   broken      ///< PSTRIPACK_ORDER=bitwise: the original's lists are no triangulation
 };
 
-/// TRMESH's result. `node` and `other`: the nodes (from 1) that the code concerns, 0 if none.
+/// TRMESH's result. `node` and `other`: the nodes (from 1) that the code is about; 0 if none.
 struct TrmeshResult {
   std::int32_t ier;
   std::int64_t node = 0, other = 0;
@@ -28,19 +28,19 @@ struct TrmeshResult {
 
 /// STRIPACK's TRMESH with canonical lists and exact decisions (docs/differences.md). IER is 0, -1, -2, L > 0,
 /// -4 or -5 (docs/ier.md). On a negative code nothing is written. Under PSTRIPACK_ORDER=original
-/// (original_rules.h) the lists are the original's, by inserting node by node on the calling thread, wherever
-/// they are a correct triangulation; four nodes in one circle may then have either diagonal. Under
-/// PSTRIPACK_ORDER=bitwise lists and IER are the original's wherever its IER is not negative and its lists
-/// are a triangulation, right or not. Throws std::bad_alloc, having written nothing. `cost`, if given,
-/// is added to.
+/// (original_rules.h) nodes are inserted one by one on the calling thread, and the lists are the original's
+/// if these are a correct triangulation; four nodes on one circle may then have either diagonal. Under
+/// PSTRIPACK_ORDER=bitwise lists and IER are the original's if its IER is not negative and its lists are a
+/// triangulation, correct or not. Parallel. Throws std::bad_alloc, having written nothing. What the call
+/// cost is added to `cost`, if given.
 TrmeshResult trmesh(const TrmeshCall& call, ParallelCost* cost = nullptr);
-/// The same, whatever PSTRIPACK_ORDER asks for.
+/// The same, always with canonical lists, whatever PSTRIPACK_ORDER is.
 TrmeshResult canonical_trmesh(const TrmeshCall& call, ParallelCost* cost = nullptr);
 
-/// The common end of every way to carry out a call: by one hull, on threads, by ranks. Way:
-///   std::optional<Coincidence> triangulate(std::size_t n)   the first n nodes; what coincides, if any does
-///   void deliver()                                           writes the lists of what has been triangulated
-/// Where nodes coincide the lists are those of the nodes before the first that does.
+/// The common path of every way to carry out a call: by one hull, on threads, by ranks. A Way has
+///   std::optional<Coincidence> triangulate(std::size_t n)  of the first n nodes; the first coincidence
+///   void deliver()                                         writes the lists of the last triangulation
+/// If nodes L and M > L coincide, M the smallest such, the lists are those of nodes 1..M-1.
 template <class Way>
 TrmeshResult triangulate_and_deliver(std::int32_t n, Way& way) {
   TrmeshResult result{0};

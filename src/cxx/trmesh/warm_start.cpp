@@ -30,7 +30,7 @@ SampleOfStars sample_of(std::size_t n, const std::int32_t* list, const std::int3
 
 }  // namespace
 
-/// LIST and LEND of a mesh, and the mesh itself from the first call on that begins with it.
+/// LIST and LEND of a mesh. `mesh` is made by the first call that starts from it.
 struct KeptMesh {
   KeptMesh(std::size_t n, std::size_t slots)
       : stay((slots + n) * sizeof(std::int32_t) + MovingMesh::bytes(n, slots, n)), list(slots), lend(n) {}
@@ -41,7 +41,6 @@ struct KeptMesh {
   std::optional<MovingMesh> mesh;
 };
 
-/// What is kept of one call for another.
 struct LastMesh {
   std::size_t n;
   pid_t process;
@@ -57,12 +56,12 @@ struct LastMesh {
 
 namespace {
 
-constexpr std::size_t kLast = 4;  ///< callers with meshes of their own
+constexpr std::size_t kLast = 4;  ///< number of meshes kept
 std::atomic<LastMesh*> last_meshes[kLast];
 std::atomic<unsigned> next_to_go{0};
 
-/// The mesh of an earlier call that fits these nodes, if there is one. `patience` becomes that of others with
-/// as many nodes, if it is more.
+/// Takes the mesh of an earlier call whose sample fits these nodes; null if there is none. If meshes with
+/// as many nodes do not fit, raises `patience` to theirs.
 std::unique_ptr<LastMesh> take_last_mesh(const NodeArrays& nodes, std::size_t n, Patience& patience) {
   for (auto& place : last_meshes) {
     std::unique_ptr<LastMesh> last(place.exchange(nullptr, std::memory_order_acq_rel));
@@ -91,7 +90,7 @@ void put_back(std::unique_ptr<LastMesh> last) {
 
 // ---- lists ------------------------------------------------------------------------------------------------
 
-/// What is different in the lists of a mesh from those that are kept of it.
+/// The differences between the current lists of a mesh and the kept ones.
 class ListChanges {
  public:
   ListChanges() = default;
@@ -104,7 +103,7 @@ class ListChanges {
   }
   std::size_t count() const { return changes_.size(); }
 
-  /// The lists of the mesh: runs of what is kept, and a ring for each change. Parallel.
+  /// Writes the lists of the mesh: runs of the kept lists, and a new ring for each change. Parallel.
   void write(const KeptMesh& kept, std::int32_t* list, std::int32_t* lptr, std::int32_t* lend) const {
     const std::size_t n = kept.mesh->size();
     const std::int32_t *const old_list = kept.list.data(), *const old_end = kept.lend.data();
@@ -130,7 +129,7 @@ class ListChanges {
 
  private:
   std::vector<MovingMesh::Change> changes_;
-  std::vector<std::int32_t> shift_;  ///< by how many slots the lists have moved behind so many changes
+  std::vector<std::int32_t> shift_;  ///< [j]: shift, in slots, of the lists after the first j changes
 };
 
 void copy(const std::int32_t* from, std::size_t count, std::int32_t* to) {
@@ -151,7 +150,7 @@ WarmStart::~WarmStart() {
 
 bool WarmStart::is_prepared() const { return last_ != nullptr && last_->kept != nullptr; }
 
-/// Tells the mesh where its nodes are now: whether all have length one, and whether any has moved.
+/// Sets the positions of the mesh's nodes. Returns whether all have length one, and whether any has moved.
 std::pair<bool, bool> WarmStart::move_nodes(KeptMesh& kept) const {
   constexpr std::size_t kAhead = 16;
   const bool is_new = !kept.mesh;
@@ -223,7 +222,7 @@ bool WarmStart::write_lists(const ListArrays& lists, ParallelCost* cost) noexcep
   return true;
 }
 
-/// If there is no memory for it, the next call finds nothing.
+/// Without memory for the sample, nothing is kept.
 void WarmStart::take_sample(const std::int32_t* list, const std::int32_t* lend) noexcept {
   try {
     last_->sample = sample_of(n_, list, lend);
@@ -236,7 +235,7 @@ void WarmStart::remember(const ListArrays& lists) noexcept {
   const auto& [list, lptr, lend, lnew] = lists;
   const auto slots = static_cast<std::size_t>(*lnew) - 1;
   if (n_ < kFewestForWarmStart || !warm_start_is_allowed() || slots != 6 * n_ - 12)
-    return;  // a boundary: not for a warm start
+    return;  // no warm start for meshes with a boundary
   try {
     if (last_ == nullptr) {
       last_.reset(new LastMesh{n_, getpid(), sample_of(n_, list, lend), patience_});
@@ -249,7 +248,7 @@ void WarmStart::remember(const ListArrays& lists) noexcept {
       copy(lend, n_, last_->kept->lend.data());
     }
   } catch (const std::bad_alloc&) {
-    // Then the next call goes the cold way as well.
+    // No memory: the next call is cold, too.
   }
   if (last_ != nullptr) take_sample(list, lend);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// A call of TRMESH that begins with the mesh of an earlier one: docs/design.md, "Warm start".
+// A call of TRMESH that starts from the mesh of an earlier one: docs/design.md, "Warm start".
 
 #include <cstddef>
 #include <cstdint>
@@ -15,8 +15,9 @@ namespace pstripack {
 struct KeptMesh;
 struct LastMesh;
 
-/// One call with the nodes nodes[0..n-1]. While it lives it has the mesh of an earlier call for itself, if
-/// one is remembered that fits these nodes. Safe from any thread; nobody waits.
+/// The warm start of one call with the nodes nodes[0..n-1]. The object owns the mesh of an earlier call, if
+/// one is kept whose sample fits these nodes; the destructor puts it back. May be used from any thread;
+/// never waits.
 class WarmStart {
  public:
   WarmStart(const NodeArrays& nodes, std::size_t n);
@@ -24,14 +25,14 @@ class WarmStart {
   WarmStart(const WarmStart&) = delete;
   WarmStart& operator=(const WarmStart&) = delete;
 
-  /// True if write_lists has a mesh to begin with.
+  /// True if there is a mesh from which write_lists can start.
   bool is_prepared() const;
 
-  /// Writes the canonical lists of the nodes, the same that any other way leads to, and returns true; or
-  /// returns false, has written nothing, and the call has to go the cold way.
+  /// Writes the canonical lists of the nodes, the same as those of a cold call, and returns true. If it
+  /// returns false it has written nothing, and the call must be cold.
   bool write_lists(const ListArrays& lists, ParallelCost* cost) noexcept;
 
-  /// After the cold way: these are the lists of the nodes. Keeps what a later call may need.
+  /// To be called after a cold call, with its lists. Keeps what a later call may need.
   void remember(const ListArrays& lists) noexcept;
 
  private:
@@ -41,10 +42,10 @@ class WarmStart {
   const NodeArrays nodes_;
   const std::size_t n_;
   std::unique_ptr<LastMesh> last_;
-  Patience patience_;  ///< of a mesh that begins with this call
+  Patience patience_;  ///< for a mesh first kept by this call
 };
 
-/// Those of this process that no call has for itself. True if there were any.
+/// Destroys the kept meshes of this process, except those that a running call owns. True if there were any.
 bool forget_last_meshes() noexcept;
 
 }  // namespace pstripack

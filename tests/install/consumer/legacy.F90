@@ -1,4 +1,4 @@
-! What a legacy code has, and `use stripack` beside it. Ends with 1 if the mesh of an octahedron is wrong.
+! Calls as in legacy codes, with and without `use stripack`. Ends with code 1 if the mesh of an octahedron is wrong.
 program legacy
   use stripack
   implicit none

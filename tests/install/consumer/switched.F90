@@ -1,4 +1,4 @@
-! What a legacy code has, without any module. Ends with 1 if node 1 of an octahedron has not its four neighbours.
+! Calls as in legacy codes, without a module. Ends with code 1 unless node 1 of an octahedron has its four neighbours.
 program switched
   implicit none
 #ifdef SINGLE_PRECISION

@@ -1,4 +1,4 @@
-/* A serial program that does what serial programs do with processes, threads and libraries around its calls.
+/* A serial program that uses processes, threads and libraries around its calls.
  *
  *   caller calls N COUNT      COUNT calls, "call I" on stdout before each; seconds of the fastest on stderr
  *   caller pause N SECONDS    one call, "pid PID", sleeps, one call, "done"
@@ -10,8 +10,8 @@
  *   caller mpi                MPI_Init, call, MPI_Finalize, call (USE_MPI)
  *   caller kill SIGNAL        one call, then the signal
  *
- * Every result is validated, of many calls that of the first. "pool" or "no pool" tells at the end
- * whether any call of this process went to the pool, "MPI" whether MPI's library is loaded. */
+ * Every result is validated, but only the first of many calls. At the end it prints "pool" if any call of this
+ * process went to the pool, else "no pool", and "MPI" if MPI's library is loaded. */
 #include <dlfcn.h>
 #include <math.h>
 #include <omp.h>

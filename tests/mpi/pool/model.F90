@@ -1,7 +1,7 @@
-! A serial model as users have them: it calls TRMESH and knows nothing of MPI.
+! A serial model that calls TRMESH and does not use MPI.
 !
-!   model lists FILE   triangulates sets of nodes of all kinds, writes the bytes of what TRMESH returned;
-!                      ends with code 9 if the calls were to go to the pool and did not
+!   model lists FILE   triangulates sets of nodes of all kinds and writes the results of TRMESH bytewise; ends with
+!                      code 9 if the calls should have gone to the pool and did not
 !   model END          one call, a line on stdout, then END: stop, stop3, error_stop, exit5, abort
 !   model never END    the same without the call
 !   model echo         copies stdin to stdout

@@ -1,7 +1,7 @@
 #!/bin/sh
-# Tests of the pool: pool_test.sh CASE RANKS, with RUN, MODEL, MODEL_R4, MODEL_I8, CALLER, CALLER_MPI, SCVT, COMPARE,
-# LIBRARY, MPIEXEC, OPEN_MPI (TRUE: not Hydra) and WORK in the environment. Each case compares with the same program
-# started without pstripack-run.
+# Tests of the pool. Usage: pool_test.sh CASE RANKS, with RUN, MODEL, MODEL_R4, MODEL_I8, CALLER, CALLER_MPI, SCVT,
+# COMPARE, LIBRARY, MPIEXEC, OPEN_MPI (TRUE: not Hydra) and WORK in the environment. Each case compares with the same
+# program without pstripack-run.
 # shellcheck disable=SC2015,SC2016,SC2002,SC2086,SC2094,SC2153,SC2154
 set -u
 . "$(dirname "$0")/../jobs.sh"
@@ -23,10 +23,10 @@ fail() {
   exit 1
 }
 
-# More ranks than processors, wherever the test runs.
+# Allows more ranks than processors.
 pool() { "$RUN" -n "$ranks" --oversubscribe -- "$@"; }
 
-# as_without NAME COMMAND...: the same stdout, stderr and exit code with the pool as without
+# as_without NAME COMMAND...: fails unless stdout, stderr and exit code are the same with and without the pool
 as_without() {
   name=$1
   shift
@@ -36,12 +36,12 @@ as_without() {
   code=$?
   [ $code -eq $alone ] || fail "$name: exit code $code, alone $alone"
   cmp "$name.alone.out" "$name.out" || fail "$name: stdout differs"
-  # Programs that crash tell their addresses.
+  # Crashing programs print addresses, which differ.
   for file in "$name.alone.err" "$name.err"; do grep -v '^#' "$file" > "$file.text"; done
   cmp "$name.alone.err.text" "$name.err.text" || fail "$name: stderr differs"
 }
 
-# kill_rank RANK: at once
+# kill_rank RANK: kills this rank of the pool
 kill_rank() {
   victim=$(process_of_rank "$1" pstripack-worker)
   [ -n "$victim" ] || fail "rank $1 not found"
@@ -57,7 +57,7 @@ no_orphan() {
   fail "a process is left"
 }
 
-# start COMMAND...: in the background, as $job; waits for what it says when it has begun
+# start TEXT COMMAND...: starts the command as $job and waits until it prints TEXT
 start() {
   begun=$1
   shift
@@ -67,7 +67,7 @@ start() {
   until_it_says "$begun"
 }
 
-# ends_within SECONDS: $code is then the exit code of $job
+# ends_within SECONDS: waits for the end of $job; sets $code to its exit code
 ends_within() {
   has_ended_within "$1"
   no_orphan
@@ -106,7 +106,7 @@ input)
   cmp input.txt file.out || fail "a file: not what went in"
   cat input.txt | pool "$MODEL" echo > pipe.out || fail "a pipe"
   cmp input.txt pipe.out || fail "a pipe: not what went in"
-  # A file can be read again from its beginning, and stays where the model has left it.
+  # The model can read the file from its beginning, and the position in the file stays where the model has left it.
   { pool sh -c 'read a; read b; echo "$b"'; read -r c; echo "$c"; } < input.txt > rest.out
   printf 'line 1 of the input\nline 2 of the input\n' | cmp - rest.out || fail "the position in the file"
   # Bytes, many of them.
@@ -145,7 +145,7 @@ EOF
   grep -q '^pool$' script.out || fail "the pool was not used"
   ;;
 other_machine)
-  # Rank 0 on another machine than pstripack-run, which it cannot reach: what mpirun hands through must do.
+  # Rank 0 cannot reach pstripack-run, as if it were on another machine: only what mpirun forwards is available.
   far() { $MPIEXEC -n "$ranks" "$(dirname "$RUN")/pstripack-worker" "$@"; }
   printf 'one\ntwo\n' | far sh -c 'cat; env | grep -c -e ^OMPI_ -e ^PMI -e ^HYDI_; exit 3' > far.out 2> far.err
   [ $? -eq 3 ] || fail "exit code"
@@ -156,7 +156,7 @@ other_machine)
   grep -q '^pool' calls.out || fail "the pool was not used"
   ;;
 environment)
-  # The model's own is as without; the workers get ours.
+  # The model's environment is the same as without the pool; the workers get PSTRIPACK's variables.
   export OMP_NUM_THREADS=2 PSTRIPACK_PARTITION=stripes
   env | grep -v '^_=' | sort > alone.out
   pool env | grep -v -e '^_=' -e '^PSTRIPACK_POOL=' | sort > pool.out
@@ -170,7 +170,7 @@ environment)
   [ $code -eq 0 ] || fail "exit code $code"
   ;;
 other_launcher)
-  # One that is not Open MPI's, as Intel MPI's is: it gets no option that it does not know.
+  # A launcher other than Open MPI's, here like Intel MPI's, must get no option that it does not know.
   cat > mpiexec << EOF
 #!/bin/sh
 [ "\$1" = --version ] && { echo 'Intel(R) MPI Library for Linux* OS, Version 2021.8 Build 20221129'; exit; }
@@ -185,7 +185,7 @@ EOF
   grep -q '^pool' calls.out || fail "the pool was not used"
   "$RUN" -n "$ranks" --bind-to none -- true || fail "an option of ours"
   [ "$(cat words)" = "-n $ranks --bind-to none $(dirname "$RUN")/pstripack-worker true" ] || fail "options: $(cat words)"
-  # It kills all ranks at once: the first line that names a rank is the true one.
+  # This launcher kills all ranks at once: only the first line that names a rank is right.
   cat > mpiexec << 'EOF'
 #!/bin/sh
 for rank in 2 0 1; do echo "pstripack: rank $rank was lost during merge; the job ends"; done >&2
@@ -202,7 +202,7 @@ own_mpi)
   [ "$(grep -c 'pool: this program uses MPI itself' mpi.err)" -eq 1 ] || fail "it does not say so once"
   ;;
 no_mpi)
-  # Neither without pstripack-run nor with it is MPI loaded into a program that does not ask for it.
+  # A program that does not use MPI must not load it, with or without pstripack-run.
   "$CALLER" dlopen "$LIBRARY" > alone.out 2> alone.err || fail "dlopen alone"
   printf 'no pool\n' | cmp - alone.out || fail "dlopen alone"
   pool "$CALLER" dlopen "$LIBRARY" > dlopen.out 2> dlopen.err || fail "dlopen"
@@ -219,7 +219,7 @@ small)
   grep -q '^no pool$' small.out || fail "it went to the pool"
   ;;
 idle)
-  # The start takes processor time as well, on a busy machine for some seconds.
+  # Starting also takes processor time, on a busy machine for some seconds.
   start pid "$CALLER" pause 5000 8
   ticks() { awk '{ print $14 + $15 }' "/proc/$1/stat"; }
   worker_ticks=99 steward_ticks=99
@@ -259,7 +259,7 @@ kill_idle)
   says "rank $last was lost during its wait for a call"
   ;;
 kill_during_call)
-  # At several times of a call. Hydra kills the others so soon that on a loaded machine one of them may be named.
+  # At several moments of a call. Hydra kills the other ranks so soon that on a loaded machine one of these may be named.
   [ "$OPEN_MPI" = TRUE ] && lost=1 || lost='[0-9]*'
   for delay in 0.00 0.05 0.11; do
     start 'call 2' "$CALLER" calls 400000 400
@@ -268,7 +268,7 @@ kill_during_call)
     ends_within 10
     [ $code -ne 0 ] || fail "exit code 0"
     says_once "pstripack: rank [0-9]* was lost"
-    # All that a rank does for a call, and what is between two calls.
+    # All phases of a call, and the time between two calls.
     says "rank $lost was lost during \(scatter the nodes\|move the stars\|divide\|triangulate\|merge\|lists\|gather the lists\|idle\|its wait\)"
     grep "was lost" job.err
   done
@@ -296,7 +296,7 @@ kill_model)
   [ ! -s job.err ] || fail "stderr is not empty"
   ;;
 terminate)
-  # The signal reaches the model, which ends in its own way.
+  # The signal reaches the model, which handles it.
   start waiting "$CALLER" term
   kill -TERM "$job"
   ends_within 10
@@ -305,7 +305,7 @@ terminate)
   [ ! -s job.err ] || fail "stderr is not empty"
   ;;
 report)
-  # The lines are the model's: of its calls by the pool, and of those on its own threads.
+  # The model writes the lines for its calls by the pool and on its own threads.
   sh -c '"$CALLER" calls 5000 1; "$CALLER" calls 50 1' > alone.out 2> alone.err || fail "alone"
   export OMP_NUM_THREADS=1
   for where in report 1; do
@@ -326,7 +326,7 @@ report)
   grep -v pool pool.out | cmp - alone.text || fail "stdout differs"
   ;;
 bitwise)
-  # The model makes the original's lists on its own thread, and tells by code 9 that it did not use the pool.
+  # The model makes the original's lists on its own thread; exit code 9 shows that it did not use the pool.
   "$MODEL" lists canonical || fail "canonical"
   export PSTRIPACK_ORDER=bitwise
   "$MODEL" lists alone || fail "alone"
@@ -336,7 +336,7 @@ bitwise)
   cmp alone pool || fail "the lists differ"
   ;;
 check)
-  # The model alone writes its calls: as often and the same bytes as without a pool.
+  # Only the model records its calls, with the same bytes as without a pool.
   export PSTRIPACK_CHECK=alone.rec PSTRIPACK_REPORT=report
   "$SCVT" -n 642 -i 3 -o alone > alone.out 2> alone.err || fail "alone"
   export PSTRIPACK_CHECK=pool.rec
@@ -346,7 +346,7 @@ check)
   grep -q '^4 calls: 4 same bytes' lists.out || fail "not four calls"
   ;;
 out_of_memory)
-  # Rank 1 has memory for the small call only.
+  # Rank 1 has only enough memory for the small call.
   cp "$RUN" pstripack-run
   cat > pstripack-worker << EOF
 #!/bin/sh
@@ -371,7 +371,7 @@ options)
     [ $? -eq 2 ] || fail "$*: exit code"
     grep -q -e "$expected" refuse.err || fail "$*: message"
   }
-  refuse 'how many ranks' true
+  refuse 'no number of ranks' true
   refuse 'no program' -n 2
   refuse 'needs a number of ranks' -n two true
   refuse 'needs a number of ranks' -n 0 true
@@ -388,7 +388,7 @@ options)
   "$RUN" -np 2 --hostfile hosts $options -- echo -n 3 -- --help > arguments.out 2> arguments.err ||
     fail "arguments"
   [ "$(cat arguments.out)" = "3 -- --help" ] || fail "arguments: $(cat arguments.out)"
-  # Open MPI is to notice soon that a machine is lost, unless the user has said when.
+  # Open MPI is configured to notice soon that a machine is lost, unless the user has set these variables.
   cat > mpirun << 'EOF'
 #!/bin/sh
 [ "$1" = --version ] && echo 'mpirun (Open MPI) 4.1.4' || env > "$0.environment"

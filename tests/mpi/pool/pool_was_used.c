@@ -1,4 +1,4 @@
-/* 1 if this process has shared its arrays with a pool: the memory has a name. */
+/* 1 if this process has shared its arrays with a pool; the shared memory has a name. */
 #include <stdio.h>
 #include <string.h>
 

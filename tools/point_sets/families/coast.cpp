@@ -5,7 +5,7 @@
 namespace point_sets {
 namespace {
 
-// Each segment is cut in two beside its middle, the longest ones first, until there are n.
+// The longest segment is divided at a point beside its middle until there are n segments.
 Points coast_nodes(std::size_t n, double roughness, Random& random) {
   const Frame f = frame(centre());
   Points coast;

@@ -10,7 +10,7 @@ Points earthquakes_nodes(std::size_t n, double distance, Random& random) {
     if (shocks.empty() || random.below(20) == 0) {
       shocks.push_back(random.direction());
     } else {
-      const double s = distance * u / (1 - u);  // beyond s with probability distance / (distance + s)
+      const double s = distance * u / (1 - u);  // P(s > x) = distance / (distance + x)
       const Frame f = frame(shocks[random.below(shocks.size())]);
       shocks.push_back(at(f, s * cos_degrees(angle), s * sin_degrees(angle)));
     }

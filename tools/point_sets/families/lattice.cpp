@@ -8,7 +8,7 @@ namespace {
 std::size_t divisor(std::size_t a, std::size_t b) { return b == 0 ? a : divisor(b, a % b); }
 std::size_t size(int i) { return static_cast<std::size_t>(i < 0 ? -i : i); }
 
-/// The integer vectors with coordinates without common divisor, the largest of which is +-m: shell m.
+/// Shell m: the integer vectors with greatest common divisor 1 whose largest coordinate is +-m.
 Points shell(int m) {
   Points p;
   for (int i = -m; i <= m; ++i)

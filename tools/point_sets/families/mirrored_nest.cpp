@@ -3,8 +3,8 @@
 namespace point_sets {
 namespace {
 
-/// Any two nodes and their mirror images lie exactly in one circle: ties between coordinates of all sizes.
-/// Few are met, but those take big integers.
+/// Two nodes and their mirror images lie exactly on one circle: ties between coordinates of all magnitudes.
+/// Few of them are tested, but these need big integers.
 Points mirrored_nest_nodes(std::size_t n, double decades, Random& random) {
   Point last;
   bool is_mirrored = true;

@@ -3,7 +3,8 @@
 namespace point_sets {
 namespace {
 
-// A square of 4 m x 4 m cells, the inner 2 m x 2 m of which are the square of the next level, and so on.
+// A square of 4 m x 4 m cells; its inner 2 m x 2 m cells are replaced by the square of the next level, and so
+// on.
 Points refined_nodes(std::size_t n, double levels, Random&) {
   const std::size_t finest = static_cast<std::size_t>(levels);
   const std::size_t m = nearest(n, 1, [&](std::size_t k) { return 12 * k * k * finest + 16 * k * k; });

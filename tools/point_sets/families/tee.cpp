@@ -3,9 +3,9 @@
 namespace point_sets {
 namespace {
 
-// Each node of the stem is joined to the whole bar, until a nearer one is there. The stem runs along an edge
-// of the face -x of the cube around the sphere, as the curve of insertion_order.h does, and the bar stands
-// beyond.
+// Each node of the stem sees the whole bar until a nearer node has been inserted. The stem runs along an edge
+// of the face -x of the cube around the sphere, as the curve of insertion_order.h does; the bar lies beyond
+// it.
 Points tee_nodes(std::size_t n, double width, Random& random) {
   const std::size_t bar = n / 2, stem = n - bar;
   const auto jitter = [&] { return width * random.uniform(); };

@@ -6,13 +6,13 @@
 namespace point_sets {
 namespace {
 
-/// The double next to `value`, `steps` times.
+/// The double `steps` doubles after `value`.
 double beyond(double value, std::size_t steps) {
   for (; steps > 0; --steps) value = std::nextafter(value, 2);
   return value;
 }
 
-// The nodes of a group number the places of a cube of doubles: x fastest, then y, then z, then x again.
+// The nodes of a group fill a cube of doubles: their bits number x, y and z in turn.
 Points ulp_groups_nodes(std::size_t n, double size, Random& random) {
   const std::size_t group = std::max<std::size_t>(1, static_cast<std::size_t>(size));
   Point first{};

@@ -3,9 +3,9 @@
 // loop of ADDNOD, which together determine which neighbour gets which slot of LIST.
 //
 // The layout differs from LIST, LPTR and LEND, because memory access dominates the time:
-//   - a slot's neighbour and the slot after it lie side by side, and so do a node and its last slot;
+//   - a slot's neighbour and next slot lie side by side, and so do a node's position and last slot;
 //   - the two slots of an arc, that of b in the list of a and that of a in the list of b, are 2i and 2i+1.
-//     STRIPACK's swap moves both from one arc to another. So no list is ever searched: where (a,b,c) is a
+//     STRIPACK's swap moves both from one arc to another. So no list is ever searched: if (a,b,c) is a
 //     triangle,
 //
 //                   c                   slot of b in the list of a:  s
@@ -44,7 +44,7 @@ class InsertionLists {
   Int next(Int slot) const { return slot_[index(slot)].next; }
   /// The slot of a in the list of b, where `slot` is that of b in the list of a.
   static Int twin(Int slot) { return slot ^ 1; }
-  /// The slot of c in the list of b, where this is that of b in the list of a, and a, c, b is a triangle.
+  /// The slot of c in the list of b, given the slot of b in the list of a, where a, c, b is a triangle.
   Int slot_of_third(Int /*a*/, Int b_of_a, Int /*b*/, Int /*c*/) const { return next(twin(b_of_a)); }
   Int last_slot(Int node) const { return node_[index(node)].last_slot; }
   Int first_slot(Int node) const { return next(last_slot(node)); }
@@ -60,14 +60,12 @@ class InsertionLists {
     } while (slot != last);
   }
 
-  /// Prefetches the list of a node that will be used soon.
   [[gnu::always_inline]] void prefetch(Int node) const { __builtin_prefetch(&node_[index(node)]); }
   bool is_in_few_slots(Int /*node*/, Int& /*first*/, Int& /*last*/) const { return false; }
   [[gnu::always_inline]] void prefetch_list(Int node) const {
     __builtin_prefetch(&slot_[index(last_slot(node))]);
   }
 
-  /// The triangle of nodes 1, 2 and 3.
   void start(bool is_counterclockwise) {
     const Int corner[3] = {is_counterclockwise ? Int{1} : Int{2}, is_counterclockwise ? Int{2} : Int{1}, 3};
     for (Int i = 0; i < 3; ++i) {
@@ -83,7 +81,7 @@ class InsertionLists {
     end_ = 6 + kFirst;
   }
 
-  /// INTADD: the next node, k, lies in the triangle left of a->b, of which this is the slot.
+  /// INTADD: the next node, k, lies in the triangle left of a->b. b_of_a: the slot of b in the list of a.
   ///
   ///            c
   ///           /|\        new slots, in the order of LIST: k in the lists of a, b, c;
@@ -99,8 +97,8 @@ class InsertionLists {
     finish_list(k, first);
   }
 
-  /// BDYADD: the next node, k, lies outside and sees the boundary from `rightmost`, clockwise, to `leftmost`,
-  /// another node.
+  /// BDYADD: the next node, k, lies outside and sees the boundary from `rightmost` clockwise to `leftmost`,
+  /// which differ.
   ///
   ///                    k
   ///                .  / \  .
@@ -121,7 +119,8 @@ class InsertionLists {
     slot_[index(last_slot(k))].entry = -leftmost;
   }
 
-  /// COVSPH: the next node sees the whole boundary, of which `start` is a node. The sphere is covered then.
+  /// COVSPH: the next node sees the whole boundary; `start` is any boundary node. Then the triangles cover
+  /// the sphere.
   void cover(Int start) {
     const Int k = ++size_, first = end_;
     Int v = start;
@@ -134,7 +133,7 @@ class InsertionLists {
   }
 
   /// The swaps of ADDNOD that restore the Delaunay property around the last node, k: tests the arcs opposite
-  /// k, counterclockwise. False if it gave up after more swaps than there are arcs.
+  /// k, counterclockwise. False if the number of swaps exceeds that of slots.
   ///
   ///           v                   v
   ///          /|\                 / \        if w is above the plane of (k,u,v): k-w for u-v;
@@ -168,7 +167,6 @@ class InsertionLists {
     return false;
   }
 
-  /// Number of slots in use.
   std::size_t slots() const { return index(end_ - kFirst); }
   /// Writes LIST and LPTR, with slots() entries, and LEND.
   void write(Int* list, Int* lptr, Int* lend) const {
@@ -192,7 +190,8 @@ class InsertionLists {
 
   static std::size_t index(Int i) { return static_cast<std::size_t>(i); }
 
-  /// A new arc: to k, or -k, after `slot`, and back; the way back is linked by finish_list.
+  /// A new arc: the slot with to_k (k or -k) goes after `slot`; the slot back is linked later, by
+  /// finish_list.
   void append(Int to_k, Int slot) {
     Slot& before = slot_[index(slot)];
     slot_[index(end_)] = {to_k, before.next};
@@ -200,7 +199,7 @@ class InsertionLists {
     slot_[index(end_ + 1)] = {neighbour(twin(slot)), 0};
     end_ += 2;
   }
-  /// The list of k: the arcs back from slot `first` on.
+  /// Links the list of k: the slots back of the arcs from slot `first` on.
   void finish_list(Int k, Int first) {
     const Int count = (end_ - first) / 2, place = first - kFirst + 1;
     for (Int i = 0; i < count; ++i) {
@@ -227,7 +226,7 @@ class InsertionLists {
     return false;
   }
 
-  /// SWAP: k-w instead of u-v, where k is the last node and these are slots of its list.
+  /// SWAP: replaces u-v by k-w, where k is the last node. u_of_k, v_of_k: slots of u and v in the list of k.
   void swap(Int u_of_k, Int v_of_k, Int u, Int v, Int w) {
     const Int k_of_v = twin(v_of_k), u_of_v = next(k_of_v), v_of_u = twin(u_of_v);
     const Int v_of_w = twin(next(u_of_v)), w_of_u = twin(next(v_of_w));
@@ -236,7 +235,6 @@ class InsertionLists {
     unlink(v_of_u, w_of_u, u);
     link(v_of_u, w, u_of_k);
   }
-  /// Takes a slot out of the list of `node`.
   void unlink(Int slot, Int before, Int node) {
     slot_[index(before)].next = next(slot);
     if (last_slot(node) == slot) node_[index(node)].last_slot = before;
@@ -248,7 +246,7 @@ class InsertionLists {
 
   BlockArray<Node> node_;
   BlockArray<Slot> slot_;
-  BlockArray<Int> place_;  ///< of a slot: its position in LIST
+  BlockArray<Int> place_;  ///< by slot: its position in LIST
   Int size_ = 0, end_ = kFirst;
 };
 

@@ -14,7 +14,7 @@
 namespace pstripack {
 namespace {
 
-/// Inserts node after node into the lists until the last one, or until something prevents it.
+/// Inserts node after node into the lists, until all are in or one cannot be inserted.
 template <class Real, class Int>
 class Insertion {
  public:
@@ -41,7 +41,7 @@ class Insertion {
   }
 
  private:
-  /// Empty if that takes too much memory, which cannot happen if the search is simulated.
+  /// Empty if it takes too much memory. That cannot happen with StartSearch::simulated.
   std::optional<InsertionOutcome> try_to_insert_all(Hopeless hopeless, StartSearch start_search) {
     const Real d = side(lists_[1], lists_[2], lists_[3]);
     if (d == 0) return InsertionOutcome{InsertionEnd::collinear, 3};
@@ -78,7 +78,8 @@ class Insertion {
     return InsertionOutcome{};
   }
 
-  /// In single precision too many nodes are equally near; and the search uses directions.
+  /// False in single precision, where too many nodes are equally near, and if a length differs from 1,
+  /// because the search compares directions.
   bool can_locate() const {
     constexpr double kUpToRounding = 0x1p-49;
     if (!std::is_same_v<Real, double>) return false;
@@ -86,15 +87,15 @@ class Insertion {
       if (!(std::fabs(static_cast<double>(dot(lists_[k], lists_[k])) - 1) < kUpToRounding)) return false;
     return true;
   }
-  /// In random order a new node is compared with 6n/k waiting ones; if it is compared with many more, waiting
-  /// nodes are in long lists.
+  /// In random order a new node k is compared with about 6n/k waiting nodes. If it is compared with many
+  /// more, the waiting nodes are in long lists, and locating is faster.
   bool locating_pays(Int k, std::int64_t comparisons) const {
     const double in_random_order = 6 * static_cast<double>(n_) * (1 + std::log(static_cast<double>(k)));
     return static_cast<double>(comparisons) > 2 * in_random_order;
   }
 
-  /// In random order all data for the insertion of a node are far away in memory. Inlined, since GCC 12
-  /// otherwise takes these functions for free of effects and drops the calls.
+  /// In random order all data for the insertion of a node are far apart in memory. Always inlined: GCC 12
+  /// otherwise considers these functions free of side effects and drops the calls.
   [[gnu::always_inline]] void prefetch(Int k, const WaitingNodes<Real, Int>& waiting) const {
     constexpr Int kNode = 12, kList = 6, kWaiting = 3;
     if (k + kNode > n_) return;
@@ -127,12 +128,12 @@ class Insertion {
     return lists_.restore_delaunay() ? InsertionOutcome{} : InsertionOutcome{InsertionEnd::endless, k};
   }
 
-  // ---- Grids: is the triangulation already wrong? ----
+  // ---- is the triangulation already wrong for good? (usual for grids) ----
 
   Point point(Int node) const { return as_point(lists_[node]); }
 
-  /// The four nodes of a grid cell are cocircular up to rounding, and rounded tests choose the wrong diagonal
-  /// of some.
+  /// True if a wrong arc is found that will stay. The four nodes of a grid cell are cocircular up to
+  /// rounding, so rounded tests choose the wrong diagonal in some cells.
   bool is_hopeless() const {
     int tries = 20;
     for (Int a = 1; a <= lists_.size(); ++a) {
@@ -153,8 +154,8 @@ class Insertion {
   }
 
   /// True if the arc a-b of the triangles (a,b,c) and (b,a,d) is wrong by exact signs, and will stay. It
-  /// stays if all nodes are so far outside the circumscribed caps of both that rounded tests agree: no search
-  /// ends in these triangles, and no swap begins there.
+  /// stays if all other nodes are so far outside the circumscribed caps of both triangles that rounded tests
+  /// agree: then no search ends in these triangles, and no swap begins there.
   bool is_lasting_fault(Int a, Int b, Int c, Int d) const {
     return orientation_of_directions(point(a), point(b), point(c), point(d)) > 0 && stays(a, b, c, d) &&
            stays(b, a, d, c);

@@ -10,13 +10,12 @@
 
 namespace pstripack {
 
-/// How the insertion ended.
 enum class InsertionEnd {
   complete,    ///< all nodes are inserted
   coincident,  ///< `node` coincides with `other`: nodes 1..node-1 are inserted
-  collinear,   ///< the original's IER = -2: it finds `node`, 3 or later, collinear with all it sees
+  collinear,   ///< the original's IER = -2: by its tests `node` is collinear with every visible boundary edge
   endless,     ///< the original's search for `node`, or the swaps around it, do not end
-  hopeless     ///< after nodes 1..`node` an arc is not Delaunay, and will stay
+  hopeless     ///< after nodes 1..`node` an arc is not locally Delaunay and will stay
 };
 
 struct InsertionOutcome {
@@ -37,11 +36,12 @@ struct InsertedNodes {
   ListsView<Int> view() const { return {nodes, list.data(), lptr.data(), lend.data(), lnew}; }
 };
 
-/// Whether to continue with a triangulation that cannot become correct.
+/// What to do with a triangulation that cannot become correct.
 enum class Hopeless { goes_on, ends };
 
-/// Renka's TRMESH (Algorithm 772): inserts node by node, with its rounded tests. n >= 3. The result may be
-/// wrong. One thread, with its kept_seeds; O(n) memory. Throws std::bad_alloc.
+/// Renka's TRMESH (ACM TOMS 23 (1997), Algorithm 772): inserts node by node, with its rounded tests, so the
+/// result may be wrong. n >= 3. Runs on one thread and uses its kept_seeds; O(n) memory. Throws
+/// std::bad_alloc.
 template <class Real, class Int>
 InsertedNodes<Int> insert_in_order(Int n, const Real* x, const Real* y, const Real* z,
                                    const OriginalRules& rules, Hopeless hopeless = Hopeless::goes_on,

@@ -24,10 +24,11 @@ OriginalRules read_environment() {
   if (value == nullptr || *value == '\0') return {};
   for (const auto& order : kOrders)
     if (std::strcmp(value, order.name) == 0) return order.rules;
-  std::fprintf(stderr,
-               "pstripack: PSTRIPACK_ORDER=%s: not canonical, original, bitwise, ngmath or bitwise-ngmath; "
-               "canonical is used\n",
-               value);
+  std::fprintf(
+      stderr,
+      "pstripack: PSTRIPACK_ORDER=%s: no such order, so canonical is used; set it to canonical, original, "
+      "bitwise, ngmath or bitwise-ngmath\n",
+      value);
   return {};
 }
 
@@ -36,7 +37,7 @@ OriginalRules read_environment() {
 const OriginalRules& original_rules() {
   static std::atomic<const OriginalRules*> known{nullptr};
   if (const OriginalRules* const rules = known.load(std::memory_order_acquire)) return *rules;
-  // Waiting here for another thread may change errno: restore the program's.
+  // Waiting here for another thread may change errno: restore it.
   const int error = errno;
   static const OriginalRules rules = read_environment();
   known.store(&rules, std::memory_order_release);

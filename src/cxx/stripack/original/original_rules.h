@@ -12,19 +12,18 @@ namespace pstripack {
 ///   canonical  our own order of the lists; searches draw their random start nodes from seeds 1, 2, 3 in
 ///              every call
 ///   original   lists and searches as the original's, to the last bit: the tolerance of Algorithm 772 and of
-///              the Fortran 90 text (100 epsilon), random numbers in the working kind, seeds kept from call
-///              to call (of each thread)
-///   bitwise    the same, and TRMESH also where the original's triangulation is not the exact mesh
+///              the Fortran 90 text (100 epsilon), random numbers in the working kind, seeds of each thread
+///              kept from call to call
+///   bitwise    the same; TRMESH follows the original even if its triangulation is not the exact mesh
 ///   ngmath, bitwise-ngmath  the same as libngmath does: 4 epsilon, random numbers in single precision, AL of
-///              NEARND untouched where it finds nothing
+///              NEARND untouched if nothing is found
 struct OriginalRules {
-  bool follow = false;  ///< TRMESH inserts as the original does, seeds are kept
+  bool follow = false;  ///< TRMESH inserts as the original does, and seeds are kept
   int tolerance_in_epsilons = 100;
   bool single_precision_random = false;
-  bool clear_angle = true;  ///< NEARND in REAL*8 sets AL = 0 where it finds nothing, as the Fortran 90 text
-  bool bitwise = false;     ///< of TRMESH any triangulation that the original makes, exact or not
+  bool clear_angle = true;  ///< NEARND in REAL*8 sets AL = 0 if nothing is found, as the Fortran 90 text
+  bool bitwise = false;     ///< TRMESH returns any triangulation that the original makes, exact or not
 
-  /// Constants of TRFIND.
   template <class Real>
   Real tolerance() const {
     return static_cast<Real>(tolerance_in_epsilons) * std::numeric_limits<Real>::epsilon();
@@ -36,7 +35,7 @@ struct OriginalRules {
   }
 };
 
-/// Reads PSTRIPACK_ORDER once; canonical if unset. Any name but those above is canonical, with a message on
+/// Reads PSTRIPACK_ORDER once; canonical if it is unset. For an unknown name canonical, with a message on
 /// stderr.
 const OriginalRules& original_rules();
 

@@ -18,7 +18,7 @@ namespace pstripack {
 
 /// Method to find NEAR(i). All give the same values.
 enum class StartSearch {
-  adaptive,    ///< simulated, until that is clearly slower than in random order
+  adaptive,    ///< simulated, until that is clearly slower than it is for random order; then by_location
   simulated,   ///< by the original's bookkeeping
   by_location  ///< by location in the triangulation, for those nodes for which it is safe
 };
@@ -53,15 +53,13 @@ class WaitingNodes {
   }
 
   Int near(Int i) const { return near_[index(i)]; }
-  /// Prefetches a node that will be inserted soon.
   [[gnu::always_inline]] void prefetch(Int i) const {
     __builtin_prefetch(item_.data() + range_[index(near(i))].begin);
   }
-  /// Number of comparisons so far.
   std::int64_t comparisons() const { return comparisons_; }
 
-  /// Call after inserting node k, which no longer waits: waiting nodes of its neighbours that are nearer to k
-  /// move to k. Returns the largest cosine of their distances from k, -2 if there are none.
+  /// To be called after inserting node k, which no longer waits. Waiting nodes of k's neighbours that are
+  /// nearer to k move to k. Returns the largest cosine of their distances from k; -2 if there are none.
   Real compare_with(Int k) {
     make_room(k);
     const Vector<Real> p = lists_[k];
@@ -78,7 +76,7 @@ class WaitingNodes {
         const bool waits = item->node > k, is_nearer = to_k > dot(item->position, q);
         if (is_nearer) near_[index(item->node)] = k;
         largest = is_nearer && to_k > largest ? to_k : largest;
-        // The destination of an item is unpredictable: write it to both, without a branch.
+        // The destination of an item is unpredictable: write it to both places, without a branch.
         *moving = *item;
         moving += waits & is_nearer ? 1 : 0;
         *staying = *item;
@@ -139,8 +137,8 @@ class WaitingNodes {
   std::int64_t comparisons_ = 0;
 };
 
-/// For points, inserted nodes near them: one in each cell of grids from coarse to fine on the faces of a
-/// cube.
+/// Finds an inserted node near a point: grids from coarse to fine on the faces of a cube hold one node per
+/// cell.
 template <class Int>
 class NodeGrid {
  public:
@@ -197,25 +195,28 @@ class NodeGrid {
   BlockArray<Int> node_;
 };
 
-/// Nodes that need no bookkeeping, of nodes of length 1. A node i is settled once NEAR(i) = j is its nearest
-/// node, less than 90 degrees away; for when a nearer one, k, comes, k becomes a neighbour of j:
+/// Waiting nodes that need no bookkeeping; all nodes have length 1. A node i is settled once NEAR(i) = j is
+/// its nearest node and less than 90 degrees away. For if a nearer node k is inserted, k becomes a
+/// neighbour of j:
 ///
-///          i          The caps that touch j, with centres between i and j, lie inside the cap round i
-///         /  \ .      that touches j, which is empty but for k. The one of them that touches k as well
+///          i          The caps that touch j, with centres between i and j, lie inside the cap around i
+///         /  \ .      that touches j, which is empty except for k. The one of them that touches k as well
 ///        c    k       is therefore empty, and smaller than 90 degrees: k-j is an arc.
 ///       /  ---
 ///      j              .
 ///
-/// So NEAR(i) is the nearest node again, whatever comes, and found by location when i's turn comes.
+/// So NEAR(i) remains the nearest node, whatever is inserted, and can be found by location when i is
+/// inserted.
 ///
-/// All this up to rounding. Where nodes are equally near up to kTie, what the original's comparisons make of
-/// them decides: they are made again, from the first of these nodes on. It was clearly nearer than all
-/// before, and so NEAR(i) became this node when it was inserted. For a rounding error in an earlier
-/// comparison to last until then, a node j' must be nearer than j = NEAR(i) by less than d = 4e-16, and have
-/// hidden a nearer node k from j: be in the cap that touches j and k. With f(p) = <p-j,i>, how much nearer p
-/// is, and g(p) = 1-<p,j> = |p-j|^2/2, p is in the cap that touches k where f(p)/g(p) > f(k)/g(k). So k, too,
-/// is not nearer by more than d g(k)/g(j'): two coincidences, which nodes in general position do not bring,
-/// and which in regular grids are exact ties, for which the argument above holds as it stands.
+/// All this holds up to rounding. If several nodes are equally near up to kTie, the original's comparisons
+/// decide between them: these are repeated, from the first of these nodes on. That node was clearly nearer
+/// than all before, so NEAR(i) became this node when it was inserted. For a rounding error in an earlier
+/// comparison to last until then, a node j' must be nearer than j = NEAR(i) by less than d = 4e-16, and
+/// must have hidden a nearer node k from j, so lie in the cap that touches j and k. Let f(p) = <p-j,i>,
+/// which is how much nearer p is, and g(p) = 1-<p,j> = |p-j|^2/2: p is in the cap that touches k if
+/// f(p)/g(p) > f(k)/g(k). So k, too, is not nearer by more than d g(k)/g(j'). These are two coincidences:
+/// nodes in general position do not have them, and in regular grids they are exact ties, for which the
+/// argument above holds as it stands.
 template <class Real, class Int>
 class SettledNodes {
  public:
@@ -232,7 +233,7 @@ class SettledNodes {
     for (Int k = 1; k <= lists.size(); ++k) grid_.insert(k, lists[k]);
   }
 
-  /// Call after inserting node k.
+  /// To be called after inserting node k.
   void add(Int k) {
     grid_.insert(k, lists_[k]);
     lists_.for_each_neighbour(k, [&](Int neighbour) {
@@ -241,13 +242,14 @@ class SettledNodes {
       last_event = static_cast<Int>(events_.size() - 1);
     });
   }
-  /// True if the events take too much memory: nodes get far more neighbours than the six of random order.
+  /// True if the events take too much memory, because nodes got far more neighbours than six on average, as
+  /// in random order.
   bool is_full() const {
     constexpr auto kMostNumbers = static_cast<std::size_t>(std::numeric_limits<Int>::max() / 2);
     return events_.size() > std::min(kMostEvents * last_event_.size(), kMostNumbers);
   }
 
-  /// True if this cosine of a node's distance from its NEAR is large enough for it to be settled.
+  /// True if a node may be settled whose distance from its NEAR has this cosine.
   static bool may_settle(Real cosine) { return cosine > Real(kCloserThan90); }
   /// Settles node i at p if `near`, its NEAR, is its nearest node, that is, if no neighbour of `near` is
   /// nearer.
@@ -278,7 +280,7 @@ class SettledNodes {
         }
       });
     }
-    // All equally near nodes: arcs between them join any two.
+    // Collect all equally near nodes: they are connected by arcs between them.
     Int equal[kMostEqual] = {nearest}, first = nearest;
     int count = 1;
     for (int visited = 0; visited < count; ++visited)
@@ -295,8 +297,8 @@ class SettledNodes {
  private:
   static constexpr double kTie = 0x1p-40, kCloserThan90 = 0x1p-20;
   static constexpr int kMostEqual = 32;
-  static constexpr std::size_t kMostEvents = 32;  ///< per node
-  /// NEAR of a node when it was settled, 0 = it is not, and the number of nodes then.
+  static constexpr std::size_t kMostEvents = 32;  ///< per node, on average
+  /// NEAR of a node when it was settled (0: it is not), and the number of nodes inserted by then.
   struct Settled {
     Int near, at;
   };
@@ -325,7 +327,7 @@ class SettledNodes {
   const Lists& lists_;
   NodeGrid<Int> grid_;
   BlockArray<Settled> settled_;
-  BlockArray<Int> last_event_;  ///< of every node, 0 = none
+  BlockArray<Int> last_event_;  ///< by node; 0 = none
   std::vector<Event> events_;
   std::vector<Int> later_;
 };
