@@ -4,6 +4,9 @@
   docs/api/*.md                     a page per routine, README.md, the index by task, and ier.md, all codes
   docs/man/man3/*.3                 the same as man pages
   src/fortran/stripack_module.F90   their interfaces, from stripack_module.F90.in
+  src/fortran/plain_forwarders.inc  those of its routines that only call their C function: all that
+                                    stripack_abi.F90 does not have itself
+  src/cxx/capi/plain_calls.h        the C functions that these call
   src/fortran/symbols.txt           the symbols that each library exports
 
   make-api.py           writes them
@@ -51,6 +54,7 @@ class Routine:
         self.arguments = [Argument(line, common["meaning"]) for line in lines(entry.pop("arguments"))]
         self.absent = {library: names.split(", ") for library, names in entry.pop("absent", {}).items()}
         self.lout = entry.pop("lout", False)
+        self.ident = entry.pop("ident", False)
         self.result = columns(entry.pop("result"), 2) if "result" in entry else None
         self.ier_name = entry.pop("ier_name", "IER")
         self.ier = [columns(line, 3) for line in lines(entry.pop("ier", ""))]
@@ -367,6 +371,88 @@ def module_text(groups):
     return template.replace("@INTERFACES@", "\n\n".join(entries))
 
 
+# ---- the forwarders ----
+
+ABI = ROOT / "src/fortran/stripack_abi.F90"
+ABI_KINDS = {"integer": "integer(INTEGER_KIND)", "real": "real(REAL_KIND)", "logical": "logical(LOGICAL_KIND)"}
+
+
+def abi_declarations(routine, indent, choose=lambda is_value: True, attribute="", result=None):
+    """Of the arguments with choose(is_value), is_value: a scalar that the routine does not change."""
+    text = []
+    for type_ in ABI_KINDS:
+        names = [name.lower() + (f"({a.shape if a.shape.isdigit() else '*'})" if a.shape else "")
+                 for a in routine.arguments if a.type == type_ and choose(a.use == "in" and not a.shape)
+                 for name in a.names]
+        if result and result[0] == type_:
+            names.append(result[1])
+        if names:
+            text.append(fortran_line(f"{ABI_KINDS[type_]}{attribute} :: {', '.join(names)}", indent))
+    return text
+
+
+def forwarder(routine):
+    """The Fortran procedure. C functions get scalars that they do not change by value, and return logicals as integers."""
+    name, arguments, kind = routine.name.lower(), ", ".join(routine.names()).lower(), routine.result and routine.result[0]
+    call = f"c_{name}({arguments})"
+    c_procedure = "function" if kind else "subroutine"
+    c_kind = {"logical": "integer"}.get(kind, kind)
+    of = "OF_REAL" if "real" in [a.type for a in routine.arguments] else "OF_INTEGER"
+    head = f"{ABI_KINDS[kind]} function" if kind else "subroutine"
+    statement = f"{name} = {call}{' /= 0' if kind == 'logical' else ''}" if kind else f"call {call}"
+    return "\n".join([
+        f"#ifdef STRIPACK_{routine.name}", fortran_line(f"recursive {head} {name}({arguments})", ""),
+        "  use, intrinsic :: iso_c_binding", "  implicit none", *abi_declarations(routine, "  "),
+        *[f'  IDENT("{routine.name}")'] * routine.ident,
+        "  interface", fortran_line(f'{c_procedure} {call} bind(c, name="pstripack_{name}"//{of})', "    "), "      import",
+        *abi_declarations(routine, "      ", lambda is_value: is_value, ", value"),
+        *abi_declarations(routine, "      ", lambda is_value: not is_value, result=kind and (c_kind, f"c_{name}")),
+        f"    end {c_procedure}", "  end interface", *["  KEEP_IDENT"] * routine.ident,
+        fortran_line(statement, "  "), f"end {c_procedure}", "#endif"])
+
+
+def declarations_in_c(routine):
+    """Of the C function of each kind, or of integers of 4 and 8 bytes if the routine has no reals."""
+    has_reals = "real" in [a.type for a in routine.arguments]
+    kinds = [("r4", "float", "int32_t"), ("r8", "double", "int32_t"), ("i8", "double", "int64_t")]
+    text = []
+    for suffix, real, integer in kinds if has_reals else [("i4", None, "int32_t"), ("i8", None, "int64_t")]:
+        of_c = {"integer": integer, "logical": integer, "real": real}
+        arguments = [(("const " if a.use == "in" and a.shape else "") + of_c[a.type]
+                      + (" " if a.use == "in" and not a.shape else "* ") + name.lower()).replace(" ", NO_BREAK)
+                     for a in routine.arguments for name in a.names]
+        text.append(textwrap.fill(f"{of_c[routine.result[0]] if routine.result else 'void'} pstripack_"
+                                  f"{routine.name.lower()}_{suffix}({', '.join(arguments)}) noexcept;",
+                                  110, subsequent_indent="    "))
+    return "\n".join(text).replace(NO_BREAK, " ")
+
+
+PLAIN_CALLS = """#pragma once
+// Made by docs/api/make-api.py. The C functions that src/fortran/plain_forwarders.inc calls.
+// clang-format off
+
+#include <cstdint>
+
+#pragma GCC visibility push(default)
+extern "C" {{
+
+{}
+
+}}
+#pragma GCC visibility pop
+"""
+
+
+def plain_files(routines):
+    """Of the routines that stripack_abi.F90 does not have itself."""
+    written = set(re.findall(r"^#ifdef STRIPACK_(\w+)$", ABI.read_text(), re.MULTILINE))
+    plain = [routine for routine in routines if routine.name not in written]
+    return {"src/fortran/plain_forwarders.inc":
+            "! Made by docs/api/make-api.py. What a forwarder may do: stripack_abi.F90.\n\n"
+            + "\n\n".join(map(forwarder, plain)) + "\n",
+            "src/cxx/capi/plain_calls.h": PLAIN_CALLS.format("\n\n".join(map(declarations_in_c, plain)))}
+
+
 # ---- all files ----
 
 
@@ -375,7 +461,8 @@ def make_all(groups):
     routines = [routine for _, members in groups for routine in members]
     files = {"docs/api/README.md": markdown_index(groups), "docs/api/ier.md": markdown_ier(groups),
              "src/fortran/stripack_module.F90": module_text(groups),
-             "src/fortran/symbols.txt": "".join(sorted(f"{routine.name.lower()}_\n" for routine in routines))}
+             "src/fortran/symbols.txt": "".join(sorted(f"{routine.name.lower()}_\n" for routine in routines)),
+             **plain_files(routines)}
     for routine in routines:
         files[f"docs/api/{routine.name.lower()}.md"] = markdown_page(routine)
         files[f"docs/man/man3/{routine.name.lower()}.3"] = man_page(routine)
@@ -394,7 +481,7 @@ def stale(files):
 def wrong_signatures(groups):
     """Routines of stripack_abi.F90 whose arguments are not the table's."""
     expected = {r.name.lower(): [",".join(r.names(x)).lower() for x in LIBRARIES] for _, rs in groups for r in rs}
-    text = re.sub(r"&\s*", "", (ROOT / "src/fortran/stripack_abi.F90").read_text().replace(" AND_LOUT", ", lout"))
+    text = re.sub(r"&\s*", "", ABI.read_text().replace(" AND_LOUT", ", lout"))
     found = re.findall(r"^recursive .*?\b(?:subroutine|function) (\w+)\(([^)]*)\)", text, re.MULTILINE)
     return [name for name, arguments in found
             if arguments.replace(" ", "") not in expected.get(name, [])]

@@ -288,12 +288,11 @@ void for_each_division(const Body& body) {
     for (const Set& set : sets(seed)) {
       const Serial expected = serial(set.nodes);
       on_boundary += expected.on_boundary;
-      for (const PartitionKind kind :
-           {PartitionKind::bisection, PartitionKind::stripes, PartitionKind::stripes_of_width})
+      for (const NamedPartition& partition : kPartitions)
         for (const int patches : {2, 3, 7, 16}) {
           SCOPED_TRACE(set.name + ", seed " + std::to_string(seed) + ", " + std::to_string(patches) +
-                       " patches, partition " + std::to_string(static_cast<int>(kind)));
-          body(set, expected, partition_of(kind, patches, set.nodes, expected.lengths));
+                       " patches, partition " + partition.name);
+          body(set, expected, partition_of(partition.kind, patches, set.nodes, expected.lengths));
           if (::testing::Test::HasFailure()) return;
         }
     }

@@ -41,10 +41,9 @@ struct Configuration {
 };
 
 std::string name_of(const Configuration& c) {
-  static const char* const partition[] = {"bisection", "stripes", "stripes_of_width"};
   static const char* const brings[] = {"slices", "every_other", "rank_0", "home"};
   return "np" + std::to_string(c.ranks) + "_patches" + std::to_string(c.patches) + "_" +
-         partition[static_cast<int>(c.partition)] + "_" + brings[static_cast<int>(c.brings)];
+         name_of(c.partition) + "_" + brings[static_cast<int>(c.brings)];
 }
 
 /// A set of nodes, the first three of which are not on one great circle, and its rings by one patch.
@@ -190,12 +189,11 @@ std::vector<Configuration> configurations() {
   std::vector<Configuration> all;
   for (const auto& [ranks, patches] : std::vector<std::pair<int, int>>{
            {1, 1}, {1, 2}, {1, 7}, {2, 1}, {3, 1}, {4, 1}, {5, 2}, {7, 1}, {8, 2}, {16, 1}, {64, 1}})
-    for (const PartitionKind kind :
-         {PartitionKind::bisection, PartitionKind::stripes, PartitionKind::stripes_of_width})
+    for (const NamedPartition& partition : kPartitions)
       for (const Brings brings : {Brings::slices, Brings::every_other, Brings::rank_0, Brings::home}) {
         if (ranks == 1 && brings != Brings::slices) continue;
         if (ranks == 64 && (brings == Brings::rank_0 || brings == Brings::slices)) continue;
-        all.push_back({ranks, patches, kind, brings});
+        all.push_back({ranks, patches, partition.kind, brings});
       }
   return all;
 }
@@ -987,8 +985,7 @@ TEST(Halo, IsSentOnceWhereSomeNodesTellThatLengthsHideOne) {
 
 TEST(Partitions, HaloIsWhatIsKnownAndBallsAreJudgedSafely) {
   std::size_t deep = 0;
-  for (const PartitionKind kind :
-       {PartitionKind::bisection, PartitionKind::stripes, PartitionKind::stripes_of_width})
+  for (const auto& [kind, name] : kPartitions)
     for (const char* family : {"random", "variable:1e6", "clusters", "latlon", "cap"}) {
       const Nodes nodes = point_sets::make(family, 4000, 1);
       for (const int patches : {1, 2, 3, 13, 64}) {
@@ -1024,7 +1021,7 @@ TEST(Partitions, HaloIsWhatIsKnownAndBallsAreJudgedSafely) {
           ASSERT_LE(partition.distance(owner, x), 1e-12);
           for (int q = 0; q < patches; ++q)
             ASSERT_EQ(partition.knows(q, x), q == owner || in_halo[i][static_cast<std::size_t>(q)])
-                << family << ", partition " << static_cast<int>(kind) << ", patch " << q << " of " << patches;
+                << family << ", " << name << ", patch " << q << " of " << patches;
           // A ball around it: every node in it that the patch does not know belongs to a stranger.
           const Ball ball{x, 0.2};
           std::vector<int> strangers;

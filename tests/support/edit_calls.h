@@ -32,48 +32,16 @@
 extern "C" {
 #endif
 
-#define PSTRIPACK_LIST_EDIT_CALLS(Int, suffix)                                                              \
-  PSTRIPACK_CALL(void)                                                                                      \
-  pstripack_insert_##suffix(Int k, Int lp, Int* list, Int* lptr, Int* lnew) PSTRIPACK_NOEXCEPT;             \
-  PSTRIPACK_CALL(void)                                                                                      \
-  pstripack_intadd_##suffix(Int kk, Int i1, Int i2, Int i3, Int* list, Int* lptr, Int* lend, Int* lnew)     \
-      PSTRIPACK_NOEXCEPT;                                                                                   \
-  PSTRIPACK_CALL(void)                                                                                      \
-  pstripack_bdyadd_##suffix(Int kk, Int i1, Int i2, Int* list, Int* lptr, Int* lend, Int* lnew)             \
-      PSTRIPACK_NOEXCEPT;                                                                                   \
-  PSTRIPACK_CALL(void)                                                                                      \
-  pstripack_covsph_##suffix(Int kk, Int n0, Int* list, Int* lptr, Int* lend, Int* lnew) PSTRIPACK_NOEXCEPT; \
-  PSTRIPACK_CALL(void)                                                                                      \
-  pstripack_swap_##suffix(Int in1, Int in2, Int io1, Int io2, Int* list, Int* lptr, Int* lend, Int* lp21)   \
-      PSTRIPACK_NOEXCEPT;                                                                                   \
-  PSTRIPACK_CALL(void)                                                                                      \
-  pstripack_delnb_##suffix(Int n0, Int nb, Int n, Int* list, Int* lptr, Int* lend, Int* lnew, Int* lph)     \
-      PSTRIPACK_NOEXCEPT;                                                                                   \
-  PSTRIPACK_CALL(void)                                                                                      \
-  pstripack_delarc_##suffix(Int n, Int io1, Int io2, Int* list, Int* lptr, Int* lend, Int* lnew, Int* ier)  \
-      PSTRIPACK_NOEXCEPT;
-
 #define PSTRIPACK_NODE_EDIT_CALLS(Real, Int, suffix)                                                         \
-  PSTRIPACK_CALL(Int)                                                                                        \
-  pstripack_swptst_##suffix(Int n1, Int n2, Int n3, Int n4, const Real* x, const Real* y, const Real* z)     \
-      PSTRIPACK_NOEXCEPT;                                                                                    \
-  PSTRIPACK_CALL(void)                                                                                       \
-  pstripack_optim_##suffix(const Real* x, const Real* y, const Real* z, Int na, Int* list, Int* lptr,        \
-                           Int* lend, Int* nit, Int* iwk, Int* ier) PSTRIPACK_NOEXCEPT;                      \
   PSTRIPACK_CALL(void)                                                                                       \
   pstripack_edge_##suffix(Int in1, Int in2, const Real* x, const Real* y, const Real* z, Int* lwk, Int* iwk, \
                           Int* list, Int* lptr, Int* lend, Int* ier, Int* nit, Int* optim_ier)               \
       PSTRIPACK_NOEXCEPT;                                                                                    \
   PSTRIPACK_CALL(void)                                                                                       \
-  pstripack_addnod_##suffix(Int nst, Int k, const Real* x, const Real* y, const Real* z, Int* list,          \
-                            Int* lptr, Int* lend, Int* lnew, Int* ier) PSTRIPACK_NOEXCEPT;                   \
-  PSTRIPACK_CALL(void)                                                                                       \
   pstripack_delnod_##suffix(Int k, Int* n, Real* x, Real* y, Real* z, Int* list, Int* lptr, Int* lend,       \
                             Int* lnew, Int* lwk, Int* iwk, Int* ier, Int* nit, Int* optim_ier)               \
       PSTRIPACK_NOEXCEPT;
 
-PSTRIPACK_LIST_EDIT_CALLS(int32_t, i4)
-PSTRIPACK_LIST_EDIT_CALLS(int64_t, i8)
 PSTRIPACK_NODE_EDIT_CALLS(float, int32_t, r4)
 PSTRIPACK_NODE_EDIT_CALLS(double, int32_t, r8)
 PSTRIPACK_NODE_EDIT_CALLS(double, int64_t, i8)

@@ -6,7 +6,7 @@
  * src/cxx/stripack. Node and slot numbers count from 1. None is collective, writes to stdout or throws. None
  * keeps state, but for the random seeds of each thread where PSTRIPACK_ORDER is not canonical. The suffix
  * names the kinds: _r4, _r8 reals of 32 and 64 bits, with integers of 32 bits; _i8 reals and integers of 64
- * bits; _i4, _i8 without reals. Other kinds are further instances of the macros below.
+ * bits; _i4, _i8 without reals.
  *
  *   lstptr   slot of neighbour nb in the list that ends in slot lpl; lpl if there is none
  *   nbcnt    number of neighbours in that list
@@ -35,88 +35,17 @@
 #ifndef PSTRIPACK_STRIPACK_CALLS_H
 #define PSTRIPACK_STRIPACK_CALLS_H
 
-#include <stdint.h>
+#include "capi/plain_calls.h"
 
-#ifdef __cplusplus
 #define PSTRIPACK_NOEXCEPT noexcept
-extern "C" {
-#else
-#define PSTRIPACK_NOEXCEPT
-#endif
-
 #define PSTRIPACK_CALL(result) __attribute__((visibility("default"))) result
 
-#define PSTRIPACK_LIST_CALLS(Int, suffix)                                                                  \
-  PSTRIPACK_CALL(Int)                                                                                      \
-  pstripack_lstptr_##suffix(Int lpl, Int nb, const Int* list, const Int* lptr) PSTRIPACK_NOEXCEPT;         \
-  PSTRIPACK_CALL(Int) pstripack_nbcnt_##suffix(Int lpl, const Int* lptr) PSTRIPACK_NOEXCEPT;               \
-  PSTRIPACK_CALL(void)                                                                                     \
-  pstripack_bnodes_##suffix(Int n, const Int* list, const Int* lptr, const Int* lend, Int* nodes, Int* nb, \
-                            Int* na, Int* nt) PSTRIPACK_NOEXCEPT;                                          \
-  PSTRIPACK_CALL(void)                                                                                     \
-  pstripack_trlist_##suffix(Int n, const Int* list, const Int* lptr, const Int* lend, Int nrow, Int* nt,   \
-                            Int* ltri, Int* ier) PSTRIPACK_NOEXCEPT;                                       \
-  PSTRIPACK_CALL(void)                                                                                     \
-  pstripack_trlist2_##suffix(Int n, const Int* list, const Int* lptr, const Int* lend, Int* nt, Int* ltri, \
-                             Int* ier) PSTRIPACK_NOEXCEPT;
+extern "C" {
 
-#define PSTRIPACK_SPHERE_CALLS(Real, Int, suffix)                                                          \
-  PSTRIPACK_CALL(void)                                                                                     \
-  pstripack_trans_##suffix(Int n, const Real* rlat, const Real* rlon, Real* x, Real* y, Real* z)           \
-      PSTRIPACK_NOEXCEPT;                                                                                  \
-  PSTRIPACK_CALL(void)                                                                                     \
-  pstripack_scoord_##suffix(Real px, Real py, Real pz, Real* plat, Real* plon, Real* pnrm)                 \
-      PSTRIPACK_NOEXCEPT;                                                                                  \
-  PSTRIPACK_CALL(Int)                                                                                      \
-  pstripack_left_##suffix(Real x1, Real y1, Real z1, Real x2, Real y2, Real z2, Real x0, Real y0, Real z0) \
-      PSTRIPACK_NOEXCEPT;                                                                                  \
-  PSTRIPACK_CALL(Real)                                                                                     \
-  pstripack_areas_##suffix(const Real* v1, const Real* v2, const Real* v3) PSTRIPACK_NOEXCEPT;             \
-  PSTRIPACK_CALL(void)                                                                                     \
-  pstripack_circum_##suffix(const Real* v1, const Real* v2, const Real* v3, Real* c, Int* ier)             \
-      PSTRIPACK_NOEXCEPT;                                                                                  \
-  PSTRIPACK_CALL(void)                                                                                     \
-  pstripack_triareas_##suffix(Int n, const Real* x, const Real* y, const Real* z, Int nt,                  \
-                              const Int* triangles, Real* triarea) PSTRIPACK_NOEXCEPT;
-
-#define PSTRIPACK_MESH_CALLS(Real, Int, suffix)                                                              \
-  PSTRIPACK_CALL(void)                                                                                       \
-  pstripack_crlist_##suffix(Int n, Int ncol, const Real* x, const Real* y, const Real* z, const Int* list,   \
-                            const Int* lend, Int* lptr, Int* lnew, Int* ltri, Int* listc, Int* nb, Real* xc, \
-                            Real* yc, Real* zc, Real* rc, Int* ier) PSTRIPACK_NOEXCEPT;                      \
-  PSTRIPACK_CALL(void)                                                                                       \
-  pstripack_trfind_##suffix(Int nst, const Real* p, Int n, const Real* x, const Real* y, const Real* z,      \
-                            const Int* list, const Int* lptr, const Int* lend, Real* b1, Real* b2, Real* b3, \
-                            Int* i1, Int* i2, Int* i3) PSTRIPACK_NOEXCEPT;                                   \
-  PSTRIPACK_CALL(Int)                                                                                        \
-  pstripack_nearnd_##suffix(const Real* p, Int ist, Int n, const Real* x, const Real* y, const Real* z,      \
-                            const Int* list, const Int* lptr, const Int* lend, Real* al) PSTRIPACK_NOEXCEPT;
-
-#define PSTRIPACK_QUERY_CALLS(Real, Int, suffix)                                                           \
-  PSTRIPACK_CALL(void)                                                                                     \
-  pstripack_getnp_##suffix(const Real* x, const Real* y, const Real* z, const Int* list, const Int* lptr,  \
-                           const Int* lend, Int l, Int* npts, Real* df, Int* ier) PSTRIPACK_NOEXCEPT;      \
-  PSTRIPACK_CALL(Int)                                                                                      \
-  pstripack_inside_##suffix(const Real* p, Int lv, const Real* xv, const Real* yv, const Real* zv, Int nv, \
-                            const Int* listv, Int* ier) PSTRIPACK_NOEXCEPT;                                \
-  PSTRIPACK_CALL(void)                                                                                     \
-  pstripack_intrsc_##suffix(const Real* p1, const Real* p2, const Real* cn, Real* p, Int* ier)             \
-      PSTRIPACK_NOEXCEPT;                                                                                  \
+#define PSTRIPACK_JRAND(Int, suffix) \
   PSTRIPACK_CALL(Int) pstripack_jrand_##suffix(Int n, Int* ix, Int* iy, Int* iz) PSTRIPACK_NOEXCEPT;
-
-PSTRIPACK_LIST_CALLS(int32_t, i4)
-PSTRIPACK_SPHERE_CALLS(float, int32_t, r4)
-PSTRIPACK_SPHERE_CALLS(double, int32_t, r8)
-PSTRIPACK_MESH_CALLS(float, int32_t, r4)
-PSTRIPACK_MESH_CALLS(double, int32_t, r8)
-PSTRIPACK_LIST_CALLS(int64_t, i8)
-PSTRIPACK_SPHERE_CALLS(double, int64_t, i8)
-PSTRIPACK_MESH_CALLS(double, int64_t, i8)
-PSTRIPACK_QUERY_CALLS(float, int32_t, r4)
-PSTRIPACK_QUERY_CALLS(double, int32_t, r8)
-PSTRIPACK_QUERY_CALLS(double, int64_t, i8)
-
-#ifdef __cplusplus
+PSTRIPACK_JRAND(int32_t, r4)
+PSTRIPACK_JRAND(int32_t, r8)
+PSTRIPACK_JRAND(int64_t, i8)
 }
-#endif
 #endif

@@ -670,13 +670,12 @@ class MeshPicture {
   void draw_legend_of_owners() {
     const auto [fewest, most] = std::minmax_element(
         shades_.begin(), shades_.end(), [](const Shade& a, const Shade& b) { return a.count < b.count; });
-    const char* const kind =
-        options_.partition == pstripack::PartitionKind::stripes ? "stripes" : "bisection";
-    sheet_.centred(top_ + 14, 14,
-                   fmt::format("{}: which of {} {} owns a {}; {} to {} nodes each", kind, options_.ranks,
-                               options_.ranks == 1 ? "rank" : "ranks",
-                               options_.what == What::cells ? "node" : "triangle", grouped(fewest->count),
-                               grouped(most->count)));
+    sheet_.centred(
+        top_ + 14, 14,
+        fmt::format("{}: which of {} {} owns a {}; {} to {} nodes each", name_of(options_.partition),
+                    options_.ranks, options_.ranks == 1 ? "rank" : "ranks",
+                    options_.what == What::cells ? "node" : "triangle", grouped(fewest->count),
+                    grouped(most->count)));
     top_ += 18;
   }
 

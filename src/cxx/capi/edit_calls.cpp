@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "base/floating_point.h"
+#include "capi/plain_calls.h"
 #include "stripack/arc_edit.h"
 #include "stripack/list_edit.h"
 #include "stripack/node_edit.h"

@@ -8,7 +8,7 @@
 //
 // The suffix gives the kinds: _r4, _r8 reals of 32 and 64 bits, with integers of 32 bits; _i8 reals and
 // integers of 64 bits; _i4, _i8 integers, without reals. Further kinds need further instances of the
-// macros. The functions are declared in stripack_abi.F90 for Fortran, and in a header of the tests.
+// macros. The declarations in plain_calls.h and those for Fortran are made from docs/api/routines.
 
 #include <stdint.h>
 
@@ -17,6 +17,7 @@
 #include <new>
 
 #include "base/floating_point.h"
+#include "capi/plain_calls.h"
 #include "stripack/list_queries.h"
 #include "stripack/original/original_rules.h"
 #include "stripack/polygon.h"

@@ -6,7 +6,7 @@
 
 namespace pstripack {
 
-/// The partition that PSTRIPACK_PARTITION of this process names (bisection, stripes; read once), and as many
+/// The partition that PSTRIPACK_PARTITION of this process names (read once), and as many
 /// threads and patches as `local_nodes` nodes are worth.
 ParallelOptions options_from_environment(std::size_t local_nodes);
 

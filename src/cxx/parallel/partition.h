@@ -30,6 +30,16 @@ enum class PartitionKind {
   stripes_of_width,  ///< stripes of longitude of equal width, as published
 };
 
+/// All of them in this order, and what pictures call them.
+struct NamedPartition {
+  PartitionKind kind;
+  const char* name;
+};
+inline constexpr NamedPartition kPartitions[] = {{PartitionKind::bisection, "bisection"},
+                                                 {PartitionKind::stripes, "stripes"},
+                                                 {PartitionKind::stripes_of_width, "stripes_of_width"}};
+inline const char* name_of(PartitionKind kind) { return kPartitions[static_cast<int>(kind)].name; }
+
 struct Ball {
   Point centre;
   double radius;  ///< length of the straight line, not of the arc
