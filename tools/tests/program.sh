@@ -26,17 +26,20 @@ octahedron() { printf '1 0 0\n0 1 0\n0 0 1\n-1 0 0\n0 -1 0\n0 0 -1\n'; }
 
 case $1 in
 documented_tables)
-  # $DOCUMENT quotes these tables of --help. A test of tests/docs compares the options with pstripack.1.
-  compare_table() { # TITLE COMMAND: from the line TITLE to one that does not begin with a blank
-    for text in "$DOCUMENT" help; do
-      "$PSTRIPACK" "$2" --help > help
-      awk -v title="$1" '$0 == title { on = 1; print; next } on && !/^ / { exit } on' "$text" > "$(basename "$text").table"
-    done
-    [ -s help.table ] || fail "'pstripack $2 --help' has no '$1'"
-    diff "$(basename "$DOCUMENT").table" help.table || fail "docs/pstripack.md has another table '$1'"
+  # $DOCUMENT names the formats with their suffixes, (`name`; `.suffix`, ...), and the densities of --help. A test of
+  # tests/docs compares the options with pstripack.1.
+  rows_of() { # TITLE COMMAND: of --help, from the line after TITLE to one that does not begin with a blank
+    "$PSTRIPACK" "$2" --help | awk -v title="$1" '$0 == title { on = 1; next } on && !/^ / { exit } on'
   }
-  compare_table "Formats and their suffixes:" triangulate
-  compare_table "Densities:" scvt
+  rows_of "Formats and their suffixes:" triangulate |
+    awk '{ line = $1; for (i = 2; $i ~ /^\./; ++i) line = line " " $i; print line }' | sort > help.formats
+  [ -s help.formats ] || fail "'pstripack triangulate --help' has no formats"
+  grep -o '(`[a-z]*`; `\.[^)]*)' "$DOCUMENT" | tr -d '(`;,)' | sort > document.formats
+  diff document.formats help.formats || fail "docs/pstripack.md has other formats or suffixes than --help"
+  rows_of "Densities:" scvt | sed -n 's/^  \([a-z]*\).*/\1/p' | grep . | sort -u > help.densities
+  [ -s help.densities ] || fail "'pstripack scvt --help' has no densities"
+  sed -n '/^  Formulas: /,/(`--help`)/p' "$DOCUMENT" | grep -o '`[a-z]*`' | tr -d '`' | sort -u > document.densities
+  diff document.densities help.densities || fail "docs/pstripack.md has other densities than --help"
   ;;
 
 pipes)
