@@ -53,8 +53,8 @@ module stripack
     ! IER  0 done; -1 N < 3; -2 nodes 1, 2, 3 lie on one great circle, by exact sign: number others first;
     !      L > 0 nodes L and M coincide, L < M; M is the smallest such index; -4 N > 357,913,943: 6N-11 does
     !      not fit 32 bits; in libstripack_i8 too (new); -5 a coordinate is not finite, or a node is (0,0,0)
-    !      (new); -6 out of memory (new); -7 collective calls only: the ranks disagree in N or in the
-    !      coordinates (new); -8 collective calls only: the communicator cannot be used (new).
+    !      (new); -6 out of memory (new); -7 collective calls only: the ranks disagree in N, the coordinates
+    !      or PSTRIPACK_ORDER (new); -8 collective calls only: the communicator cannot be used (new).
 #ifdef STRIPACK_8_ARGUMENTS
     subroutine trmesh(n, x, y, z, list, lptr, lend, ier)
       integer :: n, list(*), lptr(*), lend(n), ier
