@@ -18,13 +18,22 @@ void Patch<Int>::set_up(const std::vector<Record>& closing, Workspace& workspace
 
 template <class Int>
 void Patch<Int>::take_in(std::vector<Record> nodes) {
-  if (nodes_.own == 0 || nodes.empty()) return;
-  keep_one_of_each(nodes);
+  if (nodes_.own == 0) return;
+  // Patches that agree on stars ask about the same triangles again and again: most nodes are in.
+  nodes.erase(
+      std::remove_if(nodes.begin(), nodes.end(),
+                     [&](const Record& r) { return hull_.find(r.number) != PatchHull<Int>::kNobody; }),
+      nodes.end());
+  constexpr std::size_t kMany = 1000;
+  if (nodes.size() < kMany) {  // sorting them would take longer than the searches
+    for (const Record& r : nodes) hull_.take_in(r);
+    return;
+  }
+  keep_one_of_each(nodes);  // no cell of the curve could tell equal ones apart
   Workspace workspace(16 * nodes.size());
   std::vector<std::uint32_t> order(nodes.size());
   insertion_order(&nodes[0].point, nodes.size(), order.data(), workspace, sizeof(Record));
-  for (std::size_t step : {64, 8, 1})
-    for (std::size_t k = 0; k < order.size(); k += step) hull_.take_in(nodes[order[k]]);
+  for (const std::uint32_t k : order) hull_.take_in(nodes[k]);
 }
 
 template <class Int>

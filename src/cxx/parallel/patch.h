@@ -53,9 +53,8 @@ class Patch {
     return pstripack::ask(view(), corners, stretch, most, asked_);
   }
 
-  /// Adds nodes of other patches to the triangulation, unless it has them: along a curve, so that the search
-  /// for each begins near it, and in three rounds, the first of every 64th node. One after another, the nodes
-  /// of a boundary would each change many faces at the back of the hull. Throws HiddenNode, std::bad_alloc.
+  /// Adds nodes of other patches to the triangulation, unless it has them. Many are added along a curve, so
+  /// that the search for each begins near it. Throws HiddenNode, std::bad_alloc.
   void take_in(std::vector<Record> nodes);
 
   /// The answer of this patch to another's question: nodes that lie above the triangle, or that show that the

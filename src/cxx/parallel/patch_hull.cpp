@@ -8,7 +8,7 @@ namespace pstripack {
 namespace {
 
 /// Leaves room for nodes that are taken in later. If they are more, make_room() takes memory anew.
-std::size_t capacity_for(std::size_t nodes) { return nodes + nodes / 8 + 256; }
+std::size_t capacity_for(std::size_t nodes) { return nodes + nodes / 16 + 256; }
 
 }  // namespace
 
