@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/parallel_for.h"
+#include "geometry/predicate_stages.h"
 
 namespace pstripack {
 namespace {
@@ -258,8 +259,11 @@ std::size_t insertion_order(const Point* first_point, std::size_t n, std::uint32
   Entry* const other = workspace.take<Entry>(n);
   const int threads = threads_for(n);
   const Square square = square_of_all(points, n);
-  parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int) {
+  std::vector<std::size_t> highest(static_cast<std::size_t>(threads));  // by rank, of each thread's nodes
+  parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int thread) {
+    std::size_t& high = highest[static_cast<std::size_t>(thread)] = first;
     for (std::size_t i = first; i < last; ++i) {
+      if (lower_rank(points[high], points[i])) high = i;
       const OnCube q = on_cube(points[i]);
       const std::uint64_t along = along_curve(square.cell_s(q, cells), square.cell_t(q, cells), blocks,
                                               static_cast<std::uint16_t>(q.face & kSwap));
@@ -281,15 +285,23 @@ std::size_t insertion_order(const Point* first_point, std::size_t n, std::uint32
     // Three levels by exponent and eleven in equal parts reach adjacent doubles.
     if (j - i > kCrowd) refine(points, entries + i, entries + j, 20, Halving::equal);
   }
+  const auto is_lower = [&](std::size_t a, std::size_t b) { return lower_rank(points[a], points[b]); };
+  const std::size_t high = *std::max_element(highest.begin(), highest.end(), is_lower);
+  std::uint32_t* place_of_high = order;
   parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int) {
     auto next = std::lower_bound(alone.begin(), alone.end(), first);
     for (std::size_t i = first; i < last; ++i) {
       const bool is_alone = next != alone.end() && *next == i;
-      order[is_alone ? next - alone.begin() : i + (alone.end() - next)] = node_of(entries[i]);
+      std::uint32_t* const place = order + (is_alone ? next - alone.begin() : i + (alone.end() - next));
+      *place = node_of(entries[i]);
+      if (*place == high) place_of_high = place;
       next += is_alone;
     }
   });
-  return alone.size();
+  std::uint32_t* const end_of_alone = order + alone.size();
+  if (place_of_high < end_of_alone) return alone.size();
+  std::rotate(end_of_alone, place_of_high, place_of_high + 1);
+  return alone.size() + 1;
 }
 
 }  // namespace pstripack

@@ -14,9 +14,11 @@ namespace pstripack {
 /// finite vectors of any length, `stride` bytes apart; n < 2^29. Parallel. Takes 16 bytes per node of the
 /// workspace.
 ///
-/// Isolated nodes, about 256 at most, come first, in the order of the curve; returns their number. If an
-/// isolated node came late it would see most of the hull built before: the pole of a circle would see all
-/// its triangles.
+/// Nodes that would see most of the hull built before if they came late come first; returns their number:
+///   - isolated nodes, about 256 at most, in the order of the curve: the pole of a circle sees all triangles
+///     of that circle;
+///   - the node of highest rank (predicates.h, tie rule): all triangles of nodes on one circle have it as a
+///     corner. Late, every node on the way to it would have them all for a while.
 std::size_t insertion_order(const Point* points, std::size_t n, std::uint32_t* order, Workspace& workspace,
                             std::size_t stride = sizeof(Point));
 
