@@ -671,7 +671,7 @@ TEST(Homes, OfDirectionsAreForLengthsAboutOneToo) {
     Division division(Places(last, 1e-7));
     division.partition = partition;
     for (int rank = 0; rank < 2; ++rank) division.patches.add(1);
-    return Homes(division, PartitionKind::bisection).are_for(PartitionKind::bisection, division.patches, now);
+    return Homes(division, {}, {}).are_for(PartitionKind::bisection, division.patches, now);
   };
   EXPECT_TRUE(are_for(Lengths::as_given, Lengths::as_given));
   EXPECT_TRUE(are_for(Lengths::directions, Lengths::directions));
@@ -692,6 +692,62 @@ TEST_F(KeptPatches, HoldForNodesThatAreDenseElsewhere) {
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (taken[rank[i]]++ < each) even.push_back(nodes[i]);
   EXPECT_TRUE(keeps(even, at_home(even)));
+}
+
+/// Nodes that take very different times, or have their neighbours far away.
+class Drafts : public KeptPatches {
+ protected:
+  void SetUp() override {
+    options_.with_neighbours = true;
+    options_.most_questions = SIZE_MAX;
+  }
+  Draft draft() const {
+    for (const auto& h : homes_) EXPECT_EQ(h->draft(), homes_[0]->draft());
+    return homes_[0]->draft();
+  }
+  void begin(const Nodes& nodes) {
+    std::vector<std::size_t> slices;
+    for (std::size_t i = 0; i < nodes.size(); ++i) slices.push_back(i * kRanks / nodes.size());
+    EXPECT_FALSE(keeps(nodes, slices));
+    EXPECT_EQ(draft(), Draft::first);
+  }
+};
+
+TEST_F(Drafts, AreTwoAtMostForNodesThatFollowThem) {
+  std::size_t seconds = 0;
+  for (const auto& [family, n] : {std::pair{"random", 6000},
+                                  {"falling:14", 6000},
+                                  {"spiral:20", 40000},
+                                  {"moment:6", 6000},
+                                  {"ring", 6000},
+                                  {"crossing:1e-3", 6000},
+                                  {"nest:100", 6000},
+                                  {"falling-tee:6", 6000}}) {
+    const Nodes nodes = Set(point_sets::make(family, static_cast<std::size_t>(n), 3)).nodes;
+    begin(nodes);
+    const bool is_kept = keeps(nodes, at_home(nodes));
+    const Draft second = draft();
+    EXPECT_EQ(second, is_kept ? Draft::kept : Draft::second) << family;
+    seconds += second == Draft::second;
+    for (int call = 0; call < 2; ++call) {
+      EXPECT_TRUE(keeps(nodes, at_home(nodes))) << family;
+      EXPECT_EQ(draft(), second) << family;
+    }
+    for (auto& h : homes_) h.reset();
+  }
+  EXPECT_GE(seconds, 4);
+}
+
+TEST_F(Drafts, EndForNodesThatStayWhereTheFirstHadThem) {
+  const Nodes nodes = Set(point_sets::make("falling:14", 6000, 3)).nodes;
+  begin(nodes);
+  const std::vector<std::size_t> first = at_home(nodes);
+  EXPECT_FALSE(keeps(nodes, first));
+  ASSERT_EQ(draft(), Draft::second);
+  EXPECT_FALSE(keeps(nodes, first));
+  EXPECT_EQ(draft(), Draft::last);
+  EXPECT_TRUE(keeps_soon(nodes));
+  EXPECT_EQ(draft(), Draft::last);
 }
 
 TEST(Numbers, BeyondThirtyTwoBits) {
@@ -825,7 +881,7 @@ TEST(Agreement, GivesTheSerialRingsOfEveryFamily) {
         in_one_patch += out.cost[0].in_one_patch;
       }
     }
-  EXPECT_GT(agreed, 300);
+  EXPECT_GT(agreed, 250);  // in the others, comparing triangles leaves no question
   EXPECT_EQ(in_one_patch, 0);
 }
 
@@ -931,7 +987,7 @@ TEST(Agreement, OfNodesThatAnAdversaryHasPlaced) {
   }
   EXPECT_GT(of_directions, 20);
   EXPECT_GT(with_boundary, 100);
-  EXPECT_GT(agreed, 300);
+  EXPECT_GT(agreed, 250);  // in the others, comparing triangles leaves no question
   EXPECT_EQ(in_one_patch, 0);
 }
 

@@ -165,6 +165,7 @@ bool same_direction(const Point& a, const Point& b) {
   return n.x == 0 && n.y == 0 && n.z == 0;  // equal signs: not opposite
 }
 
+const PredicateCounts& predicate_counts() { return stages; }
 PredicateCounts take_predicate_counts() { return std::exchange(stages, {}); }
 
 int Coordinates::left(index_t a, index_t b, index_t c) const { return pstripack::left(p_[a], p_[b], p_[c]); }

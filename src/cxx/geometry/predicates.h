@@ -225,7 +225,9 @@ class Directions::View {
   std::unique_ptr<Memory> memory_;
 };
 
-/// Counts since the last call in this thread; for tests and measurements.
+/// Counts in this thread since the last call of take_predicate_counts().
+const PredicateCounts& predicate_counts();
+/// The same; the next ones begin at 0. For tests and measurements.
 PredicateCounts take_predicate_counts();
 
 }  // namespace pstripack

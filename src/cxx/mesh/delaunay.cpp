@@ -481,8 +481,9 @@ class Builder final : public GrowingHull {
         [&](HullFace t, const Spoke& to_corner) { return sees_closely(v, t, to_corner); });
   }
 
-  /// Makes the next search start at the nearest of 64 nodes. The last search may have ended far away, and the
-  /// faces in between are in no cache (Muecke, Saias & Zhu 1999, jump and walk).
+  /// Makes the next search start at the nearest of 64 nodes or nearer, since most nodes are numbered along
+  /// the curve. The last search may have ended far away, and the faces in between are in no cache (Muecke,
+  /// Saias & Zhu 1999, jump and walk).
   void start_near(const Point& p) {
     if (!coincident_.empty()) return;  // nodes that were left out have no corner_
     const auto square_from = [&](HullNode v) {
@@ -493,11 +494,18 @@ class Builder final : public GrowingHull {
     const std::size_t step = n_ / kLookedAt + 1;
     const auto& last = faces_[last_].vertex;
     double least = std::min({square_from(last[0]), square_from(last[1]), square_from(last[2])});
-    for (std::size_t v = 0; v < n_; v += step) {
+    std::size_t nearest = n_;
+    const auto look_at = [&](std::size_t v) {
       const double square = square_from(static_cast<HullNode>(v));
-      if (!(square < least)) continue;
+      if (!(square < least)) return;
       const HullFace t = face_of(corner_[v]);
-      if (planes_[t].w > 1) least = square, last_ = t;
+      if (planes_[t].w > 1) least = square, nearest = v, last_ = t;
+    };
+    for (std::size_t v = 0; v < n_; v += step) look_at(v);
+    for (std::size_t half = step / 2; half > 0 && nearest < n_; half /= 2) {
+      const std::size_t v = nearest;
+      if (v >= half) look_at(v - half);
+      if (v + half < n_) look_at(v + half);
     }
   }
 

@@ -107,7 +107,7 @@ std::int32_t DistributedMesh::triangulate_into(const LocalNodes& points, const N
   const PhaseTimer timer(&cost, ParallelCost::lists, &ranks_);
   std::copy(points.numbers, points.numbers + points.count, numbers.data());
   homes_ = std::move(stars.homes);
-  next_.are_at_home = are_at_home(points, numbering.total);
+  next_.are_at_home = are_at_home(points);
   if (next_.wants_sample) {
     try {
       next_.sample = sample_of(points, stars);
@@ -128,7 +128,7 @@ bool DistributedMesh::begin_with_last(const LocalNodes& points, Report* report, 
   OnAll same{points.count == own_.count() &&
              std::equal(own_.numbers(), own_.numbers() + own_.count(), points.numbers)};
   OnAll fits{allowed.value && same.value && next_.sample && next_.sample->fits(points.points)};
-  OnAll were_at_home{next_.are_at_home}, are_at_home{allowed.value && this->are_at_home(points, total_)};
+  OnAll were_at_home{next_.are_at_home}, are_at_home{allowed.value && this->are_at_home(points)};
   OnAny reported{ranks_.rank() == 0 && report != nullptr};
   std::unique_ptr<MovingStars> moving = next_.moving.take();
   OnAll have_moving{moving != nullptr};  // if not, all ranks make them anew
@@ -163,13 +163,6 @@ bool DistributedMesh::begin_with_last(const LocalNodes& points, Report* report, 
   return true;
 }
 
-/// True if nearly all points of this rank are at home, and they are not too large a part of all points.
-bool DistributedMesh::are_at_home(const LocalNodes& points, std::int64_t all) const {
-  return homes_->are_home_to_most(points, ranks_.rank()) &&
-         homes_->is_share_of(static_cast<std::size_t>(ranks_.rank()), points.count,
-                             static_cast<std::size_t>(all));
-}
-
 /// The relocation from the points of the last call to these, if they have the same numbers. `fits`: the
 /// sample of stars fits. Collective.
 std::optional<Relocation> DistributedMesh::relocation_to(const LocalNodes& points, OnAll& fits) {
@@ -188,7 +181,7 @@ void DistributedMesh::relocate(const Relocation& relocation, const LocalNodes& p
     numbers = BlockArray<std::int64_t>(points.count);
     std::copy_n(points.numbers, points.count, numbers.data());
   });
-  next_.are_at_home = are_at_home(points, total_);
+  next_.are_at_home = are_at_home(points);
   own_ = own_.visit(
       [&](const auto& last) { return OwnStars(std::move(numbers), relocation.stars(last, points, ranks_)); });
 }

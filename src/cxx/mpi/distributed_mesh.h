@@ -61,7 +61,8 @@ class DistributedMesh {
   template <class Int>
   std::int32_t triangulate_into(const LocalNodes& points, const Numbering& numbering, ParallelCost& cost);
   bool begin_with_last(const LocalNodes& points, Report* report, ParallelCost& cost);
-  bool are_at_home(const LocalNodes& points, std::int64_t all) const;
+  /// Whether the points of this rank are at home there, and not too many.
+  bool are_at_home(const LocalNodes& points) const { return homes_->are_home_to(points, ranks_.rank()); }
   std::optional<Relocation> relocation_to(const LocalNodes& points, OnAll& fits);
   void relocate(const Relocation& relocation, const LocalNodes& points);
   bool move_stars(std::unique_ptr<MovingStars> moving, std::optional<Relocation> relocation,

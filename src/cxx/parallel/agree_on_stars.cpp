@@ -40,6 +40,76 @@ bool are_few_and_kept(const Hubs& hubs, const Patches<Int>& patches, const Divis
                      [&](const Record& r) { return hubs.count(r.number) == 0; });
 }
 
+/// The claims of a patch on another.
+struct Claims {
+  PatchNumber from, to;
+  std::int64_t count;
+};
+
+/// Two patches compare their claims on each other: each sends the other the triangles that it keeps. Not
+/// where one has many more than the other, as at a hub: these are left for questions. Returns Claims, each
+/// followed by its triangles. Collective.
+template <class Int>
+Parcels exchange_claims(Patches<Int>& patches, const Division& division, Communicator& ranks, int threads) {
+  const auto size = static_cast<std::size_t>(ranks.size());
+  const Parcels counts = exchange_in_agreement(ranks, [&] {
+    std::vector<std::vector<Claims>> to_rank(size);
+    for (const Patch<Int>& patch : patches.of_rank)
+      for (PatchNumber q = 0; q < division.patches.count(); ++q)
+        if (const auto n = static_cast<std::int64_t>(patch.claims_on(q)); n > 0)
+          to_rank[division.patches.rank_of(q)].push_back({patch.id(), q, n});
+    return packed(to_rank);
+  });
+  return exchange_in_agreement(ranks, [&] {
+    constexpr std::int64_t kTimes = 2, kMore = 64;
+    struct List {
+      Claims claims;
+      std::vector<KeptTriangle> kept;
+    };
+    std::vector<std::vector<List>> to_rank(size);
+    for (RankNumber r = 0; r < size; ++r)
+      for (const Claims& theirs : Items<Claims>(counts, r)) {
+        const auto k = static_cast<PatchHere>(theirs.to - patches.of_rank[0].id());
+        const auto mine = static_cast<std::int64_t>(patches.of_rank[k].claims_on(theirs.from));
+        if (mine > 0 && std::max(mine, theirs.count) <= kTimes * std::min(mine, theirs.count) + kMore)
+          to_rank[r].push_back({{theirs.to, theirs.from, mine}, {}});
+      }
+    patches.for_each(threads, [&](Patch<Int>& patch, PatchHere) {
+      for (std::vector<List>& lists : to_rank)
+        for (List& list : lists)
+          if (list.claims.from == patch.id()) list.kept = patch.kept_with(list.claims.to);
+    });
+    ParcelWriter writer(size);
+    const auto for_each_list = [&](const auto& visit) {
+      for (RankNumber r = 0; r < size; ++r)
+        for (const List& list : to_rank[r]) visit(r, list);
+    };
+    for_each_list([&](RankNumber r, const List& list) {
+      writer.expect<Claims>(r);
+      writer.expect<KeptTriangle>(r, list.kept.size());
+    });
+    writer.make_room();
+    for_each_list([&](RankNumber r, const List& list) {
+      writer.put(r, list.claims);
+      std::copy(list.kept.begin(), list.kept.end(), writer.room<KeptTriangle>(r, list.kept.size()));
+    });
+    return writer.finish();
+  });
+}
+
+/// What others keep of the triangles that this patch claims.
+std::vector<KeptByOther> kept_by_others(PatchNumber patch, const Parcels& lists) {
+  std::vector<KeptByOther> kept;
+  for (RankNumber r = 0; r + 1 < lists.begin.size(); ++r)
+    for (ParcelReader reader(lists, r); !reader.is_at_end();) {
+      const Claims& theirs = reader.next<Claims>();
+      const auto count = static_cast<std::size_t>(theirs.count);
+      const KeptTriangle* const first = reader.array<KeptTriangle>(count);
+      if (theirs.to == patch) kept.push_back({theirs.from, first, count});
+    }
+  return kept;
+}
+
 }  // namespace
 
 template <class Int>
@@ -53,9 +123,37 @@ void agree_on_stars(Certified<Int>& certified, const Division& division, const C
   std::size_t most = kFewQuestions;
   const auto claim = [&] {
     std::vector<Doubts> of_patch(patches.of_rank.size());
-    patches.for_each(threads,
-                     [&](Patch<Int>& patch, PatchHere k) { of_patch[k] = patch.claim(corners, most); });
-    questions = Questions(of_patch, division.patches, static_cast<std::size_t>(ranks.size()));
+    OnAny are_new, are_many;  // claims: to compare many takes less time than to ask about them
+    const auto sum_up = [&] {
+      questions = Questions(of_patch, division.patches, static_cast<std::size_t>(ranks.size()));
+      for (const Doubts& doubts : of_patch) {
+        are_new.value |= doubts.has_new_claims;
+        are_many.value |= doubts.has_many_claims;
+      }
+    };
+    in_agreement(
+        ranks,
+        [&] {
+          patches.for_each(threads, [&](Patch<Int>& patch, PatchHere k) {
+            of_patch[k] = patch.claim(corners);
+            patch.ask_about_claims(most, of_patch[k]);
+          });
+          sum_up();
+        },
+        questions.about_triangles, questions.about_arcs, questions.left_out, questions.have_grown, are_new,
+        are_many);
+    if (!are_new.value || !are_many.value) return;
+    const Parcels lists = exchange_claims(patches, division, ranks, threads);
+    in_agreement(
+        ranks,
+        [&] {
+          patches.for_each(threads, [&](Patch<Int>& patch, PatchHere k) {
+            patch.settle(kept_by_others(patch.id(), lists));
+            patch.ask_about_claims(most, of_patch[k]);
+          });
+          sum_up();
+        },
+        questions.about_triangles, questions.about_arcs, questions.left_out, questions.have_grown);
   };
   const auto see_coincidence = [&] {
     // Patches may know different pairs of coincident nodes; the pair that is reported must not depend on
@@ -64,7 +162,7 @@ void agree_on_stars(Certified<Int>& certified, const Division& division, const C
     return certified.gave_up;
   };
   if (see_coincidence()) return;
-  in_agreement(ranks, claim, questions.about_triangles, questions.about_arcs, questions.left_out);
+  claim();
   // In the last round no question is left out and no patch takes in a node.
   for (bool is_last = !questions.about_triangles.value && !questions.about_arcs.value; !is_last;) {
     certified.gave_up = ++certified.rounds > kMostRounds;
@@ -90,7 +188,7 @@ void agree_on_stars(Certified<Int>& certified, const Division& division, const C
     }
     const bool was_complete = !questions.left_out.value;
     most = most > SIZE_MAX / kMoreQuestions ? most : most * kMoreQuestions;
-    in_agreement(ranks, claim, questions.have_grown, questions.left_out);
+    claim();
     is_last = was_complete && !questions.have_grown.value;
   }
   certified.has_hubs = !hubs.empty();

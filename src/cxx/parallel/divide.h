@@ -2,18 +2,17 @@
 // The first phase: a sample of the nodes, the same on every rank, and counts near the cuts cut the sphere
 // into patches.
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "parallel/communicator.h"
 #include "parallel/local_nodes.h"
 #include "parallel/local_numbers.h"
 #include "parallel/partition.h"
+#include "parallel/patch_ranges.h"
 #include "parallel/places.h"
 #include "parallel/record.h"
 
@@ -39,27 +38,12 @@ struct ParallelOptions {
 /// Three nodes that are not on one great circle, the same on every rank.
 using Corners = std::array<Record, 3>;
 
-/// Which patches each rank has, counted through all ranks.
-class PatchRanges {
- public:
-  /// Adds the patches of the next rank: their number.
-  void add(int patches) {
-    if (first_.empty()) first_.push_back(0);
-    first_.push_back(first_.back() + patches);
-  }
-
-  int count() const { return first_.back(); }
-  PatchNumber first(RankNumber rank) const { return first_[rank]; }
-  PatchNumber end(RankNumber rank) const { return first_[rank + 1]; }
-  std::size_t count(RankNumber rank) const { return static_cast<std::size_t>(end(rank) - first(rank)); }
-  RankNumber rank_of(PatchNumber patch) const {
-    return static_cast<RankNumber>(std::upper_bound(first_.begin(), first_.end(), patch) - first_.begin()) -
-           1;
-  }
-  bool operator==(const PatchRanges& other) const { return first_ == other.first_; }
-
- private:
-  std::vector<PatchNumber> first_;  ///< of each rank, and the end; no memory before ranks can agree on it
+/// How often the nodes of a mesh that is made again and again have been divided.
+enum class Draft {
+  first,   ///< into equal numbers
+  kept,    ///< the first has been kept once, since it was good
+  second,  ///< by what had to be done in the first, whose patches had been the homes of nearly all nodes
+  last,    ///< into equal numbers: nodes have not followed the second, so there will be none again
 };
 
 /// The sphere cut into patches. The same on every rank.
@@ -69,6 +53,7 @@ struct Division {
   std::size_t nodes = 0;  ///< of all ranks
   PatchRanges patches;
   std::shared_ptr<const Partition> partition;
+  Draft draft = Draft::first;
   std::vector<Record> closing;                                    ///< nodes from everywhere
   double most_stretch = std::numeric_limits<double>::infinity();  ///< of the closing nodes, if computed
   /// Patches agree on stars: they would have too many questions.
@@ -76,40 +61,6 @@ struct Division {
   /// There is one process only. Its caller can build one hull instead of asking many questions.
   bool may_give_up = false;
   bool gave_up = false;  ///< then there is nothing else
-};
-
-/// Which rank is the home of a place: the rank of its patch.
-class Homes {
- public:
-  Homes(const Division& division, PartitionKind kind)
-      : partition_(division.partition),
-        by_agreement_(division.by_agreement),
-        kind_(kind),
-        patches_(division.patches),
-        places_(division.places) {}
-
-  const std::shared_ptr<const Partition>& partition() const { return partition_; }
-  bool by_agreement() const { return by_agreement_; }
-  /// True if a call of this kind, with these numbers of patches and these lengths, can use these patches.
-  /// Nodes with Lengths::as_given always can: lengths are about 1, so places are nearly directions.
-  bool are_for(PartitionKind kind, const PatchRanges& patches, Lengths lengths) const {
-    return kind == kind_ && patches == patches_ &&
-           (lengths == Lengths::as_given || lengths == places_.lengths());
-  }
-  Lengths lengths() const { return places_.lengths(); }
-  /// False if a rank that brings `nodes` of `all` nodes has an eighth more than its share: then these patches
-  /// are not kept.
-  bool is_share_of(RankNumber rank, std::size_t nodes, std::size_t all) const;
-  /// True if nearly all of these nodes are at home on this rank, as a look at some of them tells.
-  bool are_home_to_most(const LocalNodes& nodes, int rank) const;
-  int rank(const Point& p) const { return static_cast<int>(patches_.rank_of(partition_->owner(places_(p)))); }
-
- private:
-  std::shared_ptr<const Partition> partition_;
-  bool by_agreement_;
-  PartitionKind kind_;
-  PatchRanges patches_;
-  Places places_;
 };
 
 /// Collective. Throws AgreedFailure.

@@ -58,7 +58,10 @@ class ParcelWriter {
 /// Unpacks the parcel of one rank, in the order in which it was packed.
 class ParcelReader {
  public:
-  ParcelReader(const Parcels& parcels, RankNumber rank) : at_(parcels.bytes.data() + parcels.begin[rank]) {}
+  ParcelReader(const Parcels& parcels, RankNumber rank)
+      : at_(parcels.bytes.data() + parcels.begin[rank]),
+        end_(parcels.bytes.data() + parcels.begin[rank + 1]) {}
+  bool is_at_end() const { return at_ == end_; }
   template <class Item>
   const Item* array(std::size_t n) {
     const auto* const items = reinterpret_cast<const Item*>(at_);
@@ -71,7 +74,7 @@ class ParcelReader {
   }
 
  private:
-  const unsigned char* at_;
+  const unsigned char *at_, *end_;
 };
 
 /// Items in parcels that hold nothing else.

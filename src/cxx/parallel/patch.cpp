@@ -17,6 +17,20 @@ void Patch<Int>::set_up(const std::vector<Record>& closing, Workspace& workspace
 }
 
 template <class Int>
+void Patch<Int>::triangulate() {
+  if (nodes_.own == 0) return;
+  const PredicateCounts before = predicate_counts();
+  hull_.build();
+  const PredicateCounts& after = predicate_counts();
+  const auto all = [&](std::int64_t nanoseconds, std::uint64_t PredicateCounts::*stage) {
+    return nanoseconds * static_cast<std::int64_t>(after.*stage - before.*stage);
+  };
+  work_ = 130 * static_cast<std::int64_t>(nodes_.count()) + all(30, &PredicateCounts::above) +
+          all(25, &PredicateCounts::left) + all(180, &PredicateCounts::double_double) +
+          all(100, &PredicateCounts::integers) + all(2000, &PredicateCounts::big_integers);
+}
+
+template <class Int>
 void Patch<Int>::take_in(std::vector<Record> nodes) {
   if (nodes_.own == 0) return;
   // Patches that agree on stars ask about the same triangles again and again: most nodes are in.

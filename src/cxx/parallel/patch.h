@@ -39,9 +39,7 @@ class Patch {
   /// outlive the patch and its rings. Throws HiddenNode if a quick test finds one, std::bad_alloc.
   void set_up(const std::vector<Record>& closing, Workspace& workspace);
   /// Triangulates them. Throws HiddenNode, std::bad_alloc.
-  void triangulate() {
-    if (nodes_.own > 0) hull_.build();
-  }
+  void triangulate();
 
   /// What is not certain yet of the stars of its own nodes, as questions to the patches that may know better.
   /// Every star is the star in the triangulation of all nodes when no patch has a question about triangles
@@ -50,7 +48,9 @@ class Patch {
   /// `most` questions it stops: nobody will answer them. Throws HiddenNode, std::bad_alloc.
   Doubts ask(const std::array<Record, 3>& corners, double stretch, std::size_t most) {
     if (nodes_.own == 0 || partition_->patches() == 1) return {};
-    return pstripack::ask(view(), corners, stretch, most, asked_);
+    Doubts doubts = pstripack::ask(view(), corners, stretch, most, asked_);
+    questions_ += static_cast<std::int64_t>(doubts.questions.size() - doubts.arcs);
+    return doubts;
   }
 
   /// Adds nodes of other patches to the triangulation, unless it has them. Many are added along a curve, so
@@ -67,12 +67,21 @@ class Patch {
 
   // Certification by agreement, where there would be too many questions: docs/parallel.md, "Agreement".
 
-  /// Asks about triangles as ask() does, but only the owners of the corners, which must have the same
-  /// triangles: at most `most` questions to each patch, and few about nodes that may be hubs. Asks about all
-  /// arcs as ask() does. Throws HiddenNode, std::bad_alloc.
-  Doubts claim(const std::array<Record, 3>& corners, std::size_t most) {
+  /// Finds what other patches must agree on: the triangles with own corners and theirs, each a claim on the
+  /// owners of these. Asks about all arcs as ask() does. Throws HiddenNode, std::bad_alloc.
+  Doubts claim(const std::array<Record, 3>& corners) {
     if (nodes_.own == 0 || partition_->patches() == 1) return {};
-    return agreed_.claim(hull_, view(), corners, most, asked_);
+    return agreed_.claim(view(), corners, asked_);
+  }
+  std::size_t claims_on(PatchNumber other) const { return agreed_.claims_on(other); }
+  /// The triangles of its claims on that patch. Throws std::bad_alloc.
+  std::vector<KeptTriangle> kept_with(PatchNumber other) const { return agreed_.kept_with(view(), other); }
+  /// Settles the claims that others share, and no other claim. Throws std::bad_alloc.
+  void settle(const std::vector<KeptByOther>& of_others) { agreed_.settle(view(), of_others); }
+  /// Replaces its questions about triangles: about the claims that are not settled: at most `most` to each
+  /// patch, and few about nodes that may be hubs. Throws std::bad_alloc.
+  void ask_about_claims(std::size_t most, Doubts& doubts) {
+    if (nodes_.own > 0) agreed_.ask(hull_, view(), most, doubts);
   }
   /// Other patches have answered its question with nodes above the triangle.
   void see_refuted(const Question& question) { agreed_.see_refuted(view(), question); }
@@ -123,6 +132,11 @@ class Patch {
   PatchNumber id() const { return id_; }
   std::size_t own() const { return nodes_.own; }
   std::size_t halo() const { return nodes_.halo; }
+  /// About how many nanoseconds triangulate() took, by the decisions of the predicates. The same in every
+  /// run, which no clock tells.
+  std::int64_t work() const { return work_; }
+  /// Number of questions about triangles in all calls of ask().
+  std::int64_t questions() const { return questions_; }
   /// The numbers of different nodes in the same direction, as far as it has found them.
   const CoincidentPairs& coincident() const { return hull_.coincident(); }
 
@@ -136,6 +150,7 @@ class Patch {
   Asked asked_;
   PatchAgreement<Int> agreed_;
   Hull finished_;
+  std::int64_t work_ = 0, questions_ = 0;
 };
 
 template <class Int>

@@ -1,5 +1,12 @@
 #include "parallel/patch_agreement.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+#include "base/scattered.h"
+#include "parallel/number_table.h"
+
 namespace pstripack {
 namespace {
 
@@ -7,36 +14,54 @@ namespace {
 /// about. It is one if the owner confirms most of the first kAFew.
 constexpr std::size_t kManyTriangles = 64, kAFew = 8;
 
+/// Never kNoNumber.
+GlobalNumber hash_of(const KeptTriangle& t, PatchNumber patch) {
+  std::uint64_t hash = static_cast<std::uint64_t>(patch);
+  for (const GlobalNumber number : t) hash = scattered(hash ^ static_cast<std::uint64_t>(number));
+  return GlobalNumber{static_cast<std::int64_t>(hash >> 2) + 1};
+}
+
+/// The triangle of face t, the smallest number first.
+template <class Int>
+KeptTriangle kept_triangle(const PatchView<Int>& patch, HullFace t) {
+  const auto& vertex = patch.hull.face(t).vertex;
+  KeptTriangle corners{patch.hull.number(vertex[0]), patch.hull.number(vertex[1]),
+                       patch.hull.number(vertex[2])};
+  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+  return corners;
+}
+
 }  // namespace
 
 template <class Int>
-Doubts PatchAgreement<Int>::claim(PatchHull<Int>& hull, const PatchView<Int>& patch,
-                                  const std::array<Record, 3>& corners, std::size_t most, Asked& asked) {
+Doubts PatchAgreement<Int>::claim(const PatchView<Int>& patch, const std::array<Record, 3>& corners,
+                                  Asked& asked) {
+  const PatchHull<Int>& hull = patch.hull;
   Doubts doubts;
   const std::size_t n = hull.growing().node_count();
   doubts.has_grown = n != asked.nodes;
   ask_about_arcs(patch, corners, asked, doubts);
   asked.nodes = n;
-  asked.around.clear();
-  asked.is_around.assign(n, false);
-  asked_about_.assign(n, {});
   if (!hubs_.empty())
     for (auto v = static_cast<HullNode>(is_hub_.size()); v < n; ++v)
       is_hub_.push_back(hubs_.count(hull.number(v)) > 0);
-
-  struct Claim {
-    HullFace face;
-    HullNode node;
-    PatchNumber owner;
-  };
-  std::vector<Claim> claims;
+  const bool is_first = to_patch_.empty();
+  doubts.has_new_claims = doubts.has_grown || has_new_hubs_ || is_first;
+  has_new_hubs_ = false;
+  if (!doubts.has_new_claims) return doubts;
+  claims_.clear();
+  to_patch_.assign(static_cast<std::size_t>(patch.partition.patches()), 0);
+  asked.around.clear();
+  asked.is_around.assign(n, false);
   std::vector<PatchNumber> owner_of_node(n, -1);
-  std::vector<std::size_t> to_patch(static_cast<std::size_t>(patch.partition.patches()));
-  hull.for_each_face_at_border(0, [&](HullFace t, int own) {
-    if (own == 0) return;
+  hull.for_each_face_at_border(0, [&](HullFace t) {
     const auto& vertex = hull.face(t).vertex;
     const HullNode v[] = {vertex[0], vertex[1], vertex[2]};
     const bool has_one_hub = is_hub(v[0]) + is_hub(v[1]) + is_hub(v[2]) == 1;
+    // Most triangles at a hub have two own nodes: nobody is asked about them.
+    const auto says_nothing = [&](HullNode w) { return hull.is_own(w) || (is_hub(w) && asked.is_around[w]); };
+    if (has_one_hub && says_nothing(v[0]) && says_nothing(v[1]) && says_nothing(v[2])) return;
+    if (!hull.is_front(t)) return;
     bool keeps = false;
     for (const HullNode w : v) {
       if (!hull.is_own(w))
@@ -52,15 +77,63 @@ Doubts PatchAgreement<Int>::claim(PatchHull<Int>& hull, const PatchView<Int>& pa
       if (owner < 0) owner = patch.owner(w);
       if (owner == last) continue;
       last = owner;
-      claims.push_back({t, w, owner});
-      ++asked_about_[w].triangles;
-      ++to_patch[static_cast<std::size_t>(owner)];
+      claims_.push_back({t, w, owner, false});
+      ++to_patch_[static_cast<std::size_t>(owner)];
     }
   });
-  std::vector<std::size_t> passed(to_patch.size());
-  for (const Claim& claim : claims) {
+  return doubts;
+}
+
+template <class Int>
+std::vector<KeptTriangle> PatchAgreement<Int>::kept_with(const PatchView<Int>& patch,
+                                                         PatchNumber other) const {
+  std::vector<KeptTriangle> triangles;
+  for (const Claim& claim : claims_)
+    if (claim.owner == other) triangles.push_back(kept_triangle(patch, claim.face));
+  return triangles;
+}
+
+template <class Int>
+void PatchAgreement<Int>::settle(const PatchView<Int>& patch, const std::vector<KeptByOther>& of_others) {
+  std::size_t count = 0;
+  std::vector<bool> has_told(to_patch_.size());
+  for (const KeptByOther& kept : of_others) {
+    count += kept.count;
+    has_told[static_cast<std::size_t>(kept.other)] = true;
+  }
+  // By a hash of the triangle and the other patch. If two have the same, only one is found: the claim on the
+  // other is not settled but becomes a question.
+  NumberTable<const KeptTriangle*> table(count);
+  for (const KeptByOther& kept : of_others)
+    for (const KeptTriangle* t = kept.first; t < kept.first + kept.count; ++t)
+      table.insert(hash_of(*t, kept.other), t);
+  for (Claim& claim : claims_) {
+    claim.is_settled = false;
+    if (!has_told[static_cast<std::size_t>(claim.owner)]) continue;
+    const KeptTriangle mine = kept_triangle(patch, claim.face);
+    const KeptTriangle* const* const theirs = table.find_value(hash_of(mine, claim.owner));
+    claim.is_settled = theirs != nullptr && **theirs == mine;
+  }
+}
+
+template <class Int>
+void PatchAgreement<Int>::ask(PatchHull<Int>& hull, const PatchView<Int>& patch, std::size_t most,
+                              Doubts& doubts) {
+  asked_about_.assign(hull.growing().node_count(), {});
+  std::vector<std::size_t> to_patch(to_patch_.size()), passed(to_patch_.size()), not_of_hub(to_patch_.size());
+  doubts.questions.resize(doubts.arcs);
+  doubts.left_out = doubts.has_many_claims = false;
+  for (const Claim& claim : claims_) {
+    doubts.has_many_claims = doubts.has_many_claims || claim.is_settled;
+    if (claim.is_settled) continue;
+    ++asked_about_[claim.node].triangles;
+    ++to_patch[static_cast<std::size_t>(claim.owner)];
+  }
+  for (const Claim& claim : claims_) {
+    if (claim.is_settled) continue;
     const auto q = static_cast<std::size_t>(claim.owner);
     AskedAbout& about = asked_about_[claim.node];
+    if (about.triangles <= kManyTriangles && ++not_of_hub[q] > kAFew) doubts.has_many_claims = true;
     const std::size_t step = (to_patch[q] - 1) / most + 1;  // of too many, every step-th is asked
     if (passed[q]++ % step != 0 || (about.triangles > kManyTriangles && about.asked == kAFew)) {
       doubts.left_out = true;
@@ -71,7 +144,6 @@ Doubts PatchAgreement<Int>::claim(PatchHull<Int>& hull, const PatchView<Int>& pa
     doubts.questions.push_back(question_about(patch, claim.face));
     doubts.questions.back().to = claim.owner;
   }
-  return doubts;
 }
 
 template <class Int>

@@ -17,18 +17,34 @@
 
 namespace pstripack {
 
+/// The numbers of its corners, the smallest first.
+using KeptTriangle = std::array<GlobalNumber, 3>;
+
+/// What another patch keeps of the triangles with own corners and its corners.
+struct KeptByOther {
+  PatchNumber other;
+  const KeptTriangle* first;
+  std::size_t count;
+};
+
 /// The members do what those of Patch do.
 template <class Int>
 class PatchAgreement {
  public:
-  Doubts claim(PatchHull<Int>& hull, const PatchView<Int>& patch, const std::array<Record, 3>& corners,
-               std::size_t most, Asked& asked);
+  Doubts claim(const PatchView<Int>& patch, const std::array<Record, 3>& corners, Asked& asked);
+  std::size_t claims_on(PatchNumber other) const {
+    return to_patch_.empty() ? 0 : to_patch_[static_cast<std::size_t>(other)];
+  }
+  std::vector<KeptTriangle> kept_with(const PatchView<Int>& patch, PatchNumber other) const;
+  void settle(const PatchView<Int>& patch, const std::vector<KeptByOther>& of_others);
+  void ask(PatchHull<Int>& hull, const PatchView<Int>& patch, std::size_t most, Doubts& doubts);
   /// The answer to a question has refuted the triangle.
   void see_refuted(const PatchView<Int>& patch, const Question& question);
   std::vector<GlobalNumber> look_for_hubs(const PatchHull<Int>& hull) const;
   void set_hubs(const std::unordered_set<GlobalNumber>& numbers) {
     hubs_ = numbers;
     is_hub_.clear();
+    has_new_hubs_ = true;
   }
   std::vector<GlobalNumber> kept_hubs(const PatchHull<Int>& hull) const;
   template <class Visit>
@@ -68,12 +84,21 @@ class PatchAgreement {
     return hull.is_own(is_hub_[x] ? h : x) && hull.growing().front(t);
   }
 
-  struct AskedAbout {  ///< of a node of another patch
+  struct Claim {
+    HullFace face;
+    HullNode node;
+    PatchNumber owner;  ///< of the node
+    bool is_settled;    ///< the owner's patch keeps the triangle, too
+  };
+  std::vector<Claim> claims_;
+  std::vector<std::size_t> to_patch_;  ///< number of claims, by PatchNumber
+  struct AskedAbout {                  ///< of a node of another patch
     std::size_t triangles = 0, asked = 0, refuted = 0;
   };
   std::vector<AskedAbout> asked_about_;  ///< by hull node
   std::vector<bool> is_hub_;             ///< by hull node; empty: there are none
   std::unordered_set<GlobalNumber> hubs_;
+  bool has_new_hubs_ = false;  ///< since the last claim
 };
 
 }  // namespace pstripack

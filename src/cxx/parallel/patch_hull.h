@@ -86,22 +86,24 @@ class PatchHull {
     } while (corner != first);
   }
 
-  /// Calls visit(t, own) for every front face t that has a corner v >= first which is not an own node; `own`
-  /// is the number of its corners that are own nodes.
+  bool is_front(HullFace t) const { return growing_->surrounds_centre() || growing_->front(t); }
+
+  /// Calls visit(t) for every face t, front or not, that has an own node and a node v >= first of others for
+  /// corners.
   template <class Visit>
   void for_each_face_at_border(std::size_t first, const Visit& visit) const {
     const auto n = static_cast<HullNode>(growing_->node_count());
-    const bool all_are_front = growing_->surrounds_centre();
     for (auto v = static_cast<HullNode>(first); v < n; ++v) {
       if (is_own(v)) continue;
       for_each_face_at(v, [&](HullFace t, std::uint32_t) {
         const auto& corner = arrays_.faces[t].vertex;
-        int own = 0;
+        bool has_own = false;
         for (int i = 0; i < 3; ++i) {
-          if (corner[i] < v && corner[i] >= first && !is_own(corner[i])) return;  // met there
-          own += is_own(corner[i]);
+          const bool own = is_own(corner[i]);
+          if (corner[i] < v && corner[i] >= first && !own) return;  // met there
+          has_own = has_own || own;
         }
-        if (all_are_front || growing_->front(t)) visit(t, own);
+        if (has_own) visit(t);
       });
     }
   }

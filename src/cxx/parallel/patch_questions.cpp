@@ -160,8 +160,8 @@ Doubts ask(const PatchView<Int>& patch, const std::array<Record, 3>& corners, do
   std::vector<PatchNumber> strangers;
   const auto ask_about = [&](HullFace t) { ask_about_triangle(patch, t, strangers, doubts.questions); };
   asked.is_around.resize(nodes);
-  hull.for_each_face_at_border(asked.nodes, [&](HullFace t, int own) {
-    if (own == 0 || doubts.questions.size() > most) return;
+  hull.for_each_face_at_border(asked.nodes, [&](HullFace t) {
+    if (doubts.questions.size() > most || !hull.is_front(t)) return;
     const Face& f = hull.face(t);
     for (const HullNode v : {f.vertex[0], f.vertex[1], f.vertex[2]})
       if (!hull.is_own(v)) asked.meet(v);

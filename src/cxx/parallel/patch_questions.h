@@ -25,9 +25,11 @@ struct Question {
 /// What a patch is not certain of yet.
 struct Doubts {
   std::vector<Question> questions;
-  std::size_t arcs = 0;    ///< number of the questions that are about arcs of the boundary
-  bool has_grown = false;  ///< the patch has taken in nodes since it asked last
-  bool left_out = false;   ///< it has more questions than it asks
+  std::size_t arcs = 0;          ///< number of the questions that are about arcs of the boundary
+  bool has_grown = false;        ///< the patch has taken in nodes since it asked last
+  bool has_many_claims = false;  ///< to compare with another patch, or has settled some
+  bool has_new_claims = false;   ///< it has grown, or there are new hubs: see Patch::claim
+  bool left_out = false;         ///< it has more questions than it asks
 };
 
 /// What a patch has asked about.

@@ -9,6 +9,7 @@
 #include "parallel/agreement.h"
 #include "parallel/deliver.h"
 #include "parallel/divide.h"
+#include "parallel/loads.h"
 #include "parallel/patch.h"
 
 namespace pstripack {
@@ -31,6 +32,16 @@ struct Patches {
     errors.rethrow();
   }
 };
+
+/// Throws std::bad_alloc.
+template <class Int>
+std::vector<PatchLoad> loads_of(const Patches<Int>& patches) {
+  std::vector<PatchLoad> loads;
+  for (const Patch<Int>& patch : patches.of_rank)
+    loads.push_back({static_cast<std::int64_t>(patch.own()),
+                     static_cast<std::int64_t>(patch.own() + patch.halo()), patch.work(), patch.questions()});
+  return loads;
+}
 
 /// Collective. Throws AgreedFailure or HiddenNode.
 template <class Int>

@@ -220,6 +220,58 @@ void enter_received(const Parcels& received, const ReturnAddresses& addresses, c
   }
 }
 
+/// Sorts records by number and keeps each number once, but none of `own`.
+void keep_one_of_each_but(const LocalNodes& own, std::vector<Record>& all) {
+  keep_one_of_each(all);
+  NumberFilter filter(all.size());
+  for (const Record& r : all) filter.add(r.number);
+  std::vector<GlobalNumber> some;
+  for (std::size_t i = 0; i < own.count; ++i)
+    if (filter.may_have(own.number(i))) some.push_back(own.number(i));
+  std::sort(some.begin(), some.end());
+  auto next = some.begin();  // both are sorted
+  all.erase(std::remove_if(all.begin(), all.end(),
+                           [&](const Record& r) {
+                             while (next != some.end() && *next < r.number) ++next;
+                             return next != some.end() && *next == r.number;
+                           }),
+            all.end());
+}
+
+/// The same for records in parts. A hub may have most nodes of the mesh for neighbours: then a table with a
+/// place for each number between the least and the largest takes less time than sorting.
+template <class ForEachPart>
+std::vector<Record> one_of_each_but(const LocalNodes& own, const ForEachPart& for_each_part) {
+  std::size_t count = 0;
+  std::int64_t least = INT64_MAX, largest = 0;
+  for_each_part([&](const HubRing::Part& part) {
+    count += part.count;
+    for (const Record* r = part.first; r < part.first + part.count; ++r) {
+      least = std::min(least, value_of(r->number));
+      largest = std::max(largest, value_of(r->number));
+    }
+  });
+  std::vector<Record> all;
+  all.reserve(count);
+  constexpr std::size_t kMany = 10000, kPlacesEach = 8;
+  if (count < kMany || static_cast<std::size_t>(largest - least) >= kPlacesEach * count) {
+    for_each_part(
+        [&](const HubRing::Part& part) { all.insert(all.end(), part.first, part.first + part.count); });
+    keep_one_of_each_but(own, all);
+    return all;
+  }
+  std::vector<const Record*> table(static_cast<std::size_t>(largest - least) + 1);
+  const auto place = [=](GlobalNumber n) { return static_cast<std::size_t>(value_of(n) - least); };
+  for_each_part([&](const HubRing::Part& part) {
+    for (const Record* r = part.first; r < part.first + part.count; ++r) table[place(r->number)] = r;
+  });
+  for (std::size_t i = 0; i < own.count; ++i)
+    if (place(own.number(i)) < table.size()) table[place(own.number(i))] = nullptr;
+  for (const Record* const r : table)
+    if (r != nullptr) all.push_back(*r);
+  return all;
+}
+
 /// The neighbours of this rank's nodes that it did not bring itself.
 template <class Int>
 std::vector<Record> find_outside(const Patches<Int>& patches, const ReturnAddresses& addresses,
@@ -246,37 +298,20 @@ std::vector<Record> find_outside(const Patches<Int>& patches, const ReturnAddres
     });
     return packed(neighbours);
   });
+  const auto for_each_part = [&](const auto& visit) {
+    const Items<Record> items(incoming);
+    visit(HubRing::Part{items.begin(), items.size()});
+    for_each_hub_neighbour([&](RankNumber r, const HubRing::Part& part) {
+      if (r == me) visit(part);
+    });
+  };
   std::vector<Record> outside;
   in_agreement(ranks, [&] {
-    const Items<Record> items(incoming);
-    std::size_t count = items.size();
-    for_each_hub_neighbour(
-        [&](RankNumber r, const HubRing::Part& part) { count += r == me ? part.count : 0; });
-    std::vector<Record> all;
-    all.reserve(count);
-    all.assign(items.begin(), items.end());
-    for_each_hub_neighbour([&](RankNumber r, const HubRing::Part& part) {
-      if (r == me) all.insert(all.end(), part.first, part.first + part.count);
-    });
-    keep_one_of_each(all);
     // A patch does not know which nodes this rank brought for other patches, nor does a hub; where there are
     // none, it knows all.
-    std::vector<GlobalNumber> own;
-    if (addresses.away_begin.back() > 0 || patches.of_rank.size() > 1 || !hub_rings.empty()) {
-      NumberFilter filter(all.size());
-      for (const Record& r : all) filter.add(r.number);
-      for (std::size_t i = 0; i < nodes.count; ++i)
-        if (filter.may_have(nodes.number(i))) own.push_back(nodes.number(i));
-    }
-    std::sort(own.begin(), own.end());
-    auto next = own.begin();  // both are sorted
-    all.erase(std::remove_if(all.begin(), all.end(),
-                             [&](const Record& r) {
-                               while (next != own.end() && *next < r.number) ++next;
-                               return next != own.end() && *next == r.number;
-                             }),
-              all.end());
-    outside = std::move(all);
+    const bool knows_all =
+        addresses.away_begin.back() == 0 && patches.of_rank.size() == 1 && hub_rings.empty();
+    outside = one_of_each_but(knows_all ? LocalNodes{} : nodes, for_each_part);
   });
   return outside;
 }
@@ -298,7 +333,7 @@ Stars<Int> return_rings(Certified<Int> certified, ReturnAddresses addresses, con
     runs = exchange_in_agreement(
         ranks, [&] { return runs_at_hubs(patches, division, static_cast<std::size_t>(ranks.size())); });
   stars.received = exchange_in_agreement(ranks, [&] {
-    stars.homes = std::make_unique<Homes>(division, options.partition);
+    stars.homes = std::make_unique<Homes>(division, options, loads_of(patches));
     stars.memory.reserve(3);  // what is moved there below must not fail
     table.make_room(addresses.own_begin.back());
     entries =

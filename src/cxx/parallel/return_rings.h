@@ -12,6 +12,7 @@
 #include "parallel/certify.h"
 #include "parallel/deliver.h"
 #include "parallel/divide.h"
+#include "parallel/homes.h"
 
 namespace pstripack {
 

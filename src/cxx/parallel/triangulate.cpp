@@ -68,7 +68,9 @@ Stars<Int> triangulate_places(const LocalNodes& nodes, const Corners& corners, c
     unfinished.gave_up = certified.gave_up;
     unfinished.coincident = std::move(certified.coincident);
     if (unfinished.gave_up)
-      in_agreement(ranks, [&] { unfinished.homes = std::make_unique<Homes>(division, options.partition); });
+      in_agreement(ranks, [&] {
+        unfinished.homes = std::make_unique<Homes>(division, options, loads_of(certified.patches));
+      });
     return unfinished;
   }
 

@@ -1,0 +1,66 @@
+#include "parallel/loads.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace pstripack {
+namespace {
+
+constexpr double kUneven = 1.15;     // the most work of a rank, over the mean
+constexpr std::int64_t kSeldom = 4;  // own nodes for each question
+constexpr double kOfQuestion = 300;  // nanoseconds: if patches know the nodes that it is about
+
+}  // namespace
+
+Loads::Loads(std::shared_ptr<const Partition> partition, const PatchRanges& patches,
+             const std::vector<PatchLoad>& of_patch)
+    : partition_(std::move(partition)), patches_(patches) {
+  double all = 0, most = 0;  // without questions
+  for (RankNumber r = 0; r < patches_.ranks(); ++r) {
+    double work = 0;
+    std::int64_t own = 0, questions = 0;
+    for (PatchNumber k = patches_.first(r); k < patches_.end(r); ++k) {
+      const PatchLoad& load = of_patch[static_cast<std::size_t>(k)];
+      const double known = static_cast<double>(std::max<std::int64_t>(load.known, 1));
+      const double asking = kOfQuestion * static_cast<double>(load.questions);
+      nanoseconds_.push_back((static_cast<double>(load.work) + asking) / known);
+      // Halos grow and shrink with the borders: for how even the work is, only that of own nodes counts.
+      work += static_cast<double>(load.work) * static_cast<double>(load.own) / known;
+      most_of_rank_ = std::max(most_of_rank_, static_cast<double>(load.work) + asking);
+      own += load.own;
+      questions += load.questions;
+    }
+    all += work;
+    most = std::max(most, work);
+    have_many_questions_ = have_many_questions_ || kSeldom * questions > own;
+  }
+  are_uneven_ = most * static_cast<double>(patches_.ranks()) > kUneven * all;
+  most_ = std::max(1.0, *std::max_element(nanoseconds_.begin(), nanoseconds_.end()));
+}
+
+void Loads::thin(std::vector<Point>& places) const {
+  double sum = 0;
+  const auto is_left_out = [&](const Point& place) {
+    sum += weight(place);
+    if (sum < 1) return true;
+    sum -= 1;
+    return false;
+  };
+  places.erase(std::remove_if(places.begin(), places.end(), is_left_out), places.end());
+}
+
+bool Loads::expect_less_of(const Partition& other, const std::vector<Point>& sample,
+                           std::size_t nodes) const {
+  std::vector<PatchOfNode> owner(sample.size());
+  std::vector<double> nearest_plane(sample.size()), of_rank(patches_.ranks());
+  other.owners(sample.data(), sample.size(), owner.data(), nearest_plane.data());
+  const auto add = [&](std::size_t i, PatchNumber q) {
+    of_rank[patches_.rank_of(q)] += most_ * weight(sample[i]);
+  };
+  for (std::size_t i = 0; i < sample.size(); ++i) add(i, static_cast<PatchNumber>(owner[i]));
+  other.for_each_halo(sample.data(), sample.size(), owner.data(), nearest_plane.data(), add);
+  const double most = *std::max_element(of_rank.begin(), of_rank.end());
+  return most * static_cast<double>(nodes) < most_of_rank_ * static_cast<double>(sample.size());
+}
+
+}  // namespace pstripack
