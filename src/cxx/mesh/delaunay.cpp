@@ -481,9 +481,9 @@ class Builder final : public GrowingHull {
         [&](HullFace t, const Spoke& to_corner) { return sees_closely(v, t, to_corner); });
   }
 
-  /// Makes the next search start at the nearest of 64 nodes or nearer, since most nodes are numbered along
-  /// the curve. The last search may have ended far away, and the faces in between are in no cache (Muecke,
-  /// Saias & Zhu 1999, jump and walk).
+  /// Makes the next search start near p: at the nearest of 64 nodes, then at nearer ones between that and its
+  /// neighbours among the 64, since most nodes are numbered along the curve. The last search may have ended
+  /// far away, and the faces in between are in no cache (Muecke, Saias & Zhu 1999, jump and walk).
   void start_near(const Point& p) {
     if (!coincident_.empty()) return;  // nodes that were left out have no corner_
     const auto square_from = [&](HullNode v) {

@@ -121,7 +121,7 @@ void agree_on_stars(Certified<Int>& certified, const Division& division, const C
   Questions questions;
   Hubs hubs;
   std::size_t most = kFewQuestions;
-  const auto claim = [&] {
+  const auto claim = [&] {  // true if patches have compared their claims
     std::vector<Doubts> of_patch(patches.of_rank.size());
     OnAny are_new, are_many;  // claims: to compare many takes less time than to ask about them
     const auto sum_up = [&] {
@@ -142,7 +142,7 @@ void agree_on_stars(Certified<Int>& certified, const Division& division, const C
         },
         questions.about_triangles, questions.about_arcs, questions.left_out, questions.have_grown, are_new,
         are_many);
-    if (!are_new.value || !are_many.value) return;
+    if (!are_new.value || !are_many.value) return false;
     const Parcels lists = exchange_claims(patches, division, ranks, threads);
     in_agreement(
         ranks,
@@ -154,6 +154,7 @@ void agree_on_stars(Certified<Int>& certified, const Division& division, const C
           sum_up();
         },
         questions.about_triangles, questions.about_arcs, questions.left_out, questions.have_grown);
+    return true;
   };
   const auto see_coincidence = [&] {
     // Patches may know different pairs of coincident nodes; the pair that is reported must not depend on
@@ -162,9 +163,11 @@ void agree_on_stars(Certified<Int>& certified, const Division& division, const C
     return certified.gave_up;
   };
   if (see_coincidence()) return;
-  claim();
+  const bool have_compared = claim();
   // In the last round no question is left out and no patch takes in a node.
-  for (bool is_last = !questions.about_triangles.value && !questions.about_arcs.value; !is_last;) {
+  bool is_last = !questions.about_triangles.value && !questions.about_arcs.value;
+  certified.rounds += is_last && have_compared;
+  while (!is_last) {
     certified.gave_up = ++certified.rounds > kMostRounds;
     if (certified.gave_up) return;
     const Parcels answers = answers_to(questions, patches, ranks, threads);

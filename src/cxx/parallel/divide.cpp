@@ -219,7 +219,7 @@ Supply take_stock_of_all(const LocalNodes& nodes, Communicator& ranks, const Par
       ranks.all_gather_one(Headcount{nodes.count, options.patches, at_home}.encode());
   Supply supply;
   std::vector<Headcount> heads;
-  std::vector<PatchLoad> loads;  // of all patches, if they were the first draft
+  std::vector<PatchLoad> loads;  // of all patches, if they were the first draft; stripes have no other
   bool keeps_patches = last != nullptr;
   in_agreement(ranks, [&] {
     for (RankNumber r = 0; r < size; ++r) {
@@ -230,7 +230,7 @@ Supply take_stock_of_all(const LocalNodes& nodes, Communicator& ranks, const Par
     }
     keeps_patches =
         keeps_patches && last->are_for(options.partition, division.patches, division.places.lengths());
-    if (keeps_patches && last->draft() == Draft::first)
+    if (keeps_patches && last->draft() == Draft::first && options.partition == PartitionKind::bisection)
       loads.resize(static_cast<std::size_t>(division.patches.count()));
     else
       supply = take_stock(nodes, heads, division, me, options, keeps_patches);

@@ -30,20 +30,20 @@ struct ParallelOptions {
   /// Of several: if a rank has more, they agree on stars instead.
   std::size_t most_questions = SIZE_MAX;
   /// The homes of an earlier call on these ranks; set on all of them or on none. Its patches are kept if
-  /// nearly all nodes lie in patches of the ranks that bring them and no rank has too many. So nodes that
-  /// were sent home stay at home.
+  /// nearly all nodes lie in patches of the ranks that bring them and no rank has too many, so nodes that
+  /// were sent home stay at home. Bisected patches that were badly cut are cut once more: see Draft.
   const Homes* last = nullptr;
 };
 
 /// Three nodes that are not on one great circle, the same on every rank.
 using Corners = std::array<Record, 3>;
 
-/// How often the nodes of a mesh that is made again and again have been divided.
+/// How a mesh that is made again and again has come to its patches.
 enum class Draft {
-  first,   ///< into equal numbers
-  kept,    ///< the first has been kept once, since it was good
-  second,  ///< by what had to be done in the first, whose patches had been the homes of nearly all nodes
-  last,    ///< into equal numbers: nodes have not followed the second, so there will be none again
+  first,   ///< equal numbers of nodes
+  kept,    ///< the first, after a look at what had to be done: good, or not to be improved
+  second,  ///< by what had to be done in the first, when nearly all nodes were at home there
+  last,    ///< equal numbers, for good: nodes have not followed the second
 };
 
 /// The sphere cut into patches. The same on every rank.

@@ -8,33 +8,35 @@ namespace {
 
 constexpr double kUneven = 1.15;     // the most work of a rank, over the mean
 constexpr std::int64_t kSeldom = 4;  // own nodes for each question
-constexpr double kOfQuestion = 300;  // nanoseconds: if patches know the nodes that it is about
+constexpr double kOfQuestion = 300;  // nanoseconds, about: of patches that know the nodes it is about
 
 }  // namespace
 
 Loads::Loads(std::shared_ptr<const Partition> partition, const PatchRanges& patches,
              const std::vector<PatchLoad>& of_patch)
     : partition_(std::move(partition)), patches_(patches) {
-  double all = 0, most = 0;  // without questions
+  // For own nodes only, since halos grow and shrink with the borders: the mean of all ranks, and the most.
+  double even = 0, most = 0;
   for (RankNumber r = 0; r < patches_.ranks(); ++r) {
-    double work = 0;
+    double of_own = 0, of_rank = 0;
     std::int64_t own = 0, questions = 0;
     for (PatchNumber k = patches_.first(r); k < patches_.end(r); ++k) {
       const PatchLoad& load = of_patch[static_cast<std::size_t>(k)];
       const double known = static_cast<double>(std::max<std::int64_t>(load.known, 1));
       const double asking = kOfQuestion * static_cast<double>(load.questions);
-      nanoseconds_.push_back((static_cast<double>(load.work) + asking) / known);
-      // Halos grow and shrink with the borders: for how even the work is, only that of own nodes counts.
-      work += static_cast<double>(load.work) * static_cast<double>(load.own) / known;
-      most_of_rank_ = std::max(most_of_rank_, static_cast<double>(load.work) + asking);
+      const double work = static_cast<double>(load.work);
+      nanoseconds_.push_back((work + asking) / known);
+      of_own += work * static_cast<double>(load.own) / known;
+      of_rank += work + asking;
       own += load.own;
       questions += load.questions;
     }
-    all += work;
-    most = std::max(most, work);
+    even += of_own / static_cast<double>(patches_.ranks());
+    most = std::max(most, of_own);
+    most_of_rank_ = std::max(most_of_rank_, of_rank);
     have_many_questions_ = have_many_questions_ || kSeldom * questions > own;
   }
-  are_uneven_ = most * static_cast<double>(patches_.ranks()) > kUneven * all;
+  are_uneven_ = most > kUneven * even;
   most_ = std::max(1.0, *std::max_element(nanoseconds_.begin(), nanoseconds_.end()));
 }
 

@@ -29,11 +29,11 @@ class Loads {
   /// True if a rank had many questions: neighbours in the mesh are far from each other.
   bool have_many_questions() const { return have_many_questions_; }
 
-  /// The work of a node at this place, as a part of the most of all patches.
+  /// The work of a node at this place over that of a node in the patch where it is most: 0 to 1.
   double weight(const Point& place) const {
     return nanoseconds_[static_cast<std::size_t>(partition_->owner(place))] / most_;
   }
-  /// Leaves as many places of each patch as correspond to its work.
+  /// Leaves out places, so that each patch keeps a part of its own that is its weight().
   void thin(std::vector<Point>& places) const;
   /// True if with this partition the rank that has most to do would have less, halos included, as a sample of
   /// the nodes tells. Throws std::bad_alloc.
@@ -42,9 +42,9 @@ class Loads {
  private:
   std::shared_ptr<const Partition> partition_;
   PatchRanges patches_;
-  std::vector<double> nanoseconds_;  ///< for a node, by patch
-  double most_ = 1;                  ///< of nanoseconds_
-  double most_of_rank_ = 0;          ///< nanoseconds, with those of its questions
+  std::vector<double> nanoseconds_;  ///< of a node, with the questions of its patch, by patch
+  double most_ = 1;                  ///< the largest of nanoseconds_
+  double most_of_rank_ = 0;          ///< nanoseconds of the rank with most to do
   bool are_uneven_ = false, have_many_questions_ = false;
 };
 

@@ -4,8 +4,17 @@
 #include <cstdint>
 
 #include "geometry/insertion_order.h"
+#include "geometry/predicates.h"
 
 namespace pstripack {
+namespace {
+
+/// Nanoseconds that so many decisions take, about: patches are compared by it, so only ratios matter.
+std::uint64_t time_of(const PredicateCounts& c) {
+  return 30 * c.above + 25 * c.left + 180 * c.double_double + 100 * c.integers + 2000 * c.big_integers;
+}
+
+}  // namespace
 
 template <class Int>
 void Patch<Int>::set_up(const std::vector<Record>& closing, Workspace& workspace) {
@@ -19,15 +28,10 @@ void Patch<Int>::set_up(const std::vector<Record>& closing, Workspace& workspace
 template <class Int>
 void Patch<Int>::triangulate() {
   if (nodes_.own == 0) return;
-  const PredicateCounts before = predicate_counts();
+  const std::uint64_t before = time_of(predicate_counts());
   hull_.build();
-  const PredicateCounts& after = predicate_counts();
-  const auto all = [&](std::int64_t nanoseconds, std::uint64_t PredicateCounts::*stage) {
-    return nanoseconds * static_cast<std::int64_t>(after.*stage - before.*stage);
-  };
-  work_ = 130 * static_cast<std::int64_t>(nodes_.count()) + all(30, &PredicateCounts::above) +
-          all(25, &PredicateCounts::left) + all(180, &PredicateCounts::double_double) +
-          all(100, &PredicateCounts::integers) + all(2000, &PredicateCounts::big_integers);
+  constexpr std::uint64_t kOfNode = 130;
+  work_ = static_cast<std::int64_t>(kOfNode * nodes_.count() + time_of(predicate_counts()) - before);
 }
 
 template <class Int>

@@ -73,13 +73,14 @@ class Patch {
     if (nodes_.own == 0 || partition_->patches() == 1) return {};
     return agreed_.claim(view(), corners, asked_);
   }
+  /// The number of its claims on that patch.
   std::size_t claims_on(PatchNumber other) const { return agreed_.claims_on(other); }
   /// The triangles of its claims on that patch. Throws std::bad_alloc.
   std::vector<KeptTriangle> kept_with(PatchNumber other) const { return agreed_.kept_with(view(), other); }
-  /// Settles the claims that others share, and no other claim. Throws std::bad_alloc.
+  /// Settles the claims on triangles that their owners keep, too, and no others. Throws std::bad_alloc.
   void settle(const std::vector<KeptByOther>& of_others) { agreed_.settle(view(), of_others); }
-  /// Replaces its questions about triangles: about the claims that are not settled: at most `most` to each
-  /// patch, and few about nodes that may be hubs. Throws std::bad_alloc.
+  /// Puts questions about the claims that are not settled in place of those about triangles: at most `most`
+  /// to each patch, and few about nodes that may be hubs. Throws std::bad_alloc.
   void ask_about_claims(std::size_t most, Doubts& doubts) {
     if (nodes_.own > 0) agreed_.ask(hull_, view(), most, doubts);
   }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <utility>
 
 #include "base/scattered.h"
 #include "parallel/number_table.h"
@@ -21,14 +20,12 @@ GlobalNumber hash_of(const KeptTriangle& t, PatchNumber patch) {
   return GlobalNumber{static_cast<std::int64_t>(hash >> 2) + 1};
 }
 
-/// The triangle of face t, the smallest number first.
+/// The triangle of face t.
 template <class Int>
-KeptTriangle kept_triangle(const PatchView<Int>& patch, HullFace t) {
-  const auto& vertex = patch.hull.face(t).vertex;
-  KeptTriangle corners{patch.hull.number(vertex[0]), patch.hull.number(vertex[1]),
-                       patch.hull.number(vertex[2])};
-  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-  return corners;
+KeptTriangle kept_triangle(const PatchHull<Int>& hull, HullFace t) {
+  const auto& vertex = hull.face(t).vertex;
+  const std::uint32_t a = first_vertex(hull, t), b = next_edge(a);
+  return {hull.number(vertex[a]), hull.number(vertex[b]), hull.number(vertex[next_edge(b)])};
 }
 
 }  // namespace
@@ -89,7 +86,7 @@ std::vector<KeptTriangle> PatchAgreement<Int>::kept_with(const PatchView<Int>& p
                                                          PatchNumber other) const {
   std::vector<KeptTriangle> triangles;
   for (const Claim& claim : claims_)
-    if (claim.owner == other) triangles.push_back(kept_triangle(patch, claim.face));
+    if (claim.owner == other) triangles.push_back(kept_triangle(patch.hull, claim.face));
   return triangles;
 }
 
@@ -110,7 +107,7 @@ void PatchAgreement<Int>::settle(const PatchView<Int>& patch, const std::vector<
   for (Claim& claim : claims_) {
     claim.is_settled = false;
     if (!has_told[static_cast<std::size_t>(claim.owner)]) continue;
-    const KeptTriangle mine = kept_triangle(patch, claim.face);
+    const KeptTriangle mine = kept_triangle(patch.hull, claim.face);
     const KeptTriangle* const* const theirs = table.find_value(hash_of(mine, claim.owner));
     claim.is_settled = theirs != nullptr && **theirs == mine;
   }

@@ -17,10 +17,10 @@
 
 namespace pstripack {
 
-/// The numbers of its corners, the smallest first.
+/// A triangle that a patch keeps: the numbers of its corners, counterclockwise, the smallest first.
 using KeptTriangle = std::array<GlobalNumber, 3>;
 
-/// What another patch keeps of the triangles with own corners and its corners.
+/// Triangles that another patch keeps, with a corner of this one.
 struct KeptByOther {
   PatchNumber other;
   const KeptTriangle* first;

@@ -85,15 +85,11 @@ void for_each_bulge(const PatchView<Int>& patch, const Visit& visit) {
 
 }  // namespace
 
-/// The smallest number first, so that a triangle has one name.
 template <class Int>
 Question question_about(const PatchView<Int>& patch, HullFace t) {
   const auto& vertex = patch.hull.face(t).vertex;
-  std::uint32_t first = 0;
-  for (const std::uint32_t i : {1, 2})
-    if (patch.hull.number(vertex[i]) < patch.hull.number(vertex[first])) first = i;
   Question question{};
-  for (std::uint32_t i = 0, e = first; i < 3; ++i, e = next_edge(e))
+  for (std::uint32_t i = 0, e = first_vertex(patch.hull, t); i < 3; ++i, e = next_edge(e))
     question.corner[i] = patch.hull.node(vertex[e]);
   question.from = patch.id;
   return question;

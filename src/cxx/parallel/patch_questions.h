@@ -55,6 +55,16 @@ struct PatchView {
   PatchNumber owner(HullNode v) const { return hull.is_own(v) ? id : partition.owner(hull.place(v)); }
 };
 
+/// The vertex of face t with the smallest number. Names of triangles begin there, so that each has one.
+template <class Int>
+std::uint32_t first_vertex(const PatchHull<Int>& hull, HullFace t) {
+  const auto& vertex = hull.face(t).vertex;
+  std::uint32_t first = 0;
+  for (const std::uint32_t i : {1, 2})
+    if (hull.number(vertex[i]) < hull.number(vertex[first])) first = i;
+  return first;
+}
+
 /// A question about face t of the hull. The caller sets `to`.
 template <class Int>
 Question question_about(const PatchView<Int>& patch, HullFace t);
