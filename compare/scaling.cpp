@@ -56,6 +56,7 @@ struct Settings {
   int repeats = 5;
   double change = 0;  ///< fraction of the points that change ranks before each call of a moving mesh
   bool warm = false;  ///< calls may reuse the mesh of the last call
+  bool per_rank = false;
 };
 
 double seconds() { return clock_seconds(CLOCK_MONOTONIC); }
@@ -109,7 +110,7 @@ struct Call {
 
 /// Prints the processor time of each phase: per rank the median over the calls, since other ranks on the same
 /// processor disturb single calls.
-void print(MpiCommunicator& ranks, std::size_t n, const std::vector<double>& serial,
+void print(MpiCommunicator& ranks, const Settings& s, const std::vector<double>& serial,
            const std::vector<Call>& calls) {
   std::vector<ParallelCost> mine;
   std::vector<double> wall, root;
@@ -124,19 +125,27 @@ void print(MpiCommunicator& ranks, std::size_t n, const std::vector<double>& ser
   for (const std::size_t begin : all.begin) {
     if (begin == all.begin.back()) break;
     const auto* const of_rank = reinterpret_cast<const ParallelCost*>(all.bytes.data() + begin);
+    double usual[Phase::phases];
     for (int phase = 0; phase < Phase::phases; ++phase) {
       std::vector<double> spent;
       for (std::size_t k = 0; k < calls.size(); ++k) spent.push_back(of_rank[k].cpu_seconds[phase]);
-      const double usual = median(spent);
-      slowest[phase] = std::max(slowest[phase], usual);
-      if (phase == Phase::triangulate) triangulate += usual / ranks.size();
+      usual[phase] = median(spent);
+      slowest[phase] = std::max(slowest[phase], usual[phase]);
+      if (phase == Phase::triangulate) triangulate += usual[phase] / ranks.size();
     }
+    if (s.per_rank)
+      fmt::print(
+          "rank {} divide {:.6f} triangulate {:.6f} merge {:.6f} lists {:.6f} gather {:.6f} halo {} bytes {} "
+          "rounds {}\n",
+          begin / (all.bytes.size() / static_cast<std::size_t>(ranks.size())), usual[Phase::divide],
+          usual[Phase::triangulate], usual[Phase::merge], usual[Phase::lists], usual[Phase::gather],
+          of_rank->halo, of_rank->bytes_sent, of_rank->rounds);
   }
   const GroupCost& cost = calls.back().cost;
   fmt::print(
       "row n {} ranks {} serial {} wall {} root {} divide {} triangulate {} merge {} lists {} "
       "gather {} mean {} halo {} bytes {} rounds {}\n",
-      n, ranks.size(), median(serial), median(wall), median(root), slowest[Phase::divide],
+      s.n, ranks.size(), median(serial), median(wall), median(root), slowest[Phase::divide],
       slowest[Phase::triangulate], slowest[Phase::merge], slowest[Phase::lists], slowest[Phase::gather],
       triangulate, cost.total.halo, cost.total.bytes_sent, cost.maximum.rounds);
   std::fflush(stdout);
@@ -437,7 +446,7 @@ void run_on_ranks(const Settings& s) {
               },
               nothing);
     }
-    print(ranks, n, alone, calls);
+    print(ranks, s, alone, calls);
   }
   MPI_Finalize();
 }
@@ -636,12 +645,15 @@ int main(int argc, char** argv) {
   app.add_option("--mode", s.mode, "no tables: one run of this mode on the ranks of this mpirun")
       ->check(CLI::IsMember(with_moving(kAllModes)));
   app.add_option("--n", s.n, "nodes of that run")->capture_default_str();
+  app.add_flag("--per-rank", s.per_rank, "with --mode: also print seconds, halo and bytes of each rank");
   app.add_option("--owners", s.owners,
                  "with --mode distributed: write the corners of each triangle and its rank to this new file");
   try {
     app.parse(argc, argv);
     if (!s.owners.empty() && s.mode != "distributed")
       throw CLI::ValidationError("--owners", "only with --mode distributed");
+    if (s.per_rank && (s.mode.empty() || s.mode == kMoving))
+      throw CLI::ValidationError("--per-rank", "only with --mode, and not moving");
     // Calls with the same nodes must not reuse the last mesh: measure first calls.
     if (s.mode != kMoving && s.mode != kScvt) setenv("PSTRIPACK_WARM_START", "0", 1);
     if (s.mode == kMoving)
