@@ -671,7 +671,7 @@ TEST(Homes, OfDirectionsAreForLengthsAboutOneToo) {
     Division division(Places(last, 1e-7));
     division.partition = partition;
     for (int rank = 0; rank < 2; ++rank) division.patches.add(1);
-    return Homes(division, {}, {}).are_for(PartitionKind::bisection, division.patches, now);
+    return Homes(division, {}, {}, {}).are_for(PartitionKind::bisection, division.patches, now);
   };
   EXPECT_TRUE(are_for(Lengths::as_given, Lengths::as_given));
   EXPECT_TRUE(are_for(Lengths::directions, Lengths::directions));
@@ -756,6 +756,55 @@ TEST_F(Drafts, EndForNodesThatStayWhereTheFirstHadThem) {
   EXPECT_EQ(draft(), Draft::last);
   EXPECT_TRUE(keeps_soon(nodes));
   EXPECT_EQ(draft(), Draft::last);
+}
+
+/// The next call begins with the hubs of the last one, whatever has become of them.
+class RememberedHubs : public Drafts {
+ protected:
+  void call(const Nodes& nodes) {
+    keeps(nodes, at_home(nodes));
+    for (const auto& h : homes_) EXPECT_EQ(h->hubs(), homes_[0]->hubs());
+  }
+  void begin_twice(const std::string& family) {
+    nodes_ = Set(point_sets::make(family, 6000, 3)).nodes;
+    begin(nodes_);
+    call(nodes_);
+    call(nodes_);
+    EXPECT_FALSE(homes_[0]->hubs().empty()) << family;
+  }
+  Nodes nodes_;
+};
+
+TEST_F(RememberedHubs, AreThoseOfTheNextCall) {
+  for (const char* const family : {"ring", "moment:6", "falling-tee:6"}) {
+    begin_twice(family);
+    const std::vector<GlobalNumber> hubs = homes_[0]->hubs();
+    call(nodes_);
+    EXPECT_EQ(homes_[0]->hubs(), hubs) << family;
+    for (auto& h : homes_) h.reset();
+  }
+}
+
+TEST_F(RememberedHubs, AreForgottenWhereOtherNodesHaveTheirNumbers) {
+  begin_twice("ring");
+  const auto last = static_cast<std::int64_t>(nodes_.size()) + 1;
+  const std::vector<GlobalNumber> hubs = homes_[0]->hubs();
+  std::vector<GlobalNumber> expected;
+  for (const GlobalNumber hub : hubs) expected.insert(expected.begin(), GlobalNumber{last - value_of(hub)});
+  std::reverse(nodes_.begin(), nodes_.end());
+  call(nodes_);
+  EXPECT_EQ(homes_[0]->hubs(), expected);
+}
+
+TEST_F(RememberedHubs, MayBeMissing) {
+  begin_twice("ring");
+  for (const GlobalNumber hub : homes_[0]->hubs()) {
+    ASSERT_LE(value_of(hub), static_cast<std::int64_t>(nodes_.size()));
+    nodes_.resize(static_cast<std::size_t>(value_of(hub) - 1));
+  }
+  call(nodes_);
+  for (const GlobalNumber hub : homes_[0]->hubs())
+    EXPECT_LE(value_of(hub), static_cast<std::int64_t>(nodes_.size()));
 }
 
 TEST(Numbers, BeyondThirtyTwoBits) {

@@ -1,6 +1,7 @@
 #include "parallel/agree_on_stars.h"
 
 #include <algorithm>
+#include <map>
 #include <unordered_set>
 #include <vector>
 
@@ -11,33 +12,32 @@ namespace {
 
 using Hubs = std::unordered_set<GlobalNumber>;
 
-void append(std::vector<GlobalNumber>& numbers, const std::vector<GlobalNumber>& more) {
-  numbers.insert(numbers.end(), more.begin(), more.end());
-}
-
-/// The union of the numbers that the ranks have found.
-Hubs all_of(const std::vector<GlobalNumber>& found, Communicator& ranks) {
+/// What the ranks have found, together.
+template <class Item>
+std::vector<Item> of_all(const std::vector<Item>& found, Communicator& ranks) {
   const Parcels all = ranks.all_gather(found.data(), found.size() * sizeof found[0]);
-  Hubs numbers;
+  std::vector<Item> together;
   in_agreement(ranks, [&] {
-    const Items<GlobalNumber> items(all);
-    numbers.insert(items.begin(), items.end());
+    const Items<Item> items(all);
+    together.assign(items.begin(), items.end());
   });
-  return numbers;
+  return together;
 }
 
-/// True if some node that all patches know is no hub, and some patch keeps a triangle at each hub: what steps
-/// 3 and 4 of the proof need.
+/// The hubs at which patches keep triangles, and how many of these, about.
 template <class Int>
-bool are_few_and_kept(const Hubs& hubs, const Patches<Int>& patches, const Division& division,
-                      Communicator& ranks) {
-  std::vector<GlobalNumber> kept;
+std::map<GlobalNumber, std::size_t> kept_hubs(const Patches<Int>& patches, Communicator& ranks) {
+  std::vector<KeptHub> here;
   in_agreement(ranks, [&] {
-    for (const Patch<Int>& patch : patches.of_rank) append(kept, patch.kept_hubs());
+    for (const Patch<Int>& patch : patches.of_rank)
+      for (const KeptHub& hub : patch.kept_hubs()) here.push_back(hub);
   });
-  return all_of(kept, ranks).size() == hubs.size() &&
-         std::any_of(division.closing.begin(), division.closing.end(),
-                     [&](const Record& r) { return hubs.count(r.number) == 0; });
+  const std::vector<KeptHub> all = of_all(here, ranks);
+  std::map<GlobalNumber, std::size_t> kept;
+  in_agreement(ranks, [&] {
+    for (const KeptHub& hub : all) kept[hub.number] += hub.triangles;
+  });
+  return kept;
 }
 
 /// The claims of a patch on another.
@@ -120,6 +120,8 @@ void agree_on_stars(Certified<Int>& certified, const Division& division, const C
   Patches<Int>& patches = certified.patches;
   Questions questions;
   Hubs hubs;
+  std::vector<GlobalNumber> found;                             // on any rank, since the last claim
+  const std::vector<GlobalNumber>* new_hubs = &division.hubs;  // or &found
   std::size_t most = kFewQuestions;
   const auto claim = [&] {  // true if patches have compared their claims
     std::vector<Doubts> of_patch(patches.of_rank.size());
@@ -134,7 +136,9 @@ void agree_on_stars(Certified<Int>& certified, const Division& division, const C
     in_agreement(
         ranks,
         [&] {
+          hubs.insert(new_hubs->begin(), new_hubs->end());
           patches.for_each(threads, [&](Patch<Int>& patch, PatchHere k) {
+            if (!new_hubs->empty()) patch.set_hubs(hubs);
             of_patch[k] = patch.claim(corners);
             patch.ask_about_claims(most, of_patch[k]);
           });
@@ -171,31 +175,37 @@ void agree_on_stars(Certified<Int>& certified, const Division& division, const C
     certified.gave_up = ++certified.rounds > kMostRounds;
     if (certified.gave_up) return;
     const Parcels answers = answers_to(questions, patches, ranks, threads);
-    std::vector<GlobalNumber> found;
+    found.clear();
+    new_hubs = &found;
     OnAny has_found;
     in_agreement(
         ranks,
         [&] {
           learn(patches, questions, answers, threads);
-          for (const Patch<Int>& patch : patches.of_rank) append(found, patch.look_for_hubs());
+          for (const Patch<Int>& patch : patches.of_rank)
+            for (const GlobalNumber hub : patch.look_for_hubs()) found.push_back(hub);
           has_found.value = !found.empty();
         },
         patches.see_coincidence, has_found);
     if (see_coincidence()) return;
-    if (has_found.value) {
-      const Hubs more = all_of(found, ranks);
-      in_agreement(ranks, [&] {
-        hubs.insert(more.begin(), more.end());
-        for (Patch<Int>& patch : patches.of_rank) patch.set_hubs(hubs);
-      });
-    }
+    if (has_found.value) found = of_all(found, ranks);
     const bool was_complete = !questions.left_out.value;
     most = most > SIZE_MAX / kMoreQuestions ? most : most * kMoreQuestions;
     claim();
     is_last = was_complete && !questions.have_grown.value;
   }
-  certified.has_hubs = !hubs.empty();
-  certified.gave_up = certified.has_hubs && !are_few_and_kept(hubs, patches, division, ranks);
+  if (hubs.empty()) return;
+  certified.has_hubs = true;
+  const auto kept = kept_hubs(patches, ranks);
+  // What steps 3 and 4 of the proof need: some patch keeps a triangle at each hub, and some node that all
+  // patches know is no hub.
+  certified.gave_up =
+      kept.size() < hubs.size() || std::all_of(division.closing.begin(), division.closing.end(),
+                                               [&](const Record& r) { return hubs.count(r.number) > 0; });
+  in_agreement(ranks, [&] {
+    for (const auto& [hub, triangles] : kept)
+      if (triangles >= kManyTriangles) certified.hubs.push_back(hub);
+  });
 }
 
 template void agree_on_stars(Certified<std::int32_t>&, const Division&, const Corners&, Communicator&, int);

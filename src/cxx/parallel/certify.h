@@ -17,10 +17,11 @@ template <class Int>
 struct Certified {
   explicit Certified(Patches<Int> p) : patches(std::move(p)) {}
   Patches<Int> patches;
-  CoincidentPairs coincident;  ///< found by any patch; the same on every rank
-  bool gave_up = false;        ///< more questions than are worth while; on every rank the same
-  bool has_hubs = false;       ///< nodes whose stars lie on several ranks; on every rank the same
-  int rounds = 0;              ///< exchanges of questions that were needed
+  CoincidentPairs coincident;      ///< found by any patch; the same on every rank
+  bool gave_up = false;            ///< more questions than are worth while; on every rank the same
+  bool has_hubs = false;           ///< nodes whose stars lie on several ranks; on every rank the same
+  std::vector<GlobalNumber> hubs;  ///< those with many neighbours, in order; on every rank the same
+  int rounds = 0;                  ///< exchanges of questions that were needed
   bool is_done() const { return coincident.empty() && !gave_up; }
 };
 

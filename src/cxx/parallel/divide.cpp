@@ -10,6 +10,7 @@
 #include "parallel/agreement.h"
 #include "parallel/homes.h"
 #include "parallel/levels.h"
+#include "parallel/number_table.h"
 #include "parallel/sample.h"
 #include "parallel/sample_hull.h"
 
@@ -197,15 +198,37 @@ std::vector<Record> some_of(BlockArray<Record>& sample, std::size_t most, std::v
   return some;
 }
 
-/// About `most` of the sample and the corners, along a curve.
-std::vector<Record> along_curve(BlockArray<Record>& sample, std::size_t most, const Corners& corners) {
-  const std::vector<Record> some = some_of(sample, most, {corners.begin(), corners.end()});
+/// About `most` of the sample and all of `some`, along a curve.
+std::vector<Record> along_curve(BlockArray<Record>& sample, std::size_t most, std::vector<Record> all_of) {
+  const std::vector<Record> some = some_of(sample, most, std::move(all_of));
   Workspace workspace(16 * some.size());
   std::vector<std::uint32_t> order(some.size());
   insertion_order(&some[0].point, some.size(), order.data(), workspace, sizeof(Record));
   std::vector<Record> ordered;
   for (const std::uint32_t k : order) ordered.push_back(some[k]);
   return ordered;
+}
+
+/// The nodes of these numbers, from the ranks that bring them. Collective. Throws AgreedFailure.
+std::vector<Record> nodes_of(const std::vector<GlobalNumber>& numbers, const LocalNodes& nodes,
+                             Communicator& ranks) {
+  std::vector<Record> found;
+  if (numbers.empty()) return found;
+  in_agreement(ranks, [&] {
+    NumberFilter filter(numbers.size());
+    for (const GlobalNumber number : numbers) filter.add(number);
+    for (std::size_t i = 0; i < nodes.count; ++i)
+      if (const GlobalNumber number = nodes.number(i);
+          filter.may_have(number) && std::binary_search(numbers.begin(), numbers.end(), number))
+        found.push_back({nodes.points[i], number});
+  });
+  const Parcels all = ranks.all_gather(found.data(), found.size() * sizeof found[0]);
+  in_agreement(ranks, [&] {
+    const Items<Record> items(all);
+    found.assign(items.begin(), items.end());
+    keep_one_of_each(found);
+  });
+  return found;
 }
 
 /// Agrees with all ranks on what there is, on whether the patches of the last call are kept, and, if not,
@@ -230,6 +253,7 @@ Supply take_stock_of_all(const LocalNodes& nodes, Communicator& ranks, const Par
     }
     keeps_patches =
         keeps_patches && last->are_for(options.partition, division.patches, division.places.lengths());
+    if (keeps_patches) division.hubs = last->hubs();
     if (keeps_patches && last->draft() == Draft::first && options.partition == PartitionKind::bisection)
       loads.resize(static_cast<std::size_t>(division.patches.count()));
     else
@@ -259,11 +283,18 @@ Division divide(const LocalNodes& nodes, const Corners& corners, const Places& p
                 const ParallelOptions& options) {
   Division division(places);
   Supply supply = take_stock_of_all(nodes, ranks, options, division);
+  const std::vector<Record> hubs = nodes_of(division.hubs, nodes, ranks);
   ranks.all_gather_in_place(supply.sample.data(), supply.begin);
   Outcome outcome = Outcome::of([&] {
+    std::vector<Record> known{corners.begin(), corners.end()};
     if (supply.looks_through)
-      look_for_hidden_nodes(along_curve(supply.sample, kLookedThrough, corners), places);
-    division.closing = along_curve(supply.sample, kClosingNodes, corners);
+      look_for_hidden_nodes(along_curve(supply.sample, kLookedThrough, known), places);
+    division.hubs.clear();
+    for (const Record& hub : hubs) {
+      division.hubs.push_back(hub.number);
+      known.push_back(hub);
+    }
+    division.closing = along_curve(supply.sample, kClosingNodes, std::move(known));
   });
   if (supply.keeps_patches) {
     division.partition = options.last->partition();

@@ -58,6 +58,7 @@ struct Division {
   double most_stretch = std::numeric_limits<double>::infinity();  ///< of the closing nodes, if computed
   /// Patches agree on stars: they would have too many questions.
   bool by_agreement = false;
+  std::vector<GlobalNumber> hubs;  ///< of the last call, among `closing`: see agree_on_stars()
   /// There is one process only. Its caller can build one hull instead of asking many questions.
   bool may_give_up = false;
   bool gave_up = false;  ///< then there is nothing else

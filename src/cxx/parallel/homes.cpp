@@ -13,14 +13,16 @@ constexpr std::size_t kCloselyEnough = 64;
 
 }  // namespace
 
-Homes::Homes(const Division& division, const ParallelOptions& options, std::vector<PatchLoad> loads)
+Homes::Homes(const Division& division, const ParallelOptions& options, std::vector<PatchLoad> loads,
+             std::vector<GlobalNumber> hubs)
     : partition_(division.partition),
       by_agreement_(division.by_agreement),
       kind_(options.partition),
       patches_(division.patches),
       places_(division.places),
       draft_(division.draft),
-      loads_(std::move(loads)) {
+      loads_(std::move(loads)),
+      hubs_(std::move(hubs)) {
   if (options.last != nullptr && options.last->partition_ == partition_)
     share_ = options.last->share_;
   else

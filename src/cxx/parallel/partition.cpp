@@ -110,6 +110,7 @@ class Partition::Builder {
     const Cell &a = partition_.cells_[c.child[0]], &b = partition_.cells_[c.child[1]];
     c.patch = a.patch == b.patch ? a.patch : -1;
     c.margin = std::min(a.margin, b.margin);
+    c.largest = std::max(a.largest, b.largest);
     return k;
   }
 
@@ -191,7 +192,7 @@ class Partition::Builder {
     }
     const std::int32_t leaf = new_cell({0, 0, 0, 0});
     partition_.cells_[leaf].patch = patch;
-    partition_.cells_[leaf].margin = margin;
+    partition_.cells_[leaf].margin = partition_.cells_[leaf].largest = margin;
     double& largest = partition_.largest_margin_[patch];
     largest = std::max(largest, margin);
     partition_.smallest_margin_ = std::min(partition_.smallest_margin_, margin);
@@ -440,20 +441,28 @@ bool Partition::holds(PatchNumber patch, const Point& a, const Point& b, const P
   return true;
 }
 
-void Partition::margins(const Point* x, const PatchOfNode* owner, const std::size_t* which, std::size_t n,
-                        double* margin) const {
+void Partition::margins(const Point* x, const PatchOfNode* owner, const double* nearest_plane,
+                        const std::size_t* which, std::size_t n, double* margin) const {
   std::int32_t k[kTogether];
-  for (std::size_t j = 0; j < n; ++j) k[j] = regions_[owner[which[j]]].root;
-  for (bool is_below = true; is_below;) {
-    is_below = false;
-    for (std::size_t j = 0; j < n; ++j) {
-      const Cell& c = cells_[k[j]];
-      const std::int32_t next = c.child[is_beyond(c, x[which[j]])];
-      is_below |= next != 0;
-      k[j] = next != 0 ? next : k[j];
-    }
+  std::size_t descending[kTogether], count = n;
+  for (std::size_t j = 0; j < n; ++j) {
+    k[j] = regions_[owner[which[j]]].root;
+    descending[j] = j;
   }
-  for (std::size_t j = 0; j < n; ++j) margin[j] = cells_[k[j]].margin;
+  while (count > 0) {
+    std::size_t left = 0;
+    for (std::size_t m = 0; m < count; ++m) {
+      const std::size_t j = descending[m];
+      const Cell& c = cells_[k[j]];
+      const std::int32_t below = c.child[is_beyond(c, x[which[j]])];
+      const bool goes_on = (below != 0) & (nearest_plane[which[j]] <= c.largest);
+      k[j] = goes_on ? below : k[j];
+      descending[left] = j;
+      left += goes_on;
+    }
+    count = left;
+  }
+  for (std::size_t j = 0; j < n; ++j) margin[j] = cells_[k[j]].largest;
 }
 
 bool Partition::holds_all(PatchNumber patch, double stretch) const {

@@ -89,10 +89,10 @@ class Partition {
   template <class Visit>
   void for_each_halo(const Point* x, std::size_t n, const PatchOfNode* owner, const double* nearest_plane,
                      const Visit& visit) const {
-    double margin[kTogether];
+    double margin[kTogether];  // or less than nearest_plane
     std::vector<PatchNumber> patches;
     const auto examine = [&](const std::size_t* candidate, std::size_t candidates) {
-      margins(x, owner, candidate, candidates, margin);
+      if (has_convex_patches()) margins(x, owner, nearest_plane, candidate, candidates, margin);
       for (std::size_t j = 0; j < candidates; ++j) {
         const std::size_t i = candidate[j];
         if (!has_convex_patches()) {
@@ -162,6 +162,7 @@ class Partition {
     std::int32_t child[2];   // 0: a leaf
     PatchNumber patch = -1;  // of all leaves below, if it is one patch
     double margin = 0;       // of a leaf; otherwise the smallest below
+    double largest = 0;      // margin of the leaves below
   };
 
   /// Number of descents in the tree that run side by side, level by level: a single one would wait for each
@@ -199,9 +200,10 @@ class Partition {
                last = beside_.begin() + beside_of_[cell].end;
     return cells_[cell].patch == q || std::find(first, last, q) != last;
   }
-  /// The margins of the cells of x[which[0..n-1]], n <= kTogether.
-  void margins(const Point* x, const PatchOfNode* owner, const std::size_t* which, std::size_t n,
-               double* margin) const;
+  /// The margins of the cells of x[which[0..n-1]], n <= kTogether; any value less than nearest_plane if the
+  /// margin is less.
+  void margins(const Point* x, const PatchOfNode* owner, const double* nearest_plane,
+               const std::size_t* which, std::size_t n, double* margin) const;
   /// The patches within `radius` of x, each once.
   void near(const Point& x, double radius, std::vector<PatchNumber>& patches) const;
 

@@ -71,7 +71,7 @@ class Patch {
   /// owners of these. Asks about all arcs as ask() does. Throws HiddenNode, std::bad_alloc.
   Doubts claim(const std::array<Record, 3>& corners) {
     if (nodes_.own == 0 || partition_->patches() == 1) return {};
-    return agreed_.claim(view(), corners, asked_);
+    return agreed_.claim(hull_, view(), corners, asked_);
   }
   /// The number of its claims on that patch.
   std::size_t claims_on(PatchNumber other) const { return agreed_.claims_on(other); }
@@ -91,7 +91,7 @@ class Patch {
   /// Sets all hubs, the same for all patches. Throws std::bad_alloc.
   void set_hubs(const std::unordered_set<GlobalNumber>& numbers) { agreed_.set_hubs(numbers); }
   /// The hubs at which it keeps triangles. Throws std::bad_alloc.
-  std::vector<GlobalNumber> kept_hubs() const { return agreed_.kept_hubs(hull_); }
+  std::vector<KeptHub> kept_hubs() const { return agreed_.kept_hubs(hull_); }
   /// Calls visit(hub, owner of hub, run): successive neighbours of the hub, counterclockwise; each but the
   /// last is followed by the next in triangles that this patch keeps. All patches together have each
   /// neighbour once as one that is not the last. Throws std::bad_alloc.

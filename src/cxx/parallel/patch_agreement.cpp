@@ -9,9 +9,8 @@
 namespace pstripack {
 namespace {
 
-/// A node of another patch may be a hub if this patch has more than kManyTriangles triangles to ask its owner
-/// about. It is one if the owner confirms most of the first kAFew.
-constexpr std::size_t kManyTriangles = 64, kAFew = 8;
+/// The node is a hub if its owner confirms most of the first kAFew triangles.
+constexpr std::size_t kAFew = 8;
 
 /// Never kNoNumber.
 GlobalNumber hash_of(const KeptTriangle& t, PatchNumber patch) {
@@ -31,27 +30,38 @@ KeptTriangle kept_triangle(const PatchHull<Int>& hull, HullFace t) {
 }  // namespace
 
 template <class Int>
-Doubts PatchAgreement<Int>::claim(const PatchView<Int>& patch, const std::array<Record, 3>& corners,
-                                  Asked& asked) {
-  const PatchHull<Int>& hull = patch.hull;
+Doubts PatchAgreement<Int>::claim(PatchHull<Int>& hull, const PatchView<Int>& patch,
+                                  const std::array<Record, 3>& corners, Asked& asked) {
   Doubts doubts;
-  const std::size_t n = hull.growing().node_count();
-  doubts.has_grown = n != asked.nodes;
+  const std::size_t n = hull.growing().node_count(), before = asked.nodes;
+  doubts.has_grown = n != before;
   ask_about_arcs(patch, corners, asked, doubts);
   asked.nodes = n;
   if (!hubs_.empty())
-    for (auto v = static_cast<HullNode>(is_hub_.size()); v < n; ++v)
+    for (auto v = static_cast<HullNode>(is_hub_.size()); v < n; ++v) {
       is_hub_.push_back(hubs_.count(hull.number(v)) > 0);
+      if (is_hub_.back()) hull.remember(v);
+    }
   const bool is_first = to_patch_.empty();
-  doubts.has_new_claims = doubts.has_grown || has_new_hubs_ || is_first;
+  const bool is_anew = has_new_hubs_ || is_first;
+  doubts.has_new_claims = doubts.has_grown || is_anew;
   has_new_hubs_ = false;
   if (!doubts.has_new_claims) return doubts;
-  claims_.clear();
+  // A face that is new since the last time has a new node.
+  const std::size_t first_new = is_anew ? 0 : before;
+  const auto is_new = [&](HullFace t) {
+    const auto& vertex = hull.face(t).vertex;
+    return vertex[0] >= first_new || vertex[1] >= first_new || vertex[2] >= first_new;
+  };
+  claims_.erase(
+      std::remove_if(claims_.begin(), claims_.end(), [&](const Claim& claim) { return is_new(claim.face); }),
+      claims_.end());
   to_patch_.assign(static_cast<std::size_t>(patch.partition.patches()), 0);
-  asked.around.clear();
-  asked.is_around.assign(n, false);
+  for (const Claim& claim : claims_) ++to_patch_[static_cast<std::size_t>(claim.owner)];
+  if (is_anew) asked.around.clear(), asked.is_around.clear();
+  asked.is_around.resize(n, false);
   std::vector<PatchNumber> owner_of_node(n, -1);
-  hull.for_each_face_at_border(0, [&](HullFace t) {
+  hull.for_each_face_at_border(first_new, [&](HullFace t) {
     const auto& vertex = hull.face(t).vertex;
     const HullNode v[] = {vertex[0], vertex[1], vertex[2]};
     const bool has_one_hub = is_hub(v[0]) + is_hub(v[1]) + is_hub(v[2]) == 1;
@@ -164,18 +174,17 @@ std::vector<GlobalNumber> PatchAgreement<Int>::look_for_hubs(const PatchHull<Int
 }
 
 template <class Int>
-std::vector<GlobalNumber> PatchAgreement<Int>::kept_hubs(const PatchHull<Int>& hull) const {
-  std::vector<GlobalNumber> kept;
+std::vector<KeptHub> PatchAgreement<Int>::kept_hubs(const PatchHull<Int>& hull) const {
+  std::vector<KeptHub> kept;
   for (HullNode h = 0; h < is_hub_.size(); ++h) {
     if (!is_hub_[h]) continue;
+    std::size_t triangles = 0;
     HullCorner corner = hull.corner(h);
     do {
-      if (is_in_run(hull, h, face_of(corner), edge_of(corner))) {
-        kept.push_back(hull.number(h));
-        break;
-      }
+      triangles += is_in_run(hull, h, face_of(corner), edge_of(corner));
       corner = hull.counterclockwise(corner);
-    } while (corner != hull.corner(h));
+    } while (corner != hull.corner(h) && triangles < kManyTriangles);
+    if (triangles > 0) kept.push_back({hull.number(h), triangles});
   }
   return kept;
 }

@@ -27,11 +27,20 @@ struct KeptByOther {
   std::size_t count;
 };
 
+/// A hub at which a patch keeps triangles.
+struct KeptHub {
+  GlobalNumber number;
+  std::size_t triangles;  ///< at most kManyTriangles of them are counted
+};
+/// A node of another patch may be a hub if a patch has more than kManyTriangles to ask its owner about.
+constexpr std::size_t kManyTriangles = 64;
+
 /// The members do what those of Patch do.
 template <class Int>
 class PatchAgreement {
  public:
-  Doubts claim(const PatchView<Int>& patch, const std::array<Record, 3>& corners, Asked& asked);
+  Doubts claim(PatchHull<Int>& hull, const PatchView<Int>& patch, const std::array<Record, 3>& corners,
+               Asked& asked);
   std::size_t claims_on(PatchNumber other) const {
     return to_patch_.empty() ? 0 : to_patch_[static_cast<std::size_t>(other)];
   }
@@ -46,7 +55,7 @@ class PatchAgreement {
     is_hub_.clear();
     has_new_hubs_ = true;
   }
-  std::vector<GlobalNumber> kept_hubs(const PatchHull<Int>& hull) const;
+  std::vector<KeptHub> kept_hubs(const PatchHull<Int>& hull) const;
   template <class Visit>
   void for_each_run(const PatchView<Int>& patch, const Visit& visit) const {
     const PatchHull<Int>& hull = patch.hull;

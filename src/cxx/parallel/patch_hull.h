@@ -93,6 +93,15 @@ class PatchHull {
   template <class Visit>
   void for_each_face_at_border(std::size_t first, const Visit& visit) const {
     const auto n = static_cast<HullNode>(growing_->node_count());
+    if (constexpr std::size_t kMany = 8; first == 0 && kMany * (n - own_) > n) {
+      const auto faces = static_cast<HullFace>(growing_->face_count());
+      for (HullFace t = 0; t < faces; ++t) {
+        const auto& corner = arrays_.faces[t].vertex;
+        const int own = is_own(corner[0]) + is_own(corner[1]) + is_own(corner[2]);
+        if (own == 1 || own == 2) visit(t);
+      }
+      return;
+    }
     for (auto v = static_cast<HullNode>(first); v < n; ++v) {
       if (is_own(v)) continue;
       for_each_face_at(v, [&](HullFace t, std::uint32_t) {

@@ -333,7 +333,7 @@ Stars<Int> return_rings(Certified<Int> certified, ReturnAddresses addresses, con
     runs = exchange_in_agreement(
         ranks, [&] { return runs_at_hubs(patches, division, static_cast<std::size_t>(ranks.size())); });
   stars.received = exchange_in_agreement(ranks, [&] {
-    stars.homes = std::make_unique<Homes>(division, options, loads_of(patches));
+    stars.homes = std::make_unique<Homes>(division, options, loads_of(patches), std::move(certified.hubs));
     stars.memory.reserve(3);  // what is moved there below must not fail
     table.make_room(addresses.own_begin.back());
     entries =

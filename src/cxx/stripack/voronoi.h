@@ -39,7 +39,7 @@ struct VoronoiArrays {
 /// come first, and the slots of their arcs are added to LPTR. O(n) plus the swaps among these triangles, on
 /// threads for large n; the result has the same bytes for any number of threads. Always returns: if rounded
 /// swap tests of cocircular boundary nodes would cycle, exact ones take over. Takes up to 92 bytes per node
-/// during the call (Real = double, Int = int32_t; 24 more if the lists are not canonical). Throws
+/// during the call (Real = double, Int = int32_t), 76 more if the lists are not canonical. Throws
 /// std::bad_alloc before anything is written.
 template <class Real, class Int>
 VoronoiStatus voronoi(const ListsView<Int>& lists, const Nodes<Real>& nodes,
