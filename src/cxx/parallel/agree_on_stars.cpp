@@ -116,7 +116,7 @@ template <class Int>
 void agree_on_stars(Certified<Int>& certified, const Division& division, const Corners& corners,
                     Communicator& ranks, int threads) {
   constexpr int kMostRounds = 50;
-  constexpr std::size_t kFewQuestions = 8, kMoreQuestions = 8;
+  constexpr std::size_t kFewQuestions = 64, kMoreQuestions = 8;
   Patches<Int>& patches = certified.patches;
   Questions questions;
   Hubs hubs;

@@ -7,6 +7,7 @@ namespace pstripack {
 namespace {
 
 constexpr double kUneven = 1.15;     // the most work of a rank, over the mean
+constexpr double kUnevenHalo = 1.5;  // the same with its halo and questions, over the mean without
 constexpr std::int64_t kSeldom = 4;  // own nodes for each question
 constexpr double kOfQuestion = 300;  // nanoseconds, about: of patches that know the nodes it is about
 
@@ -26,6 +27,7 @@ Loads::Loads(std::shared_ptr<const Partition> partition, const PatchRanges& patc
       const double asking = kOfQuestion * static_cast<double>(load.questions);
       const double work = static_cast<double>(load.work);
       nanoseconds_.push_back((work + asking) / known);
+      without_questions_.push_back(work / known);
       of_own += work * static_cast<double>(load.own) / known;
       of_rank += work + asking;
       own += load.own;
@@ -36,7 +38,7 @@ Loads::Loads(std::shared_ptr<const Partition> partition, const PatchRanges& patc
     most_of_rank_ = std::max(most_of_rank_, of_rank);
     have_many_questions_ = have_many_questions_ || kSeldom * questions > own;
   }
-  are_uneven_ = most > kUneven * even;
+  are_uneven_ = most > kUneven * even || most_of_rank_ > kUnevenHalo * even;
   most_ = std::max(1.0, *std::max_element(nanoseconds_.begin(), nanoseconds_.end()));
 }
 
@@ -56,8 +58,10 @@ bool Loads::expect_less_of(const Partition& other, const std::vector<Point>& sam
   std::vector<PatchOfNode> owner(sample.size());
   std::vector<double> nearest_plane(sample.size()), of_rank(patches_.ranks());
   other.owners(sample.data(), sample.size(), owner.data(), nearest_plane.data());
+  // Where halos follow the mesh, there are few questions.
+  const std::vector<double>& of_node = other.has_convex_patches() ? nanoseconds_ : without_questions_;
   const auto add = [&](std::size_t i, PatchNumber q) {
-    of_rank[patches_.rank_of(q)] += most_ * weight(sample[i]);
+    of_rank[patches_.rank_of(q)] += of_node[static_cast<std::size_t>(partition_->owner(sample[i]))];
   };
   for (std::size_t i = 0; i < sample.size(); ++i) add(i, static_cast<PatchNumber>(owner[i]));
   other.for_each_halo(sample.data(), sample.size(), owner.data(), nearest_plane.data(), add);

@@ -14,7 +14,7 @@ namespace pstripack {
 struct PatchLoad {
   std::int64_t own, known;  ///< nodes; `known`: with the halo
   std::int64_t work;        ///< Patch::work(), nanoseconds
-  std::int64_t questions;   ///< that the patch has asked about triangles
+  std::int64_t questions;   ///< Patch::questions()
 };
 
 /// The loads of all patches of a partition. The same on every rank.
@@ -42,9 +42,10 @@ class Loads {
  private:
   std::shared_ptr<const Partition> partition_;
   PatchRanges patches_;
-  std::vector<double> nanoseconds_;  ///< of a node, with the questions of its patch, by patch
-  double most_ = 1;                  ///< the largest of nanoseconds_
-  double most_of_rank_ = 0;          ///< nanoseconds of the rank with most to do
+  std::vector<double> nanoseconds_;        ///< of a node, with the questions of its patch, by patch
+  std::vector<double> without_questions_;  ///< the same without them
+  double most_ = 1;                        ///< the largest of nanoseconds_
+  double most_of_rank_ = 0;                ///< nanoseconds of the rank with most to do
   bool are_uneven_ = false, have_many_questions_ = false;
 };
 

@@ -5,6 +5,7 @@
 
 #include "geometry/insertion_order.h"
 #include "geometry/predicates.h"
+#include "parallel/number_table.h"
 
 namespace pstripack {
 namespace {
@@ -37,17 +38,20 @@ void Patch<Int>::triangulate() {
 template <class Int>
 void Patch<Int>::take_in(std::vector<Record> nodes) {
   if (nodes_.own == 0) return;
-  // Patches that agree on stars ask about the same triangles again and again: most nodes are in.
-  nodes.erase(
-      std::remove_if(nodes.begin(), nodes.end(),
-                     [&](const Record& r) { return hull_.find(r.number) != PatchHull<Int>::kNobody; }),
-      nodes.end());
+  // Each node once: no cell of the curve could tell equal ones apart. Patches that agree on stars ask about
+  // the same triangles again and again: most nodes are in.
+  NumberTable<bool> met(nodes.size());
+  nodes.erase(std::remove_if(nodes.begin(), nodes.end(),
+                             [&](const Record& r) {
+                               return hull_.find(r.number) != PatchHull<Int>::kNobody ||
+                                      !met.insert(r.number, true).second;
+                             }),
+              nodes.end());
   constexpr std::size_t kMany = 1000;
   if (nodes.size() < kMany) {  // sorting them would take longer than the searches
     for (const Record& r : nodes) hull_.take_in(r);
     return;
   }
-  keep_one_of_each(nodes);  // no cell of the curve could tell equal ones apart
   Workspace workspace(16 * nodes.size());
   std::vector<std::uint32_t> order(nodes.size());
   insertion_order(&nodes[0].point, nodes.size(), order.data(), workspace, sizeof(Record));

@@ -136,8 +136,12 @@ class Patch {
   /// About how many nanoseconds triangulate() took, by the decisions of the predicates. The same in every
   /// run, which no clock tells.
   std::int64_t work() const { return work_; }
-  /// Number of questions about triangles in all calls of ask().
-  std::int64_t questions() const { return questions_; }
+  /// Number of questions about triangles in all calls of ask(), and of nodes taken in because of questions.
+  std::int64_t questions() const {
+    return nodes_.own == 0
+               ? 0
+               : questions_ + static_cast<std::int64_t>(hull_.growing().node_count() - hull_.built());
+  }
   /// The numbers of different nodes in the same direction, as far as it has found them.
   const CoincidentPairs& coincident() const { return hull_.coincident(); }
 
