@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "geometry/hilbert_curve.h"
 #include "point_sets.h"
 
 namespace benchmark {
@@ -35,9 +36,9 @@ double zone(double value, double low, double high, double zones) {
 }
 
 /// The cell of a point on the cylinder (longitude, z), which has 2^30 x 2^30 cells of equal area.
-std::pair<std::uint64_t, std::uint64_t> cell(const Point& p) {
+std::pair<std::uint32_t, std::uint32_t> cell(const Point& p) {
   constexpr double kSide = 0x1p30;
-  const auto within = [](double c) { return static_cast<std::uint64_t>(std::clamp(c, 0.0, kSide - 1)); };
+  const auto within = [](double c) { return static_cast<std::uint32_t>(std::clamp(c, 0.0, kSide - 1)); };
   return {within(zone(longitude(p), -kPi, kPi, kSide)), within(zone(p.z, -1, 1, kSide))};
 }
 
@@ -49,17 +50,8 @@ std::uint64_t along_morton(const Point& p) {
 }
 
 std::uint64_t along_hilbert(const Point& p) {
-  auto [i, j] = cell(p);
-  std::uint64_t key = 0;
-  for (int bit = 29; bit >= 0; --bit) {
-    const std::uint64_t a = i >> bit & 1, b = j >> bit & 1;
-    key = key << 2 | (3 * a ^ b);
-    if (b == 0) {  // in these quadrants the curve enters and leaves with exchanged axes
-      if (a == 1) i = ~i, j = ~j;
-      std::swap(i, j);
-    }
-  }
-  return key;
+  const auto [i, j] = cell(p);
+  return pstripack::hilbert::along_curve(i, j, 6);
 }
 
 /// First, last, second, last but one ...

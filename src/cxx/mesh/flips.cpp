@@ -31,10 +31,10 @@ void MovingMesh::keep_arrays() {
   inside_ = workspace_.keep<std::uint32_t>(most_);
   nodes_ = workspace_.keep<Point>(most_);
   stars_ = workspace_.keep<Star>(n_);
-  rings_ = workspace_.keep<std::uint32_t>(slots_);
+  rings_ = workspace_.keep<CurveNode>(slots_);
   is_changed_ = workspace_.keep<std::uint8_t>(n_);
   std::fill_n(is_changed_, n_, std::uint8_t{0});
-  for (std::size_t v = n_; v < most_; ++v) order_[v] = inside_[v] = static_cast<std::uint32_t>(v);
+  for (std::size_t v = n_; v < most_; ++v) order_[v] = inside_[v] = static_cast<CurveNode>(v);
 }
 
 MovingMesh::MovingMesh(const Point* p, std::size_t n, const std::int32_t* list, const std::int32_t* lend,
@@ -44,7 +44,7 @@ MovingMesh::MovingMesh(const Point* p, std::size_t n, const std::int32_t* list, 
   workspace_.next_phase();
   keep_arrays();
   parallel_pieces(n, threads_for(n), [&](std::size_t first, std::size_t last, int) {
-    for (std::size_t v = first; v < last; ++v) inside_[order_[v]] = static_cast<std::uint32_t>(v);
+    for (std::size_t v = first; v < last; ++v) inside_[order_[v]] = static_cast<CurveNode>(v);
   });
   std::copy(p + n, p + all_, nodes_ + n);
   const auto slot = [&](std::size_t k) { return static_cast<std::size_t>(k == 0 ? 0 : lend[k - 1]); };
@@ -54,7 +54,7 @@ MovingMesh::MovingMesh(const Point* p, std::size_t n, const std::int32_t* list, 
         if (v + kAhead < n_) __builtin_prefetch(lend + order_[v + kAhead]);
         return slot(order_[v] + std::size_t{1}) - slot(order_[v]);
       },
-      [&](std::size_t v, std::uint32_t* ring) {
+      [&](std::size_t v, CurveNode* ring) {
         if (v + 2 * kAhead < n_) __builtin_prefetch(lend + order_[v + 2 * kAhead]);
         if (v + kAhead < n_) __builtin_prefetch(list + slot(order_[v + kAhead]));
         std::transform(list + slot(order_[v]), list + lend[order_[v]], ring,
@@ -64,14 +64,14 @@ MovingMesh::MovingMesh(const Point* p, std::size_t n, const std::int32_t* list, 
 
 /// Nodes that had stars keep their order, so that neighbours stay close in memory; the others follow.
 MovingMesh::MovingMesh(const MovingMesh& last, std::size_t n, std::size_t arcs, std::size_t outside,
-                       std::size_t room, const std::uint32_t* to, const MoreStars& more)
+                       std::size_t room, const MeshNode* to, const MoreStars& more)
     : MovingMesh(n, arcs, outside, room) {
   keep_arrays();
   std::fill_n(nodes_, all_, Point{});
-  BlockArray<std::uint32_t> now(last.all_), from(n);  // new number of a node of `last`, and the inverse
+  BlockArray<CurveNode> now(last.all_), from(n);  // new number of a node of `last`, and the inverse
   std::uint32_t stay = 0;
-  for (std::uint32_t v = 0; v < last.n_; ++v) {
-    const std::uint32_t k = to[last.order_[v]];
+  for (CurveNode v = 0; v < last.n_; ++v) {
+    const MeshNode k = to[last.order_[v]];
     now[v] = k;
     if (k >= n) continue;
     order_[stay] = k;
@@ -81,37 +81,37 @@ MovingMesh::MovingMesh(const MovingMesh& last, std::size_t n, std::size_t arcs, 
   }
   for (std::size_t i = 0; i < more.node.size(); ++i) {
     order_[stay + i] = more.node[i];
-    inside_[more.node[i]] = static_cast<std::uint32_t>(stay + i);
+    inside_[more.node[i]] = static_cast<CurveNode>(stay + i);
   }
   for (std::size_t v = last.n_; v < last.all_; ++v) now[v] = to[v] < n ? inside_[to[v]] : to[v];
   lay_rings(
       [&](std::size_t v) {
         return v < stay ? std::size_t{last.stars_[from[v]].count} : more.count(v - stay);
       },
-      [&](std::size_t v, std::uint32_t* ring) {
+      [&](std::size_t v, CurveNode* ring) {
         if (v < stay) {
           const Star& star = last.stars_[from[v]];
-          const std::uint32_t* const old = last.rings_ + star.begin;
-          std::transform(old, old + star.count, ring, [&](std::uint32_t w) { return now[w]; });
+          const CurveNode* const old = last.rings_ + star.begin;
+          std::transform(old, old + star.count, ring, [&](CurveNode w) { return now[w]; });
         } else {
-          const std::uint32_t* const end = more.ring.data() + more.end[v - stay];
-          std::transform(end - more.count(v - stay), end, ring, [&](std::uint32_t k) { return inside_[k]; });
+          const MeshNode* const end = more.ring.data() + more.end[v - stay];
+          std::transform(end - more.count(v - stay), end, ring, [&](MeshNode k) { return inside_[k]; });
         }
       });
 }
 
 void MovingMesh::forget_changes() {
-  for (const std::uint32_t v : changed_) is_changed_[v] = 0;
+  for (const CurveNode v : changed_) is_changed_[v] = 0;
   changed_.clear();
   // The rings that one call makes longer need room at the end. If there is little left, lay all anew.
   if (end_ + n_ / 2 <= slots_) return;
   try {
-    BlockArray<std::uint32_t> before(end_);
+    BlockArray<CurveNode> before(end_);
     BlockArray<Star> stars(n_);
     std::copy_n(rings_, end_, before.data());
     std::copy_n(stars_, n_, stars.data());
     lay_rings([&](std::size_t v) { return std::size_t{stars[v].count}; },
-              [&](std::size_t v, std::uint32_t* ring) {
+              [&](std::size_t v, CurveNode* ring) {
                 std::copy_n(before.data() + stars[v].begin, stars[v].count, ring);
               });
   } catch (const std::bad_alloc&) {
@@ -165,7 +165,7 @@ struct Spokes {
   double x[kMost + 4], y[kMost + 4], z[kMost + 4];
   double reach;  ///< the largest absolute value of a component
 
-  void look(const Point* nodes, const Point& p, const std::uint32_t* ring, std::uint32_t count) {
+  void look(const Point* nodes, const Point& p, const CurveNode* ring, std::uint32_t count) {
     double most_x = 0, most_y = 0, most_z = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
       const Point d = minus(nodes[ring[i]], p);
@@ -210,8 +210,8 @@ struct Spokes {
 /// Tries the centroids of a few triangles: the direction must be strictly inside, by exact signs.
 bool MovingMesh::choose_mark(Mark& mark) const {
   constexpr std::uint32_t kTries = 16;
-  for (std::uint32_t v = 0; v < std::min<std::size_t>(n_, kTries); ++v) {
-    const std::uint32_t* const ring = rings_ + stars_[v].begin;
+  for (CurveNode v = 0; v < std::min<std::size_t>(n_, kTries); ++v) {
+    const CurveNode* const ring = rings_ + stars_[v].begin;
     mark = {{order_[v], order_[ring[0]], order_[ring[1]]}, {}};
     const Point &a = nodes_[v], &b = nodes_[ring[0]], &c = nodes_[ring[1]];
     const Point sum{a.x + b.x + c.x, a.y + b.y + c.y, a.z + b.z + c.z};
@@ -246,7 +246,7 @@ bool MovingMesh::test(std::size_t first, std::size_t last, const Mark& mark, con
       is_certain = is_far && reach <= 0x1p-4 && spokes.are_certain(p, star.count);
     }
     if (is_certain) continue;
-    if (stopped.load(std::memory_order_relaxed) || !examine(static_cast<std::uint32_t>(v), mark, suspects))
+    if (stopped.load(std::memory_order_relaxed) || !examine(static_cast<CurveNode>(v), mark, suspects))
       return false;
   }
   return true;
@@ -254,17 +254,17 @@ bool MovingMesh::test(std::size_t first, std::size_t last, const Mark& mark, con
 
 /// The same for one star, exactly. It tests each triangle at its lowest corner and each arc at its lower end,
 /// unless the star of that node was certain.
-bool MovingMesh::examine(std::uint32_t v, const Mark& mark, std::vector<Arc>& suspects) const {
+bool MovingMesh::examine(CurveNode v, const Mark& mark, std::vector<Arc>& suspects) const {
   const Coordinates predicates(nodes_, all_);
-  const auto id = [](std::uint32_t w) { return static_cast<index_t>(w); };
-  const auto is_corner_of_mark = [&](std::uint32_t w) {
+  const auto id = [](CurveNode w) { return static_cast<index_t>(w); };
+  const auto is_corner_of_mark = [&](CurveNode w) {
     return w == mark.corner[0] || w == mark.corner[1] || w == mark.corner[2];
   };
   const Star star = stars_[v];
-  const std::uint32_t* const ring = rings_ + star.begin;
-  std::uint32_t c = ring[star.count - 1];
+  const CurveNode* const ring = rings_ + star.begin;
+  CurveNode c = ring[star.count - 1];
   for (std::uint32_t i = 0; i < star.count; ++i) {
-    const std::uint32_t b = ring[i], d = ring[i + 1 < star.count ? i + 1 : 0];
+    const CurveNode b = ring[i], d = ring[i + 1 < star.count ? i + 1 : 0];
     if (v < c && v < b) {
       if (predicates.left(id(v), id(c), id(b)) <= 0) return false;
       const Point &p = nodes_[v], &q = nodes_[c], &r = nodes_[b], &g = mark.towards;
@@ -288,7 +288,7 @@ bool MovingMesh::test(const Mark& given) {
   flips_ = 0;
   work_ = 8 * n_ + 1000;  // with more work a new triangulation is faster
   Mark mark = given;
-  for (std::uint32_t& corner : mark.corner) corner = corner == kNobody ? kNobody : inside_[corner];
+  for (CurveNode& corner : mark.corner) corner = corner == kNobody ? kNobody : inside_[corner];
   const int threads = threads_for(n_);
   std::atomic<bool> stopped{false};
   std::vector<std::vector<Arc>> suspects(static_cast<std::size_t>(threads));
@@ -340,11 +340,11 @@ bool MovingMesh::flip_inside(std::vector<Quadrangle>& across) {
 /// Returns false if the arc no longer exists or is locally Delaunay.
 bool MovingMesh::find(const Arc& arc, Quadrangle& q) const {
   const Star star = stars_[arc.a];
-  const std::uint32_t* const ring = rings_ + star.begin;
+  const CurveNode* const ring = rings_ + star.begin;
   const std::uint32_t at = place_of(arc.b, star);
   if (at == star.count) return false;
   q = {arc.a, arc.b, ring[at == 0 ? star.count - 1 : at - 1], ring[at + 1 == star.count ? 0 : at + 1]};
-  const auto id = [](std::uint32_t w) { return static_cast<index_t>(w); };
+  const auto id = [](CurveNode w) { return static_cast<index_t>(w); };
   return Coordinates(nodes_, all_).above(id(q.a), id(q.c), id(q.b), id(q.d));
 }
 
@@ -358,7 +358,7 @@ bool MovingMesh::is_convex(const Quadrangle& q) const {
 }
 
 bool MovingMesh::flip(const Quadrangle& q) {
-  const auto inside = [&](std::uint32_t k) { return k == kNobody ? kNobody : inside_[k]; };
+  const auto inside = [&](MeshNode k) { return k == kNobody ? kNobody : inside_[k]; };
   return flip_here({inside(q.a), inside(q.b), inside(q.c), inside(q.d)});
 }
 
@@ -369,45 +369,45 @@ bool MovingMesh::flip(const Quadrangle& q) {
 ///          a                   a
 bool MovingMesh::flip_here(const Quadrangle& q) {
   const auto [a, b, c, d] = q;
-  const auto has_star = [&](std::uint32_t v) { return !is_outside(v); };
+  const auto has_star = [&](CurveNode v) { return !is_outside(v); };
   std::size_t cost = 8;
-  for (const std::uint32_t v : {a, b, c, d}) cost += has_star(v) ? stars_[v].count : 0;
+  for (const CurveNode v : {a, b, c, d}) cost += has_star(v) ? stars_[v].count : 0;
   if (cost > work_) return false;
   work_ -= cost;
   if (has_star(a)) remove(a, place_of(b, stars_[a]));
   if (has_star(b)) remove(b, place_of(a, stars_[b]));
   if (has_star(c) && !insert(c, place_of(a, stars_[c]), d)) return false;
   if (has_star(d) && !insert(d, place_of(b, stars_[d]), c)) return false;
-  for (const std::uint32_t v : {a, b, c, d})
+  for (const CurveNode v : {a, b, c, d})
     if (has_star(v)) note_change(v);
   for (const Arc& arc : {Arc{a, c}, Arc{c, b}, Arc{b, d}, Arc{d, a}}) suspect_inside(arc.a, arc.b);
   ++flips_;
   return true;
 }
 
-void MovingMesh::suspect_inside(std::uint32_t a, std::uint32_t b) {
+void MovingMesh::suspect_inside(CurveNode a, CurveNode b) {
   if (is_outside(a)) std::swap(a, b);
   if (!is_outside(a)) suspects_.push_back({a, b});
 }
 
-void MovingMesh::suspect(std::uint32_t a, std::uint32_t b) {
-  const auto inside = [&](std::uint32_t k) { return k == kNobody ? kNobody : inside_[k]; };
+void MovingMesh::suspect(MeshNode a, MeshNode b) {
+  const auto inside = [&](MeshNode k) { return k == kNobody ? kNobody : inside_[k]; };
   suspect_inside(inside(a), inside(b));
 }
 
-std::uint32_t MovingMesh::add_outside(const Point& p) {
+MeshNode MovingMesh::add_outside(const Point& p) {
   if (all_ == most_) return kNobody;
   nodes_[all_] = p;
-  return static_cast<std::uint32_t>(all_++);
+  return static_cast<MeshNode>(all_++);
 }
 
-std::uint32_t MovingMesh::place_of(std::uint32_t b, const Star& star) const {
-  const std::uint32_t* const ring = rings_ + star.begin;
+std::uint32_t MovingMesh::place_of(CurveNode b, const Star& star) const {
+  const CurveNode* const ring = rings_ + star.begin;
   return static_cast<std::uint32_t>(std::find(ring, ring + star.count, b) - ring);
 }
 
 /// Inserts a neighbour of v before the one at `place`. Returns false if there is no room.
-bool MovingMesh::insert(std::uint32_t v, std::uint32_t place, std::uint32_t neighbour) {
+bool MovingMesh::insert(CurveNode v, std::uint32_t place, CurveNode neighbour) {
   Star& star = stars_[v];
   if (rings_[star.begin + star.count] != kFree) {
     const std::size_t room = 2 * std::size_t{star.count};
@@ -418,21 +418,21 @@ bool MovingMesh::insert(std::uint32_t v, std::uint32_t place, std::uint32_t neig
     end_ += room;
     rings_[end_++] = kTaken;
   }
-  std::uint32_t* const ring = rings_ + star.begin;
+  CurveNode* const ring = rings_ + star.begin;
   std::copy_backward(ring + place, ring + star.count, ring + star.count + 1);
   ring[place] = neighbour;
   ++star.count;
   return true;
 }
 
-void MovingMesh::remove(std::uint32_t v, std::uint32_t place) {
+void MovingMesh::remove(CurveNode v, std::uint32_t place) {
   Star& star = stars_[v];
-  std::uint32_t* const ring = rings_ + star.begin;
+  CurveNode* const ring = rings_ + star.begin;
   std::copy(ring + place + 1, ring + star.count, ring + place);
   ring[--star.count] = kFree;
 }
 
-void MovingMesh::note_change(std::uint32_t v) {
+void MovingMesh::note_change(CurveNode v) {
   if (is_changed_[v] != 0) return;
   changed_.push_back(v);
   is_changed_[v] = 1;
@@ -450,7 +450,7 @@ std::vector<MovingMesh::Change> MovingMesh::changes() const {
 void MovingMesh::write_ring(std::size_t k, std::int32_t* list) const {
   const Star star = stars_[inside_[k]];
   std::transform(rings_ + star.begin, rings_ + star.begin + star.count, list,
-                 [&](std::uint32_t v) { return static_cast<std::int32_t>(order_[v]) + 1; });
+                 [&](CurveNode v) { return static_cast<std::int32_t>(order_[v]) + 1; });
   std::rotate(list, std::min_element(list, list + star.count), list + star.count);
 }
 

@@ -11,9 +11,13 @@
 
 namespace pstripack {
 
-/// The stars of the nodes of a mesh without a boundary, and the current positions of the nodes. Internally
-/// nodes are numbered along the insertion curve of their first positions, so that neighbours are close in
-/// memory.
+/// A node of a MovingMesh, as its caller counts: from 0; nodes outside come last.
+using MeshNode = std::uint32_t;
+/// The same node as the mesh counts: along the insertion curve of the first positions, so that neighbours are
+/// close in memory.
+using CurveNode = std::uint32_t;
+
+/// The stars of the nodes of a mesh without a boundary, and the current positions of the nodes.
 ///
 /// An object may hold a part of such a mesh: the stars of some of its nodes. Neighbours that have no star
 /// here are called nodes outside; their numbers, as the caller counts, are size() and above.
@@ -28,7 +32,9 @@ class MovingMesh {
   /// Stars to be added: node[i] has the neighbours ring[end[i-1]..end[i]-1], counterclockwise; end[-1] counts
   /// as 0.
   struct MoreStars {
-    std::vector<std::uint32_t> node, end, ring;
+    std::vector<MeshNode> node;
+    std::vector<std::uint32_t> end;
+    std::vector<MeshNode> ring;
     std::size_t count(std::size_t i) const { return end[i] - (i == 0 ? 0 : end[i - 1]); }
   };
   /// Another part of the mesh of which `last` is a part: n nodes with stars that have `arcs` arcs in all,
@@ -36,7 +42,7 @@ class MovingMesh {
   /// not in this part. `more` has the stars of the nodes that had no star in `last`. Positions are not set:
   /// the caller sets them by node(). Parallel. Throws std::bad_alloc.
   MovingMesh(const MovingMesh& last, std::size_t n, std::size_t arcs, std::size_t outside, std::size_t room,
-             const std::uint32_t* to, const MoreStars& more);
+             const MeshNode* to, const MoreStars& more);
 
   /// Bytes of a mesh with n stars and `arcs` arcs in them; `all` nodes, those outside and their room
   /// included.
@@ -61,15 +67,16 @@ class MovingMesh {
   // The steps of repair(), for parts that together are a mesh. If one returns false, the mesh must be
   // discarded.
 
-  static constexpr std::uint32_t kNobody = UINT32_MAX;
+  static constexpr MeshNode kNobody = UINT32_MAX;
   /// A triangle, and a direction strictly inside it. Corners that are not nodes of this part are kNobody.
   struct Mark {
-    std::uint32_t corner[3];
+    MeshNode corner[3];
     Point towards;
   };
-  /// The arc a-b with c on its right and d on its left, as drawn at flip_here().
+  /// The arc a-b with c on its right and d on its left, as drawn at flip_here(). In private functions the
+  /// four are CurveNodes, as are the corners of a Mark.
   struct Quadrangle {
-    std::uint32_t a, b, c, d;
+    MeshNode a, b, c, d;
   };
   /// Chooses a triangle of this part. False if none of a few is suitable.
   bool choose_mark(Mark& mark) const;
@@ -85,13 +92,14 @@ class MovingMesh {
   /// neighbour of a star here may be kNobody. Throws std::bad_alloc.
   bool flip(const Quadrangle& q);
   /// Notes that the arc a-b may not be locally Delaunay. Throws std::bad_alloc.
-  void suspect(std::uint32_t a, std::uint32_t b);
+  void suspect(MeshNode a, MeshNode b);
   /// Adds a node outside and returns its number; kNobody if there is no room.
-  std::uint32_t add_outside(const Point& p);
+  MeshNode add_outside(const Point& p);
 
   /// A node whose ring differs from that in the lists given last: its number, and its number of neighbours.
   struct Change {
-    std::uint32_t node, count;
+    MeshNode node;
+    std::uint32_t count;
   };
   /// All changes, in increasing order of the nodes. Throws std::bad_alloc.
   std::vector<Change> changes() const;
@@ -102,7 +110,7 @@ class MovingMesh {
   void for_each_arc_outside(const Visit& visit) const {
     for (std::size_t v = 0; v < n_; ++v)
       for (std::uint32_t i = 0; i < stars_[v].count; ++i)
-        if (const std::uint32_t w = rings_[stars_[v].begin + i]; is_outside(w)) visit(w - n_);
+        if (const CurveNode w = rings_[stars_[v].begin + i]; is_outside(w)) visit(w - n_);
   }
   /// Writes the degree(k) neighbours of node k as they stand in LIST.
   void write_ring(std::size_t k, std::int32_t* list) const;
@@ -115,7 +123,7 @@ class MovingMesh {
     std::uint32_t begin, count;
   };
   struct Arc {
-    std::uint32_t a, b;
+    CurveNode a, b;
   };
 
   static constexpr std::uint32_t kFree = UINT32_MAX, kTaken = UINT32_MAX - 1;
@@ -132,30 +140,31 @@ class MovingMesh {
   void lay_rings(const Count& count, const Write& write);
   bool test(std::size_t first, std::size_t last, const Mark& mark, const std::atomic<bool>& stopped,
             std::vector<Arc>& suspects) const;
-  bool examine(std::uint32_t v, const Mark& mark, std::vector<Arc>& suspects) const;
-  bool is_outside(std::uint32_t v) const { return v >= n_; }
-  void suspect_inside(std::uint32_t a, std::uint32_t b);
+  bool examine(CurveNode v, const Mark& mark, std::vector<Arc>& suspects) const;
+  bool is_outside(CurveNode v) const { return v >= n_; }
+  void suspect_inside(CurveNode a, CurveNode b);
   bool find(const Arc& arc, Quadrangle& q) const;
   bool is_convex_inside(const Quadrangle& q) const;
   bool flip_here(const Quadrangle& q);
-  std::uint32_t place_of(std::uint32_t b, const Star& star) const;
-  bool insert(std::uint32_t v, std::uint32_t place, std::uint32_t neighbour);
-  void remove(std::uint32_t v, std::uint32_t place);
-  void note_change(std::uint32_t v);
+  std::uint32_t place_of(CurveNode b, const Star& star) const;
+  bool insert(CurveNode v, std::uint32_t place, CurveNode neighbour);
+  void remove(CurveNode v, std::uint32_t place);
+  void note_change(CurveNode v);
 
   std::size_t n_, all_, most_;      ///< nodes with a star; and nodes outside; and room for more outside
   const std::size_t arcs_, slots_;  ///< arcs of the stars at the beginning; size of rings_
   Workspace workspace_;
-  std::uint32_t *order_, *inside_;  ///< the caller's number of node v; node v of the caller's number
-  Point* nodes_;                    ///< the nodes outside come last
+  MeshNode* order_;    ///< of each CurveNode
+  CurveNode* inside_;  ///< of each MeshNode
+  Point* nodes_;       ///< the nodes outside come last
   Star* stars_;
   /// Rings, counterclockwise, starting with any neighbour. Free slots behind a ring hold kFree; the slot
   /// after these is the first of another ring, or holds kTaken. A ring that outgrows its place moves to the
   /// end.
-  std::uint32_t* rings_;
+  CurveNode* rings_;
   std::size_t end_ = 0;
   std::uint8_t* is_changed_;
-  std::vector<std::uint32_t> changed_;
+  std::vector<CurveNode> changed_;
   std::vector<Arc> suspects_;  ///< arcs to be tested; a is not outside
   std::vector<Arc> across_;    ///< arcs not locally Delaunay whose quadrangle has a node outside
   std::size_t flips_ = 0;

@@ -30,12 +30,10 @@ using LastNode = std::uint32_t;
 /// everywhere come after these. Its HullNode is another number: the hull has them along a curve.
 using PatchNode = std::uint32_t;
 
-/// A node that another rank brings and that is a neighbour of nodes here: which of the nodes outside.
+/// A node that another rank brings and that is a neighbour of nodes here: which of the nodes outside. In the
+/// mesh that the rank keeps, it is MeshNode (mesh/flips.h) count + j, after the LocalNodes.
 enum class OutsideNode : std::uint32_t {};
 constexpr std::uint32_t index_of(OutsideNode node) { return static_cast<std::uint32_t>(node); }
-
-/// A node of the mesh that a rank keeps: its LocalNodes, then OutsideNode j as their count + j.
-using MeshNode = std::uint32_t;
 
 /// A node of a sample or of a few nodes from everywhere; the same on every rank.
 using SampleNode = std::uint32_t;

@@ -6,25 +6,12 @@
 #include <tuple>
 #include <utility>
 
+#include "geometry/hilbert_curve.h"
 #include "parallel/agreement.h"
 #include "parallel/local_nodes.h"
 
 namespace pstripack::scvt {
 namespace {
-
-/// Place of the cell x, y along Hilbert's curve in a square of 2^30 x 2^30 cells.
-std::uint64_t hilbert(std::uint32_t x, std::uint32_t y) {
-  std::uint64_t place = 0;
-  for (std::uint32_t side = std::uint32_t{1} << 29; side > 0; side /= 2) {
-    const std::uint32_t right = (x & side) != 0, up = (y & side) != 0;
-    place = place << 2 | ((3 * right) ^ up);
-    if (up == 0) {
-      if (right != 0) x = ~x, y = ~y;
-      std::swap(x, y);
-    }
-  }
-  return place;
-}
 
 /// Place of a unit vector along the curve: the face of the cube, then the place on that face.
 std::uint64_t place_on_curve(const Point& p) {
@@ -40,7 +27,8 @@ std::uint64_t place_on_curve(const Point& p) {
     face = p.y > 0 ? 1 : 3, u = -p.x / p.y, v = p.z / y;
   else
     face = p.z > 0 ? 4 : 5, u = p.x / z, v = p.y / p.z;
-  return face << 60 | hilbert(cell(u), cell(v));
+  constexpr int kBlocks = 6;
+  return face << (2 * hilbert::kLevels * kBlocks) | hilbert::along_curve(cell(u), cell(v), kBlocks);
 }
 
 struct Placed {
