@@ -1,9 +1,8 @@
 // A call that begins with the stars of the last one, in order:
 //   1  every rank learns where the nodes are that its stars name and other ranks bring
 //   2  every rank tests its own stars
-//   3  arcs are flipped: by one rank alone where it brings all four nodes; else one rank proposes the flip,
-//   all
-//      hear of it, and each changes the stars that it has
+//   3  arcs are flipped: by one rank alone where it brings all four nodes; else the ranks of its ends propose
+//      the flip, all hear of it, and each changes the stars that it has
 //
 // After each exchange the stars of all ranks together are one mesh again. Why the tests suffice:
 // docs/parallel.md, "Warm start".
