@@ -23,6 +23,7 @@
 #include "parallel/sample_hull.h"
 #include "parallel/triangulate.h"
 #include "point_sets.h"
+#include "support/cases.h"
 #include "support/columns.h"
 #include "support/judge.h"
 #include "support/lists.h"
@@ -132,9 +133,7 @@ Outcome run(const Nodes& nodes, const std::vector<std::size_t>& rank_of_node,
   return out;
 }
 
-template <class Int>
-Outcome run(const Nodes& nodes, const Configuration& c, bool with_neighbours = false,
-            std::size_t most_questions = SIZE_MAX) {
+std::vector<std::size_t> ranks_that_bring(const Nodes& nodes, const Configuration& c) {
   const std::size_t n = nodes.size(), size = static_cast<std::size_t>(c.ranks);
   const Partition home(PartitionKind::bisection, c.ranks, nodes, n);
   std::vector<std::size_t> rank_of_node;
@@ -143,13 +142,19 @@ Outcome run(const Nodes& nodes, const Configuration& c, bool with_neighbours = f
                            : c.brings == Brings::every_other ? i % size
                            : c.brings == Brings::home        ? static_cast<std::size_t>(home.owner(nodes[i]))
                                                              : 0);
+  return rank_of_node;
+}
+
+template <class Int>
+Outcome run(const Nodes& nodes, const Configuration& c, bool with_neighbours = false,
+            std::size_t most_questions = SIZE_MAX) {
   ParallelOptions options;
   options.partition = c.partition;
   options.patches = c.patches;
   options.with_neighbours = with_neighbours;
   options.most_questions = most_questions;
-  std::vector<std::unique_ptr<Homes>> homes(size);
-  return run<Int>(nodes, rank_of_node, options, homes);
+  std::vector<std::unique_ptr<Homes>> homes(static_cast<std::size_t>(c.ranks));
+  return run<Int>(nodes, ranks_that_bring(nodes, c), options, homes);
 }
 
 ::testing::AssertionResult is_serial(const Set& set, const Outcome& out) {
@@ -549,6 +554,23 @@ TEST(Coincident, SameDirectionOnBothSidesOfABorder) {
   }
 }
 
+/// Each rank is told the neighbours of its nodes that it has not brought, and no others.
+::testing::AssertionResult has_outside(const Set& set, const std::vector<std::size_t>& rank_of_node,
+                                       const Outcome& out) {
+  for (std::size_t r = 0; r < out.stars.size(); ++r) {
+    std::map<std::int64_t, Point> expected, found;
+    for (std::size_t i = 0; i < set.nodes.size(); ++i)
+      if (rank_of_node[i] == r)
+        for (const std::int32_t b : set.rings.neighbours[i])
+          if (rank_of_node[static_cast<std::size_t>(b)] != r)
+            expected[b + 1] = set.nodes[static_cast<std::size_t>(b)];
+    for (const auto& o : out.stars[r].outside) found[value_of(o.number)] = o.point;
+    if (found != expected || found.size() != out.stars[r].outside.size())
+      return ::testing::AssertionFailure() << "outside of rank " << r;
+  }
+  return ::testing::AssertionSuccess();
+}
+
 TEST(Neighbours, OutsideAreExactlyThoseNotBrought) {
   const Set set(point_sets::make("random", 1500, 6));
   for (const auto& [patches, brings] : {std::pair{1, Brings::home},
@@ -557,26 +579,8 @@ TEST(Neighbours, OutsideAreExactlyThoseNotBrought) {
                                         {2, Brings::every_other},
                                         {2, Brings::rank_0}}) {
     const Configuration c{5, patches, PartitionKind::bisection, brings};
-    const Outcome out = run<std::int32_t>(set.nodes, c, true);
-    const Partition home(PartitionKind::bisection, c.ranks, set.nodes, set.nodes.size());
-    for (int r = 0; r < c.ranks; ++r) {
-      const auto is_mine = [&](std::size_t i) {
-        return c.brings == Brings::rank_0        ? r == 0
-               : c.brings == Brings::every_other ? static_cast<int>(i) % c.ranks == r
-                                                 : home.owner(set.nodes[i]) == r;
-      };
-      std::map<std::int64_t, Point> expected;
-      for (std::size_t i = 0; i < set.nodes.size(); ++i)
-        if (is_mine(i))
-          for (const std::int32_t b : set.rings.neighbours[i])
-            if (!is_mine(static_cast<std::size_t>(b)))
-              expected[b + 1] = set.nodes[static_cast<std::size_t>(b)];
-      std::map<std::int64_t, Point> found;
-      for (const auto& o : out.stars[static_cast<std::size_t>(r)].outside)
-        found[value_of(o.number)] = o.point;
-      EXPECT_EQ(found.size(), out.stars[static_cast<std::size_t>(r)].outside.size());
-      EXPECT_EQ(found, expected) << name_of(c) << " rank " << r;
-    }
+    EXPECT_TRUE(has_outside(set, ranks_that_bring(set.nodes, c), run<std::int32_t>(set.nodes, c, true)))
+        << name_of(c);
   }
 }
 
@@ -805,6 +809,60 @@ TEST_F(RememberedHubs, MayBeMissing) {
   call(nodes_);
   for (const GlobalNumber hub : homes_[0]->hubs())
     EXPECT_LE(value_of(hub), static_cast<std::int64_t>(nodes_.size()));
+}
+
+/// Calls that keep patches, drafts and hubs of the last one: the nodes stay, move, leave, are renumbered or
+/// are others; the next call finds them at home, or where they were.
+TEST(SequencesOfCalls, GiveTheSerialRings) {
+  std::vector<std::string> families = kFamilies;
+  for (const point_sets::Distribution& d : point_sets::distributions())
+    if (d.limit <= 4) families.push_back(d.name);
+  for (int k = 0; k < cases(60); ++k) {
+    point_sets::Random random(static_cast<std::uint64_t>(k) + 1);
+    const auto any_of = [&](std::size_t count) { return random.below(count); };
+    const std::size_t ranks = 2 + any_of(11);
+    ParallelOptions options;
+    options.partition = any_of(4) == 0 ? PartitionKind::stripes : PartitionKind::bisection;
+    options.patches = 1 + static_cast<int>(any_of(2));
+    options.with_neighbours = true;
+    options.most_questions = any_of(3) == 0 ? 0 : SIZE_MAX;  // 0: ranks agree on stars
+    std::string family = families[any_of(families.size())];
+    const auto nodes_of = [&] {
+      return point_sets::make(family, static_cast<std::size_t>(20 * std::pow(100, random.uniform())),
+                              random.below(1000));
+    };
+    Nodes nodes = nodes_of();
+    std::vector<std::unique_ptr<Homes>> homes(ranks);
+    std::string history = std::to_string(k + 1) + " on " + std::to_string(ranks) + ":";
+    for (int call = 0; call < 6; ++call) {
+      const std::size_t change = call == 0 ? 0 : any_of(6);
+      if (change == 1) nodes.resize(nodes.size() - any_of(nodes.size() / 4));
+      if (change == 2) std::reverse(nodes.begin(), nodes.end());
+      if (change == 3) {
+        const double far = std::pow(10, random.uniform(-9, 0));
+        for (Point& p : nodes) {
+          const Point q = random.direction();
+          p = point_sets::normalized({p.x + far * q.x, p.y + far * q.y, p.z + far * q.z});
+        }
+      }
+      if (change == 4) {
+        family = families[any_of(families.size())];
+        nodes = nodes_of();
+      }
+      history += " " + family + " " + std::to_string(nodes.size()) + " " + std::to_string(change) + ",";
+      const Set set(nodes);
+      if (!set.coincident.empty()) break;
+      nodes = set.nodes;
+      std::vector<std::size_t> rank_of_node;
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        rank_of_node.push_back(homes[0] != nullptr && change < 5
+                                   ? static_cast<std::size_t>(homes[0]->rank(nodes[i]))
+                                   : i * ranks / nodes.size());
+      const Outcome out = run<std::int32_t>(nodes, rank_of_node, options, homes);
+      ASSERT_TRUE(is_serial(set, out)) << history;
+      ASSERT_TRUE(has_outside(set, rank_of_node, out)) << history;
+    }
+  }
 }
 
 TEST(Numbers, BeyondThirtyTwoBits) {

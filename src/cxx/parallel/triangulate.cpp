@@ -69,8 +69,8 @@ Stars<Int> triangulate_places(const LocalNodes& nodes, const Corners& corners, c
     unfinished.coincident = std::move(certified.coincident);
     if (unfinished.gave_up)
       in_agreement(ranks, [&] {
-        unfinished.homes =
-            std::make_unique<Homes>(division, options, loads_of(certified.patches), certified.hubs);
+        unfinished.homes = std::make_unique<Homes>(division, options, loads_of(certified.patches),
+                                                   std::vector<GlobalNumber>());
       });
     return unfinished;
   }
