@@ -198,9 +198,9 @@ std::vector<Record> some_of(BlockArray<Record>& sample, std::size_t most, std::v
   return some;
 }
 
-/// About `most` of the sample and all of `some`, along a curve.
-std::vector<Record> along_curve(BlockArray<Record>& sample, std::size_t most, std::vector<Record> all_of) {
-  const std::vector<Record> some = some_of(sample, most, std::move(all_of));
+/// About `most` of the sample and all of `others`, along a curve.
+std::vector<Record> along_curve(BlockArray<Record>& sample, std::size_t most, std::vector<Record> others) {
+  const std::vector<Record> some = some_of(sample, most, std::move(others));
   Workspace workspace(16 * some.size());
   std::vector<std::uint32_t> order(some.size());
   insertion_order(&some[0].point, some.size(), order.data(), workspace, sizeof(Record));

@@ -93,6 +93,7 @@ class PatchHull {
   template <class Visit>
   void for_each_face_at_border(std::size_t first, const Visit& visit) const {
     const auto n = static_cast<HullNode>(growing_->node_count());
+    // Where many nodes are others', one pass over all faces takes less time than walks around them.
     if (constexpr std::size_t kMany = 8; first == 0 && kMany * (n - own_) > n) {
       const auto faces = static_cast<HullFace>(growing_->face_count());
       for (HullFace t = 0; t < faces; ++t) {
