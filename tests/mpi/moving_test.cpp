@@ -422,6 +422,7 @@ class Caller {
     }
     return cost.mine.flips >= 0;
   }
+  const Partition* patches() const { return last_.homes->partition().get(); }
   bool has_failed = false;  ///< memory, in the last call
 
  private:
@@ -467,6 +468,30 @@ TEST(Moving, CallsOfTrmeshBeginWithTheLastRings) {
     for (Point& p : half) p.z = std::fabs(p.z);
     for (int step = 0; step < 5; ++step) EXPECT_FALSE(caller.call(half)) << "a boundary";
   }
+}
+
+/// A mesh with a boundary cannot begin with the last rings, but patches and hubs stay while nodes move
+/// little.
+TEST(Moving, ColdCallsOfTrmeshKeepThePatches) {
+  for (const Arrays arrays : {Arrays::on_every_rank, Arrays::shared, Arrays::on_one_rank})
+    for (const char* const family : {"box", "ring", "crossing", "falling:4", "moment:4"}) {
+      SCOPED_TRACE(std::string(family) + " " + std::to_string(static_cast<int>(arrays)));
+      Random random(4);
+      Caller caller(arrays);
+      Nodes nodes = point_sets::make(family, kN, 1);
+      for (int step = 0; step < 2; ++step) EXPECT_FALSE(caller.call(nodes));
+      const Partition* const patches = caller.patches();
+      for (int step = 0; step < 3; ++step) {
+        move_all(nodes, 1e-7 * spacing(kN), random);
+        EXPECT_FALSE(caller.call(nodes));
+        EXPECT_EQ(caller.patches(), patches) << step;
+      }
+      point_sets::shuffle(nodes, 1);
+      EXPECT_FALSE(caller.call(nodes)) << "other numbers";
+      if (size_of() > 1) {
+        EXPECT_NE(caller.patches(), patches);
+      }
+    }
 }
 
 TEST(Moving, RingsOfTheLastCallCountAmongWhatStays) {

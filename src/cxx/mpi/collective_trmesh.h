@@ -14,8 +14,10 @@ namespace pstripack {
 struct LastCall {
   std::size_t n = 0;  ///< number of nodes; 0: nothing is kept
   SampleOfStars sample;
-  bool has_sample = false;  ///< false if this rank had no memory for the sample
-  Kept<LastRings> rings;    ///< kept only after calls whose nodes fitted the sample
+  bool has_sample = false;             ///< false if this rank had no memory for the sample
+  Kept<LastRings> rings;               ///< kept only after calls whose nodes fitted the sample
+  std::shared_ptr<const Homes> homes;  ///< the patches of the last cold call; null if there was no memory
+  Homes::SomePatches patches;          ///< of nodes of this rank's slice in that call
   Patience patience;
 };
 

@@ -5,11 +5,17 @@
 namespace pstripack {
 namespace {
 
-// A rank's nodes, evenly spaced, of which at most a sixteenth may lie in other ranks' patches if the patches
-// of the last call are kept.
-constexpr std::size_t kLookedAt = 256;
 // Nodes that a rank may have above 9/8 of its share if patches are kept: for small sets, where 1/8 is little.
 constexpr std::size_t kCloselyEnough = 64;
+
+/// True if is_right(k, patches[k]) for at least 15/16 of the patches.
+template <class IsRight>
+bool are_most(const Homes::SomePatches& patches, const IsRight& is_right) {
+  std::size_t looked_at = 0, wrong = 0;
+  for (; looked_at < patches.size() && patches[looked_at] >= 0; ++looked_at)
+    wrong += !is_right(looked_at, patches[looked_at]);
+  return 16 * wrong <= looked_at;
+}
 
 }  // namespace
 
@@ -29,12 +35,24 @@ Homes::Homes(const Division& division, const ParallelOptions& options, std::vect
     for (const PatchLoad& load : loads_) share_ += static_cast<std::size_t>(load.own);
 }
 
+Homes::SomePatches Homes::patches_of_some(const LocalNodes& nodes) const {
+  SomePatches patches;
+  patches.fill(-1);
+  const std::size_t step = nodes.count / kLookedAt + 1;
+  for (std::size_t i = 0, k = 0; i < nodes.count; i += step, ++k)
+    patches[k] = partition_->owner(places_(nodes.points[i]));
+  return patches;
+}
+
 bool Homes::are_home_to(const LocalNodes& nodes, int me) const {
   if (nodes.count > share_ + share_ / 8 + kCloselyEnough) return false;
-  const std::size_t step = nodes.count / kLookedAt + 1;
-  std::size_t looked_at = 0, away = 0;
-  for (std::size_t i = 0; i < nodes.count; i += step, ++looked_at) away += rank(nodes.points[i]) != me;
-  return 16 * away <= looked_at;
+  return are_most(patches_of_some(nodes), [&](std::size_t, PatchNumber q) {
+    return patches_.rank_of(q) == static_cast<RankNumber>(me);
+  });
+}
+
+bool Homes::have_kept(const SomePatches& before, const SomePatches& now) {
+  return are_most(now, [&](std::size_t k, PatchNumber q) { return q == before[k]; });
 }
 
 }  // namespace pstripack

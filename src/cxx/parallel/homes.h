@@ -1,6 +1,7 @@
 #pragma once
 // Where the nodes of the next call should be: in the patches of the last call, if these are kept.
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <vector>
@@ -33,6 +34,12 @@ class Homes {
   /// True if nearly all of these nodes are at home on this rank, as a look at some of them tells, and they
   /// are at most an eighth more than when these patches were cut.
   bool are_home_to(const LocalNodes& nodes, int rank) const;
+  static constexpr std::size_t kLookedAt = 256;
+  using SomePatches = std::array<PatchNumber, kLookedAt>;
+  /// The patches of at most kLookedAt of these nodes, evenly spaced; -1 behind them.
+  SomePatches patches_of_some(const LocalNodes& nodes) const;
+  /// True if nearly all of some nodes are in the same patches as before.
+  static bool have_kept(const SomePatches& before, const SomePatches& now);
   int rank(const Point& p) const { return static_cast<int>(patches_.rank_of(partition_->owner(places_(p)))); }
 
  private:

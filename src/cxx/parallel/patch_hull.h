@@ -1,6 +1,7 @@
 #pragma once
 // The nodes that a patch knows, and their hull.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -119,7 +120,8 @@ class PatchHull {
   }
 
   std::vector<BoundaryArc> boundary_arcs() const;
-  /// The nodes a and b with arcs a -> v -> b of the boundary; kNobody where v is not on it.
+  /// The nodes a and b with arcs a -> v -> b of the boundary; kNobody where v is not on it. Not for several
+  /// threads at once.
   BoundaryArc beside_on_boundary(HullNode v) const;
 
   /// After build() and all that was taken in: memory of set_up() for `bytes` that is not needed after
@@ -152,6 +154,9 @@ class PatchHull {
   Plane* first_planes_ = nullptr;  ///< those in the workspace, for built_ nodes at least
   CoincidentPairs coincident_;
   std::unordered_map<GlobalNumber, HullNode> taken_in_;  ///< see find()
+  /// Of nodes with many faces: the corners at which beside_on_boundary() has found arcs. The faces may have
+  /// changed since.
+  mutable std::unordered_map<HullNode, std::array<HullCorner, 2>> at_boundary_;
   struct {  // where the workspace was too small for what was taken in
     Buffer<Point> nodes;
     Buffer<Int> number;
