@@ -25,19 +25,31 @@ void remove_and_end(int signal) {
   raise(signal);
 }
 
+/// True for `-`, /dev/stdout and other names of the file that is open as stdout: others may have written to
+/// it, or may go on.
+bool is_stdout(const std::string& name) {
+  struct stat named, open;
+  return name == "-" || (stat(name.c_str(), &named) == 0 && fstat(STDOUT_FILENO, &open) == 0 &&
+                         named.st_dev == open.st_dev && named.st_ino == open.st_ino);
+}
+
 }  // namespace
 
 void fail_to_write(const std::string& name, int error) {
   throw std::runtime_error(name + ": cannot be written: " + std::strerror(error));
 }
 
-OutputFile::OutputFile(const std::string& name) : name_(name == "-" ? "stdout" : name), target_(name) {
+OutputFile::OutputFile(const std::string& name)
+    : name_(name == "-" ? "stdout" : name), target_(is_stdout(name) ? "-" : name) {
   std::error_code error;
   const fs::file_status status = fs::status(name, error);
   if (fs::is_directory(status)) fail_to_write(name_, EISDIR);
-  copies_ = name == "-" || (fs::exists(status) && !fs::is_regular_file(status));
+  copies_ = target_ == "-" || (fs::exists(status) && !fs::is_regular_file(status));
   if (!copies_) {
-    if (const fs::path real = fs::weakly_canonical(name, error); !error) target_ = real.string();  // symlinks
+    const fs::path real = fs::weakly_canonical(name, error);  // symlinks
+    // An open file without a name, as /dev/fd/5: the link must not be renamed over.
+    copies_ = fs::exists(status) && (error || !fs::equivalent(name, real, error) || error);
+    if (!copies_ && !error) target_ = real.string();
     if (fs::exists(status) && access(target_.c_str(), W_OK) != 0) fail_to_write(name_, errno);
   }
   const fs::path folder = copies_ ? fs::temp_directory_path() : fs::path(target_).parent_path();

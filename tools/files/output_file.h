@@ -11,8 +11,9 @@
 namespace files {
 
 /// Writes a temporary file beside the final one; commit() renames it. Without commit(), or after SIGHUP,
-/// SIGINT or SIGTERM, nothing remains. `-` is stdout: commit() copies to it, and to devices and pipes. Only
-/// one object may exist at a time. Throws std::runtime_error "NAME: cannot be written: why".
+/// SIGINT or SIGTERM, nothing remains. `-` is stdout: commit() copies to it, by whatever name, and to
+/// devices, pipes and open files without a name. Only one object may exist at a time. Throws
+/// std::runtime_error "NAME: cannot be written: why".
 class OutputFile {
  public:
   explicit OutputFile(const std::string& name);

@@ -1,15 +1,18 @@
 #include "files/output_file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <string>
 
 #include "support/this_program.h"
 
@@ -91,6 +94,51 @@ TEST(output_file, writes_to_what_cannot_be_replaced) {
   write(file, "text");
   file.commit();
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+// Past failure: as root, `-o /dev/stdout` replaced the link by a file if stdout was a deleted file, as that
+// of a test that captures it; elsewhere it lost what others had written.
+TEST(output_file, does_not_replace_a_link_to_an_open_file) {
+  const Folder folder;
+  const std::string name = folder.path() + "/file", link = folder.path() + "/link";
+  const int file = open(name.c_str(), O_RDWR | O_CREAT, 0600);
+  ASSERT_GE(file, 0);
+  unlink(name.c_str());
+  std::filesystem::create_symlink("/proc/self/fd/" + std::to_string(file), link);
+  {
+    OutputFile output(link);
+    write(output, "text");
+    output.commit();
+  }
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  char text[5] = "";
+  EXPECT_EQ(pread(file, text, 4, 0), 4);
+  EXPECT_STREQ(text, "text");
+  close(file);
+}
+
+TEST(output_file, stands_on_stdout_behind_what_others_have_written) {
+  const Folder folder;
+  for (const char* const name : {"/dev/stdout", "/proc/self/fd/1", "-"}) {
+    const std::string out = folder.path() + "/out";
+    std::fflush(stdout);
+    const pid_t child = fork();
+    if (child == 0) {
+      dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
+      std::printf("head\n");
+      std::fflush(stdout);
+      OutputFile output(name);
+      write(output, "text\n");
+      output.commit();
+      std::printf("end\n");
+      std::fflush(stdout);
+      _exit(0);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+    EXPECT_EQ(contents(out), "head\ntext\nend\n") << name;
+  }
 }
 
 TEST(output_file, that_cannot_be_written_is_refused_by_name) {
