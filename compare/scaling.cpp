@@ -57,7 +57,10 @@ struct Settings {
   double change = 0;  ///< fraction of the points that change ranks before each call of a moving mesh
   bool warm = false;  ///< calls may reuse the mesh of the last call
   bool per_rank = false;
-  bool again = false;  ///< calls of TRMESH may begin with what the last one has left
+  bool again = false;  ///< calls of TRMESH in a pool may begin with what the last one has left
+
+  bool is_of_pool() const { return mode == "pool" || mode == "messages"; }
+  bool is_first_call() const { return !warm && !(again && is_of_pool()); }
 };
 
 double seconds() { return clock_seconds(CLOCK_MONOTONIC); }
@@ -464,7 +467,7 @@ Row measure(const std::string& self, const Settings& s, int ranks) {
       "{}OMP_NUM_THREADS=1 PSTRIPACK_WARM_START={} {} -n {} '{}' --mode {} --family {} --n {} "
       "--repeats {} --change {}{}",
       geteuid() == 0 ? "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 " : "",
-      s.warm || s.again ? 1 : 0, MPIRUN, ranks, self, s.mode, s.family, s.n, s.repeats, s.change,
+      s.is_first_call() ? 0 : 1, MPIRUN, ranks, self, s.mode, s.family, s.n, s.repeats, s.change,
       s.again ? " --again" : "");
   FILE* const out = popen(command.c_str(), "r");
   if (out == nullptr) throw std::runtime_error("cannot start " + command);
@@ -602,7 +605,7 @@ void print_tables(const std::string& self, Settings s, const Tables& t) {
                  : mode == "messages" ? "pool on several machines, arrays and lists sent from and to rank 0"
                  : mode == kScvt      ? "scvt, generators at home"
                                       : "distributed, points at home",
-                 s.again && (mode == "pool" || mode == "messages") ? ", nodes of an earlier call" : "",
+                 s.again && s.is_of_pool() ? ", nodes of an earlier call" : "",
                  mode == kScvt ? "density 1" : s.family,
                  has_constant_n ? "N" : fmt::format("N/P = {}", t.sizes.front()));
       head(mode == kScvt);
@@ -665,7 +668,7 @@ int main(int argc, char** argv) {
     if (s.per_rank && (s.mode.empty() || s.mode == kMoving))
       throw CLI::ValidationError("--per-rank", "only with --mode, and not moving");
     // Calls with the same nodes must not reuse the last mesh: measure first calls.
-    if (s.mode != kMoving && s.mode != kScvt && !s.again) setenv("PSTRIPACK_WARM_START", "0", 1);
+    if (s.mode != kMoving && s.mode != kScvt && s.is_first_call()) setenv("PSTRIPACK_WARM_START", "0", 1);
     if (s.mode == kMoving)
       run_moving(s);
     else if (!s.mode.empty())

@@ -15,6 +15,7 @@
 
 #include "contenders.h"
 #include "measuring.h"
+#include "memory_of_lists.h"
 #include "model.h"
 #include "orders.h"
 #include "point_sets.h"
@@ -114,7 +115,7 @@ std::shared_ptr<Lists> lists_of_original(const legacy_stripack::Original& origin
 double peak_bytes_a_node(const Nodes& nodes) {
   return measured([&] {
     Lists lists(nodes.n());
-    return peak_of_first_call(nodes, lists);
+    return peak_bytes([&] { ours().trmesh(nodes, lists); }) / nodes.n();
   });
 }
 
@@ -327,7 +328,7 @@ const std::vector<std::pair<std::string, int>> kTimesOfOrders{{"orders-1e5", 100
 const std::vector<std::pair<std::string, int>> kTimesOfQueries{
     {"queries-1e3", 1000}, {"queries-1e4", 10000}, {"queries-1e5", 100000}, {"queries-1e6", 1000000}};
 const std::string kDistributions = "distributions", kOnThreads = "distributions-threads",
-                  kWarmStart = "warm-start", kScvt = "scvt";
+                  kWarmStart = "warm-start", kScvt = "scvt", kMemoryOfLists = "memory-of-lists";
 
 }  // namespace
 
@@ -342,6 +343,7 @@ std::vector<std::string> case_names() {
   names.push_back(kOnThreads);
   names.push_back(kWarmStart);
   names.push_back(kScvt);
+  names.push_back(kMemoryOfLists);
   return names;
 }
 
@@ -355,6 +357,7 @@ void run_cases(const std::string& self, const CaseSettings& settings,
     if (is_wanted(name, !quick)) run_time_of_orders(n, repeats);
   if (is_wanted(kWarmStart, false)) run_time_of_warm_starts(self, repeats);
   if (is_wanted(kScvt, false)) run_time_of_scvt(quick, repeats);
+  if (is_wanted(kMemoryOfLists, false)) print_memory_of_lists();
   if (is_wanted(kDistributions, false)) run_time_of_distributions(sets, repeats);
   if (is_wanted(kOnThreads, false)) run_distributions_on_threads(sets, repeats);
   for (const auto& [name, n] : kTimesOfQueries)
@@ -364,7 +367,7 @@ void run_cases(const std::string& self, const CaseSettings& settings,
     }
   const auto has_its_own_table = [](const std::string& name) {
     return name == kDistributions || name == kOnThreads || name == kWarmStart || name == kScvt ||
-           name.rfind("orders-", 0) == 0 || name.rfind("queries-", 0) == 0;
+           name == kMemoryOfLists || name.rfind("orders-", 0) == 0 || name.rfind("queries-", 0) == 0;
   };
   if (!only.empty() && std::all_of(only.begin(), only.end(), has_its_own_table)) return;
 

@@ -1,6 +1,7 @@
 #include "measuring.h"
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <fstream>
@@ -62,6 +63,15 @@ void measure_in_a_row(Samples& samples, const std::function<double()>& seconds) 
 
 std::string microseconds(const Samples& samples, int n) {
   return samples.empty() ? "-" : fmt::format("{:.4f}", 1e6 * samples.median() / n);
+}
+
+double peak_bytes(const std::function<void()>& call) {
+  malloc_trim(0);  // otherwise freed memory would be reused without being counted
+  std::ofstream("/proc/self/clear_refs") << "5";  // resets the peak to the current size
+  const auto peak = [] { return bytes_in("/proc/self/status", "VmHWM:"); };
+  const double before = peak();
+  call();
+  return peak() - before;
 }
 
 double bytes_in(const std::string& file, const std::string& key) {

@@ -47,6 +47,10 @@ void measure_in_a_row(Samples& samples, const std::function<double()>& seconds);
 /// "0.2345"; "-" if there are no samples.
 std::string microseconds(const Samples& samples, int n);
 
+/// Peak memory of `call` in bytes, for which this process must have called nothing before that keeps memory.
+/// What it held before, with all arrays written, is subtracted.
+double peak_bytes(const std::function<void()>& call);
+
 /// The value of a key such as `VmHWM:` in /proc/self/status or /proc/meminfo, in bytes.
 double bytes_in(const std::string& file, const std::string& key);
 

@@ -1,26 +1,16 @@
 #include "model.h"
 
 #include <fmt/format.h>
-#include <malloc.h>
 
 #include <cstdio>
-#include <fstream>
 #include <optional>
 #include <stdexcept>
 
+#include "contenders.h"
 #include "measuring.h"
 #include "orders.h"
 
 namespace benchmark {
-
-double peak_of_first_call(const Nodes& nodes, Lists& lists) {
-  malloc_trim(0);  // otherwise freed memory would be reused without being counted
-  std::ofstream("/proc/self/clear_refs") << "5";  // resets the peak to the current size
-  const auto peak = [] { return bytes_in("/proc/self/status", "VmHWM:"); };
-  const double before = peak();
-  ours().trmesh(nodes, lists);
-  return (peak() - before) / nodes.n();
-}
 
 int be_the_model(const Model& model) {
   const Nodes nodes(nodes_in_order(model.points, static_cast<std::size_t>(model.n), model.order));
@@ -31,7 +21,7 @@ int be_the_model(const Model& model) {
     if (peak)
       library.trmesh(nodes, lists);
     else
-      peak = peak_of_first_call(nodes, lists);
+      peak = peak_bytes([&] { library.trmesh(nodes, lists); }) / nodes.n();
   };
   const double seconds = seconds_a_call(call, model.calls);
   fmt::print("{} {}\n", seconds, *peak);

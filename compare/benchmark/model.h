@@ -4,8 +4,6 @@
 
 #include <string>
 
-#include "contenders.h"
-
 namespace benchmark {
 
 struct Model {
@@ -22,9 +20,5 @@ int be_the_model(const Model& model);
 
 /// Runs the model by the command `launcher`, which may begin with NAME=VALUE.
 ModelFigures as_model(const std::string& self, const std::string& launcher, const Model& model);
-
-/// Peak memory of TRMESH, the first call of this process, in bytes per node. Memory held before the call,
-/// with all arrays written, is subtracted.
-double peak_of_first_call(const Nodes& nodes, Lists& lists);
 
 }  // namespace benchmark

@@ -19,6 +19,7 @@
 #include "parallel/coincidence.h"
 #include "parallel/number_table.h"
 #include "parallel/partition.h"
+#include "parallel/patch_hull.h"
 #include "parallel/sample.h"
 #include "parallel/sample_hull.h"
 #include "parallel/triangulate.h"
@@ -809,6 +810,30 @@ TEST_F(RememberedHubs, MayBeMissing) {
   call(nodes_);
   for (const GlobalNumber hub : homes_[0]->hubs())
     EXPECT_LE(value_of(hub), static_cast<std::int64_t>(nodes_.size()));
+}
+
+/// Found by walks around others' nodes where these are few, else in one pass over all faces.
+TEST(PatchHull, VisitsEachFaceAtTheBorderOnce) {
+  for (const std::size_t own : {1u, 500u, 1000u, 1900u, 1990u}) {
+    const Set set(point_sets::make("random", 2000, 4));
+    std::vector<Record> records;
+    for (std::size_t i = 0; i < set.nodes.size(); ++i)
+      records.push_back({set.nodes[i], GlobalNumber{static_cast<std::int64_t>(i) + 1}});
+    const PatchNodes nodes{records.data(), own, records.size() - own};
+    Workspace workspace(PatchHull<std::int32_t>::workspace_bytes(nodes.count()));
+    PatchHull<std::int32_t> hull(Places(Lengths::as_given, 0));
+    hull.set_up(nodes, {}, workspace);
+    hull.build();
+    std::map<HullFace, int> expected, visits;
+    for (HullFace t = 0; t < hull.growing().face_count(); ++t) {
+      const auto& v = hull.face(t).vertex;
+      const int count = hull.is_own(v[0]) + hull.is_own(v[1]) + hull.is_own(v[2]);
+      if (count > 0 && count < 3) expected[t] = 1;
+    }
+    hull.for_each_face_at_border(0, [&](HullFace t) { ++visits[t]; });
+    EXPECT_EQ(visits, expected) << own;
+    EXPECT_FALSE(visits.empty());
+  }
 }
 
 /// Calls that keep patches, drafts and hubs of the last one: the nodes stay, move, leave, are renumbered or

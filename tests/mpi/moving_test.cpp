@@ -422,7 +422,7 @@ class Caller {
     }
     return cost.mine.flips >= 0;
   }
-  const Partition* patches() const { return last_.homes->partition().get(); }
+  std::shared_ptr<const Partition> patches() const { return last_.homes->partition(); }
   bool has_failed = false;  ///< memory, in the last call
 
  private:
@@ -480,7 +480,7 @@ TEST(Moving, ColdCallsOfTrmeshKeepThePatches) {
       Caller caller(arrays);
       Nodes nodes = point_sets::make(family, kN, 1);
       for (int step = 0; step < 2; ++step) EXPECT_FALSE(caller.call(nodes));
-      const Partition* const patches = caller.patches();
+      const auto patches = caller.patches();
       for (int step = 0; step < 3; ++step) {
         move_all(nodes, 1e-7 * spacing(kN), random);
         EXPECT_FALSE(caller.call(nodes));
@@ -492,6 +492,28 @@ TEST(Moving, ColdCallsOfTrmeshKeepThePatches) {
         EXPECT_NE(caller.patches(), patches);
       }
     }
+}
+
+/// Nodes that gather in one patch, few in each call, must not stay there.
+TEST(Moving, ColdCallsOfTrmeshCutCrowdedPatchesAnew) {
+  if (size_of() == 1) return;
+  Caller caller(Arrays::on_every_rank);
+  Nodes nodes = point_sets::make("box", kN, 1);
+  for (int step = 0; step < 2; ++step) EXPECT_FALSE(caller.call(nodes));
+  const auto patches = caller.patches();
+  const Point corner = nodes[0];
+  bool are_cut_anew = false;
+  for (int step = 0; step < 60 && !are_cut_anew; ++step) {
+    for (Point& p : nodes)
+      p = point_sets::normalized(
+          {0.99 * p.x + 0.01 * corner.x, 0.99 * p.y + 0.01 * corner.y, 0.99 * p.z + 0.01 * corner.z});
+    EXPECT_FALSE(caller.call(nodes));
+    if (step == 0) {
+      EXPECT_EQ(caller.patches(), patches);
+    }
+    are_cut_anew = caller.patches() != patches;
+  }
+  EXPECT_TRUE(are_cut_anew);
 }
 
 TEST(Moving, RingsOfTheLastCallCountAmongWhatStays) {

@@ -47,8 +47,8 @@ OutputFile::OutputFile(const std::string& name)
   copies_ = target_ == "-" || (fs::exists(status) && !fs::is_regular_file(status));
   if (!copies_) {
     const fs::path real = fs::weakly_canonical(name, error);  // symlinks
-    // An open file without a name, as /dev/fd/5: the link must not be renamed over.
-    copies_ = fs::exists(status) && (error || !fs::equivalent(name, real, error) || error);
+    // An open file without a name, as /dev/fd/5 may be: the link must not be renamed over.
+    copies_ = fs::exists(status) && (error || !fs::equivalent(name, real, error));
     if (!copies_ && !error) target_ = real.string();
     if (fs::exists(status) && access(target_.c_str(), W_OK) != 0) fail_to_write(name_, errno);
   }

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <cstddef>
+#include <memory>
+
 #include "base/kept.h"
 #include "mpi/gather_lists.h"
 #include "mpi/mpi_communicator.h"
+#include "parallel/homes.h"
 #include "parallel/last_rings.h"
 #include "parallel/triangulate.h"
 #include "trmesh/patience.h"
@@ -17,7 +21,7 @@ struct LastCall {
   bool has_sample = false;             ///< false if this rank had no memory for the sample
   Kept<LastRings> rings;               ///< kept only after calls whose nodes fitted the sample
   std::shared_ptr<const Homes> homes;  ///< the patches of the last cold call; null if there was no memory
-  Homes::SomePatches patches;          ///< of nodes of this rank's slice in that call
+  Homes::SomePatches patches;          ///< homes->patches_of_some() of this rank's slice in that call
   Patience patience;
 };
 

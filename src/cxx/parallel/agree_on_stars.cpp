@@ -12,19 +12,7 @@ namespace {
 
 using Hubs = std::unordered_set<GlobalNumber>;
 
-/// What the ranks have found, together.
-template <class Item>
-std::vector<Item> of_all(const std::vector<Item>& found, Communicator& ranks) {
-  const Parcels all = ranks.all_gather(found.data(), found.size() * sizeof found[0]);
-  std::vector<Item> together;
-  in_agreement(ranks, [&] {
-    const Items<Item> items(all);
-    together.assign(items.begin(), items.end());
-  });
-  return together;
-}
-
-/// The hubs at which patches keep triangles, and how many of these, about.
+/// The hubs at which patches keep triangles, and the number of these, which is exact below kManyTriangles.
 template <class Int>
 std::map<GlobalNumber, std::size_t> kept_hubs(const Patches<Int>& patches, Communicator& ranks) {
   std::vector<KeptHub> here;
@@ -32,7 +20,7 @@ std::map<GlobalNumber, std::size_t> kept_hubs(const Patches<Int>& patches, Commu
     for (const Patch<Int>& patch : patches.of_rank)
       for (const KeptHub& hub : patch.kept_hubs()) here.push_back(hub);
   });
-  const std::vector<KeptHub> all = of_all(here, ranks);
+  const std::vector<KeptHub> all = gather_in_agreement(ranks, here);
   std::map<GlobalNumber, std::size_t> kept;
   in_agreement(ranks, [&] {
     for (const KeptHub& hub : all) kept[hub.number] += hub.triangles;
@@ -120,8 +108,8 @@ void agree_on_stars(Certified<Int>& certified, const Division& division, const C
   Patches<Int>& patches = certified.patches;
   Questions questions;
   Hubs hubs;
-  std::vector<GlobalNumber> found;                             // on any rank, since the last claim
-  const std::vector<GlobalNumber>* new_hubs = &division.hubs;  // or &found
+  std::vector<GlobalNumber> found;                             // hubs, by any rank in this round
+  const std::vector<GlobalNumber>* new_hubs = &division.hubs;  // not told to patches yet: these, or &found
   std::size_t most = kFewQuestions;
   const auto claim = [&] {  // true if patches have compared their claims
     std::vector<Doubts> of_patch(patches.of_rank.size());
@@ -188,7 +176,7 @@ void agree_on_stars(Certified<Int>& certified, const Division& division, const C
         },
         patches.see_coincidence, has_found);
     if (see_coincidence()) return;
-    if (has_found.value) found = of_all(found, ranks);
+    if (has_found.value) found = gather_in_agreement(ranks, found);
     const bool was_complete = !questions.left_out.value;
     most = most > SIZE_MAX / kMoreQuestions ? most : most * kMoreQuestions;
     claim();

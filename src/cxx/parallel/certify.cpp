@@ -18,12 +18,7 @@ CoincidentPairs all_coincident(const Patches<Int>& patches, Communicator& ranks)
     for (const Patch<Int>& patch : patches.of_rank)
       pairs.insert(pairs.end(), patch.coincident().begin(), patch.coincident().end());
   });
-  const Parcels all = ranks.all_gather(pairs.data(), pairs.size() * sizeof(pairs[0]));
-  in_agreement(ranks, [&] {
-    const Items<CoincidentPairs::value_type> items(all);
-    pairs.assign(items.begin(), items.end());
-  });
-  return pairs;
+  return gather_in_agreement(ranks, pairs);
 }
 
 /// Largest number of questions of a rank that are worth while. A question costs both ranks the time of

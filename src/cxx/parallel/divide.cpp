@@ -222,12 +222,8 @@ std::vector<Record> nodes_of(const std::vector<GlobalNumber>& numbers, const Loc
           filter.may_have(number) && std::binary_search(numbers.begin(), numbers.end(), number))
         found.push_back({nodes.points[i], number});
   });
-  const Parcels all = ranks.all_gather(found.data(), found.size() * sizeof found[0]);
-  in_agreement(ranks, [&] {
-    const Items<Record> items(all);
-    found.assign(items.begin(), items.end());
-    keep_one_of_each(found);
-  });
+  found = gather_in_agreement(ranks, found);
+  in_agreement(ranks, [&] { keep_one_of_each(found); });
   return found;
 }
 
@@ -237,7 +233,8 @@ Supply take_stock_of_all(const LocalNodes& nodes, Communicator& ranks, const Par
                          Division& division) {
   const auto me = static_cast<RankNumber>(ranks.rank()), size = static_cast<std::size_t>(ranks.size());
   const Homes* const last = options.last;
-  const bool at_home = last != nullptr && (options.fits_last || last->are_home_to(nodes, ranks.rank()));
+  const bool at_home =
+      last != nullptr && (options.fits_last ? !last->are_crowded() : last->are_home_to(nodes, ranks.rank()));
   const std::int64_t* const encoded =
       ranks.all_gather_one(Headcount{nodes.count, options.patches, at_home}.encode());
   Supply supply;

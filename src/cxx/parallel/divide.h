@@ -33,7 +33,8 @@ struct ParallelOptions {
   /// nearly all nodes lie in patches of the ranks that bring them and no rank has too many, so nodes that
   /// were sent home stay at home. Bisected patches that were badly cut are cut once more: see Draft.
   const Homes* last = nullptr;
-  /// The nodes are about those of the call of `last`, wherever they come from: they need not be at home.
+  /// The nodes are about those of the call of `last`, wherever they come from: they need not be at home. Its
+  /// patches are kept if no rank had too many in that call.
   bool fits_last = false;
 };
 

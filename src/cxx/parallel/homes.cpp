@@ -8,6 +8,8 @@ namespace {
 // Nodes that a rank may have above 9/8 of its share if patches are kept: for small sets, where 1/8 is little.
 constexpr std::size_t kCloselyEnough = 64;
 
+bool is_crowd(std::size_t nodes, std::size_t share) { return nodes > share + share / 8 + kCloselyEnough; }
+
 /// True if is_right(k, patches[k]) for at least 15/16 of the patches.
 template <class IsRight>
 bool are_most(const Homes::SomePatches& patches, const IsRight& is_right) {
@@ -29,11 +31,12 @@ Homes::Homes(const Division& division, const ParallelOptions& options, std::vect
       draft_(division.draft),
       loads_(std::move(loads)),
       hubs_(std::move(hubs)) {
-  if (options.last != nullptr && options.last->partition_ == partition_)
-    share_ = options.last->share_;
-  else
-    for (const PatchLoad& load : loads_) share_ += static_cast<std::size_t>(load.own);
+  for (const PatchLoad& load : loads_) own_ += static_cast<std::size_t>(load.own);
+  const bool are_kept = options.last != nullptr && options.last->partition_ == partition_;
+  share_ = are_kept ? options.last->share_ : own_;
 }
+
+bool Homes::are_crowded() const { return is_crowd(own_, share_); }
 
 Homes::SomePatches Homes::patches_of_some(const LocalNodes& nodes) const {
   SomePatches patches;
@@ -45,7 +48,7 @@ Homes::SomePatches Homes::patches_of_some(const LocalNodes& nodes) const {
 }
 
 bool Homes::are_home_to(const LocalNodes& nodes, int me) const {
-  if (nodes.count > share_ + share_ / 8 + kCloselyEnough) return false;
+  if (is_crowd(nodes.count, share_)) return false;
   return are_most(patches_of_some(nodes), [&](std::size_t, PatchNumber q) {
     return patches_.rank_of(q) == static_cast<RankNumber>(me);
   });

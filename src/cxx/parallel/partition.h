@@ -89,7 +89,7 @@ class Partition {
   template <class Visit>
   void for_each_halo(const Point* x, std::size_t n, const PatchOfNode* owner, const double* nearest_plane,
                      const Visit& visit) const {
-    double margin[kTogether];  // or less than nearest_plane
+    double margin[kTogether];  // exact where it is at least nearest_plane
     std::vector<PatchNumber> patches;
     const auto examine = [&](const std::size_t* candidate, std::size_t candidates) {
       if (has_convex_patches()) margins(x, owner, nearest_plane, candidate, candidates, margin);
