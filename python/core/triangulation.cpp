@@ -71,7 +71,7 @@ struct Lists {
   bool triangulate(const double* x, const double* y, const double* z) {
     std::fill(lend.begin(), lend.end(), 0);
     const auto n = static_cast<std::int32_t>(lend.size());
-    const std::int32_t ier = pstripack_trmesh(n, x, y, z, list.data(), lptr.data(), lend.data(), &lnew);
+    const std::int32_t ier = pstripack_delaunay(n, x, y, z, list.data(), lptr.data(), lend.data(), &lnew);
     if (ier == PSTRIPACK_COLLINEAR) return false;
     if (ier == PSTRIPACK_OUT_OF_MEMORY) throw std::bad_alloc();
     if (ier < 0) throw std::runtime_error(pstripack_strerror(ier));

@@ -161,7 +161,8 @@ Mesh triangulate(std::vector<Point> points) {
   const pstripack::TrmeshResult result =
       the_trmesh()({static_cast<std::int32_t>(n),
                     {c.x.data(), c.y.data(), c.z.data()},
-                    {mesh.list.data(), mesh.lptr.data(), mesh.lend.data(), &mesh.lnew}});
+                    {mesh.list.data(), mesh.lptr.data(), mesh.lend.data(), &mesh.lnew},
+                    true});
   if (result.ier > 0)
     throw CoincidentNodes(static_cast<std::size_t>(result.node) - 1,
                           static_cast<std::size_t>(result.other) - 1);

@@ -40,7 +40,7 @@ bool carry_out(const TrmeshCall& call, TrmeshResult& result, CallReport* report)
   int answer = PSTRIPACK_ENGINE_DECLINES;
   const pstripack_trmesh_engine engine = other_engine.load(std::memory_order_acquire);
   // The original's order means inserting node by node, which ranks cannot share.
-  if (engine != nullptr && !original_rules().follow) {
+  if (engine != nullptr && !original_rules().follow && !call.by_direction) {
     const NodeArrays& nodes = call.nodes;
     const auto& [list, lptr, lend, lnew] = call.lists;
     const pstripack_trmesh_arguments arguments{static_cast<std::int32_t>(nodes.real_bytes()),
@@ -91,12 +91,12 @@ bool carry_out(const TrmeshCall& call, TrmeshResult& result, CallReport* report)
 
 /// TRMESH with its report, its recording and its messages. `nodes` is clamped to 32 bits: all numbers
 /// beyond give the same code.
-TrmeshResult trmesh_with_messages(std::int64_t nodes, const NodeArrays& arrays,
-                                  const ListArrays& lists) noexcept {
+TrmeshResult trmesh_with_messages(std::int64_t nodes, const NodeArrays& arrays, const ListArrays& lists,
+                                  bool by_direction = false) noexcept {
   using Limits = std::numeric_limits<std::int32_t>;
   const TrmeshCall call{
       static_cast<std::int32_t>(std::clamp<std::int64_t>(nodes, Limits::min(), Limits::max())), arrays,
-      lists};
+      lists, by_direction};
   TrmeshResult result{0};
   const auto work = [&] {
     return report_is_wanted() ? carry_out_and_report(call, result) : carry_out(call, result, nullptr);
@@ -202,6 +202,13 @@ int32_t pstripack_trmesh(int32_t n, const double* x, const double* y, const doub
   return trmesh_call(n, x, y, z, list, lptr, lend, lnew).ier;
 }
 
+int32_t pstripack_delaunay(int32_t n, const double* x, const double* y, const double* z, int32_t* list,
+                           int32_t* lptr, int32_t* lend, int32_t* lnew) {
+  return in_default_floating_point([&] {
+    return trmesh_with_messages(n, {x, y, z}, {list, lptr, lend, lnew}, true).ier;
+  });
+}
+
 int32_t pstripack_trmesh_r4(int32_t n, const float* x, const float* y, const float* z, int32_t* list,
                             int32_t* lptr, int32_t* lend, int32_t* lnew) {
   return trmesh_call(n, x, y, z, list, lptr, lend, lnew).ier;
@@ -236,7 +243,12 @@ int32_t pstripack_validate(int32_t n, const double* x, const double* y, const do
     std::vector<Point> p(static_cast<std::size_t>(n));
     for (std::size_t i = 0; i < p.size(); ++i) p[i] = {x[i], y[i], z[i]};
     const ListsView<std::int32_t> lists{p.size(), list, lptr, lend, lnew};
-    const Verdict verdict = in_default_floating_point([&] { return is_valid(p.data(), lists); });
+    const Verdict verdict = in_default_floating_point([&] {
+      const Verdict as_trmesh = is_valid(p.data(), lists);
+      if (as_trmesh || as_trmesh.lengths == Lengths::directions) return as_trmesh;
+      const Verdict by_direction = is_valid(p.data(), lists, Lengths::directions);
+      return by_direction ? by_direction : as_trmesh;
+    });
     say(verdict.message.c_str());
     return static_cast<std::int32_t>(verdict.defect);
   } catch (...) {

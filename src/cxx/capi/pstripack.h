@@ -67,9 +67,17 @@ PSTRIPACK_API int32_t pstripack_trmesh_r4(int32_t n, const float* x, const float
 PSTRIPACK_API int64_t pstripack_trmesh_i8(int64_t n, const double* x, const double* y, const double* z,
                                           int64_t* list, int64_t* lptr, int64_t* lend, int64_t* lnew);
 
-/* Validates lists as of pstripack_trmesh. Returns 0 if they are a correct triangulation of the nodes: well
- * formed, every triangle counterclockwise, every arc locally Delaunay (exact signs, ties by the rule),
- * sphere or hull covered once. Otherwise returns the number of the violated property (> 0), or -1 or -6.
+/* The Delaunay triangulation of the directions of n nodes, as canonical lists: arguments and result as of
+ * pstripack_trmesh, which takes coordinates as given where all lengths are 1 up to 1e-6. The two differ only
+ * where nodes are so close, or so nearly on one circle, that the rounding of lengths matters. Always by the
+ * threads of this process, never by ranks; PSTRIPACK_ORDER does not matter. For quantities that are computed
+ * from a mesh this is the mesh to use. */
+PSTRIPACK_API int32_t pstripack_delaunay(int32_t n, const double* x, const double* y, const double* z,
+                                         int32_t* list, int32_t* lptr, int32_t* lend, int32_t* lnew);
+
+/* Validates lists as of pstripack_trmesh or pstripack_delaunay. Returns 0 if they are a correct triangulation
+ * of the nodes: well formed, every triangle counterclockwise, every arc locally Delaunay (exact signs, ties by
+ * the rule), sphere or hull covered once. Otherwise returns the number of the violated property (> 0), or -1 or -6.
  *   lnew     0 if it is not known
  *   message  out, may be NULL: the defect and the nodes; at most `length` bytes, including the closing zero
  */

@@ -401,7 +401,13 @@ int orientation_of_directions(const Point& a, const Point& b, const Point& c, co
   return Directions(four, 4).orientation(0, 1, 2, 3);
 }
 
-Directions::Directions(const Point* points, std::size_t n) : p_(points), n_(n), unit_(n) {
+bool above_of_directions(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const Point four[4] = {a, b, c, d};
+  return Directions(four, 4).above(0, 1, 2, 3);
+}
+
+Directions::Directions(const Point* points, std::size_t n, std::size_t capacity)
+    : p_(points), n_(n), unit_(std::max(n, capacity)) {
   parallel_pieces(n, threads_for(n), [&](std::size_t first, std::size_t last, int) {
     for (std::size_t i = first; i < last; ++i) unit_[i] = unit(p_[i]);
   });
@@ -445,6 +451,19 @@ Directions::Unit Directions::unit(const Point& p) {
     const DoubleDouble q = square(c[k]);
     const DoubleDouble t = two_sum(s.high, q.high);
     s = two_sum_of_ordered(t.high, t.low + (s.low + q.low));
+  }
+  if (std::fabs(s.high - 1) <= 0x1p-50) {
+    // A unit vector up to rounding needs no root. With x = s - 1, 1/sqrt(1+x) = 1 - x/2 + 3/8 x^2 - ..., the next
+    // term below 2^-150. Errors in units of u^2: 3 as above; by the rounding of x, of both factors of `shrink`, of
+    // `shrink` and of its product with c, each half an ulp of a number below 2^-50 or half of that: 4 + 4 + 8 + 8.
+    const double x = (s.high - 1) + s.low, shrink = x * (0.5 - 0.375 * x);
+    double high[3], low[3];
+    for (int k = 0; k < 3; ++k) {
+      const DoubleDouble v = two_sum_of_ordered(c[k], -shrink * c[k]);
+      high[k] = v.high;
+      low[k] = v.low;
+    }
+    return {{high[0], high[1], high[2]}, {low[0], low[1], low[2]}};
   }
   const double r0 = 1 / std::sqrt(s.high);
   const DoubleDouble rr = two_product(r0, r0);

@@ -5,6 +5,9 @@
 // Lefevre, Louvet, Muller, Picot & Rideau 2023 for the square root; rounded up):
 //   x + y   4; relative to |x| + |y| if the signs differ
 //   x * y   6
+//   x / y, sqrt(x)   16
+
+#include <cmath>
 
 namespace pstripack {
 
@@ -54,6 +57,19 @@ inline DoubleDouble operator-(const DoubleDouble& x, const DoubleDouble& y) { re
 inline DoubleDouble operator*(const DoubleDouble& x, const DoubleDouble& y) {
   const DoubleDouble p = two_product(x.high, y.high);
   return two_sum_of_ordered(p.high, p.low + (x.high * y.low + x.low * y.high));
+}
+
+/// x / y and sqrt(x), x > 0: one Newton step from that of the high parts.
+inline DoubleDouble operator/(const DoubleDouble& x, const DoubleDouble& y) {
+  const double q = x.high / y.high;
+  const DoubleDouble rest = x - y * DoubleDouble{q, 0};
+  return two_sum_of_ordered(q, rest.high / y.high);
+}
+inline DoubleDouble sqrt(const DoubleDouble& x) {
+  if (!(x.high > 0)) return {0, 0};
+  const double r = std::sqrt(x.high);
+  const DoubleDouble rest = x - two_product(r, r);
+  return two_sum_of_ordered(r, rest.high / (2 * r));
 }
 
 /// x * scale, exactly: `scale` is a power of two.

@@ -50,6 +50,8 @@ int orientation(const Point& a, const Point& b, const Point& c, const Point& d);
 
 /// The same for the directions a/|a|, b/|b|, c/|c|, d/|d|.
 int orientation_of_directions(const Point& a, const Point& b, const Point& c, const Point& d);
+/// Directions::above for these four.
+bool above_of_directions(const Point& a, const Point& b, const Point& c, const Point& d);
 
 bool same_direction(const Point& a, const Point& b);
 
@@ -61,10 +63,20 @@ enum class Lengths {
   directions
 };
 
+/// What a mesh that was repaired by Lengths::as_given has to show. `directions`: it is the mesh of the
+/// directions, too. All nodes must then have length_is_one_up_to_rounding.
+enum class Confirm { nothing, directions };
+
 /// True if |p| is within 1e-6 of 1, so that Coordinates may be used. False if p is not finite. Exact except
 /// for the rounding of the square, since (1 +- 1e-6)^2 = 1 + 1e-12 +- 2e-6.
 inline bool length_is_one(const Point& p) {
   return std::fabs(p.x * p.x + p.y * p.y + p.z * p.z - (1 + 1e-12)) <= 2e-6;
+}
+
+/// True if |p| is within 2^-50 of 1: a unit vector up to the rounding of its coordinates. The rounding of the
+/// square is at most 3 * 2^-53, so its error is below 2^-50 + 2^-51.
+inline bool length_is_one_up_to_rounding(const Point& p) {
+  return std::fabs(p.x * p.x + p.y * p.y + p.z * p.z - 1) <= 0x1p-50;
 }
 
 /// Number of times each stage was entered, over all predicates; for tests and for measuring the filters.
@@ -104,12 +116,14 @@ class Coordinates {
   std::size_t n_;
 };
 
+struct Direction;  // geometry/measures.h
+
 /// Predicates on the directions p[i]/|p[i]| of any finite non-zero vectors.
 /// Keeps 48 bytes per node beside the points, which must outlive it.
 class Directions {
  public:
-  /// Throws std::bad_alloc.
-  Directions(const Point* points, std::size_t n);
+  /// `capacity`: extend() takes memory anew only for more nodes. Throws std::bad_alloc.
+  Directions(const Point* points, std::size_t n, std::size_t capacity = 0);
 
   std::size_t size() const { return n_; }
   /// Sets the address and the number of the nodes. Nodes that were there before must be unchanged. Throws
@@ -117,6 +131,8 @@ class Directions {
   void extend(const Point* points, std::size_t n);
   const Point& given(index_t i) const { return p_[i]; }
   const Point& position(index_t i) const { return unit_[i].high; }
+  /// position(i) + remainder(i) = p[i]/|p[i]| with a relative error of 2^-101 in every component.
+  const Point& remainder(index_t i) const { return unit_[i].low; }
   /// p[i]/|p[i]| - p[j]/|p[j]|; every component has 2 roundings and an absolute error of 2^-99.
   Point difference(index_t i, index_t j) const {
     const Unit &a = unit_[i], &b = unit_[j];
@@ -147,6 +163,7 @@ class Directions {
   };
   /// high + low = p/|p|, with a relative error of 2^-101 in every component; high is the rounded sum.
   static Unit unit(const Point& p);
+  friend Direction direction_of(const Point& p);
   const Point* p_;
   std::size_t n_;
   BlockArray<Unit> unit_;

@@ -112,7 +112,7 @@ std::uint64_t bits_of(double value) {
 template <class Predicates>
 class Builder final : public GrowingHull {
  public:
-  Builder(const HullArrays& arrays, std::size_t n) : predicates_(arrays.nodes, n), n_(n) {
+  Builder(const HullArrays& arrays, std::size_t n) : predicates_(with_capacity(arrays, n)), n_(n) {
     set_arrays(arrays);
   }
 
@@ -264,6 +264,13 @@ class Builder final : public GrowingHull {
   }
 
  private:
+  static Predicates with_capacity(const HullArrays& arrays, std::size_t n) {
+    if constexpr (std::is_same_v<Predicates, Directions>)
+      return {arrays.nodes, n, arrays.capacity};
+    else
+      return {arrays.nodes, n};
+  }
+
   void set_arrays(const HullArrays& arrays) {
     nodes_ = arrays.nodes;
     faces_ = arrays.faces;
@@ -724,13 +731,13 @@ std::unique_ptr<GrowingHull> GrowingHull::make(const HullArrays& arrays, std::si
   return std::make_unique<Builder<Directions>>(arrays, n);
 }
 
-Hull delaunay(const Point* p, std::size_t n, Workspace& workspace) {
+Hull delaunay(const Point* p, std::size_t n, Workspace& workspace, Lengths lengths) {
   auto* const order = workspace.keep<std::uint32_t>(n);
   const std::size_t alone = insertion_order(p, n, order, workspace);
   HullArrays arrays;
   arrays.capacity = n;
   arrays.nodes = workspace.keep<Point>(n);
-  std::atomic<bool> unit{true};
+  std::atomic<bool> unit{lengths != Lengths::directions};
   parallel_pieces(n, threads_for(n), [&](std::size_t first, std::size_t last, int) {
     constexpr std::size_t kAhead = 16;
     bool all = true;
@@ -745,8 +752,8 @@ Hull delaunay(const Point* p, std::size_t n, Workspace& workspace) {
   arrays.faces = workspace.keep<Face>(2 * n);
   arrays.corner = workspace.keep<HullCorner>(n);
   arrays.planes = workspace.take<Plane>(2 * n);
-  const auto hull_with = [&](Lengths lengths) {
-    const auto growing = GrowingHull::make(arrays, n, lengths);
+  const auto hull_with = [&](Lengths which) {
+    const auto growing = GrowingHull::make(arrays, n, which);
     growing->look_for_hidden_nodes(alone);
     growing->build(alone);
     Hull hull = growing->finish();

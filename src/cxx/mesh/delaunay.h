@@ -137,13 +137,14 @@ class GrowingHull {
   virtual Hull finish() const = 0;
 };
 
-/// The hull of the nodes p[0..n-1], 3 <= n < 2^29, finite and non-zero. Uses the predicates on coordinates;
-/// those on directions if a length differs from 1 by more than 1e-6 or the given lengths would hide a node.
+/// The hull of the nodes p[0..n-1], 3 <= n < 2^29, finite and non-zero. Lengths::automatic: by the predicates
+/// on coordinates, or those on directions if a length differs from 1 by more than 1e-6 or the given lengths
+/// would hide a node. Lengths::directions: by those on directions.
 /// Coincident nodes are inserted once. Deterministic up to the numbering of faces. Throws std::bad_alloc,
 /// and std::domain_error if all nodes lie on one great circle. The workspace must have workspace_bytes(n);
 /// p may be an array of its current phase and is then overwritten. Directions allocate 48 more bytes per
 /// node.
-Hull delaunay(const Point* p, std::size_t n, Workspace& workspace);
+Hull delaunay(const Point* p, std::size_t n, Workspace& workspace, Lengths lengths = Lengths::automatic);
 
 /// Kept arrays: order, sorted nodes, faces, corners. The largest phase, the insertion, has the planes of 2n
 /// faces.

@@ -159,6 +159,12 @@ Two two_at(const double* from) {
   return two;
 }
 
+/// Most by which the volume det(b-a, c-a, d-a) of four nodes changes if they move to their directions, where no
+/// component of the three differences is more than R in magnitude, R^2 = square, and no length differs from 1 by
+/// more than 2^-49.9: to first order that difference times the sum of the four determinants of three nodes, each
+/// at most the cross product of two edges: |b-a||c-a| <= 3 R^2, and three of them for that of b, c, d: 18 R^2.
+double volume_of_lengths(double square) { return 0x1p-45 * square; }
+
 /// The neighbours of a node relative to it, counterclockwise, with the first three repeated at the end, so
 /// that two neighbours can be tested at a time.
 struct Spokes {
@@ -190,9 +196,13 @@ struct Spokes {
   /// them make a determinant, which carries 8 roundings (predicates.cpp, kFactor): its error is less than 9u
   /// 6.01 R^3 < 64u R^3, u = 2^-53, which covers the rounding of the two products below. What underflows is
   /// less than 1e-250.
-  bool are_certain(const Point& p, std::uint32_t count) const {
+  ///
+  /// Under Confirm::directions the signs must also be those of the directions, to which nodes move by less than
+  /// 2^-49.9 along themselves: see volume_of_lengths().
+  bool are_certain(const Point& p, std::uint32_t count, Confirm confirm) const {
     const double square = reach * reach, low = 0x1p-47 * square + 1e-250,
-                 high = 0x1p-47 * (square * reach) + 1e-250;
+                 high = 0x1p-47 * (square * reach) + 1e-250 +
+                        (confirm == Confirm::directions ? volume_of_lengths(square) : 0);
     TwoMasks certain = Two{} == Two{};
     for (std::uint32_t i = 0; i < count; i += 2) {
       const Two ex = two_at(x + i), ey = two_at(y + i), ez = two_at(z + i);
@@ -243,7 +253,7 @@ bool MovingMesh::test(std::size_t first, std::size_t last, const Mark& mark, con
       const double reach = spokes.reach, near = 2 * reach + 4e-6;
       const bool is_far =
           std::fabs(p.x - g.x) > near || std::fabs(p.y - g.y) > near || std::fabs(p.z - g.z) > near;
-      is_certain = is_far && reach <= 0x1p-4 && spokes.are_certain(p, star.count);
+      is_certain = is_far && reach <= 0x1p-4 && spokes.are_certain(p, star.count, confirm_);
     }
     if (is_certain) continue;
     if (stopped.load(std::memory_order_relaxed) || !examine(static_cast<CurveNode>(v), mark, suspects))
@@ -272,16 +282,36 @@ bool MovingMesh::examine(CurveNode v, const Mark& mark, std::vector<Arc>& suspec
           left(q, r, g) >= 0 && left(r, p, g) >= 0)
         return false;
     }
-    if (v < b && predicates.above(id(v), id(c), id(b), id(d))) suspects.push_back({v, b});
+    bool differs = false;
+    if (v < b && is_above(v, c, b, d, differs)) suspects.push_back({v, b});
+    if (differs) return false;
     c = b;
   }
   return true;
 }
 
-bool MovingMesh::repair() {
+/// Whether d is above the triangle a,b,c. Sets `differs` under Confirm::directions if the directions decide
+/// otherwise.
+bool MovingMesh::is_above(CurveNode a, CurveNode b, CurveNode c, CurveNode d, bool& differs) const {
+  const auto id = [](CurveNode w) { return static_cast<index_t>(w); };
+  const bool above = Coordinates(nodes_, all_).above(id(a), id(b), id(c), id(d));
+  if (confirm_ == Confirm::nothing) return above;
+  const Point &p = nodes_[a], e = minus(nodes_[b], p), f = minus(nodes_[c], p), g = minus(nodes_[d], p);
+  double reach = 0;
+  for (const Point& s : {e, f, g}) reach = std::max({reach, std::fabs(s.x), std::fabs(s.y), std::fabs(s.z)});
+  const double square = reach * reach;
+  const bool is_certain =
+      std::fabs(dot(cross(e, f), g)) > 0x1p-47 * (square * reach) + 1e-250 + volume_of_lengths(square);
+  if (!is_certain && above != above_of_directions(p, nodes_[b], nodes_[c], nodes_[d])) differs = true;
+  return above;
+}
+
+bool MovingMesh::repair(Confirm confirm) {
   Mark mark;
   std::vector<Quadrangle> across;
-  return choose_mark(mark) && test(mark) && flip_inside(across);
+  confirm_ = confirm;
+  differs_ = false;
+  return choose_mark(mark) && test(mark) && flip_inside(across) && !differs_;
 }
 
 bool MovingMesh::test(const Mark& given) {
@@ -338,14 +368,13 @@ bool MovingMesh::flip_inside(std::vector<Quadrangle>& across) {
 }
 
 /// Returns false if the arc no longer exists or is locally Delaunay.
-bool MovingMesh::find(const Arc& arc, Quadrangle& q) const {
+bool MovingMesh::find(const Arc& arc, Quadrangle& q) {
   const Star star = stars_[arc.a];
   const CurveNode* const ring = rings_ + star.begin;
   const std::uint32_t at = place_of(arc.b, star);
   if (at == star.count) return false;
   q = {arc.a, arc.b, ring[at == 0 ? star.count - 1 : at - 1], ring[at + 1 == star.count ? 0 : at + 1]};
-  const auto id = [](CurveNode w) { return static_cast<index_t>(w); };
-  return Coordinates(nodes_, all_).above(id(q.a), id(q.c), id(q.b), id(q.d));
+  return is_above(q.a, q.c, q.b, q.d, differs_);
 }
 
 bool MovingMesh::is_convex_inside(const Quadrangle& q) const {

@@ -61,7 +61,9 @@ class MovingMesh {
   /// triangle is not counterclockwise, an arc cannot be flipped, or a new triangulation is faster; the mesh
   /// must then be discarded. All nodes must have length_is_one. Why the tests suffice: docs/design.md,
   /// "Warm start". Parallel. Throws std::bad_alloc.
-  bool repair();
+  /// Confirm::directions: also false if the mesh may not be that of the directions; all nodes must then have
+  /// length_is_one_up_to_rounding.
+  bool repair(Confirm confirm = Confirm::nothing);
   std::size_t flips() const { return flips_; }
 
   // The steps of repair(), for parts that together are a mesh. If one returns false, the mesh must be
@@ -143,7 +145,8 @@ class MovingMesh {
   bool examine(CurveNode v, const Mark& mark, std::vector<Arc>& suspects) const;
   bool is_outside(CurveNode v) const { return v >= n_; }
   void suspect_inside(CurveNode a, CurveNode b);
-  bool find(const Arc& arc, Quadrangle& q) const;
+  bool find(const Arc& arc, Quadrangle& q);
+  bool is_above(CurveNode a, CurveNode b, CurveNode c, CurveNode d, bool& differs) const;
   bool is_convex_inside(const Quadrangle& q) const;
   bool flip_here(const Quadrangle& q);
   std::uint32_t place_of(CurveNode b, const Star& star) const;
@@ -169,6 +172,8 @@ class MovingMesh {
   std::vector<Arc> across_;    ///< arcs not locally Delaunay whose quadrangle has a node outside
   std::size_t flips_ = 0;
   std::size_t work_ = 0;  ///< work that may still be done, in slots of rings
+  Confirm confirm_ = Confirm::nothing;
+  bool differs_ = false;  ///< a test by directions has another result
 };
 
 }  // namespace pstripack

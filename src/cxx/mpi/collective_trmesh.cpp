@@ -62,6 +62,7 @@ struct Headline {
   Point corners[3] = {};  ///< nodes 1 to 3
   PartitionKind partition = PartitionKind::bisection;
   bool wants_cost = false;  ///< rank 0 does
+  bool by_direction = false;
 
   std::size_t slice(int rank, const Communicator& ranks) const {
     return slice_begin(static_cast<std::size_t>(n), static_cast<std::size_t>(rank),
@@ -86,6 +87,7 @@ struct Share {
   /// Checks the slice. `bad`: the first node of the call (from 0) that is zero or not finite.
   void look_at_nodes(Smallest& bad) {
     look = look_at(nodes, count);
+    look.by_direction.value = headline.by_direction;
     if (look.first_bad < count) bad.value = static_cast<std::int64_t>(first + look.first_bad);
   }
 };
@@ -96,6 +98,7 @@ Share take_slice(const TrmeshCall& call, bool wants_cost, MpiCommunicator& ranks
   Share share;
   Headline& headline = share.headline;
   const std::int32_t n = headline.n = call.n, count_code = code_of_count(n);
+  headline.by_direction = call.by_direction;
   // All ranks pass the same arguments if the smallest hash is the largest.
   Smallest least_n{n}, least_hash{0}, bad;
   Largest most_n{n}, most_hash;
@@ -138,6 +141,7 @@ Share receive_slice(const TrmeshCall& call, Arrays arrays, bool wants_cost, MpiC
     headline.n = call.n;
     headline.partition = options_from_environment(0).partition;
     headline.wants_cost = wants_cost;
+    headline.by_direction = call.by_direction;
     if (code_of_count(call.n) == 0) call.nodes.copy(0, 3, headline.corners);
   }
   ranks.broadcast(&headline, sizeof headline, 0);
@@ -249,6 +253,7 @@ std::optional<Coincidence> ByRanks::triangulate(std::size_t n) {
   const std::size_t count = begin_[me + 1] - begin_[me];
   if (n < this->n()) {  // the second try, without nodes that coincide
     share_.look = look_at(share_.nodes, count);
+    share_.look.by_direction.value = share_.headline.by_direction;
     agree_on(share_.look, ranks_);
     stars_ = {};
   }

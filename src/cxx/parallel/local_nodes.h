@@ -41,13 +41,14 @@ struct Look {
   std::size_t first_bad = 0;  ///< the first node (from 0) without a direction; their number if all have one
   OnAll lengths_are_one;
   LargestReal deviation;  ///< difference of the square of a length from 1
+  OnAny by_direction;     ///< the mesh of the directions is wanted, whatever the lengths
 };
 
 /// Passes over the n nodes point(i) on `threads` threads (see threads_for). Calls point(i) once for each
 /// node, and perhaps once more if some length is not 1.
 template <class GetPoint>
 Look look_at(std::size_t n, int threads, const GetPoint& point) {
-  Look all{n, {}, {}};
+  Look all{n, {}, {}, {}};
   std::mutex mutex;
   parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int) {
     std::size_t first_bad = n;

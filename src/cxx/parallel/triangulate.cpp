@@ -106,7 +106,8 @@ Stars<Int> triangulate(const LocalNodes& nodes, const Look& look, const Point (&
     c.bytes_sent = ranks.bytes_sent;
     return stars;
   };
-  if (look.lengths_are_one.value) {  // the predicates must be the same everywhere
+  // The predicates must be the same everywhere.
+  if (look.lengths_are_one.value && !look.by_direction.value) {
     try {
       return run(Lengths::as_given);
     } catch (const HiddenNode&) {

@@ -13,7 +13,9 @@
 namespace pstripack {
 
 /// What all ranks see: lengths and deviation become those of all nodes. Collective.
-inline void agree_on(Look& look, Communicator& ranks) { agree(ranks, look.lengths_are_one, look.deviation); }
+inline void agree_on(Look& look, Communicator& ranks) {
+  agree(ranks, look.lengths_are_one, look.deviation, look.by_direction);
+}
 
 /// The triangulation of the nodes of all ranks together, at least three and not all on one great circle
 /// (`corners`: three of them that are not, the same on every rank). `look`: what all ranks see; all nodes

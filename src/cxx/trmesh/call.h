@@ -16,6 +16,7 @@ struct TrmeshCall {
   std::int32_t n = 0;
   NodeArrays nodes;
   ListArrays lists;
+  bool by_direction = false;  ///< the mesh of the directions, whatever the lengths
 };
 
 }  // namespace pstripack

@@ -38,6 +38,7 @@ class OnThreads {
       const PhaseTimer timer(cost_, ParallelCost::divide);
       look_ = look_at(call_.nodes, n);
     }
+    look_.by_direction.value = call_.by_direction;
     return look_.first_bad;
   }
 
@@ -94,7 +95,7 @@ class OnThreads {
   void by_one_hull(CoincidentPairs& pairs) {
     if (!copied_at_once_) copy();
     const PhaseTimer timer(cost_, ParallelCost::triangulate);
-    hull_ = delaunay(copy_, n_, *workspace_);
+    hull_ = delaunay(copy_, n_, *workspace_, call_.by_direction ? Lengths::directions : Lengths::automatic);
     for (const auto& [in, out] : hull_.coincident)
       pairs.emplace_back(GlobalNumber{in + 1}, GlobalNumber{out + 1});
   }
@@ -166,7 +167,7 @@ TrmeshResult carry_out(const TrmeshCall& call, bool follow, ParallelCost* cost) 
   const auto n = static_cast<std::size_t>(call.n);
   std::optional<WarmStart> warm_start;
   if (!follow) {
-    warm_start.emplace(call.nodes, n);
+    warm_start.emplace(call.nodes, n, call.by_direction ? Confirm::directions : Confirm::nothing);
     if (warm_start->write_lists(call.lists, cost)) return {0};
   }
   OnThreads way(call, follow, cost);
@@ -175,7 +176,7 @@ TrmeshResult carry_out(const TrmeshCall& call, bool follow, ParallelCost* cost) 
   const bool are_collinear = left(call.nodes[0], call.nodes[1], call.nodes[2]) == 0;
 
   TrmeshResult original{0};
-  if (follow && (!are_collinear || original_rules().bitwise)) {
+  if (follow && !call.by_direction && (!are_collinear || original_rules().bitwise)) {
     original = lists_in_original_order(call, cost);
     if (original.order == OriginalOrder::made || original.order == OriginalOrder::inexact) return original;
   }

@@ -47,6 +47,7 @@ struct LastMesh {
   SampleOfStars sample;
   Patience patience;
   std::unique_ptr<KeptMesh> kept = nullptr;
+  Confirm confirm = Confirm::nothing;  ///< of the call that left the mesh
 
   void lose_patience() {
     patience.fail();
@@ -140,7 +141,8 @@ void copy(const std::int32_t* from, std::size_t count, std::int32_t* to) {
 
 }  // namespace
 
-WarmStart::WarmStart(const NodeArrays& nodes, std::size_t n) : nodes_(nodes), n_(n) {
+WarmStart::WarmStart(const NodeArrays& nodes, std::size_t n, Confirm confirm)
+    : nodes_(nodes), n_(n), confirm_(confirm) {
   if (n >= kFewestForWarmStart && warm_start_is_allowed()) last_ = take_last_mesh(nodes, n, patience_);
 }
 
@@ -153,11 +155,14 @@ bool WarmStart::is_prepared() const { return last_ != nullptr && last_->kept != 
 /// Sets the positions of the mesh's nodes. Returns whether all have length one, and whether any has moved.
 std::pair<bool, bool> WarmStart::move_nodes(KeptMesh& kept) const {
   constexpr std::size_t kAhead = 16;
-  const bool is_new = !kept.mesh;
+  const bool is_new = !kept.mesh, is_exact = confirm_ == Confirm::directions;
+  const auto is_one = [&](const Point& p) {
+    return is_exact ? length_is_one_up_to_rounding(p) : length_is_one(p);
+  };
   if (is_new) {
     BlockArray<Point> points(n_);
     nodes_.copy(0, n_, points.data());
-    if (!std::all_of(points.begin(), points.end(), length_is_one)) return {false, false};
+    if (!std::all_of(points.begin(), points.end(), is_one)) return {false, false};
     kept.mesh.emplace(points.data(), n_, kept.list.data(), kept.lend.data());
   }
   MovingMesh& mesh = *kept.mesh;
@@ -169,7 +174,7 @@ std::pair<bool, bool> WarmStart::move_nodes(KeptMesh& kept) const {
         if (k + kAhead < last) mesh.prefetch(k + kAhead);
         const Point p = node(k);
         Point& place = mesh.node(k);
-        have_length_one = have_length_one & length_is_one(p);
+        have_length_one = have_length_one & is_one(p);
         has_moved = has_moved | (place != p);
         place = p;
       }
@@ -194,7 +199,8 @@ bool WarmStart::write_lists(const ListArrays& lists, ParallelCost* cost) noexcep
     }
     {
       const PhaseTimer timer(cost, ParallelCost::triangulate);
-      if (fits && has_moved) fits = kept.mesh->repair();
+      if (fits && (has_moved || last_->confirm != confirm_)) fits = kept.mesh->repair(confirm_);
+      last_->confirm = confirm_;
       if (fits) changes = ListChanges(kept);
     }
     if (!fits) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "geometry/predicates.h"
 #include "parallel/cost.h"
 #include "trmesh/call.h"
 #include "trmesh/patience.h"
@@ -20,7 +21,8 @@ struct LastMesh;
 /// never waits.
 class WarmStart {
  public:
-  WarmStart(const NodeArrays& nodes, std::size_t n);
+  /// confirm: see MovingMesh::repair().
+  WarmStart(const NodeArrays& nodes, std::size_t n, Confirm confirm = Confirm::nothing);
   ~WarmStart();
   WarmStart(const WarmStart&) = delete;
   WarmStart& operator=(const WarmStart&) = delete;
@@ -41,6 +43,7 @@ class WarmStart {
 
   const NodeArrays nodes_;
   const std::size_t n_;
+  const Confirm confirm_;
   std::unique_ptr<LastMesh> last_;
   Patience patience_;  ///< for a mesh first kept by this call
 };

@@ -1,0 +1,412 @@
+// The measures of triangles and cells of directions.
+//
+// A triangle a,b,c of unit vectors is known by its sides: the differences of its corners. Its normal n is the
+// cross product of the two shorter ones, so that nothing cancels but in a flat triangle. For the corner a
+// between the sides e and f to the others:
+//
+//   circumcentre of the plane triangle   a + C,  C = n x (|f|^2 e - |e|^2 f) / 2|n|^2,  |C| = sin R
+//   that on the sphere                   (a + C) / cos R, at an offset (C + (1 - cos R) a) / cos R from a
+//   area                                 2 atan2(a.n, 1 + a.b + b.c + c.a)     (van Oosterom & Strackee 1983)
+//
+// The border between the cells of a and b crosses the arc a-b in its middle m, at a right angle. The
+// circumcentre v lies on it, at the signed angle t from m:
+//
+//          v       sin t = tan h cot(c),  h half of the arc, cot(c) = (a-c).(b-c) / |n|
+//         /|       cos t = cos R / cos h,  cos R = a.n / |n|
+//        / |       tan(area of a m v / 2) = tan(h/2) tan(t/2)
+//       a--m--b    (Napier's rules; for the first, the right triangle 0, a + C, middle of the chord a-b)
+//
+// So the area of a cell is a sum of differences of such areas, one for each neighbour. All are positive, and
+// nothing larger is subtracted, however small the cell is. At the back of the hull the formulas hold, too:
+// there cos R < 0.
+//
+// Each function of an arithmetic T finds its result and a bound of its error; if that is too large, the next
+// arithmetic tries.
+
+#include "geometry/measures.h"
+
+#include <algorithm>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "geometry/double_double.h"
+
+namespace pstripack {
+namespace {
+
+namespace mp = boost::multiprecision;
+template <unsigned bits>
+using Real = mp::number<mp::cpp_bin_float<bits, mp::digit_base_2, void, std::int32_t>, mp::et_off>;
+
+constexpr double u = 0x1p-53, kPi = 3.14159265358979323846;
+/// Largest error of a cell's area, relative to itself.
+constexpr double kOfCell = 128 * u;
+
+// ---- four arithmetics -----------------------------------------------------------------------------------
+
+template <class T>
+struct Vector3 {
+  T x, y, z;
+};
+template <class T>
+Vector3<T> cross(const Vector3<T>& a, const Vector3<T>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <class T>
+T dot(const Vector3<T>& a, const Vector3<T>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+/// What they differ in:
+///   kUnit          bound of the relative error of an operation
+///   kSide, kApart  a side has an error of kSide of its length and 2^kApart
+///   Corner         what of a direction enters the sides; side(to, from) is the difference
+///   position       the direction as one vector
+template <class T>
+struct Arithmetic;
+
+template <>
+struct Arithmetic<double> {
+  static constexpr double kUnit = u, kSide = 2 * u;
+  static constexpr int kApart = -98;
+  using Corner = const Direction&;
+  static Corner corner(const Direction& d) { return d; }
+  static Vector3<double> side(Corner to, Corner from) {
+    const Point d = difference(to, from);
+    return {d.x, d.y, d.z};
+  }
+  static Vector3<double> position(Corner d) { return {d.high.x, d.high.y, d.high.z}; }
+  static double value(double v, int exponent = 0) { return exponent == 0 ? v : std::ldexp(v, exponent); }
+  static double square_root(double v) { return std::sqrt(v); }
+};
+
+template <>
+struct Arithmetic<DoubleDouble> {
+  static constexpr double kUnit = 0x1p-101, kSide = 0x1p-102;
+  static constexpr int kApart = -98;
+  using Corner = Vector3<DoubleDouble>;
+  static Corner corner(const Direction& d) {
+    return {{d.high.x, d.low.x}, {d.high.y, d.low.y}, {d.high.z, d.low.z}};
+  }
+  static Corner side(const Corner& to, const Corner& from) {
+    return {to.x - from.x, to.y - from.y, to.z - from.z};
+  }
+  static const Corner& position(const Corner& d) { return d; }
+  static double value(const DoubleDouble& v, int exponent = 0) { return std::ldexp(v.high, exponent); }
+  static DoubleDouble square_root(const DoubleDouble& v) { return sqrt(v); }
+};
+
+template <unsigned bits>
+struct Arithmetic<Real<bits>> {
+  using T = Real<bits>;
+  static constexpr double kUnit = bits < 1000 ? 0x1p-100 * 0x1p-100 * 0x1p-50 : 0x1p-1000;
+  static constexpr double kSide = kUnit;
+  static constexpr int kApart = 4 - static_cast<int>(bits);
+  using Corner = Vector3<T>;
+  static Corner corner(const Direction& d) {
+    const Corner p{T(d.given.x), T(d.given.y), T(d.given.z)};
+    const T length = sqrt(dot(p, p));
+    return {p.x / length, p.y / length, p.z / length};
+  }
+  static Corner side(const Corner& to, const Corner& from) {
+    return {to.x - from.x, to.y - from.y, to.z - from.z};
+  }
+  static const Corner& position(const Corner& d) { return d; }
+  static double value(const T& v, int exponent = 0) { return static_cast<double>(T(ldexp(v, exponent))); }
+  static T square_root(const T& v) { return sqrt(v); }
+};
+
+/// A number of the arithmetic T.
+template <class T>
+T number(double v) {
+  if constexpr (std::is_same_v<T, DoubleDouble>)
+    return {v, 0};
+  else
+    return T(v);
+}
+
+/// The binary exponent of a vector's largest component; very small for 0.
+template <class T>
+int exponent_of(const Vector3<T>& v) {
+  int most = -100000;
+  for (const T& component : {v.x, v.y, v.z})
+    if constexpr (std::is_same_v<T, double>) {
+      if (component != 0) most = std::max(most, std::ilogb(component));
+    } else if constexpr (std::is_same_v<T, DoubleDouble>) {
+      if (component.high != 0) most = std::max(most, std::ilogb(component.high));
+    } else {
+      if (component != 0) most = std::max(most, static_cast<int>(ilogb(component)));
+    }
+  return most;
+}
+
+template <class T>
+Point as_point(const Vector3<T>& v, int exponent) {
+  using A = Arithmetic<T>;
+  return {A::value(v.x, exponent), A::value(v.y, exponent), A::value(v.z, exponent)};
+}
+
+/// Calls attempt(T()) with the arithmetics from doubles on until it returns true.
+template <class Attempt>
+[[gnu::noinline]] bool with_more_bits(const Attempt& attempt) {
+  return attempt(DoubleDouble{}) || attempt(Real<256>{}) || attempt(Real<1280>{}) || attempt(Real<9216>{});
+}
+template <class Attempt>
+bool with_enough_bits(const Attempt& attempt) {
+  return attempt(0.0) || with_more_bits(attempt);
+}
+
+// ---- triangles --------------------------------------------------------------------------------------------
+
+/// The index of the longest of three.
+inline int longest_of(const double (&square)[3]) {
+  return square[1] >= square[0] ? (square[2] > square[1] ? 2 : 1) : (square[2] > square[0] ? 2 : 0);
+}
+
+/// A triangle a,b,c. Doubles that begin with `size` are magnitudes for bounds, and lengths of sides are in
+/// units of 2^exponent: 0 but for sides below 2^-100.
+template <class T>
+struct TriangleBySides {
+  using A = Arithmetic<T>;
+  Vector3<T> side[3];  ///< b-a, c-b, a-c
+  Vector3<T> normal;   ///< (b-a) x (c-a)
+  T across;            ///< its length
+  int first, second;   ///< the two shorter sides; the second ends where the first begins
+  int exponent = 0;
+  double size[3], size_across;
+  double error_of_normal;  ///< relative to its length
+  double apart;            ///< 2^kApart in the unit of the sizes
+
+  /// True if the lengths and the normal have relative errors below `most`.
+  bool find(typename A::Corner a, typename A::Corner b, typename A::Corner c, double most) {
+    side[0] = A::side(b, a), side[1] = A::side(c, b), side[2] = A::side(a, c);
+    if constexpr (!std::is_same_v<T, double>) {
+      exponent = std::max({exponent_of(side[0]), exponent_of(side[1]), exponent_of(side[2])});
+      if (exponent > -100) exponent = 0;
+    }
+    double square[3];
+    for (int k = 0; k < 3; ++k) {
+      const Point s = as_point(side[k], -exponent);
+      square[k] = dot(s, s);
+      size[k] = std::sqrt(square[k]);
+    }
+    first = (longest_of(square) + 2) % 3, second = (first + 2) % 3;
+    normal = cross(side[second], side[first]);
+    across = A::square_root(dot(normal, normal));
+    size_across = A::value(across, -2 * exponent);
+    apart = std::ldexp(1, A::kApart - exponent);
+    const double p = size[first], q = size[second];
+    error_of_normal = (p * q * (2 * A::kSide + 4 * A::kUnit) + apart * (p + q)) / size_across;
+    return size_across > 0 && error_of_normal <= most && apart <= most * std::min(p, q);
+  }
+
+  /// Dot product of the sides to the other corners at corner k (a, b, c), and the bound of its error.
+  T at(int k) const { return number<T>(-1) * dot(side[k], side[(k + 2) % 3]); }
+  double error_of_at(int k) const {
+    const double p = size[k], q = size[(k + 2) % 3];
+    return p * q * (2 * A::kSide + 4 * A::kUnit) + apart * (p + q);
+  }
+  T cosine(typename A::Corner a) const { return dot(A::position(a), normal) / across; }
+};
+
+/// What a measure is where two directions coincide; no caller asks for it.
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+double square_of(const Point& a) { return dot(a, a); }
+Point scaled(double factor, const Point& a) { return {factor * a.x, factor * a.y, factor * a.z}; }
+
+/// False if the triangle is too small or too flat for the arithmetic T.
+template <class T>
+bool find_circumcircle(const Direction (&corner)[3], Circumcircle& circle) {
+  using A = Arithmetic<T>;
+  TriangleBySides<T> t;
+  const auto a = A::corner(corner[0]);
+  if (!t.find(a, A::corner(corner[1]), A::corner(corner[2]), 32 * u)) return false;
+  const Direction& apex = corner[t.first];  // between the two shorter sides
+  const Point e = as_point(t.side[t.first], -t.exponent), f = as_point(t.side[t.second], -t.exponent);
+  const Point normal = as_point(t.normal, -2 * t.exponent);
+  const double ee = square_of(e), ff = square_of(f), p = t.size[t.first], q = t.size[t.second];
+  const double sine = std::ldexp(0.5 * p * q * t.size[(t.second + 2) % 3] / (t.size_across), t.exponent);
+  const bool is_seen_from_behind = A::value(t.cosine(a)) < 0;
+  const double sign = is_seen_from_behind ? -1 : 1;
+  if (!(sine <= 0.87)) {  // beyond 60 degrees nothing is lost by a subtraction
+    const Point n = scaled(sign / t.size_across, normal);
+    const Point offset{(n.x - apex.high.x) - apex.low.x, (n.y - apex.high.y) - apex.low.y,
+                       (n.z - apex.high.z) - apex.low.z};
+    circle = {n, 2 * std::asin(std::sqrt(square_of(offset)) / 2)};
+  } else {
+    const double cosine = std::sqrt((1 - sine) * (1 + sine)), above = sine * sine / (1 + cosine);
+    // C, in the unit of the sides: the side f leads to the apex, so f is -f here.
+    const Point c = scaled(0.5 / (t.size_across * t.size_across),
+                           cross(normal, {ff * e.x + ee * f.x, ff * e.y + ee * f.y, ff * e.z + ee * f.z}));
+    const double unit = std::ldexp(1, t.exponent);
+    const auto coordinate = [&](double high, double low, double in_plane) {
+      return high + (low + (unit * in_plane + above * high) / cosine);
+    };
+    circle = {{coordinate(apex.high.x, apex.low.x, c.x), coordinate(apex.high.y, apex.low.y, c.y),
+               coordinate(apex.high.z, apex.low.z, c.z)},
+              std::asin(sine)};
+  }
+  if (is_seen_from_behind) circle = {scaled(-1, circle.centre), kPi - circle.radius};
+  return true;
+}
+
+template <class T>
+bool find_area(const Direction (&corner)[3], double& area) {
+  using A = Arithmetic<T>;
+  TriangleBySides<T> t;
+  const auto a = A::corner(corner[0]), b = A::corner(corner[1]), c = A::corner(corner[2]);
+  if (!t.find(a, b, c, 32 * u)) return false;
+  const double det = A::value(dot(A::position(a), t.normal), -2 * t.exponent);
+  const double error_of_det = (t.error_of_normal + 4 * A::kUnit) * t.size_across + u * std::fabs(det);
+  if (t.exponent != 0) {  // the denominator is 4 up to rounding, and the arc tangent is its argument
+    area = std::ldexp(det / 2, 2 * t.exponent);
+    return error_of_det <= 32 * u * std::fabs(det);
+  }
+  // 1 + a.b + b.c + c.a = 4 - (sum of the squares of the chords) / 2
+  T squares = number<T>(0);
+  for (const auto& s : t.side) squares = squares + dot(s, s);
+  const double denominator = A::value(number<T>(4) - number<T>(0.5) * squares);
+  const double error_of_denominator =
+      (4 - denominator) * (2 * A::kSide + 8 * A::kUnit) + t.apart + u * std::fabs(denominator);
+  area = 2 * std::atan2(det, denominator);
+  return 2 * (std::fabs(denominator) * error_of_det + std::fabs(det) * error_of_denominator) <=
+         60 * u * std::fabs(area) * (det * det + denominator * denominator);
+}
+
+// ---- cells ------------------------------------------------------------------------------------------------
+
+/// What the border between two cells needs of the triangle on one side of it.
+template <class T>
+struct Beside {
+  T cot, cosine;  ///< of the angle opposite the arc between the nodes; of the circumradius
+  double error_of_cot, error_of_cosine;
+};
+
+/// (x, z), z = y tan(h/2), where (x, y) is in the direction of the angle t/2.
+template <class T>
+struct HalfAngle {
+  T x, z;
+  double cosine, size_z, error;  ///< cos t; error of the angle of (x, z)
+};
+
+template <class T>
+struct Arc {  ///< from a node to a neighbour
+  T tan_h, cos_h, tan_half;
+  double size;  ///< tan h
+};
+
+template <class T>
+HalfAngle<T> half_angle(const Beside<T>& side, const Arc<T>& arc, double sign) {
+  using A = Arithmetic<T>;
+  const T sine = number<T>(sign) * arc.tan_h * side.cot, cosine = side.cosine / arc.cos_h;
+  const double about = A::value(cosine);
+  const T one = number<T>(1), x = about >= 0 ? one + cosine : sine * sine / (one - cosine);
+  const T z = arc.tan_half * sine;
+  const double size_x = A::value(x), size_z = A::value(z);
+  const double error = A::value(arc.tan_half) * arc.size * side.error_of_cot +
+                       (8 * A::kUnit + side.error_of_cosine) * std::fabs(size_z);
+  return {x, z, about, size_z, error * size_x / (size_x * size_x + size_z * size_z)};
+}
+
+/// The area of the triangle of a node and two circumcentres on its border with a neighbour; `right` and
+/// `left` of the arc are the triangles. Adds a bound to `error`.
+template <class T>
+double area_beside(const T& chord, const Beside<T>& right, const Beside<T>& left, double& error) {
+  using A = Arithmetic<T>;
+  const T one = number<T>(1), sin_h = number<T>(0.5) * chord;
+  const T cos_h = A::square_root((one - sin_h) * (one + sin_h)), tan_h = sin_h / cos_h;
+  const Arc<T> arc{tan_h, cos_h, sin_h / (one + cos_h), A::value(tan_h)};
+  const HalfAngle<T> from = half_angle(right, arc, -1), to = half_angle(left, arc, 1);
+  double half = std::atan2(A::value(to.z * from.x - from.z * to.x), A::value(from.x * to.x + from.z * to.z));
+  // The border passes the point opposite m: t jumps from pi to -pi.
+  if (from.size_z > 0 && to.size_z < 0 && from.cosine + to.cosine < 1) half += kPi;
+  error += 2 * (from.error + to.error) + 8 * u * std::fabs(half);
+  return 2 * half;
+}
+
+/// False if the area is not certain to be accurate enough.
+template <class T>
+bool find_cell_area(const Direction& node, const Direction* ring, std::size_t count, double& area) {
+  using A = Arithmetic<T>;
+  TriangleBySides<T> t;
+  T chord;  // of the arc from the node to ring[k], the first side of triangle k
+  Beside<T> left, right_of_next;
+  const auto v = A::corner(node);
+  const auto see_triangle = [&](std::size_t k) {
+    if (!t.find(v, A::corner(ring[k]), A::corner(ring[k + 1 < count ? k + 1 : 0]), 0x1p-10)) return false;
+    const auto beside = [&, cosine = t.cosine(v)](int corner) {
+      const T cot = t.at(corner) / t.across;
+      return Beside<T>{cot, cosine,
+                       t.error_of_at(corner) / t.size_across +
+                           (t.error_of_normal + 2 * A::kUnit) * std::fabs(A::value(cot)),
+                       t.error_of_normal};
+    };
+    chord = A::square_root(dot(t.side[0], t.side[0]));
+    left = beside(2);
+    right_of_next = beside(1);
+    return true;
+  };
+  if (!see_triangle(count - 1)) return false;
+  double error = 0;
+  area = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Beside<T> right = right_of_next;
+    if (!see_triangle(k)) return false;
+    area += area_beside(chord, right, left, error);
+    if constexpr (std::is_same_v<T, double>)
+      if (t.error_of_normal > 0x1p-40) return false;
+  }
+  return error <= kOfCell * area;
+}
+
+}  // namespace
+
+Direction direction_of(const Point& p) {
+  const Directions::Unit unit = Directions::unit(p);
+  return {unit.high, unit.low, p};
+}
+
+double arc_length(const Direction& a, const Direction& b) {
+  const Point d = difference(b, a);
+  const double square = square_of(d);
+  if (square >= 0x1p-90 && square <= 2) return 2 * std::asin(std::sqrt(square) / 2);
+  if (square > 2) {  // pi minus the angle between a and -b
+    const Point sum{(a.high.x + b.high.x) + (a.low.x + b.low.x), (a.high.y + b.high.y) + (a.low.y + b.low.y),
+                    (a.high.z + b.high.z) + (a.low.z + b.low.z)};
+    return kPi - 2 * std::asin(std::sqrt(square_of(sum)) / 2);
+  }
+  double length = 0;
+  with_more_bits([&](auto zero) {
+    using A = Arithmetic<decltype(zero)>;
+    const auto side = A::side(A::corner(b), A::corner(a));
+    const int exponent = exponent_of(side);
+    length = std::ldexp(std::sqrt(square_of(as_point(side, -exponent))), exponent);
+    return A::kApart - exponent <= -55;
+  });
+  return length;
+}
+
+Circumcircle circumcircle(const Direction& a, const Direction& b, const Direction& c) {
+  const Direction corner[3] = {a, b, c};
+  Circumcircle circle{{kNone, kNone, kNone}, kNone};
+  with_enough_bits([&](auto zero) { return find_circumcircle<decltype(zero)>(corner, circle); });
+  return circle;
+}
+
+double triangle_area(const Direction& a, const Direction& b, const Direction& c) {
+  const Direction corner[3] = {a, b, c};
+  double area = 0;
+  with_enough_bits([&](auto zero) { return find_area<decltype(zero)>(corner, area); });
+  return area;
+}
+
+double cell_area(const Direction& v, const Direction* ring, std::size_t count) {
+  double area = kNone;
+  with_enough_bits([&](auto zero) { return find_cell_area<decltype(zero)>(v, ring, count, area); });
+  return area;
+}
+
+}  // namespace pstripack

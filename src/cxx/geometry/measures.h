@@ -1,0 +1,55 @@
+#pragma once
+// Lengths, circumcentres and areas of directions p/|p|, each right relative to its own size.
+//
+// Where nodes are close, two roundings spoil the usual formulas: that of the difference of two vectors, and
+// that of their lengths, which tilts the plane of three nodes by 1e-16 over its size. So all is made of
+// differences of exact directions, and each step has a bound. Where doubles do not meet it, double-doubles
+// follow, and then floating-point numbers of 256, 1280 and 9216 bits.
+//
+// For finite vectors with different directions, from 1e-150 rad apart to opposite ones, with u = 2^-53:
+//   length, radius   8u of itself; of a radius beyond 60 degrees 64u rad
+//   circumcentre     64u of the radius, and the rounding of its three coordinates
+//   area             64u of itself, that of a cell 128u
+// These are bounds of the analysis in measures.cpp; docs/trust.md has the errors seen.
+
+#include <cstddef>
+
+#include "geometry/predicates.h"
+
+namespace pstripack {
+
+/// The direction of a vector: high + low = given/|given| with a relative error of 2^-101 in every component.
+struct Direction {
+  Point high, low, given;
+};
+Direction direction_of(const Point& p);
+inline Direction direction_of(const Directions& nodes, index_t i) {
+  return {nodes.position(i), nodes.remainder(i), nodes.given(i)};
+}
+
+/// b - a; every component has 2 roundings and an absolute error of 2^-99.
+inline Point difference(const Direction& b, const Direction& a) {
+  return {(b.high.x - a.high.x) + (b.low.x - a.low.x), (b.high.y - a.high.y) + (b.low.y - a.low.y),
+          (b.high.z - a.high.z) + (b.low.z - a.low.z)};
+}
+
+/// The angle between two directions, in radians.
+double arc_length(const Direction& a, const Direction& b);
+
+/// The circle through three different directions. `centre` is the unit vector from whose side they are
+/// counterclockwise; `radius` is in radians, 0 to pi: beyond pi/2 if they are clockwise seen from outside the
+/// sphere.
+struct Circumcircle {
+  Point centre;
+  double radius;
+};
+Circumcircle circumcircle(const Direction& a, const Direction& b, const Direction& c);
+
+/// Area of the spherical triangle in steradians, 0 to 2 pi; negative if clockwise.
+double triangle_area(const Direction& a, const Direction& b, const Direction& c);
+
+/// Area of the Voronoi cell of the direction v in steradians. ring[0..count-1]: the other ends of all edges
+/// at v in the convex hull of the directions, counterclockwise seen from outside the hull.
+double cell_area(const Direction& v, const Direction* ring, std::size_t count);
+
+}  // namespace pstripack
