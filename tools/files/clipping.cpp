@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
@@ -49,6 +50,9 @@ class Pieces {
     }
     while (corners.size() > 1 && corners.back() == corners.front()) corners.pop_back();
     if (corners.size() < 3) return;
+    faces_.area.push_back(is_whole(ring, cell) && !cells_.area.empty()
+                              ? cells_.area[cell]
+                              : std::numeric_limits<double>::quiet_NaN());
     faces_.corner.insert(faces_.corner.end(), corners.begin(), corners.end());
     faces_.begin.push_back(faces_.corner.size());
     faces_.centres.push_back(cells_.centres[cell]);
@@ -57,6 +61,14 @@ class Pieces {
   Faces take() { return std::move(faces_); }
 
  private:
+  bool is_whole(const MapRing& ring, std::size_t cell) const {
+    const std::size_t begin = cells_.begin[cell];
+    if (ring.size() != cells_.corners(cell)) return false;
+    for (std::size_t k = 0; k < ring.size(); ++k)
+      if (ring[k].p != cells_.points[static_cast<std::size_t>(cells_.corner[begin + k]) - 1]) return false;
+    return true;
+  }
+
   const Faces& cells_;
   Faces faces_;
   std::unordered_map<Point, std::int32_t, HashOfBits> number_;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/parallel_for.h"
+#include "geometry/measures.h"
 #include "lists/limits.h"
 #include "mesh/delaunay.h"
 #include "stripack/list_queries.h"
@@ -170,13 +171,6 @@ Mesh triangulate(std::vector<Point> points) {
   return mesh;
 }
 
-bool are_on_one_great_circle_up_to_rounding(const std::vector<Point>& points) {
-  constexpr double kRounding = 1e-14;  // bound on the rounding of coordinates that were computed from degrees
-  const Point normal = unit(cross(unit(points[0]), unit(points[farthest_from_first(points)])));
-  return std::all_of(points.begin(), points.end(),
-                     [&](const Point& p) { return std::fabs(dot(normal, unit(p))) <= kRounding; });
-}
-
 std::vector<Duplicate> duplicates(const std::vector<Point>& points) {
   check_count(points.size());
   three_corners(points);
@@ -286,21 +280,36 @@ std::vector<Point> unit(const std::vector<Point>& points) {
   return result;
 }
 
-std::vector<Point> circumcentres(const std::vector<Point>& unit_points,
+namespace {
+
+/// The directions of the corners of triangle t.
+struct Corners {
+  Corners(const pstripack::Directions& nodes, const std::int32_t* corner)
+      : a(direction_of(nodes, corner[0] - 1)),
+        b(direction_of(nodes, corner[1] - 1)),
+        c(direction_of(nodes, corner[2] - 1)) {}
+  pstripack::Direction a, b, c;
+};
+
+/// Calls visit(t, corners) for all triangles, on threads.
+template <class Visit>
+void for_each_triangle(const pstripack::Directions& nodes, const std::vector<std::int32_t>& triangles,
+                       const Visit& visit) {
+  const std::size_t count = triangles.size() / 3;
+  pstripack::parallel_pieces(count, pstripack::threads_for(4 * count),
+                             [&](std::size_t first, std::size_t last, int) {
+                               for (std::size_t t = first; t < last; ++t)
+                                 visit(t, Corners(nodes, triangles.data() + 3 * t));
+                             });
+}
+
+}  // namespace
+
+std::vector<Point> circumcentres(const std::vector<Point>& points,
                                  const std::vector<std::int32_t>& triangles) {
   std::vector<Point> centres(triangles.size() / 3);
-  const auto at = [&](std::size_t k) -> pstripack::Vector<double> {
-    const Point& p = unit_points[static_cast<std::size_t>(triangles[k]) - 1];
-    return {p.x, p.y, p.z};
-  };
-  pstripack::parallel_pieces(centres.size(), pstripack::threads_for(centres.size()),
-                             [&](std::size_t first, std::size_t last, int) {
-                               for (std::size_t t = first; t < last; ++t) {
-                                 pstripack::Vector<double> c = at(3 * t);
-                                 circumcentre(at(3 * t), at(3 * t + 1), at(3 * t + 2), c);
-                                 centres[t] = {c.x, c.y, c.z};
-                               }
-                             });
+  for_each_triangle(pstripack::Directions(points.data(), points.size()), triangles,
+                    [&](std::size_t t, const Corners& at) { centres[t] = circumcentre(at.a, at.b, at.c); });
   return centres;
 }
 
@@ -310,12 +319,25 @@ std::size_t Faces::most_corners() const {
   return most;
 }
 
+namespace {
+
+std::vector<double> triangle_areas(const std::vector<Point>& points,
+                                   const std::vector<std::int32_t>& triangles) {
+  std::vector<double> areas(triangles.size() / 3);
+  for_each_triangle(pstripack::Directions(points.data(), points.size()), triangles,
+                    [&](std::size_t t, const Corners& at) { areas[t] = triangle_area(at.a, at.b, at.c); });
+  return areas;
+}
+
+}  // namespace
+
 Faces triangle_faces(const Mesh& mesh) {
   Faces faces;
   faces.points = unit(mesh.points);
   faces.corner = triangles_of(mesh);
   faces.begin.resize(faces.corner.size() / 3 + 1);
   for (std::size_t f = 0; f < faces.begin.size(); ++f) faces.begin[f] = 3 * f;
+  faces.area = triangle_areas(mesh.points, faces.corner);
   return faces;
 }
 
@@ -332,9 +354,26 @@ std::vector<Point> centroids(const Faces& faces) {
   return centres;
 }
 
+namespace {
+
+/// Each area is right to 128 * 2^-53 of itself, and so is their sum but for the rounding of n - 1 additions.
+void expect_whole_sphere(const std::vector<double>& areas) {
+  constexpr double kSphere = 12.566370614359172, u = 0x1p-53;
+  for (std::size_t k = 0; k < areas.size(); ++k)
+    if (!(areas[k] >= 0)) throw NoMesh(fmt::format("the area of the cell of node {} is {}", k + 1, areas[k]));
+  const double sum = std::accumulate(areas.begin(), areas.end(), 0.0);
+  if (!(std::fabs(sum - kSphere) <= (130 + static_cast<double>(areas.size())) * u * kSphere))
+    throw NoMesh(
+        fmt::format("the areas of the cells add up to {:.15g} steradians instead of 4 pi: please "
+                    "report these nodes",
+                    sum));
+}
+
+}  // namespace
+
 Faces voronoi_faces(const Mesh& mesh) {
   const std::size_t n = mesh.points.size();
-  const Components c(unit(mesh.points));
+  const pstripack::Directions directions(mesh.points.data(), n);
   std::vector<std::int32_t> lptr = mesh.lptr, listc(6 * n - 12);
   std::int32_t lnew = mesh.lnew, nb = 0;
   std::vector<std::int32_t> boundary(n);
@@ -342,7 +381,7 @@ Faces voronoi_faces(const Mesh& mesh) {
       static_cast<std::size_t>(pstripack::boundary_nodes(mesh.lists(), boundary.data()).boundary_nodes);
   const std::size_t ncol = std::max<std::size_t>(on_boundary, 3) - 2;
   std::vector<std::int32_t> ltri(6 * ncol);
-  std::vector<double> x(2 * n - 4), y(x.size()), z(x.size()), radius(x.size());
+  std::vector<double> x(2 * n - 4), y(x.size()), z(x.size());
   const pstripack::VoronoiArrays<double, std::int32_t> out{static_cast<std::int32_t>(ncol),
                                                            lptr.data(),
                                                            &lnew,
@@ -352,10 +391,9 @@ Faces voronoi_faces(const Mesh& mesh) {
                                                            x.data(),
                                                            y.data(),
                                                            z.data(),
-                                                           radius.data()};
+                                                           nullptr};
   const pstripack::ListsView<std::int32_t> lists{n, mesh.list.data(), lptr.data(), mesh.lend.data(), lnew};
-  const pstripack::VoronoiStatus status =
-      pstripack::voronoi(lists, pstripack::Nodes<double>{c.x.data(), c.y.data(), c.z.data()}, out);
+  const pstripack::VoronoiStatus status = pstripack::voronoi_of_directions(lists, directions, out);
   if (status != pstripack::VoronoiStatus::done)
     throw NoMesh(fmt::format("the Voronoi diagram failed with code {}", static_cast<int>(status)));
 
@@ -373,6 +411,10 @@ Faces voronoi_faces(const Mesh& mesh) {
     } while (slot != last);
     faces.begin.push_back(faces.corner.size());
   }
+  faces.area.resize(n);
+  if (!pstripack::cell_areas(mesh.lists(), directions, faces.area.data()))
+    throw NoMesh("the lists are broken");
+  expect_whole_sphere(faces.area);
   return faces;
 }
 
@@ -386,6 +428,10 @@ std::vector<double> areas(const Faces& faces) {
   pstripack::parallel_pieces(
       all.size(), pstripack::threads_for(8 * all.size()), [&](std::size_t first, std::size_t last, int) {
         for (std::size_t f = first; f < last; ++f) {
+          if (!faces.area.empty() && !std::isnan(faces.area[f])) {
+            all[f] = faces.area[f];
+            continue;
+          }
           const std::size_t begin = faces.begin[f], end = faces.begin[f + 1];
           for (std::size_t k = begin + kAhead; k < std::min(end + kAhead, corners); ++k)
             __builtin_prefetch(&faces.points[static_cast<std::size_t>(faces.corner[k]) - 1]);
@@ -466,6 +512,7 @@ Faces triangle_faces(const MeshPart& part) {
   faces.corner = part.corner;
   faces.begin.resize(faces.corner.size() / 3 + 1);
   for (std::size_t f = 0; f < faces.begin.size(); ++f) faces.begin[f] = 3 * f;
+  faces.area = triangle_areas(part.points, part.corner);
   add_columns(faces, part.columns, std::vector<double>(part.degrees));
   faces.points.resize(part.nodes);
   faces.corner = part.corners_by_number();

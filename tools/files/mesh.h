@@ -58,10 +58,6 @@ void set_trmesh(Trmesh trmesh);
 /// on one great circle, if two coincide, or if there are too many.
 Mesh triangulate(std::vector<Point> points);
 
-/// True if all nodes are within 1e-14 radians of one great circle. Their triangles and cells then depend on
-/// the rounding of the coordinates.
-bool are_on_one_great_circle_up_to_rounding(const std::vector<Point>& points);
-
 /// A node, and the node with the smallest number in the same direction.
 struct Duplicate {
   std::size_t node, first;
@@ -79,8 +75,8 @@ std::vector<std::int32_t> triangles_of(const Mesh& mesh);
 
 std::vector<Point> unit(const std::vector<Point>& points);
 
-/// The circumcentres of the triangles, on the sphere.
-std::vector<Point> circumcentres(const std::vector<Point>& unit_points,
+/// The circumcentres of the triangles of the directions of the points.
+std::vector<Point> circumcentres(const std::vector<Point>& points,
                                  const std::vector<std::int32_t>& triangles);
 
 /// Polygons on the unit sphere: face f has the corners corner[begin[f]] ... corner[begin[f+1]-1],
@@ -91,6 +87,8 @@ struct Faces {
   std::vector<std::size_t> nodes;  ///< its index; empty: face f belongs to node f
   std::vector<std::size_t> begin;
   std::vector<std::int32_t> corner;
+  std::vector<double>
+      area;  ///< of triangles and whole cells, in steradians, from their nodes; NaN: not known
   LonLat given_points, given_centres;  ///< their longitudes and latitudes, if the input had them
   Columns columns_of_points, columns_of_faces;
   Share share_of_points, share_of_faces;
@@ -104,14 +102,15 @@ struct Faces {
 /// The centroid of each face: the direction of the sum of its corners.
 std::vector<Point> centroids(const Faces& faces);
 
-/// The areas of the faces in steradians.
+/// The areas of the faces in steradians; from their corners, where faces.area does not know them.
 std::vector<double> areas(const Faces& faces);
 
 /// The triangles as faces.
 Faces triangle_faces(const Mesh& mesh);
 
 /// The Voronoi diagram: one face per node. If the nodes lie in a hemisphere, the cells of the boundary nodes
-/// share the rest of the sphere, as in STRIPACK's CRLIST.
+/// share the rest of the sphere, as in STRIPACK's CRLIST. Throws NoMesh if the areas of the cells are not
+/// certain to make up the sphere.
 Faces voronoi_faces(const Mesh& mesh);
 
 /// Adds the columns that files of faces can hold: the nodes' own columns and given angles, their numbers of

@@ -362,14 +362,14 @@ void write(const OutputFile& file, const Mpas& mesh) {
 void write_mpas(const OutputFile& file, const Mesh& mesh) {
   std::vector<Point> cells = unit(mesh.points);
   std::vector<std::int32_t> triangles = triangles_of(mesh);
-  std::vector<Point> vertices = circumcentres(cells, triangles);
+  std::vector<Point> vertices = circumcentres(mesh.points, triangles);
   write(file,
         {std::move(cells), std::move(vertices), mesh.given, std::move(triangles), mesh.density, mesh.notes});
 }
 
 void write_mpas(const OutputFile& file, const MeshPart& part) {
   std::vector<Point> points = unit(part.points);
-  std::vector<Point> vertices = circumcentres(points, part.corner);
+  std::vector<Point> vertices = circumcentres(part.points, part.corner);
   points.resize(part.nodes);
   write(file, {std::move(points),
                std::move(vertices),

@@ -53,14 +53,6 @@ void voronoi(Options& options) {
   run(options, [&](const files::OutputFile& file, const files::Mesh& mesh) {
     files::Faces faces = files::voronoi_faces(mesh);
     files::divide_half_turns(faces, mesh);
-    // In cells of nodes metres apart, long sides make areas wrong by a thousandth.
-    constexpr double kSphere = 12.566370614359172, kWrong = 0.1;
-    const std::vector<double> areas = files::areas(faces);
-    if (files::are_on_one_great_circle_up_to_rounding(mesh.points) ||
-        std::fabs(std::accumulate(areas.begin(), areas.end(), 0.0) - kSphere) > kWrong)
-      throw files::NoMesh(
-          "all nodes lie on one great circle up to rounding: their cells are not known; add a node off the "
-          "circle");
     if (options.clip_to_hull && !mesh.has_boundary())
       say(options.input.file + ": the nodes surround the sphere: --clip-to-hull cuts nothing");
     if (options.clip_to_hull) faces = clipped_to_hull(faces, mesh);

@@ -12,6 +12,7 @@
 //   area             64u of itself, that of a cell 128u
 // These are bounds of the analysis in measures.cpp; docs/trust.md has the errors seen.
 
+#include <cmath>
 #include <cstddef>
 
 #include "geometry/predicates.h"
@@ -36,6 +37,41 @@ inline Point difference(const Direction& b, const Direction& a) {
 /// The angle between two directions, in radians.
 double arc_length(const Direction& a, const Direction& b);
 
+/// The circumcentre of three counterclockwise directions, if doubles suffice: if the triangle is neither
+/// large nor very small, and its angle at `a` is between 8 and 172 degrees. See measures.cpp.
+inline bool find_ordinary_centre(const Direction& a, const Direction& b, const Direction& c, Point& centre) {
+  const Point e = difference(b, a), f = difference(c, a), g = minus(f, e), n = cross(e, f);
+  const double ee = dot(e, e), ff = dot(f, f), nn = dot(n, n),
+               sine = ee * ff * dot(g, g) / (4 * nn);  // squared
+  const bool is_ordinary =
+      (nn >= 0x1p-6 * (ee * ff)) & (ee >= 0x1p-90) & (ff >= 0x1p-90) & (sine <= 0.75) & (dot(n, a.high) > 0);
+  if (__builtin_expect(!is_ordinary, false)) return false;
+  const double cosine = std::sqrt(1 - sine), inverse = 1 / (nn * cosine * (1 + cosine));
+  const double in_plane = 0.5 * (1 + cosine) * inverse, upwards = sine * nn * inverse;
+  const Point m = cross(n, {ff * e.x - ee * f.x, ff * e.y - ee * f.y, ff * e.z - ee * f.z});
+  centre = {a.high.x + (a.low.x + (in_plane * m.x + upwards * a.high.x)),
+            a.high.y + (a.low.y + (in_plane * m.y + upwards * a.high.y)),
+            a.high.z + (a.low.z + (in_plane * m.z + upwards * a.high.z))};
+  return true;
+}
+
+/// The area of a counterclockwise triangle, if doubles suffice: under the same conditions, with sides below
+/// 18 degrees at `a`. See measures.cpp.
+inline bool find_ordinary_area(const Direction& a, const Direction& b, const Direction& c, double& area) {
+  const Point e = difference(b, a), f = difference(c, a), g = minus(f, e), n = cross(e, f);
+  const double ee = dot(e, e), ff = dot(f, f), det = dot(n, a.high);
+  const bool is_ordinary = (dot(n, n) >= 0x1p-6 * (ee * ff)) & (ee >= 0x1p-90) & (ff >= 0x1p-90) &
+                           (ee <= 0.1) & (ff <= 0.1) & (det > 0);
+  if (__builtin_expect(!is_ordinary, false)) return false;
+  const double tangent = det / (4 - 0.5 * (ee + ff + dot(g, g))),
+               square = tangent * tangent;  // of half the area
+  if (square > 0x1p-20)
+    area = 2 * std::atan(tangent);
+  else  // the next term is below 2^-62
+    area = 2 * tangent * (1 - square * (1.0 / 3 - square * (1.0 / 5)));
+  return true;
+}
+
 /// The circle through three different directions. `centre` is the unit vector from whose side they are
 /// counterclockwise; `radius` is in radians, 0 to pi: beyond pi/2 if they are clockwise seen from outside the
 /// sphere.
@@ -44,6 +80,10 @@ struct Circumcircle {
   double radius;
 };
 Circumcircle circumcircle(const Direction& a, const Direction& b, const Direction& c);
+inline Point circumcentre(const Direction& a, const Direction& b, const Direction& c) {
+  Point centre;
+  return find_ordinary_centre(a, b, c, centre) ? centre : circumcircle(a, b, c).centre;
+}
 
 /// Area of the spherical triangle in steradians, 0 to 2 pi; negative if clockwise.
 double triangle_area(const Direction& a, const Direction& b, const Direction& c);

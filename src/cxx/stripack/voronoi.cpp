@@ -9,10 +9,12 @@
 #include <initializer_list>
 #include <limits>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "base/parallel_for.h"
 #include "base/workspace.h"
+#include "geometry/measures.h"
 #include "geometry/predicates.h"
 #include "lists/rings.h"
 #include "lists/triangle_numbers.h"
@@ -84,8 +86,9 @@ class Agenda {
 template <class Real, class Int>
 class FarSide {
  public:
-  FarSide(const ListReader<Int>& lists, const Nodes<Real>& nodes, Int ncol, Int* ltri)
-      : lists_(lists), nodes_(nodes), ncol_(ncol), ltri_(ltri) {}
+  FarSide(const ListReader<Int>& lists, const Nodes<Real>& nodes, const Directions* directions, Int ncol,
+          Int* ltri)
+      : lists_(lists), nodes_(nodes), directions_(directions), ncol_(ncol), ltri_(ltri) {}
 
   Int count() const { return count_; }
   Int row(int i, Int g) const { return cell(i, g); }
@@ -119,7 +122,7 @@ class FarSide {
       return true;
     };
     const auto exact = [this](Int a, Int b, Int c, Int d) { return exactly_above(a, b, c, d); };
-    if (swap(agenda, rounded, [&] { return wrong_swaps_left < 0; })) return;
+    if (directions_ == nullptr && swap(agenda, rounded, [&] { return wrong_swaps_left < 0; })) return;
     swap(agenda, exact, [] { return false; });
   }
 
@@ -147,6 +150,8 @@ class FarSide {
   }
 
   bool exactly_above(Int a, Int b, Int c, Int d) const {
+    const auto index = [](Int node) { return static_cast<index_t>(node - 1); };
+    if (directions_ != nullptr) return directions_->orientation(index(a), index(b), index(c), index(d)) > 0;
     return std::isfinite(height(nodes_[a], nodes_[b], nodes_[c], nodes_[d])) &&
            orientation(point(a), point(b), point(c), point(d)) > 0;
   }
@@ -185,6 +190,7 @@ class FarSide {
 
   const ListReader<Int>& lists_;
   const Nodes<Real>& nodes_;
+  const Directions* directions_;
   Int ncol_;
   Int* ltri_;
   Int count_ = 0;
@@ -193,20 +199,22 @@ class FarSide {
 template <class Real, class Int>
 class Voronoi {
  public:
-  Voronoi(const ListsView<Int>& lists, const Nodes<Real>& nodes, const VoronoiArrays<Real, Int>& out)
-      : lists_(lists), nodes_(nodes), out_(out), threads_(threads_for(lists.n)) {}
+  /// directions: null, or those of the nodes: then the nodes are not used.
+  Voronoi(const ListsView<Int>& lists, const Nodes<Real>& nodes, const Directions* directions,
+          const VoronoiArrays<Real, Int>& out)
+      : lists_(lists), nodes_(nodes), directions_(directions), out_(out), threads_(threads_for(lists.n)) {}
 
   VoronoiStatus write() {
     if (!read()) return VoronoiStatus::broken_lists;
     *out_.nb = nb_;
-    FarSide<Real, Int> far_side(lists_, nodes_, out_.ncol, out_.ltri);
+    FarSide<Real, Int> far_side(lists_, nodes_, directions_, out_.ncol, out_.ltri);
     if (nb_ > 0) {
       far_side.make_fan(start_, nb_);
       if (out_.ncol < nb_ - 2) return VoronoiStatus::too_few_columns;
       far_side.make_delaunay(agenda_);
       for (Int g = 1; g <= nb_ - 2; ++g) {
-        const VoronoiStatus status = write_centre(g, nodes_[far_side.row(1, g)], nodes_[far_side.row(2, g)],
-                                                  nodes_[far_side.row(3, g)]);
+        const VoronoiStatus status =
+            write_centre(g, far_side.row(1, g), far_side.row(2, g), far_side.row(3, g));
         if (status != VoronoiStatus::done) return status;
       }
     }
@@ -264,6 +272,7 @@ class Voronoi {
     numbers_.emplace(rings_, threads_);
     if (numbers_->count() != 2 * n - 4 - far_triangles()) return false;
     if (!rings_.in_slot_order()) left_ = BlockArray<Int>(index(rings_.arcs()));
+    if (directions_ != nullptr) return true;
     position_ = BlockArray<Position>(lists_.view().n);
     parallel_pieces(lists_.view().n, threads_, [this](std::size_t begin, std::size_t end, int) {
       for (std::size_t i = begin; i < end; ++i) position_[i].of = nodes_[static_cast<Int>(i) + 1];
@@ -284,8 +293,8 @@ class Voronoi {
       batch.size = 0;
     };
     rings_.template for_each_triangle<pairs>(begin, end, [&](Int a, Int b, Int c, Int, Int) {
-      __builtin_prefetch(&position_[index(b - 1)]);
-      __builtin_prefetch(&position_[index(c - 1)]);
+      prefetch(b);
+      prefetch(c);
       batch.corner[0][batch.size] = a;
       batch.corner[1][batch.size] = b;
       batch.corner[2][batch.size] = c;
@@ -295,8 +304,16 @@ class Voronoi {
     return status;
   }
 
+  void prefetch(Int node) const {
+    if (directions_ == nullptr)
+      __builtin_prefetch(&position_[index(node - 1)]);
+    else
+      __builtin_prefetch(&directions_->position(static_cast<index_t>(node - 1)));
+  }
+
   /// Writes the same values as write_centre, by loops that compilers can vectorise.
   VoronoiStatus write_batch(Int t, const Batch& batch) {
+    if (directions_ != nullptr) return write_one_by_one(t, batch);
     using Numbers = std::array<Real, together>;
     Numbers ax, ay, az, ex, ey, ez, fx, fy, fz, square, x, y, z, cosine;
     for (std::size_t i = 0; i < batch.size; ++i) {
@@ -328,24 +345,34 @@ class Voronoi {
     return VoronoiStatus::done;
   }
 
-  /// For a batch with nodes that coincide or are not finite.
+  /// For directions, and for a batch with nodes that coincide or are not finite.
   VoronoiStatus write_one_by_one(Int t, const Batch& batch) {
     VoronoiStatus status = VoronoiStatus::done;
     for (std::size_t i = 0; i < batch.size; ++i) {
-      const auto corner = [&](std::size_t k) { return nodes_[batch.corner[k][i]]; };
-      const VoronoiStatus centre = write_centre(++t, corner(0), corner(1), corner(2));
+      const VoronoiStatus centre =
+          write_centre(++t, batch.corner[0][i], batch.corner[1][i], batch.corner[2][i]);
       if (status == VoronoiStatus::done || centre == VoronoiStatus::not_finite) status = centre;
     }
     return status;
   }
 
-  VoronoiStatus write_centre(Int t, const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c) {
+  VoronoiStatus write_centre(Int t, Int node_a, Int node_b, Int node_c) {
+    const std::size_t i = index(t - 1);
+    const auto write = [&](const auto& centre) {
+      out_.xc[i] = static_cast<Real>(centre.x);
+      out_.yc[i] = static_cast<Real>(centre.y);
+      out_.zc[i] = static_cast<Real>(centre.z);
+    };
+    if (directions_ != nullptr) {
+      const auto at = [&](Int node) { return direction_of(*directions_, static_cast<index_t>(node - 1)); };
+      const Point centre = circumcentre(at(node_a), at(node_b), at(node_c));
+      write(centre);
+      return std::isnan(centre.x) ? VoronoiStatus::coincident_nodes : VoronoiStatus::done;
+    }
+    const Vector<Real> a = nodes_[node_a], b = nodes_[node_b], c = nodes_[node_c];
     Vector<Real> centre;
     if (!circumcentre(a, b, c, centre)) return VoronoiStatus::coincident_nodes;
-    const std::size_t i = index(t - 1);
-    out_.xc[i] = centre.x;
-    out_.yc[i] = centre.y;
-    out_.zc[i] = centre.z;
+    write(centre);
     out_.rc[i] = clamped_acos(dot(a, centre));
     const bool finite = !std::isnan(out_.rc[i]) || (is_finite(a) && is_finite(b) && is_finite(c));
     return finite ? VoronoiStatus::done : VoronoiStatus::not_finite;
@@ -390,6 +417,7 @@ class Voronoi {
 
   ListReader<Int> lists_;
   Nodes<Real> nodes_;
+  const Directions* directions_;
   VoronoiArrays<Real, Int> out_;
   int threads_;
   Int start_ = 0, nb_ = 0;  // the first boundary node, the number of boundary nodes
@@ -409,7 +437,96 @@ VoronoiStatus voronoi(const ListsView<Int>& lists, const Nodes<Real>& nodes,
     *out.nb = 0;
     return VoronoiStatus::too_few_nodes;
   }
-  return Voronoi<Real, Int>(lists, nodes, out).write();
+  return Voronoi<Real, Int>(lists, nodes, nullptr, out).write();
+}
+
+VoronoiStatus voronoi_of_directions(const ListsView<std::int32_t>& lists, const Directions& nodes,
+                                    const VoronoiArrays<double, std::int32_t>& out) {
+  if (lists.n < 3) {
+    *out.nb = 0;
+    return VoronoiStatus::too_few_nodes;
+  }
+  return Voronoi<double, std::int32_t>(lists, {}, &nodes, out).write();
+}
+
+namespace {
+
+/// The edges at the back of the hull: after `from`, `to` is the next neighbour of `node` counterclockwise.
+struct BackEdge {
+  std::int32_t node, from, to;
+  bool operator<(const BackEdge& other) const {
+    return std::tie(node, from) < std::tie(other.node, other.from);
+  }
+};
+
+/// Sorted; none where the triangles cover the sphere. False if the boundary is not one cycle.
+bool find_back_edges(const ListReader<std::int32_t>& lists, const Directions& nodes,
+                     std::vector<BackEdge>& edges) {
+  const std::int32_t start = lists.first_boundary_node(), n = lists.size();
+  std::int32_t count = 0;
+  if (start == 0) return true;
+  std::int32_t node = start;
+  do {
+    ++count;
+    node = lists.last_neighbour(node);
+  } while (node != start && count < n);
+  if (node != start || count < 3) return false;
+  std::vector<std::int32_t> columns(6 * static_cast<std::size_t>(count - 2));
+  const Nodes<double> none{};
+  FarSide<double, std::int32_t> far_side(lists, none, &nodes, count - 2, columns.data());
+  far_side.make_fan(start, count);
+  Agenda<std::int32_t> agenda(static_cast<std::size_t>(count - 2));
+  far_side.make_delaunay(agenda);
+  for (std::int32_t g = 1; g <= count - 2; ++g)
+    for (int i = 1; i <= 3; ++i) {
+      const int next = far_side.after(i);
+      edges.push_back({far_side.row(i, g), far_side.row(next, g), far_side.row(far_side.after(next), g)});
+    }
+  std::sort(edges.begin(), edges.end());
+  return true;
+}
+
+}  // namespace
+
+bool cell_areas(const ListsView<std::int32_t>& lists, const Directions& nodes, double* area) {
+  const ListReader<std::int32_t> reader(lists);
+  std::vector<BackEdge> back_edges;
+  if (lists.n < 3 || !find_back_edges(reader, nodes, back_edges)) return false;
+  const int threads = threads_for(8 * lists.n);
+  ErrorsOfThreads errors(static_cast<std::size_t>(threads));
+  std::atomic<bool> good{true};
+  parallel_pieces(lists.n, threads, [&](std::size_t first, std::size_t last, int piece) {
+    errors.keep(static_cast<std::size_t>(piece), [&] {
+      std::vector<Direction> ring;
+      for (std::size_t k = first; k < last; ++k) {
+        const auto node = static_cast<std::int32_t>(k + 1);
+        ring.clear();
+        const auto add = [&](std::int32_t neighbour) {
+          ring.push_back(direction_of(nodes, static_cast<index_t>(neighbour - 1)));
+        };
+        const std::int32_t end = reader.last_slot(node), first_neighbour = reader.first_neighbour(node);
+        std::int32_t slot = end;
+        do {
+          slot = reader.next(slot);
+          add(reader.neighbour(slot));
+        } while (slot != end && ring.size() < lists.n);
+        if (reader.on_boundary(node))
+          for (std::int32_t from = reader.last_neighbour(node);;) {
+            const auto edge = std::lower_bound(back_edges.begin(), back_edges.end(), BackEdge{node, from, 0});
+            if (edge == back_edges.end() || edge->node != node || edge->from != from) {
+              good = false;
+              return;
+            }
+            from = edge->to;
+            if (from == first_neighbour) break;
+            add(from);
+          }
+        area[k] = cell_area(direction_of(nodes, static_cast<index_t>(k)), ring.data(), ring.size());
+      }
+    });
+  });
+  errors.rethrow();
+  return good;
 }
 
 #define PSTRIPACK_CIRCUMCENTRE(Real) \

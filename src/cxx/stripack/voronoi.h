@@ -2,6 +2,9 @@
 // CRLIST, CIRCUM: the Voronoi diagram of a triangulation. For
 // (Real, Int) = (float, int32_t), (double, int32_t), (double, int64_t).
 
+#include <cstdint>
+
+#include "geometry/predicates.h"
 #include "lists/adjacency_lists.h"
 #include "stripack/expressions.h"
 
@@ -44,5 +47,15 @@ struct VoronoiArrays {
 template <class Real, class Int>
 VoronoiStatus voronoi(const ListsView<Int>& lists, const Nodes<Real>& nodes,
                       const VoronoiArrays<Real, Int>& out);
+/// The same for directions: exact tests decide the far side, and centres have the accuracy of
+/// geometry/measures.h. RC is not written.
+VoronoiStatus voronoi_of_directions(const ListsView<std::int32_t>& lists, const Directions& nodes,
+                                    const VoronoiArrays<double, std::int32_t>& out);
+
+/// area[n]: the areas of the Voronoi cells of the nodes, in steradians, right relative to themselves
+/// (geometry/measures.h). If the nodes lie in a hemisphere, the cells of boundary nodes share the rest of the
+/// sphere. False if these are not the lists of a triangulation of the nodes. On threads for large n. Throws
+/// std::bad_alloc.
+bool cell_areas(const ListsView<std::int32_t>& lists, const Directions& nodes, double* area);
 
 }  // namespace pstripack
