@@ -10,6 +10,7 @@
 
 #include "base/parallel_for.h"
 #include "capi/pstripack.h"
+#include "geometry/measures.h"
 #include "geometry/predicates.h"
 #include "lists/limits.h"
 #include "lists/rings.h"
@@ -84,6 +85,8 @@ struct Lists {
 };
 
 }  // namespace
+
+Triangulation::~Triangulation() = default;
 
 Triangulation::Triangulation(const Coordinates& given) : n_(given.n) {
   if (n_ < 3)
@@ -298,28 +301,59 @@ std::vector<std::int32_t> Triangulation::boundary() const {
   return nodes;
 }
 
-Buffer<Point> Triangulation::circumcentres() const {
-  const Buffer<std::int32_t> corners = triangles();
-  Buffer<Point> centres(corners.size() / 3);
-  const pstripack::Nodes<double> node = nodes();
-  parallel_pieces(centres.size(), threads_for(centres.size()), [&](std::size_t begin, std::size_t end, int) {
+/// The directions of the given coordinates.
+struct Triangulation::Exact {
+  explicit Exact(const Triangulation& mesh) : points(copy(mesh)), directions(points.data(), mesh.n_) {}
+  /// Of the corners some triangles after corners[k], which may lie anywhere in memory.
+  void prefetch(const std::int32_t* corners, std::size_t k, std::size_t count) const {
+    constexpr std::size_t kAhead = 3 * 16;
+    if (k + kAhead + 2 >= count) return;
+    for (std::size_t i = k + kAhead + 1; i < k + kAhead + 3; ++i) {
+      const pstripack::UnitVector& unit = directions.unit(corners[i]);
+      __builtin_prefetch(&unit.high);
+      __builtin_prefetch(&unit.low.z);
+    }
+  }
+
+  Buffer<Point> points;
+  pstripack::Directions directions;
+
+ private:
+  static Buffer<Point> copy(const Triangulation& mesh) {
+    Buffer<Point> points(mesh.n_);
+    parallel_pieces(mesh.n_, threads_for(mesh.n_), [&](std::size_t begin, std::size_t end, int) {
+      for (std::size_t i = begin; i < end; ++i) points[i] = mesh.given(i);
+    });
+    return points;
+  }
+};
+
+const Triangulation::Exact& Triangulation::exact() const {
+  std::call_once(exact_once_, [this] { exact_ = std::make_unique<const Exact>(*this); });
+  return *exact_;
+}
+
+Buffer<Point> Triangulation::circumcentres(const std::int32_t* corners, std::size_t triangles) const {
+  Buffer<Point> centres(triangles);
+  const Exact& at = exact();
+  parallel_pieces(triangles, threads_for(4 * triangles), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t t = begin; t < end; ++t) {
-      const std::int32_t* const c = corners.data() + 3 * t;
-      pstripack::Vector<double> centre = node[c[0] + 1];
-      pstripack::circumcentre(node[c[0] + 1], node[c[1] + 1], node[c[2] + 1], centre);
-      centres[t] = as_point(centre);
+      const std::int32_t* const c = corners + 3 * t;
+      at.prefetch(corners, 3 * t, 3 * triangles);
+      centres[t] = circumcentre(at.directions, c[0], c[1], c[2]);
     }
   });
   return centres;
 }
 
-Buffer<double> Triangulation::triangle_areas() const {
-  const Buffer<std::int32_t> corners = triangles();
-  Buffer<double> areas(corners.size() / 3);
-  parallel_pieces(areas.size(), threads_for(areas.size()), [&](std::size_t begin, std::size_t end, int) {
+Buffer<double> Triangulation::triangle_areas(const std::int32_t* corners, std::size_t triangles) const {
+  Buffer<double> areas(triangles);
+  const Exact& at = exact();
+  parallel_pieces(triangles, threads_for(4 * triangles), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t t = begin; t < end; ++t) {
-      const std::int32_t* const c = corners.data() + 3 * t;
-      areas[t] = files::triangle_area(at(c[0]), at(c[1]), at(c[2]));
+      const std::int32_t* const c = corners + 3 * t;
+      at.prefetch(corners, 3 * t, 3 * triangles);
+      areas[t] = triangle_area(at.directions, c[0], c[1], c[2]);
     }
   });
   return areas;
@@ -330,14 +364,12 @@ Cells Triangulation::cells() const {
   Buffer<std::int32_t> lptr(slots), corner_of_slot(slots);
   std::copy(lptr_.begin(), lptr_.begin() + (lnew_ - 1), lptr.begin());
   std::vector<std::int32_t> far_side(6 * boundary_nodes);
-  Buffer<double> x(vertices), y(vertices), z(vertices), radius(vertices);
+  Buffer<double> x(vertices), y(vertices), z(vertices);
   std::int32_t lnew = lnew_, nb = 0;
-  const pstripack::VoronoiStatus status = pstripack::voronoi<double, std::int32_t>(
-      {n_, list_.data(), lptr.data(), lend_.data(), lnew_}, nodes(),
+  const pstripack::VoronoiStatus status = pstripack::voronoi_of_directions(
+      {n_, list_.data(), lptr.data(), lend_.data(), lnew_}, exact().directions,
       {static_cast<std::int32_t>(boundary_nodes), lptr.data(), &lnew, far_side.data(), corner_of_slot.data(),
-       &nb, x.data(), y.data(), z.data(), radius.data()});
-  if (status == pstripack::VoronoiStatus::coincident_nodes)
-    throw std::runtime_error("nodes are so close that a triangle has no circumcentre");
+       &nb, x.data(), y.data(), z.data(), nullptr});
   if (status != pstripack::VoronoiStatus::done)
     throw std::runtime_error("the nodes have changed since they were triangulated");
 
@@ -358,86 +390,10 @@ Cells Triangulation::cells() const {
   return cells;
 }
 
-namespace {
-
-/// 1 + a.b for unit vectors, accurate also if they are nearly opposite.
-double one_plus_dot(const Point& a, const Point& b) {
-  const Point sum{a.x + b.x, a.y + b.y, a.z + b.z};
-  return dot(sum, sum) / 2;
-}
-
-/// The border between the cells of node p and its neighbour q, and the area between p and a part of it.
-///
-///        v      The border passes through m, the middle of p and q; v lies on it at a signed angle t from m.
-///       /|      The angle at m is right, so tan(area of p m v / 2) = tan(pm / 2) tan(t / 2). The sum of two
-///      p-m-q    such areas is also correct for a border whose two vertices are opposite points.
-///
-class BesideBorder {
- public:
-  BesideBorder(const Point& p, const Point& q)
-      : middle_{p.x + q.x, p.y + q.y, p.z + q.z}, along_(cross(p, minus(q, p))) {
-    const double length = std::sqrt(dot(middle_, middle_)), chord = std::sqrt(dot(minus(q, p), minus(q, p)));
-    const double area = std::sqrt(dot(along_, along_));
-    middle_ = {middle_.x / length, middle_.y / length, middle_.z / length};
-    along_ = {along_.x / area, along_.y / area, along_.z / area};
-    tangent_ = chord / (2 + length);
-  }
-  /// The area from vertex u to vertex v, counterclockwise around p: t increases by less than a half turn.
-  double area(const Point& u, const Point& v) const {
-    const double sin_u = dot(u, along_), sin_v = dot(v, along_);
-    const double cos_u = one_plus_dot(u, middle_), cos_v = one_plus_dot(v, middle_);  // 1 + cos t
-    const double half = std::atan2(tangent_ * (sin_v * cos_u - sin_u * cos_v),
-                                   cos_u * cos_v + tangent_ * tangent_ * sin_u * sin_v);
-    // True if t passes the point opposite m; false if u and v are both m up to rounding.
-    const bool is_round = sin_u > 0 && sin_v < 0 && cos_u + cos_v < 3;
-    return 2 * (is_round ? half + pi : half);
-  }
-
- private:
-  static constexpr double pi = 3.14159265358979323846;
-  Point middle_, along_;  // m; along the border, to the left of p->q
-  double tangent_;        // tangent of half the angle from p to m
-};
-
-/// Area of the triangle p, u, v if u and v are more than 90 degrees from p: the area of the lune from p
-/// through u and v to the point opposite p, minus that of the triangle beyond u and v, which may be small.
-double far_triangle_area(const Point& p, const Point& u, const Point& v) {
-  const Point opposite{-p.x, -p.y, -p.z}, a = minus(u, opposite), b = minus(v, opposite);
-  const double angle = std::atan2(dot(p, cross(a, b)), dot(a, b) - dot(p, a) * dot(p, b));
-  return 2 * angle - files::triangle_area(opposite, v, u);
-}
-
-}  // namespace
-
 Buffer<double> Triangulation::cell_areas() const {
-  const Cells cells = this->cells();
   Buffer<double> areas(n_);
-  const Reader reader(lists());
-  parallel_pieces(n_, threads_for(4 * n_), [&](std::size_t begin, std::size_t end, int) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const Point p = at(static_cast<std::int32_t>(k));
-      const std::int32_t last = cells.corners.begin[k + 1] - 1;
-      const auto vertex = [&](std::int32_t i) {
-        return cells.vertices[static_cast<std::size_t>(cells.corners.values[static_cast<std::size_t>(i)])];
-      };
-      Point before = vertex(last);
-      double area = 0;
-      std::int32_t i = cells.corners.begin[k], slot = lend_[k];
-      do {  // corner i ends the border with the neighbour in the slot
-        slot = reader.next(slot);
-        const BesideBorder border(p, at(reader.neighbour(slot) - 1));
-        const Point here = vertex(i++);
-        area += border.area(before, here);
-        before = here;
-      } while (slot != lend_[k]);
-      for (; i <= last; ++i) {  // corners on the far side, without listed neighbours
-        const Point here = vertex(i);
-        area += far_triangle_area(p, before, here);
-        before = here;
-      }
-      areas[k] = area;
-    }
-  });
+  if (!pstripack::cell_areas(lists(), exact().directions, areas.data()))
+    throw std::logic_error("the lists are not those of a triangulation");
   return areas;
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -68,6 +70,7 @@ class Triangulation {
  public:
   /// Throws NoTriangulation. With stride 1 the coordinates are read in place and must outlive this.
   explicit Triangulation(const Coordinates& given);
+  ~Triangulation();
 
   std::size_t size() const { return n_; }
   /// The canonical lists of TRMESH.
@@ -83,9 +86,9 @@ class Triangulation {
   Runs neighbours() const;
   /// The boundary nodes, counterclockwise around the triangles; empty if these cover the sphere.
   std::vector<std::int32_t> boundary() const;
-  /// The circumcentres of the triangles, and their areas, in the order of triangles().
-  Buffer<Point> circumcentres() const;
-  Buffer<double> triangle_areas() const;
+  /// The circumcentres and areas of these triangles, as of triangles(), of the nodes' directions.
+  Buffer<Point> circumcentres(const std::int32_t* corners, std::size_t triangles) const;
+  Buffer<double> triangle_areas(const std::int32_t* corners, std::size_t triangles) const;
 
   /// The Voronoi cells. If the nodes lie in a hemisphere, the cells of boundary nodes share the rest of the
   /// sphere.
@@ -108,6 +111,8 @@ class Triangulation {
                              std::size_t columns) const;
 
  private:
+  struct Exact;
+  const Exact& exact() const;
   void read(const Coordinates& given);
   void triangulate();
   void triangulate_in_another_order();
@@ -127,6 +132,8 @@ class Triangulation {
   const double* direction_[3];  ///< coordinates of unit vectors, column by column
   Buffer<std::int32_t> list_, lptr_, lend_;
   std::int32_t lnew_ = 0;
+  mutable std::once_flag exact_once_;
+  mutable std::unique_ptr<const Exact> exact_;  ///< the directions: 72 bytes per node, made when first needed
   std::optional<methods::Interpolation> interpolation_;  ///< on these lists and directions
 };
 

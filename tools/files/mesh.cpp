@@ -282,25 +282,15 @@ std::vector<Point> unit(const std::vector<Point>& points) {
 
 namespace {
 
-/// The directions of the corners of triangle t.
-struct Corners {
-  Corners(const pstripack::Directions& nodes, const std::int32_t* corner)
-      : a(direction_of(nodes, corner[0] - 1)),
-        b(direction_of(nodes, corner[1] - 1)),
-        c(direction_of(nodes, corner[2] - 1)) {}
-  pstripack::Direction a, b, c;
-};
-
-/// Calls visit(t, corners) for all triangles, on threads.
+/// Calls visit(t, a, b, c) for all triangles, on threads.
 template <class Visit>
-void for_each_triangle(const pstripack::Directions& nodes, const std::vector<std::int32_t>& triangles,
-                       const Visit& visit) {
+void for_each_triangle(const std::vector<std::int32_t>& triangles, const Visit& visit) {
   const std::size_t count = triangles.size() / 3;
-  pstripack::parallel_pieces(count, pstripack::threads_for(4 * count),
-                             [&](std::size_t first, std::size_t last, int) {
-                               for (std::size_t t = first; t < last; ++t)
-                                 visit(t, Corners(nodes, triangles.data() + 3 * t));
-                             });
+  pstripack::parallel_pieces(
+      count, pstripack::threads_for(4 * count), [&](std::size_t first, std::size_t last, int) {
+        for (std::size_t t = first; t < last; ++t)
+          visit(t, triangles[3 * t] - 1, triangles[3 * t + 1] - 1, triangles[3 * t + 2] - 1);
+      });
 }
 
 }  // namespace
@@ -308,8 +298,9 @@ void for_each_triangle(const pstripack::Directions& nodes, const std::vector<std
 std::vector<Point> circumcentres(const std::vector<Point>& points,
                                  const std::vector<std::int32_t>& triangles) {
   std::vector<Point> centres(triangles.size() / 3);
-  for_each_triangle(pstripack::Directions(points.data(), points.size()), triangles,
-                    [&](std::size_t t, const Corners& at) { centres[t] = circumcentre(at.a, at.b, at.c); });
+  const pstripack::Directions nodes(points.data(), points.size());
+  for_each_triangle(triangles, [&](std::size_t t, pstripack::index_t a, pstripack::index_t b,
+                                   pstripack::index_t c) { centres[t] = circumcentre(nodes, a, b, c); });
   return centres;
 }
 
@@ -324,8 +315,9 @@ namespace {
 std::vector<double> triangle_areas(const std::vector<Point>& points,
                                    const std::vector<std::int32_t>& triangles) {
   std::vector<double> areas(triangles.size() / 3);
-  for_each_triangle(pstripack::Directions(points.data(), points.size()), triangles,
-                    [&](std::size_t t, const Corners& at) { areas[t] = triangle_area(at.a, at.b, at.c); });
+  const pstripack::Directions nodes(points.data(), points.size());
+  for_each_triangle(triangles, [&](std::size_t t, pstripack::index_t a, pstripack::index_t b,
+                                   pstripack::index_t c) { areas[t] = triangle_area(nodes, a, b, c); });
   return areas;
 }
 

@@ -409,22 +409,22 @@ bool above_of_directions(const Point& a, const Point& b, const Point& c, const P
 Directions::Directions(const Point* points, std::size_t n, std::size_t capacity)
     : p_(points), n_(n), unit_(std::max(n, capacity)) {
   parallel_pieces(n, threads_for(n), [&](std::size_t first, std::size_t last, int) {
-    for (std::size_t i = first; i < last; ++i) unit_[i] = unit(p_[i]);
+    for (std::size_t i = first; i < last; ++i) unit_[i] = unit_vector(p_[i]);
   });
 }
 
 void Directions::extend(const Point* points, std::size_t n) {
   if (n > unit_.size()) {
-    BlockArray<Unit> larger(n + n / 2);
+    BlockArray<UnitVector> larger(n + n / 2);
     std::copy(unit_.begin(), unit_.begin() + n_, larger.begin());
     unit_ = std::move(larger);
   }
   p_ = points;
-  for (std::size_t i = n_; i < n; ++i) unit_[i] = unit(p_[i]);
+  for (std::size_t i = n_; i < n; ++i) unit_[i] = unit_vector(p_[i]);
   n_ = n;
 }
 
-Directions::Unit Directions::unit(const Point& p) {
+UnitVector unit_vector(const Point& p) {
   // A vector whose squares could overflow or underflow is scaled by a power of two, its largest component
   // to [1/2,1). That is exact except for bits below 2^-1074 of the largest component. What underflows later
   // is as small; in a vector that is not scaled it is below 2^-400 of the length. Then `two_product` and
@@ -453,9 +453,10 @@ Directions::Unit Directions::unit(const Point& p) {
     s = two_sum_of_ordered(t.high, t.low + (s.low + q.low));
   }
   if (std::fabs(s.high - 1) <= 0x1p-50) {
-    // A unit vector up to rounding needs no root. With x = s - 1, 1/sqrt(1+x) = 1 - x/2 + 3/8 x^2 - ..., the next
-    // term below 2^-150. Errors in units of u^2: 3 as above; by the rounding of x, of both factors of `shrink`, of
-    // `shrink` and of its product with c, each half an ulp of a number below 2^-50 or half of that: 4 + 4 + 8 + 8.
+    // A unit vector up to rounding needs no root. With x = s - 1, 1/sqrt(1+x) = 1 - x/2 + 3/8 x^2 - ..., the
+    // next term below 2^-150. Errors in units of u^2: 3 as above; by the rounding of x, of both factors of
+    // `shrink`, of `shrink` and of its product with c, each half an ulp of a number below 2^-50 or half of
+    // that: 4 + 4 + 8 + 8.
     const double x = (s.high - 1) + s.low, shrink = x * (0.5 - 0.375 * x);
     double high[3], low[3];
     for (int k = 0; k < 3; ++k) {

@@ -369,11 +369,6 @@ bool find_cell_area(const Direction& node, const Direction* ring, std::size_t co
 
 }  // namespace
 
-Direction direction_of(const Point& p) {
-  const Directions::Unit unit = Directions::unit(p);
-  return {unit.high, unit.low, p};
-}
-
 double arc_length(const Direction& a, const Direction& b) {
   const Point d = difference(b, a);
   const double square = square_of(d);

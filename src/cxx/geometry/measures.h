@@ -19,27 +19,20 @@
 
 namespace pstripack {
 
-/// The direction of a vector: high + low = given/|given| with a relative error of 2^-101 in every component.
-struct Direction {
-  Point high, low, given;
+/// The direction of a vector, and the vector, which arithmetics with more bits need.
+struct Direction : UnitVector {
+  Point given;
 };
-Direction direction_of(const Point& p);
-inline Direction direction_of(const Directions& nodes, index_t i) {
-  return {nodes.position(i), nodes.remainder(i), nodes.given(i)};
-}
-
-/// b - a; every component has 2 roundings and an absolute error of 2^-99.
-inline Point difference(const Direction& b, const Direction& a) {
-  return {(b.high.x - a.high.x) + (b.low.x - a.low.x), (b.high.y - a.high.y) + (b.low.y - a.low.y),
-          (b.high.z - a.high.z) + (b.low.z - a.low.z)};
-}
+inline Direction direction_of(const Point& p) { return {unit_vector(p), p}; }
+inline Direction direction_of(const Directions& nodes, index_t i) { return {nodes.unit(i), nodes.given(i)}; }
 
 /// The angle between two directions, in radians.
 double arc_length(const Direction& a, const Direction& b);
 
 /// The circumcentre of three counterclockwise directions, if doubles suffice: if the triangle is neither
 /// large nor very small, and its angle at `a` is between 8 and 172 degrees. See measures.cpp.
-inline bool find_ordinary_centre(const Direction& a, const Direction& b, const Direction& c, Point& centre) {
+inline bool find_ordinary_centre(const UnitVector& a, const UnitVector& b, const UnitVector& c,
+                                 Point& centre) {
   const Point e = difference(b, a), f = difference(c, a), g = minus(f, e), n = cross(e, f);
   const double ee = dot(e, e), ff = dot(f, f), nn = dot(n, n),
                sine = ee * ff * dot(g, g) / (4 * nn);  // squared
@@ -57,7 +50,7 @@ inline bool find_ordinary_centre(const Direction& a, const Direction& b, const D
 
 /// The area of a counterclockwise triangle, if doubles suffice: under the same conditions, with sides below
 /// 18 degrees at `a`. See measures.cpp.
-inline bool find_ordinary_area(const Direction& a, const Direction& b, const Direction& c, double& area) {
+inline bool find_ordinary_area(const UnitVector& a, const UnitVector& b, const UnitVector& c, double& area) {
   const Point e = difference(b, a), f = difference(c, a), g = minus(f, e), n = cross(e, f);
   const double ee = dot(e, e), ff = dot(f, f), det = dot(n, a.high);
   const bool is_ordinary = (dot(n, n) >= 0x1p-6 * (ee * ff)) & (ee >= 0x1p-90) & (ff >= 0x1p-90) &
@@ -80,13 +73,20 @@ struct Circumcircle {
   double radius;
 };
 Circumcircle circumcircle(const Direction& a, const Direction& b, const Direction& c);
-inline Point circumcentre(const Direction& a, const Direction& b, const Direction& c) {
+/// Those of three nodes.
+inline Point circumcentre(const Directions& nodes, index_t a, index_t b, index_t c) {
   Point centre;
-  return find_ordinary_centre(a, b, c, centre) ? centre : circumcircle(a, b, c).centre;
+  if (find_ordinary_centre(nodes.unit(a), nodes.unit(b), nodes.unit(c), centre)) return centre;
+  return circumcircle(direction_of(nodes, a), direction_of(nodes, b), direction_of(nodes, c)).centre;
 }
 
 /// Area of the spherical triangle in steradians, 0 to 2 pi; negative if clockwise.
 double triangle_area(const Direction& a, const Direction& b, const Direction& c);
+inline double triangle_area(const Directions& nodes, index_t a, index_t b, index_t c) {
+  double area;
+  if (find_ordinary_area(nodes.unit(a), nodes.unit(b), nodes.unit(c), area)) return area;
+  return triangle_area(direction_of(nodes, a), direction_of(nodes, b), direction_of(nodes, c));
+}
 
 /// Area of the Voronoi cell of the direction v in steradians. ring[0..count-1]: the other ends of all edges
 /// at v in the convex hull of the directions, counterclockwise seen from outside the hull.

@@ -116,7 +116,17 @@ class Coordinates {
   std::size_t n_;
 };
 
-struct Direction;  // geometry/measures.h
+/// A direction: high + low = p/|p| with a relative error of 2^-101 in every component; high is the rounded
+/// sum.
+struct UnitVector {
+  Point high, low;
+};
+UnitVector unit_vector(const Point& p);
+/// a - b; every component has 2 roundings and an absolute error of 2^-99.
+inline Point difference(const UnitVector& a, const UnitVector& b) {
+  return {(a.high.x - b.high.x) + (a.low.x - b.low.x), (a.high.y - b.high.y) + (a.low.y - b.low.y),
+          (a.high.z - b.high.z) + (a.low.z - b.low.z)};
+}
 
 /// Predicates on the directions p[i]/|p[i]| of any finite non-zero vectors.
 /// Keeps 48 bytes per node beside the points, which must outlive it.
@@ -131,14 +141,9 @@ class Directions {
   void extend(const Point* points, std::size_t n);
   const Point& given(index_t i) const { return p_[i]; }
   const Point& position(index_t i) const { return unit_[i].high; }
-  /// position(i) + remainder(i) = p[i]/|p[i]| with a relative error of 2^-101 in every component.
-  const Point& remainder(index_t i) const { return unit_[i].low; }
+  const UnitVector& unit(index_t i) const { return unit_[i]; }
   /// p[i]/|p[i]| - p[j]/|p[j]|; every component has 2 roundings and an absolute error of 2^-99.
-  Point difference(index_t i, index_t j) const {
-    const Unit &a = unit_[i], &b = unit_[j];
-    return {(a.high.x - b.high.x) + (a.low.x - b.low.x), (a.high.y - b.high.y) + (a.low.y - b.low.y),
-            (a.high.z - b.high.z) + (a.low.z - b.low.z)};
-  }
+  Point difference(index_t i, index_t j) const { return pstripack::difference(unit_[i], unit_[j]); }
   int left(index_t a, index_t b, index_t c) const;
   bool above(index_t a, index_t b, index_t c, index_t d) const;
   /// Without the tie rule: false for a zero.
@@ -158,15 +163,9 @@ class Directions {
   /// An even permutation of f that starts with the apex of smallest error bound. `first_will_do`: f[0] is
   /// about as good.
   Four best_first(const Four& f, bool& first_will_do) const;
-  struct Unit {
-    Point high, low;
-  };
-  /// high + low = p/|p|, with a relative error of 2^-101 in every component; high is the rounded sum.
-  static Unit unit(const Point& p);
-  friend Direction direction_of(const Point& p);
   const Point* p_;
   std::size_t n_;
-  BlockArray<Unit> unit_;
+  BlockArray<UnitVector> unit_;
 };
 
 /// Cache of one value per node for a view of the predicates. It has 32 slots; nodes whose numbers are equal

@@ -308,7 +308,7 @@ class Voronoi {
     if (directions_ == nullptr)
       __builtin_prefetch(&position_[index(node - 1)]);
     else
-      __builtin_prefetch(&directions_->position(static_cast<index_t>(node - 1)));
+      __builtin_prefetch(&directions_->unit(static_cast<index_t>(node - 1)));
   }
 
   /// Writes the same values as write_centre, by loops that compilers can vectorise.
@@ -364,8 +364,8 @@ class Voronoi {
       out_.zc[i] = static_cast<Real>(centre.z);
     };
     if (directions_ != nullptr) {
-      const auto at = [&](Int node) { return direction_of(*directions_, static_cast<index_t>(node - 1)); };
-      const Point centre = circumcentre(at(node_a), at(node_b), at(node_c));
+      const auto at = [](Int node) { return static_cast<index_t>(node - 1); };
+      const Point centre = circumcentre(*directions_, at(node_a), at(node_b), at(node_c));
       write(centre);
       return std::isnan(centre.x) ? VoronoiStatus::coincident_nodes : VoronoiStatus::done;
     }
