@@ -126,14 +126,12 @@ py::array cell_areas(const Mesh& mesh, int threads) {
   return array_of(compute(threads, [&] { return mesh->cell_areas(); }));
 }
 
-py::array circumcentres(const Mesh& mesh, const Array<std::int32_t>& corners, int threads) {
-  const std::size_t count = rows_of(corners);
-  return array_of(compute(threads, [&] { return mesh->circumcentres(corners.data(), count); }));
+py::array circumcentres(const Mesh& mesh, int threads) {
+  return array_of(compute(threads, [&] { return mesh->circumcentres(); }));
 }
 
-py::array triangle_areas(const Mesh& mesh, const Array<std::int32_t>& corners, int threads) {
-  const std::size_t count = rows_of(corners);
-  return array_of(compute(threads, [&] { return mesh->triangle_areas(corners.data(), count); }));
+py::array triangle_areas(const Mesh& mesh, int threads) {
+  return array_of(compute(threads, [&] { return mesh->triangle_areas(); }));
 }
 
 py::array boundary(const Mesh& mesh) {

@@ -305,9 +305,9 @@ std::vector<std::int32_t> Triangulation::boundary() const {
 struct Triangulation::Exact {
   explicit Exact(const Triangulation& mesh) : points(copy(mesh)), directions(points.data(), mesh.n_) {}
   /// Of the corners some triangles after corners[k], which may lie anywhere in memory.
-  void prefetch(const std::int32_t* corners, std::size_t k, std::size_t count) const {
+  void prefetch(const Buffer<std::int32_t>& corners, std::size_t k) const {
     constexpr std::size_t kAhead = 3 * 16;
-    if (k + kAhead + 2 >= count) return;
+    if (k + kAhead + 2 >= corners.size()) return;
     for (std::size_t i = k + kAhead + 1; i < k + kAhead + 3; ++i) {
       const pstripack::UnitVector& unit = directions.unit(corners[i]);
       __builtin_prefetch(&unit.high);
@@ -333,26 +333,30 @@ const Triangulation::Exact& Triangulation::exact() const {
   return *exact_;
 }
 
-Buffer<Point> Triangulation::circumcentres(const std::int32_t* corners, std::size_t triangles) const {
-  Buffer<Point> centres(triangles);
+Buffer<Point> Triangulation::circumcentres() const {
+  const Buffer<std::int32_t> corners = triangles();
+  const std::size_t count = corners.size() / 3;
+  Buffer<Point> centres(count);
   const Exact& at = exact();
-  parallel_pieces(triangles, threads_for(4 * triangles), [&](std::size_t begin, std::size_t end, int) {
+  parallel_pieces(count, threads_for(4 * count), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t t = begin; t < end; ++t) {
-      const std::int32_t* const c = corners + 3 * t;
-      at.prefetch(corners, 3 * t, 3 * triangles);
+      const std::int32_t* const c = corners.data() + 3 * t;
+      at.prefetch(corners, 3 * t);
       centres[t] = circumcentre(at.directions, c[0], c[1], c[2]);
     }
   });
   return centres;
 }
 
-Buffer<double> Triangulation::triangle_areas(const std::int32_t* corners, std::size_t triangles) const {
-  Buffer<double> areas(triangles);
+Buffer<double> Triangulation::triangle_areas() const {
+  const Buffer<std::int32_t> corners = triangles();
+  const std::size_t count = corners.size() / 3;
+  Buffer<double> areas(count);
   const Exact& at = exact();
-  parallel_pieces(triangles, threads_for(4 * triangles), [&](std::size_t begin, std::size_t end, int) {
+  parallel_pieces(count, threads_for(4 * count), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t t = begin; t < end; ++t) {
-      const std::int32_t* const c = corners + 3 * t;
-      at.prefetch(corners, 3 * t, 3 * triangles);
+      const std::int32_t* const c = corners.data() + 3 * t;
+      at.prefetch(corners, 3 * t);
       areas[t] = triangle_area(at.directions, c[0], c[1], c[2]);
     }
   });

@@ -86,9 +86,9 @@ class Triangulation {
   Runs neighbours() const;
   /// The boundary nodes, counterclockwise around the triangles; empty if these cover the sphere.
   std::vector<std::int32_t> boundary() const;
-  /// The circumcentres and areas of these triangles, as of triangles(), of the nodes' directions.
-  Buffer<Point> circumcentres(const std::int32_t* corners, std::size_t triangles) const;
-  Buffer<double> triangle_areas(const std::int32_t* corners, std::size_t triangles) const;
+  /// The circumcentres and areas of the triangles of the nodes' directions, in the order of triangles().
+  Buffer<Point> circumcentres() const;
+  Buffer<double> triangle_areas() const;
 
   /// The Voronoi cells. If the nodes lie in a hemisphere, the cells of boundary nodes share the rest of the
   /// sphere.

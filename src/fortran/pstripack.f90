@@ -6,7 +6,8 @@ module pstripack
     c_int64_t, c_loc, c_null_char, c_null_funptr, c_null_ptr, c_ptr, c_size_t, c_sizeof
   implicit none
   private
-  public :: pstripack_version, pstripack_strerror, pstripack_trmesh, pstripack_validate, pstripack_fingerprint
+  public :: pstripack_version, pstripack_strerror, pstripack_trmesh, pstripack_delaunay, pstripack_validate
+  public :: pstripack_fingerprint
   public :: pstripack_ok, pstripack_too_few_nodes, pstripack_collinear, pstripack_too_many_nodes, &
             pstripack_bad_coordinate, pstripack_out_of_memory, pstripack_bad_size
   ! Centroidal tessellations.
@@ -131,6 +132,16 @@ module pstripack
       import :: c_float, c_int32_t
       integer(c_int32_t), value, intent(in) :: n
       real(c_float), intent(in) :: x(*), y(*), z(*)
+      integer(c_int32_t), intent(inout) :: list(*), lptr(*), lend(*), lnew
+      integer(c_int32_t) :: ier
+    end function
+
+    ! int32_t pstripack_delaunay(int32_t n, const double* x, const double* y, const double* z, int32_t* list,
+    !                            int32_t* lptr, int32_t* lend, int32_t* lnew);
+    function c_delaunay(n, x, y, z, list, lptr, lend, lnew) result(ier) bind(c, name="pstripack_delaunay")
+      import :: c_double, c_int32_t
+      integer(c_int32_t), value, intent(in) :: n
+      real(c_double), intent(in) :: x(*), y(*), z(*)
       integer(c_int32_t), intent(inout) :: list(*), lptr(*), lend(*), lnew
       integer(c_int32_t) :: ier
     end function
@@ -339,6 +350,19 @@ contains
     ier = pstripack_bad_size
     if (sizes_fit(size(x), size(y), size(z), size(list), size(lptr), size(lend))) &
       ier = c_trmesh(size(x, kind=c_int32_t), x, y, z, list, lptr, lend, lnew)
+  end subroutine
+
+  !> The Delaunay triangulation of the directions of the nodes: arguments as of pstripack_trmesh, which takes
+  !> coordinates as given where all lengths are 1 up to 1e-6. The two differ only where nodes are so close, or so nearly
+  !> on one circle, that the rounding of lengths matters. Never collective.
+  subroutine pstripack_delaunay(x, y, z, list, lptr, lend, lnew, ier)
+    real(c_double), intent(in), contiguous :: x(:), y(:), z(:)
+    integer(c_int32_t), intent(inout), contiguous :: list(:), lptr(:), lend(:)
+    integer(c_int32_t), intent(inout) :: lnew
+    integer(c_int32_t), intent(out) :: ier
+    ier = pstripack_bad_size
+    if (sizes_fit(size(x), size(y), size(z), size(list), size(lptr), size(lend))) &
+      ier = c_delaunay(size(x, kind=c_int32_t), x, y, z, list, lptr, lend, lnew)
   end subroutine
 
   subroutine trmesh_real32(x, y, z, list, lptr, lend, lnew, ier)

@@ -33,6 +33,13 @@ program pstripack_module
   call pstripack_trmesh(x, y, z, list, lptr, lend, lnew, ier)
   call expect(pstripack_fingerprint(list, lptr, lend) /= print_of_all, "another mesh, another fingerprint")
 
+  print_of_all = pstripack_fingerprint(list, lptr, lend)
+  call pstripack_delaunay(x, y, z, list, lptr, lend, lnew, ier)
+  call expect(ier == pstripack_ok .and. lnew == slots + 1, "delaunay")
+  call expect(pstripack_fingerprint(list, lptr, lend) == print_of_all, "directions of unit vectors far apart: the same mesh")
+  call pstripack_delaunay(x, y, z, list, lptr, lend(2:), lnew, ier)
+  call expect(ier == pstripack_bad_size, "delaunay: lend too short")
+
   call pstripack_trmesh(real(x, c_float), real(y, c_float), real(z, c_float), list, lptr, lend, lnew, ier)
   call expect(ier == pstripack_ok .and. lnew == slots + 1, "trmesh, real32")
 

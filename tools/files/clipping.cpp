@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numeric>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
@@ -115,6 +116,22 @@ bool cut(MapRing& ring, const Side& side) {
   return true;
 }
 
+/// Corners are rounded to 1e-16 rad: in a hull narrower than some 1e-10 rad the parts of cells have no
+/// meaning.
+void expect_area_of_hull(const Faces& parts, const Mesh& mesh) {
+  constexpr double kMost = 1e-6;  // of the hull
+  const auto sum = [](const std::vector<double>& areas) {
+    return std::accumulate(areas.begin(), areas.end(), 0.0);
+  };
+  const std::vector<double> of_parts = areas(parts);
+  const double hull = sum(triangle_faces(mesh).area);
+  if (!(std::fabs(sum(of_parts) - hull) <= kMost * hull) ||
+      std::any_of(of_parts.begin(), of_parts.end(), [&](double area) { return !(area >= -kMost * hull); }))
+    throw NoMesh(
+        "the hull of the nodes is so narrow that rounded corners cannot show the parts of cells in it: "
+        "leave out --clip-to-hull");
+}
+
 }  // namespace
 
 void divide_half_turns(Faces& cells, const Mesh& mesh) {
@@ -207,7 +224,9 @@ Faces clipped_to_hull(const Faces& cells, const Mesh& mesh) {
   Pieces pieces(cells);
   for (std::size_t f = 0; f < cells.size(); ++f)
     pieces.add(is_done[f] ? rings[f] : ring_of(cells, f, of_points), f);
-  return pieces.take();
+  Faces parts = pieces.take();
+  expect_area_of_hull(parts, mesh);
+  return parts;
 }
 
 Faces clipped_to_region(const Faces& cells, const Region& region) {

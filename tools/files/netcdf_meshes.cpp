@@ -345,8 +345,9 @@ void write(const OutputFile& file, const Mpas& mesh) {
   const auto put = [&](const Variables& to, const std::vector<Point>& points, const LonLat& given) {
     out.put(to.x, to.y, to.z, points);
     LonLat angles = angles_of(points, given, false);
+    constexpr double kTurn = 6.2831853071795865;  // MPAS: 0 to 2 pi
     for (double& lon : angles.lon)
-      if (lon < 0) lon += 6.2831853071795865;  // MPAS: 0 to 2 pi
+      if (lon < 0) lon = lon + kTurn < kTurn ? lon + kTurn : 0;
     out.put(to.lon, angles.lon);
     out.put(to.lat, angles.lat);
   };

@@ -9,6 +9,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "files/clipping.h"
 #include "files/measures.h"
 #include "parallel/sample.h"
 #include "pictures/coasts.h"
@@ -52,6 +53,7 @@ class MeshPicture {
     count_nodes_in_view();
     const bool cells = options_.what == What::cells;
     faces_ = cells ? files::voronoi_faces(mesh_) : files::triangle_faces(mesh_);
+    if (cells) files::divide_half_turns(faces_, mesh_);
     expect_sides_shorter_than_a_half_turn();
     draw_ground();
     draw_faces();
@@ -128,8 +130,7 @@ class MeshPicture {
                     centre_.lon, centre_.lat, fewer));
   }
 
-  /// Nodes on one small circle, for example three nodes, have lunes as cells. The ends of a lune's side are
-  /// antipodal and do not determine the arc.
+  /// The ends of a half turn do not determine its arc.
   void expect_sides_shorter_than_a_half_turn() const {
     for (std::size_t f = 0; f < faces_.size(); ++f)
       for (std::size_t k = faces_.begin[f]; k < faces_.begin[f + 1]; ++k) {
@@ -137,8 +138,8 @@ class MeshPicture {
         if (dot(faces_.points[index(faces_.corner[k])], faces_.points[index(faces_.corner[next])]) <
             -1 + 1e-12)
           throw std::runtime_error(
-              "some nodes lie on one circle: their cells reach from its centre to the opposite point and "
-              "cannot be drawn: say --what triangles");
+              "a cell has a side of half a great circle and cannot be drawn: say --what triangles, or add "
+              "nodes elsewhere");
       }
   }
 

@@ -234,7 +234,7 @@ pictures)
   refuses 1 "nodes are in view, at most 200,000 can be drawn: zoom in, for example by --view orthographic:0,30 --radius" \
     plot many.raw --from raw --coordinates xyz -q -o c.svg
   printf '1 0 0\n0 1 0\n0 0 1\n' > three.txt
-  refuses 1 "three.txt: some nodes lie on one circle: their cells reach" plot three.txt --what cells -o c.svg
+  "$PSTRIPACK" -q plot three.txt --what cells -o lunes.svg
   [ ! -e c.svg ] && [ ! -e b.png ] || fail "a picture of a failed run"
   ;;
 
@@ -655,16 +655,23 @@ bad_maps)
   refuses 1 "nodes.txt: the region is smaller than 1e-10 degrees: make it larger" \
     voronoi nodes.txt --region 0,1e-13,0,1e-13 -o failed.geojson
   printf '85 45\n-95 0\n-95 -45\n0 90\n' > circle.lonlat
-  refuses 1 "circle.lonlat: all nodes lie on one great circle up to rounding: their cells are not known" \
+  refuses 1 "circle.lonlat: the cell of node 1 reaches halfway around the sphere" \
     voronoi circle.lonlat --units degrees -o failed.geojson
-  # Nodes on a circle, half a circle or less: rounding decides whether their hull contains the centre.
+  # One pair of nodes is opposite: a quarter and an eighth of a turn on both sides of each node make its lune.
+  "$PSTRIPACK" -q voronoi circle.lonlat --units degrees -o lunes.csv
+  awk -F, 'NR > 1 { half = 3.141592653589793 * (NR % 2 ? 0.75 : 1.25)
+    if ($6 / half - 1 > 1e-15 || 1 - $6 / half > 1e-15) bad = 1 } END { exit bad || NR != 5 }' lunes.csv || fail "$(cat lunes.csv)"
+  # Nodes on a circle, half a circle or less: rounding decides whether their hull contains the centre. The cells are
+  # lunes all the same.
   awk 'BEGIN { for (part = 1; part <= 3; ++part) for (k = 0; k < 12; ++k) { a = 6.283185307179586 / part * (k + 0.1) / 12
     printf "%.17g %.17g %.17g\n", cos(a), sin(a) * 0.6, sin(a) * 0.8 > "circle" part ".txt" } }'
   for part in 1 2 3; do
-    for option in "" --clip-to-hull; do
-      # shellcheck disable=SC2086
-      refuses 1 "circle$part.txt: all nodes lie on one great circle" voronoi circle$part.txt $option -o failed.geojson
-    done
+    "$PSTRIPACK" -q voronoi circle$part.txt -o lunes.csv
+    awk -F, -v part=$part 'NR > 1 { sum += $6 } NR == 3 { inner = $6 * part / 1.0471975511965976 }
+      END { exit !(sum > 12.56637061435916 && sum < 12.56637061435918 && inner > 1 - 1e-14 && inner < 1 + 1e-14) }' lunes.csv ||
+      fail "circle$part: $(cat lunes.csv)"
+    [ $part = 1 ] || refuses 1 "circle$part.txt: the hull of the nodes is so narrow that rounded corners" \
+      voronoi circle$part.txt --clip-to-hull -o failed.geojson
   done
   "$PSTRIPACK" -q points strip:1e-12 50 | "$PSTRIPACK" -q voronoi - -o strip.off
   refuses 1 "/dev/full: cannot be written: No space left" voronoi nodes.txt -o /dev/full --to geojson

@@ -117,12 +117,12 @@ class Delaunay:
     @property
     def circumcenters(self) -> Floats:
         """Centres of the triangles' circumscribed circles, on the unit sphere, shape (t, 3)."""
-        return self._mesh.circumcentres(self.simplices, self._threads)
+        return self._mesh.circumcentres(self._threads)
 
     @property
     def areas(self) -> Floats:
         """Areas of the triangles in steradians."""
-        return self._mesh.triangle_areas(self.simplices, self._threads)
+        return self._mesh.triangle_areas(self._threads)
 
     @property
     def cell_areas(self) -> Floats:

@@ -67,7 +67,7 @@ T dot(const Vector3<T>& a, const Vector3<T>& b) {
 /// What they differ in:
 ///   kUnit          bound of the relative error of an operation
 ///   kSide, kApart  a side has an error of kSide of its length and 2^kApart
-///   Corner         what of a direction enters the sides; side(to, from) is the difference
+///   Corner         what of a direction enters the sides; side(to, from) is the difference, sum() as accurate
 ///   position       the direction as one vector
 template <class T>
 struct Arithmetic;
@@ -81,6 +81,10 @@ struct Arithmetic<double> {
   static Vector3<double> side(Corner to, Corner from) {
     const Point d = difference(to, from);
     return {d.x, d.y, d.z};
+  }
+  static Vector3<double> sum(Corner a, Corner b) {
+    return {(a.high.x + b.high.x) + (a.low.x + b.low.x), (a.high.y + b.high.y) + (a.low.y + b.low.y),
+            (a.high.z + b.high.z) + (a.low.z + b.low.z)};
   }
   static Vector3<double> position(Corner d) { return {d.high.x, d.high.y, d.high.z}; }
   static double value(double v, int exponent = 0) { return exponent == 0 ? v : std::ldexp(v, exponent); }
@@ -98,6 +102,7 @@ struct Arithmetic<DoubleDouble> {
   static Corner side(const Corner& to, const Corner& from) {
     return {to.x - from.x, to.y - from.y, to.z - from.z};
   }
+  static Corner sum(const Corner& a, const Corner& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
   static const Corner& position(const Corner& d) { return d; }
   static double value(const DoubleDouble& v, int exponent = 0) { return std::ldexp(v.high, exponent); }
   static DoubleDouble square_root(const DoubleDouble& v) { return sqrt(v); }
@@ -118,6 +123,7 @@ struct Arithmetic<Real<bits>> {
   static Corner side(const Corner& to, const Corner& from) {
     return {to.x - from.x, to.y - from.y, to.z - from.z};
   }
+  static Corner sum(const Corner& a, const Corner& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
   static const Corner& position(const Corner& d) { return d; }
   static double value(const T& v, int exponent = 0) { return static_cast<double>(T(ldexp(v, exponent))); }
   static T square_root(const T& v) { return sqrt(v); }
@@ -286,21 +292,22 @@ bool find_area(const Direction (&corner)[3], double& area) {
 /// What the border between two cells needs of the triangle on one side of it.
 template <class T>
 struct Beside {
-  T cot, cosine;  ///< of the angle opposite the arc between the nodes; of the circumradius
+  T cot, cosine;      ///< of the angle opposite the arc between the nodes; of the circumradius
+  Vector3<T> centre;  ///< the circumcentre
   double error_of_cot, error_of_cosine;
+};
+
+/// The arc from a node to a neighbour.
+template <class T>
+struct Arc {
+  T tan_h, cos_h, tan_half;  ///< of half of it, and of a quarter
 };
 
 /// (x, z), z = y tan(h/2), where (x, y) is in the direction of the angle t/2.
 template <class T>
 struct HalfAngle {
   T x, z;
-  double cosine, size_z, error;  ///< cos t; error of the angle of (x, z)
-};
-
-template <class T>
-struct Arc {  ///< from a node to a neighbour
-  T tan_h, cos_h, tan_half;
-  double size;  ///< tan h
+  double cosine, size_z, error;  ///< cos t; the magnitude of z; error of the angle of (x, z)
 };
 
 template <class T>
@@ -311,19 +318,30 @@ HalfAngle<T> half_angle(const Beside<T>& side, const Arc<T>& arc, double sign) {
   const T one = number<T>(1), x = about >= 0 ? one + cosine : sine * sine / (one - cosine);
   const T z = arc.tan_half * sine;
   const double size_x = A::value(x), size_z = A::value(z);
-  const double error = A::value(arc.tan_half) * arc.size * side.error_of_cot +
-                       (8 * A::kUnit + side.error_of_cosine) * std::fabs(size_z);
+  const double error = A::value(arc.tan_half) * A::value(arc.tan_h) * side.error_of_cot +
+                       (8 * A::kUnit + side.error_of_cosine / A::value(arc.cos_h)) * std::fabs(size_z);
   return {x, z, about, size_z, error * size_x / (size_x * size_x + size_z * size_z)};
 }
 
-/// The area of the triangle of a node and two circumcentres on its border with a neighbour; `right` and
-/// `left` of the arc are the triangles. Adds a bound to `error`.
+/// The area of the triangle of a node at p and two circumcentres on its border with the neighbour at q;
+/// `right` and `left` of the arc are the triangles. Adds a bound to `error`, which is infinite if p and q are
+/// too nearly opposite.
 template <class T>
-double area_beside(const T& chord, const Beside<T>& right, const Beside<T>& left, double& error) {
+double area_beside(typename Arithmetic<T>::Corner p, typename Arithmetic<T>::Corner q, const Beside<T>& right,
+                   const Beside<T>& left, double& error) {
   using A = Arithmetic<T>;
-  const T one = number<T>(1), sin_h = number<T>(0.5) * chord;
-  const T cos_h = A::square_root((one - sin_h) * (one + sin_h)), tan_h = sin_h / cos_h;
-  const Arc<T> arc{tan_h, cos_h, sin_h / (one + cos_h), A::value(tan_h)};
+  const auto half_length = [](const Vector3<T>& v) { return number<T>(0.5) * A::square_root(dot(v, v)); };
+  const T one = number<T>(1), sin_h = half_length(A::side(q, p)), cos_h = half_length(A::sum(p, q));
+  const double size = A::value(cos_h);
+  if (size == 0) {  // opposite: every point of the border is at a right angle from p
+    const Vector3<T>&from = right.centre, &to = left.centre;
+    double angle = std::atan2(A::value(dot(A::position(p), cross(from, to))), A::value(dot(from, to)));
+    if (angle < 0) angle += 2 * kPi;
+    error += 4 * (right.error_of_cosine + left.error_of_cosine) + 8 * u * angle;
+    return angle;
+  }
+  error += std::ldexp(8, A::kApart) / size;
+  const Arc<T> arc{sin_h / cos_h, cos_h, sin_h / (one + cos_h)};
   const HalfAngle<T> from = half_angle(right, arc, -1), to = half_angle(left, arc, 1);
   double half = std::atan2(A::value(to.z * from.x - from.z * to.x), A::value(from.x * to.x + from.z * to.z));
   // The border passes the point opposite m: t jumps from pi to -pi.
@@ -337,19 +355,18 @@ template <class T>
 bool find_cell_area(const Direction& node, const Direction* ring, std::size_t count, double& area) {
   using A = Arithmetic<T>;
   TriangleBySides<T> t;
-  T chord;  // of the arc from the node to ring[k], the first side of triangle k
   Beside<T> left, right_of_next;
   const auto v = A::corner(node);
   const auto see_triangle = [&](std::size_t k) {
     if (!t.find(v, A::corner(ring[k]), A::corner(ring[k + 1 < count ? k + 1 : 0]), 0x1p-10)) return false;
-    const auto beside = [&, cosine = t.cosine(v)](int corner) {
+    const Vector3<T> centre{t.normal.x / t.across, t.normal.y / t.across, t.normal.z / t.across};
+    const auto beside = [&, cosine = dot(A::position(v), centre)](int corner) {
       const T cot = t.at(corner) / t.across;
-      return Beside<T>{cot, cosine,
+      return Beside<T>{cot, cosine, centre,
                        t.error_of_at(corner) / t.size_across +
                            (t.error_of_normal + 2 * A::kUnit) * std::fabs(A::value(cot)),
-                       t.error_of_normal};
+                       t.error_of_normal + 4 * A::kUnit};
     };
-    chord = A::square_root(dot(t.side[0], t.side[0]));
     left = beside(2);
     right_of_next = beside(1);
     return true;
@@ -360,9 +377,7 @@ bool find_cell_area(const Direction& node, const Direction* ring, std::size_t co
   for (std::size_t k = 0; k < count; ++k) {
     const Beside<T> right = right_of_next;
     if (!see_triangle(k)) return false;
-    area += area_beside(chord, right, left, error);
-    if constexpr (std::is_same_v<T, double>)
-      if (t.error_of_normal > 0x1p-40) return false;
+    area += area_beside<T>(v, A::corner(ring[k]), right, left, error);
   }
   return error <= kOfCell * area;
 }
@@ -374,8 +389,7 @@ double arc_length(const Direction& a, const Direction& b) {
   const double square = square_of(d);
   if (square >= 0x1p-90 && square <= 2) return 2 * std::asin(std::sqrt(square) / 2);
   if (square > 2) {  // pi minus the angle between a and -b
-    const Point sum{(a.high.x + b.high.x) + (a.low.x + b.low.x), (a.high.y + b.high.y) + (a.low.y + b.low.y),
-                    (a.high.z + b.high.z) + (a.low.z + b.low.z)};
+    const Point sum = as_point(Arithmetic<double>::sum(a, b), 0);
     return kPi - 2 * std::asin(std::sqrt(square_of(sum)) / 2);
   }
   double length = 0;
