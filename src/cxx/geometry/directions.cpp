@@ -401,6 +401,24 @@ int orientation_of_directions(const Point& a, const Point& b, const Point& c, co
   return Directions(four, 4).orientation(0, 1, 2, 3);
 }
 
+bool is_nearer(const Point& p, const Point& a, const Point& b) {
+  // With A = a.p and B = b.p, compare A |A| b.b with B |B| a.a. In doubles each has 4 roundings of the sums
+  // of three and 3 products, twice: less than 16u of |p|^2 a.a b.b.
+  const double dot_a = dot(a, p), dot_b = dot(b, p), aa = dot(a, a), bb = dot(b, b);
+  const double difference = dot_a * std::fabs(dot_a) * bb - dot_b * std::fabs(dot_b) * aa;
+  const double size = dot(p, p) * aa * bb;
+  if (size > 0x1p-800 && size < 0x1p800 && std::fabs(difference) > 32 * u * size) return difference > 0;
+  const auto exactly = [&](auto zero) {
+    using Int = decltype(zero);
+    const auto vector = [](const Point& v) { return exact::scaled<Int>(v, exact::span_of(v).low); };
+    const auto c = vector(p), d = vector(a), e = vector(b);
+    return exact::sign_of_sum(Int(exact::dot(d, c)), Int(exact::dot(e, e)), Int(-exact::dot(e, c)),
+                              Int(exact::dot(d, d))) > 0;
+  };
+  const int bits = std::max({exact::span_of(p).bits(), exact::span_of(a).bits(), exact::span_of(b).bits()});
+  return bits <= 4 * exact::kRootBits ? exactly(exact::RootInteger()) : exactly(exact::Integer());
+}
+
 bool above_of_directions(const Point& a, const Point& b, const Point& c, const Point& d) {
   const Point four[4] = {a, b, c, d};
   return Directions(four, 4).above(0, 1, 2, 3);

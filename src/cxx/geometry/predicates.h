@@ -55,6 +55,9 @@ bool above_of_directions(const Point& a, const Point& b, const Point& c, const P
 
 bool same_direction(const Point& a, const Point& b);
 
+/// True if the direction of a is nearer to that of p than the direction of b is: exact, a.p/|a| > b.p/|b|.
+bool is_nearer(const Point& p, const Point& a, const Point& b);
+
 /// Which of the two sets decides.
 enum class Lengths {
   automatic,  ///< as given; directions where a length differs from 1 by more than 1e-6, or where the
