@@ -309,8 +309,7 @@ bool MovingMesh::is_above(CurveNode a, CurveNode b, CurveNode c, CurveNode d, bo
 bool MovingMesh::repair(Confirm confirm) {
   Mark mark;
   std::vector<Quadrangle> across;
-  confirm_ = confirm;
-  differs_ = false;
+  begin(confirm);
   return choose_mark(mark) && test(mark) && flip_inside(across) && !differs_;
 }
 

@@ -70,6 +70,9 @@ class MovingMesh {
   // discarded.
 
   static constexpr MeshNode kNobody = UINT32_MAX;
+  /// What repair() does with `confirm`: to be called before test(). In the end no part may have differs().
+  void begin(Confirm confirm) { confirm_ = confirm, differs_ = false; }
+  bool differs() const { return differs_; }
   /// A triangle, and a direction strictly inside it. Corners that are not nodes of this part are kNobody.
   struct Mark {
     MeshNode corner[3];

@@ -26,7 +26,7 @@ std::vector<std::int32_t> DistributedEvaluator::homes(const std::vector<Point>& 
 void DistributedEvaluator::triangulate_mesh(const std::vector<Point>& generators) {
   const double* const xyz = generators.empty() ? nullptr : &generators[0].x;
   const std::int32_t code =
-      mesh_.triangulate(static_cast<std::int64_t>(generators.size()), xyz, numbers_.data(), report_);
+      mesh_.triangulate(static_cast<std::int64_t>(generators.size()), xyz, numbers_.data(), report_, true);
   switch (code) {
     case 0:
       return;

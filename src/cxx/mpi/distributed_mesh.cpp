@@ -24,7 +24,8 @@ void DistributedMesh::clear() {
 }
 
 std::int32_t DistributedMesh::triangulate(std::int64_t n, const double* xyz, const std::int64_t* number,
-                                          Report* report) {
+                                          Report* report, bool by_direction) {
+  by_direction_ = by_direction;
   // The caller's coordinates are not copied: they may take most of the memory of the machine.
   static_assert(sizeof(Point) == 3 * sizeof(double));
   const bool fits = n >= 0 && n < static_cast<std::int64_t>(kMostPoints);
@@ -55,6 +56,7 @@ std::int32_t DistributedMesh::triangulate_points(const LocalNodes& points, Repor
   {
     const PhaseTimer timer(&cost, ParallelCost::divide, &ranks_);
     numbering = look_at_all(points, report != nullptr, ranks_);
+    numbering.look.by_direction.value = by_direction_;
   }
   if (report != nullptr) report->points = numbering.total;
   is_reported_ = numbering.is_reported;
@@ -202,7 +204,7 @@ bool DistributedMesh::move_stars(std::unique_ptr<MovingStars> moving, std::optio
   }
   {
     const PhaseTimer timer(&cost, ParallelCost::triangulate, &ranks_);
-    if (!moving->repair(points, ranks_)) return false;
+    if (!moving->repair(points, ranks_, by_direction_ ? Confirm::directions : Confirm::nothing)) return false;
   }
   const PhaseTimer timer(&cost, ParallelCost::lists, &ranks_);
   in_agreement(ranks_, [&] {

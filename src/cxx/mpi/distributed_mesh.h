@@ -33,9 +33,10 @@ class DistributedMesh {
   };
 
   /// Returns the result code. If it is not 0, and after AgreedFailure, the mesh is empty. report: if rank 0
-  /// passes one, it is filled on every rank that passes one. Collective.
+  /// passes one, it is filled on every rank that passes one. by_direction, the same on every rank: the mesh
+  /// of the directions, whatever the lengths. Collective.
   std::int32_t triangulate(std::int64_t n, const double* xyz, const std::int64_t* number,
-                           Report* report = nullptr);
+                           Report* report = nullptr, bool by_direction = false);
 
   /// True if there was no triangulation yet, or the last one failed.
   bool empty() const { return total_ == 0; }
@@ -72,6 +73,7 @@ class DistributedMesh {
   void clear();
 
   MpiCommunicator ranks_;
+  bool by_direction_ = false;  ///< in this call of triangulate()
   std::int64_t error_point_[2] = {0, 0};
   std::int64_t total_ = 0;          ///< points of all ranks
   bool is_reported_ = false;        ///< rank 0 wants reports; the same on every rank

@@ -213,9 +213,10 @@ void MovingStars::sort_outside() {
 
 // ---- 1, 2 and 3 ----------------------------------------------------------------------------------------
 
-bool MovingStars::repair(const LocalNodes& nodes, Communicator& ranks) {
+bool MovingStars::repair(const LocalNodes& nodes, Communicator& ranks, Confirm confirm) {
   constexpr int kMostRounds = 64;
-  OnAll fits{move_nodes(nodes, ranks)};
+  OnAll fits{move_nodes(nodes, ranks, confirm)};
+  mesh_->begin(confirm);
   const std::optional<MovingMesh::Mark> mark = agree_on_mark(ranks);
   Parcels flips;
   flips_of_others_ = 0;
@@ -229,7 +230,7 @@ bool MovingStars::repair(const LocalNodes& nodes, Communicator& ranks) {
             fits.value = fits.value && mark && mesh_->test(*mark);
           else
             fits.value = flip_all(flips);
-          fits.value = fits.value && propose(nodes, mine);
+          fits.value = fits.value && propose(nodes, mine) && !mesh_->differs();
           any.value = !mine.empty();
         },
         fits, any);
@@ -241,9 +242,13 @@ bool MovingStars::repair(const LocalNodes& nodes, Communicator& ranks) {
 }
 
 /// Sets the positions of the nodes here and sends them to the ranks that know these nodes. True if all have
-/// length one.
-bool MovingStars::move_nodes(const LocalNodes& nodes, Communicator& ranks) {
+/// the length that `confirm` needs.
+bool MovingStars::move_nodes(const LocalNodes& nodes, Communicator& ranks, Confirm confirm) {
   constexpr std::size_t kAhead = 16;
+  const bool is_exact = confirm == Confirm::directions;
+  const auto is_one = [&](const Point& p) {
+    return is_exact ? length_is_one_up_to_rounding(p) : length_is_one(p);
+  };
   MovingMesh& mesh = *mesh_;
   std::atomic<bool> all_have_length_one{true};
   const Parcels arrived = exchange_in_agreement(ranks, [&] {
@@ -253,7 +258,7 @@ bool MovingStars::move_nodes(const LocalNodes& nodes, Communicator& ranks) {
         for (std::size_t k = first; k < last; ++k) {
           if (k + kAhead < last) mesh.prefetch(k + kAhead);
           const Point p = node(k);
-          have_length_one = have_length_one & length_is_one(p);
+          have_length_one = have_length_one & is_one(p);
           mesh.node(k) = p;
         }
         if (!have_length_one) all_have_length_one = false;

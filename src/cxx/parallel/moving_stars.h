@@ -43,7 +43,7 @@ class MovingStars {
   /// Makes them the stars in the Delaunay triangulation of the same nodes at their current positions, and
   /// returns true. Returns false where MovingMesh::repair() would. The result is the same on every rank.
   /// Collective. Throws AgreedFailure. After false or a throw the stars must be discarded.
-  bool repair(const LocalNodes& nodes, Communicator& ranks);
+  bool repair(const LocalNodes& nodes, Communicator& ranks, Confirm confirm = Confirm::nothing);
   std::size_t flips() const { return mesh_->flips() - flips_of_others_; }  ///< the sum of all ranks' counts
   int rounds() const { return rounds_; }                                   ///< exchanges of flips
   std::size_t halo() const { return outside_.size(); }
@@ -98,7 +98,7 @@ class MovingStars {
   Parcels find_wanted(const Parcels& wanted, const NumberTable<MeshNode>& local);
   void enter_outside(const std::vector<Record>& outside, std::size_t n, NumberTable<MeshNode>& local);
   void sort_outside();
-  bool move_nodes(const LocalNodes& nodes, Communicator& ranks);
+  bool move_nodes(const LocalNodes& nodes, Communicator& ranks, Confirm confirm);
   std::optional<MovingMesh::Mark> agree_on_mark(Communicator& ranks);
   bool propose(const LocalNodes& nodes, std::vector<Flip>& flips);
   bool flip_all(const Parcels& flips);

@@ -39,7 +39,8 @@ TrmeshResult call_trmesh(const std::vector<Point>& nodes, std::vector<std::int32
   std::int32_t lnew = 0;
   return canonical_trmesh({static_cast<std::int32_t>(n),
                            NodeArrays(nodes.data()),
-                           {list.data(), lptr.data(), lend.data(), &lnew}});
+                           {list.data(), lptr.data(), lend.data(), &lnew},
+                           true});
 }
 
 /// Turns the lists of the generators in another order, of which generator order[i] is the i-th, into those
