@@ -92,6 +92,26 @@ def test_generators_that_are_wrong():
     assert caught.value.nodes == (4, 20)
 
 
+@pytest.mark.parametrize("value", [1e-310, 1e-200, 1e200, 1e308])
+def test_densities_of_any_size(value):
+    mesh = scvt(100, lambda xyz: np.full(len(xyz), value), tolerance=1e-3)
+    assert mesh.reason == "converged" and mesh.gradient <= 1e-3
+    assert mesh.energy / value == pytest.approx(0.2561, rel=1e-2)
+
+
+def test_densities_beyond_what_doubles_hold():
+    with pytest.raises(TriangulationError, match="the density is 1e-250 at lon .* the ratio is too large"):
+        scvt(100, lambda xyz: np.where(xyz[:, 2] > -0.5, 1, 1e-250))
+    with pytest.raises(TriangulationError, match="beyond the largest double"):
+        scvt(4, lambda xyz: np.full(len(xyz), 1.7e308))
+
+
+def test_generators_that_nearly_coincide():
+    e = 6e-17
+    mesh = scvt(np.vstack([random_nodes(30), [[e, 0, 1], [-e, 0, 1], [0, e, 1], [0, -e, 1]]]), tolerance=1e-2)
+    assert mesh.reason == "converged" and mesh.gradient <= 1e-2
+
+
 def test_the_keyboard_interrupts_a_run():
     timer = threading.Timer(0.3, lambda: signal.raise_signal(signal.SIGINT))
     before = signal.signal(signal.SIGINT, signal.default_int_handler)

@@ -276,6 +276,79 @@ TEST(Scvt, ErrorsOfARunSayWhyAndWriteNothing) {
   refuses_option("most_evaluations", [](auto& o) { o.most_evaluations = -1; });
 }
 
+/// A density of a value where x > 0, and of another elsewhere.
+struct Halves {
+  double value, other;
+  pstripack_density density() {
+    return {[](std::int32_t n, const double* xyz, double* values, void* user) {
+              const auto& h = *static_cast<Halves*>(user);
+              for (std::int32_t i = 0; i < n; ++i) values[i] = xyz[3 * i] > 0 ? h.value : h.other;
+            },
+            this, 0};
+  }
+};
+
+TEST(Scvt, DensitiesOfAnySize) {
+  pstripack_scvt_options options = defaults();
+  options.tolerance = 1e-2;
+  Halves one{1, 1};
+  const pstripack_density of_one = one.density();
+  Generators expected(100);
+  ASSERT_EQ(expected.run(&of_one, &options), PSTRIPACK_OK);
+  for (const double value : {0x1p-1060, 0x1p-700, 0x1p700, 0x1p1022}) {
+    Halves halves{value, value};
+    const pstripack_density density = halves.density();
+    Generators found(100);
+    ASSERT_EQ(found.run(&density, &options), PSTRIPACK_OK) << found.said();
+    EXPECT_EQ(found.result.reason, PSTRIPACK_SCVT_CONVERGED);
+    EXPECT_EQ(found.result.gradient, expected.result.gradient);
+    EXPECT_EQ(found.result.energy, expected.result.energy * value);
+    EXPECT_EQ(found.x, expected.x);
+  }
+  const auto refuses = [&](Halves halves, const std::string& why) {
+    const pstripack_density density = halves.density();
+    Generators generators(4);
+    EXPECT_EQ(generators.run(&density, &options), PSTRIPACK_BAD_DENSITY);
+    EXPECT_NE(generators.said().find(why), std::string::npos) << generators.said();
+    EXPECT_EQ(generators.x[0], 7);
+    EXPECT_EQ(generators.result.energy, -1);
+  };
+  refuses({1.7e308, 1.7e308}, "the energy is beyond the largest double");
+  refuses({1, 1e-250}, "the density is 1e-250 at lon ");
+  refuses({1e300, 5e-324}, "1e+300 elsewhere: the ratio is too large");
+}
+
+TEST(Scvt, GeneratorsThatNearlyCoincideAreSeparatedOrNamed) {
+  pstripack_scvt_options options = defaults();
+  options.start = PSTRIPACK_SCVT_GIVEN;
+  options.tolerance = 1e-2;
+  std::vector<Point> points = point_sets::make("random", 30, 1);
+  const auto with_pole_of = [&](double e) {
+    std::vector<Point> all = points;
+    for (const Point& p : {Point{e, 0, 1}, Point{-e, 0, 1}, Point{0, e, 1}, Point{0, -e, 1}, Point{0, 0, 1}})
+      all.push_back(p);
+    return Generators(all);
+  };
+  Generators near = with_pole_of(6e-17), too_near = with_pole_of(1e-100);
+  ASSERT_EQ(near.run(nullptr, &options), PSTRIPACK_OK) << near.said();
+  EXPECT_EQ(near.result.reason, PSTRIPACK_SCVT_CONVERGED);
+  EXPECT_LE(near.result.gradient, 1e-2);
+  EXPECT_EQ(too_near.run(nullptr, &options), PSTRIPACK_COINCIDENT);
+  EXPECT_EQ(too_near.said(),
+            "the cell of generator 35 is too small: move it away from generator 31, or remove one of them");
+  // Different vectors whose directions are rounded to the same unit vector.
+  Point a{1.9, 1.9, 1.9}, b = a;
+  do {
+    a = b;
+    b.z = std::nextafter(b.z, 2);
+  } while (scvt::unit_vector(a) != scvt::unit_vector(b));
+  points.push_back(a);
+  points.push_back(b);
+  Generators rounded(points);
+  EXPECT_EQ(rounded.run(nullptr, &options), PSTRIPACK_COINCIDENT);
+  EXPECT_EQ(rounded.said(), "generators 31 and 32 coincide: remove one of them");
+}
+
 TEST(Scvt, MessagesFitTheirRoom) {
   char room[] = "123456789";
   double x = 7;
@@ -384,6 +457,48 @@ TEST(ScvtStep, ManyAreLloydsMethod) {
   for (std::size_t i = 0; i < points.size(); ++i) ASSERT_TRUE(points[i] == expected.state.generators[i]) << i;
 }
 
+TEST(ScvtStep, OfDensitiesOfAnySize) {
+  const std::vector<Point> points = point_sets::make("random", 200, 4);
+  Step expected(points);
+  ASSERT_EQ(expected.run(nullptr), PSTRIPACK_OK);
+  for (const double value : {0x1p-1000, 0x1p-400, 0x1p700, 0x1p1022}) {
+    Halves halves{value, value};
+    const pstripack_density density = halves.density();
+    Step step(points);
+    ASSERT_EQ(step.run(&density), PSTRIPACK_OK) << step.message;
+    EXPECT_NEAR(step.energy / value, expected.energy, 1e-4 * expected.energy);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      EXPECT_NEAR(step.mass[i] / value, expected.mass[i], 1e-4 * expected.mass[i]);
+      EXPECT_NEAR(step.xc[i], expected.xc[i], 1e-5);
+    }
+  }
+  Halves halves{1.7e308, 1.7e308};
+  const pstripack_density density = halves.density();
+  Step step(point_sets::make("icosahedral", 12, 1));
+  EXPECT_EQ(step.run(&density), PSTRIPACK_BAD_DENSITY);
+  EXPECT_STREQ(
+      step.message,
+      "the energy is beyond the largest double: divide the density, which reaches 1.7e+308, by a constant");
+  EXPECT_EQ(step.mass[0], 7);
+}
+
+/// Issue 39: half the masses were zero or negative.
+TEST(ScvtStep, OfCopiesOfThePoles) {
+  std::vector<Point> points;
+  for (const double lat : {-1.5707963267948966, 0.0, 1.5707963267948966})
+    for (const double lon : {0.0, 2.0943951023931953, 4.1887902047863905})
+      points.push_back({std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)});
+  Step step(points);
+  ASSERT_EQ(step.run(nullptr), PSTRIPACK_OK) << step.message;
+  // Three copies of a pole share a triangle whose angles have the cosine -1/4.
+  const double pi = std::acos(-1), copy = std::acos(-0.25) - pi / 3;
+  for (std::size_t i = 0; i < 9; ++i)
+    EXPECT_NEAR(step.mass[i], i / 3 == 1 ? 4 * pi / 3 - 2 * copy : copy, 1e-6) << i;
+  double sum = 0;
+  for (const double m : step.mass) sum += m;
+  EXPECT_NEAR(sum, 4 * pi, 1e-6);
+}
+
 TEST(ScvtStep, ErrorsSayWhyAndWriteNothing) {
   const Step good(point_sets::make("random", 100, 6));
   const auto refuses = [](Step step, std::int32_t code, const std::string& why,
@@ -418,7 +533,7 @@ TEST(ScvtStep, ErrorsSayWhyAndWriteNothing) {
   step = good;  // a generator in the place of its neighbour
   const auto neighbour = static_cast<std::size_t>(step.lists.list[0]) - 1;
   for (auto* v : {&step.generators.x, &step.generators.y, &step.generators.z}) (*v)[0] = (*v)[neighbour];
-  refuses(step, PSTRIPACK_BAD_LISTS, "the lists are not those of the generators");
+  refuses(step, PSTRIPACK_COINCIDENT, "generators 1 and " + std::to_string(neighbour + 1) + " coincide");
   Watch watch;
   watch.factor = -1;
   const pstripack_density density = density_of(watch);

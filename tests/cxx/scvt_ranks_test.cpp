@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -270,30 +271,97 @@ TEST(Run, GoesOnWithTheSameBitsOnAnotherNumberOfRanks) {
 /// A density that is bad in a small place.
 class Hole final : public Density {
  public:
+  explicit Hole(double bad) : bad_(bad) {}
   using Density::at;
   void at(std::size_t n, const Point* p, double* value) const override {
-    for (std::size_t i = 0; i < n; ++i) value[i] = p[i].x > 0.99 ? -1 : 1;
+    for (std::size_t i = 0; i < n; ++i) value[i] = p[i].x > 0.99 ? bad_ : 1;
+  }
+
+ private:
+  double bad_;
+};
+
+/// What all ranks are told: once for each number of ranks.
+std::vector<std::string> told(const std::function<void(Communicator&)>& body) {
+  std::vector<std::string> all;
+  for (const int size : kRanks) {
+    std::mutex mutex;
+    std::vector<std::string> texts;
+    ThreadRanks::run(size, [&](Communicator& ranks) {
+      try {
+        body(ranks);
+      } catch (const NoTessellation& e) {
+        const std::lock_guard lock(mutex);
+        texts.emplace_back(e.what());
+      }
+    });
+    EXPECT_EQ(texts.size(), static_cast<std::size_t>(size));
+    if (texts.empty()) continue;
+    for (const std::string& text : texts) EXPECT_EQ(text, texts[0]);
+    all.push_back(texts[0]);
+  }
+  return all;
+}
+
+TEST(Run, TellsAllRanksOfTheSameBadPlace) {
+  for (const auto& [bad, value] : {std::pair(-1.0, "-1"), {1e-250, "1e-250"}})
+    for (const std::string& text : told([bad = bad](Communicator& ranks) {
+           const Hole hole(bad);
+           GatheringEvaluator evaluator(ranks, hole);
+           Tessellation t = first_generators(evaluator, 300, {});
+           iterate(evaluator, t, {});
+         }))
+      EXPECT_NE(text.find(std::string("the density is ") + value + " at lon "), std::string::npos) << text;
+}
+
+/// The generators of a rank, of all.
+Tessellation part_of(const Communicator& ranks, const std::vector<Point>& points) {
+  Tessellation t;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (static_cast<int>(i % static_cast<std::size_t>(ranks.size())) == ranks.rank()) {
+      t.state.generators.push_back(points[i]);
+      t.numbers.push_back(static_cast<std::int64_t>(i) + 1);
+    }
+  return t;
+}
+
+TEST(Run, TellsAllRanksOfTheSameGenerators) {
+  std::vector<Point> points = point_sets::make("random", 30, 1);
+  constexpr double e = 1e-100;
+  for (const Point& p : {Point{e, 0, 1}, Point{-e, 0, 1}, Point{0, e, 1}, Point{0, -e, 1}, Point{0, 0, 1}})
+    points.push_back(p);
+  for (const std::string& text : told([&](Communicator& ranks) {
+         GatheringEvaluator evaluator(ranks, kConstant);
+         Tessellation t = part_of(ranks, points);
+         iterate(evaluator, t, {});
+       }))
+    EXPECT_EQ(text,
+              "the cell of generator 35 is too small: move it away from generator 31, or remove one of them");
+}
+
+class Tiny final : public Density {
+ public:
+  using Density::at;
+  void at(std::size_t n, const Point* p, double* value) const override {
+    kBump.at(n, p, value);
+    for (std::size_t i = 0; i < n; ++i) value[i] = std::ldexp(value[i], -900);
   }
 };
 
-TEST(Run, TellsAllRanksOfTheSameBadPlace) {
-  std::string first;
+TEST(Run, ScalesADensityOnAnyNumberOfRanks) {
+  const std::vector<Point> first = random_generators(200, kBump, 1);
+  const Tessellation alone = run(first, kBump, few_evaluations());
   for (const int size : kRanks) {
-    std::mutex mutex;
-    std::vector<std::string> told;
+    Gathered gathered;
     ThreadRanks::run(size, [&](Communicator& ranks) {
-      try {
-        const Hole hole;
-        GatheringEvaluator evaluator(ranks, hole);
-        first_generators(evaluator, 300, {});
-      } catch (const BadDensity& e) {
-        const std::lock_guard lock(mutex);
-        told.push_back(e.what());
-      }
+      const Tiny tiny;
+      GatheringEvaluator evaluator(ranks, tiny);
+      Tessellation t = part_of(ranks, first);
+      iterate(evaluator, t, few_evaluations());
+      EXPECT_EQ(t.result.progress.energy, std::ldexp(alone.result.progress.energy, -900));
+      gathered.add(t.numbers, t.state.generators);
     });
-    ASSERT_EQ(told.size(), static_cast<std::size_t>(size));
-    EXPECT_NE(told[0].find("the density is -1 at lon "), std::string::npos);
-    for (const std::string& text : told) EXPECT_EQ(text, told[0]);
+    EXPECT_EQ(gathered.points(), alone.state.generators) << size;
   }
 }
 

@@ -399,6 +399,83 @@ TEST(Run, HasTheSameBitsForAnyNumberOfThreads) {
 #endif
 }
 
+/// A power of two changes no bit, however far the density is from 1.
+TEST(Run, ScalesADensityThatIsVeryLargeOrSmall) {
+  const std::vector<Point> first = random_generators(50, kBump, 1);
+  const Tessellation expected = run(first, kBump, options_of(1e-3));
+  for (const int exponent : {-1060, -1000, -301, -300, 299, 1010}) {
+    SCOPED_TRACE(exponent);
+    const Formula density([=](const Point& p) { return std::ldexp(kBump.at(p), exponent); });
+    const Tessellation found = run(first, density, options_of(1e-3));
+    EXPECT_EQ(found.result.end, End::converged);
+    EXPECT_LE(found.result.progress.gradient, 1e-3);
+    if (exponent == -1060) continue;  // subnormal: the density itself has other bits
+    EXPECT_TRUE(found.state.generators == expected.state.generators);
+    EXPECT_EQ(found.result.progress.energy, std::ldexp(expected.result.progress.energy, exponent));
+    EXPECT_EQ(found.result.progress.gradient, expected.result.progress.gradient);
+  }
+  const RunOptions options = options_of(1e-2);
+  for (const std::size_t n : {12, 100})  // from random generators, through levels
+    for (const double value : {0x1p-1074, 0x1p-1030, 0x1p-670, 0x1p670, 0x1p1021}) {
+      const Tessellation found = run(n, ConstantDensity(value), options), of_one = run(n, kConstant, options);
+      EXPECT_TRUE(found.state.generators == of_one.state.generators) << value;
+      EXPECT_EQ(found.result.progress.energy, of_one.result.progress.energy * value);
+    }
+}
+
+TEST(Run, GoesOnWithAScaledDensity) {
+  const Formula density([](const Point& p) { return std::ldexp(kBump.at(p), -800); });
+  const std::vector<Point> first = random_generators(300, kBump, 1);
+  Options options;
+  options.tolerance = 1e-9;
+  options.most_evaluations = 20;
+  LocalEvaluator evaluator(density);
+  State whole(first), state(first);
+  minimize(evaluator, whole, options);
+  options.progress = [&](const Progress&) { return state.steps < 8; };
+  minimize(evaluator, state, options);
+  ASSERT_FALSE(state.pairs.empty());
+  options.progress = nullptr;
+  for (const int exponent : {state.exponent, 0}) {  // as kept in memory; as in a file
+    State copy = state;
+    for (State::Pair& pair : copy.pairs)
+      for (Point& p : pair.change) p = times(std::ldexp(1, state.exponent - exponent), p);
+    copy.exponent = exponent;
+    LocalEvaluator another(density);
+    minimize(another, copy, options);
+    EXPECT_EQ(copy.generators, whole.generators);
+  }
+}
+
+/// Issue 39: it converged to a gradient of NaN. And other generators as near to each other as doubles allow.
+TEST(Run, SeparatesGeneratorsThatNearlyCoincide) {
+  std::vector<std::vector<Point>> sets;
+  std::vector<Point>& grid = sets.emplace_back();
+  for (const double lat : {-1.5707963267948966, 0.0, 1.5707963267948966})
+    for (const double lon : {0.0, 2.0943951023931953, 4.1887902047863905})
+      grid.push_back({std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)});
+  for (const double e : {6e-17, 1e-17, 1e-70}) {
+    std::vector<Point>& copies = sets.emplace_back(point_sets::make("random", 30, 1));
+    for (const Point& p : {Point{0, 0, 1}, Point{e, 0, 1}, Point{-e, 0, 1}, Point{0, e, 1}, Point{0, -e, 1}})
+      copies.push_back(p);
+  }
+  for (const double width : {1e-8, 1e-12}) {
+    std::vector<Point>& cluster = sets.emplace_back(point_sets::make("random", 30, 1));
+    for (const Point& p : point_sets::make("random", 30, 2))
+      cluster.push_back(point_sets::normalized(plus({0.3, -0.5, 0.8}, times(width, p))));
+  }
+  for (const std::vector<Point>& points : sets)
+    for (const Method method : {Method::newton, Method::lloyd}) {
+      RunOptions options;
+      options.tolerance = 1e-2;
+      options.method = method;
+      const Tessellation found = run(points, kConstant, options);
+      EXPECT_EQ(found.result.end, End::converged);
+      EXPECT_LE(found.result.progress.gradient, 1e-2);
+      EXPECT_GT(found.result.progress.energy, 0);
+    }
+}
+
 TEST(Run, GoesOnFromACopyOfTheStateWithTheSameBits) {
   const std::vector<Point> first = random_generators(1500, kBump, 1);
   Options options = options_of(1e-9);
@@ -607,6 +684,32 @@ TEST(Safeguards, WithoutAnyDecreaseTheRunEnds) {
   EXPECT_EQ(result.cells.mass, cells.mass);
 }
 
+TEST(Safeguards, NotANumberIsNeverConverged) {
+  const auto falsified = [](int first, int last) {
+    return [=](int evaluation, Cells& cells) {
+      if (evaluation >= first && evaluation <= last) cells.pull[17] = {NAN, 0, 0}, cells.mass[17] = NAN;
+    };
+  };
+  State state(random_generators(300, kConstant, 1));
+  Meddler at_first(kConstant, falsified(1, 1));
+  try {
+    minimize(at_first, state, {});
+    ADD_FAILURE() << "no error";
+  } catch (const GeneratorsTooNear& e) {
+    EXPECT_EQ(e.first, 18);
+  }
+  Meddler on_the_way(kConstant, falsified(5, 6));  // trials too far
+  const Result result = minimize(on_the_way, state, {});
+  EXPECT_EQ(result.end, End::converged);
+  EXPECT_LE(result.progress.gradient, 1e-5);
+}
+
+TEST(Safeguards, CellsThatAreNotTheSphereAreAnError) {
+  Meddler evaluator(kConstant, [](int, Cells& cells) { cells.mass[0] *= 1.01; });
+  State state(random_generators(300, kConstant, 1));
+  EXPECT_THROW(minimize(evaluator, state, {}), NoTessellation);
+}
+
 // ---- bad input ----
 
 template <class Error>
@@ -666,6 +769,37 @@ TEST(BadInput, Densities) {
   const Formula density([](const Point& p) { return p.x > 0 ? -2.0 : 1.0; });
   EXPECT_NE(std::string(error_of<BadDensity>(octahedron(), density).what()).find("the density is -2 at lon "),
             std::string::npos);
+}
+
+TEST(BadInput, DensitiesThatVaryTooMuch) {
+  for (const double least : {1e-250, 0x1p-1074}) {
+    const Formula density([=](const Point& p) { return p.z > -0.5 ? 1.0 : least; });
+    const auto error = error_of<BadDensity>(point_sets::make("random", 100, 1), density);
+    EXPECT_LE(error.place.z, -0.5);
+    EXPECT_EQ(error.value, least);
+    EXPECT_EQ(error.elsewhere, 1);
+    EXPECT_NE(std::string(error.what()).find(" and 1 elsewhere: the ratio is too large"), std::string::npos);
+  }
+  const Formula both([=](const Point& p) { return p.z > -0.5 ? 1e300 : 1e-300; });
+  EXPECT_EQ(error_of<BadDensity>(point_sets::make("random", 100, 1), both).value, 1e-300);
+  const Formula much([](const Point& p) { return p.z > 0 ? 1e100 : 1e-100; });
+  EXPECT_TRUE(std::isfinite(run(100, much, options_of(1e-2)).result.progress.gradient));
+}
+
+TEST(BadInput, AnEnergyBeyondTheLargestDouble) {
+  const ConstantDensity density(1.7e308);
+  EXPECT_NE(std::string(error_of<DensityOutOfRange>(octahedron(), density).what()).find("reaches 1.7e+308"),
+            std::string::npos);
+}
+
+TEST(BadInput, GeneratorsWhoseCellsAreBelowAllDoubles) {
+  std::vector<Point> points = point_sets::make("random", 30, 1);
+  constexpr double e = 1e-100;
+  for (const Point& p : {Point{e, 0, 1}, Point{-e, 0, 1}, Point{0, e, 1}, Point{0, -e, 1}, Point{0, 0, 1}})
+    points.push_back(p);
+  const auto error = error_of<GeneratorsTooNear>(points, kConstant);
+  EXPECT_EQ(error.first, 35);
+  EXPECT_GE(error.second, 31);
 }
 
 // ---- first generators, levels, lists ----

@@ -156,6 +156,52 @@ TEST(DistributedScvt, TakesRank0sOptionsAndDefaults) {
   EXPECT_EQ(plain.result.reason, PSTRIPACK_SCVT_CONVERGED);
 }
 
+/// Densities and generators at the ends of what doubles hold: the same results, or the same errors.
+TEST(DistributedScvt, HasTheBitsOfTheSerialRunAtTheEdges) {
+  const pstripack_density tiny{[](std::int32_t n, const double* xyz, double* values, void*) {
+                                 bump_at(n, xyz, values, nullptr);
+                                 for (std::int32_t i = 0; i < n; ++i)
+                                   values[i] = std::ldexp(values[i], -1000);
+                               },
+                               nullptr, 0};
+  const pstripack_density huge{[](std::int32_t n, const double*, double* values, void*) {
+                                 for (std::int32_t i = 0; i < n; ++i) values[i] = 1.7e308;
+                               },
+                               nullptr, 0};
+  const pstripack_scvt_options options = of_evaluations(12);
+  const auto with_pole_of = [](double e) {
+    Nodes nodes = point_sets::make("random", 40, 2);
+    const Nodes copies{{e, 0, 1}, {-e, 0, 1}, {0, e, 1}, {0, -e, 1}, {0, 0, 1}};
+    nodes.insert(nodes.end(), copies.begin(), copies.end());
+    return nodes;
+  };
+  Nodes grid;  // many fours of nodes on a circle, up to rounding
+  for (int row = 1; row < 12; ++row)
+    for (int k = 0; k < 24; ++k) {
+      const double lat = 3.141592653589793 * (row / 12.0 - 0.5), lon = 3.141592653589793 * k / 12;
+      grid.push_back({std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)});
+    }
+  for (const auto& [start, density] : {std::pair<Nodes, const pstripack_density*>(start_of(100), &tiny),
+                                       {with_pole_of(6e-17), nullptr},
+                                       {grid, nullptr}}) {
+    const Serial expected(start, density, options);
+    ASSERT_EQ(expected.code, 0) << expected.message;
+    RunOfRanks run(start, distributions()[0]);
+    ASSERT_EQ(run(density, &options), 0) << run.message;
+    expect_same(run, expected);
+  }
+  const Nodes octahedron{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
+  for (const auto& [start, density] :
+       {std::pair<Nodes, const pstripack_density*>(octahedron, &huge), {with_pole_of(1e-100), nullptr}}) {
+    const Serial expected(start, density, options);
+    EXPECT_EQ(expected.code, density == nullptr ? PSTRIPACK_COINCIDENT : PSTRIPACK_BAD_DENSITY);
+    RunOfRanks run(start, distributions()[0]);
+    EXPECT_EQ(run(density, &options), expected.code);
+    EXPECT_STREQ(run.message, expected.message);
+    EXPECT_EQ(run.result.energy, -1);
+  }
+}
+
 TEST(DistributedScvt, LeavesTheMeshOfWhatItReturns) {
   const Nodes start = start_of(200);
   const pstripack_scvt_options options = of_evaluations(10);

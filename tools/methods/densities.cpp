@@ -20,6 +20,12 @@ using files::Point;
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
 
+/// A mean of positive finite values, which its rounding may have made 0 or infinite.
+double in_range(double mean) {
+  using Limits = std::numeric_limits<double>;
+  return std::clamp(mean, Limits::denorm_min(), Limits::max());
+}
+
 class SampledDensity : public Density {
  public:
   SampledDensity(const std::vector<Point>& nodes, std::vector<double> values)
@@ -32,8 +38,9 @@ class SampledDensity : public Density {
     for (std::size_t i = 0; i < n; ++i) {
       value[i] = std::numeric_limits<double>::quiet_NaN();
       if (!interpolation_.linear(p[i], near, shares)) continue;
-      value[i] = 0;
-      for (const Share& s : shares) value[i] += s.part * values_[static_cast<std::size_t>(s.node) - 1];
+      double mean = 0;
+      for (const Share& s : shares) mean += s.part * values_[static_cast<std::size_t>(s.node) - 1];
+      value[i] = in_range(mean);
     }
   }
 
@@ -88,7 +95,7 @@ class GridDensity : public Density {
         const double* const v = &values_[r * columns_ + column];
         return (1 - east) * v[0] + east * v[1];
       };
-      value[i] = (1 - north) * in_row(row) + north * in_row(row + 1);
+      value[i] = in_range((1 - north) * in_row(row) + north * in_row(row + 1));
     }
   }
 
@@ -178,9 +185,13 @@ std::unique_ptr<Density> density_on_grid(const files::Grid& grid, const std::vec
     table.push_back(v[columns[0]]);
   };
   const auto add_pole = [&](std::size_t row) {
-    double sum = 0;
-    for (const std::size_t c : columns) sum += values[row * grid.lon.size() + c];
-    table.insert(table.end(), columns.size() + 1, sum / static_cast<double>(columns.size()));
+    const auto count = static_cast<double>(columns.size());
+    double sum = 0, mean = 0;
+    for (const std::size_t c : columns) {
+      sum += values[row * grid.lon.size() + c];
+      mean += values[row * grid.lon.size() + c] / count;  // cannot overflow
+    }
+    table.insert(table.end(), columns.size() + 1, std::isfinite(sum) ? sum / count : in_range(mean));
   };
   if (lat.front() > -90) add_pole(rows.front());
   for (const std::size_t row : rows) add_row(row);

@@ -78,9 +78,9 @@ std::unique_ptr<engine::Density> density_in_file(const Options& options) {
   files::Nodes nodes = read_places(options.density_file, read);
   const std::vector<double>& values = nodes.value.numbers;
   for (std::size_t i = 0; i < values.size(); ++i)
-    if (!(values[i] > 0))
-      throw std::runtime_error(
-          fmt::format("{}: {}: density {}: must be positive", nodes.file, nodes.place(i), values[i]));
+    if (!(values[i] > 0 && std::isfinite(values[i])))
+      throw std::runtime_error(fmt::format("{}: {}: density {}: must be positive and finite", nodes.file,
+                                           nodes.place(i), values[i]));
   if (!nodes.grid.lon.empty()) {
     try {
       return methods::density_on_grid(nodes.grid, values);
@@ -139,13 +139,15 @@ constexpr std::pair<const char*, std::vector<Point> State::Pair::*> kHalves[] = 
 constexpr std::pair<const char*, double Point::*> kComponents[] = {
     {"x", &Point::x}, {"y", &Point::y}, {"z", &Point::z}};
 
-files::Columns columns_of(const std::vector<State::Pair>& pairs) {
+files::Columns columns_of(const State& state) {
+  const std::vector<State::Pair>& pairs = state.pairs;
   files::Columns columns;
   for (std::size_t k = 0; k < pairs.size(); ++k)
     for (const auto& [half, vectors] : kHalves)
       for (const auto& [letter, component] : kComponents) {
         files::Column column{fmt::format("scvt_{}_{}_{}", half, k + 1, letter)};
-        for (const Point& v : pairs[k].*vectors) column.numbers.push_back(v.*component);
+        const int exponent = half == kHalves[1].first ? state.exponent : 0;
+        for (const Point& v : pairs[k].*vectors) column.numbers.push_back(std::ldexp(v.*component, exponent));
         columns.push_back(std::move(column));
       }
   return columns;
@@ -216,7 +218,7 @@ std::string write(Ranks& ranks, const Output& output, bool is_checkpoint, const 
   if (is_checkpoint) notes[kPairs] = std::to_string(t.state.pairs.size());
   const auto complete = [&](auto& mesh, const State& state) {
     mesh.density = engine::values_at(state.generators, density);
-    if (is_checkpoint) mesh.columns = columns_of(state.pairs);
+    if (is_checkpoint) mesh.columns = columns_of(state);
     mesh.notes = std::move(notes);
   };
   if (communicator.size() == 1) {
@@ -458,7 +460,11 @@ void add_scvt(CLI::App& app, Command& chosen) {
                   "stop at this gradient: root mean square distance to the centroid over sqrt(4 pi/N)")
       ->type_name("NUMBER")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 1e300).description(""));
+      ->check([](const std::string& text) {  // CLI::Range lets nan pass
+        double value = 0;
+        return point_sets::parse(text, value) && value >= 0 ? std::string()
+                                                            : "'" + text + "' is not a number of at least 0";
+      });
   sub->add_option("--evaluations,--iterations", options->evaluations,
                   "most evaluations of all N cells, those of the continued run included")
       ->type_name("NUMBER")

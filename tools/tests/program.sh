@@ -295,6 +295,15 @@ scvt)
   "$PSTRIPACK" -q scvt --start checkpoint.nc --iterations 8 -o more.nodes.nc
   "$PSTRIPACK" -q scvt 300 --density-file two.txt --first random --iterations 8 -o eight.nodes.nc
   cmp more.nodes.nc eight.nodes.nc
+  # Of any size (issue 39: "converged", gradient nan). Generators that are copies of poles up to rounding.
+  for value in 1e-200 1e308; do
+    sed "s/2$/$value/" two.txt > size.txt
+    "$PSTRIPACK" scvt 100 --density-file size.txt --tolerance 1e-2 -o size.nodes.nc 2> err
+    grep -q "converged to 0.01: gradient 0.00[0-9]*, energy [0-9]" err || fail "density $value: $(cat err)"
+  done
+  { octahedron; echo 6.1e-17 0 1; echo 0 6.1e-17 1; echo -6.1e-17 0 1; echo 0 -6.1e-17 1; } > copies.txt
+  "$PSTRIPACK" scvt --start copies.txt --tolerance 1e-2 -o copies.nodes.nc 2> err
+  grep -q "10 generators, .* converged to 0.01: gradient 0.00[0-9]*, energy 2" err || fail "copies: $(cat err)"
   rm two.txt
   refuses 1 "two.txt: cannot be opened" scvt --start file.nodes.nc --iterations 7 -o failed.nc
   # A density on a grid.
@@ -326,6 +335,11 @@ bad_scvt)
   "$PSTRIPACK" -q scvt --start twice.txt --drop-duplicates -o once.off
   octahedron | sed '4s/$/ 0/; 4!s/$/ 1/' > zero.txt
   refuses 1 "zero.txt: node 4 (line 4): density 0: must be positive" scvt 10 --density-file zero.txt -o failed.off
+  octahedron | sed '/-/s/$/ 1e-290/; /-/!s/$/ 1e290/' > ratio.txt
+  refuses 1 " elsewhere: the ratio is too large" scvt 10 --density-file ratio.txt -o failed.off
+  octahedron | sed 's/$/ 1.7e308/' > huge.txt
+  refuses 1 "the energy is beyond the largest double" scvt 4 --density-file huge.txt -o failed.off
+  refuses 2 "--tolerance: 'nan' is not a number of at least 0" scvt 10 --tolerance nan -o failed.off
   octahedron | sed 's/$/ 1/' > one.txt
   "$PSTRIPACK" -q interpolate one.txt --to-grid 9x9 --region 0,90,0,90 -o regional.nc
   refuses 1 "regional.nc: the grid leaves out 280 degrees of longitude: a density must cover the sphere" \

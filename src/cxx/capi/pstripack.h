@@ -34,10 +34,11 @@ enum {
   /* Only in programs that use pstripack_mpi.h: */
   PSTRIPACK_RANKS_DISAGREE = -7, /* the ranks of a collective call disagree in n, data or PSTRIPACK_ORDER */
   PSTRIPACK_BAD_COMM = -8,       /* no usable communicator, or no such rank; MPI not running */
-  PSTRIPACK_COINCIDENT = -9,     /* distributed, scvt: two points in the same direction */
+  PSTRIPACK_COINCIDENT = -9,     /* distributed, scvt: two points in the same direction, or nearly */
   PSTRIPACK_BAD_NUMBER = -10,    /* distributed: a global number is below 1, or occurs twice */
   /* Only of the functions pstripack_scvt*: */
-  PSTRIPACK_BAD_DENSITY = -11, /* the density is not positive, or not finite, at some place */
+  PSTRIPACK_BAD_DENSITY = -11, /* the density is not positive, not finite, or varies too much, at some place;
+                                  or a result is beyond the largest double */
   PSTRIPACK_HEMISPHERE = -12,  /* the generators lie in one hemisphere */
   PSTRIPACK_BAD_LISTS = -13, /* the lists are not those of a triangulation of the sphere by the generators */
   PSTRIPACK_BAD_OPTION = -14 /* an option has a value that is not allowed */

@@ -104,6 +104,28 @@ void check_triangles(const std::vector<Point>& generators, const scvt::Neighbour
   }
 }
 
+/// About a thousand of the generators: where the density is looked at before it is integrated.
+std::vector<Point> some_of(const std::vector<Point>& generators) {
+  std::vector<Point> some;
+  for (std::size_t i = 0; i < generators.size(); i += 1 + generators.size() / 1000)
+    some.push_back(generators[i]);
+  return some;
+}
+
+/// Throws the reason why the cell of generator i is not good.
+[[noreturn]] void refuse_cell(const std::vector<Point>& generators, const scvt::NeighbourLists& stars,
+                              std::size_t i) {
+  constexpr double kTooNear = 1e-60;  // then the integrals may be below all doubles
+  const std::size_t j = scvt::nearest_neighbour(generators.data(), stars, i);
+  const auto [first, second] =
+      std::minmax({static_cast<std::int64_t>(i) + 1, static_cast<std::int64_t>(j) + 1});
+  const Point d = minus(generators[j], generators[i]);
+  if (d == Point{0, 0, 0}) throw scvt::CoincidentGenerators(first, second);
+  if (dot(d, d) < kTooNear * kTooNear) throw scvt::GeneratorsTooNear(first, second);
+  throw Refusal{PSTRIPACK_BAD_LISTS, "the lists are not those of the generators: the cell of generator " +
+                                         std::to_string(i + 1) + " has no mass"};
+}
+
 }  // namespace
 
 extern "C" {
@@ -136,24 +158,37 @@ int32_t pstripack_scvt_step(int32_t n, const double* x, const double* y, const d
     const std::vector<Point> generators = scvt::unit_vectors(points_of(n, x, y, z));
     const StarsOfLists lists({generators.size(), list, lptr, lend, 0});
     check_triangles(generators, lists.stars());
+    const scvt::NeighbourLists stars = lists.stars();
+    const DensityOfCaller values(density);
+    const scvt::ScaledDensity scaled(values, scvt::largest_value(values, some_of(generators)));
     scvt::Cells cells;
-    scvt::integrate(generators.data(), lists.stars(), DensityOfCaller(density), cells);
-    scvt::ExactSum sum;
+    scvt::integrate(generators.data(), stars, scaled, cells);
+    scvt::ExactSum sum, area;
     for (std::size_t i = 0; i < generators.size(); ++i) {
-      if (!(cells.mass[i] > 0) || !std::isfinite(cells.mass[i]))
-        throw Refusal{PSTRIPACK_BAD_LISTS,
-                      "the lists are not those of the generators: the cell of generator " +
-                          std::to_string(i + 1) + " has no mass"};
+      if (!is_good(cells, i)) refuse_cell(generators, stars, i);
       sum.add(cells.energy[i]);
+      area.add(cells.mass[i]);
     }
+    if (values.is_constant() && !scvt::is_sphere(area.value()))
+      throw Refusal{PSTRIPACK_BAD_LISTS,
+                    "the lists are not those of the generators: the areas of their cells add up to " +
+                        std::to_string(area.value())};
+    // Beyond the largest double only if the density is.
+    const auto unscaled = [&](double value, const char* what) {
+      const double v = std::ldexp(value, scaled.exponent());
+      if (!std::isfinite(v)) throw scvt::DensityOutOfRange(what, scaled.largest());
+      return v;
+    };
+    const double all = unscaled(sum.value(), "the energy");
+    for (double& m : cells.mass) unscaled(m, "the mass of a cell");
     for (std::size_t i = 0; i < generators.size(); ++i) {
       const Point c = scvt::centroid(cells, i, generators[i]);
       xc[i] = c.x;
       yc[i] = c.y;
       zc[i] = c.z;
+      if (mass != nullptr) mass[i] = std::ldexp(cells.mass[i], scaled.exponent());
     }
-    if (mass != nullptr) std::copy(cells.mass.begin(), cells.mass.end(), mass);
-    if (energy != nullptr) *energy = sum.value();
+    if (energy != nullptr) *energy = all;
   });
 }
 

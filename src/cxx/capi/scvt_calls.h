@@ -56,9 +56,9 @@ std::int32_t guarded_scvt(char* message, std::int32_t length, const Body& body) 
     return PSTRIPACK_OK;
   } catch (const Refusal& refusal) {
     return say(refusal.code, refusal.why.c_str());
-  } catch (const scvt::BadDensity& error) {
-    return say(PSTRIPACK_BAD_DENSITY, error.what());
   } catch (const scvt::CoincidentGenerators& error) {
+    return say(PSTRIPACK_COINCIDENT, error.what());
+  } catch (const scvt::GeneratorsTooNear& error) {
     return say(PSTRIPACK_COINCIDENT, error.what());
   } catch (const scvt::BadNumber& error) {
     return say(PSTRIPACK_BAD_NUMBER, error.what());

@@ -4,8 +4,16 @@
 // perpendicular to g and to each other. The point x, y of the plane is projected from the centre to
 // p = (g + x e1 + y e2)/sqrt(1+s), s = x^2 + y^2, and dxdy in the plane is dxdy/(1+s)^(3/2) on the sphere.
 // Great circles are straight lines in the plane: a cell is a convex polygon around 0. With u = neighbour - g
-// the points equidistant from the neighbour and g are x u.e1 + y u.e2 = u.u/2. So a corner, the circumcentre
-// of g and two neighbours, solves two linear equations: no square root, no cancellation.
+// the points equidistant from the neighbour and g are x u.e1 + y u.e2 = u.u/2 = 1 - neighbour.g. So a corner,
+// the circumcentre of g and two neighbours, solves two linear equations: no square root, no cancellation.
+//
+// Cells are those of the directions of the generators. Unit vectors are rounded, also in length, by some
+// r = 2^-53. That changes u.e1 and u.e2 by r |u|, however small |u| is, but u.u by r^2. So below |u| = 1e-8
+// u.u is taken from u.e1 and u.e2, for which 1 - neighbour.g = u.u/2 is then exact to 1e-16. Two neighbours
+// that are nearly in line with g make a large angle where they are: there their corner is found, if they are
+// near each other. So corners are right to some r of their distance from g, over the sine of the larger of
+// the two angles, at every scale; and integrals to the errors below and some r times the cell's length over
+// its width.
 //
 // A triangle of 0 and two consecutive corners P, Q has the points r (P + t (Q-P)), 0 < r < 1, 0 < t < 1,
 // and dxdy = det(P,Q) r dr dt. On a ray (t fixed) with z = r^2 s(t) the three integrands are
@@ -14,8 +22,9 @@
 //     pull      density (x,y) (1+z)^(-2)                   = density (x,y) (1 - 2 z + 3 z^2 - ...)
 // These are power series in z times a polynomial in r, integrated over r term by term. Over t the rule is
 // Gauss's with three points, exact for z^2. In a cell with s <= kSmall at all corners the error is below
-// 5e-7, and falls with s^2. If the density is constant and s <= kTiny, three terms are enough: the next are
-// below 2e-7, and fall with s^3; the integrals over t then have closed forms.
+// 5e-8, that of the energy below 5e-7 in a round cell and 1.5e-5 in a long one (found by trial), and falls
+// with s^2. If the density is constant and s <= kTiny, three terms are enough: the next are below 2e-7, and
+// fall with s^3; the integrals over t then have closed forms.
 //
 // The density is interpolated by a polynomial of degree 2 in each triangle, from its values at 0, P, Q and
 // the midpoints of the three sides: on a ray density = a + b(t) r + c(t) r^2. Its products with the weights
@@ -23,7 +32,8 @@
 //
 // Larger cells, and cells in which the density varies by more than a factor of kRough, are cut into small
 // spherical triangles, each with a rule of seven points (Radon 1948). Its weights are positive, so mass and
-// energy are positive for any density.
+// energy are positive for any density. Points are kept as their difference to g, in the axes e1, e2, g: so
+// nothing is lost in a rough cell that is small.
 
 #include "scvt/cells.h"
 
@@ -31,7 +41,6 @@
 #include <cmath>
 
 #include "base/parallel_for.h"
-#include "scvt/errors.h"
 #include "scvt/vectors.h"
 
 namespace pstripack::scvt {
@@ -39,8 +48,8 @@ namespace {
 
 constexpr double kTiny = 4e-3, kSmall = 0.02;  ///< s of the farthest corner
 constexpr double kRough = 4;                   ///< largest density in a cell over the smallest
-
-bool is_good(double density) { return density > 0 && std::isfinite(density); }
+constexpr double kClose = 1e-16;               ///< u.u of neighbours where the rounding of lengths matters
+constexpr double kFlat = 1e-16;                ///< squared sine of an angle too small to find its corner from
 
 /// Two axes perpendicular to the unit vector g and to each other (Duff et al. 2017).
 struct Axes {
@@ -53,44 +62,59 @@ struct Axes {
   Point e1, e2;
 };
 
+/// A neighbour as seen from g: the components of its difference to g along the axes, and minus that along g.
+struct Spoke {
+  Spoke(const Point& neighbour, const Point& g, const Axes& axes) {
+    const Point d = minus(neighbour, g);
+    u = dot(d, axes.e1);
+    v = dot(d, axes.e2);
+    const double square = dot(d, d);
+    half = square / 2;
+    if (__builtin_expect(square < kClose, false)) half = (u * u + v * v) / 2;
+  }
+  double u, v, half;
+};
+
 struct Sums {
-  double mass = 0, energy = 0;
-  Point pull{0, 0, 0};  ///< integral of density times p-g, including its part along g
+  double mass = 0, energy = 0, pull_x = 0, pull_y = 0;
 };
 
 // ---- large or rough cells -----------------------------------------------------------------------------
 
 class LargeCell {
  public:
-  explicit LargeCell(const Density& density) : density_(density) {}
+  explicit LargeCell(const ScaledDensity& density) : density_(density) {}
 
   /// Integrates the cell of g. ring[0..count-1] are its neighbours, as indices from 1 into points[].
-  Sums integrate(const Point* points, const Point& g, const std::int32_t* ring, std::size_t count) {
-    const auto spoke = [&](std::size_t k) { return minus(points[static_cast<std::size_t>(ring[k]) - 1], g); };
-    points_.clear();
+  Sums integrate(const Point* points, const Point& g, const Axes& axes, const std::int32_t* ring,
+                 std::size_t count) {
+    const auto neighbour = [&](std::size_t k) { return points[static_cast<std::size_t>(ring[k]) - 1]; };
+    offsets_.clear();
     weights_.clear();
-    Point before = spoke(count - 1), first{0, 0, 0}, last{0, 0, 0};
+    Point before = neighbour(count - 1), first{0, 0, 0}, last{0, 0, 0};
     for (std::size_t k = 0; k < count; ++k) {
-      const Point next = spoke(k), corner = normalized(cross(before, next));
+      const Point next = neighbour(k), corner = corner_of(g, axes, before, next);
       if (k == 0)
         first = corner;
       else
-        cut(g, last, corner, kMostCuts);
+        add_side(last, corner, Spoke(before, g, axes));
       last = corner;
       before = next;
     }
-    cut(g, last, first, kMostCuts);
+    add_side(last, first, Spoke(before, g, axes));
 
-    values_.resize(points_.size());
-    density_.at(points_.size(), points_.data(), values_.data());
+    places_.clear();
+    for (const Point& d : offsets_) places_.push_back(plus(g, in_space(d, g, axes)));
+    values_.resize(places_.size());
+    density_.at(places_.size(), places_.data(), values_.data());
     Sums sums;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      if (!is_good(values_[i])) throw BadDensity(points_[i], values_[i]);
-      const Point d = minus(points_[i], g);
+    for (std::size_t i = 0; i < offsets_.size(); ++i) {
+      const Point& d = offsets_[i];
       const double mass = weights_[i] * values_[i];
       sums.mass += mass;
       sums.energy += mass * dot(d, d);
-      sums.pull = plus(sums.pull, scaled(mass, d));
+      sums.pull_x += mass * d.x;
+      sums.pull_y += mass * d.y;
     }
     return sums;
   }
@@ -99,13 +123,61 @@ class LargeCell {
   static constexpr int kMostCuts = 8;
   static constexpr double kLongest = 0.1;  ///< triangles with a longer side are cut
 
+  // Points of the sphere are their differences to g, in the axes e1, e2, g.
+
+  static Point in_space(const Point& d, const Point& g, const Axes& axes) {
+    return plus(plus(scaled(d.x, axes.e1), scaled(d.y, axes.e2)), scaled(d.z, g));
+  }
+
+  /// The corner of g's cell between two consecutive neighbours, which is equally far from all three.
+  static Point corner_of(const Point& g, const Axes& axes, const Point& before, const Point& next) {
+    constexpr double kNeedle = 1e-6;  // square of the ratio of two sides
+    const Spoke to_before(before, g, axes), to_next(next, g, axes);
+    const Point side = minus(next, before);
+    if (!(dot(side, side) < kNeedle * std::min(to_before.half, to_next.half)))
+      return between(to_before, to_next);
+    const Axes there(before);
+    const Point d = in_space(between(Spoke(next, before, there), Spoke(g, before, there)), before, there);
+    return {to_before.u + dot(d, axes.e1), to_before.v + dot(d, axes.e2), dot(d, g) - to_before.half};
+  }
+
+  /// The same in homogeneous coordinates, which has a sign beyond the hemisphere, too.
+  static Point between(Spoke a, Spoke b) {
+    for (Spoke* const s : {&a, &b}) {  // so that no product underflows
+      const double size = std::max({std::fabs(s->u), std::fabs(s->v), s->half});
+      s->u /= size, s->v /= size, s->half /= size;
+    }
+    const double x = a.half * b.v - a.v * b.half, y = a.u * b.half - a.half * b.u, w = a.u * b.v - a.v * b.u;
+    const double square = x * x + y * y, r = std::sqrt(square + w * w);
+    return {x / r, y / r, w > 0 ? -square / (r * (r + w)) : w / r - 1};
+  }
+
+  /// The triangle of g and the side from a to b, which the cell shares with the cell of `neighbour`.
+  void add_side(const Point& a, const Point& b, const Spoke& neighbour) {
+    const Point g{0, 0, 0};
+    if (a.x * b.x + a.y * b.y + (1 + a.z) * (1 + b.z) > -0.9) {
+      cut(g, a, b, kMostCuts);
+      return;
+    }
+    // Nearly a half turn: a and b do not tell where the side is.
+    const Point m = middle(g, {neighbour.u, neighbour.v, -neighbour.half});
+    cut(g, a, m, kMostCuts);
+    cut(g, m, b, kMostCuts);
+  }
+
+  static Point middle(const Point& a, const Point& b) {
+    const Point m = scaled(0.5, plus(a, b)), d = minus(a, b);
+    const double length = std::sqrt(m.x * m.x + m.y * m.y + (1 + m.z) * (1 + m.z));
+    return {m.x / length, m.y / length, (m.z + dot(d, d) / (4 * (1 + length))) / length};
+  }
+
   void cut(const Point& a, const Point& b, const Point& c, int cuts) {
     const Point ab = minus(b, a), bc = minus(c, b), ca = minus(a, c);
     if (cuts == 0 || std::max({dot(ab, ab), dot(bc, bc), dot(ca, ca)}) <= kLongest * kLongest) {
       add(a, b, c);
       return;
     }
-    const Point p = normalized(plus(a, b)), q = normalized(plus(b, c)), r = normalized(plus(c, a));
+    const Point p = middle(a, b), q = middle(b, c), r = middle(c, a);
     cut(a, p, r, cuts - 1);
     cut(p, b, q, cuts - 1);
     cut(r, q, c, cuts - 1);
@@ -118,12 +190,12 @@ class LargeCell {
     // (6 -+ sqrt(15))/21 and weights (155 -+ sqrt(15))/1200.
     constexpr double kNear = 0.10128650732345634, kFar = 0.47014206410511509;
     constexpr double kWeight[3] = {0.225, 0.12593918054482715, 0.13239415278850618};
-    const double half = dot(a, cross(minus(b, a), minus(c, a))) / 2;
+    const double half = dot({a.x, a.y, 1 + a.z}, cross(minus(b, a), minus(c, a))) / 2;
     const auto put = [&](double u, double v, double w, double weight) {
       const Point q = plus(plus(scaled(u, a), scaled(v, b)), scaled(w, c));
-      const double square = dot(q, q), length = std::sqrt(square);
-      points_.push_back(scaled(1 / length, q));
-      weights_.push_back(half * weight / (square * length));
+      const double more = 2 * q.z + dot(q, q), length = std::sqrt(1 + more);
+      offsets_.push_back({q.x / length, q.y / length, (q.z - more / (1 + length)) / length});
+      weights_.push_back(half * weight / ((1 + more) * length));
     };
     put(1.0 / 3, 1.0 / 3, 1.0 / 3, kWeight[0]);
     for (const auto& [s, weight] : {std::pair(kNear, kWeight[1]), std::pair(kFar, kWeight[2])}) {
@@ -133,8 +205,8 @@ class LargeCell {
     }
   }
 
-  const Density& density_;
-  std::vector<Point> points_;
+  const ScaledDensity& density_;
+  std::vector<Point> offsets_, places_;
   std::vector<double> weights_, values_;
 };
 
@@ -164,9 +236,11 @@ void find_corners(Entries& e) {
 #endif
   for (std::size_t k = 0; k + 1 < e.count; ++k) {
     const double det = u[k] * v[k + 1] - v[k] * u[k + 1], inverse = 1 / det;
+    const bool is_flat = det * det < 4 * kFlat * (half[k] * half[k + 1]);
     x[k] = (half[k] * v[k + 1] - v[k] * half[k + 1]) * inverse;
     y[k] = (u[k] * half[k + 1] - half[k] * u[k + 1]) * inverse;
-    s[k] = std::copysign(x[k] * x[k] + y[k] * y[k], det);  // < 0 or NaN: the corner has no image in the plane
+    // < 0 or NaN: the corner has no image in the plane, or it is uncertain
+    s[k] = std::copysign(x[k] * x[k] + y[k] * y[k], is_flat ? -1.0 : det);
   }
 }
 
@@ -201,17 +275,15 @@ void integrate_tiny(Entries& e) {
 class SmallCells {
  public:
   static constexpr std::size_t kCells = 64;  ///< so few that their arrays fit the first-level cache
-  SmallCells(const Point* points, const NeighbourLists& stars, const Density& density, Cells& cells)
+  SmallCells(const Point* points, const NeighbourLists& stars, const ScaledDensity& density, Cells& cells)
       : points_(points),
         stars_(stars),
         slots_(stars.end_of(stars.count - 1)),
         density_(density),
         cells_(cells),
         large_(density) {
-    if (density.is_constant()) {
-      constant_ = density.at({1, 0, 0});
-      if (!is_good(constant_)) throw BadDensity({1, 0, 0}, constant_);
-    }
+    const Point anywhere{1, 0, 0};
+    if (density.is_constant()) density.at(1, &anywhere, &constant_);
   }
 
   void integrate(std::size_t first, std::size_t last) {
@@ -278,10 +350,10 @@ class SmallCells {
       const std::int32_t* const ring = stars_.neighbour + begin;
       for (std::size_t j = 0; j < count; ++j) {
         __builtin_prefetch(points_ + (ring[j + ahead] - 1));
-        const Point d = minus(points_[static_cast<std::size_t>(ring[j]) - 1], g);
-        u[k + j] = dot(d, axes.e1);
-        v[k + j] = dot(d, axes.e2);
-        half[k + j] = dot(d, d) / 2;
+        const Spoke spoke(points_[static_cast<std::size_t>(ring[j]) - 1], g, axes);
+        u[k + j] = spoke.u;
+        v[k + j] = spoke.v;
+        half[k + j] = spoke.half;
       }
       u[k + count] = u[k], v[k + count] = v[k], half[k + count] = half[k];
       axes_[i - first_] = axes;
@@ -319,11 +391,12 @@ class SmallCells {
 
   void integrate_large(std::size_t i) {
     const std::size_t begin = stars_.begin_of(i);
-    const Point& g = points_[i];
-    const Sums sums = large_.integrate(points_, g, stars_.neighbour + begin, stars_.end_of(i) - begin);
+    const Axes& axes = axes_[i - first_];
+    const Sums sums =
+        large_.integrate(points_, points_[i], axes, stars_.neighbour + begin, stars_.end_of(i) - begin);
     cells_.mass[i] = sums.mass;
     cells_.energy[i] = sums.energy;
-    cells_.pull[i] = minus(sums.pull, scaled(dot(sums.pull, g), g));
+    cells_.pull[i] = plus(scaled(sums.pull_x, axes.e1), scaled(sums.pull_y, axes.e2));
   }
 
   /// Evaluates the density. The places of a cell: its generator; for each entry the corner, the midpoint of
@@ -347,8 +420,6 @@ class SmallCells {
     });
     values_.resize(samples_.size());
     density_.at(samples_.size(), samples_.data(), values_.data());
-    for (std::size_t j = 0; j < values_.size(); ++j)
-      if (!is_good(values_[j])) throw BadDensity(samples_[j], values_[j]);
   }
 
   void integrate_samples() {
@@ -410,7 +481,7 @@ class SmallCells {
   const Point* const points_;
   const NeighbourLists& stars_;
   const std::size_t slots_;  ///< number of neighbours of all cells
-  const Density& density_;
+  const ScaledDensity& density_;
   Cells& cells_;
   LargeCell large_;
   double constant_ = 0;
@@ -426,10 +497,27 @@ class SmallCells {
 }  // namespace
 
 Point centroid(const Cells& cells, std::size_t i, const Point& g) {
-  return normalized(plus(cells.pull[i], scaled(cells.mass[i] - cells.energy[i] / 2, g)));
+  const double mass = cells.mass[i];
+  const Point moment = plus(cells.pull[i], scaled(mass - cells.energy[i] / 2, g));
+  if (mass > 0x1p-300 && mass < 0x1p300) return normalized(moment);
+  return normalized(scaled(std::ldexp(1, -std::clamp(std::ilogb(mass), -1000, 1000)), moment));
 }
 
-void integrate(const Point* points, const NeighbourLists& stars, const Density& density, Cells& cells) {
+std::size_t nearest_neighbour(const Point* points, const NeighbourLists& stars, std::size_t i) {
+  std::size_t nearest = i;
+  double least = 5;
+  for (std::size_t s = stars.begin_of(i); s < stars.end_of(i); ++s) {
+    const auto j = static_cast<std::size_t>(stars.neighbour[s]) - 1;
+    const Point d = minus(points[j], points[i]);
+    if (const double square = dot(d, d); square < least) {
+      least = square;
+      nearest = j;
+    }
+  }
+  return nearest;
+}
+
+void integrate(const Point* points, const NeighbourLists& stars, const ScaledDensity& density, Cells& cells) {
   cells.resize(stars.count);
   if (stars.count == 0) return;  // a rank without generators
   const int threads = density.is_serial() ? 1 : threads_for(10 * stars.count);

@@ -27,6 +27,33 @@ class Density {
   }
 };
 
+/// A density times 2^-exponent, so that products of integrals neither overflow nor underflow. Where they
+/// would not anyway, all results but for that factor have the same bits.
+class ScaledDensity {
+ public:
+  /// The density as it is.
+  ScaledDensity(const Density& density) : density_(&density) {}  // NOLINT(google-explicit-constructor)
+  /// For a density whose largest value is about `largest`. The exponent is 0 if that is within 2^+-300.
+  ScaledDensity(const Density& density, double largest);
+
+  /// The scaled values. Throws BadDensity if one is not positive and finite, or not within 2^+-700.
+  void at(std::size_t n, const Point* p, double* value) const;
+  bool is_constant() const { return density_->is_constant(); }
+  bool is_serial() const { return density_->is_serial(); }
+  int exponent() const { return exponent_; }
+  double largest() const { return largest_; }
+  const Density& density() const { return *density_; }
+
+ private:
+  const Density* density_;
+  double largest_ = 1, factor_ = 1;
+  int exponent_ = 0;
+};
+
+/// The density at the points, and the largest of these values. Throw BadDensity.
+std::vector<double> values_at(const std::vector<Point>& points, const Density& density);
+double largest_value(const Density& density, const std::vector<Point>& points);
+
 class ConstantDensity final : public Density {
  public:
   explicit ConstantDensity(double value = 1) : value_(value) {}

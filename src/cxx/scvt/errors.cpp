@@ -23,15 +23,30 @@ std::string number(double value) {
 
 }  // namespace
 
-BadDensity::BadDensity(const Point& p, double v)
+BadDensity::BadDensity(const Point& p, double v, double value_elsewhere)
     : NoTessellation("the density is " + number(v) + " at " + lon_lat(p) +
-                     ": it must be positive and finite everywhere"),
+                     (v > 0 && std::isfinite(v)
+                          ? " and " + number(value_elsewhere) + " elsewhere: the ratio is too large"
+                          : ": it must be positive and finite everywhere")),
       place(p),
-      value(v) {}
+      value(v),
+      elsewhere(value_elsewhere) {}
+
+DensityOutOfRange::DensityOutOfRange(const char* result, double largest)
+    : NoTessellation(std::string(result) +
+                     " is beyond the largest double: divide the density, which reaches " + number(largest) +
+                     ", by a constant") {}
 
 CoincidentGenerators::CoincidentGenerators(std::int64_t f, std::int64_t s)
     : BadGenerators("generators " + std::to_string(f) + " and " + std::to_string(s) +
                     " coincide: remove one of them"),
+      first(f),
+      second(s) {}
+
+GeneratorsTooNear::GeneratorsTooNear(std::int64_t f, std::int64_t s)
+    : BadGenerators("the cell of generator " + std::to_string(f) +
+                    " is too small: move it away from generator " + std::to_string(s) +
+                    ", or remove one of them"),
       first(f),
       second(s) {}
 

@@ -13,10 +13,15 @@ struct NoTessellation : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A value that is not positive and finite, or too far from another one.
 struct BadDensity : NoTessellation {
-  BadDensity(const Point& p, double v);
+  BadDensity(const Point& p, double v, double value_elsewhere = 1);
   Point place;
-  double value;
+  double value, elsewhere;
+};
+/// The density is so large, or so small, that a result would be beyond the doubles.
+struct DensityOutOfRange : NoTessellation {
+  DensityOutOfRange(const char* result, double largest);
 };
 
 struct BadGenerators : NoTessellation {
@@ -25,6 +30,12 @@ struct BadGenerators : NoTessellation {
 /// Two generators coincide; numbers from 1.
 struct CoincidentGenerators : BadGenerators {
   CoincidentGenerators(std::int64_t f, std::int64_t s);
+  std::int64_t first, second;
+};
+/// The cell of a generator is so small, or so thin, that doubles do not hold its integrals. `second` is its
+/// nearest neighbour.
+struct GeneratorsTooNear : BadGenerators {
+  GeneratorsTooNear(std::int64_t f, std::int64_t s);
   std::int64_t first, second;
 };
 /// A global number of a generator is below 1, or occurs twice.

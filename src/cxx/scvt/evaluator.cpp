@@ -102,8 +102,30 @@ NeighbourLists triangulate(const std::vector<Point>& generators, std::vector<std
 
 Neighbourhood Evaluator::evaluate(const std::vector<Point>& generators, Cells& cells) {
   const Neighbourhood here = triangulate(generators);
-  in_agreement_with_caller(ranks(), [&] { integrate(here.points, here.stars, density_, cells); });
+  if (!is_scaled_) {
+    LargestReal most;
+    in_agreement_with_caller(
+        ranks(), [&] { most.value = largest_value(density(), generators); }, most);
+    scaled_ = ScaledDensity(density(), most.value);
+    is_scaled_ = true;
+  }
+  in_agreement_with_caller(ranks(), [&] { integrate(here.points, here.stars, scaled_, cells); });
   return here;
+}
+
+void Evaluator::refuse(const Neighbourhood& here, const Cells& cells) {
+  const NeighbourLists& stars = here.stars;
+  Smallest first, second;
+  std::size_t bad = stars.count;
+  for (std::size_t i = 0; i < stars.count; ++i)
+    if (!is_good(cells, i) && (bad == stars.count || here.numbers[i] < here.numbers[bad])) bad = i;
+  if (bad < stars.count) first.value = here.numbers[bad];
+  agree(ranks(), first);
+  if (!first.exists()) throw BadGenerators("the gradient of the energy is not finite");
+  if (bad < stars.count && here.numbers[bad] == first.value)
+    second.value = here.numbers[nearest_neighbour(here.points, stars, bad)];
+  agree(ranks(), second);
+  throw GeneratorsTooNear(first.value, second.value);
 }
 
 void Evaluator::add_up(ExactSum* sums, std::size_t count) {

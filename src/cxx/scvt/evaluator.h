@@ -14,18 +14,23 @@
 
 namespace pstripack::scvt {
 
-/// Evaluates generators: all on this process, or a part on each rank. All members except ranks() and
-/// density() are collective; they have the same results and throw the same exceptions on all ranks.
+/// Evaluates generators: all on this process, or a part on each rank. All members except ranks(),
+/// density(), scaled() and scale_anew() are collective; they have the same results and throw the same
+/// exceptions on all ranks.
 class Evaluator {
  public:
   /// The density must outlive the evaluator.
-  explicit Evaluator(const Density& density) : density_(density) {}
+  explicit Evaluator(const Density& density) : scaled_(density) {}
   virtual ~Evaluator() = default;
   Evaluator(const Evaluator&) = delete;
   Evaluator& operator=(const Evaluator&) = delete;
 
   virtual Communicator& ranks() = 0;
-  const Density& density() const { return density_; }
+  const Density& density() const { return scaled_.density(); }
+  /// What evaluate() integrates: until scale_anew() is called the density as it is.
+  const ScaledDensity& scaled() const { return scaled_; }
+  /// Makes the next evaluate() scale the density by its largest value at the generators.
+  void scale_anew() { is_scaled_ = false; }
 
   /// Sets the global numbers of this rank's generators.
   virtual void begin_with(const std::vector<std::int64_t>& numbers) = 0;
@@ -42,11 +47,14 @@ class Evaluator {
   void add_up(ExactSum* sums, std::size_t count);
   /// The largest of the values of all ranks, which must not be negative.
   double largest(double value);
+  /// Throws GeneratorsTooNear for the first generator whose cell, evaluated last, is not good.
+  [[noreturn]] void refuse(const Neighbourhood& here, const Cells& cells);
   /// Runs body() on every rank. If memory runs out on any of them, all ranks throw.
   void allocate(const std::function<void()>& body);
 
  private:
-  const Density& density_;
+  ScaledDensity scaled_;
+  bool is_scaled_ = true;
 };
 
 /// All generators are on this process, with the numbers 1, 2, ... They are triangulated by TRMESH, on

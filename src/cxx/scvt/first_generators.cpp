@@ -199,14 +199,6 @@ std::vector<Middle> middles_of(const Neighbourhood& generators, const Density& d
 
 }  // namespace
 
-std::vector<double> values_at(const std::vector<Point>& points, const Density& density) {
-  std::vector<double> values(points.size());
-  density.at(points.size(), points.data(), values.data());
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (!(values[i] > 0 && std::isfinite(values[i]))) throw BadDensity(points[i], values[i]);
-  return values;
-}
-
 Spread random_generators(Evaluator& evaluator, std::size_t n, std::uint64_t seed) {
   if (n < 4) throw BadGenerators("a tessellation needs at least 4 generators, here are " + std::to_string(n));
   // Seven in eight sets of four random points lie in a hemisphere. So do nearly all sets of few points if

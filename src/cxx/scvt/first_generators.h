@@ -31,7 +31,4 @@ std::vector<std::size_t> level_sizes(std::size_t n);
 /// out. Neighbours on the sphere have close numbers. Collective. Throws BadDensity, AgreedFailure.
 Spread refined(Communicator& ranks, const Neighbourhood& generators, const Density& density, std::size_t n);
 
-/// The density at the points. Throws BadDensity.
-std::vector<double> values_at(const std::vector<Point>& points, const Density& density);
-
 }  // namespace pstripack::scvt

@@ -11,6 +11,7 @@
 namespace pstripack::scvt {
 namespace {
 
+constexpr double kApart = 1e-12;  ///< square of a distance: floats do not tell nearer points apart
 constexpr int kPasses = 8;
 constexpr double kMost = 2, kLeast = kMost / (kPasses * kPasses);  ///< eigenvalues of A/D
 
@@ -58,7 +59,8 @@ void Metric::set(const Neighbourhood& here, const Cells& cells) {
       const double k = (share_[i] + share_[j]) / (share_[i] * pstripack::dot(e, e));
       squares = plus(squares, scaled(k, {t.x * t.x, t.y * t.y, t.z * t.z}));
       products = plus(products, scaled(k, {t.x * t.y, t.y * t.z, t.z * t.x}));
-      spring_[s] = static_cast<float>(k);
+      // Without it solve() leaves out an arc; the metric stays symmetric and positive.
+      spring_[s] = pstripack::dot(e, e) < kApart ? 0 : static_cast<float>(k);
     }
     // The larger of the two non-zero eigenvalues: their sum is the trace, and the sum of their squares is
     // that of the squares of all entries.

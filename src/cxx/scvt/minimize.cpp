@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -54,14 +55,16 @@ class Minimizer {
       products_.reserve(kPairs + 1);
     });
     total_ = sum_of([](std::size_t) { return 1.0; });
-    for (const State::Pair& pair : state_.pairs) products_.push_back(product_of(pair));
+    evaluator_.scale_anew();
   }
 
   Result run() {
     evaluate(here_);
+    scale_pairs();
+    for (const State::Pair& pair : state_.pairs) products_.push_back(product_of(pair));
     if (state_.steps == 0) state_.evaluations = 1;  // of a continued run this evaluation was counted before
     End end = End::converged;
-    while (here_.gradient > options_.tolerance) {
+    while (!(here_.gradient <= options_.tolerance)) {
       if (state_.evaluations >= options_.most_evaluations) {
         end = End::evaluations;
         break;
@@ -77,12 +80,37 @@ class Minimizer {
         break;
       }
     }
+    check_sum();
     return {end, progress(), std::move(here_.cells)};
   }
 
  private:
   Progress progress() const {
-    return {static_cast<std::int64_t>(total_), state_.evaluations, here_.gradient, here_.energy};
+    const ScaledDensity& density = evaluator_.scaled();
+    const double energy = std::ldexp(here_.energy, density.exponent());
+    if (!std::isfinite(energy)) throw DensityOutOfRange("the energy", density.largest());
+    return {static_cast<std::int64_t>(total_), state_.evaluations, here_.gradient, energy};
+  }
+
+  /// Gives the changes of the pairs the exponent of the evaluator.
+  void scale_pairs() {
+    const int by = state_.exponent - evaluator_.scaled().exponent();
+    if (by != 0)
+      for (State::Pair& pair : state_.pairs)
+        for (Point& p : pair.change) p = {std::ldexp(p.x, by), std::ldexp(p.y, by), std::ldexp(p.z, by)};
+    state_.exponent = evaluator_.scaled().exponent();
+  }
+
+  /// The cells of a constant density must add up to the sphere.
+  void check_sum() {
+    if (!evaluator_.density().is_constant()) return;
+    const Point anywhere{1, 0, 0};
+    double value = 0;
+    evaluator_.scaled().at(1, &anywhere, &value);
+    const double area = sum_of([&](std::size_t i) { return here_.cells.mass[i]; }) / value;
+    if (!is_sphere(area))
+      throw NoTessellation("the areas of the cells add up to " + std::to_string(area) +
+                           " instead of 4 pi: some generators are too near each other");
   }
 
   /// Sums of terms(i), which is an array of doubles, over the generators i of all ranks. terms(i) may write
@@ -113,12 +141,15 @@ class Minimizer {
   }
 
   void evaluate(Place& place) {
+    constexpr double kNotFinite = std::numeric_limits<double>::quiet_NaN();
     last_ = evaluator_.evaluate(place.generators, place.cells);
     const auto sums = sum([&](std::size_t i) {
       const Point& g = place.generators[i];
       const Point move = minus(centroid(place.cells, i, g), g);
-      return std::array<double, 2>{place.cells.energy[i], dot(move, move)};
+      return std::array<double, 2>{is_good(place.cells, i) ? place.cells.energy[i] : kNotFinite,
+                                   dot(move, move)};
     });
+    if (!std::isfinite(sums[0]) || !std::isfinite(sums[1])) evaluator_.refuse(last_, place.cells);
     place.energy = sums[0];
     constexpr double kSphere = 12.566370614359172;
     place.gradient = std::sqrt(sums[1] / total_ / (kSphere / total_));

@@ -43,6 +43,7 @@ struct State {
 
   std::vector<Point> generators;
   std::vector<Pair> pairs;  ///< the oldest first
+  int exponent = 0;         ///< the changes are those of the gradient times 2^-exponent
   std::int64_t evaluations = 0, steps = 0;
   /// Number of times the quasi-Newton method fell back to a step of Lloyd's method, by cause.
   std::int64_t no_descent = 0;   ///< the direction was not a direction of descent
@@ -59,7 +60,7 @@ enum class End {
 struct Result {
   End end = End::converged;
   Progress progress;  ///< of the generators in the state
-  Cells cells;        ///< of the generators in the state
+  Cells cells;        ///< of the generators in the state, of the density times 2^-exponent
 };
 
 /// Moves the generators in the state until the gradient is at most the tolerance. The energy never rises.
@@ -67,7 +68,9 @@ struct Result {
 /// Newton: L-BFGS (Nocedal 1980; Liu et al. 2009 for this energy) with 8 pairs and the initial metric of
 /// metric.h. The energy is a function of the directions of the generators, so its gradient is perpendicular
 /// to them; after each step the generators are scaled to unit length. The result has the same bits for any
-/// number of threads and ranks. Collective. Throws what Evaluator::evaluate throws.
+/// number of threads and ranks. A density is scaled by a power of two where it is very large or small. All
+/// numbers of the result are finite, and the cells of a constant density add up to the sphere. Collective.
+/// Throws what Evaluator::evaluate throws, GeneratorsTooNear, DensityOutOfRange, NoTessellation.
 Result minimize(Evaluator& evaluator, State& state, const Options& options);
 
 }  // namespace pstripack::scvt

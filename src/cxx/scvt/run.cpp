@@ -96,6 +96,7 @@ Tessellation slice_of(Communicator& ranks, const Tessellation& t) {
   Tessellation slice;
   slice.state.evaluations = t.state.evaluations;
   slice.state.steps = t.state.steps;
+  slice.state.exponent = t.state.exponent;
   slice.state.no_descent = t.state.no_descent;
   slice.state.no_decrease = t.state.no_decrease;
   std::vector<std::int32_t> ranks_of;
