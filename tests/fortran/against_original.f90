@@ -80,7 +80,11 @@ contains
       i(1, 1) = nearnd(p, start, n, x, y, z, list, lptr, lend, al(1))
       i(1, 2) = csnearnd(p, start, n, x, y, z, list, lptr, lend, al(2))
       call expect(i(1, 1) == i(1, 2), "NEARND: node")
-      call expect(close(al(1), al(2)), "NEARND: AL")
+      if (cos(al(1)) < 1 - 2d0**(-11)) then
+        call expect(close(al(1), al(2)), "NEARND: AL")
+      else  ! the original's is known from its cosine only
+        call expect(abs(cos(al(1)) - cos(al(2))) <= 2*epsilon(1d0), "NEARND: a small AL")
+      end if
     end do
   end subroutine
 

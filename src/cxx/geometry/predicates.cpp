@@ -138,6 +138,21 @@ int left(const Point& a, const Point& b, const Point& c) {
   return left_of_vectors(a, b, c);
 }
 
+int left_of_sum(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const auto det = [](const Point& p, const Point& q, const Point& r) { return dot(cross(p, q), r); };
+  const auto size = [](const Point& p) { return std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z); };
+  const double value = det(a, b, c) + det(a, b, d), bound = size(a) * size(b) * (size(c) + size(d));
+  // Each of the terms, at most the bound together, has 8 roundings.
+  if (bound > 0x1p-800 && bound < 0x1p800 && std::fabs(value) > 0x1p-48 * bound) return value > 0 ? 1 : -1;
+  using exact::Integer;
+  exact::Span together = exact::span_of(c);
+  together.join(d);
+  const auto p = exact::scaled<Integer>(a, exact::span_of(a).low),
+             q = exact::scaled<Integer>(b, exact::span_of(b).low);
+  return exact::sign(Integer(exact::det(p, q, exact::scaled<Integer>(c, together.low)) +
+                             exact::det(p, q, exact::scaled<Integer>(d, together.low))));
+}
+
 int orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
   if (in_parallel_plane(a, b, c, d)) return 0;
   const bool all_moderate = moderate(a) && moderate(b) && moderate(c) && moderate(d);

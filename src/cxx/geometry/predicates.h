@@ -45,6 +45,9 @@ using index_t = std::int32_t;
 /// The exact sign of det(a,b,c): +1, 0, -1. The same for the vectors and for their directions.
 int left(const Point& a, const Point& b, const Point& c);
 
+/// The exact sign of det(a, b, c + d).
+int left_of_sum(const Point& a, const Point& b, const Point& c, const Point& d);
+
 /// The exact sign of det(b-a, c-a, d-a), without tie rule: +1 where d is above the plane of a,b,c.
 int orientation(const Point& a, const Point& b, const Point& c, const Point& d);
 

@@ -481,7 +481,9 @@ Int nearest_exactly(const Vector<Real>& p, Int nearest, Int boundary, const List
                     const Nodes<Real>& nodes) {
   const Point to = as_point(p);
   const auto look_at = [&](Int node) {
-    if (node != nearest && is_finite(nodes[node]) && is_nearer(to, as_point(nodes[node]), as_point(nodes[nearest]))) nearest = node;
+    if (node != nearest && is_finite(nodes[node]) &&
+        is_nearer(to, as_point(nodes[node]), as_point(nodes[nearest])))
+      nearest = node;
   };
   Int node = boundary;
   for (Int left = boundary == 0 ? 0 : reader.size(); left > 0; --left) {
@@ -636,12 +638,14 @@ Int nearnd(const Vector<Real>& p, Int start, const ListsView<Int>& lists, const 
       cosine = other;
     }
   }
-  if (original_rules().follow) {
-    angle = std::acos(std::min(cosine, Real(1)));
-    return nearest;
+  if (!original_rules().follow) {
+    nearest = nearest_exactly(p, nearest, found.i3 == 0 ? found.i1 : Int(0), reader, nodes);
+    cosine = dot(nodes[nearest], p);
   }
-  nearest = nearest_exactly(p, nearest, found.i3 == 0 ? found.i1 : Int(0), reader, nodes);
-  angle = static_cast<Real>(angle_between(as_point(nodes[nearest]), as_point(p)));
+  // The cosine of an angle below 0.03 loses more than ten bits.
+  const bool is_close = cosine > Real(1 - 0x1p-11) && !original_rules().follow;
+  angle = is_close ? static_cast<Real>(angle_between(as_point(nodes[nearest]), as_point(p)))
+                   : std::acos(std::min(cosine, Real(1)));
   return nearest;
 }
 
