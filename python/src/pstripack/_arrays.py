@@ -44,13 +44,16 @@ def read_only(array: NDArray[Any]) -> NDArray[Any]:
 def to_xyz(lon: ArrayLike, lat: ArrayLike, degrees: bool = True) -> Floats:
     """Unit vectors, of shape (..., 3), of longitudes and latitudes.
 
-    In degrees each pole has one vector for all longitudes, and longitudes that differ by 360 have equal vectors.
+    Each pole has one vector for all longitudes. In degrees, longitudes that differ by 360 have equal vectors; in radians
+    the number nearest to a multiple of pi/2, of the arrays' precision, means the multiple.
 
     >>> to_xyz([0, 90, 12], [0, 0, 90])
     array([[1., 0., 0.],
            [0., 1., 0.],
            [0., 0., 1.]])
     """
+    lon, lat = (angle if degrees or angle.dtype != np.float32 else _core.radians_of_single(angle)
+                for angle in (np.asarray(lon), np.asarray(lat)))
     lon, lat = np.broadcast_arrays(np.asarray(lon, np.float64), np.asarray(lat, np.float64))
     limit = 90.0 if degrees else np.pi / 2 * (1 + 1e-15)
     beyond = np.abs(lat) > limit
