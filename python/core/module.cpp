@@ -12,8 +12,8 @@
 #include "arrays.h"
 #include "base/parallel_for.h"
 #include "capi/pstripack.h"
-#include "scvt_run.h"
 #include "point_sets.h"
+#include "scvt_run.h"
 #include "triangulation.h"
 
 namespace {
@@ -183,16 +183,16 @@ py::array vectors(const Array<double>& lon, const Array<double>& lat, bool degre
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   return array_of(compute(0, [&] {
     Buffer<Point> points(n);
-    pstripack::parallel_pieces(
-        n, pstripack::threads_for(4 * n), [&](std::size_t begin, std::size_t end, int) {
-          for (std::size_t i = begin; i < end; ++i) {
-            const double x = lon.data()[i], y = lat.data()[i];
-            if (std::isfinite(x) && std::isfinite(y))
-              points[i] = {cosine(y) * cosine(x), cosine(y) * sine(x), sine(y)};
-            else
-              points[i] = {kNan, kNan, kNan};
-          }
-        });
+    pstripack::parallel_pieces(n, pstripack::threads_for(4 * n),
+                               [&](std::size_t begin, std::size_t end, int) {
+                                 for (std::size_t i = begin; i < end; ++i) {
+                                   const double x = lon.data()[i], y = lat.data()[i];
+                                   if (std::isfinite(x) && std::isfinite(y))
+                                     points[i] = {cosine(y) * cosine(x), cosine(y) * sine(x), sine(y)};
+                                   else
+                                     points[i] = {kNan, kNan, kNan};
+                                 }
+                               });
     return points;
   }));
 }
