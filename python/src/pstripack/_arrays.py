@@ -5,6 +5,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
+from ._errors import CoincidentNodesError
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
@@ -24,6 +25,21 @@ def place_array(places: ArrayLike) -> Floats:
     if array.ndim < 1 or array.shape[-1] != 3:
         raise ValueError(f"places must be an array of shape (..., 3): x, y, z of each; not {array.shape}")
     return array
+
+
+def mesh_of(points: Floats, threshold: float, threads: int) -> _core.Mesh:
+    """The mesh of nodes that are further than the threshold, in radians, from each other."""
+    if not threshold >= 0:
+        raise ValueError(f"threshold must be at least 0, in radians, not {threshold}")
+    mesh = _core.Mesh(points, threads)
+    if threshold > 0:
+        distance, first, second = mesh.closest_pair(threads)
+        angle = 2 * np.arcsin(min(distance / 2, 1))
+        if angle <= threshold:
+            raise CoincidentNodesError(
+                f"nodes {first} and {second} (counted from 0) are {angle:g} radians apart, within the threshold of "
+                f"{threshold:g}: remove one of them", (first, second))
+    return mesh
 
 
 def thread_count(threads: Optional[int]) -> int:
