@@ -5,14 +5,15 @@
 #include <pybind11/stl.h>
 
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <vector>
 
 #include "arrays.h"
 #include "base/parallel_for.h"
 #include "capi/pstripack.h"
+#include "point_sets.h"
 #include "scvt_run.h"
-#include "shapes.h"
 #include "triangulation.h"
 
 namespace {
@@ -177,18 +178,21 @@ py::array vectors(const Array<double>& lon, const Array<double>& lat, bool degre
   if (lon.ndim() != 1 || lat.ndim() != 1 || lon.size() != lat.size())
     throw py::value_error("longitudes and latitudes differ in number");
   const auto n = static_cast<std::size_t>(lon.size());
+  const auto sine = degrees ? point_sets::sin_degrees : point_sets::sin_radians;
+  const auto cosine = degrees ? point_sets::cos_degrees : point_sets::cos_radians;
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   return array_of(compute(0, [&] {
     Buffer<Point> points(n);
-    pstripack::parallel_pieces(
-        n, pstripack::threads_for(4 * n), [&](std::size_t begin, std::size_t end, int) {
-          for (std::size_t i = begin; i < end; ++i) {
-            const double x = lon.data()[i], y = lat.data()[i];
-            if (degrees && std::isfinite(x) && std::isfinite(y))
-              points[i] = point_sets::from_degrees(x, y);
-            else
-              points[i] = {std::cos(y) * std::cos(x), std::cos(y) * std::sin(x), std::sin(y)};
-          }
-        });
+    pstripack::parallel_pieces(n, pstripack::threads_for(4 * n),
+                               [&](std::size_t begin, std::size_t end, int) {
+                                 for (std::size_t i = begin; i < end; ++i) {
+                                   const double x = lon.data()[i], y = lat.data()[i];
+                                   if (std::isfinite(x) && std::isfinite(y))
+                                     points[i] = {cosine(y) * cosine(x), cosine(y) * sine(x), sine(y)};
+                                   else
+                                     points[i] = {kNan, kNan, kNan};
+                                 }
+                               });
     return points;
   }));
 }
@@ -236,5 +240,6 @@ PYBIND11_MODULE(_core, m) {
       .def("interpolate", &interpolate);
   m.def("lists_of", &lists_of);
   m.def("vectors", &vectors);
+  m.def("radians_of_single", py::vectorize(point_sets::radians_of_single));
   m.def("scvt", &bindings::scvt);
 }

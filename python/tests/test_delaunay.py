@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 import scipy.spatial
 from nodes import as_sets, defect, in_cap, random_nodes, trmesh
-from pstripack import Delaunay, to_lonlat, to_xyz
+from pstripack import CoincidentNodesError, Delaunay, to_lonlat, to_xyz
 
 
 def outward_facets(points):
@@ -297,6 +297,21 @@ class TestPlaces:
                 (np.zeros(1000), [[np.nan, 0, 0]], {"method": "nearest"})):
             with pytest.raises(ValueError):
                 self.mesh.interpolate(values, places, **options)
+
+
+@pytest.mark.parametrize("kind", [np.float64, np.float32])
+def test_radians_nearest_to_a_right_angle_mean_it(kind):
+    lon = np.array([0, 2, -3, 1, 2, 3, 4, -2], kind) * kind(np.pi / 2)
+    lat = np.array([1, 1, -1, 0, 0, 0, 0, 0], kind) * kind(np.pi / 2)
+    expected = [[0, 0, 1], [0, 0, 1], [0, 0, -1], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [1, 0, 0], [-1, 0, 0]]
+    assert np.array_equal(to_xyz(lon, lat, degrees=False), expected)
+    with pytest.raises(CoincidentNodesError):  # of one pole
+        Delaunay.from_lonlat(lon, lat, degrees=False)
+    if kind == np.float32:  # a double is not a float
+        with pytest.raises(ValueError, match="beyond the pole"):
+            to_xyz(0, np.float64(lat[0]), degrees=False)
+    beside = np.nextafter(np.pi / 2, [0, 2])
+    assert to_xyz(0, beside, degrees=False)[:, 0] == pytest.approx(np.cos(beside), rel=1e-15, abs=0)
 
 
 def test_longitudes_and_latitudes():

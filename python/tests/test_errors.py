@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from nodes import random_nodes
 from pstripack import (BadCoordinateError, CoincidentNodesError, CollinearNodesError, Delaunay, SphericalVoronoi,
-                       TriangulationError, to_xyz)
+                       TriangulationError, _core, scvt, to_xyz)
 
 POINTS = random_nodes(50)
 
@@ -47,6 +47,28 @@ def test_every_pair_that_coincides_is_found_among_many_nodes():
     with pytest.raises(CoincidentNodesError) as caught:
         Delaunay(points)
     assert caught.value.nodes == (12345, 34321)
+
+
+@pytest.mark.parametrize("distance", [1e-150, 1e-20, 1e-12, 1e-3])
+def test_nodes_within_the_threshold_are_refused(distance):
+    points = np.vstack([np.eye(3), -np.eye(3), [1, 0, distance]])
+    for make in (Delaunay, scvt):
+        with pytest.raises(CoincidentNodesError, match="nodes 0 and 6 .* radians apart, within the threshold") as caught:
+            make(points, threshold=1.01 * distance)
+        assert caught.value.nodes == (0, 6)
+    assert Delaunay(points, threshold=0.99 * distance).npoints == 7
+    assert Delaunay(points).npoints == 7
+    with pytest.raises(ValueError, match="threshold must be at least 0"):
+        Delaunay(points, threshold=np.nan)
+
+
+def test_the_closest_pair_is_that_of_the_directions():
+    points = random_nodes(500)
+    points[[3, 4]] = [1, 2e-160, 0], [3, 0, 0]
+    points[[70, 400]] = [0, 1, 0], [1e-17, 1, 0]
+    points[[80, 90]] = points[12] + [[1e-15, 0, 0], [0, 1e-15, 0]]
+    distance, *nodes = _core.Mesh(points, 2).closest_pair(2)
+    assert (distance, nodes) == (pytest.approx(2e-160, rel=1e-14, abs=0), [3, 4])
 
 
 @pytest.mark.parametrize("points", [np.zeros(3), np.zeros((4, 2)), np.zeros((3, 4)), np.zeros((2, 2, 3)), "nodes",

@@ -159,6 +159,27 @@ TEST(Angles, AreExactWhereTheyCanBeAndAccurateElsewhere) {
   }
 }
 
+TEST(Angles, InRadiansNearestToARightAngleMeanIt) {
+  const double pi = std::acos(-1.0);
+  for (int k = -8; k <= 8; ++k) {
+    const double angle = k * pi / 2, degrees = 90. * k;
+    for (const double same : {angle, degrees * pi / 180, degrees / 57.29577951308232}) {
+      EXPECT_EQ(point_sets::sin_radians(same), point_sets::sin_degrees(degrees)) << k;
+      EXPECT_EQ(point_sets::cos_radians(same), point_sets::cos_degrees(degrees)) << k;
+    }
+    EXPECT_EQ(point_sets::radians_of_single(static_cast<float>(angle)), angle) << k;
+    for (const double other : {std::nextafter(angle, 99), std::nextafter(angle, -99)}) {
+      EXPECT_DOUBLE_EQ(point_sets::sin_radians(other), std::sin(other)) << k;
+      EXPECT_DOUBLE_EQ(point_sets::cos_radians(other), std::cos(other)) << k;
+    }
+    const float beside = std::nextafter(static_cast<float>(angle), 99.f);
+    EXPECT_EQ(point_sets::radians_of_single(beside), beside) << k;
+  }
+  EXPECT_DOUBLE_EQ(point_sets::sin_radians(0.7), std::sin(0.7));
+  EXPECT_TRUE(std::isnan(point_sets::sin_radians(std::nan(""))));
+  EXPECT_DOUBLE_EQ(point_sets::cos_radians(1e17), std::cos(1e17));
+}
+
 // ---- Files ----
 
 std::vector<pstripack::Point> read_text(const std::string& text) {

@@ -19,6 +19,7 @@
 #include "files/nodes.h"
 #include "lists/limits.h"
 #include "parallel/local_nodes.h"
+#include "point_sets.h"
 
 namespace files {
 namespace {
@@ -303,8 +304,22 @@ struct Places {
   Grid grid = {};
 };
 
-Places from_angles(const File& file, const Variable& lon, const Variable& lat, const char*& units) {
-  const bool lon_in_degrees = in_degrees(file, lon), lat_in_degrees = in_degrees(file, lat);
+/// Reads angles. Radians of type float that mean a multiple of pi/2 become the double that means it.
+Variable read_angles(const File& file, const std::string& name, bool& are_degrees) {
+  Variable v = read(file, name);
+  are_degrees = in_degrees(file, v);
+  nc_type type = NC_DOUBLE;
+  file.check(nc_inq_vartype(file.id(), v.id, &type), name);
+  if (type == NC_FLOAT && !are_degrees)
+    for (double& angle : v.values) angle = point_sets::radians_of_single(angle);
+  return v;
+}
+
+Places from_angles(const File& file, const std::string& lon_name, const std::string& lat_name,
+                   const char*& units) {
+  bool lon_in_degrees = true, lat_in_degrees = true;
+  const Variable lon = read_angles(file, lon_name, lon_in_degrees),
+                 lat = read_angles(file, lat_name, lat_in_degrees);
   units = lat_in_degrees ? "degrees" : "radians";
   Angles angles{lon.values.data(), lat.values.data(), 1, lon_in_degrees, lat_in_degrees};
   if (const std::size_t bad = first_beyond_pole(angles, lat.values.size()); bad < lat.values.size())
@@ -369,7 +384,7 @@ void add_angles(const File& file, Places& places, const std::string& lon_name, c
   if (!places.given.empty() || !has(file, lon_name) || !has(file, lat_name)) return;
   const char* units = "";
   try {
-    Places angles = from_angles(file, read(file, lon_name), read(file, lat_name), units);
+    Places angles = from_angles(file, lon_name, lat_name, units);
     if (angles.dimensions != places.dimensions) return;
     for (std::size_t i = 0; i < places.points.size(); ++i) {
       const Point &p = places.points[i], &q = angles.points[i];
@@ -423,7 +438,7 @@ Places read_ugrid(const File& file, Nodes& nodes, const std::string& mesh, bool 
   } else {
     if (lat.empty()) file.fail("variable " + mesh + ": expected node_coordinates 'lon lat'");
     const char* units = "";
-    places = from_angles(file, read(file, lon), read(file, lat), units);
+    places = from_angles(file, lon, lat, units);
     nodes.kind += fmt::format(", UGRID, lon lat in {}", units);
   }
   nodes.points = places.points;
@@ -485,7 +500,7 @@ Places read_chosen(const File& file, Nodes& nodes, std::vector<std::string>& nam
     nodes.kind += fmt::format(", {} {} {}", names[0], names[1], names[2]);
   } else {
     const char* units = "";
-    places = from_angles(file, read(file, names[0]), read(file, names[1]), units);
+    places = from_angles(file, names[0], names[1], units);
     nodes.kind += fmt::format(", {} {} in {}", names[0], names[1], units);
   }
   names.erase(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(count));
@@ -518,7 +533,7 @@ Nodes read_netcdf(const std::string& name, const ReadOptions& options, const std
       if (!has(file, lat))
         file.fail(fmt::format("there is no variable {} beside {}: name both by --columns LON,LAT", lat, lon));
       const char* units = "";
-      places = from_angles(file, read(file, lon), read(file, lat), units);
+      places = from_angles(file, lon, lat, units);
       nodes.kind += fmt::format(", {} {} in {}", lon, lat, units);
       break;
     }

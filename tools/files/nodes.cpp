@@ -340,17 +340,15 @@ std::string hint_beyond_pole(const Angles& a, std::size_t n, const std::string& 
 }
 
 std::vector<Point> points_of(const Angles& a, std::size_t n) {
-  constexpr double kDegree = kRightAngle / 90;
+  const auto sin_lon = a.lon_in_degrees ? point_sets::sin_degrees : point_sets::sin_radians;
+  const auto cos_lon = a.lon_in_degrees ? point_sets::cos_degrees : point_sets::cos_radians;
+  const auto sin_lat = a.lat_in_degrees ? point_sets::sin_degrees : point_sets::sin_radians;
+  const auto cos_lat = a.lat_in_degrees ? point_sets::cos_degrees : point_sets::cos_radians;
   std::vector<Point> points(n);
   pstripack::parallel_pieces(n, pstripack::threads_for(n), [&](std::size_t first, std::size_t last, int) {
     for (std::size_t i = first; i < last; ++i) {
-      const double lon = a.lon[a.stride * i], lat = a.lat[a.stride * i];
-      if (a.lon_in_degrees && a.lat_in_degrees) {
-        points[i] = point_sets::from_degrees(lon, lat);
-      } else {
-        const double x = a.lon_in_degrees ? lon * kDegree : lon, y = a.lat_in_degrees ? lat * kDegree : lat;
-        points[i] = {std::cos(y) * std::cos(x), std::cos(y) * std::sin(x), std::sin(y)};
-      }
+      const double lon = a.lon[a.stride * i], lat = a.lat[a.stride * i], r = cos_lat(lat);
+      points[i] = {r * cos_lon(lon), r * sin_lon(lon), sin_lat(lat)};
     }
   });
   return points;

@@ -50,6 +50,14 @@ void shuffle(std::vector<Item>& items, std::uint64_t seed) {
 double sin_degrees(double angle);
 double cos_degrees(double angle);
 pstripack::Point from_degrees(double longitude, double latitude);
+
+// Radians, by the mathematical library. The double nearest to a multiple of pi/2 means the multiple.
+double sin_radians(double angle);
+double cos_radians(double angle);
+/// Of an angle of single precision: if it is the float nearest to a multiple of pi/2, the double nearest to
+/// it; else the angle.
+double radians_of_single(double angle);
+
 pstripack::Point normalized(const pstripack::Point& p);
 pstripack::Point rounded_to_single(const pstripack::Point& p);
 

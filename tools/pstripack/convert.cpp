@@ -18,8 +18,13 @@ void convert(Options& options) {
   options.input.read.with_triangles = options.input.read.with_columns = true;
   files::OutputFile file(options.output.file);
   Progress progress;
-  files::Nodes nodes =
-      progress.step("reading", [&] { return files::read(options.input.file, options.input.read); });
+  const Input& input = options.input;
+  files::Nodes nodes = progress.step("reading", [&] {
+    if (!input.drops() && input.within.radians == 0) return files::read(input.file, input.read);
+    files::Nodes places = read_places(input.file, input.read);
+    drop_duplicates(places, input);
+    return places;
+  });
   files::Format format = options.output.format;
   const bool has_mesh = !nodes.triangles.empty();
   // .nc is the suffix of meshes and of nodes: choose by what the input has.
@@ -56,6 +61,7 @@ void add_convert(CLI::App& app, Command& chosen) {
       app.add_subcommand("convert", "the same nodes or triangles (of UGRID, MPAS, OFF) in another format");
   const auto options = std::make_shared<Options>();
   add_input(*sub, options->input);
+  add_duplicates(*sub, options->input);
   add_output(*sub, options->output, true);
   sub->callback([=, &chosen] { chosen = [=] { convert(*options); }; });
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <memory>
 #include <stdexcept>
 
 #include "methods/triangulated_nodes.h"
@@ -159,7 +160,9 @@ void interpolate(Options& options) {
   });
   const Interpolation interpolation = progress.step("triangulating", [&] {
     try {
-      return methods::interpolation_between(nodes.points);
+      const auto mesh = std::make_shared<const methods::TriangulatedNodes>(nodes.points);
+      tell_near_nodes(nodes, files::near_neighbours(mesh->view().lists, nodes.points, files::kMillimetre));
+      return Interpolation(mesh->view(), mesh);
     } catch (const files::NoMesh& e) {
       throw no_mesh_of(nodes, e);
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -42,6 +43,30 @@ void check_lengths(const Nodes& nodes) {
         "{}: x y z of lengths {:.4g} ({}) to {:.4g} ({}) are not on one sphere; say --coordinates lonlat if "
         "the first two columns are lon lat, or --coordinates xyz if the vectors are directions",
         nodes.file, low, nodes.place(shortest), high, nodes.place(longest)));
+}
+
+constexpr double kDegree = 1.5707963267948966 / 90;
+
+Distance distance_of(const std::string& text) {
+  const std::size_t unit = text.find_last_not_of("abcdefghijklmnopqrstuvwxyz") + 1;
+  constexpr std::pair<const char*, double> kUnits[] = {{"mm", files::kMillimetre},
+                                                       {"cm", 10 * files::kMillimetre},
+                                                       {"m", 1e3 * files::kMillimetre},
+                                                       {"km", 1e6 * files::kMillimetre},
+                                                       {"deg", kDegree},
+                                                       {"rad", 1}};
+  const auto known = std::find_if(std::begin(kUnits), std::end(kUnits),
+                                  [&](const auto& u) { return text.compare(unit, text.npos, u.first) == 0; });
+  double value = 0;
+  if (known == std::end(kUnits) || !point_sets::parse(text.substr(0, unit), value))
+    throw CLI::ValidationError(
+        "--duplicates-within",
+        "'" + text + "': expected a number and its unit: 1mm, 0.5m, 2km (on the Earth), 1e-6deg or 1e-8rad");
+  const Distance distance{value * known->second, text};
+  if (!(value >= 0 && distance.radians < 90 * kDegree))
+    throw CLI::ValidationError("--duplicates-within",
+                               "'" + text + "': expected a distance from 0 to less than 90deg");
+  return distance;
 }
 
 std::string suffixes() {
@@ -142,6 +167,10 @@ void add_duplicates(CLI::App& app, Input& input) {
              {{"error", Duplicates::error}, {"first", Duplicates::first}, {"mean", Duplicates::mean}},
              "nodes in the same place: error, first (keep it) or mean (of their values) [error]");
   app.add_flag("--drop-duplicates", input.drop_duplicates, "the same as --duplicates first");
+  app.add_option_function<std::string>(
+         "--duplicates-within", [&input](const std::string& text) { input.within = distance_of(text); },
+         "nodes this near are in the same place: 1mm, 0.5m, 2km, 1e-6deg, 1e-8rad [0]")
+      ->type_name("DISTANCE");
 }
 
 void add_output(CLI::App& app, Output& output, bool required) {
@@ -204,14 +233,40 @@ void take_means(Column& column, const std::vector<files::Duplicate>& duplicates)
   }
 }
 
-void drop(Nodes& nodes, bool means) {
+/// The nodes in the same place as an earlier one, or within this distance of one that is kept.
+std::vector<files::Duplicate> duplicates_within(const std::vector<files::Point>& points, double within) {
+  const std::vector<files::Duplicate> same = files::duplicates(points);
+  if (within == 0) return same;
+  std::vector<std::size_t> first(points.size()), kept;  // first: the kept node in whose place each node is
+  std::iota(first.begin(), first.end(), std::size_t{0});
+  for (const files::Duplicate& d : same) first[d.node] = d.first;
+  for (std::size_t i = 0; i < first.size(); ++i)
+    if (first[i] == i) kept.push_back(i);
+  const files::Mesh mesh = files::triangulate(files::values_at(points, kept));
+  for (const files::Duplicate& d : files::near_duplicates(mesh, within)) first[kept[d.node]] = kept[d.first];
+  std::vector<files::Duplicate> all;
+  for (std::size_t i = 0; i < first.size(); ++i)
+    if (first[i] != i) all.push_back({i, first[first[i]]});
+  return all;
+}
+
+}  // namespace
+
+void drop_duplicates(Nodes& nodes, const Input& input) {
+  const Distance& within = input.within;
+  if (!input.drops() && within.radians == 0) return;
   std::vector<files::Duplicate> duplicates;
   try {
-    duplicates = files::duplicates(nodes.points);
+    duplicates = duplicates_within(nodes.points, within.radians);
   } catch (const files::NoMesh& e) {
     throw no_mesh_of(nodes, e);
   }
   if (duplicates.empty()) return;
+  const bool means = input.duplicates == Duplicates::mean;
+  if (!input.drops())
+    throw std::runtime_error(fmt::format(
+        "{}: {} and {} are within {} of each other: remove one, or say --drop-duplicates", nodes.file,
+        nodes.place(duplicates[0].first), nodes.place(duplicates[0].node), within.text));
   if (means) {
     take_means(nodes.value, duplicates);
     for (Column& column : nodes.columns)
@@ -225,15 +280,20 @@ void drop(Nodes& nodes, bool means) {
     else
       kept.push_back(i);
   nodes.keep(kept);
-  say(fmt::format("{}: {} dropped that coincide{} with earlier ones{}", nodes.file,
-                  counted(duplicates.size(), "node"), duplicates.size() == 1 ? "s" : "",
+  const bool is_one = duplicates.size() == 1;
+  say(fmt::format("{}: {} dropped that {} earlier ones{}", nodes.file, counted(duplicates.size(), "node"),
+                  within.radians == 0 ? fmt::format("coincide{} with", is_one ? "s" : "")
+                                      : fmt::format("{} within {} of", is_one ? "is" : "are", within.text),
                   means ? "; the mean of their values is kept" : ""));
 }
 
-}  // namespace
-
-void drop_duplicates(Nodes& nodes, const Input& input) {
-  if (input.drops()) drop(nodes, input.duplicates == Duplicates::mean);
+void tell_near_nodes(const Nodes& nodes, const files::NearNeighbours& near) {
+  if (near.pairs == 0) return;
+  say(fmt::format(
+      "{}: {} less than 1 mm apart on the Earth, but not in the same place: {} and {}{}; "
+      "--drop-duplicates --duplicates-within 1mm keeps one of each pair",
+      nodes.file, near.pairs == 1 ? "2 nodes are" : fmt::format("{} pairs of nodes are", near.pairs),
+      nodes.place(near.first), nodes.place(near.second), near.pairs == 1 ? "" : ", ..."));
 }
 
 void number_nodes(Nodes& nodes) {
@@ -265,6 +325,7 @@ std::runtime_error no_mesh_of(const Nodes& nodes, const files::NoMesh& why) {
 files::Mesh triangulate(Nodes& nodes) {
   try {
     files::Mesh mesh = files::triangulate(nodes.points);
+    tell_near_nodes(nodes, files::near_neighbours(mesh.lists(), mesh.points, files::kMillimetre));
     mesh.given = std::move(nodes.given);
     mesh.density = std::move(nodes.density);
     mesh.columns = std::move(nodes.columns);

@@ -10,6 +10,7 @@
 
 #include "files/clipping.h"
 #include "files/mesh.h"
+#include "files/near_nodes.h"
 #include "files/nodes.h"
 #include "files/writers.h"
 
@@ -51,6 +52,12 @@ CLI::Validator whole_number();
 /// values.
 enum class Duplicates { error, first, mean };
 
+/// A distance on the sphere, and how it was written.
+struct Distance {
+  double radians = 0;
+  std::string text = "";
+};
+
 /// Numbers between separators. `option`: for messages.
 std::vector<double> numbers_in(const std::string& option, const std::string& text, char separator,
                                std::size_t count);
@@ -64,13 +71,14 @@ struct Input {
   files::ReadOptions read;
   Duplicates duplicates = Duplicates::error;
   bool drop_duplicates = false;  ///< the same as Duplicates::first
+  Distance within;               ///< nodes this near to each other are in the same place
 
   bool drops() const { return drop_duplicates || duplicates != Duplicates::error; }
 };
 void add_input(CLI::App& app, Input& input);
 /// --from, --columns, --coordinates, --units.
 void add_reading(CLI::App& app, files::ReadOptions& read);
-/// --duplicates, --drop-duplicates.
+/// --duplicates, --drop-duplicates, --duplicates-within.
 void add_duplicates(CLI::App& app, Input& input);
 
 /// OUT and its format.
@@ -90,8 +98,13 @@ files::Nodes read_places(const std::string& file, const files::ReadOptions& opti
 /// Reads at least three nodes and removes duplicates if requested.
 files::Nodes read_nodes(const Input& input);
 
-/// Removes all but the first of coincident nodes if the input says so.
+/// Removes all but the first of nodes in the same place if the input says so. Throws if nodes are within
+/// --duplicates-within and the input does not say so.
 void drop_duplicates(files::Nodes& nodes, const Input& input);
+
+/// Says how many pairs of nodes are within a millimetre of each other: most likely copies of one node that
+/// rounding has moved.
+void tell_near_nodes(const files::Nodes& nodes, const files::NearNeighbours& near);
 
 /// Adds columns `node` and `line`, number and line of each node in the input, unless the file has such
 /// columns.

@@ -335,11 +335,12 @@ files::Nodes read_start(Communicator& ranks, const Options& options) {
       start = read_nodes(input);
       return;
     }
-    if (input.drops())
-      throw std::runtime_error(fmt::format(
-          "--drop-duplicates, --duplicates: several ranks cannot: `pstripack convert {} --drop-duplicates -o "
-          "start.nodes.nc` writes what they can read",
-          input.file));
+    if (input.drops() || input.within.radians > 0)
+      throw std::runtime_error(
+          fmt::format("--drop-duplicates, --duplicates, --duplicates-within: several ranks cannot: "
+                      "`pstripack convert {} --drop-duplicates -o "
+                      "start.nodes.nc` writes what they can read",
+                      input.file));
     if (input.file == "-" || (std::filesystem::exists(input.file) && !files::is_netcdf(input.file)))
       throw std::runtime_error(fmt::format(
           "{}: several ranks read NetCDF, each its part: `pstripack convert {} -o start.nodes.nc` writes it",
@@ -349,6 +350,36 @@ files::Nodes read_start(Communicator& ranks, const Options& options) {
     start = read_places(input.file, input.read);
   });
   return start;
+}
+
+/// tell_near_nodes() of generators that are spread over ranks. Collective.
+void tell_near_generators(Ranks& ranks, const engine::Density& density, const Tessellation& t,
+                          const files::Nodes& start) {
+  Communicator& communicator = ranks.communicator();
+  const std::shared_ptr<engine::Evaluator> evaluator = ranks.evaluator(density);
+  evaluator->begin_with(t.numbers);
+  const engine::Neighbourhood nodes = evaluator->triangulate(t.state.generators);
+  std::size_t pairs = 0;
+  std::pair mine(pstripack::Smallest::kNone, pstripack::Smallest::kNone);  // numbers of the first pair here
+  for (std::size_t i = 0; i < nodes.stars.count; ++i)
+    for (std::size_t k = nodes.stars.begin_of(i); k < nodes.stars.end_of(i); ++k) {
+      const auto j = static_cast<std::size_t>(nodes.stars.neighbour[k]) - 1;
+      const std::pair pair(nodes.numbers[i], nodes.numbers[j]);
+      if (pair.first > pair.second || !files::is_near(nodes.points[i], nodes.points[j], files::kMillimetre))
+        continue;
+      ++pairs;
+      mine = std::min(mine, pair);
+    }
+  pstripack::Smallest first{mine.first}, second;
+  in_agreement_with_caller(
+      communicator, [] {}, first);
+  if (mine.first == first.value) second.value = mine.second;
+  in_agreement_with_caller(
+      communicator, [] {}, second);
+  const std::int64_t all = engine::sum_of_all(communicator, pairs);
+  if (all > 0)
+    tell_near_nodes(start, {static_cast<std::size_t>(all), static_cast<std::size_t>(first.value) - 1,
+                            static_cast<std::size_t>(second.value) - 1});
 }
 
 /// Throws if several ranks cannot read or write the requested files.
@@ -384,8 +415,10 @@ void scvt(Options& options, Ranks& ranks) {
   try {
     const std::shared_ptr<engine::Evaluator> evaluator = ranks.evaluator(*density);
     Tessellation t = progress.step("placing generators", [&] {
-      return options.start.file.empty() ? first_tessellation(options, *evaluator, progress)
-                                        : tessellation_of(communicator, start, options);
+      if (options.start.file.empty()) return first_tessellation(options, *evaluator, progress);
+      Tessellation given = tessellation_of(communicator, start, options);
+      if (communicator.size() > 1) tell_near_generators(ranks, *density, given, start);
+      return given;
     });
     const std::int64_t steps_before = t.state.steps;
     progress.step("iterating", [&] { iterate(options, ranks, *evaluator, t, progress); });

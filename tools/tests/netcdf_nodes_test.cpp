@@ -38,13 +38,12 @@ class NetcdfFile {
     return dimension;
   }
   NetcdfFile& with(const char* name, const std::vector<int>& dimensions, const std::vector<double>& values,
-                   const std::string& units = "") {
+                   const std::string& units = "", nc_type type = NC_DOUBLE) {
     int variable = 0;
-    check(
-        nc_def_var(id_, name, NC_DOUBLE, static_cast<int>(dimensions.size()), dimensions.data(), &variable));
+    check(nc_def_var(id_, name, type, static_cast<int>(dimensions.size()), dimensions.data(), &variable));
     if (!units.empty()) check(nc_put_att_text(id_, variable, "units", units.size(), units.data()));
     const double fill = -999;
-    check(nc_put_att_double(id_, variable, "_FillValue", NC_DOUBLE, 1, &fill));
+    check(nc_put_att_double(id_, variable, "_FillValue", type, 1, &fill));
     check(nc_enddef(id_));
     check(nc_put_var_double(id_, variable, values.data()));
     check(nc_redef(id_));
@@ -77,6 +76,30 @@ TEST(netcdf, coordinates_are_taken_as_they_are) {
   file.with("lonCell", {n}, {9, 9, 9}).with("xCell", {n}, {6371229, 0, 0});
   file.with("yCell", {n}, {0, 6371229, 0}).with("zCell", {n}, {0, 0, 2});
   EXPECT_EQ(points_of(file.closed()), (Points{{6371229, 0, 0}, {0, 6371229, 0}, {0, 0, 2}}));
+}
+
+TEST(netcdf, radians_nearest_to_a_right_angle_mean_it_also_in_single_precision) {
+  const double pi = std::acos(-1.0);
+  for (const nc_type type : {NC_DOUBLE, NC_FLOAT})
+    for (const bool has_axes : {false, true}) {
+      NetcdfFile file;
+      const int m = file.dimension("m", 3), n = file.dimension("n", 3);
+      file.with("lonCell", {m}, {0, pi, 1.5 * pi}, "", type);
+      file.with("latCell", {has_axes ? n : m}, {0, pi / 2, -pi / 2}, "", type);
+      const Nodes nodes = read(file.closed());
+      const Points expected = has_axes ? Points{{1, 0, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, 1},
+                                                {0, 0, 1}, {0, 0, -1}, {0, 0, -1}, {0, 0, -1}}
+                                       : Points{{1, 0, 0}, {0, 0, 1}, {0, 0, -1}};
+      EXPECT_EQ(nodes.points, expected);
+      if (has_axes) {
+        EXPECT_EQ(nodes.grid.lat, (std::vector<double>{0, 90, -90}));
+      }
+      EXPECT_EQ(nodes.given.lat.back(), -pi / 2);  // so that a copy in double precision is the same place
+    }
+  NetcdfFile file;  // a double is not a float
+  const int n = file.dimension("n", 2);
+  file.with("lonCell", {n}, {0, 1}).with("latCell", {n}, {static_cast<float>(pi / 2), 0});
+  EXPECT_NE(points_of(file.closed()).at(0).x, 0);
 }
 
 TEST(netcdf, angles_are_in_the_units_of_the_attribute) {

@@ -80,6 +80,37 @@ TEST(text, angles_that_may_be_radians_must_be_said) {
   EXPECT_EQ(read_bytes(small + "6.29 0\n").kind, "text, lon lat in degrees");
 }
 
+TEST(text, radians_nearest_to_a_right_angle_mean_it) {
+  const std::string rows =
+      "0 1.5707963267948966\n2 -1.5707963267948966\n3.141592653589793 0\n-3.141592653589793 0.5\n"
+      "4.71238898038469 0\n6.283185307179586 0\n-12.566370614359172 0\n1.5707963267948966 0\n";
+  const Points expected{{0, 0, 1},  {0, 0, -1}, {-1, 0, 0}, {-std::cos(0.5), 0, std::sin(0.5)},
+                        {0, -1, 0}, {1, 0, 0},  {1, 0, 0},  {0, 1, 0}};
+  EXPECT_EQ(read_bytes(rows, kRadians).points, expected);
+  EXPECT_EQ(read_bytes("lon,lat [rad]\n1,2\n").kind, "text, lon lat in degrees");
+  EXPECT_EQ(read_bytes("lon [rad],lat [rad]\n1,-1.5707963267948966\n").points, (Points{{0, 0, -1}}));
+  EXPECT_EQ(
+      read_bytes(bytes_of({2, std::acos(0.0)}), with(Container::raw, Coordinates::lonlat, Units::radians))
+          .points,
+      (Points{{0, 0, 1}}));
+}
+
+TEST(text, other_radians_are_what_they_are) {
+  const double right = std::acos(0.0);
+  for (const double lat : {std::nextafter(right, 0), std::nextafter(right, 2), 1.5707963, 1.570796327,
+                           static_cast<double>(static_cast<float>(right))}) {
+    const Point p = read_bytes(fmt::format("0 {}\n", lat), kRadians).points.at(0);
+    EXPECT_DOUBLE_EQ(p.x, std::cos(lat)) << lat;
+    EXPECT_NE(p.x, 0) << lat;
+  }
+}
+
+TEST(angles, of_longitude_and_latitude_may_have_different_units) {
+  const double lon[] = {90, 180}, lat[] = {0, std::acos(0.0)};
+  EXPECT_EQ(points_of({lon, lat, 1, true, false}, 2), (Points{{0, 1, 0}, {0, 0, 1}}));
+  EXPECT_EQ(points_of({lat, lon, 1, false, true}, 1), (Points{{0, 0, 1}}));
+}
+
 TEST(text, latitudes_beyond_the_pole_are_refused_with_line_and_remedy) {
   expect_error("0 0\n45 170\n",
                "node 2 (line 2): latitude 170 is beyond the pole: the columns are 'lon lat'");

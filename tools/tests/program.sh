@@ -178,6 +178,55 @@ duplicates)
   "$PSTRIPACK" -q info near.txt > info.txt
   grep -q "^tightest pair *1e-07 rad, .*: node 1 (line 1) and node 7 (line 7)$" info.txt || fail "$(cat info.txt)"
   grep -q "^near duplicates *1 pair closer" info.txt || fail "$(cat info.txt)"
+  # A longitude-latitude grid in radians has one node at each pole.
+  grid=$(dirname "$DOCUMENT")/../tests/data/radian_grid.csv
+  refuses 1 "node 1 (line 2) and node 2 (line 3) are in the same place" voronoi "$grid" -o failed.csv
+  "$PSTRIPACK" -q voronoi "$grid" --drop-duplicates -o cells.csv
+  [ "$(cut -d , -f 2-5 cells.csv | tail -n +2 | tr '\n' ' ')" = "-90,1,2,3 0,4,5,4 0,5,6,4 0,6,7,4 90,7,8,3 " ] || fail "$(cat cells.csv)"
+  refuses 1 "are in the same place" scvt --start "$grid" -o failed.off
+  "$PSTRIPACK" -q convert "$grid" --drop-duplicates -o once.csv
+  [ "$(wc -l < once.csv)" = 6 ] || fail "$(cat once.csv)"
+  ;;
+
+near_nodes)
+  # 0.1 mm, 1 m and 1 km from node 1.
+  { echo "lon,lat,value"; printf '%s\n' 0,0,1 90,0,1 180,0,1 -90,0,1 0,90,1 0,-90,1 9e-10,0,3 9e-6,0,5 0.009,0,7; } > near.csv
+  line="2 nodes are less than 1 mm apart on the Earth, but not in the same place: node 1 (line 2) and node 7 (line 8); --drop-duplicates --duplicates-within 1mm keeps one"
+  for command in "triangulate near.csv" "voronoi near.csv" "interpolate near.csv --to-grid 2x2" "scvt --start near.csv"; do
+    # shellcheck disable=SC2086
+    "$PSTRIPACK" $command --units degrees -o out.nc 2> err
+    [ "$(grep -c " apart on the Earth" err)" = 1 ] && grep -qF "near.csv: $line" err || fail "$command: $(cat err)"
+    # shellcheck disable=SC2086
+    "$PSTRIPACK" -q $command --units degrees -o out.nc 2> err
+    [ ! -s err ] || fail "$command: $(cat err)"
+    # shellcheck disable=SC2086
+    "$PSTRIPACK" $command --units degrees --duplicates first --duplicates-within 1mm -o out.nc 2> err
+    grep -q "near.csv: 1 node dropped that is within 1mm of earlier ones$" err || fail "$command: $(cat err)"
+    if grep -q " apart on the Earth" err; then fail "$command: $(cat err)"; fi
+  done
+  while read -r within count; do
+    "$PSTRIPACK" convert near.csv --units degrees --duplicates first --duplicates-within "$within" -o out.csv 2> err
+    [ "$(wc -l < out.csv)" = "$count" ] || fail "$within: $(wc -l < out.csv)"
+  done <<END
+0mm 10
+0.09mm 10
+0.11mm 9
+1.2m 8
+0.0011km 8
+110cm 8
+1e-8deg 9
+1e-5deg 8
+1e-11rad 10
+0.00016rad 7
+89deg 7
+END
+  "$PSTRIPACK" convert near.csv --units degrees --duplicates mean --duplicates-within 2km -o out.csv 2> err
+  [ "$(sed -n 2p out.csv)" = 0,0,4 ] || fail "$(cat out.csv)"
+  refuses 1 "near.csv: node 1 (line 2) and node 7 (line 8) are within 1mm of each other: remove one, or say --drop-duplicates" \
+    triangulate near.csv --units degrees --duplicates-within 1mm -o failed.off
+  for within in 1 1foot mm 1e-9 -1mm 90deg 10008km nanm; do
+    refuses 2 "--duplicates-within: '$within': expected" triangulate near.csv "--duplicates-within=$within" -o failed.off
+  done
   ;;
 
 pictures)
@@ -849,6 +898,14 @@ scvt_ranks)
   "$PSTRIPACK" -q scvt 3000 --first levels --density bump --tolerance 1e-12 --evaluations 1000 -o direct.nodes.nc
   run 2 scvt --start ranks.nc --tolerance 1e-12 --evaluations 1000 -o resumed.nodes.nc
   cmp direct.nodes.nc resumed.nodes.nc
+  printf '%s\n' '0 0' '90 0' '180 0' '-90 0' '0 90' '0 -90' '0 9e-10' '90 9e-10' > near.txt
+  "$PSTRIPACK" -q convert near.txt --units degrees -o near.nodes.nc
+  for ranks in 1 3; do
+    # shellcheck disable=SC2086
+    $MPIRUN -n $ranks "$PSTRIPACK" scvt --start near.nodes.nc -o near.nc 2> err
+    grep -q "near.nodes.nc: 2 pairs of nodes are less than 1 mm apart on the Earth, but not in the same place: node 1 and node 7, ...; " err ||
+      fail "$ranks ranks: $(cat err)"
+  done
   # What several ranks cannot do: one message, exit code 1, no output file.
   octahedron > start.txt
   "$PSTRIPACK" -q points hemisphere 30 -o half.nodes.nc

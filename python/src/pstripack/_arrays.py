@@ -5,6 +5,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
+from ._errors import CoincidentNodesError
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
@@ -26,6 +27,21 @@ def place_array(places: ArrayLike) -> Floats:
     return array
 
 
+def mesh_of(points: Floats, threshold: float, threads: int) -> _core.Mesh:
+    """The mesh of nodes that are further than the threshold, in radians, from each other."""
+    if not threshold >= 0:
+        raise ValueError(f"threshold must be at least 0, in radians, not {threshold}")
+    mesh = _core.Mesh(points, threads)
+    if threshold > 0:
+        distance, first, second = mesh.closest_pair(threads)
+        angle = 2 * np.arcsin(min(distance / 2, 1))
+        if angle <= threshold:
+            raise CoincidentNodesError(
+                f"nodes {first} and {second} (counted from 0) are {angle:g} radians apart, within the threshold of "
+                f"{threshold:g}: remove one of them", (first, second))
+    return mesh
+
+
 def thread_count(threads: Optional[int]) -> int:
     """The number of threads; 0 for None, OpenMP's default."""
     if threads is None:
@@ -44,13 +60,16 @@ def read_only(array: NDArray[Any]) -> NDArray[Any]:
 def to_xyz(lon: ArrayLike, lat: ArrayLike, degrees: bool = True) -> Floats:
     """Unit vectors, of shape (..., 3), of longitudes and latitudes.
 
-    In degrees each pole has one vector for all longitudes, and longitudes that differ by 360 have equal vectors.
+    Each pole has one vector for all longitudes. In degrees, longitudes that differ by 360 have equal vectors; in radians
+    the number nearest to a multiple of pi/2, of the arrays' precision, means the multiple.
 
     >>> to_xyz([0, 90, 12], [0, 0, 90])
     array([[1., 0., 0.],
            [0., 1., 0.],
            [0., 0., 1.]])
     """
+    lon, lat = (angle if degrees or angle.dtype != np.float32 else _core.radians_of_single(angle)
+                for angle in (np.asarray(lon), np.asarray(lat)))
     lon, lat = np.broadcast_arrays(np.asarray(lon, np.float64), np.asarray(lat, np.float64))
     limit = 90.0 if degrees else np.pi / 2 * (1 + 1e-15)
     beyond = np.abs(lat) > limit

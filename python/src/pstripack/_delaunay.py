@@ -5,7 +5,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from ._arrays import Floats, Ints, node_array, place_array, read_only, thread_count, to_xyz
+from ._arrays import Floats, Ints, mesh_of, node_array, place_array, read_only, thread_count, to_xyz
 
 
 class Delaunay:
@@ -18,6 +18,9 @@ class Delaunay:
         Vectors from the centre of the sphere to the nodes; only their directions matter. An array of float64 is kept:
         do not change it while this object is in use. The library reads contiguous columns (Fortran order) in place,
         others from a copy.
+    threshold : float, optional
+        Nodes this near to each other, in radians, are refused as if they coincided: 1.6e-10 is a millimetre on the
+        Earth.
     threads : int, optional
         Number of threads for the triangulation and for all that is computed from it.
 
@@ -40,10 +43,10 @@ class Delaunay:
     array([0.5, 4. ])
     """
 
-    def __init__(self, points: ArrayLike, *, threads: Optional[int] = None) -> None:
+    def __init__(self, points: ArrayLike, *, threshold: float = 0, threads: Optional[int] = None) -> None:
         array = node_array(points)
         self._threads = thread_count(threads)
-        self._mesh = _core.Mesh(array, self._threads)
+        self._mesh = mesh_of(array, threshold, self._threads)
         #: The nodes as given, read only.
         self.points: Floats = read_only(array)
         self._simplices: Optional[Ints] = None
@@ -51,10 +54,10 @@ class Delaunay:
         self._vertex_neighbors: Optional[Tuple[Ints, Ints]] = None
 
     @classmethod
-    def from_lonlat(cls, lon: ArrayLike, lat: ArrayLike, *, degrees: bool = True,
+    def from_lonlat(cls, lon: ArrayLike, lat: ArrayLike, *, degrees: bool = True, threshold: float = 0,
                     threads: Optional[int] = None) -> "Delaunay":
-        """The triangulation of nodes given by longitudes and latitudes."""
-        return cls(to_xyz(np.ravel(lon), np.ravel(lat), degrees), threads=threads)
+        """The triangulation of nodes given by longitudes and latitudes; see :func:`to_xyz`."""
+        return cls(to_xyz(np.ravel(lon), np.ravel(lat), degrees), threshold=threshold, threads=threads)
 
     def __getstate__(self) -> Dict[str, Any]:
         return {**self.__dict__, "_mesh": None}

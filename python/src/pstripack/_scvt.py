@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arrays import Floats, node_array, thread_count
+from ._arrays import Floats, mesh_of, node_array, thread_count
 from ._errors import TriangulationError
 
 _REASONS = ("converged", "evaluations", "stopped", "stalled")
@@ -34,7 +34,8 @@ class Tessellation(NamedTuple):
 
 def scvt(generators: Union[int, ArrayLike], density: Optional[Callable[[Floats], ArrayLike]] = None, *,
          tolerance: float = 1e-5, method: str = "newton", seed: int = 1, max_evaluations: Optional[int] = None,
-         progress: Optional[Callable[[Progress], object]] = None, threads: Optional[int] = None) -> Tessellation:
+         progress: Optional[Callable[[Progress], object]] = None, threshold: float = 0,
+         threads: Optional[int] = None) -> Tessellation:
     """Generators at the centroids of their Voronoi cells with respect to a density.
 
     Parameters
@@ -55,6 +56,8 @@ def scvt(generators: Union[int, ArrayLike], density: Optional[Callable[[Floats],
         Largest number of evaluations on each level.
     progress : callable, optional
         Called after each step; the run ends if it returns something true.
+    threshold : float, optional
+        Generators to start from that are this near to each other, in radians, are refused.
     threads : int, optional
 
     Raises
@@ -83,7 +86,7 @@ def scvt(generators: Union[int, ArrayLike], density: Optional[Callable[[Floats],
         start = np.array(node_array(generators), order="C")
         count = len(start)
         if count >= 4:
-            _core.Mesh(start, number)  # raises errors of the nodes with their indices
+            mesh_of(start, threshold, number)  # raises errors of the nodes with their indices
     if count < 4 or count > 2**31 // 6:
         raise TriangulationError(f"a tessellation needs at least 4 generators, and {2**31 // 6} at most; not {count}")
 

@@ -1,0 +1,99 @@
+#include "files/near_nodes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel_for.h"
+#include "geometry/measures.h"
+#include "stripack/list_queries.h"
+
+namespace files {
+namespace {
+
+/// Calls visit(neighbour) for the neighbours of a node; indices from 0.
+template <class Visit>
+void for_each_neighbour(const pstripack::ListReader<std::int32_t>& reader, std::size_t node,
+                        const Visit& visit) {
+  const std::int32_t last = reader.last_slot(static_cast<std::int32_t>(node) + 1);
+  std::int32_t slot = last;
+  do {
+    slot = reader.next(slot);
+    visit(static_cast<std::size_t>(reader.neighbour(slot)) - 1);
+  } while (slot != last);
+}
+
+}  // namespace
+
+bool is_near(const Point& a, const Point& b, double within) {
+  // Most pairs are far apart: |a x b| = |a| |b| sin(angle), rounded by less than 1e-15 |a| |b|. Where a
+  // product overflows or is 0, the comparison is false.
+  const Point normal = cross(a, b);
+  const double sine = 2 * (within + 1e-15);
+  if (dot(normal, normal) > sine * sine * dot(a, a) * dot(b, b)) return false;
+  return arc_length(pstripack::direction_of(a), pstripack::direction_of(b)) <= within;
+}
+
+NearNeighbours near_neighbours(const pstripack::ListsView<std::int32_t>& lists,
+                               const std::vector<Point>& points, double within) {
+  const pstripack::ListReader<std::int32_t> reader(lists);
+  const int threads = pstripack::threads_for(points.size());
+  // One coordinate of each direction, along an oblique axis, tells most pairs apart. In floats, which stay in
+  // the cache; the error of each is below 2^-23.
+  std::vector<float> height(points.size());
+  pstripack::parallel_pieces(points.size(), threads, [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t i = begin; i < end; ++i)
+      height[i] = static_cast<float>(dot(unit(points[i]), {0.36, 0.48, 0.8}));
+  });
+  const auto reach = static_cast<float>(within + 0x1p-21);
+  std::vector<NearNeighbours> found(static_cast<std::size_t>(threads));
+  pstripack::parallel_pieces(points.size(), threads, [&](std::size_t begin, std::size_t end, int piece) {
+    NearNeighbours& here = found[static_cast<std::size_t>(piece)];
+    for (std::size_t i = begin; i < end; ++i)
+      for_each_neighbour(reader, i, [&](std::size_t j) {
+        if (j < i || std::fabs(height[i] - height[j]) > reach || !is_near(points[i], points[j], within))
+          return;
+        if (here.pairs++ == 0 || (here.first == i && j < here.second)) here.first = i, here.second = j;
+      });
+  });
+  NearNeighbours all;
+  for (const NearNeighbours& part : found) {  // in the order of the nodes
+    if (all.pairs == 0) all.first = part.first, all.second = part.second;
+    all.pairs += part.pairs;
+  }
+  return all;
+}
+
+std::vector<Duplicate> near_duplicates(const Mesh& mesh, double within) {
+  // The nodes in a cap smaller than a hemisphere are connected by arcs of the Delaunay mesh that join nodes
+  // in the cap: so a search from the node in the middle that does not leave the cap finds them all. Caps
+  // around kept nodes: a node lies in five of them at most, since kept nodes are further than `within` apart.
+  const pstripack::ListReader<std::int32_t> reader(mesh.lists());
+  const std::vector<Point>& points = mesh.points;
+  const std::size_t n = points.size();
+  std::vector<std::size_t> first(n, n);   // the kept node in whose place each node is; n: none
+  std::vector<std::size_t> centre(n, n);  // of the last search that looked at the node
+  std::vector<std::size_t> open;
+  std::vector<Duplicate> found;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (first[i] < n) {
+      found.push_back({i, first[i]});
+      continue;
+    }
+    centre[i] = i;
+    open.assign(1, i);
+    while (!open.empty()) {
+      const std::size_t from = open.back();
+      open.pop_back();
+      for_each_neighbour(reader, from, [&](std::size_t j) {
+        if (centre[j] == i) return;
+        centre[j] = i;
+        if (!is_near(points[std::min(i, j)], points[std::max(i, j)], within)) return;
+        if (j > i && first[j] == n) first[j] = i;
+        open.push_back(j);
+      });
+    }
+  }
+  return found;
+}
+
+}  // namespace files
