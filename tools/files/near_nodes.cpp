@@ -25,11 +25,11 @@ void for_each_neighbour(const pstripack::ListReader<std::int32_t>& reader, std::
 }  // namespace
 
 bool is_near(const Point& a, const Point& b, double within) {
-  // Most pairs are far apart: |a x b| = |a| |b| sin(angle), rounded by less than 1e-15 |a| |b|. Where a
-  // product overflows or is 0, the comparison is false.
+  // Most pairs are far apart: |a x b| = |a| |b| sin(angle), rounded by less than 1e-15 |a| |b|. The factor 2
+  // covers the rounding of products near the least double. Where the limit overflows or is 0, this is silent.
   const Point normal = cross(a, b);
-  const double sine = 2 * (within + 1e-15);
-  if (dot(normal, normal) > sine * sine * dot(a, a) * dot(b, b)) return false;
+  const double sine = 2 * (within + 1e-15), limit = sine * sine * dot(a, a) * dot(b, b);
+  if (limit > 0 && dot(normal, normal) > limit) return false;
   return arc_length(pstripack::direction_of(a), pstripack::direction_of(b)) <= within;
 }
 

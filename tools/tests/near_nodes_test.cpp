@@ -82,6 +82,8 @@ TEST(near_nodes, are_told_apart_at_every_distance) {
     }
   }
   EXPECT_FALSE(is_near({1, 0, 0}, {-1, 1e-20, 0}, 1.5));
+  EXPECT_TRUE(is_near({1e100, 1e90, 0}, {1e-170, 0, 0}, 1.01e-10));  // the square of 1e-170 is 0
+  EXPECT_FALSE(is_near({1e100, 1e90, 0}, {1e-170, 0, 0}, 0.99e-10));
 }
 
 TEST(near_neighbours, are_counted_and_the_first_pair_is_named) {
