@@ -107,11 +107,16 @@ TYPED_TEST(Inside, IsRightForPolygonsOfAllSizes) {
   EXPECT_GT(asked, 1000);
 }
 
-TYPED_TEST(Inside, HoldsItsVertices) {
-  const Star<TypeParam> star(1e-3, 0.5, 12);
-  for (std::size_t k = 0; k < star.x.size(); ++k) {
-    const auto answer = star.ask({star.x[k], star.y[k], star.z[k]}, star.forward);
-    EXPECT_EQ(answer.first, PolygonStatus::done);
-    EXPECT_TRUE(answer.second);
+TYPED_TEST(Inside, HoldsItsVerticesAndNotTheirOpposites) {
+  for (const int count : {3, 12}) {
+    const Star<TypeParam> star(1e-3, count == 3 ? 1 : 0.5, count);
+    for (std::size_t k = 0; k < star.x.size(); ++k) {
+      const auto answer = star.ask({star.x[k], star.y[k], star.z[k]}, star.forward);
+      EXPECT_EQ(answer.first, PolygonStatus::done);
+      EXPECT_TRUE(answer.second);
+      const auto opposite = star.ask({-star.x[k], -star.y[k], -star.z[k]}, star.forward);
+      EXPECT_EQ(opposite.first, PolygonStatus::done);
+      EXPECT_FALSE(opposite.second);
+    }
   }
 }

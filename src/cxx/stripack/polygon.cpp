@@ -188,7 +188,9 @@ class ExactPolygon {
   /// Changes `even` if the arc from p to a + b crosses c-d. False if c or d is on the way, or a + b on c-d.
   static bool count_crossing(const Point& p, const Point& a, const Point& b, const Point& c, const Point& d,
                              bool& even) {
-    if (same_direction(c, d)) return true;
+    const Point opposite{-p.x, -p.y,
+                         -p.z};  // there and at p the great circles of an edge at it and of the arc meet
+    if (same_direction(c, d) || same_direction(c, opposite) || same_direction(d, opposite)) return true;
     const int pmc = left_of_sum(c, p, a, b), pmd = left_of_sum(d, p, a, b);  // with m = a + b
     if (pmc == 0 || pmd == 0) return false;
     if (pmc == pmd) return true;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -131,7 +132,9 @@ class Search {
     if (i3 != 0) return contains(i1, i2, i3) ? found : walk_exactly(o);
     if (i1 == 0) return walk_exactly(o);
     const Int before = lists_.last_neighbour(i1);
-    return exact_side(before, i1) < 0 ? see_boundary_exactly(before, i1) : walk_exactly(o);
+    if (exact_side(before, i1) >= 0) return walk_exactly(o);
+    const Location<Int> seen = see_boundary_exactly(before, i1);
+    return seen.i1 == seen.i2 ? Location<Int>{i1, i1, 0} : seen;
   }
 
   /// The visibility walk: leaves triangle (u,v,w) through an arc that has p strictly to its right.
@@ -506,7 +509,7 @@ void confirm_next(const ListsView<Int>& lists, const Nodes<Real>& nodes, Int giv
   const ListReader<Int> reader(lists);
   const Point centre = as_point(nodes[npts[0]]);
   Int& found = npts[given];
-  const double least = dot(centre, as_point(nodes[found])) - 0x1p-48;
+  const double least = dot(centre, as_point(nodes[found])) - 16 * std::numeric_limits<Real>::epsilon();
   for (Int i = 0; i < given; ++i)
     each_neighbour(reader, npts[i], [&](Int node) {
       const Point at = as_point(nodes[node]);
