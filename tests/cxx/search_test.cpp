@@ -390,9 +390,10 @@ TYPED_TEST(NextNearest, TrfindAndNearndAreExact) {
             << name << " from " << start << ": " << nearest;
         // Beyond 0.03 the arc cosine, as the original's: its rounding grows with the inverse of the angle.
         const double rounding = 4 * std::numeric_limits<Real>::epsilon();
-        if (std::abs(dot(p, p) - 1) < 4 * std::numeric_limits<Real>::epsilon())  // the original asks for that
+        if (std::abs(dot(p, p) - 1) < 4 * std::numeric_limits<Real>::epsilon()) {  // as the original asks
           ASSERT_NEAR(angle, distance, rounding * (distance + (distance < 0.03 ? 0 : 1 / std::sin(distance))))
               << name;
+        }
       }
     }
   }
