@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "commands.h"
 #include "files/nodes.h"
 #include "point_sets.h"
 
@@ -11,7 +12,9 @@ namespace comparison {
 using pstripack::Point;
 
 std::vector<Point> read_nodes(const std::string& file) {
-  return file != "-" && files::is_netcdf(file) ? files::read(file).points : point_sets::read(file);
+  files::ReadOptions options;
+  options.exit_code = kUsage;
+  return file != "-" && files::is_netcdf(file) ? files::read(file, options).points : point_sets::read(file);
 }
 
 void put_in_order(std::vector<Point>& points, const std::string& order, std::uint64_t seed) {

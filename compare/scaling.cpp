@@ -34,9 +34,9 @@
 #include "mpi/distributed_mesh.h"
 #include "point_sets.h"
 #include "pool/area_layout.h"
-#include "printed.h"
 #include "scvt/evaluator.h"
 #include "scvt/front.h"
+#include "standard_streams.h"
 #include "trmesh/trmesh.h"
 #include "voronoi_cell.h"
 
@@ -627,6 +627,7 @@ void print_tables(const std::string& self, Settings s, const Tables& t) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  fill_standard_streams();
   CLI::App app{
       "How PSTRIPACK scales with MPI ranks: halo, bytes, processor time per phase, projected speed-up."};
   Settings s;
@@ -678,7 +679,7 @@ int main(int argc, char** argv) {
     expect_printed();
     return 0;
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
+    if (error.get_exit_code() == 0) return after_help("pstripack-scaling", app.exit(error));
     fmt::print(stderr, "pstripack-scaling: {}\n", error.what());
     return 2;
   } catch (const std::exception& error) {

@@ -16,8 +16,8 @@
 #include "families.h"
 #include "mesh_files.h"
 #include "our_calls.h"
-#include "printed.h"
 #include "run.h"
+#include "standard_streams.h"
 
 namespace {
 
@@ -201,6 +201,7 @@ exit code
 }  // namespace
 
 int main(int argc, char** argv) {
+  fill_standard_streams();
   RunOptions options;
   MeshOptions mesh_options;
   comparison::ListsOptions lists_options;
@@ -228,7 +229,7 @@ int main(int argc, char** argv) {
     expect_printed();
     return code;
   } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
+    if (e.get_exit_code() == 0) return after_help("stripack-compare", app.exit(e));  // --help, --version
     std::fprintf(stderr, "stripack-compare: %s\n", e.what());
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "stripack-compare: out of memory\n");

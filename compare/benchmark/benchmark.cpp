@@ -28,8 +28,8 @@
 #include "orders.h"
 #include "original.h"
 #include "point_sets.h"
-#include "printed.h"
 #include "pstripack.h"
+#include "standard_streams.h"
 #include "time_of_scvt.h"
 #include "time_of_warm_starts.h"
 
@@ -62,6 +62,7 @@ std::string is_point_set(const std::string& name) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  fill_standard_streams();
   CLI::App app(
       "Times of PSTRIPACK, the original STRIPACK, CGAL and Qhull on one thread, and their ratios beside\n"
       "the required ones. The exit code does not depend on them.",
@@ -153,7 +154,7 @@ int main(int argc, char** argv) {
     expect_printed();
     return 0;
   } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return app.exit(e);
+    if (e.get_exit_code() == 0) return after_help("pstripack-benchmark", app.exit(e));
     std::fprintf(stderr, "pstripack-benchmark: %s\n", e.what());
     return 2;
   } catch (const std::invalid_argument& e) {

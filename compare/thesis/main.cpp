@@ -41,7 +41,7 @@
 #include "median.h"
 #include "parallel/cost.h"
 #include "point_sets.h"
-#include "printed.h"
+#include "standard_streams.h"
 #include "thesis/defects.h"
 #include "thesis/ring.h"
 #include "thesis/stripe.h"

@@ -32,7 +32,7 @@ cannot_print() {
   "$@" > /dev/full 2> err
   code=$?
   [ $code -ne 0 ] && [ $code -lt 126 ] || fail "exit code $code of $* > /dev/full"
-  grep -q 'cannot write' err || fail "it does not say that it cannot print: $*"
+  grep -qE 'stdout: cannot be written|cannot write' err || fail "it does not say that it cannot print: $*"
 }
 
 if [ -n "$COMPARE" ]; then

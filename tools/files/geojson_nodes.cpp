@@ -12,11 +12,13 @@
 #include "files/nearest.h"
 #include "files/nodes.h"
 #include "files/text_table.h"
+#include "text_file.h"
 
 namespace files {
 namespace {
 
 using json = nlohmann::ordered_json;
+using point_sets::excerpt;
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
@@ -47,7 +49,7 @@ class Features {
     const std::string type = text_of(*geometry, "type");
     if (type != "Point" && type != "MultiPoint")
       fail(
-          fmt::format("'{}' is not a Point or MultiPoint: nodes are points{}", type,
+          fmt::format("'{}' is not a Point or MultiPoint: nodes are points{}", excerpt(type),
                       type.find("Polygon") != type.npos ? "; meshes are read from UGRID, MPAS and OFF" : ""));
     const auto coordinates = geometry->find("coordinates");
     if (coordinates == geometry->end() || !coordinates->is_array()) fail("its geometry has no coordinates");
@@ -106,10 +108,27 @@ class Features {
   std::size_t count_ = 0;
 };
 
+/// What the parser says, without the place, and with an excerpt of the text that it read last.
+std::string reason_of(const json::parse_error& e) {
+  std::string what = e.what();
+  if (const std::size_t column = what.find(", column "); column != what.npos)
+    what.erase(0, what.find(": ", column) + 2);
+  constexpr std::string_view kRead = "last read: '";
+  const std::size_t begin = what.find(kRead), end = what.rfind('\'');
+  if (begin == what.npos) return what;
+  const std::size_t word = begin + kRead.size();
+  return what.substr(0, word) + excerpt(what.substr(word, end - word)) + what.substr(end);
+}
+
 /// Parses the file, handing each feature to `features` without keeping it. Returns the JSON without features.
+/// Refuses deep JSON: a value is written by a recursion over its levels.
 json parse(const std::string& text, const std::string& file, Features& features) {
+  constexpr int kMostLevels = 100;
   bool in_features = false;
   const auto see = [&](int depth, json::parse_event_t event, json& value) {
+    if (depth > kMostLevels)
+      throw std::runtime_error(fmt::format(
+          "{}: JSON with more than {} levels of brackets, which no points have", file, kMostLevels));
     if (depth == 1 && event == json::parse_event_t::key) in_features = value == "features";
     if (depth != 2 || event != json::parse_event_t::object_end || !in_features) return true;
     features.add(value);
@@ -119,11 +138,8 @@ json parse(const std::string& text, const std::string& file, Features& features)
     return json::parse(text, see);
   } catch (const json::parse_error& e) {
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(e.byte, text.size()));
-    const std::string what = e.what();
-    const std::size_t column = what.find(", column ");
     throw std::runtime_error(fmt::format("{}:{}: not valid JSON: {}", file,
-                                         1 + std::count(text.begin(), end, '\n'),
-                                         what.substr(column == what.npos ? 0 : what.find(": ", column) + 2)));
+                                         1 + std::count(text.begin(), end, '\n'), reason_of(e)));
   } catch (const json::out_of_range&) {
     throw std::runtime_error(
         fmt::format("{}: feature {}: a number is larger than 1e308", file, features.count() + 1));
@@ -138,8 +154,9 @@ void check_reference_system(const json& root, const std::string& file) {
   const std::string name = text_of((*crs)["properties"], "name");
   const auto has = [&](const char* word) { return name.find(word) != name.npos; };
   if (!name.empty() && !has("CRS84") && !has("4326"))
-    throw std::runtime_error(fmt::format(
-        "{}: coordinates are in {}: write the file in longitudes and latitudes, EPSG:4326", file, name));
+    throw std::runtime_error(
+        fmt::format("{}: coordinates are in {}: write the file in longitudes and latitudes, EPSG:4326", file,
+                    excerpt(name)));
 }
 
 const std::vector<double>* numbers_of_all(const Columns& columns, const char* name) {
@@ -189,7 +206,7 @@ std::vector<std::string> chosen(const ReadOptions& options, const Columns& colum
   for (const std::string& word : words)
     if (find(columns, word) == nullptr)
       throw std::runtime_error(fmt::format("{}: there is no property '{}'{}; the features have {}", file,
-                                           word, did_you_mean(word, names_of(columns)),
+                                           excerpt(word), did_you_mean(word, names_of(columns)),
                                            listed(names_of(columns))));
   return words;
 }
@@ -202,8 +219,9 @@ Column value_of(Columns& columns, std::string name, const std::string& file) {
   if (name.empty() && numbers.size() == 1) name = numbers[0].name;
   if (find(numbers, name) == nullptr)
     throw std::runtime_error(fmt::format("{}: {}{}; properties that are numbers: {}", file,
-                                         name.empty() ? "which property is the value? Say --variable"
-                                                      : fmt::format("no property '{}' is a number", name),
+                                         name.empty()
+                                             ? "which property is the value? Say --variable"
+                                             : fmt::format("no property '{}' is a number", excerpt(name)),
                                          did_you_mean(name, names_of(numbers)), listed(names_of(numbers))));
   const Column value = *find(columns, name);
   remove(columns, name);
@@ -238,7 +256,7 @@ Nodes read_geojson(const std::string& file, const ReadOptions& options, const st
     throw std::runtime_error(
         fmt::format("{}: not GeoJSON of points: the type is '{}', expected FeatureCollection, Feature, Point "
                     "or MultiPoint",
-                    file, type));
+                    file, excerpt(type)));
   }
   check_reference_system(root, file);
   const std::size_t n = nodes.given.lon.size();

@@ -4,45 +4,106 @@
 // units are those of the attribute; without it radians for lonCell and latCell, else those of the options,
 // else it is an error.
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <netcdf.h>
 #include <netcdf_mem.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
+#include "files/classic_netcdf.h"
 #include "files/nearest.h"
 #include "files/nodes.h"
+#include "files/reading_guard.h"
 #include "lists/limits.h"
 #include "parallel/local_nodes.h"
 #include "point_sets.h"
+#include "text_file.h"
 
 namespace files {
 namespace {
 
-/// A NetCDF file open for reading.
+using point_sets::excerpt;
+
+/// The bytes of a file, as memory.
+class MappedFile {
+ public:
+  explicit MappedFile(const std::string& name) {
+    const int descriptor = open(name.c_str(), O_RDONLY | O_CLOEXEC);
+    struct stat status {};
+    if (descriptor >= 0 && fstat(descriptor, &status) == 0 && status.st_size > 0) {
+      size_ = static_cast<std::size_t>(status.st_size);
+      bytes_ = mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, descriptor, 0);
+    }
+    const int error = errno;
+    if (descriptor >= 0) close(descriptor);
+    if (bytes_ == MAP_FAILED)
+      throw std::runtime_error(fmt::format("{}: cannot be read: {}", name, std::strerror(error)));
+  }
+  ~MappedFile() { munmap(bytes_, size_); }
+  MappedFile(const MappedFile&) = delete;
+  MappedFile& operator=(const MappedFile&) = delete;
+  std::string_view bytes() const { return {static_cast<const char*>(bytes_), size_}; }
+
+ private:
+  void* bytes_ = MAP_FAILED;
+  std::size_t size_ = 0;
+};
+
+/// A NetCDF file open for reading. status() and call() call libnetcdf.
 class File {
  public:
   File(const std::string& name, const std::string& contents, const ReadOptions& options)
-      : name_(name), options_(options) {
-    // NetCDF takes bytes to read as void*, and does not change them without NC_WRITE.
-    check(contents.empty() ? nc_open(name.c_str(), NC_NOWRITE, &id_)
-                           : nc_open_mem(name.c_str(), NC_NOWRITE, contents.size(),
-                                         const_cast<char*>(contents.data()), &id_),
-          "");
+      : name_(name), options_(options), guard_(name, options.exit_code) {
+    if (contents.empty())
+      check_header(MappedFile(name).bytes());
+    else
+      check_header(contents);
+    guard_.grant(contents.size());
+    if (contents.empty())
+      call("", nc_open, name.c_str(), NC_NOWRITE, &id_);
+    else  // NetCDF takes bytes to read as void*, and does not change them without NC_WRITE.
+      call("", nc_open_mem, name.c_str(), NC_NOWRITE, contents.size(), const_cast<char*>(contents.data()),
+           &id_);
   }
-  ~File() { nc_close(id_); }
+  ~File() { status(nc_close, id_); }
   File(const File&) = delete;
   File& operator=(const File&) = delete;
 
   [[noreturn]] void fail(const std::string& what) const { throw std::runtime_error(name_ + ": " + what); }
-  void check(int status, const std::string& variable) const {
-    if (status != NC_NOERR)
-      fail((variable.empty() ? "" : "variable " + variable + ": ") + nc_strerror(status));
+  template <class... Parameters, class... Arguments>
+  int status(int (*function)(Parameters...), Arguments... arguments) const {
+    const ReadingGuard::Limits limits(guard_);
+    return function(arguments...);
+  }
+  template <class... Parameters, class... Arguments>
+  void call(const std::string& variable, int (*function)(Parameters...), Arguments... arguments) const {
+    if (const int error = status(function, arguments...); error != NC_NOERR)
+      fail((variable.empty() ? "" : "variable " + excerpt(variable) + ": ") + nc_strerror(error));
+  }
+  /// To be called before values are read. Throws if there are more than the file can hold: no value of the
+  /// classic formats is compressed, and deflate, the usual compression, makes nothing smaller than 1/1032.
+  void expect(const std::string& variable, int id, std::size_t values) const {
+    nc_type type = NC_BYTE;
+    std::size_t size = 1;
+    call(variable, nc_inq_vartype, id_, id, &type);
+    call(variable, nc_inq_type, id_, type, nullptr, &size);
+    const std::size_t most = (is_classic_ ? 1 : 1032) * length_ / std::max<std::size_t>(size, 1);
+    if (values > most)
+      fail(fmt::format("variable {}: {} values; the file, {} bytes long, has room for {}: it is damaged",
+                       excerpt(variable), values, length_, most));
+    guard_.grant(values * std::max(size, sizeof(double)));
   }
   int id() const { return id_; }
   Units units() const { return options_.units; }  ///< of angles without units
@@ -54,8 +115,17 @@ class File {
   }
 
  private:
+  void check_header(std::string_view bytes) {
+    length_ = bytes.size();
+    is_classic_ = bytes.substr(0, 3) == "CDF";
+    if (is_classic_) check_classic_netcdf(bytes, name_);
+  }
+
   std::string name_;
   const ReadOptions& options_;
+  mutable ReadingGuard guard_;
+  std::size_t length_ = 0;
+  bool is_classic_ = false;
   int id_ = -1;
 };
 
@@ -70,16 +140,17 @@ struct Variable {
 
 bool has(const File& file, const std::string& name) {
   int id;
-  return nc_inq_varid(file.id(), name.c_str(), &id) == NC_NOERR;
+  return file.status(nc_inq_varid, file.id(), name.c_str(), &id) == NC_NOERR;
 }
 
 std::string text_attribute(const File& file, int variable, const char* name) {
   std::string text;
-  if (std::size_t length; nc_inq_attlen(file.id(), variable, name, &length) == NC_NOERR) {
+  if (std::size_t length; file.status(nc_inq_attlen, file.id(), variable, name, &length) == NC_NOERR) {
     nc_type type;
-    if (nc_inq_atttype(file.id(), variable, name, &type) != NC_NOERR || type != NC_CHAR) return text;
+    if (file.status(nc_inq_atttype, file.id(), variable, name, &type) != NC_NOERR || type != NC_CHAR)
+      return text;
     text.resize(length);
-    file.check(nc_get_att_text(file.id(), variable, name, text.data()), name);
+    file.call(name, nc_get_att_text, file.id(), variable, name, text.data());
   }
   return text;
 }
@@ -87,15 +158,14 @@ std::string text_attribute(const File& file, int variable, const char* name) {
 /// The number of the variable and the length of each of its dimensions.
 std::pair<int, std::vector<std::size_t>> shape_of(const File& file, const std::string& name,
                                                   std::vector<int>& dimensions) {
-  const auto check = [&](int status) { file.check(status, name); };
   int id, rank;
-  check(nc_inq_varid(file.id(), name.c_str(), &id));
-  check(nc_inq_varndims(file.id(), id, &rank));
+  file.call(name, nc_inq_varid, file.id(), name.c_str(), &id);
+  file.call(name, nc_inq_varndims, file.id(), id, &rank);
   dimensions.resize(static_cast<std::size_t>(rank));
-  check(nc_inq_vardimid(file.id(), id, dimensions.data()));
+  file.call(name, nc_inq_vardimid, file.id(), id, dimensions.data());
   std::vector<std::size_t> lengths(dimensions.size());
   for (std::size_t d = 0; d < lengths.size(); ++d)
-    check(nc_inq_dimlen(file.id(), dimensions[d], &lengths[d]));
+    file.call(name, nc_inq_dimlen, file.id(), dimensions[d], &lengths[d]);
   return {id, lengths};
 }
 
@@ -103,8 +173,8 @@ std::pair<int, std::vector<std::size_t>> shape_of(const File& file, const std::s
 void require_few(const File& file, const std::string& name, std::size_t rows, std::size_t row) {
   constexpr std::size_t most = pstripack::most_nodes<std::int32_t>();
   if (rows > most / std::max<std::size_t>(row, 1))
-    file.fail(
-        fmt::format("variable {}: {} times {} values; there can be {} nodes at most", name, rows, row, most));
+    file.fail(fmt::format("variable {}: {} times {} values; there can be {} nodes at most", excerpt(name),
+                          rows, row, most));
 }
 
 /// The numbers of a variable. Its last dimension is that of the nodes; others may come before it.
@@ -116,8 +186,9 @@ std::vector<double> read_numbers(const File& file, const std::string& name) {
     std::tie(start.back(), lengths.back()) = file.part_of(lengths.back());
   std::size_t count = 1;
   for (const std::size_t length : lengths) count *= length;
+  file.expect(name, id, count);
   std::vector<double> values(count);
-  file.check(nc_get_vara_double(file.id(), id, start.data(), lengths.data(), values.data()), name);
+  file.call(name, nc_get_vara_double, file.id(), id, start.data(), lengths.data(), values.data());
   return values;
 }
 
@@ -132,19 +203,20 @@ Variable read(const File& file, const std::string& name) {
   }
   if (file.is_read_in_parts()) {
     if (lengths.size() != 1)
-      file.fail("variable " + name + ": several ranks read variables of one dimension, each its part");
+      file.fail("variable " + excerpt(name) +
+                ": several ranks read variables of one dimension, each its part");
     v.before = file.part_of(lengths[0]).first;
   }
   v.values = read_numbers(file, name);
   v.units = text_attribute(file, id, "units");
   v.id = id;
-  if (nc_inq_attid(file.id(), id, "scale_factor", nullptr) == NC_NOERR)
-    file.fail("variable " + name + ": packed (scale_factor); expected plain numbers");
+  if (file.status(nc_inq_attid, file.id(), id, "scale_factor", nullptr) == NC_NOERR)
+    file.fail("variable " + excerpt(name) + ": packed (scale_factor); expected plain numbers");
   double fill = 0;
-  const bool has_fill = nc_get_att_double(file.id(), id, "_FillValue", &fill) == NC_NOERR;
+  const bool has_fill = file.status(nc_get_att_double, file.id(), id, "_FillValue", &fill) == NC_NOERR;
   for (std::size_t i = 0; i < v.values.size(); ++i)
     if (!std::isfinite(v.values[i]) || (has_fill && v.values[i] == fill))
-      file.fail(fmt::format("variable {}, value {}: missing or not finite: remove the node", name,
+      file.fail(fmt::format("variable {}, value {}: missing or not finite: remove the node", excerpt(name),
                             v.before + i + 1));
   return v;
 }
@@ -153,8 +225,8 @@ Variable read(const File& file, const std::string& name) {
 double number_attribute(const File& file, int variable, const char* name, double otherwise) {
   std::size_t length = 0;
   double value = 0;
-  if (nc_inq_attlen(file.id(), variable, name, &length) != NC_NOERR || length != 1 ||
-      nc_get_att_double(file.id(), variable, name, &value) != NC_NOERR)
+  if (file.status(nc_inq_attlen, file.id(), variable, name, &length) != NC_NOERR || length != 1 ||
+      file.status(nc_get_att_double, file.id(), variable, name, &value) != NC_NOERR)
     return otherwise;
   return value;
 }
@@ -165,10 +237,10 @@ std::string shape_text(const File& file, const std::string& name, const std::vec
   for (const int dimension : dimensions) {
     char dimension_name[NC_MAX_NAME + 1];
     std::size_t length = 0;
-    file.check(nc_inq_dim(file.id(), dimension, dimension_name, &length), name);
-    text += fmt::format("{}{}={}", text.empty() ? "" : ", ", dimension_name, length);
+    file.call(name, nc_inq_dim, file.id(), dimension, dimension_name, &length);
+    text += fmt::format("{}{}={}", text.empty() ? "" : ", ", excerpt(dimension_name), length);
   }
-  return fmt::format("{}({})", name, text);
+  return fmt::format("{}({})", excerpt(name), text);
 }
 
 /// True if the dimensions are those of the nodes, possibly after others of length 1.
@@ -186,22 +258,22 @@ bool is_of_nodes(const File& file, const std::string& name, const std::vector<in
 /// Names of the variables with one value per node, for messages.
 std::string names_of_values(const File& file, const std::vector<int>& of_nodes) {
   int count = 0;
-  file.check(nc_inq_nvars(file.id(), &count), "");
-  std::string names;
+  file.call("", nc_inq_nvars, file.id(), &count);
+  std::vector<std::string> names;
   for (int v = 0; v < count; ++v) {
     char name[NC_MAX_NAME + 1];
     nc_type type = NC_CHAR;
-    file.check(nc_inq_varname(file.id(), v, name), "");
-    file.check(nc_inq_vartype(file.id(), v, &type), name);
+    file.call("", nc_inq_varname, file.id(), v, name);
+    file.call(name, nc_inq_vartype, file.id(), v, &type);
     if (type != NC_CHAR && type <= NC_UINT64 && type != NC_STRING && is_of_nodes(file, name, of_nodes))
-      names += (names.empty() ? "" : ", ") + std::string(name);
+      names.emplace_back(name);
   }
-  return names.empty() ? "none" : names;
+  return listed(names);
 }
 
 std::string name_of(const File& file, int variable) {
   char name[NC_MAX_NAME + 1];
-  file.check(nc_inq_varname(file.id(), variable, name), "");
+  file.call("", nc_inq_varname, file.id(), variable, name);
   return name;
 }
 
@@ -209,8 +281,8 @@ std::string name_of(const File& file, int variable) {
 Column read_column(const File& file, const std::string& name) {
   int id = -1;
   nc_type type = NC_CHAR;
-  file.check(nc_inq_varid(file.id(), name.c_str(), &id), name);
-  file.check(nc_inq_vartype(file.id(), id, &type), name);
+  file.call(name, nc_inq_varid, file.id(), name.c_str(), &id);
+  file.call(name, nc_inq_vartype, file.id(), id, &type);
   Column column{name, text_attribute(file, id, "long_name"), text_attribute(file, id, "units")};
   column.numbers = read_numbers(file, name);
   const double fill = number_attribute(file, id, "_FillValue", NC_FILL_DOUBLE);
@@ -231,7 +303,7 @@ Column read_column(const File& file, const std::string& name) {
 Column read_value(const File& file, const std::string& name, const std::vector<int>& of_nodes) {
   if (name.empty() || !has(file, name))
     file.fail(fmt::format("{}say --variable NAME; variables with one value per node: {}",
-                          name.empty() ? "" : "there is no variable " + name + "; ",
+                          name.empty() ? "" : "there is no variable " + excerpt(name) + "; ",
                           names_of_values(file, of_nodes)));
   std::vector<int> dimensions;
   shape_of(file, name, dimensions);
@@ -244,8 +316,9 @@ Column read_value(const File& file, const std::string& name, const std::vector<i
 /// Texts of equal length, padded with zeros or blanks.
 Column read_texts(const File& file, int id, const std::string& name, std::size_t nodes, std::size_t length) {
   require_few(file, name, nodes, length);
+  file.expect(name, id, nodes * length);
   std::string bytes(nodes * length, '\0');
-  file.check(nc_get_var_text(file.id(), id, bytes.data()), name);
+  file.call(name, nc_get_var_text, file.id(), id, bytes.data());
   Column column{name, text_attribute(file, id, "long_name")};
   for (std::size_t i = 0; i < nodes; ++i) {
     std::string text = bytes.substr(i * length, length);
@@ -262,11 +335,11 @@ Columns read_columns(const File& file, std::size_t nodes, const std::vector<int>
                      const std::vector<int>& coordinates, const std::vector<std::string>& wanted) {
   Columns columns;
   int count = 0;
-  file.check(nc_inq_nvars(file.id(), &count), "");
+  file.call("", nc_inq_nvars, file.id(), &count);
   for (int v = 0; v < count; ++v) {
     const std::string name = name_of(file, v);
     nc_type type = NC_CHAR;
-    file.check(nc_inq_vartype(file.id(), v, &type), name);
+    file.call(name, nc_inq_vartype, file.id(), v, &type);
     std::vector<int> dimensions;
     const std::vector<std::size_t> lengths = shape_of(file, name, dimensions).second;
     const bool is_wanted = std::find(wanted.begin(), wanted.end(), name) != wanted.end();
@@ -291,7 +364,8 @@ bool in_degrees(const File& file, const Variable& v) {
   if (v.units.rfind("rad", 0) == 0) return false;
   if (v.units.empty() && (v.name == "lonCell" || v.name == "latCell")) return false;
   if (v.units.empty() && file.units() != Units::said_or_unmistakable) return file.units() == Units::degrees;
-  file.fail(fmt::format("variable {}: units '{}'; expected degrees or radians", v.name, v.units));
+  file.fail(
+      fmt::format("variable {}: units '{}'; expected degrees or radians", excerpt(v.name), excerpt(v.units)));
 }
 
 /// Points, and the angles and variables that belong to them.
@@ -309,7 +383,7 @@ Variable read_angles(const File& file, const std::string& name, bool& are_degree
   Variable v = read(file, name);
   are_degrees = in_degrees(file, v);
   nc_type type = NC_DOUBLE;
-  file.check(nc_inq_vartype(file.id(), v.id, &type), name);
+  file.call(name, nc_inq_vartype, file.id(), v.id, &type);
   if (type == NC_FLOAT && !are_degrees)
     for (double& angle : v.values) angle = point_sets::radians_of_single(angle);
   return v;
@@ -323,12 +397,13 @@ Places from_angles(const File& file, const std::string& lon_name, const std::str
   units = lat_in_degrees ? "degrees" : "radians";
   Angles angles{lon.values.data(), lat.values.data(), 1, lon_in_degrees, lat_in_degrees};
   if (const std::size_t bad = first_beyond_pole(angles, lat.values.size()); bad < lat.values.size())
-    file.fail(fmt::format("variable {}, value {}: {} is beyond the pole{}", lat.name, lat.before + bad + 1,
-                          lat.values[bad],
-                          !lat_in_degrees ? ": is the attribute units wrong, and are these degrees?"
-                          : lon.values.size() == lat.values.size()
-                              ? hint_beyond_pole(angles, lat.values.size(), lat.name + "," + lon.name)
-                              : ""));
+    file.fail(fmt::format(
+        "variable {}, value {}: {} is beyond the pole{}", excerpt(lat.name), lat.before + bad + 1,
+        lat.values[bad],
+        !lat_in_degrees ? ": is the attribute units wrong, and are these degrees?"
+        : lon.values.size() == lat.values.size()
+            ? hint_beyond_pole(angles, lat.values.size(), excerpt(lat.name) + "," + excerpt(lon.name))
+            : ""));
   Places places;
   places.variables = {lon.id, lat.id};
   places.before = lat.before;
@@ -339,7 +414,7 @@ Places from_angles(const File& file, const std::string& lon_name, const std::str
   } else {
     if (lon.dimensions.size() != 1 || lat.dimensions.size() != 1)
       file.fail(fmt::format("variables {} and {}: expected one shape, or two axes of one dimension each",
-                            lon.name, lat.name));
+                            excerpt(lon.name), excerpt(lat.name)));
     require_few(file, lat.name, lat.values.size(), lon.values.size());
     if (file.is_read_in_parts())
       file.fail("a grid: several ranks read a list of nodes, each its part: use `pstripack convert`");
@@ -367,7 +442,8 @@ Places from_coordinates(const File& file, const std::string& x_name, const std::
                         const std::string& z_name) {
   const Variable x = read(file, x_name), y = read(file, y_name), z = read(file, z_name);
   if (x.dimensions != y.dimensions || x.dimensions != z.dimensions)
-    file.fail("variables " + x_name + ", " + y_name + ", " + z_name + ": expected one shape");
+    file.fail(fmt::format("variables {}, {}, {}: expected one shape", excerpt(x_name), excerpt(y_name),
+                          excerpt(z_name)));
   Places places;
   places.points.resize(x.values.size());
   for (std::size_t i = 0; i < places.points.size(); ++i)
@@ -402,21 +478,22 @@ void read_triangles(const File& file, Nodes& nodes, const std::string& name, lon
   std::vector<int> dimensions;
   const auto [id, lengths] = shape_of(file, name, dimensions);
   if (lengths.size() != 2 || lengths[1] != 3)
-    file.fail("variable " + name + ": expected faces of three corners each");
+    file.fail("variable " + excerpt(name) + ": expected faces of three corners each");
   require_few(file, name, lengths[0] / 2, 1);  // a triangulation has at most twice as many triangles as nodes
+  file.expect(name, id, 3 * lengths[0]);
   std::vector<long long> corners(3 * lengths[0]);
-  file.check(nc_get_var_longlong(file.id(), id, corners.data()), name);
+  file.call(name, nc_get_var_longlong, file.id(), id, corners.data());
   set_triangles(nodes, corners, first);
 }
 
 /// The name of the variable that describes a UGRID mesh of faces; empty if the file has none.
 std::string ugrid_mesh(const File& file) {
   int count = 0;
-  file.check(nc_inq_nvars(file.id(), &count), "");
+  file.call("", nc_inq_nvars, file.id(), &count);
   for (int v = 0; v < count; ++v) {
     if (text_attribute(file, v, "cf_role") != "mesh_topology") continue;
     char name[NC_MAX_NAME + 1];
-    file.check(nc_inq_varname(file.id(), v, name), "");
+    file.call("", nc_inq_varname, file.id(), v, name);
     return name;
   }
   return "";
@@ -426,7 +503,7 @@ std::string ugrid_mesh(const File& file) {
 Places read_ugrid(const File& file, Nodes& nodes, const std::string& mesh, bool with_triangles) {
   int id = 0;
   Places places;
-  file.check(nc_inq_varid(file.id(), mesh.c_str(), &id), mesh);
+  file.call(mesh, nc_inq_varid, file.id(), mesh.c_str(), &id);
   std::istringstream names(text_attribute(file, id, "node_coordinates"));
   std::string lon, lat;
   names >> lon >> lat;
@@ -436,7 +513,7 @@ Places read_ugrid(const File& file, Nodes& nodes, const std::string& mesh, bool 
     add_angles(file, places, lon, lat);
     nodes.kind += ", UGRID, x y z";
   } else {
-    if (lat.empty()) file.fail("variable " + mesh + ": expected node_coordinates 'lon lat'");
+    if (lat.empty()) file.fail("variable " + excerpt(mesh) + ": expected node_coordinates 'lon lat'");
     const char* units = "";
     places = from_angles(file, lon, lat, units);
     nodes.kind += fmt::format(", UGRID, lon lat in {}", units);
@@ -445,19 +522,19 @@ Places read_ugrid(const File& file, Nodes& nodes, const std::string& mesh, bool 
   const std::string faces = text_attribute(file, id, "face_node_connectivity");
   if (!with_triangles || faces.empty()) return places;
   int faces_id = 0;
-  file.check(nc_inq_varid(file.id(), faces.c_str(), &faces_id), faces);
+  file.call(faces, nc_inq_varid, file.id(), faces.c_str(), &faces_id);
   long long first = 0;
-  nc_get_att_longlong(file.id(), faces_id, "start_index", &first);  // UGRID's default is 0
+  file.status(nc_get_att_longlong, file.id(), faces_id, "start_index", &first);  // UGRID's default is 0
   read_triangles(file, nodes, faces, first);
   return places;
 }
 
 void read_notes(const File& file, Notes& notes) {
   int count = 0;
-  file.check(nc_inq_natts(file.id(), &count), "");
+  file.call("", nc_inq_natts, file.id(), &count);
   for (int a = 0; a < count; ++a) {
     char name[NC_MAX_NAME + 1];
-    file.check(nc_inq_attname(file.id(), NC_GLOBAL, a, name), "");
+    file.call("", nc_inq_attname, file.id(), NC_GLOBAL, a, name);
     if (is_note(name)) notes[name] = text_attribute(file, NC_GLOBAL, name);
   }
 }
@@ -472,7 +549,7 @@ std::vector<std::string> words_of(const std::string& columns) {
 
 std::vector<std::string> variables_in(const File& file) {
   int count = 0;
-  file.check(nc_inq_nvars(file.id(), &count), "");
+  file.call("", nc_inq_nvars, file.id(), &count);
   std::vector<std::string> names;
   for (int v = 0; v < count; ++v) names.push_back(name_of(file, v));
   return names;
@@ -483,11 +560,11 @@ Places read_chosen(const File& file, Nodes& nodes, std::vector<std::string>& nam
   const std::vector<std::string> variables = variables_in(file);
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (!has(file, names[i]))
-      file.fail(fmt::format("there is no variable '{}'{}; the file has {}", names[i],
+      file.fail(fmt::format("there is no variable '{}'{}; the file has {}", excerpt(names[i]),
                             did_you_mean(names[i], variables), listed(variables)));
     if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
         names.begin() + static_cast<std::ptrdiff_t>(i))
-      file.fail(fmt::format("variable '{}' is chosen twice", names[i]));
+      file.fail(fmt::format("variable '{}' is chosen twice", excerpt(names[i])));
   }
   const std::size_t count = coordinates == Coordinates::xyz ? 3 : 2;
   if (names.size() < count)

@@ -98,7 +98,7 @@ std::optional<std::size_t> axis_among(const std::vector<std::size_t>& candidates
     if (found)
       throw std::runtime_error(
           fmt::format("{}: the header names column '{}' twice, {} and {}: choose columns by number", where,
-                      layout.name(c), *found + 1, c + 1));
+                      point_sets::excerpt(layout.name(c)), *found + 1, c + 1));
     found = c;
   }
   return found;
@@ -118,9 +118,10 @@ std::vector<std::size_t> place_by_names(const std::vector<std::size_t>& candidat
     if (found.size() == 2) return found;
     if (found.size() == 1) {
       const bool has_lon = axis_of(layout.name(found[0])) == 'o';
-      throw std::runtime_error(fmt::format(
-          "{}: a column '{}' without a {}: name both by --columns LON,LAT; the header has {}", where,
-          layout.name(found[0]), has_lon ? "latitude" : "longitude", listed(layout.names)));
+      throw std::runtime_error(
+          fmt::format("{}: a column '{}' without a {}: name both by --columns LON,LAT; the header has {}",
+                      where, point_sets::excerpt(layout.name(found[0])), has_lon ? "latitude" : "longitude",
+                      listed(layout.names)));
     }
   }
   if (coordinates == Coordinates::lonlat) return {};

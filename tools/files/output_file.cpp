@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <set>
 #include <stdexcept>
 #include <vector>
 
@@ -16,11 +17,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kSignals[] = {SIGHUP, SIGINT, SIGTERM};
+constexpr int kSignals[] = {SIGHUP, SIGINT, SIGPIPE, SIGQUIT, SIGTERM, SIGXCPU};
 char name_to_remove[4096] = "";  // a signal handler must not allocate; empty: no file
 
 void remove_and_end(int signal) {
-  if (name_to_remove[0] != '\0') unlink(name_to_remove);
+  remove_unfinished_output();
   std::signal(signal, SIG_DFL);
   raise(signal);
 }
@@ -33,7 +34,44 @@ bool is_stdout(const std::string& name) {
                          named.st_dev == open.st_dev && named.st_ino == open.st_ino);
 }
 
+/// Temporary files of this target have this, the number of the process, a dot and six letters as their name.
+std::string beginning_of_temporary(const std::string& target) {
+  const std::string name = target == "-" ? "stdout" : fs::path(target).filename().string();
+  return "." + name.substr(0, 200) + ".unfinished.";  // a name has at most 255 bytes
+}
+
+/// Names temporary files of this user's runs that have ended. Looks once for each target, since a folder may
+/// be large.
+void report_leftovers(const fs::path& folder, const std::string& beginning) {
+  static std::set<fs::path> seen;
+  if (!on_leftover() || !seen.insert(folder / beginning).second) return;
+  std::error_code error;
+  for (fs::directory_iterator at(folder.empty() ? "." : folder, error), end; !error && at != end;
+       at.increment(error)) {
+    const std::string name = at->path().filename().string();
+    if (name.rfind(beginning, 0) != 0) continue;
+    const long process = std::strtol(name.c_str() + beginning.size(), nullptr, 10);
+    struct stat status;
+    if (process <= 0 || kill(static_cast<pid_t>(process), 0) == 0 || errno != ESRCH ||
+        lstat(at->path().c_str(), &status) != 0 || status.st_uid != geteuid())
+      continue;
+    on_leftover()(
+        fmt::format("{} is unfinished output of a killed run: process {} does not run on this "
+                    "machine: remove it, unless it runs on another",
+                    at->path().string(), process));
+  }
+}
+
 }  // namespace
+
+std::function<void(const std::string&)>& on_leftover() {
+  static std::function<void(const std::string&)> say;
+  return say;
+}
+
+void remove_unfinished_output() {
+  if (name_to_remove[0] != '\0') unlink(name_to_remove);
+}
 
 void fail_to_write(const std::string& name, int error) {
   throw std::runtime_error(name + ": cannot be written: " + std::strerror(error));
@@ -51,14 +89,17 @@ OutputFile::OutputFile(const std::string& name)
     copies_ = fs::exists(status) && (error || !fs::equivalent(name, real, error));
     if (!copies_ && !error) target_ = real.string();
     if (fs::exists(status) && access(target_.c_str(), W_OK) != 0) fail_to_write(name_, errno);
+    // access() allows root everything.
+    constexpr auto kWriting = fs::perms::owner_write | fs::perms::group_write | fs::perms::others_write;
+    if (!copies_ && fs::exists(status) && (status.permissions() & kWriting) == fs::perms::none)
+      fail_to_write(name_, EACCES);
   }
   const fs::path folder = copies_ ? fs::temp_directory_path() : fs::path(target_).parent_path();
-  temporary_ = (folder / ("." + fs::path(target_).filename().string() + ".XXXXXX")).string();
+  const std::string beginning = beginning_of_temporary(target_);
+  report_leftovers(folder, beginning);
+  temporary_ = (folder / fmt::format("{}{}.XXXXXX", beginning, getpid())).string();
   const int descriptor = mkstemp(temporary_.data());
   if (descriptor < 0) fail_to_write(name_, errno);
-  const mode_t mask = umask(0);
-  umask(mask);
-  fchmod(descriptor, 0666 & ~mask);
   close(descriptor);
   if (temporary_.size() < sizeof name_to_remove) std::strcpy(name_to_remove, temporary_.c_str());
   for (const int signal : kSignals)
@@ -76,8 +117,27 @@ void OutputFile::commit() {
     copy_to_target();
     return;
   }
+  set_permissions();
   if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail_to_write(name_, errno);
   temporary_.clear();
+}
+
+/// The permissions of the file that is replaced, and its owner and group if possible; else those of a new
+/// file.
+void OutputFile::set_permissions() const {
+  struct stat replaced;
+  const char* const name = temporary_.c_str();
+  if (stat(target_.c_str(), &replaced) != 0) {
+    const mode_t mask = umask(0);
+    umask(mask);
+    chmod(name, 0666 & ~mask);
+    return;
+  }
+  mode_t mode = replaced.st_mode & 0777;
+  if (chown(name, replaced.st_uid, replaced.st_gid) != 0 &&
+      chown(name, static_cast<uid_t>(-1), replaced.st_gid) != 0)
+    mode = (mode & 0707) | (mode & 07) << 3;  // another group may do what everybody may
+  chmod(name, mode);
 }
 
 void OutputFile::copy_to_target() const {

@@ -2,8 +2,10 @@
 // Output files that appear complete or not at all.
 
 #include <fmt/format.h>
+#include <sys/types.h>
 
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -11,9 +13,11 @@
 namespace files {
 
 /// Writes a temporary file beside the final one; commit() renames it. Without commit(), or after SIGHUP,
-/// SIGINT or SIGTERM, nothing remains. `-` is stdout: commit() copies to it, by whatever name, and to
-/// devices, pipes and open files without a name. Only one object may exist at a time. Throws
-/// std::runtime_error "NAME: cannot be written: why".
+/// SIGINT, SIGPIPE, SIGQUIT, SIGTERM or SIGXCPU, nothing remains. After SIGKILL the temporary file remains:
+/// the next run that writes the same file calls on_leftover(). An existing file is replaced unless its
+/// permissions forbid to write it, also root, and the new one gets them. `-` is stdout: commit() copies to
+/// it, by whatever name, and to devices, pipes and open files without a name. Only one object may exist at a
+/// time. Throws std::runtime_error "NAME: cannot be written: why".
 class OutputFile {
  public:
   explicit OutputFile(const std::string& name);
@@ -32,10 +36,17 @@ class OutputFile {
 
  private:
   void copy_to_target() const;
+  void set_permissions() const;
   std::string name_, target_, temporary_;
   bool copies_;  ///< the target is a device, pipe or stdout: commit() copies
   bool is_shared_ = false, is_begun_ = false;
 };
+
+/// Is called with the sentence that names a temporary file of a killed run; empty: nobody is told.
+std::function<void(const std::string&)>& on_leftover();
+
+/// Removes the temporary file that an OutputFile of this process has. Signal handlers may call it.
+void remove_unfinished_output();
 
 [[noreturn]] void fail_to_write(const std::string& name, int error);
 

@@ -13,9 +13,12 @@
 #include "base/parallel_for.h"
 #include "files/nearest.h"
 #include "numbers.h"
+#include "text_file.h"
 
 namespace files {
 namespace {
+
+using point_sets::excerpt;
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::string_view kBlanks = " \t\r\f\v";
@@ -395,12 +398,12 @@ class Reader {
     const std::string l = lower(word);
     if (role == Role::value ? is_missing(word) : nan_in_places_ && l == "nan") return "";
     const std::string name =
-        layout_.names.empty() ? "" : fmt::format(" in column '{}'", layout_.name(column));
+        layout_.names.empty() ? "" : fmt::format(" in column '{}'", excerpt(layout_.name(column)));
     if (word.empty())
       return fmt::format("nothing{}: remove the row, or choose other columns by --columns",
                          name.empty() ? " between separators" : name);
     if (!name.empty() && l == lower(layout_.names[column])) return "the header line again: remove it";
-    return fmt::format("'{}'{} is not a finite number{}", word, name, remedy_for(word));
+    return fmt::format("'{}'{} is not a finite number{}", excerpt(word), name, remedy_for(word));
   }
 
   const TextLayout& layout_;
@@ -559,20 +562,20 @@ std::vector<std::size_t> columns_named(const std::string& wanted, const TextLayo
     find_all([&](const std::string& name) { return name == word; });
     if (found.empty()) find_all([&](const std::string& name) { return lower(name) == lower(word); });
     if (found.size() > 1)
-      refuse(fmt::format("the header names column '{}' twice, {} and {}: choose columns by number", word,
-                         found[0] + 1, found[1] + 1));
+      refuse(fmt::format("the header names column '{}' twice, {} and {}: choose columns by number",
+                         excerpt(word), found[0] + 1, found[1] + 1));
     if (double number = 0; found.empty() && is_number(word, number)) {
       if (number != std::floor(number) || number < 1 || number > static_cast<double>(layout.columns))
-        refuse(fmt::format("there is no column {}: there are {}", word, layout.columns));
+        refuse(fmt::format("there is no column {}: there are {}", excerpt(word), layout.columns));
       found.push_back(static_cast<std::size_t>(number) - 1);
     }
     if (found.empty())
       refuse(layout.names.empty()
-                 ? fmt::format("the columns have no names: choose them by number, not '{}'", word)
-                 : fmt::format("there is no column '{}'{}; the header has {}", word,
+                 ? fmt::format("the columns have no names: choose them by number, not '{}'", excerpt(word))
+                 : fmt::format("there is no column '{}'{}; the header has {}", excerpt(word),
                                did_you_mean(word, layout.names), listed(layout.names)));
     if (std::find(columns.begin(), columns.end(), found[0]) != columns.end())
-      refuse(fmt::format("column '{}' is chosen twice", word));
+      refuse(fmt::format("column '{}' is chosen twice", excerpt(word)));
     columns.push_back(found[0]);
   }
   return columns;

@@ -12,6 +12,7 @@
 #include "methods/triangulated_nodes.h"
 #include "numbers.h"
 #include "point_sets.h"
+#include "text_file.h"
 
 namespace methods {
 namespace {
@@ -127,7 +128,7 @@ std::unique_ptr<Density> density_of(const std::string& formula) {
   if (formula == "constant") return std::make_unique<pstripack::scvt::ConstantDensity>();
   std::vector<double> v{0, 30, 30, 10, 3};
   const auto fail = [&](const char* what) {
-    throw std::invalid_argument("density '" + formula + "': " + what);
+    throw std::invalid_argument("density '" + point_sets::excerpt(formula) + "': " + what);
   };
   if (formula.rfind("bump", 0) != 0 || (formula.size() > 4 && formula[4] != ':'))
     fail("expected constant, bump or bump:LON,LAT,RADIUS,WIDTH,RATIO");

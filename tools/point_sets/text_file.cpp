@@ -47,7 +47,49 @@ struct Table {
   const double* row(std::size_t i) const { return &values[columns * i]; }
 };
 
+/// The number of bytes of the UTF-8 character that begins the text; 0: there is none.
+std::size_t length_of_character(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const std::size_t length = byte(0) < 0x80   ? 1
+                             : byte(0) < 0xC2 ? 0
+                             : byte(0) < 0xE0 ? 2
+                             : byte(0) < 0xF0 ? 3
+                             : byte(0) < 0xF5 ? 4
+                                              : 0;
+  if (length > text.size()) return 0;
+  for (std::size_t i = 1; i < length; ++i)
+    if ((byte(i) & 0xC0) != 0x80) return 0;
+  // Longer than necessary, halves of UTF-16, beyond U+10FFFF.
+  const bool is_wrong =
+      length > 2 && ((byte(0) == 0xE0 && byte(1) < 0xA0) || (byte(0) == 0xED && byte(1) > 0x9F) ||
+                     (byte(0) == 0xF0 && byte(1) < 0x90) || (byte(0) == 0xF4 && byte(1) > 0x8F));
+  return is_wrong ? 0 : length;
+}
+
 }  // namespace
+
+std::string excerpt(std::string_view text) {
+  std::string result;
+  for (int characters = 0; !text.empty(); ++characters) {
+    if (characters == 60) return result + "...";
+    const std::size_t length = length_of_character(text);
+    const auto first = static_cast<unsigned char>(text[0]);
+    const bool is_c1 = length == 2 && first == 0xC2 && static_cast<unsigned char>(text[1]) < 0xA0;
+    const std::size_t taken = std::max<std::size_t>(length, 1);
+    if (first == '\n' || first == '\t')
+      result += first == '\n' ? "\\n" : "\\t";
+    else if (length == 0 || first < ' ' || first == 0x7F || is_c1)
+      for (std::size_t i = 0; i < taken; ++i) {
+        constexpr const char* kDigits = "0123456789abcdef";
+        const auto byte = static_cast<unsigned char>(text[i]);
+        result += {'\\', 'x', kDigits[byte >> 4], kDigits[byte & 15]};
+      }
+    else
+      result += text.substr(0, length);
+    text.remove_prefix(taken);
+  }
+  return result;
+}
 
 bool parse(std::string text, double& value) {
   const bool hexadecimal = text.find_first_of("xX") != std::string::npos;
@@ -103,7 +145,7 @@ Table table_of(std::string_view text, const std::string& name) {
       for (end = begin; end < line.size() && !is_blank(line[end]);) ++end;
       const std::string_view word = line.substr(begin, end - begin);
       double value = 0;
-      if (!parse_word(word, value)) fail(name, number, "'" + std::string(word) + "' is not a finite number");
+      if (!parse_word(word, value)) fail(name, number, "'" + excerpt(word) + "' is not a finite number");
       table.values.push_back(value);
     }
     const std::size_t columns = table.values.size() - before;

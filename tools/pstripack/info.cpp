@@ -9,6 +9,7 @@
 #include "files/measures.h"
 #include "pstripack/options.h"
 #include "pstripack/progress.h"
+#include "standard_streams.h"
 #include "stripack/list_queries.h"
 
 namespace program {
@@ -127,10 +128,13 @@ void info(const Options& options) {
                                    {"longest_arc", extreme(f.longest)},
                                    {"near_duplicates", f.near},
                                    {"smallest_angle_degrees", extreme(f.sharpest)}};
-    fmt::print("{}\n", j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    print(j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n');
     return;
   }
-  const auto line = [](const char* name, const std::string& text) { fmt::print("{:<16} {}\n", name, text); };
+  std::string all;
+  const auto line = [&](const char* name, const std::string& text) {
+    all += fmt::format("{:<16} {}\n", name, text);
+  };
   const auto pair = [&](const Extreme& e) {
     return fmt::format("{:.6g} rad, {:.6g} degrees: {} and {}", e.value, e.value * 57.295779513082321,
                        nodes.place(given_number(e.first) - 1), nodes.place(given_number(e.second) - 1));
@@ -154,6 +158,7 @@ void info(const Options& options) {
                                      nodes.place(given_number(f.sharpest.first) - 1)));
   for (const files::Duplicate& d : duplicates)
     line("duplicate", fmt::format("{} and {}", nodes.place(d.first), nodes.place(d.node)));
+  print(all);
 }
 
 }  // namespace

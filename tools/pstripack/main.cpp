@@ -8,8 +8,11 @@
 #include <new>
 
 #include "files/nearest.h"
+#include "files/output_file.h"
 #include "pstripack/options.h"
+#include "pstripack/progress.h"
 #include "pstripack/ranks.h"
+#include "standard_streams.h"
 
 namespace {
 
@@ -76,9 +79,9 @@ std::string unknown_word(const CLI::App& app) {
   return "";
 }
 
-/// Prints an error; only rank 0 prints.
+/// Prints an error; only rank 0 prints. fmt::print would throw if stderr is full.
 void complain(const char* what) {
-  if (!program::global().is_led) fmt::print(stderr, "pstripack: {}\n", what);
+  if (!program::global().is_led) std::fprintf(stderr, "pstripack: %s\n", what);
 }
 
 int run(int argc, char** argv) {
@@ -102,17 +105,19 @@ int run(int argc, char** argv) {
   add_scvt(app, chosen);
   add_interpolate(app, chosen);
   add_plot(app, chosen);
+  files::on_leftover() = say;
   try {
     app.parse(argc, argv);
 #ifdef _OPENMP
     if (global().threads > 0) omp_set_num_threads(global().threads);
 #endif
     chosen();
+    expect_printed();
     return kDone;
   } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
+    if (e.get_exit_code() == 0) return after_help("pstripack", app.exit(e));  // --help, --version
     const std::string unknown = unknown_word(app);
-    fmt::print(stderr, "pstripack: {}\n", unknown.empty() ? e.what() : unknown);
+    complain(unknown.empty() ? e.what() : unknown.c_str());
     return kUsage;
   } catch (const std::bad_alloc&) {
     complain("out of memory");
@@ -125,5 +130,6 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  fill_standard_streams();
   return program::on_rank_0(argc, argv, [&] { return run(argc, argv); });
 }

@@ -16,7 +16,7 @@ bool is_silent() { return global().quiet || global().is_led; }
 }  // namespace
 
 void say(const std::string& text) {
-  if (!is_silent()) fmt::print(stderr, "pstripack: {}\n", text);
+  if (!is_silent()) std::fprintf(stderr, "pstripack: %s\n", text.c_str());
 }
 
 Progress::Progress() : on_terminal_(isatty(STDERR_FILENO)) {

@@ -25,6 +25,7 @@
 #include "scvt/first_generators.h"
 #include "scvt/front.h"
 #include "scvt/run.h"
+#include "text_file.h"
 
 namespace program {
 namespace {
@@ -67,7 +68,8 @@ std::int64_t count_in(const files::Nodes& start, const char* name, std::int64_t 
   if (text.empty()) return otherwise;
   if (!point_sets::parse(text, count) || !(count >= 0 && count < 1e15))
     throw std::runtime_error(fmt::format("{}: attribute {}: '{}' is not a number of {}", start.file, name,
-                                         text, name == kEvaluations ? "iterations" : name + sizeof "scvt"));
+                                         point_sets::excerpt(text),
+                                         name == kEvaluations ? "iterations" : name + sizeof "scvt"));
   return static_cast<std::int64_t>(count);
 }
 

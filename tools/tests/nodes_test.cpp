@@ -321,6 +321,31 @@ TEST(off, triangles_are_turned_counterclockwise) {
   expect_error("OFF\n4 1 0\n1 0 0\n0 1 0\n0 0 1\n", "node 4: expected x y z");
 }
 
+TEST(geojson, of_many_levels_is_refused) {
+  const std::string deep = std::string(75000, '[') + std::string(75000, ']');
+  const std::string point =
+      R"({"type": "Feature", "geometry": {"type": "Point", "coordinates": [1, 2]}, "properties": {"a": )";
+  for (const std::string& bytes :
+       {R"({"type": "FeatureCollection", "features": [)" + point + deep + "}}]}", point + deep + "}}",
+        R"({"a": )" + deep + "}", R"({"a": )" + std::string(75000, '[')})
+    expect_error(bytes, ": JSON with more than 100 levels of brackets");
+  EXPECT_EQ(read_bytes(point + std::string(98, '[') + std::string(98, ']') + "}}").points.size(), 1u);
+}
+
+TEST(messages, quote_sixty_characters_of_a_file_without_control_characters) {
+  const std::string sixty(60, 'a'), more = sixty + "aaa";
+  expect_error("10 " + more + "\n", ":1: '" + sixty + "...' is not a finite number");
+  expect_error("10 20\n10 \x7F\xFF\xC2\xB0\n", R"(:2: '\x7f\xff°' is not a finite number)");
+  expect_error("lon,lat\n1,\"2\t3\"\n", R"(:2: '2\t3' in column 'lat' is not a finite number)");
+  expect_error(more + ",b\n1,2\n", "the header has " + sixty + "..., b");
+  expect_error(R"({"type": "Fea\u0007\n)" + more + "\"}",
+               R"(the type is 'Fea\x07\n)" + std::string(55, 'a') + "...'");
+  expect_error("{\"" + more + "\": " + more, "invalid literal; last read: '");
+  expect_error("{" + std::string(1000, '1'), "unexpected number literal; expected string literal");
+  const std::string error = error_of("{\"type\": \"" + std::string(1000, 'b') + "\x01");
+  EXPECT_LT(error.size(), 400u) << error;
+}
+
 TEST(netcdf, is_asked_for_and_not_there) {
   expect_error("1 0 0\n", "not a NetCDF file", with(Container::netcdf, Coordinates::detected));
 }

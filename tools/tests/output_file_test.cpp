@@ -13,6 +13,7 @@
 #include <iterator>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "support/this_program.h"
 
@@ -61,6 +62,73 @@ TEST(output_file, has_the_permissions_of_any_new_file) {
   EXPECT_EQ(status.st_mode & 0777, 0640u);
 }
 
+mode_t permissions_of(const std::string& name) {
+  struct stat status {};
+  EXPECT_EQ(stat(name.c_str(), &status), 0);
+  return status.st_mode & 0777;
+}
+
+TEST(output_file, has_the_permissions_of_the_file_that_it_replaces) {
+  const Folder folder;
+  const std::string name = folder.path() + "/a";
+  for (const mode_t mode : {0600, 0640, 0664, 0755}) {
+    std::ofstream(name) << "old";
+    chmod(name.c_str(), mode);
+    OutputFile file(name);
+    EXPECT_EQ(permissions_of(file.path()), 0600u);  // nobody reads it before it is complete
+    write(file, "new");
+    file.commit();
+    EXPECT_EQ(permissions_of(name), mode);
+    EXPECT_EQ(contents(name), "new");
+  }
+}
+
+// Of root access() says that it may write any file.
+TEST(output_file, does_not_replace_a_file_that_nobody_may_write) {
+  const Folder folder;
+  const std::string name = folder.path() + "/a";
+  std::ofstream(name) << "old";
+  std::filesystem::create_symlink("a", folder.path() + "/link");
+  chmod(name.c_str(), 0444);
+  for (const std::string& to : {name, folder.path() + "/link"}) {
+    try {
+      OutputFile file(to);
+      ADD_FAILURE() << to << " can be replaced";
+    } catch (const std::runtime_error& e) {
+      EXPECT_EQ(std::string(e.what()), to + ": cannot be written: Permission denied");
+    }
+  }
+  EXPECT_EQ(entries(folder.path()), 2u);
+}
+
+TEST(output_file, of_a_killed_run_is_named_by_the_next_one) {
+  const Folder folder;
+  std::vector<std::string> said;
+  on_leftover() = [&](const std::string& text) { said.push_back(text); };
+  const auto file_in_a_child = [&](const std::string& name) {
+    const pid_t child = fork();
+    if (child == 0) {
+      OutputFile file(folder.path() + "/" + name);
+      raise(SIGKILL);
+    }
+    waitpid(child, nullptr, 0);
+    return std::to_string(child);
+  };
+  const std::string process = file_in_a_child("a");
+  file_in_a_child("ab");
+  file_in_a_child(std::string(250, 'c'));  // a temporary file of a name of 250 characters
+  std::ofstream(folder.path() + "/.a.unfinished.1.AAAAAA") << "of process 1, which runs";
+  for (int again = 0; again < 2; ++again) OutputFile(folder.path() + "/a");
+  EXPECT_EQ(entries(folder.path()), 4u);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_EQ(said[0].find(folder.path() + "/.a.unfinished." + process + "."), 0u) << said[0];
+  EXPECT_NE(said[0].find(" is unfinished output of a killed run: process " + process), said[0].npos)
+      << said[0];
+  OutputFile(folder.path() + "/" + std::string(250, 'c'));
+  EXPECT_EQ(said.size(), 2u);
+  on_leftover() = nullptr;
+}
+
 TEST(output_file, replaces_what_a_link_points_to) {
   const Folder folder;
   std::ofstream(folder.path() + "/target") << "old";
@@ -76,17 +144,19 @@ TEST(output_file, replaces_what_a_link_points_to) {
 
 TEST(output_file, leaves_nothing_after_a_signal) {
   const Folder folder;
-  const pid_t child = fork();
-  if (child == 0) {
-    OutputFile file(folder.path() + "/a");
-    write(file, "half");
-    raise(SIGTERM);
-    _exit(0);
+  for (const int signal : {SIGTERM, SIGPIPE}) {
+    const pid_t child = fork();
+    if (child == 0) {
+      OutputFile file(folder.path() + "/a");
+      write(file, "half");
+      raise(signal);
+      _exit(0);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal);
+    EXPECT_EQ(entries(folder.path()), 0u);
   }
-  int status = 0;
-  waitpid(child, &status, 0);
-  EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM);
-  EXPECT_EQ(entries(folder.path()), 0u);
 }
 
 TEST(output_file, writes_to_what_cannot_be_replaced) {
@@ -127,9 +197,11 @@ TEST(output_file, stands_on_stdout_behind_what_others_have_written) {
       dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
       std::printf("head\n");
       std::fflush(stdout);
-      OutputFile output(name);
-      write(output, "text\n");
-      output.commit();
+      {
+        OutputFile output(name);
+        write(output, "text\n");
+        output.commit();
+      }
       std::printf("end\n");
       std::fflush(stdout);
       _exit(0);

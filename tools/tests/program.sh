@@ -51,6 +51,48 @@ pipes)
   grep -q '^pstripack: 6 nodes (text, x y z), 8 triangles; reading .* s; triangulating .* s; writing .* s$' err || fail "$(cat err)"
   ;;
 
+standard_streams)
+  # A full or closed stdout is an error of each command that prints: one line on stderr, and never success.
+  octahedron > nodes.txt
+  "$PSTRIPACK" -q triangulate nodes.txt -o nodes.off
+  while read -r program arguments; do
+    if [ $program = pstripack ]; then program=$PSTRIPACK expected=1; else expected=$program program=$COMPARE; fi
+    for stdout in full closed; do
+      code=0
+      # shellcheck disable=SC2086
+      case $stdout in
+      full) "$program" $arguments > /dev/full 2> err || code=$? ;;
+      closed) "$program" $arguments >&- 2> err || code=$? ;;
+      esac
+      [ $code = $expected ] || fail "$arguments, stdout $stdout: exit code $code"
+      [ "$(wc -l < err)" = 1 ] && grep -qE '^[a-z-]*: (stdout: cannot be written|cannot write)' err || fail "$arguments, stdout $stdout: $(cat err)"
+    done
+  done <<END
+pstripack -q info nodes.txt
+pstripack -q info nodes.txt --json
+pstripack --help
+pstripack info --help
+pstripack --version
+pstripack -q points random 5
+pstripack -q points random 100000
+pstripack -q convert nodes.txt -o - --to csv
+pstripack -q triangulate nodes.txt -o - --to off
+pstripack -q voronoi nodes.txt -o - --to off
+pstripack -q plot nodes.txt -o - --to svg
+1 --help
+1 --version
+2 run --points random --n 50 --repeats 1
+END
+  # Where nothing is printed, closed streams do no harm: no file gets their numbers.
+  "$PSTRIPACK" triangulate nodes.txt -o mesh.off >&- 2>&- <&-
+  cmp nodes.off mesh.off
+  "$PSTRIPACK" triangulate nodes.txt -o mesh.off 2> /dev/full
+  code=0
+  "$PSTRIPACK" triangulate missing.txt -o mesh.off 2> /dev/full || code=$?
+  [ $code = 1 ] || fail "exit code $code where an error cannot be printed"
+  refuses 1 "stdin: read error: Bad file descriptor" info - <&-
+  ;;
+
 lists)
   "$PSTRIPACK" -q points random 500 -o nodes.txt
   "$PSTRIPACK" -q triangulate nodes.txt -o a.lists
@@ -104,7 +146,8 @@ bad_nodes)
 
 bad_netcdf)
   printf 'CDF, it says' > broken.nc
-  refuses 1 "broken.nc: NetCDF" triangulate broken.nc -o mesh.nc
+  refuses 1 "broken.nc: damaged or incomplete NetCDF file: its format is none of CDF-1, CDF-2 and CDF-5" \
+    triangulate broken.nc -o mesh.nc
   "$PSTRIPACK" -q points random 50 -o nodes.nc
   refuses 1 "holds nodes without triangles" convert nodes.nc -o mesh.mpas.nc
   refuses 1 "gmsh cannot hold polygons" voronoi nodes.nc -o cells.msh
@@ -158,7 +201,28 @@ no_partial_output)
   [ $code = 1 ] || fail "exit code $code where the disk is full"
   grep -q "mesh.off: cannot be written: File too large" err_of_full || fail "$(cat err_of_full)"
   [ "$(cat mesh.off)" = old ] || fail "mesh.off has changed"
-  rm -f out err err_of_full
+  # A file keeps its permissions, and one that nobody may write is not replaced, by root neither.
+  chmod 600 mesh.off
+  "$PSTRIPACK" -q triangulate nodes.txt -o mesh.off
+  [ "$(stat -c %a mesh.off)" = 600 ] || fail "mesh.off has permissions $(stat -c %a mesh.off)"
+  echo old > mesh.off
+  chmod 444 mesh.off
+  refuses 1 "mesh.off: cannot be written: Permission denied" triangulate nodes.txt -o mesh.off
+  # The temporary file of a killed run is named by the next one.
+  mkfifo never
+  "$PSTRIPACK" -q convert never -o many.txt &
+  process=$!
+  for _ in $(seq 1000); do
+    temporary=$(echo .many.txt.*)
+    [ -e "$temporary" ] && break
+    sleep 0.01
+  done
+  kill -KILL $process
+  wait $process || true
+  "$PSTRIPACK" convert nodes.txt -o many.txt 2> err
+  grep -qF "/$temporary is unfinished output of a killed run: process $process does not run on this machine: remove it" err ||
+    fail "$temporary: $(cat err)"
+  rm -f out err err_of_full never "$temporary"
   [ "$(ls -A)" = "$(printf 'many.txt\nmesh.off\nnodes.txt\ntwice.txt')" ] || fail "files are left: $(ls -A)"
   ;;
 
@@ -592,7 +656,7 @@ bad_tables)
   printf '80 100\n20 10\n30 40\n' | refused 1 " node 1 (line 1): latitude 100 is beyond the pole: the columns are 'lon lat', in degrees; are they exchanged? Then say --columns 2,1"
   printf 'lat,mag,lon\n95,1,10\n20,1,30\n' | refused 1 " node 1 (line 2): latitude 95 is beyond the pole: the columns are 'lon lat', in degrees; are they exchanged? Then say --columns 1,3"
   printf '10 20\n30 x\n' | refused 1 "2: 'x' is not a finite number: correct it, remove the row, or choose other --columns"
-  printf '10,5\t20,1\n30,1\t40,2\n' | refused 1 "1: '5	20' is not a finite number: write a decimal comma as a point"
+  printf '10,5\t20,1\n30,1\t40,2\n' | refused 1 "1: '5\t20' is not a finite number: write a decimal comma as a point"
   printf 'lon lat\n10,5 20,1\n' | refused 1 "2: found 4 columns where the header has 2: write a decimal comma as a point"
   printf 'lon,lat,mag\n1,2,3\n4,5\n' | refused 1 "3: found 2 columns where the header has 3: complete the row, or remove it"
   printf '5\n1 2\n3 4\n' | refused 1 "1: a single number is the count of the points that follow; there are 2: correct or remove it"
@@ -700,6 +764,9 @@ geojson)
   point Point '[1, 2]' | refused " the coordinates are those of the geometry: give --columns lon,lat,NAME" --columns mag
   point Point '[1, 2]' | refused " --coordinates xyz needs the property 'x'" --coordinates xyz
   printf '1 2\n' | refused "1: not valid JSON" --from geojson
+  awk 'BEGIN { for (i = 0; i < 75000; ++i) printf "{\"a\":[" }' | refused " JSON with more than 100 levels of brackets"
+  printf '{"type": "%0100d\\n"}' 0 |
+    refused " not GeoJSON of points: the type is '$(printf %060d 0)...', expected FeatureCollection"
   refuses 1 "no property 'place' is a number; properties that are numbers: depth" interpolate nodes.geojson --variable place --to-grid 2x2 -o failed.txt
   [ -z "$(find . -name 'failed*')" ] || fail "files of failed runs: $(echo ./failed*)"
   ;;
