@@ -17,8 +17,7 @@ constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-/// Calls visit(i, place, near) for each place that has a direction. `place` is a unit vector; `near` is a
-/// node near it, from 1, which visit may update. Places are visited along a space-filling curve. Searches
+/// Calls visit(i, place, near) for each place that has a direction. `near` is a node near it, from 1, which visit may update. Places are visited along a space-filling curve. Searches
 /// restart in each block of places, so results do not depend on the number of threads.
 template <class Visit>
 void Triangulation::visit_places(const Point* places, std::size_t count, const Visit& visit) const {
@@ -40,7 +39,7 @@ void Triangulation::visit_places(const Point* places, std::size_t count, const V
             std::int32_t near = 1;
             for (std::size_t k = block * kBlock; k < std::min((block + 1) * kBlock, part); ++k) {
               const std::size_t i = order[k];
-              if (has_direction(places[first + i])) visit(first + i, known[i], near);
+              if (has_direction(places[first + i])) visit(first + i, places[first + i], near);
             }
           }
         });
@@ -104,7 +103,7 @@ Buffer<double> Triangulation::interpolate(Method method, const Point* places, st
   std::vector<double> of_nodes(n_);
   for (std::size_t column = 0; column < columns; ++column) {
     for (std::size_t i = 0; i < n_; ++i) of_nodes[i] = values[i * columns + column];
-    const std::vector<Point> slopes = methods::gradients({lists(), nodes()}, of_nodes);
+    const std::vector<Point> slopes = methods::gradients(view(), of_nodes);
     visit_shares([&](std::size_t i, const Point& p, const std::vector<methods::Share>& shares) {
       result[i * columns + column] = interpolation_->cubic_value(p, shares, of_nodes, slopes);
     });

@@ -98,7 +98,7 @@ Triangulation::Triangulation(const Coordinates& given) : n_(given.n) {
   read(given);
   triangulate();
   make_directions();
-  interpolation_.emplace(methods::Triangulated{lists(), nodes()});
+  interpolation_.emplace(view());
 }
 
 /// Sets given_, copying coordinates that are not in columns, and checks each node.

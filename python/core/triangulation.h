@@ -122,7 +122,9 @@ class Triangulation {
     const auto i = static_cast<std::size_t>(node);
     return {direction_[0][i], direction_[1][i], direction_[2][i]};
   }
-  pstripack::Nodes<double> nodes() const { return {direction_[0], direction_[1], direction_[2]}; }
+  methods::Triangulated view() const {
+    return {lists(), {given_[0], given_[1], given_[2]}, {direction_[0], direction_[1], direction_[2]}};
+  }
   template <class Visit>
   void visit_places(const Point* places, std::size_t count, const Visit& visit) const;
 

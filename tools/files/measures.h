@@ -27,12 +27,6 @@ inline double angle_between(const pstripack::Point& a, const pstripack::Point& b
   return 2 * std::asin(std::min(1.0, std::sqrt(dot(d, d)) / 2));
 }
 
-/// The angle at b of the plane triangle a, b, c, in degrees.
-inline double corner_angle(const pstripack::Point& a, const pstripack::Point& b, const pstripack::Point& c) {
-  const pstripack::Point u = minus(a, b), v = minus(c, b), w = cross(u, v);
-  return std::atan2(std::sqrt(dot(w, w)), dot(u, v)) * kRadian;
-}
-
 /// det(a,b,c), accurate for close vectors.
 inline double volume(const pstripack::Point& a, const pstripack::Point& b, const pstripack::Point& c) {
   return dot(a, cross(minus(b, a), minus(c, a)));

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "base/parallel_for.h"
-#include "methods/sphere.h"
+#include "files/measures.h"
 #include "stripack/list_queries.h"
 
 namespace methods {
@@ -60,7 +60,7 @@ class LeastSquares {
 std::array<Point, 2> tangents(const Point& p) {
   const double x = std::fabs(p.x), y = std::fabs(p.y), z = std::fabs(p.z);
   const Point least = x <= y && x <= z ? Point{1, 0, 0} : y <= z ? Point{0, 1, 0} : Point{0, 0, 1};
-  const Point first = unit(cross(p, least));
+  const Point first = files::unit(cross(p, least));
   return {first, cross(p, first)};
 }
 
@@ -88,22 +88,37 @@ void two_rings(const pstripack::ListReader<std::int32_t>& reader, std::int32_t n
 std::vector<Point> gradients(const Triangulated& mesh, const std::vector<double>& values) {
   const pstripack::ListReader<std::int32_t> reader(mesh.lists);
   const auto index = [](std::int32_t node) { return static_cast<std::size_t>(node) - 1; };
-  const auto gradient = [&](std::int32_t node, std::vector<std::int32_t>& rings) {
-    const Point p = mesh.at(node);
-    const std::array<Point, 2> tangent = tangents(p);
+  std::vector<pstripack::UnitVector> unit(values.size());
+  pstripack::parallel_pieces(unit.size(), pstripack::threads_for(unit.size()),
+                             [&](std::size_t first, std::size_t last, int) {
+                               for (std::size_t i = first; i < last; ++i)
+                                 unit[i] = pstripack::unit_vector(mesh.at(static_cast<std::int32_t>(i) + 1));
+                             });
+  struct Around {
+    std::vector<std::int32_t> rings;
+    std::vector<Point> sides;  // from the node to these
+  };
+  const auto gradient = [&](std::int32_t node, Around& around) {
+    auto& [rings, sides] = around;
+    const pstripack::Direction p{unit[index(node)], mesh.at(node)};
+    const std::array<Point, 2> tangent = tangents(p.high);
     two_rings(reader, node, rings);
-    double scale = 0;
+    sides.clear();
+    double longest = 0;  // squared
     for (const std::int32_t other : rings) {
-      const Point d = minus(mesh.at(other), p);
-      scale = std::max(scale, std::sqrt(dot(d, d)));
+      Point d = difference(unit[index(other)], p);
+      if (dot(d, d) < 0x1p-90) d = accurate_difference(mesh.direction(other), p);
+      sides.push_back(d);
+      longest = std::max(longest, dot(d, d));
     }
+    const double scale = std::sqrt(longest);
     LeastSquares<5> quadratic;
     LeastSquares<2> linear;
-    for (const std::int32_t other : rings) {
-      const Point d = minus(mesh.at(other), p);
+    for (std::size_t k = 0; k < rings.size(); ++k) {
+      const Point& d = sides[k];
       const double u = dot(d, tangent[0]) / scale, v = dot(d, tangent[1]) / scale;
-      const double weight = scale * scale / dot(d, d);
-      const double value = values[index(other)] - values[index(node)];
+      const double weight = longest / dot(d, d);
+      const double value = values[index(rings[k])] - values[index(node)];
       quadratic.add({u, v, u * u, u * v, v * v}, value, weight);
       linear.add({u, v}, value, weight);
     }
@@ -120,9 +135,9 @@ std::vector<Point> gradients(const Triangulated& mesh, const std::vector<double>
   std::vector<Point> result(values.size());
   pstripack::parallel_pieces(result.size(), pstripack::threads_for(100 * result.size()),
                              [&](std::size_t first, std::size_t last, int) {
-                               std::vector<std::int32_t> rings;
+                               Around around;
                                for (std::size_t i = first; i < last; ++i)
-                                 result[i] = gradient(static_cast<std::int32_t>(i) + 1, rings);
+                                 result[i] = gradient(static_cast<std::int32_t>(i) + 1, around);
                              });
   return result;
 }

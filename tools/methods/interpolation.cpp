@@ -7,26 +7,38 @@
 #include <utility>
 
 #include "base/parallel_for.h"
+#include "files/measures.h"
 #include "geometry/predicates.h"
+#include "geometry/weights.h"
 #include "methods/gradients.h"
-#include "methods/sphere.h"
 #include "stripack/list_queries.h"
 #include "stripack/search.h"
 
 namespace methods {
 namespace {
 
+using pstripack::Direction;
 using Reader = pstripack::ListReader<std::int32_t>;
 
-constexpr double kOnBorder = 1e-12;
+constexpr double kOnBorder = 1e-12;  // of the distance to the middle of the nodes
+constexpr double kRounding = 4e-16;  // of a place, in radians
+/// Squared distances up to this are compared by differences of directions.
+constexpr double kFar = 1e-6;
 
 double square(const Point& d) { return dot(d, d); }
 
-/// Scales the weights so that their sum is 1.
-void make_shares(std::vector<Share>& shares) {
-  double sum = 0;
-  for (const Share& s : shares) sum += s.part;
-  for (Share& s : shares) s.part /= sum;
+/// True if the place lies strictly above the plane of the triangle. The filter takes the sign of the height
+/// in geometry/weights.cpp. It uses rounded unit vectors, so each difference to the place has an error of
+/// 2^-50; the other roundings are below 32u.
+bool is_above(const Direction& a, const Direction& b, const Direction& c, const Direction& place) {
+  const Point& p = place.high;
+  const Point to_a = minus(a.high, p), to_b = minus(b.high, p), to_c = minus(c.high, p);
+  const double aa = square(to_a), bb = square(to_b), cc = square(to_c), most = std::max({aa, bb, cc});
+  const double height =
+      aa * dot(p, cross(to_b, to_c)) + bb * dot(p, cross(to_c, to_a)) + cc * dot(p, cross(to_a, to_b));
+  const double error = most * (12 * 0x1p-50 * std::sqrt(most) + 64 * 0x1p-53 * most);
+  if (std::fabs(height) > error) return height > 0;
+  return pstripack::orientation_of_directions(a.given, b.given, c.given, place.given) > 0;
 }
 
 }  // namespace
@@ -36,186 +48,208 @@ Interpolation::Interpolation(const Triangulated& mesh, std::shared_ptr<const voi
   if (first_boundary_node_ == 0) return;
   Point sum{0, 0, 0};
   for (std::int32_t node = 1; node <= Reader(mesh.lists).size(); ++node) {
-    const Point p = at(node);
+    const Point p = mesh_.unit_at(node);
     sum = {sum.x + p.x, sum.y + p.y, sum.z + p.z};
   }
-  middle_ = unit(sum);
+  middle_ = files::unit(sum);
 }
 
-/// Walks by exact signs from a triangle near p to the one that contains p, so that the result does not depend
-/// on the search that led here. Rounding of the nodes can invert triangles; the number of steps is bounded
-/// because the walk might then cycle.
-void Interpolation::cross_arcs(const Point& p, Corners& corners) const {
+const pstripack::Direction* Interpolation::directions() const {
+  std::call_once(known_->once, [&] { known_->directions = directions_of(mesh_); });
+  return known_->directions.data() - 1;  // nodes count from 1
+}
+
+/// Walks by exact signs from a triangle to the one that contains the place; on an arc, to that of the two
+/// whose third corner is the smaller. So the result does not depend on the search that led here. False if the
+/// place lies strictly beyond an arc of the border. The walk ends in a Delaunay mesh; in any other, after so
+/// many steps.
+bool Interpolation::cross_arcs(const Direction& place, Corners& corners) const {
   const Reader reader(mesh_.lists);
+  auto& [a, b, c] = corners;
   std::int64_t steps = 0;
-  for (int k = 0; k < 3 && steps < 2 * std::int64_t{reader.size()};) {
-    auto& [a, b, c] = corners;
-    if (pstripack::left(at(a), at(b), p) < 0) {
+  Corners on_arc{};  // a triangle with the place on its first arc
+  for (int k = 0; k < 3 && steps < 4 * std::int64_t{reader.size()};) {
+    const int side = pstripack::left(at(a), at(b), place.given);
+    if (side < 0) {
       const std::int32_t slot = reader.slot_of(b, a);  // beyond the arc lies triangle b, a, w
-      if (reader.entry(slot) > 0) {
-        c = a;
-        a = reader.neighbour(reader.next(slot));
-        k = 0;
-        ++steps;
-        continue;
-      }
+      if (reader.entry(slot) < 0) return false;
+      c = a;
+      a = reader.neighbour(reader.next(slot));
+      k = 0;
+      ++steps;
+      on_arc = {};
+      continue;
     }
+    if (side == 0) on_arc = corners;
     std::rotate(corners.begin(), corners.begin() + 1, corners.end());
     ++k;
   }
+  if (on_arc[0] != 0) {
+    const std::int32_t slot = reader.slot_of(on_arc[1], on_arc[0]);
+    if (const std::int32_t w = reader.neighbour(reader.next(slot)); reader.entry(slot) > 0 && w < on_arc[2])
+      corners = {on_arc[1], on_arc[0], w};
+  }
+  return true;
 }
 
-/// False if p is outside. A p within kOnBorder of the border is moved inside. Every start of the search finds
-/// the same triangle.
-bool Interpolation::find(Point& p, std::int32_t& near, Corners& corners) const {
-  const auto locate = [&] {
-    double b1, b2, b3;
-    const pstripack::Location<std::int32_t> found = pstripack::trfind(
-        near, pstripack::Vector<double>{p.x, p.y, p.z}, mesh_.lists, mesh_.nodes, b1, b2, b3);
-    if (found.i1 != 0) near = found.i1;
-    if (found.i3 == 0) return false;
+/// A triangle near the place, the smallest corner first. True if the search says that it contains the place.
+bool Interpolation::search(const Direction& place, std::int32_t& near, Corners& corners) const {
+  double b1, b2, b3;
+  const pstripack::Location<std::int32_t> found =
+      pstripack::trfind(near, pstripack::Vector<double>{place.high.x, place.high.y, place.high.z},
+                        mesh_.lists, mesh_.unit, b1, b2, b3);
+  if (found.i1 != 0) near = found.i1;
+  if (found.i3 != 0) {
     corners = {found.i1, found.i2, found.i3};
-    cross_arcs(p, corners);
+  } else {  // the last triangle of `near`, beside the border if there is one
+    const Reader reader(mesh_.lists);
+    std::int32_t slot = reader.first_slot(near), after = reader.next(slot);
+    while (reader.next(after) != reader.first_slot(near)) slot = after, after = reader.next(after);
+    corners = {near, reader.neighbour(slot), reader.neighbour(after)};
+  }
+  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+  return found.i3 != 0;
+}
+
+/// The triangle that contains the place, from one near it; false if the place is outside. One within
+/// kOnBorder of the border is moved inside.
+bool Interpolation::settle(Direction& place, std::int32_t& near, Corners& corners) const {
+  const auto is_inside = [&] {
+    if (!cross_arcs(place, corners)) return false;
     std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
     return true;
   };
-  if (locate()) return true;
+  if (is_inside()) return true;
   if (first_boundary_node_ == 0) return false;
+  const Point& p = place.high;
   const Point inwards = minus(middle_, p);
-  p = unit({p.x + kOnBorder * inwards.x, p.y + kOnBorder * inwards.y, p.z + kOnBorder * inwards.z});
-  return locate();
+  const double step = std::min(kOnBorder + kRounding / std::sqrt(square(inwards)), 0.5);
+  place = pstripack::direction_of({p.x + step * inwards.x, p.y + step * inwards.y, p.z + step * inwards.z});
+  search(place, near, corners);
+  return is_inside();
 }
 
-bool Interpolation::is_node(const Point& p, std::int32_t near, std::vector<Share>& shares) const {
-  const std::int32_t node = descend(p, near);
-  if (at(node) == p) shares = {{node, 1}};
-  return !shares.empty();
+bool Interpolation::find(Direction& place, std::int32_t& near, Corners& corners) const {
+  search(place, near, corners);
+  return settle(place, near, corners);
+}
+
+/// True if the place is a corner, which then has the whole share.
+bool Interpolation::is_node(const Direction& place, const Corners& corners,
+                            std::vector<Share>& shares) const {
+  for (const std::int32_t node : corners)
+    if (square(minus(mesh_.unit_at(node), place.high)) < 0x1p-98 &&
+        pstripack::same_direction(at(node), place.given)) {
+      shares = {{node, 1}};
+      return true;
+    }
+  return false;
+}
+
+std::array<const Direction*, 3> Interpolation::directions(const Corners& corners) const {
+  const Direction* const known = directions();
+  return {known + corners[0], known + corners[1], known + corners[2]};
+}
+
+void Interpolation::linear(const Direction& place, const Corners& corners, std::vector<Share>& shares) const {
+  double weights[3];
+  barycentric_weights(place, directions(corners), weights);
+  for (std::size_t k = 0; k < 3; ++k)
+    if (weights[k] > 0) shares.push_back({corners[k], weights[k]});
+  if (shares.size() == 2 && shares[0].node > shares[1].node)
+    std::swap(shares[0], shares[1]);  // as in both triangles
 }
 
 bool Interpolation::linear(const Point& p, std::int32_t& near, std::vector<Share>& shares) const {
   shares.clear();
-  Point place = p;
+  Direction place = pstripack::direction_of(p);
   Corners corners;
-  if (!find(place, near, corners)) return is_node(p, near, shares);
-  const auto& [a, b, c] = corners;
-  for (const std::int32_t node : {a, b, c})
-    if (at(node) == p) {
-      shares = {{node, 1}};
-      return true;
-    }
-  for (const auto& [node, from, to] : {std::array{a, b, c}, {b, c, a}, {c, a, b}}) {
-    if (pstripack::left(at(from), at(to), place) != 0) continue;
-    // On an arc: compute the same shares in both of its triangles.
-    const auto [low, high] = std::minmax(from, to);
-    const Point l = cross(place, at(high)), h = cross(place, at(low));
-    shares = {{low, std::sqrt(dot(l, l))}, {high, std::sqrt(dot(h, h))}};
-    make_shares(shares);
+  double weights[3];
+  if (search(place, near, corners) && find_ordinary_determinants(place, directions(corners), weights)) {
+    pstripack::divide_by_sum(weights);
+    shares = {{corners[0], weights[0]}, {corners[1], weights[1]}, {corners[2], weights[2]}};
     return true;
   }
-  for (const Share& s : {Share{a, volume(place, at(b), at(c))}, Share{b, volume(place, at(c), at(a))},
-                         Share{c, volume(place, at(a), at(b))}})
-    if (s.part > 0) shares.push_back(s);              // beside an arc a share can be rounded to 0 or below
-  if (shares.empty()) shares = {{nearest(p, a), 1}};  // a triangle that is hardly wider than an arc
-  make_shares(shares);
+  if (!settle(place, near, corners)) return false;
+  if (!is_node(place, corners, shares)) linear(place, corners, shares);
   return true;
 }
 
-bool Interpolation::is_above(std::int32_t a, std::int32_t b, std::int32_t c, const Point& p) const {
-  return pstripack::orientation(at(a), at(b), at(c), p) > 0;
-}
-
-/// The natural neighbours of p, counterclockwise: the border of the triangles whose circumscribed caps
-/// contain p, by exact signs. These are the faces of the nodes' hull that p sees, so they are connected and
-/// without a hole. If two nodes are so close that rounding has pushed one below its neighbours, the walk may
-/// not end; then false is returned.
+/// The triangles whose circumscribed caps contain a place, by exact signs, and their corners, the natural
+/// neighbours. These are the faces of the nodes' hull that it sees, so they are connected and without a hole.
+/// False in a mesh that is not that of the directions, if a node would come into the ring twice.
 ///
 ///          w          The triangle beyond the arc u->v, which has p on its left.
 ///        /   \        If p lies above it, w comes in between u and v.
 ///       v --- u
 ///          p
 ///
-bool Interpolation::natural_ring(const Point& p, const Corners& corners,
-                                 std::vector<std::int32_t>& ring) const {
+bool Interpolation::dig(const Direction& place, const Corners& corners, std::vector<std::int32_t>& nodes,
+                        pstripack::Cavity& cavity) const {
   const Reader reader(mesh_.lists);
-  ring.assign(corners.begin(), corners.end());
-  for (std::size_t i = 0; i < ring.size();) {
-    const std::int32_t u = ring[i], v = ring[i + 1 < ring.size() ? i + 1 : 0];
-    const std::int32_t slot = reader.slot_of(v, u);
-    const bool at_border = reader.entry(slot) < 0;
-    const std::int32_t w = at_border ? 0 : reader.neighbour(reader.next(slot));
-    if (!at_border && is_above(v, u, w, p))
-      ring.insert(ring.begin() + static_cast<std::ptrdiff_t>(i) + 1, w);
-    else
-      ++i;
-    if (ring.size() > static_cast<std::size_t>(reader.size())) return false;
+  const Direction* const known = directions();
+  nodes.assign(corners.begin(), corners.end());
+  cavity.nodes = {{known + corners[0], 1, 0}, {known + corners[1], 2, 0}, {known + corners[2], 0, 0}};
+  cavity.triangles = {{0, 1, 2}};
+  cavity.arcs.clear();
+  bool is_round = false;
+  for (std::uint32_t u = 0; !is_round;) {
+    const std::uint32_t v = cavity.nodes[u].next;
+    const std::int32_t slot = reader.slot_of(nodes[v], nodes[u]);
+    const std::int32_t w = reader.entry(slot) < 0 ? 0 : reader.neighbour(reader.next(slot));
+    if (w == 0 || !is_above(known[nodes[v]], known[nodes[u]], known[w], place)) {
+      u = v;
+      is_round = u == 0;
+      continue;
+    }
+    if (std::find(nodes.begin(), nodes.end(), w) != nodes.end()) return false;
+    const auto added = static_cast<std::uint32_t>(nodes.size()),
+               triangle = static_cast<std::uint32_t>(cavity.triangles.size());
+    nodes.push_back(w);
+    cavity.arcs.push_back({u, v, cavity.nodes[u].triangle, triangle});
+    cavity.triangles.push_back({u, added, v});
+    cavity.nodes.push_back({known + w, v, triangle});
+    cavity.nodes[u].next = added, cavity.nodes[u].triangle = triangle;
   }
-  std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end()), ring.end());
   return true;
 }
 
-/// The area that the cell of `node` would lose to p. `node` comes between `before` and `after` in the ring
-/// around p. The area is that of the polygon of the cell's corners on p's side, between two corners of p's
-/// own cell.
-///
-///        new   after       old: circumcentres of the triangles of `node` from `after` to `before`
-///     old |
-///   p     |  node          new: of p, node, after and of p, before, node
-///     old |
-///        new   before
-///
-double Interpolation::lost_area(const Point& p, std::int32_t before, std::int32_t node,
-                                std::int32_t after) const {
-  const Reader reader(mesh_.lists);
-  const Point first = circumcentre(p, at(node), at(after));
-  Point last{};
-  double area = 0;
-  bool has_last = false;
-  const auto add = [&](const Point& corner) {
-    if (has_last) area += triangle_area(first, last, corner);
-    last = corner;
-    has_last = true;
-  };
-  std::int32_t slot = reader.slot_of(node, after);
-  for (std::int32_t from = after; from != before;) {
-    slot = reader.next(slot);
-    const std::int32_t to = reader.neighbour(slot);
-    add(circumcentre(at(node), at(from), at(to)));
-    from = to;
-  }
-  add(circumcentre(p, at(before), at(node)));
-  return area;
-}
-
 bool Interpolation::natural(const Point& p, std::int32_t& near, std::vector<Share>& shares) const {
+  thread_local std::vector<std::int32_t> nodes;
+  thread_local pstripack::Cavity cavity;
   shares.clear();
-  Point place = p;
+  Direction place = pstripack::direction_of(p);
   Corners corners;
-  if (!find(place, near, corners)) return is_node(p, near, shares);
-  // p does not lie above its own triangle: it is so close to a corner that its height is lost in rounding.
-  const Corners& c = corners;
-  const bool is_corner = at(c[0]) == p || at(c[1]) == p || at(c[2]) == p;
-  std::vector<std::int32_t> ring;
-  if (is_corner || !is_above(c[0], c[1], c[2], place) || !natural_ring(place, corners, ring))
-    return linear(p, near, shares);
-  for (std::size_t i = 0, k = ring.size(); i < k; ++i) {
-    const double area = lost_area(place, ring[(i + k - 1) % k], ring[i], ring[(i + 1) % k]);
-    if (area > 0) shares.push_back({ring[i], area});
+  if (!find(place, near, corners)) return false;
+  if (is_node(place, corners, shares)) return true;
+  if (!dig(place, corners, nodes, cavity)) {
+    linear(place, corners, shares);
+    return true;
   }
-  if (shares.empty()) return linear(p, near, shares);
-  make_shares(shares);
+  find_natural_weights(place, cavity);
+  const auto first = static_cast<std::uint32_t>(std::min_element(nodes.begin(), nodes.end()) - nodes.begin());
+  std::uint32_t node = first;
+  do {
+    if (cavity.weights[node] > 0) shares.push_back({nodes[node], cavity.weights[node]});
+    node = cavity.nodes[node].next;
+  } while (node != first);
   return true;
 }
 
 /// Steps to nearer neighbours until there is none.
-std::int32_t Interpolation::descend(const Point& p, std::int32_t node) const {
+std::int32_t Interpolation::descend(const Direction& place, std::int32_t node) const {
   const Reader reader(mesh_.lists);
-  for (double best = square(minus(at(node), p));;) {
+  const auto distance = [&](std::int32_t to) {  // squared
+    const double rounded = square(minus(mesh_.unit_at(to), place.high));
+    return rounded > kFar ? rounded : square(accurate_difference(mesh_.direction(to), place));
+  };
+  for (double best = distance(node);;) {
     const std::int32_t here = node, last = reader.last_slot(here);
     std::int32_t slot = last;
     do {
       slot = reader.next(slot);
       const std::int32_t neighbour = reader.neighbour(slot);
-      if (const double d = square(minus(at(neighbour), p)); d < best) best = d, node = neighbour;
+      if (const double d = distance(neighbour); d < best) best = d, node = neighbour;
     } while (slot != last);
     if (node == here) return node;
   }
@@ -229,26 +263,30 @@ std::int32_t Interpolation::descend(const Point& p, std::int32_t node) const {
 // boundary node.
 std::int32_t Interpolation::nearest(const Point& p, std::int32_t near) const {
   const Reader reader(mesh_.lists);
-  std::int32_t node = descend(p, near >= 1 && near <= reader.size() ? near : 1);
+  const Direction place = pstripack::direction_of(p);
+  std::int32_t node = descend(place, near >= 1 && near <= reader.size() ? near : 1);
   const std::int32_t border = first_boundary_node_;
-  if (dot(at(node), p) > 0 || border == 0) return node;
+  const auto cosine = [&](std::int32_t to) { return dot(mesh_.unit_at(to), place.high); };
+  if (cosine(node) > 0 || border == 0) return node;
   std::int32_t round = border;
   do {
-    if (dot(at(round), p) > dot(at(node), p)) node = round;
+    if (cosine(round) > cosine(node)) node = round;
     round = reader.first_neighbour(round);
   } while (round != border);
-  return descend(p, node);
+  return descend(place, node);
 }
 
 double Interpolation::cubic_value(const Point& p, const std::vector<Share>& shares,
                                   const std::vector<double>& values,
                                   const std::vector<Point>& gradients) const {
+  const Direction place = pstripack::direction_of(p);
+  const Direction* const known = directions();
   double mean = 0, inverse = 0, tangent = 0, first = 0, second = 0;
   for (const auto& [node, part] : shares) {
     const auto i = static_cast<std::size_t>(node) - 1;
-    const Point d = minus(p, at(node));
+    if (part == 1) return values[i];  // the place is the node
+    const Point d = accurate_difference(place, known[node]);
     const double distance_2 = dot(d, d), distance = std::sqrt(distance_2);
-    if (distance == 0) return values[i];
     mean += part * values[i];
     inverse += part / distance;
     tangent += part / distance * (values[i] + dot(gradients[i], d));
@@ -273,7 +311,7 @@ Interpolation::Result Interpolation::values_at(const std::vector<Point>& places,
     std::int32_t near = 1;
     std::vector<Share> shares;
     for (std::size_t i = b * kBlock; i < std::min((b + 1) * kBlock, places.size()); ++i) {
-      const Point p = unit(places[i]);
+      const Point& p = places[i];
       if (!(method == Method::linear ? linear(p, near, shares) : natural(p, near, shares))) {
         ++count_outside[b];
         result.values[i] = outside == Outside::missing ? std::numeric_limits<double>::quiet_NaN()

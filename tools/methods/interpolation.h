@@ -5,8 +5,10 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <vector>
 
+#include "geometry/weights.h"
 #include "methods/triangulated.h"
 
 namespace methods {
@@ -19,11 +21,13 @@ struct Share {
 
 /// A triangulation for interpolation. Several threads may call its members at the same time.
 ///
-/// Places are unit vectors. Places up to 1e-12 outside the triangles count as on their border. `near` is the
-/// node, from 1, at which the search starts; it is set to a node near the place. Keep it between successive
-/// places; the shares do not depend on it.
+/// Places are vectors of any length, and like the nodes they mean their directions. A place outside the
+/// triangles counts as on their border if it is moved inside by 1e-12 of the way to the middle of the nodes
+/// and 4e-16 rad. `near` is the node, from 1, at which the search starts; it is set to a node near the place.
+/// Keep it between successive places; the shares do not depend on it.
 ///
 /// The shares of a place are positive with sum 1; at a node, that node has the whole share.
+/// geometry/weights.h has the bounds of their errors.
 class Interpolation {
  public:
   /// `owner` keeps the triangulation alive; without it the triangulation must outlive this object.
@@ -32,7 +36,10 @@ class Interpolation {
   /// The corners of a triangle, counterclockwise, the smallest first.
   using Corners = std::array<std::int32_t, 3>;
   /// The triangle that contains p. False outside the triangles.
-  bool triangle(Point p, std::int32_t& near, Corners& corners) const { return find(p, near, corners); }
+  bool triangle(const Point& p, std::int32_t& near, Corners& corners) const {
+    Direction place = pstripack::direction_of(p);
+    return find(place, near, corners);
+  }
 
   /// The corners of the triangle a, b, c that contains p, with the barycentric coordinates of the point where
   /// the ray to p meets the plane of the corners: det(p,b,c), det(a,p,c), det(a,b,p) over their sum (Renka,
@@ -74,18 +81,28 @@ class Interpolation {
                    Outside outside) const;
 
  private:
-  bool find(Point& p, std::int32_t& near, Corners& corners) const;
-  /// True if p is a node. In triangles no wider than rounding, the search may report a node as outside.
-  bool is_node(const Point& p, std::int32_t near, std::vector<Share>& shares) const;
-  void cross_arcs(const Point& p, Corners& corners) const;
-  bool is_above(std::int32_t a, std::int32_t b, std::int32_t c, const Point& p) const;
-  bool natural_ring(const Point& p, const Corners& corners, std::vector<std::int32_t>& ring) const;
-  double lost_area(const Point& p, std::int32_t before, std::int32_t node, std::int32_t after) const;
-  std::int32_t descend(const Point& p, std::int32_t node) const;
+  using Direction = pstripack::Direction;
+  bool find(Direction& place, std::int32_t& near, Corners& corners) const;
+  bool search(const Direction& place, std::int32_t& near, Corners& corners) const;
+  bool settle(Direction& place, std::int32_t& near, Corners& corners) const;
+  bool cross_arcs(const Direction& place, Corners& corners) const;
+  void linear(const Direction& place, const Corners& corners, std::vector<Share>& shares) const;
+  std::array<const Direction*, 3> directions(const Corners& corners) const;
+  bool is_node(const Direction& place, const Corners& corners, std::vector<Share>& shares) const;
+  bool dig(const Direction& place, const Corners& corners, std::vector<std::int32_t>& nodes,
+           pstripack::Cavity& cavity) const;
+  std::int32_t descend(const Direction& place, std::int32_t node) const;
   Point at(std::int32_t node) const { return mesh_.at(node); }
+  /// The directions of the nodes, made when first needed.
+  const Direction* directions() const;
 
+  struct Known {
+    std::once_flag once;
+    std::vector<Direction> directions;
+  };
   std::shared_ptr<const void> owner_;
   Triangulated mesh_;
+  std::unique_ptr<Known> known_ = std::make_unique<Known>();
   std::int32_t first_boundary_node_;  ///< 0: none
   Point middle_{0, 0, 0};             ///< centre of the nodes, if they lie in a hemisphere
 };

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/parallel_for.h"
+#include "geometry/measures.h"
 #include "lists/rings.h"
-#include "methods/sphere.h"
 #include "parallel/agreement.h"
 
 namespace methods {
@@ -29,17 +29,10 @@ void around(const Neighbourhood& nodes, std::size_t i, const Visit& visit) {
   }
 }
 
-/// The area of a Voronoi cell. Its part in each triangle consists of two right-angled triangles, which count
-/// negative if the circumcentre lies beyond a side.
 double area_of_cell(const Neighbourhood& nodes, std::size_t i) {
-  double area = 0;
-  around(nodes, i, [&](std::size_t from, std::size_t to) {
-    const Point &p = nodes.points[i], &q = nodes.points[from], &r = nodes.points[to];
-    const Point centre = circumcentre(p, q, r);
-    // Each is half of the triangle over a side, since the centre is equally far from both ends.
-    area += (triangle_area(p, q, centre) + triangle_area(r, p, centre)) / 2;
-  });
-  return area;
+  std::vector<pstripack::Direction> ring;
+  around(nodes, i, [&](std::size_t, std::size_t to) { ring.push_back(direction_of(nodes.points[to])); });
+  return cell_area(direction_of(nodes.points[i]), ring.data(), ring.size());
 }
 
 /// A value that a rank sends to the ranks that know the node as a neighbour.
@@ -102,12 +95,12 @@ Quality quality_of(pstripack::Communicator& ranks, const Neighbourhood& nodes) {
     around(nodes, i, [&](std::size_t from, std::size_t to) {
       largest_ratio.value = std::max(largest_ratio.value, areas[i] / areas[to]);
       if (nodes.numbers[from] < nodes.numbers[i] || nodes.numbers[to] < nodes.numbers[i]) return;
-      const Point &a = nodes.points[i], &b = nodes.points[from], &c = nodes.points[to];
-      const double angles[] = {files::corner_angle(a, b, c), files::corner_angle(b, c, a),
-                               files::corner_angle(c, a, b)};
-      smallest_angle.value = std::min({smallest_angle.value, angles[0], angles[1], angles[2]});
+      const pstripack::Angles angles = angles_of(
+          direction_of(nodes.points[i]), direction_of(nodes.points[from]), direction_of(nodes.points[to]));
+      for (const double angle : angles.at)
+        smallest_angle.value = std::min(smallest_angle.value, angle * files::kRadian);
       ++triangles;
-      if (std::max({angles[0], angles[1], angles[2]}) < 90) ++well_centred;
+      if (angles.are_acute) ++well_centred;
     });
   }
   agree(ranks, smallest_angle, largest_ratio);

@@ -22,7 +22,7 @@ struct Quality {
   std::string text() const;
 };
 
-/// Throws files::NoMesh if the nodes lie in a hemisphere. Nodes are unit vectors.
+/// Throws files::NoMesh if the nodes lie in a hemisphere. Nodes are vectors of any length.
 Quality quality_of(const files::Mesh& mesh);
 
 /// The quality of the mesh of all ranks. Each rank has one of equal slices of the nodes (slice_of in

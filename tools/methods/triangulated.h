@@ -2,8 +2,10 @@
 // The triangulation that interpolation works on: of a file's nodes, or of arrays of a Python program.
 
 #include <cstdint>
+#include <vector>
 
-#include "geometry/point.h"
+#include "base/parallel_for.h"
+#include "geometry/measures.h"
 #include "lists/adjacency_lists.h"
 #include "stripack/expressions.h"
 
@@ -11,16 +13,33 @@ namespace methods {
 
 using pstripack::Point;
 
-/// Canonical lists and their nodes, which are unit vectors with numbers from 1; not owned. If the nodes were
-/// scaled to length 1 after triangulation, rounding may have inverted some triangles.
+/// Canonical lists of the mesh of the nodes' directions, and the nodes, with numbers from 1; not owned.
 struct Triangulated {
   pstripack::ListsView<std::int32_t> lists;
-  pstripack::Nodes<double> nodes;
+  pstripack::Nodes<double> given;  ///< vectors of any length
+  pstripack::Nodes<double>
+      unit;  ///< unit vectors in their directions, up to rounding: for searches and filters
 
-  Point at(std::int32_t node) const {
+  Point at(std::int32_t node) const { return of(given, node); }
+  Point unit_at(std::int32_t node) const { return of(unit, node); }
+  pstripack::Direction direction(std::int32_t node) const { return pstripack::direction_of(at(node)); }
+
+ private:
+  static Point of(const pstripack::Nodes<double>& nodes, std::int32_t node) {
     const auto i = static_cast<std::size_t>(node) - 1;
     return {nodes.x[i], nodes.y[i], nodes.z[i]};
   }
 };
+
+/// The directions of all nodes.
+inline std::vector<pstripack::Direction> directions_of(const Triangulated& mesh) {
+  std::vector<pstripack::Direction> directions(mesh.lists.n);
+  pstripack::parallel_pieces(directions.size(), pstripack::threads_for(directions.size()),
+                             [&](std::size_t first, std::size_t last, int) {
+                               for (std::size_t i = first; i < last; ++i)
+                                 directions[i] = mesh.direction(static_cast<std::int32_t>(i) + 1);
+                             });
+  return directions;
+}
 
 }  // namespace methods

@@ -6,19 +6,11 @@
 #include "files/measures.h"
 
 namespace methods {
-namespace {
 
-std::vector<Point> directions(const std::vector<Point>& points) {
-  std::vector<Point> result(points.size());
-  std::transform(points.begin(), points.end(), result.begin(), [](const Point& p) { return files::unit(p); });
-  return result;
-}
-
-}  // namespace
-
-TriangulatedNodes::TriangulatedNodes(const std::vector<Point>& nodes)
-    : mesh_(files::triangulate(directions(nodes))) {
-  for (const Point& p : mesh_.points) x_.push_back(p.x), y_.push_back(p.y), z_.push_back(p.z);
+TriangulatedNodes::TriangulatedNodes(const std::vector<Point>& nodes) : mesh_(files::triangulate(nodes)) {
+  for (const Point& p : nodes) given_.add(p);
+  if (std::all_of(nodes.begin(), nodes.end(), pstripack::length_is_one_up_to_rounding)) return;
+  for (const Point& p : nodes) unit_.add(files::unit(p));
 }
 
 Interpolation interpolation_between(const std::vector<Point>& nodes) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "files/measures.h"
+#include "geometry/measures.h"
 #include "pictures/legend.h"
 #include "pictures/scale.h"
 #include "pictures/sheet.h"
@@ -98,15 +99,16 @@ void draw_degrees(Panel panel, const std::vector<double>& degrees) {
 }  // namespace
 
 std::string histograms(const files::Mesh& mesh, const std::string& title, double width) {
-  const std::vector<files::Point> points = files::unit(mesh.points);
-  const auto at = [&](std::int32_t node) { return points[static_cast<std::size_t>(node) - 1]; };
+  const auto at = [&](std::int32_t node) {
+    return pstripack::direction_of(mesh.points[static_cast<std::size_t>(node) - 1]);
+  };
   std::vector<double> angles, lengths, areas, degrees;
   const std::vector<std::int32_t> triangles = files::triangles_of(mesh);
   for (std::size_t t = 0; t < triangles.size(); t += 3) {
-    const files::Point a = at(triangles[t]), b = at(triangles[t + 1]), c = at(triangles[t + 2]);
-    angles.push_back(
-        std::min({files::corner_angle(a, b, c), files::corner_angle(b, c, a), files::corner_angle(c, a, b)}));
-    areas.push_back(files::triangle_area(a, b, c) * files::kEarthRadius * files::kEarthRadius);
+    const pstripack::Direction a = at(triangles[t]), b = at(triangles[t + 1]), c = at(triangles[t + 2]);
+    const auto [x, y, z] = angles_of(a, b, c).at;
+    angles.push_back(std::min({x, y, z}) * files::kRadian);
+    areas.push_back(triangle_area(a, b, c) * files::kEarthRadius * files::kEarthRadius);
   }
   const pstripack::ListReader<std::int32_t> reader(mesh.lists());
   for (std::int32_t node = 1; node <= reader.size(); ++node) {
@@ -115,7 +117,7 @@ std::string histograms(const files::Mesh& mesh, const std::string& title, double
     do {
       ++degree;
       if (const std::int32_t neighbour = reader.neighbour(slot); neighbour > node)
-        lengths.push_back(files::angle_between(at(node), at(neighbour)) * files::kRadian);
+        lengths.push_back(arc_length(at(node), at(neighbour)) * files::kRadian);
       slot = reader.next(slot);
     } while (slot != reader.last_slot(node));
     degrees.push_back(degree);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "files/measures.h"
+#include "geometry/measures.h"
 #include "pstripack/options.h"
 #include "pstripack/progress.h"
 #include "standard_streams.h"
@@ -15,8 +16,6 @@
 namespace program {
 namespace {
 
-using files::angle_between;
-using files::corner_angle;
 using files::Mesh;
 using files::Point;
 
@@ -42,8 +41,9 @@ constexpr double kNear = 1e-3;
 
 Facts facts_of(const Mesh& mesh) {
   Facts facts;
-  const std::vector<Point> points = files::unit(mesh.points);
-  const auto at = [&](std::int32_t node) { return points[static_cast<std::size_t>(node) - 1]; };
+  const auto at = [&](std::int32_t node) {
+    return pstripack::direction_of(mesh.points[static_cast<std::size_t>(node) - 1]);
+  };
   const pstripack::ListReader<std::int32_t> reader(mesh.lists());
   std::vector<double> lengths;
   for (std::int32_t node = 1; node <= reader.size(); ++node) {
@@ -53,7 +53,7 @@ Facts facts_of(const Mesh& mesh) {
       ++degree;
       const std::int32_t neighbour = reader.neighbour(slot);
       if (neighbour > node) {
-        const double length = angle_between(at(node), at(neighbour));
+        const double length = arc_length(at(node), at(neighbour));
         lengths.push_back(length);
         facts.mean += length;
         if (length < facts.shortest.value) facts.shortest = {length, node, neighbour};
@@ -71,12 +71,12 @@ Facts facts_of(const Mesh& mesh) {
       lengths.begin(), lengths.end(), [&](double length) { return length < kNear * facts.mean; }));
   const std::vector<std::int32_t> triangles = files::triangles_of(mesh);
   facts.triangles = triangles.size() / 3;
-  for (std::size_t t = 0; t < triangles.size(); t += 3)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::int32_t a = triangles[t + k], b = triangles[t + (k + 1) % 3], c = triangles[t + (k + 2) % 3];
-      if (const double angle = corner_angle(at(a), at(b), at(c)); angle < facts.sharpest.value)
-        facts.sharpest = {angle, b};
-    }
+  for (std::size_t t = 0; t < triangles.size(); t += 3) {
+    const pstripack::Angles angles = angles_of(at(triangles[t]), at(triangles[t + 1]), at(triangles[t + 2]));
+    for (std::size_t k = 0; k < 3; ++k)
+      if (const double angle = angles.at[k] * files::kRadian; angle < facts.sharpest.value)
+        facts.sharpest = {angle, triangles[t + k]};
+  }
   return facts;
 }
 

@@ -12,7 +12,8 @@
 #include <utility>
 
 #include "methods/gradients.h"
-#include "methods/sphere.h"
+#include "files/measures.h"
+#include "geometry/measures.h"
 #include "methods/triangulated_nodes.h"
 #include "point_sets.h"
 #include "stripack/list_queries.h"
@@ -211,7 +212,7 @@ std::vector<double> cell_areas(const Points& nodes) {
       const auto at = [&](std::size_t i) {
         return cells.points[static_cast<std::size_t>(cells.corner[i]) - 1];
       };
-      areas[f] += triangle_area(at(cells.begin[f]), at(k - 1), at(k));
+      areas[f] += files::triangle_area(at(cells.begin[f]), at(k - 1), at(k));
     }
   return areas;
 }
@@ -275,7 +276,9 @@ TEST(values, are_continuous) {
         const auto at = [&](std::size_t k) {
           return triangles.points[static_cast<std::size_t>(triangles.corner[3 * t + k]) - 1];
         };
-        const Point a = at(0), b = at(1), c = at(2), centre = circumcentre(a, b, c);
+        const Point a = at(0), b = at(1), c = at(2),
+                    centre = circumcircle(pstripack::direction_of(a), pstripack::direction_of(b),
+                                          pstripack::direction_of(c)).centre;
         for (const Point& towards : {cross(a, b), b, c}) {
           add(a, towards);
           add({a.x + 2 * b.x, a.y + 2 * b.y, a.z + 2 * b.z}, towards);

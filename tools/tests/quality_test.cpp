@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "methods/sphere.h"
+#include "files/measures.h"
 #include "methods/time_left.h"
 #include "point_sets.h"
 
@@ -32,9 +32,9 @@ TEST(quality, of_an_icosahedron_and_of_a_prolate_octahedron) {
   EXPECT_EQ(bipyramid.cells[3], 2U);
   EXPECT_EQ(bipyramid.cells[4], 3U);
   const double lat = std::atan(0.5);
-  const Point a{std::cos(lat), 0, std::sin(lat)}, b{-0.5 * std::cos(lat), h * std::cos(lat), std::sin(lat)},
+  const files::Point a{std::cos(lat), 0, std::sin(lat)}, b{-0.5 * std::cos(lat), h * std::cos(lat), std::sin(lat)},
       c{-0.5 * std::cos(lat), -h * std::cos(lat), std::sin(lat)};
-  const double pole = triangle_area(a, b, c), lune = (4 * pi - 2 * pole) / 3;
+  const double pole = files::triangle_area(a, b, c), lune = (4 * pi - 2 * pole) / 3;
   EXPECT_NEAR(bipyramid.largest_ratio, std::max(pole / lune, lune / pole), 1e-9);
   EXPECT_THROW(quality_of(files::triangulate({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}})), files::NoMesh);
 }

@@ -31,143 +31,20 @@
 #include "geometry/measures.h"
 
 #include <algorithm>
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <limits>
 #include <type_traits>
 
-#include "geometry/double_double.h"
+#include "geometry/arithmetics.h"
 
 namespace pstripack {
 namespace {
 
-namespace mp = boost::multiprecision;
-template <unsigned bits>
-using Real = mp::number<mp::cpp_bin_float<bits, mp::digit_base_2, void, std::int32_t>, mp::et_off>;
+using namespace arithmetics;
 
-constexpr double u = 0x1p-53, kPi = 3.14159265358979323846;
+constexpr double kPi = 3.14159265358979323846;
 /// Largest error of a cell's area, relative to itself.
 constexpr double kOfCell = 128 * u;
-
-// ---- four arithmetics -----------------------------------------------------------------------------------
-
-template <class T>
-struct Vector3 {
-  T x, y, z;
-};
-template <class T>
-Vector3<T> cross(const Vector3<T>& a, const Vector3<T>& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-template <class T>
-T dot(const Vector3<T>& a, const Vector3<T>& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-/// What they differ in:
-///   kUnit          bound of the relative error of an operation
-///   kSide, kApart  a side has an error of kSide of its length and 2^kApart
-///   Corner         what of a direction enters the sides; side(to, from) is the difference, sum() as accurate
-///   position       the direction as one vector
-template <class T>
-struct Arithmetic;
-
-template <>
-struct Arithmetic<double> {
-  static constexpr double kUnit = u, kSide = 2 * u;
-  static constexpr int kApart = -98;
-  using Corner = const Direction&;
-  static Corner corner(const Direction& d) { return d; }
-  static Vector3<double> side(Corner to, Corner from) {
-    const Point d = difference(to, from);
-    return {d.x, d.y, d.z};
-  }
-  static Vector3<double> sum(Corner a, Corner b) {
-    return {(a.high.x + b.high.x) + (a.low.x + b.low.x), (a.high.y + b.high.y) + (a.low.y + b.low.y),
-            (a.high.z + b.high.z) + (a.low.z + b.low.z)};
-  }
-  static Vector3<double> position(Corner d) { return {d.high.x, d.high.y, d.high.z}; }
-  static double value(double v, int exponent = 0) { return exponent == 0 ? v : std::ldexp(v, exponent); }
-  static double square_root(double v) { return std::sqrt(v); }
-};
-
-template <>
-struct Arithmetic<DoubleDouble> {
-  static constexpr double kUnit = 0x1p-101, kSide = 0x1p-102;
-  static constexpr int kApart = -98;
-  using Corner = Vector3<DoubleDouble>;
-  static Corner corner(const Direction& d) {
-    return {{d.high.x, d.low.x}, {d.high.y, d.low.y}, {d.high.z, d.low.z}};
-  }
-  static Corner side(const Corner& to, const Corner& from) {
-    return {to.x - from.x, to.y - from.y, to.z - from.z};
-  }
-  static Corner sum(const Corner& a, const Corner& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-  static const Corner& position(const Corner& d) { return d; }
-  static double value(const DoubleDouble& v, int exponent = 0) { return std::ldexp(v.high, exponent); }
-  static DoubleDouble square_root(const DoubleDouble& v) { return sqrt(v); }
-};
-
-template <unsigned bits>
-struct Arithmetic<Real<bits>> {
-  using T = Real<bits>;
-  static constexpr double kUnit = bits < 1000 ? 0x1p-100 * 0x1p-100 * 0x1p-50 : 0x1p-1000;
-  static constexpr double kSide = kUnit;
-  static constexpr int kApart = 4 - static_cast<int>(bits);
-  using Corner = Vector3<T>;
-  static Corner corner(const Direction& d) {
-    const Corner p{T(d.given.x), T(d.given.y), T(d.given.z)};
-    const T length = sqrt(dot(p, p));
-    return {p.x / length, p.y / length, p.z / length};
-  }
-  static Corner side(const Corner& to, const Corner& from) {
-    return {to.x - from.x, to.y - from.y, to.z - from.z};
-  }
-  static Corner sum(const Corner& a, const Corner& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-  static const Corner& position(const Corner& d) { return d; }
-  static double value(const T& v, int exponent = 0) { return static_cast<double>(T(ldexp(v, exponent))); }
-  static T square_root(const T& v) { return sqrt(v); }
-};
-
-/// A number of the arithmetic T.
-template <class T>
-T number(double v) {
-  if constexpr (std::is_same_v<T, DoubleDouble>)
-    return {v, 0};
-  else
-    return T(v);
-}
-
-/// The binary exponent of a vector's largest component; very small for 0.
-template <class T>
-int exponent_of(const Vector3<T>& v) {
-  int most = -100000;
-  for (const T& component : {v.x, v.y, v.z})
-    if constexpr (std::is_same_v<T, double>) {
-      if (component != 0) most = std::max(most, std::ilogb(component));
-    } else if constexpr (std::is_same_v<T, DoubleDouble>) {
-      if (component.high != 0) most = std::max(most, std::ilogb(component.high));
-    } else {
-      if (component != 0) most = std::max(most, static_cast<int>(ilogb(component)));
-    }
-  return most;
-}
-
-template <class T>
-Point as_point(const Vector3<T>& v, int exponent) {
-  using A = Arithmetic<T>;
-  return {A::value(v.x, exponent), A::value(v.y, exponent), A::value(v.z, exponent)};
-}
-
-/// Calls attempt(T()) with the arithmetics from doubles on until it returns true.
-template <class Attempt>
-[[gnu::noinline]] bool with_more_bits(const Attempt& attempt) {
-  return attempt(DoubleDouble{}) || attempt(Real<256>{}) || attempt(Real<1280>{}) || attempt(Real<9216>{});
-}
-template <class Attempt>
-bool with_enough_bits(const Attempt& attempt) {
-  return attempt(0.0) || with_more_bits(attempt);
-}
 
 // ---- triangles --------------------------------------------------------------------------------------------
 
@@ -287,6 +164,26 @@ bool find_area(const Direction (&corner)[3], double& area) {
          60 * u * std::fabs(area) * (det * det + denominator * denominator);
 }
 
+/// The angle at a corner is atan2(|n|, e.f) for its sides e and f, and |n| = |e| |f| sin(angle). So the error
+/// is that of |n|, relative, times sin(angle) cos(angle), and that of e.f, relative to |e| |f|, times
+/// sin(angle).
+template <class T>
+bool find_angles(const Direction& a, const Direction& b, const Direction& c, Angles& angles) {
+  using A = Arithmetic<T>;
+  TriangleBySides<T> t;
+  if (!t.find(A::corner(a), A::corner(b), A::corner(c), 32 * u)) return false;
+  angles.are_acute = true;
+  bool is_certain = true;
+  for (int k = 0; k < 3; ++k) {
+    const double product = A::value(t.at(k), -2 * t.exponent), error = t.error_of_at(k);
+    angles.at[k] = std::atan2(t.size_across, product);
+    angles.are_acute = angles.are_acute && product > 0;
+    is_certain =
+        is_certain && std::fabs(product) > error && error <= 16 * u * t.size[k] * t.size[(k + 2) % 3];
+  }
+  return is_certain;
+}
+
 // ---- cells ------------------------------------------------------------------------------------------------
 
 /// What the border between two cells needs of the triangle on one side of it.
@@ -384,6 +281,18 @@ bool find_cell_area(const Direction& node, const Direction* ring, std::size_t co
 
 }  // namespace
 
+Point difference_of_any_size(const Direction& b, const Direction& a) {
+  Point d{0, 0, 0};
+  if (same_direction(b.given, a.given)) return d;
+  with_more_bits([&](auto zero) {
+    using A = Arithmetic<decltype(zero)>;
+    const auto side = A::side(A::corner(b), A::corner(a));
+    d = as_point(side, 0);
+    return A::kApart - exponent_of(side) <= -55;
+  });
+  return d;
+}
+
 double arc_length(const Direction& a, const Direction& b) {
   const Point d = difference(b, a);
   const double square = square_of(d);
@@ -416,6 +325,12 @@ double triangle_area(const Direction& a, const Direction& b, const Direction& c)
   if (find_ordinary_area(a, b, c, area)) return area;
   with_enough_bits([&](auto zero) { return find_area<decltype(zero)>(corner, area); });
   return area;
+}
+
+Angles angles_of(const Direction& a, const Direction& b, const Direction& c) {
+  Angles angles{{0, 0, 0}, false};  // of nodes so nearly on one great circle that no arithmetic tells
+  with_enough_bits([&](auto zero) { return find_angles<decltype(zero)>(a, b, c, angles); });
+  return angles;
 }
 
 double cell_area(const Direction& v, const Direction* ring, std::size_t count) {

@@ -26,6 +26,13 @@ struct Direction : UnitVector {
 inline Direction direction_of(const Point& p) { return {unit_vector(p), p}; }
 inline Direction direction_of(const Directions& nodes, index_t i) { return {nodes.unit(i), nodes.given(i)}; }
 
+/// b - a, right up to 4u of its length.
+Point difference_of_any_size(const Direction& b, const Direction& a);
+inline Point accurate_difference(const Direction& b, const Direction& a) {
+  const Point d = difference(b, a);
+  return dot(d, d) >= 0x1p-90 ? d : difference_of_any_size(b, a);
+}
+
 /// The angle between two directions, in radians.
 double arc_length(const Direction& a, const Direction& b);
 
@@ -79,6 +86,13 @@ inline Point circumcentre(const Directions& nodes, index_t a, index_t b, index_t
   if (find_ordinary_centre(nodes.unit(a), nodes.unit(b), nodes.unit(c), centre)) return centre;
   return circumcircle(direction_of(nodes, a), direction_of(nodes, b), direction_of(nodes, c)).centre;
 }
+
+/// The angles of the plane triangle, in radians, each right up to 64u of itself, or of what it lacks to pi.
+struct Angles {
+  double at[3];
+  bool are_acute;  ///< exactly: all are below pi/2, so that the triangle has its circumcentre inside
+};
+Angles angles_of(const Direction& a, const Direction& b, const Direction& c);
 
 /// Area of the spherical triangle in steradians, 0 to 2 pi; negative if clockwise.
 double triangle_area(const Direction& a, const Direction& b, const Direction& c);
