@@ -6,12 +6,19 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <set>
+#include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "point_sets.h"
+#include "support/exact.h"
 #include "support/guarded.h"
 #include "trmesh/trmesh.h"
 
@@ -111,7 +118,10 @@ TYPED_TEST(NextNearest, GivesAllNodesByDistance) {
       Real distance = 5;
       for (Int l = 2; l <= static_cast<Int>(mesh.n); ++l) {
         ASSERT_EQ(mesh.next(l, npts.data(), distance), NextNearestStatus::done) << set << ", L = " << l;
-        ASSERT_EQ(distance, distances[static_cast<std::size_t>(l - 2)]) << set << ", L = " << l;
+        // Nodes at the same distance up to rounding come in the exact order of their directions.
+        ASSERT_NEAR(distance, distances[static_cast<std::size_t>(l - 2)],
+                    4 * std::numeric_limits<Real>::epsilon())
+            << set << ", L = " << l;
         ASSERT_EQ(distance, mesh.distance(17, npts[static_cast<std::size_t>(l - 1)]));
       }
       ASSERT_EQ(std::set<Int>(npts.begin(), npts.end() - 1).size(), mesh.n);
@@ -246,5 +256,166 @@ TYPED_TEST(NextNearest, SearchesAnswerAlikeInAnySlots) {
         ASSERT_EQ(nearest[0], nearest[1]) << set << " from " << start;
         ASSERT_EQ(angle[0], angle[1]) << set << " from " << start;
       }
+  }
+}
+
+namespace {
+
+/// What TRFIND and NEARND must answer, by exact signs and 100 digits, from the lists and from all nodes.
+template <class Kind>
+class Judge {
+ public:
+  using Real = typename Kind::Real;
+  using Int = typename Kind::Int;
+  using Digits = boost::multiprecision::cpp_bin_float_100;
+
+  explicit Judge(Mesh<Kind>& mesh) : mesh_(mesh) {
+    for (std::size_t k = 0; k < mesh.n; ++k) {
+      const Int last = mesh.lend[k];
+      if (mesh.list[index(last)] > 0) continue;
+      next_[static_cast<Int>(k + 1)] = mesh.list[index(mesh.lptr[index(last)])];
+    }
+  }
+
+  std::string of_trfind(const Vector<Real>& p, const Location<Int>& at) const {
+    std::set<Int> rightmost, leftmost;  // ends of the visible part of the boundary
+    std::size_t visible = 0;
+    for (const auto& [r, l] : next_) {
+      const bool seen = sees(p, r, l);
+      visible += seen;
+      if (seen && !sees(p, l, next_.at(l))) rightmost.insert(l);
+      if (!seen && sees(p, l, next_.at(l))) leftmost.insert(l);
+    }
+    if (visible == 0) {
+      if (at.i3 == 0) return "it is not outside";
+      const bool inside =
+          side(p, at.i1, at.i2) >= 0 && side(p, at.i2, at.i3) >= 0 && side(p, at.i3, at.i1) >= 0;
+      return inside ? "" : "another triangle contains it";
+    }
+    if (at.i3 != 0) return "it is outside";
+    if (visible == next_.size()) return at.i1 == at.i2 ? "" : "all of the boundary is visible";
+    return rightmost.count(at.i1) == 1 && leftmost.count(at.i2) == 1 ? "" : "other nodes are the ends";
+  }
+
+  /// The cosines of the distances of all nodes.
+  std::vector<Digits> cosines(const Vector<Real>& p) const {
+    std::vector<Digits> all;
+    for (Int k = 1; k <= static_cast<Int>(mesh_.n); ++k) all.push_back(cosine(p, k));
+    return all;
+  }
+  /// The angle in radians.
+  double distance(const Vector<Real>& p, Int node) const {
+    return static_cast<double>(acos(cosine(p, node)));
+  }
+
+ private:
+  static std::size_t index(Int slot) { return static_cast<std::size_t>(slot - 1); }
+  int side(const Vector<Real>& p, Int a, Int b) const {
+    return ::exact::left(as_point(mesh_.nodes()[a]), as_point(mesh_.nodes()[b]), as_point(p));
+  }
+  bool sees(const Vector<Real>& p, Int a, Int b) const { return side(p, a, b) < 0; }
+  Digits cosine(const Vector<Real>& p, Int k) const {
+    const Vector<Real> q = mesh_.nodes()[k];
+    const Digits x = q.x, y = q.y, z = q.z, u = p.x, v = p.y, w = p.z;
+    return (x * u + y * v + z * w) / sqrt((x * x + y * y + z * z) * (u * u + v * v + w * w));
+  }
+
+  Mesh<Kind>& mesh_;
+  std::map<Int, Int> next_;  ///< of a boundary node, counterclockwise
+};
+
+/// Six nodes far from each other and a cluster of this width.
+std::vector<Point> with_cluster(double width, std::size_t count) {
+  std::vector<Point> points = point_sets::make("random", 6);
+  point_sets::Random random(7);
+  for (std::size_t k = 0; k < count; ++k) {
+    const double x = width * (random.uniform() - 0.5), y = width * (random.uniform() - 0.5);
+    const double l = std::sqrt(1 + x * x + y * y);
+    points.push_back({x / l, y / l, 1 / l});
+  }
+  return points;
+}
+
+}  // namespace
+
+/// Places opposite clusters, on nodes, opposite nodes, in the middle of arcs, and anywhere: from every start.
+TYPED_TEST(NextNearest, TrfindAndNearndAreExact) {
+  using Real = typename TypeParam::Real;
+  using Int = typename TypeParam::Int;
+  std::vector<std::pair<std::string, std::vector<Point>>> sets;
+  for (const double width : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10}) {
+    if (std::is_same_v<Real, float> && width < 1e-6) continue;
+    sets.emplace_back("cluster of " + std::to_string(width), with_cluster(width, 9));
+    std::vector<Point> alone = with_cluster(width, 15);
+    alone.erase(alone.begin(), alone.begin() + 6);
+    sets.emplace_back("cluster alone of " + std::to_string(width), alone);
+  }
+  for (const char* const family : {"random", "latlon", "hemisphere", "cubed-sphere", "ring"})
+    sets.emplace_back(family, point_sets::make(family, 26));
+  sets.emplace_back("three", std::vector<Point>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+  sets.emplace_back("from a file", point_sets::read(TEST_DATA_DIR "/search_opposite_a_cluster.txt"));
+  for (auto& [name, points] : sets) {
+    std::vector<Point> unique;
+    for (const Point& p : points) {
+      const Point rounded{static_cast<Real>(p.x), static_cast<Real>(p.y), static_cast<Real>(p.z)};
+      if (std::none_of(unique.begin(), unique.end(),
+                       [&](const Point& q) { return ::exact::same_direction(q, rounded); }))
+        unique.push_back(rounded);
+    }
+    if (::exact::left(unique[0], unique[1], unique[2]) == 0) continue;
+    Mesh<TypeParam> mesh(unique);
+    const Judge<TypeParam> judge(mesh);
+    const auto n = static_cast<Int>(unique.size());
+    std::vector<Vector<Real>> places;
+    for (Int k = 1; k <= n; ++k) {
+      const Vector<Real> a = mesh.nodes()[k], b = mesh.nodes()[k % n + 1];
+      const Vector<Real> middle{a.x + b.x, a.y + b.y, a.z + b.z};
+      places.insert(places.end(), {a, {-a.x, -a.y, -a.z}, middle, {-middle.x, -middle.y, -middle.z}});
+    }
+    for (const Point& p : point_sets::make("random", 10))
+      places.push_back({static_cast<Real>(p.x), static_cast<Real>(p.y), static_cast<Real>(p.z)});
+    for (const Vector<Real>& p : places) {
+      if (p.x == 0 && p.y == 0 && p.z == 0) continue;
+      const auto cosines = judge.cosines(p);
+      const auto greatest = *std::max_element(cosines.begin(), cosines.end());
+      const double distance = static_cast<double>(acos(greatest));
+      for (Int start = 1; start <= n; ++start) {
+        Real b1, b2, b3, angle = 0;
+        const Location<Int> at = trfind(start, p, mesh.lists(), mesh.nodes(), b1, b2, b3);
+        const std::string wrong = judge.of_trfind(p, at);
+        ASSERT_EQ(wrong, "") << name << ": " << p.x << ' ' << p.y << ' ' << p.z << " from " << start << ": "
+                             << at.i1 << ' ' << at.i2 << ' ' << at.i3;
+        const Int nearest = nearnd(p, start, mesh.lists(), mesh.nodes(), angle);
+        ASSERT_EQ(cosines[static_cast<std::size_t>(nearest - 1)], greatest)
+            << name << " from " << start << ": " << nearest;
+        // Beyond 0.03 the arc cosine, as the original's: its rounding grows with the inverse of the angle.
+        const double rounding = 4 * std::numeric_limits<Real>::epsilon();
+        if (std::abs(dot(p, p) - 1) < 4 * std::numeric_limits<Real>::epsilon()) {  // as the original asks
+          ASSERT_NEAR(angle, distance, rounding * (distance + (distance < 0.03 ? 0 : 1 / std::sin(distance))))
+              << name;
+        }
+      }
+    }
+  }
+}
+
+/// All other nodes of a cluster in the order of their exact distances.
+TYPED_TEST(NextNearest, GetnpIsExactInClusters) {
+  using Real = typename TypeParam::Real;
+  using Int = typename TypeParam::Int;
+  if (std::is_same_v<Real, float>) GTEST_SKIP() << "nodes of a narrow cluster coincide";
+  for (const double width : {1e-3, 1e-6, 1e-9}) {
+    Mesh<TypeParam> mesh(with_cluster(width, 40));
+    const Judge<TypeParam> judge(mesh);
+    std::vector<Int> npts(mesh.n + 1);
+    npts[0] = 20;
+    double before = 0;
+    for (Int l = 2; l <= 30; ++l) {
+      Real distance = 0;
+      ASSERT_EQ(mesh.next(l, npts.data(), distance), NextNearestStatus::done);
+      const double now = judge.distance(mesh.nodes()[20], npts[static_cast<std::size_t>(l - 1)]);
+      ASSERT_GE(now, before) << width << ", L = " << l;
+      before = now;
+    }
   }
 }

@@ -79,8 +79,16 @@ contains
       al = real_mark
       i(1, 1) = nearnd(p, start, n, x, y, z, list, lptr, lend, al(1))
       i(1, 2) = csnearnd(p, start, n, x, y, z, list, lptr, lend, al(2))
-      call expect(i(1, 1) == i(1, 2), "NEARND: node")
-      call expect(close(al(1), al(2)), "NEARND: AL")
+      if (i(1, 1) /= i(1, 2) .and. minval(i(1, :)) > 0) then  ! ours may be nearer, but no farther
+        call expect(dot_product(p, node(i(1, 1))) >= dot_product(p, node(i(1, 2))) - 2*epsilon(1d0), "NEARND: node")
+        cycle
+      end if
+      call expect(i(1, 1) == i(1, 2), "NEARND: none")
+      if (cos(al(1)) < 1 - 2d0**(-11)) then
+        call expect(close(al(1), al(2)), "NEARND: AL")
+      else  ! the original's is known from its cosine only
+        call expect(abs(cos(al(1)) - cos(al(2))) <= 2*epsilon(1d0), "NEARND: a small AL")
+      end if
     end do
   end subroutine
 
@@ -116,6 +124,12 @@ contains
   end subroutine
 
   !> True if equal or one unit in the last place apart, for results of functions of the mathematical library.
+  function node(k)
+    integer, intent(in) :: k
+    real(rk) :: node(3)
+    node = [x(k), y(k), z(k)]
+  end function
+
   elemental logical function close(a, b)
     real(rk), intent(in) :: a, b
     close = a == b .or. abs(a - b) <= spacing(max(abs(a), abs(b)))

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -107,7 +108,8 @@ class Search {
     Location<Int> found = nowhere;
     TrfindWalk<Real, Int, Lists, decltype(draw)> walk(p_, lists_, rules.tolerance<Real>(), limits, weights_,
                                                       draw);
-    return walk.find(o, found) ? found : walk_exactly(o);
+    if (!walk.find(o, found)) return walk_exactly(o);
+    return rules.follow ? found : confirmed(found, o);
   }
 
  private:
@@ -122,6 +124,18 @@ class Search {
     return is_finite(a) && is_finite(b) && is_finite(c) ? left(as_point(a), as_point(b), as_point(c)) : 0;
   }
   int exact_side(Int a, Int b) const { return exact_left(lists_[a], lists_[b], p_); }
+
+  /// The location that rounded tests found, if exact signs confirm it; else the right one. The rounded walk
+  /// may end in a triangle opposite p: there its tests are as small as their rounding.
+  Location<Int> confirmed(const Location<Int>& found, Int o) {
+    const auto [i1, i2, i3] = found;
+    if (i3 != 0) return contains(i1, i2, i3) ? found : walk_exactly(o);
+    if (i1 == 0) return walk_exactly(o);
+    const Int before = lists_.last_neighbour(i1);
+    if (exact_side(before, i1) >= 0) return walk_exactly(o);
+    const Location<Int> seen = see_boundary_exactly(before, i1);
+    return seen.i1 == seen.i2 ? Location<Int>{i1, i1, 0} : seen;
+  }
 
   /// The visibility walk: leaves triangle (u,v,w) through an arc that has p strictly to its right.
   ///
@@ -301,6 +315,12 @@ class FewNodes {
   Int node_[most];
 };
 
+/// The angle between two vectors, accurate for close and for opposite ones.
+double angle_between(const Point& a, const Point& p) {
+  const Point n = cross(minus(p, a), a);
+  return std::atan2(std::sqrt(dot(n, n)), dot(a, p));
+}
+
 /// Calls visit(neighbour) for the neighbours of a node, the last one first. False if the list runs into a
 /// loop instead of closing. The next slot is guessed, as in canonical lists, and compared with LPTR: the
 /// processor predicts that branch, whereas following LPTR would make it wait for memory.
@@ -452,6 +472,53 @@ template <class Number, bool few, class Real, class Int, class Taken>
   return nearest.write(npts[given], distance);
 }
 
+/// The node nearest to p, exactly, by steps from `nearest` to nearer neighbours.
+///
+/// Let v have no nearer neighbour in the lists, and not be nearest. The arc from v to p leaves the Voronoi
+/// cell of v through the border with a nearer neighbour in the convex hull, so through one at the back of the
+/// hull: both are boundary nodes. Points of such a border are at least 90 degrees from all nodes, so p is
+/// outside the triangles. Hence the search must begin at the nearest boundary node if p is outside;
+/// `boundary`: one of them then, else 0.
+template <class Real, class Int>
+Int nearest_exactly(const Vector<Real>& p, Int nearest, Int boundary, const ListReader<Int>& reader,
+                    const Nodes<Real>& nodes) {
+  const Point to = as_point(p);
+  const auto look_at = [&](Int node) {
+    if (node != nearest && is_finite(nodes[node]) &&
+        is_nearer(to, as_point(nodes[node]), as_point(nodes[nearest])))
+      nearest = node;
+  };
+  Int node = boundary;
+  for (Int left = boundary == 0 ? 0 : reader.size(); left > 0; --left) {
+    look_at(node);
+    node = reader.first_neighbour(node);
+    if (node == boundary) break;
+  }
+  for (Int before = 0; before != nearest;) {
+    before = nearest;
+    if (!each_neighbour(reader, before, look_at)) break;
+  }
+  return nearest;
+}
+
+/// GETNP where rounding may have exchanged two nodes: compares those that are as near as the one found to
+/// within the rounding of cosines, exactly. npts[0..given]: the given nodes and the one found.
+template <class Real, class Int>
+void confirm_next(const ListsView<Int>& lists, const Nodes<Real>& nodes, Int given, Int* npts,
+                  Real& distance) {
+  const ListReader<Int> reader(lists);
+  const Point centre = as_point(nodes[npts[0]]);
+  Int& found = npts[given];
+  const double least = dot(centre, as_point(nodes[found])) - 16 * std::numeric_limits<Real>::epsilon();
+  for (Int i = 0; i < given; ++i)
+    each_neighbour(reader, npts[i], [&](Int node) {
+      const Point at = as_point(nodes[node]);
+      if (dot(centre, at) < least || std::find(npts, npts + given + 1, node) != npts + given + 1) return;
+      if (is_nearer(centre, at, as_point(nodes[found]))) found = node;
+    });
+  distance = -dot(nodes[found], nodes[npts[0]]);
+}
+
 /// Cells of a NodeTable per node: so many that collisions are rare.
 constexpr int cells_a_node = 16;
 /// Up to this many given nodes are few.
@@ -473,6 +540,25 @@ NextNearestStatus nearest_of_few(const ListsView<Int>& lists, const Nodes<Real>&
   static_assert(cells_a_node * few_nodes == 1 << bits);
   Int cells[1 << bits] = {};
   return nearest_of_others<Number, true>(lists, nodes, given, npts, distance, NodeTable(npts, cells, bits));
+}
+
+/// GETNP by the cosines of distances.
+template <class Real, class Int>
+NextNearestStatus next_nearest_by_cosines(const ListsView<Int>& lists, const Nodes<Real>& nodes, Int given,
+                                          Int* npts, Real& distance) {
+  if (given <= few_nodes)
+    return StaticallyRounded<Real>::is_available()
+               ? nearest_of_few<StaticallyRounded<Real>>(lists, nodes, given, npts, distance)
+               : nearest_of_few<Real>(lists, nodes, given, npts, distance);
+  int bits = 8;
+  while (std::int64_t{1} << bits < cells_a_node * std::int64_t{given}) ++bits;
+  const auto of_many = [&](Int* cells) {
+    return nearest_of_others<Real, false>(lists, nodes, given, npts, distance, NodeTable(npts, cells, bits));
+  };
+  if (given > most_without_memory) return of_many(std::vector<Int>(std::size_t{1} << bits).data());
+  Int cells[cells_a_node * most_without_memory];
+  std::memset(cells, 0, sizeof(Int) << bits);
+  return of_many(cells);
 }
 
 }  // namespace
@@ -555,7 +641,14 @@ Int nearnd(const Vector<Real>& p, Int start, const ListsView<Int>& lists, const 
       cosine = other;
     }
   }
-  angle = std::acos(std::min(cosine, Real(1)));
+  if (!original_rules().follow) {
+    nearest = nearest_exactly(p, nearest, found.i3 == 0 ? found.i1 : Int(0), reader, nodes);
+    cosine = dot(nodes[nearest], p);
+  }
+  // The cosine of an angle below 0.03 loses more than ten bits.
+  const bool is_close = cosine > Real(1 - 0x1p-11) && !original_rules().follow;
+  angle = is_close ? static_cast<Real>(angle_between(as_point(nodes[nearest]), as_point(p)))
+                   : std::acos(std::min(cosine, Real(1)));
   return nearest;
 }
 
@@ -565,19 +658,13 @@ NextNearestStatus next_nearest(const ListsView<Int>& lists, const Nodes<Real>& n
   if (l < 2) return NextNearestStatus::too_short;
   const Int given = l - 1;
   if (npts[0] < 1) return NextNearestStatus::bad_nodes;
-  if (given <= few_nodes)
-    return StaticallyRounded<Real>::is_available()
-               ? nearest_of_few<StaticallyRounded<Real>>(lists, nodes, given, npts, distance)
-               : nearest_of_few<Real>(lists, nodes, given, npts, distance);
-  int bits = 8;
-  while (std::int64_t{1} << bits < cells_a_node * std::int64_t{given}) ++bits;
-  const auto of_many = [&](Int* cells) {
-    return nearest_of_others<Real, false>(lists, nodes, given, npts, distance, NodeTable(npts, cells, bits));
-  };
-  if (given > most_without_memory) return of_many(std::vector<Int>(std::size_t{1} << bits).data());
-  Int cells[cells_a_node * most_without_memory];
-  std::memset(cells, 0, sizeof(Int) << bits);
-  return of_many(cells);
+  const NextNearestStatus status = next_nearest_by_cosines(lists, nodes, given, npts, distance);
+  // Two cosines that differ by their rounding are those of distances that differ by 4e-13 radians at most,
+  // unless the nodes are close.
+  constexpr Real close = std::is_same_v<Real, double> ? Real(1 - 0x1p-20) : Real(-2);
+  if (status == NextNearestStatus::done && -distance >= close && !original_rules().follow)
+    confirm_next(lists, nodes, given, npts, distance);
+  return status;
 }
 
 #define PSTRIPACK_SEARCH(Real, Int)                                                                         \
