@@ -135,27 +135,21 @@ PolygonStatus inside_by_rounding(const Vector<Real>& p, Int nv, const Vertex& ve
 template <class Vertex, class Int>
 class ExactPolygon {
  public:
-  ExactPolygon(const Vertex& vertex, Int nv) : vertex_(vertex), nv_(nv) {}
+  ExactPolygon(const Vertex& vertex, Int nv, const Point& p) : vertex_(vertex), nv_(nv), p_(p) {}
 
   /// Whether p is inside or on the border. False if no edge will do: there is a vertex on the way to each, or
   /// p is on its great circle.
-  bool find(const Point& p, bool& is_inside) const {
-    for (Int k = 0; k < nv_; ++k)
-      if (is_on(p, at(k), at(k + 1))) return is_inside = true;
+  bool find(bool& is_inside) const {
     for (Int edge = 0; edge < nv_; ++edge) {
-      const Point a = at(edge), b = at(edge + 1);
-      const int side = left(a, b, p);
-      bool even = true, is_certain = side != 0;
-      for (Int k = 0; k < nv_ && is_certain; ++k)
-        is_certain = k == edge || count_crossing(p, a, b, at(k), at(k + 1), even);
-      if (!is_certain) continue;
-      is_inside = (side > 0) == even;
+      const Answer answer = ask(edge);
+      if (answer == Answer::unknown) continue;
+      is_inside = answer != Answer::outside;
       return true;
     }
     return false;
   }
 
-  /// True if no two edges without a common vertex cross or touch.
+  /// True if no two edges without a common vertex cross or touch. O(nv^2).
   bool is_simple() const {
     for (Int i = 0; i < nv_; ++i)
       for (Int j = i + 2; j < nv_; ++j) {
@@ -168,7 +162,37 @@ class ExactPolygon {
   }
 
  private:
+  enum class Answer { inside, outside, on_border, unknown };
+
   Point at(Int k) const { return as_point(vertex_(k < nv_ ? k : k - nv_)); }
+
+  /// The answer of the arc from p to the middle of an edge.
+  Answer ask(Int edge) const {
+    const Point a = at(edge), b = at(edge + 1), opposite{-p_.x, -p_.y, -p_.z};
+    const int side = left(a, b, p_);
+    if (side == 0) return is_on(p_, a, b) ? Answer::on_border : Answer::unknown;
+    bool even = true;
+    // The side of the arc on which c, and the next vertex, lie; 0 for the place opposite p: the great circles
+    // of the arc and of an edge there meet at p and opposite p, not on the arc.
+    Point c = b;
+    int side_of_c = 0;
+    for (Int k = 1; k <= nv_; ++k) {
+      const Point d = at((edge + k) % nv_);
+      int side_of_d = k == 1 ? side : k == nv_ ? -side : left_of_sum(d, p_, a, b);
+      if (side_of_d == 0 && !same_direction(d, opposite))
+        return same_direction(d, p_) ? Answer::on_border : Answer::unknown;
+      if (k > 1 && side_of_c == -side_of_d && side_of_c != 0) {
+        const int p_side = left(c, d, p_);
+        if (p_side == 0 && is_on(p_, c, d)) return Answer::on_border;
+        const int m_side = p_side == 0 ? 1 : left_of_sum(c, d, a, b);
+        if (m_side == 0) return Answer::unknown;
+        if (cross(side_of_c, side_of_d, p_side, m_side)) even = !even;
+      }
+      c = d;
+      side_of_c = side_of_d;
+    }
+    return (side > 0) == even ? Answer::inside : Answer::outside;
+  }
 
   /// True if the arcs a-b and c-d cross inside, from the signs of det(a,b,c), det(a,b,d), det(c,d,a),
   /// det(c,d,b): where a and b lie on different sides of c-d, and c and d of a-b, the arcs cross or are
@@ -185,24 +209,9 @@ class ExactPolygon {
     return left(normal, a, p) > 0 && left(normal, p, b) > 0;
   }
 
-  /// Changes `even` if the arc from p to a + b crosses c-d. False if c or d is on the way, or a + b on c-d.
-  static bool count_crossing(const Point& p, const Point& a, const Point& b, const Point& c, const Point& d,
-                             bool& even) {
-    const Point opposite{-p.x, -p.y,
-                         -p.z};  // there and at p the great circles of an edge at it and of the arc meet
-    if (same_direction(c, d) || same_direction(c, opposite) || same_direction(d, opposite)) return true;
-    const int pmc = left_of_sum(c, p, a, b), pmd = left_of_sum(d, p, a, b);  // with m = a + b
-    if (pmc == 0 || pmd == 0) return false;
-    if (pmc == pmd) return true;
-    const int cdp = left(c, d, p), cdm = left_of_sum(c, d, a, b);
-    if (cdp == 0) return true;  // p is not on c-d: the great circles meet at p and opposite p
-    if (cdm == 0) return false;
-    if (cross(pmc, pmd, cdp, cdm)) even = !even;
-    return true;
-  }
-
   const Vertex& vertex_;
   const Int nv_;
+  const Point p_;
 };
 
 }  // namespace
@@ -222,11 +231,12 @@ PolygonStatus inside(const Vector<Real>& p, Int lv, const Nodes<Real>& vertices,
   const PolygonStatus status = inside_by_rounding(p, nv, vertex, result);
   if (original_rules().follow || is_zero(p)) return status;
   // The original takes a point 0.001 left of an edge for a point inside, which it is not in small or thin
-  // polygons. Where it is right, and in polygons that cross themselves, its answer stays.
-  const ExactPolygon polygon(vertex, nv);
+  // polygons: then its answer is wrong, or it finds no such point, or takes the polygon for one that crosses
+  // itself.
+  const ExactPolygon polygon(vertex, nv, as_point(p));
   bool is_inside = false;
-  if (!polygon.find(as_point(p), is_inside)) return status;
-  if ((status == PolygonStatus::done && is_inside == result) || !polygon.is_simple()) return status;
+  if (!polygon.find(is_inside)) return status;
+  if (status != PolygonStatus::done && !polygon.is_simple()) return status;
   result = is_inside;
   return PolygonStatus::done;
 }

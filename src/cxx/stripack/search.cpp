@@ -77,7 +77,10 @@ class GuardedLists : public ListEditor<CountedArrays<Int>> {
       : ListEditor<CountedArrays<Int>>({lists, count}), count_(count), node_(nodes) {}
 
   Int size() const { return count_; }
-  Vector<Real> operator[](Int node) const { return node_[node]; }
+  Vector<Real> operator[](Int node) const {
+    if (node < 1 || node > count_) throw BrokenLists();
+    return node_[node];
+  }
   Int slot_of_third(Int /*a*/, Int /*b_of_a*/, Int b, Int c) const { return this->slot_of(b, c); }
   void prefetch_list(Int /*node*/) const {}  // numbers are checked when they are used
   bool is_in_few_slots(Int /*node*/, Int& /*first*/, Int& /*last*/) const { return false; }
@@ -87,7 +90,7 @@ class GuardedLists : public ListEditor<CountedArrays<Int>> {
   Nodes<Real> node_;
 };
 
-/// TRFIND: by rounded tests, as the original; by exact signs if these do not end soon.
+/// TRFIND: by rounded tests, as the original; by exact signs where these are not certain or do not end soon.
 template <class Real, class Int, class Lists>
 class Search {
  public:
@@ -117,7 +120,7 @@ class Search {
 
   Real side(Int a, Int b) const { return pstripack::side(lists_[a], lists_[b], p_); }
 
-  // ---- the exact search, if the rounded walk fails ----
+  // ---- the exact search, where the rounded walk fails or is not certain ----
 
   /// The exact sign of pstripack::side(a, b, c); 0 if one of them is not finite.
   static int exact_left(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c) {
@@ -125,16 +128,29 @@ class Search {
   }
   int exact_side(Int a, Int b) const { return exact_left(lists_[a], lists_[b], p_); }
 
-  /// The location that rounded tests found, if exact signs confirm it; else the right one. The rounded walk
-  /// may end in a triangle opposite p: there its tests are as small as their rounding.
+  /// The location that rounded tests found, if it is right; else the right one. The rounded walk may end in a
+  /// triangle opposite p: there its tests are as small as their rounding.
   Location<Int> confirmed(const Location<Int>& found, Int o) {
     const auto [i1, i2, i3] = found;
-    if (i3 != 0) return contains(i1, i2, i3) ? found : walk_exactly(o);
+    if (i3 != 0) return is_certain(found) || contains(i1, i2, i3) ? found : walk_exactly(o);
     if (i1 == 0) return walk_exactly(o);
     const Int before = lists_.last_neighbour(i1);
     if (exact_side(before, i1) >= 0) return walk_exactly(o);
     const Location<Int> seen = see_boundary_exactly(before, i1);
     return seen.i1 == seen.i2 ? Location<Int>{i1, i1, 0} : seen;
+  }
+
+  /// True if the weights are so large that the triangle contains p whatever their rounding: each is a sum of
+  /// six products, none larger than `size`, with five roundings on the way.
+  bool is_certain(const Location<Int>& found) const {
+    const auto largest = [](const Vector<Real>& v) {
+      return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    };
+    const Real corner =
+        std::max({largest(lists_[found.i1]), largest(lists_[found.i2]), largest(lists_[found.i3])});
+    const Real size = corner * corner * largest(p_);
+    return std::min({weights_.b1, weights_.b2, weights_.b3}) >
+           16 * std::numeric_limits<Real>::epsilon() * size;
   }
 
   /// The visibility walk: leaves triangle (u,v,w) through an arc that has p strictly to its right.
@@ -202,10 +218,11 @@ class Search {
 
   /// The run of boundary arcs with p strictly to their right, one of which is r->l.
   Location<Int> see_boundary_exactly(const Int r, const Int l) const {
-    Int rightmost = l, leftmost = r;
+    Int rightmost = l, leftmost = r, arcs = n_;
     for (Int next; exact_side(rightmost, next = lists_.first_neighbour(rightmost)) < 0; rightmost = next)
-      if (next == r) return {r, r, 0};
-    for (Int next; exact_side(next = lists_.last_neighbour(leftmost), leftmost) < 0;) leftmost = next;
+      if (next == r || --arcs == 0) return {r, r, 0};
+    for (Int next; exact_side(next = lists_.last_neighbour(leftmost), leftmost) < 0 && --arcs > 0;)
+      leftmost = next;
     return {rightmost, leftmost, 0};
   }
 
@@ -350,8 +367,13 @@ template <class Int, class Visit>
   return true;
 }
 
-/// Finds, among the nodes passed to compare(), the one nearest to a centre; among equally near nodes the
-/// first. Computes in Number: Real, or StaticallyRounded<Real>, which needs no floating-point environment.
+/// Cosines of unit vectors that differ by more are in the order of their distances.
+template <class Real>
+constexpr Real rounding_of_cosines = 16 * std::numeric_limits<Real>::epsilon();
+
+/// Finds, among the nodes passed to compare(), the one nearest to a centre by its cosine; among equal cosines
+/// the first. Computes in Number: Real, or StaticallyRounded<Real>, which needs no floating-point
+/// environment.
 template <class Number, class Real, class Int>
 class Nearest {
  public:
@@ -362,6 +384,7 @@ class Nearest {
   [[gnu::always_inline]] void compare(Int node, bool is_other = true) {
     const Number cosine = is_other ? dot(position(node), centre_) : Number(-2);
     not_finite_ = not_finite_ + Number(0) * cosine;
+    note_if_as_near(cosine, cosine_, node != nearest_);
     nearest_ = is_larger(cosine, cosine_) ? node : nearest_;
     cosine_ = larger(cosine, cosine_);
   }
@@ -377,6 +400,7 @@ class Nearest {
       for (const Int* node = begin; node != end; ++node) {
         const Number cosine = dot(position(*node), centre_);
         not_finite = not_finite + Number(0) * cosine;
+        note_if_as_near(cosine, greatest, *node != nearest);
         const bool is_nearer = is_larger(cosine, greatest);
         if (few) {
           nearest = is_nearer ? *node : nearest;
@@ -392,6 +416,8 @@ class Nearest {
       not_finite_ = not_finite;
     });
   }
+  /// False if another node is as near, to within the rounding of cosines.
+  bool is_certain() const { return !as_near_; }
   NextNearestStatus write(Int& node, Real& distance) const {
     if (Real(not_finite_) != 0) return NextNearestStatus::not_finite;
     if (nearest_ == 0) return NextNearestStatus::none_left;
@@ -406,18 +432,25 @@ class Nearest {
     return {p.x, p.y, p.z};
   }
 
+  [[gnu::always_inline]] void note_if_as_near(Number cosine, Number greatest, bool is_other) {
+    const Number more(rounding_of_cosines<Real>);
+    as_near_ =
+        (as_near_ | (is_other & is_larger(cosine + more, greatest))) & !is_larger(cosine, greatest + more);
+  }
+
   const Nodes<Real> nodes_;
   const Vector<Number> centre_;
+  bool as_near_ = false;
   Int nearest_ = 0;
   Number cosine_ = Real(-2);
   Number not_finite_ = Real(0);  ///< 0; NaN if a distance was not finite
 };
 
-/// GETNP for one or two given nodes: few of their neighbours are given nodes, so each neighbour is compared
-/// at once. To be called in the environment of Number.
+/// GETNP by the cosines of distances, for one or two given nodes: few of their neighbours are given nodes, so
+/// each neighbour is compared at once. To be called in the environment of Number.
 template <class Number, int given, class Real, class Int>
 NextNearestStatus nearest_when_met(const ListsView<Int>& lists, const Nodes<Real>& nodes, Int* npts,
-                                   Real& distance) {
+                                   Real& distance, bool& is_certain) {
   const ListReader<Int> reader(lists);
   FewNodes<Int, given> taken(npts);
   for (Int i = 1; i < given; ++i)
@@ -433,6 +466,7 @@ NextNearestStatus nearest_when_met(const ListsView<Int>& lists, const Nodes<Real
   };
   for (Int i = 0; i < given; ++i)
     if (!each_neighbour(reader, npts[i], visit)) return NextNearestStatus::broken_lists;
+  is_certain = nearest.is_certain();
   return nearest.write(npts[given], distance);
 }
 
@@ -440,7 +474,8 @@ NextNearestStatus nearest_when_met(const ListsView<Int>& lists, const Nodes<Real
 /// their own, because compilers run out of registers if one instance serves both.
 template <class Number, bool few, class Real, class Int, class Taken>
 [[gnu::noinline]] NextNearestStatus nearest_of_others(const ListsView<Int>& lists, const Nodes<Real>& nodes,
-                                                      Int given, Int* npts, Real& distance, Taken taken) {
+                                                      Int given, Int* npts, Real& distance, bool& is_certain,
+                                                      Taken taken) {
   const ListReader<Int> reader(lists);
   for (Int i = 1; i < given; ++i)
     if (npts[i] < 1 || !taken.insert(i)) return NextNearestStatus::bad_nodes;
@@ -469,16 +504,21 @@ template <class Number, bool few, class Real, class Int, class Taken>
   for (Int i = 0; i < given; ++i)
     if (!each_neighbour(reader, npts[i], visit)) return NextNearestStatus::broken_lists;
   compare();
+  is_certain = nearest.is_certain();
   return nearest.write(npts[given], distance);
 }
 
 /// The node nearest to p, exactly, by steps from `nearest` to nearer neighbours.
 ///
-/// Let v have no nearer neighbour in the lists, and not be nearest. The arc from v to p leaves the Voronoi
-/// cell of v through the border with a nearer neighbour in the convex hull, so through one at the back of the
-/// hull: both are boundary nodes. Points of such a border are at least 90 degrees from all nodes, so p is
-/// outside the triangles. Hence the search must begin at the nearest boundary node if p is outside;
+/// Let v have no nearer neighbour in the Delaunay mesh, and not be nearest. The arc from v to p leaves the
+/// Voronoi cell of v through the border with a nearer neighbour in the convex hull, so through one at the
+/// back of the hull: both are boundary nodes. Points of such a border are at least 90 degrees from all nodes,
+/// so p is outside the triangles. Hence the search must begin at the nearest boundary node if p is outside;
 /// `boundary`: one of them then, else 0.
+///
+/// The mesh is that of the nodes as given, which is that of their directions, but for arcs so short that the
+/// rounding of coordinates is as large as what the arc bulges out of its chord. At these all nodes are
+/// compared.
 template <class Real, class Int>
 Int nearest_exactly(const Vector<Real>& p, Int nearest, Int boundary, const ListReader<Int>& reader,
                     const Nodes<Real>& nodes) {
@@ -494,10 +534,20 @@ Int nearest_exactly(const Vector<Real>& p, Int nearest, Int boundary, const List
     node = reader.first_neighbour(node);
     if (node == boundary) break;
   }
+  bool is_close = false;
   for (Int before = 0; before != nearest;) {
     before = nearest;
-    if (!each_neighbour(reader, before, look_at)) break;
+    const Point from = as_point(nodes[before]);
+    is_close = false;
+    if (!each_neighbour(reader, before, [&](Int node) {
+          const Point arc = minus(as_point(nodes[node]), from);
+          is_close |= dot(arc, arc) < 64 * std::numeric_limits<Real>::epsilon();
+          look_at(node);
+        }))
+      break;
   }
+  if (is_close && !same_direction(to, as_point(nodes[nearest])))
+    for (Int other = 1; other <= reader.size(); ++other) look_at(other);
   return nearest;
 }
 
@@ -509,7 +559,7 @@ void confirm_next(const ListsView<Int>& lists, const Nodes<Real>& nodes, Int giv
   const ListReader<Int> reader(lists);
   const Point centre = as_point(nodes[npts[0]]);
   Int& found = npts[given];
-  const double least = dot(centre, as_point(nodes[found])) - 16 * std::numeric_limits<Real>::epsilon();
+  const double least = dot(centre, as_point(nodes[found])) - 2 * rounding_of_cosines<Real>;
   for (Int i = 0; i < given; ++i)
     each_neighbour(reader, npts[i], [&](Int node) {
       const Point at = as_point(nodes[node]);
@@ -524,36 +574,39 @@ constexpr int cells_a_node = 16;
 /// Up to this many given nodes are few.
 constexpr int few_nodes = 8;
 
-/// GETNP for 1 to few_nodes given nodes.
+/// GETNP by the cosines of distances, for 1 to few_nodes given nodes.
 template <class Number, class Real, class Int>
 NextNearestStatus nearest_of_few(const ListsView<Int>& lists, const Nodes<Real>& nodes, Int given, Int* npts,
-                                 Real& distance) {
+                                 Real& distance, bool& is_certain) {
   if (given == 1)
     return in_environment_of<Number>(
-        [&] { return nearest_when_met<Number, 1>(lists, nodes, npts, distance); });
+        [&] { return nearest_when_met<Number, 1>(lists, nodes, npts, distance, is_certain); });
   if (given == 2)
     return in_environment_of<Number>(
-        [&] { return nearest_when_met<Number, 2>(lists, nodes, npts, distance); });
-  if (given <= 4)
-    return nearest_of_others<Number, true>(lists, nodes, given, npts, distance, FewNodes<Int, 4>(npts));
+        [&] { return nearest_when_met<Number, 2>(lists, nodes, npts, distance, is_certain); });
+  const auto of_others = [&](auto taken) {
+    return nearest_of_others<Number, true>(lists, nodes, given, npts, distance, is_certain, taken);
+  };
+  if (given <= 4) return of_others(FewNodes<Int, 4>(npts));
   constexpr int bits = 7;
   static_assert(cells_a_node * few_nodes == 1 << bits);
   Int cells[1 << bits] = {};
-  return nearest_of_others<Number, true>(lists, nodes, given, npts, distance, NodeTable(npts, cells, bits));
+  return of_others(NodeTable(npts, cells, bits));
 }
 
-/// GETNP by the cosines of distances.
+/// GETNP by the cosines of distances. `is_certain`: false if the rounding of cosines decides.
 template <class Real, class Int>
-NextNearestStatus next_nearest_by_cosines(const ListsView<Int>& lists, const Nodes<Real>& nodes, Int given,
-                                          Int* npts, Real& distance) {
+NextNearestStatus nearest_by_cosines(const ListsView<Int>& lists, const Nodes<Real>& nodes, Int given,
+                                     Int* npts, Real& distance, bool& is_certain) {
   if (given <= few_nodes)
     return StaticallyRounded<Real>::is_available()
-               ? nearest_of_few<StaticallyRounded<Real>>(lists, nodes, given, npts, distance)
-               : nearest_of_few<Real>(lists, nodes, given, npts, distance);
+               ? nearest_of_few<StaticallyRounded<Real>>(lists, nodes, given, npts, distance, is_certain)
+               : nearest_of_few<Real>(lists, nodes, given, npts, distance, is_certain);
   int bits = 8;
   while (std::int64_t{1} << bits < cells_a_node * std::int64_t{given}) ++bits;
   const auto of_many = [&](Int* cells) {
-    return nearest_of_others<Real, false>(lists, nodes, given, npts, distance, NodeTable(npts, cells, bits));
+    return nearest_of_others<Real, false>(lists, nodes, given, npts, distance, is_certain,
+                                          NodeTable(npts, cells, bits));
   };
   if (given > most_without_memory) return of_many(std::vector<Int>(std::size_t{1} << bits).data());
   Int cells[cells_a_node * most_without_memory];
@@ -658,12 +711,10 @@ NextNearestStatus next_nearest(const ListsView<Int>& lists, const Nodes<Real>& n
   if (l < 2) return NextNearestStatus::too_short;
   const Int given = l - 1;
   if (npts[0] < 1) return NextNearestStatus::bad_nodes;
-  const NextNearestStatus status = next_nearest_by_cosines(lists, nodes, given, npts, distance);
-  // Two cosines that differ by their rounding are those of distances that differ by 4e-13 radians at most,
-  // unless the nodes are close.
-  constexpr Real close = std::is_same_v<Real, double> ? Real(1 - 0x1p-20) : Real(-2);
-  if (status == NextNearestStatus::done && -distance >= close && !original_rules().follow)
-    confirm_next(lists, nodes, given, npts, distance);
+  bool is_certain = true;
+  const NextNearestStatus status = nearest_by_cosines(lists, nodes, given, npts, distance, is_certain);
+  if (status == NextNearestStatus::done && !is_certain && !original_rules().follow)
+    in_default_floating_point([&] { confirm_next(lists, nodes, given, npts, distance); });
   return status;
 }
 
