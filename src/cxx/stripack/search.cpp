@@ -332,12 +332,6 @@ class FewNodes {
   Int node_[most];
 };
 
-/// The angle between two vectors, accurate for close and for opposite ones.
-double angle_between(const Point& a, const Point& p) {
-  const Point n = cross(minus(p, a), a);
-  return std::atan2(std::sqrt(dot(n, n)), dot(a, p));
-}
-
 /// Calls visit(neighbour) for the neighbours of a node, the last one first. False if the list runs into a
 /// loop instead of closing. The next slot is guessed, as in canonical lists, and compared with LPTR: the
 /// processor predicts that branch, whereas following LPTR would make it wait for memory.
@@ -367,10 +361,6 @@ template <class Int, class Visit>
   return true;
 }
 
-/// Cosines of unit vectors that differ by more are in the order of their distances.
-template <class Real>
-constexpr Real rounding_of_cosines = 16 * std::numeric_limits<Real>::epsilon();
-
 /// Finds, among the nodes passed to compare(), the one nearest to a centre by its cosine; among equal cosines
 /// the first. Computes in Number: Real, or StaticallyRounded<Real>, which needs no floating-point
 /// environment.
@@ -384,7 +374,6 @@ class Nearest {
   [[gnu::always_inline]] void compare(Int node, bool is_other = true) {
     const Number cosine = is_other ? dot(position(node), centre_) : Number(-2);
     not_finite_ = not_finite_ + Number(0) * cosine;
-    note_if_as_near(cosine, cosine_, node != nearest_);
     nearest_ = is_larger(cosine, cosine_) ? node : nearest_;
     cosine_ = larger(cosine, cosine_);
   }
@@ -400,7 +389,6 @@ class Nearest {
       for (const Int* node = begin; node != end; ++node) {
         const Number cosine = dot(position(*node), centre_);
         not_finite = not_finite + Number(0) * cosine;
-        note_if_as_near(cosine, greatest, *node != nearest);
         const bool is_nearer = is_larger(cosine, greatest);
         if (few) {
           nearest = is_nearer ? *node : nearest;
@@ -416,8 +404,6 @@ class Nearest {
       not_finite_ = not_finite;
     });
   }
-  /// False if another node is as near, to within the rounding of cosines.
-  bool is_certain() const { return !as_near_; }
   NextNearestStatus write(Int& node, Real& distance) const {
     if (Real(not_finite_) != 0) return NextNearestStatus::not_finite;
     if (nearest_ == 0) return NextNearestStatus::none_left;
@@ -432,15 +418,8 @@ class Nearest {
     return {p.x, p.y, p.z};
   }
 
-  [[gnu::always_inline]] void note_if_as_near(Number cosine, Number greatest, bool is_other) {
-    const Number more(rounding_of_cosines<Real>);
-    as_near_ =
-        (as_near_ | (is_other & is_larger(cosine + more, greatest))) & !is_larger(cosine, greatest + more);
-  }
-
   const Nodes<Real> nodes_;
   const Vector<Number> centre_;
-  bool as_near_ = false;
   Int nearest_ = 0;
   Number cosine_ = Real(-2);
   Number not_finite_ = Real(0);  ///< 0; NaN if a distance was not finite
@@ -450,7 +429,7 @@ class Nearest {
 /// each neighbour is compared at once. To be called in the environment of Number.
 template <class Number, int given, class Real, class Int>
 NextNearestStatus nearest_when_met(const ListsView<Int>& lists, const Nodes<Real>& nodes, Int* npts,
-                                   Real& distance, bool& is_certain) {
+                                   Real& distance) {
   const ListReader<Int> reader(lists);
   FewNodes<Int, given> taken(npts);
   for (Int i = 1; i < given; ++i)
@@ -466,7 +445,6 @@ NextNearestStatus nearest_when_met(const ListsView<Int>& lists, const Nodes<Real
   };
   for (Int i = 0; i < given; ++i)
     if (!each_neighbour(reader, npts[i], visit)) return NextNearestStatus::broken_lists;
-  is_certain = nearest.is_certain();
   return nearest.write(npts[given], distance);
 }
 
@@ -474,8 +452,7 @@ NextNearestStatus nearest_when_met(const ListsView<Int>& lists, const Nodes<Real
 /// their own, because compilers run out of registers if one instance serves both.
 template <class Number, bool few, class Real, class Int, class Taken>
 [[gnu::noinline]] NextNearestStatus nearest_of_others(const ListsView<Int>& lists, const Nodes<Real>& nodes,
-                                                      Int given, Int* npts, Real& distance, bool& is_certain,
-                                                      Taken taken) {
+                                                      Int given, Int* npts, Real& distance, Taken taken) {
   const ListReader<Int> reader(lists);
   for (Int i = 1; i < given; ++i)
     if (npts[i] < 1 || !taken.insert(i)) return NextNearestStatus::bad_nodes;
@@ -504,7 +481,6 @@ template <class Number, bool few, class Real, class Int, class Taken>
   for (Int i = 0; i < given; ++i)
     if (!each_neighbour(reader, npts[i], visit)) return NextNearestStatus::broken_lists;
   compare();
-  is_certain = nearest.is_certain();
   return nearest.write(npts[given], distance);
 }
 
@@ -559,7 +535,7 @@ void confirm_next(const ListsView<Int>& lists, const Nodes<Real>& nodes, Int giv
   const ListReader<Int> reader(lists);
   const Point centre = as_point(nodes[npts[0]]);
   Int& found = npts[given];
-  const double least = dot(centre, as_point(nodes[found])) - 2 * rounding_of_cosines<Real>;
+  const double least = dot(centre, as_point(nodes[found])) - 16 * std::numeric_limits<Real>::epsilon();
   for (Int i = 0; i < given; ++i)
     each_neighbour(reader, npts[i], [&](Int node) {
       const Point at = as_point(nodes[node]);
@@ -577,15 +553,15 @@ constexpr int few_nodes = 8;
 /// GETNP by the cosines of distances, for 1 to few_nodes given nodes.
 template <class Number, class Real, class Int>
 NextNearestStatus nearest_of_few(const ListsView<Int>& lists, const Nodes<Real>& nodes, Int given, Int* npts,
-                                 Real& distance, bool& is_certain) {
+                                 Real& distance) {
   if (given == 1)
     return in_environment_of<Number>(
-        [&] { return nearest_when_met<Number, 1>(lists, nodes, npts, distance, is_certain); });
+        [&] { return nearest_when_met<Number, 1>(lists, nodes, npts, distance); });
   if (given == 2)
     return in_environment_of<Number>(
-        [&] { return nearest_when_met<Number, 2>(lists, nodes, npts, distance, is_certain); });
+        [&] { return nearest_when_met<Number, 2>(lists, nodes, npts, distance); });
   const auto of_others = [&](auto taken) {
-    return nearest_of_others<Number, true>(lists, nodes, given, npts, distance, is_certain, taken);
+    return nearest_of_others<Number, true>(lists, nodes, given, npts, distance, taken);
   };
   if (given <= 4) return of_others(FewNodes<Int, 4>(npts));
   constexpr int bits = 7;
@@ -594,19 +570,18 @@ NextNearestStatus nearest_of_few(const ListsView<Int>& lists, const Nodes<Real>&
   return of_others(NodeTable(npts, cells, bits));
 }
 
-/// GETNP by the cosines of distances. `is_certain`: false if the rounding of cosines decides.
+/// GETNP by the cosines of distances.
 template <class Real, class Int>
 NextNearestStatus nearest_by_cosines(const ListsView<Int>& lists, const Nodes<Real>& nodes, Int given,
-                                     Int* npts, Real& distance, bool& is_certain) {
+                                     Int* npts, Real& distance) {
   if (given <= few_nodes)
     return StaticallyRounded<Real>::is_available()
-               ? nearest_of_few<StaticallyRounded<Real>>(lists, nodes, given, npts, distance, is_certain)
-               : nearest_of_few<Real>(lists, nodes, given, npts, distance, is_certain);
+               ? nearest_of_few<StaticallyRounded<Real>>(lists, nodes, given, npts, distance)
+               : nearest_of_few<Real>(lists, nodes, given, npts, distance);
   int bits = 8;
   while (std::int64_t{1} << bits < cells_a_node * std::int64_t{given}) ++bits;
   const auto of_many = [&](Int* cells) {
-    return nearest_of_others<Real, false>(lists, nodes, given, npts, distance, is_certain,
-                                          NodeTable(npts, cells, bits));
+    return nearest_of_others<Real, false>(lists, nodes, given, npts, distance, NodeTable(npts, cells, bits));
   };
   if (given > most_without_memory) return of_many(std::vector<Int>(std::size_t{1} << bits).data());
   Int cells[cells_a_node * most_without_memory];
@@ -671,10 +646,15 @@ Int nearnd(const Vector<Real>& p, Int start, const ListsView<Int>& lists, const 
   }
 
   // Insert the node beyond the arc of neighbours u and v between them if p lies in the cap of that triangle.
+  // Rounding decides nothing if the heights are far above that of coordinates, which are 1 at most.
+  constexpr Real rounding = 512 * std::numeric_limits<Real>::epsilon();
+  bool is_certain = found.i3 != 0 && std::abs(dot(p, p) - 1) < rounding / 8;
   for (int u = 0, v; ring[v = ring.after(u)] != 0;) {
     if (const Int beyond = ring.beyond(u); beyond != 0) {
       if (ring.full()) break;
-      if (height(nodes[ring[v]], nodes[ring[u]], nodes[beyond], p) > 0) {
+      const Real above = height(nodes[ring[v]], nodes[ring[u]], nodes[beyond], p);
+      is_certain &= std::abs(above) > rounding;
+      if (above > 0) {
         look_beyond(ring.insert(beyond, u));
         look_beyond(u);
         continue;
@@ -685,23 +665,26 @@ Int nearnd(const Vector<Real>& p, Int start, const ListsView<Int>& lists, const 
   }
 
   Int nearest = ring[0];
-  Real cosine = dot(nodes[nearest], p);
+  Real cosine = dot(nodes[nearest], p), second = -2;
   for (int i = 1; i < ring.count(); ++i) {
     if (ring[i] == 0) continue;
     const Real other = dot(nodes[ring[i]], p);
+    second = std::max(second, std::min(cosine, other));
     if (-other < -cosine) {
       nearest = ring[i];
       cosine = other;
     }
   }
-  if (!original_rules().follow) {
+  if (!(is_certain && cosine - second > rounding && !ring.full()) && !original_rules().follow) {
     nearest = nearest_exactly(p, nearest, found.i3 == 0 ? found.i1 : Int(0), reader, nodes);
     cosine = dot(nodes[nearest], p);
   }
-  // The cosine of an angle below 0.03 loses more than ten bits.
-  const bool is_close = cosine > Real(1 - 0x1p-11) && !original_rules().follow;
-  angle = is_close ? static_cast<Real>(angle_between(as_point(nodes[nearest]), as_point(p)))
-                   : std::acos(std::min(cosine, Real(1)));
+  if (cosine > Real(1 - 0x1p-11) && !original_rules().follow) {  // where acos loses more than ten bits
+    const Point a = as_point(nodes[nearest]), normal = cross(minus(as_point(p), a), a);
+    angle = static_cast<Real>(std::asin(std::min(std::sqrt(dot(normal, normal)), 1.0)));
+  } else {
+    angle = std::acos(std::min(cosine, Real(1)));
+  }
   return nearest;
 }
 
@@ -711,9 +694,11 @@ NextNearestStatus next_nearest(const ListsView<Int>& lists, const Nodes<Real>& n
   if (l < 2) return NextNearestStatus::too_short;
   const Int given = l - 1;
   if (npts[0] < 1) return NextNearestStatus::bad_nodes;
-  bool is_certain = true;
-  const NextNearestStatus status = nearest_by_cosines(lists, nodes, given, npts, distance, is_certain);
-  if (status == NextNearestStatus::done && !is_certain && !original_rules().follow)
+  const NextNearestStatus status = nearest_by_cosines(lists, nodes, given, npts, distance);
+  // The rounding of a cosine is that of an angle of 16 eps / sine at most. Below 7e-4 radians for doubles,
+  // where it may be more than 5e-12, and everywhere for floats, exact signs decide.
+  constexpr Real close = std::is_same_v<Real, double> ? Real(1 - 0x1p-22) : Real(-2);
+  if (status == NextNearestStatus::done && -distance >= close && !original_rules().follow)
     in_default_floating_point([&] { confirm_next(lists, nodes, given, npts, distance); });
   return status;
 }
