@@ -106,8 +106,8 @@ module stripack
     end subroutine
 
     ! Finds the node nearest to a point.
-    ! Returns the nearest node, and its distance in AL. Correct if P has at most 25 natural neighbours in a
-    ! Delaunay triangulation; possibly wrong after EDGE or DELARC.
+    ! Returns the nearest node, and its distance in AL. The triangulation must be Delaunay: possibly wrong
+    ! after EDGE or DELARC. Of nodes that are equally near, any.
     ! Result  the nearest node; 0 if N < 3 or P is not found, see TRFIND.
     integer function nearnd(p, ist, n, x, y, z, list, lptr, lend, al)
       integer :: ist, n, list(*), lptr(*), lend(n)
@@ -382,7 +382,8 @@ module stripack
 
     ! Tests whether a point lies inside a spherical polygon.
     ! The inside is left of the edges LISTV(1) to LISTV(2), ..., LISTV(NV) to LISTV(1): clockwise vertices
-    ! describe the complement. Within rounding of the boundary the answer may be either.
+    ! describe the complement. Exact for polygons that do not cross themselves; a point on the boundary is
+    ! inside.
     ! Result  true: inside; false if IER /= 0.
     ! IER  0 done; 1 NV < 3 or NV > LV; 2 an index in LISTV is outside 1..LV; 3 the polygon crosses itself;
     !      4 no edge gives a point of reference: degenerate polygon, or P is zero; -5 a coordinate of P or of
