@@ -252,6 +252,16 @@ duplicates)
   [ "$(wc -l < once.csv)" = 6 ] || fail "$(cat once.csv)"
   ;;
 
+tiny_nodes)
+  # Copies of a pole up to rounding, whose cells are a 24th of the sphere each, and a garden of 2 m.
+  data=$(dirname "$DOCUMENT")/../tests/data
+  "$PSTRIPACK" -q voronoi "$data/nine_nodes.csv" -o cells.csv
+  [ "$(cut -d , -f 6 cells.csv | tail -n +7 | cut -c 1-16 | sort -u)" = 0.52359877559829 ] || fail "$(cat cells.csv)"
+  "$PSTRIPACK" -q info "$data/garden.csv" > info.txt
+  if ! grep -q "^triangles *15$" info.txt || ! grep -q "^smallest angle *3.78752 degrees" info.txt; then fail "$(cat info.txt)"; fi
+  "$PSTRIPACK" -q plot "$data/garden.csv" --what cells -o garden.svg
+  ;;
+
 near_nodes)
   # 0.1 mm, 1 m and 1 km from node 1.
   { echo "lon,lat,value"; printf '%s\n' 0,0,1 90,0,1 180,0,1 -90,0,1 0,90,1 0,-90,1 9e-10,0,3 9e-6,0,5 0.009,0,7; } > near.csv
