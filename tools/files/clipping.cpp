@@ -1,9 +1,11 @@
 #include "files/clipping.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <tuple>
 #include <unordered_map>
@@ -80,9 +82,28 @@ struct Side {
   MapCorner from, to;
 };
 
-/// Cuts a convex polygon at the great circle of a side and keeps what lies left of it. True if anything was
+constexpr std::size_t kInside = static_cast<std::size_t>(-1);
+/// A part of a cell, and the side of the hull that leads to each next corner; kInside: none.
+struct Part {
+  MapRing ring;
+  std::vector<std::size_t> along;
+
+  void add(const MapCorner& c, std::size_t side) {
+    ring.push_back(c);
+    along.push_back(side);
+  }
+};
+
+/// True if the node is on the arc, up to rounding of the great circle of ends that may be nearly opposite.
+bool is_on(const MapCorner& node, const MapCorner& p, const MapCorner& q, double tolerance) {
+  return distance_to_arc(node.p, p.p, q.p) < tolerance;
+}
+
+/// Cuts a convex polygon at the great circle of side k and keeps what lies left of it. True if anything was
 /// cut off.
-bool cut(MapRing& ring, const Side& side) {
+bool cut(Part& part, const std::vector<Side>& sides, std::size_t k) {
+  const MapRing& ring = part.ring;
+  const Side& side = sides[k];
   const Point &a = side.from.p, &b = side.to.p;
   std::vector<int> at(ring.size());
   bool all = true;
@@ -91,11 +112,21 @@ bool cut(MapRing& ring, const Side& side) {
     all = all && at[i] >= 0;
   }
   if (all) return false;
-  MapRing kept;
+  Part kept;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const std::size_t next = (i + 1) % ring.size();
-    if (at[i] >= 0) kept.push_back(ring[i]);
+    if (at[i] >= 0) kept.add(ring[i], at[i] == 0 && at[next] < 0 ? k : part.along[i]);
     if (at[i] * at[next] >= 0) continue;
+    const std::size_t along = at[i] > 0 ? k : part.along[i];
+    // Neighbouring sides of the hull meet in their node, or opposite it. Take the node itself: if they are
+    // nearly one arc, their rounded intersection is far from it.
+    const bool meets_last = part.along[i] == (k + sides.size() - 1) % sides.size(),
+               meets_next = part.along[i] == (k + 1) % sides.size();
+    if (const MapCorner& node = meets_last ? side.from : side.to;
+        (meets_last || meets_next) && is_on(node, ring[i], ring[next], 1e-6)) {
+      kept.add(node, along);
+      continue;
+    }
     // Start at the smaller end, so that the cells on both sides of the arc compute the same bits.
     const bool swap = std::tie(ring[next].p.x, ring[next].p.y, ring[next].p.z) <
                       std::tie(ring[i].p.x, ring[i].p.y, ring[i].p.z);
@@ -103,18 +134,15 @@ bool cut(MapRing& ring, const Side& side) {
     const double at_p = volume(a, b, p), at_q = volume(a, b, q);
     const double t = at_p == at_q ? 0.5 : std::clamp(at_p / (at_p - at_q), 0.0, 1.0);
     const Point x = unit({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y), p.z + t * (q.z - p.z)});
-    // Where two sides of the hull meet, take the node itself instead of a rounded intersection.
-    const auto is_at = [&](const MapCorner& node) { return angle_between(x, node.p) < 1e-14; };
-    if (is_at(side.from) || is_at(side.to)) {
-      kept.push_back(is_at(side.from) ? side.from : side.to);
-    } else {
-      const LonLat angles({x}, true);
-      kept.push_back({x, angles.lon[0], angles.lat[0]});
-    }
+    const LonLat angles({x}, true);
+    kept.add({x, angles.lon[0], angles.lat[0]}, along);
   }
-  ring = std::move(kept);
+  part = std::move(kept);
   return true;
 }
+
+/// A region narrower than this, in degrees, has no parts: its corners would be one.
+constexpr double kLeastRegion = 1e-10;
 
 /// Corners are rounded to 1e-16 rad: in a hull narrower than some 1e-10 rad the parts of cells have no
 /// meaning.
@@ -146,6 +174,7 @@ void divide_half_turns(Faces& cells, const Mesh& mesh) {
   };
   Faces divided = cells;
   divided.corner.clear();
+  std::map<std::array<std::size_t, 4>, std::int32_t> middles;  // by the cells and the ends of a side
   for (std::size_t f = 0; f < cells.size(); ++f) {
     divided.begin[f] = divided.corner.size();
     for (std::size_t k = 0; k < cells.corners(f); ++k) {
@@ -167,6 +196,7 @@ void divide_half_turns(Faces& cells, const Mesh& mesh) {
       };
       Point best{0, 0, 0};
       double most = -3;
+      std::size_t across = 0;
       for_each_neighbour([&](std::size_t beyond) {
         if (!has_side(beyond, to, from)) return;
         Point middle = unit(cross(a, minus(node, cells.centres[beyond])));
@@ -175,11 +205,16 @@ void divide_half_turns(Faces& cells, const Mesh& mesh) {
         for_each_neighbour([&](std::size_t other) {
           if (other != beyond) room = std::min(room, dot(middle, minus(node, cells.centres[other])));
         });
-        if (room > most) most = room, best = middle;
+        if (room > most) most = room, best = middle, across = beyond;
       });
       if (most == -3) continue;
-      divided.points.push_back(best);
-      divided.corner.push_back(static_cast<std::int32_t>(divided.points.size()));
+      const auto [low, high] = std::minmax(from, to);
+      const auto [middle, is_new] =
+          middles.try_emplace({std::min(f, across), std::max(f, across), static_cast<std::size_t>(low),
+                               static_cast<std::size_t>(high)},
+                              static_cast<std::int32_t>(divided.points.size() + 1));
+      if (is_new) divided.points.push_back(best);
+      divided.corner.push_back(middle->second);
     }
   }
   divided.begin.back() = divided.corner.size();
@@ -191,7 +226,7 @@ Faces clipped_to_hull(const Faces& cells, const Mesh& mesh) {
   std::vector<std::int32_t> boundary(mesh.points.size());
   boundary.resize(
       static_cast<std::size_t>(pstripack::boundary_nodes(mesh.lists(), boundary.data()).boundary_nodes));
-  const LonLat of_nodes = angles_of(mesh.points, mesh.given, true), of_points(cells.points, true);
+  const LonLat of_nodes = angles_of(cells.centres, mesh.given, true), of_points(cells.points, true);
   const auto corner_of = [&](std::int32_t node) -> MapCorner {
     const auto i = static_cast<std::size_t>(node) - 1;
     return {cells.centres[i], of_nodes.lon[i], of_nodes.lat[i]};
@@ -209,10 +244,19 @@ Faces clipped_to_hull(const Faces& cells, const Mesh& mesh) {
     const auto f = static_cast<std::size_t>(queue[k]) - 1;
     if (is_done[f]) continue;
     is_done[f] = true;
-    MapRing& ring = rings[f];
-    ring = ring_of(cells, f, of_points);
+    Part part{ring_of(cells, f, of_points, cells.corner), {}};
+    part.along.assign(part.ring.size(), kInside);
     bool is_cut = false;
-    for (const Side& side : sides) is_cut = cut(ring, side) || is_cut;
+    for (std::size_t side = 0; side < sides.size(); ++side) is_cut = cut(part, sides, side) || is_cut;
+    // Where two sides of the hull are one arc, nothing was cut at the node between them.
+    for (std::size_t i = 0; k < sides.size() && i < part.ring.size(); ++i) {
+      const MapCorner &p = part.ring[i], &q = part.ring[(i + 1) % part.ring.size()], &node = sides[k].from;
+      if (p.p == node.p || q.p == node.p) break;
+      if (part.along[i] == kInside || !is_on(node, p, q, 1e-9)) continue;
+      part.ring.insert(part.ring.begin() + static_cast<std::ptrdiff_t>(i) + 1, node);
+      break;
+    }
+    rings[f] = std::move(part.ring);
     if (!is_cut) continue;
     const std::int32_t last = reader.last_slot(queue[k]);
     std::int32_t slot = last;
@@ -223,7 +267,7 @@ Faces clipped_to_hull(const Faces& cells, const Mesh& mesh) {
   }
   Pieces pieces(cells);
   for (std::size_t f = 0; f < cells.size(); ++f)
-    pieces.add(is_done[f] ? rings[f] : ring_of(cells, f, of_points), f);
+    pieces.add(is_done[f] ? rings[f] : ring_of(cells, f, of_points, cells.corner), f);
   Faces parts = pieces.take();
   expect_area_of_hull(parts, mesh);
   return parts;
@@ -232,25 +276,39 @@ Faces clipped_to_hull(const Faces& cells, const Mesh& mesh) {
 Faces clipped_to_region(const Faces& cells, const Region& region) {
   const double width = region.east - region.west;
   const LonLat angles = angles_of(cells.points, cells.given_points, true);
+  const std::vector<std::int32_t> corner = merged_corners(cells);
   Pieces pieces(cells);
+  if (width < kLeastRegion || region.north - region.south < kLeastRegion) return pieces.take();
   for (std::size_t f = 0; f < cells.size(); ++f) {
-    const MapRing polygon = ring_of(cells, f, angles);
+    MapRing polygon = ring_of(cells, f, angles, corner);
     expect_no_half_turn(polygon, cells, f);
+    move_to_poles(polygon);
     MapRing ring = unrolled(polygon, region.west);
     const bool around_pole = std::any_of(ring.begin(), ring.end(), [](const MapCorner& c) { return c.seam; });
     const bool hole = around_pole && (ring.back().lat > 0 ? region.north < 90 : region.south > -90);
-    // A region of 360 degrees has no western or eastern edge. If it leaves out a pole, the cell around that
-    // pole has a hole and is cut into two halves. Other cells around a pole are opened at one of their
-    // corners, which adds no corner.
-    if (width == 360 && around_pole && !hole) ring = unrolled(polygon, polygon[0].lon);
+    // A region of 360 degrees has no western or eastern edge. Cells around a pole are opened at one of their
+    // corners, which adds no corner. If the region leaves out the pole, the cell has a hole and is cut into
+    // two parts, at this corner and at another one opposite.
+    const double opened_at = polygon[0].lon;
+    if (width == 360 && around_pole) ring = unrolled(polygon, opened_at);
     std::vector<MapRing> parts;
     if (width < 360)
       parts = between_meridians(ring, region.west, width);
     else if (!hole)
       parts = {ring};
-    else
-      for (const double west : {region.west, region.west + 180})
-        for (MapRing& half : between_meridians(ring, west, 180)) parts.push_back(std::move(half));
+    else {
+      double opposite = 0;
+      double and_at = 0;
+      for (const MapCorner& c : polygon) {
+        const double from_first = c.lon - opened_at - 360 * std::floor((c.lon - opened_at) / 360);
+        if (std::fabs(from_first - 180) < std::fabs(opposite - 180)) opposite = from_first, and_at = c.lon;
+      }
+      parts = between_meridians(ring, opened_at, opposite);
+      for (MapRing& part : between_meridians(ring, opened_at + opposite, 360 - opposite))
+        parts.push_back(std::move(part));
+      for (MapRing& part : parts)
+        for (const double lon : {opened_at, and_at}) move_to_meridian(part, lon);
+    }
     for (const MapRing& part : parts)
       for (const MapRing& piece : between_parallels(part, region.south, region.north)) {
         MapRing arcs = with_arcs(piece);

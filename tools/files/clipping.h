@@ -18,8 +18,9 @@ void divide_half_turns(Faces& cells, const Mesh& mesh);
 /// sphere.
 Faces clipped_to_hull(const Faces& cells, const Mesh& mesh);
 
-/// The parts of the cells in the region: none, one or several pieces of each cell. Parallels are approximated
-/// by arcs of great circles within 0.0001 degrees. Throws NoMesh if a side is a half turn.
+/// The parts of the cells in the region: none, one or several pieces of each cell; none in a region narrower
+/// than 1e-10 degrees. Parallels are approximated by arcs of great circles within 0.0001 degrees. Throws
+/// NoMesh if a side is a half turn.
 Faces clipped_to_region(const Faces& cells, const Region& region);
 
 }  // namespace files

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "base/parallel_for.h"
 #include "files/measures.h"
 #include "geometry/predicates.h"
 #include "point_sets.h"
@@ -18,40 +19,66 @@ constexpr Point kNorthPole{0, 0, 1};
 /// Largest distance of straight lines from arcs, and of arcs from parallels: 0.001 and 0.0001 degrees, in
 /// radians.
 constexpr double kStraight = 0.001 / kRadian, kBent = 0.0001 / kRadian;
-/// Arcs longer than 5 degrees are always halved: across the equator an arc is S-shaped and its middle can lie
-/// on the straight line. Cosine of 5 degrees.
-constexpr double kLong = 0.99619469809174555;
-constexpr int kDeepest = 16;
-/// Pieces narrower than this, in degrees, result from rounding and are dropped.
+/// Rounding of corners, in radians: what is closer to a pole is at the pole, what is narrower is a line.
+constexpr double kRounding = 1e-15;
+/// Corners closer than this to a meridian or parallel, in degrees, are on it.
 constexpr double kThin = kSamePlace * kRadian;
 
 bool is_pole(const MapCorner& c) { return c.p.x == 0 && c.p.y == 0; }
 MapCorner pole(double z) { return {{0, 0, std::copysign(1.0, z)}, 0, std::copysign(90.0, z)}; }
 
-bool same_place(const Point& a, const Point& b) {
-  const Point d = minus(a, b);
-  return dot(d, d) < kSamePlace * kSamePlace;
+bool is_at_pole(const Point& p) { return p.x * p.x + p.y * p.y < kRounding * kRounding; }
+bool leads_through_pole(const Point& a, const Point& b) {
+  if (a.x * b.x + a.y * b.y >= 0) return false;
+  const Point normal = cross(a, minus(b, a));
+  return std::fabs(normal.z) < kRounding * length(normal);
+}
+
+/// Such arcs follow meridians.
+bool leads_to_pole(const Point& a, const Point& b) {
+  return is_at_pole(a) || is_at_pole(b) || leads_through_pole(a, b);
+}
+
+/// An arc has the same bits in the faces on both sides if its ends are exchanged where this is true.
+bool is_backward(const Point& from, const Point& to) {
+  return std::tie(to.x, to.y, to.z) < std::tie(from.x, from.y, from.z);
 }
 
 /// The number of turns to add to `lon` so that it is closest to x.
 int turn_near(double lon, double x) { return static_cast<int>(std::round((x - lon) / 360)); }
 
+/// The turn of `to` if an arc leads there from `from`.
+int turn_after(const MapCorner& from, const MapCorner& to) {
+  // The difference of longitudes shows the direction, except for arcs close to a pole, whose ends are nearly
+  // 180 degrees apart. An arc leads east if the north pole is on its left.
+  const int turn = turn_near(to.lon, from.x());
+  const double step = to.lon + 360.0 * turn - from.x();
+  if (std::fabs(step) <= 90) return turn;
+  const int east = pstripack::left(from.p, to.p, kNorthPole);
+  return step < 0 ? turn + (east > 0) : turn - (east < 0);
+}
+
 /// p + t (q-p), with the same bits if p and q are exchanged: the cells on both sides of an arc get the same
 /// corner.
 template <class Part>
 Point on_chord(const Point& p, const Point& q, const Part& part) {
-  const bool swap = std::tie(q.x, q.y, q.z) < std::tie(p.x, p.y, p.z);
+  const bool swap = is_backward(p, q);
   const Point &a = swap ? q : p, &b = swap ? p : q;
   const double t = part(a, b);
   return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z)};
 }
 
-/// Where the line from p to q meets the meridian lon + 360 turn.
+/// Where the line from p to q meets the meridian lon + 360 turn; p or q if it is there.
 MapCorner at_meridian(const MapCorner& p, const MapCorner& q, double lon, int turn) {
+  const double x = lon + 360.0 * turn;
+  if (p.x() == x || q.x() == x) return p.x() == x ? p : q;
   double lat = p.lat;
   if (p.straight) {
-    const double t = (lon + 360.0 * turn - p.x()) / (q.x() - p.x());
-    if (q.lat != p.lat) lat += std::clamp(t, 0.0, 1.0) * (q.lat - p.lat);
+    // The same bits if p and q are exchanged, and for all turns.
+    const auto [a, b] = is_backward(p.p, q.p) ? std::tie(q, p) : std::tie(p, q);
+    const double to_line = 360.0 * (turn - a.turn) + lon - a.lon,
+                 to_b = 360.0 * (b.turn - a.turn) + b.lon - a.lon;
+    lat = a.lat + std::clamp(to_line / to_b, 0.0, 1.0) * (b.lat - a.lat);
   } else {
     const Point east{-point_sets::sin_degrees(lon), point_sets::cos_degrees(lon), 0};
     lat = latitude(on_chord(p.p, q.p, [&](const Point& a, const Point& b) {
@@ -62,8 +89,9 @@ MapCorner at_meridian(const MapCorner& p, const MapCorner& q, double lon, int tu
   return {point_sets::from_degrees(lon, lat), lon, lat, turn, p.straight, p.seam};
 }
 
-/// Where the line from p to q meets the parallel. The latitude must increase or decrease all along the line.
+/// Where the line from p to q, which must meet the parallel once, meets it; p or q if it is there.
 MapCorner at_parallel(const MapCorner& p, const MapCorner& q, double lat) {
+  if (p.lat == lat || q.lat == lat) return p.lat == lat ? p : q;
   double lon = p.lon;
   if (!p.straight)
     lon = longitude(on_chord(p.p, q.p, [&](const Point& a, const Point& b) {
@@ -87,15 +115,19 @@ MapRing without_repeats(const MapRing& ring) {
   MapRing kept;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const MapCorner& next = ring[(i + 1) % ring.size()];
-    if (std::fabs(ring[i].x() - next.x()) > kThin || std::fabs(ring[i].lat - next.lat) > kThin)
-      kept.push_back(ring[i]);
+    if (ring[i].x() != next.x() || ring[i].lat != next.lat) kept.push_back(ring[i]);
   }
   return kept;
 }
 
+void move_to_parallel(MapRing& ring, double lat) {
+  for (MapCorner& c : ring)
+    if (std::fabs(c.lat - lat) < kThin) c.lat = lat;
+}
+
 struct Box {
   double west, east, south, north;
-  bool is_thin() const { return east - west < kThin || north - south < kThin; }
+  bool is_line() const { return east == west || north == south; }
 };
 Box box_of(const MapRing& ring) {
   const auto [w, e] = std::minmax_element(ring.begin(), ring.end(),
@@ -152,25 +184,24 @@ void cut(const MapRing& ring, const Inside& inside, const Cross& cross, const Al
       chains[k].clear();
     }
     part = without_repeats(part);
-    if (part.size() >= 3 && !box_of(part).is_thin()) parts.push_back(part);
+    if (part.size() >= 3 && !box_of(part).is_line()) parts.push_back(part);
   }
 }
 
-/// Corners that differ, with poles where sides lead through them.
+/// Corners that differ, with poles where arcs lead through them.
 MapRing with_poles(const MapRing& ring) {
   MapRing corners;
   const auto add = [&](const MapCorner& c) {
-    if (corners.empty() || !same_place(corners.back().p, c.p)) corners.push_back(c);
+    if (corners.empty() || corners.back().p != c.p) corners.push_back(c);
   };
   for (std::size_t i = 0; i < ring.size(); ++i) {
-    MapCorner c{ring[i].p, ring[i].lon, ring[i].lat};
-    add(std::hypot(c.p.x, c.p.y) < kSamePlace ? pole(c.p.z) : c);
-    const Point &a = ring[i].p, &b = ring[(i + 1) % ring.size()].p, normal = cross(a, b);
-    const bool passes =
-        std::fabs(normal.z) < kSamePlace * std::sqrt(dot(normal, normal)) && a.x * b.x + a.y * b.y < 0;
-    if (passes) add(pole(a.z + b.z));
+    const Point &a = ring[i].p, &b = ring[(i + 1) % ring.size()].p;
+    MapCorner c{a, ring[i].lon, ring[i].lat};
+    c.straight = ring[i].straight;
+    add(is_at_pole(a) ? pole(a.z) : c);
+    if (!c.straight && leads_through_pole(a, b)) add(pole(a.z + b.z));
   }
-  while (corners.size() > 1 && same_place(corners.front().p, corners.back().p)) corners.pop_back();
+  while (corners.size() > 1 && corners.front().p == corners.back().p) corners.pop_back();
   return corners;
 }
 
@@ -194,7 +225,7 @@ MapRing closed_at_pole(const MapRing& ring, double west, int around) {
   };
   std::size_t i = 0;
   while (i + 1 < n && around * corner(i + 1).x() <= around * x) ++i;
-  MapRing closed{corner(i).x() == x ? corner(i) : at_meridian(corner(i), corner(i + 1), west, turn)};
+  MapRing closed{at_meridian(corner(i), corner(i + 1), west, turn)};
   for (std::size_t k = i + 1; k <= i + n; ++k) closed.push_back(corner(k));
   MapCorner end = closed.front(), at_pole = pole(around);
   end.straight = end.seam = at_pole.straight = at_pole.seam = true;
@@ -228,8 +259,7 @@ bool has_apex(const Point& a, const Point& b, Point& apex) {
   const double cosine = dot(a, b);
   const double up_at_a = b.z - cosine * a.z, up_at_b = a.z - cosine * b.z;  // towards the other end
   if (!((up_at_a > 0 && up_at_b > 0) || (up_at_a < 0 && up_at_b < 0))) return false;
-  const bool swap = std::tie(b.x, b.y, b.z) < std::tie(a.x, a.y, a.z);
-  const Point n = swap ? cross(b, a) : cross(a, b);
+  const Point n = is_backward(a, b) ? cross(b, a) : cross(a, b);
   const double sign = up_at_a > 0 ? 1 : -1;
   apex = unit({-sign * n.x * n.z, -sign * n.y * n.z, sign * (n.x * n.x + n.y * n.y)});
   return true;
@@ -237,12 +267,49 @@ bool has_apex(const Point& a, const Point& b, Point& apex) {
 
 }  // namespace
 
+void move_to_meridian(MapRing& ring, double lon) {
+  for (MapCorner& c : ring)
+    if (std::fabs(c.lon - lon - 360 * turn_near(lon, c.lon)) < kThin) {
+      c.turn = turn_near(lon, c.x());
+      c.lon = lon;
+    }
+}
+
+void move_to_poles(MapRing& ring) {
+  for (MapCorner& c : ring)
+    if (c.p.x * c.p.x + c.p.y * c.p.y < kSamePlace * kSamePlace) c = pole(c.p.z);
+}
+
 double wrapped(double lon) { return lon >= -180 && lon <= 180 ? lon : lon - 360 * std::round(lon / 360); }
 
-MapRing ring_of(const Faces& faces, std::size_t face, const LonLat& angles) {
+std::vector<std::int32_t> merged_corners(const Faces& faces) {
+  std::vector<std::int32_t> first(faces.points.size() + 1);
+  std::iota(first.begin(), first.end(), 0);
+  const auto find = [&](std::int32_t i) {
+    const auto of = [&](std::int32_t k) -> std::int32_t& { return first[static_cast<std::size_t>(k)]; };
+    while (of(i) != i) i = of(i) = of(of(i));
+    return i;
+  };
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for (std::size_t k = faces.begin[f]; k < faces.begin[f + 1]; ++k) {
+      const std::int32_t a = faces.corner[k],
+                         b = faces.corner[k + 1 < faces.begin[f + 1] ? k + 1 : faces.begin[f]];
+      const Point side =
+          minus(faces.points[static_cast<std::size_t>(a) - 1], faces.points[static_cast<std::size_t>(b) - 1]);
+      if (dot(side, side) >= kSamePlace * kSamePlace) continue;
+      const std::int32_t at_a = find(a), at_b = find(b);
+      first[static_cast<std::size_t>(std::max(at_a, at_b))] = std::min(at_a, at_b);
+    }
+  std::vector<std::int32_t> merged(faces.corner.size());
+  for (std::size_t k = 0; k < merged.size(); ++k) merged[k] = find(faces.corner[k]);
+  return merged;
+}
+
+MapRing ring_of(const Faces& faces, std::size_t face, const LonLat& angles,
+                const std::vector<std::int32_t>& corner) {
   MapRing ring;
   for (std::size_t k = faces.begin[face]; k < faces.begin[face + 1]; ++k) {
-    const auto i = static_cast<std::size_t>(faces.corner[k]) - 1;
+    const auto i = static_cast<std::size_t>(corner[k]) - 1;
     ring.push_back({faces.points[i], wrapped(angles.lon[i]), angles.lat[i]});
   }
   return ring;
@@ -260,9 +327,10 @@ void expect_no_half_turn(const MapRing& ring, const Faces& faces, std::size_t fa
 
 MapRing unrolled(const MapRing& polygon, double west) {
   MapRing corners = with_poles(polygon);
+  move_to_meridian(corners, west);
   const auto first =
       std::find_if(corners.begin(), corners.end(), [](const MapCorner& c) { return !is_pole(c); });
-  if (corners.size() < 3 || first == corners.end() || width_of(corners) < kSamePlace) return {};
+  if (corners.size() < 3 || first == corners.end() || width_of(corners) < kRounding) return {};
   std::rotate(corners.begin(), first, corners.end());
   corners.push_back(corners.front());
   MapRing ring{corners[0]};
@@ -284,13 +352,7 @@ MapRing unrolled(const MapRing& polygon, double west) {
       leaving.turn = to.turn;
       ring.push_back(leaving);
     } else {
-      // An arc leads east if the north pole is on its left. The difference of longitudes shows this too,
-      // except for arcs close to a pole, whose ends are nearly 180 degrees apart.
-      to.turn = turn_near(to.lon, x);
-      const int east = pstripack::left(from.p, to.p, kNorthPole);
-      const double step = to.x() - x;
-      if (east > 0 && step < -90) ++to.turn;
-      if (east < 0 && step > 90) --to.turn;
+      to.turn = turn_after(from, to);
     }
     ring.push_back(to);
   }
@@ -307,9 +369,20 @@ MapRing unrolled(const MapRing& polygon, double west) {
   return closed_at_pole(ring, west, around);
 }
 
-std::vector<MapRing> between_meridians(const MapRing& ring, double west, double width) {
+std::vector<MapRing> between_meridians(MapRing corners, double west, double width) {
   std::vector<MapRing> parts;
-  if (ring.empty()) return parts;
+  if (corners.empty()) return parts;
+  move_to_meridian(corners, west + width);
+  move_to_meridian(corners, west);
+  // Corners where sides cross `west` first, as unrolled() adds one where it opens a ring: a side that is cut
+  // twice has the same bits in all faces.
+  MapRing ring;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const MapCorner &p = corners[i], &q = corners[(i + 1) % corners.size()];
+    ring.push_back(p);
+    const int turn = static_cast<int>(std::ceil((std::max(p.x(), q.x()) - west) / 360)) - 1;
+    if (west + 360.0 * turn > std::min(p.x(), q.x())) ring.push_back(at_meridian(p, q, west, turn));
+  }
   const Box box = box_of(ring);
   for (int turn = static_cast<int>(std::floor((box.west - west - width) / 360));
        west + 360.0 * turn < box.east; ++turn) {
@@ -317,16 +390,16 @@ std::vector<MapRing> between_meridians(const MapRing& ring, double west, double 
     std::vector<MapRing> halves, pieces;
     if (box.west >= left && box.east <= right) {
       pieces.push_back(ring);
-    } else if (std::min(box.east, right) - std::max(box.west, left) > kThin) {
+    } else if (std::min(box.east, right) > std::max(box.west, left)) {
       cut(
-          ring, [&](const MapCorner& c) { return c.x() <= right; },
-          [&](const MapCorner& p, const MapCorner& q) { return at_meridian(p, q, west + width, turn); },
-          [](const MapCorner& c) { return c.lat; }, halves);
+          ring, [&](const MapCorner& c) { return c.x() >= left; },
+          [&](const MapCorner& p, const MapCorner& q) { return at_meridian(p, q, west, turn); },
+          [](const MapCorner& c) { return -c.lat; }, halves);
       for (const MapRing& half : halves)
         cut(
-            half, [&](const MapCorner& c) { return c.x() >= left; },
-            [&](const MapCorner& p, const MapCorner& q) { return at_meridian(p, q, west, turn); },
-            [](const MapCorner& c) { return -c.lat; }, pieces);
+            half, [&](const MapCorner& c) { return c.x() <= right; },
+            [&](const MapCorner& p, const MapCorner& q) { return at_meridian(p, q, west + width, turn); },
+            [](const MapCorner& c) { return c.lat; }, pieces);
     }
     for (MapRing& piece : pieces) {
       for (MapCorner& c : piece) c.turn -= turn;
@@ -336,17 +409,20 @@ std::vector<MapRing> between_meridians(const MapRing& ring, double west, double 
   return parts;
 }
 
-std::vector<MapRing> between_parallels(const MapRing& ring, double south, double north) {
-  MapRing monotone;  // each side that crosses a parallel crosses it once
+std::vector<MapRing> between_parallels(MapRing ring, double south, double north) {
+  move_to_parallel(ring, north);
+  move_to_parallel(ring, south);
+  MapRing single;  // each side that crosses a parallel crosses it once
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const MapCorner &p = ring[i], &q = ring[(i + 1) % ring.size()];
-    monotone.push_back(p);
+    single.push_back(p);
     Point apex;
     if (p.straight || !has_apex(p.p, q.p, apex)) continue;
     // Cut an arc that touches a parallel there: its polygon falls into two parts that touch.
-    const bool above = latitude(apex) > north - kThin, below = latitude(apex) < south + kThin;
+    const bool above = north < 90 && latitude(apex) > north - kThin,
+               below = south > -90 && latitude(apex) < south + kThin;
     const auto crosses = [](bool at_apex, bool at_p, bool at_q) {
-      return at_apex != at_p || at_apex != at_q;
+      return at_apex != at_p && at_apex != at_q;
     };
     if (!crosses(above, p.lat > north, q.lat > north) && !crosses(below, p.lat < south, q.lat < south))
       continue;
@@ -354,11 +430,11 @@ std::vector<MapRing> between_parallels(const MapRing& ring, double south, double
     const double lat = above   ? std::max(latitude(apex), north + kThin)
                        : below ? std::min(latitude(apex), south - kThin)
                                : latitude(apex);
-    monotone.push_back({apex, lon, lat, turn_near(lon, (p.x() + q.x()) / 2)});
+    single.push_back({apex, lon, lat, turn_near(lon, (p.x() + q.x()) / 2)});
   }
   std::vector<MapRing> lower, parts;
   cut(
-      monotone, [&](const MapCorner& c) { return c.lat <= north; },
+      single, [&](const MapCorner& c) { return c.lat <= north; },
       [&](const MapCorner& p, const MapCorner& q) { return at_parallel(p, q, north); },
       [](const MapCorner& c) { return -c.x(); }, lower);
   for (const MapRing& part : lower)
@@ -371,22 +447,6 @@ std::vector<MapRing> between_parallels(const MapRing& ring, double south, double
 
 namespace {
 
-/// Appends the arc from a to b in straight pieces, without its two ends.
-void add_straight_lines(const MapCorner& a, const MapCorner& b, double tolerance, MapRing& ring,
-                        int depth = 0) {
-  if (depth == kDeepest) return;
-  const double x = (a.x() + b.x()) / 2;
-  const Point normal = cross(a.p, b.p), on_line = point_sets::from_degrees(x, (a.lat + b.lat) / 2);
-  if (dot(a.p, b.p) > kLong && std::fabs(dot(normal, on_line)) <= tolerance * std::sqrt(dot(normal, normal)))
-    return;
-  const Point middle = unit({a.p.x + b.p.x, a.p.y + b.p.y, a.p.z + b.p.z});
-  const double lon = longitude(middle);
-  const MapCorner m{middle, lon, latitude(middle), turn_near(lon, x)};
-  add_straight_lines(a, m, tolerance, ring, depth + 1);
-  ring.push_back(m);
-  add_straight_lines(m, b, tolerance, ring, depth + 1);
-}
-
 /// Twice the area of the ring on the map; positive if counterclockwise.
 double area_on_map(const MapRing& ring) {
   double sum = 0;
@@ -397,18 +457,238 @@ double area_on_map(const MapRing& ring) {
   return sum;
 }
 
+double distance(const Point& a, const Point& b) { return length(minus(a, b)); }
+
+/// The distance of c from the great circle of an arc, from differences, so that small distances keep their
+/// digits; for c closer than 90 degrees to `a`.
+double distance_to_circle(const Point& c, const Point& a, const Point& b) {
+  const Point n = cross(a, minus(b, a));
+  return std::fabs(dot(n, minus(c, a))) / length(n);
+}
+
+/// Largest distance from an arc to the straight line between its ends on the map, which is f(t)/4 or less at
+/// t and 1-t of the way, f = 4t(1-t) times this.
+///
+/// Let X(t) be the point of the line, n the unit normal of the arc, f(t) = n X(t), so f(0) = f(1) = 0 and
+/// |f(t)| <= t(1-t)/2 max |f''|. With width w and height h of the line on the map, in radians, and t(X) the
+/// eastern unit vector at X, f'' = n_z sin(lat) w^2 - 2 sin(lat) (n t(X)) w h + r, |r| <= (w^2+h^2) max |f|.
+/// n t(X) differs from its value in the middle by n_z tan(lat) w/2 or less. 1.15 is for r, if w <= 1 and
+/// h <= 0.1.
+double distance_of_line(const MapCorner& a, const MapCorner& b) {
+  const double w = std::fabs(a.x() - b.x()) / kRadian, h = std::fabs(a.lat - b.lat) / kRadian;
+  const Point n = cross(a.p, minus(b.p, a.p)), sum{a.p.x + b.p.x, a.p.y + b.p.y, 0};
+  const double sine = std::max(std::fabs(a.p.z), std::fabs(b.p.z)) + h;
+  const double cosine = std::sqrt(std::min(a.p.x * a.p.x + a.p.y * a.p.y, b.p.x * b.p.x + b.p.y * b.p.y));
+  const double up = std::fabs(n.z) / length(n);
+  const double east = std::fabs(n.y * sum.x - n.x * sum.y) / (length(n) * length(sum));
+  return 1.15 / 8 * sine * w * (up * w + 2 * h * (east + up * w * sine / (2 * cosine)));
+}
+
 }  // namespace
 
-MapRing with_straight_lines(const MapRing& ring) {
-  // Sides of slivers must not cross: lines are closer to arcs than a fraction of the width.
-  constexpr double kClosest = 1e-8, kOfWidth = 0.1;
-  const double tolerance = std::clamp(kOfWidth * width_of(ring), kClosest, kStraight);
-  MapRing all;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    all.push_back(ring[i]);
-    if (!ring[i].straight) add_straight_lines(ring[i], ring[(i + 1) % ring.size()], tolerance, all);
+/// Cuts an arc into lines, with the same bits for the faces on both sides. Why each place of the map then is
+/// in one polygon, and each node in that of its own cell:
+/// 1. The faces cover the sphere once, and their arcs do not cross.
+/// 2. A line keeps within 0.4 of the distance of its arc to each arc of the same face that it does not meet.
+///    The lines of both arcs together need 0.8 of it: they do not cross either.
+/// 3. From a corner where two arcs meet, each line turns by less than half the angle between them.
+/// 4. So the polygon of each face is simple, and each of its sides is a side, reversed, of a neighbour: where
+///    one polygon ends, another begins. As many polygons as faces are at each place: one.
+/// 5. A line keeps within 0.1 of the distance of its arc to the nodes on both sides: it does not pass them.
+class MapLines::Arc {
+ public:
+  /// `sides`: the arc in the faces on both sides, or in one of them.
+  Arc(const MapLines& all, const Side* sides, std::ptrdiff_t count) {
+    ends_[0] = all.at(sides->low), ends_[1] = all.at(sides->high);
+    ends_[1].turn = turn_after(ends_[0], ends_[1]);
+    for (std::ptrdiff_t k = 0; k < count && k < 2; ++k) take_face(all, sides[k].face, sides[k].slot);
   }
-  return area_on_map(all) > 0 ? all : MapRing{};
+
+  bool is_line() const { return is_close(ends_[0], ends_[1]); }
+
+  /// The corners between the ends.
+  MapRing corners() const {
+    MapRing corners;
+    add(ends_[0], ends_[1], 0, corners);
+    return corners;
+  }
+
+ private:
+  /// An arc of the border of a face elsewhere. `end`: which end of this arc it begins or ends at; -1: none.
+  struct Other {
+    Point from, to;
+    int end;
+  };
+
+  static constexpr int kDeepest = 50;
+  /// Cosine of 5 degrees. Longer arcs are always halved.
+  static constexpr double kLong = 0.99619469809174555;
+  /// Of the distance to nodes, and to other arcs of the same faces.
+  static constexpr double kOfDistance = 0.1, kOfGap = 0.4;
+  /// Lines along arcs that diverge less than this, in radians, may cross: they would need too many corners.
+  /// 6 cm in 6371 km.
+  static constexpr double kLeastAngle = 1e-8;
+  /// Arcs of a face that are considered in each direction from an arc.
+  static constexpr int kMostArcs = 6;
+
+  /// Notes what must stay on its side of this arc: the node of a face, and the rest of its border. Where the
+  /// border has many corners, a diagonal stands for the arcs beyond it.
+  void take_face(const MapLines& all, std::size_t face, std::size_t slot) {
+    if (!all.faces_.centres.empty()) nodes_[number_of_nodes_++] = all.faces_.centres[face];
+    const auto point = [&](std::size_t k) { return all.point(all.corner_[k]); };
+    const Point u = ends_[0].p, normal = cross(u, minus(ends_[1].p, u));
+    const double scale = 1 / length(normal);
+    const auto end_at = [&](const Point& p) { return p == ends_[0].p ? 0 : p == ends_[1].p ? 1 : -1; };
+    const auto take = [&](const Point& from, const Point& to) {
+      others_[number_of_others_++] = {from, to, std::max(end_at(from), end_at(to))};
+      if (end_at(to) < 0) gap_ = std::min(gap_, std::fabs(dot(normal, minus(to, u))) * scale);
+    };
+    std::size_t first = all.after(face, slot), last = slot;
+    const auto meet = [&] { return all.corner_[first] == all.corner_[last]; };
+    for (int k = 0; k < kMostArcs && !meet(); ++k) {
+      const std::size_t next = all.after(face, first);
+      take(point(first), point(next));
+      first = next;
+      if (meet()) return;
+      const std::size_t before = all.before(face, last);
+      take(point(before), point(last));
+      last = before;
+    }
+    if (!meet()) take(point(first), point(last));
+  }
+
+  bool is_close(const MapCorner& a, const MapCorner& b) const {
+    if (a.x() == b.x()) return true;
+    if (dot(a.p, b.p) < kLong || std::fabs(a.x() - b.x()) > kRadian) return false;
+    const double off = distance_of_line(a, b);
+    if (off > kStraight) return false;
+    if (off < kRounding) return true;
+    for (int k = 0; k < number_of_nodes_; ++k)
+      if (const Point& node = nodes_[k];
+          node != a.p && node != b.p && off > kOfDistance * distance_to_arc(node, a.p, b.p))
+        return false;
+    const double ab = distance(a.p, b.p);
+    const auto fits = [&](double deviation, double gap) {
+      return deviation <= kOfGap * gap ||
+             deviation <=
+                 kOfGap * kLeastAngle * std::min(distance(b.p, ends_[0].p), distance(a.p, ends_[1].p));
+    };
+    for (int k = 0; k < number_of_others_; ++k) {
+      const Other& other = others_[k];
+      if (other.end >= 0 && (other.end == 0 ? a : b).p == ends_[other.end].p) {
+        // They meet in an angle: the line leaves its arc with a slope of 4 off / ab or less.
+        const Point &tip = ends_[other.end].p, &far = (other.end == 0 ? b : a).p,
+                    &to = other.from == tip ? other.to : other.from;
+        const double gap = dot(minus(far, tip), minus(to, tip)) > 0 ? distance_to_circle(far, tip, to) : ab;
+        if (!fits(4 * off, gap)) return false;
+      } else if (off > kOfGap * gap_ || other.end >= 0) {
+        if (fits(off, distance(a.p, other.from) - ab - distance(other.from, other.to))) continue;
+        if (!fits(off,
+                  std::min({distance_to_arc(a.p, other.from, other.to),
+                            distance_to_arc(b.p, other.from, other.to), distance_to_arc(other.from, a.p, b.p),
+                            distance_to_arc(other.to, a.p, b.p)})))
+          return false;
+      }
+    }
+    return true;
+  }
+
+  void add(const MapCorner& a, const MapCorner& b, int depth, MapRing& ring) const {
+    if (depth == kDeepest || is_close(a, b)) return;
+    const Point middle = unit({a.p.x + b.p.x, a.p.y + b.p.y, a.p.z + b.p.z});
+    const double lon = longitude(middle);
+    const MapCorner m{middle, lon, latitude(middle), turn_near(lon, (a.x() + b.x()) / 2), true};
+    add(a, m, depth + 1, ring);
+    ring.push_back(m);
+    add(m, b, depth + 1, ring);
+  }
+
+  MapCorner ends_[2];
+  int number_of_nodes_ = 0, number_of_others_ = 0;
+  Point nodes_[2];
+  Other others_[2 * (2 * kMostArcs + 1)];
+  double gap_ = 1;  ///< smallest distance of the other arcs' corners from the great circle of this arc
+};
+
+MapLines::MapLines(const Faces& faces)
+    : faces_(faces),
+      angles_(angles_of(faces.points, faces.given_points, true)),
+      corner_(merged_corners(faces)),
+      is_bent_(faces.points.size()) {
+  const auto side = [&](std::size_t f, std::size_t k) {
+    const auto [low, high] = std::minmax(corner_[k], corner_[after(f, k)]);
+    return Side{low, high, f, k};
+  };
+  const auto for_each_side = [&](std::size_t first, std::size_t last, const auto& visit) {
+    for (std::size_t f = first; f < last; ++f)
+      for (std::size_t k = faces.begin[f]; k < faces.begin[f + 1]; ++k) visit(f, k);
+  };
+  std::vector<char> bends(corner_.size());
+  pstripack::parallel_pieces(faces.size(), pstripack::threads_for(10 * corner_.size()),
+                             [&](std::size_t first, std::size_t last, int) {
+                               for_each_side(first, last, [&](std::size_t f, std::size_t k) {
+                                 const Side s = side(f, k);
+                                 bends[k] = s.low != s.high && !leads_to_pole(point(s.low), point(s.high)) &&
+                                            !Arc(*this, &s, 1).is_line();
+                               });
+                             });
+  for_each_side(0, faces.size(), [&](std::size_t f, std::size_t k) {
+    if (!bends[k]) return;
+    bent_.push_back(side(f, k));
+    is_bent_[static_cast<std::size_t>(bent_.back().low) - 1] = true;
+  });
+  std::sort(bent_.begin(), bent_.end());
+}
+
+MapCorner MapLines::at(std::int32_t corner) const {
+  const auto i = static_cast<std::size_t>(corner) - 1;
+  return {faces_.points[i], wrapped(angles_.lon[i]), angles_.lat[i]};
+}
+
+std::size_t MapLines::after(std::size_t face, std::size_t slot) const {
+  std::size_t k = slot;
+  do k = k + 1 < faces_.begin[face + 1] ? k + 1 : faces_.begin[face];
+  while (k != slot && corner_[k] == corner_[slot]);
+  return k;
+}
+
+std::size_t MapLines::before(std::size_t face, std::size_t slot) const {
+  std::size_t k = slot;
+  do k = k > faces_.begin[face] ? k - 1 : faces_.begin[face + 1] - 1;
+  while (k != slot && corner_[k] == corner_[slot]);
+  return k;
+}
+
+MapRing MapLines::corners_between(std::int32_t from, std::int32_t to) const {
+  const auto [low, high] = std::minmax(from, to);
+  if (!is_bent_[static_cast<std::size_t>(low) - 1]) return {};
+  const auto [first, last] = std::equal_range(
+      bent_.begin(), bent_.end(), Side{low, high, 0, 0},
+      [](const Side& a, const Side& b) { return std::tie(a.low, a.high) < std::tie(b.low, b.high); });
+  if (first == last) return {};
+  MapRing corners = Arc(*this, &*first, last - first).corners();
+  if (from != low) std::reverse(corners.begin(), corners.end());
+  return corners;
+}
+
+std::vector<MapRing> MapLines::polygons(std::size_t face) const {
+  MapRing corners = ring_of(faces_, face, angles_, corner_);
+  expect_no_half_turn(corners, faces_, face);
+  move_to_poles(corners);
+  MapRing ring;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    ring.push_back(corners[k]);
+    const Point &a = corners[k].p, &b = corners[(k + 1) % corners.size()].p;
+    if (a == b || leads_to_pole(a, b)) continue;
+    ring.back().straight = true;
+    const std::size_t slot = faces_.begin[face] + k;
+    const MapRing between = corners_between(corner_[slot], corner_[after(face, slot)]);
+    ring.insert(ring.end(), between.begin(), between.end());
+  }
+  std::vector<MapRing> polygons;
+  for (MapRing& part : between_meridians(unrolled(ring, -180), -180, 360))
+    if (area_on_map(part) > 0) polygons.push_back(std::move(part));
+  return polygons;
 }
 
 MapRing with_arcs(const MapRing& ring) {
@@ -422,10 +702,15 @@ MapRing with_arcs(const MapRing& ring) {
     const double bend = std::fabs(point_sets::sin_degrees(2 * p.lat));
     const double step = std::min(90.0, kRadian * 4 * std::sqrt(kBent / std::max(bend, 1e-9)));
     const double pieces = std::ceil(std::max(std::fabs(width) / step, std::fabs(height) / 90));
+    // On both sides of a meridian the same bits.
+    const bool swap = q.lat < p.lat;
+    const MapCorner& from = swap ? q : p;
+    const double sign = swap ? -1 : 1;
     for (double k = 1; k < pieces; ++k) {
-      const double lon = wrapped(p.x() + width * (k / pieces)), lat = p.lat + height * (k / pieces);
-      all.push_back(
-          {point_sets::from_degrees(lon, lat), lon, lat, turn_near(lon, p.x() + width * (k / pieces))});
+      const double part = sign * (swap ? pieces - k : k) / pieces;
+      const double x = from.x() + width * part, lon = width == 0 ? from.lon : wrapped(x);
+      const double lat = from.lat + height * part;
+      all.push_back({point_sets::from_degrees(lon, lat), lon, lat, turn_near(lon, x)});
     }
   }
   return all;

@@ -1,14 +1,15 @@
 #pragma once
 // Polygons of the sphere on a map: longitude to the right, latitude upwards, in degrees.
 
+#include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "files/mesh.h"
 
 namespace files {
 
-/// Points closer than this, in radians, are one corner; a corner this close to a pole is the pole. 6
-/// micrometres on the Earth.
+/// The ends of sides shorter than this, in radians, are one corner. 6 micrometres on the Earth.
 constexpr double kSamePlace = 1e-12;
 
 /// The equal longitude from -180 to 180; unchanged if `lon` is in this range.
@@ -27,28 +28,78 @@ struct MapCorner {
 /// A polygon, counterclockwise.
 using MapRing = std::vector<MapCorner>;
 
-/// The corners of a face, with longitudes from -180 to 180.
-MapRing ring_of(const Faces& faces, std::size_t face, const LonLat& angles);
+/// faces.corner, in which corners with a side shorter than kSamePlace between them are one: the same corner
+/// in all faces.
+std::vector<std::int32_t> merged_corners(const Faces& faces);
+
+/// The corners of a face, with longitudes from -180 to 180. `corner`: faces.corner, or merged.
+MapRing ring_of(const Faces& faces, std::size_t face, const LonLat& angles,
+                const std::vector<std::int32_t>& corner);
 
 /// Throws NoMesh, naming the cell or triangle, if a side is a half turn: its ends do not determine its great
 /// circle.
 void expect_no_half_turn(const MapRing& ring, const Faces& faces, std::size_t face);
 
-/// The map of a convex polygon whose sides are arcs; turns and flags of `ring` are ignored. A pole at a
-/// corner or on a side becomes a line of the map. If the pole is inside, the ring reaches from `west` to
+/// Moves corners to the meridians lon + 360 k if they are as close as rounding. What is cut off at a meridian
+/// is then no sliver that rounding makes. Their vectors stay: they tell that corners are the same.
+void move_to_meridian(MapRing& ring, double lon);
+
+/// Moves corners closer than kSamePlace to a pole to the pole, where longitudes are rounding.
+void move_to_poles(MapRing& ring);
+
+/// The map of a convex polygon whose sides are arcs or straight lines; turns of `ring` are ignored. A pole at
+/// a corner or on a side becomes a line of the map. If the pole is inside, the ring reaches from `west` to
 /// `west` + 360 and is closed along the pole. Empty if all corners coincide or lie on one arc.
 MapRing unrolled(const MapRing& ring, double west);
 
 /// The pieces of the ring between the meridians `west` and `west` + width, with longitudes of that window.
 /// width <= 360. A meridian must cross the ring at most twice.
-std::vector<MapRing> between_meridians(const MapRing& ring, double west, double width);
+std::vector<MapRing> between_meridians(MapRing corners, double west, double width);
 
 /// The pieces of the ring between two parallels.
-std::vector<MapRing> between_parallels(const MapRing& ring, double south, double north);
+std::vector<MapRing> between_parallels(MapRing ring, double south, double north);
 
-/// Adds corners until straight lines on the map are within 0.001 degrees of the arcs, and closer in slivers.
-/// Empty if the sliver is so thin, some 1e-7 radians, that the result would not be counterclockwise.
-MapRing with_straight_lines(const MapRing& ring);
+/// Faces as polygons with straight sides on the map from -180 to 180. Straight lines are as close to the arcs
+/// as
+/// - 0.001 degrees,
+/// - a tenth of the distance to the nodes on both sides: each node is in the polygon of its cell alone,
+/// - 0.4 times the distance to the other arcs of the faces on both sides: polygons do not overlap.
+/// An arc is cut in the same way in the faces on both sides, to the last bit.
+class MapLines {
+ public:
+  /// `faces` must outlive the object.
+  explicit MapLines(const Faces& faces);
+
+  /// The polygons of a face, cut at the dateline. Empty if the face is narrower than rounding of its corners.
+  std::vector<MapRing> polygons(std::size_t face) const;
+
+ private:
+  class Arc;
+  /// The side of a face that begins at faces.corner[slot], between the corners `low` and `high`.
+  struct Side {
+    std::int32_t low, high;
+    std::size_t face, slot;
+    bool operator<(const Side& o) const {
+      return std::tie(low, high, slot) < std::tie(o.low, o.high, o.slot);
+    }
+  };
+
+  const Point& point(std::int32_t corner) const {
+    return faces_.points[static_cast<std::size_t>(corner) - 1];
+  }
+  MapCorner at(std::int32_t corner) const;
+  /// The next and the previous slot of the face with another corner.
+  std::size_t after(std::size_t face, std::size_t slot) const;
+  std::size_t before(std::size_t face, std::size_t slot) const;
+  /// The corners that an arc gets between its ends.
+  MapRing corners_between(std::int32_t from, std::int32_t to) const;
+
+  const Faces& faces_;
+  LonLat angles_;
+  std::vector<std::int32_t> corner_;
+  std::vector<Side> bent_;     ///< sides that are not close enough to one line for their face, sorted
+  std::vector<bool> is_bent_;  ///< of each point: it is `low` of such a side
+};
 
 /// Adds corners until arcs of great circles are within 0.0001 degrees of the straight lines and no side is
 /// longer than 90 degrees.

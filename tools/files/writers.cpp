@@ -249,18 +249,14 @@ void write_features(const OutputFile& file, const Columns& table, const Notes& n
 
 /// Counterclockwise polygons, cut at the dateline; null if all corners coincide.
 void write_geojson(const OutputFile& file, const Faces& faces, const Notes& notes) {
-  const LonLat angles = angles_of(faces.points, faces.given_points, true);
+  const MapLines lines(faces);
   const auto print_ring = [](TextWriter& out, const MapRing& ring) {
     out.print("[[");
     for (const MapCorner& c : ring) out.print("[{},{}],", c.x(), c.lat);
     out.print("[{},{}]]]", ring[0].x(), ring[0].lat);
   };
   write_features(file, table_of(faces), notes, [&](TextWriter& out, std::size_t f) {
-    const MapRing ring = ring_of(faces, f, angles);
-    expect_no_half_turn(ring, faces, f);
-    std::vector<MapRing> parts;
-    for (const MapRing& part : between_meridians(unrolled(ring, -180), -180, 360))
-      if (MapRing lines = with_straight_lines(part); !lines.empty()) parts.push_back(std::move(lines));
+    const std::vector<MapRing> parts = lines.polygons(f);
     if (parts.empty()) return out.print("null");
     out.print("{{\"type\":\"{}\",\"coordinates\":{}", parts.size() == 1 ? "Polygon" : "MultiPolygon",
               parts.size() == 1 ? "" : "[");

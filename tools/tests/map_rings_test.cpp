@@ -1,5 +1,6 @@
 #include "files/map_rings.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <utility>
 
 #include "files/clipping.h"
+#include "files/measures.h"
 #include "point_sets.h"
 
 namespace files {
@@ -37,15 +39,6 @@ bool holds(const MapRing& ring, double x, double y) {
   return inside;
 }
 
-/// A face's parts on the map from -180 to 180.
-std::vector<MapRing> map_of(const Faces& faces, std::size_t f) {
-  const MapRing ring = ring_of(faces, f, angles_of(faces.points, faces.given_points, true));
-  std::vector<MapRing> parts;
-  for (const MapRing& part : between_meridians(unrolled(ring, -180), -180, 360))
-    parts.push_back(with_straight_lines(part));
-  return parts;
-}
-
 Faces cells_of(const Mesh& mesh) {
   Faces cells = voronoi_faces(mesh);
   divide_half_turns(cells, mesh);
@@ -60,15 +53,135 @@ TEST(map, is_covered_once_by_triangles_and_by_cells) {
     for (const std::size_t n : {30u, 200u}) {
       const Mesh mesh = triangulate(point_sets::make(family, n));
       for (const Faces& faces : {triangle_faces(mesh), cells_of(mesh)}) {
+        const MapLines lines(faces);
         double area = 0;
         for (std::size_t f = 0; f < faces.size(); ++f)
-          for (const MapRing& ring : map_of(faces, f)) {
+          for (const MapRing& ring : lines.polygons(f)) {
             EXPECT_GT(area_on_map(ring), 0) << family << ' ' << f;
             area += area_on_map(ring);
             for (const MapCorner& c : ring) EXPECT_TRUE(std::fabs(c.x()) <= 180 && std::fabs(c.lat) <= 90);
           }
         EXPECT_NEAR(area, 360 * 180, 1e-7) << family << ' ' << n;
       }
+    }
+}
+
+using Place = std::pair<double, double>;  // longitude, latitude
+
+/// Sides of polygons without the same side, reversed, of another polygon. Those along a pole are left out,
+/// and the dateline's two meridians are one.
+std::vector<std::pair<Place, Place>> sides_without_partner(const std::vector<std::vector<MapRing>>& maps) {
+  std::map<std::pair<Place, Place>, int> sides;
+  for (const std::vector<MapRing>& rings : maps)
+    for (const MapRing& ring : rings)
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        const MapCorner &p = ring[i], &q = ring[(i + 1) % ring.size()];
+        if (p.lat == q.lat && std::fabs(p.lat) == 90) continue;
+        const bool dateline = std::fabs(p.x()) == 180 && p.x() == q.x();
+        const auto place = [&](const MapCorner& c) { return Place(dateline ? 180 : c.x(), c.lat); };
+        ++sides[{place(p), place(q)}];
+      }
+  std::vector<std::pair<Place, Place>> alone;
+  for (const auto& [side, times] : sides) {
+    const auto partner = sides.find({side.second, side.first});
+    if (times != 1 || partner == sides.end() || partner->second != 1) alone.push_back(side);
+  }
+  return alone;
+}
+
+/// The faces with a polygon that holds the place, in increasing order.
+std::vector<std::size_t> faces_at(const std::vector<std::vector<MapRing>>& maps, double lon, double lat) {
+  std::vector<std::size_t> found;
+  for (std::size_t f = 0; f < maps.size(); ++f)
+    for (const MapRing& ring : maps[f])
+      if (holds(ring, lon, lat)) found.push_back(f);
+  return found;
+}
+
+std::vector<std::vector<MapRing>> maps_of(const Faces& faces) {
+  const MapLines lines(faces);
+  std::vector<std::vector<MapRing>> maps;
+  for (std::size_t f = 0; f < faces.size(); ++f) maps.push_back(lines.polygons(f));
+  return maps;
+}
+
+/// Each side once each way, each node in the polygon of its own cell alone, and no place close to a border in
+/// two polygons. `is_inside(place)`: the faces cover the surroundings of the place.
+template <class IsInside>
+void expect_topology(const Faces& faces, const std::string& what, const IsInside& is_inside) {
+  const auto maps = maps_of(faces);
+  std::size_t alone = 0, wrong = 0;
+  for (const auto& [from, to] : sides_without_partner(maps)) alone += is_inside(from) || is_inside(to);
+  EXPECT_EQ(alone, 0u) << what;
+  const LonLat angles = angles_of(faces.centres, faces.given_centres, true);
+  for (std::size_t f = 0; f < faces.centres.size(); ++f) {
+    const double lon = wrapped(angles.lon[f]), lat = angles.lat[f];
+    const auto found = faces_at(maps, lon, lat);
+    if (std::fabs(lon) < 180 && std::fabs(lat) < 90 && is_inside(Place(lon, lat))) wrong += found.size() != 1;
+    for (const std::size_t g : found) wrong += faces.node_of(g) != faces.node_of(f);
+  }
+  EXPECT_EQ(wrong, 0u) << what;
+  std::size_t doubly = 0, tries = 0, corners = 0;
+  for (const auto& rings : maps)
+    for (const MapRing& ring : rings) corners += ring.size();
+  const std::size_t step = std::max<std::size_t>(1, corners / 40);
+  for (const auto& rings : maps)
+    for (const MapRing& ring : rings)
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        if (tries++ % step != 0) continue;
+        const MapCorner &p = ring[i], &q = ring[(i + 1) % ring.size()];
+        const double width = q.x() - p.x(), height = q.lat - p.lat;
+        if (std::hypot(width, height) < 1e-6) continue;
+        for (const double off : {-1e-4, 1e-4})
+          doubly +=
+              faces_at(maps, p.x() + width / 2 - off * height, p.lat + height / 2 + off * width).size() > 1;
+      }
+  EXPECT_EQ(doubly, 0u) << what;
+}
+
+const auto kEverywhere = [](const Place&) { return true; };
+
+void expect_topology_of_mesh(const Mesh& mesh, const std::string& what) {
+  expect_topology(cells_of(mesh), what, kEverywhere);
+  if (!mesh.has_boundary()) expect_topology(triangle_faces(mesh), what, kEverywhere);
+}
+
+Points read_nodes(const char* file) { return read(std::string(TEST_DATA_DIR "/") + file).points; }
+
+/// Nodes in pairs `apart` radians apart, at random places, near the poles and near the dateline, and others
+/// far away.
+Points pairs(double apart, std::uint64_t seed) {
+  point_sets::Random random(seed);
+  Points points;
+  for (int k = 0; k < 6; ++k) points.push_back(random.direction());
+  for (const Place& place : {Place(random.uniform(-180, 180), random.uniform(-80, 80)),
+                             Place(random.uniform(-180, 180), 90 - apart * random.uniform(0, 40)),
+                             Place(random.uniform(-180, 180), apart * random.uniform(0, 40) - 90),
+                             Place(180 + apart * random.uniform(-40, 40), random.uniform(-80, 80))}) {
+    const Point p = point_sets::from_degrees(place.first, place.second), to = random.direction();
+    const Point side = point_sets::normalized(cross(p, to));
+    points.push_back(p);
+    points.push_back(
+        point_sets::normalized({p.x + apart * side.x, p.y + apart * side.y, p.z + apart * side.z}));
+  }
+  return points;
+}
+
+// The lines of an arc are the same for both its cells, whatever their widths.
+TEST(map, has_each_side_once_each_way_and_each_node_in_its_own_cell_alone) {
+  expect_topology_of_mesh(triangulate(read_nodes("stations_111_m_apart.csv")), "three stations");
+  expect_topology_of_mesh(triangulate(read_nodes("stations_2_m_apart.csv")), "two stations");
+  for (const char* const family : {"random", "latlon", "reduced-gaussian", "icosahedral", "cubed-sphere",
+                                   "healpix", "fibonacci", "clusters:1e-3", "dense-cap:1e-5", "variable:1e4",
+                                   "pairs:1e-6", "spiral:20", "rounded:3", "cap", "ring"})
+    for (const std::size_t n : {12u, 100u})
+      expect_topology_of_mesh(triangulate(point_sets::make(family, n)), fmt::format("{} {}", family, n));
+  for (const double metres : {0.1, 1.0, 10.0, 1e2, 1e3, 1e4, 1e5})
+    for (const std::uint64_t seed : {1u, 2u}) {
+      const Mesh mesh = triangulate(pairs(metres / 6371e3, seed));
+      const std::string what = fmt::format("pairs {} m apart, {}", metres, seed);
+      expect_topology(cells_of(mesh), what, kEverywhere);
+      if (metres >= 100) expect_topology(triangle_faces(mesh), what, kEverywhere);
     }
 }
 
@@ -111,9 +224,10 @@ TEST(map, has_a_pole_where_it_is_inside_a_corner_or_on_a_side) {
 TEST(map, has_straight_lines_close_to_arcs_and_the_same_on_both_sides_of_an_arc) {
   const Mesh mesh = triangulate(point_sets::make("random", 50));
   const Faces cells = cells_of(mesh);
+  const MapLines lines(cells);
   std::map<std::pair<double, double>, int> met;
   for (std::size_t f = 0; f < cells.size(); ++f)
-    for (const MapRing& ring : map_of(cells, f))
+    for (const MapRing& ring : lines.polygons(f))
       for (std::size_t i = 0; i < ring.size(); ++i) {
         ++met[{ring[i].x(), ring[i].lat}];
         const MapCorner &p = ring[i], &q = ring[(i + 1) % ring.size()];
@@ -150,6 +264,53 @@ const std::vector<Case> kRegions{{{170, 190, 25, 50}, "across the dateline"},
                                  {{90, 100, 89, 90}, "at a pole"},
                                  {{30, 30.001, 40, 40.001}, "within one cell"}};
 
+// Parts of cells are as whole cells.
+TEST(cells, of_a_region_and_of_the_hull_have_each_side_once_each_way) {
+  const auto expect_topology_of_regions = [](const Mesh& mesh, const std::string& what) {
+    const Faces all = cells_of(mesh);
+    for (const auto& [region, name] : kRegions)
+      expect_topology(clipped_to_region(all, region), what + ", " + name,
+                      [&, &r = region](const Place& place) {
+                        const double width = r.east - r.west, lon = place.first - r.west,
+                                     from_west = lon - 360 * std::floor(lon / 360);
+                        return place.second > r.south + 2e-4 && place.second < r.north - 2e-4 &&
+                               (width == 360 || (from_west > 1e-9 && from_west < width - 1e-9));
+                      });
+  };
+  for (const double metres : {0.1, 10.0, 1e3, 1e5})
+    expect_topology_of_regions(triangulate(pairs(metres / 6371e3, 3)),
+                               fmt::format("pairs {} m apart", metres));
+  // Bisectors of near nodes on one parallel pass the poles at 1e-13 radians.
+  Points points = pairs(1e-6, 4);
+  for (const double lon : {-54.53185722096147, -54.521224252316756, -54.50317298676732})
+    points.push_back(point_sets::from_degrees(lon, -71.41520772917305));
+  expect_topology_of_regions(triangulate(points), "nodes on a parallel");
+  for (const char* const family : {"cap", "cap:0.01", "hemisphere"})
+    for (const double apart : {1e-7, 1e-4}) {
+      points = point_sets::make(family, 12);
+      for (std::size_t i = 0; i < 4; ++i) {
+        const Point &p = points[i], side = point_sets::normalized(cross(p, points[i + 4]));
+        points.push_back(
+            point_sets::normalized({p.x + apart * side.x, p.y + apart * side.y, p.z + apart * side.z}));
+      }
+      const Mesh mesh = triangulate(points);
+      const Faces triangles = triangle_faces(mesh);
+      std::map<std::pair<std::int32_t, std::int32_t>, int> hull;
+      for (std::size_t k = 0; k < triangles.corner.size(); ++k)
+        ++hull[{triangles.corner[k], triangles.corner[k % 3 == 2 ? k - 2 : k + 1]}];
+      expect_topology(clipped_to_hull(cells_of(mesh), mesh), fmt::format("{} {}", family, apart),
+                      [&](const Place& place) {
+                        const Point p = point_sets::from_degrees(place.first, place.second);
+                        return std::none_of(hull.begin(), hull.end(), [&](const auto& side) {
+                          const auto [a, b] = side.first;
+                          return hull.count({b, a}) == 0 &&
+                                 distance_to_arc(p, mesh.points[static_cast<std::size_t>(a) - 1],
+                                                 mesh.points[static_cast<std::size_t>(b) - 1]) < 2e-5;
+                        });
+                      });
+    }
+}
+
 TEST(cells, fill_a_region_once) {
   for (const char* const family : {"random", "latlon", "icosahedral", "cubed-sphere", "cap", "hemisphere"})
     for (const std::size_t n : {6u, 300u}) {
@@ -160,9 +321,10 @@ TEST(cells, fill_a_region_once) {
             width / kDegree * (point_sets::sin_degrees(region.north) - point_sets::sin_degrees(region.south));
         const Faces cells = clipped_to_region(all, region);
         EXPECT_NEAR(sum(areas(cells)), area, 2e-5 * std::sqrt(area)) << family << ' ' << what;
+        const MapLines lines(cells);
         double on_map = 0;
         for (std::size_t f = 0; f < cells.size(); ++f)
-          for (const MapRing& ring : map_of(cells, f)) on_map += area_on_map(ring);
+          for (const MapRing& ring : lines.polygons(f)) on_map += area_on_map(ring);
         // Where a cell was halved, its lines pass the corner of a neighbour at up to 0.001 degrees.
         EXPECT_NEAR(on_map, width * height, 0.001 * std::min(height, 50.0))
             << family << ' ' << n << ' ' << what;
@@ -192,8 +354,9 @@ TEST(cells, of_a_region_are_those_of_the_nearest_nodes) {
   point_sets::Random random(5);
   for (const auto& [region, what] : kRegions) {
     const Faces cells = clipped_to_region(all, region);
+    const MapLines lines(cells);
     std::vector<std::vector<MapRing>> maps;
-    for (std::size_t f = 0; f < cells.size(); ++f) maps.push_back(map_of(cells, f));
+    for (std::size_t f = 0; f < cells.size(); ++f) maps.push_back(lines.polygons(f));
     for (int k = 0; k < 100; ++k) {
       const double lon = wrapped(random.uniform(region.west, region.east)),
                    lat = random.uniform(region.south, region.north);
@@ -258,9 +421,9 @@ TEST(cells, of_nodes_on_one_circle_are_lunes_with_corners_in_the_middle_of_their
   const Mesh mesh = triangulate(
       {point_sets::from_degrees(0, 10), point_sets::from_degrees(20, 10), point_sets::from_degrees(10, 30)});
   const Faces cells = cells_of(mesh);
+  const MapLines lines(cells);
   for (std::size_t f = 0; f < 3; ++f) {
-    EXPECT_NO_THROW(expect_no_half_turn(ring_of(cells, f, LonLat(cells.points, true)), cells, f));
-    for (const MapRing& ring : map_of(cells, f)) EXPECT_GT(area_on_map(ring), 0);
+    for (const MapRing& ring : lines.polygons(f)) EXPECT_GT(area_on_map(ring), 0);
   }
   EXPECT_THROW(clipped_to_region(voronoi_faces(mesh), {}), NoMesh);
   // Close to a great circle: sides between neighbours anywhere are half turns.
