@@ -387,7 +387,7 @@ module stripack
     ! Result  true: inside; false if IER /= 0.
     ! IER  0 done; 1 NV < 3 or NV > LV; 2 an index in LISTV is outside 1..LV; 3 the polygon crosses itself;
     !      4 no edge gives a point of reference: degenerate polygon, or P is zero; -5 a coordinate of P or of
-    !      a vertex is not finite (new).
+    !      a vertex is not finite (new); -6 out of memory, only where the original says 3 or 4 (new).
     logical function inside(p, lv, xv, yv, zv, nv, listv, ier)
       integer :: lv, nv, listv(*), ier
       real(STRIPACK_REAL_KIND) :: p(3), xv(*), yv(*), zv(*)
