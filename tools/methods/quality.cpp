@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <vector>
 
 #include "base/parallel_for.h"
@@ -15,6 +16,8 @@
 namespace methods {
 namespace {
 
+using pstripack::Direction;
+using pstripack::Directions;
 using pstripack::scvt::Neighbourhood;
 
 /// Calls visit(from, to) for each triangle at node i, with the indices of its two other corners.
@@ -29,10 +32,15 @@ void around(const Neighbourhood& nodes, std::size_t i, const Visit& visit) {
   }
 }
 
-double area_of_cell(const Neighbourhood& nodes, std::size_t i) {
-  std::vector<pstripack::Direction> ring;
-  around(nodes, i, [&](std::size_t, std::size_t to) { ring.push_back(direction_of(nodes.points[to])); });
-  return cell_area(direction_of(nodes.points[i]), ring.data(), ring.size());
+Direction at(const Directions& directions, std::size_t i) {
+  return direction_of(directions, static_cast<pstripack::index_t>(i));
+}
+
+double area_of_cell(const Neighbourhood& nodes, const Directions& directions, std::size_t i,
+                    std::vector<Direction>& ring) {
+  ring.clear();
+  around(nodes, i, [&](std::size_t, std::size_t to) { ring.push_back(at(directions, to)); });
+  return cell_area(at(directions, i), ring.data(), ring.size());
 }
 
 /// A value that a rank sends to the ranks that know the node as a neighbour.
@@ -41,21 +49,26 @@ struct ValueOfNode {
   double value;
 };
 
-/// Areas of the cells of this rank's nodes, then of their neighbours on other ranks. Collective.
-std::vector<double> areas_of_cells(pstripack::Communicator& ranks, const Neighbourhood& nodes) {
+/// Areas of the cells of this rank's nodes, then of their neighbours on other ranks. Sets the directions of
+/// both. Collective.
+std::vector<double> areas_of_cells(pstripack::Communicator& ranks, const Neighbourhood& nodes,
+                                   std::optional<Directions>& directions) {
   const std::size_t own = nodes.stars.count;
   std::size_t known = own;  // own nodes and neighbours on other ranks
   std::vector<double> areas;
   std::vector<std::vector<ValueOfNode>> told;
   const std::int64_t all = pstripack::scvt::sum_of_all(ranks, own);
   const pstripack::Parcels parcels = pstripack::exchange_in_agreement(ranks, [&] {
+    for (std::size_t s = 0; own > 0 && s < nodes.stars.end_of(own - 1); ++s)
+      known = std::max(known, static_cast<std::size_t>(nodes.stars.neighbour[s]));
+    directions.emplace(nodes.points, known);
     areas.resize(own);
     pstripack::parallel_pieces(own, pstripack::threads_for(10 * own),
                                [&](std::size_t first, std::size_t last, int) {
-                                 for (std::size_t i = first; i < last; ++i) areas[i] = area_of_cell(nodes, i);
+                                 std::vector<Direction> ring;
+                                 for (std::size_t i = first; i < last; ++i)
+                                   areas[i] = area_of_cell(nodes, *directions, i, ring);
                                });
-    for (std::size_t s = 0; own > 0 && s < nodes.stars.end_of(own - 1); ++s)
-      known = std::max(known, static_cast<std::size_t>(nodes.stars.neighbour[s]));
     const std::vector<std::int32_t> ranks_of_others =
         pstripack::scvt::ranks_of_slices(ranks, all, {nodes.numbers + own, nodes.numbers + known});
     told.resize(static_cast<std::size_t>(ranks.size()));
@@ -82,7 +95,8 @@ std::vector<double> areas_of_cells(pstripack::Communicator& ranks, const Neighbo
 }  // namespace
 
 Quality quality_of(pstripack::Communicator& ranks, const Neighbourhood& nodes) {
-  const std::vector<double> areas = areas_of_cells(ranks, nodes);
+  std::optional<Directions> directions;
+  const std::vector<double> areas = areas_of_cells(ranks, nodes, directions);
   Quality quality;
   pstripack::SmallestReal smallest_angle;
   pstripack::LargestReal largest_ratio;
@@ -95,8 +109,8 @@ Quality quality_of(pstripack::Communicator& ranks, const Neighbourhood& nodes) {
     around(nodes, i, [&](std::size_t from, std::size_t to) {
       largest_ratio.value = std::max(largest_ratio.value, areas[i] / areas[to]);
       if (nodes.numbers[from] < nodes.numbers[i] || nodes.numbers[to] < nodes.numbers[i]) return;
-      const pstripack::Angles angles = angles_of(
-          direction_of(nodes.points[i]), direction_of(nodes.points[from]), direction_of(nodes.points[to]));
+      const pstripack::Angles angles =
+          angles_of(at(*directions, i), at(*directions, from), at(*directions, to));
       for (const double angle : angles.at)
         smallest_angle.value = std::min(smallest_angle.value, angle * files::kRadian);
       ++triangles;

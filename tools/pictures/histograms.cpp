@@ -99,9 +99,8 @@ void draw_degrees(Panel panel, const std::vector<double>& degrees) {
 }  // namespace
 
 std::string histograms(const files::Mesh& mesh, const std::string& title, double width) {
-  const auto at = [&](std::int32_t node) {
-    return pstripack::direction_of(mesh.points[static_cast<std::size_t>(node) - 1]);
-  };
+  const pstripack::Directions nodes(mesh.points.data(), mesh.points.size());
+  const auto at = [&](std::int32_t node) { return pstripack::direction_of(nodes, node - 1); };
   std::vector<double> angles, lengths, areas, degrees;
   const std::vector<std::int32_t> triangles = files::triangles_of(mesh);
   for (std::size_t t = 0; t < triangles.size(); t += 3) {

@@ -41,9 +41,8 @@ constexpr double kNear = 1e-3;
 
 Facts facts_of(const Mesh& mesh) {
   Facts facts;
-  const auto at = [&](std::int32_t node) {
-    return pstripack::direction_of(mesh.points[static_cast<std::size_t>(node) - 1]);
-  };
+  const pstripack::Directions nodes(mesh.points.data(), mesh.points.size());
+  const auto at = [&](std::int32_t node) { return pstripack::direction_of(nodes, node - 1); };
   const pstripack::ListReader<std::int32_t> reader(mesh.lists());
   std::vector<double> lengths;
   for (std::int32_t node = 1; node <= reader.size(); ++node) {

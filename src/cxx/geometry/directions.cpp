@@ -443,6 +443,19 @@ void Directions::extend(const Point* points, std::size_t n) {
 }
 
 UnitVector unit_vector(const Point& p) {
+  if (std::fabs(dot(p, p) - 1) <= 0x1p-51) {
+    // A unit vector up to rounding needs no root. |p|^2 = 1 + x with |x| < 2^-50, and 1/sqrt(1+x) = 1 - x/2 +
+    // 3/8 x^2 - ..., the next term below 2^-150. Errors in units of u^2: 4, half of those of four sums of at
+    // most five terms below u/2 each; by the rounding of x, of both factors of `shrink`, of `shrink` and of
+    // its product with a component, each half an ulp of a number below 2^-50 or half of that: 4 + 4 + 8 + 8.
+    const DoubleDouble xx = two_product(p.x, p.x), yy = two_product(p.y, p.y), zz = two_product(p.z, p.z);
+    const DoubleDouble xy = two_sum(xx.high, yy.high), all = two_sum(xy.high, zz.high);
+    const double x = (all.high - 1) + ((all.low + xy.low) + (xx.low + yy.low + zz.low)),
+                 shrink = x * (0.5 - 0.375 * x);
+    const DoubleDouble a = two_sum_of_ordered(p.x, -shrink * p.x), b = two_sum_of_ordered(p.y, -shrink * p.y),
+                       c = two_sum_of_ordered(p.z, -shrink * p.z);
+    return {{a.high, b.high, c.high}, {a.low, b.low, c.low}};
+  }
   // A vector whose squares could overflow or underflow is scaled by a power of two, its largest component
   // to [1/2,1). That is exact except for bits below 2^-1074 of the largest component. What underflows later
   // is as small; in a vector that is not scaled it is below 2^-400 of the length. Then `two_product` and
@@ -469,20 +482,6 @@ UnitVector unit_vector(const Point& p) {
     const DoubleDouble q = square(c[k]);
     const DoubleDouble t = two_sum(s.high, q.high);
     s = two_sum_of_ordered(t.high, t.low + (s.low + q.low));
-  }
-  if (std::fabs(s.high - 1) <= 0x1p-50) {
-    // A unit vector up to rounding needs no root. With x = s - 1, 1/sqrt(1+x) = 1 - x/2 + 3/8 x^2 - ..., the
-    // next term below 2^-150. Errors in units of u^2: 3 as above; by the rounding of x, of both factors of
-    // `shrink`, of `shrink` and of its product with c, each half an ulp of a number below 2^-50 or half of
-    // that: 4 + 4 + 8 + 8.
-    const double x = (s.high - 1) + s.low, shrink = x * (0.5 - 0.375 * x);
-    double high[3], low[3];
-    for (int k = 0; k < 3; ++k) {
-      const DoubleDouble v = two_sum_of_ordered(c[k], -shrink * c[k]);
-      high[k] = v.high;
-      low[k] = v.low;
-    }
-    return {{high[0], high[1], high[2]}, {low[0], low[1], low[2]}};
   }
   const double r0 = 1 / std::sqrt(s.high);
   const DoubleDouble rr = two_product(r0, r0);

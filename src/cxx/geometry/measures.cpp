@@ -256,13 +256,14 @@ bool find_cell_area(const Direction& node, const Direction* ring, std::size_t co
   const auto v = A::corner(node);
   const auto see_triangle = [&](std::size_t k) {
     if (!t.find(v, A::corner(ring[k]), A::corner(ring[k + 1 < count ? k + 1 : 0]), 0x1p-10)) return false;
-    const Vector3<T> centre{t.normal.x / t.across, t.normal.y / t.across, t.normal.z / t.across};
+    const T inverse = number<T>(1) / t.across;
+    const Vector3<T> centre{t.normal.x * inverse, t.normal.y * inverse, t.normal.z * inverse};
     const auto beside = [&, cosine = dot(A::position(v), centre)](int corner) {
-      const T cot = t.at(corner) / t.across;
+      const T cot = t.at(corner) * inverse;
       return Beside<T>{cot, cosine, centre,
-                       t.error_of_at(corner) / t.size_across +
-                           (t.error_of_normal + 2 * A::kUnit) * std::fabs(A::value(cot)),
-                       t.error_of_normal + 4 * A::kUnit};
+                       t.error_of_at(corner) * A::value(inverse, 2 * t.exponent) +
+                           (t.error_of_normal + 3 * A::kUnit) * std::fabs(A::value(cot)),
+                       t.error_of_normal + 5 * A::kUnit};
     };
     left = beside(2);
     right_of_next = beside(1);

@@ -148,6 +148,12 @@ class Directions {
   const Point& given(index_t i) const { return p_[i]; }
   const Point& position(index_t i) const { return unit_[i].high; }
   const UnitVector& unit(index_t i) const { return unit_[i]; }
+  /// Both of node i, for loops whose next nodes may lie anywhere in memory.
+  void prefetch(index_t i) const {
+    __builtin_prefetch(p_ + i);
+    __builtin_prefetch(&unit_[i].high);
+    __builtin_prefetch(&unit_[i].low.z);
+  }
   /// p[i]/|p[i]| - p[j]/|p[j]|; every component has 2 roundings and an absolute error of 2^-99.
   Point difference(index_t i, index_t j) const { return pstripack::difference(unit_[i], unit_[j]); }
   int left(index_t a, index_t b, index_t c) const;

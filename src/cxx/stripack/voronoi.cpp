@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <functional>
 #include <initializer_list>
 #include <limits>
@@ -489,6 +490,7 @@ bool find_back_edges(const ListReader<std::int32_t>& lists, const Directions& no
 }  // namespace
 
 bool cell_areas(const ListsView<std::int32_t>& lists, const Directions& nodes, double* area) {
+  constexpr std::int32_t kAhead = 32;  // in canonical lists the slots of the next nodes follow
   const ListReader<std::int32_t> reader(lists);
   std::vector<BackEdge> back_edges;
   if (lists.n < 3 || !find_back_edges(reader, nodes, back_edges)) return false;
@@ -508,6 +510,8 @@ bool cell_areas(const ListsView<std::int32_t>& lists, const Directions& nodes, d
         std::int32_t slot = end;
         do {
           slot = reader.next(slot);
+          if (slot + kAhead < lists.lnew)
+            nodes.prefetch(static_cast<index_t>(std::abs(lists.list[slot + kAhead - 1]) - 1));
           add(reader.neighbour(slot));
         } while (slot != end && ring.size() < lists.n);
         if (reader.on_boundary(node))
