@@ -57,7 +57,7 @@ class TextWriter {
 
   template <class... Values>
   void print(fmt::format_string<Values...> format, Values&&... values) {
-    fmt::format_to(std::back_inserter(buffer_), format, std::forward<Values>(values)...);
+    fmt::format_to(fmt::appender(buffer_), format, std::forward<Values>(values)...);
     if (buffer_.size() > kFull) flush();
   }
   void write(const void* bytes, std::size_t size);
