@@ -88,6 +88,10 @@ void info(const Options& options) {
   for (std::size_t i = 0; i < given; ++i) number[i] = i + 1;
   const Mesh mesh = progress.step("triangulating", [&] {
     try {
+      try {
+        return files::triangulate(nodes.points);
+      } catch (const files::CoincidentNodes&) {  // left out below
+      }
       duplicates = files::duplicates(nodes.points);
       const auto is_left = [&](std::size_t n) {
         return !std::binary_search(duplicates.begin(), duplicates.end(), files::Duplicate{n - 1, 0},
