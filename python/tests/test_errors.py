@@ -78,6 +78,28 @@ def test_what_is_no_array_of_nodes(points):
         Delaunay(points)
 
 
+class Table(dict):
+    """A table as pandas' DataFrame: `columns` are the names, an array of the table has a column for each."""
+
+    columns = property(lambda self: list(self))
+
+    def __getitem__(self, key):
+        return Table({name: self[name] for name in key}) if isinstance(key, list) else super().__getitem__(key)
+
+    def __array__(self, dtype=None):
+        return np.array(list(self.values()), dtype).T
+
+
+def test_a_table_needs_the_columns_x_y_z():
+    x, y, z = POINTS.T
+    table = Table(t=np.arange(50), z=z, x=x, y=y)
+    assert np.array_equal(Delaunay(table).points, POINTS) and np.array_equal(Delaunay(POINTS).nearest(table), np.arange(50))
+    wrong = Table(lon=x, lat=y, t=z)
+    for make in (Delaunay, SphericalVoronoi, scvt, Delaunay(POINTS).nearest):
+        with pytest.raises(ValueError, match="columns x, y and z, not lon, lat, t.*from_lonlat"):
+            make(wrong)
+
+
 @pytest.mark.parametrize("threads", [0, -3])
 def test_numbers_of_threads_below_one(threads):
     with pytest.raises(ValueError, match="threads must be at least 1"):

@@ -11,9 +11,20 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
 
 
+def _coordinates(vectors: Any) -> Any:
+    """The columns x, y, z of a table, which has names of columns (pandas, polars); anything else as it is."""
+    names = getattr(vectors, "columns", None)
+    if names is None:
+        return vectors
+    if not {"x", "y", "z"} <= set(names):
+        raise ValueError(f"a table needs the columns x, y and z, not {', '.join(map(str, names))}: for longitudes and "
+                         "latitudes use Delaunay.from_lonlat(table['lon'], table['lat']), or to_xyz")
+    return vectors[["x", "y", "z"]]
+
+
 def node_array(points: ArrayLike) -> Floats:
     """The nodes as an array of shape (n, 3); an array of float64 is not copied."""
-    array = np.require(points, np.float64, ["A"])
+    array = np.require(_coordinates(points), np.float64, ["A"])
     if array.ndim != 2 or array.shape[1] != 3:
         raise ValueError(f"nodes must be an array of shape (n, 3): x, y, z of each; not {array.shape}")
     return array
@@ -21,7 +32,7 @@ def node_array(points: ArrayLike) -> Floats:
 
 def place_array(places: ArrayLike) -> Floats:
     """The places as a C-contiguous array of shape (..., 3)."""
-    array = np.require(places, np.float64, ["A", "C"])
+    array = np.require(_coordinates(places), np.float64, ["A", "C"])
     if array.ndim < 1 or array.shape[-1] != 3:
         raise ValueError(f"places must be an array of shape (..., 3): x, y, z of each; not {array.shape}")
     return array
