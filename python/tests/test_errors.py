@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from nodes import random_nodes
 from pstripack import (BadCoordinateError, CoincidentNodesError, CollinearNodesError, Delaunay, SphericalVoronoi,
-                       TriangulationError, _core, scvt, to_xyz)
+                       TriangulationError, _core, scvt, to_lonlat, to_xyz)
 
 POINTS = random_nodes(50)
 
@@ -98,6 +98,34 @@ def test_a_table_needs_the_columns_x_y_z():
     for make in (Delaunay, SphericalVoronoi, scvt, Delaunay(POINTS).nearest):
         with pytest.raises(ValueError, match="columns x, y and z, not lon, lat, t.*from_lonlat"):
             make(wrong)
+
+
+def test_masked_elements_and_complex_numbers_are_refused():
+    lon, lat = np.linspace(0, 350, 50), np.linspace(-80, 80, 50)
+    mesh = Delaunay(POINTS)
+
+    def calls(vectors, numbers):
+        return (lambda: Delaunay(vectors), lambda: SphericalVoronoi(vectors), lambda: scvt(vectors),
+                lambda: mesh.nearest(vectors), lambda: mesh.find_simplex(vectors), lambda: to_lonlat(vectors),
+                lambda: mesh.interpolate(np.zeros(50), vectors), lambda: mesh.interpolate(numbers, POINTS),
+                lambda: Delaunay.from_lonlat(lon + numbers, lat), lambda: to_xyz(lon, numbers))
+
+    for call in calls(np.ma.masked_inside(POINTS, 0.5, 0.51), np.ma.masked_less(np.arange(50), 1)):
+        with pytest.raises(ValueError, match="masked"):
+            call()
+    with pytest.raises(ValueError, match="masked"):
+        mesh.interpolate(np.ma.masked_less(np.arange(50), 1), POINTS, "nearest")
+    for call in calls(POINTS + 0j, np.zeros(50, complex)):
+        with pytest.raises(TypeError, match="complex"):
+            call()
+    unmasked = np.ma.array(POINTS)  # as netCDF4 returns arrays without missing values
+    assert np.array_equal(Delaunay(unmasked).simplices, mesh.simplices)
+
+
+@pytest.mark.parametrize("threads", [1.5, 2.0, "2"])
+def test_numbers_of_threads_that_are_not_whole(threads):
+    with pytest.raises(TypeError, match="threads must be a whole number"):
+        Delaunay(POINTS, threads=threads)
 
 
 @pytest.mark.parametrize("threads", [0, -3])

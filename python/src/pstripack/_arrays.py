@@ -1,4 +1,5 @@
 """Conversion of arguments: nodes, places and numbers of threads."""
+import operator
 from typing import Any, Optional
 
 import numpy as np
@@ -9,6 +10,22 @@ from ._errors import CoincidentNodesError
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
+
+
+def unmasked(numbers: Any) -> NDArray[Any]:
+    """The numbers as an array; refused if elements are masked, which NumPy would uncover."""
+    masked = np.count_nonzero(numbers.mask) if isinstance(numbers, np.ma.MaskedArray) else 0
+    if masked > 0:
+        raise ValueError(f"{masked} numbers are masked: remove them, or replace them by filled()")
+    return np.asarray(numbers)
+
+
+def real(numbers: Any) -> NDArray[Any]:
+    """The numbers as an array; refused if they are masked or complex: float64 has no imaginary parts."""
+    array = unmasked(numbers)
+    if np.iscomplexobj(array):
+        raise TypeError("the numbers are complex: real numbers are needed")
+    return array
 
 
 def _coordinates(vectors: Any) -> Any:
@@ -24,7 +41,7 @@ def _coordinates(vectors: Any) -> Any:
 
 def node_array(points: ArrayLike) -> Floats:
     """The nodes as an array of shape (n, 3); an array of float64 is not copied."""
-    array = np.require(_coordinates(points), np.float64, ["A"])
+    array = np.require(real(_coordinates(points)), np.float64, ["A"])
     if array.ndim != 2 or array.shape[1] != 3:
         raise ValueError(f"nodes must be an array of shape (n, 3): x, y, z of each; not {array.shape}")
     return array
@@ -32,7 +49,7 @@ def node_array(points: ArrayLike) -> Floats:
 
 def place_array(places: ArrayLike) -> Floats:
     """The places as a C-contiguous array of shape (..., 3)."""
-    array = np.require(_coordinates(places), np.float64, ["A", "C"])
+    array = np.require(real(_coordinates(places)), np.float64, ["A", "C"])
     if array.ndim < 1 or array.shape[-1] != 3:
         raise ValueError(f"places must be an array of shape (..., 3): x, y, z of each; not {array.shape}")
     return array
@@ -57,9 +74,13 @@ def thread_count(threads: Optional[int]) -> int:
     """The number of threads; 0 for None, OpenMP's default."""
     if threads is None:
         return 0
-    if threads < 1:
-        raise ValueError(f"threads must be at least 1, not {threads}")
-    return int(threads)
+    try:
+        number = operator.index(threads)
+    except TypeError:
+        raise TypeError(f"threads must be a whole number, not {threads!r}") from None
+    if number < 1:
+        raise ValueError(f"threads must be at least 1, not {number}")
+    return number
 
 
 def read_only(array: NDArray[Any]) -> NDArray[Any]:
@@ -80,7 +101,7 @@ def to_xyz(lon: ArrayLike, lat: ArrayLike, degrees: bool = True) -> Floats:
            [0., 0., 1.]])
     """
     lon, lat = (angle if degrees or angle.dtype != np.float32 else _core.radians_of_single(angle)
-                for angle in (np.asarray(lon), np.asarray(lat)))
+                for angle in (real(lon), real(lat)))
     lon, lat = np.broadcast_arrays(np.asarray(lon, np.float64), np.asarray(lat, np.float64))
     limit = 90.0 if degrees else np.pi / 2 * (1 + 1e-15)
     beyond = np.abs(lat) > limit

@@ -5,7 +5,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from ._arrays import Floats, Ints, mesh_of, node_array, place_array, read_only, thread_count, to_xyz
+from ._arrays import (Floats, Ints, mesh_of, node_array, place_array, read_only, real, thread_count, to_xyz,
+                      unmasked)
 
 
 class Delaunay:
@@ -173,7 +174,7 @@ class Delaunay:
             raise ValueError(f"method must be 'linear', 'natural', 'cubic' or 'nearest', not {method!r}")
         if outside not in ("nan", "nearest"):
             raise ValueError(f"outside must be 'nan' or 'nearest', not {outside!r}")
-        given = np.asarray(values)
+        given = unmasked(values)
         if given.ndim < 1 or len(given) != self.npoints:
             raise ValueError(f"values must be one for each of {self.npoints} nodes; their shape is {given.shape}")
         places = place_array(xi)
@@ -182,7 +183,7 @@ class Delaunay:
             if np.any(near < 0):
                 raise ValueError(f"place {int(np.argmax(near.ravel() < 0))} (counted from 0) has no direction")
             return np.asarray(given[near])
-        table = np.require(given.reshape(self.npoints, -1), np.float64, ["A", "C"])
+        table = np.require(real(given).reshape(self.npoints, -1), np.float64, ["A", "C"])
         result = self._mesh.interpolate(method, places.reshape(-1, 3), table, self._number(threads))
         if outside == "nearest":
             missing = np.flatnonzero(self.find_simplex(places, threads=threads).ravel() < 0)
