@@ -305,8 +305,9 @@ def test_radians_nearest_to_a_right_angle_mean_it(kind):
     lat = np.array([1, 1, -1, 0, 0, 0, 0, 0], kind) * kind(np.pi / 2)
     expected = [[0, 0, 1], [0, 0, 1], [0, 0, -1], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [1, 0, 0], [-1, 0, 0]]
     assert np.array_equal(to_xyz(lon, lat, degrees=False), expected)
-    with pytest.raises(CoincidentNodesError):  # of one pole
-        Delaunay.from_lonlat(lon, lat, degrees=False)
+    for radians in {"degrees": False}, {"units": "radians"}:
+        with pytest.raises(CoincidentNodesError):  # of one pole
+            Delaunay.from_lonlat(lon, lat, **radians)
     if kind == np.float32:  # a double is not a float
         with pytest.raises(ValueError, match="beyond the pole"):
             to_xyz(0, np.float64(lat[0]), degrees=False)
@@ -326,3 +327,16 @@ def test_longitudes_and_latitudes():
     assert np.array_equal(Delaunay.from_lonlat(lon, lat).points, to_xyz(lon, lat))
     with pytest.raises(ValueError, match=r"latitude 91 of node 1 \(counted from 0\)"):
         to_xyz([0, 0, 0], [0, 91, 92])
+
+
+def test_angles_that_may_be_degrees_or_radians_are_refused_unless_units_says():
+    """As the command refuses them."""
+    lon, lat = np.random.default_rng(1).uniform(-np.pi, 2 * np.pi, 50), np.linspace(-np.pi / 2, 1, 50)
+    for kind in np.float64, np.float32:
+        with pytest.raises(ValueError, match="may be degrees or radians: say units='degrees' or units='radians'"):
+            Delaunay.from_lonlat(lon.astype(kind), lat.astype(kind))
+    assert np.array_equal(Delaunay.from_lonlat(lon, lat, units="degrees").points, to_xyz(lon, lat))
+    assert np.array_equal(Delaunay.from_lonlat(lon, lat, units="radians").points, to_xyz(lon, lat, degrees=False))
+    assert Delaunay.from_lonlat([0, 7, 3], [0, 0, 1]).npoints == Delaunay.from_lonlat([0, 1, 3], [0, 2, 0]).npoints == 3
+    with pytest.raises(ValueError, match="units must be 'degrees' or 'radians'"):
+        Delaunay.from_lonlat(lon, lat, units="rad")

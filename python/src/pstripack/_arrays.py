@@ -114,6 +114,17 @@ def to_xyz(lon: ArrayLike, lat: ArrayLike, degrees: bool = True) -> Floats:
     return vectors.reshape(lon.shape + (3,)) + 0.0  # no -0.0
 
 
+def refuse_what_may_be_radians(lon: NDArray[Any], lat: NDArray[Any]) -> None:
+    """Raises an error unless an angle is too large for radians; the limits are those of the command `pstripack`."""
+    if len(lon) == 0 or len(lat) == 0:
+        return
+    most_lon, most_lat = np.max(np.abs(lon)), np.max(np.abs(lat))
+    slack = 1 + 1e-6  # single precision rounds a pole up
+    if most_lon <= 2 * np.pi * slack and most_lat <= np.pi / 2 * slack:
+        raise ValueError(f"the angles may be degrees or radians: say units='degrees' or units='radians' (longitudes reach "
+                         f"{most_lon:.4g}, latitudes {most_lat:.4g})")
+
+
 def to_lonlat(xyz: ArrayLike, degrees: bool = True) -> "tuple[Floats, Floats]":
     """Longitudes from -180 to 180 and latitudes of vectors of any length.
 

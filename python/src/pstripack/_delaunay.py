@@ -5,8 +5,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from ._arrays import (Floats, Ints, mesh_of, node_array, place_array, read_only, real, thread_count, to_xyz,
-                      unmasked)
+from ._arrays import (Floats, Ints, mesh_of, node_array, place_array, read_only, real, refuse_what_may_be_radians,
+                      thread_count, to_xyz, unmasked)
 
 
 class Delaunay:
@@ -55,10 +55,20 @@ class Delaunay:
         self._vertex_neighbors: Optional[Tuple[Ints, Ints]] = None
 
     @classmethod
-    def from_lonlat(cls, lon: ArrayLike, lat: ArrayLike, *, degrees: bool = True, threshold: float = 0,
-                    threads: Optional[int] = None) -> "Delaunay":
-        """The triangulation of nodes given by longitudes and latitudes; see :func:`to_xyz`."""
-        return cls(to_xyz(np.ravel(lon), np.ravel(lat), degrees), threshold=threshold, threads=threads)
+    def from_lonlat(cls, lon: ArrayLike, lat: ArrayLike, *, degrees: bool = True, units: Optional[str] = None,
+                    threshold: float = 0, threads: Optional[int] = None) -> "Delaunay":
+        """The triangulation of nodes given by longitudes and latitudes; see :func:`to_xyz`.
+
+        ``units``: "degrees" or "radians". Without it: radians if ``degrees`` is false; else degrees, and a ValueError if
+        no longitude is beyond 2 pi and no latitude beyond pi/2, since these may be radians.
+        """
+        if units not in (None, "degrees", "radians"):
+            raise ValueError(f"units must be 'degrees' or 'radians', not {units!r}")
+        lon, lat = np.ravel(real(lon)), np.ravel(real(lat))
+        if units is None and degrees:
+            refuse_what_may_be_radians(lon, lat)
+        points = to_xyz(lon, lat, degrees if units is None else units == "degrees")
+        return cls(points, threshold=threshold, threads=threads)
 
     def __getstate__(self) -> Dict[str, Any]:
         return {**self.__dict__, "_mesh": None}
