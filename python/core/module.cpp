@@ -46,9 +46,7 @@ const Point* places_in(const Array<double>& places) {
   return reinterpret_cast<const Point*>(places.data());
 }
 
-/// A triangulation, and the array of its nodes if they are read in place.
 struct Mesh {
-  py::object points;
   std::unique_ptr<const Triangulation> triangulation;
 
   Mesh(const py::array_t<double>& nodes, int threads) {
@@ -56,11 +54,18 @@ struct Mesh {
     constexpr auto size = static_cast<py::ssize_t>(sizeof(double));
     bindings::Coordinates given{n, {}, nodes.strides(0) / size};
     for (py::ssize_t axis = 0; n > 0 && axis < 3; ++axis) given.axis[axis] = nodes.data(0, axis);
-    if (given.stride == 1) points = nodes;
     triangulation = compute(threads, [&] { return std::make_unique<const Triangulation>(given); });
   }
   const Triangulation* operator->() const { return triangulation.get(); }
 };
+
+/// The nodes as the mesh keeps them, column by column: an array that keeps the mesh alive.
+py::array points(const py::object& self) {
+  const auto& mesh = self.cast<const Mesh&>();
+  const auto n = static_cast<py::ssize_t>(mesh->size());
+  constexpr auto size = static_cast<py::ssize_t>(sizeof(double));
+  return py::array_t<double>({n, py::ssize_t{3}}, {size, n * size}, mesh->coordinates(), self);
+}
 
 py::array triangles(const Mesh& mesh, int threads) {
   return rows_of_three(compute(threads, [&] { return mesh->triangles(); }));
@@ -222,6 +227,7 @@ PYBIND11_MODULE(_core, m) {
   m.attr("version") = pstripack_version();
   py::class_<Mesh>(m, "Mesh")
       .def(py::init<py::array_t<double>, int>(), py::arg("points").noconvert(), py::arg("threads"))
+      .def_property_readonly("points", &points)
       .def("triangles", &triangles)
       .def("opposite_triangles", &opposite_triangles)
       .def("lists", &lists)

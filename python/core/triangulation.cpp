@@ -101,21 +101,17 @@ Triangulation::Triangulation(const Coordinates& given) : n_(given.n) {
   interpolation_.emplace(view());
 }
 
-/// Sets given_, copying coordinates that are not in columns, and checks each node.
+/// Copies the coordinates and checks each node.
 void Triangulation::read(const Coordinates& given) {
-  const bool in_place = given.stride == 1;
-  if (!in_place) own_columns_ = Buffer<double>(3 * n_);
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    given_[axis] = in_place ? given.axis[axis] : own_columns_.data() + axis * n_;
+  columns_ = Buffer<double>(3 * n_);
+  for (std::size_t axis = 0; axis < 3; ++axis) given_[axis] = columns_.data() + axis * n_;
   std::atomic<std::size_t> first_bad{n_};
   parallel_pieces(n_, threads_for(n_), [&](std::size_t begin, std::size_t end, int) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto from = static_cast<std::ptrdiff_t>(i) * given.stride;
       const Point p{given.axis[0][from], given.axis[1][from], given.axis[2][from]};
-      if (!in_place) {
-        double* const column = own_columns_.data() + i;
-        column[0] = p.x, column[n_] = p.y, column[2 * n_] = p.z;
-      }
+      double* const column = columns_.data() + i;
+      column[0] = p.x, column[n_] = p.y, column[2 * n_] = p.z;
       if (has_direction(p)) continue;
       std::size_t before = first_bad;
       while (i < before && !first_bad.compare_exchange_weak(before, i)) {

@@ -68,11 +68,13 @@ struct Coordinates {
 /// thread and throw std::bad_alloc.
 class Triangulation {
  public:
-  /// Throws NoTriangulation. With stride 1 the coordinates are read in place and must outlive this.
+  /// Copies the coordinates. Throws NoTriangulation.
   explicit Triangulation(const Coordinates& given);
   ~Triangulation();
 
   std::size_t size() const { return n_; }
+  /// The coordinates as given: all x, then all y, then all z.
+  const double* coordinates() const { return columns_.data(); }
   /// The canonical lists of TRMESH.
   pstripack::ListsView<std::int32_t> lists() const {
     return {n_, list_.data(), lptr_.data(), lend_.data(), lnew_};
@@ -129,7 +131,7 @@ class Triangulation {
   void visit_places(const Point* places, std::size_t count, const Visit& visit) const;
 
   std::size_t n_;
-  Buffer<double> own_columns_, own_directions_;
+  Buffer<double> columns_, own_directions_;
   const double* given_[3];      ///< given coordinates, column by column
   const double* direction_[3];  ///< coordinates of unit vectors, column by column
   Buffer<std::int32_t> list_, lptr_, lend_;

@@ -133,16 +133,6 @@ def test_every_layout_gives_the_same_triangulation(layout):
     assert np.array_equal(mesh.points, points)
 
 
-def test_arrays_of_doubles_are_kept_and_not_copied():
-    for order in "CF":
-        points = np.array(random_nodes(100), order=order)
-        mesh = Delaunay(points)
-        assert np.shares_memory(mesh.points, points)
-        with pytest.raises(ValueError):
-            mesh.points[0] = 0
-        points[0] = points[0]  # the caller's own array stays writable
-
-
 def test_nodes_in_single_precision_are_those_numbers():
     points = random_nodes(500).astype(np.float32)
     assert np.array_equal(Delaunay(points).lists[0], trmesh(points.astype(np.float64))[0])

@@ -16,9 +16,7 @@ class Delaunay:
     Parameters
     ----------
     points : array_like, shape (n, 3)
-        Vectors from the centre of the sphere to the nodes; only their directions matter. An array of float64 is kept:
-        do not change it while this object is in use. The library reads contiguous columns (Fortran order) in place,
-        others from a copy.
+        Vectors from the centre of the sphere to the nodes; only their directions matter. They are copied.
     threshold : float, optional
         Nodes this near to each other, in radians, are refused as if they coincided: 1.6e-10 is a millimetre on the
         Earth.
@@ -45,11 +43,10 @@ class Delaunay:
     """
 
     def __init__(self, points: ArrayLike, *, threshold: float = 0, threads: Optional[int] = None) -> None:
-        array = node_array(points)
         self._threads = thread_count(threads)
-        self._mesh = mesh_of(array, threshold, self._threads)
+        self._mesh = mesh_of(node_array(points), threshold, self._threads)
         #: The nodes as given, read only.
-        self.points: Floats = read_only(array)
+        self.points: Floats = read_only(self._mesh.points)
         self._simplices: Optional[Ints] = None
         self._neighbors: Optional[Ints] = None
         self._vertex_neighbors: Optional[Tuple[Ints, Ints]] = None
@@ -76,8 +73,8 @@ class Delaunay:
     def __setstate__(self, state: Dict[str, Any]) -> None:
         """For pickles and copies: triangulates again, which gives the same mesh."""
         self.__dict__.update(state)
-        self.points = read_only(self.points)
         self._mesh = _core.Mesh(self.points, self._threads)
+        self.points = read_only(self._mesh.points)
 
     def __repr__(self) -> str:
         return f"<pstripack.Delaunay of {self.npoints} nodes>"
