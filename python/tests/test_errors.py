@@ -41,6 +41,18 @@ def test_why_there_is_no_triangulation(points, kind, nodes, message, capfd):
     assert copy.nodes == caught.value.nodes and str(copy) == str(caught.value)
 
 
+@pytest.mark.parametrize("lon, lat, node", [
+    ([10, 20, np.nan, 40], [1, 2, 3, 4], "node 2 (counted from 0) is at longitude nan, latitude 3:"),
+    ([10, 20, 30, 40], [1, np.nan, np.nan, 4], "node 1 (counted from 0) is at longitude 20, latitude nan:"),
+    ([10, 20, 30, np.inf], 5, "node 3 (counted from 0) is at longitude inf, latitude 5:"),
+    ([1, np.nan, 1], [1, 1, 1], "node 1 "),
+])
+def test_an_angle_that_is_not_finite_is_reported_as_it_was_given(lon, lat, node):
+    with pytest.raises(BadCoordinateError) as caught:
+        Delaunay.from_lonlat(lon, lat)
+    assert node in str(caught.value) and len(caught.value.nodes) == 1
+
+
 def test_every_pair_that_coincides_is_found_among_many_nodes():
     points = random_nodes(40000)
     points[34321] = points[12345]

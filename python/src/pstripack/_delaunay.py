@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _core
 from ._arrays import (Floats, Ints, mesh_of, node_array, place_array, read_only, real, refuse_what_may_be_radians,
                       thread_count, to_xyz, unmasked)
+from ._errors import BadCoordinateError
 
 
 class Delaunay:
@@ -65,6 +66,12 @@ class Delaunay:
         if units is None and degrees:
             refuse_what_may_be_radians(lon, lat)
         points = to_xyz(lon, lat, degrees if units is None else units == "degrees")
+        wrong = np.isnan(points[:, 0])
+        if np.any(wrong):
+            node = int(np.argmax(wrong))
+            where = [float(np.broadcast_to(angle, len(points))[node]) for angle in (lon, lat)]
+            raise BadCoordinateError(f"node {node} (counted from 0) is at longitude {where[0]:g}, latitude {where[1]:g}: "
+                                     "both must be finite", (node,))
         return cls(points, threshold=threshold, threads=threads)
 
     def __getstate__(self) -> Dict[str, Any]:
