@@ -110,7 +110,8 @@ WRONG = {
     "radius": (RANDOM, {"radius": 2}, "Radius inconsistent with generators: point 0", (0,)),
     "center": (RANDOM, {"center": [1, 0, 0]}, "Radius inconsistent with generators", (0,)),
     "one_off": (np.vstack([RANDOM, [0, 0, 1.1]]), {}, "Radius inconsistent with generators: point 500", (500,)),
-    "nan": (np.vstack([RANDOM, [0, 0, np.nan]]), {}, "Radius inconsistent with generators: point 500", (500,)),
+    "nan": (np.vstack([RANDOM, [0, 0, np.nan]]), {}, r"point 500 .* is \(0, 0, nan\): .* finite", (500,)),
+    "infinite": (np.vstack([2 * RANDOM, [0, -np.inf, 2]]), {"radius": 2}, r"point 500 .* is \(0, -inf, 2\): .* finite", (500,)),
     "plane": (to_xyz(np.arange(0, 360, 10), np.full(36, 30)), {}, "Rank of input points must be at least 3", None),
     "great_circle": (to_xyz(np.arange(0, 360, 10), np.zeros(36)), {}, "Rank of input points must be at least 3", None),
     "three": (np.eye(3), {}, "Rank of input points must be at least 3", None),
@@ -127,7 +128,7 @@ def test_wrong_input_is_a_value_error_as_in_scipy(case):
         SphericalVoronoi(points, **options)
     if nodes is not None:
         assert caught.value.nodes == nodes
-    if case not in ("none", "plane_points", "nan"):
+    if case not in ("none", "plane_points", "nan", "infinite"):
         with pytest.raises(ValueError):
             scipy.spatial.SphericalVoronoi(points, **options)
 

@@ -6,7 +6,7 @@ from numpy.typing import ArrayLike
 
 from . import _core
 from ._arrays import Floats, Ints, node_array, read_only, thread_count
-from ._errors import CoincidentNodesError, TriangulationError
+from ._errors import BadCoordinateError, CoincidentNodesError, TriangulationError
 
 
 class SphericalVoronoi:
@@ -119,6 +119,10 @@ class SphericalVoronoi:
         if len(wrong) == 0:
             return
         first = int(wrong[0])
+        if not np.isfinite(self.points[first]).all():
+            x, y, z = self.points[first]
+            raise BadCoordinateError(
+                f"point {first} (counted from 0) is ({x:g}, {y:g}, {z:g}): coordinates must be finite", (first,))
         raise TriangulationError(
             f"Radius inconsistent with generators: point {first} (counted from 0) of {len(wrong)} is "
             f"{off[first] * self.radius:g} off the sphere; give radius and center, or a larger threshold", (first,))
