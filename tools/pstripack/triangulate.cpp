@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <numeric>
+#include <algorithm>
 
 #include "files/clipping.h"
+#include "files/measures.h"
 #include "pstripack/options.h"
 #include "pstripack/progress.h"
 
@@ -49,9 +49,26 @@ void triangulate(Options& options) {
   });
 }
 
+/// Says which cell is a hundred times the median: that of a station at the edge of a region, most likely,
+/// which gets a part of the rest of the sphere. No cell is larger than a hemisphere.
+void tell_huge_cell(const Options& options, const files::Faces& faces, const files::Mesh& mesh) {
+  std::vector<double> sorted = faces.area;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  const auto largest = std::max_element(faces.area.begin(), faces.area.end());
+  if (*largest < 100 * *middle) return;
+  say(fmt::format(
+      "{}: the cell of node {} has {:.0f} km2, {:.0f} times the median: it reaches far beyond the nodes; cut "
+      "the cells by --region{}",
+      options.input.file, largest - faces.area.begin() + 1,
+      *largest * files::kEarthRadius * files::kEarthRadius, *largest / *middle,
+      mesh.has_boundary() ? " or --clip-to-hull" : ""));
+}
+
 void voronoi(Options& options) {
   run(options, [&](const files::OutputFile& file, const files::Mesh& mesh) {
     files::Faces faces = files::voronoi_faces(mesh);
+    if (options.region.empty() && !options.clip_to_hull) tell_huge_cell(options, faces, mesh);
     files::divide_half_turns(faces, mesh);
     if (options.clip_to_hull && !mesh.has_boundary())
       say(options.input.file + ": the nodes surround the sphere: --clip-to-hull cuts nothing");

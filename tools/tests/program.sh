@@ -717,6 +717,21 @@ maps)
   sed 1d three.geojson | cmp a -
   ;;
 
+huge_cells)
+  # Stations of a region, whose outer cells reach around the sphere. On a whole sphere no cell is huge.
+  awk 'BEGIN { srand(1); for (i = 0; i < 60; ++i) print 129 + 16 * rand(), 31 + 14 * rand() }' > stations.lonlat
+  for cut in "" --clip-to-hull "--region 129,145,31,45" -q; do
+    # shellcheck disable=SC2086
+    "$PSTRIPACK" voronoi stations.lonlat $cut -o cells.geojson 2> err
+    case $cut in "") expected=1 ;; *) expected=0 ;; esac
+    [ "$(grep -c 'pstripack: stations.lonlat: the cell of node [0-9]* has [0-9]* km2, [0-9]* times the median: .* --region or --clip-to-hull$' err)" = $expected ] ||
+      fail "$cut: $(cat err)"
+  done
+  "$PSTRIPACK" -q points random 5000 -o nodes.txt
+  "$PSTRIPACK" voronoi nodes.txt -o cells.off 2> err
+  [ "$(wc -l < err)" = 1 ] || fail "$(cat err)"
+  ;;
+
 geojson)
   # Reading a written file gives the same longitudes beyond 180 degrees, missing values, texts, history and vectors.
   printf 'lon,lat,depth,place\n300.1,40,7.25,a\n100,40,,"b ""c"""\n-70,-20.7,-1,\n180,89.99,3,d\n' > table.csv
