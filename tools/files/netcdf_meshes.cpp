@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "files/map_rings.h"
 #include "files/writers.h"
 
 namespace files {
@@ -265,8 +266,34 @@ void write_ugrid(const OutputFile& file, const Faces& faces, const std::vector<P
   out.close();
 }
 
+namespace {
+
+/// Faces::begin and Faces::corner without corners that rounding alone keeps apart from the one before:
+/// remapping programs stumble over such sides. A face with fewer than three others keeps all.
+Faces without_short_sides(const Faces& faces) {
+  const std::vector<std::int32_t> merged = merged_corners(faces);
+  Faces kept;
+  kept.begin.push_back(0);
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const std::size_t first = kept.begin.back();
+    for (std::size_t k = faces.begin[f]; k < faces.begin[f + 1]; ++k)
+      if (merged[k] != merged[k == faces.begin[f] ? faces.begin[f + 1] - 1 : k - 1])
+        kept.corner.push_back(merged[k]);
+    if (kept.corner.size() < first + 3) {
+      kept.corner.resize(first);
+      for (std::size_t k = faces.begin[f]; k < faces.begin[f + 1]; ++k)
+        kept.corner.push_back(faces.corner[k]);
+    }
+    kept.begin.push_back(kept.corner.size());
+  }
+  return kept;
+}
+
+}  // namespace
+
 void write_scrip(const OutputFile& file, const Faces& faces, const Notes& notes) {
-  const std::size_t width = faces.most_corners();
+  const Faces rings = without_short_sides(faces);
+  const std::size_t width = rings.most_corners();
   Writer out(file);
   const int size = out.dimension("grid_size", faces.size());
   const int corners = out.dimension("grid_corners", width);
@@ -296,9 +323,9 @@ void write_scrip(const OutputFile& file, const Faces& faces, const Notes& notes)
        {std::pair(corner_lat, &of_points.lat), std::pair(corner_lon, &of_points.lon)})
     out.put(variable,
             padded<double>(  // the last corner again, as SCRIP requires
-                faces, width,
+                rings, width,
                 [&, values = values](std::size_t k) {
-                  return (*values)[static_cast<std::size_t>(faces.corner[k]) - 1];
+                  return (*values)[static_cast<std::size_t>(rings.corner[k]) - 1];
                 },
                 [](double last) { return last; }));
   out.close();

@@ -81,6 +81,20 @@ def check_scrip(nodes, file):
         assert ((lon[:, 5] == lon[:, 4]) & (lat[:, 5] == lat[:, 4])).sum() == 12  # pentagons: padded
 
 
+def check_scrip_of_a_grid():
+    """Each corner inside a longitude-latitude grid is that of two triangles, which differ by rounding."""
+    lon, lat = np.meshgrid(np.arange(0, 360, 10), np.arange(-85, 90, 10))
+    np.savetxt(FOLDER / "grid.lonlat", np.stack([lon.ravel(), lat.ravel()], axis=1), fmt="%g")
+    run("voronoi", FOLDER / "grid.lonlat", "-o", FOLDER / "grid.scrip.nc")
+    with netCDF4.Dataset(FOLDER / "grid.scrip.nc") as grid:
+        lon, lat = grid["grid_corner_lon"][:], grid["grid_corner_lat"][:]
+    assert lon.shape == (36 * 18, 4)
+    corners = unit_vectors(lon.ravel(), lat.ravel()).reshape(-1, 4, 3)
+    sides = np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2)
+    # A cell at a pole is a triangle, whose last corner is repeated.
+    assert (sides < 1e-12).sum() == 72 and (sides[36:-36] > 0.01).all()
+
+
 def check_columns(nodes):
     """Numbers, texts, areas and attributes of a table, by netCDF4, xarray and meshio."""
     lon = np.round(np.degrees(np.arctan2(nodes[:, 1], nodes[:, 0])) % 360, 3)
@@ -201,6 +215,7 @@ for suffix in ("nc", "scrip.nc"):
 check_ugrid(nodes, FOLDER / "mesh.nc", FOLDER / "cells.nc")
 check_mpas(nodes, FOLDER / "mesh.mpas.nc")
 check_scrip(nodes, FOLDER / "cells.scrip.nc")
+check_scrip_of_a_grid()
 for suffix in ("vtu", "off", "msh"):
     check_by_meshio(nodes, FOLDER / f"mesh.{suffix}", "triangle", TRIANGLES)
 run("points", "cubed-sphere", 96, "-o", FOLDER / "cube.txt")
