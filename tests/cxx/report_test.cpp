@@ -74,6 +74,19 @@ TEST(Report, HasALineACallAndATableAtExit) {
   EXPECT_TRUE(matches(all[3], row_of(2)));
 }
 
+TEST(Report, AWordIsNoFile) {
+  const Folder folder;
+  for (const std::string word : {"yes", "TRUE", "off"}) {
+    const Outcome outcome = run(folder, "PSTRIPACK_REPORT=" + word, "calls random 1000 1");
+    EXPECT_EQ(lines(outcome.err).size(), 1u);
+    EXPECT_EQ(outcome.err.find("pstripack: PSTRIPACK_REPORT=" + word + ": neither 1 nor the path"), 0u)
+        << outcome.err;
+    EXPECT_EQ(contents(folder.path() + "/" + word), "");
+  }
+  EXPECT_EQ(run(folder, "PSTRIPACK_REPORT=./yes", "calls random 1000 1").err, "");
+  EXPECT_EQ(lines(contents(folder.path() + "/yes")).size(), 3u);
+}
+
 TEST(Report, HasNoTableWithoutACall) {
   const Folder folder;
   EXPECT_EQ(run(folder, kOne, "calls random 1000 0").err, "");

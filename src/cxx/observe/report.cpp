@@ -5,6 +5,7 @@
 #include <pthread.h>
 #include <stdarg.h>
 #include <stdlib.h>
+#include <strings.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -64,6 +65,14 @@ class Report {
   static Report* from_environment() {
     const char* const value = environment_variable("PSTRIPACK_REPORT");
     if (value == nullptr || *value == '\0' || std::strcmp(value, "0") == 0) return nullptr;
+    for (const char* const word : {"yes", "no", "on", "off", "true", "false"})
+      if (strcasecmp(value, word) == 0) {
+        std::fprintf(stderr,
+                     "pstripack: PSTRIPACK_REPORT=%s: neither 1 nor the path of a file, which would be ./%s; "
+                     "there is no report\n",
+                     value, value);
+        return nullptr;
+      }
     static Report report;
     if (std::strcmp(value, "1") != 0) report.set_path(value);
     pthread_atfork(nullptr, nullptr, [] { the_report_->clear(); });  // those calls are the parent's
