@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdlib>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -137,13 +138,23 @@ TEST(CommMode, IsReplacedByAnotherCommunicator) {
 TEST(CommMode, RanksThatDisagreeAreToldSoAndNothingIsWritten) {
   if (size_of() < 2) GTEST_SKIP() << "nobody to disagree with";
   const CommMode mode;
+  const std::string last = std::to_string(size_of() - 1);
+  /// Of rank 0, which alone writes.
+  const auto expect_line = [](const std::string& written, const std::string& line) {
+    EXPECT_EQ(written, rank_of() == 0 ? "pstripack: trmesh: " + line + " (IER = -7)\n" : "");
+  };
   Nodes nodes = point_sets::make("random", 100);
   if (rank_of() == size_of() - 1) nodes[50].x = -nodes[50].x;
+  testing::internal::CaptureStderr();
   const Mesh data = trmesh(nodes);
+  expect_line(testing::internal::GetCapturedStderr(),
+              "the coordinates of 100 nodes on rank " + last + " are not those on rank 0");
   EXPECT_EQ(data.ier, PSTRIPACK_RANKS_DISAGREE);
   EXPECT_TRUE(is_untouched(data));
   nodes = point_sets::make("random", rank_of() == 0 ? 99 : 100);
+  testing::internal::CaptureStderr();
   const Mesh count = trmesh(nodes);
+  expect_line(testing::internal::GetCapturedStderr(), "N is 99 on rank 0 and 100 on rank 1");
   EXPECT_EQ(count.ier, PSTRIPACK_RANKS_DISAGREE);
   EXPECT_TRUE(is_untouched(count));
 }
@@ -200,7 +211,12 @@ TEST(CommMode, ForkedChildrenAndOtherThreadsGoOnAlone) {
 /// Run under PSTRIPACK_ORDER=original on rank 0 alone.
 TEST(CommMode, RefusesRanksThatDisagreeInTheOrder) {
   if (std::getenv("ORDER_OF_RANK_0") == nullptr) GTEST_SKIP() << "all ranks have the same";
+  testing::internal::CaptureStderr();
   EXPECT_EQ(pstripack_set_comm(MPI_COMM_WORLD), size_of() > 1 ? PSTRIPACK_RANKS_DISAGREE : 0);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            size_of() > 1 && rank_of() == 0
+                ? "pstripack: set_comm: PSTRIPACK_ORDER on rank 1 is not that on rank 0 (IER = -7)\n"
+                : "");
   pstripack_set_comm(MPI_COMM_NULL);
 }
 
@@ -213,7 +229,9 @@ int main(int argc, char** argv) {
       setenv("PSTRIPACK_ORDER", order, 1);
   const Nodes nodes = point_sets::make("random", 400);
   const Mesh expected = trmesh(nodes);
-  if (pstripack_set_comm(MPI_COMM_WORLD) != PSTRIPACK_BAD_COMM) return 1;  // MPI is not initialised
+  // MPI is not initialised, and MPI_Comm_c2f is not yet allowed: any handle.
+  if (pstripack_set_comm(MPI_COMM_WORLD) != PSTRIPACK_BAD_COMM) return 1;
+  if (pstripack_set_comm_f(0) != PSTRIPACK_BAD_COMM) return 1;
   const int code = run_on_every_rank(argc, argv, [] { pstripack_set_comm(MPI_COMM_WORLD); });
   if (!(trmesh(nodes) == expected)) return 2;  // MPI_Finalize has ended comm mode
   if (pstripack_set_comm(MPI_COMM_WORLD) != PSTRIPACK_BAD_COMM) return 3;

@@ -358,6 +358,27 @@ TEST(DistributedMesh, OnePointOffAGreatCircleIsEnough) {
   }
 }
 
+TEST(DistributedMesh, WritesALineOfEachNewCode) {
+  OfMesh mesh;
+  const auto expect_line = [&](const Nodes& nodes, const auto& number, const std::string& line) {
+    testing::internal::CaptureStderr();
+    triangulate(mesh, nodes, nodes_here(distributions()[0], nodes.size()), number);
+    EXPECT_EQ(testing::internal::GetCapturedStderr(),
+              rank_of() == 0 && line != "" ? "pstripack: mesh_triangulate: " + line + "\n" : "");
+  };
+  Nodes nodes = point_sets::make("random", 30);
+  expect_line(nodes, from_one, "");
+  expect_line(Nodes(nodes.begin(), nodes.begin() + 2), from_one, "");  // -1 is STRIPACK's
+  const auto from_zero = [](std::size_t i) { return static_cast<std::int64_t>(i); };
+  expect_line(
+      nodes, from_zero,
+      "point 0: a global number is below 1, occurs twice, or is too large for what was asked (IER = -10)");
+  nodes[7] = nodes[3];
+  expect_line(nodes, from_one, "points 4 and 8: two points lie in the same direction (IER = -9)");
+  nodes[20].y = HUGE_VAL;
+  expect_line(nodes, from_one, "point 21: a coordinate is not finite, or all are zero (IER = -5)");
+}
+
 TEST(DistributedMesh, RefusesCountsThatCannotBe) {
   OfMesh mesh;
   for (const std::int64_t n : {std::int64_t{-1}, std::int64_t{1} << 29}) {
@@ -371,8 +392,14 @@ TEST(DistributedMesh, GatherRefusesRanksThatDoNotExist) {
   OfMesh mesh;
   const Nodes nodes = point_sets::make("random", 30);
   ASSERT_EQ(triangulate(mesh, nodes, nodes_here(distributions()[0], nodes.size()), from_one), 0);
-  for (const int root : {-2, size_of()})
+  for (const int root : {-2, size_of()}) {
+    testing::internal::CaptureStderr();
     EXPECT_EQ(pstripack_mesh_gather(mesh, root, nullptr, nullptr, nullptr, nullptr), PSTRIPACK_BAD_COMM);
+    EXPECT_EQ(testing::internal::GetCapturedStderr(),
+              rank_of() == 0
+                  ? "pstripack: mesh_gather: there is no rank " + std::to_string(root) + " (IER = -8)\n"
+                  : "");
+  }
 }
 
 TEST(DistributedMesh, RefusesWhatIsNoIntraCommunicator) {

@@ -95,8 +95,8 @@ TrmeshResult trmesh_with_messages(std::int64_t nodes, const NodeArrays& arrays, 
                                   bool by_direction = false) noexcept {
   using Limits = std::numeric_limits<std::int32_t>;
   const TrmeshCall call{
-      static_cast<std::int32_t>(std::clamp<std::int64_t>(nodes, Limits::min(), Limits::max())), arrays,
-      lists, by_direction};
+      static_cast<std::int32_t>(std::clamp<std::int64_t>(nodes, Limits::min(), Limits::max())), arrays, lists,
+      by_direction};
   TrmeshResult result{0};
   const auto work = [&] {
     return report_is_wanted() ? carry_out_and_report(call, result) : carry_out(call, result, nullptr);
@@ -116,6 +116,17 @@ TrmeshResult trmesh_with_messages(std::int64_t nodes, const NodeArrays& arrays, 
     std::fprintf(stderr, "pstripack: trmesh: node %lld of %lld is (%g, %g, %g): %s (IER = -5)\n",
                  static_cast<long long>(result.node), static_cast<long long>(nodes), p.x, p.y, p.z,
                  pstripack_strerror(result.ier));
+  } else if (result.ier == PSTRIPACK_RANKS_DISAGREE) {
+    const auto n = static_cast<long long>(nodes), n_there = static_cast<long long>(result.node),
+               rank = static_cast<long long>(result.other);
+    if (n != n_there)
+      std::fprintf(stderr, "pstripack: trmesh: N is %lld on rank 0 and %lld on rank %lld (IER = -7)\n", n,
+                   n_there, rank);
+    else
+      std::fprintf(stderr,
+                   "pstripack: trmesh: the coordinates of %lld nodes on rank %lld are not those on rank 0 "
+                   "(IER = -7)\n",
+                   n, rank);
   } else if (result.ier < PSTRIPACK_COLLINEAR) {
     std::fprintf(stderr, "pstripack: trmesh: %lld nodes: %s (IER = %d)\n", static_cast<long long>(nodes),
                  pstripack_strerror(result.ier), static_cast<int>(result.ier));

@@ -125,15 +125,23 @@ int comm_mode_engine(const pstripack_trmesh_arguments* call, std::int32_t* ier, 
   return mode.ranks->rank() == 0 ? PSTRIPACK_ENGINE_DID_IT : PSTRIPACK_ENGINE_DID_IT_SILENTLY;
 }
 
-/// True if PSTRIPACK_ORDER is the same on all ranks. They must agree, because calls are not collective
-/// unless it is canonical. Collective.
-bool have_one_order(MpiCommunicator& ranks) {
+/// The first rank on which PSTRIPACK_ORDER differs from that of rank 0; the number of ranks if there is none.
+/// They must agree, because calls are not collective unless it is canonical. Collective.
+int rank_with_another_order(MpiCommunicator& ranks) {
   const OriginalRules& rules = original_rules();
   const std::int64_t order = rules.follow ? 2 * rules.tolerance_in_epsilons + (rules.bitwise ? 1 : 0) : 0;
-  Smallest least{order};
-  Largest most{order};
-  agree(ranks, least, most);
-  return least.value == most.value;
+  const std::int64_t* const of_rank = ranks.all_gather_one(order);
+  int rank = 0;
+  while (rank < ranks.size() && of_rank[rank] == of_rank[0]) ++rank;
+  return rank;
+}
+
+/// Writes the line of a code that STRIPACK does not have. `what`: whom it is about, and a colon.
+std::int32_t told(const char* routine, std::int32_t code, const char* what = "") {
+  if (code < PSTRIPACK_COLLINEAR)
+    std::fprintf(stderr, "pstripack: %s: %s%s (IER = %d)\n", routine, what, pstripack_strerror(code),
+                 static_cast<int>(code));
+  return code;
 }
 
 void end_comm_mode(CommMode& mode) {
@@ -278,7 +286,13 @@ int32_t pstripack_set_comm(MPI_Comm comm) {
     }
     auto ranks = make_over<MpiCommunicator>(comm);
     ranks->call_roll();
-    if (!have_one_order(*ranks)) return std::int32_t{PSTRIPACK_RANKS_DISAGREE};
+    if (const int other = rank_with_another_order(*ranks); other < ranks->size()) {
+      if (ranks->rank() == 0)
+        std::fprintf(stderr,
+                     "pstripack: set_comm: PSTRIPACK_ORDER on rank %d is not that on rank 0 (IER = -7)\n",
+                     other);
+      return std::int32_t{PSTRIPACK_RANKS_DISAGREE};
+    }
     end_comm_mode_at_mpi_finalize();
     const bool is_replaced = mode.ranks != nullptr;
     mode.ranks = std::move(ranks);
@@ -288,23 +302,26 @@ int32_t pstripack_set_comm(MPI_Comm comm) {
     if (!is_replaced) mode.engine_before = pstripack_set_trmesh_engine(comm_mode_engine);
     return 0;
   });
-  if (code != 0)
-    std::fprintf(stderr, "pstripack: set_comm: %s (IER = %d)\n", pstripack_strerror(code),
-                 static_cast<int>(code));
-  return code;
+  return code == PSTRIPACK_RANKS_DISAGREE ? code : told("set_comm", code);
 }
 
-int32_t pstripack_set_comm_f(MPI_Fint comm) { return pstripack_set_comm(communicator_of(comm)); }
+int32_t pstripack_set_comm_f(MPI_Fint comm) {
+  int is_initialised = 0;
+  MPI_Initialized(&is_initialised);
+  if (!is_initialised)  // what the handle means is not known before
+    return told("set_comm", PSTRIPACK_BAD_COMM, "called before MPI_Init: ");
+  return pstripack_set_comm(communicator_of(comm));
+}
 void pstripack_set_comm_(const MPI_Fint* comm) { pstripack_set_comm_f(*comm); }
 void pstripack_set_comm__(const MPI_Fint* comm) { pstripack_set_comm_f(*comm); }
 
 int32_t pstripack_mesh_create(MPI_Comm comm, pstripack_mesh** mesh) {
   *mesh = nullptr;
-  return guarded([&] {
-    *mesh = make_over<pstripack_mesh>(comm).release();
-    (*mesh)->mesh.ranks().call_roll();
-    return 0;
-  });
+  return told("mesh_create", guarded([&] {
+                *mesh = make_over<pstripack_mesh>(comm).release();
+                (*mesh)->mesh.ranks().call_roll();
+                return 0;
+              }));
 }
 
 int32_t pstripack_mesh_create_f(MPI_Fint comm, pstripack_mesh** mesh) {
@@ -315,9 +332,18 @@ void pstripack_mesh_free(pstripack_mesh* mesh) { delete mesh; }
 
 int32_t pstripack_mesh_triangulate(pstripack_mesh* mesh, int64_t n, const double* xyz,
                                    const int64_t* number) {
-  return reported(mesh->mesh.ranks(), CallReport::distributed, [&](DistributedMesh::Report* report) {
-    return mesh->mesh.triangulate(n, xyz, number, report);
-  });
+  const std::int32_t code = reported(
+      mesh->mesh.ranks(), CallReport::distributed,
+      [&](DistributedMesh::Report* report) { return mesh->mesh.triangulate(n, xyz, number, report); });
+  if (mesh->mesh.ranks().rank() != 0) return code;
+  const auto first = static_cast<long long>(mesh->mesh.error_point(0)),
+             second = static_cast<long long>(mesh->mesh.error_point(1));
+  char points[64] = "";
+  if (second != 0)
+    std::snprintf(points, sizeof points, "points %lld and %lld: ", first, second);
+  else if (first != 0 || code == PSTRIPACK_BAD_NUMBER)
+    std::snprintf(points, sizeof points, "point %lld: ", first);
+  return told("mesh_triangulate", code, points);
 }
 
 void pstripack_mesh_error_points(const pstripack_mesh* mesh, int64_t* first, int64_t* second) {
@@ -328,7 +354,7 @@ void pstripack_mesh_error_points(const pstripack_mesh* mesh, int64_t* first, int
 int32_t pstripack_mesh_home(const pstripack_mesh* mesh, int64_t n, const double* xyz, int32_t* rank) {
   if (mesh->mesh.empty()) return PSTRIPACK_EMPTY_MESH;
   const bool are_finite = in_default_floating_point([&] { return mesh->mesh.home(n, xyz, rank); });
-  return are_finite ? PSTRIPACK_OK : PSTRIPACK_BAD_COORDINATE;
+  return told("mesh_home", are_finite ? PSTRIPACK_OK : PSTRIPACK_BAD_COORDINATE);
 }
 
 void pstripack_mesh_sizes(const pstripack_mesh* mesh, int64_t* points, int64_t* arcs, int64_t* triangles,
@@ -361,9 +387,14 @@ int32_t pstripack_mesh_local_stars(const pstripack_mesh* mesh, int64_t* begin, i
 
 int32_t pstripack_mesh_gather(pstripack_mesh* mesh, int32_t root, int32_t* list, int32_t* lptr, int32_t* lend,
                               int32_t* lnew) {
-  return reported(mesh->mesh.ranks(), CallReport::distributed_gather, [&](DistributedMesh::Report* report) {
-    return mesh->mesh.gather(root, {list, lptr, lend, lnew}, report);
-  });
+  const std::int32_t code =
+      reported(mesh->mesh.ranks(), CallReport::distributed_gather, [&](DistributedMesh::Report* report) {
+        return mesh->mesh.gather(root, {list, lptr, lend, lnew}, report);
+      });
+  if (mesh->mesh.ranks().rank() != 0) return code;
+  if (code != PSTRIPACK_BAD_COMM) return told("mesh_gather", code);
+  std::fprintf(stderr, "pstripack: mesh_gather: there is no rank %d (IER = -8)\n", static_cast<int>(root));
+  return code;
 }
 
 int32_t pstripack_mesh_scvt(pstripack_mesh* handle, int64_t n, double* xyz, const int64_t* number,

@@ -92,6 +92,19 @@ struct Share {
   }
 };
 
+/// The result where ranks disagree in N or in the hash of the coordinates. Collective.
+TrmeshResult disagreement(std::int32_t n, std::int64_t hash, MpiCommunicator& ranks) {
+  const auto first_other = [&](std::int64_t mine) {
+    const std::int64_t* const of_rank = ranks.all_gather_one(mine);
+    const auto is_other = [=](std::int64_t value) { return value != of_rank[0]; };
+    return std::find_if(of_rank, of_rank + ranks.size(), is_other) - of_rank;
+  };
+  auto rank = first_other(n);
+  if (rank == ranks.size()) rank = first_other(hash);
+  const std::int64_t n_there = ranks.all_gather_one(n)[rank];
+  return {kRanksDisagree, n_there, rank};
+}
+
 /// For Arrays::on_every_rank, where every rank has all nodes. Collective.
 Share take_slice(const TrmeshCall& call, bool wants_cost, MpiCommunicator& ranks) {
   ranks.set_phase("agree on the arguments");
@@ -104,12 +117,12 @@ Share take_slice(const TrmeshCall& call, bool wants_cost, MpiCommunicator& ranks
   Largest most_n{n}, most_hash;
   OfRank0 partition(ranks, options_from_environment(0).partition);
   OnAny reported{ranks.rank() == 0 && wants_cost};
+  std::uint64_t hash = call.nodes.real_bytes();
   in_agreement(
       ranks,
       [&] {
         if (count_code != 0) return;
         const std::size_t bytes = static_cast<std::size_t>(n) * call.nodes.real_bytes();
-        std::uint64_t hash = call.nodes.real_bytes();
         for (int axis = 0; axis < 3; ++axis) hash = hash_of(call.nodes.array(axis), bytes, hash);
         least_hash.value = most_hash.value = static_cast<std::int64_t>(hash);
         share.set_slice(ranks);
@@ -123,7 +136,7 @@ Share take_slice(const TrmeshCall& call, bool wants_cost, MpiCommunicator& ranks
   headline.wants_cost = reported.value;
   headline.partition = partition.value;
   if (least_n.value != most_n.value || least_hash.value != most_hash.value)
-    share.result = {kRanksDisagree};
+    share.result = disagreement(n, static_cast<std::int64_t>(hash), ranks);
   else if (count_code != 0)
     share.result = {count_code};
   else if (bad.exists())

@@ -18,7 +18,8 @@ enum class OriginalOrder {
   broken      ///< PSTRIPACK_ORDER=bitwise: the original's lists are no triangulation
 };
 
-/// TRMESH's result. `node` and `other`: the nodes (from 1) that the code is about; 0 if none.
+/// TRMESH's result. `node` and `other`: the nodes (from 1) that the code is about; 0 if none. Of -7: N of the
+/// first rank that differs from rank 0, and that rank.
 struct TrmeshResult {
   std::int32_t ier;
   std::int64_t node = 0, other = 0;
