@@ -119,6 +119,26 @@ else
   examine "$program"
 fi
 
+# Flags of gfortran in the debug information that make default reals and integers 64 bits wide.
+wide=$(grep -aoE 'GNU Fortran[^[:cntrl:]]*' "$program" | tr ' ' '\n' |
+  grep -E '^-f(default-|real-4-|integer-4-)(real|integer)-8$' | sort -u || true)
+
+# compare_kinds LIBRARY: fails with a line if the program was compiled for another of our libraries
+compare_kinds() {
+  needs=$1
+  case $1:$wide in
+    libstripack_i8:*) ;;
+    *integer-8*) needs=libstripack_i8 ;;
+    libstripack_r4:*real-8*) needs=libstripack ;;
+  esac
+  [ "$needs" != "$1" ] || return 0
+  echo "pstripack-config --check: $name is compiled with $(echo "$wide" | tr '\n' ' ')and needs $needs, not $1" >&2
+  return 1
+}
+
+# Routines of the planar TRIPACK that STRIPACK does not have.
+is_planar() { { nm -P "$1"; nm -DP "$1"; } 2> /dev/null | grep -qE '^(addcst|trmshr)_ [TtWi] '; }
+
 status=0
 sort -u "$work/found" -o "$work/found"
 for routine in $routines; do
@@ -140,7 +160,11 @@ done | {
       -) status=1 answer="nobody's: the symbol is undefined" ;;
       *)
         library=$(texts_of "$file" | sed -n "s/.*PSTRIPACK \(.*\) $routine\$/\1/p" | head -n 1)
-        if [ -n "$library" ]; then answer="ours ($library): $where"; else status=1 answer="NOT OURS: $where"; fi ;;
+        if [ -n "$library" ]; then answer="ours ($library): $where"; else status=1 answer="NOT OURS: $where"; fi
+        if [ "$routine" = TRMESH ] && [ -n "$library" ]; then compare_kinds "$library" || status=1; fi
+        if [ "$routine" = TRMESH ] && [ -z "$library" ] && is_planar "$file"; then
+          echo "pstripack-config --check: $file is the planar TRIPACK: remove it from the link line" >&2
+        fi ;;
     esac
     printf '%-6s  %s\n' "$routine" "$answer"
   done

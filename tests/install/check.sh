@@ -114,6 +114,27 @@ check 1 "$(each "$all" "NOT OURS: in the program itself")" wrong_static
 strip wrong_static
 check 1 "$(each "$all" "not seen; the program is stripped")" wrong_static
 
+# Compiled with kinds that another of our libraries has; the planar TRIPACK.
+says() { grep -qF -e "$1" "$work/errors" || { cat "$work/errors"; fail "expected '$1'"; }; }
+for flags in -fdefault-integer-8 -finteger-4-integer-8; do
+  gfortran -g $flags -c model.f90 -o wide.o
+  gfortran wide.o -o wide $($config --abi f90,r8 --libs) -Wl,-rpath,"$libdir"
+  check 1 "$(each "$some" "ours (libstripack): $ours_r8")" wide
+  says "wide is compiled with $flags and needs libstripack_i8, not libstripack"
+  gfortran wide.o -o wide $($config --abi f90,i8 --libs) -Wl,-rpath,"$libdir"
+  check 0 "$(each "$some" "ours (libstripack_i8): $(readlink -f "$libdir/libstripack_i8.so")")" wide
+done
+gfortran -g -fdefault-real-8 -c model.f90 -o wide.o
+gfortran wide.o -o wide $($config --abi f90,r4 --libs) -Wl,-rpath,"$libdir"
+check 1 "$(each "$some" "ours (libstripack_r4): $(readlink -f "$libdir/libstripack_r4.so")")" wide
+says "wide is compiled with -fdefault-real-8 and needs libstripack, not libstripack_r4"
+gfortran wide.o -o wide $($config --abi f90,r8 --libs) -Wl,-rpath,"$libdir"
+check 0 "$(each "$some" "ours (libstripack): $ours_r8")" wide
+{ cat old.f90; echo 'subroutine addcst'; echo 'end subroutine'; } > tripack.f90
+gfortran model.f90 tripack.f90 -o planar
+check 1 "$(each "$all" "NOT OURS: in the program itself")" planar
+says "planar is the planar TRIPACK: remove it from the link line"
+
 # As a shared library: the first one found is used; the environment decides.
 gfortran model.o -o first "$PWD/old/libstripack.so" $($config --libs) -Wl,-rpath,"$libdir"
 old=$PWD/old/libstripack.so
