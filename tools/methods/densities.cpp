@@ -19,7 +19,7 @@ namespace {
 
 using files::Point;
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
+constexpr double kPi = 3.14159265358979323846, kDegree = kPi / 180;
 
 /// A mean of positive finite values, which its rounding may have made 0 or infinite.
 double in_range(double mean) {
@@ -200,6 +200,21 @@ std::unique_ptr<Density> density_on_grid(const files::Grid& grid, const std::vec
   if (lat.front() > -90) lat.insert(lat.begin(), -90);
   if (lat.back() < 90) lat.push_back(90);
   return std::make_unique<GridDensity>(std::move(lon), std::move(lat), std::move(table));
+}
+
+double width_of(const std::string& text) {
+  double value = 0;
+  const std::size_t end = text.find_last_of("0123456789.") + 1;
+  const std::string unit = text.substr(end);
+  if (!point_sets::parse(text.substr(0, end), value) || !(value > 0) ||
+      !(unit.empty() || unit == "km" || unit == "m"))
+    throw std::invalid_argument("'" + point_sets::excerpt(text) + "' is no width: expected, say, 60km");
+  return unit == "m" ? value / 1000 : value;
+}
+
+double cells_of_width(double width, double radius) {
+  const double ratio = radius / width;
+  return 4 * kPi / (std::sqrt(3) / 2) * ratio * ratio;
 }
 
 }  // namespace methods

@@ -25,4 +25,10 @@ std::unique_ptr<Density> density_between(const std::vector<files::Point>& nodes,
 /// the mean of that row. Throws std::runtime_error, saying why, if the axes are no such grid.
 std::unique_ptr<Density> density_on_grid(const files::Grid& grid, const std::vector<double>& values);
 
+/// The width of cells in km: a number, with or without "km", or with "m". Throws std::invalid_argument.
+double width_of(const std::string& text);
+
+/// How many regular hexagons whose neighbours are `width` apart have the area of the sphere. Both in km.
+double cells_of_width(double width, double radius);
+
 }  // namespace methods

@@ -46,6 +46,8 @@ struct Options {
   First first = First::by_number;
   Input start;
   std::string density, density_file, variable;
+  double width = 0;         ///< of all cells, km; 0: not given
+  double radius = 6371220;  ///< of the sphere, metres: that of MPAS' and E3SM's tools
   Method method = Method::newton;
   double tolerance = 1e-4;
   std::int64_t evaluations = 10000, every = 100;
@@ -73,11 +75,18 @@ std::int64_t count_in(const files::Nodes& start, const char* name, std::int64_t 
   return static_cast<std::int64_t>(count);
 }
 
+// Variables that hold widths of cells, never densities.
+constexpr const char* kNamesOfWidths[] = {"cellWidth", "width", "resolution"};
+
 std::unique_ptr<engine::Density> density_in_file(const Options& options) {
   files::ReadOptions read = options.start.read;
   read.with_values = true;
   read.variable = options.variable;
   files::Nodes nodes = read_places(options.density_file, read);
+  for (const char* const name : kNamesOfWidths)
+    if (nodes.value.name == name)
+      throw std::runtime_error(
+          fmt::format("{}: {} is a width, not a density, which is width^-4", nodes.file, name));
   const std::vector<double>& values = nodes.value.numbers;
   for (std::size_t i = 0; i < values.size(); ++i)
     if (!(values[i] > 0 && std::isfinite(values[i])))
@@ -107,8 +116,28 @@ std::unique_ptr<engine::Density> make_density(const Options& options) {
   }
 }
 
+/// Sets N to the number of cells that have these widths, unless N is given, and says so.
+void choose_n(Options& options, double cells) {
+  constexpr double kMost = 357913943;
+  if (options.n > 0 || !options.start.file.empty()) {
+    if (options.n > 0)
+      say(fmt::format("the widths give {:.0f} cells; {} are asked for: widths times {:.4g}", cells, options.n,
+                      std::sqrt(cells / static_cast<double>(options.n))));
+    return;
+  }
+  if (!(cells >= 4 && cells <= kMost))
+    throw std::runtime_error(fmt::format(
+        "the widths give {:.3g} cells, not 4 to {:.0f}: widths are in km, --radius in metres", cells, kMost));
+  options.n = static_cast<std::size_t>(std::llround(cells));
+  say(fmt::format("the widths give {} cells", options.n));
+}
+
 /// Sets the density: that of the command line, else that of the start, else constant.
 void choose_density(Options& options, const files::Notes& notes) {
+  if (options.width > 0) {
+    options.density = "constant";
+    choose_n(options, methods::cells_of_width(options.width, options.radius / 1000));
+  }
   if (options.density.empty() && options.density_file.empty()) {
     options.density = note(notes, kDensity);
     options.density_file = note(notes, kDensityFile);
@@ -410,7 +439,7 @@ void scvt(Options& options, Ranks& ranks) {
   files::Nodes start;
   if (!options.start.file.empty())
     start = progress.step("reading", [&] { return read_start(communicator, options); });
-  choose_density(options, start.notes);
+  in_agreement_with_caller(communicator, [&] { choose_density(options, start.notes); });
   std::unique_ptr<engine::Density> density;
   progress.step("reading the density",
                 [&] { in_agreement_with_caller(communicator, [&] { density = make_density(options); }); });
@@ -445,8 +474,8 @@ void scvt(Options& options, Ranks& ranks) {
 }
 
 void scvt(Options& options) {
-  if ((options.n > 0) == !options.start.file.empty())
-    throw CLI::ValidationError("N", "give either N, for new generators, or --start FILE");
+  if (options.start.file.empty() ? options.n == 0 && options.width == 0 : options.n > 0)
+    throw CLI::ValidationError("N", "give either N or widths, for new generators, or --start FILE");
   options.output.choose();
   if (!options.checkpoint.file.empty()) options.checkpoint.choose(files::Format::netcdf);
   if (!options.density.empty()) make_density(options);
@@ -463,7 +492,7 @@ void add_scvt(CLI::App& app, Command& chosen) {
   CLI::App* const sub = app.add_subcommand(
       "scvt", "spherical centroidal Voronoi tessellation: moves generators to the centroids of their cells");
   const auto options = std::make_shared<Options>();
-  sub->add_option("N", options->n, "number of generators, unless --start is given")
+  sub->add_option("N", options->n, "number of generators, unless widths or --start are given")
       ->type_name("")
       ->transform(whole_number())
       ->check(CLI::Range(std::size_t{4}, std::size_t{357913943}).description(""));
@@ -486,6 +515,28 @@ void add_scvt(CLI::App& app, Command& chosen) {
                   "density at nodes, linear in between: lines of lon lat value or x y z value, or NetCDF")
       ->type_name("FILE")
       ->excludes(formula);
+  sub->add_option_function<std::string>(
+         "--width",
+         [=](const std::string& text) {
+           try {
+             options->width = methods::width_of(text);
+           } catch (const std::invalid_argument& e) {
+             throw CLI::ValidationError("--width", e.what());
+           }
+         },
+         "of all cells, say 60km: distance of neighbours in a mesh of regular hexagons; N follows from it")
+      ->type_name("WIDTH")
+      ->excludes("--density")
+      ->excludes("--density-file");
+  sub->add_option("--radius", options->radius, "of the sphere, for widths, in metres")
+      ->type_name("METRES")
+      ->capture_default_str()
+      ->check([](const std::string& text) {
+        double value = 0;
+        return point_sets::parse(text, value) && value > 0
+                   ? std::string()
+                   : "'" + text + "' is not a number of metres above 0";
+      });
   sub->add_option("--variable", options->variable,
                   "in the density file: name (NetCDF) or column (text, from 1)")
       ->type_name("NAME");

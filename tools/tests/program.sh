@@ -429,6 +429,15 @@ scvt)
   grep -q "10 generators, .* converged to 0.01: gradient 0.00[0-9]*, energy 2" err || fail "copies: $(cat err)"
   rm two.txt
   refuses 1 "two.txt: cannot be opened" scvt --start file.nodes.nc --iterations 7 -o failed.nc
+  # Widths in km give N: 4 pi R^2 / (sqrt(3)/2 width^2). A given N scales them.
+  "$PSTRIPACK" scvt --width 1000km --tolerance 0.1 -o width.nodes.nc 2> err
+  grep -q "^pstripack: the widths give 589 cells$" err || fail "$(cat err)"
+  "$PSTRIPACK" -q scvt 589 --tolerance 0.1 -o n.nodes.nc
+  cmp width.nodes.nc n.nodes.nc
+  "$PSTRIPACK" scvt --width 500000m --radius 3185610 --tolerance 0.1 -o half.nodes.nc 2> err
+  grep -q "^pstripack: the widths give 589 cells$" err || fail "$(cat err)"
+  "$PSTRIPACK" scvt 147 --width 1000 --tolerance 0.1 -o coarse.nodes.nc 2> err
+  grep -q "the widths give 589 cells; 147 are asked for: widths times 2.002$" err || fail "$(cat err)"
   # A density on a grid.
   "$PSTRIPACK" -q points latlon 3000 -o - --to lonlat | awk '{ print $0, 2 + sin($2 / 57.29577951308232) }' > values.txt
   "$PSTRIPACK" -q interpolate values.txt --to-grid 36x72 -o grid.nc
@@ -437,7 +446,7 @@ scvt)
   ;;
 
 bad_scvt)
-  refuses 2 "give either N, for new generators, or --start FILE" scvt -o failed.off
+  refuses 2 "give either N or widths, for new generators, or --start FILE" scvt -o failed.off
   octahedron > start.txt
   refuses 2 "give either N" scvt 10 --start start.txt -o failed.off
   refuses 2 "density 'potato': expected constant, bump or bump:LON,LAT" scvt 10 --density potato -o failed.off
@@ -467,6 +476,19 @@ bad_scvt)
   "$PSTRIPACK" -q interpolate one.txt --to-grid 9x9 --region 0,90,0,90 -o regional.nc
   refuses 1 "regional.nc: the grid leaves out 280 degrees of longitude: a density must cover the sphere" \
     scvt 10 --density-file regional.nc --variable value -o failed.off
+  for width in 0 -60km nankm 60miles km; do
+    refuses 2 "'$width' is no width: expected, say, 60km" scvt "--width=$width" -o failed.off
+  done
+  refuses 2 "excludes" scvt --width 60km --density bump -o failed.off
+  refuses 2 "'nan' is not a number of metres above 0" scvt --width 60km --radius nan -o failed.off
+  refuses 1 "the widths give 0.000589 cells, not 4 to 357913943: widths are in km, --radius in metres" \
+    scvt --width 1e6 -o failed.off
+  # Widths are no density, whatever the file says of itself.
+  for name in cellWidth width resolution; do
+    { echo "lon lat $name"; printf '0 90 60\n0 0 60\n90 0 60\n180 0 60\n-90 0 60\n0 -90 60\n'; } > $name.txt
+    refuses 1 "$name.txt: $name is a width, not a density, which is width^-4" \
+      scvt 10 --density-file $name.txt --variable $name -o failed.off
+  done
   [ ! -e failed.off ] || fail "failed.off was written"
   ;;
 
