@@ -45,7 +45,7 @@ struct Options {
   std::uint64_t seed = 1;
   First first = First::by_number;
   Input start;
-  std::string density, density_file, variable;
+  std::string density, density_file, width_file, variable;
   double width = 0;         ///< of all cells, km; 0: not given
   double radius = 6371220;  ///< of the sphere, metres: that of MPAS' and E3SM's tools
   Method method = Method::newton;
@@ -56,8 +56,8 @@ struct Options {
 
 // Attributes of the output that let another run continue this one.
 constexpr auto kEvaluations = "scvt_iterations", kDensity = "scvt_density",
-               kDensityFile = "scvt_density_file", kVariable = "scvt_density_variable", kSteps = "scvt_steps",
-               kPairs = "scvt_pairs";
+               kDensityFile = "scvt_density_file", kWidthFile = "scvt_width_file",
+               kVariable = "scvt_density_variable", kSteps = "scvt_steps", kPairs = "scvt_pairs";
 
 std::string note(const files::Notes& notes, const char* name) {
   const auto found = notes.find(name);
@@ -85,8 +85,9 @@ std::unique_ptr<engine::Density> density_in_file(const Options& options) {
   files::Nodes nodes = read_places(options.density_file, read);
   for (const char* const name : kNamesOfWidths)
     if (nodes.value.name == name)
-      throw std::runtime_error(
-          fmt::format("{}: {} is a width, not a density, which is width^-4", nodes.file, name));
+      throw std::runtime_error(fmt::format(
+          "{}: {} is a width, not a density (width^-4): say --width-file in place of --density-file",
+          nodes.file, name));
   const std::vector<double>& values = nodes.value.numbers;
   for (std::size_t i = 0; i < values.size(); ++i)
     if (!(values[i] > 0 && std::isfinite(values[i])))
@@ -107,15 +108,6 @@ std::unique_ptr<engine::Density> density_in_file(const Options& options) {
   }
 }
 
-std::unique_ptr<engine::Density> make_density(const Options& options) {
-  if (!options.density_file.empty()) return density_in_file(options);
-  try {
-    return methods::density_of(options.density);
-  } catch (const std::invalid_argument& e) {
-    throw CLI::ValidationError("--density", e.what());
-  }
-}
-
 /// Sets N to the number of cells that have these widths, unless N is given, and says so.
 void choose_n(Options& options, double cells) {
   constexpr double kMost = 357913943;
@@ -132,25 +124,79 @@ void choose_n(Options& options, double cells) {
   say(fmt::format("the widths give {} cells", options.n));
 }
 
+/// The density of the widths in the file; chooses N.
+std::unique_ptr<engine::Density> widths_in_file(Options& options) {
+  files::ReadOptions read = options.start.read;
+  read.with_values = true;
+  read.variable = options.variable;
+  read.usual_variables.assign(std::begin(kNamesOfWidths), std::end(kNamesOfWidths));
+  const files::Nodes nodes = read_places(options.width_file, read);
+  const auto fail = [&](const std::string& what) { throw std::runtime_error(nodes.file + ": " + what); };
+  if (nodes.grid.lon.empty()) fail("expected widths on a grid, say cellWidth(lat, lon) in NetCDF");
+  std::vector<double> km = nodes.value.numbers;
+  const std::string& units = nodes.value.units;
+  const bool are_metres = units == "m" || units == "meters" || units == "metres";
+  if (!are_metres && !units.empty() && units != "km" && units != "kilometers" && units != "kilometres")
+    fail(fmt::format("variable {}: units '{}'; expected km or m", nodes.value.name,
+                     point_sets::excerpt(units)));
+  for (std::size_t i = 0; i < km.size(); ++i) {
+    if (!(km[i] > 0 && std::isfinite(km[i])))
+      fail(fmt::format("{}, lon {:g} lat {:g}: width {}: must be positive and finite", nodes.place(i),
+                       nodes.grid.lon[i % nodes.grid.lon.size()], nodes.grid.lat[i / nodes.grid.lon.size()],
+                       km[i]));
+    if (are_metres) km[i] /= 1000;
+  }
+  std::vector<double> sorted = km;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  if (*middle > 20000 || *middle < 0.01)
+    fail(fmt::format("the median width is {:g} km: if these are not km, say so: ncatted -a units,{},c,c,m {}",
+                     *middle, nodes.value.name, nodes.file));
+  methods::Widths widths;
+  try {
+    widths = methods::widths_on_grid(nodes.grid, km, options.radius / 1000);
+  } catch (const std::runtime_error& e) {
+    fail(e.what());
+  }
+  choose_n(options, widths.cells);
+  return std::move(widths.density);
+}
+
+std::unique_ptr<engine::Density> make_density(Options& options) {
+  if (!options.width_file.empty()) return widths_in_file(options);
+  if (!options.density_file.empty()) return density_in_file(options);
+  try {
+    return methods::density_of(options.density);
+  } catch (const std::invalid_argument& e) {
+    throw CLI::ValidationError("--density", e.what());
+  }
+}
+
 /// Sets the density: that of the command line, else that of the start, else constant.
 void choose_density(Options& options, const files::Notes& notes) {
   if (options.width > 0) {
     options.density = "constant";
     choose_n(options, methods::cells_of_width(options.width, options.radius / 1000));
   }
-  if (options.density.empty() && options.density_file.empty()) {
+  const auto is_chosen = [&] {
+    return !(options.density.empty() && options.density_file.empty() && options.width_file.empty());
+  };
+  if (!is_chosen()) {
     options.density = note(notes, kDensity);
     options.density_file = note(notes, kDensityFile);
+    options.width_file = note(notes, kWidthFile);
     if (options.variable.empty()) options.variable = note(notes, kVariable);
   }
-  if (options.density.empty() && options.density_file.empty()) options.density = "constant";
+  if (!is_chosen()) options.density = "constant";
 }
 
 files::Notes notes_of_density(const Options& options) {
   files::Notes notes;
-  if (options.density_file.empty()) notes[kDensity] = options.density;
-  if (!options.density_file.empty()) notes[kDensityFile] = options.density_file;
-  if (!options.density_file.empty() && !options.variable.empty()) notes[kVariable] = options.variable;
+  for (const auto& [name, text] : {std::pair(kDensity, options.density),
+                                   {kDensityFile, options.density_file},
+                                   {kWidthFile, options.width_file}})
+    if (!text.empty()) notes[name] = text;
+  if (options.density.empty() && !options.variable.empty()) notes[kVariable] = options.variable;
   return notes;
 }
 
@@ -216,7 +262,7 @@ Tessellation tessellation_of(Communicator& ranks, files::Nodes& start, const Opt
         t.state.evaluations = count_in(start, kEvaluations, 0);
         t.state.steps = count_in(start, kSteps, t.state.evaluations);
         bool has_same_density = true;
-        for (const char* const name : {kDensity, kDensityFile, kVariable})
+        for (const char* const name : {kDensity, kDensityFile, kWidthFile, kVariable})
           has_same_density &= note(start.notes, name) == note(notes_of_density(options), name);
         if (options.method == Method::newton && has_same_density) t.state.pairs = pairs_in(start);
         have_pairs.value = !t.state.pairs.empty();
@@ -421,8 +467,9 @@ void check_files_of_ranks(const Options& options) {
           fmt::format("{}: several ranks write ugrid, mpas, off, xyz, lonlat, nodes and raw, each its part: "
                       "choose one of these, and `pstripack convert` afterwards",
                       output->file));
-  if (options.density_file == "-")
-    throw std::runtime_error("--density-file -: several ranks cannot read stdin: name a file");
+  if (options.density_file == "-" || options.width_file == "-")
+    throw std::runtime_error(
+        "--density-file -, --width-file -: several ranks cannot read stdin: name a file");
 }
 
 /// The command, on all ranks.
@@ -474,7 +521,8 @@ void scvt(Options& options, Ranks& ranks) {
 }
 
 void scvt(Options& options) {
-  if (options.start.file.empty() ? options.n == 0 && options.width == 0 : options.n > 0)
+  if (options.start.file.empty() ? options.n == 0 && options.width == 0 && options.width_file.empty()
+                                 : options.n > 0)
     throw CLI::ValidationError("N", "give either N or widths, for new generators, or --start FILE");
   options.output.choose();
   if (!options.checkpoint.file.empty()) options.checkpoint.choose(files::Format::netcdf);
@@ -528,6 +576,12 @@ void add_scvt(CLI::App& app, Command& chosen) {
       ->type_name("WIDTH")
       ->excludes("--density")
       ->excludes("--density-file");
+  sub->add_option("--width-file", options->width_file,
+                  "widths in km, bilinear on a longitude-latitude grid (NetCDF): cellWidth(lat, lon)")
+      ->type_name("FILE")
+      ->excludes("--width")
+      ->excludes("--density")
+      ->excludes("--density-file");
   sub->add_option("--radius", options->radius, "of the sphere, for widths, in metres")
       ->type_name("METRES")
       ->capture_default_str()
@@ -538,7 +592,7 @@ void add_scvt(CLI::App& app, Command& chosen) {
                    : "'" + text + "' is not a number of metres above 0";
       });
   sub->add_option("--variable", options->variable,
-                  "in the density file: name (NetCDF) or column (text, from 1)")
+                  "in the file of densities or widths: name (NetCDF) or column (text, from 1)")
       ->type_name("NAME");
   add_choice(*sub, "--method", options->method, {{"newton", Method::newton}, {"lloyd", Method::lloyd}},
              "newton (L-BFGS) or lloyd [newton]");

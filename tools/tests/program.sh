@@ -438,6 +438,26 @@ scvt)
   grep -q "^pstripack: the widths give 589 cells$" err || fail "$(cat err)"
   "$PSTRIPACK" scvt 147 --width 1000 --tolerance 0.1 -o coarse.nodes.nc 2> err
   grep -q "the widths give 589 cells; 147 are asked for: widths times 2.002$" err || fail "$(cat err)"
+  if command -v ncgen > /dev/null; then  # Debian: netcdf-bin
+    # cellWidth(lat, lon) as mpas_tools writes it: no units, the first meridian repeated. Here 1000 km everywhere.
+    widths_file() { # NAME UNITS VALUES: on 7 rows and 9 columns
+      { echo "netcdf w { dimensions: lat = 7; lon = 9; variables: double lat(lat), lon(lon), cellWidth(lat, lon); $2"
+        echo "data: lat = -90,-60,-30,0,30,60,90; lon = -180,-135,-90,-45,0,45,90,135,180; cellWidth = $3; }"; } |
+        ncgen -o "$1" -
+    }
+    same() { for i in $(seq 63); do printf '%s%s' "$(test $i = 1 || echo ,)" "$1"; done; }
+    widths_file same.nc "" "$(same 1000)"
+    "$PSTRIPACK" scvt --width-file same.nc --tolerance 0.01 -o same.mpas.nc 2> err
+    grep -q "^pstripack: the widths give 589 cells$" err || fail "$(cat err)"
+    widths_file metres.nc 'cellWidth:units = "m";' "$(same 1e6)"
+    "$PSTRIPACK" -q scvt --width-file metres.nc --tolerance 0.01 -o metres.mpas.nc
+    "$PSTRIPACK" -q convert same.mpas.nc -o same.txt
+    "$PSTRIPACK" -q convert metres.mpas.nc -o metres.txt
+    cmp same.txt metres.txt
+    # A run continues with the widths of its file.
+    "$PSTRIPACK" scvt --start same.mpas.nc --tolerance 1e-3 -o more.nodes.nc 2> err
+    grep -q "converged to 0.001" err || fail "$(cat err)"
+  fi
   # A density on a grid.
   "$PSTRIPACK" -q points latlon 3000 -o - --to lonlat | awk '{ print $0, 2 + sin($2 / 57.29577951308232) }' > values.txt
   "$PSTRIPACK" -q interpolate values.txt --to-grid 36x72 -o grid.nc
@@ -476,6 +496,23 @@ bad_scvt)
   "$PSTRIPACK" -q interpolate one.txt --to-grid 9x9 --region 0,90,0,90 -o regional.nc
   refuses 1 "regional.nc: the grid leaves out 280 degrees of longitude: a density must cover the sphere" \
     scvt 10 --density-file regional.nc --variable value -o failed.off
+  printf '100 80 60\n190 0 60\n10 -80 60\n' > width.txt
+  refuses 2 "excludes" scvt --width 60km --width-file start.txt -o failed.off
+  refuses 1 "width.txt: expected widths on a grid, say cellWidth(lat, lon) in NetCDF" scvt --width-file width.txt -o failed.off
+  if command -v ncgen > /dev/null; then
+    of_widths() { # NAME ATTRIBUTE VALUES
+      { echo "netcdf w { dimensions: lat = 3; lon = 4; variables: double lat(lat), lon(lon), cellWidth(lat, lon); $2"
+        echo "data: lat = -90, 0, 90; lon = 0, 90, 180, 270; cellWidth = $3; }"; } | ncgen -o "$1" -
+    }
+    of_widths metres.nc "" "1e6,1e6,1e6,1e6,1e6,1e6,1e6,1e6,1e6,1e6,1e6,1e6"
+    of_widths hole.nc "" "NaN,9,9,9,9,9,9,9,9,9,9,9"
+    of_widths miles.nc 'cellWidth:units = "miles";' "9,9,9,9,9,9,9,9,9,9,9,9"
+    refuses 1 "metres.nc: the median width is 1e+06 km: if these are not km, say so: ncatted -a units,cellWidth,c,c,m metres.nc" \
+      scvt --width-file metres.nc -o failed.off
+    refuses 1 "hole.nc: node 1, lon 0 lat -90: width nan: must be positive and finite" \
+      scvt --width-file hole.nc -o failed.off
+    refuses 1 "miles.nc: variable cellWidth: units 'miles'; expected km or m" scvt --width-file miles.nc -o failed.off
+  fi
   for width in 0 -60km nankm 60miles km; do
     refuses 2 "'$width' is no width: expected, say, 60km" scvt "--width=$width" -o failed.off
   done
@@ -486,7 +523,7 @@ bad_scvt)
   # Widths are no density, whatever the file says of itself.
   for name in cellWidth width resolution; do
     { echo "lon lat $name"; printf '0 90 60\n0 0 60\n90 0 60\n180 0 60\n-90 0 60\n0 -90 60\n'; } > $name.txt
-    refuses 1 "$name.txt: $name is a width, not a density, which is width^-4" \
+    refuses 1 "$name.txt: $name is a width, not a density (width^-4): say --width-file in place of --density-file" \
       scvt 10 --density-file $name.txt --variable $name -o failed.off
   done
   [ ! -e failed.off ] || fail "failed.off was written"
