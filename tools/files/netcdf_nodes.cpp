@@ -2,7 +2,7 @@
 // and latCell, lon and lat, longitude and latitude, grid_center_lon and grid_center_lat (SCRIP). The two
 // variables of a pair have one shape, or are the axes of a grid, which is read row by row of latitude. Their
 // units are those of the attribute; without it radians for lonCell and latCell, else those of the options,
-// else it is an error.
+// else degrees if values of lon or lat cannot be radians, else it is an error.
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -358,12 +358,23 @@ Columns read_columns(const File& file, std::size_t nodes, const std::vector<int>
   return columns;
 }
 
+/// True if the variable is called lon or lat and has values that radians never have.
+bool are_beyond_radians(const Variable& v) {
+  constexpr double kRightAngle = 1.5707963267948966, kRounding = 1 + 1e-6;  // of single precision
+  const bool is_lat = v.name == "lat" || v.name == "latitude";
+  if (!is_lat && v.name != "lon" && v.name != "longitude") return false;
+  double largest = 0;
+  for (const double angle : v.values) largest = std::max(largest, std::fabs(angle));
+  return largest > (is_lat ? 1 : 4) * kRightAngle * kRounding && largest <= (is_lat ? 90 : 360) * kRounding;
+}
+
 /// True if the units of the variable are degrees, false if radians.
 bool in_degrees(const File& file, const Variable& v) {
   if (v.units.rfind("degree", 0) == 0) return true;
   if (v.units.rfind("rad", 0) == 0) return false;
   if (v.units.empty() && (v.name == "lonCell" || v.name == "latCell")) return false;
   if (v.units.empty() && file.units() != Units::said_or_unmistakable) return file.units() == Units::degrees;
+  if (v.units.empty() && !file.is_read_in_parts() && are_beyond_radians(v)) return true;
   file.fail(
       fmt::format("variable {}: units '{}'; expected degrees or radians", excerpt(v.name), excerpt(v.units)));
 }
@@ -628,6 +639,8 @@ Nodes read_netcdf(const std::string& name, const ReadOptions& options, const std
   if (options.with_values) {
     std::string variable = options.variable;
     if (variable.empty() && !wanted.empty()) variable = wanted[0];
+    for (const std::string& usual : options.usual_variables)
+      if (variable.empty() && has(file, usual)) variable = usual;
     nodes.value = read_value(file, variable, places.dimensions);
     wanted.erase(std::remove(wanted.begin(), wanted.end(), variable), wanted.end());
   }

@@ -25,6 +25,8 @@ struct ReadOptions {
   bool with_columns = false;                  ///< also read the other columns; not of raw doubles
   bool with_values = false;                   ///< also read one value per node; not of raw doubles
   std::string variable;  ///< its name, or in text its number; empty: the column after the coordinates
+  std::vector<std::string> usual_variables =
+      {};  ///< without a name, the first of these that a NetCDF file has
   /// Names, or in text column numbers, separated by commas: lon,lat or x,y,z, then the columns to read.
   /// Empty: the names in the file decide, or else the first columns are read.
   std::string columns;

@@ -19,7 +19,7 @@ namespace {
 
 using files::Point;
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
+constexpr double kPi = 3.14159265358979323846, kDegree = kPi / 180;
 
 /// A mean of positive finite values, which its rounding may have made 0 or infinite.
 double in_range(double mean) {
@@ -79,10 +79,17 @@ class Axis {
 };
 
 /// Values on rows from pole to pole. The first column is repeated at the end, 360 degrees on.
+struct Table {
+  std::vector<double> lon, lat, values;
+};
+
 class GridDensity : public Density {
  public:
-  GridDensity(std::vector<double> lon, std::vector<double> lat, std::vector<double> values)
-      : columns_(lon.size()), lon_(std::move(lon)), lat_(std::move(lat)), values_(std::move(values)) {}
+  explicit GridDensity(Table table)
+      : columns_(table.lon.size()),
+        lon_(std::move(table.lon)),
+        lat_(std::move(table.lat)),
+        values_(std::move(table.values)) {}
 
   void at(std::size_t n, const Point* p, double* value) const override {
     for (std::size_t i = 0; i < n; ++i) {
@@ -154,7 +161,9 @@ std::unique_ptr<Density> density_between(const std::vector<Point>& nodes, std::v
   return std::make_unique<SampledDensity>(nodes, std::move(values));
 }
 
-std::unique_ptr<Density> density_on_grid(const files::Grid& grid, const std::vector<double>& values) {
+namespace {
+
+Table table_of(const files::Grid& grid, const std::vector<double>& values) {
   // Columns from the first one eastwards, without a last column that repeats the first one 360 degrees on.
   const double west = grid.lon.front();
   const auto east_of_first = [&](std::size_t i) {
@@ -199,7 +208,78 @@ std::unique_ptr<Density> density_on_grid(const files::Grid& grid, const std::vec
   if (lat.back() < 90) add_pole(rows.back());
   if (lat.front() > -90) lat.insert(lat.begin(), -90);
   if (lat.back() < 90) lat.push_back(90);
-  return std::make_unique<GridDensity>(std::move(lon), std::move(lat), std::move(table));
+  return {std::move(lon), std::move(lat), std::move(table)};
+}
+
+class WidthDensity : public Density {
+ public:
+  WidthDensity(Table widths, double least) : widths_(std::move(widths)), least_(least) {}
+  using Density::at;
+  void at(std::size_t n, const Point* p, double* value) const override {
+    widths_.at(n, p, value);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double square = least_ / value[i] * (least_ / value[i]);
+      value[i] = std::min(1.0, square * square);  // bilinear widths round below the least
+    }
+  }
+
+ private:
+  GridDensity widths_;
+  double least_;
+};
+
+/// The integral of 1/(sqrt(3)/2 w^2): Gauss' rule with three points along each side of a cell of the grid.
+double cells_of(const Table& t, double radius) {
+  constexpr double kPlaces[] = {-0.7745966692414834, 0, 0.7745966692414834}, kWeights[] = {5, 8, 5};  // / 18
+  double cells = 0;
+  for (std::size_t row = 0; row + 1 < t.lat.size(); ++row) {
+    const double south = std::sin(t.lat[row] * kDegree), north = std::sin(t.lat[row + 1] * kDegree);
+    const double height = t.lat[row + 1] - t.lat[row];
+    for (int j = 0; j < 3; ++j) {
+      const double z = (south + north + kPlaces[j] * (north - south)) / 2;
+      const double up = (std::asin(z) / kDegree - t.lat[row]) / height;
+      double sum = 0;
+      for (std::size_t column = 0; column + 1 < t.lon.size(); ++column) {
+        const double* const low = &t.values[row * t.lon.size() + column];
+        const double* const high = low + t.lon.size();
+        const double west = low[0] + up * (high[0] - low[0]), east = low[1] + up * (high[1] - low[1]);
+        for (int i = 0; i < 3; ++i) {
+          const double ratio = radius / (west + (1 + kPlaces[i]) / 2 * (east - west));
+          sum += kWeights[i] / 18 * ratio * ratio * (t.lon[column + 1] - t.lon[column]) * kDegree;
+        }
+      }
+      cells += kWeights[j] / 18 * (north - south) * sum / (std::sqrt(3) / 2);
+    }
+  }
+  return cells;
+}
+
+}  // namespace
+
+std::unique_ptr<Density> density_on_grid(const files::Grid& grid, const std::vector<double>& values) {
+  return std::make_unique<GridDensity>(table_of(grid, values));
+}
+
+Widths widths_on_grid(const files::Grid& grid, const std::vector<double>& km, double radius) {
+  Table table = table_of(grid, km);
+  const double least = *std::min_element(table.values.begin(), table.values.end());
+  const double cells = cells_of(table, radius);
+  return {std::make_unique<WidthDensity>(std::move(table), least), least, cells};
+}
+
+double width_of(const std::string& text) {
+  double value = 0;
+  const std::size_t end = text.find_last_of("0123456789.") + 1;
+  const std::string unit = text.substr(end);
+  if (!point_sets::parse(text.substr(0, end), value) || !(value > 0) ||
+      !(unit.empty() || unit == "km" || unit == "m"))
+    throw std::invalid_argument("'" + point_sets::excerpt(text) + "' is no width: expected, say, 60km");
+  return unit == "m" ? value / 1000 : value;
+}
+
+double cells_of_width(double width, double radius) {
+  const double ratio = radius / width;
+  return 4 * kPi / (std::sqrt(3) / 2) * ratio * ratio;
 }
 
 }  // namespace methods

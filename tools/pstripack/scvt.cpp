@@ -45,7 +45,9 @@ struct Options {
   std::uint64_t seed = 1;
   First first = First::by_number;
   Input start;
-  std::string density, density_file, variable;
+  std::string density, density_file, width_file, variable;
+  double width = 0;         ///< of all cells, km; 0: not given
+  double radius = 6371220;  ///< of the sphere, metres: that of MPAS' and E3SM's tools
   Method method = Method::newton;
   double tolerance = 1e-4;
   std::int64_t evaluations = 10000, every = 100;
@@ -54,8 +56,8 @@ struct Options {
 
 // Attributes of the output that let another run continue this one.
 constexpr auto kEvaluations = "scvt_iterations", kDensity = "scvt_density",
-               kDensityFile = "scvt_density_file", kVariable = "scvt_density_variable", kSteps = "scvt_steps",
-               kPairs = "scvt_pairs";
+               kDensityFile = "scvt_density_file", kWidthFile = "scvt_width_file",
+               kVariable = "scvt_density_variable", kSteps = "scvt_steps", kPairs = "scvt_pairs";
 
 std::string note(const files::Notes& notes, const char* name) {
   const auto found = notes.find(name);
@@ -73,11 +75,19 @@ std::int64_t count_in(const files::Nodes& start, const char* name, std::int64_t 
   return static_cast<std::int64_t>(count);
 }
 
+// Variables that hold widths of cells, never densities.
+constexpr const char* kNamesOfWidths[] = {"cellWidth", "width", "resolution"};
+
 std::unique_ptr<engine::Density> density_in_file(const Options& options) {
   files::ReadOptions read = options.start.read;
   read.with_values = true;
   read.variable = options.variable;
   files::Nodes nodes = read_places(options.density_file, read);
+  for (const char* const name : kNamesOfWidths)
+    if (nodes.value.name == name)
+      throw std::runtime_error(fmt::format(
+          "{}: {} is a width, not a density (width^-4): say --width-file in place of --density-file",
+          nodes.file, name));
   const std::vector<double>& values = nodes.value.numbers;
   for (std::size_t i = 0; i < values.size(); ++i)
     if (!(values[i] > 0 && std::isfinite(values[i])))
@@ -98,7 +108,62 @@ std::unique_ptr<engine::Density> density_in_file(const Options& options) {
   }
 }
 
-std::unique_ptr<engine::Density> make_density(const Options& options) {
+/// Sets N to the number of cells that have these widths, unless N is given, and says so.
+void choose_n(Options& options, double cells) {
+  constexpr double kMost = 357913943;
+  if (options.n > 0 || !options.start.file.empty()) {
+    if (options.n > 0)
+      say(fmt::format("the widths give {:.0f} cells; {} are asked for: widths times {:.4g}", cells, options.n,
+                      std::sqrt(cells / static_cast<double>(options.n))));
+    return;
+  }
+  if (!(cells >= 4 && cells <= kMost))
+    throw std::runtime_error(fmt::format(
+        "the widths give {:.3g} cells, not 4 to {:.0f}: widths are in km, --radius in metres", cells, kMost));
+  options.n = static_cast<std::size_t>(std::llround(cells));
+  say(fmt::format("the widths give {} cells", options.n));
+}
+
+/// The density of the widths in the file; chooses N.
+std::unique_ptr<engine::Density> widths_in_file(Options& options) {
+  files::ReadOptions read = options.start.read;
+  read.with_values = true;
+  read.variable = options.variable;
+  read.usual_variables.assign(std::begin(kNamesOfWidths), std::end(kNamesOfWidths));
+  const files::Nodes nodes = read_places(options.width_file, read);
+  const auto fail = [&](const std::string& what) { throw std::runtime_error(nodes.file + ": " + what); };
+  if (nodes.grid.lon.empty()) fail("expected widths on a grid, say cellWidth(lat, lon) in NetCDF");
+  std::vector<double> km = nodes.value.numbers;
+  const std::string& units = nodes.value.units;
+  const bool are_metres = units == "m" || units == "meters" || units == "metres";
+  if (!are_metres && !units.empty() && units != "km" && units != "kilometers" && units != "kilometres")
+    fail(fmt::format("variable {}: units '{}'; expected km or m", nodes.value.name,
+                     point_sets::excerpt(units)));
+  for (std::size_t i = 0; i < km.size(); ++i) {
+    if (!(km[i] > 0 && std::isfinite(km[i])))
+      fail(fmt::format("{}, lon {:g} lat {:g}: width {}: must be positive and finite", nodes.place(i),
+                       nodes.grid.lon[i % nodes.grid.lon.size()], nodes.grid.lat[i / nodes.grid.lon.size()],
+                       km[i]));
+    if (are_metres) km[i] /= 1000;
+  }
+  std::vector<double> sorted = km;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  if (*middle > 20000 || *middle < 0.01)
+    fail(fmt::format("the median width is {:g} km: if these are not km, say so: ncatted -a units,{},c,c,m {}",
+                     *middle, nodes.value.name, nodes.file));
+  methods::Widths widths;
+  try {
+    widths = methods::widths_on_grid(nodes.grid, km, options.radius / 1000);
+  } catch (const std::runtime_error& e) {
+    fail(e.what());
+  }
+  choose_n(options, widths.cells);
+  return std::move(widths.density);
+}
+
+std::unique_ptr<engine::Density> make_density(Options& options) {
+  if (!options.width_file.empty()) return widths_in_file(options);
   if (!options.density_file.empty()) return density_in_file(options);
   try {
     return methods::density_of(options.density);
@@ -109,19 +174,29 @@ std::unique_ptr<engine::Density> make_density(const Options& options) {
 
 /// Sets the density: that of the command line, else that of the start, else constant.
 void choose_density(Options& options, const files::Notes& notes) {
-  if (options.density.empty() && options.density_file.empty()) {
+  if (options.width > 0) {
+    options.density = "constant";
+    choose_n(options, methods::cells_of_width(options.width, options.radius / 1000));
+  }
+  const auto is_chosen = [&] {
+    return !(options.density.empty() && options.density_file.empty() && options.width_file.empty());
+  };
+  if (!is_chosen()) {
     options.density = note(notes, kDensity);
     options.density_file = note(notes, kDensityFile);
+    options.width_file = note(notes, kWidthFile);
     if (options.variable.empty()) options.variable = note(notes, kVariable);
   }
-  if (options.density.empty() && options.density_file.empty()) options.density = "constant";
+  if (!is_chosen()) options.density = "constant";
 }
 
 files::Notes notes_of_density(const Options& options) {
   files::Notes notes;
-  if (options.density_file.empty()) notes[kDensity] = options.density;
-  if (!options.density_file.empty()) notes[kDensityFile] = options.density_file;
-  if (!options.density_file.empty() && !options.variable.empty()) notes[kVariable] = options.variable;
+  for (const auto& [name, text] : {std::pair(kDensity, options.density),
+                                   {kDensityFile, options.density_file},
+                                   {kWidthFile, options.width_file}})
+    if (!text.empty()) notes[name] = text;
+  if (options.density.empty() && !options.variable.empty()) notes[kVariable] = options.variable;
   return notes;
 }
 
@@ -187,7 +262,7 @@ Tessellation tessellation_of(Communicator& ranks, files::Nodes& start, const Opt
         t.state.evaluations = count_in(start, kEvaluations, 0);
         t.state.steps = count_in(start, kSteps, t.state.evaluations);
         bool has_same_density = true;
-        for (const char* const name : {kDensity, kDensityFile, kVariable})
+        for (const char* const name : {kDensity, kDensityFile, kWidthFile, kVariable})
           has_same_density &= note(start.notes, name) == note(notes_of_density(options), name);
         if (options.method == Method::newton && has_same_density) t.state.pairs = pairs_in(start);
         have_pairs.value = !t.state.pairs.empty();
@@ -392,8 +467,9 @@ void check_files_of_ranks(const Options& options) {
           fmt::format("{}: several ranks write ugrid, mpas, off, xyz, lonlat, nodes and raw, each its part: "
                       "choose one of these, and `pstripack convert` afterwards",
                       output->file));
-  if (options.density_file == "-")
-    throw std::runtime_error("--density-file -: several ranks cannot read stdin: name a file");
+  if (options.density_file == "-" || options.width_file == "-")
+    throw std::runtime_error(
+        "--density-file -, --width-file -: several ranks cannot read stdin: name a file");
 }
 
 /// The command, on all ranks.
@@ -410,7 +486,7 @@ void scvt(Options& options, Ranks& ranks) {
   files::Nodes start;
   if (!options.start.file.empty())
     start = progress.step("reading", [&] { return read_start(communicator, options); });
-  choose_density(options, start.notes);
+  in_agreement_with_caller(communicator, [&] { choose_density(options, start.notes); });
   std::unique_ptr<engine::Density> density;
   progress.step("reading the density",
                 [&] { in_agreement_with_caller(communicator, [&] { density = make_density(options); }); });
@@ -445,8 +521,9 @@ void scvt(Options& options, Ranks& ranks) {
 }
 
 void scvt(Options& options) {
-  if ((options.n > 0) == !options.start.file.empty())
-    throw CLI::ValidationError("N", "give either N, for new generators, or --start FILE");
+  if (options.start.file.empty() ? options.n == 0 && options.width == 0 && options.width_file.empty()
+                                 : options.n > 0)
+    throw CLI::ValidationError("N", "give either N or widths, for new generators, or --start FILE");
   options.output.choose();
   if (!options.checkpoint.file.empty()) options.checkpoint.choose(files::Format::netcdf);
   if (!options.density.empty()) make_density(options);
@@ -463,7 +540,7 @@ void add_scvt(CLI::App& app, Command& chosen) {
   CLI::App* const sub = app.add_subcommand(
       "scvt", "spherical centroidal Voronoi tessellation: moves generators to the centroids of their cells");
   const auto options = std::make_shared<Options>();
-  sub->add_option("N", options->n, "number of generators, unless --start is given")
+  sub->add_option("N", options->n, "number of generators, unless widths or --start are given")
       ->type_name("")
       ->transform(whole_number())
       ->check(CLI::Range(std::size_t{4}, std::size_t{357913943}).description(""));
@@ -486,8 +563,36 @@ void add_scvt(CLI::App& app, Command& chosen) {
                   "density at nodes, linear in between: lines of lon lat value or x y z value, or NetCDF")
       ->type_name("FILE")
       ->excludes(formula);
+  sub->add_option_function<std::string>(
+         "--width",
+         [=](const std::string& text) {
+           try {
+             options->width = methods::width_of(text);
+           } catch (const std::invalid_argument& e) {
+             throw CLI::ValidationError("--width", e.what());
+           }
+         },
+         "of all cells, say 60km: distance of neighbours in a mesh of regular hexagons; N follows from it")
+      ->type_name("WIDTH")
+      ->excludes("--density")
+      ->excludes("--density-file");
+  sub->add_option("--width-file", options->width_file,
+                  "widths in km, bilinear on a longitude-latitude grid (NetCDF): cellWidth(lat, lon)")
+      ->type_name("FILE")
+      ->excludes("--width")
+      ->excludes("--density")
+      ->excludes("--density-file");
+  sub->add_option("--radius", options->radius, "of the sphere, for widths, in metres")
+      ->type_name("METRES")
+      ->capture_default_str()
+      ->check([](const std::string& text) {
+        double value = 0;
+        return point_sets::parse(text, value) && value > 0
+                   ? std::string()
+                   : "'" + text + "' is not a number of metres above 0";
+      });
   sub->add_option("--variable", options->variable,
-                  "in the density file: name (NetCDF) or column (text, from 1)")
+                  "in the file of densities or widths: name (NetCDF) or column (text, from 1)")
       ->type_name("NAME");
   add_choice(*sub, "--method", options->method, {{"newton", Method::newton}, {"lloyd", Method::lloyd}},
              "newton (L-BFGS) or lloyd [newton]");

@@ -147,6 +147,13 @@ TEST(netcdf, axes_are_a_grid_and_fields_are_pairs) {
   EXPECT_EQ(points_of(file.closed()).size(), 2u);
 }
 
+TEST(netcdf, lon_and_lat_that_cannot_be_radians_are_degrees) {
+  NetcdfFile file;
+  const int n = file.dimension("n", 2);
+  file.with("lon", {n}, {0, 180}).with("lat", {n}, {-90, 30});
+  EXPECT_NEAR(points_of(file.closed())[1].z, 0.5, 1e-15);
+}
+
 TEST(netcdf, what_cannot_be_used_is_refused_by_name) {
   const auto error = [](const auto& fill_in) {
     NetcdfFile file;

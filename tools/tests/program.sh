@@ -429,6 +429,35 @@ scvt)
   grep -q "10 generators, .* converged to 0.01: gradient 0.00[0-9]*, energy 2" err || fail "copies: $(cat err)"
   rm two.txt
   refuses 1 "two.txt: cannot be opened" scvt --start file.nodes.nc --iterations 7 -o failed.nc
+  # Widths in km give N: 4 pi R^2 / (sqrt(3)/2 width^2). A given N scales them.
+  "$PSTRIPACK" scvt --width 1000km --tolerance 0.1 -o width.nodes.nc 2> err
+  grep -q "^pstripack: the widths give 589 cells$" err || fail "$(cat err)"
+  "$PSTRIPACK" -q scvt 589 --tolerance 0.1 -o n.nodes.nc
+  cmp width.nodes.nc n.nodes.nc
+  "$PSTRIPACK" scvt --width 500000m --radius 3185610 --tolerance 0.1 -o half.nodes.nc 2> err
+  grep -q "^pstripack: the widths give 589 cells$" err || fail "$(cat err)"
+  "$PSTRIPACK" scvt 147 --width 1000 --tolerance 0.1 -o coarse.nodes.nc 2> err
+  grep -q "the widths give 589 cells; 147 are asked for: widths times 2.002$" err || fail "$(cat err)"
+  if command -v ncgen > /dev/null; then  # Debian: netcdf-bin
+    # cellWidth(lat, lon) as mpas_tools writes it: no units, the first meridian repeated. Here 1000 km everywhere.
+    widths_file() { # NAME UNITS VALUES: on 7 rows and 9 columns
+      { echo "netcdf w { dimensions: lat = 7; lon = 9; variables: double lat(lat), lon(lon), cellWidth(lat, lon); $2"
+        echo "data: lat = -90,-60,-30,0,30,60,90; lon = -180,-135,-90,-45,0,45,90,135,180; cellWidth = $3; }"; } |
+        ncgen -o "$1" -
+    }
+    same() { for i in $(seq 63); do printf '%s%s' "$(test $i = 1 || echo ,)" "$1"; done; }
+    widths_file same.nc "" "$(same 1000)"
+    "$PSTRIPACK" scvt --width-file same.nc --tolerance 0.01 -o same.mpas.nc 2> err
+    grep -q "^pstripack: the widths give 589 cells$" err || fail "$(cat err)"
+    widths_file metres.nc 'cellWidth:units = "m";' "$(same 1e6)"
+    "$PSTRIPACK" -q scvt --width-file metres.nc --tolerance 0.01 -o metres.mpas.nc
+    "$PSTRIPACK" -q convert same.mpas.nc -o same.txt
+    "$PSTRIPACK" -q convert metres.mpas.nc -o metres.txt
+    cmp same.txt metres.txt
+    # A run continues with the widths of its file.
+    "$PSTRIPACK" scvt --start same.mpas.nc --tolerance 1e-3 -o more.nodes.nc 2> err
+    grep -q "converged to 0.001" err || fail "$(cat err)"
+  fi
   # A density on a grid.
   "$PSTRIPACK" -q points latlon 3000 -o - --to lonlat | awk '{ print $0, 2 + sin($2 / 57.29577951308232) }' > values.txt
   "$PSTRIPACK" -q interpolate values.txt --to-grid 36x72 -o grid.nc
@@ -437,7 +466,7 @@ scvt)
   ;;
 
 bad_scvt)
-  refuses 2 "give either N, for new generators, or --start FILE" scvt -o failed.off
+  refuses 2 "give either N or widths, for new generators, or --start FILE" scvt -o failed.off
   octahedron > start.txt
   refuses 2 "give either N" scvt 10 --start start.txt -o failed.off
   refuses 2 "density 'potato': expected constant, bump or bump:LON,LAT" scvt 10 --density potato -o failed.off
@@ -467,6 +496,36 @@ bad_scvt)
   "$PSTRIPACK" -q interpolate one.txt --to-grid 9x9 --region 0,90,0,90 -o regional.nc
   refuses 1 "regional.nc: the grid leaves out 280 degrees of longitude: a density must cover the sphere" \
     scvt 10 --density-file regional.nc --variable value -o failed.off
+  printf '100 80 60\n190 0 60\n10 -80 60\n' > width.txt
+  refuses 2 "excludes" scvt --width 60km --width-file start.txt -o failed.off
+  refuses 1 "width.txt: expected widths on a grid, say cellWidth(lat, lon) in NetCDF" scvt --width-file width.txt -o failed.off
+  if command -v ncgen > /dev/null; then
+    of_widths() { # NAME ATTRIBUTE VALUES
+      { echo "netcdf w { dimensions: lat = 3; lon = 4; variables: double lat(lat), lon(lon), cellWidth(lat, lon); $2"
+        echo "data: lat = -90, 0, 90; lon = 0, 90, 180, 270; cellWidth = $3; }"; } | ncgen -o "$1" -
+    }
+    of_widths metres.nc "" "1e6,1e6,1e6,1e6,1e6,1e6,1e6,1e6,1e6,1e6,1e6,1e6"
+    of_widths hole.nc "" "NaN,9,9,9,9,9,9,9,9,9,9,9"
+    of_widths miles.nc 'cellWidth:units = "miles";' "9,9,9,9,9,9,9,9,9,9,9,9"
+    refuses 1 "metres.nc: the median width is 1e+06 km: if these are not km, say so: ncatted -a units,cellWidth,c,c,m metres.nc" \
+      scvt --width-file metres.nc -o failed.off
+    refuses 1 "hole.nc: node 1, lon 0 lat -90: width nan: must be positive and finite" \
+      scvt --width-file hole.nc -o failed.off
+    refuses 1 "miles.nc: variable cellWidth: units 'miles'; expected km or m" scvt --width-file miles.nc -o failed.off
+  fi
+  for width in 0 -60km nankm 60miles km; do
+    refuses 2 "'$width' is no width: expected, say, 60km" scvt "--width=$width" -o failed.off
+  done
+  refuses 2 "excludes" scvt --width 60km --density bump -o failed.off
+  refuses 2 "'nan' is not a number of metres above 0" scvt --width 60km --radius nan -o failed.off
+  refuses 1 "the widths give 0.000589 cells, not 4 to 357913943: widths are in km, --radius in metres" \
+    scvt --width 1e6 -o failed.off
+  # Widths are no density, whatever the file says of itself.
+  for name in cellWidth width resolution; do
+    { echo "lon lat $name"; printf '0 90 60\n0 0 60\n90 0 60\n180 0 60\n-90 0 60\n0 -90 60\n'; } > $name.txt
+    refuses 1 "$name.txt: $name is a width, not a density (width^-4): say --width-file in place of --density-file" \
+      scvt 10 --density-file $name.txt --variable $name -o failed.off
+  done
   [ ! -e failed.off ] || fail "failed.off was written"
   ;;
 
