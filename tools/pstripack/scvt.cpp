@@ -15,6 +15,7 @@
 #include "methods/densities.h"
 #include "methods/quality.h"
 #include "methods/time_left.h"
+#include "methods/widths.h"
 #include "numbers.h"
 #include "pstripack/options.h"
 #include "pstripack/parts.h"
@@ -46,8 +47,9 @@ struct Options {
   First first = First::by_number;
   Input start;
   std::string density, density_file, width_file, variable;
-  double width = 0;         ///< of all cells, km; 0: not given
-  double radius = 6371220;  ///< of the sphere, metres: that of MPAS' and E3SM's tools
+  double width = 0;   ///< of all cells, km; 0: not given
+  double radius = 0;  ///< of the sphere, metres; 0: not given
+  double grade = 0;   ///< most that widths may change, km per km; 0: not given
   Method method = Method::newton;
   double tolerance = 1e-4;
   std::int64_t evaluations = 10000, every = 100;
@@ -57,7 +59,8 @@ struct Options {
 // Attributes of the output that let another run continue this one.
 constexpr auto kEvaluations = "scvt_iterations", kDensity = "scvt_density",
                kDensityFile = "scvt_density_file", kWidthFile = "scvt_width_file",
-               kVariable = "scvt_density_variable", kSteps = "scvt_steps", kPairs = "scvt_pairs";
+               kVariable = "scvt_density_variable", kRadius = "scvt_radius", kGrade = "scvt_grade",
+               kSteps = "scvt_steps", kPairs = "scvt_pairs";
 
 std::string note(const files::Notes& notes, const char* name) {
   const auto found = notes.find(name);
@@ -152,12 +155,19 @@ std::unique_ptr<engine::Density> widths_in_file(Options& options) {
   if (*middle > 20000 || *middle < 0.01)
     fail(fmt::format("the median width is {:g} km: if these are not km, say so: ncatted -a units,{},c,c,m {}",
                      *middle, nodes.value.name, nodes.file));
-  methods::Widths widths;
+  methods::Table table;
   try {
-    widths = methods::widths_on_grid(nodes.grid, km, options.radius / 1000);
+    table = methods::table_of(nodes.grid, km);
   } catch (const std::runtime_error& e) {
     fail(e.what());
   }
+  const methods::Lowered lowered = methods::limit_gradient(table, options.grade, options.radius / 1000);
+  if (lowered.places > 0)
+    say(fmt::format(
+        "widths limited to a change of {:g} km per km: {} of {} values lowered, by up to {:.4g} km "
+        "(lon {:g} lat {:g})",
+        options.grade, lowered.places, lowered.of, lowered.most, lowered.lon, lowered.lat));
+  methods::Widths widths = methods::widths_of(std::move(table), options.radius / 1000);
   choose_n(options, widths.cells);
   return std::move(widths.density);
 }
@@ -174,6 +184,11 @@ std::unique_ptr<engine::Density> make_density(Options& options) {
 
 /// Sets the density: that of the command line, else that of the start, else constant.
 void choose_density(Options& options, const files::Notes& notes) {
+  const auto choose = [&](double& number, const char* name, double otherwise) {
+    if (number == 0 && !point_sets::parse(note(notes, name), number)) number = otherwise;
+  };
+  choose(options.radius, kRadius, 6371220);  // that of MPAS' and E3SM's tools
+  choose(options.grade, kGrade, 0.2);
   if (options.width > 0) {
     options.density = "constant";
     choose_n(options, methods::cells_of_width(options.width, options.radius / 1000));
@@ -197,6 +212,10 @@ files::Notes notes_of_density(const Options& options) {
                                    {kWidthFile, options.width_file}})
     if (!text.empty()) notes[name] = text;
   if (options.density.empty() && !options.variable.empty()) notes[kVariable] = options.variable;
+  if (!options.width_file.empty()) {
+    notes[kRadius] = fmt::format("{}", options.radius);
+    notes[kGrade] = fmt::format("{}", options.grade);
+  }
   return notes;
 }
 
@@ -262,7 +281,7 @@ Tessellation tessellation_of(Communicator& ranks, files::Nodes& start, const Opt
         t.state.evaluations = count_in(start, kEvaluations, 0);
         t.state.steps = count_in(start, kSteps, t.state.evaluations);
         bool has_same_density = true;
-        for (const char* const name : {kDensity, kDensityFile, kWidthFile, kVariable})
+        for (const char* const name : {kDensity, kDensityFile, kWidthFile, kVariable, kRadius, kGrade})
           has_same_density &= note(start.notes, name) == note(notes_of_density(options), name);
         if (options.method == Method::newton && has_same_density) t.state.pairs = pairs_in(start);
         have_pairs.value = !t.state.pairs.empty();
@@ -582,15 +601,19 @@ void add_scvt(CLI::App& app, Command& chosen) {
       ->excludes("--width")
       ->excludes("--density")
       ->excludes("--density-file");
-  sub->add_option("--radius", options->radius, "of the sphere, for widths, in metres")
+  const auto above_0 = [](const std::string& text) {
+    double value = 0;
+    return point_sets::parse(text, value) && value > 0 && std::isfinite(value)
+               ? std::string()
+               : "'" + text + "' is not a finite number above 0";
+  };
+  sub->add_option("--grade", options->grade,
+                  "most that widths may change, km per km: wider ones are lowered [0.2]")
+      ->type_name("NUMBER")
+      ->check(above_0);
+  sub->add_option("--radius", options->radius, "of the sphere, for widths, in metres [6371220]")
       ->type_name("METRES")
-      ->capture_default_str()
-      ->check([](const std::string& text) {
-        double value = 0;
-        return point_sets::parse(text, value) && value > 0
-                   ? std::string()
-                   : "'" + text + "' is not a number of metres above 0";
-      });
+      ->check(above_0);
   sub->add_option("--variable", options->variable,
                   "in the file of densities or widths: name (NetCDF) or column (text, from 1)")
       ->type_name("NAME");

@@ -457,6 +457,17 @@ scvt)
     # A run continues with the widths of its file.
     "$PSTRIPACK" scvt --start same.mpas.nc --tolerance 1e-3 -o more.nodes.nc 2> err
     grep -q "converged to 0.001" err || fail "$(cat err)"
+    # A step is limited to --grade, also in a run that continues.
+    step() { for i in $(seq 63); do printf '%s%s' "$(test $i = 1 || echo ,)" $((i > 27 ? 1000 : 4000)); done; }
+    widths_file step.nc "" "$(step)"
+    "$PSTRIPACK" scvt --width-file step.nc --tolerance 0.1 -o step.nodes.nc 2> err
+    limited="^pstripack: widths limited to a change of"
+    grep -q "$limited 0.2 km per km: 17 of 42 values lowered, by up to 2333 km (lon -180 lat -30)$" err || fail "$(cat err)"
+    "$PSTRIPACK" -q scvt --width-file step.nc --grade 0.1 --radius 5e6 --iterations 6 --checkpoint checkpoint.nc --every 1 -o six.nodes.nc
+    "$PSTRIPACK" scvt --start checkpoint.nc --iterations 8 -o more.nodes.nc 2> err
+    grep -q "$limited 0.1 km per km: 17 of 42 values lowered, by up to 2738 km" err || fail "$(cat err)"
+    "$PSTRIPACK" -q scvt --width-file step.nc --grade 0.1 --radius 5e6 --iterations 8 -o eight.nodes.nc
+    cmp more.nodes.nc eight.nodes.nc
   fi
   # A density on a grid.
   "$PSTRIPACK" -q points latlon 3000 -o - --to lonlat | awk '{ print $0, 2 + sin($2 / 57.29577951308232) }' > values.txt
@@ -517,7 +528,8 @@ bad_scvt)
     refuses 2 "'$width' is no width: expected, say, 60km" scvt "--width=$width" -o failed.off
   done
   refuses 2 "excludes" scvt --width 60km --density bump -o failed.off
-  refuses 2 "'nan' is not a number of metres above 0" scvt --width 60km --radius nan -o failed.off
+  refuses 2 "'0' is not a finite number above 0" scvt --width 60km --grade 0 -o failed.off
+  refuses 2 "'nan' is not a finite number above 0" scvt --width 60km --radius nan -o failed.off
   refuses 1 "the widths give 0.000589 cells, not 4 to 357913943: widths are in km, --radius in metres" \
     scvt --width 1e6 -o failed.off
   # Widths are no density, whatever the file says of itself.

@@ -1,0 +1,181 @@
+#include "methods/widths.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <queue>
+#include <stdexcept>
+#include <utility>
+
+#include "numbers.h"
+#include "text_file.h"
+
+namespace methods {
+namespace {
+
+using files::Point;
+
+constexpr double kPi = 3.14159265358979323846, kDegree = kPi / 180;
+
+class WidthDensity : public Density {
+ public:
+  WidthDensity(Table widths, double least) : widths_(std::move(widths)), least_(least) {}
+  using Density::at;
+  void at(std::size_t n, const Point* p, double* value) const override {
+    widths_.at(n, p, value);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double square = least_ / value[i] * (least_ / value[i]);
+      value[i] = std::min(1.0, square * square);  // bilinear widths round below the least
+    }
+  }
+
+ private:
+  GridValues widths_;
+  double least_;
+};
+
+/// The integral of 1/(sqrt(3)/2 w^2): Gauss' rule with three points along each side of a cell of the grid.
+double cells_of(const Table& t, double radius) {
+  constexpr double kPlaces[] = {-0.7745966692414834, 0, 0.7745966692414834}, kWeights[] = {5, 8, 5};  // / 18
+  double cells = 0;
+  for (std::size_t row = 0; row + 1 < t.lat.size(); ++row) {
+    const double south = std::sin(t.lat[row] * kDegree), north = std::sin(t.lat[row + 1] * kDegree);
+    const double height = t.lat[row + 1] - t.lat[row];
+    for (int j = 0; j < 3; ++j) {
+      const double z = (south + north + kPlaces[j] * (north - south)) / 2;
+      const double up = (std::asin(z) / kDegree - t.lat[row]) / height;
+      double sum = 0;
+      for (std::size_t column = 0; column + 1 < t.lon.size(); ++column) {
+        const double* const low = &t.values[row * t.lon.size() + column];
+        const double* const high = low + t.lon.size();
+        const double west = low[0] + up * (high[0] - low[0]), east = low[1] + up * (high[1] - low[1]);
+        for (int i = 0; i < 3; ++i) {
+          const double ratio = radius / (west + (1 + kPlaces[i]) / 2 * (east - west));
+          sum += kWeights[i] / 18 * ratio * ratio * (t.lon[column + 1] - t.lon[column]) * kDegree;
+        }
+      }
+      cells += kWeights[j] / 18 * (north - south) * sum / (std::sqrt(3) / 2);
+    }
+  }
+  return cells;
+}
+
+// Each place of the grid knows its source: the place y whose cone w(y) + gradient d(x,y) is the lowest one
+// known at x. A place that is lowered offers its source to its eight neighbours, the lowest place first. So
+// distances are lengths of arcs, not of paths along the grid (Danielsson, Comput. Graph. Image Process. 14,
+// 1980; in the order of Dijkstra, as in fast marching: Sethian, PNAS 93, 1996).
+class GradientLimit {
+ public:
+  GradientLimit(Table& table, double gradient, double radius)
+      : columns_(table.lon.size() - 1), rows_(table.lat.size()), slope_(gradient * radius), table_(table) {
+    if (rows_ * columns_ > 0xffffffff) throw std::runtime_error("the grid has more than 4e9 places");
+    for (std::size_t c = 0; c < columns_; ++c)
+      east_.push_back({std::cos(table.lon[c] * kDegree), std::sin(table.lon[c] * kDegree), 0});
+    for (const double lat : table.lat)
+      up_.push_back({std::fabs(lat) == 90 ? 0 : std::cos(lat * kDegree), 0, std::sin(lat * kDegree)});
+    for (std::size_t r = 0; r < rows_; ++r)
+      for (std::size_t c = 0; c < columns_; ++c) given_.push_back(table.values[r * (columns_ + 1) + c]);
+    lowered_ = given_;
+    source_.resize(given_.size());
+    for (std::size_t i = 0; i < given_.size(); ++i) source_[i] = static_cast<std::uint32_t>(i);
+  }
+
+  Lowered run() {
+    for (std::size_t i = 0; i < given_.size(); ++i) {
+      bool is_source = false;
+      for_each_neighbour(i, [&](std::size_t n) {  // a chord is shorter than its arc
+        is_source = is_source || given_[i] + slope_ * chord(i, n) < given_[n];
+      });
+      if (is_source) queue_.emplace(-given_[i], i);
+    }
+    while (!queue_.empty()) {
+      const auto [value, i] = queue_.top();
+      queue_.pop();
+      if (-value != lowered_[i]) continue;  // it was lowered again
+      const std::uint32_t s = source_[i];
+      for_each_neighbour(i, [&](std::size_t n) {
+        const double offer = given_[s] + slope_ * 2 * std::asin(std::min(1.0, chord(s, n) / 2));
+        if (!(offer < lowered_[n])) return;
+        lowered_[n] = offer;
+        source_[n] = s;
+        queue_.emplace(-offer, n);
+      });
+    }
+    return finish();
+  }
+
+ private:
+  Point place(std::size_t i) const {
+    const Point &e = east_[i % columns_], &u = up_[i / columns_];
+    return {u.x * e.x, u.x * e.y, u.z};
+  }
+  double chord(std::size_t i, std::size_t j) const {
+    const Point d = minus(place(i), place(j));
+    return std::sqrt(dot(d, d));
+  }
+  template <class Visit>
+  void for_each_neighbour(std::size_t i, const Visit& visit) const {
+    const std::size_t row = i / columns_, column = i % columns_;
+    for (std::size_t r = row == 0 ? 0 : row - 1; r < std::min(row + 2, rows_); ++r)
+      for (std::size_t k = columns_ - 1; k < columns_ + 2; ++k)
+        if (r != row || k != columns_) visit(r * columns_ + (column + k) % columns_);
+  }
+
+  Lowered finish() {
+    Lowered lowered;
+    for (std::size_t r = 0; r < rows_; ++r) {
+      const bool is_pole = r == 0 || r + 1 == rows_;
+      bool is_lowered = false;
+      for (std::size_t c = 0; c < columns_; ++c) {
+        const std::size_t i = r * columns_ + c;
+        const double change = given_[i] - lowered_[i];
+        if (change > lowered.most)
+          lowered.most = change, lowered.lon = table_.lon[c], lowered.lat = table_.lat[r];
+        if (!is_pole) lowered.places += change > 0;
+        is_lowered = is_lowered || change > 0;
+        table_.values[r * (columns_ + 1) + c] = lowered_[i];
+      }
+      table_.values[r * (columns_ + 1) + columns_] = lowered_[r * columns_];
+      lowered.places += is_pole && is_lowered;
+    }
+    lowered.of = (rows_ - 2) * columns_ + 2;
+    return lowered;
+  }
+
+  std::size_t columns_, rows_;
+  double slope_;  ///< km per radian
+  Table& table_;
+  std::vector<Point> east_, up_;  ///< of columns and rows: the factors of a place
+  std::vector<double> given_, lowered_;
+  std::vector<std::uint32_t> source_;
+  std::priority_queue<std::pair<double, std::size_t>> queue_;  ///< minus the value, place
+};
+
+}  // namespace
+
+Lowered limit_gradient(Table& table, double gradient, double radius) {
+  return GradientLimit(table, gradient, radius).run();
+}
+
+Widths widths_of(Table km, double radius) {
+  const double least = *std::min_element(km.values.begin(), km.values.end());
+  const double cells = cells_of(km, radius);
+  return {std::make_unique<WidthDensity>(std::move(km), least), least, cells};
+}
+
+double width_of(const std::string& text) {
+  double value = 0;
+  const std::size_t end = text.find_last_of("0123456789.") + 1;
+  const std::string unit = text.substr(end);
+  if (!point_sets::parse(text.substr(0, end), value) || !(value > 0) ||
+      !(unit.empty() || unit == "km" || unit == "m"))
+    throw std::invalid_argument("'" + point_sets::excerpt(text) + "' is no width: expected, say, 60km");
+  return unit == "m" ? value / 1000 : value;
+}
+
+double cells_of_width(double width, double radius) {
+  const double ratio = radius / width;
+  return 4 * kPi / (std::sqrt(3) / 2) * ratio * ratio;
+}
+
+}  // namespace methods

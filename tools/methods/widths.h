@@ -1,0 +1,46 @@
+#pragma once
+// Widths of cells in km, and the densities of centroidal tessellations that have them.
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "methods/grid_values.h"
+#include "scvt/density.h"
+
+namespace methods {
+
+using pstripack::scvt::Density;
+
+/// The density of cells with some widths w, at most 1: (least / w)^4.
+struct Widths {
+  std::unique_ptr<Density> density;
+  double least = 0;  ///< km
+  double cells = 0;  ///< as cells_of_width()
+};
+
+/// What limit_gradient() changed.
+struct Lowered {
+  std::size_t places = 0, of = 0;  ///< a pole is one place
+  double most = 0;                 ///< at lon, lat (degrees)
+  double lon = 0, lat = 0;
+};
+
+/// Lowers values until
+///     w(x) <= w(y) + gradient d(x,y)
+/// for all places x, y of the table, d the length of the arc between them on a sphere of this radius, and no
+/// further (Persson, Engineering with Computers 22, 2006). It holds for all neighbours on the grid; for
+/// others it may lack a tenth of a spacing of the grid times the gradient.
+Lowered limit_gradient(Table& table, double gradient, double radius);
+
+/// `radius` in km. Widths are bilinear in longitude and latitude.
+Widths widths_of(Table km, double radius);
+
+/// The width of cells in km: a number, with or without "km", or with "m". Throws std::invalid_argument.
+double width_of(const std::string& text);
+
+/// How many regular hexagons whose neighbours are `width` apart have the area of the sphere. Both in km.
+double cells_of_width(double width, double radius);
+
+}  // namespace methods

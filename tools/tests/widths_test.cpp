@@ -1,0 +1,109 @@
+// Widths of cells: their density, their number of cells, the limit of their gradient.
+
+#include "methods/widths.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "point_sets.h"
+
+namespace methods {
+namespace {
+
+using files::Point;
+
+constexpr double kDegree = 0.017453292519943295;
+
+std::vector<double> ticks(double first, double step, int count) {
+  std::vector<double> values;
+  for (int i = 0; i < count; ++i) values.push_back(first + i * step);
+  return values;
+}
+
+template <class Width>
+Table table(const files::Grid& grid, const Width& width) {
+  std::vector<double> km;
+  for (const double lat : grid.lat)
+    for (const double lon : grid.lon) km.push_back(width(lon, lat));
+  return table_of(grid, km);
+}
+
+TEST(widths, give_their_density_and_number_of_cells) {
+  // w = 60 (2 + z): the integral of 4 pi R^2 / (sqrt(3)/2 60^2) (1/2) int_-1^1 dz / (2 + z)^2, which is 1/3.
+  const files::Grid grid{ticks(-180, 5, 73), ticks(-90, 0.5, 361)};
+  const Widths widths =
+      widths_of(table(grid, [](double, double lat) { return 60 * (2 + std::sin(lat * kDegree)); }), 6371);
+  EXPECT_DOUBLE_EQ(widths.least, 60);
+  EXPECT_NEAR(widths.cells / (cells_of_width(60, 6371) / 3), 1, 1e-5);
+  EXPECT_DOUBLE_EQ(widths.density->at(point_sets::from_degrees(17, 0)), 0.0625);
+  EXPECT_DOUBLE_EQ(widths.density->at(point_sets::from_degrees(17, -90)), 1);
+}
+
+/// The largest field below the given one that satisfies limit_gradient()'s condition: each place against all.
+std::vector<double> limited(const Table& t, double gradient, double radius) {
+  std::vector<Point> places;
+  for (const double lat : t.lat)
+    for (const double lon : t.lon) places.push_back(point_sets::from_degrees(lon, lat));
+  std::vector<double> least = t.values;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    for (std::size_t j = 0; j < places.size(); ++j) {
+      const Point d = minus(places[i], places[j]);
+      const double arc = 2 * std::asin(std::min(1.0, std::sqrt(dot(d, d)) / 2));
+      least[i] = std::min(least[i], t.values[j] + gradient * radius * arc);
+    }
+  return least;
+}
+
+TEST(limit_gradient, is_the_condition_for_all_pairs_also_at_poles_and_across_the_first_meridian) {
+  // Random widths, a step at an oblique circle, single narrow places at a pole, near it and at the meridian.
+  point_sets::Random random(1);
+  const auto at = [](double lon, double lat, double width) {
+    return [=](double x, double y) { return x == lon && y == lat ? width : 400; };
+  };
+  const Point axis = point_sets::from_degrees(20, 60);
+  const auto step = [&](double lon, double lat) {
+    return dot(axis, point_sets::from_degrees(lon, lat)) > 0.9 ? 60 : 240;
+  };
+  const files::Grid with_poles{ticks(-180, 12, 31), ticks(-90, 7.5, 25)},
+      between{ticks(0, 10, 36), ticks(-85, 10, 18)};
+  for (const files::Grid& grid : {with_poles, between})
+    for (const Table& t : {table(grid, [&](double, double) { return random.uniform(50, 500); }),
+                           table(grid, step), table(grid, at(0, grid.lat.back(), 60)),
+                           table(grid, at(36, -75, 60)), table(grid, at(-180, 15, 60))})
+      for (const double gradient : {0.02, 0.1, 1.0}) {
+        const std::vector<double> expected = limited(t, gradient, 6371);
+        Table lowered = t;
+        const Lowered told = limit_gradient(lowered, gradient, 6371);
+        double most = 0;
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+          EXPECT_GE(lowered.values[i], expected[i] * (1 - 1e-12));
+          // Where cones meet, a place may keep one that is not the lowest.
+          EXPECT_LE(lowered.values[i], expected[i] + gradient * 0.1 * 7.5 * kDegree * 6371);
+          most = std::max(most, t.values[i] - lowered.values[i]);
+        }
+        EXPECT_EQ(told.most, most);
+        EXPECT_EQ(told.places == 0, most == 0);
+      }
+}
+
+TEST(limit_gradient, changes_nothing_that_is_flat_enough_and_says_what_it_changed) {
+  const files::Grid grid{ticks(-180, 5, 73), ticks(-90, 5, 37)};
+  const double spacing = 5 * kDegree * 6371;
+  Table cone = table(grid, [&](double, double lat) { return 60 + 0.1999 * spacing * (lat + 90) / 5; });
+  const std::vector<double> before = cone.values;
+  EXPECT_EQ(limit_gradient(cone, 0.2, 6371).places, 0u);
+  EXPECT_EQ(cone.values, before);
+  Table peak = table(grid, [&](double lon, double lat) { return lon == 20 && lat == 0 ? 1000 : 100; });
+  const Lowered lowered = limit_gradient(peak, 0.2, 6371);
+  EXPECT_EQ(lowered.places, 1u);
+  EXPECT_EQ(lowered.of, 72u * 35 + 2);
+  EXPECT_NEAR(lowered.most, 900 - 0.2 * spacing, 1e-9);
+  EXPECT_EQ(lowered.lon, 20);
+  EXPECT_EQ(lowered.lat, 0);
+}
+
+}  // namespace
+}  // namespace methods
