@@ -52,6 +52,8 @@ struct Options {
   double grade = 0;   ///< most that widths may change, km per km; 0: not given
   Method method = Method::newton;
   double tolerance = 1e-4;
+  bool well_centred = false;  ///< move generators until all triangles hold their circumcentre
+  bool strict = false;
   std::int64_t evaluations = 10000, every = 100;
   Output output, checkpoint{"", "", files::Format::netcdf};
 };
@@ -392,6 +394,7 @@ void iterate(const Options& options, Ranks& ranks, engine::Evaluator& evaluator,
   of_run.method = options.method;
   of_run.tolerance = options.tolerance;
   of_run.most_evaluations = options.evaluations;
+  of_run.well_centred = options.well_centred;
   methods::TimeLeft time_left(options.tolerance);
   const auto start = std::chrono::steady_clock::now();
   of_run.progress = [&](const engine::Progress& p) {
@@ -407,18 +410,36 @@ void iterate(const Options& options, Ranks& ranks, engine::Evaluator& evaluator,
   engine::iterate(evaluator, t, of_run);
 }
 
-std::string end_of(const Options& options, const engine::Result& result, bool has_moved) {
-  switch (result.end) {
-    case engine::End::converged:
-      return fmt::format("converged to {:g}", options.tolerance);
-    case engine::End::stalled:
-      return fmt::format(
-          "stalled, NOT converged to {:g}: the energy falls no more (rounding, or a rough "
-          "density)",
-          options.tolerance);
-    default:
-      return has_moved ? fmt::format("NOT converged to {:g}", options.tolerance) : "none was left to do";
+std::string end_of(const Options& options, const Tessellation& t, bool has_moved) {
+  const auto end = [&] {
+    switch (t.result.end) {
+      case engine::End::converged:
+        return fmt::format("converged to {:g}", options.tolerance);
+      case engine::End::stalled:
+        return fmt::format(
+            "stalled, NOT converged to {:g}: the energy falls no more (rounding, or a rough density)",
+            options.tolerance);
+      default:
+        return has_moved ? fmt::format("NOT converged to {:g}", options.tolerance) : "none was left to do";
+    }
+  };
+  return t.repair.moved == 0 ? end()
+                             : fmt::format("{}, then {} generators moved for their triangles' circumcentres",
+                                           end(), t.repair.moved);
+}
+
+/// One line if triangles are left that were to be repaired, or, with --strict, if the run has not converged.
+std::string what_is_missing(const Options& options, const Tessellation& t) {
+  if (t.repair.obtuse > 0) {
+    const files::LonLat where({t.repair.place}, true);
+    return fmt::format(
+        "{} triangles do not hold their circumcentre, the first at lon {:.6g} lat {:.6g}, also after {} "
+        "generators were moved: try a smaller --tolerance or --grade, or another --first or --seed",
+        t.repair.obtuse, where.lon[0], where.lat[0], t.repair.moved);
   }
+  if (options.strict && t.result.end != engine::End::converged)
+    return fmt::format("not converged to {:g}", options.tolerance);
+  return "";
 }
 
 /// Reads the nodes to start from; several ranks read a part each. Collective.
@@ -525,9 +546,12 @@ void scvt(Options& options, Ranks& ranks) {
     });
     progress.finish(fmt::format("{} generators, {} evaluations, {}: gradient {:.3g}, energy {:.9g}",
                                 reached.generators, t.state.evaluations,
-                                end_of(options, t.result, t.state.steps > steps_before), reached.gradient,
+                                end_of(options, t, t.state.steps > steps_before), reached.gradient,
                                 reached.energy));
     say(quality);
+    const std::string missed = what_is_missing(options, t);
+    if (!missed.empty() && options.strict) throw engine::NoTessellation(missed);
+    if (!missed.empty()) say(missed);
   } catch (const engine::BadDensity& e) {
     if (options.density_file.empty() || !std::isnan(e.value)) throw;
     const files::LonLat where({e.place}, true);
@@ -544,6 +568,7 @@ void scvt(Options& options) {
                                  : options.n > 0)
     throw CLI::ValidationError("N", "give either N or widths, for new generators, or --start FILE");
   options.output.choose();
+  options.well_centred = options.well_centred || options.output.format == files::Format::mpas;
   if (!options.checkpoint.file.empty()) options.checkpoint.choose(files::Format::netcdf);
   if (!options.density.empty()) make_density(options);
   try {
@@ -628,6 +653,11 @@ void add_scvt(CLI::App& app, Command& chosen) {
         return point_sets::parse(text, value) && value >= 0 ? std::string()
                                                             : "'" + text + "' is not a number of at least 0";
       });
+  sub->add_flag(
+      "--well-centred", options->well_centred,
+      "in the end move a few generators so that all triangles hold their circumcentre; always for mpas");
+  sub->add_flag("--strict", options->strict,
+                "status 1 if the mesh is not converged, or not well centred where that is asked");
   sub->add_option("--evaluations,--iterations", options->evaluations,
                   "most evaluations of all N cells, those of the continued run included")
       ->type_name("NUMBER")

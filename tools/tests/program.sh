@@ -365,7 +365,7 @@ scvt)
   "$PSTRIPACK" scvt 300 --density bump --evaluations 30 --tolerance 1e-6 -o direct.nodes.nc 2> err
   grep -q '^pstripack: 300 generators, 3[0-9] evaluations, NOT converged to 1e-06: gradient .*, energy .*; iterating .* s; .*writing .* s$' err ||
     fail "$(cat err)"
-  grep -q '^pstripack: cells by sides: .*; smallest angle .*; neighbouring areas up to .* : 1; .* % of the triangles hold their circumcentre$' err ||
+  grep -q '^pstripack: cells by sides: .*; angles .* to .* degrees; neighbouring areas up to .* : 1; .* triangles .* hold their circumcentre$' err ||
     fail "$(cat err)"
   # A run that is cut short and continued from its checkpoint gives the same bytes: cut within the first steps, with some
   # and with all pairs of the quasi-Newton method, and from two formats.
@@ -388,8 +388,8 @@ scvt)
   grep -q " evaluations, converged to 0.0001: " err || fail "$(cat err)"
   # Lloyd's method has no memory: it also continues from its output.
   "$PSTRIPACK" -q scvt 300 --method lloyd --first random --iterations 12 -o lloyd.nodes.nc
-  "$PSTRIPACK" -q scvt 300 --method lloyd --first random --iterations 9 --checkpoint checkpoint.nc --every 4 -o short.mpas.nc
-  for start in checkpoint.nc short.mpas.nc; do
+  "$PSTRIPACK" -q scvt 300 --method lloyd --first random --iterations 9 --checkpoint checkpoint.nc --every 4 -o short.ugrid.nc
+  for start in checkpoint.nc short.ugrid.nc; do
     "$PSTRIPACK" scvt --start $start --method lloyd --iterations 12 -o resumed.nodes.nc 2> err
     grep -q " 12 evaluations, " err || fail "$(cat err)"
     cmp lloyd.nodes.nc resumed.nodes.nc
@@ -429,6 +429,27 @@ scvt)
   grep -q "10 generators, .* converged to 0.01: gradient 0.00[0-9]*, energy 2" err || fail "copies: $(cat err)"
   rm two.txt
   refuses 1 "two.txt: cannot be opened" scvt --start file.nodes.nc --iterations 7 -o failed.nc
+  # Meshes for MPAS are well centred, others on request.
+  bump="scvt 2562 --density bump:0,30,30,10,4 --tolerance 1e-3"
+  # shellcheck disable=SC2086
+  "$PSTRIPACK" $bump -o plain.nodes.nc 2> err
+  grep -q ", converged to 0.001: gradient" err || fail "$(cat err)"
+  grep -q "; [1-9] triangles do not hold their circumcentre$" err || fail "$(cat err)"
+  # shellcheck disable=SC2086
+  "$PSTRIPACK" $bump -o centred.mpas.nc 2> err
+  grep -q ", converged to 0.001, then [0-9]* generators moved for their triangles' circumcentres: gradient" err || fail "$(cat err)"
+  grep -q " to 8[34].[0-9] degrees; .* : 1; all triangles hold their circumcentre$" err || fail "$(cat err)"
+  # shellcheck disable=SC2086
+  "$PSTRIPACK" -q $bump --well-centred --strict -o centred.nodes.nc
+  for run in centred.mpas centred.nodes; do "$PSTRIPACK" -q convert $run.nc -o $run.txt; done
+  cmp centred.mpas.txt centred.nodes.txt
+  "$PSTRIPACK" scvt 500 --first random --evaluations 1 --well-centred -o failed.off 2> err
+  left="[0-9]* triangles do not hold their circumcentre, the first at lon [-.0-9]* lat [-.0-9]*, also after [0-9]* generators were moved: try"
+  grep -q "^pstripack: $left" err || fail "$(cat err)"
+  rm failed.off
+  refuses 1 "triangles do not hold their circumcentre, the first at lon" -q scvt 500 --first random --evaluations 1 --well-centred --strict -o written.off
+  refuses 1 "not converged to 0.0001" -q scvt 500 --evaluations 1 --strict -o written.off
+  rm written.off
   # Widths in km give N: 4 pi R^2 / (sqrt(3)/2 width^2). A given N scales them.
   "$PSTRIPACK" scvt --width 1000km --tolerance 0.1 -o width.nodes.nc 2> err
   grep -q "^pstripack: the widths give 589 cells$" err || fail "$(cat err)"

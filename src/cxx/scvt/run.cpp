@@ -1,6 +1,7 @@
 #include "scvt/run.h"
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -55,6 +56,18 @@ void move(Communicator& ranks, const Tessellation& from, const std::vector<std::
   in_agreement(ranks, [&] { take_rows(to, std::move(rows)); });
 }
 
+/// Makes the tessellation well centred. `result` becomes that of the moved generators.
+void repair(Evaluator& evaluator, Tessellation& t, const Options& options) {
+  t.repair = make_well_centred(evaluator, t.state.generators);
+  if (t.repair.moved == 0) return;
+  t.state.pairs.clear();  // of other generators
+  Options only_evaluate = options;
+  only_evaluate.tolerance = std::numeric_limits<double>::infinity();
+  const End end = t.result.end;
+  t.result = minimize(evaluator, t.state, only_evaluate);
+  t.result.end = end;
+}
+
 Tessellation begun_with(Spread&& generators) {
   Tessellation t;
   t.numbers = std::move(generators.numbers);
@@ -66,10 +79,12 @@ Tessellation begun_with(Spread&& generators) {
 
 Tessellation first_generators(Evaluator& evaluator, std::size_t n, const RunOptions& options) {
   check_count(n);
+  Options of_levels = options;
+  of_levels.well_centred = false;
   const std::vector<std::size_t> sizes = options.levels ? level_sizes(n) : std::vector<std::size_t>{n};
   Tessellation t = begun_with(random_generators(evaluator, sizes[0], options.seed));
   for (std::size_t level = 0; level + 1 < sizes.size(); ++level) {
-    iterate(evaluator, t, options);
+    iterate(evaluator, t, of_levels);
     const double evaluations =
         t.evaluations + static_cast<double>(t.state.evaluations * static_cast<std::int64_t>(sizes[level])) /
                             static_cast<double>(n);
@@ -90,6 +105,7 @@ void iterate(Evaluator& evaluator, Tessellation& t, const Options& options) {
     evaluator.begin_with(t.numbers);
   }
   t.result = minimize(evaluator, t.state, options);
+  if (options.well_centred && t.result.end != End::stopped) repair(evaluator, t, options);
 }
 
 Tessellation slice_of(Communicator& ranks, const Tessellation& t) {
