@@ -1,6 +1,7 @@
 #pragma once
 // Values on a grid of longitudes and latitudes, bilinear in between.
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -28,10 +29,17 @@ class Axis {
     double part;  ///< fraction of the way to the next tick
   };
   /// The interval of x; x lies between the first and the last tick.
-  Place place(double x) const;
+  Place place(double x) const {
+    const double guess = (x - ticks_.front()) * ticks_per_unit_;  // correct if the ticks are equidistant
+    std::size_t i = std::min(static_cast<std::size_t>(std::max(guess, 0.0)), ticks_.size() - 2);
+    if (__builtin_expect(!(ticks_[i] <= x && x <= ticks_[i + 1]), false)) i = found(x);
+    return {i, (x - ticks_[i]) / (ticks_[i + 1] - ticks_[i])};
+  }
   double first() const { return ticks_.front(); }
 
  private:
+  std::size_t found(double x) const;
+
   std::vector<double> ticks_;
   double ticks_per_unit_;
 };

@@ -42,6 +42,25 @@ TEST(widths, give_their_density_and_number_of_cells) {
   EXPECT_DOUBLE_EQ(widths.density->at(point_sets::from_degrees(17, -90)), 1);
 }
 
+TEST(grid_values, know_longitude_and_latitude) {
+  const files::Grid grid{ticks(0, 5, 72), ticks(-90, 7.5, 25)};
+  const GridValues lats(table(grid, [](double, double lat) { return 100 + lat; })),
+      lons(table(grid, [](double lon, double) { return 100 + std::min(lon, 360 - lon); }));
+  std::vector<Point> places = point_sets::make("random", 3000);
+  for (const double lon : {0.0, 22.5, 45.0, 67.5, 90.0, 135.0, 180.0, 202.5, 270.0, 315.0})
+    for (const double lat : {-90.0, -67.5, -1e-9, 0.0, 22.5, 45.0, 90.0})
+      places.push_back(point_sets::from_degrees(lon, lat));
+  std::vector<double> lat(places.size()), lon(places.size());
+  lats.at(places.size(), places.data(), lat.data());
+  lons.at(places.size(), places.data(), lon.data());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const long double x = places[i].x, y = places[i].y, z = places[i].z, degree = std::acos(-1.0L) / 180;
+    EXPECT_NEAR(lat[i] - 100, static_cast<double>(std::atan2(z, std::hypot(x, y)) / degree), 1e-13);
+    if (std::hypot(x, y) == 0) continue;
+    EXPECT_NEAR(lon[i] - 100, static_cast<double>(std::fabs(std::atan2(y, x)) / degree), 2e-13);
+  }
+}
+
 /// The largest field below the given one that satisfies limit_gradient()'s condition: each place against all.
 std::vector<double> limited(const Table& t, double gradient, double radius) {
   std::vector<Point> places;
