@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "numbers.h"
+#include "point_sets.h"
 #include "text_file.h"
 
 namespace methods {
@@ -151,7 +152,98 @@ class GradientLimit {
   std::priority_queue<std::pair<double, std::size_t>> queue_;  ///< minus the value, place
 };
 
+class DensityOfFormula : public Density {
+ public:
+  DensityOfFormula(const WidthFormula& formula, double radius)
+      : formula_(formula), radius_(radius), centre_(point_sets::from_degrees(formula.lon(), formula.lat())) {}
+  using Density::at;
+  void at(std::size_t n, const Point* p, double* value) const override {
+    for (std::size_t i = 0; i < n; ++i) {
+      const double ratio = formula_.least() / formula_.width(radius_ * distance(p[i])),
+                   square = ratio * ratio;
+      value[i] = std::min(1.0, square * square);
+    }
+  }
+
+ private:
+  double distance(const Point& p) const {  // in radians
+    if (formula_.is_band())
+      return std::fabs(std::atan2(p.z, std::sqrt(p.x * p.x + p.y * p.y)) - formula_.lat() * kDegree);
+    const Point apart = minus(p, centre_), sum{p.x + centre_.x, p.y + centre_.y, p.z + centre_.z};
+    return 2 * std::atan2(std::sqrt(dot(apart, apart)), std::sqrt(dot(sum, sum)));
+  }
+
+  WidthFormula formula_;
+  double radius_;
+  Point centre_;
+};
+
 }  // namespace
+
+bool WidthFormula::is_one(const std::string& text) {
+  return text.rfind("disc:", 0) == 0 || text.rfind("band:", 0) == 0;
+}
+
+WidthFormula::WidthFormula(const std::string& text) : is_band_(text.rfind("band:", 0) == 0) {
+  const auto fail = [&](const std::string& what) {
+    throw std::invalid_argument("width '" + point_sets::excerpt(text) + "': " + what);
+  };
+  double* const numbers[] = {&inner_, &outer_, &radius_, &transition_, is_band_ ? &lat_ : &lon_, &lat_};
+  const std::size_t wanted = is_band_ ? 5 : 6;
+  std::size_t count = 0;
+  for (std::size_t begin = 5; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    double value = 0;
+    if (!point_sets::parse(text.substr(begin, end - begin), value) || !std::isfinite(value))
+      fail("expected numbers, lengths in km, angles in degrees");
+    if (count < wanted) *numbers[count] = value;
+    ++count;
+    begin = end + 1;
+  }
+  if (count != wanted)
+    fail(is_band_ ? "expected five numbers: INNER,OUTER,RADIUS,TRANSITION,LAT"
+                  : "expected six numbers: INNER,OUTER,RADIUS,TRANSITION,LON,LAT");
+  if (!(inner_ > 0 && outer_ > 0)) fail("INNER and OUTER must be above 0");
+  if (!(radius_ >= 0 && transition_ >= 0)) fail("RADIUS and TRANSITION must not be negative");
+  if (!(std::fabs(lat_) <= 90)) fail("LAT is beyond the pole");
+}
+
+bool WidthFormula::limit(double gradient) {
+  const double needed = 1.5 * std::fabs(outer_ - inner_) / gradient;  // width() is steepest in the middle
+  if (!(needed > transition_)) return false;
+  if (inner_ > outer_) radius_ -= needed - transition_;  // the circle where OUTER begins stays
+  transition_ = needed;
+  return true;
+}
+
+double WidthFormula::width(double distance) const {
+  if (distance <= radius_) return inner_;
+  const double t = (distance - radius_) / transition_;
+  return t >= 1 ? outer_ : inner_ + (outer_ - inner_) * t * t * (3 - 2 * t);
+}
+
+Widths WidthFormula::widths(double radius) const {
+  // The integral over colatitude, or over the distance from the centre: Gauss' rule on pieces between the
+  // places where the formula changes.
+  const double from = is_band_ ? (90 - lat_) * kDegree : 0;
+  std::vector<double> ends{0, kPi};
+  for (const double d : {0.0, radius_, radius_ + transition_})
+    for (const double end : {from - d / radius, from + d / radius})
+      if (end > 0 && end < kPi) ends.push_back(end);
+  std::sort(ends.begin(), ends.end());
+  double cells = 0;
+  constexpr int kPieces = 400;
+  constexpr double kPlace = 0.7745966692414834;
+  for (std::size_t i = 1; i < ends.size(); ++i)
+    for (int k = 0; k < kPieces; ++k) {
+      const double half = (ends[i] - ends[i - 1]) / kPieces / 2, middle = ends[i - 1] + (2 * k + 1) * half;
+      for (const auto& [place, weight] : {std::pair(-kPlace, 5.0 / 9), {0.0, 8.0 / 9}, {kPlace, 5.0 / 9}}) {
+        const double angle = middle + place * half, ratio = radius / width(radius * std::fabs(angle - from));
+        cells += 2 * kPi * weight * half * std::sin(angle) * ratio * ratio / (std::sqrt(3) / 2);
+      }
+    }
+  return {std::make_unique<DensityOfFormula>(*this, radius), least(), cells};
+}
 
 Lowered limit_gradient(Table& table, double gradient, double radius) {
   return GradientLimit(table, gradient, radius).run();

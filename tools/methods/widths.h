@@ -37,6 +37,34 @@ Lowered limit_gradient(Table& table, double gradient, double radius);
 /// `radius` in km. Widths are bilinear in longitude and latitude.
 Widths widths_of(Table km, double radius);
 
+/// Widths by a formula, lengths in km, angles in degrees:
+///     disc:INNER,OUTER,RADIUS,TRANSITION,LON,LAT    INNER up to RADIUS from LON, LAT
+///     band:INNER,OUTER,RADIUS,TRANSITION,LAT        INNER up to RADIUS from the parallel LAT
+/// and then over TRANSITION smoothly to OUTER.
+class WidthFormula {
+ public:
+  static bool is_one(const std::string& text);
+  /// Throws std::invalid_argument.
+  explicit WidthFormula(const std::string& text);
+
+  /// Makes the transition so long that widths change by at most `gradient` km per km; the narrower cells keep
+  /// their place. True if it was shorter.
+  bool limit(double gradient);
+  double transition() const { return transition_; }
+  /// `distance` in km from the centre or the parallel.
+  double width(double distance) const;
+  Widths widths(double radius) const;
+  /// The centre; of a band none.
+  bool is_band() const { return is_band_; }
+  double lon() const { return lon_; }
+  double lat() const { return lat_; }
+  double least() const { return inner_ < outer_ ? inner_ : outer_; }
+
+ private:
+  bool is_band_ = false;
+  double inner_ = 0, outer_ = 0, radius_ = 0, transition_ = 0, lon_ = 0, lat_ = 0;
+};
+
 /// The width of cells in km: a number, with or without "km", or with "m". Throws std::invalid_argument.
 double width_of(const std::string& text);
 

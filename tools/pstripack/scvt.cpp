@@ -47,6 +47,7 @@ struct Options {
   First first = First::by_number;
   Input start;
   std::string density, density_file, width_file, variable;
+  std::string width_formula;
   double width = 0;   ///< of all cells, km; 0: not given
   double radius = 0;  ///< of the sphere, metres; 0: not given
   double grade = 0;   ///< most that widths may change, km per km; 0: not given
@@ -60,7 +61,7 @@ struct Options {
 
 // Attributes of the output that let another run continue this one.
 constexpr auto kEvaluations = "scvt_iterations", kDensity = "scvt_density",
-               kDensityFile = "scvt_density_file", kWidthFile = "scvt_width_file",
+               kDensityFile = "scvt_density_file", kWidthFile = "scvt_width_file", kWidth = "scvt_width",
                kVariable = "scvt_density_variable", kRadius = "scvt_radius", kGrade = "scvt_grade",
                kSteps = "scvt_steps", kPairs = "scvt_pairs";
 
@@ -174,7 +175,19 @@ std::unique_ptr<engine::Density> widths_in_file(Options& options) {
   return std::move(widths.density);
 }
 
+/// The density of the widths of the formula; chooses N.
+std::unique_ptr<engine::Density> widths_of_formula(Options& options) {
+  methods::WidthFormula formula(options.width_formula);
+  if (formula.limit(options.grade))
+    say(fmt::format("transition made {:.0f} km long, so that widths change by at most {:g} km per km",
+                    formula.transition(), options.grade));
+  methods::Widths widths = formula.widths(options.radius / 1000);
+  choose_n(options, widths.cells);
+  return std::move(widths.density);
+}
+
 std::unique_ptr<engine::Density> make_density(Options& options) {
+  if (!options.width_formula.empty()) return widths_of_formula(options);
   if (!options.width_file.empty()) return widths_in_file(options);
   if (!options.density_file.empty()) return density_in_file(options);
   try {
@@ -196,12 +209,14 @@ void choose_density(Options& options, const files::Notes& notes) {
     choose_n(options, methods::cells_of_width(options.width, options.radius / 1000));
   }
   const auto is_chosen = [&] {
-    return !(options.density.empty() && options.density_file.empty() && options.width_file.empty());
+    return !(options.density.empty() && options.density_file.empty() && options.width_file.empty() &&
+             options.width_formula.empty());
   };
   if (!is_chosen()) {
     options.density = note(notes, kDensity);
     options.density_file = note(notes, kDensityFile);
     options.width_file = note(notes, kWidthFile);
+    options.width_formula = note(notes, kWidth);
     if (options.variable.empty()) options.variable = note(notes, kVariable);
   }
   if (!is_chosen()) options.density = "constant";
@@ -211,10 +226,11 @@ files::Notes notes_of_density(const Options& options) {
   files::Notes notes;
   for (const auto& [name, text] : {std::pair(kDensity, options.density),
                                    {kDensityFile, options.density_file},
-                                   {kWidthFile, options.width_file}})
+                                   {kWidthFile, options.width_file},
+                                   {kWidth, options.width_formula}})
     if (!text.empty()) notes[name] = text;
   if (options.density.empty() && !options.variable.empty()) notes[kVariable] = options.variable;
-  if (!options.width_file.empty()) {
+  if (!options.width_file.empty() || !options.width_formula.empty()) {
     notes[kRadius] = fmt::format("{}", options.radius);
     notes[kGrade] = fmt::format("{}", options.grade);
   }
@@ -283,7 +299,8 @@ Tessellation tessellation_of(Communicator& ranks, files::Nodes& start, const Opt
         t.state.evaluations = count_in(start, kEvaluations, 0);
         t.state.steps = count_in(start, kSteps, t.state.evaluations);
         bool has_same_density = true;
-        for (const char* const name : {kDensity, kDensityFile, kWidthFile, kVariable, kRadius, kGrade})
+        for (const char* const name :
+             {kDensity, kDensityFile, kWidthFile, kWidth, kVariable, kRadius, kGrade})
           has_same_density &= note(start.notes, name) == note(notes_of_density(options), name);
         if (options.method == Method::newton && has_same_density) t.state.pairs = pairs_in(start);
         have_pairs.value = !t.state.pairs.empty();
@@ -564,7 +581,8 @@ void scvt(Options& options, Ranks& ranks) {
 }
 
 void scvt(Options& options) {
-  if (options.start.file.empty() ? options.n == 0 && options.width == 0 && options.width_file.empty()
+  if (options.start.file.empty() ? options.n == 0 && options.width == 0 && options.width_file.empty() &&
+                                       options.width_formula.empty()
                                  : options.n > 0)
     throw CLI::ValidationError("N", "give either N or widths, for new generators, or --start FILE");
   options.output.choose();
@@ -611,12 +629,19 @@ void add_scvt(CLI::App& app, Command& chosen) {
          "--width",
          [=](const std::string& text) {
            try {
-             options->width = methods::width_of(text);
+             if (methods::WidthFormula::is_one(text)) {
+               methods::WidthFormula checked(text);
+               options->width_formula = text;
+             } else {
+               options->width = methods::width_of(text);
+             }
            } catch (const std::invalid_argument& e) {
              throw CLI::ValidationError("--width", e.what());
            }
          },
-         "of all cells, say 60km: distance of neighbours in a mesh of regular hexagons; N follows from it")
+         "of all cells, say 60km, or a formula, see below: distance of neighbours in a mesh of regular "
+         "hexagons; N "
+         "follows from it")
       ->type_name("WIDTH")
       ->excludes("--density")
       ->excludes("--density-file");
@@ -683,6 +708,13 @@ Densities:
   bump:LON,LAT,RADIUS,WIDTH,RATIO     (1 + (RATIO-1) (1 + tanh((RADIUS-d)/WIDTH))/2)^4, d the distance from LON,LAT,
                                       all in degrees: cells within RADIUS are RATIO times narrower than far away
 A NetCDF density on the two axes of a global longitude-latitude grid is bilinear between its values.
+
+Widths, in km, angles in degrees:
+  60km                                of all cells
+  disc:INNER,OUTER,RADIUS,TRANSITION,LON,LAT
+  band:INNER,OUTER,RADIUS,TRANSITION,LAT
+                                      INNER up to RADIUS km from LON,LAT, or from the parallel LAT; then over TRANSITION
+                                      km, which --grade may lengthen, smoothly to OUTER
 
 To continue a run, repeat its command with --start CHECKPOINT instead of N: the result has the same bits as without
 interruption. NetCDF files hold evaluations and density. Only NetCDF checkpoints other than mpas also hold the state

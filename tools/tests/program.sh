@@ -430,7 +430,7 @@ scvt)
   rm two.txt
   refuses 1 "two.txt: cannot be opened" scvt --start file.nodes.nc --iterations 7 -o failed.nc
   # Meshes for MPAS are well centred, others on request.
-  bump="scvt 2562 --density bump:0,30,30,10,4 --tolerance 1e-3"
+  bump="scvt 1000 --density bump:0,30,30,10,4 --tolerance 1e-3"
   # shellcheck disable=SC2086
   "$PSTRIPACK" $bump -o plain.nodes.nc 2> err
   grep -q ", converged to 0.001: gradient" err || fail "$(cat err)"
@@ -459,6 +459,14 @@ scvt)
   grep -q "^pstripack: the widths give 589 cells$" err || fail "$(cat err)"
   "$PSTRIPACK" scvt 147 --width 1000 --tolerance 0.1 -o coarse.nodes.nc 2> err
   grep -q "the widths give 589 cells; 147 are asked for: widths times 2.002$" err || fail "$(cat err)"
+  # Discs and bands.
+  disc="disc:500,2000,3000,1000,20,40"
+  "$PSTRIPACK" scvt --width $disc --iterations 6 --checkpoint checkpoint.nc --every 1 -o six.nodes.nc 2> err
+  grep -q "^pstripack: transition made 11250 km long, so that widths change by at most 0.2 km per km$" err || fail "$(cat err)"
+  grep -q "^pstripack: the widths give 618 cells$" err || fail "$(cat err)"
+  "$PSTRIPACK" -q scvt --width $disc --iterations 8 -o eight.nodes.nc
+  "$PSTRIPACK" -q scvt --start checkpoint.nc --iterations 8 -o more.nodes.nc
+  cmp more.nodes.nc eight.nodes.nc
   if command -v ncgen > /dev/null; then  # Debian: netcdf-bin
     # cellWidth(lat, lon) as mpas_tools writes it: no units, the first meridian repeated. Here 1000 km everywhere.
     widths_file() { # NAME UNITS VALUES: on 7 rows and 9 columns
@@ -548,6 +556,7 @@ bad_scvt)
   for width in 0 -60km nankm 60miles km; do
     refuses 2 "'$width' is no width: expected, say, 60km" scvt "--width=$width" -o failed.off
   done
+  refuses 2 "width 'band:1,2,3,4': expected five numbers: INNER,OUTER,RADIUS,TRANSITION,LAT" scvt --width band:1,2,3,4 -o failed.off
   refuses 2 "excludes" scvt --width 60km --density bump -o failed.off
   refuses 2 "'0' is not a finite number above 0" scvt --width 60km --grade 0 -o failed.off
   refuses 2 "'nan' is not a finite number above 0" scvt --width 60km --radius nan -o failed.off

@@ -124,5 +124,62 @@ TEST(limit_gradient, changes_nothing_that_is_flat_enough_and_says_what_it_change
   EXPECT_EQ(lowered.lat, 0);
 }
 
+TEST(width_formula, is_as_documented) {
+  const double km = 1 / 6371.0 / kDegree;  // in degrees
+  const Widths disc = WidthFormula("disc:10,120,500,1000,20,-30").widths(6371);
+  const auto width = [](const Widths& widths, double lon, double lat) {
+    return widths.least / std::sqrt(std::sqrt(widths.density->at(point_sets::from_degrees(lon, lat))));
+  };
+  EXPECT_DOUBLE_EQ(disc.least, 10);
+  EXPECT_NEAR(width(disc, 20, -30), 10, 1e-12);
+  EXPECT_NEAR(width(disc, 20, -30 + 499 * km), 10, 1e-12);
+  EXPECT_NEAR(width(disc, 20, -30 + 1000 * km), 65, 1e-6);
+  EXPECT_NEAR(width(disc, 20, -30 - 750 * km), 10 + 110 * 0.15625, 1e-6);
+  EXPECT_NEAR(width(disc, 20, -30 - 1501 * km), 120, 1e-9);
+  EXPECT_NEAR(width(disc, -160, 30), 120, 1e-9);
+  const Widths band = WidthFormula("band:30,60,1000,500,10").widths(6371);
+  EXPECT_NEAR(width(band, 77, 10 - 999 * km), 30, 1e-9);
+  EXPECT_NEAR(width(band, 77, 10 + 1250 * km), 45, 1e-6);
+  EXPECT_NEAR(width(band, 77, -90), 60, 1e-9);
+  // Number of cells: without transition a cap, and a zone.
+  const double whole = cells_of_width(1, 6371), cap = (1 - std::cos(500 / 6371.0)) / 2;
+  EXPECT_NEAR(
+      WidthFormula("disc:10,120,500,0,20,-30").widths(6371).cells / (whole * (cap / 100 + (1 - cap) / 14400)),
+      1, 1e-9);
+  const double zone = (std::sin(10 * kDegree + 1000 / 6371.0) - std::sin(10 * kDegree - 1000 / 6371.0)) / 2;
+  EXPECT_NEAR(
+      WidthFormula("band:30,60,1000,0,10").widths(6371).cells / (whole * (zone / 900 + (1 - zone) / 3600)), 1,
+      1e-9);
+  // With one: the same widths on a grid.
+  const files::Grid grid{ticks(-180, 0.5, 721), ticks(-90, 0.5, 361)};
+  for (const Widths* const widths : {&disc, &band}) {
+    const Table t = table(grid, [&](double lon, double lat) { return width(*widths, lon, lat); });
+    EXPECT_NEAR(widths_of(t, 6371).cells / widths->cells, 1, 4e-3);
+  }
+  for (const char* const formula :
+       {"disc:", "disc:1,2,3,4,5", "disc:1,2,3,4,5,6,7", "disc:1,2,3,x,5,6", "disc:0,2,3,4,5,6",
+        "disc:1,-2,3,4,5,6", "disc:1,2,-3,4,5,6", "disc:1,2,3,nan,5,6", "disc:1,2,3,4,5,91",
+        "band:1,2,3,4,5,6", "band:1,2,3,4,-91"})
+    EXPECT_THROW(WidthFormula{formula}, std::invalid_argument) << formula;
+}
+
+TEST(width_formula, is_limited_in_its_gradient) {
+  WidthFormula fine("disc:10,120,500,100,0,0"), coarse("disc:120,10,5000,100,0,0"),
+      flat("disc:10,120,500,1000,0,0");
+  EXPECT_TRUE(fine.limit(0.2));
+  EXPECT_TRUE(coarse.limit(0.2));
+  EXPECT_FALSE(flat.limit(0.2));
+  EXPECT_DOUBLE_EQ(fine.transition(), 825);
+  double steepest = 0;
+  for (double d = 0; d < 10000; ++d)
+    for (const WidthFormula& formula : {fine, coarse})
+      steepest = std::max(steepest, std::fabs(formula.width(d + 1) - formula.width(d)));
+  EXPECT_NEAR(steepest, 0.2, 1e-6);
+  EXPECT_EQ(fine.width(500), 10);
+  EXPECT_LT(coarse.width(5099), 10.01);  // the fine cells stay
+  EXPECT_EQ(coarse.width(5100), 10);
+  EXPECT_EQ(coarse.width(4275), 120);
+}
+
 }  // namespace
 }  // namespace methods
