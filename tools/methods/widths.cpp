@@ -1,5 +1,7 @@
 #include "methods/widths.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -81,8 +83,11 @@ class GradientLimit {
     for (std::size_t i = 0; i < given_.size(); ++i) source_[i] = static_cast<std::uint32_t>(i);
   }
 
-  Lowered run() {
+  /// `inside`: by place. Only places whose entry is `sources` keep others low, and only other ones are
+  /// lowered.
+  Lowered run(const std::vector<bool>* inside = nullptr, bool sources = true) {
     for (std::size_t i = 0; i < given_.size(); ++i) {
+      if (inside != nullptr && (*inside)[i] != sources) continue;
       bool is_source = false;
       for_each_neighbour(i, [&](std::size_t n) {  // a chord is shorter than its arc
         is_source = is_source || given_[i] + slope_ * chord(i, n) < given_[n];
@@ -96,7 +101,7 @@ class GradientLimit {
       const std::uint32_t s = source_[i];
       for_each_neighbour(i, [&](std::size_t n) {
         const double offer = given_[s] + slope_ * 2 * std::asin(std::min(1.0, chord(s, n) / 2));
-        if (!(offer < lowered_[n])) return;
+        if (!(offer < lowered_[n]) || (inside != nullptr && (*inside)[n] == sources)) return;
         lowered_[n] = offer;
         source_[n] = s;
         queue_.emplace(-offer, n);
@@ -154,29 +159,33 @@ class GradientLimit {
 
 class DensityOfFormula : public Density {
  public:
-  DensityOfFormula(const WidthFormula& formula, double radius)
-      : formula_(formula), radius_(radius), centre_(point_sets::from_degrees(formula.lon(), formula.lat())) {}
+  DensityOfFormula(const WidthFormula& formula, double radius) : formula_(formula), radius_(radius) {}
   using Density::at;
   void at(std::size_t n, const Point* p, double* value) const override {
+    formula_.at(n, p, radius_, value);
     for (std::size_t i = 0; i < n; ++i) {
-      const double ratio = formula_.least() / formula_.width(radius_ * distance(p[i])),
-                   square = ratio * ratio;
+      const double square = formula_.least() / value[i] * (formula_.least() / value[i]);
       value[i] = std::min(1.0, square * square);
     }
   }
 
  private:
-  double distance(const Point& p) const {  // in radians
-    if (formula_.is_band())
-      return std::fabs(std::atan2(p.z, std::sqrt(p.x * p.x + p.y * p.y)) - formula_.lat() * kDegree);
-    const Point apart = minus(p, centre_), sum{p.x + centre_.x, p.y + centre_.y, p.z + centre_.z};
-    return 2 * std::atan2(std::sqrt(dot(apart, apart)), std::sqrt(dot(sum, sum)));
-  }
-
   WidthFormula formula_;
   double radius_;
-  Point centre_;
 };
+
+/// The columns of an equidistant table without its last one that lie inside the region at this latitude.
+template <class Visit>
+void for_each_inside(const files::WidthRegion& region, double lat, std::size_t columns, const Visit& visit) {
+  const double per_degree = static_cast<double>(columns) / 360;
+  // A side along a pole belongs to the region.
+  for (const auto& [west, east] : region.inside(std::clamp(lat, -90 + 1e-9, 90 - 1e-9))) {
+    const auto first = static_cast<std::int64_t>(std::ceil((west + 180) * per_degree));
+    const auto last = static_cast<std::int64_t>(std::floor((east + 180) * per_degree));
+    for (std::int64_t c = first; c <= last && c < first + static_cast<std::int64_t>(columns); ++c)
+      visit(static_cast<std::size_t>(c) % columns);
+  }
+}
 
 }  // namespace
 
@@ -217,9 +226,23 @@ bool WidthFormula::limit(double gradient) {
 }
 
 double WidthFormula::width(double distance) const {
-  if (distance <= radius_) return inner_;
+  if (distance <= radius_ || inner_ == outer_) return inner_;
   const double t = (distance - radius_) / transition_;
   return t >= 1 ? outer_ : inner_ + (outer_ - inner_) * t * t * (3 - 2 * t);
+}
+
+void WidthFormula::at(std::size_t n, const Point* p, double radius, double* width) const {
+  const Point centre = point_sets::from_degrees(lon_, lat_);
+  for (std::size_t i = 0; i < n; ++i) {
+    double distance;  // in radians
+    if (is_band_) {
+      distance = std::fabs(std::atan2(p[i].z, std::sqrt(p[i].x * p[i].x + p[i].y * p[i].y)) - lat_ * kDegree);
+    } else {
+      const Point apart = minus(p[i], centre), sum{p[i].x + centre.x, p[i].y + centre.y, p[i].z + centre.z};
+      distance = 2 * std::atan2(std::sqrt(dot(apart, apart)), std::sqrt(dot(sum, sum)));
+    }
+    width[i] = this->width(radius * distance);
+  }
 }
 
 Widths WidthFormula::widths(double radius) const {
@@ -247,6 +270,56 @@ Widths WidthFormula::widths(double radius) const {
 
 Lowered limit_gradient(Table& table, double gradient, double radius) {
   return GradientLimit(table, gradient, radius).run();
+}
+
+Table widths_of_regions(const std::vector<files::WidthRegion>& regions, const WidthFormula& elsewhere,
+                        double radius) {
+  constexpr double kFinest = 0.1, kCoarsest = 0.5;
+  double least = elsewhere.least();
+  for (const files::WidthRegion& region : regions) least = std::min(least, region.width);
+  const double step = std::clamp(least / radius / kDegree, kFinest, kCoarsest);
+  const auto rows = static_cast<std::size_t>(std::ceil(180 / step)) + 1, columns = 2 * (rows - 1);
+  Table t;
+  for (std::size_t c = 0; c <= columns; ++c)
+    t.lon.push_back(-180 + 360 * static_cast<double>(c) / static_cast<double>(columns));
+  for (std::size_t r = 0; r < rows; ++r)
+    t.lat.push_back(-90 + 180 * static_cast<double>(r) / static_cast<double>(rows - 1));
+  t.values.resize(rows * (columns + 1));
+  for (std::size_t r = 0; r < rows; ++r) {
+    std::vector<Point> places;
+    for (const double lon : t.lon) places.push_back(point_sets::from_degrees(lon, t.lat[r]));
+    elsewhere.at(places.size(), places.data(), radius, &t.values[r * (columns + 1)]);
+  }
+
+  // Wider regions first: narrower ones cut into them.
+  std::vector<const files::WidthRegion*> order;
+  for (const files::WidthRegion& region : regions) order.push_back(&region);
+  std::stable_sort(order.begin(), order.end(),
+                   [](const auto* a, const auto* b) { return a->width > b->width; });
+  for (const files::WidthRegion* const region : order) {
+    const bool is_wide = region->width > elsewhere.most();
+    std::vector<bool> inside(rows * columns);
+    bool has_places = false;
+    for (std::size_t r = 0; r < rows; ++r)
+      for_each_inside(*region, t.lat[r], columns, [&](std::size_t c) {
+        has_places = inside[r * columns + c] = true;
+        double& value = t.values[r * (columns + 1) + c];
+        value = is_wide ? region->width : std::min(value, region->width);
+        if (c == 0) t.values[r * (columns + 1) + columns] = value;
+      });
+    const auto fail = [&](const std::string& of) {
+      throw std::runtime_error(
+          fmt::format("feature {}: it is smaller than {}: enlarge it, make its width smaller, or use a disc",
+                      region->feature, of));
+    };
+    if (region->area() * radius * radius < std::sqrt(3) / 2 * region->width * region->width)
+      fail(fmt::format("a cell of {:g} km", region->width));
+    if (!has_places) fail(fmt::format("a spacing of the grid, {:.3g} degrees", t.lat[1] - t.lat[0]));
+    const double change = is_wide ? region->width - elsewhere.least() : elsewhere.most() - region->width;
+    if (region->transition > 0 && change > 0)
+      GradientLimit(t, change / region->transition, radius).run(&inside, !is_wide);
+  }
+  return t;
 }
 
 Widths widths_of(Table km, double radius) {

@@ -47,7 +47,7 @@ struct Options {
   First first = First::by_number;
   Input start;
   std::string density, density_file, width_file, variable;
-  std::string width_formula;
+  std::string width_text, width_region;
   double width = 0;   ///< of all cells, km; 0: not given
   double radius = 0;  ///< of the sphere, metres; 0: not given
   double grade = 0;   ///< most that widths may change, km per km; 0: not given
@@ -62,8 +62,8 @@ struct Options {
 // Attributes of the output that let another run continue this one.
 constexpr auto kEvaluations = "scvt_iterations", kDensity = "scvt_density",
                kDensityFile = "scvt_density_file", kWidthFile = "scvt_width_file", kWidth = "scvt_width",
-               kVariable = "scvt_density_variable", kRadius = "scvt_radius", kGrade = "scvt_grade",
-               kSteps = "scvt_steps", kPairs = "scvt_pairs";
+               kWidthRegion = "scvt_width_region", kVariable = "scvt_density_variable",
+               kRadius = "scvt_radius", kGrade = "scvt_grade", kSteps = "scvt_steps", kPairs = "scvt_pairs";
 
 std::string note(const files::Notes& notes, const char* name) {
   const auto found = notes.find(name);
@@ -130,6 +130,19 @@ void choose_n(Options& options, double cells) {
   say(fmt::format("the widths give {} cells", options.n));
 }
 
+/// The density of the widths, limited in their gradient; chooses N.
+std::unique_ptr<engine::Density> widths_of(methods::Table table, Options& options) {
+  const methods::Lowered lowered = methods::limit_gradient(table, options.grade, options.radius / 1000);
+  if (lowered.places > 0)
+    say(fmt::format(
+        "widths limited to a change of {:g} km per km: {} of {} values lowered, by up to {:.4g} km "
+        "(lon {:g} lat {:g})",
+        options.grade, lowered.places, lowered.of, lowered.most, lowered.lon, lowered.lat));
+  methods::Widths widths = methods::widths_of(std::move(table), options.radius / 1000);
+  choose_n(options, widths.cells);
+  return std::move(widths.density);
+}
+
 /// The density of the widths in the file; chooses N.
 std::unique_ptr<engine::Density> widths_in_file(Options& options) {
   files::ReadOptions read = options.start.read;
@@ -164,20 +177,12 @@ std::unique_ptr<engine::Density> widths_in_file(Options& options) {
   } catch (const std::runtime_error& e) {
     fail(e.what());
   }
-  const methods::Lowered lowered = methods::limit_gradient(table, options.grade, options.radius / 1000);
-  if (lowered.places > 0)
-    say(fmt::format(
-        "widths limited to a change of {:g} km per km: {} of {} values lowered, by up to {:.4g} km "
-        "(lon {:g} lat {:g})",
-        options.grade, lowered.places, lowered.of, lowered.most, lowered.lon, lowered.lat));
-  methods::Widths widths = methods::widths_of(std::move(table), options.radius / 1000);
-  choose_n(options, widths.cells);
-  return std::move(widths.density);
+  return widths_of(std::move(table), options);
 }
 
 /// The density of the widths of the formula; chooses N.
 std::unique_ptr<engine::Density> widths_of_formula(Options& options) {
-  methods::WidthFormula formula(options.width_formula);
+  methods::WidthFormula formula(options.width_text);
   if (formula.limit(options.grade))
     say(fmt::format("transition made {:.0f} km long, so that widths change by at most {:g} km per km",
                     formula.transition(), options.grade));
@@ -186,8 +191,25 @@ std::unique_ptr<engine::Density> widths_of_formula(Options& options) {
   return std::move(widths.density);
 }
 
+/// The density of the widths of the regions, and of the formula elsewhere; chooses N.
+std::unique_ptr<engine::Density> widths_of_regions(Options& options) {
+  const std::string& text = options.width_text;
+  const methods::WidthFormula elsewhere = methods::WidthFormula::is_one(text)
+                                              ? methods::WidthFormula(text)
+                                              : methods::WidthFormula(methods::width_of(text));
+  const auto regions = files::read_width_regions(options.width_region);
+  methods::Table table;
+  try {
+    table = methods::widths_of_regions(regions, elsewhere, options.radius / 1000);
+  } catch (const std::runtime_error& e) {
+    throw std::runtime_error(options.width_region + ": " + e.what());
+  }
+  return widths_of(std::move(table), options);
+}
+
 std::unique_ptr<engine::Density> make_density(Options& options) {
-  if (!options.width_formula.empty()) return widths_of_formula(options);
+  if (!options.width_region.empty()) return widths_of_regions(options);
+  if (!options.width_text.empty()) return widths_of_formula(options);
   if (!options.width_file.empty()) return widths_in_file(options);
   if (!options.density_file.empty()) return density_in_file(options);
   try {
@@ -204,19 +226,21 @@ void choose_density(Options& options, const files::Notes& notes) {
   };
   choose(options.radius, kRadius, 6371220);  // that of MPAS' and E3SM's tools
   choose(options.grade, kGrade, 0.2);
-  if (options.width > 0) {
+  if (options.width > 0 && options.width_region.empty()) {
     options.density = "constant";
+    options.width_text.clear();
     choose_n(options, methods::cells_of_width(options.width, options.radius / 1000));
   }
   const auto is_chosen = [&] {
     return !(options.density.empty() && options.density_file.empty() && options.width_file.empty() &&
-             options.width_formula.empty());
+             options.width_text.empty());
   };
   if (!is_chosen()) {
     options.density = note(notes, kDensity);
     options.density_file = note(notes, kDensityFile);
     options.width_file = note(notes, kWidthFile);
-    options.width_formula = note(notes, kWidth);
+    options.width_text = note(notes, kWidth);
+    options.width_region = note(notes, kWidthRegion);
     if (options.variable.empty()) options.variable = note(notes, kVariable);
   }
   if (!is_chosen()) options.density = "constant";
@@ -227,10 +251,11 @@ files::Notes notes_of_density(const Options& options) {
   for (const auto& [name, text] : {std::pair(kDensity, options.density),
                                    {kDensityFile, options.density_file},
                                    {kWidthFile, options.width_file},
-                                   {kWidth, options.width_formula}})
+                                   {kWidth, options.width_text},
+                                   {kWidthRegion, options.width_region}})
     if (!text.empty()) notes[name] = text;
   if (options.density.empty() && !options.variable.empty()) notes[kVariable] = options.variable;
-  if (!options.width_file.empty() || !options.width_formula.empty()) {
+  if (!options.width_file.empty() || !options.width_text.empty()) {
     notes[kRadius] = fmt::format("{}", options.radius);
     notes[kGrade] = fmt::format("{}", options.grade);
   }
@@ -300,7 +325,7 @@ Tessellation tessellation_of(Communicator& ranks, files::Nodes& start, const Opt
         t.state.steps = count_in(start, kSteps, t.state.evaluations);
         bool has_same_density = true;
         for (const char* const name :
-             {kDensity, kDensityFile, kWidthFile, kWidth, kVariable, kRadius, kGrade})
+             {kDensity, kDensityFile, kWidthFile, kWidth, kWidthRegion, kVariable, kRadius, kGrade})
           has_same_density &= note(start.notes, name) == note(notes_of_density(options), name);
         if (options.method == Method::newton && has_same_density) t.state.pairs = pairs_in(start);
         have_pairs.value = !t.state.pairs.empty();
@@ -524,9 +549,9 @@ void check_files_of_ranks(const Options& options) {
           fmt::format("{}: several ranks write ugrid, mpas, off, xyz, lonlat, nodes and raw, each its part: "
                       "choose one of these, and `pstripack convert` afterwards",
                       output->file));
-  if (options.density_file == "-" || options.width_file == "-")
+  if (options.density_file == "-" || options.width_file == "-" || options.width_region == "-")
     throw std::runtime_error(
-        "--density-file -, --width-file -: several ranks cannot read stdin: name a file");
+        "--density-file -, --width-file -, --width-region -: several ranks cannot read stdin: name a file");
 }
 
 /// The command, on all ranks.
@@ -581,10 +606,12 @@ void scvt(Options& options, Ranks& ranks) {
 }
 
 void scvt(Options& options) {
-  if (options.start.file.empty() ? options.n == 0 && options.width == 0 && options.width_file.empty() &&
-                                       options.width_formula.empty()
-                                 : options.n > 0)
+  if (options.start.file.empty()
+          ? options.n == 0 && options.width == 0 && options.width_file.empty() && options.width_text.empty()
+          : options.n > 0)
     throw CLI::ValidationError("N", "give either N or widths, for new generators, or --start FILE");
+  if (!options.width_region.empty() && options.width_text.empty())
+    throw CLI::ValidationError("--width-region", "say also --width, that of the cells elsewhere");
   options.output.choose();
   options.well_centred = options.well_centred || options.output.format == files::Format::mpas;
   if (!options.checkpoint.file.empty()) options.checkpoint.choose(files::Format::netcdf);
@@ -629,12 +656,11 @@ void add_scvt(CLI::App& app, Command& chosen) {
          "--width",
          [=](const std::string& text) {
            try {
-             if (methods::WidthFormula::is_one(text)) {
-               methods::WidthFormula checked(text);
-               options->width_formula = text;
-             } else {
+             options->width_text = text;
+             if (methods::WidthFormula::is_one(text))
+               methods::WidthFormula{text};
+             else
                options->width = methods::width_of(text);
-             }
            } catch (const std::invalid_argument& e) {
              throw CLI::ValidationError("--width", e.what());
            }
@@ -651,6 +677,9 @@ void add_scvt(CLI::App& app, Command& chosen) {
       ->excludes("--width")
       ->excludes("--density")
       ->excludes("--density-file");
+  sub->add_option("--width-region", options->width_region,
+                  "GeoJSON polygons with properties width and transition, km, within --width elsewhere")
+      ->type_name("FILE");
   const auto above_0 = [](const std::string& text) {
     double value = 0;
     return point_sets::parse(text, value) && value > 0 && std::isfinite(value)

@@ -467,6 +467,16 @@ scvt)
   "$PSTRIPACK" -q scvt --width $disc --iterations 8 -o eight.nodes.nc
   "$PSTRIPACK" -q scvt --start checkpoint.nc --iterations 8 -o more.nodes.nc
   cmp more.nodes.nc eight.nodes.nc
+  # Polygons with a width each.
+  region='{"type": "Feature", "properties": {"width": 400, "transition": "2000"}, "geometry": {"type": "Polygon", "coordinates": [[[0, 20], [60, 20], [60, 50], [0, 50], [0, 20]]]}}'
+  echo "{\"type\": \"FeatureCollection\", \"features\": [$region]}" > region.json
+  "$PSTRIPACK" scvt --width 1000km --width-region region.json --iterations 3 --checkpoint region.nc --every 1 -o region.nodes.nc 2> err
+  grep -q "^pstripack: widths limited to a change of 0.2 km per km: .* values lowered" err || fail "$(cat err)"
+  grep -q "^pstripack: the widths give 808 cells$" err || fail "$(cat err)"
+  echo "$region" > region.json
+  "$PSTRIPACK" -q scvt --start region.nc --iterations 5 -o more.nodes.nc
+  "$PSTRIPACK" -q scvt --width 1000km --width-region region.json --iterations 5 -o region.nodes.nc
+  cmp more.nodes.nc region.nodes.nc
   if command -v ncgen > /dev/null; then  # Debian: netcdf-bin
     # cellWidth(lat, lon) as mpas_tools writes it: no units, the first meridian repeated. Here 1000 km everywhere.
     widths_file() { # NAME UNITS VALUES: on 7 rows and 9 columns
@@ -557,6 +567,30 @@ bad_scvt)
     refuses 2 "'$width' is no width: expected, say, 60km" scvt "--width=$width" -o failed.off
   done
   refuses 2 "width 'band:1,2,3,4': expected five numbers: INNER,OUTER,RADIUS,TRANSITION,LAT" scvt --width band:1,2,3,4 -o failed.off
+  polygon() { echo "{\"type\": \"Feature\", \"properties\": {$1}, \"geometry\": {\"type\": \"Polygon\", \"coordinates\": [$2]}}" > region.json; }
+  box="[[0, 0], [9, 0], [9, 9], [0, 9], [0, 0]]"
+  regions="scvt --width 900km --width-region region.json -o failed.off"
+  for bad in '' '"width": 0' '"width": "wide"' '"width": null'; do
+    polygon "$bad" "$box"
+    # shellcheck disable=SC2086
+    refuses 1 "region.json: feature 1: it needs the property width, in km and above 0" $regions
+  done
+  polygon '"width": 30, "transition": -1' "$box"
+  # shellcheck disable=SC2086
+  refuses 1 "region.json: feature 1: its property transition must be in km, and not negative" $regions
+  polygon '"width": 3000' "$box"
+  # shellcheck disable=SC2086
+  refuses 1 "region.json: feature 1: it is smaller than a cell of 3000 km: enlarge it, make its width smaller, or use a disc" $regions
+  polygon '"width": 30' "[[170, 0], [-170, 0], [-170, 9], [170, 0]]"
+  # shellcheck disable=SC2086
+  refuses 1 "feature 1: its side from longitude 170 to -170 goes around the globe: cut the polygon at 180, or continue beyond" $regions
+  polygon '"width": 30' "[[0, 0], [9, 0], [9, 91], [0, 0]]"
+  # shellcheck disable=SC2086
+  refuses 1 "feature 1: latitude 91 is beyond the pole" $regions
+  echo '{"type": "Point", "coordinates": [0, 0]}' > region.json
+  # shellcheck disable=SC2086
+  refuses 1 "region.json: not GeoJSON of polygons: the type is 'Point', expected FeatureCollection, Feature, Polygon or MultiPolygon" $regions
+  refuses 2 "--width-region: say also --width, that of the cells elsewhere" scvt --width-region region.json 9 -o failed.off
   refuses 2 "excludes" scvt --width 60km --density bump -o failed.off
   refuses 2 "'0' is not a finite number above 0" scvt --width 60km --grade 0 -o failed.off
   refuses 2 "'nan' is not a finite number above 0" scvt --width 60km --radius nan -o failed.off

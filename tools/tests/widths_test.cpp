@@ -181,5 +181,46 @@ TEST(width_formula, is_limited_in_its_gradient) {
   EXPECT_EQ(coarse.width(4275), 120);
 }
 
+files::WidthRegion region(double width, double transition,
+                          std::vector<std::vector<std::pair<double, double>>> rings) {
+  return {1, std::move(rings), width, transition};
+}
+
+TEST(widths_of_regions, change_over_the_transitions_and_hold_holes_datelines_and_poles) {
+  const auto box = [](double west, double south, double east, double north) {
+    return std::vector<std::pair<double, double>>{
+        {west, south}, {east, south}, {east, north}, {west, north}, {west, south}};
+  };
+  const double km = 1 / 6371.0 / kDegree;  // in degrees
+  // Narrower, with a hole; across the dateline; a cap with the pole; wider.
+  const Table t =
+      widths_of_regions({region(30, 1000, {box(0, -20, 40, 20), box(10, -10, 30, 10)}),
+                         region(40, 500, {box(170, -20, 190, 20)}), region(50, 0, {box(-180, 80, 180, 90)}),
+                         region(240, 1000, {box(60, -70, 120, -20)})},
+                        WidthFormula(120), 6371);
+  EXPECT_NEAR(t.lat[1] - t.lat[0], 30 * km, 0.001);
+  const GridValues widths(t);
+  const auto width = [&](double lon, double lat) {
+    const Point p = point_sets::from_degrees(lon, lat);
+    double value = 0;
+    widths.at(1, &p, &value);
+    return value;
+  };
+  for (const double lon : {1.0, 5.0, 39.0}) EXPECT_EQ(width(lon, 0), 30);
+  EXPECT_NEAR(width(20, 0), 120, 1e-9);  // 10 degrees inside the hole
+  EXPECT_NEAR(width(20, 20 + 500 * km), 75, 2);
+  EXPECT_NEAR(width(20, 20 + 1001 * km), 120, 2);
+  for (const double lon : {171.0, 179.9, -180.0, -179.0, -171.0}) EXPECT_EQ(width(lon, 0), 40);
+  EXPECT_NEAR(width(-170 + 250 * km, 0), 80, 4);
+  EXPECT_EQ(width(77, 90), 50);
+  EXPECT_EQ(width(77, 80.5), 50);
+  EXPECT_EQ(width(77, 79), 120);
+  EXPECT_NEAR(width(90, -20 - 500 * km), 180, 4);
+  EXPECT_NEAR(width(90, -45), 240, 1e-9);
+  EXPECT_EQ(width(90, -19), 120);
+  EXPECT_THROW(widths_of_regions({region(30, 0, {box(0, 0, 0.2, 0.2)})}, WidthFormula(120), 6371),
+               std::runtime_error);
+}
+
 }  // namespace
 }  // namespace methods
