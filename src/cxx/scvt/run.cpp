@@ -56,18 +56,6 @@ void move(Communicator& ranks, const Tessellation& from, const std::vector<std::
   in_agreement(ranks, [&] { take_rows(to, std::move(rows)); });
 }
 
-/// Makes the tessellation well centred. `result` becomes that of the moved generators.
-void repair(Evaluator& evaluator, Tessellation& t, const Options& options) {
-  t.repair = make_well_centred(evaluator, t.state.generators);
-  if (t.repair.moved == 0) return;
-  t.state.pairs.clear();  // of other generators
-  Options only_evaluate = options;
-  only_evaluate.tolerance = std::numeric_limits<double>::infinity();
-  const End end = t.result.end;
-  t.result = minimize(evaluator, t.state, only_evaluate);
-  t.result.end = end;
-}
-
 Tessellation begun_with(Spread&& generators) {
   Tessellation t;
   t.numbers = std::move(generators.numbers);
@@ -98,14 +86,27 @@ Tessellation first_generators(Evaluator& evaluator, std::size_t n, const RunOpti
   return t;
 }
 
+Result solve(Evaluator& evaluator, State& state, const Options& options, Repair& repair) {
+  Result result = minimize(evaluator, state, options);
+  if (!options.well_centred || result.end == End::stopped) return result;
+  repair = make_well_centred(evaluator, state.generators);
+  if (repair.moved == 0) return result;
+  state.pairs.clear();  // of other generators
+  Options only_evaluate = options;
+  only_evaluate.tolerance = std::numeric_limits<double>::infinity();
+  const End end = result.end;
+  result = minimize(evaluator, state, only_evaluate);
+  result.end = end;
+  return result;
+}
+
 void iterate(Evaluator& evaluator, Tessellation& t, const Options& options) {
   evaluator.begin_with(t.numbers);
   if (evaluator.ranks().size() > 1) {
     move(evaluator.ranks(), t, evaluator.homes(t.state.generators), t);
     evaluator.begin_with(t.numbers);
   }
-  t.result = minimize(evaluator, t.state, options);
-  if (options.well_centred && t.result.end != End::stopped) repair(evaluator, t, options);
+  t.result = solve(evaluator, t.state, options, t.repair);
 }
 
 Tessellation slice_of(Communicator& ranks, const Tessellation& t) {

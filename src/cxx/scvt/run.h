@@ -36,8 +36,12 @@ std::vector<Point> unit_vectors(std::vector<Point> generators);
 /// End::stopped. Collective. Throws what minimize throws.
 Tessellation first_generators(Evaluator& evaluator, std::size_t n, const RunOptions& options);
 
-/// One level: moves each generator to the rank where its neighbours are, then calls minimize(). With
-/// options.well_centred make_well_centred() follows. Collective. Throws what minimize throws.
+/// minimize(), then, with options.well_centred, make_well_centred(), which sets `repair`; the result is that
+/// of the generators in the end. Collective. Throws what minimize throws.
+Result solve(Evaluator& evaluator, State& state, const Options& options, Repair& repair);
+
+/// One level: moves each generator to the rank where its neighbours are, then calls solve(). Collective.
+/// Throws what minimize throws.
 void iterate(Evaluator& evaluator, Tessellation& tessellation, const Options& options);
 
 /// The same numbers and state, redistributed: rank r gets the r-th of equal slices of 1, 2, ... `result` is
