@@ -1,6 +1,7 @@
 // `pstripack scvt`.
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -130,6 +131,20 @@ void choose_n(Options& options, double cells) {
   say(fmt::format("the widths give {} cells", options.n));
 }
 
+/// Throws, before the work, if N generators on this machine need more memory than it has.
+void check_memory(double generators) {
+  constexpr double kBytes = 1100;  // of a generator, with output; 1000 with levels
+  const double bytes = kBytes * generators;
+  const double most =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (most > 0 && bytes > most)
+    throw std::runtime_error(
+        fmt::format("{:.0f} generators need about {:.3g} GB, this machine has {:.3g} GB: take fewer, with "
+                    "widths {:.2g} times as "
+                    "wide, or ranks on several machines (mpirun)",
+                    generators, bytes / 1e9, most / 1e9, std::sqrt(bytes / most)));
+}
+
 /// The density of the widths, limited in their gradient; chooses N.
 std::unique_ptr<engine::Density> widths_of(methods::Table table, Options& options) {
   const methods::Lowered lowered = methods::limit_gradient(table, options.grade, options.radius / 1000);
@@ -158,13 +173,23 @@ std::unique_ptr<engine::Density> widths_in_file(Options& options) {
   if (!are_metres && !units.empty() && units != "km" && units != "kilometers" && units != "kilometres")
     fail(fmt::format("variable {}: units '{}'; expected km or m", nodes.value.name,
                      point_sets::excerpt(units)));
-  for (std::size_t i = 0; i < km.size(); ++i) {
-    if (!(km[i] > 0 && std::isfinite(km[i])))
-      fail(fmt::format("{}, lon {:g} lat {:g}: width {}: must be positive and finite", nodes.place(i),
-                       nodes.grid.lon[i % nodes.grid.lon.size()], nodes.grid.lat[i / nodes.grid.lon.size()],
-                       km[i]));
-    if (are_metres) km[i] /= 1000;
+  const auto is_bad = [](double width) { return !(width > 0 && std::isfinite(width)); };
+  if (const auto bad = std::find_if(km.begin(), km.end(), is_bad); bad != km.end()) {
+    const auto i = static_cast<std::size_t>(bad - km.begin());
+    const std::string place =
+        fmt::format("{}, lon {:g} lat {:g}", nodes.place(i), nodes.grid.lon[i % nodes.grid.lon.size()],
+                    nodes.grid.lat[i / nodes.grid.lon.size()]);
+    const auto count = std::count_if(km.begin(), km.end(), is_bad);
+    if (std::isnan(*bad))
+      fail(
+          fmt::format("{}: there is no width, at {} of {} places: fill the holes of the map, say with cdo "
+                      "setmisstonn",
+                      place, count, km.size()));
+    fail(fmt::format("{}: width {:g}, one of {} of {} that are not positive and finite: set them", place,
+                     *bad, count, km.size()));
   }
+  if (are_metres)
+    for (double& width : km) width /= 1000;
   std::vector<double> sorted = km;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
@@ -572,6 +597,7 @@ void scvt(Options& options, Ranks& ranks) {
   std::unique_ptr<engine::Density> density;
   progress.step("reading the density",
                 [&] { in_agreement_with_caller(communicator, [&] { density = make_density(options); }); });
+  if (communicator.size() == 1) check_memory(static_cast<double>(options.n));
   try {
     const std::shared_ptr<engine::Evaluator> evaluator = ranks.evaluator(*density);
     Tessellation t = progress.step("placing generators", [&] {

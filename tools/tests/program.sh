@@ -555,13 +555,21 @@ bad_scvt)
         echo "data: lat = -90, 0, 90; lon = 0, 90, 180, 270; cellWidth = $3; }"; } | ncgen -o "$1" -
     }
     of_widths metres.nc "" "1e6,1e6,1e6,1e6,1e6,1e6,1e6,1e6,1e6,1e6,1e6,1e6"
-    of_widths hole.nc "" "NaN,9,9,9,9,9,9,9,9,9,9,9"
+    of_widths hole.nc "" "NaN,9,9,NaN,9,9,9,9,9,9,9,9"
+    of_widths missing.nc "cellWidth:_FillValue = -999.;" "9,9,-999,9,9,9,9,9,9,9,9,9"
+    of_widths negative.nc "" "9,9,9,9,9,-3,0,9,9,9,9,9"
     of_widths miles.nc 'cellWidth:units = "miles";' "9,9,9,9,9,9,9,9,9,9,9,9"
     refuses 1 "metres.nc: the median width is 1e+06 km: if these are not km, say so: ncatted -a units,cellWidth,c,c,m metres.nc" \
       scvt --width-file metres.nc -o failed.off
-    refuses 1 "hole.nc: node 1, lon 0 lat -90: width nan: must be positive and finite" \
+    refuses 1 "hole.nc: node 1, lon 0 lat -90: there is no width, at 2 of 12 places: fill the holes of the map" \
       scvt --width-file hole.nc -o failed.off
+    refuses 1 "missing.nc: node 3, lon 180 lat -90: there is no width, at 1 of 12 places" scvt --width-file missing.nc -o failed.off
+    refuses 1 "negative.nc: node 6, lon 90 lat 0: width -3, one of 2 of 12 that are not positive and finite" \
+      scvt --width-file negative.nc -o failed.off
     refuses 1 "miles.nc: variable cellWidth: units 'miles'; expected km or m" scvt --width-file miles.nc -o failed.off
+  fi
+  if [ "$(awk '/MemTotal/ { print $2 }' /proc/meminfo)" -lt 300000000 ]; then
+    refuses 1 "353404399 generators need about 389 GB, this machine has " -q scvt --width 1.291km -o failed.off
   fi
   for width in 0 -60km nankm 60miles km; do
     refuses 2 "'$width' is no width: expected, say, 60km" scvt "--width=$width" -o failed.off
