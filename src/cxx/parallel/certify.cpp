@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "parallel/agree.h"
 #include "parallel/agree_on_stars.h"
 #include "parallel/questions.h"
 
@@ -42,12 +43,16 @@ Certified<Int> certify(Patches<Int> found, const Division& division, const Corne
   const std::size_t most = ranks.size() == 1
                                ? options.most_questions
                                : std::min(options.most_questions, most_of_a_rank(patches, division));
-  if (division.by_agreement && ranks.size() > 1) {
+  if (division.by_agreement && ranks.size() > 1 && !options.by_lists) {
     agree_on_stars(certified, division, corners, ranks, options.threads);
     return certified;
   }
   certified.coincident = all_coincident(patches, ranks);
   if (!certified.coincident.empty()) return certified;
+  if (options.by_lists) {
+    agree_on_lists(certified, division, ranks, options.threads, most);
+    return certified;
+  }
 
   Questions questions;
   OnAny too_many;  // one hull of all nodes, or agreement, would take less time

@@ -17,7 +17,6 @@
 namespace pstripack {
 namespace {
 
-constexpr std::size_t kClosingNodes = 256;
 // Number of sample nodes that are searched for hidden ones before nodes go to patches. A hidden node that is
 // found later costs the time of the patches once more.
 constexpr std::size_t kLookedThrough = 500;
@@ -58,7 +57,7 @@ Supply take_stock(const LocalNodes& nodes, const std::vector<Headcount>& heads, 
   supply.loads = std::move(loads);
   supply.looks_through = !keeps_patches || options.last->lengths() != division.places.lengths();
   const std::size_t usual = sample_size(division.nodes, static_cast<std::size_t>(division.patches.count())),
-                    enough = supply.looks_through ? kLookedThrough : kClosingNodes;
+                    enough = supply.looks_through ? kLookedThrough : options.closing_nodes;
   const std::size_t wanted = std::min(division.nodes, keeps_patches  ? enough
                                                       : supply.loads ? kFinerSample * usual
                                                                      : usual);
@@ -284,16 +283,18 @@ Division divide(const LocalNodes& nodes, const Corners& corners, const Places& p
   ranks.all_gather_in_place(supply.sample.data(), supply.begin);
   Outcome outcome = Outcome::of([&] {
     std::vector<Record> known{corners.begin(), corners.end()};
-    if (supply.looks_through)
+    if (supply.looks_through && options.given == nullptr)
       look_for_hidden_nodes(along_curve(supply.sample, kLookedThrough, known), places);
     division.hubs.clear();
     for (const Record& hub : hubs) {
       division.hubs.push_back(hub.number);
       known.push_back(hub);
     }
-    division.closing = along_curve(supply.sample, kClosingNodes, std::move(known));
+    division.closing = along_curve(supply.sample, options.closing_nodes, std::move(known));
   });
-  if (supply.keeps_patches) {
+  if (options.given != nullptr) {
+    division.partition = options.given;
+  } else if (supply.keeps_patches) {
     division.partition = options.last->partition();
     division.by_agreement = options.last->by_agreement();
   } else {
@@ -308,7 +309,7 @@ Division divide(const LocalNodes& nodes, const Corners& corners, const Places& p
     constexpr std::size_t kManyInAPatch = 50000;
     if (division.nodes / patches > kManyInAPatch)
       division.most_stretch = most_stretch(division.closing, places);
-    is_hard = !supply.keeps_patches && options.partition == PartitionKind::bisection &&
+    is_hard = !supply.keeps_patches && !options.by_lists && options.partition == PartitionKind::bisection &&
               ((supply.loads && supply.loads->have_many_questions()) ||
                may_be_hard(division.closing, *division.partition, places));
   });

@@ -29,6 +29,12 @@ struct ParallelOptions {
   /// Of a single rank: give up if the patches have more questions than this, since one patch would be faster.
   /// Of several: if a rank has more, they agree on stars instead.
   std::size_t most_questions = SIZE_MAX;
+  /// Patches compare lists until all match: see agree_on_lists().
+  bool by_lists = false;
+  /// For tests: patches of any shape, the same on every rank. Null: the nodes are divided by `partition`.
+  std::shared_ptr<const Partition> given;
+  /// For tests: about the number of nodes that all patches know.
+  std::size_t closing_nodes = 256;
   /// The homes of an earlier call on these ranks; set on all of them or on none. Its patches are kept if
   /// nearly all nodes lie in patches of the ranks that bring them and no rank has too many, so nodes that
   /// were sent home stay at home. Bisected patches that were badly cut are cut once more: see Draft.

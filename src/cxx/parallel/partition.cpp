@@ -301,6 +301,8 @@ void Partition::give_cells(int patches, const std::vector<PatchNumber>& patch_of
 Partition::Partition(int patches)
     : regions_(static_cast<std::size_t>(patches)), largest_margin_(static_cast<std::size_t>(patches)) {}
 
+Partition::Partition(int patches, Rule rule) : Partition(patches) { rule_ = std::move(rule); }
+
 Partition::Partition(PartitionKind kind, int patches, std::vector<Point> sample, std::size_t nodes)
     : Partition(patches) {
   if (kind == PartitionKind::bisection) {
@@ -353,6 +355,11 @@ void Partition::cells_of(const Point* x, std::size_t n, CellNumber* cell) const 
 }
 
 void Partition::owners(const Point* x, std::size_t n, PatchOfNode* owner, double* nearest_plane) const {
+  if (rule_.owner) {
+    for (std::size_t i = 0; i < n; ++i) owner[i] = static_cast<PatchOfNode>(rule_.owner(x[i]));
+    std::fill_n(nearest_plane, n, 0);
+    return;
+  }
   if (!has_convex_patches()) {
     cells_of(x, n, owner);
     for (std::size_t i = 0; i < n; ++i) {

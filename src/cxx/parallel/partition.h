@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "geometry/point.h"
@@ -54,6 +55,12 @@ class Partition {
 
   /// Cells of about one node of the sample each, not given to patches yet: see cells() and cells_of().
   explicit Partition(std::vector<Point> sample);
+  /// Patches of any shape with any halos, for tests.
+  struct Rule {
+    std::function<PatchNumber(const Point&)> owner;
+    std::function<bool(PatchNumber, const Point&)> is_in_halo;  ///< of any patch but the owner
+  };
+  Partition(int patches, Rule rule);
   std::size_t cells() const { return cells_.size(); }
   /// The cells that n places lie in, each < cells().
   void cells_of(const Point* x, std::size_t n, CellNumber* cell) const;
@@ -64,13 +71,14 @@ class Partition {
 
   int patches() const { return static_cast<int>(regions_.size()); }
   /// False after give_cells(): a patch then has any cells, perhaps far from each other.
-  bool has_convex_patches() const { return beside_of_.empty(); }
+  bool has_convex_patches() const { return beside_of_.empty() && !rule_.owner; }
 
   /// The patches that n places belong to. nearest_plane[i] is the distance of x[i] from the nearest plane
   /// that it was compared with, less rounding: a lower bound of its distance from any other patch.
   void owners(const Point* x, std::size_t n, PatchOfNode* owner, double* nearest_plane) const;
   /// The patch that x belongs to.
   PatchNumber owner(const Point& x) const {
+    if (rule_.owner) return rule_.owner(x);
     std::int32_t k = 0;
     while (cells_[k].patch < 0) k = cells_[k].child[is_beyond(cells_[k], x)];
     return cells_[k].patch;
@@ -89,6 +97,12 @@ class Partition {
   template <class Visit>
   void for_each_halo(const Point* x, std::size_t n, const PatchOfNode* owner, const double* nearest_plane,
                      const Visit& visit) const {
+    if (rule_.owner) {
+      for (std::size_t i = 0; i < n; ++i)
+        for (PatchNumber q = 0; q < patches(); ++q)
+          if (q != static_cast<PatchNumber>(owner[i]) && rule_.is_in_halo(q, x[i])) visit(i, q);
+      return;
+    }
     double margin[kTogether];  // exact where it is at least nearest_plane
     std::vector<PatchNumber> patches;
     const auto examine = [&](const std::size_t* candidate, std::size_t candidates) {
@@ -123,6 +137,7 @@ class Partition {
 
   /// True if x is patch q's own or in its halo.
   bool knows(PatchNumber q, const Point& x) const {
+    if (rule_.owner) return owner(x) == q || rule_.is_in_halo(q, x);
     if (!has_convex_patches()) return knows_cell(q, leaf(x));
     return owner(x) == q || is_within(margin_at(x), q, x);
   }
@@ -231,6 +246,7 @@ class Partition {
   };
   std::vector<Range> beside_of_;
   std::vector<PatchNumber> beside_;
+  Rule rule_;
 };
 
 }  // namespace pstripack

@@ -15,6 +15,7 @@
 #include "parallel/partition.h"
 #include "parallel/patch_agreement.h"
 #include "parallel/patch_hull.h"
+#include "parallel/patch_lists.h"
 #include "parallel/patch_questions.h"
 #include "parallel/places.h"
 #include "parallel/record.h"
@@ -63,6 +64,19 @@ class Patch {
   std::vector<Record> answer(const Question& question) {
     if (nodes_.own == 0 || !hull_.coincident().empty()) return {};
     return pstripack::answer(hull_, question);
+  }
+
+  // Certification by lists.
+
+  /// Finds the triangles that other patches must have, too. Throws std::bad_alloc.
+  void update_lists() {
+    if (nodes_.own > 0 && partition_->patches() > 1) lists_.update(view(), asked_);
+  }
+  const PatchLists<Int>& lists() const { return lists_; }
+  /// See PatchLists. Throws std::bad_alloc.
+  std::vector<Question> lacking(const std::vector<ListOfOther<Int>>& lists) const {
+    if (nodes_.own == 0) return {};
+    return lists_.lacking(view(), lists);
   }
 
   // Certification by agreement, where there would be too many questions: docs/parallel.md, "Agreement".
@@ -154,6 +168,7 @@ class Patch {
   PatchHull<Int> hull_;
   Asked asked_;
   PatchAgreement<Int> agreed_;
+  PatchLists<Int> lists_;
   Hull finished_;
   std::int64_t work_ = 0, questions_ = 0;
 };
