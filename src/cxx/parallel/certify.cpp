@@ -50,7 +50,11 @@ Certified<Int> certify(Patches<Int> found, const Division& division, const Corne
   certified.coincident = all_coincident(patches, ranks);
   if (!certified.coincident.empty()) return certified;
   if (options.by_lists) {
-    agree_on_lists(certified, division, ranks, options.threads, most);
+    std::size_t own = 0;
+    for (const Patch<Int>& patch : patches.of_rank) own += patch.own();
+    constexpr std::size_t kFew = 1000;
+    agree_on_lists(certified, division, ranks, options.threads,
+                   std::min(options.most_questions, own / 4 * 3 + kFew));
     return certified;
   }
 

@@ -95,12 +95,14 @@ class PatchHull {
   void for_each_face_at_border(std::size_t first, const Visit& visit) const {
     const auto n = static_cast<HullNode>(growing_->node_count());
     // Where many nodes are others', one pass over all faces takes less time than walks around them.
-    if (constexpr std::size_t kMany = 8; first == 0 && kMany * (n - own_) > n) {
+    if (constexpr std::size_t kMany = 64; first == 0 && kMany * (n - own_) > n) {
+      std::vector<std::uint8_t> own(n);
+      for (HullNode v = 0; v < n; ++v) own[v] = is_own(v);
       const auto faces = static_cast<HullFace>(growing_->face_count());
       for (HullFace t = 0; t < faces; ++t) {
         const auto& corner = arrays_.faces[t].vertex;
-        const int own = is_own(corner[0]) + is_own(corner[1]) + is_own(corner[2]);
-        if (own == 1 || own == 2) visit(t);
+        const int count = own[corner[0]] + own[corner[1]] + own[corner[2]];
+        if (count == 1 || count == 2) visit(t);
       }
       return;
     }
