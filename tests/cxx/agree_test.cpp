@@ -141,7 +141,6 @@ void try_one(std::uint64_t seed, Tally& tally) {
   static constexpr int kRanks[] = {1, 1, 1, 2, 2, 3, 4, 5, 8, 16, 64};
   const int ranks = kRanks[random.below(random.below(20) == 0 ? 11 : 9)];
   ParallelOptions options;
-  options.by_lists = true;
   options.closing_nodes = 1 + random.below(6);
   options.patches = ranks == 1 ? 2 + static_cast<int>(random.below(7)) : 1 + (random.below(4) == 0);
   options.partition = kPartitions[random.below(3)].kind;

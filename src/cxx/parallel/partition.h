@@ -41,11 +41,6 @@ inline constexpr NamedPartition kPartitions[] = {{PartitionKind::bisection, "bis
                                                  {PartitionKind::stripes_of_width, "stripes_of_width"}};
 inline const char* name_of(PartitionKind kind) { return kPartitions[static_cast<int>(kind)].name; }
 
-struct Ball {
-  Point centre;
-  double radius;  ///< length of the straight line, not of the arc
-};
-
 class Partition {
  public:
   /// Patches 0..patches-1 for `nodes` nodes of which `sample` is a sample: vectors of about length 1.
@@ -142,19 +137,6 @@ class Partition {
     return owner(x) == q || is_within(margin_at(x), q, x);
   }
 
-  /// The patches that may have nodes in the ball which q does not know; empty if q knows all nodes there.
-  /// Each component of the centre may have an error of 2^-49 of itself or of the radius.
-  void strangers(PatchNumber q, const Ball& ball, std::vector<PatchNumber>& patches) const;
-
-  /// The smallest margin of all cells.
-  double smallest_margin() const { return smallest_margin_; }
-
-  /// True if the patch knows every node in the direction of the triangle a,b,c of its own nodes that lies at
-  /// most `stretch` times as far from the centre as the triangle does in that direction.
-  bool holds(PatchNumber patch, const Point& a, const Point& b, const Point& c, double stretch) const;
-  /// True if holds() is true for all triangles of the patch's own nodes.
-  bool holds_all(PatchNumber patch, double stretch) const;
-
  private:
   struct Plane {
     double x, y, z, d;  // inside: the product is at least d
@@ -169,7 +151,6 @@ class Partition {
     double low[3] = {-8, -8, -8}, high[3] = {8, 8, 8};
     double rounded_low[3] = {-8, -8, -8}, rounded_high[3] = {8, 8, 8};  // the same, wider by rounding
     std::vector<PatchNumber> beside;  // of a box: patches that may have nodes of this one in their halo
-    bool is_cone = false;             // convex, and a set of directions
   };
   /// A node of the tree.
   struct Cell {
@@ -239,7 +220,6 @@ class Partition {
   std::vector<Cell> cells_;
   std::vector<Region> regions_;
   std::vector<double> largest_margin_;  // of the cells of each patch
-  double smallest_margin_ = 4;
   /// For each cell, after give_cells(): where beside_ has the other patches that have the cell in their halo.
   struct Range {
     std::uint32_t begin = 0, end = 0;

@@ -1,7 +1,6 @@
 #pragma once
 // The nodes that a patch knows, and their hull.
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -19,11 +18,6 @@
 #include "parallel/record.h"
 
 namespace pstripack {
-
-/// An arc a -> b of the boundary, with the triangulation on the left.
-struct BoundaryArc {
-  HullNode a, b;
-};
 
 /// Int: a type that holds all node numbers. "Node v" is a hull node. The hull grows, but no node changes its
 /// HullNode.
@@ -44,9 +38,7 @@ class PatchHull {
   /// Adds a node of another patch, unless it was added before. Returns its hull node, or the one with which
   /// it coincides. Throws HiddenNode, std::bad_alloc.
   HullNode take_in(const Record& node);
-  /// From now on find() finds node v, too. Throws std::bad_alloc.
-  void remember(HullNode v) { taken_in_.try_emplace(number(v), v); }
-  /// The node of that number if it was taken in or remembered, or kNobody.
+  /// The node of that number if it was taken in, or kNobody.
   HullNode find(GlobalNumber number) const {
     const auto found = taken_in_.find(number);
     return found != taken_in_.end() ? found->second : kNobody;
@@ -121,11 +113,6 @@ class PatchHull {
     }
   }
 
-  std::vector<BoundaryArc> boundary_arcs() const;
-  /// The nodes a and b with arcs a -> v -> b of the boundary; kNobody where v is not on it. Not for several
-  /// threads at once.
-  BoundaryArc beside_on_boundary(HullNode v) const;
-
   /// After build() and all that was taken in: memory of set_up() for `bytes` that is not needed after
   /// GrowingHull::finish(); null if there is not enough.
   void* room_for_rings(std::size_t bytes) const {
@@ -156,9 +143,6 @@ class PatchHull {
   Plane* first_planes_ = nullptr;  ///< those in the workspace, for built_ nodes at least
   CoincidentPairs coincident_;
   std::unordered_map<GlobalNumber, HullNode> taken_in_;  ///< see find()
-  /// Of nodes with many faces: the corners at which beside_on_boundary() has found arcs. The faces may have
-  /// changed since.
-  mutable std::unordered_map<HullNode, std::array<HullCorner, 2>> at_boundary_;
   struct {  // where the workspace was too small for what was taken in
     Buffer<Point> nodes;
     Buffer<Int> number;
