@@ -118,16 +118,6 @@ TEST(Levels, EachPatchKnowsItsNodesAndItsHalo) {
       knowing[i].insert(static_cast<int>(owner[i]));
       for (int q = 0; q < kPatches; ++q)
         ASSERT_EQ(partition.knows(q, x[i]), knowing[i].count(q) == 1) << family;
-      // Owners of nodes that the patch does not know.
-      std::vector<int> strangers;
-      const double radius = 1.5 * std::max(std::fabs(x[i].y), std::fabs(x[i].z));
-      const int q = static_cast<int>(i % kPatches);
-      partition.strangers(q, {x[i], radius}, strangers);
-      for (std::size_t j = 0; j < x.size(); j += 61) {
-        const Point d = minus(x[j], x[i]);
-        if (dot(d, d) > radius * radius || partition.knows(q, x[j])) continue;
-        ASSERT_EQ(std::count(strangers.begin(), strangers.end(), static_cast<int>(owner[j])), 1) << family;
-      }
     }
   }
 }
@@ -138,7 +128,6 @@ TEST(Levels, OnlyWhereBoxesCutMostTriangles) {
         "coast:0.3", "small-circle:1", "two-curves", "clusters:1e-7", "axis-cap:1e-150"}) {
     const Divided set(family);
     EXPECT_TRUE(set.partition().has_convex_patches()) << family;
-    EXPECT_FALSE(set.division->by_agreement) << family;
   }
 }
 
@@ -146,7 +135,6 @@ TEST(Levels, OnlyWhereBoxesCutMostTriangles) {
 TEST(Levels, NotWhereAHubIsAllThatIsWrong) {
   const Divided set("moment:6");
   EXPECT_TRUE(set.partition().has_convex_patches());
-  EXPECT_TRUE(set.division->by_agreement);
   const CoarseMesh mesh(Nodes(set.nodes.begin(), set.nodes.begin() + 2000));
   EXPECT_GE(mesh.hubs().size(), 1u);
   EXPECT_GT(mesh.triangles_at_hubs(), 9 * mesh.triangles().size());

@@ -17,7 +17,6 @@
 namespace pstripack {
 namespace {
 
-constexpr std::size_t kClosingNodes = 256;
 // Number of sample nodes that are searched for hidden ones before nodes go to patches. A hidden node that is
 // found later costs the time of the patches once more.
 constexpr std::size_t kLookedThrough = 500;
@@ -58,7 +57,7 @@ Supply take_stock(const LocalNodes& nodes, const std::vector<Headcount>& heads, 
   supply.loads = std::move(loads);
   supply.looks_through = !keeps_patches || options.last->lengths() != division.places.lengths();
   const std::size_t usual = sample_size(division.nodes, static_cast<std::size_t>(division.patches.count())),
-                    enough = supply.looks_through ? kLookedThrough : kClosingNodes;
+                    enough = supply.looks_through ? kLookedThrough : options.closing_nodes;
   const std::size_t wanted = std::min(division.nodes, keeps_patches  ? enough
                                                       : supply.loads ? kFinerSample * usual
                                                                      : usual);
@@ -157,8 +156,7 @@ void follow_mesh(const LocalNodes& nodes, Supply& supply, Communicator& ranks, D
     const CoarseMesh mesh(points);
     const std::size_t triangles = mesh.triangles().size() + mesh.triangles_at_hubs();
     const std::size_t in_boxes = mesh.mixed([&](SampleNode v) { return box[v]; });
-    division.by_agreement = 3 * (in_boxes + mesh.triangles_at_hubs()) > triangles;
-    division.gave_up = division.may_give_up && division.by_agreement;
+    division.gave_up = division.may_give_up && 3 * (in_boxes + mesh.triangles_at_hubs()) > triangles;
     if (division.gave_up) return;
     cells = std::make_shared<Partition>(places);
     levels.emplace(mesh, places, *cells);
@@ -186,7 +184,6 @@ void follow_mesh(const LocalNodes& nodes, Supply& supply, Communicator& ranks, D
     cells->give_cells(patches, box_of_cell.empty() ? levels->slices(patches, weight) : box_of_cell,
                       levels->begin(), levels->beside());
     division.partition = cells;
-    division.by_agreement = true;
   });
 }
 
@@ -207,24 +204,6 @@ std::vector<Record> along_curve(BlockArray<Record>& sample, std::size_t most, st
   std::vector<Record> ordered;
   for (const std::uint32_t k : order) ordered.push_back(some[k]);
   return ordered;
-}
-
-/// The nodes of these numbers, from the ranks that bring them. Collective. Throws AgreedFailure.
-std::vector<Record> nodes_of(const std::vector<GlobalNumber>& numbers, const LocalNodes& nodes,
-                             Communicator& ranks) {
-  std::vector<Record> found;
-  if (numbers.empty()) return found;
-  in_agreement(ranks, [&] {
-    NumberFilter filter(numbers.size());
-    for (const GlobalNumber number : numbers) filter.add(number);
-    for (std::size_t i = 0; i < nodes.count; ++i)
-      if (const GlobalNumber number = nodes.number(i);
-          filter.may_have(number) && std::binary_search(numbers.begin(), numbers.end(), number))
-        found.push_back({nodes.points[i], number});
-  });
-  found = gather_in_agreement(ranks, found);
-  in_agreement(ranks, [&] { keep_one_of_each(found); });
-  return found;
 }
 
 /// Agrees with all ranks on what there is, on whether the patches of the last call are kept, and, if not,
@@ -250,7 +229,6 @@ Supply take_stock_of_all(const LocalNodes& nodes, Communicator& ranks, const Par
     }
     keeps_patches =
         keeps_patches && last->are_for(options.partition, division.patches, division.places.lengths());
-    if (keeps_patches) division.hubs = last->hubs();
     if (keeps_patches && last->draft() == Draft::first && options.partition == PartitionKind::bisection)
       loads.resize(static_cast<std::size_t>(division.patches.count()));
     else
@@ -280,22 +258,17 @@ Division divide(const LocalNodes& nodes, const Corners& corners, const Places& p
                 const ParallelOptions& options) {
   Division division(places);
   Supply supply = take_stock_of_all(nodes, ranks, options, division);
-  const std::vector<Record> hubs = nodes_of(division.hubs, nodes, ranks);
   ranks.all_gather_in_place(supply.sample.data(), supply.begin);
   Outcome outcome = Outcome::of([&] {
     std::vector<Record> known{corners.begin(), corners.end()};
-    if (supply.looks_through)
+    if (supply.looks_through && options.given == nullptr)
       look_for_hidden_nodes(along_curve(supply.sample, kLookedThrough, known), places);
-    division.hubs.clear();
-    for (const Record& hub : hubs) {
-      division.hubs.push_back(hub.number);
-      known.push_back(hub);
-    }
-    division.closing = along_curve(supply.sample, kClosingNodes, std::move(known));
+    division.closing = along_curve(supply.sample, options.closing_nodes, std::move(known));
   });
-  if (supply.keeps_patches) {
+  if (options.given != nullptr) {
+    division.partition = options.given;
+  } else if (supply.keeps_patches) {
     division.partition = options.last->partition();
-    division.by_agreement = options.last->by_agreement();
   } else {
     outcome = cut_anew(nodes, supply, options.partition, ranks, division, outcome);
   }
@@ -304,11 +277,8 @@ Division divide(const LocalNodes& nodes, const Corners& corners, const Places& p
     outcome.accept();
     const auto patches = static_cast<std::size_t>(division.patches.count());
     division.may_give_up = ranks.size() == 1 && patches > 1 && options.most_questions < nodes.count;
-    // Worth its time in large patches, where it spares many triangles a closer look.
-    constexpr std::size_t kManyInAPatch = 50000;
-    if (division.nodes / patches > kManyInAPatch)
-      division.most_stretch = most_stretch(division.closing, places);
-    is_hard = !supply.keeps_patches && options.partition == PartitionKind::bisection &&
+    is_hard = !supply.keeps_patches && options.given == nullptr &&
+              options.partition == PartitionKind::bisection &&
               ((supply.loads && supply.loads->have_many_questions()) ||
                may_be_hard(division.closing, *division.partition, places));
   });
@@ -318,7 +288,6 @@ Division divide(const LocalNodes& nodes, const Corners& corners, const Places& p
     if (supply.loads->expect_less_of(*division.partition, places_of(supply.sample, places), division.nodes))
       return;
     division.partition = options.last->partition();
-    division.by_agreement = options.last->by_agreement();
     division.draft = Draft::kept;
   });
   return division;

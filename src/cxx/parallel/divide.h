@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <memory>
 #include <vector>
 
@@ -26,9 +25,12 @@ struct ParallelOptions {
   int threads = 1;  ///< of this rank
   /// Fill Stars::outside, and give the stars memory of their own, so that the hulls can be freed.
   bool with_neighbours = false;
-  /// Of a single rank: give up if the patches have more questions than this, since one patch would be faster.
-  /// Of several: if a rank has more, they agree on stars instead.
+  /// Give up if a rank has more triangles that other patches lack.
   std::size_t most_questions = SIZE_MAX;
+  /// For tests: patches of any shape, the same on every rank. Null: the nodes are divided by `partition`.
+  std::shared_ptr<const Partition> given;
+  /// For tests: about the number of nodes that all patches know.
+  std::size_t closing_nodes = 256;
   /// The homes of an earlier call on these ranks; set on all of them or on none. Its patches are kept if
   /// nearly all nodes lie in patches of the ranks that bring them and no rank has too many, so nodes that
   /// were sent home stay at home. Bisected patches that were badly cut are cut once more: see Draft.
@@ -57,11 +59,7 @@ struct Division {
   PatchRanges patches;
   std::shared_ptr<const Partition> partition;
   Draft draft = Draft::first;
-  std::vector<Record> closing;                                    ///< nodes from everywhere
-  double most_stretch = std::numeric_limits<double>::infinity();  ///< of the closing nodes, if computed
-  /// Patches agree on stars: they would have too many questions.
-  bool by_agreement = false;
-  std::vector<GlobalNumber> hubs;  ///< of the last call, among `closing`: see agree_on_stars()
+  std::vector<Record> closing;  ///< nodes from everywhere
   /// There is one process only. Its caller can build one hull instead of asking many questions.
   bool may_give_up = false;
   bool gave_up = false;  ///< then there is nothing else

@@ -55,10 +55,6 @@ class Partition::Builder {
     for (int k = 0; k < patches; ++k) stripes.push_back({border[k], k});
     std::sort(stripes.begin(), stripes.end(),
               [](const Stripe& a, const Stripe& b) { return a.from < b.from; });
-    for (int k = 0; k < patches; ++k) {
-      const double next = k + 1 < patches ? stripes[k + 1].from : stripes[0].from + 2 * kPi;
-      partition_.regions_[stripes[k].patch].is_cone = next - stripes[k].from <= kPi && patches > 1;
-    }
     // The plane y = 0 divides the circle into [0, pi) and [pi, 2 pi); in each half every border is a plane
     // through the axis.
     const Plane half{0, 1, 0, 0};
@@ -195,7 +191,6 @@ class Partition::Builder {
     partition_.cells_[leaf].margin = partition_.cells_[leaf].largest = margin;
     double& largest = partition_.largest_margin_[patch];
     largest = std::max(largest, margin);
-    partition_.smallest_margin_ = std::min(partition_.smallest_margin_, margin);
     return leaf;
   }
 
@@ -268,7 +263,6 @@ void Partition::give_cells(int patches, const std::vector<PatchNumber>& patch_of
                            const std::vector<std::uint32_t>& begin, const std::vector<CellNumber>& beside) {
   regions_.resize(static_cast<std::size_t>(patches));
   largest_margin_.assign(regions_.size(), 0);
-  smallest_margin_ = 0;
   beside_of_.resize(cells_.size());
   for (std::size_t k = cells_.size(); k-- > 0;) {  // children come after their parents
     Cell& c = cells_[k];
@@ -300,6 +294,8 @@ void Partition::give_cells(int patches, const std::vector<PatchNumber>& patch_of
 
 Partition::Partition(int patches)
     : regions_(static_cast<std::size_t>(patches)), largest_margin_(static_cast<std::size_t>(patches)) {}
+
+Partition::Partition(int patches, Rule rule) : Partition(patches) { rule_ = std::move(rule); }
 
 Partition::Partition(PartitionKind kind, int patches, std::vector<Point> sample, std::size_t nodes)
     : Partition(patches) {
@@ -353,6 +349,11 @@ void Partition::cells_of(const Point* x, std::size_t n, CellNumber* cell) const 
 }
 
 void Partition::owners(const Point* x, std::size_t n, PatchOfNode* owner, double* nearest_plane) const {
+  if (rule_.owner) {
+    for (std::size_t i = 0; i < n; ++i) owner[i] = static_cast<PatchOfNode>(rule_.owner(x[i]));
+    std::fill_n(nearest_plane, n, 0);
+    return;
+  }
   if (!has_convex_patches()) {
     cells_of(x, n, owner);
     for (std::size_t i = 0; i < n; ++i) {
@@ -428,19 +429,6 @@ double Partition::distance(PatchNumber patch, const Point& x) const {
   return nearest;
 }
 
-bool Partition::holds(PatchNumber patch, const Point& a, const Point& b, const Point& c,
-                      double stretch) const {
-  const Region& region = regions_[patch];
-  if (region.is_cone) return true;
-  if (region.pieces.size() != 1 || !std::isfinite(stretch)) return false;
-  // A convex patch holds the flat triangle. Stretched, it can leave through planes beyond the centre only.
-  for (const Plane& p : region.pieces[0].planes) {
-    const double lowest = std::min({product(p, a), product(p, b), product(p, c)});
-    if (p.d < 0 && stretch * std::min(lowest, 0.0) < p.d - smallest_margin_) return false;
-  }
-  return true;
-}
-
 void Partition::margins(const Point* x, const PatchOfNode* owner, const double* nearest_plane,
                         const std::size_t* which, std::size_t n, double* margin) const {
   std::int32_t k[kTogether];
@@ -463,17 +451,6 @@ void Partition::margins(const Point* x, const PatchOfNode* owner, const double* 
     count = left;
   }
   for (std::size_t j = 0; j < n; ++j) margin[j] = cells_[k[j]].largest;
-}
-
-bool Partition::holds_all(PatchNumber patch, double stretch) const {
-  const Region& region = regions_[patch];
-  if (region.is_cone) return true;
-  if (region.pieces.size() != 1 || !std::isfinite(stretch)) return false;
-  // No corner is below p.d, up to rounding.
-  constexpr double kRounding = 1e-12;
-  for (const Plane& p : region.pieces[0].planes)
-    if (p.d < 0 && stretch * (p.d - kRounding) < p.d - smallest_margin_) return false;
-  return true;
 }
 
 void Partition::find_beside(PatchNumber patch) {
@@ -507,29 +484,6 @@ void Partition::near(const Point& x, double radius, std::vector<PatchNumber>& pa
     const double s = product(c.split, x) - c.split.d, reach = radius + rounding_at(c.split);
     if (s >= -reach) stack[top++] = c.child[1];
     if (s <= reach) stack[top++] = c.child[0];
-  }
-}
-
-void Partition::strangers(PatchNumber q, const Ball& ball, std::vector<PatchNumber>& patches) const {
-  patches.clear();
-  const double reach = distance(q, ball.centre) + ball.radius;  // how far the ball goes beyond the border
-  if (reach <= smallest_margin_) return;
-  std::int32_t stack[kStack];
-  int top = 0;
-  stack[top++] = 0;
-  while (top > 0) {
-    const Cell& c = cells_[stack[--top]];
-    if (c.patch == q || reach <= c.margin) continue;
-    if (c.patch >= 0 && std::find(patches.begin(), patches.end(), c.patch) != patches.end()) continue;
-    if (c.child[1] == 0) {
-      if (has_convex_patches() || !knows_cell(q, static_cast<std::size_t>(&c - cells_.data())))
-        patches.push_back(c.patch);
-      continue;
-    }
-    const double s = product(c.split, ball.centre) - c.split.d;
-    const double radius = ball.radius + rounding_at(c.split);
-    if (s >= -radius) stack[top++] = c.child[1];
-    if (s <= radius) stack[top++] = c.child[0];
   }
 }
 

@@ -38,8 +38,8 @@ void Patch<Int>::triangulate() {
 template <class Int>
 void Patch<Int>::take_in(std::vector<Record> nodes) {
   if (nodes_.own == 0) return;
-  // Each node once: no cell of the curve could tell equal ones apart. Patches that agree on stars ask about
-  // the same triangles again and again: most nodes are in.
+  // Each node once: no cell of the curve could tell equal ones apart. Triangles share corners, so many are
+  // in.
   NumberTable<bool> met(nodes.size());
   nodes.erase(std::remove_if(nodes.begin(), nodes.end(),
                              [&](const Record& r) {
