@@ -11,5 +11,5 @@ output=$($MPIEXEC -n "$ranks" sh -c '"$0" "$@"; echo "exit code $?"' "$@" 2> "$e
 echo "$output"
 cat "$errors"
 [ "$(echo "$output" | grep -c '^exit code 1$')" -eq "$ranks" ] || { echo "FAILED: exit codes"; exit 1; }
-[ "$(wc -l < "$errors")" -eq 1 ] || { echo "FAILED: not one line"; exit 1; }
+[ "$(grep -vc '^pstripack: mesh_' "$errors")" -eq 1 ] || { echo "FAILED: not one line"; exit 1; }
 grep -q "^scvt_mpi: .*$message" "$errors" || { echo "FAILED: another message"; exit 1; }
