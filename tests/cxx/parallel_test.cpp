@@ -542,7 +542,7 @@ TEST(Homes, OfDirectionsAreForLengthsAboutOneToo) {
     Division division(Places(last, 1e-7));
     division.partition = partition;
     for (int rank = 0; rank < 2; ++rank) division.patches.add(1);
-    return Homes(division, {}, {}).are_for(PartitionKind::bisection, division.patches, now);
+    return Homes(division, {}, 0).are_for(PartitionKind::bisection, division.patches, now);
   };
   EXPECT_TRUE(are_for(Lengths::as_given, Lengths::as_given));
   EXPECT_TRUE(are_for(Lengths::directions, Lengths::directions));
@@ -563,70 +563,6 @@ TEST_F(KeptPatches, HoldForNodesThatAreDenseElsewhere) {
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (taken[rank[i]]++ < each) even.push_back(nodes[i]);
   EXPECT_TRUE(keeps(even, at_home(even)));
-}
-
-/// Nodes that take very different times, or have their neighbours far away.
-class Drafts : public KeptPatches {
- protected:
-  void SetUp() override {
-    options_.with_neighbours = true;
-    options_.most_questions = SIZE_MAX;
-  }
-  Draft draft() const {
-    for (const auto& h : homes_) EXPECT_EQ(h->draft(), homes_[0]->draft());
-    return homes_[0]->draft();
-  }
-  void begin(const Nodes& nodes) {
-    std::vector<std::size_t> slices;
-    for (std::size_t i = 0; i < nodes.size(); ++i) slices.push_back(i * kRanks / nodes.size());
-    EXPECT_FALSE(keeps(nodes, slices));
-    EXPECT_EQ(draft(), Draft::first);
-  }
-};
-
-TEST_F(Drafts, AreTwoAtMostForNodesThatFollowThem) {
-  std::size_t seconds = 0;
-  for (const auto& [family, n] : {std::pair{"random", 6000},
-                                  {"falling:14", 6000},
-                                  {"spiral:20", 40000},
-                                  {"moment:6", 6000},
-                                  {"ring", 6000},
-                                  {"crossing:1e-3", 6000},
-                                  {"nest:100", 6000},
-                                  {"falling-tee:6", 6000}}) {
-    const Nodes nodes = Set(point_sets::make(family, static_cast<std::size_t>(n), 3)).nodes;
-    begin(nodes);
-    const bool is_kept = keeps(nodes, at_home(nodes));
-    const Draft second = draft();
-    EXPECT_EQ(second, is_kept ? Draft::kept : Draft::second) << family;
-    seconds += second == Draft::second;
-    for (int call = 0; call < 2; ++call) {
-      EXPECT_TRUE(keeps(nodes, at_home(nodes))) << family;
-      EXPECT_EQ(draft(), second) << family;
-    }
-    for (auto& h : homes_) h.reset();
-  }
-  EXPECT_GE(seconds, 4);
-}
-
-TEST_F(Drafts, CompareRanksWithAsManyPatchesAsTheyHave) {
-  options_.patches = 4;
-  const Nodes nodes = Set(point_sets::make("moment:6", 6000, 3)).nodes;
-  begin(nodes);
-  EXPECT_FALSE(keeps(nodes, at_home(nodes)));
-  EXPECT_EQ(draft(), Draft::second);
-}
-
-TEST_F(Drafts, EndForNodesThatStayWhereTheFirstHadThem) {
-  const Nodes nodes = Set(point_sets::make("falling:14", 6000, 3)).nodes;
-  begin(nodes);
-  const std::vector<std::size_t> first = at_home(nodes);
-  EXPECT_FALSE(keeps(nodes, first));
-  ASSERT_EQ(draft(), Draft::second);
-  EXPECT_FALSE(keeps(nodes, first));
-  EXPECT_EQ(draft(), Draft::last);
-  EXPECT_TRUE(keeps_soon(nodes));
-  EXPECT_EQ(draft(), Draft::last);
 }
 
 /// Found by walks around others' nodes where these are few, else in one pass over all faces.
@@ -653,7 +589,7 @@ TEST(PatchHull, VisitsEachFaceAtTheBorderOnce) {
   }
 }
 
-/// Calls that keep patches and drafts of the last one: the nodes stay, move, leave, are renumbered or
+/// Calls that keep patches of the last one: the nodes stay, move, leave, are renumbered or
 /// are others; the next call finds them at home, or where they were.
 TEST(SequencesOfCalls, GiveTheSerialRings) {
   std::vector<std::string> families = kFamilies;
@@ -910,7 +846,6 @@ TEST(Agreement, OfNodesThatAnAdversaryHasPlaced) {
   EXPECT_GT(agreed, 250);
 }
 
-/// Also if no patch knows all coincident nodes at first: slices of a mesh have nodes anywhere.
 TEST(Agreement, FindsNodesThatCoincide) {
   for (const char* family : {"ring", "crossing:1e-3"})
     for (const std::size_t closing_nodes : {2u, 256u}) {

@@ -27,9 +27,7 @@ template <class Int>
 std::size_t most_lacking(const Patches<Int>& patches, const ParallelOptions& options, int ranks) {
   constexpr std::size_t kFew = 1000;
   if (ranks == 1) return options.most_questions;  // the caller knows what one hull costs
-  std::size_t own = 0;
-  for (const Patch<Int>& patch : patches.of_rank) own += patch.own();
-  return std::min(options.most_questions, own / 4 * 3 + kFew);
+  return std::min(options.most_questions, own_nodes(patches) / 4 * 3 + kFew);
 }
 
 /// The lists of all patches here: for each list a head {from, to, count}, then its triangles.

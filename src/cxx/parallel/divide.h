@@ -33,7 +33,7 @@ struct ParallelOptions {
   std::size_t closing_nodes = 256;
   /// The homes of an earlier call on these ranks; set on all of them or on none. Its patches are kept if
   /// nearly all nodes lie in patches of the ranks that bring them and no rank has too many, so nodes that
-  /// were sent home stay at home. Bisected patches that were badly cut are cut once more: see Draft.
+  /// were sent home stay at home.
   const Homes* last = nullptr;
   /// The nodes are about those of the call of `last`, wherever they come from: they need not be at home. Its
   /// patches are kept if no rank had too many in that call.
@@ -43,14 +43,6 @@ struct ParallelOptions {
 /// Three nodes that are not on one great circle, the same on every rank.
 using Corners = std::array<Record, 3>;
 
-/// How a mesh that is made again and again has come to its patches.
-enum class Draft {
-  first,   ///< equal numbers of nodes
-  kept,    ///< the first, after a look at what had to be done: good, or not to be improved
-  second,  ///< by what had to be done in the first, when nearly all nodes were at home there
-  last,    ///< equal numbers, for good: nodes have not followed the second
-};
-
 /// The sphere cut into patches. The same on every rank.
 struct Division {
   explicit Division(const Places& p) : places(p) {}
@@ -58,7 +50,6 @@ struct Division {
   std::size_t nodes = 0;  ///< of all ranks
   PatchRanges patches;
   std::shared_ptr<const Partition> partition;
-  Draft draft = Draft::first;
   std::vector<Record> closing;  ///< nodes from everywhere
   /// There is one process only. Its caller can build one hull instead of asking many questions.
   bool may_give_up = false;

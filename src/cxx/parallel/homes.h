@@ -4,18 +4,16 @@
 #include <array>
 #include <cstddef>
 #include <memory>
-#include <vector>
 
 #include "parallel/divide.h"
-#include "parallel/loads.h"
 
 namespace pstripack {
 
 /// Which rank is the home of a place: the rank of its patch.
 class Homes {
  public:
-  /// loads: of the patches of this rank.
-  Homes(const Division& division, const ParallelOptions& options, std::vector<PatchLoad> loads);
+  /// own: nodes in the patches of this rank.
+  Homes(const Division& division, const ParallelOptions& options, std::size_t own);
 
   const std::shared_ptr<const Partition>& partition() const { return partition_; }
   /// True if a call of this kind, with these numbers of patches and these lengths, can use these patches.
@@ -25,9 +23,6 @@ class Homes {
            (lengths == Lengths::as_given || lengths == places_.lengths());
   }
   Lengths lengths() const { return places_.lengths(); }
-  Draft draft() const { return draft_; }
-  /// Of the patches of this rank.
-  const std::vector<PatchLoad>& loads() const { return loads_; }
   /// True if nearly all of these nodes are at home on this rank, as a look at some of them tells, and they
   /// are at most an eighth more than when these patches were cut.
   bool are_home_to(const LocalNodes& nodes, int rank) const;
@@ -46,9 +41,7 @@ class Homes {
   PartitionKind kind_;
   PatchRanges patches_;
   Places places_;
-  Draft draft_;
-  std::vector<PatchLoad> loads_;
-  std::size_t own_ = 0;    ///< nodes in this rank's patches
+  std::size_t own_;        ///< nodes in this rank's patches
   std::size_t share_ = 0;  ///< nodes in this rank's patches when these were cut
 };
 

@@ -32,12 +32,9 @@ double longitude(const Point& p) {
 
 class Partition::Builder {
  public:
-  /// Sorts the sample into cells of at most `cell_sample` nodes.
-  Builder(Partition& partition, std::vector<Point>& sample, std::size_t nodes,
-          std::size_t cell_sample = kCellSample)
+  Builder(Partition& partition, std::vector<Point>& sample, std::size_t nodes)
       : partition_(partition),
         sample_(sample),
-        cell_sample_(cell_sample),
         halves_(sample.size()),
         nodes_a_sample_(sample.empty() ? 1
                                        : static_cast<double>(nodes) / static_cast<double>(sample.size())) {}
@@ -45,8 +42,6 @@ class Partition::Builder {
   void bisect(const Cuts& cuts) {
     bisect(cuts, cuts.all().empty() ? -1 : 0, sample_.data(), sample_.size(), 0, {}, kEverything);
   }
-
-  void cut_into_cells() { cells_of_patch(sample_.data(), sample_.size(), 0, kEverything, false); }
 
   /// Borders between stripes: stripe k is [border[k], border[k+1]), all in [0, 2 pi), cyclic.
   void stripe(std::vector<double> border) {
@@ -213,8 +208,8 @@ class Partition::Builder {
     std::size_t below = 0;
     for (std::size_t i = 0; i < n; ++i) below += component(p[i], axis) < middle;
     const std::size_t few = std::min(below, n - below);
-    const bool is_even = n > cell_sample_ ? 4 * few >= n : few > n / 8 && few > 1;
-    if (n <= cell_sample_ && (is_even || n < kUnevenCellSample)) return std::nullopt;
+    const bool is_even = n > kCellSample ? 4 * few >= n : few > n / 8 && few > 1;
+    if (n <= kCellSample && (is_even || n < kUnevenCellSample)) return std::nullopt;
     below = is_even ? n / 2 : std::clamp(below, n / 8 + 1, n - n / 8 - 1);
     const std::vector<double> height = halves_.heights(p, n, below - 1, below + 1, axis, extent);
     const double half_gap = 0.5 * (height[1] - height[0]);
@@ -243,7 +238,6 @@ class Partition::Builder {
 
   Partition& partition_;
   std::vector<Point>& sample_;
-  const std::size_t cell_sample_;
   Halver halves_;
   double nodes_a_sample_;
 };
@@ -253,43 +247,6 @@ Partition::Partition(const Cuts& cuts, std::vector<Point> sample, std::size_t no
   Builder(*this, sample, nodes).bisect(cuts);
   copy_top(0, 0);
   for (PatchNumber q = 0; q < patches(); ++q) find_beside(q);
-}
-
-Partition::Partition(std::vector<Point> sample) : Partition(1) {
-  Builder(*this, sample, sample.size(), 1).cut_into_cells();
-}
-
-void Partition::give_cells(int patches, const std::vector<PatchNumber>& patch_of_cell,
-                           const std::vector<std::uint32_t>& begin, const std::vector<CellNumber>& beside) {
-  regions_.resize(static_cast<std::size_t>(patches));
-  largest_margin_.assign(regions_.size(), 0);
-  beside_of_.resize(cells_.size());
-  for (std::size_t k = cells_.size(); k-- > 0;) {  // children come after their parents
-    Cell& c = cells_[k];
-    c.margin = 0;
-    Range& range = beside_of_[k];
-    if (c.child[1] == 0) {
-      c.patch = patch_of_cell[k];
-      std::vector<PatchNumber> others;
-      for (std::uint32_t j = begin[k]; j < begin[k + 1]; ++j)
-        if (patch_of_cell[beside[j]] != c.patch) others.push_back(patch_of_cell[beside[j]]);
-      std::sort(others.begin(), others.end());
-      others.erase(std::unique(others.begin(), others.end()), others.end());
-      range.begin = static_cast<std::uint32_t>(beside_.size());
-      beside_.insert(beside_.end(), others.begin(), others.end());
-      range.end = static_cast<std::uint32_t>(beside_.size());
-      continue;
-    }
-    const auto below = static_cast<std::size_t>(c.child[0]), beyond = static_cast<std::size_t>(c.child[1]);
-    c.patch = cells_[below].patch == cells_[beyond].patch ? cells_[below].patch : -1;
-    const bool are_cells = cells_[below].child[1] == 0 && cells_[beyond].child[1] == 0;
-    const Range &a = beside_of_[below], &b = beside_of_[beyond];
-    const auto at = beside_.begin();
-    if (!are_cells || c.patch < 0 || !std::equal(at + a.begin, at + a.end, at + b.begin, at + b.end))
-      continue;
-    c.child[0] = c.child[1] = 0;  // nobody needs to tell them apart
-    range = a;
-  }
 }
 
 Partition::Partition(int patches)
@@ -331,36 +288,10 @@ Partition::Partition(PartitionKind kind, int patches, std::vector<Point> sample,
   copy_top(0, 0);
 }
 
-void Partition::cells_of(const Point* x, std::size_t n, CellNumber* cell) const {
-  for (std::size_t first = 0; first < n; first += kTogether) {
-    const std::size_t together = std::min(n - first, kTogether);
-    std::int32_t k[kTogether] = {};
-    for (bool is_below = true; is_below;) {
-      is_below = false;
-      for (std::size_t j = 0; j < together; ++j) {
-        const Cell& c = cells_[k[j]];
-        const std::int32_t next = c.child[is_beyond(c, x[first + j])];
-        is_below |= next != 0;
-        k[j] = next != 0 ? next : k[j];
-      }
-    }
-    for (std::size_t j = 0; j < together; ++j) cell[first + j] = static_cast<CellNumber>(k[j]);
-  }
-}
-
 void Partition::owners(const Point* x, std::size_t n, PatchOfNode* owner, double* nearest_plane) const {
   if (rule_.owner) {
     for (std::size_t i = 0; i < n; ++i) owner[i] = static_cast<PatchOfNode>(rule_.owner(x[i]));
     std::fill_n(nearest_plane, n, 0);
-    return;
-  }
-  if (!has_convex_patches()) {
-    cells_of(x, n, owner);
-    for (std::size_t i = 0; i < n; ++i) {
-      const CellNumber cell = owner[i];
-      owner[i] = static_cast<PatchOfNode>(cells_[cell].patch);
-      nearest_plane[i] = beside_of_[cell].begin < beside_of_[cell].end ? 0 : kEverything;
-    }
     return;
   }
   // Level by level: one descent would wait for every comparison. On the way down owner[i] is the node

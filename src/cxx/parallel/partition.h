@@ -48,25 +48,13 @@ class Partition {
   /// Bisection by these cuts.
   Partition(const Cuts& cuts, std::vector<Point> sample, std::size_t nodes);
 
-  /// Cells of about one node of the sample each, not given to patches yet: see cells() and cells_of().
-  explicit Partition(std::vector<Point> sample);
   /// Patches of any shape with any halos, for tests.
   struct Rule {
     std::function<PatchNumber(const Point&)> owner;
     std::function<bool(PatchNumber, const Point&)> is_in_halo;  ///< of any patch but the owner
   };
   Partition(int patches, Rule rule);
-  std::size_t cells() const { return cells_.size(); }
-  /// The cells that n places lie in, each < cells().
-  void cells_of(const Point* x, std::size_t n, CellNumber* cell) const;
-  /// Gives each cell to a patch. The nodes of cells next to its own, beside[begin[c] .. begin[c + 1] - 1] of
-  /// cell c, are the halo of a patch.
-  void give_cells(int patches, const std::vector<PatchNumber>& patch_of_cell,
-                  const std::vector<std::uint32_t>& begin, const std::vector<CellNumber>& beside);
-
   int patches() const { return static_cast<int>(regions_.size()); }
-  /// False after give_cells(): a patch then has any cells, perhaps far from each other.
-  bool has_convex_patches() const { return beside_of_.empty() && !rule_.owner; }
 
   /// The patches that n places belong to. nearest_plane[i] is the distance of x[i] from the nearest plane
   /// that it was compared with, less rounding: a lower bound of its distance from any other patch.
@@ -101,14 +89,9 @@ class Partition {
     double margin[kTogether];  // exact where it is at least nearest_plane
     std::vector<PatchNumber> patches;
     const auto examine = [&](const std::size_t* candidate, std::size_t candidates) {
-      if (has_convex_patches()) margins(x, owner, nearest_plane, candidate, candidates, margin);
+      margins(x, owner, nearest_plane, candidate, candidates, margin);
       for (std::size_t j = 0; j < candidates; ++j) {
         const std::size_t i = candidate[j];
-        if (!has_convex_patches()) {
-          const Range beside = beside_of_[leaf(x[i])];
-          for (std::uint32_t k = beside.begin; k < beside.end; ++k) visit(i, beside_[k]);
-          continue;
-        }
         if (nearest_plane[i] > margin[j]) continue;
         const Region& region = regions_[owner[i]];
         if (!region.is_box) {
@@ -133,7 +116,6 @@ class Partition {
   /// True if x is patch q's own or in its halo.
   bool knows(PatchNumber q, const Point& x) const {
     if (rule_.owner) return owner(x) == q || rule_.is_in_halo(q, x);
-    if (!has_convex_patches()) return knows_cell(q, leaf(x));
     return owner(x) == q || is_within(margin_at(x), q, x);
   }
 
@@ -190,12 +172,6 @@ class Partition {
     return static_cast<std::size_t>(k);
   }
   double margin_at(const Point& x) const { return cells_[leaf(x)].margin; }
-  /// True if the cell is q's or in its halo. After give_cells() only.
-  bool knows_cell(PatchNumber q, std::size_t cell) const {
-    const auto first = beside_.begin() + beside_of_[cell].begin,
-               last = beside_.begin() + beside_of_[cell].end;
-    return cells_[cell].patch == q || std::find(first, last, q) != last;
-  }
   /// The margins of the cells of x[which[0..n-1]], n <= kTogether; any value less than nearest_plane if the
   /// margin is less.
   void margins(const Point* x, const PatchOfNode* owner, const double* nearest_plane,
@@ -220,12 +196,6 @@ class Partition {
   std::vector<Cell> cells_;
   std::vector<Region> regions_;
   std::vector<double> largest_margin_;  // of the cells of each patch
-  /// For each cell, after give_cells(): where beside_ has the other patches that have the cell in their halo.
-  struct Range {
-    std::uint32_t begin = 0, end = 0;
-  };
-  std::vector<Range> beside_of_;
-  std::vector<PatchNumber> beside_;
   Rule rule_;
 };
 

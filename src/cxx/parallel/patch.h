@@ -56,11 +56,9 @@ class Patch {
   }
   const PatchLists<Int>& lists() const { return lists_; }
   /// See PatchLists. Throws std::bad_alloc.
-  std::vector<Question> lacking(const std::vector<ListOfOther<Int>>& lists) {
+  std::vector<Question> lacking(const std::vector<ListOfOther<Int>>& lists) const {
     if (nodes_.own == 0) return {};
-    std::vector<Question> questions = lists_.lacking(view(), lists);
-    questions_ += static_cast<std::int64_t>(questions.size());
-    return questions;
+    return lists_.lacking(view(), lists);
   }
 
   /// After the last answer: the triangulation. Returns room enough for the entries of all rings of its own
@@ -88,15 +86,6 @@ class Patch {
   PatchNumber id() const { return id_; }
   std::size_t own() const { return nodes_.own; }
   std::size_t halo() const { return nodes_.halo; }
-  /// About how many nanoseconds triangulate() took, by the decisions of the predicates. The same in every
-  /// run, which no clock tells.
-  std::int64_t work() const { return work_; }
-  /// Number of questions to other patches, and of nodes taken in because of questions.
-  std::int64_t questions() const {
-    return nodes_.own == 0
-               ? 0
-               : questions_ + static_cast<std::int64_t>(hull_.growing().node_count() - hull_.built());
-  }
   /// The numbers of different nodes in the same direction, as far as it has found them.
   const CoincidentPairs& coincident() const { return hull_.coincident(); }
 
@@ -110,7 +99,6 @@ class Patch {
   PatchLists<Int> lists_;
   Around around_;
   Hull finished_;
-  std::int64_t work_ = 0, questions_ = 0;
 };
 
 template <class Int>

@@ -165,7 +165,7 @@ Stars<Int> return_rings(Certified<Int> certified, ReturnAddresses addresses, con
   Table<Int> table;
   std::unique_ptr<Workspace> entries;
   stars.received = exchange_in_agreement(ranks, [&] {
-    stars.homes = std::make_unique<Homes>(division, options, loads_of(patches));
+    stars.homes = std::make_unique<Homes>(division, options, own_nodes(patches));
     stars.memory.reserve(3);  // what is moved there below must not fail
     table.make_room(addresses.own_begin.back());
     entries =

@@ -67,7 +67,7 @@ Stars<Int> triangulate_places(const LocalNodes& nodes, const Corners& corners, c
     unfinished.coincident = std::move(certified.coincident);
     if (unfinished.gave_up)
       in_agreement(ranks, [&] {
-        unfinished.homes = std::make_unique<Homes>(division, options, loads_of(certified.patches));
+        unfinished.homes = std::make_unique<Homes>(division, options, own_nodes(certified.patches));
       });
     return unfinished;
   }
