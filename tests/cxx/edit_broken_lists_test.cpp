@@ -17,6 +17,7 @@
 #include "point_sets.h"
 #include "stripack/node_edit.h"
 #include "support/guarded.h"
+#include "support/kinds.h"
 #include "trmesh/trmesh.h"
 
 using namespace pstripack;
@@ -24,12 +25,6 @@ using namespace pstripack;
 namespace {
 
 using point_sets::Random;
-
-template <class RealKind, class IntKind>
-struct Kinds {
-  using Real = RealKind;
-  using Int = IntKind;
-};
 
 enum class Array { list, lptr, lend };
 constexpr Array all_arrays[] = {Array::list, Array::lptr, Array::lend};
@@ -240,8 +235,6 @@ class EditBrokenLists : public testing::Test {
       }
   }
 };
-using AllKinds =
-    testing::Types<Kinds<float, std::int32_t>, Kinds<double, std::int32_t>, Kinds<double, std::int64_t>>;
 TYPED_TEST_SUITE(EditBrokenLists, AllKinds);
 
 /// True if EDGE promises not to change the lists when it returns this.

@@ -12,6 +12,7 @@
 #include "lists/adjacency_lists.h"
 #include "point_sets.h"
 #include "stripack/node_edit.h"
+#include "support/kinds.h"
 #include "trmesh/trmesh.h"
 
 using namespace pstripack;
@@ -22,12 +23,6 @@ using point_sets::Random;
 
 int below(Random& random, int n) { return static_cast<int>(random.below(static_cast<std::size_t>(n))); }
 int any_node(Random& random, std::int64_t n) { return 1 + below(random, static_cast<int>(n)); }
-
-template <class RealKind, class IntKind>
-struct Kinds {
-  using Real = RealKind;
-  using Int = IntKind;
-};
 
 /// A mesh in arrays for `most` nodes.
 template <class Real, class Int>
@@ -116,8 +111,6 @@ std::vector<Point> directions(Random& random, int n, bool anywhere) {
 
 template <class K>
 class Edit : public testing::Test {};
-using AllKinds =
-    testing::Types<Kinds<float, std::int32_t>, Kinds<double, std::int32_t>, Kinds<double, std::int64_t>>;
 TYPED_TEST_SUITE(Edit, AllKinds);
 
 template <class K>

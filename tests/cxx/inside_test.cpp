@@ -10,21 +10,14 @@
 #include "point_sets.h"
 #include "stripack/polygon.h"
 #include "support/exact.h"
+#include "support/kinds.h"
 
 using namespace pstripack;
 
 namespace {
 
-template <class RealKind, class IntKind>
-struct Kinds {
-  using Real = RealKind;
-  using Int = IntKind;
-};
-
 template <class Kind>
 class Inside : public ::testing::Test {};
-using AllKinds =
-    ::testing::Types<Kinds<float, std::int32_t>, Kinds<double, std::int32_t>, Kinds<double, std::int64_t>>;
 TYPED_TEST_SUITE(Inside, AllKinds);
 
 /// A place at x, y of the tangent plane at a tilted place.

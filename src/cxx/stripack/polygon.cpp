@@ -156,7 +156,7 @@ class ExactPolygon {
   bool is_simple() const {
     std::vector<Range> ranges;
     for (Int k = 0; k < nv_; ++k) {
-      const Point a = unit(at(k)), b = unit(at(k + 1)), chord = minus(b, a);
+      const Point a = unit_vector(at(k)).high, b = unit_vector(at(k + 1)).high, chord = minus(b, a);
       const double middle = (a.x + b.x) / 2, radius = std::sqrt(dot(chord, chord)) / 2 + 1e-14;
       ranges.push_back({middle - radius, middle + radius, k});
     }
@@ -177,12 +177,6 @@ class ExactPolygon {
   Point at(Int k) const { return as_point(vertex_(k < nv_ ? k : k - nv_)); }
 
   static double size(const Point& v) { return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z); }
-  static Point unit(const Point& v) {
-    const double scale = std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
-    const Point w{v.x / scale, v.y / scale, v.z / scale};
-    const double length = std::sqrt(dot(w, w));
-    return {w.x / length, w.y / length, w.z / length};
-  }
 
   /// True if edges i < j without a common vertex cross or touch.
   bool meet(Int i, Int j) const {

@@ -646,14 +646,18 @@ Int nearnd(const Vector<Real>& p, Int start, const ListsView<Int>& lists, const 
   }
 
   // Insert the node beyond the arc of neighbours u and v between them if p lies in the cap of that triangle.
-  // Rounding decides nothing if the heights are far above that of coordinates, which are 1 at most.
+  // The result is certain if lengths are 1 to within rounding / 8, and heights and differences of cosines are
+  // above `rounding`: their own rounding and what these lengths change are less.
   constexpr Real rounding = 512 * std::numeric_limits<Real>::epsilon();
-  bool is_certain = found.i3 != 0 && std::abs(dot(p, p) - 1) < rounding / 8;
+  const auto is_unit = [](const Vector<Real>& v) { return std::abs(dot(v, v) - 1) < rounding / 8; };
+  bool is_certain = found.i3 != 0 && is_unit(p) && is_unit(nodes[found.i1]) && is_unit(nodes[found.i2]) &&
+                    is_unit(nodes[found.i3]);
   for (int u = 0, v; ring[v = ring.after(u)] != 0;) {
     if (const Int beyond = ring.beyond(u); beyond != 0) {
       if (ring.full()) break;
       const Real above = height(nodes[ring[v]], nodes[ring[u]], nodes[beyond], p);
       is_certain &= std::abs(above) > rounding;
+      is_certain &= is_unit(nodes[beyond]);
       if (above > 0) {
         look_beyond(ring.insert(beyond, u));
         look_beyond(u);
