@@ -304,11 +304,7 @@ struct Triangulation::Exact {
   void prefetch(const Buffer<std::int32_t>& corners, std::size_t k) const {
     constexpr std::size_t kAhead = 3 * 16;
     if (k + kAhead + 2 >= corners.size()) return;
-    for (std::size_t i = k + kAhead + 1; i < k + kAhead + 3; ++i) {
-      const pstripack::UnitVector& unit = directions.unit(corners[i]);
-      __builtin_prefetch(&unit.high);
-      __builtin_prefetch(&unit.low.z);
-    }
+    for (std::size_t i = k + kAhead + 1; i < k + kAhead + 3; ++i) directions.prefetch(corners[i]);
   }
 
   Buffer<Point> points;
