@@ -161,8 +161,9 @@ class Directions {
   const Point& position(index_t i) const { return unit_[i].high; }
   /// That of unit_vector(p[i]).
   UnitVector unit(index_t i) const { return rounded({unit_[i].high, low(i)}); }
-  /// For loops whose next nodes may lie anywhere in memory.
-  void prefetch(index_t i) const { __builtin_prefetch(&unit_[i]); }
+  /// For loops whose next nodes may lie anywhere in memory. Always inline: g++ otherwise considers functions
+  /// that only prefetch free of side effects and drops the calls.
+  [[gnu::always_inline]] void prefetch(index_t i) const { __builtin_prefetch(&unit_[i]); }
   /// p[i]/|p[i]| - p[j]/|p[j]|; every component has 2 roundings and an absolute error of 2^-99.
   Point difference(index_t i, index_t j) const {
     return pstripack::difference({unit_[i].high, low(i)}, {unit_[j].high, low(j)});

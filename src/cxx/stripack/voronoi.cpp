@@ -305,7 +305,7 @@ class Voronoi {
     return status;
   }
 
-  void prefetch(Int node) const {
+  [[gnu::always_inline]] void prefetch(Int node) const {
     if (directions_ == nullptr)
       __builtin_prefetch(&position_[index(node - 1)]);
     else
