@@ -248,4 +248,5 @@ PYBIND11_MODULE(_core, m) {
   m.def("vectors", &vectors);
   m.def("radians_of_single", py::vectorize(point_sets::radians_of_single));
   m.def("scvt", &bindings::scvt);
+  m.def("scvt_cells", &bindings::scvt_cells);
 }

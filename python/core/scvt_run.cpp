@@ -57,7 +57,8 @@ std::int32_t progress_to(const pstripack_scvt_progress* at, void* user) {
 }  // namespace
 
 py::tuple scvt(const py::object& start, const py::object& density, double tolerance, bool lloyd,
-               std::int64_t most_evaluations, std::int64_t seed, const py::object& progress, int threads) {
+               std::int64_t most_evaluations, std::int64_t seed, const py::object& progress, bool widths,
+               bool well_centred, int threads) {
   const bool given = py::isinstance<py::array>(start);
   const auto n =
       given ? static_cast<std::int32_t>(start.cast<Array<double>>().shape(0)) : start.cast<std::int32_t>();
@@ -81,6 +82,8 @@ py::tuple scvt(const py::object& start, const py::object& density, double tolera
   options.seed = seed;
   options.progress = progress_to;
   options.user = &procedures;
+  options.widths = widths ? 1 : 0;
+  options.well_centred = well_centred ? 1 : 0;
   pstripack_scvt_result result{};
   char message[500] = "";
   const bool is_constant = density.is_none();
@@ -94,6 +97,18 @@ py::tuple scvt(const py::object& start, const py::object& density, double tolera
   for (py::ssize_t i = 0; i < generators.shape(0); ++i) *to++ = x[i], *to++ = y[i], *to++ = z[i];
   return py::make_tuple(code, message, generators, result.energy, result.gradient, result.evaluations,
                         result.reason);
+}
+
+py::tuple scvt_cells(const py::object& width, double radius) {
+  const py::object none = py::none();
+  Procedures procedures{width, none, nullptr};
+  const pstripack_density by_python{density_at, &procedures, 0};
+  double cells = 0;
+  char message[500] = "";
+  const std::int32_t code =
+      compute(1, [&] { return pstripack_scvt_cells(&by_python, radius, &cells, message, sizeof message); });
+  if (procedures.error) std::rethrow_exception(procedures.error);
+  return py::make_tuple(code, message, cells);
 }
 
 }  // namespace bindings

@@ -79,6 +79,33 @@ def test_arguments_that_are_wrong(options, kind):
         scvt(50, **options)
 
 
+def test_widths_give_the_number_of_generators_and_the_density():
+    def width(xyz):
+        return 1400 - 500 * xyz[:, 2]
+
+    mesh = scvt(width=width, tolerance=1e-2, well_centred=True)
+    # The integral over z of 2 pi R^2 / (sqrt(3)/2 width^2).
+    assert len(mesh.points) == round(2 * np.pi * 6371.22**2 / (np.sqrt(3) / 2) / 500 * (1 / 900 - 1 / 1900))
+    same = scvt(344, lambda xyz: width(xyz) ** -4.0, tolerance=1e-2)
+    assert mesh.reason == same.reason == "converged"
+    assert mesh.points == pytest.approx(same.points, abs=0.05)
+    assert len(scvt(width=lambda xyz: np.full(len(xyz), 2.0), radius=10, tolerance=1e-2).points) == 363
+    assert len(scvt(20, width=width, tolerance=1e-2).points) == 20
+    assert scvt(500, width=width, max_evaluations=1, well_centred=True).reason in ("evaluations", "not well centred")
+
+
+def test_widths_that_are_wrong():
+    for options in {}, {"density": np.ones, "width": np.ones}, {"width": np.ones, "radius": 0}:
+        with pytest.raises(ValueError):
+            scvt(**options)
+    with pytest.raises(TriangulationError, match="the width is 0 at lon"):
+        scvt(width=lambda xyz: np.zeros(len(xyz)))
+    with pytest.raises(TriangulationError, match="the widths give 5.88e-05 cells, not 4"):
+        scvt(width=lambda xyz: np.full(len(xyz), 1e6), radius=2012.24)
+    with pytest.raises(Broken):
+        scvt(width=raising)
+
+
 def test_generators_that_are_wrong():
     for generators in 3, -1, 0, np.eye(3), np.zeros((5, 2)):
         with pytest.raises(ValueError):

@@ -11,12 +11,12 @@ module pstripack
   public :: pstripack_ok, pstripack_too_few_nodes, pstripack_collinear, pstripack_too_many_nodes, &
             pstripack_bad_coordinate, pstripack_out_of_memory, pstripack_bad_size
   ! Centroidal tessellations.
-  public :: pstripack_scvt, pstripack_scvt_step, pstripack_density, pstripack_progress
+  public :: pstripack_scvt, pstripack_scvt_widths, pstripack_scvt_cells, pstripack_scvt_step, pstripack_density, pstripack_progress
   public :: pstripack_scvt_options, pstripack_scvt_result, pstripack_scvt_progress
   public :: pstripack_scvt_by_number, pstripack_scvt_random, pstripack_scvt_given, pstripack_scvt_levels, &
             pstripack_scvt_front, pstripack_scvt_newton, pstripack_scvt_lloyd, &
             pstripack_scvt_converged, pstripack_scvt_evaluations, pstripack_scvt_stopped, &
-            pstripack_scvt_stalled
+            pstripack_scvt_stalled, pstripack_scvt_not_well_centred
   public :: pstripack_scvt_coincident, pstripack_bad_density, pstripack_hemisphere, pstripack_bad_lists, &
             pstripack_bad_option
 
@@ -49,7 +49,8 @@ module pstripack
     pstripack_scvt_converged = 0, &    !< reason: the gradient is at most the tolerance
     pstripack_scvt_evaluations = 1, &  !< reason: most_evaluations were made
     pstripack_scvt_stopped = 2, &      !< reason: the progress procedure stopped the run
-    pstripack_scvt_stalled = 3         !< reason: the energy falls no further: rounding, or a density with jumps
+    pstripack_scvt_stalled = 3, &      !< reason: the energy falls no further: rounding, or a density with jumps
+    pstripack_scvt_not_well_centred = 4 !< reason: with well_centred: triangles are left that do not hold their circumcentre
 
   !> Options of pstripack_scvt.
   type :: pstripack_scvt_options
@@ -181,6 +182,18 @@ module pstripack
       integer(c_int32_t) :: ier
     end function
 
+    ! int32_t pstripack_scvt_cells(const pstripack_density* width, double radius, double* cells, char* message,
+    !                              int32_t length);
+    function c_scvt_cells(width, radius, cells, message, length) result(ier) bind(c, name="pstripack_scvt_cells")
+      import :: c_char, c_density, c_double, c_int32_t
+      type(c_density), intent(in) :: width
+      real(c_double), value, intent(in) :: radius
+      real(c_double), intent(inout) :: cells
+      character(kind=c_char), intent(inout) :: message(*)
+      integer(c_int32_t), value, intent(in) :: length
+      integer(c_int32_t) :: ier
+    end function
+
     ! int32_t pstripack_scvt_step(int32_t n, const double* x, const double* y, const double* z,
     !                             const int32_t* list, const int32_t* lptr, const int32_t* lend,
     !                             const pstripack_density* density, double* xc, double* yc, double* zc,
@@ -296,6 +309,56 @@ contains
       ier = c_scvt(size(x, kind=c_int32_t), x, y, z, rho, options_c, result, line, size(line, kind=c_int32_t))
     call tell(line, message)
     if (present(message) .and. ier == pstripack_bad_size) message = pstripack_strerror(ier)
+  end subroutine
+
+  !> The same for widths of cells in place of a density.
+  !>   width         widths of cells, in any unit: n is size(x); pstripack_scvt_cells tells a good n
+  !>   well_centred  true: in the end a few generators move, until all triangles hold their circumcentre strictly
+  subroutine pstripack_scvt_widths(x, y, z, result, ier, width, options, progress, well_centred, message)
+    real(c_double), intent(inout), contiguous :: x(:), y(:), z(:)
+    type(pstripack_scvt_result), intent(inout) :: result
+    integer(c_int32_t), intent(out) :: ier
+    procedure(pstripack_density) :: width
+    type(pstripack_scvt_options), intent(in), optional :: options
+    procedure(pstripack_progress), optional :: progress
+    logical, intent(in), optional :: well_centred
+    character(len=*), intent(out), optional :: message
+    type(callbacks), target :: caller
+    type(c_density) :: rho
+    type(c_options) :: options_c
+    character(kind=c_char) :: line(400)
+
+    line = c_null_char
+    call pass_on(caller, rho, options_c, width, options, progress)
+    options_c%widths = 1
+    if (present(well_centred)) options_c%well_centred = merge(1_c_int32_t, 0_c_int32_t, well_centred)
+    ier = pstripack_bad_size
+    if (size(y) == size(x) .and. size(z) == size(x)) &
+      ier = c_scvt(size(x, kind=c_int32_t), x, y, z, rho, options_c, result, line, size(line, kind=c_int32_t))
+    call tell(line, message)
+    if (present(message) .and. ier == pstripack_bad_size) message = pstripack_strerror(ier)
+  end subroutine
+
+  !> How many cells have these widths on a sphere of this radius, in the unit of the widths.
+  !>   width    widths of cells
+  !>   cells    out: the integral of 1/(sqrt(3)/2 width**2), to about 1e-5 of itself; 1e-4 where widths jump
+  !>   ier      out: pstripack_ok or a negative code above
+  !>   message  as of pstripack_scvt
+  subroutine pstripack_scvt_cells(width, radius, cells, ier, message)
+    procedure(pstripack_density) :: width
+    real(c_double), intent(in) :: radius
+    real(c_double), intent(inout) :: cells
+    integer(c_int32_t), intent(out) :: ier
+    character(len=*), intent(out), optional :: message
+    type(callbacks), target :: caller
+    type(c_density) :: rho
+    character(kind=c_char) :: line(400)
+
+    line = c_null_char
+    caller%density => width
+    rho = c_density(c_funloc(call_density), c_loc(caller), 0_c_int32_t)
+    ier = c_scvt_cells(rho, radius, cells, line, size(line, kind=c_int32_t))
+    call tell(line, message)
   end subroutine
 
   !> One step, for programs with a loop of their own: integrals over the cells of n = size(x) generators.

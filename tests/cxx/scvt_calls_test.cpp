@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -160,6 +161,97 @@ TEST(Scvt, OptionsArePassedOn) {
                            nullptr, 0),
             PSTRIPACK_OK);
   EXPECT_EQ(plain.x[3], scvt::run(12, scvt::ConstantDensity(), {}).state.generators[3].x);
+}
+
+// ---- widths
+
+double width(const Point& p) { return 1400 - 500 * p.z; }
+void widths_at(std::int32_t n, const double* xyz, double* values, void* user) {
+  for (std::int32_t i = 0; i < n; ++i) {
+    const Point p{xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
+    values[i] = user == nullptr ? width(p) : p.z > 0.3 ? 60 : 240;
+  }
+}
+
+class OfWidths final : public scvt::Density {
+ public:
+  using scvt::Density::at;
+  void at(std::size_t n, const Point* p, double* value) const override {
+    for (std::size_t i = 0; i < n; ++i) {
+      const double square = 1 / (width(p[i]) * width(p[i]));
+      value[i] = square * square;
+    }
+  }
+};
+
+TEST(Scvt, WidthsTellTheNumberOfCells) {
+  // The integral over z of 2 pi R^2 / (sqrt(3)/2 width^2).
+  const double zone = 2 * std::acos(-1) * 6371.0 * 6371 / (std::sqrt(3) / 2);
+  double cells = 0;
+  pstripack_density density{widths_at, nullptr, 0};
+  ASSERT_EQ(pstripack_scvt_cells(&density, 6371, &cells, nullptr, 0), PSTRIPACK_OK);
+  EXPECT_NEAR(cells / (zone / 500 * (1 / 900.0 - 1 / 1900.0)), 1, 1e-9);
+  int jumps = 1;
+  density.user = &jumps;
+  ASSERT_EQ(pstripack_scvt_cells(&density, 6371, &cells, nullptr, 0), PSTRIPACK_OK);
+  EXPECT_NEAR(cells / (zone * (0.7 / 3600 + 1.3 / 57600)), 1, 2e-5);
+  ASSERT_EQ(pstripack_scvt_cells(nullptr, 6371, &cells, nullptr, 0), PSTRIPACK_OK);
+  EXPECT_NEAR(cells / (2 * zone), 1, 1e-9);
+}
+
+TEST(Scvt, WidthsTakeThePlaceOfADensity) {
+  const pstripack_density density{widths_at, nullptr, 0};
+  pstripack_scvt_options options = defaults();
+  options.tolerance = 1e-2;
+  options.widths = 1;
+  scvt::RunOptions expected;
+  expected.tolerance = 1e-2;
+  Generators found(344);
+  ASSERT_EQ(found.run(&density, &options), PSTRIPACK_OK) << found.said();
+  expect_same(found, scvt::run(344, OfWidths(), expected));
+}
+
+TEST(Scvt, WidthsMustBePositiveAndFinite) {
+  const auto bad = [](std::int32_t n, const double*, double* values, void* user) {
+    std::fill_n(values, n, *static_cast<double*>(user));
+  };
+  for (double value : {0.0, -60.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    const pstripack_density density{bad, &value, 0};
+    pstripack_scvt_options options = defaults();
+    options.widths = 1;
+    Generators found(20);
+    EXPECT_EQ(found.run(&density, &options), PSTRIPACK_BAD_DENSITY);
+    EXPECT_EQ(found.said().find("the width is "), 0U) << found.said();
+    double cells = 7;
+    char message[100];
+    EXPECT_EQ(pstripack_scvt_cells(&density, 6371, &cells, message, 100), PSTRIPACK_BAD_DENSITY);
+    EXPECT_EQ(std::string(message).find("the width is "), 0U) << message;
+    EXPECT_EQ(pstripack_scvt_cells(nullptr, value, &cells, message, 100), PSTRIPACK_BAD_OPTION);
+    EXPECT_STREQ(message, "the radius must be positive and finite");
+    EXPECT_EQ(cells, 7);
+  }
+}
+
+TEST(Scvt, ARunIsWellCentredOnRequest) {
+  pstripack_scvt_options options = defaults();
+  options.start = PSTRIPACK_SCVT_RANDOM;
+  options.most_evaluations = 16;
+  options.well_centred = 1;
+  scvt::RunOptions expected;
+  expected.levels = false;
+  expected.most_evaluations = 16;
+  expected.well_centred = true;
+  Watch watch;
+  const pstripack_density density = density_of(watch);
+  Generators found(500);
+  ASSERT_EQ(found.run(&density, &options), PSTRIPACK_OK) << found.said();
+  const scvt::Tessellation same = scvt::run(500, bump, expected);
+  expect_same(found, same);
+  EXPECT_GT(same.repair.moved, 0);
+  EXPECT_EQ(found.result.reason, PSTRIPACK_SCVT_EVALUATIONS);
+  options.most_evaluations = 1;
+  ASSERT_EQ(found.run(&density, &options), PSTRIPACK_OK) << found.said();
+  EXPECT_EQ(found.result.reason, PSTRIPACK_SCVT_NOT_WELL_CENTRED);
 }
 
 TEST(Scvt, OptionsOfAnOlderLibraryAreTheFirstOfThem) {

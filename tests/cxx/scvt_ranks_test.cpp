@@ -217,6 +217,29 @@ TEST(Run, HasTheSameBitsOnAnyNumberOfRanks) {
   }
 }
 
+TEST(Run, IsMadeWellCentredWithTheSameBitsOnAnyNumberOfRanks) {
+  RunOptions options = few_evaluations();
+  options.levels = false;
+  options.well_centred = true;
+  const Tessellation alone = run(500, kBump, options);
+  EXPECT_GT(alone.repair.moved, 0);
+  for (const int size : {2, 3, 8}) {
+    Gathered gathered;
+    ThreadRanks::run(size, [&](Communicator& ranks) {
+      GatheringEvaluator evaluator(ranks, kBump);
+      Tessellation found = first_generators(evaluator, 500, options);
+      iterate(evaluator, found, options);
+      EXPECT_EQ(found.result.progress.energy, alone.result.progress.energy);
+      EXPECT_EQ(found.repair.moved, alone.repair.moved);
+      EXPECT_EQ(found.repair.obtuse, alone.repair.obtuse);
+      EXPECT_EQ(found.repair.largest_angle, alone.repair.largest_angle);
+      EXPECT_EQ(found.repair.place, alone.repair.place);
+      gathered.add(found.numbers, found.state.generators);
+    });
+    EXPECT_EQ(gathered.points(), alone.state.generators) << size;
+  }
+}
+
 /// All slices joined, as a single process reads them from a file.
 Tessellation joined(const std::vector<Tessellation>& slices) {
   Tessellation all = slices[0];

@@ -399,6 +399,113 @@ TEST(Run, HasTheSameBitsForAnyNumberOfThreads) {
 #endif
 }
 
+struct Worst {
+  std::size_t obtuse = 0;                    ///< triangles with an angle of 90 degrees or more
+  double least_cosine = 1, least_ratio = 1;  ///< of an angle; of an edge of a cell over its arc
+};
+Worst worst_of(const std::vector<Point>& generators) {
+  std::vector<std::int32_t> list, lptr, lend;
+  const NeighbourLists stars = triangulate(generators, list, lptr, lend);
+  using Real = long double;
+  const auto angle = [&](std::size_t at, std::size_t b, std::size_t c) {  // cosine and cotangent
+    const Point &p = generators[at], &q = generators[b], &r = generators[c];
+    const Real u[3] = {Real(q.x) - p.x, Real(q.y) - p.y, Real(q.z) - p.z};
+    const Real v[3] = {Real(r.x) - p.x, Real(r.y) - p.y, Real(r.z) - p.z};
+    const auto product = [](const Real* a, const Real* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+    const Real square = product(u, u) * product(v, v), cosine = product(u, v) / std::sqrt(square);
+    return std::pair(static_cast<double>(cosine),
+                     static_cast<double>(cosine / std::sqrt(1 - cosine * cosine)));
+  };
+  Worst worst;
+  for (std::size_t i = 0; i < stars.count; ++i) {
+    const std::size_t begin = stars.begin_of(i), count = stars.end_of(i) - begin;
+    const auto ring = [&](std::size_t k) {
+      return static_cast<std::size_t>(stars.neighbour[begin + k % count]) - 1;
+    };
+    for (std::size_t k = 0; k < count; ++k) {
+      const double cosine = angle(i, ring(k), ring(k + 1)).first;
+      worst.least_cosine = std::min(worst.least_cosine, cosine);
+      worst.obtuse += cosine <= 0;
+      worst.least_ratio =
+          std::min(worst.least_ratio,
+                   (angle(ring(k), i, ring(k + 1)).second + angle(ring(k + 2), i, ring(k + 1)).second) / 2);
+    }
+  }
+  return worst;
+}
+
+TEST(WellCentred, FewGeneratorsOfARunMoveALittle) {
+  const BumpDensity bump(point_sets::from_degrees(0, 30), kPi / 6, kPi / 18, 4);
+  const std::vector<Point> first = front_generators(5000, bump);
+  RunOptions options = options_of(1e-3);
+  const Tessellation before = run(first, bump, options);
+  EXPECT_GT(worst_of(before.state.generators).obtuse, 3U);
+  options.well_centred = true;
+  const Tessellation after = run(first, bump, options);
+  const Worst worst = worst_of(after.state.generators);
+  EXPECT_EQ(worst.obtuse, 0U);
+  EXPECT_GT(worst.least_cosine, std::cos(84 * kPi / 180));
+  EXPECT_GT(worst.least_ratio, 0.1);
+  EXPECT_EQ(after.repair.obtuse, 0);
+  EXPECT_NEAR(after.repair.largest_angle, std::acos(worst.least_cosine), 1e-12);
+  std::int64_t moved = 0;
+  for (std::size_t i = 0; i < 5000; ++i) {
+    const double by = length(minus(before.state.generators[i], after.state.generators[i]));
+    moved += by > 0;
+    EXPECT_LT(by, 0.3 * std::sqrt(4 * kPi / 5000));
+  }
+  EXPECT_EQ(moved, after.repair.moved);
+  EXPECT_LT(moved, 300);
+  // The result is that of the moved generators.
+  EXPECT_EQ(after.result.end, End::converged);
+  EXPECT_EQ(after.state.evaluations, before.state.evaluations);
+  options.most_evaluations = 0;
+  options.well_centred = false;
+  options.tolerance = 0;
+  const Tessellation again = run(after.state.generators, bump, options);
+  EXPECT_EQ(again.result.progress.energy, after.result.progress.energy);
+  EXPECT_EQ(again.result.progress.gradient, after.result.progress.gradient);
+  EXPECT_EQ(again.result.cells.mass, after.result.cells.mass);
+}
+
+TEST(WellCentred, WhatCannotBeIsCounted) {
+  // Far from centroidal: some have three or four neighbours.
+  std::vector<Point> points = random_generators(500, kConstant, 1);
+  LocalEvaluator evaluator(kConstant);
+  const Repair repair = make_well_centred(evaluator, points);
+  const Worst worst = worst_of(points);
+  EXPECT_GT(repair.obtuse, 0);
+  EXPECT_EQ(static_cast<std::size_t>(repair.obtuse), worst.obtuse);
+  EXPECT_NEAR(repair.largest_angle, std::acos(worst.least_cosine), 1e-12);
+  // Right angles, exactly: not strictly inside.
+  std::vector<Point> cube = {{1, 1, 1},  {1, 1, -1},  {1, -1, 1},  {1, -1, -1},
+                             {-1, 1, 1}, {-1, 1, -1}, {-1, -1, 1}, {-1, -1, -1}};
+  EXPECT_EQ(worst_of(cube).obtuse, 12U);
+  EXPECT_EQ(make_well_centred(evaluator, cube).obtuse, 0);
+  EXPECT_EQ(worst_of(cube).obtuse, 0U);
+}
+
+TEST(WellCentred, HasTheSameBitsForAnyNumberOfThreads) {
+#ifndef _OPENMP
+  GTEST_SKIP() << "without OpenMP";
+#else
+  const std::vector<Point> first = run(5000, kBump, options_of(1e-3)).state.generators;
+  const int threads = omp_get_max_threads();
+  std::vector<std::vector<Point>> results;
+  for (const int use : {1, 2, 3}) {
+    omp_set_num_threads(use);
+    LocalEvaluator evaluator(kBump);
+    std::vector<Point> points = first;
+    EXPECT_GT(make_well_centred(evaluator, points).moved, 0);
+    EXPECT_NE(points, first);
+    results.push_back(points);
+  }
+  EXPECT_EQ(results[1], results[0]);
+  EXPECT_EQ(results[2], results[0]);
+  omp_set_num_threads(threads);
+#endif
+}
+
 /// A power of two changes no bit, however far the density is from 1.
 TEST(Run, ScalesADensityThatIsVeryLargeOrSmall) {
   const std::vector<Point> first = random_generators(50, kBump, 1);

@@ -38,6 +38,13 @@ contains
     values = bump(xyz(1, :), xyz(2, :), xyz(3, :))
   end subroutine
 
+  subroutine two(n, xyz, values)
+    integer(c_int32_t), intent(in) :: n
+    real(c_double), intent(in) :: xyz(3, n)
+    real(c_double), intent(out) :: values(n)
+    values = 2 + 0*xyz(1, :)
+  end subroutine
+
   subroutine negative(n, xyz, values)
     integer(c_int32_t), intent(in) :: n
     real(c_double), intent(in) :: xyz(3, n)
@@ -74,6 +81,7 @@ program scvt_module
     integer(c_int64_t) :: most_evaluations = 0, seed = 0
     type(c_funptr) :: progress = c_null_funptr
     type(c_ptr) :: user = c_null_ptr
+    integer(c_int32_t) :: widths = 0, well_centred = 0
   end type
   interface
     function c_scvt(n, x, y, z, density, options, result, message, length) result(ier) bind(c, name="pstripack_scvt")
@@ -167,6 +175,22 @@ program scvt_module
   steps = -2
   call pstripack_scvt(x, y, z, found, ier, options=options, progress=progress)
   call expect(ier == 0 .and. found%reason == pstripack_scvt_stopped .and. last%evaluations == 3, "stopped")
+
+  ! Widths in place of a density.
+  c_options = options_of_c(c_sizeof(c_options), tolerance=1e-2_c_double, widths=1, well_centred=1)
+  ier = c_scvt(n, x_of_c, y_of_c, z_of_c, density, c_options, expected, c_null_ptr, 0)
+  call expect(ier == 0, "C, widths")
+  options = pstripack_scvt_options(tolerance=1e-2_c_double)
+  call pstripack_scvt_widths(x, y, z, found, ier, bump_for_fortran, options, well_centred=.true., message=message)
+  call expect(ier == 0 .and. message == "" .and. same_generators() .and. same(found, expected), "widths")
+  call pstripack_scvt_widths(x, y, z, found, ier, negative, options, message=message)
+  call expect(ier == pstripack_bad_density .and. index(message, "the width is ") == 1, "a bad width: "//message)
+  call pstripack_scvt_cells(two, 100._c_double, energy, ier, message)
+  call expect(ier == 0 .and. message == "" .and. abs(energy/36275.987284684357_c_double - 1) < 1e-9_c_double, "cells")
+  call pstripack_scvt_cells(negative, 100._c_double, energy, ier, message)
+  call expect(ier == pstripack_bad_density .and. index(message, "the width is ") == 1, "cells: a bad width")
+  call pstripack_scvt_cells(two, -1._c_double, energy, ier, message)
+  call expect(ier == pstripack_bad_option .and. index(message, "radius") > 0, "cells: a bad radius")
 
   ! One step.
   call pstripack_trmesh(x, y, z, list, lptr, lend, lnew, ier)

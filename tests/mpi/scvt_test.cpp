@@ -139,6 +139,24 @@ TEST(DistributedScvt, HasTheBitsOfTheSerialRun) {
   }
 }
 
+TEST(DistributedScvt, TakesWidthsAndIsWellCentredWithTheBitsOfTheSerialRun) {
+  const Nodes start = start_of(500);
+  pstripack_scvt_options options = of_evaluations(16);
+  options.widths = 1;
+  options.well_centred = 1;
+  const Serial expected(start, &bump, options);
+  ASSERT_EQ(expected.code, 0) << expected.message;
+  options.well_centred = 0;
+  EXPECT_NE(expected.x, Serial(start, &bump, options).x);
+  options.well_centred = 1;
+  for (const Distribution& distribution : distributions()) {
+    SCOPED_TRACE(distribution.name);
+    RunOfRanks run(start, distribution);
+    ASSERT_EQ(run(&bump, &options), 0) << run.message;
+    expect_same(run, expected);
+  }
+}
+
 TEST(DistributedScvt, TakesRank0sOptionsAndDefaults) {
   const Nodes start = start_of(24);
   pstripack_scvt_options options = of_evaluations(7);

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
 
+#include "files/geojson.h"
 #include "files/nearest.h"
 #include "files/nodes.h"
 #include "files/text_table.h"
@@ -17,7 +17,7 @@
 namespace files {
 namespace {
 
-using json = nlohmann::ordered_json;
+using json = Json;
 using point_sets::excerpt;
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
@@ -28,17 +28,10 @@ std::vector<std::string> names_of(const Columns& columns) {
   return names;
 }
 
-std::string text_of(const json& object, const char* key) {
-  const auto found = object.find(key);
-  return found != object.end() && found->is_string() ? found->get<std::string>() : "";
-}
-
 /// Collects points and properties from one feature after another.
 class Features {
  public:
   explicit Features(Nodes& nodes) : nodes_(nodes) {}
-
-  std::size_t count() const { return count_; }
 
   /// Throws if the feature has no geometry, or one other than Point or MultiPoint.
   void add(const json& feature) {
@@ -107,57 +100,6 @@ class Features {
   Columns columns_;
   std::size_t count_ = 0;
 };
-
-/// What the parser says, without the place, and with an excerpt of the text that it read last.
-std::string reason_of(const json::parse_error& e) {
-  std::string what = e.what();
-  if (const std::size_t column = what.find(", column "); column != what.npos)
-    what.erase(0, what.find(": ", column) + 2);
-  constexpr std::string_view kRead = "last read: '";
-  const std::size_t begin = what.find(kRead), end = what.rfind('\'');
-  if (begin == what.npos) return what;
-  const std::size_t word = begin + kRead.size();
-  return what.substr(0, word) + excerpt(what.substr(word, end - word)) + what.substr(end);
-}
-
-/// Parses the file, handing each feature to `features` without keeping it. Returns the JSON without features.
-/// Refuses deep JSON: a value is written by a recursion over its levels.
-json parse(const std::string& text, const std::string& file, Features& features) {
-  constexpr int kMostLevels = 100;
-  bool in_features = false;
-  const auto see = [&](int depth, json::parse_event_t event, json& value) {
-    if (depth > kMostLevels)
-      throw std::runtime_error(fmt::format(
-          "{}: JSON with more than {} levels of brackets, which no points have", file, kMostLevels));
-    if (depth == 1 && event == json::parse_event_t::key) in_features = value == "features";
-    if (depth != 2 || event != json::parse_event_t::object_end || !in_features) return true;
-    features.add(value);
-    return false;
-  };
-  try {
-    return json::parse(text, see);
-  } catch (const json::parse_error& e) {
-    const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(e.byte, text.size()));
-    throw std::runtime_error(fmt::format("{}:{}: not valid JSON: {}", file,
-                                         1 + std::count(text.begin(), end, '\n'), reason_of(e)));
-  } catch (const json::out_of_range&) {
-    throw std::runtime_error(
-        fmt::format("{}: feature {}: a number is larger than 1e308", file, features.count() + 1));
-  }
-}
-
-/// Throws if a member "crs", which RFC 7946 removed, names another system than longitudes and latitudes of
-/// WGS 84.
-void check_reference_system(const json& root, const std::string& file) {
-  const auto crs = root.find("crs");
-  if (crs == root.end() || !crs->is_object() || !crs->contains("properties")) return;
-  const std::string name = text_of((*crs)["properties"], "name");
-  const auto has = [&](const char* word) { return name.find(word) != name.npos; };
-  if (!name.empty() && !has("CRS84") && !has("4326"))
-    throw std::runtime_error(
-        fmt::format("{}: coordinates are in {}: write the file in longitudes and latitudes, EPSG:4326", file,
-                    excerpt(name)));
-}
 
 const std::vector<double>* numbers_of_all(const Columns& columns, const char* name) {
   const Column* const c = find(columns, name);
@@ -242,23 +184,8 @@ Nodes read_geojson(const std::string& file, const ReadOptions& options, const st
   nodes.kind = "GeoJSON, lon lat in degrees";
   nodes.lines_are = "feature";
   Features features(nodes);
-  const json root = parse(contents, file, features);
-  const std::string type = root.is_object() ? text_of(root, "type") : "";
-  if (type == "FeatureCollection") {
-    const auto rest = root.find("features");
-    if (rest == root.end() || !rest->is_array() || !rest->empty())
-      throw std::runtime_error(file + ": \"features\" must be an array of features");
-  } else if (type == "Feature") {
-    features.add(root);
-  } else if (type == "Point" || type == "MultiPoint") {
-    features.add({{"type", "Feature"}, {"geometry", root}});
-  } else {
-    throw std::runtime_error(
-        fmt::format("{}: not GeoJSON of points: the type is '{}', expected FeatureCollection, Feature, Point "
-                    "or MultiPoint",
-                    file, excerpt(type)));
-  }
-  check_reference_system(root, file);
+  const json root = read_features(contents, file, "points", {"Point", "MultiPoint"},
+                                  [&](const json& feature, std::size_t) { features.add(feature); });
   const std::size_t n = nodes.given.lon.size();
   if (n == 0) throw std::runtime_error(file + ": no points: there are no features");
   for (const auto& [name, text] : root.items())

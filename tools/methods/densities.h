@@ -25,19 +25,4 @@ std::unique_ptr<Density> density_between(const std::vector<files::Point>& nodes,
 /// the mean of that row. Throws std::runtime_error, saying why, if the axes are no such grid.
 std::unique_ptr<Density> density_on_grid(const files::Grid& grid, const std::vector<double>& values);
 
-/// The density of cells with these widths, at most 1: (least / width)^4, widths as in density_on_grid().
-struct Widths {
-  std::unique_ptr<Density> density;
-  double least = 0;  ///< km
-  double cells = 0;  ///< as cells_of_width()
-};
-/// `radius` in km.
-Widths widths_on_grid(const files::Grid& grid, const std::vector<double>& km, double radius);
-
-/// The width of cells in km: a number, with or without "km", or with "m". Throws std::invalid_argument.
-double width_of(const std::string& text);
-
-/// How many regular hexagons whose neighbours are `width` apart have the area of the sphere. Both in km.
-double cells_of_width(double width, double radius);
-
 }  // namespace methods

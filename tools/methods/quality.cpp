@@ -99,10 +99,9 @@ Quality quality_of(pstripack::Communicator& ranks, const Neighbourhood& nodes) {
   const std::vector<double> areas = areas_of_cells(ranks, nodes, directions);
   Quality quality;
   pstripack::SmallestReal smallest_angle;
-  pstripack::LargestReal largest_ratio;
-  std::int64_t counts[Quality::kMostSides + 3] =
-      {};  // number of cells by sides, of triangles, and of triangles that hold their circumcentre
-  std::int64_t &triangles = counts[Quality::kMostSides + 1], &well_centred = counts[Quality::kMostSides + 2];
+  pstripack::LargestReal largest_angle, largest_ratio;
+  std::int64_t counts[Quality::kMostSides + 2] = {};  // number of cells by sides, and of obtuse triangles
+  std::int64_t& obtuse = counts[Quality::kMostSides + 1];
   for (std::size_t i = 0; i < nodes.stars.count; ++i) {
     const auto sides = static_cast<int>(nodes.stars.end_of(i) - nodes.stars.begin_of(i));
     ++counts[std::min(sides, Quality::kMostSides)];
@@ -111,18 +110,20 @@ Quality quality_of(pstripack::Communicator& ranks, const Neighbourhood& nodes) {
       if (nodes.numbers[from] < nodes.numbers[i] || nodes.numbers[to] < nodes.numbers[i]) return;
       const pstripack::Angles angles =
           angles_of(at(*directions, i), at(*directions, from), at(*directions, to));
-      for (const double angle : angles.at)
+      for (const double angle : angles.at) {
         smallest_angle.value = std::min(smallest_angle.value, angle * files::kRadian);
-      ++triangles;
-      if (angles.are_acute) ++well_centred;
+        largest_angle.value = std::max(largest_angle.value, angle * files::kRadian);
+      }
+      if (!angles.are_acute) ++obtuse;
     });
   }
-  agree(ranks, smallest_angle, largest_ratio);
+  agree(ranks, smallest_angle, largest_angle, largest_ratio);
   ranks.all_sum(counts, std::size(counts));
   std::copy_n(counts, quality.cells.size(), quality.cells.begin());
   quality.smallest_angle = smallest_angle.value;
+  quality.largest_angle = largest_angle.value;
   quality.largest_ratio = largest_ratio.value;
-  quality.well_centred = static_cast<double>(well_centred) / static_cast<double>(triangles);
+  quality.obtuse = obtuse;
   return quality;
 }
 
@@ -150,10 +151,12 @@ std::string Quality::text() const {
     if (cells[sides] > 0)
       text += fmt::format(" {}{}: {},", sides, sides == kMostSides ? " or more" : "", cells[sides]);
   text.back() = ';';
-  return text + fmt::format(
-                    " smallest angle {:.1f} degrees; neighbouring areas up to {:.2f} : 1; {:.2f} % of the "
-                    "triangles hold their circumcentre",
-                    smallest_angle, largest_ratio, 100 * well_centred);
+  return text + fmt::format(" angles {:.1f} to {:.1f} degrees; neighbouring areas up to {:.2f} : 1; {}",
+                            smallest_angle, largest_angle, largest_ratio,
+                            obtuse == 0 ? "all triangles hold their circumcentre"
+                            : obtuse == 1
+                                ? "1 triangle does not hold its circumcentre"
+                                : fmt::format("{} triangles do not hold their circumcentre", obtuse));
 }
 
 }  // namespace methods

@@ -1,6 +1,7 @@
 // `pstripack scvt`.
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -15,6 +16,7 @@
 #include "methods/densities.h"
 #include "methods/quality.h"
 #include "methods/time_left.h"
+#include "methods/widths.h"
 #include "numbers.h"
 #include "pstripack/options.h"
 #include "pstripack/parts.h"
@@ -46,18 +48,23 @@ struct Options {
   First first = First::by_number;
   Input start;
   std::string density, density_file, width_file, variable;
-  double width = 0;         ///< of all cells, km; 0: not given
-  double radius = 6371220;  ///< of the sphere, metres: that of MPAS' and E3SM's tools
+  std::string width_text, width_region;
+  double width = 0;   ///< of all cells, km; 0: not given
+  double radius = 0;  ///< of the sphere, metres; 0: not given
+  double grade = 0;   ///< most that widths may change, km per km; 0: not given
   Method method = Method::newton;
   double tolerance = 1e-4;
+  bool well_centred = false;  ///< move generators until all triangles hold their circumcentre
+  bool strict = false;
   std::int64_t evaluations = 10000, every = 100;
   Output output, checkpoint{"", "", files::Format::netcdf};
 };
 
 // Attributes of the output that let another run continue this one.
 constexpr auto kEvaluations = "scvt_iterations", kDensity = "scvt_density",
-               kDensityFile = "scvt_density_file", kWidthFile = "scvt_width_file",
-               kVariable = "scvt_density_variable", kSteps = "scvt_steps", kPairs = "scvt_pairs";
+               kDensityFile = "scvt_density_file", kWidthFile = "scvt_width_file", kWidth = "scvt_width",
+               kWidthRegion = "scvt_width_region", kVariable = "scvt_density_variable",
+               kRadius = "scvt_radius", kGrade = "scvt_grade", kSteps = "scvt_steps", kPairs = "scvt_pairs";
 
 std::string note(const files::Notes& notes, const char* name) {
   const auto found = notes.find(name);
@@ -124,6 +131,33 @@ void choose_n(Options& options, double cells) {
   say(fmt::format("the widths give {} cells", options.n));
 }
 
+/// Throws, before the work, if N generators on this machine need more memory than it has.
+void check_memory(double generators) {
+  constexpr double kBytes = 1100;  // of a generator, with output; 1000 with levels
+  const double bytes = kBytes * generators;
+  const double most =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (most > 0 && bytes > most)
+    throw std::runtime_error(
+        fmt::format("{:.0f} generators need about {:.3g} GB, this machine has {:.3g} GB: take fewer, with "
+                    "widths {:.2g} times as "
+                    "wide, or ranks on several machines (mpirun)",
+                    generators, bytes / 1e9, most / 1e9, std::sqrt(bytes / most)));
+}
+
+/// The density of the widths, limited in their gradient; chooses N.
+std::unique_ptr<engine::Density> widths_of(methods::Table table, Options& options) {
+  const methods::Lowered lowered = methods::limit_gradient(table, options.grade, options.radius / 1000);
+  if (lowered.places > 0)
+    say(fmt::format(
+        "widths limited to a change of {:g} km per km: {} of {} values lowered, by up to {:.4g} km "
+        "(lon {:g} lat {:g})",
+        options.grade, lowered.places, lowered.of, lowered.most, lowered.lon, lowered.lat));
+  methods::Widths widths = methods::widths_of(std::move(table), options.radius / 1000);
+  choose_n(options, widths.cells);
+  return std::move(widths.density);
+}
+
 /// The density of the widths in the file; chooses N.
 std::unique_ptr<engine::Density> widths_in_file(Options& options) {
   files::ReadOptions read = options.start.read;
@@ -139,30 +173,68 @@ std::unique_ptr<engine::Density> widths_in_file(Options& options) {
   if (!are_metres && !units.empty() && units != "km" && units != "kilometers" && units != "kilometres")
     fail(fmt::format("variable {}: units '{}'; expected km or m", nodes.value.name,
                      point_sets::excerpt(units)));
-  for (std::size_t i = 0; i < km.size(); ++i) {
-    if (!(km[i] > 0 && std::isfinite(km[i])))
-      fail(fmt::format("{}, lon {:g} lat {:g}: width {}: must be positive and finite", nodes.place(i),
-                       nodes.grid.lon[i % nodes.grid.lon.size()], nodes.grid.lat[i / nodes.grid.lon.size()],
-                       km[i]));
-    if (are_metres) km[i] /= 1000;
+  const auto is_bad = [](double width) { return !(width > 0 && std::isfinite(width)); };
+  if (const auto bad = std::find_if(km.begin(), km.end(), is_bad); bad != km.end()) {
+    const auto i = static_cast<std::size_t>(bad - km.begin());
+    const std::string place =
+        fmt::format("{}, lon {:g} lat {:g}", nodes.place(i), nodes.grid.lon[i % nodes.grid.lon.size()],
+                    nodes.grid.lat[i / nodes.grid.lon.size()]);
+    const auto count = std::count_if(km.begin(), km.end(), is_bad);
+    if (std::isnan(*bad))
+      fail(
+          fmt::format("{}: there is no width, at {} of {} places: fill the holes of the map, say with cdo "
+                      "setmisstonn",
+                      place, count, km.size()));
+    fail(fmt::format("{}: width {:g}, one of {} of {} that are not positive and finite: set them", place,
+                     *bad, count, km.size()));
   }
+  if (are_metres)
+    for (double& width : km) width /= 1000;
   std::vector<double> sorted = km;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
   if (*middle > 20000 || *middle < 0.01)
     fail(fmt::format("the median width is {:g} km: if these are not km, say so: ncatted -a units,{},c,c,m {}",
                      *middle, nodes.value.name, nodes.file));
-  methods::Widths widths;
+  methods::Table table;
   try {
-    widths = methods::widths_on_grid(nodes.grid, km, options.radius / 1000);
+    table = methods::table_of(nodes.grid, km);
   } catch (const std::runtime_error& e) {
     fail(e.what());
   }
+  return widths_of(std::move(table), options);
+}
+
+/// The density of the widths of the formula; chooses N.
+std::unique_ptr<engine::Density> widths_of_formula(Options& options) {
+  methods::WidthFormula formula(options.width_text);
+  if (formula.limit(options.grade))
+    say(fmt::format("transition made {:.0f} km long, so that widths change by at most {:g} km per km",
+                    formula.transition(), options.grade));
+  methods::Widths widths = formula.widths(options.radius / 1000);
   choose_n(options, widths.cells);
   return std::move(widths.density);
 }
 
+/// The density of the widths of the regions, and of the formula elsewhere; chooses N.
+std::unique_ptr<engine::Density> widths_of_regions(Options& options) {
+  const std::string& text = options.width_text;
+  const methods::WidthFormula elsewhere = methods::WidthFormula::is_one(text)
+                                              ? methods::WidthFormula(text)
+                                              : methods::WidthFormula(methods::width_of(text));
+  const auto regions = files::read_width_regions(options.width_region);
+  methods::Table table;
+  try {
+    table = methods::widths_of_regions(regions, elsewhere, options.radius / 1000);
+  } catch (const std::runtime_error& e) {
+    throw std::runtime_error(options.width_region + ": " + e.what());
+  }
+  return widths_of(std::move(table), options);
+}
+
 std::unique_ptr<engine::Density> make_density(Options& options) {
+  if (!options.width_region.empty()) return widths_of_regions(options);
+  if (!options.width_text.empty()) return widths_of_formula(options);
   if (!options.width_file.empty()) return widths_in_file(options);
   if (!options.density_file.empty()) return density_in_file(options);
   try {
@@ -174,17 +246,26 @@ std::unique_ptr<engine::Density> make_density(Options& options) {
 
 /// Sets the density: that of the command line, else that of the start, else constant.
 void choose_density(Options& options, const files::Notes& notes) {
-  if (options.width > 0) {
+  const auto choose = [&](double& number, const char* name, double otherwise) {
+    if (number == 0 && !point_sets::parse(note(notes, name), number)) number = otherwise;
+  };
+  choose(options.radius, kRadius, 6371220);  // that of MPAS' and E3SM's tools
+  choose(options.grade, kGrade, 0.2);
+  if (options.width > 0 && options.width_region.empty()) {
     options.density = "constant";
+    options.width_text.clear();
     choose_n(options, methods::cells_of_width(options.width, options.radius / 1000));
   }
   const auto is_chosen = [&] {
-    return !(options.density.empty() && options.density_file.empty() && options.width_file.empty());
+    return !(options.density.empty() && options.density_file.empty() && options.width_file.empty() &&
+             options.width_text.empty());
   };
   if (!is_chosen()) {
     options.density = note(notes, kDensity);
     options.density_file = note(notes, kDensityFile);
     options.width_file = note(notes, kWidthFile);
+    options.width_text = note(notes, kWidth);
+    options.width_region = note(notes, kWidthRegion);
     if (options.variable.empty()) options.variable = note(notes, kVariable);
   }
   if (!is_chosen()) options.density = "constant";
@@ -194,9 +275,15 @@ files::Notes notes_of_density(const Options& options) {
   files::Notes notes;
   for (const auto& [name, text] : {std::pair(kDensity, options.density),
                                    {kDensityFile, options.density_file},
-                                   {kWidthFile, options.width_file}})
+                                   {kWidthFile, options.width_file},
+                                   {kWidth, options.width_text},
+                                   {kWidthRegion, options.width_region}})
     if (!text.empty()) notes[name] = text;
   if (options.density.empty() && !options.variable.empty()) notes[kVariable] = options.variable;
+  if (!options.width_file.empty() || !options.width_text.empty()) {
+    notes[kRadius] = fmt::format("{}", options.radius);
+    notes[kGrade] = fmt::format("{}", options.grade);
+  }
   return notes;
 }
 
@@ -262,7 +349,8 @@ Tessellation tessellation_of(Communicator& ranks, files::Nodes& start, const Opt
         t.state.evaluations = count_in(start, kEvaluations, 0);
         t.state.steps = count_in(start, kSteps, t.state.evaluations);
         bool has_same_density = true;
-        for (const char* const name : {kDensity, kDensityFile, kWidthFile, kVariable})
+        for (const char* const name :
+             {kDensity, kDensityFile, kWidthFile, kWidth, kWidthRegion, kVariable, kRadius, kGrade})
           has_same_density &= note(start.notes, name) == note(notes_of_density(options), name);
         if (options.method == Method::newton && has_same_density) t.state.pairs = pairs_in(start);
         have_pairs.value = !t.state.pairs.empty();
@@ -373,6 +461,7 @@ void iterate(const Options& options, Ranks& ranks, engine::Evaluator& evaluator,
   of_run.method = options.method;
   of_run.tolerance = options.tolerance;
   of_run.most_evaluations = options.evaluations;
+  of_run.well_centred = options.well_centred;
   methods::TimeLeft time_left(options.tolerance);
   const auto start = std::chrono::steady_clock::now();
   of_run.progress = [&](const engine::Progress& p) {
@@ -388,18 +477,36 @@ void iterate(const Options& options, Ranks& ranks, engine::Evaluator& evaluator,
   engine::iterate(evaluator, t, of_run);
 }
 
-std::string end_of(const Options& options, const engine::Result& result, bool has_moved) {
-  switch (result.end) {
-    case engine::End::converged:
-      return fmt::format("converged to {:g}", options.tolerance);
-    case engine::End::stalled:
-      return fmt::format(
-          "stalled, NOT converged to {:g}: the energy falls no more (rounding, or a rough "
-          "density)",
-          options.tolerance);
-    default:
-      return has_moved ? fmt::format("NOT converged to {:g}", options.tolerance) : "none was left to do";
+std::string end_of(const Options& options, const Tessellation& t, bool has_moved) {
+  const auto end = [&] {
+    switch (t.result.end) {
+      case engine::End::converged:
+        return fmt::format("converged to {:g}", options.tolerance);
+      case engine::End::stalled:
+        return fmt::format(
+            "stalled, NOT converged to {:g}: the energy falls no more (rounding, or a rough density)",
+            options.tolerance);
+      default:
+        return has_moved ? fmt::format("NOT converged to {:g}", options.tolerance) : "none was left to do";
+    }
+  };
+  return t.repair.moved == 0 ? end()
+                             : fmt::format("{}, then {} generators moved for their triangles' circumcentres",
+                                           end(), t.repair.moved);
+}
+
+/// One line if triangles are left that were to be repaired, or, with --strict, if the run has not converged.
+std::string what_is_missing(const Options& options, const Tessellation& t) {
+  if (t.repair.obtuse > 0) {
+    const files::LonLat where({t.repair.place}, true);
+    return fmt::format(
+        "{} triangles do not hold their circumcentre, the first at lon {:.6g} lat {:.6g}, also after {} "
+        "generators were moved: try a smaller --tolerance or --grade, or another --first or --seed",
+        t.repair.obtuse, where.lon[0], where.lat[0], t.repair.moved);
   }
+  if (options.strict && t.result.end != engine::End::converged)
+    return fmt::format("not converged to {:g}", options.tolerance);
+  return "";
 }
 
 /// Reads the nodes to start from; several ranks read a part each. Collective.
@@ -467,9 +574,9 @@ void check_files_of_ranks(const Options& options) {
           fmt::format("{}: several ranks write ugrid, mpas, off, xyz, lonlat, nodes and raw, each its part: "
                       "choose one of these, and `pstripack convert` afterwards",
                       output->file));
-  if (options.density_file == "-" || options.width_file == "-")
+  if (options.density_file == "-" || options.width_file == "-" || options.width_region == "-")
     throw std::runtime_error(
-        "--density-file -, --width-file -: several ranks cannot read stdin: name a file");
+        "--density-file -, --width-file -, --width-region -: several ranks cannot read stdin: name a file");
 }
 
 /// The command, on all ranks.
@@ -490,6 +597,7 @@ void scvt(Options& options, Ranks& ranks) {
   std::unique_ptr<engine::Density> density;
   progress.step("reading the density",
                 [&] { in_agreement_with_caller(communicator, [&] { density = make_density(options); }); });
+  if (communicator.size() == 1) check_memory(static_cast<double>(options.n));
   try {
     const std::shared_ptr<engine::Evaluator> evaluator = ranks.evaluator(*density);
     Tessellation t = progress.step("placing generators", [&] {
@@ -506,9 +614,12 @@ void scvt(Options& options, Ranks& ranks) {
     });
     progress.finish(fmt::format("{} generators, {} evaluations, {}: gradient {:.3g}, energy {:.9g}",
                                 reached.generators, t.state.evaluations,
-                                end_of(options, t.result, t.state.steps > steps_before), reached.gradient,
+                                end_of(options, t, t.state.steps > steps_before), reached.gradient,
                                 reached.energy));
     say(quality);
+    const std::string missed = what_is_missing(options, t);
+    if (!missed.empty() && options.strict) throw engine::NoTessellation(missed);
+    if (!missed.empty()) say(missed);
   } catch (const engine::BadDensity& e) {
     if (options.density_file.empty() || !std::isnan(e.value)) throw;
     const files::LonLat where({e.place}, true);
@@ -521,10 +632,14 @@ void scvt(Options& options, Ranks& ranks) {
 }
 
 void scvt(Options& options) {
-  if (options.start.file.empty() ? options.n == 0 && options.width == 0 && options.width_file.empty()
-                                 : options.n > 0)
+  if (options.start.file.empty()
+          ? options.n == 0 && options.width == 0 && options.width_file.empty() && options.width_text.empty()
+          : options.n > 0)
     throw CLI::ValidationError("N", "give either N or widths, for new generators, or --start FILE");
+  if (!options.width_region.empty() && options.width_text.empty())
+    throw CLI::ValidationError("--width-region", "say also --width, that of the cells elsewhere");
   options.output.choose();
+  options.well_centred = options.well_centred || options.output.format == files::Format::mpas;
   if (!options.checkpoint.file.empty()) options.checkpoint.choose(files::Format::netcdf);
   if (!options.density.empty()) make_density(options);
   try {
@@ -567,12 +682,18 @@ void add_scvt(CLI::App& app, Command& chosen) {
          "--width",
          [=](const std::string& text) {
            try {
-             options->width = methods::width_of(text);
+             options->width_text = text;
+             if (methods::WidthFormula::is_one(text))
+               methods::WidthFormula{text};
+             else
+               options->width = methods::width_of(text);
            } catch (const std::invalid_argument& e) {
              throw CLI::ValidationError("--width", e.what());
            }
          },
-         "of all cells, say 60km: distance of neighbours in a mesh of regular hexagons; N follows from it")
+         "of all cells, say 60km, or a formula, see below: distance of neighbours in a mesh of regular "
+         "hexagons; N "
+         "follows from it")
       ->type_name("WIDTH")
       ->excludes("--density")
       ->excludes("--density-file");
@@ -582,15 +703,22 @@ void add_scvt(CLI::App& app, Command& chosen) {
       ->excludes("--width")
       ->excludes("--density")
       ->excludes("--density-file");
-  sub->add_option("--radius", options->radius, "of the sphere, for widths, in metres")
+  sub->add_option("--width-region", options->width_region,
+                  "GeoJSON polygons with properties width and transition, km, within --width elsewhere")
+      ->type_name("FILE");
+  const auto above_0 = [](const std::string& text) {
+    double value = 0;
+    return point_sets::parse(text, value) && value > 0 && std::isfinite(value)
+               ? std::string()
+               : "'" + text + "' is not a finite number above 0";
+  };
+  sub->add_option("--grade", options->grade,
+                  "most that widths may change, km per km: wider ones are lowered [0.2]")
+      ->type_name("NUMBER")
+      ->check(above_0);
+  sub->add_option("--radius", options->radius, "of the sphere, for widths, in metres [6371220]")
       ->type_name("METRES")
-      ->capture_default_str()
-      ->check([](const std::string& text) {
-        double value = 0;
-        return point_sets::parse(text, value) && value > 0
-                   ? std::string()
-                   : "'" + text + "' is not a number of metres above 0";
-      });
+      ->check(above_0);
   sub->add_option("--variable", options->variable,
                   "in the file of densities or widths: name (NetCDF) or column (text, from 1)")
       ->type_name("NAME");
@@ -605,6 +733,11 @@ void add_scvt(CLI::App& app, Command& chosen) {
         return point_sets::parse(text, value) && value >= 0 ? std::string()
                                                             : "'" + text + "' is not a number of at least 0";
       });
+  sub->add_flag(
+      "--well-centred", options->well_centred,
+      "in the end move a few generators so that all triangles hold their circumcentre; always for mpas");
+  sub->add_flag("--strict", options->strict,
+                "status 1 if the mesh is not converged, or not well centred where that is asked");
   sub->add_option("--evaluations,--iterations", options->evaluations,
                   "most evaluations of all N cells, those of the continued run included")
       ->type_name("NUMBER")
@@ -630,6 +763,13 @@ Densities:
   bump:LON,LAT,RADIUS,WIDTH,RATIO     (1 + (RATIO-1) (1 + tanh((RADIUS-d)/WIDTH))/2)^4, d the distance from LON,LAT,
                                       all in degrees: cells within RADIUS are RATIO times narrower than far away
 A NetCDF density on the two axes of a global longitude-latitude grid is bilinear between its values.
+
+Widths, in km, angles in degrees:
+  60km                                of all cells
+  disc:INNER,OUTER,RADIUS,TRANSITION,LON,LAT
+  band:INNER,OUTER,RADIUS,TRANSITION,LAT
+                                      INNER up to RADIUS km from LON,LAT, or from the parallel LAT; then over TRANSITION
+                                      km, which --grade may lengthen, smoothly to OUTER
 
 To continue a run, repeat its command with --start CHECKPOINT instead of N: the result has the same bits as without
 interruption. NetCDF files hold evaluations and density. Only NetCDF checkpoints other than mpas also hold the state

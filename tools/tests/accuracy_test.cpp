@@ -194,7 +194,7 @@ TEST(accuracy, of_qualities) {
     const Real angle = smallest * Real(180) / acos(Real(-1));
     report("angle", c, many_digits::error(quality.smallest_angle, angle, angle), 68);
     report("ratio", c, many_digits::error(quality.largest_ratio, ratio, ratio), 260);
-    EXPECT_EQ(quality.well_centred, static_cast<double>(acute) / static_cast<double>(triangles.size() / 3))
+    EXPECT_EQ(quality.obtuse, static_cast<std::int64_t>(triangles.size() / 3 - acute))
         << c.shape << ' ' << c.width;
   }
 }

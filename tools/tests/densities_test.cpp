@@ -147,19 +147,5 @@ TEST(density_on_grid, refuses_what_does_not_cover_the_sphere) {
   refuses({lon, {0}}, "the axis of latitudes has a single value");
 }
 
-TEST(widths_on_grid, give_their_density_and_number_of_cells) {
-  // w = 60 (2 + z): the integral of 4 pi R^2 / (sqrt(3)/2 60^2) (1/2) int_-1^1 dz / (2 + z)^2, which is 1/3.
-  const files::Grid grid{ticks(-180, 5, 73), ticks(-90, 0.5, 361)};
-  std::vector<double> km;
-  for (const double lat : grid.lat)
-    for (std::size_t i = 0; i < grid.lon.size(); ++i)
-      km.push_back(60 * (2 + std::sin(lat * 0.017453292519943295)));
-  const Widths widths = widths_on_grid(grid, km, 6371);
-  EXPECT_DOUBLE_EQ(widths.least, 60);
-  EXPECT_NEAR(widths.cells / (cells_of_width(60, 6371) / 3), 1, 1e-5);
-  EXPECT_DOUBLE_EQ(at(*widths.density, 17, 0), 0.0625);
-  EXPECT_DOUBLE_EQ(at(*widths.density, 17, -90), 1);
-}
-
 }  // namespace
 }  // namespace methods

@@ -365,7 +365,7 @@ scvt)
   "$PSTRIPACK" scvt 300 --density bump --evaluations 30 --tolerance 1e-6 -o direct.nodes.nc 2> err
   grep -q '^pstripack: 300 generators, 3[0-9] evaluations, NOT converged to 1e-06: gradient .*, energy .*; iterating .* s; .*writing .* s$' err ||
     fail "$(cat err)"
-  grep -q '^pstripack: cells by sides: .*; smallest angle .*; neighbouring areas up to .* : 1; .* % of the triangles hold their circumcentre$' err ||
+  grep -q '^pstripack: cells by sides: .*; angles .* to .* degrees; neighbouring areas up to .* : 1; .* triangles .* hold their circumcentre$' err ||
     fail "$(cat err)"
   # A run that is cut short and continued from its checkpoint gives the same bytes: cut within the first steps, with some
   # and with all pairs of the quasi-Newton method, and from two formats.
@@ -388,8 +388,8 @@ scvt)
   grep -q " evaluations, converged to 0.0001: " err || fail "$(cat err)"
   # Lloyd's method has no memory: it also continues from its output.
   "$PSTRIPACK" -q scvt 300 --method lloyd --first random --iterations 12 -o lloyd.nodes.nc
-  "$PSTRIPACK" -q scvt 300 --method lloyd --first random --iterations 9 --checkpoint checkpoint.nc --every 4 -o short.mpas.nc
-  for start in checkpoint.nc short.mpas.nc; do
+  "$PSTRIPACK" -q scvt 300 --method lloyd --first random --iterations 9 --checkpoint checkpoint.nc --every 4 -o short.ugrid.nc
+  for start in checkpoint.nc short.ugrid.nc; do
     "$PSTRIPACK" scvt --start $start --method lloyd --iterations 12 -o resumed.nodes.nc 2> err
     grep -q " 12 evaluations, " err || fail "$(cat err)"
     cmp lloyd.nodes.nc resumed.nodes.nc
@@ -429,6 +429,27 @@ scvt)
   grep -q "10 generators, .* converged to 0.01: gradient 0.00[0-9]*, energy 2" err || fail "copies: $(cat err)"
   rm two.txt
   refuses 1 "two.txt: cannot be opened" scvt --start file.nodes.nc --iterations 7 -o failed.nc
+  # Meshes for MPAS are well centred, others on request.
+  bump="scvt 1000 --density bump:0,30,30,10,4 --tolerance 1e-3"
+  # shellcheck disable=SC2086
+  "$PSTRIPACK" $bump -o plain.nodes.nc 2> err
+  grep -q ", converged to 0.001: gradient" err || fail "$(cat err)"
+  grep -q "; [1-9] triangles do not hold their circumcentre$" err || fail "$(cat err)"
+  # shellcheck disable=SC2086
+  "$PSTRIPACK" $bump -o centred.mpas.nc 2> err
+  grep -q ", converged to 0.001, then [0-9]* generators moved for their triangles' circumcentres: gradient" err || fail "$(cat err)"
+  grep -q " to 8[34].[0-9] degrees; .* : 1; all triangles hold their circumcentre$" err || fail "$(cat err)"
+  # shellcheck disable=SC2086
+  "$PSTRIPACK" -q $bump --well-centred --strict -o centred.nodes.nc
+  for run in centred.mpas centred.nodes; do "$PSTRIPACK" -q convert $run.nc -o $run.txt; done
+  cmp centred.mpas.txt centred.nodes.txt
+  "$PSTRIPACK" scvt 500 --first random --evaluations 1 --well-centred -o failed.off 2> err
+  left="[0-9]* triangles do not hold their circumcentre, the first at lon [-.0-9]* lat [-.0-9]*, also after [0-9]* generators were moved: try"
+  grep -q "^pstripack: $left" err || fail "$(cat err)"
+  rm failed.off
+  refuses 1 "triangles do not hold their circumcentre, the first at lon" -q scvt 500 --first random --evaluations 1 --well-centred --strict -o written.off
+  refuses 1 "not converged to 0.0001" -q scvt 500 --evaluations 1 --strict -o written.off
+  rm written.off
   # Widths in km give N: 4 pi R^2 / (sqrt(3)/2 width^2). A given N scales them.
   "$PSTRIPACK" scvt --width 1000km --tolerance 0.1 -o width.nodes.nc 2> err
   grep -q "^pstripack: the widths give 589 cells$" err || fail "$(cat err)"
@@ -438,6 +459,24 @@ scvt)
   grep -q "^pstripack: the widths give 589 cells$" err || fail "$(cat err)"
   "$PSTRIPACK" scvt 147 --width 1000 --tolerance 0.1 -o coarse.nodes.nc 2> err
   grep -q "the widths give 589 cells; 147 are asked for: widths times 2.002$" err || fail "$(cat err)"
+  # Discs and bands.
+  disc="disc:500,2000,3000,1000,20,40"
+  "$PSTRIPACK" scvt --width $disc --iterations 6 --checkpoint checkpoint.nc --every 1 -o six.nodes.nc 2> err
+  grep -q "^pstripack: transition made 11250 km long, so that widths change by at most 0.2 km per km$" err || fail "$(cat err)"
+  grep -q "^pstripack: the widths give 618 cells$" err || fail "$(cat err)"
+  "$PSTRIPACK" -q scvt --width $disc --iterations 8 -o eight.nodes.nc
+  "$PSTRIPACK" -q scvt --start checkpoint.nc --iterations 8 -o more.nodes.nc
+  cmp more.nodes.nc eight.nodes.nc
+  # Polygons with a width each.
+  region='{"type": "Feature", "properties": {"width": 400, "transition": "2000"}, "geometry": {"type": "Polygon", "coordinates": [[[0, 20], [60, 20], [60, 50], [0, 50], [0, 20]]]}}'
+  echo "{\"type\": \"FeatureCollection\", \"features\": [$region]}" > region.json
+  "$PSTRIPACK" scvt --width 1000km --width-region region.json --iterations 3 --checkpoint region.nc --every 1 -o region.nodes.nc 2> err
+  grep -q "^pstripack: widths limited to a change of 0.2 km per km: .* values lowered" err || fail "$(cat err)"
+  grep -q "^pstripack: the widths give 808 cells$" err || fail "$(cat err)"
+  echo "$region" > region.json
+  "$PSTRIPACK" -q scvt --start region.nc --iterations 5 -o more.nodes.nc
+  "$PSTRIPACK" -q scvt --width 1000km --width-region region.json --iterations 5 -o region.nodes.nc
+  cmp more.nodes.nc region.nodes.nc
   if command -v ncgen > /dev/null; then  # Debian: netcdf-bin
     # cellWidth(lat, lon) as mpas_tools writes it: no units, the first meridian repeated. Here 1000 km everywhere.
     widths_file() { # NAME UNITS VALUES: on 7 rows and 9 columns
@@ -457,6 +496,17 @@ scvt)
     # A run continues with the widths of its file.
     "$PSTRIPACK" scvt --start same.mpas.nc --tolerance 1e-3 -o more.nodes.nc 2> err
     grep -q "converged to 0.001" err || fail "$(cat err)"
+    # A step is limited to --grade, also in a run that continues.
+    step() { for i in $(seq 63); do printf '%s%s' "$(test $i = 1 || echo ,)" $((i > 27 ? 1000 : 4000)); done; }
+    widths_file step.nc "" "$(step)"
+    "$PSTRIPACK" scvt --width-file step.nc --tolerance 0.1 -o step.nodes.nc 2> err
+    limited="^pstripack: widths limited to a change of"
+    grep -q "$limited 0.2 km per km: 17 of 42 values lowered, by up to 2333 km (lon -180 lat -30)$" err || fail "$(cat err)"
+    "$PSTRIPACK" -q scvt --width-file step.nc --grade 0.1 --radius 5e6 --iterations 6 --checkpoint checkpoint.nc --every 1 -o six.nodes.nc
+    "$PSTRIPACK" scvt --start checkpoint.nc --iterations 8 -o more.nodes.nc 2> err
+    grep -q "$limited 0.1 km per km: 17 of 42 values lowered, by up to 2738 km" err || fail "$(cat err)"
+    "$PSTRIPACK" -q scvt --width-file step.nc --grade 0.1 --radius 5e6 --iterations 8 -o eight.nodes.nc
+    cmp more.nodes.nc eight.nodes.nc
   fi
   # A density on a grid.
   "$PSTRIPACK" -q points latlon 3000 -o - --to lonlat | awk '{ print $0, 2 + sin($2 / 57.29577951308232) }' > values.txt
@@ -505,19 +555,53 @@ bad_scvt)
         echo "data: lat = -90, 0, 90; lon = 0, 90, 180, 270; cellWidth = $3; }"; } | ncgen -o "$1" -
     }
     of_widths metres.nc "" "1e6,1e6,1e6,1e6,1e6,1e6,1e6,1e6,1e6,1e6,1e6,1e6"
-    of_widths hole.nc "" "NaN,9,9,9,9,9,9,9,9,9,9,9"
+    of_widths hole.nc "" "NaN,9,9,NaN,9,9,9,9,9,9,9,9"
+    of_widths missing.nc "cellWidth:_FillValue = -999.;" "9,9,-999,9,9,9,9,9,9,9,9,9"
+    of_widths negative.nc "" "9,9,9,9,9,-3,0,9,9,9,9,9"
     of_widths miles.nc 'cellWidth:units = "miles";' "9,9,9,9,9,9,9,9,9,9,9,9"
     refuses 1 "metres.nc: the median width is 1e+06 km: if these are not km, say so: ncatted -a units,cellWidth,c,c,m metres.nc" \
       scvt --width-file metres.nc -o failed.off
-    refuses 1 "hole.nc: node 1, lon 0 lat -90: width nan: must be positive and finite" \
+    refuses 1 "hole.nc: node 1, lon 0 lat -90: there is no width, at 2 of 12 places: fill the holes of the map" \
       scvt --width-file hole.nc -o failed.off
+    refuses 1 "missing.nc: node 3, lon 180 lat -90: there is no width, at 1 of 12 places" scvt --width-file missing.nc -o failed.off
+    refuses 1 "negative.nc: node 6, lon 90 lat 0: width -3, one of 2 of 12 that are not positive and finite" \
+      scvt --width-file negative.nc -o failed.off
     refuses 1 "miles.nc: variable cellWidth: units 'miles'; expected km or m" scvt --width-file miles.nc -o failed.off
+  fi
+  if [ "$(awk '/MemTotal/ { print $2 }' /proc/meminfo)" -lt 300000000 ]; then
+    refuses 1 "353404399 generators need about 389 GB, this machine has " -q scvt --width 1.291km -o failed.off
   fi
   for width in 0 -60km nankm 60miles km; do
     refuses 2 "'$width' is no width: expected, say, 60km" scvt "--width=$width" -o failed.off
   done
+  refuses 2 "width 'band:1,2,3,4': expected five numbers: INNER,OUTER,RADIUS,TRANSITION,LAT" scvt --width band:1,2,3,4 -o failed.off
+  polygon() { echo "{\"type\": \"Feature\", \"properties\": {$1}, \"geometry\": {\"type\": \"Polygon\", \"coordinates\": [$2]}}" > region.json; }
+  box="[[0, 0], [9, 0], [9, 9], [0, 9], [0, 0]]"
+  regions="scvt --width 900km --width-region region.json -o failed.off"
+  for bad in '' '"width": 0' '"width": "wide"' '"width": null'; do
+    polygon "$bad" "$box"
+    # shellcheck disable=SC2086
+    refuses 1 "region.json: feature 1: it needs the property width, in km and above 0" $regions
+  done
+  polygon '"width": 30, "transition": -1' "$box"
+  # shellcheck disable=SC2086
+  refuses 1 "region.json: feature 1: its property transition must be in km, and not negative" $regions
+  polygon '"width": 3000' "$box"
+  # shellcheck disable=SC2086
+  refuses 1 "region.json: feature 1: it is smaller than a cell of 3000 km: enlarge it, make its width smaller, or use a disc" $regions
+  polygon '"width": 30' "[[170, 0], [-170, 0], [-170, 9], [170, 0]]"
+  # shellcheck disable=SC2086
+  refuses 1 "feature 1: its side from longitude 170 to -170 goes around the globe: cut the polygon at 180, or continue beyond" $regions
+  polygon '"width": 30' "[[0, 0], [9, 0], [9, 91], [0, 0]]"
+  # shellcheck disable=SC2086
+  refuses 1 "feature 1: latitude 91 is beyond the pole" $regions
+  echo '{"type": "Point", "coordinates": [0, 0]}' > region.json
+  # shellcheck disable=SC2086
+  refuses 1 "region.json: not GeoJSON of polygons: the type is 'Point', expected FeatureCollection, Feature, Polygon or MultiPolygon" $regions
+  refuses 2 "--width-region: say also --width, that of the cells elsewhere" scvt --width-region region.json 9 -o failed.off
   refuses 2 "excludes" scvt --width 60km --density bump -o failed.off
-  refuses 2 "'nan' is not a number of metres above 0" scvt --width 60km --radius nan -o failed.off
+  refuses 2 "'0' is not a finite number above 0" scvt --width 60km --grade 0 -o failed.off
+  refuses 2 "'nan' is not a finite number above 0" scvt --width 60km --radius nan -o failed.off
   refuses 1 "the widths give 0.000589 cells, not 4 to 357913943: widths are in km, --radius in metres" \
     scvt --width 1e6 -o failed.off
   # Widths are no density, whatever the file says of itself.

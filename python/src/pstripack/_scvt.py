@@ -9,7 +9,7 @@ from . import _core
 from ._arrays import Floats, mesh_of, node_array, thread_count
 from ._errors import TriangulationError
 
-_REASONS = ("converged", "evaluations", "stopped", "stalled")
+_REASONS = ("converged", "evaluations", "stopped", "stalled", "not well centred")
 _OUT_OF_MEMORY = -6
 
 
@@ -29,10 +29,24 @@ class Tessellation(NamedTuple):
     energy: float  #: sum over the cells of the integral of density times the squared distance to the generator
     gradient: float  #: as in Progress
     evaluations: float  #: of all levels, each weighted by its generators / n
-    reason: str  #: "converged", "evaluations", "stopped" or "stalled" (the energy falls no further)
+    #: "converged", "evaluations", "stopped", "stalled" (the energy falls no further), or "not well centred" (asked for,
+    #: but triangles are left that do not hold their circumcentre)
+    reason: str
 
 
-def scvt(generators: Union[int, ArrayLike], density: Optional[Callable[[Floats], ArrayLike]] = None, *,
+def _cells_of(width: Callable[[Floats], ArrayLike], radius: float) -> int:
+    code, message, cells = _core.scvt_cells(width, radius)
+    if code == _OUT_OF_MEMORY:
+        raise MemoryError(message)
+    if code != 0:
+        raise TriangulationError(message)
+    if not 3.5 <= cells <= 2**31 // 6:
+        raise TriangulationError(f"the widths give {cells:.3g} cells, not 4 to {2**31 // 6}: are width and radius in one unit?")
+    return round(cells)
+
+
+def scvt(generators: Union[int, ArrayLike, None] = None, density: Optional[Callable[[Floats], ArrayLike]] = None, *,
+         width: Optional[Callable[[Floats], ArrayLike]] = None, radius: float = 6371.22, well_centred: bool = False,
          tolerance: float = 1e-5, method: str = "newton", seed: int = 1, max_evaluations: Optional[int] = None,
          progress: Optional[Callable[[Progress], object]] = None, threshold: float = 0,
          threads: Optional[int] = None) -> Tessellation:
@@ -40,12 +54,19 @@ def scvt(generators: Union[int, ArrayLike], density: Optional[Callable[[Floats],
 
     Parameters
     ----------
-    generators : int or array_like, shape (n, 3)
+    generators : int or array_like, shape (n, 3), optional with ``width``
         Number of generators, placed by an advancing front or, below 3000, from random ones level by level; or vectors
         to start from.
     density : callable, optional
         Function of unit vectors, shape (m, 3), that returns values of shape (m,): positive, finite, and depending only
         on the place. Cells are about density**(-1/4) wide. Default: 1 everywhere; only then integrals use threads.
+    width : callable, optional
+        In place of a density: function of unit vectors that returns widths of cells, the distances of neighbours in a
+        mesh of regular hexagons. Without ``generators`` their number is the integral of 1/(sqrt(3)/2 width**2).
+    radius : float
+        Radius of the sphere in the unit of ``width``; by default the Earth's in km.
+    well_centred : bool
+        In the end move a few generators so that all triangles hold their circumcentre strictly.
     tolerance : float
         The run ends when the gradient is at most this.
     method : {"newton", "lloyd"}
@@ -65,6 +86,8 @@ def scvt(generators: Union[int, ArrayLike], density: Optional[Callable[[Floats],
     ValueError
         If an argument or a density is wrong. Exceptions of ``density`` and ``progress`` are passed on.
 
+    >>> len(scvt(width=lambda xyz: 1400 - 500 * xyz[:, 2], tolerance=1e-3).points)
+    344
     >>> mesh = scvt(200, lambda xyz: 1 + 10 * np.exp(xyz[:, 2]), tolerance=1e-3)
     >>> mesh.reason, mesh.points.shape
     ('converged', (200, 3))
@@ -77,6 +100,14 @@ def scvt(generators: Union[int, ArrayLike], density: Optional[Callable[[Floats],
         raise ValueError(f"seed must be at least 1, not {seed}")
     if max_evaluations is not None and max_evaluations < 1:
         raise ValueError(f"max_evaluations must be at least 1, not {max_evaluations}")
+    if width is not None and density is not None:
+        raise ValueError("give either a density or a width")
+    if generators is None:
+        if width is None:
+            raise ValueError("give the number of generators, or a width")
+        if not (np.isfinite(radius) and radius > 0):
+            raise ValueError(f"radius must be positive, not {radius}")
+        generators = _cells_of(width, float(radius))
     number = thread_count(threads)
     start: Union[int, Floats]
     if np.ndim(generators) == 0:
@@ -94,8 +125,8 @@ def scvt(generators: Union[int, ArrayLike], density: Optional[Callable[[Floats],
         return progress is not None and bool(progress(Progress(n, evaluations, gradient, energy)))
 
     code, message, points, energy, gradient, evaluations, reason = _core.scvt(
-        start, density, float(tolerance), method == "lloyd", max_evaluations or 0, seed,
-        None if progress is None else told, number)
+        start, density if width is None else width, float(tolerance), method == "lloyd", max_evaluations or 0, seed,
+        None if progress is None else told, width is not None, bool(well_centred), number)
     if code == _OUT_OF_MEMORY:
         raise MemoryError(message)
     if code != 0:

@@ -143,7 +143,9 @@ enum {
   PSTRIPACK_SCVT_CONVERGED = 0,
   PSTRIPACK_SCVT_EVALUATIONS = 1, /* most_evaluations were made */
   PSTRIPACK_SCVT_STOPPED = 2,     /* by the progress procedure */
-  PSTRIPACK_SCVT_STALLED = 3      /* the energy falls no further: rounding, or a density with jumps */
+  PSTRIPACK_SCVT_STALLED = 3,     /* the energy falls no further: rounding, or a density with jumps */
+  /* With well_centred: triangles are left that do not hold their circumcentre, whatever the end was. */
+  PSTRIPACK_SCVT_NOT_WELL_CENTRED = 4
 };
 
 /* A field that is 0 means the default; a null pointer to the struct means the defaults of all fields. */
@@ -156,6 +158,10 @@ typedef struct {
   int64_t seed;                               /* of the random generators; default: 1 */
   pstripack_scvt_progress_procedure progress; /* default: none */
   void* user;                                 /* passed on to `progress` */
+  int32_t widths;       /* 1: the density procedure returns widths of cells instead, in any unit, since n is
+                           given; pstripack_scvt_cells tells a good n. Default: 0 */
+  int32_t well_centred; /* 1: in the end a few generators move, until all triangles hold their circumcentre
+                           strictly. Default: 0 */
 } pstripack_scvt_options;
 
 typedef struct {
@@ -175,6 +181,15 @@ typedef struct {
 PSTRIPACK_API int32_t pstripack_scvt(int32_t n, double* x, double* y, double* z,
                                      const pstripack_density* density, const pstripack_scvt_options* options,
                                      pstripack_scvt_result* result, char* message, int32_t length);
+
+/* How many cells have these widths: the integral of 1/(sqrt(3)/2 width^2) over a sphere of this radius, in
+ * the unit of the widths. To about 1e-5 of itself, 1e-4 where widths jump; features narrower than half a
+ * degree may be missed. So many generators, with options.widths = 1, have these widths.
+ *   width   as a density; NULL: 1 everywhere
+ *   cells   out: one value
+ * Returns 0, -6, -11 or -14. */
+PSTRIPACK_API int32_t pstripack_scvt_cells(const pstripack_density* width, double radius, double* cells,
+                                           char* message, int32_t length);
 
 /* One step, for programs with a loop of their own: integrals over the cells of n generators.
  *   x, y, z           in: the generators, n vectors of any length

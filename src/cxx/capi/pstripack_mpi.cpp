@@ -22,7 +22,7 @@
 #include "mpi/distributed_evaluator.h"
 #include "mpi/distributed_mesh.h"
 #include "scvt/caller_agreement.h"
-#include "scvt/minimize.h"
+#include "scvt/run.h"
 #include "stripack/original/original_rules.h"
 
 using namespace pstripack;
@@ -406,16 +406,17 @@ int32_t pstripack_mesh_scvt(pstripack_mesh* handle, int64_t n, double* xyz, cons
     abort_without_memory(ranks, [&] {
       const pstripack_scvt_options chosen = checked_by_all(ranks, options);
       StartOfRun start(ranks, n, xyz, number, chosen);
-      const DensityOfCaller values(density);
+      const DensityOfCaller values(density, chosen.widths != 0);
       scvt::DistributedEvaluator evaluator(mesh, values);
       evaluator.begin_with(start.numbers);
-      const scvt::Result found = scvt::minimize(evaluator, start.state, start.how);
+      scvt::Repair repair;
+      const scvt::Result found = scvt::solve(evaluator, start.state, start.how, repair);
       evaluator.triangulate(start.state.generators);
       if (n > 0) std::memcpy(xyz, start.state.generators.data(), start.numbers.size() * sizeof(Point));
       if (result != nullptr)
         *result = {found.progress.energy, found.progress.gradient,
                    static_cast<double>(start.state.evaluations), static_cast<std::int32_t>(n),
-                   reason_of(found.end)};
+                   reason_of(found.end, repair)};
     });
   });
   if (code == PSTRIPACK_OK) return code;

@@ -136,7 +136,7 @@ int32_t pstripack_scvt(int32_t n, double* x, double* y, double* z, const pstripa
   return guarded_scvt(message, length, [&] {
     check_count(n);
     const pstripack_scvt_options chosen = checked(options);
-    const scvt::Tessellation found = run(n, x, y, z, DensityOfCaller(density), chosen);
+    const scvt::Tessellation found = run(n, x, y, z, DensityOfCaller(density, chosen.widths != 0), chosen);
     const std::vector<Point>& generators = found.state.generators;
     for (std::size_t i = 0; i < generators.size(); ++i) {
       x[i] = generators[i].x;
@@ -145,7 +145,16 @@ int32_t pstripack_scvt(int32_t n, double* x, double* y, double* z, const pstripa
     }
     if (result != nullptr)
       *result = {found.result.progress.energy, found.result.progress.gradient, found.evaluations,
-                 static_cast<std::int32_t>(generators.size()), reason_of(found.result.end)};
+                 static_cast<std::int32_t>(generators.size()), reason_of(found.result.end, found.repair)};
+  });
+}
+
+int32_t pstripack_scvt_cells(const pstripack_density* width, double radius, double* cells, char* message,
+                             int32_t length) {
+  return guarded_scvt(message, length, [&] {
+    if (!(radius > 0 && std::isfinite(radius)))
+      throw Refusal{PSTRIPACK_BAD_OPTION, "the radius must be positive and finite"};
+    *cells = scvt::cells_of_widths(DensityOfCaller(width), radius);
   });
 }
 

@@ -14,6 +14,7 @@
 #include "parallel/communicator.h"
 #include "scvt/errors.h"
 #include "scvt/run.h"
+#include "scvt/widths.h"
 
 namespace pstripack {
 
@@ -25,8 +26,8 @@ struct Refusal {
 
 class DensityOfCaller final : public scvt::Density {
  public:
-  explicit DensityOfCaller(const pstripack_density* density)
-      : density_(density != nullptr ? *density : pstripack_density{}) {}
+  explicit DensityOfCaller(const pstripack_density* density, bool are_widths = false)
+      : density_(density != nullptr ? *density : pstripack_density{}), are_widths_(are_widths) {}
 
   void at(std::size_t n, const Point* p, double* value) const override {
     constexpr std::size_t kMost = 65536;
@@ -34,12 +35,14 @@ class DensityOfCaller final : public scvt::Density {
     if (is_constant()) return;
     for (std::size_t i = 0; i < n; i += kMost)
       density_.at(static_cast<std::int32_t>(std::min(kMost, n - i)), &p[i].x, value + i, density_.user);
+    if (are_widths_) scvt::densities_of_widths(n, p, value);
   }
   bool is_constant() const override { return density_.at == nullptr; }
   bool is_serial() const override { return !is_constant() && density_.any_thread == 0; }
 
  private:
   pstripack_density density_;
+  bool are_widths_;  ///< the procedure returns widths of cells
 };
 
 /// Runs body() and returns 0, or the code of its exception, whose text goes to `message`. An exception of a
@@ -97,6 +100,8 @@ inline pstripack_scvt_options checked(const pstripack_scvt_options* given) {
           "method must be 0 or 1");
   require(options.tolerance >= 0 && std::isfinite(options.tolerance),
           "tolerance must be positive, or 0 for the default");
+  require(options.widths == 0 || options.widths == 1, "widths must be 0 or 1");
+  require(options.well_centred == 0 || options.well_centred == 1, "well_centred must be 0 or 1");
   require(options.most_evaluations >= 0, "most_evaluations must be positive, or 0 for the default");
   return options;
 }
@@ -107,6 +112,7 @@ inline scvt::RunOptions run_options(const pstripack_scvt_options& options) {
   run.method = options.method == PSTRIPACK_SCVT_LLOYD ? scvt::Method::lloyd : scvt::Method::newton;
   if (options.tolerance != 0) run.tolerance = options.tolerance;
   if (options.most_evaluations != 0) run.most_evaluations = options.most_evaluations;
+  run.well_centred = options.well_centred != 0;
   if (options.seed != 0) run.seed = static_cast<std::uint64_t>(options.seed);
   if (options.progress != nullptr)
     run.progress = [progress = options.progress, user = options.user](const scvt::Progress& p) {
@@ -116,7 +122,8 @@ inline scvt::RunOptions run_options(const pstripack_scvt_options& options) {
   return run;
 }
 
-inline std::int32_t reason_of(scvt::End end) {
+inline std::int32_t reason_of(scvt::End end, const scvt::Repair& repair) {
+  if (repair.obtuse > 0) return PSTRIPACK_SCVT_NOT_WELL_CENTRED;
   switch (end) {
     case scvt::End::converged:
       return PSTRIPACK_SCVT_CONVERGED;

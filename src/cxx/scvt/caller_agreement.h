@@ -28,7 +28,7 @@ void in_agreement_with_caller(Communicator& ranks, const Body& body, Votes&... v
     }
   }
   struct Complaint {
-    bool is_of_density;
+    bool is_of_density, is_width;
     Point place;
     double value, elsewhere;
     char text[1000];
@@ -45,7 +45,7 @@ void in_agreement_with_caller(Communicator& ranks, const Body& body, Votes&... v
         try {
           body();
         } catch (const BadDensity& e) {
-          mine = Complaint{true, e.place, e.value, e.elsewhere, {}};
+          mine = Complaint{true, e.is_width, e.place, e.value, e.elsewhere, {}};
         } catch (const std::bad_alloc&) {
           throw;
         } catch (const std::exception& e) {
@@ -64,7 +64,7 @@ void in_agreement_with_caller(Communicator& ranks, const Body& body, Votes&... v
         return std::tie(a.is_of_density, a.place.x, a.place.y, a.place.z) <
                std::tie(b.is_of_density, b.place.x, b.place.y, b.place.z);
       });
-  if (first.is_of_density) throw BadDensity(first.place, first.value, first.elsewhere);
+  if (first.is_of_density) throw BadDensity(first.place, first.value, first.elsewhere, first.is_width);
   throw NoTessellation(first.text);
 }
 

@@ -23,14 +23,15 @@ std::string number(double value) {
 
 }  // namespace
 
-BadDensity::BadDensity(const Point& p, double v, double value_elsewhere)
-    : NoTessellation("the density is " + number(v) + " at " + lon_lat(p) +
+BadDensity::BadDensity(const Point& p, double v, double value_elsewhere, bool of_width)
+    : NoTessellation((of_width ? "the width is " : "the density is ") + number(v) + " at " + lon_lat(p) +
                      (v > 0 && std::isfinite(v)
                           ? " and " + number(value_elsewhere) + " elsewhere: the ratio is too large"
                           : ": it must be positive and finite everywhere")),
       place(p),
       value(v),
-      elsewhere(value_elsewhere) {}
+      elsewhere(value_elsewhere),
+      is_width(of_width) {}
 
 DensityOutOfRange::DensityOutOfRange(const char* result, double largest)
     : NoTessellation(std::string(result) +

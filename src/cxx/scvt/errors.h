@@ -13,11 +13,12 @@ struct NoTessellation : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A value that is not positive and finite, or too far from another one.
+/// A value that is not positive and finite, or too far from another one; of a density or of a width.
 struct BadDensity : NoTessellation {
-  BadDensity(const Point& p, double v, double value_elsewhere = 1);
+  BadDensity(const Point& p, double v, double value_elsewhere = 1, bool of_width = false);
   Point place;
   double value, elsewhere;
+  bool is_width;
 };
 /// The density is so large, or so small, that a result would be beyond the doubles.
 struct DensityOutOfRange : NoTessellation {

@@ -25,6 +25,7 @@ struct Options {
   /// cell, in units of sqrt(4 pi / N).
   double tolerance = 1e-5;
   std::int64_t most_evaluations = 100000;
+  bool well_centred = false;  ///< of iterate(): in the end all triangles hold their circumcentre strictly
   int first_lloyd_steps = 3;  ///< number of steps of Lloyd's method before the quasi-Newton method
   /// Called after each step; false stops the run. It may copy the state: a run that starts from the copy
   /// continues with the same bits.

@@ -1,6 +1,7 @@
 #include "scvt/run.h"
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -66,10 +67,12 @@ Tessellation begun_with(Spread&& generators) {
 
 Tessellation first_generators(Evaluator& evaluator, std::size_t n, const RunOptions& options) {
   check_count(n);
+  Options of_levels = options;
+  of_levels.well_centred = false;
   const std::vector<std::size_t> sizes = options.levels ? level_sizes(n) : std::vector<std::size_t>{n};
   Tessellation t = begun_with(random_generators(evaluator, sizes[0], options.seed));
   for (std::size_t level = 0; level + 1 < sizes.size(); ++level) {
-    iterate(evaluator, t, options);
+    iterate(evaluator, t, of_levels);
     const double evaluations =
         t.evaluations + static_cast<double>(t.state.evaluations * static_cast<std::int64_t>(sizes[level])) /
                             static_cast<double>(n);
@@ -83,13 +86,27 @@ Tessellation first_generators(Evaluator& evaluator, std::size_t n, const RunOpti
   return t;
 }
 
+Result solve(Evaluator& evaluator, State& state, const Options& options, Repair& repair) {
+  Result result = minimize(evaluator, state, options);
+  if (!options.well_centred || result.end == End::stopped) return result;
+  repair = make_well_centred(evaluator, state.generators);
+  if (repair.moved == 0) return result;
+  state.pairs.clear();  // of other generators
+  Options only_evaluate = options;
+  only_evaluate.tolerance = std::numeric_limits<double>::infinity();
+  const End end = result.end;
+  result = minimize(evaluator, state, only_evaluate);
+  result.end = end;
+  return result;
+}
+
 void iterate(Evaluator& evaluator, Tessellation& t, const Options& options) {
   evaluator.begin_with(t.numbers);
   if (evaluator.ranks().size() > 1) {
     move(evaluator.ranks(), t, evaluator.homes(t.state.generators), t);
     evaluator.begin_with(t.numbers);
   }
-  t.result = minimize(evaluator, t.state, options);
+  t.result = solve(evaluator, t.state, options, t.repair);
 }
 
 Tessellation slice_of(Communicator& ranks, const Tessellation& t) {

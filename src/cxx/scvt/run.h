@@ -7,6 +7,7 @@
 
 #include "scvt/density.h"
 #include "scvt/minimize.h"
+#include "scvt/well_centred.h"
 
 namespace pstripack::scvt {
 
@@ -22,6 +23,7 @@ struct Tessellation {
   Result result;                      ///< of the last level
   /// Evaluations of all levels, each weighted by its number of generators over that of the last level.
   double evaluations = 0;
+  Repair repair;  ///< of the last level, if Options::well_centred
 };
 
 /// The vector scaled to length 1; unchanged if its length is 1 up to rounding.
@@ -34,7 +36,11 @@ std::vector<Point> unit_vectors(std::vector<Point> generators);
 /// End::stopped. Collective. Throws what minimize throws.
 Tessellation first_generators(Evaluator& evaluator, std::size_t n, const RunOptions& options);
 
-/// One level: moves each generator to the rank where its neighbours are, then calls minimize(). Collective.
+/// minimize(), then, with options.well_centred, make_well_centred(), which sets `repair`; the result is that
+/// of the generators in the end. Collective. Throws what minimize throws.
+Result solve(Evaluator& evaluator, State& state, const Options& options, Repair& repair);
+
+/// One level: moves each generator to the rank where its neighbours are, then calls solve(). Collective.
 /// Throws what minimize throws.
 void iterate(Evaluator& evaluator, Tessellation& tessellation, const Options& options);
 

@@ -1,0 +1,154 @@
+#include "scvt/well_centred.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/parallel_for.h"
+#include "geometry/measures.h"
+#include "parallel/agreement.h"
+#include "scvt/errors.h"
+#include "scvt/vectors.h"
+
+namespace pstripack::scvt {
+namespace {
+
+constexpr double kWanted = 0.12186934340514748;  ///< cosine of 83 degrees
+constexpr double kEnough = 0.10452846326765346;  ///< cosine of 84 degrees
+// Three passes are usual. After kPatience passes angles below 90 degrees are enough.
+constexpr int kPatience = 15, kMostPasses = 50;
+
+using Triangle = std::array<Point, 3>;
+
+double cosine_at(const Triangle& t, std::size_t k) {
+  const Point u = minus(t[(k + 1) % 3], t[k]), v = minus(t[(k + 2) % 3], t[k]);
+  return dot(u, v) / std::sqrt(dot(u, u) * dot(v, v));
+}
+
+/// How corner 0 moves so that the angle at corner k becomes `kWanted`, to first order, if the three corners
+/// move as little as they can: along the gradient of its cosine.
+///
+///        k           cosine = u.v / (|u| |v|);  its gradient at the end of u is
+///     u /.\ v        v / (|u| |v|) - cosine u / |u|^2,  likewise at the end of v,
+///      /   \         and at k minus the sum of both.
+Point step_of(const Triangle& t, std::size_t k) {
+  const Point u = minus(t[(k + 1) % 3], t[k]), v = minus(t[(k + 2) % 3], t[k]);
+  const double uu = dot(u, u), vv = dot(v, v), size = std::sqrt(uu * vv), cosine = dot(u, v) / size;
+  const Point at_u = minus(scaled(1 / size, v), scaled(cosine / uu, u));
+  const Point at_v = minus(scaled(1 / size, u), scaled(cosine / vv, v));
+  const Point at_k = scaled(-1, plus(at_u, at_v));
+  const double length = (kWanted - cosine) / (dot(at_u, at_u) + dot(at_v, at_v) + dot(at_k, at_k));
+  return scaled(length, k == 0 ? at_k : k == 1 ? at_v : at_u);
+}
+
+/// What one pass finds: of this rank, then of all ranks.
+struct Found {
+  double least_cosine = 1;
+  std::int64_t obtuse = 0;
+  double largest_angle = 0;              // of triangles above 83 degrees
+  std::int64_t first = Smallest::kNone;  // smallest number of a corner of an obtuse triangle
+  Point place{0, 0, 0};                  // its place
+  void add(const Found& other) {
+    least_cosine = std::min(least_cosine, other.least_cosine);
+    largest_angle = std::max(largest_angle, other.largest_angle);
+    obtuse += other.obtuse;
+    if (other.first < first) first = other.first, place = other.place;
+  }
+};
+
+class Repairer {
+ public:
+  Repairer(Evaluator& evaluator, std::vector<Point>& generators)
+      : evaluator_(evaluator), generators_(generators) {
+    evaluator_.allocate([this] {
+      next_.resize(generators_.size());
+      has_moved_.resize(generators_.size());
+      found_.resize(static_cast<std::size_t>(threads_for(10 * generators_.size())));
+    });
+  }
+
+  Repair run() {
+    Found found = look();
+    for (int pass = 0;; ++pass) {
+      if (found.least_cosine > kEnough || (pass >= kPatience && found.obtuse == 0) || pass == kMostPasses)
+        break;
+      for (std::size_t i = 0; i < generators_.size(); ++i)
+        if (next_[i] != generators_[i]) has_moved_[i] = 1;
+      std::swap(generators_, next_);
+      try {
+        found = look();
+      } catch (const BadGenerators&) {  // far from centroidal: moved onto each other
+        std::swap(generators_, next_);
+        break;
+      }
+    }
+    return result(found);
+  }
+
+ private:
+  /// Triangulates the generators, and sets next_.
+  Found look() {
+    const Neighbourhood here = evaluator_.triangulate(generators_);
+    std::fill(found_.begin(), found_.end(), Found{});
+    const int threads = std::min(threads_for(10 * here.stars.count), static_cast<int>(found_.size()));
+    parallel_pieces(here.stars.count, threads, [&](std::size_t first, std::size_t last, int piece) {
+      Found& found = found_[static_cast<std::size_t>(piece)];
+      for (std::size_t i = first; i < last; ++i) next_[i] = moved(here, i, found);
+    });
+    Found all;
+    for (const Found& found : found_) all.add(found);
+    const Parcels parcels = evaluator_.ranks().all_gather(&all, sizeof all);
+    Found of_all_ranks;
+    for (const Found& found : Items<Found>(parcels)) of_all_ranks.add(found);
+    return of_all_ranks;
+  }
+
+  static Point moved(const Neighbourhood& here, std::size_t i, Found& found) {
+    const std::size_t begin = here.stars.begin_of(i), end = here.stars.end_of(i);
+    const auto neighbour = [&](std::size_t s) {
+      return static_cast<std::size_t>(here.stars.neighbour[s]) - 1;
+    };
+    Point sum{0, 0, 0};
+    bool moves = false;
+    for (std::size_t s = begin; s < end; ++s) {
+      const std::size_t j = neighbour(s), k = neighbour(s + 1 == end ? begin : s + 1);
+      const Triangle triangle{here.points[i], here.points[j], here.points[k]};
+      double least = 1;
+      for (std::size_t at = 0; at < 3; ++at) {
+        const double cosine = cosine_at(triangle, at);
+        least = std::min(least, cosine);
+        if (cosine >= kWanted) continue;
+        sum = plus(sum, step_of(triangle, at));
+        moves = true;
+      }
+      if (here.numbers[j] < here.numbers[i] || here.numbers[k] < here.numbers[i]) continue;
+      found.least_cosine = std::min(found.least_cosine, least);
+      if (least >= kWanted) continue;
+      const Angles angles =
+          angles_of(direction_of(triangle[0]), direction_of(triangle[1]), direction_of(triangle[2]));
+      found.largest_angle = std::max({found.largest_angle, angles.at[0], angles.at[1], angles.at[2]});
+      if (!angles.are_acute) found.add({1, 1, 0, here.numbers[i], triangle[0]});
+    }
+    return moves ? normalized(plus(here.points[i], sum)) : here.points[i];
+  }
+
+  Repair result(const Found& found) const {
+    const auto moved = static_cast<std::size_t>(std::count(has_moved_.begin(), has_moved_.end(), 1));
+    return {sum_of_all(evaluator_.ranks(), moved), found.obtuse,
+            std::max(found.largest_angle, std::acos(found.least_cosine)), found.place};
+  }
+
+  Evaluator& evaluator_;
+  std::vector<Point>& generators_;
+  std::vector<Point> next_;
+  std::vector<char> has_moved_;
+  std::vector<Found> found_;  ///< by thread
+};
+
+}  // namespace
+
+Repair make_well_centred(Evaluator& evaluator, std::vector<Point>& generators) {
+  return Repairer(evaluator, generators).run();
+}
+
+}  // namespace pstripack::scvt

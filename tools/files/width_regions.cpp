@@ -1,0 +1,129 @@
+#include "files/width_regions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "files/geojson.h"
+#include "numbers.h"
+#include "text_file.h"
+
+namespace files {
+namespace {
+
+class Reader {
+ public:
+  explicit Reader(std::string file) : file_(std::move(file)) {}
+
+  void add(const Json& feature, std::size_t number) {
+    WidthRegion region;
+    region.feature = number;
+    number_ = number;
+    const auto geometry = feature.find("geometry");
+    const std::string type =
+        geometry != feature.end() && geometry->is_object() ? text_of(*geometry, "type") : "";
+    if (type != "Polygon" && type != "MultiPolygon")
+      fail(fmt::format("'{}' is not a Polygon or MultiPolygon", point_sets::excerpt(type)));
+    const auto coordinates = geometry->find("coordinates");
+    if (coordinates == geometry->end() || !coordinates->is_array()) fail("its geometry has no coordinates");
+    if (type == "Polygon")
+      add_polygon(region, *coordinates);
+    else
+      for (const Json& polygon : *coordinates) add_polygon(region, polygon);
+    const auto properties = feature.find("properties");
+    const Json none = Json::object();
+    const Json& given = properties != feature.end() && properties->is_object() ? *properties : none;
+    region.width = length(given, "width");
+    if (given.contains("transition") && !given["transition"].is_null())
+      region.transition = length(given, "transition");
+    if (!(region.width > 0)) fail("it needs the property width, in km and above 0");
+    if (!(region.transition >= 0)) fail("its property transition must be in km, and not negative");
+    regions.push_back(std::move(region));
+  }
+
+  std::vector<WidthRegion> regions;
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw std::runtime_error(fmt::format("{}: feature {}: {}", file_, number_, what));
+  }
+
+  /// Not a number if there is none.
+  static double length(const Json& properties, const char* name) {
+    double value = std::nan("");
+    const auto found = properties.find(name);
+    if (found == properties.end()) return value;
+    if (found->is_number()) value = found->get<double>();
+    if (found->is_string() && !point_sets::parse(found->get<std::string>(), value)) value = std::nan("");
+    return std::isfinite(value) ? value : std::nan("");
+  }
+
+  void add_polygon(WidthRegion& region, const Json& polygon) {
+    if (!polygon.is_array() || polygon.empty()) fail("a polygon without rings");
+    for (const Json& ring : polygon) {
+      if (!ring.is_array() || ring.size() < 4) fail("a ring with fewer than four corners");
+      auto& corners = region.rings.emplace_back();
+      for (const Json& corner : ring) {
+        if (!corner.is_array() || corner.size() < 2 || !corner[0].is_number() || !corner[1].is_number())
+          fail("expected corners [longitude, latitude]");
+        corners.emplace_back(corner[0].get<double>(), corner[1].get<double>());
+        const auto [lon, lat] = corners.back();
+        if (!(std::fabs(lat) <= 90)) fail(fmt::format("latitude {:g} is beyond the pole", lat));
+        if (!(lon >= -180 && lon <= 540)) fail(fmt::format("longitude {:g} is not within -180 to 540", lon));
+        const double before = corners.size() > 1 ? corners[corners.size() - 2].first : lon;
+        if (std::fabs(lon - before) > 180 && std::fabs(lon - before) < 360)
+          fail(fmt::format(
+              "its side from longitude {:g} to {:g} goes around the globe: cut the polygon at 180, "
+              "or continue beyond, say to 190",
+              before, lon));
+      }
+      if (corners.front() != corners.back()) fail("a ring that is not closed: repeat its first corner");
+    }
+  }
+
+  std::string file_;
+  std::size_t number_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::pair<double, double>> WidthRegion::inside(double lat) const {
+  std::vector<double> crossings;
+  for (const auto& ring : rings)
+    for (std::size_t i = 1; i < ring.size(); ++i) {
+      const auto [x1, y1] = ring[i - 1];
+      const auto [x2, y2] = ring[i];
+      if ((y1 <= lat) != (y2 <= lat)) crossings.push_back(x1 + (lat - y1) / (y2 - y1) * (x2 - x1));
+    }
+  std::sort(crossings.begin(), crossings.end());
+  std::vector<std::pair<double, double>> pairs;
+  for (std::size_t i = 1; i < crossings.size(); i += 2) pairs.emplace_back(crossings[i - 1], crossings[i]);
+  return pairs;
+}
+
+double WidthRegion::area() const {
+  constexpr int kStrips = 1000;
+  constexpr double kDegree = 3.14159265358979323846 / 180;
+  double south = 90, north = -90, area = 0;
+  for (const auto& ring : rings)
+    for (const auto& corner : ring)
+      south = std::min(south, corner.second), north = std::max(north, corner.second);
+  const double height = (north - south) / kStrips;
+  for (int k = 0; k < kStrips; ++k) {
+    const double lat = south + (k + 0.5) * height;
+    for (const auto& [west, east] : inside(lat)) area += (east - west) * height * std::cos(lat * kDegree);
+  }
+  return area * kDegree * kDegree;
+}
+
+std::vector<WidthRegion> read_width_regions(const std::string& file) {
+  Reader reader(file);
+  read_features(point_sets::contents_of(file), file, "polygons", {"Polygon", "MultiPolygon"},
+                [&](const Json& feature, std::size_t number) { reader.add(feature, number); });
+  if (reader.regions.empty()) throw std::runtime_error(file + ": no polygons: there are no features");
+  return std::move(reader.regions);
+}
+
+}  // namespace files

@@ -1,0 +1,346 @@
+#include "methods/widths.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <queue>
+#include <stdexcept>
+#include <utility>
+
+#include "numbers.h"
+#include "point_sets.h"
+#include "text_file.h"
+
+namespace methods {
+namespace {
+
+using files::Point;
+
+constexpr double kPi = 3.14159265358979323846, kDegree = kPi / 180;
+
+class WidthDensity : public Density {
+ public:
+  WidthDensity(Table widths, double least) : widths_(std::move(widths)), least_(least) {}
+  using Density::at;
+  void at(std::size_t n, const Point* p, double* value) const override {
+    widths_.at(n, p, value);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double square = least_ / value[i] * (least_ / value[i]);
+      value[i] = std::min(1.0, square * square);  // bilinear widths round below the least
+    }
+  }
+
+ private:
+  GridValues widths_;
+  double least_;
+};
+
+/// The integral of 1/(sqrt(3)/2 w^2): Gauss' rule with three points along each side of a cell of the grid.
+double cells_of(const Table& t, double radius) {
+  constexpr double kPlaces[] = {-0.7745966692414834, 0, 0.7745966692414834}, kWeights[] = {5, 8, 5};  // / 18
+  double cells = 0;
+  for (std::size_t row = 0; row + 1 < t.lat.size(); ++row) {
+    const double south = std::sin(t.lat[row] * kDegree), north = std::sin(t.lat[row + 1] * kDegree);
+    const double height = t.lat[row + 1] - t.lat[row];
+    for (int j = 0; j < 3; ++j) {
+      const double z = (south + north + kPlaces[j] * (north - south)) / 2;
+      const double up = (std::asin(z) / kDegree - t.lat[row]) / height;
+      double sum = 0;
+      for (std::size_t column = 0; column + 1 < t.lon.size(); ++column) {
+        const double* const low = &t.values[row * t.lon.size() + column];
+        const double* const high = low + t.lon.size();
+        const double west = low[0] + up * (high[0] - low[0]), east = low[1] + up * (high[1] - low[1]);
+        for (int i = 0; i < 3; ++i) {
+          const double ratio = radius / (west + (1 + kPlaces[i]) / 2 * (east - west));
+          sum += kWeights[i] / 18 * ratio * ratio * (t.lon[column + 1] - t.lon[column]) * kDegree;
+        }
+      }
+      cells += kWeights[j] / 18 * (north - south) * sum / (std::sqrt(3) / 2);
+    }
+  }
+  return cells;
+}
+
+// Each place of the grid knows its source: the place y whose cone w(y) + gradient d(x,y) is the lowest one
+// known at x. A place that is lowered offers its source to its eight neighbours, the lowest place first. So
+// distances are lengths of arcs, not of paths along the grid (Danielsson, Comput. Graph. Image Process. 14,
+// 1980; in the order of Dijkstra, as in fast marching: Sethian, PNAS 93, 1996).
+class GradientLimit {
+ public:
+  GradientLimit(Table& table, double gradient, double radius)
+      : columns_(table.lon.size() - 1), rows_(table.lat.size()), slope_(gradient * radius), table_(table) {
+    if (rows_ * columns_ > 0xffffffff) throw std::runtime_error("the grid has more than 4e9 places");
+    for (std::size_t c = 0; c < columns_; ++c)
+      east_.push_back({std::cos(table.lon[c] * kDegree), std::sin(table.lon[c] * kDegree), 0});
+    for (const double lat : table.lat)
+      up_.push_back({std::fabs(lat) == 90 ? 0 : std::cos(lat * kDegree), 0, std::sin(lat * kDegree)});
+    for (std::size_t r = 0; r < rows_; ++r)
+      for (std::size_t c = 0; c < columns_; ++c) given_.push_back(table.values[r * (columns_ + 1) + c]);
+    lowered_ = given_;
+    source_.resize(given_.size());
+    for (std::size_t i = 0; i < given_.size(); ++i) source_[i] = static_cast<std::uint32_t>(i);
+  }
+
+  /// `inside`: by place. Only places whose entry is `sources` keep others low, and only other ones are
+  /// lowered.
+  Lowered run(const std::vector<bool>* inside = nullptr, bool sources = true) {
+    for (std::size_t i = 0; i < given_.size(); ++i) {
+      if (inside != nullptr && (*inside)[i] != sources) continue;
+      bool is_source = false;
+      for_each_neighbour(i, [&](std::size_t n) {  // a chord is shorter than its arc
+        is_source = is_source || given_[i] + slope_ * chord(i, n) < given_[n];
+      });
+      if (is_source) queue_.emplace(-given_[i], i);
+    }
+    while (!queue_.empty()) {
+      const auto [value, i] = queue_.top();
+      queue_.pop();
+      if (-value != lowered_[i]) continue;  // it was lowered again
+      const std::uint32_t s = source_[i];
+      for_each_neighbour(i, [&](std::size_t n) {
+        const double offer = given_[s] + slope_ * 2 * std::asin(std::min(1.0, chord(s, n) / 2));
+        if (!(offer < lowered_[n]) || (inside != nullptr && (*inside)[n] == sources)) return;
+        lowered_[n] = offer;
+        source_[n] = s;
+        queue_.emplace(-offer, n);
+      });
+    }
+    return finish();
+  }
+
+ private:
+  Point place(std::size_t i) const {
+    const Point &e = east_[i % columns_], &u = up_[i / columns_];
+    return {u.x * e.x, u.x * e.y, u.z};
+  }
+  double chord(std::size_t i, std::size_t j) const {
+    const Point d = minus(place(i), place(j));
+    return std::sqrt(dot(d, d));
+  }
+  template <class Visit>
+  void for_each_neighbour(std::size_t i, const Visit& visit) const {
+    const std::size_t row = i / columns_, column = i % columns_;
+    for (std::size_t r = row == 0 ? 0 : row - 1; r < std::min(row + 2, rows_); ++r)
+      for (std::size_t k = columns_ - 1; k < columns_ + 2; ++k)
+        if (r != row || k != columns_) visit(r * columns_ + (column + k) % columns_);
+  }
+
+  Lowered finish() {
+    Lowered lowered;
+    for (std::size_t r = 0; r < rows_; ++r) {
+      const bool is_pole = r == 0 || r + 1 == rows_;
+      bool is_lowered = false;
+      for (std::size_t c = 0; c < columns_; ++c) {
+        const std::size_t i = r * columns_ + c;
+        const double change = given_[i] - lowered_[i];
+        if (change > lowered.most)
+          lowered.most = change, lowered.lon = table_.lon[c], lowered.lat = table_.lat[r];
+        if (!is_pole) lowered.places += change > 0;
+        is_lowered = is_lowered || change > 0;
+        table_.values[r * (columns_ + 1) + c] = lowered_[i];
+      }
+      table_.values[r * (columns_ + 1) + columns_] = lowered_[r * columns_];
+      lowered.places += is_pole && is_lowered;
+    }
+    lowered.of = (rows_ - 2) * columns_ + 2;
+    return lowered;
+  }
+
+  std::size_t columns_, rows_;
+  double slope_;  ///< km per radian
+  Table& table_;
+  std::vector<Point> east_, up_;  ///< of columns and rows: the factors of a place
+  std::vector<double> given_, lowered_;
+  std::vector<std::uint32_t> source_;
+  std::priority_queue<std::pair<double, std::size_t>> queue_;  ///< minus the value, place
+};
+
+class DensityOfFormula : public Density {
+ public:
+  DensityOfFormula(const WidthFormula& formula, double radius) : formula_(formula), radius_(radius) {}
+  using Density::at;
+  void at(std::size_t n, const Point* p, double* value) const override {
+    formula_.at(n, p, radius_, value);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double square = formula_.least() / value[i] * (formula_.least() / value[i]);
+      value[i] = std::min(1.0, square * square);
+    }
+  }
+
+ private:
+  WidthFormula formula_;
+  double radius_;
+};
+
+/// The columns of an equidistant table without its last one that lie inside the region at this latitude.
+template <class Visit>
+void for_each_inside(const files::WidthRegion& region, double lat, std::size_t columns, const Visit& visit) {
+  const double per_degree = static_cast<double>(columns) / 360;
+  // A side along a pole belongs to the region.
+  for (const auto& [west, east] : region.inside(std::clamp(lat, -90 + 1e-9, 90 - 1e-9))) {
+    const auto first = static_cast<std::int64_t>(std::ceil((west + 180) * per_degree));
+    const auto last = static_cast<std::int64_t>(std::floor((east + 180) * per_degree));
+    for (std::int64_t c = first; c <= last && c < first + static_cast<std::int64_t>(columns); ++c)
+      visit(static_cast<std::size_t>(c) % columns);
+  }
+}
+
+}  // namespace
+
+bool WidthFormula::is_one(const std::string& text) {
+  return text.rfind("disc:", 0) == 0 || text.rfind("band:", 0) == 0;
+}
+
+WidthFormula::WidthFormula(const std::string& text) : is_band_(text.rfind("band:", 0) == 0) {
+  const auto fail = [&](const std::string& what) {
+    throw std::invalid_argument("width '" + point_sets::excerpt(text) + "': " + what);
+  };
+  double* const numbers[] = {&inner_, &outer_, &radius_, &transition_, is_band_ ? &lat_ : &lon_, &lat_};
+  const std::size_t wanted = is_band_ ? 5 : 6;
+  std::size_t count = 0;
+  for (std::size_t begin = 5; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    double value = 0;
+    if (!point_sets::parse(text.substr(begin, end - begin), value) || !std::isfinite(value))
+      fail("expected numbers, lengths in km, angles in degrees");
+    if (count < wanted) *numbers[count] = value;
+    ++count;
+    begin = end + 1;
+  }
+  if (count != wanted)
+    fail(is_band_ ? "expected five numbers: INNER,OUTER,RADIUS,TRANSITION,LAT"
+                  : "expected six numbers: INNER,OUTER,RADIUS,TRANSITION,LON,LAT");
+  if (!(inner_ > 0 && outer_ > 0)) fail("INNER and OUTER must be above 0");
+  if (!(radius_ >= 0 && transition_ >= 0)) fail("RADIUS and TRANSITION must not be negative");
+  if (!(std::fabs(lat_) <= 90)) fail("LAT is beyond the pole");
+}
+
+bool WidthFormula::limit(double gradient) {
+  const double needed = 1.5 * std::fabs(outer_ - inner_) / gradient;  // width() is steepest in the middle
+  if (!(needed > transition_)) return false;
+  if (inner_ > outer_) radius_ -= needed - transition_;  // the circle where OUTER begins stays
+  transition_ = needed;
+  return true;
+}
+
+double WidthFormula::width(double distance) const {
+  if (distance <= radius_ || inner_ == outer_) return inner_;
+  const double t = (distance - radius_) / transition_;
+  return t >= 1 ? outer_ : inner_ + (outer_ - inner_) * t * t * (3 - 2 * t);
+}
+
+void WidthFormula::at(std::size_t n, const Point* p, double radius, double* width) const {
+  const Point centre = point_sets::from_degrees(lon_, lat_);
+  for (std::size_t i = 0; i < n; ++i) {
+    double distance;  // in radians
+    if (is_band_) {
+      distance = std::fabs(std::atan2(p[i].z, std::sqrt(p[i].x * p[i].x + p[i].y * p[i].y)) - lat_ * kDegree);
+    } else {
+      const Point apart = minus(p[i], centre), sum{p[i].x + centre.x, p[i].y + centre.y, p[i].z + centre.z};
+      distance = 2 * std::atan2(std::sqrt(dot(apart, apart)), std::sqrt(dot(sum, sum)));
+    }
+    width[i] = this->width(radius * distance);
+  }
+}
+
+Widths WidthFormula::widths(double radius) const {
+  // The integral over colatitude, or over the distance from the centre: Gauss' rule on pieces between the
+  // places where the formula changes.
+  const double from = is_band_ ? (90 - lat_) * kDegree : 0;
+  std::vector<double> ends{0, kPi};
+  for (const double d : {0.0, radius_, radius_ + transition_})
+    for (const double end : {from - d / radius, from + d / radius})
+      if (end > 0 && end < kPi) ends.push_back(end);
+  std::sort(ends.begin(), ends.end());
+  double cells = 0;
+  constexpr int kPieces = 400;
+  constexpr double kPlace = 0.7745966692414834;
+  for (std::size_t i = 1; i < ends.size(); ++i)
+    for (int k = 0; k < kPieces; ++k) {
+      const double half = (ends[i] - ends[i - 1]) / kPieces / 2, middle = ends[i - 1] + (2 * k + 1) * half;
+      for (const auto& [place, weight] : {std::pair(-kPlace, 5.0 / 9), {0.0, 8.0 / 9}, {kPlace, 5.0 / 9}}) {
+        const double angle = middle + place * half, ratio = radius / width(radius * std::fabs(angle - from));
+        cells += 2 * kPi * weight * half * std::sin(angle) * ratio * ratio / (std::sqrt(3) / 2);
+      }
+    }
+  return {std::make_unique<DensityOfFormula>(*this, radius), least(), cells};
+}
+
+Lowered limit_gradient(Table& table, double gradient, double radius) {
+  return GradientLimit(table, gradient, radius).run();
+}
+
+Table widths_of_regions(const std::vector<files::WidthRegion>& regions, const WidthFormula& elsewhere,
+                        double radius) {
+  constexpr double kFinest = 0.1, kCoarsest = 0.5;
+  double least = elsewhere.least();
+  for (const files::WidthRegion& region : regions) least = std::min(least, region.width);
+  const double step = std::clamp(least / radius / kDegree, kFinest, kCoarsest);
+  const auto rows = static_cast<std::size_t>(std::ceil(180 / step)) + 1, columns = 2 * (rows - 1);
+  Table t;
+  for (std::size_t c = 0; c <= columns; ++c)
+    t.lon.push_back(-180 + 360 * static_cast<double>(c) / static_cast<double>(columns));
+  for (std::size_t r = 0; r < rows; ++r)
+    t.lat.push_back(-90 + 180 * static_cast<double>(r) / static_cast<double>(rows - 1));
+  t.values.resize(rows * (columns + 1));
+  for (std::size_t r = 0; r < rows; ++r) {
+    std::vector<Point> places;
+    for (const double lon : t.lon) places.push_back(point_sets::from_degrees(lon, t.lat[r]));
+    elsewhere.at(places.size(), places.data(), radius, &t.values[r * (columns + 1)]);
+  }
+
+  // Wider regions first: narrower ones cut into them.
+  std::vector<const files::WidthRegion*> order;
+  for (const files::WidthRegion& region : regions) order.push_back(&region);
+  std::stable_sort(order.begin(), order.end(),
+                   [](const auto* a, const auto* b) { return a->width > b->width; });
+  for (const files::WidthRegion* const region : order) {
+    const bool is_wide = region->width > elsewhere.most();
+    std::vector<bool> inside(rows * columns);
+    bool has_places = false;
+    for (std::size_t r = 0; r < rows; ++r)
+      for_each_inside(*region, t.lat[r], columns, [&](std::size_t c) {
+        has_places = inside[r * columns + c] = true;
+        double& value = t.values[r * (columns + 1) + c];
+        value = is_wide ? region->width : std::min(value, region->width);
+        if (c == 0) t.values[r * (columns + 1) + columns] = value;
+      });
+    const auto fail = [&](const std::string& of) {
+      throw std::runtime_error(
+          fmt::format("feature {}: it is smaller than {}: enlarge it, make its width smaller, or use a disc",
+                      region->feature, of));
+    };
+    if (region->area() * radius * radius < std::sqrt(3) / 2 * region->width * region->width)
+      fail(fmt::format("a cell of {:g} km", region->width));
+    if (!has_places) fail(fmt::format("a spacing of the grid, {:.3g} degrees", t.lat[1] - t.lat[0]));
+    const double change = is_wide ? region->width - elsewhere.least() : elsewhere.most() - region->width;
+    if (region->transition > 0 && change > 0)
+      GradientLimit(t, change / region->transition, radius).run(&inside, !is_wide);
+  }
+  return t;
+}
+
+Widths widths_of(Table km, double radius) {
+  const double least = *std::min_element(km.values.begin(), km.values.end());
+  const double cells = cells_of(km, radius);
+  return {std::make_unique<WidthDensity>(std::move(km), least), least, cells};
+}
+
+double width_of(const std::string& text) {
+  double value = 0;
+  const std::size_t end = text.find_last_of("0123456789.") + 1;
+  const std::string unit = text.substr(end);
+  if (!point_sets::parse(text.substr(0, end), value) || !(value > 0) ||
+      !(unit.empty() || unit == "km" || unit == "m"))
+    throw std::invalid_argument("'" + point_sets::excerpt(text) + "' is no width: expected, say, 60km");
+  return unit == "m" ? value / 1000 : value;
+}
+
+double cells_of_width(double width, double radius) {
+  const double ratio = radius / width;
+  return 4 * kPi / (std::sqrt(3) / 2) * ratio * ratio;
+}
+
+}  // namespace methods

@@ -1,0 +1,88 @@
+#pragma once
+// Widths of cells in km, and the densities of centroidal tessellations that have them.
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "files/width_regions.h"
+#include "methods/grid_values.h"
+#include "scvt/density.h"
+
+namespace methods {
+
+using pstripack::scvt::Density;
+
+/// The density of cells with some widths w, at most 1: (least / w)^4.
+struct Widths {
+  std::unique_ptr<Density> density;
+  double least = 0;  ///< km
+  double cells = 0;  ///< as cells_of_width()
+};
+
+/// Widths by a formula, lengths in km, angles in degrees:
+///     disc:INNER,OUTER,RADIUS,TRANSITION,LON,LAT    INNER up to RADIUS from LON, LAT
+///     band:INNER,OUTER,RADIUS,TRANSITION,LAT        INNER up to RADIUS from the parallel LAT
+/// and then over TRANSITION smoothly to OUTER.
+class WidthFormula {
+ public:
+  static bool is_one(const std::string& text);
+  /// Throws std::invalid_argument.
+  explicit WidthFormula(const std::string& text);
+  /// The same width everywhere.
+  explicit WidthFormula(double width) : inner_(width), outer_(width) {}
+
+  /// Makes the transition so long that widths change by at most `gradient` km per km; the narrower cells keep
+  /// their place. True if it was shorter.
+  bool limit(double gradient);
+  double transition() const { return transition_; }
+  /// `distance` in km from the centre or the parallel.
+  double width(double distance) const;
+  Widths widths(double radius) const;
+  /// The centre; of a band none.
+  bool is_band() const { return is_band_; }
+  double lon() const { return lon_; }
+  double lat() const { return lat_; }
+  double least() const { return std::min(inner_, outer_); }
+  double most() const { return std::max(inner_, outer_); }
+  /// The widths at unit vectors.
+  void at(std::size_t n, const files::Point* p, double radius, double* width) const;
+
+ private:
+  bool is_band_ = false;
+  double inner_ = 0, outer_ = 0, radius_ = 0, transition_ = 0, lon_ = 0, lat_ = 0;
+};
+
+/// What limit_gradient() changed.
+struct Lowered {
+  std::size_t places = 0, of = 0;  ///< a pole is one place
+  double most = 0;                 ///< at lon, lat (degrees)
+  double lon = 0, lat = 0;
+};
+
+/// Lowers values until
+///     w(x) <= w(y) + gradient d(x,y)
+/// for all places x, y of the table, d the length of the arc between them on a sphere of this radius, and no
+/// further (Persson, Engineering with Computers 22, 2006). It holds for all neighbours on the grid; for
+/// others it may lack a tenth of a spacing of the grid times the gradient.
+Lowered limit_gradient(Table& table, double gradient, double radius);
+
+/// Widths on a grid of 0.1 to 0.5 degrees, about as fine as the narrowest cell: `elsewhere`, but those of the
+/// regions inside them; where regions overlap, the narrowest. From a narrower region outwards, and into a
+/// wider one, widths change evenly over its transition. Throws std::runtime_error, with the number of a
+/// region that is smaller than a cell.
+Table widths_of_regions(const std::vector<files::WidthRegion>& regions, const WidthFormula& elsewhere,
+                        double radius);
+
+/// `radius` in km. Widths are bilinear in longitude and latitude.
+Widths widths_of(Table km, double radius);
+
+/// The width of cells in km: a number, with or without "km", or with "m". Throws std::invalid_argument.
+double width_of(const std::string& text);
+
+/// How many regular hexagons whose neighbours are `width` apart have the area of the sphere. Both in km.
+double cells_of_width(double width, double radius);
+
+}  // namespace methods
