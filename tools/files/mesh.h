@@ -30,6 +30,7 @@ struct Mesh {
   std::vector<double> density;  ///< of each node; empty: unknown
   Columns columns;              ///< values of each node
   Notes notes;
+  double radius = 1;  ///< of the sphere in MPAS files
   std::vector<std::int32_t> list, lptr, lend;
   std::int32_t lnew = 0;
 

@@ -323,7 +323,8 @@ void write_gmt(const OutputFile& file, const Faces& faces) {
 const std::vector<FormatEntry>& formats() {
   static const std::vector<FormatEntry> table{
       {Format::ugrid, "ugrid", ".nc .ugrid.nc", "NetCDF, UGRID conventions: start_index 1, _FillValue -1"},
-      {Format::mpas, "mpas", ".mpas.nc", "NetCDF, input of MPAS' mesh converter (triangles only)"},
+      {Format::mpas, "mpas", ".mpas.nc",
+       "NetCDF (CDF-5), complete mesh of MPAS, and .graph.info (triangles only)"},
       {Format::scrip, "scrip", ".scrip.nc", "NetCDF, SCRIP grid of the faces"},
       {Format::vtu, "vtu", ".vtu", "VTK unstructured grid, for ParaView"},
       {Format::off, "off", ".off", "Object File Format"},
@@ -344,13 +345,12 @@ bool holds_a_mesh(Format format) { return format < Format::xyz; }
 bool holds_nodes(Format format) { return format >= Format::geojson; }
 
 bool holds_parts(Format format) {
-  return !holds_a_mesh(format) || format == Format::ugrid || format == Format::mpas || format == Format::off;
+  return !holds_a_mesh(format) || format == Format::ugrid || format == Format::off;
 }
 
 int sections_of(Format format) { return format == Format::off ? 2 : 1; }
 
 void write_part(const OutputFile& file, Format format, const MeshPart& part, int section) {
-  if (format == Format::mpas) return write_mpas(file, part);
   if (!holds_a_mesh(format))
     return write_nodes(file, format, part.nodes_here(),
                        {{}, part.density, part.columns, part.notes, part.share_of_nodes});

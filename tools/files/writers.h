@@ -73,8 +73,20 @@ void write_netcdf_grid(const OutputFile& file, const Grid& grid, const Field& fi
 void write_ugrid(const OutputFile& file, const Faces& faces, const std::vector<Point>& vectors,
                  const std::vector<double>& density = {}, const Notes& notes = {});
 void write_scrip(const OutputFile& file, const Faces& faces, const Notes& notes = {});
-void write_mpas(const OutputFile& file, const Mesh& mesh);
-void write_mpas(const OutputFile& file, const MeshPart& part);
 void write_netcdf_nodes(const OutputFile& file, const std::vector<Point>& points, const NodeValues& values);
+
+// In netcdf_mpas.cpp.
+struct MpasMesh;
+/// What is known of an MPAS mesh beside the mesh; given angles and density of each cell, or empty.
+struct MpasValues {
+  LonLat given;
+  std::vector<double> density;
+  Notes notes;
+  double radius = 1;  ///< of the sphere; 1: unit sphere
+};
+/// Writes the mesh, and beside a file with a name its graph for METIS.
+void write_mpas(const OutputFile& file, const MpasMesh& mesh, const MpasValues& values);
+/// Nodes at the boundary of the triangulation are left out: they have no whole cells.
+void write_mpas(const OutputFile& file, const Mesh& mesh);
 
 }  // namespace files
