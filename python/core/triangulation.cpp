@@ -301,14 +301,10 @@ std::vector<std::int32_t> Triangulation::boundary() const {
 struct Triangulation::Exact {
   explicit Exact(const Triangulation& mesh) : points(copy(mesh)), directions(points.data(), mesh.n_) {}
   /// Of the corners some triangles after corners[k], which may lie anywhere in memory.
-  void prefetch(const Buffer<std::int32_t>& corners, std::size_t k) const {
+  [[gnu::always_inline]] void prefetch(const Buffer<std::int32_t>& corners, std::size_t k) const {
     constexpr std::size_t kAhead = 3 * 16;
     if (k + kAhead + 2 >= corners.size()) return;
-    for (std::size_t i = k + kAhead + 1; i < k + kAhead + 3; ++i) {
-      const pstripack::UnitVector& unit = directions.unit(corners[i]);
-      __builtin_prefetch(&unit.high);
-      __builtin_prefetch(&unit.low.z);
-    }
+    for (std::size_t i = k + kAhead + 1; i < k + kAhead + 3; ++i) directions.prefetch(corners[i]);
   }
 
   Buffer<Point> points;

@@ -21,13 +21,13 @@
 #include "parallel/partition.h"
 #include "parallel/patch_hull.h"
 #include "parallel/sample.h"
-#include "parallel/sample_hull.h"
 #include "parallel/triangulate.h"
 #include "point_sets.h"
 #include "support/cases.h"
 #include "support/columns.h"
 #include "support/judge.h"
 #include "support/lists.h"
+#include "support/serial_rings.h"
 #include "support/thread_ranks.h"
 
 namespace {
@@ -48,92 +48,6 @@ std::string name_of(const Configuration& c) {
          name_of(c.partition) + "_" + brings[static_cast<int>(c.brings)];
 }
 
-/// A set of nodes, the first three of which are not on one great circle, and its rings by one patch.
-struct Set {
-  explicit Set(Nodes points) : nodes(std::move(points)) {
-    for (std::uint64_t seed = 1; left(nodes[0], nodes[1], nodes[2]) == 0; ++seed)
-      point_sets::shuffle(nodes, seed);
-    Workspace workspace(workspace_bytes(nodes.size()));
-    const Hull hull = delaunay(nodes.data(), nodes.size(), workspace);
-    lengths = hull.lengths;
-    for (const auto& [a, b] : hull.coincident)
-      coincident.emplace_back(GlobalNumber{a + 1}, GlobalNumber{b + 1});
-    if (!coincident.empty()) return;
-    Faces faces;
-    for (std::size_t t = 0; t < hull.face_count; ++t)
-      if (hull.front(t)) {
-        const auto& v = hull.faces[t].vertex;
-        const auto node = [&](int i) { return static_cast<std::int32_t>(hull.order[v[i]]); };
-        faces.push_back({node(0), node(1), node(2)});
-      }
-    rings = *rings_of(nodes.size(), faces);
-  }
-  Nodes nodes;
-  Rings rings;
-  Lengths lengths;
-  CoincidentPairs coincident;
-};
-
-struct Outcome {
-  std::vector<std::vector<std::int64_t>> ring;  // by node
-  std::vector<std::int32_t> codes;              // of the ranks
-  std::vector<Stars<std::int32_t>> stars;       // without of_node
-  std::vector<ParallelCost> cost;
-};
-
-Look look_of_all(const LocalNodes& nodes, Communicator& ranks) {
-  Look look = look_at(nodes.points, nodes.count);
-  agree_on(look, ranks);
-  return look;
-}
-
-template <class Int>
-void keep(const Stars<Int>& stars, const LocalNodes& nodes, std::size_t rank, Outcome& out) {
-  for (std::size_t i = 0; i < stars.of_node.size(); ++i) {
-    const Ring<Int> ring = stars.of_node[i];
-    out.ring[static_cast<std::size_t>(nodes.number(i)) - 1].assign(ring.begin, ring.begin + ring.count);
-  }
-  out.stars[rank].coincident = stars.coincident;
-  out.stars[rank].lengths = stars.lengths;
-  out.stars[rank].outside = stars.outside;
-}
-
-/// homes: of the ranks in the last call, then in this one.
-template <class Int>
-Outcome run(const Nodes& nodes, const std::vector<std::size_t>& rank_of_node,
-            const ParallelOptions& all_options, std::vector<std::unique_ptr<Homes>>& homes) {
-  const std::size_t n = nodes.size(), size = homes.size();
-  std::vector<Nodes> points(size);
-  std::vector<std::vector<std::int64_t>> numbers(size);
-  for (std::size_t i = 0; i < n; ++i) {
-    points[rank_of_node[i]].push_back(nodes[i]);
-    numbers[rank_of_node[i]].push_back(static_cast<std::int64_t>(i) + 1);
-  }
-  Outcome out;
-  out.ring.resize(n);
-  out.codes.resize(size);
-  out.stars.resize(size);
-  out.cost.resize(size);
-  std::mutex mutex;
-  ThreadRanks::run(static_cast<int>(size), [&](Communicator& ranks) {
-    const auto r = static_cast<std::size_t>(ranks.rank());
-    const LocalNodes local{points[r].data(), points[r].size(), numbers[r].data()};
-    ParallelOptions options = all_options;
-    options.last = homes[r].get();
-    try {
-      const Point corners[3] = {nodes[0], nodes[1], nodes[2]};
-      Stars<Int> stars = triangulate<Int>(local, look_of_all(local, ranks), corners, {1, 2, 3}, ranks,
-                                          options, &out.cost[r]);
-      const std::lock_guard lock(mutex);
-      keep(stars, local, r, out);
-      homes[r] = std::move(stars.homes);
-    } catch (const AgreedFailure& failure) {
-      out.codes[r] = failure.code;
-    }
-  });
-  return out;
-}
-
 std::vector<std::size_t> ranks_that_bring(const Nodes& nodes, const Configuration& c) {
   const std::size_t n = nodes.size(), size = static_cast<std::size_t>(c.ranks);
   const Partition home(PartitionKind::bisection, c.ranks, nodes, n);
@@ -148,29 +62,14 @@ std::vector<std::size_t> ranks_that_bring(const Nodes& nodes, const Configuratio
 
 template <class Int>
 Outcome run(const Nodes& nodes, const Configuration& c, bool with_neighbours = false,
-            std::size_t most_questions = SIZE_MAX) {
+            std::size_t closing_nodes = 256) {
   ParallelOptions options;
   options.partition = c.partition;
   options.patches = c.patches;
   options.with_neighbours = with_neighbours;
-  options.most_questions = most_questions;
+  options.closing_nodes = closing_nodes;
   std::vector<std::unique_ptr<Homes>> homes(static_cast<std::size_t>(c.ranks));
   return run<Int>(nodes, ranks_that_bring(nodes, c), options, homes);
-}
-
-::testing::AssertionResult is_serial(const Set& set, const Outcome& out) {
-  for (const std::int32_t code : out.codes)
-    if (code != 0) return ::testing::AssertionFailure() << "code " << code;
-  for (const auto& stars : out.stars)
-    if (stars.lengths != set.lengths) return ::testing::AssertionFailure() << "other predicates";
-  for (std::size_t k = 0; k < set.nodes.size(); ++k) {
-    const auto& expected = set.rings.neighbours[k];
-    std::vector<std::int64_t> ring;
-    for (const std::int32_t b : expected) ring.push_back(b + 1);
-    if (set.rings.boundary[k]) ring.back() = -ring.back();
-    if (ring != out.ring[k]) return ::testing::AssertionFailure() << "ring of node " << k + 1 << " differs";
-  }
-  return ::testing::AssertionSuccess();
 }
 
 // ---- all families, all configurations ---------------------------------------------------------------
@@ -311,7 +210,6 @@ TEST(NodesThatAllCanRead, GiveTheSerialRings) {
     }
 }
 
-// Such large patches need not test triangles of their own nodes if one bound holds for all of these.
 TEST(LargePatches, GiveTheSerialRings) {
   for (const char* family : {"random", "latlon", "variable:1e6", "hemisphere"}) {
     const Set set(point_sets::make(family, 120000, 6));
@@ -319,38 +217,6 @@ TEST(LargePatches, GiveTheSerialRings) {
         is_serial(set, run<std::int32_t>(set.nodes, {2, 1, PartitionKind::bisection, Brings::slices})))
         << family;
   }
-}
-
-TEST(Stretch, OfSomeNodesBoundsThatOfMore) {
-  for (const char* family : {"random", "latlon", "variable", "clusters"}) {
-    const Set set(point_sets::make(family, 2000, 4));
-    const Places places(set.lengths, 1e-15);
-    Workspace workspace(workspace_bytes(set.nodes.size()));
-    const Hull hull = delaunay(set.nodes.data(), set.nodes.size(), workspace);
-    double least_height = 1;
-    for (std::size_t t = 0; t < hull.face_count; ++t) {
-      const auto& v = hull.faces[t].vertex;
-      const auto place = [&](int i) { return places(set.nodes[hull.order[v[i]]]); };
-      const Point n = cross(minus(place(1), place(0)), minus(place(2), place(0)));
-      least_height = std::min(least_height, dot(n, place(0)) / std::sqrt(dot(n, n)));
-    }
-    std::vector<Record> some;
-    double before = std::numeric_limits<double>::infinity();
-    for (const std::size_t count : {40, 200, 2000}) {
-      for (std::size_t i = some.size(); i < std::min(count, set.nodes.size()); ++i)
-        some.push_back({set.nodes[i], GlobalNumber{static_cast<std::int64_t>(i) + 1}});
-      const double now = most_stretch(some, places);
-      EXPECT_GE(now, 1);
-      EXPECT_GE(now * least_height, 1 - 1e-9) << family;
-      EXPECT_LE(now, before) << family;
-      before = now;
-    }
-    EXPECT_LT(before, 2) << family;
-  }
-  const Nodes nodes = point_sets::make("hemisphere", 100, 1);
-  std::vector<Record> some;
-  for (const Point& p : nodes) some.push_back({p, GlobalNumber{static_cast<std::int64_t>(some.size()) + 1}});
-  EXPECT_EQ(most_stretch(some, Places(Lengths::as_given, 1e-15)), std::numeric_limits<double>::infinity());
 }
 
 // ---- nasty sets -------------------------------------------------------------------------------------
@@ -676,7 +542,7 @@ TEST(Homes, OfDirectionsAreForLengthsAboutOneToo) {
     Division division(Places(last, 1e-7));
     division.partition = partition;
     for (int rank = 0; rank < 2; ++rank) division.patches.add(1);
-    return Homes(division, {}, {}, {}).are_for(PartitionKind::bisection, division.patches, now);
+    return Homes(division, {}, 0).are_for(PartitionKind::bisection, division.patches, now);
   };
   EXPECT_TRUE(are_for(Lengths::as_given, Lengths::as_given));
   EXPECT_TRUE(are_for(Lengths::directions, Lengths::directions));
@@ -697,119 +563,6 @@ TEST_F(KeptPatches, HoldForNodesThatAreDenseElsewhere) {
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (taken[rank[i]]++ < each) even.push_back(nodes[i]);
   EXPECT_TRUE(keeps(even, at_home(even)));
-}
-
-/// Nodes that take very different times, or have their neighbours far away.
-class Drafts : public KeptPatches {
- protected:
-  void SetUp() override {
-    options_.with_neighbours = true;
-    options_.most_questions = SIZE_MAX;
-  }
-  Draft draft() const {
-    for (const auto& h : homes_) EXPECT_EQ(h->draft(), homes_[0]->draft());
-    return homes_[0]->draft();
-  }
-  void begin(const Nodes& nodes) {
-    std::vector<std::size_t> slices;
-    for (std::size_t i = 0; i < nodes.size(); ++i) slices.push_back(i * kRanks / nodes.size());
-    EXPECT_FALSE(keeps(nodes, slices));
-    EXPECT_EQ(draft(), Draft::first);
-  }
-};
-
-TEST_F(Drafts, AreTwoAtMostForNodesThatFollowThem) {
-  std::size_t seconds = 0;
-  for (const auto& [family, n] : {std::pair{"random", 6000},
-                                  {"falling:14", 6000},
-                                  {"spiral:20", 40000},
-                                  {"moment:6", 6000},
-                                  {"ring", 6000},
-                                  {"crossing:1e-3", 6000},
-                                  {"nest:100", 6000},
-                                  {"falling-tee:6", 6000}}) {
-    const Nodes nodes = Set(point_sets::make(family, static_cast<std::size_t>(n), 3)).nodes;
-    begin(nodes);
-    const bool is_kept = keeps(nodes, at_home(nodes));
-    const Draft second = draft();
-    EXPECT_EQ(second, is_kept ? Draft::kept : Draft::second) << family;
-    seconds += second == Draft::second;
-    for (int call = 0; call < 2; ++call) {
-      EXPECT_TRUE(keeps(nodes, at_home(nodes))) << family;
-      EXPECT_EQ(draft(), second) << family;
-    }
-    for (auto& h : homes_) h.reset();
-  }
-  EXPECT_GE(seconds, 4);
-}
-
-TEST_F(Drafts, CompareRanksWithAsManyPatchesAsTheyHave) {
-  options_.patches = 4;
-  const Nodes nodes = Set(point_sets::make("moment:6", 6000, 3)).nodes;
-  begin(nodes);
-  EXPECT_FALSE(keeps(nodes, at_home(nodes)));
-  EXPECT_EQ(draft(), Draft::second);
-}
-
-TEST_F(Drafts, EndForNodesThatStayWhereTheFirstHadThem) {
-  const Nodes nodes = Set(point_sets::make("falling:14", 6000, 3)).nodes;
-  begin(nodes);
-  const std::vector<std::size_t> first = at_home(nodes);
-  EXPECT_FALSE(keeps(nodes, first));
-  ASSERT_EQ(draft(), Draft::second);
-  EXPECT_FALSE(keeps(nodes, first));
-  EXPECT_EQ(draft(), Draft::last);
-  EXPECT_TRUE(keeps_soon(nodes));
-  EXPECT_EQ(draft(), Draft::last);
-}
-
-/// The next call begins with the hubs of the last one, whatever has become of them.
-class RememberedHubs : public Drafts {
- protected:
-  void call(const Nodes& nodes) {
-    keeps(nodes, at_home(nodes));
-    for (const auto& h : homes_) EXPECT_EQ(h->hubs(), homes_[0]->hubs());
-  }
-  void begin_twice(const std::string& family) {
-    nodes_ = Set(point_sets::make(family, 6000, 3)).nodes;
-    begin(nodes_);
-    call(nodes_);
-    call(nodes_);
-    EXPECT_FALSE(homes_[0]->hubs().empty()) << family;
-  }
-  Nodes nodes_;
-};
-
-TEST_F(RememberedHubs, AreThoseOfTheNextCall) {
-  for (const char* const family : {"ring", "moment:6", "falling-tee:6"}) {
-    begin_twice(family);
-    const std::vector<GlobalNumber> hubs = homes_[0]->hubs();
-    call(nodes_);
-    EXPECT_EQ(homes_[0]->hubs(), hubs) << family;
-    for (auto& h : homes_) h.reset();
-  }
-}
-
-TEST_F(RememberedHubs, AreForgottenWhereOtherNodesHaveTheirNumbers) {
-  begin_twice("ring");
-  const auto last = static_cast<std::int64_t>(nodes_.size()) + 1;
-  const std::vector<GlobalNumber> hubs = homes_[0]->hubs();
-  std::vector<GlobalNumber> expected;
-  for (const GlobalNumber hub : hubs) expected.insert(expected.begin(), GlobalNumber{last - value_of(hub)});
-  std::reverse(nodes_.begin(), nodes_.end());
-  call(nodes_);
-  EXPECT_EQ(homes_[0]->hubs(), expected);
-}
-
-TEST_F(RememberedHubs, MayBeMissing) {
-  begin_twice("ring");
-  for (const GlobalNumber hub : homes_[0]->hubs()) {
-    ASSERT_LE(value_of(hub), static_cast<std::int64_t>(nodes_.size()));
-    nodes_.resize(static_cast<std::size_t>(value_of(hub) - 1));
-  }
-  call(nodes_);
-  for (const GlobalNumber hub : homes_[0]->hubs())
-    EXPECT_LE(value_of(hub), static_cast<std::int64_t>(nodes_.size()));
 }
 
 /// Found by walks around others' nodes where these are few, else in one pass over all faces.
@@ -836,7 +589,7 @@ TEST(PatchHull, VisitsEachFaceAtTheBorderOnce) {
   }
 }
 
-/// Calls that keep patches, drafts and hubs of the last one: the nodes stay, move, leave, are renumbered or
+/// Calls that keep patches of the last one: the nodes stay, move, leave, are renumbered or
 /// are others; the next call finds them at home, or where they were.
 TEST(SequencesOfCalls, GiveTheSerialRings) {
   std::vector<std::string> families = kFamilies;
@@ -850,7 +603,7 @@ TEST(SequencesOfCalls, GiveTheSerialRings) {
     options.partition = any_of(4) == 0 ? PartitionKind::stripes : PartitionKind::bisection;
     options.patches = 1 + static_cast<int>(any_of(2));
     options.with_neighbours = true;
-    options.most_questions = any_of(3) == 0 ? 0 : SIZE_MAX;  // 0: ranks agree on stars
+    options.most_questions = any_of(3) == 0 ? 0 : SIZE_MAX;  // 0: one rank, unless all lists match
     std::string family = families[any_of(families.size())];
     const auto nodes_of = [&] {
       return point_sets::make(family, static_cast<std::size_t>(20 * std::pow(100, random.uniform())),
@@ -971,43 +724,11 @@ TEST(GivingUp, NodesThatAreCloseTogetherAreNoReasonToAsk) {
 
 // ---- agreement --------------------------------------------------------------------------------------
 
-/// Stars with corners on most ranks, or with most neighbours on other ranks: no rank triangulates all nodes,
-/// and nodes are sent to few ranks.
-TEST(Agreement, WherePatchesWouldAskAboutAll) {
-  for (const char* family : {"ring", "crossing:1e-3", "moment:6"}) {
-    const Set set(point_sets::make(family, 4000, 1));
-    constexpr std::size_t kRanks = 8;
-    std::vector<std::size_t> rank_of_node;
-    for (std::size_t i = 0; i < set.nodes.size(); ++i) rank_of_node.push_back(i % kRanks);
-    ParallelOptions options;
-    options.with_neighbours = true;
-    std::vector<std::unique_ptr<Homes>> homes(kRanks);
-    std::vector<bool> is_home(kRanks);
-    for (int call = 0; call < 2; ++call) {
-      const Outcome out = run<std::int32_t>(set.nodes, rank_of_node, options, homes);
-      EXPECT_TRUE(is_serial(set, out)) << family;
-      for (const ParallelCost& cost : out.cost) {
-        EXPECT_GT(cost.rounds, 0) << family;
-        EXPECT_LT(cost.rounds, 12) << family;
-        EXPECT_EQ(cost.in_one_patch, 0) << family;
-        EXPECT_LT(cost.bytes_sent, 1000 * 1000) << family;
-      }
-      ASSERT_NE(homes[0], nullptr);
-      for (std::size_t i = 0; i < set.nodes.size(); ++i) {
-        rank_of_node[i] = static_cast<std::size_t>(homes[0]->rank(set.nodes[i]));
-        is_home[rank_of_node[i]] = true;
-      }
-    }
-    EXPECT_EQ(std::count(is_home.begin(), is_home.end(), true), kRanks) << family;
-  }
-}
-
-/// Ranks that may not ask questions agree on all that they do not know; at first their patches disagree.
 TEST(Agreement, GivesTheSerialRingsOfEveryFamily) {
   std::vector<std::string> families = kFamilies;
   families.insert(families.end(), {"crossing:1e-3", "moment:6", "nest:150", "falling:14", "rays:12",
                                    "small-circle:1", "two-curves:1e-3", "tracks:50"});
-  int agreed = 0, in_one_patch = 0;
+  int agreed = 0;
   for (const std::string& family : families)
     for (const std::size_t n : {12u, 60u, 400u}) {
       const Set set(point_sets::make(family, family == "nest:150" ? 60 : n, n));
@@ -1015,14 +736,12 @@ TEST(Agreement, GivesTheSerialRingsOfEveryFamily) {
         const Configuration c{ranks, ranks == 3 ? 2 : 1,
                               ranks == 5 ? PartitionKind::stripes : PartitionKind::bisection,
                               Brings::every_other};
-        const Outcome out = run<std::int32_t>(set.nodes, c, true, 0);
+        const Outcome out = run<std::int32_t>(set.nodes, c, true, 2);
         ASSERT_TRUE(is_serial(set, out)) << family << " " << n << " " << name_of(c);
         agreed += out.cost[0].rounds > 0;
-        in_one_patch += out.cost[0].in_one_patch;
       }
     }
-  EXPECT_GT(agreed, 300);
-  EXPECT_EQ(in_one_patch, 0);
+  EXPECT_GT(agreed, 200);
 }
 
 /// A ring of nodes around a few others, each of which is a hub: triangles with two and with three hubs.
@@ -1042,10 +761,9 @@ TEST(Agreement, OfHubsThatAreNeighbours) {
       const Set set(nodes);
       for (const int ranks : {4, 8}) {
         const Outcome out =
-            run<std::int32_t>(set.nodes, {ranks, 1, PartitionKind::bisection, Brings::every_other}, true, 0);
+            run<std::int32_t>(set.nodes, {ranks, 1, PartitionKind::bisection, Brings::every_other}, true, 2);
         EXPECT_TRUE(is_serial(set, out)) << inside << " " << ranks;
         EXPECT_GT(out.cost[0].rounds, 0);
-        EXPECT_EQ(out.cost[0].in_one_patch, 0);
       }
     }
 }
@@ -1056,9 +774,8 @@ TEST(Agreement, TellsEachRankTheNeighboursThatItHasNotBrought) {
     for (const Brings brings : {Brings::every_other, Brings::home, Brings::rank_0}) {
       const Set set(point_sets::make(family, 3000, 6));
       const Configuration c{5, 2, PartitionKind::bisection, brings};
-      const Outcome out = run<std::int32_t>(set.nodes, c, true, 0);
+      const Outcome out = run<std::int32_t>(set.nodes, c, true, 2);
       ASSERT_TRUE(is_serial(set, out)) << family;
-      EXPECT_EQ(out.cost[0].in_one_patch, 0) << family;
       const Partition home(PartitionKind::bisection, c.ranks, set.nodes, set.nodes.size());
       for (int r = 0; r < c.ranks; ++r) {
         const auto is_mine = [&](std::size_t i) {
@@ -1083,7 +800,7 @@ TEST(Agreement, TellsEachRankTheNeighboursThatItHasNotBrought) {
 /// A seeded adversary: sets of clusters, circles, hubs and hidden or coincident nodes, whose patches know
 /// little of each other.
 TEST(Agreement, OfNodesThatAnAdversaryHasPlaced) {
-  int of_directions = 0, with_boundary = 0, agreed = 0, in_one_patch = 0;
+  int of_directions = 0, with_boundary = 0, agreed = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     point_sets::Random random(seed);
     const Point middle = random.direction();
@@ -1119,27 +836,24 @@ TEST(Agreement, OfNodesThatAnAdversaryHasPlaced) {
     for (const int ranks : {2, 5, 9}) {
       const Configuration c{ranks, 1 + static_cast<int>(seed % 2), PartitionKind::bisection,
                             Brings::every_other};
-      const Outcome out = run<std::int32_t>(set.nodes, c, true, 0);
+      const Outcome out = run<std::int32_t>(set.nodes, c, true, 2);
       ASSERT_TRUE(is_serial(set, out)) << seed << " " << name_of(c);
       agreed += out.cost[0].rounds > 0;
-      in_one_patch += out.cost[0].in_one_patch;
     }
   }
   EXPECT_GT(of_directions, 20);
   EXPECT_GT(with_boundary, 100);
-  EXPECT_GT(agreed, 250);  // in the others, comparing triangles leaves no question
-  EXPECT_EQ(in_one_patch, 0);
+  EXPECT_GT(agreed, 250);
 }
 
-/// Also if no patch knows all coincident nodes at first: slices of a mesh have nodes anywhere.
 TEST(Agreement, FindsNodesThatCoincide) {
   for (const char* family : {"ring", "crossing:1e-3"})
-    for (const std::size_t most_questions : {std::size_t{0}, SIZE_MAX}) {
+    for (const std::size_t closing_nodes : {2u, 256u}) {
       Nodes nodes = point_sets::make(family, 3000, 4);
       nodes[1500] = nodes[20];
       nodes[700] = nodes[20];
       const Outcome out = run<std::int32_t>(nodes, {4, 2, PartitionKind::bisection, Brings::every_other},
-                                            true, most_questions);
+                                            true, closing_nodes);
       for (const auto& stars : out.stars) {
         EXPECT_EQ(first_coincidence(stars.coincident).l, 21);
         EXPECT_EQ(first_coincidence(stars.coincident).m, 701);
@@ -1179,7 +893,7 @@ TEST(Halo, IsSentOnceWhereSomeNodesTellThatLengthsHideOne) {
 
 // ---- the partition ----------------------------------------------------------------------------------
 
-TEST(Partitions, HaloIsWhatIsKnownAndBallsAreJudgedSafely) {
+TEST(Partitions, HaloIsWhatIsKnown) {
   std::size_t deep = 0;
   for (const auto& [kind, name] : kPartitions)
     for (const char* family : {"random", "variable:1e6", "clusters", "latlon", "cap"}) {
@@ -1218,45 +932,10 @@ TEST(Partitions, HaloIsWhatIsKnownAndBallsAreJudgedSafely) {
           for (int q = 0; q < patches; ++q)
             ASSERT_EQ(partition.knows(q, x), q == owner || in_halo[i][static_cast<std::size_t>(q)])
                 << family << ", " << name << ", patch " << q << " of " << patches;
-          // A ball around it: every node in it that the patch does not know belongs to a stranger.
-          const Ball ball{x, 0.2};
-          std::vector<int> strangers;
-          partition.strangers(owner, ball, strangers);
-          for (std::size_t j = 0; j < nodes.size(); j += 3) {
-            const double dx = nodes[j].x - x.x, dy = nodes[j].y - x.y, dz = nodes[j].z - x.z;
-            if (dx * dx + dy * dy + dz * dz > 0.2 * 0.2 || partition.knows(owner, nodes[j])) continue;
-            ASSERT_NE(std::find(strangers.begin(), strangers.end(), partition.owner(nodes[j])),
-                      strangers.end());
-          }
         }
       }
     }
   EXPECT_GT(deep, 0u);
-}
-
-TEST(Partitions, WhatHoldsForAllTrianglesHoldsForEach) {
-  int holding = 0, open = 0;
-  for (const char* family : {"random", "cap:1", "variable"})
-    for (const int patches : {2, 3, 8}) {
-      const Nodes nodes = point_sets::make(family, 3000, 5);
-      const Partition partition(PartitionKind::bisection, patches, nodes, nodes.size());
-      std::vector<Nodes> own(static_cast<std::size_t>(patches));
-      for (const Point& p : nodes) own[static_cast<std::size_t>(partition.owner(p))].push_back(p);
-      for (int q = 0; q < patches; ++q)
-        for (const double stretch : {1.0, 1.02, 1.1, 1.5, 4.0}) {
-          if (!partition.holds_all(q, stretch)) {
-            ++open;
-            continue;
-          }
-          ++holding;
-          const Nodes& mine = own[static_cast<std::size_t>(q)];
-          for (std::size_t i = 0; i + 2 < mine.size(); ++i)
-            ASSERT_TRUE(partition.holds(q, mine[i], mine[(7 * i) % mine.size()], mine[i + 2], stretch))
-                << family << ", patch " << q << " of " << patches << ", " << stretch;
-        }
-    }
-  EXPECT_GT(holding, 0);
-  EXPECT_GT(open, 0);
 }
 
 TEST(Partitions, BisectionIsBalancedWhateverTheDensity) {

@@ -470,8 +470,7 @@ TEST(Moving, CallsOfTrmeshBeginWithTheLastRings) {
   }
 }
 
-/// A mesh with a boundary cannot begin with the last rings, but patches and hubs stay while nodes move
-/// little.
+/// A mesh with a boundary cannot begin with the last rings, but patches stay while nodes move little.
 TEST(Moving, ColdCallsOfTrmeshKeepThePatches) {
   for (const Arrays arrays : {Arrays::on_every_rank, Arrays::shared, Arrays::on_one_rank})
     for (const char* const family : {"box", "ring", "crossing", "falling:4", "moment:4"}) {

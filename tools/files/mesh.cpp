@@ -363,9 +363,11 @@ void expect_whole_sphere(const std::vector<double>& areas) {
 
 }  // namespace
 
-Faces voronoi_faces(const Mesh& mesh) {
+namespace {
+
+/// Gives the cells, which have none, their corners: the circumcentres of the triangles.
+void add_corners(Faces& cells, const Mesh& mesh, const pstripack::Directions& directions) {
   const std::size_t n = mesh.points.size();
-  const pstripack::Directions directions(mesh.points.data(), n);
   std::vector<std::int32_t> lptr = mesh.lptr, listc(6 * n - 12);
   std::int32_t lnew = mesh.lnew, nb = 0;
   std::vector<std::int32_t> boundary(n);
@@ -389,25 +391,33 @@ Faces voronoi_faces(const Mesh& mesh) {
   if (status != pstripack::VoronoiStatus::done)
     throw NoMesh(fmt::format("the Voronoi diagram failed with code {}", static_cast<int>(status)));
 
-  Faces faces;
-  faces.centres = unit(mesh.points);
-  faces.points.resize(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) faces.points[i] = {x[i], y[i], z[i]};
-  faces.begin.push_back(0);
+  cells.points.resize(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) cells.points[i] = {x[i], y[i], z[i]};
+  cells.corner.reserve(listc.size());
   for (std::size_t node = 0; node < n; ++node) {
     const std::int32_t last = mesh.lend[node];
     std::int32_t slot = last;
     do {
       slot = lptr[static_cast<std::size_t>(slot) - 1];
-      faces.corner.push_back(listc[static_cast<std::size_t>(slot) - 1]);
+      cells.corner.push_back(listc[static_cast<std::size_t>(slot) - 1]);
     } while (slot != last);
-    faces.begin.push_back(faces.corner.size());
+    cells.begin[node + 1] = cells.corner.size();
   }
-  faces.area.resize(n);
-  if (!pstripack::cell_areas(mesh.lists(), directions, faces.area.data()))
+}
+
+}  // namespace
+
+Faces voronoi_faces(const Mesh& mesh, bool with_corners) {
+  const pstripack::Directions directions(mesh.points.data(), mesh.points.size());
+  Faces cells;
+  cells.centres = unit(mesh.points);
+  cells.begin.resize(mesh.points.size() + 1);
+  if (with_corners) add_corners(cells, mesh, directions);
+  cells.area.resize(mesh.points.size());
+  if (!pstripack::cell_areas(mesh.lists(), directions, cells.area.data()))
     throw NoMesh("the lists are broken");
-  expect_whole_sphere(faces.area);
-  return faces;
+  expect_whole_sphere(cells.area);
+  return cells;
 }
 
 std::vector<double> areas(const Faces& faces) {

@@ -25,9 +25,11 @@
 // geometric predicates for Delaunay triangulations.
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include "base/parallel_for.h"
@@ -84,11 +86,13 @@ struct Scale {
 //            directions are known to 2^-101 m_k each, and the difference of the low parts rounds by 2^-105
 //            m_k
 //   N        2.1u, the rounding of a, of the product, of the difference: 5.2u py, and |a_z| t_x + |a_x| t_z,
-//            which is less than 5.2u 2^-47 (m_z + 2^-963): that is added to py. For N.x: 2^-47 m_y m_z
+//            which is less than 5.2u 2^-47 (m_z + 2^-963): that is added to py. For N.x: 2^-47 m_y m_z. Or a
+//            is not rounded, but longer by at most 4u: that multiplies all N alike
 //   D        twice 5.2u, product, difference: 13u of r = py qz + pz qy
 //   G        near a (|e|^2 < 1): |N|^2 / (2 - |e|^2 / 2) with q = px^2 + py^2 + pz^2: |N|^2 15u q, the
 //            denominator, above 1.5, and the division 7u, so 15u q, and G <= 0.67 q
-//            elsewhere |e|^2 / 2: less than 8u q with q = |e|^2, and G = q/2
+//            elsewhere |e|^2 / 2: less than 8u q with q = |e|^2, and G = q/2. It does not grow with the
+//            length of a, as |N|^2 does: another 4u q
 //   D G      13u 0.67 + 15u + u < 25u of r q; the two sums of (*) 2u more; the bound itself is rounded
 //            some 20 times: 28u.
 // Where nothing underflows: kNegligible is added for products of numbers that were not scaled.
@@ -166,7 +170,8 @@ int filter_height(const Seen& b, const Seen& c, const Seen& d) {
 ///     -D(N_c, N) G_b + D(N_b, N) G_c - D_bc G,
 ///
 /// in which every term is as small as the step. N = a x f and G = -a.f with f = d - c are known as well as
-/// for e above; the error of G is less than 6u of q = |a.x f.x| + ... + 2^-46.
+/// for e above; the error of G is less than 6u of q = |a.x f.x| + ... + 2^-46, and G grows with the length of
+/// a, not with its square: another 4u.
 Seen step(const Point& a, const Point& p, const Point& f) {
   Seen s = seen_from(a, p, f);
   s.g = -dot(a, f);
@@ -275,12 +280,13 @@ struct FineApex {
   FinePoint given;
 };
 
-FineApex fine_apex(const Axes& axes, const Point& high, const Point& low, const Point& given) {
-  const Point h = axes(high), l = axes(low);
+FineApex fine_apex(const Axes& axes, const UnitVector& unit, const Point& given) {
+  const Point h = axes(unit.high), l = axes(unit.low);
   return {Factor({h.x, l.x}), Factor({h.y, l.y}), Factor({h.z, l.z}), FinePoint(given, axes)};
 }
 
-void see(const FineApex& a, const Point& high, const Point& low, const FinePoint& given, FineSeen& seen) {
+void see(const FineApex& a, const UnitVector& unit, const Axes& axes, const Point& p, FineSeen& seen) {
+  const Point high = axes(unit.high), low = axes(unit.low);
   // The high parts may cancel. The difference is renormalised, because loose_product() omits the product of
   // the low parts.
   const auto difference = [](double p_high, double p_low, const Factor& apex) {
@@ -308,6 +314,7 @@ void see(const FineApex& a, const Point& high, const Point& low, const FinePoint
     seen.weight = seen.by = 1;
     return;
   }
+  const FinePoint given(p, axes);
   const FineCross n(a.given, given);
   seen.y = Factor(n.y.value), seen.z = Factor(n.z.value);
   seen.py = n.y.magnitude, seen.pz = n.z.magnitude;
@@ -424,38 +431,77 @@ bool above_of_directions(const Point& a, const Point& b, const Point& c, const P
   return Directions(four, 4).above(0, 1, 2, 3);
 }
 
+namespace {
+
+/// Finds `shrink` with p/|p| = p - shrink p for a vector whose length is 1 up to rounding; no root is needed.
+/// |p|^2 = 1 + x with |x| < 2^-50, and 1/sqrt(1+x) = 1 - x/2 + 3/8 x^2 - ..., the next term below 2^-150.
+/// Errors in units of u^2: 4, half of those of four sums of at most five terms below u/2 each; by the
+/// rounding of x, of both factors of `shrink`, of `shrink` and of its product with a component, each half an
+/// ulp of a number below 2^-50 or half of that: 4 + 4 + 8 + 8.
+bool find_shrink(const Point& p, double& shrink) {
+  if (!(std::fabs(dot(p, p) - 1) <= 0x1p-51)) return false;
+  const DoubleDouble xx = two_product(p.x, p.x), yy = two_product(p.y, p.y), zz = two_product(p.z, p.z);
+  const DoubleDouble xy = two_sum(xx.high, yy.high), all = two_sum(xy.high, zz.high);
+  const double x = (all.high - 1) + ((all.low + xy.low) + (xx.low + yy.low + zz.low));
+  shrink = x * (0.5 - 0.375 * x);
+  return true;
+}
+
+}  // namespace
+
+bool Directions::store(index_t i) {
+  Stored& s = unit_[i];
+  s.high = p_[i];
+  if (find_shrink(p_[i], s.shrink)) return true;
+  s.shrink = std::numeric_limits<double>::quiet_NaN();
+  return false;
+}
+
+void Directions::store_other(index_t i) {
+  const UnitVector v = unit_vector(p_[i]);
+  unit_[i].high = v.high;
+  low_[i] = v.low;
+}
+
 Directions::Directions(const Point* points, std::size_t n, std::size_t capacity)
     : p_(points), n_(n), unit_(std::max(n, capacity)) {
+  std::atomic<bool> are_units = true;
   parallel_pieces(n, threads_for(n), [&](std::size_t first, std::size_t last, int) {
-    for (std::size_t i = first; i < last; ++i) unit_[i] = unit_vector(p_[i]);
+    bool are = true;
+    for (std::size_t i = first; i < last; ++i) are &= store(static_cast<index_t>(i));
+    if (!are) are_units = false;
+  });
+  if (are_units) return;
+  low_ = BlockArray<Point>(unit_.size());
+  parallel_pieces(n, threads_for(n), [&](std::size_t first, std::size_t last, int) {
+    for (std::size_t i = first; i < last; ++i)
+      if (std::isnan(unit_[i].shrink)) store_other(static_cast<index_t>(i));
   });
 }
 
 void Directions::extend(const Point* points, std::size_t n) {
+  const auto grow = [&](auto& array) {
+    std::decay_t<decltype(array)> larger(n + n / 2);
+    std::copy(array.begin(), array.begin() + n_, larger.begin());
+    array = std::move(larger);
+  };
   if (n > unit_.size()) {
-    BlockArray<UnitVector> larger(n + n / 2);
-    std::copy(unit_.begin(), unit_.begin() + n_, larger.begin());
-    unit_ = std::move(larger);
+    if (low_.size() > 0) grow(low_);
+    grow(unit_);
   }
   p_ = points;
-  for (std::size_t i = n_; i < n; ++i) unit_[i] = unit_vector(p_[i]);
+  for (std::size_t k = n_; k < n; ++k) {
+    const auto i = static_cast<index_t>(k);
+    if (store(i)) continue;
+    if (low_.size() == 0) low_ = BlockArray<Point>(unit_.size());
+    store_other(i);
+  }
   n_ = n;
 }
 
 UnitVector unit_vector(const Point& p) {
-  if (std::fabs(dot(p, p) - 1) <= 0x1p-51) {
-    // A unit vector up to rounding needs no root. |p|^2 = 1 + x with |x| < 2^-50, and 1/sqrt(1+x) = 1 - x/2 +
-    // 3/8 x^2 - ..., the next term below 2^-150. Errors in units of u^2: 4, half of those of four sums of at
-    // most five terms below u/2 each; by the rounding of x, of both factors of `shrink`, of `shrink` and of
-    // its product with a component, each half an ulp of a number below 2^-50 or half of that: 4 + 4 + 8 + 8.
-    const DoubleDouble xx = two_product(p.x, p.x), yy = two_product(p.y, p.y), zz = two_product(p.z, p.z);
-    const DoubleDouble xy = two_sum(xx.high, yy.high), all = two_sum(xy.high, zz.high);
-    const double x = (all.high - 1) + ((all.low + xy.low) + (xx.low + yy.low + zz.low)),
-                 shrink = x * (0.5 - 0.375 * x);
-    const DoubleDouble a = two_sum_of_ordered(p.x, -shrink * p.x), b = two_sum_of_ordered(p.y, -shrink * p.y),
-                       c = two_sum_of_ordered(p.z, -shrink * p.z);
-    return {{a.high, b.high, c.high}, {a.low, b.low, c.low}};
-  }
+  if (double shrink; find_shrink(p, shrink))
+    return rounded({p, {-shrink * p.x, -shrink * p.y, -shrink * p.z}});
   // A vector whose squares could overflow or underflow is scaled by a power of two, its largest component
   // to [1/2,1). That is exact except for bits below 2^-1074 of the largest component. What underflows later
   // is as small; in a vector that is not scaled it is below 2^-400 of the length. Then `two_product` and
@@ -530,11 +576,11 @@ int Directions::filter_seen_from_first(const Four& f) const {
 int Directions::height_seen_from_first(const Four& f) const {
   ++stages.double_double;
   const Axes axes(position(f[0]));
-  const FineApex apex = fine_apex(axes, unit_[f[0]].high, unit_[f[0]].low, p_[f[0]]);
+  const FineApex apex = fine_apex(axes, unit(f[0]), p_[f[0]]);
   FineSeen seen[3];
   for (std::size_t k = 0; k < 3; ++k) {
     const index_t i = f[k + 1];
-    see(apex, axes(unit_[i].high), axes(unit_[i].low), FinePoint(p_[i], axes), seen[k]);
+    see(apex, unit(i), axes, p_[i], seen[k]);
   }
   if (const int s = fine_height(seen[0], seen[1], seen[2])) return axes.negative ? -s : s;
   if (on_great_circle(p_[f[0]], p_[f[1]], p_[f[2]], p_[f[3]])) return 0;
@@ -576,13 +622,10 @@ struct Directions::View::Memory {
                 [&](Seen& s) { s = seen_from(apex, axes(nodes.position(i)), axes(nodes.difference(i, v))); });
   }
   const FineSeen& see_finely(index_t i) {
-    if (!is_fine)
-      fine_apex = pstripack::fine_apex(axes, nodes.unit_[v].high, nodes.unit_[v].low, nodes.given(v));
+    if (!is_fine) fine_apex = pstripack::fine_apex(axes, nodes.unit(v), nodes.given(v));
     is_fine = true;
-    return fine_seen(i, [&](FineSeen& s) {
-      pstripack::see(fine_apex, axes(nodes.unit_[i].high), axes(nodes.unit_[i].low),
-                     FinePoint(nodes.given(i), axes), s);
-    });
+    return fine_seen(i,
+                     [&](FineSeen& s) { pstripack::see(fine_apex, nodes.unit(i), axes, nodes.given(i), s); });
   }
 
   const Directions& nodes;

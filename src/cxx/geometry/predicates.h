@@ -128,6 +128,16 @@ struct UnitVector {
   Point high, low;
 };
 UnitVector unit_vector(const Point& p);
+/// The same for two doubles of each component whose sum is the direction.
+inline UnitVector rounded(const UnitVector& v) {
+  const auto sum = [](double& high, double& low) {
+    const double s = high + low;
+    low -= s - high, high = s;
+  };
+  UnitVector r = v;
+  sum(r.high.x, r.low.x), sum(r.high.y, r.low.y), sum(r.high.z, r.low.z);
+  return r;
+}
 /// a - b; every component has 2 roundings and an absolute error of 2^-99.
 inline Point difference(const UnitVector& a, const UnitVector& b) {
   return {(a.high.x - b.high.x) + (a.low.x - b.low.x), (a.high.y - b.high.y) + (a.low.y - b.low.y),
@@ -135,7 +145,8 @@ inline Point difference(const UnitVector& a, const UnitVector& b) {
 }
 
 /// Predicates on the directions p[i]/|p[i]| of any finite non-zero vectors.
-/// Keeps 48 bytes per node beside the points, which must outlive it.
+/// Keeps 32 bytes per node beside the points, which must outlive it, and another 24 if any node is no unit
+/// vector.
 class Directions {
  public:
   /// `capacity`: extend() takes memory anew only for more nodes. Throws std::bad_alloc.
@@ -145,17 +156,18 @@ class Directions {
   /// Sets the address and the number of the nodes. Nodes that were there before must be unchanged. Throws
   /// std::bad_alloc.
   void extend(const Point* points, std::size_t n);
-  const Point& given(index_t i) const { return p_[i]; }
+  const Point& given(index_t i) const { return std::isnan(unit_[i].shrink) ? p_[i] : unit_[i].high; }
+  /// p[i]/|p[i]|, where 4u = 2^-51 is the largest error of its length, u of its direction.
   const Point& position(index_t i) const { return unit_[i].high; }
-  const UnitVector& unit(index_t i) const { return unit_[i]; }
-  /// Both of node i, for loops whose next nodes may lie anywhere in memory.
-  void prefetch(index_t i) const {
-    __builtin_prefetch(p_ + i);
-    __builtin_prefetch(&unit_[i].high);
-    __builtin_prefetch(&unit_[i].low.z);
-  }
+  /// That of unit_vector(p[i]).
+  UnitVector unit(index_t i) const { return rounded({unit_[i].high, low(i)}); }
+  /// For loops whose next nodes may lie anywhere in memory. Always inline: g++ otherwise considers functions
+  /// that only prefetch free of side effects and drops the calls.
+  [[gnu::always_inline]] void prefetch(index_t i) const { __builtin_prefetch(&unit_[i]); }
   /// p[i]/|p[i]| - p[j]/|p[j]|; every component has 2 roundings and an absolute error of 2^-99.
-  Point difference(index_t i, index_t j) const { return pstripack::difference(unit_[i], unit_[j]); }
+  Point difference(index_t i, index_t j) const {
+    return pstripack::difference({unit_[i].high, low(i)}, {unit_[j].high, low(j)});
+  }
   int left(index_t a, index_t b, index_t c) const;
   bool above(index_t a, index_t b, index_t c, index_t d) const;
   /// Without the tie rule: false for a zero.
@@ -175,9 +187,26 @@ class Directions {
   /// An even permutation of f that starts with the apex of smallest error bound. `first_will_do`: f[0] is
   /// about as good.
   Four best_first(const Four& f, bool& first_will_do) const;
+
+  /// Of a node that is a unit vector up to rounding, `high` is the vector itself, and the direction is high -
+  /// shrink high. Where `shrink` is NaN, it is high + low_[i].
+  struct Stored {
+    Point high;
+    double shrink;
+  };
+  Point low(index_t i) const {
+    const Stored& s = unit_[i];
+    if (__builtin_expect(std::isnan(s.shrink), false)) return low_[i];
+    return {-s.shrink * s.high.x, -s.shrink * s.high.y, -s.shrink * s.high.z};
+  }
+  /// Stores node i. False if it is no unit vector: then store_other() is needed, too.
+  bool store(index_t i);
+  void store_other(index_t i);
+
   const Point* p_;
   std::size_t n_;
-  BlockArray<UnitVector> unit_;
+  BlockArray<Stored> unit_;
+  BlockArray<Point> low_;  ///< empty if all are unit vectors
 };
 
 /// Cache of one value per node for a view of the predicates. It has 32 slots; nodes whose numbers are equal

@@ -39,8 +39,9 @@ struct Spoke {
 //   components of e, f       3u of themselves and 2^-99 (Directions; one u for Coordinates)
 //   n = e x f                |E(n)| <= sqrt(2) (2*3u + 2u) S + sqrt(3) 2^-99 (|e| + |f|) < 12 M
 //   n.d, n.a                 4u |n| each for the sums and the scale (|d| < 1 + 2^-19);
-//                            E(n).(d-a) < 2.1 * 12 M; positions of directions are rounded: 2u |n|
-// Together less than 40 M, and less than 40 M for w alone. The plane is multiplied by less than 1 / (50 M):
+//                            E(n).(d-a) < 2.1 * 12 M; positions of directions are rounded: 2u |n|, or longer
+//                            by 4u each: 8u |n|
+// Together less than 42 M, and less than 42 M for w alone. The plane is multiplied by less than 1 / (50 M):
 // then |n.d - w| > 1 is a certain sign, and so is |w| > 1 for det(a,b,c) = n.a.
 //
 // Where all is close together n.d drowns in the rounding of w. Then, and wherever it is at hand, the

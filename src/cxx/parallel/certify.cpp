@@ -1,9 +1,9 @@
 #include "parallel/certify.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
-#include "parallel/agree_on_stars.h"
 #include "parallel/questions.h"
 
 namespace pstripack {
@@ -21,73 +21,107 @@ CoincidentPairs all_coincident(const Patches<Int>& patches, Communicator& ranks)
   return gather_in_agreement(ranks, pairs);
 }
 
-/// Largest number of questions of a rank that are worth while. A question costs both ranks the time of
-/// inserting one or two nodes, and the patch that answers takes in its corners.
+/// Largest number of triangles of a rank that other patches lack. If these are most, one hull of all nodes
+/// takes less time: each costs both patches the time of inserting two or three nodes.
 template <class Int>
-std::size_t most_of_a_rank(const Patches<Int>& patches, const Division& division) {
-  constexpr std::size_t kMostInAPatch = std::size_t{1} << 28, kFew = 1000;
-  if (division.nodes > kMostInAPatch) return SIZE_MAX;
-  std::size_t own = 0;
-  for (const Patch<Int>& patch : patches.of_rank) own += patch.own();
-  return 4 * own + kFew;
+std::size_t most_lacking(const Patches<Int>& patches, const ParallelOptions& options, int ranks) {
+  constexpr std::size_t kFew = 1000;
+  if (ranks == 1) return options.most_questions;  // the caller knows what one hull costs
+  return std::min(options.most_questions, own_nodes(patches) / 4 * 3 + kFew);
+}
+
+/// The lists of all patches here: for each list a head {from, to, count}, then its triangles.
+template <class Int>
+Parcels packed_lists(const Patches<Int>& patches, const Division& division, std::size_t ranks) {
+  const auto for_each_list = [&](const auto& visit) {
+    for (const Patch<Int>& patch : patches.of_rank) {
+      const std::vector<std::size_t>& counts = patch.lists().counts();
+      for (std::size_t q = 0; q < counts.size(); ++q)
+        if (counts[q] > 0) visit(patch, static_cast<PatchNumber>(q), counts[q]);
+    }
+  };
+  ParcelWriter writer(ranks);
+  for_each_list([&](const Patch<Int>&, PatchNumber q, std::size_t count) {
+    writer.expect<Listed<Int>>(division.patches.rank_of(q), 1 + count);
+  });
+  writer.make_room();
+  std::vector<Listed<Int>*> next(static_cast<std::size_t>(division.patches.count()));
+  for (const Patch<Int>& patch : patches.of_rank) {
+    const std::vector<std::size_t>& counts = patch.lists().counts();
+    for (std::size_t q = 0; q < counts.size(); ++q) {
+      if (counts[q] == 0) continue;
+      next[q] =
+          writer.room<Listed<Int>>(division.patches.rank_of(static_cast<PatchNumber>(q)), 1 + counts[q]);
+      *next[q]++ = {patch.id(), static_cast<Int>(q), static_cast<Int>(counts[q])};
+    }
+    patch.lists().for_each(
+        [&](PatchNumber q, const Listed<Int>& triangle) { *next[static_cast<std::size_t>(q)]++ = triangle; });
+  }
+  return writer.finish();
+}
+
+/// The lists that have come for each patch here.
+template <class Int>
+std::vector<std::vector<ListOfOther<Int>>> sorted_lists(const Parcels& lists, const Patches<Int>& patches) {
+  std::vector<std::vector<ListOfOther<Int>>> of_patch(patches.of_rank.size());
+  const Items<Listed<Int>> items(lists);
+  for (const Listed<Int>* head = items.begin(); head < items.end();) {
+    const auto count = static_cast<std::size_t>((*head)[2]);
+    of_patch[static_cast<PatchHere>((*head)[1] - patches.of_rank[0].id())].push_back(
+        {static_cast<PatchNumber>((*head)[0]), head + 1, count});
+    head += 1 + count;
+  }
+  return of_patch;
 }
 
 }  // namespace
 
 template <class Int>
-Certified<Int> certify(Patches<Int> found, const Division& division, const Corners& corners,
-                       Communicator& ranks, const ParallelOptions& options) {
+Certified<Int> certify(Patches<Int> found, const Division& division, Communicator& ranks,
+                       const ParallelOptions& options) {
+  constexpr int kMostRounds = 50;
   Certified<Int> certified(std::move(found));
   Patches<Int>& patches = certified.patches;
-  const std::size_t most = ranks.size() == 1
-                               ? options.most_questions
-                               : std::min(options.most_questions, most_of_a_rank(patches, division));
-  if (division.by_agreement && ranks.size() > 1) {
-    agree_on_stars(certified, division, corners, ranks, options.threads);
-    return certified;
-  }
+  const int threads = options.threads;
   certified.coincident = all_coincident(patches, ranks);
   if (!certified.coincident.empty()) return certified;
 
+  const auto size = static_cast<std::size_t>(ranks.size());
+  const std::size_t most = most_lacking(patches, options, ranks.size());
   Questions questions;
-  OnAny too_many;  // one hull of all nodes, or agreement, would take less time
-  const auto ask = [&] {
-    std::vector<Doubts> of_patch(patches.of_rank.size());
-    patches.for_each(options.threads, [&](Patch<Int>& patch, PatchHere k) {
-      of_patch[k] = patch.ask(corners, division.most_stretch, most);
+  Parcels answers;
+  for (;;) {
+    const Parcels lists = exchange_in_agreement(ranks, [&] {
+      if (certified.rounds > 0) learn(patches, questions, answers, threads);
+      patches.for_each(threads, [](Patch<Int>& patch, PatchHere) { patch.update_lists(); });
+      return packed_lists(patches, division, size);
     });
-    questions = Questions(of_patch, division.patches, static_cast<std::size_t>(ranks.size()));
-    too_many.value = questions.count > most;
-  };
-  in_agreement(ranks, ask, questions.about_triangles, questions.about_arcs, questions.have_grown, too_many);
-  // All stars are final when there is no question about triangles and, if there are questions about arcs, no
-  // patch has grown in the last round.
-  while (!too_many.value && certified.coincident.empty() &&
-         (questions.about_triangles.value || (questions.about_arcs.value && questions.have_grown.value))) {
-    ++certified.rounds;
-    const Parcels answers = answers_to(questions, patches, ranks, options.threads);
+    OnAny too_many;
     in_agreement(
         ranks,
         [&] {
-          learn(patches, questions, answers, options.threads);
-          questions = {};
-          // A patch that has found coincident nodes asks no more questions.
-          if (!patches.see_coincidence.value) ask();
+          const auto of_others = sorted_lists(lists, patches);
+          std::vector<std::vector<Question>> of_patch(patches.of_rank.size());
+          patches.for_each(
+              threads, [&](Patch<Int>& patch, PatchHere k) { of_patch[k] = patch.lacking(of_others[k]); });
+          questions = Questions(of_patch, division.patches);
+          too_many.value = questions.count > most;
         },
-        patches.see_coincidence, questions.about_triangles, questions.about_arcs, questions.have_grown,
-        too_many);
-    certified.coincident = all_coincident(patches, ranks);
+        patches.see_coincidence, questions.exist, too_many);
+    // Patches may know different pairs of nodes that coincide; the pair that is reported must not depend on
+    // them.
+    if (patches.see_coincidence.value) certified.gave_up = true;
+    // Every list has matched, and no hull has grown since: the hulls agree.
+    if (certified.gave_up || !questions.exist.value) return certified;
+    certified.gave_up = too_many.value || ++certified.rounds > kMostRounds;
+    if (certified.gave_up) return certified;
+    answers = answers_to(questions, patches, ranks, threads);
   }
-  if (too_many.value && ranks.size() > 1)
-    agree_on_stars(certified, division, corners, ranks, options.threads);
-  else
-    certified.gave_up = too_many.value;
-  return certified;
 }
 
-template Certified<std::int32_t> certify(Patches<std::int32_t>, const Division&, const Corners&,
-                                         Communicator&, const ParallelOptions&);
-template Certified<std::int64_t> certify(Patches<std::int64_t>, const Division&, const Corners&,
-                                         Communicator&, const ParallelOptions&);
+template Certified<std::int32_t> certify(Patches<std::int32_t>, const Division&, Communicator&,
+                                         const ParallelOptions&);
+template Certified<std::int64_t> certify(Patches<std::int64_t>, const Division&, Communicator&,
+                                         const ParallelOptions&);
 
 }  // namespace pstripack

@@ -1,5 +1,6 @@
 #pragma once
-// The fourth phase: every patch asks the others about what it cannot know, until nothing is left to ask.
+// The fourth phase: patches compare lists of the triangles that two of them answer for, until all match.
+// Docs/parallel.md.
 
 #include <cstddef>
 #include <utility>
@@ -17,17 +18,15 @@ template <class Int>
 struct Certified {
   explicit Certified(Patches<Int> p) : patches(std::move(p)) {}
   Patches<Int> patches;
-  CoincidentPairs coincident;      ///< found by any patch; the same on every rank
-  bool gave_up = false;            ///< more questions than are worth while; on every rank the same
-  bool has_hubs = false;           ///< nodes whose stars lie on several ranks; on every rank the same
-  std::vector<GlobalNumber> hubs;  ///< those with many neighbours, in order; on every rank the same
-  int rounds = 0;                  ///< exchanges of questions that were needed
+  CoincidentPairs coincident;  ///< found by any patch; the same on every rank
+  bool gave_up = false;        ///< it would take longer than one hull; on every rank the same
+  int rounds = 0;              ///< in which lists did not match
   bool is_done() const { return coincident.empty() && !gave_up; }
 };
 
 /// Collective. Throws AgreedFailure or HiddenNode.
 template <class Int>
-Certified<Int> certify(Patches<Int> patches, const Division& division, const Corners& corners,
-                       Communicator& ranks, const ParallelOptions& options);
+Certified<Int> certify(Patches<Int> patches, const Division& division, Communicator& ranks,
+                       const ParallelOptions& options);
 
 }  // namespace pstripack

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <memory>
 #include <vector>
 
@@ -26,12 +25,15 @@ struct ParallelOptions {
   int threads = 1;  ///< of this rank
   /// Fill Stars::outside, and give the stars memory of their own, so that the hulls can be freed.
   bool with_neighbours = false;
-  /// Of a single rank: give up if the patches have more questions than this, since one patch would be faster.
-  /// Of several: if a rank has more, they agree on stars instead.
+  /// Give up if a rank has more triangles that other patches lack.
   std::size_t most_questions = SIZE_MAX;
+  /// For tests: patches of any shape, the same on every rank. Null: the nodes are divided by `partition`.
+  std::shared_ptr<const Partition> given;
+  /// For tests: about the number of nodes that all patches know.
+  std::size_t closing_nodes = 256;
   /// The homes of an earlier call on these ranks; set on all of them or on none. Its patches are kept if
   /// nearly all nodes lie in patches of the ranks that bring them and no rank has too many, so nodes that
-  /// were sent home stay at home. Bisected patches that were badly cut are cut once more: see Draft.
+  /// were sent home stay at home.
   const Homes* last = nullptr;
   /// The nodes are about those of the call of `last`, wherever they come from: they need not be at home. Its
   /// patches are kept if no rank had too many in that call.
@@ -41,14 +43,6 @@ struct ParallelOptions {
 /// Three nodes that are not on one great circle, the same on every rank.
 using Corners = std::array<Record, 3>;
 
-/// How a mesh that is made again and again has come to its patches.
-enum class Draft {
-  first,   ///< equal numbers of nodes
-  kept,    ///< the first, after a look at what had to be done: good, or not to be improved
-  second,  ///< by what had to be done in the first, when nearly all nodes were at home there
-  last,    ///< equal numbers, for good: nodes have not followed the second
-};
-
 /// The sphere cut into patches. The same on every rank.
 struct Division {
   explicit Division(const Places& p) : places(p) {}
@@ -56,12 +50,7 @@ struct Division {
   std::size_t nodes = 0;  ///< of all ranks
   PatchRanges patches;
   std::shared_ptr<const Partition> partition;
-  Draft draft = Draft::first;
-  std::vector<Record> closing;                                    ///< nodes from everywhere
-  double most_stretch = std::numeric_limits<double>::infinity();  ///< of the closing nodes, if computed
-  /// Patches agree on stars: they would have too many questions.
-  bool by_agreement = false;
-  std::vector<GlobalNumber> hubs;  ///< of the last call, among `closing`: see agree_on_stars()
+  std::vector<Record> closing;  ///< nodes from everywhere
   /// There is one process only. Its caller can build one hull instead of asking many questions.
   bool may_give_up = false;
   bool gave_up = false;  ///< then there is nothing else

@@ -1,7 +1,5 @@
 #include "parallel/homes.h"
 
-#include <utility>
-
 namespace pstripack {
 namespace {
 
@@ -21,17 +19,12 @@ bool are_most(const Homes::SomePatches& patches, const IsRight& is_right) {
 
 }  // namespace
 
-Homes::Homes(const Division& division, const ParallelOptions& options, std::vector<PatchLoad> loads,
-             std::vector<GlobalNumber> hubs)
+Homes::Homes(const Division& division, const ParallelOptions& options, std::size_t own)
     : partition_(division.partition),
-      by_agreement_(division.by_agreement),
       kind_(options.partition),
       patches_(division.patches),
       places_(division.places),
-      draft_(division.draft),
-      loads_(std::move(loads)),
-      hubs_(std::move(hubs)) {
-  for (const PatchLoad& load : loads_) own_ += static_cast<std::size_t>(load.own);
+      own_(own) {
   const bool are_kept = options.last != nullptr && options.last->partition_ == partition_;
   share_ = are_kept ? options.last->share_ : own_;
 }

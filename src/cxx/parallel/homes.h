@@ -4,22 +4,18 @@
 #include <array>
 #include <cstddef>
 #include <memory>
-#include <vector>
 
 #include "parallel/divide.h"
-#include "parallel/loads.h"
 
 namespace pstripack {
 
 /// Which rank is the home of a place: the rank of its patch.
 class Homes {
  public:
-  /// loads: of the patches of this rank. hubs: on every rank the same.
-  Homes(const Division& division, const ParallelOptions& options, std::vector<PatchLoad> loads,
-        std::vector<GlobalNumber> hubs);
+  /// own: nodes in the patches of this rank.
+  Homes(const Division& division, const ParallelOptions& options, std::size_t own);
 
   const std::shared_ptr<const Partition>& partition() const { return partition_; }
-  bool by_agreement() const { return by_agreement_; }
   /// True if a call of this kind, with these numbers of patches and these lengths, can use these patches.
   /// Nodes with Lengths::as_given always can: lengths are about 1, so places are nearly directions.
   bool are_for(PartitionKind kind, const PatchRanges& patches, Lengths lengths) const {
@@ -27,10 +23,6 @@ class Homes {
            (lengths == Lengths::as_given || lengths == places_.lengths());
   }
   Lengths lengths() const { return places_.lengths(); }
-  Draft draft() const { return draft_; }
-  /// Of the patches of this rank.
-  const std::vector<PatchLoad>& loads() const { return loads_; }
-  const std::vector<GlobalNumber>& hubs() const { return hubs_; }
   /// True if nearly all of these nodes are at home on this rank, as a look at some of them tells, and they
   /// are at most an eighth more than when these patches were cut.
   bool are_home_to(const LocalNodes& nodes, int rank) const;
@@ -46,14 +38,10 @@ class Homes {
 
  private:
   std::shared_ptr<const Partition> partition_;
-  bool by_agreement_;
   PartitionKind kind_;
   PatchRanges patches_;
   Places places_;
-  Draft draft_;
-  std::vector<PatchLoad> loads_;
-  std::vector<GlobalNumber> hubs_;
-  std::size_t own_ = 0;    ///< nodes in this rank's patches
+  std::size_t own_;        ///< nodes in this rank's patches
   std::size_t share_ = 0;  ///< nodes in this rank's patches when these were cut
 };
 

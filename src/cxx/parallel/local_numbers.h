@@ -38,7 +38,4 @@ constexpr std::uint32_t index_of(OutsideNode node) { return static_cast<std::uin
 /// A node of a sample or of a few nodes from everywhere; the same on every rank.
 using SampleNode = std::uint32_t;
 
-/// A cell of a Partition, of all patches: < Partition::cells().
-using CellNumber = std::uint32_t;
-
 }  // namespace pstripack

@@ -32,12 +32,9 @@ double longitude(const Point& p) {
 
 class Partition::Builder {
  public:
-  /// Sorts the sample into cells of at most `cell_sample` nodes.
-  Builder(Partition& partition, std::vector<Point>& sample, std::size_t nodes,
-          std::size_t cell_sample = kCellSample)
+  Builder(Partition& partition, std::vector<Point>& sample, std::size_t nodes)
       : partition_(partition),
         sample_(sample),
-        cell_sample_(cell_sample),
         halves_(sample.size()),
         nodes_a_sample_(sample.empty() ? 1
                                        : static_cast<double>(nodes) / static_cast<double>(sample.size())) {}
@@ -46,8 +43,6 @@ class Partition::Builder {
     bisect(cuts, cuts.all().empty() ? -1 : 0, sample_.data(), sample_.size(), 0, {}, kEverything);
   }
 
-  void cut_into_cells() { cells_of_patch(sample_.data(), sample_.size(), 0, kEverything, false); }
-
   /// Borders between stripes: stripe k is [border[k], border[k+1]), all in [0, 2 pi), cyclic.
   void stripe(std::vector<double> border) {
     const int patches = static_cast<int>(border.size());
@@ -55,10 +50,6 @@ class Partition::Builder {
     for (int k = 0; k < patches; ++k) stripes.push_back({border[k], k});
     std::sort(stripes.begin(), stripes.end(),
               [](const Stripe& a, const Stripe& b) { return a.from < b.from; });
-    for (int k = 0; k < patches; ++k) {
-      const double next = k + 1 < patches ? stripes[k + 1].from : stripes[0].from + 2 * kPi;
-      partition_.regions_[stripes[k].patch].is_cone = next - stripes[k].from <= kPi && patches > 1;
-    }
     // The plane y = 0 divides the circle into [0, pi) and [pi, 2 pi); in each half every border is a plane
     // through the axis.
     const Plane half{0, 1, 0, 0};
@@ -195,7 +186,6 @@ class Partition::Builder {
     partition_.cells_[leaf].margin = partition_.cells_[leaf].largest = margin;
     double& largest = partition_.largest_margin_[patch];
     largest = std::max(largest, margin);
-    partition_.smallest_margin_ = std::min(partition_.smallest_margin_, margin);
     return leaf;
   }
 
@@ -218,8 +208,8 @@ class Partition::Builder {
     std::size_t below = 0;
     for (std::size_t i = 0; i < n; ++i) below += component(p[i], axis) < middle;
     const std::size_t few = std::min(below, n - below);
-    const bool is_even = n > cell_sample_ ? 4 * few >= n : few > n / 8 && few > 1;
-    if (n <= cell_sample_ && (is_even || n < kUnevenCellSample)) return std::nullopt;
+    const bool is_even = n > kCellSample ? 4 * few >= n : few > n / 8 && few > 1;
+    if (n <= kCellSample && (is_even || n < kUnevenCellSample)) return std::nullopt;
     below = is_even ? n / 2 : std::clamp(below, n / 8 + 1, n - n / 8 - 1);
     const std::vector<double> height = halves_.heights(p, n, below - 1, below + 1, axis, extent);
     const double half_gap = 0.5 * (height[1] - height[0]);
@@ -248,7 +238,6 @@ class Partition::Builder {
 
   Partition& partition_;
   std::vector<Point>& sample_;
-  const std::size_t cell_sample_;
   Halver halves_;
   double nodes_a_sample_;
 };
@@ -260,46 +249,10 @@ Partition::Partition(const Cuts& cuts, std::vector<Point> sample, std::size_t no
   for (PatchNumber q = 0; q < patches(); ++q) find_beside(q);
 }
 
-Partition::Partition(std::vector<Point> sample) : Partition(1) {
-  Builder(*this, sample, sample.size(), 1).cut_into_cells();
-}
-
-void Partition::give_cells(int patches, const std::vector<PatchNumber>& patch_of_cell,
-                           const std::vector<std::uint32_t>& begin, const std::vector<CellNumber>& beside) {
-  regions_.resize(static_cast<std::size_t>(patches));
-  largest_margin_.assign(regions_.size(), 0);
-  smallest_margin_ = 0;
-  beside_of_.resize(cells_.size());
-  for (std::size_t k = cells_.size(); k-- > 0;) {  // children come after their parents
-    Cell& c = cells_[k];
-    c.margin = 0;
-    Range& range = beside_of_[k];
-    if (c.child[1] == 0) {
-      c.patch = patch_of_cell[k];
-      std::vector<PatchNumber> others;
-      for (std::uint32_t j = begin[k]; j < begin[k + 1]; ++j)
-        if (patch_of_cell[beside[j]] != c.patch) others.push_back(patch_of_cell[beside[j]]);
-      std::sort(others.begin(), others.end());
-      others.erase(std::unique(others.begin(), others.end()), others.end());
-      range.begin = static_cast<std::uint32_t>(beside_.size());
-      beside_.insert(beside_.end(), others.begin(), others.end());
-      range.end = static_cast<std::uint32_t>(beside_.size());
-      continue;
-    }
-    const auto below = static_cast<std::size_t>(c.child[0]), beyond = static_cast<std::size_t>(c.child[1]);
-    c.patch = cells_[below].patch == cells_[beyond].patch ? cells_[below].patch : -1;
-    const bool are_cells = cells_[below].child[1] == 0 && cells_[beyond].child[1] == 0;
-    const Range &a = beside_of_[below], &b = beside_of_[beyond];
-    const auto at = beside_.begin();
-    if (!are_cells || c.patch < 0 || !std::equal(at + a.begin, at + a.end, at + b.begin, at + b.end))
-      continue;
-    c.child[0] = c.child[1] = 0;  // nobody needs to tell them apart
-    range = a;
-  }
-}
-
 Partition::Partition(int patches)
     : regions_(static_cast<std::size_t>(patches)), largest_margin_(static_cast<std::size_t>(patches)) {}
+
+Partition::Partition(int patches, Rule rule) : Partition(patches) { rule_ = std::move(rule); }
 
 Partition::Partition(PartitionKind kind, int patches, std::vector<Point> sample, std::size_t nodes)
     : Partition(patches) {
@@ -335,31 +288,10 @@ Partition::Partition(PartitionKind kind, int patches, std::vector<Point> sample,
   copy_top(0, 0);
 }
 
-void Partition::cells_of(const Point* x, std::size_t n, CellNumber* cell) const {
-  for (std::size_t first = 0; first < n; first += kTogether) {
-    const std::size_t together = std::min(n - first, kTogether);
-    std::int32_t k[kTogether] = {};
-    for (bool is_below = true; is_below;) {
-      is_below = false;
-      for (std::size_t j = 0; j < together; ++j) {
-        const Cell& c = cells_[k[j]];
-        const std::int32_t next = c.child[is_beyond(c, x[first + j])];
-        is_below |= next != 0;
-        k[j] = next != 0 ? next : k[j];
-      }
-    }
-    for (std::size_t j = 0; j < together; ++j) cell[first + j] = static_cast<CellNumber>(k[j]);
-  }
-}
-
 void Partition::owners(const Point* x, std::size_t n, PatchOfNode* owner, double* nearest_plane) const {
-  if (!has_convex_patches()) {
-    cells_of(x, n, owner);
-    for (std::size_t i = 0; i < n; ++i) {
-      const CellNumber cell = owner[i];
-      owner[i] = static_cast<PatchOfNode>(cells_[cell].patch);
-      nearest_plane[i] = beside_of_[cell].begin < beside_of_[cell].end ? 0 : kEverything;
-    }
+  if (rule_.owner) {
+    for (std::size_t i = 0; i < n; ++i) owner[i] = static_cast<PatchOfNode>(rule_.owner(x[i]));
+    std::fill_n(nearest_plane, n, 0);
     return;
   }
   // Level by level: one descent would wait for every comparison. On the way down owner[i] is the node
@@ -428,19 +360,6 @@ double Partition::distance(PatchNumber patch, const Point& x) const {
   return nearest;
 }
 
-bool Partition::holds(PatchNumber patch, const Point& a, const Point& b, const Point& c,
-                      double stretch) const {
-  const Region& region = regions_[patch];
-  if (region.is_cone) return true;
-  if (region.pieces.size() != 1 || !std::isfinite(stretch)) return false;
-  // A convex patch holds the flat triangle. Stretched, it can leave through planes beyond the centre only.
-  for (const Plane& p : region.pieces[0].planes) {
-    const double lowest = std::min({product(p, a), product(p, b), product(p, c)});
-    if (p.d < 0 && stretch * std::min(lowest, 0.0) < p.d - smallest_margin_) return false;
-  }
-  return true;
-}
-
 void Partition::margins(const Point* x, const PatchOfNode* owner, const double* nearest_plane,
                         const std::size_t* which, std::size_t n, double* margin) const {
   std::int32_t k[kTogether];
@@ -463,17 +382,6 @@ void Partition::margins(const Point* x, const PatchOfNode* owner, const double* 
     count = left;
   }
   for (std::size_t j = 0; j < n; ++j) margin[j] = cells_[k[j]].largest;
-}
-
-bool Partition::holds_all(PatchNumber patch, double stretch) const {
-  const Region& region = regions_[patch];
-  if (region.is_cone) return true;
-  if (region.pieces.size() != 1 || !std::isfinite(stretch)) return false;
-  // No corner is below p.d, up to rounding.
-  constexpr double kRounding = 1e-12;
-  for (const Plane& p : region.pieces[0].planes)
-    if (p.d < 0 && stretch * (p.d - kRounding) < p.d - smallest_margin_) return false;
-  return true;
 }
 
 void Partition::find_beside(PatchNumber patch) {
@@ -507,29 +415,6 @@ void Partition::near(const Point& x, double radius, std::vector<PatchNumber>& pa
     const double s = product(c.split, x) - c.split.d, reach = radius + rounding_at(c.split);
     if (s >= -reach) stack[top++] = c.child[1];
     if (s <= reach) stack[top++] = c.child[0];
-  }
-}
-
-void Partition::strangers(PatchNumber q, const Ball& ball, std::vector<PatchNumber>& patches) const {
-  patches.clear();
-  const double reach = distance(q, ball.centre) + ball.radius;  // how far the ball goes beyond the border
-  if (reach <= smallest_margin_) return;
-  std::int32_t stack[kStack];
-  int top = 0;
-  stack[top++] = 0;
-  while (top > 0) {
-    const Cell& c = cells_[stack[--top]];
-    if (c.patch == q || reach <= c.margin) continue;
-    if (c.patch >= 0 && std::find(patches.begin(), patches.end(), c.patch) != patches.end()) continue;
-    if (c.child[1] == 0) {
-      if (has_convex_patches() || !knows_cell(q, static_cast<std::size_t>(&c - cells_.data())))
-        patches.push_back(c.patch);
-      continue;
-    }
-    const double s = product(c.split, ball.centre) - c.split.d;
-    const double radius = ball.radius + rounding_at(c.split);
-    if (s >= -radius) stack[top++] = c.child[1];
-    if (s <= radius) stack[top++] = c.child[0];
   }
 }
 

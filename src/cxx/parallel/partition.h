@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "geometry/point.h"
@@ -40,11 +41,6 @@ inline constexpr NamedPartition kPartitions[] = {{PartitionKind::bisection, "bis
                                                  {PartitionKind::stripes_of_width, "stripes_of_width"}};
 inline const char* name_of(PartitionKind kind) { return kPartitions[static_cast<int>(kind)].name; }
 
-struct Ball {
-  Point centre;
-  double radius;  ///< length of the straight line, not of the arc
-};
-
 class Partition {
  public:
   /// Patches 0..patches-1 for `nodes` nodes of which `sample` is a sample: vectors of about length 1.
@@ -52,25 +48,20 @@ class Partition {
   /// Bisection by these cuts.
   Partition(const Cuts& cuts, std::vector<Point> sample, std::size_t nodes);
 
-  /// Cells of about one node of the sample each, not given to patches yet: see cells() and cells_of().
-  explicit Partition(std::vector<Point> sample);
-  std::size_t cells() const { return cells_.size(); }
-  /// The cells that n places lie in, each < cells().
-  void cells_of(const Point* x, std::size_t n, CellNumber* cell) const;
-  /// Gives each cell to a patch. The nodes of cells next to its own, beside[begin[c] .. begin[c + 1] - 1] of
-  /// cell c, are the halo of a patch.
-  void give_cells(int patches, const std::vector<PatchNumber>& patch_of_cell,
-                  const std::vector<std::uint32_t>& begin, const std::vector<CellNumber>& beside);
-
+  /// Patches of any shape with any halos, for tests.
+  struct Rule {
+    std::function<PatchNumber(const Point&)> owner;
+    std::function<bool(PatchNumber, const Point&)> is_in_halo;  ///< of any patch but the owner
+  };
+  Partition(int patches, Rule rule);
   int patches() const { return static_cast<int>(regions_.size()); }
-  /// False after give_cells(): a patch then has any cells, perhaps far from each other.
-  bool has_convex_patches() const { return beside_of_.empty(); }
 
   /// The patches that n places belong to. nearest_plane[i] is the distance of x[i] from the nearest plane
   /// that it was compared with, less rounding: a lower bound of its distance from any other patch.
   void owners(const Point* x, std::size_t n, PatchOfNode* owner, double* nearest_plane) const;
   /// The patch that x belongs to.
   PatchNumber owner(const Point& x) const {
+    if (rule_.owner) return rule_.owner(x);
     std::int32_t k = 0;
     while (cells_[k].patch < 0) k = cells_[k].child[is_beyond(cells_[k], x)];
     return cells_[k].patch;
@@ -89,17 +80,18 @@ class Partition {
   template <class Visit>
   void for_each_halo(const Point* x, std::size_t n, const PatchOfNode* owner, const double* nearest_plane,
                      const Visit& visit) const {
+    if (rule_.owner) {
+      for (std::size_t i = 0; i < n; ++i)
+        for (PatchNumber q = 0; q < patches(); ++q)
+          if (q != static_cast<PatchNumber>(owner[i]) && rule_.is_in_halo(q, x[i])) visit(i, q);
+      return;
+    }
     double margin[kTogether];  // exact where it is at least nearest_plane
     std::vector<PatchNumber> patches;
     const auto examine = [&](const std::size_t* candidate, std::size_t candidates) {
-      if (has_convex_patches()) margins(x, owner, nearest_plane, candidate, candidates, margin);
+      margins(x, owner, nearest_plane, candidate, candidates, margin);
       for (std::size_t j = 0; j < candidates; ++j) {
         const std::size_t i = candidate[j];
-        if (!has_convex_patches()) {
-          const Range beside = beside_of_[leaf(x[i])];
-          for (std::uint32_t k = beside.begin; k < beside.end; ++k) visit(i, beside_[k]);
-          continue;
-        }
         if (nearest_plane[i] > margin[j]) continue;
         const Region& region = regions_[owner[i]];
         if (!region.is_box) {
@@ -123,22 +115,9 @@ class Partition {
 
   /// True if x is patch q's own or in its halo.
   bool knows(PatchNumber q, const Point& x) const {
-    if (!has_convex_patches()) return knows_cell(q, leaf(x));
+    if (rule_.owner) return owner(x) == q || rule_.is_in_halo(q, x);
     return owner(x) == q || is_within(margin_at(x), q, x);
   }
-
-  /// The patches that may have nodes in the ball which q does not know; empty if q knows all nodes there.
-  /// Each component of the centre may have an error of 2^-49 of itself or of the radius.
-  void strangers(PatchNumber q, const Ball& ball, std::vector<PatchNumber>& patches) const;
-
-  /// The smallest margin of all cells.
-  double smallest_margin() const { return smallest_margin_; }
-
-  /// True if the patch knows every node in the direction of the triangle a,b,c of its own nodes that lies at
-  /// most `stretch` times as far from the centre as the triangle does in that direction.
-  bool holds(PatchNumber patch, const Point& a, const Point& b, const Point& c, double stretch) const;
-  /// True if holds() is true for all triangles of the patch's own nodes.
-  bool holds_all(PatchNumber patch, double stretch) const;
 
  private:
   struct Plane {
@@ -154,7 +133,6 @@ class Partition {
     double low[3] = {-8, -8, -8}, high[3] = {8, 8, 8};
     double rounded_low[3] = {-8, -8, -8}, rounded_high[3] = {8, 8, 8};  // the same, wider by rounding
     std::vector<PatchNumber> beside;  // of a box: patches that may have nodes of this one in their halo
-    bool is_cone = false;             // convex, and a set of directions
   };
   /// A node of the tree.
   struct Cell {
@@ -194,12 +172,6 @@ class Partition {
     return static_cast<std::size_t>(k);
   }
   double margin_at(const Point& x) const { return cells_[leaf(x)].margin; }
-  /// True if the cell is q's or in its halo. After give_cells() only.
-  bool knows_cell(PatchNumber q, std::size_t cell) const {
-    const auto first = beside_.begin() + beside_of_[cell].begin,
-               last = beside_.begin() + beside_of_[cell].end;
-    return cells_[cell].patch == q || std::find(first, last, q) != last;
-  }
   /// The margins of the cells of x[which[0..n-1]], n <= kTogether; any value less than nearest_plane if the
   /// margin is less.
   void margins(const Point* x, const PatchOfNode* owner, const double* nearest_plane,
@@ -224,13 +196,7 @@ class Partition {
   std::vector<Cell> cells_;
   std::vector<Region> regions_;
   std::vector<double> largest_margin_;  // of the cells of each patch
-  double smallest_margin_ = 4;
-  /// For each cell, after give_cells(): where beside_ has the other patches that have the cell in their halo.
-  struct Range {
-    std::uint32_t begin = 0, end = 0;
-  };
-  std::vector<Range> beside_of_;
-  std::vector<PatchNumber> beside_;
+  Rule rule_;
 };
 
 }  // namespace pstripack

@@ -4,19 +4,9 @@
 #include <cstdint>
 
 #include "geometry/insertion_order.h"
-#include "geometry/predicates.h"
 #include "parallel/number_table.h"
 
 namespace pstripack {
-namespace {
-
-/// Nanoseconds that so many decisions take, about: patches are compared by it, so only ratios matter.
-std::uint64_t time_of(const PredicateCounts& c) {
-  return 30 * c.above + 25 * c.left + 180 * c.double_double + 100 * c.integers + 2000 * c.big_integers;
-}
-
-}  // namespace
-
 template <class Int>
 void Patch<Int>::set_up(const std::vector<Record>& closing, Workspace& workspace) {
   if (nodes_.own == 0) return;
@@ -29,17 +19,14 @@ void Patch<Int>::set_up(const std::vector<Record>& closing, Workspace& workspace
 template <class Int>
 void Patch<Int>::triangulate() {
   if (nodes_.own == 0) return;
-  const std::uint64_t before = time_of(predicate_counts());
   hull_.build();
-  constexpr std::uint64_t kOfNode = 130;
-  work_ = static_cast<std::int64_t>(kOfNode * nodes_.count() + time_of(predicate_counts()) - before);
 }
 
 template <class Int>
 void Patch<Int>::take_in(std::vector<Record> nodes) {
   if (nodes_.own == 0) return;
-  // Each node once: no cell of the curve could tell equal ones apart. Patches that agree on stars ask about
-  // the same triangles again and again: most nodes are in.
+  // Each node once: no cell of the curve could tell equal ones apart. Triangles share corners, so many are
+  // in.
   NumberTable<bool> met(nodes.size());
   nodes.erase(std::remove_if(nodes.begin(), nodes.end(),
                              [&](const Record& r) {

@@ -1,20 +1,18 @@
 #pragma once
-// One patch: the triangulation of its own nodes and of those around, and which of its triangles are final.
-// In order: triangulate what it knows, ask about what it cannot know, learn, read off the rings.
+// One patch: the triangulation of its own nodes and of those around. In order: triangulate what it knows,
+// compare lists with other patches, learn, read off the rings.
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <unordered_set>
 #include <utility>
 #include <vector>
 
 #include "base/workspace.h"
 #include "parallel/local_numbers.h"
 #include "parallel/partition.h"
-#include "parallel/patch_agreement.h"
 #include "parallel/patch_hull.h"
+#include "parallel/patch_lists.h"
 #include "parallel/patch_questions.h"
 #include "parallel/places.h"
 #include "parallel/record.h"
@@ -41,71 +39,26 @@ class Patch {
   /// Triangulates them. Throws HiddenNode, std::bad_alloc.
   void triangulate();
 
-  /// What is not certain yet of the stars of its own nodes, as questions to the patches that may know better.
-  /// Every star is the star in the triangulation of all nodes when no patch has a question about triangles
-  /// and, if any has one about arcs, none has grown. `corners`: three nodes that every patch knows, not on
-  /// one great circle. `stretch`: most_stretch of nodes that it has taken in, or infinity. With more than
-  /// `most` questions it stops: nobody will answer them. Throws HiddenNode, std::bad_alloc.
-  Doubts ask(const std::array<Record, 3>& corners, double stretch, std::size_t most) {
-    if (nodes_.own == 0 || partition_->patches() == 1) return {};
-    Doubts doubts = pstripack::ask(view(), corners, stretch, most, asked_);
-    questions_ += static_cast<std::int64_t>(doubts.questions.size() - doubts.arcs);
-    return doubts;
-  }
-
   /// Adds nodes of other patches to the triangulation, unless it has them. Many are added along a curve, so
   /// that the search for each begins near it. Throws HiddenNode, std::bad_alloc.
   void take_in(std::vector<Record> nodes);
 
-  /// The answer of this patch to another's question: nodes that lie above the triangle, or that show that the
-  /// arc is not on the boundary. Empty if it knows no such nodes. A patch that answers takes in the corners
-  /// of the question. Throws HiddenNode, std::bad_alloc.
+  /// The answer of this patch to another's question: some nodes that lie above the triangle, if it knows any.
+  /// A patch that answers takes in the corners of the question. Throws HiddenNode, std::bad_alloc.
   std::vector<Record> answer(const Question& question) {
     if (nodes_.own == 0 || !hull_.coincident().empty()) return {};
     return pstripack::answer(hull_, question);
   }
 
-  // Certification by agreement, where there would be too many questions: docs/parallel.md, "Agreement".
-
-  /// Finds what other patches must agree on: the triangles with own corners and theirs, each a claim on the
-  /// owners of these. Asks about all arcs as ask() does. Throws HiddenNode, std::bad_alloc.
-  Doubts claim(const std::array<Record, 3>& corners) {
-    if (nodes_.own == 0 || partition_->patches() == 1) return {};
-    return agreed_.claim(hull_, view(), corners, asked_);
+  /// Finds the triangles that other patches must have, too. Throws std::bad_alloc.
+  void update_lists() {
+    if (nodes_.own > 0 && partition_->patches() > 1) lists_.update(view(), around_);
   }
-  /// The number of its claims on that patch.
-  std::size_t claims_on(PatchNumber other) const { return agreed_.claims_on(other); }
-  /// The triangles of its claims on that patch. Throws std::bad_alloc.
-  std::vector<KeptTriangle> kept_with(PatchNumber other) const { return agreed_.kept_with(view(), other); }
-  /// Settles the claims on triangles that their owners keep, too, and no others. Throws std::bad_alloc.
-  void settle(const std::vector<KeptByOther>& of_others) { agreed_.settle(view(), of_others); }
-  /// Puts questions about the claims that are not settled in place of those about triangles: at most `most`
-  /// to each patch, and few about nodes that may be hubs. Throws std::bad_alloc.
-  void ask_about_claims(std::size_t most, Doubts& doubts) {
-    if (nodes_.own > 0) agreed_.ask(hull_, view(), most, doubts);
-  }
-  /// Other patches have answered its question with nodes above the triangle.
-  void see_refuted(const Question& question) { agreed_.see_refuted(view(), question); }
-  /// After the answers: nodes whose owners should not have to take in all their neighbours.
-  std::vector<GlobalNumber> look_for_hubs() const { return agreed_.look_for_hubs(hull_); }
-  /// Sets all hubs, the same for all patches. Throws std::bad_alloc.
-  void set_hubs(const std::unordered_set<GlobalNumber>& numbers) { agreed_.set_hubs(numbers); }
-  /// The hubs at which it keeps triangles. Throws std::bad_alloc.
-  std::vector<KeptHub> kept_hubs() const { return agreed_.kept_hubs(hull_); }
-  /// Calls visit(hub, owner of hub, run): successive neighbours of the hub, counterclockwise; each but the
-  /// last is followed by the next in triangles that this patch keeps. All patches together have each
-  /// neighbour once as one that is not the last. Throws std::bad_alloc.
-  template <class Visit>
-  void for_each_run_at_hubs(const Visit& visit) const {
-    agreed_.for_each_run(view(), visit);
-  }
-  /// The PatchNode of an own hub.
-  std::size_t index_of_hub(GlobalNumber number) const { return hull_.index(hull_.find(number)); }
-  /// The neighbour with which the ring of an own hub begins if the hub is on the boundary; kNoNumber if it is
-  /// inside.
-  GlobalNumber first_boundary_neighbour(GlobalNumber number) const {
-    const HullNode first = hull_.beside_on_boundary(hull_.find(number)).b;
-    return first != PatchHull<Int>::kNobody ? hull_.number(first) : kNoNumber;
+  const PatchLists<Int>& lists() const { return lists_; }
+  /// See PatchLists. Throws std::bad_alloc.
+  std::vector<Question> lacking(const std::vector<ListOfOther<Int>>& lists) const {
+    if (nodes_.own == 0) return {};
+    return lists_.lacking(view(), lists);
   }
 
   /// After the last answer: the triangulation. Returns room enough for the entries of all rings of its own
@@ -133,15 +86,6 @@ class Patch {
   PatchNumber id() const { return id_; }
   std::size_t own() const { return nodes_.own; }
   std::size_t halo() const { return nodes_.halo; }
-  /// About how many nanoseconds triangulate() took, by the decisions of the predicates. The same in every
-  /// run, which no clock tells.
-  std::int64_t work() const { return work_; }
-  /// Number of questions about triangles in all calls of ask(), and of nodes taken in because of questions.
-  std::int64_t questions() const {
-    return nodes_.own == 0
-               ? 0
-               : questions_ + static_cast<std::int64_t>(hull_.growing().node_count() - hull_.built());
-  }
   /// The numbers of different nodes in the same direction, as far as it has found them.
   const CoincidentPairs& coincident() const { return hull_.coincident(); }
 
@@ -152,10 +96,9 @@ class Patch {
   const Partition* partition_;
   PatchNodes nodes_;
   PatchHull<Int> hull_;
-  Asked asked_;
-  PatchAgreement<Int> agreed_;
+  PatchLists<Int> lists_;
+  Around around_;
   Hull finished_;
-  std::int64_t work_ = 0, questions_ = 0;
 };
 
 template <class Int>
@@ -181,7 +124,6 @@ void Patch<Int>::for_each_missing_neighbour(RankNumber mine, const std::vector<s
     const RankOfNode r = brought_by(v);
     bool is_missing = false;
     const auto meet = [&](HullNode w) {
-      if (agreed_.is_in_doubt(hull_, v, w)) return;
       const RankOfNode other = brought_by(w);
       is_missing = is_missing || other == mine;
       if (r == kNoRank || other == r || told[w] == r) return;
@@ -199,7 +141,7 @@ void Patch<Int>::for_each_missing_neighbour(RankNumber mine, const std::vector<s
   };
   // Looks around at all nodes but the own ones that `mine` brought: at one of any two neighbours that concern
   // two ranks.
-  for (const HullNode v : asked_.around) look_around(v);
+  for (const HullNode v : around_.nodes) look_around(v);
   if (count == own) return;
   for (HullNode v = 0; v < hull_.built(); ++v)
     if (hull_.is_own(v) && hull_.index(v) - first >= count) look_around(v);

@@ -97,52 +97,6 @@ HullNode PatchHull<Int>::take_in(const Record& node) {
   return v;
 }
 
-template <class Int>
-BoundaryArc PatchHull<Int>::beside_on_boundary(HullNode v) const {
-  BoundaryArc beside{kNobody, kNobody};
-  if (growing_->surrounds_centre()) return beside;
-  const auto look_at = [&](HullFace t, std::uint32_t i) {  // true if an arc begins or ends there
-    const Face& f = arrays_.faces[t];
-    if (f.vertex[i] != v || growing_->front(t)) return false;
-    const std::uint32_t next = next_edge(i), previous = previous_edge(i);
-    const bool begins = growing_->front(face_of(f.neighbour[next])),
-               ends = growing_->front(face_of(f.neighbour[previous]));
-    if (begins) beside.b = f.vertex[previous];
-    if (ends) beside.a = f.vertex[next];
-    return begins || ends;
-  };
-  if (const auto known = at_boundary_.find(v); known != at_boundary_.end()) {
-    for (const HullCorner c : known->second) look_at(face_of(c), edge_of(c));
-    if (beside.a != kNobody && beside.b != kNobody) return beside;
-    beside = {kNobody, kNobody};
-  }
-  std::array<HullCorner, 2> corners{};
-  std::size_t faces = 0, found = 0;
-  for_each_face_at(v, [&](HullFace t, std::uint32_t i) {
-    ++faces;
-    if (look_at(t, i) && found < corners.size()) corners[found++] = 4 * t + i;
-  });
-  constexpr std::size_t kManyFaces = 64;
-  if (found > 0 && faces > kManyFaces) at_boundary_[v] = corners;
-  return beside;
-}
-
-/// Seen from the front, the edge u -> w of a face at the back is w -> u, with the triangulation on its left.
-template <class Int>
-std::vector<BoundaryArc> PatchHull<Int>::boundary_arcs() const {
-  std::vector<BoundaryArc> arcs;
-  if (growing_->surrounds_centre()) return arcs;
-  const auto faces = static_cast<HullFace>(growing_->face_count());
-  for (HullFace t = 0; t < faces; ++t) {
-    if (arrays_.planes[t].w > 1 || growing_->front(t)) continue;
-    const Face& f = arrays_.faces[t];
-    for (std::uint32_t i = 0; i < 3; ++i)
-      if (growing_->front(face_of(f.neighbour[i])))
-        arcs.push_back({f.vertex[previous_edge(i)], f.vertex[next_edge(i)]});
-  }
-  return arcs;
-}
-
 template class PatchHull<std::int32_t>;
 template class PatchHull<std::int64_t>;
 

@@ -1,7 +1,6 @@
 #pragma once
 // The nodes that a patch knows, and their hull.
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -19,11 +18,6 @@
 #include "parallel/record.h"
 
 namespace pstripack {
-
-/// An arc a -> b of the boundary, with the triangulation on the left.
-struct BoundaryArc {
-  HullNode a, b;
-};
 
 /// Int: a type that holds all node numbers. "Node v" is a hull node. The hull grows, but no node changes its
 /// HullNode.
@@ -44,9 +38,7 @@ class PatchHull {
   /// Adds a node of another patch, unless it was added before. Returns its hull node, or the one with which
   /// it coincides. Throws HiddenNode, std::bad_alloc.
   HullNode take_in(const Record& node);
-  /// From now on find() finds node v, too. Throws std::bad_alloc.
-  void remember(HullNode v) { taken_in_.try_emplace(number(v), v); }
-  /// The node of that number if it was taken in or remembered, or kNobody.
+  /// The node of that number if it was taken in, or kNobody.
   HullNode find(GlobalNumber number) const {
     const auto found = taken_in_.find(number);
     return found != taken_in_.end() ? found->second : kNobody;
@@ -95,12 +87,14 @@ class PatchHull {
   void for_each_face_at_border(std::size_t first, const Visit& visit) const {
     const auto n = static_cast<HullNode>(growing_->node_count());
     // Where many nodes are others', one pass over all faces takes less time than walks around them.
-    if (constexpr std::size_t kMany = 8; first == 0 && kMany * (n - own_) > n) {
+    if (constexpr std::size_t kMany = 64; first == 0 && kMany * (n - own_) > n) {
+      std::vector<std::uint8_t> own(n);
+      for (HullNode v = 0; v < n; ++v) own[v] = is_own(v);
       const auto faces = static_cast<HullFace>(growing_->face_count());
       for (HullFace t = 0; t < faces; ++t) {
         const auto& corner = arrays_.faces[t].vertex;
-        const int own = is_own(corner[0]) + is_own(corner[1]) + is_own(corner[2]);
-        if (own == 1 || own == 2) visit(t);
+        const int count = own[corner[0]] + own[corner[1]] + own[corner[2]];
+        if (count == 1 || count == 2) visit(t);
       }
       return;
     }
@@ -118,11 +112,6 @@ class PatchHull {
       });
     }
   }
-
-  std::vector<BoundaryArc> boundary_arcs() const;
-  /// The nodes a and b with arcs a -> v -> b of the boundary; kNobody where v is not on it. Not for several
-  /// threads at once.
-  BoundaryArc beside_on_boundary(HullNode v) const;
 
   /// After build() and all that was taken in: memory of set_up() for `bytes` that is not needed after
   /// GrowingHull::finish(); null if there is not enough.
@@ -154,9 +143,6 @@ class PatchHull {
   Plane* first_planes_ = nullptr;  ///< those in the workspace, for built_ nodes at least
   CoincidentPairs coincident_;
   std::unordered_map<GlobalNumber, HullNode> taken_in_;  ///< see find()
-  /// Of nodes with many faces: the corners at which beside_on_boundary() has found arcs. The faces may have
-  /// changed since.
-  mutable std::unordered_map<HullNode, std::array<HullCorner, 2>> at_boundary_;
   struct {  // where the workspace was too small for what was taken in
     Buffer<Point> nodes;
     Buffer<Int> number;

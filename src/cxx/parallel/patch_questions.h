@@ -1,5 +1,5 @@
 #pragma once
-// What patches ask each other. Why the stars are final when no question is left: docs/parallel.md.
+// What patches ask each other about triangles that one of them lacks.
 
 #include <array>
 #include <cstddef>
@@ -12,37 +12,21 @@
 
 namespace pstripack {
 
-/// "Does any of your nodes lie above this triangle?" Or, of an arc a -> b of the boundary, where the third
-/// corner is the centre: "Is it an arc of your boundary?"
+/// "You lack this triangle. Does any of your nodes lie above it?"
 struct Question {
   Record corner[3];
   PatchNumber from, to;
-
-  bool is_about_arc() const { return corner[2].point == Point{0, 0, 0}; }
-  int corners() const { return is_about_arc() ? 2 : 3; }
 };
 
-/// What a patch is not certain of yet.
-struct Doubts {
-  std::vector<Question> questions;
-  std::size_t arcs = 0;          ///< number of the questions that are about arcs of the boundary
-  bool has_grown = false;        ///< the patch has taken in nodes since it asked last
-  bool has_many_claims = false;  ///< to compare with another patch, or has settled some
-  bool has_new_claims = false;   ///< it has grown, or there are new hubs: see Patch::claim
-  bool left_out = false;         ///< it has more questions than it asks
-};
-
-/// What a patch has asked about.
-struct Asked {
-  std::size_t nodes = 0;          ///< number of nodes when it asked last; 0: it has not asked yet
-  std::vector<BoundaryArc> arcs;  ///< when it asked last
-  std::vector<HullNode> around;   ///< nodes of others that were neighbours of own ones when it asked
-  std::vector<bool> is_around;
+/// Nodes of others that are or were neighbours of own ones.
+struct Around {
+  std::vector<HullNode> nodes;
+  std::vector<bool> has;  ///< by hull node
 
   void meet(HullNode v) {
-    if (is_around[v]) return;
-    is_around[v] = true;
-    around.push_back(v);
+    if (has[v]) return;
+    has[v] = true;
+    nodes.push_back(v);
   }
 };
 
@@ -68,16 +52,6 @@ std::uint32_t first_vertex(const PatchHull<Int>& hull, HullFace t) {
 /// A question about face t of the hull. The caller sets `to`.
 template <class Int>
 Question question_about(const PatchView<Int>& patch, HullFace t);
-
-/// Asks about the arcs of the boundary. Throws std::bad_alloc.
-template <class Int>
-void ask_about_arcs(const PatchView<Int>& patch, const std::array<Record, 3>& corners, Asked& asked,
-                    Doubts& doubts);
-
-/// See Patch::ask. Throws std::bad_alloc.
-template <class Int>
-Doubts ask(const PatchView<Int>& patch, const std::array<Record, 3>& corners, double stretch,
-           std::size_t most, Asked& asked);
 
 /// See Patch::answer. Throws HiddenNode, std::bad_alloc.
 template <class Int>

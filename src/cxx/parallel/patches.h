@@ -9,7 +9,6 @@
 #include "parallel/agreement.h"
 #include "parallel/deliver.h"
 #include "parallel/divide.h"
-#include "parallel/loads.h"
 #include "parallel/patch.h"
 
 namespace pstripack {
@@ -33,14 +32,11 @@ struct Patches {
   }
 };
 
-/// Throws std::bad_alloc.
 template <class Int>
-std::vector<PatchLoad> loads_of(const Patches<Int>& patches) {
-  std::vector<PatchLoad> loads;
-  for (const Patch<Int>& patch : patches.of_rank)
-    loads.push_back({static_cast<std::int64_t>(patch.own()),
-                     static_cast<std::int64_t>(patch.own() + patch.halo()), patch.work(), patch.questions()});
-  return loads;
+std::size_t own_nodes(const Patches<Int>& patches) {
+  std::size_t own = 0;
+  for (const Patch<Int>& patch : patches.of_rank) own += patch.own();
+  return own;
 }
 
 /// Collective. Throws AgreedFailure or HiddenNode.

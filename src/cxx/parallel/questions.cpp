@@ -14,8 +14,7 @@ Parcels packed_answers(Patches<Int>& patches, const Parcels& incoming, int threa
   patches.for_each(threads, [&](Patch<Int>& patch, PatchHere) {
     std::vector<Record> corners;
     for (const Question& question : questions)
-      if (question.to == patch.id())
-        corners.insert(corners.end(), question.corner, question.corner + question.corners());
+      if (question.to == patch.id()) corners.insert(corners.end(), question.corner, question.corner + 3);
     patch.take_in(std::move(corners));
     std::size_t k = 0;
     for (const Question& question : questions) {
@@ -44,16 +43,13 @@ Parcels packed_answers(Patches<Int>& patches, const Parcels& incoming, int threa
 
 }  // namespace
 
-Questions::Questions(const std::vector<Doubts>& of_patches, const PatchRanges& patches, std::size_t ranks)
-    : to_rank(ranks) {
-  for (const Doubts& doubts : of_patches) {
-    for (const Question& q : doubts.questions) to_rank[patches.rank_of(q.to)].push_back(q);
-    count += doubts.questions.size();
-    about_triangles.value |= doubts.questions.size() > doubts.arcs;
-    about_arcs.value |= doubts.arcs > 0;
-    have_grown.value |= doubts.has_grown;
-    left_out.value |= doubts.left_out;
+Questions::Questions(const std::vector<std::vector<Question>>& of_patches, const PatchRanges& patches)
+    : to_rank(patches.ranks()) {
+  for (const std::vector<Question>& questions : of_patches) {
+    for (const Question& q : questions) to_rank[patches.rank_of(q.to)].push_back(q);
+    count += questions.size();
   }
+  exist.value = count > 0;
 }
 
 template <class Int>
@@ -64,28 +60,17 @@ Parcels answers_to(const Questions& questions, Patches<Int>& patches, Communicat
 
 template <class Int>
 void learn(Patches<Int>& patches, const Questions& questions, const Parcels& answers, int threads) {
-  struct Answer {
-    const Question* question;
-    const Record* nodes;
-    std::size_t count;
-  };
-  std::vector<std::vector<Answer>> of_patch(patches.of_rank.size());
+  std::vector<std::vector<Record>> of_patch(patches.of_rank.size());
   for (RankNumber r = 0; r < questions.to_rank.size(); ++r) {
     ParcelReader reader(answers, r);
     for (const Question& q : questions.to_rank[r]) {
       const auto n = static_cast<std::size_t>(reader.next<std::int64_t>());
-      of_patch[static_cast<PatchHere>(q.from - patches.of_rank[0].id())].push_back(
-          {&q, reader.array<Record>(n), n});
+      const Record* const nodes = reader.array<Record>(n);
+      std::vector<Record>& all = of_patch[static_cast<PatchHere>(q.from - patches.of_rank[0].id())];
+      all.insert(all.end(), nodes, nodes + n);
     }
   }
-  patches.for_each(threads, [&](Patch<Int>& patch, PatchHere k) {
-    std::vector<Record> nodes;
-    for (const Answer& a : of_patch[k]) {
-      if (a.count > 0) patch.see_refuted(*a.question);
-      nodes.insert(nodes.end(), a.nodes, a.nodes + a.count);
-    }
-    patch.take_in(std::move(nodes));
-  });
+  patches.for_each(threads, [&](Patch<Int>& patch, PatchHere k) { patch.take_in(std::move(of_patch[k])); });
   for (const Patch<Int>& patch : patches.of_rank)
     if (!patch.coincident().empty()) patches.see_coincidence.value = true;
 }

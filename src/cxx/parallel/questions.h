@@ -9,16 +9,13 @@
 
 namespace pstripack {
 
-/// What the patches here want to know.
+/// What the patches here have and others lack.
 struct Questions {
   Questions() = default;
-  Questions(const std::vector<Doubts>& of_patches, const PatchRanges& patches, std::size_t ranks);
+  Questions(const std::vector<std::vector<Question>>& of_patches, const PatchRanges& patches);
   std::vector<std::vector<Question>> to_rank;
   std::size_t count = 0;
-  // Here, or on any rank once these have agreed:
-  OnAny about_triangles, about_arcs;
-  OnAny have_grown;  ///< patches have taken in nodes since they asked last
-  OnAny left_out;    ///< they have more questions than these
+  OnAny exist;  ///< here, or on any rank once these have agreed
 };
 
 /// The answers of all ranks to the questions of this one. Patches take in the corners of all questions before

@@ -27,7 +27,7 @@ std::vector<Point> places_to_count(const LocalNodes& mine, std::size_t nodes, st
                                    const Places& places);
 
 /// How `ranks` ranks of one patch each share these nodes (of about length 1) if each has brought its slice
-/// of them, as in pool and comm mode: by boxes or stripes, also where ranks would take slices (levels.h).
+/// of them, as in pool and comm mode: by boxes or stripes.
 Partition partition_over_ranks(PartitionKind kind, int ranks, const std::vector<Point>& nodes);
 
 }  // namespace pstripack

@@ -1,13 +1,11 @@
 #include "parallel/sample_hull.h"
 
 #include <algorithm>
-#include <limits>
 #include <memory>
 
 #include "base/workspace.h"
 #include "geometry/insertion_order.h"
 #include "mesh/delaunay.h"
-#include "parallel/bounds.h"
 
 namespace pstripack {
 namespace {
@@ -35,18 +33,6 @@ struct SmallHull {
 };
 
 }  // namespace
-
-double most_stretch(const std::vector<Record>& nodes, const Places& places) {
-  double most = 1;
-  try {
-    const SmallHull hull(nodes, places.lengths());
-    for (std::uint32_t t = 0; t < hull.growing->face_count(); ++t)
-      most = std::max(most, stretch_of(hull.arrays.planes[t], 1 + places.deviation()));
-  } catch (const HiddenNode&) {
-    most = std::numeric_limits<double>::infinity();
-  }
-  return most;
-}
 
 void look_for_hidden_nodes(const std::vector<Record>& nodes, const Places& places) {
   if (places.lengths() != Lengths::as_given) return;

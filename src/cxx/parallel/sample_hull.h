@@ -8,11 +8,6 @@
 
 namespace pstripack {
 
-/// Upper bound of |p| / |q|: p any place, q where the ray to p meets the hull of these nodes. Hulls of these
-/// nodes and others lie around it, so the bound holds for them as well. Infinite if these nodes do not
-/// surround the centre. Throws std::bad_alloc.
-double most_stretch(const std::vector<Record>& nodes, const Places& places);
-
 /// Throws HiddenNode if the lengths hide one of these nodes: it is hidden in every larger set, too. Builds
 /// the hull only if two successive nodes are close; so the nodes should follow a curve. They must not all be
 /// on one great circle. Throws std::bad_alloc.

@@ -10,16 +10,15 @@
 //        |  triangulate_patches  every patch its own nodes, its halo and a few nodes from everywhere
 //        v
 //   Patches
-//        |  certify              every patch asks the others about what it cannot know, until nothing is left
-//        v                       to ask, or patches agree on the stars of their nodes
+//        |  certify              patches compare lists of the triangles that two of them answer for; what one
+//        v                       lacks travels, until all lists match
 //   Certified
 //        |  return_rings         the stars of the nodes go back to the ranks that brought them
 //        v
 //   Stars
 //
 // Patches are divided among the ranks, one after another, and a rank's among its threads. There is no
-// sequential merge: the predicates are exact and know nothing of numbers, so two patches never disagree on a
-// triangle whose circumscribed cap both know.
+// sequential merge: the predicates are exact and know nothing of numbers.
 
 #include "parallel/triangulate.h"
 
@@ -60,17 +59,15 @@ Stars<Int> triangulate_places(const LocalNodes& nodes, const Corners& corners, c
     return triangulate_patches<Int>(delivery, division, ranks, options.threads);
   });
 
-  Certified<Int> certified = phase(ParallelCost::merge, "merge", [&] {
-    return certify(std::move(patches), division, corners, ranks, options);
-  });
+  Certified<Int> certified = phase(ParallelCost::merge, "merge",
+                                   [&] { return certify(std::move(patches), division, ranks, options); });
   cost.rounds += certified.rounds;
   if (!certified.is_done()) {
     unfinished.gave_up = certified.gave_up;
     unfinished.coincident = std::move(certified.coincident);
     if (unfinished.gave_up)
       in_agreement(ranks, [&] {
-        unfinished.homes = std::make_unique<Homes>(division, options, loads_of(certified.patches),
-                                                   std::vector<GlobalNumber>());
+        unfinished.homes = std::make_unique<Homes>(division, options, own_nodes(certified.patches));
       });
     return unfinished;
   }

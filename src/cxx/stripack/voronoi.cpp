@@ -305,11 +305,11 @@ class Voronoi {
     return status;
   }
 
-  void prefetch(Int node) const {
+  [[gnu::always_inline]] void prefetch(Int node) const {
     if (directions_ == nullptr)
       __builtin_prefetch(&position_[index(node - 1)]);
     else
-      __builtin_prefetch(&directions_->unit(static_cast<index_t>(node - 1)));
+      directions_->prefetch(static_cast<index_t>(node - 1));
   }
 
   /// Writes the same values as write_centre, by loops that compilers can vectorise.

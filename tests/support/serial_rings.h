@@ -1,0 +1,126 @@
+#pragma once
+// The triangulation of a set of nodes by ranks that are threads, and by one patch.
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "base/workspace.h"
+#include "mesh/delaunay.h"
+#include "parallel/coincidence.h"
+#include "parallel/triangulate.h"
+#include "point_sets.h"
+#include "support/lists.h"
+#include "support/thread_ranks.h"
+
+namespace {
+
+using namespace pstripack;
+
+/// A set of nodes, the first three of which are not on one great circle, and its rings by one patch.
+struct Set {
+  explicit Set(Nodes points) : nodes(std::move(points)) {
+    for (std::uint64_t seed = 1; left(nodes[0], nodes[1], nodes[2]) == 0; ++seed)
+      point_sets::shuffle(nodes, seed);
+    Workspace workspace(workspace_bytes(nodes.size()));
+    const Hull hull = delaunay(nodes.data(), nodes.size(), workspace);
+    lengths = hull.lengths;
+    for (const auto& [a, b] : hull.coincident)
+      coincident.emplace_back(GlobalNumber{a + 1}, GlobalNumber{b + 1});
+    if (!coincident.empty()) return;
+    Faces faces;
+    for (std::size_t t = 0; t < hull.face_count; ++t)
+      if (hull.front(t)) {
+        const auto& v = hull.faces[t].vertex;
+        const auto node = [&](int i) { return static_cast<std::int32_t>(hull.order[v[i]]); };
+        faces.push_back({node(0), node(1), node(2)});
+      }
+    rings = *rings_of(nodes.size(), faces);
+  }
+  Nodes nodes;
+  Rings rings;
+  Lengths lengths;
+  CoincidentPairs coincident;
+};
+
+struct Outcome {
+  std::vector<std::vector<std::int64_t>> ring;  // by node
+  std::vector<std::int32_t> codes;              // of the ranks
+  std::vector<Stars<std::int32_t>> stars;       // without of_node
+  std::vector<ParallelCost> cost;
+};
+
+inline Look look_of_all(const LocalNodes& nodes, Communicator& ranks) {
+  Look look = look_at(nodes.points, nodes.count);
+  agree_on(look, ranks);
+  return look;
+}
+
+template <class Int>
+void keep(const Stars<Int>& stars, const LocalNodes& nodes, std::size_t rank, Outcome& out) {
+  for (std::size_t i = 0; i < stars.of_node.size(); ++i) {
+    const Ring<Int> ring = stars.of_node[i];
+    out.ring[static_cast<std::size_t>(nodes.number(i)) - 1].assign(ring.begin, ring.begin + ring.count);
+  }
+  out.stars[rank].coincident = stars.coincident;
+  out.stars[rank].lengths = stars.lengths;
+  out.stars[rank].outside = stars.outside;
+}
+
+/// homes: of the ranks in the last call, then in this one.
+template <class Int>
+Outcome run(const Nodes& nodes, const std::vector<std::size_t>& rank_of_node,
+            const ParallelOptions& all_options, std::vector<std::unique_ptr<Homes>>& homes) {
+  const std::size_t n = nodes.size(), size = homes.size();
+  std::vector<Nodes> points(size);
+  std::vector<std::vector<std::int64_t>> numbers(size);
+  for (std::size_t i = 0; i < n; ++i) {
+    points[rank_of_node[i]].push_back(nodes[i]);
+    numbers[rank_of_node[i]].push_back(static_cast<std::int64_t>(i) + 1);
+  }
+  Outcome out;
+  out.ring.resize(n);
+  out.codes.resize(size);
+  out.stars.resize(size);
+  out.cost.resize(size);
+  std::mutex mutex;
+  ThreadRanks::run(static_cast<int>(size), [&](Communicator& ranks) {
+    const auto r = static_cast<std::size_t>(ranks.rank());
+    const LocalNodes local{points[r].data(), points[r].size(), numbers[r].data()};
+    ParallelOptions options = all_options;
+    options.last = homes[r].get();
+    try {
+      const Point corners[3] = {nodes[0], nodes[1], nodes[2]};
+      Stars<Int> stars = triangulate<Int>(local, look_of_all(local, ranks), corners, {1, 2, 3}, ranks,
+                                          options, &out.cost[r]);
+      const std::lock_guard lock(mutex);
+      keep(stars, local, r, out);
+      homes[r] = std::move(stars.homes);
+    } catch (const AgreedFailure& failure) {
+      out.codes[r] = failure.code;
+    }
+  });
+  return out;
+}
+
+inline ::testing::AssertionResult is_serial(const Set& set, const Outcome& out) {
+  for (const std::int32_t code : out.codes)
+    if (code != 0) return ::testing::AssertionFailure() << "code " << code;
+  for (const auto& stars : out.stars)
+    if (stars.lengths != set.lengths) return ::testing::AssertionFailure() << "other predicates";
+  for (std::size_t k = 0; k < set.nodes.size(); ++k) {
+    const auto& expected = set.rings.neighbours[k];
+    std::vector<std::int64_t> ring;
+    for (const std::int32_t b : expected) ring.push_back(b + 1);
+    if (set.rings.boundary[k]) ring.back() = -ring.back();
+    if (ring != out.ring[k]) return ::testing::AssertionFailure() << "ring of node " << k + 1 << " differs";
+  }
+  return ::testing::AssertionSuccess();
+}
+
+}  // namespace
