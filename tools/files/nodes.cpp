@@ -327,6 +327,7 @@ void Nodes::keep(const std::vector<std::size_t>& indices) {
   for (Column& column : columns) keep_column(column);
   grid = {};
   triangles.clear();
+  vertices.clear();
 }
 
 std::string hint_beyond_pole(const Angles& a, std::size_t n, const std::string& to_exchange) {
