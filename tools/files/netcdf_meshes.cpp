@@ -1,4 +1,4 @@
-// Writers of NetCDF: UGRID, SCRIP, and nodes alone.
+// Writers of NetCDF: UGRID, SCRIP, ESMF, and nodes alone.
 
 #include <utility>
 
@@ -110,6 +110,12 @@ Faces without_short_sides(const Faces& faces) {
   return kept;
 }
 
+/// Of each face the longitude and latitude, in degrees, of its node, else of its centroid.
+LonLat centres_of(const Faces& faces) {
+  return faces.centres.empty() ? LonLat(centroids(faces), true)
+                               : angles_of(faces.centres, faces.given_centres, true);
+}
+
 }  // namespace
 
 void write_scrip(const OutputFile& file, const Faces& faces, const Notes& notes) {
@@ -132,8 +138,7 @@ void write_scrip(const OutputFile& file, const Faces& faces, const Notes& notes)
   out.attributes(notes);
   out.end_definitions();
 
-  const LonLat of_centres = faces.centres.empty() ? LonLat(centroids(faces), true)
-                                                  : angles_of(faces.centres, faces.given_centres, true);
+  const LonLat of_centres = centres_of(faces);
   const LonLat of_points = angles_of(faces.points, faces.given_points, true);
   out.put(area, areas(faces));
   out.put(dims, std::vector<std::int32_t>{static_cast<std::int32_t>(faces.size())});
@@ -149,6 +154,48 @@ void write_scrip(const OutputFile& file, const Faces& faces, const Notes& notes)
                   return (*values)[static_cast<std::size_t>(rings.corner[k]) - 1];
                 },
                 [](double last) { return last; }));
+  out.close();
+}
+
+void write_esmf(const OutputFile& file, const Faces& faces, const Notes& notes) {
+  constexpr std::int32_t kNone = -1;
+  const Faces rings = without_short_sides(faces);
+  const std::size_t width = rings.most_corners();
+  NetcdfWriter out(file);
+  const int nodes = out.dimension("nodeCount", faces.points.size()),
+            elements = out.dimension("elementCount", faces.size()),
+            corners = out.dimension("maxNodePElement", width), two = out.dimension("coordDim", 2);
+  const int coordinates = out.angle("nodeCoords", {nodes, two}, "degrees"),
+            connectivity = out.variable("elementConn", NC_INT, {elements, corners}),
+            count = out.variable("numElementConn", NC_INT, {elements}),
+            centres = out.angle("centerCoords", {elements, two}, "degrees"),
+            area = out.variable("elementArea", NC_DOUBLE, {elements}),
+            mask = out.variable("elementMask", NC_INT, {elements});
+  out.attribute(connectivity, "long_name", "Node indices that define the element connectivity");
+  out.attribute(connectivity, "start_index", 1);
+  out.attribute(connectivity, "_FillValue", kNone);
+  out.attribute(count, "long_name", "Number of nodes per element");
+  out.attribute(area, "units", "radians^2");
+  out.attribute(area, "long_name", "area of the element on the unit sphere");
+  out.attribute(NC_GLOBAL, "gridType", "unstructured");
+  out.attribute(NC_GLOBAL, "version", "0.9");
+  out.attributes(notes);
+  out.end_definitions();
+
+  const auto put_places = [&](int variable, const LonLat& places) {
+    out.put_rows<double>({variable}, places.lon.size(), 2,
+                         [&](std::size_t i, double* to) { to[0] = places.lon[i], to[1] = places.lat[i]; });
+  };
+  put_places(coordinates, angles_of(faces.points, faces.given_points, true));
+  put_places(centres, centres_of(faces));
+  out.put(connectivity, padded<std::int32_t>(
+                            rings, width, [&](std::size_t k) { return rings.corner[k]; },
+                            [](std::int32_t) { return kNone; }));
+  out.put_rows<std::int32_t>({count}, faces.size(), 1, [&](std::size_t f, std::int32_t* to) {
+    *to = static_cast<std::int32_t>(rings.corners(f));
+  });
+  out.put(area, areas(faces));
+  out.put(mask, std::vector<std::int32_t>(faces.size(), 1));
   out.close();
 }
 

@@ -81,6 +81,21 @@ def check_scrip(nodes, file):
         assert ((lon[:, 5] == lon[:, 4]) & (lat[:, 5] == lat[:, 4])).sum() == 12  # pentagons: padded
 
 
+def check_esmf(nodes, file):
+    with netCDF4.Dataset(file) as grid:
+        assert grid.gridType == "unstructured" and grid["elementConn"].start_index == 1
+        centres = unit_vectors(*grid["centerCoords"][:].T)
+        assert np.allclose(centres, nodes, rtol=0, atol=1e-14)
+        count, corners = grid["numElementConn"][:], grid["elementConn"][:]
+        assert corners.shape == (N, 6) and (count == 5).sum() == 12 and (corners.mask.sum(axis=1) == 6 - count).all()
+        places = unit_vectors(*grid["nodeCoords"][:].T)
+        assert len(places) == TRIANGLES
+        for k in range(5):  # counterclockwise
+            assert (np.einsum("ij,ij->i", centres, np.cross(places[corners[:, k] - 1], places[corners[:, (k + 1)] - 1])) > 0)[
+                k + 1 < count].all()
+        assert abs(grid["elementArea"][:].sum() - 4 * math.pi) < 1e-10 and (grid["elementMask"][:] == 1).all()
+
+
 def check_scrip_of_a_grid():
     """Each corner inside a longitude-latitude grid is that of two triangles, which differ by rounding."""
     lon, lat = np.meshgrid(np.arange(0, 360, 10), np.arange(-85, 90, 10))
@@ -211,11 +226,12 @@ run("points", "icosahedral", N, "-o", FOLDER / "nodes.txt")
 nodes = np.loadtxt(FOLDER / "nodes.txt")
 for suffix in ("nc", "mpas.nc", "vtu", "off", "msh"):
     run("triangulate", FOLDER / "nodes.txt", "-o", FOLDER / f"mesh.{suffix}")
-for suffix in ("nc", "scrip.nc"):
+for suffix in ("nc", "scrip.nc", "esmf.nc"):
     run("voronoi", FOLDER / "nodes.txt", "-o", FOLDER / f"cells.{suffix}")
 check_ugrid(nodes, FOLDER / "mesh.nc", FOLDER / "cells.nc")
 check_mpas(nodes, FOLDER / "mesh.mpas.nc")
 check_scrip(nodes, FOLDER / "cells.scrip.nc")
+check_esmf(nodes, FOLDER / "cells.esmf.nc")
 check_scrip_of_a_grid()
 for suffix in ("vtu", "off", "msh"):
     check_by_meshio(nodes, FOLDER / f"mesh.{suffix}", "triangle", TRIANGLES)

@@ -101,6 +101,17 @@ lists)
   "$COMPARE" lists a.lists b.lists > compared || fail "$(cat compared)"
   cmp a.lists b.lists
   [ "$(head -n 1 a.lists)" = "500 2989" ] || fail "N and LNEW: $(head -n 1 a.lists)"
+  # FESOM: numbered nodes with a flag at the boundary, and triangles in the order of OFF.
+  "$PSTRIPACK" -q points hemisphere 60 -o half.txt
+  "$PSTRIPACK" -q triangulate half.txt --to fesom -o nod2d.out
+  "$PSTRIPACK" -q triangulate half.txt -o half.off
+  sed 1d nod2d.out | cut -d ' ' -f 2,3 | cmp - - <<END
+$("$PSTRIPACK" -q convert half.txt -o - --to lonlat)
+END
+  sed 1d nod2d.out | awk '{ if ($1 != NR || $4 != 0 && $4 != 1) exit 1; rim += $4 } END { exit rim < 3 }' || fail "nod2d.out"
+  sed 1d elem2d.out > elements
+  tail -n "$(head -n 1 elem2d.out)" half.off | awk '{ print $2 + 1, $3 + 1, $4 + 1 }' | cmp - elements
+  refuses 1 "has files called nod2d.out and elem2d.out" triangulate half.txt --to fesom -o half.txt2
   ;;
 
 same_bytes_through_formats)
@@ -163,7 +174,7 @@ bad_command_lines)
   refuses 2 "required" triangulate nodes.txt
   refuses 2 "mesh.xxx: no format has this suffix: give --to" triangulate nodes.txt -o mesh.xxx
   refuses 2 "--to: 'potato' is none of ugrid, mpas" triangulate nodes.txt -o mesh.off --to potato
-  refuses 2 "--to: 'ugird' is none of ugrid, mpas, scrip, vtu, off, gmsh, lists, gmt, geojson, csv, xyz, lonlat, nodes, raw; did you mean ugrid?" \
+  refuses 2 "--to: 'ugird' is none of ugrid, mpas, scrip, esmf, vtu, off, gmsh, fesom, lists, gmt, geojson, csv, xyz, lonlat, nodes, raw; did you mean ugrid?" \
     triangulate nodes.txt -o mesh.off --to ugird
   refuses 2 "--duplicates: 'frist' is none of error, first, mean; did you mean first?" triangulate nodes.txt -o mesh.off --duplicates frist
   refuses 2 "earthquakes; did you mean random?" points rndom 10
