@@ -162,7 +162,7 @@ class NetcdfWriter {
           });
       for (std::size_t k = 0; k < variables.size(); ++k) {
         Slab slab = slab_of(variables[k]);
-        slab.start[0] = first, slab.count[0] = count;
+        slab.start[0] += first, slab.count[0] = count;
         const Value* const from = values.data() + k * most;
         if constexpr (std::is_same_v<Value, double>)
           check(nc_put_vara_double(id_, variables[k], slab.start.data(), slab.count.data(), from));

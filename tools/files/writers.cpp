@@ -152,7 +152,7 @@ void write_lists(const OutputFile& file, const Mesh& mesh) {
 /// Nodes with 1 at the boundary, else 0, and in a file beside them the triangles.
 void write_fesom(const OutputFile& file, const Mesh& mesh) {
   const std::string nodes = "nod2d.out";
-  if (!file.has_a_name() || !ends_with(file.name(), nodes))
+  if (!file.has_a_name() || !ends_with("/" + file.name(), nodes))
     refuse(file, Format::fesom, "has files called nod2d.out and elem2d.out: -o nod2d.out");
   {
     const LonLat angles = angles_of(mesh.points, mesh.given, true);

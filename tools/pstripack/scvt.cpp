@@ -332,11 +332,11 @@ std::string write(Ranks& ranks, const Output& output, bool is_checkpoint, const 
     part = part_of(communicator, slice.state.generators);
   }
   if (needs_whole_mesh) {
-    const std::vector<Point> all = on_rank_0(communicator, slice.state.generators);
+    std::vector<Point> all = on_rank_0(communicator, slice.state.generators);
     in_agreement_with_caller(communicator, [&] {
       if (communicator.rank() > 0) return;
-      files::Mesh mesh = files::triangulate(all);
-      complete(mesh, all, slice.state);
+      files::Mesh mesh = files::triangulate(std::move(all));
+      complete(mesh, mesh.points, slice.state);
       write(output, mesh);
     });
     return quality;
