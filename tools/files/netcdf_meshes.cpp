@@ -45,6 +45,26 @@ void write_ugrid(const OutputFile& file, const Faces& faces, const std::vector<P
   out.attribute(connectivity, "cf_role", "face_node_connectivity");
   out.attribute(connectivity, "start_index", 1);
   out.attribute(connectivity, "_FillValue", kNone);
+  int edge_nodes = -1, edge_faces = -1, face_edges = -1;
+  Edges edges;
+  if (faces.with_edges) {
+    edges = edges_of(faces);
+    const int n_edges = out.dimension("mesh_edges", edges.nodes.size() / 2),
+              two = out.dimension("mesh_two", 2);
+    const auto indices = [&](const std::string& role, const std::vector<int>& dimensions) {
+      const std::string name = "mesh_" + role.substr(0, 4) + "_" + role.substr(5, 4) + "s";
+      const int id = out.variable(name.c_str(), NC_INT, dimensions);
+      out.attribute(mesh, role.c_str(), name);
+      out.attribute(id, "cf_role", role);
+      out.attribute(id, "start_index", 1);
+      out.attribute(id, "_FillValue", kNone);
+      return id;
+    };
+    out.attribute(mesh, "edge_dimension", "mesh_edges");
+    edge_nodes = indices("edge_node_connectivity", {n_edges, two});
+    edge_faces = indices("edge_face_connectivity", {n_edges, two});
+    face_edges = indices("face_edge_connectivity", {n_faces, corners});
+  }
   out.attributes(notes);
   const auto [node_lon, node_lat] = out.lon_lat("mesh_node_lon", "mesh_node_lat", {nodes}, {nodes});
   const auto [face_lon, face_lat] =
@@ -78,12 +98,18 @@ void write_ugrid(const OutputFile& file, const Faces& faces, const std::vector<P
   if (!density.empty()) out.put(of_density, density);
   out.put(node_columns, faces.columns_of_points);
   out.put(face_columns, faces.columns_of_faces);
-  if (faces.corner.size() == faces.size() * width)
-    out.put(connectivity, faces.corner);
-  else
-    out.put(connectivity, padded<std::int32_t>(
-                              faces, width, [&](std::size_t k) { return faces.corner[k]; },
-                              [](std::int32_t) { return kNone; }));
+  const auto put_padded = [&](int variable, const std::vector<std::int32_t>& values) {
+    if (values.size() == faces.size() * width) return out.put(variable, values);
+    out.put(variable,
+            padded<std::int32_t>(
+                faces, width, [&](std::size_t k) { return values[k]; }, [](std::int32_t) { return kNone; }));
+  };
+  put_padded(connectivity, faces.corner);
+  if (faces.with_edges) {
+    out.put(edge_nodes, edges.nodes);
+    out.put(edge_faces, edges.faces);
+    put_padded(face_edges, edges.of_faces);
+  }
   out.close();
 }
 

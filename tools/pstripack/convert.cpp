@@ -88,6 +88,7 @@ void add_convert(CLI::App& app, Command& chosen) {
   add_duplicates(*sub, options->input);
   add_output(*sub, options->output, true);
   add_radius(*sub, options->output.radius, kRadiusOfMpas);
+  add_edges(*sub, options->output);
   sub->callback([=, &chosen] { chosen = [=] { convert(*options); }; });
 }
 

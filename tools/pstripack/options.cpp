@@ -197,6 +197,10 @@ CLI::Option* add_radius(CLI::App& app, double& radius, const char* text) {
   });
 }
 
+void add_edges(CLI::App& app, Output& output) {
+  app.add_flag("--edges", output.edges, "UGRID: also the edges, with their nodes and faces");
+}
+
 void Output::choose(std::optional<files::Format> otherwise) {
   std::optional<files::Format> found = files::format_of(to, file);
   if (!found) found = otherwise;
@@ -204,6 +208,9 @@ void Output::choose(std::optional<files::Format> otherwise) {
   format = *found;
   if (radius > 0 && format != files::Format::mpas)
     throw CLI::ValidationError("--radius", "only MPAS meshes have a radius: --to mpas");
+  if (edges && format != files::Format::ugrid)
+    throw CLI::ValidationError("--edges",
+                               "only UGRID meshes have edges, as MPAS meshes always do: --to ugrid");
 }
 
 Nodes read_places(const std::string& file, const files::ReadOptions& options) {
@@ -335,6 +342,7 @@ std::runtime_error no_mesh_of(const Nodes& nodes, const files::NoMesh& why) {
 
 void write_mesh(const files::OutputFile& file, const Output& output, files::Mesh& mesh) {
   if (output.radius > 0) mesh.radius = output.radius;
+  mesh.with_edges = output.edges;
   write_mesh(file, output.format, mesh);
   if (output.format != files::Format::mpas || !mesh.has_boundary()) return;
   const auto left_out = std::count_if(mesh.lend.begin(), mesh.lend.end(), [&](std::int32_t end) {

@@ -85,7 +85,8 @@ void add_duplicates(CLI::App& app, Input& input);
 struct Output {
   std::string file = "-", to;
   files::Format format = files::Format::xyz;
-  double radius = 0;  ///< of the sphere in MPAS files, metres; 0: not given
+  double radius = 0;   ///< of the sphere in MPAS files, metres; 0: not given
+  bool edges = false;  ///< UGRID files also get the edges
 
   /// Sets `format` by --to, else by the suffix, else to `otherwise`. Throws CLI::ValidationError if none
   /// applies.
@@ -95,6 +96,7 @@ void add_output(CLI::App& app, Output& output, bool required);
 constexpr auto kRadiusOfMpas =
     "of the sphere in an MPAS mesh [that of the input, else 1]: 6371229 for MPAS-Atmosphere, else 6371220";
 CLI::Option* add_radius(CLI::App& app, double& radius, const char* text);
+void add_edges(CLI::App& app, Output& output);
 
 /// Reads nodes; throws unless they have directions, and lie on one sphere or --coordinates xyz is given.
 files::Nodes read_places(const std::string& file, const files::ReadOptions& options);

@@ -80,6 +80,7 @@ void voronoi(Options& options) {
       throw files::NoMesh(options.clip_to_hull ? "no part of the hull of the nodes lies in the region"
                                                : "the region is smaller than 1e-10 degrees: make it larger");
     files::add_columns(faces, mesh);
+    faces.with_edges = options.output.edges;
     write_faces(file, options.output.format, faces, mesh.notes);
     return counted(faces.size(), "cell") +
            (with_corners ? ", " + counted(faces.points.size(), "corner") : std::string());
@@ -93,6 +94,7 @@ std::shared_ptr<Options> add(CLI::App& app, const char* name, const char* text, 
   add_input(*sub, options->input);
   add_duplicates(*sub, options->input);
   add_output(*sub, options->output, true);
+  add_edges(*sub, options->output);
   sub->callback([=, &chosen] { chosen = [=] { command(*options); }; });
   return options;
 }

@@ -81,6 +81,27 @@ def check_scrip(nodes, file):
         assert ((lon[:, 5] == lon[:, 4]) & (lat[:, 5] == lat[:, 4])).sum() == 12  # pentagons: padded
 
 
+def check_edges():
+    """UGRID with edges: of triangles, of cells, and of a mesh with a boundary."""
+    run("points", "hemisphere", 60, "-o", FOLDER / "half.txt")
+    run("convert", FOLDER / "mesh.nc", "--edges", "-o", FOLDER / "edges_triangles.nc")
+    run("voronoi", FOLDER / "nodes.txt", "--edges", "-o", FOLDER / "edges_cells.nc")
+    run("triangulate", FOLDER / "half.txt", "--edges", "-o", FOLDER / "edges_half.nc")
+    for name, count in (("triangles", 3 * N - 6), ("cells", 3 * N - 6), ("half", None)):
+        with netCDF4.Dataset(FOLDER / f"edges_{name}.nc") as mesh:
+            topology = mesh["mesh"]
+            faces, of_faces, ends, sides = (
+                np.ma.filled(mesh[getattr(topology, role + "_connectivity")][:], -1)
+                for role in ("face_node", "face_edge", "edge_node", "edge_face"))
+            assert topology.edge_dimension == "mesh_edges" and (ends[:, 0] < ends[:, 1]).all()
+            assert len(np.unique(ends, axis=0)) == len(ends) == (count or len(ends))
+            assert (sides.min() == -1) == (count is None) and (faces > 0).sum() == (sides > 0).sum()
+            for f, (row, edges) in enumerate(zip(faces, of_faces)):
+                row, edges = row[row > 0], edges[edges > 0]
+                for a, b, e in zip(row, np.roll(row, -1), edges):
+                    assert set(ends[e - 1]) == {a, b} and sides[e - 1][0 if a < b else 1] == f + 1
+
+
 def check_esmf(nodes, file):
     with netCDF4.Dataset(file) as grid:
         assert grid.gridType == "unstructured" and grid["elementConn"].start_index == 1
@@ -232,6 +253,7 @@ check_ugrid(nodes, FOLDER / "mesh.nc", FOLDER / "cells.nc")
 check_mpas(nodes, FOLDER / "mesh.mpas.nc")
 check_scrip(nodes, FOLDER / "cells.scrip.nc")
 check_esmf(nodes, FOLDER / "cells.esmf.nc")
+check_edges()
 check_scrip_of_a_grid()
 for suffix in ("vtu", "off", "msh"):
     check_by_meshio(nodes, FOLDER / f"mesh.{suffix}", "triangle", TRIANGLES)

@@ -173,6 +173,9 @@ bad_command_lines)
   octahedron > nodes.txt
   refuses 2 "required" triangulate nodes.txt
   refuses 2 "mesh.xxx: no format has this suffix: give --to" triangulate nodes.txt -o mesh.xxx
+  refuses 2 "--radius: only MPAS meshes have a radius" triangulate nodes.txt --radius 6371229 -o mesh.off
+  refuses 2 "--radius: '-1' is not a number of metres above 0" triangulate nodes.txt --radius=-1 -o mesh.mpas.nc
+  refuses 2 "--edges: only UGRID meshes have edges" convert nodes.txt --edges -o mesh.off
   refuses 2 "--to: 'potato' is none of ugrid, mpas" triangulate nodes.txt -o mesh.off --to potato
   refuses 2 "--to: 'ugird' is none of ugrid, mpas, scrip, esmf, vtu, off, gmsh, fesom, lists, gmt, geojson, csv, xyz, lonlat, nodes, raw; did you mean ugrid?" \
     triangulate nodes.txt -o mesh.off --to ugird
