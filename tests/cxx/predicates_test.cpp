@@ -829,21 +829,34 @@ TEST(Directions, AreExactAtEveryScale) {
   }
 }
 
-TEST(Directions, AreExactWhereDoubleDoubleHasToDecide) {
+/// What decided nodes that doubles do not decide, unit vectors times a length.
+pstripack::PredicateCounts decide_hard_cases(double length, std::uint64_t& sets) {
   Random random(32);
   pstripack::take_predicate_counts();
-  int sets = 0;
   for (int i = 0; i < cases(6000); ++i) {
     const double size = std::pow(10, -15 * random.uniform());
-    for (const Four& f : {nearly_cocircular(random, size), nearly_on_great_circle(random, size)})
-      if (different(f)) {
-        ASSERT_NO_FATAL_FAILURE(expect_directions_exact(f));
-        ++sets;
-      }
+    for (Four f : {nearly_cocircular(random, size), nearly_on_great_circle(random, size)}) {
+      for (Point& p : f) p = {length * p.x, length * p.y, length * p.z};
+      if (!different(f)) continue;
+      expect_directions_exact(f);
+      if (testing::Test::HasFatalFailure()) break;
+      ++sets;
+    }
   }
-  const auto counts = pstripack::take_predicate_counts();
-  EXPECT_GT(counts.double_double, static_cast<std::uint64_t>(sets));  // else this tests nothing
+  return pstripack::take_predicate_counts();
+}
+
+TEST(Directions, AreExactWhereDoubleDoubleHasToDecide) {
+  std::uint64_t sets = 0;
+  const auto counts = decide_hard_cases(3, sets);
+  EXPECT_GT(counts.double_double, sets);  // else this tests nothing
   EXPECT_GT(counts.integers, 0u);
+}
+
+TEST(Directions, AreExactWhereTheLengthsOfUnitVectorsDecide) {
+  std::uint64_t sets = 0;
+  const auto counts = decide_hard_cases(1, sets);
+  EXPECT_LT(counts.double_double, sets - sets / 4);
 }
 
 TEST(Directions, AreExactForTies) {

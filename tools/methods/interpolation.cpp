@@ -41,6 +41,11 @@ bool is_above(const Direction& a, const Direction& b, const Direction& c, const 
   return pstripack::orientation_of_directions(a.given, b.given, c.given, place.given) > 0;
 }
 
+/// What geometry/weights.h takes.
+pstripack::Corners pointers(const std::array<Direction, 3>& corner) {
+  return {&corner[0], &corner[1], &corner[2]};
+}
+
 }  // namespace
 
 Interpolation::Interpolation(const Triangulated& mesh, std::shared_ptr<const void> owner)
@@ -146,14 +151,14 @@ bool Interpolation::is_node(const Direction& place, const Corners& corners,
   return false;
 }
 
-std::array<const Direction*, 3> Interpolation::directions(const Corners& corners) const {
-  const Direction* const known = directions();
-  return {known + corners[0], known + corners[1], known + corners[2]};
+std::array<Direction, 3> Interpolation::directions(const Corners& corners) const {
+  return {mesh_.direction(corners[0]), mesh_.direction(corners[1]), mesh_.direction(corners[2])};
 }
 
 void Interpolation::linear(const Direction& place, const Corners& corners, std::vector<Share>& shares) const {
   double weights[3];
-  barycentric_weights(place, directions(corners), weights);
+  const std::array<Direction, 3> at = directions(corners);
+  barycentric_weights(place, pointers(at), weights);
   for (std::size_t k = 0; k < 3; ++k)
     if (weights[k] > 0) shares.push_back({corners[k], weights[k]});
   if (shares.size() == 2 && shares[0].node > shares[1].node)
@@ -165,10 +170,13 @@ bool Interpolation::linear(const Point& p, std::int32_t& near, std::vector<Share
   Direction place = pstripack::direction_of(p);
   Corners corners;
   double weights[3];
-  if (search(place, near, corners) && find_ordinary_determinants(place, directions(corners), weights)) {
-    pstripack::divide_by_sum(weights);
-    shares = {{corners[0], weights[0]}, {corners[1], weights[1]}, {corners[2], weights[2]}};
-    return true;
+  if (search(place, near, corners)) {
+    const std::array<Direction, 3> at = directions(corners);
+    if (find_ordinary_determinants(place, pointers(at), weights)) {
+      pstripack::divide_by_sum(weights);
+      shares = {{corners[0], weights[0]}, {corners[1], weights[1]}, {corners[2], weights[2]}};
+      return true;
+    }
   }
   if (!settle(place, near, corners)) return false;
   if (!is_node(place, corners, shares)) linear(place, corners, shares);

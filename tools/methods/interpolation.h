@@ -87,7 +87,7 @@ class Interpolation {
   bool settle(Direction& place, std::int32_t& near, Corners& corners) const;
   bool cross_arcs(const Direction& place, Corners& corners) const;
   void linear(const Direction& place, const Corners& corners, std::vector<Share>& shares) const;
-  std::array<const Direction*, 3> directions(const Corners& corners) const;
+  std::array<Direction, 3> directions(const Corners& corners) const;
   bool is_node(const Direction& place, const Corners& corners, std::vector<Share>& shares) const;
   bool dig(const Direction& place, const Corners& corners, std::vector<std::int32_t>& nodes,
            pstripack::Cavity& cavity) const;

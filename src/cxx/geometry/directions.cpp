@@ -187,6 +187,24 @@ int filter_height_of_pair(const Seen& b, const Seen& c, const Seen& s) {
       kFactor * ((bs.magnitude * c.q + cs.magnitude * b.q) + bc.magnitude * s.q) + kNegligible);
 }
 
+/// For vectors p that are (1 + s_p) times a direction, |s_p| < 2^-51, and whose volume v as given is known,
+/// the volume of the directions is, up to terms of second order in s,
+///
+///     a.x V = (1 - s_b - s_c - s_d) a.x v - D_cd (s_b - s_a) + D_bd (s_c - s_a) - D_bc (s_d - s_a):
+///
+/// each bracket of V grows with the lengths of its three vectors, and [bcd] = v + [acd] - [abd] + [abc].
+/// Errors: of the first term 2^-49 from its factor and 2^-51 from its rounding; of each D 13u of its
+/// magnitude, times 2^-50; of the terms of second order 3 * 2^-102 of [acd] and so on, and of v. volume: a.x
+/// v.
+int height_by_lengths(double volume, const Seen& b, const Seen& c, const Seen& d, double s_b, double s_c,
+                      double s_d) {
+  if (b.weight != 1 || c.weight != 1 || d.weight != 1) return 0;
+  const Estimate cd = area(c, d), bd = area(b, d), bc = area(b, c);
+  return certain_sign(
+      volume + ((bd.value * s_c - cd.value * s_b) - bc.value * s_d),
+      0x1p-48 * std::fabs(volume) + (0x1p-96 * ((bd.magnitude + cd.magnitude) + bc.magnitude) + 0x1p-168));
+}
+
 // ---- in double-double -----------------------------------------------------------------------------------
 //
 // A node far from the apex, |e| >= 2^-17: from the directions, high + low, each component known to 2^-101 of
@@ -621,6 +639,19 @@ struct Directions::View::Memory {
     return seen(i,
                 [&](Seen& s) { s = seen_from(apex, axes(nodes.position(i)), axes(nodes.difference(i, v))); });
   }
+  /// For unit vectors up to rounding whose coordinates are multiples of 2^-61, as those of most nodes on
+  /// parallels are. 0: not certain.
+  int height_on_grid(const index_t (&node)[3], const Seen* const (&of)[3]) const {
+    exact::Grid at_v, at[3];
+    double s[3];
+    if (!exact::on_grid(nodes.position(v), at_v)) return 0;
+    for (int k = 0; k < 3; ++k) {
+      if (!exact::on_grid(nodes.position(node[k]), at[k])) return 0;
+      s[k] = nodes.unit_[node[k]].shrink - nodes.unit_[v].shrink;  // NaN, and not certain, for other lengths
+    }
+    const double volume = 0x1p-183 * exact::det(at[0] - at_v, at[1] - at_v, at[2] - at_v).value();
+    return height_by_lengths(apex.x * volume, *of[0], *of[1], *of[2], s[0], s[1], s[2]);
+  }
   const FineSeen& see_finely(index_t i) {
     if (!is_fine) fine_apex = pstripack::fine_apex(axes, nodes.unit(v), nodes.given(v));
     is_fine = true;
@@ -669,6 +700,7 @@ bool Directions::View::above(index_t a, index_t b, index_t c) {
   if (m.seen.share_slot(b, a)) seen[1] = &(kept[1] = *seen[1]);
   seen[2] = &m.see(a);
   if (const int s = signed_for_axes(filter_height(*seen[0], *seen[1], *seen[2]))) return s > 0;
+  if (const int s = signed_for_axes(m.height_on_grid(node, seen))) return s > 0;
   // Two of the nodes may be close to each other and far from v.
   std::size_t pair = 0;
   double least = 4;

@@ -120,10 +120,19 @@ inline bool on_grid(const Point& p, Grid& g) {
 
 inline Grid operator-(const Grid& a, const Grid& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 
-/// sign of det(e,f,g), components below 2^62 (1 + 2^-10). A 2x2 minor is below 2^126 and is split into a high
-/// word below 2^62 and a low word below 2^64; the products with g are summed in base 2^64, high part below
-/// 3 * 2^125, so nothing overflows.
-inline int sign_of_det(const Grid& e, const Grid& f, const Grid& g) {
+/// high * 2^64 + low
+struct WideInteger {
+  __int128 high;
+  std::uint64_t low;
+  int sign() const { return high < 0 ? -1 : high > 0 || low != 0; }
+  /// Rounded: wrong by at most 2^-52 of itself and 2^12.
+  double value() const { return 0x1p64 * static_cast<double>(high) + static_cast<double>(low); }
+};
+
+/// det(e,f,g), components below 2^62 (1 + 2^-10). A 2x2 minor is below 2^126 and is split into a high word
+/// below 2^62 and a low word below 2^64; the products with g are summed in base 2^64, high part below 3 *
+/// 2^125, so nothing overflows.
+inline WideInteger det(const Grid& e, const Grid& f, const Grid& g) {
   using Wide = __int128;
   Wide high = 0;
   unsigned __int128 low = 0;
@@ -136,10 +145,9 @@ inline int sign_of_det(const Grid& e, const Grid& f, const Grid& g) {
   add(e.y, f.z, e.z, f.y, g.x);
   add(e.z, f.x, e.x, f.z, g.y);
   add(e.x, f.y, e.y, f.x, g.z);
-  high += static_cast<Wide>(low >> 64);
-  if (high != 0) return high < 0 ? -1 : 1;
-  return static_cast<std::uint64_t>(low) != 0;
+  return {high + static_cast<Wide>(low >> 64), static_cast<std::uint64_t>(low)};
 }
+inline int sign_of_det(const Grid& e, const Grid& f, const Grid& g) { return det(e, f, g).sign(); }
 
 // ---- any exponents ---------------------------------------------------------------------------------
 
