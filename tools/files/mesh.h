@@ -30,6 +30,8 @@ struct Mesh {
   std::vector<double> density;  ///< of each node; empty: unknown
   Columns columns;              ///< values of each node
   Notes notes;
+  double radius = 1;        ///< of the sphere in MPAS files
+  bool with_edges = false;  ///< UGRID files also get the edges
   std::vector<std::int32_t> list, lptr, lend;
   std::int32_t lnew = 0;
 
@@ -92,12 +94,21 @@ struct Faces {
   LonLat given_points, given_centres;  ///< their longitudes and latitudes, if the input had them
   Columns columns_of_points, columns_of_faces;
   Share share_of_points, share_of_faces;
+  bool with_edges = false;  ///< UGRID files also get the edges; all faces must be here
 
   std::size_t size() const { return begin.size() - 1; }
   std::size_t node_of(std::size_t f) const { return nodes.empty() ? f : nodes[f]; }
   std::size_t corners(std::size_t f) const { return begin[f + 1] - begin[f]; }
   std::size_t most_corners() const;
 };
+
+/// The edges of faces, in increasing order of their nodes. All numbers begin with 1.
+struct Edges {
+  std::vector<std::int32_t> nodes;     ///< two for each edge, the smaller first
+  std::vector<std::int32_t> faces;     ///< two for each edge, on its left and on its right; -1: none
+  std::vector<std::int32_t> of_faces;  ///< for each corner of a face the edge to the next corner
+};
+Edges edges_of(const Faces& faces);
 
 /// The centroid of each face: the direction of the sum of its corners.
 std::vector<Point> centroids(const Faces& faces);

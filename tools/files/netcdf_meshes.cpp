@@ -1,192 +1,13 @@
-// Writers of NetCDF: UGRID, SCRIP, the input of MPAS' mesh converter, and nodes alone.
+// Writers of NetCDF: UGRID, SCRIP, ESMF, and nodes alone.
 
-#include <netcdf.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <set>
-#include <stdexcept>
 #include <utility>
 
 #include "files/map_rings.h"
+#include "files/netcdf_writer.h"
 #include "files/writers.h"
 
 namespace files {
 namespace {
-
-/// A NetCDF file being written: first all definitions, then the values. If another process has begun the
-/// file, the definitions are looked up and this process adds its rows.
-class Writer {
- public:
-  explicit Writer(const OutputFile& file) : name_(file.name()), is_begun_(file.is_begun()) {
-    if (is_begun_) {
-      check(nc_open(file.path().c_str(), NC_WRITE, &id_));
-    } else {
-      check(nc_create(file.path().c_str(), NC_CLOBBER | NC_NETCDF4 | NC_CLASSIC_MODEL, &id_));
-      check(nc_set_fill(id_, NC_NOFILL, nullptr));
-    }
-  }
-  ~Writer() {
-    if (id_ >= 0) nc_abort(id_);
-  }
-  Writer(const Writer&) = delete;
-  Writer& operator=(const Writer&) = delete;
-
-  /// Defines a dimension. `length`: number of rows of this process.
-  int dimension(const char* name, std::size_t length, const Share& share = {}) {
-    int dimension = 0;
-    check(is_begun_ ? nc_inq_dimid(id_, name, &dimension)
-                    : nc_def_dim(id_, name, share.total(length), &dimension));
-    rows_[dimension] = {share.before, length};
-    names_.insert(name);
-    return dimension;
-  }
-  int variable(const char* name, nc_type type, const std::vector<int>& dimensions) {
-    int variable = 0;
-    check(is_begun_ ? nc_inq_varid(id_, name, &variable)
-                    : nc_def_var(id_, name, type, static_cast<int>(dimensions.size()), dimensions.data(),
-                                 &variable));
-    dimensions_[variable] = dimensions;
-    names_.insert(name);
-    return variable;
-  }
-  /// Defines longitudes and latitudes with the units degrees_east and degrees_north that CF requires.
-  std::pair<int, int> lon_lat(const char* lon_name, const char* lat_name, const std::vector<int>& of_lon,
-                              const std::vector<int>& of_lat) {
-    const int lon = angle(lon_name, of_lon, "degrees_east"), lat = angle(lat_name, of_lat, "degrees_north");
-    attribute(lon, "standard_name", "longitude");
-    attribute(lat, "standard_name", "latitude");
-    return {lon, lat};
-  }
-  /// Defines the density of the nodes. Nothing if `values` is empty.
-  int density(const std::vector<double>& values, int nodes) {
-    return values.empty() ? -1 : variable("meshDensity", NC_DOUBLE, {nodes});
-  }
-  /// Defines a variable with these dimensions for each column, numbers or texts of equal length. Renames
-  /// columns whose names are taken. `of_mesh`: attributes of each variable.
-  std::vector<int> columns(const Columns& all, const std::vector<int>& dimensions, const Notes& of_mesh) {
-    std::vector<int> ids;
-    for (const Column& c : all) {
-      const std::string name = free_name(c.name);
-      std::vector<int> shape = dimensions;
-      if (c.is_text()) shape.push_back(dimension((name + "_length").c_str(), longest(c)));
-      const int id = variable(name.c_str(), c.is_text() ? NC_CHAR : c.whole ? NC_INT : NC_DOUBLE, shape);
-      const bool renamed = name != c.name && c.long_name.empty();
-      if (renamed || !c.long_name.empty()) attribute(id, "long_name", renamed ? c.name : c.long_name);
-      if (!c.units.empty()) attribute(id, "units", c.units);
-      if (!c.is_text() && !c.whole) attribute(id, "_FillValue", NC_FILL_DOUBLE);
-      for (const auto& [attribute_name, text] : of_mesh) attribute(id, attribute_name.c_str(), text);
-      ids.push_back(id);
-    }
-    return ids;
-  }
-  void put(const std::vector<int>& ids, const Columns& all) {
-    for (std::size_t k = 0; k < ids.size(); ++k) {
-      const Column& c = all[k];
-      if (c.is_text()) {
-        const std::size_t length = longest(c);
-        std::string bytes;
-        for (std::size_t i = 0; i < c.size(); ++i) (bytes += c.texts[i]).resize((i + 1) * length);
-        const Slab slab = slab_of(ids[k]);
-        check(nc_put_vara_text(id_, ids[k], slab.start.data(), slab.count.data(), bytes.data()));
-      } else if (c.whole) {
-        put(ids[k], std::vector<std::int32_t>(c.numbers.begin(), c.numbers.end()));
-      } else if (std::any_of(c.numbers.begin(), c.numbers.end(), [](double v) { return std::isnan(v); })) {
-        std::vector<double> filled = c.numbers;
-        for (double& v : filled)
-          if (std::isnan(v)) v = NC_FILL_DOUBLE;
-        put(ids[k], filled);
-      } else {
-        put(ids[k], c.numbers);
-      }
-    }
-  }
-  void attributes(const Notes& notes) {
-    for (const auto& [name, text] : notes) attribute(NC_GLOBAL, name.c_str(), text);
-  }
-  /// Defines a variable of angles in degrees or radians.
-  int angle(const char* name, const std::vector<int>& dimensions, const char* units) {
-    const int id = variable(name, NC_DOUBLE, dimensions);
-    attribute(id, "units", units);
-    return id;
-  }
-  void attribute(int variable, const char* name, const std::string& text) {
-    if (!is_begun_) check(nc_put_att_text(id_, variable, name, text.size(), text.data()));
-  }
-  void attribute(int variable, const char* name, int value) {
-    if (!is_begun_) check(nc_put_att_int(id_, variable, name, NC_INT, 1, &value));
-  }
-  void attribute(int variable, const char* name, double value) {
-    if (!is_begun_) check(nc_put_att_double(id_, variable, name, NC_DOUBLE, 1, &value));
-  }
-  void end_definitions() {
-    if (!is_begun_) check(nc_enddef(id_));
-  }
-  void put(int variable, const std::vector<double>& values) {
-    const Slab slab = slab_of(variable);
-    check(nc_put_vara_double(id_, variable, slab.start.data(), slab.count.data(), values.data()));
-  }
-  void put(int variable, const std::vector<std::int32_t>& values) {
-    const Slab slab = slab_of(variable);
-    check(nc_put_vara_int(id_, variable, slab.start.data(), slab.count.data(), values.data()));
-  }
-  void put(int x, int y, int z, const std::vector<Point>& points) {
-    std::vector<double> values(points.size());
-    for (const auto& [variable, component] :
-         {std::pair(x, &Point::x), std::pair(y, &Point::y), std::pair(z, &Point::z)}) {
-      for (std::size_t i = 0; i < points.size(); ++i) values[i] = points[i].*component;
-      put(variable, values);
-    }
-  }
-  void close() {
-    const int id = id_;
-    id_ = -1;
-    check(nc_close(id));
-  }
-
- private:
-  void check(int status) const {
-    if (status != NC_NOERR) throw std::runtime_error(name_ + ": cannot be written: " + nc_strerror(status));
-  }
-  /// The rows of a variable that this process writes.
-  struct Slab {
-    std::vector<std::size_t> start, count;
-  };
-  Slab slab_of(int variable) const {
-    Slab slab;
-    for (const int dimension : dimensions_.at(variable)) {
-      const auto [before, here] = rows_.at(dimension);
-      slab.start.push_back(before);
-      slab.count.push_back(here);
-    }
-    return slab;
-  }
-  static std::size_t longest(const Column& texts) {
-    std::size_t most = 1;
-    for (const std::string& text : texts.texts) most = std::max(most, text.size());
-    return most;
-  }
-  /// A name that NetCDF allows and no other variable has. Blanks are replaced, since some readers do not
-  /// accept them.
-  std::string free_name(std::string name) {
-    const auto is_plain = [](char c) {
-      return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-    };
-    for (char& c : name)
-      if (!is_plain(c)) c = '_';
-    if (name.empty() || (name[0] >= '0' && name[0] <= '9')) name = "_" + name;
-    while (names_.count(name) > 0) name += "_given";
-    return name;
-  }
-  std::string name_;
-  bool is_begun_;
-  int id_ = -1;
-  std::map<int, std::pair<std::size_t, std::size_t>>
-      rows_;                                    ///< of each dimension: rows of earlier processes, own rows
-  std::map<int, std::vector<int>> dimensions_;  ///< of each variable
-  std::set<std::string> names_;                 ///< of dimensions and variables
-};
 
 /// A table with one row per face, as wide as the largest face: entry(slot of faces.corner) for its corners,
 /// then `rest(last entry)`.
@@ -208,7 +29,7 @@ void write_ugrid(const OutputFile& file, const Faces& faces, const std::vector<P
   constexpr std::int32_t kNone = -1;
   const std::size_t width = faces.most_corners();
   const bool has_centres = !faces.centres.empty();
-  Writer out(file);
+  NetcdfWriter out(file);
   const int nodes = out.dimension("mesh_nodes", faces.points.size(), faces.share_of_points);
   const int n_faces = out.dimension("mesh_faces", faces.size(), faces.share_of_faces);
   const int corners = out.dimension("mesh_face_corners", width);
@@ -224,6 +45,26 @@ void write_ugrid(const OutputFile& file, const Faces& faces, const std::vector<P
   out.attribute(connectivity, "cf_role", "face_node_connectivity");
   out.attribute(connectivity, "start_index", 1);
   out.attribute(connectivity, "_FillValue", kNone);
+  int edge_nodes = -1, edge_faces = -1, face_edges = -1;
+  Edges edges;
+  if (faces.with_edges) {
+    edges = edges_of(faces);
+    const int n_edges = out.dimension("mesh_edges", edges.nodes.size() / 2),
+              two = out.dimension("mesh_two", 2);
+    const auto indices = [&](const std::string& role, const std::vector<int>& dimensions) {
+      const std::string name = "mesh_" + role.substr(0, 4) + "_" + role.substr(5, 4) + "s";
+      const int id = out.variable(name.c_str(), NC_INT, dimensions);
+      out.attribute(mesh, role.c_str(), name);
+      out.attribute(id, "cf_role", role);
+      out.attribute(id, "start_index", 1);
+      out.attribute(id, "_FillValue", kNone);
+      return id;
+    };
+    out.attribute(mesh, "edge_dimension", "mesh_edges");
+    edge_nodes = indices("edge_node_connectivity", {n_edges, two});
+    edge_faces = indices("edge_face_connectivity", {n_edges, two});
+    face_edges = indices("face_edge_connectivity", {n_faces, corners});
+  }
   out.attributes(notes);
   const auto [node_lon, node_lat] = out.lon_lat("mesh_node_lon", "mesh_node_lat", {nodes}, {nodes});
   const auto [face_lon, face_lat] =
@@ -257,12 +98,18 @@ void write_ugrid(const OutputFile& file, const Faces& faces, const std::vector<P
   if (!density.empty()) out.put(of_density, density);
   out.put(node_columns, faces.columns_of_points);
   out.put(face_columns, faces.columns_of_faces);
-  if (faces.corner.size() == faces.size() * width)
-    out.put(connectivity, faces.corner);
-  else
-    out.put(connectivity, padded<std::int32_t>(
-                              faces, width, [&](std::size_t k) { return faces.corner[k]; },
-                              [](std::int32_t) { return kNone; }));
+  const auto put_padded = [&](int variable, const std::vector<std::int32_t>& values) {
+    if (values.size() == faces.size() * width) return out.put(variable, values);
+    out.put(variable,
+            padded<std::int32_t>(
+                faces, width, [&](std::size_t k) { return values[k]; }, [](std::int32_t) { return kNone; }));
+  };
+  put_padded(connectivity, faces.corner);
+  if (faces.with_edges) {
+    out.put(edge_nodes, edges.nodes);
+    out.put(edge_faces, edges.faces);
+    put_padded(face_edges, edges.of_faces);
+  }
   out.close();
 }
 
@@ -289,12 +136,18 @@ Faces without_short_sides(const Faces& faces) {
   return kept;
 }
 
+/// Of each face the longitude and latitude, in degrees, of its node, else of its centroid.
+LonLat centres_of(const Faces& faces) {
+  return faces.centres.empty() ? LonLat(centroids(faces), true)
+                               : angles_of(faces.centres, faces.given_centres, true);
+}
+
 }  // namespace
 
 void write_scrip(const OutputFile& file, const Faces& faces, const Notes& notes) {
   const Faces rings = without_short_sides(faces);
   const std::size_t width = rings.most_corners();
-  Writer out(file);
+  NetcdfWriter out(file);
   const int size = out.dimension("grid_size", faces.size());
   const int corners = out.dimension("grid_corners", width);
   const int rank = out.dimension("grid_rank", 1);
@@ -311,8 +164,7 @@ void write_scrip(const OutputFile& file, const Faces& faces, const Notes& notes)
   out.attributes(notes);
   out.end_definitions();
 
-  const LonLat of_centres = faces.centres.empty() ? LonLat(centroids(faces), true)
-                                                  : angles_of(faces.centres, faces.given_centres, true);
+  const LonLat of_centres = centres_of(faces);
   const LonLat of_points = angles_of(faces.points, faces.given_points, true);
   out.put(area, areas(faces));
   out.put(dims, std::vector<std::int32_t>{static_cast<std::int32_t>(faces.size())});
@@ -331,86 +183,50 @@ void write_scrip(const OutputFile& file, const Faces& faces, const Notes& notes)
   out.close();
 }
 
-namespace {
-
-struct Mpas {
-  std::vector<Point> cells, vertices;
-  LonLat given;                                 ///< of the cells
-  std::vector<std::int32_t> cells_of_vertices;  ///< three cells for each vertex
-  std::vector<double> density;
-  const Notes& notes;
-  Share share_of_cells = {}, share_of_vertices = {};
-};
-
-void write(const OutputFile& file, const Mpas& mesh) {
-  Writer out(file);
-  const int n_cells = out.dimension("nCells", mesh.cells.size(), mesh.share_of_cells);
-  const int n_vertices = out.dimension("nVertices", mesh.vertices.size(), mesh.share_of_vertices);
-  const int degree = out.dimension("vertexDegree", 3);
-  out.attribute(NC_GLOBAL, "on_a_sphere", "YES");
-  out.attribute(NC_GLOBAL, "sphere_radius", 1.0);
-  out.attribute(NC_GLOBAL, "is_periodic", "NO");
-  out.attribute(NC_GLOBAL, "mesh_spec", "1.0");
-  out.attribute(NC_GLOBAL, "history", "pstripack");
-  out.attributes(mesh.notes);
-  struct Variables {
-    int x, y, z, lon, lat;
-  };
-  const auto places = [&](const std::string& of, int dimension) -> Variables {
-    const auto name = [&](const char* begin) { return begin + of; };
-    return {out.variable(name("x").c_str(), NC_DOUBLE, {dimension}),
-            out.variable(name("y").c_str(), NC_DOUBLE, {dimension}),
-            out.variable(name("z").c_str(), NC_DOUBLE, {dimension}),
-            out.angle(name("lon").c_str(), {dimension}, "rad"),
-            out.angle(name("lat").c_str(), {dimension}, "rad")};
-  };
-  const Variables of_cells = places("Cell", n_cells), of_vertices = places("Vertex", n_vertices);
-  const int cells_on_vertex = out.variable("cellsOnVertex", NC_INT, {n_vertices, degree});
-  const int density = out.variable("meshDensity", NC_DOUBLE, {n_cells});
+void write_esmf(const OutputFile& file, const Faces& faces, const Notes& notes) {
+  constexpr std::int32_t kNone = -1;
+  const Faces rings = without_short_sides(faces);
+  const std::size_t width = rings.most_corners();
+  NetcdfWriter out(file);
+  const int nodes = out.dimension("nodeCount", faces.points.size()),
+            elements = out.dimension("elementCount", faces.size()),
+            corners = out.dimension("maxNodePElement", width), two = out.dimension("coordDim", 2);
+  const int coordinates = out.angle("nodeCoords", {nodes, two}, "degrees"),
+            connectivity = out.variable("elementConn", NC_INT, {elements, corners}),
+            count = out.variable("numElementConn", NC_INT, {elements}),
+            centres = out.angle("centerCoords", {elements, two}, "degrees"),
+            area = out.variable("elementArea", NC_DOUBLE, {elements}),
+            mask = out.variable("elementMask", NC_INT, {elements});
+  out.attribute(connectivity, "long_name", "Node indices that define the element connectivity");
+  out.attribute(connectivity, "start_index", 1);
+  out.attribute(connectivity, "_FillValue", kNone);
+  out.attribute(count, "long_name", "Number of nodes per element");
+  out.attribute(area, "units", "radians^2");
+  out.attribute(area, "long_name", "area of the element on the unit sphere");
+  out.attribute(NC_GLOBAL, "gridType", "unstructured");
+  out.attribute(NC_GLOBAL, "version", "0.9");
+  out.attributes(notes);
   out.end_definitions();
 
-  const auto put = [&](const Variables& to, const std::vector<Point>& points, const LonLat& given) {
-    out.put(to.x, to.y, to.z, points);
-    LonLat angles = angles_of(points, given, false);
-    constexpr double kTurn = 6.2831853071795865;  // MPAS: 0 to 2 pi
-    for (double& lon : angles.lon)
-      if (lon < 0) lon = lon + kTurn < kTurn ? lon + kTurn : 0;
-    out.put(to.lon, angles.lon);
-    out.put(to.lat, angles.lat);
+  const auto put_places = [&](int variable, const LonLat& places) {
+    out.put_rows<double>({variable}, places.lon.size(), 2,
+                         [&](std::size_t i, double* to) { to[0] = places.lon[i], to[1] = places.lat[i]; });
   };
-  put(of_cells, mesh.cells, mesh.given);
-  put(of_vertices, mesh.vertices, {});
-  out.put(cells_on_vertex, mesh.cells_of_vertices);
-  out.put(density, mesh.density.empty() ? std::vector<double>(mesh.cells.size(), 1) : mesh.density);
+  put_places(coordinates, angles_of(faces.points, faces.given_points, true));
+  put_places(centres, centres_of(faces));
+  out.put(connectivity, padded<std::int32_t>(
+                            rings, width, [&](std::size_t k) { return rings.corner[k]; },
+                            [](std::int32_t) { return kNone; }));
+  out.put_rows<std::int32_t>({count}, faces.size(), 1, [&](std::size_t f, std::int32_t* to) {
+    *to = static_cast<std::int32_t>(rings.corners(f));
+  });
+  out.put(area, areas(faces));
+  out.put(mask, std::vector<std::int32_t>(faces.size(), 1));
   out.close();
 }
 
-}  // namespace
-
-void write_mpas(const OutputFile& file, const Mesh& mesh) {
-  std::vector<Point> cells = unit(mesh.points);
-  std::vector<std::int32_t> triangles = triangles_of(mesh);
-  std::vector<Point> vertices = circumcentres(mesh.points, triangles);
-  write(file,
-        {std::move(cells), std::move(vertices), mesh.given, std::move(triangles), mesh.density, mesh.notes});
-}
-
-void write_mpas(const OutputFile& file, const MeshPart& part) {
-  std::vector<Point> points = unit(part.points);
-  std::vector<Point> vertices = circumcentres(part.points, part.corner);
-  points.resize(part.nodes);
-  write(file, {std::move(points),
-               std::move(vertices),
-               {},
-               part.corners_by_number(),
-               part.density,
-               part.notes,
-               part.share_of_nodes,
-               part.share_of_triangles});
-}
-
 void write_netcdf_nodes(const OutputFile& file, const std::vector<Point>& points, const NodeValues& values) {
-  Writer out(file);
+  NetcdfWriter out(file);
   const bool degrees = values.given.empty() || values.given.degrees;
   const int n = out.dimension("nCells", points.size(), values.share);
   const int lon = out.angle("lon", {n}, degrees ? "degrees_east" : "radians"),
@@ -430,7 +246,7 @@ void write_netcdf_nodes(const OutputFile& file, const std::vector<Point>& points
 }
 
 void write_netcdf_field(const OutputFile& file, const LonLat& places, const Field& field) {
-  Writer out(file);
+  NetcdfWriter out(file);
   const int n = out.dimension("point", places.lon.size());
   const auto [lon, lat] = out.lon_lat("lon", "lat", {n}, {n});
   out.attribute(NC_GLOBAL, "Conventions", "CF-1.8");
@@ -446,7 +262,7 @@ void write_netcdf_field(const OutputFile& file, const LonLat& places, const Fiel
 }
 
 void write_netcdf_grid(const OutputFile& file, const Grid& grid, const Field& field) {
-  Writer out(file);
+  NetcdfWriter out(file);
   const int n_lat = out.dimension("lat", grid.lat.size()), n_lon = out.dimension("lon", grid.lon.size());
   const auto [lon, lat] = out.lon_lat("lon", "lat", {n_lon}, {n_lat});
   out.attribute(NC_GLOBAL, "Conventions", "CF-1.8");

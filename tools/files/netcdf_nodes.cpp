@@ -484,8 +484,10 @@ void add_angles(const File& file, Places& places, const std::string& lon_name, c
   }
 }
 
-/// Corners of triangles, row after row, counted from `first`.
-void read_triangles(const File& file, Nodes& nodes, const std::string& name, long long first) {
+/// Corners of triangles, row after row, counted from `first`. `with_boundary`: corners of MPAS may be
+/// missing.
+void read_triangles(const File& file, Nodes& nodes, const std::string& name, long long first,
+                    bool with_boundary = false) {
   std::vector<int> dimensions;
   const auto [id, lengths] = shape_of(file, name, dimensions);
   if (lengths.size() != 2 || lengths[1] != 3)
@@ -494,6 +496,14 @@ void read_triangles(const File& file, Nodes& nodes, const std::string& name, lon
   file.expect(name, id, 3 * lengths[0]);
   std::vector<long long> corners(3 * lengths[0]);
   file.call(name, nc_get_var_longlong, file.id(), id, corners.data());
+  if (with_boundary && std::find(corners.begin(), corners.end(), 0) != corners.end()) {
+    nodes.vertices = from_coordinates(file, "xVertex", "yVertex", "zVertex").points;
+    if (nodes.vertices.size() != lengths[0])
+      file.fail(fmt::format("{} vertices in xVertex, {} in {}", nodes.vertices.size(), lengths[0], name));
+    for (std::size_t v = 0; v < nodes.vertices.size(); ++v)
+      if (!has_direction(nodes.vertices[v]))
+        file.fail(fmt::format("vertex {}: xVertex, yVertex, zVertex are 0", v + 1));
+  }
   set_triangles(nodes, corners, first);
 }
 
@@ -548,6 +558,10 @@ void read_notes(const File& file, Notes& notes) {
     file.call("", nc_inq_attname, file.id(), NC_GLOBAL, a, name);
     if (is_note(name)) notes[name] = text_attribute(file, NC_GLOBAL, name);
   }
+  // What MPAS' tools write in a mesh that they make of this one.
+  std::string parents = text_attribute(file, NC_GLOBAL, "file_id");
+  const std::string older = text_attribute(file, NC_GLOBAL, "parent_id");
+  if (!parents.empty()) notes["parent_id"] = parents + (older.empty() ? "" : "\n" + older);
 }
 
 /// The names in --columns.
@@ -650,7 +664,10 @@ Nodes read_netcdf(const std::string& name, const ReadOptions& options, const std
   if (has(file, "meshDensity")) nodes.density = read(file, "meshDensity").values;
   if (nodes.density.size() != nodes.points.size()) nodes.density.clear();
   if (options.with_triangles && has(file, "xCell") && has(file, "cellsOnVertex"))
-    read_triangles(file, nodes, "cellsOnVertex", 1);
+    read_triangles(file, nodes, "cellsOnVertex", 1, options.with_boundary);
+  if (const double radius = number_attribute(file, NC_GLOBAL, "sphere_radius", 1);
+      radius > 0 && std::isfinite(radius))
+    nodes.radius = radius;
   return nodes;
 }
 

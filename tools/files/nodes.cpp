@@ -327,6 +327,7 @@ void Nodes::keep(const std::vector<std::size_t>& indices) {
   for (Column& column : columns) keep_column(column);
   grid = {};
   triangles.clear();
+  vertices.clear();
 }
 
 std::string hint_beyond_pole(const Angles& a, std::size_t n, const std::string& to_exchange) {
@@ -368,11 +369,13 @@ void set_triangles(Nodes& nodes, const std::vector<long long>& corners, long lon
     pstripack::Triangle& triangle = nodes.triangles[t];
     for (std::size_t k = 0; k < 3; ++k) {
       const long long node = corners[3 * t + k] - first;
-      if (node < 0 || node >= static_cast<long long>(nodes.points.size()))
+      const bool is_missing = node == -1 && !nodes.vertices.empty();
+      if ((node < 0 && !is_missing) || node >= static_cast<long long>(nodes.points.size()))
         throw std::runtime_error(
             fmt::format("{}: triangle {}: there is no node {}", nodes.file, t + 1, corners[3 * t + k]));
       triangle[k] = static_cast<pstripack::index_t>(node);
     }
+    if (triangle[0] < 0 || triangle[1] < 0 || triangle[2] < 0) continue;
     const auto at = [&](std::size_t k) { return nodes.points[static_cast<std::size_t>(triangle[k])]; };
     const int sign = pstripack::left(at(0), at(1), at(2));
     if (sign == 0)

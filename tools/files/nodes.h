@@ -22,6 +22,7 @@ struct ReadOptions {
   Coordinates coordinates = Coordinates::detected;
   Units units = Units::said_or_unmistakable;  ///< of angles in files that do not say
   bool with_triangles = false;                ///< also read the triangles of UGRID, MPAS and OFF
+  bool with_boundary = false;                 ///< also those of MPAS that lack corners
   bool with_columns = false;                  ///< also read the other columns; not of raw doubles
   bool with_values = false;                   ///< also read one value per node; not of raw doubles
   std::string variable;  ///< its name, or in text its number; empty: the column after the coordinates
@@ -60,6 +61,10 @@ struct Nodes {
   Columns columns;                 ///< if requested: the other columns of the file
   Notes notes;
   pstripack::Triangles triangles;  ///< counterclockwise; empty unless requested and present
+  /// Of an MPAS mesh with a boundary, if requested: the vertices of all triangles, of which some lack
+  /// corners: -1 stands for them.
+  std::vector<Point> vertices;
+  double radius = 1;  ///< of the sphere, if the file says it
 
   /// "node 17", with its line or feature if known.
   std::string place(std::size_t i) const;

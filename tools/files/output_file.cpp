@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kSignals[] = {SIGHUP, SIGINT, SIGPIPE, SIGQUIT, SIGTERM, SIGXCPU};
-char name_to_remove[4096] = "";  // a signal handler must not allocate; empty: no file
+char names_to_remove[2][4096] = {"", ""};  // a signal handler must not allocate; empty: no file
 
 void remove_and_end(int signal) {
   remove_unfinished_output();
@@ -70,7 +70,8 @@ std::function<void(const std::string&)>& on_leftover() {
 }
 
 void remove_unfinished_output() {
-  if (name_to_remove[0] != '\0') unlink(name_to_remove);
+  for (const char* const name : names_to_remove)
+    if (name[0] != '\0') unlink(name);
 }
 
 void fail_to_write(const std::string& name, int error) {
@@ -101,7 +102,9 @@ OutputFile::OutputFile(const std::string& name)
   const int descriptor = mkstemp(temporary_.data());
   if (descriptor < 0) fail_to_write(name_, errno);
   close(descriptor);
-  if (temporary_.size() < sizeof name_to_remove) std::strcpy(name_to_remove, temporary_.c_str());
+  for (char(&name)[4096] : names_to_remove)
+    if (to_remove_ == nullptr && name[0] == '\0' && temporary_.size() < sizeof name)
+      to_remove_ = std::strcpy(name, temporary_.c_str());
   for (const int signal : kSignals)
     if (std::signal(signal, remove_and_end) == SIG_IGN) std::signal(signal, SIG_IGN);
 }
@@ -109,7 +112,7 @@ OutputFile::OutputFile(const std::string& name)
 OutputFile::~OutputFile() {
   if (is_shared_) return;
   if (!temporary_.empty()) unlink(temporary_.c_str());
-  name_to_remove[0] = '\0';
+  if (to_remove_ != nullptr) to_remove_[0] = '\0';
 }
 
 void OutputFile::commit() {

@@ -16,8 +16,8 @@ namespace files {
 /// SIGINT, SIGPIPE, SIGQUIT, SIGTERM or SIGXCPU, nothing remains. After SIGKILL the temporary file remains:
 /// the next run that writes the same file calls on_leftover(). An existing file is replaced unless its
 /// permissions forbid to write it, also root, and the new one gets them. `-` is stdout: commit() copies to
-/// it, by whatever name, and to devices, pipes and open files without a name. Only one object may exist at a
-/// time. Throws std::runtime_error "NAME: cannot be written: why".
+/// it, by whatever name, and to devices, pipes and open files without a name. At most two objects may exist
+/// at a time. Throws std::runtime_error "NAME: cannot be written: why".
 class OutputFile {
  public:
   explicit OutputFile(const std::string& name);
@@ -32,6 +32,7 @@ class OutputFile {
   const std::string& path() const { return temporary_; }  ///< where to write before commit()
   const std::string& name() const { return name_; }       ///< for messages
   bool is_begun() const { return is_begun_; }
+  bool has_a_name() const { return !copies_; }  ///< not stdout, a device or a pipe: others can lie beside it
   void commit();
 
  private:
@@ -40,12 +41,13 @@ class OutputFile {
   std::string name_, target_, temporary_;
   bool copies_;  ///< the target is a device, pipe or stdout: commit() copies
   bool is_shared_ = false, is_begun_ = false;
+  char* to_remove_ = nullptr;  ///< the signal handlers' copy of temporary_
 };
 
 /// Is called with the sentence that names a temporary file of a killed run; empty: nobody is told.
 std::function<void(const std::string&)>& on_leftover();
 
-/// Removes the temporary file that an OutputFile of this process has. Signal handlers may call it.
+/// Removes the temporary files that OutputFiles of this process have. Signal handlers may call it.
 void remove_unfinished_output();
 
 [[noreturn]] void fail_to_write(const std::string& name, int error);

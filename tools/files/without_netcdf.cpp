@@ -20,8 +20,9 @@ void write_ugrid(const OutputFile& file, const Faces&, const std::vector<Point>&
   refuse(file.name());
 }
 void write_scrip(const OutputFile& file, const Faces&, const Notes&) { refuse(file.name()); }
+void write_esmf(const OutputFile& file, const Faces&, const Notes&) { refuse(file.name()); }
 void write_mpas(const OutputFile& file, const Mesh&) { refuse(file.name()); }
-void write_mpas(const OutputFile& file, const MeshPart&) { refuse(file.name()); }
+void write_mpas(const OutputFile& file, const MpasMesh&, const MpasValues&) { refuse(file.name()); }
 void write_netcdf_nodes(const OutputFile& file, const std::vector<Point>&, const NodeValues&) {
   refuse(file.name());
 }

@@ -149,6 +149,30 @@ void write_lists(const OutputFile& file, const Mesh& mesh) {
   out.close();
 }
 
+/// Nodes with 1 at the boundary, else 0, and in a file beside them the triangles.
+void write_fesom(const OutputFile& file, const Mesh& mesh) {
+  const std::string nodes = "nod2d.out";
+  if (!file.has_a_name() || !ends_with("/" + file.name(), nodes))
+    refuse(file, Format::fesom, "has files called nod2d.out and elem2d.out: -o nod2d.out");
+  {
+    const LonLat angles = angles_of(mesh.points, mesh.given, true);
+    TextWriter out(file);
+    out.print("{}\n", mesh.points.size());
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+      out.print("{} {} {} {}\n", i + 1, wrapped(angles.lon[i]), angles.lat[i],
+                mesh.list[static_cast<std::size_t>(mesh.lend[i]) - 1] < 0 ? 1 : 0);
+    out.close();
+  }
+  OutputFile beside(file.name().substr(0, file.name().size() - nodes.size()) + "elem2d.out");
+  const std::vector<std::int32_t> triangles = triangles_of(mesh);
+  TextWriter out(beside);
+  out.print("{}\n", triangles.size() / 3);
+  for (std::size_t k = 0; k < triangles.size(); k += 3)
+    out.print("{} {} {}\n", triangles[k], triangles[k + 1], triangles[k + 2]);
+  out.close();
+  beside.commit();
+}
+
 /// The table of a CSV file. A row of a cell: the coordinates and columns of its node. A row of a triangle:
 /// the numbers of its corners and its columns.
 Columns table_of(const Faces& faces) {
@@ -323,11 +347,14 @@ void write_gmt(const OutputFile& file, const Faces& faces) {
 const std::vector<FormatEntry>& formats() {
   static const std::vector<FormatEntry> table{
       {Format::ugrid, "ugrid", ".nc .ugrid.nc", "NetCDF, UGRID conventions: start_index 1, _FillValue -1"},
-      {Format::mpas, "mpas", ".mpas.nc", "NetCDF, input of MPAS' mesh converter (triangles only)"},
+      {Format::mpas, "mpas", ".mpas.nc",
+       "NetCDF (CDF-5), complete mesh of MPAS, and .graph.info (triangles only)"},
       {Format::scrip, "scrip", ".scrip.nc", "NetCDF, SCRIP grid of the faces"},
+      {Format::esmf, "esmf", ".esmf.nc", "NetCDF, ESMF unstructured grid of the faces"},
       {Format::vtu, "vtu", ".vtu", "VTK unstructured grid, for ParaView"},
       {Format::off, "off", ".off", "Object File Format"},
       {Format::gmsh, "gmsh", ".msh", "gmsh 2.2, text (triangles only)"},
+      {Format::fesom, "fesom", ".nod2d.out", "nodes for FESOM, and .elem2d.out beside (triangles only)"},
       {Format::lists, "lists", ".lists", "N LNEW, LIST, LPTR, LEND as text (triangles only)"},
       {Format::gmt, "gmt", ".gmt", "GMT multi-segment polygons, values as in OGR/GMT"},
       {Format::geojson, "geojson", ".geojson .json",
@@ -344,13 +371,12 @@ bool holds_a_mesh(Format format) { return format < Format::xyz; }
 bool holds_nodes(Format format) { return format >= Format::geojson; }
 
 bool holds_parts(Format format) {
-  return !holds_a_mesh(format) || format == Format::ugrid || format == Format::mpas || format == Format::off;
+  return !holds_a_mesh(format) || format == Format::ugrid || format == Format::off;
 }
 
 int sections_of(Format format) { return format == Format::off ? 2 : 1; }
 
 void write_part(const OutputFile& file, Format format, const MeshPart& part, int section) {
-  if (format == Format::mpas) return write_mpas(file, part);
   if (!holds_a_mesh(format))
     return write_nodes(file, format, part.nodes_here(),
                        {{}, part.density, part.columns, part.notes, part.share_of_nodes});
@@ -380,6 +406,8 @@ void write_faces(const OutputFile& file, Format format, const Faces& faces, cons
       return write_ugrid(file, faces, faces.points, {}, notes);
     case Format::scrip:
       return write_scrip(file, faces, notes);
+    case Format::esmf:
+      return write_esmf(file, faces, notes);
     case Format::vtu:
       return write_vtu(file, faces);
     case Format::off:
@@ -391,17 +419,19 @@ void write_faces(const OutputFile& file, Format format, const Faces& faces, cons
     case Format::csv:
       return write_csv(file, table_of(faces));
     default:
-      refuse(file, format, "cannot hold polygons: --to ugrid, scrip, vtu, off, gmt, geojson or csv can");
+      refuse(file, format,
+             "cannot hold polygons: --to ugrid, scrip, esmf, vtu, off, gmt, geojson or csv can");
   }
 }
 
 void write_mesh(const OutputFile& file, Format format, const Mesh& mesh) {
   if (format == Format::mpas) return write_mpas(file, mesh);
   if (format == Format::lists) return write_lists(file, mesh);
+  if (format == Format::fesom) return write_fesom(file, mesh);
   if (!holds_a_mesh(format))
     refuse(file, format, "holds nodes, not a mesh: `pstripack convert` writes nodes");
   Faces faces = triangle_faces(mesh);
-  if (format != Format::off && format != Format::scrip) add_columns(faces, mesh);
+  if (format != Format::off && format != Format::scrip && format != Format::esmf) add_columns(faces, mesh);
   if (format == Format::ugrid) return write_ugrid(file, faces, mesh.points, mesh.density, mesh.notes);
   if (format == Format::gmsh) return write_gmsh(file, faces);
   write_faces(file, format, faces, mesh.notes);

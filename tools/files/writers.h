@@ -11,7 +11,24 @@
 namespace files {
 
 /// Formats of meshes, of meshes and nodes, and of nodes.
-enum class Format { ugrid, mpas, scrip, vtu, off, gmsh, lists, gmt, geojson, csv, xyz, lonlat, netcdf, raw };
+enum class Format {
+  ugrid,
+  mpas,
+  scrip,
+  esmf,
+  vtu,
+  off,
+  gmsh,
+  fesom,
+  lists,
+  gmt,
+  geojson,
+  csv,
+  xyz,
+  lonlat,
+  netcdf,
+  raw
+};
 
 struct FormatEntry {
   Format format;
@@ -36,7 +53,7 @@ void write_mesh(const OutputFile& file, Format format, const Mesh& mesh);
 /// write section 0 one after another, then section 1, up to sections_of(format).
 int sections_of(Format format);
 void write_part(const OutputFile& file, Format format, const MeshPart& part, int section);
-/// Writes any polygons: ugrid, scrip, vtu, off, gmt, geojson, csv. Throws std::runtime_error for other
+/// Writes any polygons: ugrid, scrip, esmf, vtu, off, gmt, geojson, csv. Throws std::runtime_error for other
 /// formats.
 void write_faces(const OutputFile& file, Format format, const Faces& faces, const Notes& notes = {});
 /// What may be known about nodes without a mesh.
@@ -73,8 +90,21 @@ void write_netcdf_grid(const OutputFile& file, const Grid& grid, const Field& fi
 void write_ugrid(const OutputFile& file, const Faces& faces, const std::vector<Point>& vectors,
                  const std::vector<double>& density = {}, const Notes& notes = {});
 void write_scrip(const OutputFile& file, const Faces& faces, const Notes& notes = {});
-void write_mpas(const OutputFile& file, const Mesh& mesh);
-void write_mpas(const OutputFile& file, const MeshPart& part);
+void write_esmf(const OutputFile& file, const Faces& faces, const Notes& notes = {});
 void write_netcdf_nodes(const OutputFile& file, const std::vector<Point>& points, const NodeValues& values);
+
+// In netcdf_mpas.cpp.
+struct MpasMesh;
+/// What is known of an MPAS mesh beside the mesh; given angles and density of each cell, or empty.
+struct MpasValues {
+  LonLat given;
+  std::vector<double> density;
+  Notes notes;
+  double radius = 1;  ///< of the sphere; 1: unit sphere
+};
+/// Writes the mesh, and beside a file with a name its graph for METIS.
+void write_mpas(const OutputFile& file, const MpasMesh& mesh, const MpasValues& values);
+/// Nodes at the boundary of the triangulation are left out: they have no whole cells.
+void write_mpas(const OutputFile& file, const Mesh& mesh);
 
 }  // namespace files

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+#include <vector>
+
+#include "files/mpas_mesh.h"
 #include "pstripack/options.h"
 #include "pstripack/progress.h"
 
@@ -13,9 +17,31 @@ struct Options {
   Output output;
 };
 
+void write_whole(const files::OutputFile& file, const Output& output, const files::Nodes& nodes) {
+  files::Mesh mesh = files::mesh_of(nodes.points, nodes.triangles);
+  mesh.given = nodes.given;
+  mesh.density = nodes.density;
+  mesh.columns = nodes.columns;
+  mesh.notes = nodes.notes;
+  mesh.radius = nodes.radius;
+  write_mesh(file, output, mesh);
+}
+
+/// Writes an MPAS mesh with a boundary, which keeps its vertices.
+void write_cut(const files::OutputFile& file, const Output& output, const files::Nodes& nodes) {
+  if (output.format != files::Format::mpas)
+    throw std::runtime_error(nodes.file + ": cellsOnVertex has a boundary, which only --to mpas keeps");
+  std::vector<files::MpasMesh::Three> cells_on_vertex(nodes.triangles.begin(), nodes.triangles.end());
+  write_mpas(
+      file,
+      files::mpas_mesh(files::unit(nodes.points), files::unit(nodes.vertices), std::move(cells_on_vertex)),
+      {nodes.given, nodes.density, nodes.notes, output.radius > 0 ? output.radius : nodes.radius});
+}
+
 void convert(Options& options) {
   options.output.choose();
   options.input.read.with_triangles = options.input.read.with_columns = true;
+  options.input.read.with_boundary = true;
   files::OutputFile file(options.output.file);
   Progress progress;
   const Input& input = options.input;
@@ -36,12 +62,10 @@ void convert(Options& options) {
   progress.step("writing", [&] {
     if (files::holds_a_mesh(format) && has_mesh) {
       try {
-        files::Mesh mesh = files::mesh_of(nodes.points, nodes.triangles);
-        mesh.given = nodes.given;
-        mesh.density = nodes.density;
-        mesh.columns = nodes.columns;
-        mesh.notes = nodes.notes;
-        write_mesh(file, format, mesh);
+        if (nodes.vertices.empty())
+          write_whole(file, options.output, nodes);
+        else
+          write_cut(file, options.output, nodes);
       } catch (const files::NoMesh& e) {
         throw std::runtime_error(nodes.file + ": " + e.what());
       }
@@ -63,6 +87,8 @@ void add_convert(CLI::App& app, Command& chosen) {
   add_input(*sub, options->input);
   add_duplicates(*sub, options->input);
   add_output(*sub, options->output, true);
+  add_radius(*sub, options->output.radius, kRadiusOfMpas);
+  add_edges(*sub, options->output);
   sub->callback([=, &chosen] { chosen = [=] { convert(*options); }; });
 }
 

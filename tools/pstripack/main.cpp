@@ -22,7 +22,6 @@ constexpr auto kDescription = R"(Exact Delaunay triangulations and Voronoi diagr
   pstripack info nodes.nc
   pstripack triangulate nodes.nc -o mesh.nc
   pstripack voronoi nodes.nc -o cells.vtu
-  pstripack triangulate lonlat.txt -o mpas_input.mpas.nc
   pstripack scvt 10242 --density bump -o mesh.mpas.nc
   pstripack interpolate stations.txt --to-grid 180x360 -o field.nc
   pstripack plot mesh.nc -o mesh.svg

@@ -188,11 +188,29 @@ void add_output(CLI::App& app, Output& output, bool required) {
   app.footer("Formats and their suffixes:" + suffixes());
 }
 
+CLI::Option* add_radius(CLI::App& app, double& radius, const char* text) {
+  return app.add_option("--radius", radius, text)->type_name("METRES")->check([](const std::string& word) {
+    double value = 0;
+    return point_sets::parse(word, value) && value > 0 && std::isfinite(value)
+               ? std::string()
+               : "'" + word + "' is not a number of metres above 0";
+  });
+}
+
+void add_edges(CLI::App& app, Output& output) {
+  app.add_flag("--edges", output.edges, "UGRID: also the edges, with their nodes and faces");
+}
+
 void Output::choose(std::optional<files::Format> otherwise) {
   std::optional<files::Format> found = files::format_of(to, file);
   if (!found) found = otherwise;
   if (!found) throw CLI::ValidationError("--output", file + ": no format has this suffix: give --to");
   format = *found;
+  if (radius > 0 && format != files::Format::mpas)
+    throw CLI::ValidationError("--radius", "only MPAS meshes have a radius: --to mpas");
+  if (edges && format != files::Format::ugrid)
+    throw CLI::ValidationError("--edges",
+                               "only UGRID meshes have edges, as MPAS meshes always do: --to ugrid");
 }
 
 Nodes read_places(const std::string& file, const files::ReadOptions& options) {
@@ -322,6 +340,18 @@ std::runtime_error no_mesh_of(const Nodes& nodes, const files::NoMesh& why) {
   return std::runtime_error(nodes.file + ": " + why.what());
 }
 
+void write_mesh(const files::OutputFile& file, const Output& output, files::Mesh& mesh) {
+  if (output.radius > 0) mesh.radius = output.radius;
+  mesh.with_edges = output.edges;
+  write_mesh(file, output.format, mesh);
+  if (output.format != files::Format::mpas || !mesh.has_boundary()) return;
+  const auto left_out = std::count_if(mesh.lend.begin(), mesh.lend.end(), [&](std::int32_t end) {
+    return mesh.list[static_cast<std::size_t>(end) - 1] < 0;
+  });
+  say(fmt::format("{} have no whole cell, at the boundary of the mesh: {} without them",
+                  counted(static_cast<std::size_t>(left_out), "node"), file.name()));
+}
+
 files::Mesh triangulate(Nodes& nodes) {
   try {
     files::Mesh mesh = files::triangulate(nodes.points);
@@ -330,6 +360,7 @@ files::Mesh triangulate(Nodes& nodes) {
     mesh.density = std::move(nodes.density);
     mesh.columns = std::move(nodes.columns);
     mesh.notes = std::move(nodes.notes);
+    mesh.radius = nodes.radius;
     return mesh;
   } catch (const files::NoMesh& e) {
     throw no_mesh_of(nodes, e);

@@ -85,12 +85,18 @@ void add_duplicates(CLI::App& app, Input& input);
 struct Output {
   std::string file = "-", to;
   files::Format format = files::Format::xyz;
+  double radius = 0;   ///< of the sphere in MPAS files, metres; 0: not given
+  bool edges = false;  ///< UGRID files also get the edges
 
   /// Sets `format` by --to, else by the suffix, else to `otherwise`. Throws CLI::ValidationError if none
   /// applies.
   void choose(std::optional<files::Format> otherwise = std::nullopt);
 };
 void add_output(CLI::App& app, Output& output, bool required);
+constexpr auto kRadiusOfMpas =
+    "of the sphere in an MPAS mesh [that of the input, else 1]: 6371229 for MPAS-Atmosphere, else 6371220";
+CLI::Option* add_radius(CLI::App& app, double& radius, const char* text);
+void add_edges(CLI::App& app, Output& output);
 
 /// Reads nodes; throws unless they have directions, and lie on one sphere or --coordinates xyz is given.
 files::Nodes read_places(const std::string& file, const files::ReadOptions& options);
@@ -115,6 +121,9 @@ void add_history(files::Notes& notes);
 
 /// The error that names file, nodes and remedy.
 std::runtime_error no_mesh_of(const files::Nodes& nodes, const files::NoMesh& why);
+
+/// Writes the mesh as the options say. Tells how many nodes an MPAS mesh leaves out.
+void write_mesh(const files::OutputFile& file, const Output& output, files::Mesh& mesh);
 
 /// The triangulation of the nodes, which gives up its columns and notes to the mesh. Errors name file and
 /// nodes.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "parallel/parcels.h"
 #include "scvt/caller_agreement.h"
 
 namespace program {
@@ -55,6 +56,22 @@ files::MeshPart part_of(Communicator& ranks, const std::vector<files::Point>& no
   part.nodes = nodes.size();
   part.share_of_nodes = share_of(ranks, part.nodes);
   return part;
+}
+
+std::vector<files::Point> on_rank_0(Communicator& ranks, const std::vector<files::Point>& nodes) {
+  pstripack::Parcels parcels;
+  in_agreement_with_caller(ranks, [&] {
+    std::vector<std::vector<files::Point>> to(static_cast<std::size_t>(ranks.size()));
+    to[0] = nodes;
+    parcels = pstripack::packed(to);
+  });
+  parcels = ranks.exchange(parcels);
+  std::vector<files::Point> all;
+  in_agreement_with_caller(ranks, [&] {
+    const pstripack::Items<files::Point> items(parcels);
+    all.assign(items.begin(), items.end());
+  });
+  return all;
 }
 
 void write_parts(Communicator& ranks, const std::string& name, files::Format format,

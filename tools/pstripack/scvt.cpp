@@ -49,9 +49,10 @@ struct Options {
   Input start;
   std::string density, density_file, width_file, variable;
   std::string width_text, width_region;
-  double width = 0;   ///< of all cells, km; 0: not given
-  double radius = 0;  ///< of the sphere, metres; 0: not given
-  double grade = 0;   ///< most that widths may change, km per km; 0: not given
+  double width = 0;             ///< of all cells, km; 0: not given
+  double radius = 0;            ///< of the sphere, metres; 0: not given
+  double radius_of_output = 0;  ///< the same, if an option gave it
+  double grade = 0;             ///< most that widths may change, km per km; 0: not given
   Method method = Method::newton;
   double tolerance = 1e-4;
   bool well_centred = false;  ///< move generators until all triangles hold their circumcentre
@@ -365,10 +366,18 @@ Tessellation tessellation_of(Communicator& ranks, files::Nodes& start, const Opt
   return t;
 }
 
-void write(const Output& output, const files::Mesh& mesh) {
+/// What an MPAS mesh has beside other meshes: a density of at most 1, and the command.
+void complete_mpas(files::Mesh& mesh) {
+  const double largest = *std::max_element(mesh.density.begin(), mesh.density.end());
+  for (double& density : mesh.density) density /= largest;
+  add_history(mesh.notes);
+}
+
+void write(const Output& output, files::Mesh& mesh) {
   files::OutputFile file(output.file);
+  if (output.format == files::Format::mpas) complete_mpas(mesh);
   if (!files::holds_nodes(output.format))
-    write_mesh(file, output.format, mesh);
+    write_mesh(file, output, mesh);
   else
     write_nodes(file, output.format, mesh.points, {{}, mesh.density, mesh.columns, mesh.notes});
   file.commit();
@@ -381,9 +390,10 @@ std::string write(Ranks& ranks, const Output& output, bool is_checkpoint, const 
   Communicator& communicator = ranks.communicator();
   const bool needs_mesh = !is_checkpoint || !files::holds_nodes(output.format);
   if (is_checkpoint) notes[kPairs] = std::to_string(t.state.pairs.size());
-  const auto complete = [&](auto& mesh, const State& state) {
-    mesh.density = engine::values_at(state.generators, density);
-    if (is_checkpoint) mesh.columns = columns_of(state);
+  const bool needs_whole_mesh = output.format == files::Format::mpas;
+  const auto complete = [&](auto& mesh, const std::vector<Point>& generators, const State& state) {
+    mesh.density = engine::values_at(generators, density);
+    if (is_checkpoint && !needs_whole_mesh) mesh.columns = columns_of(state);
     mesh.notes = std::move(notes);
   };
   if (communicator.size() == 1) {
@@ -392,7 +402,7 @@ std::string write(Ranks& ranks, const Output& output, bool is_checkpoint, const 
       mesh = files::triangulate(t.state.generators);
     else
       mesh.points = t.state.generators;
-    complete(mesh, t.state);
+    complete(mesh, t.state.generators, t.state);
     write(output, mesh);
     return is_checkpoint ? "" : methods::quality_of(mesh).text();
   }
@@ -405,11 +415,21 @@ std::string write(Ranks& ranks, const Output& output, bool is_checkpoint, const 
     evaluator->begin_with(slice.numbers);
     const engine::Neighbourhood nodes = evaluator->triangulate(slice.state.generators);
     if (!is_checkpoint) quality = methods::quality_of(communicator, nodes).text();
-    part = part_of(communicator, nodes);
+    if (!needs_whole_mesh) part = part_of(communicator, nodes);
   } else {
     part = part_of(communicator, slice.state.generators);
   }
-  in_agreement_with_caller(communicator, [&] { complete(part, slice.state); });
+  if (needs_whole_mesh) {
+    std::vector<Point> all = on_rank_0(communicator, slice.state.generators);
+    in_agreement_with_caller(communicator, [&] {
+      if (communicator.rank() > 0) return;
+      files::Mesh mesh = files::triangulate(std::move(all));
+      complete(mesh, mesh.points, slice.state);
+      write(output, mesh);
+    });
+    return quality;
+  }
+  in_agreement_with_caller(communicator, [&] { complete(part, slice.state.generators, slice.state); });
   write_parts(communicator, output.file, output.format, part);
   return quality;
 }
@@ -569,11 +589,11 @@ void tell_near_generators(Ranks& ranks, const engine::Density& density, const Te
 /// Throws if several ranks cannot read or write the requested files.
 void check_files_of_ranks(const Options& options) {
   for (const Output* const output : {&options.output, &options.checkpoint})
-    if (!output->file.empty() && !files::holds_parts(output->format))
-      throw std::runtime_error(
-          fmt::format("{}: several ranks write ugrid, mpas, off, xyz, lonlat, nodes and raw, each its part: "
-                      "choose one of these, and `pstripack convert` afterwards",
-                      output->file));
+    if (!output->file.empty() && !files::holds_parts(output->format) && output->format != files::Format::mpas)
+      throw std::runtime_error(fmt::format(
+          "{}: several ranks write ugrid, mpas, off, xyz, lonlat, nodes and raw: choose one of these, "
+          "and `pstripack convert` afterwards",
+          output->file));
   if (options.density_file == "-" || options.width_file == "-" || options.width_region == "-")
     throw std::runtime_error(
         "--density-file -, --width-file -, --width-region -: several ranks cannot read stdin: name a file");
@@ -640,6 +660,7 @@ void scvt(Options& options) {
     throw CLI::ValidationError("--width-region", "say also --width, that of the cells elsewhere");
   options.output.choose();
   options.well_centred = options.well_centred || options.output.format == files::Format::mpas;
+  options.output.radius = options.radius_of_output;
   if (!options.checkpoint.file.empty()) options.checkpoint.choose(files::Format::netcdf);
   if (!options.density.empty()) make_density(options);
   try {
@@ -716,9 +737,8 @@ void add_scvt(CLI::App& app, Command& chosen) {
                   "most that widths may change, km per km: wider ones are lowered [0.2]")
       ->type_name("NUMBER")
       ->check(above_0);
-  sub->add_option("--radius", options->radius, "of the sphere, for widths, in metres [6371220]")
-      ->type_name("METRES")
-      ->check(above_0);
+  add_radius(*sub, options->radius,
+             "of the sphere of widths [6371220], and in an MPAS mesh [1]; 6371229 for MPAS-Atmosphere");
   sub->add_option("--variable", options->variable,
                   "in the file of densities or widths: name (NetCDF) or column (text, from 1)")
       ->type_name("NAME");
@@ -777,7 +797,10 @@ of --method newton, which restarts from other files. A step takes one or more ev
 --from, --coordinates and --units apply to both input files.
 
 )" + sub->get_footer());
-  sub->callback([=, &chosen] { chosen = [=] { scvt(*options); }; });
+  sub->callback([=, &chosen] {
+    if (sub->count("--radius") > 0) options->radius_of_output = options->radius;
+    chosen = [=] { scvt(*options); };
+  });
 }
 
 }  // namespace program

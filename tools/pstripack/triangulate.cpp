@@ -29,7 +29,7 @@ void run(Options& options, const Write& write) {
   options.input.read.with_columns = true;
   files::Nodes nodes = progress.step("reading", [&] { return read_nodes(options.input); });
   add_history(nodes.notes);
-  const files::Mesh mesh = progress.step("triangulating", [&] { return triangulate(nodes); });
+  files::Mesh mesh = progress.step("triangulating", [&] { return triangulate(nodes); });
   const std::string what = progress.step("writing", [&] {
     try {
       const std::string written = write(file, mesh);
@@ -43,8 +43,8 @@ void run(Options& options, const Write& write) {
 }
 
 void triangulate(Options& options) {
-  run(options, [&](const files::OutputFile& file, const files::Mesh& mesh) {
-    write_mesh(file, options.output.format, mesh);
+  run(options, [&](const files::OutputFile& file, files::Mesh& mesh) {
+    write_mesh(file, options.output, mesh);
     return counted(mesh.triangles(), "triangle");
   });
 }
@@ -80,6 +80,7 @@ void voronoi(Options& options) {
       throw files::NoMesh(options.clip_to_hull ? "no part of the hull of the nodes lies in the region"
                                                : "the region is smaller than 1e-10 degrees: make it larger");
     files::add_columns(faces, mesh);
+    faces.with_edges = options.output.edges;
     write_faces(file, options.output.format, faces, mesh.notes);
     return counted(faces.size(), "cell") +
            (with_corners ? ", " + counted(faces.points.size(), "corner") : std::string());
@@ -93,6 +94,7 @@ std::shared_ptr<Options> add(CLI::App& app, const char* name, const char* text, 
   add_input(*sub, options->input);
   add_duplicates(*sub, options->input);
   add_output(*sub, options->output, true);
+  add_edges(*sub, options->output);
   sub->callback([=, &chosen] { chosen = [=] { command(*options); }; });
   return options;
 }
@@ -100,8 +102,10 @@ std::shared_ptr<Options> add(CLI::App& app, const char* name, const char* text, 
 }  // namespace
 
 void add_triangulate(CLI::App& app, Command& chosen) {
-  add(app, "triangulate", "exact Delaunay triangulation of the nodes: a mesh of triangles", triangulate,
-      chosen);
+  const auto options =
+      add(app, "triangulate", "exact Delaunay triangulation of the nodes: a mesh of triangles", triangulate,
+          chosen);
+  add_radius(*app.get_subcommand("triangulate"), options->output.radius, kRadiusOfMpas);
 }
 
 void add_voronoi(CLI::App& app, Command& chosen) {

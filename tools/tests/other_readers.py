@@ -81,6 +81,42 @@ def check_scrip(nodes, file):
         assert ((lon[:, 5] == lon[:, 4]) & (lat[:, 5] == lat[:, 4])).sum() == 12  # pentagons: padded
 
 
+def check_edges():
+    """UGRID with edges: of triangles, of cells, and of a mesh with a boundary."""
+    run("points", "hemisphere", 60, "-o", FOLDER / "half.txt")
+    run("convert", FOLDER / "mesh.nc", "--edges", "-o", FOLDER / "edges_triangles.nc")
+    run("voronoi", FOLDER / "nodes.txt", "--edges", "-o", FOLDER / "edges_cells.nc")
+    run("triangulate", FOLDER / "half.txt", "--edges", "-o", FOLDER / "edges_half.nc")
+    for name, count in (("triangles", 3 * N - 6), ("cells", 3 * N - 6), ("half", None)):
+        with netCDF4.Dataset(FOLDER / f"edges_{name}.nc") as mesh:
+            topology = mesh["mesh"]
+            faces, of_faces, ends, sides = (
+                np.ma.filled(mesh[getattr(topology, role + "_connectivity")][:], -1)
+                for role in ("face_node", "face_edge", "edge_node", "edge_face"))
+            assert topology.edge_dimension == "mesh_edges" and (ends[:, 0] < ends[:, 1]).all()
+            assert len(np.unique(ends, axis=0)) == len(ends) == (count or len(ends))
+            assert (sides.min() == -1) == (count is None) and (faces > 0).sum() == (sides > 0).sum()
+            for f, (row, edges) in enumerate(zip(faces, of_faces)):
+                row, edges = row[row > 0], edges[edges > 0]
+                for a, b, e in zip(row, np.roll(row, -1), edges):
+                    assert set(ends[e - 1]) == {a, b} and sides[e - 1][0 if a < b else 1] == f + 1
+
+
+def check_esmf(nodes, file):
+    with netCDF4.Dataset(file) as grid:
+        assert grid.gridType == "unstructured" and grid["elementConn"].start_index == 1
+        centres = unit_vectors(*grid["centerCoords"][:].T)
+        assert np.allclose(centres, nodes, rtol=0, atol=1e-14)
+        count, corners = grid["numElementConn"][:], grid["elementConn"][:]
+        assert corners.shape == (N, 6) and (count == 5).sum() == 12 and (corners.mask.sum(axis=1) == 6 - count).all()
+        places = unit_vectors(*grid["nodeCoords"][:].T)
+        assert len(places) == TRIANGLES
+        for k in range(5):  # counterclockwise
+            assert (np.einsum("ij,ij->i", centres, np.cross(places[corners[:, k] - 1], places[corners[:, (k + 1)] - 1])) > 0)[
+                k + 1 < count].all()
+        assert abs(grid["elementArea"][:].sum() - 4 * math.pi) < 1e-10 and (grid["elementMask"][:] == 1).all()
+
+
 def check_scrip_of_a_grid():
     """Each corner inside a longitude-latitude grid is that of two triangles, which differ by rounding."""
     lon, lat = np.meshgrid(np.arange(0, 360, 10), np.arange(-85, 90, 10))
@@ -200,8 +236,9 @@ def check_scvt():
     run("scvt", 100, "--density", "bump", "--iterations", 5, "-o", FOLDER / "scvt.nc")
     with netCDF4.Dataset(FOLDER / "scvt.mpas.nc") as mpas, xarray.open_dataset(FOLDER / "scvt.nc") as ugrid:
         density = mpas["meshDensity"][:]
-        assert 1 <= density.min() < 1.1 and 60 < density.max() <= 81
-        assert (ugrid["meshDensity"].values == density).all() and ugrid["meshDensity"].location == "node"
+        given = ugrid["meshDensity"].values
+        assert 1 <= given.min() < 1.1 and 60 < given.max() <= 81 and ugrid["meshDensity"].location == "node"
+        assert density.max() == 1 and (given / given.max() == density).all()
         assert ugrid.scvt_iterations == "5" and mpas.scvt_density == "bump"
 
 
@@ -210,11 +247,13 @@ run("points", "icosahedral", N, "-o", FOLDER / "nodes.txt")
 nodes = np.loadtxt(FOLDER / "nodes.txt")
 for suffix in ("nc", "mpas.nc", "vtu", "off", "msh"):
     run("triangulate", FOLDER / "nodes.txt", "-o", FOLDER / f"mesh.{suffix}")
-for suffix in ("nc", "scrip.nc"):
+for suffix in ("nc", "scrip.nc", "esmf.nc"):
     run("voronoi", FOLDER / "nodes.txt", "-o", FOLDER / f"cells.{suffix}")
 check_ugrid(nodes, FOLDER / "mesh.nc", FOLDER / "cells.nc")
 check_mpas(nodes, FOLDER / "mesh.mpas.nc")
 check_scrip(nodes, FOLDER / "cells.scrip.nc")
+check_esmf(nodes, FOLDER / "cells.esmf.nc")
+check_edges()
 check_scrip_of_a_grid()
 for suffix in ("vtu", "off", "msh"):
     check_by_meshio(nodes, FOLDER / f"mesh.{suffix}", "triangle", TRIANGLES)

@@ -147,7 +147,7 @@ TEST(output_file, leaves_nothing_after_a_signal) {
   for (const int signal : {SIGTERM, SIGPIPE}) {
     const pid_t child = fork();
     if (child == 0) {
-      OutputFile file(folder.path() + "/a");
+      OutputFile file(folder.path() + "/a"), beside(folder.path() + "/b");
       write(file, "half");
       raise(signal);
       _exit(0);

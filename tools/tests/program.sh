@@ -101,6 +101,17 @@ lists)
   "$COMPARE" lists a.lists b.lists > compared || fail "$(cat compared)"
   cmp a.lists b.lists
   [ "$(head -n 1 a.lists)" = "500 2989" ] || fail "N and LNEW: $(head -n 1 a.lists)"
+  # FESOM: numbered nodes with a flag at the boundary, and triangles in the order of OFF.
+  "$PSTRIPACK" -q points hemisphere 60 -o half.txt
+  "$PSTRIPACK" -q triangulate half.txt --to fesom -o nod2d.out
+  "$PSTRIPACK" -q triangulate half.txt -o half.off
+  sed 1d nod2d.out | cut -d ' ' -f 2,3 | cmp - - <<END
+$("$PSTRIPACK" -q convert half.txt -o - --to lonlat)
+END
+  sed 1d nod2d.out | awk '{ if ($1 != NR || $4 != 0 && $4 != 1) exit 1; rim += $4 } END { exit rim < 3 }' || fail "nod2d.out"
+  sed 1d elem2d.out > elements
+  tail -n "$(head -n 1 elem2d.out)" half.off | awk '{ print $2 + 1, $3 + 1, $4 + 1 }' | cmp - elements
+  refuses 1 "has files called nod2d.out and elem2d.out" triangulate half.txt --to fesom -o half.txt2
   ;;
 
 same_bytes_through_formats)
@@ -108,6 +119,7 @@ same_bytes_through_formats)
     "$PSTRIPACK" -q points $family 500 -o nodes.txt
     "$PSTRIPACK" -q triangulate nodes.txt -o direct.lists
     for suffix in nc mpas.nc off; do
+      [ $family.$suffix != hemisphere.mpas.nc ] || continue  # without the nodes at the boundary
       "$PSTRIPACK" -q triangulate nodes.txt -o mesh.$suffix
       "$PSTRIPACK" -q convert mesh.$suffix -o through.lists
       cmp direct.lists through.lists
@@ -161,8 +173,11 @@ bad_command_lines)
   octahedron > nodes.txt
   refuses 2 "required" triangulate nodes.txt
   refuses 2 "mesh.xxx: no format has this suffix: give --to" triangulate nodes.txt -o mesh.xxx
+  refuses 2 "--radius: only MPAS meshes have a radius" triangulate nodes.txt --radius 6371229 -o mesh.off
+  refuses 2 "--radius: '-1' is not a number of metres above 0" triangulate nodes.txt --radius=-1 -o mesh.mpas.nc
+  refuses 2 "--edges: only UGRID meshes have edges" convert nodes.txt --edges -o mesh.off
   refuses 2 "--to: 'potato' is none of ugrid, mpas" triangulate nodes.txt -o mesh.off --to potato
-  refuses 2 "--to: 'ugird' is none of ugrid, mpas, scrip, vtu, off, gmsh, lists, gmt, geojson, csv, xyz, lonlat, nodes, raw; did you mean ugrid?" \
+  refuses 2 "--to: 'ugird' is none of ugrid, mpas, scrip, esmf, vtu, off, gmsh, fesom, lists, gmt, geojson, csv, xyz, lonlat, nodes, raw; did you mean ugrid?" \
     triangulate nodes.txt -o mesh.off --to ugird
   refuses 2 "--duplicates: 'frist' is none of error, first, mean; did you mean first?" triangulate nodes.txt -o mesh.off --duplicates frist
   refuses 2 "earthquakes; did you mean random?" points rndom 10
@@ -1093,11 +1108,14 @@ scvt_ranks)
     suffix=${run##*:} threads=${run%:*}
     # shellcheck disable=SC2086
     "$PSTRIPACK" -q scvt 300 $fourteen one.nc -o one.$suffix
+    mkdir -p ranks  # MPAS meshes hold the command: the same in both folders
     # shellcheck disable=SC2086
-    run ${run%%:*} --threads ${threads#*:} scvt 300 $fourteen ranks.nc -o ranks.$suffix
-    cmp one.$suffix ranks.$suffix
-    cmp one.nc ranks.nc
+    (cd ranks && run ${run%%:*} --threads ${threads#*:} scvt 300 $fourteen one.nc -o one.$suffix)
+    cmp one.$suffix ranks/one.$suffix
+    cmp one.nc ranks/one.nc
   done
+  cmp one.graph.info ranks/one.graph.info
+  mv ranks/one.nc ranks.nc
   # More ranks than generators. Ranks begin with levels where a single process would begin with a front.
   "$PSTRIPACK" -q scvt 4 -o one.nodes.nc
   run 5 scvt 4 -o ranks.nodes.nc

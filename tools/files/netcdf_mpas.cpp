@@ -1,0 +1,259 @@
+// Writer of MPAS meshes. mpas_mesh.h says what the variables are.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "files/mpas_mesh.h"
+#include "files/netcdf_writer.h"
+#include "files/writers.h"
+
+namespace files {
+namespace {
+
+/// Ten letters and digits that name the mesh: a hash (FNV-1a, of words of 8 bytes) of its cells, triangles
+/// and radius.
+std::string file_id_of(const MpasMesh& mesh, double radius) {
+  std::uint64_t hash = 14695981039346656037u;
+  const auto add = [&](const void* words, std::size_t bytes) {
+    for (std::size_t i = 0; i + 8 <= bytes; i += 8) {
+      std::uint64_t word;
+      std::memcpy(&word, static_cast<const char*>(words) + i, 8);
+      hash = (hash ^ word) * 1099511628211u;
+      hash ^= hash >> 32;
+    }
+  };
+  add(mesh.cells.data(), mesh.cells.size() * sizeof(Point));
+  add(mesh.cells_on_vertex.data(), mesh.cells_on_vertex.size() * sizeof(MpasMesh::Three));
+  add(&radius, sizeof radius);
+  std::string id;
+  for (int i = 0; i < 10; ++i, hash /= 36) id += "abcdefghijklmnopqrstuvwxyz0123456789"[hash % 36];
+  return id;
+}
+
+/// For METIS: the number of cells and of edges between two of them, then a line of neighbours for each cell.
+void write_graph(const OutputFile& file, const MpasMesh& mesh) {
+  std::size_t edges = 0;
+  for (const MpasMesh::Two& cells : mesh.cells_on_edge) edges += cells[1] != MpasMesh::kNone;
+  TextWriter out(file);
+  out.print("{} {}\n", mesh.cells.size(), edges);
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    for (std::int32_t k = mesh.begin[c]; k < mesh.begin[c + 1]; ++k)
+      if (const std::int32_t other = mesh.across(mesh.edges_on_cell[static_cast<std::size_t>(k)], c);
+          other >= 0)
+        out.print("{} ", other + 1);
+    out.print("\n");
+  }
+  out.close();
+}
+
+/// A file whose variables are functions of the row: first all are defined, then all are written.
+class Variables {
+ public:
+  explicit Variables(const OutputFile& file) : out(file, NC_64BIT_DATA) {}
+
+  struct Dimension {
+    int id;
+    std::size_t length;
+  };
+  Dimension dimension(const char* name, std::size_t length) { return {out.dimension(name, length), length}; }
+
+  /// row(i, values) sets the values of row i, which are 0 before.
+  template <class Value, class Row>
+  void table(const char* name, const Dimension& rows, const Dimension& width, const Row& row) {
+    const int id = out.variable(name, type_of<Value>(), {rows.id, width.id});
+    writing_.emplace_back([=] { out.put_rows<Value>({id}, rows.length, width.length, row); });
+  }
+  /// Several variables with a value in each row: row(i, values) sets those of all.
+  template <class Value, class Row>
+  void columns(const std::vector<std::string>& names, const Dimension& rows, const Row& row) {
+    std::vector<int> ids;
+    for (const std::string& name : names) {
+      ids.push_back(out.variable(name.c_str(), type_of<Value>(), {rows.id}));
+      if (name.rfind("lon", 0) == 0 || name.rfind("lat", 0) == 0) out.attribute(ids.back(), "units", "rad");
+    }
+    writing_.emplace_back([=] { out.put_rows<Value>(ids, rows.length, 1, row); });
+  }
+  void write() {
+    out.end_definitions();
+    for (const auto& write_one : writing_) write_one();
+    out.close();
+  }
+
+  NetcdfWriter out;
+
+ private:
+  template <class Value>
+  static constexpr int type_of() {
+    return std::is_same_v<Value, double> ? NC_DOUBLE : NC_INT;
+  }
+  std::vector<std::function<void()>> writing_;
+};
+
+/// Least over largest; 0 if all are 0.
+template <class Number>
+double evenness(std::size_t count, const Number& number) {
+  double least = number(0), most = least;
+  for (std::size_t k = 1; k < count; ++k)
+    least = std::min(least, number(k)), most = std::max(most, number(k));
+  return most > 0 ? least / most : 0;
+}
+
+/// The longitude from 0 to 2 pi.
+double from_0(double lon) {
+  constexpr double kTurn = 6.2831853071795865;
+  return lon >= 0 ? lon : lon + kTurn < kTurn ? lon + kTurn : 0;
+}
+
+/// Sets latitude, longitude, x, y, z. Returns where the next value goes.
+double* put_place(const Point& p, double radius, double* to) {
+  *to++ = std::atan2(p.z, std::sqrt(p.x * p.x + p.y * p.y));
+  *to++ = from_0(std::atan2(p.y, p.x));
+  *to++ = radius * p.x, *to++ = radius * p.y, *to++ = radius * p.z;
+  return to;
+}
+
+void write(const OutputFile& file, const MpasMesh& mesh, const MpasValues& values) {
+  using Index = MpasMesh::Index;
+  const auto at = [](Index i) { return static_cast<std::size_t>(i); };
+  const double radius = values.radius, square = radius * radius;
+  Variables to(file);
+  const Variables::Dimension cells = to.dimension("nCells", mesh.cells.size()),
+                             edges = to.dimension("nEdges", mesh.cells_on_edge.size()),
+                             vertices = to.dimension("nVertices", mesh.vertices.size()),
+                             sides = to.dimension("maxEdges", mesh.most_sides()),
+                             around = to.dimension("maxEdges2", 2 * mesh.most_sides()),
+                             two = to.dimension("TWO", 2), three = to.dimension("vertexDegree", 3);
+  to.out.dimension("Time", NC_UNLIMITED);
+  to.out.attribute(NC_GLOBAL, "on_a_sphere", "YES");
+  to.out.attribute(NC_GLOBAL, "sphere_radius", radius);
+  to.out.attribute(NC_GLOBAL, "is_periodic", "NO");
+  to.out.attribute(NC_GLOBAL, "mesh_spec", "1.0");
+  to.out.attribute(NC_GLOBAL, "Conventions", "MPAS");
+  to.out.attributes(values.notes);
+  to.out.attribute(NC_GLOBAL, "source", "pstripack");
+  to.out.attribute(NC_GLOBAL, "file_id", file_id_of(mesh, radius));
+
+  // Of a cell.
+  const LonLat given = values.given.empty() ? LonLat() : angles_of(mesh.cells, values.given, false);
+  const std::vector<double>& density = values.density;
+  const double densest =
+      density.empty() ? 1 : std::max(1.0, *std::max_element(density.begin(), density.end()));
+  to.columns<double>({"latCell", "lonCell", "xCell", "yCell", "zCell", "areaCell", "meshDensity",
+                      "gridSpacing", "cellQuality"},
+                     cells, [&](std::size_t c, double* value) {
+                       double* next = put_place(mesh.cells[c], radius, value);
+                       if (!given.empty()) value[0] = given.lat[c], value[1] = from_0(given.lon[c]);
+                       *next++ = square * mesh.areas[c];
+                       *next++ = density.empty() ? 1 : density[c] / densest;
+                       double sum = 0;
+                       for (std::size_t j = 0; j < mesh.sides(c); ++j)
+                         sum += mesh.distances[at(mesh.edges_on_cell[mesh.row(c, j)])];
+                       *next++ = radius * sum / static_cast<double>(mesh.sides(c));
+                       *next++ = evenness(mesh.sides(c), [&](std::size_t j) {
+                         return std::fabs(mesh.outflows[mesh.row(c, j)]);
+                       });
+                     });
+  to.columns<Index>({"indexToCellID", "nEdgesOnCell"}, cells, [&](std::size_t c, Index* value) {
+    value[0] = static_cast<Index>(c + 1);
+    value[1] = static_cast<Index>(mesh.sides(c));
+  });
+  const auto of_sides = [&](const char* name, const auto& index) {
+    to.table<Index>(name, cells, sides, [=, &mesh](std::size_t c, Index* value) {
+      for (std::size_t j = 0; j < mesh.sides(c); ++j) value[j] = index(mesh.row(c, j), c) + 1;
+    });
+  };
+  of_sides("cellsOnCell",
+           [&](std::size_t row, std::size_t c) { return mesh.across(mesh.edges_on_cell[row], c); });
+  of_sides("edgesOnCell", [&](std::size_t row, std::size_t) { return mesh.edges_on_cell[row]; });
+  of_sides("verticesOnCell", [&](std::size_t row, std::size_t) { return mesh.vertices_on_cell[row]; });
+
+  // Of an edge.
+  to.columns<double>({"latEdge", "lonEdge", "xEdge", "yEdge", "zEdge", "angleEdge", "dcEdge", "dvEdge"},
+                     edges, [&](std::size_t e, double* value) {
+                       double* next = put_place(mesh.edge_point(e), radius, value);
+                       *next++ = mesh.angle(e);
+                       *next++ = radius * mesh.distances[e];
+                       *next++ = radius * mesh.width(e);
+                     });
+  to.columns<Index>({"indexToEdgeID", "nEdgesOnEdge"}, edges, [&](std::size_t e, Index* value) {
+    value[0] = static_cast<Index>(e + 1);
+    for (const Index c : mesh.cells_on_edge[e])
+      if (c != MpasMesh::kNone) value[1] += static_cast<Index>(mesh.sides(at(c))) - 1;
+  });
+  const auto indices = [&](const char* name, const Variables::Dimension& rows,
+                           const Variables::Dimension& width, const auto& table) {
+    to.table<Index>(name, rows, width, [&](std::size_t i, Index* value) {
+      for (const Index index : table[i]) *value++ = index + 1;
+    });
+  };
+  indices("cellsOnEdge", edges, two, mesh.cells_on_edge);
+  indices("verticesOnEdge", edges, two, mesh.vertices_on_edge);
+  to.table<Index>("edgesOnEdge", edges, around, [&](std::size_t e, Index* value) {
+    mesh.for_each_around(e, [&](Index other, double) { *value++ = other + 1; });
+  });
+  to.table<double>("weightsOnEdge", edges, around, [&](std::size_t e, double* value) {
+    mesh.for_each_around(e, [&](Index, double weight) { *value++ = weight; });
+  });
+
+  // Of a vertex.
+  to.columns<double>({"latVertex", "lonVertex", "xVertex", "yVertex", "zVertex", "areaTriangle",
+                      "triangleQuality", "triangleAngleQuality"},
+                     vertices, [&](std::size_t v, double* value) {
+                       double* next = put_place(mesh.vertices[v], radius, value);
+                       *next++ = square * mesh.triangle_area(v);
+                       const MpasMesh::Three& around_v = mesh.edges_on_vertex[v];
+                       *next++ = evenness(around_v[2] == MpasMesh::kNone ? 2 : 3,
+                                          [&](std::size_t j) { return mesh.distances[at(around_v[j])]; });
+                       if (mesh.is_at_boundary(v)) return;
+                       const pstripack::Angles angles = mesh.angles(v);
+                       *next = evenness(3, [&](std::size_t j) { return angles.at[j]; });
+                     });
+  to.columns<Index>({"indexToVertexID", "boundaryVertex", "obtuseTriangle"}, vertices,
+                    [&](std::size_t v, Index* value) {
+                      value[0] = static_cast<Index>(v + 1);
+                      value[1] = mesh.is_at_boundary(v);
+                      value[2] = !mesh.is_at_boundary(v) && !mesh.angles(v).are_acute;
+                    });
+  indices("cellsOnVertex", vertices, three, mesh.cells_on_vertex);
+  indices("edgesOnVertex", vertices, three, mesh.edges_on_vertex);
+  to.table<double>("kiteAreasOnVertex", vertices, three, [&](std::size_t v, double* value) {
+    for (const double area : mesh.kites(v)) *value++ = square * area;
+  });
+  to.write();
+}
+
+/// MESH.graph.info beside MESH.nc or MESH.mpas.nc.
+std::string graph_beside(std::string name) {
+  for (const std::string suffix : {".nc", ".mpas"})
+    if (name.size() > suffix.size() && name.compare(name.size() - suffix.size(), suffix.npos, suffix) == 0)
+      name.resize(name.size() - suffix.size());
+  return name + ".graph.info";
+}
+
+}  // namespace
+
+void write_mpas(const OutputFile& file, const MpasMesh& mesh, const MpasValues& values) {
+  write(file, mesh, values);
+  if (!file.has_a_name()) return;
+  OutputFile graph(graph_beside(file.name()));
+  write_graph(graph, mesh);
+  graph.commit();
+}
+
+void write_mpas(const OutputFile& file, const Mesh& mesh) {
+  std::vector<std::size_t> kept;
+  const MpasMesh complete = mpas_mesh(mesh, kept);
+  MpasValues values{mesh.given, mesh.density, mesh.notes, mesh.radius};
+  if (!kept.empty())
+    for (auto* const of_nodes : {&values.given.lon, &values.given.lat, &values.density})
+      *of_nodes = values_at(*of_nodes, kept);
+  write_mpas(file, complete, values);
+}
+
+}  // namespace files

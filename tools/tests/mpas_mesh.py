@@ -1,0 +1,415 @@
+"""Recomputes all of an MPAS mesh that pstripack writes from its cells, vertices and cellsOnVertex: by the definitions, in
+extended precision, and not by the program's ways. Compares with what MPAS' converter makes of the same input.
+
+mpas_mesh.py PSTRIPACK DATA FOLDER
+"""
+import math
+import subprocess
+import sys
+from pathlib import Path
+
+import netCDF4
+import numpy as np
+import xarray
+
+PROGRAM, DATA, FOLDER = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3])
+REAL = np.longdouble
+
+
+def run(*arguments):
+    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return done.stderr
+
+
+class Mesh:
+    """Variables by name; indices of the file, which begin with 1, as they are."""
+
+    def __init__(self, file):
+        with netCDF4.Dataset(file) as data:
+            for name, variable in data.variables.items():
+                setattr(self, name, np.array(variable[:]))
+            self.attributes = {name: data.getncattr(name) for name in data.ncattrs()}
+            self.dimensions = list(data.dimensions)
+            self.kind = data.data_model
+        radius = REAL(self.attributes.get("sphere_radius", 1))
+        for of in ("Cell", "Edge", "Vertex"):
+            if hasattr(self, "x" + of):
+                points = np.stack([getattr(self, axis + of).astype(REAL) for axis in "xyz"], axis=1) / radius
+                setattr(self, of.lower(), points / np.sqrt((points**2).sum(axis=1))[:, None])
+
+
+def dot(a, b):
+    return (a * b).sum(axis=-1)
+
+
+def arc(a, b):
+    """Angle between unit vectors."""
+    return 2 * np.arctan2(np.sqrt(dot(a - b, a - b)), np.sqrt(dot(a + b, a + b)))
+
+
+def area(a, b, c):
+    """Area of spherical triangles, negative if clockwise."""
+    return 2 * np.arctan2(dot(a, np.cross(b - a, c - a)), 1 + dot(a, b) + dot(b, c) + dot(c, a))
+
+
+def edges_of_converter(mesh):
+    """The vertices of the edges, from 0, in the order of libstdc++'s unordered_set, one insertion after another.
+
+    A bucket knows the entry before its first one, as libstdc++ has it."""
+    primes = [13, 29, 59, 127, 257, 541, 1109, 2357, 5087, 10273, 20753, 42043]
+
+    def code(key):
+        value = 0
+        for number in key:
+            for byte in int(number).to_bytes(8, "little"):
+                value = (value + byte) & 0xFFFFFFFF
+                value = (value + (value << 10)) & 0xFFFFFFFF
+                value ^= value >> 6
+        value = (value + (value << 3)) & 0xFFFFFFFF
+        value ^= value >> 11
+        return (value + (value << 15)) & 0xFFFFFFFF
+
+    class Table:
+        def __init__(self, size):
+            self.size, self.after, self.before_first = size, {None: None}, {}
+
+        def insert(self, key):
+            bucket = code(key) % self.size
+            if bucket in self.before_first:
+                before = self.before_first[bucket]
+                self.after[key], self.after[before] = self.after[before], key
+            else:
+                old = self.after[None]
+                self.after[key], self.after[None] = old, key
+                if old is not None:
+                    self.before_first[code(old) % self.size] = key
+                self.before_first[bucket] = None
+
+        def entries(self):
+            key = self.after[None]
+            while key is not None:
+                yield key
+                key = self.after[key]
+
+    table, count, seen = Table(primes[0]), 0, set()
+    for cell in range(len(mesh.cell)):
+        ring = list(mesh.verticesOnCell[cell, :mesh.nEdgesOnCell[cell]] - 1)
+        first = ring.index(min(ring))
+        ring = ring[first:] + ring[:first]
+        for v, w in zip(ring, ring[1:] + ring[:1]):
+            key = (min(v, w), max(v, w))
+            if key in seen:
+                continue
+            if count == table.size:
+                larger = Table(primes[primes.index(table.size) + 1])
+                for entry in table.entries():
+                    larger.insert(entry)
+                table = larger
+            table.insert(key)
+            seen.add(key)
+            count += 1
+    return np.array(list(table.entries()))
+
+
+def check_who_touches_whom(mesh):
+    n_cells, n_edges, n_vertices = len(mesh.cell), len(mesh.edge), len(mesh.vertex)
+    for of, n in (("Cell", n_cells), ("Edge", n_edges), ("Vertex", n_vertices)):
+        assert (getattr(mesh, f"indexTo{of}ID") == np.arange(n) + 1).all()
+    assert (mesh.boundaryVertex == (mesh.cellsOnVertex == 0).any(axis=1)).all()
+    width = mesh.nEdgesOnCell.max()
+    assert mesh.edgesOnCell.shape == (n_cells, width) and mesh.weightsOnEdge.shape == (n_edges, 2 * width)
+    pairs = set()
+    for e in range(n_edges):
+        c, d = mesh.cellsOnEdge[e]
+        assert 0 < c and (c < d or d == 0)
+        v, w = mesh.verticesOnEdge[e]
+        pairs.add((min(v, w) - 1, max(v, w) - 1))
+        # k x n leads from v to w, so around c the next vertex after v is w.
+        ring = list(mesh.verticesOnCell[c - 1, :mesh.nEdgesOnCell[c - 1]])
+        assert ring[(ring.index(v) + 1) % len(ring)] == w
+    assert len(pairs) == n_edges
+    if n_edges < 42043:
+        ends = np.sort(mesh.verticesOnEdge - 1, axis=1)
+        assert (edges_of_converter(mesh) == ends).all(), "edges are not numbered as the converter does it"
+    for c in range(n_cells):
+        n = mesh.nEdgesOnCell[c]
+        edges, cells, vertices = (a[c, :n] for a in (mesh.edgesOnCell, mesh.cellsOnCell, mesh.verticesOnCell))
+        assert all((a[c, n:] == 0).all() for a in (mesh.edgesOnCell, mesh.cellsOnCell, mesh.verticesOnCell))
+        assert edges[0] == edges.min() and len(set(edges)) == n == len(set(vertices))
+        for j in range(n):
+            assert set(mesh.cellsOnEdge[edges[j] - 1]) == {c + 1, cells[j]}
+            assert vertices[j] in mesh.verticesOnEdge[edges[j] - 1]
+            assert vertices[j] in mesh.verticesOnEdge[edges[(j + 1) % n] - 1]
+    for v in range(n_vertices):
+        cells, edges = mesh.cellsOnVertex[v], mesh.edgesOnVertex[v]
+        for j in range(3):
+            if cells[j] == 0:
+                assert (cells[j:] == 0).all()
+                continue
+            for e in (edges[j], edges[(j + 1) % 3]):
+                assert cells[j] in mesh.cellsOnEdge[e - 1] and v + 1 in mesh.verticesOnEdge[e - 1]
+        if (cells > 0).all():
+            assert edges[0] == edges.min()
+        assert (edges > 0).sum() == min(3, (cells > 0).sum() + 1)
+
+
+def counterclockwise(mesh):
+    """Share of corners of cells and vertices that turn left: all, but where rounding or an obtuse triangle is at work."""
+    n = mesh.nEdgesOnCell
+    left = []
+    for c in range(len(mesh.cell)):
+        ring = mesh.vertex[mesh.verticesOnCell[c, :n[c]] - 1]
+        left.append(area(mesh.cell[c], ring, np.roll(ring, -1, axis=0)) > -1e-15)
+    whole = (mesh.cellsOnVertex > 0).all(axis=1)
+    a, b, c = (mesh.cell[mesh.cellsOnVertex[whole, k] - 1] for k in range(3))
+    assert (area(a, b, c) > 0).all()
+    return np.concatenate(left).mean()
+
+
+def check_values(mesh, tolerance=4e-13):
+    """All lengths, areas and weights. The tolerance is relative to the size of a cell, of a triangle, of an edge."""
+    radius = REAL(mesh.attributes["sphere_radius"])
+
+    def near(name, value, scale):
+        error = np.abs(getattr(mesh, name) - value) / scale
+        assert error.max() <= tolerance, (name, int(error.argmax()), float(error.max()))
+
+    for of in ("Cell", "Edge", "Vertex"):
+        points, lon, lat = getattr(mesh, of.lower()), getattr(mesh, "lon" + of), getattr(mesh, "lat" + of)
+        assert lon.min() >= 0 and lon.max() < 2 * math.pi
+        near("lat" + of, np.arctan2(points[:, 2], np.hypot(points[:, 0], points[:, 1])), 1)
+        turned = np.arctan2(points[:, 1], points[:, 0]) - lon
+        assert (np.abs(np.sin(turned / 2)) * np.hypot(points[:, 0], points[:, 1])).max() < 1e-14
+    c, d = mesh.cellsOnEdge.T - 1
+    v, w = mesh.verticesOnEdge.T - 1
+    inner = d >= 0
+    middle = mesh.cell[c] + mesh.cell[d]
+    middle /= np.sqrt(dot(middle, middle))[:, None]
+    apart = arc(mesh.cell[c], mesh.cell[d])
+    if not inner.all():  # the other cell is the mirror image
+        p, q = mesh.vertex[v[~inner]], mesh.vertex[w[~inner]]
+        normal = np.cross(p, q - p)
+        normal /= np.sqrt(dot(normal, normal))[:, None]
+        foot = mesh.cell[c[~inner]] - dot(mesh.cell[c[~inner]], normal)[:, None] * normal
+        middle[~inner] = foot / np.sqrt(dot(foot, foot))[:, None]
+        apart[~inner] = 2 * arc(mesh.cell[c[~inner]], middle[~inner])
+    scale = np.maximum(apart, 1e-3)
+    near("xEdge", radius * middle[:, 0], radius * scale)
+    near("yEdge", radius * middle[:, 1], radius * scale)
+    near("zEdge", radius * middle[:, 2], radius * scale)
+    near("dcEdge", radius * apart, radius * apart)
+    long = np.array([mesh.dcEdge[mesh.edgesOnVertex[[a, b]][mesh.edgesOnVertex[[a, b]] > 0] - 1].max() for a, b in
+                     zip(v, w)])
+    near("dvEdge", radius * arc(mesh.vertex[v], mesh.vertex[w]), long)
+    ahead = mesh.cell[d] - mesh.cell[c]
+    ahead[~inner] = middle[~inner] - mesh.cell[c[~inner]]
+    # By longitude and latitude: at a pole the longitude that the file has counts.
+    east = np.stack([-np.sin(mesh.lonEdge), np.cos(mesh.lonEdge), 0 * mesh.lonEdge], axis=1)
+    north = np.cross(middle, east)
+    turned = np.arctan2(dot(north, ahead), dot(east, ahead)) - mesh.angleEdge
+    assert np.abs(np.sin(turned / 2)).max() < 1e-9 / min(1, float(apart.min())) * 1e-6, np.abs(np.sin(turned / 2)).max()
+
+    sums, spacing, least, most = (np.zeros(len(mesh.cell), REAL) for _ in range(4))
+    for cell in range(len(mesh.cell)):
+        n = mesh.nEdgesOnCell[cell]
+        ring = mesh.vertex[mesh.verticesOnCell[cell, :n] - 1]
+        sums[cell] = area(mesh.cell[cell], ring, np.roll(ring, -1, axis=0)).sum()
+        edges = mesh.edgesOnCell[cell, :n] - 1
+        spacing[cell] = mesh.dcEdge[edges].astype(REAL).mean()
+        least[cell], most[cell] = mesh.dvEdge[edges].min(), mesh.dvEdge[edges].max()
+    near("areaCell", radius**2 * sums, radius**2 * sums)
+    near("gridSpacing", spacing, spacing)
+    near("cellQuality", least / most, 1)
+
+    of_cell, triangles = np.zeros(len(mesh.cell), REAL), np.zeros(len(mesh.vertex), REAL)
+    kites = np.zeros(mesh.kiteAreasOnVertex.shape, REAL)
+    for j in range(3):
+        known = mesh.cellsOnVertex[:, j] > 0
+        cell = mesh.cellsOnVertex[known, j] - 1
+        place, centre = mesh.vertex[known], mesh.cell[cell]
+        before, after = (middle[mesh.edgesOnVertex[known, k % 3] - 1] for k in (j, j + 1))
+        kites[known, j] = area(place, before, centre) + area(place, centre, after)
+        triangles[known] += mesh.kiteAreasOnVertex[known, j]
+        np.add.at(of_cell, cell, mesh.kiteAreasOnVertex[known, j])
+    size = np.maximum(np.abs(kites).max(axis=1), np.array([mesh.areaCell[row[row > 0] - 1].min() for row in
+                                                           mesh.cellsOnVertex]) / radius**2)
+    near("kiteAreasOnVertex", radius**2 * kites, radius**2 * size[:, None])
+    near("areaTriangle", triangles, radius**2 * size)  # kites add up
+    near("areaCell", of_cell, radius**2 * sums)
+    whole = (mesh.cellsOnVertex > 0).all(axis=1)
+    corners = mesh.cell[mesh.cellsOnVertex - 1]
+    exact = area(corners[:, 0], corners[:, 1], corners[:, 2])
+    assert (np.abs(mesh.areaTriangle - radius**2 * exact)[whole] <= tolerance * radius**2 * exact[whole]).all()
+    sides = [arc(corners[:, k], corners[:, (k + 1) % 3]) for k in range(3)]
+    with np.errstate(invalid="ignore"):
+        even = np.min(sides, axis=0) / np.max(sides, axis=0)
+    near("triangleQuality", np.where(whole, even, mesh.triangleQuality), 1)
+    chords = [corners[:, (k + 1) % 3] - corners[:, k] for k in range(3)]
+    dots = np.array([-dot(chords[k], chords[k - 1]) for k in range(3)])
+    across = np.sqrt(dot(np.cross(chords[0], chords[1]), np.cross(chords[0], chords[1])))
+    angles = np.arctan2(across, dots)
+    near("triangleAngleQuality", np.where(whole, angles.min(axis=0) / angles.max(axis=0), 0), 1)
+    assert ((mesh.obtuseTriangle == 1) == (whole & (dots.min(axis=0) < 0)))[np.abs(dots).min(axis=0) > 1e-15].all()
+
+    weights, around = np.zeros(mesh.weightsOnEdge.shape, REAL), np.zeros(mesh.edgesOnEdge.shape, int)
+    for e in range(len(mesh.edge)):
+        column = 0
+        for sign, i in ((1, c[e]), (-1, d[e])):
+            if i < 0:
+                continue
+            n = mesh.nEdgesOnCell[i]
+            at, passed = list(mesh.edgesOnCell[i, :n]).index(e + 1), REAL(0)
+            for k in range(1, n):
+                vertex, other = mesh.verticesOnCell[i, (at + k - 1) % n] - 1, mesh.edgesOnCell[i, (at + k) % n] - 1
+                passed += mesh.kiteAreasOnVertex[vertex, list(mesh.cellsOnVertex[vertex]).index(i + 1)] / REAL(mesh.areaCell[i])
+                outwards = 1 if c[other] == i else -1
+                weights[e, column] = sign * outwards * (0.5 - passed) * mesh.dvEdge[other] / mesh.dcEdge[e]
+                around[e, column] = other + 1
+                column += 1
+        assert mesh.nEdgesOnEdge[e] == column
+    assert (mesh.edgesOnEdge == around).all()
+    near("weightsOnEdge", weights, np.maximum(1, (long / apart / radius))[:, None])
+    assert 0 < mesh.meshDensity.min() and mesh.meshDensity.max() <= 1
+
+
+def check_tangential_velocity(mesh):
+    """TRiSK: weights are antisymmetric, and give the tangential velocity of a solid rotation. Returns the error."""
+    scaled = {}
+    for e in range(len(mesh.edge)):
+        for other, weight in zip(mesh.edgesOnEdge[e], mesh.weightsOnEdge[e]):
+            if other > 0 and mesh.dvEdge[other - 1] > 0:
+                scaled[e, other - 1] = scaled.get((e, other - 1), 0) + weight * mesh.dcEdge[e] / mesh.dvEdge[other - 1]
+    assert max(abs(value + scaled[b, a]) for (a, b), value in scaled.items() if (b, a) in scaled) < 1e-12
+    c, d = mesh.cellsOnEdge.T - 1
+    normal = mesh.cell[d] - mesh.cell[c]
+    normal /= np.sqrt(dot(normal, normal))[:, None]
+    tangent = np.cross(mesh.edge, normal)
+    wind = np.cross(np.array([0.6, 0, 0.8], REAL), mesh.edge)
+    u = dot(wind, normal)
+    got = (mesh.weightsOnEdge * np.where(mesh.edgesOnEdge > 0, u[mesh.edgesOnEdge - 1], 0)).sum(axis=1)
+    return float(np.sqrt(((got - dot(wind, tangent))**2).mean()))
+
+
+def check_graph(mesh, file):
+    lines = file.read_text().splitlines()
+    assert lines[0].split() == [str(len(mesh.cell)), str((mesh.cellsOnEdge > 0).all(axis=1).sum())]
+    for c, line in enumerate(lines[1:]):
+        row = mesh.cellsOnCell[c, :mesh.nEdgesOnCell[c]]
+        assert line.split() == [str(other) for other in row[row > 0]]
+    assert len(lines) == len(mesh.cell) + 1
+
+
+def check(name, tolerance=4e-13):
+    mesh = Mesh(FOLDER / f"{name}.mpas.nc")
+    assert mesh.kind == "NETCDF3_64BIT_DATA" and mesh.attributes["Conventions"] == "MPAS"
+    check_who_touches_whom(mesh)
+    check_values(mesh, tolerance)
+    check_graph(mesh, FOLDER / f"{name}.graph.info")
+    return mesh
+
+
+def check_against_the_converter(name):
+    """The converter's own file: the same indices everywhere, the same numbers up to its single-precision powers."""
+    run("convert", DATA / f"{name}.mpas.nc", "-o", FOLDER / f"{name}.mpas.nc")
+    mesh, theirs = check(name), Mesh(DATA / f"{name}.mesh.nc")
+    assert set(vars(mesh)) == set(vars(theirs)) and mesh.dimensions == theirs.dimensions
+    for variable, value in vars(theirs).items():
+        # angleEdge is another angle there. Of three angles triangleAngleQuality takes one by a wrong formula.
+        if isinstance(value, np.ndarray) and variable not in ("angleEdge", "triangleAngleQuality"):
+            error = np.abs(getattr(mesh, variable) - value).max()
+            assert error == 0 if value.dtype.kind == "i" else error < 1.2e-7, (variable, error)
+    assert (FOLDER / f"{name}.graph.info").read_bytes() == (DATA / f"{name}.graph.info").read_bytes()
+    return mesh
+
+
+def cut(mesh, name, kept, file):
+    """Removes cells as MPAS' culler does: vertices stay while one of their cells does."""
+    number = np.zeros(len(mesh.cell) + 1, int)
+    number[1:][kept] = np.arange(kept.sum()) + 1
+    cells_on_vertex = number[mesh.cellsOnVertex]
+    vertices = (cells_on_vertex > 0).any(axis=1)
+    radius = mesh.attributes["sphere_radius"]
+    with netCDF4.Dataset(file, "w", format="NETCDF3_64BIT_OFFSET") as out:
+        for dimension, n in (("nCells", kept.sum()), ("nVertices", vertices.sum()), ("vertexDegree", 3)):
+            out.createDimension(dimension, n)
+        for of, rows, dimension in (("Cell", kept, "nCells"), ("Vertex", vertices, "nVertices")):
+            for axis in "xyz":
+                out.createVariable(axis + of, "f8", dimension)[:] = getattr(mesh, axis + of)[rows]
+        out.createVariable("cellsOnVertex", "i4", ("nVertices", "vertexDegree"))[:] = cells_on_vertex[vertices]
+        out.createVariable("meshDensity", "f8", "nCells")[:] = mesh.meshDensity[kept]
+        out.sphere_radius, out.on_a_sphere, out.file_id = radius, "YES", mesh.attributes["file_id"]
+    return vertices
+
+
+def check_cut(mesh, name, kept):
+    """A mesh with a boundary: what is left has the values that it had."""
+    vertices = cut(mesh, name, kept, FOLDER / f"{name}.nc")
+    run("convert", FOLDER / f"{name}.nc", "--to", "mpas", "-o", FOLDER / f"{name}.mpas.nc")
+    part = check(name, 1e-10)
+    assert part.attributes["parent_id"] == mesh.attributes["file_id"]
+    assert part.attributes["sphere_radius"] == mesh.attributes["sphere_radius"]
+    assert np.allclose(part.areaCell, mesh.areaCell[kept], rtol=1e-13) and (part.meshDensity == mesh.meshDensity[kept]).all()
+    number = np.zeros(len(mesh.cell) + 1, int)
+    number[1:][kept] = np.arange(kept.sum()) + 1
+    of = np.flatnonzero(vertices)
+    for v, w in enumerate(of):  # kites by cell
+        ours = {c: k for c, k in zip(part.cellsOnVertex[v], part.kiteAreasOnVertex[v]) if c > 0}
+        all_three = {number[c]: k for c, k in zip(mesh.cellsOnVertex[w], mesh.kiteAreasOnVertex[w]) if number[c] > 0}
+        assert ours.keys() == all_three.keys() and all(abs(ours[c] - all_three[c]) < 1e-11 * mesh.areaCell.max() for c in ours)
+    edges = {tuple(sorted(ends)): e for e, ends in enumerate(mesh.verticesOnEdge)}
+    for e, (v, w) in enumerate(part.verticesOnEdge):
+        f = edges[tuple(sorted((of[v - 1] + 1, of[w - 1] + 1)))]
+        assert abs(part.dcEdge[e] - mesh.dcEdge[f]) < 1e-11 * mesh.dcEdge[f]
+        assert abs(part.dvEdge[e] - mesh.dvEdge[f]) < 1e-13 * mesh.dcEdge[f]
+        flipped = number[mesh.cellsOnEdge[f, 0]] == 0  # then n points the other way
+        turned = part.angleEdge[e] - mesh.angleEdge[f] - (math.pi if flipped else 0)
+        assert abs(math.sin(turned / 2)) < 1e-9
+    run("convert", FOLDER / f"{name}.mpas.nc", "-o", FOLDER / f"{name}_again.mpas.nc")
+    again = check(f"{name}_again", 1e-10)
+    for variable in ("cellsOnVertex", "verticesOnEdge", "edgesOnEdge", "areaCell", "weightsOnEdge"):
+        assert np.allclose(getattr(again, variable), getattr(part, variable), rtol=1e-12, atol=1e-12), variable
+
+
+FOLDER.mkdir(parents=True, exist_ok=True)
+meshes = [check_against_the_converter(name) for name in ("u42", "u162")]
+errors = [check_tangential_velocity(mesh) for mesh in meshes]
+run("scvt", 642, "--tolerance", 1e-6, "--radius", 6371229, "-o", FOLDER / "earth.mpas.nc")
+earth = check("earth")
+errors.append(check_tangential_velocity(earth))
+assert errors[0] < 0.05 and errors[1] < 0.3 * errors[0] and errors[2] < 0.3 * errors[1], errors  # second order
+assert counterclockwise(earth) == 1 and (earth.obtuseTriangle == 0).all()
+assert abs(earth.areaCell.sum() / (4 * math.pi * 6371229.0**2) - 1) < 1e-13
+with xarray.open_dataset(FOLDER / "earth.mpas.nc") as data:
+    assert data.sizes["nCells"] == 642 and data["areaCell"].dims == ("nCells",) and data.history.startswith("pstripack ")
+    assert data["weightsOnEdge"].dims == ("nEdges", "maxEdges2") and data.sphere_radius == 6371229
+
+# With a boundary: holes, single cells, rows of cells, and one whose edges are all cut.
+band = np.abs(earth.latCell) < 0.9
+holes = band & (np.arange(642) % 7 > 0)
+check_cut(earth, "band", band)
+check_cut(earth, "holes", holes)
+check_cut(meshes[1], "few", np.isin(np.arange(162), (0, 50, 51, 100)))
+
+# Obtuse triangles, poles, the dateline, cells whose vertices coincide.
+for name, family, n in (("random", "random", 400), ("grid", "latlon", 200), ("cube", "cubed-sphere", 96)):
+    run("points", family, n, "-o", FOLDER / f"{name}.txt")
+    run("triangulate", FOLDER / f"{name}.txt", "-o", FOLDER / f"{name}.mpas.nc")
+    mesh = check(name)
+    assert family != "random" or (mesh.obtuseTriangle.sum() > 50 and mesh.kiteAreasOnVertex.min() < 0)
+
+# Few nodes; an edge in a pole; nodes 1e-9 rad apart, where the coordinates of vertices have seven digits of a cell.
+OCTAHEDRON = [(0, 0), (90, 0), (180, 0), (-90, 0), (0, 90), (0, -90)]
+for name, nodes, tolerance in (("4", [(0, 90), (0, -20), (120, -20), (-120, -20)], 4e-13), ("6", OCTAHEDRON, 4e-13),
+                               ("12", [(0, 90), (0, -90)] + [(36 * k, 26.565 * (-1)**k) for k in range(10)], 4e-13),
+                               ("pole", [(0, 80), (180, 80), (90, 60), (-90, 60)] + OCTAHEDRON[:4] + [(7, -90)], 4e-13),
+                               ("near", OCTAHEDRON + [(6e-8, 0), (0, 6e-8), (180, 6e-8), (33, 89.99999994)], 1e-6)):
+    (FOLDER / f"n{name}.txt").write_text("".join(f"{lon!r} {lat!r}\n" for lon, lat in nodes))
+    run("triangulate", FOLDER / f"n{name}.txt", "--units", "degrees", "-o", FOLDER / f"n{name}.mpas.nc")
+    check(f"n{name}", tolerance)
+
+# At the boundary of a hemisphere nodes have no whole cells.
+run("points", "hemisphere", 60, "-o", FOLDER / "half.txt")
+said = run("triangulate", FOLDER / "half.txt", "-o", FOLDER / "half.mpas.nc")
+assert f"{60 - len(check('half').cell)} nodes have no whole cell, at the boundary of the mesh" in said, said
+print("all meshes are as they should be", errors)
