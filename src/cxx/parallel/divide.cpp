@@ -157,8 +157,7 @@ Supply take_stock_of_all(const LocalNodes& nodes, Communicator& ranks, const Par
                          Division& division) {
   const auto me = static_cast<RankNumber>(ranks.rank()), size = static_cast<std::size_t>(ranks.size());
   const Homes* const last = options.last;
-  const bool at_home =
-      last != nullptr && (options.fits_last ? !last->are_crowded() : last->are_home_to(nodes, ranks.rank()));
+  const bool at_home = last != nullptr && last->are_home_to(nodes, ranks.rank());
   const std::int64_t* const encoded =
       ranks.all_gather_one(Headcount{nodes.count, options.patches, at_home}.encode());
   Supply supply;

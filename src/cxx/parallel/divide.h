@@ -35,9 +35,6 @@ struct ParallelOptions {
   /// nearly all nodes lie in patches of the ranks that bring them and no rank has too many, so nodes that
   /// were sent home stay at home.
   const Homes* last = nullptr;
-  /// The nodes are about those of the call of `last`, wherever they come from: they need not be at home. Its
-  /// patches are kept if no rank had too many in that call.
-  bool fits_last = false;
 };
 
 /// Three nodes that are not on one great circle, the same on every rank.
