@@ -132,14 +132,23 @@ void keep_one_of_each_but(const LocalNodes& own, std::vector<Record>& all) {
 template <class Int>
 std::vector<Record> find_outside(const Patches<Int>& patches, const ReturnAddresses& addresses,
                                  const LocalNodes& nodes, Communicator& ranks) {
-  const auto size = static_cast<std::size_t>(ranks.size()), me = static_cast<RankNumber>(ranks.rank());
+  const auto size = static_cast<std::size_t>(ranks.size());
   const Parcels incoming = exchange_in_agreement(ranks, [&] {
-    std::vector<std::vector<Record>> neighbours(size);
-    for (PatchHere k = 0; k < patches.of_rank.size(); ++k)
-      patches.of_rank[k].for_each_missing_neighbour(
-          me, addresses.own_from[k],
-          [&](RankNumber r, const Record& node) { neighbours[r].push_back(node); });
-    return packed(neighbours);
+    struct Missing {
+      RankOfNode rank;
+      HullNode node;
+    };
+    std::vector<std::vector<Missing>> of_patch(patches.of_rank.size());
+    ParcelWriter writer(size);
+    for (PatchHere k = 0; k < of_patch.size(); ++k)
+      patches.of_rank[k].for_each_missing_neighbour(addresses.own_from[k], [&](RankNumber r, HullNode v) {
+        of_patch[k].push_back({static_cast<RankOfNode>(r), v});
+        writer.expect<Record>(r);
+      });
+    writer.make_room();
+    for (PatchHere k = 0; k < of_patch.size(); ++k)
+      for (const Missing& m : of_patch[k]) writer.put(m.rank, patches.of_rank[k].node(m.node));
+    return writer.finish();
   });
   std::vector<Record> outside;
   in_agreement(ranks, [&] {
