@@ -674,9 +674,9 @@ TEST(GivingUp, WhereThereAreTooManyQuestions) {
   options.patches = 4;
   options.most_questions = 100;
   const Point corners[3] = {set.nodes[0], set.nodes[1], set.nodes[2]};
-  EXPECT_TRUE(triangulate<std::int32_t>(local, look_at(local.points, local.count), corners, {1, 2, 3},
-                                        process, options)
-                  .gave_up);
+  EXPECT_THROW(triangulate<std::int32_t>(local, look_at(local.points, local.count), corners, {1, 2, 3},
+                                         process, options),
+               PatchesDoNotPay);
 }
 
 bool gives_up(const std::string& family, int patches, std::size_t most_questions, ParallelCost& cost) {
@@ -687,9 +687,13 @@ bool gives_up(const std::string& family, int patches, std::size_t most_questions
   options.patches = patches;
   options.most_questions = most_questions;
   const Point corners[3] = {set.nodes[0], set.nodes[1], set.nodes[2]};
-  return triangulate<std::int32_t>(local, look_at(local.points, local.count), corners, {1, 2, 3}, process,
-                                   options, &cost)
-      .gave_up;
+  try {
+    triangulate<std::int32_t>(local, look_at(local.points, local.count), corners, {1, 2, 3}, process, options,
+                              &cost);
+    return false;
+  } catch (const PatchesDoNotPay&) {
+    return true;
+  }
 }
 
 TEST(GivingUp, BeforeTheTriangulationWherePatchesWouldNotPay) {

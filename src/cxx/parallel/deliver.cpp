@@ -305,8 +305,7 @@ Delivery deliver(const LocalNodes& nodes, const Division& division, Communicator
     if (division.may_give_up) {
       std::size_t halo = 0;
       for (const Count& c : routes->sent) halo += c.halo;
-      delivery.gave_up = halo > nodes.count / 4 * (count - 1);  // all in all, more work than one hull
-      if (delivery.gave_up) return ParcelWriter(here.ranks).finish();
+      if (halo > nodes.count / 4 * (count - 1)) throw PatchesDoNotPay{};  // more work than one hull
     }
     addresses.away_begin.assign(1, 0);
     for (std::size_t q = 0; q < count; ++q)
@@ -315,8 +314,7 @@ Delivery deliver(const LocalNodes& nodes, const Division& division, Communicator
           (here.patches().rank_of(static_cast<PatchNumber>(q)) == here.me ? 0 : routes->sent[q].own));
     return parcels_for_others(here, *routes, addresses);
   });
-  if (!delivery.gave_up)
-    delivery.outcome = Outcome::of([&] { place_nodes(here, *routes, std::move(arrived), delivery); });
+  delivery.outcome = Outcome::of([&] { place_nodes(here, *routes, std::move(arrived), delivery); });
   return delivery;
 }
 

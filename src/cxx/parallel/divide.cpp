@@ -78,10 +78,7 @@ Outcome cut_anew(const LocalNodes& nodes, Supply& supply, PartitionKind kind, Co
   const bool is_bisection = kind == PartitionKind::bisection;
   std::vector<Point> places;
   std::optional<Cuts> cuts;
-  const auto go_on = [&](const auto& body) {
-    if (outcome.is_good()) outcome = Outcome::of(body);
-  };
-  go_on([&] {
+  outcome.go_on([&] {
     places = places_of(supply.sample, division.places);
     if (!is_bisection) return;
     cuts.emplace(patches, std::vector<Point>(places),
@@ -89,12 +86,12 @@ Outcome cut_anew(const LocalNodes& nodes, Supply& supply, PartitionKind kind, Co
   });
   for (int level = 0; is_bisection && level < Cuts::levels(patches); ++level) {
     std::fill(supply.counter.begin(), supply.counter.end(), 0);
-    go_on([&] { cuts->cut(); });
+    outcome.go_on([&] { cuts->cut(); });
     if (outcome.is_good()) cuts->count(supply.counter.data());
     ranks.all_sum(supply.counter.data(), supply.counter.size());
     if (outcome.is_good()) cuts->move(supply.counter.data());
   }
-  go_on([&] {
+  outcome.go_on([&] {
     division.partition = cuts ? std::make_shared<Partition>(*cuts, std::move(places), division.nodes)
                               : std::make_shared<Partition>(kind, patches, std::move(places), division.nodes);
   });
@@ -201,9 +198,10 @@ Division divide(const LocalNodes& nodes, const Corners& corners, const Places& p
     outcome.accept();
     division.may_give_up =
         ranks.size() == 1 && division.patches.count() > 1 && options.most_questions < nodes.count;
-    division.gave_up = division.may_give_up && options.partition == PartitionKind::bisection &&
-                       may_be_hard(division.closing, *division.partition, places) &&
-                       cuts_most(supply.sample, *division.partition, places);
+    if (division.may_give_up && options.partition == PartitionKind::bisection &&
+        may_be_hard(division.closing, *division.partition, places) &&
+        cuts_most(supply.sample, *division.partition, places))
+      throw PatchesDoNotPay{};
   });
   return division;
 }

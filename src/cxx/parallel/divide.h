@@ -25,7 +25,7 @@ struct ParallelOptions {
   int threads = 1;  ///< of this rank
   /// Fill Stars::outside, and give the stars memory of their own, so that the hulls can be freed.
   bool with_neighbours = false;
-  /// Give up if a rank has more triangles that other patches lack.
+  /// Patches do not pay if a rank has more triangles that other patches lack.
   std::size_t most_questions = SIZE_MAX;
   /// For tests: patches of any shape, the same on every rank. Null: the nodes are divided by `partition`.
   std::shared_ptr<const Partition> given;
@@ -48,12 +48,10 @@ struct Division {
   PatchRanges patches;
   std::shared_ptr<const Partition> partition;
   std::vector<Record> closing;  ///< nodes from everywhere
-  /// There is one process only. Its caller can build one hull instead of asking many questions.
-  bool may_give_up = false;
-  bool gave_up = false;  ///< then there is nothing else
+  bool may_give_up = false;     ///< there is one process, whose caller can build one hull at any time
 };
 
-/// Collective. Throws AgreedFailure.
+/// Collective. Throws AgreedFailure, HiddenNode or PatchesDoNotPay.
 Division divide(const LocalNodes& nodes, const Corners& corners, const Places& places, Communicator& ranks,
                 const ParallelOptions& options);
 

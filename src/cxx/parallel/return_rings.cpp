@@ -165,16 +165,14 @@ std::vector<Record> find_outside(const Patches<Int>& patches, const ReturnAddres
 }  // namespace
 
 template <class Int>
-Stars<Int> return_rings(Certified<Int> certified, ReturnAddresses addresses, const LocalNodes& nodes,
+Stars<Int> return_rings(Patches<Int> patches, ReturnAddresses addresses, const LocalNodes& nodes,
                         const Division& division, Communicator& ranks, const ParallelOptions& options) {
   const auto me = static_cast<RankNumber>(ranks.rank());
-  Patches<Int>& patches = certified.patches;
   Stars<Int> stars;
   stars.lengths = division.places.lengths();
   Table<Int> table;
   std::unique_ptr<Workspace> entries;
   stars.received = exchange_in_agreement(ranks, [&] {
-    stars.homes = std::make_unique<Homes>(division, options, own_nodes(patches));
     stars.memory.reserve(3);  // what is moved there below must not fail
     table.make_room(addresses.own_begin.back());
     entries =
@@ -190,9 +188,9 @@ Stars<Int> return_rings(Certified<Int> certified, ReturnAddresses addresses, con
   return stars;
 }
 
-template Stars<std::int32_t> return_rings(Certified<std::int32_t>, ReturnAddresses, const LocalNodes&,
+template Stars<std::int32_t> return_rings(Patches<std::int32_t>, ReturnAddresses, const LocalNodes&,
                                           const Division&, Communicator&, const ParallelOptions&);
-template Stars<std::int64_t> return_rings(Certified<std::int64_t>, ReturnAddresses, const LocalNodes&,
+template Stars<std::int64_t> return_rings(Patches<std::int64_t>, ReturnAddresses, const LocalNodes&,
                                           const Division&, Communicator&, const ParallelOptions&);
 
 }  // namespace pstripack
