@@ -1,11 +1,13 @@
 #include "parallel/divide.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <optional>
 #include <utility>
 
 #include "geometry/insertion_order.h"
+#include "geometry/predicates.h"
 #include "parallel/agreement.h"
 #include "parallel/coarse_mesh.h"
 #include "parallel/homes.h"
@@ -178,6 +180,7 @@ Supply take_stock_of_all(const LocalNodes& nodes, Communicator& ranks, const Par
 
 Division divide(const LocalNodes& nodes, const Corners& corners, const Places& places, Communicator& ranks,
                 const ParallelOptions& options) {
+  assert(left(corners[0].point, corners[1].point, corners[2].point) != 0);
   Division division(places);
   Supply supply = take_stock_of_all(nodes, ranks, options, division);
   ranks.all_gather_in_place(supply.sample.data(), supply.begin);

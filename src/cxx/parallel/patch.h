@@ -3,6 +3,7 @@
 // compare lists with other patches, learn, read off the rings.
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -18,6 +19,20 @@
 #include "parallel/record.h"
 
 namespace pstripack {
+
+/// Sums over stars.
+struct StarSums {
+  std::int64_t nodes = 0, neighbours = 0, boundary = 0;  ///< boundary: nodes at the boundary
+
+  void operator+=(const StarSums& other) {
+    nodes += other.nodes, neighbours += other.neighbours, boundary += other.boundary;
+  }
+  /// Euler's formula. V nodes, F triangles and B boundary arcs of a sphere (B = 0) or a disc have
+  /// V - (F + B)/2 = 2 or 1. A star has as many triangles as neighbours; at the boundary, one less.
+  bool are_of_sphere_or_disc() const {
+    return 6 * nodes - neighbours - 2 * boundary == (boundary > 0 ? 6 : 12);
+  }
+};
 
 /// Int: a type that holds all node numbers. A patch without own nodes has no hull.
 template <class Int>
@@ -46,7 +61,8 @@ class Patch {
   /// The answer of this patch to another's question: some nodes that lie above the triangle, if it knows any.
   /// A patch that answers takes in the corners of the question. Throws HiddenNode, std::bad_alloc.
   std::vector<Record> answer(const Question& question) {
-    if (nodes_.own == 0 || !hull_.coincident().empty()) return {};
+    assert(nodes_.own > 0);  // among them is a corner
+    if (!hull_.coincident().empty()) return {};
     return pstripack::answer(hull_, question);
   }
 
@@ -72,8 +88,13 @@ class Patch {
   /// Writes the rings of its own nodes to `out`, which has room for all and 2*kBlock entries more; calls
   /// visit(i, place, count) for each: the ring of its node i is kept at `place`; soon(i) some time before.
   template <class Visit, class Soon>
-  void write_rings(Int* out, const Visit& visit, const Soon& soon) const {
-    hull_.write_rings(finished_, out, visit, soon);
+  StarSums write_rings(Int* out, const Visit& visit, const Soon& soon) const {
+    const Int* const end = hull_.write_rings(finished_, out, visit, soon);
+    const auto own = static_cast<std::int64_t>(nodes_.own);
+    StarSums sums{own, end - out - own, 0};
+    if (nodes_.own == 0 || finished_.surrounds_centre) return sums;
+    for (HullNode v = 0; v < hull_.built(); ++v) sums.boundary += hull_.is_own(v) && finished_.at_back[v];
+    return sums;
   }
 
   /// After finish(): calls visit(r, v) for each node v of the hull that rank r did not bring and that is a
@@ -86,7 +107,7 @@ class Patch {
 
   PatchNumber id() const { return id_; }
   std::size_t own() const { return nodes_.own; }
-  std::size_t halo() const { return nodes_.halo; }
+  std::size_t known() const { return nodes_.own > 0 ? hull_.growing().node_count() : 0; }
   /// The numbers of different nodes in the same direction, as far as it has found them.
   const CoincidentPairs& coincident() const { return hull_.coincident(); }
 

@@ -1,6 +1,7 @@
 #include "parallel/patch_lists.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "base/scattered.h"
 
@@ -72,6 +73,13 @@ void PatchLists<Int>::update(const PatchView<Int>& patch) {
     entry.triangle = listed(hull, t);
     entries_.push_back(entry);
   });
+  assert(std::all_of(entries_.begin(), entries_.end(),
+                     [&](const Entry& e) { return e.triangle == listed(hull, e.face); }));
+  assert([&] {
+    std::size_t faces = 0;
+    hull.for_each_face_at_border(0, [&](HullFace t) { faces += hull.is_front(t); });
+    return faces == entries_.size();
+  }());
   for_each([&](PatchNumber q, const Listed<Int>&) { ++counts_[static_cast<std::size_t>(q)]; });
 }
 

@@ -97,6 +97,7 @@ Stars<Int> triangulate(const LocalNodes& nodes, const Look& look, const Point (&
     ParallelOptions one_patch = options;
     one_patch.patches = ranks.rank() == 0 ? 1 : 0;
     one_patch.last = nullptr;
+    one_patch.given = nullptr;
     return triangulate_places<Int>(nodes, records, places, ranks, one_patch, c, nullptr);
   };
   // The predicates must be the same everywhere.
