@@ -94,6 +94,7 @@ Certified<Int> certify(Patches<Int> patches, const Division& division, Communica
       patches.for_each(threads, [](Patch<Int>& patch, PatchHere) { patch.update_lists(); });
       return packed_lists(patches, division, size);
     });
+    const std::size_t allowed = round < kMostRounds ? most : 0;
     in_agreement(
         ranks,
         [&] {
@@ -102,7 +103,7 @@ Certified<Int> certify(Patches<Int> patches, const Division& division, Communica
           patches.for_each(
               threads, [&](Patch<Int>& patch, PatchHere k) { of_patch[k] = patch.lacking(of_others[k]); });
           questions = Questions(of_patch, division.patches);
-          if (questions.count > (round < kMostRounds ? most : 0)) throw PatchesDoNotPay{};
+          if (questions.count > allowed) throw PatchesDoNotPay{};
         },
         patches.see_coincidence, questions.exist);
     // Patches may know different pairs of nodes that coincide; the pair that is reported must not depend on

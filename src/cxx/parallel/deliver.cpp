@@ -302,11 +302,6 @@ Delivery deliver(const LocalNodes& nodes, const Division& division, Communicator
     addresses.memory = std::make_unique<Workspace>(nodes.count * sizeof *addresses.position);
     addresses.position = addresses.memory->keep<std::uint32_t>(nodes.count);
     find_routes(here, *routes);
-    if (division.may_give_up) {
-      std::size_t halo = 0;
-      for (const Count& c : routes->sent) halo += c.halo;
-      if (halo > nodes.count / 4 * (count - 1)) throw PatchesDoNotPay{};  // more work than one hull
-    }
     addresses.away_begin.assign(1, 0);
     for (std::size_t q = 0; q < count; ++q)
       addresses.away_begin.push_back(

@@ -33,7 +33,7 @@ struct Delivery {
   Outcome outcome;  ///< of this rank: the next agreement has to accept it
 };
 
-/// Collective. Throws AgreedFailure or PatchesDoNotPay.
+/// Collective. Throws AgreedFailure.
 Delivery deliver(const LocalNodes& nodes, const Division& division, Communicator& ranks, int threads);
 
 }  // namespace pstripack

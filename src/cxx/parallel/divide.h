@@ -48,7 +48,6 @@ struct Division {
   PatchRanges patches;
   std::shared_ptr<const Partition> partition;
   std::vector<Record> closing;  ///< nodes from everywhere
-  bool may_give_up = false;     ///< there is one process, whose caller can build one hull at any time
 };
 
 /// Collective. Throws AgreedFailure, HiddenNode or PatchesDoNotPay.
