@@ -674,9 +674,29 @@ TEST(GivingUp, WhereThereAreTooManyQuestions) {
   options.patches = 4;
   options.most_questions = 100;
   const Point corners[3] = {set.nodes[0], set.nodes[1], set.nodes[2]};
-  EXPECT_TRUE(triangulate<std::int32_t>(local, look_at(local.points, local.count), corners, {1, 2, 3},
-                                        process, options)
-                  .gave_up);
+  EXPECT_THROW(triangulate<std::int32_t>(local, look_at(local.points, local.count), corners, {1, 2, 3},
+                                         process, options),
+               PatchesDoNotPay);
+}
+
+/// Then one rank triangulates all. Homes stay those of the many patches.
+TEST(GivingUp, OfRanksLeavesAllToOne) {
+  const Set set(point_sets::make("ring", 3000, 1));
+  ParallelOptions options;
+  options.most_questions = 0;
+  const auto by_thirds = [](const Point& p) { return p.x < 0 ? 0 : 1 + (p.y > 0); };
+  for (const bool is_given : {false, true}) {
+    if (is_given)
+      options.given = std::make_shared<Partition>(
+          3, Partition::Rule{by_thirds, [](PatchNumber, const Point&) { return false; }});
+    std::vector<std::unique_ptr<Homes>> homes(3);
+    std::vector<std::size_t> rank_of_node;
+    for (std::size_t i = 0; i < set.nodes.size(); ++i) rank_of_node.push_back(i % 3);
+    const Outcome out = run<std::int32_t>(set.nodes, rank_of_node, options, homes);
+    EXPECT_TRUE(is_serial(set, out));
+    EXPECT_EQ(out.cost[2].in_one_patch, 1) << is_given;
+    EXPECT_EQ(homes[0]->partition()->patches(), 3);
+  }
 }
 
 bool gives_up(const std::string& family, int patches, std::size_t most_questions, ParallelCost& cost) {
@@ -687,9 +707,13 @@ bool gives_up(const std::string& family, int patches, std::size_t most_questions
   options.patches = patches;
   options.most_questions = most_questions;
   const Point corners[3] = {set.nodes[0], set.nodes[1], set.nodes[2]};
-  return triangulate<std::int32_t>(local, look_at(local.points, local.count), corners, {1, 2, 3}, process,
-                                   options, &cost)
-      .gave_up;
+  try {
+    triangulate<std::int32_t>(local, look_at(local.points, local.count), corners, {1, 2, 3}, process, options,
+                              &cost);
+    return false;
+  } catch (const PatchesDoNotPay&) {
+    return true;
+  }
 }
 
 TEST(GivingUp, BeforeTheTriangulationWherePatchesWouldNotPay) {

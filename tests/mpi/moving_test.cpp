@@ -422,7 +422,6 @@ class Caller {
     }
     return cost.mine.flips >= 0;
   }
-  std::shared_ptr<const Partition> patches() const { return last_.homes->partition(); }
   bool has_failed = false;  ///< memory, in the last call
 
  private:
@@ -468,51 +467,6 @@ TEST(Moving, CallsOfTrmeshBeginWithTheLastRings) {
     for (Point& p : half) p.z = std::fabs(p.z);
     for (int step = 0; step < 5; ++step) EXPECT_FALSE(caller.call(half)) << "a boundary";
   }
-}
-
-/// A mesh with a boundary cannot begin with the last rings, but patches stay while nodes move little.
-TEST(Moving, ColdCallsOfTrmeshKeepThePatches) {
-  for (const Arrays arrays : {Arrays::on_every_rank, Arrays::shared, Arrays::on_one_rank})
-    for (const char* const family : {"box", "ring", "crossing", "falling:4", "moment:4"}) {
-      SCOPED_TRACE(std::string(family) + " " + std::to_string(static_cast<int>(arrays)));
-      Random random(4);
-      Caller caller(arrays);
-      Nodes nodes = point_sets::make(family, kN, 1);
-      for (int step = 0; step < 2; ++step) EXPECT_FALSE(caller.call(nodes));
-      const auto patches = caller.patches();
-      for (int step = 0; step < 3; ++step) {
-        move_all(nodes, 1e-7 * spacing(kN), random);
-        EXPECT_FALSE(caller.call(nodes));
-        EXPECT_EQ(caller.patches(), patches) << step;
-      }
-      point_sets::shuffle(nodes, 1);
-      EXPECT_FALSE(caller.call(nodes)) << "other numbers";
-      if (size_of() > 1) {
-        EXPECT_NE(caller.patches(), patches);
-      }
-    }
-}
-
-/// Nodes that gather in one patch, few in each call, must not stay there.
-TEST(Moving, ColdCallsOfTrmeshCutCrowdedPatchesAnew) {
-  if (size_of() == 1) return;
-  Caller caller(Arrays::on_every_rank);
-  Nodes nodes = point_sets::make("box", kN, 1);
-  for (int step = 0; step < 2; ++step) EXPECT_FALSE(caller.call(nodes));
-  const auto patches = caller.patches();
-  const Point corner = nodes[0];
-  bool are_cut_anew = false;
-  for (int step = 0; step < 60 && !are_cut_anew; ++step) {
-    for (Point& p : nodes)
-      p = point_sets::normalized(
-          {0.99 * p.x + 0.01 * corner.x, 0.99 * p.y + 0.01 * corner.y, 0.99 * p.z + 0.01 * corner.z});
-    EXPECT_FALSE(caller.call(nodes));
-    if (step == 0) {
-      EXPECT_EQ(caller.patches(), patches);
-    }
-    are_cut_anew = caller.patches() != patches;
-  }
-  EXPECT_TRUE(are_cut_anew);
 }
 
 TEST(Moving, RingsOfTheLastCallCountAmongWhatStays) {

@@ -143,11 +143,11 @@ class RingTable {
   std::uint8_t* size_class_ = nullptr;  ///< one byte a ring, so that arcs() need not read the rings
 };
 
-/// Writes to `out` the stored rings (see Ring) of the hull nodes v in first..last-1 with wanted(v). Calls
-/// visit(v, place, count) for each, and ahead(w) some nodes earlier, to prefetch. Writes up to 2*kBlock
-/// entries beyond the end.
+/// Writes to `out` the stored rings (see Ring) of the hull nodes v in first..last-1 with wanted(v); returns
+/// their end. Calls visit(v, place, count) for each, and ahead(w) some nodes earlier, to prefetch. Writes up
+/// to 2*kBlock entries beyond the end.
 template <class Int, class Wanted, class Number, class Ahead, class Visit>
-void append_rings(const Hull& hull, std::size_t first, std::size_t last, const Wanted& wanted,
+Int* append_rings(const Hull& hull, std::size_t first, std::size_t last, const Wanted& wanted,
                   const Number& number, const Ahead& ahead, Int* out, const Visit& visit) {
   constexpr std::size_t kAhead = 10;
   for (std::size_t v = first; v < last; ++v) {
@@ -166,6 +166,7 @@ void append_rings(const Hull& hull, std::size_t first, std::size_t last, const W
     *place = static_cast<Int>(count);
     visit(v, place, count);
   }
+  return out;
 }
 
 }  // namespace pstripack

@@ -211,8 +211,7 @@ class ByRanks {
   std::optional<Coincidence> triangulate(std::size_t n);
   void deliver() { deliver(stars_.of_node); }
 
-  /// Warm start from the rings of the last call. True if the call is done; if not, and the nodes are about
-  /// those of the last call, triangulate() begins with its patches. Collective.
+  /// Warm start from the rings of the last call. True if the call is done. Collective.
   bool begin_with(LastCall& last);
   /// To be called after a cold call: keeps what the next call may need.
   void remember(LastCall& last) noexcept;
@@ -241,7 +240,6 @@ class ByRanks {
   std::vector<std::size_t> begin_;  ///< by rank: the begin of its slice; then the number of nodes
   bool knows_slices_ = false;
   bool wants_rings_ = false;  ///< the nodes fit the last call's sample: keep the rings of this call
-  std::shared_ptr<const Homes> last_homes_;  ///< if nearly all nodes are still in these patches
   Stars<std::int32_t> stars_;
 };
 
@@ -270,8 +268,6 @@ std::optional<Coincidence> ByRanks::triangulate(std::size_t n) {
     agree_on(share_.look, ranks_);
     stars_ = {};
   }
-  options_.last = last_homes_.get();
-  options_.fits_last = true;
   stars_ = pstripack::triangulate<std::int32_t>(slice(count), share_.look, share_.headline.corners, {1, 2, 3},
                                                 ranks_, options_, &cost_);
   if (stars_.coincident.empty()) return std::nullopt;
@@ -292,14 +288,10 @@ bool ByRanks::begin_with(LastCall& last) {
     return false;
   }
   std::unique_ptr<LastRings> rings = last.rings.take();
-  const bool may_begin = warm_start_is_allowed();
-  OnAll fits{may_begin && last.has_sample && (!reads_all() || last.sample.fits(all_nodes()))},
-      have_rings{rings != nullptr},
-      have_stayed{may_begin && last.homes != nullptr &&
-                  Homes::have_kept(last.patches, last.homes->patches_of_some(slice(share_.count)))};
-  agree(ranks_, fits, have_rings, have_stayed);
+  OnAll fits{warm_start_is_allowed() && last.has_sample && (!reads_all() || last.sample.fits(all_nodes()))},
+      have_rings{rings != nullptr};
+  agree(ranks_, fits, have_rings);
   last.has_sample = false;
-  if (have_stayed.value) last_homes_ = last.homes;
   wants_rings_ = fits.value && last.patience.is_enough();
   if (!fits.value || !have_rings.value) return false;
   bool is_done = false;
@@ -331,13 +323,10 @@ void ByRanks::remember(LastCall& last) noexcept {
   if (n() < kFewestForWarmStart) return;
   last.n = n();
   take_sample(last, stars_.of_node);
-  last.homes = nullptr;
+  if (!wants_rings_) return;
   try {
-    last.homes = std::move(stars_.homes);
-    last.patches = last.homes->patches_of_some(slice(share_.count));
-    if (!wants_rings_) return;
     const std::size_t first = begin_[static_cast<std::size_t>(ranks_.rank())];
-    last.rings.put(std::make_unique<LastRings>(stars_.of_node, first, last.homes));
+    last.rings.put(std::make_unique<LastRings>(stars_.of_node, first, std::move(stars_.homes)));
   } catch (const std::bad_alloc&) {
     // No memory: the next call is cold, too.
   }

@@ -1,12 +1,10 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 
 #include "base/kept.h"
 #include "mpi/gather_lists.h"
 #include "mpi/mpi_communicator.h"
-#include "parallel/homes.h"
 #include "parallel/last_rings.h"
 #include "parallel/triangulate.h"
 #include "trmesh/patience.h"
@@ -18,10 +16,8 @@ namespace pstripack {
 struct LastCall {
   std::size_t n = 0;  ///< number of nodes; 0: nothing is kept
   SampleOfStars sample;
-  bool has_sample = false;             ///< false if this rank had no memory for the sample
-  Kept<LastRings> rings;               ///< kept only after calls whose nodes fitted the sample
-  std::shared_ptr<const Homes> homes;  ///< the patches of the last cold call; null if there was no memory
-  Homes::SomePatches patches;          ///< homes->patches_of_some() of this rank's slice in that call
+  bool has_sample = false;  ///< false if this rank had no memory for the sample
+  Kept<LastRings> rings;    ///< kept only after calls whose nodes fitted the sample
   Patience patience;
 };
 

@@ -6,7 +6,7 @@ namespace pstripack {
 namespace {
 
 // Greater than the code of any failure that can end the same body: the minimum is then the failure.
-constexpr std::int32_t kHidden = -1;
+constexpr std::int32_t kHidden = -1, kDoNotPay = -2;
 
 }  // namespace
 
@@ -15,6 +15,8 @@ std::int32_t Outcome::code_of_current() {
     throw;
   } catch (const HiddenNode&) {
     return kHidden;
+  } catch (const PatchesDoNotPay&) {
+    return kDoNotPay;
   } catch (...) {
     return code_of(std::current_exception());
   }
@@ -22,6 +24,7 @@ std::int32_t Outcome::code_of_current() {
 
 void Outcome::accept() const {
   if (code_ == kHidden) throw HiddenNode{};
+  if (code_ == kDoNotPay) throw PatchesDoNotPay{};
   if (code_ != 0) throw AgreedFailure(code_);
 }
 

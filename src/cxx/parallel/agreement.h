@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <exception>
 #include <limits>
 #include <vector>
 
@@ -76,8 +77,13 @@ struct OfRank0 {
   void decode(std::int64_t least) { value = static_cast<Value>(least); }
 };
 
-/// How a body ended. The code is 0 if it returned, -1 if it met a hidden node, which is no failure, and
-/// smaller if it failed.
+/// Patches would take longer than one hull of all nodes. Every rank throws it at the same place.
+struct PatchesDoNotPay : std::exception {
+  const char* what() const noexcept override { return "patches do not pay"; }
+};
+
+/// How a body ended. The code is 0 if it returned. HiddenNode and PatchesDoNotPay, which are no failures,
+/// have codes of their own; that of a failure is smaller.
 class Outcome {
  public:
   template <class Body>
@@ -98,8 +104,13 @@ class Outcome {
     return outcome;
   }
   bool is_good() const { return code_ == 0; }
-  /// Returns if the body returned. Throws HiddenNode or AgreedFailure.
+  /// Returns if the body returned. Throws HiddenNode, PatchesDoNotPay or AgreedFailure.
   void accept() const;
+  /// Runs the body unless an earlier one has thrown.
+  template <class Body>
+  void go_on(const Body& body) {
+    if (is_good()) *this = of(body);
+  }
 
   std::int64_t encode() const { return code_; }
   void decode(std::int64_t least) { code_ = static_cast<std::int32_t>(least); }
@@ -119,8 +130,8 @@ void agree(Communicator& ranks, Votes&... votes) {
 }
 
 /// Runs body() on every rank. Returns if body() returned on all of them; otherwise throws the same exception
-/// on every rank, AgreedFailure or HiddenNode. The same message agrees on the votes, as body() leaves them.
-/// Collective.
+/// on every rank: AgreedFailure, HiddenNode or PatchesDoNotPay. The same message agrees on the votes, as
+/// body() leaves them. Collective.
 template <class Body, class... Votes>
 void in_agreement(Communicator& ranks, const Body& body, Votes&... votes) {
   Outcome outcome = Outcome::of(body);

@@ -77,26 +77,24 @@ std::vector<std::vector<ListOfOther<Int>>> sorted_lists(const Parcels& lists, co
 }  // namespace
 
 template <class Int>
-Certified<Int> certify(Patches<Int> found, const Division& division, Communicator& ranks,
-                       const ParallelOptions& options) {
+Certified<Int> certify(Patches<Int> patches, const Division& division, Communicator& ranks,
+                       const ParallelOptions& options, int& rounds) {
   constexpr int kMostRounds = 50;
-  Certified<Int> certified(std::move(found));
-  Patches<Int>& patches = certified.patches;
   const int threads = options.threads;
-  certified.coincident = all_coincident(patches, ranks);
-  if (!certified.coincident.empty()) return certified;
+  CoincidentPairs coincident = all_coincident(patches, ranks);
+  if (!coincident.empty()) return {std::move(patches), std::move(coincident)};
 
   const auto size = static_cast<std::size_t>(ranks.size());
   const std::size_t most = most_lacking(patches, options, ranks.size());
   Questions questions;
   Parcels answers;
-  for (;;) {
+  for (int round = 0;; ++round, ++rounds) {
     const Parcels lists = exchange_in_agreement(ranks, [&] {
-      if (certified.rounds > 0) learn(patches, questions, answers, threads);
+      if (round > 0) learn(patches, questions, answers, threads);
       patches.for_each(threads, [](Patch<Int>& patch, PatchHere) { patch.update_lists(); });
       return packed_lists(patches, division, size);
     });
-    OnAny too_many;
+    const std::size_t allowed = round < kMostRounds ? most : 0;
     in_agreement(
         ranks,
         [&] {
@@ -105,23 +103,21 @@ Certified<Int> certify(Patches<Int> found, const Division& division, Communicato
           patches.for_each(
               threads, [&](Patch<Int>& patch, PatchHere k) { of_patch[k] = patch.lacking(of_others[k]); });
           questions = Questions(of_patch, division.patches);
-          too_many.value = questions.count > most;
+          if (questions.count > allowed) throw PatchesDoNotPay{};
         },
-        patches.see_coincidence, questions.exist, too_many);
+        patches.see_coincidence, questions.exist);
     // Patches may know different pairs of nodes that coincide; the pair that is reported must not depend on
     // them.
-    if (patches.see_coincidence.value) certified.gave_up = true;
+    if (patches.see_coincidence.value) throw PatchesDoNotPay{};
     // Every list has matched, and no hull has grown since: the hulls agree.
-    if (certified.gave_up || !questions.exist.value) return certified;
-    certified.gave_up = too_many.value || ++certified.rounds > kMostRounds;
-    if (certified.gave_up) return certified;
+    if (!questions.exist.value) return {std::move(patches), {}};
     answers = answers_to(questions, patches, ranks, threads);
   }
 }
 
 template Certified<std::int32_t> certify(Patches<std::int32_t>, const Division&, Communicator&,
-                                         const ParallelOptions&);
+                                         const ParallelOptions&, int&);
 template Certified<std::int64_t> certify(Patches<std::int64_t>, const Division&, Communicator&,
-                                         const ParallelOptions&);
+                                         const ParallelOptions&, int&);
 
 }  // namespace pstripack

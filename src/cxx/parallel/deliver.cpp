@@ -302,12 +302,6 @@ Delivery deliver(const LocalNodes& nodes, const Division& division, Communicator
     addresses.memory = std::make_unique<Workspace>(nodes.count * sizeof *addresses.position);
     addresses.position = addresses.memory->keep<std::uint32_t>(nodes.count);
     find_routes(here, *routes);
-    if (division.may_give_up) {
-      std::size_t halo = 0;
-      for (const Count& c : routes->sent) halo += c.halo;
-      delivery.gave_up = halo > nodes.count / 4 * (count - 1);  // all in all, more work than one hull
-      if (delivery.gave_up) return ParcelWriter(here.ranks).finish();
-    }
     addresses.away_begin.assign(1, 0);
     for (std::size_t q = 0; q < count; ++q)
       addresses.away_begin.push_back(
@@ -315,8 +309,7 @@ Delivery deliver(const LocalNodes& nodes, const Division& division, Communicator
           (here.patches().rank_of(static_cast<PatchNumber>(q)) == here.me ? 0 : routes->sent[q].own));
     return parcels_for_others(here, *routes, addresses);
   });
-  if (!delivery.gave_up)
-    delivery.outcome = Outcome::of([&] { place_nodes(here, *routes, std::move(arrived), delivery); });
+  delivery.outcome = Outcome::of([&] { place_nodes(here, *routes, std::move(arrived), delivery); });
   return delivery;
 }
 

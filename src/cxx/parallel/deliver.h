@@ -30,8 +30,7 @@ struct Delivery {
   std::vector<PatchNodes> of_patch;  ///< own nodes in the order of the ranks that brought them
   std::unique_ptr<Workspace> memory;
   ReturnAddresses addresses;
-  Outcome outcome;       ///< of this rank: the next agreement has to accept it
-  bool gave_up = false;  ///< then there is nothing else
+  Outcome outcome;  ///< of this rank: the next agreement has to accept it
 };
 
 /// Collective. Throws AgreedFailure.

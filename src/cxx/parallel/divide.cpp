@@ -1,16 +1,17 @@
 #include "parallel/divide.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <optional>
 #include <utility>
 
 #include "geometry/insertion_order.h"
+#include "geometry/predicates.h"
+#include "mesh/delaunay.h"
 #include "parallel/agreement.h"
-#include "parallel/coarse_mesh.h"
 #include "parallel/homes.h"
 #include "parallel/sample.h"
-#include "parallel/sample_hull.h"
 
 namespace pstripack {
 namespace {
@@ -34,33 +35,34 @@ struct Headcount {
   }
 };
 
-/// What the ranks bring, and the sample to which each has written its share.
-struct Supply {
+/// A sample of the nodes of all ranks, to which each rank has written its share.
+struct GlobalSample {
   bool keeps_patches = false;  ///< of the last call
   bool looks_through = true;   ///< for hidden nodes; not where the last call found none
-  BlockArray<Record> sample;
-  std::vector<std::size_t> begin;     ///< bytes of the sample that the ranks bring
+  BlockArray<Record> nodes;
+  std::vector<std::size_t> begin;     ///< bytes that the ranks bring
   std::vector<std::int64_t> counter;  ///< memory for the counters of cut_anew()
 };
 
 /// Writes this rank's share of a sample.
-Supply take_stock(const LocalNodes& nodes, const std::vector<Headcount>& heads, const Division& division,
-                  RankNumber me, const ParallelOptions& options, bool keeps_patches) {
-  Supply supply;
-  supply.keeps_patches = keeps_patches;
-  supply.looks_through = !keeps_patches || options.last->lengths() != division.places.lengths();
+GlobalSample begin_sample(const LocalNodes& nodes, const std::vector<Headcount>& heads,
+                          const Division& division, RankNumber me, const ParallelOptions& options,
+                          bool keeps_patches) {
+  GlobalSample sample;
+  sample.keeps_patches = keeps_patches;
+  sample.looks_through = !keeps_patches || options.last->lengths() != division.places.lengths();
   const std::size_t usual = sample_size(division.nodes, static_cast<std::size_t>(division.patches.count())),
-                    enough = supply.looks_through ? kLookedThrough : options.closing_nodes;
+                    enough = sample.looks_through ? kLookedThrough : options.closing_nodes;
   const std::size_t wanted = std::min(division.nodes, keeps_patches ? enough : usual);
-  supply.begin.assign(1, 0);
+  sample.begin.assign(1, 0);
   for (const Headcount& h : heads)
-    supply.begin.push_back(supply.begin.back() +
+    sample.begin.push_back(sample.begin.back() +
                            share_of_sample(h.nodes, wanted, division.nodes) * sizeof(Record));
-  supply.sample = BlockArray<Record>(supply.begin.back() / sizeof(Record));
+  sample.nodes = BlockArray<Record>(sample.begin.back() / sizeof(Record));
   write_share(nodes, share_of_sample(nodes.count, wanted, division.nodes),
-              supply.sample.data() + supply.begin[me] / sizeof(Record));
-  supply.counter.resize(Cuts::counters(division.patches.count()));
-  return supply;
+              sample.nodes.data() + sample.begin[me] / sizeof(Record));
+  sample.counter.resize(Cuts::counters(division.patches.count()));
+  return sample;
 }
 
 std::vector<Point> places_of(const BlockArray<Record>& sample, const Places& places) {
@@ -72,64 +74,30 @@ std::vector<Point> places_of(const BlockArray<Record>& sample, const Places& pla
 /// Cuts the sphere into patches with equal numbers of nodes, as far as a sample and counts can tell. Returns
 /// the outcome on this rank, not agreed on yet. A rank that has failed counts nothing but takes part in all
 /// sums.
-Outcome cut_anew(const LocalNodes& nodes, Supply& supply, PartitionKind kind, Communicator& ranks,
+Outcome cut_anew(const LocalNodes& nodes, GlobalSample& sample, PartitionKind kind, Communicator& ranks,
                  Division& division, Outcome outcome) {
   const int patches = division.patches.count();
   const bool is_bisection = kind == PartitionKind::bisection;
   std::vector<Point> places;
   std::optional<Cuts> cuts;
-  const auto go_on = [&](const auto& body) {
-    if (outcome.is_good()) outcome = Outcome::of(body);
-  };
-  go_on([&] {
-    places = places_of(supply.sample, division.places);
+  outcome.go_on([&] {
+    places = places_of(sample.nodes, division.places);
     if (!is_bisection) return;
     cuts.emplace(patches, std::vector<Point>(places),
                  places_to_count(nodes, division.nodes, static_cast<std::size_t>(patches), division.places));
   });
   for (int level = 0; is_bisection && level < Cuts::levels(patches); ++level) {
-    std::fill(supply.counter.begin(), supply.counter.end(), 0);
-    go_on([&] { cuts->cut(); });
-    if (outcome.is_good()) cuts->count(supply.counter.data());
-    ranks.all_sum(supply.counter.data(), supply.counter.size());
-    if (outcome.is_good()) cuts->move(supply.counter.data());
+    std::fill(sample.counter.begin(), sample.counter.end(), 0);
+    outcome.go_on([&] { cuts->cut(); });
+    if (outcome.is_good()) cuts->count(sample.counter.data());
+    ranks.all_sum(sample.counter.data(), sample.counter.size());
+    if (outcome.is_good()) cuts->move(sample.counter.data());
   }
-  go_on([&] {
+  outcome.go_on([&] {
     division.partition = cuts ? std::make_shared<Partition>(*cuts, std::move(places), division.nodes)
                               : std::make_shared<Partition>(kind, patches, std::move(places), division.nodes);
   });
   return outcome;
-}
-
-/// True if neighbours in the mesh may be far from each other: in the mesh of a few nodes, more than a third
-/// of the triangles have corners in different quarters of the patches.
-bool may_be_hard(const std::vector<Record>& few, const Partition& partition, const Places& places) {
-  constexpr std::size_t kEnough = 64, kQuarters = 4;
-  const auto patches = static_cast<std::size_t>(partition.patches());
-  if (few.size() < kEnough || patches == 1) return false;
-  std::vector<Point> points;
-  std::vector<std::size_t> quarter;
-  for (const Record& r : few) {
-    points.push_back(r.point);
-    const auto owner = static_cast<std::size_t>(partition.owner(places(r.point)));
-    quarter.push_back(patches > kQuarters ? owner * kQuarters / patches : owner);
-  }
-  const CoarseMesh mesh(points);
-  const std::size_t mixed = mesh.mixed([&](SampleNode v) { return quarter[v]; });
-  return 3 * (mixed + mesh.triangles_at_hubs()) > mesh.triangles().size() + mesh.triangles_at_hubs();
-}
-
-/// True if boxes cut most triangles of the mesh of the sample.
-bool cuts_most(BlockArray<Record>& sample, const Partition& partition, const Places& places) {
-  std::vector<Point> points;
-  std::vector<PatchNumber> owner;
-  for (const Record& r : sample) {
-    points.push_back(r.point);
-    owner.push_back(partition.owner(places(r.point)));
-  }
-  const CoarseMesh mesh(points);
-  const std::size_t mixed = mesh.mixed([&](SampleNode v) { return owner[v]; });
-  return 3 * (mixed + mesh.triangles_at_hubs()) > mesh.triangles().size() + mesh.triangles_at_hubs();
 }
 
 /// About `most` nodes of the sample and all of `some`, each once.
@@ -151,17 +119,74 @@ std::vector<Record> along_curve(BlockArray<Record>& sample, std::size_t most, st
   return ordered;
 }
 
+/// Calls visit(hull) for the hull of some nodes, not all on one great circle, which stands for that of all
+/// nodes. Hull::order are their places in `nodes`.
+template <class Visit>
+auto with_hull_of(const std::vector<Record>& nodes, const Visit& visit) {
+  std::vector<Point> points;
+  for (const Record& r : nodes) points.push_back(r.point);
+  Workspace workspace(workspace_bytes(points.size()));
+  return visit(delaunay(points.data(), points.size(), workspace));
+}
+
+/// Throws HiddenNode if the lengths hide one of these nodes: it is hidden in every larger set, too. Builds
+/// the hull only if two successive nodes are close; so the nodes should follow a curve.
+void look_for_hidden_nodes(const std::vector<Record>& nodes, const Places& places) {
+  if (places.lengths() != Lengths::as_given) return;
+  // A node of length 1 - d among others of length 1 is hidden if they are no farther off than sqrt(2 d).
+  double least = 4;
+  for (std::size_t k = 1; k < nodes.size(); ++k) {
+    const Point d = minus(nodes[k].point, nodes[k - 1].point);
+    least = std::min(least, dot(d, d));
+  }
+  if (least > 4 * places.deviation()) return;
+  if (with_hull_of(nodes, [](const Hull& hull) { return hull.lengths; }) != Lengths::as_given)
+    throw HiddenNode{};
+}
+
+/// True if more than a third of the triangles of these nodes have corners in different patches, or, if these
+/// are more than `parts`, in different parts of so many.
+bool cuts_many_triangles(const Partition& partition, std::size_t parts, const std::vector<Record>& nodes,
+                         const Places& places) {
+  const auto patches = static_cast<std::size_t>(partition.patches());
+  std::vector<std::size_t> part;
+  for (const Record& r : nodes) {
+    const auto owner = static_cast<std::size_t>(partition.owner(places(r.point)));
+    part.push_back(patches > parts ? owner * parts / patches : owner);
+  }
+  return with_hull_of(nodes, [&](const Hull& hull) {
+    std::size_t triangles = 0, cut = 0;
+    for (std::size_t t = 0; t < hull.face_count; ++t) {
+      if (!hull.front(t)) continue;
+      const auto part_of = [&](int i) { return part[hull.order[hull.faces[t].vertex[i]]]; };
+      ++triangles;
+      cut += part_of(0) != part_of(1) || part_of(1) != part_of(2);
+    }
+    return 3 * cut > triangles;
+  });
+}
+
+/// True if neighbours in the mesh may be far from each other, as along lines that cross.
+bool cuts_many_triangles(const Division& division, BlockArray<Record>& sample, const Corners& corners) {
+  constexpr std::size_t kEnough = 64, kQuarters = 4;
+  const auto cuts_many = [&](std::size_t parts, const std::vector<Record>& nodes) {
+    return cuts_many_triangles(*division.partition, parts, nodes, division.places);
+  };
+  // A few nodes tell first: this costs next to nothing.
+  return division.closing.size() >= kEnough && cuts_many(kQuarters, division.closing) &&
+         cuts_many(SIZE_MAX, some_of(sample, sample.size() + 1, {corners.begin(), corners.end()}));
+}
+
 /// Agrees with all ranks on what there is, and on whether the patches of the last call are kept. Collective.
 /// Throws AgreedFailure.
-Supply take_stock_of_all(const LocalNodes& nodes, Communicator& ranks, const ParallelOptions& options,
-                         Division& division) {
+GlobalSample sample_of_all(const LocalNodes& nodes, Communicator& ranks, const ParallelOptions& options,
+                           Division& division) {
   const auto me = static_cast<RankNumber>(ranks.rank()), size = static_cast<std::size_t>(ranks.size());
   const Homes* const last = options.last;
-  const bool at_home =
-      last != nullptr && (options.fits_last ? !last->are_crowded() : last->are_home_to(nodes, ranks.rank()));
+  const bool at_home = last != nullptr && last->are_home_to(nodes, ranks.rank());
   const std::int64_t* const encoded =
       ranks.all_gather_one(Headcount{nodes.count, options.patches, at_home}.encode());
-  Supply supply;
+  GlobalSample sample;
   std::vector<Headcount> heads;
   bool keeps_patches = last != nullptr;
   in_agreement(ranks, [&] {
@@ -173,38 +198,39 @@ Supply take_stock_of_all(const LocalNodes& nodes, Communicator& ranks, const Par
     }
     keeps_patches =
         keeps_patches && last->are_for(options.partition, division.patches, division.places.lengths());
-    supply = take_stock(nodes, heads, division, me, options, keeps_patches);
+    sample = begin_sample(nodes, heads, division, me, options, keeps_patches);
   });
-  return supply;
+  return sample;
 }
 
 }  // namespace
 
 Division divide(const LocalNodes& nodes, const Corners& corners, const Places& places, Communicator& ranks,
                 const ParallelOptions& options) {
+  assert(left(corners[0].point, corners[1].point, corners[2].point) != 0);
   Division division(places);
-  Supply supply = take_stock_of_all(nodes, ranks, options, division);
-  ranks.all_gather_in_place(supply.sample.data(), supply.begin);
+  GlobalSample sample = sample_of_all(nodes, ranks, options, division);
+  ranks.all_gather_in_place(sample.nodes.data(), sample.begin);
   Outcome outcome = Outcome::of([&] {
     std::vector<Record> known{corners.begin(), corners.end()};
-    if (supply.looks_through && options.given == nullptr)
-      look_for_hidden_nodes(along_curve(supply.sample, kLookedThrough, known), places);
-    division.closing = along_curve(supply.sample, options.closing_nodes, std::move(known));
+    if (sample.looks_through && options.given == nullptr)
+      look_for_hidden_nodes(along_curve(sample.nodes, kLookedThrough, known), places);
+    division.closing = along_curve(sample.nodes, options.closing_nodes, std::move(known));
   });
   if (options.given != nullptr) {
     division.partition = options.given;
-  } else if (supply.keeps_patches) {
+  } else if (sample.keeps_patches) {
     division.partition = options.last->partition();
   } else {
-    outcome = cut_anew(nodes, supply, options.partition, ranks, division, outcome);
+    outcome = cut_anew(nodes, sample, options.partition, ranks, division, outcome);
   }
   in_agreement(ranks, [&] {
     outcome.accept();
-    division.may_give_up =
-        ranks.size() == 1 && division.patches.count() > 1 && options.most_questions < nodes.count;
-    division.gave_up = division.may_give_up && options.partition == PartitionKind::bisection &&
-                       may_be_hard(division.closing, *division.partition, places) &&
-                       cuts_most(supply.sample, *division.partition, places);
+    // A single process can give up now: its caller builds one hull. Ranks have to send their nodes first.
+    const bool may_give_up = ranks.size() == 1 && division.patches.count() > 1 &&
+                             options.most_questions < nodes.count &&
+                             options.partition == PartitionKind::bisection;
+    if (may_give_up && cuts_many_triangles(division, sample.nodes, corners)) throw PatchesDoNotPay{};
   });
   return division;
 }

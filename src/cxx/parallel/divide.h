@@ -25,7 +25,7 @@ struct ParallelOptions {
   int threads = 1;  ///< of this rank
   /// Fill Stars::outside, and give the stars memory of their own, so that the hulls can be freed.
   bool with_neighbours = false;
-  /// Give up if a rank has more triangles that other patches lack.
+  /// Patches do not pay if a rank has more triangles that other patches lack.
   std::size_t most_questions = SIZE_MAX;
   /// For tests: patches of any shape, the same on every rank. Null: the nodes are divided by `partition`.
   std::shared_ptr<const Partition> given;
@@ -35,9 +35,6 @@ struct ParallelOptions {
   /// nearly all nodes lie in patches of the ranks that bring them and no rank has too many, so nodes that
   /// were sent home stay at home.
   const Homes* last = nullptr;
-  /// The nodes are about those of the call of `last`, wherever they come from: they need not be at home. Its
-  /// patches are kept if no rank had too many in that call.
-  bool fits_last = false;
 };
 
 /// Three nodes that are not on one great circle, the same on every rank.
@@ -51,12 +48,9 @@ struct Division {
   PatchRanges patches;
   std::shared_ptr<const Partition> partition;
   std::vector<Record> closing;  ///< nodes from everywhere
-  /// There is one process only. Its caller can build one hull instead of asking many questions.
-  bool may_give_up = false;
-  bool gave_up = false;  ///< then there is nothing else
 };
 
-/// Collective. Throws AgreedFailure.
+/// Collective. Throws AgreedFailure, HiddenNode or PatchesDoNotPay.
 Division divide(const LocalNodes& nodes, const Corners& corners, const Places& places, Communicator& ranks,
                 const ParallelOptions& options);
 

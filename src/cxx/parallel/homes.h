@@ -1,7 +1,6 @@
 #pragma once
 // Where the nodes of the next call should be: in the patches of the last call, if these are kept.
 
-#include <array>
 #include <cstddef>
 #include <memory>
 
@@ -26,14 +25,6 @@ class Homes {
   /// True if nearly all of these nodes are at home on this rank, as a look at some of them tells, and they
   /// are at most an eighth more than when these patches were cut.
   bool are_home_to(const LocalNodes& nodes, int rank) const;
-  /// True if this rank's patches had an eighth more nodes in the last call than when they were cut.
-  bool are_crowded() const;
-  static constexpr std::size_t kLookedAt = 256;
-  using SomePatches = std::array<PatchNumber, kLookedAt>;
-  /// The patches of at most kLookedAt of these nodes, evenly spaced; -1 behind them.
-  SomePatches patches_of_some(const LocalNodes& nodes) const;
-  /// True if at least 15/16 of the nodes looked at are in the same patches as before.
-  static bool have_kept(const SomePatches& before, const SomePatches& now);
   int rank(const Point& p) const { return static_cast<int>(patches_.rank_of(partition_->owner(places_(p)))); }
 
  private:
@@ -41,8 +32,7 @@ class Homes {
   PartitionKind kind_;
   PatchRanges patches_;
   Places places_;
-  std::size_t own_;        ///< nodes in this rank's patches
-  std::size_t share_ = 0;  ///< nodes in this rank's patches when these were cut
+  std::size_t share_;  ///< nodes in this rank's patches when these were cut
 };
 
 }  // namespace pstripack

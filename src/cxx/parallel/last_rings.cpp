@@ -15,7 +15,7 @@ using Int = std::int32_t;
 
 }  // namespace
 
-LastRings::LastRings(const RingTable<Int>& rings, std::size_t first_node, std::shared_ptr<const Homes> homes)
+LastRings::LastRings(const RingTable<Int>& rings, std::size_t first_node, std::unique_ptr<const Homes> homes)
     : stay_(2 * (rings.arcs() + 4 * rings.size()) * sizeof(Int)),
       first_node_(first_node),
       homes_(std::move(homes)),

@@ -25,7 +25,7 @@ namespace pstripack {
 class LastRings {
  public:
   /// Throws std::bad_alloc.
-  LastRings(const RingTable<std::int32_t>& rings, std::size_t first_node, std::shared_ptr<const Homes> homes);
+  LastRings(const RingTable<std::int32_t>& rings, std::size_t first_node, std::unique_ptr<const Homes> homes);
 
   /// Updates the rings for the nodes' current positions and returns true. Or returns false, on every rank;
   /// the rings must then be discarded. `begin`: the first node of each rank's slice, then the number of all
@@ -42,7 +42,7 @@ class LastRings {
 
   const Stay stay_;
   const std::size_t first_node_;
-  const std::shared_ptr<const Homes> homes_;
+  const std::unique_ptr<const Homes> homes_;
   Stars<std::int32_t> of_slice_, at_home_;
   std::vector<RankOfNode> home_;  ///< of the nodes of the slice
   std::size_t replaced_ = 0;      ///< entries of rings that replace() has stored

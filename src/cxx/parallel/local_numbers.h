@@ -35,7 +35,4 @@ using PatchNode = std::uint32_t;
 enum class OutsideNode : std::uint32_t {};
 constexpr std::uint32_t index_of(OutsideNode node) { return static_cast<std::uint32_t>(node); }
 
-/// A node of a sample or of a few nodes from everywhere; the same on every rank.
-using SampleNode = std::uint32_t;
-
 }  // namespace pstripack

@@ -1,6 +1,7 @@
 #include "parallel/partition.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -413,6 +414,7 @@ void Partition::near(const Point& x, double radius, std::vector<PatchNumber>& pa
       continue;
     }
     const double s = product(c.split, x) - c.split.d, reach = radius + rounding_at(c.split);
+    assert(top + 2 <= kStack);
     if (s >= -reach) stack[top++] = c.child[1];
     if (s <= reach) stack[top++] = c.child[0];
   }

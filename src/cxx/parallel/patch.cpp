@@ -1,18 +1,30 @@
 #include "parallel/patch.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 
 #include "geometry/insertion_order.h"
 #include "parallel/number_table.h"
 
 namespace pstripack {
+
 template <class Int>
 void Patch<Int>::set_up(const std::vector<Record>& closing, Workspace& workspace) {
   if (nodes_.own == 0) return;
+  [[maybe_unused]] const auto all_are = [&](std::size_t first, std::size_t count, bool own) {
+    return std::all_of(nodes_.first + first, nodes_.first + first + count, [&](const Record& r) {
+      return (partition_->owner(hull_.places()(r.point)) == id_) == own;
+    });
+  };
+  assert(all_are(0, nodes_.own, true) && all_are(nodes_.own, nodes_.halo, false));
   std::vector<Record> leading;
-  for (const Record& r : closing)
-    if (!partition_->knows(id_, hull_.places()(r.point))) leading.push_back(r);
+  for (const Record& r : closing) {
+    const bool is_known = partition_->knows(id_, hull_.places()(r.point));
+    assert(is_known == std::any_of(nodes_.first, nodes_.first + nodes_.count(),
+                                   [&](const Record& known) { return known.number == r.number; }));
+    if (!is_known) leading.push_back(r);
+  }
   hull_.set_up(nodes_, leading, workspace);
 }
 

@@ -2,7 +2,8 @@
 // One patch: the triangulation of its own nodes and of those around. In order: triangulate what it knows,
 // compare lists with other patches, learn, read off the rings.
 
-#include <algorithm>
+#include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -18,6 +19,20 @@
 #include "parallel/record.h"
 
 namespace pstripack {
+
+/// Sums over stars.
+struct StarSums {
+  std::int64_t nodes = 0, neighbours = 0, boundary = 0;  ///< boundary: nodes at the boundary
+
+  void operator+=(const StarSums& other) {
+    nodes += other.nodes, neighbours += other.neighbours, boundary += other.boundary;
+  }
+  /// Euler's formula. V nodes, F triangles and B boundary arcs of a sphere (B = 0) or a disc have
+  /// V - (F + B)/2 = 2 or 1. A star has as many triangles as neighbours; at the boundary, one less.
+  bool are_of_sphere_or_disc() const {
+    return 6 * nodes - neighbours - 2 * boundary == (boundary > 0 ? 6 : 12);
+  }
+};
 
 /// Int: a type that holds all node numbers. A patch without own nodes has no hull.
 template <class Int>
@@ -46,13 +61,14 @@ class Patch {
   /// The answer of this patch to another's question: some nodes that lie above the triangle, if it knows any.
   /// A patch that answers takes in the corners of the question. Throws HiddenNode, std::bad_alloc.
   std::vector<Record> answer(const Question& question) {
-    if (nodes_.own == 0 || !hull_.coincident().empty()) return {};
+    assert(nodes_.own > 0);  // among them is a corner
+    if (!hull_.coincident().empty()) return {};
     return pstripack::answer(hull_, question);
   }
 
   /// Finds the triangles that other patches must have, too. Throws std::bad_alloc.
   void update_lists() {
-    if (nodes_.own > 0 && partition_->patches() > 1) lists_.update(view(), around_);
+    if (nodes_.own > 0 && partition_->patches() > 1) lists_.update(view());
   }
   const PatchLists<Int>& lists() const { return lists_; }
   /// See PatchLists. Throws std::bad_alloc.
@@ -72,20 +88,26 @@ class Patch {
   /// Writes the rings of its own nodes to `out`, which has room for all and 2*kBlock entries more; calls
   /// visit(i, place, count) for each: the ring of its node i is kept at `place`; soon(i) some time before.
   template <class Visit, class Soon>
-  void write_rings(Int* out, const Visit& visit, const Soon& soon) const {
-    hull_.write_rings(finished_, out, visit, soon);
+  StarSums write_rings(Int* out, const Visit& visit, const Soon& soon) const {
+    const Int* const end = hull_.write_rings(finished_, out, visit, soon);
+    const auto own = static_cast<std::int64_t>(nodes_.own);
+    StarSums sums{own, end - out - own, 0};
+    if (nodes_.own == 0 || finished_.surrounds_centre) return sums;
+    for (HullNode v = 0; v < hull_.built(); ++v) sums.boundary += hull_.is_own(v) && finished_.at_back[v];
+    return sums;
   }
 
-  /// After finish(): calls visit(r, node) for each node that rank r did not bring and that is a neighbour of
-  /// a node that r brought, perhaps more than once. Rank r brought the own nodes [own_from[r],
-  /// own_from[r+1]); `mine` is the rank that brought most of them.
+  /// After finish(): calls visit(r, v) for each node v of the hull that rank r did not bring and that is a
+  /// neighbour of a node that r brought, perhaps more than once. Rank r brought the own nodes [own_from[r],
+  /// own_from[r+1]).
   template <class Visit>
-  void for_each_missing_neighbour(RankNumber mine, const std::vector<std::size_t>& own_from,
-                                  const Visit& visit) const;
+  void for_each_missing_neighbour(const std::vector<std::size_t>& own_from, const Visit& visit) const;
+
+  Record node(HullNode v) const { return hull_.node(v); }
 
   PatchNumber id() const { return id_; }
   std::size_t own() const { return nodes_.own; }
-  std::size_t halo() const { return nodes_.halo; }
+  std::size_t known() const { return nodes_.own > 0 ? hull_.growing().node_count() : 0; }
   /// The numbers of different nodes in the same direction, as far as it has found them.
   const CoincidentPairs& coincident() const { return hull_.coincident(); }
 
@@ -97,54 +119,40 @@ class Patch {
   PatchNodes nodes_;
   PatchHull<Int> hull_;
   PatchLists<Int> lists_;
-  Around around_;
   Hull finished_;
 };
 
 template <class Int>
 template <class Visit>
-void Patch<Int>::for_each_missing_neighbour(RankNumber mine, const std::vector<std::size_t>& own_from,
+void Patch<Int>::for_each_missing_neighbour(const std::vector<std::size_t>& own_from,
                                             const Visit& visit) const {
+  if (nodes_.own == 0) return;
   constexpr RankOfNode kNoRank = UINT32_MAX;
-  const std::size_t own = nodes_.own;
-  if (own == 0) return;
-  const std::size_t first = own_from[mine], count = own_from[mine + 1] - first;
-  // The rank that brought each own node; empty if `mine` brought all.
-  std::vector<RankOfNode> bringer(count < own ? own : 0);
-  for (RankNumber r = 0; r + 1 < own_from.size() && count < own; ++r)
-    std::fill(bringer.begin() + static_cast<std::ptrdiff_t>(own_from[r]),
-              bringer.begin() + static_cast<std::ptrdiff_t>(own_from[r + 1]), static_cast<RankOfNode>(r));
-  const auto brought_by = [&](HullNode v) {
-    if (!hull_.is_own(v)) return kNoRank;
-    return count < own ? bringer[hull_.index(v)] : static_cast<RankOfNode>(mine);
-  };
-  // The rank that was told last of each hull node: most are missed by one rank, at several of its nodes.
-  std::vector<RankOfNode> told(count < own ? finished_.node_count : 0, kNoRank);
-  const auto look_around = [&](HullNode v) {
-    const RankOfNode r = brought_by(v);
-    bool is_missing = false;
-    const auto meet = [&](HullNode w) {
-      const RankOfNode other = brought_by(w);
-      is_missing = is_missing || other == mine;
-      if (r == kNoRank || other == r || told[w] == r) return;
-      told[w] = r;
-      visit(RankNumber{r}, hull_.node(w));
-    };
-    hull_.for_each_face_at(v, [&](HullFace t, std::uint32_t i) {
-      if (!finished_.front(t)) return;
-      const Face& f = hull_.face(t);
-      meet(f.vertex[next_edge(i)]);
-      // The last neighbour of a boundary node; any other is met in the next face.
-      if (!finished_.front(face_of(f.neighbour[next_edge(i)]))) meet(f.vertex[previous_edge(i)]);
-    });
-    if (is_missing) visit(mine, hull_.node(v));
-  };
-  // Looks around at all nodes but the own ones that `mine` brought: at one of any two neighbours that concern
-  // two ranks.
-  for (const HullNode v : around_.nodes) look_around(v);
-  if (count == own) return;
+  // The rank that brought each own node; by hull node, kNoRank for nodes of other patches.
+  std::vector<RankOfNode> of_own(nodes_.own), bringer(finished_.node_count, kNoRank);
+  for (RankNumber r = 0; r + 1 < own_from.size(); ++r)
+    for (std::size_t i = own_from[r]; i < own_from[r + 1]; ++i) of_own[i] = static_cast<RankOfNode>(r);
   for (HullNode v = 0; v < hull_.built(); ++v)
-    if (hull_.is_own(v) && hull_.index(v) - first >= count) look_around(v);
+    if (hull_.is_own(v)) bringer[v] = of_own[hull_.index(v)];
+  // The two ranks that were told last of each node: most are missed by one or two, in several faces.
+  std::vector<std::array<RankOfNode, 2>> told(finished_.node_count, {kNoRank, kNoRank});
+  const auto tell = [&](RankOfNode r, HullNode v) {
+    auto& [last, before] = told[v];
+    if (r == kNoRank || r == last || r == before) return;
+    before = std::exchange(last, r);
+    visit(RankNumber{r}, v);
+  };
+  for (HullFace t = 0; t < finished_.face_count; ++t) {
+    const HullNode* const v = hull_.face(t).vertex;
+    const RankOfNode rank[3] = {bringer[v[0]], bringer[v[1]], bringer[v[2]]};
+    if ((rank[0] == rank[1] && rank[1] == rank[2]) || !finished_.front(t)) continue;
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      const std::uint32_t j = next_edge(i);
+      if (rank[i] == rank[j]) continue;
+      tell(rank[i], v[j]);
+      tell(rank[j], v[i]);
+    }
+  }
 }
 
 }  // namespace pstripack

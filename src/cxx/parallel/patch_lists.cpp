@@ -1,6 +1,7 @@
 #include "parallel/patch_lists.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "base/scattered.h"
 
@@ -44,12 +45,11 @@ class Index {
 }  // namespace
 
 template <class Int>
-void PatchLists<Int>::update(const PatchView<Int>& patch, Around& around) {
+void PatchLists<Int>::update(const PatchView<Int>& patch) {
   const PatchHull<Int>& hull = patch.hull;
   const std::size_t n = hull.growing().node_count(), first_new = owner_.size();
   if (first_new == n) return;
   owner_.resize(n, kNone);
-  around.has.resize(n, false);
   counts_.assign(static_cast<std::size_t>(patch.partition.patches()), 0);
   // A face that is new since the last time has a new node.
   entries_.erase(std::remove_if(entries_.begin(), entries_.end(),
@@ -64,7 +64,6 @@ void PatchLists<Int>::update(const PatchView<Int>& patch, Around& around) {
     const auto& vertex = hull.face(t).vertex;
     for (const HullNode v : {vertex[0], vertex[1], vertex[2]}) {
       if (hull.is_own(v)) continue;
-      around.meet(v);
       if (owner_[v] == kNone) owner_[v] = patch.owner(v);
       if (entry.other[0] == kNone)
         entry.other[0] = owner_[v];
@@ -74,6 +73,13 @@ void PatchLists<Int>::update(const PatchView<Int>& patch, Around& around) {
     entry.triangle = listed(hull, t);
     entries_.push_back(entry);
   });
+  assert(std::all_of(entries_.begin(), entries_.end(),
+                     [&](const Entry& e) { return e.triangle == listed(hull, e.face); }));
+  assert([&] {
+    std::size_t faces = 0;
+    hull.for_each_face_at_border(0, [&](HullFace t) { faces += hull.is_front(t); });
+    return faces == entries_.size();
+  }());
   for_each([&](PatchNumber q, const Listed<Int>&) { ++counts_[static_cast<std::size_t>(q)]; });
 }
 

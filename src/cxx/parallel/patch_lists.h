@@ -29,7 +29,7 @@ template <class Int>
 class PatchLists {
  public:
   /// The lists of the hull as it is now. Throws std::bad_alloc.
-  void update(const PatchView<Int>& patch, Around& around);
+  void update(const PatchView<Int>& patch);
   /// The number of triangles in the list for each patch; empty before update().
   const std::vector<std::size_t>& counts() const { return counts_; }
   /// Calls visit(q, triangle) for each triangle of the list for each patch q.

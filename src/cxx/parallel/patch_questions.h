@@ -18,18 +18,6 @@ struct Question {
   PatchNumber from, to;
 };
 
-/// Nodes of others that are or were neighbours of own ones.
-struct Around {
-  std::vector<HullNode> nodes;
-  std::vector<bool> has;  ///< by hull node
-
-  void meet(HullNode v) {
-    if (has[v]) return;
-    has[v] = true;
-    nodes.push_back(v);
-  }
-};
-
 /// One of the patches, and what it knows.
 template <class Int>
 struct PatchView {

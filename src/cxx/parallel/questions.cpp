@@ -1,6 +1,7 @@
 #include "parallel/questions.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 namespace pstripack {
@@ -15,10 +16,15 @@ Parcels packed_answers(Patches<Int>& patches, const Parcels& incoming, int threa
     std::vector<Record> corners;
     for (const Question& question : questions)
       if (question.to == patch.id()) corners.insert(corners.end(), question.corner, question.corner + 3);
+    [[maybe_unused]] const std::size_t before = patch.known();
     patch.take_in(std::move(corners));
     std::size_t k = 0;
     for (const Question& question : questions) {
-      if (question.to == patch.id()) answer[k] = patch.answer(question);
+      if (question.to == patch.id()) {
+        answer[k] = patch.answer(question);
+        // So each round adds nodes to a hull.
+        assert(!answer[k].empty() || patch.known() > before || !patch.coincident().empty());
+      }
       ++k;
     }
   });

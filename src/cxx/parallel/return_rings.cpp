@@ -1,6 +1,8 @@
 #include "parallel/return_rings.h"
 
 #include <algorithm>
+#include <cassert>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -27,8 +29,8 @@ struct Table {
 /// memory of their own, which is returned. Then the stars can stay when the hulls are freed.
 template <class Int>
 std::unique_ptr<Workspace> write_rings(Patches<Int>& patches, const ReturnAddresses& addresses, bool apart,
-                                       int threads, Table<Int>& table,
-                                       std::vector<Buffer<Int>>& more_memory) {
+                                       int threads, Table<Int>& table, std::vector<Buffer<Int>>& more_memory,
+                                       StarSums& sums) {
   std::vector<std::size_t> begin(patches.of_rank.size() + 1, 0);
   patches.for_each(threads,
                    [&](Patch<Int>& patch, PatchHere k) { begin[k + 1] = patch.finish() + 2 * kBlock; });
@@ -40,6 +42,7 @@ std::unique_ptr<Workspace> write_rings(Patches<Int>& patches, const ReturnAddres
     room = memory->template keep<Int>(begin.back());
   }
   more_memory.resize(patches.of_rank.size());
+  std::vector<StarSums> of_patch(patches.of_rank.size());
   patches.for_each(threads, [&](Patch<Int>& patch, PatchHere k) {
     const std::size_t entries = begin[k + 1] - begin[k];
     Int* out =
@@ -51,7 +54,7 @@ std::unique_ptr<Workspace> write_rings(Patches<Int>& patches, const ReturnAddres
     // By value, as in Patch::write_rings.
     const Int** const place = table.place + addresses.own_begin[k];
     std::uint8_t* const size_class = table.size_class + addresses.own_begin[k];
-    patch.write_rings(
+    of_patch[k] = patch.write_rings(
         out,
         [=](std::size_t i, const Int* ring, std::uint32_t n) {
           place[i] = ring;
@@ -59,6 +62,7 @@ std::unique_ptr<Workspace> write_rings(Patches<Int>& patches, const ReturnAddres
         },
         [=](std::size_t i) { __builtin_prefetch(place + i, 1); });
   });
+  for (const StarSums& patch : of_patch) sums += patch;
   return memory;
 }
 
@@ -107,6 +111,7 @@ void enter_received(const Parcels& received, const ReturnAddresses& addresses, c
       table.size_class[k] = RingTable<Int>::size_class_of(static_cast<std::uint32_t>(*at));
       at += 1 + *at;
     }
+    assert(at == Items<Int>(received, r).end());
   }
 }
 
@@ -132,14 +137,23 @@ void keep_one_of_each_but(const LocalNodes& own, std::vector<Record>& all) {
 template <class Int>
 std::vector<Record> find_outside(const Patches<Int>& patches, const ReturnAddresses& addresses,
                                  const LocalNodes& nodes, Communicator& ranks) {
-  const auto size = static_cast<std::size_t>(ranks.size()), me = static_cast<RankNumber>(ranks.rank());
+  const auto size = static_cast<std::size_t>(ranks.size());
   const Parcels incoming = exchange_in_agreement(ranks, [&] {
-    std::vector<std::vector<Record>> neighbours(size);
-    for (PatchHere k = 0; k < patches.of_rank.size(); ++k)
-      patches.of_rank[k].for_each_missing_neighbour(
-          me, addresses.own_from[k],
-          [&](RankNumber r, const Record& node) { neighbours[r].push_back(node); });
-    return packed(neighbours);
+    struct Missing {
+      RankOfNode rank;
+      HullNode node;
+    };
+    std::vector<std::vector<Missing>> of_patch(patches.of_rank.size());
+    ParcelWriter writer(size);
+    for (PatchHere k = 0; k < of_patch.size(); ++k)
+      patches.of_rank[k].for_each_missing_neighbour(addresses.own_from[k], [&](RankNumber r, HullNode v) {
+        of_patch[k].push_back({static_cast<RankOfNode>(r), v});
+        writer.expect<Record>(r);
+      });
+    writer.make_room();
+    for (PatchHere k = 0; k < of_patch.size(); ++k)
+      for (const Missing& m : of_patch[k]) writer.put(m.rank, patches.of_rank[k].node(m.node));
+    return writer.finish();
   });
   std::vector<Record> outside;
   in_agreement(ranks, [&] {
@@ -153,25 +167,38 @@ std::vector<Record> find_outside(const Patches<Int>& patches, const ReturnAddres
   return outside;
 }
 
+/// A test of the program: patches that agree have the stars of all nodes, whose surface is a sphere or a
+/// disc. Throws PatchesDoNotPay if not: then one rank triangulates all. Collective.
+void check_euler(StarSums sums, const Division& division, Communicator& ranks) {
+  if (division.patches.count() == 1) return;
+  std::int64_t all[] = {sums.nodes, sums.neighbours, sums.boundary};
+  ranks.all_sum(all, std::size(all));
+  sums = {all[0], all[1], all[2]};
+  const bool is_right =
+      sums.nodes == static_cast<std::int64_t>(division.nodes) && sums.are_of_sphere_or_disc();
+  assert(is_right);
+  if (!is_right) throw PatchesDoNotPay{};
+}
+
 }  // namespace
 
 template <class Int>
-Stars<Int> return_rings(Certified<Int> certified, ReturnAddresses addresses, const LocalNodes& nodes,
+Stars<Int> return_rings(Patches<Int> patches, ReturnAddresses addresses, const LocalNodes& nodes,
                         const Division& division, Communicator& ranks, const ParallelOptions& options) {
   const auto me = static_cast<RankNumber>(ranks.rank());
-  Patches<Int>& patches = certified.patches;
   Stars<Int> stars;
   stars.lengths = division.places.lengths();
   Table<Int> table;
   std::unique_ptr<Workspace> entries;
+  StarSums sums;
   stars.received = exchange_in_agreement(ranks, [&] {
-    stars.homes = std::make_unique<Homes>(division, options, own_nodes(patches));
     stars.memory.reserve(3);  // what is moved there below must not fail
     table.make_room(addresses.own_begin.back());
-    entries =
-        write_rings(patches, addresses, options.with_neighbours, options.threads, table, stars.more_memory);
+    entries = write_rings(patches, addresses, options.with_neighbours, options.threads, table,
+                          stars.more_memory, sums);
     return rings_for_others(table, addresses, static_cast<std::size_t>(ranks.size()), me);
   });
+  check_euler(sums, division, ranks);
   enter_received(stars.received, addresses, division.patches, me, table);
   stars.of_node = RingTable<Int>(nodes.count, addresses.position, table.place, table.size_class);
   if (options.with_neighbours) stars.outside = find_outside(patches, addresses, nodes, ranks);
@@ -181,9 +208,9 @@ Stars<Int> return_rings(Certified<Int> certified, ReturnAddresses addresses, con
   return stars;
 }
 
-template Stars<std::int32_t> return_rings(Certified<std::int32_t>, ReturnAddresses, const LocalNodes&,
+template Stars<std::int32_t> return_rings(Patches<std::int32_t>, ReturnAddresses, const LocalNodes&,
                                           const Division&, Communicator&, const ParallelOptions&);
-template Stars<std::int64_t> return_rings(Certified<std::int64_t>, ReturnAddresses, const LocalNodes&,
+template Stars<std::int64_t> return_rings(Patches<std::int64_t>, ReturnAddresses, const LocalNodes&,
                                           const Division&, Communicator&, const ParallelOptions&);
 
 }  // namespace pstripack

@@ -9,10 +9,11 @@
 #include "base/buffer.h"
 #include "base/workspace.h"
 #include "mesh/ring_table.h"
-#include "parallel/certify.h"
+#include "parallel/coincidence.h"
 #include "parallel/deliver.h"
 #include "parallel/divide.h"
 #include "parallel/homes.h"
+#include "parallel/patches.h"
 
 namespace pstripack {
 
@@ -28,7 +29,6 @@ struct Stars {
   std::vector<Buffer<Int>> more_memory;
   Parcels received;
   Lengths lengths = Lengths::as_given;
-  bool gave_up = false;        ///< too many questions: there is nothing else, but perhaps homes
   CoincidentPairs coincident;  ///< on every rank the same; empty if there are none
   /// With options.with_neighbours: the nodes that the stars name and this rank did not bring, by number.
   std::vector<Record> outside;
@@ -37,7 +37,7 @@ struct Stars {
 
 /// `addresses`: of these nodes. Collective. Throws AgreedFailure or HiddenNode.
 template <class Int>
-Stars<Int> return_rings(Certified<Int> certified, ReturnAddresses addresses, const LocalNodes& nodes,
+Stars<Int> return_rings(Patches<Int> patches, ReturnAddresses addresses, const LocalNodes& nodes,
                         const Division& division, Communicator& ranks, const ParallelOptions& options);
 
 }  // namespace pstripack

@@ -22,6 +22,7 @@
 
 #include "parallel/triangulate.h"
 
+#include <memory>
 #include <utility>
 
 #include "mesh/delaunay.h"
@@ -32,48 +33,44 @@
 namespace pstripack {
 namespace {
 
-/// Throws HiddenNode on every rank, or AgreedFailure on every rank.
+/// `homes`: will be those of the patches, if not null. Throws HiddenNode, PatchesDoNotPay or AgreedFailure,
+/// on every rank.
 template <class Int>
 Stars<Int> triangulate_places(const LocalNodes& nodes, const Corners& corners, const Places& places,
-                              Communicator& ranks, const ParallelOptions& options, ParallelCost& cost) {
+                              Communicator& ranks, const ParallelOptions& options, ParallelCost& cost,
+                              std::unique_ptr<Homes>* homes) {
   const auto phase = [&](ParallelCost::Phase kind, const char* name, const auto& body) {
     const PhaseTimer timer(&cost, kind, &ranks);
     ranks.set_phase(name);
     return body();
   };
-  Stars<Int> unfinished;
-  unfinished.lengths = places.lengths();
-
   const Division division =
       phase(ParallelCost::divide, "divide", [&] { return divide(nodes, corners, places, ranks, options); });
-  unfinished.gave_up = division.gave_up;
-  if (unfinished.gave_up) return unfinished;
-
   Delivery delivery =
       phase(ParallelCost::divide, "divide", [&] { return deliver(nodes, division, ranks, options.threads); });
-  unfinished.gave_up = delivery.gave_up;
-  if (unfinished.gave_up) return unfinished;
-  for (const auto& patch : delivery.of_patch) cost.halo += static_cast<std::int64_t>(patch.halo);
+  std::size_t own = 0;
+  for (const PatchNodes& patch : delivery.of_patch) {
+    own += patch.own;
+    cost.halo += static_cast<std::int64_t>(patch.halo);
+  }
+  if (homes != nullptr)
+    delivery.outcome.go_on([&] { *homes = std::make_unique<Homes>(division, options, own); });
 
   Patches<Int> patches = phase(ParallelCost::triangulate, "triangulate", [&] {
     return triangulate_patches<Int>(delivery, division, ranks, options.threads);
   });
-
-  Certified<Int> certified = phase(ParallelCost::merge, "merge",
-                                   [&] { return certify(std::move(patches), division, ranks, options); });
-  cost.rounds += certified.rounds;
-  if (!certified.is_done()) {
-    unfinished.gave_up = certified.gave_up;
-    unfinished.coincident = std::move(certified.coincident);
-    if (unfinished.gave_up)
-      in_agreement(ranks, [&] {
-        unfinished.homes = std::make_unique<Homes>(division, options, own_nodes(certified.patches));
-      });
-    return unfinished;
+  Certified<Int> certified = phase(ParallelCost::merge, "merge", [&] {
+    return certify(std::move(patches), division, ranks, options, cost.rounds);
+  });
+  if (!certified.coincident.empty()) {
+    Stars<Int> none;
+    none.lengths = places.lengths();
+    none.coincident = std::move(certified.coincident);
+    return none;
   }
-
   return phase(ParallelCost::lists, "lists", [&] {
-    return return_rings(std::move(certified), std::move(delivery.addresses), nodes, division, ranks, options);
+    return return_rings(std::move(certified.patches), std::move(delivery.addresses), nodes, division, ranks,
+                        options);
   });
 }
 
@@ -87,31 +84,37 @@ Stars<Int> triangulate(const LocalNodes& nodes, const Look& look, const Point (&
   ParallelCost& c = cost != nullptr ? *cost : own_cost;
   Corners records;
   for (std::size_t k = 0; k < 3; ++k) records[k] = {corners[k], GlobalNumber{numbers[k]}};
+  std::unique_ptr<Homes> homes;
   const auto run = [&](Lengths lengths) {
     const Places places(lengths, look.deviation.value);
-    Stars<Int> stars = triangulate_places<Int>(nodes, records, places, ranks, options, c);
-    if (stars.gave_up && ranks.size() > 1) {
-      // One patch, of rank 0. The homes stay those of the many patches: another call may not give up.
-      c.in_one_patch = 1;
-      ParallelOptions one_patch = options;
-      one_patch.patches = ranks.rank() == 0 ? 1 : 0;
-      one_patch.last = nullptr;
-      std::unique_ptr<Homes> homes = std::move(stars.homes);
-      stars = triangulate_places<Int>(nodes, records, places, ranks, one_patch, c);
-      if (stars.homes != nullptr) stars.homes = std::move(homes);
+    try {
+      return triangulate_places<Int>(nodes, records, places, ranks, options, c, &homes);
+    } catch (const PatchesDoNotPay&) {
+      if (ranks.size() == 1) throw;  // one hull without patches takes less time
     }
-    c.bytes_sent = ranks.bytes_sent;
-    return stars;
+    // One patch, of rank 0. The homes stay those of the many patches, which may pay in another call.
+    c.in_one_patch = 1;
+    ParallelOptions one_patch = options;
+    one_patch.patches = ranks.rank() == 0 ? 1 : 0;
+    one_patch.last = nullptr;
+    one_patch.given = nullptr;
+    return triangulate_places<Int>(nodes, records, places, ranks, one_patch, c, nullptr);
   };
   // The predicates must be the same everywhere.
-  if (look.lengths_are_one.value && !look.by_direction.value) {
-    try {
-      return run(Lengths::as_given);
-    } catch (const HiddenNode&) {
-      // The lengths as given hide a node: only directions show all.
+  const auto run_all = [&] {
+    if (look.lengths_are_one.value && !look.by_direction.value) {
+      try {
+        return run(Lengths::as_given);
+      } catch (const HiddenNode&) {
+        // The lengths as given hide a node: only directions show all.
+      }
     }
-  }
-  return run(Lengths::directions);
+    return run(Lengths::directions);
+  };
+  Stars<Int> stars = run_all();
+  stars.homes = std::move(homes);
+  c.bytes_sent = ranks.bytes_sent;
+  return stars;
 }
 
 template Stars<std::int32_t> triangulate(const LocalNodes&, const Look&, const Point (&)[3],

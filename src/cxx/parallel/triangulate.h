@@ -19,7 +19,8 @@ inline void agree_on(Look& look, Communicator& ranks) {
 
 /// The triangulation of the nodes of all ranks together, at least three and not all on one great circle
 /// (`corners`: three of them that are not, the same on every rank). `look`: what all ranks see; all nodes
-/// must have a direction. Collective. Throws AgreedFailure, on every rank.
+/// must have a direction. Collective. Throws AgreedFailure, on every rank; PatchesDoNotPay if there is one
+/// rank.
 template <class Int>
 Stars<Int> triangulate(const LocalNodes& nodes, const Look& look, const Point (&corners)[3],
                        const std::int64_t (&numbers)[3], Communicator& ranks, const ParallelOptions& options,

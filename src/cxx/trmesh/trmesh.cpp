@@ -44,8 +44,7 @@ class OnThreads {
 
   std::optional<Coincidence> triangulate(std::size_t n) {
     if (n != n_) look(n);
-    CoincidentPairs pairs;
-    if (!on_threads_ || !by_patches(pairs)) by_one_hull(pairs);
+    const CoincidentPairs pairs = on_threads_ ? by_patches() : by_one_hull();
     if (pairs.empty()) return std::nullopt;
     return first_coincidence(pairs);
   }
@@ -75,29 +74,31 @@ class OnThreads {
     });
   }
 
-  /// False if patches do not pay for this distribution of nodes.
-  bool by_patches(CoincidentPairs& pairs) {
+  CoincidentPairs by_patches() {
     SingleProcess process;
     options_ = options_from_environment(n_);
     options_.most_questions = n_ / 8;
     const NodeArrays& nodes = call_.nodes;
     const Point corners[3] = {nodes[0], nodes[1], nodes[2]};
-    stars_.reset();
-    stars_ = pstripack::triangulate<std::int32_t>({nodes, n_}, look_, corners, {1, 2, 3}, process, options_,
-                                                  cost_);
     if (cost_ != nullptr) cost_->threads = options_.threads;
-    pairs = stars_->coincident;
-    if (!stars_->gave_up) return true;
     stars_.reset();
-    return false;
+    try {
+      stars_ = pstripack::triangulate<std::int32_t>({nodes, n_}, look_, corners, {1, 2, 3}, process, options_,
+                                                    cost_);
+      return stars_->coincident;
+    } catch (const PatchesDoNotPay&) {
+      return by_one_hull();
+    }
   }
 
-  void by_one_hull(CoincidentPairs& pairs) {
+  CoincidentPairs by_one_hull() {
     if (!copied_at_once_) copy();
     const PhaseTimer timer(cost_, ParallelCost::triangulate);
     hull_ = delaunay(copy_, n_, *workspace_, call_.by_direction ? Lengths::directions : Lengths::automatic);
+    CoincidentPairs pairs;
     for (const auto& [in, out] : hull_.coincident)
       pairs.emplace_back(GlobalNumber{in + 1}, GlobalNumber{out + 1});
+    return pairs;
   }
 
   const TrmeshCall& call_;
