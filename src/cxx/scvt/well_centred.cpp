@@ -15,8 +15,7 @@ namespace {
 
 constexpr double kWanted = 0.12186934340514748;  ///< cosine of 83 degrees
 constexpr double kEnough = 0.10452846326765346;  ///< cosine of 84 degrees
-// Three passes are usual. After kPatience passes angles below 90 degrees are enough.
-constexpr int kPatience = 15, kMostPasses = 50;
+constexpr int kPatience = 15;  ///< passes without fewer obtuse triangles; three passes in all are usual
 
 using Triangle = std::array<Point, 3>;
 
@@ -61,28 +60,33 @@ class Repairer {
   Repairer(Evaluator& evaluator, std::vector<Point>& generators)
       : evaluator_(evaluator), generators_(generators) {
     evaluator_.allocate([this] {
-      next_.resize(generators_.size());
-      has_moved_.resize(generators_.size());
+      given_ = best_ = next_ = generators_;
       found_.resize(static_cast<std::size_t>(threads_for(10 * generators_.size())));
     });
   }
 
   Repair run() {
-    Found found = look();
-    for (int pass = 0;; ++pass) {
-      if (found.least_cosine > kEnough || (pass >= kPatience && found.obtuse == 0) || pass == kMostPasses)
-        break;
-      for (std::size_t i = 0; i < generators_.size(); ++i)
-        if (next_[i] != generators_[i]) has_moved_[i] = 1;
+    Found best = look();
+    for (int passes = 1; best.least_cosine <= kEnough && passes <= kPatience; ++passes) {
       std::swap(generators_, next_);
+      Found found;
       try {
         found = look();
       } catch (const BadGenerators&) {  // far from centroidal: moved onto each other
-        std::swap(generators_, next_);
         break;
       }
+      if (found.obtuse > best.obtuse ||
+          (found.obtuse == best.obtuse && found.least_cosine <= best.least_cosine))
+        continue;
+      if (found.obtuse < best.obtuse) passes = 0;
+      best = found;
+      best_ = generators_;
     }
-    return result(found);
+    generators_ = best_;
+    std::size_t moved = 0;
+    for (std::size_t i = 0; i < best_.size(); ++i) moved += best_[i] != given_[i];
+    return {sum_of_all(evaluator_.ranks(), moved), best.obtuse,
+            std::max(best.largest_angle, std::acos(best.least_cosine)), best.place};
   }
 
  private:
@@ -132,16 +136,9 @@ class Repairer {
     return moves ? normalized(plus(here.points[i], sum)) : here.points[i];
   }
 
-  Repair result(const Found& found) const {
-    const auto moved = static_cast<std::size_t>(std::count(has_moved_.begin(), has_moved_.end(), 1));
-    return {sum_of_all(evaluator_.ranks(), moved), found.obtuse,
-            std::max(found.largest_angle, std::acos(found.least_cosine)), found.place};
-  }
-
   Evaluator& evaluator_;
   std::vector<Point>& generators_;
-  std::vector<Point> next_;
-  std::vector<char> has_moved_;
+  std::vector<Point> next_, best_, given_;
   std::vector<Found> found_;  ///< by thread
 };
 

@@ -15,15 +15,15 @@ namespace pstripack::scvt {
 
 struct Repair {
   std::int64_t moved = 0;    ///< generators
-  std::int64_t obtuse = 0;   ///< triangles left that do not hold their circumcentre strictly; exact
+  std::int64_t obtuse = 0;   ///< triangles left that do not hold their circumcentre strictly
   double largest_angle = 0;  ///< of a triangle, in radians
-  Point place{0, 0, 0};  ///< if triangles are left: a corner of one, the generator with the smallest number
+  Point place{0, 0, 0};      ///< if triangles are left: the generator with the smallest number at one
 };
 
-/// Moves the corners of triangles with an angle above 83 degrees until all angles are below 84 degrees, or,
-/// where that takes too long, until all triangles hold their circumcentre. So an edge of a cell is longer
-/// than a tenth of its arc: (cot 84 + cot 84)/2. It ends without that after some time; four generators around
-/// one, for example, cannot have it.
+/// Moves the corners of triangles with an angle above 83 degrees until all angles are below 84 degrees. So an
+/// edge of a cell is longer than a tenth of its arc: (cot 84 + cot 84)/2. Where that cannot be, as around
+/// four neighbours, it ends with the fewest triangles seen that do not hold their circumcentre.
+/// They are counted exactly, if their sides are longer than 1e-14 rad.
 ///
 /// Each pass triangulates and moves all these corners at once, each by what it sees of its own star: so the
 /// result has the same bits for any number of threads and ranks. Collective. Throws what
