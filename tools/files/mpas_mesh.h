@@ -3,14 +3,15 @@
 // and the lengths, areas and weights with which models compute (TRiSK: Thuburn, Ringler, Skamarock and Klemp,
 // J. Comput. Phys. 228, 2009; Ringler, Thuburn, Klemp and Skamarock, J. Comput. Phys. 229, 2010).
 //
-//        \         |           c, d   cells: nodes of the triangles, c < d
-//         \  _____ w           v, w   vertices: circumcentres of the triangles
-//    f ____\/      |\          e      the edge from v to w, and its point, the middle of the arc from c to d
-//          |       | \         n      normal of e, from cell 1 of e, which is c, to cell 2
-//          |   c   e--> n  d   t      tangent of e, from vertex 1 of e, which is v, to vertex 2: t = k x n, k
-//          upwards |       | /         f      another edge of c; its ends are numbered likewise
-//           \___g__v/          kite   of v in c: the quadrangle v, e, c, g, signed: v, e, c and v, c, g are
-//                   \                 counterclockwise where the triangle is acute
+//              |             c, d   cells: nodes of the triangles, c < d
+//          ___ w             v, w   vertices: circumcentres of the triangles
+//         /    |             e      the edge from v to w, and its point, the middle of the arc c-d
+//        |     |             n      normal of e, from its cell 1, which is c, to its cell 2
+//        |  c  e --> n  d    t      tangent of e, from its vertex 1, which is v, to its vertex 2: t = k x n,
+//        |     |                    k upwards
+//         \_g_ v             g      the edge of c before v
+//              |             kite   of v in c: the quadrangle v, e, c, g, signed: the triangles v, e, c and
+//                                   v, c, g are counterclockwise where that of the nodes is acute
 //
 // Around each cell and each vertex all is counterclockwise, and begins with the edge of smallest number:
 //

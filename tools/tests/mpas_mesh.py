@@ -366,7 +366,7 @@ def check_cut(mesh, name, kept):
         turned = part.angleEdge[e] - mesh.angleEdge[f] - (math.pi if flipped else 0)
         assert abs(math.sin(turned / 2)) < 1e-9
     run("convert", FOLDER / f"{name}.mpas.nc", "-o", FOLDER / f"{name}_again.mpas.nc")
-    again = check(f"{name}_again", 1e-10)
+    again = Mesh(FOLDER / f"{name}_again.mpas.nc")
     for variable in ("cellsOnVertex", "verticesOnEdge", "edgesOnEdge", "areaCell", "weightsOnEdge"):
         assert np.allclose(getattr(again, variable), getattr(part, variable), rtol=1e-12, atol=1e-12), variable
 
@@ -386,9 +386,8 @@ with xarray.open_dataset(FOLDER / "earth.mpas.nc") as data:
 
 # With a boundary: holes, single cells, rows of cells, and one whose edges are all cut.
 band = np.abs(earth.latCell) < 0.9
-holes = band & (np.arange(642) % 7 > 0)
 check_cut(earth, "band", band)
-check_cut(earth, "holes", holes)
+check_cut(meshes[1], "holes", np.arange(162) % 7 > 0)
 check_cut(meshes[1], "few", np.isin(np.arange(162), (0, 50, 51, 100)))
 
 # Obtuse triangles, poles, the dateline, cells whose vertices coincide.
