@@ -127,6 +127,20 @@ template <class Visit>
 void Patch<Int>::for_each_missing_neighbour(const std::vector<std::size_t>& own_from,
                                             const Visit& visit) const {
   if (nodes_.own == 0) return;
+  // Often one rank brought all own nodes. It misses nodes of other patches only.
+  for (RankNumber r = 0; r + 1 < own_from.size(); ++r) {
+    if (own_from[r + 1] - own_from[r] != nodes_.own) continue;
+    std::vector<bool> is_told(finished_.node_count);
+    lists_.for_each_face([&](HullFace t) {
+      for (int i = 0; i < 3; ++i) {
+        const HullNode v = hull_.face(t).vertex[i];
+        if (hull_.is_own(v) || is_told[v]) continue;
+        is_told[v] = true;
+        visit(r, v);
+      }
+    });
+    return;
+  }
   constexpr RankOfNode kNoRank = UINT32_MAX;
   // The rank that brought each own node; by hull node, kNoRank for nodes of other patches.
   std::vector<RankOfNode> of_own(nodes_.own), bringer(finished_.node_count, kNoRank);

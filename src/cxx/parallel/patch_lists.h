@@ -39,6 +39,11 @@ class PatchLists {
       for (const PatchNumber q : e.other)
         if (q != kNone) visit(q, e.triangle);
   }
+  /// Calls visit(t) for each face t of the hull that is in a list.
+  template <class Visit>
+  void for_each_face(const Visit& visit) const {
+    for (const Entry& e : entries_) visit(e.face);
+  }
   /// Compares the lists with those that the other patches have sent. Returns the triangles that these lack,
   /// as questions to them. Throws std::bad_alloc.
   std::vector<Question> lacking(const PatchView<Int>& patch,
