@@ -356,6 +356,18 @@ TEST(MovingStars, GoTheColdWayWhereANodeJumpsMeetsAnotherOrLeavesTheSphere) {
                 });
 }
 
+/// Such a mesh has as many arcs as one of the whole sphere.
+TEST(MovingStars, GoTheColdWayWhereThreeNodesAreTheBoundary) {
+  Random random(11);
+  Nodes nodes;
+  for (int k = 0; k < 3; ++k)
+    nodes.push_back(point_sets::normalized({std::cos(2.1 * k), std::sin(2.1 * k), 0.1}));
+  while (nodes.size() < 300)
+    if (const Point p = random.direction(); p.z > 0.6) nodes.push_back(p);
+  const auto sets = sets_of(nodes, 3, [](Nodes&, int) {});
+  follow_on_all(sets, [](const Tally& tally) { EXPECT_EQ(tally.cold, 3); });
+}
+
 /// No triangle is counterclockwise, so none can be chosen whose interior must be covered only once.
 TEST(MovingStars, GoTheColdWayWhereTheSphereIsMirrored) {
   const Nodes nodes = make("random", 500, 1);

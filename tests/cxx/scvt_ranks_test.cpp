@@ -76,14 +76,14 @@ class GatheringEvaluator final : public Evaluator {
       all[static_cast<std::size_t>(number.begin()[i]) - 1] = point.begin()[i];
     std::vector<std::int32_t> list, lptr, lend;
     const NeighbourLists stars = scvt::triangulate(all, list, lptr, lend);
-    std::vector<Address> home(all.size());
+    std::vector<NodeAddress> home(all.size());
     for (RankNumber r = 0; r < static_cast<RankNumber>(ranks_.size()); ++r) {
       LocalNode k = 0;
       for (const std::int64_t of_rank : Items<std::int64_t>(numbers, r))
         home[static_cast<std::size_t>(of_rank) - 1] = {static_cast<RankOfNode>(r), k++};
     }
     // Own generators first, all the others behind them.
-    std::vector<Address> owners;
+    std::vector<NodeAddress> owners;
     numbers_.resize(generators.size());
     std::vector<std::int32_t> local(all.size());
     for (std::size_t i = 0; i < numbers_.size(); ++i)

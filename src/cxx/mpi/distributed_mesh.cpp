@@ -132,7 +132,7 @@ Coincidence DistributedMesh::first_coincidence_of(const CoincidentPairs& counted
   std::vector<std::int64_t> numbers;
   in_agreement(ranks_, [&] {
     const auto add = [&](GlobalNumber c) {
-      const Address a = ranges.address(c);
+      const NodeAddress a = ranges.address(c);
       numbers.push_back(a.rank == static_cast<RankOfNode>(ranks_.rank()) ? value_of(points.number(a.node))
                                                                          : 0);
     };

@@ -114,11 +114,14 @@ Numbering look_at_all(const LocalNodes& points, bool wants_report, bool numbers_
   return numbering;
 }
 
-CornerSearch::CornerSearch(int ranks) : sample_(3 * static_cast<std::size_t>(ranks), Record{{}, kNoNumber}) {
-  for (std::size_t r = 0; 3 * r <= sample_.size(); ++r) begin_.push_back(3 * r * sizeof(Record));
+CornerSearch::CornerSearch(int ranks) {
+  constexpr std::size_t kRanks = 64;
+  const auto size = static_cast<std::size_t>(ranks), step = (size + kRanks - 1) / kRanks;
+  for (std::size_t r = 0; r <= size; ++r) begin_.push_back(3 * ((r + step - 1) / step) * sizeof(Record));
+  sample_.assign(begin_.back() / sizeof(Record), Record{{}, kNoNumber});
 }
 
-/// Tries three points of each rank first, and all points only if all of those lie on one great circle.
+/// Tries three points of some ranks first, and all points only if all of those lie on one great circle.
 std::optional<std::array<Record, 3>> CornerSearch::run(const LocalNodes& points, MpiCommunicator& ranks) {
   std::array<Record, 3> corners{};
   std::size_t found = 0;
@@ -127,8 +130,10 @@ std::optional<std::array<Record, 3>> CornerSearch::run(const LocalNodes& points,
     return found == 0 || left(corners[0].point, corners[1].point, p) != 0;
   };
 
-  const std::size_t n = points.count, sampled = std::min<std::size_t>(n, 3);
-  Record* const share = sample_.data() + 3 * ranks.rank();
+  const auto me = static_cast<std::size_t>(ranks.rank());
+  const std::size_t n = points.count,
+                    sampled = std::min<std::size_t>(n, (begin_[me + 1] - begin_[me]) / sizeof(Record));
+  Record* const share = sample_.data() + begin_[me] / sizeof(Record);
   for (std::size_t i = 0; i < sampled; ++i) {
     const std::size_t at = sampled > 1 ? (n - 1) * i / (sampled - 1) : 0;
     share[i] = {points.points[at], points.number(at)};

@@ -52,7 +52,7 @@ class CornerSearch {
   std::optional<std::array<Record, 3>> run(const LocalNodes& points, MpiCommunicator& ranks);
 
  private:
-  /// Three points of each rank, in the order of the ranks; kNoNumber if a rank has fewer.
+  /// Three points of each of at most 64 ranks, in their order; kNoNumber if a rank has fewer.
   std::vector<Record> sample_;
   std::vector<std::size_t> begin_;  ///< by rank: the begin of its points, in bytes
 };

@@ -70,7 +70,7 @@ void OwnStars::halo(std::int64_t* number, double* xyz) const {
 
 void OwnStars::halo_owners(std::int32_t* rank, std::int32_t* local) const {
   for (const HaloNode& node : outside()) {
-    const Address owner = ranges_.address(node.counted);
+    const NodeAddress owner = ranges_.address(node.counted);
     *rank++ = static_cast<std::int32_t>(owner.rank);
     *local++ = static_cast<std::int32_t>(owner.node) + 1;
   }

@@ -53,13 +53,17 @@ Supply take_stock(const LocalNodes& nodes, const std::vector<Headcount>& heads, 
                     enough = supply.looks_through ? kLookedThrough : options.closing_nodes;
   const std::size_t wanted = std::min(division.nodes, keeps_patches ? enough : usual);
   supply.begin.assign(1, 0);
-  for (const Headcount& h : heads)
-    supply.begin.push_back(supply.begin.back() +
-                           share_of_sample(h.nodes, wanted, division.nodes) * sizeof(Record));
+  std::size_t before = 0, mine = 0;
+  for (RankNumber r = 0; r < heads.size(); ++r) {
+    const std::size_t share = share_of_sample(before, heads[r].nodes, wanted, division.nodes);
+    before += heads[r].nodes;
+    supply.begin.push_back(supply.begin.back() + share * sizeof(Record));
+    if (r == me) mine = share;
+  }
   supply.sample = BlockArray<Record>(supply.begin.back() / sizeof(Record));
-  write_share(nodes, share_of_sample(nodes.count, wanted, division.nodes),
-              supply.sample.data() + supply.begin[me] / sizeof(Record));
-  supply.counter.resize(Cuts::counters(division.patches.count()));
+  write_share(nodes, mine, supply.sample.data() + supply.begin[me] / sizeof(Record));
+  if (!keeps_patches)
+    supply.counter.resize(Cuts::counters(std::max(1, Cuts::levels(division.patches.count())) - 1));
   return supply;
 }
 
@@ -88,10 +92,11 @@ Outcome cut_anew(const LocalNodes& nodes, Supply& supply, PartitionKind kind, Co
                  places_to_count(nodes, division.nodes, static_cast<std::size_t>(patches), division.places));
   });
   for (int level = 0; is_bisection && level < Cuts::levels(patches); ++level) {
-    std::fill(supply.counter.begin(), supply.counter.end(), 0);
+    const std::size_t counters = Cuts::counters(level);
+    std::fill_n(supply.counter.begin(), counters, 0);
     go_on([&] { cuts->cut(); });
     if (outcome.is_good()) cuts->count(supply.counter.data());
-    ranks.all_sum(supply.counter.data(), supply.counter.size());
+    ranks.all_sum(supply.counter.data(), counters);
     if (outcome.is_good()) cuts->move(supply.counter.data());
   }
   go_on([&] {

@@ -4,7 +4,7 @@
 
 namespace pstripack {
 
-Halo::Halo(const std::vector<Address>& outside, Communicator& ranks) {
+Halo::Halo(const std::vector<NodeAddress>& outside, Communicator& ranks) {
   const auto size = static_cast<std::size_t>(ranks.size());
   const Parcels wanted = exchange_in_agreement(ranks, [&] {
     send_.resize(size);
@@ -31,8 +31,8 @@ void Halo::send(RankNumber r, LocalNode k) {
   if (sent_.insert(key(r, k)).second) send_[r].push_back(k);
 }
 
-std::vector<Address> addresses_of(const std::vector<HaloNode>& outside, const NodeRanges& ranges) {
-  std::vector<Address> addresses;
+std::vector<NodeAddress> addresses_of(const std::vector<HaloNode>& outside, const NodeRanges& ranges) {
+  std::vector<NodeAddress> addresses;
   addresses.reserve(outside.size());
   for (const HaloNode& node : outside) addresses.push_back(ranges.address(node.counted));
   return addresses;
@@ -40,7 +40,7 @@ std::vector<Address> addresses_of(const std::vector<HaloNode>& outside, const No
 
 void fetch_numbers(std::vector<HaloNode>& outside, const LocalNodes& nodes, const NodeRanges& ranges,
                    Communicator& ranks) {
-  std::vector<Address> addresses;
+  std::vector<NodeAddress> addresses;
   in_agreement(ranks, [&] { addresses = addresses_of(outside, ranges); });
   Halo(addresses, ranks)
       .fetch<GlobalNumber>(

@@ -27,7 +27,7 @@ class Halo {
  public:
   Halo() = default;
   /// outside[j] is the address of OutsideNode j, each once; none is here. Collective. Throws AgreedFailure.
-  Halo(const std::vector<Address>& outside, Communicator& ranks);
+  Halo(const std::vector<NodeAddress>& outside, Communicator& ranks);
 
   /// Calls put(j, value) for each node outside, value being what value(k) returned for it on its owner.
   /// Collective. Throws AgreedFailure.
@@ -67,6 +67,6 @@ void fetch_numbers(std::vector<HaloNode>& outside, const LocalNodes& nodes, cons
                    Communicator& ranks);
 
 /// The addresses of these nodes. Throws std::bad_alloc.
-std::vector<Address> addresses_of(const std::vector<HaloNode>& outside, const NodeRanges& ranges);
+std::vector<NodeAddress> addresses_of(const std::vector<HaloNode>& outside, const NodeRanges& ranges);
 
 }  // namespace pstripack

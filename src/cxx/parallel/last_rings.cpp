@@ -58,7 +58,7 @@ void LastRings::send_home(const LocalNodes& slice, Communicator& ranks) {
   std::vector<GlobalNumber> of_slice;
   std::optional<NumberTable<GlobalNumber>> counted, counted_outside;  // by the caller's number
   Stars<Int> stars;
-  std::vector<Address> outside;
+  std::vector<NodeAddress> outside;
   in_agreement(ranks, [&] {
     std::vector<std::int64_t> next(size);
     for (RankNumber r = 0; r < size; ++r)

@@ -44,7 +44,7 @@ std::unique_ptr<MovingStars> MovingStars::make_by(const NodeRanges& ranges, cons
   if (sums[0] != 6 * ranges.nodes() - 12 || sums[1] > ranges.nodes()) return nullptr;
 
   std::unique_ptr<MovingStars> moving;
-  std::vector<Address> outside;
+  std::vector<NodeAddress> outside;
   OnAll are_closed;  // a mesh has as many arcs if three nodes are its boundary
   in_agreement(
       ranks,

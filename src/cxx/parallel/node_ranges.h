@@ -11,7 +11,7 @@
 namespace pstripack {
 
 /// A node of any rank: the rank that brings it, its owner, and which of LocalNodes it is there.
-struct Address {
+struct NodeAddress {
   RankOfNode rank;
   LocalNode node;
 };
@@ -32,10 +32,10 @@ class NodeRanges {
   std::size_t count(RankNumber rank) const {
     return static_cast<std::size_t>(first_[rank + 1] - first_[rank]);
   }
-  GlobalNumber number(const Address& a) const {
+  GlobalNumber number(const NodeAddress& a) const {
     return GlobalNumber{first_[a.rank] + static_cast<std::int64_t>(a.node)};
   }
-  Address address(GlobalNumber number) const {
+  NodeAddress address(GlobalNumber number) const {
     const auto next = std::upper_bound(first_.begin(), first_.end(), value_of(number));
     return {static_cast<RankOfNode>(next - first_.begin() - 1),
             static_cast<LocalNode>(value_of(number) - next[-1])};

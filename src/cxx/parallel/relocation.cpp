@@ -144,7 +144,7 @@ GlobalNumber Relocation::now(GlobalNumber counted) const {
 
 template <class Int>
 Stars<Int> Relocation::stars(const Stars<Int>& last, const LocalNodes& nodes, Communicator& ranks) {
-  std::vector<Address> asked;
+  std::vector<NodeAddress> asked;
   in_agreement(ranks, [&] {
     asked = addresses_of(last.outside, last_);
     outside_now_.emplace(last.outside.size());

@@ -27,7 +27,7 @@ struct Neighbourhood {
   const std::int64_t* numbers = nullptr;
   NeighbourLists stars;  ///< of the points of this rank; neighbours are indices into the arrays above, from 1
   /// Where the points of the halo are at home.
-  std::vector<Address> owners;
+  std::vector<NodeAddress> owners;
 };
 
 /// Numbers the points of all ranks along a space-filling curve on the sphere. Each rank gets a part of the
