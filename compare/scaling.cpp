@@ -27,6 +27,7 @@
 #include "base/shared_area.h"
 #include "csv_file.h"
 #include "in_a_row.h"
+#include "lloyd_step.h"
 #include "median.h"
 #include "mpi/area_of_all.h"
 #include "mpi/collective_trmesh.h"
@@ -38,7 +39,6 @@
 #include "scvt/front.h"
 #include "standard_streams.h"
 #include "trmesh/trmesh.h"
-#include "voronoi_cell.h"
 
 namespace {
 
@@ -259,25 +259,6 @@ class PoolCall {
   const bool again_;
   LastCall last_;
 };
-
-/// A step of Lloyd's method: moves each point by `part` of the way to the centroid of its Voronoi cell.
-void lloyd_step(const DistributedMesh& mesh, std::vector<Point>& points, double part) {
-  std::vector<Point> known = points;
-  std::vector<std::int64_t> begin(points.size() + 1), halo(mesh.own().outside().size());
-  std::vector<std::int32_t> neighbour(mesh.own().arcs());
-  known.resize(points.size() + halo.size());
-  mesh.own().halo(halo.data(), &known[points.size()].x);
-  mesh.own().local_stars(begin.data(), neighbour.data());
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const Point p = known[k];
-    const std::int64_t count = begin[k + 1] - begin[k];
-    const auto place = [&](std::int64_t i) {
-      const auto slot = static_cast<std::size_t>(begin[k] + i);
-      return known[static_cast<std::size_t>(neighbour[slot]) - 1];
-    };
-    points[k] = point_sets::part_of_the_way(p, point_sets::middle_of_cell(p, count, place), part);
-  }
-}
 
 /// A distributed mesh whose points make small steps of Lloyd's method. Prints the least time of the calls and
 /// the number of flipped arcs.

@@ -52,6 +52,7 @@ module pstripack_mpi
     procedure, public :: stars
     procedure, public :: triangles
     procedure, public :: halo
+    procedure, public :: halo_owners
     procedure, public :: local_stars
     procedure, public :: gather
     procedure, public :: scvt
@@ -131,6 +132,13 @@ module pstripack_mpi
       type(c_ptr), value, intent(in) :: mesh
       integer(c_int64_t), intent(inout) :: number(*)
       real(c_double), intent(inout) :: xyz(*)
+    end subroutine
+
+    ! void pstripack_mesh_halo_owners(const pstripack_mesh* mesh, int32_t* rank, int32_t* local);
+    subroutine c_halo_owners(mesh, rank, local) bind(c, name="pstripack_mesh_halo_owners")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value, intent(in) :: mesh
+      integer(c_int32_t), intent(inout) :: rank(*), local(*)
     end subroutine
 
     ! int32_t pstripack_mesh_home(const pstripack_mesh* mesh, int64_t n, const double* xyz, int32_t* rank);
@@ -282,7 +290,7 @@ contains
     ier = c_home(mesh%handle, size(xyz, 2, kind=c_int64_t), xyz, rank)
   end subroutine
 
-  !> The stars in local numbers: own points 1..points, then the points of the halo. Else as `stars`. ier: 0 or -6.
+  !> The stars in local numbers: own points 1..points, then the points of the halo. Else as `stars`. ier: 0.
   subroutine local_stars(mesh, begin, neighbour, ier)
     class(pstripack_mesh), intent(in) :: mesh
     integer(c_int64_t), intent(inout), contiguous :: begin(:)
@@ -316,6 +324,19 @@ contains
     if (size(number, kind=c_int64_t) < count .or. size(xyz, kind=c_int64_t) < 3*count) &
       error stop "pstripack_mesh: halo: an array is too short"
     if (c_associated(mesh%handle)) call c_halo(mesh%handle, number, xyz)
+  end subroutine
+
+  !> Who has each halo point, in the order of `halo`: rank(halo), from 0, has it as its own point local(halo), from 1,
+  !> as passed in there. So ranks exchange values of their points without a search. Not collective. Stops the program
+  !> if an array is too short.
+  subroutine halo_owners(mesh, rank, local)
+    class(pstripack_mesh), intent(in) :: mesh
+    integer(c_int32_t), intent(inout), contiguous :: rank(:), local(:)
+    integer(c_int64_t) :: points, arcs, triangles, count
+    call mesh%sizes(points, arcs, triangles, count)
+    if (size(rank, kind=c_int64_t) < count .or. size(local, kind=c_int64_t) < count) &
+      error stop "pstripack_mesh: halo_owners: an array is too short"
+    if (c_associated(mesh%handle)) call c_halo_owners(mesh%handle, rank, local)
   end subroutine
 
   !> Gathers the lists of the whole mesh, as TRMESH returns them, on rank `root` (from 0), or on all ranks if root is

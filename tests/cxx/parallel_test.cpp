@@ -196,7 +196,8 @@ template <class Real>
     const auto stars =
         triangulate<std::int32_t>(local, look_of_all(local, ranks), corners, {1, 2, 3}, ranks, options);
     const std::lock_guard lock(mutex);
-    keep(stars, local, r, out);
+    keep(
+        stars, local, r, [](GlobalNumber number) { return number; }, out);
   });
   return is_serial(set, out);
 }

@@ -76,7 +76,14 @@ class GatheringEvaluator final : public Evaluator {
       all[static_cast<std::size_t>(number.begin()[i]) - 1] = point.begin()[i];
     std::vector<std::int32_t> list, lptr, lend;
     const NeighbourLists stars = scvt::triangulate(all, list, lptr, lend);
+    std::vector<NodeAddress> home(all.size());
+    for (RankNumber r = 0; r < static_cast<RankNumber>(ranks_.size()); ++r) {
+      LocalNode k = 0;
+      for (const std::int64_t of_rank : Items<std::int64_t>(numbers, r))
+        home[static_cast<std::size_t>(of_rank) - 1] = {static_cast<RankOfNode>(r), k++};
+    }
     // Own generators first, all the others behind them.
+    std::vector<NodeAddress> owners;
     numbers_.resize(generators.size());
     std::vector<std::int32_t> local(all.size());
     for (std::size_t i = 0; i < numbers_.size(); ++i)
@@ -88,6 +95,7 @@ class GatheringEvaluator final : public Evaluator {
       if (local[i] == 0) {
         points_.push_back(all[i]);
         numbers_.push_back(static_cast<std::int64_t>(i) + 1);
+        owners.push_back(home[i]);
         local[i] = static_cast<std::int32_t>(points_.size());
       }
     for (std::size_t i = 0; i < generators.size(); ++i) {
@@ -96,7 +104,7 @@ class GatheringEvaluator final : public Evaluator {
         neighbour_.push_back(local[static_cast<std::size_t>(stars.neighbour[s]) - 1]);
       end_.push_back(static_cast<std::int32_t>(neighbour_.size()));
     }
-    return {points_.data(), numbers_.data(), {generators.size(), end_.data(), neighbour_.data()}};
+    return {points_.data(), numbers_.data(), {generators.size(), end_.data(), neighbour_.data()}, owners};
   }
 
  private:

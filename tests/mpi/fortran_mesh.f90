@@ -63,7 +63,7 @@ contains
   subroutine use_mesh
     type(pstripack_mesh) :: mesh  ! freed at the end
     integer(int64), allocatable :: number(:), begin(:), neighbour(:), corner(:, :), halo_number(:), local_begin(:)
-    integer(int32), allocatable :: local(:)
+    integer(int32), allocatable :: local(:), owner(:), place(:)
     real(real64), allocatable :: halo_xyz(:, :)
     integer(int32) :: list2(6*n - 12), lptr2(6*n - 12), lend2(n), lnew2
     integer(int64) :: points, arcs, triangles, halo, k, first, second, total
@@ -89,6 +89,9 @@ contains
     if (any(corner(1, :) > corner(2, :) .or. corner(1, :) > corner(3, :))) error stop "triangles"
     call mesh%halo(halo_number, halo_xyz)
     if (any(halo_xyz /= all(:, int(halo_number)))) error stop "halo"
+    allocate (owner(halo), place(halo))
+    call mesh%halo_owners(owner, place)
+    if (any((place - 1)*size_of_world + owner + 1 /= halo_number)) error stop "halo_owners"
     allocate (local_begin(points + 1), local(arcs))
     call mesh%local_stars(local_begin, local, ier)
     if (ier /= 0 .or. any(local_begin /= begin)) error stop "local_stars"

@@ -119,6 +119,20 @@ void check_part(const pstripack_mesh* mesh, const Nodes& nodes, const std::vecto
     ASSERT_TRUE(xyz[3 * i] == p.x && xyz[3 * i + 1] == p.y && xyz[3 * i + 2] == p.z);
   }
 
+  // The owner of each halo point tells its number.
+  std::vector<std::int32_t> owner(halo.size()), place(halo.size());
+  pstripack_mesh_halo_owners(mesh, owner.data(), place.data());
+  int most = static_cast<int>(mine.size());
+  MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+  std::vector<std::int64_t> numbers(static_cast<std::size_t>(most)),
+      of_all(numbers.size() * static_cast<std::size_t>(size_of()));
+  for (std::size_t i = 0; i < mine.size(); ++i) numbers[i] = number(mine[i]);
+  MPI_Allgather(numbers.data(), most, MPI_INT64_T, of_all.data(), most, MPI_INT64_T, MPI_COMM_WORLD);
+  for (std::size_t i = 0; i < halo.size(); ++i) {
+    ASSERT_NE(owner[i], rank_of());
+    ASSERT_EQ(of_all[static_cast<std::size_t>(owner[i] * most + place[i] - 1)], halo[i]);
+  }
+
   std::vector<std::int64_t> local_begin(begin.size());
   std::vector<std::int32_t> local(neighbour.size());
   ASSERT_EQ(pstripack_mesh_local_stars(mesh, local_begin.data(), local.data()), 0);
@@ -275,6 +289,8 @@ TEST(DistributedMesh, NothingOutsideTheArraysIsTouched) {
     pstripack_mesh_stars(mesh, begin.data(), neighbour.data());
     EXPECT_EQ(pstripack_mesh_local_stars(mesh, begin.data(), local.data()), 0);
     pstripack_mesh_halo(mesh, halo_number.data(), halo_xyz.data());
+    Guarded<std::int32_t> owner(halo, edge), place(halo, edge);
+    pstripack_mesh_halo_owners(mesh, owner.data(), place.data());
     pstripack_mesh_triangles(mesh, corner.data());
 
     Guarded<std::int32_t> list(6 * nodes.size() - 12, edge), lptr(list.size(), edge),

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -13,6 +14,7 @@
 #include "base/workspace.h"
 #include "mesh/delaunay.h"
 #include "parallel/coincidence.h"
+#include "parallel/node_ranges.h"
 #include "parallel/triangulate.h"
 #include "point_sets.h"
 #include "support/lists.h"
@@ -61,18 +63,25 @@ inline Look look_of_all(const LocalNodes& nodes, Communicator& ranks) {
   return look;
 }
 
-template <class Int>
-void keep(const Stars<Int>& stars, const LocalNodes& nodes, std::size_t rank, Outcome& out) {
+/// name(number): the number from 1 that a node has in its set.
+template <class Int, class Name>
+void keep(const Stars<Int>& stars, const LocalNodes& nodes, std::size_t rank, const Name& name,
+          Outcome& out) {
   for (std::size_t i = 0; i < stars.of_node.size(); ++i) {
     const Ring<Int> ring = stars.of_node[i];
-    out.ring[static_cast<std::size_t>(nodes.number(i)) - 1].assign(ring.begin, ring.begin + ring.count);
+    auto& kept = out.ring[static_cast<std::size_t>(value_of(name(nodes.number(i)))) - 1];
+    for (std::uint32_t k = 0; k < ring.count; ++k)
+      kept.push_back((ring.begin[k] < 0 ? -1 : 1) * value_of(name(named_by(ring.begin[k]))));
+    if (kept.back() > 0) std::rotate(kept.begin(), std::min_element(kept.begin(), kept.end()), kept.end());
   }
-  out.stars[rank].coincident = stars.coincident;
+  for (const auto& [a, b] : stars.coincident) out.stars[rank].coincident.emplace_back(name(a), name(b));
   out.stars[rank].lengths = stars.lengths;
-  out.stars[rank].outside = stars.outside;
+  for (const HaloNode& node : stars.outside)
+    out.stars[rank].outside.push_back({node.point, node.counted, name(node.number)});
 }
 
-/// homes: of the ranks in the last call, then in this one.
+/// homes: of the ranks in the last call, then in this one. With neighbours, nodes are counted through all
+/// ranks; in the outcome they always have their numbers in `nodes`.
 template <class Int>
 Outcome run(const Nodes& nodes, const std::vector<std::size_t>& rank_of_node,
             const ParallelOptions& all_options, std::vector<std::unique_ptr<Homes>>& homes) {
@@ -83,6 +92,19 @@ Outcome run(const Nodes& nodes, const std::vector<std::size_t>& rank_of_node,
     points[rank_of_node[i]].push_back(nodes[i]);
     numbers[rank_of_node[i]].push_back(static_cast<std::int64_t>(i) + 1);
   }
+  std::vector<std::int64_t> counts, all;
+  for (const auto& of_rank : numbers) {
+    counts.push_back(static_cast<std::int64_t>(of_rank.size()));
+    all.insert(all.end(), of_rank.begin(), of_rank.end());
+  }
+  const NodeRanges ranges(counts.data(), size);
+  const bool is_counted = all_options.with_neighbours;
+  const auto name = [&](GlobalNumber number) {
+    return is_counted ? GlobalNumber{all[static_cast<std::size_t>(number) - 1]} : number;
+  };
+  const auto number = [&](std::int64_t node) {
+    return is_counted ? std::find(all.begin(), all.end(), node) - all.begin() + 1 : node;
+  };
   Outcome out;
   out.ring.resize(n);
   out.codes.resize(size);
@@ -91,15 +113,16 @@ Outcome run(const Nodes& nodes, const std::vector<std::size_t>& rank_of_node,
   std::mutex mutex;
   ThreadRanks::run(static_cast<int>(size), [&](Communicator& ranks) {
     const auto r = static_cast<std::size_t>(ranks.rank());
-    const LocalNodes local{points[r].data(), points[r].size(), numbers[r].data()};
+    const LocalNodes local{points[r].data(), points[r].size(), is_counted ? nullptr : numbers[r].data(),
+                           ranges.first(r)};
     ParallelOptions options = all_options;
     options.last = homes[r].get();
     try {
       const Point corners[3] = {nodes[0], nodes[1], nodes[2]};
-      Stars<Int> stars = triangulate<Int>(local, look_of_all(local, ranks), corners, {1, 2, 3}, ranks,
-                                          options, &out.cost[r]);
+      Stars<Int> stars = triangulate<Int>(local, look_of_all(local, ranks), corners,
+                                          {number(1), number(2), number(3)}, ranks, options, &out.cost[r]);
       const std::lock_guard lock(mutex);
-      keep(stars, local, r, out);
+      keep(stars, local, r, name, out);
       homes[r] = std::move(stars.homes);
     } catch (const AgreedFailure& failure) {
       out.codes[r] = failure.code;

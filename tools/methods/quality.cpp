@@ -142,7 +142,7 @@ Quality quality_of(const files::Mesh& mesh) {
     numbers.push_back(node);
   }
   pstripack::SingleProcess alone;
-  return quality_of(alone, {mesh.points.data(), numbers.data(), {n, end.data(), neighbour.data()}});
+  return quality_of(alone, {mesh.points.data(), numbers.data(), {n, end.data(), neighbour.data()}, {}});
 }
 
 std::string Quality::text() const {

@@ -9,7 +9,10 @@ struct Place {
   std::atomic<bool> is_taken{false};  // stays true when the thing is given up, until the owner asks for it
   std::atomic<KeptThing*> thing{nullptr};
 };
-constexpr int places = 32;
+#ifndef PSTRIPACK_KEPT_PLACES  // more where many ranks are one process: compare/many_ranks
+#define PSTRIPACK_KEPT_PLACES 32
+#endif
+constexpr int places = PSTRIPACK_KEPT_PLACES;
 Place place[places];
 
 }  // namespace

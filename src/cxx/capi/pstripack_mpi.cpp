@@ -378,11 +378,13 @@ void pstripack_mesh_halo(const pstripack_mesh* mesh, int64_t* number, double* xy
   mesh->mesh.own().halo(number, xyz);
 }
 
+void pstripack_mesh_halo_owners(const pstripack_mesh* mesh, int32_t* rank, int32_t* local) {
+  mesh->mesh.own().halo_owners(rank, local);
+}
+
 int32_t pstripack_mesh_local_stars(const pstripack_mesh* mesh, int64_t* begin, int32_t* neighbour) {
-  return guarded([&] {
-    mesh->mesh.own().local_stars(begin, neighbour);
-    return 0;
-  });
+  mesh->mesh.own().local_stars(begin, neighbour);
+  return 0;
 }
 
 int32_t pstripack_mesh_gather(pstripack_mesh* mesh, int32_t root, int32_t* list, int32_t* lptr, int32_t* lend,

@@ -107,9 +107,13 @@ PSTRIPACK_API void pstripack_mesh_triangles(const pstripack_mesh* mesh, int64_t*
  * number: `halo` entries; xyz: 3 * halo coordinates as their owners passed them. Not collective. */
 PSTRIPACK_API void pstripack_mesh_halo(const pstripack_mesh* mesh, int64_t* number, double* xyz);
 
+/* Who has each halo point, in the order of pstripack_mesh_halo, so that ranks can exchange values of their
+ * points without a search: rank[j] (from 0) has it, as its own point local[j] (from 1, as passed in there).
+ * rank and local: `halo` entries. Not collective. */
+PSTRIPACK_API void pstripack_mesh_halo_owners(const pstripack_mesh* mesh, int32_t* rank, int32_t* local);
+
 /* The stars in local numbers, from 1: own points 1..points as passed in, then the halo points in the order
- * of pstripack_mesh_halo. Otherwise as pstripack_mesh_stars. Not collective. Returns 0, or -6, having
- * written nothing. */
+ * of pstripack_mesh_halo. Otherwise as pstripack_mesh_stars. Not collective. Returns 0. */
 PSTRIPACK_API int32_t pstripack_mesh_local_stars(const pstripack_mesh* mesh, int64_t* begin,
                                                  int32_t* neighbour);
 

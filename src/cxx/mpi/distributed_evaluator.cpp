@@ -45,6 +45,7 @@ void DistributedEvaluator::triangulate_mesh(const std::vector<Point>& generators
 
 Neighbourhood DistributedEvaluator::triangulate(const std::vector<Point>& generators) {
   triangulate_mesh(generators);
+  Neighbourhood here;
   OnAny have_boundary;
   in_agreement(
       ranks(),
@@ -61,12 +62,16 @@ Neighbourhood DistributedEvaluator::triangulate(const std::vector<Point>& genera
         stars.local_stars(begin_.data(), neighbour_.data());
         std::transform(begin_.begin() + 1, begin_.end(), end_.begin(),
                        [](std::int64_t end) { return static_cast<std::int32_t>(end); });
+        here = {points_.data(),
+                numbers_.data(),
+                {own_, end_.data(), neighbour_.data()},
+                addresses_of(stars.outside(), stars.ranges())};
         have_boundary.value =
             std::any_of(neighbour_.begin(), neighbour_.end(), [](std::int32_t node) { return node < 0; });
       },
       have_boundary);
   if (have_boundary.value) throw GeneratorsInHemisphere();
-  return {points_.data(), numbers_.data(), {own_, end_.data(), neighbour_.data()}};
+  return here;
 }
 
 }  // namespace pstripack::scvt

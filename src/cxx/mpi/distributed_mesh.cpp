@@ -36,8 +36,9 @@ std::int32_t DistributedMesh::triangulate(std::int64_t n, const double* xyz, con
   std::int32_t code = 0;
   try {
     if (!begin_with_last(points, report, mine)) {
+      const bool numbers_are_known = !empty() && has_numbers_of_last(points);
       clear();
-      code = triangulate_points(points, report, mine);
+      code = triangulate_points(points, numbers_are_known, report, mine);
     }
   } catch (...) {
     make_empty();  // what was made so far is not a mesh
@@ -49,20 +50,20 @@ std::int32_t DistributedMesh::triangulate(std::int64_t n, const double* xyz, con
   return code;
 }
 
-std::int32_t DistributedMesh::triangulate_points(const LocalNodes& points, Report* report,
-                                                 ParallelCost& cost) {
+std::int32_t DistributedMesh::triangulate_points(const LocalNodes& points, bool numbers_are_known,
+                                                 Report* report, ParallelCost& cost) {
   ranks_.set_phase("look at the points");
   Numbering numbering;
   {
     const PhaseTimer timer(&cost, ParallelCost::divide, &ranks_);
-    numbering = look_at_all(points, report != nullptr, ranks_);
+    numbering = look_at_all(points, report != nullptr, numbers_are_known, ranks_);
     numbering.look.by_direction.value = by_direction_;
   }
   if (report != nullptr) report->points = numbering.total;
   is_reported_ = numbering.is_reported;
   error_point_[0] = numbering.error_point;
   if (numbering.code != 0) return numbering.code;
-  const std::int32_t code = numbering.fits_32_bits()
+  const std::int32_t code = numbering.total <= INT32_MAX
                                 ? triangulate_into<std::int32_t>(points, numbering, cost)
                                 : triangulate_into<std::int64_t>(points, numbering, cost);
   if (code == 0) {
@@ -76,6 +77,10 @@ template <class Int>
 std::int32_t DistributedMesh::triangulate_into(const LocalNodes& points, const Numbering& numbering,
                                                ParallelCost& cost) {
   ranks_.set_phase("triangulate");
+  // The numbers that the caller gives are of no use to the ranks; a counted one tells who has the point.
+  const auto me = static_cast<RankNumber>(ranks_.rank());
+  const NodeRanges& ranges = numbering.ranges;
+  const LocalNodes counted{points.points, points.count, nullptr, ranges.first(me)};
   ParallelOptions options;
   BlockArray<std::int64_t> numbers;
   std::optional<std::array<Record, 3>> corners;
@@ -87,7 +92,7 @@ std::int32_t DistributedMesh::triangulate_into(const LocalNodes& points, const N
       options = options_from_environment(points.count);
       numbers = BlockArray<std::int64_t>(points.count);
     });
-    corners = search->run(points, ranks_);
+    corners = search->run(counted, ranks_);
     if (!corners) return kCollinear;
   }
   const auto& [a, b, c] = *corners;
@@ -95,12 +100,11 @@ std::int32_t DistributedMesh::triangulate_into(const LocalNodes& points, const N
   options.with_neighbours = true;
   options.last = homes_.get();
   cost.threads = options.threads;
-  Stars<Int> stars = pstripack::triangulate<Int>(points, numbering.look, {a.point, b.point, c.point},
+  Stars<Int> stars = pstripack::triangulate<Int>(counted, numbering.look, {a.point, b.point, c.point},
                                                  {value_of(a.number), value_of(b.number), value_of(c.number)},
                                                  ranks_, options, &cost);
   if (!stars.coincident.empty()) {
-    Coincidence first{};
-    in_agreement(ranks_, [&] { first = first_coincidence(stars.coincident); });
+    const Coincidence first = first_coincidence_of(stars.coincident, points, ranges);
     error_point_[0] = first.l;
     error_point_[1] = first.m;
     return kCoincident;
@@ -112,13 +116,42 @@ std::int32_t DistributedMesh::triangulate_into(const LocalNodes& points, const N
   next_.are_at_home = are_at_home(points);
   if (next_.wants_sample) {
     try {
-      next_.sample = sample_of(points, stars);
+      next_.sample = sample_of(stars, ranges, me);
     } catch (const std::bad_alloc&) {
       // No memory: the next call is cold, too.
     }
   }
-  own_ = OwnStars(std::move(numbers), std::move(stars));
+  fetch_numbers(stars.outside, points, ranges, ranks_);
+  in_agreement(ranks_, [&] { own_ = OwnStars(std::move(numbers), ranges, me, std::move(stars)); });
   return 0;
+}
+
+/// The same for pairs of counted numbers, in the caller's, which their ranks know. Collective.
+Coincidence DistributedMesh::first_coincidence_of(const CoincidentPairs& counted, const LocalNodes& points,
+                                                  const NodeRanges& ranges) {
+  std::vector<std::int64_t> numbers;
+  in_agreement(ranks_, [&] {
+    const auto add = [&](GlobalNumber c) {
+      const NodeAddress a = ranges.address(c);
+      numbers.push_back(a.rank == static_cast<RankOfNode>(ranks_.rank()) ? value_of(points.number(a.node))
+                                                                         : 0);
+    };
+    for (const auto& [a, b] : counted) add(a), add(b);
+  });
+  ranks_.all_sum(numbers.data(), numbers.size());
+  Coincidence first{};
+  in_agreement(ranks_, [&] {
+    CoincidentPairs pairs;
+    for (std::size_t k = 0; k < numbers.size(); k += 2)
+      pairs.emplace_back(GlobalNumber{numbers[k]}, GlobalNumber{numbers[k + 1]});
+    first = first_coincidence(pairs);
+  });
+  return first;
+}
+
+bool DistributedMesh::has_numbers_of_last(const LocalNodes& points) const {
+  return points.count == own_.count() &&
+         std::equal(own_.numbers(), own_.numbers() + own_.count(), points.numbers);
 }
 
 /// Warm start: repairs the stars of the last call for these points. True if the call is done. False if it
@@ -127,8 +160,7 @@ bool DistributedMesh::begin_with_last(const LocalNodes& points, Report* report, 
   next_.wants_sample = false;
   if (total_ < static_cast<std::int64_t>(kFewestForWarmStart)) return false;
   OnAll allowed{warm_start_is_allowed() && points.count < kMostPoints};
-  OnAll same{points.count == own_.count() &&
-             std::equal(own_.numbers(), own_.numbers() + own_.count(), points.numbers)};
+  OnAll same{has_numbers_of_last(points)};
   OnAll fits{allowed.value && same.value && next_.sample && next_.sample->fits(points.points)};
   OnAll were_at_home{next_.are_at_home}, are_at_home{allowed.value && this->are_at_home(points)};
   OnAny reported{ranks_.rank() == 0 && report != nullptr};
@@ -168,7 +200,7 @@ bool DistributedMesh::begin_with_last(const LocalNodes& points, Report* report, 
 /// The relocation from the points of the last call to these, if they have the same numbers. `fits`: the
 /// sample of stars fits. Collective.
 std::optional<Relocation> DistributedMesh::relocation_to(const LocalNodes& points, OnAll& fits) {
-  std::optional<Relocation> relocation = Relocation::find(own_.numbers(), own_.count(), points, ranks_);
+  std::optional<Relocation> relocation = Relocation::find(own_.numbers(), own_.ranges(), points, ranks_);
   if (!relocation) return relocation;
   in_agreement(
       ranks_, [&] { fits.value = next_.sample && relocation->sample(*next_.sample).fits(points.points); },
@@ -177,15 +209,22 @@ std::optional<Relocation> DistributedMesh::relocation_to(const LocalNodes& point
 }
 
 /// Moves the stars of the last call to the ranks that have their points now. Collective.
-void DistributedMesh::relocate(const Relocation& relocation, const LocalNodes& points) {
+void DistributedMesh::relocate(Relocation& relocation, const LocalNodes& points) {
   BlockArray<std::int64_t> numbers;
   in_agreement(ranks_, [&] {
     numbers = BlockArray<std::int64_t>(points.count);
     std::copy_n(points.numbers, points.count, numbers.data());
   });
   next_.are_at_home = are_at_home(points);
-  own_ = own_.visit(
-      [&](const auto& last) { return OwnStars(std::move(numbers), relocation.stars(last, points, ranks_)); });
+  OwnStars moved;
+  own_.visit([&](const auto& last) {
+    auto stars = relocation.stars(last, points, ranks_);
+    in_agreement(ranks_, [&] {
+      moved = OwnStars(std::move(numbers), relocation.ranges(), static_cast<RankNumber>(ranks_.rank()),
+                       std::move(stars));
+    });
+  });
+  own_ = std::move(moved);
 }
 
 bool DistributedMesh::move_stars(std::unique_ptr<MovingStars> moving, std::optional<Relocation> relocation,
@@ -197,7 +236,7 @@ bool DistributedMesh::move_stars(std::unique_ptr<MovingStars> moving, std::optio
     if (relocation || moving == nullptr)
       moving = own_.visit([&](const auto& stars) {
         return relocation ? MovingStars::make(points, stars, ranks_, std::move(moving), *relocation)
-                          : MovingStars::make(points, stars, ranks_);
+                          : MovingStars::make(points, own_.ranges(), stars, ranks_);
       });
     relocation.reset();
     if (moving == nullptr) return false;
@@ -208,7 +247,7 @@ bool DistributedMesh::move_stars(std::unique_ptr<MovingStars> moving, std::optio
   }
   const PhaseTimer timer(&cost, ParallelCost::lists, &ranks_);
   in_agreement(ranks_, [&] {
-    own_.visit([&](auto& stars) { moving->update(points, stars); });
+    own_.change([&](auto& stars) { moving->update(stars); });
     next_.sample = moving->sample();
   });
   cost.threads = threads_for(points.count);
@@ -272,16 +311,16 @@ std::int32_t DistributedMesh::gather_stars(std::int32_t root, const ListArrays& 
     for (std::size_t r = 0; r <= size; ++r) begin.push_back(slice_begin(n, r, size));
     BlockArray<std::uint32_t> rank(own_.count());
     ParcelWriter writer(size);
-    own_.for_each([&](std::size_t i, std::size_t count, const auto*) {
+    own_.for_each([&](std::size_t i, std::size_t count, const auto&) {
       rank[i] = static_cast<std::uint32_t>(rank_of(own_.numbers()[i]));
       writer.expect<std::int32_t>(rank[i], 2 + count);
     });
     writer.make_room();
-    own_.for_each([&](std::size_t i, std::size_t count, const auto* ring) {
+    own_.for_each([&](std::size_t i, std::size_t count, const auto& write) {
       auto* to = writer.room<std::int32_t>(rank[i], 2 + count);  // numbers up to the total fit 32 bits
       *to++ = static_cast<std::int32_t>(own_.numbers()[i]);
       *to++ = static_cast<std::int32_t>(count);
-      std::copy(ring, ring + count, to);
+      write(to);
     });
     return writer.finish();
   });

@@ -58,14 +58,19 @@ class DistributedMesh {
   std::int32_t gather(std::int32_t root, const ListArrays& lists, Report* report = nullptr);
 
  private:
-  std::int32_t triangulate_points(const LocalNodes& points, Report* report, ParallelCost& cost);
+  std::int32_t triangulate_points(const LocalNodes& points, bool numbers_are_known, Report* report,
+                                  ParallelCost& cost);
   template <class Int>
   std::int32_t triangulate_into(const LocalNodes& points, const Numbering& numbering, ParallelCost& cost);
+  Coincidence first_coincidence_of(const CoincidentPairs& counted, const LocalNodes& points,
+                                   const NodeRanges& ranges);
+  /// True if this rank's points have the same numbers as in the last call, in the same order.
+  bool has_numbers_of_last(const LocalNodes& points) const;
   bool begin_with_last(const LocalNodes& points, Report* report, ParallelCost& cost);
   /// Whether the points of this rank are at home there, and not too many.
   bool are_at_home(const LocalNodes& points) const { return homes_->are_home_to(points, ranks_.rank()); }
   std::optional<Relocation> relocation_to(const LocalNodes& points, OnAll& fits);
-  void relocate(const Relocation& relocation, const LocalNodes& points);
+  void relocate(Relocation& relocation, const LocalNodes& points);
   bool move_stars(std::unique_ptr<MovingStars> moving, std::optional<Relocation> relocation,
                   const LocalNodes& points, ParallelCost& cost);
   std::int32_t gather_stars(std::int32_t root, const ListArrays& lists);

@@ -1,8 +1,8 @@
 #include "mpi/numbering.h"
 
 #include <algorithm>
+#include <utility>
 
-#include "base/scattered.h"
 #include "geometry/predicates.h"
 #include "parallel/agreement.h"
 #include "parallel/environment_options.h"
@@ -14,16 +14,25 @@ namespace {
 
 constexpr std::int64_t kNone = Smallest::kNone;
 
-/// The smallest number that occurs twice; kNone if there is none. Sends every number to the rank given by
-/// its hash, so that equal numbers meet.
-std::int64_t search_repeated(const LocalNodes& points, MpiCommunicator& ranks) {
-  const auto size = static_cast<std::size_t>(ranks.size());
-  const auto rank_of = [size](GlobalNumber number) { return meeting_rank(number, size); };
+/// The smallest number that occurs twice; kNone if there is none. Sends every number to a rank that it names,
+/// so that equal numbers meet: if there are as many numbers as in low..high, to one with a slice of these,
+/// which marks each number that has come; else to the rank of its hash.
+std::int64_t first_repeated(const LocalNodes& points, const Numbering& numbering, MpiCommunicator& ranks) {
+  const auto size = static_cast<std::size_t>(ranks.size()), me = static_cast<std::size_t>(ranks.rank()),
+             all = static_cast<std::size_t>(numbering.total);
+  const bool is_dense = numbering.high - numbering.low == numbering.total - 1;
+  const std::size_t slice = (all + size - 1) / size;
+  const auto place = [&](std::size_t i) {
+    return static_cast<std::size_t>(value_of(points.number(i)) - numbering.low);
+  };
+  const auto rank_of = [&](std::size_t i) {
+    return is_dense ? place(i) / slice : meeting_rank(points.number(i), size);
+  };
   const Parcels here = exchange_in_agreement(ranks, [&] {
     ParcelWriter writer(size);
-    for (std::size_t i = 0; i < points.count; ++i) writer.expect<GlobalNumber>(rank_of(points.number(i)));
+    for (std::size_t i = 0; i < points.count; ++i) writer.expect<GlobalNumber>(rank_of(i));
     writer.make_room();
-    for (std::size_t i = 0; i < points.count; ++i) writer.put(rank_of(points.number(i)), points.number(i));
+    for (std::size_t i = 0; i < points.count; ++i) writer.put(rank_of(i), points.number(i));
     return writer.finish();
   });
   Smallest repeated;
@@ -31,32 +40,28 @@ std::int64_t search_repeated(const LocalNodes& points, MpiCommunicator& ranks) {
       ranks,
       [&] {
         const Items<GlobalNumber> met(here);
+        const auto see = [&](GlobalNumber number, bool is_new) {
+          if (!is_new) repeated.value = std::min(repeated.value, value_of(number));
+        };
+        if (is_dense) {
+          const std::int64_t first = numbering.low + static_cast<std::int64_t>(me * slice);
+          std::vector<bool> has_come(slice);
+          for (const GlobalNumber number : met) {
+            const auto k = static_cast<std::size_t>(value_of(number) - first);
+            see(number, !has_come[k]);
+            has_come[k] = true;
+          }
+          return;
+        }
         NumberTable<char> table(met.size());
         constexpr std::ptrdiff_t kAhead = 16;
         for (const GlobalNumber* at = met.begin(); at < met.end(); ++at) {
           if (met.end() - at > kAhead) table.prefetch(at[kAhead]);
-          if (!table.insert(*at, 0).second) repeated.value = std::min(repeated.value, value_of(*at));
+          see(*at, table.insert(*at, 0).second);
         }
       },
       repeated);
   return repeated.value;
-}
-
-/// The same. If there are as many numbers as in low..high, each occurs once if and only if all of low..high
-/// occur. Sums of 64-bit hashes show that, up to chance, and no number is sent.
-std::int64_t first_repeated(const LocalNodes& points, const Numbering& numbering, MpiCommunicator& ranks) {
-  if (numbering.high - numbering.low != numbering.total - 1) return search_repeated(points, ranks);
-  const auto all = static_cast<std::size_t>(numbering.total), size = static_cast<std::size_t>(ranks.size()),
-             me = static_cast<std::size_t>(ranks.rank());
-  std::uint64_t difference = 0;
-  for (std::size_t i = 0; i < points.count; ++i)
-    difference += scattered(static_cast<std::uint64_t>(points.number(i)));
-  for (std::size_t i = slice_begin(all, me, size); i < slice_begin(all, me + 1, size); ++i)
-    difference -= scattered(static_cast<std::uint64_t>(numbering.low) + i);
-  const std::int64_t* const differences = ranks.all_gather_one(static_cast<std::int64_t>(difference));
-  std::uint64_t sum = 0;
-  for (std::size_t r = 0; r < size; ++r) sum += static_cast<std::uint64_t>(differences[r]);
-  return sum == 0 ? kNone : search_repeated(points, ranks);
 }
 
 bool on_one_line(const Point& a, const Point& b) {
@@ -65,12 +70,13 @@ bool on_one_line(const Point& a, const Point& b) {
 
 }  // namespace
 
-Numbering look_at_all(const LocalNodes& points, bool wants_report, MpiCommunicator& ranks) {
+Numbering look_at_all(const LocalNodes& points, bool wants_report, bool numbers_are_known,
+                      MpiCommunicator& ranks) {
   Numbering numbering;
   const auto failed = [&](std::int32_t code, std::int64_t point) {
     numbering.code = code;
     numbering.error_point = point;
-    return numbering;
+    return std::move(numbering);  // a copy could fail on this rank alone
   };
   const bool fits = points.count < kMostPoints;
   const std::int64_t* const counts =
@@ -92,22 +98,30 @@ Numbering look_at_all(const LocalNodes& points, bool wants_report, MpiCommunicat
     if (!has_direction(points.points[i])) bad.value = std::min(bad.value, value_of(points.number(i)));
   OfRank0 partition(ranks, options_from_environment(0).partition);
   OnAny reported{ranks.rank() == 0 && wants_report};
-  agree(ranks, low, high, bad, partition, reported, numbering.look.lengths_are_one, numbering.look.deviation);
+  OnAll are_known{numbers_are_known};
+  in_agreement(
+      ranks, [&] { numbering.ranges = NodeRanges(counts, static_cast<std::size_t>(ranks.size())); }, low,
+      high, bad, partition, reported, are_known, numbering.look.lengths_are_one, numbering.look.deviation);
   numbering.is_reported = reported.value;
   numbering.low = low.value;
   numbering.high = high.value;
   numbering.partition = partition.value;
   if (numbering.low < 1) return failed(kBadNumber, numbering.low);
   if (bad.exists()) return failed(kBadCoordinate, bad.value);
+  if (are_known.value) return numbering;
   const std::int64_t repeated = first_repeated(points, numbering, ranks);
-  return repeated == kNone ? numbering : failed(kBadNumber, repeated);
+  if (repeated != kNone) return failed(kBadNumber, repeated);
+  return numbering;
 }
 
-CornerSearch::CornerSearch(int ranks) : sample_(3 * static_cast<std::size_t>(ranks), Record{{}, kNoNumber}) {
-  for (std::size_t r = 0; 3 * r <= sample_.size(); ++r) begin_.push_back(3 * r * sizeof(Record));
+CornerSearch::CornerSearch(int ranks) {
+  constexpr std::size_t kRanks = 64;
+  const auto size = static_cast<std::size_t>(ranks), step = (size + kRanks - 1) / kRanks;
+  for (std::size_t r = 0; r <= size; ++r) begin_.push_back(3 * ((r + step - 1) / step) * sizeof(Record));
+  sample_.assign(begin_.back() / sizeof(Record), Record{{}, kNoNumber});
 }
 
-/// Tries three points of each rank first, and all points only if all of those lie on one great circle.
+/// Tries three points of some ranks first, and all points only if all of those lie on one great circle.
 std::optional<std::array<Record, 3>> CornerSearch::run(const LocalNodes& points, MpiCommunicator& ranks) {
   std::array<Record, 3> corners{};
   std::size_t found = 0;
@@ -116,8 +130,10 @@ std::optional<std::array<Record, 3>> CornerSearch::run(const LocalNodes& points,
     return found == 0 || left(corners[0].point, corners[1].point, p) != 0;
   };
 
-  const std::size_t n = points.count, sampled = std::min<std::size_t>(n, 3);
-  Record* const share = sample_.data() + 3 * ranks.rank();
+  const auto me = static_cast<std::size_t>(ranks.rank());
+  const std::size_t n = points.count,
+                    sampled = std::min<std::size_t>(n, (begin_[me + 1] - begin_[me]) / sizeof(Record));
+  Record* const share = sample_.data() + begin_[me] / sizeof(Record);
   for (std::size_t i = 0; i < sampled; ++i) {
     const std::size_t at = sampled > 1 ? (n - 1) * i / (sampled - 1) : 0;
     share[i] = {points.points[at], points.number(at)};

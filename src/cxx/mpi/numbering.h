@@ -9,6 +9,7 @@
 
 #include "mpi/mpi_communicator.h"
 #include "parallel/local_nodes.h"
+#include "parallel/node_ranges.h"
 #include "parallel/partition.h"
 #include "parallel/record.h"
 
@@ -26,18 +27,20 @@ struct Numbering {
   std::int32_t code = 0;         ///< 0; else a result code: there is no mesh
   std::int64_t error_point = 0;  ///< number of the point that the code is about; 0 if none
   std::int64_t total = 0;
+  NodeRanges ranges;
   std::int64_t low = 0, high = 0;  ///< smallest and largest number
   PartitionKind partition = PartitionKind::bisection;
   bool is_reported = false;  ///< rank 0 wants a report
   Look look;                 ///< of this rank's points
 
   bool is_dense() const { return low == 1 && high == total; }  ///< the numbers are 1..total
-  bool fits_32_bits() const { return high <= INT32_MAX; }
 };
 
 /// Counts the points and checks every point and every number. points.count == kMostPoints means too many.
-/// wants_report: used on rank 0 only. Collective. Throws AgreedFailure.
-Numbering look_at_all(const LocalNodes& points, bool wants_report, MpiCommunicator& ranks);
+/// wants_report: used on rank 0 only. numbers_are_known: this rank's numbers are those of the last call,
+/// which has found that all are different. Collective. Throws AgreedFailure.
+Numbering look_at_all(const LocalNodes& points, bool wants_report, bool numbers_are_known,
+                      MpiCommunicator& ranks);
 
 class CornerSearch {
  public:
@@ -49,7 +52,7 @@ class CornerSearch {
   std::optional<std::array<Record, 3>> run(const LocalNodes& points, MpiCommunicator& ranks);
 
  private:
-  /// Three points of each rank, in the order of the ranks; kNoNumber if a rank has fewer.
+  /// Three points of each of at most 64 ranks, in their order; kNoNumber if a rank has fewer.
   std::vector<Record> sample_;
   std::vector<std::size_t> begin_;  ///< by rank: the begin of its points, in bytes
 };

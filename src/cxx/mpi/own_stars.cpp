@@ -1,101 +1,92 @@
 #include "mpi/own_stars.h"
 
-#include <algorithm>
-
-#include "parallel/number_table.h"
+#include <cstdlib>
 
 namespace pstripack {
-namespace {
 
-template <class Int>
-std::int64_t absolute(Int number) {
-  return number < 0 ? -static_cast<std::int64_t>(number) : static_cast<std::int64_t>(number);
+void OwnStars::sort_outside() {
+  const std::vector<HaloNode>& nodes = outside();
+  const auto is_in_place = [&](const Place& p) {
+    return p.place < nodes.size() && value_of(nodes[p.place].counted) == p.counted;
+  };
+  if (place_.size() == nodes.size() && std::all_of(place_.begin(), place_.end(), is_in_place)) return;
+  place_.clear();
+  for (std::size_t j = 0; j < nodes.size(); ++j) place_.push_back({value_of(nodes[j].counted), j});
+  std::sort(place_.begin(), place_.end(),
+            [](const Place& a, const Place& b) { return a.counted < b.counted; });
 }
 
-/// Calls visit(b, c) for each triangle (number, b, c), counterclockwise, whose smallest corner is `number`.
-template <class Int, class Visit>
-void for_each_triangle_of(std::int64_t number, const Int* ring, std::size_t count, const Visit& visit) {
-  std::int64_t before = ring[count - 1];
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::int64_t b = before, c = absolute(ring[i]);
-    before = c;
-    if (i == 0 && b < 0) continue;  // the gap of a boundary point
-    if (number < b && number < c) visit(b, c);
-  }
+/// Calls visit(a, b, c) for each triangle, counterclockwise, whose smallest corner a is a point here.
+template <class Visit>
+void OwnStars::for_each_triangle(const Visit& visit) const {
+  for_each_ring([&](std::size_t i, const auto& ring) {
+    const std::int64_t a = numbers_[i];
+    const std::uint32_t first = first_of(ring);
+    const auto entry = [&](std::uint32_t k) { return number_of(ring.begin[(first + k) % ring.count]); };
+    std::int64_t before = entry(ring.count - 1);
+    for (std::uint32_t k = 0; k < ring.count; ++k) {
+      const std::int64_t b = before, c = std::abs(entry(k));
+      before = c;
+      if (k == 0 && b < 0) continue;  // the gap of a boundary point
+      if (a < b && a < c) visit(a, b, c);
+    }
+  });
 }
-
-}  // namespace
 
 std::int64_t OwnStars::boundary_points() const {
   std::int64_t points = 0;
-  for_each([&](std::size_t, std::size_t count, const auto* ring) { points += ring[count - 1] < 0; });
+  for_each_ring([&](std::size_t, const auto& ring) { points += ring.begin[ring.count - 1] < 0; });
   return points;
 }
 
 std::int64_t OwnStars::triangles() const {
   std::int64_t triangles = 0;
-  for_each([&](std::size_t i, std::size_t count, const auto* ring) {
-    for_each_triangle_of(numbers_[i], ring, count, [&](std::int64_t, std::int64_t) { ++triangles; });
-  });
+  for_each_triangle([&](std::int64_t, std::int64_t, std::int64_t) { ++triangles; });
   return triangles;
 }
 
 void OwnStars::stars(std::int64_t* begin, std::int64_t* neighbour) const {
   begin[0] = 0;
-  for_each([&](std::size_t i, std::size_t count, const auto* ring) {
-    begin[i + 1] = begin[i] + static_cast<std::int64_t>(count);
-    std::copy(ring, ring + count, neighbour + begin[i]);
+  for_each_ring([&](std::size_t i, const auto& ring) {
+    begin[i + 1] = begin[i] + ring.count;
+    write(ring, neighbour + begin[i]);
   });
 }
 
 void OwnStars::triangles(std::int64_t* corner) const {
-  for_each([&](std::size_t i, std::size_t count, const auto* ring) {
-    for_each_triangle_of(numbers_[i], ring, count, [&](std::int64_t b, std::int64_t c) {
-      *corner++ = numbers_[i];
-      *corner++ = b;
-      *corner++ = c;
-    });
+  for_each_triangle([&](std::int64_t a, std::int64_t b, std::int64_t c) {
+    *corner++ = a;
+    *corner++ = b;
+    *corner++ = c;
   });
 }
 
 void OwnStars::halo(std::int64_t* number, double* xyz) const {
-  for (const auto& [point, name] : outside()) {
-    *number++ = value_of(name);
-    for (const double c : {point.x, point.y, point.z}) *xyz++ = c;
+  for (const HaloNode& node : outside()) {
+    *number++ = value_of(node.number);
+    for (const double c : {node.point.x, node.point.y, node.point.z}) *xyz++ = c;
+  }
+}
+
+void OwnStars::halo_owners(std::int32_t* rank, std::int32_t* local) const {
+  for (const HaloNode& node : outside()) {
+    const NodeAddress owner = ranges_.address(node.counted);
+    *rank++ = static_cast<std::int32_t>(owner.rank);
+    *local++ = static_cast<std::int32_t>(owner.node) + 1;
   }
 }
 
 void OwnStars::local_stars(std::int64_t* begin, std::int32_t* neighbour) const {
-  constexpr std::size_t kAhead = 16;
-  const std::int64_t *const own = numbers(), *const end_of_own = own + count();
-  const bool is_sorted = std::is_sorted(own, end_of_own);  // then a search needs no table
-  NumberTable<std::int32_t> local((is_sorted ? 0 : count()) + outside().size());
-  for (std::size_t i = 0; i < count() && !is_sorted; ++i) {
-    if (i + kAhead < count()) local.prefetch(GlobalNumber{own[i + kAhead]});
-    local.insert(GlobalNumber{own[i]}, static_cast<std::int32_t>(i) + 1);
-  }
-  auto next = static_cast<std::int32_t>(count());
-  for (const Record& point : outside()) local.insert(point.number, ++next);
-  const auto find = [&](std::int64_t wanted) {
-    if (is_sorted) {
-      const std::int64_t* const at = std::lower_bound(own, end_of_own, wanted);
-      if (at != end_of_own && *at == wanted) return static_cast<std::int32_t>(at - own) + 1;
-    }
-    return local.at(GlobalNumber{wanted});
-  };
   begin[0] = 0;
-  for_each([&](std::size_t i, std::size_t count, const auto* ring) {
-    begin[i + 1] = begin[i] + static_cast<std::int64_t>(count);
-    // Usually own numbers are consecutive, as those of points along a curve are: then no search is needed.
-    const std::int64_t number_of_first = own[i] - static_cast<std::int64_t>(i);
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::int64_t wanted = absolute(ring[k]);
-      const auto guess = static_cast<std::size_t>(wanted - number_of_first);
-      const std::int32_t found = guess < numbers_.size() && own[guess] == wanted
-                                     ? static_cast<std::int32_t>(guess) + 1
-                                     : find(wanted);
-      *neighbour++ = ring[k] < 0 ? -found : found;
+  for_each_ring([&](std::size_t i, const auto& ring) {
+    begin[i + 1] = begin[i] + ring.count;
+    std::int32_t* const out = neighbour + begin[i];
+    for (std::uint32_t k = 0; k < ring.count; ++k) {
+      const auto entry = ring.begin[k];
+      const auto place = static_cast<std::int32_t>(index(std::abs(std::int64_t{entry}))) + 1;
+      out[k] = entry < 0 ? -place : place;
     }
+    std::rotate(out, out + first_of(ring), out + ring.count);
   });
 }
 

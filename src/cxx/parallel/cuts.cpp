@@ -67,7 +67,7 @@ Cuts::Cuts(int patches, std::vector<Point> sample, std::vector<Point> counted)
 Cuts Cuts::of_sample(int patches, std::vector<Point> sample, std::vector<Point> counted) {
   Cuts cuts(patches, std::move(sample), std::move(counted));
   for (int level = 0; level < levels(patches); ++level) {
-    std::vector<std::int64_t> counter(counters(patches));
+    std::vector<std::int64_t> counter(counters(level));
     cuts.cut();
     cuts.count(counter.data());
     cuts.move(counter.data());

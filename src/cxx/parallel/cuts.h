@@ -84,8 +84,8 @@ class Cuts {
   static int levels(int patches);
   /// Cuts all boxes at the medians of the sample. Throws std::bad_alloc.
   void cut();
-  /// Upper bound of the number of counters for the cuts of one level.
-  static std::size_t counters(int patches) { return kBins * (static_cast<std::size_t>(patches) + 1) / 2; }
+  /// Upper bound of the number of counters for the cuts of one level, from 0.
+  static std::size_t counters(int level) { return kBins << level; }
   /// Adds the counted nodes to the counters of the cuts of this level.
   void count(std::int64_t* counter) const;
   /// Moves the cuts of this level so that each side has its share of the nodes. `counter` are the sums of the

@@ -55,13 +55,17 @@ GlobalSample begin_sample(const LocalNodes& nodes, const std::vector<Headcount>&
                     enough = sample.looks_through ? kLookedThrough : options.closing_nodes;
   const std::size_t wanted = std::min(division.nodes, keeps_patches ? enough : usual);
   sample.begin.assign(1, 0);
-  for (const Headcount& h : heads)
-    sample.begin.push_back(sample.begin.back() +
-                           share_of_sample(h.nodes, wanted, division.nodes) * sizeof(Record));
+  std::size_t before = 0, mine = 0;
+  for (RankNumber r = 0; r < heads.size(); ++r) {
+    const std::size_t share = share_of_sample(before, heads[r].nodes, wanted, division.nodes);
+    before += heads[r].nodes;
+    sample.begin.push_back(sample.begin.back() + share * sizeof(Record));
+    if (r == me) mine = share;
+  }
   sample.nodes = BlockArray<Record>(sample.begin.back() / sizeof(Record));
-  write_share(nodes, share_of_sample(nodes.count, wanted, division.nodes),
-              sample.nodes.data() + sample.begin[me] / sizeof(Record));
-  sample.counter.resize(Cuts::counters(division.patches.count()));
+  write_share(nodes, mine, sample.nodes.data() + sample.begin[me] / sizeof(Record));
+  if (!keeps_patches)
+    sample.counter.resize(Cuts::counters(std::max(1, Cuts::levels(division.patches.count())) - 1));
   return sample;
 }
 
@@ -87,10 +91,11 @@ Outcome cut_anew(const LocalNodes& nodes, GlobalSample& sample, PartitionKind ki
                  places_to_count(nodes, division.nodes, static_cast<std::size_t>(patches), division.places));
   });
   for (int level = 0; is_bisection && level < Cuts::levels(patches); ++level) {
-    std::fill(sample.counter.begin(), sample.counter.end(), 0);
+    const std::size_t counters = Cuts::counters(level);
+    std::fill_n(sample.counter.begin(), counters, 0);
     outcome.go_on([&] { cuts->cut(); });
     if (outcome.is_good()) cuts->count(sample.counter.data());
-    ranks.all_sum(sample.counter.data(), sample.counter.size());
+    ranks.all_sum(sample.counter.data(), counters);
     if (outcome.is_good()) cuts->move(sample.counter.data());
   }
   outcome.go_on([&] {

@@ -23,7 +23,8 @@ struct ParallelOptions {
   PartitionKind partition = PartitionKind::bisection;
   int patches = 1;  ///< of this rank, perhaps 0; may differ from rank to rank
   int threads = 1;  ///< of this rank
-  /// Fill Stars::outside, and give the stars memory of their own, so that the hulls can be freed.
+  /// Fill Stars::outside, and give the stars memory of their own, so that the hulls can be freed. The numbers
+  /// must be counted through all ranks: see NodeRanges.
   bool with_neighbours = false;
   /// Patches do not pay if a rank has more triangles that other patches lack.
   std::size_t most_questions = SIZE_MAX;

@@ -36,14 +36,15 @@ class LastRings {
   const MovingStars& stars() const { return *moving_; }
 
  private:
-  void send_home(const LocalNodes& slice, std::size_t nodes_of_all, Communicator& ranks);
+  void send_home(const LocalNodes& slice, Communicator& ranks);
   void send_places(const LocalNodes& slice, Communicator& ranks);
   void replace(const Parcels& changed);
 
   const Stay stay_;
   const std::size_t first_node_;
   const std::unique_ptr<const Homes> homes_;
-  Stars<std::int32_t> of_slice_, at_home_;
+  NodeRanges slices_;
+  Stars<std::int32_t> of_slice_;
   std::vector<RankOfNode> home_;  ///< of the nodes of the slice
   std::size_t replaced_ = 0;      ///< entries of rings that replace() has stored
   // At home here:

@@ -19,25 +19,6 @@ inline RankNumber meeting_rank(GlobalNumber number, std::size_t ranks) {
   return static_cast<RankNumber>((scattered(static_cast<std::uint64_t>(number)) >> 32) * ranks >> 32);
 }
 
-/// A set of numbers that may claim to have a number that was not added, but seldom. Throws std::bad_alloc
-/// when made, never later.
-class NumberFilter {
- public:
-  explicit NumberFilter(std::size_t most) {
-    std::size_t bits = 1 << 10;
-    while (bits < 16 * most) bits *= 2;
-    maybe_.resize(bits);
-  }
-  void add(GlobalNumber number) { maybe_[slot(number)] = true; }
-  bool may_have(GlobalNumber number) const { return maybe_[slot(number)]; }
-
- private:
-  std::size_t slot(GlobalNumber number) const {
-    return static_cast<std::uint64_t>(number) * 0x9e3779b97f4a7c15u >> 24 & (maybe_.size() - 1);
-  }
-  std::vector<bool> maybe_;
-};
-
 /// Finds values by number. Throws std::bad_alloc when made, never later.
 template <class Value>
 class NumberTable {

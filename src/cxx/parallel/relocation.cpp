@@ -1,17 +1,21 @@
 #include "parallel/relocation.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "parallel/agreement.h"
+#include "parallel/halo.h"
 #include "parallel/number_table.h"
 #include "parallel/ring_parcels.h"
 
 namespace pstripack {
 
-Relocation::Relocation(const std::int64_t* before, std::size_t had, const LocalNodes& nodes)
-    : had_(had), from_(nodes.count), to_(had) {
+Relocation::Relocation(const std::int64_t* before, const NodeRanges& last, const NodeRanges& now,
+                       RankNumber me, const LocalNodes& nodes)
+    : last_(last), now_(now), me_(me), had_(last.count(me)), from_(nodes.count), to_(had_) {
   constexpr LastNode kNotHere = UINT32_MAX;
+  const std::size_t had = had_;
   std::fill(from_.begin(), from_.end(), kNotHere);
   std::fill(to_.begin(), to_.end(), kGone);
   const auto are_the_same = [&](std::size_t k, std::size_t i) {
@@ -50,125 +54,150 @@ Relocation::Relocation(const std::int64_t* before, std::size_t had, const LocalN
       from_[i] = static_cast<LastNode>(had_ + come_++);
   }
   for (std::size_t k = 0; k < had; ++k)
-    if (to_[k] == kGone) gone_.push_back({GlobalNumber{before[k]}, static_cast<LastNode>(k), 0});
+    if (to_[k] == kGone) gone_.push_back({GlobalNumber{before[k]}, static_cast<LastNode>(k), kNoNumber});
 }
 
-std::optional<Relocation> Relocation::find(const std::int64_t* before, std::size_t had,
+std::optional<Relocation> Relocation::find(const std::int64_t* before, const NodeRanges& ranges,
                                            const LocalNodes& nodes, Communicator& ranks) {
   constexpr std::int64_t kFew = 8;  // one node in kFew may come from another rank
-  std::int64_t counts[] = {static_cast<std::int64_t>(had), static_cast<std::int64_t>(nodes.count)};
-  ranks.all_sum(counts, 2);
-  if (counts[0] != counts[1]) return std::nullopt;
+  const auto size = static_cast<std::size_t>(ranks.size());
+  const std::int64_t* const counts = ranks.all_gather_one(static_cast<std::int64_t>(nodes.count));
+  if (std::accumulate(counts, counts + size, std::int64_t{0}) != ranges.nodes()) return std::nullopt;
   std::optional<Relocation> found;
   OnAll are_positive;
   in_agreement(
       ranks,
       [&] {
-        found.emplace(before, had, nodes);
+        const NodeRanges now(counts, size);
+        found.emplace(before, ranges, now, static_cast<RankNumber>(ranks.rank()), nodes);
         are_positive.value = found->are_positive_;
       },
       are_positive);
   if (!are_positive.value) return std::nullopt;
   auto gone = static_cast<std::int64_t>(found->gone_.size());
   ranks.all_sum(&gone, 1);  // as many have come
-  if (gone > counts[0] / kFew || (gone > 0 && !found->find_ranks(nodes, ranks))) return std::nullopt;
+  if (gone > ranges.nodes() / kFew || (gone > 0 && !found->find_addresses(nodes, ranks))) return std::nullopt;
   return found;
 }
 
 /// Whether every node that has gone has come elsewhere, and where. The ranks that had it and that bring it
 /// now meet at a third.
-bool Relocation::find_ranks(const LocalNodes& nodes, Communicator& ranks) {
-  const auto size = static_cast<std::size_t>(ranks.size());
-  const auto for_each_that_has_come = [&](const auto& visit) {
-    for (std::size_t i = 0; i < nodes.count; ++i)
-      if (has_come(i)) visit(nodes.number(i));
+bool Relocation::find_addresses(const LocalNodes& nodes, Communicator& ranks) {
+  struct Said {
+    GlobalNumber number, now;  // now: counted where it has come; kNoNumber where it has gone
   };
-  const Parcels told = exchange_in_agreement(ranks, [&] {  // numbers; negative: has gone
+  const auto size = static_cast<std::size_t>(ranks.size());
+  const auto for_each_said = [&](const auto& visit) {
+    for (std::size_t i = 0; i < nodes.count; ++i)
+      if (has_come(i))
+        visit(Said{nodes.number(i), now_.number({static_cast<RankOfNode>(me_), static_cast<LocalNode>(i)})});
+    for (const Gone& g : gone_) visit(Said{g.number, kNoNumber});
+  };
+  const Parcels told = exchange_in_agreement(ranks, [&] {
     ParcelWriter writer(size);
-    const auto expect = [&](GlobalNumber number) { writer.expect<std::int64_t>(meeting_rank(number, size)); };
-    for_each_that_has_come(expect);
-    for (const Gone& g : gone_) expect(g.number);
+    for_each_said([&](const Said& said) { writer.expect<Said>(meeting_rank(said.number, size)); });
     writer.make_room();
-    for_each_that_has_come(
-        [&](GlobalNumber number) { writer.put(meeting_rank(number, size), value_of(number)); });
-    for (const Gone& g : gone_) writer.put(meeting_rank(g.number, size), -value_of(g.number));
+    for_each_said([&](const Said& said) { writer.put(meeting_rank(said.number, size), said); });
     return writer.finish();
   });
   OnAll are_the_same;
   Parcels answers;
-  std::vector<const RankOfNode*> next;
+  std::vector<const GlobalNumber*> next;
   in_agreement(
       ranks,
       [&] {
-        NumberTable<RankOfNode> now(Items<std::int64_t>(told).size());
+        const Items<Said> all(told);
+        NumberTable<GlobalNumber> come(all.size());
+        for (const Said& said : all)
+          if (said.now != kNoNumber) come.insert(said.number, said.now);
+        std::vector<std::vector<GlobalNumber>> now(size);
         for (RankNumber r = 0; r < size; ++r)
-          for (const std::int64_t number : Items<std::int64_t>(told, r))
-            if (number > 0) now.insert(GlobalNumber{number}, static_cast<RankOfNode>(r));
-        std::vector<std::vector<RankOfNode>> rank_now(size);
-        for (RankNumber r = 0; r < size; ++r)
-          for (const std::int64_t number : Items<std::int64_t>(told, r)) {
-            if (number > 0) continue;
-            const RankOfNode* const at = now.find_value(GlobalNumber{-number});
+          for (const Said& said : Items<Said>(told, r)) {
+            if (said.now != kNoNumber) continue;
+            const GlobalNumber* const at = come.find_value(said.number);
             are_the_same.value = are_the_same.value && at != nullptr;
-            rank_now[r].push_back(at != nullptr ? *at : 0);
+            now[r].push_back(at != nullptr ? *at : kNoNumber);
           }
-        answers = packed(rank_now);
+        answers = packed(now);
         next.resize(size);
       },
       are_the_same);
   if (!are_the_same.value) return false;
   const Parcels answered = ranks.exchange(answers);
-  for (RankNumber r = 0; r < size; ++r) next[r] = Items<RankOfNode>(answered, r).begin();
-  for (Gone& g : gone_) g.rank = *next[meeting_rank(g.number, size)]++;
+  for (RankNumber r = 0; r < size; ++r) next[r] = Items<GlobalNumber>(answered, r).begin();
+  for (Gone& g : gone_) g.now = *next[meeting_rank(g.number, size)]++;
   return true;
 }
 
+GlobalNumber Relocation::now(LastNode k) const {
+  if (to_[k] != kGone) return now_.number({static_cast<RankOfNode>(me_), to_[k]});
+  return std::lower_bound(gone_.begin(), gone_.end(), k,
+                          [](const Gone& g, LastNode node) { return g.node < node; })
+      ->now;
+}
+
+GlobalNumber Relocation::now(GlobalNumber counted) const {
+  if (last_.is_of(me_, counted)) return now(static_cast<LastNode>(value_of(counted) - last_.first(me_)));
+  const GlobalNumber* const found = outside_now_->find_value(counted);
+  return found != nullptr ? *found : kNoNumber;
+}
+
 template <class Int>
-Stars<Int> Relocation::stars(const Stars<Int>& last, const LocalNodes& nodes, Communicator& ranks) const {
+Stars<Int> Relocation::stars(const Stars<Int>& last, const LocalNodes& nodes, Communicator& ranks) {
+  std::vector<NodeAddress> asked;
+  in_agreement(ranks, [&] {
+    asked = addresses_of(last.outside, last_);
+    outside_now_.emplace(last.outside.size());
+  });
+  Halo(asked, ranks)
+      .fetch<GlobalNumber>(
+          ranks, [&](LocalNode k) { return now(LastNode{k}); },
+          [&](OutsideNode j, GlobalNumber now) {
+            outside_now_->insert(last.outside[index_of(j)].counted, now);
+          });
+  const auto renamed = [&](Int entry) {
+    const auto number = static_cast<Int>(now(named_by(entry)));
+    return entry < 0 ? -number : number;
+  };
   const Parcels arrived = exchange_in_agreement(ranks, [&] {
-    return packed_rings<Int>(static_cast<std::size_t>(ranks.size()), [&](const auto& visit) {
-      for (const Gone& g : gone_) visit(g.rank, static_cast<Int>(value_of(g.number)), last.of_node[g.node]);
-    });
+    return packed_rings<Int>(
+        static_cast<std::size_t>(ranks.size()),
+        [&](const auto& visit) {
+          for (const Gone& g : gone_)
+            visit(now_.address(g.now).rank, static_cast<Int>(value_of(g.now)), last.of_node[g.node]);
+        },
+        renamed);
   });
   Stars<Int> stars;
   in_agreement(ranks, [&] {
-    // What the arrived stars name, what the last ones named, and what has gone: of that what is not here.
+    // What was outside, what has gone, and what the arrived stars name: of that what is not here.
     std::vector<GlobalNumber> named;
-    for (const Record& r : last.outside) named.push_back(r.number);
-    for (const Gone& g : gone_) named.push_back(g.number);
-    for_each_ring<Int>(arrived, [&](Int, const Ring<Int>& ring) {
-      for (std::uint32_t k = 0; k < ring.count; ++k) named.push_back(named_by(ring.begin[k]));
-    });
-    NumberFilter filter(named.size());
-    for (const GlobalNumber number : named) filter.add(number);
-    std::vector<std::pair<GlobalNumber, LastNode>> found;
-    for (std::size_t i = 0; i < nodes.count; ++i)
-      if (const GlobalNumber number = nodes.number(i); has_come(i) || filter.may_have(number))
-        found.emplace_back(number, from_[i]);
-    NumberTable<LastNode> here(found.size());
-    for (const auto& [number, from] : found) here.insert(number, from);
-    for (const GlobalNumber number : named)
-      if (here.find_value(number) == nullptr) stars.outside.push_back({{}, number});
-    keep_one_of_each(stars.outside);
-
+    for (const HaloNode& node : last.outside) named.push_back(now(node.counted));
+    for (const Gone& g : gone_) named.push_back(g.now);
     std::vector<Ring<Int>> come(come_);
     for_each_ring<Int>(arrived, [&](Int number, const Ring<Int>& ring) {
-      come[here.at(GlobalNumber{number}) - had_] = ring;
+      for (std::uint32_t k = 0; k < ring.count; ++k) named.push_back(named_by(ring.begin[k]));
+      come[from_[now_.address(GlobalNumber{number}).node] - had_] = ring;
     });
+    std::sort(named.begin(), named.end());
+    named.erase(std::unique(named.begin(), named.end()), named.end());
+
     constexpr std::size_t kAhead = 16;
-    auto outside = std::move(stars.outside);
-    stars = copied_stars<Int>(nodes.count, [&](std::size_t i) {
-      if (i + kAhead < nodes.count && !has_come(i + kAhead)) last.of_node.prefetch(from_[i + kAhead]);
-      return has_come(i) ? come[from_[i] - had_] : last.of_node[from_[i]];
-    });
-    stars.outside = std::move(outside);
+    stars = copied_stars<Int>(
+        nodes.count,
+        [&](std::size_t i) {
+          if (i + kAhead < nodes.count && !has_come(i + kAhead)) last.of_node.prefetch(from_[i + kAhead]);
+          return has_come(i) ? come[from_[i] - had_] : last.of_node[from_[i]];
+        },
+        [&](std::size_t i, Int entry) { return has_come(i) ? entry : renamed(entry); });
+    for (const GlobalNumber number : named)
+      if (!now_.is_of(me_, number)) stars.outside.push_back({{}, number, kNoNumber});
   });
+  fetch_numbers(stars.outside, nodes, now_, ranks);
   return stars;
 }
 
-template Stars<std::int32_t> Relocation::stars(const Stars<std::int32_t>&, const LocalNodes&,
-                                               Communicator&) const;
-template Stars<std::int64_t> Relocation::stars(const Stars<std::int64_t>&, const LocalNodes&,
-                                               Communicator&) const;
+template Stars<std::int32_t> Relocation::stars(const Stars<std::int32_t>&, const LocalNodes&, Communicator&);
+template Stars<std::int64_t> Relocation::stars(const Stars<std::int64_t>&, const LocalNodes&, Communicator&);
 
 }  // namespace pstripack

@@ -6,8 +6,6 @@
 #include <numeric>
 #include <utility>
 
-#include "parallel/number_table.h"
-
 namespace pstripack {
 namespace {
 
@@ -115,28 +113,10 @@ void enter_received(const Parcels& received, const ReturnAddresses& addresses, c
   }
 }
 
-/// Sorts records by number and keeps each number once, but none of `own`.
-void keep_one_of_each_but(const LocalNodes& own, std::vector<Record>& all) {
-  keep_one_of_each(all);
-  NumberFilter filter(all.size());
-  for (const Record& r : all) filter.add(r.number);
-  std::vector<GlobalNumber> some;
-  for (std::size_t i = 0; i < own.count; ++i)
-    if (filter.may_have(own.number(i))) some.push_back(own.number(i));
-  std::sort(some.begin(), some.end());
-  auto next = some.begin();  // both are sorted
-  all.erase(std::remove_if(all.begin(), all.end(),
-                           [&](const Record& r) {
-                             while (next != some.end() && *next < r.number) ++next;
-                             return next != some.end() && *next == r.number;
-                           }),
-            all.end());
-}
-
 /// The neighbours of this rank's nodes that it did not bring itself.
 template <class Int>
-std::vector<Record> find_outside(const Patches<Int>& patches, const ReturnAddresses& addresses,
-                                 const LocalNodes& nodes, Communicator& ranks) {
+std::vector<HaloNode> find_outside(const Patches<Int>& patches, const ReturnAddresses& addresses,
+                                   const LocalNodes& nodes, Communicator& ranks) {
   const auto size = static_cast<std::size_t>(ranks.size());
   const Parcels incoming = exchange_in_agreement(ranks, [&] {
     struct Missing {
@@ -155,14 +135,18 @@ std::vector<Record> find_outside(const Patches<Int>& patches, const ReturnAddres
       for (const Missing& m : of_patch[k]) writer.put(m.rank, patches.of_rank[k].node(m.node));
     return writer.finish();
   });
-  std::vector<Record> outside;
+  std::vector<HaloNode> outside;
   in_agreement(ranks, [&] {
+    // A patch does not know which nodes this rank brought for other patches.
+    const auto is_here = [&](const Record& r) {
+      return r.number >= nodes.number(0) && r.number < nodes.number(nodes.count);
+    };
     const Items<Record> items(incoming);
-    outside.assign(items.begin(), items.end());
-    // A patch does not know which nodes this rank brought for other patches; where there are none, it knows
-    // all.
-    const bool knows_all = addresses.away_begin.back() == 0 && patches.of_rank.size() == 1;
-    keep_one_of_each_but(knows_all ? LocalNodes{} : nodes, outside);
+    std::vector<Record> all;
+    std::remove_copy_if(items.begin(), items.end(), std::back_inserter(all), is_here);
+    keep_one_of_each(all);
+    outside.reserve(all.size());
+    for (const Record& r : all) outside.push_back({r.point, r.number, r.number});
   });
   return outside;
 }

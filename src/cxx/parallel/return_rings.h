@@ -12,6 +12,7 @@
 #include "parallel/coincidence.h"
 #include "parallel/deliver.h"
 #include "parallel/divide.h"
+#include "parallel/halo.h"
 #include "parallel/homes.h"
 #include "parallel/patches.h"
 
@@ -31,7 +32,7 @@ struct Stars {
   Lengths lengths = Lengths::as_given;
   CoincidentPairs coincident;  ///< on every rank the same; empty if there are none
   /// With options.with_neighbours: the nodes that the stars name and this rank did not bring, by number.
-  std::vector<Record> outside;
+  std::vector<HaloNode> outside;
   std::unique_ptr<Homes> homes;
 };
 

@@ -12,10 +12,10 @@
 
 namespace pstripack {
 
-/// Packs rings, each as the number of its node, its count and its entries. for_each(visit) calls visit(rank,
-/// number, ring) for every ring.
-template <class Int, class ForEach>
-Parcels packed_rings(std::size_t ranks, const ForEach& for_each) {
+/// Packs rings, each as the number of its node, its count and its entries, changed by entry(e).
+/// for_each(visit) calls visit(rank, number, ring) for every ring.
+template <class Int, class ForEach, class Entry>
+Parcels packed_rings(std::size_t ranks, const ForEach& for_each, const Entry& entry) {
   ParcelWriter writer(ranks);
   for_each(
       [&](RankNumber r, Int, const Ring<Int>& ring) { writer.expect<Int>(r, 2 + std::size_t{ring.count}); });
@@ -24,9 +24,13 @@ Parcels packed_rings(std::size_t ranks, const ForEach& for_each) {
     Int* const to = writer.room<Int>(r, 2 + std::size_t{ring.count});
     to[0] = number;
     to[1] = static_cast<Int>(ring.count);
-    std::copy(ring.begin, ring.begin + ring.count, to + 2);
+    std::transform(ring.begin, ring.begin + ring.count, to + 2, entry);
   });
   return writer.finish();
+}
+template <class Int, class ForEach>
+Parcels packed_rings(std::size_t ranks, const ForEach& for_each) {
+  return packed_rings<Int>(ranks, for_each, [](Int e) { return e; });
 }
 
 /// Calls visit(number, ring) for each packed ring.
@@ -36,9 +40,9 @@ void for_each_ring(const Parcels& parcels, const Visit& visit) {
   for (const Int* at = words.begin(); at < words.end(); at += 2 + at[1]) visit(at[0], ring_at(at + 1));
 }
 
-/// Copies of the rings ring(i) of nodes 0..n-1. Throws std::bad_alloc.
-template <class Int, class GetRing>
-Stars<Int> copied_stars(std::size_t n, const GetRing& ring) {
+/// Copies of the rings ring(i) of nodes 0..n-1, with entries changed by entry(i, e). Throws std::bad_alloc.
+template <class Int, class GetRing, class Entry>
+Stars<Int> copied_stars(std::size_t n, const GetRing& ring, const Entry& entry) {
   Stars<Int> stars;
   std::size_t entries = 0;
   for (std::size_t i = 0; i < n; ++i) entries += 1 + ring(i).count;
@@ -54,12 +58,16 @@ Stars<Int> copied_stars(std::size_t n, const GetRing& ring) {
     place[i] = at;
     size_class[i] = RingTable<Int>::size_class_of(r.count);
     *at++ = static_cast<Int>(r.count);
-    at = std::copy(r.begin, r.begin + r.count, at);
+    at = std::transform(r.begin, r.begin + r.count, at, [&](Int e) { return entry(i, e); });
   }
   stars.of_node = RingTable<Int>(n, position, place, size_class);
   stars.memory.push_back(std::move(memory));
   stars.more_memory.push_back(std::move(rings));
   return stars;
+}
+template <class Int, class GetRing>
+Stars<Int> copied_stars(std::size_t n, const GetRing& ring) {
+  return copied_stars<Int>(n, ring, [](std::size_t, Int e) { return e; });
 }
 
 }  // namespace pstripack

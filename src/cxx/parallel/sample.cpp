@@ -8,11 +8,13 @@
 namespace pstripack {
 
 std::size_t sample_size(std::size_t nodes, std::size_t patches) {
-  return std::min(nodes, std::max(64 * patches, std::clamp<std::size_t>(nodes / 64, 256, 4096)));
+  constexpr std::size_t kMany = 4096;  // on many ranks, the work on the sample is more than that on the nodes
+  const std::size_t enough = std::max(std::min(64 * patches, kMany), 16 * patches);
+  return std::min(nodes, std::max(enough, std::clamp<std::size_t>(nodes / 64, 256, kMany)));
 }
 
-std::size_t share_of_sample(std::size_t of_rank, std::size_t wanted, std::size_t nodes) {
-  return (wanted * of_rank + nodes - 1) / nodes;
+std::size_t share_of_sample(std::size_t before, std::size_t of_rank, std::size_t wanted, std::size_t nodes) {
+  return wanted * (before + of_rank) / nodes - wanted * before / nodes;
 }
 
 void write_share(const LocalNodes& mine, std::size_t share, Record* sample) {
@@ -44,7 +46,7 @@ Partition partition_over_ranks(PartitionKind kind, int ranks, const std::vector<
   };
   std::vector<Record> sample;
   for (RankNumber r = 0; r < size; ++r) {
-    const std::size_t share = share_of_sample(nodes_of(r).count, wanted, n);
+    const std::size_t share = share_of_sample(slice_begin(n, r, size), nodes_of(r).count, wanted, n);
     sample.resize(sample.size() + share);
     write_share(nodes_of(r), share, sample.data() + sample.size() - share);
   }

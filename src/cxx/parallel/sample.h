@@ -12,11 +12,13 @@
 
 namespace pstripack {
 
-/// The size of the sample: 64 nodes a patch, more where that costs little beside the work on all nodes.
+/// The size of the sample: 64 nodes a patch, 16 if there are more than 256 patches; more where that costs
+/// little beside the work on all nodes.
 std::size_t sample_size(std::size_t nodes, std::size_t patches);
 
-/// How many of the `wanted` sample nodes come from a rank that brings `of_rank` of all `nodes` nodes.
-std::size_t share_of_sample(std::size_t of_rank, std::size_t wanted, std::size_t nodes);
+/// How many of the `wanted` sample nodes come from a rank that brings `of_rank` of all `nodes` nodes; the
+/// ranks before it bring `before`.
+std::size_t share_of_sample(std::size_t before, std::size_t of_rank, std::size_t wanted, std::size_t nodes);
 
 /// Cuts this rank's nodes into `share` runs and writes one node of each.
 void write_share(const LocalNodes& mine, std::size_t share, Record* sample);

@@ -37,9 +37,9 @@ float dot(const Four& a, const Four& b) {
 }  // namespace
 
 void Metric::set(const Neighbourhood& here, const Cells& cells) {
-  halo_.connect(here);
+  halo_ = Halo(here.owners, ranks_);
   stars_ = here.stars;
-  const std::size_t n = stars_.count, all = halo_.size();
+  const std::size_t n = stars_.count, all = n + here.owners.size();
   in_agreement(ranks_, [&] {
     spring_.resize(n == 0 ? 0 : stars_.end_of(n - 1));
     for (auto* const array : {&share_, &diagonal_}) array->resize(all);
@@ -48,7 +48,7 @@ void Metric::set(const Neighbourhood& here, const Cells& cells) {
   for_each(n, [&](std::size_t i) {
     share_[i] = cells.mass[i] / static_cast<double>(stars_.end_of(i) - stars_.begin_of(i));
   });
-  halo_.fill(share_);
+  fill(share_);
   for_each(all, [&](std::size_t i) { points_[i].f = four(here.points[i]); });
   for_each(n, [&](std::size_t i) {
     const Point& g = here.points[i];
@@ -86,7 +86,7 @@ void Metric::solve(std::vector<Point>& v) {
     ratio = 1 / (2 * kMiddle / kRadius - before);
     const auto of_step = static_cast<float>(ratio * before),
                of_rest = static_cast<float>(2 * ratio / kRadius);
-    halo_.fill(step_);
+    fill(step_);
     for_each(v.size(), [&](std::size_t i) {
       const Four g = points_[i].f, u = step_[i].f;
       Four force{0, 0, 0, 0};

@@ -28,16 +28,16 @@
 #include <cstddef>
 #include <vector>
 
+#include "parallel/halo.h"
 #include "scvt/cells.h"
 #include "scvt/evaluator.h"
-#include "scvt/halo.h"
 
 namespace pstripack::scvt {
 
 /// The metric of the generators of one level. All members are collective and throw AgreedFailure.
 class Metric {
  public:
-  explicit Metric(Communicator& ranks) : ranks_(ranks), halo_(ranks) {}
+  explicit Metric(Communicator& ranks) : ranks_(ranks) {}
 
   /// Sets the metric to that of these generators. Their lists must stay unchanged until the last solve().
   void set(const Neighbourhood& here, const Cells& cells);
@@ -50,6 +50,14 @@ class Metric {
   struct Vector {
     float f __attribute__((vector_size(16)));
   };
+
+  /// values: by point, those of the halo are set to what their owners have.
+  template <class Value>
+  void fill(std::vector<Value>& values) {
+    halo_.fetch<Value>(
+        ranks_, [&](LocalNode k) { return values[k]; },
+        [&](OutsideNode j, const Value& value) { values[stars_.count + index_of(j)] = value; });
+  }
 
   Communicator& ranks_;
   Halo halo_;

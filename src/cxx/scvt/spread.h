@@ -11,6 +11,7 @@
 
 #include "geometry/point.h"
 #include "parallel/communicator.h"
+#include "parallel/node_ranges.h"
 #include "scvt/cells.h"
 
 namespace pstripack::scvt {
@@ -25,6 +26,8 @@ struct Neighbourhood {
   const Point* points = nullptr;
   const std::int64_t* numbers = nullptr;
   NeighbourLists stars;  ///< of the points of this rank; neighbours are indices into the arrays above, from 1
+  /// Where the points of the halo are at home.
+  std::vector<NodeAddress> owners;
 };
 
 /// Numbers the points of all ranks along a space-filling curve on the sphere. Each rank gets a part of the
