@@ -86,7 +86,11 @@ void OwnStars::local_stars(std::int64_t* begin, std::int32_t* neighbour) const {
       const auto place = static_cast<std::int32_t>(index(std::abs(std::int64_t{entry}))) + 1;
       out[k] = entry < 0 ? -place : place;
     }
-    std::rotate(out, out + first_of(ring), out + ring.count);
+    if (out[ring.count - 1] < 0) return;
+    std::int32_t* const first = std::min_element(out, out + ring.count, [&](std::int32_t a, std::int32_t b) {
+      return number(static_cast<std::size_t>(a) - 1) < number(static_cast<std::size_t>(b) - 1);
+    });
+    std::rotate(out, first, out + ring.count);
   });
 }
 
