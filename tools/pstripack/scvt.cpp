@@ -806,8 +806,9 @@ Widths, in km, angles in degrees:
                                       km, which --grade may lengthen, smoothly to OUTER
 
 To continue a run, repeat its command with --start CHECKPOINT instead of N: the result has the same bits as without
-interruption. NetCDF files hold evaluations and density. Only NetCDF checkpoints other than mpas also hold the state
-of --method newton, which restarts from other files. A step takes one or more evaluations; the last step is finished.
+interruption, but for the history of the file. NetCDF files hold evaluations and density. Only NetCDF checkpoints other
+than mpas also hold the state of --method newton, which restarts from other files. A step takes one or more evaluations;
+the last step is finished.
 --from, --coordinates and --units apply to both input files.
 
 )" + sub->get_footer());

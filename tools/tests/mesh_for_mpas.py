@@ -32,5 +32,5 @@ for line in ("the widths give [0-9]+ cells", "converged to 0.0001",
              r"area over 4 pi: (1\.0{12}|0\.9{12}); obtuse triangles: 0"):
     assert re.search(line, told), line + " is not in\n" + told
 assert "limited" not in told, told
-for file in ("asked.svg", "got.svg", "mesh.graph.info"):
+for file in ("asked.svg", "got.svg", "ratio.svg", "mesh.graph.info"):
     assert (FOLDER / file).stat().st_size > 1000, file
