@@ -58,6 +58,7 @@ struct Options {
   bool well_centred = false;  ///< move generators until all triangles hold their circumcentre
   bool strict = false;
   std::int64_t evaluations = 10000, every = 100;
+  std::string history;  ///< of --start
   Output output, checkpoint{"", "", files::Format::netcdf};
 };
 
@@ -294,6 +295,8 @@ files::Notes notes_of(const Options& options, const State& state, const engine::
   notes[kSteps] = std::to_string(state.steps);
   notes["scvt_gradient"] = fmt::format("{}", reached.gradient);
   notes["scvt_energy"] = fmt::format("{}", reached.energy);
+  notes["history"] = options.history;
+  add_history(notes);
   return notes;
 }
 
@@ -366,16 +369,15 @@ Tessellation tessellation_of(Communicator& ranks, files::Nodes& start, const Opt
   return t;
 }
 
-/// What an MPAS mesh has beside other meshes: a density of at most 1, and the command.
-void complete_mpas(files::Mesh& mesh) {
-  const double largest = *std::max_element(mesh.density.begin(), mesh.density.end());
-  for (double& density : mesh.density) density /= largest;
-  add_history(mesh.notes);
+/// The density of an MPAS mesh is at most 1.
+void scale_density(std::vector<double>& densities) {
+  const double largest = *std::max_element(densities.begin(), densities.end());
+  for (double& density : densities) density /= largest;
 }
 
 void write(const Output& output, files::Mesh& mesh) {
   files::OutputFile file(output.file);
-  if (output.format == files::Format::mpas) complete_mpas(mesh);
+  if (output.format == files::Format::mpas) scale_density(mesh.density);
   if (!files::holds_nodes(output.format))
     write_mesh(file, output, mesh);
   else
@@ -440,6 +442,16 @@ std::string duration(double seconds) {
   return fmt::format("{:.1f} h", seconds / 3600);
 }
 
+/// Says that levels give the refined icosahedron, if N and the density allow it. A front never does.
+void suggest_levels(const Options& options) {
+  if (options.density != "constant") return;
+  int k = 0;
+  std::size_t power = 1;
+  for (; 10 * power + 2 < options.n; ++k) power *= 4;
+  if (10 * power + 2 == options.n)
+    say(fmt::format("N = 10 4^{} + 2: with --first levels all cells but 12 pentagons are hexagons", k));
+}
+
 /// The generators of a new run, those of the last level if there are levels. Collective.
 Tessellation first_tessellation(const Options& options, engine::Evaluator& evaluator, Progress& progress) {
   const bool is_alone = evaluator.ranks().size() == 1;
@@ -453,6 +465,7 @@ Tessellation first_tessellation(const Options& options, engine::Evaluator& evalu
                       "--evaluations 0 -o "
                       "start.nodes.nc`, with the same density; then ranks begin with --start start.nodes.nc",
                       options.n));
+    if (options.first == First::by_number) suggest_levels(options);
     Tessellation t;
     t.state.generators = engine::front_generators(options.n, evaluator.density());
     t.numbers.resize(options.n);
@@ -613,6 +626,7 @@ void scvt(Options& options, Ranks& ranks) {
   files::Nodes start;
   if (!options.start.file.empty())
     start = progress.step("reading", [&] { return read_start(communicator, options); });
+  options.history = note(start.notes, "history");
   in_agreement_with_caller(communicator, [&] { choose_density(options, start.notes); });
   std::unique_ptr<engine::Density> density;
   progress.step("reading the density",
@@ -792,8 +806,9 @@ Widths, in km, angles in degrees:
                                       km, which --grade may lengthen, smoothly to OUTER
 
 To continue a run, repeat its command with --start CHECKPOINT instead of N: the result has the same bits as without
-interruption. NetCDF files hold evaluations and density. Only NetCDF checkpoints other than mpas also hold the state
-of --method newton, which restarts from other files. A step takes one or more evaluations; the last step is finished.
+interruption, but for the history of the file. NetCDF files hold evaluations and density. Only NetCDF checkpoints other
+than mpas also hold the state of --method newton, which restarts from other files. A step takes one or more evaluations;
+the last step is finished.
 --from, --coordinates and --units apply to both input files.
 
 )" + sub->get_footer());
