@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <type_traits>
@@ -123,9 +124,19 @@ std::string describe(const Abi& abi) {
   return text.str();
 }
 
+/// What to do with a file that dlopen refuses because it is an archive; else nothing.
+static std::string advice_for(const std::string& file) {
+  std::string begin(8, ' ');
+  std::ifstream(file).read(&begin[0], 8);
+  return begin != "!<arch>\n" ? ""
+                              : "; it is an archive: make a shared library, as by `gfortran -shared -fPIC -o "
+                                "libstripack.so stripack.f`, with the options of your model";
+}
+
 Library::Library(const std::string& file, Abi abi)
     : handle_(dlopen(file.c_str(), kOpenFlags)), file_(file), abi_(abi) {
-  if (!handle_) throw std::runtime_error("cannot load the original: " + std::string(dlerror()));
+  if (!handle_)
+    throw std::runtime_error("cannot load the original: " + std::string(dlerror()) + advice_for(file));
   // CRLIST of NCAR Graphics has other arguments (ngmath_crlist.c).
   trmesh_ = routine("trmesh");
   if (!trmesh_) trmesh_ = symbol("cstrmesh_");

@@ -22,6 +22,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 : > "$work/found"     # lines: symbol and defining file; "?": unknown, "-": undefined
 : > "$work/examined"  # files examined as part of a program or library
+: > "$work/misled"    # planar libraries that LD_PRELOAD makes call another TRMESH, and whose
 
 is_elf() { [ "$(head -c 4 "$1" | tail -c 3)" = ELF ]; }
 symbol_of() { echo "$1_" | tr '[:upper:]' '[:lower:]'; }
@@ -34,12 +35,19 @@ has() {
     awk -v symbols="$symbols" -v types="^[$2]\$" -v file="$1" '$1 ~ symbols && $2 ~ types { print $1, file }'
 }
 
-# ask_loader FILE: writes the loader's report to $work/loader
-ask_loader() {
+# Routines of the planar TRIPACK that STRIPACK does not have.
+is_planar() { { nm -P "$1"; nm -DP "$1"; } 2> /dev/null | grep -qE '^(addcst|trmshr)_ [TtWi] '; }
+
+# bindings FILE: prints the loader's report
+bindings() {
   loader=$(interpreter_of "$1")
   [ -n "$loader" ] || loader=$(interpreter_of "$(readlink -f /bin/sh)")  # a shared library names no loader
-  env -u LD_DEBUG_OUTPUT LD_TRACE_LOADED_OBJECTS=1 LD_WARN=yes LD_BIND_NOW=yes LD_DEBUG=bindings "$loader" "$1" \
-    > "$work/loader" 2>&1 || fail "$1 cannot be loaded: $(grep -v 'binding file' "$work/loader" | tail -n 1)"
+  env -u LD_DEBUG_OUTPUT LD_TRACE_LOADED_OBJECTS=1 LD_WARN=yes LD_BIND_NOW=yes LD_DEBUG=bindings "$loader" "$1" 2>&1
+}
+
+# ask_loader FILE: writes the loader's report to $work/loader
+ask_loader() {
+  bindings "$1" > "$work/loader" || fail "$1 cannot be loaded: $(grep -v 'binding file' "$work/loader" | tail -n 1)"
   grep -q 'binding file' "$work/loader" || fail "$loader does not report bindings; the GNU C library's loader does"
 }
 
@@ -64,6 +72,15 @@ examine() {
       [ "$file" = - ] || file=$(readlink -f "$file")
       echo "$symbol $file"
     done >> "$work/found"
+
+  # The loader has just taken the file for the program itself, whose routines come first. Where a planar library is
+  # loaded, those of LD_PRELOAD come before its own. Paths in LD_PRELOAD must not contain blanks.
+  if [ -n "${LD_PRELOAD:-}" ] && is_planar "$1"; then
+    ln -sf "$1" "$work/planar.so"
+    LD_PRELOAD=$LD_PRELOAD:$work/planar.so bindings "$(readlink -f /bin/sh)" |
+      sed -n "s|.*binding file $work/planar.so \[[0-9]*\] to \(.*\) \[[0-9]*\]: normal symbol \`trmesh_'.*|\1|p" |
+      while read -r file; do is_planar "$file" || echo "$1 calls TRMESH of $file"; done >> "$work/misled"
+  fi
 
   # Calls within a file: a library may call its hidden symbols, a program all of its symbols.
   while read -r library; do has "$library" t; done < "$work/loaded" >> "$work/found"
@@ -136,9 +153,6 @@ compare_kinds() {
   return 1
 }
 
-# Routines of the planar TRIPACK that STRIPACK does not have.
-is_planar() { { nm -P "$1"; nm -DP "$1"; } 2> /dev/null | grep -qE '^(addcst|trmshr)_ [TtWi] '; }
-
 status=0
 sort -u "$work/found" -o "$work/found"
 for routine in $routines; do
@@ -167,6 +181,9 @@ done | {
         fi ;;
     esac
     printf '%-6s  %s\n' "$routine" "$answer"
+  done
+  sort -u "$work/misled" | while read -r line; do
+    echo "pstripack-config --check: the planar TRIPACK $line; LD_PRELOAD causes this: unset it" >&2
   done
   if ! [ -s "$work/found" ]; then
     echo "pstripack-config --check: $name calls none of them; of what it loads while it runs, ask by its process" >&2

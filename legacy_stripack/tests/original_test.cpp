@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <fstream>
 #include <random>
 #include <thread>
 
@@ -184,6 +185,17 @@ TEST(library, of_64_bit_integers_is_the_same_as_of_32) {
   EXPECT_EQ(i8.list, r8.list);
   EXPECT_EQ(i8.lptr, r8.lptr);
   EXPECT_EQ(i8.lend, r8.lend);
+}
+
+TEST(library, says_what_to_do_with_an_archive) {
+  const std::string archive = testing::TempDir() + "original.a";
+  std::ofstream(archive) << "!<arch>\n";
+  try {
+    const Library library(archive, kR8);
+    FAIL() << "an archive is loaded";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("gfortran -shared"), std::string::npos) << error.what();
+  }
 }
 
 TEST(abi_adapter, has_the_r8_symbols_and_passes_calls_on) {

@@ -17,6 +17,9 @@ class Pstripack(CMakePackage):
     version("0.1.0")
 
     variant("mpi", default=True, description="The libraries for MPI programs, and pstripack-run")
+    variant("openmp", default=True, description="Threads")
+    variant("shared", default=True, description="Dependents link the shared libraries; the archives are installed, too")
+    variant("python", default=False, description="The Python package")
     variant("tools", default=False, description="The commands pstripack and stripack-compare")
 
     depends_on("c", type="build")
@@ -30,12 +33,43 @@ class Pstripack(CMakePackage):
     depends_on("nlohmann-json", type="build", when="+tools")
     depends_on("fmt", when="+tools")
     depends_on("netcdf-c", when="+tools")
+    depends_on("py-pybind11@2.9:", type="build", when="+python")
+    depends_on("py-numpy", type=("build", "run"), when="+python")
+
+    extends("python@3.8:", when="+python")
 
     def cmake_args(self):
-        return [
+        args = [
             self.define_from_variant("PSTRIPACK_WITH_MPI", "mpi"),
             self.define_from_variant("PSTRIPACK_TOOLS", "tools"),
+            self.define_from_variant("PSTRIPACK_PYTHON", "python"),
+            self.define("CMAKE_DISABLE_FIND_PACKAGE_OpenMP", self.spec.satisfies("~openmp")),
             self.define("PSTRIPACK_TESTS", False),
             self.define("PSTRIPACK_EXAMPLES", False),
-            self.define("PSTRIPACK_PYTHON", False),
         ]
+        if self.spec.satisfies("+python"):
+            args.append(self.define("PSTRIPACK_PYTHON_DIR", python_platlib))
+        return args
+
+    @property
+    def libs(self):
+        return find_libraries(
+            ["libstripack", "libpstripack"],
+            root=self.prefix,
+            shared=self.spec.satisfies("+shared"),
+            recursive=True,
+        )
+
+    @run_after("install")
+    @on_package_attributes(run_tests=True)
+    def check_install(self):
+        """A Fortran 77 program links with the installed library and prints the right area."""
+        config = Executable(self.prefix.bin.join("pstripack-config"))
+        flags = config("--libs", output=str).split()
+        libdir = next(flag[2:] for flag in flags if flag.startswith("-L"))
+        source = join_path(self.stage.source_path, "examples", "fortran77", "mesh.f")
+        with working_dir(self.build_directory):
+            Executable(self.compiler.fc)(source, "-o", "mesh", *flags, f"-Wl,-rpath,{libdir}")
+            output = Executable("./mesh")(output=str)
+        if "1000 nodes, 1996 triangles, area 12.566371" not in output:
+            raise InstallError(f"the installed library is wrong: {output}")

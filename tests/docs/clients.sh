@@ -34,11 +34,15 @@ ln -s "$libraries/libstripack_8arg.so" switch/8arg/libstripack.so
 ln -s "$compare" bin/stripack-compare
 export PATH="$work/bin:$PATH"
 
-# run PAGE TEXT: runs the block of commands of the page that contains TEXT
-run() {
+# page PAGE TEXT: prints the block of commands of the page that contains TEXT
+page() {
   awk -v text="$2" '/^```/ { if (inside && index(block, text)) { printf "%s", block; found = 1 }
-                             inside = /^```sh/; block = ""; next }
-                    inside { block = block $0 "\n" } END { exit !found }' "$pages/$1" > commands || fail "$1 has no $2"
+                             inside = /^```[a-z]/; block = ""; next }
+                    inside { block = block $0 "\n" } END { exit !found }' "$pages/$1" || fail "$1 has no $2"
+}
+# run PAGE TEXT: runs that block
+run() {
+  page "$1" "$2" > commands
   sh -eu commands > out 2> err || fail "$1: $(cat commands)"
 }
 # has FILE TEXT: fails unless the file contains TEXT
@@ -117,6 +121,90 @@ has out 'IER 99'
 run stripy.md LD_PRELOAD
 has out 'IER 0'
 has err 'pstripack: threads n=6 '
+cc -shared -fPIC -w extension.c -o _stripack.so -Wl,--no-as-needed -L"$libraries" -lstripack_8arg -Wl,-rpath,"$libraries"
+python3 script.py > out
+has out 'IER 99'  # a library that the module needs does not replace its own routine
+
+echo "== an extension of Python beside a planar module with routines of the same names"
+mkdir stripy
+cc -shared -fPIC -w extension.c -o stripy/_stripack.so
+cat > planar.c << 'EOF'
+void trmesh_(int *n) { *n = 77; }
+void addcst_(void) {}
+int triangulate(void) { int n = 3; trmesh_(&n); return n; }
+EOF
+cc -shared -fPIC -w planar.c -o stripy/_tripack.so
+cat > stripy/__init__.py << 'EOF'
+import ctypes
+print("sphere", ctypes.CDLL(__path__[0] + "/_stripack.so").triangulate(), flush=True)
+print("plane", ctypes.CDLL(__path__[0] + "/_tripack.so").triangulate(), flush=True)
+EOF
+page stripy.md 'import stripy' > script.py
+PSTRIPACK_REPORT=1 python3 script.py > out 2> err || fail "the lines of stripy.md"
+has out 'sphere 0'
+has out 'plane 77'
+has err 'pstripack: threads n=6 '
+# The trap: the planar module passes one argument to our TRMESH.
+if LD_PRELOAD=$PWD/switch/8arg/libstripack.so python3 -c 'import stripy' > out 2> err && grep -q 'plane 77' out; then
+  fail "LD_PRELOAD does no harm to a planar module"
+fi
+
+echo "== changed copies"
+mkdir changed
+echo 'static void trmesh_(long *n) { *n = 55; } static void another_(long *n) { trmesh_(n); }' > changed/copy.c
+cat > changed/program.c << 'EOF'
+int main(void) {
+  int64_t n = 6, list[24], lptr[24], lend[6], lnew, near[6], next[6], ier = 99, copy;
+  double x[] = {1, 0, 0, -1, 0, 0}, y[] = {0, 1, 0, 0, -1, 0}, z[] = {0, 0, 1, 0, 0, -1}, dist[6];
+  trmesh_(&n, x, y, z, list, lptr, lend, &lnew, near, next, dist, &ier);
+  another_(&copy);
+  return printf("IER %d, another %d\n", (int)ier, (int)copy) < 0;
+}
+EOF
+{ printf '#include <stdint.h>\n#include <stdio.h>\n'; page changed.md 'copy.c'; cat changed/program.c; } > changed/gmt.c
+# shellcheck disable=SC2046  # lists of words on purpose
+cc changed/gmt.c -o gmt $(pkg-config --libs stripack_i8) && ./gmt > out
+has out 'IER 0, another 55'
+{
+  cat << 'EOF'
+module mpl_of_fork
+  type mpl_type
+  contains
+    procedure :: abort => abort_with
+  end type
+contains
+  subroutine abort_with(mpl, name, ier)
+    class(mpl_type), intent(inout) :: mpl
+    character(*), intent(in) :: name
+    integer, intent(in) :: ier
+    print '(2a, i0)', name, ' ', ier
+  end subroutine
+end module
+module fork
+  use mpl_of_fork
+  implicit none
+contains
+EOF
+  page changed.md 'exact_trmesh'
+  cat << 'EOF'
+end module
+  use fork
+  type(mpl_type) :: mpl
+  integer, parameter :: n = 6
+  real(8) :: x(n) = [1,0,0,-1,0,0], y(n) = [0,1,0,0,-1,0], z(n) = [0,0,1,0,0,-1], dist(n)
+  integer :: list(6*n-12), lptr(6*n-12), lend(n), lnew, near(n), next(n)
+  call trmesh(mpl, n, x, y, z, list, lptr, lend, lnew, near, next, dist)
+  print '(a, i0)', 'LNEW ', lnew
+  x = 1; y = 0; z = 0
+  call trmesh(mpl, n, x, y, z, list, lptr, lend, lnew, near, next, dist)
+end
+EOF
+} > changed/fork.f90
+# shellcheck disable=SC2046  # lists of words on purpose
+gfortran changed/fork.f90 -J changed -o forked $(pkg-config --cflags stripack) $(pkg-config --libs stripack)
+./forked > out
+has out 'LNEW 25'
+has out 'trmesh -2'
 
 if ! echo 'end' | gfortran -x f95 - -lngmath -o empty 2> /dev/null; then
   echo "== NCAR Graphics: no libngmath, not tried"

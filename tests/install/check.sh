@@ -134,6 +134,9 @@ check 0 "$(each "$some" "ours (libstripack): $ours_r8")" wide
 gfortran model.f90 tripack.f90 -o planar
 check 1 "$(each "$all" "NOT OURS: in the program itself")" planar
 says "planar is the planar TRIPACK: remove it from the link line"
+gfortran -shared -fPIC model.f90 tripack.f90 -o _tripack.so
+answers 1 "$(each "$all" "NOT OURS: in the program itself")" env LD_PRELOAD="$switch/libstripack.so" "$config" --check _tripack.so
+says "the planar TRIPACK $PWD/_tripack.so calls TRMESH of $switch/libstripack.so"
 
 # As a shared library: the first one found is used; the environment decides.
 gfortran model.o -o first "$PWD/old/libstripack.so" $($config --libs) -Wl,-rpath,"$libdir"
@@ -200,6 +203,8 @@ process 1 "$(each "$all" "NOT OURS: $PWD/libhidden.so")" ./host ./libhidden.so
 process 1 "$(each "TRMESH TRFIND" "NOT OURS: $old")" env LD_LIBRARY_PATH=old ./calling_host
 process 0 "$(each TRMESH "ours (libstripack): $ours_r8")" env LD_LIBRARY_PATH="$switch" ./calling_host
 process 1 "" ./host
+process 1 "$(each "$all" "NOT OURS: $PWD/_tripack.so")" env LD_PRELOAD="$switch/libstripack.so" ./host ./_tripack.so
+says "the planar TRIPACK $PWD/_tripack.so calls TRMESH of $switch/libstripack.so; LD_PRELOAD causes this: unset it"
 
 # refused TEXT QUESTION...
 refused() {

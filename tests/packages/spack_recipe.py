@@ -1,20 +1,50 @@
 #!/usr/bin/env python3
 """Runs the recipe for Spack with a stand-in for Spack. It must be correct Python, have the project's version, name existing
-variants in conditions, pass existing options to CMake, and depend on all that CMake looks for.
+variants in conditions, pass existing options to CMake, depend on all that CMake looks for, and accept the package
+installed in PREFIX.
 
-  spack_recipe.py ROOT
+  spack_recipe.py ROOT PREFIX WORK_DIR
 """
+import contextlib
+import os
 import re
+import subprocess
 import sys
 import types
 from pathlib import Path
 
-ROOT = Path(sys.argv[1])
+ROOT, PREFIX, WORK_DIR = map(Path, sys.argv[1:])
 recipe = ROOT / "packaging/spack/package.py"
 versions, variants, dependencies, conditions = [], {}, {}, []
 
 
+class Spec:
+    def satisfies(self, condition):
+        assert condition[1:] in variants, condition
+        return variants[condition[1:]] == (condition[0] == "+")
+
+
+class Executable:
+    def __init__(self, path):
+        self.path = path
+
+    def __call__(self, *arguments, output=None):
+        return subprocess.run([self.path, *arguments], check=True, text=True, stdout=subprocess.PIPE).stdout
+
+
+def find_libraries(names, root, shared, recursive):
+    found = [list(root.rglob(name + (".so" if shared else ".a"))) for name in names]
+    assert recursive and all(found), found
+    return found
+
+
 class CMakePackage:
+    spec = Spec()
+    prefix = types.SimpleNamespace(bin=types.SimpleNamespace(join=lambda name: PREFIX / "bin" / name), rglob=PREFIX.rglob)
+    stage = types.SimpleNamespace(source_path=ROOT)
+    compiler = types.SimpleNamespace(fc="gfortran")
+    build_directory = WORK_DIR
+
     def define(self, name, value):
         return name, value
 
@@ -33,8 +63,19 @@ def depends_on(spec, type=("build", "link"), when=None):
     conditions.append(when)
 
 
+@contextlib.contextmanager
+def working_dir(folder):
+    folder.mkdir(parents=True, exist_ok=True)
+    before = os.getcwd()
+    os.chdir(folder)
+    yield
+    os.chdir(before)
+
+
 names = {"CMakePackage": CMakePackage, "version": versions.append, "variant": variant, "depends_on": depends_on,
-         "license": lambda name: None}
+         "license": lambda name: None, "extends": depends_on, "Executable": Executable, "find_libraries": find_libraries,
+         "run_after": lambda phase: lambda method: method, "on_package_attributes": lambda run_tests: lambda method: method,
+         "join_path": os.path.join, "working_dir": working_dir, "InstallError": RuntimeError, "python_platlib": "platlib"}
 spack, package = types.ModuleType("spack"), types.ModuleType("spack.package")
 package.__dict__.update(names)
 sys.modules.update({"spack": spack, "spack.package": package})
@@ -48,8 +89,17 @@ assert dependencies["cmake"] == f"cmake@{re.search(r'cmake_minimum_required.VERS
 for condition in filter(None, conditions):
     assert condition[0] in "+~" and condition[1:] in variants, condition
 
-options = set(re.findall(r"(?m)^option\((\w+)", project))
-given = dict(scope["Pstripack"]().cmake_args())
+options = set(re.findall(r"(?m)^option\((\w+)", project)) | {"PSTRIPACK_PYTHON_DIR", "CMAKE_DISABLE_FIND_PACKAGE_OpenMP"}
+pstripack = scope["Pstripack"]()
+for name in variants:  # each variant on and off
+    variants[name] = not variants[name]
+    pstripack.cmake_args()
+    pstripack.libs
+    variants[name] = not variants[name]
+variants["python"] = True
+given = dict(pstripack.cmake_args())
+variants["python"] = False
+pstripack.check_install()
 assert set(given) <= options, f"no such options: {set(given) - options}"
 assert given["PSTRIPACK_WITH_MPI"] == "mpi" and given["PSTRIPACK_TOOLS"] == "tools", given
 

@@ -1,0 +1,14 @@
+# The release: `cmake --build build --target dist` writes pstripack-VERSION.tar.gz, of the last commit, and its checksum.
+# Usage: cmake -DSOURCE_DIR=... -DOUTPUT_DIR=... -DVERSION=... -P dist.cmake
+find_program(GIT git REQUIRED)
+set(name pstripack-${VERSION})
+execute_process(COMMAND ${GIT} -C ${SOURCE_DIR} status --porcelain OUTPUT_VARIABLE changes COMMAND_ERROR_IS_FATAL ANY)
+if(changes)
+  message(WARNING "not in ${name}.tar.gz, because not committed:\n${changes}")
+endif()
+file(MAKE_DIRECTORY ${OUTPUT_DIR})
+execute_process(COMMAND ${GIT} -C ${SOURCE_DIR} archive --format=tar.gz --prefix=${name}/ -o ${OUTPUT_DIR}/${name}.tar.gz HEAD
+                COMMAND_ERROR_IS_FATAL ANY)
+file(SHA256 ${OUTPUT_DIR}/${name}.tar.gz sum)
+file(WRITE ${OUTPUT_DIR}/${name}.tar.gz.sha256 "${sum}  ${name}.tar.gz\n")
+message(STATUS "${OUTPUT_DIR}/${name}.tar.gz ${sum}")
