@@ -16,7 +16,7 @@ namespace pstripack {
 enum class FirstPair { first_and_second, last_and_first };
 
 /// A hash of t; 0 for 0. Used in sums over triangles that show whether the rings agree: sums of the numbers
-/// themselves could agree by chance.
+/// themselves could agree by chance. With splitmix64 TRLIST would take a tenth longer.
 template <class Number>
 std::uint64_t randomised(Number t) {
   const std::uint64_t product = static_cast<std::uint64_t>(t) * 0x9e3779b97f4a7c15u;
