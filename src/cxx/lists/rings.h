@@ -43,7 +43,7 @@ class Rings {
   /// The entry of LIST: negative where there is no triangle left of the arc.
   Int entry(Int arc) const { return entry_[arc]; }
   Int target(Int arc) const { return neighbour_in(entry_[arc]); }
-  void prefetch(Int arc) const { __builtin_prefetch(entry_ + arc); }
+  [[gnu::always_inline]] void prefetch(Int arc) const { __builtin_prefetch(entry_ + arc); }
   /// The arcs after and before an arc of a node, counterclockwise. Without branches, because these would be
   /// unpredictable.
   Int after(Int node, Int arc) const { return arc + 1 - (-Int{arc + 1 == end(node)} & degree(node)); }
