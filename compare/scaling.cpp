@@ -57,7 +57,7 @@ struct Settings {
   double change = 0;  ///< fraction of the points that change ranks before each call of a moving mesh
   bool warm = false;  ///< calls may reuse the mesh of the last call
   bool per_rank = false;
-  bool again = false;  ///< calls of TRMESH in a pool may begin with what the last one has left
+  bool again = false;  ///< calls of TRMESH in a pool may begin with the mesh of the last one
 
   bool is_of_pool() const { return mode == "pool" || mode == "messages"; }
   bool is_first_call() const { return !warm && !(again && is_of_pool()); }
@@ -634,8 +634,8 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_flag(
       "--again", s.again,
-      "modes pool and messages: calls, also the serial one, may begin with the mesh or the patches of "
-      "the last one, as in a model that calls TRMESH again on nodes that have hardly moved");
+      "modes pool and messages: calls, also the serial one, may begin with the mesh of the last one, as in "
+      "a model that calls TRMESH again on nodes that have hardly moved");
   app.add_option("--csv", t.csv, "also add rows, in seconds, to this file");
   app.add_option("--mode", s.mode, "no tables: one run of this mode on the ranks of this mpirun")
       ->check(CLI::IsMember(with_moving(kAllModes)));

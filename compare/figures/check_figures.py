@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""usage: check_figures.py FIGURES_MD FOLDER
+"""usage: check_figures.py FOLDER DOCUMENT...
 
-Fails unless the document embeds every picture of the folder, and each embedded picture is there as SVG and PNG, is
+Fails unless the documents embed every picture of the folder and no other one, and each is there as SVG and PNG, is
 well-formed, and says what is projected, or that nothing is, or that it is of one process."""
 import re
 import sys
@@ -12,12 +12,12 @@ NOTES = ("projected from processor time on the critical path", "One process.", "
 
 
 def main():
-    if len(sys.argv) != 3:
+    if len(sys.argv) < 3:
         print(__doc__, file=sys.stderr)
         sys.exit(2)
-    document, folder = Path(sys.argv[1]).read_text(), Path(sys.argv[2])
-    embedded = {Path(name).stem for name in re.findall(r"\]\(figures/([^)]+)\)", document)}
-    wrong = [f"{svg.name} is not in the document" for svg in folder.glob("*.svg") if svg.stem not in embedded]
+    folder, documents = Path(sys.argv[1]), [Path(name).read_text() for name in sys.argv[2:]]
+    embedded = {Path(name).stem for document in documents for name in re.findall(r"\]\(figures/([^)]+)\)", document)}
+    wrong = [f"{svg.name} is in no document" for svg in folder.glob("*.svg") if svg.stem not in embedded]
     for name in sorted(embedded):
         svg, png = folder / f"{name}.svg", folder / f"{name}.png"
         if not svg.exists() or not png.exists():
@@ -29,7 +29,7 @@ def main():
         if not png.read_bytes().startswith(b"\x89PNG"):
             wrong.append(f"{name}.png is no PNG")
     if wrong or not embedded:
-        sys.exit("\n".join(wrong or ["the document embeds no figure"]))
+        sys.exit("\n".join(wrong or ["the documents embed no figure"]))
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ class Plan:
     constant_n: tuple   # those of `sizes` that are drawn over the number of processes
     work: int           # nodes per process in the figures of constant work
     ranks: tuple
-    pictures: tuple     # of (nodes, processes)
+    picture: tuple      # of patches: nodes, processes
     repeats: int
     curve_time_limit: float  # seconds of one measurement
     time_limit: float        # the same for several processes, and for the original in these figures
@@ -26,10 +26,10 @@ class Plan:
 
 FULL = Plan(curve_sizes=(100, 1000, 10_000, 100_000, 1_000_000, 10_000_000),
             sizes=(10_000, 30_000, 100_000, 300_000, 1_000_000), constant_n=(100_000, 1_000_000), work=10_000,
-            ranks=(1, 2, 4, 8, 16, 32, 64), pictures=((10_000, 8), (10_000, 16), (20_000, 32)), repeats=3,
+            ranks=(1, 2, 4, 8, 16, 32, 64), picture=(10_000, 16), repeats=3,
             curve_time_limit=30, time_limit=60, generators=40_000, evaluations=3000)
 QUICK = Plan(curve_sizes=(100, 300), sizes=(2000,), constant_n=(2000,), work=500, ranks=(1, 4),
-             pictures=((1000, 8), (1000, 16), (2000, 32)), repeats=1,
+             picture=(1000, 16), repeats=1,
              curve_time_limit=5, time_limit=20, generators=3000, evaluations=50)
 
 
@@ -92,9 +92,9 @@ def _run_ours(plan, program, data):
         tables(family, "constant-n", "messages", plan.sizes)
         tables(family, "constant-n", "distributed", plan.constant_n)
         tables(family, "constant-work", "messages,distributed", [plan.work])
-    for n, ranks in plan.pictures:
-        _must_run([*_mpirun(ranks), program, "--mode", "distributed", "--repeats", 1, "--n", n, "--owners",
-                   data / f"owners-ours-{n}-{ranks}.csv"], stdout=sys.stderr)
+    n, ranks = plan.picture
+    _must_run([*_mpirun(ranks), program, "--mode", "distributed", "--repeats", 1, "--n", n, "--owners",
+               data / f"owners-ours-{n}-{ranks}.csv"], stdout=sys.stderr)
 
 
 def _baseline(program, ranks, family, n, time_limit, *options):
@@ -118,9 +118,9 @@ def _run_baseline(plan, program, data):
             for n in sorted({*plan.sizes, plan.work * ranks}):
                 if not _baseline(program, ranks, family, n, plan.time_limit, *times):
                     break  # larger ones take longer
-    for n, ranks in plan.pictures:
-        _baseline(program, ranks, "random", n, plan.time_limit, "--check", "--csv", data / "baseline-check.csv",
-                  "--owners", data / f"owners-baseline-{n}-{ranks}.csv")
+    n, ranks = plan.picture
+    _baseline(program, ranks, "random", n, plan.time_limit, "--check", "--csv", data / "baseline-check.csv",
+              "--owners", data / f"owners-baseline-{n}-{ranks}.csv")
 
 
 def measure(plan, build, data):

@@ -193,7 +193,7 @@ interfaces; `use stripack` provides interfaces.
 
 Unless a page says otherwise:
 
-- Every library has the routine. Nodes and slots count from 1; angles are in radians, lengths in units of the radius.
+- Every library has the routine. Nodes and [slots](../glossary.md) count from 1; angles are in radians, lengths in units of the radius.
 - Sizes are the smallest allowed; 6N-12 elements always suffice for LIST and LPTR. If *LIST, LPTR, LEND* share a row, LIST and
   LPTR have the first size, LEND the second. *in/out* is read and changed.
 - No routine is collective: in an MPI program any number of ranks may call any number of times (TRMESH is collective on

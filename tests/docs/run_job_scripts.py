@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Tests the job scripts for Slurm and PBS in docs/modes.md, one each per mode. Each must be correct bash and have its
-directives before the first command. With --run, each must do what its mode says: the model runs once, or on every rank,
-with the threads of a rank. mpirun and pstripack-run are real; this program sets the variables of the batch system.
+"""Tests the job scripts for Slurm and PBS in docs/modes.md, one each, with a last line for each mode. Each must be
+correct bash and have its directives before the first command. With --run, each must do what its mode says: the model
+runs once, or on every rank, with the threads of a rank. mpirun and pstripack-run are real; this program sets the
+variables of the batch system.
 
   run_job_scripts.py MODES.MD WORK_DIR [--run]
 """
@@ -36,13 +37,16 @@ def check_run(script, system, folder):
 
 def main():
     text, work, run = Path(sys.argv[1]).read_text(), Path(sys.argv[2]), sys.argv[3:] == ["--run"]
-    modes = re.findall(r"^## (Threads|Pool|Comm|Distributed)\n(.*?)(?=^## )", text, re.MULTILINE | re.DOTALL)
-    assert len(modes) == 4
-    for mode, section in modes:
-        scripts = re.findall(r"^```sh\n(#!.*?)^```", section, re.MULTILINE | re.DOTALL)
-        assert len(scripts) == len(SETTINGS), f"{mode}: {len(scripts)} job scripts"
-        for system, script in zip(SETTINGS, scripts):
-            folder = work / f"{mode}-{system}"
+    section = re.search(r"^## Job scripts\n(.*)", text, re.MULTILINE | re.DOTALL)[1]
+    scripts = re.findall(r"^```sh\n(#!.*?)^```", section, re.MULTILINE | re.DOTALL)
+    assert len(scripts) == len(SETTINGS), f"{len(scripts)} job scripts"
+    for system, whole in zip(SETTINGS, scripts):
+        last_lines = re.findall(r"^(.*\S) +# (threads|pool|comm, distributed)\n", whole, re.MULTILINE)
+        assert len(last_lines) == 3, f"{system}: {len(last_lines)} last lines"
+        head = whole[:whole.index(last_lines[0][0])]
+        for command, mode in last_lines:
+            script = f"{head}{command}\n"
+            folder = work / f"{mode[:4]}-{system}"
             folder.mkdir(parents=True, exist_ok=True)
             (folder / "job").write_text(script)
             (folder / "model").write_text(MODEL)

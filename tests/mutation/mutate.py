@@ -37,10 +37,10 @@ SUBJECTS = {
     "src/cxx/geometry/predicates.cpp": ("constexpr double u", "}  // namespace pstripack", [QUICK, LONGER, KERNEL]),
     "src/cxx/geometry/directions.cpp": ("double largest(", "}  // namespace pstripack", [QUICK, LONGER, KERNEL]),
     "src/cxx/geometry/exact.h": ("constexpr int kSmallBits", "}  // namespace pstripack::exact", [QUICK, LONGER]),
-    "src/cxx/geometry/predicates.h": ("inline bool length_is_one", "/// Counts since", [QUICK, KERNEL]),
+    "src/cxx/geometry/predicates.h": ("inline bool length_is_one", "/// Counts in this thread since", [QUICK, KERNEL]),
     "src/cxx/mesh/flips.cpp": ("struct Spokes {", "}  // namespace pstripack", [FLIPS]),
-    "src/cxx/trmesh/warm_start.cpp": ("constexpr std::size_t kFewest", "}  // namespace pstripack", [WARM, MEMORY]),
-    "src/cxx/parallel/moving_stars.cpp": ("bool MovingStars::propose(", "/// The node in the mesh here", [STARS]),
+    "src/cxx/trmesh/warm_start.cpp": ("constexpr std::size_t kLast", "}  // namespace pstripack", [WARM, MEMORY]),
+    "src/cxx/parallel/moving_stars.cpp": ("bool MovingStars::propose(", "MeshNode MovingStars::find(", [STARS]),
     "src/cxx/mesh/validate.cpp": ("Verdict defect(", "const char* name(", [VALIDATOR, LISTS]),
     "src/cxx/lists/adjacency_lists.cpp": ("Verdict malformed(", "#define PSTRIPACK", [VALIDATOR, LISTS]),
 }

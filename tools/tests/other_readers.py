@@ -233,7 +233,7 @@ def check_regions():
 
 def check_scvt():
     run("scvt", 100, "--density", "bump", "--iterations", 5, "-o", FOLDER / "scvt.mpas.nc")
-    run("scvt", 100, "--density", "bump", "--iterations", 5, "-o", FOLDER / "scvt.nc")
+    run("scvt", 100, "--density", "bump", "--iterations", 5, "--well-centred", "-o", FOLDER / "scvt.nc")
     with netCDF4.Dataset(FOLDER / "scvt.mpas.nc") as mpas, xarray.open_dataset(FOLDER / "scvt.nc") as ugrid:
         density = mpas["meshDensity"][:]
         given = ugrid["meshDensity"].values

@@ -616,7 +616,7 @@ bad_scvt)
   refuses 2 "--width-region: say also --width, that of the cells elsewhere" scvt --width-region region.json 9 -o failed.off
   refuses 2 "excludes" scvt --width 60km --density bump -o failed.off
   refuses 2 "'0' is not a finite number above 0" scvt --width 60km --grade 0 -o failed.off
-  refuses 2 "'nan' is not a finite number above 0" scvt --width 60km --radius nan -o failed.off
+  refuses 2 "'nan' is not a number of metres above 0" scvt --width 60km --radius nan -o failed.off
   refuses 1 "the widths give 0.000589 cells, not 4 to 357913943: widths are in km, --radius in metres" \
     scvt --width 1e6 -o failed.off
   # Widths are no density, whatever the file says of itself.

@@ -20,7 +20,7 @@ struct ParallelCost {
   enum Phase { divide, triangulate, merge, lists, gather, phases };
   double seconds[phases] = {}, cpu_seconds[phases] = {};
   int threads = 1;
-  int rounds = 0;         ///< exchanges of questions or claims that were needed
+  int rounds = 0;         ///< how often lists of patches did not match; of a warm call, exchanges of flips
   int in_one_patch = 0;   ///< 1: at last one rank had to triangulate all
   std::int64_t halo = 0;  ///< nodes of other patches that the patches of this rank took in
   std::int64_t bytes_sent = 0;

@@ -48,7 +48,7 @@ struct Division {
   std::size_t nodes = 0;  ///< of all ranks
   PatchRanges patches;
   std::shared_ptr<const Partition> partition;
-  std::vector<Record> closing;  ///< nodes from everywhere
+  std::vector<Record> closing;  ///< nodes of the sample that every patch knows
 };
 
 /// Collective. Throws AgreedFailure, HiddenNode or PatchesDoNotPay.

@@ -45,7 +45,9 @@ class NumberTable {
     return place.number == number ? &place.value : nullptr;
   }
   /// A hint that the number will be asked for soon.
-  [[gnu::always_inline]] void prefetch(GlobalNumber number) const { __builtin_prefetch(&place_[home(number)], 1); }
+  [[gnu::always_inline]] void prefetch(GlobalNumber number) const {
+    __builtin_prefetch(&place_[home(number)], 1);
+  }
 
  private:
   struct Place {

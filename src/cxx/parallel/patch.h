@@ -47,7 +47,7 @@ class Patch {
     return nodes_.own == 0 ? 0 : PatchHull<Int>::workspace_bytes(nodes_.count() + closing);
   }
 
-  /// Sorts the patch's nodes and those of `closing` that it does not know: nodes from everywhere, three of
+  /// Sorts the patch's nodes and those of `closing` that it does not know: nodes of the sample, three of
   /// them not on one great circle, which close the hull on the far side of the sphere. The workspace must
   /// outlive the patch and its rings. Throws HiddenNode if a quick test finds one, std::bad_alloc.
   void set_up(const std::vector<Record>& closing, Workspace& workspace);

@@ -1,5 +1,5 @@
 #pragma once
-// The third phase: every patch triangulates its own nodes, its halo and a few nodes from everywhere.
+// The third phase: every patch triangulates its own nodes, its halo and a few nodes of the sample.
 
 #include <cstddef>
 #include <memory>

@@ -7,7 +7,7 @@
 //        |  deliver              every node goes to its patch and to those that have it in their halo
 //        v
 //   Delivery
-//        |  triangulate_patches  every patch its own nodes, its halo and a few nodes from everywhere
+//        |  triangulate_patches  every patch its own nodes, its halo and a few nodes of the sample
 //        v
 //   Patches
 //        |  certify              patches compare lists of the triangles that two of them answer for; what one
