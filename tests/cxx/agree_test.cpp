@@ -11,7 +11,7 @@
 #include <numeric>
 #include <string>
 
-#include "base/scattered.h"
+#include "base/splitmix64.h"
 #include "distributions.h"
 #include "parallel/partition.h"
 #include "support/serial_rings.h"
@@ -135,7 +135,7 @@ std::uint64_t hash_of(const Point& p, std::uint64_t seed) {
     const double value = x + 0.0;  // -0 as 0
     std::uint64_t bits;
     std::memcpy(&bits, &value, sizeof bits);
-    hash = scattered(hash ^ bits) + 1;
+    hash = splitmix64(hash ^ bits) + 1;
   }
   return hash;
 }

@@ -11,7 +11,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "base/scattered.h"
+#include "base/splitmix64.h"
 #include "files/map_rings.h"
 #include "files/measures.h"
 #include "geometry/predicates.h"
@@ -28,7 +28,7 @@ struct HashOfBits {
     for (const double v : {p.x + 0.0, p.y + 0.0, p.z + 0.0}) {  // -0 equals 0
       std::uint64_t bits;
       std::memcpy(&bits, &v, sizeof bits);
-      hash = pstripack::scattered(hash ^ bits);
+      hash = pstripack::splitmix64(hash ^ bits);
     }
     return hash;
   }

@@ -1,12 +1,12 @@
 #include <cmath>
 #include <utility>
 
-#include "base/scattered.h"
+#include "base/splitmix64.h"
 #include "shapes.h"
 
 namespace point_sets {
 
-std::uint64_t Random::bits() { return pstripack::scattered(state_ += 0x9e3779b97f4a7c15); }
+std::uint64_t Random::bits() { return pstripack::splitmix64(state_ += 0x9e3779b97f4a7c15); }
 
 Point Random::direction() {
   const auto [u, v] = in_disc(*this);

@@ -49,7 +49,7 @@ class DefaultFloatingPoint {
 /// Returns body(), through a call that the compiler can neither inline nor move.
 template <class Body>
 [[gnu::noinline]] auto out_of_line(const Body& body) {
-  asm volatile("" ::: "memory");
+  asm volatile("" ::: "memory");  // without it compilers see that body has no side effects, and move the call
   return body();
 }
 

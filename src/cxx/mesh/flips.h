@@ -54,7 +54,7 @@ class MovingMesh {
   /// Position of node k (the caller's number, from 0), to be set before repair().
   Point& node(std::size_t k) { return nodes_[inside_[k]]; }
   const Point& node(std::size_t k) const { return nodes_[inside_[k]]; }
-  void prefetch(std::size_t k) const { __builtin_prefetch(&nodes_[inside_[k]], 1); }
+  [[gnu::always_inline]] void prefetch(std::size_t k) const { __builtin_prefetch(&nodes_[inside_[k]], 1); }
 
   /// Turns the mesh into the Delaunay triangulation of its nodes at their positions, by the predicates on
   /// coordinates with their tie rule; flips() is then the number of arcs flipped. Returns false if a

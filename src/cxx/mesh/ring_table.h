@@ -25,7 +25,7 @@ template <class Int, std::int64_t kOffset>
 struct Numbers {
   const Int* table;
   std::int64_t operator()(HullNode v) const { return table[v] + kOffset; }
-  void prefetch(HullNode v) const { __builtin_prefetch(table + v); }
+  [[gnu::always_inline]] void prefetch(HullNode v) const { __builtin_prefetch(table + v); }
 };
 
 /// Writes the ring of one hull node to `begin` as it will stand in LIST; returns its end. `corner` is 4*t +
@@ -121,7 +121,7 @@ class RingTable {
     place_[position_[i]] = place;
     size_class_[position_[i]] = size_class_of(static_cast<std::uint32_t>(*place));
   }
-  void prefetch(std::size_t i) const {
+  [[gnu::always_inline]] void prefetch(std::size_t i) const {
     const Int* const place = place_[position_[i]];
     __builtin_prefetch(place);
     __builtin_prefetch(place + 6);  // most rings have six entries, which may lie in two lines

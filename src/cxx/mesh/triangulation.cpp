@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/scattered.h"
+#include "base/splitmix64.h"
 
 namespace pstripack {
 namespace {
@@ -21,14 +21,14 @@ void make_canonical(Triangles& triangles) {
 }
 
 std::uint64_t fingerprint(const Triangle* triangles, std::size_t count) {
-  std::uint64_t sum = scattered(count);
+  std::uint64_t sum = splitmix64(count);
   for (std::size_t i = 0; i < count; ++i) {
     const Triangle t = smallest_first(triangles[i]);
     std::uint64_t h = 0x9e3779b97f4a7c15u;
-    for (const index_t v : t) h = scattered(h + static_cast<std::uint32_t>(v));
+    for (const index_t v : t) h = splitmix64(h + static_cast<std::uint32_t>(v));
     sum += h;
   }
-  return scattered(sum);
+  return splitmix64(sum);
 }
 
 }  // namespace pstripack

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/parallel_for.h"
+#include "base/splitmix64.h"
 #include "geometry/predicates.h"
 #include "lists/limits.h"
 #include "mpi/gather_lists.h"
@@ -19,11 +20,6 @@
 
 namespace pstripack {
 namespace {
-
-std::uint64_t mixed(std::uint64_t bits) {
-  bits = (bits ^ (bits >> 32)) * 0xd6e8feb86659fd93u;
-  return bits ^ (bits >> 29);
-}
 
 /// Hash of the array, 64 bits. The hashes of its blocks are added, so that the number of threads does not
 /// matter.
@@ -44,10 +40,10 @@ std::uint64_t hash_of(const void* array, std::size_t size, std::uint64_t seed) {
           lane[i] ^= lane[i] >> 32;
         }
       }
-      hash[b] = mixed(lane[0] + mixed(lane[1] + mixed(lane[2] + mixed(lane[3]))));
+      hash[b] = splitmix64(lane[0] + splitmix64(lane[1] + splitmix64(lane[2] + splitmix64(lane[3]))));
     }
   });
-  std::uint64_t sum = mixed(seed);
+  std::uint64_t sum = splitmix64(seed);
   for (const std::uint64_t h : hash) sum += h;
   return sum;
 }

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/scattered.h"
+#include "base/splitmix64.h"
 #include "base/workspace.h"
 #include "parallel/global_number.h"
 #include "parallel/local_numbers.h"
@@ -16,7 +16,7 @@ namespace pstripack {
 /// The rank that collects what all ranks say of a number. It depends on other bits of the number's hash than
 /// the places in a NumberTable there.
 inline RankNumber meeting_rank(GlobalNumber number, std::size_t ranks) {
-  return static_cast<RankNumber>((scattered(static_cast<std::uint64_t>(number)) >> 32) * ranks >> 32);
+  return static_cast<RankNumber>((splitmix64(static_cast<std::uint64_t>(number)) >> 32) * ranks >> 32);
 }
 
 /// Finds values by number. Throws std::bad_alloc when made, never later.
@@ -45,7 +45,9 @@ class NumberTable {
     return place.number == number ? &place.value : nullptr;
   }
   /// A hint that the number will be asked for soon.
-  void prefetch(GlobalNumber number) const { __builtin_prefetch(&place_[home(number)], 1); }
+  [[gnu::always_inline]] void prefetch(GlobalNumber number) const {
+    __builtin_prefetch(&place_[home(number)], 1);
+  }
 
  private:
   struct Place {
@@ -53,7 +55,7 @@ class NumberTable {
     Value value;
   };
   std::size_t home(GlobalNumber number) const {
-    return scattered(static_cast<std::uint64_t>(number)) & (place_.size() - 1);
+    return splitmix64(static_cast<std::uint64_t>(number)) & (place_.size() - 1);
   }
   std::size_t find(GlobalNumber number) const {
     std::size_t at = home(number);

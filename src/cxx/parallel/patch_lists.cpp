@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "base/scattered.h"
+#include "base/splitmix64.h"
 
 namespace pstripack {
 namespace {
@@ -28,7 +28,7 @@ class Index {
   std::size_t home(const Listed<Int>& t) const {
     const auto a = static_cast<std::uint64_t>(t[0]), b = static_cast<std::uint64_t>(t[1]),
                c = static_cast<std::uint64_t>(t[2]);
-    return scattered(a ^ b << 22 ^ c << 43 ^ c >> 21) & (place_.size() - 1);
+    return splitmix64(a ^ b << 22 ^ c << 43 ^ c >> 21) & (place_.size() - 1);
   }
   /// The place of an entry for which is(entry) is true, or an empty place.
   template <class Is>

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "base/scattered.h"
+#include "base/splitmix64.h"
 
 namespace pstripack {
 
@@ -20,7 +20,7 @@ std::size_t share_of_sample(std::size_t before, std::size_t of_rank, std::size_t
 void write_share(const LocalNodes& mine, std::size_t share, Record* sample) {
   for (std::size_t k = 0; k < share; ++k) {
     const std::size_t begin = mine.count * k / share, end = mine.count * (k + 1) / share;
-    const std::size_t i = begin + scattered(k + 0x9e3779b97f4a7c15u) % (end - begin);
+    const std::size_t i = begin + splitmix64(k + 0x9e3779b97f4a7c15u) % (end - begin);
     sample[k] = {mine.points[i], mine.number(i)};
   }
 }
@@ -33,7 +33,7 @@ std::vector<Point> places_to_count(const LocalNodes& mine, std::size_t nodes, st
   counted.reserve(mine.count / step + 1);
   for (std::size_t first = 0; first < mine.count; first += step) {
     const std::size_t choice = std::min(step, mine.count - first);
-    counted.push_back(places(mine.points[first + ((scattered(first) >> 32) * choice >> 32)]));
+    counted.push_back(places(mine.points[first + ((splitmix64(first) >> 32) * choice >> 32)]));
   }
   return counted;
 }

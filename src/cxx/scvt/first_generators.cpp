@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-#include "base/scattered.h"
+#include "base/splitmix64.h"
 #include "parallel/local_nodes.h"
 #include "scvt/caller_agreement.h"
 #include "scvt/errors.h"
@@ -23,7 +23,7 @@ class Random {
  public:
   Random(std::uint64_t seed, std::uint64_t numbers_before) : state_(seed + numbers_before * kStep) {}
   /// In [0,1).
-  double uniform() { return static_cast<double>(scattered(state_ += kStep) >> 11) * 0x1p-53; }
+  double uniform() { return static_cast<double>(splitmix64(state_ += kStep) >> 11) * 0x1p-53; }
 
  private:
   static constexpr std::uint64_t kStep = 0x9e3779b97f4a7c15;

@@ -27,7 +27,7 @@ struct Nodes {
     return {x[i], y[i], z[i]};
   }
   template <class Int>
-  void prefetch(Int node) const {
+  [[gnu::always_inline]] void prefetch(Int node) const {
     const auto i = static_cast<std::size_t>(node - 1);
     __builtin_prefetch(x + i);
     __builtin_prefetch(y + i);

@@ -51,8 +51,10 @@ class ListReader {
     return lstptr(last_slot(node), wanted, lists_.list, lists_.lptr);
   }
 
-  void prefetch_last_slot(Int node) const { __builtin_prefetch(lists_.lend + (node - 1)); }
-  void prefetch_list(Int node) const {
+  [[gnu::always_inline]] void prefetch_last_slot(Int node) const {
+    __builtin_prefetch(lists_.lend + (node - 1));
+  }
+  [[gnu::always_inline]] void prefetch_list(Int node) const {
     const auto i = static_cast<std::size_t>(last_slot(node) - 1);
     __builtin_prefetch(lists_.list + i);
     __builtin_prefetch(lists_.lptr + i);

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/static_rounding.h"
+#include "base/floating_point.h"
 #include "geometry/predicates.h"
 #include "stripack/list_queries.h"
 #include "stripack/original/original_rules.h"
@@ -263,225 +263,77 @@ class Candidates {
   int count_;
 };
 
-/// Up to this many given nodes GETNP needs no memory from the heap.
-constexpr int most_without_memory = 256;
-
-/// The nodes given to GETNP, as a hash table. An empty cell holds 0, which is no node number.
+/// The nodes given to GETNP: a hash table. An empty cell holds 0, which is no node number.
 template <class Int>
-class NodeTable {
+class GivenNodes {
  public:
-  /// `cells`: 2^bits of them, all 0.
-  NodeTable(const Int* npts, Int* cells, int bits) : npts_(npts), cells_(cells), shift_(64 - bits) {
-    insert(0);
+  explicit GivenNodes(Int count) {
+    int bits = 4;
+    while (std::int64_t{1} << bits < cells_a_node * std::int64_t{count}) ++bits;
+    shift_ = 64 - bits;
+    last_ = (std::size_t{1} << bits) - 1;
+    if (count > most_without_memory) {
+      more_.resize(last_ + 1);
+      cells_ = more_.data();
+    } else {
+      std::memset(few_, 0, sizeof(Int) << bits);
+      cells_ = few_;
+    }
   }
+  GivenNodes(const GivenNodes&) = delete;
+  GivenNodes& operator=(const GivenNodes&) = delete;
 
-  /// Inserts npts[place]; false if it is in the table already.
-  bool insert(Int place) {
-    const Int node = npts_[place];
-    std::size_t cell = hash(node);
-    if (cells_[cell] != 0) cell = find(cell, node);
-    if (cells_[cell] == node) return false;
-    cells_[cell] = node;
+  /// False if the node is in the table already.
+  bool insert(Int node) {
+    Int& cell = cells_[find(node)];
+    if (cell == node) return false;
+    cell = node;
     return true;
   }
-  /// Without a branch on the result, which would be unpredictable.
-  bool contains(Int node) const {
-    const std::size_t cell = hash(node);
-    const Int found = cells_[cell];
-    const bool is_other = found != node;
-    if (__builtin_expect((found & -Int{is_other}) != 0, false)) return cells_[find(cell, node)] == node;
-    return !is_other;
-  }
+  bool contains(Int node) const { return cells_[find(node)] == node; }
 
  private:
-  std::size_t hash(Int node) const {
-    return static_cast<std::size_t>(static_cast<std::uint64_t>(node) * 0x9E3779B97F4A7C15 >> shift_);
-  }
-  /// The node's cell, or the empty cell where it would go; searches from `cell` on.
-  [[gnu::noinline]] std::size_t find(std::size_t cell, Int node) const {
-    const std::size_t last = (std::size_t{1} << (64 - shift_)) - 1;
-    while (cells_[cell] != 0 && cells_[cell] != node) cell = (cell + 1) & last;
+  static constexpr int cells_a_node = 16;  // so many that collisions are rare
+  /// Up to this many nodes need no memory from the heap.
+  static constexpr int most_without_memory = 256;
+
+  /// The cell of the node, or the empty one where it would go. Fibonacci hashing: splitmix64 would take GETNP
+  /// 20 % longer. `min` makes one predictable branch of the tests for 0 and for the node.
+  std::size_t find(Int node) const {
+    std::size_t cell = static_cast<std::uint64_t>(node) * 0x9E3779B97F4A7C15 >> shift_;
+    while (std::min(cells_[cell], cells_[cell] ^ node) != 0) cell = (cell + 1) & last_;
     return cell;
   }
 
-  const Int* npts_;
-  Int* cells_;
   int shift_;
-};
-
-/// The nodes given to GETNP, if they are few: compared one by one.
-template <class Int, int most>
-class FewNodes {
- public:
-  explicit FewNodes(const Int* npts) : npts_(npts) { std::fill_n(node_, most, npts[0]); }
-
-  /// Inserts npts[place]; false if it is in the set already.
-  bool insert(Int place) {
-    if (contains(npts_[place])) return false;
-    node_[place] = npts_[place];
-    return true;
-  }
-  bool contains(Int node) const {
-    bool found = false;
-    for (const Int one : node_) found |= node == one;
-    return found;
-  }
-
- private:
-  const Int* npts_;
-  Int node_[most];
+  std::size_t last_;
+  Int* cells_;
+  std::vector<Int> more_;
+  Int few_[cells_a_node * most_without_memory];
 };
 
 /// Calls visit(neighbour) for the neighbours of a node, the last one first. False if the list runs into a
-/// loop instead of closing. The next slot is guessed, as in canonical lists, and compared with LPTR: the
-/// processor predicts that branch, whereas following LPTR would make it wait for memory.
+/// loop instead of closing.
 template <class Int, class Visit>
-[[gnu::always_inline]] inline bool each_neighbour(const ListReader<Int>& reader, Int node,
-                                                  const Visit& visit) {
+bool each_neighbour(const ListReader<Int>& reader, Int node, const Visit& visit) {
   const Int last = reader.last_slot(node);
-  Int slot = last, foreseen = reader.foreseen_first_slot(node), passed = 0;
+  Int slot = last, passed = 0;
   unsigned jumps = 0, jumps_to_pass = 64;
   do {
     visit(reader.neighbour(slot));
     const Int next = reader.next(slot);
-    Int onward = foreseen;
-    asm("" : "+r"(onward));  // keeps the compiler from using `next`, which is equal
-    if (next == foreseen) {
-      slot = onward;
-    } else {
-      slot = next;
-      if (slot == passed) return false;
-      if (++jumps == jumps_to_pass) {  // Brent's search for a loop
-        passed = slot;
-        jumps_to_pass *= 2;
-      }
+    if (next == slot + 1) {  // as in canonical lists; predicted, so the processor need not wait for LPTR
+      ++slot;
+      continue;
     }
-    foreseen = slot + 1;
+    slot = next;
+    if (slot == passed) return false;
+    if (++jumps == jumps_to_pass) {  // Brent's search for a loop
+      passed = slot;
+      jumps_to_pass *= 2;
+    }
   } while (slot != last);
   return true;
-}
-
-/// Finds, among the nodes passed to compare(), the one nearest to a centre by its cosine; among equal cosines
-/// the first. Computes in Number: Real, or StaticallyRounded<Real>, which needs no floating-point
-/// environment.
-template <class Number, class Real, class Int>
-class Nearest {
- public:
-  Nearest(const Nodes<Real>& nodes, Int centre) : nodes_(nodes), centre_(position(centre)) {}
-
-  /// Without a branch on distances, which would be unpredictable: so the next call can begin before the
-  /// distances have arrived from memory.
-  [[gnu::always_inline]] void compare(Int node, bool is_other = true) {
-    const Number cosine = is_other ? dot(position(node), centre_) : Number(-2);
-    not_finite_ = not_finite_ + Number(0) * cosine;
-    nearest_ = is_larger(cosine, cosine_) ? node : nearest_;
-    cosine_ = larger(cosine, cosine_);
-  }
-  /// Sets the environment of Number itself. To save the old environment the processor waits for all
-  /// instructions in flight, so these nodes should have been prefetched before. `few`: without a branch.
-  /// Many nodes come roughly by distance, so a branch is predictable, and with it the processor need not
-  /// wait for positions.
-  template <bool few>
-  void compare(const Int* begin, const Int* end) {
-    in_environment_of<Number>([=] {
-      Int nearest = nearest_;
-      Number greatest = cosine_, not_finite = not_finite_;
-      for (const Int* node = begin; node != end; ++node) {
-        const Number cosine = dot(position(*node), centre_);
-        not_finite = not_finite + Number(0) * cosine;
-        const bool is_nearer = is_larger(cosine, greatest);
-        if (few) {
-          nearest = is_nearer ? *node : nearest;
-          greatest = larger(cosine, greatest);
-        } else if (is_nearer) {
-          nearest = *node;
-          greatest = cosine;
-          asm("" : "+r"(nearest));  // keeps the compiler from removing the branch
-        }
-      }
-      nearest_ = nearest;
-      cosine_ = greatest;
-      not_finite_ = not_finite;
-    });
-  }
-  NextNearestStatus write(Int& node, Real& distance) const {
-    if (Real(not_finite_) != 0) return NextNearestStatus::not_finite;
-    if (nearest_ == 0) return NextNearestStatus::none_left;
-    node = nearest_;
-    distance = -Real(cosine_);
-    return NextNearestStatus::done;
-  }
-
- private:
-  Vector<Number> position(Int node) const {
-    const Vector<Real> p = nodes_[node];
-    return {p.x, p.y, p.z};
-  }
-
-  const Nodes<Real> nodes_;
-  const Vector<Number> centre_;
-  Int nearest_ = 0;
-  Number cosine_ = Real(-2);
-  Number not_finite_ = Real(0);  ///< 0; NaN if a distance was not finite
-};
-
-/// GETNP by the cosines of distances, for one or two given nodes: few of their neighbours are given nodes, so
-/// each neighbour is compared at once. To be called in the environment of Number.
-template <class Number, int given, class Real, class Int>
-NextNearestStatus nearest_when_met(const ListsView<Int>& lists, const Nodes<Real>& nodes, Int* npts,
-                                   Real& distance) {
-  const ListReader<Int> reader(lists);
-  FewNodes<Int, given> taken(npts);
-  for (Int i = 1; i < given; ++i)
-    if (npts[i] < 1 || !taken.insert(i)) return NextNearestStatus::bad_nodes;
-  for (Int i = 0; i < given; ++i) reader.prefetch_list(npts[i]);
-
-  Nearest<Number, Real, Int> nearest(nodes, npts[0]);
-  const auto visit = [&](Int node) __attribute__((always_inline)) {
-    // The call for l = 3 will need one of these slots. For two given nodes prefetching costs more than it
-    // saves.
-    if (given == 1) reader.prefetch_last_slot(node);
-    nearest.compare(node, !taken.contains(node));
-  };
-  for (Int i = 0; i < given; ++i)
-    if (!each_neighbour(reader, npts[i], visit)) return NextNearestStatus::broken_lists;
-  return nearest.write(npts[given], distance);
-}
-
-/// GETNP for more given nodes. `taken`: empty, with room for them. Few and many nodes have an instance of
-/// their own, because compilers run out of registers if one instance serves both.
-template <class Number, bool few, class Real, class Int, class Taken>
-[[gnu::noinline]] NextNearestStatus nearest_of_others(const ListsView<Int>& lists, const Nodes<Real>& nodes,
-                                                      Int given, Int* npts, Real& distance, Taken taken) {
-  const ListReader<Int> reader(lists);
-  for (Int i = 1; i < given; ++i)
-    if (npts[i] < 1 || !taken.insert(i)) return NextNearestStatus::bad_nodes;
-  for (Int i = 0; i < given; ++i) reader.prefetch_list(npts[i]);
-
-  Nearest<Number, Real, Int> nearest(nodes, npts[0]);
-  constexpr int most = 64;
-  Int others[most];  // neighbours that are not given nodes, to be compared
-  int count = 0;
-  // The next call will need one of these slots: callers ask for l = 2, 3, 4...
-  const auto prefetch = [&](Int node) {
-    if (few) nodes.prefetch(node);
-    reader.prefetch_last_slot(node);
-  };
-  const auto compare = [&]() __attribute__((always_inline)) {
-    if (!few) std::for_each(others, others + count, prefetch);
-    nearest.template compare<few>(others, others + count);
-    count = 0;
-  };
-  const auto visit = [&](Int node) __attribute__((always_inline)) {
-    if (few) prefetch(node);  // if many nodes are given, most neighbours are among them
-    others[count] = node;     // overwritten by the next one if this is a given node
-    count += !taken.contains(node);
-    if (count == most) compare();
-  };
-  for (Int i = 0; i < given; ++i)
-    if (!each_neighbour(reader, npts[i], visit)) return NextNearestStatus::broken_lists;
-  compare();
-  return nearest.write(npts[given], distance);
 }
 
 /// The node nearest to p, exactly, by steps from `nearest` to nearer neighbours.
@@ -545,48 +397,51 @@ void confirm_next(const ListsView<Int>& lists, const Nodes<Real>& nodes, Int giv
   distance = -dot(nodes[found], nodes[npts[0]]);
 }
 
-/// Cells of a NodeTable per node: so many that collisions are rare.
-constexpr int cells_a_node = 16;
-/// Up to this many given nodes are few.
-constexpr int few_nodes = 8;
-
-/// GETNP by the cosines of distances, for 1 to few_nodes given nodes.
-template <class Number, class Real, class Int>
-NextNearestStatus nearest_of_few(const ListsView<Int>& lists, const Nodes<Real>& nodes, Int given, Int* npts,
-                                 Real& distance) {
-  if (given == 1)
-    return in_environment_of<Number>(
-        [&] { return nearest_when_met<Number, 1>(lists, nodes, npts, distance); });
-  if (given == 2)
-    return in_environment_of<Number>(
-        [&] { return nearest_when_met<Number, 2>(lists, nodes, npts, distance); });
-  const auto of_others = [&](auto taken) {
-    return nearest_of_others<Number, true>(lists, nodes, given, npts, distance, taken);
-  };
-  if (given <= 4) return of_others(FewNodes<Int, 4>(npts));
-  constexpr int bits = 7;
-  static_assert(cells_a_node * few_nodes == 1 << bits);
-  Int cells[1 << bits] = {};
-  return of_others(NodeTable(npts, cells, bits));
-}
-
 /// GETNP by the cosines of distances.
 template <class Real, class Int>
 NextNearestStatus nearest_by_cosines(const ListsView<Int>& lists, const Nodes<Real>& nodes, Int given,
                                      Int* npts, Real& distance) {
-  if (given <= few_nodes)
-    return StaticallyRounded<Real>::is_available()
-               ? nearest_of_few<StaticallyRounded<Real>>(lists, nodes, given, npts, distance)
-               : nearest_of_few<Real>(lists, nodes, given, npts, distance);
-  int bits = 8;
-  while (std::int64_t{1} << bits < cells_a_node * std::int64_t{given}) ++bits;
-  const auto of_many = [&](Int* cells) {
-    return nearest_of_others<Real, false>(lists, nodes, given, npts, distance, NodeTable(npts, cells, bits));
+  GivenNodes<Int> taken(given);
+  for (Int i = 0; i < given; ++i)
+    if (npts[i] < 1 || !taken.insert(npts[i])) return NextNearestStatus::bad_nodes;
+  const ListReader<Int> reader(lists);
+  for (Int i = 0; i < given; ++i) reader.prefetch_list(npts[i]);  // a seventh of the time for L = 64
+
+  const Vector<Real> centre = nodes[npts[0]];
+  Int nearest = 0;
+  Real greatest = -2, not_finite = 0;  // NaN if a distance was not finite
+  constexpr std::size_t most = 64;
+  Int others[most];  // neighbours that are not given nodes, to be compared
+  std::size_t count = 0;
+  const auto compare = [&] {
+    for (std::size_t i = 0; i < count; ++i) {
+      reader.prefetch_last_slot(others[i]);  // the next call asks for l + 1: a fifth of the time for N = 1e6
+      const Real cosine = dot(nodes[others[i]], centre);
+      not_finite += 0 * cosine;
+      if (cosine > greatest) {
+        nearest = others[i];
+        greatest = cosine;
+      }
+    }
+    count = 0;
   };
-  if (given > most_without_memory) return of_many(std::vector<Int>(std::size_t{1} << bits).data());
-  Int cells[cells_a_node * most_without_memory];
-  std::memset(cells, 0, sizeof(Int) << bits);
-  return of_many(cells);
+  for (Int i = 0; i < given; ++i)
+    if (!each_neighbour(reader, npts[i], [&](Int node) {
+          // Of many given nodes, most neighbours are given. For N = 1e6 this is a fifth of the time for L = 2
+          // to 5.
+          if (given <= 8) nodes.prefetch(node);
+          // Without a branch, which would be unpredictable: a given node is overwritten by the next one.
+          others[count] = node;
+          count += !taken.contains(node);
+          if (count == most) compare();
+        }))
+      return NextNearestStatus::broken_lists;
+  compare();
+  if (not_finite != 0) return NextNearestStatus::not_finite;
+  if (nearest == 0) return NextNearestStatus::none_left;
+  npts[given] = nearest;
+  distance = -greatest;
+  return NextNearestStatus::done;
 }
 
 }  // namespace
@@ -698,7 +553,8 @@ NextNearestStatus next_nearest(const ListsView<Int>& lists, const Nodes<Real>& n
   if (l < 2) return NextNearestStatus::too_short;
   const Int given = l - 1;
   if (npts[0] < 1) return NextNearestStatus::bad_nodes;
-  const NextNearestStatus status = nearest_by_cosines(lists, nodes, given, npts, distance);
+  const NextNearestStatus status =
+      in_default_floating_point([&] { return nearest_by_cosines(lists, nodes, given, npts, distance); });
   // The rounding of a cosine is that of an angle of 16 eps / sine at most. Below 7e-4 radians for doubles,
   // where it may be more than 5e-12, and everywhere for floats, exact signs decide.
   constexpr Real close = std::is_same_v<Real, double> ? Real(1 - 0x1p-22) : Real(-2);
