@@ -29,6 +29,7 @@
 #include "in_a_row.h"
 #include "lloyd_step.h"
 #include "median.h"
+#include "move_home.h"
 #include "mpi/area_of_all.h"
 #include "mpi/collective_trmesh.h"
 #include "mpi/distributed_evaluator.h"
@@ -153,43 +154,6 @@ void print(MpiCommunicator& ranks, const Settings& s, const std::vector<double>&
       slowest[Phase::triangulate], slowest[Phase::merge], slowest[Phase::lists], slowest[Phase::gather],
       triangulate, cost.total.halo, cost.total.bytes_sent, cost.maximum.rounds);
   std::fflush(stdout);
-}
-
-constexpr auto nobody = [](std::int64_t) { return false; };
-
-/// Moves the points to their home ranks; points for which are_away(number) is true go to the next rank.
-template <class AreAway>
-void move_home(MpiCommunicator& ranks, const DistributedMesh& mesh, std::vector<Point>& points,
-               std::vector<std::int64_t>& numbers, const AreAway& are_away) {
-  struct Item {
-    Point point;
-    std::int64_t number;
-  };
-  std::vector<std::int32_t> home(points.size());
-  mesh.home(static_cast<std::int64_t>(points.size()), &points.data()->x, home.data());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (are_away(numbers[i])) home[i] = (home[i] + 1) % ranks.size();
-  const auto size = static_cast<std::size_t>(ranks.size());
-  Parcels parcels;
-  parcels.begin.assign(size + 1, 0);
-  for (const std::int32_t r : home) parcels.begin[static_cast<std::size_t>(r) + 1] += sizeof(Item);
-  for (std::size_t r = 0; r < size; ++r) parcels.begin[r + 1] += parcels.begin[r];
-  parcels.bytes = Block(parcels.begin.back());
-  std::vector<std::size_t> at = parcels.begin;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Item item{points[i], numbers[i]};
-    std::size_t& to = at[static_cast<std::size_t>(home[i])];
-    std::copy_n(reinterpret_cast<const unsigned char*>(&item), sizeof item, parcels.bytes.data() + to);
-    to += sizeof item;
-  }
-  const Parcels here = ranks.exchange(parcels);
-  const auto* const items = reinterpret_cast<const Item*>(here.bytes.data());
-  points.clear();
-  numbers.clear();
-  for (std::size_t i = 0; i < here.begin.back() / sizeof(Item); ++i) {
-    points.push_back(items[i].point);
-    numbers.push_back(items[i].number);
-  }
 }
 
 /// Rank 0 writes each triangle with the rank that lists it: x1,y1,z1,x2,y2,z2,x3,y3,z3,owner.

@@ -22,6 +22,7 @@
 
 #include "lloyd_step.h"
 #include "median.h"
+#include "move_home.h"
 #include "mpi.h"
 #include "mpi/distributed_mesh.h"
 #include "parallel/agreement.h"
@@ -44,26 +45,6 @@ struct Part {
   std::vector<Point> points;
   std::vector<std::int64_t> numbers;
 };
-
-struct Item {
-  Point point;
-  std::int64_t number;
-};
-
-Part moved_home(MpiCommunicator& ranks, const DistributedMesh& mesh, const Part& part) {
-  std::vector<std::int32_t> home(part.points.size());
-  mesh.home(static_cast<std::int64_t>(home.size()), &part.points.data()->x, home.data());
-  std::vector<std::vector<Item>> items(static_cast<std::size_t>(ranks.size()));
-  for (std::size_t i = 0; i < home.size(); ++i)
-    items[static_cast<std::size_t>(home[i])].push_back({part.points[i], part.numbers[i]});
-  const Parcels parcels = ranks.exchange(packed(items));
-  Part here;
-  for (const Item& item : Items<Item>(parcels)) {
-    here.points.push_back(item.point);
-    here.numbers.push_back(item.number);
-  }
-  return here;
-}
 
 /// A call on one rank.
 struct Spent {
@@ -134,7 +115,7 @@ void run(const Settings& s, int ranks, bool is_warm) {
     all = {};
     for (int k = 0; k < 2; ++k) {
       call(mesh, part);
-      part = moved_home(world, mesh, part);
+      move_home(world, mesh, part.points, part.numbers, nobody);
     }
     for (int k = 0; k < s.repeats && !is_warm; ++k) {
       DistributedMesh other(MPI_COMM_WORLD);
@@ -182,12 +163,11 @@ int main(int argc, char** argv) {
   omp_set_num_threads(1);
   fmt::print(
       "{} points a rank, {}, at home. Milliseconds of processor time: of the slowest rank in each phase, and "
-      "of the "
-      "mean rank.\nanew: a first call; again: patches are kept; warm: stars are kept, points make small "
-      "steps of "
-      "Lloyd's method. path: sum of the\nphases. messages, bytes: sent by the rank that sends most. MB: "
-      "resident "
-      "memory of the process, a rank.\n\n"
+      "of the mean rank.\n"
+      "anew: a first call; again: patches are kept; warm: stars are kept, points make small steps of Lloyd's "
+      "method. path: sum of the\n"
+      "phases. messages, bytes: sent by the rank that sends most. MB: resident memory of the process, a "
+      "rank.\n\n"
       "{:>6} {:>6} | {:>13} | {:>13} | {:>13} | {:>13} | {:>13} | {:>8} {:>9} {:>8} {:>8}\n",
       s.points, s.family, "ranks", "call", "divide", "triangulate", "merge", "lists", "path", "messages",
       "bytes", "flips", "MB");

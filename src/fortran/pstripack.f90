@@ -300,15 +300,9 @@ contains
     type(callbacks), target :: caller
     type(c_density) :: rho
     type(c_options) :: options_c
-    character(kind=c_char) :: line(400)
 
-    line = c_null_char
     call pass_on(caller, rho, options_c, density, options, progress)
-    ier = pstripack_bad_size
-    if (size(y) == size(x) .and. size(z) == size(x)) &
-      ier = c_scvt(size(x, kind=c_int32_t), x, y, z, rho, options_c, result, line, size(line, kind=c_int32_t))
-    call tell(line, message)
-    if (present(message) .and. ier == pstripack_bad_size) message = pstripack_strerror(ier)
+    call run_scvt(x, y, z, rho, options_c, result, ier, message)
   end subroutine
 
   !> The same for widths of cells in place of a density.
@@ -326,15 +320,27 @@ contains
     type(callbacks), target :: caller
     type(c_density) :: rho
     type(c_options) :: options_c
-    character(kind=c_char) :: line(400)
 
-    line = c_null_char
     call pass_on(caller, rho, options_c, width, options, progress)
     options_c%widths = 1
     if (present(well_centred)) options_c%well_centred = merge(1_c_int32_t, 0_c_int32_t, well_centred)
+    call run_scvt(x, y, z, rho, options_c, result, ier, message)
+  end subroutine
+
+  !> Calls the engine. The options say whether rho is a density or widths.
+  subroutine run_scvt(x, y, z, rho, options, result, ier, message)
+    real(c_double), intent(inout), contiguous :: x(:), y(:), z(:)
+    type(c_density), intent(in) :: rho
+    type(c_options), intent(in) :: options
+    type(pstripack_scvt_result), intent(inout) :: result
+    integer(c_int32_t), intent(out) :: ier
+    character(len=*), intent(out), optional :: message
+    character(kind=c_char) :: line(400)
+
+    line = c_null_char
     ier = pstripack_bad_size
     if (size(y) == size(x) .and. size(z) == size(x)) &
-      ier = c_scvt(size(x, kind=c_int32_t), x, y, z, rho, options_c, result, line, size(line, kind=c_int32_t))
+      ier = c_scvt(size(x, kind=c_int32_t), x, y, z, rho, options, result, line, size(line, kind=c_int32_t))
     call tell(line, message)
     if (present(message) .and. ier == pstripack_bad_size) message = pstripack_strerror(ier)
   end subroutine

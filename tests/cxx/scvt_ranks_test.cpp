@@ -203,6 +203,25 @@ RunOptions few_evaluations() {
   return options;
 }
 
+/// Expects of the run on these numbers of ranks the same bits as alone, and what expect(found) does on each
+/// rank.
+template <class Sizes, class Expect>
+void expect_same_bits(const Tessellation& alone, const RunOptions& options, const Sizes& sizes,
+                      const Expect& expect) {
+  for (const int size : sizes) {
+    Gathered gathered;
+    ThreadRanks::run(size, [&](Communicator& ranks) {
+      GatheringEvaluator evaluator(ranks, kBump);
+      Tessellation found = first_generators(evaluator, alone.state.generators.size(), options);
+      iterate(evaluator, found, options);
+      EXPECT_EQ(found.result.progress.energy, alone.result.progress.energy);
+      expect(found);
+      gathered.add(found.numbers, found.state.generators);
+    });
+    EXPECT_EQ(gathered.points(), alone.state.generators) << size;
+  }
+}
+
 TEST(Run, HasTheSameBitsOnAnyNumberOfRanks) {
   for (const bool levels : {true, false}) {
     RunOptions options = few_evaluations();
@@ -210,18 +229,9 @@ TEST(Run, HasTheSameBitsOnAnyNumberOfRanks) {
     if (levels) options.most_evaluations = 6;  // on each
     const Tessellation alone = run(200, kBump, options);
     EXPECT_EQ(alone.result.end, End::evaluations);
-    for (const int size : kRanks) {
-      Gathered gathered;
-      ThreadRanks::run(size, [&](Communicator& ranks) {
-        GatheringEvaluator evaluator(ranks, kBump);
-        Tessellation found = first_generators(evaluator, 200, options);
-        iterate(evaluator, found, options);
-        EXPECT_EQ(found.result.progress.energy, alone.result.progress.energy);
-        EXPECT_EQ(found.evaluations + static_cast<double>(found.state.evaluations), alone.evaluations);
-        gathered.add(found.numbers, found.state.generators);
-      });
-      EXPECT_EQ(gathered.points(), alone.state.generators) << size;
-    }
+    expect_same_bits(alone, options, kRanks, [&](const Tessellation& found) {
+      EXPECT_EQ(found.evaluations + static_cast<double>(found.state.evaluations), alone.evaluations);
+    });
   }
 }
 
@@ -231,21 +241,12 @@ TEST(Run, IsMadeWellCentredWithTheSameBitsOnAnyNumberOfRanks) {
   options.well_centred = true;
   const Tessellation alone = run(500, kBump, options);
   EXPECT_GT(alone.repair.moved, 0);
-  for (const int size : {2, 3, 8}) {
-    Gathered gathered;
-    ThreadRanks::run(size, [&](Communicator& ranks) {
-      GatheringEvaluator evaluator(ranks, kBump);
-      Tessellation found = first_generators(evaluator, 500, options);
-      iterate(evaluator, found, options);
-      EXPECT_EQ(found.result.progress.energy, alone.result.progress.energy);
-      EXPECT_EQ(found.repair.moved, alone.repair.moved);
-      EXPECT_EQ(found.repair.obtuse, alone.repair.obtuse);
-      EXPECT_EQ(found.repair.largest_angle, alone.repair.largest_angle);
-      EXPECT_EQ(found.repair.place, alone.repair.place);
-      gathered.add(found.numbers, found.state.generators);
-    });
-    EXPECT_EQ(gathered.points(), alone.state.generators) << size;
-  }
+  expect_same_bits(alone, options, std::vector{2, 3, 8}, [&](const Tessellation& found) {
+    EXPECT_EQ(found.repair.moved, alone.repair.moved);
+    EXPECT_EQ(found.repair.obtuse, alone.repair.obtuse);
+    EXPECT_EQ(found.repair.largest_angle, alone.repair.largest_angle);
+    EXPECT_EQ(found.repair.place, alone.repair.place);
+  });
 }
 
 /// All slices joined, as a single process reads them from a file.

@@ -188,13 +188,17 @@ void add_output(CLI::App& app, Output& output, bool required) {
   app.footer("Formats and their suffixes:" + suffixes());
 }
 
-CLI::Option* add_radius(CLI::App& app, double& radius, const char* text) {
-  return app.add_option("--radius", radius, text)->type_name("METRES")->check([](const std::string& word) {
+std::function<std::string(const std::string&)> above_0(const char* what) {
+  return [=](const std::string& word) {
     double value = 0;
     return point_sets::parse(word, value) && value > 0 && std::isfinite(value)
                ? std::string()
-               : "'" + word + "' is not a number of metres above 0";
-  });
+               : fmt::format("'{}' is not a {} above 0", word, what);
+  };
+}
+
+CLI::Option* add_radius(CLI::App& app, double& radius, const char* text) {
+  return app.add_option("--radius", radius, text)->type_name("METRES")->check(above_0("number of metres"));
 }
 
 void add_edges(CLI::App& app, Output& output) {

@@ -93,8 +93,9 @@ struct Output {
   void choose(std::optional<files::Format> otherwise = std::nullopt);
 };
 void add_output(CLI::App& app, Output& output, bool required);
-constexpr auto kRadiusOfMpas =
-    "of the sphere in an MPAS mesh [that of the input, else 1]: 6371229 for MPAS-Atmosphere, else 6371220";
+/// A check of an option: a finite number above 0. `what` is its name in the error.
+std::function<std::string(const std::string&)> above_0(const char* what);
+constexpr auto kRadiusOfMpas = "of the sphere in an MPAS mesh [that of the input, else 1]";
 CLI::Option* add_radius(CLI::App& app, double& radius, const char* text);
 void add_edges(CLI::App& app, Output& output);
 

@@ -49,10 +49,9 @@ struct Options {
   Input start;
   std::string density, density_file, width_file, variable;
   std::string width_text, width_region;
-  double width = 0;             ///< of all cells, km; 0: not given
-  double radius = 0;            ///< of the sphere, metres; 0: not given
-  double radius_of_output = 0;  ///< the same, if an option gave it
-  double grade = 0;             ///< most that widths may change, km per km; 0: not given
+  double width = 0;   ///< of all cells, km; 0: not given
+  double radius = 0;  ///< of the sphere, metres; 0: not given
+  double grade = 0;   ///< most that widths may change, km per km; 0: not given
   Method method = Method::newton;
   double tolerance = 1e-4;
   bool well_centred = false;  ///< move generators until all triangles hold their circumcentre
@@ -674,7 +673,7 @@ void scvt(Options& options) {
     throw CLI::ValidationError("--width-region", "say also --width, that of the cells elsewhere");
   options.output.choose();
   options.well_centred = options.well_centred || options.output.format == files::Format::mpas;
-  options.output.radius = options.radius_of_output;
+  options.output.radius = options.radius;
   if (!options.checkpoint.file.empty()) options.checkpoint.choose(files::Format::netcdf);
   if (!options.density.empty()) make_density(options);
   try {
@@ -727,8 +726,7 @@ void add_scvt(CLI::App& app, Command& chosen) {
            }
          },
          "of all cells, say 60km, or a formula, see below: distance of neighbours in a mesh of regular "
-         "hexagons; N "
-         "follows from it")
+         "hexagons; N follows from it")
       ->type_name("WIDTH")
       ->excludes("--density")
       ->excludes("--density-file");
@@ -741,18 +739,11 @@ void add_scvt(CLI::App& app, Command& chosen) {
   sub->add_option("--width-region", options->width_region,
                   "GeoJSON polygons with properties width and transition, km, within --width elsewhere")
       ->type_name("FILE");
-  const auto above_0 = [](const std::string& text) {
-    double value = 0;
-    return point_sets::parse(text, value) && value > 0 && std::isfinite(value)
-               ? std::string()
-               : "'" + text + "' is not a finite number above 0";
-  };
   sub->add_option("--grade", options->grade,
                   "most that widths may change, km per km: wider ones are lowered [0.2]")
       ->type_name("NUMBER")
-      ->check(above_0);
-  add_radius(*sub, options->radius,
-             "of the sphere of widths [6371220], and in an MPAS mesh [1]; 6371229 for MPAS-Atmosphere");
+      ->check(above_0("finite number"));
+  add_radius(*sub, options->radius, "of the sphere of widths [6371220], and in an MPAS mesh [1]");
   sub->add_option("--variable", options->variable,
                   "in the file of densities or widths: name (NetCDF) or column (text, from 1)")
       ->type_name("NAME");
@@ -812,10 +803,7 @@ the last step is finished.
 --from, --coordinates and --units apply to both input files.
 
 )" + sub->get_footer());
-  sub->callback([=, &chosen] {
-    if (sub->count("--radius") > 0) options->radius_of_output = options->radius;
-    chosen = [=] { scvt(*options); };
-  });
+  sub->callback([=, &chosen] { chosen = [=] { scvt(*options); }; });
 }
 
 }  // namespace program

@@ -30,6 +30,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 #include "base/parallel_for.h"
@@ -193,9 +194,10 @@ int filter_height_of_pair(const Seen& b, const Seen& c, const Seen& s) {
 ///     a.x V = (1 - s_b - s_c - s_d) a.x v - D_cd (s_b - s_a) + D_bd (s_c - s_a) - D_bc (s_d - s_a):
 ///
 /// each bracket of V grows with the lengths of its three vectors, and [bcd] = v + [acd] - [abd] + [abc].
-/// Errors: of the first term 2^-49 from its factor and 2^-51 from its rounding; of each D 13u of its
-/// magnitude, times 2^-50; of the terms of second order 3 * 2^-102 of [acd] and so on, and of v. volume: a.x
-/// v.
+/// Errors: 2^-49 of the first term by its factor and 2^-51 by its rounding; of each other term, in units of
+/// the magnitude of its D, 2^-98 by 13u of D times |s_p - s_a| < 2^-50, 2^-100 by the lengths, and 3 * 2^-102
+/// by the terms of second order: the bound has 2^-96. `volume` is a.x v, wrong by at most 2^-51 of itself and
+/// 2^-171.
 int height_by_lengths(double volume, const Seen& b, const Seen& c, const Seen& d, double s_b, double s_c,
                       double s_d) {
   if (b.weight != 1 || c.weight != 1 || d.weight != 1) return 0;

@@ -36,6 +36,7 @@
 #include <memory>
 
 #include "base/workspace.h"
+#include "geometry/double_double.h"
 #include "geometry/point.h"
 
 namespace pstripack {
@@ -130,13 +131,9 @@ struct UnitVector {
 UnitVector unit_vector(const Point& p);
 /// The same for two doubles of each component whose sum is the direction.
 inline UnitVector rounded(const UnitVector& v) {
-  const auto sum = [](double& high, double& low) {
-    const double s = high + low;
-    low -= s - high, high = s;
-  };
-  UnitVector r = v;
-  sum(r.high.x, r.low.x), sum(r.high.y, r.low.y), sum(r.high.z, r.low.z);
-  return r;
+  const DoubleDouble x = two_sum_of_ordered(v.high.x, v.low.x), y = two_sum_of_ordered(v.high.y, v.low.y),
+                     z = two_sum_of_ordered(v.high.z, v.low.z);
+  return {{x.high, y.high, z.high}, {x.low, y.low, z.low}};
 }
 /// a - b; every component has 2 roundings and an absolute error of 2^-99.
 inline Point difference(const UnitVector& a, const UnitVector& b) {
