@@ -215,7 +215,7 @@ std::vector<NodeSet> sets_up_to(int n) {
 
 /// Calls test(mesh, dice) for the original's triangulation of each set in a child process.
 Result compare_meshes(const std::vector<NodeSet>& sets, const std::function<std::string(Mesh&, Dice&)>& test,
-                      double limit = 2) {
+                      double limit = 0.5) {
   return compare_all(
       sets,
       [&](const NodeSet& nodes) -> std::string {
