@@ -16,7 +16,7 @@
 
 #include "base/floating_point.h"
 #include "stripack/listing.h"
-#include "stripack/plot.h"
+#include "stripack/postscript.h"
 
 namespace {
 
