@@ -64,7 +64,7 @@ foreach(component IN LISTS CPACK_COMPONENTS_ALL)
   file(WRITE ${documents}/changelog.Debian
     "pstripack (${CPACK_PACKAGE_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}) bookworm; urgency=medium\n\n"
     "  * Built by cpack; what is new is in the file changelog.\n\n -- ${CPACK_PACKAGE_CONTACT}  ${date}\n")
-  file(COPY_FILE ${source}/CHANGELOG.md ${documents}/changelog)
+  configure_file(${source}/CHANGELOG.md ${documents}/changelog COPYONLY)
 
   file(GLOB_RECURSE pages ${root}/usr/share/man/*)
   execute_process(COMMAND ${GZIP} -9n ${pages} ${documents}/changelog.Debian ${documents}/changelog

@@ -25,7 +25,7 @@ class Pstripack(CMakePackage):
     depends_on("c", type="build")
     depends_on("cxx", type="build")
     depends_on("fortran", type="build")
-    depends_on("cmake@3.25:", type="build")
+    depends_on("cmake@3.20:", type="build")
     depends_on("boost@1.74:", type="build")
     depends_on("mpi", when="+mpi")
     depends_on("pkgconfig", type="build", when="+tools")
