@@ -63,7 +63,8 @@ fi
 has pstripack "libpstripack$soname \(= $version" mpi bin/pstripack bin/stripack-compare share/man/man1/pstripack.1.gz
 if [ -e "$build/python/pstripack" ]; then
   has python3-pstripack "libpstripack$soname \(= $version.*python3-numpy" 'mpi|scipy' \
-    'lib/python3[^/]*/(dist|site)-packages/pstripack/_core\..*\.so' 'lib/python3[^/]*/(dist|site)-packages/pstripack/py\.typed'
+    'lib/python3[^/]*/(dist|site)-packages/pstripack/_core\..*\.so' 'lib/python3[^/]*/(dist|site)-packages/pstripack/py\.typed' \
+    'lib/python3[^/]*/(dist|site)-packages/pstripack-[0-9a-z.]*\.dist-info/METADATA'
 fi
 has pstripack-doc '^$' . share/doc/pstripack/README.md share/doc/pstripack/docs/relink.md \
   share/doc/pstripack/docs/clients/mpas.md share/doc/pstripack/examples/fortran77/mesh.f
