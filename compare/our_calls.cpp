@@ -132,7 +132,7 @@ using Trmesh8 = void(const std::int32_t*, const double*, const double*, const do
                      std::int32_t*, std::int32_t*, std::int32_t*);
 
 void* load_trmesh(const std::string& abi) {
-  const std::string library = abi == "r8" ? "libstripack.so.0" : "libstripack_" + abi + ".so.0";
+  const std::string library = abi == "r8" ? "libstripack" PSTRIPACK_LIBRARY_SUFFIX : "libstripack_" + abi + PSTRIPACK_LIBRARY_SUFFIX;
   void* const handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
   void* const routine = handle != nullptr ? dlsym(handle, "trmesh_") : nullptr;
   if (routine == nullptr) throw std::runtime_error(dlerror());
