@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "base/system.h"
 #include "parallel/agreement.h"
 #include "parallel/cost.h"
 
@@ -126,16 +127,16 @@ bool MpiCommunicator::ranks_outnumber_processors() {
   check(MPI_Comm_split_type(comm_, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &machine));
   int ranks = 1;
   check(MPI_Comm_size(machine, &ranks));
-  cpu_set_t processors;
-  CPU_ZERO(&processors);
-  if (sched_getaffinity(0, sizeof processors, &processors) != 0)  // fails if a cpu_set_t is too small
-    for (unsigned i = 0; i < std::thread::hardware_concurrency() && i < CPU_SETSIZE; ++i)
-      CPU_SET(i, &processors);
+  ProcessorSet processors = usable_processors();
   MPI_Request request;
-  check(MPI_Iallreduce(MPI_IN_PLACE, &processors, sizeof processors, MPI_BYTE, MPI_BOR, machine, &request));
+  check(MPI_Iallreduce(MPI_IN_PLACE, processors.data(), sizeof processors, MPI_BYTE, MPI_BOR, machine,
+                       &request));
   wait(request);
   check(MPI_Comm_free(&machine));
-  return ranks > CPU_COUNT(&processors);
+  int count = 0;
+  for (std::uint64_t word : processors)
+    for (; word != 0; word &= word - 1) ++count;
+  return ranks > count;
 }
 
 void MpiCommunicator::abort(const char* kind, const char* text) const {
