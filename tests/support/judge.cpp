@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "exact.h"
+#include "reference_predicates.h"
 
 namespace {
 
