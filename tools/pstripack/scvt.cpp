@@ -26,7 +26,7 @@
 #include "scvt/errors.h"
 #include "scvt/first_generators.h"
 #include "scvt/front.h"
-#include "scvt/run.h"
+#include "scvt/tessellation.h"
 #include "text_file.h"
 
 namespace program {

@@ -15,7 +15,7 @@
 #include "base/floating_point.h"
 #include "base/system.h"
 #include "stripack/listing.h"
-#include "stripack/plot.h"
+#include "stripack/postscript.h"
 
 namespace {
 
