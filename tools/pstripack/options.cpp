@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <numeric>
 #include <stdexcept>
@@ -144,6 +145,10 @@ files::LimitedArea limited_area_of(const std::string& text, const files::ReadOpt
   const bool is_circle = text.rfind(kCircle, 0) == 0;
   const bool is_box =
       !is_circle && text.find(',') != text.npos && text.find_first_not_of("+-.,eE0123456789") == text.npos;
+  if (!is_circle && !is_box && text != "-" && !std::filesystem::exists(text))
+    throw CLI::ValidationError("--region", "there is no file '" + text +
+                                               "': expected WEST,EAST,SOUTH,NORTH, circle:KM,LON,LAT, or a "
+                                               "file of GeoJSON polygons");
   if (!is_circle && !is_box) return files::polygon_area(text, read.units == files::Units::degrees);
   if (is_box) {
     const files::Region box = region_of(text);

@@ -487,12 +487,12 @@ void suggest_levels(const Options& options) {
 
 /// The generators of a new run, those of the last level if there are levels. Collective.
 Tessellation first_tessellation(const Options& options, engine::Evaluator& evaluator, Progress& progress) {
-  const bool is_alone = evaluator.ranks().size() == 1;
-  const First first = options.first != First::by_number                  ? options.first
-                      : options.n >= engine::kFewestOfAFront && is_alone ? First::front
-                                                                         : First::levels;
+  const bool is_alone = evaluator.ranks().size() == 1, is_regional = !options.region.empty();
+  const First first = options.first != First::by_number                                   ? options.first
+                      : is_regional || (options.n >= engine::kFewestOfAFront && is_alone) ? First::front
+                                                                                          : First::levels;
   if (first == First::front) {
-    if (!is_alone)
+    if (!is_alone && !is_regional)
       throw engine::NoTessellation(
           fmt::format("--first front: a front is made by one process: `pstripack scvt {} --first front "
                       "--evaluations 0 -o "
@@ -500,12 +500,14 @@ Tessellation first_tessellation(const Options& options, engine::Evaluator& evalu
                       options.n));
     if (options.first == First::by_number) suggest_levels(options);
     Tessellation t;
-    t.state.generators = options.region.empty()
-                             ? engine::front_generators(options.n, evaluator.density())
-                             : methods::front_around(options.centre, options.n, evaluator.density());
-    t.numbers.resize(options.n);
-    std::iota(t.numbers.begin(), t.numbers.end(), std::int64_t{1});
-    return t;
+    in_agreement_with_caller(evaluator.ranks(), [&] {
+      if (evaluator.ranks().rank() > 0) return;
+      t.state.generators = is_regional ? methods::front_around(options.centre, options.n, evaluator.density())
+                                       : engine::front_generators(options.n, evaluator.density());
+      t.numbers.resize(options.n);
+      std::iota(t.numbers.begin(), t.numbers.end(), std::int64_t{1});
+    });
+    return slice_of(evaluator.ranks(), t);
   }
   engine::RunOptions on_levels;
   on_levels.levels = first == First::levels;
