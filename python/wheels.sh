@@ -13,10 +13,10 @@ if [ $# -eq 0 ]; then
 fi
 [ $# -gt 0 ] || { echo "wheels.sh: no Python with pip" >&2; exit 1; }
 mkdir -p "$folder"
-(cd "$here" && "$1" -c "import sys, setuptools.build_meta as b; b.build_sdist(sys.argv[1])" "$(cd "$OLDPWD" && cd "$folder" && pwd)")
-archive=$(ls -t "$folder"/pstripack-*.tar.gz | head -n 1)
+folder=$(cd "$folder" && pwd)
+archive=$(cd "$here" && "$1" -c "import sys, setuptools.build_meta as b; print(b.build_sdist(sys.argv[1]))" "$folder" | tail -n 1)
 for python; do
-  "$python" -m pip wheel --no-deps --wheel-dir "$folder" "$archive"
+  "$python" -m pip wheel --no-deps --wheel-dir "$folder" "$folder/$archive"
 done
 for wheel in "$folder"/pstripack-*.whl; do
   "$1" "$here/tests/wheel_tag.py" "$wheel"

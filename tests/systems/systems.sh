@@ -20,14 +20,14 @@ needs() {  # needs FILE|COMMAND PACKAGE
 build() {  # build FOLDER OPTION...: of the project
   folder=$1
   shift
-  cmake -S "$source" -B "$folder" "$@" > "$work/log" 2>&1 && cmake --build "$folder" --parallel "$jobs" >> "$work/log" 2>&1 ||
+  { cmake -S "$source" -B "$folder" "$@" && cmake --build "$folder" --parallel "$jobs"; } > "$work/log" 2>&1 ||
     { tail -n 50 "$work/log"; fail "not built"; }
   if grep 'warning:' "$work/log"; then fail "warnings"; fi
 }
 # Compiled in half the time that Release takes.
 only_libraries="-DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 -DPSTRIPACK_TESTS=OFF -DPSTRIPACK_EXAMPLES=OFF -DPSTRIPACK_PYTHON=OFF -DPSTRIPACK_WITH_MPI=OFF"
 
-# shellcheck disable=SC2086  # lists of words on purpose
+# shellcheck disable=SC2046,SC2086  # lists of words on purpose
 case $case in
   old)
     needs g++-11 g++-11

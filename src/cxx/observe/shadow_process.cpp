@@ -51,12 +51,13 @@ std::string program() {
 }
 
 /// The model's environment without the variables of MPI launchers and of this library, and without
-/// LD_PRELOAD: the program is not a rank of the model's job.
+/// LD_PRELOAD (macOS: DYLD_INSERT_LIBRARIES): the program is not a rank of the model's job.
 std::vector<char*> environment_of_program() {
   std::vector<char*> variables;
   for (char** variable = all_environment_variables(); *variable != nullptr; ++variable) {
     const bool is_of_model = is_from_mpi_launcher(*variable) || starts_with(*variable, "PSTRIPACK_") ||
-                             starts_with(*variable, "LD_PRELOAD=");
+                             starts_with(*variable, "LD_PRELOAD=") ||
+                             starts_with(*variable, "DYLD_INSERT_LIBRARIES=");
     if (!is_of_model) variables.push_back(*variable);
   }
   variables.push_back(nullptr);
