@@ -112,7 +112,7 @@ int run(int argc, char** argv) {
 #endif
     chosen();
     expect_printed();
-    return kDone;
+    return global().exit_code;
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return after_help("pstripack", app.exit(e));  // --help, --version
     const std::string unknown = unknown_word(app);
