@@ -685,6 +685,7 @@ TEST(GivingUp, OfRanksLeavesAllToOne) {
   const Set set(point_sets::make("ring", 3000, 1));
   ParallelOptions options;
   options.most_questions = 0;
+  options.threads = 2;
   const auto by_thirds = [](const Point& p) { return p.x < 0 ? 0 : 1 + (p.y > 0); };
   for (const bool is_given : {false, true}) {
     if (is_given)
