@@ -16,14 +16,19 @@
 #include "lists/adjacency_lists.h"
 #include "observe/check.h"
 #include "observe/report.h"
-#include "pool/client.h"
 #include "stripack/original/original_rules.h"
 #include "trmesh/trmesh.h"
+#ifdef PSTRIPACK_WITH_POOL
+#include "pool/client.h"
+#endif
 
 namespace {
 
 using namespace pstripack;
 
+#ifndef PSTRIPACK_WITH_POOL
+Engine* pool_engine() noexcept { return nullptr; }
+#endif
 std::atomic<Engine*> communicator{nullptr};
 
 TrmeshResult carry_out(const TrmeshCall& call, CallReport* report) noexcept {
