@@ -5,7 +5,8 @@
 #   bare    no Fortran compiler, no MPI, no OpenMP, archives only; cross-compiled: nothing that is built can run meanwhile
 #   part    part of a project with other flags, language standards and defaults, by FetchContent (add_subdirectory)
 #   posix   without anything that only Linux and its linkers have (PSTRIPACK_ONLY_POSIX): all tests
-#   musl    the libraries' sources are compiled, not linked, with musl and libc++ instead of glibc and libstdc++
+#   musl    the libraries' sources are compiled, not linked, with musl and libc++ instead of glibc and libstdc++; and then as
+#           on macOS, where int64_t is long long, without anything that only Linux has
 # Exit status 77: a package is missing.
 set -eu
 case=$1 source=$2 work=$3
@@ -101,11 +102,18 @@ END
     mkdir "$work/boost"
     ln -s /usr/include/boost "$work/boost/boost"
     cmake -S "$source" -B "$work/build" $only_libraries -DPSTRIPACK_TOOLS=OFF -DPSTRIPACK_WITH_FORTRAN=OFF > "$work/log"
-    find "$source/src/cxx" -name '*.cpp' ! -path '*/mpi/*' ! -name 'pstripack_mpi.cpp' ! -name steward.cpp ! -name worker_main.cpp |
+    compile() {  # compile OPTION...
       xargs -P "$jobs" -n 1 clang++ -std=c++17 -fsyntax-only -Wall -Wextra -Werror -nostdinc -isystem "$libcxx" \
-        -D_LIBCPP_HAS_MUSL_LIBC -D_GNU_SOURCE -isystem "$clang/include" -isystem /usr/include/x86_64-linux-musl \
-        -isystem "$work/boost" -I"$source/src/cxx" -I"$work/build/src/cxx/capi" -DPSTRIPACK_WITH_POOL \
-        '-DPSTRIPACK_MPIRUN="mpirun"' '-DPSTRIPACK_VERSION="0"' ;;
+        -D_LIBCPP_HAS_MUSL_LIBC -D_GNU_SOURCE -isystem "$clang/include" -isystem "$work/musl" -isystem "$work/boost" \
+        -I"$source/src/cxx" -I"$work/build/src/cxx/capi" "$@"
+    }
+    sources() { find "$source/src/cxx" -name '*.cpp' ! -path '*/mpi/*' ! -name 'pstripack_mpi.cpp' "$@"; }
+    cp -r /usr/include/x86_64-linux-musl "$work/musl"
+    sources ! -name steward.cpp ! -name worker_main.cpp |
+      compile -DPSTRIPACK_WITH_POOL '-DPSTRIPACK_MPIRUN="mpirun"' '-DPSTRIPACK_VERSION="0"'
+    sed -i -E 's/^typedef (signed|unsigned) _Int64 +(u?int64_t|u?intmax_t);/typedef \1 long long \2;/' "$work/musl/bits/alltypes.h"
+    grep -q 'long long int64_t;' "$work/musl/bits/alltypes.h"
+    sources ! -path '*/pool/*' | compile -DPSTRIPACK_ONLY_POSIX ;;
   *) fail "no such case" ;;
 esac
 echo "systems.sh $case: all programs ran"
