@@ -25,7 +25,8 @@ stage() {
 run_ctest() {
   run_build=$1
   shift
-  { ctest "$@" --output-junit tests.xml && echo passed > "$run_build/passed" || rm -f "$run_build/passed"; } |
+  rm -f "$run_build/passed"
+  { if ctest "$@" --output-junit tests.xml; then echo passed > "$run_build/passed"; fi; } |
     sed '/^\[ RUN  /{N;/\n\[       OK \]/d;}'
   sed -n 's/^\[  SKIPPED \] \(.*\) ([0-9]* ms)$/skipped: \1/p' "$run_build/Testing/Temporary/LastTest.log"
   echo "The slowest tests and cases:"
