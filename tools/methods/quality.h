@@ -29,7 +29,7 @@ struct Quality {
 Quality quality_of(const files::Mesh& mesh);
 
 /// The quality of the mesh of all ranks. Each rank has one of equal slices of the nodes (slice_of in
-/// scvt/run.h). Any number of ranks gives the same bits. Collective. Throws AgreedFailure.
+/// scvt/tessellation.h). Any number of ranks gives the same bits. Collective. Throws AgreedFailure.
 Quality quality_of(pstripack::Communicator& ranks, const pstripack::scvt::Neighbourhood& nodes);
 
 }  // namespace methods

@@ -150,10 +150,11 @@ void add_plot(CLI::App& app, Command& chosen);
 /// Options of the whole program: --quiet, --threads, ranks.
 struct Global {
   bool quiet = false;
-  bool is_led = false;  ///< a rank above 0 that runs the same command and prints nothing
-  int threads = 0;      ///< 0: as OpenMP says
-  int ranks = 1;        ///< number of ranks that triangulated
-  std::string command;  ///< the command line, for the history of files
+  bool is_led = false;    ///< a rank above 0 that runs the same command and prints nothing
+  int threads = 0;        ///< 0: as OpenMP says
+  int ranks = 1;          ///< number of ranks that triangulated
+  int exit_code = kDone;  ///< of a command that does not fail
+  std::string command;    ///< the command line, for the history of files
 };
 Global& global();
 

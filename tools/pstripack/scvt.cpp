@@ -1,12 +1,15 @@
 // `pstripack scvt`.
 
 #include <fmt/format.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <filesystem>
+#include <initializer_list>
 #include <memory>
 #include <new>
 #include <numeric>
@@ -27,7 +30,7 @@
 #include "scvt/errors.h"
 #include "scvt/first_generators.h"
 #include "scvt/front.h"
-#include "scvt/run.h"
+#include "scvt/tessellation.h"
 #include "text_file.h"
 
 namespace program {
@@ -61,7 +64,8 @@ struct Options {
   bool well_centred = false;  ///< move generators until all triangles hold their circumcentre
   bool strict = false;
   std::int64_t evaluations = 10000, every = 100;
-  std::string history;  ///< of --start
+  double time_limit = 0;  ///< seconds; 0: none
+  std::string history;    ///< of --start
   Output output, checkpoint{"", "", files::Format::netcdf};
 };
 
@@ -524,15 +528,44 @@ Tessellation first_tessellation(const Options& options, engine::Evaluator& evalu
   return engine::first_generators(evaluator, options.n, on_levels);
 }
 
-/// Collective.
-void iterate(const Options& options, Ranks& ranks, engine::Evaluator& evaluator, Tessellation& t,
-             Progress& progress) {
+/// The signal that is to end the iterations; 0: none.
+volatile sig_atomic_t signal_received = 0;
+
+void on_signal(int signal) {
+  if (signal_received != 0) {
+    files::remove_unfinished_output();
+    std::signal(signal, SIG_DFL);
+    raise(signal);
+  }
+  signal_received = signal;
+}
+
+/// From now on the first of these signals ends the iterations, and a second one the program. One that was
+/// ignored, as INT in the background, stays so.
+void end_iterations_at(std::initializer_list<int> signals) {
+  for (const int signal : signals)
+    if (std::signal(signal, on_signal) == SIG_IGN) std::signal(signal, SIG_IGN);
+}
+
+/// The iterations end so many seconds from now.
+void end_iterations_after(double seconds) {
+  end_iterations_at({SIGALRM});
+  const double in_range = std::clamp(seconds, 1e-6, 1e9), whole = std::floor(in_range);
+  const itimerval timer{{0, 0},
+                        {static_cast<time_t>(whole), static_cast<suseconds_t>((in_range - whole) * 1e6)}};
+  setitimer(ITIMER_REAL, &timer, nullptr);
+}
+
+/// Returns the signal that ended the iterations, on any rank; 0: none did. Collective.
+int iterate(const Options& options, Ranks& ranks, engine::Evaluator& evaluator, Tessellation& t,
+            Progress& progress) {
   engine::Options of_run;
   of_run.method = options.method;
   of_run.tolerance = options.tolerance;
   of_run.most_evaluations = options.evaluations;
   of_run.well_centred = options.well_centred;
   methods::TimeLeft time_left(options.tolerance);
+  pstripack::Largest signal;
   const auto start = std::chrono::steady_clock::now();
   of_run.progress = [&](const engine::Progress& p) {
     time_left.add(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
@@ -540,14 +573,18 @@ void iterate(const Options& options, Ranks& ranks, engine::Evaluator& evaluator,
     const std::optional<double> left = time_left.seconds();
     progress.now(fmt::format("{} evaluations, gradient {:.3g}, energy {:.9g}{}", p.evaluations, p.gradient,
                              p.energy, left ? ", perhaps " + duration(*left) + " left" : ""));
-    if (!options.checkpoint.file.empty() && t.state.steps % options.every == 0)
+    signal.value = signal_received;
+    agree(ranks.communicator(), signal);
+    if (!options.checkpoint.file.empty() && (signal.value != 0 || t.state.steps % options.every == 0))
       write(ranks, options, true, t, evaluator.density(), notes_of(options, t.state, p));
-    return true;
+    return signal.value == 0;
   };
+  end_iterations_at({SIGTERM, SIGINT});
   engine::iterate(evaluator, t, of_run);
+  return static_cast<int>(signal.value);
 }
 
-std::string end_of(const Options& options, const Tessellation& t, bool has_moved) {
+std::string end_of(const Options& options, const Tessellation& t, bool has_moved, int signal) {
   const auto end = [&] {
     switch (t.result.end) {
       case engine::End::converged:
@@ -556,6 +593,12 @@ std::string end_of(const Options& options, const Tessellation& t, bool has_moved
         return fmt::format(
             "stalled, NOT converged to {:g}: the energy falls no more (rounding, or a rough density)",
             options.tolerance);
+      case engine::End::stopped:
+        return fmt::format("ended by {}, NOT converged to {:g}",
+                           signal == SIGTERM  ? "TERM"
+                           : signal == SIGINT ? "INT"
+                                              : "--time-limit",
+                           options.tolerance);
       default:
         return has_moved ? fmt::format("NOT converged to {:g}", options.tolerance) : "none was left to do";
     }
@@ -685,19 +728,22 @@ void scvt(Options& options, Ranks& ranks) {
       return given;
     });
     const std::int64_t steps_before = t.state.steps;
-    progress.step("iterating", [&] { iterate(options, ranks, *evaluator, t, progress); });
+    const int signal =
+        progress.step("iterating", [&] { return iterate(options, ranks, *evaluator, t, progress); });
     const engine::Progress& reached = t.result.progress;
     const methods::Quality quality = progress.step("writing", [&] {
       return write(ranks, options, false, t, *density, notes_of(options, t.state, reached));
     });
     progress.finish(fmt::format("{} generators, {} evaluations, {}: gradient {:.3g}, energy {:.9g}",
                                 reached.generators, t.state.evaluations,
-                                end_of(options, t, t.state.steps > steps_before), reached.gradient,
+                                end_of(options, t, t.state.steps > steps_before, signal), reached.gradient,
                                 reached.energy));
     say(quality.text());
     const std::string missed = what_is_missing(options, t, quality);
     if (!missed.empty() && options.strict) throw engine::NoTessellation(missed);
     if (!missed.empty()) say(missed);
+    constexpr int kBySignal = 128;  // as a shell has it
+    if (signal == SIGTERM || signal == SIGINT) global().exit_code = kBySignal + signal;
   } catch (const engine::BadDensity& e) {
     if (options.density_file.empty() || !std::isnan(e.value)) throw;
     const files::LonLat where({e.place}, true);
@@ -724,6 +770,7 @@ void scvt(Options& options) {
   options.output.radius = options.radius;
   if (!options.checkpoint.file.empty()) options.checkpoint.choose(files::Format::netcdf);
   if (!options.density.empty()) make_density(options);
+  if (options.time_limit > 0) end_iterations_after(options.time_limit);
   try {
     on_all_ranks([&](Ranks& ranks) { scvt(options, ranks); });
   } catch (const pstripack::AgreedFailure&) {
@@ -817,6 +864,11 @@ void add_scvt(CLI::App& app, Command& chosen) {
       ->type_name("NUMBER")
       ->transform(whole_number())
       ->capture_default_str();
+  sub->add_option("--time-limit", options->time_limit,
+                  "end the iterations after this time from the start, and write the mesh; so does a signal "
+                  "TERM or INT")
+      ->type_name("SECONDS")
+      ->check(above_0("finite number"));
   sub->add_option("--checkpoint", options->checkpoint.file, "file to write every --every steps")
       ->type_name("FILE");
   sub->add_option("--every", options->every, "steps between checkpoints")

@@ -428,6 +428,18 @@ scvt)
     done
     ncdump -h resumed.nodes.nc | tr -d '\n' | grep -q 'scvt --start short.ugrid.nc .*scvt 300 --method lloyd' || fail "history of the start"
   fi
+  # TERM ends the iterations, also after a checkpoint; so does a limit of time. The mesh is written.
+  "$PSTRIPACK" scvt 3000 --density bump --tolerance 1e-12 --checkpoint term.nc --every 1 -o term.mpas.nc 2> err &
+  job=$! status=0
+  for _ in $(seq 3000); do [ -e term.nc ] && break; sleep 0.02; done
+  kill -TERM $job
+  wait $job || status=$?
+  [ $status = 143 ] || fail "status $status after TERM: $(cat err)"
+  grep -q "^pstripack: 3000 generators, .* evaluations, ended by TERM, NOT converged to 1e-12, then .*: gradient " err || fail "$(cat err)"
+  grep -q "^pstripack: cells by sides: .* triangles .* hold their circumcentre$" err || fail "$(cat err)"
+  "$PSTRIPACK" -q info term.mpas.nc > info
+  "$PSTRIPACK" scvt 3000 --density bump --tolerance 1e-12 --time-limit 0.1 -o limit.off 2> err
+  grep -q " ended by --time-limit, NOT converged to 1e-12: gradient " err || fail "$(cat err)"
   # Formats without density, other threads, a tolerance that is reached.
   "$PSTRIPACK" -q --threads 3 scvt 300 --density bump --iterations 30 --tolerance 1e-6 -o threads.txt
   "$PSTRIPACK" -q convert direct.nodes.nc -o direct.txt
@@ -1202,15 +1214,16 @@ scvt_ranks)
   # shellcheck disable=SC2086
   "$PSTRIPACK" -q scvt --start ranks.nc $thirty -o resumed.nodes.nc
   same direct.nodes.nc resumed.nodes.nc
-  # So does that of a run that was killed.
+  # So does that of a run that ended because one rank got TERM; it writes its mesh, too.
   rm ranks.nc
-  $MPIRUN -n 3 "$PSTRIPACK" -q scvt 3000 --first levels --density bump --tolerance 1e-12 --evaluations 1e5 --every 1 --checkpoint ranks.nc -o killed.nc 2> err &
+  # shellcheck disable=SC2016
+  $MPIRUN -n 3 sh -c 'echo $$ > rank.pid; exec "$@"' sh "$PSTRIPACK" scvt 3000 --first levels --density bump --tolerance 1e-12 --evaluations 1e5 --every 1 --checkpoint ranks.nc -o ended.nc 2> err &
   job=$!
   for _ in $(seq 3000); do [ -e ranks.nc ] && break; sleep 0.02; done
-  kill -TERM $job
-  wait $job || true
-  [ -e ranks.nc ] || fail "no checkpoint in a minute: $(cat err)"
-  [ ! -e killed.nc ] || fail "killed.nc was written by a killed run"
+  kill -TERM "$(cat rank.pid)"
+  if wait $job; then fail "status 0 after TERM"; fi
+  grep -q "^pstripack: 3000 generators, .* ended by TERM, NOT converged to 1e-12: gradient .*; on 3 ranks$" err || fail "$(cat err)"
+  "$PSTRIPACK" -q info ended.nc > /dev/null
   "$PSTRIPACK" -q scvt 3000 --first levels --density bump --tolerance 1e-12 --evaluations 1000 -o direct.nodes.nc
   run 2 scvt --start ranks.nc --tolerance 1e-12 --evaluations 1000 -o resumed.nodes.nc
   same direct.nodes.nc resumed.nodes.nc
