@@ -136,7 +136,8 @@ double MapRegion::area() const {
 
 std::vector<MapRegion> read_polygons(const std::string& file) {
   std::vector<MapRegion> polygons;
-  for (Reader::Feature& feature : Reader(file).features)
+  Reader reader(file);
+  for (Reader::Feature& feature : reader.features)
     for (MapRegion& polygon : feature.polygons) polygons.push_back(std::move(polygon));
   return polygons;
 }

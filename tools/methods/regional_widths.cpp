@@ -184,12 +184,8 @@ RegionalWidths widths_in(const files::LimitedArea& area, const Widths& given, do
     throw std::runtime_error(fmt::format(
         "{}: the region is smaller than a cell of {:.4g} km: enlarge it, or make the width smaller",
         area.name, widest));
-  for (std::size_t r = 0; r < table.lat.size(); ++r)
-    for (std::size_t c = 0; c <= columns; ++c)
-      if (!inside[r * columns + c % columns])
-        table.values[r * (columns + 1) + c] = std::max(radius / 6, widest);
   regional.centre = pstripack::scvt::normalized(regional.centre);
-  limit_outside(table, inside, gradient, radius, kFlat, spacing);
+  set_outside(table, inside, gradient, radius, kFlat, spacing, radius / 6);
   const double reach = reach_of_least(table, regional.centre, spacing / radius);
   regional.widths = widths_of(std::move(table), radius);
   if (reach > 0)

@@ -70,7 +70,11 @@ double cells_of(const Table& t, double radius) {
 class GradientLimit {
  public:
   GradientLimit(Table& table, double gradient, double radius)
-      : columns_(table.lon.size() - 1), rows_(table.lat.size()), slope_(gradient * radius), table_(table) {
+      : columns_(table.lon.size() - 1),
+        rows_(table.lat.size()),
+        slope_(gradient * radius),
+        radius_(radius),
+        table_(table) {
     if (rows_ * columns_ > 0xffffffff) throw std::runtime_error("the grid has more than 4e9 places");
     for (std::size_t c = 0; c < columns_; ++c)
       east_.push_back({std::cos(table.lon[c] * kDegree), std::sin(table.lon[c] * kDegree), 0});
@@ -90,7 +94,7 @@ class GradientLimit {
       if (inside != nullptr && (*inside)[i] != sources) continue;
       bool is_source = false;
       for_each_neighbour(i, [&](std::size_t n) {  // a chord is shorter than its arc
-        is_source = is_source || cone(i, chord(i, n)) < given_[n];
+        is_source = is_source || given_[i] + slope_ * chord(i, n) < given_[n];
       });
       if (is_source) queue_.emplace(-given_[i], i);
     }
@@ -100,7 +104,7 @@ class GradientLimit {
       if (-value != lowered_[i]) continue;  // it was lowered again
       const std::uint32_t s = source_[i];
       for_each_neighbour(i, [&](std::size_t n) {
-        const double offer = cone(s, 2 * std::asin(std::min(1.0, chord(s, n) / 2)));
+        const double offer = given_[s] + slope_ * 2 * std::asin(std::min(1.0, chord(s, n) / 2));
         if (!(offer < lowered_[n]) || (inside != nullptr && (*inside)[n] == sources)) return;
         lowered_[n] = offer;
         source_[n] = s;
@@ -109,12 +113,22 @@ class GradientLimit {
     }
     return finish();
   }
-  void set_flat(double radians_per_km, double radians) { flat_ = radians_per_km, more_ = radians; }
+
+  /// After run(&inside): the cones begin `flat` times their own value and `more` km from their source, and
+  /// end at `most`.
+  void flatten(const std::vector<bool>& inside, double flat, double more, double most) {
+    for (std::size_t i = 0; i < given_.size(); ++i) {
+      if (inside[i]) continue;
+      const double value = given_[source_[i]], gradient = slope_ / radius_;
+      const double distance = radius_ * 2 * std::asin(std::min(1.0, chord(source_[i], i) / 2));
+      lowered_[i] = source_[i] == i
+                        ? most
+                        : std::min(most, value + gradient * std::max(0.0, distance - flat * value - more));
+    }
+    finish();
+  }
 
  private:
-  double cone(std::size_t i, double distance) const {
-    return given_[i] + slope_ * std::max(0.0, distance - flat_ * given_[i] - more_);
-  }
   Point place(std::size_t i) const {
     const Point &e = east_[i % columns_], &u = up_[i / columns_];
     return {u.x * e.x, u.x * e.y, u.z};
@@ -153,8 +167,8 @@ class GradientLimit {
   }
 
   std::size_t columns_, rows_;
-  double slope_;                ///< km per radian
-  double flat_ = 0, more_ = 0;  ///< a place's cone begins so many radians per km, and radians, from it
+  double slope_;   ///< km per radian
+  double radius_;  ///< km
   Table& table_;
   std::vector<Point> east_, up_;  ///< of columns and rows: the factors of a place
   std::vector<double> given_, lowered_;
@@ -277,11 +291,20 @@ Lowered limit_gradient(Table& table, double gradient, double radius) {
   return GradientLimit(table, gradient, radius).run();
 }
 
-void limit_outside(Table& table, const std::vector<bool>& inside, double gradient, double radius, double flat,
-                   double more) {
+void set_outside(Table& table, const std::vector<bool>& inside, double gradient, double radius, double flat,
+                 double more, double most) {
+  const std::size_t columns = table.lon.size() - 1;
+  double widest = 0;
+  for (std::size_t i = 0; i < inside.size(); ++i)
+    if (inside[i]) widest = std::max(widest, table.values[i / columns * (columns + 1) + i % columns]);
+  most = std::max(most, widest);
+  for (std::size_t r = 0; r < table.lat.size(); ++r)
+    for (std::size_t c = 0; c <= columns; ++c)
+      if (!inside[r * columns + c % columns])
+        table.values[r * (columns + 1) + c] = most + gradient * (flat * widest + more);
   GradientLimit limit(table, gradient, radius);
-  limit.set_flat(flat / radius, more / radius);
   limit.run(&inside);
+  limit.flatten(inside, flat, more, most);
 }
 
 Table widths_of_regions(const std::vector<files::WidthRegion>& regions, const WidthFormula& elsewhere,

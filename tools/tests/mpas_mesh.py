@@ -512,19 +512,14 @@ check_region(sphere, "sphere", rings=[[(-180, -40), (-170, -30), (-180, -20), (-
 concave = check_region(sphere, "sphere", rings=[[(0, 20), (30, 20), (30, 26), (8, 27), (7, 50), (0, 50), (0, 20)]])
 check_other_formats(concave, "sphere", FOLDER / "sphere_region.geojson")
 
-# A mesh made for a limited area: 7 layers of the width asked for; of more cells, hexagons.
-said = run("scvt", "--width", "200km", "--region", "circle:800,10,50", "-o", FOLDER / "limited.mpas.nc")
+# A mesh made for a limited area: 7 layers of the width asked for, and hexagons.
+said = run("scvt", "--width", "150km", "--region", "circle:900,10,50", "-o", FOLDER / "limited.mpas.nc")
 limited = check("limited", 1e-10)
-check_masks(limited, layers_by_definition(limited, (800, 10, 50), None))
-assert limited.meshDensity.min() > 0.9 and (limited.obtuseTriangle == 0).all()
-widths = limited.dcEdge[(limited.cellsOnEdge > 0).all(axis=1)] * 6371.22 / 200
-assert abs(widths.mean() - 1) < 5e-3 and widths.std() < 0.05, (widths.mean(), widths.std())
+check_masks(limited, layers_by_definition(limited, (900, 10, 50), None))
+assert limited.meshDensity.min() > 0.99 and (limited.obtuseTriangle == 0).all() and (limited.nEdgesOnCell != 6).sum() < 6
+widths = limited.dcEdge[(limited.cellsOnEdge > 0).all(axis=1)] * 6371.22 / 150
+assert abs(widths.mean() - 1) < 5e-3 and widths.std() < 0.03, (widths.mean(), widths.std())
 assert f" of {said.split('the widths give ')[2].split()[0]} cells kept: {(limited.bdyMaskCell == 0).sum()} in the region, " in said, said
-run("scvt", "--width", "8km", "--region", "5,11,44,48", "-o", FOLDER / "limited.mpas.nc")
-limited = Mesh(FOLDER / "limited.mpas.nc")
-assert limited.meshDensity.min() > 0.99 and (limited.nEdgesOnCell != 6).sum() < 10
-widths = limited.dcEdge[(limited.cellsOnEdge > 0).all(axis=1)] * 6371.22 / 8
-assert abs(widths.mean() - 1) < 2e-3 and widths.std() < 0.02, (widths.mean(), widths.std())
 
 # At the boundary of a hemisphere nodes have no whole cells.
 run("points", "hemisphere", 60, "-o", FOLDER / "half.txt")
