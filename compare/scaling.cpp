@@ -58,10 +58,6 @@ struct Settings {
   double change = 0;  ///< fraction of the points that change ranks before each call of a moving mesh
   bool warm = false;  ///< calls may reuse the mesh of the last call
   bool per_rank = false;
-  bool again = false;  ///< calls of TRMESH in a pool may begin with the mesh of the last one
-
-  bool is_of_pool() const { return mode == "pool" || mode == "messages"; }
-  bool is_first_call() const { return !warm && !(again && is_of_pool()); }
 };
 
 double seconds() { return clock_seconds(CLOCK_MONOTONIC); }
@@ -183,8 +179,7 @@ void write_owners(DistributedMesh& mesh, const Settings& s) {
 /// machines, sent to and from rank 0.
 class PoolCall {
  public:
-  PoolCall(MpiCommunicator& ranks, const std::vector<Point>& points_on_root, bool shared, bool again)
-      : ranks_(ranks), again_(again) {
+  PoolCall(MpiCommunicator& ranks, const std::vector<Point>& points_on_root, bool shared) : ranks_(ranks) {
     std::int64_t n = static_cast<std::int64_t>(points_on_root.size());
     ranks.broadcast(&n, sizeof n, 0);
     const AreaLayout layout(static_cast<std::int32_t>(n), sizeof(double));
@@ -212,7 +207,7 @@ class PoolCall {
     std::int32_t lnew = 0;
     TrmeshCall call = call_;
     call.lists.lnew = &lnew;
-    collective_trmesh(ranks_, arrays_, call, cost, again_ ? &last_ : nullptr);
+    collective_trmesh(ranks_, arrays_, call, cost);
   }
 
  private:
@@ -220,8 +215,6 @@ class PoolCall {
   SharedArea area_;
   Arrays arrays_ = Arrays::on_one_rank;
   TrmeshCall call_;
-  const bool again_;
-  LastCall last_;
 };
 
 /// A distributed mesh whose points make small steps of Lloyd's method. Prints the least time of the calls and
@@ -389,7 +382,7 @@ void run_on_ranks(const Settings& s) {
           });
     } else {
       SerialCall serial(points);
-      PoolCall call(ranks, points, s.mode == "pool", s.again);
+      PoolCall call(ranks, points, s.mode == "pool");
       measure([&] { serial(); },
               [&] {
                 GroupCost cost;
@@ -410,10 +403,9 @@ using Row = std::map<std::string, double>;
 Row measure(const std::string& self, const Settings& s, int ranks) {
   const std::string command = fmt::format(
       "{}OMP_NUM_THREADS=1 PSTRIPACK_WARM_START={} {} -n {} '{}' --mode {} --family {} --n {} "
-      "--repeats {} --change {}{}",
-      geteuid() == 0 ? "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 " : "",
-      s.is_first_call() ? 0 : 1, MPIRUN, ranks, self, s.mode, s.family, s.n, s.repeats, s.change,
-      s.again ? " --again" : "");
+      "--repeats {} --change {}",
+      geteuid() == 0 ? "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 " : "", s.warm ? 1 : 0,
+      MPIRUN, ranks, self, s.mode, s.family, s.n, s.repeats, s.change);
   FILE* const out = popen(command.c_str(), "r");
   if (out == nullptr) throw std::runtime_error("cannot start " + command);
   Row row;
@@ -545,12 +537,11 @@ void print_tables(const std::string& self, Settings s, const Tables& t) {
       s.mode = mode;
       s.warm = mode == kScvt;
       const bool has_constant_n = kind == "constant-n";
-      fmt::print("\n{}{}, {}, constant {}\n",
+      fmt::print("\n{}, {}, constant {}\n",
                  mode == "pool"       ? "pool on one machine, arrays and lists in rank 0's memory"
                  : mode == "messages" ? "pool on several machines, arrays and lists sent from and to rank 0"
                  : mode == kScvt      ? "scvt, generators at home"
                                       : "distributed, points at home",
-                 s.again && s.is_of_pool() ? ", nodes of an earlier call" : "",
                  mode == kScvt ? "density 1" : s.family,
                  has_constant_n ? "N" : fmt::format("N/P = {}", t.sizes.front()));
       head(mode == kScvt);
@@ -596,10 +587,6 @@ int main(int argc, char** argv) {
       ->delimiter(',')
       ->check(CLI::IsMember(with_moving(kKinds)))
       ->capture_default_str();
-  app.add_flag(
-      "--again", s.again,
-      "modes pool and messages: calls, also the serial one, may begin with the mesh of the last one, as in "
-      "a model that calls TRMESH again on nodes that have hardly moved");
   app.add_option("--csv", t.csv, "also add rows, in seconds, to this file");
   app.add_option("--mode", s.mode, "no tables: one run of this mode on the ranks of this mpirun")
       ->check(CLI::IsMember(with_moving(kAllModes)));
@@ -614,7 +601,7 @@ int main(int argc, char** argv) {
     if (s.per_rank && (s.mode.empty() || s.mode == kMoving))
       throw CLI::ValidationError("--per-rank", "only with --mode, and not moving");
     // Calls with the same nodes must not reuse the last mesh: measure first calls.
-    if (s.mode != kMoving && s.mode != kScvt && s.is_first_call()) setenv("PSTRIPACK_WARM_START", "0", 1);
+    if (s.mode != kMoving && s.mode != kScvt) setenv("PSTRIPACK_WARM_START", "0", 1);
     if (s.mode == kMoving)
       run_moving(s);
     else if (!s.mode.empty())

@@ -17,7 +17,6 @@
 
 #include "base/workspace.h"
 #include "parallel/agreement.h"
-#include "parallel/last_rings.h"
 #include "parallel/partition.h"
 #include "parallel/relocation.h"
 #include "parallel/triangulate.h"
@@ -503,61 +502,6 @@ TEST(MovingStars, FollowForALongTime) {
   EXPECT_GT(tally.warm, cases(150) / 2);
   EXPECT_GE(tally.laid_out_anew, cases(150) / 30);
   EXPECT_LE(tally.laid_out_anew, 1 + cases(150) / 10);
-}
-
-/// The rings of slices, whose nodes are at home anywhere.
-void follow_slices(bool all_ranks_can_read_all) {
-  Random random(10);
-  const int size = 2;
-  const std::size_t slice = 100;
-  const auto sets = sets_of(make("fibonacci", size * slice, 1), cases(150),
-                            [&](Nodes& nodes, int) { move_all(nodes, 0.03 * spacing(200), random); });
-  const std::vector<std::size_t> begin{0, slice, 2 * slice};
-  ThreadRanks::run(size, [&](Communicator& ranks) {
-    const std::size_t first = begin[static_cast<std::size_t>(ranks.rank())];
-    std::vector<std::int64_t> numbers(slice);
-    std::iota(numbers.begin(), numbers.end(), static_cast<std::int64_t>(first) + 1);
-    std::unique_ptr<LastRings> last;
-    const MovingStars* stars_at_home = nullptr;
-    int warm = 0, laid_out_anew = 0;
-    for (const Nodes& nodes : sets) {
-      std::vector<const std::int32_t*> before(slice);
-      for (std::size_t i = 0; last != nullptr && i < slice; ++i) before[i] = last->rings()[i].begin;
-      const NodeArrays all(nodes.data());
-      LocalNodes local{nodes.data() + first, slice, numbers.data()};
-      local.of_all_ranks = all_ranks_can_read_all ? &all : nullptr;
-      if (last == nullptr || !last->move(local, begin, ranks)) {
-        NodeCheck check = check_nodes(local.points, local.count);
-        agree_on(check, ranks);
-        const Point corners[3] = {nodes[0], nodes[1], nodes[2]};
-        Stars<std::int32_t> stars = triangulate<std::int32_t>(local, check, corners, {1, 2, 3}, ranks, {});
-        last = std::make_unique<LastRings>(stars.of_node, first, std::move(stars.homes));
-        stars_at_home = nullptr;
-        continue;
-      }
-      ++warm;
-      if (stars_at_home == nullptr) stars_at_home = &last->stars();
-      ASSERT_EQ(&last->stars(), stars_at_home) << "made once";
-      const Rings right = *rings_of_one_hull(nodes);
-      std::size_t written = 0;
-      for (std::size_t i = 0; i < slice; ++i) {
-        const Ring<std::int32_t> ring = last->rings()[i];
-        std::vector<std::int32_t> expected = right.neighbours[first + i];
-        for (std::int32_t& b : expected) ++b;
-        ASSERT_EQ(std::vector<std::int32_t>(ring.begin, ring.begin + ring.count), expected) << first + i;
-        written += ring.begin != before[i];
-      }
-      laid_out_anew += written == slice;
-    }
-    EXPECT_GT(warm, cases(150) / 2);
-    EXPECT_GE(laid_out_anew, cases(150) / 30);
-    EXPECT_LE(laid_out_anew, 1 + cases(150) / 10);
-  });
-}
-
-TEST(LastRings, FollowForALongTime) {
-  follow_slices(true);
-  follow_slices(false);
 }
 
 TEST(MovingStars, CountAmongWhatStays) {

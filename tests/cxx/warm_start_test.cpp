@@ -51,11 +51,12 @@ Result call(const Nodes& nodes) {
   r.lptr = r.list;
   r.lend.assign(nodes.size(), untouched);
   r.lnew = untouched;
-  ParallelCost cost;
+  CallWay way;
   const TrmeshResult result = trmesh({static_cast<std::int32_t>(nodes.size()),
                                       {c.x.data(), c.y.data(), c.z.data()},
                                       {r.list.data(), r.lptr.data(), r.lend.data(), &r.lnew}},
-                                     &cost);
+                                     &way);
+  const ParallelCost& cost = way.cost.maximum;
   r.ier = result.ier;
   r.is_warm = cost.flips >= 0;
   if (r.is_warm) {

@@ -11,18 +11,16 @@
 
 #include "base/cached.h"
 #include "geometry/predicates.h"
-#include "mpi/area_of_all.h"
 #include "mpi/collective_trmesh.h"
 #include "mpi/distributed_mesh.h"
 #include "mpi_test.h"
 #include "point_sets.h"
-#include "pool/area_layout.h"
 #include "support/columns.h"
 #include "support/failing_allocation.h"
 #include "support/follower.h"
 #include "support/lists.h"
 #include "support/moves.h"
-#include "support/room_in_cache.h"
+#include "trmesh/warm_start.h"
 
 namespace {
 
@@ -368,12 +366,12 @@ TEST(Moving, SurviveMemoryThatRunsOut) {
 
 // ---- comm mode and the pool ---------------------------------------------------------------------------
 
-/// TRMESH by all ranks: with arrays on every rank, in shared memory, or on rank 0.
+/// TRMESH by all ranks, in comm mode. Begins without a mesh.
 class Caller {
  public:
-  explicit Caller(Arrays arrays) : arrays_(arrays), shared_(arrays == Arrays::shared) {}
+  Caller() { forget_last_meshes(); }
 
-  /// Whether the call began with the rings of the last one.
+  /// Whether the call began with the mesh of the last one.
   bool call(const Nodes& nodes, int ier = 0, long failing = 0, bool for_good = false) {
     const std::size_t n = nodes.size();
     const Columns<double> c(nodes);
@@ -381,42 +379,24 @@ class Caller {
     lists.list.assign(6 * n - 12, 0);
     lists.lptr = lists.list;
     lists.lend.assign(n, 0);
-    TrmeshCall call{static_cast<std::int32_t>(n), {c.x.data(), c.y.data(), c.z.data()}, {}};
-    const AreaLayout layout(call.n, sizeof(double));
-    SharedArea area;
-    if (shared_) {
-      area = area_of_all(ranks_.handle(), layout.size());
-      call = layout.call(area.data(), &lists.lnew);
-      call.n = static_cast<std::int32_t>(n);
-      const std::vector<double>* const columns[] = {&c.x, &c.y, &c.z};
-      for (int i = 0; i < 3 && ranks_.rank() == 0; ++i)
-        std::copy(columns[i]->begin(), columns[i]->end(),
-                  static_cast<double*>(layout.coordinate(area.data(), i)));
-      meet();
-    } else {
-      call.lists = {lists.list.data(), lists.lptr.data(), lists.lend.data(), &lists.lnew};
-    }
     GroupCost cost;
-    TrmeshResult result{0};
     try {
       const FailingAllocation memory(ranks_.rank() == ranks_.size() - 1 ? failing : 0, for_good);
-      result = collective_trmesh(ranks_, arrays_, call, &cost, &last_);
+      const TrmeshResult result =
+          collective_trmesh(ranks_, Arrays::on_every_rank,
+                            {static_cast<std::int32_t>(n),
+                             {c.x.data(), c.y.data(), c.z.data()},
+                             {lists.list.data(), lists.lptr.data(), lists.lend.data(), &lists.lnew}},
+                            &cost);
       has_failed = FailingAllocation::happened();
+      EXPECT_EQ(result.ier, ier);
     } catch (const AgreedFailure& failure) {
       has_failed = true;
       EXPECT_EQ(failure.code, -6);
       EXPECT_GT(failing, 0);
+      EXPECT_TRUE(std::all_of(lists.list.begin(), lists.list.end(), [](std::int32_t e) { return e == 0; }));
       return false;
     }
-    EXPECT_EQ(result.ier, ier);
-    if (shared_) {
-      std::copy_n(call.lists.list, lists.list.size(), lists.list.data());
-      std::copy_n(call.lists.lptr, lists.lptr.size(), lists.lptr.data());
-      std::copy_n(call.lists.lend, lists.lend.size(), lists.lend.data());
-      ranks_.broadcast(&lists.lnew, sizeof lists.lnew, 0);
-      meet();
-    }
-    if (arrays_ == Arrays::on_one_rank && ranks_.rank() != 0) return cost.mine.flips >= 0;
     if (const auto right = made_anew(nodes)) {
       EXPECT_TRUE(lists == *right) << (cost.mine.flips >= 0 ? "warm" : "cold");
     }
@@ -425,57 +405,25 @@ class Caller {
   bool has_failed = false;  ///< memory, in the last call
 
  private:
-  void meet() {
-    std::int64_t here = 0;
-    ranks_.all_min(&here, 1);
-  }
-  const Arrays arrays_;
-  const bool shared_;
   MpiCommunicator ranks_{MPI_COMM_WORLD};
-  LastCall last_;
 };
 
-/// In random order, so that nearly all neighbours of a node are in the slices of others.
-TEST(Moving, CallsOfTrmeshBeginWithTheLastRings) {
-  for (const Arrays arrays : {Arrays::on_every_rank, Arrays::shared, Arrays::on_one_rank}) {
-    SCOPED_TRACE(arrays == Arrays::shared        ? "shared memory"
-                 : arrays == Arrays::on_one_rank ? "messages"
-                                                 : "own arrays");
-    Random random(4);
-    Caller caller(arrays);
-    Nodes nodes = point_sets::make("random", kN, 1);
-    for (int step = 0; step < 5; ++step) {
-      EXPECT_EQ(caller.call(nodes), step >= 2) << step;
-      move_all(nodes, 1e-3 * spacing(kN), random);
-    }
-    nodes.pop_back();
-    for (int step = 0; step < 4; ++step) {
-      EXPECT_EQ(caller.call(nodes), step >= 2) << "another number, " << step;
-      move_all(nodes, 1e-9, random);
-    }
-    Nodes far = nodes;
-    move_all(far, 10 * spacing(kN), random);
-    EXPECT_FALSE(caller.call(far)) << "other nodes";
-    EXPECT_FALSE(caller.call(nodes)) << "others again";
-    EXPECT_FALSE(caller.call(nodes));
-    EXPECT_TRUE(caller.call(nodes));
-    Nodes meet = nodes;
-    meet[9] = meet[5];
-    EXPECT_FALSE(caller.call(meet, 6)) << "two nodes coincide";
-    for (int step = 0; step < 6; ++step) caller.call(nodes);
-    Nodes half = nodes;
-    for (Point& p : half) p.z = std::fabs(p.z);
-    for (int step = 0; step < 5; ++step) EXPECT_FALSE(caller.call(half)) << "a boundary";
+TEST(Moving, CallsOfTrmeshBeginWithTheLastMesh) {
+  Random random(4);
+  Caller caller;
+  Nodes nodes = point_sets::make("random", kN, 1);
+  for (int step = 0; step < 5; ++step) {
+    EXPECT_EQ(caller.call(nodes), step >= 2) << step;
+    move_all(nodes, 1e-3 * spacing(kN), random);
   }
-}
-
-TEST(Moving, RingsOfTheLastCallCountAmongWhatStays) {
-  const Nodes nodes = point_sets::make("random", kN, 1);
-  auto caller = std::make_unique<Caller>(Arrays::on_every_rank);
-  for (int i = 0; i < 2; ++i) EXPECT_FALSE(caller->call(nodes));
-  const std::size_t room = room_in_cache();
-  caller.reset();
-  EXPECT_GT(room_in_cache(), room + 50 * kN / static_cast<std::size_t>(size_of()));
+  nodes.pop_back();
+  for (int step = 0; step < 4; ++step) {
+    EXPECT_EQ(caller.call(nodes), step >= 2) << "another number, " << step;
+    move_all(nodes, 1e-9, random);
+  }
+  Nodes meet = nodes;
+  meet[9] = meet[5];
+  EXPECT_FALSE(caller.call(meet, 6)) << "two nodes coincide";
 }
 
 /// As if an allocation had failed between two calls, on the last rank.
@@ -489,11 +437,11 @@ void let_memory_run_out() {
 /// If one rank gave up its stars, those of the other ranks are useless. Other meshes are not affected.
 TEST(Moving, StarsAreGivenUpWhereMemoryIsOut) {
   const Nodes nodes = point_sets::make("random", kN, 1);
-  Caller caller(Arrays::on_every_rank);
+  Caller caller;
   for (int step = 0; step < 4; ++step) EXPECT_EQ(caller.call(nodes), step >= 2);
-  let_memory_run_out();
-  EXPECT_FALSE(caller.call(nodes)) << "rings that were given up";
-  EXPECT_TRUE(caller.call(nodes)) << "they have come again";
+  if (rank_of() == size_of() - 1) forget_last_meshes();
+  for (int step = 0; step < 4; ++step)
+    EXPECT_EQ(caller.call(nodes), step >= 2) << "the last rank has given up its mesh";
 
   Part part = part_of(nodes);
   Beside mesh, other;
@@ -520,36 +468,20 @@ TEST(Moving, MeshesMayBeMany) {
 
 TEST(Moving, CallsOfTrmeshSurviveMemoryThatRunsOut) {
   const Nodes nodes = point_sets::make("random", 1000, 1);
-  for (const Arrays arrays : {Arrays::on_every_rank, Arrays::on_one_rank})
-    for (const int calls_before :
-         {1, 2, 3})  // the one that keeps rings, the first that begins with them, another
-      for (const bool for_good : {false, true}) {
-        int any = 1;
-        for (long which = 1; any != 0; which += 1 + which / 2) {
-          Caller caller(arrays);
-          for (int i = 0; i < calls_before; ++i) caller.call(nodes);
-          caller.call(nodes, 0, which, for_good);
-          const int happened = caller.has_failed;
-          caller.call(nodes);
-          MPI_Allreduce(&happened, &any, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
-          ASSERT_LT(which, 100000);
-        }
+  for (const int calls_before :
+       {1, 2, 3})  // the one that caches a mesh, the first that begins with it, another
+    for (const bool for_good : {false, true}) {
+      int any = 1;
+      for (long which = 1; any != 0; which += 1 + which / 2) {
+        Caller caller;
+        for (int i = 0; i < calls_before; ++i) caller.call(nodes);
+        caller.call(nodes, 0, which, for_good);
+        const int happened = caller.has_failed;
+        caller.call(nodes);
+        MPI_Allreduce(&happened, &any, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+        ASSERT_LT(which, 100000);
       }
-}
-
-/// So many flips that rings which are not used any more go.
-TEST(Moving, CallsOfTrmeshGoOnForLong) {
-  for (const Arrays arrays : {Arrays::on_every_rank, Arrays::on_one_rank}) {
-    Random random(5);
-    Caller caller(arrays);
-    Nodes nodes = point_sets::make("fibonacci", 1000, 1);
-    int warm = 0;
-    for (int step = 0; step < 50; ++step) {
-      warm += caller.call(nodes);
-      move_all(nodes, 0.03 * spacing(1000), random);
     }
-    EXPECT_GT(warm, 25);
-  }
 }
 
 }  // namespace

@@ -484,10 +484,10 @@ void add_angles(const File& file, Places& places, const std::string& lon_name, c
   }
 }
 
-/// Corners of triangles, row after row, counted from `first`. `with_boundary`: corners of MPAS may be
-/// missing.
+/// Corners of triangles, row after row, counted from `first`. Corners of MPAS may be missing: such triangles
+/// are left out unless `with_boundary`.
 void read_triangles(const File& file, Nodes& nodes, const std::string& name, long long first,
-                    bool with_boundary = false) {
+                    bool is_mpas = false, bool with_boundary = false) {
   std::vector<int> dimensions;
   const auto [id, lengths] = shape_of(file, name, dimensions);
   if (lengths.size() != 2 || lengths[1] != 3)
@@ -503,6 +503,13 @@ void read_triangles(const File& file, Nodes& nodes, const std::string& name, lon
     for (std::size_t v = 0; v < nodes.vertices.size(); ++v)
       if (!has_direction(nodes.vertices[v]))
         file.fail(fmt::format("vertex {}: xVertex, yVertex, zVertex are 0", v + 1));
+  } else if (is_mpas) {
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < corners.size(); k += 3) {
+      if (corners[k] == 0 || corners[k + 1] == 0 || corners[k + 2] == 0) continue;
+      for (std::size_t j = 0; j < 3; ++j) corners[kept++] = corners[k + j];
+    }
+    corners.resize(kept);
   }
   set_triangles(nodes, corners, first);
 }
@@ -664,7 +671,7 @@ Nodes read_netcdf(const std::string& name, const ReadOptions& options, const std
   if (has(file, "meshDensity")) nodes.density = read(file, "meshDensity").values;
   if (nodes.density.size() != nodes.points.size()) nodes.density.clear();
   if (options.with_triangles && has(file, "xCell") && has(file, "cellsOnVertex"))
-    read_triangles(file, nodes, "cellsOnVertex", 1, options.with_boundary);
+    read_triangles(file, nodes, "cellsOnVertex", 1, true, options.with_boundary);
   if (const double radius = number_attribute(file, NC_GLOBAL, "sphere_radius", 1);
       radius > 0 && std::isfinite(radius))
     nodes.radius = radius;

@@ -105,8 +105,9 @@ OutputFile::OutputFile(const std::string& name)
   for (char(&name)[4096] : names_to_remove)
     if (to_remove_ == nullptr && name[0] == '\0' && temporary_.size() < sizeof name)
       to_remove_ = std::strcpy(name, temporary_.c_str());
-  for (const int signal : kSignals)
-    if (std::signal(signal, remove_and_end) == SIG_IGN) std::signal(signal, SIG_IGN);
+  for (const int signal : kSignals)  // ignored ones, and those that the command handles, stay so
+    if (const auto before = std::signal(signal, remove_and_end); before != SIG_DFL)
+      std::signal(signal, before);
 }
 
 OutputFile::~OutputFile() {

@@ -70,7 +70,11 @@ double cells_of(const Table& t, double radius) {
 class GradientLimit {
  public:
   GradientLimit(Table& table, double gradient, double radius)
-      : columns_(table.lon.size() - 1), rows_(table.lat.size()), slope_(gradient * radius), table_(table) {
+      : columns_(table.lon.size() - 1),
+        rows_(table.lat.size()),
+        slope_(gradient * radius),
+        radius_(radius),
+        table_(table) {
     if (rows_ * columns_ > 0xffffffff) throw std::runtime_error("the grid has more than 4e9 places");
     for (std::size_t c = 0; c < columns_; ++c)
       east_.push_back({std::cos(table.lon[c] * kDegree), std::sin(table.lon[c] * kDegree), 0});
@@ -108,6 +112,20 @@ class GradientLimit {
       });
     }
     return finish();
+  }
+
+  /// After run(&inside): the cones begin `flat` times their own value and `more` km from their source, and
+  /// end at `most`.
+  void flatten(const std::vector<bool>& inside, double flat, double more, double most) {
+    for (std::size_t i = 0; i < given_.size(); ++i) {
+      if (inside[i]) continue;
+      const double value = given_[source_[i]], gradient = slope_ / radius_;
+      const double distance = radius_ * 2 * std::asin(std::min(1.0, chord(source_[i], i) / 2));
+      lowered_[i] = source_[i] == i
+                        ? most
+                        : std::min(most, value + gradient * std::max(0.0, distance - flat * value - more));
+    }
+    finish();
   }
 
  private:
@@ -149,7 +167,8 @@ class GradientLimit {
   }
 
   std::size_t columns_, rows_;
-  double slope_;  ///< km per radian
+  double slope_;   ///< km per radian
+  double radius_;  ///< km
   Table& table_;
   std::vector<Point> east_, up_;  ///< of columns and rows: the factors of a place
   std::vector<double> given_, lowered_;
@@ -270,6 +289,22 @@ Widths WidthFormula::widths(double radius) const {
 
 Lowered limit_gradient(Table& table, double gradient, double radius) {
   return GradientLimit(table, gradient, radius).run();
+}
+
+void set_outside(Table& table, const std::vector<bool>& inside, double gradient, double radius, double flat,
+                 double more, double most) {
+  const std::size_t columns = table.lon.size() - 1;
+  double widest = 0;
+  for (std::size_t i = 0; i < inside.size(); ++i)
+    if (inside[i]) widest = std::max(widest, table.values[i / columns * (columns + 1) + i % columns]);
+  most = std::max(most, widest);
+  for (std::size_t r = 0; r < table.lat.size(); ++r)
+    for (std::size_t c = 0; c <= columns; ++c)
+      if (!inside[r * columns + c % columns])
+        table.values[r * (columns + 1) + c] = most + gradient * (flat * widest + more);
+  GradientLimit limit(table, gradient, radius);
+  limit.run(&inside);
+  limit.flatten(inside, flat, more, most);
 }
 
 Table widths_of_regions(const std::vector<files::WidthRegion>& regions, const WidthFormula& elsewhere,

@@ -76,6 +76,12 @@ Lowered limit_gradient(Table& table, double gradient, double radius);
 Table widths_of_regions(const std::vector<files::WidthRegion>& regions, const WidthFormula& elsewhere,
                         double radius);
 
+/// Sets the values of places that are not inside (the table's, without its last column): w(y) up to `flat`
+/// widths w(y) and `more` km from a place y inside, then growing by `gradient` km per km up to `most`, or to
+/// the largest value inside.
+void set_outside(Table& table, const std::vector<bool>& inside, double gradient, double radius, double flat,
+                 double more, double most);
+
 /// `radius` in km. Widths are bilinear in longitude and latitude.
 Widths widths_of(Table km, double radius);
 

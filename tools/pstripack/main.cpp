@@ -1,12 +1,15 @@
 // pstripack: meshes on the sphere from the command line.
 
 #include <fmt/format.h>
+#include <unistd.h>
 #ifdef _OPENMP
 #include <omp.h>
 #endif
 
+#include <cstdlib>
 #include <new>
 
+#include "base/system.h"
 #include "files/nearest.h"
 #include "files/output_file.h"
 #include "pstripack/options.h"
@@ -112,7 +115,7 @@ int run(int argc, char** argv) {
 #endif
     chosen();
     expect_printed();
-    return kDone;
+    return global().exit_code;
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return after_help("pstripack", app.exit(e));  // --help, --version
     const std::string unknown = unknown_word(app);
@@ -126,9 +129,22 @@ int run(int argc, char** argv) {
   return kFailed;
 }
 
+/// Threads that wait must sleep: on a busy machine those that spin take the processor from the thread that
+/// they wait for (ten times the processor time was measured). OpenMP's run-time library reads the policy when
+/// it is loaded, so the program begins again.
+void let_waiting_threads_sleep([[maybe_unused]] char** argv) {
+#ifdef _OPENMP
+  constexpr auto kPolicy = "OMP_WAIT_POLICY";
+  if (omp_get_max_threads() == 1 || std::getenv(kPolicy) != nullptr) return;
+  setenv(kPolicy, "passive", 1);
+  execv(pstripack::path_of_this_program().c_str(), argv);  // returns only if it failed
+#endif
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  let_waiting_threads_sleep(argv);
   fill_standard_streams();
   return program::on_rank_0(argc, argv, [&] { return run(argc, argv); });
 }

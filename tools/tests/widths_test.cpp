@@ -6,8 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <tuple>
 #include <vector>
 
+#include "methods/quality.h"
+#include "methods/regional_widths.h"
 #include "point_sets.h"
 
 namespace methods {
@@ -220,6 +224,60 @@ TEST(widths_of_regions, change_over_the_transitions_and_hold_holes_datelines_and
   EXPECT_EQ(width(90, -19), 120);
   EXPECT_THROW(widths_of_regions({region(30, 0, {box(0, 0, 0.2, 0.2)})}, WidthFormula(120), 6371),
                std::runtime_error);
+}
+
+TEST(widths_in, are_those_asked_for_in_the_area_and_ten_widths_around_it_then_grow) {
+  const double km = 1 / 6371.0 / kDegree;  // in degrees
+  const files::LimitedArea disc{
+      "disc", {}, 170, 80, 1000 / 6371.0},  // holds neither pole, crosses the dateline
+      cap{"cap", {}, 0, 90, 2000 / 6371.0}, box = files::box_area("box", {-20, 25, -15, 15});
+  for (const auto& [area, lon, lat, towards] : {std::tuple(disc, 170.0, 80.0 - 1000 * km, -1),
+                                                {cap, 33.0, 90 - 2000 * km, -1},
+                                                {box, 0.0, 15.0, 1}}) {
+    const RegionalWidths regional = widths_in(area, WidthFormula(20).widths(6371), 0.2, 6371);
+    const auto width = [&](double degrees) {
+      const double density = regional.widths.density->at(point_sets::from_degrees(lon, lat + degrees));
+      return regional.widths.least / std::sqrt(std::sqrt(density));
+    };
+    for (double inside = -190; inside <= 200; inside += 10)
+      EXPECT_NEAR(width(towards * inside * km), 20, 1e-9) << area.name;
+    for (const double outside : {400.0, 1000.0, 3000.0}) {
+      EXPECT_GT(width(towards * outside * km), 20 + 0.2 * (outside - 200) - 12) << area.name << outside;
+      EXPECT_LT(width(towards * outside * km), 20 + 0.2 * (outside - 200) + 2) << area.name << outside;
+    }
+    const double part =
+        area.name == "box" ? 45.0 / 360 * std::sin(15 * kDegree) : (1 - std::cos(area.radius)) / 2;
+    EXPECT_NEAR(regional.inside / (part * cells_of_width(20, 6371)), 1, 0.03) << area.name;
+    EXPECT_LT(regional.widths.cells, 2 * regional.inside) << area.name;
+    EXPECT_TRUE(area.contains(regional.centre)) << area.name;
+    if (area.name == "box") continue;
+    files::LimitedArea wider = area;  // the same in all directions
+    wider.radius += 195 / 6371.0;
+    const std::vector<Point> around = wider.boundary()[0];
+    for (const Point& p : around) EXPECT_NEAR(regional.widths.density->at(p), 1, 1e-12);
+  }
+  // Other widths in the area than one; those outside do not count.
+  const Widths wide = WidthFormula("disc:5,60,100,300,-170,0").widths(6371);
+  EXPECT_EQ(widths_in(box, wide, 0.2, 6371).widths.least, 60);
+  const RegionalWidths steep =
+      widths_in(box, WidthFormula("disc:20,60,500,1000,0,0").widths(6371), 0.2, 6371);
+  EXPECT_NEAR(steep.widths.least /
+                  std::sqrt(std::sqrt(steep.widths.density->at(point_sets::from_degrees(0, 1000 * km)))),
+              40, 0.1);
+  EXPECT_THROW(widths_in({"small", {}, 0, 0, 5 / 6371.0}, WidthFormula(20).widths(6371), 0.2, 6371),
+               std::runtime_error);
+}
+
+TEST(front_around, is_one_lattice_around_the_centre) {
+  const files::LimitedArea area{"disc", {}, -77, 33, 1000 / 6371.0};
+  const RegionalWidths regional = widths_in(area, WidthFormula(80).widths(6371), 0.2, 6371);
+  const auto n = static_cast<std::size_t>(regional.widths.cells);
+  files::Mesh mesh = files::triangulate(front_around(regional.centre, n, *regional.widths.density));
+  EXPECT_EQ(mesh.points.size(), n);
+  files::set_layers(mesh, area);
+  const Quality quality = quality_of(mesh);
+  EXPECT_GT(quality.cells[6], 700u);
+  EXPECT_LE(quality.cells[5] + quality.cells[7], quality.cells[6] / 50);
 }
 
 }  // namespace

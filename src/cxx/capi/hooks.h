@@ -7,8 +7,8 @@
 
 extern "C" {
 
-/// Sets the engine that is asked before a call runs on threads; null: none. Returns the engine set before.
-PSTRIPACK_API pstripack_trmesh_engine pstripack_set_trmesh_engine(pstripack_trmesh_engine engine);
+/// Sets the ranks of a communicator that are asked first whether they take a call; null: none.
+PSTRIPACK_API void pstripack_set_trmesh_engine(pstripack::Engine* communicator);
 
 /// 1 if PSTRIPACK_REPORT asks for a report, else 0.
 PSTRIPACK_API int pstripack_report_is_wanted(void);

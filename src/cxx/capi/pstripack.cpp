@@ -26,55 +26,27 @@ namespace {
 
 using namespace pstripack;
 
-#ifdef PSTRIPACK_WITH_POOL
-std::atomic<pstripack_trmesh_engine> other_engine{pool_trmesh};
-#else
-std::atomic<pstripack_trmesh_engine> other_engine{nullptr};
+#ifndef PSTRIPACK_WITH_POOL
+Engine* pool_engine() noexcept { return nullptr; }
 #endif
+std::atomic<Engine*> communicator{nullptr};
 
-TrmeshResult trmesh_on_threads(const TrmeshCall& call, ParallelCost* cost) noexcept {
+TrmeshResult carry_out(const TrmeshCall& call, CallReport* report) noexcept {
   try {
-    return trmesh(call, cost);
+    return trmesh(call, report, communicator.load(std::memory_order_acquire), pool_engine());
   } catch (...) {
     return {PSTRIPACK_OUT_OF_MEMORY};  // only std::bad_alloc is possible, before anything is written
   }
 }
 
-/// Carries the call out by the engine, or on threads if it declines. False if another rank writes the
-/// report and the line of a new code.
-bool carry_out(const TrmeshCall& call, TrmeshResult& result, CallReport* report) noexcept {
-  int answer = PSTRIPACK_ENGINE_DECLINES;
-  const pstripack_trmesh_engine engine = other_engine.load(std::memory_order_acquire);
-  // The original's order means inserting node by node, which ranks cannot share.
-  if (engine != nullptr && !original_rules().follow && !call.by_direction) {
-    const NodeArrays& nodes = call.nodes;
-    const auto& [list, lptr, lend, lnew] = call.lists;
-    const pstripack_trmesh_arguments arguments{static_cast<std::int32_t>(nodes.real_bytes()),
-                                               call.n,
-                                               nodes.array(0),
-                                               nodes.array(1),
-                                               nodes.array(2),
-                                               list,
-                                               lptr,
-                                               lend,
-                                               lnew,
-                                               report};
-    answer = engine(&arguments, &result.ier, &result.node, &result.other);
-  }
-  if (answer == PSTRIPACK_ENGINE_DECLINES) {
-    ParallelCost* const cost = report != nullptr ? &report->cost.maximum : nullptr;
-    result = trmesh_on_threads(call, cost);
-    if (cost != nullptr) report->cost.total = *cost;
-  }
-  return answer != PSTRIPACK_ENGINE_DID_IT_SILENTLY;
-}
-
 /// The same, with a line in the report. Not inlined, so that a call without a report does not pay for it.
-[[gnu::noinline]] bool carry_out_and_report(const TrmeshCall& call, TrmeshResult& result) noexcept {
+[[gnu::noinline]] TrmeshResult carry_out_and_report(const TrmeshCall& call) noexcept {
   const auto& [list, lptr, lend, lnew] = call.lists;
   CallReport report;
   const double start = clock_seconds(CLOCK_MONOTONIC);
-  if (!carry_out(call, result, &report)) return false;
+  const TrmeshResult result = carry_out(call, &report);
+  if (result.is_silent) return result;
+  if (report.mode == CallWay::on_threads) report.cost.total = report.cost.maximum;
   report.seconds = clock_seconds(CLOCK_MONOTONIC) - start;
   report.n = call.n;
   report.ier = result.ier;
@@ -92,7 +64,7 @@ bool carry_out(const TrmeshCall& call, TrmeshResult& result, CallReport* report)
     }
   }
   add_to_report(report);
-  return true;
+  return result;
 }
 
 /// TRMESH with its report, its recording and its messages. `nodes` is clamped to 32 bits: all numbers
@@ -103,19 +75,18 @@ TrmeshResult trmesh_with_messages(std::int64_t nodes, const NodeArrays& arrays, 
   const TrmeshCall call{
       static_cast<std::int32_t>(std::clamp<std::int64_t>(nodes, Limits::min(), Limits::max())), arrays, lists,
       by_direction};
-  TrmeshResult result{0};
   const auto work = [&] {
-    return report_is_wanted() ? carry_out_and_report(call, result) : carry_out(call, result, nullptr);
+    return report_is_wanted() ? carry_out_and_report(call) : carry_out(call, nullptr);
   };
-  bool is_ours;
+  TrmeshResult result;
   if (Check* const check = check_of_calls(); check == nullptr) {
-    is_ours = work();
+    result = work();
   } else {
     const CheckedCall checked = check_input(*check, call);
-    is_ours = work();
+    result = work();
     check_output(*check, checked, result, lists);
   }
-  if (!is_ours) return result;
+  if (result.is_silent) return result;
   // STRIPACK's own codes are silent; codes that STRIPACK does not have print a line.
   if (result.ier == PSTRIPACK_BAD_COORDINATE) {
     const Point p = arrays[static_cast<std::size_t>(result.node) - 1];
@@ -167,9 +138,7 @@ void widen(std::int64_t* array, std::int64_t count) noexcept {
 
 extern "C" {
 
-pstripack_trmesh_engine pstripack_set_trmesh_engine(pstripack_trmesh_engine engine) {
-  return other_engine.exchange(engine, std::memory_order_acq_rel);
-}
+void pstripack_set_trmesh_engine(Engine* engine) { communicator.store(engine, std::memory_order_release); }
 
 int pstripack_report_is_wanted(void) { return report_is_wanted(); }
 void pstripack_add_to_report(const CallReport* call) { add_to_report(*call); }

@@ -74,8 +74,6 @@ std::int32_t guarded(MpiCommunicator& ranks, const Body& body) noexcept {
 struct CommMode {
   std::mutex one_call_at_a_time;
   std::unique_ptr<MpiCommunicator> ranks;
-  LastCall last;
-  pstripack_trmesh_engine engine_before = nullptr;
   pid_t process = 0;
 };
 CommMode& comm_mode() {
@@ -96,34 +94,32 @@ bool must_decline(const CommMode& mode) {
   return !is_main;
 }
 
-TrmeshResult collective_call(CommMode& mode, const pstripack_trmesh_arguments& call) {
-  MpiCommunicator& ranks = *mode.ranks;
-  GroupCost* cost = nullptr;
-  if (call.report != nullptr) {
-    call.report->mode = CallReport::by_comm;
-    call.report->ranks = ranks.size();
-    cost = &call.report->cost;
+/// The engine of comm mode. A call that it takes holds the mutex.
+class CommEngine final : public Engine {
+ public:
+  bool takes(const TrmeshCall& call) noexcept override {
+    CommMode& mode = comm_mode();
+    if (call.by_direction || must_decline(mode)) return false;
+    mode.one_call_at_a_time.lock();
+    if (mode.ranks == nullptr) mode.one_call_at_a_time.unlock();
+    return mode.ranks != nullptr;
   }
-  const NodeArrays nodes(static_cast<std::size_t>(call.real_bytes), call.x, call.y, call.z);
-  return collective_trmesh(ranks, Arrays::on_every_rank,
-                           {call.n, nodes, {call.list, call.lptr, call.lend, call.lnew}}, cost, &mode.last);
-}
 
-int comm_mode_engine(const pstripack_trmesh_arguments* call, std::int32_t* ier, std::int64_t* node,
-                     std::int64_t* other) {
-  CommMode& mode = comm_mode();
-  if (must_decline(mode)) return PSTRIPACK_ENGINE_DECLINES;
-  const std::lock_guard<std::mutex> lock(mode.one_call_at_a_time);
-  if (mode.ranks == nullptr) return PSTRIPACK_ENGINE_DECLINES;
-  TrmeshResult result{0};
-  *ier = guarded(*mode.ranks, [&] {
-    result = collective_call(mode, *call);
-    return result.ier;
-  });
-  *node = result.node;
-  *other = result.other;
-  return mode.ranks->rank() == 0 ? PSTRIPACK_ENGINE_DID_IT : PSTRIPACK_ENGINE_DID_IT_SILENTLY;
-}
+  TrmeshResult carry_out(const TrmeshCall& call, CallWay* way) override {
+    CommMode& mode = comm_mode();
+    const std::lock_guard<std::mutex> lock(mode.one_call_at_a_time, std::adopt_lock);
+    MpiCommunicator& ranks = *mode.ranks;
+    if (way != nullptr) way->mode = CallWay::by_comm, way->ranks = ranks.size();
+    TrmeshResult result{0};
+    result.ier = guarded(ranks, [&] {
+      result = collective_trmesh(ranks, Arrays::on_every_rank, call, way != nullptr ? &way->cost : nullptr);
+      return result.ier;
+    });
+    result.is_silent = ranks.rank() != 0;
+    return result;
+  }
+};
+CommEngine comm_engine;
 
 /// The first rank on which PSTRIPACK_ORDER differs from that of rank 0; the number of ranks if there is none.
 /// They must agree, because calls are not collective unless it is canonical. Collective.
@@ -146,10 +142,9 @@ std::int32_t told(const char* routine, std::int32_t code, const char* what = "")
 
 void end_comm_mode(CommMode& mode) {
   if (mode.ranks == nullptr) return;
-  pstripack_set_trmesh_engine(mode.engine_before);
+  pstripack_set_trmesh_engine(nullptr);
   pstripack_leave_check_to_another_rank(0);
   mode.ranks.reset();
-  mode.last = {};
 }
 
 int at_mpi_finalize(MPI_Comm, int, void*, void*) {
@@ -294,12 +289,10 @@ int32_t pstripack_set_comm(MPI_Comm comm) {
       return std::int32_t{PSTRIPACK_RANKS_DISAGREE};
     }
     end_comm_mode_at_mpi_finalize();
-    const bool is_replaced = mode.ranks != nullptr;
     mode.ranks = std::move(ranks);
-    mode.last = {};
     mode.process = getpid();
     pstripack_leave_check_to_another_rank(mode.ranks->rank() != 0);
-    if (!is_replaced) mode.engine_before = pstripack_set_trmesh_engine(comm_mode_engine);
+    pstripack_set_trmesh_engine(&comm_engine);
     return 0;
   });
   return code == PSTRIPACK_RANKS_DISAGREE ? code : told("set_comm", code);

@@ -649,7 +649,7 @@ Hull delaunay(const Point* p, std::size_t n, Workspace& workspace, Lengths lengt
   arrays.faces = workspace.for_call<Face>(2 * n);
   arrays.corner = workspace.for_call<HullCorner>(n);
   arrays.planes = workspace.for_phase<Plane>(2 * n);
-  const auto hull_with = [&](Lengths which) {
+  return with_lengths(unit, [&](Lengths which) {
     const auto growing = GrowingHull::make(arrays, n, which);
     growing->look_for_hidden_nodes(alone);
     growing->build(alone);
@@ -658,15 +658,7 @@ Hull delaunay(const Point* p, std::size_t n, Workspace& workspace, Lengths lengt
     for (const auto& [in, out] : growing->coincident())
       hull.coincident.emplace_back(static_cast<index_t>(order[in]), static_cast<index_t>(order[out]));
     return hull;
-  };
-  if (unit) {
-    try {
-      return hull_with(Lengths::as_given);
-    } catch (const HiddenNode&) {
-      // The lengths as given hide a node. No node is hidden by directions.
-    }
-  }
-  return hull_with(Lengths::directions);
+  });
 }
 
 }  // namespace pstripack

@@ -83,6 +83,18 @@ struct Plane {
 /// hidden.
 struct HiddenNode {};
 
+/// Returns run(lengths) for the lengths that decide: as given where all are one up to 1e-6 and no node is
+/// hidden, else directions.
+template <class Run>
+auto with_lengths(bool are_one, const Run& run) {
+  if (are_one) try {
+      return run(Lengths::as_given);
+    } catch (const HiddenNode&) {
+      // No node is hidden by directions.
+    }
+  return run(Lengths::directions);
+}
+
 /// Memory of a growing hull, owned by the caller: arrays for `capacity` nodes and 2 `capacity` faces.
 struct HullArrays {
   std::size_t capacity = 0;

@@ -17,6 +17,7 @@
 #include "parallel/agreement.h"
 #include "parallel/coincidence.h"
 #include "parallel/environment_options.h"
+#include "trmesh/warm_start.h"
 
 namespace pstripack {
 namespace {
@@ -205,26 +206,20 @@ class ByRanks {
 
   /// Collective, as triangulate_and_deliver() asks for.
   std::optional<Coincidence> triangulate(std::size_t n);
-  void deliver() { deliver(stars_.of_node); }
-
-  /// Warm start from the rings of the last call. True if the call is done. Collective.
-  bool begin_with(LastCall& last);
-  /// To be called after a cold call: caches what the next call may need.
-  void remember(LastCall& last) noexcept;
+  void deliver() {
+    ranks_.set_phase("gather the lists");
+    const PhaseTimer timer(&cost_, ParallelCost::gather, &ranks_);
+    gather_lists(ranks_, stars_.of_node, begin_, arrays_, 0, lists_);
+  }
 
  private:
   std::size_t n() const { return static_cast<std::size_t>(share_.header.n); }
-  bool reads_all() const { return share_.of_all_ranks || ranks_.rank() == 0; }
-  /// All nodes; needs reads_all().
-  const NodeArrays& all_nodes() const { return share_.of_all_ranks ? *share_.of_all_ranks : share_.nodes; }
   /// The first `count` nodes of this rank's slice.
   LocalNodes slice(std::size_t count) const {
     return {share_.nodes, count, nullptr, static_cast<std::int64_t>(share_.first) + 1,
             share_.of_all_ranks ? &*share_.of_all_ranks : nullptr};
   }
   void find_slices(std::size_t n);
-  void deliver(const RingTable<std::int32_t>& rings);
-  void take_sample(LastCall& last, const RingTable<std::int32_t>& rings) noexcept;
 
   MpiCommunicator& ranks_;
   const Arrays arrays_;
@@ -235,7 +230,6 @@ class ByRanks {
   ParallelOptions options_;
   std::vector<std::size_t> begin_;  ///< by rank: the begin of its slice; then the number of nodes
   bool knows_slices_ = false;
-  bool wants_rings_ = false;  ///< the nodes fit the last call's sample: cache the rings of this call
   Stars<std::int32_t> stars_;
 };
 
@@ -272,91 +266,36 @@ std::optional<Coincidence> ByRanks::triangulate(std::size_t n) {
   return first;
 }
 
-void ByRanks::deliver(const RingTable<std::int32_t>& rings) {
-  ranks_.set_phase("gather the lists");
-  const PhaseTimer timer(&cost_, ParallelCost::gather, &ranks_);
-  gather_lists(ranks_, rings, begin_, arrays_, 0, lists_);
-}
+/// With more ranks a cold call takes less time than a warm one on each of them.
+constexpr int kMostRanksForWarmStart = 8;
 
-bool ByRanks::begin_with(LastCall& last) {
-  if (last.n != n()) {
-    last = {};
-    return false;
-  }
-  std::unique_ptr<LastRings> rings = last.rings.take();
-  OnAll fits{warm_start_is_allowed() && last.has_sample && (!reads_all() || last.sample.fits(all_nodes()))},
-      have_rings{rings != nullptr};
-  agree(ranks_, fits, have_rings);
-  last.has_sample = false;
-  wants_rings_ = fits.value && last.patience.is_enough();
-  if (!fits.value || !have_rings.value) return false;
-  bool is_done = false;
-  try {
-    const PhaseTimer timer(&cost_, ParallelCost::triangulate, &ranks_);
-    ranks_.set_phase("move the stars");
-    find_slices(last.n);
-    is_done = rings->move(slice(share_.count), begin_, ranks_);
-  } catch (const AgreedFailure&) {
-    // No memory: a cold call has more, without the rings.
-  }
-  is_done ? last.patience.succeed() : last.patience.fail();
-  if (!is_done) {
-    wants_rings_ = false;
-    return false;
-  }
-  const MovingStars& stars = rings->stars();
-  cost_.threads = options_.threads;
-  cost_.rounds = stars.rounds();
-  cost_.halo = static_cast<std::int64_t>(stars.halo());
-  cost_.flips = static_cast<std::int64_t>(stars.flips());
-  deliver(rings->rings());
-  take_sample(last, rings->rings());
-  last.rings.put(std::move(rings));
-  return true;
-}
-
-void ByRanks::remember(LastCall& last) noexcept {
-  if (n() < kFewestForWarmStart) return;
-  last.n = n();
-  take_sample(last, stars_.of_node);
-  if (!wants_rings_) return;
-  try {
-    const std::size_t first = begin_[static_cast<std::size_t>(ranks_.rank())];
-    last.rings.put(std::make_unique<LastRings>(stars_.of_node, first, std::move(stars_.homes)));
-  } catch (const std::bad_alloc&) {
-    // No memory: the next call is cold, too.
-  }
-}
-
-/// If there is no memory for the sample, the next call is cold.
-void ByRanks::take_sample(LastCall& last, const RingTable<std::int32_t>& rings) noexcept {
-  last.has_sample = false;
-  try {
-    last.sample = {};
-    const std::size_t known = reads_all() ? rings.size() : 0;
-    SampleOfStars::for_each_node(known, [&](std::size_t k) {
-      const Ring<std::int32_t> ring = rings[k];
-      if (ring.begin[ring.count - 1] > 0)
-        last.sample.add(begin_[static_cast<std::size_t>(ranks_.rank())] + k, ring.begin, ring.count);
-    });
-    last.has_sample = true;
-  } catch (const std::bad_alloc&) {
-  }
+/// Every rank makes the mesh from its own one of an earlier call. False, with nothing written, unless all
+/// have done so. Collective.
+bool begin_with(WarmStart& warm_start, const ListArrays& lists, MpiCommunicator& ranks, ParallelCost& cost) {
+  OnAll found{warm_start.find_mesh(&cost)};
+  agree(ranks, found);
+  if (!found.value || ranks.rank() != 0) cost.flips = found.value ? 0 : -1;  // rank 0 counts them
+  if (found.value) warm_start.write(lists, &cost);
+  return found.value;
 }
 
 }  // namespace
 
-TrmeshResult collective_trmesh(MpiCommunicator& ranks, Arrays arrays, const TrmeshCall& call, GroupCost* cost,
-                               LastCall* last) {
+TrmeshResult collective_trmesh(MpiCommunicator& ranks, Arrays arrays, const TrmeshCall& call,
+                               GroupCost* cost) {
   ParallelCost mine;
   const std::int64_t sent_before = ranks.bytes_sent;
   Share share = share_of(call, arrays, cost != nullptr, ranks, mine);
   TrmeshResult result = share.result;
   if (result.ier == 0) {
-    ByRanks way(ranks, arrays, call.lists, share, mine);
-    if (last == nullptr || !way.begin_with(*last)) {
+    std::optional<WarmStart> warm_start;
+    if (arrays == Arrays::on_every_rank && ranks.size() <= kMostRanksForWarmStart)
+      warm_start.emplace(call.nodes, static_cast<std::size_t>(call.n),
+                         call.by_direction ? Confirm::directions : Confirm::nothing);
+    if (!warm_start || !begin_with(*warm_start, call.lists, ranks, mine)) {
+      ByRanks way(ranks, arrays, call.lists, share, mine);
       result = triangulate_and_deliver(share.header.n, way);
-      if (last != nullptr && result.ier == 0) way.remember(*last);
+      if (warm_start && result.ier == 0) warm_start->remember(call.lists);
     }
   }
   if (share.header.wants_cost) {

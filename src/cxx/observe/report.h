@@ -5,16 +5,12 @@
 #include <cstdint>
 #include <optional>
 
-#include "parallel/cost.h"
 #include "trmesh/exact_difference.h"
 #include "trmesh/trmesh.h"
 
 namespace pstripack {
 
-struct CallReport {
-  enum Mode { on_threads, by_pool, by_comm, distributed, distributed_gather, modes };
-  Mode mode = on_threads;
-  int ranks = 1;
+struct CallReport : CallWay {
   std::int64_t n = 0;
   std::int64_t nodes_in_mesh = 0;  ///< fewer than n if IER > 0; 0 if there is no mesh
   std::int64_t boundary_nodes = 0;
@@ -23,7 +19,6 @@ struct CallReport {
   std::int64_t order_node = 0;
   std::optional<ExactDifference> difference;  ///< of an inexact mesh; none if memory did not suffice
   double seconds = 0;                         ///< of the whole call
-  GroupCost cost;
 };
 
 /// True if PSTRIPACK_REPORT asks for a report.

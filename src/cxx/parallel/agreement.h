@@ -77,7 +77,8 @@ struct OfRank0 {
   void decode(std::int64_t least) { value = static_cast<Value>(least); }
 };
 
-/// Patches would take longer than one hull of all nodes. Every rank throws it at the same place.
+/// Patches would take longer than one: triangulate() then makes one of all nodes. Every rank throws it at the
+/// same place.
 struct PatchesDoNotPay : std::exception {
   const char* what() const noexcept override { return "patches do not pay"; }
 };

@@ -103,7 +103,10 @@ void find_routes(const Here& here, Routes& routes) {
   const std::size_t nodes = here.nodes.count;
   const std::size_t patches = routes.sent.size(), threads = routes.count.size();
   if (patches == 1) {
-    routes.sent[0].own = routes.count[0][0].own = nodes;
+    routes.sent[0].own = nodes;
+    parallel_pieces(nodes, static_cast<int>(threads), [&](std::size_t first, std::size_t last, int piece) {
+      routes.count[static_cast<std::size_t>(piece)][0].own = last - first;
+    });
     return;
   }
   routes.owner = routes.memory.for_call<PatchOfNode>(nodes);

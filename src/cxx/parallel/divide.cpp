@@ -231,7 +231,7 @@ Division divide(const LocalNodes& nodes, const Corners& corners, const Places& p
   }
   in_agreement(ranks, [&] {
     outcome.accept();
-    // A single process can give up now: its caller builds one hull. Ranks have to send their nodes first.
+    // A single process can give up now. Ranks have to send their nodes first.
     const bool may_give_up = ranks.size() == 1 && division.patches.count() > 1 &&
                              options.most_questions < nodes.count &&
                              options.partition == PartitionKind::bisection;

@@ -362,16 +362,6 @@ Buffer<Int> MovingStars::rings_of(const std::vector<LocalNode>& nodes, const Num
   return rings;
 }
 
-MovingStars::Changed MovingStars::take_changed(const LocalNodes& nodes) {
-  Changed result;
-  result.nodes = changed();
-  result.rings = rings_of<std::int32_t>(result.nodes, [&](MeshNode v) {
-    return v < nodes.count ? nodes.number(v) : outside_[v - nodes.count].number;
-  });
-  mesh_->forget_changes();
-  return result;
-}
-
 template <class Int>
 void MovingStars::update(Stars<Int>& stars) {
   const std::size_t n = mesh_->size();

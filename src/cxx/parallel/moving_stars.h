@@ -55,15 +55,6 @@ class MovingStars {
   /// After repair(): updates the stars that were given to make(). Throws std::bad_alloc.
   template <class Int>
   void update(Stars<Int>& stars);
-  /// The nodes whose rings have changed, and these rings in the caller's numbers, one after another: see
-  /// Ring.
-  struct Changed {
-    std::vector<LocalNode> nodes;
-    Buffer<std::int32_t> rings;
-  };
-  /// For a caller that keeps the stars in its own way, instead of update(). Throws std::bad_alloc.
-  Changed take_changed(const LocalNodes& nodes);
-
   SampleOfStars sample() const;  ///< as sample_of()
 
  private:

@@ -85,33 +85,21 @@ Stars<Int> triangulate(const LocalNodes& nodes, const NodeCheck& check, const Po
   Corners records;
   for (std::size_t k = 0; k < 3; ++k) records[k] = {corners[k], GlobalNumber{numbers[k]}};
   std::unique_ptr<Homes> homes;
-  const auto run = [&](Lengths lengths) {
+  const bool by_coordinates = check.lengths_are_one.value && !check.by_direction.value;
+  Stars<Int> stars = with_lengths(by_coordinates, [&](Lengths lengths) {
     const Places places(lengths, check.deviation.value);
     try {
       return triangulate_places<Int>(nodes, records, places, ranks, options, c, &homes);
     } catch (const PatchesDoNotPay&) {
-      if (ranks.size() == 1) throw;  // one hull without patches takes less time
+      // One patch, of rank 0. The homes stay those of the many patches, which may pay in another call.
+      c.in_one_patch = 1;
     }
-    // One patch, of rank 0. The homes stay those of the many patches, which may pay in another call.
-    c.in_one_patch = 1;
     ParallelOptions one_patch = options;
     one_patch.patches = ranks.rank() == 0 ? 1 : 0;
     one_patch.last = nullptr;
     one_patch.given = nullptr;
     return triangulate_places<Int>(nodes, records, places, ranks, one_patch, c, nullptr);
-  };
-  // The predicates must be the same everywhere.
-  const auto run_all = [&] {
-    if (check.lengths_are_one.value && !check.by_direction.value) {
-      try {
-        return run(Lengths::as_given);
-      } catch (const HiddenNode&) {
-        // The lengths as given hide a node: only directions show all.
-      }
-    }
-    return run(Lengths::directions);
-  };
-  Stars<Int> stars = run_all();
+  });
   stars.homes = std::move(homes);
   c.bytes_sent = ranks.bytes_sent;
   return stars;

@@ -19,8 +19,7 @@ inline void agree_on(NodeCheck& check, Communicator& ranks) {
 
 /// The triangulation of the nodes of all ranks together, at least three and not all on one great circle
 /// (`corners`: three of them that are not, the same on every rank). `check`: what all ranks see; all nodes
-/// must have a direction. Collective. Throws AgreedFailure, on every rank; PatchesDoNotPay if there is one
-/// rank.
+/// must have a direction. Collective. Throws AgreedFailure, on every rank.
 template <class Int>
 Stars<Int> triangulate(const LocalNodes& nodes, const NodeCheck& check, const Point (&corners)[3],
                        const std::int64_t (&numbers)[3], Communicator& ranks, const ParallelOptions& options,

@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "observe/report.h"
 #include "pool/area_layout.h"
 
 #ifdef _OPENMP
@@ -21,7 +20,6 @@
 #include "lists/limits.h"
 #include "pool/channel.h"
 #include "pool/messages.h"
-#include "trmesh/trmesh.h"
 
 namespace pstripack {
 namespace {
@@ -60,26 +58,6 @@ bool program_uses_mpi() {
   return true;
 }
 
-/// The connection to the pool, for one call at a time.
-class Pool {
- public:
-  /// False if the call was not carried out; then nothing is written.
-  bool trmesh(const pstripack_trmesh_arguments& call, PoolReply& reply);
-
- private:
-  bool is_open() {
-    if (!tried_) {
-      tried_ = true;
-      if (!program_uses_mpi()) socket_ = connect_to(settings.pool);
-    }
-    return static_cast<bool>(socket_);
-  }
-
-  bool tried_ = false;
-  Descriptor socket_;
-  SharedArea area_;  ///< kept from the largest call so far, because new pages cost as much as copying
-};
-
 void copy(void* to, const void* from, std::size_t size) {
   constexpr std::size_t kBytesIn10Nanoseconds = 64;
   parallel_pieces(
@@ -95,79 +73,90 @@ bool fits(const PoolReply& reply, std::int32_t n) {
           (reply.ier == 0 || (1 <= reply.other && reply.other <= n)));
 }
 
-bool Pool::trmesh(const pstripack_trmesh_arguments& call, PoolReply& reply) {
-  if (!is_open()) return false;
-  const AreaLayout layout(call.n, call.real_bytes);
-  int new_area = -1;
-  if (area_.size() < layout.size()) {
-    area_ = SharedArea();
-    area_ = SharedArea::create(layout.size());
-    if (area_.data() == nullptr) return false;
-    new_area = area_.file().get();
+/// The connection to the pool, for one call at a time.
+class Pool final : public Engine {
+ public:
+  bool takes(const TrmeshCall& call) noexcept override {
+    if (call.by_direction || call.n < settings.fewest_nodes || call.n > most_nodes<std::int32_t>() ||
+        getpid() != loaded_in)
+      return false;
+#ifdef _OPENMP
+    if (omp_in_parallel()) return false;
+#endif
+    // If another thread's call is under way, this one runs on threads instead of waiting.
+    if (is_busy_.test_and_set(std::memory_order_acquire)) return false;
+    if (!tried_) {
+      tried_ = true;
+      if (!program_uses_mpi()) socket_ = connect_to(settings.pool);
+    }
+    if (!socket_) is_busy_.clear(std::memory_order_release);
+    return static_cast<bool>(socket_);
   }
-  void* const area = area_.data();
-  const auto n = static_cast<std::size_t>(call.n);
-  const void* const xyz[] = {call.x, call.y, call.z};
-  const std::size_t bytes = n * static_cast<std::size_t>(call.real_bytes);
-  for (int axis = 0; axis < 3; ++axis) copy(layout.coordinate(area, axis), xyz[axis], bytes);
 
-  PoolRequest request;
-  request.real_bytes = call.real_bytes;
-  request.n = call.n;
-  request.wants_cost = call.report != nullptr ? 1 : 0;
-  if (!send_packet(socket_, &request, sizeof request, &new_area, 1) ||
-      !receive_packet(socket_, &reply, sizeof reply) || !fits(reply, call.n)) {
-    // The pool has ended, or the model has closed the descriptor. Do not close it: it may be another file's.
-    socket_.release();
+  TrmeshResult carry_out(const TrmeshCall& call, CallWay* way) override {
+    const struct Claim {
+      std::atomic_flag& flag;
+      ~Claim() { flag.clear(std::memory_order_release); }
+    } claim{is_busy_};
+    const AreaLayout layout(call.n, static_cast<std::int32_t>(call.nodes.real_bytes()));
+    const PoolReply reply = reply_to(call, layout, way != nullptr);
+    if (way != nullptr) way->mode = CallWay::by_pool, way->ranks = reply.ranks, way->cost = reply.cost;
+    if (reply.ier >= 0) {
+      const auto& [list, lptr, lend, lnew] = layout.call(area_.data(), nullptr).lists;
+      const std::size_t slots = static_cast<std::size_t>(reply.lnew) - 1;
+      copy(call.lists.list, list, slots * sizeof(std::int32_t));
+      copy(call.lists.lptr, lptr, slots * sizeof(std::int32_t));
+      // L > 0: the lists of nodes 1..M-1.
+      const auto listed = static_cast<std::size_t>(reply.ier > 0 ? reply.other - 1 : call.n);
+      copy(call.lists.lend, lend, listed * sizeof(std::int32_t));
+      *call.lists.lnew = reply.lnew;
+    }
+    return {reply.ier, reply.node, reply.other};
+  }
+
+ private:
+  /// Asks the pool for the lists, which are then in the area. Throws PoolIsGone.
+  PoolReply reply_to(const TrmeshCall& call, const AreaLayout& layout, bool wants_cost) {
+    int new_area = -1;
+    if (area_.size() < layout.size()) {
+      area_ = SharedArea();
+      area_ = SharedArea::create(layout.size());
+      if (area_.data() == nullptr) throw PoolIsGone{};
+      new_area = area_.file().get();
+    }
+    const std::size_t bytes = static_cast<std::size_t>(call.n) * call.nodes.real_bytes();
+    for (int axis = 0; axis < 3; ++axis)
+      copy(layout.coordinate(area_.data(), axis), call.nodes.array(axis), bytes);
+
+    PoolRequest request;
+    request.real_bytes = static_cast<std::int32_t>(call.nodes.real_bytes());
+    request.n = call.n;
+    request.wants_cost = wants_cost ? 1 : 0;
+    PoolReply reply;
+    if (!send_packet(socket_, &request, sizeof request, &new_area, 1) ||
+        !receive_packet(socket_, &reply, sizeof reply) || !fits(reply, call.n)) {
+      // The pool has ended, or the model has closed the descriptor. Do not close it: it may be another
+      // file's.
+      socket_.release();
+      reply.done = 0;
+    }
+    area_.close_file();
+    if (reply.done != 0) return reply;
     area_ = SharedArea();
-    return false;
+    throw PoolIsGone{};
   }
-  area_.close_file();
-  if (reply.done == 0) {
-    area_ = SharedArea();
-    return false;
-  }
-  if (reply.ier >= 0) {
-    const std::size_t slots = static_cast<std::size_t>(reply.lnew) - 1;
-    const ListArrays lists = layout.call(area, nullptr).lists;
-    copy(call.list, lists.list, slots * sizeof(std::int32_t));
-    copy(call.lptr, lists.lptr, slots * sizeof(std::int32_t));
-    // L > 0: the lists of nodes 1..M-1.
-    const std::size_t listed = reply.ier > 0 ? static_cast<std::size_t>(reply.other) - 1 : n;
-    copy(call.lend, lists.lend, listed * sizeof(std::int32_t));
-    *call.lnew = reply.lnew;
-  }
-  return true;
-}
+
+  bool tried_ = false;
+  Descriptor socket_;
+  SharedArea area_;  ///< of the largest call so far, because new pages cost as much as copying
+  std::atomic_flag is_busy_ = ATOMIC_FLAG_INIT;
+};
 
 /// Never freed, because the model may call TRMESH from its exit handlers.
 Pool* const pool = settings.pool[0] != '\0' ? new Pool : nullptr;
-std::atomic_flag pool_is_busy = ATOMIC_FLAG_INIT;
 
 }  // namespace
 
-int pool_trmesh(const pstripack_trmesh_arguments* call, int32_t* ier, int64_t* node, int64_t* other) {
-  if (pool == nullptr || call->n < settings.fewest_nodes || call->n > most_nodes<std::int32_t>() ||
-      getpid() != loaded_in)
-    return PSTRIPACK_ENGINE_DECLINES;
-#ifdef _OPENMP
-  if (omp_in_parallel()) return PSTRIPACK_ENGINE_DECLINES;
-#endif
-  // If another thread's call is under way, this one runs on threads instead of waiting.
-  if (pool_is_busy.test_and_set(std::memory_order_acquire)) return PSTRIPACK_ENGINE_DECLINES;
-  PoolReply reply;
-  const bool done = pool->trmesh(*call, reply);
-  pool_is_busy.clear(std::memory_order_release);
-  if (!done) return PSTRIPACK_ENGINE_DECLINES;
-  if (call->report != nullptr) {
-    call->report->mode = CallReport::by_pool;
-    call->report->ranks = reply.ranks;
-    call->report->cost = reply.cost;
-  }
-  *ier = reply.ier;
-  *node = reply.node;
-  *other = reply.other;
-  return PSTRIPACK_ENGINE_DID_IT;
-}
+Engine* pool_engine() noexcept { return pool; }
 
 }  // namespace pstripack

@@ -49,12 +49,12 @@ bool all_share(MpiCommunicator& ranks, const SharedArea& area, const Order& orde
 }
 
 /// Carries out one call, on any rank. `area`: null if this rank has not mapped it.
-TrmeshResult carry_out(MpiCommunicator& ranks, Arrays arrays, const Order& order, void* area, LastCall& last,
+TrmeshResult carry_out(MpiCommunicator& ranks, Arrays arrays, const Order& order, void* area,
                        std::int32_t* lnew = nullptr, GroupCost* cost = nullptr) {
   TrmeshCall call;
   call.nodes = NodeArrays(static_cast<std::size_t>(order.real_bytes), nullptr, nullptr, nullptr);
   if (area != nullptr) call = AreaLayout(order.n, order.real_bytes).call(area, lnew);
-  return collective_trmesh(ranks, arrays, call, cost, &last);
+  return collective_trmesh(ranks, arrays, call, cost);
 }
 
 /// The environment of pstripack-run, from the file that it sent: NAME=VALUE, each closed by a zero. It has no
@@ -187,7 +187,7 @@ bool Steward::serve(Client& client, MpiCommunicator& ranks) {
   try {
     const Arrays arrays = all_share(ranks, client.area, order) ? Arrays::shared : Arrays::on_one_rank;
     client.area.close_file();  // every rank that can map it has done so
-    result = carry_out(ranks, arrays, order, client.area.data(), last_call_, &reply.lnew,
+    result = carry_out(ranks, arrays, order, client.area.data(), &reply.lnew,
                        request.wants_cost != 0 ? &reply.cost : nullptr);
   } catch (const AgreedFailure& failure) {
     result = {failure.code};
@@ -204,7 +204,6 @@ bool Steward::serve(Client& client, MpiCommunicator& ranks) {
 void serve_as_worker(MpiCommunicator& ranks, bool beside_rank_0) {
   SharedArea area;
   std::int64_t area_number = 0;
-  LastCall last_call;
   for (;;) {
     ranks.set_phase("its wait for a call");
     Order order;
@@ -218,8 +217,7 @@ void serve_as_worker(MpiCommunicator& ranks, bool beside_rank_0) {
     }
     try {
       const bool shared = all_share(ranks, area, order);
-      carry_out(ranks, shared ? Arrays::shared : Arrays::on_one_rank, order, shared ? area.data() : nullptr,
-                last_call);
+      carry_out(ranks, shared ? Arrays::shared : Arrays::on_one_rank, order, shared ? area.data() : nullptr);
     } catch (const AgreedFailure&) {
       // Rank 0 tells the model; the next call may succeed.
     }

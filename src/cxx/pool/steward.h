@@ -62,7 +62,6 @@ class Steward {
   Descriptor listener_, child_signals_;
   std::vector<Client> clients_;
   std::int64_t areas_ = 0;  ///< number of areas so far
-  LastCall last_call_;
   pid_t model_ = -1;
   int status_ = 0;     ///< of the model, as returned by wait()
   bool told_ = false;  ///< pstripack-run knows that the model has ended

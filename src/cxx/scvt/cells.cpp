@@ -30,6 +30,11 @@
 // the midpoints of the three sides: on a ray density = a + b(t) r + c(t) r^2. Its products with the weights
 // above are integrated as accurately as those of a constant density.
 //
+// Where s <= kFine and the density varies by less than a factor of kSmooth, as in most cells of a fine mesh,
+// its values at 0 and at the corners are enough, a third of the values. A polynomial of degree 2 is fitted to
+// them; what is left at the corners is interpolated along the sides and grows with r^2. Then two terms of the
+// series are enough.
+//
 // Larger cells, and cells in which the density varies by more than a factor of kRough, are cut into small
 // spherical triangles, each with a rule of seven points (Radon 1948). Its weights are positive, so mass and
 // energy are positive for any density. Points are kept as their difference to g, in the axes e1, e2, g: so
@@ -38,6 +43,7 @@
 #include "scvt/cells.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/parallel_for.h"
@@ -46,10 +52,11 @@
 namespace pstripack::scvt {
 namespace {
 
-constexpr double kTiny = 4e-3, kSmall = 0.02;  ///< s of the farthest corner
-constexpr double kRough = 4;                   ///< largest density in a cell over the smallest
-constexpr double kClose = 1e-16;               ///< u.u of neighbours where the rounding of lengths matters
-constexpr double kFlat = 1e-16;                ///< squared sine of an angle too small to find its corner from
+constexpr double kFine = 3e-4, kTiny = 4e-3, kSmall = 0.02;  ///< s of the farthest corner
+constexpr double kRough = 4;                                 ///< largest density in a cell over the smallest
+constexpr double kSmooth = 1.25;                             ///< the same
+constexpr double kClose = 1e-16;  ///< u.u of neighbours where the rounding of lengths matters
+constexpr double kFlat = 1e-16;   ///< squared sine of an angle too small to find its corner from
 
 /// Two axes perpendicular to the unit vector g and to each other (Duff et al. 2017).
 struct Axes {
@@ -219,13 +226,23 @@ struct Entries {
   std::vector<double> u, v, half;  ///< neighbour: its components along the axes, half its distance squared
   std::vector<double> x, y, s;     ///< corner between neighbours k and k+1
   std::vector<double> mass, energy, pull_x, pull_y;  ///< triangle between corners k and k+1
+  std::vector<double> density;                       ///< at the corner, if it is not constant
+  /// Of a smooth cell: density = centre + linear r + (rest + xx x^2 + xy x y + yy y^2) r^2 on the ray to the
+  /// corner.
+  std::vector<double> centre, linear, rest, xx, xy, yy;
 
   void resize(std::size_t n) {
     count = n;
     if (u.size() >= n) return;
-    for (auto* array : {&u, &v, &half, &x, &y, &s, &mass, &energy, &pull_x, &pull_y}) array->resize(n);
+    for (auto* array : {&u, &v, &half, &x, &y, &s, &mass, &energy, &pull_x, &pull_y, &density, &centre,
+                        &linear, &rest, &xx, &xy, &yy})
+      array->resize(n);
   }
 };
+
+/// Gauss's points 1/2 -+ sqrt(15)/10, 1/2.
+constexpr double kGaussPoint[3] = {0.1127016653792583, 0.5, 0.8872983346207417};
+constexpr double kGaussWeight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
 
 /// Computes all corners; the one after the last corner of each cell is meaningless.
 void find_corners(Entries& e) {
@@ -271,6 +288,45 @@ void integrate_tiny(Entries& e) {
   }
 }
 
+/// Integrates the smooth cells, with two terms of the series. On the ray t, with the means over r of 1, r,
+/// r^2 times the three powers of z.
+void integrate_smooth(Entries& e) {
+  const double *const x = e.x.data(), *const y = e.y.data();
+  const double *const centre = e.centre.data(), *const linear = e.linear.data();
+  const double* const rest = e.rest.data();
+  const double *const xx = e.xx.data(), *const xy = e.xy.data(), *const yy = e.yy.data();
+  double *const mass = e.mass.data(), *const energy = e.energy.data();
+  double *const pull_x = e.pull_x.data(), *const pull_y = e.pull_y.data();
+#ifndef __clang__
+#pragma GCC ivdep  // the arrays do not overlap; Clang tests that itself
+#endif
+  for (std::size_t k = 0; k + 1 < e.count; ++k) {
+    const double dx = x[k + 1] - x[k], dy = y[k + 1] - y[k], det = x[k] * dy - y[k] * dx, a = centre[k];
+    double m = 0, f = 0, px = 0, py = 0;
+    const auto add = [&](double t, double weight) {
+      const double u = x[k] + t * dx, v = y[k] + t * dy, s = u * u + v * v;
+      const double b = linear[k] + t * (linear[k + 1] - linear[k]);
+      const double c = rest[k] + t * (rest[k + 1] - rest[k]) + u * (xx[k] * u + xy[k] * v) + yy[k] * v * v;
+      const auto mean = [&](int power) {  // of the density times r^(power-1)
+        return a * (1.0 / power) + b * (1.0 / (power + 1)) + c * (1.0 / (power + 2));
+      };
+      const double w = weight * det;
+      m += w * (mean(2) - s * (1.5 * mean(4)));
+      f += w * s * (mean(4) - s * (2.25 * mean(6)));
+      const double p = w * (mean(3) - s * (2 * mean(5)));
+      px += p * u;
+      py += p * v;
+    };
+    add(kGaussPoint[0], kGaussWeight[0]);
+    add(kGaussPoint[1], kGaussWeight[1]);
+    add(kGaussPoint[2], kGaussWeight[2]);
+    mass[k] = m;
+    energy[k] = f;
+    pull_x[k] = px;
+    pull_y[k] = py;
+  }
+}
+
 /// Integrates consecutive cells, up to kCells at a time.
 class SmallCells {
  public:
@@ -298,13 +354,19 @@ class SmallCells {
       for_each_cell([&](std::size_t i, std::size_t k, std::size_t count) {
         if (size_[i - first_] == Size::tiny) write(i, k, count, constant_);
         if (size_[i - first_] != Size::small) return;
-        const double value[3] = {constant_, constant_, constant_};
-        for (std::size_t j = k; j < k + count; ++j) integrate_triangle(j, constant_, value, value);
+        const double c = constant_;
+        for (std::size_t j = k; j < k + count; ++j) integrate_triangle(j, c, {c, c, c}, {c, c});
         write(i, k, count, 1);
       });
     } else {
-      take_samples();
-      integrate_samples();
+      sample_corners();
+      fit_smooth_cells();
+      if (std::find(size_.begin(), size_.end(), Size::smooth) != size_.end()) integrate_smooth(e_);
+      for_each_cell([&](std::size_t i, std::size_t k, std::size_t count) {
+        if (size_[i - first_] == Size::smooth) write(i, k, count, 1);
+      });
+      sample_sides();
+      integrate_small();
     }
     for_each_cell([&](std::size_t i, std::size_t, std::size_t) {
       if (size_[i - first_] == Size::large) integrate_large(i);
@@ -314,7 +376,8 @@ class SmallCells {
  private:
   static constexpr std::size_t kAhead = 6 * kCells;  ///< distance of prefetching, in neighbours
 
-  enum class Size : char { tiny, small, large };
+  /// Tiny: of constant density; smooth: fine, and the density varies little; large also: rough.
+  enum class Size : char { tiny, smooth, small, large };
 
   /// body(i, k, count): cell i has the neighbours, corners and triangles k..k+count-1.
   template <class Body>
@@ -362,15 +425,17 @@ class SmallCells {
 
   void close_cells() {
     double *const x = e_.x.data(), *const y = e_.y.data(), *const s = e_.s.data();
-    const bool density_is_constant = density_.is_constant();
+    const bool is_constant = density_.is_constant();
+    const Size tiny = is_constant ? Size::tiny : Size::smooth;
+    const double most = is_constant ? kTiny : kFine;
     size_.resize(last_ - first_);
     for_each_cell([&](std::size_t i, std::size_t k, std::size_t count) {
-      bool is_tiny = density_is_constant, is_small = true;
+      bool is_tiny = true, is_small = true;
       for (std::size_t j = k; j < k + count; ++j) {
-        is_tiny &= s[j] <= kTiny;
+        is_tiny &= s[j] <= most;
         is_small &= s[j] >= 0 && s[j] <= kSmall;
       }
-      size_[i - first_] = !is_small ? Size::large : is_tiny ? Size::tiny : Size::small;
+      size_[i - first_] = !is_small ? Size::large : is_tiny ? tiny : Size::small;
       x[k + count] = x[k], y[k + count] = y[k], s[k + count] = s[k];
     });
   }
@@ -399,39 +464,121 @@ class SmallCells {
     cells_.pull[i] = plus(scaled(sums.pull_x, axes.e1), scaled(sums.pull_y, axes.e2));
   }
 
-  /// Evaluates the density. The places of a cell: its generator; for each entry the corner, the midpoint of
-  /// generator and corner, and the midpoint of this corner and the next.
-  void take_samples() {
-    samples_.clear();
-    for_each_cell([&](std::size_t i, std::size_t k, std::size_t count) {
-      if (size_[i - first_] == Size::large) return;
-      const Point& g = points_[i];
-      const Axes& axes = axes_[i - first_];
-      const auto sample = [&](double x, double y) {
-        const Point q = plus(g, plus(scaled(x, axes.e1), scaled(y, axes.e2)));
-        samples_.push_back(scaled(1 / std::sqrt(1 + (x * x + y * y)), q));
-      };
-      samples_.push_back(g);
-      for (std::size_t j = k; j < k + count; ++j) {
-        sample(e_.x[j], e_.y[j]);
-        sample(e_.x[j] / 2, e_.y[j] / 2);
-        sample((e_.x[j] + e_.x[j + 1]) / 2, (e_.y[j] + e_.y[j + 1]) / 2);
-      }
-    });
+  void sample(std::size_t i, double x, double y) {
+    const Axes& axes = axes_[i - first_];
+    const Point q = plus(points_[i], plus(scaled(x, axes.e1), scaled(y, axes.e2)));
+    samples_.push_back(scaled(1 / std::sqrt(1 + (x * x + y * y)), q));
+  }
+  void evaluate_samples() {
+    if (samples_.empty()) return;
     values_.resize(samples_.size());
     density_.at(samples_.size(), samples_.data(), values_.data());
   }
 
-  void integrate_samples() {
+  /// The density at the generators and corners.
+  void sample_corners() {
+    samples_.clear();
+    for_each_cell([&](std::size_t i, std::size_t k, std::size_t count) {
+      if (size_[i - first_] == Size::large) return;
+      samples_.push_back(points_[i]);
+      for (std::size_t j = k; j < k + count; ++j) sample(i, e_.x[j], e_.y[j]);
+    });
+    evaluate_samples();
     const double* value = values_.data();
     for_each_cell([&](std::size_t i, std::size_t k, std::size_t count) {
       if (size_[i - first_] == Size::large) return;
-      const double* const end = value + 1 + 3 * count;
+      Size& size = size_[i - first_];
+      const auto [least, most] = std::minmax_element(value, value + 1 + count);
+      if (*most > kRough * *least)
+        size = Size::large;
+      else if (*most > kSmooth * *least)
+        size = Size::small;
+      e_.centre[k] = *value++;
+      std::copy_n(value, count, e_.density.begin() + static_cast<std::ptrdiff_t>(k));
+      e_.density[k + count] = e_.density[k];
+      value += count;
+    });
+  }
+
+  /// Least squares at the corners, with lengths in units of their root mean square distance and the basis x,
+  /// y, x^2-y^2, 2xy, x^2+y^2, whose normal equations (solved by Cholesky's method) are diagonal in a regular
+  /// cell. A cell of 3 or 4 sides, or nearly, does not determine the polynomial: it is no smooth one.
+  void fit_smooth_cells() {
+    constexpr std::size_t kTerms = 5;
+    constexpr double kLeastPivot = 0.1;  // 2.5 in a regular pentagon
+    for_each_cell([&](std::size_t i, std::size_t k, std::size_t count) {
+      if (size_[i - first_] != Size::smooth) return;
+      double square = 0;
+      for (std::size_t j = k; j < k + count; ++j) square += e_.s[j];
+      square /= static_cast<double>(count);
+      const double per_length = 1 / std::sqrt(square), centre = e_.centre[k];
+      double lower[kTerms][kTerms] = {}, right[kTerms] = {};
+      for (std::size_t j = k; j < k + count; ++j) {
+        const double x = e_.x[j] * per_length, y = e_.y[j] * per_length, more = e_.density[j] - centre;
+        const double term[kTerms] = {x, y, x * x - y * y, 2 * x * y, x * x + y * y};
+        for (std::size_t r = 0; r < kTerms; ++r) {
+          for (std::size_t c = 0; c <= r; ++c) lower[r][c] += term[r] * term[c];
+          right[r] += term[r] * more;
+        }
+      }
+      for (std::size_t c = 0; c < kTerms; ++c) {
+        for (std::size_t d = 0; d < c; ++d)
+          for (std::size_t r = c; r < kTerms; ++r) lower[r][c] -= lower[r][d] * lower[c][d];
+        if (!(lower[c][c] > kLeastPivot)) {
+          size_[i - first_] = Size::small;
+          return;
+        }
+        const double inverse = 1 / std::sqrt(lower[c][c]);
+        for (std::size_t r = c; r < kTerms; ++r) lower[r][c] *= inverse;
+        right[c] *= inverse;
+        for (std::size_t r = c + 1; r < kTerms; ++r) right[r] -= lower[r][c] * right[c];
+        lower[c][c] = inverse;
+      }
+      for (std::size_t c = kTerms; c-- > 0;) {
+        for (std::size_t r = c + 1; r < kTerms; ++r) right[c] -= lower[r][c] * right[r];
+        right[c] *= lower[c][c];
+      }
+      const double b_x = right[0] * per_length, b_y = right[1] * per_length;
+      const double xx = (right[4] + right[2]) / square, xy = 2 * right[3] / square;
+      const double yy = (right[4] - right[2]) / square;
+      for (std::size_t j = k; j <= k + count; ++j) {
+        const double x = e_.x[j], y = e_.y[j], linear = b_x * x + b_y * y;
+        e_.centre[j] = centre;
+        e_.linear[j] = linear;
+        e_.xx[j] = xx, e_.xy[j] = xy, e_.yy[j] = yy;
+        e_.rest[j] = e_.density[j] - centre - linear - (x * (xx * x + xy * y) + yy * y * y);
+      }
+    });
+  }
+
+  /// For each entry of the other small cells the density midway between generator and corner, and between
+  /// this corner and the next.
+  void sample_sides() {
+    samples_.clear();
+    for_each_cell([&](std::size_t i, std::size_t k, std::size_t count) {
+      if (size_[i - first_] != Size::small) return;
+      for (std::size_t j = k; j < k + count; ++j) {
+        sample(i, e_.x[j] / 2, e_.y[j] / 2);
+        sample(i, (e_.x[j] + e_.x[j + 1]) / 2, (e_.y[j] + e_.y[j + 1]) / 2);
+      }
+    });
+    evaluate_samples();
+  }
+
+  void integrate_small() {
+    const double* value = values_.data();
+    for_each_cell([&](std::size_t i, std::size_t k, std::size_t count) {
+      if (size_[i - first_] != Size::small) return;
+      const double* const end = value + 2 * count;
       const auto [least, most] = std::minmax_element(value, end);
-      if (*most > kRough * *least) size_[i - first_] = Size::large;
-      const double centre = *value++;
-      for (std::size_t j = 0; j < count; ++j)
-        integrate_triangle(k + j, centre, value + 3 * j, value + 3 * (j + 1 < count ? j + 1 : 0));
+      const auto [low, high] = std::minmax_element(&e_.density[k], &e_.density[k] + count);
+      if (std::max({*most, *high, e_.centre[k]}) > kRough * std::min({*least, *low, e_.centre[k]}))
+        size_[i - first_] = Size::large;
+      for (std::size_t j = 0; j < count; ++j) {
+        const double *const here = value + 2 * j, *const next = value + 2 * (j + 1 < count ? j + 1 : 0);
+        integrate_triangle(k + j, e_.centre[k], {e_.density[k + j], here[0], here[1]},
+                           {e_.density[k + j + 1], next[0]});
+      }
       write(i, k, count, 1);
       value = end;
     });
@@ -439,15 +586,13 @@ class SmallCells {
 
   /// here[0], next[0]: the density at the two corners; here[1], next[1]: midway between generator and corner;
   /// here[2]: midway between the corners.
-  void integrate_triangle(std::size_t k, double centre, const double* here, const double* next) {
-    // Gauss's points 1/2 -+ sqrt(15)/10, 1/2.
-    constexpr double kPoint[3] = {0.1127016653792583, 0.5, 0.8872983346207417};
-    constexpr double kWeight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+  void integrate_triangle(std::size_t k, double centre, const std::array<double, 3>& here,
+                          const std::array<double, 2>& next) {
     const double dx = e_.x[k + 1] - e_.x[k], dy = e_.y[k + 1] - e_.y[k];
     const double det = e_.x[k] * dy - e_.y[k] * dx;
     double mass = 0, energy = 0, pull_x = 0, pull_y = 0;
     for (int i = 0; i < 3; ++i) {
-      const double t = kPoint[i], x = e_.x[k] + t * dx, y = e_.y[k] + t * dy, s = x * x + y * y;
+      const double t = kGaussPoint[i], x = e_.x[k] + t * dx, y = e_.y[k] + t * dy, s = x * x + y * y;
       // The polynomial of degree 2 with these values, on the ray: a + b r + c r^2.
       const double a = centre;
       const double b = (1 - t) * (4 * here[1] - here[0] - 3 * a) + t * (4 * next[1] - next[0] - 3 * a);
@@ -457,7 +602,7 @@ class SmallCells {
       const auto mean = [&](int power) {
         return a * (1.0 / power) + b * (1.0 / (power + 1)) + c * (1.0 / (power + 2));
       };
-      const double w = kWeight[i] * det;
+      const double w = kGaussWeight[i] * det;
       mass +=
           w * (mean(2) +
                s * (-3.0 / 2 * mean(4) +

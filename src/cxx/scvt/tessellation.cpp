@@ -88,7 +88,7 @@ Tessellation first_generators(Evaluator& evaluator, std::size_t n, const RunOpti
 
 Result solve(Evaluator& evaluator, State& state, const Options& options, Repair& repair) {
   Result result = minimize(evaluator, state, options);
-  if (!options.well_centred || result.end == End::stopped) return result;
+  if (!options.well_centred) return result;
   repair = make_well_centred(evaluator, state.generators);
   if (repair.moved == 0) return result;
   state.pairs.clear();  // of other generators

@@ -1,31 +1,35 @@
 #pragma once
-// The interface of engines, which can carry out a call of TRMESH in place of this process's threads: the
-// pool, and libpstripack_mpi.
 
-#include <cstdint>
+#include <exception>
+
+#include "parallel/cost.h"
+#include "trmesh/call.h"
 
 namespace pstripack {
-struct CallReport;
-}
 
-extern "C" {
-
-/// One call of TRMESH. real_bytes: bytes of a real in x, y, z, 4 or 8.
-struct pstripack_trmesh_arguments {
-  int32_t real_bytes, n;
-  const void *x, *y, *z;
-  int32_t *list, *lptr, *lend, *lnew;
-  pstripack::CallReport* report;  ///< the engine fills in mode, ranks and cost; null: no report is wanted
+/// How a call was carried out, for reports.
+struct CallWay {
+  enum Mode { on_threads, by_pool, by_comm, distributed, distributed_gather, modes };
+  Mode mode = on_threads;
+  int ranks = 1;
+  GroupCost cost;
 };
 
-enum {
-  PSTRIPACK_ENGINE_DECLINES = 0,         ///< not carried out: do it on threads
-  PSTRIPACK_ENGINE_DID_IT = 1,           ///< carried out; the library prints the line of a new error code
-  PSTRIPACK_ENGINE_DID_IT_SILENTLY = 2,  ///< carried out; another rank prints that line
+/// Other processes that can carry out a call: a pool, or the ranks of a communicator.
+class Engine {
+ public:
+  /// True if it takes the call. Then the same thread calls carry_out() next.
+  virtual bool takes(const TrmeshCall& call) noexcept = 0;
+  /// way: null if no report is wanted. Throws PoolIsGone, having written nothing.
+  virtual TrmeshResult carry_out(const TrmeshCall& call, CallWay* way) = 0;
+
+ protected:
+  ~Engine() = default;
 };
 
-/// An engine: carries the call out and sets *ier, *node and *other (see TrmeshResult), or declines. Must
-/// not throw.
-typedef int (*pstripack_trmesh_engine)(const pstripack_trmesh_arguments* call, int32_t* ier, int64_t* node,
-                                       int64_t* other);
-}
+/// The pool has ended, or has refused a call.
+struct PoolIsGone : std::exception {
+  const char* what() const noexcept override { return "the pool is gone"; }
+};
+
+}  // namespace pstripack

@@ -20,31 +20,31 @@
 namespace pstripack {
 namespace {
 
-/// A call carried out by patches on the threads of this process, or by one hull.
-class OnThreads {
+/// A call carried out by one hull. `copy_` are the nodes that it takes.
+class ByOneHull {
  public:
-  OnThreads(const TrmeshCall& call, bool in_original_order, ParallelCost* cost)
-      : call_(call),
-        cost_(cost),
-        on_threads_(threads_for(static_cast<std::size_t>(call.n)) > 1),
-        copied_at_once_(!on_threads_ && !in_original_order) {}
+  ByOneHull(const TrmeshCall& call, ParallelCost* cost) : call_(call), cost_(cost) {}
 
   /// Checks the first n nodes. Returns the first (from 0) that is zero or not finite; n if there is none.
   std::size_t check(std::size_t n) {
+    const PhaseTimer timer(cost_, ParallelCost::divide);
     n_ = n;
-    if (copied_at_once_) {
-      copy();
-    } else {
-      const PhaseTimer timer(cost_, ParallelCost::divide);
-      check_ = check_nodes(call_.nodes, n);
-    }
-    check_.by_direction.value = call_.by_direction;
-    return check_.first_bad;
+    workspace_.clear();
+    copy_ = workspace_.for_phase<Point>(n);
+    return call_.nodes
+        .visit([&](const auto& node) {
+          return check_nodes(n, threads_for(n), [&](std::size_t i) { return copy_[i] = node(i); });
+        })
+        .first_bad;
   }
 
   std::optional<Coincidence> triangulate(std::size_t n) {
     if (n != n_) check(n);
-    const CoincidentPairs pairs = on_threads_ ? by_patches() : by_one_hull();
+    const PhaseTimer timer(cost_, ParallelCost::triangulate);
+    hull_ = delaunay(copy_, n, workspace_, call_.by_direction ? Lengths::directions : Lengths::automatic);
+    CoincidentPairs pairs;
+    for (const auto& [in, out] : hull_.coincident)
+      pairs.emplace_back(GlobalNumber{in + 1}, GlobalNumber{out + 1});
     if (pairs.empty()) return std::nullopt;
     return first_coincidence(pairs);
   }
@@ -52,71 +52,91 @@ class OnThreads {
   void deliver() {
     const PhaseTimer timer(cost_, ParallelCost::lists);
     const auto& [list, lptr, lend, lnew] = call_.lists;
-    if (stars_) {
-      const int threads = options_.threads;
-      write_piece(stars_->of_node, 0, list, lend, threads);
-      write_lptr(lend, n_, 0, lptr, threads);
-      *lnew = lend[n_ - 1] + 1;
-    } else {
-      *lnew = write_lists(hull_, list, lptr, lend, *workspace_);
-    }
+    *lnew = write_lists(hull_, list, lptr, lend, workspace_);
   }
 
  private:
-  /// Copies the nodes, for one hull. Patches need no copy, so with threads this is done only if they fail.
-  void copy() {
-    const PhaseTimer timer(cost_, ParallelCost::divide);
-    if (!workspace_) workspace_.emplace(workspace_bytes(n_));
-    workspace_->clear();
-    copy_ = workspace_->for_phase<Point>(n_);
-    check_ = call_.nodes.visit([&](const auto& node) {
-      return check_nodes(n_, threads_for(n_), [&](std::size_t i) { return copy_[i] = node(i); });
-    });
-  }
-
-  CoincidentPairs by_patches() {
-    SingleProcess process;
-    options_ = options_from_environment(n_);
-    options_.most_questions = n_ / 8;
-    const NodeArrays& nodes = call_.nodes;
-    const Point corners[3] = {nodes[0], nodes[1], nodes[2]};
-    if (cost_ != nullptr) cost_->threads = options_.threads;
-    stars_.reset();
-    try {
-      stars_ = pstripack::triangulate<std::int32_t>({nodes, n_}, check_, corners, {1, 2, 3}, process,
-                                                    options_, cost_);
-      return stars_->coincident;
-    } catch (const PatchesDoNotPay&) {
-      return by_one_hull();
-    }
-  }
-
-  CoincidentPairs by_one_hull() {
-    if (!copied_at_once_) copy();
-    const PhaseTimer timer(cost_, ParallelCost::triangulate);
-    hull_ = delaunay(copy_, n_, *workspace_, call_.by_direction ? Lengths::directions : Lengths::automatic);
-    CoincidentPairs pairs;
-    for (const auto& [in, out] : hull_.coincident)
-      pairs.emplace_back(GlobalNumber{in + 1}, GlobalNumber{out + 1});
-    return pairs;
-  }
-
   const TrmeshCall& call_;
   ParallelCost* const cost_;
-  const bool on_threads_, copied_at_once_;
-  std::size_t n_ = 0;  ///< number of nodes checked by check()
-  NodeCheck check_;
-  ParallelOptions options_;
-  std::optional<Stars<std::int32_t>> stars_;  ///< if triangulated by patches
-  std::optional<Workspace> workspace_;        ///< for one hull
+  Workspace workspace_{workspace_bytes(static_cast<std::size_t>(call_.n))};
+  std::size_t n_ = 0;  ///< number of nodes checked
   Point* copy_ = nullptr;
   Hull hull_;
 };
+
+/// A call carried out by patches on the threads of this process.
+class ByPatches {
+ public:
+  ByPatches(const TrmeshCall& call, ParallelCost* cost) : call_(call), cost_(cost) {}
+
+  std::size_t check(std::size_t n) {
+    const PhaseTimer timer(cost_, ParallelCost::divide);
+    n_ = n;
+    check_ = check_nodes(call_.nodes, n);
+    check_.by_direction.value = call_.by_direction;
+    return check_.first_bad;
+  }
+
+  std::optional<Coincidence> triangulate(std::size_t n) {
+    if (n != n_) check(n);
+    SingleProcess process;
+    options_ = options_from_environment(n);
+    options_.most_questions = n / 8;
+    if (cost_ != nullptr) cost_->threads = options_.threads;
+    const NodeArrays& nodes = call_.nodes;
+    stars_ = {};
+    stars_ = pstripack::triangulate<std::int32_t>({nodes, n}, check_, {nodes[0], nodes[1], nodes[2]},
+                                                  {1, 2, 3}, process, options_, cost_);
+    if (stars_.coincident.empty()) return std::nullopt;
+    return first_coincidence(stars_.coincident);
+  }
+
+  void deliver() {
+    const PhaseTimer timer(cost_, ParallelCost::lists);
+    const auto& [list, lptr, lend, lnew] = call_.lists;
+    write_piece(stars_.of_node, 0, list, lend, options_.threads);
+    write_lptr(lend, n_, 0, lptr, options_.threads);
+    *lnew = lend[n_ - 1] + 1;
+  }
+
+ private:
+  const TrmeshCall& call_;
+  ParallelCost* const cost_;
+  std::size_t n_ = 0;  ///< number of nodes checked
+  NodeCheck check_;
+  ParallelOptions options_;
+  Stars<std::int32_t> stars_;
+};
+
+template <class Way>
+TrmeshResult cold_by(const TrmeshCall& call, ParallelCost* cost) {
+  Way way(call, cost);
+  const auto n = static_cast<std::size_t>(call.n), first_bad = way.check(n);
+  if (first_bad < n) return {-5, static_cast<std::int64_t>(first_bad) + 1};
+  if (left(call.nodes[0], call.nodes[1], call.nodes[2]) == 0) return {-2};
+  return triangulate_and_deliver(call.n, way);
+}
+
+TrmeshResult cold(const TrmeshCall& call, CallWay* way, ParallelCost* cost, Engine* pool) {
+  try {
+    if (pool != nullptr && pool->takes(call)) return pool->carry_out(call, way);
+  } catch (const PoolIsGone&) {
+    // This process can carry out every call.
+  }
+  return threads_for(static_cast<std::size_t>(call.n)) > 1 ? cold_by<ByPatches>(call, cost)
+                                                           : cold_by<ByOneHull>(call, cost);
+}
 
 /// Writes the lists as the original makes them, if they are the exact mesh (result.order `made`) or, under
 /// PSTRIPACK_ORDER=bitwise, at least a triangulation (`inexact`). Otherwise nothing is written.
 TrmeshResult lists_in_original_order(const TrmeshCall& call, ParallelCost* cost) {
   const OriginalRules& rules = original_rules();
+  {
+    const PhaseTimer timer(cost, ParallelCost::divide);
+    const auto n = static_cast<std::size_t>(call.n), first_bad = check_nodes(call.nodes, n).first_bad;
+    if (first_bad < n) return {-5, static_cast<std::int64_t>(first_bad) + 1};
+  }
+  if (!rules.bitwise && left(call.nodes[0], call.nodes[1], call.nodes[2]) == 0) return {-2};
   const Seeds<std::int32_t> seeds = seeds_of_thread();
   InsertedNodes<std::int32_t> inserted;
   const auto insert = [&](Hopeless hopeless, StartSearch start_search) {
@@ -160,43 +180,40 @@ TrmeshResult lists_in_original_order(const TrmeshCall& call, ParallelCost* cost)
   return result;
 }
 
-/// follow: first try the original's order of insertion, as original_rules() say.
-TrmeshResult carry_out(const TrmeshCall& call, bool follow, ParallelCost* cost) {
+/// The way of a call is chosen here, in this order: the ranks of a communicator, the original's order
+/// (`follow`), the mesh of an earlier call, the pool, threads, one hull. But for the second, all write the
+/// same lists.
+TrmeshResult carry_out(const TrmeshCall& call, bool follow, CallWay* way, Engine* communicator,
+                       Engine* pool) {
+  if (!follow && communicator != nullptr && communicator->takes(call))
+    return communicator->carry_out(call, way);
   if (call.n < 3) return {-1};
   if (call.n > most_nodes<std::int32_t>()) return {-4};
 
-  const auto n = static_cast<std::size_t>(call.n);
-  std::optional<WarmStart> warm_start;
-  if (!follow) {
-    warm_start.emplace(call.nodes, n, call.by_direction ? Confirm::directions : Confirm::nothing);
-    if (warm_start->write_lists(call.lists, cost)) return {0};
-  }
-  OnThreads way(call, follow, cost);
-  const std::size_t first_bad = way.check(n);
-  if (first_bad < n) return {-5, static_cast<std::int64_t>(first_bad) + 1};
-  const bool are_collinear = left(call.nodes[0], call.nodes[1], call.nodes[2]) == 0;
-
+  ParallelCost* const cost = way != nullptr ? &way->cost.maximum : nullptr;
   TrmeshResult original{0};
-  if (follow && !call.by_direction && (!are_collinear || original_rules().bitwise)) {
+  if (follow) {
     original = lists_in_original_order(call, cost);
-    if (original.order == OriginalOrder::made || original.order == OriginalOrder::inexact) return original;
+    if (original.ier < 0 || original.order == OriginalOrder::made || original.order == OriginalOrder::inexact)
+      return original;
   }
-  if (are_collinear) return {-2};
-  TrmeshResult result = triangulate_and_deliver(call.n, way);
-  if (warm_start && result.ier == 0) warm_start->remember(call.lists);
-  result.order = original.order;
-  result.order_node = original.order_node;
+  WarmStart warm_start(call.nodes, static_cast<std::size_t>(call.n),
+                       call.by_direction ? Confirm::directions : Confirm::nothing);
+  if (warm_start.write_lists(call.lists, cost)) return {0, 0, 0, original.order, original.order_node};
+  TrmeshResult result = cold(call, way, cost, pool);
+  if (result.ier == 0) warm_start.remember(call.lists);
+  if (result.ier >= 0) result.order = original.order, result.order_node = original.order_node;
   return result;
 }
 
 }  // namespace
 
-TrmeshResult trmesh(const TrmeshCall& call, ParallelCost* cost) {
-  return carry_out(call, original_rules().follow, cost);
+TrmeshResult trmesh(const TrmeshCall& call, CallWay* way, Engine* communicator, Engine* pool) {
+  return carry_out(call, original_rules().follow && !call.by_direction, way, communicator, pool);
 }
 
-TrmeshResult canonical_trmesh(const TrmeshCall& call, ParallelCost* cost) {
-  return carry_out(call, false, cost);
+TrmeshResult canonical_trmesh(const TrmeshCall& call, CallWay* way) {
+  return carry_out(call, false, way, nullptr, nullptr);
 }
 
 }  // namespace pstripack

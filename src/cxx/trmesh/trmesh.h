@@ -2,41 +2,24 @@
 
 #include <cstdint>
 
-#include "parallel/cost.h"
 #include "trmesh/call.h"
+#include "trmesh/engine.h"
 
 namespace pstripack {
-
-/// Outcome of PSTRIPACK_ORDER. The lists are canonical except for `made` and `inexact`.
-enum class OriginalOrder {
-  not_asked,
-  made,       ///< the original's lists, of the exact mesh
-  inexact,    ///< PSTRIPACK_ORDER=bitwise: the original's lists, possibly not of the exact mesh
-  collinear,  ///< by the original's rounded tests a node is collinear with every visible boundary edge
-  endless,    ///< the original's search for a node does not end
-  wrong,      ///< the original's triangulation is not Delaunay, by exact signs
-  broken      ///< PSTRIPACK_ORDER=bitwise: the original's lists are no triangulation
-};
-
-/// TRMESH's result. `node` and `other`: the nodes (from 1) that the code is about; 0 if none. Of -7: N of the
-/// first rank that differs from rank 0, and that rank.
-struct TrmeshResult {
-  std::int32_t ier;
-  std::int64_t node = 0, other = 0;
-  OriginalOrder order = OriginalOrder::not_asked;
-  std::int64_t order_node = 0;  ///< the node of `collinear` or `endless`
-};
 
 /// STRIPACK's TRMESH with canonical lists and exact decisions (docs/differences.md). IER is 0, -1, -2, L > 0,
 /// -4 or -5 (docs/ier.md). On a negative code nothing is written. Under PSTRIPACK_ORDER=original
 /// (original_rules.h) nodes are inserted one by one on the calling thread, and the lists are the original's
 /// if these are a correct triangulation; four nodes on one circle may then have either diagonal. Under
 /// PSTRIPACK_ORDER=bitwise lists and IER are the original's if its IER is not negative and its lists are a
-/// triangulation, correct or not. Parallel. Throws std::bad_alloc, having written nothing. What the call
-/// cost is added to `cost`, if given.
-TrmeshResult trmesh(const TrmeshCall& call, ParallelCost* cost = nullptr);
-/// The same, always with canonical lists, whatever PSTRIPACK_ORDER is.
-TrmeshResult canonical_trmesh(const TrmeshCall& call, ParallelCost* cost = nullptr);
+/// triangulation, correct or not. Throws std::bad_alloc, having written nothing.
+///   way           how the call was carried out, and its cost, are stored there, if given
+///   communicator  asked first, since its calls are collective; null: none
+///   pool          asked if the call does not begin with an earlier mesh; null: none
+TrmeshResult trmesh(const TrmeshCall& call, CallWay* way = nullptr, Engine* communicator = nullptr,
+                    Engine* pool = nullptr);
+/// The same by this process, always with canonical lists, whatever PSTRIPACK_ORDER is. Parallel.
+TrmeshResult canonical_trmesh(const TrmeshCall& call, CallWay* way = nullptr);
 
 /// The common path of every way to carry out a call: by one hull, on threads, by ranks. A Way has
 ///   std::optional<Coincidence> triangulate(std::size_t n)  of the first n nodes; the first coincidence

@@ -30,15 +30,34 @@ SampleOfStars sample_of(std::size_t n, const std::int32_t* list, const std::int3
 
 }  // namespace
 
+/// The differences between the current lists of a mesh and the cached ones.
+class ListChanges {
+ public:
+  ListChanges() = default;
+  /// Throws std::bad_alloc.
+  explicit ListChanges(const CachedMesh& cached);
+  std::size_t count() const { return changes_.size(); }
+
+  /// Writes the lists of the mesh: runs of the cached lists, and a new ring for each change. Parallel.
+  void write(const CachedMesh& cached, std::int32_t* list, std::int32_t* lptr, std::int32_t* lend) const;
+
+ private:
+  std::vector<MovingMesh::Change> changes_;
+  std::vector<std::int32_t> shift_;  ///< [j]: shift, in slots, of the lists after the first j changes
+};
+
 /// LIST and LEND of a mesh. `mesh` is made by the first call that starts from it.
 struct CachedMesh {
   CachedMesh(std::size_t n, std::size_t slots)
-      : stay((slots + n) * sizeof(std::int32_t) + MovingMesh::bytes(n, slots, n)), list(slots), lend(n) {}
+      : reservation((slots + n) * sizeof(std::int32_t) + MovingMesh::bytes(n, slots, n)),
+        list(slots),
+        lend(n) {}
   std::int32_t begin(std::size_t k) const { return k == 0 ? 0 : lend[k - 1]; }
 
-  const CacheReservation stay;
+  const CacheReservation reservation;
   BlockArray<std::int32_t> list, lend;
   std::optional<MovingMesh> mesh;
+  ListChanges changes;  ///< from find_mesh() to write()
 };
 
 struct LastMesh {
@@ -91,49 +110,6 @@ void put_back(std::unique_ptr<LastMesh> last) {
 
 // ---- lists ------------------------------------------------------------------------------------------------
 
-/// The differences between the current lists of a mesh and the cached ones.
-class ListChanges {
- public:
-  ListChanges() = default;
-  /// Throws std::bad_alloc.
-  explicit ListChanges(const CachedMesh& cached)
-      : changes_(cached.mesh->changes()), shift_(changes_.size() + 1) {
-    for (std::size_t j = 0; j < changes_.size(); ++j) {
-      const auto [k, count] = changes_[j];
-      shift_[j + 1] = shift_[j] + static_cast<std::int32_t>(count) - (cached.lend[k] - cached.begin(k));
-    }
-  }
-  std::size_t count() const { return changes_.size(); }
-
-  /// Writes the lists of the mesh: runs of the cached lists, and a new ring for each change. Parallel.
-  void write(const CachedMesh& cached, std::int32_t* list, std::int32_t* lptr, std::int32_t* lend) const {
-    const std::size_t n = cached.mesh->size();
-    const std::int32_t *const old_list = cached.list.data(), *const old_end = cached.lend.data();
-    const int threads = threads_for(n);
-    parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int) {
-      auto j = static_cast<std::size_t>(
-          std::lower_bound(changes_.begin(), changes_.end(), first,
-                           [](const MovingMesh::Change& c, std::size_t k) { return c.node < k; }) -
-          changes_.begin());
-      for (std::size_t k = first; k < last;) {
-        const std::int32_t begin = cached.begin(k), shift = shift_[j];
-        const std::size_t end = j < changes_.size() ? std::min<std::size_t>(changes_[j].node, last) : last;
-        if (end > k) std::copy(old_list + begin, old_list + old_end[end - 1], list + begin + shift);
-        for (; k < end; ++k) lend[k] = old_end[k] + shift;
-        if (k == last) break;
-        const std::int32_t place = cached.begin(k) + shift;
-        cached.mesh->write_ring(k, list + place);
-        lend[k++] = place + static_cast<std::int32_t>(changes_[j++].count);
-      }
-    });
-    write_lptr(lend, n, 0, lptr, threads);
-  }
-
- private:
-  std::vector<MovingMesh::Change> changes_;
-  std::vector<std::int32_t> shift_;  ///< [j]: shift, in slots, of the lists after the first j changes
-};
-
 void copy(const std::int32_t* from, std::size_t count, std::int32_t* to) {
   parallel_pieces(count, threads_for(count / 8), [&](std::size_t first, std::size_t last, int) {
     std::copy(from + first, from + last, to + first);
@@ -141,6 +117,38 @@ void copy(const std::int32_t* from, std::size_t count, std::int32_t* to) {
 }
 
 }  // namespace
+
+ListChanges::ListChanges(const CachedMesh& cached)
+    : changes_(cached.mesh->changes()), shift_(changes_.size() + 1) {
+  for (std::size_t j = 0; j < changes_.size(); ++j) {
+    const auto [k, count] = changes_[j];
+    shift_[j + 1] = shift_[j] + static_cast<std::int32_t>(count) - (cached.lend[k] - cached.begin(k));
+  }
+}
+
+void ListChanges::write(const CachedMesh& cached, std::int32_t* list, std::int32_t* lptr,
+                        std::int32_t* lend) const {
+  const std::size_t n = cached.mesh->size();
+  const std::int32_t *const old_list = cached.list.data(), *const old_end = cached.lend.data();
+  const int threads = threads_for(n);
+  parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int) {
+    auto j = static_cast<std::size_t>(
+        std::lower_bound(changes_.begin(), changes_.end(), first,
+                         [](const MovingMesh::Change& c, std::size_t k) { return c.node < k; }) -
+        changes_.begin());
+    for (std::size_t k = first; k < last;) {
+      const std::int32_t begin = cached.begin(k), shift = shift_[j];
+      const std::size_t end = j < changes_.size() ? std::min<std::size_t>(changes_[j].node, last) : last;
+      if (end > k) std::copy(old_list + begin, old_list + old_end[end - 1], list + begin + shift);
+      for (; k < end; ++k) lend[k] = old_end[k] + shift;
+      if (k == last) break;
+      const std::int32_t place = cached.begin(k) + shift;
+      cached.mesh->write_ring(k, list + place);
+      lend[k++] = place + static_cast<std::int32_t>(changes_[j++].count);
+    }
+  });
+  write_lptr(lend, n, 0, lptr, threads);
+}
 
 WarmStart::WarmStart(const NodeArrays& nodes, std::size_t n, Confirm confirm)
     : nodes_(nodes), n_(n), confirm_(confirm) {
@@ -186,47 +194,49 @@ std::pair<bool, bool> WarmStart::move_nodes(CachedMesh& cached) const {
   return {all_have_length_one, any_has_moved};
 }
 
-bool WarmStart::write_lists(const ListArrays& lists, ParallelCost* cost) noexcept {
+bool WarmStart::find_mesh(ParallelCost* cost) noexcept {
   if (!is_prepared()) return false;
   CachedMesh& cached = *last_->cached;
-  const auto& [list, lptr, lend, lnew] = lists;
   try {
     bool fits, has_moved;
-    ListChanges changes;
     {
       const PhaseTimer timer(cost, ParallelCost::divide);
       std::tie(fits, has_moved) = move_nodes(cached);
       fits = fits && left(nodes_[0], nodes_[1], nodes_[2]) != 0;
     }
-    {
-      const PhaseTimer timer(cost, ParallelCost::triangulate);
-      if (fits && (has_moved || last_->confirm != confirm_)) fits = cached.mesh->repair(confirm_);
-      last_->confirm = confirm_;
-      if (fits) changes = ListChanges(cached);
+    const PhaseTimer timer(cost, ParallelCost::triangulate);
+    if (fits && (has_moved || last_->confirm != confirm_)) fits = cached.mesh->repair(confirm_);
+    last_->confirm = confirm_;
+    if (fits) {
+      cached.changes = ListChanges(cached);
+      if (cost != nullptr) {
+        cost->threads = threads_for(n_);
+        cost->flips = has_moved ? static_cast<std::int64_t>(cached.mesh->flips()) : 0;
+      }
+      return true;
     }
-    if (!fits) {
-      last_->lose_patience();
-      return false;
-    }
+  } catch (const std::bad_alloc&) {
+  }
+  last_->lose_patience();
+  return false;
+}
+
+void WarmStart::write(const ListArrays& lists, ParallelCost* cost) noexcept {
+  CachedMesh& cached = *last_->cached;
+  const auto& [list, lptr, lend, lnew] = lists;
+  {
     const PhaseTimer timer(cost, ParallelCost::lists);
-    changes.write(cached, list, lptr, lend);
+    cached.changes.write(cached, list, lptr, lend);
     *lnew = lend[n_ - 1] + 1;
-    if (changes.count() > n_ / 16) {
+    if (cached.changes.count() > n_ / 16) {
       copy(list, cached.list.size(), cached.list.data());
       copy(lend, n_, cached.lend.data());
       cached.mesh->forget_changes();
     }
+    cached.changes = {};
     last_->patience.succeed();
-    if (cost != nullptr) {
-      cost->threads = threads_for(n_);
-      cost->flips = has_moved ? static_cast<std::int64_t>(cached.mesh->flips()) : 0;
-    }
-  } catch (const std::bad_alloc&) {
-    last_->lose_patience();
-    return false;
   }
   take_sample(list, lend);
-  return true;
 }
 
 /// Without memory for the sample, nothing is cached.

@@ -27,12 +27,19 @@ class WarmStart {
   WarmStart(const WarmStart&) = delete;
   WarmStart& operator=(const WarmStart&) = delete;
 
-  /// True if there is a mesh from which write_lists can start.
+  /// True if there is a mesh from which find_mesh can start.
   bool is_prepared() const;
 
-  /// Writes the canonical lists of the nodes, the same as those of a cold call, and returns true. If it
-  /// returns false it has written nothing, and the call must be cold.
-  bool write_lists(const ListArrays& lists, ParallelCost* cost) noexcept;
+  /// Makes the mesh of the nodes from the earlier one. False if the call must be cold.
+  bool find_mesh(ParallelCost* cost) noexcept;
+  /// After find_mesh(): writes the canonical lists, the same as those of a cold call.
+  void write(const ListArrays& lists, ParallelCost* cost) noexcept;
+  /// Both. If it returns false it has written nothing.
+  bool write_lists(const ListArrays& lists, ParallelCost* cost) noexcept {
+    const bool found = find_mesh(cost);
+    if (found) write(lists, cost);
+    return found;
+  }
 
   /// To be called after a cold call, with its lists. Caches what a later call may need.
   void remember(const ListArrays& lists) noexcept;
