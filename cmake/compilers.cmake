@@ -49,7 +49,7 @@ function(check_assumption result)
 endfunction()
 check_assumption(PSTRIPACK_ARITHMETIC arithmetic.cpp
   MESSAGE "PSTRIPACK needs a 64-bit target and IEEE arithmetic without excess precision, as 32-bit x86 and x87 have it")
-if(CMAKE_Fortran_COMPILER)
+if(PSTRIPACK_WITH_FORTRAN)
   check_assumption(PSTRIPACK_FORTRAN_CALLS fortran.f90 calls.c
     MESSAGE "PSTRIPACK's calls between Fortran and C do not fit this Fortran compiler with CMAKE_Fortran_FLAGS")
 endif()
