@@ -7,10 +7,9 @@
 #endif
 
 #include <cstdlib>
-#include <filesystem>
 #include <new>
-#include <system_error>
 
+#include "base/system.h"
 #include "files/nearest.h"
 #include "files/output_file.h"
 #include "pstripack/options.h"
@@ -138,9 +137,7 @@ void let_waiting_threads_sleep([[maybe_unused]] char** argv) {
   constexpr auto kPolicy = "OMP_WAIT_POLICY";
   if (omp_get_max_threads() == 1 || std::getenv(kPolicy) != nullptr) return;
   setenv(kPolicy, "passive", 1);
-  std::error_code error;
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
-  execv(self.c_str(), argv);  // returns only if it failed
+  execv(pstripack::path_of_this_program().c_str(), argv);  // returns only if it failed
 #endif
 }
 
