@@ -56,7 +56,7 @@ struct Options {
   double radius = 0;  ///< of the sphere, metres; 0: not given
   double grade = 0;   ///< most that widths may change, km per km; 0: not given
   Method method = Method::newton;
-  double tolerance = 1e-4;
+  double tolerance = -1;      ///< negative: not given
   bool well_centred = false;  ///< move generators until all triangles hold their circumcentre
   bool strict = false;
   std::int64_t evaluations = 10000, every = 100;
@@ -274,6 +274,8 @@ void choose_density(Options& options, const files::Notes& notes) {
     if (options.variable.empty()) options.variable = note(notes, kVariable);
   }
   if (!is_chosen()) options.density = "constant";
+  const bool widths_differ = !options.width_file.empty() || !options.width_text.empty();
+  if (options.tolerance < 0) options.tolerance = widths_differ ? 3e-4 : 1e-4;
 }
 
 files::Notes notes_of_density(const Options& options) {
@@ -675,7 +677,7 @@ void scvt(Options& options, Ranks& ranks) {
                 [&] { in_agreement_with_caller(communicator, [&] { density = make_density(options); }); });
   if (communicator.size() == 1) check_memory(static_cast<double>(options.n));
   try {
-    const std::shared_ptr<engine::Evaluator> evaluator = ranks.evaluator(*density);
+    std::shared_ptr<engine::Evaluator> evaluator = ranks.evaluator(*density);
     Tessellation t = progress.step("placing generators", [&] {
       if (options.start.file.empty()) return first_tessellation(options, *evaluator, progress);
       Tessellation given = tessellation_of(communicator, start, options);
@@ -685,7 +687,10 @@ void scvt(Options& options, Ranks& ranks) {
     const std::int64_t steps_before = t.state.steps;
     const int signal =
         progress.step("iterating", [&] { return iterate(options, ranks, *evaluator, t, progress); });
-    const engine::Progress& reached = t.result.progress;
+    const engine::Progress reached = t.result.progress;
+    evaluator.reset();  // writing needs memory of its own
+    t.state.pairs.clear();
+    t.result.cells = {};
     const std::string quality = progress.step("writing", [&] {
       return write(ranks, options.output, false, t, *density, notes_of(options, t.state, reached));
     });
@@ -796,10 +801,11 @@ void add_scvt(CLI::App& app, Command& chosen) {
       ->type_name("NAME");
   add_choice(*sub, "--method", options->method, {{"newton", Method::newton}, {"lloyd", Method::lloyd}},
              "newton (L-BFGS) or lloyd [newton]");
-  sub->add_option("--tolerance", options->tolerance,
-                  "stop at this gradient: root mean square distance to the centroid over sqrt(4 pi/N)")
+  sub->add_option(
+         "--tolerance", options->tolerance,
+         "stop at this gradient: root mean square distance to the centroid over sqrt(4 pi/N) [0.0001, or "
+         "0.0003 where widths differ]")
       ->type_name("NUMBER")
-      ->capture_default_str()
       ->check([](const std::string& text) {  // CLI::Range lets nan pass
         double value = 0;
         return point_sets::parse(text, value) && value >= 0 ? std::string()
