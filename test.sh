@@ -10,15 +10,9 @@ configure() {
   # shellcheck disable=SC2086  # two words on purpose
   cmake -S . -B $build ${generator:-} -DCMAKE_BUILD_TYPE=Release
 }
-run_tests() {
-  code=0
-  # More tests than processors: some wait.
-  ctest --test-dir $build --output-on-failure --parallel $(($(nproc) * 2)) --output-junit tests.xml "$@" || code=$?
-  slowest $build/tests.xml
-  return $code
-}
 
 stage "install packages" sh cmake/install-packages.sh
 stage configure configure
 stage build cmake --build $build --parallel "$(nproc)"
-stage tests run_tests "$@"
+# More tests than processors: some wait.
+stage tests run_ctest $build --test-dir $build --output-on-failure --parallel $(($(nproc) * 2)) "$@"

@@ -30,14 +30,20 @@ License: BSD-3-Clause
  ${licence}
 ")
 
-# The licences of these libraries, which are compiled into the tools, require a notice.
-set(copyright_of_tools "${copyright}")
-foreach(library libcli11-dev nlohmann-json3-dev)
-  if(EXISTS /usr/share/doc/${library}/copyright)
-    file(READ /usr/share/doc/${library}/copyright text)
-    string(APPEND copyright_of_tools "\n---- of ${library}, parts of which are compiled in:\n\n${text}")
-  endif()
-endforeach()
+# The licences of these libraries, which are compiled into the packages, require a notice.
+function(add_copyrights component)
+  set(all "${copyright}")
+  foreach(library IN LISTS ARGN)
+    if(EXISTS /usr/share/doc/${library}/copyright)
+      file(READ /usr/share/doc/${library}/copyright text)
+      string(APPEND all "\n---- of ${library}, parts of which are compiled in:\n\n${text}")
+    endif()
+  endforeach()
+  set(copyright_of_${component} "${all}" PARENT_SCOPE)
+endfunction()
+add_copyrights(tools libcli11-dev nlohmann-json3-dev)
+add_copyrights(mpi_tools libcli11-dev nlohmann-json3-dev)  # pstripack-mpi
+add_copyrights(python pybind11-dev)
 
 # For the libraries: false reports of lintian.
 set(overrides_of_libraries
@@ -53,8 +59,8 @@ foreach(component IN LISTS CPACK_COMPONENTS_ALL)
   set(package ${CPACK_DEBIAN_${COMPONENT}_PACKAGE_NAME})
   set(documents ${root}/usr/share/doc/${package})
 
-  if(component STREQUAL "tools")
-    file(WRITE ${documents}/copyright "${copyright_of_tools}")
+  if(copyright_of_${component})
+    file(WRITE ${documents}/copyright "${copyright_of_${component}}")
   else()
     file(WRITE ${documents}/copyright "${copyright}")
   endif()
@@ -64,7 +70,7 @@ foreach(component IN LISTS CPACK_COMPONENTS_ALL)
   file(WRITE ${documents}/changelog.Debian
     "pstripack (${CPACK_PACKAGE_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}) bookworm; urgency=medium\n\n"
     "  * Built by cpack; what is new is in the file changelog.\n\n -- ${CPACK_PACKAGE_CONTACT}  ${date}\n")
-  file(COPY_FILE ${source}/CHANGELOG.md ${documents}/changelog)
+  configure_file(${source}/CHANGELOG.md ${documents}/changelog COPYONLY)
 
   file(GLOB_RECURSE pages ${root}/usr/share/man/*)
   execute_process(COMMAND ${GZIP} -9n ${pages} ${documents}/changelog.Debian ${documents}/changelog

@@ -4,7 +4,7 @@ set(PSTRIPACK_PACKAGE_CONTACT "The PSTRIPACK developers <pstripack@no-address.in
     "Maintainer of the packages that cpack makes: Name <address>")
 
 set(CPACK_PACKAGE_NAME pstripack)
-set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGE_VERSION ${PSTRIPACK_DEBIAN_VERSION})
 set(CPACK_PACKAGE_CONTACT ${PSTRIPACK_PACKAGE_CONTACT})
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package has its own summary
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
@@ -42,7 +42,7 @@ macro(debian_package component)
   set(CPACK_COMPONENT_${COMPONENT}_DESCRIPTION "${arg_SUMMARY}\n${arg_DESCRIPTION}")
   foreach(relation DEPENDS RECOMMENDS SUGGESTS)
     list(TRANSFORM arg_${relation} REPLACE "^libpstripack.*$"
-         "\\0 (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
+         "\\0 (= ${PSTRIPACK_DEBIAN_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
     list(JOIN arg_${relation} ", " CPACK_DEBIAN_${COMPONENT}_PACKAGE_${relation})
   endforeach()
   if(arg_LIBRARIES)
@@ -56,7 +56,7 @@ sphere, exactly and in parallel, behind the calls of STRIPACK (ACM
 Algorithm 772).
 .
 ")
-set(soversion ${PROJECT_VERSION_MAJOR})
+set(soversion ${PSTRIPACK_SOVERSION})
 debian_package(runtime NAME libpstripack${soversion} SECTION libs LIBRARIES
   SUMMARY "Delaunay triangulation on the sphere: drop-in replacement of STRIPACK"
   DESCRIPTION "${about}This package has the shared libraries, and links by which a program that is

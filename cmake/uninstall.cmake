@@ -1,5 +1,5 @@
 # The target `uninstall`: removes the files that the last `cmake --install` listed in install_manifest*.txt, and their
-# folders named pstripack if these are empty.
+# folders named pstripack, and pip's for the package, if these are empty.
 # Usage: cmake -DBUILD_DIR=build -P uninstall.cmake
 file(GLOB manifests ${BUILD_DIR}/install_manifest*.txt)
 if(NOT manifests)
@@ -24,7 +24,7 @@ endforeach()
 
 list(REMOVE_DUPLICATES folders)
 foreach(folder IN LISTS folders)
-  while(folder MATCHES "/pstripack(/|$)" AND IS_DIRECTORY "${folder}")
+  while(folder MATCHES "/pstripack(-[^/]*[.]dist-info)?(/|$)" AND IS_DIRECTORY "${folder}")
     file(GLOB inside LIST_DIRECTORIES TRUE "${folder}/*" "${folder}/.*")
     list(FILTER inside EXCLUDE REGEX "/\\.\\.?$")
     if(inside)

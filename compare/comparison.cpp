@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "capi/pstripack.h"
-#include "exact.h"
+#include "determinant.h"
 
 namespace comparison {
 namespace {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <unordered_map>
 
-#include "exact.h"
+#include "determinant.h"
 
 namespace comparison {
 namespace {

@@ -3,7 +3,6 @@
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <limits.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -19,6 +18,7 @@
 #include <utility>
 
 #include "base/shared_area.h"
+#include "base/system.h"
 #include "child_process.h"
 #include "median.h"
 #include "pool/area_layout.h"
@@ -37,10 +37,6 @@ SharedArea new_area(std::size_t size) {
   SharedArea area = SharedArea::create(size);
   if (area.data() == nullptr) throw std::bad_alloc();
   return area;
-}
-
-std::string path_of(const SharedArea& area) {
-  return fmt::format("/proc/{}/fd/{}", getpid(), area.file().get());
 }
 
 /// The data that the two processes exchange, before the arrays.
@@ -76,9 +72,7 @@ struct Arrays {
 };
 
 std::string beside_this_program(const std::string& name) {
-  char self[PATH_MAX];
-  const ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
-  const std::string path(self, length > 0 ? static_cast<std::size_t>(length) : 0);
+  const std::string path = pstripack::path_of_this_program();
   return name.empty() ? path : path.substr(0, path.rfind('/') + 1) + name;
 }
 
@@ -97,7 +91,7 @@ std::string path_of_pstripack_run() {
 /// Removes PSTRIPACK's variables from the call's environment, except those for mpirun and the report.
 void set_environment(const Setting& setting, const std::string& report) {
   std::vector<std::string> others;
-  for (char** at = environ; *at != nullptr; ++at) {
+  for (char** at = pstripack::all_environment_variables(); *at != nullptr; ++at) {
     const std::string name(*at, strcspn(*at, "="));
     if (name.rfind("PSTRIPACK_", 0) == 0 && name != "PSTRIPACK_MPIRUN" && name != "PSTRIPACK_REPORT")
       others.push_back(name);
@@ -138,7 +132,7 @@ using Trmesh8 = void(const std::int32_t*, const double*, const double*, const do
                      std::int32_t*, std::int32_t*, std::int32_t*);
 
 void* load_trmesh(const std::string& abi) {
-  const std::string library = abi == "r8" ? "libstripack.so.0" : "libstripack_" + abi + ".so.0";
+  const std::string library = abi == "r8" ? "libstripack" PSTRIPACK_LIBRARY_SUFFIX : "libstripack_" + abi + PSTRIPACK_LIBRARY_SUFFIX;
   void* const handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
   void* const routine = handle != nullptr ? dlsym(handle, "trmesh_") : nullptr;
   if (routine == nullptr) throw std::runtime_error(dlerror());
@@ -235,11 +229,11 @@ OurRun run_ours(const std::vector<Point>& points, const Setting& setting, int re
     arrays.x[i] = points[i].x, arrays.y[i] = points[i].y, arrays.z[i] = points[i].z;
 
   const SharedArea report = new_area(kReportBegins);
-  std::vector<std::string> words{beside_this_program(""), kCallCommand, path_of(area)};
+  std::vector<std::string> words{beside_this_program(""), kCallCommand, area.name().text};
   if (setting.ranks > 1)
     words.insert(words.begin(),
                  {path_of_pstripack_run(), "-n", std::to_string(setting.ranks), "--oversubscribe", "--"});
-  const std::string report_path = path_of(report);  // in this process, not in the child
+  const std::string report_path = report.name().text;  // in this process, not in the child
   const auto ended = legacy_stripack::run_in_child(
       [&] {
         set_environment(setting, report_path);
@@ -276,7 +270,7 @@ OurRun run_ours(const std::vector<Point>& points, const Setting& setting, int re
 }
 
 int call_trmesh(const char* path) {
-  const SharedArea area = SharedArea::map(pstripack::Descriptor(open(path, O_RDWR | O_CLOEXEC)));
+  const SharedArea area = SharedArea::map(path);
   if (area.data() == nullptr) throw std::system_error(errno, std::generic_category(), path);
   auto* const call = static_cast<Call*>(area.data());
   const Arrays arrays(call);

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "capi/pstripack.h"
-#include "exact.h"
+#include "determinant.h"
 #include "lists/adjacency_lists.h"
 
 namespace comparison {

@@ -20,6 +20,7 @@
 #include <system_error>
 #include <vector>
 
+#include "base/system.h"
 #include "calls.h"
 #include "commands.h"
 
@@ -49,7 +50,8 @@ int run(std::vector<std::string> command) {
   for (std::string& word : command) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   pid_t process;
-  if (const int error = posix_spawnp(&process, arguments[0], nullptr, nullptr, arguments.data(), environ))
+  if (const int error = posix_spawnp(&process, arguments[0], nullptr, nullptr, arguments.data(),
+                                     pstripack::all_environment_variables()))
     return cannot_start(command[0], error);
   signal(SIGINT, SIG_IGN);
   signal(SIGQUIT, SIG_IGN);

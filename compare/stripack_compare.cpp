@@ -16,7 +16,7 @@
 #include "families.h"
 #include "mesh_files.h"
 #include "our_calls.h"
-#include "run.h"
+#include "run_cases.h"
 #include "standard_streams.h"
 
 namespace {

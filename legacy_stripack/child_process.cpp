@@ -2,7 +2,9 @@
 
 #include <poll.h>
 #include <signal.h>
+#if defined(__linux__)
 #include <sys/prctl.h>
+#endif
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <time.h>
@@ -21,7 +23,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 [[noreturn]] void child(const std::function<void()>& work, int finished) {
+#if defined(__linux__)
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // the child ends if the parent is killed
+#endif
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
   dup2(STDERR_FILENO, STDOUT_FILENO);
@@ -39,12 +43,16 @@ using Clock = std::chrono::steady_clock;
 // Limit in clock seconds for a child that neither ends nor computes, for example because it waits for input.
 double longest_wait(double time_limit) { return time_limit + 30 * std::fmin(time_limit, 2); }
 
-// 0 if the child has ended.
-double processor_seconds(pid_t pid) {
+// 0 if the child has ended, and where the system does not tell (macOS): then clock seconds are the limit.
+double processor_seconds([[maybe_unused]] pid_t pid) {
+#if defined(__APPLE__) || defined(PSTRIPACK_ONLY_POSIX)
+  return 0;
+#else
   clockid_t clock;
   timespec t;
   if (clock_getcpuclockid(pid, &clock) != 0 || clock_gettime(clock, &t) != 0) return 0;
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+#endif
 }
 
 // Waits until the pipe is readable, or closed because the child has ended. False if the child exceeds its

@@ -28,7 +28,7 @@ using Crlist = void(const Int*, const Int*, const Real*, const Real*, const Real
 
 // RTLD_DEEPBIND: the original's own calls must find the original, not a replacement that this program is
 // linked with. AddressSanitizer refuses this flag.
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(__SANITIZE_ADDRESS__) || !defined(RTLD_DEEPBIND)  // musl and macOS have none
 constexpr int kOpenFlags = RTLD_NOW | RTLD_LOCAL;
 #else
 constexpr int kOpenFlags = RTLD_NOW | RTLD_LOCAL | RTLD_DEEPBIND;

@@ -36,6 +36,5 @@ set_source_files_properties(${dir}/original.o PROPERTIES EXTERNAL_OBJECT ON GENE
 # -Bsymbolic: routines of the original call each other even if the program defines the same names.
 target_link_options(stripack_original PRIVATE
   -Wl,-Bsymbolic -Wl,--version-script=${dir}/exported.map -Wl,--no-undefined)
-set_target_properties(stripack_original PROPERTIES LINKER_LANGUAGE Fortran
-                      LINK_DEPENDS ${dir}/exported.map)
-target_link_libraries(stripack_original PRIVATE pstripack_flags m)
+set_target_properties(stripack_original PROPERTIES LINK_DEPENDS ${dir}/exported.map)
+target_link_libraries(stripack_original PRIVATE pstripack_flags gfortran m)

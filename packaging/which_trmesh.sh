@@ -15,6 +15,7 @@ fail() {
   echo "pstripack-config --check: $*" >&2
   exit 2
 }
+[ "$(uname)" != Darwin ] || fail "works for Linux; on macOS see otool -L $subject"
 for tool in nm readelf; do
   command -v $tool > /dev/null || fail "needs $tool (Debian: apt-get install binutils)"
 done

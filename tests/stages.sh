@@ -20,9 +20,18 @@ stage() {
   [ $stage_code -eq 0 ] || exit $stage_code
 }
 
-# slowest FILE: the twenty slowest tests of a JUnit file, in seconds
-slowest() {
-  echo "The slowest tests of $1:"
-  sed -n 's/.*<testcase name="\([^"]*\)".* time="\([0-9.e+-]*\)".*/\2 \1/p' "$1" | sort -rg | head -n 20 |
+# run_ctest BUILD OPTION...: runs the tests. Leaves out what GoogleTest prints of cases that pass. Prints the cases of
+# GoogleTest that were skipped, and the slowest tests and cases, in seconds.
+run_ctest() {
+  run_build=$1
+  shift
+  { ctest "$@" --output-junit tests.xml && echo passed > "$run_build/passed" || rm -f "$run_build/passed"; } |
+    sed '/^\[ RUN  /{N;/\n\[       OK \]/d;}'
+  sed -n 's/^\[  SKIPPED \] \(.*\) ([0-9]* ms)$/skipped: \1/p' "$run_build/Testing/Temporary/LastTest.log"
+  echo "The slowest tests and cases:"
+  { sed -n 's/.*<testcase name="\([^"]*\)".* time="\([0-9.e+-]*\)".*/\2 \1/p' "$run_build/tests.xml" | sort -rg | head -n 20
+    sed -n 's/^\[       OK \] \(.*\) (\([0-9]*\) ms)$/\2e-3 \1/p' "$run_build/Testing/Temporary/LastTest.log" |
+      sort -rg | head -n 20; } |
     awk '{ time = $1; sub(/^[^ ]* /, ""); printf "%8.1f  %s\n", time, $0 }'
+  [ -f "$run_build/passed" ]
 }

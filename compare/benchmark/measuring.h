@@ -51,7 +51,8 @@ std::string microseconds(const Samples& samples, int n);
 /// What it held before, with all arrays written, is subtracted.
 double peak_bytes(const std::function<void()>& call);
 
-/// The value of a key such as `VmHWM:` in /proc/self/status or /proc/meminfo, in bytes.
+/// The value of a key such as `VmHWM:` in /proc/self/status or /proc/meminfo, in bytes; NaN where
+/// there are no such files.
 double bytes_in(const std::string& file, const std::string& key);
 
 /// The processor's name in /proc/cpuinfo.

@@ -21,7 +21,7 @@
 #include "scvt/evaluator.h"
 #include "scvt/first_generators.h"
 #include "scvt/front.h"
-#include "scvt/run.h"
+#include "scvt/tessellation.h"
 
 namespace benchmark {
 namespace {

@@ -35,6 +35,7 @@ class Pool {
 struct Message {
   int from;
   unsigned char* bytes;
+  std::size_t size;
 };
 struct Request {
   enum Kind { sent, receive, broadcast } kind;
@@ -63,7 +64,7 @@ Rank& me() { return ranks[static_cast<std::size_t>(current)]; }
 
 void send(int to, const void* bytes, std::size_t size) {
   Rank& other = ranks[static_cast<std::size_t>(to)];
-  other.arrived.push_back({current, pool.take(size)});
+  other.arrived.push_back({current, pool.take(size), size});
   std::memcpy(other.arrived.back().bytes, bytes, size);
   ++me().sent.messages;
   me().sent.bytes += static_cast<std::int64_t>(size);
@@ -77,8 +78,8 @@ void receive(int from, void* bytes, std::size_t size) {
     std::vector<Message>& all = me().arrived;
     const auto m = std::find_if(all.begin(), all.end(), [&](const Message& a) { return a.from == from; });
     if (m != all.end()) {
-      std::memcpy(bytes, m->bytes, size);
-      pool.give_back(m->bytes, size);
+      std::memcpy(bytes, m->bytes, std::min(size, m->size));
+      pool.give_back(m->bytes, m->size);
       all.erase(m);
       return;
     }

@@ -1,5 +1,5 @@
 # Fails unless the file JSON parses and reports two runs, the same bytes and no broken promise.
-cmake_minimum_required(VERSION 3.25)
+cmake_minimum_required(VERSION 3.20)
 file(READ ${JSON} text)
 string(JSON exit_code GET "${text}" exit_code)
 string(JSON verdict GET "${text}" cases 0 verdict)

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "exact.h"
+#include "determinant.h"
 
 namespace comparison {
 namespace {

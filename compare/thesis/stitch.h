@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "mesh/triangulation.h"
-#include "thesis/sphere.h"
+#include "thesis/rounded_tests.h"
 
 namespace thesis {
 

@@ -4,7 +4,7 @@
 #   mkdir -p ~/pstripack-repo/packages/pstripack
 #   cp packaging/spack/package.py ~/pstripack-repo/packages/pstripack
 #   spack repo add ~/pstripack-repo
-#   spack dev-build pstripack@0.1.0
+#   spack dev-build pstripack@1.0.0-rc1
 from spack.package import *
 
 
@@ -14,7 +14,7 @@ class Pstripack(CMakePackage):
 
     license("BSD-3-Clause")
 
-    version("0.1.0")
+    version("1.0.0-rc1")
 
     variant("mpi", default=True, description="The libraries for MPI programs, and pstripack-run")
     variant("openmp", default=True, description="Threads")
@@ -25,7 +25,7 @@ class Pstripack(CMakePackage):
     depends_on("c", type="build")
     depends_on("cxx", type="build")
     depends_on("fortran", type="build")
-    depends_on("cmake@3.25:", type="build")
+    depends_on("cmake@3.20:", type="build")
     depends_on("boost@1.74:", type="build")
     depends_on("mpi", when="+mpi")
     depends_on("pkgconfig", type="build", when="+tools")

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "original.h"
-#include "support/exact.h"
 #include "support/judge.h"
+#include "support/reference_predicates.h"
 #include "support/trmesh.h"
 
 namespace {

@@ -21,12 +21,29 @@ def catalogue():
         return tomllib.load(file)
 
 
+def cases_of(program, options):
+    """The cases of GoogleTest that a test runs: Suite.Case."""
+    out = subprocess.run([program, "--gtest_list_tests", *options], check=True, capture_output=True, text=True)
+    suite = ""
+    for line in out.stdout.splitlines():
+        name = line.split("#")[0].rstrip()  # then a comment shows the parameter
+        if line.startswith("  "):
+            yield suite + name.lstrip()
+        else:
+            suite = name
+
+
 def tests_of(ctest, build):
     # -C long: a row may name a test that only runs in this configuration.
     out = subprocess.run([ctest, "--test-dir", build, "-C", "long", "--show-only=json-v1"],
                          check=True, capture_output=True)
-    # GoogleTest's names may end with a comment that shows the parameter.
-    return [test["name"].split("  # ")[0] for test in json.loads(out.stdout)["tests"]]
+    names = []
+    for test in json.loads(out.stdout)["tests"]:
+        names.append(test["name"])
+        program, *options = test.get("command", [""])
+        if options and options[0].startswith("--gtest_filter="):
+            names += [test["name"].split(".")[0] + "." + case for case in cases_of(program, options)]
+    return names
 
 
 def faults(rows, tests):

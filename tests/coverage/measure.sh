@@ -14,10 +14,9 @@ build=${1:-$source/build-coverage}
 
 if [ $# -eq 0 ]; then
   tests='predicates_test|validator_test|mesh_test|edit_(broken_lists_)?test|listing_test|plot_test|check_test|report_test|wide_integers'
-  tests="$tests|catalogue_(numbers|callers|duplicates|beyond)|FewNodes|Nasty|Coincident|GivingUp|fuzz_corpus|faults"
-  tests="$tests|fortran\\.|privileges|point_files|dlopen|np(1|3)_patches2_bisection_slices"
-  # Leave out tests with the most nodes, and one whose limit on file size would apply to the files of counts.
-  set -- -R "$tests" -E 'AMillion|SinglePrecision.Nodes|DiskIsFull|LargePatches'
+  tests="$tests|catalogue_(numbers|callers|duplicates|beyond)|fuzz_corpus|faults"
+  tests="$tests|fortran\\.|privileges|point_files|dlopen"
+  set -- -R "$tests"
 fi
 
 cd "$source"
@@ -25,7 +24,12 @@ sh cmake/install-packages.sh gcovr
 cmake --preset coverage -B "$build"
 cmake --build "$build" -j "$(nproc)"
 find "$build" -name '*.gcda' -delete
-PSTRIPACK_CASES=0.02 ctest --test-dir "$build" --output-on-failure -j "$(nproc)" "$@"
+export PSTRIPACK_CASES=0.02
+few='*FewNodes*:*Nasty*:*Coincident*:*GivingUp*:*/np1_*:*/np3_*'
+for program in catalogue_small delaunay parallel; do
+  PSTRIPACK_WARM_START=0 "$build/tests/cxx/${program}_test" --gtest_filter="$few-*LargePatches*"
+done
+ctest --test-dir "$build" --output-on-failure -j "$(nproc)" "$@"
 gcovr --root "$source" --filter src/cxx/ --exclude-throw-branches --exclude-unreachable-branches \
   --branches --txt --json "$build/coverage.json" "$build/src/cxx" "$build/tests"
 python3 "$here/required.py" "$build/coverage.json"

@@ -20,7 +20,7 @@ import sys
 REQUIRED = [
     "src/cxx/geometry/predicates.cpp",
     "src/cxx/geometry/predicates.h",
-    "src/cxx/geometry/exact.h",
+    "src/cxx/geometry/exact_signs.h",
     "src/cxx/mesh/validate.cpp",
     "src/cxx/mesh/validate.h",
     "src/cxx/lists/adjacency_lists.cpp",

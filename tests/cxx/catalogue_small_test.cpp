@@ -91,7 +91,7 @@ TEST(FewNodes, FourOnOneSideHaveABoundary) {
 
 // ---- All small subsets of the 26 directions of a cube ----
 
-/// The signs of all fours of the 26 nodes, from tests/support/exact.h.
+/// The signs of all fours of the 26 nodes, from tests/support/reference_predicates.h.
 class CubeDirections {
  public:
   explicit CubeDirections(bool unit) {

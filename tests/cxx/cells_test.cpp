@@ -11,7 +11,7 @@
 
 #include "point_sets.h"
 #include "scvt/evaluator.h"
-#include "scvt/run.h"
+#include "scvt/tessellation.h"
 
 namespace {
 

@@ -9,8 +9,8 @@
 
 #include "point_sets.h"
 #include "stripack/polygon.h"
-#include "support/exact.h"
 #include "support/kinds.h"
+#include "support/reference_predicates.h"
 
 using namespace pstripack;
 

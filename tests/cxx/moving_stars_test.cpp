@@ -25,7 +25,7 @@
 #include "support/cases.h"
 #include "support/lists.h"
 #include "support/moves.h"
-#include "support/room_to_stay.h"
+#include "support/room_in_cache.h"
 #include "support/thread_ranks.h"
 
 namespace {
@@ -112,8 +112,8 @@ class OneRank {
     ++tally.cold;
     moving_.reset();
     stars_ = {};
-    Look look = look_at(local.points, local.count);
-    agree_on(look, ranks_);
+    NodeCheck check = check_nodes(local.points, local.count);
+    agree_on(check, ranks_);
     ranges_ = ranges_of(local, ranks_);
     const LocalNodes counted{local.points, local.count, nullptr, ranges_.first(me_)};
     std::int64_t corner[3] = {0, 0, 0};
@@ -123,10 +123,10 @@ class OneRank {
     const Point corners[3] = {nodes[0], nodes[1], nodes[2]};
     ParallelOptions options;
     options.with_neighbours = true;
-    stars_ = triangulate<Int>(counted, look, corners, {corner[0], corner[1], corner[2]}, ranks_, options);
+    stars_ = triangulate<Int>(counted, check, corners, {corner[0], corner[1], corner[2]}, ranks_, options);
     if (!stars_.coincident.empty()) return;
     fetch_numbers(stars_.outside, local, ranges_, ranks_);
-    if (look.lengths_are_one.value) moving_ = MovingStars::make(local, ranges_, stars_, ranks_);
+    if (check.lengths_are_one.value) moving_ = MovingStars::make(local, ranges_, stars_, ranks_);
     if (right) compare(nodes, *right);
   }
 
@@ -527,10 +527,10 @@ void follow_slices(bool all_ranks_can_read_all) {
       LocalNodes local{nodes.data() + first, slice, numbers.data()};
       local.of_all_ranks = all_ranks_can_read_all ? &all : nullptr;
       if (last == nullptr || !last->move(local, begin, ranks)) {
-        Look look = look_at(local.points, local.count);
-        agree_on(look, ranks);
+        NodeCheck check = check_nodes(local.points, local.count);
+        agree_on(check, ranks);
         const Point corners[3] = {nodes[0], nodes[1], nodes[2]};
-        Stars<std::int32_t> stars = triangulate<std::int32_t>(local, look, corners, {1, 2, 3}, ranks, {});
+        Stars<std::int32_t> stars = triangulate<std::int32_t>(local, check, corners, {1, 2, 3}, ranks, {});
         last = std::make_unique<LastRings>(stars.of_node, first, std::move(stars.homes));
         stars_at_home = nullptr;
         continue;
@@ -565,14 +565,14 @@ TEST(MovingStars, CountAmongWhatStays) {
   std::vector<std::size_t> mine(nodes.size());
   std::iota(mine.begin(), mine.end(), std::size_t{0});
   SingleProcess process;
-  const std::size_t before = room_to_stay();
+  const std::size_t before = room_in_cache();
   {
     OneRank<std::int32_t> rank(process);
     Tally tally;
     rank.call(nodes, mine, rings_of_one_hull(nodes), tally);
-    EXPECT_LT(room_to_stay(), before - 50 * nodes.size());
+    EXPECT_LT(room_in_cache(), before - 50 * nodes.size());
   }
-  EXPECT_EQ(room_to_stay(), before);
+  EXPECT_EQ(room_in_cache(), before);
 }
 
 /// Before each call some nodes go to other ranks, those of the last step come back, and every rank brings its
@@ -654,8 +654,8 @@ TEST(MovingStars, AreKnownByASample) {
   options.with_neighbours = true;
   const LocalNodes local{nodes.data(), nodes.size()};
   const Point corners[3] = {nodes[0], nodes[1], nodes[2]};
-  const auto stars = triangulate<std::int32_t>(local, look_at(local.points, local.count), corners, {1, 2, 3},
-                                               process, options);
+  const auto stars = triangulate<std::int32_t>(local, check_nodes(local.points, local.count), corners,
+                                               {1, 2, 3}, process, options);
   const SampleOfStars sample = sample_of(stars, ranges_of(local, process), 0);
   EXPECT_TRUE(sample.fits(nodes.data()));
   Nodes moved = nodes;

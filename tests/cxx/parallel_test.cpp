@@ -194,7 +194,7 @@ template <class Real>
     options.patches = patches;
     const Point corners[3] = {set.nodes[0], set.nodes[1], set.nodes[2]};
     const auto stars =
-        triangulate<std::int32_t>(local, look_of_all(local, ranks), corners, {1, 2, 3}, ranks, options);
+        triangulate<std::int32_t>(local, check_of_all(local, ranks), corners, {1, 2, 3}, ranks, options);
     const std::lock_guard lock(mutex);
     keep(
         stars, local, r, [](GlobalNumber number) { return number; }, out);
@@ -654,7 +654,7 @@ TEST(Numbers, BeyondThirtyTwoBits) {
   ParallelOptions options;
   options.patches = 3;
   const Point corners[3] = {set.nodes[0], set.nodes[1], set.nodes[2]};
-  const auto stars = triangulate<std::int64_t>(local, look_at(local.points, local.count), corners,
+  const auto stars = triangulate<std::int64_t>(local, check_nodes(local.points, local.count), corners,
                                                {far + 1, far + 2, far + 3}, process, options);
   Outcome out;
   out.stars.resize(1);
@@ -675,7 +675,7 @@ TEST(GivingUp, WhereThereAreTooManyQuestions) {
   options.patches = 4;
   options.most_questions = 100;
   const Point corners[3] = {set.nodes[0], set.nodes[1], set.nodes[2]};
-  EXPECT_THROW(triangulate<std::int32_t>(local, look_at(local.points, local.count), corners, {1, 2, 3},
+  EXPECT_THROW(triangulate<std::int32_t>(local, check_nodes(local.points, local.count), corners, {1, 2, 3},
                                          process, options),
                PatchesDoNotPay);
 }
@@ -709,8 +709,8 @@ bool gives_up(const std::string& family, int patches, std::size_t most_questions
   options.most_questions = most_questions;
   const Point corners[3] = {set.nodes[0], set.nodes[1], set.nodes[2]};
   try {
-    triangulate<std::int32_t>(local, look_at(local.points, local.count), corners, {1, 2, 3}, process, options,
-                              &cost);
+    triangulate<std::int32_t>(local, check_nodes(local.points, local.count), corners, {1, 2, 3}, process,
+                              options, &cost);
     return false;
   } catch (const PatchesDoNotPay&) {
     return true;
@@ -908,7 +908,7 @@ TEST(Halo, IsSentOnceWhereSomeNodesTellThatLengthsHideOne) {
       ParallelOptions options;
       options.patches = 4;
       ParallelCost cost;
-      triangulate<std::int32_t>(local, look_at(local.points, local.count), {nodes[0], nodes[1], nodes[2]},
+      triangulate<std::int32_t>(local, check_nodes(local.points, local.count), {nodes[0], nodes[1], nodes[2]},
                                 {1, 2, 3}, process, options, &cost);
       halo[length == 2] = cost.halo;
     }
@@ -1044,7 +1044,7 @@ TEST(Partitions, OverRanksAreThoseOfTheTriangulation) {
                              static_cast<std::int64_t>(first) + 1};
       ParallelOptions options;
       options.partition = kind;
-      const auto stars = triangulate<std::int32_t>(local, look_of_all(local, ranks),
+      const auto stars = triangulate<std::int32_t>(local, check_of_all(local, ranks),
                                                    {nodes[0], nodes[1], nodes[2]}, {1, 2, 3}, ranks, options);
       for (const Point& p : nodes) ASSERT_EQ(stars.homes->rank(p), expected.owner(p));
     });
@@ -1058,8 +1058,8 @@ TEST(Workspace, ArraysBeginWithCacheLinesAndEndInsideIt) {
     Workspace workspace(begin, 4096);
     std::vector<std::pair<unsigned char*, std::size_t>> arrays;
     for (const std::size_t size : {1, 63, 64, 65, 200, 500}) {
-      arrays.emplace_back(workspace.keep<unsigned char>(size), size);
-      arrays.emplace_back(workspace.take<unsigned char>(size), size);
+      arrays.emplace_back(workspace.for_call<unsigned char>(size), size);
+      arrays.emplace_back(workspace.for_phase<unsigned char>(size), size);
     }
     std::sort(arrays.begin(), arrays.end());
     const unsigned char* end = begin;
@@ -1069,9 +1069,9 @@ TEST(Workspace, ArraysBeginWithCacheLinesAndEndInsideIt) {
       end = array + size;
     }
     EXPECT_LE(end, begin + 4096);
-    EXPECT_THROW(workspace.keep<unsigned char>(2500), std::length_error);
+    EXPECT_THROW(workspace.for_call<unsigned char>(2500), std::length_error);
   }
-  EXPECT_THROW(Workspace(memory.data() + 1, 10).keep<unsigned char>(1), std::length_error);
+  EXPECT_THROW(Workspace(memory.data() + 1, 10).for_call<unsigned char>(1), std::length_error);
 }
 
 }  // namespace

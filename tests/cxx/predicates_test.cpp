@@ -1,4 +1,5 @@
-// Compares the predicates with tests/support/exact.h, which uses neither filters nor floating point.
+// Compares the predicates with tests/support/reference_predicates.h, which uses neither filters nor floating
+// point.
 
 #include "geometry/predicates.h"
 
@@ -12,10 +13,10 @@
 #include <limits>
 #include <vector>
 
-#include "geometry/exact.h"
+#include "geometry/exact_signs.h"
 #include "point_sets.h"
 #include "support/cases.h"
-#include "support/exact.h"
+#include "support/reference_predicates.h"
 
 namespace {
 
@@ -676,7 +677,7 @@ TEST(VanishingVolumes, AreToldFromZero) {
   }
 }
 
-// ---- Around the grid of exact.h ----
+// ---- Around the grid of exact_signs.h ----
 
 /// Integers of three bits at scales around 1, at the edge of the grid. The last node is collinear or coplanar
 /// with the others up to last bits: the filter does not decide, and nothing may overflow. Every other time

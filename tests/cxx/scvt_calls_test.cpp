@@ -17,7 +17,7 @@
 #include "point_sets.h"
 #include "scvt/evaluator.h"
 #include "scvt/front.h"
-#include "scvt/run.h"
+#include "scvt/tessellation.h"
 #include "support/lists.h"
 
 namespace {

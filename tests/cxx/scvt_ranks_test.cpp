@@ -15,8 +15,8 @@
 #include "scvt/errors.h"
 #include "scvt/evaluator.h"
 #include "scvt/first_generators.h"
-#include "scvt/run.h"
 #include "scvt/spread.h"
+#include "scvt/tessellation.h"
 #include "support/thread_ranks.h"
 
 namespace {

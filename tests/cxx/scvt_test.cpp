@@ -19,7 +19,7 @@
 #include "scvt/first_generators.h"
 #include "scvt/front.h"
 #include "scvt/metric.h"
-#include "scvt/run.h"
+#include "scvt/tessellation.h"
 
 namespace {
 

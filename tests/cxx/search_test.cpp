@@ -18,9 +18,9 @@
 #include <vector>
 
 #include "point_sets.h"
-#include "support/exact.h"
 #include "support/guarded.h"
 #include "support/kinds.h"
+#include "support/reference_predicates.h"
 #include "trmesh/trmesh.h"
 
 using namespace pstripack;

@@ -25,7 +25,7 @@
 #include "support/columns.h"
 #include "support/lists.h"
 #include "support/moves.h"
-#include "support/room_to_stay.h"
+#include "support/room_in_cache.h"
 #include "trmesh/trmesh.h"
 
 namespace {
@@ -483,7 +483,7 @@ TEST(WarmStart, BeginsAnewInAForkedChild) {
 TEST(WarmStart, GivesItsMemoryUpWhereItIsAskedFor) {
   const Nodes nodes = nodes_of("random", kN);
   for (int i = 0; i < 4; ++i) call(nodes);
-  EXPECT_TRUE(free_kept_blocks());
+  EXPECT_TRUE(free_cached_blocks());
   EXPECT_FALSE(forget_last_meshes());
   EXPECT_FALSE(call(nodes).is_warm);
   forget_last_meshes();
@@ -643,14 +643,14 @@ TEST(WarmStart, KeepsNothingWhereItIsOff) {
 TEST(WarmStart, ForgetsTheMeshesOfOthersInTurn) {
   const auto set = [](std::uint64_t seed) { return make("random", 1000, seed); };
   forget_last_meshes();
-  const std::size_t before = room_to_stay();
+  const std::size_t before = room_in_cache();
   for (std::uint64_t seed = 1; seed <= 4; ++seed)
     for (int i = 0; i < 2; ++i) call(set(seed));
   for (int round = 0; round < 3; ++round)
     for (std::uint64_t seed = 5; seed <= 8; ++seed) EXPECT_EQ(call(set(seed)).is_warm, round == 2);
   EXPECT_TRUE(forget_last_meshes());
   EXPECT_FALSE(forget_last_meshes());
-  EXPECT_EQ(room_to_stay(), before);
+  EXPECT_EQ(room_in_cache(), before);
 }
 
 /// After a mesh that did not fit, the next one is kept one call later than usual, until a mesh fits.
@@ -717,14 +717,14 @@ TEST(WarmStart, IsTriedAgainAfterAtMost64Calls) {
 TEST(WarmStart, CountsWhatItKeeps) {
   const Nodes nodes = nodes_of("random", kN);
   forget_last_meshes();
-  const std::size_t before = room_to_stay();
+  const std::size_t before = room_in_cache();
   for (int i = 0; i < 2; ++i) call(nodes);
-  EXPECT_LT(room_to_stay(), before - 50 * kN);
+  EXPECT_LT(room_in_cache(), before - 50 * kN);
   forget_last_meshes();
-  EXPECT_EQ(room_to_stay(), before);
-  ASSERT_TRUE(may_stay(before));
+  EXPECT_EQ(room_in_cache(), before);
+  ASSERT_TRUE(reserve_cache(before));
   for (int i = 0; i < 4; ++i) EXPECT_FALSE(call(nodes).is_warm);
-  has_left(before);
+  release_cache(before);
   forget_last_meshes();
 }
 

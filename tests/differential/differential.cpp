@@ -192,22 +192,33 @@ Lists triangulated_by_original(const NodeSet& nodes, int& ier) {
 }
 
 Result compare_all(const std::vector<NodeSet>& sets,
-                   const std::function<std::string(const NodeSet&)>& compare, double limit) {
-  const legacy_stripack::Shared<char> text(1000);  // the differences that a child found
-  second_original();                               // loaded once, not in every child
+                   const std::function<std::string(const NodeSet&)>& compare, double limit,
+                   std::size_t together) {
+  constexpr std::size_t kRoom = 1000;
+  const legacy_stripack::Shared<char> texts(together * kRoom);  // the differences that a child found
+  second_original();                                            // loaded once, not in every child
   Result result;
-  for (const NodeSet& set : sets) {
-    text[0] = '\0';
-    const legacy_stripack::Ended ended = legacy_stripack::run_in_child(
-        [&] { std::snprintf(text.data(), 1000, "%s", compare(set).c_str()); }, limit);
-    if (ended.outcome != legacy_stripack::Outcome::returned) {
-      result.not_returned.push_back(set.name);
-      continue;
+  const auto returns = [&](std::size_t first, std::size_t end) {
+    const auto work = [&] {
+      for (std::size_t k = first; k < end; ++k)
+        std::snprintf(&texts[(k - first) * kRoom], kRoom, "%s", compare(sets[k]).c_str());
+    };
+    if (legacy_stripack::run_in_child(work, limit).outcome != legacy_stripack::Outcome::returned)
+      return false;
+    for (std::size_t k = first; k < end; ++k) {
+      const char* const text = &texts[(k - first) * kRoom];
+      ++result.compared;
+      if (text[0] == '\0') continue;
+      ++result.different;
+      if (result.differences.size() < 20) result.differences.push_back(sets[k].name + ": " + text);
     }
-    ++result.compared;
-    if (text[0] == '\0') continue;
-    ++result.different;
-    if (result.differences.size() < 20) result.differences.push_back(set.name + ": " + text.data());
+    return true;
+  };
+  for (std::size_t first = 0; first < sets.size(); first += together) {
+    const std::size_t end = std::min(first + together, sets.size());
+    if (returns(first, end)) continue;
+    for (std::size_t k = first; k < end; ++k)
+      if (!returns(k, k + 1)) result.not_returned.push_back(sets[k].name);
   }
   return result;
 }

@@ -82,7 +82,7 @@ struct Mesh {
 };
 
 /// compare_all for the sets that the original triangulates with IER = 0.
-Result compare_meshes(const std::function<std::string(const Mesh&, Random&)>& compare, double limit = 2) {
+Result compare_meshes(const std::function<std::string(const Mesh&, Random&)>& compare, double limit = 0.5) {
   return compare_all(
       node_sets(),
       [&](const NodeSet& set) -> std::string {

@@ -305,7 +305,7 @@ TEST(Differential, TRMESH_start_nodes) {
           std::sort(points.begin(), points.end(), [](const Point& p, const Point& q) { return p.z < q.z; });
         const NodeSet nodes = node_set(family, points);
         const auto inserted = [&](StartSearch search) {
-          kept_seeds() = {};
+          seeds_of_thread() = {};
           return insert_in_order(nodes.n(), nodes.x.data(), nodes.y.data(), nodes.z.data(), kNgmath,
                                  Hopeless::goes_on, search);
         };
@@ -393,7 +393,7 @@ void compare_with_reference(const OriginalRules& rules) {
     ReferenceTrmesh<Real> reference(x, y, z, {rules.tolerance_in_epsilons, rules.single_precision_random});
     const int ier = reference.run();
     if (ier == -99) continue;
-    kept_seeds() = {};
+    seeds_of_thread() = {};
     const InsertedNodes<int> ours = insert_in_order(nodes.n(), x.data(), y.data(), z.data(), rules);
     const auto [end, node, other] = ours.outcome;
     ASSERT_EQ(ier, end == InsertionEnd::complete     ? 0
@@ -482,7 +482,7 @@ TEST(Bitwise, TRMESH_r4) {
     const int ier = reference.run();
     if (ier < 0) continue;
     Triangulation ours{0, Lists(nodes.n())};
-    kept_seeds() = {};
+    seeds_of_thread() = {};
     const TrmeshResult result =
         trmesh({nodes.n(),
                 {x.data(), y.data(), z.data()},

@@ -62,7 +62,8 @@ def environment():
 
 
 def version():
-    number = re.search(r"project\(pstripack VERSION (\S+)", read("CMakeLists.txt"))[1]
+    number = "".join(re.search(pattern, read("CMakeLists.txt"))[1] for pattern in (r"project\(pstripack VERSION (\S+)",
+                                                                                 r"set\(PSTRIPACK_CANDIDATE ?(\S*)\)"))
     for document, pattern in ("CITATION.cff", rf"(?m)^version: {number}$"), ("CHANGELOG.md", rf"(?m)^## {number}\b"):
         if not re.search(pattern, read(document)):
             problems.append(f"{document}: not version {number}")

@@ -291,7 +291,7 @@ TEST_F(EachAllocationOf, TrmeshThatBeginsWithTheLastMesh) {
     bool failed = true;
     for (long which = 1; failed; ++which, failures += failed) {
       pstripack::forget_last_meshes();
-      pstripack::free_kept_blocks();
+      pstripack::free_cached_blocks();
       for (int i = 0; i < kCalls; ++i) {
         Arrays<R8> a = right[static_cast<std::size_t>(i)];
         for (auto* lists : {&a.list, &a.lptr, &a.lend, &a.lnew}) std::fill(lists->begin(), lists->end(), -77);
@@ -402,7 +402,7 @@ TEST(Blocks, ALargeCallFindsItsOwnAgain) {
   const std::size_t large = (std::size_t{1} << 30) + (std::size_t{1} << 28);
   if (pages < 4 * (large / static_cast<std::size_t>(sysconf(_SC_PAGESIZE))))
     GTEST_SKIP() << "half of the memory is too little";
-  pstripack::free_kept_blocks();
+  pstripack::free_cached_blocks();
   pstripack::Block{large};  // none of its pages is touched
   const FailingAllocation none_is_made(1);
   EXPECT_NO_THROW(pstripack::Block{large});
@@ -412,7 +412,7 @@ TEST(Blocks, ALargeCallFindsItsOwnAgain) {
 TEST(Blocks, ThoseKeptAreGivenUpBeforeMemoryIsOut) {
   constexpr std::size_t small = 1 << 20, large = 3 << 20;
   for (const bool one_is_kept : {true, false}) {
-    pstripack::free_kept_blocks();
+    pstripack::free_cached_blocks();
     if (one_is_kept) pstripack::Block{small};
     const FailingAllocation memory(1);
     if (one_is_kept)
@@ -421,7 +421,7 @@ TEST(Blocks, ThoseKeptAreGivenUpBeforeMemoryIsOut) {
       EXPECT_THROW(pstripack::Block{large}, std::bad_alloc);
     EXPECT_TRUE(FailingAllocation::happened());
   }
-  pstripack::free_kept_blocks();
+  pstripack::free_cached_blocks();
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ inline long fail_each_allocation(const Call& call) {
   for (const bool for_good : {false, true})
     for (long which = 1;; ++which, ++failures) {
       restore();
-      pstripack::free_kept_blocks();
+      pstripack::free_cached_blocks();
       std::int64_t now;
       ::testing::internal::CaptureStderr();
       {
@@ -68,7 +68,7 @@ inline long fail_each_allocation(const Call& call) {
       const std::string said = ::testing::internal::GetCapturedStderr();
       const std::string where =
           (for_good ? "from allocation " : "allocation ") + std::to_string(which) + ": " + said;
-      pstripack::free_kept_blocks();
+      pstripack::free_cached_blocks();
       EXPECT_EQ(FailingAllocation::blocks(), 0u) << where;
       if (now == call.out_of_memory) {
         EXPECT_TRUE(FailingAllocation::happened()) << where;

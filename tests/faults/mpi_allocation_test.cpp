@@ -40,7 +40,7 @@ void fail_each_allocation(
       bool failed = true;
       for (long which = 1; failed; which += stride, failures += failed) {
         int code;
-        pstripack::free_kept_blocks();
+        pstripack::free_cached_blocks();
         {
           const FailingAllocation memory(is_hit(hit) ? which : 0, for_good);
           code = call();
@@ -51,7 +51,7 @@ void fail_each_allocation(
         ASSERT_TRUE(is_right(code)) << "code " << code << ", allocation " << which;
         if (code == 0) clear();
         failed = Extent(FailingAllocation::happened()).largest != 0;
-        pstripack::free_kept_blocks();
+        pstripack::free_cached_blocks();
         ASSERT_EQ(FailingAllocation::blocks(), 0u) << "allocation " << which;
         ASSERT_EQ(call(), 0) << "after allocation " << which;
         ASSERT_TRUE(is_right(0)) << "after allocation " << which;
@@ -216,7 +216,7 @@ TEST(EachAllocation, OfTheCallsOfOneRank) {
     const auto empty_begin = begin;
     const auto empty = neighbour;
     int code, home;
-    pstripack::free_kept_blocks();
+    pstripack::free_cached_blocks();
     {
       const FailingAllocation memory(which);
       code = pstripack_mesh_local_stars(mesh, begin.data(), neighbour.data());
@@ -230,7 +230,7 @@ TEST(EachAllocation, OfTheCallsOfOneRank) {
       EXPECT_FALSE(FailingAllocation::happened());
     }
     EXPECT_EQ(home, 0);
-    pstripack::free_kept_blocks();
+    pstripack::free_cached_blocks();
     EXPECT_EQ(FailingAllocation::blocks(), 0u);
   }
   pstripack_mesh_free(mesh);

@@ -8,8 +8,8 @@
 
 #include "fortran_mesh.h"
 #include "point_sets.h"
-#include "support/exact.h"
 #include "support/guarded.h"
+#include "support/reference_predicates.h"
 #include "support/trmesh.h"
 
 namespace {

@@ -1,4 +1,4 @@
-// The predicates on four vectors of any bits, against tests/support/exact.h.
+// The predicates on four vectors of any bits, against tests/support/reference_predicates.h.
 
 #include "geometry/predicates.h"
 
@@ -6,7 +6,7 @@
 #include <array>
 
 #include "input.h"
-#include "support/exact.h"
+#include "support/reference_predicates.h"
 
 namespace {
 

@@ -5,8 +5,8 @@
 //
 // Case number k is the same in every run: 3 to 12 points of a pool of 16 in random order, now and then one of
 // them twice. Some thousand consecutive cases share a pool. The signs of its triples and fours are computed
-// once, by tests/support/exact.h; the triangulation then consists of all triples that no node lies above.
-// Prints failing cases with their nodes, and ends with code 1 if there are any.
+// once, by tests/support/reference_predicates.h; the triangulation then consists of all triples that no node
+// lies above. Prints failing cases with their nodes, and ends with code 1 if there are any.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -22,8 +22,8 @@
 
 #include "point_sets.h"
 #include "small_pools.h"
-#include "support/exact.h"
 #include "support/judge.h"
+#include "support/reference_predicates.h"
 #include "trmesh/trmesh.h"
 #ifdef HAVE_CGAL
 #include "support/cgal_hull.h"

@@ -22,12 +22,12 @@ using pstripack::Parcels;
 
 const std::size_t kLimits[] = {1, 7, 64, MpiCommunicator::kLongestMessage};
 
-/// The message from rank `from` to rank `to`; both ranks can compute it.
-std::vector<unsigned char> message(int from, int to, int round) {
+/// The message from rank `from` to rank `to`; both ranks can compute it. It has at most `most` bytes.
+std::vector<unsigned char> message(int from, int to, int round, std::size_t most = 5000) {
   const unsigned seed = 7919u * static_cast<unsigned>(from) + 104729u * static_cast<unsigned>(to) +
                         1299709u * static_cast<unsigned>(round);
   const std::size_t sizes[] = {0, 1, 2, 63, 64, 65, 0, 700, 5000};
-  std::vector<unsigned char> bytes(sizes[(seed >> 3) % std::size(sizes)]);
+  std::vector<unsigned char> bytes(std::min(sizes[(seed >> 3) % std::size(sizes)], most));
   for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<unsigned char>(seed + 31 * i);
   return bytes;
 }
@@ -52,10 +52,11 @@ TEST(Communicator, ExchangeDeliversEveryByte) {
     MpiCommunicator ranks(MPI_COMM_WORLD, limit);
     for (int round = 0; round < (limit == 1 ? 3 : 20); ++round) {
       std::vector<std::vector<unsigned char>> mine;
-      for (int r = 0; r < ranks.size(); ++r) mine.push_back(message(ranks.rank(), r, round));
+      const std::size_t most = 100 * limit;  // a hundred pieces, not thousands
+      for (int r = 0; r < ranks.size(); ++r) mine.push_back(message(ranks.rank(), r, round, most));
       const Parcels incoming = ranks.exchange(parcels_of(mine));
       for (int r = 0; r < ranks.size(); ++r)
-        ASSERT_EQ(parcel(incoming, r), message(r, ranks.rank(), round)) << "from " << r;
+        ASSERT_EQ(parcel(incoming, r), message(r, ranks.rank(), round, most)) << "from " << r;
     }
   }
 }
@@ -94,12 +95,13 @@ TEST(Communicator, GathersTheBytesOfAllRanks) {
   for (const std::size_t limit : kLimits) {
     MpiCommunicator ranks(MPI_COMM_WORLD, limit);
     for (int round = 0; round < (limit == 1 ? 3 : 20); ++round) {
-      const auto mine = message(ranks.rank(), 0, round);
+      const std::size_t most = 100 * limit;
+      const auto mine = message(ranks.rank(), 0, round, most);
       const Parcels all = ranks.all_gather(mine.data(), mine.size());
-      for (int r = 0; r < ranks.size(); ++r) ASSERT_EQ(parcel(all, r), message(r, 0, round));
+      for (int r = 0; r < ranks.size(); ++r) ASSERT_EQ(parcel(all, r), message(r, 0, round, most));
       const std::int64_t* const sizes = ranks.all_gather_one(static_cast<std::int64_t>(mine.size()));
       for (int r = 0; r < ranks.size(); ++r)
-        ASSERT_EQ(sizes[r], static_cast<std::int64_t>(message(r, 0, round).size()));
+        ASSERT_EQ(sizes[r], static_cast<std::int64_t>(message(r, 0, round, most).size()));
     }
   }
 }

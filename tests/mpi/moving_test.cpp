@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "base/kept.h"
+#include "base/cached.h"
 #include "geometry/predicates.h"
 #include "mpi/area_of_all.h"
 #include "mpi/collective_trmesh.h"
@@ -22,7 +22,7 @@
 #include "support/follower.h"
 #include "support/lists.h"
 #include "support/moves.h"
-#include "support/room_to_stay.h"
+#include "support/room_in_cache.h"
 
 namespace {
 
@@ -473,16 +473,16 @@ TEST(Moving, RingsOfTheLastCallCountAmongWhatStays) {
   const Nodes nodes = point_sets::make("random", kN, 1);
   auto caller = std::make_unique<Caller>(Arrays::on_every_rank);
   for (int i = 0; i < 2; ++i) EXPECT_FALSE(caller->call(nodes));
-  const std::size_t room = room_to_stay();
+  const std::size_t room = room_in_cache();
   caller.reset();
-  EXPECT_GT(room_to_stay(), room + 50 * kN / static_cast<std::size_t>(size_of()));
+  EXPECT_GT(room_in_cache(), room + 50 * kN / static_cast<std::size_t>(size_of()));
 }
 
 /// As if an allocation had failed between two calls, on the last rank.
 void let_memory_run_out() {
   if (rank_of() == size_of() - 1) {
-    EXPECT_TRUE(give_up_kept_things());
-    EXPECT_FALSE(give_up_kept_things());
+    EXPECT_TRUE(free_cached_things());
+    EXPECT_FALSE(free_cached_things());
   }
 }
 

@@ -36,7 +36,7 @@ LISTS = ("validator_test", "*Mutants*:*RandomTriangles*:*ReadsNothing*", 0.1)
 SUBJECTS = {
     "src/cxx/geometry/predicates.cpp": ("constexpr double u", "}  // namespace pstripack", [QUICK, LONGER, KERNEL]),
     "src/cxx/geometry/directions.cpp": ("double largest(", "}  // namespace pstripack", [QUICK, LONGER, KERNEL]),
-    "src/cxx/geometry/exact.h": ("constexpr int kSmallBits", "}  // namespace pstripack::exact", [QUICK, LONGER]),
+    "src/cxx/geometry/exact_signs.h": ("constexpr int kSmallBits", "}  // namespace pstripack::exact", [QUICK, LONGER]),
     "src/cxx/geometry/predicates.h": ("inline bool length_is_one", "/// Counts in this thread since", [QUICK, KERNEL]),
     "src/cxx/mesh/flips.cpp": ("struct Spokes {", "}  // namespace pstripack", [FLIPS]),
     "src/cxx/trmesh/warm_start.cpp": ("constexpr std::size_t kLast", "}  // namespace pstripack", [WARM, MEMORY]),

@@ -13,11 +13,12 @@ import yaml
 
 ROOT = Path(sys.argv[1])
 project = (ROOT / "CMakeLists.txt").read_text()
-version = re.search(r"project\(pstripack VERSION (\S+)", project)[1]
+version = "".join(re.search(pattern, project)[1] for pattern in (r"project\(pstripack VERSION (\S+)",
+                                                                 r"set\(PSTRIPACK_CANDIDATE ?(\S*)\)"))
 options = set(re.findall(r"(?m)^option\((\w+)", project))
 
 conda = yaml.safe_load((ROOT / "packaging/conda/recipe.yaml").read_text())
-assert conda["context"]["version"] == version, conda["context"]
+assert conda["context"]["version"] == version.replace("-", ""), conda["context"]
 assert (ROOT / "packaging/conda" / conda["source"]["path"]).resolve() == ROOT.resolve()
 for file in [conda["about"]["license_file"], *conda["tests"][0]["files"]["source"]]:
     assert (ROOT / file).is_file(), file

@@ -1,9 +1,9 @@
 #!/bin/sh
 # The Debian packages that cpack makes of a build: lintian must report no errors and no warnings, each package must have
 # its files and dependencies, MPI only if needed, and together they must have every installed file exactly once.
-# Usage: packages.sh BUILD_DIR WORK_DIR VERSION PREFIX CONSUMER_DIR    PREFIX: what `cmake --install` installs
+# Usage: packages.sh BUILD_DIR WORK_DIR VERSION SOVERSION PREFIX CONSUMER_DIR    PREFIX: what `cmake --install` installs
 set -eu
-build=$1 work=$2 version=$3 prefix=$4 consumer=$5
+build=$1 work=$2 version=$3 soname=$4 prefix=$5 consumer=$6
 rm -rf "$work"
 mkdir -p "$work/all"
 fail() { echo "$*" >&2; exit 1; }
@@ -39,7 +39,6 @@ has() {
   rm contents
 }
 lib="lib(/$multiarch)?"
-soname=${version%%.*}
 for library in libpstripack libpstripack_fortran libstripack libstripack_r4 libstripack_8arg libstripack_i8; do
   has "libpstripack$soname" libgomp 'mpi|netcdf|fmt|python' "$lib/$library.so.$soname"
   has libpstripack-dev "libpstripack$soname \(= $version" 'mpi|netcdf|fmt' "$lib/$library.so" "$lib/$library.a" \
@@ -63,7 +62,8 @@ fi
 has pstripack "libpstripack$soname \(= $version" mpi bin/pstripack bin/stripack-compare share/man/man1/pstripack.1.gz
 if [ -e "$build/python/pstripack" ]; then
   has python3-pstripack "libpstripack$soname \(= $version.*python3-numpy" 'mpi|scipy' \
-    'lib/python3[^/]*/(dist|site)-packages/pstripack/_core\..*\.so' 'lib/python3[^/]*/(dist|site)-packages/pstripack/py\.typed'
+    'lib/python3[^/]*/(dist|site)-packages/pstripack/_core\..*\.so' 'lib/python3[^/]*/(dist|site)-packages/pstripack/py\.typed' \
+    'lib/python3[^/]*/(dist|site)-packages/pstripack-[0-9a-z.]*\.dist-info/METADATA'
 fi
 has pstripack-doc '^$' . share/doc/pstripack/README.md share/doc/pstripack/docs/relink.md \
   share/doc/pstripack/docs/clients/mpas.md share/doc/pstripack/examples/fortran77/mesh.f

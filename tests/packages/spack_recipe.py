@@ -83,9 +83,11 @@ scope = {}
 exec(compile(recipe.read_text(), recipe, "exec"), scope)
 
 project = (ROOT / "CMakeLists.txt").read_text()
-assert versions == [re.search(r"project\(pstripack VERSION (\S+)", project)[1]], versions
+version = "".join(re.search(pattern, project)[1] for pattern in (r"project\(pstripack VERSION (\S+)",
+                                                                 r"set\(PSTRIPACK_CANDIDATE ?(\S*)\)"))
+assert versions == [version], versions
 assert f"pstripack@{versions[0]}" in recipe.read_text(), "the command in the recipe has another version"
-assert dependencies["cmake"] == f"cmake@{re.search(r'cmake_minimum_required.VERSION ([0-9.]+)', project)[1]}:"
+assert dependencies["cmake"] == f"cmake@{re.search(r'cmake_minimum_required.VERSION ([0-9]+.[0-9]+)', project)[1]}:"
 for condition in filter(None, conditions):
     assert condition[0] in "+~" and condition[1:] in variants, condition
 

@@ -7,7 +7,7 @@
 #include <array>
 #include <map>
 
-#include "exact.h"
+#include "reference_predicates.h"
 
 Hull cgal_hull(const Nodes& nodes) {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;

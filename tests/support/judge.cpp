@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "exact.h"
+#include "reference_predicates.h"
 
 namespace {
 
@@ -34,7 +34,8 @@ std::string fault(const Nodes& nodes, const Rings& rings, exact::On on) {
     const bool open = rings.boundary[k];
     if (degree < (open ? 2 : 3)) return at("too few neighbours at node", {k});
     arcs += degree, corners += degree - open, boundary += open;
-    int winds = 0;
+    // The first neighbour lies in the half-open sector from a to b of exactly one triangle of the star.
+    int winds = 0, side = 0;  // side of the first neighbour, seen from k to a
     for (std::int32_t i = 0; i < degree; ++i) {
       const std::int32_t a = ring[i], b = ring[(i + 1) % degree];
       const int back = find(rings, a, k);
@@ -44,11 +45,12 @@ std::string fault(const Nodes& nodes, const Rings& rings, exact::On on) {
       const auto& other = rings.neighbours[a];
       if (back == 0 && rings.boundary[a]) return at("triangle breaks off at its second corner:", {k, a, b});
       if (other[(back + other.size() - 1) % other.size()] != b) return at("triangle not closed:", {k, a, b});
-      if (exact::left(nodes[k], nodes[a], nodes[b]) <= 0)
+      // Its other two corners see the same triangle, with the same determinant.
+      if (k <= a && k <= b && exact::left(nodes[k], nodes[a], nodes[b]) <= 0)
         return at("triangle not counterclockwise:", {k, a, b});
-      // The first neighbour lies in the half-open sector from a to b of exactly one triangle of the star.
-      const Nodes::value_type &p = nodes[k], &first = nodes[ring[0]];
-      winds += exact::left(p, nodes[a], first) >= 0 && exact::left(p, first, nodes[b]) > 0;
+      const int next_side = b == ring[0] ? 0 : exact::left(nodes[k], nodes[b], nodes[ring[0]]);
+      winds += side >= 0 && next_side < 0;
+      side = next_side;
       // The arc k,a has b on its left and, unless it is the first of a boundary node, d on its right.
       if (k < a && !(open && i == 0)) {
         const std::int32_t d = ring[(i + degree - 1) % degree];

@@ -1,10 +1,10 @@
 #pragma once
-// An independent judge of triangulations, on tests/support/exact.h alone.
+// An independent judge of triangulations, on tests/support/reference_predicates.h alone.
 
 #include <string>
 
-#include "exact.h"
 #include "lists.h"
+#include "reference_predicates.h"
 
 /// Empty if `rings` is the Delaunay triangulation of the nodes; else the first defect. Checks the symmetry of
 /// the arcs, the exact sign of every triangle, the exact local Delaunay test of every arc with the tie rule,

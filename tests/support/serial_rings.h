@@ -57,10 +57,10 @@ struct Outcome {
   std::vector<ParallelCost> cost;
 };
 
-inline Look look_of_all(const LocalNodes& nodes, Communicator& ranks) {
-  Look look = look_at(nodes.points, nodes.count);
-  agree_on(look, ranks);
-  return look;
+inline NodeCheck check_of_all(const LocalNodes& nodes, Communicator& ranks) {
+  NodeCheck check = check_nodes(nodes.points, nodes.count);
+  agree_on(check, ranks);
+  return check;
 }
 
 /// name(number): the number from 1 that a node has in its set.
@@ -119,7 +119,7 @@ Outcome run(const Nodes& nodes, const std::vector<std::size_t>& rank_of_node,
     options.last = homes[r].get();
     try {
       const Point corners[3] = {nodes[0], nodes[1], nodes[2]};
-      Stars<Int> stars = triangulate<Int>(local, look_of_all(local, ranks), corners,
+      Stars<Int> stars = triangulate<Int>(local, check_of_all(local, ranks), corners,
                                           {number(1), number(2), number(3)}, ranks, options, &out.cost[r]);
       const std::lock_guard lock(mutex);
       keep(stars, local, r, name, out);

@@ -1,10 +1,10 @@
 #pragma once
 // Ranks that are threads of one process, to test code for ranks without MPI.
 
+#include <pthread.h>
+
 #include <algorithm>
-#include <condition_variable>
 #include <functional>
-#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -27,7 +27,12 @@ class ThreadRanks {
   }
 
  private:
-  explicit ThreadRanks(int size) : size_(size), posted_(static_cast<std::size_t>(size)) {}
+  explicit ThreadRanks(int size) : size_(size), posted_(static_cast<std::size_t>(size)) {
+    pthread_barrier_init(&all_here_, nullptr, static_cast<unsigned>(size));
+  }
+  ~ThreadRanks() { pthread_barrier_destroy(&all_here_); }
+  ThreadRanks(const ThreadRanks&) = delete;
+  ThreadRanks& operator=(const ThreadRanks&) = delete;
 
   /// Every rank posts a pointer; all ranks read all pointers before the next call.
   template <class Read>
@@ -38,17 +43,7 @@ class ThreadRanks {
     wait();
   }
 
-  void wait() {
-    std::unique_lock lock(mutex_);
-    const int round = round_;
-    if (++arrived_ == size_) {
-      arrived_ = 0;
-      ++round_;
-      all_here_.notify_all();
-    } else {
-      all_here_.wait(lock, [&] { return round != round_; });
-    }
-  }
+  void wait() { pthread_barrier_wait(&all_here_); }
 
   class Rank : public pstripack::Communicator {
    public:
@@ -101,15 +96,19 @@ class ThreadRanks {
     }
 
     pstripack::Parcels exchange(const pstripack::Parcels& outgoing, std::int32_t code) override {
-      const std::int64_t* const codes = all_gather_one(code);
-      const std::int64_t least = *std::min_element(codes, codes + group_.size_);
-      if (least < 0) throw pstripack::AgreedFailure(static_cast<std::int32_t>(least));
-      bytes_sent += static_cast<std::int64_t>(outgoing.begin.back());
-      return collect(&outgoing, [this](const void* other) {
-        const auto& parcels = *static_cast<const pstripack::Parcels*>(other);
-        const std::size_t begin = parcels.begin[rank_], end = parcels.begin[rank_ + 1];
-        return std::pair<const void*, std::size_t>(parcels.bytes.data() + begin, end - begin);
+      using Post = std::pair<std::int32_t, const pstripack::Parcels*>;
+      const Post mine(code, &outgoing);
+      std::int32_t least = 0;
+      pstripack::Parcels incoming = collect(&mine, [&](const void* other) {
+        const auto& [its_code, parcels] = *static_cast<const Post*>(other);
+        least = std::min(least, its_code);
+        if (its_code < 0) return std::pair<const void*, std::size_t>(nullptr, 0);
+        const std::size_t begin = parcels->begin[rank_], end = parcels->begin[rank_ + 1];
+        return std::pair<const void*, std::size_t>(parcels->bytes.data() + begin, end - begin);
       });
+      if (least < 0) throw pstripack::AgreedFailure(least);
+      bytes_sent += static_cast<std::int64_t>(outgoing.begin.back());
+      return incoming;
     }
 
    private:
@@ -135,7 +134,5 @@ class ThreadRanks {
 
   const int size_;
   std::vector<const void*> posted_;
-  std::mutex mutex_;
-  std::condition_variable all_here_;
-  int arrived_ = 0, round_ = 0;
+  pthread_barrier_t all_here_;
 };

@@ -25,10 +25,11 @@ struct Share {
 
 /// Nodes and the canonical lists of their triangulation.
 struct Mesh {
-  std::vector<Point> points;    ///< as given
-  LonLat given;                 ///< longitudes and latitudes, if the input had them
-  std::vector<double> density;  ///< of each node; empty: unknown
-  Columns columns;              ///< values of each node
+  std::vector<Point> points;         ///< as given
+  LonLat given;                      ///< longitudes and latitudes, if the input had them
+  std::vector<double> density;       ///< of each node; empty: unknown
+  Columns columns;                   ///< values of each node
+  std::vector<std::int32_t> layers;  ///< of each node in a limited area (limited_area.h); empty: none
   Notes notes;
   double radius = 1;        ///< of the sphere in MPAS files
   bool with_edges = false;  ///< UGRID files also get the edges

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/parallel_for.h"
+#include "files/limited_area.h"
 #include "files/measures.h"
 
 namespace files {
@@ -396,13 +397,14 @@ MpasMesh mpas_mesh(const Mesh& mesh, std::vector<std::size_t>& kept) {
     for (std::size_t k = 0; k < corners.size(); ++k) cells_on_vertex[k / 3][k % 3] = corners[k] - 1;
   }
   kept.clear();
-  if (!mesh.has_boundary())
+  const std::vector<std::int32_t>& layers = mesh.layers;
+  if (!mesh.has_boundary() && std::find(layers.begin(), layers.end(), kLeftOut) == layers.end())
     return mpas_mesh(std::move(cells), std::move(vertices), std::move(cells_on_vertex));
 
   // The last neighbour of a node at the boundary is negative.
   std::vector<Index> cell_of(n, kNone);
   for (std::size_t node = 0; node < n; ++node)
-    if (mesh.list[at(mesh.lend[node]) - 1] > 0) {
+    if (mesh.list[at(mesh.lend[node]) - 1] > 0 && (layers.empty() || layers[node] != kLeftOut)) {
       cell_of[node] = static_cast<Index>(kept.size());
       kept.push_back(node);
     }

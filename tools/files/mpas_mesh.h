@@ -108,8 +108,8 @@ struct MpasMesh {
 MpasMesh mpas_mesh(std::vector<Point> cells, std::vector<Point> vertices,
                    std::vector<MpasMesh::Three> cells_on_vertex);
 
-/// That of a triangulation. Nodes at its boundary have no whole cell: they are left out. `kept`: the nodes
-/// that are cells, if some are left out; else empty.
+/// That of a triangulation. Nodes at its boundary have no whole cell: they are left out, and so are those
+/// outside a limited area. `kept`: the nodes that are cells, if some are left out; else empty.
 MpasMesh mpas_mesh(const Mesh& mesh, std::vector<std::size_t>& kept);
 
 }  // namespace files

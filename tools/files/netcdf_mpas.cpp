@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "files/limited_area.h"
 #include "files/mpas_mesh.h"
 #include "files/netcdf_writer.h"
 #include "files/writers.h"
@@ -225,6 +226,21 @@ void write(const OutputFile& file, const MpasMesh& mesh, const MpasValues& value
   to.table<double>("kiteAreasOnVertex", vertices, three, [&](std::size_t v, double* value) {
     for (const double area : mesh.kites(v)) *value++ = square * area;
   });
+
+  // In a limited area: the least number of the cells.
+  const std::vector<Index>& layers = values.layers;
+  if (!layers.empty()) {
+    to.columns<Index>({kBdyMaskCell}, cells, [&](std::size_t c, Index* value) { *value = layers[c]; });
+    const auto least = [&](const char* name, const Variables::Dimension& rows, const auto& cells_on) {
+      to.columns<Index>({name}, rows, [&](std::size_t i, Index* value) {
+        *value = kLayers;
+        for (const Index c : cells_on[i])
+          if (c != MpasMesh::kNone) *value = std::min(*value, layers[at(c)]);
+      });
+    };
+    least("bdyMaskEdge", edges, mesh.cells_on_edge);
+    least("bdyMaskVertex", vertices, mesh.cells_on_vertex);
+  }
   to.write();
 }
 
@@ -249,10 +265,12 @@ void write_mpas(const OutputFile& file, const MpasMesh& mesh, const MpasValues& 
 void write_mpas(const OutputFile& file, const Mesh& mesh) {
   std::vector<std::size_t> kept;
   const MpasMesh complete = mpas_mesh(mesh, kept);
-  MpasValues values{mesh.given, mesh.density, mesh.notes, mesh.radius};
-  if (!kept.empty())
+  MpasValues values{mesh.given, mesh.density, mesh.notes, mesh.radius, mesh.layers};
+  if (!kept.empty()) {
+    values.layers = values_at(mesh.layers, kept);
     for (auto* const of_nodes : {&values.given.lon, &values.given.lat, &values.density})
       *of_nodes = values_at(*of_nodes, kept);
+  }
   write_mpas(file, complete, values);
 }
 

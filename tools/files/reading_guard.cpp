@@ -5,13 +5,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>  // program_invocation_short_name
 #include <cmath>
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
 #include <iterator>
 
+#include "base/system.h"
 #include "files/output_file.h"
 
 namespace files {
@@ -56,10 +56,12 @@ void set_timer(double seconds) {
 ReadingGuard::ReadingGuard(const std::string& file, int exit_code, int seconds) : seconds_left_(seconds) {
   exit_code_of_crash = exit_code;
   crashed = fmt::format("{}: {}: cannot be read: the NetCDF library crashed: the file is damaged\n",
-                        program_invocation_short_name, file);
+                        pstripack::name_of_this_program(), file);
   did_not_end = fmt::format("{}: {}: cannot be read: the NetCDF library does not end: the file is damaged\n",
-                            program_invocation_short_name, file);
-  const stack_t own{stack, 0, sizeof stack};
+                            pstripack::name_of_this_program(), file);
+  stack_t own{};
+  own.ss_sp = stack;
+  own.ss_size = sizeof stack;
   sigaltstack(&own, &stack_before_);
   struct sigaction action {};
   action.sa_handler = end_program;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -56,7 +55,7 @@ bool is_missing(std::string_view word) {
 }
 
 bool is_number(std::string_view word, double& value) {
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  const auto [end, error] = point_sets::parse_beginning(word.data(), word.data() + word.size(), value);
   if (error == std::errc() && end == word.data() + word.size()) return std::isfinite(value);
   // Test the first character: strtod is slow and carried columns have many words.
   return !word.empty() && std::strchr("0123456789+-.", word[0]) != nullptr &&
@@ -119,7 +118,7 @@ class Cells {
   /// Reads a plain decimal number, which most cells are; false for anything else.
   bool number(double& value) {
     skip_spaces();
-    const auto [stop, error] = std::from_chars(at_, end_, value);
+    const auto [stop, error] = point_sets::parse_beginning(at_, end_, value);
     if (error != std::errc() || !std::isfinite(value)) return false;
     const char* p = stop;
     if (separator_ == ' ') {

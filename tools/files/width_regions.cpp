@@ -15,11 +15,33 @@ namespace {
 
 class Reader {
  public:
-  explicit Reader(std::string file) : file_(std::move(file)) {}
+  explicit Reader(std::string file) : file_(std::move(file)) {
+    read_features(point_sets::contents_of(file_), file_, "polygons", {"Polygon", "MultiPolygon"},
+                  [&](const Json& feature, std::size_t number) { add(feature, number); });
+    if (features.empty()) throw std::runtime_error(file_ + ": no polygons: there are no features");
+  }
 
-  void add(const Json& feature, std::size_t number) {
+  struct Feature {
+    std::vector<MapRegion> polygons;
+    Json properties;
+  };
+  std::vector<Feature> features;
+
+  WidthRegion width_region(const Feature& feature) {
     WidthRegion region;
-    region.feature = number;
+    number_ = region.feature = feature.polygons.front().feature;
+    for (const MapRegion& polygon : feature.polygons)
+      region.rings.insert(region.rings.end(), polygon.rings.begin(), polygon.rings.end());
+    region.width = length(feature.properties, "width");
+    if (feature.properties.contains("transition") && !feature.properties["transition"].is_null())
+      region.transition = length(feature.properties, "transition");
+    if (!(region.width > 0)) fail("it needs the property width, in km and above 0");
+    if (!(region.transition >= 0)) fail("its property transition must be in km, and not negative");
+    return region;
+  }
+
+ private:
+  void add(const Json& feature, std::size_t number) {
     number_ = number;
     const auto geometry = feature.find("geometry");
     const std::string type =
@@ -28,24 +50,16 @@ class Reader {
       fail(fmt::format("'{}' is not a Polygon or MultiPolygon", point_sets::excerpt(type)));
     const auto coordinates = geometry->find("coordinates");
     if (coordinates == geometry->end() || !coordinates->is_array()) fail("its geometry has no coordinates");
+    Feature& added = features.emplace_back();
     if (type == "Polygon")
-      add_polygon(region, *coordinates);
+      added.polygons.push_back(polygon_of(*coordinates));
     else
-      for (const Json& polygon : *coordinates) add_polygon(region, polygon);
+      for (const Json& polygon : *coordinates) added.polygons.push_back(polygon_of(polygon));
+    if (added.polygons.empty()) fail("a MultiPolygon without polygons");
     const auto properties = feature.find("properties");
-    const Json none = Json::object();
-    const Json& given = properties != feature.end() && properties->is_object() ? *properties : none;
-    region.width = length(given, "width");
-    if (given.contains("transition") && !given["transition"].is_null())
-      region.transition = length(given, "transition");
-    if (!(region.width > 0)) fail("it needs the property width, in km and above 0");
-    if (!(region.transition >= 0)) fail("its property transition must be in km, and not negative");
-    regions.push_back(std::move(region));
+    added.properties = properties != feature.end() && properties->is_object() ? *properties : Json::object();
   }
 
-  std::vector<WidthRegion> regions;
-
- private:
   [[noreturn]] void fail(const std::string& what) const {
     throw std::runtime_error(fmt::format("{}: feature {}: {}", file_, number_, what));
   }
@@ -60,7 +74,8 @@ class Reader {
     return std::isfinite(value) ? value : std::nan("");
   }
 
-  void add_polygon(WidthRegion& region, const Json& polygon) {
+  MapRegion polygon_of(const Json& polygon) const {
+    MapRegion region{number_, {}};
     if (!polygon.is_array() || polygon.empty()) fail("a polygon without rings");
     for (const Json& ring : polygon) {
       if (!ring.is_array() || ring.size() < 4) fail("a ring with fewer than four corners");
@@ -81,6 +96,7 @@ class Reader {
       }
       if (corners.front() != corners.back()) fail("a ring that is not closed: repeat its first corner");
     }
+    return region;
   }
 
   std::string file_;
@@ -89,7 +105,7 @@ class Reader {
 
 }  // namespace
 
-std::vector<std::pair<double, double>> WidthRegion::inside(double lat) const {
+std::vector<std::pair<double, double>> MapRegion::inside(double lat) const {
   std::vector<double> crossings;
   for (const auto& ring : rings)
     for (std::size_t i = 1; i < ring.size(); ++i) {
@@ -103,7 +119,7 @@ std::vector<std::pair<double, double>> WidthRegion::inside(double lat) const {
   return pairs;
 }
 
-double WidthRegion::area() const {
+double MapRegion::area() const {
   constexpr int kStrips = 1000;
   constexpr double kDegree = 3.14159265358979323846 / 180;
   double south = 90, north = -90, area = 0;
@@ -118,12 +134,18 @@ double WidthRegion::area() const {
   return area * kDegree * kDegree;
 }
 
+std::vector<MapRegion> read_polygons(const std::string& file) {
+  std::vector<MapRegion> polygons;
+  for (Reader::Feature& feature : Reader(file).features)
+    for (MapRegion& polygon : feature.polygons) polygons.push_back(std::move(polygon));
+  return polygons;
+}
+
 std::vector<WidthRegion> read_width_regions(const std::string& file) {
   Reader reader(file);
-  read_features(point_sets::contents_of(file), file, "polygons", {"Polygon", "MultiPolygon"},
-                [&](const Json& feature, std::size_t number) { reader.add(feature, number); });
-  if (reader.regions.empty()) throw std::runtime_error(file + ": no polygons: there are no features");
-  return std::move(reader.regions);
+  std::vector<WidthRegion> regions;
+  for (const Reader::Feature& feature : reader.features) regions.push_back(reader.width_region(feature));
+  return regions;
 }
 
 }  // namespace files

@@ -101,6 +101,8 @@ struct MpasValues {
   std::vector<double> density;
   Notes notes;
   double radius = 1;  ///< of the sphere; 1: unit sphere
+  /// bdyMaskCell of a limited area (limited_area.h), or empty.
+  std::vector<std::int32_t> layers = {};
 };
 /// Writes the mesh, and beside a file with a name its graph for METIS.
 void write_mpas(const OutputFile& file, const MpasMesh& mesh, const MpasValues& values);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/parallel_for.h"
+#include "files/limited_area.h"
 #include "geometry/measures.h"
 #include "lists/rings.h"
 #include "parallel/agreement.h"
@@ -94,7 +95,11 @@ std::vector<double> areas_of_cells(pstripack::Communicator& ranks, const Neighbo
 
 }  // namespace
 
-Quality quality_of(pstripack::Communicator& ranks, const Neighbourhood& nodes) {
+namespace {
+
+/// Counts only cells and triangles of which is_kept(index of the node) is true.
+template <class Kept>
+Quality quality_of_kept(pstripack::Communicator& ranks, const Neighbourhood& nodes, const Kept& is_kept) {
   std::optional<Directions> directions;
   const std::vector<double> areas = areas_of_cells(ranks, nodes, directions);
   Quality quality;
@@ -103,10 +108,12 @@ Quality quality_of(pstripack::Communicator& ranks, const Neighbourhood& nodes) {
   std::int64_t counts[Quality::kMostSides + 2] = {};  // number of cells by sides, and of obtuse triangles
   std::int64_t& obtuse = counts[Quality::kMostSides + 1];
   for (std::size_t i = 0; i < nodes.stars.count; ++i) {
+    if (!is_kept(i)) continue;
     const auto sides = static_cast<int>(nodes.stars.end_of(i) - nodes.stars.begin_of(i));
     ++counts[std::min(sides, Quality::kMostSides)];
     around(nodes, i, [&](std::size_t from, std::size_t to) {
-      largest_ratio.value = std::max(largest_ratio.value, areas[i] / areas[to]);
+      if (is_kept(to)) largest_ratio.value = std::max(largest_ratio.value, areas[i] / areas[to]);
+      if (!is_kept(from) || !is_kept(to)) return;
       if (nodes.numbers[from] < nodes.numbers[i] || nodes.numbers[to] < nodes.numbers[i]) return;
       const pstripack::Angles angles =
           angles_of(at(*directions, i), at(*directions, from), at(*directions, to));
@@ -114,7 +121,7 @@ Quality quality_of(pstripack::Communicator& ranks, const Neighbourhood& nodes) {
         smallest_angle.value = std::min(smallest_angle.value, angle * files::kRadian);
         largest_angle.value = std::max(largest_angle.value, angle * files::kRadian);
       }
-      if (!angles.are_acute) ++obtuse;
+      if (!angles.are_acute && obtuse++ == 0) quality.place = nodes.points[i];
     });
   }
   agree(ranks, smallest_angle, largest_angle, largest_ratio);
@@ -125,6 +132,12 @@ Quality quality_of(pstripack::Communicator& ranks, const Neighbourhood& nodes) {
   quality.largest_ratio = largest_ratio.value;
   quality.obtuse = obtuse;
   return quality;
+}
+
+}  // namespace
+
+Quality quality_of(pstripack::Communicator& ranks, const Neighbourhood& nodes) {
+  return quality_of_kept(ranks, nodes, [](std::size_t) { return true; });
 }
 
 Quality quality_of(const files::Mesh& mesh) {
@@ -142,7 +155,9 @@ Quality quality_of(const files::Mesh& mesh) {
     numbers.push_back(node);
   }
   pstripack::SingleProcess alone;
-  return quality_of(alone, {mesh.points.data(), numbers.data(), {n, end.data(), neighbour.data()}, {}});
+  return quality_of_kept(
+      alone, {mesh.points.data(), numbers.data(), {n, end.data(), neighbour.data()}, {}},
+      [&](std::size_t i) { return mesh.layers.empty() || mesh.layers[i] != files::kLeftOut; });
 }
 
 std::string Quality::text() const {

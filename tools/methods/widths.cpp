@@ -90,7 +90,7 @@ class GradientLimit {
       if (inside != nullptr && (*inside)[i] != sources) continue;
       bool is_source = false;
       for_each_neighbour(i, [&](std::size_t n) {  // a chord is shorter than its arc
-        is_source = is_source || given_[i] + slope_ * chord(i, n) < given_[n];
+        is_source = is_source || cone(i, chord(i, n)) < given_[n];
       });
       if (is_source) queue_.emplace(-given_[i], i);
     }
@@ -100,7 +100,7 @@ class GradientLimit {
       if (-value != lowered_[i]) continue;  // it was lowered again
       const std::uint32_t s = source_[i];
       for_each_neighbour(i, [&](std::size_t n) {
-        const double offer = given_[s] + slope_ * 2 * std::asin(std::min(1.0, chord(s, n) / 2));
+        const double offer = cone(s, 2 * std::asin(std::min(1.0, chord(s, n) / 2)));
         if (!(offer < lowered_[n]) || (inside != nullptr && (*inside)[n] == sources)) return;
         lowered_[n] = offer;
         source_[n] = s;
@@ -109,8 +109,12 @@ class GradientLimit {
     }
     return finish();
   }
+  void set_flat(double radians_per_km, double radians) { flat_ = radians_per_km, more_ = radians; }
 
  private:
+  double cone(std::size_t i, double distance) const {
+    return given_[i] + slope_ * std::max(0.0, distance - flat_ * given_[i] - more_);
+  }
   Point place(std::size_t i) const {
     const Point &e = east_[i % columns_], &u = up_[i / columns_];
     return {u.x * e.x, u.x * e.y, u.z};
@@ -149,7 +153,8 @@ class GradientLimit {
   }
 
   std::size_t columns_, rows_;
-  double slope_;  ///< km per radian
+  double slope_;                ///< km per radian
+  double flat_ = 0, more_ = 0;  ///< a place's cone begins so many radians per km, and radians, from it
   Table& table_;
   std::vector<Point> east_, up_;  ///< of columns and rows: the factors of a place
   std::vector<double> given_, lowered_;
@@ -270,6 +275,13 @@ Widths WidthFormula::widths(double radius) const {
 
 Lowered limit_gradient(Table& table, double gradient, double radius) {
   return GradientLimit(table, gradient, radius).run();
+}
+
+void limit_outside(Table& table, const std::vector<bool>& inside, double gradient, double radius, double flat,
+                   double more) {
+  GradientLimit limit(table, gradient, radius);
+  limit.set_flat(flat / radius, more / radius);
+  limit.run(&inside);
 }
 
 Table widths_of_regions(const std::vector<files::WidthRegion>& regions, const WidthFormula& elsewhere,

@@ -76,6 +76,11 @@ Lowered limit_gradient(Table& table, double gradient, double radius);
 Table widths_of_regions(const std::vector<files::WidthRegion>& regions, const WidthFormula& elsewhere,
                         double radius);
 
+/// Lowers values outside, by place without the last column, to those of the places inside: w(y) up to `flat`
+/// widths w(y) and `more` km from y, from there on as by limit_gradient().
+void limit_outside(Table& table, const std::vector<bool>& inside, double gradient, double radius, double flat,
+                   double more);
+
 /// `radius` in km. Widths are bilinear in longitude and latitude.
 Widths widths_of(Table km, double radius);
 

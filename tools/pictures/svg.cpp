@@ -1,7 +1,6 @@
 #include "pictures/svg.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -27,12 +26,11 @@ void write_png(const files::OutputFile& file, const std::string& svg) {
   using Stream = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
   const Stream picture(std::tmpfile(), std::fclose);  // an unnamed file cannot be left behind
   if (picture == nullptr || std::fwrite(svg.data(), 1, svg.size(), picture.get()) != svg.size() ||
-      std::fflush(picture.get()) != 0)
+      std::fflush(picture.get()) != 0 || std::fseek(picture.get(), 0, SEEK_SET) != 0)
     files::fail_to_write("a temporary file", errno);
   setenv("PSTRIPACK_PICTURE", file.path().c_str(), 1);
-  const std::string command =
-      fmt::format("rsvg-convert --unlimited --output \"$PSTRIPACK_PICTURE\" /proc/{}/fd/{}", getpid(),
-                  fileno(picture.get()));
+  const std::string command = fmt::format(
+      "rsvg-convert --unlimited --output \"$PSTRIPACK_PICTURE\" /dev/fd/{}", fileno(picture.get()));
   if (std::system(command.c_str()) != 0)
     throw std::runtime_error(file.name() + ": cannot be written: rsvg-convert has failed");
 }

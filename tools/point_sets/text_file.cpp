@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -32,7 +31,7 @@ bool is_blank(char c) { return c == ' ' || c == '\t' || c == ',' || c == '\r' ||
 
 /// Fast path for plain decimal numbers.
 bool parse_word(std::string_view word, double& value) {
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  const auto [end, error] = parse_beginning(word.data(), word.data() + word.size(), value);
   if (error == std::errc() && end == word.data() + word.size()) return std::isfinite(value);
   return parse(std::string(word), value);
 }
@@ -89,6 +88,19 @@ std::string excerpt(std::string_view text) {
     text.remove_prefix(taken);
   }
   return result;
+}
+
+std::from_chars_result parse_beginning(const char* begin, const char* end, double& value) {
+#if defined(__cpp_lib_to_chars) && !defined(PSTRIPACK_ONLY_POSIX)
+  return std::from_chars(begin, end, value);
+#else
+  const auto is_part = [](char c) { return c != '\0' && std::strchr("0123456789+-.eE", c) != nullptr; };
+  const std::string text(begin, std::find_if_not(begin, end, is_part));
+  char* stop = nullptr;
+  value = std::strtod(text.c_str(), &stop);
+  if (stop == text.c_str() || text[0] == '+') return {begin, std::errc::invalid_argument};
+  return {begin + (stop - text.c_str()), std::errc()};
+#endif
 }
 
 bool parse(std::string text, double& value) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -15,27 +16,60 @@ namespace {
 struct Options {
   Input input;
   Output output;
+  std::string region;
 };
 
-void write_whole(const files::OutputFile& file, const Output& output, const files::Nodes& nodes) {
-  files::Mesh mesh = files::mesh_of(nodes.points, nodes.triangles);
+/// bdyMaskCell in the input, if it has it.
+std::vector<std::int32_t> layers_in(const files::Nodes& nodes) {
+  const files::Column* const column = find(nodes.columns, files::kBdyMaskCell);
+  if (column == nullptr || !column->whole) return {};
+  return {column->numbers.begin(), column->numbers.end()};
+}
+
+files::Mesh mesh_in(const files::Nodes& nodes) {
+  files::Mesh mesh = nodes.vertices.empty() ? files::mesh_of(nodes.points, nodes.triangles)
+                                            : files::mesh_with_boundary(nodes.points, nodes.triangles);
   mesh.given = nodes.given;
   mesh.density = nodes.density;
   mesh.columns = nodes.columns;
   mesh.notes = nodes.notes;
   mesh.radius = nodes.radius;
-  write_mesh(file, output, mesh);
+  return mesh;
 }
 
-/// Writes an MPAS mesh with a boundary, which keeps its vertices.
+void write_whole(const files::OutputFile& file, const Options& options, const files::Nodes& nodes) {
+  files::Mesh mesh = mesh_in(nodes);
+  const Output& output = options.output;
+  if (!options.region.empty()) {
+    const double radius = output.radius > 0 ? output.radius : nodes.radius == 1 ? 6371220 : nodes.radius;
+    keep_area(mesh, limited_area_of(options.region, options.input.read, radius / 1000));
+  }
+  if (files::holds_a_mesh(output.format)) {
+    write_mesh(file, output, mesh);
+    return;
+  }
+  mesh = files::cut(mesh);
+  write_nodes(file, output.format, mesh.points, {mesh.given, mesh.density, mesh.columns, mesh.notes});
+}
+
+/// Writes an MPAS mesh with a boundary, which keeps its vertices; in other formats the triangles that have
+/// all corners.
 void write_cut(const files::OutputFile& file, const Output& output, const files::Nodes& nodes) {
-  if (output.format != files::Format::mpas)
-    throw std::runtime_error(nodes.file + ": cellsOnVertex has a boundary, which only --to mpas keeps");
+  if (output.format != files::Format::mpas) {
+    files::Nodes whole = nodes;
+    const auto lacks_corners = [](const pstripack::Triangle& t) { return std::min({t[0], t[1], t[2]}) < 0; };
+    whole.triangles.erase(std::remove_if(whole.triangles.begin(), whole.triangles.end(), lacks_corners),
+                          whole.triangles.end());
+    files::Mesh mesh = mesh_in(whole);
+    write_mesh(file, output, mesh);
+    return;
+  }
   std::vector<files::MpasMesh::Three> cells_on_vertex(nodes.triangles.begin(), nodes.triangles.end());
   write_mpas(
       file,
       files::mpas_mesh(files::unit(nodes.points), files::unit(nodes.vertices), std::move(cells_on_vertex)),
-      {nodes.given, nodes.density, nodes.notes, output.radius > 0 ? output.radius : nodes.radius});
+      {nodes.given, nodes.density, nodes.notes, output.radius > 0 ? output.radius : nodes.radius,
+       layers_in(nodes)});
 }
 
 void convert(Options& options) {
@@ -56,14 +90,17 @@ void convert(Options& options) {
   // .nc is the suffix of meshes and of nodes: choose by what the input has.
   if (format == files::Format::ugrid && !has_mesh && options.output.to.empty())
     format = files::Format::netcdf;
-  if (!files::holds_nodes(format) && !has_mesh)
+  if ((!files::holds_nodes(format) || !options.region.empty()) && !has_mesh)
     throw std::runtime_error(nodes.file + ": holds nodes without triangles: use `pstripack triangulate`");
   add_history(nodes.notes);
   progress.step("writing", [&] {
-    if (files::holds_a_mesh(format) && has_mesh) {
+    if ((files::holds_a_mesh(format) || !options.region.empty()) && has_mesh) {
       try {
         if (nodes.vertices.empty())
-          write_whole(file, options.output, nodes);
+          write_whole(file, options, nodes);
+        else if (!options.region.empty())
+          throw std::runtime_error(nodes.file +
+                                   ": cellsOnVertex has a boundary already: cut the mesh of the sphere");
         else
           write_cut(file, options.output, nodes);
       } catch (const files::NoMesh& e) {
@@ -89,6 +126,7 @@ void add_convert(CLI::App& app, Command& chosen) {
   add_output(*sub, options->output, true);
   add_radius(*sub, options->output.radius, kRadiusOfMpas);
   add_edges(*sub, options->output);
+  add_limited_area(*sub, options->region);
   sub->callback([=, &chosen] { chosen = [=] { convert(*options); }; });
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <numeric>
 #include <stdexcept>
@@ -137,6 +138,54 @@ files::Region region_of(const std::string& text) {
                         "': expected WEST,EAST,SOUTH,NORTH in degrees, longitudes from -360 to 360, "
                         "latitudes from -90 to 90, the south first; 170,-170 crosses the dateline");
   return region;
+}
+
+files::LimitedArea limited_area_of(const std::string& text, const files::ReadOptions& read, double radius) {
+  constexpr std::string_view kCircle = "circle:";
+  const bool is_circle = text.rfind(kCircle, 0) == 0;
+  const bool is_box =
+      !is_circle && text.find(',') != text.npos && text.find_first_not_of("+-.,eE0123456789") == text.npos;
+  if (!is_circle && !is_box && text != "-" && !std::filesystem::exists(text))
+    throw CLI::ValidationError("--region", "there is no file '" + text +
+                                               "': expected WEST,EAST,SOUTH,NORTH, circle:KM,LON,LAT, or a "
+                                               "file of GeoJSON polygons");
+  if (!is_circle && !is_box) return files::polygon_area(text, read.units == files::Units::degrees);
+  if (is_box) {
+    const files::Region box = region_of(text);
+    if (read.units != files::Units::degrees &&
+        std::max(std::fabs(box.west), std::fabs(box.east)) <= 4 * kDegree * 90 &&
+        std::max(std::fabs(box.south), std::fabs(box.north)) <= kDegree * 90)
+      throw CLI::ValidationError(
+          "--region",
+          "'" + text + "': these may be radians: give degrees; if these are degrees, say --units degrees");
+    return files::box_area("--region " + text, box);
+  }
+  const std::vector<double> r = numbers_in("--region", text.substr(kCircle.size()), ',', 3);
+  files::LimitedArea area{"--region " + text, {}, r[1], r[2], r[0] / radius};
+  if (!(r[0] > 0 && area.radius < 2 * kDegree * 90 && std::fabs(r[1]) <= 360 && std::fabs(r[2]) <= 90))
+    throw CLI::ValidationError(
+        "--region",
+        "'" + text +
+            fmt::format("': expected circle:KM,LON,LAT: a radius from 0 to {:.0f} km, and degrees",
+                        2 * kDegree * 90 * radius));
+  return area;
+}
+
+CLI::Option* add_limited_area(CLI::App& app, std::string& text) {
+  return app
+      .add_option("--region", text,
+                  "keep the cells of a limited area: WEST,EAST,SOUTH,NORTH, circle:KM,LON,LAT, or a file of "
+                  "GeoJSON polygons, and 7 layers of cells around it, with their bdyMaskCell")
+      ->type_name("REGION");
+}
+
+void keep_area(files::Mesh& mesh, const files::LimitedArea& area) {
+  files::set_layers(mesh, area);
+  const auto left_out = std::count(mesh.layers.begin(), mesh.layers.end(), files::kLeftOut);
+  const auto inside = std::count(mesh.layers.begin(), mesh.layers.end(), 0);
+  const auto all = static_cast<std::ptrdiff_t>(mesh.layers.size());
+  say(fmt::format("{} of {} cells kept: {} in the region, {} in {} layers around it", all - left_out, all,
+                  inside, all - left_out - inside, files::kLayers));
 }
 
 void add_input(CLI::App& app, Input& input) {
@@ -345,6 +394,7 @@ std::runtime_error no_mesh_of(const Nodes& nodes, const files::NoMesh& why) {
 }
 
 void write_mesh(const files::OutputFile& file, const Output& output, files::Mesh& mesh) {
+  if (!mesh.layers.empty() && output.format != files::Format::mpas) mesh = files::cut(mesh);
   if (output.radius > 0) mesh.radius = output.radius;
   mesh.with_edges = output.edges;
   write_mesh(file, output.format, mesh);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "files/clipping.h"
+#include "files/limited_area.h"
 #include "files/mesh.h"
 #include "files/near_nodes.h"
 #include "files/nodes.h"
@@ -64,6 +65,13 @@ std::vector<double> numbers_in(const std::string& option, const std::string& tex
 
 /// --region: WEST,EAST,SOUTH,NORTH. An east less than west is meant to be beyond 180 degrees.
 files::Region region_of(const std::string& text);
+
+/// --region of a limited area: WEST,EAST,SOUTH,NORTH, circle:KM,LON,LAT, or a file of polygons. `radius`: of
+/// the sphere, km.
+files::LimitedArea limited_area_of(const std::string& text, const files::ReadOptions& read, double radius);
+CLI::Option* add_limited_area(CLI::App& app, std::string& text);
+/// Sets the layers of the mesh, and says how many cells are kept.
+void keep_area(files::Mesh& mesh, const files::LimitedArea& area);
 
 /// IN and how to read it.
 struct Input {

@@ -5,9 +5,9 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <system_error>
 
 #include "base/environment.h"
+#include "base/system.h"
 
 namespace program {
 namespace {
@@ -47,8 +47,7 @@ Launched launched() {
 int on_rank_0(int, char** argv, const std::function<int()>& work) {
   const Launched here = launched();
   if (here.size > 1) {
-    std::error_code error;
-    const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
+    const std::filesystem::path self = pstripack::path_of_this_program();
     execv((self.parent_path() / "pstripack-mpi").c_str(), argv);  // returns only if it failed
     if (here.rank > 0) return 0;
     fmt::print(stderr, "pstripack: no pstripack-mpi is installed: rank 0 works alone, on its threads\n");

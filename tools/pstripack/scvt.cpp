@@ -18,6 +18,7 @@
 
 #include "methods/densities.h"
 #include "methods/quality.h"
+#include "methods/regional_widths.h"
 #include "methods/time_left.h"
 #include "methods/widths.h"
 #include "numbers.h"
@@ -29,7 +30,7 @@
 #include "scvt/errors.h"
 #include "scvt/first_generators.h"
 #include "scvt/front.h"
-#include "scvt/run.h"
+#include "scvt/tessellation.h"
 #include "text_file.h"
 
 namespace program {
@@ -52,11 +53,14 @@ struct Options {
   Input start;
   std::string density, density_file, width_file, variable;
   std::string width_text, width_region;
-  double width = 0;   ///< of all cells, km; 0: not given
-  double radius = 0;  ///< of the sphere, metres; 0: not given
-  double grade = 0;   ///< most that widths may change, km per km; 0: not given
+  std::string region;            ///< that is kept; empty: the sphere
+  files::LimitedArea area;       ///< the region
+  files::Point centre{0, 0, 0};  ///< of its cells
+  double width = 0;              ///< of all cells, km; 0: not given
+  double radius = 0;             ///< of the sphere, metres; 0: not given
+  double grade = 0;              ///< most that widths may change, km per km; 0: not given
   Method method = Method::newton;
-  double tolerance = -1;      ///< negative: not given
+  double tolerance = -1;      ///< below 0: not given
   bool well_centred = false;  ///< move generators until all triangles hold their circumcentre
   bool strict = false;
   std::int64_t evaluations = 10000, every = 100;
@@ -69,7 +73,8 @@ struct Options {
 constexpr auto kEvaluations = "scvt_iterations", kDensity = "scvt_density",
                kDensityFile = "scvt_density_file", kWidthFile = "scvt_width_file", kWidth = "scvt_width",
                kWidthRegion = "scvt_width_region", kVariable = "scvt_density_variable",
-               kRadius = "scvt_radius", kGrade = "scvt_grade", kSteps = "scvt_steps", kPairs = "scvt_pairs";
+               kRegion = "scvt_region", kRadius = "scvt_radius", kGrade = "scvt_grade", kSteps = "scvt_steps",
+               kPairs = "scvt_pairs";
 
 std::string note(const files::Notes& notes, const char* name) {
   const auto found = notes.find(name);
@@ -150,21 +155,18 @@ void check_memory(double generators) {
                     generators, bytes / 1e9, most / 1e9, std::sqrt(bytes / most)));
 }
 
-/// The density of the widths, limited in their gradient; chooses N.
-std::unique_ptr<engine::Density> widths_of(methods::Table table, Options& options) {
+/// The widths, limited in their gradient.
+methods::Widths widths_of(methods::Table table, const Options& options) {
   const methods::Lowered lowered = methods::limit_gradient(table, options.grade, options.radius / 1000);
   if (lowered.places > 0)
     say(fmt::format(
         "widths limited to a change of {:g} km per km: {} of {} values lowered, by up to {:.4g} km "
         "(lon {:g} lat {:g})",
         options.grade, lowered.places, lowered.of, lowered.most, lowered.lon, lowered.lat));
-  methods::Widths widths = methods::widths_of(std::move(table), options.radius / 1000);
-  choose_n(options, widths.cells);
-  return std::move(widths.density);
+  return methods::widths_of(std::move(table), options.radius / 1000);
 }
 
-/// The density of the widths in the file; chooses N.
-std::unique_ptr<engine::Density> widths_in_file(Options& options) {
+methods::Widths widths_in_file(const Options& options) {
   files::ReadOptions read = options.start.read;
   read.with_values = true;
   read.variable = options.variable;
@@ -210,23 +212,23 @@ std::unique_ptr<engine::Density> widths_in_file(Options& options) {
   return widths_of(std::move(table), options);
 }
 
-/// The density of the widths of the formula; chooses N.
-std::unique_ptr<engine::Density> widths_of_formula(Options& options) {
-  methods::WidthFormula formula(options.width_text);
+/// --width, a number or a formula.
+methods::WidthFormula formula_of(const std::string& text) {
+  return methods::WidthFormula::is_one(text) ? methods::WidthFormula(text)
+                                             : methods::WidthFormula(methods::width_of(text));
+}
+
+methods::Widths widths_of_formula(const Options& options) {
+  methods::WidthFormula formula = formula_of(options.width_text);
   if (formula.limit(options.grade))
     say(fmt::format("transition made {:.0f} km long, so that widths change by at most {:g} km per km",
                     formula.transition(), options.grade));
-  methods::Widths widths = formula.widths(options.radius / 1000);
-  choose_n(options, widths.cells);
-  return std::move(widths.density);
+  return formula.widths(options.radius / 1000);
 }
 
-/// The density of the widths of the regions, and of the formula elsewhere; chooses N.
-std::unique_ptr<engine::Density> widths_of_regions(Options& options) {
-  const std::string& text = options.width_text;
-  const methods::WidthFormula elsewhere = methods::WidthFormula::is_one(text)
-                                              ? methods::WidthFormula(text)
-                                              : methods::WidthFormula(methods::width_of(text));
+/// Those of the regions, and of the formula elsewhere.
+methods::Widths widths_of_regions(const Options& options) {
+  const methods::WidthFormula elsewhere = formula_of(options.width_text);
   const auto regions = files::read_width_regions(options.width_region);
   methods::Table table;
   try {
@@ -237,10 +239,27 @@ std::unique_ptr<engine::Density> widths_of_regions(Options& options) {
   return widths_of(std::move(table), options);
 }
 
+/// The density of the widths; chooses N.
+std::unique_ptr<engine::Density> density_of_widths(Options& options) {
+  methods::Widths widths = !options.width_region.empty() ? widths_of_regions(options)
+                           : !options.width_text.empty() ? widths_of_formula(options)
+                                                         : widths_in_file(options);
+  if (!options.region.empty()) {
+    methods::RegionalWidths regional =
+        methods::widths_in(options.area, widths, options.grade, options.radius / 1000);
+    say(fmt::format(
+        "the widths give about {:.0f} cells in the region; the others are in layers around it, or "
+        "coarse and left out",
+        regional.inside));
+    widths = std::move(regional.widths);
+    options.centre = regional.centre;
+  }
+  choose_n(options, widths.cells);
+  return std::move(widths.density);
+}
+
 std::unique_ptr<engine::Density> make_density(Options& options) {
-  if (!options.width_region.empty()) return widths_of_regions(options);
-  if (!options.width_text.empty()) return widths_of_formula(options);
-  if (!options.width_file.empty()) return widths_in_file(options);
+  if (!options.width_text.empty() || !options.width_file.empty()) return density_of_widths(options);
   if (!options.density_file.empty()) return density_in_file(options);
   try {
     return methods::density_of(options.density);
@@ -256,7 +275,7 @@ void choose_density(Options& options, const files::Notes& notes) {
   };
   choose(options.radius, kRadius, 6371220);  // that of MPAS' and E3SM's tools
   choose(options.grade, kGrade, 0.2);
-  if (options.width > 0 && options.width_region.empty()) {
+  if (options.width > 0 && options.width_region.empty() && options.region.empty()) {
     options.density = "constant";
     options.width_text.clear();
     choose_n(options, methods::cells_of_width(options.width, options.radius / 1000));
@@ -271,11 +290,15 @@ void choose_density(Options& options, const files::Notes& notes) {
     options.width_file = note(notes, kWidthFile);
     options.width_text = note(notes, kWidth);
     options.width_region = note(notes, kWidthRegion);
+    if (options.region.empty()) options.region = note(notes, kRegion);
     if (options.variable.empty()) options.variable = note(notes, kVariable);
   }
   if (!is_chosen()) options.density = "constant";
+  if (!options.region.empty())
+    options.area = limited_area_of(options.region, options.start.read, options.radius / 1000);
   const bool widths_differ = !options.width_file.empty() || !options.width_text.empty();
-  if (options.tolerance < 0) options.tolerance = widths_differ ? 3e-4 : 1e-4;
+  // With a region most of the gradient is that of the coarse cells outside.
+  if (options.tolerance < 0) options.tolerance = !options.region.empty() ? 1e-3 : widths_differ ? 3e-4 : 1e-4;
 }
 
 files::Notes notes_of_density(const Options& options) {
@@ -284,7 +307,8 @@ files::Notes notes_of_density(const Options& options) {
                                    {kDensityFile, options.density_file},
                                    {kWidthFile, options.width_file},
                                    {kWidth, options.width_text},
-                                   {kWidthRegion, options.width_region}})
+                                   {kWidthRegion, options.width_region},
+                                   {kRegion, options.region}})
     if (!text.empty()) notes[name] = text;
   if (options.density.empty() && !options.variable.empty()) notes[kVariable] = options.variable;
   if (!options.width_file.empty() || !options.width_text.empty()) {
@@ -359,7 +383,7 @@ Tessellation tessellation_of(Communicator& ranks, files::Nodes& start, const Opt
         t.state.steps = count_in(start, kSteps, t.state.evaluations);
         bool has_same_density = true;
         for (const char* const name :
-             {kDensity, kDensityFile, kWidthFile, kWidth, kWidthRegion, kVariable, kRadius, kGrade})
+             {kDensity, kDensityFile, kWidthFile, kWidth, kWidthRegion, kRegion, kVariable, kRadius, kGrade})
           has_same_density &= note(start.notes, name) == note(notes_of_density(options), name);
         if (options.method == Method::newton && has_same_density) t.state.pairs = pairs_in(start);
         have_pairs.value = !t.state.pairs.empty();
@@ -383,6 +407,7 @@ void scale_density(std::vector<double>& densities) {
 void write(const Output& output, files::Mesh& mesh) {
   files::OutputFile file(output.file);
   if (output.format == files::Format::mpas) scale_density(mesh.density);
+  if (!mesh.layers.empty() && output.format != files::Format::mpas) mesh = files::cut(mesh);
   if (!files::holds_nodes(output.format))
     write_mesh(file, output, mesh);
   else
@@ -390,14 +415,16 @@ void write(const Output& output, files::Mesh& mesh) {
   file.commit();
 }
 
-/// Writes the generators. A checkpoint also gets the pairs; for other files the quality of the mesh is
-/// returned. Collective.
-std::string write(Ranks& ranks, const Output& output, bool is_checkpoint, const Tessellation& t,
-                  const engine::Density& density, files::Notes&& notes) {
+/// Writes the generators, or those in the region. A checkpoint gets all, and the pairs; for other files the
+/// quality of the mesh is returned. Collective.
+methods::Quality write(Ranks& ranks, const Options& options, bool is_checkpoint, const Tessellation& t,
+                       const engine::Density& density, files::Notes&& notes) {
+  const Output& output = is_checkpoint ? options.checkpoint : options.output;
+  const bool is_regional = !is_checkpoint && !options.region.empty();
   Communicator& communicator = ranks.communicator();
   const bool needs_mesh = !is_checkpoint || !files::holds_nodes(output.format);
   if (is_checkpoint) notes[kPairs] = std::to_string(t.state.pairs.size());
-  const bool needs_whole_mesh = output.format == files::Format::mpas;
+  const bool needs_whole_mesh = output.format == files::Format::mpas || is_regional;
   const auto complete = [&](auto& mesh, const std::vector<Point>& generators, const State& state) {
     mesh.density = engine::values_at(generators, density);
     if (is_checkpoint && !needs_whole_mesh) mesh.columns = columns_of(state);
@@ -410,18 +437,20 @@ std::string write(Ranks& ranks, const Output& output, bool is_checkpoint, const 
     else
       mesh.points = t.state.generators;
     complete(mesh, t.state.generators, t.state);
+    if (is_regional) keep_area(mesh, options.area);
+    const methods::Quality quality = is_checkpoint ? methods::Quality() : methods::quality_of(mesh);
     write(output, mesh);
-    return is_checkpoint ? "" : methods::quality_of(mesh).text();
+    return quality;
   }
   const Tessellation slice = slice_of(communicator, t);
   files::MeshPart part;
-  std::string quality;
+  methods::Quality quality;
   if (needs_mesh) {
     // A new evaluator: that of the run keeps its mesh for the next step.
     const std::shared_ptr<engine::Evaluator> evaluator = ranks.evaluator(density);
     evaluator->begin_with(slice.numbers);
     const engine::Neighbourhood nodes = evaluator->triangulate(slice.state.generators);
-    if (!is_checkpoint) quality = methods::quality_of(communicator, nodes).text();
+    if (!is_checkpoint) quality = methods::quality_of(communicator, nodes);
     if (!needs_whole_mesh) part = part_of(communicator, nodes);
   } else {
     part = part_of(communicator, slice.state.generators);
@@ -432,6 +461,10 @@ std::string write(Ranks& ranks, const Output& output, bool is_checkpoint, const 
       if (communicator.rank() > 0) return;
       files::Mesh mesh = files::triangulate(std::move(all));
       complete(mesh, mesh.points, slice.state);
+      if (is_regional) {
+        keep_area(mesh, options.area);
+        quality = methods::quality_of(mesh);
+      }
       write(output, mesh);
     });
     return quality;
@@ -459,12 +492,12 @@ void suggest_levels(const Options& options) {
 
 /// The generators of a new run, those of the last level if there are levels. Collective.
 Tessellation first_tessellation(const Options& options, engine::Evaluator& evaluator, Progress& progress) {
-  const bool is_alone = evaluator.ranks().size() == 1;
-  const First first = options.first != First::by_number                  ? options.first
-                      : options.n >= engine::kFewestOfAFront && is_alone ? First::front
-                                                                         : First::levels;
+  const bool is_alone = evaluator.ranks().size() == 1, is_regional = !options.region.empty();
+  const First first = options.first != First::by_number                                   ? options.first
+                      : is_regional || (options.n >= engine::kFewestOfAFront && is_alone) ? First::front
+                                                                                          : First::levels;
   if (first == First::front) {
-    if (!is_alone)
+    if (!is_alone && !is_regional)
       throw engine::NoTessellation(
           fmt::format("--first front: a front is made by one process: `pstripack scvt {} --first front "
                       "--evaluations 0 -o "
@@ -472,10 +505,14 @@ Tessellation first_tessellation(const Options& options, engine::Evaluator& evalu
                       options.n));
     if (options.first == First::by_number) suggest_levels(options);
     Tessellation t;
-    t.state.generators = engine::front_generators(options.n, evaluator.density());
-    t.numbers.resize(options.n);
-    std::iota(t.numbers.begin(), t.numbers.end(), std::int64_t{1});
-    return t;
+    in_agreement_with_caller(evaluator.ranks(), [&] {
+      if (evaluator.ranks().rank() > 0) return;
+      t.state.generators = is_regional ? methods::front_around(options.centre, options.n, evaluator.density())
+                                       : engine::front_generators(options.n, evaluator.density());
+      t.numbers.resize(options.n);
+      std::iota(t.numbers.begin(), t.numbers.end(), std::int64_t{1});
+    });
+    return slice_of(evaluator.ranks(), t);
   }
   engine::RunOptions on_levels;
   on_levels.levels = first == First::levels;
@@ -540,7 +577,7 @@ int iterate(const Options& options, Ranks& ranks, engine::Evaluator& evaluator, 
     signal.value = signal_received;
     agree(ranks.communicator(), signal);
     if (!options.checkpoint.file.empty() && (signal.value != 0 || t.state.steps % options.every == 0))
-      write(ranks, options.checkpoint, true, t, evaluator.density(), notes_of(options, t.state, p));
+      write(ranks, options, true, t, evaluator.density(), notes_of(options, t.state, p));
     return signal.value == 0;
   };
   end_iterations_at({SIGTERM, SIGINT});
@@ -573,13 +610,16 @@ std::string end_of(const Options& options, const Tessellation& t, bool has_moved
 }
 
 /// One line if triangles are left that were to be repaired, or, with --strict, if the run has not converged.
-std::string what_is_missing(const Options& options, const Tessellation& t) {
-  if (t.repair.obtuse > 0) {
-    const files::LonLat where({t.repair.place}, true);
+std::string what_is_missing(const Options& options, const Tessellation& t, const methods::Quality& quality) {
+  const std::int64_t obtuse = options.region.empty() ? t.repair.obtuse
+                              : options.well_centred ? quality.obtuse
+                                                     : 0;
+  if (obtuse > 0) {
+    const files::LonLat where({options.region.empty() ? t.repair.place : quality.place}, true);
     return fmt::format(
         "{} triangles do not hold their circumcentre, the first at lon {:.6g} lat {:.6g}, also after {} "
         "generators were moved: try a smaller --tolerance or --grade, or another --first or --seed",
-        t.repair.obtuse, where.lon[0], where.lat[0], t.repair.moved);
+        obtuse, where.lon[0], where.lat[0], t.repair.moved);
   }
   if (options.strict && t.result.end != engine::End::converged)
     return fmt::format("not converged to {:g}", options.tolerance);
@@ -646,14 +686,18 @@ void tell_near_generators(Ranks& ranks, const engine::Density& density, const Te
 /// Throws if several ranks cannot read or write the requested files.
 void check_files_of_ranks(const Options& options) {
   for (const Output* const output : {&options.output, &options.checkpoint})
-    if (!output->file.empty() && !files::holds_parts(output->format) && output->format != files::Format::mpas)
+    if (!output->file.empty() && !files::holds_parts(output->format) &&
+        output->format != files::Format::mpas && (options.region.empty() || output == &options.checkpoint))
       throw std::runtime_error(fmt::format(
           "{}: several ranks write ugrid, mpas, off, xyz, lonlat, nodes and raw: choose one of these, "
           "and `pstripack convert` afterwards",
           output->file));
-  if (options.density_file == "-" || options.width_file == "-" || options.width_region == "-")
-    throw std::runtime_error(
-        "--density-file -, --width-file -, --width-region -: several ranks cannot read stdin: name a file");
+  for (const std::string& file :
+       {options.density_file, options.width_file, options.width_region, options.region})
+    if (file == "-")
+      throw std::runtime_error(
+          "--density-file -, --width-file -, --width-region -, --region -: several ranks cannot read stdin: "
+          "name a file");
 }
 
 /// The command, on all ranks.
@@ -691,15 +735,15 @@ void scvt(Options& options, Ranks& ranks) {
     evaluator.reset();  // writing needs memory of its own
     t.state.pairs.clear();
     t.result.cells = {};
-    const std::string quality = progress.step("writing", [&] {
-      return write(ranks, options.output, false, t, *density, notes_of(options, t.state, reached));
+    const methods::Quality quality = progress.step("writing", [&] {
+      return write(ranks, options, false, t, *density, notes_of(options, t.state, reached));
     });
     progress.finish(fmt::format("{} generators, {} evaluations, {}: gradient {:.3g}, energy {:.9g}",
                                 reached.generators, t.state.evaluations,
                                 end_of(options, t, t.state.steps > steps_before, signal), reached.gradient,
                                 reached.energy));
-    say(quality);
-    const std::string missed = what_is_missing(options, t);
+    say(quality.text());
+    const std::string missed = what_is_missing(options, t, quality);
     if (!missed.empty() && options.strict) throw engine::NoTessellation(missed);
     if (!missed.empty()) say(missed);
     constexpr int kBySignal = 128;  // as a shell has it
@@ -722,6 +766,9 @@ void scvt(Options& options) {
     throw CLI::ValidationError("N", "give either N or widths, for new generators, or --start FILE");
   if (!options.width_region.empty() && options.width_text.empty())
     throw CLI::ValidationError("--width-region", "say also --width, that of the cells elsewhere");
+  if (!options.region.empty() && options.start.file.empty() && options.width_text.empty() &&
+      options.width_file.empty())
+    throw CLI::ValidationError("--region", "say also the widths there: --width or --width-file");
   options.output.choose();
   options.well_centred = options.well_centred || options.output.format == files::Format::mpas;
   options.output.radius = options.radius;
@@ -791,6 +838,7 @@ void add_scvt(CLI::App& app, Command& chosen) {
   sub->add_option("--width-region", options->width_region,
                   "GeoJSON polygons with properties width and transition, km, within --width elsewhere")
       ->type_name("FILE");
+  add_limited_area(*sub, options->region)->excludes("--density")->excludes("--density-file");
   sub->add_option("--grade", options->grade,
                   "most that widths may change, km per km: wider ones are lowered [0.2]")
       ->type_name("NUMBER")
@@ -801,10 +849,9 @@ void add_scvt(CLI::App& app, Command& chosen) {
       ->type_name("NAME");
   add_choice(*sub, "--method", options->method, {{"newton", Method::newton}, {"lloyd", Method::lloyd}},
              "newton (L-BFGS) or lloyd [newton]");
-  sub->add_option(
-         "--tolerance", options->tolerance,
-         "stop at this gradient: root mean square distance to the centroid over sqrt(4 pi/N) [0.0001, or "
-         "0.0003 where widths differ]")
+  sub->add_option("--tolerance", options->tolerance,
+                  "stop at this gradient: root mean square distance to the centroid over sqrt(4 pi/N) [1e-4; "
+                  "where widths differ 3e-4; with --region 1e-3]")
       ->type_name("NUMBER")
       ->check([](const std::string& text) {  // CLI::Range lets nan pass
         double value = 0;

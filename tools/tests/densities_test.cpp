@@ -15,7 +15,7 @@
 #include "point_sets.h"
 #include "scvt/errors.h"
 #include "scvt/first_generators.h"
-#include "scvt/run.h"
+#include "scvt/tessellation.h"
 
 namespace methods {
 namespace {

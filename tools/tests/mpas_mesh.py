@@ -3,11 +3,13 @@ extended precision, and not by the program's ways. Compares with what MPAS' conv
 
 mpas_mesh.py PSTRIPACK DATA FOLDER
 """
+import json
 import math
 import subprocess
 import sys
 from pathlib import Path
 
+import mpmath
 import netCDF4
 import numpy as np
 import xarray
@@ -371,6 +373,98 @@ def check_cut(mesh, name, kept):
         assert np.allclose(getattr(again, variable), getattr(part, variable), rtol=1e-12, atol=1e-12), variable
 
 
+def is_inside(point, circle, rings):
+    """With 40 digits. The sides of rings are straight on the map: crossed by a parallel, east of the point, an odd number
+    of times."""
+    x, y, z = (mpmath.mpf(float(c)) for c in point)
+    if circle:
+        km, p, q = circle[0], mpmath.radians(circle[1]), mpmath.radians(circle[2])
+        cosine = (mpmath.cos(q) * (x * mpmath.cos(p) + y * mpmath.sin(p)) + z * mpmath.sin(q)) / mpmath.sqrt(x * x + y * y + z * z)
+        return mpmath.acos(cosine) < km / mpmath.mpf("6371.22")
+    lon, lat = mpmath.degrees(mpmath.atan2(y, x)), mpmath.degrees(mpmath.atan2(z, mpmath.hypot(x, y)))
+    crossings = [[x1 + (lat - y1) / (y2 - y1) * (mpmath.mpf(x2) - x1) for (x1, y1), (x2, y2) in zip(ring, ring[1:])
+                  if (y1 <= lat) != (y2 <= lat)] for ring in rings]
+    return any(sum(across > lon + turn for across in ring) % 2 == 1 for ring in crossings for turn in (-360, 0, 360))
+
+
+def places_on_boundary(circle, rings, count=20000):
+    """Places all along the boundary, as unit vectors."""
+    t = np.linspace(0, 1, count)
+    if circle:
+        p, q, r = math.radians(circle[1]), math.radians(circle[2]), circle[0] / 6371.22
+        centre = np.array([math.cos(q) * math.cos(p), math.cos(q) * math.sin(p), math.sin(q)])
+        east = np.array([-math.sin(p), math.cos(p), 0])
+        around = np.outer(np.cos(2 * math.pi * t), east) + np.outer(np.sin(2 * math.pi * t), np.cross(centre, east))
+        return math.cos(r) * centre + math.sin(r) * around
+    sides = [side for ring in rings for side in zip(ring, ring[1:])]
+    part = t[::len(sides)]
+    lon, lat = (np.radians(np.concatenate([a[k] + part * (b[k] - a[k]) for a, b in sides])) for k in (0, 1))
+    return np.stack([np.cos(lat) * np.cos(lon), np.cos(lat) * np.sin(lon), np.sin(lat)], axis=1)
+
+
+def layers_by_definition(mesh, circle, rings):
+    """bdyMaskCell: 0 where the node is inside or a place on the boundary is nearest to it, then rings of neighbours; 8: none."""
+    mask = np.full(len(mesh.cell), 8)
+    cells = mesh.cell.astype(float)
+    for places in np.array_split(places_on_boundary(circle, rings), 40):
+        mask[(places @ cells.T).argmax(axis=1)] = 0
+    with mpmath.workdps(40):
+        inside = np.array([is_inside(point, circle, rings) for point in mesh.cell])
+    assert inside.any()
+    mask[inside] = 0
+    for layer in range(1, 8):
+        for cell in np.flatnonzero(mask == layer - 1):
+            around = mesh.cellsOnCell[cell, :mesh.nEdgesOnCell[cell]] - 1
+            around = around[around >= 0]
+            mask[around[mask[around] == 8]] = layer
+    return mask
+
+
+def check_masks(part, mask):
+    """The masks of a regional mesh, those of its cells being known."""
+    assert (part.bdyMaskCell == mask).all() and set(mask) == set(range(8))
+    padded = np.append(8, part.bdyMaskCell)
+    for name, cells in (("bdyMaskEdge", part.cellsOnEdge), ("bdyMaskVertex", part.cellsOnVertex)):
+        assert (getattr(part, name) == padded[cells].min(axis=1)).all() and getattr(part, name).dtype == "i4"
+    # Only the last layer is at the boundary.
+    rim = (np.where(np.arange(part.cellsOnCell.shape[1]) < part.nEdgesOnCell[:, None], part.cellsOnCell, 1) == 0).any(axis=1)
+    assert rim.any() and (part.bdyMaskCell[rim] == 7).all()
+    assert ((part.boundaryVertex == 1) == (part.cellsOnVertex == 0).any(axis=1)).all()
+
+
+def check_region(mesh, name, circle=None, rings=None, text=None):
+    """Cuts a limited area out of the mesh in FOLDER/name.mpas.nc."""
+    if text is None:
+        text = FOLDER / f"{name}_region.geojson"
+        text.write_text(json.dumps({"type": "MultiPolygon", "coordinates": [[ring] for ring in rings]}))
+    mask = layers_by_definition(mesh, circle, rings)
+    kept = mask < 8
+    assert 0 < kept.sum() < len(kept)
+    run("convert", FOLDER / f"{name}.mpas.nc", "--region", text, "-o", FOLDER / f"{name}_part.mpas.nc")
+    part = check(f"{name}_part", 1e-10)
+    check_masks(part, mask[kept])
+    assert all((getattr(part, axis) == getattr(mesh, axis)[kept]).all() for axis in ("xCell", "yCell", "zCell", "lonCell"))
+    assert np.allclose(part.areaCell, mesh.areaCell[kept], rtol=1e-13)
+    # What is cut can be read.
+    run("convert", FOLDER / f"{name}_part.mpas.nc", "-o", FOLDER / f"{name}_again.mpas.nc")
+    again = Mesh(FOLDER / f"{name}_again.mpas.nc")
+    for variable, value in vars(part).items():
+        if isinstance(value, np.ndarray):
+            other = getattr(again, variable)
+            assert (other == value).all() if value.dtype.kind == "i" else np.allclose(other, value, 1e-12, 1e-12), variable
+    return part
+
+
+def check_other_formats(part, name, text):
+    """Cut, or read after the cut: the triangles that have all corners."""
+    for source, more in ((name, ("--region", text)), (f"{name}_part", ())):
+        run("convert", FOLDER / f"{source}.mpas.nc", *more, "-o", FOLDER / f"{name}.ugrid.nc")
+        with netCDF4.Dataset(FOLDER / f"{name}.ugrid.nc") as data:
+            assert (data["bdyMaskCell"][:] == part.bdyMaskCell).all()
+            corners = {tuple(sorted(row)) for row in data["mesh_face_nodes"][:].tolist()}
+        assert corners == {tuple(sorted(row)) for row in part.cellsOnVertex.tolist() if min(row) > 0}
+
+
 FOLDER.mkdir(parents=True, exist_ok=True)
 meshes = [check_against_the_converter(name) for name in ("u42", "u162")]
 errors = [check_tangential_velocity(mesh) for mesh in meshes]
@@ -406,6 +500,31 @@ for name, nodes, tolerance in (("4", [(0, 90), (0, -20), (120, -20), (-120, -20)
     (FOLDER / f"n{name}.txt").write_text("".join(f"{lon!r} {lat!r}\n" for lon, lat in nodes))
     run("triangulate", FOLDER / f"n{name}.txt", "--units", "degrees", "-o", FOLDER / f"n{name}.mpas.nc")
     check(f"n{name}", tolerance)
+
+# Limited areas: over a pole, across the dateline, concave, of two parts that touch, with cells of all shapes.
+run("points", "random", 1000, "-o", FOLDER / "sphere.txt")
+run("triangulate", FOLDER / "sphere.txt", "-o", FOLDER / "sphere.mpas.nc")
+sphere = Mesh(FOLDER / "sphere.mpas.nc")
+check_region(sphere, "sphere", circle=(1500, 20, 84), text="circle:1500,20,84")
+check_region(sphere, "sphere", rings=[[(170, -12), (190, -12), (190, 5), (170, 5), (170, -12)]], text="170,-170,-12,5")
+check_region(sphere, "sphere", rings=[[(-180, -40), (-170, -30), (-180, -20), (-180, -40)],
+                                      [(180, -40), (180, -20), (176, -30), (180, -40)]])
+concave = check_region(sphere, "sphere", rings=[[(0, 20), (30, 20), (30, 26), (8, 27), (7, 50), (0, 50), (0, 20)]])
+check_other_formats(concave, "sphere", FOLDER / "sphere_region.geojson")
+
+# A mesh made for a limited area: 7 layers of the width asked for; of more cells, hexagons.
+said = run("scvt", "--width", "200km", "--region", "circle:800,10,50", "-o", FOLDER / "limited.mpas.nc")
+limited = check("limited", 1e-10)
+check_masks(limited, layers_by_definition(limited, (800, 10, 50), None))
+assert limited.meshDensity.min() > 0.9 and (limited.obtuseTriangle == 0).all()
+widths = limited.dcEdge[(limited.cellsOnEdge > 0).all(axis=1)] * 6371.22 / 200
+assert abs(widths.mean() - 1) < 5e-3 and widths.std() < 0.05, (widths.mean(), widths.std())
+assert f" of {said.split('the widths give ')[2].split()[0]} cells kept: {(limited.bdyMaskCell == 0).sum()} in the region, " in said, said
+run("scvt", "--width", "8km", "--region", "5,11,44,48", "-o", FOLDER / "limited.mpas.nc")
+limited = Mesh(FOLDER / "limited.mpas.nc")
+assert limited.meshDensity.min() > 0.99 and (limited.nEdgesOnCell != 6).sum() < 10
+widths = limited.dcEdge[(limited.cellsOnEdge > 0).all(axis=1)] * 6371.22 / 8
+assert abs(widths.mean() - 1) < 2e-3 and widths.std() < 0.02, (widths.mean(), widths.std())
 
 # At the boundary of a hemisphere nodes have no whole cells.
 run("points", "hemisphere", 60, "-o", FOLDER / "half.txt")

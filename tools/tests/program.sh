@@ -568,6 +568,12 @@ scvt)
   "$PSTRIPACK" -q interpolate values.txt --to-grid 36x72 -o grid.nc
   "$PSTRIPACK" scvt 300 --density-file grid.nc --variable value -o grid.mpas.nc 2> err
   grep -q " converged to 0.0001: " err || fail "$(cat err)"
+  # A limited area: the same bytes in pieces; checkpoints have all generators.
+  "$PSTRIPACK" scvt --width 300km --region 10,50,10,50 --iterations 3 --checkpoint area.nc --every 1 -o area.nodes.nc 2> err
+  grep -q "the widths give about 21[0-9] cells in the region" err || fail "no number of cells: $(cat err)"
+  "$PSTRIPACK" -q scvt --start area.nc --iterations 5 -o more.nodes.nc
+  "$PSTRIPACK" -q scvt --width 300km --region 10,50,10,50 --iterations 5 -o area.nodes.nc
+  same more.nodes.nc area.nodes.nc
   ;;
 
 bad_scvt)
@@ -666,6 +672,30 @@ bad_scvt)
       scvt 10 --density-file $name.txt --variable $name -o failed.off
   done
   [ ! -e failed.off ] || fail "failed.off was written"
+  # Limited areas.
+  polygon() { printf '{"type":"Polygon","coordinates":%s}' "$1" > area.json; }
+  "$PSTRIPACK" -q points fibonacci 600 -o - --to xyz | "$PSTRIPACK" -q triangulate - -o sphere.nc
+  "$PSTRIPACK" -q convert sphere.nc --region circle:500,0,0 -o cells.mpas.nc
+  "$PSTRIPACK" -q points hemisphere 300 -o - | "$PSTRIPACK" -q triangulate - -o half.nc
+  polygon '[[[0,0],[40,0],[40,40],[0,40],[0,0]],[[10,10],[20,10],[20,20],[10,10]]]'
+  refuses 1 "area.json: feature 1: a hole, at lon 10 lat 10: a limited area has one boundary: leave out all rings but the first" \
+    scvt --width 300km --region area.json -o failed.nc
+  polygon '[[[0,0],[40,40],[40,0],[0,40],[0,0]]]'
+  refuses 1 "its sides from corner 1 (lon 0 lat 0) and from corner 3 (lon 40 lat 0) cross: put the corners in order" \
+    convert sphere.nc --region area.json -o failed.nc
+  polygon '[[[0,0],[0.7,0],[0.7,0.7],[0,0]]]'
+  refuses 1 "within pi/2: GeoJSON is in degrees; if these are degrees, say --units degrees" scvt --width 10km --region area.json -o failed.nc
+  refuses 1 "area.json: no cell has its centre in the region; those at lon " convert sphere.nc --units degrees --region area.json -o failed.nc
+  refuses 2 "'0,0.7,0,0.7': these may be radians" scvt --width 10km --region 0,0.7,0,0.7 -o failed.nc
+  refuses 1 "circle:3,0,0: the region is smaller than a cell of 10 km: enlarge it" scvt --width 10km --region circle:3,0,0 -o failed.nc
+  refuses 2 "expected circle:KM,LON,LAT: a radius from 0 to 20015 km" convert sphere.nc --radius 6371000 --to mpas --region circle:20020,0,0 -o failed.nc
+  refuses 2 "there is no file 'potato': expected WEST,EAST,SOUTH,NORTH, circle:KM,LON,LAT, or a file" convert sphere.nc --region potato -o failed.nc
+  polygon '[[[0,0],[20,0],[20,20],[0,0]]]'
+  sed 's/Polygon/MultiPolygon/; s/:\[\[/:[[[/; s/\]\]}/]],[[[90,0],[110,0],[100,20],[90,0]]]]}/' area.json > two.json
+  refuses 1 "two.json: two parts that do not touch, at lon " convert sphere.nc --region two.json -o failed.nc
+  refuses 1 " the mesh ends within 7 layers of cells around the region: make the region smaller" convert half.nc --region circle:2000,0,90 -o failed.nc
+  refuses 1 "cells.mpas.nc: cellsOnVertex has a boundary already" convert cells.mpas.nc --region circle:500,0,0 -o failed.nc
+  refuses 2 "--region: say also the widths there" scvt 100 --region circle:500,0,0 -o failed.nc
   ;;
 
 interpolate)
@@ -1170,6 +1200,11 @@ scvt_ranks)
   "$PSTRIPACK" -q scvt 3000 --first front --evaluations 6 --tolerance 1e-9 -o one.nodes.nc
   run 2 scvt --start front.nodes.nc --evaluations 6 --tolerance 1e-9 -o ranks.nodes.nc
   same one.nodes.nc ranks.nodes.nc
+  # Limited areas begin with a front on any number of ranks.
+  "$PSTRIPACK" scvt --width 300km --region 10,50,10,50 -o one.csv 2> one.err
+  $MPIRUN -n 2 "$PSTRIPACK" scvt --width 300km --region 10,50,10,50 -o ranks.csv 2> err
+  cmp one.csv ranks.csv
+  [ "$(grep "cells by sides" err)" = "$(grep "cells by sides" one.err)" ] || fail "another quality: $(cat err)"
   # A checkpoint of three ranks continues to the same bytes on two ranks and on one.
   # shellcheck disable=SC2086
   "$PSTRIPACK" -q scvt 300 $thirty -o direct.nodes.nc

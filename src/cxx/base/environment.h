@@ -4,11 +4,19 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/system.h"
+
 namespace pstripack {
 
 /// Value of an environment variable. Null if it is unset, or if the program has rights that its caller lacks
 /// (setuid, setgid, file capabilities): that caller must not choose files to write or programs to start.
-inline const char* environment_variable(const char* name) { return secure_getenv(name); }
+inline const char* environment_variable(const char* name) {
+#if defined(PSTRIPACK_LINUX)
+  return secure_getenv(name);
+#else
+  return getuid() == geteuid() && getgid() == getegid() ? getenv(name) : nullptr;
+#endif
+}
 
 /// True if NAME=VALUE is a variable that mpirun (Open MPI, Slurm, MPICH, Intel) sets for the ranks it starts.
 inline bool is_from_mpi_launcher(const char* variable) {

@@ -36,7 +36,7 @@ void parallel_pieces(std::size_t n, int threads, const Body& body) {
 /// Calls body(k) once for each k = 0..tasks-1, on up to `threads` threads; a thread that becomes free takes
 /// the next k. `threads` must come from threads_for. body must not throw.
 template <class Body>
-void parallel_tasks(int tasks, int threads, const Body& body) {
+void parallel_tasks(int tasks, [[maybe_unused]] int threads, const Body& body) {
 #ifdef _OPENMP
   if (threads > 1 && tasks > 1) {
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)

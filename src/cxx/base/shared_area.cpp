@@ -5,8 +5,11 @@
 #include <sys/mman.h>
 #include <sys/stat.h>
 
+#include <atomic>
 #include <cstdio>
 #include <utility>
+
+#include "base/system.h"
 
 namespace pstripack {
 
@@ -16,6 +19,7 @@ SharedArea& SharedArea::operator=(SharedArea&& other) noexcept {
   file_ = std::move(other.file_);
   data_ = std::exchange(other.data_, nullptr);
   size_ = std::exchange(other.size_, 0);
+  number_ = std::exchange(other.number_, 0);
   return *this;
 }
 
@@ -23,9 +27,10 @@ void SharedArea::clear() {
   if (data_ != nullptr) munmap(data_, size_);
   data_ = nullptr;
   size_ = 0;
-  file_.reset();
+  close_file();
 }
 
+#if defined(PSTRIPACK_LINUX)
 SharedArea SharedArea::create(std::size_t size) {
   Descriptor file(memfd_create("pstripack", MFD_CLOEXEC));
   if (!file) return {};
@@ -35,11 +40,42 @@ SharedArea SharedArea::create(std::size_t size) {
   return error == 0 ? map(std::move(file)) : SharedArea();
 }
 
-SharedArea SharedArea::map_of(int process, int file) {
-  char name[64];
-  std::snprintf(name, sizeof name, "/proc/%d/fd/%d", process, file);
-  return map(Descriptor(open(name, O_RDWR | O_CLOEXEC)));
+SharedArea::Name SharedArea::name() const {
+  Name name{};
+  if (file_) std::snprintf(name.text, sizeof name.text, "/proc/%d/fd/%d", getpid(), file_.get());
+  return name;
 }
+
+SharedArea SharedArea::map(const char* name) { return map(Descriptor(open(name, O_RDWR | O_CLOEXEC))); }
+
+void SharedArea::close_file() { file_.reset(); }
+#else
+// The name stays behind if the process is killed before it closes the file.
+SharedArea SharedArea::create(std::size_t size) {
+  static std::atomic<int> areas{0};
+  SharedArea named;
+  named.number_ = ++areas;
+  named.file_ = Descriptor(shm_open(named.name().text, O_RDWR | O_CREAT | O_EXCL, 0600));
+  if (!named.file_ || ftruncate(named.file_.get(), static_cast<off_t>(size)) != 0) return {};
+  SharedArea area = map(std::move(named.file_));
+  area.number_ = std::exchange(named.number_, 0);
+  return area;
+}
+
+SharedArea::Name SharedArea::name() const {
+  Name name{};
+  if (number_ > 0) std::snprintf(name.text, sizeof name.text, "/pstripack-%d-%d", getpid(), number_);
+  return name;
+}
+
+SharedArea SharedArea::map(const char* name) { return map(Descriptor(shm_open(name, O_RDWR, 0))); }
+
+void SharedArea::close_file() {
+  if (number_ > 0) shm_unlink(name().text);
+  number_ = 0;
+  file_.reset();
+}
+#endif
 
 SharedArea SharedArea::map(Descriptor file) {
   struct stat status;

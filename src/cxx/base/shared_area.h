@@ -14,26 +14,31 @@ class SharedArea {
   SharedArea& operator=(SharedArea&& other) noexcept;
   ~SharedArea() { clear(); }
 
-  /// A new area of `size` bytes. All pages are allocated now, so that using them cannot fail. Empty if
-  /// there is not enough memory.
+  /// A new area of `size` bytes. On Linux all pages are allocated now, so that using them cannot fail. Empty
+  /// if there is not enough memory.
   static SharedArea create(std::size_t size);
   /// Maps an area that another process created and whose descriptor was passed on. Empty on failure.
   static SharedArea map(Descriptor file);
-  /// Maps the area that process `process` of this user on this machine has open as descriptor `file`. Empty
-  /// on failure.
-  static SharedArea map_of(int process, int file);
+  /// Maps the area of another process of this user on this machine by its name. Empty on failure.
+  static SharedArea map(const char* name);
+  /// The name, as long as the process that created the area has its file open; "" if there is none.
+  struct Name {
+    char text[40];
+  };
+  Name name() const;
 
   void* data() const { return data_; }
   std::size_t size() const { return size_; }
   const Descriptor& file() const { return file_; }
   /// The memory stays mapped.
-  void close_file() { file_.reset(); }
+  void close_file();
 
  private:
   void clear();
   Descriptor file_;
   void* data_ = nullptr;
   std::size_t size_ = 0;
+  int number_ = 0;  ///< where only POSIX has shared memory: part of the name; 0: not created here
 };
 
 }  // namespace pstripack

@@ -7,7 +7,7 @@
 #include <mutex>
 #include <utility>
 
-#include "base/kept.h"
+#include "base/cached.h"
 
 namespace pstripack {
 namespace {
@@ -19,21 +19,21 @@ std::size_t half_of_memory() {
   return pages > 0 && bytes > 0 ? static_cast<std::size_t>(pages) / 2 * static_cast<std::size_t>(bytes) : 0;
 }
 
-/// Upper bound, in bytes, of all kept blocks together: half of the system's memory, because clearing fresh
-/// pages takes longer than filling them, and the system can take kept pages back. Initialised when the
+/// Upper bound, in bytes, of all cached blocks together: half of the system's memory, because clearing fresh
+/// pages takes longer than filling them, and the system can take cached pages back. Initialised when the
 /// library is loaded: a static local could make the threads of the first call wait, which changes errno.
 #ifdef MADV_FREE
-const std::size_t most_kept = std::max(std::size_t{1} << 30, half_of_memory());
+const std::size_t most_cached = std::max(std::size_t{1} << 30, half_of_memory());
 #else
-const std::size_t most_kept = std::size_t{1} << 30;
+const std::size_t most_cached = std::size_t{1} << 30;
 #endif
 
-constexpr std::size_t kCount = 16;   // number of kept blocks; a call on threads uses five
-Buffer<unsigned char> kept[kCount];  // between two calls, the newest first
-/// Bytes registered by may_stay(). They count towards most_kept. The system cannot take their pages back,
-/// so at most a quarter of most_kept is allowed.
-std::atomic<std::size_t> staying{0};
-std::atomic<bool (*)() noexcept> give_up_more{nullptr};
+constexpr std::size_t kCount = 16;     // number of cached blocks; a call on threads uses five
+Buffer<unsigned char> cached[kCount];  // between two calls, the newest first
+/// Bytes registered by reserve_cache(). They count towards most_cached. The system cannot take their pages
+/// back, so at most a quarter of most_cached is allowed.
+std::atomic<std::size_t> reserved{0};
+std::atomic<bool (*)() noexcept> free_more{nullptr};
 std::mutex mutex;  // only try_lock: in a forked child it may stay locked for ever
 
 /// Rounds up by at most a sixteenth, so that calls of similar size share blocks.
@@ -45,23 +45,23 @@ std::size_t rounded_up(std::size_t bytes) {
 
 }  // namespace
 
-bool may_stay(std::size_t bytes) noexcept {
-  if (staying.fetch_add(bytes) + bytes <= most_kept / 4) return true;
-  staying -= bytes;
+bool reserve_cache(std::size_t bytes) noexcept {
+  if (reserved.fetch_add(bytes) + bytes <= most_cached / 4) return true;
+  reserved -= bytes;
   return false;
 }
 
-void has_left(std::size_t bytes) noexcept { staying -= bytes; }
+void release_cache(std::size_t bytes) noexcept { reserved -= bytes; }
 
-void set_give_up_more(bool (*give_up)() noexcept) noexcept { give_up_more = give_up; }
+void set_free_more(bool (*them)() noexcept) noexcept { free_more = them; }
 
-bool free_kept_blocks() noexcept {
-  bool (*const give_up)() noexcept = give_up_more;
-  bool any = give_up_kept_things();
-  if (give_up != nullptr && give_up()) any = true;
+bool free_cached_blocks() noexcept {
+  bool (*const them)() noexcept = free_more;
+  bool any = free_cached_things();
+  if (them != nullptr && them()) any = true;
   const std::unique_lock lock(mutex, std::try_to_lock);
   if (!lock) return any;
-  for (auto& block : kept) {
+  for (auto& block : cached) {
     any = any || block.size() > 0;
     block = {};
   }
@@ -70,11 +70,11 @@ bool free_kept_blocks() noexcept {
 
 Block::Block(std::size_t bytes) {
   if (bytes >= kSmallest) bytes = rounded_up(bytes);
-  if (bytes >= kSmallest && bytes <= most_kept) {
+  if (bytes >= kSmallest && bytes <= most_cached) {
     if (const std::unique_lock lock(mutex, std::try_to_lock); lock) {
       // Take the smallest that fits: a larger one may be needed next.
       Buffer<unsigned char>* best = nullptr;
-      for (auto& block : kept)
+      for (auto& block : cached)
         if (block.size() >= bytes && block.size() - bytes <= bytes / 16 &&
             (best == nullptr || block.size() < best->size()))
           best = &block;
@@ -87,13 +87,13 @@ Block::Block(std::size_t bytes) {
   try {
     memory_ = Buffer<unsigned char>(bytes);
   } catch (const std::bad_alloc&) {
-    if (!free_kept_blocks()) throw;
+    if (!free_cached_blocks()) throw;
     memory_ = Buffer<unsigned char>(bytes);
   }
 }
 
 Block::~Block() {
-  if (memory_.size() < kSmallest || memory_.size() > most_kept) return;
+  if (memory_.size() < kSmallest || memory_.size() > most_cached) return;
 #ifdef MADV_FREE
   constexpr std::size_t kWorthASystemCall = std::size_t{4} << 20;
   if (memory_.size() >= kWorthASystemCall)
@@ -102,12 +102,12 @@ Block::~Block() {
   const std::unique_lock lock(mutex, std::try_to_lock);
   if (!lock) return;
   // Drop the oldest blocks if there are too many or their sum is too large.
-  std::size_t last = 0, total = memory_.size() + staying;
-  while (last + 1 < kCount && kept[last].size() > 0) ++last;
-  for (; last > 0; --last) kept[last] = std::move(kept[last - 1]);
-  kept[0] = std::move(memory_);
+  std::size_t last = 0, total = memory_.size() + reserved;
+  while (last + 1 < kCount && cached[last].size() > 0) ++last;
+  for (; last > 0; --last) cached[last] = std::move(cached[last - 1]);
+  cached[0] = std::move(memory_);
   for (std::size_t k = 1; k < kCount; ++k)
-    if ((total += kept[k].size()) > most_kept) kept[k] = {};
+    if ((total += cached[k].size()) > most_cached) cached[k] = {};
 }
 
 }  // namespace pstripack

@@ -12,14 +12,14 @@
 
 namespace pstripack {
 
-/// A block of memory. It reuses a block that an earlier call of this process has kept, if one is large
-/// enough and at most a sixteenth too large; otherwise it is new. The destructor keeps the block for the
-/// next call; the system may take the pages of kept blocks when it needs them. Small and very large blocks
+/// A block of memory. It reuses a block that an earlier call of this process has left, if one is large
+/// enough and at most a sixteenth too large; otherwise it is new. The destructor caches the block for the
+/// next call; the system may take the pages of cached blocks when it needs them. Small and very large blocks
 /// are freed.
 class Block {
  public:
   Block() = default;
-  /// Allocates at least `bytes`. Throws std::bad_alloc if there is no memory even after the kept blocks are
+  /// Allocates at least `bytes`. Throws std::bad_alloc if there is no memory even after the cached blocks are
   /// freed.
   explicit Block(std::size_t bytes);
   Block(Block&& other) noexcept = default;
@@ -37,30 +37,30 @@ class Block {
   Buffer<unsigned char> memory_;
 };
 
-/// Frees all kept blocks, the things of base/kept.h, and what the function given to set_give_up_more() frees.
-/// False if nothing was freed.
-bool free_kept_blocks() noexcept;
+/// Frees all cached blocks, the things of base/cached.h, and what the function given to set_free_more()
+/// frees. False if nothing was freed.
+bool free_cached_blocks() noexcept;
 
-/// Asks whether another `bytes` of memory, other than blocks, may be kept from one call to the next. If true,
-/// they count towards the bound on kept memory until has_left(bytes) is called.
-bool may_stay(std::size_t bytes) noexcept;
-void has_left(std::size_t bytes) noexcept;
+/// Asks whether another `bytes` of memory, other than blocks, may be cached from one call to the next. If
+/// true, they count towards the bound on cached memory until release_cache(bytes) is called.
+bool reserve_cache(std::size_t bytes) noexcept;
+void release_cache(std::size_t bytes) noexcept;
 /// Bytes that may stay, from construction to destruction.
-class Stay {
+class CacheReservation {
  public:
   /// Throws std::bad_alloc if they may not stay.
-  explicit Stay(std::size_t bytes) : bytes_(bytes) {
-    if (!may_stay(bytes)) throw std::bad_alloc();
+  explicit CacheReservation(std::size_t bytes) : bytes_(bytes) {
+    if (!reserve_cache(bytes)) throw std::bad_alloc();
   }
-  ~Stay() { has_left(bytes_); }
-  Stay(const Stay&) = delete;
-  Stay& operator=(const Stay&) = delete;
+  ~CacheReservation() { release_cache(bytes_); }
+  CacheReservation(const CacheReservation&) = delete;
+  CacheReservation& operator=(const CacheReservation&) = delete;
 
  private:
   const std::size_t bytes_;
 };
 /// Sets a function that frees such memory when an allocation fails. It returns true if it freed any.
-void set_give_up_more(bool (*give_up)() noexcept) noexcept;
+void set_free_more(bool (*them)() noexcept) noexcept;
 
 /// An uninitialised array in its own block.
 template <class T>
@@ -93,7 +93,7 @@ class BlockArray {
 /// one phase from the back; next_phase() releases the latter.
 ///
 ///     | order | sorted nodes | faces ->            <- planes |
-///     | kept                                   of this phase |
+///     | of the call                            of this phase |
 class Workspace {
  public:
   static constexpr std::size_t kSlack = 2048;  ///< covers rounding and small extras
@@ -106,7 +106,7 @@ class Workspace {
 
   /// An uninitialised array of n items that stays until clear().
   template <class T>
-  T* keep(std::size_t n) {
+  T* for_call(std::size_t n) {
     T* const array = reinterpret_cast<T*>(begin_ + front_);
     front_ += rounded_up(n * sizeof(T));
     check();
@@ -115,7 +115,7 @@ class Workspace {
 
   /// An uninitialised array of n items for this phase: valid until next_phase().
   template <class T>
-  T* take(std::size_t n) {
+  T* for_phase(std::size_t n) {
     const std::size_t bytes = rounded_up(n * sizeof(T));
     back_ = bytes < back_ ? (back_ - bytes) / kAlignment * kAlignment : 0;
     check();

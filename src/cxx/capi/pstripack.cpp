@@ -16,15 +16,21 @@
 #include "lists/adjacency_lists.h"
 #include "observe/check.h"
 #include "observe/report.h"
-#include "pool/client.h"
 #include "stripack/original/original_rules.h"
 #include "trmesh/trmesh.h"
+#ifdef PSTRIPACK_WITH_POOL
+#include "pool/client.h"
+#endif
 
 namespace {
 
 using namespace pstripack;
 
+#ifdef PSTRIPACK_WITH_POOL
 std::atomic<pstripack_trmesh_engine> other_engine{pool_trmesh};
+#else
+std::atomic<pstripack_trmesh_engine> other_engine{nullptr};
+#endif
 
 TrmeshResult trmesh_on_threads(const TrmeshCall& call, ParallelCost* cost) noexcept {
   try {

@@ -22,7 +22,7 @@
 #include "mpi/distributed_evaluator.h"
 #include "mpi/distributed_mesh.h"
 #include "scvt/caller_agreement.h"
-#include "scvt/run.h"
+#include "scvt/tessellation.h"
 #include "stripack/original/original_rules.h"
 
 using namespace pstripack;

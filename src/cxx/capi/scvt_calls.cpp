@@ -15,7 +15,7 @@
 #include "scvt/errors.h"
 #include "scvt/exact_sum.h"
 #include "scvt/front.h"
-#include "scvt/run.h"
+#include "scvt/tessellation.h"
 
 namespace {
 

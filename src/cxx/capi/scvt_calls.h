@@ -13,7 +13,7 @@
 #include "capi/pstripack.h"
 #include "parallel/communicator.h"
 #include "scvt/errors.h"
-#include "scvt/run.h"
+#include "scvt/tessellation.h"
 #include "scvt/widths.h"
 
 namespace pstripack {

@@ -18,12 +18,12 @@
 
 #include "base/floating_point.h"
 #include "capi/plain_calls.h"
+#include "stripack/coordinates_and_areas.h"
 #include "stripack/list_queries.h"
 #include "stripack/original/original_rules.h"
 #include "stripack/polygon.h"
 #include "stripack/random.h"
 #include "stripack/search.h"
-#include "stripack/sphere.h"
 #include "stripack/triangle_list.h"
 #include "stripack/voronoi.h"
 

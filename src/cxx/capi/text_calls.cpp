@@ -3,9 +3,7 @@
 // handle of the text or NULL. The caller takes the text record by record and frees it. A text may be used
 // by one thread at a time.
 
-#include <fcntl.h>
 #include <stdint.h>
-#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -15,8 +13,9 @@
 #include <string_view>
 
 #include "base/floating_point.h"
+#include "base/system.h"
 #include "stripack/listing.h"
-#include "stripack/plot.h"
+#include "stripack/postscript.h"
 
 namespace {
 
@@ -68,10 +67,8 @@ template <class Int>
 Int number_at(const Int* address, std::initializer_list<const Int*> other_arguments) {
   Int number = -1;
   int ends[2];
-  if (std::count(other_arguments.begin(), other_arguments.end(), address) > 0 || pipe2(ends, O_CLOEXEC) != 0)
-    return -1;
-  // A raw system call, because AddressSanitizer checks the argument of write(2).
-  const bool readable = syscall(SYS_write, ends[1], address, sizeof number) == long{sizeof number} &&
+  if (std::count(other_arguments.begin(), other_arguments.end(), address) > 0 || !open_pipe(ends)) return -1;
+  const bool readable = write_unchecked(ends[1], address, sizeof number) == ssize_t{sizeof number} &&
                         read(ends[0], &number, sizeof number) == ssize_t{sizeof number};
   for (const int end : ends) close(end);
   return readable ? number : -1;

@@ -35,7 +35,7 @@
 
 #include "base/parallel_for.h"
 #include "geometry/double_double.h"
-#include "geometry/exact.h"
+#include "geometry/exact_signs.h"
 #include "geometry/predicate_stages.h"
 #include "geometry/predicates.h"
 
@@ -695,11 +695,11 @@ bool Directions::View::above(index_t a, index_t b, index_t c) {
   // c, b, a seen from v: an even permutation of a, b, c, v.
   const index_t node[3] = {c, b, a};
   const Seen* seen[3];
-  Seen kept[2];  // copies, for nodes that share a slot of the cache
+  Seen copy[2];  // copies, for nodes that share a slot of the cache
   seen[0] = &m.see(c);
-  if (m.seen.share_slot(c, b) || m.seen.share_slot(c, a)) seen[0] = &(kept[0] = *seen[0]);
+  if (m.seen.share_slot(c, b) || m.seen.share_slot(c, a)) seen[0] = &(copy[0] = *seen[0]);
   seen[1] = &m.see(b);
-  if (m.seen.share_slot(b, a)) seen[1] = &(kept[1] = *seen[1]);
+  if (m.seen.share_slot(b, a)) seen[1] = &(copy[1] = *seen[1]);
   seen[2] = &m.see(a);
   if (const int s = signed_for_axes(filter_height(*seen[0], *seen[1], *seen[2]))) return s > 0;
   if (const int s = signed_for_axes(m.height_on_grid(node, seen))) return s > 0;

@@ -214,8 +214,8 @@ std::size_t insertion_order(const Point* first_point, std::size_t n, std::uint32
   const int blocks = n < 20000000 ? 2 : 3;
   const int dropped = n < 50000 ? 3 : 0;
   const std::uint32_t cells = blocks == 2 ? kSide * kSide : kSide * kSide * kSide;
-  Entry* entries = workspace.take<Entry>(n);
-  Entry* const other = workspace.take<Entry>(n);
+  Entry* entries = workspace.for_phase<Entry>(n);
+  Entry* const other = workspace.for_phase<Entry>(n);
   const int threads = threads_for(n);
   const Square square = square_of_all(points, n);
   std::vector<std::size_t> highest(static_cast<std::size_t>(threads));  // by rank, of each thread's nodes

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "geometry/double_double.h"
-#include "geometry/exact.h"
+#include "geometry/exact_signs.h"
 #include "geometry/predicate_stages.h"
 
 // Error bounds below: u = 2^-53 is the unit roundoff of rounding to nearest, which every entry of the library

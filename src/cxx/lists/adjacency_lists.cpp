@@ -28,8 +28,8 @@ Int write_lists(const Hull& hull, Int* list, Int* lptr, Int* lend, Workspace& wo
   const int threads = threads_for(n);
   const std::size_t pieces = static_cast<std::size_t>(threads);
   workspace.next_phase();
-  auto* const ring_of = workspace.take<std::uint32_t>(n);  // where in `rings` the node's ring is stored
-  auto* const rings = workspace.take<Int>(7 * n + pieces * (2 * kBlock + 1));
+  auto* const ring_of = workspace.for_phase<std::uint32_t>(n);  // where in `rings` the node's ring is stored
+  auto* const rings = workspace.for_phase<Int>(7 * n + pieces * (2 * kBlock + 1));
   std::vector<std::size_t> sums(pieces * pieces), begin_of(pieces + 1);
 
   // Count the neighbours of the nodes of each piece, to know where its rings begin.

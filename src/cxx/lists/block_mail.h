@@ -41,13 +41,13 @@ class BlockMail {
         senders_(messages.size()),
         in_a_chunk_(chunk_for(blocks, messages)),
         space_(bytes(messages)) {
-    first_chunk_ = space_.keep<std::size_t>(senders_ + 1);
+    first_chunk_ = space_.for_call<std::size_t>(senders_ + 1);
     first_chunk_[0] = 0;
     for (std::size_t s = 0; s < senders_; ++s) first_chunk_[s + 1] = first_chunk_[s] + chunks(messages[s]);
-    newest_ = space_.keep<std::size_t>(senders_ * blocks);
+    newest_ = space_.for_call<std::size_t>(senders_ * blocks);
     std::fill(newest_, newest_ + senders_ * blocks, std::size_t{0});
-    older_ = space_.keep<std::size_t>(first_chunk_[senders_]);
-    message_ = space_.keep<Message>(first_chunk_[senders_] * in_a_chunk_);
+    older_ = space_.for_call<std::size_t>(first_chunk_[senders_]);
+    message_ = space_.for_call<Message>(first_chunk_[senders_] * in_a_chunk_);
   }
 
   /// The sending end of one sender. Construct it once per sender.

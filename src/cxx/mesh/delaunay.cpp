@@ -22,6 +22,7 @@
 
 #include "base/parallel_for.h"
 #include "geometry/insertion_order.h"
+#include "mesh/hidden_nodes.h"
 
 namespace pstripack {
 namespace {
@@ -163,59 +164,13 @@ class Builder final : public GrowingHull {
     return predicates_.difference(static_cast<index_t>(a), static_cast<index_t>(b));
   }
 
-  /// Looks for hidden nodes among the closest pairs and their surroundings: if the lengths as given hide any
-  /// node, they usually hide one of these, and a small hull shows it. First the nodes around them along the
-  /// curve; then, for the four closest, all nodes near them.
-  void look_for_hidden_nodes(std::size_t first) const override {
+  void look_for_hidden_nodes(std::size_t leading) const override {
     if constexpr (std::is_same_v<Predicates, Directions>) return;  // none can be hidden
-    constexpr std::size_t kMany = 4096, kPlaces = 16, kAround = 32;
-    if (n_ - first < kMany) return;
-    const double close = closeness_that_hides();
-    struct Place {
-      double closeness;
-      std::size_t node;
-    } closest[kPlaces];  // a heap, the least close in front
-    std::fill(closest, closest + kPlaces, Place{close, 0});
-    const auto closer = [](const Place& a, const Place& b) { return a.closeness < b.closeness; };
-    for (std::size_t v = first; v + kReach < n_; ++v) {
-      double least = square_between(v, v + 1);
-      for (std::size_t k = 2; k <= kReach; ++k) least = std::min(least, square_between(v, v + k));
-      if (!(least * least < closest[0].closeness)) continue;
-      const double closeness = closeness_of(v, first);
-      if (!(closeness < closest[0].closeness)) continue;
-      std::pop_heap(closest, closest + kPlaces, closer);
-      closest[kPlaces - 1] = {closeness, v};
-      std::push_heap(closest, closest + kPlaces, closer);
-    }
-    std::sort(closest, closest + kPlaces, closer);
-    const auto places = static_cast<std::size_t>(
-        std::find_if(closest, closest + kPlaces, [&](const Place& p) { return p.closeness == close; }) -
-        closest);
-    if (places == 0) return;
-    // The four corners of the whole are added, because the nodes around may lie on one great circle.
+    const std::vector<std::size_t> closest = closest_nodes(nodes_, n_, leading);
+    if (closest.empty()) return;
     HullNode corners[4];
-    choose_corners(corners, first);
-    for (std::size_t k = 0; k < places; ++k) {
-      SmallSet around(*this, corners);
-      const std::size_t begin = begin_of_those_around(closest[k].node, first, kAround);
-      for (std::size_t v = begin; v < begin + kAround; ++v) around.add(nodes_[v]);
-      around.triangulate();
-    }
-    constexpr std::size_t kClosest = 4, kNear = 12;
-    const std::size_t looked_at = std::min(places, kClosest);
-    double reach[kClosest];  // squared radius that contains at least kNear nodes
-    std::vector<SmallSet> near(looked_at, SmallSet(*this, corners));
-    for (std::size_t k = 0; k < looked_at; ++k) {
-      double square[kAround];
-      const std::size_t begin = begin_of_those_around(closest[k].node, first, kAround);
-      for (std::size_t v = 0; v < kAround; ++v) square[v] = square_between(closest[k].node, begin + v);
-      std::nth_element(square, square + kNear, square + kAround);
-      reach[k] = square[kNear];
-    }
-    for (std::size_t v = 0; v < n_; ++v)
-      for (std::size_t k = 0; k < looked_at; ++k)
-        if (square_between(closest[k].node, v) <= reach[k]) near[k].add(nodes_[v]);
-    for (SmallSet& some : near) some.triangulate();
+    choose_corners(corners, leading);
+    triangulate_around(closest, nodes_, n_, leading, corners);
   }
 
   bool surrounds_centre() const override { return surrounds_centre_; }
@@ -314,65 +269,6 @@ class Builder final : public GrowingHull {
       corner = next;
     } while (corner != corner_[v]);
     return false;
-  }
-
-  /// A triangulation of at most 64 nodes, four of which are the corners of the whole set.
-  class SmallSet {
-   public:
-    SmallSet(const Builder& whole, const HullNode (&corners)[4]) {
-      for (const HullNode v : corners) add(whole.nodes_[v]);
-    }
-    void add(const Point& p) {
-      if (count_ < kMost) nodes_[count_++] = p;
-    }
-    /// Throws HiddenNode.
-    void triangulate() {
-      Face faces[2 * kMost];
-      Plane planes[2 * kMost];
-      HullCorner corner[kMost];
-      Builder some({kMost, nodes_, faces, planes, corner}, count_);
-      some.build(0);
-      some.finish();
-    }
-
-   private:
-    static constexpr std::size_t kMost = 64;
-    Point nodes_[kMost];
-    std::size_t count_ = 0;
-  };
-
-  std::size_t begin_of_those_around(std::size_t v, std::size_t first, std::size_t around) const {
-    return std::min(std::max(v, first + around / 2) - around / 2, n_ - around);
-  }
-
-  // A node on the sphere between neighbours at the distances g and h rises above them by about g h / 2. Its
-  // closeness is g^2 h^2. Lengths that differ by less than this height hide nothing; how much they differ
-  // is estimated from a sample of nodes, and rounding is 2^-46 at most. Nodes in one cell of the curve are
-  // in any order: neighbours are looked for up to kReach places ahead, then up to kAside places to both
-  // sides.
-  static constexpr std::size_t kReach = 3, kAside = 8;
-
-  double closeness_that_hides() const {
-    double deviation = 0x1p-48;
-    for (std::size_t v = 0; v < n_; v += n_ / 1024 + 1)
-      deviation = std::max(deviation, std::fabs(dot(nodes_[v], nodes_[v]) - 1));
-    return 8 * deviation * (8 * deviation);
-  }
-
-  double square_between(std::size_t a, std::size_t b) const {
-    const Point d = minus(nodes_[b], nodes_[a]);
-    return dot(d, d);
-  }
-
-  double closeness_of(std::size_t v, std::size_t first) const {
-    double least = 1, second = 1;
-    for (std::size_t u = std::max(v, first + kAside) - kAside; u < std::min(v + kAside + 1, n_); ++u) {
-      const double square = square_between(u, v);
-      if (square == 0) continue;  // v itself, or in its place
-      second = std::min(second, std::max(least, square));
-      least = std::min(least, square);
-    }
-    return least * second;
   }
 
   // -- 2: the first nodes
@@ -733,11 +629,11 @@ std::unique_ptr<GrowingHull> GrowingHull::make(const HullArrays& arrays, std::si
 }
 
 Hull delaunay(const Point* p, std::size_t n, Workspace& workspace, Lengths lengths) {
-  auto* const order = workspace.keep<std::uint32_t>(n);
+  auto* const order = workspace.for_call<std::uint32_t>(n);
   const std::size_t alone = insertion_order(p, n, order, workspace);
   HullArrays arrays;
   arrays.capacity = n;
-  arrays.nodes = workspace.keep<Point>(n);
+  arrays.nodes = workspace.for_call<Point>(n);
   std::atomic<bool> unit{lengths != Lengths::directions};
   parallel_pieces(n, threads_for(n), [&](std::size_t first, std::size_t last, int) {
     constexpr std::size_t kAhead = 16;
@@ -750,9 +646,9 @@ Hull delaunay(const Point* p, std::size_t n, Workspace& workspace, Lengths lengt
     if (!all) unit = false;
   });
   workspace.next_phase();
-  arrays.faces = workspace.keep<Face>(2 * n);
-  arrays.corner = workspace.keep<HullCorner>(n);
-  arrays.planes = workspace.take<Plane>(2 * n);
+  arrays.faces = workspace.for_call<Face>(2 * n);
+  arrays.corner = workspace.for_call<HullCorner>(n);
+  arrays.planes = workspace.for_phase<Plane>(2 * n);
   const auto hull_with = [&](Lengths which) {
     const auto growing = GrowingHull::make(arrays, n, which);
     growing->look_for_hidden_nodes(alone);

@@ -146,8 +146,8 @@ class GrowingHull {
 /// node.
 Hull delaunay(const Point* p, std::size_t n, Workspace& workspace, Lengths lengths = Lengths::automatic);
 
-/// Kept arrays: order, sorted nodes, faces, corners. The largest phase, the insertion, has the planes of 2n
-/// faces.
+/// Arrays of the call: order, sorted nodes, faces, corners. The largest phase, the insertion, has the planes
+/// of 2n faces.
 constexpr std::size_t workspace_bytes(std::size_t n) {
   return (4 + 24 + 2 * sizeof(Face) + 4 + 2 * sizeof(Plane)) * n;
 }

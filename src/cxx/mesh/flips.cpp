@@ -24,15 +24,15 @@ MovingMesh::MovingMesh(std::size_t n, std::size_t arcs, std::size_t outside, std
       arcs_(arcs),
       slots_(slots(n, arcs_)),
       workspace_(workspace_bytes(n, arcs_, most_)),
-      order_(workspace_.keep<std::uint32_t>(most_)) {}
+      order_(workspace_.for_call<std::uint32_t>(most_)) {}
 
 /// Allocates the arrays other than order_. Initialises is_changed_ and the numbers of nodes outside only.
 void MovingMesh::keep_arrays() {
-  inside_ = workspace_.keep<std::uint32_t>(most_);
-  nodes_ = workspace_.keep<Point>(most_);
-  stars_ = workspace_.keep<Star>(n_);
-  rings_ = workspace_.keep<CurveNode>(slots_);
-  is_changed_ = workspace_.keep<std::uint8_t>(n_);
+  inside_ = workspace_.for_call<std::uint32_t>(most_);
+  nodes_ = workspace_.for_call<Point>(most_);
+  stars_ = workspace_.for_call<Star>(n_);
+  rings_ = workspace_.for_call<CurveNode>(slots_);
+  is_changed_ = workspace_.for_call<std::uint8_t>(n_);
   std::fill_n(is_changed_, n_, std::uint8_t{0});
   for (std::size_t v = n_; v < most_; ++v) order_[v] = inside_[v] = static_cast<CurveNode>(v);
 }
@@ -159,10 +159,11 @@ Two two_at(const double* from) {
   return two;
 }
 
-/// Most by which the volume det(b-a, c-a, d-a) of four nodes changes if they move to their directions, where no
-/// component of the three differences is more than R in magnitude, R^2 = square, and no length differs from 1 by
-/// more than 2^-49.9: to first order that difference times the sum of the four determinants of three nodes, each
-/// at most the cross product of two edges: |b-a||c-a| <= 3 R^2, and three of them for that of b, c, d: 18 R^2.
+/// Most by which the volume det(b-a, c-a, d-a) of four nodes changes if they move to their directions, where
+/// no component of the three differences is more than R in magnitude, R^2 = square, and no length differs
+/// from 1 by more than 2^-49.9: to first order that difference times the sum of the four determinants of
+/// three nodes, each at most the cross product of two edges: |b-a||c-a| <= 3 R^2, and three of them for that
+/// of b, c, d: 18 R^2.
 double volume_of_lengths(double square) { return 0x1p-45 * square; }
 
 /// The neighbours of a node relative to it, counterclockwise, with the first three repeated at the end, so
@@ -197,8 +198,8 @@ struct Spokes {
   /// 6.01 R^3 < 64u R^3, u = 2^-53, which covers the rounding of the two products below. What underflows is
   /// less than 1e-250.
   ///
-  /// Under Confirm::directions the signs must also be those of the directions, to which nodes move by less than
-  /// 2^-49.9 along themselves: see volume_of_lengths().
+  /// Under Confirm::directions the signs must also be those of the directions, to which nodes move by less
+  /// than 2^-49.9 along themselves: see volume_of_lengths().
   bool are_certain(const Point& p, std::uint32_t count, Confirm confirm) const {
     const double square = reach * reach, low = 0x1p-47 * square + 1e-250,
                  high = 0x1p-47 * (square * reach) + 1e-250 +

@@ -90,7 +90,7 @@ Ring<Int> ring_at(const Int* place) {
 
 /// Copies a stored ring; returns the end. Reads and writes up to kBlock entries beyond it.
 template <class Int>
-Int* copy_kept_ring(const Int* place, Int* to) {
+Int* copy_ring(const Int* place, Int* to) {
   const std::size_t entries = 1 + static_cast<std::size_t>(*place);
   copy_block(place, to);
   if (entries > kBlock) std::copy(place + kBlock, place + entries, to + kBlock);

@@ -53,7 +53,7 @@ std::int32_t code_of_count(std::int32_t n) {
   return n > most_nodes<std::int32_t>() ? kTooMany : 0;
 }
 
-struct Headline {
+struct CallHeader {
   std::int32_t n = 0;
   Point corners[3] = {};  ///< nodes 1 to 3
   PartitionKind partition = PartitionKind::bisection;
@@ -69,22 +69,22 @@ struct Headline {
 /// A call, and the slice of its nodes that this rank has: nodes first..first+count-1 (from 0).
 struct Share {
   TrmeshResult result{0};  ///< so far; ier = 0 if the slices can be triangulated
-  Headline headline;
+  CallHeader header;
   NodeArrays nodes;
   std::size_t first = 0, count = 0;
-  Look look;
+  NodeCheck check;
   std::optional<NodeArrays> of_all_ranks;  ///< all nodes, if this rank can read them
   Block received[3];                       ///< x, y, z, if they were sent to this rank
 
   void set_slice(const Communicator& ranks) {
-    first = headline.slice(ranks.rank(), ranks);
-    count = headline.slice(ranks.rank() + 1, ranks) - first;
+    first = header.slice(ranks.rank(), ranks);
+    count = header.slice(ranks.rank() + 1, ranks) - first;
   }
   /// Checks the slice. `bad`: the first node of the call (from 0) that is zero or not finite.
-  void look_at_nodes(Smallest& bad) {
-    look = look_at(nodes, count);
-    look.by_direction.value = headline.by_direction;
-    if (look.first_bad < count) bad.value = static_cast<std::int64_t>(first + look.first_bad);
+  void check_slice(Smallest& bad) {
+    check = check_nodes(nodes, count);
+    check.by_direction.value = header.by_direction;
+    if (check.first_bad < count) bad.value = static_cast<std::int64_t>(first + check.first_bad);
   }
 };
 
@@ -105,9 +105,9 @@ TrmeshResult disagreement(std::int32_t n, std::int64_t hash, MpiCommunicator& ra
 Share take_slice(const TrmeshCall& call, bool wants_cost, MpiCommunicator& ranks) {
   ranks.set_phase("agree on the arguments");
   Share share;
-  Headline& headline = share.headline;
-  const std::int32_t n = headline.n = call.n, count_code = code_of_count(n);
-  headline.by_direction = call.by_direction;
+  CallHeader& header = share.header;
+  const std::int32_t n = header.n = call.n, count_code = code_of_count(n);
+  header.by_direction = call.by_direction;
   // All ranks pass the same arguments if the smallest hash is the largest.
   Smallest least_n{n}, least_hash{0}, bad;
   Largest most_n{n}, most_hash;
@@ -123,14 +123,14 @@ Share take_slice(const TrmeshCall& call, bool wants_cost, MpiCommunicator& ranks
         least_hash.value = most_hash.value = static_cast<std::int64_t>(hash);
         share.set_slice(ranks);
         share.nodes = call.nodes.from(share.first);
-        share.look_at_nodes(bad);
+        share.check_slice(bad);
         share.of_all_ranks = call.nodes;
-        call.nodes.copy(0, 3, headline.corners);
+        call.nodes.copy(0, 3, header.corners);
       },
-      least_n, most_n, least_hash, most_hash, bad, partition, reported, share.look.lengths_are_one,
-      share.look.deviation);
-  headline.wants_cost = reported.value;
-  headline.partition = partition.value;
+      least_n, most_n, least_hash, most_hash, bad, partition, reported, share.check.lengths_are_one,
+      share.check.deviation);
+  header.wants_cost = reported.value;
+  header.partition = partition.value;
   if (least_n.value != most_n.value || least_hash.value != most_hash.value)
     share.result = disagreement(n, static_cast<std::int64_t>(hash), ranks);
   else if (count_code != 0)
@@ -145,16 +145,16 @@ Share receive_slice(const TrmeshCall& call, Arrays arrays, bool wants_cost, MpiC
   ranks.set_phase("scatter the nodes");
   const bool is_root = ranks.rank() == 0;
   Share share;
-  Headline& headline = share.headline;
+  CallHeader& header = share.header;
   if (is_root) {
-    headline.n = call.n;
-    headline.partition = options_from_environment(0).partition;
-    headline.wants_cost = wants_cost;
-    headline.by_direction = call.by_direction;
-    if (code_of_count(call.n) == 0) call.nodes.copy(0, 3, headline.corners);
+    header.n = call.n;
+    header.partition = options_from_environment(0).partition;
+    header.wants_cost = wants_cost;
+    header.by_direction = call.by_direction;
+    if (code_of_count(call.n) == 0) call.nodes.copy(0, 3, header.corners);
   }
-  ranks.broadcast(&headline, sizeof headline, 0);
-  share.result = {code_of_count(headline.n)};
+  ranks.broadcast(&header, sizeof header, 0);
+  share.result = {code_of_count(header.n)};
   if (share.result.ier != 0) return share;
 
   share.set_slice(ranks);
@@ -164,7 +164,7 @@ Share receive_slice(const TrmeshCall& call, Arrays arrays, bool wants_cost, MpiC
   in_agreement(ranks, [&] {
     if (receives)
       for (Block& block : share.received) block = Block(share.count * real);
-    for (int r = 0; r <= ranks.size(); ++r) bytes.push_back(headline.slice(r, ranks) * real);
+    for (int r = 0; r <= ranks.size(); ++r) bytes.push_back(header.slice(r, ranks) * real);
   });
   for (int axis = 0; axis < 3 && by_message; ++axis)
     ranks.start_scatter(call.nodes.array(axis), bytes, share.received[axis].data(),
@@ -176,10 +176,10 @@ Share receive_slice(const TrmeshCall& call, Arrays arrays, bool wants_cost, MpiC
     share.nodes = receives ? NodeArrays(real, share.received[0].data(), share.received[1].data(),
                                         share.received[2].data())
                            : call.nodes.from(share.first);
-    share.look_at_nodes(bad);
+    share.check_slice(bad);
   });
   if (is_root) ranks.finish();
-  agree(ranks, outcome, bad, share.look.lengths_are_one, share.look.deviation);
+  agree(ranks, outcome, bad, share.check.lengths_are_one, share.check.deviation);
   outcome.accept();
   if (bad.exists()) share.result = {kBadCoordinate, bad.value + 1};
   return share;
@@ -191,7 +191,7 @@ Share share_of(const TrmeshCall& call, Arrays arrays, bool wants_cost, MpiCommun
   const PhaseTimer timer(&cost, ParallelCost::divide, &ranks);
   Share share = arrays == Arrays::on_every_rank ? take_slice(call, wants_cost, ranks)
                                                 : receive_slice(call, arrays, wants_cost, ranks);
-  const Point(&corners)[3] = share.headline.corners;
+  const Point(&corners)[3] = share.header.corners;
   if (share.result.ier == 0 && left(corners[0], corners[1], corners[2]) == 0) share.result = {kCollinear};
   return share;
 }
@@ -209,11 +209,11 @@ class ByRanks {
 
   /// Warm start from the rings of the last call. True if the call is done. Collective.
   bool begin_with(LastCall& last);
-  /// To be called after a cold call: keeps what the next call may need.
+  /// To be called after a cold call: caches what the next call may need.
   void remember(LastCall& last) noexcept;
 
  private:
-  std::size_t n() const { return static_cast<std::size_t>(share_.headline.n); }
+  std::size_t n() const { return static_cast<std::size_t>(share_.header.n); }
   bool reads_all() const { return share_.of_all_ranks || ranks_.rank() == 0; }
   /// All nodes; needs reads_all().
   const NodeArrays& all_nodes() const { return share_.of_all_ranks ? *share_.of_all_ranks : share_.nodes; }
@@ -235,7 +235,7 @@ class ByRanks {
   ParallelOptions options_;
   std::vector<std::size_t> begin_;  ///< by rank: the begin of its slice; then the number of nodes
   bool knows_slices_ = false;
-  bool wants_rings_ = false;  ///< the nodes fit the last call's sample: keep the rings of this call
+  bool wants_rings_ = false;  ///< the nodes fit the last call's sample: cache the rings of this call
   Stars<std::int32_t> stars_;
 };
 
@@ -247,11 +247,11 @@ void ByRanks::find_slices(std::size_t n) {
       options_ = options_from_environment(share_.count);
     });
     knows_slices_ = true;  // on all ranks or on none
-    options_.partition = share_.headline.partition;
+    options_.partition = share_.header.partition;
     cost_.threads = options_.threads;
   }
   for (std::size_t r = 0; r < begin_.size(); ++r)
-    begin_[r] = std::min(n, share_.headline.slice(static_cast<int>(r), ranks_));
+    begin_[r] = std::min(n, share_.header.slice(static_cast<int>(r), ranks_));
 }
 
 std::optional<Coincidence> ByRanks::triangulate(std::size_t n) {
@@ -259,12 +259,12 @@ std::optional<Coincidence> ByRanks::triangulate(std::size_t n) {
   find_slices(n);
   const std::size_t count = begin_[me + 1] - begin_[me];
   if (n < this->n()) {  // the second try, without nodes that coincide
-    share_.look = look_at(share_.nodes, count);
-    share_.look.by_direction.value = share_.headline.by_direction;
-    agree_on(share_.look, ranks_);
+    share_.check = check_nodes(share_.nodes, count);
+    share_.check.by_direction.value = share_.header.by_direction;
+    agree_on(share_.check, ranks_);
     stars_ = {};
   }
-  stars_ = pstripack::triangulate<std::int32_t>(slice(count), share_.look, share_.headline.corners, {1, 2, 3},
+  stars_ = pstripack::triangulate<std::int32_t>(slice(count), share_.check, share_.header.corners, {1, 2, 3},
                                                 ranks_, options_, &cost_);
   if (stars_.coincident.empty()) return std::nullopt;
   std::optional<Coincidence> first;
@@ -355,11 +355,11 @@ TrmeshResult collective_trmesh(MpiCommunicator& ranks, Arrays arrays, const Trme
   if (result.ier == 0) {
     ByRanks way(ranks, arrays, call.lists, share, mine);
     if (last == nullptr || !way.begin_with(*last)) {
-      result = triangulate_and_deliver(share.headline.n, way);
+      result = triangulate_and_deliver(share.header.n, way);
       if (last != nullptr && result.ier == 0) way.remember(*last);
     }
   }
-  if (share.headline.wants_cost) {
+  if (share.header.wants_cost) {
     mine.bytes_sent = ranks.bytes_sent - sent_before;
     const GroupCost all = group_cost(ranks, mine);
     if (cost != nullptr) *cost = all;

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "base/kept.h"
+#include "base/cached.h"
 #include "mpi/gather_lists.h"
 #include "mpi/mpi_communicator.h"
 #include "parallel/last_rings.h"
@@ -12,12 +12,12 @@
 
 namespace pstripack {
 
-/// What a rank keeps from one call for the next. n and patience are the same on every rank.
+/// What a rank caches from one call for the next. n and patience are the same on every rank.
 struct LastCall {
-  std::size_t n = 0;  ///< number of nodes; 0: nothing is kept
+  std::size_t n = 0;  ///< number of nodes; 0: nothing is cached
   SampleOfStars sample;
   bool has_sample = false;  ///< false if this rank had no memory for the sample
-  Kept<LastRings> rings;    ///< kept only after calls whose nodes fitted the sample
+  Cached<LastRings> rings;  ///< only after calls whose nodes fitted the sample
   Patience patience;
 };
 

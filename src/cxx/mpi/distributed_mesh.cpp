@@ -52,12 +52,12 @@ std::int32_t DistributedMesh::triangulate(std::int64_t n, const double* xyz, con
 
 std::int32_t DistributedMesh::triangulate_points(const LocalNodes& points, bool numbers_are_known,
                                                  Report* report, ParallelCost& cost) {
-  ranks_.set_phase("look at the points");
+  ranks_.set_phase("check the points");
   Numbering numbering;
   {
     const PhaseTimer timer(&cost, ParallelCost::divide, &ranks_);
-    numbering = look_at_all(points, report != nullptr, numbers_are_known, ranks_);
-    numbering.look.by_direction.value = by_direction_;
+    numbering = check_all(points, report != nullptr, numbers_are_known, ranks_);
+    numbering.check.by_direction.value = by_direction_;
   }
   if (report != nullptr) report->points = numbering.total;
   is_reported_ = numbering.is_reported;
@@ -100,7 +100,7 @@ std::int32_t DistributedMesh::triangulate_into(const LocalNodes& points, const N
   options.with_neighbours = true;
   options.last = homes_.get();
   cost.threads = options.threads;
-  Stars<Int> stars = pstripack::triangulate<Int>(counted, numbering.look, {a.point, b.point, c.point},
+  Stars<Int> stars = pstripack::triangulate<Int>(counted, numbering.check, {a.point, b.point, c.point},
                                                  {value_of(a.number), value_of(b.number), value_of(c.number)},
                                                  ranks_, options, &cost);
   if (!stars.coincident.empty()) {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "base/kept.h"
+#include "base/cached.h"
 #include "mpi/mpi_communicator.h"
 #include "mpi/numbering.h"
 #include "mpi/own_stars.h"
@@ -84,11 +84,11 @@ class DistributedMesh {
   bool is_reported_ = false;        ///< rank 0 wants reports; the same on every rank
   bool numbers_are_dense_ = false;  ///< the global numbers are 1..total
   OwnStars own_;
-  std::unique_ptr<Homes> homes_;  ///< of the last triangulation; the next may keep them; null if it failed
+  std::unique_ptr<Homes> homes_;  ///< of the last triangulation; the next may use them; null if it failed
 
-  /// Kept for the next call, in case it has the same numbers.
+  /// Cached for the next call, in case it has the same numbers.
   struct ForNext {
-    Kept<MovingStars> moving;             ///< of the last call, if it was a warm start
+    Cached<MovingStars> moving;           ///< of the last call, if it was a warm start
     std::optional<SampleOfStars> sample;  ///< of this rank's stars; none if there was no memory
     bool wants_sample = false;            ///< the last call had the same numbers as the call before it
     bool are_at_home = false;             ///< as are_at_home() returned in the last call

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "base/system.h"
 #include "parallel/agreement.h"
 #include "parallel/cost.h"
 
@@ -104,7 +105,8 @@ MpiCommunicator::MpiCommunicator(MPI_Comm comm, std::size_t longest_message, std
       sizes_.resize(ranks);
       other_sizes_.resize(ranks);
       moving_.resize(ranks);
-      packed_.resize(ranks);
+      leaving_.resize(ranks + 1);
+      arriving_.resize(ranks + 1);
       under_way_.reserve(4 * ranks + 16);
     });
   } catch (...) {
@@ -125,16 +127,16 @@ bool MpiCommunicator::ranks_outnumber_processors() {
   check(MPI_Comm_split_type(comm_, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &machine));
   int ranks = 1;
   check(MPI_Comm_size(machine, &ranks));
-  cpu_set_t processors;
-  CPU_ZERO(&processors);
-  if (sched_getaffinity(0, sizeof processors, &processors) != 0)  // fails if a cpu_set_t is too small
-    for (unsigned i = 0; i < std::thread::hardware_concurrency() && i < CPU_SETSIZE; ++i)
-      CPU_SET(i, &processors);
+  ProcessorSet processors = usable_processors();
   MPI_Request request;
-  check(MPI_Iallreduce(MPI_IN_PLACE, &processors, sizeof processors, MPI_BYTE, MPI_BOR, machine, &request));
+  check(MPI_Iallreduce(MPI_IN_PLACE, processors.data(), sizeof processors, MPI_BYTE, MPI_BOR, machine,
+                       &request));
   wait(request);
   check(MPI_Comm_free(&machine));
-  return ranks > CPU_COUNT(&processors);
+  int count = 0;
+  for (std::uint64_t word : processors)
+    for (; word != 0; word &= word - 1) ++count;
+  return ranks > count;
 }
 
 void MpiCommunicator::abort(const char* kind, const char* text) const {
@@ -254,22 +256,40 @@ void MpiCommunicator::gather_blocks(void* all, const Begin& begin) {
   }
 }
 
-/// out[r] is for rank r; sizes_[r] becomes the value that rank r had for this rank. Value j of moving_
-/// travels to the rank j above its sender, in steps of 2^k for the bits k of j.
+/// out[r] is for rank r; sizes_[r] becomes the value that rank r had for this rank. A value for the rank j
+/// above its sender travels in steps of 2^k for the bits k of j, with those that go the same way (the crystal
+/// router: Fox et al. 1988). Most ranks have nothing for each other, and a value of 0 does not travel. So a
+/// rank sends log2(ranks) messages, of about as many values as it has neighbours.
 void MpiCommunicator::exchange_sizes(const std::int64_t* out) {
   const auto ranks = static_cast<std::size_t>(size_), me = static_cast<std::size_t>(rank_);
-  for (std::size_t j = 0; j < ranks; ++j) moving_[j] = out[(me + j) % ranks];
+  std::size_t count = 0;
+  for (std::size_t j = 0; j < ranks; ++j)
+    if (const std::int64_t value = out[(me + j) % ranks]; value != 0)
+      moving_[count++] = {static_cast<std::int64_t>(j), value};
   for (std::size_t distance = 1; distance < ranks; distance *= 2) {
-    std::size_t count = 0;
-    for (std::size_t j = distance; j < ranks; ++j)
-      if ((j & distance) != 0) packed_[count++] = moving_[j];
-    send_and_receive(packed_.data(), count * sizeof *out, above(static_cast<int>(distance)), sizes_.data(),
-                     count * sizeof *out, below(static_cast<int>(distance)));
-    count = 0;
-    for (std::size_t j = distance; j < ranks; ++j)
-      if ((j & distance) != 0) moving_[j] = sizes_[count++];
+    std::size_t staying = 0, leaving = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      if ((static_cast<std::size_t>(moving_[i].above) & distance) != 0)
+        leaving_[++leaving] = moving_[i];
+      else
+        moving_[staying++] = moving_[i];
+    }
+    // The first one tells the number of the others. No rank ever has two for one j, so the memory suffices.
+    leaving_[0] = {static_cast<std::int64_t>(leaving), 0};
+    const std::size_t bytes = (1 + leaving) * sizeof(Routed);
+    MPI_Request requests[2];
+    check(MPI_Irecv(arriving_.data(), static_cast<int>(arriving_.size() * sizeof(Routed)), MPI_BYTE,
+                    below(static_cast<int>(distance)), kTag, comm_, &requests[0]));
+    check(MPI_Isend(leaving_.data(), static_cast<int>(bytes), MPI_BYTE, above(static_cast<int>(distance)),
+                    kTag, comm_, &requests[1]));
+    wait(requests, 2, bytes);
+    const auto arrived = static_cast<std::size_t>(arriving_[0].above);
+    std::copy_n(arriving_.data() + 1, arrived, moving_.data() + staying);
+    count = staying + arrived;
   }
-  for (std::size_t j = 0; j < ranks; ++j) sizes_[(me + ranks - j) % ranks] = moving_[j];
+  std::fill(sizes_.begin(), sizes_.end(), 0);
+  for (std::size_t i = 0; i < count; ++i)
+    sizes_[(me + ranks - static_cast<std::size_t>(moving_[i].above)) % ranks] = moving_[i].value;
 }
 
 Parcels MpiCommunicator::all_gather(const void* bytes, std::size_t size) {

@@ -96,6 +96,11 @@ class MpiCommunicator : public Communicator {
 
   static constexpr std::size_t kMostValues = 16;
 
+  /// What exchange_sizes() sends on: a value for the rank so many above its sender.
+  struct Routed {
+    std::int64_t above, value;
+  };
+
   MPI_Comm comm_ = MPI_COMM_NULL;
   int rank_ = 0, size_ = 1;
   std::size_t longest_message_;
@@ -105,7 +110,8 @@ class MpiCommunicator : public Communicator {
   const char* volatile* phase_place_ = nullptr;
   std::optional<RollCall> roll_call_;
   /// One number per rank, allocated once so that an agreement needs no memory.
-  std::vector<std::int64_t> sizes_, other_sizes_, moving_, packed_;
+  std::vector<std::int64_t> sizes_, other_sizes_;
+  std::vector<Routed> moving_, leaving_, arriving_;
   std::vector<MPI_Request> under_way_;  ///< its capacity is reserved before anything is posted
   std::size_t bytes_under_way_ = 0;
 };

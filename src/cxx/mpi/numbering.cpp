@@ -70,8 +70,8 @@ bool on_one_line(const Point& a, const Point& b) {
 
 }  // namespace
 
-Numbering look_at_all(const LocalNodes& points, bool wants_report, bool numbers_are_known,
-                      MpiCommunicator& ranks) {
+Numbering check_all(const LocalNodes& points, bool wants_report, bool numbers_are_known,
+                    MpiCommunicator& ranks) {
   Numbering numbering;
   const auto failed = [&](std::int32_t code, std::int64_t point) {
     numbering.code = code;
@@ -93,15 +93,15 @@ Numbering look_at_all(const LocalNodes& points, bool wants_report, bool numbers_
     low.value = std::min(low.value, value_of(points.number(i)));
     high.value = std::max(high.value, value_of(points.number(i)));
   }
-  numbering.look = look_at(points.points, points.count);
-  for (std::size_t i = numbering.look.first_bad; i < points.count; ++i)
+  numbering.check = check_nodes(points.points, points.count);
+  for (std::size_t i = numbering.check.first_bad; i < points.count; ++i)
     if (!has_direction(points.points[i])) bad.value = std::min(bad.value, value_of(points.number(i)));
   OfRank0 partition(ranks, options_from_environment(0).partition);
   OnAny reported{ranks.rank() == 0 && wants_report};
   OnAll are_known{numbers_are_known};
   in_agreement(
       ranks, [&] { numbering.ranges = NodeRanges(counts, static_cast<std::size_t>(ranks.size())); }, low,
-      high, bad, partition, reported, are_known, numbering.look.lengths_are_one, numbering.look.deviation);
+      high, bad, partition, reported, are_known, numbering.check.lengths_are_one, numbering.check.deviation);
   numbering.is_reported = reported.value;
   numbering.low = low.value;
   numbering.high = high.value;

@@ -22,7 +22,7 @@ constexpr std::int32_t kTooFew = -1, kCollinear = -2, kEmpty = -3, kTooMany = -4
 /// A rank must bring fewer points than this.
 constexpr std::size_t kMostPoints = std::size_t{1} << 29;
 
-/// Properties of all points and their global numbers; the same on every rank, except `look`.
+/// Properties of all points and their global numbers; the same on every rank, except `check`.
 struct Numbering {
   std::int32_t code = 0;         ///< 0; else a result code: there is no mesh
   std::int64_t error_point = 0;  ///< number of the point that the code is about; 0 if none
@@ -31,7 +31,7 @@ struct Numbering {
   std::int64_t low = 0, high = 0;  ///< smallest and largest number
   PartitionKind partition = PartitionKind::bisection;
   bool is_reported = false;  ///< rank 0 wants a report
-  Look look;                 ///< of this rank's points
+  NodeCheck check;           ///< of this rank's points
 
   bool is_dense() const { return low == 1 && high == total; }  ///< the numbers are 1..total
 };
@@ -39,8 +39,8 @@ struct Numbering {
 /// Counts the points and checks every point and every number. points.count == kMostPoints means too many.
 /// wants_report: used on rank 0 only. numbers_are_known: this rank's numbers are those of the last call,
 /// which has found that all are different. Collective. Throws AgreedFailure.
-Numbering look_at_all(const LocalNodes& points, bool wants_report, bool numbers_are_known,
-                      MpiCommunicator& ranks);
+Numbering check_all(const LocalNodes& points, bool wants_report, bool numbers_are_known,
+                    MpiCommunicator& ranks);
 
 class CornerSearch {
  public:

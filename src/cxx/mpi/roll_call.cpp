@@ -1,7 +1,5 @@
 #include "mpi/roll_call.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <signal.h>
 #include <string.h>
 #include <sys/types.h>
@@ -10,6 +8,7 @@
 #include <atomic>
 #include <new>
 
+#include "base/system.h"
 #include "mpi/area_of_all.h"
 
 namespace pstripack {
@@ -35,26 +34,6 @@ std::atomic<Page*> pages[kPages];
 Entry* my_entry[kPages];
 
 // The following functions run in a signal handler: they use system calls and the stack only.
-
-/// True if the process does not exist any more, or is a zombie.
-bool is_lost(pid_t process) {
-  if (kill(process, 0) != 0) return errno == ESRCH;
-  char name[32] = "/proc/", text[256];
-  char* at = name + 6;
-  char digits[12];
-  int n = 0;
-  for (pid_t p = process; p > 0; p /= 10) digits[n++] = static_cast<char>('0' + p % 10);
-  while (n > 0) *at++ = digits[--n];
-  strcpy(at, "/stat");
-  const int file = open(name, O_RDONLY | O_CLOEXEC);
-  if (file < 0) return errno == ENOENT;
-  const ssize_t size = read(file, text, sizeof text - 1);
-  close(file);
-  if (size <= 0) return false;
-  text[size] = '\0';
-  const char* const end_of_name = strrchr(text, ')');
-  return end_of_name != nullptr && (end_of_name[2] == 'Z' || end_of_name[2] == 'X');
-}
 
 void tell(const Entry& lost) {
   char line[128] = "pstripack: rank ";
@@ -82,8 +61,8 @@ void answer(int signal) {
     for (int i = 0; page != nullptr && i < page->count; ++i) {
       const Entry& e = page->entry()[i];
       const bool matters = e.phase[0] != '\0' || my_entry[k]->phase[0] != '\0';
-      // Test is_lost before `ending`: a rank that gets the signal sets `ending` before it ends.
-      if (matters && e.process > 0 && is_lost(e.process) && !e.ending && page->told.exchange(1) == 0) tell(e);
+      // Test is_gone before `ending`: a rank that gets the signal sets `ending` before it ends.
+      if (matters && e.process > 0 && is_gone(e.process) && !e.ending && page->told.exchange(1) == 0) tell(e);
     }
   }
   ::signal(signal, SIG_DFL);

@@ -6,7 +6,6 @@
 #include <pthread.h>
 #include <stdlib.h>
 #include <sys/file.h>
-#include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -20,6 +19,7 @@
 #include <string>
 
 #include "base/environment.h"
+#include "base/system.h"
 #include "base/transfer.h"
 #include "lists/limits.h"
 #include "observe/recorded_block.h"
@@ -121,7 +121,7 @@ class Check {
   void unlock() { pthread_mutex_unlock(&one_block_at_a_time_); }
 
   void draw_process_number() {
-    if (getrandom(&process_, sizeof process_, GRND_NONBLOCK) != sizeof process_)
+    if (!draw_random(&process_, sizeof process_))
       process_ = static_cast<std::uint64_t>(getpid()) << 32 ^
                  static_cast<std::uint64_t>(1e9 * clock_seconds(CLOCK_REALTIME));
   }

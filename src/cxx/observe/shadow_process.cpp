@@ -8,7 +8,6 @@
 #include <signal.h>
 #include <spawn.h>
 #include <stdlib.h>
-#include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -17,6 +16,7 @@
 #include <vector>
 
 #include "base/environment.h"
+#include "base/system.h"
 #include "base/transfer.h"
 #include "parallel/cost.h"
 
@@ -51,12 +51,13 @@ std::string program() {
 }
 
 /// The model's environment without the variables of MPI launchers and of this library, and without
-/// LD_PRELOAD: the program is not a rank of the model's job.
+/// LD_PRELOAD (macOS: DYLD_INSERT_LIBRARIES): the program is not a rank of the model's job.
 std::vector<char*> environment_of_program() {
   std::vector<char*> variables;
-  for (char** variable = environ; *variable != nullptr; ++variable) {
+  for (char** variable = all_environment_variables(); *variable != nullptr; ++variable) {
     const bool is_of_model = is_from_mpi_launcher(*variable) || starts_with(*variable, "PSTRIPACK_") ||
-                             starts_with(*variable, "LD_PRELOAD=");
+                             starts_with(*variable, "LD_PRELOAD=") ||
+                             starts_with(*variable, "DYLD_INSERT_LIBRARIES=");
     if (!is_of_model) variables.push_back(*variable);
   }
   variables.push_back(nullptr);
@@ -136,7 +137,7 @@ void ShadowProcess::start() {
     if (log < 0) fail(log_, errno);
   }
   int ends[2];
-  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) fail("socketpair", errno);
+  if (!open_stream(ends)) fail("socketpair", errno);
   for (int& end : ends) end = away_from_standard_files(end);
 
   SpawnOptions options;
@@ -182,8 +183,8 @@ void ShadowProcess::send(iovec* parts, int count) {
   const bool sent = socket_is_open() && transfer_all(parts, count, [this](iovec* some, int number) {
                       msghdr message{};
                       message.msg_iov = some;
-                      message.msg_iovlen = static_cast<std::size_t>(number);
-                      return sendmsg(socket_, &message, MSG_NOSIGNAL);
+                      message.msg_iovlen = static_cast<decltype(message.msg_iovlen)>(number);
+                      return send_without_signal(socket_, message);
                     });
   if (!sent) throw std::runtime_error("stripack-compare has ended");
 }

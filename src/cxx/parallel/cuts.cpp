@@ -45,11 +45,11 @@ std::vector<double> Halver::heights(const Point* p, std::size_t n, std::size_t f
   std::size_t up_to = before;
   int end = bin;
   while (up_to < last) up_to += count[end++];
-  std::vector<double> inside(up_to - before + 1);  // the last one is written, but not kept
-  std::size_t kept = 0;
+  std::vector<double> inside(up_to - before + 1);  // the last one is written, but not counted
+  std::size_t found = 0;
   for (const double h : height_) {
-    inside[kept] = h;
-    kept += (bin_of(h) >= bin) & (bin_of(h) < end);
+    inside[found] = h;
+    found += (bin_of(h) >= bin) & (bin_of(h) < end);
   }
   std::sort(inside.begin(), inside.end() - 1);
   const auto begin = inside.begin() + static_cast<std::ptrdiff_t>(first - before);

@@ -106,7 +106,7 @@ void find_routes(const Here& here, Routes& routes) {
     routes.sent[0].own = routes.count[0][0].own = nodes;
     return;
   }
-  routes.owner = routes.memory.keep<PatchOfNode>(nodes);
+  routes.owner = routes.memory.for_call<PatchOfNode>(nodes);
   ErrorsOfThreads errors(threads);
   parallel_pieces(nodes, static_cast<int>(threads), [&](std::size_t first, std::size_t last, int piece) {
     const auto t = static_cast<std::size_t>(piece);
@@ -265,7 +265,7 @@ void place_nodes(const Here& here, const Routes& routes, Parcels arrived, Delive
     records += all.all();
   }
   delivery.memory = std::make_unique<Workspace>(records * sizeof(Record));
-  Record* at = delivery.memory->keep<Record>(records);
+  Record* at = delivery.memory->for_call<Record>(records);
   Destinations<Record> to(routes.sent.size());
   for (PatchHere k = 0; k < segments.size(); ++k) {
     const std::size_t q = static_cast<std::size_t>(here.patches().first(here.me)) + k;
@@ -300,7 +300,7 @@ Delivery deliver(const LocalNodes& nodes, const Division& division, Communicator
     routes.emplace(nodes.count, count, static_cast<std::size_t>(threads));
     ReturnAddresses& addresses = delivery.addresses;
     addresses.memory = std::make_unique<Workspace>(nodes.count * sizeof *addresses.position);
-    addresses.position = addresses.memory->keep<std::uint32_t>(nodes.count);
+    addresses.position = addresses.memory->for_call<std::uint32_t>(nodes.count);
     find_routes(here, *routes);
     addresses.away_begin.assign(1, 0);
     for (std::size_t q = 0; q < count; ++q)

@@ -37,8 +37,8 @@ struct Headcount {
 
 /// A sample of the nodes of all ranks, to which each rank has written its share.
 struct GlobalSample {
-  bool keeps_patches = false;  ///< of the last call
-  bool looks_through = true;   ///< for hidden nodes; not where the last call found none
+  bool reuses_patches = false;  ///< of the last call
+  bool looks_through = true;    ///< for hidden nodes; not where the last call found none
   BlockArray<Record> nodes;
   std::vector<std::size_t> begin;     ///< bytes that the ranks bring
   std::vector<std::int64_t> counter;  ///< memory for the counters of cut_anew()
@@ -47,13 +47,13 @@ struct GlobalSample {
 /// Writes this rank's share of a sample.
 GlobalSample begin_sample(const LocalNodes& nodes, const std::vector<Headcount>& heads,
                           const Division& division, RankNumber me, const ParallelOptions& options,
-                          bool keeps_patches) {
+                          bool reuses_patches) {
   GlobalSample sample;
-  sample.keeps_patches = keeps_patches;
-  sample.looks_through = !keeps_patches || options.last->lengths() != division.places.lengths();
+  sample.reuses_patches = reuses_patches;
+  sample.looks_through = !reuses_patches || options.last->lengths() != division.places.lengths();
   const std::size_t usual = sample_size(division.nodes, static_cast<std::size_t>(division.patches.count())),
                     enough = sample.looks_through ? kLookedThrough : options.closing_nodes;
-  const std::size_t wanted = std::min(division.nodes, keeps_patches ? enough : usual);
+  const std::size_t wanted = std::min(division.nodes, reuses_patches ? enough : usual);
   sample.begin.assign(1, 0);
   std::size_t before = 0, mine = 0;
   for (RankNumber r = 0; r < heads.size(); ++r) {
@@ -64,7 +64,7 @@ GlobalSample begin_sample(const LocalNodes& nodes, const std::vector<Headcount>&
   }
   sample.nodes = BlockArray<Record>(sample.begin.back() / sizeof(Record));
   write_share(nodes, mine, sample.nodes.data() + sample.begin[me] / sizeof(Record));
-  if (!keeps_patches)
+  if (!reuses_patches)
     sample.counter.resize(Cuts::counters(std::max(1, Cuts::levels(division.patches.count())) - 1));
   return sample;
 }
@@ -182,8 +182,8 @@ bool cuts_many_triangles(const Division& division, BlockArray<Record>& sample, c
          cuts_many(SIZE_MAX, some_of(sample, sample.size() + 1, {corners.begin(), corners.end()}));
 }
 
-/// Agrees with all ranks on what there is, and on whether the patches of the last call are kept. Collective.
-/// Throws AgreedFailure.
+/// Agrees with all ranks on what there is, and on whether the patches of the last call are used again.
+/// Collective. Throws AgreedFailure.
 GlobalSample sample_of_all(const LocalNodes& nodes, Communicator& ranks, const ParallelOptions& options,
                            Division& division) {
   const auto me = static_cast<RankNumber>(ranks.rank()), size = static_cast<std::size_t>(ranks.size());
@@ -193,17 +193,17 @@ GlobalSample sample_of_all(const LocalNodes& nodes, Communicator& ranks, const P
       ranks.all_gather_one(Headcount{nodes.count, options.patches, at_home}.encode());
   GlobalSample sample;
   std::vector<Headcount> heads;
-  bool keeps_patches = last != nullptr;
+  bool reuses_patches = last != nullptr;
   in_agreement(ranks, [&] {
     for (RankNumber r = 0; r < size; ++r) {
       heads.push_back(Headcount::decode(encoded[r]));
       division.patches.add(heads.back().patches);
       division.nodes += heads.back().nodes;
-      keeps_patches = keeps_patches && heads.back().are_at_home;
+      reuses_patches = reuses_patches && heads.back().are_at_home;
     }
-    keeps_patches =
-        keeps_patches && last->are_for(options.partition, division.patches, division.places.lengths());
-    sample = begin_sample(nodes, heads, division, me, options, keeps_patches);
+    reuses_patches =
+        reuses_patches && last->are_for(options.partition, division.patches, division.places.lengths());
+    sample = begin_sample(nodes, heads, division, me, options, reuses_patches);
   });
   return sample;
 }
@@ -224,7 +224,7 @@ Division divide(const LocalNodes& nodes, const Corners& corners, const Places& p
   });
   if (options.given != nullptr) {
     division.partition = options.given;
-  } else if (sample.keeps_patches) {
+  } else if (sample.reuses_patches) {
     division.partition = options.last->partition();
   } else {
     outcome = cut_anew(nodes, sample, options.partition, ranks, division, outcome);

@@ -32,8 +32,8 @@ struct ParallelOptions {
   std::shared_ptr<const Partition> given;
   /// For tests: about the number of nodes that all patches know.
   std::size_t closing_nodes = 256;
-  /// The homes of an earlier call on these ranks; set on all of them or on none. Its patches are kept if
-  /// nearly all nodes lie in patches of the ranks that bring them and no rank has too many, so nodes that
+  /// The homes of an earlier call on these ranks; set on all of them or on none. Its patches are used again
+  /// if nearly all nodes lie in patches of the ranks that bring them and no rank has too many, so nodes that
   /// were sent home stay at home.
   const Homes* last = nullptr;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Where the nodes of the next call should be: in the patches of the last call, if these are kept.
+// Where the nodes of the next call should be: in the patches of the last call, if these are used again.
 
 #include <cstddef>
 #include <memory>

@@ -6,8 +6,8 @@
 // patches when the first such call began. It reads where these nodes are now, or is told by the ranks that
 // have their slices (pool on several machines), and sends the rings that have changed to those ranks.
 //
-// As on threads, the first call keeps a sample, the next one whose nodes fit keeps the rings, the third
-// begins with them. One set of rings is kept. Where only rank 0 can read all nodes, its sample decides.
+// As on threads, the first call caches a sample, the next one whose nodes fit caches the rings, the third
+// begins with them. One set of rings is cached. Where only rank 0 can read all nodes, its sample decides.
 
 #include <cstddef>
 #include <cstdint>
@@ -40,7 +40,7 @@ class LastRings {
   void send_places(const LocalNodes& slice, Communicator& ranks);
   void replace(const Parcels& changed);
 
-  const Stay stay_;
+  const CacheReservation stay_;
   const std::size_t first_node_;
   const std::unique_ptr<const Homes> homes_;
   NodeRanges slices_;

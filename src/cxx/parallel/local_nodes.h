@@ -37,7 +37,7 @@ inline std::size_t slice_begin(std::size_t n, RankNumber rank, std::size_t ranks
 }
 
 /// What one pass over all coordinates finds. After agree_on() the votes hold for the nodes of all ranks.
-struct Look {
+struct NodeCheck {
   std::size_t first_bad = 0;  ///< the first node (from 0) without a direction; their number if all have one
   OnAll lengths_are_one;
   LargestReal deviation;  ///< difference of the square of a length from 1
@@ -47,8 +47,8 @@ struct Look {
 /// Passes over the n nodes point(i) on `threads` threads (see threads_for). Calls point(i) once for each
 /// node, and perhaps once more if some length is not 1.
 template <class GetPoint>
-Look look_at(std::size_t n, int threads, const GetPoint& point) {
-  Look all{n, {}, {}, {}};
+NodeCheck check_nodes(std::size_t n, int threads, const GetPoint& point) {
+  NodeCheck all{n, {}, {}, {}};
   std::mutex mutex;
   parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int) {
     std::size_t first_bad = n;
@@ -69,8 +69,8 @@ Look look_at(std::size_t n, int threads, const GetPoint& point) {
   return all;
 }
 
-inline Look look_at(const NodeArrays& nodes, std::size_t n) {
-  return nodes.visit([=](const auto& node) { return look_at(n, threads_for(n), node); });
+inline NodeCheck check_nodes(const NodeArrays& nodes, std::size_t n) {
+  return nodes.visit([=](const auto& node) { return check_nodes(n, threads_for(n), node); });
 }
 
 }  // namespace pstripack

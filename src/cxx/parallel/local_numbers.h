@@ -31,7 +31,7 @@ using LastNode = std::uint32_t;
 using PatchNode = std::uint32_t;
 
 /// A node that another rank brings and that is a neighbour of nodes here: which of the nodes outside. In the
-/// mesh that the rank keeps, it is MeshNode (mesh/flips.h) count + j, after the LocalNodes.
+/// cached mesh it is MeshNode (mesh/flips.h) count + j, after the LocalNodes.
 enum class OutsideNode : std::uint32_t {};
 constexpr std::uint32_t index_of(OutsideNode node) { return static_cast<std::uint32_t>(node); }
 

@@ -346,7 +346,7 @@ template <class Int, class Number>
 Buffer<Int> MovingStars::rings_of(const std::vector<LocalNode>& nodes, const Number& number) const {
   std::size_t entries = 0;
   for (const LocalNode k : nodes) entries += 1 + mesh_->degree(k);
-  Buffer<Int> rings(entries + kBlock);  // see copy_kept_ring
+  Buffer<Int> rings(entries + kBlock);  // see copy_ring
   std::vector<std::int32_t> ring;
   Int* at = rings.data();
   for (const LocalNode k : nodes) {

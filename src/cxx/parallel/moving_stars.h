@@ -125,7 +125,7 @@ class MovingStars {
   const NodeRanges ranges_;
   const std::size_t size_;  ///< number of ranks
   const RankOfNode me_;
-  std::optional<Stay> stay_;
+  std::optional<CacheReservation> stay_;
   std::optional<MovingMesh> mesh_;
   std::vector<Outside> outside_;  ///< by OutsideNode
   /// Neighbours among outside_ by number; none after these have changed.

@@ -86,7 +86,7 @@ class Patch {
   void* room_for_rings(std::size_t bytes) const { return hull_.room_for_rings(bytes); }
 
   /// Writes the rings of its own nodes to `out`, which has room for all and 2*kBlock entries more; calls
-  /// visit(i, place, count) for each: the ring of its node i is kept at `place`; soon(i) some time before.
+  /// visit(i, place, count) for each: the ring of its node i lies at `place`; soon(i) some time before.
   template <class Visit, class Soon>
   StarSums write_rings(Int* out, const Visit& visit, const Soon& soon) const {
     const Int* const end = hull_.write_rings(finished_, out, visit, soon);

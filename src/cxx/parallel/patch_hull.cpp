@@ -26,12 +26,12 @@ void PatchHull<Int>::set_up(const PatchNodes& nodes, const std::vector<Record>& 
   const std::size_t first = leading.size();
   built_ = nodes.count() + first;
   arrays_.capacity = capacity_for(built_);
-  order_ = workspace.keep<PatchNode>(built_);
+  order_ = workspace.for_call<PatchNode>(built_);
   leading_ =
       first + insertion_order(&nodes.first->point, nodes.count(), order_ + first, workspace, sizeof(Record));
   workspace.next_phase();
-  arrays_.nodes = workspace.keep<Point>(arrays_.capacity);
-  number_ = workspace.keep<Int>(arrays_.capacity);
+  arrays_.nodes = workspace.for_call<Point>(arrays_.capacity);
+  number_ = workspace.for_call<Int>(arrays_.capacity);
   for (std::size_t v = 0; v < first; ++v) {
     order_[v] = static_cast<PatchNode>(nodes.count() + v);
     arrays_.nodes[v] = leading[v].point;
@@ -44,9 +44,9 @@ void PatchHull<Int>::set_up(const PatchNodes& nodes, const std::vector<Record>& 
     arrays_.nodes[v] = r.point;
     number_[v] = static_cast<Int>(r.number);
   }
-  arrays_.faces = workspace.keep<Face>(2 * arrays_.capacity);
-  arrays_.corner = workspace.keep<HullCorner>(arrays_.capacity);
-  arrays_.planes = workspace.take<Plane>(2 * arrays_.capacity);
+  arrays_.faces = workspace.for_call<Face>(2 * arrays_.capacity);
+  arrays_.corner = workspace.for_call<HullCorner>(arrays_.capacity);
+  arrays_.planes = workspace.for_phase<Plane>(2 * arrays_.capacity);
   first_planes_ = arrays_.planes;
   growing_ = GrowingHull::make(arrays_, built_, places_.lengths());
   growing_->look_for_hidden_nodes(leading_);

@@ -18,7 +18,7 @@ Patches<Int> triangulate_patches(const Delivery& delivery, const Division& divis
                       (patch.workspace_bytes(division.closing.size()) + kPage - 1) / kPage * kPage);
     }
     patches.memory = std::make_unique<Workspace>(begin.back());
-    unsigned char* const memory = patches.memory->template keep<unsigned char>(begin.back());
+    unsigned char* const memory = patches.memory->template for_call<unsigned char>(begin.back());
     patches.for_each(threads, [&](Patch<Int>& patch, PatchHere k) {
       Workspace part(memory + begin[k], begin[k + 1] - begin[k]);
       patch.set_up(division.closing, part);

@@ -18,8 +18,8 @@ struct Table {
 
   void make_room(std::size_t rings) {
     memory = std::make_unique<Workspace>(rings * (sizeof *place + sizeof *size_class));
-    place = memory->template keep<const Int*>(rings);
-    size_class = memory->template keep<std::uint8_t>(rings);
+    place = memory->template for_call<const Int*>(rings);
+    size_class = memory->template for_call<std::uint8_t>(rings);
   }
 };
 
@@ -37,7 +37,7 @@ std::unique_ptr<Workspace> write_rings(Patches<Int>& patches, const ReturnAddres
   Int* room = nullptr;
   if (apart) {
     memory = std::make_unique<Workspace>(begin.back() * sizeof(Int));
-    room = memory->template keep<Int>(begin.back());
+    room = memory->template for_call<Int>(begin.back());
   }
   more_memory.resize(patches.of_rank.size());
   std::vector<StarSums> of_patch(patches.of_rank.size());
@@ -81,7 +81,7 @@ Parcels rings_for_others(const Table<Int>& table, const ReturnAddresses& address
         entries += 1 + RingTable<Int>::count_of(table.place[i], table.size_class[i]);
       writer.expect<Int>(r, entries);
     });
-  writer.make_room(kBlock * sizeof(Int));  // see copy_kept_ring
+  writer.make_room(kBlock * sizeof(Int));  // see copy_ring
   if (writer.empty()) return writer.finish();
   for (RankNumber r = 0; r < size; ++r) {
     auto* at = writer.room<Int>(r, 0);
@@ -89,7 +89,7 @@ Parcels rings_for_others(const Table<Int>& table, const ReturnAddresses& address
       constexpr std::size_t kAhead = 16;  // they lie in the order of the hulls
       for (std::size_t i = first; i < last; ++i) {
         if (i + kAhead < last) __builtin_prefetch(table.place[i + kAhead]);
-        at = copy_kept_ring(table.place[i], at);
+        at = copy_ring(table.place[i], at);
       }
     });
   }

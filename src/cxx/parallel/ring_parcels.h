@@ -47,10 +47,10 @@ Stars<Int> copied_stars(std::size_t n, const GetRing& ring, const Entry& entry) 
   std::size_t entries = 0;
   for (std::size_t i = 0; i < n; ++i) entries += 1 + ring(i).count;
   auto memory = std::make_unique<Workspace>(n * (sizeof(std::uint32_t) + sizeof(Int*) + 1));
-  auto* const position = memory->keep<std::uint32_t>(n);
-  auto** const place = memory->keep<const Int*>(n);
-  auto* const size_class = memory->keep<std::uint8_t>(n);
-  Buffer<Int> rings(entries + kBlock);  // see copy_kept_ring
+  auto* const position = memory->for_call<std::uint32_t>(n);
+  auto** const place = memory->for_call<const Int*>(n);
+  auto* const size_class = memory->for_call<std::uint8_t>(n);
+  Buffer<Int> rings(entries + kBlock);  // see copy_ring
   Int* at = rings.data();
   for (std::size_t i = 0; i < n; ++i) {
     const Ring<Int> r = ring(i);

@@ -77,7 +77,7 @@ Stars<Int> triangulate_places(const LocalNodes& nodes, const Corners& corners, c
 }  // namespace
 
 template <class Int>
-Stars<Int> triangulate(const LocalNodes& nodes, const Look& look, const Point (&corners)[3],
+Stars<Int> triangulate(const LocalNodes& nodes, const NodeCheck& check, const Point (&corners)[3],
                        const std::int64_t (&numbers)[3], Communicator& ranks, const ParallelOptions& options,
                        ParallelCost* cost) {
   ParallelCost own_cost;
@@ -86,7 +86,7 @@ Stars<Int> triangulate(const LocalNodes& nodes, const Look& look, const Point (&
   for (std::size_t k = 0; k < 3; ++k) records[k] = {corners[k], GlobalNumber{numbers[k]}};
   std::unique_ptr<Homes> homes;
   const auto run = [&](Lengths lengths) {
-    const Places places(lengths, look.deviation.value);
+    const Places places(lengths, check.deviation.value);
     try {
       return triangulate_places<Int>(nodes, records, places, ranks, options, c, &homes);
     } catch (const PatchesDoNotPay&) {
@@ -102,7 +102,7 @@ Stars<Int> triangulate(const LocalNodes& nodes, const Look& look, const Point (&
   };
   // The predicates must be the same everywhere.
   const auto run_all = [&] {
-    if (look.lengths_are_one.value && !look.by_direction.value) {
+    if (check.lengths_are_one.value && !check.by_direction.value) {
       try {
         return run(Lengths::as_given);
       } catch (const HiddenNode&) {
@@ -117,10 +117,10 @@ Stars<Int> triangulate(const LocalNodes& nodes, const Look& look, const Point (&
   return stars;
 }
 
-template Stars<std::int32_t> triangulate(const LocalNodes&, const Look&, const Point (&)[3],
+template Stars<std::int32_t> triangulate(const LocalNodes&, const NodeCheck&, const Point (&)[3],
                                          const std::int64_t (&)[3], Communicator&, const ParallelOptions&,
                                          ParallelCost*);
-template Stars<std::int64_t> triangulate(const LocalNodes&, const Look&, const Point (&)[3],
+template Stars<std::int64_t> triangulate(const LocalNodes&, const NodeCheck&, const Point (&)[3],
                                          const std::int64_t (&)[3], Communicator&, const ParallelOptions&,
                                          ParallelCost*);
 

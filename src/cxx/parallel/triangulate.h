@@ -13,16 +13,16 @@
 namespace pstripack {
 
 /// What all ranks see: lengths and deviation become those of all nodes. Collective.
-inline void agree_on(Look& look, Communicator& ranks) {
-  agree(ranks, look.lengths_are_one, look.deviation, look.by_direction);
+inline void agree_on(NodeCheck& check, Communicator& ranks) {
+  agree(ranks, check.lengths_are_one, check.deviation, check.by_direction);
 }
 
 /// The triangulation of the nodes of all ranks together, at least three and not all on one great circle
-/// (`corners`: three of them that are not, the same on every rank). `look`: what all ranks see; all nodes
+/// (`corners`: three of them that are not, the same on every rank). `check`: what all ranks see; all nodes
 /// must have a direction. Collective. Throws AgreedFailure, on every rank; PatchesDoNotPay if there is one
 /// rank.
 template <class Int>
-Stars<Int> triangulate(const LocalNodes& nodes, const Look& look, const Point (&corners)[3],
+Stars<Int> triangulate(const LocalNodes& nodes, const NodeCheck& check, const Point (&corners)[3],
                        const std::int64_t (&numbers)[3], Communicator& ranks, const ParallelOptions& options,
                        ParallelCost* cost = nullptr);
 

@@ -34,8 +34,8 @@ namespace {
 struct Order {
   std::int32_t real_bytes = 0;  ///< 4 or 8, the size of the nodes' reals; 0: the end
   std::int32_t n = 0;
-  std::int64_t area = 0;                ///< number of the area that holds the arrays
-  std::int32_t process = 0, file = -1;  ///< the process, and its descriptor of the area
+  std::int64_t area = 0;    ///< number of the area that holds the arrays
+  SharedArea::Name name{};  ///< its name, if it is new
 };
 
 void tell_workers(const Order& order) { tell_others(&order, sizeof order); }
@@ -181,7 +181,7 @@ bool Steward::serve(Client& client, MpiCommunicator& ranks) {
     return send_packet(client.socket, &reply, sizeof reply);
 
   ranks.set_phase("the start of a call");
-  Order order{request.real_bytes, request.n, client.area_number, getpid(), client.area.file().get()};
+  Order order{request.real_bytes, request.n, client.area_number, client.area.name()};
   tell_workers(order);
   TrmeshResult result{0};
   try {
@@ -212,7 +212,7 @@ void serve_as_worker(MpiCommunicator& ranks, bool beside_rank_0) {
     if (order.real_bytes == 0) return;
     if (order.area != area_number) {
       area = SharedArea();
-      if (beside_rank_0) area = SharedArea::map_of(order.process, order.file);
+      if (beside_rank_0) area = SharedArea::map(order.name.text);
       area.close_file();
       area_number = order.area;
     }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "stripack/sphere.h"
+#include "stripack/coordinates_and_areas.h"
 
 namespace pstripack {
 

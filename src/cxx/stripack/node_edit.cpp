@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "stripack/coordinates_and_areas.h"
 #include "stripack/search.h"
-#include "stripack/sphere.h"
 
 namespace pstripack {
 

@@ -101,7 +101,7 @@ class Search {
     if (n_ < 3 || !is_finite(p_)) return nowhere;
     const OriginalRules& rules = original_rules();
     Seeds<std::int32_t> fresh_seeds;
-    Seeds<std::int32_t>& seeds = rules.follow ? kept_seeds() : fresh_seeds;
+    Seeds<std::int32_t>& seeds = rules.follow ? seeds_of_thread() : fresh_seeds;
     const auto draw = [&](Int n) {  // JRAND's n+1, with which the original reads past LEND, becomes n
       return std::min(n, rules.random<Real>(n, seeds));
     };

@@ -23,8 +23,8 @@ struct Location {
 ///
 /// The walk of Renka, ACM TOMS 23 (1997), Algorithm 772, by rounded tests. If it fails it restarts at a
 /// random node. The random seeds are 1, 2, 3 in every call, so that there is no state; under original rules
-/// they are the thread's kept_seeds. If restarts do not succeed soon, a walk by exact signs decides. O(sqrt
-/// n) steps in a Delaunay triangulation of evenly spread nodes. Allocates nothing.
+/// they are the thread's seeds_of_thread. If restarts do not succeed soon, a walk by exact signs decides.
+/// O(sqrt n) steps in a Delaunay triangulation of evenly spread nodes. Allocates nothing.
 template <class Real, class Int>
 Location<Int> trfind(Int start, const Vector<Real>& p, const ListsView<Int>& lists, const Nodes<Real>& nodes,
                      Real& b1, Real& b2, Real& b3);

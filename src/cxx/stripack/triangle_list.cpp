@@ -130,11 +130,11 @@ class TriangleList {
   }
   void lay_out(Workspace& space) {
     const std::size_t triangles = index(most_triangles()) + 1;
-    left_ = space.keep<Number>(left_size());
-    claims_ = space.keep<Claims>(nodes());
-    before_ = space.keep<Int>(blocks_.count() + 1);
-    beyond_ = space.keep<Side>(triangles);
-    if (rows_ == 9) arcs_ = space.keep<Number>(triangles);
+    left_ = space.for_call<Number>(left_size());
+    claims_ = space.for_call<Claims>(nodes());
+    before_ = space.for_call<Int>(blocks_.count() + 1);
+    beyond_ = space.for_call<Side>(triangles);
+    if (rows_ == 9) arcs_ = space.for_call<Number>(triangles);
   }
 
   /// Calls work(block, thread) for all blocks. Each thread takes its blocks from the last to the first.

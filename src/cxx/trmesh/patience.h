@@ -8,7 +8,7 @@ namespace pstripack {
 /// With fewer nodes a cold call is so fast that a warm start does not pay.
 constexpr std::size_t kFewestForWarmStart = 1000;
 
-/// Decides when to keep a whole mesh for a warm start: after a number of calls in which the sample of stars
+/// Decides when to cache a whole mesh for a warm start: after a number of calls in which the sample of stars
 /// of the call before fitted. The number is 1 at first; each warm start that fails doubles it, up to 64.
 class Patience {
  public:

@@ -30,20 +30,20 @@ class OnThreads {
         copied_at_once_(!on_threads_ && !in_original_order) {}
 
   /// Checks the first n nodes. Returns the first (from 0) that is zero or not finite; n if there is none.
-  std::size_t look(std::size_t n) {
+  std::size_t check(std::size_t n) {
     n_ = n;
     if (copied_at_once_) {
       copy();
     } else {
       const PhaseTimer timer(cost_, ParallelCost::divide);
-      look_ = look_at(call_.nodes, n);
+      check_ = check_nodes(call_.nodes, n);
     }
-    look_.by_direction.value = call_.by_direction;
-    return look_.first_bad;
+    check_.by_direction.value = call_.by_direction;
+    return check_.first_bad;
   }
 
   std::optional<Coincidence> triangulate(std::size_t n) {
-    if (n != n_) look(n);
+    if (n != n_) check(n);
     const CoincidentPairs pairs = on_threads_ ? by_patches() : by_one_hull();
     if (pairs.empty()) return std::nullopt;
     return first_coincidence(pairs);
@@ -68,9 +68,9 @@ class OnThreads {
     const PhaseTimer timer(cost_, ParallelCost::divide);
     if (!workspace_) workspace_.emplace(workspace_bytes(n_));
     workspace_->clear();
-    copy_ = workspace_->take<Point>(n_);
-    look_ = call_.nodes.visit([&](const auto& node) {
-      return look_at(n_, threads_for(n_), [&](std::size_t i) { return copy_[i] = node(i); });
+    copy_ = workspace_->for_phase<Point>(n_);
+    check_ = call_.nodes.visit([&](const auto& node) {
+      return check_nodes(n_, threads_for(n_), [&](std::size_t i) { return copy_[i] = node(i); });
     });
   }
 
@@ -83,8 +83,8 @@ class OnThreads {
     if (cost_ != nullptr) cost_->threads = options_.threads;
     stars_.reset();
     try {
-      stars_ = pstripack::triangulate<std::int32_t>({nodes, n_}, look_, corners, {1, 2, 3}, process, options_,
-                                                    cost_);
+      stars_ = pstripack::triangulate<std::int32_t>({nodes, n_}, check_, corners, {1, 2, 3}, process,
+                                                    options_, cost_);
       return stars_->coincident;
     } catch (const PatchesDoNotPay&) {
       return by_one_hull();
@@ -104,8 +104,8 @@ class OnThreads {
   const TrmeshCall& call_;
   ParallelCost* const cost_;
   const bool on_threads_, copied_at_once_;
-  std::size_t n_ = 0;  ///< number of nodes checked by look()
-  Look look_;
+  std::size_t n_ = 0;  ///< number of nodes checked by check()
+  NodeCheck check_;
   ParallelOptions options_;
   std::optional<Stars<std::int32_t>> stars_;  ///< if triangulated by patches
   std::optional<Workspace> workspace_;        ///< for one hull
@@ -117,7 +117,7 @@ class OnThreads {
 /// PSTRIPACK_ORDER=bitwise, at least a triangulation (`inexact`). Otherwise nothing is written.
 TrmeshResult lists_in_original_order(const TrmeshCall& call, ParallelCost* cost) {
   const OriginalRules& rules = original_rules();
-  const Seeds<std::int32_t> seeds = kept_seeds();
+  const Seeds<std::int32_t> seeds = seeds_of_thread();
   InsertedNodes<std::int32_t> inserted;
   const auto insert = [&](Hopeless hopeless, StartSearch start_search) {
     const PhaseTimer timer(cost, ParallelCost::triangulate);
@@ -147,7 +147,7 @@ TrmeshResult lists_in_original_order(const TrmeshCall& call, ParallelCost* cost)
   if (rules.bitwise && result.order != OriginalOrder::made) {
     // Repeat to the end, by the original's bookkeeping alone: locating nodes is valid only while the
     // triangulation is correct.
-    kept_seeds() = seeds;
+    seeds_of_thread() = seeds;
     insert(Hopeless::goes_on, StartSearch::simulated);
     result = outcome(OriginalOrder::inexact, OriginalOrder::broken,
                      [&] { return static_cast<bool>(check_topology(inserted.view())); });
@@ -172,7 +172,7 @@ TrmeshResult carry_out(const TrmeshCall& call, bool follow, ParallelCost* cost) 
     if (warm_start->write_lists(call.lists, cost)) return {0};
   }
   OnThreads way(call, follow, cost);
-  const std::size_t first_bad = way.look(n);
+  const std::size_t first_bad = way.check(n);
   if (first_bad < n) return {-5, static_cast<std::int64_t>(first_bad) + 1};
   const bool are_collinear = left(call.nodes[0], call.nodes[1], call.nodes[2]) == 0;
 

@@ -31,12 +31,12 @@ SampleOfStars sample_of(std::size_t n, const std::int32_t* list, const std::int3
 }  // namespace
 
 /// LIST and LEND of a mesh. `mesh` is made by the first call that starts from it.
-struct KeptMesh {
-  KeptMesh(std::size_t n, std::size_t slots)
+struct CachedMesh {
+  CachedMesh(std::size_t n, std::size_t slots)
       : stay((slots + n) * sizeof(std::int32_t) + MovingMesh::bytes(n, slots, n)), list(slots), lend(n) {}
   std::int32_t begin(std::size_t k) const { return k == 0 ? 0 : lend[k - 1]; }
 
-  const Stay stay;
+  const CacheReservation stay;
   BlockArray<std::int32_t> list, lend;
   std::optional<MovingMesh> mesh;
 };
@@ -46,18 +46,18 @@ struct LastMesh {
   pid_t process;
   SampleOfStars sample;
   Patience patience;
-  std::unique_ptr<KeptMesh> kept = nullptr;
+  std::unique_ptr<CachedMesh> cached = nullptr;
   Confirm confirm = Confirm::nothing;  ///< of the call that left the mesh
 
   void lose_patience() {
     patience.fail();
-    kept.reset();
+    cached.reset();
   }
 };
 
 namespace {
 
-constexpr std::size_t kLast = 4;  ///< number of meshes kept
+constexpr std::size_t kLast = 4;  ///< number of meshes cached
 std::atomic<LastMesh*> last_meshes[kLast];
 std::atomic<unsigned> next_to_go{0};
 
@@ -91,23 +91,24 @@ void put_back(std::unique_ptr<LastMesh> last) {
 
 // ---- lists ------------------------------------------------------------------------------------------------
 
-/// The differences between the current lists of a mesh and the kept ones.
+/// The differences between the current lists of a mesh and the cached ones.
 class ListChanges {
  public:
   ListChanges() = default;
   /// Throws std::bad_alloc.
-  explicit ListChanges(const KeptMesh& kept) : changes_(kept.mesh->changes()), shift_(changes_.size() + 1) {
+  explicit ListChanges(const CachedMesh& cached)
+      : changes_(cached.mesh->changes()), shift_(changes_.size() + 1) {
     for (std::size_t j = 0; j < changes_.size(); ++j) {
       const auto [k, count] = changes_[j];
-      shift_[j + 1] = shift_[j] + static_cast<std::int32_t>(count) - (kept.lend[k] - kept.begin(k));
+      shift_[j + 1] = shift_[j] + static_cast<std::int32_t>(count) - (cached.lend[k] - cached.begin(k));
     }
   }
   std::size_t count() const { return changes_.size(); }
 
-  /// Writes the lists of the mesh: runs of the kept lists, and a new ring for each change. Parallel.
-  void write(const KeptMesh& kept, std::int32_t* list, std::int32_t* lptr, std::int32_t* lend) const {
-    const std::size_t n = kept.mesh->size();
-    const std::int32_t *const old_list = kept.list.data(), *const old_end = kept.lend.data();
+  /// Writes the lists of the mesh: runs of the cached lists, and a new ring for each change. Parallel.
+  void write(const CachedMesh& cached, std::int32_t* list, std::int32_t* lptr, std::int32_t* lend) const {
+    const std::size_t n = cached.mesh->size();
+    const std::int32_t *const old_list = cached.list.data(), *const old_end = cached.lend.data();
     const int threads = threads_for(n);
     parallel_pieces(n, threads, [&](std::size_t first, std::size_t last, int) {
       auto j = static_cast<std::size_t>(
@@ -115,13 +116,13 @@ class ListChanges {
                            [](const MovingMesh::Change& c, std::size_t k) { return c.node < k; }) -
           changes_.begin());
       for (std::size_t k = first; k < last;) {
-        const std::int32_t begin = kept.begin(k), shift = shift_[j];
+        const std::int32_t begin = cached.begin(k), shift = shift_[j];
         const std::size_t end = j < changes_.size() ? std::min<std::size_t>(changes_[j].node, last) : last;
         if (end > k) std::copy(old_list + begin, old_list + old_end[end - 1], list + begin + shift);
         for (; k < end; ++k) lend[k] = old_end[k] + shift;
         if (k == last) break;
-        const std::int32_t place = kept.begin(k) + shift;
-        kept.mesh->write_ring(k, list + place);
+        const std::int32_t place = cached.begin(k) + shift;
+        cached.mesh->write_ring(k, list + place);
         lend[k++] = place + static_cast<std::int32_t>(changes_[j++].count);
       }
     });
@@ -150,12 +151,12 @@ WarmStart::~WarmStart() {
   if (last_ != nullptr) put_back(std::move(last_));
 }
 
-bool WarmStart::is_prepared() const { return last_ != nullptr && last_->kept != nullptr; }
+bool WarmStart::is_prepared() const { return last_ != nullptr && last_->cached != nullptr; }
 
 /// Sets the positions of the mesh's nodes. Returns whether all have length one, and whether any has moved.
-std::pair<bool, bool> WarmStart::move_nodes(KeptMesh& kept) const {
+std::pair<bool, bool> WarmStart::move_nodes(CachedMesh& cached) const {
   constexpr std::size_t kAhead = 16;
-  const bool is_new = !kept.mesh, is_exact = confirm_ == Confirm::directions;
+  const bool is_new = !cached.mesh, is_exact = confirm_ == Confirm::directions;
   const auto is_one = [&](const Point& p) {
     return is_exact ? length_is_one_up_to_rounding(p) : length_is_one(p);
   };
@@ -163,9 +164,9 @@ std::pair<bool, bool> WarmStart::move_nodes(KeptMesh& kept) const {
     BlockArray<Point> points(n_);
     nodes_.copy(0, n_, points.data());
     if (!std::all_of(points.begin(), points.end(), is_one)) return {false, false};
-    kept.mesh.emplace(points.data(), n_, kept.list.data(), kept.lend.data());
+    cached.mesh.emplace(points.data(), n_, cached.list.data(), cached.lend.data());
   }
-  MovingMesh& mesh = *kept.mesh;
+  MovingMesh& mesh = *cached.mesh;
   std::atomic<bool> all_have_length_one{true}, any_has_moved{is_new};
   nodes_.visit([&](const auto& node) {
     parallel_pieces(n_, threads_for(n_), [&](std::size_t first, std::size_t last, int) {
@@ -187,38 +188,38 @@ std::pair<bool, bool> WarmStart::move_nodes(KeptMesh& kept) const {
 
 bool WarmStart::write_lists(const ListArrays& lists, ParallelCost* cost) noexcept {
   if (!is_prepared()) return false;
-  KeptMesh& kept = *last_->kept;
+  CachedMesh& cached = *last_->cached;
   const auto& [list, lptr, lend, lnew] = lists;
   try {
     bool fits, has_moved;
     ListChanges changes;
     {
       const PhaseTimer timer(cost, ParallelCost::divide);
-      std::tie(fits, has_moved) = move_nodes(kept);
+      std::tie(fits, has_moved) = move_nodes(cached);
       fits = fits && left(nodes_[0], nodes_[1], nodes_[2]) != 0;
     }
     {
       const PhaseTimer timer(cost, ParallelCost::triangulate);
-      if (fits && (has_moved || last_->confirm != confirm_)) fits = kept.mesh->repair(confirm_);
+      if (fits && (has_moved || last_->confirm != confirm_)) fits = cached.mesh->repair(confirm_);
       last_->confirm = confirm_;
-      if (fits) changes = ListChanges(kept);
+      if (fits) changes = ListChanges(cached);
     }
     if (!fits) {
       last_->lose_patience();
       return false;
     }
     const PhaseTimer timer(cost, ParallelCost::lists);
-    changes.write(kept, list, lptr, lend);
+    changes.write(cached, list, lptr, lend);
     *lnew = lend[n_ - 1] + 1;
     if (changes.count() > n_ / 16) {
-      copy(list, kept.list.size(), kept.list.data());
-      copy(lend, n_, kept.lend.data());
-      kept.mesh->forget_changes();
+      copy(list, cached.list.size(), cached.list.data());
+      copy(lend, n_, cached.lend.data());
+      cached.mesh->forget_changes();
     }
     last_->patience.succeed();
     if (cost != nullptr) {
       cost->threads = threads_for(n_);
-      cost->flips = has_moved ? static_cast<std::int64_t>(kept.mesh->flips()) : 0;
+      cost->flips = has_moved ? static_cast<std::int64_t>(cached.mesh->flips()) : 0;
     }
   } catch (const std::bad_alloc&) {
     last_->lose_patience();
@@ -228,7 +229,7 @@ bool WarmStart::write_lists(const ListArrays& lists, ParallelCost* cost) noexcep
   return true;
 }
 
-/// Without memory for the sample, nothing is kept.
+/// Without memory for the sample, nothing is cached.
 void WarmStart::take_sample(const std::int32_t* list, const std::int32_t* lend) noexcept {
   try {
     last_->sample = sample_of(n_, list, lend);
@@ -248,10 +249,10 @@ void WarmStart::remember(const ListArrays& lists) noexcept {
       return;
     }
     if (last_->patience.is_enough()) {
-      set_give_up_more(forget_last_meshes);
-      last_->kept = std::make_unique<KeptMesh>(n_, slots);
-      copy(list, slots, last_->kept->list.data());
-      copy(lend, n_, last_->kept->lend.data());
+      set_free_more(forget_last_meshes);
+      last_->cached = std::make_unique<CachedMesh>(n_, slots);
+      copy(list, slots, last_->cached->list.data());
+      copy(lend, n_, last_->cached->lend.data());
     }
   } catch (const std::bad_alloc&) {
     // No memory: the next call is cold, too.

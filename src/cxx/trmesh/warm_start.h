@@ -13,11 +13,11 @@
 
 namespace pstripack {
 
-struct KeptMesh;
+struct CachedMesh;
 struct LastMesh;
 
 /// The warm start of one call with the nodes nodes[0..n-1]. The object owns the mesh of an earlier call, if
-/// one is kept whose sample fits these nodes; the destructor puts it back. May be used from any thread;
+/// one is cached whose sample fits these nodes; the destructor puts it back. May be used from any thread;
 /// never waits.
 class WarmStart {
  public:
@@ -34,21 +34,21 @@ class WarmStart {
   /// returns false it has written nothing, and the call must be cold.
   bool write_lists(const ListArrays& lists, ParallelCost* cost) noexcept;
 
-  /// To be called after a cold call, with its lists. Keeps what a later call may need.
+  /// To be called after a cold call, with its lists. Caches what a later call may need.
   void remember(const ListArrays& lists) noexcept;
 
  private:
-  std::pair<bool, bool> move_nodes(KeptMesh& kept) const;
+  std::pair<bool, bool> move_nodes(CachedMesh& cached) const;
   void take_sample(const std::int32_t* list, const std::int32_t* lend) noexcept;
 
   const NodeArrays nodes_;
   const std::size_t n_;
   const Confirm confirm_;
   std::unique_ptr<LastMesh> last_;
-  Patience patience_;  ///< for a mesh first kept by this call
+  Patience patience_;  ///< for a mesh first cached by this call
 };
 
-/// Destroys the kept meshes of this process, except those that a running call owns. True if there were any.
+/// Destroys the cached meshes of this process, except those that a running call owns. True if there were any.
 bool forget_last_meshes() noexcept;
 
 }  // namespace pstripack

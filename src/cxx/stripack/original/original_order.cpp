@@ -25,9 +25,9 @@ class Insertion {
   }
 
   InsertionOutcome insert_all(Hopeless hopeless, StartSearch start_search) {
-    const Seeds<std::int32_t> seeds = kept_seeds();
+    const Seeds<std::int32_t> seeds = seeds_of_thread();
     if (const auto outcome = try_to_insert_all(hopeless, start_search)) return *outcome;
-    kept_seeds() = seeds;
+    seeds_of_thread() = seeds;
     return *try_to_insert_all(hopeless, StartSearch::simulated);
   }
 
@@ -107,7 +107,7 @@ class Insertion {
   /// ADDNOD.
   InsertionOutcome insert(Int k, Int start) {
     const Vector<Real> p = lists_[k];
-    Seeds<std::int32_t>& seeds = kept_seeds();
+    Seeds<std::int32_t>& seeds = seeds_of_thread();
     const auto draw = [&](Int size) { return std::min(size, rules_.random<Real>(size, seeds)); };
     Real b1, b2, b3;
     TrfindWalk<Real, Int, InsertionLists<Real, Int>, decltype(draw)> walk(

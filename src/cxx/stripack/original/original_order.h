@@ -40,7 +40,7 @@ struct InsertedNodes {
 enum class Hopeless { goes_on, ends };
 
 /// Renka's TRMESH (ACM TOMS 23 (1997), Algorithm 772): inserts node by node, with its rounded tests, so the
-/// result may be wrong. n >= 3. Runs on one thread and uses its kept_seeds; O(n) memory. Throws
+/// result may be wrong. n >= 3. Runs on one thread and uses its seeds_of_thread; O(n) memory. Throws
 /// std::bad_alloc.
 template <class Real, class Int>
 InsertedNodes<Int> insert_in_order(Int n, const Real* x, const Real* y, const Real* z,

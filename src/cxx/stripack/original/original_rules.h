@@ -40,7 +40,7 @@ struct OriginalRules {
 const OriginalRules& original_rules();
 
 /// This thread's seeds, kept from call to call, shared by all kinds of integers.
-inline Seeds<std::int32_t>& kept_seeds() {
+inline Seeds<std::int32_t>& seeds_of_thread() {
   thread_local Seeds<std::int32_t> seeds;
   return seeds;
 }

@@ -7,32 +7,32 @@
 
 namespace pstripack {
 
-struct KeptThing {
-  virtual ~KeptThing() = default;
+struct CachedThing {
+  virtual ~CachedThing() = default;
 };
 
 /// Stores `thing` in one of 32 places of the process and returns the number of the place, which is the
 /// caller's until it calls take_out_of. Destroys `thing` and returns -1 if all places are taken. This
 /// function and the two below may be called from any thread and never wait.
-int put_into_a_place(std::unique_ptr<KeptThing> thing) noexcept;
+int put_into_a_place(std::unique_ptr<CachedThing> thing) noexcept;
 /// Frees the place and returns what it held; null if that has been given up.
-std::unique_ptr<KeptThing> take_out_of(int place) noexcept;
+std::unique_ptr<CachedThing> take_out_of(int place) noexcept;
 /// Destroys what all places hold. False if they were empty.
-bool give_up_kept_things() noexcept;
+bool free_cached_things() noexcept;
 
-/// Holds a T until give_up_kept_things() destroys it.
+/// Holds a T until free_cached_things() destroys it.
 template <class T>
-class Kept {
+class Cached {
  public:
-  Kept() = default;
-  Kept(Kept&& other) noexcept : place_(std::exchange(other.place_, -1)) {}
-  Kept& operator=(Kept&& other) noexcept {
+  Cached() = default;
+  Cached(Cached&& other) noexcept : place_(std::exchange(other.place_, -1)) {}
+  Cached& operator=(Cached&& other) noexcept {
     std::swap(place_, other.place_);
     return *this;
   }
-  ~Kept() { take(); }
+  ~Cached() { take(); }
 
-  /// Keeps `value`, or destroys it if there is no free place or no memory.
+  /// Stores `value`, or destroys it if there is no free place or no memory.
   void put(std::unique_ptr<T> value) noexcept {
     take();
     try {
@@ -40,15 +40,15 @@ class Kept {
     } catch (const std::bad_alloc&) {
     }
   }
-  /// The value that was kept; null if it has been destroyed.
+  /// The stored value; null if it has been destroyed.
   std::unique_ptr<T> take() noexcept {
     if (place_ < 0) return nullptr;
-    const std::unique_ptr<KeptThing> thing = take_out_of(std::exchange(place_, -1));
+    const std::unique_ptr<CachedThing> thing = take_out_of(std::exchange(place_, -1));
     return thing == nullptr ? nullptr : std::move(static_cast<Thing&>(*thing).value);
   }
 
  private:
-  struct Thing : KeptThing {
+  struct Thing : CachedThing {
     explicit Thing(std::unique_ptr<T> v) : value(std::move(v)) {}
     std::unique_ptr<T> value;
   };

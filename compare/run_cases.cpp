@@ -1,4 +1,4 @@
-#include "run.h"
+#include "run_cases.h"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@
 #include "lists/limits.h"
 #include "node_sets.h"
 #include "original.h"
-#include "plot.h"
+#include "picture_of_differences.h"
 #include "point_sets.h"
 #include "show_result.h"
 

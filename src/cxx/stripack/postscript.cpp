@@ -1,4 +1,4 @@
-#include "stripack/plot.h"
+#include "stripack/postscript.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "plot.h"
+#include "picture_of_differences.h"
 
 #include <fmt/format.h>
 

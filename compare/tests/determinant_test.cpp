@@ -1,4 +1,4 @@
-#include "exact.h"
+#include "determinant.h"
 
 #include <gtest/gtest.h>
 

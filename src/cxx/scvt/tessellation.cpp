@@ -1,4 +1,4 @@
-#include "scvt/run.h"
+#include "scvt/tessellation.h"
 
 #include <cmath>
 #include <limits>

@@ -7,10 +7,10 @@
 namespace pstripack {
 
 /// The number of bytes that the process may still keep between calls.
-inline std::size_t room_to_stay() {
+inline std::size_t room_in_cache() {
   std::size_t bytes = 0;
   for (std::size_t step = std::size_t{1} << 50; step > 0; step /= 2)
-    if (may_stay(bytes + step)) has_left(bytes += step);
+    if (reserve_cache(bytes + step)) release_cache(bytes += step);
   return bytes;
 }
 

@@ -1,4 +1,4 @@
-#include "stripack/sphere.h"
+#include "stripack/coordinates_and_areas.h"
 
 #include <cmath>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "exact.h"
+#include "reference_predicates.h"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,55 @@
+# What differs between compilers. docs/compilers.md says which were tried, and what the manuals of the others say.
+#
+#   PSTRIPACK_CXX_FLAGS, PSTRIPACK_FORTRAN_FLAGS   options that give IEEE arithmetic, whatever CMAKE_<LANG>_FLAGS hold
+#   PSTRIPACK_FORTRAN_LINKER   language of the compiler that links the Fortran libraries
+#   fortran_runtime            for C++ programs that link them
+
+# In Clang -fno-fast-math switches contraction on, so it stands first.
+set(PSTRIPACK_CXX_FLAGS -Wall -Wextra -fno-fast-math -ffp-contract=off)
+if(CMAKE_CXX_COMPILER_ID STREQUAL IntelLLVM)  # its default is -fp-model=fast
+  set(PSTRIPACK_CXX_FLAGS -Wall -Wextra -fp-model=precise -fno-fast-math -ffp-contract=off)
+elseif(CMAKE_CXX_COMPILER_ID STREQUAL NVHPC)
+  set(PSTRIPACK_CXX_FLAGS -Kieee -Mnofma)
+endif()
+
+set(PSTRIPACK_FORTRAN_FLAGS -fno-fast-math -ffp-contract=off)
+if(CMAKE_Fortran_COMPILER_ID STREQUAL GNU)
+  list(PREPEND PSTRIPACK_FORTRAN_FLAGS -Wall)
+elseif(CMAKE_Fortran_COMPILER_ID MATCHES Intel)  # noold_unit_star: WRITE(*) writes to unit 6, as elsewhere
+  set(PSTRIPACK_FORTRAN_FLAGS -fp-model precise -no-fma -assume noold_unit_star)
+elseif(CMAKE_Fortran_COMPILER_ID STREQUAL NVHPC)
+  set(PSTRIPACK_FORTRAN_FLAGS -Kieee -Mnofma)
+endif()
+
+# LLVM's Fortran run-time library is an archive. A copy of it in libstripack would not know the units that a program has
+# opened, so TRPRNT could not write to them. The C++ compiler links without it; the program has it.
+set(PSTRIPACK_FORTRAN_LINKER Fortran)
+add_library(fortran_runtime INTERFACE)
+if(CMAKE_Fortran_COMPILER_ID STREQUAL LLVMFlang)
+  set(PSTRIPACK_FORTRAN_LINKER CXX)
+  target_link_libraries(fortran_runtime INTERFACE FortranRuntime FortranDecimal)
+  target_link_directories(fortran_runtime INTERFACE ${CMAKE_Fortran_IMPLICIT_LINK_DIRECTORIES})
+else()
+  target_link_libraries(fortran_runtime INTERFACE gfortran)
+endif()
+
+# What is assumed of the target and of the Fortran compiler. Nothing is run, so that this works for other processors.
+# check_assumption(result source... MESSAGE text...)
+function(check_assumption result)
+  cmake_parse_arguments(arg "" "" "MESSAGE" ${ARGN})
+  list(TRANSFORM arg_UNPARSED_ARGUMENTS PREPEND ${PROJECT_SOURCE_DIR}/cmake/checks/)
+  if(NOT ${result})
+    try_compile(${result} ${PROJECT_BINARY_DIR}/checks SOURCES ${arg_UNPARSED_ARGUMENTS} OUTPUT_VARIABLE output
+                CXX_STANDARD 17)
+  endif()
+  if(NOT ${result})
+    file(WRITE ${PROJECT_BINARY_DIR}/checks/log "${output}")
+    message(FATAL_ERROR ${arg_MESSAGE} ": see docs/compilers.md and ${PROJECT_BINARY_DIR}/checks/log")
+  endif()
+endfunction()
+check_assumption(PSTRIPACK_ARITHMETIC arithmetic.cpp
+  MESSAGE "PSTRIPACK needs a 64-bit target and IEEE arithmetic without excess precision, as 32-bit x86 and x87 have it")
+if(CMAKE_Fortran_COMPILER)
+  check_assumption(PSTRIPACK_FORTRAN_CALLS fortran.f90 calls.c
+    MESSAGE "PSTRIPACK's calls between Fortran and C do not fit this Fortran compiler with CMAKE_Fortran_FLAGS")
+endif()

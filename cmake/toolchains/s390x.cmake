@@ -1,0 +1,3 @@
+set(processor s390x)
+set(gnu s390x)
+include(${CMAKE_CURRENT_LIST_DIR}/debian-cross.cmake)

@@ -1,0 +1,156 @@
+#include "base/system.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <algorithm>
+#include <thread>
+
+#if defined(__linux__)
+#include <sched.h>
+#include <sys/random.h>
+#include <sys/syscall.h>
+#elif defined(__APPLE__)
+#include <crt_externs.h>
+#include <mach-o/dyld.h>
+#endif
+#if !defined(__APPLE__)
+extern "C" char** environ;  // POSIX: programs declare it
+#endif
+
+namespace pstripack {
+
+char** all_environment_variables() {
+#if defined(__APPLE__)
+  return *_NSGetEnviron();
+#else
+  return environ;
+#endif
+}
+
+// POSIX has no way to learn these two, so the build with PSTRIPACK_ONLY_POSIX keeps that of Linux.
+std::string path_of_this_program() {
+  char path[PATH_MAX] = "";
+#if defined(__linux__)
+  const ssize_t length = readlink("/proc/self/exe", path, sizeof path - 1);
+  return {path, length > 0 ? static_cast<std::size_t>(length) : 0};
+#elif defined(__APPLE__)
+  char given[PATH_MAX];
+  std::uint32_t size = sizeof given;
+  return _NSGetExecutablePath(given, &size) == 0 && realpath(given, path) != nullptr ? path : "";
+#else
+  return path;
+#endif
+}
+
+const char* name_of_this_program() {
+#if defined(__linux__)
+  return program_invocation_short_name;
+#else
+  return getprogname();  // BSD, macOS
+#endif
+}
+
+bool draw_random(void* bytes, std::size_t size) {
+#if defined(PSTRIPACK_LINUX)
+  return getrandom(bytes, size, GRND_NONBLOCK) == static_cast<ssize_t>(size);
+#else
+  const int file = open("/dev/urandom", O_RDONLY | O_CLOEXEC);
+  if (file < 0) return false;
+  const bool done = read(file, bytes, size) == static_cast<ssize_t>(size);
+  close(file);
+  return done;
+#endif
+}
+
+#if !defined(PSTRIPACK_LINUX)
+namespace {
+bool close_on_exec(const int (&ends)[2]) {
+  for (const int end : ends) {
+    fcntl(end, F_SETFD, FD_CLOEXEC);
+#if defined(SO_NOSIGPIPE)  // what macOS has instead of MSG_NOSIGNAL; fails for a pipe, which needs it not
+    const int one = 1;
+    setsockopt(end, SOL_SOCKET, SO_NOSIGPIPE, &one, sizeof one);
+#endif
+  }
+  return true;
+}
+}  // namespace
+#endif
+
+bool open_pipe(int (&ends)[2]) {
+#if defined(PSTRIPACK_LINUX)
+  return pipe2(ends, O_CLOEXEC) == 0;
+#else
+  return pipe(ends) == 0 && close_on_exec(ends);
+#endif
+}
+
+bool open_stream(int (&ends)[2]) {
+#if defined(PSTRIPACK_LINUX)
+  return socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0;
+#else
+  return socketpair(AF_UNIX, SOCK_STREAM, 0, ends) == 0 && close_on_exec(ends);
+#endif
+}
+
+ssize_t send_without_signal(int socket, const msghdr& message) {
+#if defined(MSG_NOSIGNAL)
+  return sendmsg(socket, &message, MSG_NOSIGNAL);
+#else
+  return sendmsg(socket, &message, 0);
+#endif
+}
+
+ssize_t write_unchecked(int file, const void* bytes, std::size_t size) {
+#if defined(PSTRIPACK_LINUX)
+  return syscall(SYS_write, file, bytes, size);
+#else
+  return write(file, bytes, size);
+#endif
+}
+
+bool is_gone(pid_t process) {
+  if (kill(process, 0) != 0) return errno == ESRCH;
+#if defined(PSTRIPACK_LINUX)
+  char name[32] = "/proc/", text[256];
+  char* at = name + 6;
+  char digits[12];
+  int n = 0;
+  for (pid_t p = process; p > 0; p /= 10) digits[n++] = static_cast<char>('0' + p % 10);
+  while (n > 0) *at++ = digits[--n];
+  strcpy(at, "/stat");
+  const int file = open(name, O_RDONLY | O_CLOEXEC);
+  if (file < 0) return errno == ENOENT;
+  const ssize_t size = read(file, text, sizeof text - 1);
+  close(file);
+  if (size <= 0) return false;
+  text[size] = '\0';
+  const char* const end_of_name = strrchr(text, ')');
+  return end_of_name != nullptr && (end_of_name[2] == 'Z' || end_of_name[2] == 'X');
+#else
+  return false;
+#endif
+}
+
+ProcessorSet usable_processors() {
+  ProcessorSet usable{};
+  const auto add = [&usable](std::size_t i) { usable[i / 64] |= std::uint64_t{1} << i % 64; };
+#if defined(PSTRIPACK_LINUX)
+  cpu_set_t set;
+  if (sched_getaffinity(0, sizeof set, &set) == 0) {  // fails if a cpu_set_t is too small
+    for (std::size_t i = 0; i < std::min(8 * sizeof set, 64 * usable.size()); ++i)
+      if (CPU_ISSET(i, &set)) add(i);
+    return usable;
+  }
+#endif
+  const std::size_t count = std::thread::hardware_concurrency();
+  for (std::size_t i = 0; i < std::min(count, 64 * usable.size()); ++i) add(i);
+  return usable;
+}
+
+}  // namespace pstripack

@@ -1,0 +1,52 @@
+#pragma once
+// What systems do in different ways, besides the pool, which exists on Linux only (PSTRIPACK_WITH_POOL).
+// Where PSTRIPACK_LINUX is not defined, POSIX must do; the build with PSTRIPACK_ONLY_POSIX tests that on
+// Linux.
+
+#include <sys/socket.h>
+#include <sys/types.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#if defined(__linux__) && !defined(PSTRIPACK_ONLY_POSIX)
+#define PSTRIPACK_LINUX
+#endif
+
+namespace pstripack {
+
+/// The variables of this process, as `environ` lists them. macOS hides `environ` from shared libraries.
+char** all_environment_variables();
+
+/// Path of the program that this process runs; empty if it is unknown.
+std::string path_of_this_program();
+/// The name that this program was started by, without folders.
+const char* name_of_this_program();
+
+/// Fills `size` <= 256 bytes with random numbers, without waiting for any. False if the system has none.
+bool draw_random(void* bytes, std::size_t size);
+
+/// As pipe(), and as socketpair() for a stream, but close-on-exec; where the system needs two steps for that,
+/// a program started by another thread between them inherits the descriptors. False on failure, with errno
+/// set.
+bool open_pipe(int (&ends)[2]);
+bool open_stream(int (&ends)[2]);
+/// As sendmsg(), for a socket of open_stream. Raises no SIGPIPE.
+ssize_t send_without_signal(int socket, const msghdr& message);
+
+/// As write(). Fails if the bytes cannot be read, also where AddressSanitizer would report them.
+ssize_t write_unchecked(int file, const void* bytes, std::size_t size);
+
+/// True if the process does not exist any more, or is a zombie, which only Linux tells. Usable in signal
+/// handlers.
+bool is_gone(pid_t process);
+
+/// A bit for each processor that this process may use. Where the system does not tell: the first ones, as
+/// many as it has.
+using ProcessorSet = std::array<std::uint64_t, 16>;
+ProcessorSet usable_processors();
+
+}  // namespace pstripack

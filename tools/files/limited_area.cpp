@@ -1,0 +1,359 @@
+#include "files/limited_area.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "geometry/measures.h"
+#include "point_sets.h"
+#include "stripack/list_queries.h"
+
+namespace files {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846, kDegree = kPi / 180;
+using Corner = std::pair<double, double>;
+
+// ---- areas ------------------------------------------------------------------------------------------------
+
+/// Twice the area of the triangle in the plane; positive if counterclockwise.
+double turn(const Corner& a, const Corner& b, const Corner& c) {
+  return (b.first - a.first) * (c.second - a.second) - (b.second - a.second) * (c.first - a.first);
+}
+
+bool sides_cross(const Corner& a, const Corner& b, const Corner& c, const Corner& d) {
+  return turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0;
+}
+
+/// Throws if two sides of the ring cross. They are compared with those that reach up to the same parallel.
+void check_crossings(const std::vector<Corner>& ring, const std::string& name) {
+  const auto low = [&](std::size_t i) { return std::min(ring[i].second, ring[i + 1].second); };
+  const auto high = [&](std::size_t i) { return std::max(ring[i].second, ring[i + 1].second); };
+  std::vector<std::size_t> sides(ring.size() - 1), open;
+  for (std::size_t i = 0; i < sides.size(); ++i) sides[i] = i;
+  std::sort(sides.begin(), sides.end(), [&](std::size_t a, std::size_t b) { return low(a) < low(b); });
+  for (const std::size_t side : sides) {
+    open.erase(std::remove_if(open.begin(), open.end(), [&](std::size_t o) { return high(o) < low(side); }),
+               open.end());
+    for (const std::size_t o : open)
+      if (sides_cross(ring[side], ring[side + 1], ring[o], ring[o + 1])) {
+        const auto [first, second] = std::minmax(side, o);
+        throw std::runtime_error(fmt::format(
+            "{}: its sides from corner {} (lon {:g} lat {:g}) and from corner {} (lon {:g} lat {:g}) cross: "
+            "put the corners in order around the region",
+            name, first + 1, ring[first].first, ring[first].second, second + 1, ring[second].first,
+            ring[second].second));
+      }
+    open.push_back(side);
+  }
+}
+
+}  // namespace
+
+std::vector<Corner> LimitedArea::inside(double parallel) const {
+  std::vector<Corner> pairs;
+  for (const MapRegion& polygon : polygons)
+    for (const Corner& pair : polygon.inside(parallel)) pairs.push_back(pair);
+  if (!polygons.empty()) return pairs;
+  // |p - centre| on the parallel: cos radius = sin sin + cos cos cos(difference of longitudes)
+  const double rest = std::cos(radius) - std::sin(parallel * kDegree) * std::sin(lat * kDegree),
+               most = std::cos(parallel * kDegree) * std::cos(lat * kDegree);
+  if (rest <= -most) return {{lon - 180, lon + 180}};
+  if (rest >= most) return {};
+  const double half = std::acos(rest / most) / kDegree;
+  return {{lon - half, lon + half}};
+}
+
+bool LimitedArea::contains(const Point& p) const {
+  const LonLat place({p}, true);
+  for (const auto& [west, east] : inside(place.lat[0]))
+    if (west + std::fmod(std::fmod(place.lon[0] - west, 360) + 360, 360) <= east) return true;
+  return false;
+}
+
+std::vector<std::vector<Point>> LimitedArea::boundary() const {
+  constexpr double kStep = 0.1;  // degrees. An arc leaves a line on the map by at most step^2 / 16.
+  std::vector<std::vector<Point>> lines;
+  for (const MapRegion& polygon : polygons)
+    for (const auto& ring : polygon.rings) {
+      std::vector<Point>& line = lines.emplace_back();
+      for (std::size_t i = 1; i < ring.size(); ++i) {
+        const auto [x, y] = ring[i - 1];
+        const double dx = ring[i].first - x, dy = ring[i].second - y;
+        const double steps = std::ceil(std::max({std::fabs(dx), std::fabs(dy), kStep}) / kStep);
+        for (double k = 0; k < steps; ++k)
+          line.push_back(point_sets::from_degrees(x + k / steps * dx, y + k / steps * dy));
+      }
+      line.push_back(line.front());
+    }
+  if (!polygons.empty()) return lines;
+  const double turned = lon * kDegree, up = lat * kDegree;
+  const Point centre = point_sets::from_degrees(lon, lat), east{-std::sin(turned), std::cos(turned), 0},
+              north{-std::sin(up) * std::cos(turned), -std::sin(up) * std::sin(turned), std::cos(up)};
+  constexpr int kSteps = 3600;
+  std::vector<Point>& line = lines.emplace_back();
+  for (int k = 0; k < kSteps; ++k) {
+    const double angle = 2 * kPi * k / kSteps, c = std::cos(radius), e = std::sin(radius) * std::cos(angle),
+                 n = std::sin(radius) * std::sin(angle);
+    line.push_back({c * centre.x + e * east.x + n * north.x, c * centre.y + e * east.y + n * north.y,
+                    c * centre.z + e * east.z + n * north.z});
+  }
+  line.push_back(line.front());
+  return lines;
+}
+
+std::vector<Region> LimitedArea::boxes() const {
+  std::vector<Region> boxes;
+  for (const MapRegion& polygon : polygons) {
+    Region& box = boxes.emplace_back(Region{540, -180, 90, -90});
+    for (const auto& [x, y] : polygon.rings[0])
+      box = {std::min(box.west, x), std::max(box.east, x), std::min(box.south, y), std::max(box.north, y)};
+  }
+  if (!polygons.empty()) return boxes;
+  const double south = lat - radius / kDegree, north = lat + radius / kDegree;
+  const bool has_pole = south <= -90 || north >= 90;
+  const double half =
+      has_pole ? 180 : std::asin(std::min(1.0, std::sin(radius) / std::cos(lat * kDegree))) / kDegree;
+  return {{lon - half, lon + half, std::max(south, -90.0), std::min(north, 90.0)}};
+}
+
+LimitedArea box_area(std::string name, const Region& box) {
+  return {std::move(name),
+          {{1,
+            {{{box.west, box.south},
+              {box.east, box.south},
+              {box.east, box.north},
+              {box.west, box.north},
+              {box.west, box.south}}}}}};
+}
+
+LimitedArea polygon_area(const std::string& file, bool are_degrees) {
+  LimitedArea area{file, read_polygons(file)};
+  bool may_be_radians = !are_degrees;
+  for (const MapRegion& polygon : area.polygons) {
+    const std::string name = fmt::format("{}: feature {}", file, polygon.feature);
+    if (polygon.rings.size() > 1) {
+      const auto [lon, lat] = polygon.rings[1][0];
+      throw std::runtime_error(fmt::format(
+          "{}: a hole, at lon {:g} lat {:g}: a limited area has one boundary: leave out all rings but the "
+          "first",
+          name, lon, lat));
+    }
+    check_crossings(polygon.rings[0], name);
+    for (const auto& [lon, lat] : polygon.rings[0])
+      may_be_radians = may_be_radians && std::fabs(lon) <= 2 * kPi && std::fabs(lat) <= kPi / 2;
+  }
+  if (may_be_radians)
+    throw std::runtime_error(fmt::format(
+        "{}: all longitudes are within 2 pi and all latitudes within pi/2: GeoJSON is in degrees; "
+        "if these are degrees, say --units degrees",
+        file));
+  return area;
+}
+
+// ---- layers -----------------------------------------------------------------------------------------------
+
+namespace {
+
+class Layers {
+ public:
+  Layers(const Mesh& mesh, const LimitedArea& area)
+      : area_(area), reader_(mesh.lists()), cells_(unit(mesh.points)), layer_(cells_.size(), kUnknown) {}
+
+  std::vector<std::int32_t> run() {
+    std::size_t now = 0;
+    for (const std::vector<Point>& line : area_.boundary()) {
+      now = walk(now, cells_[now], line[0], false);
+      for (std::size_t k = 1; k < line.size(); ++k) now = walk(now, line[k - 1], line[k], true);
+    }
+    fill();
+    check_cells(now);
+    check_connected();
+    add_layers();
+    return std::move(layer_);
+  }
+
+ private:
+  static constexpr std::int32_t kUnknown = -2;
+
+  [[noreturn]] void fail(const std::string& what) const {
+    throw std::runtime_error(area_.name + ": " + what);
+  }
+  std::string place(std::size_t cell) const {
+    const LonLat where({cells_[cell]}, true);
+    return fmt::format("lon {:.6g} lat {:.6g}", where.lon[0], where.lat[0]);
+  }
+
+  template <class Visit>
+  void for_each_neighbour(std::size_t cell, const Visit& visit) const {
+    const std::int32_t last = reader_.last_slot(static_cast<std::int32_t>(cell) + 1);
+    std::int32_t slot = last;
+    do {
+      slot = reader_.next(slot);
+      visit(static_cast<std::size_t>(reader_.neighbour(slot)) - 1);
+    } while (slot != last);
+  }
+
+  /// Square of the distance.
+  double apart(const Point& p, std::size_t cell) const {
+    const Point d = minus(p, cells_[cell]);
+    return dot(d, d);
+  }
+
+  /// From the cell of p to that of q, through all cells that the arc from p to q crosses, which become part
+  /// of the region. The difference of the squares of the distances to two nodes is linear along the chord:
+  /// its zero is where the chord leaves the cell. Each cell's node is nearer to q than the one before.
+  std::size_t walk(std::size_t cell, const Point& p, const Point& q, bool marks) {
+    while (true) {
+      if (marks) layer_[cell] = 0;
+      const double here = apart(q, cell);
+      std::size_t next = cell;
+      double first = 2;
+      for_each_neighbour(cell, [&](std::size_t n) {
+        const double nearer = here - apart(q, n);
+        if (!(nearer > 0)) return;
+        const double before = std::min(0.0, apart(p, cell) - apart(p, n));
+        if (const double part = -before / (nearer - before); part < first) first = part, next = n;
+      });
+      if (next == cell) return cell;
+      cell = next;
+    }
+  }
+
+  /// Calls visit(i) for the cell and all that can be reached from it through unvisited ones of which
+  /// enter(i) is true, once.
+  template <class Enter, class Visit>
+  void flood(std::size_t cell, std::vector<bool>& visited, const Enter& enter, const Visit& visit) const {
+    std::vector<std::size_t> stack{cell};
+    visited[cell] = true;
+    while (!stack.empty()) {
+      const std::size_t i = stack.back();
+      stack.pop_back();
+      visit(i);
+      for_each_neighbour(i, [&](std::size_t n) {
+        if (visited[n] || !enter(n)) return;
+        visited[n] = true;
+        stack.push_back(n);
+      });
+    }
+  }
+
+  /// Between cells on the boundary, neighbours lie on the same side of it: their cells touch.
+  void fill() {
+    std::vector<bool> visited(cells_.size());
+    for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
+      if (layer_[cell] != kUnknown) continue;
+      const std::int32_t layer = area_.contains(cells_[cell]) ? 0 : kLeftOut;
+      has_cells_ = has_cells_ || layer == 0;
+      flood(
+          cell, visited, [&](std::size_t n) { return layer_[n] == kUnknown; },
+          [&](std::size_t i) { layer_[i] = layer; });
+    }
+  }
+
+  /// Throws if no node lies in the area; `cell`: one on its boundary.
+  void check_cells(std::size_t cell) const {
+    bool has_cells = has_cells_;
+    for (std::size_t i = 0; i < cells_.size() && !has_cells; ++i)
+      has_cells = layer_[i] == 0 && area_.contains(cells_[i]);
+    if (has_cells) return;
+    double sum = 0, count = 0;
+    for_each_neighbour(cell, [&](std::size_t n) { sum += std::sqrt(apart(cells_[n], cell)), ++count; });
+    fail(
+        fmt::format("no cell has its centre in the region; those at {} are {:.2g} degrees wide: enlarge the "
+                    "region, or take a finer mesh",
+                    place(cell), sum / count / kDegree));
+  }
+
+  void check_connected() const {
+    const auto is_in = [&](std::size_t n) { return layer_[n] == 0; };
+    std::vector<bool> visited(cells_.size());
+    const auto first = static_cast<std::size_t>(std::find(layer_.begin(), layer_.end(), 0) - layer_.begin());
+    flood(first, visited, is_in, [](std::size_t) {});
+    for (std::size_t i = 0; i < cells_.size(); ++i)
+      if (is_in(i) && !visited[i])
+        fail(fmt::format("two parts that do not touch, at {} and at {}: make a mesh of each", place(first),
+                         place(i)));
+  }
+
+  void add_layers() {
+    std::vector<std::size_t> last, next;
+    for (std::size_t i = 0; i < cells_.size(); ++i)
+      if (layer_[i] == 0) last.push_back(i);
+    for (std::int32_t layer = 0; layer <= kLayers; ++layer, last.swap(next)) {
+      next.clear();
+      for (const std::size_t i : last) {
+        if (reader_.on_boundary(static_cast<std::int32_t>(i) + 1))
+          fail(
+              fmt::format("at {} the mesh ends within {} layers of cells around the region: make the region "
+                          "smaller",
+                          place(i), kLayers));
+        if (layer < kLayers)
+          for_each_neighbour(i, [&](std::size_t n) {
+            if (layer_[n] != kLeftOut) return;
+            layer_[n] = layer + 1;
+            next.push_back(n);
+          });
+      }
+    }
+  }
+
+  const LimitedArea& area_;
+  const pstripack::ListReader<std::int32_t> reader_;
+  const std::vector<Point> cells_;
+  std::vector<std::int32_t> layer_;
+  bool has_cells_ = false;
+};
+
+}  // namespace
+
+void set_layers(Mesh& mesh, const LimitedArea& area) { mesh.layers = Layers(mesh, area).run(); }
+
+Mesh mesh_with_boundary(std::vector<Point> points, const pstripack::Triangles& triangles) {
+  try {
+    return mesh_of(std::move(points), triangles);
+  } catch (const NoMesh& e) {
+    throw NoMesh(fmt::format(
+        "the boundary of what is kept touches itself ({}): only --to mpas keeps this, or another region",
+        e.what()));
+  }
+}
+
+Mesh cut(const Mesh& mesh) {
+  std::vector<std::size_t> kept;
+  std::vector<pstripack::index_t> number(mesh.points.size(), pstripack::index_t{-1});
+  for (std::size_t i = 0; i < number.size(); ++i)
+    if (mesh.layers[i] != kLeftOut) {
+      number[i] = static_cast<pstripack::index_t>(kept.size());
+      kept.push_back(i);
+    }
+  pstripack::Triangles triangles;
+  const std::vector<std::int32_t> corners = triangles_of(mesh);
+  for (std::size_t k = 0; k < corners.size(); k += 3) {
+    pstripack::Triangle t;
+    for (std::size_t j = 0; j < 3; ++j) t[j] = number[static_cast<std::size_t>(corners[k + j]) - 1];
+    if (*std::min_element(t.begin(), t.end()) >= 0) triangles.push_back(t);
+  }
+  Mesh part = mesh_with_boundary(values_at(mesh.points, kept), triangles);
+  part.given.degrees = mesh.given.degrees;
+  part.given.lon = values_at(mesh.given.lon, kept);
+  part.given.lat = values_at(mesh.given.lat, kept);
+  part.density = values_at(mesh.density, kept);
+  for (const Column& column : mesh.columns) {
+    Column& here = part.columns.emplace_back(column);
+    here.numbers = values_at(column.numbers, kept);
+    here.texts = values_at(column.texts, kept);
+  }
+  std::vector<double> layers;
+  for (const std::size_t i : kept) layers.push_back(mesh.layers[i]);
+  if (find(part.columns, kBdyMaskCell) == nullptr)
+    part.columns.push_back(whole_numbers(kBdyMaskCell, "0: region, 1 to 7: layers around it", layers));
+  part.notes = mesh.notes;
+  part.radius = mesh.radius;
+  part.with_edges = mesh.with_edges;
+  return part;
+}
+
+}  // namespace files

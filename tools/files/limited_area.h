@@ -1,0 +1,61 @@
+#pragma once
+// Meshes of a part of the sphere, cut out of a mesh of the sphere as MPAS-Limited-Area does it:
+//
+//    7 6 5 4 3 2 1 0 0 0 0     0      cells of the region: their node lies in it, or its boundary passes
+//     7 6 5 4 3 2 1 0 0 0 0           through them
+//    7 6 5 4 3 2 1 0 0 0 0     1..5   relaxation zone: layers of neighbours around them
+//     7 6 5 4 3 2 1 0 0 0 0    6, 7   specified zone
+//
+// The number of a cell is its bdyMaskCell; an edge or a vertex has the least number of its cells. All other
+// cells are left out. What stays are whole cells of the mesh of the sphere.
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "files/clipping.h"
+#include "files/mesh.h"
+#include "files/width_regions.h"
+
+namespace files {
+
+constexpr std::int32_t kLayers = 7;  ///< of cells around the region
+constexpr std::int32_t kLeftOut = -1;
+constexpr auto kBdyMaskCell = "bdyMaskCell";
+
+/// Polygons, or a circle.
+struct LimitedArea {
+  std::string name;  ///< in messages
+  /// Without holes; each with one ring, whose sides are straight on the map. They may overlap.
+  std::vector<MapRegion> polygons;
+  double lon = 0, lat = 0, radius = 0;  ///< of the circle: degrees, radians; if there are no polygons
+
+  /// Pairs of increasing longitudes between which the parallel is inside: degrees, of any turn.
+  std::vector<std::pair<double, double>> inside(double lat) const;
+  bool contains(const Point& p) const;
+  /// The closed lines around all polygons, or the circle: unit vectors, whose arcs are within 2e-7 rad of
+  /// the line.
+  std::vector<std::vector<Point>> boundary() const;
+  /// A box of longitudes and latitudes around each polygon, or around the circle.
+  std::vector<Region> boxes() const;
+};
+
+LimitedArea box_area(std::string name, const Region& box);
+/// The polygons of a GeoJSON file. Throws std::runtime_error if one has a hole, crosses itself, or if all
+/// angles may be radians, which `are_degrees` denies: one line with file, feature, place and remedy.
+LimitedArea polygon_area(const std::string& file, bool are_degrees);
+
+/// Sets mesh.layers: for each node 0 to 7 as above, else kLeftOut. The triangles should be those of
+/// Delaunay. Throws std::runtime_error if no node lies in the area, if the cells of the area are not
+/// connected, or if the mesh ends before the last layer: one line with place and remedy.
+void set_layers(Mesh& mesh, const LimitedArea& area);
+
+/// The nodes that are not left out, the triangles between them, and a column bdyMaskCell. Throws as
+/// mesh_with_boundary().
+Mesh cut(const Mesh& mesh);
+/// mesh_of(). Throws NoMesh with a remedy if the boundary touches itself.
+Mesh mesh_with_boundary(std::vector<Point> points, const pstripack::Triangles& triangles);
+
+}  // namespace files
