@@ -296,8 +296,9 @@ void choose_density(Options& options, const files::Notes& notes) {
   if (!is_chosen()) options.density = "constant";
   if (!options.region.empty())
     options.area = limited_area_of(options.region, options.start.read, options.radius / 1000);
-  // Most of the gradient is that of the coarse cells outside.
-  if (options.tolerance < 0) options.tolerance = options.region.empty() ? 1e-4 : 1e-3;
+  const bool widths_differ = !options.width_file.empty() || !options.width_text.empty();
+  // With a region most of the gradient is that of the coarse cells outside.
+  if (options.tolerance < 0) options.tolerance = !options.region.empty() ? 1e-3 : widths_differ ? 3e-4 : 1e-4;
 }
 
 files::Notes notes_of_density(const Options& options) {
@@ -720,7 +721,7 @@ void scvt(Options& options, Ranks& ranks) {
                 [&] { in_agreement_with_caller(communicator, [&] { density = make_density(options); }); });
   if (communicator.size() == 1) check_memory(static_cast<double>(options.n));
   try {
-    const std::shared_ptr<engine::Evaluator> evaluator = ranks.evaluator(*density);
+    std::shared_ptr<engine::Evaluator> evaluator = ranks.evaluator(*density);
     Tessellation t = progress.step("placing generators", [&] {
       if (options.start.file.empty()) return first_tessellation(options, *evaluator, progress);
       Tessellation given = tessellation_of(communicator, start, options);
@@ -730,7 +731,10 @@ void scvt(Options& options, Ranks& ranks) {
     const std::int64_t steps_before = t.state.steps;
     const int signal =
         progress.step("iterating", [&] { return iterate(options, ranks, *evaluator, t, progress); });
-    const engine::Progress& reached = t.result.progress;
+    const engine::Progress reached = t.result.progress;
+    evaluator.reset();  // writing needs memory of its own
+    t.state.pairs.clear();
+    t.result.cells = {};
     const methods::Quality quality = progress.step("writing", [&] {
       return write(ranks, options, false, t, *density, notes_of(options, t.state, reached));
     });
@@ -847,7 +851,7 @@ void add_scvt(CLI::App& app, Command& chosen) {
              "newton (L-BFGS) or lloyd [newton]");
   sub->add_option("--tolerance", options->tolerance,
                   "stop at this gradient: root mean square distance to the centroid over sqrt(4 pi/N) [1e-4; "
-                  "with --region 1e-3]")
+                  "where widths differ 3e-4; with --region 1e-3]")
       ->type_name("NUMBER")
       ->check([](const std::string& text) {  // CLI::Range lets nan pass
         double value = 0;

@@ -26,7 +26,7 @@ for language, block in re.findall(r"(?ms)^```(\w+)\n(.*?)^```$", PAGE.read_text(
         assert done.returncode == 0, block + done.stderr
         told += done.stdout + done.stderr
 
-for line in ("the widths give [0-9]+ cells", "converged to 0.0001",
+for line in ("the widths give [0-9]+ cells", "converged to 0.0003",
              "cells by sides: .*; all triangles hold their circumcentre",
              r"distance of neighbours over width asked for: (1\.00|0\.99)\d \+- 0\.0[0-6]",
              r"area over 4 pi: (1\.0{12}|0\.9{12}); obtuse triangles: 0"):
