@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""usage: check_figures.py FOLDER DOCUMENT...
+"""usage: check_figures.py FOLDER PICTURES DOCUMENT...
 
-Fails unless the documents embed every picture of the folder and no other one, and each is there as SVG and PNG, is
-well-formed, and says what is projected, or that nothing is, or that it is of one process."""
+Fails unless the documents embed every picture of the folder and no other one but those of the page PICTURES, and each is
+there as SVG and PNG, is well-formed, and says what is projected, or that nothing is, or that it is of one process."""
 import re
 import sys
 import xml.etree.ElementTree as ElementTree
@@ -12,11 +12,12 @@ NOTES = ("projected from processor time on the critical path", "One process.", "
 
 
 def main():
-    if len(sys.argv) < 3:
+    if len(sys.argv) < 4:
         print(__doc__, file=sys.stderr)
         sys.exit(2)
-    folder, documents = Path(sys.argv[1]), [Path(name).read_text() for name in sys.argv[2:]]
-    embedded = {Path(name).stem for document in documents for name in re.findall(r"\]\(figures/([^)]+)\)", document)}
+    folder, (others, *documents) = Path(sys.argv[1]), [Path(name).read_text() for name in sys.argv[2:]]
+    embedded = {Path(name).stem for document in documents for name in re.findall(r"\]\(figures/([^)]+)\)", document)
+                if f"figures/{name}" not in others}
     wrong = [f"{svg.name} is in no document" for svg in folder.glob("*.svg") if svg.stem not in embedded]
     for name in sorted(embedded):
         svg, png = folder / f"{name}.svg", folder / f"{name}.png"

@@ -208,7 +208,7 @@ bad_command_lines)
   refuses 2 "'1e400' is not a whole number" points random 1e400
   [ "$("$PSTRIPACK" points random 1e3 | wc -l)" = 1000 ] || fail "1e3 is a number"
   "$PSTRIPACK" --version > version
-  grep -q '^pstripack [0-9]*\.[0-9]*\.[0-9]*$' version || fail "$(cat version)"
+  grep -qE '^pstripack [0-9]+\.[0-9]+\.[0-9]+(-rc[0-9]+)?$' version || fail "$(cat version)"
   printf '1 0 0\n0 1 0\n0 0 1\n' | "$PSTRIPACK" triangulate - -o - --to lists > out 2> err
   grep -q '^pstripack: 3 nodes (text, x y z), 1 triangle; ' err || fail "$(cat err)"
   [ ! -e mesh.off ] || fail "mesh.off was written"

@@ -181,12 +181,11 @@ TrmeshResult lists_in_original_order(const TrmeshCall& call, ParallelCost* cost)
 }
 
 /// The way of a call is chosen here, in this order: the ranks of a communicator, the original's order
-/// (`follow`), the mesh of an earlier call, the pool, threads, one hull. But for the second, all write the
-/// same lists.
+/// (`follow`: then this process alone), the mesh of an earlier call, the pool, threads, one hull. But for the
+/// second, all write the same lists.
 TrmeshResult carry_out(const TrmeshCall& call, bool follow, CallWay* way, Engine* communicator,
                        Engine* pool) {
-  if (!follow && communicator != nullptr && communicator->takes(call))
-    return communicator->carry_out(call, way);
+  if (communicator != nullptr && communicator->takes(call)) return communicator->carry_out(call, way);
   if (call.n < 3) return {-1};
   if (call.n > most_nodes<std::int32_t>()) return {-4};
 
@@ -209,7 +208,8 @@ TrmeshResult carry_out(const TrmeshCall& call, bool follow, CallWay* way, Engine
 }  // namespace
 
 TrmeshResult trmesh(const TrmeshCall& call, CallWay* way, Engine* communicator, Engine* pool) {
-  return carry_out(call, original_rules().follow && !call.by_direction, way, communicator, pool);
+  const bool follow = original_rules().follow && !call.by_direction;
+  return carry_out(call, follow, way, follow ? nullptr : communicator, follow ? nullptr : pool);
 }
 
 TrmeshResult canonical_trmesh(const TrmeshCall& call, CallWay* way) {
