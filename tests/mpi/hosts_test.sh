@@ -168,6 +168,8 @@ vanished)
     idle | pool) gone='^pstripack-run: mpirun has ended the job with exit code [0-9]+: a machine is lost' ;;
     *) gone='^ORTE has lost communication with a remote daemon' ;;
     esac
+    # mpirun then kills the ranks of the other machines, and another rank may see that first.
+    [ $mode = pool ] && gone="$gone|^pstripack: rank [0-9]+ was lost during [a-z ]+; the job ends"
     start $mode
     [ $how = processes ] || ip link set to_h2 down
     [ $how = network ] || kill -9 "$(cat h2.pid)"
