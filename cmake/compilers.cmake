@@ -38,6 +38,8 @@ endif()
 function(check_assumption result)
   cmake_parse_arguments(arg "" "" "MESSAGE" ${ARGN})
   list(TRANSFORM arg_UNPARSED_ARGUMENTS PREPEND ${PROJECT_SOURCE_DIR}/cmake/checks/)
+  # The Fortran compiler links without the libraries of sanitizers that only C is compiled with.
+  string(REGEX REPLACE "-fsanitize=[^ ]*" "" CMAKE_C_FLAGS "${CMAKE_C_FLAGS}")
   if(NOT ${result})
     try_compile(${result} ${PROJECT_BINARY_DIR}/checks SOURCES ${arg_UNPARSED_ARGUMENTS} OUTPUT_VARIABLE output
                 CXX_STANDARD 17)
