@@ -186,13 +186,10 @@ void divide_half_turns(Faces& cells, const Mesh& mesh) {
       // The midpoint of the side is at a right angle from both ends, is as far from the node as from the
       // neighbour across the side, and has the node on its left. Among three nodes all cells share all sides,
       // so the neighbour is chosen for which no other neighbour is closer.
-      const auto last = reader.last_slot(static_cast<std::int32_t>(f + 1));
       const auto for_each_neighbour = [&](const auto& visit) {
-        std::int32_t slot = last;
-        do {
-          slot = reader.next(slot);
-          visit(static_cast<std::size_t>(reader.neighbour(slot)) - 1);
-        } while (slot != last);
+        reader.for_each_neighbour(static_cast<std::int32_t>(f + 1), [&](std::int32_t neighbour) {
+          visit(static_cast<std::size_t>(neighbour) - 1);
+        });
       };
       Point best{0, 0, 0};
       double most = -3;
@@ -258,12 +255,7 @@ Faces clipped_to_hull(const Faces& cells, const Mesh& mesh) {
     }
     rings[f] = std::move(part.ring);
     if (!is_cut) continue;
-    const std::int32_t last = reader.last_slot(queue[k]);
-    std::int32_t slot = last;
-    do {
-      slot = reader.next(slot);
-      queue.push_back(reader.neighbour(slot));
-    } while (slot != last);
+    reader.for_each_neighbour(queue[k], [&](std::int32_t neighbour) { queue.push_back(neighbour); });
   }
   Pieces pieces(cells);
   for (std::size_t f = 0; f < cells.size(); ++f)

@@ -188,12 +188,9 @@ class Layers {
 
   template <class Visit>
   void for_each_neighbour(std::size_t cell, const Visit& visit) const {
-    const std::int32_t last = reader_.last_slot(static_cast<std::int32_t>(cell) + 1);
-    std::int32_t slot = last;
-    do {
-      slot = reader_.next(slot);
-      visit(static_cast<std::size_t>(reader_.neighbour(slot)) - 1);
-    } while (slot != last);
+    reader_.for_each_neighbour(static_cast<std::int32_t>(cell) + 1, [&](std::int32_t neighbour) {
+      visit(static_cast<std::size_t>(neighbour) - 1);
+    });
   }
 
   /// Square of the distance.

@@ -533,17 +533,12 @@ void add_columns(Faces& faces, const Mesh& mesh) {
   (faces.centres.empty() ? faces.given_points : faces.given_centres) = mesh.given;
   std::vector<double> degrees(mesh.points.size());
   const pstripack::ListReader<std::int32_t> reader(mesh.lists());
-  pstripack::parallel_pieces(degrees.size(), pstripack::threads_for(degrees.size()),
-                             [&](std::size_t first, std::size_t last, int) {
-                               for (std::size_t i = first; i < last; ++i) {
-                                 const std::int32_t end = reader.last_slot(static_cast<std::int32_t>(i + 1));
-                                 std::int32_t slot = end;
-                                 do {
-                                   ++degrees[i];
-                                   slot = reader.next(slot);
-                                 } while (slot != end);
-                               }
-                             });
+  pstripack::parallel_pieces(
+      degrees.size(), pstripack::threads_for(degrees.size()), [&](std::size_t first, std::size_t last, int) {
+        for (std::size_t i = first; i < last; ++i) {
+          reader.for_each_neighbour(static_cast<std::int32_t>(i + 1), [&](std::int32_t) { ++degrees[i]; });
+        }
+      });
   add_columns(faces, mesh.columns, std::move(degrees));
 }
 

@@ -14,12 +14,8 @@ namespace {
 template <class Visit>
 void for_each_neighbour(const pstripack::ListReader<std::int32_t>& reader, std::size_t node,
                         const Visit& visit) {
-  const std::int32_t last = reader.last_slot(static_cast<std::int32_t>(node) + 1);
-  std::int32_t slot = last;
-  do {
-    slot = reader.next(slot);
-    visit(static_cast<std::size_t>(reader.neighbour(slot)) - 1);
-  } while (slot != last);
+  reader.for_each_neighbour(static_cast<std::int32_t>(node) + 1,
+                            [&](std::int32_t neighbour) { visit(static_cast<std::size_t>(neighbour) - 1); });
 }
 
 }  // namespace

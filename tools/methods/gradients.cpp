@@ -69,12 +69,7 @@ void two_rings(const pstripack::ListReader<std::int32_t>& reader, std::int32_t n
                std::vector<std::int32_t>& rings) {
   rings.clear();
   const auto add_ring = [&](std::int32_t of) {
-    const std::int32_t last = reader.last_slot(of);
-    std::int32_t slot = last;
-    do {
-      slot = reader.next(slot);
-      rings.push_back(reader.neighbour(slot));
-    } while (slot != last);
+    reader.for_each_neighbour(of, [&](std::int32_t neighbour) { rings.push_back(neighbour); });
   };
   add_ring(node);
   for (std::size_t i = 0, first_ring = rings.size(); i < first_ring; ++i) add_ring(rings[i]);

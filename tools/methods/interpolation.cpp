@@ -252,13 +252,10 @@ std::int32_t Interpolation::descend(const Direction& place, std::int32_t node) c
     return rounded > kFar ? rounded : square(accurate_difference(mesh_.direction(to), place));
   };
   for (double best = distance(node);;) {
-    const std::int32_t here = node, last = reader.last_slot(here);
-    std::int32_t slot = last;
-    do {
-      slot = reader.next(slot);
-      const std::int32_t neighbour = reader.neighbour(slot);
+    const std::int32_t here = node;
+    reader.for_each_neighbour(here, [&](std::int32_t neighbour) {
       if (const double d = distance(neighbour); d < best) best = d, node = neighbour;
-    } while (slot != last);
+    });
     if (node == here) return node;
   }
 }

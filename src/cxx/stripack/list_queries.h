@@ -51,6 +51,17 @@ class ListReader {
     return lstptr(last_slot(node), wanted, lists_.list, lists_.lptr);
   }
 
+  /// Calls visit(neighbour) for the neighbours of a node of a triangulation, counterclockwise from the first.
+  template <class Visit>
+  void for_each_neighbour(Int node, const Visit& visit) const {
+    const Int last = last_slot(node);
+    Int slot = last;
+    do {
+      slot = next(slot);
+      visit(neighbour(slot));
+    } while (slot != last);
+  }
+
   [[gnu::always_inline]] void prefetch_last_slot(Int node) const {
     __builtin_prefetch(lists_.lend + (node - 1));
   }
