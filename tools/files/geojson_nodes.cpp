@@ -31,26 +31,21 @@ std::vector<std::string> names_of(const Columns& columns) {
 /// Collects points and properties from one feature after another.
 class Features {
  public:
-  explicit Features(Nodes& nodes) : nodes_(nodes) {}
+  Features(Nodes& nodes, bool keep_missing) : nodes_(nodes), keep_missing_(keep_missing) {}
 
-  /// Throws if the feature has no geometry, or one other than Point or MultiPoint.
+  /// Throws if the feature has no geometry, unless missing ones are kept, or one other than Point or
+  /// MultiPoint.
   void add(const json& feature) {
     ++count_;
     const auto geometry = feature.find("geometry"), properties = feature.find("properties");
-    if (geometry == feature.end() || !geometry->is_object())
-      fail("has no geometry: remove it, or give it a Point");
-    const std::string type = text_of(*geometry, "type");
-    if (type != "Point" && type != "MultiPoint")
-      fail(
-          fmt::format("'{}' is not a Point or MultiPoint: nodes are points{}", excerpt(type),
-                      type.find("Polygon") != type.npos ? "; meshes are read from UGRID, MPAS and OFF" : ""));
-    const auto coordinates = geometry->find("coordinates");
-    if (coordinates == geometry->end() || !coordinates->is_array()) fail("its geometry has no coordinates");
+    const bool has_geometry = geometry != feature.end() && geometry->is_object();
+    if (!has_geometry && !keep_missing_)
+      fail("has no geometry: remove it, give it a Point, or say --skip-missing");
     const std::size_t first = nodes_.lines.size();
-    if (type == "Point")
-      add_point(*coordinates);
+    if (has_geometry)
+      add_points(*geometry);
     else
-      for (const json& point : *coordinates) add_point(point);
+      add_node(kMissing, kMissing);
     if (properties == feature.end() || !properties->is_object()) return;
     for (const auto& [name, value] : properties->items())
       for (std::size_t i = first; i < nodes_.lines.size(); ++i) set(name, i, value);
@@ -71,14 +66,32 @@ class Features {
     throw std::runtime_error(fmt::format("{}: feature {}: {}", nodes_.file, count_, what));
   }
 
+  void add_points(const json& geometry) {
+    const std::string type = text_of(geometry, "type");
+    if (type != "Point" && type != "MultiPoint")
+      fail(
+          fmt::format("'{}' is not a Point or MultiPoint: nodes are points{}", excerpt(type),
+                      type.find("Polygon") != type.npos ? "; meshes are read from UGRID, MPAS and OFF" : ""));
+    const auto coordinates = geometry.find("coordinates");
+    if (coordinates == geometry.end() || !coordinates->is_array()) fail("its geometry has no coordinates");
+    if (type == "Point")
+      add_point(*coordinates);
+    else
+      for (const json& point : *coordinates) add_point(point);
+  }
+
+  void add_node(double lon, double lat) {
+    nodes_.given.lon.push_back(lon);
+    nodes_.given.lat.push_back(lat);
+    nodes_.lines.push_back(count_);
+  }
+
   void add_point(const json& point) {
     const auto is_number = [](const json& value) { return value.is_number(); };
     if (!point.is_array() || point.size() < 2 || !std::all_of(point.begin(), point.end(), is_number))
       fail("expected coordinates [longitude, latitude] or [longitude, latitude, altitude]");
-    nodes_.given.lon.push_back(point[0].get<double>());
-    nodes_.given.lat.push_back(point[1].get<double>());
     if (point.size() > 2) set("altitude", nodes_.lines.size(), point[2]);
-    nodes_.lines.push_back(count_);
+    add_node(point[0].get<double>(), point[1].get<double>());
   }
 
   void set(const std::string& name, std::size_t i, const json& value) {
@@ -97,13 +110,15 @@ class Features {
   }
 
   Nodes& nodes_;
+  const bool keep_missing_;
   Columns columns_;
   std::size_t count_ = 0;
 };
 
-const std::vector<double>* numbers_of_all(const Columns& columns, const char* name) {
+/// `may_miss`: some may be NaN.
+const std::vector<double>* numbers_of_all(const Columns& columns, const char* name, bool may_miss = false) {
   const Column* const c = find(columns, name);
-  const auto is_missing = [](double v) { return std::isnan(v); };
+  const auto is_missing = [&](double v) { return !may_miss && std::isnan(v); };
   return c == nullptr || c->is_text() || std::any_of(c->numbers.begin(), c->numbers.end(), is_missing)
              ? nullptr
              : &c->numbers;
@@ -183,7 +198,7 @@ Nodes read_geojson(const std::string& file, const ReadOptions& options, const st
   nodes.file = file;
   nodes.kind = "GeoJSON, lon lat in degrees";
   nodes.lines_are = "feature";
-  Features features(nodes);
+  Features features(nodes, options.keep_missing);
   const json root = read_features(contents, file, "points", {"Point", "MultiPoint"},
                                   [&](const json& feature, std::size_t) { features.add(feature); });
   const std::size_t n = nodes.given.lon.size();
@@ -203,7 +218,7 @@ Nodes read_geojson(const std::string& file, const ReadOptions& options, const st
     const std::vector<double>* axes[3];
     for (std::size_t k = 0; k < 3; ++k) {
       constexpr const char* kNames[] = {"x", "y", "z"};
-      axes[k] = numbers_of_all(columns, kNames[k]);
+      axes[k] = numbers_of_all(columns, kNames[k], options.keep_missing);
       if (axes[k] == nullptr)
         throw std::runtime_error(fmt::format(
             "{}: --coordinates xyz needs the property '{}', a number, of all features", file, kNames[k]));

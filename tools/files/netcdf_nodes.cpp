@@ -108,6 +108,7 @@ class File {
   }
   int id() const { return id_; }
   Units units() const { return options_.units; }  ///< of angles without units
+  bool keeps_missing() const { return options_.keep_missing; }
   bool is_read_in_parts() const { return options_.parts > 1; }
   /// The first node that this rank reads, and how many.
   std::pair<std::size_t, std::size_t> part_of(std::size_t n) const {
@@ -199,6 +200,16 @@ std::vector<double> read_numbers(const File& file, const std::string& name) {
   return values;
 }
 
+/// A number of an attribute, or `otherwise`.
+double number_attribute(const File& file, int variable, const char* name, double otherwise) {
+  std::size_t length = 0;
+  double value = 0;
+  if (file.status(nc_inq_attlen, file.id(), variable, name, &length) != NC_NOERR || length != 1 ||
+      file.status(nc_get_att_double, file.id(), variable, name, &value) != NC_NOERR)
+    return otherwise;
+  return value;
+}
+
 Variable read(const File& file, const std::string& name) {
   Variable v;
   v.name = name;
@@ -219,23 +230,19 @@ Variable read(const File& file, const std::string& name) {
   v.id = id;
   if (file.status(nc_inq_attid, file.id(), id, "scale_factor", nullptr) == NC_NOERR)
     file.fail("variable " + excerpt(name) + ": packed (scale_factor); expected plain numbers");
-  double fill = 0;
-  const bool has_fill = file.status(nc_get_att_double, file.id(), id, "_FillValue", &fill) == NC_NOERR;
-  for (std::size_t i = 0; i < v.values.size(); ++i)
-    if (!std::isfinite(v.values[i]) || (has_fill && v.values[i] == fill))
-      file.fail(fmt::format("variable {}, value {}: missing or not finite: remove the node", excerpt(name),
-                            v.before + i + 1));
+  const double fill = number_attribute(file, id, "_FillValue", std::nan("")),
+               missing = number_attribute(file, id, "missing_value", std::nan(""));
+  for (std::size_t i = 0; i < v.values.size(); ++i) {
+    double& value = v.values[i];
+    if (std::isfinite(value) && value != fill && value != missing) continue;
+    if (!file.keeps_missing())
+      file.fail(
+          fmt::format("variable {}, value {}: missing or not finite: remove the node, or say "
+                      "--skip-missing",
+                      excerpt(name), v.before + i + 1));
+    value = std::nan("");
+  }
   return v;
-}
-
-/// A number of an attribute, or `otherwise`.
-double number_attribute(const File& file, int variable, const char* name, double otherwise) {
-  std::size_t length = 0;
-  double value = 0;
-  if (file.status(nc_inq_attlen, file.id(), variable, name, &length) != NC_NOERR || length != 1 ||
-      file.status(nc_get_att_double, file.id(), variable, name, &value) != NC_NOERR)
-    return otherwise;
-  return value;
 }
 
 std::string name_of(const File& file, int variable) {

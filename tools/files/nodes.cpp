@@ -218,16 +218,17 @@ void read_text(Nodes& nodes, std::string_view text, const ReadOptions& options) 
   std::vector<Role> roles(layout.columns, Role::skipped);
   if (options.with_columns)
     for (const std::size_t c : choice.columns) roles[c] = Role::carried;
-  for (const std::size_t c : choice.place) roles[c] = Role::place;
+  for (const std::size_t c : choice.place) roles[c] = options.keep_missing ? Role::value : Role::place;
   if (choice.value) roles[*choice.value] = Role::value;
   TextRows rows = rows_of(text, nodes.file, layout, roles);
   nodes.lines = std::move(rows.lines);
   if (choice.value) {
     for (const std::size_t c : choice.place)
-      for (std::size_t i = 0; i < nodes.lines.size(); ++i)
+      for (std::size_t i = 0; !options.keep_missing && i < nodes.lines.size(); ++i)
         if (std::isnan(rows.numbers[c][i]))
           throw std::runtime_error(
-              fmt::format("{}: {}: its place is 'nan': remove the row", nodes.file, nodes.place(i)));
+              fmt::format("{}: {}: its place is 'nan': remove the row, or say --skip-missing", nodes.file,
+                          nodes.place(i)));
     nodes.value = column_of(rows, layout, *choice.value);
     if (layout.names.empty()) nodes.value.name.clear();
   }
@@ -267,7 +268,7 @@ void read_raw(Nodes& nodes, std::string_view bytes, const ReadOptions& options) 
   std::vector<double> values(bytes.size() / sizeof(double));
   std::memcpy(values.data(), bytes.data(), bytes.size());
   for (std::size_t i = 0; i < values.size(); ++i)
-    if (!std::isfinite(values[i]))
+    if (!std::isfinite(values[i]) && !(options.keep_missing && std::isnan(values[i])))
       throw std::runtime_error(fmt::format("{}: {}: column {} is not finite: remove the row", nodes.file,
                                            nodes.place(i / columns), i % columns + 1));
   if (columns == 2) {
@@ -309,11 +310,14 @@ void read_off(Nodes& nodes, const std::string& text, const ReadOptions& options)
 }  // namespace
 
 std::string Nodes::place(std::size_t i) const {
-  return i < lines.size() ? fmt::format("node {} ({} {})", i + 1, lines_are, lines[i])
-                          : fmt::format("node {}", before + i + 1);
+  return fmt::format("node {}", number(i)) +
+         (i < lines.size() ? fmt::format(" ({} {})", lines_are, lines[i]) : "");
 }
 
 void Nodes::keep(const std::vector<std::size_t>& indices) {
+  if (numbers.empty())
+    for (std::size_t i = 0; i < points.size(); ++i) numbers.push_back(before + i + 1);
+  files::keep(numbers, indices);
   files::keep(points, indices);
   files::keep(given.lon, indices);
   files::keep(given.lat, indices);
@@ -349,7 +353,12 @@ std::vector<Point> points_of(const Angles& a, std::size_t n) {
   std::vector<Point> points(n);
   pstripack::parallel_pieces(n, pstripack::threads_for(n), [&](std::size_t first, std::size_t last, int) {
     for (std::size_t i = first; i < last; ++i) {
-      const double lon = a.lon[a.stride * i], lat = a.lat[a.stride * i], r = cos_lat(lat);
+      const double lon = a.lon[a.stride * i], lat = a.lat[a.stride * i];
+      if (std::isnan(lon) || std::isnan(lat)) {
+        points[i] = {lon + lat, lon + lat, lon + lat};
+        continue;
+      }
+      const double r = cos_lat(lat);
       points[i] = {r * cos_lon(lon), r * sin_lon(lon), sin_lat(lat)};
     }
   });
@@ -359,7 +368,7 @@ std::vector<Point> points_of(const Angles& a, std::size_t n) {
 std::size_t first_beyond_pole(const Angles& a, std::size_t n) {
   const double pole = (a.lat_in_degrees ? 90 : kRightAngle) * kSlack;
   std::size_t i = 0;
-  while (i < n && std::fabs(a.lat[a.stride * i]) <= pole) ++i;
+  while (i < n && !(std::fabs(a.lat[a.stride * i]) > pole)) ++i;
   return i;
 }
 

@@ -26,7 +26,6 @@ enum class To { text, csv, netcdf };
 
 struct Options {
   Input input;
-  bool skip_missing = false;
   std::string points, grid, region;
   double step = 0;
   Registration registration = Registration::cell;
@@ -93,26 +92,19 @@ To format_of(const Options& options) {
   return To::text;
 }
 
-/// Removes nodes without value if `skip` is true, else throws.
-void see_to_missing(files::Nodes& nodes, bool skip) {
-  std::vector<std::size_t> kept;
-  const std::vector<double>& values = nodes.value.numbers;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!std::isnan(values[i]))
-      kept.push_back(i);
-    else if (!skip)
-      throw std::runtime_error(
-          fmt::format("{}: {} has no value: remove it, or say --skip-missing", nodes.file, nodes.place(i)));
-  }
-  if (kept.size() == values.size()) return;
-  say(fmt::format("{}: {} without value left out", nodes.file, counted(values.size() - kept.size(), "node")));
-  nodes.keep(kept);
-}
-
 files::Nodes read_values(Options& options) {
   options.input.read.with_values = true;
   files::Nodes nodes = read_places(options.input.file, options.input.read);
-  see_to_missing(nodes, options.skip_missing);
+  leave_out(
+      nodes,
+      [&](std::size_t i) {
+        const bool is_missing = std::isnan(nodes.value.numbers[i]);
+        if (is_missing && !options.input.read.keep_missing)
+          throw std::runtime_error(fmt::format("{}: {} has no value: remove it, or say --skip-missing",
+                                               nodes.file, nodes.place(i)));
+        return is_missing;
+      },
+      "value");
   drop_duplicates(nodes, options.input);
   return nodes;
 }
@@ -121,6 +113,7 @@ files::Nodes read_values(Options& options) {
 files::Nodes read_points(const Options& options) {
   files::ReadOptions read;
   read.units = options.input.read.units;
+  read.keep_missing = options.input.read.keep_missing;
   read.with_columns = true;
   files::Nodes places = read_places(options.points, read);
   if (!places.given.empty()) return places;
@@ -233,8 +226,8 @@ void add_interpolate(CLI::App& app, Command& chosen) {
       *sub, "--outside", options->outside,
       {{"missing", Outside::missing}, {"nearest", Outside::nearest}, {"error", Outside::error}},
       "places outside the nodes: missing (no value), nearest (nearest node's value) or error [missing]");
-  sub->add_flag("--skip-missing", options->skip_missing, "leave out nodes without a value [an error]");
   add_reading(*sub, options->input.read);
+  add_skip_missing(*sub, options->input.read, "a place or a value, points without a place");
   add_duplicates(*sub, options->input);
   sub->add_option("-o,--output", options->output, "file to write; - is stdout")
       ->required()

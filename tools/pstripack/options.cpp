@@ -191,6 +191,7 @@ void keep_area(files::Mesh& mesh, const files::LimitedArea& area) {
 void add_input(CLI::App& app, Input& input) {
   app.add_option("IN", input.file, "file of nodes; - is stdin")->required()->type_name("");
   add_reading(app, input.read);
+  add_skip_missing(app, input.read, "a place");
 }
 
 void add_reading(CLI::App& app, files::ReadOptions& read) {
@@ -209,6 +210,11 @@ void add_reading(CLI::App& app, files::ReadOptions& read) {
       ->type_name("NAMES");
   add_choice(app, "--units", read.units, {{"degrees", Units::degrees}, {"radians", Units::radians}},
              "degrees or radians, where the file does not say");
+}
+
+void add_skip_missing(CLI::App& app, files::ReadOptions& read, const char* what) {
+  app.add_flag("--skip-missing", read.keep_missing,
+               fmt::format("leave out nodes without {} [an error]", what));
 }
 
 void add_duplicates(CLI::App& app, Input& input) {
@@ -268,9 +274,27 @@ void Output::choose(std::optional<files::Format> otherwise) {
 
 Nodes read_places(const std::string& file, const files::ReadOptions& options) {
   Nodes nodes = files::read(file, options);
+  if (options.keep_missing)
+    leave_out(
+        nodes,
+        [&](std::size_t i) {
+          const files::Point& p = nodes.points[i];
+          return std::isnan(p.x) || std::isnan(p.y) || std::isnan(p.z);
+        },
+        "place");
   check_directions(nodes);
   if (options.coordinates != files::Coordinates::xyz) check_lengths(nodes);
   return nodes;
+}
+
+void leave_out(Nodes& nodes, const std::function<bool(std::size_t)>& is_missing, const char* what) {
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < nodes.points.size(); ++i)
+    if (!is_missing(i)) kept.push_back(i);
+  if (kept.size() == nodes.points.size()) return;
+  say(fmt::format("{}: {} without {} left out", nodes.file,
+                  counted(nodes.points.size() - kept.size(), "node"), what));
+  nodes.keep(kept);
 }
 
 Nodes read_nodes(const Input& input) {
@@ -377,7 +401,7 @@ void number_nodes(Nodes& nodes) {
   if (!nodes.lines.empty())
     add(nodes.lines_are, fmt::format("{} of the node in the input", nodes.lines_are),
         [&](std::size_t i) { return nodes.lines[i]; });
-  add(kNode, "number of the node in the input, from 1", [](std::size_t i) { return i + 1; });
+  add(kNode, "number of the node in the input, from 1", [&](std::size_t i) { return nodes.number(i); });
 }
 
 void add_history(files::Notes& notes) {

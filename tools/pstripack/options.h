@@ -86,6 +86,8 @@ struct Input {
 void add_input(CLI::App& app, Input& input);
 /// --from, --columns, --coordinates, --units.
 void add_reading(CLI::App& app, files::ReadOptions& read);
+/// --skip-missing: `what` must not be missing.
+void add_skip_missing(CLI::App& app, files::ReadOptions& read, const char* what);
 /// --duplicates, --drop-duplicates, --duplicates-within.
 void add_duplicates(CLI::App& app, Input& input);
 
@@ -107,8 +109,12 @@ constexpr auto kRadiusOfMpas = "of the sphere in an MPAS mesh [that of the input
 CLI::Option* add_radius(CLI::App& app, double& radius, const char* text);
 void add_edges(CLI::App& app, Output& output);
 
-/// Reads nodes; throws unless they have directions, and lie on one sphere or --coordinates xyz is given.
+/// Reads nodes, without those whose place is missing if the options say so; throws unless they have
+/// directions, and lie on one sphere or --coordinates xyz is given.
 files::Nodes read_places(const std::string& file, const files::ReadOptions& options);
+
+/// Removes the nodes for which `is_missing(index)` is true, and says how many had no `what`.
+void leave_out(files::Nodes& nodes, const std::function<bool(std::size_t)>& is_missing, const char* what);
 
 /// Reads at least three nodes and removes duplicates if requested.
 files::Nodes read_nodes(const Input& input);

@@ -131,7 +131,8 @@ void plot(Options& options) {
   pictures::expect_converter(kind);
 
   options.input.read.with_columns = mesh_options.colour == MeshOptions::Colour::value;
-  options.input.read.with_triangles = !options.input.drops();  // dropping nodes renumbers corners
+  // Without triangles where nodes are left out, which renumbers corners.
+  options.input.read.with_triangles = !options.input.drops() && !options.input.read.keep_missing;
   files::OutputFile file(options.file);
   Progress progress;
   files::Nodes nodes = progress.step("reading", [&] { return read_nodes(options.input); });

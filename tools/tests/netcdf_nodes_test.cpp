@@ -161,6 +161,25 @@ TEST(netcdf, lon_and_lat_that_cannot_be_radians_are_degrees) {
   EXPECT_NEAR(points_of(file.closed())[1].z, 0.5, 1e-15);
 }
 
+TEST(netcdf, coordinates_may_be_missing_if_the_caller_says_so) {
+  NetcdfFile file;  // -999 is _FillValue
+  const int n = file.dimension("n", 4);
+  file.with("TLONG", {n}, {1, -999, 3, 4}, "degrees_east")
+      .with("TLAT", {n}, {1, 2, 1e30, 4}, "degrees_north");
+  file.attribute("TLAT", "missing_value", 1e30);
+  const std::string name = file.closed();
+  EXPECT_NE(error_of(name).find("variable TLONG, value 2: missing or not finite: remove the node, or say"),
+            std::string::npos);
+  ReadOptions options;
+  options.keep_missing = true;
+  Nodes nodes = read(name, options);
+  ASSERT_EQ(nodes.points.size(), 4u);
+  for (const std::size_t i : {0, 1, 2, 3}) EXPECT_EQ(std::isnan(nodes.points[i].x), i == 1 || i == 2);
+  nodes.keep({0, 3});
+  nodes.keep({1});
+  EXPECT_EQ(nodes.place(0), "node 4");
+}
+
 /// NEMO, ICON, WRF, POP and CORDEX: the nodes are where each file has its longitudes and latitudes.
 TEST(netcdf, coordinates_of_models_are_found) {
   const std::vector<double> lon{0, 40, 80, 5, 45, 85}, lat{0, 1, 2, 30, 31, 32};

@@ -762,7 +762,7 @@ bad_values)
   refuses 1 "there is no value in column 9" interpolate five.txt --coordinates lonlat --variable 9 --grid-step 30 -o failed.txt
   refuses 1 "is the number of a column, not 'depth'" interpolate five.txt --coordinates lonlat --variable depth --grid-step 30 -o failed.txt
   printf '10 20 1\nnan 40 1\n' > place.txt
-  refuses 1 "place.txt: node 2 (line 2): its place is 'nan': remove the row" interpolate place.txt --grid-step 30 -o failed.txt
+  refuses 1 "place.txt: node 2 (line 2): its place is 'nan': remove the row, or say --skip-missing" interpolate place.txt --grid-step 30 -o failed.txt
   { octahedron; octahedron; } | sed 's/$/ 1/' > twice.txt
   refuses 1 "are in the same place: remove one, or say --drop-duplicates" interpolate twice.txt --grid-step 30 -o failed.txt
   "$PSTRIPACK" -q points cap:0.3 100 | sed 's/$/ 1/' > region.txt
@@ -869,6 +869,18 @@ tables)
   "$PSTRIPACK" -q interpolate out.txt --variable mag --skip-missing --duplicates first --to-points quakes.csv -o again.txt
   cut -d ' ' -f 1-3 out.txt > a
   cut -d ' ' -f 1-3 again.txt | cmp a -
+  # Stations without a place or a value are left out on request; numbers are those in the input.
+  printf 'name,lon,lat,t\na,10,20,1\nb,,30,2\nc,100,40,3\nd,20,-50,\ne,NA,5,5\nf,100,40,7\ng,170,5,7\nh,80,7,7\n' > gaps.csv
+  refuses 1 "gaps.csv:3: nothing in column 'lon': remove the row, say --skip-missing" triangulate gaps.csv -o failed.vtu
+  refuses 1 "gaps.csv: node 3 (line 4) and node 6 (line 7) are in the same place" -q triangulate gaps.csv --skip-missing -o failed.vtu
+  "$PSTRIPACK" triangulate gaps.csv --skip-missing --drop-duplicates -o mesh.vtu 2> err
+  grep -q "gaps.csv: 2 nodes without place left out" err || fail "$(cat err)"
+  [ "$(values_of node)" = "1 3 4 7 8" ] || fail "node: $(values_of node)"
+  "$PSTRIPACK" interpolate gaps.csv --variable t --skip-missing --drop-duplicates --to-points gaps.csv -o out.txt 2> err
+  grep -q "gaps.csv: 1 node without value left out" err && [ "$(grep -c "gaps.csv: 2 nodes without place left out" err)" = 2 ] ||
+    fail "$(cat err)"
+  [ "$(awk '!/#/ { print $3 }' out.txt | tr '\n' ' ')" = "1 3 nan 3 7 7 " ] || fail "$(cat out.txt)"
+  "$PSTRIPACK" -q info gaps.csv --skip-missing --json | tr -d ' \n' | grep -qF '"duplicate_pairs":[[3,6]]' || fail "numbers of info"
   # Segments of GMT.
   printf '> -Z1\n100\t0\n110\t5\n> -Z2\n100\t50\n' > lines.gmt
   "$PSTRIPACK" -q triangulate lines.gmt -o mesh.vtu
