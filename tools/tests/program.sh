@@ -164,6 +164,19 @@ bad_nodes)
   refuses 1 "missing.txt: cannot be opened: No such file" triangulate missing.txt -o missing.off
   printf 'a\0b' > binary
   refuses 1 "raw doubles need --from raw" triangulate binary -o binary.off
+  # Formats that other programs convert.
+  while read -r file bytes command; do
+    printf "$bytes" > $file
+    refuses 1 "$file: $command" triangulate $file -o foreign.off
+  done <<'END'
+a.b.shp \000\000\047\012 a shapefile: convert it first, by `ogr2ogr -f GeoJSON -t_srs EPSG:4326 a.b.geojson a.b.shp`
+a.gpkg SQLite\040format\0403 a GeoPackage: convert it first, by `ogr2ogr -f GeoJSON -t_srs EPSG:4326 a.geojson a.gpkg`
+a.kml <?xml\n<kml> KML: convert it first, by `ogr2ogr -f GeoJSON -t_srs EPSG:4326 a.geojson a.kml`
+a.kmz PK\003\004doc.kml KMZ: convert it first, by `ogr2ogr -f GeoJSON -t_srs EPSG:4326 a.geojson a.kmz`
+a.xlsx PK\003\004xl/workbook.xml a spreadsheet: convert it first, by `libreoffice --headless --convert-to csv a.xlsx`
+a.parquet PAR1 Parquet: convert it first, by `python3 -c "import pandas; pandas.read_parquet('a.parquet').to_csv('a.csv', index=False)"`
+a GRIB GRIB: convert it first, by `cdo -f nc copy a a.nc`
+END
   refuses 1 "holds nodes without triangles" convert two.txt -o two.off
   [ "$(echo ./*.off)" = ./mesh.off ] || fail "files of failed runs: $(echo ./*.off)"
   ;;
