@@ -311,20 +311,22 @@ std::vector<int> dimensions_of_places(const File& file, const std::string& name)
   return dimensions;
 }
 
-/// Names of the variables with one value per node, for messages.
-std::string names_of_values(const File& file, const std::vector<int>& of_nodes) {
+/// Names of the variables with one value per node, without these coordinates.
+std::vector<std::string> names_of_values(const File& file, const std::vector<int>& of_nodes,
+                                         const std::vector<int>& coordinates) {
   int count = 0;
   file.call("", nc_inq_nvars, file.id(), &count);
   std::vector<std::string> names;
   for (int v = 0; v < count; ++v) {
-    char name[NC_MAX_NAME + 1];
+    const std::string name = name_of(file, v);
     nc_type type = NC_CHAR;
-    file.call("", nc_inq_varname, file.id(), v, name);
     file.call(name, nc_inq_vartype, file.id(), v, &type);
-    if (type != NC_CHAR && type <= NC_UINT64 && type != NC_STRING && is_of_nodes(file, name, of_nodes))
-      names.emplace_back(name);
+    const bool is_coordinate = std::find(coordinates.begin(), coordinates.end(), v) != coordinates.end();
+    if (!is_coordinate && type != NC_CHAR && type <= NC_UINT64 && type != NC_STRING &&
+        is_of_nodes(file, name, of_nodes))
+      names.push_back(name);
   }
-  return listed(names);
+  return names;
 }
 
 /// The value of each node, NaN where it is missing.
@@ -350,11 +352,17 @@ Column read_column(const File& file, const std::string& name) {
   return column;
 }
 
-Column read_value(const File& file, const std::string& name, const std::vector<int>& of_nodes) {
-  if (name.empty() || !has(file, name))
-    file.fail(fmt::format("{}say --variable NAME; variables with one value per node: {}",
-                          name.empty() ? "" : "there is no variable " + excerpt(name) + "; ",
-                          names_of_values(file, of_nodes)));
+/// The values of the variable `name`, or of the only one if `name` is empty.
+Column read_value(const File& file, std::string name, const std::vector<int>& of_nodes,
+                  const std::vector<int>& coordinates) {
+  if (name.empty() || !has(file, name)) {
+    const std::vector<std::string> names = names_of_values(file, of_nodes, coordinates);
+    if (!name.empty() || names.size() != 1)
+      file.fail(fmt::format("{}say --variable NAME; variables with one value per node: {}",
+                            name.empty() ? "" : "there is no variable " + excerpt(name) + "; ",
+                            listed(names)));
+    name = names[0];
+  }
   std::vector<int> dimensions;
   const std::vector<std::size_t> lengths = shape_of(file, name, dimensions).second;
   if (!is_of_nodes(file, name, of_nodes)) {
@@ -806,7 +814,7 @@ Nodes read_netcdf(const std::string& name, const ReadOptions& options, const std
     if (variable.empty() && !wanted.empty()) variable = wanted[0];
     for (const std::string& usual : options.usual_variables)
       if (variable.empty() && has(file, usual)) variable = usual;
-    nodes.value = read_value(file, variable, places.dimensions);
+    nodes.value = read_value(file, variable, places.dimensions, places.variables);
     wanted.erase(std::remove(wanted.begin(), wanted.end(), variable), wanted.end());
   }
   if (options.with_columns && (options.columns.empty() || !wanted.empty()))

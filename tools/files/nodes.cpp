@@ -167,6 +167,10 @@ Choice choose(const TextLayout& layout, const ReadOptions& options, const std::s
   std::vector<std::size_t> candidates(layout.columns);
   std::iota(candidates.begin(), candidates.end(), std::size_t{0});
   if (chosen) candidates = columns_named(options.columns, layout, file);
+  double number = 0;  // of the column --variable
+  const bool is_number = point_sets::parse(options.variable, number);
+  if (options.variable.find(',') != options.variable.npos)
+    fail(fmt::format("--variable names one column, not '{}'", options.variable));
   Choice choice;
   if (!layout.names.empty()) choice.place = place_by_names(candidates, layout, options.coordinates, where);
   if (choice.place.empty()) {
@@ -176,7 +180,8 @@ Choice choose(const TextLayout& layout, const ReadOptions& options, const std::s
         fail(fmt::format(
             "no columns named lon and lat, or x, y and z: name them by --columns; the header has {}",
             listed(layout.names)));
-      if (options.with_values && layout.columns != 3 && layout.columns != 4)
+      const bool is_third = number == 3;  // so the first two are lon lat
+      if (options.with_values && !is_third && layout.columns != 3 && layout.columns != 4)
         fail(fmt::format(
             "has {} columns; expected 'lon lat value' or 'x y z value'; of more columns say --coordinates "
             "and --variable, or --columns",
@@ -186,7 +191,7 @@ Choice choose(const TextLayout& layout, const ReadOptions& options, const std::s
             "{}:{}: expected 'lon lat' or 'x y z', found {} number{}{}", file, layout.line, layout.columns,
             layout.columns == 1 ? "" : "s",
             layout.columns == 1 ? "" : ": say --coordinates lonlat or xyz, or choose --columns 1,2"));
-      columns = layout.columns - (options.with_values ? 1 : 0);
+      columns = is_third ? 2 : layout.columns - (options.with_values ? 1 : 0);
     }
     if (candidates.size() < columns)
       fail(fmt::format("has {} columns; --coordinates {} needs {}{}", candidates.size(),
@@ -201,8 +206,6 @@ Choice choose(const TextLayout& layout, const ReadOptions& options, const std::s
   if (!options.with_values) return choice;
 
   if (!options.variable.empty()) {
-    double number = 0;
-    const bool is_number = point_sets::parse(options.variable, number);
     if (layout.names.empty() && !is_number)
       fail(fmt::format("has {} columns; --variable of text is the number of a column, not '{}'",
                        layout.columns, options.variable));
@@ -210,8 +213,9 @@ Choice choose(const TextLayout& layout, const ReadOptions& options, const std::s
                                        number <= static_cast<double>(layout.columns));
     if (exists) choice.value = columns_named(options.variable, layout, file).at(0);
     if (!exists || is_place(*choice.value))
-      fail(fmt::format("has {} columns; the first {} are the place: there is no value in column {}",
-                       layout.columns, choice.place.size(), options.variable));
+      fail(fmt::format("has {} columns; {}", layout.columns,
+                       exists ? fmt::format("column {} is a coordinate, not a value", options.variable)
+                              : fmt::format("there is no value in column {}", options.variable)));
   } else if (choice.columns.size() == 1 || (!choice.columns.empty() && (chosen || layout.names.empty()))) {
     choice.value = choice.columns[0];
   } else if (choice.columns.empty()) {

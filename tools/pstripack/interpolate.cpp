@@ -203,8 +203,10 @@ void add_interpolate(CLI::App& app, Command& chosen) {
   sub->add_option("VALUES", options->input.file, "file of nodes and values; - is stdin")
       ->required()
       ->type_name("");
-  sub->add_option("--variable", options->input.read.variable,
-                  "of the value: name, or in text column from 1 [the column after the coordinates]")
+  sub->add_option(
+         "--variable", options->input.read.variable,
+         "of the value: its name, or in text its column, from 1 [the only one; in text without a header "
+         "the one after the coordinates]")
       ->type_name("NAME");
   sub->add_option("--to-points", options->points, "file of points")->type_name("FILE");
   sub->add_option("--to-grid", options->grid, "points of a grid, for example 180x360")

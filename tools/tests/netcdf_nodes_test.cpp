@@ -464,6 +464,13 @@ TEST(netcdf, values_have_the_dimensions_of_the_nodes) {
   }
 }
 
+TEST(netcdf, the_only_variable_on_the_nodes_is_the_value) {
+  NetcdfFile file;
+  const int n = file.dimension("n", 2), m = file.dimension("m", 1);
+  file.with("lon", {n}, {0, 90}).with("lat", {n}, {0, 30}).with("t", {n}, {1, 2}).with("u", {m}, {1});
+  EXPECT_EQ(read(file.closed(), values_of("")).value.numbers, (std::vector<double>{1, 2}));
+}
+
 TEST(netcdf, angles_stay_beside_the_vectors_unless_they_are_of_other_nodes) {
   for (const bool same : {true, false}) {
     NetcdfFile file;

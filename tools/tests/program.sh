@@ -736,6 +736,8 @@ interpolate)
   "$PSTRIPACK" -q interpolate columns.txt --coordinates lonlat --variable 4 --to-points nodes.txt -o out.txt
   awk '!/#/ && ($3 - NR + 1) ^ 2 > 1e-16' out.txt > wrong
   [ ! -s wrong ] || fail "$(cat wrong)"
+  awk '{ print $1, $2, NR, 7 }' columns.txt > third.txt  # the value is in column 3, so the first two are lon lat
+  "$PSTRIPACK" -q interpolate third.txt --variable 3 --to-points nodes.txt -o - | cmp - out.txt
   # Outside of a region.
   "$PSTRIPACK" -q points cap:0.3 100 | awk '{ print $0, NR }' > region.txt
   "$PSTRIPACK" interpolate region.txt --grid-step 10 -o missing.txt 2> err
@@ -772,6 +774,8 @@ bad_values)
   refuses 1 "two.txt: has 2 columns; expected 'lon lat value' or 'x y z value'" interpolate two.txt --grid-step 30 -o failed.txt
   printf '10 20 1 2 3\n30 40 1 2 3\n' > five.txt
   refuses 1 "of more columns say --coordinates and --variable" interpolate five.txt --grid-step 30 -o failed.txt
+  refuses 1 "five.txt: has 5 columns; column 2 is a coordinate, not a value" interpolate five.txt --coordinates lonlat --variable 2 --grid-step 30 -o failed.txt
+  refuses 1 "five.txt: --variable names one column, not '4,5'" interpolate five.txt --coordinates lonlat --variable 4,5 --grid-step 30 -o failed.txt
   refuses 1 "there is no value in column 9" interpolate five.txt --coordinates lonlat --variable 9 --grid-step 30 -o failed.txt
   refuses 1 "is the number of a column, not 'depth'" interpolate five.txt --coordinates lonlat --variable depth --grid-step 30 -o failed.txt
   printf '10 20 1\nnan 40 1\n' > place.txt
@@ -806,7 +810,8 @@ netcdf_values)
   "$PSTRIPACK" -q interpolate region.nc --variable value --skip-missing --grid-step 30 --outside nearest -o out.txt
   awk '!/#/ && $3 != 1' out.txt > wrong
   [ ! -s wrong ] || fail "$(cat wrong)"
-  refuses 1 "region.nc: say --variable NAME; variables with one value per node: value" interpolate region.nc --grid-step 30 -o failed.nc
+  "$PSTRIPACK" -q interpolate region.nc --skip-missing --grid-step 30 --outside nearest -o only.txt  # the only variable
+  cmp only.txt out.txt
   refuses 1 "there is no variable depth; say" interpolate region.nc --variable depth --grid-step 30 -o failed.nc
   refuses 1 "variable lon(lon=36): expected lon(lat=18, lon=36)" interpolate region.nc --variable lon --grid-step 30 -o failed.nc
   [ ! -e failed.nc ] || fail "failed.nc was written"
