@@ -808,6 +808,10 @@ Nodes read_netcdf(const std::string& name, const ReadOptions& options, const std
   nodes.before = places.before;
   nodes.given = std::move(places.given);
   nodes.grid = std::move(places.grid);
+  for (const int dimension : places.dimensions) {
+    nodes.shape.emplace_back();
+    file.call("", nc_inq_dimlen, file.id(), dimension, &nodes.shape.back());
+  }
   if (nodes.points.empty() && !file.is_read_in_parts()) file.fail("no nodes: the variables are empty");
   if (options.with_values) {
     std::string variable = options.variable;

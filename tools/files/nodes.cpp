@@ -181,17 +181,20 @@ Choice choose(const TextLayout& layout, const ReadOptions& options, const std::s
             "no columns named lon and lat, or x, y and z: name them by --columns; the header has {}",
             listed(layout.names)));
       const bool is_third = number == 3;  // so the first two are lon lat
-      if (options.with_values && !is_third && layout.columns != 3 && layout.columns != 4)
+      if (options.may_have_value && !options.with_values && layout.columns == 3)
+        fail("has 3 columns: say --coordinates lonlat or xyz");
+      const bool has_value = options.with_values || (options.may_have_value && layout.columns > 2);
+      if (has_value && !is_third && layout.columns != 3 && layout.columns != 4)
         fail(fmt::format(
             "has {} columns; expected 'lon lat value' or 'x y z value'; of more columns say --coordinates "
             "and --variable, or --columns",
             layout.columns));
-      if (!options.with_values && layout.columns != 2 && layout.columns != 3)
+      if (!has_value && layout.columns != 2 && layout.columns != 3)
         throw std::runtime_error(fmt::format(
             "{}:{}: expected 'lon lat' or 'x y z', found {} number{}{}", file, layout.line, layout.columns,
             layout.columns == 1 ? "" : "s",
             layout.columns == 1 ? "" : ": say --coordinates lonlat or xyz, or choose --columns 1,2"));
-      columns = is_third ? 2 : layout.columns - (options.with_values ? 1 : 0);
+      columns = is_third ? 2 : layout.columns - (has_value ? 1 : 0);
     }
     if (candidates.size() < columns)
       fail(fmt::format("has {} columns; --coordinates {} needs {}{}", candidates.size(),
@@ -348,6 +351,7 @@ std::string Nodes::place(std::size_t i) const {
 }
 
 void Nodes::keep(const std::vector<std::size_t>& indices) {
+  if (shape.empty()) shape.push_back(points.size());
   if (numbers.empty())
     for (std::size_t i = 0; i < points.size(); ++i) numbers.push_back(before + i + 1);
   files::keep(numbers, indices);

@@ -85,6 +85,27 @@ void write_csv_field(const OutputFile& file, const LonLat& places, const Field& 
 void write_netcdf_field(const OutputFile& file, const LonLat& places, const Field& field);
 void write_netcdf_grid(const OutputFile& file, const Grid& grid, const Field& field);
 
+/// Weights of nodes in values at places: place i, from 0, has the entries begin[i] to begin[i + 1] - 1.
+struct Weights {
+  std::vector<std::size_t> begin;
+  std::vector<std::int32_t> node;  ///< from 1
+  std::vector<double> part;
+  std::size_t outside = 0;  ///< number of places outside the nodes
+};
+
+/// The nodes or the places of weights.
+struct WeightsEnd {
+  LonLat at;                         ///< in degrees
+  std::vector<std::size_t> numbers;  ///< of each in the file, from 1; empty: 1, 2, 3 ...
+  std::vector<std::size_t> shape;    ///< of all in the file; empty: a list of these
+  Grid edges;                        ///< between the cells, if the places are a grid
+};
+
+/// Writes weights as ESMF_RegridWeightGen does: the value of place row[k] has the part S[k] of that of node
+/// col[k]. Nodes and places that are in the file but not here have the mask 0.
+void write_weights(const OutputFile& file, const Weights& weights, const WeightsEnd& nodes,
+                   const WeightsEnd& places, const std::string& history);
+
 // In netcdf_meshes.cpp.
 /// `vectors`: the corners with their given lengths.
 void write_ugrid(const OutputFile& file, const Faces& faces, const std::vector<Point>& vectors,

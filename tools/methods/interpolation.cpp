@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "base/parallel_for.h"
@@ -39,6 +40,20 @@ bool is_above(const Direction& a, const Direction& b, const Direction& c, const 
   const double error = most * (12 * 0x1p-50 * std::sqrt(most) + 64 * 0x1p-53 * most);
   if (std::fabs(height) > error) return height > 0;
   return pstripack::orientation_of_directions(a.given, b.given, c.given, place.given) > 0;
+}
+
+constexpr std::size_t kBlock = 512;  // places; searches restart in each block, so that threads change no bit
+
+std::size_t blocks_of(std::size_t places) { return (places + kBlock - 1) / kBlock; }
+
+/// Calls visit(block, first place, end) for each block, on several threads.
+template <class Visit>
+void for_each_block(std::size_t places, const Visit& visit) {
+  pstripack::parallel_pieces(blocks_of(places), pstripack::threads_for(100 * places),
+                             [&](std::size_t first, std::size_t last, int) {
+                               for (std::size_t b = first; b < last; ++b)
+                                 visit(b, b * kBlock, std::min((b + 1) * kBlock, places));
+                             });
 }
 
 /// What geometry/weights.h takes.
@@ -302,46 +317,87 @@ double Interpolation::cubic_value(const Point& p, const std::vector<Share>& shar
   return (alpha * mean + second * (tangent / inverse)) / (alpha + second);
 }
 
+template <class Use>
+std::size_t Interpolation::for_each_place(const std::vector<Point>& places, Method method, Outside outside,
+                                          const Use& use) const {
+  std::vector<std::size_t> count_outside(blocks_of(places.size()));
+  for_each_block(places.size(), [&](std::size_t b, std::size_t begin, std::size_t end) {
+    std::int32_t near = 1;
+    std::vector<Share> shares;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Point& p = places[i];
+      bool is_inside = false;
+      if (method != Method::nearest)
+        is_inside = method == Method::linear ? linear(p, near, shares) : natural(p, near, shares);
+      if (!is_inside) {
+        shares.clear();
+        if (method == Method::nearest || outside == Outside::nearest)
+          shares.push_back({near = nearest(p, near), 1});
+        if (method != Method::nearest) ++count_outside[b];
+      }
+      use(i, shares);
+    }
+  });
+  return std::accumulate(count_outside.begin(), count_outside.end(), std::size_t{0});
+}
+
 Interpolation::Result Interpolation::values_at(const std::vector<Point>& places,
                                                const std::vector<double>& values, Method method,
                                                Outside outside) const {
-  constexpr std::size_t kBlock = 512;  // searches restart here, so that threads change no bit
   Result result;
   result.values.resize(places.size());
-  const std::size_t blocks = (places.size() + kBlock - 1) / kBlock;
-  std::vector<std::size_t> count_outside(blocks);
   const std::vector<Point> slopes = method == Method::cubic ? gradients(mesh_, values) : std::vector<Point>();
   const auto value_of = [&](std::int32_t node) { return values[static_cast<std::size_t>(node) - 1]; };
-  const auto block = [&](std::size_t b) {
-    std::int32_t near = 1;
-    std::vector<Share> shares;
-    for (std::size_t i = b * kBlock; i < std::min((b + 1) * kBlock, places.size()); ++i) {
-      const Point& p = places[i];
-      if (!(method == Method::linear ? linear(p, near, shares) : natural(p, near, shares))) {
-        ++count_outside[b];
-        result.values[i] = outside == Outside::missing ? std::numeric_limits<double>::quiet_NaN()
-                                                       : value_of(near = nearest(p, near));
-        continue;
-      }
-      if (method == Method::cubic) {
-        result.values[i] = cubic_value(p, shares, values, slopes);
-        continue;
-      }
-      double sum = 0, low = value_of(shares[0].node), high = low;
-      for (const Share& s : shares) {
-        const double v = value_of(s.node);
-        sum += s.part * v;
-        low = std::min(low, v), high = std::max(high, v);
-      }
-      result.values[i] = std::clamp(sum, low, high);  // rounding may exceed the range
-    }
-  };
-  pstripack::parallel_pieces(blocks, pstripack::threads_for(100 * places.size()),
-                             [&](std::size_t first, std::size_t last, int) {
-                               for (std::size_t b = first; b < last; ++b) block(b);
-                             });
-  for (const std::size_t count : count_outside) result.outside += count;
+  result.outside =
+      for_each_place(places, method, outside, [&](std::size_t i, const std::vector<Share>& shares) {
+        if (shares.empty()) {
+          result.values[i] = std::numeric_limits<double>::quiet_NaN();
+        } else if (method == Method::cubic) {
+          result.values[i] = cubic_value(places[i], shares, values, slopes);
+        } else {
+          double sum = 0, low = value_of(shares[0].node), high = low;
+          for (const Share& s : shares) {
+            const double v = value_of(s.node);
+            sum += s.part * v;
+            low = std::min(low, v), high = std::max(high, v);
+          }
+          result.values[i] = std::clamp(sum, low, high);  // rounding may exceed the range
+        }
+      });
   return result;
+}
+
+files::Weights Interpolation::weights_at(const std::vector<Point>& places, Method method,
+                                         Outside outside) const {
+  files::Weights all;
+  all.begin.resize(places.size() + 1);
+  std::vector<files::Weights> parts(blocks_of(places.size()));
+  all.outside = for_each_place(places, method, outside, [&](std::size_t i, const std::vector<Share>& shares) {
+    files::Weights& part = parts[i / kBlock];
+    for (const auto& [node, share] : shares) part.node.push_back(node), part.part.push_back(share);
+    all.begin[i + 1] = shares.size();
+  });
+  for (std::size_t i = 0; i < places.size(); ++i) all.begin[i + 1] += all.begin[i];
+  all.node.reserve(all.begin.back());
+  all.part.reserve(all.begin.back());
+  for (files::Weights& part : parts) {
+    all.node.insert(all.node.end(), part.node.begin(), part.node.end());
+    all.part.insert(all.part.end(), part.part.begin(), part.part.end());
+    part = {};
+  }
+  return all;
+}
+
+Interpolation::Nearest Interpolation::nearest_at(const std::vector<Point>& places) const {
+  Nearest found{std::vector<std::int32_t>(places.size()), std::vector<double>(places.size())};
+  for_each_block(places.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    std::int32_t near = 1;
+    for (std::size_t i = begin; i < end; ++i) {
+      found.node[i] = near = nearest(places[i], near);
+      found.distance[i] = arc_length(mesh_.direction(near), pstripack::direction_of(places[i]));
+    }
+  });
+  return found;
 }
 
 }  // namespace methods

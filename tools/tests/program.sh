@@ -747,6 +747,16 @@ interpolate)
   ! grep nan nearest.txt || fail "a value is missing"
   "$PSTRIPACK" -q interpolate region.txt --to-grid 2x3 --region 10,40,-20,0 -o grid.txt --outside nearest
   [ "$(awk '!/#/ { print $1, $2 }' grid.txt | tr '\n' ',')" = "15 -15,25 -15,35 -15,15 -5,25 -5,35 -5," ] || fail "$(cat grid.txt)"
+  # The nearest node, also beyond the region: its value, number and distance.
+  { echo "lon,lat,v"; printf '%s\n' 10,0,1 ,0,9 12,0,2 10,2,3 12,0,2; } > few.csv
+  printf 'lon,lat,nearest_km\n10,-1,a\n100,0,b\n' > two.csv
+  "$PSTRIPACK" -q interpolate few.csv --units degrees --skip-missing --drop-duplicates --method nearest --nearest-node --to-points two.csv -o out.csv
+  cut -d , -f 1-4,6 out.csv | tail -n +2 | tr '\n' ' ' > got
+  [ "$(cat got)" = "10,-1,1,1,a 100,0,2,3,b " ] || fail "$(cat out.csv)"
+  awk -F , 'NR == 2 && ($5 - 111.19492664455873) ^ 2 > 1e-20 || NR == 3 && ($5 - 88 * 111.19492664455873) ^ 2 > 1e-18' out.csv > wrong
+  [ ! -s wrong ] || fail "$(cat wrong)"
+  "$PSTRIPACK" -q interpolate few.csv --units degrees --skip-missing --drop-duplicates --grid-step 90 --nearest-node -o out.txt
+  [ "$(head -n 1 out.txt)" = "# lon lat v nearest_node nearest_km [km]" ] || fail "$(head -n 1 out.txt)"
   # Missing values and duplicates.
   { sed -n 1p region.txt; sed '5s/[^ ]*$/nan/' region.txt; } > odd.txt
   "$PSTRIPACK" -q points cap:0.3 100 -o places.txt
@@ -762,6 +772,10 @@ bad_values)
   refuses 1 "values.txt: node 2 (line 2) has no value: remove it, or say --skip-missing" interpolate values.txt --grid-step 30 -o failed.txt
   refuses 2 "give one of --to-points, --to-grid, --grid-step" interpolate values.txt -o failed.txt
   refuses 2 "give one of --to-points, --to-grid, --grid-step" interpolate values.txt --grid-step 30 --to-grid 2x2 -o failed.txt
+  refuses 2 "--output or --weights is required" interpolate values.txt --grid-step 30
+  refuses 2 "--weights: are those of linear, natural or nearest" interpolate values.txt --grid-step 30 --method cubic --weights failed.nc
+  refuses 2 "--weights: are of one node for each place" interpolate values.txt --grid-step 30 --duplicates mean --weights failed.nc
+  refuses 2 "--nearest-node: is for columns of the output" interpolate values.txt --grid-step 30 --nearest-node --weights failed.nc
   refuses 2 "180 degrees are not a multiple of 7" interpolate values.txt --grid-step 7 -o failed.txt
   refuses 2 "--grid-step: -1 is not a number of degrees above 0" interpolate values.txt --grid-step -1 -o failed.txt
   refuses 2 "'180' is not 2 numbers" interpolate values.txt --to-grid 180 -o failed.txt
