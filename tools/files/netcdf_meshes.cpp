@@ -371,11 +371,12 @@ void write_weights(const OutputFile& file, const Weights& weights, const Weights
   const int n_s = out.dimension("n_s", weights.node.size());
   const int col = out.variable("col", NC_INT, {n_s}), row = out.variable("row", NC_INT, {n_s}),
             part = out.variable("S", NC_DOUBLE, {n_s});
-  // ncremap needs these words and the normalization.
+  // ncremap needs these words; it calls all that is not conservative bilinear, as ESMF does.
   out.attribute(NC_GLOBAL, "title",
                 "weights of pstripack as of the ESMF Offline Regridding Weight Generator");
   out.attribute(NC_GLOBAL, "conventions", "NCAR-CSM");
   out.attribute(NC_GLOBAL, "normalization", "destarea");
+  out.attribute(NC_GLOBAL, "map_method", "Bilinear remapping");
   out.attribute(NC_GLOBAL, "history", history);
   out.end_definitions();
   std::vector<std::int32_t> cols, rows;

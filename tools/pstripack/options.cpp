@@ -202,9 +202,10 @@ void add_reading(CLI::App& app, files::ReadOptions& read) {
               {"geojson", Container::geojson},
               {"raw", Container::raw}},
              "text, netcdf, geojson or raw (doubles in this machine's byte order) [detected, but for raw]");
-  add_choice(app, "--coordinates", read.coordinates,
-             {{"xyz", Coordinates::xyz}, {"lonlat", Coordinates::lonlat}},
-             "xyz: three columns, any lengths; lonlat: two columns [by their names or number]");
+  add_choice(
+      app, "--coordinates", read.coordinates, {{"xyz", Coordinates::xyz}, {"lonlat", Coordinates::lonlat}},
+      "xyz: three columns, any lengths; lonlat: two columns; latitudes, also geodetic ones, are those of a "
+      "sphere: up to 0.19 degrees, 21 km [by their names or number]");
   app.add_option("--columns", read.columns,
                  "lon,lat or x,y,z, then other columns to keep: names, or in text numbers [all]")
       ->type_name("NAMES");

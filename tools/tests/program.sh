@@ -48,6 +48,18 @@ documented_tables)
   [ -s help.formats ] || fail "'pstripack triangulate --help' has no formats"
   grep -o '(`[a-z]*`; `\.[^)]*)' "$DOCUMENT" | tr -d '(`;,)' | sort > document.formats
   diff document.formats help.formats || fail "docs/pstripack.md has other formats or suffixes than --help"
+  # The error of geodetic latitudes that are taken as those of a sphere of 6371 km, on WGS 84.
+  awk 'BEGIN { a = 6378.137; f = 1 / 298.257223563; e2 = f * (2 - f); radian = 45 / atan2(1, 1)
+    for (i = 1; i < 9000; ++i) {
+      phi = i / 100 / radian; s = sin(phi); w = sqrt(1 - e2 * s * s)
+      d = (phi - atan2((1 - e2) * s, cos(phi))) * radian
+      if (d > most) { most = d; at = i / 100 }
+      for (k = 0; k < 2; ++k) { r = 6371 / (k ? a / w : a * (1 - e2) / w ^ 3) - 1; if (r ^ 2 > ratio ^ 2) ratio = r }
+    }
+    printf "%.2f degrees (%.0f km, at %.0f degrees) %.1f %%\n", most, most / radian * 6371, at, 100 * ratio }' > geodetic
+  [ "$(cat geodetic)" = "0.19 degrees (21 km, at 45 degrees) 0.6 %" ] || fail "$(cat geodetic)"
+  tr '\n' ' ' < "$DOCUMENT" | grep -q "up to 0.19 degrees (21 km, at 45 degrees), .* by up to 0.6 %" || fail "geodetic latitudes"
+  "$PSTRIPACK" triangulate --help | tr -s '\n ' ' ' | grep -q "up to 0.19 degrees, 21 km" || fail "--help: geodetic latitudes"
   rows_of "Densities:" scvt | sed -n 's/^  \([a-z]*\).*/\1/p' | grep . | sort -u > help.densities
   [ -s help.densities ] || fail "'pstripack scvt --help' has no densities"
   sed -n '/^  Formulas: /,/(`--help`)/p' "$DOCUMENT" | grep -o '`[a-z]*`' | tr -d '`' | sort -u > document.densities
