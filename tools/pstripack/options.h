@@ -80,6 +80,7 @@ struct Input {
   Duplicates duplicates = Duplicates::error;
   bool drop_duplicates = false;  ///< the same as Duplicates::first
   Distance within;               ///< nodes this near to each other are in the same place
+  std::string list;              ///< file for the nodes that are dropped; empty: none
 
   bool drops() const { return drop_duplicates || duplicates != Duplicates::error; }
 };
@@ -88,7 +89,7 @@ void add_input(CLI::App& app, Input& input);
 void add_reading(CLI::App& app, files::ReadOptions& read);
 /// --skip-missing: `what` must not be missing.
 void add_skip_missing(CLI::App& app, files::ReadOptions& read, const char* what);
-/// --duplicates, --drop-duplicates, --duplicates-within.
+/// --duplicates, --drop-duplicates, --duplicates-within, --list-duplicates.
 void add_duplicates(CLI::App& app, Input& input);
 
 /// OUT and its format.

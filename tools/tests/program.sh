@@ -897,6 +897,13 @@ tables)
     [ $rule = first ] || expected="4.5 4 nan 1"
     [ "$(values_of mag)" = "$expected" ] || fail "mag: $(values_of mag)"
   done
+  "$PSTRIPACK" -q triangulate quakes.csv --drop-duplicates --list-duplicates dropped.csv -o mesh.vtu
+  [ "$(cat dropped.csv)" = "$(printf 'lon,lat,node,kept,line,time,mag,place\n30,40,4,2,5,2020-01-04,5,again')" ] || fail "$(cat dropped.csv)"
+  "$PSTRIPACK" -q interpolate quakes.csv --variable mag --skip-missing --duplicates mean --list-duplicates dropped.geojson --to-points quakes.csv -o out.txt
+  grep -q '"node":4,"kept":2,"line":5,"mag":5}.*"coordinates":\[30,40\]' dropped.geojson || fail "$(cat dropped.geojson)"
+  printf '10 20\n100 40\n20 -50\n' | "$PSTRIPACK" -q triangulate - --drop-duplicates --list-duplicates none.csv -o mesh.off
+  [ "$(wc -l < none.csv)" = 1 ] || fail "$(cat none.csv)"
+  refuses 2 "--list-duplicates: lists what --duplicates first or mean drops" triangulate quakes.csv --list-duplicates none.csv -o failed.vtu
   "$PSTRIPACK" -q info quakes.csv > info.txt
   [ "$(tail -n 1 info.txt)" = "duplicate        node 2 (line 3) and node 4 (line 5)" ] || fail "$(cat info.txt)"
   "$PSTRIPACK" -q info quakes.csv --json | tr -d ' \n' > info.json
