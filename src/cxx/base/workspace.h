@@ -41,6 +41,9 @@ class Block {
 /// frees. False if nothing was freed.
 bool free_cached_blocks() noexcept;
 
+/// Frees the cached blocks alone: for a caller whose next calls need less. False if there were none.
+bool free_idle_blocks() noexcept;
+
 /// Asks whether another `bytes` of memory, other than blocks, may be cached from one call to the next. If
 /// true, they count towards the bound on cached memory until release_cache(bytes) is called.
 bool reserve_cache(std::size_t bytes) noexcept;
