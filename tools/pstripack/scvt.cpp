@@ -143,7 +143,7 @@ void choose_n(Options& options, double cells) {
 
 /// Throws, before the work, if N generators on this machine need more memory than it has.
 void check_memory(double generators) {
-  constexpr double kBytes = 1100;  // of a generator, with output; 1000 with levels
+  constexpr double kBytes = 750;  // of a generator; 600 with levels
   const double bytes = kBytes * generators;
   const double most =
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));

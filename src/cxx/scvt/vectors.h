@@ -10,7 +10,6 @@ inline Point scaled(double f, const Point& p) { return {f * p.x, f * p.y, f * p.
 inline Point plus(const Point& a, const Point& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 inline Point normalized(const Point& p) { return scaled(1 / std::sqrt(dot(p, p)), p); }
 
-
 /// In single precision, for pairs of L-BFGS: they take most of a run's memory, and need no more digits.
 struct SinglePoint {
   float x, y, z;
