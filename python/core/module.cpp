@@ -4,6 +4,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -12,6 +13,7 @@
 #include "arrays.h"
 #include "base/parallel_for.h"
 #include "capi/pstripack.h"
+#include "drawing.h"
 #include "point_sets.h"
 #include "scvt_run.h"
 #include "triangulation.h"
@@ -202,6 +204,33 @@ py::array vectors(const Array<double>& lon, const Array<double>& lat, bool degre
   }));
 }
 
+/// Corners x, y; the first corner of each outline, and the number of corners; the face of each outline.
+py::tuple arrays_of(bindings::Outlines&& outlines) {
+  const auto corners = static_cast<py::ssize_t>(outlines.xy.size() / 2);
+  return py::make_tuple(array_of<double>(std::move(outlines.xy), {corners, 2}),
+                        array_of(std::move(outlines.begin)), array_of(std::move(outlines.face)));
+}
+
+/// Corners of all faces; the first corner of each face in the list of corners; this list.
+py::tuple faces(const Mesh& mesh, bool cells, int threads) {
+  const files::Faces all = compute(threads, [&] { return faces_of(*mesh.triangulation, cells); });
+  Buffer<Point> points(all.points.size());
+  std::copy(all.points.begin(), all.points.end(), points.begin());
+  Buffer<std::int32_t> corners(all.corner.size());
+  std::transform(all.corner.begin(), all.corner.end(), corners.begin(), [](std::int32_t c) { return c - 1; });
+  return py::make_tuple(array_of(std::move(points)),
+                        Array<std::size_t>(static_cast<py::ssize_t>(all.begin.size()), all.begin.data()),
+                        array_of(std::move(corners)));
+}
+
+template <bindings::Outlines (*draw)(const bindings::Window&, const Triangulation&, bool)>
+py::tuple outlines_in(const Mesh& mesh, bool cells, bool orthographic, double lon, double lat, double radius,
+                      int threads) {
+  return arrays_of(compute(threads, [&] {
+    return draw({orthographic, lon, lat, radius}, *mesh.triangulation, cells);
+  }));
+}
+
 /// Raises an exception of the package with the indices of the nodes in question.
 void raise(const NoTriangulation& e) {
   using Cause = NoTriangulation::Cause;
@@ -241,6 +270,14 @@ PYBIND11_MODULE(_core, m) {
       .def("cells", &cells)
       .def("cell_areas", &cell_areas)
       .def("closest_pair", &closest_pair)
+      .def("faces", &faces)
+      .def("map_polygons",
+           [](const Mesh& mesh, bool cells, int threads) {
+             return arrays_of(
+                 compute(threads, [&] { return bindings::map_polygons(*mesh.triangulation, cells); }));
+           })
+      .def("polygons_in", &outlines_in<bindings::polygons_in>)
+      .def("lines_in", &outlines_in<bindings::lines_in>)
       .def("find", &find)
       .def("nearest", &nearest)
       .def("interpolate", &interpolate);

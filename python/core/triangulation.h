@@ -80,6 +80,12 @@ class Triangulation {
     return {n_, list_.data(), lptr_.data(), lend_.data(), lnew_};
   }
 
+  /// The direction of a node.
+  Point at(std::int32_t node) const {
+    const auto i = static_cast<std::size_t>(node);
+    return {direction_[0][i], direction_[1][i], direction_[2][i]};
+  }
+
   /// The three corners of each triangle, counterclockwise, the smallest first, in the order of TRLIST.
   Buffer<std::int32_t> triangles() const;
   /// The triangle opposite each corner, in the same order; -1: none.
@@ -120,10 +126,6 @@ class Triangulation {
   void triangulate_in_another_order();
   void make_directions();
   Point given(std::size_t i) const { return {given_[0][i], given_[1][i], given_[2][i]}; }
-  Point at(std::int32_t node) const {  ///< the direction of a node, numbered from 0
-    const auto i = static_cast<std::size_t>(node);
-    return {direction_[0][i], direction_[1][i], direction_[2][i]};
-  }
   methods::Triangulated view() const {
     return {lists(), {given_[0], given_[1], given_[2]}, {direction_[0], direction_[1], direction_[2]}};
   }

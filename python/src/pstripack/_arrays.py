@@ -35,7 +35,7 @@ def _coordinates(vectors: Any) -> Any:
         return vectors
     if not {"x", "y", "z"} <= set(names):
         raise ValueError(f"a table needs the columns x, y and z, not {', '.join(map(str, names))}: for longitudes and "
-                         "latitudes use Delaunay.from_lonlat(table['lon'], table['lat']), or to_xyz")
+                         "latitudes use Delaunay.from_dataframe(table), or to_xyz(table['lon'], table['lat'])")
     return vectors[["x", "y", "z"]]
 
 

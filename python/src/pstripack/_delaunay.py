@@ -1,5 +1,5 @@
 """Delaunay triangulations on the sphere."""
-from typing import Any, Dict, Optional, Tuple
+from typing import Any, Dict, Optional, Sequence, Tuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -8,9 +8,11 @@ from . import _core
 from ._arrays import (Floats, Ints, mesh_of, node_array, place_array, read_only, real, refuse_what_may_be_radians,
                       thread_count, to_xyz, unmasked)
 from ._errors import BadCoordinateError
+from ._presentation import Presentation
+from ._tables import coordinate_columns
 
 
-class Delaunay:
+class Delaunay(Presentation):
     """The Delaunay triangulation of nodes on the sphere. It covers the sphere, or the convex hull of nodes that lie in a
     hemisphere.
 
@@ -74,6 +76,24 @@ class Delaunay:
                                      "both must be finite", (node,))
         return cls(points, threshold=threshold, threads=threads)
 
+    @classmethod
+    def from_dataframe(cls, table: Any, *, columns: Optional[Sequence[Any]] = None, units: Optional[str] = None,
+                       threshold: float = 0, threads: Optional[int] = None) -> "Delaunay":
+        """The triangulation of nodes in a table with columns lon and lat, or x, y and z (a DataFrame of pandas or polars).
+
+        Also found: long, lng, longitude, latitude, and names that end in _deg, _degrees, _rad or _radians. A ValueError
+        if columns are missing, or several may be meant; ``columns=(longitude, latitude)`` or ``columns=(x, y, z)`` names
+        them. ``units``: see :func:`from_lonlat`. The attribute ``labels`` is the index of the table.
+        """
+        names, unit = coordinate_columns(table, columns)
+        if len(names) == 2:
+            mesh = cls.from_lonlat(table[names[0]], table[names[1]], units=units or unit, threshold=threshold,
+                                   threads=threads)
+        else:
+            mesh = cls(np.stack([real(table[name]) for name in names], axis=1), threshold=threshold, threads=threads)
+        mesh.labels = getattr(table, "index", None)
+        return mesh
+
     def __getstate__(self) -> Dict[str, Any]:
         return {**self.__dict__, "_mesh": None}
 
@@ -82,9 +102,6 @@ class Delaunay:
         self.__dict__.update(state)
         self._mesh = _core.Mesh(self.points, self._threads)
         self.points = read_only(self._mesh.points)
-
-    def __repr__(self) -> str:
-        return f"<pstripack.Delaunay of {self.npoints} nodes>"
 
     @property
     def npoints(self) -> int:

@@ -84,6 +84,12 @@ class SphericalVoronoi:
         self.region_vertices: Tuple[Ints, Ints] = (read_only(begin), read_only(indices))
         self._regions: Optional[List[List[int]]] = None
 
+    def __repr__(self) -> str:
+        arcs = len(self._mesh.boundary())
+        return (f"<pstripack.SphericalVoronoi: {len(self.points)} regions, {len(self.vertices)} vertices, "
+                f"radius {self.radius:g}, "
+                + (f"points in a hemisphere, boundary of {arcs} arcs>" if arcs > 0 else "whole sphere>"))
+
     def __getstate__(self) -> Dict[str, Any]:
         return {**self.__dict__, "_mesh": None}
 
