@@ -3,21 +3,20 @@ import doctest
 import importlib.util
 import os
 import re
+import shutil
 from pathlib import Path
 
-import numpy as np
 import pytest
 
-PAGE = Path(os.environ["PSTRIPACK_SOURCES"], "docs/python.md").read_text()
+SOURCES = Path(os.environ["PSTRIPACK_SOURCES"])
+PAGE = (SOURCES / "docs/python.md").read_text()
 BLOCKS = [(PAGE[:block.start()].count("\n") + 2, block[1]) for block in re.finditer(r"(?ms)^```python\n(.*?)^```$", PAGE)]
 
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
     """With stations.csv, which blocks read."""
-    rng = np.random.default_rng(1)
-    rows = [f"station{i},{rng.uniform(130, 145):.3f},{rng.uniform(30, 45):.3f},{rng.uniform(0, 30):.1f}" for i in range(60)]
-    (tmp_path / "stations.csv").write_text("\n".join(["name,lon,lat,t", *rows]))
+    shutil.copy(SOURCES / "examples/stations/stations.csv", tmp_path)
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("MPLBACKEND", "Agg")
     monkeypatch.setenv("MPLCONFIGDIR", str(tmp_path))
