@@ -28,18 +28,17 @@ class ByDistance {
     return {node, dot(fine, fine)};
   }
   bool operator()(const Candidate& a, const Candidate& b) const {
-    if (is_certain(a, b)) return a.square < b.square;
+    if (is_farther(a, b) || is_farther(b, a)) return a.square < b.square;
     if (is_nearer(a, b)) return true;
     return a.node < b.node && !is_nearer(b, a);
   }
   bool are_as_near(const Candidate& a, const Candidate& b) const {
-    return !is_certain(a, b) && !is_nearer(a, b) && !is_nearer(b, a);
+    return !is_farther(a, b) && !is_farther(b, a) && !is_nearer(a, b) && !is_nearer(b, a);
   }
-  /// Whether the squares tell which one is nearer. Those above kFar are of unit vectors that are wrong by
-  /// less than 1e-15 each, so they are right up to 2e-12 of themselves. Below kTiny they may underflow.
-  static bool is_certain(const Candidate& a, const Candidate& b) {
-    constexpr double kFactor = 1 + 8e-12;
-    return (a.square > kFactor * b.square + kTiny) | (b.square > kFactor * a.square + kTiny);
+  /// Whether the squares tell that a is farther. Those above kFar are of unit vectors that are wrong by less
+  /// than 1e-15 each, so they are right up to 2e-12 of themselves. Below kTiny they may underflow.
+  static bool is_farther(const Candidate& a, const Candidate& b) {
+    return a.square > (1 + 8e-12) * b.square + kTiny;
   }
   static constexpr double kTiny = 1e-290;
 

@@ -262,9 +262,10 @@ Candidate Interpolation::descend(const ByDistance& order, Candidate node) const 
     here = node.node, has_rival = false;
     reader.for_each_neighbour(here, [&](std::int32_t neighbour) {
       const Candidate other = order.at(neighbour);
+      if (order.is_farther(other, node)) return;
       if (order(other, node))
         node = other;
-      else if (!order.is_certain(other, node))
+      else
         has_rival = true;
     });
   }
