@@ -111,6 +111,13 @@ class SphericalVoronoi:
             self._regions = _core.lists_of(*self.region_vertices, 2 * len(self.points) - 4)
         return self._regions
 
+    @property
+    def _simplices(self) -> Ints:
+        """As scipy's: the three points, in increasing order, of whose regions each vertex is a corner."""
+        indptr, indices = self.region_vertices
+        region = np.repeat(np.arange(len(self.points), dtype=np.int32), np.diff(indptr))
+        return region[np.argsort(indices, kind="stable")].reshape(-1, 3)
+
     def sort_vertices_of_regions(self) -> None:
         """Does nothing: the vertices of each region are always in order."""
 
