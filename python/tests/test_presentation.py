@@ -76,6 +76,8 @@ def test_nodes_are_found_in_the_columns_of_a_table():
         Delaunay.from_dataframe(both[["lon", "longitude", "lat"]])
     with pytest.raises(ValueError, match=r"none of the columns a, b are called lon and lat, or x, y and z: name them by columns="):
         Delaunay.from_dataframe(pandas.DataFrame({"a": lon, "b": lat}))
+    with pytest.raises(ValueError, match=r"use Delaunay.from_lonlat\(table.geometry.x, table.geometry.y\)"):
+        Delaunay.from_dataframe(pandas.DataFrame({"a": lon, "geometry": lat}))
     for wrong in ("lon", ("lon",), ("lon", "nowhere")):
         with pytest.raises(ValueError, match="columns must be two names"):
             Delaunay.from_dataframe(both, columns=wrong)

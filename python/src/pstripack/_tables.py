@@ -51,7 +51,8 @@ def coordinate_columns(table: Any, columns: Optional[Sequence[Any]]) -> "Tuple[L
         choices = [axes for axes in (("lon", "lat"), ("x", "y", "z")) if all(found[axis] for axis in axes)]
         if not choices:
             raise ValueError(f"none of the columns {', '.join(map(str, names))} are called lon and lat, or x, y and z: "
-                             "name them by columns=(longitude, latitude)")
+                             + ("use Delaunay.from_lonlat(table.geometry.x, table.geometry.y)" if "geometry" in names
+                                else "name them by columns=(longitude, latitude)"))
         candidates = [c for axes in choices for axis in axes for c in found[axis]]
         if len(choices) > 1 or len(candidates) > len(choices[0]):
             raise ValueError(f"the nodes may be in several of the columns {', '.join(map(str, candidates))}: name two or "
