@@ -104,7 +104,7 @@ if(TARGET pstripack_python)
   debian_package(python NAME python3-pstripack SECTION python
     DEPENDS libpstripack${soversion} "python3 (>= ${this_python})"
             "python3 (<< ${CMAKE_MATCH_1}.${next_minor})" python3-numpy
-    SUGGESTS python3-scipy
+    SUGGESTS python3-scipy python3-pandas python3-xarray python3-geopandas python3-matplotlib
     SUMMARY "Delaunay triangulation on the sphere: Python package"
     DESCRIPTION "${about}This package has the Python package pstripack: triangulations, Voronoi
 diagrams, searches and interpolation of NumPy arrays.")

@@ -19,7 +19,7 @@ HERE = Path(__file__).resolve().parent
 # In a source distribution the parts of the project are in a folder.
 PROJECT = HERE / "project" if (HERE / "project").is_dir() else HERE.parent
 PARTS = ("CMakeLists.txt", "LICENSE", "cmake", "docs/CMakeLists.txt", "packaging", "python/CMakeLists.txt",
-         "python/METADATA.in", "python/core", "python/src", "src/cxx", "tools/files", "tools/methods", "tools/point_sets")
+         "python/METADATA.in", "python/core", "python/src", "src/cxx", "tools/files", "tools/methods", "tools/pictures", "tools/point_sets")
 OFF = ("TESTS", "TOOLS", "EXAMPLES", "WITH_MPI", "WITH_FORTRAN", "SHARED")
 # What CMake says if something is missing, and what to say instead of all its lines.
 MISSING = {r"CMake 3\.\d+ or higher is required": "CMake 3.20 (pip install cmake)",
