@@ -1,5 +1,4 @@
 # globe_sources: the writer of globes, for pstripack and the Python package. It needs no package.
-include_guard(GLOBAL)
 
 set(pictures ${CMAKE_CURRENT_LIST_DIR}/pictures)
 file(READ ${pictures}/globe.html globe_html)

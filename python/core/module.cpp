@@ -12,6 +12,7 @@
 #include "arrays.h"
 #include "base/parallel_for.h"
 #include "capi/pstripack.h"
+#include "globe.h"
 #include "point_sets.h"
 #include "scvt_run.h"
 #include "triangulation.h"
@@ -247,6 +248,7 @@ PYBIND11_MODULE(_core, m) {
   m.def("lists_of", &lists_of);
   m.def("vectors", &vectors);
   m.def("radians_of_single", py::vectorize(point_sets::radians_of_single));
+  m.def("globe", &bindings::globe);
   m.def("scvt", &bindings::scvt);
   m.def("scvt_cells", &bindings::scvt_cells);
 }

@@ -12,6 +12,9 @@
 
 namespace pictures {
 
+/// Coast lines of globes are as fine as those of a picture of this radius, in degrees: readers look closer.
+constexpr double kGlobeDetail = 20;
+
 struct Globe {
   std::string title;
   int first_number = 1;                 ///< of nodes and triangles, for readers

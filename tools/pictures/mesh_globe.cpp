@@ -48,8 +48,8 @@ Globe mesh_globe(const files::Mesh& mesh, const MeshOptions& options) {
     globe.numbers.assign(globe.shading.of_face.begin(), globe.shading.of_face.end());
   }
   if (options.coasts || !options.coast_file.empty()) {
-    constexpr double kGlobe = 20;  // degrees: readers look closer
-    globe.coasts = read_shapefile(options.coast_file.empty() ? natural_earth(kGlobe) : options.coast_file);
+    globe.coasts =
+        read_shapefile(options.coast_file.empty() ? natural_earth(kGlobeDetail) : options.coast_file);
   }
   if (options.centre) globe.centre = {options.centre->lon, options.centre->lat};
   globe.radius = options.radius;

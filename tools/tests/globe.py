@@ -327,6 +327,13 @@ def check_in_browser(program):
     width, height, content = pixels(base64.b64decode(browser.js("globe.picture().toDataURL()").split(",")[1]))
     assert width == 900 and height > 600 and len(set(content)) > 100
 
+    # Python counts from 0, and no address names node 0.
+    (FOLDER / "zero.html").write_text(Page("cells.html").text.replace('"first":1,', '"first":0,'), encoding="utf-8")
+    browser.open("zero.html")
+    assert browser.text("view") == "above 30° N, 0° E" and browser.text("node") == ""
+    browser.open("zero.html#0")
+    assert browser.text("node").startswith("node 0; ")
+
     # Triangles, with their areas; a region, outside of which there is nothing; points, and cells from near.
     browser.open("triangles.html#10,50,30")
     found = re.search(r"triangle (\d+): ([0-9.,]+) km²", browser.text("node"))

@@ -1,5 +1,6 @@
 """Delaunay triangulations on the sphere."""
-from typing import Any, Dict, Optional, Tuple
+import os
+from typing import Any, Dict, Optional, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -8,6 +9,7 @@ from . import _core
 from ._arrays import (Floats, Ints, mesh_of, node_array, place_array, read_only, real, refuse_what_may_be_radians,
                       thread_count, to_xyz, unmasked)
 from ._errors import BadCoordinateError
+from ._globe import Globe, globe, notebook_html
 
 
 class Delaunay:
@@ -204,6 +206,30 @@ class Delaunay:
             near = self.nearest(places.reshape(-1, 3)[missing], threads=threads)
             result[missing[near >= 0]] = table[near[near >= 0]]
         return result.reshape(places.shape[:-1] + given.shape[1:])
+
+    def globe(self, values: Optional[ArrayLike] = None, file: "Optional[Union[str, os.PathLike[str]]]" = None, *,
+              title: Optional[str] = None, name: str = "value", unit: str = "",
+              coasts: "Union[bool, str, os.PathLike[str]]" = False,
+              three_file: "Optional[Union[str, os.PathLike[str]]]" = None) -> Globe:
+        """A globe to turn, of Voronoi cells: a page for any browser, which notebooks show.
+
+        Parameters
+        ----------
+        values : array_like, shape (n,), optional
+            The cells have the colours of these numbers, called ``name``, in ``unit``; NaN: grey. Without them: of the
+            areas, on a sphere of radius 6371 km.
+        file : path, optional
+            The page is also written to this file.
+        coasts : bool or path
+            Coast lines: True: Natural Earth's, of Debian's libmagics++-data; or those of a shapefile in degrees.
+        three_file : path, optional
+            The file three.min.js, of release 111 to 160. None: what the environment variable PSTRIPACK_THREE names, or
+            the wheel's, or that of Debian's libjs-three. RuntimeError if there is none.
+        """
+        return globe(self, values, file, title, name, unit, coasts, three_file)
+
+    def _repr_html_(self) -> str:
+        return notebook_html(self)
 
     def _number(self, threads: Optional[int]) -> int:
         return self._threads if threads is None else thread_count(threads)
