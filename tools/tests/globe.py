@@ -247,11 +247,15 @@ def digits(value, places=6):
     return text
 
 
+def tell(name, nodes, seconds):
+    print(f"globe: {nodes} nodes, {(FOLDER / name).stat().st_size / 1e6:.1f} MB, open in {seconds:.1f} s")
+
+
 def check_in_browser(program):
     run("plot", "nodes.csv", "--what", "cells", "--colour", "height", "--coast-file", "coast.shp", "-o", "cells.html")
     run("plot", "region.txt", "--what", "cells", "--colour", "area", "-o", "region.html")
     run("plot", "nodes.csv", "-o", "triangles.html")
-    run("points", "random", 300000, "-o", "many.raw")
+    run("points", "fibonacci", 1000000, "-o", "many.raw")
     run("plot", "many.raw", "--from", "raw", "--coordinates", "xyz", "--what", "cells", "--colour", "area", "-o", "far.html")
     run("plot", "many.txt", "--what", "cells", "--colour", "area", "-o", "many.html")
     data, cells = Page("cells.html").data, table("cells.csv")
@@ -292,7 +296,7 @@ def check_in_browser(program):
         assert abs(float(place[1]) * (1 if place[2] == "N" else -1) - lat[k]) <= 0.5000001e-6
         assert abs(float(place[3]) * (1 if place[4] == "E" else -1) - east) <= 0.5000001e-6
         assert set(map(int, numbers.split())) == beside, (said, beside)
-    print(f"globe: 300 nodes open in {seconds:.1f} s")
+    tell("cells.html", 300, seconds)
 
     # Mouse, keys, buttons, search. After a drag to the right the view is further west.
     browser.open("cells.html#10,50,30")
@@ -344,13 +348,13 @@ def check_in_browser(program):
     browser.mouse("mouseMoved", 5, 300)
     assert browser.text("node") == ""
     seconds = browser.open("far.html")
-    assert browser.js("globe.drawn.triangles") < 1000 and browser.js("globe.drawn.points") >= 300000
-    print(f"globe: 300000 nodes open in {seconds:.1f} s")
+    assert browser.js("globe.drawn.triangles") < 1000 and browser.js("globe.drawn.points") >= 1000000
+    tell("far.html", 1000000, seconds)
     browser.js("Object.assign(globe.view, {half: 0.02}), document.getElementById('nearer').click()")
     browser.js("new Promise(done => setTimeout(done, 1000))")
     assert browser.js("globe.drawn.triangles") > 1000 and browser.js("globe.drawn.lines") > 1000
     seconds = browser.open("many.html")
-    print(f"globe: 40962 nodes, {(FOLDER / 'many.html').stat().st_size / 1e6:.1f} MB, open in {seconds:.1f} s")
+    tell("many.html", 40962, seconds)
     assert seconds < 20
     browser.close()
 
