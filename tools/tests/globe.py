@@ -255,6 +255,8 @@ def check_in_browser(program):
     run("plot", "nodes.csv", "--what", "cells", "--colour", "height", "--coast-file", "coast.shp", "-o", "cells.html")
     run("plot", "region.txt", "--what", "cells", "--colour", "area", "-o", "region.html")
     run("plot", "nodes.csv", "-o", "triangles.html")
+    (FOLDER / "three.txt").write_text("1 0 0\n0 1 0\n0 0 1\n")
+    run("plot", "three.txt", "--what", "cells", "-o", "three.html")
     run("points", "fibonacci", 1000000, "-o", "many.raw")
     run("plot", "many.raw", "--from", "raw", "--coordinates", "xyz", "--what", "cells", "--colour", "area", "-o", "far.html")
     run("plot", "many.txt", "--what", "cells", "--colour", "area", "-o", "many.html")
@@ -347,6 +349,12 @@ def check_in_browser(program):
     assert browser.text("node").startswith("node ")
     browser.mouse("mouseMoved", 5, 300)
     assert browser.text("node") == ""
+    # Each of three cells has two sides that end beyond the boundary; pairs of them are one: 125 degrees, 128 pieces.
+    browser.open("three.html")
+    lines = browser.js("globe.drawn.lines")
+    browser.js("document.getElementById('cells').click()")
+    browser.after_drawing()
+    assert lines - browser.js("globe.drawn.lines") == 3 * 128
     seconds = browser.open("far.html")
     assert browser.js("globe.drawn.triangles") < 1000 and browser.js("globe.drawn.points") >= 1000000
     tell("far.html", 1000000, seconds)
