@@ -14,6 +14,7 @@
 #include "base/parallel_for.h"
 #include "capi/pstripack.h"
 #include "drawing.h"
+#include "globe.h"
 #include "point_sets.h"
 #include "scvt_run.h"
 #include "triangulation.h"
@@ -356,6 +357,7 @@ PYBIND11_MODULE(_core, m) {
   m.def("lists_of", &lists_of);
   m.def("vectors", &vectors);
   m.def("radians_of_single", py::vectorize(point_sets::radians_of_single));
+  m.def("globe", &bindings::globe);
   m.def("scvt", &bindings::scvt);
   m.def("scvt_cells", &bindings::scvt_cells);
 }

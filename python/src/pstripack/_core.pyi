@@ -42,6 +42,9 @@ class Mesh:
     def interpolate(self, method: str, places: NDArray[np.float64], values: NDArray[np.float64],
                     threads: int) -> NDArray[np.float64]: ...
 
+def globe(title: str, lon: NDArray[np.float64], lat: NDArray[np.float64], simplices: NDArray[np.int32],
+          areas: NDArray[np.float64], values: NDArray[np.float64], name: str, unit: str, shows_values: bool, coasts: str,
+          three: str) -> str: ...
 def lists_of(begin: NDArray[np.int32], values: NDArray[np.int32], count: int) -> List[List[int]]: ...
 def scvt(start: Union[int, NDArray[np.float64]], density: Optional[Callable[[NDArray[np.float64]], Any]],
          tolerance: float, lloyd: bool, most_evaluations: int, seed: int,

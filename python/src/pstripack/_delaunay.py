@@ -1,5 +1,6 @@
 """Delaunay triangulations on the sphere."""
-from typing import Any, Dict, Optional, Sequence, Tuple
+import os
+from typing import Any, Dict, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -7,6 +8,7 @@ from numpy.typing import ArrayLike
 from . import _core
 from ._arrays import Floats, Ints, are_degrees, mesh_of, node_array, read_only, real, thread_count, to_xyz
 from ._errors import BadCoordinateError
+from ._globe import Globe, globe, notebook_html
 from ._measures import Measures
 from ._places import Places
 from ._presentation import Presentation
@@ -156,3 +158,30 @@ class Delaunay(Places, Measures, Presentation):
     def lists(self) -> Tuple[Ints, Ints, Ints, int]:
         """LIST, LPTR, LEND and LNEW as STRIPACK's TRMESH returns them: nodes and slots count from 1."""
         return self._mesh.lists()
+
+    def globe(self, values: Optional[ArrayLike] = None, file: "Optional[Union[str, os.PathLike[str]]]" = None, *,
+              title: Optional[str] = None, name: str = "value", unit: str = "",
+              coasts: "Union[bool, str, os.PathLike[str]]" = False,
+              three_file: "Optional[Union[str, os.PathLike[str]]]" = None) -> Globe:
+        """A globe to turn, of Voronoi cells: a page for any browser, which notebooks show.
+
+        Parameters
+        ----------
+        values : array_like, shape (n,), optional
+            The cells have the colours of these numbers, called ``name``, in ``unit``; NaN: grey. Without them: of the
+            areas, on a sphere of radius 6371 km.
+        file : path, optional
+            The page is also written to this file.
+        coasts : bool or path
+            Coast lines: True: Natural Earth's, of Debian's libmagics++-data; or those of a shapefile in degrees.
+        three_file : path, optional
+            The file three.min.js, of release 111 to 160. None: what the environment variable PSTRIPACK_THREE names, or
+            the wheel's, or that of Debian's libjs-three. RuntimeError if there is none.
+        """
+        return globe(self, values, file, title, name, unit, coasts, three_file)
+
+    def _repr_html_(self) -> str:
+        return notebook_html(self)
+
+    def _number(self, threads: Optional[int]) -> int:
+        return self._threads if threads is None else thread_count(threads)
