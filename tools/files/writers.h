@@ -7,6 +7,7 @@
 
 #include "files/mesh.h"
 #include "files/output_file.h"
+#include "files/weights.h"
 
 namespace files {
 
@@ -84,14 +85,6 @@ void write_csv_field(const OutputFile& file, const LonLat& places, const Field& 
 /// NetCDF with CF conventions; a missing value is _FillValue.
 void write_netcdf_field(const OutputFile& file, const LonLat& places, const Field& field);
 void write_netcdf_grid(const OutputFile& file, const Grid& grid, const Field& field);
-
-/// Weights of nodes in values at places: place i, from 0, has the entries begin[i] to begin[i + 1] - 1.
-struct Weights {
-  std::vector<std::size_t> begin;
-  std::vector<std::int32_t> node;  ///< from 1
-  std::vector<double> part;
-  std::size_t outside = 0;  ///< number of places outside the nodes
-};
 
 /// The nodes or the places of weights.
 struct WeightsEnd {

@@ -9,6 +9,7 @@
 
 #include "base/parallel_for.h"
 #include "files/measures.h"
+#include "geometry/insertion_order.h"
 #include "geometry/predicates.h"
 #include "geometry/weights.h"
 #include "methods/gradients.h"
@@ -23,8 +24,6 @@ using Reader = pstripack::ListReader<std::int32_t>;
 
 constexpr double kOnBorder = 1e-12;  // of the distance to the middle of the nodes
 constexpr double kRounding = 4e-16;  // of a place, in radians
-/// Squared distances up to this are compared by differences of directions.
-constexpr double kFar = 1e-6;
 
 double square(const Point& d) { return dot(d, d); }
 
@@ -46,7 +45,7 @@ constexpr std::size_t kBlock = 512;  // places; searches restart in each block, 
 
 std::size_t blocks_of(std::size_t places) { return (places + kBlock - 1) / kBlock; }
 
-/// Calls visit(block, first place, end) for each block, on several threads.
+/// Calls visit(block, first, end) for each block of so many places, on several threads.
 template <class Visit>
 void for_each_block(std::size_t places, const Visit& visit) {
   pstripack::parallel_pieces(blocks_of(places), pstripack::threads_for(100 * places),
@@ -54,6 +53,17 @@ void for_each_block(std::size_t places, const Visit& visit) {
                                for (std::size_t b = first; b < last; ++b)
                                  visit(b, b * kBlock, std::min((b + 1) * kBlock, places));
                              });
+}
+
+/// The places along a space-filling curve, so that each search begins near its place.
+std::vector<std::uint32_t> along_a_curve(const std::vector<Point>& places) {
+  std::vector<Point> at;
+  at.reserve(places.size());
+  for (const Point& p : places) at.push_back(files::unit(p));
+  std::vector<std::uint32_t> order(places.size());
+  pstripack::Workspace workspace(16 * places.size());
+  pstripack::insertion_order(at.data(), at.size(), order.data(), workspace);
+  return order;
 }
 
 /// What geometry/weights.h takes.
@@ -154,47 +164,52 @@ bool Interpolation::find(Direction& place, std::int32_t& near, Corners& corners)
   return settle(place, near, corners);
 }
 
-/// True if the place is a corner, which then has the whole share.
-bool Interpolation::is_node(const Direction& place, const Corners& corners,
-                            std::vector<Share>& shares) const {
-  for (const std::int32_t node : corners)
-    if (square(minus(mesh_.unit_at(node), place.high)) < 0x1p-98 &&
-        pstripack::same_direction(at(node), place.given)) {
-      shares = {{node, 1}};
-      return true;
-    }
-  return false;
+std::size_t Interpolation::corner_at(const Direction& place, const Corners& corners) const {
+  std::size_t k = 0;
+  while (k < 3 && !(square(minus(mesh_.unit_at(corners[k]), place.high)) < 0x1p-98 &&
+                    pstripack::same_direction(at(corners[k]), place.given)))
+    ++k;
+  return k;
 }
 
 std::array<Direction, 3> Interpolation::directions(const Corners& corners) const {
   return {mesh_.direction(corners[0]), mesh_.direction(corners[1]), mesh_.direction(corners[2])};
 }
 
-void Interpolation::linear(const Direction& place, const Corners& corners, std::vector<Share>& shares) const {
-  double weights[3];
-  const std::array<Direction, 3> at = directions(corners);
-  barycentric_weights(place, pointers(at), weights);
+/// The corners with weights as shares.
+void Interpolation::take(const Corners& corners, const double (&weights)[3], std::vector<Share>& shares) {
   for (std::size_t k = 0; k < 3; ++k)
     if (weights[k] > 0) shares.push_back({corners[k], weights[k]});
   if (shares.size() == 2 && shares[0].node > shares[1].node)
     std::swap(shares[0], shares[1]);  // as in both triangles
 }
 
-bool Interpolation::linear(const Point& p, std::int32_t& near, std::vector<Share>& shares) const {
-  shares.clear();
+bool Interpolation::barycentric(const Point& p, std::int32_t& near, Corners& corners,
+                                double (&weights)[3]) const {
   Direction place = pstripack::direction_of(p);
-  Corners corners;
-  double weights[3];
   if (search(place, near, corners)) {
     const std::array<Direction, 3> at = directions(corners);
     if (find_ordinary_determinants(place, pointers(at), weights)) {
       pstripack::divide_by_sum(weights);
-      shares = {{corners[0], weights[0]}, {corners[1], weights[1]}, {corners[2], weights[2]}};
       return true;
     }
   }
   if (!settle(place, near, corners)) return false;
-  if (!is_node(place, corners, shares)) linear(place, corners, shares);
+  if (const std::size_t node = corner_at(place, corners); node < 3) {
+    for (std::size_t k = 0; k < 3; ++k) weights[k] = k == node ? 1 : 0;
+    return true;
+  }
+  const std::array<Direction, 3> at = directions(corners);
+  barycentric_weights(place, pointers(at), weights);
+  return true;
+}
+
+bool Interpolation::linear(const Point& p, std::int32_t& near, std::vector<Share>& shares) const {
+  shares.clear();
+  Corners corners;
+  double weights[3];
+  if (!barycentric(p, near, corners, weights)) return false;
+  take(corners, weights, shares);
   return true;
 }
 
@@ -244,9 +259,15 @@ bool Interpolation::natural(const Point& p, std::int32_t& near, std::vector<Shar
   Direction place = pstripack::direction_of(p);
   Corners corners;
   if (!find(place, near, corners)) return false;
-  if (is_node(place, corners, shares)) return true;
+  if (const std::size_t node = corner_at(place, corners); node < 3) {
+    shares.push_back({corners[node], 1});
+    return true;
+  }
   if (!dig(place, corners, nodes, cavity)) {
-    linear(place, corners, shares);
+    double weights[3];
+    const std::array<Direction, 3> at = directions(corners);
+    barycentric_weights(place, pointers(at), weights);
+    take(corners, weights, shares);
     return true;
   }
   find_natural_weights(place, cavity);
@@ -259,20 +280,33 @@ bool Interpolation::natural(const Point& p, std::int32_t& near, std::vector<Shar
   return true;
 }
 
-/// Steps to nearer neighbours until there is none.
-std::int32_t Interpolation::descend(const Direction& place, std::int32_t node) const {
+/// Steps to nearer neighbours until there is none. Nodes that are as near as this one are joined to it by
+/// arcs between such nodes: the place is a corner of the Voronoi diagram, or lies on a side.
+Candidate Interpolation::descend(const ByDistance& order, Candidate node) const {
   const Reader reader(mesh_.lists);
-  const auto distance = [&](std::int32_t to) {  // squared
-    const double rounded = square(minus(mesh_.unit_at(to), place.high));
-    return rounded > kFar ? rounded : square(accurate_difference(mesh_.direction(to), place));
-  };
-  for (double best = distance(node);;) {
-    const std::int32_t here = node;
+  bool has_rival = true;
+  for (std::int32_t here = 0; here != node.node;) {
+    here = node.node, has_rival = false;
     reader.for_each_neighbour(here, [&](std::int32_t neighbour) {
-      if (const double d = distance(neighbour); d < best) best = d, node = neighbour;
+      const Candidate other = order.at(neighbour);
+      if (order.is_farther(other, node)) return;
+      if (order(other, node))
+        node = other;
+      else
+        has_rival = true;
     });
-    if (node == here) return node;
   }
+  if (!has_rival) return node;
+  std::vector<Candidate> as_near{node};
+  for (std::size_t i = 0; i < as_near.size(); ++i)
+    reader.for_each_neighbour(as_near[i].node, [&](std::int32_t neighbour) {
+      const Candidate other = order.at(neighbour);
+      if (order.are_as_near(other, node) &&
+          std::none_of(as_near.begin(), as_near.end(),
+                       [&](const Candidate& c) { return c.node == neighbour; }))
+        as_near.push_back(other);
+    });
+  return *std::min_element(as_near.begin(), as_near.end(), order);
 }
 
 // The segment from a node to p passes through cells of nearer and nearer nodes, each a neighbour of the
@@ -282,18 +316,18 @@ std::int32_t Interpolation::descend(const Direction& place, std::int32_t node) c
 // is a sum of positive multiples of boundary nodes. For the same reason, if none is, the nearest node is a
 // boundary node.
 std::int32_t Interpolation::nearest(const Point& p, std::int32_t near) const {
+  constexpr double kRightAngle = 2 - 1e-14;  // surely less than 90 degrees away
   const Reader reader(mesh_.lists);
-  const Direction place = pstripack::direction_of(p);
-  std::int32_t node = descend(place, near >= 1 && near <= reader.size() ? near : 1);
+  const ByDistance order(mesh_, p);
+  Candidate node = descend(order, order.at(near >= 1 && near <= reader.size() ? near : 1));
   const std::int32_t border = first_boundary_node_;
-  const auto cosine = [&](std::int32_t to) { return dot(mesh_.unit_at(to), place.high); };
-  if (cosine(node) > 0 || border == 0) return node;
+  if (node.square < kRightAngle || border == 0) return node.node;
   std::int32_t round = border;
   do {
-    if (cosine(round) > cosine(node)) node = round;
+    if (const Candidate other = order.at(round); order(other, node)) node = other;
     round = reader.first_neighbour(round);
   } while (round != border);
-  return descend(place, node);
+  return descend(order, node).node;
 }
 
 double Interpolation::cubic_value(const Point& p, const std::vector<Share>& shares,
@@ -318,14 +352,15 @@ double Interpolation::cubic_value(const Point& p, const std::vector<Share>& shar
 }
 
 template <class Use>
-std::size_t Interpolation::for_each_place(const std::vector<Point>& places, Method method, Outside outside,
-                                          const Use& use) const {
+std::size_t Interpolation::for_each_place(const std::vector<Point>& places,
+                                          const std::vector<std::uint32_t>& order, Method method,
+                                          Outside outside, const Use& use) const {
   std::vector<std::size_t> count_outside(blocks_of(places.size()));
   for_each_block(places.size(), [&](std::size_t b, std::size_t begin, std::size_t end) {
     std::int32_t near = 1;
     std::vector<Share> shares;
-    for (std::size_t i = begin; i < end; ++i) {
-      const Point& p = places[i];
+    for (std::size_t k = begin; k < end; ++k) {
+      const Point& p = places[order[k]];
       bool is_inside = false;
       if (method != Method::nearest)
         is_inside = method == Method::linear ? linear(p, near, shares) : natural(p, near, shares);
@@ -335,7 +370,7 @@ std::size_t Interpolation::for_each_place(const std::vector<Point>& places, Meth
           shares.push_back({near = nearest(p, near), 1});
         if (method != Method::nearest) ++count_outside[b];
       }
-      use(i, shares);
+      use(k, shares);
     }
   });
   return std::accumulate(count_outside.begin(), count_outside.end(), std::size_t{0});
@@ -346,23 +381,23 @@ Interpolation::Result Interpolation::values_at(const std::vector<Point>& places,
                                                Outside outside) const {
   Result result;
   result.values.resize(places.size());
+  const std::vector<std::uint32_t> order = along_a_curve(places);
   const std::vector<Point> slopes = method == Method::cubic ? gradients(mesh_, values) : std::vector<Point>();
   const auto value_of = [&](std::int32_t node) { return values[static_cast<std::size_t>(node) - 1]; };
+  const auto value_at = [&](const Point& place, const std::vector<Share>& shares) {
+    if (shares.empty()) return std::numeric_limits<double>::quiet_NaN();
+    if (method == Method::cubic) return cubic_value(place, shares, values, slopes);
+    double sum = 0, low = value_of(shares[0].node), high = low;
+    for (const Share& s : shares) {
+      const double v = value_of(s.node);
+      sum += s.part * v;
+      low = std::min(low, v), high = std::max(high, v);
+    }
+    return std::clamp(sum, low, high);  // rounding may exceed the range
+  };
   result.outside =
-      for_each_place(places, method, outside, [&](std::size_t i, const std::vector<Share>& shares) {
-        if (shares.empty()) {
-          result.values[i] = std::numeric_limits<double>::quiet_NaN();
-        } else if (method == Method::cubic) {
-          result.values[i] = cubic_value(places[i], shares, values, slopes);
-        } else {
-          double sum = 0, low = value_of(shares[0].node), high = low;
-          for (const Share& s : shares) {
-            const double v = value_of(s.node);
-            sum += s.part * v;
-            low = std::min(low, v), high = std::max(high, v);
-          }
-          result.values[i] = std::clamp(sum, low, high);  // rounding may exceed the range
-        }
+      for_each_place(places, order, method, outside, [&](std::size_t k, const std::vector<Share>& shares) {
+        result.values[order[k]] = value_at(places[order[k]], shares);
       });
   return result;
 }
@@ -371,28 +406,34 @@ files::Weights Interpolation::weights_at(const std::vector<Point>& places, Metho
                                          Outside outside) const {
   files::Weights all;
   all.begin.resize(places.size() + 1);
-  std::vector<files::Weights> parts(blocks_of(places.size()));
-  all.outside = for_each_place(places, method, outside, [&](std::size_t i, const std::vector<Share>& shares) {
-    files::Weights& part = parts[i / kBlock];
-    for (const auto& [node, share] : shares) part.node.push_back(node), part.part.push_back(share);
-    all.begin[i + 1] = shares.size();
+  const std::vector<std::uint32_t> order = along_a_curve(places);
+  std::vector<std::vector<Share>> of_blocks(blocks_of(places.size()));
+  all.outside =
+      for_each_place(places, order, method, outside, [&](std::size_t k, const std::vector<Share>& shares) {
+        std::vector<Share>& here = of_blocks[k / kBlock];
+        here.insert(here.end(), shares.begin(), shares.end());
+        all.begin[order[k] + std::size_t{1}] = shares.size();
+      });
+  std::partial_sum(all.begin.begin(), all.begin.end(), all.begin.begin());
+  all.node.resize(all.begin.back());
+  all.part.resize(all.begin.back());
+  for_each_block(places.size(), [&](std::size_t b, std::size_t begin, std::size_t end) {
+    auto share = of_blocks[b].begin();
+    for (std::size_t k = begin; k < end; ++k)
+      for (std::size_t to = all.begin[order[k]]; to < all.begin[order[k] + std::size_t{1}]; ++to, ++share)
+        all.node[to] = share->node, all.part[to] = share->part;
+    of_blocks[b] = {};
   });
-  for (std::size_t i = 0; i < places.size(); ++i) all.begin[i + 1] += all.begin[i];
-  all.node.reserve(all.begin.back());
-  all.part.reserve(all.begin.back());
-  for (files::Weights& part : parts) {
-    all.node.insert(all.node.end(), part.node.begin(), part.node.end());
-    all.part.insert(all.part.end(), part.part.begin(), part.part.end());
-    part = {};
-  }
   return all;
 }
 
 Interpolation::Nearest Interpolation::nearest_at(const std::vector<Point>& places) const {
   Nearest found{std::vector<std::int32_t>(places.size()), std::vector<double>(places.size())};
+  const std::vector<std::uint32_t> order = along_a_curve(places);
   for_each_block(places.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     std::int32_t near = 1;
-    for (std::size_t i = begin; i < end; ++i) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t i = order[k];
       found.node[i] = near = nearest(places[i], near);
       found.distance[i] = arc_length(mesh_.direction(near), pstripack::direction_of(places[i]));
     }
