@@ -69,7 +69,7 @@ files::Grid grid_of(const Options& options) {
     if (at_nodes) counts = {counts[0] + 1, counts[1] + (all_around ? 0 : 1)};
   }
   for (const double count : counts)
-    if (!(count >= (at_nodes ? 2 : 1) && count == std::floor(count)) || counts[0] * counts[1] > 1e10)
+    if (!(count >= (at_nodes ? 2 : 1) && count == std::floor(count)) || counts[0] * counts[1] > 2e9)
       throw CLI::ValidationError("--to-grid", "expected NLATxNLON, for example 180x360");
   // In a grid around the globe the last meridian equals the first one: leave it out.
   const auto n_lat = static_cast<std::size_t>(counts[0]), n_lon = static_cast<std::size_t>(counts[1]);

@@ -797,6 +797,8 @@ bad_values)
   refuses 2 "--output or --weights is required" interpolate values.txt --grid-step 30
   refuses 2 "--weights: are those of linear, natural or nearest" interpolate values.txt --grid-step 30 --method cubic --weights failed.nc
   refuses 2 "--weights: are of one node for each place" interpolate values.txt --grid-step 30 --duplicates mean --weights failed.nc
+  printf '10 20 1\n30 40 1\n' > three.txt
+  refuses 1 "three.txt: has 3 columns: say --coordinates lonlat or xyz" interpolate three.txt --grid-step 30 --weights failed.nc
   refuses 2 "--nearest-node: is for columns of the output" interpolate values.txt --grid-step 30 --nearest-node --weights failed.nc
   refuses 2 "180 degrees are not a multiple of 7" interpolate values.txt --grid-step 7 -o failed.txt
   refuses 2 "--grid-step: -1 is not a number of degrees above 0" interpolate values.txt --grid-step -1 -o failed.txt
