@@ -111,7 +111,8 @@ struct Edges {
 };
 Edges edges_of(const Faces& faces);
 
-/// The centroid of each face: the direction of the sum of its corners.
+/// The centroid of each face: the direction of the integral of p over it. Right to 1e-15 rad for each unit of
+/// the face's length over its width, if no side is nearly a half turn.
 std::vector<Point> centroids(const Faces& faces);
 
 /// The areas of the faces in steradians; from their corners, where faces.area does not know them.
@@ -122,12 +123,12 @@ Faces triangle_faces(const Mesh& mesh);
 
 /// The Voronoi diagram: one face per node. If the nodes lie in a hemisphere, the cells of the boundary nodes
 /// share the rest of the sphere, as in STRIPACK's CRLIST. Throws NoMesh if the areas of the cells are not
-/// certain to make up the sphere. A table of the cells needs no corners.
-Faces voronoi_faces(const Mesh& mesh, bool with_corners = true);
+/// certain to make up the sphere.
+Faces voronoi_faces(const Mesh& mesh);
 
 /// Adds the columns that files of faces can hold: the nodes' own columns and given angles, their numbers of
-/// neighbours, and the areas of the faces in sr and km2. Own columns with one of these names get `_given`
-/// appended.
+/// neighbours, the areas of the faces in sr and km2, and the circumradii of triangles or the centroids of
+/// cells. Own columns with one of these names get `_given` appended.
 void add_columns(Faces& faces, const Mesh& mesh);
 
 /// One process's part of a mesh that covers the sphere: consecutive nodes, and the triangles whose smallest

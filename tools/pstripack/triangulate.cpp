@@ -68,10 +68,9 @@ void tell_huge_cell(const Options& options, const files::Faces& faces, const fil
 void voronoi(Options& options) {
   run(options, [&](const files::OutputFile& file, const files::Mesh& mesh) {
     const bool are_whole = options.region.empty() && !options.clip_to_hull;
-    const bool with_corners = !are_whole || options.output.format != files::Format::csv;
-    files::Faces faces = files::voronoi_faces(mesh, with_corners);
+    files::Faces faces = files::voronoi_faces(mesh);
     if (are_whole) tell_huge_cell(options, faces, mesh);
-    if (with_corners) files::divide_half_turns(faces, mesh);
+    files::divide_half_turns(faces, mesh);
     if (options.clip_to_hull && !mesh.has_boundary())
       say(options.input.file + ": the nodes surround the sphere: --clip-to-hull cuts nothing");
     if (options.clip_to_hull) faces = clipped_to_hull(faces, mesh);
@@ -82,8 +81,7 @@ void voronoi(Options& options) {
     files::add_columns(faces, mesh);
     faces.with_edges = options.output.edges;
     write_faces(file, options.output.format, faces, mesh.notes);
-    return counted(faces.size(), "cell") +
-           (with_corners ? ", " + counted(faces.points.size(), "corner") : std::string());
+    return counted(faces.size(), "cell") + ", " + counted(faces.points.size(), "corner");
   });
 }
 

@@ -825,7 +825,7 @@ as_given)
   # Values through VTU and gmsh.
   printf 'lon,lat,depth,place\n30,40,7.25,a\n100,40,,b\n70,-20,-1,c\n' > table.csv
   "$PSTRIPACK" -q triangulate table.csv -o mesh.vtu
-  for array in lon lat node line depth degree area area_km2; do
+  for array in lon lat node line depth degree area area_km2 circumradius_km; do
     grep -q "<DataArray type=\"[A-Za-z0-9]*\" Name=\"$array\" format=\"ascii\">" mesh.vtu || fail "mesh.vtu has no $array"
   done
   tr '\n' ' ' < mesh.vtu | grep -q 'Name="lon" format="ascii"> 30 100 70 <' || fail "lon: $(cat mesh.vtu)"
@@ -913,7 +913,7 @@ maps)
   "$PSTRIPACK" -q triangulate table.csv -o mesh.csv
   [ "$(cut -d , -f 1-3 mesh.csv | tr '\n' ' ')" = "node1,node2,node3 1,2,3 " ] || fail "$(cat mesh.csv)"
   "$PSTRIPACK" -q voronoi table.csv --clip-to-hull -o cells.csv
-  [ "$(head -n 1 cells.csv)" = "lon,lat,node,line,depth [km],place,degree,area [sr],area_km2" ] || fail "$(cat cells.csv)"
+  [ "$(head -n 1 cells.csv)" = "lon,lat,node,line,depth [km],place,degree,area [sr],area_km2,centroid_lon,centroid_lat" ] || fail "$(cat cells.csv)"
   grep -q '^170,-10,1,2,7.25,"a, ""b""",2,0.0' cells.csv || fail "$(cat cells.csv)"
   grep -q '^-170,-10,2,3,,c,2,0.0' cells.csv || fail "$(cat cells.csv)"
   "$PSTRIPACK" -q convert table.csv -o nodes.csv
