@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/parallel_for.h"
+#include "files/near_nodes.h"
 #include "geometry/measures.h"
 #include "lists/limits.h"
 #include "mesh/delaunay.h"
@@ -271,6 +272,23 @@ std::vector<std::int32_t> triangles_of(const Mesh& mesh) {
   return triangles;
 }
 
+std::vector<std::int32_t> triangles_to_write(const Mesh& mesh) {
+  std::vector<std::int32_t> all = triangles_of(mesh);
+  if (mesh.longest == 0) return all;
+  const auto is_short = [&](std::int32_t a, std::int32_t b) {
+    return is_near(mesh.points[static_cast<std::size_t>(a) - 1], mesh.points[static_cast<std::size_t>(b) - 1],
+                   mesh.longest);
+  };
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < all.size(); t += 3) {
+    const std::int32_t a = all[t], b = all[t + 1], c = all[t + 2];
+    if (!is_short(a, b) || !is_short(b, c) || !is_short(c, a)) continue;
+    for (const std::int32_t corner : {a, b, c}) all[kept++] = corner;
+  }
+  all.resize(kept);
+  return all;
+}
+
 std::vector<Point> unit(const std::vector<Point>& points) {
   std::vector<Point> result(points.size());
   pstripack::parallel_pieces(
@@ -338,9 +356,38 @@ Faces faces_of(const std::vector<Point>& points, const std::vector<std::int32_t>
 }  // namespace
 
 Faces triangle_faces(const Mesh& mesh) {
-  Faces faces = faces_of(mesh.points, triangles_of(mesh));
+  Faces faces = faces_of(mesh.points, triangles_to_write(mesh));
   faces.with_edges = mesh.with_edges;
   return faces;
+}
+
+std::vector<std::int32_t> hull_of(const Mesh& mesh) {
+  if (!mesh.has_boundary()) throw NoMesh("the nodes surround the sphere: they have no hull");
+  std::vector<std::int32_t> corners(mesh.points.size());
+  corners.resize(
+      static_cast<std::size_t>(pstripack::boundary_nodes(mesh.lists(), corners.data()).boundary_nodes));
+  return corners;
+}
+
+Links links_of(const Mesh& mesh) {
+  const pstripack::Directions nodes(mesh.points.data(), mesh.points.size());
+  const pstripack::ListReader<std::int32_t> reader(mesh.lists());
+  Links links;
+  std::vector<std::int32_t> larger;
+  for (std::int32_t node = 1; node <= reader.size(); ++node) {
+    larger.clear();
+    reader.for_each_neighbour(node, [&](std::int32_t neighbour) {
+      if (neighbour > node) larger.push_back(neighbour);
+    });
+    std::sort(larger.begin(), larger.end());
+    for (const std::int32_t neighbour : larger) {
+      const double length = arc_length(direction_of(nodes, node - 1), direction_of(nodes, neighbour - 1));
+      if (mesh.longest > 0 && length > mesh.longest) continue;
+      links.nodes.insert(links.nodes.end(), {node, neighbour});
+      links.length.push_back(length);
+    }
+  }
+  return links;
 }
 
 Edges edges_of(const Faces& faces) {
@@ -547,13 +594,18 @@ std::vector<double> areas(const Faces& faces) {
 
 namespace {
 
-/// The columns of faces that we compute. `nodes`: of triangles, as given.
-Columns measures_of(const Faces& faces, const std::vector<Point>& nodes) {
+Columns area_columns(const Faces& faces) {
   Column area{"area", "area of the face on the unit sphere", "sr"};
   area.numbers = areas(faces);
   Column area_km2{"area_km2", "area of the face on a sphere of radius 6371 km", "km2"};
   area_km2.numbers.reserve(area.numbers.size());
   for (const double a : area.numbers) area_km2.numbers.push_back(a * kEarthRadius * kEarthRadius);
+  return {area, area_km2};
+}
+
+/// The columns of faces that we compute. `nodes`: of triangles, as given.
+Columns measures_of(const Faces& faces, const std::vector<Point>& nodes) {
+  Columns columns = area_columns(faces);
   if (faces.centres.empty()) {
     Column radius{"circumradius_km", "circumradius of the triangle on a sphere of radius 6371 km", "km"};
     radius.numbers =
@@ -561,14 +613,17 @@ Columns measures_of(const Faces& faces, const std::vector<Point>& nodes) {
           return kEarthRadius *
                  circumcircle(direction_of(at, a), direction_of(at, b), direction_of(at, c)).radius;
         });
-    return {area, area_km2, radius};
+    columns.push_back(std::move(radius));
+    return columns;
   }
   LonLat angles(centroids(faces), true);
   Column lon{"centroid_lon", "longitude of the centroid of the face", "degrees"},
       lat{"centroid_lat", "latitude of the centroid of the face", "degrees"};
   lon.numbers = std::move(angles.lon);
   lat.numbers = std::move(angles.lat);
-  return {area, area_km2, lon, lat};
+  columns.push_back(std::move(lon));
+  columns.push_back(std::move(lat));
+  return columns;
 }
 
 void add_columns(Faces& faces, const std::vector<Point>& nodes, const Columns& of_mesh,
@@ -588,17 +643,31 @@ void add_columns(Faces& faces, const std::vector<Point>& nodes, const Columns& o
   make_names_differ(of_nodes, names);
   of_nodes.push_back(std::move(degree));
   if (are_cells && !faces.nodes.empty()) {
-    for (Column& column : of_nodes) {
-      column.numbers = values_at(column.numbers, faces.nodes);
-      column.texts = values_at(column.texts, faces.nodes);
-    }
-    for (auto* const angles : {&faces.given_centres.lon, &faces.given_centres.lat})
-      *angles = values_at(*angles, faces.nodes);
+    of_nodes = at_nodes(of_nodes, faces.nodes);
+    faces.given_centres = at_nodes(faces.given_centres, faces.nodes);
   }
   for (Column& column : measures) faces.columns_of_faces.push_back(std::move(column));
 }
 
 }  // namespace
+
+Faces hull_face(const Mesh& mesh) {
+  const std::vector<double> of_triangles = triangle_faces(mesh).area;
+  Faces hull;
+  std::vector<std::size_t> corners;
+  for (const std::int32_t node : hull_of(mesh)) {
+    corners.push_back(static_cast<std::size_t>(node) - 1);
+    hull.corner.push_back(static_cast<std::int32_t>(corners.size()));
+  }
+  hull.points = unit(values_at(mesh.points, corners));
+  hull.given_points = at_nodes(mesh.given, corners);
+  hull.begin = {0, corners.size()};
+  hull.area = {std::accumulate(of_triangles.begin(), of_triangles.end(), 0.0)};
+  hull.columns_of_faces = area_columns(hull);
+  hull.columns_of_faces.push_back(
+      whole_numbers("corners", "number of corners", {static_cast<double>(corners.size())}));
+  return hull;
+}
 
 void add_columns(Faces& faces, const Mesh& mesh) {
   (faces.centres.empty() ? faces.given_points : faces.given_centres) = mesh.given;

@@ -17,6 +17,8 @@ struct Options {
   Output output;
   std::string region;  ///< of `voronoi`
   bool clip_to_hull = false;
+  std::string what = "triangles";  ///< of `triangulate`
+  Distance longest;
 };
 
 /// `write(file, mesh)` writes the result and returns its description for the last line.
@@ -43,9 +45,25 @@ void run(Options& options, const Write& write) {
 }
 
 void triangulate(Options& options) {
+  if (options.longest.radians > 0 && options.what == "hull")
+    throw CLI::ValidationError("--longest", "the hull is that of all nodes: leave out --longest");
   run(options, [&](const files::OutputFile& file, files::Mesh& mesh) {
+    mesh.longest = options.longest.radians;
+    if (options.what == "hull") {
+      write_hull(file, options.output.format, mesh);
+      return "hull of " + counted(files::hull_of(mesh).size(), "node");
+    }
+    if (options.what == "links") {
+      write_links(file, options.output.format, mesh);
+      return counted(files::links_of(mesh).length.size(), "link");
+    }
+    const std::size_t written = files::triangles_to_write(mesh).size() / 3;
+    if (written == 0) throw files::NoMesh("each triangle has a side longer than " + options.longest.text);
+    if (written < mesh.triangles())
+      say(fmt::format("{}: {} with a side longer than {} left out", options.input.file,
+                      counted(mesh.triangles() - written, "triangle"), options.longest.text));
     write_mesh(file, options.output, mesh);
-    return counted(mesh.triangles(), "triangle");
+    return counted(written, "triangle");
   });
 }
 
@@ -103,7 +121,23 @@ void add_triangulate(CLI::App& app, Command& chosen) {
   const auto options =
       add(app, "triangulate", "exact Delaunay triangulation of the nodes: a mesh of triangles", triangulate,
           chosen);
-  add_radius(*app.get_subcommand("triangulate"), options->output.radius, kRadiusOfMpas);
+  CLI::App* const sub = app.get_subcommand("triangulate");
+  add_radius(*sub, options->output.radius, kRadiusOfMpas);
+  sub->add_option(
+         "--what", options->what,
+         "triangles, links (their sides, with lengths: GeoJSON, CSV) or hull (a polygon; CSV: its nodes)")
+      ->type_name("WORD")
+      ->capture_default_str()
+      ->check(one_of({"triangles", "links", "hull"}));
+  sub->add_option_function<std::string>(
+         "--longest",
+         [options](const std::string& text) {
+           options->longest = distance_of("--longest", text);
+           if (options->longest.radians == 0)
+             throw CLI::ValidationError("--longest", "'" + text + "' leaves out everything");
+         },
+         "leave out triangles with a longer side, or longer links: 500km, 20m, 5deg, 0.1rad")
+      ->type_name("DISTANCE");
 }
 
 void add_voronoi(CLI::App& app, Command& chosen) {

@@ -928,6 +928,25 @@ maps)
   for corner in 170,-10 180,10 -180,10 -170,-10; do
     grep -qF "[$corner]" mesh.geojson || fail "no $corner: $(cat mesh.geojson)"
   done
+  # Links with their lengths, the hull, and triangles without long sides.
+  "$PSTRIPACK" -q triangulate table.csv --what links -o links.geojson
+  [ "$(grep -c '"LineString"' links.geojson)" = 2 ] && [ "$(grep -c '"MultiLineString"' links.geojson)" = 1 ] || fail "$(cat links.geojson)"
+  "$PSTRIPACK" triangulate table.csv --what links --longest 2400km -o links.csv 2> err
+  [ "$(cut -c 1-8 links.csv | tr '\n' ' ')" = "node1,no 1,2,2189 " ] && grep -q ", 1 link; " err || fail "$(cat links.csv err)"
+  "$PSTRIPACK" -q triangulate table.csv --what hull -o hull.geojson
+  "$PSTRIPACK" -q triangulate table.csv --what hull -o hull.csv
+  [ "$(sed -n 2p hull.geojson | grep -o '"coordinates.*')" = "$(sed -n 2p mesh.geojson | grep -o '"coordinates.*')" ] || fail "$(cat hull.geojson)"
+  [ "$(cut -d , -f 3 hull.csv | tr '\n' ' ')" = "node 1 2 3 " ] || fail "$(cat hull.csv)"
+  refuses 1 "nodes.txt: the nodes surround the sphere: they have no hull" triangulate nodes.txt --what hull -o failed.csv
+  refuses 2 "the hull is that of all nodes: leave out --longest" triangulate table.csv --what hull --longest 1km -o failed.csv
+  refuses 1 "off cannot hold links: --to geojson or csv can" triangulate table.csv --what links -o failed.off
+  refuses 1 "each triangle has a side longer than 1000km" triangulate table.csv --longest 1000km -o failed.off
+  refuses 1 "holds whole triangulations: leave out --longest" -q triangulate nodes.txt --longest 5000km -o failed.lists
+  refuses 2 "--longest: '0km' leaves out everything" triangulate table.csv --longest 0km -o failed.off
+  refuses 2 "--longest: '5': expected a number and its unit" triangulate table.csv --longest 5 -o failed.off
+  "$PSTRIPACK" triangulate nodes.txt --longest 60deg -o some.csv 2> err
+  left=$(sed -n 's/^pstripack: nodes.txt: \([0-9]*\) triangles with a side longer than 60deg left out$/\1/p' err)
+  [ "$(wc -l < some.csv)" = $((37 - left)) ] || fail "$left $(wc -l < some.csv)"
   # A region within one cell.
   "$PSTRIPACK" -q voronoi table.csv --region 0,0.1,10,10.1 -o one.geojson
   [ "$(grep -c '"Feature"' one.geojson)" = 1 ] || fail "$(cat one.geojson)"
