@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "pictures/colours.h"
 #include "pictures/scale.h"
 #include "pictures/sheet.h"
 
@@ -16,11 +17,15 @@ struct Shade {
 };
 
 constexpr int kSteps = 6;           ///< steps of a colour bar
-constexpr double kBarWidth = 400;   ///< pixels
 constexpr double kTickLabels = 12;  ///< font size
 
-/// A Viridis bar with the ticks of the scale.
-double draw_colour_bar(Sheet& sheet, double top, const std::string& title, const Scale& scale);
+/// The width of a colour bar, in units of the sheet.
+inline double bar_width(const Sheet& sheet) { return std::min(400.0, sheet.width() - 60); }
+
+/// A bar of the palette with the ticks of the scale. `below`, `above`: values lie beyond that end: it is
+/// pointed.
+double draw_colour_bar(Sheet& sheet, double top, const std::string& title, const Scale& scale,
+                       const Palette& palette, bool below, bool above);
 
 /// A square with label and count for each shade whose count is not 0, in as many rows as needed.
 double draw_shades(Sheet& sheet, double top, const std::string& title, const std::vector<Shade>& shades);

@@ -370,6 +370,14 @@ pictures)
   refuses 1 "no.shp: cannot be opened: No such file" plot nodes.txt -o c.svg --coast-file no.shp
   refuses 1 "nodes.txt: not a shapefile (.shp) of lines or polygons" plot nodes.txt -o c.svg --coast-file nodes.txt
   refuses 2 "histograms have no coasts" plot nodes.txt -o c.svg --what histograms --coasts
+  refuses 2 "--region: it is a map of longitude and latitude: leave out --radius" plot nodes.txt -o c.svg --region 0,10,20,30 --radius 5
+  refuses 2 "--region: it is a map of longitude and latitude: leave out" plot nodes.txt -o c.svg --region 0,10,20,30 --view orthographic
+  refuses 2 "--region: '0,10,30,20': expected WEST,EAST,SOUTH,NORTH" plot nodes.txt -o c.svg --region 0,10,30,20
+  refuses 2 "--range: '5,2': expected LOW,HIGH, the lower first" plot nodes.txt -o c.svg --colour area --range 5,2
+  refuses 2 "--range: a colour bar is needed: --colour area or a column of numbers" plot nodes.txt -o c.svg --range 2,5
+  refuses 2 "'virdis' is none of viridis, magma, cividis, coolwarm, grey; did you mean viridis?" plot nodes.txt -o c.svg --palette virdis
+  "$PSTRIPACK" -q plot nodes.txt --what cells --colour area --range 1e5,1e6 --palette magma --dots --region 170,-170,-30,-10 -o part.svg
+  grep -q '>nodes.txt: 300 cells<' part.svg && grep -q 'fcfdbf' part.svg || fail "no title or palette"
   printf 'lon,lat,mag,place\n0,0,1,a\n90,0,2,b\n180,0,3,a\n270,0,4,b\n0,90,5,a\n0,-90,,\n' > quakes.csv
   "$PSTRIPACK" -q plot quakes.csv --what cells --colour mag -o mag.svg
   grep -q '>mag<' mag.svg && grep -q '>no value: 1 cell<' mag.svg || fail "no legend of mag"
@@ -377,7 +385,7 @@ pictures)
   grep -q '>a (3)<' place.svg && grep -q '>b (2)<' place.svg || fail "no legend of place"
   refuses 1 "place is a column of words: say --what cells" plot quakes.csv -o c.svg --colour place
   refuses 2 "degree is a property of nodes: say --what cells" plot nodes.txt -o c.svg --colour degree
-  refuses 2 "histograms have no --view" plot nodes.txt -o c.svg --what histograms --view lonlat
+  refuses 2 "histograms have no --view, --radius, --region, --dots or --colour" plot nodes.txt -o c.svg --what histograms --view lonlat
   refuses 1 "no/such/folder/c.svg: cannot be written: No such file" plot nodes.txt -o no/such/folder/c.svg
   refuses 1 "/dev/full: cannot be written: No space left" plot nodes.txt -o /dev/full --to svg
   "$PSTRIPACK" -q points fibonacci 410000 -o many.raw
