@@ -580,7 +580,13 @@ std::vector<double> areas(const Faces& faces) {
           const std::size_t begin = faces.begin[f], end = faces.begin[f + 1];
           for (std::size_t k = begin + kAhead; k < std::min(end + kAhead, corners); ++k)
             __builtin_prefetch(&faces.points[static_cast<std::size_t>(faces.corner[k]) - 1]);
-          if (faces.centres.empty()) {
+          // Parts of a cell may be far from its node, and small.
+          const auto is_small = [&] {
+            for (std::size_t k = begin; k < end; ++k)
+              if (dot(point(begin), point(k)) < 0.5) return false;
+            return true;
+          };
+          if (faces.centres.empty() || (!faces.nodes.empty() && is_small())) {
             for (std::size_t k = begin + 1; k + 1 < end; ++k)
               all[f] += triangle_area(point(begin), point(k), point(k + 1));
           } else {

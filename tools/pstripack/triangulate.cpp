@@ -6,6 +6,7 @@
 
 #include "files/clipping.h"
 #include "files/measures.h"
+#include "files/width_regions.h"
 #include "pstripack/options.h"
 #include "pstripack/progress.h"
 
@@ -15,7 +16,7 @@ namespace {
 struct Options {
   Input input;
   Output output;
-  std::string region;  ///< of `voronoi`
+  std::string region, polygons;  ///< of `voronoi`
   bool clip_to_hull = false;
   std::string what = "triangles";  ///< of `triangulate`
   Distance longest;
@@ -84,8 +85,10 @@ void tell_huge_cell(const Options& options, const files::Faces& faces, const fil
 }
 
 void voronoi(Options& options) {
+  if (!options.polygons.empty() && (!options.region.empty() || options.clip_to_hull))
+    throw CLI::ValidationError("--clip-to", "cuts whole cells: leave out --region and --clip-to-hull");
   run(options, [&](const files::OutputFile& file, const files::Mesh& mesh) {
-    const bool are_whole = options.region.empty() && !options.clip_to_hull;
+    const bool are_whole = options.region.empty() && options.polygons.empty() && !options.clip_to_hull;
     files::Faces faces = files::voronoi_faces(mesh);
     if (are_whole) tell_huge_cell(options, faces, mesh);
     files::divide_half_turns(faces, mesh);
@@ -93,6 +96,9 @@ void voronoi(Options& options) {
       say(options.input.file + ": the nodes surround the sphere: --clip-to-hull cuts nothing");
     if (options.clip_to_hull) faces = clipped_to_hull(faces, mesh);
     if (!options.region.empty()) faces = clipped_to_region(faces, region_of(options.region));
+    if (!options.polygons.empty()) faces = clipped_to_polygons(faces, files::read_polygons(options.polygons));
+    if (faces.size() == 0 && !options.polygons.empty())
+      throw files::NoMesh("the polygons of " + options.polygons + " are narrower than rounding");
     if (faces.size() == 0)
       throw files::NoMesh(options.clip_to_hull ? "no part of the hull of the nodes lies in the region"
                                                : "the region is smaller than 1e-10 degrees: make it larger");
@@ -149,6 +155,8 @@ void add_voronoi(CLI::App& app, Command& chosen) {
   sub->add_option("--region", options->region,
                   "cut the cells at WEST,EAST,SOUTH,NORTH; 170,-170 crosses the dateline")
       ->type_name("DEGREES");
+  sub->add_option("--clip-to", options->polygons, "cut the cells at the polygons of this GeoJSON file")
+      ->type_name("FILE");
   sub->add_flag("--clip-to-hull", options->clip_to_hull, "cut the cells at the convex hull of the nodes");
 }
 

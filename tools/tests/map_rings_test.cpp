@@ -461,6 +461,78 @@ TEST(cells, fill_the_hull_of_their_nodes) {
   EXPECT_EQ(clipped_to_hull(cells_of(sphere), sphere).corner, cells_of(sphere).corner);
 }
 
+using LonLats = std::vector<std::pair<double, double>>;
+LonLats box(double west, double east, double south, double north) {
+  return {{west, south}, {east, south}, {east, north}, {west, north}, {west, south}};
+}
+/// A ring with bays, its corners so close that its sides are arcs as they are.
+LonLats with_bays(double lon, double lat, double radius) {
+  LonLats ring;
+  constexpr int kCorners = 800;
+  for (int k = 0; k < kCorners; ++k) {
+    const double t = 8 * std::atan(1.0) * k / kCorners, r = radius * (1 + 0.4 * std::sin(5 * t));
+    ring.emplace_back(lon + r * std::cos(t), lat + r * std::sin(t));
+  }
+  ring.push_back(ring[0]);
+  return ring;
+}
+
+// Areas of the arcs by another formula: as seen from their first corner.
+double area_of_arcs(const LonLats& ring) {
+  double area = 0;
+  const auto at = [&](std::size_t k) { return point_sets::from_degrees(ring[k].first, ring[k].second); };
+  for (std::size_t k = 1; k + 2 < ring.size(); ++k) {
+    const Point a = at(0), b = at(k), c = at(k + 1);
+    const double ab = angle_between(a, b), bc = angle_between(b, c), ca = angle_between(c, a),
+                 s = (ab + bc + ca) / 2;
+    const double lhuilier =
+        std::tan(s / 2) * std::tan((s - ab) / 2) * std::tan((s - bc) / 2) * std::tan((s - ca) / 2);
+    area += std::copysign(4 * std::atan(std::sqrt(std::max(0.0, lhuilier))), volume(a, b, c));
+  }
+  return area;
+}
+
+TEST(cells, fill_polygons_once) {
+  const double pi = 4 * std::atan(1.0);
+  const MapRegion bays{1, {with_bays(178, 30, 12), with_bays(174, 31, 2), with_bays(181, 29, 1)}};
+  const double of_bays =
+      area_of_arcs(bays.rings[0]) - area_of_arcs(bays.rings[1]) - area_of_arcs(bays.rings[2]);
+  LonLats clockwise = box(0, 90, 0, 90);
+  std::reverse(clockwise.begin(), clockwise.end());
+  const std::pair<MapRegion, double> polygons[] = {
+      {bays, of_bays},
+      {{1, {clockwise}}, pi / 2},
+      {{1, {box(-90, 90, -90, 90)}}, 2 * pi},
+      {{1, {box(-180, 180, -90, 90)}}, 4 * pi},
+      {{1, {box(0, 360, -90, 90), bays.rings[0]}}, 4 * pi - area_of_arcs(bays.rings[0])},
+      {{1, {with_bays(10, 20, 1e-3)}}, area_of_arcs(with_bays(10, 20, 1e-3))}};
+  for (const char* const family :
+       {"random", "latlon", "icosahedral", "healpix", "cap", "hemisphere", "strip"})
+    for (const std::size_t n : {3u, 20u, 300u}) {
+      const Mesh mesh = triangulate(point_sets::make(family, n));
+      const Faces all = cells_of(mesh);
+      for (const auto& [polygon, area] : polygons) {
+        const Faces cells = clipped_to_polygons(all, {polygon});
+        const std::vector<double> of_parts = areas(cells);
+        EXPECT_NEAR(sum(of_parts) / area, 1, area < 1e-6 ? 1e-7 : 1e-11) << family << ' ' << n << ' ' << area;
+        EXPECT_GT(*std::min_element(of_parts.begin(), of_parts.end()), -1e-15) << family << ' ' << n;
+      }
+      const Faces two = clipped_to_polygons(all, {bays, polygons[1].first});
+      EXPECT_NEAR(sum(areas(two)), of_bays + pi / 2, 1e-11) << family << ' ' << n;
+    }
+  const Faces cells = cells_of(triangulate(point_sets::make("random", 100)));
+  EXPECT_THROW(clipped_to_polygons(cells, {{1, {{{0, 0}, {30, 30}, {30, 0}, {0, 20}, {0, 0}}}}}), NoMesh);
+}
+
+// Sides along the borders of cells: whole cells, and no slivers.
+TEST(cells, of_a_polygon_along_their_borders_are_whole) {
+  Points points;
+  for (double lon = -29.5; lon < 30; ++lon)
+    for (double lat = -9.5; lat < 10; ++lat) points.push_back(point_sets::from_degrees(lon, lat));
+  const Faces cells = clipped_to_polygons(cells_of(triangulate(points)), {{1, {box(-10, 10, -4.5, 0)}}});
+  EXPECT_EQ(cells.size(), 20u * 5);
+}
+
 TEST(cells, of_nodes_on_one_circle_are_lunes_with_corners_in_the_middle_of_their_sides) {
   const Mesh mesh = triangulate(
       {point_sets::from_degrees(0, 10), point_sets::from_degrees(20, 10), point_sets::from_degrees(10, 30)});

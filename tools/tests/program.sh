@@ -936,6 +936,13 @@ maps)
   for corner in 170,-10 180,10 -180,10 -170,-10; do
     grep -qF "[$corner]" mesh.geojson || fail "no $corner: $(cat mesh.geojson)"
   done
+  # Polygons with a hole, and two of them.
+  ring() { printf '[[%s,%s],[%s,%s],[%s,%s],[%s,%s],[%s,%s]]' "$1" "$3" "$2" "$3" "$2" "$4" "$1" "$4" "$1" "$3"; }
+  printf '{"type":"MultiPolygon","coordinates":[[%s,%s],[%s]]}' "$(ring 10 30 -10 10)" "$(ring 15 20 -5 5)" "$(ring 40 41 3 4)" > two.json
+  "$PSTRIPACK" -q voronoi nodes.csv --coordinates xyz --clip-to two.json -o parts.geojson
+  awk -F '"area_km2":' '/Feature"/ { sum += $2 } END { exit (sum / 4315587 - 1) ^ 2 > 1e-10 }' parts.geojson || fail "$(cat parts.geojson)"
+  refuses 2 "--clip-to: cuts whole cells: leave out --region and --clip-to-hull" voronoi nodes.txt --clip-to two.json --clip-to-hull -o failed.csv
+  refuses 1 "missing.json: cannot be opened" voronoi nodes.txt --clip-to missing.json -o failed.csv
   # Links with their lengths, the hull, and triangles without long sides.
   "$PSTRIPACK" -q triangulate table.csv --what links -o links.geojson
   [ "$(grep -c '"LineString"' links.geojson)" = 2 ] && [ "$(grep -c '"MultiLineString"' links.geojson)" = 1 ] || fail "$(cat links.geojson)"
