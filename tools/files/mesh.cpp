@@ -550,12 +550,12 @@ void add_corners(Faces& cells, const Mesh& mesh, const pstripack::Directions& di
 
 }  // namespace
 
-Faces voronoi_faces(const Mesh& mesh) {
+Faces voronoi_faces(const Mesh& mesh, bool with_corners) {
   const pstripack::Directions directions(mesh.points.data(), mesh.points.size());
   Faces cells;
   cells.centres = unit(mesh.points);
   cells.begin.resize(mesh.points.size() + 1);
-  add_corners(cells, mesh, directions);
+  if (with_corners) add_corners(cells, mesh, directions);
   cells.area.resize(mesh.points.size());
   if (!pstripack::cell_areas(mesh.lists(), directions, cells.area.data()))
     throw NoMesh("the lists are broken");

@@ -140,8 +140,8 @@ Links links_of(const Mesh& mesh);
 
 /// The Voronoi diagram: one face per node. If the nodes lie in a hemisphere, the cells of the boundary nodes
 /// share the rest of the sphere, as in STRIPACK's CRLIST. Throws NoMesh if the areas of the cells are not
-/// certain to make up the sphere.
-Faces voronoi_faces(const Mesh& mesh);
+/// certain to make up the sphere. A table of their areas needs no corners.
+Faces voronoi_faces(const Mesh& mesh, bool with_corners = true);
 
 /// Adds the columns that files of faces can hold: the nodes' own columns and given angles, their numbers of
 /// neighbours, the areas of the faces in sr and km2, and the circumradii of triangles or the centroids of

@@ -5,19 +5,10 @@
 #include <vector>
 
 #include "pictures/colours.h"
-#include "pictures/scale.h"
+#include "pictures/shading.h"
 #include "pictures/sheet.h"
 
 namespace pictures {
-
-/// A colour and what it stands for.
-struct Shade {
-  std::string colour, label;
-  std::size_t count = 0;
-};
-
-constexpr int kSteps = 6;           ///< steps of a colour bar
-constexpr double kTickLabels = 12;  ///< font size
 
 /// The width of a colour bar, in units of the sheet.
 inline double bar_width(const Sheet& sheet) { return std::min(400.0, sheet.width() - 60); }

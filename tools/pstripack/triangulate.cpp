@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "files/clipping.h"
+#include "files/map_rings.h"
 #include "files/measures.h"
 #include "files/width_regions.h"
 #include "pstripack/options.h"
@@ -91,7 +92,7 @@ void voronoi(Options& options) {
     const bool are_whole = options.region.empty() && options.polygons.empty() && !options.clip_to_hull;
     files::Faces faces = files::voronoi_faces(mesh);
     if (are_whole) tell_huge_cell(options, faces, mesh);
-    files::divide_half_turns(faces, mesh);
+    files::divide_half_turns(faces, mesh.lists());
     if (options.clip_to_hull && !mesh.has_boundary())
       say(options.input.file + ": the nodes surround the sphere: --clip-to-hull cuts nothing");
     if (options.clip_to_hull) faces = clipped_to_hull(faces, mesh);
