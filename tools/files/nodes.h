@@ -24,6 +24,7 @@ struct ReadOptions {
   bool with_triangles = false;                ///< also read the triangles of UGRID, MPAS and OFF
   bool with_boundary = false;                 ///< also those of MPAS that lack corners
   bool with_columns = false;                  ///< also read the other columns; not of raw doubles
+  bool with_cells = false;                    ///< GeoJSON: the nodes of cells that `voronoi` has written
   bool with_values = false;                   ///< also read one value per node; not of raw doubles
   std::string variable;  ///< its name, or in text its number; empty: the column after the coordinates
   std::vector<std::string> usual_variables =

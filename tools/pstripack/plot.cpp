@@ -184,9 +184,12 @@ void plot(Options& options) {
 
   options.input.read.with_columns = mesh_options.colour == MeshOptions::Colour::value;
   options.input.read.with_triangles = !options.input.drops();  // dropping nodes renumbers corners
+  options.input.read.with_cells = true;
   files::OutputFile file(options.file);
   Progress progress;
   files::Nodes nodes = progress.step("reading", [&] { return read_nodes(options.input); });
+  if (nodes.kind.find("cells") != nodes.kind.npos)
+    say(nodes.file + ": whole cells of its nodes are drawn, also where it has parts of them");
   if (mesh_options.colour == MeshOptions::Colour::value) expect_column(nodes, mesh_options.value);
   const files::Mesh mesh = progress.step("triangulating", [&] {
     if (nodes.triangles.empty()) return triangulate(nodes);

@@ -378,6 +378,15 @@ pictures)
   refuses 2 "'virdis' is none of viridis, magma, cividis, coolwarm, grey; did you mean viridis?" plot nodes.txt -o c.svg --palette virdis
   "$PSTRIPACK" -q plot nodes.txt --what cells --colour area --range 1e5,1e6 --palette magma --dots --region 170,-170,-30,-10 -o part.svg
   grep -q '>nodes.txt: 300 cells<' part.svg && grep -q 'fcfdbf' part.svg || fail "no title or palette"
+  # Cells that voronoi has written, and their columns; of another command's, or another program's, not.
+  "$PSTRIPACK" -q voronoi nodes.txt -o cells.geojson
+  "$PSTRIPACK" plot cells.geojson --what cells --colour area_km2 --title "" -o cells.svg 2> err
+  grep -q "cells.geojson: whole cells of its nodes are drawn" err && grep -q '>area_km2<\|area_km2' cells.svg || fail "$(cat err)"
+  "$PSTRIPACK" -q plot nodes.txt --what cells --colour degree --title "" -o a.svg
+  "$PSTRIPACK" -q plot cells.geojson --what cells --colour degree --title "" -o b.svg
+  [ "$(grep -c '<path' a.svg)" = "$(grep -c '<path' b.svg)" ] || fail "other cells"
+  "$PSTRIPACK" -q triangulate nodes.txt -o mesh.geojson
+  refuses 1 "meshes are read from UGRID, MPAS and OFF, \`plot\` also takes the cells of \`pstripack voronoi\`" plot mesh.geojson -o c.svg
   printf 'lon,lat,mag,place\n0,0,1,a\n90,0,2,b\n180,0,3,a\n270,0,4,b\n0,90,5,a\n0,-90,,\n' > quakes.csv
   "$PSTRIPACK" -q plot quakes.csv --what cells --colour mag -o mag.svg
   grep -q '>mag<' mag.svg && grep -q '>no value: 1 cell<' mag.svg || fail "no legend of mag"
