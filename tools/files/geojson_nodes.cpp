@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -31,15 +32,17 @@ std::vector<std::string> names_of(const Columns& columns) {
 /// Collects points and properties from one feature after another.
 class Features {
  public:
-  Features(Nodes& nodes, bool keep_missing) : nodes_(nodes), keep_missing_(keep_missing) {}
+  Features(Nodes& nodes, const ReadOptions& options) : nodes_(nodes), options_(options) {}
 
   /// Throws if the feature has no geometry, unless missing ones are kept, or one other than Point or
   /// MultiPoint.
   void add(const json& feature) {
     ++count_;
     const auto geometry = feature.find("geometry"), properties = feature.find("properties");
+    if (options_.with_cells && properties != feature.end() && is_cell(*properties))
+      return add_cell(*properties);
     const bool has_geometry = geometry != feature.end() && geometry->is_object();
-    if (!has_geometry && !keep_missing_)
+    if (!has_geometry && !options_.keep_missing)
       fail("has no geometry: remove it, give it a Point, or say --skip-missing");
     const std::size_t first = nodes_.lines.size();
     if (has_geometry)
@@ -62,6 +65,23 @@ class Features {
   }
 
  private:
+  /// True for the properties of a cell of `voronoi`.
+  static bool is_cell(const json& properties) {
+    const auto has = [&](const char* name) {
+      const auto found = properties.find(name);
+      return found != properties.end() && found->is_number();
+    };
+    return has("lon") && has("lat") && has("node") && has("degree") && has("area");
+  }
+
+  /// Adds the node of the cell; of several parts of a cell once.
+  void add_cell(const json& properties) {
+    nodes_.kind = "GeoJSON, nodes of cells, lon lat in degrees";
+    if (!cells_.insert(properties["node"].get<double>()).second) return;
+    add_point({properties["lon"], properties["lat"]});
+    for (const auto& [name, value] : properties.items()) set(name, nodes_.lines.size() - 1, value);
+  }
+
   [[noreturn]] void fail(const std::string& what) const {
     throw std::runtime_error(fmt::format("{}: feature {}: {}", nodes_.file, count_, what));
   }
@@ -69,9 +89,11 @@ class Features {
   void add_points(const json& geometry) {
     const std::string type = text_of(geometry, "type");
     if (type != "Point" && type != "MultiPoint")
-      fail(
-          fmt::format("'{}' is not a Point or MultiPoint: nodes are points{}", excerpt(type),
-                      type.find("Polygon") != type.npos ? "; meshes are read from UGRID, MPAS and OFF" : ""));
+      fail(fmt::format("'{}' is not a Point or MultiPoint: nodes are points{}", excerpt(type),
+                       type.find("Polygon") != type.npos
+                           ? "; meshes are read from UGRID, MPAS and OFF, "
+                             "`plot` also takes the cells of `pstripack voronoi`"
+                           : ""));
     const auto coordinates = geometry.find("coordinates");
     if (coordinates == geometry.end() || !coordinates->is_array()) fail("its geometry has no coordinates");
     if (type == "Point")
@@ -110,7 +132,8 @@ class Features {
   }
 
   Nodes& nodes_;
-  const bool keep_missing_;
+  const ReadOptions& options_;
+  std::set<double> cells_;  ///< numbers of their nodes
   Columns columns_;
   std::size_t count_ = 0;
 };
@@ -198,7 +221,7 @@ Nodes read_geojson(const std::string& file, const ReadOptions& options, const st
   nodes.file = file;
   nodes.kind = "GeoJSON, lon lat in degrees";
   nodes.lines_are = "feature";
-  Features features(nodes, options.keep_missing);
+  Features features(nodes, options);
   const json root = read_features(contents, file, "points", {"Point", "MultiPoint"},
                                   [&](const json& feature, std::size_t) { features.add(feature); });
   const std::size_t n = nodes.given.lon.size();

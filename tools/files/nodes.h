@@ -24,6 +24,7 @@ struct ReadOptions {
   bool with_triangles = false;                ///< also read the triangles of UGRID, MPAS and OFF
   bool with_boundary = false;                 ///< also those of MPAS that lack corners
   bool with_columns = false;                  ///< also read the other columns; not of raw doubles
+  bool with_cells = false;                    ///< GeoJSON: the nodes of cells that `voronoi` has written
   bool with_values = false;                   ///< also read one value per node; not of raw doubles
   bool may_have_value = false;  ///< a column of values may follow in text without a header; it is not read
   bool keep_missing = false;    ///< coordinates may be missing: NaN; else an error

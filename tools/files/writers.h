@@ -57,6 +57,10 @@ void write_part(const OutputFile& file, Format format, const MeshPart& part, int
 /// Writes any polygons: ugrid, scrip, esmf, vtu, off, gmt, geojson, csv. Throws std::runtime_error for other
 /// formats.
 void write_faces(const OutputFile& file, Format format, const Faces& faces, const Notes& notes = {});
+/// Writes the arcs of the triangulation, with their lengths: geojson, csv.
+void write_links(const OutputFile& file, Format format, const Mesh& mesh);
+/// Writes the convex hull of the nodes as a polygon, in csv as its nodes: formats of write_faces().
+void write_hull(const OutputFile& file, Format format, const Mesh& mesh);
 /// What may be known about nodes without a mesh.
 struct NodeValues {
   LonLat given;

@@ -48,7 +48,16 @@ void check_lengths(const Nodes& nodes) {
 
 constexpr double kDegree = 1.5707963267948966 / 90;
 
-Distance distance_of(const std::string& text) {
+std::string suffixes() {
+  std::string text;
+  for (const files::FormatEntry& f : files::formats())
+    text += fmt::format("\n  {:<7} {:<16} {}", f.name, f.suffixes, f.what);
+  return text;
+}
+
+}  // namespace
+
+Distance distance_of(const char* option, const std::string& text) {
   const std::size_t unit = text.find_last_not_of("abcdefghijklmnopqrstuvwxyz") + 1;
   constexpr std::pair<const char*, double> kUnits[] = {{"mm", files::kMillimetre},
                                                        {"cm", 10 * files::kMillimetre},
@@ -61,23 +70,13 @@ Distance distance_of(const std::string& text) {
   double value = 0;
   if (known == std::end(kUnits) || !point_sets::parse(text.substr(0, unit), value))
     throw CLI::ValidationError(
-        "--duplicates-within",
+        option,
         "'" + text + "': expected a number and its unit: 1mm, 0.5m, 2km (on the Earth), 1e-6deg or 1e-8rad");
   const Distance distance{value * known->second, text};
   if (!(value >= 0 && distance.radians < 90 * kDegree))
-    throw CLI::ValidationError("--duplicates-within",
-                               "'" + text + "': expected a distance from 0 to less than 90deg");
+    throw CLI::ValidationError(option, "'" + text + "': expected a distance from 0 to less than 90deg");
   return distance;
 }
-
-std::string suffixes() {
-  std::string text;
-  for (const files::FormatEntry& f : files::formats())
-    text += fmt::format("\n  {:<7} {:<16} {}", f.name, f.suffixes, f.what);
-  return text;
-}
-
-}  // namespace
 
 Global& global() {
   static Global options;
@@ -224,7 +223,8 @@ void add_duplicates(CLI::App& app, Input& input) {
              "nodes in the same place: error, first (keep it) or mean (of their values) [error]");
   app.add_flag("--drop-duplicates", input.drop_duplicates, "the same as --duplicates first");
   app.add_option_function<std::string>(
-         "--duplicates-within", [&input](const std::string& text) { input.within = distance_of(text); },
+         "--duplicates-within",
+         [&input](const std::string& text) { input.within = distance_of("--duplicates-within", text); },
          "nodes this near are in the same place: 1mm, 0.5m, 2km, 1e-6deg, 1e-8rad [0]")
       ->type_name("DISTANCE");
   app.add_option("--list-duplicates", input.list,

@@ -58,6 +58,8 @@ struct Distance {
   double radians = 0;
   std::string text = "";
 };
+/// A number and its unit: 1mm, 2km (on the Earth), 1e-6deg. `option`: for messages.
+Distance distance_of(const char* option, const std::string& text);
 
 /// Numbers between separators. `option`: for messages.
 std::vector<double> numbers_in(const std::string& option, const std::string& text, char separator,

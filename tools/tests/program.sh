@@ -395,6 +395,23 @@ pictures)
   refuses 1 "no.shp: cannot be opened: No such file" plot nodes.txt -o c.svg --coast-file no.shp
   refuses 1 "nodes.txt: not a shapefile (.shp) of lines or polygons" plot nodes.txt -o c.svg --coast-file nodes.txt
   refuses 2 "histograms have no coasts" plot nodes.txt -o c.svg --what histograms --coasts
+  refuses 2 "--region: it is a map of longitude and latitude: leave out --radius" plot nodes.txt -o c.svg --region 0,10,20,30 --radius 5
+  refuses 2 "--region: it is a map of longitude and latitude: leave out" plot nodes.txt -o c.svg --region 0,10,20,30 --view orthographic
+  refuses 2 "--region: '0,10,30,20': expected WEST,EAST,SOUTH,NORTH" plot nodes.txt -o c.svg --region 0,10,30,20
+  refuses 2 "--range: '5,2': expected LOW,HIGH, the lower first" plot nodes.txt -o c.svg --colour area --range 5,2
+  refuses 2 "--range: a colour bar is needed: --colour area or a column of numbers" plot nodes.txt -o c.svg --range 2,5
+  refuses 2 "'virdis' is none of viridis, magma, cividis, coolwarm, grey; did you mean viridis?" plot nodes.txt -o c.svg --palette virdis
+  "$PSTRIPACK" -q plot nodes.txt --what cells --colour area --range 1e5,1e6 --palette magma --dots --region 170,-170,-30,-10 -o part.svg
+  grep -q '>nodes.txt: 300 cells<' part.svg && grep -q 'fcfdbf' part.svg || fail "no title or palette"
+  # Cells that voronoi has written, and their columns; of another command's, or another program's, not.
+  "$PSTRIPACK" -q voronoi nodes.txt -o cells.geojson
+  "$PSTRIPACK" plot cells.geojson --what cells --colour area_km2 --title "" -o cells.svg 2> err
+  grep -q "cells.geojson: whole cells of its nodes are drawn" err && grep -q '>area_km2<\|area_km2' cells.svg || fail "$(cat err)"
+  "$PSTRIPACK" -q plot nodes.txt --what cells --colour degree --title "" -o a.svg
+  "$PSTRIPACK" -q plot cells.geojson --what cells --colour degree --title "" -o b.svg
+  [ "$(grep -c '<path' a.svg)" = "$(grep -c '<path' b.svg)" ] || fail "other cells"
+  "$PSTRIPACK" -q triangulate nodes.txt -o mesh.geojson
+  refuses 1 "meshes are read from UGRID, MPAS and OFF, \`plot\` also takes the cells of \`pstripack voronoi\`" plot mesh.geojson -o c.svg
   printf 'lon,lat,mag,place\n0,0,1,a\n90,0,2,b\n180,0,3,a\n270,0,4,b\n0,90,5,a\n0,-90,,\n' > quakes.csv
   "$PSTRIPACK" -q plot quakes.csv --what cells --colour mag -o mag.svg
   grep -q '>mag<' mag.svg && grep -q '>no value: 1 cell<' mag.svg || fail "no legend of mag"
@@ -402,7 +419,7 @@ pictures)
   grep -q '>a (3)<' place.svg && grep -q '>b (2)<' place.svg || fail "no legend of place"
   refuses 1 "place is a column of words: say --what cells" plot quakes.csv -o c.svg --colour place
   refuses 2 "degree is a property of nodes: say --what cells" plot nodes.txt -o c.svg --colour degree
-  refuses 2 "histograms have no --view" plot nodes.txt -o c.svg --what histograms --view lonlat
+  refuses 2 "histograms have no --view, --radius, --region, --dots or --colour" plot nodes.txt -o c.svg --what histograms --view lonlat
   refuses 1 "no/such/folder/c.svg: cannot be written: No such file" plot nodes.txt -o no/such/folder/c.svg
   refuses 1 "/dev/full: cannot be written: No space left" plot nodes.txt -o /dev/full --to svg
   "$PSTRIPACK" -q points fibonacci 410000 -o many.raw
@@ -411,7 +428,7 @@ pictures)
   echo 'export { WebGLRenderer };' > module.js
   for option in "--what histograms" "--view lonlat" "--width 500"; do
     # shellcheck disable=SC2086
-    refuses 2 "a globe has no --what histograms, --view lonlat or --width" plot nodes.txt -o c.html $option
+    refuses 2 "a globe has no --what histograms, --view lonlat, --region, --dots or --width" plot nodes.txt -o c.html $option
   done
   refuses 2 "only a globe, FILE.html, needs three.js" plot nodes.txt -o c.svg --three-file module.js
   refuses 1 "no.js: cannot be opened: No such file or directory: globes need three.js (Debian: libjs-three" \
@@ -881,7 +898,7 @@ as_given)
   # Values through VTU and gmsh.
   printf 'lon,lat,depth,place\n30,40,7.25,a\n100,40,,b\n70,-20,-1,c\n' > table.csv
   "$PSTRIPACK" -q triangulate table.csv -o mesh.vtu
-  for array in lon lat node line depth degree area area_km2; do
+  for array in lon lat node line depth degree area area_km2 circumradius_km; do
     grep -q "<DataArray type=\"[A-Za-z0-9]*\" Name=\"$array\" format=\"ascii\">" mesh.vtu || fail "mesh.vtu has no $array"
   done
   tr '\n' ' ' < mesh.vtu | grep -q 'Name="lon" format="ascii"> 30 100 70 <' || fail "lon: $(cat mesh.vtu)"
@@ -988,7 +1005,7 @@ maps)
   "$PSTRIPACK" -q triangulate table.csv -o mesh.csv
   [ "$(cut -d , -f 1-3 mesh.csv | tr '\n' ' ')" = "node1,node2,node3 1,2,3 " ] || fail "$(cat mesh.csv)"
   "$PSTRIPACK" -q voronoi table.csv --clip-to-hull -o cells.csv
-  [ "$(head -n 1 cells.csv)" = "lon,lat,node,line,depth [km],place,degree,area [sr],area_km2" ] || fail "$(cat cells.csv)"
+  [ "$(head -n 1 cells.csv)" = "lon,lat,node,line,depth [km],place,degree,area [sr],area_km2,centroid_lon,centroid_lat" ] || fail "$(cat cells.csv)"
   grep -q '^170,-10,1,2,7.25,"a, ""b""",2,0.0' cells.csv || fail "$(cat cells.csv)"
   grep -q '^-170,-10,2,3,,c,2,0.0' cells.csv || fail "$(cat cells.csv)"
   "$PSTRIPACK" -q convert table.csv -o nodes.csv
@@ -1003,6 +1020,32 @@ maps)
   for corner in 170,-10 180,10 -180,10 -170,-10; do
     grep -qF "[$corner]" mesh.geojson || fail "no $corner: $(cat mesh.geojson)"
   done
+  # Polygons with a hole, and two of them.
+  ring() { printf '[[%s,%s],[%s,%s],[%s,%s],[%s,%s],[%s,%s]]' "$1" "$3" "$2" "$3" "$2" "$4" "$1" "$4" "$1" "$3"; }
+  printf '{"type":"MultiPolygon","coordinates":[[%s,%s],[%s]]}' "$(ring 10 30 -10 10)" "$(ring 15 20 -5 5)" "$(ring 40 41 3 4)" > two.json
+  "$PSTRIPACK" -q voronoi nodes.csv --coordinates xyz --clip-to two.json -o parts.geojson
+  awk -F '"area_km2":' '/Feature"/ { sum += $2 } END { exit (sum / 4315587 - 1) ^ 2 > 1e-10 }' parts.geojson || fail "$(cat parts.geojson)"
+  refuses 2 "--clip-to: cuts whole cells: leave out --region and --clip-to-hull" voronoi nodes.txt --clip-to two.json --clip-to-hull -o failed.csv
+  refuses 1 "missing.json: cannot be opened" voronoi nodes.txt --clip-to missing.json -o failed.csv
+  # Links with their lengths, the hull, and triangles without long sides.
+  "$PSTRIPACK" -q triangulate table.csv --what links -o links.geojson
+  [ "$(grep -c '"LineString"' links.geojson)" = 2 ] && [ "$(grep -c '"MultiLineString"' links.geojson)" = 1 ] || fail "$(cat links.geojson)"
+  "$PSTRIPACK" triangulate table.csv --what links --longest 2400km -o links.csv 2> err
+  [ "$(cut -c 1-8 links.csv | tr '\n' ' ')" = "node1,no 1,2,2189 " ] && grep -q ", 1 link; " err || fail "$(cat links.csv err)"
+  "$PSTRIPACK" -q triangulate table.csv --what hull -o hull.geojson
+  "$PSTRIPACK" -q triangulate table.csv --what hull -o hull.csv
+  [ "$(sed -n 2p hull.geojson | grep -o '"coordinates.*')" = "$(sed -n 2p mesh.geojson | grep -o '"coordinates.*')" ] || fail "$(cat hull.geojson)"
+  [ "$(cut -d , -f 3 hull.csv | tr '\n' ' ')" = "node 1 2 3 " ] || fail "$(cat hull.csv)"
+  refuses 1 "nodes.txt: the nodes surround the sphere: they have no hull" triangulate nodes.txt --what hull -o failed.csv
+  refuses 2 "the hull is that of all nodes: leave out --longest" triangulate table.csv --what hull --longest 1km -o failed.csv
+  refuses 1 "off cannot hold links: --to geojson or csv can" triangulate table.csv --what links -o failed.off
+  refuses 1 "each triangle has a side longer than 1000km" triangulate table.csv --longest 1000km -o failed.off
+  refuses 1 "holds whole triangulations: leave out --longest" -q triangulate nodes.txt --longest 5000km -o failed.lists
+  refuses 2 "--longest: '0km' leaves out everything" triangulate table.csv --longest 0km -o failed.off
+  refuses 2 "--longest: '5': expected a number and its unit" triangulate table.csv --longest 5 -o failed.off
+  "$PSTRIPACK" triangulate nodes.txt --longest 60deg -o some.csv 2> err
+  left=$(sed -n 's/^pstripack: nodes.txt: \([0-9]*\) triangles with a side longer than 60deg left out$/\1/p' err)
+  [ "$(wc -l < some.csv)" = $((37 - left)) ] || fail "$left $(wc -l < some.csv)"
   # A region within one cell.
   "$PSTRIPACK" -q voronoi table.csv --region 0,0.1,10,10.1 -o one.geojson
   [ "$(grep -c '"Feature"' one.geojson)" = 1 ] || fail "$(cat one.geojson)"
