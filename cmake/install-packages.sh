@@ -12,8 +12,9 @@ packages="
   abigail-tools lintian environment-modules iproute2
   netcdf-bin python3-netcdf4 python3-xarray python3-meshio
   python3-dev pybind11-dev python3-pybind11
-  python3-scipy python3-pytest python3-mypy python3-pip python3-setuptools python3-wheel
-  python3 python3-numpy python3-yaml doxygen gnuplot-nox librsvg2-bin ghostscript
+  python3-pandas python3-geopandas python3-matplotlib python3-cartopy
+  python3-scipy python3-mpmath python3-pytest python3-mypy python3-pip python3-setuptools python3-wheel
+  python3 python3-numpy python3-yaml doxygen gnuplot-nox librsvg2-bin ghostscript libjs-three
   libncarg-dev
   libopenmpi-dev openmpi-bin
   $*"

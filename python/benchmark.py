@@ -2,7 +2,7 @@
 """Compares the time of the package with that of the library's own call and of SciPy, on random nodes: the least processor
 time of several runs in turn. With --program: the time of the command from a text file to UGRID beside that call.
 
-  benchmark.py [--nodes N] [--repeats K] [--threads T] [--library libpstripack.so.0] [--program pstripack]
+  benchmark.py [--nodes N] [--places M] [--repeats K] [--threads T] [--library libpstripack.so.0] [--program pstripack]
 """
 import argparse
 import ctypes
@@ -63,6 +63,7 @@ def time_program(given, points):
 def main():
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("--nodes", type=int, default=200_000)
+    options.add_argument("--places", type=int, help="of searches and weights; as many as nodes by default")
     options.add_argument("--repeats", type=int, default=9)
     options.add_argument("--threads", type=int, default=1)
     options.add_argument("--library", default=os.environ.get("PSTRIPACK_LIBRARY", "libpstripack.so.0"))
@@ -78,7 +79,7 @@ def main():
         return
     import pstripack  # reads the environment
 
-    places = np.random.default_rng(2).normal(size=(given.nodes, 3))
+    places = np.random.default_rng(2).normal(size=(given.places or given.nodes, 3))
     mesh = pstripack.Delaunay(points, threads=given.threads)
     diagram = pstripack.SphericalVoronoi(points, threads=given.threads)
     seconds = least({
@@ -87,9 +88,13 @@ def main():
         "SphericalVoronoi(points)": lambda: pstripack.SphericalVoronoi(points, threads=given.threads),
         "SphericalVoronoi(points).regions": lambda: pstripack.SphericalVoronoi(points, threads=given.threads).regions,
         "calculate_areas() alone": diagram.calculate_areas,
-        "find_simplex, as many places": lambda: mesh.find_simplex(places),
+        f"find_simplex, {len(places)} places": lambda: mesh.find_simplex(places),
         "nearest": lambda: mesh.nearest(places),
+        "nearest, k=8, with distances": lambda: mesh.nearest(places, 8, distance=True),
         "interpolate, linear": lambda: mesh.interpolate(points[:, 0], places),
+        "weights, linear": lambda: mesh.weights(places),
+        "weights, natural": lambda: mesh.weights(places, "natural"),
+        "gradient": lambda: mesh.gradient(points[:, 0]),
     }, given.repeats)
     if not given.no_scipy:
         import scipy.spatial

@@ -4,6 +4,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -12,6 +13,8 @@
 #include "arrays.h"
 #include "base/parallel_for.h"
 #include "capi/pstripack.h"
+#include "drawing.h"
+#include "globe.h"
 #include "point_sets.h"
 #include "scvt_run.h"
 #include "triangulation.h"
@@ -25,6 +28,7 @@ using bindings::Buffer;
 using bindings::Cells;
 using bindings::compute;
 using bindings::NoTriangulation;
+using bindings::Rows;
 using bindings::Runs;
 using bindings::Triangulation;
 using pstripack::Point;
@@ -58,6 +62,12 @@ struct Mesh {
   }
   const Triangulation* operator->() const { return triangulation.get(); }
 };
+
+std::size_t columns_of(const Mesh& mesh, const Array<double>& values) {
+  if (values.ndim() != 2 || static_cast<std::size_t>(values.shape(0)) != mesh->size())
+    throw py::value_error("a row of values for each node is needed");
+  return static_cast<std::size_t>(values.shape(1));
+}
 
 /// The nodes as the mesh keeps them, column by column: an array that keeps the mesh alive.
 py::array points(const py::object& self) {
@@ -140,6 +150,25 @@ py::array triangle_areas(const Mesh& mesh, int threads) {
   return array_of(compute(threads, [&] { return mesh->triangle_areas(); }));
 }
 
+py::array circumradii(const Mesh& mesh, int threads) {
+  return array_of(compute(threads, [&] { return mesh->circumradii(); }));
+}
+
+py::array cell_centroids(const Mesh& mesh, int threads) {
+  return array_of(compute(threads, [&] { return mesh->cell_centroids(); }));
+}
+
+py::array midpoints(const Mesh& mesh, const Array<std::int32_t>& arcs, int threads) {
+  const auto count = static_cast<std::size_t>(arcs.shape(0));
+  return array_of(compute(threads, [&] { return mesh->midpoints(arcs.data(), count); }));
+}
+
+py::array gradients(const Mesh& mesh, const Array<double>& values, int threads) {
+  const std::size_t columns = columns_of(mesh, values);
+  return array_of<double>(compute(threads, [&] { return mesh->gradients(values.data(), columns); }),
+                          {values.shape(0), values.shape(1), 3});
+}
+
 py::array boundary(const Mesh& mesh) {
   const std::vector<std::int32_t> nodes = compute(0, [&] { return mesh->boundary(); });
   return Array<std::int32_t>(static_cast<py::ssize_t>(nodes.size()), nodes.data());
@@ -150,11 +179,18 @@ py::tuple closest_pair(const Mesh& mesh, int threads) {
   return py::make_tuple(pair.distance, pair.first, pair.second);
 }
 
-py::array find(const Mesh& mesh, const Array<double>& places, const Array<std::int32_t>& corners,
-               int threads) {
+/// The triangles of the places, and their barycentric weights there or None.
+py::tuple find(const Mesh& mesh, const Array<double>& places, const Array<std::int32_t>& corners,
+               bool with_weights, int threads) {
   const std::size_t count = rows_of(places), triangles = rows_of(corners);
-  return array_of(
-      compute(threads, [&] { return mesh->find(places_in(places), count, corners.data(), triangles); }));
+  Buffer<double> weights(with_weights ? 3 * count : 0);
+  Buffer<std::int32_t> found = compute(threads, [&] {
+    return mesh->find(places_in(places), count, corners.data(), triangles,
+                      with_weights ? weights.data() : nullptr);
+  });
+  const py::object table =
+      with_weights ? py::object(array_of<double>(std::move(weights), {places.shape(0), 3})) : py::none();
+  return py::make_tuple(array_of(std::move(found)), table);
 }
 
 py::array nearest(const Mesh& mesh, const Array<double>& places, int threads) {
@@ -162,20 +198,51 @@ py::array nearest(const Mesh& mesh, const Array<double>& places, int threads) {
   return array_of(compute(threads, [&] { return mesh->nearest(places_in(places), count); }));
 }
 
+py::array k_nearest(const Mesh& mesh, const Array<double>& places, std::size_t k, int threads) {
+  const std::size_t count = rows_of(places);
+  return array_of<std::int32_t>(compute(threads, [&] { return mesh->nearest(places_in(places), count, k); }),
+                                {places.shape(0), static_cast<py::ssize_t>(k)});
+}
+
+py::array distances(const Mesh& mesh, const Array<double>& places, const Array<std::int32_t>& nodes,
+                    int threads) {
+  const std::size_t count = rows_of(places), k = static_cast<std::size_t>(nodes.shape(1));
+  return array_of<double>(
+      compute(threads, [&] { return mesh->distances(places_in(places), count, nodes.data(), k); }),
+      {nodes.shape(0), nodes.shape(1)});
+}
+
+/// (indptr, indices, data), as scipy.sparse names them.
+py::tuple arrays_of(Rows&& rows) {
+  return py::make_tuple(array_of(std::move(rows.begin)), array_of(std::move(rows.nodes)),
+                        array_of(std::move(rows.numbers)));
+}
+
+py::tuple within(const Mesh& mesh, const Array<double>& places, double radius, int threads) {
+  const std::size_t count = rows_of(places);
+  return arrays_of(compute(threads, [&] { return mesh->within(places_in(places), count, radius); }));
+}
+
+Triangulation::Method method_of(const std::string& name) {
+  using Method = Triangulation::Method;
+  return name == "cubic" ? Method::cubic : name == "natural" ? Method::natural : Method::linear;
+}
+
+py::tuple weights(const Mesh& mesh, const std::string& method, const Array<double>& places, int threads) {
+  const std::size_t count = rows_of(places);
+  return arrays_of(
+      compute(threads, [&] { return mesh->weights(method_of(method), places_in(places), count); }));
+}
+
 py::array interpolate(const Mesh& mesh, const std::string& method, const Array<double>& places,
                       const Array<double>& values, int threads) {
-  using Method = Triangulation::Method;
-  const Method by = method == "cubic"     ? Method::cubic
-                    : method == "natural" ? Method::natural
-                                          : Method::linear;
-  const std::size_t count = rows_of(places);
-  if (values.ndim() != 2 || static_cast<std::size_t>(values.shape(0)) != mesh->size())
-    throw py::value_error("a row of values for each node is needed");
-  const auto columns = static_cast<std::size_t>(values.shape(1));
-  return array_of<double>(
-      compute(threads,
-              [&] { return mesh->interpolate(by, places_in(places), count, values.data(), columns); }),
-      {places.shape(0), values.shape(1)});
+  const std::size_t count = rows_of(places), columns = columns_of(mesh, values);
+  return array_of<double>(compute(threads,
+                                  [&] {
+                                    return mesh->interpolate(method_of(method), places_in(places), count,
+                                                             values.data(), columns);
+                                  }),
+                          {places.shape(0), values.shape(1)});
 }
 
 /// Unit vectors of longitudes and latitudes, by the formulas of the command `pstripack`.
@@ -199,6 +266,33 @@ py::array vectors(const Array<double>& lon, const Array<double>& lat, bool degre
                                  }
                                });
     return points;
+  }));
+}
+
+/// Corners x, y; the first corner of each outline, and the number of corners; the face of each outline.
+py::tuple arrays_of(bindings::Outlines&& outlines) {
+  const auto corners = static_cast<py::ssize_t>(outlines.xy.size() / 2);
+  return py::make_tuple(array_of<double>(std::move(outlines.xy), {corners, 2}),
+                        array_of(std::move(outlines.begin)), array_of(std::move(outlines.face)));
+}
+
+/// Corners of all faces; the first corner of each face in the list of corners; this list.
+py::tuple faces(const Mesh& mesh, bool cells, int threads) {
+  const files::Faces all = compute(threads, [&] { return faces_of(*mesh.triangulation, cells); });
+  Buffer<Point> points(all.points.size());
+  std::copy(all.points.begin(), all.points.end(), points.begin());
+  Buffer<std::int32_t> corners(all.corner.size());
+  std::transform(all.corner.begin(), all.corner.end(), corners.begin(), [](std::int32_t c) { return c - 1; });
+  return py::make_tuple(array_of(std::move(points)),
+                        Array<std::size_t>(static_cast<py::ssize_t>(all.begin.size()), all.begin.data()),
+                        array_of(std::move(corners)));
+}
+
+template <bindings::Outlines (*draw)(const bindings::Window&, const Triangulation&, bool)>
+py::tuple outlines_in(const Mesh& mesh, bool cells, bool orthographic, double lon, double lat, double radius,
+                      int threads) {
+  return arrays_of(compute(threads, [&] {
+    return draw({orthographic, lon, lat, radius}, *mesh.triangulation, cells);
   }));
 }
 
@@ -240,13 +334,30 @@ PYBIND11_MODULE(_core, m) {
       .def("triangle_areas", &triangle_areas)
       .def("cells", &cells)
       .def("cell_areas", &cell_areas)
+      .def("circumradii", &circumradii)
+      .def("cell_centroids", &cell_centroids)
       .def("closest_pair", &closest_pair)
+      .def("faces", &faces)
+      .def("map_polygons",
+           [](const Mesh& mesh, bool cells, int threads) {
+             return arrays_of(
+                 compute(threads, [&] { return bindings::map_polygons(*mesh.triangulation, cells); }));
+           })
+      .def("polygons_in", &outlines_in<bindings::polygons_in>)
+      .def("lines_in", &outlines_in<bindings::lines_in>)
+      .def("midpoints", &midpoints)
+      .def("gradients", &gradients)
       .def("find", &find)
       .def("nearest", &nearest)
+      .def("k_nearest", &k_nearest)
+      .def("distances", &distances)
+      .def("within", &within)
+      .def("weights", &weights)
       .def("interpolate", &interpolate);
   m.def("lists_of", &lists_of);
   m.def("vectors", &vectors);
   m.def("radians_of_single", py::vectorize(point_sets::radians_of_single));
+  m.def("globe", &bindings::globe);
   m.def("scvt", &bindings::scvt);
   m.def("scvt_cells", &bindings::scvt_cells);
 }

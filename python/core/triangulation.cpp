@@ -14,6 +14,8 @@
 #include "geometry/predicates.h"
 #include "lists/limits.h"
 #include "lists/rings.h"
+#include "methods/gradients.h"
+#include "scvt/cells.h"
 #include "stripack/list_queries.h"
 #include "stripack/triangle_list.h"
 #include "stripack/voronoi.h"
@@ -355,6 +357,46 @@ Buffer<double> Triangulation::triangle_areas() const {
   return areas;
 }
 
+Buffer<double> Triangulation::circumradii() const {
+  const Buffer<std::int32_t> corners = triangles();
+  const std::size_t count = corners.size() / 3;
+  Buffer<double> radii(count);
+  const Exact& at = exact();
+  const auto corner = [&](std::size_t k) { return pstripack::direction_of(at.directions, corners[k]); };
+  parallel_pieces(count, threads_for(10 * count), [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t t = begin; t < end; ++t) {
+      at.prefetch(corners, 3 * t);
+      radii[t] = circumcircle(corner(3 * t), corner(3 * t + 1), corner(3 * t + 2)).radius;
+    }
+  });
+  return radii;
+}
+
+Buffer<Point> Triangulation::midpoints(const std::int32_t* nodes, std::size_t arcs) const {
+  Buffer<Point> middle(arcs);
+  parallel_pieces(arcs, threads_for(10 * arcs), [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const auto direction = [&](std::size_t i) { return view().direction(nodes[i] + 1); };
+      const pstripack::Direction a = direction(2 * k), b = direction(2 * k + 1);
+      middle[k] =
+          unit({(a.high.x + b.high.x) + (a.low.x + b.low.x),  // nearly opposite nodes need the low parts
+                (a.high.y + b.high.y) + (a.low.y + b.low.y), (a.high.z + b.high.z) + (a.low.z + b.low.z)});
+    }
+  });
+  return middle;
+}
+
+Buffer<Point> Triangulation::gradients(const double* values, std::size_t columns) const {
+  Buffer<Point> result(n_ * columns);
+  std::vector<double> of_nodes(n_);
+  for (std::size_t column = 0; column < columns; ++column) {
+    for (std::size_t i = 0; i < n_; ++i) of_nodes[i] = values[i * columns + column];
+    const std::vector<Point> slopes = methods::gradients(view(), of_nodes);
+    for (std::size_t i = 0; i < n_; ++i) result[i * columns + column] = slopes[i];
+  }
+  return result;
+}
+
 Cells Triangulation::cells() const {
   const std::size_t vertices = 2 * n_ - 4, slots = 6 * n_ - 12, boundary_nodes = boundary().size();
   Buffer<std::int32_t> lptr(slots), corner_of_slot(slots);
@@ -373,17 +415,58 @@ Cells Triangulation::cells() const {
   cells.vertices = Buffer<Point>(vertices);
   for (std::size_t v = 0; v < vertices; ++v) cells.vertices[v] = {x[v], y[v], z[v]};
   const auto next = [&](std::int32_t slot) { return lptr[static_cast<std::size_t>(slot) - 1]; };
+  const auto corner = [&](std::int32_t slot) {
+    return corner_of_slot[static_cast<std::size_t>(slot) - 1] - 1;
+  };
+  const auto each_slot = [&](std::size_t k, const auto& visit) {
+    const std::int32_t first = lptr_[static_cast<std::size_t>(lend_[k]) - 1];
+    std::int32_t slot = first;
+    do {
+      visit(slot);
+      slot = next(slot);
+    } while (slot != first);
+  };
   cells.corners = make_runs(
       n_, [&](std::size_t k) { return pstripack::nbcnt(lend_[k], lptr.data()); },
       [&](std::size_t k, std::int32_t* to) {
-        const std::int32_t first = lptr_[static_cast<std::size_t>(lend_[k]) - 1];
-        std::int32_t slot = first;
-        do {
-          *to++ = corner_of_slot[static_cast<std::size_t>(slot) - 1] - 1;
-          slot = next(slot);
-        } while (slot != first);
+        each_slot(k, [&](std::int32_t slot) { *to++ = corner(slot); });
       });
+  cells.beyond = Buffer<std::int32_t>(cells.corners.values.size());
+  const Reader reader(lists());
+  for (std::size_t k = 0; k < n_; ++k) {
+    std::int32_t* to = cells.beyond.data() + cells.corners.begin[k];
+    each_slot(k, [&](std::int32_t slot) {
+      if (slot < lnew_) {
+        *to++ = reader.neighbour(slot);
+        return;
+      }
+      // On the far side: the corner after this node in the triangle on the left of the arc.
+      const std::int32_t* const column = far_side.data() + 6 * static_cast<std::size_t>(corner(slot));
+      const auto node = std::find(column, column + 3, static_cast<std::int32_t>(k) + 1) - column;
+      *to++ = column[(node + 1) % 3];
+    });
+  }
   return cells;
+}
+
+Buffer<Point> Triangulation::cell_centroids() const {
+  const Cells mesh = cells();
+  std::vector<Point> generators(n_);
+  for (std::size_t i = 0; i < n_; ++i) generators[i] = at(static_cast<std::int32_t>(i));
+  const pstripack::scvt::NeighbourLists stars{n_, mesh.corners.begin.data() + 1, mesh.beyond.data()};
+  const pstripack::scvt::ConstantDensity one;
+  pstripack::scvt::Cells integrals;
+  pstripack::scvt::integrate(generators.data(), stars, one, integrals);
+  Buffer<Point> centroids(n_);
+  for (std::size_t i = 0; i < n_; ++i) {
+    if (!is_good(integrals, i))
+      throw NoTriangulation(
+          Cause::too_narrow,
+          "node " + std::to_string(i) + " (counted from 0) has a cell too narrow for its centroid",
+          {static_cast<std::int64_t>(i)});
+    centroids[i] = centroid(integrals, i, generators[i]);
+  }
+  return centroids;
 }
 
 Buffer<double> Triangulation::cell_areas() const {

@@ -33,7 +33,7 @@ inline Point direction(const Point& p) { return has_unit_length(p) ? p : files::
 
 /// The nodes have no triangulation; gives the reason and the nodes in question.
 struct NoTriangulation : std::runtime_error {
-  enum class Cause { too_few, too_many, bad_coordinate, coincident, collinear };
+  enum class Cause { too_few, too_many, bad_coordinate, coincident, collinear, too_narrow };
   NoTriangulation(Cause c, const std::string& message, std::vector<std::int64_t> n = {})
       : std::runtime_error(message), cause(c), nodes(std::move(n)) {}
   Cause cause;
@@ -45,10 +45,18 @@ struct Runs {
   Buffer<std::int32_t> begin, values;
 };
 
+/// Nodes and a number of each, weight or distance, for each of several places: those of place i are
+/// begin[i] ... begin[i+1]-1.
+struct Rows {
+  Buffer<std::int32_t> begin, nodes;
+  Buffer<double> numbers;
+};
+
 /// A Voronoi diagram of the whole sphere.
 struct Cells {
-  Buffer<Point> vertices;  ///< on the unit sphere
-  Runs corners;            ///< vertices of each cell, counterclockwise
+  Buffer<Point> vertices;       ///< on the unit sphere
+  Runs corners;                 ///< vertices of each cell, counterclockwise
+  Buffer<std::int32_t> beyond;  ///< the neighbour, from 1, beyond the side that ends at each of these corners
 };
 
 /// The closest two nodes, and their straight distance on the unit sphere.
@@ -80,6 +88,12 @@ class Triangulation {
     return {n_, list_.data(), lptr_.data(), lend_.data(), lnew_};
   }
 
+  /// The direction of a node.
+  Point at(std::int32_t node) const {
+    const auto i = static_cast<std::size_t>(node);
+    return {direction_[0][i], direction_[1][i], direction_[2][i]};
+  }
+
   /// The three corners of each triangle, counterclockwise, the smallest first, in the order of TRLIST.
   Buffer<std::int32_t> triangles() const;
   /// The triangle opposite each corner, in the same order; -1: none.
@@ -91,26 +105,48 @@ class Triangulation {
   /// The circumcentres and areas of the triangles of the nodes' directions, in the order of triangles().
   Buffer<Point> circumcentres() const;
   Buffer<double> triangle_areas() const;
+  /// Radii of the circumscribed circles, in radians.
+  Buffer<double> circumradii() const;
 
   /// The Voronoi cells. If the nodes lie in a hemisphere, the cells of boundary nodes share the rest of the
   /// sphere.
   Cells cells() const;
   Buffer<double> cell_areas() const;
+  /// The direction of the integral of p over each cell, right up to 1e-6 of the width of the cell. Throws
+  /// NoTriangulation for a cell too narrow for its integral.
+  Buffer<Point> cell_centroids() const;
   ClosestPair closest_pair() const;
+  /// The gradients that methods/gradients.h estimates. `values` has `columns` consecutive values for each
+  /// node, and so has the result.
+  Buffer<Point> gradients(const double* values, std::size_t columns) const;
+  /// The middle of each arc; arc k joins nodes[2k] and nodes[2k+1].
+  Buffer<Point> midpoints(const std::int32_t* nodes, std::size_t arcs) const;
 
   // Places are vectors of any length. Places up to 1e-12 outside the triangles count as on their border.
 
   /// The index in triangles(), passed as `corners`, of the triangle that contains each place. -1: there is
-  /// none, or the place has no direction.
+  /// none, or the place has no direction. `weights`, unless null: three barycentric ones for each place, NaN
+  /// where there is no triangle.
   Buffer<std::int32_t> find(const Point* places, std::size_t count, const std::int32_t* corners,
-                            std::size_t triangles) const;
+                            std::size_t triangles, double* weights) const;
   /// The nearest node; -1: the place has no direction.
   Buffer<std::int32_t> nearest(const Point* places, std::size_t count) const;
+  /// The k nearest nodes of each place, in the order of methods/by_distance.h, 1 <= k <= size(); -1: the
+  /// place has no direction.
+  Buffer<std::int32_t> nearest(const Point* places, std::size_t count, std::size_t k) const;
+  /// The nodes up to `radius` from each place, in the same order, and their distances in radians.
+  Rows within(const Point* places, std::size_t count, double radius) const;
+  /// The distance of each place from its k nodes, in radians; NaN: the place has no direction.
+  Buffer<double> distances(const Point* places, std::size_t count, const std::int32_t* nodes,
+                           std::size_t k) const;
   /// Values at the places by the methods of methods/interpolation.h; NaN outside. `values` has `columns`
   /// consecutive values for each node, the result for each place.
   using Method = methods::Interpolation::Method;
   Buffer<double> interpolate(Method method, const Point* places, std::size_t count, const double* values,
                              std::size_t columns) const;
+  /// The weights of the nodes in a value at each place, by Method::linear or natural; none outside the
+  /// triangles.
+  Rows weights(Method method, const Point* places, std::size_t count) const;
 
  private:
   struct Exact;
@@ -120,15 +156,13 @@ class Triangulation {
   void triangulate_in_another_order();
   void make_directions();
   Point given(std::size_t i) const { return {given_[0][i], given_[1][i], given_[2][i]}; }
-  Point at(std::int32_t node) const {  ///< the direction of a node, numbered from 0
-    const auto i = static_cast<std::size_t>(node);
-    return {direction_[0][i], direction_[1][i], direction_[2][i]};
-  }
   methods::Triangulated view() const {
     return {lists(), {given_[0], given_[1], given_[2]}, {direction_[0], direction_[1], direction_[2]}};
   }
-  template <class Visit>
-  void visit_places(const Point* places, std::size_t count, const Visit& visit) const;
+  template <class State, class Visit>
+  static std::vector<State> visit_places(const Point* places, std::size_t count, const Visit& visit);
+  template <class State, class Find>
+  static Rows rows(const Point* places, std::size_t count, const Find& find);
 
   std::size_t n_;
   Buffer<double> columns_, own_directions_;

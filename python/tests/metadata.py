@@ -21,7 +21,10 @@ installed = importlib.metadata.Distribution.at(folder).metadata
 assert folder.name == f"pstripack-{installed['Version']}.dist-info"
 assert installed["Name"] == project["name"] and installed["Summary"] == project["description"], installed.items()
 assert installed["License"] == project["license"]["text"] and installed["Requires-Python"] == project["requires-python"]
-assert installed.get_all("Requires-Dist") == project["dependencies"]
+extras = project["optional-dependencies"]
+assert installed.get_all("Provides-Extra") == list(extras)
+assert installed.get_all("Requires-Dist") == project["dependencies"] + [
+    f'{package}; extra == "{extra}"' for extra, packages in extras.items() for package in packages]
 assert project["urls"] and project["classifiers"] and project["keywords"] and project["authors"]
 
 wheel_tag.main(module)

@@ -19,7 +19,7 @@ cd "$work"
 "$python" -m venv --system-site-packages --without-pip env
 env/bin/python -m pip install --no-deps wheels/pstripack-*.whl > pip.log 2>&1 || { cat pip.log; exit 1; }
 env/bin/python - << 'END' | grep "^$work/env/"
-import importlib.metadata, pstripack
+import importlib.metadata, os, pstripack
 print(pstripack.__file__)
 assert len(pstripack.Delaunay([[1, 0, 0], [0, 1, 0], [0, 0, 1]]).simplices) == 1
 about = importlib.metadata.metadata("pstripack")
@@ -27,6 +27,7 @@ assert about["Version"] == importlib.metadata.version("pstripack") and "Delaunay
 assert about["License"] and about["Summary"] and about.get_all("Classifier") and about.get_all("Project-URL")
 files = [file.name for file in importlib.metadata.files("pstripack")]
 assert "LICENSE" in files and "LICENSE-third-party.txt" in files and "py.typed" in files, files
+assert ("three.min.js" in files) == os.path.exists("/usr/share/javascript/three/three.min.js"), files
 END
 if ldd env/lib/python3*/site-packages/pstripack/_core*.so | grep -E 'pstripack|fortran'; then fail "not alone"; fi
 

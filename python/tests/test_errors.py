@@ -108,7 +108,7 @@ def test_a_table_needs_the_columns_x_y_z():
     assert np.array_equal(Delaunay(table).points, POINTS) and np.array_equal(Delaunay(POINTS).nearest(table), np.arange(50))
     wrong = Table(lon=x, lat=y, t=z)
     for make in (Delaunay, SphericalVoronoi, scvt, Delaunay(POINTS).nearest):
-        with pytest.raises(ValueError, match="columns x, y and z, not lon, lat, t.*from_lonlat"):
+        with pytest.raises(ValueError, match="columns x, y and z, not lon, lat, t.*from_dataframe"):
             make(wrong)
 
 

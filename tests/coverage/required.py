@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """required.py COVERAGE.json: fails if required branches are not covered.
 
-These lines of gcovr's report must be covered with all their branches, except those of left-out.txt:
+These lines of gcovr's report must be covered with all their branches, unless a comment "// untested: reason" stands at
+the end of the line or above the statement:
   - the files of REQUIRED: the predicates and the validators;
   - the error paths of all of src/: every line that raises, catches or returns an error (ERROR), and the
     condition that leads there.
@@ -9,7 +10,7 @@ These lines of gcovr's report must be covered with all their branches, except th
 Only the first pairs of branches of a line count, one pair per condition in its text: after them gcov lists the branches
 of the clean-up after exceptions.
 
-left-out.txt has lines "file | text of the line | reason"; a line that is not needed any more is an error, too.
+Such a comment that is not needed any more is an error, too.
 """
 
 import json
@@ -32,15 +33,19 @@ ERROR = re.compile(
 source = pathlib.Path(__file__).resolve().parents[2]
 
 
-def left_out():
-    for line in (source / "tests/coverage/left-out.txt").read_text().splitlines():
-        if line and not line.startswith("#"):
-            file, text, _ = [part.strip() for part in line.split(" | ")]
-            yield file, text
-
-
 def code_of(line):
     return "" if line.lstrip().startswith("//") else line.split("//")[0].strip()
+
+
+def may_be_untested(lines):
+    """The numbers, from 0, of the lines that comments excuse: of each comment its own line or the statement below."""
+    for k, line in enumerate(lines):
+        if "// untested: " in line:
+            if code_of(line):
+                yield {k}
+            else:
+                end = next(i for i in range(k + 1, len(lines)) if lines[i][-1:] in ("{", ";"))
+                yield set(range(k + 1, end + 1))
 
 
 def conditions(text):
@@ -54,7 +59,9 @@ def condition_of(code, k):
     above = []
     while k > 0:
         k -= 1
-        if not code[k] or code[k][-1] in ";}" or code[k].endswith("{}"):
+        if not code[k]:
+            continue
+        if code[k][-1] in ";}" or code[k].endswith("{}"):
             return []
         above.append(k)
         if re.match(r"(\} )?(else )?(if|while|for) \(", code[k]):
@@ -63,10 +70,13 @@ def condition_of(code, k):
 
 
 def main():
-    allowed, needed, missing, paths = set(left_out()), set(), [], 0
+    left_out, missing, idle, paths = 0, [], [], 0
     for file in json.load(open(sys.argv[1]))["files"]:
         name = file["file"]
-        code = [code_of(line) for line in (source / name).read_text().splitlines()]
+        lines = (source / name).read_text().splitlines()
+        code = [code_of(line) for line in lines]
+        allowed = list(may_be_untested(lines))
+        used = set()
         covered = {line["line_number"] - 1: line for line in file["lines"] if not line["gcovr/noncode"]}
         wanted = set(covered) if name in REQUIRED else set()
         for k, text in enumerate(code):
@@ -78,14 +88,14 @@ def main():
             branches = [b["count"] > 0 for b in line.get("branches", [])][:2 * conditions(code[k])]
             if line["count"] > 0 and all(branches):
                 continue
-            needed.add((name, code[k]))
-            if (name, code[k]) not in allowed:
+            used.add(k)
+            if not any(k in statement for statement in allowed):
                 missing.append(f"{name}:{k + 1}: {branches.count(False) or 'all'} not taken: {code[k]}")
-    print(f"{paths} lines of error paths; {len(needed)} lines left out or missing")
-    print("\n".join(missing))
-    for name, text in sorted(allowed - needed):
-        print(f"left-out.txt: not needed: {name} | {text}")
-    sys.exit(1 if missing or allowed - needed else 0)
+        left_out += len(allowed)
+        idle += [f"{name}:{min(statement) + 1}: is tested" for statement in allowed if not statement & used]
+    print(f"{paths} lines of error paths; {left_out} statements left out")
+    print("\n".join(missing + idle))
+    sys.exit(1 if missing or idle else 0)
 
 
 main()

@@ -543,11 +543,11 @@ TEST(Run, GoesOnWithAScaledDensity) {
   minimize(evaluator, state, options);
   ASSERT_FALSE(state.pairs.empty());
   options.progress = nullptr;
-  for (const int exponent : {state.exponent, 0}) {  // as kept in memory; as in a file
+  for (const int shift : {0, 20}) {
     State copy = state;
     for (State::Pair& pair : copy.pairs)
-      for (Point& p : pair.change) p = times(std::ldexp(1, state.exponent - exponent), p);
-    copy.exponent = exponent;
+      for (SinglePoint& p : pair.change) p = single(times(std::ldexp(1, shift), point(p)));
+    copy.exponent -= shift;
     LocalEvaluator another(density);
     minimize(another, copy, options);
     EXPECT_EQ(copy.generators, whole.generators);
@@ -744,8 +744,8 @@ TEST(Safeguards, ADirectionThatDoesNotDescendGivesWayToLloyd) {
   evaluator.evaluate(state.generators, cells);
   State::Pair pair;  // of a concave energy, as no run keeps one
   for (const Point& pull : cells.pull) {
-    pair.step.push_back(pull);
-    pair.change.push_back(times(-1e-6, pull));
+    pair.step.push_back(single(pull));
+    pair.change.push_back(single(times(-1e-6, pull)));
   }
   state.pairs.push_back(pair);
   state.steps = state.evaluations = 1;

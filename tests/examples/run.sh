@@ -9,6 +9,8 @@ cd "$work"
 
 libdir=$(dirname "$(dirname "$(find "$prefix" -name stripack.pc)")")
 export PKG_CONFIG_PATH="$libdir/pkgconfig" LD_LIBRARY_PATH="$libdir" CMAKE_PREFIX_PATH="$prefix"
+PYTHONPATH=$(echo "$prefix"/lib*/python3*/*-packages)
+export PYTHONPATH
 sed -n 's/^[^$]*\$ //p' mesh.* > commands.sh
 sh -eux commands.sh > output.log
 cat output.log

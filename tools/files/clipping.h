@@ -10,10 +10,6 @@ struct Region {
   double west = -180, east = 180, south = -90, north = 90;
 };
 
-/// Inserts the midpoint of each side that is a half turn. The ends of such a side do not determine its great
-/// circle. They occur where nodes lie on one circle: their cells are lunes with two sides.
-void divide_half_turns(Faces& cells, const Mesh& mesh);
-
 /// The parts of the cells in the convex hull of the nodes. Without boundary nodes the hull is the whole
 /// sphere.
 Faces clipped_to_hull(const Faces& cells, const Mesh& mesh);

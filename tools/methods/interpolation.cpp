@@ -22,8 +22,6 @@ using Reader = pstripack::ListReader<std::int32_t>;
 
 constexpr double kOnBorder = 1e-12;  // of the distance to the middle of the nodes
 constexpr double kRounding = 4e-16;  // of a place, in radians
-/// Squared distances up to this are compared by differences of directions.
-constexpr double kFar = 1e-6;
 
 double square(const Point& d) { return dot(d, d); }
 
@@ -139,47 +137,52 @@ bool Interpolation::find(Direction& place, std::int32_t& near, Corners& corners)
   return settle(place, near, corners);
 }
 
-/// True if the place is a corner, which then has the whole share.
-bool Interpolation::is_node(const Direction& place, const Corners& corners,
-                            std::vector<Share>& shares) const {
-  for (const std::int32_t node : corners)
-    if (square(minus(mesh_.unit_at(node), place.high)) < 0x1p-98 &&
-        pstripack::same_direction(at(node), place.given)) {
-      shares = {{node, 1}};
-      return true;
-    }
-  return false;
+std::size_t Interpolation::corner_at(const Direction& place, const Corners& corners) const {
+  std::size_t k = 0;
+  while (k < 3 && !(square(minus(mesh_.unit_at(corners[k]), place.high)) < 0x1p-98 &&
+                    pstripack::same_direction(at(corners[k]), place.given)))
+    ++k;
+  return k;
 }
 
 std::array<Direction, 3> Interpolation::directions(const Corners& corners) const {
   return {mesh_.direction(corners[0]), mesh_.direction(corners[1]), mesh_.direction(corners[2])};
 }
 
-void Interpolation::linear(const Direction& place, const Corners& corners, std::vector<Share>& shares) const {
-  double weights[3];
-  const std::array<Direction, 3> at = directions(corners);
-  barycentric_weights(place, pointers(at), weights);
+/// The corners with weights as shares.
+void Interpolation::take(const Corners& corners, const double (&weights)[3], std::vector<Share>& shares) {
   for (std::size_t k = 0; k < 3; ++k)
     if (weights[k] > 0) shares.push_back({corners[k], weights[k]});
   if (shares.size() == 2 && shares[0].node > shares[1].node)
     std::swap(shares[0], shares[1]);  // as in both triangles
 }
 
-bool Interpolation::linear(const Point& p, std::int32_t& near, std::vector<Share>& shares) const {
-  shares.clear();
+bool Interpolation::barycentric(const Point& p, std::int32_t& near, Corners& corners,
+                                double (&weights)[3]) const {
   Direction place = pstripack::direction_of(p);
-  Corners corners;
-  double weights[3];
   if (search(place, near, corners)) {
     const std::array<Direction, 3> at = directions(corners);
     if (find_ordinary_determinants(place, pointers(at), weights)) {
       pstripack::divide_by_sum(weights);
-      shares = {{corners[0], weights[0]}, {corners[1], weights[1]}, {corners[2], weights[2]}};
       return true;
     }
   }
   if (!settle(place, near, corners)) return false;
-  if (!is_node(place, corners, shares)) linear(place, corners, shares);
+  if (const std::size_t node = corner_at(place, corners); node < 3) {
+    for (std::size_t k = 0; k < 3; ++k) weights[k] = k == node ? 1 : 0;
+    return true;
+  }
+  const std::array<Direction, 3> at = directions(corners);
+  barycentric_weights(place, pointers(at), weights);
+  return true;
+}
+
+bool Interpolation::linear(const Point& p, std::int32_t& near, std::vector<Share>& shares) const {
+  shares.clear();
+  Corners corners;
+  double weights[3];
+  if (!barycentric(p, near, corners, weights)) return false;
+  take(corners, weights, shares);
   return true;
 }
 
@@ -229,9 +232,15 @@ bool Interpolation::natural(const Point& p, std::int32_t& near, std::vector<Shar
   Direction place = pstripack::direction_of(p);
   Corners corners;
   if (!find(place, near, corners)) return false;
-  if (is_node(place, corners, shares)) return true;
+  if (const std::size_t node = corner_at(place, corners); node < 3) {
+    shares.push_back({corners[node], 1});
+    return true;
+  }
   if (!dig(place, corners, nodes, cavity)) {
-    linear(place, corners, shares);
+    double weights[3];
+    const std::array<Direction, 3> at = directions(corners);
+    barycentric_weights(place, pointers(at), weights);
+    take(corners, weights, shares);
     return true;
   }
   find_natural_weights(place, cavity);
@@ -244,20 +253,33 @@ bool Interpolation::natural(const Point& p, std::int32_t& near, std::vector<Shar
   return true;
 }
 
-/// Steps to nearer neighbours until there is none.
-std::int32_t Interpolation::descend(const Direction& place, std::int32_t node) const {
+/// Steps to nearer neighbours until there is none. Nodes that are as near as this one are joined to it by
+/// arcs between such nodes: the place is a corner of the Voronoi diagram, or lies on a side.
+Candidate Interpolation::descend(const ByDistance& order, Candidate node) const {
   const Reader reader(mesh_.lists);
-  const auto distance = [&](std::int32_t to) {  // squared
-    const double rounded = square(minus(mesh_.unit_at(to), place.high));
-    return rounded > kFar ? rounded : square(accurate_difference(mesh_.direction(to), place));
-  };
-  for (double best = distance(node);;) {
-    const std::int32_t here = node;
+  bool has_rival = true;
+  for (std::int32_t here = 0; here != node.node;) {
+    here = node.node, has_rival = false;
     reader.for_each_neighbour(here, [&](std::int32_t neighbour) {
-      if (const double d = distance(neighbour); d < best) best = d, node = neighbour;
+      const Candidate other = order.at(neighbour);
+      if (order.is_farther(other, node)) return;
+      if (order(other, node))
+        node = other;
+      else
+        has_rival = true;
     });
-    if (node == here) return node;
   }
+  if (!has_rival) return node;
+  std::vector<Candidate> as_near{node};
+  for (std::size_t i = 0; i < as_near.size(); ++i)
+    reader.for_each_neighbour(as_near[i].node, [&](std::int32_t neighbour) {
+      const Candidate other = order.at(neighbour);
+      if (order.are_as_near(other, node) &&
+          std::none_of(as_near.begin(), as_near.end(),
+                       [&](const Candidate& c) { return c.node == neighbour; }))
+        as_near.push_back(other);
+    });
+  return *std::min_element(as_near.begin(), as_near.end(), order);
 }
 
 // The segment from a node to p passes through cells of nearer and nearer nodes, each a neighbour of the
@@ -267,18 +289,18 @@ std::int32_t Interpolation::descend(const Direction& place, std::int32_t node) c
 // is a sum of positive multiples of boundary nodes. For the same reason, if none is, the nearest node is a
 // boundary node.
 std::int32_t Interpolation::nearest(const Point& p, std::int32_t near) const {
+  constexpr double kRightAngle = 2 - 1e-14;  // surely less than 90 degrees away
   const Reader reader(mesh_.lists);
-  const Direction place = pstripack::direction_of(p);
-  std::int32_t node = descend(place, near >= 1 && near <= reader.size() ? near : 1);
+  const ByDistance order(mesh_, p);
+  Candidate node = descend(order, order.at(near >= 1 && near <= reader.size() ? near : 1));
   const std::int32_t border = first_boundary_node_;
-  const auto cosine = [&](std::int32_t to) { return dot(mesh_.unit_at(to), place.high); };
-  if (cosine(node) > 0 || border == 0) return node;
+  if (node.square < kRightAngle || border == 0) return node.node;
   std::int32_t round = border;
   do {
-    if (cosine(round) > cosine(node)) node = round;
+    if (const Candidate other = order.at(round); order(other, node)) node = other;
     round = reader.first_neighbour(round);
   } while (round != border);
-  return descend(place, node);
+  return descend(order, node).node;
 }
 
 double Interpolation::cubic_value(const Point& p, const std::vector<Share>& shares,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "geometry/weights.h"
+#include "methods/by_distance.h"
 #include "methods/triangulated.h"
 
 namespace methods {
@@ -46,6 +47,8 @@ class Interpolation {
   /// SSRFPACK). The values are continuous, and linear along arcs as seen from the centre. False, without
   /// shares, outside the triangles.
   bool linear(const Point& p, std::int32_t& near, std::vector<Share>& shares) const;
+  /// The same for each of the corners that triangle() gives.
+  bool barycentric(const Point& p, std::int32_t& near, Corners& corners, double (&weights)[3]) const;
 
   /// Natural neighbours (Sibson 1981, with areas on the sphere). If p were a node, each neighbour would lose
   /// a part of its Voronoi cell to p; these areas are the shares. The values are continuous, and smooth
@@ -55,7 +58,7 @@ class Interpolation {
   /// A boundary node; 0 if the triangles cover the sphere.
   std::int32_t first_boundary_node() const { return first_boundary_node_; }
 
-  /// The node nearest to p, wherever p is.
+  /// The node nearest to p, wherever p is: exactly, of equally near ones that with the smallest number.
   std::int32_t nearest(const Point& p, std::int32_t near) const;
 
   /// Natural neighbours with gradients (Sibson, A brief description of natural neighbour interpolation, in
@@ -86,12 +89,13 @@ class Interpolation {
   bool search(const Direction& place, std::int32_t& near, Corners& corners) const;
   bool settle(Direction& place, std::int32_t& near, Corners& corners) const;
   bool cross_arcs(const Direction& place, Corners& corners) const;
-  void linear(const Direction& place, const Corners& corners, std::vector<Share>& shares) const;
+  static void take(const Corners& corners, const double (&weights)[3], std::vector<Share>& shares);
   std::array<Direction, 3> directions(const Corners& corners) const;
-  bool is_node(const Direction& place, const Corners& corners, std::vector<Share>& shares) const;
+  /// The corner that the place is; 3: none.
+  std::size_t corner_at(const Direction& place, const Corners& corners) const;
   bool dig(const Direction& place, const Corners& corners, std::vector<std::int32_t>& nodes,
            pstripack::Cavity& cavity) const;
-  std::int32_t descend(const Direction& place, std::int32_t node) const;
+  Candidate descend(const ByDistance& order, Candidate node) const;
   Point at(std::int32_t node) const { return mesh_.at(node); }
   /// The directions of the nodes, made when first needed.
   const Direction* directions() const;

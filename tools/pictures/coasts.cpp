@@ -1,7 +1,5 @@
 #include "pictures/coasts.h"
 
-#include <fmt/format.h>
-
 #include <cerrno>
 #include <cmath>
 #include <cstdint>
@@ -19,13 +17,12 @@ std::string natural_earth(double radius, const std::string& folder) {
   // From the finest scale that the picture needs to the coarsest.
   constexpr const char* kScales[] = {"10m", "50m", "110m"};
   for (int k = radius < 8 ? 0 : radius < 40 ? 1 : 2; k < 3; ++k)
-    if (std::string file = fmt::format("{0}/{1}/ne_{1}_land.shp", folder, kScales[k]);
+    if (std::string file = folder + "/" + kScales[k] + "/ne_" + kScales[k] + "_land.shp";
         std::filesystem::exists(file))
       return file;
-  throw std::runtime_error(fmt::format(
-      "{}: Natural Earth's coast lines are not installed: install them (Debian: libmagics++-data), or name a "
-      "shapefile by --coast-file",
-      folder));
+  throw std::runtime_error(folder +
+                           ": Natural Earth's coast lines are not installed: install them (Debian: "
+                           "libmagics++-data), or name a shapefile by --coast-file");
 }
 
 namespace {
@@ -35,7 +32,7 @@ class Bytes {
  public:
   explicit Bytes(const std::string& file) : file_(file) {
     std::ifstream in(file, std::ios::binary);
-    if (!in) throw std::runtime_error(fmt::format("{}: cannot be opened: {}", file, std::strerror(errno)));
+    if (!in) throw std::runtime_error(file + ": cannot be opened: " + std::strerror(errno));
     bytes_.assign(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
   }
   std::size_t size() const { return bytes_.size(); }

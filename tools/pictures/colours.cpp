@@ -1,11 +1,10 @@
 #include "pictures/colours.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <utility>
 
 namespace pictures {
@@ -28,7 +27,9 @@ std::string viridis(double t) {
     const double low = kSamples[i][k], high = kSamples[i + 1][k];
     return static_cast<int>(std::lround(low + (at - static_cast<double>(i)) * (high - low)));
   };
-  return fmt::format("#{:02x}{:02x}{:02x}", mixed(0), mixed(1), mixed(2));
+  char text[8];
+  std::snprintf(text, sizeof text, "#%06x", static_cast<unsigned>(mixed(0) << 16 | mixed(1) << 8 | mixed(2)));
+  return text;
 }
 
 std::string colour_of_degree(int degree) {

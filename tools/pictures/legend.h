@@ -4,20 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "pictures/scale.h"
+#include "pictures/shading.h"
 #include "pictures/sheet.h"
 
 namespace pictures {
-
-/// A colour and what it stands for.
-struct Shade {
-  std::string colour, label;
-  std::size_t count = 0;
-};
-
-constexpr int kSteps = 6;           ///< steps of a colour bar
-constexpr double kBarWidth = 400;   ///< pixels
-constexpr double kTickLabels = 12;  ///< font size
 
 /// A Viridis bar with the ticks of the scale.
 double draw_colour_bar(Sheet& sheet, double top, const std::string& title, const Scale& scale);

@@ -9,7 +9,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "files/clipping.h"
+#include "files/map_rings.h"
 #include "files/measures.h"
 #include "parallel/sample.h"
 #include "pictures/coasts.h"
@@ -32,12 +32,10 @@ using pstripack::dot;
 
 constexpr const char* kLine = "#1f5f8b";
 constexpr const char* kGraticule = "#d5dce3";
-constexpr const char* kNoColour = "#e6e6e6";
 
 std::size_t index(std::int32_t number) { return static_cast<std::size_t>(number) - 1; }
 
-constexpr std::size_t kShades = 64;  ///< number of shades of a colour bar
-constexpr double kLabel = 12;        ///< font size around the drawing
+constexpr double kLabel = 12;  ///< font size around the drawing
 
 class MeshPicture {
  public:
@@ -53,7 +51,7 @@ class MeshPicture {
     count_nodes_in_view();
     const bool cells = options_.what == What::cells;
     faces_ = cells ? files::voronoi_faces(mesh_) : files::triangle_faces(mesh_);
-    if (cells) files::divide_half_turns(faces_, mesh_);
+    if (cells) files::divide_half_turns(faces_, mesh_.lists());
     expect_sides_shorter_than_a_half_turn();
     draw_ground();
     draw_faces();
@@ -66,6 +64,20 @@ class MeshPicture {
     draw_ranks();
     draw_legend();
     return sheet_.svg(top_ + 8, options_.width);
+  }
+
+  /// The colours of the faces, without a picture.
+  Shading shading() {
+    if (options_.colour == Colour::none) return {};
+    faces_ = options_.what == What::cells ? files::voronoi_faces(mesh_, false) : files::triangle_faces(mesh_);
+    Shading shading;
+    shading.of_face = choose_shades();
+    if (options_.colour == Colour::owner)
+      for (std::size_t rank = 0; rank < shades_.size(); ++rank) shades_[rank].label = std::to_string(rank);
+    shading.title = title_of_legend();
+    shading.shades = std::move(shades_);
+    shading.scale = std::move(scale_);
+    return shading;
   }
 
  private:
@@ -292,22 +304,11 @@ class MeshPicture {
   /// Shades of a colour bar; NaN: grey. `title` and `unit` are for the legend.
   std::vector<std::size_t> shades_of_numbers(const std::vector<double>& values, const std::string& title,
                                              const std::string& unit) {
-    std::vector<double> known;
-    std::copy_if(values.begin(), values.end(), std::back_inserter(known),
-                 [](double v) { return std::isfinite(v); });
-    for (std::size_t s = 0; s < kShades; ++s)
-      shades_.push_back({viridis(static_cast<double>(s) / (kShades - 1)), ""});
-    shades_.push_back({kNoColour, "no value", values.size() - known.size()});
-    std::vector<std::size_t> shade(values.size(), kShades);
-    if (known.empty()) return shade;
-    scale_.emplace(Scale::fitting(known, kSteps, kBarWidth, kTickLabels));
-    legend_ = title;
-    if (const std::string unit_there = scale_->name_of_factor() + unit; !unit_there.empty())
-      legend_ += ", " + unit_there;
-    for (std::size_t f = 0; f < values.size(); ++f)
-      if (std::isfinite(values[f]))
-        shade[f] = static_cast<std::size_t>(std::lround((*scale_)(values[f]) * (kShades - 1)));
-    return shade;
+    Shading shading = shading_of_numbers(values, title, unit);
+    shades_ = std::move(shading.shades);
+    scale_ = std::move(shading.scale);
+    legend_ = std::move(shading.title);
+    return std::move(shading.of_face);
   }
 
   /// Shades for the values of a column. A triangle gets the mean of its corners.
@@ -654,10 +655,8 @@ class MeshPicture {
         top_ = draw_note(sheet_, top_ + 2, kNoColour,
                          fmt::format("no value: {} {}{}", grouped(shades_.back().count), what(),
                                      shades_.back().count == 1 ? "" : "s"));
-    } else if (options_.colour == Colour::degree) {
-      top_ = draw_shades(sheet_, top_, "neighbours of a node (how many nodes)", shades_);
-    } else if (options_.colour == Colour::value) {
-      top_ = draw_shades(sheet_, top_, legend_ + " (how many nodes)", shades_);
+    } else if (options_.colour == Colour::degree || options_.colour == Colour::value) {
+      top_ = draw_shades(sheet_, top_, title_of_legend(), shades_);
     } else if (options_.colour == Colour::owner) {
       draw_legend_of_owners();
     }
@@ -666,6 +665,14 @@ class MeshPicture {
     top_ = draw_note(sheet_, top_, kVermilion,
                      fmt::format("{} boundary nodes{}", grouped(boundary_.size()),
                                  grey ? "; grey: their cells, which share the rest of the sphere" : ""));
+  }
+
+  std::string title_of_legend() const {
+    if (scale_) return legend_;
+    return (options_.colour == Colour::degree  ? "neighbours of a node"
+            : options_.colour == Colour::owner ? "rank that owns a node"
+                                               : legend_) +
+           " (how many nodes)";
   }
 
   void draw_legend_of_owners() {
@@ -711,6 +718,10 @@ class MeshPicture {
 };
 
 }  // namespace
+
+Shading mesh_shading(const Mesh& mesh, const MeshOptions& options) {
+  return MeshPicture(mesh, options).shading();
+}
 
 std::string mesh_picture(const Mesh& mesh, const MeshOptions& options) {
   return MeshPicture(mesh, options).svg();

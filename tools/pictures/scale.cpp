@@ -1,8 +1,7 @@
 #include "pictures/scale.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "pictures/font.h"
@@ -21,6 +20,12 @@ constexpr double kRounding = 1e-6;
 
 double within_range(double value) {
   return std::fabs(value) < kLeast ? 0 : std::clamp(value, -kLargest, kLargest);
+}
+
+/// The number as printf writes it by %f or %g, in any locale.
+std::string printed(std::chars_format format, int precision, double value) {
+  char text[400];  // 1e300 has 301 digits
+  return {text, std::to_chars(text, text + sizeof text, value, format, precision).ptr};
 }
 
 int exponent_of(double value) { return static_cast<int>(std::floor(std::log10(value))); }
@@ -52,7 +57,8 @@ void Scale::add_linear_ticks(double low, double high, int about) {
   const double first = std::floor(low / unit / step + kRounding),
                last = std::ceil(high / unit / step - kRounding);
   for (double k = first; k <= last; ++k)
-    ticks_.push_back({k == 0 ? 0 : k * step * unit, fmt::format("{:.{}f}", k == 0 ? 0 : k * step, decimals)});
+    ticks_.push_back(
+        {k == 0 ? 0 : k * step * unit, printed(std::chars_format::fixed, decimals, k == 0 ? 0 : k * step)});
 }
 
 void Scale::add_logarithmic_ticks(double low, double high, int about) {
@@ -70,7 +76,8 @@ void Scale::add_logarithmic_ticks(double low, double high, int about) {
       const double value = digit * std::pow(10, e);
       if (value < low * (1 + kRounding)) ticks_.clear();  // a later tick is nearer to the least value
       if (ticks_.empty() || ticks_.back().value < high * (1 - kRounding))
-        ticks_.push_back({value, fmt::format("{:g}", digit * std::pow(10, e - exponent_))});
+        ticks_.push_back(
+            {value, printed(std::chars_format::general, 6, digit * std::pow(10, e - exponent_))});
     }
 }
 
@@ -124,9 +131,10 @@ std::string power_of_ten(int exponent) {
 
 std::string short_number(double value) {
   const double size = std::fabs(value);
-  if (size == 0 || (size >= 0.001 && size < 1e5)) return fmt::format("{:.4g}", value);
+  if (size == 0 || (size >= 0.001 && size < 1e5)) return printed(std::chars_format::general, 4, value);
   const int exponent = exponent_of(size);
-  return fmt::format("{:.4g}·{}", value / std::pow(10, exponent), power_of_ten(exponent));
+  return printed(std::chars_format::general, 4, value / std::pow(10, exponent)) + "·" +
+         power_of_ten(exponent);
 }
 
 }  // namespace pictures

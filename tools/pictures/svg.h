@@ -6,6 +6,7 @@
 #include <string>
 
 #include "files/output_file.h"
+#include "pictures/place.h"
 
 namespace pictures {
 
@@ -22,11 +23,6 @@ void write(const files::OutputFile& file, Kind kind, const std::string& svg);
 
 /// The text for an attribute or element of XML; it may contain any bytes.
 std::string escaped_for_xml(const std::string& text);
-
-/// A place in the picture in pixels, to the right and down.
-struct Place {
-  double x, y;
-};
 
 /// The data of a <path>, in hundredths of a pixel. Pieces shorter than that are left out.
 class Path {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "geometry/point.h"
-#include "pictures/svg.h"
+#include "pictures/place.h"
 
 namespace pictures {
 

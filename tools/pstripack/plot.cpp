@@ -8,7 +8,7 @@
 
 #include "files/nearest.h"
 #include "pictures/histograms.h"
-#include "pictures/mesh_picture.h"
+#include "pictures/mesh_globe.h"
 #include "pictures/scale.h"
 #include "pictures/svg.h"
 #include "pstripack/options.h"
@@ -19,14 +19,16 @@ namespace {
 
 using pictures::MeshOptions;
 
+constexpr double kWidth = 800;
+
 struct Options {
   Input input;
   std::string file, to, what = "triangles", view, colour = "none";
   std::optional<double> radius;
   bool coasts = false;
-  std::string coast_file;
+  std::string coast_file, three_file;
   std::optional<std::string> title;
-  double width = 800;
+  std::optional<double> width;
 };
 
 /// Splits a text at the separators.
@@ -93,13 +95,18 @@ void set_colour(const std::string& text, MeshOptions& mesh) {
   mesh.partition = kind->second;
 }
 
+bool is_globe(const Options& options) {
+  return options.to == "html" ||
+         (options.to.empty() && std::filesystem::path(options.file).extension() == ".html");
+}
+
 pictures::Kind kind_of(const Options& options) {
   if (options.to == "svg") return pictures::Kind::svg;
   if (options.to == "png") return pictures::Kind::png;
   const auto kind = pictures::kind_of(options.file);
   if (!kind)
-    throw CLI::ValidationError("--output",
-                               options.file + ": expected FILE.svg or FILE.png, or --to svg or png");
+    throw CLI::ValidationError(
+        "--output", options.file + ": expected FILE.svg, FILE.png or FILE.html, or --to svg, png or html");
   return *kind;
 }
 
@@ -112,14 +119,15 @@ void expect_column(const files::Nodes& nodes, const std::string& name) {
 }
 
 void plot(Options& options) {
-  const pictures::Kind kind = kind_of(options);
+  const bool globe = is_globe(options);
+  const pictures::Kind kind = globe ? pictures::Kind::svg : kind_of(options);
   const bool histograms = options.what == "histograms";
   MeshOptions mesh_options;
   if (options.what == "cells") mesh_options.what = MeshOptions::What::cells;
   if (!options.view.empty()) set_view(options.view, mesh_options);
   set_colour(options.colour, mesh_options);
   mesh_options.radius = options.radius;
-  mesh_options.width = options.width;
+  mesh_options.width = options.width.value_or(kWidth);
   if (histograms && (!options.view.empty() || options.radius || options.colour != "none"))
     throw CLI::ValidationError("--what", "histograms have no --view, --radius or --colour");
   if (mesh_options.colour == MeshOptions::Colour::degree && mesh_options.what != MeshOptions::What::cells)
@@ -128,6 +136,11 @@ void plot(Options& options) {
     throw CLI::ValidationError("--what", "histograms have no coasts");
   mesh_options.coasts = options.coasts;
   mesh_options.coast_file = options.coast_file;
+  if (globe && (histograms || mesh_options.lonlat || options.width))
+    throw CLI::ValidationError("--to", "a globe has no --what histograms, --view lonlat or --width");
+  if (!globe && !options.three_file.empty())
+    throw CLI::ValidationError("--three-file", "only a globe, FILE.html, needs three.js");
+  const std::string three = globe ? pictures::three_js(options.three_file) : "";
   pictures::expect_converter(kind);
 
   options.input.read.with_columns = mesh_options.colour == MeshOptions::Colour::value;
@@ -152,14 +165,15 @@ void plot(Options& options) {
             ? *options.title
             : fmt::format("{}: {} nodes, {} triangles", std::filesystem::path(nodes.file).filename().string(),
                           pictures::grouped(mesh.points.size()), pictures::grouped(mesh.triangles()));
-    std::string svg;
+    std::string picture;
     try {
-      svg = histograms ? pictures::histograms(mesh, mesh_options.title, options.width)
-                       : mesh_picture(mesh, mesh_options);
+      picture = globe        ? globe_page(mesh_globe(mesh, mesh_options), three)
+                : histograms ? pictures::histograms(mesh, mesh_options.title, mesh_options.width)
+                             : mesh_picture(mesh, mesh_options);
     } catch (const std::runtime_error& e) {
       throw std::runtime_error(nodes.file + ": " + e.what());
     }
-    write(file, kind, svg);
+    write(file, kind, picture);
     file.commit();
   });
   progress.finish(fmt::format("{} ({}), {}", counted(nodes.points.size(), "node"), nodes.kind,
@@ -169,17 +183,19 @@ void plot(Options& options) {
 }  // namespace
 
 void add_plot(CLI::App& app, Command& chosen) {
-  CLI::App* const sub = app.add_subcommand(
-      "plot", "picture of the triangulation or its Voronoi cells, or histograms of its quality: SVG or PNG");
+  CLI::App* const sub = app.add_subcommand("plot",
+                                           "picture of the triangulation or its Voronoi cells, or histograms "
+                                           "of its quality: SVG or PNG; a globe to turn: HTML");
   const auto options = std::make_shared<Options>();
   add_input(*sub, options->input);
   add_duplicates(*sub, options->input);
-  sub->add_option("-o,--output", options->file, "picture to write: FILE.svg or FILE.png; - is stdout")
+  sub->add_option("-o,--output", options->file,
+                  "picture to write: FILE.svg or FILE.png, or FILE.html, a globe; - is stdout")
       ->required()
       ->type_name("FILE");
-  sub->add_option("--to", options->to, "svg or png [by the suffix of the file]")
+  sub->add_option("--to", options->to, "svg, png or html [by the suffix of the file]")
       ->type_name("FORMAT")
-      ->check(one_of({"svg", "png"}));
+      ->check(one_of({"svg", "png", "html"}));
   sub->add_option("--what", options->what, "triangles, cells (of the Voronoi diagram) or histograms")
       ->type_name("WORD")
       ->capture_default_str()
@@ -197,15 +213,18 @@ void add_plot(CLI::App& app, Command& chosen) {
   sub->add_flag("--coasts", options->coasts, "coast lines: Natural Earth, of Debian's libmagics++-data");
   sub->add_option("--coast-file", options->coast_file, "coast lines of this shapefile instead")
       ->type_name("FILE");
+  sub->add_option("--three-file", options->three_file,
+                  "three.js for a globe [PSTRIPACK_THREE, or that of Debian's libjs-three]")
+      ->type_name("FILE");
   sub->add_option("--title", options->title, "[file and counts]")->type_name("TEXT");
-  sub->add_option("--width", options->width, "width of the picture")
+  sub->add_option("--width", options->width, fmt::format("width of the picture [{}]", kWidth))
       ->type_name("PIXELS")
-      ->capture_default_str()
       ->check(CLI::Range(100.0, 20000.0).description(""));
   sub->footer(R"(  pstripack plot mesh.nc -o mesh.svg
   pstripack plot nodes.txt --view orthographic:10,45 --radius 5 -o zoom.png --width 1600
   pstripack plot nodes.txt --what cells --colour area -o cells.svg
   pstripack plot quakes.csv --what cells --colour mag --coasts --view lonlat -o quakes.svg
+  pstripack plot quakes.csv --what cells --colour mag --coasts -o globe.html
 
 Colours:
   area             of the triangle or cell, on a sphere of radius 6371 km (also called size)
@@ -216,7 +235,8 @@ Colours:
 
 Triangles of UGRID, MPAS and OFF files are drawn as they are; other nodes are triangulated first. Nodes that do not
 cover the sphere fill the picture; their boundary is orange. At most 200,000 nodes may be in view: choose a part by
---view and --radius. PNG needs rsvg-convert (Debian: librsvg2-bin).)");
+--view and --radius. PNG needs rsvg-convert (Debian: librsvg2-bin). A globe is one file for any browser, without
+network: it holds the mesh, of any size, and three.js (Debian: libjs-three).)");
 
   sub->callback([=, &chosen] { chosen = [=] { plot(*options); }; });
 }

@@ -74,18 +74,18 @@ constexpr auto kEvaluations = "scvt_iterations", kDensity = "scvt_density",
                kDensityFile = "scvt_density_file", kWidthFile = "scvt_width_file", kWidth = "scvt_width",
                kWidthRegion = "scvt_width_region", kVariable = "scvt_density_variable",
                kRegion = "scvt_region", kRadius = "scvt_radius", kGrade = "scvt_grade", kSteps = "scvt_steps",
-               kPairs = "scvt_pairs";
+               kPairs = "scvt_pairs", kExponent = "scvt_exponent";
 
 std::string note(const files::Notes& notes, const char* name) {
   const auto found = notes.find(name);
   return found == notes.end() ? "" : found->second;
 }
 
-std::int64_t count_in(const files::Nodes& start, const char* name, std::int64_t otherwise) {
+std::int64_t count_in(const files::Nodes& start, const char* name, std::int64_t otherwise, double least = 0) {
   double count = 0;
   const std::string text = note(start.notes, name);
   if (text.empty()) return otherwise;
-  if (!point_sets::parse(text, count) || !(count >= 0 && count < 1e15))
+  if (!point_sets::parse(text, count) || !(count >= least && count < 1e15))
     throw std::runtime_error(fmt::format("{}: attribute {}: '{}' is not a number of {}", start.file, name,
                                          point_sets::excerpt(text),
                                          name == kEvaluations ? "iterations" : name + sizeof "scvt"));
@@ -143,7 +143,7 @@ void choose_n(Options& options, double cells) {
 
 /// Throws, before the work, if N generators on this machine need more memory than it has.
 void check_memory(double generators) {
-  constexpr double kBytes = 1100;  // of a generator, with output; 1000 with levels
+  constexpr double kBytes = 750;  // of a generator; 600 with levels
   const double bytes = kBytes * generators;
   const double most =
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
@@ -322,6 +322,7 @@ files::Notes notes_of(const Options& options, const State& state, const engine::
   files::Notes notes = notes_of_density(options);
   notes[kEvaluations] = std::to_string(state.evaluations);
   notes[kSteps] = std::to_string(state.steps);
+  notes[kExponent] = std::to_string(state.exponent);
   notes["scvt_gradient"] = fmt::format("{}", reached.gradient);
   notes["scvt_energy"] = fmt::format("{}", reached.energy);
   notes["history"] = options.history;
@@ -331,10 +332,11 @@ files::Notes notes_of(const Options& options, const State& state, const engine::
 
 // Steps and changes of the gradient are stored as columns scvt_step_1_x ... scvt_change_8_z, the oldest
 // first.
-constexpr std::pair<const char*, std::vector<Point> State::Pair::*> kHalves[] = {
+using engine::SinglePoint;
+constexpr std::pair<const char*, std::vector<SinglePoint> State::Pair::*> kHalves[] = {
     {"step", &State::Pair::step}, {"change", &State::Pair::change}};
-constexpr std::pair<const char*, double Point::*> kComponents[] = {
-    {"x", &Point::x}, {"y", &Point::y}, {"z", &Point::z}};
+constexpr std::pair<const char*, float SinglePoint::*> kComponents[] = {
+    {"x", &SinglePoint::x}, {"y", &SinglePoint::y}, {"z", &SinglePoint::z}};
 
 files::Columns columns_of(const State& state) {
   const std::vector<State::Pair>& pairs = state.pairs;
@@ -343,8 +345,7 @@ files::Columns columns_of(const State& state) {
     for (const auto& [half, vectors] : kHalves)
       for (const auto& [letter, component] : kComponents) {
         files::Column column{fmt::format("scvt_{}_{}_{}", half, k + 1, letter)};
-        const int exponent = half == kHalves[1].first ? state.exponent : 0;
-        for (const Point& v : pairs[k].*vectors) column.numbers.push_back(std::ldexp(v.*component, exponent));
+        for (const SinglePoint& v : pairs[k].*vectors) column.numbers.push_back(v.*component);
         columns.push_back(std::move(column));
       }
   return columns;
@@ -362,8 +363,8 @@ std::vector<State::Pair> pairs_in(const files::Nodes& start) {
             find(start.columns, fmt::format("scvt_{}_{}_{}", half, k, letter));
         if (column == nullptr || column->is_text()) return {};
         for (std::size_t i = 0; i < column->numbers.size(); ++i) {
-          if (!std::isfinite(column->numbers[i])) return {};
-          (pair.*vectors)[i].*component = column->numbers[i];
+          (pair.*vectors)[i].*component = static_cast<float>(column->numbers[i]);
+          if (!std::isfinite((pair.*vectors)[i].*component)) return {};
         }
       }
     }
@@ -381,6 +382,7 @@ Tessellation tessellation_of(Communicator& ranks, files::Nodes& start, const Opt
       [&] {
         t.state.evaluations = count_in(start, kEvaluations, 0);
         t.state.steps = count_in(start, kSteps, t.state.evaluations);
+        t.state.exponent = static_cast<int>(count_in(start, kExponent, 0, -5000));
         bool has_same_density = true;
         for (const char* const name :
              {kDensity, kDensityFile, kWidthFile, kWidth, kWidthRegion, kRegion, kVariable, kRadius, kGrade})

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "files/clipping.h"
+#include "files/map_rings.h"
 #include "files/measures.h"
 #include "pstripack/options.h"
 #include "pstripack/progress.h"
@@ -71,7 +72,7 @@ void voronoi(Options& options) {
     const bool with_corners = !are_whole || options.output.format != files::Format::csv;
     files::Faces faces = files::voronoi_faces(mesh, with_corners);
     if (are_whole) tell_huge_cell(options, faces, mesh);
-    if (with_corners) files::divide_half_turns(faces, mesh);
+    if (with_corners) files::divide_half_turns(faces, mesh.lists());
     if (options.clip_to_hull && !mesh.has_boundary())
       say(options.input.file + ": the nodes surround the sphere: --clip-to-hull cuts nothing");
     if (options.clip_to_hull) faces = clipped_to_hull(faces, mesh);

@@ -359,7 +359,7 @@ pictures)
   code=0
   PATH=/no/such/folder "$PSTRIPACK" plot nodes.txt -o b.png 2> err || code=$?
   [ $code = 1 ] && grep -q "PNG needs rsvg-convert (Debian: librsvg2-bin)" err || fail "$code: $(cat err)"
-  refuses 2 "picture.gif: expected FILE.svg or FILE.png" plot nodes.txt -o picture.gif
+  refuses 2 "picture.gif: expected FILE.svg, FILE.png or FILE.html" plot nodes.txt -o picture.gif
   refuses 2 "--view: mercator: expected orthographic, lonlat" plot nodes.txt -o c.svg --view mercator
   refuses 2 "--view: lonlat:10: expected" plot nodes.txt -o c.svg --view lonlat:10
   refuses 2 "--view: orthographic:0,91: expected" plot nodes.txt -o c.svg --view orthographic:0,91
@@ -383,9 +383,19 @@ pictures)
   "$PSTRIPACK" -q points fibonacci 410000 -o many.raw
   refuses 1 "nodes are in view, at most 200,000 can be drawn: zoom in, for example by --view orthographic:0,30 --radius" \
     plot many.raw --from raw --coordinates xyz -q -o c.svg
+  echo 'export { WebGLRenderer };' > module.js
+  for option in "--what histograms" "--view lonlat" "--width 500"; do
+    # shellcheck disable=SC2086
+    refuses 2 "a globe has no --what histograms, --view lonlat or --width" plot nodes.txt -o c.html $option
+  done
+  refuses 2 "only a globe, FILE.html, needs three.js" plot nodes.txt -o c.svg --three-file module.js
+  refuses 1 "no.js: cannot be opened: No such file or directory: globes need three.js (Debian: libjs-three" \
+    plot nodes.txt -o c.html --three-file no.js
+  refuses 1 "module.js: not three.js as one script" plot nodes.txt -o c.html --three-file module.js
+  PSTRIPACK_THREE=module.js refuses 1 "module.js: not three.js as one script" plot nodes.txt -o c.html
   printf '1 0 0\n0 1 0\n0 0 1\n' > three.txt
   "$PSTRIPACK" -q plot three.txt --what cells -o lunes.svg
-  [ ! -e c.svg ] && [ ! -e b.png ] || fail "a picture of a failed run"
+  [ ! -e c.svg ] && [ ! -e c.html ] && [ ! -e b.png ] || fail "a picture of a failed run"
   ;;
 
 scvt)

@@ -35,7 +35,7 @@ def _coordinates(vectors: Any) -> Any:
         return vectors
     if not {"x", "y", "z"} <= set(names):
         raise ValueError(f"a table needs the columns x, y and z, not {', '.join(map(str, names))}: for longitudes and "
-                         "latitudes use Delaunay.from_lonlat(table['lon'], table['lat']), or to_xyz")
+                         "latitudes use Delaunay.from_dataframe(table), or to_xyz(table['lon'], table['lat'])")
     return vectors[["x", "y", "z"]]
 
 
@@ -100,6 +100,11 @@ def to_xyz(lon: ArrayLike, lat: ArrayLike, degrees: bool = True) -> Floats:
            [0., 1., 0.],
            [0., 0., 1.]])
     """
+    return vectors_of(lon, lat, degrees, "node")
+
+
+def vectors_of(lon: ArrayLike, lat: ArrayLike, degrees: bool, what: str) -> Floats:
+    """to_xyz; ``what`` names a place in messages."""
     lon, lat = (angle if degrees or angle.dtype != np.float32 else _core.radians_of_single(angle)
                 for angle in (real(lon), real(lat)))
     lon, lat = np.broadcast_arrays(np.asarray(lon, np.float64), np.asarray(lat, np.float64))
@@ -107,16 +112,25 @@ def to_xyz(lon: ArrayLike, lat: ArrayLike, degrees: bool = True) -> Floats:
     beyond = np.abs(lat) > limit
     if np.any(beyond):
         index = int(np.argmax(beyond))
-        raise ValueError(f"latitude {lat.flat[index]:g} of node {index} (counted from 0) is beyond the pole: "
+        raise ValueError(f"latitude {lat.flat[index]:g} of {what} {index} (counted from 0) is beyond the pole: "
                          "the arguments are longitudes, then latitudes"
                          + ("" if degrees else ", in radians unless degrees=True"))
     vectors = _core.vectors(np.ascontiguousarray(lon.ravel()), np.ascontiguousarray(lat.ravel()), degrees)
     return vectors.reshape(lon.shape + (3,)) + 0.0  # no -0.0
 
 
+def are_degrees(lon: NDArray[Any], lat: NDArray[Any], degrees: bool, units: Optional[str]) -> bool:
+    """Whether angles are degrees, rather than radians; units=None: what ``degrees`` says, if that is certain."""
+    if units not in (None, "degrees", "radians"):
+        raise ValueError(f"units must be 'degrees' or 'radians', not {units!r}")
+    if units is None and degrees:
+        refuse_what_may_be_radians(lon, lat)
+    return degrees if units is None else units == "degrees"
+
+
 def refuse_what_may_be_radians(lon: NDArray[Any], lat: NDArray[Any]) -> None:
     """Raises an error unless an angle is too large for radians; the limits are those of the command `pstripack`."""
-    if len(lon) == 0 or len(lat) == 0:
+    if np.size(lon) == 0 or np.size(lat) == 0:
         return
     most_lon, most_lat = np.max(np.abs(lon)), np.max(np.abs(lat))
     slack = 1 + 1e-6  # single precision rounds a pole up

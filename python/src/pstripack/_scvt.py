@@ -33,6 +33,10 @@ class Tessellation(NamedTuple):
     #: but triangles are left that do not hold their circumcentre)
     reason: str
 
+    def __repr__(self) -> str:
+        return (f"<pstripack.Tessellation: {len(self.points)} generators, energy {self.energy:.6g}, "
+                f"gradient {self.gradient:.3g}, {self.evaluations:g} evaluations, {self.reason}>")
+
 
 def _cells_of(width: Callable[[Floats], ArrayLike], radius: float) -> int:
     code, message, cells = _core.scvt_cells(width, radius)

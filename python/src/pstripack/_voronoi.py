@@ -84,6 +84,12 @@ class SphericalVoronoi:
         self.region_vertices: Tuple[Ints, Ints] = (read_only(begin), read_only(indices))
         self._regions: Optional[List[List[int]]] = None
 
+    def __repr__(self) -> str:
+        arcs = len(self._mesh.boundary())
+        return (f"<pstripack.SphericalVoronoi: {len(self.points)} regions, {len(self.vertices)} vertices, "
+                f"radius {self.radius:g}, "
+                + (f"points in a hemisphere, boundary of {arcs} arcs>" if arcs > 0 else "whole sphere>"))
+
     def __getstate__(self) -> Dict[str, Any]:
         return {**self.__dict__, "_mesh": None}
 
@@ -104,6 +110,13 @@ class SphericalVoronoi:
         if self._regions is None:
             self._regions = _core.lists_of(*self.region_vertices, 2 * len(self.points) - 4)
         return self._regions
+
+    @property
+    def _simplices(self) -> Ints:
+        """As scipy's: the three points, in increasing order, of whose regions each vertex is a corner."""
+        indptr, indices = self.region_vertices
+        region = np.repeat(np.arange(len(self.points), dtype=np.int32), np.diff(indptr))
+        return region[np.argsort(indices, kind="stable")].reshape(-1, 3)
 
     def sort_vertices_of_regions(self) -> None:
         """Does nothing: the vertices of each region are always in order."""

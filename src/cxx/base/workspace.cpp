@@ -55,17 +55,21 @@ void release_cache(std::size_t bytes) noexcept { reserved -= bytes; }
 
 void set_free_more(bool (*them)() noexcept) noexcept { free_more = them; }
 
+bool free_idle_blocks() noexcept {
+  bool any = false;
+  if (const std::unique_lock lock(mutex, std::try_to_lock); lock)
+    for (auto& block : cached) {
+      any = any || block.size() > 0;
+      block = {};
+    }
+  return any;
+}
+
 bool free_cached_blocks() noexcept {
   bool (*const them)() noexcept = free_more;
   bool any = free_cached_things();
   if (them != nullptr && them()) any = true;
-  const std::unique_lock lock(mutex, std::try_to_lock);
-  if (!lock) return any;
-  for (auto& block : cached) {
-    any = any || block.size() > 0;
-    block = {};
-  }
-  return any;
+  return free_idle_blocks() || any;
 }
 
 Block::Block(std::size_t bytes) {

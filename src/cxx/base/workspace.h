@@ -41,6 +41,9 @@ class Block {
 /// frees. False if nothing was freed.
 bool free_cached_blocks() noexcept;
 
+/// Frees the cached blocks alone: for a caller whose next calls need less. False if there were none.
+bool free_idle_blocks() noexcept;
+
 /// Asks whether another `bytes` of memory, other than blocks, may be cached from one call to the next. If
 /// true, they count towards the bound on cached memory until release_cache(bytes) is called.
 bool reserve_cache(std::size_t bytes) noexcept;
@@ -81,6 +84,7 @@ class BlockArray {
  private:
   static_assert(std::is_trivially_copyable_v<T>);
   static std::size_t bytes_of(std::size_t n) {
+    // untested: no number of nodes that is let in asks for so much
     if (n > static_cast<std::size_t>(PTRDIFF_MAX) / sizeof(T)) throw std::bad_alloc();
     return n * sizeof(T);
   }
@@ -133,6 +137,7 @@ class Workspace {
     return (bytes + kAlignment - 1) / kAlignment * kAlignment;
   }
   void check() const {
+    // untested: a bug in our own reckoning
     if (front_ > back_ || back_ == 0) throw std::length_error("pstripack: a workspace is too small");
   }
 

@@ -76,8 +76,8 @@ int caught(const char* routine, long long n, const Call& call) {
   } catch (const std::exception& error) {
     code = out_of_memory;
     why = error.what();
-  } catch (...) {
-    code = out_of_memory;
+  } catch (...) {          // untested: nothing below throws anything else
+    code = out_of_memory;  // untested: of the handler for what nothing throws
     why = "unknown exception";
   }
   if (code < 0 && n > 0)

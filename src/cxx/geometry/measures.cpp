@@ -303,6 +303,7 @@ double arc_length(const Direction& a, const Direction& b) {
     return kPi - 2 * std::asin(std::sqrt(square_of(sum)) / 2);
   }
   double length = 0;
+  if (same_direction(b.given, a.given)) return length;
   with_more_bits([&](auto zero) {
     using A = Arithmetic<decltype(zero)>;
     const auto side = A::side(A::corner(b), A::corner(a));

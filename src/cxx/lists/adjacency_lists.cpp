@@ -149,6 +149,7 @@ class StarPlaces {
     }
     const auto [first, last] = entries_of(s);
     const Entry* const entry = std::lower_bound(first, last, Entry{wanted, 0});
+    // untested: a node above all neighbours of a node that names it: its own neighbours have told before
     return entry != last && entry->first == wanted ? entry->second : end;
   }
 

@@ -108,6 +108,7 @@ Certified<Int> certify(Patches<Int> patches, const Division& division, Communica
         patches.see_coincidence, questions.exist);
     // Patches may know different pairs of nodes that coincide; the pair that is reported must not depend on
     // them.
+    // untested: nodes in one direction are in the same halos, so patches see them before the first lists
     if (patches.see_coincidence.value) throw PatchesDoNotPay{};
     // Every list has matched, and no hull has grown since: the hulls agree.
     if (!questions.exist.value) return {std::move(patches), {}};

@@ -8,7 +8,7 @@
 namespace pstripack::scvt {
 
 ScaledDensity::ScaledDensity(const Density& density, double largest) : density_(&density), largest_(largest) {
-  constexpr int kOrdinary = 300, kMost = 1000;  // 2^kMost and 2^-kMost are doubles
+  constexpr int kOrdinary = 20, kMost = 1000;  // 2^kMost and 2^-kMost are doubles; floats hold 2^-149
   const int exponent = std::ilogb(largest);
   if (exponent < -kOrdinary || exponent > kOrdinary) exponent_ = std::clamp(exponent, -kMost, kMost);
   factor_ = std::ldexp(1, -exponent_);

@@ -33,7 +33,7 @@ class ScaledDensity {
  public:
   /// The density as it is.
   ScaledDensity(const Density& density) : density_(&density) {}  // NOLINT(google-explicit-constructor)
-  /// For a density whose largest value is about `largest`. The exponent is 0 if that is within 2^+-300.
+  /// For a density whose largest value is about `largest`. The exponent is 0 if that is within 2^+-20.
   ScaledDensity(const Density& density, double largest);
 
   /// The scaled values. Throws BadDensity if one is not positive and finite, or not within 2^+-700.

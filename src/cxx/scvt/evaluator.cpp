@@ -5,6 +5,7 @@
 #include <numeric>
 #include <string>
 
+#include "base/workspace.h"
 #include "geometry/predicates.h"
 #include "lists/limits.h"
 #include "scvt/caller_agreement.h"
@@ -37,10 +38,15 @@ TrmeshResult call_trmesh(const std::vector<Point>& nodes, std::vector<std::int32
   lptr.resize(6 * n - 12);
   lend.resize(n);
   std::int32_t lnew = 0;
-  return canonical_trmesh({static_cast<std::int32_t>(n),
-                           NodeArrays(nodes.data()),
-                           {list.data(), lptr.data(), lend.data(), &lnew},
-                           true});
+  CallWay way;
+  const TrmeshResult result = canonical_trmesh({static_cast<std::int32_t>(n),
+                                                NodeArrays(nodes.data()),
+                                                {list.data(), lptr.data(), lend.data(), &lnew},
+                                                true},
+                                               &way);
+  // Later calls begin with this mesh, and need less memory.
+  if (way.cost.maximum.flips < 0) free_idle_blocks();
+  return result;
 }
 
 /// Turns the lists of the generators in another order, of which generator order[i] is the i-th, into those

@@ -30,8 +30,8 @@ void for_each(std::size_t n, const Body& body) {
   });
 }
 
+/// The cells of generators, and what is summed up over them.
 struct Place {
-  Vectors generators;
   Cells cells;
   double energy = 0;
   double gradient = 0;  ///< Options::tolerance
@@ -48,8 +48,7 @@ class Minimizer {
     // Allocate here what every step needs: the ranks must agree that all have the memory.
     evaluator_.allocate([this] {
       parts_.resize(static_cast<std::size_t>(threads_for(n_)));
-      here_.generators = state_.generators;
-      there_.generators.resize(n_);
+      trial_.resize(n_);
       direction_.resize(n_);
       state_.pairs.reserve(kPairs + 1);
       products_.reserve(kPairs + 1);
@@ -59,9 +58,12 @@ class Minimizer {
   }
 
   Result run() {
-    evaluate(here_);
+    evaluate(state_.generators, here_);
     scale_pairs();
     for (const State::Pair& pair : state_.pairs) products_.push_back(product_of(pair));
+    // Changes that were rounded to 0, because they are those of another density.
+    if (std::any_of(products_.begin(), products_.end(), [](double p) { return !std::isfinite(1 / p); }))
+      forget_pairs();
     if (state_.steps == 0) state_.evaluations = 1;  // of a continued run this evaluation was counted before
     End end = End::converged;
     while (!(here_.gradient <= options_.tolerance)) {
@@ -74,7 +76,6 @@ class Minimizer {
         break;
       }
       ++state_.steps;
-      state_.generators = here_.generators;
       if (options_.progress && !options_.progress(progress())) {
         end = End::stopped;
         break;
@@ -97,7 +98,8 @@ class Minimizer {
     const int by = state_.exponent - evaluator_.scaled().exponent();
     if (by != 0)
       for (State::Pair& pair : state_.pairs)
-        for (Point& p : pair.change) p = {std::ldexp(p.x, by), std::ldexp(p.y, by), std::ldexp(p.z, by)};
+        for (SinglePoint& p : pair.change)
+          p = {std::ldexp(p.x, by), std::ldexp(p.y, by), std::ldexp(p.z, by)};
     state_.exponent = evaluator_.scaled().exponent();
   }
 
@@ -140,11 +142,11 @@ class Minimizer {
     return sum([&](std::size_t i) { return std::array<double, 1>{term(i)}; })[0];
   }
 
-  void evaluate(Place& place) {
+  void evaluate(const Vectors& generators, Place& place) {
     constexpr double kNotFinite = std::numeric_limits<double>::quiet_NaN();
-    last_ = evaluator_.evaluate(place.generators, place.cells);
+    last_ = evaluator_.evaluate(generators, place.cells);
     const auto sums = sum([&](std::size_t i) {
-      const Point& g = place.generators[i];
+      const Point& g = generators[i];
       const Point move = minus(centroid(place.cells, i, g), g);
       return std::array<double, 2>{is_good(place.cells, i) ? place.cells.energy[i] : kNotFinite,
                                    dot(move, move)};
@@ -154,14 +156,18 @@ class Minimizer {
     constexpr double kSphere = 12.566370614359172;
     place.gradient = std::sqrt(sums[1] / total_ / (kSphere / total_));
   }
-  /// Evaluates a trial. Generators without a tessellation have an infinite energy.
-  void try_place(Place& place) {
+  /// Evaluates the trial. Generators without a tessellation have an infinite energy.
+  void evaluate_trial() {
     ++state_.evaluations;
     try {
-      evaluate(place);
+      evaluate(trial_, there_);
     } catch (const BadGenerators&) {
-      place.energy = std::numeric_limits<double>::infinity();
+      there_.energy = std::numeric_limits<double>::infinity();
     }
+  }
+  void accept_trial() {
+    std::swap(state_.generators, trial_);
+    std::swap(here_, there_);
   }
 
   bool step() {
@@ -177,12 +183,12 @@ class Minimizer {
     double part = 1;
     for (int trial = 0; trial < kTrials; ++trial, part /= 2) {
       for_each(n_, [&](std::size_t i) {
-        const Point &g = here_.generators[i], c = centroid(here_.cells, i, g);
-        there_.generators[i] = part == 1 ? c : normalized(plus(g, scaled(part, minus(c, g))));
+        const Point &g = state_.generators[i], c = centroid(here_.cells, i, g);
+        trial_[i] = part == 1 ? c : normalized(plus(g, scaled(part, minus(c, g))));
       });
-      try_place(there_);
+      evaluate_trial();
       if (there_.energy < here_.energy) {
-        std::swap(here_, there_);
+        accept_trial();
         return true;
       }
     }
@@ -203,12 +209,12 @@ class Minimizer {
     double length = most > kLongest ? kLongest / most : 1;
     for (int trial = 0; trial < kTrials; ++trial) {
       for_each(n_, [&](std::size_t i) {
-        there_.generators[i] = normalized(plus(here_.generators[i], scaled(length, direction_[i])));
+        trial_[i] = normalized(plus(state_.generators[i], scaled(length, direction_[i])));
       });
-      try_place(there_);
+      evaluate_trial();
       if (there_.energy <= here_.energy + kSufficient * length * slope && there_.energy < here_.energy) {
         keep_pair();
-        std::swap(here_, there_);
+        accept_trial();
         return true;
       }
       // The minimum of the parabola through both energies with this slope, within bounds.
@@ -227,8 +233,8 @@ class Minimizer {
       spare_.change.resize(n_);
     });
     for_each(n_, [&](std::size_t i) {
-      spare_.step[i] = minus(there_.generators[i], here_.generators[i]);
-      spare_.change[i] = scaled(-2, minus(there_.cells.pull[i], here_.cells.pull[i]));
+      spare_.step[i] = single(minus(trial_[i], state_.generators[i]));
+      spare_.change[i] = single(scaled(-2, minus(there_.cells.pull[i], here_.cells.pull[i])));
     });
     const double product = product_of(spare_);
     if (!(product > 0)) return;
@@ -240,7 +246,7 @@ class Minimizer {
     products_.erase(products_.begin());
   }
   double product_of(const State::Pair& pair) {
-    return sum_of([&](std::size_t i) { return dot(pair.step[i], pair.change[i]); });
+    return sum_of([&](std::size_t i) { return dot(point(pair.step[i]), point(pair.change[i])); });
   }
   void forget_pairs() {
     state_.pairs.clear();
@@ -255,39 +261,39 @@ class Minimizer {
     std::array<double, kPairs> share;
     for_each(n_, [&](std::size_t i) { direction_[i] = scaled(2, here_.cells.pull[i]); });
     for (std::size_t k = count; k-- > 0;) {
-      const Point *const step = state_.pairs[k].step.data(), *const later =
-                                                                 k + 1 < count
-                                                                     ? state_.pairs[k + 1].change.data()
-                                                                     : nullptr;
+      const SinglePoint* const step = state_.pairs[k].step.data();
+      const SinglePoint* const later = k + 1 < count ? state_.pairs[k + 1].change.data() : nullptr;
       share[k] = sum_of([&](std::size_t i) {
-                   if (later != nullptr) direction_[i] = minus(direction_[i], scaled(share[k + 1], later[i]));
-                   return dot(step[i], direction_[i]);
+                   if (later != nullptr)
+                     direction_[i] = minus(direction_[i], scaled(share[k + 1], point(later[i])));
+                   return dot(point(step[i]), direction_[i]);
                  }) /
                  products_[k];
     }
     if (count > 0) {
-      const Point* const first = state_.pairs[0].change.data();
-      for_each(n_, [&](std::size_t i) { direction_[i] = minus(direction_[i], scaled(share[0], first[i])); });
+      const SinglePoint* const first = state_.pairs[0].change.data();
+      for_each(n_, [&](std::size_t i) {
+        direction_[i] = minus(direction_[i], scaled(share[0], point(first[i])));
+      });
     }
     metric_.set(last_, here_.cells);
     metric_.solve(direction_);
     double add = 0;  // coefficient of the step of the pair before
     for (std::size_t k = 0; k < count; ++k) {
-      const Point *const change = state_.pairs[k].change.data(), *const before =
-                                                                     k > 0 ? state_.pairs[k - 1].step.data()
-                                                                           : nullptr;
+      const SinglePoint* const change = state_.pairs[k].change.data();
+      const SinglePoint* const before = k > 0 ? state_.pairs[k - 1].step.data() : nullptr;
       const double other = sum_of([&](std::size_t i) {
                              if (before != nullptr)
-                               direction_[i] = plus(direction_[i], scaled(add, before[i]));
-                             return dot(change[i], direction_[i]);
+                               direction_[i] = plus(direction_[i], scaled(add, point(before[i])));
+                             return dot(point(change[i]), direction_[i]);
                            }) /
                            products_[k];
       add = share[k] - other;
     }
-    const Point* const last = count > 0 ? state_.pairs[count - 1].step.data() : nullptr;
+    const SinglePoint* const last = count > 0 ? state_.pairs[count - 1].step.data() : nullptr;
     for_each(n_, [&](std::size_t i) {
-      const Point& g = here_.generators[i];
-      if (last != nullptr) direction_[i] = plus(direction_[i], scaled(add, last[i]));
+      const Point& g = state_.generators[i];
+      if (last != nullptr) direction_[i] = plus(direction_[i], scaled(add, point(last[i])));
       direction_[i] = minus(direction_[i], scaled(dot(direction_[i], g), g));
     });
   }
@@ -299,7 +305,8 @@ class Minimizer {
   double total_ = 0;     ///< generators of all ranks
   static constexpr std::size_t kMostSums = 2;
   std::vector<std::array<ExactSum, kMostSums>> parts_;  ///< by thread
-  Place here_, there_;                                  ///< the current generators; a trial
+  Vectors trial_;                                       ///< generators after a step that is being tried
+  Place here_, there_;                                  ///< of the generators in the state; of the trial
   Neighbourhood last_;                                  ///< of the last evaluation
   Metric metric_;
   Vectors direction_;

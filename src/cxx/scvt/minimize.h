@@ -7,6 +7,7 @@
 
 #include "geometry/point.h"
 #include "scvt/evaluator.h"
+#include "scvt/vectors.h"
 
 namespace pstripack::scvt {
 
@@ -39,7 +40,7 @@ struct State {
 
   /// A step and the change of the gradient along it, as vectors in space.
   struct Pair {
-    std::vector<Point> step, change;
+    std::vector<SinglePoint> step, change;
   };
 
   std::vector<Point> generators;

@@ -25,7 +25,7 @@ Rows rows_of(const Tessellation& t) {
   const auto add = [&](const Point& p) { rows.values.insert(rows.values.end(), {p.x, p.y, p.z}); };
   for (std::size_t i = 0; i < t.numbers.size(); ++i) {
     add(t.state.generators[i]);
-    for (const State::Pair& pair : t.state.pairs) add(pair.step[i]), add(pair.change[i]);
+    for (const State::Pair& pair : t.state.pairs) add(point(pair.step[i])), add(point(pair.change[i]));
   }
   return rows;
 }
@@ -37,13 +37,16 @@ void take_rows(Tessellation& t, Rows&& rows) {
   t.state.pairs.resize((rows.width - 3) / 6);
   for (State::Pair& pair : t.state.pairs) pair.step.resize(n), pair.change.resize(n);
   const double* value = rows.values.data();
-  const auto take = [&](Point& p) {
-    p = {value[0], value[1], value[2]};
+  const auto next = [&] {
     value += 3;
+    return Point{value[-3], value[-2], value[-1]};
   };
   for (std::size_t i = 0; i < n; ++i) {
-    take(t.state.generators[i]);
-    for (State::Pair& pair : t.state.pairs) take(pair.step[i]), take(pair.change[i]);
+    t.state.generators[i] = next();
+    for (State::Pair& pair : t.state.pairs) {
+      pair.step[i] = single(next());
+      pair.change[i] = single(next());
+    }
   }
 }
 

@@ -284,6 +284,7 @@ class ListEditor {
     const auto [slot, before] = find(n0, [&](Int s) { return entry(s) == nb; });
     const Int last = last_slot(n0);
     if (slot == last) {
+      // untested: Differential.DELNB asks for every code, in children that end before they write counts
       if (neighbour(slot) != nb) return -2;
       if (on_boundary(nb)) entry(before) = -neighbour(before);
       last_slot(n0) = before;

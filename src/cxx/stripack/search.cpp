@@ -60,6 +60,7 @@ class CountedArrays : public CheckedArrays<Int> {
   }
   Int& lend(Int node) const {
     steps_ = 0;
+    // untested: a bound that only broken lists reach; none of the tests' lists does
     if (--most_nodes_ < 0) throw BrokenLists();
     return CheckedArrays<Int>::lend(node);
   }

@@ -224,6 +224,7 @@ class Voronoi {
     const bool complete = numbers_->write(far_triangles(), in_slot_order ? out_.listc : left_.data(),
                                           [&](std::size_t begin, std::size_t end, Int t) {
                                             const VoronoiStatus status = write_centres(begin, end, t);
+                                            // untested: in children of Differential.CRLIST only
                                             if (status == VoronoiStatus::coincident_nodes) coincident = true;
                                             if (status == VoronoiStatus::not_finite) not_finite = true;
                                           });

@@ -1,0 +1,183 @@
+#include "drawing.h"
+
+#include <algorithm>
+#include <memory>
+#include <numeric>
+
+#include "base/parallel_for.h"
+#include "files/map_rings.h"
+#include "pictures/view.h"
+
+namespace bindings {
+namespace {
+
+void expect_no_half_turn(const files::Faces& faces) {
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for (std::size_t k = faces.begin[f]; k < faces.begin[f + 1]; ++k) {
+      const auto at = [&](std::size_t i) {
+        return faces.points[static_cast<std::size_t>(faces.corner[i]) - 1];
+      };
+      if (dot(at(k), at(k + 1 < faces.begin[f + 1] ? k + 1 : faces.begin[f])) >= -1 + 1e-12) continue;
+      const std::string number = std::to_string(f) + " (counted from 0)";
+      if (faces.centres.empty())
+        throw NoTriangulation(
+            NoTriangulation::Cause::too_few,
+            "triangle " + number + " has two corners opposite each other: it cannot be drawn");
+      throw NoTriangulation(
+          NoTriangulation::Cause::too_few,
+          "the cell of node " + number + " reaches halfway around the sphere: add nodes elsewhere",
+          {static_cast<std::int64_t>(f)});
+    }
+}
+
+/// Runs visit(face, add) for each face, on threads; add(outline, x_y) adds an outline, a vector of items, of
+/// which x_y gives the coordinates.
+template <class Visit>
+Outlines collect(std::size_t faces, const Visit& visit) {
+  struct Part {
+    std::vector<double> xy;
+    std::vector<std::int32_t> corners, face;
+  };
+  const int threads = pstripack::threads_for(100 * faces);
+  std::vector<Part> parts(static_cast<std::size_t>(threads));
+  pstripack::ErrorsOfThreads errors(parts.size());
+  pstripack::parallel_pieces(faces, threads, [&](std::size_t first, std::size_t last, int piece) {
+    const auto number = static_cast<std::size_t>(piece);
+    errors.keep(number, [&] {
+      Part& part = parts[number];
+      for (std::size_t f = first; f < last; ++f)
+        visit(f, [&](const auto& outline, const auto& x_y) {
+          for (const auto& corner : outline) {
+            const auto [x, y] = x_y(corner);
+            part.xy.push_back(x);
+            part.xy.push_back(y);
+          }
+          part.corners.push_back(static_cast<std::int32_t>(outline.size()));
+          part.face.push_back(static_cast<std::int32_t>(f));
+        });
+    });
+  });
+  errors.rethrow();
+  const auto joined = [&](auto Part::*member, std::size_t before, auto& to) {
+    std::size_t count = before;
+    for (const Part& part : parts) count += (part.*member).size();
+    to = std::remove_reference_t<decltype(to)>(count);
+    auto* next = to.data() + before;
+    for (const Part& part : parts) next = std::copy((part.*member).begin(), (part.*member).end(), next);
+  };
+  Outlines all;
+  joined(&Part::xy, 0, all.xy);
+  joined(&Part::face, 0, all.face);
+  joined(&Part::corners, 1, all.begin);
+  all.begin[0] = 0;
+  std::partial_sum(all.begin.begin(), all.begin.end(), all.begin.begin());
+  return all;
+}
+
+/// A view, and the coordinates of its places.
+class Drawing {
+ public:
+  explicit Drawing(const Window& window) {
+    const pictures::Frame frame{0, 0, kPixels, kPixels};
+    const pictures::Spot centre{window.lon, window.lat};
+    if (window.orthographic) {
+      auto view = std::make_unique<pictures::Orthographic>(centre, window.radius, frame);
+      x_ = {view->middle().x, 1 / view->scale(), -1, 1};
+      y_ = {view->middle().y, -1 / view->scale(), -1, 1};
+      view_ = std::move(view);
+    } else {
+      auto view = std::make_unique<pictures::LonLat>(centre, window.radius, frame);
+      const pictures::Frame& used = view->frame();
+      // Rounding must not carry a corner over the edge.
+      x_ = {used.left, (view->east() - view->west()) / used.width(), view->west(), view->east()};
+      y_ = {used.bottom, -(view->north() - view->south()) / used.height(), view->south(), view->north()};
+      x_.at_origin = view->west(), y_.at_origin = view->south();
+      view_ = std::move(view);
+    }
+  }
+
+  const pictures::View& view() const { return *view_; }
+  std::pair<double, double> operator()(const pictures::Place& p) const { return {x_.of(p.x), y_.of(p.y)}; }
+
+ private:
+  /// Lines are straight within a twentieth of a pixel.
+  static constexpr double kPixels = 4000;
+  struct Axis {
+    double origin, per_pixel, low, high, at_origin = 0;
+    double of(double pixel) const { return std::clamp(at_origin + (pixel - origin) * per_pixel, low, high); }
+  };
+  Axis x_, y_;
+  std::unique_ptr<const pictures::View> view_;
+};
+
+}  // namespace
+
+files::Faces faces_of(const Triangulation& mesh, bool cells) {
+  files::Faces faces;
+  std::vector<Point> nodes(mesh.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i] = mesh.at(static_cast<std::int32_t>(i));
+  const auto add_corners = [&](const Buffer<std::int32_t>& corners) {
+    faces.corner.resize(corners.size());
+    std::transform(corners.begin(), corners.end(), faces.corner.begin(),
+                   [](std::int32_t c) { return c + 1; });
+  };
+  if (cells) {
+    const Cells found = mesh.cells();
+    faces.points.assign(found.vertices.begin(), found.vertices.end());
+    faces.centres = std::move(nodes);
+    faces.begin.assign(found.corners.begin.begin(), found.corners.begin.end());
+    add_corners(found.corners.values);
+    files::divide_half_turns(faces, mesh.lists());
+  } else {
+    faces.points = std::move(nodes);
+    add_corners(mesh.triangles());
+    for (std::size_t k = 0; k <= faces.corner.size(); k += 3) faces.begin.push_back(k);
+  }
+  expect_no_half_turn(faces);
+  return faces;
+}
+
+Outlines map_polygons(const Triangulation& mesh, bool cells) {
+  const files::Faces faces = faces_of(mesh, cells);
+  const files::MapLines lines(faces);
+  return collect(faces.size(), [&](std::size_t f, const auto& add) {
+    for (const files::MapRing& ring : lines.polygons(f))
+      add(ring, [](const files::MapCorner& c) { return std::pair(c.x(), c.lat); });
+  });
+}
+
+Outlines polygons_in(const Window& window, const Triangulation& mesh, bool cells) {
+  const files::Faces faces = faces_of(mesh, cells);
+  const Drawing drawing(window);
+  return collect(faces.size(), [&](std::size_t f, const auto& add) {
+    std::vector<Point> corners;
+    for (std::size_t k = faces.begin[f]; k < faces.begin[f + 1]; ++k)
+      corners.push_back(faces.points[static_cast<std::size_t>(faces.corner[k]) - 1]);
+    for (const pictures::Outline& outline : drawing.view().polygon(corners)) add(outline, drawing);
+  });
+}
+
+Outlines lines_in(const Window& window, const Triangulation& mesh, bool cells) {
+  const files::Faces faces = faces_of(mesh, cells);
+  const Drawing drawing(window);
+  // Sides on the boundary belong to one triangle, all others to two faces.
+  std::vector<std::int32_t> next_on_boundary(faces.points.size() + 1);
+  if (!cells) {
+    const std::vector<std::int32_t> boundary = mesh.boundary();
+    for (std::size_t k = 0; k < boundary.size(); ++k)
+      next_on_boundary[static_cast<std::size_t>(boundary[k]) + 1] = boundary[(k + 1) % boundary.size()] + 1;
+  }
+  return collect(faces.size(), [&](std::size_t f, const auto& add) {
+    for (std::size_t k = faces.begin[f]; k < faces.begin[f + 1]; ++k) {
+      const std::int32_t from = faces.corner[k],
+                         to = faces.corner[k + 1 < faces.begin[f + 1] ? k + 1 : faces.begin[f]];
+      const auto i = static_cast<std::size_t>(from);
+      if (from > to && next_on_boundary[i] != to) continue;
+      for (const pictures::Outline& line :
+           drawing.view().arc(faces.points[i - 1], faces.points[static_cast<std::size_t>(to) - 1]))
+        add(line, drawing);
+    }
+  });
+}
+
+}  // namespace bindings

@@ -1,0 +1,40 @@
+#include "globe.h"
+
+#include "pictures/globe.h"
+
+namespace bindings {
+namespace {
+
+template <class T>
+std::vector<T> items(const Array<T>& array) {
+  return {array.data(), array.data() + array.size()};
+}
+
+}  // namespace
+
+py::str globe(const std::string& title, const Array<double>& lon, const Array<double>& lat,
+              const Array<std::int32_t>& simplices, const Array<double>& areas, const Array<double>& values,
+              const std::string& name, const std::string& unit, bool shows_values, const std::string& coasts,
+              const std::string& three) {
+  pictures::Globe globe;
+  globe.title = title;
+  globe.first_number = 0;
+  globe.lon = items(lon), globe.lat = items(lat);
+  globe.triangles = items(simplices);
+  globe.areas = items(areas);
+  globe.cells = true;
+  if (shows_values) {
+    globe.value_name = name, globe.value_unit = unit;
+    globe.numbers = items(values);
+  }
+  const std::vector<double> colours = items(values);
+  return compute(0, [&] {
+    globe.shading = pictures::shading_of_numbers(colours, name, unit);
+    if (!coasts.empty())
+      globe.coasts = pictures::read_shapefile(
+          coasts == "yes" ? pictures::natural_earth(pictures::kGlobeDetail) : coasts);
+    return pictures::globe_page(globe, pictures::three_js(three));
+  });
+}
+
+}  // namespace bindings

@@ -1,0 +1,93 @@
+"""What a triangulation shows: tables for other packages, pictures."""
+import abc
+from typing import Any, Optional, Tuple
+
+from . import _core, _plot, _tables
+from ._arrays import Floats
+
+
+class Presentation:
+    """Part of :class:`Delaunay`. Methods import the packages that they need."""
+
+    _mesh: _core.Mesh
+    labels: Any = None  #: the index of the DataFrame that the nodes are from
+
+    @property
+    @abc.abstractmethod
+    def areas(self) -> Floats: ...
+
+    @property
+    @abc.abstractmethod
+    def cell_areas(self) -> Floats: ...
+
+    @abc.abstractmethod
+    def _number(self, threads: Optional[int]) -> int: ...
+
+    def __repr__(self) -> str:
+        nodes, arcs = len(self._mesh.points), len(self._mesh.boundary())
+        triangles = 2 * nodes - (2 + arcs if arcs > 0 else 4)
+        return (f"<pstripack.Delaunay: {nodes} nodes, {triangles} triangles, "
+                + (f"boundary of {arcs} arcs>" if arcs > 0 else "whole sphere>"))
+
+    def to_xarray(self, values: Any = None, what: str = "triangles", *, threads: Optional[int] = None) -> Any:
+        """The triangles or the Voronoi cells as an xarray.Dataset by the UGRID conventions, version 1.0. Needs xarray.
+
+        ``values``: one value of each node, or of each triangle or vertex of cells: an array, a Series, or several as a
+        dict or DataFrame. They become variables with the attributes ``mesh`` and ``location``. Indices count from 0
+        (``start_index``); -1 (``_FillValue``) fills the rows of cells with fewer corners.
+
+        ``what``: "triangles" or "cells". The mesh's nodes are those of the triangulation, or the vertices of the cells.
+        """
+        cells = _tables.kind(what)
+        return _tables.dataset(self._mesh, cells, _tables.named(values, self.labels), self._number(threads))
+
+    def to_geodataframe(self, what: str = "cells", values: Any = None, *, threads: Optional[int] = None) -> Any:
+        """The Voronoi cells or the triangles as a geopandas.GeoDataFrame. Needs geopandas.
+
+        Polygons are counterclockwise, cut at the dateline, closed along a pole inside them, and within 0.001 degrees of
+        the arcs. The column ``area_km2`` is the exact area on a sphere of radius 6371 km, not that of the polygon.
+
+        ``what``: "cells" or "triangles". ``values``: one value of each cell or triangle: an array, a Series, or several
+        as a dict or DataFrame. The index of cells is ``labels``. If the nodes lie in a hemisphere, the cells of boundary
+        nodes share the rest of the sphere.
+        """
+        cells = _tables.kind(what)
+        return _tables.geodataframe(self._mesh, cells, _tables.named(values, self.labels),
+                                    self.cell_areas if cells else self.areas, self.labels, self._number(threads))
+
+    def plot(self, values: Any = None, what: str = "triangles", *, projection: str = "map",
+             center: Optional[Tuple[float, float]] = None, radius: Optional[float] = None, ax: Any = None,
+             edgecolor: Any = None, linewidth: float = 0.5, vmin: Optional[float] = None, vmax: Optional[float] = None,
+             threads: Optional[int] = None, **style: Any) -> Any:
+        """Draws the triangles or the Voronoi cells. Needs matplotlib.
+
+        Parameters
+        ----------
+        values : array_like, optional
+            One value of each node, or of each triangle, which gives the colours; NaN is not drawn. A triangle has the
+            mean of its three nodes. Default: draws lines.
+        what : {"triangles", "cells"}
+        projection : {"map", "orthographic"}
+            Longitude and latitude in degrees, cut opposite the centre; or the view from infinitely far away, without the
+            hidden side.
+        center : (longitude, latitude), optional
+            In degrees. Default: the middle of the nodes, if they lie in a hemisphere.
+        radius : float, optional
+            Draws only what is so near to the centre, in degrees; at 90 a hemisphere or the whole map.
+        ax : matplotlib Axes, optional
+            Default: a new figure. Axes of cartopy draw in their own projection. Limits set before are kept.
+        edgecolor : color, optional
+            Colour of lines; with values they are drawn only if it is given. ``linewidth``: their width in points.
+        vmin, vmax : float, optional
+            Values at the ends of the colour map.
+        **style
+            For the artist: cmap, norm, alpha, ...
+
+        Returns
+        -------
+        matplotlib.collections.PolyCollection with values, for ``plt.colorbar``; else a LineCollection.
+        """
+        cells = _tables.kind(what)
+        given = None if values is None else _tables.numbers(values, self.labels)
+        return _plot.plot(self._mesh, given, cells, projection, center, radius, ax, edgecolor, linewidth, vmin, vmax,
+                          self._number(threads), **style)

@@ -1,0 +1,71 @@
+import base64
+import json
+import re
+from html import unescape
+
+import numpy as np
+import pytest
+
+from pstripack import Delaunay
+from pstripack._globe import MOST_NODES_IN_NOTEBOOKS
+
+
+@pytest.fixture(autouse=True)
+def three(tmp_path, monkeypatch):
+    """In place of three.js."""
+    file = tmp_path / "three.js"
+    file.write_text("exports.WebGLRenderer = 0;")
+    monkeypatch.setenv("PSTRIPACK_THREE", str(file))
+    return file
+
+
+def data_of(page):
+    return json.loads(re.search(r'(?s)<script type="application/json" id="data">(.*?)</script>', page)[1])
+
+
+def doubles(text):
+    return np.frombuffer(base64.b64decode(text), "<f8")
+
+
+def test_the_page_has_the_numbers_of_the_mesh(tmp_path):
+    lon, lat = np.array([0, 90.5, 180, 270, 0, 0, 12.25]), np.array([0, 0, 0, 0, 90, -90, 55.125])
+    mesh = Delaunay.from_lonlat(lon, lat)
+    values = np.array([1.5, np.nan, 3, 4, 5, 6, 7])
+    globe = mesh.globe(values, tmp_path / "globe.html", title="Hütte", name="height", unit="m")
+    assert (tmp_path / "globe.html").read_text(encoding="utf-8") == globe.html
+    data = data_of(globe.html)
+    assert (data["title"], data["name"], data["unit"], data["legend"], data["first"]) == ("Hütte", "height", "m", "height, m", 0)
+    assert np.allclose((doubles(data["lon"]) - lon + 180) % 360, 180, atol=1e-12)
+    assert np.allclose(doubles(data["lat"]), lat, atol=1e-12)
+    assert np.array_equal(doubles(data["areas"]), mesh.cell_areas)
+    assert np.array_equal(doubles(data["numbers"]), values, equal_nan=True)
+    corners = np.frombuffer(base64.b64decode(data["triangles"]), np.uint8).reshape(-1, 3).astype(int)  # all below 128
+    corners[:, 0] = np.cumsum(corners[:, 0])
+    corners[:, 1:] += corners[:, :1]
+    assert np.array_equal(corners, mesh.simplices)
+    assert data_of(mesh.globe().html)["legend"].startswith("area of a cell")
+
+
+def test_cells_of_the_boundary_have_no_area():
+    mesh = Delaunay([[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]])
+    assert np.array_equal(np.isnan(doubles(data_of(mesh.globe().html)["areas"])), [True, True, True, False])
+
+
+def test_notebooks_show_globes_of_meshes_that_are_not_too_large(three):
+    mesh = Delaunay(np.random.default_rng(5).normal(size=(30, 3)))
+    shown = mesh._repr_html_()
+    assert unescape(re.fullmatch(r'<iframe srcdoc="([^"]*)".*></iframe>', shown)[1]) == mesh.globe().html
+    three.unlink()
+    assert "no globe: " in mesh._repr_html_() and "libjs-three" in mesh._repr_html_() and repr(mesh)[1:-1] in mesh._repr_html_()
+    many = Delaunay(np.random.default_rng(5).normal(size=(MOST_NODES_IN_NOTEBOOKS + 1, 3)))
+    assert "more than 20000 nodes" in many._repr_html_()
+
+
+def test_wrong_arguments_are_refused(tmp_path):
+    mesh = Delaunay([[1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    with pytest.raises(ValueError, match="one for each of 3 nodes"):
+        mesh.globe([1, 2])
+    with pytest.raises(RuntimeError, match="no.js: cannot be opened"):
+        mesh.globe(three_file=tmp_path / "no.js")
+    with pytest.raises(RuntimeError, match="no.shp: cannot be opened"):
+        mesh.globe(coasts=tmp_path / "no.shp")

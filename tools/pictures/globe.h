@@ -1,0 +1,42 @@
+#pragma once
+// A globe to turn: one HTML file with the mesh, three.js and the script of globe.html.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pictures/coasts.h"
+#include "pictures/shading.h"
+
+namespace pictures {
+
+/// Coast lines of globes are as fine as those of a picture of this radius, in degrees: readers look closer.
+constexpr double kGlobeDetail = 20;
+
+struct Globe {
+  std::string title;
+  int first_number = 1;                 ///< of nodes and triangles, for readers
+  std::vector<double> lon, lat;         ///< of the nodes, in degrees
+  std::vector<std::int32_t> triangles;  ///< corners from 0, counterclockwise, smallest first, in its order
+  std::vector<double> areas;            ///< of the Voronoi cells, in steradians; NaN: open; empty: not known
+  bool cells = false;                   ///< the faces are cells; else triangles
+  Shading shading;                      ///< of the faces
+  std::string value_name, value_unit;   ///< of the values that readers see
+  std::vector<double> numbers;          ///< one for each node; empty: none
+  std::vector<std::string> words;       ///< in place of numbers
+  Lines coasts;
+  std::optional<std::array<double, 2>>
+      centre;                    ///< of the first view: longitude, latitude; none: of the nodes
+  std::optional<double> radius;  ///< of the first view, in degrees; none: all nodes
+};
+
+/// The text of three.js: of `file`, or of the one that PSTRIPACK_THREE names, or of Debian's. Throws
+/// std::runtime_error if it is missing or an ES module.
+std::string three_js(const std::string& file);
+
+/// The HTML file. It needs no other file and no network.
+std::string globe_page(const Globe& globe, const std::string& three);
+
+}  // namespace pictures

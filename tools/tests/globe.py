@@ -1,0 +1,375 @@
+"""Checks globes: the data in them against what other commands write, and, given a browser, what its user sees.
+
+globe.py PSTRIPACK FOLDER [CHROMIUM]
+"""
+import base64
+import csv
+import json
+import math
+import os
+import re
+import struct
+import subprocess
+import sys
+import tempfile
+import zlib
+from html.parser import HTMLParser
+from pathlib import Path
+
+PROGRAM, FOLDER = sys.argv[1], Path(sys.argv[2]).resolve()
+
+
+def run(*arguments):
+    return subprocess.run([PROGRAM, "-q", *map(str, arguments)], check=True, capture_output=True, text=True).stdout
+
+
+def table(name):
+    with open(FOLDER / name, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def km2(area):
+    return area * 6371 * 6371
+
+
+def doubles(text):
+    content = base64.b64decode(text)
+    return list(struct.unpack(f"<{len(content) // 8}d", content))
+
+
+def integers(text):
+    result, value, shift = [], 0, 0
+    for byte in base64.b64decode(text):
+        value |= (byte & 127) << shift
+        shift += 7
+        if byte < 128:
+            result.append(value)
+            value = shift = 0
+    return result
+
+
+def triangles(text):
+    result, first, values = [], 0, integers(text)
+    for k in range(0, len(values), 3):
+        first += values[k]
+        result.append((first, first + values[k + 1], first + values[k + 2]))
+    return result
+
+
+class Page(HTMLParser):
+    """The scripts of a globe by their id. Fails on whatever would load something."""
+
+    def __init__(self, name):
+        super().__init__()
+        self.scripts, self.open = [], None
+        self.text = (FOLDER / name).read_text(encoding="utf-8")
+        self.feed(self.text)
+        assert len(self.scripts) == 3, len(self.scripts)
+        self.data = json.loads(self.scripts[1])
+
+    def handle_starttag(self, tag, attrs):
+        assert tag not in ("link", "img", "iframe") and not {"src", "href"} & dict(attrs).keys(), (tag, attrs)
+        if tag == "script":
+            self.scripts.append("")
+            self.open = tag
+
+    def handle_endtag(self, tag):
+        self.open = None
+
+    def handle_data(self, data):
+        if self.open:
+            self.scripts[-1] += data
+
+
+def write_shapefile(name, lines):
+    records = b""
+    for number, line in enumerate(lines):
+        shape = struct.pack("<i4d3i", 3, 0, 0, 0, 0, 1, len(line), 0) + b"".join(struct.pack("<2d", *p) for p in line)
+        records += struct.pack(">2i", number + 1, len(shape) // 2) + shape
+    header = struct.pack(">7i", 9994, 0, 0, 0, 0, 0, 50 + len(records) // 2) + struct.pack("<2i8d", 1000, 3, *[0] * 8)
+    (FOLDER / name).write_bytes(header + records)
+
+
+def make_inputs():
+    os.chdir(FOLDER)
+    run("points", "random", 300, "-o", "nodes.txt", "--to", "lonlat")
+    rows = [line.split() for line in Path("nodes.txt").read_text().splitlines() if not line.startswith("#")]
+    with open("nodes.csv", "w", encoding="utf-8") as file:
+        file.write("lon,lat,height,kind\n")
+        for k, (lon, lat) in enumerate(rows):
+            file.write(f"{float(lon) % 360!r},{lat},{'' if k == 7 else k * k / 7 - 1000},{'Où</script>' if k % 3 else 'b'}\n")
+    write_shapefile("coast.shp", [[(0, 0), (20, 1.00001), (170, -60)], [(-170.5, 80), (10, 89)]])
+    run("points", "cap:0.3", 200, "-o", "region.txt")
+
+
+def check_data():
+    Path("three.js").write_text('exports.WebGLRenderer = "</script>";\n')
+    stub = "--three-file", "three.js"
+    run("plot", "nodes.csv", "--what", "cells", "--colour", "height", "--coast-file", "coast.shp", "--title",
+        "</script><b>Où\\", "-o", "cells.html", *stub)
+    page = Page("cells.html")
+    data, given = page.data, table("nodes.csv")
+    assert "MIT License" in page.scripts[0] and r'"<\/script>"' in page.scripts[0]
+    assert data["title"] == "</script><b>Où\\" and data["first"] == 1 and data["cells"] is True
+    lon, lat = doubles(data["lon"]), doubles(data["lat"])
+    assert all(math.isclose((x - float(row["lon"])) % 360, 0, abs_tol=1e-12) or x == float(row["lon"])
+               for x, row in zip(lon, given))
+    assert lat == [float(row["lat"]) for row in given]
+    run("triangulate", "nodes.csv", "-o", "mesh.off")
+    numbers = [line.split() for line in Path("mesh.off").read_text().splitlines()]
+    assert triangles(data["triangles"]) == [tuple(map(int, line[1:])) for line in numbers if line[0] == "3" and len(line) == 4]
+    run("voronoi", "nodes.csv", "-o", "cells.csv")
+    cells = table("cells.csv")
+    assert list(map(km2, doubles(data["areas"]))) == [float(row["area_km2"]) for row in cells]
+    heights = doubles(data["numbers"])
+    assert math.isnan(heights[7]) and all(h == float(row["height"]) for h, row in zip(heights, given) if row["height"])
+    # The colours divide the scale, which ends at the first and the last tick, into 64 steps; the 65th is for no value.
+    assert len(data["colours"]) == 65 and data["ticks"][0] == [0, "-2000"] and data["ticks"][-1][0] == 1
+    low, high = float(data["ticks"][0][1]), float(data["ticks"][-1][1])
+    for height, shade in zip(heights, integers(data["shades"])):
+        assert shade == 64 if math.isnan(height) else abs(shade / 63 - (height - low) / (high - low)) < 0.5001 / 63
+    signed = [value >> 1 ^ -(value & 1) for value in integers(data["coasts"])]
+    assert signed == [-2, 0, 0, 2000000, 100001, 15000000, -6100001, 1, -34050000, 14000000, 18050000, 900000], signed
+
+    run("plot", "nodes.csv", "--what", "cells", "--colour", "kind", "--view", "orthographic:10,50", "--radius", 20, "-o", "kinds.html", *stub)
+    data = Page("kinds.html").data
+    assert data["words"] == [row["kind"] for row in given] and data["labels"][:2] == ["Où</script>", "b"], data["labels"]
+    assert data["centre"] == [10, 50] and data["radius"] == 20 and "ticks" not in data
+
+    # A region: cells of the boundary are open. Triangles that are not those of Delaunay: no cells.
+    (FOLDER / "region.html").write_text(run("plot", "region.txt", "--to", "html", "-o", "-", *stub))
+    data = Page("region.html").data
+    run("voronoi", "region.txt", "-o", "region.csv")
+    areas = doubles(data["areas"])
+    boundary = int(re.search(r"boundary *(\d+) nodes", run("info", "region.txt"))[1])
+    assert sum(map(math.isnan, areas)) == boundary and data["cells"] is False and "shades" not in data
+    assert all(math.isnan(area) or km2(area) == float(row["area_km2"]) for area, row in zip(areas, table("region.csv")))
+    (FOLDER / "other.off").write_text("OFF\n4 2 0\n0.9 0.3 0.3\n0.9 -0.3 0.3\n0.9 -0.3 -0.3\n0.9 0.3 -0.31\n3 0 1 3\n3 1 2 3\n")
+    run("plot", "other.off", "-o", "other.html", *stub)
+    assert triangles(Page("other.html").data["triangles"]) == [(0, 1, 3), (1, 2, 3)]
+
+    run("points", "icosahedral", 40962, "-o", "many.txt")
+    run("plot", "many.txt", "--what", "cells", "--colour", "area", "-o", "many.html", *stub)
+    assert (FOLDER / "many.html").stat().st_size < 5e6  # three.min.js has 850 kB
+
+
+class Browser:
+    """Chromium without a window. It takes commands of its DevTools protocol from a pipe: JSON, each ended by a zero byte."""
+
+    def __init__(self, program, profile):
+        theirs_in, self.out = os.pipe()
+        self.into, theirs_out = os.pipe()
+
+        def connect():  # the browser reads from 3 and writes to 4
+            os.dup2(os.dup2(theirs_in, 100), 3)
+            os.dup2(os.dup2(theirs_out, 101), 4)
+
+        self.process = subprocess.Popen([program, "--headless", "--no-sandbox", "--use-angle=swiftshader",
+                                         "--enable-unsafe-swiftshader", "--remote-debugging-pipe", f"--user-data-dir={profile}"],
+                                        preexec_fn=connect, close_fds=False, stderr=subprocess.DEVNULL)
+        os.close(theirs_in), os.close(theirs_out)
+        self.number, self.session, self.events, self.buffer = 0, {}, [], b""
+        page = next(t for t in self("Target.getTargets")["targetInfos"] if t["type"] == "page")
+        self.session = {"sessionId": self("Target.attachToTarget", targetId=page["targetId"], flatten=True)["sessionId"]}
+        for domain in "Page", "Runtime", "Log", "Network":
+            self(domain + ".enable")
+
+    def message(self):
+        while b"\0" not in self.buffer:
+            self.buffer += os.read(self.into, 1 << 20) or sys.exit("globe: Chromium has ended")
+        text, self.buffer = self.buffer.split(b"\0", 1)
+        return json.loads(text)
+
+    def __call__(self, method, **params):
+        self.number += 1
+        os.write(self.out, json.dumps({"id": self.number, "method": method, "params": params, **self.session}).encode() + b"\0")
+        while True:
+            answer = self.message()
+            if answer.get("id") == self.number:
+                return answer["result"]
+            self.events.append(answer)
+
+    def js(self, expression):
+        answer = self("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
+        assert "exceptionDetails" not in answer, answer
+        return answer["result"].get("value")
+
+    def open(self, name, width=900, height=800):
+        """Opens a globe. It must load nothing else and say nothing."""
+        self("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+        self("Page.navigate", url="about:blank")  # so that another address after # loads the file again
+        self.js("0")
+        self.events.clear()
+        self("Page.navigate", url=f"file://{FOLDER}/{name}")
+        while not any(event["method"] == "Page.loadEventFired" for event in self.events):
+            self.events.append(self.message())
+        self.after_drawing()
+        said = [e for e in self.events if e["method"] in ("Runtime.consoleAPICalled", "Runtime.exceptionThrown", "Log.entryAdded")]
+        asked = [e["params"]["request"]["url"] for e in self.events if e["method"] == "Network.requestWillBeSent"]
+        assert not said and len(asked) == 1, (said, asked)
+        return self.js("globe.opened") / 1000
+
+    def after_drawing(self):
+        self.js("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+
+    def text(self, name):
+        self.after_drawing()
+        return self.js(f"document.getElementById('{name}').innerText")
+
+    def mouse(self, kind, x, y, **more):
+        self("Input.dispatchMouseEvent", type=kind, x=x, y=y, **more)
+
+    def key(self, key, **more):
+        for kind in "keyDown", "keyUp":
+            self("Input.dispatchKeyEvent", type=kind, key=key, code=key, **more)
+
+    def close(self):
+        self("Browser.close")
+        self.process.wait()
+
+
+def pixels(png):
+    """The rows of a PNG of 8 bits, still filtered: equal pixels give few different rows and bytes."""
+    assert png[:8] == b"\x89PNG\r\n\x1a\n"
+    width, height = struct.unpack(">2I", png[16:24])
+    chunks, at = b"", 8
+    while at < len(png):
+        (size,) = struct.unpack(">I", png[at:at + 4])
+        if png[at + 4:at + 8] == b"IDAT":
+            chunks += png[at + 8:at + 8 + size]
+        at += size + 12
+    return width, height, zlib.decompress(chunks)
+
+
+def digits(value, places=6):
+    """12,345.7, as the page shows numbers."""
+    text = f"{float(f'{value:.{places}g}'):,.10f}".rstrip("0").rstrip(".")
+    return text
+
+
+def tell(name, nodes, seconds):
+    print(f"globe: {nodes} nodes, {(FOLDER / name).stat().st_size / 1e6:.1f} MB, open in {seconds:.1f} s")
+
+
+def check_in_browser(program):
+    run("plot", "nodes.csv", "--what", "cells", "--colour", "height", "--coast-file", "coast.shp", "-o", "cells.html")
+    run("plot", "region.txt", "--what", "cells", "--colour", "area", "-o", "region.html")
+    run("plot", "nodes.csv", "-o", "triangles.html")
+    (FOLDER / "three.txt").write_text("1 0 0\n0 1 0\n0 0 1\n")
+    run("plot", "three.txt", "--what", "cells", "-o", "three.html")
+    run("points", "fibonacci", 1000000, "-o", "many.raw")
+    run("plot", "many.raw", "--from", "raw", "--coordinates", "xyz", "--what", "cells", "--colour", "area", "-o", "far.html")
+    run("plot", "many.txt", "--what", "cells", "--colour", "area", "-o", "many.html")
+    data, cells = Page("cells.html").data, table("cells.csv")
+    lon, lat = doubles(data["lon"]), doubles(data["lat"])
+    corners = triangles(data["triangles"])
+    browser = Browser(program, tempfile.mkdtemp(dir=FOLDER))
+
+    # The node in the middle of the view, with what other commands write about it.
+    def near(x, y):
+        def cosine(k):
+            a, b = math.radians(lat[k]), math.radians(y)
+            return math.sin(a) * math.sin(b) + math.cos(a) * math.cos(b) * math.cos(math.radians(lon[k] - x))
+        return max(range(len(lon)), key=cosine)
+
+    def spherical(triangle):
+        """The area by the sum of the angles, which differs from the page's way."""
+        p = [[math.cos(math.radians(lat[k])) * math.cos(math.radians(lon[k])),
+              math.cos(math.radians(lat[k])) * math.sin(math.radians(lon[k])), math.sin(math.radians(lat[k]))] for k in triangle]
+        def angle(a, b, c):
+            u, v = ([s - sum(x * y for x, y in zip(a, q)) * r for s, r in zip(q, a)] for q in (b, c))
+            return math.acos(sum(x * y for x, y in zip(u, v)) / math.hypot(*u) / math.hypot(*v))
+        return sum(angle(p[k], p[k - 1], p[k - 2]) for k in range(3)) - math.pi
+
+    for x, y in (10, 50), (-130, -20.5), (179.9, 0), (0, 90), (77, -89):
+        seconds = browser.open(f"cells.html#{x},{y},30")
+        k = near(x, y)
+        beside = {corner + 1 for triangle in corners if k in triangle for corner in triangle if corner != k}
+        height = cells[k]["height"]
+        east = (lon[k] + 180) % 360 - 180
+        expected = [f"node {k + 1}", f"{digits(abs(lat[k]), 8)}° {'NS'[lat[k] < 0]}, {digits(abs(east), 9)}° {'EW'[east < 0]}",
+                    f"height: {digits(float(height)) if height else 'none'}", f"cell {digits(float(cells[k]['area_km2']))} km²",
+                    f"{len(beside)} neighbours: "]
+        said = browser.text("node")
+        start, numbers = said.rsplit(": ", 1)
+        got = start.split("; ")
+        assert [got[0], *got[2:]] == [expected[0], *expected[2:4], expected[4][:-2]], (said, expected)
+        place = re.fullmatch(r"([0-9.]+)° ([NS]), ([0-9.]+)° ([EW])", got[1])
+        assert abs(float(place[1]) * (1 if place[2] == "N" else -1) - lat[k]) <= 0.5000001e-6
+        assert abs(float(place[3]) * (1 if place[4] == "E" else -1) - east) <= 0.5000001e-6
+        assert set(map(int, numbers.split())) == beside, (said, beside)
+    tell("cells.html", 300, seconds)
+
+    # Mouse, keys, buttons, search. After a drag to the right the view is further west.
+    browser.open("cells.html#10,50,30")
+    browser.mouse("mousePressed", 450, 350, button="left", buttons=1)
+    browser.mouse("mouseMoved", 550, 350, button="left", buttons=1)
+    browser.mouse("mouseReleased", 550, 350, button="left")
+    west = browser.js("globe.view.lon")
+    assert west < 0, west
+    browser.mouse("mouseWheel", 450, 350, deltaX=0, deltaY=-100)
+    browser.after_drawing()
+    assert browser.js("globe.view.half") < 0.49
+    browser.js("document.getElementById('number').focus()")
+    browser("Input.insertText", text="17")
+    browser("Emulation.setEmulatedMedia", features=[{"name": "prefers-reduced-motion", "value": "reduce"}])
+    browser.key("Enter", text="\r", windowsVirtualKeyCode=13)
+    assert browser.text("node").startswith("node 17; ") and abs(browser.js("globe.view.lat") - lat[16]) < 1e-9
+    order = []
+    for _ in range(12):
+        browser.key("Tab", windowsVirtualKeyCode=9)
+        order.append(browser.js("document.activeElement.id || document.activeElement.textContent"))
+    assert order[:11] == ["find", "cells", "triangles", "nodes", "coasts", "nearer", "farther", "reset", "save", "globe",
+                          browser.js("document.querySelector('#neighbours button').textContent")], order
+    browser.js("document.getElementById('globe').focus()")
+    for key, value, sign in ("ArrowRight", "lon", 1), ("ArrowUp", "lat", 1), ("ArrowLeft", "lon", -1), ("ArrowDown", "lat", -1), ("+", "half", -1):
+        before = browser.js(f"globe.view.{value}")
+        browser.key(key)
+        assert (browser.js(f"globe.view.{value}") - before) * sign > 0, key
+    browser.key("Home")
+    assert browser.text("view") == "above 30° N, 0° E" and browser.text("node").startswith(f"node {near(0, 30) + 1}; ")
+    width, height, content = pixels(base64.b64decode(browser("Page.captureScreenshot")["data"]))
+    assert (width, height) == (900, 800) and len(set(content)) > 100
+    width, height, content = pixels(base64.b64decode(browser.js("globe.picture().toDataURL()").split(",")[1]))
+    assert width == 900 and height > 600 and len(set(content)) > 100
+
+    # Python counts from 0, and no address names node 0.
+    (FOLDER / "zero.html").write_text(Page("cells.html").text.replace('"first":1,', '"first":0,'), encoding="utf-8")
+    browser.open("zero.html")
+    assert browser.text("view") == "above 30° N, 0° E" and browser.text("node") == ""
+    browser.open("zero.html#0")
+    assert browser.text("node").startswith("node 0; ")
+
+    # Triangles, with their areas; a region, outside of which there is nothing; points, and cells from near.
+    browser.open("triangles.html#10,50,30")
+    found = re.search(r"triangle (\d+): ([0-9.,]+) km²", browser.text("node"))
+    assert near(10, 50) in corners[int(found[1]) - 1] and found[2] == digits(km2(spherical(corners[int(found[1]) - 1]))), found
+    browser.open("region.html", 360, 640)
+    browser.mouse("mouseMoved", 180, 300)
+    assert browser.text("node").startswith("node ")
+    browser.mouse("mouseMoved", 5, 300)
+    assert browser.text("node") == ""
+    # Each of three cells has two sides that end beyond the boundary; pairs of them are one: 125 degrees, 128 pieces.
+    browser.open("three.html")
+    lines = browser.js("globe.drawn.lines")
+    browser.js("document.getElementById('cells').click()")
+    browser.after_drawing()
+    assert lines - browser.js("globe.drawn.lines") == 3 * 128
+    seconds = browser.open("far.html")
+    assert browser.js("globe.drawn.triangles") < 1000 and browser.js("globe.drawn.points") >= 1000000
+    tell("far.html", 1000000, seconds)
+    browser.js("Object.assign(globe.view, {half: 0.02}), document.getElementById('nearer').click()")
+    browser.js("new Promise(done => setTimeout(done, 1000))")
+    assert browser.js("globe.drawn.triangles") > 1000 and browser.js("globe.drawn.lines") > 1000
+    seconds = browser.open("many.html")
+    tell("many.html", 40962, seconds)
+    assert seconds < 20
+    browser.close()
+
+
+FOLDER.mkdir(parents=True, exist_ok=True)
+make_inputs()
+check_data()
+if len(sys.argv) > 3:
+    check_in_browser(sys.argv[3])
+print("globe: all checks passed")
