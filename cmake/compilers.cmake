@@ -3,6 +3,8 @@
 #   PSTRIPACK_CXX_FLAGS, PSTRIPACK_FORTRAN_FLAGS   options that give IEEE arithmetic, whatever CMAKE_<LANG>_FLAGS hold
 #   PSTRIPACK_FORTRAN_LINKER   language of the compiler that links the Fortran libraries
 #   fortran_runtime            for C++ programs that link them
+#   PSTRIPACK_FORTRAN_LIBS     options of a linker for programs of C or of another Fortran compiler that link them;
+#   PSTRIPACK_FORTRAN_ARCHIVE_LIBS   also needed for archives
 
 # In Clang -fno-fast-math switches contraction on, so it stands first.
 set(PSTRIPACK_CXX_FLAGS -Wall -Wextra -fno-fast-math -ffp-contract=off)
@@ -27,10 +29,16 @@ set(PSTRIPACK_FORTRAN_LINKER Fortran)
 add_library(fortran_runtime INTERFACE)
 if(CMAKE_Fortran_COMPILER_ID STREQUAL LLVMFlang)
   set(PSTRIPACK_FORTRAN_LINKER CXX)
-  target_link_libraries(fortran_runtime INTERFACE FortranRuntime FortranDecimal)
-  target_link_directories(fortran_runtime INTERFACE ${CMAKE_Fortran_IMPLICIT_LINK_DIRECTORIES})
-else()
+  foreach(library FortranRuntime FortranDecimal)
+    find_library(PSTRIPACK_${library} ${library} PATHS ${CMAKE_Fortran_IMPLICIT_LINK_DIRECTORIES} REQUIRED)
+    mark_as_advanced(PSTRIPACK_${library})
+    target_link_libraries(fortran_runtime INTERFACE ${PSTRIPACK_${library}})
+    string(APPEND PSTRIPACK_FORTRAN_LIBS " ${PSTRIPACK_${library}}")
+  endforeach()
+  string(APPEND PSTRIPACK_FORTRAN_LIBS " -lm")
+elseif(CMAKE_Fortran_COMPILER_ID STREQUAL GNU)
   target_link_libraries(fortran_runtime INTERFACE gfortran)
+  set(PSTRIPACK_FORTRAN_ARCHIVE_LIBS " -lgfortran")
 endif()
 
 # What is assumed of the target and of the Fortran compiler. Nothing is run, so that this works for other processors.

@@ -98,8 +98,10 @@ if("c++" IN_LIST CMAKE_CXX_IMPLICIT_LINK_LIBRARIES)
 endif()
 find_package(OpenMP COMPONENTS CXX)
 foreach(library IN LISTS OpenMP_CXX_LIB_NAMES)
-  if(NOT library STREQUAL "pthread")  # in the C library, or linked by -lgomp and -lomp
-    string(APPEND PSTRIPACK_RUNTIME_LIBS " -l${library}")
+  if(library STREQUAL "gomp")
+    string(APPEND PSTRIPACK_RUNTIME_LIBS " -lgomp")
+  elseif(NOT library STREQUAL "pthread")  # LLVM's is in a folder that other compilers do not search; it links pthread
+    string(APPEND PSTRIPACK_RUNTIME_LIBS " ${OpenMP_${library}_LIBRARY}")
   endif()
 endforeach()
 string(APPEND PSTRIPACK_RUNTIME_LIBS " -lm")

@@ -16,7 +16,7 @@ mkdir -p "$folder"
 folder=$(cd "$folder" && pwd)
 archive=$(cd "$here" && "$1" -c "import sys, setuptools.build_meta as b; print(b.build_sdist(sys.argv[1]))" "$folder" | tail -n 1)
 for python; do
-  "$python" -m pip wheel --no-deps --wheel-dir "$folder" "$folder/$archive"
+  "$python" -m pip wheel --no-deps --no-cache-dir --wheel-dir "$folder" "$folder/$archive"
 done
 for wheel in "$folder"/pstripack-*.whl; do
   "$1" "$here/tests/wheel_tag.py" "$wheel"

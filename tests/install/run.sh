@@ -59,11 +59,16 @@ if [ -n "$mpiexec" ]; then
   unset LD_LIBRARY_PATH
 fi
 
-echo "== the static archives alone"
-gfortran -I "$prefix/include/pstripack/stripack" "$consumer/legacy.F90" -o "$work/static" \
-  $(pkg-config --libs --static stripack | sed "s|-lstripack|$libdir/libstripack.a|; s|-lpstripack|$libdir/libpstripack.a|")
-"$work/static"
-if ldd "$work/static" | grep -q pstripack; then echo "the static program needs a shared pstripack" >&2; exit 1; fi
+echo "== the static archives alone, from Fortran and C"
+archives=$(pkg-config --libs --static stripack | sed "s|-lstripack|$libdir/libstripack.a|; s|-lpstripack|$libdir/libpstripack.a|")
+# shellcheck disable=SC2086
+gfortran -I "$prefix/include/pstripack/stripack" "$consumer/legacy.F90" -o "$work/static" $archives
+# shellcheck disable=SC2086
+cc "$consumer/legacy.c" -o "$work/static_c" $archives
+for program in static static_c; do
+  "$work/$program"
+  if ldd "$work/$program" | grep -q pstripack; then echo "$program needs a shared pstripack" >&2; exit 1; fi
+done
 
 if [ -x "$prefix/bin/stripack-compare" ]; then
   echo "== stripack-compare, by itself and beside a program"

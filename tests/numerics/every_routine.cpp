@@ -29,7 +29,11 @@ class Hash {
   void add(T value) {
     if constexpr (std::is_floating_point_v<T>)
       if (std::isnan(value)) value = std::numeric_limits<T>::quiet_NaN();
-    std::uint64_t bits = 0;
+    // The same number on big-endian machines.
+    std::conditional_t<sizeof value == 8, std::uint64_t,
+                       std::conditional_t<sizeof value == 4, std::uint32_t, std::uint8_t>>
+        bits;
+    static_assert(sizeof bits == sizeof value);
     std::memcpy(&bits, &value, sizeof value);
     state_ = (state_ ^ bits) * 0x9e3779b97f4a7c15;
     state_ ^= state_ >> 32;

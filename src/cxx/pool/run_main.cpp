@@ -221,6 +221,8 @@ class ErrorLines {
   void leave_to_mpirun() { close(ends_[1]); }
   /// True if a line has named the rank because of which the job ends.
   bool has_named_rank() const { return has_named_rank_; }
+  /// True if Open MPI has refused to start more ranks than there are processors.
+  bool lack_of_slots() const { return lack_of_slots_; }
 
   /// Forwards what has arrived so far. False at the end of the stream.
   bool pass_on() {
@@ -249,13 +251,14 @@ class ErrorLines {
         names_rank && has_named_rank_ && line.find(" was lost ") != std::string::npos;
     if (!is_another_loss) write_all(line);
     has_named_rank_ = has_named_rank_ || names_rank;
+    lack_of_slots_ = lack_of_slots_ || line.find("not enough slots available") != std::string::npos;
   }
   static void write_all(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stderr); }
 
   const std::string kRank = "pstripack: rank ";
   int ends_[2] = {-1, -1};
   std::string text_;
-  bool has_named_rank_ = false;
+  bool has_named_rank_ = false, lack_of_slots_ = false;
 };
 
 /// Ends this process as the model ended: with the same exit code or by the same signal.
@@ -356,6 +359,9 @@ int main(int, char** argv) {
   if (WIFSIGNALED(mpirun_status) && !told_to_end)
     std::fprintf(stderr, "pstripack-run: mpirun was ended by signal %d, and the model with it\n",
                  WTERMSIG(mpirun_status));
+  else if (errors.lack_of_slots())
+    std::fprintf(stderr, "pstripack-run: more ranks than processors: pstripack-run -n %d --oversubscribe -- COMMAND\n",
+                 arguments.ranks);
   else if ((model.process > 0 || model.has_ended) && !told_to_end && !errors.has_named_rank())
     std::fprintf(stderr,
                  "pstripack-run: mpirun has ended the job with exit code %d: a machine is lost, or a rank, "

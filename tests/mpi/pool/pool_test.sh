@@ -125,6 +125,11 @@ never)
   pool ./missing > missing.out 2> missing.err
   [ $? -eq 127 ] || fail "a missing program: exit code"
   grep -q 'missing: No such file' missing.err || fail "a missing program: message"
+  if [ "$OPEN_MPI" = TRUE ]; then
+    OMPI_MCA_rmaps_base_oversubscribe=0 "$RUN" -n 999 true > many.out 2> many.err && fail "999 ranks have slots"
+    tail -n 1 many.err | grep -qx 'pstripack-run: more ranks than processors: pstripack-run -n 999 --oversubscribe -- COMMAND' ||
+      fail "too many ranks: message"
+  fi
   ;;
 signal)
   as_without kill9 "$CALLER" kill 9
