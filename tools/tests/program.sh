@@ -682,7 +682,7 @@ bad_scvt)
     refuses 1 "miles.nc: variable cellWidth: units 'miles'; expected km or m" scvt --width-file miles.nc -o failed.off
   fi
   if [ "$(awk '/MemTotal/ { print $2 }' /proc/meminfo)" -lt 300000000 ]; then
-    refuses 1 "353404399 generators need about 389 GB, this machine has " -q scvt --width 1.291km -o failed.off
+    refuses 1 "353404399 generators need about 265 GB, this machine has " -q scvt --width 1.291km -o failed.off
   fi
   for width in 0 -60km nankm 60miles km; do
     refuses 2 "'$width' is no width: expected, say, 60km" scvt "--width=$width" -o failed.off
