@@ -4,17 +4,15 @@
 #include <cmath>
 
 #include "commands.h"
-#include "files/nodes.h"
 #include "point_sets.h"
 
 namespace comparison {
 
 using pstripack::Point;
 
-std::vector<Point> read_nodes(const std::string& file) {
-  files::ReadOptions options;
+std::vector<Point> read_nodes(const std::string& file, files::ReadOptions options) {
   options.exit_code = kUsage;
-  return file != "-" && files::is_netcdf(file) ? files::read(file, options).points : point_sets::read(file);
+  return files::read(file, options).points;
 }
 
 void put_in_order(std::vector<Point>& points, const std::string& order, std::uint64_t seed) {

@@ -5,13 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "files/nodes.h"
 #include "geometry/point.h"
 
 namespace comparison {
 
-/// Reads nodes from text in the format of point_sets::read, or from NetCDF in that of files::read. Throws
-/// std::runtime_error with one line that says what was expected where.
-std::vector<pstripack::Point> read_nodes(const std::string& file);
+/// Reads nodes as pstripack does (files::read). Throws std::runtime_error with one line that says what was
+/// expected where.
+std::vector<pstripack::Point> read_nodes(const std::string& file, files::ReadOptions options = {});
 
 /// Orders: "given"; "shuffled"; "sorted" by z (latitude), then by longitude. Of the orders found in models
 /// the last one is about the slowest for a method that inserts nodes one after another.

@@ -39,7 +39,7 @@ struct Source {
 std::vector<Source> sources_of(const RunOptions& options) {
   std::vector<Source> sources;
   const auto add_file = [&](const std::string& file) {
-    sources.push_back({std::filesystem::path(file).filename().string(), read_nodes(file)});
+    sources.push_back({std::filesystem::path(file).filename().string(), read_nodes(file, options.read)});
     if (const std::size_t n = sources.back().read.size(); n < 3)
       throw std::runtime_error(
           fmt::format("{}: a triangulation needs at least 3 nodes, here are {}", file, n));

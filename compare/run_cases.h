@@ -8,12 +8,14 @@
 
 #include "chosen_original.h"
 #include "commands.h"
+#include "files/nodes.h"
 
 namespace comparison {
 
 struct RunOptions {
   std::vector<std::string> points;  ///< families; "all": point_sets::families(); file:PATH
   std::vector<std::string> files;
+  files::ReadOptions read;  ///< how the files are read
   std::size_t n = 10000;
   std::uint64_t seed = 1;
   std::vector<std::string> orders{"given"}, precisions, abis;  // precisions, abis: empty if not chosen

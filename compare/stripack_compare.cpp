@@ -105,7 +105,23 @@ void add_run_options(CLI::App& app, RunOptions& options) {
   };
   list("--points", options.points, "families, see below; `all`: random to hemisphere-rim; file:PATH");
   list("--file", options.files,
-       "text (lines of `lon lat` in degrees or of `x y z`; - is stdin), generators, NetCDF");
+       "all that pstripack reads: text (lines of `lon lat` or `x y z`, tables; - is stdin), NetCDF, GeoJSON, "
+       "OFF");
+  app.add_option("--columns", options.read.columns, "lon,lat or x,y,z: names, or in text numbers");
+  app.add_option_function<std::string>(
+         "--units",
+         [&](const std::string& word) {
+           options.read.units = word == "degrees" ? files::Units::degrees : files::Units::radians;
+         },
+         "of angles, where the file does not say: degrees, radians")
+      ->check(CLI::IsMember({"degrees", "radians"}).description(""));
+  app.add_option_function<std::string>(
+         "--coordinates",
+         [&](const std::string& word) {
+           options.read.coordinates = word == "xyz" ? files::Coordinates::xyz : files::Coordinates::lonlat;
+         },
+         "of the files, where the columns do not tell: lonlat, xyz")
+      ->check(CLI::IsMember({"lonlat", "xyz"}).description(""));
   app.add_option("--n", options.n, "number of nodes of a family [10000]");
   app.add_option("--seed", options.seed, "seed of families and of shuffling [1]");
   choice("--order", options.orders, "given, shuffled, sorted (by latitude) [given]",

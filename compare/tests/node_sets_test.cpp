@@ -52,10 +52,19 @@ std::string error_of(const std::string& file) {
   return "no error";
 }
 
-TEST(files, of_text_are_told_from_netcdf_by_their_contents) {
+TEST(files, are_read_as_pstripack_reads_them) {
   const std::string file = testing::TempDir() + "node_sets_test_text.nc";
   std::ofstream(file) << "1 0 0\n0 1 0\n0 0 1\n";
   EXPECT_EQ(read_nodes(file), (Points{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}));
+  std::ofstream(file) << "name;lat;lon\na;0;0\nb;0;90\nc;90;0\n";
+  EXPECT_EQ(read_nodes(file), (Points{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}));
+  std::ofstream(file) << R"({"type": "MultiPoint", "coordinates": [[0, 0], [90, 0], [0, 90]]})";
+  EXPECT_EQ(read_nodes(file), (Points{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}));
+  std::ofstream(file) << "0 0\n1 0\n0 1\n";
+  EXPECT_NE(error_of(file).find("say --units degrees or --units radians"), std::string::npos);
+  files::ReadOptions degrees;
+  degrees.units = files::Units::degrees;
+  EXPECT_NEAR(read_nodes(file, degrees)[1].y, 0.01745240643728351, 1e-17);
   std::ofstream(file) << "CDF, it says";
   EXPECT_NE(error_of(file).find("NetCDF"), std::string::npos) << error_of(file);
 }

@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <limits>
 #include <numeric>
 #include <tuple>
-#include <unordered_map>
 #include <utility>
 
-#include "base/splitmix64.h"
 #include "files/map_rings.h"
 #include "files/measures.h"
+#include "files/pieces.h"
 #include "geometry/predicates.h"
 #include "point_sets.h"
 #include "stripack/list_queries.h"
@@ -19,61 +16,6 @@
 
 namespace files {
 namespace {
-
-struct HashOfBits {
-  std::size_t operator()(const Point& p) const {
-    std::uint64_t hash = 0;
-    for (const double v : {p.x + 0.0, p.y + 0.0, p.z + 0.0}) {  // -0 equals 0
-      std::uint64_t bits;
-      std::memcpy(&bits, &v, sizeof bits);
-      hash = pstripack::splitmix64(hash ^ bits);
-    }
-    return hash;
-  }
-};
-
-/// Collects rings as faces. Corners with the same coordinates are stored once.
-class Pieces {
- public:
-  explicit Pieces(const Faces& cells) : cells_(cells) { faces_.begin.push_back(0); }
-
-  void add(const MapRing& ring, std::size_t cell) {
-    std::vector<std::int32_t> corners;
-    for (const MapCorner& c : ring) {
-      const auto [known, is_new] =
-          number_.try_emplace(c.p, static_cast<std::int32_t>(faces_.points.size() + 1));
-      if (is_new) {
-        faces_.points.push_back(c.p);
-        faces_.given_points.lon.push_back(wrapped(c.lon));
-        faces_.given_points.lat.push_back(c.lat);
-      }
-      if (corners.empty() || corners.back() != known->second) corners.push_back(known->second);
-    }
-    while (corners.size() > 1 && corners.back() == corners.front()) corners.pop_back();
-    if (corners.size() < 3) return;
-    faces_.area.push_back(is_whole(ring, cell) && !cells_.area.empty()
-                              ? cells_.area[cell]
-                              : std::numeric_limits<double>::quiet_NaN());
-    faces_.corner.insert(faces_.corner.end(), corners.begin(), corners.end());
-    faces_.begin.push_back(faces_.corner.size());
-    faces_.centres.push_back(cells_.centres[cell]);
-    faces_.nodes.push_back(cells_.node_of(cell));
-  }
-  Faces take() { return std::move(faces_); }
-
- private:
-  bool is_whole(const MapRing& ring, std::size_t cell) const {
-    const std::size_t begin = cells_.begin[cell];
-    if (ring.size() != cells_.corners(cell)) return false;
-    for (std::size_t k = 0; k < ring.size(); ++k)
-      if (ring[k].p != cells_.points[static_cast<std::size_t>(cells_.corner[begin + k]) - 1]) return false;
-    return true;
-  }
-
-  const Faces& cells_;
-  Faces faces_;
-  std::unordered_map<Point, std::int32_t, HashOfBits> number_;
-};
 
 /// A side of the hull, counterclockwise.
 struct Side {

@@ -1,7 +1,10 @@
 #pragma once
 // Voronoi cells cut at the hull of their nodes or at a region of longitudes and latitudes.
 
+#include <vector>
+
 #include "files/mesh.h"
+#include "files/width_regions.h"
 
 namespace files {
 
@@ -18,5 +21,13 @@ Faces clipped_to_hull(const Faces& cells, const Mesh& mesh);
 /// than 1e-10 degrees. Parallels are approximated by arcs of great circles within 0.0001 degrees. Throws
 /// NoMesh if a side is a half turn.
 Faces clipped_to_region(const Faces& cells, const Region& region);
+
+/// The parts of whole cells in each of the polygons, of which every part belongs to one. Sides of polygons
+/// are straight on the map, approximated by arcs of great circles within 0.0001 degrees. A part with a hole
+/// is cut in two; where polygons surround the sphere, cells are also cut at the meridians 0 and 180. Corners
+/// of cells are as exact as doubles; which side of a border of two cells a corner of a polygon lies on is
+/// decided in both alike. So the areas of the parts of a polygon add up to its own. Throws NoMesh if the
+/// rings of a polygon cross.
+Faces clipped_to_polygons(const Faces& cells, const std::vector<MapRegion>& polygons);
 
 }  // namespace files

@@ -56,4 +56,20 @@ LonLat angles_of(const std::vector<pstripack::Point>& points, const LonLat& give
   return angles;
 }
 
+Columns at_nodes(const Columns& columns, const std::vector<std::size_t>& nodes) {
+  Columns found = columns;
+  for (Column& column : found) {
+    column.numbers = values_at(column.numbers, nodes);
+    column.texts = values_at(column.texts, nodes);
+  }
+  return found;
+}
+
+LonLat at_nodes(const LonLat& angles, const std::vector<std::size_t>& nodes) {
+  LonLat found = angles;
+  found.lon = values_at(angles.lon, nodes);
+  found.lat = values_at(angles.lat, nodes);
+  return found;
+}
+
 }  // namespace files

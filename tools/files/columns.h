@@ -54,6 +54,10 @@ std::vector<Value> values_at(const std::vector<Value>& values, const std::vector
   return found;
 }
 
+/// The columns and the angles at these nodes.
+Columns at_nodes(const Columns& columns, const std::vector<std::size_t>& nodes);
+LonLat at_nodes(const LonLat& angles, const std::vector<std::size_t>& nodes);
+
 /// Keeps the values with these indices, which increase.
 template <class Value>
 void keep(std::vector<Value>& values, const std::vector<std::size_t>& indices) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -31,26 +32,23 @@ std::vector<std::string> names_of(const Columns& columns) {
 /// Collects points and properties from one feature after another.
 class Features {
  public:
-  explicit Features(Nodes& nodes) : nodes_(nodes) {}
+  Features(Nodes& nodes, const ReadOptions& options) : nodes_(nodes), options_(options) {}
 
-  /// Throws if the feature has no geometry, or one other than Point or MultiPoint.
+  /// Throws if the feature has no geometry, unless missing ones are kept, or one other than Point or
+  /// MultiPoint.
   void add(const json& feature) {
     ++count_;
     const auto geometry = feature.find("geometry"), properties = feature.find("properties");
-    if (geometry == feature.end() || !geometry->is_object())
-      fail("has no geometry: remove it, or give it a Point");
-    const std::string type = text_of(*geometry, "type");
-    if (type != "Point" && type != "MultiPoint")
-      fail(
-          fmt::format("'{}' is not a Point or MultiPoint: nodes are points{}", excerpt(type),
-                      type.find("Polygon") != type.npos ? "; meshes are read from UGRID, MPAS and OFF" : ""));
-    const auto coordinates = geometry->find("coordinates");
-    if (coordinates == geometry->end() || !coordinates->is_array()) fail("its geometry has no coordinates");
+    if (options_.with_cells && properties != feature.end() && is_cell(*properties))
+      return add_cell(*properties);
+    const bool has_geometry = geometry != feature.end() && geometry->is_object();
+    if (!has_geometry && !options_.keep_missing)
+      fail("has no geometry: remove it, give it a Point, or say --skip-missing");
     const std::size_t first = nodes_.lines.size();
-    if (type == "Point")
-      add_point(*coordinates);
+    if (has_geometry)
+      add_points(*geometry);
     else
-      for (const json& point : *coordinates) add_point(point);
+      add_node(kMissing, kMissing);
     if (properties == feature.end() || !properties->is_object()) return;
     for (const auto& [name, value] : properties->items())
       for (std::size_t i = first; i < nodes_.lines.size(); ++i) set(name, i, value);
@@ -67,18 +65,55 @@ class Features {
   }
 
  private:
+  /// True for the properties of a cell of `voronoi`.
+  static bool is_cell(const json& properties) {
+    const auto has = [&](const char* name) {
+      const auto found = properties.find(name);
+      return found != properties.end() && found->is_number();
+    };
+    return has("lon") && has("lat") && has("node") && has("degree") && has("area");
+  }
+
+  /// Adds the node of the cell; of several parts of a cell once.
+  void add_cell(const json& properties) {
+    nodes_.kind = "GeoJSON, nodes of cells, lon lat in degrees";
+    if (!cells_.insert(properties["node"].get<double>()).second) return;
+    add_point({properties["lon"], properties["lat"]});
+    for (const auto& [name, value] : properties.items()) set(name, nodes_.lines.size() - 1, value);
+  }
+
   [[noreturn]] void fail(const std::string& what) const {
     throw std::runtime_error(fmt::format("{}: feature {}: {}", nodes_.file, count_, what));
+  }
+
+  void add_points(const json& geometry) {
+    const std::string type = text_of(geometry, "type");
+    if (type != "Point" && type != "MultiPoint")
+      fail(fmt::format("'{}' is not a Point or MultiPoint: nodes are points{}", excerpt(type),
+                       type.find("Polygon") != type.npos
+                           ? "; meshes are read from UGRID, MPAS and OFF, "
+                             "`plot` also takes the cells of `pstripack voronoi`"
+                           : ""));
+    const auto coordinates = geometry.find("coordinates");
+    if (coordinates == geometry.end() || !coordinates->is_array()) fail("its geometry has no coordinates");
+    if (type == "Point")
+      add_point(*coordinates);
+    else
+      for (const json& point : *coordinates) add_point(point);
+  }
+
+  void add_node(double lon, double lat) {
+    nodes_.given.lon.push_back(lon);
+    nodes_.given.lat.push_back(lat);
+    nodes_.lines.push_back(count_);
   }
 
   void add_point(const json& point) {
     const auto is_number = [](const json& value) { return value.is_number(); };
     if (!point.is_array() || point.size() < 2 || !std::all_of(point.begin(), point.end(), is_number))
       fail("expected coordinates [longitude, latitude] or [longitude, latitude, altitude]");
-    nodes_.given.lon.push_back(point[0].get<double>());
-    nodes_.given.lat.push_back(point[1].get<double>());
     if (point.size() > 2) set("altitude", nodes_.lines.size(), point[2]);
-    nodes_.lines.push_back(count_);
+    add_node(point[0].get<double>(), point[1].get<double>());
   }
 
   void set(const std::string& name, std::size_t i, const json& value) {
@@ -97,13 +132,16 @@ class Features {
   }
 
   Nodes& nodes_;
+  const ReadOptions& options_;
+  std::set<double> cells_;  ///< numbers of their nodes
   Columns columns_;
   std::size_t count_ = 0;
 };
 
-const std::vector<double>* numbers_of_all(const Columns& columns, const char* name) {
+/// `may_miss`: some may be NaN.
+const std::vector<double>* numbers_of_all(const Columns& columns, const char* name, bool may_miss = false) {
   const Column* const c = find(columns, name);
-  const auto is_missing = [](double v) { return std::isnan(v); };
+  const auto is_missing = [&](double v) { return !may_miss && std::isnan(v); };
   return c == nullptr || c->is_text() || std::any_of(c->numbers.begin(), c->numbers.end(), is_missing)
              ? nullptr
              : &c->numbers;
@@ -183,7 +221,7 @@ Nodes read_geojson(const std::string& file, const ReadOptions& options, const st
   nodes.file = file;
   nodes.kind = "GeoJSON, lon lat in degrees";
   nodes.lines_are = "feature";
-  Features features(nodes);
+  Features features(nodes, options);
   const json root = read_features(contents, file, "points", {"Point", "MultiPoint"},
                                   [&](const json& feature, std::size_t) { features.add(feature); });
   const std::size_t n = nodes.given.lon.size();
@@ -203,7 +241,7 @@ Nodes read_geojson(const std::string& file, const ReadOptions& options, const st
     const std::vector<double>* axes[3];
     for (std::size_t k = 0; k < 3; ++k) {
       constexpr const char* kNames[] = {"x", "y", "z"};
-      axes[k] = numbers_of_all(columns, kNames[k]);
+      axes[k] = numbers_of_all(columns, kNames[k], options.keep_missing);
       if (axes[k] == nullptr)
         throw std::runtime_error(fmt::format(
             "{}: --coordinates xyz needs the property '{}', a number, of all features", file, kNames[k]));

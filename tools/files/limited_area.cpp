@@ -334,15 +334,9 @@ Mesh cut(const Mesh& mesh) {
     if (*std::min_element(t.begin(), t.end()) >= 0) triangles.push_back(t);
   }
   Mesh part = mesh_with_boundary(values_at(mesh.points, kept), triangles);
-  part.given.degrees = mesh.given.degrees;
-  part.given.lon = values_at(mesh.given.lon, kept);
-  part.given.lat = values_at(mesh.given.lat, kept);
+  part.given = at_nodes(mesh.given, kept);
   part.density = values_at(mesh.density, kept);
-  for (const Column& column : mesh.columns) {
-    Column& here = part.columns.emplace_back(column);
-    here.numbers = values_at(column.numbers, kept);
-    here.texts = values_at(column.texts, kept);
-  }
+  part.columns = at_nodes(mesh.columns, kept);
   std::vector<double> layers;
   for (const std::size_t i : kept) layers.push_back(mesh.layers[i]);
   if (find(part.columns, kBdyMaskCell) == nullptr)

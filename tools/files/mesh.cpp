@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/parallel_for.h"
+#include "files/near_nodes.h"
 #include "geometry/measures.h"
 #include "lists/limits.h"
 #include "mesh/delaunay.h"
@@ -271,6 +272,23 @@ std::vector<std::int32_t> triangles_of(const Mesh& mesh) {
   return triangles;
 }
 
+std::vector<std::int32_t> triangles_to_write(const Mesh& mesh) {
+  std::vector<std::int32_t> all = triangles_of(mesh);
+  if (mesh.longest == 0) return all;
+  const auto is_short = [&](std::int32_t a, std::int32_t b) {
+    return is_near(mesh.points[static_cast<std::size_t>(a) - 1], mesh.points[static_cast<std::size_t>(b) - 1],
+                   mesh.longest);
+  };
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < all.size(); t += 3) {
+    const std::int32_t a = all[t], b = all[t + 1], c = all[t + 2];
+    if (!is_short(a, b) || !is_short(b, c) || !is_short(c, a)) continue;
+    for (const std::int32_t corner : {a, b, c}) all[kept++] = corner;
+  }
+  all.resize(kept);
+  return all;
+}
+
 std::vector<Point> unit(const std::vector<Point>& points) {
   std::vector<Point> result(points.size());
   pstripack::parallel_pieces(
@@ -313,26 +331,63 @@ std::size_t Faces::most_corners() const {
 
 namespace {
 
-std::vector<double> triangle_areas(const std::vector<Point>& points,
-                                   const std::vector<std::int32_t>& triangles) {
-  std::vector<double> areas(triangles.size() / 3);
+/// measure(nodes, a, b, c) of all triangles, on threads.
+template <class Measure>
+std::vector<double> measures_of(const std::vector<Point>& points, const std::vector<std::int32_t>& triangles,
+                                const Measure& measure) {
+  std::vector<double> all(triangles.size() / 3);
   const pstripack::Directions nodes(points.data(), points.size());
   for_each_triangle(triangles, [&](std::size_t t, pstripack::index_t a, pstripack::index_t b,
-                                   pstripack::index_t c) { areas[t] = triangle_area(nodes, a, b, c); });
-  return areas;
+                                   pstripack::index_t c) { all[t] = measure(nodes, a, b, c); });
+  return all;
+}
+
+/// The faces are these triangles.
+Faces faces_of(const std::vector<Point>& points, const std::vector<std::int32_t>& triangles) {
+  Faces faces;
+  faces.points = unit(points);
+  faces.corner = triangles;
+  faces.begin.resize(triangles.size() / 3 + 1);
+  for (std::size_t f = 0; f < faces.begin.size(); ++f) faces.begin[f] = 3 * f;
+  faces.area = measures_of(points, triangles, [](const auto&... nodes) { return triangle_area(nodes...); });
+  return faces;
 }
 
 }  // namespace
 
 Faces triangle_faces(const Mesh& mesh) {
-  Faces faces;
-  faces.points = unit(mesh.points);
-  faces.corner = triangles_of(mesh);
-  faces.begin.resize(faces.corner.size() / 3 + 1);
-  for (std::size_t f = 0; f < faces.begin.size(); ++f) faces.begin[f] = 3 * f;
-  faces.area = triangle_areas(mesh.points, faces.corner);
+  Faces faces = faces_of(mesh.points, triangles_to_write(mesh));
   faces.with_edges = mesh.with_edges;
   return faces;
+}
+
+std::vector<std::int32_t> hull_of(const Mesh& mesh) {
+  if (!mesh.has_boundary()) throw NoMesh("the nodes surround the sphere: they have no hull");
+  std::vector<std::int32_t> corners(mesh.points.size());
+  corners.resize(
+      static_cast<std::size_t>(pstripack::boundary_nodes(mesh.lists(), corners.data()).boundary_nodes));
+  return corners;
+}
+
+Links links_of(const Mesh& mesh) {
+  const pstripack::Directions nodes(mesh.points.data(), mesh.points.size());
+  const pstripack::ListReader<std::int32_t> reader(mesh.lists());
+  Links links;
+  std::vector<std::int32_t> larger;
+  for (std::int32_t node = 1; node <= reader.size(); ++node) {
+    larger.clear();
+    reader.for_each_neighbour(node, [&](std::int32_t neighbour) {
+      if (neighbour > node) larger.push_back(neighbour);
+    });
+    std::sort(larger.begin(), larger.end());
+    for (const std::int32_t neighbour : larger) {
+      const double length = arc_length(direction_of(nodes, node - 1), direction_of(nodes, neighbour - 1));
+      if (mesh.longest > 0 && length > mesh.longest) continue;
+      links.nodes.insert(links.nodes.end(), {node, neighbour});
+      links.length.push_back(length);
+    }
+  }
+  return links;
 }
 
 Edges edges_of(const Faces& faces) {
@@ -379,16 +434,58 @@ Edges edges_of(const Faces& faces) {
   return edges;
 }
 
+namespace {
+
+/// x / sin(x) - 1 for the angle x between two unit vectors: below 0.2 by its series.
+double over_sine_minus_1(const Point& p, const Point& q) {
+  const double sine = length(cross(p, minus(q, p))), x = std::atan2(sine, dot(p, q)), square = x * x;
+  if (x > 0.2) return x / sine - 1;
+  double sum = 0;
+  for (const double term : {8191.0 / 37362124800, 1414477.0 / 653837184000, 73.0 / 3421440, 127.0 / 604800,
+                            31.0 / 15120, 7.0 / 360, 1.0 / 6})
+    sum = (sum + term) * square;
+  return sum;
+}
+
+/// The centroid of a polygon: the direction of the integral of p over it, which is half the sum over its
+/// sides, from p to q, of their length in the direction of p x q. Differences from the first corner g, in a
+/// frame with g upwards, keep the digits of small and of thin polygons: with p = g + d and q = g + e the
+/// sides add (length / sine of length) (d x e + g x (e - d)), and the sum of all e - d is 0.
+template <class PointAt>
+Point centroid(std::size_t corners, const PointAt& point) {
+  const Point g = point(0), east = unit(cross(std::fabs(g.z) < 0.9 ? Point{0, 0, 1} : Point{1, 0, 0}, g)),
+              north = cross(g, east);
+  const auto in_frame = [&](const Point& p) -> Point {
+    const Point d = minus(p, g);
+    return {dot(d, east), dot(d, north), -dot(d, d) / 2};
+  };
+  Point sum{0, 0, 0}, p = g;
+  for (std::size_t k = 0; k < corners; ++k) {
+    const Point q = point((k + 1) % corners), d = in_frame(p), e = in_frame(q), twice = cross(d, e);
+    const double more = over_sine_minus_1(p, q);
+    sum = {sum.x + (1 + more) * twice.x - more * (e.y - d.y),
+           sum.y + (1 + more) * twice.y + more * (e.x - d.x), sum.z + (1 + more) * twice.z};
+    p = q;
+  }
+  const Point moment{sum.x * east.x + sum.y * north.x + sum.z * g.x,
+                     sum.x * east.y + sum.y * north.y + sum.z * g.y,
+                     sum.x * east.z + sum.y * north.z + sum.z * g.z};
+  const Point centre = unit(moment);
+  return std::isfinite(centre.x + centre.y + centre.z) ? centre : g;  // all corners are one
+}
+
+}  // namespace
+
 std::vector<Point> centroids(const Faces& faces) {
   std::vector<Point> centres(faces.size());
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    Point sum{0, 0, 0};
-    for (std::size_t k = faces.begin[f]; k < faces.begin[f + 1]; ++k) {
-      const Point& p = faces.points[static_cast<std::size_t>(faces.corner[k]) - 1];
-      sum = {sum.x + p.x, sum.y + p.y, sum.z + p.z};
-    }
-    centres[f] = unit(sum);
-  }
+  pstripack::parallel_pieces(
+      centres.size(), pstripack::threads_for(8 * centres.size()),
+      [&](std::size_t first, std::size_t last, int) {
+        for (std::size_t f = first; f < last; ++f)
+          centres[f] = centroid(faces.corners(f), [&](std::size_t k) {
+            return faces.points[static_cast<std::size_t>(faces.corner[faces.begin[f] + k]) - 1];
+          });
+      });
   return centres;
 }
 
@@ -483,7 +580,13 @@ std::vector<double> areas(const Faces& faces) {
           const std::size_t begin = faces.begin[f], end = faces.begin[f + 1];
           for (std::size_t k = begin + kAhead; k < std::min(end + kAhead, corners); ++k)
             __builtin_prefetch(&faces.points[static_cast<std::size_t>(faces.corner[k]) - 1]);
-          if (faces.centres.empty()) {
+          // Parts of a cell may be far from its node, and small.
+          const auto is_small = [&] {
+            for (std::size_t k = begin; k < end; ++k)
+              if (dot(point(begin), point(k)) < 0.5) return false;
+            return true;
+          };
+          if (faces.centres.empty() || (!faces.nodes.empty() && is_small())) {
             for (std::size_t k = begin + 1; k + 1 < end; ++k)
               all[f] += triangle_area(point(begin), point(k), point(k + 1));
           } else {
@@ -497,37 +600,80 @@ std::vector<double> areas(const Faces& faces) {
 
 namespace {
 
-void add_columns(Faces& faces, const Columns& of_mesh, std::vector<double>&& degrees) {
-  const bool are_cells = !faces.centres.empty();
+Columns area_columns(const Faces& faces) {
   Column area{"area", "area of the face on the unit sphere", "sr"};
   area.numbers = areas(faces);
   Column area_km2{"area_km2", "area of the face on a sphere of radius 6371 km", "km2"};
   area_km2.numbers.reserve(area.numbers.size());
   for (const double a : area.numbers) area_km2.numbers.push_back(a * kEarthRadius * kEarthRadius);
+  return {area, area_km2};
+}
+
+/// The columns of faces that we compute. `nodes`: of triangles, as given.
+Columns measures_of(const Faces& faces, const std::vector<Point>& nodes) {
+  Columns columns = area_columns(faces);
+  if (faces.centres.empty()) {
+    Column radius{"circumradius_km", "circumradius of the triangle on a sphere of radius 6371 km", "km"};
+    radius.numbers =
+        measures_of(nodes, faces.corner, [](const pstripack::Directions& at, auto a, auto b, auto c) {
+          return kEarthRadius *
+                 circumcircle(direction_of(at, a), direction_of(at, b), direction_of(at, c)).radius;
+        });
+    columns.push_back(std::move(radius));
+    return columns;
+  }
+  LonLat angles(centroids(faces), true);
+  Column lon{"centroid_lon", "longitude of the centroid of the face", "degrees"},
+      lat{"centroid_lat", "latitude of the centroid of the face", "degrees"};
+  lon.numbers = std::move(angles.lon);
+  lat.numbers = std::move(angles.lat);
+  columns.push_back(std::move(lon));
+  columns.push_back(std::move(lat));
+  return columns;
+}
+
+void add_columns(Faces& faces, const std::vector<Point>& nodes, const Columns& of_mesh,
+                 std::vector<double>&& degrees) {
+  const bool are_cells = !faces.centres.empty();
+  Columns measures = measures_of(faces, nodes);
   Columns& of_nodes = are_cells ? faces.columns_of_faces : faces.columns_of_points;
   of_nodes = of_mesh;
   Column degree = whole_numbers("degree", "number of neighbours of the node", std::move(degrees));
+  std::vector<std::string> names{degree.name};
+  for (const Column& c : measures) names.push_back(c.name);
   const auto is_ours = [&](const Column& c) {
-    return (c.name == degree.name && c.long_name == degree.long_name) ||
-           (c.name == area.name && c.long_name == area.long_name) ||
-           (c.name == area_km2.name && c.long_name == area_km2.long_name);
+    const Column* const ours = c.name == degree.name ? &degree : find(measures, c.name);
+    return ours != nullptr && ours->long_name == c.long_name;
   };
   of_nodes.erase(std::remove_if(of_nodes.begin(), of_nodes.end(), is_ours), of_nodes.end());
-  make_names_differ(of_nodes, {degree.name, area.name, area_km2.name});
+  make_names_differ(of_nodes, names);
   of_nodes.push_back(std::move(degree));
   if (are_cells && !faces.nodes.empty()) {
-    for (Column& column : of_nodes) {
-      column.numbers = values_at(column.numbers, faces.nodes);
-      column.texts = values_at(column.texts, faces.nodes);
-    }
-    for (auto* const angles : {&faces.given_centres.lon, &faces.given_centres.lat})
-      *angles = values_at(*angles, faces.nodes);
+    of_nodes = at_nodes(of_nodes, faces.nodes);
+    faces.given_centres = at_nodes(faces.given_centres, faces.nodes);
   }
-  faces.columns_of_faces.push_back(std::move(area));
-  faces.columns_of_faces.push_back(std::move(area_km2));
+  for (Column& column : measures) faces.columns_of_faces.push_back(std::move(column));
 }
 
 }  // namespace
+
+Faces hull_face(const Mesh& mesh) {
+  const std::vector<double> of_triangles = triangle_faces(mesh).area;
+  Faces hull;
+  std::vector<std::size_t> corners;
+  for (const std::int32_t node : hull_of(mesh)) {
+    corners.push_back(static_cast<std::size_t>(node) - 1);
+    hull.corner.push_back(static_cast<std::int32_t>(corners.size()));
+  }
+  hull.points = unit(values_at(mesh.points, corners));
+  hull.given_points = at_nodes(mesh.given, corners);
+  hull.begin = {0, corners.size()};
+  hull.area = {std::accumulate(of_triangles.begin(), of_triangles.end(), 0.0)};
+  hull.columns_of_faces = area_columns(hull);
+  hull.columns_of_faces.push_back(
+      whole_numbers("corners", "number of corners", {static_cast<double>(corners.size())}));
+  return hull;
+}
 
 void add_columns(Faces& faces, const Mesh& mesh) {
   (faces.centres.empty() ? faces.given_points : faces.given_centres) = mesh.given;
@@ -539,7 +685,7 @@ void add_columns(Faces& faces, const Mesh& mesh) {
           reader.for_each_neighbour(static_cast<std::int32_t>(i + 1), [&](std::int32_t) { ++degrees[i]; });
         }
       });
-  add_columns(faces, mesh.columns, std::move(degrees));
+  add_columns(faces, mesh.points, mesh.columns, std::move(degrees));
 }
 
 std::vector<std::int32_t> MeshPart::corners_by_number() const {
@@ -550,13 +696,8 @@ std::vector<std::int32_t> MeshPart::corners_by_number() const {
 }
 
 Faces triangle_faces(const MeshPart& part) {
-  Faces faces;
-  faces.points = unit(part.points);
-  faces.corner = part.corner;
-  faces.begin.resize(faces.corner.size() / 3 + 1);
-  for (std::size_t f = 0; f < faces.begin.size(); ++f) faces.begin[f] = 3 * f;
-  faces.area = triangle_areas(part.points, part.corner);
-  add_columns(faces, part.columns, std::vector<double>(part.degrees));
+  Faces faces = faces_of(part.points, part.corner);
+  add_columns(faces, part.points, part.columns, std::vector<double>(part.degrees));
   faces.points.resize(part.nodes);
   faces.corner = part.corners_by_number();
   faces.share_of_points = part.share_of_nodes;

@@ -33,6 +33,7 @@ struct Mesh {
   Notes notes;
   double radius = 1;        ///< of the sphere in MPAS files
   bool with_edges = false;  ///< UGRID files also get the edges
+  double longest = 0;       ///< radians: triangles with a longer side are no faces; 0: all are
   std::vector<std::int32_t> list, lptr, lend;
   std::int32_t lnew = 0;
 
@@ -76,6 +77,9 @@ Mesh mesh_of(std::vector<Point> points, const pstripack::Triangles& triangles);
 /// Three corners per triangle, counterclockwise, the smallest first.
 std::vector<std::int32_t> triangles_of(const Mesh& mesh);
 
+/// Those without a side longer than mesh.longest.
+std::vector<std::int32_t> triangles_to_write(const Mesh& mesh);
+
 std::vector<Point> unit(const std::vector<Point>& points);
 
 /// The circumcentres of the triangles of the directions of the points.
@@ -111,23 +115,37 @@ struct Edges {
 };
 Edges edges_of(const Faces& faces);
 
-/// The centroid of each face: the direction of the sum of its corners.
+/// The centroid of each face: the direction of the integral of p over it. Right to 1e-15 rad for each unit of
+/// the face's length over its width, if no side is nearly a half turn.
 std::vector<Point> centroids(const Faces& faces);
 
 /// The areas of the faces in steradians; from their corners, where faces.area does not know them.
 std::vector<double> areas(const Faces& faces);
 
-/// The triangles as faces.
+/// The triangles without a side longer than mesh.longest as faces.
 Faces triangle_faces(const Mesh& mesh);
+
+/// The convex hull of the nodes as a face, with its area in sr and km2 and its number of corners as columns.
+/// Throws NoMesh if the nodes surround the sphere.
+Faces hull_face(const Mesh& mesh);
+/// The numbers of its corners, counterclockwise. As hull_face().
+std::vector<std::int32_t> hull_of(const Mesh& mesh);
+
+/// The arcs of the triangulation that are not longer than mesh.longest, in increasing order of their nodes.
+struct Links {
+  std::vector<std::int32_t> nodes;  ///< two for each link, the smaller first
+  std::vector<double> length;       ///< radians
+};
+Links links_of(const Mesh& mesh);
 
 /// The Voronoi diagram: one face per node. If the nodes lie in a hemisphere, the cells of the boundary nodes
 /// share the rest of the sphere, as in STRIPACK's CRLIST. Throws NoMesh if the areas of the cells are not
-/// certain to make up the sphere. A table of the cells needs no corners.
+/// certain to make up the sphere. A table of their areas needs no corners.
 Faces voronoi_faces(const Mesh& mesh, bool with_corners = true);
 
 /// Adds the columns that files of faces can hold: the nodes' own columns and given angles, their numbers of
-/// neighbours, and the areas of the faces in sr and km2. Own columns with one of these names get `_given`
-/// appended.
+/// neighbours, the areas of the faces in sr and km2, and the circumradii of triangles or the centroids of
+/// cells. Own columns with one of these names get `_given` appended.
 void add_columns(Faces& faces, const Mesh& mesh);
 
 /// One process's part of a mesh that covers the sphere: consecutive nodes, and the triangles whose smallest

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "files/map_rings.h"
+#include "files/measures.h"
 #include "files/netcdf_writer.h"
 #include "files/writers.h"
 
@@ -267,11 +268,127 @@ void write_netcdf_grid(const OutputFile& file, const Grid& grid, const Field& fi
   const auto [lon, lat] = out.lon_lat("lon", "lat", {n_lon}, {n_lat});
   out.attribute(NC_GLOBAL, "Conventions", "CF-1.8");
   out.attributes(field.notes);
-  const std::vector<int> columns = out.columns({field.value}, {n_lat, n_lon}, {});
+  Columns all{field.value};
+  all.insert(all.end(), field.columns.begin(), field.columns.end());
+  const std::vector<int> columns = out.columns(all, {n_lat, n_lon}, {});
   out.end_definitions();
   out.put(lon, grid.lon);
   out.put(lat, grid.lat);
-  out.put(columns, {field.value});
+  out.put(columns, all);
+  out.close();
+}
+
+namespace {
+
+/// The variables of the nodes, `_a`, or of the places, `_b`, of weights.
+class WrittenEnd {
+ public:
+  WrittenEnd(NetcdfWriter& out, const WeightsEnd& end, const std::string& letter, const char* word)
+      : out_(out), end_(end), shape_(end.shape.begin(), end.shape.end()) {
+    if (shape_.empty()) shape_.push_back(static_cast<std::int32_t>(end.at.lon.size()));
+    for (const std::int32_t length : shape_) size_ *= static_cast<std::size_t>(length);
+    std::reverse(shape_.begin(), shape_.end());  // the fastest dimension first
+    const auto name = [&](const char* text) { return text + letter; };
+    const int rank = out.dimension((word + std::string("_grid_rank")).c_str(), shape_.size());
+    const int n = out.dimension(name("n_").c_str(), size_);
+    const int corners = out.dimension(name("nv_").c_str(), end.edges.lon.empty() ? 1 : 4);
+    dims_ = out.variable((word + std::string("_grid_dims")).c_str(), NC_INT, {rank});
+    yc_ = out.angle(name("yc_").c_str(), {n}, "degrees");
+    xc_ = out.angle(name("xc_").c_str(), {n}, "degrees");
+    yv_ = out.angle(name("yv_").c_str(), {n, corners}, "degrees");
+    xv_ = out.angle(name("xv_").c_str(), {n, corners}, "degrees");
+    mask_ = out.variable(name("mask_").c_str(), NC_INT, {n});
+    area_ = out.variable(name("area_").c_str(), NC_DOUBLE, {n});
+    frac_ = out.variable(name("frac_").c_str(), NC_DOUBLE, {n});
+    out.attribute(mask_, "units", "unitless");
+    out.attribute(area_, "units", "square radians");
+    out.attribute(frac_, "units", "unitless");
+  }
+
+  /// The number in the file of number i here, both from 1.
+  std::int32_t number(std::size_t i) const {
+    return static_cast<std::int32_t>(end_.numbers.empty() ? i : end_.numbers[i - 1]);
+  }
+
+  /// `entries`: the numbers of all nodes or places that have an entry.
+  void put(const std::vector<std::int32_t>& entries) const {
+    std::vector<std::int32_t> mask(size_, end_.numbers.empty() ? 1 : 0);
+    for (const std::size_t number : end_.numbers) mask[number - 1] = 1;
+    std::vector<double> frac(size_);
+    for (const std::int32_t number : entries) frac[static_cast<std::size_t>(number) - 1] = 1;
+    const auto of_all = [&](const std::vector<double>& here) {
+      if (end_.numbers.empty()) return here;
+      std::vector<double> all(size_, std::nan(""));
+      for (std::size_t i = 0; i < here.size(); ++i) all[end_.numbers[i] - 1] = here[i];
+      return all;
+    };
+    const std::vector<double> lat_of_all = of_all(end_.at.lat), lon_of_all = of_all(end_.at.lon);
+    out_.put(dims_, shape_);
+    out_.put(yc_, lat_of_all);
+    out_.put(xc_, lon_of_all);
+    out_.put(mask_, mask);
+    out_.put(frac_, frac);
+    if (end_.edges.lon.empty()) {
+      out_.put(yv_, lat_of_all);
+      out_.put(xv_, lon_of_all);
+      out_.put(area_, std::vector<double>(size_));
+      return;
+    }
+    const auto put_each = [&](int variable, std::size_t width, const auto& row) {
+      out_.put_rows<double>({variable}, size_, width, row);
+    };
+    const auto &lon = end_.edges.lon, &lat = end_.edges.lat;
+    const std::size_t columns = lon.size() - 1;
+    put_each(yv_, 4, [&](std::size_t i, double* to) {
+      const std::size_t row = i / columns;
+      to[0] = to[1] = lat[row], to[2] = to[3] = lat[row + 1];
+    });
+    put_each(xv_, 4, [&](std::size_t i, double* to) {
+      const std::size_t column = i % columns;
+      to[0] = to[3] = lon[column], to[1] = to[2] = lon[column + 1];
+    });
+    put_each(area_, 1, [&](std::size_t i, double* to) {
+      const double south = lat[i / columns] / kRadian, north = lat[i / columns + 1] / kRadian;
+      *to = (lon[i % columns + 1] - lon[i % columns]) / kRadian * 2 * std::sin((north - south) / 2) *
+            std::cos((north + south) / 2);
+    });
+  }
+
+ private:
+  NetcdfWriter& out_;
+  const WeightsEnd& end_;
+  std::vector<std::int32_t> shape_;
+  std::size_t size_ = 1;
+  int dims_, yc_, xc_, yv_, xv_, mask_, area_, frac_;
+};
+
+}  // namespace
+
+void write_weights(const OutputFile& file, const Weights& weights, const WeightsEnd& nodes,
+                   const WeightsEnd& places, const std::string& history) {
+  NetcdfWriter out(file);
+  const WrittenEnd a(out, nodes, "a", "src"), b(out, places, "b", "dst");
+  const int n_s = out.dimension("n_s", weights.node.size());
+  const int col = out.variable("col", NC_INT, {n_s}), row = out.variable("row", NC_INT, {n_s}),
+            part = out.variable("S", NC_DOUBLE, {n_s});
+  // ncremap needs these words; it calls all that is not conservative bilinear, as ESMF does.
+  out.attribute(NC_GLOBAL, "title",
+                "weights of pstripack as of the ESMF Offline Regridding Weight Generator");
+  out.attribute(NC_GLOBAL, "conventions", "NCAR-CSM");
+  out.attribute(NC_GLOBAL, "normalization", "destarea");
+  out.attribute(NC_GLOBAL, "map_method", "Bilinear remapping");
+  out.attribute(NC_GLOBAL, "history", history);
+  out.end_definitions();
+  std::vector<std::int32_t> cols, rows;
+  cols.reserve(weights.node.size());
+  rows.reserve(weights.node.size());
+  for (const std::int32_t node : weights.node) cols.push_back(a.number(static_cast<std::size_t>(node)));
+  for (std::size_t i = 1; i < weights.begin.size(); ++i) rows.resize(weights.begin[i], b.number(i));
+  a.put(cols);
+  b.put(rows);
+  out.put(col, cols);
+  out.put(row, rows);
+  out.put(part, weights.part);
   out.close();
 }
 

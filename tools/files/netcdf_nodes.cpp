@@ -1,8 +1,8 @@
-// Nodes of NetCDF files. They are those of a UGRID mesh, or xCell, yCell, zCell, or one of the pairs lonCell
-// and latCell, lon and lat, longitude and latitude, grid_center_lon and grid_center_lat (SCRIP). The two
-// variables of a pair have one shape, or are the axes of a grid, which is read row by row of latitude. Their
-// units are those of the attribute; without it radians for lonCell and latCell, else those of the options,
-// else degrees if values of lon or lat cannot be radians, else it is an error.
+// Nodes of NetCDF files. They are those of a UGRID mesh, or xCell, yCell, zCell, or a pair of longitudes and
+// latitudes, which lon_lat_of() finds. The two variables of a pair have one shape, or are the axes of a grid,
+// which is read row by row of latitude. Their units are those of the attribute; without it radians for
+// lonCell and latCell, else those of the options, else degrees if the values cannot be radians, else it is an
+// error.
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -26,6 +26,7 @@
 #include "files/nearest.h"
 #include "files/nodes.h"
 #include "files/reading_guard.h"
+#include "files/text_table.h"
 #include "lists/limits.h"
 #include "parallel/local_nodes.h"
 #include "point_sets.h"
@@ -107,6 +108,7 @@ class File {
   }
   int id() const { return id_; }
   Units units() const { return options_.units; }  ///< of angles without units
+  bool keeps_missing() const { return options_.keep_missing; }
   bool is_read_in_parts() const { return options_.parts > 1; }
   /// The first node that this rank reads, and how many.
   std::pair<std::size_t, std::size_t> part_of(std::size_t n) const {
@@ -145,13 +147,19 @@ bool has(const File& file, const std::string& name) {
 
 std::string text_attribute(const File& file, int variable, const char* name) {
   std::string text;
-  if (std::size_t length; file.status(nc_inq_attlen, file.id(), variable, name, &length) == NC_NOERR) {
-    nc_type type;
-    if (file.status(nc_inq_atttype, file.id(), variable, name, &type) != NC_NOERR || type != NC_CHAR)
-      return text;
+  nc_type type = NC_CHAR;
+  std::size_t length = 0;
+  if (file.status(nc_inq_att, file.id(), variable, name, &type, &length) != NC_NOERR) return text;
+  if (type == NC_CHAR) {
     text.resize(length);
     file.call(name, nc_get_att_text, file.id(), variable, name, text.data());
+  } else if (type == NC_STRING && length == 1) {
+    char* string = nullptr;
+    file.call(name, nc_get_att_string, file.id(), variable, name, &string);
+    if (string != nullptr) text = string;
+    file.status(nc_free_string, std::size_t{1}, &string);
   }
+  while (!text.empty() && (text.back() == '\0' || text.back() == ' ')) text.pop_back();  // of Fortran
   return text;
 }
 
@@ -192,6 +200,16 @@ std::vector<double> read_numbers(const File& file, const std::string& name) {
   return values;
 }
 
+/// A number of an attribute, or `otherwise`.
+double number_attribute(const File& file, int variable, const char* name, double otherwise) {
+  std::size_t length = 0;
+  double value = 0;
+  if (file.status(nc_inq_attlen, file.id(), variable, name, &length) != NC_NOERR || length != 1 ||
+      file.status(nc_get_att_double, file.id(), variable, name, &value) != NC_NOERR)
+    return otherwise;
+  return value;
+}
+
 Variable read(const File& file, const std::string& name) {
   Variable v;
   v.name = name;
@@ -212,33 +230,61 @@ Variable read(const File& file, const std::string& name) {
   v.id = id;
   if (file.status(nc_inq_attid, file.id(), id, "scale_factor", nullptr) == NC_NOERR)
     file.fail("variable " + excerpt(name) + ": packed (scale_factor); expected plain numbers");
-  double fill = 0;
-  const bool has_fill = file.status(nc_get_att_double, file.id(), id, "_FillValue", &fill) == NC_NOERR;
-  for (std::size_t i = 0; i < v.values.size(); ++i)
-    if (!std::isfinite(v.values[i]) || (has_fill && v.values[i] == fill))
-      file.fail(fmt::format("variable {}, value {}: missing or not finite: remove the node", excerpt(name),
-                            v.before + i + 1));
+  const double fill = number_attribute(file, id, "_FillValue", std::nan("")),
+               missing = number_attribute(file, id, "missing_value", std::nan(""));
+  for (std::size_t i = 0; i < v.values.size(); ++i) {
+    double& value = v.values[i];
+    if (std::isfinite(value) && value != fill && value != missing) continue;
+    if (!file.keeps_missing())
+      file.fail(
+          fmt::format("variable {}, value {}: missing or not finite: remove the node, or say "
+                      "--skip-missing",
+                      excerpt(name), v.before + i + 1));
+    value = std::nan("");
+  }
   return v;
 }
 
-/// A number of an attribute, or `otherwise`.
-double number_attribute(const File& file, int variable, const char* name, double otherwise) {
-  std::size_t length = 0;
-  double value = 0;
-  if (file.status(nc_inq_attlen, file.id(), variable, name, &length) != NC_NOERR || length != 1 ||
-      file.status(nc_get_att_double, file.id(), variable, name, &value) != NC_NOERR)
-    return otherwise;
-  return value;
+std::string name_of(const File& file, int variable) {
+  char name[NC_MAX_NAME + 1];
+  file.call("", nc_inq_varname, file.id(), variable, name);
+  return name;
+}
+
+std::vector<std::string> variables_in(const File& file) {
+  int count = 0;
+  file.call("", nc_inq_nvars, file.id(), &count);
+  std::vector<std::string> names;
+  for (int v = 0; v < count; ++v) names.push_back(name_of(file, v));
+  return names;
+}
+
+/// The words of a text, without empty ones.
+std::vector<std::string> words_of(const std::string& text, char separator) {
+  std::vector<std::string> words;
+  std::istringstream in(text);
+  for (std::string word; std::getline(in, word, separator);)
+    if (!word.empty()) words.push_back(word);
+  return words;
+}
+
+bool is_among(const std::vector<std::string>& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+std::string dimension_name(const File& file, int dimension) {
+  char name[NC_MAX_NAME + 1];
+  file.call("", nc_inq_dimname, file.id(), dimension, name);
+  return excerpt(name);
 }
 
 /// "T(time=12, lat=96)".
 std::string shape_text(const File& file, const std::string& name, const std::vector<int>& dimensions) {
   std::string text;
   for (const int dimension : dimensions) {
-    char dimension_name[NC_MAX_NAME + 1];
     std::size_t length = 0;
-    file.call(name, nc_inq_dim, file.id(), dimension, dimension_name, &length);
-    text += fmt::format("{}{}={}", text.empty() ? "" : ", ", excerpt(dimension_name), length);
+    file.call(name, nc_inq_dimlen, file.id(), dimension, &length);
+    text += fmt::format("{}{}={}", text.empty() ? "" : ", ", dimension_name(file, dimension), length);
   }
   return fmt::format("{}({})", excerpt(name), text);
 }
@@ -255,26 +301,32 @@ bool is_of_nodes(const File& file, const std::string& name, const std::vector<in
                     dimensions.begin() + static_cast<std::ptrdiff_t>(extra));
 }
 
-/// Names of the variables with one value per node, for messages.
-std::string names_of_values(const File& file, const std::vector<int>& of_nodes) {
+/// The dimensions of a variable without the first ones that have length 1, such as WRF's Time; at least one.
+std::vector<int> dimensions_of_places(const File& file, const std::string& name) {
+  std::vector<int> dimensions;
+  const std::vector<std::size_t> lengths = shape_of(file, name, dimensions).second;
+  std::size_t extra = 0;
+  while (extra + 1 < lengths.size() && lengths[extra] == 1) ++extra;
+  dimensions.erase(dimensions.begin(), dimensions.begin() + static_cast<std::ptrdiff_t>(extra));
+  return dimensions;
+}
+
+/// Names of the variables with one value per node, without these coordinates.
+std::vector<std::string> names_of_values(const File& file, const std::vector<int>& of_nodes,
+                                         const std::vector<int>& coordinates) {
   int count = 0;
   file.call("", nc_inq_nvars, file.id(), &count);
   std::vector<std::string> names;
   for (int v = 0; v < count; ++v) {
-    char name[NC_MAX_NAME + 1];
+    const std::string name = name_of(file, v);
     nc_type type = NC_CHAR;
-    file.call("", nc_inq_varname, file.id(), v, name);
     file.call(name, nc_inq_vartype, file.id(), v, &type);
-    if (type != NC_CHAR && type <= NC_UINT64 && type != NC_STRING && is_of_nodes(file, name, of_nodes))
-      names.emplace_back(name);
+    const bool is_coordinate = std::find(coordinates.begin(), coordinates.end(), v) != coordinates.end();
+    if (!is_coordinate && type != NC_CHAR && type <= NC_UINT64 && type != NC_STRING &&
+        is_of_nodes(file, name, of_nodes))
+      names.push_back(name);
   }
-  return listed(names);
-}
-
-std::string name_of(const File& file, int variable) {
-  char name[NC_MAX_NAME + 1];
-  file.call("", nc_inq_varname, file.id(), variable, name);
-  return name;
+  return names;
 }
 
 /// The value of each node, NaN where it is missing.
@@ -300,16 +352,29 @@ Column read_column(const File& file, const std::string& name) {
   return column;
 }
 
-Column read_value(const File& file, const std::string& name, const std::vector<int>& of_nodes) {
-  if (name.empty() || !has(file, name))
-    file.fail(fmt::format("{}say --variable NAME; variables with one value per node: {}",
-                          name.empty() ? "" : "there is no variable " + excerpt(name) + "; ",
-                          names_of_values(file, of_nodes)));
+/// The values of the variable `name`, or of the only one if `name` is empty.
+Column read_value(const File& file, std::string name, const std::vector<int>& of_nodes,
+                  const std::vector<int>& coordinates) {
+  if (name.empty() || !has(file, name)) {
+    const std::vector<std::string> names = names_of_values(file, of_nodes, coordinates);
+    if (!name.empty() || names.size() != 1)
+      file.fail(fmt::format("{}say --variable NAME; variables with one value per node: {}",
+                            name.empty() ? "" : "there is no variable " + excerpt(name) + "; ",
+                            listed(names)));
+    name = names[0];
+  }
   std::vector<int> dimensions;
-  shape_of(file, name, dimensions);
-  if (!is_of_nodes(file, name, of_nodes))
-    file.fail(fmt::format("variable {}: expected {}; take one layer out, say by ncks -d time,0",
-                          shape_text(file, name, dimensions), shape_text(file, name, of_nodes)));
+  const std::vector<std::size_t> lengths = shape_of(file, name, dimensions).second;
+  if (!is_of_nodes(file, name, of_nodes)) {
+    std::size_t extra = 0;  // the first dimension with several layers
+    while (extra < lengths.size() && lengths[extra] == 1) ++extra;
+    const bool has_layers = dimensions.size() > of_nodes.size() && extra < lengths.size();
+    file.fail(fmt::format("variable {}: expected {}{}", shape_text(file, name, dimensions),
+                          shape_text(file, name, of_nodes),
+                          has_layers ? fmt::format("; take one layer out, say by ncks -d {},0",
+                                                   dimension_name(file, dimensions[extra]))
+                                     : ""));
+  }
   return read_column(file, name);
 }
 
@@ -358,25 +423,130 @@ Columns read_columns(const File& file, std::size_t nodes, const std::vector<int>
   return columns;
 }
 
-/// True if the variable is called lon or lat and has values that radians never have.
-bool are_beyond_radians(const Variable& v) {
+enum class Holds { longitudes, latitudes, rotated, unknown };
+
+/// What a variable holds by its attributes. `rotated`: longitudes or latitudes that count from another pole.
+Holds what_holds(const File& file, int id) {
+  const std::string standard_name = text_attribute(file, id, "standard_name"),
+                    units = text_attribute(file, id, "units");
+  if (standard_name == "grid_longitude" || standard_name == "grid_latitude") return Holds::rotated;
+  if (standard_name == "longitude") return Holds::longitudes;
+  if (standard_name == "latitude") return Holds::latitudes;
+  const auto is_one_of = [](const std::string& word, std::initializer_list<const char*> words) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+  };
+  if (is_one_of(units, {"degrees_east", "degree_east", "degree_E", "degrees_E", "degreeE", "degreesE"}))
+    return Holds::longitudes;
+  if (is_one_of(units, {"degrees_north", "degree_north", "degree_N", "degrees_N", "degreeN", "degreesN"}))
+    return Holds::latitudes;
+  return Holds::unknown;
+}
+
+std::string why_not_rotated(const std::string& names) {
+  return fmt::format(
+      "{}: angles of a rotated pole, not longitudes and latitudes, which `cdo "
+      "setgridtype,curvilinear` adds to the file",
+      names);
+}
+
+/// The dimensions of nodes with these longitudes and latitudes; empty: they do not belong together.
+std::vector<int> dimensions_of_nodes(const std::vector<int>& lon, const std::vector<int>& lat) {
+  if (lon == lat) return lon;
+  return lon.size() == 1 && lat.size() == 1 ? std::vector<int>{lat[0], lon[0]} : std::vector<int>{};
+}
+
+/// The variables of longitudes and latitudes: those that the attribute `coordinates` of the variable `value`
+/// names, else a usual pair, else the only pair whose attributes or names say what it is. Pairs whose
+/// dimensions are not those of `value` come last.
+std::pair<std::string, std::string> lon_lat_of(const File& file, const std::string& value) {
+  using Pair = std::pair<std::string, std::string>;
+  // Of MPAS, CF, SCRIP, NEMO, ICON, WRF, POP and CICE.
+  static const std::vector<Pair> usual{{"lonCell", "latCell"},    {"lon", "lat"},
+                                       {"longitude", "latitude"}, {"grid_center_lon", "grid_center_lat"},
+                                       {"nav_lon", "nav_lat"},    {"glamt", "gphit"},
+                                       {"clon", "clat"},          {"XLONG", "XLAT"},
+                                       {"XLONG_M", "XLAT_M"},     {"TLONG", "TLAT"}};
+  const std::vector<std::string> names = variables_in(file);
+  std::vector<std::string> lons, lats, rotated, bounds;
+  for (std::size_t v = 0; v < names.size(); ++v)
+    bounds.push_back(text_attribute(file, static_cast<int>(v), "bounds"));
+  for (std::size_t v = 0; v < names.size(); ++v) {
+    if (is_among(bounds, names[v])) continue;
+    Holds holds = what_holds(file, static_cast<int>(v));
+    if (holds == Holds::unknown) {
+      const auto is = [&](char axis, std::string Pair::*side) {
+        return axis_of(names[v]) == axis ||
+               std::any_of(usual.begin(), usual.end(), [&](const Pair& p) { return p.*side == names[v]; });
+      };
+      holds = is('o', &Pair::first)    ? Holds::longitudes
+              : is('a', &Pair::second) ? Holds::latitudes
+                                       : Holds::unknown;
+    }
+    if (holds == Holds::longitudes) lons.push_back(names[v]);
+    if (holds == Holds::latitudes) lats.push_back(names[v]);
+    if (holds == Holds::rotated) rotated.push_back(names[v]);
+  }
+  if (lons.empty() && lats.empty())
+    file.fail(rotated.empty() ? "no nodes: expected variables xCell, yCell, zCell, or lonCell, latCell, or "
+                                "lon, lat, or others whose units are degrees_east and degrees_north; or name "
+                                "them by --columns LON,LAT"
+                              : why_not_rotated(listed(rotated)));
+  if (lons.empty() || lats.empty())
+    file.fail(fmt::format("there is no variable of {} beside {}: name both by --columns LON,LAT",
+                          lons.empty() ? "longitudes" : "latitudes", listed(lons.empty() ? lats : lons)));
+
+  const bool has_value = is_among(names, value);
+  if (has_value) {
+    const auto id = static_cast<int>(std::find(names.begin(), names.end(), value) - names.begin());
+    const std::vector<std::string> said = words_of(text_attribute(file, id, "coordinates"), ' ');
+    std::vector<std::string> lon, lat;
+    for (const std::string& word : said)
+      if (is_among(lons, word))
+        lon.push_back(word);
+      else if (is_among(lats, word))
+        lat.push_back(word);
+    if (lon.size() == 1 && lat.size() == 1) return {lon[0], lat[0]};
+  }
+  std::vector<Pair> pairs;
+  for (const Pair& p : usual)
+    if (is_among(lons, p.first) && is_among(lats, p.second)) pairs.push_back(p);
+  const auto of_nodes = [&](const Pair& p) {
+    return dimensions_of_nodes(dimensions_of_places(file, p.first), dimensions_of_places(file, p.second));
+  };
+  for (const std::string& lon : lons)
+    for (const std::string& lat : lats)
+      if (const Pair p{lon, lat};
+          std::find(pairs.begin(), pairs.end(), p) == pairs.end() && !of_nodes(p).empty())
+        pairs.push_back(p);
+  if (const auto end = std::stable_partition(
+          pairs.begin(), pairs.end(),
+          [&](const Pair& p) { return has_value && is_of_nodes(file, value, of_nodes(p)); });
+      end != pairs.begin())
+    pairs.erase(end, pairs.end());
+  if (pairs.empty() || (pairs.size() > 1 && std::find(usual.begin(), usual.end(), pairs[0]) == usual.end()))
+    file.fail(fmt::format("longitudes {} and latitudes {}: name two of them by --columns LON,LAT",
+                          listed(lons), listed(lats)));
+  return pairs.front();
+}
+
+/// True if the angles are in degrees, since radians are never as large.
+bool are_beyond_radians(const Variable& v, bool are_latitudes) {
   constexpr double kRightAngle = 1.5707963267948966, kRounding = 1 + 1e-6;  // of single precision
-  const bool is_lat = v.name == "lat" || v.name == "latitude";
-  if (!is_lat && v.name != "lon" && v.name != "longitude") return false;
   double largest = 0;
   for (const double angle : v.values) largest = std::max(largest, std::fabs(angle));
-  return largest > (is_lat ? 1 : 4) * kRightAngle * kRounding && largest <= (is_lat ? 90 : 360) * kRounding;
+  return largest > (are_latitudes ? 1 : 4) * kRightAngle * kRounding &&
+         largest <= (are_latitudes ? 90 : 360) * kRounding;
 }
 
 /// True if the units of the variable are degrees, false if radians.
-bool in_degrees(const File& file, const Variable& v) {
-  if (v.units.rfind("degree", 0) == 0) return true;
+bool in_degrees(const File& file, const Variable& v, bool are_latitudes) {
+  if (v.units.rfind("deg", 0) == 0) return true;
   if (v.units.rfind("rad", 0) == 0) return false;
   if (v.units.empty() && (v.name == "lonCell" || v.name == "latCell")) return false;
   if (v.units.empty() && file.units() != Units::said_or_unmistakable) return file.units() == Units::degrees;
-  if (v.units.empty() && !file.is_read_in_parts() && are_beyond_radians(v)) return true;
-  file.fail(
-      fmt::format("variable {}: units '{}'; expected degrees or radians", excerpt(v.name), excerpt(v.units)));
+  if (v.units.empty() && !file.is_read_in_parts() && are_beyond_radians(v, are_latitudes)) return true;
+  file.fail(fmt::format("variable {}: units '{}'; expected degrees or radians{}", excerpt(v.name),
+                        excerpt(v.units), v.units.empty() ? ": say --units degrees or radians" : ""));
 }
 
 /// Points, and the angles and variables that belong to them.
@@ -390,9 +560,18 @@ struct Places {
 };
 
 /// Reads angles. Radians of type float that mean a multiple of pi/2 become the double that means it.
-Variable read_angles(const File& file, const std::string& name, bool& are_degrees) {
+Variable read_angles(const File& file, const std::string& name, bool are_latitudes, bool& are_degrees) {
   Variable v = read(file, name);
-  are_degrees = in_degrees(file, v);
+  const Holds holds = what_holds(file, v.id);
+  if (holds == Holds::rotated) file.fail(why_not_rotated(excerpt(name)));
+  if (holds == (are_latitudes ? Holds::longitudes : Holds::latitudes))
+    file.fail(fmt::format("variable {} holds {}: give the longitudes first, --columns LON,LAT", excerpt(name),
+                          are_latitudes ? "longitudes" : "latitudes"));
+  v.dimensions = dimensions_of_places(file, name);
+  if (v.dimensions.size() > 2)
+    file.fail(fmt::format("variable {}: expected one place per node; take one time out, say by ncks -d {},0",
+                          shape_text(file, name, v.dimensions), dimension_name(file, v.dimensions[0])));
+  are_degrees = in_degrees(file, v, are_latitudes);
   nc_type type = NC_DOUBLE;
   file.call(name, nc_inq_vartype, file.id(), v.id, &type);
   if (type == NC_FLOAT && !are_degrees)
@@ -403,33 +582,34 @@ Variable read_angles(const File& file, const std::string& name, bool& are_degree
 Places from_angles(const File& file, const std::string& lon_name, const std::string& lat_name,
                    const char*& units) {
   bool lon_in_degrees = true, lat_in_degrees = true;
-  const Variable lon = read_angles(file, lon_name, lon_in_degrees),
-                 lat = read_angles(file, lat_name, lat_in_degrees);
+  const Variable lon = read_angles(file, lon_name, false, lon_in_degrees),
+                 lat = read_angles(file, lat_name, true, lat_in_degrees);
   units = lat_in_degrees ? "degrees" : "radians";
   Angles angles{lon.values.data(), lat.values.data(), 1, lon_in_degrees, lat_in_degrees};
   if (const std::size_t bad = first_beyond_pole(angles, lat.values.size()); bad < lat.values.size())
-    file.fail(fmt::format(
-        "variable {}, value {}: {} is beyond the pole{}", excerpt(lat.name), lat.before + bad + 1,
-        lat.values[bad],
-        !lat_in_degrees ? ": is the attribute units wrong, and are these degrees?"
-        : lon.values.size() == lat.values.size()
-            ? hint_beyond_pole(angles, lat.values.size(), excerpt(lat.name) + "," + excerpt(lon.name))
-            : ""));
+    file.fail(fmt::format("variable {}, value {}: {} is beyond the pole{}", excerpt(lat.name),
+                          lat.before + bad + 1, lat.values[bad],
+                          !lat_in_degrees ? ": is the attribute units wrong, and are these degrees?"
+                          : lon.values.size() == lat.values.size()
+                              ? hint_beyond_pole(angles, lat.values.size(),
+                                                 what_holds(file, lat.id) == Holds::unknown
+                                                     ? excerpt(lat.name) + "," + excerpt(lon.name)
+                                                     : "")
+                              : ""));
   Places places;
   places.variables = {lon.id, lat.id};
   places.before = lat.before;
+  places.dimensions = dimensions_of_nodes(lon.dimensions, lat.dimensions);
   if (lon.dimensions == lat.dimensions) {
-    places.dimensions = lon.dimensions;
     places.given.lon = lon.values;
     places.given.lat = lat.values;
   } else {
-    if (lon.dimensions.size() != 1 || lat.dimensions.size() != 1)
+    if (places.dimensions.empty())
       file.fail(fmt::format("variables {} and {}: expected one shape, or two axes of one dimension each",
                             excerpt(lon.name), excerpt(lat.name)));
     require_few(file, lat.name, lat.values.size(), lon.values.size());
     if (file.is_read_in_parts())
       file.fail("a grid: several ranks read a list of nodes, each its part: use `pstripack convert`");
-    places.dimensions = {lat.dimensions[0], lon.dimensions[0]};
     const auto degrees_of = [](std::vector<double> angles, bool are_degrees) {
       for (double& angle : angles) angle *= are_degrees ? 1 : 57.29577951308232;
       return angles;
@@ -571,22 +751,6 @@ void read_notes(const File& file, Notes& notes) {
   if (!parents.empty()) notes["parent_id"] = parents + (older.empty() ? "" : "\n" + older);
 }
 
-/// The names in --columns.
-std::vector<std::string> words_of(const std::string& columns) {
-  std::vector<std::string> words;
-  std::istringstream in(columns);
-  for (std::string word; std::getline(in, word, ',');) words.push_back(word);
-  return words;
-}
-
-std::vector<std::string> variables_in(const File& file) {
-  int count = 0;
-  file.call("", nc_inq_nvars, file.id(), &count);
-  std::vector<std::string> names;
-  for (int v = 0; v < count; ++v) names.push_back(name_of(file, v));
-  return names;
-}
-
 /// The nodes whose coordinates --columns names; removes their names from `names`.
 Places read_chosen(const File& file, Nodes& nodes, std::vector<std::string>& names, Coordinates coordinates) {
   const std::vector<std::string> variables = variables_in(file);
@@ -624,7 +788,7 @@ Nodes read_netcdf(const std::string& name, const ReadOptions& options, const std
   nodes.file = name;
   nodes.kind = "NetCDF";
   Places places;
-  std::vector<std::string> wanted = words_of(options.columns);
+  std::vector<std::string> wanted = words_of(options.columns, ',');
   if (!wanted.empty()) {
     places = read_chosen(file, nodes, wanted, options.coordinates);
   } else if (const std::string mesh = ugrid_mesh(file); !mesh.empty()) {
@@ -635,34 +799,26 @@ Nodes read_netcdf(const std::string& name, const ReadOptions& options, const std
     add_angles(file, places, "lon", "lat");
     nodes.kind += ", xCell yCell zCell";
   } else {
-    for (const auto& [lon, lat] :
-         {std::pair("lonCell", "latCell"), std::pair("lon", "lat"), std::pair("longitude", "latitude"),
-          std::pair("grid_center_lon", "grid_center_lat")}) {
-      if (!has(file, lon)) continue;
-      if (!has(file, lat))
-        file.fail(fmt::format("there is no variable {} beside {}: name both by --columns LON,LAT", lat, lon));
-      const char* units = "";
-      places = from_angles(file, lon, lat, units);
-      nodes.kind += fmt::format(", {} {} in {}", lon, lat, units);
-      break;
-    }
-    if (nodes.kind == "NetCDF")
-      file.fail(
-          "no nodes: expected variables xCell, yCell, zCell, or lonCell, latCell, or lon, lat; or name them "
-          "by "
-          "--columns LON,LAT");
+    const char* units = "";
+    const auto [lon, lat] = lon_lat_of(file, options.with_values ? options.variable : "");
+    places = from_angles(file, lon, lat, units);
+    nodes.kind += fmt::format(", {} {} in {}", lon, lat, units);
   }
   nodes.points = std::move(places.points);
   nodes.before = places.before;
   nodes.given = std::move(places.given);
   nodes.grid = std::move(places.grid);
+  for (const int dimension : places.dimensions) {
+    nodes.shape.emplace_back();
+    file.call("", nc_inq_dimlen, file.id(), dimension, &nodes.shape.back());
+  }
   if (nodes.points.empty() && !file.is_read_in_parts()) file.fail("no nodes: the variables are empty");
   if (options.with_values) {
     std::string variable = options.variable;
     if (variable.empty() && !wanted.empty()) variable = wanted[0];
     for (const std::string& usual : options.usual_variables)
       if (variable.empty() && has(file, usual)) variable = usual;
-    nodes.value = read_value(file, variable, places.dimensions);
+    nodes.value = read_value(file, variable, places.dimensions, places.variables);
     wanted.erase(std::remove(wanted.begin(), wanted.end(), variable), wanted.end());
   }
   if (options.with_columns && (options.columns.empty() || !wanted.empty()))

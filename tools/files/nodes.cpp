@@ -45,6 +45,35 @@ std::string_view first_word(std::string_view text) {
   return text.substr(0, text.find_first_of(" \t\r\n"));
 }
 
+/// Throws if the contents are of a format that another program converts, and says how.
+void refuse_foreign(const std::string& file, const std::string& contents) {
+  constexpr auto kToGeojson = "ogr2ogr -f GeoJSON -t_srs EPSG:4326 {out}.geojson {in}";
+  struct Foreign {
+    std::string_view begin, inside;  ///< its first bytes, and a name inside an archive
+    const char *name, *command;
+  };
+  using namespace std::string_view_literals;
+  static constexpr Foreign kForeign[] = {
+      {"\0\0\x27\x0A"sv, "", "a shapefile", kToGeojson},
+      {"SQLite format 3", "", "a GeoPackage", kToGeojson},
+      {"<?xml", "<kml", "KML", kToGeojson},
+      {"<kml", "", "KML", kToGeojson},
+      {"PK\x03\x04", ".kml", "KMZ", kToGeojson},
+      {"PK\x03\x04", "xl/workbook", "a spreadsheet", "libreoffice --headless --convert-to csv {in}"},
+      {"PAR1", "", "Parquet",
+       "python3 -c \"import pandas; pandas.read_parquet('{in}').to_csv('{out}.csv', index=False)\""},
+      {"GRIB", "", "GRIB", "cdo -f nc copy {in} {out}.nc"}};
+  for (const Foreign& f : kForeign) {
+    if (contents.compare(0, f.begin.size(), f.begin) != 0 || contents.find(f.inside) == contents.npos)
+      continue;
+    const std::size_t dot = file.find_last_of("./");
+    const std::string stem = dot != file.npos && file[dot] == '.' ? file.substr(0, dot) : file;
+    throw std::runtime_error(
+        fmt::format("{}: {}: convert it first, by `{}`", file, f.name,
+                    fmt::format(fmt::runtime(f.command), fmt::arg("in", file), fmt::arg("out", stem))));
+  }
+}
+
 /// Sets the nodes from given angles. Angles too large for radians are degrees. `to_exchange`: value of
 /// --columns for the hint that longitudes and latitudes may be exchanged.
 void set_angles(Nodes& nodes, LonLat given, Units units, const std::string& to_exchange) {
@@ -138,6 +167,10 @@ Choice choose(const TextLayout& layout, const ReadOptions& options, const std::s
   std::vector<std::size_t> candidates(layout.columns);
   std::iota(candidates.begin(), candidates.end(), std::size_t{0});
   if (chosen) candidates = columns_named(options.columns, layout, file);
+  double number = 0;  // of the column --variable
+  const bool is_number = point_sets::parse(options.variable, number);
+  if (options.variable.find(',') != options.variable.npos)
+    fail(fmt::format("--variable names one column, not '{}'", options.variable));
   Choice choice;
   if (!layout.names.empty()) choice.place = place_by_names(candidates, layout, options.coordinates, where);
   if (choice.place.empty()) {
@@ -147,17 +180,21 @@ Choice choose(const TextLayout& layout, const ReadOptions& options, const std::s
         fail(fmt::format(
             "no columns named lon and lat, or x, y and z: name them by --columns; the header has {}",
             listed(layout.names)));
-      if (options.with_values && layout.columns != 3 && layout.columns != 4)
+      const bool is_third = number == 3;  // so the first two are lon lat
+      if (options.may_have_value && !options.with_values && layout.columns == 3)
+        fail("has 3 columns: say --coordinates lonlat or xyz");
+      const bool has_value = options.with_values || (options.may_have_value && layout.columns > 2);
+      if (has_value && !is_third && layout.columns != 3 && layout.columns != 4)
         fail(fmt::format(
             "has {} columns; expected 'lon lat value' or 'x y z value'; of more columns say --coordinates "
             "and --variable, or --columns",
             layout.columns));
-      if (!options.with_values && layout.columns != 2 && layout.columns != 3)
+      if (!has_value && layout.columns != 2 && layout.columns != 3)
         throw std::runtime_error(fmt::format(
             "{}:{}: expected 'lon lat' or 'x y z', found {} number{}{}", file, layout.line, layout.columns,
             layout.columns == 1 ? "" : "s",
             layout.columns == 1 ? "" : ": say --coordinates lonlat or xyz, or choose --columns 1,2"));
-      columns = layout.columns - (options.with_values ? 1 : 0);
+      columns = is_third ? 2 : layout.columns - (has_value ? 1 : 0);
     }
     if (candidates.size() < columns)
       fail(fmt::format("has {} columns; --coordinates {} needs {}{}", candidates.size(),
@@ -172,8 +209,6 @@ Choice choose(const TextLayout& layout, const ReadOptions& options, const std::s
   if (!options.with_values) return choice;
 
   if (!options.variable.empty()) {
-    double number = 0;
-    const bool is_number = point_sets::parse(options.variable, number);
     if (layout.names.empty() && !is_number)
       fail(fmt::format("has {} columns; --variable of text is the number of a column, not '{}'",
                        layout.columns, options.variable));
@@ -181,8 +216,9 @@ Choice choose(const TextLayout& layout, const ReadOptions& options, const std::s
                                        number <= static_cast<double>(layout.columns));
     if (exists) choice.value = columns_named(options.variable, layout, file).at(0);
     if (!exists || is_place(*choice.value))
-      fail(fmt::format("has {} columns; the first {} are the place: there is no value in column {}",
-                       layout.columns, choice.place.size(), options.variable));
+      fail(fmt::format("has {} columns; {}", layout.columns,
+                       exists ? fmt::format("column {} is a coordinate, not a value", options.variable)
+                              : fmt::format("there is no value in column {}", options.variable)));
   } else if (choice.columns.size() == 1 || (!choice.columns.empty() && (chosen || layout.names.empty()))) {
     choice.value = choice.columns[0];
   } else if (choice.columns.empty()) {
@@ -218,16 +254,17 @@ void read_text(Nodes& nodes, std::string_view text, const ReadOptions& options) 
   std::vector<Role> roles(layout.columns, Role::skipped);
   if (options.with_columns)
     for (const std::size_t c : choice.columns) roles[c] = Role::carried;
-  for (const std::size_t c : choice.place) roles[c] = Role::place;
+  for (const std::size_t c : choice.place) roles[c] = options.keep_missing ? Role::value : Role::place;
   if (choice.value) roles[*choice.value] = Role::value;
   TextRows rows = rows_of(text, nodes.file, layout, roles);
   nodes.lines = std::move(rows.lines);
   if (choice.value) {
     for (const std::size_t c : choice.place)
-      for (std::size_t i = 0; i < nodes.lines.size(); ++i)
+      for (std::size_t i = 0; !options.keep_missing && i < nodes.lines.size(); ++i)
         if (std::isnan(rows.numbers[c][i]))
           throw std::runtime_error(
-              fmt::format("{}: {}: its place is 'nan': remove the row", nodes.file, nodes.place(i)));
+              fmt::format("{}: {}: its place is 'nan': remove the row, or say --skip-missing", nodes.file,
+                          nodes.place(i)));
     nodes.value = column_of(rows, layout, *choice.value);
     if (layout.names.empty()) nodes.value.name.clear();
   }
@@ -267,7 +304,7 @@ void read_raw(Nodes& nodes, std::string_view bytes, const ReadOptions& options) 
   std::vector<double> values(bytes.size() / sizeof(double));
   std::memcpy(values.data(), bytes.data(), bytes.size());
   for (std::size_t i = 0; i < values.size(); ++i)
-    if (!std::isfinite(values[i]))
+    if (!std::isfinite(values[i]) && !(options.keep_missing && std::isnan(values[i])))
       throw std::runtime_error(fmt::format("{}: {}: column {} is not finite: remove the row", nodes.file,
                                            nodes.place(i / columns), i % columns + 1));
   if (columns == 2) {
@@ -309,11 +346,15 @@ void read_off(Nodes& nodes, const std::string& text, const ReadOptions& options)
 }  // namespace
 
 std::string Nodes::place(std::size_t i) const {
-  return i < lines.size() ? fmt::format("node {} ({} {})", i + 1, lines_are, lines[i])
-                          : fmt::format("node {}", before + i + 1);
+  return fmt::format("node {}", number(i)) +
+         (i < lines.size() ? fmt::format(" ({} {})", lines_are, lines[i]) : "");
 }
 
 void Nodes::keep(const std::vector<std::size_t>& indices) {
+  if (shape.empty()) shape.push_back(points.size());
+  if (numbers.empty())
+    for (std::size_t i = 0; i < points.size(); ++i) numbers.push_back(before + i + 1);
+  files::keep(numbers, indices);
   files::keep(points, indices);
   files::keep(given.lon, indices);
   files::keep(given.lat, indices);
@@ -349,7 +390,12 @@ std::vector<Point> points_of(const Angles& a, std::size_t n) {
   std::vector<Point> points(n);
   pstripack::parallel_pieces(n, pstripack::threads_for(n), [&](std::size_t first, std::size_t last, int) {
     for (std::size_t i = first; i < last; ++i) {
-      const double lon = a.lon[a.stride * i], lat = a.lat[a.stride * i], r = cos_lat(lat);
+      const double lon = a.lon[a.stride * i], lat = a.lat[a.stride * i];
+      if (std::isnan(lon) || std::isnan(lat)) {
+        points[i] = {lon + lat, lon + lat, lon + lat};
+        continue;
+      }
+      const double r = cos_lat(lat);
       points[i] = {r * cos_lon(lon), r * sin_lon(lon), sin_lat(lat)};
     }
   });
@@ -359,7 +405,7 @@ std::vector<Point> points_of(const Angles& a, std::size_t n) {
 std::size_t first_beyond_pole(const Angles& a, std::size_t n) {
   const double pole = (a.lat_in_degrees ? 90 : kRightAngle) * kSlack;
   std::size_t i = 0;
-  while (i < n && std::fabs(a.lat[a.stride * i]) <= pole) ++i;
+  while (i < n && !(std::fabs(a.lat[a.stride * i]) > pole)) ++i;
   return i;
 }
 
@@ -417,6 +463,7 @@ Nodes read(const std::string& file, const ReadOptions& options) {
     throw std::runtime_error(nodes.file + ":1: UTF-16: save the file as UTF-8");
   if (contents.compare(0, 2, "\x1F\x8B") == 0)
     throw std::runtime_error(nodes.file + ": compressed by gzip: use `gunzip` first");
+  refuse_foreign(nodes.file, contents);
   if (is_binary(contents))
     throw std::runtime_error(nodes.file +
                              ": binary, but not NetCDF; raw doubles need --from raw and --coordinates");

@@ -24,8 +24,11 @@ struct ReadOptions {
   bool with_triangles = false;                ///< also read the triangles of UGRID, MPAS and OFF
   bool with_boundary = false;                 ///< also those of MPAS that lack corners
   bool with_columns = false;                  ///< also read the other columns; not of raw doubles
+  bool with_cells = false;                    ///< GeoJSON: the nodes of cells that `voronoi` has written
   bool with_values = false;                   ///< also read one value per node; not of raw doubles
-  std::string variable;  ///< its name, or in text its number; empty: the column after the coordinates
+  bool may_have_value = false;  ///< a column of values may follow in text without a header; it is not read
+  bool keep_missing = false;    ///< coordinates may be missing: NaN; else an error
+  std::string variable;         ///< its name, or in text its number; empty: the column after the coordinates
   std::vector<std::string> usual_variables =
       {};  ///< without a name, the first of these that a NetCDF file has
   /// Names, or in text column numbers, separated by commas: lon,lat or x,y,z, then the columns to read.
@@ -51,14 +54,17 @@ struct Nodes {
   std::string file;  ///< name in messages
   std::string kind;  ///< "text, lon lat in degrees"
   std::vector<Point> points;
-  std::size_t before = 0;          ///< number of nodes in earlier slices
-  LonLat given;                    ///< longitudes and latitudes as in the file; empty: the file has none
-  Grid grid;                       ///< the grid, if the nodes are one; else empty
-  std::vector<std::size_t> lines;  ///< line or feature of each node in text or GeoJSON, from 1
-  const char* lines_are = "line";  ///< "line" or "feature"
-  std::vector<double> density;     ///< meshDensity of MPAS, if the file has it
-  Column value;                    ///< if requested; its name is empty if the file has none
-  Columns columns;                 ///< if requested: the other columns of the file
+  std::size_t before = 0;  ///< number of nodes in earlier slices
+  LonLat given;            ///< longitudes and latitudes as in the file; empty: the file has none
+  Grid grid;               ///< the grid, if the nodes are one; else empty
+  /// The shape of all nodes in the file, also of those left out later; empty: a list of these nodes.
+  std::vector<std::size_t> shape;
+  std::vector<std::size_t> numbers;  ///< of each node in the file, if some were left out; else empty
+  std::vector<std::size_t> lines;    ///< line or feature of each node in text or GeoJSON, from 1
+  const char* lines_are = "line";    ///< "line" or "feature"
+  std::vector<double> density;       ///< meshDensity of MPAS, if the file has it
+  Column value;                      ///< if requested; its name is empty if the file has none
+  Columns columns;                   ///< if requested: the other columns of the file
   Notes notes;
   pstripack::Triangles triangles;  ///< counterclockwise; empty unless requested and present
   /// Of an MPAS mesh with a boundary, if requested: the vertices of all triangles, of which some lack
@@ -66,6 +72,8 @@ struct Nodes {
   std::vector<Point> vertices;
   double radius = 1;  ///< of the sphere, if the file says it
 
+  /// The number of the node in the file, from 1.
+  std::size_t number(std::size_t i) const { return numbers.empty() ? before + i + 1 : numbers[i]; }
   /// "node 17", with its line or feature if known.
   std::string place(std::size_t i) const;
   /// Removes all triangles, and all nodes except those with these increasing indices.

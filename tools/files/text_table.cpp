@@ -71,6 +71,7 @@ bool has_hemisphere(std::string_view word) {
 
 /// What the user can do about a word that is not a number.
 std::string remedy_for(std::string_view word) {
+  if (is_missing(word)) return ": remove the row, or say --skip-missing";
   if (has_hemisphere(word)) return ": write 45N as 45, 45S as -45, 120W as -120";
   if (word.find("\xC2\xB0") != word.npos || word.find('\xB0') != word.npos || word.find(':') != word.npos)
     return ": write degrees as one decimal number, 45.5";
@@ -399,7 +400,7 @@ class Reader {
     const std::string name =
         layout_.names.empty() ? "" : fmt::format(" in column '{}'", excerpt(layout_.name(column)));
     if (word.empty())
-      return fmt::format("nothing{}: remove the row, or choose other columns by --columns",
+      return fmt::format("nothing{}: remove the row, say --skip-missing, or choose other --columns",
                          name.empty() ? " between separators" : name);
     if (!name.empty() && l == lower(layout_.names[column])) return "the header line again: remove it";
     return fmt::format("'{}'{} is not a finite number{}", excerpt(word), name, remedy_for(word));

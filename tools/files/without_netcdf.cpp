@@ -27,6 +27,10 @@ void write_netcdf_nodes(const OutputFile& file, const std::vector<Point>&, const
   refuse(file.name());
 }
 void write_netcdf_field(const OutputFile& file, const LonLat&, const Field&) { refuse(file.name()); }
+void write_weights(const OutputFile& file, const Weights&, const WeightsEnd&, const WeightsEnd&,
+                   const std::string&) {
+  refuse(file.name());
+}
 void write_netcdf_grid(const OutputFile& file, const Grid&, const Field&) { refuse(file.name()); }
 
 }  // namespace files

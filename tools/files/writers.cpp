@@ -173,21 +173,26 @@ void write_fesom(const OutputFile& file, const Mesh& mesh) {
   beside.commit();
 }
 
+/// Columns node1, node2, ...: numbers of nodes in the input, of which each row has `count`.
+Columns node_columns(const std::vector<std::int32_t>& nodes, std::size_t count, const Columns& of_nodes) {
+  Columns columns;
+  const Column* const numbers = find(of_nodes, "node");
+  for (std::size_t k = 0; k < count; ++k) {
+    Column& column = columns.emplace_back(whole_numbers(fmt::format("node{}", k + 1), "", {}));
+    for (std::size_t i = k; i < nodes.size(); i += count)
+      column.numbers.push_back(numbers == nullptr ? nodes[i]
+                                                  : numbers->numbers[static_cast<std::size_t>(nodes[i]) - 1]);
+  }
+  return columns;
+}
+
 /// The table of a CSV file. A row of a cell: the coordinates and columns of its node. A row of a triangle:
 /// the numbers of its corners and its columns.
 Columns table_of(const Faces& faces) {
   if (!faces.centres.empty())
     return with_angles(faces.columns_of_faces, angles_of(faces.centres, faces.given_centres, true));
-  Columns table;
-  const Column* const numbers = find(faces.columns_of_points, "node");
-  for (std::size_t k = 0; k < 3; ++k) {
-    Column corner = whole_numbers(fmt::format("node{}", k + 1), "", {});
-    for (std::size_t f = 0; f < faces.size(); ++f) {
-      const auto i = static_cast<std::size_t>(faces.corner[faces.begin[f] + k]);
-      corner.numbers.push_back(numbers == nullptr ? static_cast<double>(i) : numbers->numbers[i - 1]);
-    }
-    table.push_back(std::move(corner));
-  }
+  if (faces.columns_of_points.empty()) return faces.columns_of_faces;  // the hull
+  Columns table = node_columns(faces.corner, 3, faces.columns_of_points);
   table.insert(table.end(), faces.columns_of_faces.begin(), faces.columns_of_faces.end());
   return table;
 }
@@ -425,6 +430,8 @@ void write_faces(const OutputFile& file, Format format, const Faces& faces, cons
 }
 
 void write_mesh(const OutputFile& file, Format format, const Mesh& mesh) {
+  if (mesh.longest > 0 && (format == Format::mpas || format == Format::lists || format == Format::fesom))
+    refuse(file, format, "holds whole triangulations: leave out --longest");
   if (format == Format::mpas) return write_mpas(file, mesh);
   if (format == Format::lists) return write_lists(file, mesh);
   if (format == Format::fesom) return write_fesom(file, mesh);
@@ -435,6 +442,41 @@ void write_mesh(const OutputFile& file, Format format, const Mesh& mesh) {
   if (format == Format::ugrid) return write_ugrid(file, faces, mesh.points, mesh.density, mesh.notes);
   if (format == Format::gmsh) return write_gmsh(file, faces);
   write_faces(file, format, faces, mesh.notes);
+}
+
+void write_links(const OutputFile& file, Format format, const Mesh& mesh) {
+  const Links links = links_of(mesh);
+  Columns table = node_columns(links.nodes, 2, mesh.columns);
+  Column& length = table.emplace_back(Column{"length_km", "", "km"});
+  for (const double l : links.length) length.numbers.push_back(l * kEarthRadius);
+  if (format == Format::csv) return write_csv(file, table);
+  if (format != Format::geojson) refuse(file, format, "cannot hold links: --to geojson or csv can");
+  Faces nodes;
+  nodes.points = unit(mesh.points);
+  nodes.given_points = mesh.given;
+  nodes.begin = {0};
+  const MapLines lines(nodes);
+  write_features(file, table, mesh.notes, [&](TextWriter& out, std::size_t i) {
+    const std::vector<MapRing> parts = lines.lines(links.nodes[2 * i], links.nodes[2 * i + 1]);
+    if (parts.empty()) return out.print("null");
+    const bool is_one = parts.size() == 1;
+    out.print("{{\"type\":\"{}\",\"coordinates\":{}", is_one ? "LineString" : "MultiLineString",
+              is_one ? "" : "[");
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      for (std::size_t j = 0; j < parts[k].size(); ++j)
+        out.print("{}[{},{}]", j > 0 ? "," : k > 0 ? ",[" : "[", parts[k][j].lon, parts[k][j].lat);
+      out.print("]");
+    }
+    out.print(is_one ? "}}" : "]}}");
+  });
+}
+
+void write_hull(const OutputFile& file, Format format, const Mesh& mesh) {
+  if (format != Format::csv) return write_faces(file, format, hull_face(mesh), mesh.notes);
+  std::vector<std::size_t> corners;
+  for (const std::int32_t node : hull_of(mesh)) corners.push_back(static_cast<std::size_t>(node) - 1);
+  write_nodes(file, format, values_at(mesh.points, corners),
+              {at_nodes(mesh.given, corners), {}, at_nodes(mesh.columns, corners), mesh.notes});
 }
 
 void write_nodes(const OutputFile& file, Format format, const std::vector<Point>& points,

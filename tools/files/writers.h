@@ -7,6 +7,7 @@
 
 #include "files/mesh.h"
 #include "files/output_file.h"
+#include "files/weights.h"
 
 namespace files {
 
@@ -56,6 +57,10 @@ void write_part(const OutputFile& file, Format format, const MeshPart& part, int
 /// Writes any polygons: ugrid, scrip, esmf, vtu, off, gmt, geojson, csv. Throws std::runtime_error for other
 /// formats.
 void write_faces(const OutputFile& file, Format format, const Faces& faces, const Notes& notes = {});
+/// Writes the arcs of the triangulation, with their lengths: geojson, csv.
+void write_links(const OutputFile& file, Format format, const Mesh& mesh);
+/// Writes the convex hull of the nodes as a polygon, in csv as its nodes: formats of write_faces().
+void write_hull(const OutputFile& file, Format format, const Mesh& mesh);
 /// What may be known about nodes without a mesh.
 struct NodeValues {
   LonLat given;
@@ -84,6 +89,19 @@ void write_csv_field(const OutputFile& file, const LonLat& places, const Field& 
 /// NetCDF with CF conventions; a missing value is _FillValue.
 void write_netcdf_field(const OutputFile& file, const LonLat& places, const Field& field);
 void write_netcdf_grid(const OutputFile& file, const Grid& grid, const Field& field);
+
+/// The nodes or the places of weights.
+struct WeightsEnd {
+  LonLat at;                         ///< in degrees
+  std::vector<std::size_t> numbers;  ///< of each in the file, from 1; empty: 1, 2, 3 ...
+  std::vector<std::size_t> shape;    ///< of all in the file; empty: a list of these
+  Grid edges;                        ///< between the cells, if the places are a grid
+};
+
+/// Writes weights as ESMF_RegridWeightGen does: the value of place row[k] has the part S[k] of that of node
+/// col[k]. Nodes and places that are in the file but not here have the mask 0.
+void write_weights(const OutputFile& file, const Weights& weights, const WeightsEnd& nodes,
+                   const WeightsEnd& places, const std::string& history);
 
 // In netcdf_meshes.cpp.
 /// `vectors`: the corners with their given lengths.

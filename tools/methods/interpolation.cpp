@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "base/parallel_for.h"
 #include "files/measures.h"
+#include "geometry/insertion_order.h"
 #include "geometry/predicates.h"
 #include "geometry/weights.h"
 #include "methods/gradients.h"
@@ -37,6 +39,37 @@ bool is_above(const Direction& a, const Direction& b, const Direction& c, const 
   const double error = most * (12 * 0x1p-50 * std::sqrt(most) + 64 * 0x1p-53 * most);
   if (std::fabs(height) > error) return height > 0;
   return pstripack::orientation_of_directions(a.given, b.given, c.given, place.given) > 0;
+}
+
+constexpr std::size_t kBlock = 512;  // places; searches restart in each block, so that threads change no bit
+
+std::size_t blocks_of(std::size_t places) { return (places + kBlock - 1) / kBlock; }
+
+/// Calls visit(block, first, end) for each block of so many places, on several threads.
+template <class Visit>
+void for_each_block(std::size_t places, const Visit& visit) {
+  pstripack::parallel_pieces(blocks_of(places), pstripack::threads_for(100 * places),
+                             [&](std::size_t first, std::size_t last, int) {
+                               for (std::size_t b = first; b < last; ++b)
+                                 visit(b, b * kBlock, std::min((b + 1) * kBlock, places));
+                             });
+}
+
+/// The places along a space-filling curve, so that each search begins near its place.
+std::vector<std::uint32_t> along_a_curve(const std::vector<Point>& places) {
+  constexpr std::size_t kMost = std::size_t{1} << 28;  // of insertion_order; then as they are given
+  if (places.size() > kMost) {
+    std::vector<std::uint32_t> given(places.size());
+    std::iota(given.begin(), given.end(), 0U);
+    return given;
+  }
+  std::vector<Point> at;
+  at.reserve(places.size());
+  for (const Point& p : places) at.push_back(files::unit(p));
+  std::vector<std::uint32_t> order(places.size());
+  pstripack::Workspace workspace(16 * places.size());
+  pstripack::insertion_order(at.data(), at.size(), order.data(), workspace);
+  return order;
 }
 
 /// What geometry/weights.h takes.
@@ -324,46 +357,94 @@ double Interpolation::cubic_value(const Point& p, const std::vector<Share>& shar
   return (alpha * mean + second * (tangent / inverse)) / (alpha + second);
 }
 
+template <class Use>
+std::size_t Interpolation::for_each_place(const std::vector<Point>& places,
+                                          const std::vector<std::uint32_t>& order, Method method,
+                                          Outside outside, const Use& use) const {
+  std::vector<std::size_t> count_outside(blocks_of(places.size()));
+  for_each_block(places.size(), [&](std::size_t b, std::size_t begin, std::size_t end) {
+    std::int32_t near = 1;
+    std::vector<Share> shares;
+    for (std::size_t k = begin; k < end; ++k) {
+      const Point& p = places[order[k]];
+      bool is_inside = false;
+      if (method != Method::nearest)
+        is_inside = method == Method::linear ? linear(p, near, shares) : natural(p, near, shares);
+      if (!is_inside) {
+        shares.clear();
+        if (method == Method::nearest || outside == Outside::nearest)
+          shares.push_back({near = nearest(p, near), 1});
+        if (method != Method::nearest) ++count_outside[b];
+      }
+      use(k, shares);
+    }
+  });
+  return std::accumulate(count_outside.begin(), count_outside.end(), std::size_t{0});
+}
+
 Interpolation::Result Interpolation::values_at(const std::vector<Point>& places,
                                                const std::vector<double>& values, Method method,
                                                Outside outside) const {
-  constexpr std::size_t kBlock = 512;  // searches restart here, so that threads change no bit
   Result result;
   result.values.resize(places.size());
-  const std::size_t blocks = (places.size() + kBlock - 1) / kBlock;
-  std::vector<std::size_t> count_outside(blocks);
+  const std::vector<std::uint32_t> order = along_a_curve(places);
   const std::vector<Point> slopes = method == Method::cubic ? gradients(mesh_, values) : std::vector<Point>();
   const auto value_of = [&](std::int32_t node) { return values[static_cast<std::size_t>(node) - 1]; };
-  const auto block = [&](std::size_t b) {
-    std::int32_t near = 1;
-    std::vector<Share> shares;
-    for (std::size_t i = b * kBlock; i < std::min((b + 1) * kBlock, places.size()); ++i) {
-      const Point& p = places[i];
-      if (!(method == Method::linear ? linear(p, near, shares) : natural(p, near, shares))) {
-        ++count_outside[b];
-        result.values[i] = outside == Outside::missing ? std::numeric_limits<double>::quiet_NaN()
-                                                       : value_of(near = nearest(p, near));
-        continue;
-      }
-      if (method == Method::cubic) {
-        result.values[i] = cubic_value(p, shares, values, slopes);
-        continue;
-      }
-      double sum = 0, low = value_of(shares[0].node), high = low;
-      for (const Share& s : shares) {
-        const double v = value_of(s.node);
-        sum += s.part * v;
-        low = std::min(low, v), high = std::max(high, v);
-      }
-      result.values[i] = std::clamp(sum, low, high);  // rounding may exceed the range
+  const auto value_at = [&](const Point& place, const std::vector<Share>& shares) {
+    if (shares.empty()) return std::numeric_limits<double>::quiet_NaN();
+    if (method == Method::cubic) return cubic_value(place, shares, values, slopes);
+    double sum = 0, low = value_of(shares[0].node), high = low;
+    for (const Share& s : shares) {
+      const double v = value_of(s.node);
+      sum += s.part * v;
+      low = std::min(low, v), high = std::max(high, v);
     }
+    return std::clamp(sum, low, high);  // rounding may exceed the range
   };
-  pstripack::parallel_pieces(blocks, pstripack::threads_for(100 * places.size()),
-                             [&](std::size_t first, std::size_t last, int) {
-                               for (std::size_t b = first; b < last; ++b) block(b);
-                             });
-  for (const std::size_t count : count_outside) result.outside += count;
+  result.outside =
+      for_each_place(places, order, method, outside, [&](std::size_t k, const std::vector<Share>& shares) {
+        result.values[order[k]] = value_at(places[order[k]], shares);
+      });
   return result;
+}
+
+files::Weights Interpolation::weights_at(const std::vector<Point>& places, Method method,
+                                         Outside outside) const {
+  files::Weights all;
+  all.begin.resize(places.size() + 1);
+  const std::vector<std::uint32_t> order = along_a_curve(places);
+  std::vector<std::vector<Share>> of_blocks(blocks_of(places.size()));
+  all.outside =
+      for_each_place(places, order, method, outside, [&](std::size_t k, const std::vector<Share>& shares) {
+        std::vector<Share>& here = of_blocks[k / kBlock];
+        here.insert(here.end(), shares.begin(), shares.end());
+        all.begin[order[k] + std::size_t{1}] = shares.size();
+      });
+  std::partial_sum(all.begin.begin(), all.begin.end(), all.begin.begin());
+  all.node.resize(all.begin.back());
+  all.part.resize(all.begin.back());
+  for_each_block(places.size(), [&](std::size_t b, std::size_t begin, std::size_t end) {
+    auto share = of_blocks[b].begin();
+    for (std::size_t k = begin; k < end; ++k)
+      for (std::size_t to = all.begin[order[k]]; to < all.begin[order[k] + std::size_t{1}]; ++to, ++share)
+        all.node[to] = share->node, all.part[to] = share->part;
+    of_blocks[b] = {};
+  });
+  return all;
+}
+
+Interpolation::Nearest Interpolation::nearest_at(const std::vector<Point>& places) const {
+  Nearest found{std::vector<std::int32_t>(places.size()), std::vector<double>(places.size())};
+  const std::vector<std::uint32_t> order = along_a_curve(places);
+  for_each_block(places.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    std::int32_t near = 1;
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t i = order[k];
+      found.node[i] = near = nearest(places[i], near);
+      found.distance[i] = arc_length(mesh_.direction(near), pstripack::direction_of(places[i]));
+    }
+  });
+  return found;
 }
 
 }  // namespace methods

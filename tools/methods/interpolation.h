@@ -8,6 +8,7 @@
 #include <mutex>
 #include <vector>
 
+#include "files/weights.h"
 #include "geometry/weights.h"
 #include "methods/by_distance.h"
 #include "methods/triangulated.h"
@@ -72,7 +73,8 @@ class Interpolation {
   double cubic_value(const Point& p, const std::vector<Share>& shares, const std::vector<double>& values,
                      const std::vector<Point>& gradients) const;
 
-  enum class Method { linear, natural, cubic };
+  /// `nearest` has the value of the nearest node, at all places.
+  enum class Method { linear, natural, cubic, nearest };
   enum class Outside { missing, nearest };
   struct Result {
     std::vector<double> values;  ///< NaN: missing
@@ -82,6 +84,15 @@ class Interpolation {
   /// of the contributing nodes. Cubic: see cubic_value.
   Result values_at(const std::vector<Point>& places, const std::vector<double>& values, Method method,
                    Outside outside) const;
+  /// The shares of each place, not of `cubic`. A value is their sum of products in their order; values_at
+  /// differs only where rounding has left the range of the nodes.
+  files::Weights weights_at(const std::vector<Point>& places, Method method, Outside outside) const;
+
+  struct Nearest {
+    std::vector<std::int32_t> node;  ///< from 1
+    std::vector<double> distance;    ///< in radians
+  };
+  Nearest nearest_at(const std::vector<Point>& places) const;
 
  private:
   using Direction = pstripack::Direction;
@@ -96,6 +107,11 @@ class Interpolation {
   bool dig(const Direction& place, const Corners& corners, std::vector<std::int32_t>& nodes,
            pstripack::Cavity& cavity) const;
   Candidate descend(const ByDistance& order, Candidate node) const;
+  /// Calls use(k, shares) for each place order[k], on several threads; without shares where it has no value.
+  /// Returns the number of places outside the triangles.
+  template <class Use>
+  std::size_t for_each_place(const std::vector<Point>& places, const std::vector<std::uint32_t>& order,
+                             Method method, Outside outside, const Use& use) const;
   Point at(std::int32_t node) const { return mesh_.at(node); }
   /// The directions of the nodes, made when first needed.
   const Direction* directions() const;

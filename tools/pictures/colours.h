@@ -8,8 +8,18 @@
 
 namespace pictures {
 
-/// Viridis (van der Walt & Smith 2015): its lightness grows in equal steps. t: 0 to 1.
-std::string viridis(double t);
+/// Colours of a scale from its low to its high end: eleven samples of red, green and blue, linear in between.
+struct Palette {
+  const char* name;
+  const char* lines;    ///< colour of lines that are seen on all of it
+  const char* samples;  ///< rrggbb, separated by blanks
+
+  std::string operator()(double t) const;  ///< t: 0 to 1
+};
+
+/// The first is the default, Viridis (van der Walt & Smith 2015): its lightness grows in equal steps, as that
+/// of magma and cividis does. coolwarm (Moreland 2009) is lightest in its middle.
+const std::vector<Palette>& palettes();
 
 /// White for six neighbours, blue for fewer, red for more; all below 4 or above 8 look like 4 and 8.
 std::string colour_of_degree(int degree);

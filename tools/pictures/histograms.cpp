@@ -16,6 +16,9 @@
 namespace pictures {
 namespace {
 
+/// Counts whose largest ratio exceeds this are shown on a logarithmic axis: that of five neighbours is
+/// some 12.
+constexpr std::size_t kMuch = 20;
 constexpr const char* kBars = "#31688e";
 
 /// A histogram across the full width of its panel.
@@ -39,21 +42,25 @@ class Panel {
   void bars(const std::vector<std::size_t>& counts, double gap) {
     const double most = static_cast<double>(*std::max_element(counts.begin(), counts.end()));
     const double step = std::max(1.0, round_step(most, 4)), steps = std::ceil(most / step - 1e-9);
-    const double per_count = kHigh / (step * steps), bar = kWide / static_cast<double>(counts.size());
-    sheet_.rectangle(left_, bottom() - kHigh, kWide, kHigh, "none", "none", Sheet::kDrawing);
-    for (double k = 0; k <= steps; ++k) {
-      const double y = bottom() - per_count * k * step;
-      sheet_.rectangle(left_, y - 0.4, kWide, 0.8, "#dddddd");
-      sheet_.text({left_ - 6, y + 4}, kTickLabels, Anchor::end,
-                  grouped(static_cast<std::size_t>(std::lround(k * step))));
-    }
+    std::vector<double> ticks;
+    for (double k = 0; k <= steps; ++k) ticks.push_back(k * step);
+    bars(counts, gap, ticks, [&](double count) { return count / (step * steps); });
+  }
+
+  /// With a logarithmic axis, from 1/2, so that a bar of 1 is seen, and the counts above the bars.
+  void logarithmic_bars(const std::vector<std::size_t>& counts, double gap) {
+    const double most = static_cast<double>(*std::max_element(counts.begin(), counts.end()));
+    std::vector<double> ticks{1};
+    while (ticks.back() < 2 * most) ticks.push_back(10 * ticks.back());
+    const auto height = [&](double count) { return std::log(2 * count) / std::log(2 * ticks.back()); };
+    bars(counts, gap, ticks, height);
+    const double bar = kWide / static_cast<double>(counts.size());
     for (std::size_t i = 0; i < counts.size(); ++i) {
-      const double height = per_count * static_cast<double>(counts[i]);
+      const double y = bottom() - kHigh * height(static_cast<double>(counts[i])) - 4;
       if (counts[i] > 0)
-        sheet_.rectangle(left_ + bar * (static_cast<double>(i) + gap / 2), bottom() - height, bar * (1 - gap),
-                         height, kBars);
+        sheet_.text_if_free({left_ + bar * (static_cast<double>(i) + 0.5), y}, kTickLabels, Anchor::middle,
+                            grouped(counts[i]));
     }
-    sheet_.rectangle(left_, bottom(), kWide, 1, kGrey);
   }
 
   void tick(double t, const std::string& label) {
@@ -65,6 +72,27 @@ class Panel {
   static constexpr double kWide = 310, kHigh = 170, kAll = kHigh + 90;
 
  private:
+  /// `height`: of a count, as a fraction of the panel's.
+  template <class Height>
+  void bars(const std::vector<std::size_t>& counts, double gap, const std::vector<double>& ticks,
+            const Height& height) {
+    const double bar = kWide / static_cast<double>(counts.size());
+    sheet_.rectangle(left_, bottom() - kHigh, kWide, kHigh, "none", "none", Sheet::kDrawing);
+    for (const double tick : ticks) {
+      const double y = bottom() - kHigh * height(tick);
+      sheet_.rectangle(left_, y - 0.4, kWide, 0.8, "#dddddd");
+      sheet_.text({left_ - 6, y + 4}, kTickLabels, Anchor::end,
+                  grouped(static_cast<std::size_t>(std::lround(tick))));
+    }
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      const double high = kHigh * height(static_cast<double>(counts[i]));
+      if (counts[i] > 0)
+        sheet_.rectangle(left_ + bar * (static_cast<double>(i) + gap / 2), bottom() - high, bar * (1 - gap),
+                         high, kBars);
+    }
+    sheet_.rectangle(left_, bottom(), kWide, 1, kGrey);
+  }
+
   double bottom() const { return top_ + 44 + kHigh; }
   Sheet& sheet_;
   double left_, top_;
@@ -89,7 +117,13 @@ void draw_degrees(Panel panel, const std::vector<double>& degrees) {
   std::vector<std::size_t> counts(last - first + 1);
   for (const double degree : degrees) ++counts[static_cast<std::size_t>(degree) - first];
   panel.titles("neighbours of a node", degrees, 1);
-  panel.bars(counts, 0.3);
+  std::vector<std::size_t> there = counts;
+  there.erase(std::remove(there.begin(), there.end(), 0), there.end());
+  const auto [fewest, most] = std::minmax_element(there.begin(), there.end());
+  if (*most > kMuch * *fewest)
+    panel.logarithmic_bars(counts, 0.3);
+  else
+    panel.bars(counts, 0.3);
   const std::size_t step = 1 + counts.size() / 14;
   for (std::size_t i = 0; i < counts.size(); i += step)
     panel.tick((static_cast<double>(i) + 0.5) / static_cast<double>(counts.size()),
@@ -122,13 +156,13 @@ std::string histograms(const files::Mesh& mesh, const std::string& title, double
     degrees.push_back(degree);
   }
 
-  Sheet sheet;
+  Sheet sheet(width, kWidth);
   const double top = sheet.title(title) + 6, left = 72, right = 462;
   draw({sheet, left, top}, "smallest angle of a triangle", "degrees", angles, true);
   draw({sheet, right, top}, "length of an arc", "degrees", lengths);
   draw({sheet, left, top + Panel::kAll}, "area of a triangle", "km²", areas);
   draw_degrees({sheet, right, top + Panel::kAll}, degrees);
-  return sheet.svg(top + 2 * Panel::kAll, width);
+  return sheet.svg(top + 2 * Panel::kAll);
 }
 
 }  // namespace pictures

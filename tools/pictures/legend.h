@@ -4,13 +4,19 @@
 #include <string>
 #include <vector>
 
+#include "pictures/colours.h"
 #include "pictures/shading.h"
 #include "pictures/sheet.h"
 
 namespace pictures {
 
-/// A Viridis bar with the ticks of the scale.
-double draw_colour_bar(Sheet& sheet, double top, const std::string& title, const Scale& scale);
+/// The width of a colour bar, in units of the sheet.
+inline double bar_width(const Sheet& sheet) { return std::min(400.0, sheet.width() - 60); }
+
+/// A bar of the palette with the ticks of the scale. `below`, `above`: values lie beyond that end: it is
+/// pointed.
+double draw_colour_bar(Sheet& sheet, double top, const std::string& title, const Scale& scale,
+                       const Palette& palette, bool below, bool above);
 
 /// A square with label and count for each shade whose count is not 0, in as many rows as needed.
 double draw_shades(Sheet& sheet, double top, const std::string& title, const std::vector<Shade>& shades);

@@ -40,7 +40,11 @@ constexpr double kLabel = 12;  ///< font size around the drawing
 class MeshPicture {
  public:
   MeshPicture(const Mesh& mesh, const MeshOptions& options)
-      : mesh_(mesh), options_(options), reader_(mesh.lists()), nodes_(files::unit(mesh.points)) {
+      : mesh_(mesh),
+        options_(options),
+        reader_(mesh.lists()),
+        nodes_(files::unit(mesh.points)),
+        sheet_(options.width) {
     for (std::int32_t node = 1; node <= reader_.size(); ++node)
       if (reader_.on_boundary(node)) boundary_.push_back(index(node));
   }
@@ -55,15 +59,17 @@ class MeshPicture {
     expect_sides_shorter_than_a_half_turn();
     draw_ground();
     draw_faces();
+    draw_graticule_again();
     draw_lines();
     draw_coasts();
+    draw_stations();
     draw_boundary();
     draw_border();
     draw_labels();
     draw_footer();
     draw_ranks();
     draw_legend();
-    return sheet_.svg(top_ + 8, options_.width);
+    return sheet_.svg(top_ + 8);
   }
 
   /// The colours of the faces, without a picture.
@@ -84,21 +90,34 @@ class MeshPicture {
   // ---- view ----
 
   void choose_view() {
-    const Spot centre = options_.centre ? *options_.centre : default_centre();
-    radius_ = std::min(90.0, options_.radius ? *options_.radius : radius_of_nodes(centre));
+    Spot centre = options_.centre ? *options_.centre : default_centre();
+    if (const auto& region = options_.region; region) {
+      centre = {(region->west + region->east) / 2, (region->south + region->north) / 2};
+      radius_ = std::max((region->east - region->west) * std::cos(centre.lat / files::kRadian),
+                         region->north - region->south) /
+                2;
+    } else {
+      radius_ = options_.radius ? *options_.radius : radius_of_nodes(centre);
+    }
+    radius_ = std::min(90.0, radius_);
     zoomed_ = radius_ < 90;
     decimals_ = std::max(2, 1 - static_cast<int>(std::floor(std::log10(radius_))));
     // Space for the longest label beside the drawing.
-    const double margin = std::max(options_.lonlat ? 56.0 : 60.0,
-                                   10 + text_width(name_of_latitude(-88.88888888, decimals_), kLabel));
+    const double least = options_.lonlat ? 56.0 : zoomed_ ? 60.0 : 0.075 * sheet_.width();
+    const double margin =
+        options_.lonlat || zoomed_
+            ? std::max(least, 10 + text_width(name_of_latitude(-88.88888888, decimals_), kLabel))
+            : least;
     if (options_.lonlat) {
-      auto map = std::make_unique<LonLat>(centre, radius_, Frame{margin, top_, kWidth - 24, top_ + 620});
+      const Frame frame{margin, top_, sheet_.width() - 24, top_ + 620};
+      auto map = options_.region ? std::make_unique<LonLat>(*options_.region, frame)
+                                 : std::make_unique<LonLat>(centre, radius_, frame);
       lonlat_ = map.get();
       view_ = std::move(map);
     } else {
       if (zoomed_) top_ += 16;  // space for labels above it
       auto sphere = std::make_unique<Orthographic>(
-          centre, radius_, Frame{margin, top_, kWidth - margin, top_ + kWidth - 2 * margin});
+          centre, radius_, Frame{margin, top_, sheet_.width() - margin, top_ + sheet_.width() - 2 * margin});
       orthographic_ = sphere.get();
       view_ = std::move(sphere);
     }
@@ -168,7 +187,7 @@ class MeshPicture {
 
   /// The background with the graticule.
   void draw_ground() {
-    Path path;
+    Path& path = graticule_path_;
     const auto at = [](double lon, double lat) {
       lon /= files::kRadian, lat /= files::kRadian;
       return Point{std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
@@ -214,6 +233,13 @@ class MeshPicture {
       }
     }
     sheet_.path(path, fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"0.8\"", kGraticule));
+  }
+
+  /// Over coloured faces, where its lines lead to labels.
+  void draw_graticule_again() {
+    if (options_.colour != Colour::none && (lonlat_ != nullptr || zoomed_))
+      sheet_.path(graticule_path_,
+                  "fill=\"none\" stroke=\"#000000\" stroke-opacity=\"0.35\" stroke-width=\"0.8\"");
   }
 
   /// Adds a piece of the current line of the graticule to the path and remembers its ends.
@@ -304,7 +330,9 @@ class MeshPicture {
   /// Shades of a colour bar; NaN: grey. `title` and `unit` are for the legend.
   std::vector<std::size_t> shades_of_numbers(const std::vector<double>& values, const std::string& title,
                                              const std::string& unit) {
-    Shading shading = shading_of_numbers(values, title, unit);
+    Shading shading =
+        shading_of_numbers(values, title, unit, {options_.palette, options_.range, bar_width(sheet_)});
+    below_ = shading.below, above_ = shading.above;
     shades_ = std::move(shading.shades);
     scale_ = std::move(shading.scale);
     legend_ = std::move(shading.title);
@@ -329,6 +357,8 @@ class MeshPicture {
   std::vector<std::size_t> shades_of_words(const std::vector<std::string>& words) {
     if (options_.what != What::cells)
       throw std::runtime_error(fmt::format("{} is a column of words: say --what cells", options_.value));
+    if (options_.range)
+      throw std::runtime_error(fmt::format("{} is a column of words: it has no --range", options_.value));
     std::map<std::string, std::size_t> counts;
     for (const std::string& word : words) ++counts[word];
     const auto missing = counts.find("");
@@ -433,7 +463,9 @@ class MeshPicture {
         }
     }
     spacing_ = count == 0 ? 10 : length / static_cast<double>(count);
-    const char* const colour = options_.colour == Colour::none ? kLine : scale_ ? "#ffffff" : "#555555";
+    const char* const colour = options_.colour == Colour::none ? kLine
+                               : scale_                        ? options_.palette->lines
+                                                               : "#555555";
     sheet_.add(fmt::format(
         "<g fill=\"none\" stroke=\"{}\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n", colour));
     const double usual = std::clamp(0.045 * spacing_, 0.1, 0.9);
@@ -442,8 +474,16 @@ class MeshPicture {
                   fmt::format("stroke-width=\"{:.2f}\"",
                               usual * std::clamp(std::sqrt(std::ldexp(1.5, k) / spacing_), 0.2, 1.2)));
     sheet_.add("</g>\n");
-    if (options_.what == What::cells && options_.colour == Colour::none && spacing_ > 4)
+    if (options_.what == What::cells && options_.colour == Colour::none && spacing_ > 4 && !options_.dots)
       draw_dots(nodes_, kBlack, std::clamp(0.1 * spacing_, 0.8, 3.0));
+  }
+
+  /// Black with a white rim: seen on every colour.
+  void draw_stations() {
+    if (!options_.dots) return;
+    const double size = std::clamp(0.2 * spacing_, 1.5, 5.0);
+    draw_dots(nodes_, "#ffffff", 1.5 * size);
+    draw_dots(nodes_, kBlack, size);
   }
 
   void draw_dots(const std::vector<Point>& points, const char* colour, double diameter) {
@@ -571,7 +611,15 @@ class MeshPicture {
     const Frame& frame = view_->frame();
     const std::string eye = "above " + name_of(centre_, decimals_);
     if (!zoomed_) {
-      if (lonlat_ == nullptr) sheet_.text({kWidth - 14, frame.bottom - 4}, kLabel, Anchor::end, eye, kGrey);
+      if (lonlat_ != nullptr) return;
+      // Beside the circle, or below it, where the picture is narrow.
+      const Place middle = orthographic_->middle();
+      const double right = sheet_.width() - 14, left = right - text_width(eye, kLabel) - 4;
+      const bool is_beside =
+          std::hypot(left - middle.x, frame.bottom - 18 - middle.y) > orthographic_->scale() &&
+          left > middle.x;
+      if (!is_beside) top_ += 18;
+      sheet_.text({right, is_beside ? frame.bottom - 4 : top_ - 4}, kLabel, Anchor::end, eye, kGrey);
       return;
     }
     // The bar's length is 1, 2 or 5 times a power of ten, at most a quarter of the width.
@@ -650,7 +698,7 @@ class MeshPicture {
 
   void draw_legend() {
     if (scale_) {
-      top_ = draw_colour_bar(sheet_, top_, legend_, *scale_);
+      top_ = draw_colour_bar(sheet_, top_, legend_, *scale_, *options_.palette, below_, above_);
       if (options_.colour == Colour::value && shades_.back().count > 0)
         top_ = draw_note(sheet_, top_ + 2, kNoColour,
                          fmt::format("no value: {} {}{}", grouped(shades_.back().count), what(),
@@ -709,12 +757,14 @@ class MeshPicture {
   bool zoomed_ = false;  ///< true if only a part of the sphere is shown
   int decimals_ = 2;     ///< decimals of degrees in labels
   std::vector<GraticuleLine> graticule_;
+  Path graticule_path_;
   Faces faces_;
   std::vector<Shade> shades_;
   std::vector<std::size_t> owner_;  ///< of each node
   std::optional<Scale> scale_;
-  std::string legend_;  ///< title of the legend
-  double spacing_ = 0;  ///< mean distance of the drawn lines in pixels
+  bool below_ = false, above_ = false;  ///< values lie beyond the ends of the scale
+  std::string legend_;                  ///< title of the legend
+  double spacing_ = 0;                  ///< mean distance of the drawn lines in pixels
 };
 
 }  // namespace

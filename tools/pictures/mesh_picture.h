@@ -3,9 +3,11 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "files/mesh.h"
 #include "parallel/partition.h"
+#include "pictures/colours.h"
 #include "pictures/shading.h"
 #include "pictures/view.h"
 
@@ -17,12 +19,17 @@ struct MeshOptions {
   bool lonlat = false;           ///< longitude-latitude map; else orthographic
   std::optional<Spot> centre;    ///< none: the centre of the nodes, or a default if they cover the sphere
   std::optional<double> radius;  ///< in degrees; none: show all nodes
+  std::optional<files::Region> region;  ///< show this map instead
 
   enum class Colour { none, size, degree, owner, value } colour = Colour::none;
   int ranks = 1;  ///< number of ranks, for Colour::owner
   pstripack::PartitionKind partition = pstripack::PartitionKind::bisection;
 
-  std::string value;  ///< name of a column of the mesh, for Colour::value
+  std::string value;                               ///< name of a column of the mesh, for Colour::value
+  const Palette* palette = &palettes().front();    ///< of a colour bar
+  std::optional<std::pair<double, double>> range;  ///< its ends; none: those of the values
+
+  bool dots = false;  ///< draw all nodes as dots
 
   bool coasts = false;     ///< draw Natural Earth's coast lines
   std::string coast_file;  ///< draw the lines of this shapefile instead

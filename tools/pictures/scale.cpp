@@ -49,6 +49,7 @@ Scale::Scale(const std::vector<double>& values, int about, bool always_linear) {
     add_logarithmic_ticks(low, high, about);
   else
     add_linear_ticks(low, high, about);
+  low_ = ticks_.front().value, high_ = ticks_.back().value;
 }
 
 void Scale::add_linear_ticks(double low, double high, int about) {
@@ -97,10 +98,24 @@ Scale Scale::fitting(const std::vector<double>& values, int about, double pixels
   return {values, 1, always_linear};
 }
 
+Scale Scale::between(double low, double high, int about, double pixels, double size) {
+  for (;; --about) {
+    Scale scale({low, high}, about);
+    scale.low_ = low, scale.high_ = high;
+    const double rounding = kRounding * (high - low);
+    scale.ticks_.erase(
+        std::remove_if(scale.ticks_.begin(), scale.ticks_.end(),
+                       [&](const Tick& t) { return t.value < low - rounding || t.value > high + rounding; }),
+        scale.ticks_.end());
+    if (about == 1 || scale.fits(pixels, size)) return scale;
+  }
+}
+
 double Scale::operator()(double value) const {
-  const double low = ticks_.front().value, high = ticks_.back().value;
+  if (logarithmic_ && value <= low_) return 0;
   return std::clamp(
-      logarithmic_ ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low), 0.0, 1.0);
+      logarithmic_ ? std::log(value / low_) / std::log(high_ / low_) : (value - low_) / (high_ - low_), 0.0,
+      1.0);
 }
 
 double Scale::factor() const { return std::pow(10, exponent_); }

@@ -15,6 +15,8 @@ class Scale {
   /// At most `about` steps; fewer if labels of font size `size` would overlap on `pixels` pixels.
   static Scale fitting(const std::vector<double>& values, int about, double pixels, double size,
                        bool always_linear = false);
+  /// From `low` to `high`, which need not be ticks.
+  static Scale between(double low, double high, int about, double pixels, double size);
 
   double operator()(double value) const;  ///< fraction of the range: 0 to 1
 
@@ -22,8 +24,8 @@ class Scale {
     double value;
     std::string label;
   };
-  /// Ticks at round values. The first and the last are the ends of the range. Label times factor() is the
-  /// value.
+  /// Ticks at round values. The first and the last are the ends of the range, but for between(). Label times
+  /// factor() is the value.
   const std::vector<Tick>& ticks() const { return ticks_; }
   double factor() const;
   /// "" or "10⁻⁴ ", before the name of the unit.
@@ -34,6 +36,7 @@ class Scale {
   void add_logarithmic_ticks(double low, double high, int about);
   bool fits(double pixels, double size) const;
   bool logarithmic_;
+  double low_, high_;
   int exponent_ = 0;
   std::vector<Tick> ticks_;
 };

@@ -30,7 +30,7 @@ void Sheet::text(const Place& at, double size, Anchor anchor, const std::string&
 bool Sheet::text_if_free(Place at, double size, Anchor anchor, const std::string& words, const char* colour) {
   constexpr double kBorder = 2, kGap = 3;
   Box box = box_of(at, size, anchor, words);
-  at.x += std::max(0.0, kBorder - box.left) - std::max(0.0, box.right - (kWidth - kBorder));
+  at.x += std::max(0.0, kBorder - box.left) - std::max(0.0, box.right - (width_ - kBorder));
   box = box_of(at, size, anchor, words);
   box = {box.left - kGap, box.top, box.right + kGap, box.bottom};
   if (std::any_of(texts_.begin(), texts_.end(), [&](const Box& other) { return overlap(box, other); }))
@@ -40,9 +40,10 @@ bool Sheet::text_if_free(Place at, double size, Anchor anchor, const std::string
 }
 
 void Sheet::centred(double y, double size, const std::string& words, const char* colour) {
-  constexpr double kSmallest = 11, kWidest = kWidth - 24;
-  size = std::clamp(std::floor(size * kWidest / text_width(words, size)), std::min(kSmallest, size), size);
-  text({kWidth / 2, y}, size, Anchor::middle, shortened(words, size, kWidest), colour);
+  constexpr double kSmallest = 11;
+  const double widest = width_ - 24;
+  size = std::clamp(std::floor(size * widest / text_width(words, size)), std::min(kSmallest, size), size);
+  text({width_ / 2, y}, size, Anchor::middle, shortened(words, size, widest), colour);
 }
 
 void Sheet::rectangle(double x, double y, double width, double height, const std::string& fill,
@@ -62,14 +63,14 @@ double Sheet::title(const std::string& words) {
   return 48;
 }
 
-std::string Sheet::svg(double height, double width) const {
+std::string Sheet::svg(double height) const {
   height = std::ceil(height);
   return fmt::format(R"(<svg xmlns="http://www.w3.org/2000/svg" width="{}" height="{}" viewBox="0 0 {} {}"
  font-family="DejaVu Sans, Verdana, sans-serif">
 <rect width="100%" height="100%" fill="#ffffff"/>
 {}</svg>
 )",
-                     width, std::round(width * height / kWidth), kWidth, height, body_);
+                     pixels_, std::round(pixels_ * height / width_), width_, height, body_);
 }
 
 }  // namespace pictures

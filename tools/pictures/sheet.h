@@ -1,6 +1,7 @@
 #pragma once
-// The elements of a picture 800 units wide and as high as needed.
+// The elements of a picture, at most 800 units wide and as high as needed.
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -8,7 +9,7 @@
 
 namespace pictures {
 
-constexpr double kWidth = 800;
+constexpr double kWidth = 800, kNarrow = 300;
 constexpr const char* kBlack = "#222222";
 constexpr const char* kGrey = "#777777";
 
@@ -23,6 +24,12 @@ bool overlap(const Box& a, const Box& b);
 
 class Sheet {
  public:
+  /// A picture of fewer pixels than kWidth is drawn in pixels, so that its texts stay readable; one of fewer
+  /// than `narrow`, or of more than kWidth, is scaled.
+  explicit Sheet(double pixels, double narrow = kNarrow)
+      : width_(std::clamp(pixels, narrow, kWidth)), pixels_(pixels) {}
+  double width() const { return width_; }
+
   /// Adds elements unchanged.
   void add(const std::string& elements) { body_ += elements; }
   void text(const Place& at, double size, Anchor anchor, const std::string& words,
@@ -43,10 +50,11 @@ class Sheet {
   /// Adds the title, if it is not empty; returns its lower end.
   double title(const std::string& words);
 
-  /// The complete SVG, `width` pixels wide.
-  std::string svg(double height, double width) const;
+  /// The complete SVG.
+  std::string svg(double height) const;
 
  private:
+  double width_, pixels_;
   std::string body_;
   std::vector<Box> texts_;
 };

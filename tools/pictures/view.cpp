@@ -224,9 +224,18 @@ LonLat::LonLat(const Spot& centre, double radius, const Frame& frame) {
   west_ = centre.lon - half, east_ = centre.lon + half;
   south_ = all ? -90 : std::max(-90.0, centre.lat - radius);
   north_ = all ? 90 : std::min(90.0, centre.lat + radius);
-  per_lat_ = std::min(frame.width() / (squeezed * 2 * half), frame.height() / (north_ - south_));
+  fill(frame, squeezed);
+}
+
+LonLat::LonLat(const files::Region& region, const Frame& frame)
+    : west_(region.west), east_(region.east), south_(region.south), north_(region.north) {
+  fill(frame, std::max(0.05, point_sets::cos_degrees((south_ + north_) / 2)));
+}
+
+void LonLat::fill(const Frame& frame, double squeezed) {
+  per_lat_ = std::min(frame.width() / (squeezed * (east_ - west_)), frame.height() / (north_ - south_));
   per_lon_ = per_lat_ * squeezed;
-  const double width = per_lon_ * 2 * half, middle = (frame.left + frame.right) / 2;
+  const double width = per_lon_ * (east_ - west_), middle = (frame.left + frame.right) / 2;
   frame_ = {middle - width / 2, frame.top, middle + width / 2, frame.top + per_lat_ * (north_ - south_)};
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "files/clipping.h"
 #include "geometry/point.h"
 #include "pictures/place.h"
 
@@ -88,6 +89,8 @@ class Orthographic : public View {
 class LonLat : public View {
  public:
   LonLat(const Spot& centre, double radius, const Frame& frame);
+  /// Shows this region, at the scale of its middle latitude.
+  LonLat(const files::Region& region, const Frame& frame);
 
   double west() const { return west_; }
   double east() const { return east_; }
@@ -103,6 +106,8 @@ class LonLat : public View {
   std::vector<Outline> arc(const Point& a, const Point& b) const override;
 
  private:
+  void fill(const Frame& frame, double squeezed);
+
   class Unrolled;
   double west_, east_, south_, north_;
   double per_lon_, per_lat_;  ///< pixels per degree

@@ -74,13 +74,14 @@ void write_cut(const files::OutputFile& file, const Output& output, const files:
 
 void convert(Options& options) {
   options.output.choose();
-  options.input.read.with_triangles = options.input.read.with_columns = true;
-  options.input.read.with_boundary = true;
+  options.input.read.with_columns = options.input.read.with_boundary = true;
+  options.input.read.with_triangles = !options.input.read.keep_missing;
   files::OutputFile file(options.output.file);
   Progress progress;
   const Input& input = options.input;
   files::Nodes nodes = progress.step("reading", [&] {
-    if (!input.drops() && input.within.radians == 0) return files::read(input.file, input.read);
+    if (!input.drops() && input.within.radians == 0 && !input.read.keep_missing)
+      return files::read(input.file, input.read);
     files::Nodes places = read_places(input.file, input.read);
     drop_duplicates(places, input);
     return places;

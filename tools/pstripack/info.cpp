@@ -110,12 +110,13 @@ void info(const Options& options) {
 
   if (options.json) {
     const auto extreme = [&](const Extreme& e) {
-      nlohmann::ordered_json j{{"value", e.value}, {"nodes", {given_number(e.first)}}};
-      if (e.second > 0) j["nodes"].push_back(given_number(e.second));
+      nlohmann::ordered_json j{{"value", e.value}, {"nodes", {nodes.number(given_number(e.first) - 1)}}};
+      if (e.second > 0) j["nodes"].push_back(nodes.number(given_number(e.second) - 1));
       return j;
     };
     nlohmann::ordered_json pairs = nlohmann::ordered_json::array();
-    for (const files::Duplicate& d : duplicates) pairs.push_back({d.first + 1, d.node + 1});
+    for (const files::Duplicate& d : duplicates)
+      pairs.push_back({nodes.number(d.first), nodes.number(d.node)});
     const nlohmann::ordered_json j{{"file", nodes.file},
                                    {"kind", nodes.kind},
                                    {"nodes", given},

@@ -7,8 +7,10 @@
 #include <cstring>
 #include <map>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
+#include "files/measures.h"
 #include "methods/triangulated_nodes.h"
 #include "numbers.h"
 #include "pstripack/options.h"
@@ -26,13 +28,13 @@ enum class To { text, csv, netcdf };
 
 struct Options {
   Input input;
-  bool skip_missing = false;
   std::string points, grid, region;
   double step = 0;
   Registration registration = Registration::cell;
   Interpolation::Method method = Interpolation::Method::linear;
   Outside outside = Outside::missing;
-  std::string output, to;
+  bool nearest_node = false;
+  std::string output, to, weights;
 };
 
 /// `count` longitudes or latitudes from low to high: centres of equal cells, or, if at_nodes, their corners.
@@ -67,7 +69,7 @@ files::Grid grid_of(const Options& options) {
     if (at_nodes) counts = {counts[0] + 1, counts[1] + (all_around ? 0 : 1)};
   }
   for (const double count : counts)
-    if (!(count >= (at_nodes ? 2 : 1) && count == std::floor(count)) || counts[0] * counts[1] > 1e10)
+    if (!(count >= (at_nodes ? 2 : 1) && count == std::floor(count)) || counts[0] * counts[1] > 2e9)
       throw CLI::ValidationError("--to-grid", "expected NLATxNLON, for example 180x360");
   // In a grid around the globe the last meridian equals the first one: leave it out.
   const auto n_lat = static_cast<std::size_t>(counts[0]), n_lon = static_cast<std::size_t>(counts[1]);
@@ -75,6 +77,23 @@ files::Grid grid_of(const Options& options) {
                    axis(r.south, r.north, n_lat, at_nodes)};
   grid.lon.resize(n_lon);
   return grid;
+}
+
+/// The edges between the points of an axis. The first and the last are those of the region, or, if the points
+/// go around the globe from one on, half a step further.
+std::vector<double> edges_between(const std::vector<double>& points, double low, double high,
+                                  bool goes_around) {
+  std::vector<double> edges{goes_around ? low - (points[1] - points[0]) / 2 : low};
+  for (std::size_t i = 1; i < points.size(); ++i) edges.push_back((points[i - 1] + points[i]) / 2);
+  edges.push_back(goes_around ? edges[0] + 360 : high);
+  return edges;
+}
+
+files::Grid edges_of(const files::Grid& grid, const Options& options) {
+  const files::Region r = options.region.empty() ? files::Region{} : region_of(options.region);
+  const bool goes_around = options.registration == Registration::node && r.east - r.west == 360;
+  return {edges_between(grid.lon, r.west, r.east, goes_around),
+          edges_between(grid.lat, r.south, r.north, false)};
 }
 
 To format_of(const Options& options) {
@@ -93,34 +112,42 @@ To format_of(const Options& options) {
   return To::text;
 }
 
-/// Removes nodes without value if `skip` is true, else throws.
-void see_to_missing(files::Nodes& nodes, bool skip) {
-  std::vector<std::size_t> kept;
-  const std::vector<double>& values = nodes.value.numbers;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!std::isnan(values[i]))
-      kept.push_back(i);
-    else if (!skip)
-      throw std::runtime_error(
-          fmt::format("{}: {} has no value: remove it, or say --skip-missing", nodes.file, nodes.place(i)));
-  }
-  if (kept.size() == values.size()) return;
-  say(fmt::format("{}: {} without value left out", nodes.file, counted(values.size() - kept.size(), "node")));
-  nodes.keep(kept);
-}
-
 files::Nodes read_values(Options& options) {
-  options.input.read.with_values = true;
   files::Nodes nodes = read_places(options.input.file, options.input.read);
-  see_to_missing(nodes, options.skip_missing);
+  if (options.input.read.with_values)
+    leave_out(
+        nodes,
+        [&](std::size_t i) {
+          const bool is_missing = std::isnan(nodes.value.numbers[i]);
+          if (is_missing && !options.input.read.keep_missing)
+            throw std::runtime_error(fmt::format("{}: {} has no value: remove it, or say --skip-missing",
+                                                 nodes.file, nodes.place(i)));
+          return is_missing;
+        },
+        "value");
   drop_duplicates(nodes, options.input);
   return nodes;
+}
+
+/// The columns of the nearest node of each place.
+files::Columns nearest_columns(const Interpolation& interpolation, const files::Nodes& nodes,
+                               const std::vector<files::Point>& places) {
+  Interpolation::Nearest nearest = interpolation.nearest_at(places);
+  std::vector<double> numbers;
+  for (const std::int32_t node : nearest.node)
+    numbers.push_back(static_cast<double>(nodes.number(static_cast<std::size_t>(node) - 1)));
+  for (double& d : nearest.distance) d *= files::kEarthRadius;
+  return {files::whole_numbers("nearest_node", "number of the nearest node in the input, from 1",
+                               std::move(numbers)),
+          {"nearest_km", "distance to the nearest node on a sphere of radius 6371 km", "km",
+           std::move(nearest.distance)}};
 }
 
 /// Reads the places with the columns of their file, and x y z if these were given.
 files::Nodes read_points(const Options& options) {
   files::ReadOptions read;
   read.units = options.input.read.units;
+  read.keep_missing = options.input.read.keep_missing;
   read.with_columns = true;
   files::Nodes places = read_places(options.points, read);
   if (!places.given.empty()) return places;
@@ -143,10 +170,23 @@ void interpolate(Options& options) {
     throw CLI::ValidationError("--region", "is of a grid, not of --to-points");
   if (options.registration == Registration::node && !options.points.empty())
     throw CLI::ValidationError("--registration", "is of a grid, not of --to-points");
-  const To to = format_of(options);
+  const bool has_values = !options.output.empty(), has_weights = !options.weights.empty();
+  if (!has_values && !has_weights) throw CLI::RequiredError("--output or --weights");
+  if (has_weights && options.method == Interpolation::Method::cubic)
+    throw CLI::ValidationError("--weights",
+                               "are those of linear, natural or nearest: cubic has gradients too");
+  if (has_weights && options.input.duplicates == Duplicates::mean)
+    throw CLI::ValidationError("--weights", "are of one node for each place: say --duplicates first");
+  if (!has_values && options.nearest_node)
+    throw CLI::ValidationError("--nearest-node", "is for columns of the output: give --output");
+  const To to = has_values ? format_of(options) : To::netcdf;
+  options.input.read.may_have_value = true;
+  options.input.read.with_values = has_values || !options.input.read.variable.empty();
   files::Grid grid;
   if (options.points.empty()) grid = grid_of(options);
-  files::OutputFile file(options.output);
+  std::optional<files::OutputFile> file, weights_file;
+  if (has_values) file.emplace(options.output);
+  if (has_weights) weights_file.emplace(options.weights);
 
   Progress progress;
   files::Nodes nodes = progress.step("reading", [&] { return read_values(options); });
@@ -167,38 +207,59 @@ void interpolate(Options& options) {
       throw no_mesh_of(nodes, e);
     }
   });
-  Interpolation::Result result = progress.step("interpolating", [&] {
-    return interpolation.values_at(places.points, nodes.value.numbers, options.method,
-                                   options.outside == Outside::nearest ? Interpolation::Outside::nearest
-                                                                       : Interpolation::Outside::missing);
+  const auto outside =
+      options.outside == Outside::nearest ? Interpolation::Outside::nearest : Interpolation::Outside::missing;
+  Interpolation::Result result;
+  files::Weights weights;
+  progress.step("interpolating", [&] {
+    if (has_weights) weights = interpolation.weights_at(places.points, options.method, outside);
+    if (has_values)
+      result = interpolation.values_at(places.points, nodes.value.numbers, options.method, outside);
   });
-  if (options.outside == Outside::error && result.outside > 0) {
+  const std::size_t count_outside = has_values ? result.outside : weights.outside;
+  if (options.outside == Outside::error && count_outside > 0) {
     std::size_t first = 0;
-    while (!std::isnan(result.values[first])) ++first;
+    while (has_values ? !std::isnan(result.values[first]) : weights.begin[first] < weights.begin[first + 1])
+      ++first;
     const files::LonLat where({places.points[first]}, true);
-    throw std::runtime_error(
-        fmt::format("{} of {} places lie outside the nodes of {}, the first is place {}, lon {:.6g} lat "
-                    "{:.6g}: --outside missing "
-                    "or nearest",
-                    result.outside, places.points.size(), nodes.file, first + 1, where.lon[0], where.lat[0]));
+    throw std::runtime_error(fmt::format(
+        "{} of {} places lie outside the nodes of {}, the first is place {}, lon {:.6g} lat {:.6g}: "
+        "--outside missing or nearest",
+        count_outside, places.points.size(), nodes.file, places.number(first), where.lon[0], where.lat[0]));
   }
-  progress.step("writing", [&] {
-    files::Field field{std::move(nodes.value), std::move(places.columns), std::move(nodes.notes)};
-    if (field.value.name.empty()) field.value.name = "value";
-    field.value.numbers = std::move(result.values);
-    field.value.whole = false;
-    make_names_differ(field.columns, {"lon", "lat", field.value.name});
-    add_history(field.notes);
-    if (to == To::netcdf && options.points.empty())
-      write_netcdf_grid(file, grid, field);
-    else
-      (to == To::netcdf ? files::write_netcdf_field
-       : to == To::csv  ? files::write_csv_field
-                        : files::write_field)(file, angles_of(places.points, places.given, true), field);
-    file.commit();
-  });
-  progress.finish(fmt::format("{} ({}), {}, {} outside the nodes", counted(nodes.points.size(), "node"),
-                              nodes.kind, counted(places.points.size(), "place"), result.outside));
+  const files::LonLat at = angles_of(places.points, places.given, true);
+  add_history(nodes.notes);
+  if (has_weights)
+    progress.step("writing the weights", [&] {
+      const std::vector<std::size_t> shape =
+          options.points.empty() ? std::vector<std::size_t>{grid.lat.size(), grid.lon.size()} : places.shape;
+      write_weights(
+          *weights_file, weights,
+          {angles_of(nodes.points, nodes.given, true), nodes.numbers, nodes.shape, {}},
+          {at, places.numbers, shape, options.points.empty() ? edges_of(grid, options) : files::Grid{}},
+          nodes.notes["history"]);
+      weights_file->commit();
+    });
+  if (has_values)
+    progress.step("writing", [&] {
+      files::Field field{std::move(nodes.value), {}, std::move(nodes.notes)};
+      if (options.nearest_node) field.columns = nearest_columns(interpolation, nodes, places.points);
+      field.columns.insert(field.columns.end(), places.columns.begin(), places.columns.end());
+      if (field.value.name.empty()) field.value.name = "value";
+      field.value.numbers = std::move(result.values);
+      field.value.whole = false;
+      make_names_differ(field.columns, {"lon", "lat", field.value.name});
+      if (to == To::netcdf && options.points.empty())
+        write_netcdf_grid(*file, grid, field);
+      else
+        (to == To::netcdf ? files::write_netcdf_field
+         : to == To::csv  ? files::write_csv_field
+                          : files::write_field)(*file, at, field);
+      file->commit();
+    });
+  progress.finish(fmt::format("{} ({}), {}, {} outside the nodes{}", counted(nodes.points.size(), "node"),
+                              nodes.kind, counted(places.points.size(), "place"), count_outside,
+                              has_weights ? ", " + counted(weights.node.size(), "weight") : ""));
 }
 
 }  // namespace
@@ -210,8 +271,10 @@ void add_interpolate(CLI::App& app, Command& chosen) {
   sub->add_option("VALUES", options->input.file, "file of nodes and values; - is stdin")
       ->required()
       ->type_name("");
-  sub->add_option("--variable", options->input.read.variable,
-                  "of the value: name, or in text column from 1 [the column after the coordinates]")
+  sub->add_option(
+         "--variable", options->input.read.variable,
+         "of the value: its name, or in text its column, from 1 [the only one; in text without a header "
+         "the one after the coordinates]")
       ->type_name("NAME");
   sub->add_option("--to-points", options->points, "file of points")->type_name("FILE");
   sub->add_option("--to-grid", options->grid, "points of a grid, for example 180x360")
@@ -224,21 +287,27 @@ void add_interpolate(CLI::App& app, Command& chosen) {
   add_choice(*sub, "--registration", options->registration,
              {{"cell", Registration::cell}, {"node", Registration::node}},
              "cell: centres of equal cells; node: on the edges of the region and between [cell]");
-  add_choice(*sub, "--method", options->method,
-             {{"linear", Interpolation::Method::linear},
-              {"natural", Interpolation::Method::natural},
-              {"cubic", Interpolation::Method::cubic}},
-             "linear (on triangles), natural (neighbours) or cubic (these and gradients) [linear]");
+  add_choice(
+      *sub, "--method", options->method,
+      {{"linear", Interpolation::Method::linear},
+       {"natural", Interpolation::Method::natural},
+       {"cubic", Interpolation::Method::cubic},
+       {"nearest", Interpolation::Method::nearest}},
+      "linear (on triangles), natural (neighbours), cubic (these and gradients) or nearest (node) [linear]");
   add_choice(
       *sub, "--outside", options->outside,
       {{"missing", Outside::missing}, {"nearest", Outside::nearest}, {"error", Outside::error}},
       "places outside the nodes: missing (no value), nearest (nearest node's value) or error [missing]");
-  sub->add_flag("--skip-missing", options->skip_missing, "leave out nodes without a value [an error]");
   add_reading(*sub, options->input.read);
+  add_skip_missing(*sub, options->input.read, "a place or a value, points without a place");
   add_duplicates(*sub, options->input);
-  sub->add_option("-o,--output", options->output, "file to write; - is stdout")
-      ->required()
+  sub->add_flag("--nearest-node", options->nearest_node,
+                "also columns nearest_node, its number in VALUES, and nearest_km, its distance");
+  sub->add_option(
+         "--weights", options->weights,
+         "NetCDF file of the weights as of ESMF_RegridWeightGen: row, col, S; with or without --output")
       ->type_name("FILE");
+  sub->add_option("-o,--output", options->output, "file to write; - is stdout")->type_name("FILE");
   sub->add_option("--to", options->to,
                   "text (lines of lon lat value), csv or netcdf [by the suffix: .txt, .csv, .nc]")
       ->type_name("WORD")

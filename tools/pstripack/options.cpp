@@ -48,7 +48,16 @@ void check_lengths(const Nodes& nodes) {
 
 constexpr double kDegree = 1.5707963267948966 / 90;
 
-Distance distance_of(const std::string& text) {
+std::string suffixes() {
+  std::string text;
+  for (const files::FormatEntry& f : files::formats())
+    text += fmt::format("\n  {:<7} {:<16} {}", f.name, f.suffixes, f.what);
+  return text;
+}
+
+}  // namespace
+
+Distance distance_of(const char* option, const std::string& text) {
   const std::size_t unit = text.find_last_not_of("abcdefghijklmnopqrstuvwxyz") + 1;
   constexpr std::pair<const char*, double> kUnits[] = {{"mm", files::kMillimetre},
                                                        {"cm", 10 * files::kMillimetre},
@@ -61,23 +70,13 @@ Distance distance_of(const std::string& text) {
   double value = 0;
   if (known == std::end(kUnits) || !point_sets::parse(text.substr(0, unit), value))
     throw CLI::ValidationError(
-        "--duplicates-within",
+        option,
         "'" + text + "': expected a number and its unit: 1mm, 0.5m, 2km (on the Earth), 1e-6deg or 1e-8rad");
   const Distance distance{value * known->second, text};
   if (!(value >= 0 && distance.radians < 90 * kDegree))
-    throw CLI::ValidationError("--duplicates-within",
-                               "'" + text + "': expected a distance from 0 to less than 90deg");
+    throw CLI::ValidationError(option, "'" + text + "': expected a distance from 0 to less than 90deg");
   return distance;
 }
-
-std::string suffixes() {
-  std::string text;
-  for (const files::FormatEntry& f : files::formats())
-    text += fmt::format("\n  {:<7} {:<16} {}", f.name, f.suffixes, f.what);
-  return text;
-}
-
-}  // namespace
 
 Global& global() {
   static Global options;
@@ -191,6 +190,7 @@ void keep_area(files::Mesh& mesh, const files::LimitedArea& area) {
 void add_input(CLI::App& app, Input& input) {
   app.add_option("IN", input.file, "file of nodes; - is stdin")->required()->type_name("");
   add_reading(app, input.read);
+  add_skip_missing(app, input.read, "a place");
 }
 
 void add_reading(CLI::App& app, files::ReadOptions& read) {
@@ -201,14 +201,20 @@ void add_reading(CLI::App& app, files::ReadOptions& read) {
               {"geojson", Container::geojson},
               {"raw", Container::raw}},
              "text, netcdf, geojson or raw (doubles in this machine's byte order) [detected, but for raw]");
-  add_choice(app, "--coordinates", read.coordinates,
-             {{"xyz", Coordinates::xyz}, {"lonlat", Coordinates::lonlat}},
-             "xyz: three columns, any lengths; lonlat: two columns [by their names or number]");
+  add_choice(
+      app, "--coordinates", read.coordinates, {{"xyz", Coordinates::xyz}, {"lonlat", Coordinates::lonlat}},
+      "xyz: three columns, any lengths; lonlat: two columns, geodetic latitudes taken as those of a sphere: "
+      "up to 0.19 degrees, 21 km, off [by their names or number]");
   app.add_option("--columns", read.columns,
                  "lon,lat or x,y,z, then other columns to keep: names, or in text numbers [all]")
       ->type_name("NAMES");
   add_choice(app, "--units", read.units, {{"degrees", Units::degrees}, {"radians", Units::radians}},
              "degrees or radians, where the file does not say");
+}
+
+void add_skip_missing(CLI::App& app, files::ReadOptions& read, const char* what) {
+  app.add_flag("--skip-missing", read.keep_missing,
+               fmt::format("leave out nodes without {} [an error]", what));
 }
 
 void add_duplicates(CLI::App& app, Input& input) {
@@ -217,9 +223,13 @@ void add_duplicates(CLI::App& app, Input& input) {
              "nodes in the same place: error, first (keep it) or mean (of their values) [error]");
   app.add_flag("--drop-duplicates", input.drop_duplicates, "the same as --duplicates first");
   app.add_option_function<std::string>(
-         "--duplicates-within", [&input](const std::string& text) { input.within = distance_of(text); },
+         "--duplicates-within",
+         [&input](const std::string& text) { input.within = distance_of("--duplicates-within", text); },
          "nodes this near are in the same place: 1mm, 0.5m, 2km, 1e-6deg, 1e-8rad [0]")
       ->type_name("DISTANCE");
+  app.add_option("--list-duplicates", input.list,
+                 "write the nodes that are dropped, and `kept`, the number of the one kept: CSV, or GeoJSON")
+      ->type_name("FILE");
 }
 
 void add_output(CLI::App& app, Output& output, bool required) {
@@ -268,9 +278,27 @@ void Output::choose(std::optional<files::Format> otherwise) {
 
 Nodes read_places(const std::string& file, const files::ReadOptions& options) {
   Nodes nodes = files::read(file, options);
+  if (options.keep_missing)
+    leave_out(
+        nodes,
+        [&](std::size_t i) {
+          const files::Point& p = nodes.points[i];
+          return std::isnan(p.x) || std::isnan(p.y) || std::isnan(p.z);
+        },
+        "place");
   check_directions(nodes);
   if (options.coordinates != files::Coordinates::xyz) check_lengths(nodes);
   return nodes;
+}
+
+void leave_out(Nodes& nodes, const std::function<bool(std::size_t)>& is_missing, const char* what) {
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < nodes.points.size(); ++i)
+    if (!is_missing(i)) kept.push_back(i);
+  if (kept.size() == nodes.points.size()) return;
+  say(fmt::format("{}: {} without {} left out", nodes.file,
+                  counted(nodes.points.size() - kept.size(), "node"), what));
+  nodes.keep(kept);
 }
 
 Nodes read_nodes(const Input& input) {
@@ -321,10 +349,35 @@ std::vector<files::Duplicate> duplicates_within(const std::vector<files::Point>&
   return all;
 }
 
+/// Writes the duplicates as nodes with their columns and the number of the node that is kept.
+void list(Nodes nodes, const std::vector<files::Duplicate>& duplicates, const std::string& name) {
+  if (global().is_led) return;
+  files::OutputFile file(name);
+  std::vector<std::size_t> dropped;
+  std::vector<double> kept;
+  for (const files::Duplicate& d : duplicates) {
+    dropped.push_back(d.node);
+    kept.push_back(static_cast<double>(nodes.number(d.first)));
+  }
+  nodes.keep(dropped);
+  number_nodes(nodes);
+  nodes.columns.insert(nodes.columns.begin() + 1,
+                       files::whole_numbers("kept", "number of the node in its place that is kept", kept));
+  if (!nodes.value.name.empty()) nodes.columns.push_back(nodes.value);
+  make_names_differ(nodes.columns, {"lon", "lat"});
+  const files::Format format = files::format_of("", name).value_or(files::Format::csv);
+  write_nodes(file, format == files::Format::geojson ? format : files::Format::csv, nodes.points,
+              {nodes.given, {}, nodes.columns, {}});
+  file.commit();
+}
+
 }  // namespace
 
 void drop_duplicates(Nodes& nodes, const Input& input) {
   const Distance& within = input.within;
+  if (!input.list.empty() && !input.drops())
+    throw CLI::ValidationError("--list-duplicates",
+                               "lists what --duplicates first or mean drops: say one of them");
   if (!input.drops() && within.radians == 0) return;
   std::vector<files::Duplicate> duplicates;
   try {
@@ -332,6 +385,7 @@ void drop_duplicates(Nodes& nodes, const Input& input) {
   } catch (const files::NoMesh& e) {
     throw no_mesh_of(nodes, e);
   }
+  if (!input.list.empty()) list(nodes, duplicates, input.list);
   if (duplicates.empty()) return;
   const bool means = input.duplicates == Duplicates::mean;
   if (!input.drops())
@@ -377,7 +431,7 @@ void number_nodes(Nodes& nodes) {
   if (!nodes.lines.empty())
     add(nodes.lines_are, fmt::format("{} of the node in the input", nodes.lines_are),
         [&](std::size_t i) { return nodes.lines[i]; });
-  add(kNode, "number of the node in the input, from 1", [](std::size_t i) { return i + 1; });
+  add(kNode, "number of the node in the input, from 1", [&](std::size_t i) { return nodes.number(i); });
 }
 
 void add_history(files::Notes& notes) {

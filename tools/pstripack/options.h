@@ -58,6 +58,8 @@ struct Distance {
   double radians = 0;
   std::string text = "";
 };
+/// A number and its unit: 1mm, 2km (on the Earth), 1e-6deg. `option`: for messages.
+Distance distance_of(const char* option, const std::string& text);
 
 /// Numbers between separators. `option`: for messages.
 std::vector<double> numbers_in(const std::string& option, const std::string& text, char separator,
@@ -80,13 +82,16 @@ struct Input {
   Duplicates duplicates = Duplicates::error;
   bool drop_duplicates = false;  ///< the same as Duplicates::first
   Distance within;               ///< nodes this near to each other are in the same place
+  std::string list;              ///< file for the nodes that are dropped; empty: none
 
   bool drops() const { return drop_duplicates || duplicates != Duplicates::error; }
 };
 void add_input(CLI::App& app, Input& input);
 /// --from, --columns, --coordinates, --units.
 void add_reading(CLI::App& app, files::ReadOptions& read);
-/// --duplicates, --drop-duplicates, --duplicates-within.
+/// --skip-missing: `what` must not be missing.
+void add_skip_missing(CLI::App& app, files::ReadOptions& read, const char* what);
+/// --duplicates, --drop-duplicates, --duplicates-within, --list-duplicates.
 void add_duplicates(CLI::App& app, Input& input);
 
 /// OUT and its format.
@@ -107,8 +112,12 @@ constexpr auto kRadiusOfMpas = "of the sphere in an MPAS mesh [that of the input
 CLI::Option* add_radius(CLI::App& app, double& radius, const char* text);
 void add_edges(CLI::App& app, Output& output);
 
-/// Reads nodes; throws unless they have directions, and lie on one sphere or --coordinates xyz is given.
+/// Reads nodes, without those whose place is missing if the options say so; throws unless they have
+/// directions, and lie on one sphere or --coordinates xyz is given.
 files::Nodes read_places(const std::string& file, const files::ReadOptions& options);
+
+/// Removes the nodes for which `is_missing(index)` is true, and says how many had no `what`.
+void leave_out(files::Nodes& nodes, const std::function<bool(std::size_t)>& is_missing, const char* what);
 
 /// Reads at least three nodes and removes duplicates if requested.
 files::Nodes read_nodes(const Input& input);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -25,6 +26,8 @@ struct Options {
   Input input;
   std::string file, to, what = "triangles", view, colour = "none";
   std::optional<double> radius;
+  std::string region, range, palette;
+  bool dots = false;
   bool coasts = false;
   std::string coast_file, three_file;
   std::optional<std::string> title;
@@ -95,6 +98,30 @@ void set_colour(const std::string& text, MeshOptions& mesh) {
   mesh.partition = kind->second;
 }
 
+void set_region(const Options& options, MeshOptions& mesh) {
+  mesh.region = region_of(options.region);
+  mesh.lonlat = true;
+  if (options.radius || (!options.view.empty() && options.view != "lonlat"))
+    throw CLI::ValidationError(
+        "--region", "it is a map of longitude and latitude: leave out --radius, and other views than lonlat");
+}
+
+/// Sets --range and --palette.
+void set_scale(const Options& options, MeshOptions& mesh) {
+  const bool has_bar = mesh.colour == MeshOptions::Colour::size || mesh.colour == MeshOptions::Colour::value;
+  for (const auto& [name, value] : {std::pair("--range", options.range), {"--palette", options.palette}})
+    if (!value.empty() && !has_bar)
+      throw CLI::ValidationError(name, "a colour bar is needed: --colour area or a column of numbers");
+  if (!options.palette.empty())
+    mesh.palette = &*std::find_if(pictures::palettes().begin(), pictures::palettes().end(),
+                                  [&](const pictures::Palette& p) { return p.name == options.palette; });
+  if (options.range.empty()) return;
+  const std::vector<double> ends = numbers_in("--range", options.range, ',', 2);
+  if (!(ends[0] < ends[1] && ends[1] - ends[0] > 1e-9 * std::fabs(ends[1])))
+    throw CLI::ValidationError("--range", "'" + options.range + "': expected LOW,HIGH, the lower first");
+  mesh.range = {ends[0], ends[1]};
+}
+
 bool is_globe(const Options& options) {
   return options.to == "html" ||
          (options.to.empty() && std::filesystem::path(options.file).extension() == ".html");
@@ -108,6 +135,13 @@ pictures::Kind kind_of(const Options& options) {
     throw CLI::ValidationError(
         "--output", options.file + ": expected FILE.svg, FILE.png or FILE.html, or --to svg, png or html");
   return *kind;
+}
+
+std::string what_is_drawn(const files::Mesh& mesh, MeshOptions::What what) {
+  const std::string nodes = pictures::grouped(mesh.points.size());
+  if (what == MeshOptions::What::cells) return nodes + " cells";
+  return fmt::format("{} nodes, {} triangle{}", nodes, pictures::grouped(mesh.triangles()),
+                     mesh.triangles() == 1 ? "" : "s");
 }
 
 void expect_column(const files::Nodes& nodes, const std::string& name) {
@@ -126,28 +160,37 @@ void plot(Options& options) {
   if (options.what == "cells") mesh_options.what = MeshOptions::What::cells;
   if (!options.view.empty()) set_view(options.view, mesh_options);
   set_colour(options.colour, mesh_options);
+  if (!options.region.empty()) set_region(options, mesh_options);
+  set_scale(options, mesh_options);
   mesh_options.radius = options.radius;
   mesh_options.width = options.width.value_or(kWidth);
-  if (histograms && (!options.view.empty() || options.radius || options.colour != "none"))
-    throw CLI::ValidationError("--what", "histograms have no --view, --radius or --colour");
+  if (histograms && (!options.view.empty() || options.radius || !options.region.empty() || options.dots ||
+                     options.colour != "none"))
+    throw CLI::ValidationError("--what", "histograms have no --view, --radius, --region, --dots or --colour");
   if (mesh_options.colour == MeshOptions::Colour::degree && mesh_options.what != MeshOptions::What::cells)
     throw CLI::ValidationError("--colour", "degree is a property of nodes: say --what cells");
   if (histograms && (options.coasts || !options.coast_file.empty()))
     throw CLI::ValidationError("--what", "histograms have no coasts");
+  mesh_options.dots = options.dots;
   mesh_options.coasts = options.coasts;
   mesh_options.coast_file = options.coast_file;
-  if (globe && (histograms || mesh_options.lonlat || options.width))
-    throw CLI::ValidationError("--to", "a globe has no --what histograms, --view lonlat or --width");
+  if (globe && (histograms || mesh_options.lonlat || options.width || options.dots))
+    throw CLI::ValidationError(
+        "--to", "a globe has no --what histograms, --view lonlat, --region, --dots or --width");
   if (!globe && !options.three_file.empty())
     throw CLI::ValidationError("--three-file", "only a globe, FILE.html, needs three.js");
   const std::string three = globe ? pictures::three_js(options.three_file) : "";
   pictures::expect_converter(kind);
 
   options.input.read.with_columns = mesh_options.colour == MeshOptions::Colour::value;
-  options.input.read.with_triangles = !options.input.drops();  // dropping nodes renumbers corners
+  // Without triangles where nodes are left out, which renumbers corners.
+  options.input.read.with_triangles = !options.input.drops() && !options.input.read.keep_missing;
+  options.input.read.with_cells = true;
   files::OutputFile file(options.file);
   Progress progress;
   files::Nodes nodes = progress.step("reading", [&] { return read_nodes(options.input); });
+  if (nodes.kind.find("cells") != nodes.kind.npos)
+    say(nodes.file + ": whole cells of its nodes are drawn, also where it has parts of them");
   if (mesh_options.colour == MeshOptions::Colour::value) expect_column(nodes, mesh_options.value);
   const files::Mesh mesh = progress.step("triangulating", [&] {
     if (nodes.triangles.empty()) return triangulate(nodes);
@@ -160,11 +203,10 @@ void plot(Options& options) {
     }
   });
   progress.step("drawing", [&] {
-    mesh_options.title =
-        options.title
-            ? *options.title
-            : fmt::format("{}: {} nodes, {} triangles", std::filesystem::path(nodes.file).filename().string(),
-                          pictures::grouped(mesh.points.size()), pictures::grouped(mesh.triangles()));
+    mesh_options.title = options.title
+                             ? *options.title
+                             : fmt::format("{}: {}", std::filesystem::path(nodes.file).filename().string(),
+                                           what_is_drawn(mesh, mesh_options.what));
     std::string picture;
     try {
       picture = globe        ? globe_page(mesh_globe(mesh, mesh_options), three)
@@ -206,10 +248,21 @@ void add_plot(CLI::App& app, Command& chosen) {
   sub->add_option("--radius", options->radius, "zoom: show this many degrees around the centre [all nodes]")
       ->type_name("DEGREES")
       ->check(CLI::Range(1e-6, 180.0).description(""));
+  sub->add_option("--region", options->region,
+                  "show the map of WEST,EAST,SOUTH,NORTH; 170,-170 crosses the dateline")
+      ->type_name("DEGREES");
   sub->add_option("--colour,--color", options->colour,
                   "none, area, degree, owner:P, owner:P:stripes or a column of IN, see below")
       ->type_name("BY")
       ->capture_default_str();
+  sub->add_option("--range", options->range, "ends of the colour bar [those of the values]")
+      ->type_name("LOW,HIGH");
+  std::vector<std::string> palettes;
+  for (const pictures::Palette& palette : pictures::palettes()) palettes.emplace_back(palette.name);
+  sub->add_option("--palette", options->palette, fmt::format("{} [viridis]", fmt::join(palettes, ", ")))
+      ->type_name("NAME")
+      ->check(one_of(palettes));
+  sub->add_flag("--dots", options->dots, "also draw the nodes, as dots");
   sub->add_flag("--coasts", options->coasts, "coast lines: Natural Earth, of Debian's libmagics++-data");
   sub->add_option("--coast-file", options->coast_file, "coast lines of this shapefile instead")
       ->type_name("FILE");
@@ -224,6 +277,7 @@ void add_plot(CLI::App& app, Command& chosen) {
   pstripack plot nodes.txt --view orthographic:10,45 --radius 5 -o zoom.png --width 1600
   pstripack plot nodes.txt --what cells --colour area -o cells.svg
   pstripack plot quakes.csv --what cells --colour mag --coasts --view lonlat -o quakes.svg
+  pstripack plot quakes.csv --what cells --colour mag --range 2,7 --palette magma --dots --region 170,-170,-30,-10 -o fiji.svg
   pstripack plot quakes.csv --what cells --colour mag --coasts -o globe.html
 
 Colours:

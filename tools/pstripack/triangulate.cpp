@@ -7,6 +7,7 @@
 #include "files/clipping.h"
 #include "files/map_rings.h"
 #include "files/measures.h"
+#include "files/width_regions.h"
 #include "pstripack/options.h"
 #include "pstripack/progress.h"
 
@@ -16,8 +17,10 @@ namespace {
 struct Options {
   Input input;
   Output output;
-  std::string region;  ///< of `voronoi`
+  std::string region, polygons;  ///< of `voronoi`
   bool clip_to_hull = false;
+  std::string what = "triangles";  ///< of `triangulate`
+  Distance longest;
 };
 
 /// `write(file, mesh)` writes the result and returns its description for the last line.
@@ -44,9 +47,25 @@ void run(Options& options, const Write& write) {
 }
 
 void triangulate(Options& options) {
+  if (options.longest.radians > 0 && options.what == "hull")
+    throw CLI::ValidationError("--longest", "the hull is that of all nodes: leave out --longest");
   run(options, [&](const files::OutputFile& file, files::Mesh& mesh) {
+    mesh.longest = options.longest.radians;
+    if (options.what == "hull") {
+      write_hull(file, options.output.format, mesh);
+      return "hull of " + counted(files::hull_of(mesh).size(), "node");
+    }
+    if (options.what == "links") {
+      write_links(file, options.output.format, mesh);
+      return counted(files::links_of(mesh).length.size(), "link");
+    }
+    const std::size_t written = files::triangles_to_write(mesh).size() / 3;
+    if (written == 0) throw files::NoMesh("each triangle has a side longer than " + options.longest.text);
+    if (written < mesh.triangles())
+      say(fmt::format("{}: {} with a side longer than {} left out", options.input.file,
+                      counted(mesh.triangles() - written, "triangle"), options.longest.text));
     write_mesh(file, options.output, mesh);
-    return counted(mesh.triangles(), "triangle");
+    return counted(written, "triangle");
   });
 }
 
@@ -67,24 +86,27 @@ void tell_huge_cell(const Options& options, const files::Faces& faces, const fil
 }
 
 void voronoi(Options& options) {
+  if (!options.polygons.empty() && (!options.region.empty() || options.clip_to_hull))
+    throw CLI::ValidationError("--clip-to", "cuts whole cells: leave out --region and --clip-to-hull");
   run(options, [&](const files::OutputFile& file, const files::Mesh& mesh) {
-    const bool are_whole = options.region.empty() && !options.clip_to_hull;
-    const bool with_corners = !are_whole || options.output.format != files::Format::csv;
-    files::Faces faces = files::voronoi_faces(mesh, with_corners);
+    const bool are_whole = options.region.empty() && options.polygons.empty() && !options.clip_to_hull;
+    files::Faces faces = files::voronoi_faces(mesh);
     if (are_whole) tell_huge_cell(options, faces, mesh);
-    if (with_corners) files::divide_half_turns(faces, mesh.lists());
+    files::divide_half_turns(faces, mesh.lists());
     if (options.clip_to_hull && !mesh.has_boundary())
       say(options.input.file + ": the nodes surround the sphere: --clip-to-hull cuts nothing");
     if (options.clip_to_hull) faces = clipped_to_hull(faces, mesh);
     if (!options.region.empty()) faces = clipped_to_region(faces, region_of(options.region));
+    if (!options.polygons.empty()) faces = clipped_to_polygons(faces, files::read_polygons(options.polygons));
+    if (faces.size() == 0 && !options.polygons.empty())
+      throw files::NoMesh("the polygons of " + options.polygons + " are narrower than rounding");
     if (faces.size() == 0)
       throw files::NoMesh(options.clip_to_hull ? "no part of the hull of the nodes lies in the region"
                                                : "the region is smaller than 1e-10 degrees: make it larger");
     files::add_columns(faces, mesh);
     faces.with_edges = options.output.edges;
     write_faces(file, options.output.format, faces, mesh.notes);
-    return counted(faces.size(), "cell") +
-           (with_corners ? ", " + counted(faces.points.size(), "corner") : std::string());
+    return counted(faces.size(), "cell") + ", " + counted(faces.points.size(), "corner");
   });
 }
 
@@ -106,7 +128,23 @@ void add_triangulate(CLI::App& app, Command& chosen) {
   const auto options =
       add(app, "triangulate", "exact Delaunay triangulation of the nodes: a mesh of triangles", triangulate,
           chosen);
-  add_radius(*app.get_subcommand("triangulate"), options->output.radius, kRadiusOfMpas);
+  CLI::App* const sub = app.get_subcommand("triangulate");
+  add_radius(*sub, options->output.radius, kRadiusOfMpas);
+  sub->add_option(
+         "--what", options->what,
+         "triangles, links (their sides, with lengths: GeoJSON, CSV) or hull (a polygon; CSV: its nodes)")
+      ->type_name("WORD")
+      ->capture_default_str()
+      ->check(one_of({"triangles", "links", "hull"}));
+  sub->add_option_function<std::string>(
+         "--longest",
+         [options](const std::string& text) {
+           options->longest = distance_of("--longest", text);
+           if (options->longest.radians == 0)
+             throw CLI::ValidationError("--longest", "'" + text + "' leaves out everything");
+         },
+         "leave out triangles with a longer side, or longer links: 500km, 20m, 5deg, 0.1rad")
+      ->type_name("DISTANCE");
 }
 
 void add_voronoi(CLI::App& app, Command& chosen) {
@@ -118,6 +156,8 @@ void add_voronoi(CLI::App& app, Command& chosen) {
   sub->add_option("--region", options->region,
                   "cut the cells at WEST,EAST,SOUTH,NORTH; 170,-170 crosses the dateline")
       ->type_name("DEGREES");
+  sub->add_option("--clip-to", options->polygons, "cut the cells at the polygons of this GeoJSON file")
+      ->type_name("FILE");
   sub->add_flag("--clip-to-hull", options->clip_to_hull, "cut the cells at the convex hull of the nodes");
 }
 

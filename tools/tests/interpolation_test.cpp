@@ -11,9 +11,9 @@
 #include <cmath>
 #include <utility>
 
-#include "methods/gradients.h"
 #include "files/measures.h"
 #include "geometry/measures.h"
+#include "methods/gradients.h"
 #include "methods/triangulated_nodes.h"
 #include "point_sets.h"
 #include "stripack/list_queries.h"
@@ -278,7 +278,8 @@ TEST(values, are_continuous) {
         };
         const Point a = at(0), b = at(1), c = at(2),
                     centre = circumcircle(pstripack::direction_of(a), pstripack::direction_of(b),
-                                          pstripack::direction_of(c)).centre;
+                                          pstripack::direction_of(c))
+                                 .centre;
         for (const Point& towards : {cross(a, b), b, c}) {
           add(a, towards);
           add({a.x + 2 * b.x, a.y + 2 * b.y, a.z + 2 * b.z}, towards);
@@ -362,6 +363,48 @@ TEST(nearest, is_the_nearest_of_all_nodes_wherever_the_place) {
             << family;
     }
   }
+}
+
+TEST(nearest, has_the_value_and_the_distance_of_the_nearest_node) {
+  for (const char* const family : {"random", "cap"}) {
+    const Points nodes = point_sets::make(family, 300);
+    const std::vector<double> values = random_values(nodes.size());
+    const Interpolation in = interpolation_between(nodes);
+    const Points at = places(1500, 9);
+    const Interpolation::Nearest found = in.nearest_at(at);
+    const Interpolation::Result result =
+        in.values_at(at, values, Method::nearest, Interpolation::Outside::missing);
+    EXPECT_EQ(result.outside, 0u);
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      double least = 4;
+      for (const Point& p : nodes)
+        least = std::min(least, arc_length(pstripack::direction_of(p), pstripack::direction_of(at[i])));
+      EXPECT_NEAR(found.distance[i], least, 1e-15);
+      EXPECT_EQ(result.values[i], values[static_cast<std::size_t>(found.node[i]) - 1]);
+    }
+  }
+}
+
+TEST(weights, give_the_values_in_all_their_bits) {
+  for (const char* const family : {"random", "cap", "latlon"})
+    for (const Method method : {Method::linear, Method::natural, Method::nearest})
+      for (const auto outside : {Interpolation::Outside::missing, Interpolation::Outside::nearest}) {
+        const Points nodes = point_sets::make(family, 300);
+        const std::vector<double> values = random_values(nodes.size());
+        const Interpolation in = interpolation_between(nodes);
+        const Points at = places(1500, 9);
+        const Interpolation::Result result = in.values_at(at, values, method, outside);
+        const files::Weights weights = in.weights_at(at, method, outside);
+        ASSERT_EQ(weights.begin.size(), at.size() + 1);
+        EXPECT_EQ(weights.outside, result.outside);
+        for (std::size_t i = 0; i < at.size(); ++i) {
+          double sum = weights.begin[i] == weights.begin[i + 1] ? std::nan("") : 0;
+          for (std::size_t k = weights.begin[i]; k < weights.begin[i + 1]; ++k)
+            sum += weights.part[k] * values[static_cast<std::size_t>(weights.node[k]) - 1];
+          EXPECT_TRUE(sum == result.values[i] || (std::isnan(sum) && std::isnan(result.values[i])))
+              << family << " " << i;
+        }
+      }
 }
 
 TEST(nearest, is_found_across_the_far_side_of_a_region) {

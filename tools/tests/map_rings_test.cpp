@@ -265,6 +265,50 @@ const std::vector<Case> kRegions{{{170, 190, 25, 50}, "across the dateline"},
                                  {{30, 30.001, 40, 40.001}, "within one cell"}};
 
 // Parts of cells are as whole cells.
+TEST(map, has_arcs_as_open_lines_cut_at_the_dateline_and_at_a_pole) {
+  Faces nodes;
+  const std::pair<double, double> places[] = {{170, 10}, {-100, 60}, {20, 70},  {-160, 80},
+                                              {0, 90},   {180, 0},   {-170, 5}, {130, -50},
+                                              {10, 20},  {10, -90},  {-180, 30}};
+  for (const auto& [lon, lat] : places) {
+    nodes.points.push_back(point_sets::from_degrees(lon, lat));
+    nodes.given_points.lon.push_back(lon);
+    nodes.given_points.lat.push_back(lat);
+  }
+  nodes.begin = {0};
+  const MapLines map(nodes);
+  const auto n = static_cast<std::int32_t>(nodes.points.size());
+  for (std::int32_t from = 1; from <= n; ++from)
+    for (std::int32_t to = from + 1; to <= n; ++to) {
+      const Point &a = nodes.points[static_cast<std::size_t>(from) - 1],
+                  &b = nodes.points[static_cast<std::size_t>(to) - 1];
+      if (dot(a, b) == -1) {
+        EXPECT_THROW(map.lines(from, to), NoMesh);
+        continue;
+      }
+      const std::vector<MapRing> lines = map.lines(from, to);
+      double length = 0;
+      for (const MapRing& line : lines)
+        for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+          EXPECT_TRUE(std::fabs(line[k].lon) <= 180 && line[k].turn == 0);
+          const double x = line[k + 1].lon - line[k].lon, y = line[k + 1].lat - line[k].lat;
+          EXPECT_LT(std::fabs(x), 180) << from << ' ' << to;
+          for (const double t : {0.0, 0.3, 0.5, 0.9, 1.0})
+            EXPECT_LT(
+                distance_to_arc(point_sets::from_degrees(line[k].lon + t * x, line[k].lat + t * y), a, b),
+                0.00101 / kDegree)
+                << from << ' ' << to;
+          length += angle_between(point_sets::from_degrees(line[k].lon, line[k].lat),
+                                  point_sets::from_degrees(line[k + 1].lon, line[k + 1].lat));
+        }
+      EXPECT_NEAR(length, angle_between(a, b), 1e-7) << from << ' ' << to;
+    }
+  EXPECT_EQ(map.lines(1, 7).size(), 2u);   // the dateline
+  EXPECT_EQ(map.lines(3, 4).size(), 2u);   // the pole
+  EXPECT_EQ(map.lines(4, 6).size(), 1u);   // to the dateline, from the east
+  EXPECT_EQ(map.lines(6, 11).size(), 1u);  // along it
+}
+
 TEST(cells, of_a_region_and_of_the_hull_have_each_side_once_each_way) {
   const auto expect_topology_of_regions = [](const Mesh& mesh, const std::string& what) {
     const Faces all = cells_of(mesh);
@@ -415,6 +459,78 @@ TEST(cells, fill_the_hull_of_their_nodes) {
     }
   const Mesh sphere = triangulate(point_sets::make("random", 50));
   EXPECT_EQ(clipped_to_hull(cells_of(sphere), sphere).corner, cells_of(sphere).corner);
+}
+
+using LonLats = std::vector<std::pair<double, double>>;
+LonLats box(double west, double east, double south, double north) {
+  return {{west, south}, {east, south}, {east, north}, {west, north}, {west, south}};
+}
+/// A ring with bays, its corners so close that its sides are arcs as they are.
+LonLats with_bays(double lon, double lat, double radius) {
+  LonLats ring;
+  constexpr int kCorners = 800;
+  for (int k = 0; k < kCorners; ++k) {
+    const double t = 8 * std::atan(1.0) * k / kCorners, r = radius * (1 + 0.4 * std::sin(5 * t));
+    ring.emplace_back(lon + r * std::cos(t), lat + r * std::sin(t));
+  }
+  ring.push_back(ring[0]);
+  return ring;
+}
+
+// Areas of the arcs by another formula: as seen from their first corner.
+double area_of_arcs(const LonLats& ring) {
+  double area = 0;
+  const auto at = [&](std::size_t k) { return point_sets::from_degrees(ring[k].first, ring[k].second); };
+  for (std::size_t k = 1; k + 2 < ring.size(); ++k) {
+    const Point a = at(0), b = at(k), c = at(k + 1);
+    const double ab = angle_between(a, b), bc = angle_between(b, c), ca = angle_between(c, a),
+                 s = (ab + bc + ca) / 2;
+    const double lhuilier =
+        std::tan(s / 2) * std::tan((s - ab) / 2) * std::tan((s - bc) / 2) * std::tan((s - ca) / 2);
+    area += std::copysign(4 * std::atan(std::sqrt(std::max(0.0, lhuilier))), volume(a, b, c));
+  }
+  return area;
+}
+
+TEST(cells, fill_polygons_once) {
+  const double pi = 4 * std::atan(1.0);
+  const MapRegion bays{1, {with_bays(178, 30, 12), with_bays(174, 31, 2), with_bays(181, 29, 1)}};
+  const double of_bays =
+      area_of_arcs(bays.rings[0]) - area_of_arcs(bays.rings[1]) - area_of_arcs(bays.rings[2]);
+  LonLats clockwise = box(0, 90, 0, 90);
+  std::reverse(clockwise.begin(), clockwise.end());
+  const std::pair<MapRegion, double> polygons[] = {
+      {bays, of_bays},
+      {{1, {clockwise}}, pi / 2},
+      {{1, {box(-90, 90, -90, 90)}}, 2 * pi},
+      {{1, {box(-180, 180, -90, 90)}}, 4 * pi},
+      {{1, {box(0, 360, -90, 90), bays.rings[0]}}, 4 * pi - area_of_arcs(bays.rings[0])},
+      {{1, {with_bays(10, 20, 1e-3)}}, area_of_arcs(with_bays(10, 20, 1e-3))}};
+  for (const char* const family :
+       {"random", "latlon", "icosahedral", "healpix", "cap", "hemisphere", "strip"})
+    for (const std::size_t n : {3u, 20u, 300u}) {
+      const Mesh mesh = triangulate(point_sets::make(family, n));
+      const Faces all = cells_of(mesh);
+      for (const auto& [polygon, area] : polygons) {
+        const Faces cells = clipped_to_polygons(all, {polygon});
+        const std::vector<double> of_parts = areas(cells);
+        EXPECT_NEAR(sum(of_parts) / area, 1, area < 1e-6 ? 1e-7 : 1e-11) << family << ' ' << n << ' ' << area;
+        EXPECT_GT(*std::min_element(of_parts.begin(), of_parts.end()), -1e-15) << family << ' ' << n;
+      }
+      const Faces two = clipped_to_polygons(all, {bays, polygons[1].first});
+      EXPECT_NEAR(sum(areas(two)), of_bays + pi / 2, 1e-11) << family << ' ' << n;
+    }
+  const Faces cells = cells_of(triangulate(point_sets::make("random", 100)));
+  EXPECT_THROW(clipped_to_polygons(cells, {{1, {{{0, 0}, {30, 30}, {30, 0}, {0, 20}, {0, 0}}}}}), NoMesh);
+}
+
+// Sides along the borders of cells: whole cells, and no slivers.
+TEST(cells, of_a_polygon_along_their_borders_are_whole) {
+  Points points;
+  for (double lon = -29.5; lon < 30; ++lon)
+    for (double lat = -9.5; lat < 10; ++lat) points.push_back(point_sets::from_degrees(lon, lat));
+  const Faces cells = clipped_to_polygons(cells_of(triangulate(points)), {{1, {box(-10, 10, -4.5, 0)}}});
+  EXPECT_EQ(cells.size(), 20u * 5);
 }
 
 TEST(cells, of_nodes_on_one_circle_are_lunes_with_corners_in_the_middle_of_their_sides) {

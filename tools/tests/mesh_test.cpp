@@ -127,6 +127,16 @@ TEST(areas, are_those_of_the_sphere_and_columns_go_with_nodes_and_faces) {
     }
     EXPECT_NEAR(find(faces.columns_of_faces, "area_km2")->numbers[5], all[5] * 6371 * 6371, 1e-6);
     EXPECT_EQ((cells ? faces.given_centres : faces.given_points).lon, mesh.given.lon);
+    if (!cells) {
+      const Point centre = circumcentres(points, faces.corner)[5];
+      const Point& corner = points[static_cast<std::size_t>(faces.corner[15]) - 1];
+      EXPECT_NEAR(find(faces.columns_of_faces, "circumradius_km")->numbers[5],
+                  angle_between(centre, corner) * 6371, 1e-11);
+    } else {
+      const LonLat centroid({centroids(faces)[5]}, true);
+      EXPECT_EQ(find(faces.columns_of_faces, "centroid_lon")->numbers[5], centroid.lon[0]);
+      EXPECT_EQ(find(faces.columns_of_faces, "centroid_lat")->numbers[5], centroid.lat[0]);
+    }
     mesh.columns = of_nodes;  // as read back from a file: a column of ours is not kept twice
     add_columns(faces, mesh);
     EXPECT_EQ(
@@ -134,6 +144,30 @@ TEST(areas, are_those_of_the_sphere_and_columns_go_with_nodes_and_faces) {
         1);
     mesh.columns = {whole_numbers("degree", "of education", std::vector<double>(300, 1))};
   }
+}
+
+Faces polygon(std::vector<Point> corners) {
+  Faces faces;
+  faces.begin = {0, corners.size()};
+  for (std::size_t k = 1; k <= corners.size(); ++k) faces.corner.push_back(static_cast<std::int32_t>(k));
+  faces.points = std::move(corners);
+  return faces;
+}
+
+TEST(centroids, of_large_thin_and_tiny_polygons) {
+  const auto distance = [](const Point& p, const Point& q) { return length(minus(p, q)); };
+  const double third = std::sqrt(1.0 / 3);
+  EXPECT_LT(distance(centroids(polygon({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}))[0], {third, third, third}), 1e-15);
+  EXPECT_LT(distance(centroids(polygon({{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}))[0], {0, 0, 1}),
+            1e-15);
+  // A lune, whose corners are opposite each other: its centroid is in its middle.
+  const Point low{0, 0, -1}, high{0, 0, 1}, east{0, 1, 0}, west{1, 0, 0};
+  EXPECT_LT(distance(centroids(polygon({low, east, high, west}))[0], unit(Point{1, 1, 0})), 1e-15);
+  // 1000 times as long as wide, and so small that it is plane.
+  constexpr double kSize = 0x1p-40;
+  const Faces tiny = polygon({{1, 0, 0}, {1, 3 * kSize, 0}, {1, 0, 3e-3 * kSize}});
+  EXPECT_LT(distance(centroids(tiny)[0], {1, kSize, 1e-3 * kSize}), 1e-12 * kSize);
+  EXPECT_EQ(centroids(polygon({west, west, west}))[0], west);
 }
 
 TEST(voronoi_faces, have_corners_as_far_from_their_node_as_from_the_neighbours) {

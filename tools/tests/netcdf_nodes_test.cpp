@@ -1,5 +1,6 @@
 // Nodes of NetCDF files.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <netcdf.h>
 #include <sys/resource.h>
@@ -63,6 +64,12 @@ class NetcdfFile {
     int id = 0;
     check(nc_inq_varid(id_, variable, &id));
     check(nc_put_att_double(id_, id, name, NC_DOUBLE, 1, &value));
+    return *this;
+  }
+  NetcdfFile& text(const char* variable, const char* name, const std::string& value) {
+    int id = 0;
+    check(nc_inq_varid(id_, variable, &id));
+    check(nc_put_att_text(id_, id, name, value.size(), value.data()));
     return *this;
   }
   NetcdfFile& note(const char* name, const std::string& text) {
@@ -154,6 +161,111 @@ TEST(netcdf, lon_and_lat_that_cannot_be_radians_are_degrees) {
   EXPECT_NEAR(points_of(file.closed())[1].z, 0.5, 1e-15);
 }
 
+TEST(netcdf, coordinates_may_be_missing_if_the_caller_says_so) {
+  NetcdfFile file;  // -999 is _FillValue
+  const int n = file.dimension("n", 4);
+  file.with("TLONG", {n}, {1, -999, 3, 4}, "degrees_east")
+      .with("TLAT", {n}, {1, 2, 1e30, 4}, "degrees_north");
+  file.attribute("TLAT", "missing_value", 1e30);
+  const std::string name = file.closed();
+  EXPECT_NE(error_of(name).find("variable TLONG, value 2: missing or not finite: remove the node, or say"),
+            std::string::npos);
+  ReadOptions options;
+  options.keep_missing = true;
+  Nodes nodes = read(name, options);
+  ASSERT_EQ(nodes.points.size(), 4u);
+  for (const std::size_t i : {0, 1, 2, 3}) EXPECT_EQ(std::isnan(nodes.points[i].x), i == 1 || i == 2);
+  nodes.keep({0, 3});
+  nodes.keep({1});
+  EXPECT_EQ(nodes.place(0), "node 4");
+}
+
+/// NEMO, ICON, WRF, POP and CORDEX: the nodes are where each file has its longitudes and latitudes.
+TEST(netcdf, coordinates_of_models_are_found) {
+  const std::vector<double> lon{0, 40, 80, 5, 45, 85}, lat{0, 1, 2, 30, 31, 32};
+  const auto kind_of = [](const std::string& file, const std::string& value) {
+    ReadOptions options;
+    options.with_values = !value.empty();
+    options.variable = value;
+    const Nodes nodes = read(file, options);
+    EXPECT_EQ(nodes.points.size(), 6u) << nodes.kind;
+    return nodes.kind;
+  };
+  const std::vector<std::pair<const char*, const char*>> names{
+      {"nav_lon", "nav_lat"}, {"glamt", "gphit"}, {"XLONG", "XLAT"}, {"TLONG", "TLAT"}, {"lon", "lat"}};
+  for (const auto& [lon_name, lat_name] : names)
+    for (const bool has_time : {false, true}) {
+      NetcdfFile file;
+      const int t = file.dimension("Time", 1), y = file.dimension("y", 2), x = file.dimension("x", 3);
+      const std::vector<int> shape = has_time ? std::vector<int>{t, y, x} : std::vector<int>{y, x};
+      // The first has no units: longitudes from 0 to 85 are no radians.
+      file.with(lon_name, shape, lon).with(lat_name, shape, lat, "degree_north");
+      file.with("ULON", shape, lat, "degrees_east").with("ULAT", shape, lat, "degrees_north");
+      file.with("T", {t, y, x}, lat).with("U", {y, x}, lat).text("U", "coordinates", "time ULAT ULON");
+      const std::string name = file.closed();
+      EXPECT_EQ(kind_of(name, "T"), fmt::format("NetCDF, {} {} in degrees", lon_name, lat_name));
+      EXPECT_EQ(kind_of(name, "U"), "NetCDF, ULON ULAT in degrees");
+      EXPECT_EQ(kind_of(name, ""), fmt::format("NetCDF, {} {} in degrees", lon_name, lat_name));
+    }
+  {
+    NetcdfFile file;  // whose pair of usual names is that of another grid
+    const int n = file.dimension("n", 6), m = file.dimension("m", 2), k = file.dimension("k", 2);
+    file.with("clon", {m}, {0, 1}, "radian").with("clat", {m}, {0, 1}, "radian");
+    file.with("a", {n}, lat).text("a", "standard_name", "longitude").text("a", "units", "radian");
+    file.with("b", {n}, lat, "degreeN").text("b", "bounds", "b_bounds").with("s", {n}, lat);
+    file.with("b_bounds", {n, k}, std::vector<double>(12), "degreeN");
+    const std::string name = file.closed();
+    EXPECT_EQ(kind_of(name, "s"), "NetCDF, a b in degrees");
+    EXPECT_EQ(read(name).kind, "NetCDF, clon clat in radians");
+  }
+  int id = 0, n = 0, variable = 0;  // NetCDF-4 has attributes of type string
+  const std::string name = testing::TempDir() + "netcdf_nodes_test_string.nc";
+  nc_create(name.c_str(), NC_CLOBBER | NC_NETCDF4, &id);
+  nc_def_dim(id, "n", 6, &n);
+  for (const char* units : {"degrees_east", "degrees_north"}) {
+    nc_def_var(id, units + 8, NC_DOUBLE, 1, &n, &variable);
+    nc_put_att_string(id, variable, "units", 1, &units);
+    nc_put_var_double(id, variable, lat.data());
+  }
+  nc_close(id);
+  EXPECT_EQ(kind_of(name, ""), "NetCDF, east north in degrees");
+  std::remove(name.c_str());
+}
+
+TEST(netcdf, coordinates_that_are_others_or_several_are_refused) {
+  const auto error = [](const auto& fill_in, const std::string& columns = "") {
+    NetcdfFile file;
+    fill_in(file, file.dimension("t", 2), file.dimension("n", 2));
+    ReadOptions options;
+    options.columns = columns;
+    try {
+      read(file.closed(), options);
+    } catch (const std::runtime_error& e) {
+      return std::string(e.what());
+    }
+    return std::string("no error");
+  };
+  const auto has = [](const std::string& text, const char* words) {
+    EXPECT_NE(text.find(words), text.npos) << text;
+  };
+  const auto rotated = [](NetcdfFile& f, int, int n) {
+    f.with("rlon", {n}, {1, 2}, "degrees").text("rlon", "standard_name", "grid_longitude");
+    f.with("rlat", {n}, {1, 2}, "degrees").text("rlat", "standard_name", "grid_latitude");
+  };
+  has(error(rotated), "rlon, rlat: angles of a rotated pole");
+  has(error(rotated, "rlon,rlat"), "rlon: angles of a rotated pole");
+  const auto several = [](NetcdfFile& f, int, int n) {
+    f.with("a", {n}, {1, 2}, "degrees_east").with("b", {n}, {1, 2}, "degrees_north");
+    f.with("c", {n}, {1, 2}, "degrees_east").with("d", {n}, {1, 2}, "degrees_north");
+  };
+  has(error(several), "longitudes a, c and latitudes b, d: name two of them by --columns LON,LAT");
+  has(error(several, "b,a"), "variable b holds latitudes: give the longitudes first");
+  has(error([](NetcdfFile& f, int t, int n) {
+        f.with("XLONG", {t, n, n}, std::vector<double>(8)).with("XLAT", {t, n, n}, std::vector<double>(8));
+      }),
+      "variable XLONG(t=2, n=2, n=2): expected one place per node; take one time out, say by ncks -d t,0");
+}
+
 TEST(netcdf, what_cannot_be_used_is_refused_by_name) {
   const auto error = [](const auto& fill_in) {
     NetcdfFile file;
@@ -166,7 +278,7 @@ TEST(netcdf, what_cannot_be_used_is_refused_by_name) {
             std::string::npos);
   EXPECT_NE(error([](NetcdfFile& f, int n, int) {
               f.with("lon", {n}, {1, 2}, "degrees");
-            }).find("variable lat"),
+            }).find("there is no variable of latitudes beside lon"),
             std::string::npos);
   EXPECT_NE(error([](NetcdfFile& f, int n, int) {
               f.with("lon", {n}, {1, 2}).with("lat", {n}, {1, 2});
@@ -181,7 +293,7 @@ TEST(netcdf, what_cannot_be_used_is_refused_by_name) {
             }).find("variable lon, value 2: missing"),
             std::string::npos);
   EXPECT_NE(error([](NetcdfFile& f, int n, int m) {
-              f.with("lon", {n}, {1, 2}, "degrees").with("lat", {m, n}, {1, 2}, "degrees");
+              f.with("lon", {n}, {1, 2}, "degrees").with("lat", {n, m}, {1, 2}, "degrees");
             }).find("expected one shape"),
             std::string::npos);
   EXPECT_NE(error([](NetcdfFile& f, int n, int m) {
@@ -350,6 +462,13 @@ TEST(netcdf, values_have_the_dimensions_of_the_nodes) {
       EXPECT_NE(std::string(e.what()).find(words), std::string::npos) << e.what();
     }
   }
+}
+
+TEST(netcdf, the_only_variable_on_the_nodes_is_the_value) {
+  NetcdfFile file;
+  const int n = file.dimension("n", 2), m = file.dimension("m", 1);
+  file.with("lon", {n}, {0, 90}).with("lat", {n}, {0, 30}).with("t", {n}, {1, 2}).with("u", {m}, {1});
+  EXPECT_EQ(read(file.closed(), values_of("")).value.numbers, (std::vector<double>{1, 2}));
 }
 
 TEST(netcdf, angles_stay_beside_the_vectors_unless_they_are_of_other_nodes) {

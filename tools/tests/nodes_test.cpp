@@ -146,8 +146,16 @@ TEST(text, values_follow_the_place) {
   EXPECT_EQ(read_bytes("90 0 7 8\n", options).value.numbers[0], 8);
   for (const char* const column : {"2", "5", "3.5", "-1"}) {
     options.variable = column;
-    expect_error("90 0 7 8\n", "there is no value in column", options);
+    expect_error("90 0 7 8\n",
+                 column == std::string("2") ? "column 2 is a coordinate" : "there is no value in column",
+                 options);
   }
+  options.coordinates = Coordinates::detected;
+  options.variable = "3";  // so the first two are lon lat
+  EXPECT_EQ(read_bytes("90 0 7 8\n", options).value.numbers[0], 7);
+  EXPECT_EQ(read_bytes("90 0 7 8 9\n", options).points, (Points{{0, 1, 0}}));
+  options.variable = "3,4";
+  expect_error("90 0 7 8\n", "--variable names one column, not '3,4'", options);
   options.container = Container::raw;
   expect_error("x", "values are read from text, NetCDF and GeoJSON only", options);
 }

@@ -242,6 +242,43 @@ def check_scvt():
         assert ugrid.scvt_iterations == "5" and mpas.scvt_density == "bump"
 
 
+def check_weights():
+    """Weights give the values of interpolate bit for bit; rows and columns count all that is in the files."""
+    rng = np.random.default_rng(1)
+    lon, lat, value = rng.uniform(-60, 60, 300), rng.uniform(-60, 60, 300), rng.uniform(-1, 1, 300)
+    lon[7] = lat[7] = -999  # missing
+    lon[9], lat[9] = lon[5], lat[5]  # a duplicate
+    with netCDF4.Dataset(FOLDER / "curvilinear.nc", "w") as data:
+        for name, length in (("time", 1), ("y", 20), ("x", 15)):
+            data.createDimension(name, length)
+        for name, numbers in (("nav_lon", lon), ("nav_lat", lat), ("sst", value)):
+            variable = data.createVariable(name, "f8", ("time", "y", "x") if name == "sst" else ("y", "x"), fill_value=-999)
+            variable[:] = numbers.reshape(variable.shape)
+    common = [FOLDER / "curvilinear.nc", "--variable", "sst", "--skip-missing", "--drop-duplicates"]
+    for method in ("linear", "natural", "nearest"):
+        for registration in ("cell", "node"):
+            out, weights = FOLDER / "grid.nc", FOLDER / "weights.nc"
+            run("interpolate", *common, "--grid-step", 30, "--registration", registration, "--method", method,
+                "-o", out, "--weights", weights)
+            with netCDF4.Dataset(weights) as w, netCDF4.Dataset(out) as grid:
+                expected = np.ma.filled(grid["value" if "value" in grid.variables else "sst"][:], np.nan)
+                row, col, part = (w[name][:] - (name != "S") for name in ("row", "col", "S"))
+                got = np.bincount(row, part * value[col], len(w.dimensions["n_b"]))
+                has_value = np.isin(np.arange(got.size), row)
+                assert (w["frac_b"][:] == has_value).all() and (has_value.all() == (method == "nearest"))
+                assert np.array_equal(np.where(has_value, got, np.nan).reshape(expected.shape), expected, equal_nan=True)
+                assert list(w["src_grid_dims"][:]) == [15, 20] and list(w["dst_grid_dims"][:]) == list(expected.shape[::-1])
+                assert list(np.flatnonzero(w["mask_a"][:] == 0)) == [7, 9] and not np.isin([7, 9], col).any()
+                assert np.array_equal(w["xc_a"][:][w["mask_a"][:] == 1], np.delete(lon, [7, 9]))
+                assert abs(w["area_b"][:].sum() - 4 * math.pi) < 1e-14 * 4 * math.pi
+                assert ((w["xv_b"][:, 0] < w["xc_b"][:]) & (w["xc_b"][:] < w["xv_b"][:, 1])).all()
+    # Without values, to points.
+    run("interpolate", common[0], *common[3:], "--to-points", common[0], "--method", "nearest", "--weights", weights)
+    with netCDF4.Dataset(weights) as w:
+        assert list(w["row"][:] - 1) == [i for i in range(300) if i != 7] and list(w["dst_grid_dims"][:]) == [15, 20]
+        assert (w["S"][:] == 1).all() and (w["col"][:] - 1 == [5 if i == 9 else i for i in range(300) if i != 7]).all()
+
+
 FOLDER.mkdir(parents=True, exist_ok=True)
 run("points", "icosahedral", N, "-o", FOLDER / "nodes.txt")
 nodes = np.loadtxt(FOLDER / "nodes.txt")
@@ -264,4 +301,5 @@ check_field(nodes)
 check_columns(nodes)
 check_regions()
 check_scvt()
+check_weights()
 print("all files are as they should be")

@@ -302,6 +302,20 @@ TEST(scale, has_fewer_ticks_where_labels_are_wide) {
   }
 }
 
+TEST(scale, between_given_ends_has_round_ticks_that_need_not_be_the_ends) {
+  const Scale scale = Scale::between(273, 310, 6, 400, 12);
+  EXPECT_EQ(scale(273), 0);
+  EXPECT_EQ(scale(310), 1);
+  EXPECT_EQ(scale(250), 0);
+  EXPECT_EQ(scale(320), 1);
+  EXPECT_EQ(scale.ticks().front().value, 275);
+  EXPECT_EQ(scale.ticks().back().value, 310);
+  const Scale decades = Scale::between(2, 700, 6, 400, 12);
+  EXPECT_NEAR(decades(std::sqrt(2.0 * 700)), 0.5, 1e-15);
+  EXPECT_EQ(decades(-1), 0);
+  EXPECT_EQ(decades.ticks().front().value, 10);
+}
+
 TEST(fonts, text_is_shortened_in_its_middle) {
   EXPECT_NEAR(text_width("Ab°", 2048), 1401 + 1300 + 1024, 1e-9);
   EXPECT_EQ(shortened("short", 12, 100), "short");
@@ -322,8 +336,8 @@ TEST(colours, of_neighbours_differ) {
   const std::vector<std::string> colours = distinct_colours(beside);
   for (std::size_t i = 0; i < beside.size(); ++i)
     for (const std::size_t other : beside[i]) EXPECT_NE(colours[i], colours[other]);
-  EXPECT_EQ(viridis(0), "#440154");
-  EXPECT_EQ(viridis(1), "#fde725");
+  EXPECT_EQ(palettes()[0](0), "#440154");
+  EXPECT_EQ(palettes()[0](1), "#fde725");
 }
 
 // ---- whole pictures ----
@@ -408,8 +422,15 @@ TEST(mesh_picture, has_the_colours_of_a_column) {
   const std::string numbers = mesh_picture(mesh, options);
   EXPECT_EQ(count(numbers, ">depth of the sea, km<"), 1u);
   EXPECT_EQ(count(numbers, ">no value: 12 cells<"), 1u);
-  EXPECT_EQ(fills(numbers), (std::vector<std::string>{viridis(0), viridis(1), "#e6e6e6"}));
+  EXPECT_EQ(fills(numbers), (std::vector<std::string>{palettes()[0](0), palettes()[0](1), "#e6e6e6"}));
+  options.range = {12, 20};  // the other ends of the bar are pointed where values lie beyond
+  options.palette = &palettes()[1];
+  const std::string beyond = mesh_picture(mesh, options);
+  EXPECT_EQ(fills(beyond),
+            (std::vector<std::string>{palettes()[1](0), palettes()[1](1), "#e6e6e6", palettes()[1](0)}));
   options.value = "kind";
+  EXPECT_THROW(mesh_picture(mesh, options), std::runtime_error);
+  options.range.reset();
   const std::string words = mesh_picture(mesh, options);
   for (const char* label : {">a (68)<", ">b (82)<", ">no value (12)<"}) EXPECT_EQ(count(words, label), 1u);
   options.what = MeshOptions::What::triangles;
@@ -445,6 +466,37 @@ TEST(mesh_picture, has_areas_in_km2_and_when_zoomed_a_scale_and_coordinates) {
   options.radius = 20;
   options.lonlat = true;
   EXPECT_EQ(count(mesh_picture(mesh, options), ">1,000 km at 50°N<"), 1u);
+}
+
+TEST(mesh_picture, narrow_has_texts_as_large_as_a_wide_one) {
+  const Mesh mesh = mesh_of_family("icosahedral", 162);
+  MeshOptions options;
+  options.title = "title";
+  options.colour = MeshOptions::Colour::size;
+  for (const double width : {330.0, 800.0, 1600.0}) {
+    options.width = width;
+    const auto tree = parsed(mesh_picture(mesh, options));
+    EXPECT_EQ(tree.get<double>("svg.<xmlattr>.width"), width);
+    EXPECT_EQ(tree.get<std::string>("svg.<xmlattr>.viewBox").substr(0, 8),
+              width < 800 ? "0 0 330 " : "0 0 800 ");
+    EXPECT_EQ(tree.get<double>("svg.text.<xmlattr>.font-size"), 18);
+  }
+}
+
+TEST(mesh_picture, of_a_region_shows_it_and_its_nodes_as_dots) {
+  const Mesh mesh = mesh_of_family("icosahedral", 642);
+  MeshOptions options;
+  options.lonlat = true;
+  options.region = files::Region{170, 190, -30, -10};
+  const std::string without = mesh_picture(mesh, options);
+  for (const char* label : {">170°E<", ">180°<", ">170°W<", ">10°S<", ">30°S<"})
+    EXPECT_EQ(count(without, label), 1u) << label;
+  options.dots = true;
+  const auto in_region = std::count_if(mesh.points.begin(), mesh.points.end(), [](const Point& p) {
+    return std::fabs(files::longitude(p)) >= 170 && files::latitude(p) > -30 && files::latitude(p) < -10;
+  });
+  EXPECT_EQ(count(mesh_picture(mesh, options), "h0") - count(without, "h0"),
+            2 * static_cast<std::size_t>(in_region));
 }
 
 TEST(mesh_picture, marks_the_boundary_of_a_part_of_the_sphere) {

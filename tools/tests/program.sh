@@ -48,6 +48,18 @@ documented_tables)
   [ -s help.formats ] || fail "'pstripack triangulate --help' has no formats"
   grep -o '(`[a-z]*`; `\.[^)]*)' "$DOCUMENT" | tr -d '(`;,)' | sort > document.formats
   diff document.formats help.formats || fail "docs/pstripack.md has other formats or suffixes than --help"
+  # The error of geodetic latitudes that are taken as those of a sphere of 6371 km, on WGS 84.
+  awk 'BEGIN { a = 6378.137; f = 1 / 298.257223563; e2 = f * (2 - f); radian = 45 / atan2(1, 1)
+    for (i = 1; i < 9000; ++i) {
+      phi = i / 100 / radian; s = sin(phi); w = sqrt(1 - e2 * s * s)
+      d = (phi - atan2((1 - e2) * s, cos(phi))) * radian
+      if (d > most) { most = d; at = i / 100 }
+      for (k = 0; k < 2; ++k) { r = 6371 / (k ? a / w : a * (1 - e2) / w ^ 3) - 1; if (r ^ 2 > ratio ^ 2) ratio = r }
+    }
+    printf "%.2f degrees (%.0f km, at %.0f degrees) %.1f %%\n", most, most / radian * 6371, at, 100 * ratio }' > geodetic
+  [ "$(cat geodetic)" = "0.19 degrees (21 km, at 45 degrees) 0.6 %" ] || fail "$(cat geodetic)"
+  tr '\n' ' ' < "$DOCUMENT" | grep -q "up to 0.19 degrees (21 km, at 45 degrees), .* by up to 0.6 %" || fail "geodetic latitudes"
+  "$PSTRIPACK" triangulate --help | tr -s '\n ' ' ' | grep -q "up to 0.19 degrees, 21 km" || fail "--help: geodetic latitudes"
   rows_of "Densities:" scvt | sed -n 's/^  \([a-z]*\).*/\1/p' | grep . | sort -u > help.densities
   [ -s help.densities ] || fail "'pstripack scvt --help' has no densities"
   sed -n '/^  Formulas: /,/(`--help`)/p' "$DOCUMENT" | grep -o '`[a-z]*`' | tr -d '`' | sort -u > document.densities
@@ -164,6 +176,19 @@ bad_nodes)
   refuses 1 "missing.txt: cannot be opened: No such file" triangulate missing.txt -o missing.off
   printf 'a\0b' > binary
   refuses 1 "raw doubles need --from raw" triangulate binary -o binary.off
+  # Formats that other programs convert.
+  while read -r file bytes command; do
+    printf "$bytes" > $file
+    refuses 1 "$file: $command" triangulate $file -o foreign.off
+  done <<'END'
+a.b.shp \000\000\047\012 a shapefile: convert it first, by `ogr2ogr -f GeoJSON -t_srs EPSG:4326 a.b.geojson a.b.shp`
+a.gpkg SQLite\040format\0403 a GeoPackage: convert it first, by `ogr2ogr -f GeoJSON -t_srs EPSG:4326 a.geojson a.gpkg`
+a.kml <?xml\n<kml> KML: convert it first, by `ogr2ogr -f GeoJSON -t_srs EPSG:4326 a.geojson a.kml`
+a.kmz PK\003\004doc.kml KMZ: convert it first, by `ogr2ogr -f GeoJSON -t_srs EPSG:4326 a.geojson a.kmz`
+a.xlsx PK\003\004xl/workbook.xml a spreadsheet: convert it first, by `libreoffice --headless --convert-to csv a.xlsx`
+a.parquet PAR1 Parquet: convert it first, by `python3 -c "import pandas; pandas.read_parquet('a.parquet').to_csv('a.csv', index=False)"`
+a GRIB GRIB: convert it first, by `cdo -f nc copy a a.nc`
+END
   refuses 1 "holds nodes without triangles" convert two.txt -o two.off
   [ "$(echo ./*.off)" = ./mesh.off ] || fail "files of failed runs: $(echo ./*.off)"
   ;;
@@ -370,6 +395,23 @@ pictures)
   refuses 1 "no.shp: cannot be opened: No such file" plot nodes.txt -o c.svg --coast-file no.shp
   refuses 1 "nodes.txt: not a shapefile (.shp) of lines or polygons" plot nodes.txt -o c.svg --coast-file nodes.txt
   refuses 2 "histograms have no coasts" plot nodes.txt -o c.svg --what histograms --coasts
+  refuses 2 "--region: it is a map of longitude and latitude: leave out --radius" plot nodes.txt -o c.svg --region 0,10,20,30 --radius 5
+  refuses 2 "--region: it is a map of longitude and latitude: leave out" plot nodes.txt -o c.svg --region 0,10,20,30 --view orthographic
+  refuses 2 "--region: '0,10,30,20': expected WEST,EAST,SOUTH,NORTH" plot nodes.txt -o c.svg --region 0,10,30,20
+  refuses 2 "--range: '5,2': expected LOW,HIGH, the lower first" plot nodes.txt -o c.svg --colour area --range 5,2
+  refuses 2 "--range: a colour bar is needed: --colour area or a column of numbers" plot nodes.txt -o c.svg --range 2,5
+  refuses 2 "'virdis' is none of viridis, magma, cividis, coolwarm, grey; did you mean viridis?" plot nodes.txt -o c.svg --palette virdis
+  "$PSTRIPACK" -q plot nodes.txt --what cells --colour area --range 1e5,1e6 --palette magma --dots --region 170,-170,-30,-10 -o part.svg
+  grep -q '>nodes.txt: 300 cells<' part.svg && grep -q 'fcfdbf' part.svg || fail "no title or palette"
+  # Cells that voronoi has written, and their columns; of another command's, or another program's, not.
+  "$PSTRIPACK" -q voronoi nodes.txt -o cells.geojson
+  "$PSTRIPACK" plot cells.geojson --what cells --colour area_km2 --title "" -o cells.svg 2> err
+  grep -q "cells.geojson: whole cells of its nodes are drawn" err && grep -q '>area_km2<\|area_km2' cells.svg || fail "$(cat err)"
+  "$PSTRIPACK" -q plot nodes.txt --what cells --colour degree --title "" -o a.svg
+  "$PSTRIPACK" -q plot cells.geojson --what cells --colour degree --title "" -o b.svg
+  [ "$(grep -c '<path' a.svg)" = "$(grep -c '<path' b.svg)" ] || fail "other cells"
+  "$PSTRIPACK" -q triangulate nodes.txt -o mesh.geojson
+  refuses 1 "meshes are read from UGRID, MPAS and OFF, \`plot\` also takes the cells of \`pstripack voronoi\`" plot mesh.geojson -o c.svg
   printf 'lon,lat,mag,place\n0,0,1,a\n90,0,2,b\n180,0,3,a\n270,0,4,b\n0,90,5,a\n0,-90,,\n' > quakes.csv
   "$PSTRIPACK" -q plot quakes.csv --what cells --colour mag -o mag.svg
   grep -q '>mag<' mag.svg && grep -q '>no value: 1 cell<' mag.svg || fail "no legend of mag"
@@ -377,7 +419,7 @@ pictures)
   grep -q '>a (3)<' place.svg && grep -q '>b (2)<' place.svg || fail "no legend of place"
   refuses 1 "place is a column of words: say --what cells" plot quakes.csv -o c.svg --colour place
   refuses 2 "degree is a property of nodes: say --what cells" plot nodes.txt -o c.svg --colour degree
-  refuses 2 "histograms have no --view" plot nodes.txt -o c.svg --what histograms --view lonlat
+  refuses 2 "histograms have no --view, --radius, --region, --dots or --colour" plot nodes.txt -o c.svg --what histograms --view lonlat
   refuses 1 "no/such/folder/c.svg: cannot be written: No such file" plot nodes.txt -o no/such/folder/c.svg
   refuses 1 "/dev/full: cannot be written: No space left" plot nodes.txt -o /dev/full --to svg
   "$PSTRIPACK" -q points fibonacci 410000 -o many.raw
@@ -386,7 +428,7 @@ pictures)
   echo 'export { WebGLRenderer };' > module.js
   for option in "--what histograms" "--view lonlat" "--width 500"; do
     # shellcheck disable=SC2086
-    refuses 2 "a globe has no --what histograms, --view lonlat or --width" plot nodes.txt -o c.html $option
+    refuses 2 "a globe has no --what histograms, --view lonlat, --region, --dots or --width" plot nodes.txt -o c.html $option
   done
   refuses 2 "only a globe, FILE.html, needs three.js" plot nodes.txt -o c.svg --three-file module.js
   refuses 1 "no.js: cannot be opened: No such file or directory: globes need three.js (Debian: libjs-three" \
@@ -733,6 +775,8 @@ interpolate)
   "$PSTRIPACK" -q interpolate columns.txt --coordinates lonlat --variable 4 --to-points nodes.txt -o out.txt
   awk '!/#/ && ($3 - NR + 1) ^ 2 > 1e-16' out.txt > wrong
   [ ! -s wrong ] || fail "$(cat wrong)"
+  awk '{ print $1, $2, NR, 7 }' columns.txt > third.txt  # the value is in column 3, so the first two are lon lat
+  "$PSTRIPACK" -q interpolate third.txt --variable 3 --to-points nodes.txt -o - | cmp - out.txt
   # Outside of a region.
   "$PSTRIPACK" -q points cap:0.3 100 | awk '{ print $0, NR }' > region.txt
   "$PSTRIPACK" interpolate region.txt --grid-step 10 -o missing.txt 2> err
@@ -742,6 +786,16 @@ interpolate)
   ! grep nan nearest.txt || fail "a value is missing"
   "$PSTRIPACK" -q interpolate region.txt --to-grid 2x3 --region 10,40,-20,0 -o grid.txt --outside nearest
   [ "$(awk '!/#/ { print $1, $2 }' grid.txt | tr '\n' ',')" = "15 -15,25 -15,35 -15,15 -5,25 -5,35 -5," ] || fail "$(cat grid.txt)"
+  # The nearest node, also beyond the region: its value, number and distance.
+  { echo "lon,lat,v"; printf '%s\n' 10,0,1 ,0,9 12,0,2 10,2,3 12,0,2; } > few.csv
+  printf 'lon,lat,nearest_km\n10,-1,a\n100,0,b\n' > two.csv
+  "$PSTRIPACK" -q interpolate few.csv --units degrees --skip-missing --drop-duplicates --method nearest --nearest-node --to-points two.csv -o out.csv
+  cut -d , -f 1-4,6 out.csv | tail -n +2 | tr '\n' ' ' > got
+  [ "$(cat got)" = "10,-1,1,1,a 100,0,2,3,b " ] || fail "$(cat out.csv)"
+  awk -F , 'NR == 2 && ($5 - 111.19492664455873) ^ 2 > 1e-20 || NR == 3 && ($5 - 88 * 111.19492664455873) ^ 2 > 1e-18' out.csv > wrong
+  [ ! -s wrong ] || fail "$(cat wrong)"
+  "$PSTRIPACK" -q interpolate few.csv --units degrees --skip-missing --drop-duplicates --grid-step 90 --nearest-node -o out.txt
+  [ "$(head -n 1 out.txt)" = "# lon lat v nearest_node nearest_km [km]" ] || fail "$(head -n 1 out.txt)"
   # Missing values and duplicates.
   { sed -n 1p region.txt; sed '5s/[^ ]*$/nan/' region.txt; } > odd.txt
   "$PSTRIPACK" -q points cap:0.3 100 -o places.txt
@@ -757,6 +811,12 @@ bad_values)
   refuses 1 "values.txt: node 2 (line 2) has no value: remove it, or say --skip-missing" interpolate values.txt --grid-step 30 -o failed.txt
   refuses 2 "give one of --to-points, --to-grid, --grid-step" interpolate values.txt -o failed.txt
   refuses 2 "give one of --to-points, --to-grid, --grid-step" interpolate values.txt --grid-step 30 --to-grid 2x2 -o failed.txt
+  refuses 2 "--output or --weights is required" interpolate values.txt --grid-step 30
+  refuses 2 "--weights: are those of linear, natural or nearest" interpolate values.txt --grid-step 30 --method cubic --weights failed.nc
+  refuses 2 "--weights: are of one node for each place" interpolate values.txt --grid-step 30 --duplicates mean --weights failed.nc
+  printf '10 20 1\n30 40 1\n' > three.txt
+  refuses 1 "three.txt: has 3 columns: say --coordinates lonlat or xyz" interpolate three.txt --grid-step 30 --weights failed.nc
+  refuses 2 "--nearest-node: is for columns of the output" interpolate values.txt --grid-step 30 --nearest-node --weights failed.nc
   refuses 2 "180 degrees are not a multiple of 7" interpolate values.txt --grid-step 7 -o failed.txt
   refuses 2 "--grid-step: -1 is not a number of degrees above 0" interpolate values.txt --grid-step -1 -o failed.txt
   refuses 2 "'180' is not 2 numbers" interpolate values.txt --to-grid 180 -o failed.txt
@@ -769,10 +829,12 @@ bad_values)
   refuses 1 "two.txt: has 2 columns; expected 'lon lat value' or 'x y z value'" interpolate two.txt --grid-step 30 -o failed.txt
   printf '10 20 1 2 3\n30 40 1 2 3\n' > five.txt
   refuses 1 "of more columns say --coordinates and --variable" interpolate five.txt --grid-step 30 -o failed.txt
+  refuses 1 "five.txt: has 5 columns; column 2 is a coordinate, not a value" interpolate five.txt --coordinates lonlat --variable 2 --grid-step 30 -o failed.txt
+  refuses 1 "five.txt: --variable names one column, not '4,5'" interpolate five.txt --coordinates lonlat --variable 4,5 --grid-step 30 -o failed.txt
   refuses 1 "there is no value in column 9" interpolate five.txt --coordinates lonlat --variable 9 --grid-step 30 -o failed.txt
   refuses 1 "is the number of a column, not 'depth'" interpolate five.txt --coordinates lonlat --variable depth --grid-step 30 -o failed.txt
   printf '10 20 1\nnan 40 1\n' > place.txt
-  refuses 1 "place.txt: node 2 (line 2): its place is 'nan': remove the row" interpolate place.txt --grid-step 30 -o failed.txt
+  refuses 1 "place.txt: node 2 (line 2): its place is 'nan': remove the row, or say --skip-missing" interpolate place.txt --grid-step 30 -o failed.txt
   { octahedron; octahedron; } | sed 's/$/ 1/' > twice.txt
   refuses 1 "are in the same place: remove one, or say --drop-duplicates" interpolate twice.txt --grid-step 30 -o failed.txt
   "$PSTRIPACK" -q points cap:0.3 100 | sed 's/$/ 1/' > region.txt
@@ -803,9 +865,10 @@ netcdf_values)
   "$PSTRIPACK" -q interpolate region.nc --variable value --skip-missing --grid-step 30 --outside nearest -o out.txt
   awk '!/#/ && $3 != 1' out.txt > wrong
   [ ! -s wrong ] || fail "$(cat wrong)"
-  refuses 1 "region.nc: say --variable NAME; variables with one value per node: value" interpolate region.nc --grid-step 30 -o failed.nc
+  "$PSTRIPACK" -q interpolate region.nc --skip-missing --grid-step 30 --outside nearest -o only.txt  # the only variable
+  cmp only.txt out.txt
   refuses 1 "there is no variable depth; say" interpolate region.nc --variable depth --grid-step 30 -o failed.nc
-  refuses 1 "variable lon(lon=36): expected lon(lat=18, lon=36); take one layer out" interpolate region.nc --variable lon --grid-step 30 -o failed.nc
+  refuses 1 "variable lon(lon=36): expected lon(lat=18, lon=36)" interpolate region.nc --variable lon --grid-step 30 -o failed.nc
   [ ! -e failed.nc ] || fail "failed.nc was written"
   ;;
 
@@ -835,7 +898,7 @@ as_given)
   # Values through VTU and gmsh.
   printf 'lon,lat,depth,place\n30,40,7.25,a\n100,40,,b\n70,-20,-1,c\n' > table.csv
   "$PSTRIPACK" -q triangulate table.csv -o mesh.vtu
-  for array in lon lat node line depth degree area area_km2; do
+  for array in lon lat node line depth degree area area_km2 circumradius_km; do
     grep -q "<DataArray type=\"[A-Za-z0-9]*\" Name=\"$array\" format=\"ascii\">" mesh.vtu || fail "mesh.vtu has no $array"
   done
   tr '\n' ' ' < mesh.vtu | grep -q 'Name="lon" format="ascii"> 30 100 70 <' || fail "lon: $(cat mesh.vtu)"
@@ -863,6 +926,13 @@ tables)
     [ $rule = first ] || expected="4.5 4 nan 1"
     [ "$(values_of mag)" = "$expected" ] || fail "mag: $(values_of mag)"
   done
+  "$PSTRIPACK" -q triangulate quakes.csv --drop-duplicates --list-duplicates dropped.csv -o mesh.vtu
+  [ "$(cat dropped.csv)" = "$(printf 'lon,lat,node,kept,line,time,mag,place\n30,40,4,2,5,2020-01-04,5,again')" ] || fail "$(cat dropped.csv)"
+  "$PSTRIPACK" -q interpolate quakes.csv --variable mag --skip-missing --duplicates mean --list-duplicates dropped.geojson --to-points quakes.csv -o out.txt
+  grep -q '"node":4,"kept":2,"line":5,"mag":5}.*"coordinates":\[30,40\]' dropped.geojson || fail "$(cat dropped.geojson)"
+  printf '10 20\n100 40\n20 -50\n' | "$PSTRIPACK" -q triangulate - --drop-duplicates --list-duplicates none.csv -o mesh.off
+  [ "$(wc -l < none.csv)" = 1 ] || fail "$(cat none.csv)"
+  refuses 2 "--list-duplicates: lists what --duplicates first or mean drops" triangulate quakes.csv --list-duplicates none.csv -o failed.vtu
   "$PSTRIPACK" -q info quakes.csv > info.txt
   [ "$(tail -n 1 info.txt)" = "duplicate        node 2 (line 3) and node 4 (line 5)" ] || fail "$(cat info.txt)"
   "$PSTRIPACK" -q info quakes.csv --json | tr -d ' \n' > info.json
@@ -879,6 +949,18 @@ tables)
   "$PSTRIPACK" -q interpolate out.txt --variable mag --skip-missing --duplicates first --to-points quakes.csv -o again.txt
   cut -d ' ' -f 1-3 out.txt > a
   cut -d ' ' -f 1-3 again.txt | cmp a -
+  # Stations without a place or a value are left out on request; numbers are those in the input.
+  printf 'name,lon,lat,t\na,10,20,1\nb,,30,2\nc,100,40,3\nd,20,-50,\ne,NA,5,5\nf,100,40,7\ng,170,5,7\nh,80,7,7\n' > gaps.csv
+  refuses 1 "gaps.csv:3: nothing in column 'lon': remove the row, say --skip-missing" triangulate gaps.csv -o failed.vtu
+  refuses 1 "gaps.csv: node 3 (line 4) and node 6 (line 7) are in the same place" -q triangulate gaps.csv --skip-missing -o failed.vtu
+  "$PSTRIPACK" triangulate gaps.csv --skip-missing --drop-duplicates -o mesh.vtu 2> err
+  grep -q "gaps.csv: 2 nodes without place left out" err || fail "$(cat err)"
+  [ "$(values_of node)" = "1 3 4 7 8" ] || fail "node: $(values_of node)"
+  "$PSTRIPACK" interpolate gaps.csv --variable t --skip-missing --drop-duplicates --to-points gaps.csv -o out.txt 2> err
+  grep -q "gaps.csv: 1 node without value left out" err && [ "$(grep -c "gaps.csv: 2 nodes without place left out" err)" = 2 ] ||
+    fail "$(cat err)"
+  [ "$(awk '!/#/ { print $3 }' out.txt | tr '\n' ' ')" = "1 3 nan 3 7 7 " ] || fail "$(cat out.txt)"
+  "$PSTRIPACK" -q info gaps.csv --skip-missing --json | tr -d ' \n' | grep -qF '"duplicate_pairs":[[3,6]]' || fail "numbers of info"
   # Segments of GMT.
   printf '> -Z1\n100\t0\n110\t5\n> -Z2\n100\t50\n' > lines.gmt
   "$PSTRIPACK" -q triangulate lines.gmt -o mesh.vtu
@@ -923,7 +1005,7 @@ maps)
   "$PSTRIPACK" -q triangulate table.csv -o mesh.csv
   [ "$(cut -d , -f 1-3 mesh.csv | tr '\n' ' ')" = "node1,node2,node3 1,2,3 " ] || fail "$(cat mesh.csv)"
   "$PSTRIPACK" -q voronoi table.csv --clip-to-hull -o cells.csv
-  [ "$(head -n 1 cells.csv)" = "lon,lat,node,line,depth [km],place,degree,area [sr],area_km2" ] || fail "$(cat cells.csv)"
+  [ "$(head -n 1 cells.csv)" = "lon,lat,node,line,depth [km],place,degree,area [sr],area_km2,centroid_lon,centroid_lat" ] || fail "$(cat cells.csv)"
   grep -q '^170,-10,1,2,7.25,"a, ""b""",2,0.0' cells.csv || fail "$(cat cells.csv)"
   grep -q '^-170,-10,2,3,,c,2,0.0' cells.csv || fail "$(cat cells.csv)"
   "$PSTRIPACK" -q convert table.csv -o nodes.csv
@@ -938,6 +1020,32 @@ maps)
   for corner in 170,-10 180,10 -180,10 -170,-10; do
     grep -qF "[$corner]" mesh.geojson || fail "no $corner: $(cat mesh.geojson)"
   done
+  # Polygons with a hole, and two of them.
+  ring() { printf '[[%s,%s],[%s,%s],[%s,%s],[%s,%s],[%s,%s]]' "$1" "$3" "$2" "$3" "$2" "$4" "$1" "$4" "$1" "$3"; }
+  printf '{"type":"MultiPolygon","coordinates":[[%s,%s],[%s]]}' "$(ring 10 30 -10 10)" "$(ring 15 20 -5 5)" "$(ring 40 41 3 4)" > two.json
+  "$PSTRIPACK" -q voronoi nodes.csv --coordinates xyz --clip-to two.json -o parts.geojson
+  awk -F '"area_km2":' '/Feature"/ { sum += $2 } END { exit (sum / 4315587 - 1) ^ 2 > 1e-10 }' parts.geojson || fail "$(cat parts.geojson)"
+  refuses 2 "--clip-to: cuts whole cells: leave out --region and --clip-to-hull" voronoi nodes.txt --clip-to two.json --clip-to-hull -o failed.csv
+  refuses 1 "missing.json: cannot be opened" voronoi nodes.txt --clip-to missing.json -o failed.csv
+  # Links with their lengths, the hull, and triangles without long sides.
+  "$PSTRIPACK" -q triangulate table.csv --what links -o links.geojson
+  [ "$(grep -c '"LineString"' links.geojson)" = 2 ] && [ "$(grep -c '"MultiLineString"' links.geojson)" = 1 ] || fail "$(cat links.geojson)"
+  "$PSTRIPACK" triangulate table.csv --what links --longest 2400km -o links.csv 2> err
+  [ "$(cut -c 1-8 links.csv | tr '\n' ' ')" = "node1,no 1,2,2189 " ] && grep -q ", 1 link; " err || fail "$(cat links.csv err)"
+  "$PSTRIPACK" -q triangulate table.csv --what hull -o hull.geojson
+  "$PSTRIPACK" -q triangulate table.csv --what hull -o hull.csv
+  [ "$(sed -n 2p hull.geojson | grep -o '"coordinates.*')" = "$(sed -n 2p mesh.geojson | grep -o '"coordinates.*')" ] || fail "$(cat hull.geojson)"
+  [ "$(cut -d , -f 3 hull.csv | tr '\n' ' ')" = "node 1 2 3 " ] || fail "$(cat hull.csv)"
+  refuses 1 "nodes.txt: the nodes surround the sphere: they have no hull" triangulate nodes.txt --what hull -o failed.csv
+  refuses 2 "the hull is that of all nodes: leave out --longest" triangulate table.csv --what hull --longest 1km -o failed.csv
+  refuses 1 "off cannot hold links: --to geojson or csv can" triangulate table.csv --what links -o failed.off
+  refuses 1 "each triangle has a side longer than 1000km" triangulate table.csv --longest 1000km -o failed.off
+  refuses 1 "holds whole triangulations: leave out --longest" -q triangulate nodes.txt --longest 5000km -o failed.lists
+  refuses 2 "--longest: '0km' leaves out everything" triangulate table.csv --longest 0km -o failed.off
+  refuses 2 "--longest: '5': expected a number and its unit" triangulate table.csv --longest 5 -o failed.off
+  "$PSTRIPACK" triangulate nodes.txt --longest 60deg -o some.csv 2> err
+  left=$(sed -n 's/^pstripack: nodes.txt: \([0-9]*\) triangles with a side longer than 60deg left out$/\1/p' err)
+  [ "$(wc -l < some.csv)" = $((37 - left)) ] || fail "$left $(wc -l < some.csv)"
   # A region within one cell.
   "$PSTRIPACK" -q voronoi table.csv --region 0,0.1,10,10.1 -o one.geojson
   [ "$(grep -c '"Feature"' one.geojson)" = 1 ] || fail "$(cat one.geojson)"

@@ -163,6 +163,13 @@ def make_pictures(pstripack, work):
     for centre, radius in (("10,50", "20"), ("179.9,-89.5", "3"), ("-120.123,0", "60"), ("33,80", "1e-5"), ("5,5", "89")):
         for view in ("orthographic", "lonlat"):
             plot("variable.txt", "--view", f"{view}:{centre}", "--radius", radius, "--colour", "area")
+    for width in ("300", "450"):
+        for colour in ("area", "owner:12", "few"):
+            for view in ("orthographic", "lonlat"):
+                plot(f"{long_name}.csv", "--what", "cells", "--colour", colour, "--width", width, "--view", view)
+        plot("region.txt", "--width", width)
+        plot("region.txt", "--width", width, "--what", "cells", "--colour", "area", "--range", "123,45678.9", "--dots")
+        plot("variable.txt", "--width", width, "--region", "170,-170,-30.5,-10.25", "--colour", "area", "--range", "5e5,7e5")
     for source in ("variable.txt", "region.txt", f"{long_name}.csv"):
         plot(source, "--what", "histograms")
     return made
