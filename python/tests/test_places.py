@@ -240,6 +240,8 @@ def test_numbers_of_nodes_and_radii_that_are_wrong():
     for k in 0, 21, -1:
         with pytest.raises(ValueError, match="k must be from 1 to 20"):
             mesh.nearest([1, 0, 0], k)
+    with pytest.raises(ValueError, match="k must be a whole number, not 1.5"):
+        mesh.nearest([1, 0, 0], 1.5)
     for radius in -1, np.nan:
         with pytest.raises(ValueError, match="radius must be at least 0, in radians"):
             mesh.nearest([1, 0, 0], radius=radius)

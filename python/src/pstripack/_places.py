@@ -1,5 +1,6 @@
 """What a triangulation tells of places: the triangle, the nearest nodes, weights, interpolated values."""
 import abc
+import operator
 from typing import Any, Optional, Tuple
 
 import numpy as np
@@ -113,6 +114,10 @@ class Places:
             _with_directions(places, lon, lat)
             indptr, indices, distances = self._mesh.within(flat, float(radius), number)
             return (distances, indptr, indices) if distance else (indptr, indices)
+        try:
+            k = operator.index(k)
+        except TypeError:
+            raise ValueError(f"k must be a whole number, not {k!r}") from None
         if not 1 <= k <= self.npoints:
             raise ValueError(f"k must be from 1 to {self.npoints}, the number of nodes; not {k}")
         nodes = self._mesh.nearest(flat, number) if k == 1 else self._mesh.k_nearest(flat, k, number)
