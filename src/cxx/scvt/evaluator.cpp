@@ -34,6 +34,7 @@ bool put_corners_in_front(std::vector<std::size_t>& order, const std::vector<Poi
 TrmeshResult call_trmesh(const std::vector<Point>& nodes, std::vector<std::int32_t>& list,
                          std::vector<std::int32_t>& lptr, std::vector<std::int32_t>& lend) {
   const std::size_t n = nodes.size();
+  if (lend.size() != n) free_cached_blocks();  // of a level with fewer generators
   list.resize(6 * n - 12);
   lptr.resize(6 * n - 12);
   lend.resize(n);

@@ -28,6 +28,7 @@ using Four = float __attribute__((vector_size(16)));
 Four four(const Point& p) {
   return Four{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z), 0};
 }
+Point point(const Four& v) { return {v[0], v[1], v[2]}; }
 Four times(float f, const Four& v) { return Four{f, f, f, f} * v; }
 float dot(const Four& a, const Four& b) {
   const Four product = a * b;
@@ -43,7 +44,7 @@ void Metric::set(const Neighbourhood& here, const Cells& cells) {
   in_agreement(ranks_, [&] {
     spring_.resize(n == 0 ? 0 : stars_.end_of(n - 1));
     for (auto* const array : {&share_, &diagonal_}) array->resize(all);
-    for (auto* const array : {&points_, &rest_, &step_, &next_, &sum_}) array->resize(all);
+    for (auto* const array : {&points_, &rest_, &step_, &next_}) array->resize(all);
   });
   for_each(n, [&](std::size_t i) {
     share_[i] = cells.mass[i] / static_cast<double>(stars_.end_of(i) - stars_.begin_of(i));
@@ -78,7 +79,8 @@ void Metric::solve(std::vector<Point>& v) {
   for_each(v.size(), [&](std::size_t i) {
     const Four r = four(scaled(1 / diagonal_[i], v[i])), g = points_[i].f;
     rest_[i].f = r - times(dot(r, g), g);
-    sum_[i].f = step_[i].f = times(static_cast<float>(1 / kMiddle), rest_[i].f);
+    step_[i].f = times(static_cast<float>(1 / kMiddle), rest_[i].f);
+    v[i] = point(step_[i].f);  // from here on the sum of the steps
   });
   double ratio = kRadius / kMiddle;  // of two consecutive Chebyshev polynomials
   for (int pass = 1; pass < kPasses; ++pass) {
@@ -97,14 +99,10 @@ void Metric::solve(std::vector<Point>& v) {
       }
       rest_[i].f -= force - times(dot(force, g), g);
       next_[i].f = times(of_step, u) + times(of_rest, rest_[i].f);
-      sum_[i].f += next_[i].f;
+      v[i] = plus(v[i], point(next_[i].f));
     });
     std::swap(step_, next_);
   }
-  for_each(v.size(), [&](std::size_t i) {
-    const Four z = sum_[i].f;
-    v[i] = {z[0], z[1], z[2]};
-  });
 }
 
 }  // namespace pstripack::scvt

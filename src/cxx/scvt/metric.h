@@ -65,7 +65,7 @@ class Metric {
   std::vector<double> share_;     ///< by point: mass / sides
   std::vector<double> diagonal_;  ///< by generator: D
   std::vector<float> spring_;     ///< by arc of i: k/(d^2 D_i)
-  std::vector<Vector> points_, rest_, step_, next_, sum_;
+  std::vector<Vector> points_, rest_, step_, next_;
 };
 
 }  // namespace pstripack::scvt
