@@ -95,6 +95,16 @@ const pstripack::Direction* Interpolation::directions() const {
   return known_->directions.data() - 1;  // nodes count from 1
 }
 
+/// The sign of orientation(a, b, place). The filter takes the rounded unit vectors, which the search has just
+/// read: each is right to 2^-52, so their determinant is right to 3 * 2^-52, and its roundings are below
+/// 12 * 2^-53.
+int Interpolation::side_of_arc(std::int32_t a, std::int32_t b, const Direction& place) const {
+  const double sign = dot(place.high, cross(mesh_.unit_at(a), mesh_.unit_at(b)));
+  constexpr double kError = 16 * 0x1p-52;
+  if (std::fabs(sign) > kError) return sign > 0 ? 1 : -1;
+  return pstripack::left(at(a), at(b), place.given);
+}
+
 /// Walks by exact signs from a triangle to the one that contains the place; on an arc, to that of the two
 /// whose third corner is the smaller. So the result does not depend on the search that led here. False if the
 /// place lies strictly beyond an arc of the border. The walk ends in a Delaunay mesh; in any other, after so
@@ -105,7 +115,7 @@ bool Interpolation::cross_arcs(const Direction& place, Corners& corners) const {
   std::int64_t steps = 0;
   Corners on_arc{};  // a triangle with the place on its first arc
   for (int k = 0; k < 3 && steps < 4 * std::int64_t{reader.size()};) {
-    const int side = pstripack::left(at(a), at(b), place.given);
+    const int side = side_of_arc(a, b, place);
     if (side < 0) {
       const std::int32_t slot = reader.slot_of(b, a);  // beyond the arc lies triangle b, a, w
       if (reader.entry(slot) < 0) return false;

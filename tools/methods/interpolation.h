@@ -99,6 +99,7 @@ class Interpolation {
   bool find(Direction& place, std::int32_t& near, Corners& corners) const;
   bool search(const Direction& place, std::int32_t& near, Corners& corners) const;
   bool settle(Direction& place, std::int32_t& near, Corners& corners) const;
+  int side_of_arc(std::int32_t a, std::int32_t b, const Direction& place) const;
   bool cross_arcs(const Direction& place, Corners& corners) const;
   static void take(const Corners& corners, const double (&weights)[3], std::vector<Share>& shares);
   std::array<Direction, 3> directions(const Corners& corners) const;
