@@ -851,7 +851,9 @@ TEST(Directions, AreExactWhereDoubleDoubleHasToDecide) {
   std::uint64_t sets = 0;
   const auto counts = decide_hard_cases(3, sets);
   EXPECT_GT(counts.double_double, sets);  // else this tests nothing
-  if (sets > 5000) EXPECT_GT(counts.integers, 0u);  // rare
+  if (sets > 5000) {
+    EXPECT_GT(counts.integers, 0u);  // rare
+  }
 }
 
 TEST(Directions, AreExactWhereTheLengthsOfUnitVectorsDecide) {
