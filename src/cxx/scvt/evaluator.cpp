@@ -34,7 +34,8 @@ bool put_corners_in_front(std::vector<std::size_t>& order, const std::vector<Poi
 TrmeshResult call_trmesh(const std::vector<Point>& nodes, std::vector<std::int32_t>& list,
                          std::vector<std::int32_t>& lptr, std::vector<std::int32_t>& lend) {
   const std::size_t n = nodes.size();
-  if (lend.size() != n) free_cached_blocks();  // of a level with fewer generators
+  // The level before had fewer generators: its blocks and meshes are of no use here.
+  if (!lend.empty() && lend.size() != n) free_cached_blocks();
   list.resize(6 * n - 12);
   lptr.resize(6 * n - 12);
   lend.resize(n);
