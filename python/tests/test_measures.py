@@ -120,6 +120,9 @@ class TestGradient:
         lon, lat = to_lonlat(mesh.points, degrees=False)
         east, north = mesh.gradient_lonlat(np.cos(lat) * np.sin(lon))
         assert np.abs(east - np.cos(lon)).max() < 2e-3 and np.abs(north + np.sin(lat) * np.sin(lon)).max() < 2e-3
+        for scale in 1e-200, 1e200:  # whose squares are not doubles
+            of_vectors = Delaunay(mesh.points * scale).gradient_lonlat(np.cos(lat) * np.sin(lon))
+            assert np.abs(of_vectors[0] - east).max() < 1e-12 and np.abs(of_vectors[1] - north).max() < 1e-12
         slope = mesh.gradient(mesh.points[:, 1])
         assert np.hypot(east, north) == pytest.approx(np.linalg.norm(slope, axis=1), rel=1e-12)
 

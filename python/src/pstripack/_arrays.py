@@ -89,6 +89,13 @@ def read_only(array: NDArray[Any]) -> NDArray[Any]:
     return view
 
 
+def unit_vectors(points: Floats) -> Floats:
+    """Of vectors of any length: hypot neither overflows nor underflows."""
+    length = np.hypot(np.hypot(points[:, 0], points[:, 1]), points[:, 2])
+    vectors: Floats = points / length[:, np.newaxis]
+    return vectors
+
+
 def to_xyz(lon: ArrayLike, lat: ArrayLike, degrees: bool = True) -> Floats:
     """Unit vectors, of shape (..., 3), of longitudes and latitudes.
 

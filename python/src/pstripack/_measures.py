@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from ._arrays import Floats, Ints, read_only, real
+from ._arrays import Floats, Ints, read_only, real, unit_vectors
 
 Result = TypeVar("Result", Floats, Ints)
 
@@ -134,7 +134,7 @@ class Measures:
         """The parts (east, north) of :meth:`gradient`, each of the shape of the values. At a pole they are along the
         meridians of 90 and of 0 degrees, as if the pole had the longitude 0."""
         slopes = self.gradient(values)
-        x, y, z = (self.points / np.linalg.norm(self.points, axis=1)[:, np.newaxis]).T
+        x, y, z = unit_vectors(self.points).T
         level = np.hypot(x, y)
         at_pole = level == 0
         level[at_pole] = 1

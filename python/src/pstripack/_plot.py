@@ -5,7 +5,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
-from ._arrays import Floats, to_lonlat
+from ._arrays import Floats, to_lonlat, unit_vectors
 from ._tables import needed
 
 
@@ -13,7 +13,7 @@ def _window(points: Floats, whole: bool, orthographic: bool, center: "Optional[T
             radius: Optional[float]) -> "Tuple[float, float, float]":
     """Longitude, latitude and radius of the part of the sphere that is drawn, in degrees; 90: a hemisphere, or the whole
     map. The same as that of the command `pstripack plot`."""
-    vectors = points / np.linalg.norm(points, axis=1)[:, np.newaxis]
+    vectors = unit_vectors(points)
     if center is None:
         mean = vectors.mean(axis=0)
         lon, lat = (0.0, 30.0 if orthographic else 0.0) if whole else map(float, to_lonlat(mean))
