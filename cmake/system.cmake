@@ -2,7 +2,7 @@
 #   PSTRIPACK_WITH_POOL     pstripack-run: needs Linux
 #   PSTRIPACK_ORIGIN        in a run path: the folder of the file that has it
 #   finish_shared_library, hide_archives, install_library: see below
-# PSTRIPACK_ONLY_POSIX makes all checks fail. tests/systems/only_posix.sh builds and tests that.
+# PSTRIPACK_ONLY_POSIX makes all checks fail. The case posix of tests/systems/systems.sh builds and tests that.
 include(CheckCXXSourceCompiles)
 include(CheckCXXSymbolExists)
 include(CheckLinkerFlag)

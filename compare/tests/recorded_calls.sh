@@ -216,7 +216,7 @@ beside)
   printf 'IER 0\nIER 0\n' | cmp - out || fail "the stdout of the model"
   says err "]: call 2: n = 514: every difference is explained: exact tie "
   says err "]: 2 calls, 2 explained"
-  PSTRIPACK_CHECK="lib:$HANGS,timeout=0.2,log=log" expect 0 "$CALLER" random 500 2
+  PSTRIPACK_CHECK="lib:$HANGS,timeout=0.05,log=log" expect 0 "$CALLER" random 500 2
   [ ! -s err ] || fail "not to the log"
   says log "its ABI cannot be detected"
   says log "]: 2 calls, 2 no result of the original"
