@@ -1335,14 +1335,14 @@ scvt_ranks)
   # So does that of a run that ended because one rank got TERM; it writes its mesh, too.
   rm ranks.nc
   # shellcheck disable=SC2016
-  $MPIRUN -n 3 sh -c 'echo $$ > rank.pid; exec "$@"' sh "$PSTRIPACK" scvt 3000 --first levels --density bump --tolerance 1e-12 --evaluations 1e5 --every 1 --checkpoint ranks.nc -o ended.nc 2> err &
+  $MPIRUN -n 3 sh -c 'echo $$ > rank.pid; exec "$@"' sh "$PSTRIPACK" scvt --start front.nodes.nc --density bump --tolerance 1e-12 --evaluations 1e5 --every 1 --checkpoint ranks.nc -o ended.nc 2> err &
   job=$!
   for _ in $(seq 3000); do [ -e ranks.nc ] && break; sleep 0.02; done
   kill -TERM "$(cat rank.pid)"
   if wait $job; then fail "status 0 after TERM"; fi
   grep -q "^pstripack: 3000 generators, .* ended by TERM, NOT converged to 1e-12: gradient .*; on 3 ranks$" err || fail "$(cat err)"
   "$PSTRIPACK" -q info ended.nc > /dev/null
-  "$PSTRIPACK" -q scvt 3000 --first levels --density bump --tolerance 1e-12 --evaluations 1000 -o direct.nodes.nc
+  "$PSTRIPACK" -q scvt --start front.nodes.nc --density bump --tolerance 1e-12 --evaluations 1000 -o direct.nodes.nc
   run 2 scvt --start ranks.nc --tolerance 1e-12 --evaluations 1000 -o resumed.nodes.nc
   same direct.nodes.nc resumed.nodes.nc
   printf '%s\n' '0 0' '90 0' '180 0' '-90 0' '0 90' '0 -90' '0 9e-10' '90 9e-10' > near.txt

@@ -231,11 +231,16 @@ TEST(widths_in, are_those_asked_for_in_the_area_and_ten_widths_around_it_then_gr
   const files::LimitedArea disc{
       "disc", {}, 170, 80, 1000 / 6371.0},  // holds neither pole, crosses the dateline
       cap{"cap", {}, 0, 90, 2000 / 6371.0}, box = files::box_area("box", {-20, 25, -15, 15});
-  for (const auto& [area, lon, lat, towards] : {std::tuple(disc, 170.0, 80.0 - 1000 * km, -1),
-                                                {cap, 33.0, 90 - 2000 * km, -1},
-                                                {box, 0.0, 15.0, 1}}) {
+  struct Rim {
+    const files::LimitedArea& area;
+    double lon, lat;
+    int towards;  // the inside, in latitude
+  };
+  for (const auto& [area, lon, lat, towards] : {Rim{disc, 170, 80 - 1000 * km, -1},
+                                                {cap, 33, 90 - 2000 * km, -1},
+                                                {box, 0, 15, 1}}) {
     const RegionalWidths regional = widths_in(area, WidthFormula(20).widths(6371), 0.2, 6371);
-    const auto width = [&](double degrees) {
+    const auto width = [&, lon = lon, lat = lat](double degrees) {
       const double density = regional.widths.density->at(point_sets::from_degrees(lon, lat + degrees));
       return regional.widths.least / std::sqrt(std::sqrt(density));
     };

@@ -53,7 +53,7 @@ std::uint32_t cell(double fraction, std::uint32_t cells) {
 // An entry of 64 bits holds a key and, below it, the number of its node.
 
 using Entry = std::uint64_t;
-constexpr int kNodeBits = 29, kKeyBits = 64 - kNodeBits;  // 3 for the face, 2 x 15 for the cell
+constexpr int kNodeBits = 29;  // leaves 35: 3 for the face, 2 x 15 for the cell
 
 std::uint64_t key_of(Entry e) { return e >> kNodeBits; }
 std::uint32_t node_of(Entry e) { return static_cast<std::uint32_t>(e & ((Entry{1} << kNodeBits) - 1)); }

@@ -78,9 +78,9 @@ class WaitingNodes {
         largest = is_nearer && to_k > largest ? to_k : largest;
         // The destination of an item is unpredictable: write it to both places, without a branch.
         *moving = *item;
-        moving += waits & is_nearer ? 1 : 0;
+        moving += (waits & is_nearer) ? 1 : 0;
         *staying = *item;
-        staying += waits & !is_nearer ? 1 : 0;
+        staying += (waits & !is_nearer) ? 1 : 0;
       }
       range.end = static_cast<std::size_t>(staying - item_.data());
     });
