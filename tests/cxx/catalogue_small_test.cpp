@@ -205,6 +205,7 @@ void check_subsets(bool unit, int size, std::uint64_t stride) {
 
 TEST(CubeDirections, OfUnitLengthSubsetsOf3InAllOrders) { check_subsets(true, 3, 1); }
 TEST(CubeDirections, OfUnitLengthSubsetsOf4InAllOrders) { check_subsets(true, 4, 1); }
+TEST(CubeDirections, OfUnitLengthSubsetsOf5InEverySeventhOrder) { check_subsets(true, 5, 7); }
 TEST(CubeDirections, OfUnitLengthSubsetsOf5InAllOrders) { check_subsets(true, 5, 1); }
 TEST(CubeDirections, OfUnitLengthSubsetsOf6InOneOrderOrMore) { check_subsets(true, 6, 241); }
 TEST(CubeDirections, OfIntegersSubsetsOf3InAllOrders) { check_subsets(false, 3, 1); }

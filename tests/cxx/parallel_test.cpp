@@ -83,11 +83,15 @@ const std::vector<std::string> kFamilies{
 class Configurations : public ::testing::TestWithParam<Configuration> {};
 
 TEST_P(Configurations, GiveTheSerialRings) {
-  for (const std::string& family : kFamilies)
-    for (const std::size_t n : {12u, 30u, 500u}) {
-      const Set set(point_sets::make(family, n, n));
-      EXPECT_TRUE(is_serial(set, run<std::int32_t>(set.nodes, GetParam()))) << family << " " << n;
-    }
+  static const std::vector<Set> sets = [] {
+    std::vector<Set> all;
+    for (const std::string& family : kFamilies)
+      for (const std::size_t n : {12u, 30u, 500u}) all.emplace_back(point_sets::make(family, n, n));
+    return all;
+  }();
+  for (const Set& set : sets)
+    EXPECT_TRUE(is_serial(set, run<std::int32_t>(set.nodes, GetParam())))
+        << kFamilies[(&set - sets.data()) / 3] << " " << set.nodes.size();
 }
 
 std::vector<Configuration> configurations() {
