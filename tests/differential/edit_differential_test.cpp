@@ -17,6 +17,7 @@
 #include "child_process.h"
 #include "differential/differential.h"
 #include "differential/routines.h"
+#include "support/cases.h"
 
 using namespace differential;
 
@@ -762,7 +763,7 @@ TEST(Differential, EDGE) {
          {std::array<int, 3>{0, 1, 5}, {1, 0, 5}, {2, 2, 5}, {1, 2, -1}, {-1, 2, 5}})
       if (const std::string d = on_a_copy(in1, in2, lwk); !d.empty()) return d;
     const bool all = mesh.n <= 25;
-    for (int i = 0; i < (all ? mesh.n * mesh.n : 150); ++i) {
+    for (int i = 0; i < (all ? mesh.n * mesh.n : cases(150)); ++i) {
       const int in1 = all ? 1 + i / mesh.n : dice.node(mesh), in2 = all ? 1 + i % mesh.n : dice.node(mesh);
       for (int lwk : {mesh.n, i % 3})
         if (const std::string d = on_a_copy(in1, in2, lwk); !d.empty()) return d;
