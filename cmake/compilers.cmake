@@ -12,7 +12,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL IntelLLVM)  # its default is -fp-model=fast
   set(PSTRIPACK_CXX_FLAGS -Wall -Wextra -fp-model=precise -fno-fast-math -ffp-contract=off)
 elseif(CMAKE_CXX_COMPILER_ID STREQUAL NVHPC)
   set(PSTRIPACK_CXX_FLAGS -Kieee -Mnofma)
-elseif(CMAKE_CXX_COMPILER_ID MATCHES Clang)  # where a branch would be mispredicted, `&` has none
+elseif(CMAKE_CXX_COMPILER_ID MATCHES Clang)  # `&` of two comparisons is on purpose: it has no branch
   list(APPEND PSTRIPACK_CXX_FLAGS -Wno-bitwise-instead-of-logical)
 endif()
 

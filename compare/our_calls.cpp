@@ -84,7 +84,8 @@ std::string path_of_pstripack_run() {
     if (access(path.c_str(), X_OK) == 0) return path;
   throw std::runtime_error("--ranks: there is no " + installed);
 #else
-  throw std::runtime_error("--ranks: this build has no pstripack-run (PSTRIPACK_WITH_MPI or PSTRIPACK_WITH_POOL is OFF)");
+  throw std::runtime_error(
+      "--ranks: this build has no pstripack-run (PSTRIPACK_WITH_MPI or PSTRIPACK_WITH_POOL is OFF)");
 #endif
 }
 

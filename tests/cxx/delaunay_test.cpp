@@ -273,7 +273,7 @@ TEST_P(ThreadCount, DoesNotChangeABit) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, ThreadCount, ::testing::ValuesIn(cases({3, 100, 40000, 100000})), name_of);
+INSTANTIATE_TEST_SUITE_P(Of, ThreadCount, ::testing::ValuesIn(cases({3, 100, 70000, 100000})), name_of);
 INSTANTIATE_TEST_SUITE_P(Hard, ThreadCount, ::testing::ValuesIn(hard_cases({100, 5000})), name_of);
 
 TEST(Runs, AreTheSameToTheBit) {

@@ -83,15 +83,15 @@ const std::vector<std::string> kFamilies{
 class Configurations : public ::testing::TestWithParam<Configuration> {};
 
 TEST_P(Configurations, GiveTheSerialRings) {
-  static const std::vector<Set> sets = [] {
-    std::vector<Set> all;
+  static const std::map<std::pair<std::string, std::size_t>, Set> sets = [] {
+    std::map<std::pair<std::string, std::size_t>, Set> all;
     for (const std::string& family : kFamilies)
-      for (const std::size_t n : {12u, 30u, 500u}) all.emplace_back(point_sets::make(family, n, n));
+      for (const std::size_t n : {12u, 30u, 500u})
+        all.emplace(std::pair(family, n), Set(point_sets::make(family, n, n)));
     return all;
   }();
-  for (const Set& set : sets)
-    EXPECT_TRUE(is_serial(set, run<std::int32_t>(set.nodes, GetParam())))
-        << kFamilies[(&set - sets.data()) / 3] << " " << set.nodes.size();
+  for (const auto& [name, set] : sets)
+    EXPECT_TRUE(is_serial(set, run<std::int32_t>(set.nodes, GetParam()))) << name.first << " " << name.second;
 }
 
 std::vector<Configuration> configurations() {

@@ -1,11 +1,15 @@
 #pragma once
-// Number of random cases of a test. PSTRIPACK_CASES multiplies the default: more for a long run by hand,
-// fewer if the tests run for every mutant (tests/mutation).
+// Number of random cases of a test. PSTRIPACK_CASES multiplies it: more for a long run by hand, fewer if the
+// tests run for every mutant (tests/mutation). Not set, it is the SHARE of add_property_test (tests/cxx).
 
 #include <cmath>
 #include <cstdlib>
 
+#ifndef SHARE_OF_CASES
+#define SHARE_OF_CASES 1
+#endif
+
 inline int cases(double usual) {
   const char* const factor = std::getenv("PSTRIPACK_CASES");
-  return static_cast<int>(std::ceil(factor == nullptr ? usual : usual * std::atof(factor)));
+  return static_cast<int>(std::ceil(usual * (factor == nullptr ? SHARE_OF_CASES : std::atof(factor))));
 }

@@ -234,7 +234,7 @@ TEST(widths_in, are_those_asked_for_in_the_area_and_ten_widths_around_it_then_gr
   struct Rim {
     const files::LimitedArea& area;
     double lon, lat;
-    int towards;  // the inside, in latitude
+    int towards;  // the outside: 1 northwards, -1 southwards
   };
   for (const auto& [area, lon, lat, towards] : {Rim{disc, 170, 80 - 1000 * km, -1},
                                                 {cap, 33, 90 - 2000 * km, -1},
